@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# What `cmake --install` puts where. The static library's targets are a set of their own: only they need SUNDIALS.
+include(CMakePackageConfigHelpers)
+
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/mps)
+
+install(TARGETS mps EXPORT mpsTargets)
+install(TARGETS mps_static EXPORT mpsStaticTargets)
+install(DIRECTORY include/mps TYPE INCLUDE FILES_MATCHING PATTERN "*.h")
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(EXPORT mpsTargets NAMESPACE mps:: DESTINATION ${package})
+install(EXPORT mpsStaticTargets NAMESPACE mps:: DESTINATION ${package})
+
+configure_package_config_file(cmake/mpsConfig.cmake.in mpsConfig.cmake INSTALL_DESTINATION ${package})
+write_basic_package_version_file(mpsConfigVersion.cmake COMPATIBILITY SameMajorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/mpsConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/mpsConfigVersion.cmake DESTINATION ${package})
+
+# pkg-config: what the static library needs, as flags.
+set(MPS_PC_PRIVATE "")
+foreach(target ${MPS_SUNDIALS})
+  string(REPLACE "SUNDIALS::" "-lsundials_" flag ${target})
+  string(APPEND MPS_PC_PRIVATE "${flag} ")
+endforeach()
+string(APPEND MPS_PC_PRIVATE "-lklu -lm ${MPS_OPENMP_FLAGS}")
+# from the folder of mps.pc up to the prefix, so that an installed tree may be moved
+file(RELATIVE_PATH MPS_PC_PREFIX_UP /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+configure_file(pkgconfig/mps.pc.in mps.pc @ONLY)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/mps.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

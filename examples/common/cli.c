@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Command line of the drivers: one table, every value checked by name and range. */
+#include "cli.h"
+#include <math.h>
+#include <mps/mps.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { CLI_THREADS_MAX = 1024, CLI_FRAMES_MAX = 100000 };
+
+typedef enum cli_type { TYPE_TEXT, TYPE_REAL, TYPE_INT, TYPE_FLAG, TYPE_HELP, TYPE_VERSION } cli_type;
+
+/* One option; `value` points into cli_options. Reals are checked against min < value <= max. */
+typedef struct cli_option {
+    const char *name, *argument, *help;
+    cli_type type;
+    void *value;
+    double min, max;
+    bool flag; /* what a TYPE_FLAG sets */
+} cli_option;
+
+enum { CLI_OPTIONS = 16 };
+
+static int cli_table(cli_options *o, cli_option *table)
+{
+    int n = 0;
+    table[n++] = (cli_option){"--model", "NAME", "imps or imps.paper", TYPE_TEXT, &o->model, 0, 0, false};
+    table[n++] = (cli_option){"--dp", "M", "particle spacing [m]", TYPE_REAL, &o->dp, o->dp_min, o->dp_max, false};
+    table[n++] = (cli_option){"--dt", "S", "fixed time step [s]; without it the step adapts", TYPE_REAL, &o->dt, 0, 0.1, false};
+    table[n++] = (cli_option){"--cfl", "C", "adaptive step: largest dt u / dp", TYPE_REAL, &o->cfl, 0, 1, false};
+    table[n++] = (cli_option){"--t-end", "S", "time simulated [s]", TYPE_REAL, &o->t_end, 0, o->t_max, false};
+    table[n++] = (cli_option){"--threads", "N", "OpenMP threads", TYPE_INT, &o->threads, 1, CLI_THREADS_MAX, false};
+    table[n++] = (cli_option){"--solver", "NAME", "pressure solver, also solver/preconditioner", TYPE_TEXT, &o->solver, 0, 0, false};
+    table[n++] = (cli_option){"--out", "DIR", "folder for all outputs", TYPE_TEXT, &o->out, 0, 0, false};
+    table[n++] = (cli_option){"--frames",     "N",  "frames for ParaView besides the first; 0: none", TYPE_INT, &o->frames, 0,
+                              CLI_FRAMES_MAX, false};
+    table[n++] = (cli_option){"--probe-dt", "S", "interval of rows in probes.csv [s]", TYPE_REAL, &o->probe_dt, 0, 10, false};
+    if (o->has_dim) table[n++] = (cli_option){"--dim", "D", "2 or 3 dimensions", TYPE_INT, &o->dim, 2, 3, false};
+    table[n++] = (cli_option){"--no-report", NULL, "no report.html", TYPE_FLAG, &o->report, 0, 0, false};
+    table[n++] = (cli_option){"--quiet", NULL, "no progress", TYPE_FLAG, &o->quiet, 0, 0, true};
+    table[n++] = (cli_option){"--version", NULL, "version of the library", TYPE_VERSION, NULL, 0, 0, false};
+    table[n++] = (cli_option){"--help", NULL, "this text", TYPE_HELP, NULL, 0, 0, false};
+    return n;
+}
+
+/* The default of an option as it is shown in --help. */
+static void cli_default_text(const cli_option *e, char *text, size_t size)
+{
+    text[0] = '\0';
+    if (e->type == TYPE_TEXT) snprintf(text, size, " (%s)", *(const char **)e->value);
+    if (e->type == TYPE_INT) snprintf(text, size, " (%d)", *(int32_t *)e->value);
+    if (e->type == TYPE_REAL && *(double *)e->value > 0) snprintf(text, size, " (%g)", *(double *)e->value);
+}
+
+static void cli_help(const cli_options *o, const cli_option *table, int n)
+{
+    printf("%s - %s\n\nusage: %s [options]\n\n", o->program, o->about, o->program);
+    for (int i = 0; i < n; i++) {
+        char left[32], initial[128];
+        snprintf(left, sizeof left, "%s %s", table[i].name, table[i].argument ? table[i].argument : "");
+        cli_default_text(&table[i], initial, sizeof initial);
+        printf("  %-16s %s%s\n", left, table[i].help, initial);
+    }
+    printf("\nWrites probes.csv, summary.json, frames.pvd with frames/, plots, pictures and report.html into the folder of --out.\n"
+           "Exit: 0 done, 1 failed, 2 wrong value, 3 diverged (outputs stay readable), 130 interrupted by Ctrl-C.\n");
+    exit(CLI_OK);
+}
+
+static void cli_refuse(const cli_options *o, const char *format, const char *a, const char *b)
+{
+    fprintf(stderr, "%s: ", o->program);
+    fprintf(stderr, format, a, b);
+    fprintf(stderr, "\n%s --help lists all options\n", o->program);
+    exit(CLI_USAGE);
+}
+
+static void cli_refuse_value(const cli_options *o, const cli_option *e, const char *text)
+{
+    char allowed[128];
+    if (e->type == TYPE_INT)
+        snprintf(allowed, sizeof allowed, "a whole number, %g to %g", e->min, e->max);
+    else if (e->min > 0)
+        snprintf(allowed, sizeof allowed, "a number, %g to %g", e->min, e->max);
+    else
+        snprintf(allowed, sizeof allowed, "a number greater than 0, at most %g", e->max);
+    fprintf(stderr, "%s: %s %s: must be %s\n", o->program, e->name, text[0] ? text : "(empty)", allowed);
+    exit(CLI_USAGE);
+}
+
+static void cli_set_number(const cli_options *o, const cli_option *e, const char *text)
+{
+    char *end;
+    double value = strtod(text, &end);
+    bool lower = e->type == TYPE_INT || e->min > 0 ? value >= e->min : value > 0;
+    bool whole = e->type != TYPE_INT || value == floor(value);
+    if (end == text || *end != '\0' || !isfinite(value) || !lower || value > e->max || !whole) cli_refuse_value(o, e, text);
+    if (e->type == TYPE_INT)
+        *(int32_t *)e->value = (int32_t)value;
+    else
+        *(double *)e->value = value;
+}
+
+static cli_option *cli_find(cli_option *table, int n, const char *name, size_t length)
+{
+    for (int i = 0; i < n; i++)
+        if (strlen(table[i].name) == length && strncmp(table[i].name, name, length) == 0) return &table[i];
+    return NULL;
+}
+
+/* Handle argv[*i]; both "--dp 0.01" and "--dp=0.01" are understood. */
+static void cli_take(cli_options *o, cli_option *table, int n, int argc, char **argv, int *i)
+{
+    const char *name = argv[*i], *equals = strchr(name, '=');
+    cli_option *e = cli_find(table, n, name, equals ? (size_t)(equals - name) : strlen(name));
+    if (!e) cli_refuse(o, "unknown option %s%s", name, "");
+    if (e->type == TYPE_HELP) cli_help(o, table, n);
+    if (e->type == TYPE_VERSION) {
+        printf("%s, libmps %s\n", o->program, mps_version(NULL, NULL, NULL));
+        exit(CLI_OK);
+    }
+    if (e->type == TYPE_FLAG) {
+        if (equals) cli_refuse(o, "%s takes no value%s", e->name, "");
+        *(bool *)e->value = e->flag;
+        return;
+    }
+    const char *text = equals ? equals + 1 : *i + 1 < argc ? argv[++*i] : NULL;
+    if (!text) cli_refuse(o, "%s needs a value: %s", e->name, e->argument);
+    if (e->type == TYPE_TEXT) {
+        if (!text[0]) cli_refuse(o, "%s: must not be empty%s", e->name, "");
+        *(const char **)e->value = text;
+        return;
+    }
+    cli_set_number(o, e, text);
+}
+
+void cli_defaults(cli_options *o, const char *program, const char *about)
+{
+    *o = (cli_options){.program = program,
+                       .about = about,
+                       .model = "imps",
+                       .solver = "sundials.pcg",
+                       .out = "out",
+                       .dp_min = 1e-5,
+                       .dp_max = 1,
+                       .cfl = 0.2,
+                       .t_end = 1,
+                       .t_max = 1e4,
+                       .probe_dt = 1e-3,
+                       .threads = 2,
+                       .frames = 50,
+                       .dim = 2,
+                       .report = true};
+}
+
+void cli_parse(cli_options *o, int argc, char **argv)
+{
+    cli_option table[CLI_OPTIONS];
+    int n = cli_table(o, table);
+    for (int i = 1; i < argc; i++) cli_take(o, table, n, argc, argv, &i);
+    if (o->dt > 0 && o->dt > o->t_end) cli_refuse(o, "--dt is longer than --t-end%s%s", "", "");
+}

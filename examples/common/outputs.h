@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What is written after the last step, and the columns it is made from. */
+#ifndef MPS_EXAMPLES_OUTPUTS_H
+#define MPS_EXAMPLES_OUTPUTS_H
+
+#include "run.h"
+
+/* Columns of steps.csv. */
+enum { STEP_T, STEP_DT, STEP_CFL, STEP_ITERATIONS, STEP_RESIDUAL, STEP_DIVERGENCE, STEP_SPEED, STEP_LOST, STEP_COLUMNS };
+#define STEP_HEADER "t[s],dt[s],cfl,ppe_iterations,ppe_residual,ppe_divergence,max_speed[m/s],lost"
+
+/* Places of the common columns in probes.csv, behind the driver's own. */
+enum { COLUMN_KE = 1, COLUMN_TANK, COLUMN_PE, COLUMN_WALL_WORK, COLUMN_VISCOUS, COLUMN_COLLISION, COLUMN_SHIFT, COLUMN_NUMERICAL };
+
+/* summary.json. @return false with a message on stderr */
+bool summary_save(const run *r);
+/* plot_*.svg, and report.html unless it was not wanted. @return false with a message on stderr */
+bool report_save(const run *r);
+
+#endif

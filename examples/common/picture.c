@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Pictures of the flow, drawn in memory and written with libpng. */
+#include "picture.h"
+#include "font.h"
+#include <math.h>
+#include <png.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { PICTURE_WIDTH = 1100, PICTURE_TALLEST = 1400, HEAD = 34, BAR = 110, FONT_SCALE = 2, MAPS = 3 };
+
+typedef struct colour {
+    double r, g, b;
+} colour;
+
+typedef struct image {
+    int width, height;
+    unsigned char *pixel; /* [height*width*3] */
+} image;
+
+/* What is drawn, and the map from metres to pixels. */
+typedef struct scene {
+    int32_t dim;
+    int64_t n;
+    const double *x, *p;
+    const int32_t *kind, *phase;
+    double dp, lo[2], hi[2], scale, p_max, t;
+} scene;
+
+/* Five colours of equal steps a phase: dark to light, so that the maps read in grey too. */
+static const colour MAP[MAPS][5] = {
+    {{0.07, 0.13, 0.42}, {0.10, 0.40, 0.68}, {0.22, 0.69, 0.66}, {0.68, 0.86, 0.38}, {0.99, 0.93, 0.25}},
+    {{0.45, 0.05, 0.10}, {0.75, 0.20, 0.12}, {0.92, 0.45, 0.20}, {0.98, 0.70, 0.40}, {1.00, 0.90, 0.70}},
+    {{0.25, 0.05, 0.40}, {0.50, 0.15, 0.58}, {0.74, 0.33, 0.66}, {0.90, 0.56, 0.76}, {0.99, 0.82, 0.90}},
+};
+
+static colour map_colour(int32_t phase, double f)
+{
+    const colour *map = MAP[phase % MAPS];
+    f = f > 0 ? fmin(f, 1) * 4 : 0;
+    int k = f < 4 ? (int)f : 3;
+    double w = f - k;
+    return (colour){map[k].r + w * (map[k + 1].r - map[k].r), map[k].g + w * (map[k + 1].g - map[k].g),
+                    map[k].b + w * (map[k + 1].b - map[k].b)};
+}
+
+static unsigned char blend(unsigned char below, double above, double cover)
+{
+    return (unsigned char)(below * (1 - cover) + 255 * above * cover + 0.5);
+}
+
+static void image_dot(image *m, int x, int y, colour c, double cover)
+{
+    if (x < 0 || y < 0 || x >= m->width || y >= m->height || cover <= 0) return;
+    unsigned char *p = m->pixel + 3 * ((size_t)y * (size_t)m->width + (size_t)x);
+    if (cover > 1) cover = 1;
+    p[0] = blend(p[0], c.r, cover);
+    p[1] = blend(p[1], c.g, cover);
+    p[2] = blend(p[2], c.b, cover);
+}
+
+/* A disc with soft edges; discs smaller than a pixel become a fainter dot. */
+static void image_disc(image *m, double x, double y, double radius, colour c)
+{
+    int reach = (int)ceil(radius + 1), cx = (int)floor(x), cy = (int)floor(y);
+    for (int j = cy - reach; j <= cy + reach; j++)
+        for (int i = cx - reach; i <= cx + reach; i++) image_dot(m, i, j, c, radius + 0.5 - hypot(i + 0.5 - x, j + 0.5 - y));
+}
+
+static void image_box(image *m, int x, int y, int width, int height, colour c)
+{
+    for (int j = y; j < y + height; j++)
+        for (int i = x; i < x + width; i++) image_dot(m, i, j, c, 1);
+}
+
+static void image_text(image *m, int x, int y, const char *text)
+{
+    for (; *text; text++, x += FONT_SCALE * (FONT_WIDTH + 1)) {
+        const unsigned char *rows = font_rows(*text);
+        for (int j = 0; rows && j < FONT_HEIGHT; j++)
+            for (int i = 0; i < FONT_WIDTH; i++)
+                if (rows[j] >> (FONT_WIDTH - 1 - i) & 1)
+                    image_box(m, x + i * FONT_SCALE, y + j * FONT_SCALE, FONT_SCALE, FONT_SCALE, (colour){0.1, 0.1, 0.1});
+    }
+}
+
+static int compare_doubles(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Top of the scale: the 99 % quantile of the fluid's pressures, so that one peak does not flatten the rest. */
+static double scene_p_max(const scene *s)
+{
+    double *p = malloc((size_t)s->n * sizeof *p), top = 0;
+    int64_t n = 0;
+    for (int64_t i = 0; p && i < s->n; i++)
+        if (s->kind[i] == MPS_FLUID) p[n++] = s->p[i];
+    if (n > 0) {
+        qsort(p, (size_t)n, sizeof *p, compare_doubles);
+        top = p[(n - 1) * 99 / 100];
+    }
+    free(p);
+    return top > 0 ? top : 1;
+}
+
+/* The window: all walls with a little margin, or all fluid when there is no wall. */
+static void scene_window(scene *s)
+{
+    int32_t kind = MPS_FLUID;
+    for (int64_t i = 0; i < s->n; i++)
+        if (s->kind[i] == MPS_WALL) kind = MPS_WALL;
+    for (int d = 0; d < 2; d++) {
+        s->lo[d] = INFINITY;
+        s->hi[d] = -INFINITY;
+        for (int64_t i = 0; i < s->n; i++) {
+            if (s->kind[i] != kind) continue;
+            s->lo[d] = fmin(s->lo[d], s->x[i * s->dim + d] - 3 * s->dp);
+            s->hi[d] = fmax(s->hi[d], s->x[i * s->dim + d] + 3 * s->dp);
+        }
+    }
+}
+
+static bool image_create(image *m, scene *s)
+{
+    double width = s->hi[0] - s->lo[0], height = s->hi[1] - s->lo[1];
+    s->scale = fmin((PICTURE_WIDTH - BAR) / width, (PICTURE_TALLEST - HEAD) / height);
+    m->width = (int)(width * s->scale) + BAR;
+    m->height = (int)(height * s->scale) + HEAD;
+    m->pixel = malloc((size_t)m->width * (size_t)m->height * 3);
+    if (m->pixel) memset(m->pixel, 255, (size_t)m->width * (size_t)m->height * 3);
+    return m->pixel != NULL;
+}
+
+static void draw_particle(image *m, const scene *s, int64_t i)
+{
+    colour c = {0.55, 0.55, 0.58};
+    if (s->kind[i] == MPS_DUMMY) c = (colour){0.84, 0.84, 0.86};
+    if (s->kind[i] == MPS_FLUID) c = map_colour(s->phase[i], s->p[i] / s->p_max);
+    double x = (s->x[i * s->dim] - s->lo[0]) * s->scale, y = (s->hi[1] - s->x[i * s->dim + 1]) * s->scale + HEAD;
+    image_disc(m, x, y, 0.5 * s->dp * s->scale, c);
+}
+
+typedef struct depth {
+    double z;
+    int64_t i;
+} depth;
+
+static int compare_depths(const void *a, const void *b)
+{
+    const depth *x = a, *y = b;
+    return x->z != y->z ? (x->z > y->z) - (x->z < y->z) : (x->i > y->i) - (x->i < y->i);
+}
+
+/* In 3-D from the back to the front and without the walls, which would hide the flow. */
+static bool draw_particles(image *m, const scene *s)
+{
+    depth *order = malloc((size_t)s->n * sizeof *order);
+    int64_t n = 0;
+    if (!order) return false;
+    for (int64_t i = 0; i < s->n; i++)
+        if (s->dim == 2 || s->kind[i] == MPS_FLUID) order[n++] = (depth){s->dim == 3 ? s->x[i * 3 + 2] : 0, i};
+    qsort(order, (size_t)n, sizeof *order, compare_depths);
+    for (int64_t k = 0; k < n; k++) draw_particle(m, s, order[k].i);
+    free(order);
+    return true;
+}
+
+static void draw_bar(image *m, const scene *s)
+{
+    int x = m->width - BAR + 12, top = HEAD + 12, height = m->height - HEAD - 24;
+    char text[64];
+    for (int j = 0; j < height; j++) image_box(m, x, top + j, 20, 1, map_colour(0, 1 - (double)j / height));
+    for (int k = 0; k <= 4; k++) {
+        snprintf(text, sizeof text, "%.0f", s->p_max * (4 - k) / 4);
+        image_text(m, x + 26, top + height * k / 4 - FONT_HEIGHT, text);
+    }
+    snprintf(text, sizeof text, "t = %.3f s   pressure [Pa]", s->t);
+    image_text(m, 12, 10, text);
+}
+
+static bool image_save(const image *m, const char *path)
+{
+    png_image png = {
+        .version = PNG_IMAGE_VERSION, .width = (png_uint_32)m->width, .height = (png_uint_32)m->height, .format = PNG_FORMAT_RGB};
+    bool done = png_image_write_to_file(&png, path, 0, m->pixel, 0, NULL) != 0;
+    if (!done) fprintf(stderr, "%s: %s\n", path, png.message);
+    return done;
+}
+
+static bool picture_draw(scene *s, const char *path)
+{
+    image m = {0};
+    scene_window(s);
+    s->p_max = scene_p_max(s);
+    bool done = image_create(&m, s) && draw_particles(&m, s);
+    if (!done)
+        fprintf(stderr, "%s: out of memory\n", path);
+    else
+        draw_bar(&m, s), done = image_save(&m, path);
+    free(m.pixel);
+    return done;
+}
+
+bool picture_save(mps_sim *sim, const char *path)
+{
+    mps_lease x = {0}, p = {0};
+    scene s = {0};
+    bool done = false;
+    mps_sim_shape(sim, &s.dim, &s.dp);
+    mps_sim_time(sim, &s.t, NULL);
+    if (mps_lease_begin(sim, "position", MPS_READ, &x) != MPS_OK) goto fail;
+    if (mps_lease_begin(sim, "pressure", MPS_READ, &p) != MPS_OK) goto fail_x;
+    s.n = x.count;
+    s.x = x.data;
+    s.p = p.data;
+    mps_particles_tags(sim, NULL, &s.kind, &s.phase, NULL);
+    done = picture_draw(&s, path);
+    mps_lease_end(sim, &p);
+fail_x:
+    mps_lease_end(sim, &x);
+fail:
+    if (!done) fprintf(stderr, "%s: no picture: %s\n", path, mps_sim_error(sim));
+    return done;
+}

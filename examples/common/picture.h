@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A picture of the particles as PNG: discs coloured by pressure, with a colour bar. */
+#ifndef MPS_EXAMPLES_PICTURE_H
+#define MPS_EXAMPLES_PICTURE_H
+
+#include <mps/mps.h>
+#include <stdbool.h>
+
+/* Draw the present state, in 3-D as seen along -z. @return false with a message on stderr */
+bool picture_save(mps_sim *sim, const char *path);
+
+#endif

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Progress lines of the drivers. */
+#include "progress.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+double progress_clock(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+void progress_begin(progress *p, double t_end, int64_t particles, bool quiet)
+{
+    const char *no_colour = getenv("NO_COLOR"), *term = getenv("TERM");
+    bool dumb = !term || strcmp(term, "dumb") == 0;
+    *p = (progress){.quiet = quiet, .terminal = isatty(2) && !dumb, .t_end = t_end, .particles = particles};
+    p->colour = p->terminal && !(no_colour && no_colour[0]);
+    p->start = p->shown = progress_clock();
+}
+
+static void progress_time(char *text, size_t size, double seconds)
+{
+    long s = seconds < 359999 ? (long)(seconds + 0.5) : 359999;
+    if (s >= 3600)
+        snprintf(text, size, "%ldh%02ldm", s / 3600, s / 60 % 60);
+    else if (s >= 60)
+        snprintf(text, size, "%ldm%02lds", s / 60, s % 60);
+    else
+        snprintf(text, size, "%lds", s);
+}
+
+bool progress_step(progress *p, const mps_step_info *info)
+{
+    double now = progress_clock(), interval = p->terminal ? 0.1 : 5;
+    if (p->quiet || now - p->shown < interval) return false;
+    double rate = (double)(info->step - p->steps_shown) * (double)p->particles / (now - p->shown);
+    double eta = info->t > 0 ? (now - p->start) * (p->t_end - info->t) / info->t : 0;
+    double percent = 100 * info->t / p->t_end;
+    p->shown = now;
+    p->steps_shown = info->step;
+    if (p->terminal) {
+        char left[32];
+        progress_time(left, sizeof left, eta);
+        const char *on = p->colour ? "\033[1m" : "", *off = p->colour ? "\033[0m" : "";
+        fprintf(stderr, "\r%s%5.1f %%%s  t %.3f s  dt %.1e s  CFL %.2f  PPE %3d  %.0f kparticles/s  left %s \033[K", on, percent, off,
+                info->t, info->dt, info->cfl, (int)info->ppe_iterations, rate / 1000, left);
+        p->line = true;
+    } else {
+        fprintf(stderr, "percent=%.1f t=%.4f dt=%.3e cfl=%.3f ppe_iterations=%d particles_per_s=%.3e eta_s=%.0f\n", percent, info->t,
+                info->dt, info->cfl, (int)info->ppe_iterations, rate, eta);
+    }
+    fflush(stderr);
+    return true;
+}
+
+void progress_clear(progress *p)
+{
+    if (p->line) fputs("\r\033[K", stderr);
+    p->line = false;
+}

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Progress on stderr: one line kept up to date on a terminal, else a key=value line every few seconds. */
+#ifndef MPS_EXAMPLES_PROGRESS_H
+#define MPS_EXAMPLES_PROGRESS_H
+
+#include <mps/step.h>
+#include <stdbool.h>
+
+typedef struct progress {
+    bool quiet, terminal, colour;
+    bool line;           /* a line without its newline stands on the terminal */
+    double start, shown; /* wall clock [s] */
+    double t_end;
+    int64_t particles;
+    int64_t steps_shown; /* steps at the last output, for the rate */
+} progress;
+
+/* Wall clock, monotonic [s]. */
+double progress_clock(void);
+void progress_begin(progress *p, double t_end, int64_t particles, bool quiet);
+/* Show a step if it is time to. @return true if something was shown (about ten times a second, or every few seconds) */
+bool progress_step(progress *p, const mps_step_info *info);
+/* Free the line for a message on stderr. */
+void progress_clear(progress *p);
+
+#endif

@@ -1,0 +1,239 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Plots of a run, and report.html: one page with everything in it that works offline. */
+#include "outputs.h"
+#include "svg_plot.h"
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { REPORT_PLOTS = 10 };
+
+/* All plots of a run with the file each goes to. */
+typedef struct plots {
+    int count;
+    plot plot[REPORT_PLOTS];
+    char file[REPORT_PLOTS][48];
+} plots;
+
+static plot *plots_add(plots *all, const char *file, const char *title, const char *y_label)
+{
+    if (all->count == REPORT_PLOTS) return NULL; /* what does not fit is not drawn */
+    plot *p = &all->plot[all->count];
+    *p = (plot){.title = title, .x_label = "t [s]", .y_label = y_label};
+    snprintf(all->file[all->count++], sizeof all->file[0], "%s", file);
+    return p;
+}
+
+static plot_series column_of(const table *t, const char *label, int column, double shift)
+{
+    return (plot_series){.label = label, .x = t->kept, .y = t->kept + column, .count = t->count, .stride = t->columns, .shift = shift};
+}
+
+/* One plot for all own columns of a unit, with the known points of that unit. */
+static void plots_unit(plots *all, const run *r, const char *unit)
+{
+    bool pressure = strcmp(unit, "Pa") == 0, length = strcmp(unit, "m") == 0;
+    char file[48];
+    snprintf(file, sizeof file, "plot_%s.svg", pressure ? "pressure" : length ? "elevation" : r->column[0].name);
+    plot *p = plots_add(all, file, pressure ? "Pressure" : length ? "Elevation" : "Values", pressure ? "p [Pa]" : length ? "[m]" : unit);
+    for (int i = 0; i < r->own_columns; i++)
+        if (strcmp(r->column[i].unit, unit) == 0) plot_add(p, column_of(&r->probes, r->column[i].name, 1 + i, 0));
+    for (int i = 0; i < r->marks; i++) {
+        const run_mark *m = &r->mark[i];
+        if (strcmp(m->unit, unit) != 0) continue;
+        plot_add(p, (plot_series){.label = m->label, .x = m->t, .y = m->value, .count = m->count, .stride = 1, .marks = true});
+    }
+}
+
+static void plots_columns(plots *all, const run *r)
+{
+    for (int i = 0; i < r->own_columns; i++) {
+        bool first = true;
+        for (int k = 0; k < i; k++)
+            if (strcmp(r->column[k].unit, r->column[i].unit) == 0) first = false;
+        if (first) plots_unit(all, r, r->column[i].unit);
+    }
+}
+
+static void plots_energy(plots *all, const run *r)
+{
+    const table *t = &r->probes;
+    int base = r->own_columns;
+    double pe = t->count > 0 ? t->kept[base + COLUMN_PE] : 0;
+    plot *p = plots_add(all, "plot_energy.svg", "Energy budget", r->options.dim == 3 ? "E [J]" : "E [J/m]");
+    plot_add(p, column_of(t, "kinetic", base + COLUMN_KE, 0));
+    plot_add(p, column_of(t, "potential - start", base + COLUMN_PE, -pe));
+    plot_add(p, column_of(t, "work of walls", base + COLUMN_WALL_WORK, 0));
+    plot_add(p, column_of(t, "lost: viscous", base + COLUMN_VISCOUS, 0));
+    plot_add(p, column_of(t, "lost: collision", base + COLUMN_COLLISION, 0));
+    plot_add(p, column_of(t, "lost: shift", base + COLUMN_SHIFT, 0));
+    plot_add(p, column_of(t, "lost: numerical", base + COLUMN_NUMERICAL, 0));
+}
+
+static void plots_make(plots *all, const run *r)
+{
+    all->count = 0;
+    plots_columns(all, r);
+    plots_energy(all, r);
+    plot_add(plots_add(all, "plot_dt.svg", "Time step", "dt [s]"), column_of(&r->steps, "dt", STEP_DT, 0));
+    plot_add(plots_add(all, "plot_ppe.svg", "Pressure solver", "iterations"), column_of(&r->steps, "iterations", STEP_ITERATIONS, 0));
+    plot_add(plots_add(all, "plot_speed.svg", "Largest speed", "|u| [m/s]"), column_of(&r->steps, "largest speed", STEP_SPEED, 0));
+}
+
+/* ---- the page --------------------------------------------------------------------------------------------------- */
+
+static void html_text(FILE *out, const char *text)
+{
+    for (; *text; text++) {
+        if (*text == '&')
+            fputs("&amp;", out);
+        else if (*text == '<')
+            fputs("&lt;", out);
+        else if (*text == '>')
+            fputs("&gt;", out);
+        else
+            fputc(*text, out);
+    }
+}
+
+static void html_row(FILE *out, const char *name, const char *value)
+{
+    fputs("<tr><td>", out);
+    html_text(out, name);
+    fputs("</td><td>", out);
+    html_text(out, value);
+    fputs("</td></tr>\n", out);
+}
+
+static void html_number(FILE *out, const char *name, double value, const char *unit)
+{
+    char text[64];
+    snprintf(text, sizeof text, "%.6g %s", value, unit);
+    html_row(out, name, text);
+}
+
+static void html_settings(FILE *out, const run *r)
+{
+    const cli_options *o = &r->options;
+    fputs("<h2>Settings</h2>\n<table>\n", out);
+    html_row(out, "model", o->model);
+    html_row(out, "solver", o->solver);
+    html_number(out, "dimensions", o->dim, "");
+    html_number(out, "spacing dp", o->dp, "m");
+    if (o->dt > 0)
+        html_number(out, "time step, fixed", o->dt, "s");
+    else
+        html_number(out, "time step: largest dt u / dp", o->cfl, "");
+    html_number(out, "time asked for", o->t_end, "s");
+    html_number(out, "threads", o->threads, "");
+    html_row(out, "libmps", mps_version(NULL, NULL, NULL));
+    fputs("</table>\n", out);
+}
+
+static void html_results(FILE *out, const run *r)
+{
+    const run_totals *s = &r->totals;
+    double steps = s->steps > 0 ? (double)s->steps : 1;
+    fputs("<h2>Run</h2>\n<table>\n", out);
+    html_row(out, "status", s->status);
+    if (s->error[0]) html_row(out, "message", s->error);
+    html_number(out, "time reached", s->t, "s");
+    html_number(out, "fluid particles", (double)s->fluid, "");
+    html_number(out, "wall particles", (double)s->wall, "");
+    html_number(out, "dummy particles", (double)s->dummy, "");
+    html_number(out, "particles lost", (double)s->lost, "");
+    html_number(out, "error of volume", 100 * s->volume_error, "%");
+    html_number(out, "largest speed", s->max_speed, "m/s");
+    html_number(out, "steps", (double)s->steps, "");
+    html_number(out, "mean time step", s->t / steps, "s");
+    html_number(out, "pressure iterations a step", s->ppe_iterations / steps, "");
+    html_number(out, "wall clock", s->wall_s, "s");
+    html_number(out, "wall clock a step", 1e3 * s->step_s / steps, "ms");
+    fputs("</table>\n", out);
+}
+
+static void base64_write(FILE *out, const unsigned char *data, size_t size)
+{
+    static const char *const digit = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (size_t i = 0; i < size; i += 3) {
+        size_t left = size - i;
+        unsigned long v = (unsigned long)data[i] << 16 | (left > 1 ? (unsigned long)data[i + 1] << 8 : 0) | (left > 2 ? data[i + 2] : 0);
+        fputc(digit[v >> 18 & 63], out);
+        fputc(digit[v >> 12 & 63], out);
+        fputc(left > 1 ? digit[v >> 6 & 63] : '=', out);
+        fputc(left > 2 ? digit[v & 63] : '=', out);
+    }
+}
+
+static unsigned char *file_read(const char *path, size_t *size)
+{
+    FILE *in = fopen(path, "rb");
+    if (!in) return NULL;
+    long length = fseek(in, 0, SEEK_END) == 0 ? ftell(in) : -1;
+    unsigned char *data = length > 0 ? malloc((size_t)length) : NULL;
+    rewind(in);
+    *size = data ? fread(data, 1, (size_t)length, in) : 0;
+    fclose(in);
+    return data;
+}
+
+/* Embed one picture; a run that broke off early has fewer of them. */
+static void html_picture(FILE *out, const run *r, const char *name)
+{
+    char path[560];
+    size_t size = 0;
+    snprintf(path, sizeof path, "%s/%s", r->options.out, name);
+    unsigned char *data = file_read(path, &size);
+    if (data) {
+        fprintf(out, "<p><img alt=\"%s\" src=\"data:image/png;base64,", name);
+        base64_write(out, data, size);
+        fputs("\"></p>\n", out);
+    }
+    free(data);
+}
+
+static void report_write(FILE *out, const run *r, const plots *all)
+{
+    fprintf(out, "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>%s</title>\n", r->options.program);
+    fputs("<style>body{font:15px sans-serif;color:#222;max-width:1120px;margin:2em auto;padding:0 1em}table{border-collapse:collapse}"
+          "td{border-bottom:1px solid #ddd;padding:3px 18px 3px "
+          "0}img,svg{max-width:100%;height:auto}.two{display:flex;flex-wrap:wrap;gap:4em}</style></head><body>\n",
+          out);
+    fprintf(out, "<h1>%s</h1>\n<p>", r->options.program);
+    html_text(out, r->options.about);
+    fputs("</p>\n<div class=\"two\"><div>\n", out);
+    html_settings(out, r);
+    fputs("</div><div>\n", out);
+    html_results(out, r);
+    fputs("</div></div>\n<h2>Curves</h2>\n", out);
+    for (int i = 0; i < all->count; i++) plot_svg(out, &all->plot[i]);
+    fputs("<h2>Pictures</h2>\n", out);
+    for (int i = 1; i <= r->pictures; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "picture_%d.png", i);
+        html_picture(out, r, name);
+    }
+    html_picture(out, r, "picture_end.png");
+    fputs("</body></html>\n", out);
+}
+
+static bool report_page(const run *r, const plots *all)
+{
+    char path[560];
+    snprintf(path, sizeof path, "%s/report.html", r->options.out);
+    FILE *out = fopen(path, "w");
+    if (out) report_write(out, r, all);
+    bool failed = !out || ferror(out);
+    if (out && fclose(out) != 0) failed = true;
+    if (failed) fprintf(stderr, "%s: %s\n", path, strerror(errno));
+    return !failed;
+}
+
+bool report_save(const run *r)
+{
+    plots all;
+    bool done = true;
+    plots_make(&all, r);
+    for (int i = 0; i < all.count; i++) done = plot_save(r->options.out, all.file[i], &all.plot[i]) && done;
+    return (!r->options.report || report_page(r, &all)) && done;
+}

@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Opening a run, naming its columns. Stepping is in stepping.c, what comes after the last step in summary.c and report.c. */
+#include "run.h"
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { RUN_MESSAGES = 20 }; /* of the library, before it is cut short */
+
+static void run_log(void *user, int level, const char *text)
+{
+    run *r = user;
+    if (r->options.quiet || r->messages > RUN_MESSAGES) return;
+    progress_clear(&r->progress);
+    if (r->messages++ == RUN_MESSAGES)
+        fprintf(stderr, "%s: further messages are not shown\n", r->options.program);
+    else
+        fprintf(stderr, "%s: %s%s\n", r->options.program, level >= MPS_LOG_WARNING ? "warning: " : "", text);
+}
+
+/* mkdir -p */
+static bool run_make_folder(const char *path)
+{
+    char part[512];
+    if (snprintf(part, sizeof part, "%s", path) >= (int)sizeof part) {
+        errno = ENAMETOOLONG;
+        return false;
+    }
+    for (char *slash = part + 1; (slash = strchr(slash, '/')) != NULL; slash++) {
+        *slash = '\0';
+        if (mkdir(part, 0777) != 0 && errno != EEXIST) return false;
+        *slash = '/';
+    }
+    struct stat s;
+    if (mkdir(part, 0777) != 0 && errno != EEXIST) return false;
+    if (stat(part, &s) == 0 && S_ISDIR(s.st_mode)) return true;
+    errno = ENOTDIR;
+    return false;
+}
+
+static void run_refuse(run *r, const char *option, const char *value, const char *why, const char *allowed)
+{
+    fprintf(stderr, "%s: %s %s: %s%s\n", r->options.program, option, value, why, allowed);
+    mps_sim_destroy(r->sim);
+    exit(CLI_USAGE);
+}
+
+static void run_use_solver(run *r)
+{
+    const char *text = r->options.solver, *slash = strchr(text, '/');
+    char solver[64];
+    snprintf(solver, sizeof solver, "%.*s", slash ? (int)(slash - text) : (int)strlen(text), text);
+    if (mps_solver_use(r->sim, solver, slash ? slash + 1 : NULL) != MPS_OK) {
+        run_refuse(r, "--solver", text, mps_sim_error(r->sim),
+                   "; there are sundials.pcg, sundials.bicgstab, sundials.gmres, sundials.klu, and behind a / the preconditioners none, "
+                   "jacobi, ic0");
+    }
+}
+
+static void run_set_time(run *r)
+{
+    mps_time_control control;
+    mps_time_control_init(&control, sizeof control);
+    control.dt = r->options.dt;
+    control.cfl = r->options.cfl;
+    run_check(r, mps_sim_set_time_control(r->sim, &control), "time step");
+}
+
+void run_open(run *r, const cli_options *o)
+{
+    char error[RUN_ERROR] = "";
+    mps_config config;
+    *r = (run){.options = *o};
+    if (!run_make_folder(o->out)) run_refuse(r, "--out", o->out, strerror(errno), "; must be a folder that can be written");
+    mps_config_init(&config, sizeof config);
+    config.dim = o->dim;
+    config.dp = o->dp;
+    config.threads = o->threads;
+    config.log = run_log;
+    config.log_user = r;
+    config.error = error;
+    config.error_size = sizeof error;
+    mps_status status = mps_sim_create(&config, &r->sim);
+    if (status != MPS_OK) {
+        fprintf(stderr, "%s: %s: %s\n", o->program, mps_status_name(status), error);
+        exit(status == MPS_E_ARG ? CLI_USAGE : CLI_FAILED);
+    }
+    if (mps_sim_use_preset(r->sim, o->model) != MPS_OK)
+        run_refuse(r, "--model", o->model, mps_sim_error(r->sim), "; there are imps, imps.paper");
+    run_use_solver(r);
+    run_set_time(r);
+}
+
+void run_check(run *r, mps_status status, const char *what)
+{
+    if (status >= 0) return;
+    fprintf(stderr, "%s: %s: %s: %s\n", r->options.program, what, mps_status_name(status), mps_sim_error(r->sim));
+    mps_sim_destroy(r->sim);
+    exit(status == MPS_E_ARG ? CLI_USAGE : CLI_FAILED); /* the geometry is fixed: what does not fit is an option, mostly --dp */
+}
+
+double run_level(run *r)
+{
+    const int32_t *kind;
+    mps_lease x = {0};
+    double level = -INFINITY;
+    run_check(r, mps_particles_tags(r->sim, NULL, &kind, NULL, NULL), "still level");
+    run_check(r, mps_lease_begin(r->sim, "position", MPS_READ, &x), "still level");
+    for (int64_t i = 0; i < x.count; i++)
+        if (kind[i] == MPS_FLUID) level = fmax(level, x.data[i * x.stride + 1]);
+    run_check(r, mps_lease_end(r->sim, &x), "still level");
+    return level;
+}
+
+static run_column *run_column_add(run *r, const char *name, const char *unit)
+{
+    if (r->columns == RUN_COLUMNS) {
+        fprintf(stderr, "%s: more than %d columns\n", r->options.program, RUN_COLUMNS);
+        exit(CLI_FAILED);
+    }
+    run_column *c = &r->column[r->columns++];
+    *c = (run_column){.probe = -1};
+    snprintf(c->name, sizeof c->name, "%s", name);
+    snprintf(c->unit, sizeof c->unit, "%s", unit);
+    return c;
+}
+
+static void run_probe_add(run *r, const char *name, const char *unit, const mps_probe *probe, double zero)
+{
+    int32_t id;
+    run_check(r, mps_probe_add(r->sim, probe, &id), name);
+    run_column *c = run_column_add(r, name, unit);
+    c->probe = id;
+    c->zero = zero;
+}
+
+void run_wall_pressure(run *r, const char *name, double x, double y, double z)
+{
+    mps_probe probe;
+    mps_probe_init(&probe, sizeof probe);
+    probe.type = MPS_PROBE_WALL_PRESSURE;
+    probe.at[0] = x;
+    probe.at[1] = y;
+    probe.at[2] = z;
+    run_probe_add(r, name, "Pa", &probe, 0);
+}
+
+void run_gauge(run *r, const char *name, double x, double z, double level)
+{
+    mps_probe probe;
+    mps_probe_init(&probe, sizeof probe);
+    probe.type = MPS_PROBE_GAUGE;
+    probe.at[0] = x;
+    probe.at[2] = z;
+    run_probe_add(r, name, "m", &probe, level);
+}
+
+void run_value(run *r, const char *name, const char *unit, run_value_fn value, void *user)
+{
+    run_column *c = run_column_add(r, name, unit);
+    c->value = value;
+    c->user = user;
+}
+
+void run_mark_add(run *r, const char *label, const char *unit, int count, const double *t, const double *value)
+{
+    if (r->marks == RUN_MARKS || count > RUN_MARK_POINTS) return;
+    run_mark *m = &r->mark[r->marks++];
+    *m = (run_mark){.label = label, .unit = unit, .count = count};
+    memcpy(m->t, t, (size_t)count * sizeof *t);
+    memcpy(m->value, value, (size_t)count * sizeof *value);
+}

@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* One run of a driver: simulation, probes, outputs. A driver opens it, builds its case in r.sim, names its columns, finishes. */
+#ifndef MPS_EXAMPLES_RUN_H
+#define MPS_EXAMPLES_RUN_H
+
+#include "cli.h"
+#include "progress.h"
+#include "table.h"
+#include <mps/mps.h>
+
+enum { RUN_COLUMNS = 32, RUN_MARKS = 4, RUN_MARK_POINTS = 16, RUN_PICTURES = 4, RUN_ERROR = 640 };
+
+/* A quantity of a driver's own. */
+typedef double (*run_value_fn)(void *user, mps_sim *sim);
+
+/* One column of probes.csv: a probe's value minus `zero`, or a driver's own quantity. */
+typedef struct run_column {
+    char name[32], unit[8];
+    int32_t probe, component;
+    double zero;
+    run_value_fn value;
+    void *user;
+} run_column;
+
+/* Known points, drawn as marks into the plot of all columns with the same unit. */
+typedef struct run_mark {
+    const char *label, *unit;
+    int count;
+    double t[RUN_MARK_POINTS], value[RUN_MARK_POINTS];
+} run_mark;
+
+/* Sums over the run, for summary.json and the report. */
+typedef struct run_totals {
+    int64_t fluid, wall, dummy, steps, not_converged, lost;
+    double t, wall_s, cpu_s, step_s, output_s, max_speed, volume_error;
+    double ppe_iterations, seconds[MPS_STAGE_COUNT];
+    const char *status;
+    char error[RUN_ERROR];
+} run_totals;
+
+typedef struct run {
+    cli_options options;
+    mps_sim *sim;
+    int columns, own_columns, marks; /* own: those of the driver, before the common ones */
+    run_column column[RUN_COLUMNS];
+    run_mark mark[RUN_MARKS];
+    table probes, steps;
+    mps_frames *frames;
+    int64_t frame; /* next frame */
+    int pictures;  /* taken so far */
+    progress progress;
+    run_totals totals;
+    double step_end; /* wall clock when the last step's outputs were done */
+    int messages;    /* of the library, shown so far */
+    bool output_failed;
+} run;
+
+/* Create the simulation and the folder of outputs as the options say; exits with a message if that fails. */
+void run_open(run *r, const cli_options *o);
+/* Exit with a message unless a call of the library succeeded; for building the case. */
+void run_check(run *r, mps_status status, const char *what);
+/* Height of the highest fluid particle above the lab's origin: the still level as placed, layers * dp [m]. */
+double run_level(run *r);
+
+/* Columns, in the order of the file. Places are in the tank's frame. */
+void run_wall_pressure(run *r, const char *name, double x, double y, double z);
+void run_gauge(run *r, const char *name, double x, double z, double level);
+void run_value(run *r, const char *name, const char *unit, run_value_fn value, void *user);
+void run_mark_add(run *r, const char *label, const char *unit, int count, const double *t, const double *value);
+
+/* Step to the end with all outputs, destroy the simulation. @return exit code of the program */
+int run_finish(run *r);
+
+#endif

@@ -1,0 +1,240 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Stepping a run to its end: rows, frames and pictures after each step, Ctrl-C, and what to say when it fails. */
+#include "outputs.h"
+#include "picture.h"
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+static volatile sig_atomic_t interrupted;
+
+/* The handler is there for one signal only: a second Ctrl-C ends the program at once. */
+static void on_interrupt(int signal)
+{
+    (void)signal;
+    interrupted = 1;
+}
+
+static void catch_interrupt(void)
+{
+    struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, NULL);
+}
+
+/* Remember the first thing that went wrong besides stepping. */
+static bool run_note(run *r, mps_status status, const char *what)
+{
+    if (status >= 0) return true;
+    r->output_failed = true;
+    if (!r->totals.error[0]) snprintf(r->totals.error, sizeof r->totals.error, "%s: %s", what, mps_sim_error(r->sim));
+    return false;
+}
+
+/* ---- rows ------------------------------------------------------------------------------------------------------ */
+
+/* Names of the columns every driver has; those of the energies follow the order of run_energies(). */
+static const char *const ENERGIES[] = {"pe", "wall_work", "viscous", "collision", "shift", "numerical"};
+
+enum { COMMON_COLUMNS = 2 + sizeof ENERGIES / sizeof *ENERGIES };
+
+static void header_add(char *header, size_t size, const char *name, const char *unit)
+{
+    size_t used = strlen(header);
+    snprintf(header + used, size - used, ",%s[%s]", name, unit);
+}
+
+static bool run_open_probes(run *r)
+{
+    char header[RUN_COLUMNS * 48] = "t[s]";
+    const char *joule = r->options.dim == 3 ? "J" : "J/m";
+    for (int i = 0; i < r->columns; i++) {
+        if (r->column[i].unit[0])
+            header_add(header, sizeof header, r->column[i].name, r->column[i].unit);
+        else
+            snprintf(header + strlen(header), sizeof header - strlen(header), ",%s", r->column[i].name);
+    }
+    header_add(header, sizeof header, "ke", joule);
+    header_add(header, sizeof header, "x_tank", "m");
+    for (size_t i = 0; i < sizeof ENERGIES / sizeof *ENERGIES; i++) header_add(header, sizeof header, ENERGIES[i], joule);
+    return table_open(&r->probes, r->options.out, "probes.csv", header, 1 + r->columns + COMMON_COLUMNS, r->options.probe_dt);
+}
+
+static void run_energies(run *r, double *out)
+{
+    mps_energy e;
+    mps_motion_state tank;
+    mps_energy_init(&e, sizeof e);
+    run_note(r, mps_energy_get(r->sim, &e), "energies");
+    run_note(r, mps_motion_state_get(r->sim, &tank), "motion");
+    const double values[COMMON_COLUMNS] = {e.kinetic, tank.value[MPS_SURGE], e.potential, e.wall_work,
+                                           e.viscous, e.collision,           e.shift,     e.numerical};
+    memcpy(out, values, sizeof values);
+    r->totals.volume_error = e.volume_error;
+}
+
+static double run_measure_column(run *r, const run_column *c)
+{
+    double values[8] = {0};
+    if (c->value) return c->value(c->user, r->sim);
+    if (!run_note(r, mps_probe_read(r->sim, c->probe, values), c->name)) return NAN;
+    return values[c->component] - c->zero;
+}
+
+static void run_sample(run *r, double t)
+{
+    double row[1 + RUN_COLUMNS + COMMON_COLUMNS];
+    row[0] = t;
+    for (int i = 0; i < r->columns; i++) row[1 + i] = run_measure_column(r, &r->column[i]);
+    run_energies(r, row + 1 + r->columns);
+    table_sample(&r->probes, row);
+}
+
+/* ---- frames and pictures ---------------------------------------------------------------------------------------- */
+
+static void run_frames_open(run *r)
+{
+    if (r->options.frames == 0) return;
+    if (run_note(r, mps_frames_open(r->sim, r->options.out, "frames", 0, &r->frames), "frames"))
+        run_note(r, mps_frames_write(r->frames), "frames");
+    r->frame = 1;
+}
+
+static void run_frame(run *r, double t)
+{
+    double interval = r->options.t_end / (r->options.frames > 0 ? r->options.frames : 1);
+    if (!r->frames || t < (double)r->frame * interval - 1e-9 * interval) return;
+    run_note(r, mps_frames_write(r->frames), "frames");
+    r->frame = (int64_t)(t / interval + 1e-9) + 1;
+}
+
+static void run_picture(run *r, double t)
+{
+    if (t < r->options.t_end * (r->pictures + 1) / RUN_PICTURES || r->pictures == RUN_PICTURES - 1) return; /* the last one shows the end */
+    char path[560];
+    snprintf(path, sizeof path, "%s/picture_%d.png", r->options.out, ++r->pictures);
+    if (!picture_save(r->sim, path)) r->output_failed = true;
+}
+
+/* ---- steps ------------------------------------------------------------------------------------------------------ */
+
+static void run_add_up(run *r, const mps_step_info *info)
+{
+    run_totals *s = &r->totals;
+    s->steps++;
+    s->t = info->t;
+    s->lost = info->lost;
+    s->max_speed = fmax(s->max_speed, info->max_speed);
+    s->ppe_iterations += info->ppe_iterations;
+    s->step_s += progress_clock() - r->step_end;
+    for (int k = 0; k < MPS_STAGE_COUNT; k++) s->seconds[k] += info->seconds[k];
+}
+
+static int run_monitor(void *user, mps_sim *sim, const mps_step_info *info)
+{
+    run *r = user;
+    (void)sim;
+    double begin = progress_clock();
+    run_add_up(r, info);
+    const double row[STEP_COLUMNS] = {
+        info->t, info->dt, info->cfl, info->ppe_iterations, info->ppe_residual, info->ppe_divergence, info->max_speed, (double)info->lost};
+    table_append(&r->steps, row);
+    /* interpolation needs the samples on both sides of an output time; the next step is at most a little longer than this one */
+    if (table_wants(&r->probes, info->t, 2 * info->dt)) run_sample(r, info->t);
+    run_frame(r, info->t);
+    run_picture(r, info->t);
+    if (progress_step(&r->progress, info)) {
+        table_flush(&r->probes);
+        table_flush(&r->steps);
+    }
+    r->step_end = progress_clock();
+    r->totals.output_s += r->step_end - begin;
+    return interrupted || r->output_failed;
+}
+
+/* ---- the end ---------------------------------------------------------------------------------------------------- */
+
+static int run_exit_code(const run *r, mps_status status)
+{
+    if (r->output_failed || status == MPS_E_NOMEM || status == MPS_E_IO) return CLI_FAILED;
+    if (status == MPS_W_STOPPED) return interrupted ? CLI_INTERRUPTED : CLI_FAILED;
+    if (status == MPS_E_DIVERGED || status == MPS_E_LOST || status == MPS_E_SOLVER) return CLI_DIVERGED;
+    return status < 0 ? CLI_FAILED : CLI_OK;
+}
+
+static void run_close(run *r)
+{
+    char path[560];
+    if (r->frames) run_note(r, mps_frames_write(r->frames), "frames"); /* the last state, also of a run that broke off */
+    mps_frames_close(r->frames);
+    snprintf(path, sizeof path, "%s/picture_end.png", r->options.out);
+    if (!picture_save(r->sim, path)) r->output_failed = true;
+    if (!table_close(&r->probes) || !table_close(&r->steps)) r->output_failed = true;
+}
+
+static void run_say(const run *r, int code, mps_status status)
+{
+    const run_totals *s = &r->totals;
+    const char *program = r->options.program;
+    if (code == CLI_INTERRUPTED)
+        fprintf(stderr, "%s: interrupted at t = %.6g s after %lld steps; outputs are complete up to there\n", program, s->t,
+                (long long)s->steps);
+    else if (status < 0)
+        fprintf(stderr, "%s: %s at t = %.6g s, step %lld: %s\n", program, mps_status_name(status), s->t, (long long)s->steps + 1, s->error);
+    else if (code != CLI_OK)
+        fprintf(stderr, "%s: %s\n", program, s->error[0] ? s->error : "an output could not be written");
+    if (r->options.quiet) return;
+    fprintf(stderr, "%s: t = %.6g s, %lld steps in %.1f s (%.2f ms a step, %.1f pressure iterations), %lld particles lost, outputs in %s\n",
+            program, s->t, (long long)s->steps, s->wall_s, s->steps ? 1e3 * s->step_s / (double)s->steps : 0,
+            s->steps ? s->ppe_iterations / (double)s->steps : 0, (long long)s->lost, r->options.out);
+}
+
+static double cpu_clock(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* Open everything and take the first row and frame. */
+static void run_begin(run *r)
+{
+    r->own_columns = r->columns;
+    r->totals.fluid = mps_particles_count(r->sim, MPS_FLUID);
+    r->totals.wall = mps_particles_count(r->sim, MPS_WALL);
+    r->totals.dummy = mps_particles_count(r->sim, MPS_DUMMY);
+    if (!run_open_probes(r) || !table_open(&r->steps, r->options.out, "steps.csv", STEP_HEADER, STEP_COLUMNS, 0)) exit(CLI_FAILED);
+    if (!r->options.quiet) {
+        fprintf(stderr, "%s: %s, dp %g m, %lld fluid, %lld wall, %lld dummy particles, to t = %g s\n", r->options.program, r->options.model,
+                r->options.dp, (long long)r->totals.fluid, (long long)r->totals.wall, (long long)r->totals.dummy, r->options.t_end);
+    }
+    run_sample(r, 0);
+    run_frames_open(r);
+    progress_begin(&r->progress, r->options.t_end, mps_particles_count(r->sim, -1), r->options.quiet);
+    catch_interrupt();
+}
+
+int run_finish(run *r)
+{
+    double wall = progress_clock(), cpu = cpu_clock();
+    mps_status status = MPS_W_STOPPED;
+    run_begin(r);
+    r->step_end = progress_clock();
+    if (!r->output_failed) status = mps_run(r->sim, r->options.t_end, run_monitor, r);
+    if (status < 0) snprintf(r->totals.error, sizeof r->totals.error, "%s", mps_sim_error(r->sim));
+    progress_clear(&r->progress);
+    run_close(r);
+    r->totals.wall_s = progress_clock() - wall;
+    r->totals.cpu_s = cpu_clock() - cpu;
+    int code = run_exit_code(r, status);
+    r->totals.status = code == CLI_OK ? "ok" : status != MPS_OK ? mps_status_name(status) : mps_status_name(MPS_E_IO);
+    if (!summary_save(r) || !report_save(r)) code = code == CLI_OK ? CLI_FAILED : code;
+    run_say(r, code, status);
+    table_free(&r->probes);
+    table_free(&r->steps);
+    mps_sim_destroy(r->sim);
+    return code;
+}

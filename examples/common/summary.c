@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* summary.json: one flat object for programs. */
+#include "outputs.h"
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+#include <sys/resource.h>
+
+static void json_text(FILE *out, const char *key, const char *text)
+{
+    fprintf(out, ",\n  \"%s\": \"", key);
+    for (; *text; text++) {
+        if (*text == '"' || *text == '\\')
+            fprintf(out, "\\%c", *text);
+        else if ((unsigned char)*text < 0x20)
+            fprintf(out, "\\u%04x", (unsigned)*text);
+        else
+            fputc(*text, out);
+    }
+    fputc('"', out);
+}
+
+/* JSON has no NaN and no infinity. */
+static void json_number(FILE *out, const char *key, double value)
+{
+    if (isfinite(value))
+        fprintf(out, ",\n  \"%s\": %.17g", key, value);
+    else
+        fprintf(out, ",\n  \"%s\": null", key);
+}
+
+static double per_step(const run *r, double sum)
+{
+    return r->totals.steps ? sum / (double)r->totals.steps : 0;
+}
+
+static void summary_counts(FILE *out, const run *r)
+{
+    const run_totals *s = &r->totals;
+    json_number(out, "n_fluid", (double)s->fluid);
+    json_number(out, "n_wall", (double)s->wall);
+    json_number(out, "n_dummy", (double)s->dummy);
+    json_number(out, "steps", (double)s->steps);
+    json_number(out, "particles_lost", (double)s->lost);
+    json_number(out, "threads", r->options.threads);
+    json_number(out, "dim", r->options.dim);
+}
+
+static void summary_times(FILE *out, const run *r)
+{
+    const run_totals *s = &r->totals;
+    struct rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    json_number(out, "t_end", s->t);
+    json_number(out, "dt_mean", per_step(r, s->t));
+    json_number(out, "wall_s", s->wall_s);
+    json_number(out, "cpu_s", s->cpu_s);
+    json_number(out, "s_per_step", per_step(r, s->step_s));
+    json_number(out, "output_s", s->output_s);
+    json_number(out, "ppe_iterations_mean", per_step(r, s->ppe_iterations));
+    json_number(out, "ppe_s", s->seconds[MPS_STAGE_PPE_SETUP] + s->seconds[MPS_STAGE_PPE_SOLVE]);
+    json_number(out, "neighbour_s", s->seconds[MPS_STAGE_NEIGHBOURS]);
+    json_number(out, "operators_s", s->seconds[MPS_STAGE_OPERATORS] + s->seconds[MPS_STAGE_CORRECT]);
+    json_number(out, "peak_rss_bytes", 1024.0 * (double)usage.ru_maxrss);
+}
+
+static void summary_write(FILE *out, const run *r)
+{
+    const char *solver = "", *preconditioner = NULL;
+    char both[128];
+    mps_solver_name(r->sim, &solver, &preconditioner);
+    snprintf(both, sizeof both, "%s/%s", solver, preconditioner && preconditioner[0] ? preconditioner : "none");
+    fprintf(out, "{\n  \"case\": \"%s\"", r->options.program);
+    json_text(out, "model", r->options.model);
+    json_number(out, "dp", r->options.dp);
+    summary_counts(out, r);
+    summary_times(out, r);
+    json_text(out, "ppe_solver", both);
+    json_number(out, "volume_error", r->totals.volume_error);
+    json_number(out, "max_speed", r->totals.max_speed);
+    json_text(out, "status", r->totals.status);
+    json_text(out, "error", r->totals.error);
+    json_text(out, "version", mps_version(NULL, NULL, NULL));
+    fputs("\n}\n", out);
+}
+
+bool summary_save(const run *r)
+{
+    char path[560];
+    snprintf(path, sizeof path, "%s/summary.json", r->options.out);
+    FILE *out = fopen(path, "w");
+    if (out) summary_write(out, r);
+    bool failed = !out || ferror(out);
+    if (out && fclose(out) != 0) failed = true;
+    if (failed) fprintf(stderr, "%s: %s\n", path, strerror(errno));
+    return !failed;
+}

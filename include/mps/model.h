@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/** @file model.h  Plug-in interface of the models of a time step: forces, walls, free surface, source, gradient, ...
+ *
+ *  A model is a table of verbs. A step calls them in this order, each verb for all active models in the order of their slots:
+ *  classify, force, source, [the pressure equation is solved], gradient, velocity, shift. Built-in models use this
+ *  interface and no other. Verbs loop over rows with `s->threads` threads and write only their own row. */
+#ifndef MPS_MODEL_H
+#define MPS_MODEL_H
+
+#include <mps/operators.h>
+#include <mps/types.h>
+
+MPS_BEGIN_DECLS
+
+#define MPS_MODEL_API 1u
+
+/** Where a particle is, set by classify verbs. */
+enum {
+    MPS_REGION_INNER = 0,   /**< inside the fluid, or a solid particle */
+    MPS_REGION_NEAR = 1,    /**< inside, with a surface particle among its near neighbours */
+    MPS_REGION_SURFACE = 2, /**< on the free surface: p is given there */
+    MPS_REGION_SPRAY = 3    /**< detached: ballistic, p = 0 */
+};
+
+/** Everything a verb may see; rows are particles in the present order. All arrays are borrowed for the call. */
+typedef struct mps_stage {
+    uint32_t struct_size;     /**< sizeof(mps_stage) */
+    int32_t dim;              /**< 2 or 3 */
+    int32_t threads;          /**< OpenMP threads to use */
+    int32_t phases;           /**< phases defined */
+    int64_t n;                /**< particles */
+    int64_t step;             /**< number of this step, from 1 */
+    double t;                 /**< time at the beginning of the step [s] */
+    double dt;                /**< step [s] */
+    double dp;                /**< spacing [m] */
+    double velocity_scale;    /**< U_g [m/s] */
+    double g[3];              /**< gravity [m/s2] */
+    const int32_t *kind;      /**< [n] MPS_FLUID ... */
+    const int32_t *phase;     /**< [n] */
+    const int64_t *id;        /**< [n] */
+    const double *x;          /**< [n*dim] positions at the beginning of the step [m] */
+    double *u;                /**< [n*dim] velocities [m/s]; of walls: the tank's over this step; written by `velocity` */
+    double *p;                /**< [n] pressures [Pa]; from `gradient` on the new ones */
+    const double *density;    /**< [n] rho [kg/m3] */
+    const double *viscosity;  /**< [16] mu of the phases [Pa s] */
+    const double *tank_accel; /**< [n*dim] acceleration over this step of the rigid tank at the particle's place, solid or fluid [m/s2] */
+    const double *area;       /**< [n*dim] wetted area vector of wall particles, into the fluid */
+    const int32_t *wall_of;   /**< [n] nearest wall particle of a dummy, -1: none near */
+    double *number_density;   /**< [n] sum W over the near pairs; classify may change it */
+    int32_t *region;          /**< [n] MPS_REGION_..., written by classify */
+    int32_t *owner;           /**< [n] whose pressure unknown a particle uses: itself, or the wall particle of a dummy; -1: none */
+    double *offset;           /**< [n] p_i = p_owner(i) + offset_i [Pa], written by classify */
+    double *correction;       /**< [n*dim*dim] B_i of mps_op_correction() over the near pairs; classify may change it */
+    const mps_stencil *near;  /**< pairs within re_near */
+    const mps_stencil *far;   /**< pairs within re_far */
+    void *host;               /**< private */
+} mps_stage;
+
+/** The pressure equation row by row, units [1/s2]: sum_j k_ij (p_i - p_j) + shift_i p_i = rhs_i, k_ij = 2D/(n0 lambda) W_ij/rho_ij.
+ *  What is given for a dummy counts for its owner. Verbs add to what they find. */
+typedef struct mps_ppe_terms {
+    uint32_t struct_size;  /**< sizeof(mps_ppe_terms) */
+    int32_t wall_pairs;    /**< 1: solid-solid pairs take part too; default 0 */
+    double *rhs;           /**< [n] e.g. -div u* / dt */
+    double *shift;         /**< [n] >= 0, e.g. the missing half space at a free surface */
+    double *value;         /**< [n] pressure of fixed rows [Pa] */
+    int32_t *fixed;        /**< [n] 1: p_i = value_i (Dirichlet); region SURFACE and SPRAY arrive fixed at 0 */
+} mps_ppe_terms;
+
+/** A number a user may set by mps_model_set(). */
+typedef struct mps_setting {
+    const char *key;      /**< e.g. "distance" */
+    double initial;       /**< default */
+    double min, max;      /**< allowed, both included */
+} mps_setting;
+
+/** A model. Verbs are optional; they return 0, or non-zero after mps_stage_fail(). `k` holds the settings in the order of `settings`. */
+typedef struct mps_model_ops {
+    uint32_t struct_size;        /**< sizeof(mps_model_ops) */
+    uint32_t api;                /**< MPS_MODEL_API */
+    const char *name;            /**< "slot.variant", at most 47 characters */
+    int32_t order;               /**< verbs run by ascending order, then in the order of mps_model_use(); built-ins use 100..900 */
+    int32_t setting_count;       /**< entries of settings, at most 16 */
+    const mps_setting *settings; /**< must outlive the handle */
+    /** New state in *self; NULL: the model has none. Non-zero: out of memory. */
+    int (*create)(const mps_allocator *allocator, void **self);
+    void (*destroy)(void *self); /**< needed with create */
+    /** Set region, owner, offset. */
+    int (*classify)(void *self, const double *k, mps_stage *s);
+    /** Add non-pressure accelerations a [n*dim] [m/s2] of fluid particles; gravity too, where a model puts it there. */
+    int (*force)(void *self, const double *k, mps_stage *s, double *a);
+    /** Add to the pressure equation; s->u is u*. */
+    int (*source)(void *self, const double *k, mps_stage *s, mps_ppe_terms *terms);
+    /** Add accelerations a [n*dim] due to the new pressures s->p. */
+    int (*gradient)(void *self, const double *k, mps_stage *s, double *a);
+    /** Change velocities after the correction, e.g. collisions. */
+    int (*velocity)(void *self, const double *k, mps_stage *s);
+    /** Add displacements dx [n*dim] [m] of fluid particles beside dt u; may change s->u to transport it. */
+    int (*shift)(void *self, const double *k, mps_stage *s, double *dx);
+    /** Largest time step [s] this model allows; called before the step, s->dt is the previous one. */
+    double (*dt_limit)(void *self, const double *k, const mps_stage *s);
+} mps_model_ops;
+
+/** Register a model on a handle; the table is copied. Then choose it with mps_model_use().
+ *  @return MPS_E_ARG for a taken or malformed name, a setting out of its own range, no verb at all; MPS_E_VERSION */
+MPS_API mps_status mps_model_register(mps_sim *sim, const mps_model_ops *ops);
+
+/** Scratch of `count` doubles, zeroed, given back by itself when the verb returns; NULL when memory is out (and the error is set). */
+MPS_API double *mps_stage_scratch(mps_stage *s, int64_t count);
+
+/** Report a failure of a verb; text as printf. Always returns 1, so that a verb can end with it. */
+MPS_API int mps_stage_fail(mps_stage *s, const char *format, ...);
+
+MPS_END_DECLS
+
+#endif

@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/** @file probe.h  Pressure probes, free-surface gauges, forces and energies. Read between steps or in the monitor.
+ *
+ *  Places are given in the tank's frame and move with it. Pressures are gauge [Pa]. */
+#ifndef MPS_PROBE_H
+#define MPS_PROBE_H
+
+#include <mps/types.h>
+
+MPS_BEGIN_DECLS
+
+/** What a probe measures. */
+enum {
+    MPS_PROBE_WALL_PRESSURE = 0, /**< 1 value [Pa]: mean over the wall particles within diameter/2, else linear between the nearest */
+    MPS_PROBE_FLUID_PRESSURE = 1,/**< 1 value [Pa]: kernel-weighted, 0 outside the fluid */
+    MPS_PROBE_GAUGE = 2,         /**< 1 value [m]: distance from `at` along `direction` to the free surface */
+    MPS_PROBE_FORCE = 3          /**< dim + (1 in 2-D, 3 in 3-D) values [N, N m; per m in 2-D]: pressure force and moment about `at` */
+};
+
+/** Definition of a probe. */
+typedef struct mps_probe {
+    uint32_t struct_size; /**< set by mps_probe_init() */
+    int32_t type;         /**< MPS_PROBE_... */
+    double at[3];         /**< place in the tank's frame [m]; gauge: foot of the line; force: centre of moments */
+    double direction[3];  /**< gauge: along the line; default +y */
+    double diameter;      /**< wall pressure: sensor diameter [m], default dp; gauge: width of the band looked at, default 3 dp */
+    double length;        /**< gauge: length of the line [m]; default: to the domain's end */
+    const char *part;     /**< force: name of a part, a prefix ending in '.', or NULL for all solids */
+    int32_t count_drops;  /**< gauge: 1 counts detached drops and films too */
+} mps_probe;
+
+/** Defaults. */
+MPS_API mps_status mps_probe_init(mps_probe *probe, size_t size);
+
+/** Add a probe. Solids must be there before.
+ *  @param id  out: 0, 1, ...
+ *  @return MPS_E_ARG (outside the solids' bounding box, no wall particle within 2 dp of a wall probe; says how far), MPS_E_NAME */
+MPS_API mps_status mps_probe_add(mps_sim *sim, const mps_probe *probe, int32_t *id);
+
+/** Number of values of a probe, or -1. */
+MPS_API int32_t mps_probe_size(const mps_sim *sim, int32_t id);
+
+/** Measure now. @param values [mps_probe_size()] out */
+MPS_API mps_status mps_probe_read(mps_sim *sim, int32_t id, double *values);
+
+/** Energies and bulk quantities of the fluid (per metre of width in 2-D) and the budget since creation. */
+typedef struct mps_energy {
+    uint32_t struct_size;  /**< set by mps_energy_init() */
+    double kinetic;        /**< sum m u^2 / 2 [J] */
+    double potential;      /**< -sum m g.x [J] */
+    double wall_work;      /**< work done by the walls on the fluid [J], by pressure */
+    double viscous;        /**< lost in force models (viscosity), >= 0 when dissipating [J] */
+    double collision;      /**< lost in collisions [J] */
+    double shift;          /**< lost in shifting, kinetic and potential [J] */
+    double numerical;      /**< the rest: wall_work - viscous - collision - shift - d(kinetic + potential) [J] */
+    double mass;           /**< [kg] */
+    double volume;         /**< sum m/rho scaled by the mean compression n0/n of inner particles [m3 or m2] */
+    double volume_error;   /**< 1 - mean n/n0 of inner particles against the first step, > 0: expanded */
+    double centre[3];      /**< centre of mass, lab frame [m] */
+    double momentum[3];    /**< [kg m/s] */
+} mps_energy;
+
+/** Set struct_size and zero. */
+MPS_API mps_status mps_energy_init(mps_energy *energy, size_t size);
+
+/** Measure energies now. */
+MPS_API mps_status mps_energy_get(mps_sim *sim, mps_energy *energy);
+
+MPS_END_DECLS
+
+#endif

@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/** @file step.h  Advance in time; what a step did; the monitor. */
+#ifndef MPS_STEP_H
+#define MPS_STEP_H
+
+#include <mps/types.h>
+
+MPS_BEGIN_DECLS
+
+/** Time step control. dt = min of all limits; every limit can be moved or switched off (< 0). */
+typedef struct mps_time_control {
+    uint32_t struct_size; /**< set by mps_time_control_init() */
+    double dt;            /**< > 0: fixed step [s], the other entries are ignored; 0 (default): adaptive */
+    double cfl;           /**< dt |u|max / dp; default 0.2 */
+    double gravity;       /**< dt U_g / dp, U_g the velocity scale; default 0.03 */
+    double viscous;       /**< dt nu / dp^2; default 0.2 */
+    double growth;        /**< largest dt / previous dt; default 1.1 */
+    double dt_max;        /**< [s]; default none */
+    double dt_min;        /**< smaller is MPS_E_DIVERGED [s]; default 1e-9 sqrt(dp/9.81) */
+} mps_time_control;
+
+/** Defaults. */
+MPS_API mps_status mps_time_control_init(mps_time_control *control, size_t size);
+
+/** Use a time step control from the next step on. */
+MPS_API mps_status mps_sim_set_time_control(mps_sim *sim, const mps_time_control *control);
+
+/** Stages of a step, for timings. */
+enum {
+    MPS_STAGE_NEIGHBOURS = 0, /**< lists, sorting */
+    MPS_STAGE_OPERATORS = 1,  /**< number density, free surface, forces, source */
+    MPS_STAGE_PPE_SETUP = 2,  /**< matrix and preconditioner */
+    MPS_STAGE_PPE_SOLVE = 3,  /**< solution */
+    MPS_STAGE_CORRECT = 4,    /**< gradient, move, collisions, shift */
+    MPS_STAGE_COUNT = 5
+};
+
+/** What the last step did. */
+typedef struct mps_step_info {
+    uint32_t struct_size;          /**< set by mps_step_info_init() */
+    int32_t ppe_iterations;        /**< of the pressure solver */
+    int64_t step;                  /**< number of this step, from 1 */
+    double t;                      /**< time reached [s] */
+    double dt;                     /**< step taken [s] */
+    double cfl;                    /**< dt |u|max / dp */
+    double max_speed;              /**< |u|max of the fluid in the lab's frame [m/s] */
+    double ppe_residual;           /**< relative 2-norm, true residual */
+    double ppe_divergence;         /**< largest residual as divergence times dt */
+    int64_t ppe_unknowns;          /**< rows of the pressure equation */
+    int64_t lost;                  /**< particles removed since creation */
+    int64_t surface;               /**< free-surface particles */
+    double seconds[MPS_STAGE_COUNT]; /**< wall clock by stage [s] */
+} mps_step_info;
+
+/** Set struct_size and zero. */
+MPS_API mps_status mps_step_info_init(mps_step_info *info, size_t size);
+
+/** Advance by one step of at most dt_max. W22 section 2.5 and Fig. 2.
+ *  @param sim     simulation with no open lease (else MPS_E_BUSY) and at least one fluid particle
+ *  @param dt_max  upper bound of the step [s], > 0 and finite; the step taken is info->dt
+ *  @param info    NULL, or out, with struct_size set
+ *  @return MPS_OK, MPS_W_NOT_CONVERGED; MPS_E_DIVERGED, MPS_E_LOST, MPS_E_SOLVER, MPS_E_NOMEM, MPS_E_PLUGIN
+ *          (positions, velocities, pressures and time are as before the call) */
+MPS_API mps_status mps_step(mps_sim *sim, double dt_max, mps_step_info *info);
+
+/** Called after every step of mps_run(); non-zero stops the run. Must not step, add or remove. */
+typedef int (*mps_monitor_fn)(void *user, mps_sim *sim, const mps_step_info *info);
+
+/** Step until t_end, the last step cut so that t_end is met exactly.
+ *  @param monitor  NULL or the callback
+ *  @return MPS_OK, MPS_W_STOPPED, MPS_W_NOT_CONVERGED (if any step was), or the error of the failing step */
+MPS_API mps_status mps_run(mps_sim *sim, double t_end, mps_monitor_fn monitor, void *user);
+
+MPS_END_DECLS
+
+#endif

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Sourced by demo and check: find out which Debian packages are missing, say so, install them.
+
+BUILD_PACKAGES=(gcc libc6-dev make cmake libsundials-dev libsuitesparse-dev libpng-dev zlib1g-dev)
+CHECK_PACKAGES=("${BUILD_PACKAGES[@]}" g++ pkg-config libcmocka-dev clang-format clang-tidy doxygen python3 binutils)
+
+missing_packages() {
+    local package
+    for package in "$@"; do
+        dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || echo "$package"
+    done
+}
+
+# need_packages install|no-install PACKAGE...
+need_packages() {
+    local mode=$1 missing sudo=()
+    shift
+    if ! command -v dpkg-query >/dev/null; then
+        echo "This is not Debian or Ubuntu; please make sure that their equivalents of these are there: $*"
+        return
+    fi
+    mapfile -t missing < <(missing_packages "$@")
+    [ "${#missing[@]}" -gt 0 ] || return 0
+    if [ "$mode" = no-install ]; then
+        echo "Missing packages (--no-install: not installing them): ${missing[*]}"
+        return
+    fi
+    [ "$(id -u)" = 0 ] || sudo=(sudo)
+    echo "Installing with ${sudo[*]:+sudo }apt-get: ${missing[*]}"
+    "${sudo[@]}" apt-get update -qq
+    "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
+}

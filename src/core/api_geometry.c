@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The public functions of mps/geometry.h: argument checks, then geometry.c. */
+#include "geometry.h"
+#include <math.h>
+#include <string.h>
+
+static const mps_tank tank_defaults = {.name = "tank", .dummy_layers = 2};
+
+static mps_status changeable(mps_sim *sim)
+{
+    int32_t open = mps__particles_leases(&sim->world.particles);
+    if (open > 0) return mps__fail(&sim->context, MPS_E_BUSY, "%d leases are open: give them back before adding particles", (int)open);
+    return MPS_OK;
+}
+
+static mps_status has_tank(mps_sim *sim)
+{
+    if (!sim->has_tank) return mps__fail(&sim->context, MPS_E_STATE, "there is no lattice yet: call mps_geometry_tank() first");
+    return MPS_OK;
+}
+
+/* Whole spacings of every side. The lattice with its dummies must stay countable. */
+static mps_status tank_cells(mps_sim *sim, const mps_tank *tank, int64_t cells[3])
+{
+    double dp = sim->world.dp, points = 1;
+    for (int d = 0; d < sim->world.dim; d++) {
+        double n = round(tank->size[d] / dp);
+        MPS__CHECK(&sim->context, isfinite(tank->lo[d]), "tank.lo[%d] is %g: must be finite", d, tank->lo[d]);
+        MPS__CHECK(&sim->context, isfinite(n) && n >= 3, "tank.size[%d] is %g m: at least 3 spacings of %g m", d, tank->size[d], dp);
+        points *= n + 1 + 2 * tank->dummy_layers;
+        MPS__CHECK(&sim->context, points < INT32_MAX, "tank.size[%d] is %g m: too many lattice points of spacing %g m", d, tank->size[d], dp);
+        cells[d] = (int64_t)n;
+    }
+    return MPS_OK;
+}
+
+static void report_size(mps_sim *sim, const mps_tank *tank, const int64_t cells[3], double *built)
+{
+    static const char axis[3] = {'x', 'y', 'z'};
+    for (int d = 0; d < 3; d++) {
+        double size = (double)cells[d] * sim->world.dp;
+        if (built) built[d] = size;
+        if (d < sim->world.dim && fabs(size - tank->size[d]) > 1e-6 * sim->world.dp)
+            mps__log(&sim->context, MPS_LOG_INFO, "tank \"%s\": size %g m in %c rounded to %g m, %lld spacings", tank->name, tank->size[d], axis[d], size,
+                     (long long)cells[d]);
+    }
+}
+
+static mps_status corners(mps_sim *sim, const double *lo, const double *hi)
+{
+    mps__context *c = &sim->context;
+    MPS__CHECK(c, lo && hi, "a corner of the box is NULL");
+    for (int d = 0; d < sim->world.dim; d++) {
+        MPS__CHECK(c, isfinite(lo[d]) && isfinite(hi[d]), "box corner [%d] is %g .. %g: must be finite", d, lo[d], hi[d]);
+        MPS__CHECK(c, lo[d] <= hi[d], "box corners [%d] are inverted: lo %g > hi %g", d, lo[d], hi[d]);
+    }
+    return MPS_OK;
+}
+
+static mps_status box_points(mps_sim *sim, const double *lo, const double *hi, mps__lattice_box *box)
+{
+    MPS__TRY(has_tank(sim));
+    MPS__TRY(corners(sim, lo, hi));
+    MPS__CHECK(&sim->context, mps__lattice_clip(sim, lo, hi, box), "the box contains no lattice point of the tank: spacing is %g m, the first point (%g, %g%s)",
+               sim->world.dp, sim->lattice_lo[0], sim->lattice_lo[1], sim->world.dim == 3 ? ", ..." : "");
+    return MPS_OK;
+}
+
+static mps_status phase_ok(mps_sim *sim, int32_t phase)
+{
+    MPS__CHECK(&sim->context, phase >= 0 && phase < MPS__PHASES, "phase %d: must be 0..%d", (int)phase, MPS__PHASES - 1);
+    MPS__CHECK(&sim->context, sim->world.phase_defined[phase], "phase %d is not defined: call mps_sim_set_phase() first", (int)phase);
+    return MPS_OK;
+}
+
+mps_status mps_tank_init(mps_tank *tank, size_t size)
+{
+    return mps__struct_init(tank, size, &tank_defaults, sizeof tank_defaults);
+}
+
+mps_status mps_geometry_tank(mps_sim *sim, const mps_tank *tank, double *built)
+{
+    if (!sim) return MPS_E_ARG;
+    mps_tank t = tank_defaults;
+    char name[MPS__PART_NAME - 3]; /* room for ".x0" */
+    int64_t cells[3] = {0, 0, 0};
+    MPS__TRY(changeable(sim));
+    MPS__TRY(mps__struct_in(&sim->context, "mps_tank", &t, sizeof t, tank));
+    if (t.name == NULL) t.name = tank_defaults.name;
+    if (t.dummy_layers == 0) t.dummy_layers = tank_defaults.dummy_layers;
+    MPS__CHECK(&sim->context, mps__name_copy(name, sizeof name, t.name), "tank.name \"%.40s\": must have 1..%d characters", t.name, (int)sizeof name - 1);
+    MPS__CHECK(&sim->context, t.dummy_layers >= 1 && t.dummy_layers <= 8, "tank.dummy_layers is %d: must be 1..8", (int)t.dummy_layers);
+    MPS__CHECK(&sim->context, t.open_top == 0 || t.open_top == 1, "tank.open_top is %d: must be 0 or 1", (int)t.open_top);
+    MPS__TRY(tank_cells(sim, &t, cells));
+    MPS__TRY(mps__geometry_tank(sim, &t, cells));
+    report_size(sim, &t, cells, built);
+    return MPS_OK;
+}
+
+mps_status mps_geometry_baffle(mps_sim *sim, const char *name, const double *lo, const double *hi)
+{
+    if (!sim) return MPS_E_ARG;
+    mps__lattice_box box;
+    char copy[MPS__PART_NAME];
+    MPS__TRY(changeable(sim));
+    MPS__CHECK(&sim->context, mps__name_copy(copy, sizeof copy, name), "the baffle's name must have 1..%d characters", MPS__PART_NAME - 1);
+    MPS__TRY(box_points(sim, lo, hi, &box));
+    return mps__geometry_baffle(sim, copy, &box);
+}
+
+mps_status mps_geometry_fill_box(mps_sim *sim, int32_t phase, const double *lo, const double *hi, int64_t *added)
+{
+    if (!sim) return MPS_E_ARG;
+    mps__lattice_box box;
+    MPS__TRY(changeable(sim));
+    MPS__TRY(phase_ok(sim, phase));
+    MPS__TRY(box_points(sim, lo, hi, &box));
+    return mps__geometry_fill(sim, phase, &box, NULL, NULL, added);
+}
+
+mps_status mps_geometry_fill(mps_sim *sim, int32_t phase, mps_inside_fn inside, void *user, int64_t *added)
+{
+    if (!sim) return MPS_E_ARG;
+    MPS__TRY(changeable(sim));
+    MPS__TRY(phase_ok(sim, phase));
+    MPS__TRY(has_tank(sim));
+    MPS__CHECK(&sim->context, inside, "inside is NULL: use mps_geometry_fill_box() to fill a box");
+    mps__lattice_box box = {{0}, {0}, {0}};
+    for (int d = 0; d < sim->world.dim; d++) {
+        box.lo[d] = sim->lattice_lo[d];
+        box.last[d] = sim->lattice_cells[d];
+    }
+    return mps__geometry_fill(sim, phase, &box, inside, user, added);
+}

@@ -1,0 +1,238 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Particles of the public interface: add, remove, fields, leases. */
+#define _POSIX_C_SOURCE 200809L
+#include "sim.h"
+#include <math.h>
+#include <mps/particles.h>
+#include <string.h>
+
+/* Particles nearer than this [dp] are one by mistake. */
+static const double overlap = 0.1;
+
+static const mps_particle_block block_default = {.struct_size = sizeof(mps_particle_block), .kind = MPS_FLUID};
+
+mps_status mps_particle_block_init(mps_particle_block *block, size_t size)
+{
+    return mps__struct_init(block, size, &block_default, sizeof block_default);
+}
+
+static mps_status not_leased(mps_sim *sim)
+{
+    const int32_t open = mps__particles_leases(&sim->world.particles);
+    return open ? mps__fail(&sim->context, MPS_E_BUSY, "%d lease(s) are open", open) : MPS_OK;
+}
+
+static mps_status check_block(mps_sim *sim, const mps_particle_block *b)
+{
+    mps__context *c = &sim->context;
+    const int dim = sim->world.dim;
+    MPS__CHECK(c, b->kind >= MPS_FLUID && b->kind <= MPS_DUMMY, "block.kind is %d: MPS_FLUID, MPS_WALL or MPS_DUMMY", b->kind);
+    MPS__CHECK(c, b->phase >= 0 && b->phase < MPS__PHASES && sim->world.phase_defined[b->phase], "block.phase is %d: not a defined phase", b->phase);
+    MPS__CHECK(c, b->count >= 1 && b->count <= INT32_MAX, "block.count is %lld: 1..%d", (long long)b->count, INT32_MAX);
+    MPS__CHECK(c, b->position, "block.position is NULL");
+    MPS__CHECK(c, !b->part || strnlen(b->part, MPS__PART_NAME) < MPS__PART_NAME, "block.part is longer than %d characters", MPS__PART_NAME - 1);
+    const double *arrays[] = {b->position, b->velocity, b->area};
+    const char *names[] = {"position", "velocity", "area"};
+    for (int a = 0; a < 3; a++)
+        for (int64_t k = 0; arrays[a] && k < b->count * dim; k++)
+            MPS__CHECK(c, isfinite(arrays[a][k]), "block.%s of particle %lld, axis %lld is %g: must be finite", names[a], (long long)(k / dim),
+                       (long long)(k % dim), arrays[a][k]);
+    return MPS_OK;
+}
+
+/* Refuse particles on top of each other, in the block or with those there. Coincident walls are the two faces of a plate. */
+static mps_status check_overlap(mps_sim *sim, const mps_particle_block *b)
+{
+    mps__particles *s = &sim->world.particles;
+    const int dim = sim->world.dim;
+    const int64_t n = s->n + b->count;
+    const double reach = overlap * sim->world.dp;
+    double *x = mps__alloc(&sim->context, n * dim, sizeof *x);
+    mps_neighbours *list = NULL;
+    mps_status status = x ? mps_neighbours_create(dim, sim->world.dp, &sim->context.allocator, &list) : MPS_E_NOMEM;
+    if (status == MPS_OK) {
+        memcpy(x, s->x, (size_t)(s->n * dim) * sizeof *x);
+        memcpy(x + s->n * dim, b->position, (size_t)(b->count * dim) * sizeof *x);
+        status = mps_neighbours_build(list, n, x, reach, reach);
+        if (status == MPS_E_ARG) mps__fail(&sim->context, status, "%s", list->context->error);
+    }
+    for (int64_t i = s->n; status == MPS_OK && i < n; i++)
+        for (int64_t k = list->candidate_row[i]; k < list->candidate_row[i + 1] && status == MPS_OK; k++) {
+            const int64_t j = list->candidate[k];
+            const int32_t other = j < s->n ? s->kind[j] : b->kind;
+            if (b->kind != MPS_FLUID && other != MPS_FLUID) continue;
+            status = mps__fail(&sim->context, MPS_E_ARG, "particle %lld of the block lies within %g dp of %s %lld at (%g, %g): at least %g dp apart", (long long)(i - s->n),
+                               overlap, j < s->n ? "particle" : "its particle", (long long)(j < s->n ? s->id[j] : j - s->n), x[j * dim], x[j * dim + 1], overlap);
+        }
+    mps_neighbours_destroy(list);
+    mps__free(&sim->context, x);
+    return status;
+}
+
+static void store_block(mps_sim *sim, const mps_particle_block *b, int32_t part, int64_t first)
+{
+    mps__world *w = &sim->world;
+    mps__particles *s = &w->particles;
+    const int dim = w->dim;
+    for (int64_t k = 0; k < b->count; k++) {
+        const int64_t i = first + k;
+        memcpy(s->x + i * dim, b->position + k * dim, (size_t)dim * sizeof(double));
+        s->kind[i] = b->kind;
+        s->phase[i] = b->phase;
+        s->part[i] = part;
+        s->rho[i] = w->phase_density[b->phase];
+        mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * dim, s->ref + i * dim);
+        if (b->kind != MPS_FLUID)
+            mps__motion_point(&w->motion, &w->motion.now, s->ref + i * dim, NULL, w->info.step > 0 ? s->u + i * dim : NULL, NULL);
+        else if (b->velocity)
+            memcpy(s->u + i * dim, b->velocity + k * dim, (size_t)dim * sizeof(double));
+        if (b->area && b->kind == MPS_WALL) memcpy(s->area + i * dim, b->area + k * dim, (size_t)dim * sizeof(double));
+    }
+}
+
+mps_status mps_particles_add(mps_sim *sim, const mps_particle_block *block, int64_t *ids)
+{
+    if (!sim) return MPS_E_ARG;
+    mps__particles *s = &sim->world.particles;
+    mps_particle_block b = block_default;
+    MPS__TRY(not_leased(sim));
+    MPS__TRY(mps__struct_in(&sim->context, "mps_particle_block", &b, sizeof b, block));
+    MPS__TRY(check_block(sim, &b));
+    MPS__TRY(check_overlap(sim, &b));
+    MPS__TRY(mps__particles_reserve(s, b.count));
+    int32_t part = -1;
+    if (b.kind != MPS_FLUID) {
+        part = mps__part_number(s, b.part ? b.part : "solid", true);
+        MPS__CHECK(&sim->context, part >= 0, "block.part \"%s\": empty, or one part too many (at most %d)", b.part ? b.part : "solid", MPS__PARTS_MAX);
+    }
+    const int64_t first = mps__particles_append(s, b.count);
+    store_block(sim, &b, part, first);
+    sim->world.neighbours.valid = false;
+    for (int64_t k = 0; ids && k < b.count; k++) ids[k] = s->id[first + k];
+    return MPS_OK;
+}
+
+/* Places of all ids, [next_id], -1 where there is none; NULL when memory is out. */
+static int32_t *places(mps_sim *sim)
+{
+    mps__particles *s = &sim->world.particles;
+    int32_t *place = mps__alloc(&sim->context, s->next_id, sizeof *place);
+    if (!place) return NULL;
+    for (int64_t k = 0; k < s->next_id; k++) place[k] = -1;
+    for (int64_t i = 0; i < s->n; i++) place[s->id[i]] = (int32_t)i;
+    return place;
+}
+
+mps_status mps_particles_remove(mps_sim *sim, int64_t count, const int64_t *ids)
+{
+    if (!sim) return MPS_E_ARG;
+    mps__particles *s = &sim->world.particles;
+    MPS__TRY(not_leased(sim));
+    MPS__CHECK(&sim->context, count >= 1 && ids, "remove: count is %lld with %s ids", (long long)count, ids ? "given" : "no");
+    int32_t *place = places(sim);
+    if (!place) return MPS_E_NOMEM;
+    mps_status status = MPS_OK;
+    for (int64_t k = 0; k < count && status == MPS_OK; k++) {
+        if (ids[k] < 0 || ids[k] >= s->next_id || place[ids[k]] < 0)
+            status = mps__fail(&sim->context, MPS_E_ARG, "remove: id %lld is unknown, or given twice", (long long)ids[k]);
+        else
+            place[ids[k]] = -1;
+    }
+    if (status == MPS_OK) {
+        int64_t left = 0;
+        int32_t *keep = place; /* filled from the front, behind what is read */
+        int32_t *gone = mps__alloc(&sim->context, s->n, sizeof *gone);
+        if (!gone) status = MPS_E_NOMEM;
+        for (int64_t i = 0; gone && i < s->n; i++) gone[i] = place[s->id[i]] < 0;
+        for (int64_t i = 0; gone && i < s->n; i++)
+            if (!gone[i]) keep[left++] = (int32_t)i;
+        if (gone) status = mps__particles_permute(s, left, keep);
+        mps__free(&sim->context, gone);
+        if (status == MPS_OK) sim->world.neighbours.valid = false;
+    }
+    mps__free(&sim->context, place);
+    return status;
+}
+
+int64_t mps_particles_count(const mps_sim *sim, int32_t kind)
+{
+    if (!sim || kind < -1 || kind > MPS_DUMMY) return -1;
+    const mps__particles *s = &sim->world.particles;
+    int64_t count = 0;
+    for (int64_t i = 0; i < s->n; i++) count += kind < 0 || s->kind[i] == kind;
+    return count;
+}
+
+int64_t mps_particle_index(const mps_sim *sim, int64_t id)
+{
+    for (int64_t i = 0; sim && i < sim->world.particles.n; i++)
+        if (sim->world.particles.id[i] == id) return i;
+    return -1;
+}
+
+mps_status mps_field_add(mps_sim *sim, const char *name, int32_t components)
+{
+    if (!sim) return MPS_E_ARG;
+    MPS__TRY(not_leased(sim));
+    MPS__CHECK(&sim->context, name && name[0] && strnlen(name, 32) < 32, "a field's name has 1..31 characters");
+    MPS__CHECK(&sim->context, components >= 1 && components <= 9, "field \"%s\": components is %d: 1..9", name, components);
+    MPS__CHECK(&sim->context, !mps__particles_field(&sim->world.particles, name), "field \"%s\" exists already", name);
+    return mps__particles_field_add(&sim->world.particles, name, components, sizeof(double), true, NULL);
+}
+
+mps_status mps_lease_begin(mps_sim *sim, const char *field, int32_t mode, mps_lease *lease)
+{
+    if (!sim) return MPS_E_ARG;
+    mps__particles *s = &sim->world.particles;
+    MPS__CHECK(&sim->context, field && lease, "field or lease is NULL");
+    MPS__CHECK(&sim->context, mode == MPS_READ || mode == MPS_WRITE, "mode is %d: MPS_READ or MPS_WRITE", mode);
+    const char *names[MPS__FIELDS_MAX];
+    int count = 0;
+    for (int32_t k = 0; k < s->fields; k++)
+        if (s->field[k].is_public) names[count++] = s->field[k].name;
+    mps__field *f = mps__particles_field(s, field);
+    if (!f || !f->is_public) return mps__fail(&sim->context, MPS_E_NAME, "no field \"%s\"; did you mean \"%s\"?", field, mps__nearest(field, names, count));
+    if (f->writer || (mode == MPS_WRITE && f->readers > 0))
+        return mps__fail(&sim->context, MPS_E_BUSY, "field \"%s\" is leased already, for %s", field, f->writer ? "writing" : "reading");
+    if (mode == MPS_WRITE)
+        f->writer = true;
+    else
+        f->readers++;
+    *lease = (mps_lease){.data = *f->data, .count = s->n, .stride = f->components, .slot = ((int32_t)(f - s->field) + 1) * 2 + mode};
+    return MPS_OK;
+}
+
+mps_status mps_lease_end(mps_sim *sim, mps_lease *lease)
+{
+    if (!sim) return MPS_E_ARG;
+    mps__particles *s = &sim->world.particles;
+    MPS__CHECK(&sim->context, lease && lease->slot >= 2 && lease->slot / 2 <= s->fields, "this lease is not open");
+    mps__field *f = &s->field[lease->slot / 2 - 1];
+    const bool write = lease->slot % 2;
+    MPS__CHECK(&sim->context, write ? f->writer : f->readers > 0, "this lease of \"%s\" is not open", f->name);
+    const double *data = *f->data;
+    for (int64_t k = 0; write && k < s->n * f->components; k++)
+        MPS__CHECK(&sim->context, isfinite(data[k]), "field \"%s\" of particle %lld was written as %g: must be finite; the lease stays open", f->name,
+                   (long long)s->id[k / f->components], data[k]);
+    if (write)
+        f->writer = false;
+    else
+        f->readers--;
+    *lease = (mps_lease){0};
+    return MPS_OK;
+}
+
+mps_status mps_particles_tags(const mps_sim *sim, const int64_t **ids, const int32_t **kinds, const int32_t **phases, const int32_t **parts)
+{
+    if (!sim) return MPS_E_ARG;
+    if (ids) *ids = sim->world.particles.id;
+    if (kinds) *kinds = sim->world.particles.kind;
+    if (phases) *phases = sim->world.particles.phase;
+    if (parts) *parts = sim->world.particles.part;
+    return MPS_OK;
+}
+
+int32_t mps_part_find(const mps_sim *sim, const char *name)
+{
+    return sim ? mps__part_number((mps__particles *)&sim->world.particles, name, false) : -1;
+}

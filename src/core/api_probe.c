@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The public functions of mps/probe.h. */
+#include "sim.h"
+
+static const mps_probe probe_defaults = {.direction = {0, 1, 0}};
+static const mps_energy energy_defaults = {0};
+
+static mps_status find_probe(const mps_sim *sim, int32_t id, const mps__probe **probe)
+{
+    MPS__CHECK(mps__sim_context(sim), id >= 0 && id < sim->probes.count, "probe %d: there are %lld, counted from 0", (int)id, (long long)sim->probes.count);
+    *probe = &sim->probes.list[id];
+    return MPS_OK;
+}
+
+mps_status mps_probe_init(mps_probe *probe, size_t size)
+{
+    return mps__struct_init(probe, size, &probe_defaults, sizeof probe_defaults);
+}
+
+mps_status mps_probe_add(mps_sim *sim, const mps_probe *probe, int32_t *id)
+{
+    if (!sim) return MPS_E_ARG;
+    mps_probe p = probe_defaults;
+    MPS__CHECK(&sim->context, id, "id is NULL");
+    MPS__TRY(mps__struct_in(&sim->context, "mps_probe", &p, sizeof p, probe));
+    return mps__probes_add(&sim->world, &sim->probes, &p, id);
+}
+
+int32_t mps_probe_size(const mps_sim *sim, int32_t id)
+{
+    const mps__probe *probe = NULL;
+    if (!sim || find_probe(sim, id, &probe) < 0) return -1;
+    return mps__probe_values(&sim->world, probe);
+}
+
+mps_status mps_probe_read(mps_sim *sim, int32_t id, double *values)
+{
+    if (!sim) return MPS_E_ARG;
+    const mps__probe *probe = NULL;
+    MPS__CHECK(&sim->context, values, "values is NULL");
+    MPS__TRY(find_probe(sim, id, &probe));
+    return mps__probe_measure(&sim->world, probe, values);
+}
+
+mps_status mps_energy_init(mps_energy *energy, size_t size)
+{
+    return mps__struct_init(energy, size, &energy_defaults, sizeof energy_defaults);
+}
+
+mps_status mps_energy_get(mps_sim *sim, mps_energy *energy)
+{
+    if (!sim) return MPS_E_ARG;
+    mps_energy now;
+    MPS__TRY(mps__energy_measure(&sim->world, &now));
+    return mps__struct_out(&sim->context, "mps_energy", energy, &now, sizeof now);
+}

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Public functions of the pressure solver: choice, limits, registration. */
+#include "sim.h"
+
+mps_status mps_solver_use(mps_sim *sim, const char *solver, const char *preconditioner)
+{
+    return sim ? mps__solvers_use(&sim->world.solvers, solver, preconditioner) : MPS_E_ARG;
+}
+
+mps_status mps_solver_set_limits(mps_sim *sim, const mps_solver_limits *limits)
+{
+    return sim ? mps__solvers_set_limits(&sim->world.solvers, limits) : MPS_E_ARG;
+}
+
+mps_status mps_solver_name(const mps_sim *sim, const char **solver, const char **preconditioner)
+{
+    if (!sim) return MPS_E_ARG;
+    const mps__solvers *s = &sim->world.solvers;
+    if (solver) *solver = s->use->name;
+    if (preconditioner) *preconditioner = s->pc ? s->pc->name : "none";
+    return MPS_OK;
+}
+
+mps_status mps_solver_register(mps_sim *sim, const mps_solver_ops *ops)
+{
+    return sim ? mps__solvers_register(&sim->world.solvers, ops) : MPS_E_ARG;
+}
+
+mps_status mps_preconditioner_register(mps_sim *sim, const mps_preconditioner_ops *ops)
+{
+    return sim ? mps__solvers_register_preconditioner(&sim->world.solvers, ops) : MPS_E_ARG;
+}

@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Stepping of the public interface, and the stencil of a simulation. */
+#include "sim.h"
+#include <math.h>
+
+static const mps_time_control control_default = {
+    .struct_size = sizeof(mps_time_control), .cfl = 0.2, .gravity = 0.03, .viscous = 0.2, .growth = 1.1};
+static const mps_step_info info_default = {.struct_size = sizeof(mps_step_info)};
+
+mps_status mps_time_control_init(mps_time_control *control, size_t size)
+{
+    return mps__struct_init(control, size, &control_default, sizeof control_default);
+}
+
+mps_status mps_step_info_init(mps_step_info *info, size_t size)
+{
+    return mps__struct_init(info, size, &info_default, sizeof info_default);
+}
+
+mps_status mps_sim_set_time_control(mps_sim *sim, const mps_time_control *control)
+{
+    if (!sim) return MPS_E_ARG;
+    mps__context *c = &sim->context;
+    mps_time_control t = control_default;
+    MPS__TRY(mps__struct_in(c, "mps_time_control", &t, sizeof t, control));
+    MPS__CHECK(c, t.dt >= 0 && isfinite(t.dt), "time_control.dt is %g s: > 0, or 0 for an adaptive step", t.dt);
+    MPS__CHECK(c, t.dt > 0 || t.cfl > 0 || t.gravity > 0 || t.dt_max > 0, "time_control: cfl, gravity and dt_max are all off; one must be > 0");
+    MPS__CHECK(c, !isnan(t.cfl) && !isnan(t.gravity) && !isnan(t.viscous) && !isnan(t.dt_max), "time_control: a limit is NaN");
+    MPS__CHECK(c, t.growth < 0 || t.growth > 1, "time_control.growth is %g: > 1, or < 0 for none", t.growth);
+    MPS__CHECK(c, t.dt_min >= 0 && isfinite(t.dt_min), "time_control.dt_min is %g s: >= 0", t.dt_min);
+    if (t.dt_min == 0) t.dt_min = 1e-9 * sqrt(sim->world.dp / 9.81);
+    sim->world.control = t;
+    sim->world.dt_previous = 0;
+    return MPS_OK;
+}
+
+static mps_status ready(mps_sim *sim)
+{
+    const int32_t open = mps__particles_leases(&sim->world.particles);
+    return open ? mps__fail(&sim->context, MPS_E_BUSY, "%d lease(s) are open; end them before stepping", open) : MPS_OK;
+}
+
+mps_status mps_step(mps_sim *sim, double dt_max, mps_step_info *info)
+{
+    if (!sim) return MPS_E_ARG;
+    MPS__CHECK(&sim->context, dt_max > 0 && isfinite(dt_max), "dt_max is %g s: must be > 0 and finite", dt_max);
+    mps_step_info probe = info_default;
+    if (info) MPS__TRY(mps__struct_in(&sim->context, "mps_step_info", &probe, sizeof probe, info));
+    MPS__TRY(ready(sim));
+    mps_status status = mps__world_step(&sim->world, dt_max);
+    if (status >= 0 && info) MPS__TRY(mps__struct_out(&sim->context, "mps_step_info", info, &sim->world.info, sizeof sim->world.info));
+    return status;
+}
+
+mps_status mps_run(mps_sim *sim, double t_end, mps_monitor_fn monitor, void *user)
+{
+    if (!sim) return MPS_E_ARG;
+    mps__world *w = &sim->world;
+    MPS__CHECK(&sim->context, isfinite(t_end) && t_end >= w->info.t, "t_end is %g s: must be finite and not before the present time %g s", t_end, w->info.t);
+    mps_status result = MPS_OK;
+    const double small = 1e-12 * fmax(1.0, fabs(t_end));
+    while (t_end - w->info.t > small) {
+        double rest = t_end - w->info.t;
+        /* no sliver at the end: the last two steps share what is left */
+        if (w->dt_previous > 0 && rest > w->dt_previous && rest < 2 * w->dt_previous) rest *= 0.5;
+        const mps_status status = mps_step(sim, rest, NULL);
+        if (status < 0) return status;
+        if (status > 0) result = status;
+        if (fabs(t_end - w->info.t) <= small) w->info.t = t_end;
+        if (monitor && monitor(user, sim, &w->info)) return MPS_W_STOPPED;
+    }
+    return result;
+}
+
+mps_status mps_sim_stencil(mps_sim *sim, int32_t which, mps_stencil *stencil)
+{
+    if (!sim) return MPS_E_ARG;
+    MPS__CHECK(&sim->context, stencil && (which == MPS_NEAR || which == MPS_FAR), "stencil is NULL, or which is %d: MPS_NEAR or MPS_FAR", which);
+    const mps__field *x = mps__particles_field(&sim->world.particles, "position");
+    if (x->writer) return mps__fail(&sim->context, MPS_E_BUSY, "positions are leased for writing");
+    if (mps__particles_leases(&sim->world.particles) == 0) {
+        MPS__TRY(mps__world_neighbours(&sim->world));
+    } else if (!mps__neighbours_fresh(&sim->world.neighbours, sim->world.particles.n, sim->world.particles.x, sim->world.re_far)) {
+        return mps__fail(&sim->context, MPS_E_BUSY, "the particles must be sorted anew, but a lease is open");
+    }
+    return mps__world_stencil(&sim->world, which, stencil);
+}
+
+mps_status mps_sim_set_kernel(mps_sim *sim, const mps_kernel *kernel)
+{
+    if (!sim) return MPS_E_ARG;
+    MPS__CHECK(&sim->context, kernel, "kernel is NULL");
+    if (sim->world.info.step > 0) return mps__fail(&sim->context, MPS_E_STATE, "the kernel cannot change after the first step");
+    double n0;
+    mps_status status = mps_lattice_constants(kernel, sim->world.dim, sim->world.dp, sim->world.re_near, &n0, NULL);
+    if (status != MPS_OK) return mps__fail(&sim->context, status, "the kernel is negative, not finite or zero on the lattice within re_near");
+    sim->world.kernel = *kernel;
+    return MPS_OK;
+}

@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Memory, errors, log and versioned structs. */
+#define _POSIX_C_SOURCE 200809L
+#include "base.h"
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+static void *default_alloc(void *user, size_t size)
+{
+    (void)user;
+    return malloc(size);
+}
+
+static void default_release(void *user, void *block)
+{
+    (void)user;
+    free(block);
+}
+
+mps_allocator mps__allocator_default(void)
+{
+    return (mps_allocator){default_alloc, default_release, NULL};
+}
+
+void *mps__alloc(mps__context *c, int64_t count, size_t size)
+{
+    if (count < 1) count = 1;
+    void *block = NULL;
+    if ((uint64_t)count <= SIZE_MAX / size) block = c->allocator.alloc(c->allocator.user, (size_t)count * size);
+    if (block)
+        memset(block, 0, (size_t)count * size);
+    else
+        mps__fail(c, MPS_E_NOMEM, "no memory for %lld elements of %zu bytes", (long long)count, size);
+    return block;
+}
+
+void mps__free(mps__context *c, void *block)
+{
+    if (block) c->allocator.release(c->allocator.user, block);
+}
+
+mps_status mps__grow(mps__context *c, void **block, int64_t *capacity, int64_t used, int64_t count, size_t size)
+{
+    if (count <= *capacity) return MPS_OK;
+    /* half as much again, so that appending stays linear */
+    int64_t wanted = count + (used > 0 ? count / 2 : 0);
+    void *larger = mps__alloc(c, wanted, size);
+    if (!larger) return MPS_E_NOMEM;
+    if (used > 0) memcpy(larger, *block, (size_t)used * size);
+    mps__free(c, *block);
+    *block = larger;
+    *capacity = wanted;
+    return MPS_OK;
+}
+
+mps_status mps__fail(mps__context *c, mps_status status, const char *format, ...)
+{
+    /* a text may quote the previous one */
+    char text[MPS__ERROR_SIZE];
+    va_list list;
+    va_start(list, format);
+    vsnprintf(text, sizeof text, format, list);
+    va_end(list);
+    memcpy(c->error, text, sizeof text);
+    return status;
+}
+
+void mps__log(mps__context *c, int level, const char *format, ...)
+{
+    if (!c->log) return;
+    char text[MPS__ERROR_SIZE];
+    va_list list;
+    va_start(list, format);
+    vsnprintf(text, sizeof text, format, list);
+    va_end(list);
+    c->log(c->log_user, level, text);
+}
+
+mps_status mps__struct_in(mps__context *c, const char *type, void *out, size_t size, const void *in)
+{
+    uint32_t given;
+    MPS__CHECK(c, in, "%s is NULL", type);
+    memcpy(&given, in, sizeof given);
+    MPS__CHECK(c, given >= 2 * sizeof(uint32_t), "%s.struct_size is %u: call its _init function first", type, given);
+    const unsigned char *bytes = in;
+    for (size_t k = size; k < given; k++)
+        if (bytes[k]) return mps__fail(c, MPS_E_VERSION, "%s of %u bytes comes from a newer version and uses its entries; this one knows %zu", type, given, size);
+    memcpy(out, in, given < size ? given : size);
+    return MPS_OK;
+}
+
+mps_status mps__struct_out(mps__context *c, const char *type, void *out, const void *in, size_t size)
+{
+    uint32_t given;
+    MPS__CHECK(c, out, "%s is NULL", type);
+    memcpy(&given, out, sizeof given);
+    MPS__CHECK(c, given >= 2 * sizeof(uint32_t), "%s.struct_size is %u: call its _init function first", type, given);
+    memcpy(out, in, given < size ? given : size);
+    memcpy(out, &given, sizeof given);
+    return MPS_OK;
+}
+
+mps_status mps__struct_init(void *out, size_t size, const void *defaults, size_t full)
+{
+    if (!out || size < 2 * sizeof(uint32_t) || size > UINT32_MAX) return MPS_E_ARG;
+    uint32_t given = (uint32_t)size;
+    memset(out, 0, size);
+    memcpy(out, defaults, size < full ? size : full);
+    memcpy(out, &given, sizeof given);
+    return MPS_OK;
+}
+
+/* Levenshtein distance; names are short. */
+static int edit_distance(const char *a, const char *b)
+{
+    int row[MPS__NAME_SIZE + 1];
+    size_t lb = strnlen(b, MPS__NAME_SIZE);
+    for (size_t j = 0; j <= lb; j++) row[j] = (int)j;
+    for (size_t i = 1; a[i - 1]; i++) {
+        int diagonal = row[0];
+        row[0] = (int)i;
+        for (size_t j = 1; j <= lb; j++) {
+            int best = diagonal + (a[i - 1] != b[j - 1]);
+            diagonal = row[j];
+            if (row[j] + 1 < best) best = row[j] + 1;
+            if (row[j - 1] + 1 < best) best = row[j - 1] + 1;
+            row[j] = best;
+        }
+    }
+    return row[lb];
+}
+
+const char *mps__nearest(const char *name, const char *const *names, int count)
+{
+    const char *best = "(none)";
+    int least = INT32_MAX;
+    for (int k = 0; k < count; k++) {
+        int d = edit_distance(name, names[k]);
+        if (d < least) {
+            least = d;
+            best = names[k];
+        }
+    }
+    return best;
+}
+
+bool mps__name_copy(char *out, size_t capacity, const char *name)
+{
+    size_t length = name ? strnlen(name, capacity) : 0;
+    if (length == 0 || length == capacity) return false;
+    memcpy(out, name, length + 1);
+    return true;
+}
+
+bool mps__finite(const double *values, int64_t count)
+{
+    /* one NaN or infinity makes 0 * sum NaN; no branch in the loop */
+    double sum = 0;
+    for (int64_t k = 0; k < count; k++) sum += 0.0 * values[k];
+    return sum == 0.0;
+}
+
+double mps__clock(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Energies, mass, volume and momentum of the fluid. */
+#include "budget.h"
+#include "probes.h"
+
+static void bulk_sums(const mps__world *w, mps_energy *e)
+{
+    const mps__particles *s = &w->particles;
+    const double volume = w->dim == 2 ? w->dp * w->dp : w->dp * w->dp * w->dp;
+    int64_t count = 0;
+    for (int64_t i = 0; i < s->n; i++) {
+        if (s->kind[i] != MPS_FLUID) continue;
+        double mass = s->rho[i] * volume;
+        e->mass += mass;
+        for (int32_t d = 0; d < w->dim; d++) {
+            e->centre[d] += mass * s->x[i * w->dim + d];
+            e->momentum[d] += mass * s->u[i * w->dim + d];
+        }
+        count++;
+    }
+    e->volume = volume * (double)count;
+    for (int32_t d = 0; d < w->dim; d++)
+        if (e->mass > 0) e->centre[d] /= e->mass;
+}
+
+mps_status mps__energy_measure(mps__world *w, mps_energy *e)
+{
+    const mps__budget *b = &w->budget;
+    *e = (mps_energy){.struct_size = sizeof *e, .wall_work = b->wall_work, .viscous = b->viscous, .collision = b->collision, .shift = b->shift};
+    mps__budget_sum(w, &e->kinetic, &e->potential);
+    bulk_sums(w, e);
+    if (b->started) e->numerical = e->wall_work - e->viscous - e->collision - e->shift - (e->kinetic + e->potential - b->start);
+    /* regions and number densities are those of the last step; particles added since have none */
+    double density = w->info.step > 0 && w->linked == w->particles.generation ? mps__budget_mean_density(w) : 0;
+    if (density > 0) {
+        e->volume /= density;
+        if (b->density_ref > 0) e->volume_error = 1 - density / b->density_ref;
+    }
+    return MPS_OK;
+}

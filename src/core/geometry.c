@@ -1,0 +1,340 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Tanks, baffles and fills: choose lattice points that are free, then append them all at once. */
+#include "geometry.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { POINT_FREE = 0, POINT_TAKEN = 1, POINT_CHOSEN = 2 };
+
+/* What becomes of one lattice point. */
+typedef struct site {
+    int32_t kind, phase, part;
+    double area[3];
+} site;
+
+/* One call's work: which points, what they become, and what was there before. */
+typedef struct plan {
+    mps_sim *sim;
+    mps__lattice_box box;
+    int32_t dim;
+    unsigned char *state;               /* POINT_... of every lattice point of the box, x fastest */
+    bool (*choose)(const struct plan *p, const int64_t k[3]);
+    void (*describe)(const struct plan *p, const int64_t k[3], site *out);
+    int64_t taken, chosen;
+    /* of solids: the box whose ends are faces, and the part of each end */
+    int64_t first[3], last[3];
+    int32_t part[6];                    /* x0 x1 y0 y1 z0 z1 */
+    bool open_top;
+    /* of fluid */
+    int32_t phase;
+    mps_inside_fn inside;
+    void *user;
+} plan;
+
+static void plan_init(plan *p, mps_sim *sim, const mps__lattice_box *box)
+{
+    *p = (plan){.sim = sim, .box = *box, .dim = sim->world.dim};
+}
+
+static int64_t plan_points(const plan *p)
+{
+    int64_t n = 1;
+    for (int d = 0; d < 3; d++) n *= p->box.last[d] - p->box.first[d] + 1;
+    return n;
+}
+
+static bool plan_next(const plan *p, int64_t k[3])
+{
+    for (int d = 0; d < 3; d++) {
+        if (++k[d] <= p->box.last[d]) return true;
+        k[d] = p->box.first[d];
+    }
+    return false;
+}
+
+static void lattice_point(const plan *p, const int64_t k[3], double X[3])
+{
+    for (int d = 0; d < p->dim; d++) X[d] = p->box.lo[d] + (double)k[d] * p->sim->world.dp;
+}
+
+/* Place in `state` of the lattice point that a particle at X occupies, i.e. nearer than dp/2; -1: none. */
+static int64_t occupied(const plan *p, const double *X)
+{
+    int64_t place = 0, stride = 1;
+    double distance2 = 0;
+    for (int d = 0; d < p->dim; d++) {
+        double q = (X[d] - p->box.lo[d]) / p->sim->world.dp, nearest = round(q);
+        if (nearest < (double)p->box.first[d] || nearest > (double)p->box.last[d]) return -1;
+        distance2 += (q - nearest) * (q - nearest);
+        place += ((int64_t)nearest - p->box.first[d]) * stride;
+        stride *= p->box.last[d] - p->box.first[d] + 1;
+    }
+    return distance2 < 0.25 * (1 - 1e-9) ? place : -1;
+}
+
+static void mark_taken(plan *p)
+{
+    const mps__particles *s = &p->sim->world.particles;
+    const mps__motion *m = &p->sim->world.motion;
+    for (int64_t i = 0; i < s->n; i++) {
+        double X[3];
+        mps__motion_to_tank(m, &m->now, &s->x[i * p->dim], X);
+        int64_t place = occupied(p, X);
+        if (place >= 0) p->state[place] = POINT_TAKEN;
+    }
+}
+
+static void mark_chosen(plan *p)
+{
+    int64_t k[3] = {p->box.first[0], p->box.first[1], p->box.first[2]}, place = 0;
+    p->taken = p->chosen = 0;
+    do {
+        if (p->state[place] == POINT_TAKEN) {
+            /* only points the plan wants count as conflicts, and a user's `inside` is asked for free points alone */
+            if (!p->inside) p->taken += p->choose(p, k);
+        } else if (p->choose(p, k)) {
+            p->state[place] = POINT_CHOSEN;
+            p->chosen++;
+        }
+        place++;
+    } while (plan_next(p, k));
+}
+
+static void place_particle(const plan *p, const int64_t k[3], int64_t i)
+{
+    mps__world *w = &p->sim->world;
+    mps__particles *s = &w->particles;
+    site here = {0};
+    double X[3];
+    p->describe(p, k, &here);
+    lattice_point(p, k, X);
+    /* before the first step walls stand still, so that they jump to their velocity in it */
+    bool moving = here.kind != MPS_FLUID && w->info.step > 0;
+    mps__motion_point(&w->motion, &w->motion.now, X, &s->x[i * p->dim], moving ? &s->u[i * p->dim] : NULL, NULL);
+    if (here.kind != MPS_FLUID) {
+        memcpy(&s->ref[i * p->dim], X, (size_t)p->dim * sizeof(double));
+        memcpy(&s->area[i * p->dim], here.area, (size_t)p->dim * sizeof(double));
+    }
+    s->kind[i] = here.kind;
+    s->phase[i] = here.phase;
+    s->part[i] = here.part;
+    s->rho[i] = w->phase_density[here.phase];
+}
+
+/* Decide for every lattice point of the box; the store is not touched. plan_free() afterwards in any case. */
+static mps_status plan_choose(plan *p)
+{
+    p->state = mps__alloc(&p->sim->context, plan_points(p), 1);
+    if (!p->state) return MPS_E_NOMEM;
+    mark_taken(p);
+    mark_chosen(p);
+    return MPS_OK;
+}
+
+/* Append what was chosen: all or nothing. */
+static mps_status plan_build(plan *p)
+{
+    mps__particles *s = &p->sim->world.particles;
+    MPS__TRY(mps__particles_reserve(s, p->chosen));
+    int64_t i = mps__particles_append(s, p->chosen), place = 0;
+    int64_t k[3] = {p->box.first[0], p->box.first[1], p->box.first[2]};
+    do
+        if (p->state[place++] == POINT_CHOSEN) place_particle(p, k, i++);
+    while (plan_next(p, k));
+    p->sim->world.neighbours.valid = false;
+    return MPS_OK;
+}
+
+static void plan_free(plan *p) { mps__free(&p->sim->context, p->state); }
+
+/* ---- solids ---- */
+
+/* Trapezoid rule over the face across axis `a`: dp for every other axis, half of it at the face's ends. A box one
+ * point thick stands for dp. */
+static double face_weight(const plan *p, const int64_t k[3], int a)
+{
+    double weight = 1;
+    for (int d = 0; d < p->dim; d++)
+        if (d != a) {
+            bool end = k[d] == p->first[d] || k[d] == p->last[d];
+            weight *= p->sim->world.dp * (end && p->first[d] < p->last[d] ? 0.5 : 1.0);
+        }
+    return weight;
+}
+
+/* Part of the first face, in the order y0 y1 x0 x1 z0 z1, on or behind which a point lies. */
+static int32_t tank_part(const plan *p, const int64_t k[3])
+{
+    static const int order[3] = {1, 0, 2};
+    for (int o = 0; o < p->dim; o++) {
+        int d = order[o];
+        if (k[d] <= p->first[d]) return p->part[2 * d];
+        if (k[d] >= p->last[d] && !(d == 1 && p->open_top)) return p->part[2 * d + 1];
+    }
+    return -1;
+}
+
+static bool tank_choose(const plan *p, const int64_t k[3]) { return tank_part(p, k) >= 0; }
+
+static void tank_describe(const plan *p, const int64_t k[3], site *out)
+{
+    out->part = tank_part(p, k);
+    out->kind = MPS_WALL;
+    for (int d = 0; d < p->dim; d++)
+        if (k[d] < p->first[d] || k[d] > p->last[d]) out->kind = MPS_DUMMY;
+    if (out->kind == MPS_DUMMY) return;
+    for (int d = 0; d < p->dim; d++) {
+        if (k[d] == p->first[d]) out->area[d] = face_weight(p, k, d);
+        if (k[d] == p->last[d] && !(d == 1 && p->open_top)) out->area[d] = -face_weight(p, k, d);
+    }
+}
+
+static bool choose_all(const plan *p, const int64_t k[3])
+{
+    (void)p;
+    (void)k;
+    return true;
+}
+
+static void baffle_describe(const plan *p, const int64_t k[3], site *out)
+{
+    out->part = p->part[0];
+    out->kind = MPS_DUMMY;
+    for (int d = 0; d < p->dim; d++) {
+        if (k[d] != p->first[d] && k[d] != p->last[d]) continue;
+        out->kind = MPS_WALL;
+        /* both faces of a box one point thick cancel */
+        if (k[d] == p->first[d]) out->area[d] -= face_weight(p, k, d);
+        if (k[d] == p->last[d]) out->area[d] += face_weight(p, k, d);
+    }
+}
+
+/* Part numbers of the tank's faces; on failure the caller forgets the new names. */
+static mps_status face_parts(plan *p, const char *name)
+{
+    static const char *const face[6] = {"x0", "x1", "y0", "y1", "z0", "z1"};
+    for (int f = 0; f < 2 * p->dim; f++) {
+        char full[MPS__PART_NAME + 8];
+        if (f == 3 && p->open_top) continue;
+        snprintf(full, sizeof full, "%s.%s", name, face[f]);
+        p->part[f] = mps__part_number(&p->sim->world.particles, full, true);
+        MPS__CHECK(&p->sim->context, p->part[f] >= 0, "part \"%s\" is one too many: at most %d", full, MPS__PARTS_MAX);
+    }
+    return MPS_OK;
+}
+
+static mps_status tank_run(plan *p, const char *name)
+{
+    MPS__TRY(face_parts(p, name));
+    MPS__TRY(plan_choose(p));
+    MPS__CHECK(&p->sim->context, p->taken == 0, "tank \"%s\" would stand on %lld particles that are there already", name, (long long)p->taken);
+    return plan_build(p);
+}
+
+mps_status mps__geometry_tank(mps_sim *sim, const mps_tank *tank, const int64_t cells[3])
+{
+    plan p;
+    mps__lattice_box box = {{0}, {0}, {0}};
+    for (int d = 0; d < sim->world.dim; d++) {
+        box.lo[d] = tank->lo[d];
+        box.first[d] = -tank->dummy_layers;
+        box.last[d] = cells[d] + (d == 1 && tank->open_top ? 0 : tank->dummy_layers);
+    }
+    plan_init(&p, sim, &box);
+    p.choose = tank_choose;
+    p.describe = tank_describe;
+    p.open_top = tank->open_top != 0;
+    memcpy(p.last, cells, sizeof p.last);
+    int32_t parts = sim->world.particles.parts;
+    mps_status status = tank_run(&p, tank->name);
+    plan_free(&p);
+    if (status < 0) {
+        sim->world.particles.parts = parts;
+        return status;
+    }
+    sim->has_tank = true;
+    memcpy(sim->lattice_lo, box.lo, sizeof sim->lattice_lo);
+    memcpy(sim->lattice_cells, cells, sizeof sim->lattice_cells);
+    return MPS_OK;
+}
+
+static mps_status baffle_run(plan *p, const char *name)
+{
+    mps__context *c = &p->sim->context;
+    p->part[0] = mps__part_number(&p->sim->world.particles, name, true);
+    MPS__CHECK(c, p->part[0] >= 0, "part \"%s\" is one too many: at most %d", name, MPS__PARTS_MAX);
+    MPS__TRY(plan_choose(p));
+    MPS__CHECK(c, p->chosen > 0, "all %lld lattice points of baffle \"%s\" are taken by other particles", (long long)p->taken, name);
+    return plan_build(p);
+}
+
+mps_status mps__geometry_baffle(mps_sim *sim, const char *name, const mps__lattice_box *box)
+{
+    plan p;
+    plan_init(&p, sim, box);
+    p.choose = choose_all;
+    p.describe = baffle_describe;
+    memcpy(p.first, box->first, sizeof p.first);
+    memcpy(p.last, box->last, sizeof p.last);
+    int32_t parts = sim->world.particles.parts;
+    mps_status status = baffle_run(&p, name);
+    plan_free(&p);
+    if (status < 0) sim->world.particles.parts = parts;
+    return status;
+}
+
+/* ---- fluid ---- */
+
+static bool fluid_choose(const plan *p, const int64_t k[3])
+{
+    double X[3];
+    if (!p->inside) return true;
+    lattice_point(p, k, X);
+    return p->inside(p->user, X) != 0;
+}
+
+static void fluid_describe(const plan *p, const int64_t k[3], site *out)
+{
+    (void)k;
+    out->kind = MPS_FLUID;
+    out->phase = p->phase;
+    out->part = -1;
+}
+
+static mps_status fluid_run(plan *p)
+{
+    MPS__TRY(plan_choose(p));
+    MPS__CHECK(&p->sim->context, p->chosen > 0, "nothing to fill: no free lattice point lies inside (%lld are taken)", (long long)p->taken);
+    return plan_build(p);
+}
+
+mps_status mps__geometry_fill(mps_sim *sim, int32_t phase, const mps__lattice_box *box, mps_inside_fn inside, void *user, int64_t *added)
+{
+    plan p;
+    plan_init(&p, sim, box);
+    p.choose = fluid_choose;
+    p.describe = fluid_describe;
+    p.phase = phase;
+    p.inside = inside;
+    p.user = user;
+    mps_status status = fluid_run(&p);
+    plan_free(&p);
+    if (status == MPS_OK && added) *added = p.chosen;
+    return status;
+}
+
+bool mps__lattice_clip(const mps_sim *sim, const double *lo, const double *hi, mps__lattice_box *box)
+{
+    memset(box, 0, sizeof *box);
+    for (int d = 0; d < sim->world.dim; d++) {
+        /* a point counts as inside when it is outside by rounding only */
+        double first = ceil((lo[d] - sim->lattice_lo[d]) / sim->world.dp - 1e-6), last = floor((hi[d] - sim->lattice_lo[d]) / sim->world.dp + 1e-6);
+        double end = (double)sim->lattice_cells[d];
+        if (first > end || last < 0 || first > last) return false;
+        box->lo[d] = sim->lattice_lo[d];
+        box->first[d] = first > 0 ? (int64_t)first : 0;
+        box->last[d] = last < end ? (int64_t)last : sim->lattice_cells[d];
+    }
+    return true;
+}

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Layer 4: which models there are, which are on, and their settings. */
+#ifndef MPS_CORE_MODELS_H
+#define MPS_CORE_MODELS_H
+
+#include "base.h"
+#include <mps/model.h>
+
+enum { MPS__MODELS_KNOWN = 64, MPS__MODELS_ACTIVE = 24, MPS__SETTINGS = 16 };
+
+typedef struct mps__model {
+    const mps_model_ops *ops; /* in the registry */
+    void *self;
+    double k[MPS__SETTINGS];
+} mps__model;
+
+typedef struct mps__models {
+    mps__context *context;
+    int32_t known, active;
+    mps_model_ops registry[MPS__MODELS_KNOWN];
+    char name[MPS__MODELS_KNOWN][MPS__NAME_SIZE];
+    mps__model on[MPS__MODELS_ACTIVE]; /* ascending order of calling */
+} mps__models;
+
+mps_status mps__models_init(mps__models *m, mps__context *context); /* registers the built-ins, none active */
+void mps__models_free(mps__models *m);
+mps_status mps__models_register(mps__models *m, const mps_model_ops *ops);
+mps_status mps__models_use(mps__models *m, const char *name);
+mps_status mps__models_preset(mps__models *m, const char *name);
+mps_status mps__models_remove(mps__models *m, const char *slot);
+/* The setting `key` of the model in a slot; NULL with the error set. `setting` may be NULL. */
+double *mps__models_value(mps__models *m, const char *slot, const char *key, const mps_setting **setting);
+
+#endif

@@ -1,0 +1,369 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Search of pairs: cells as sorted 64-bit keys (x fastest), candidates with a skin, exact rows at every step. */
+#include "neighbours.h"
+#include "operators.h"
+#include <string.h>
+
+enum { MPS__BITS_2D = 31, MPS__BITS_3D = 21 };
+
+/* Skin [dp]: a search is good until some particle moved half of it. */
+static const double skin_of_dp = 0.25;
+
+/* Pairs nearer than this [dp] have no direction and are left out: they are the two faces of a thin plate. */
+static const double coincident = 1e-6;
+
+typedef struct cell_map {
+    double lo[3], size;
+    int bits, dim;
+} cell_map;
+
+mps_status mps__neighbours_init(mps_neighbours *l, mps__context *context, int32_t dim, double dp)
+{
+    *l = (mps_neighbours){.context = context, .dim = dim, .dp = dp, .threads = 1, .skin = skin_of_dp * dp};
+    return MPS_OK;
+}
+
+void mps__neighbours_free(mps_neighbours *l)
+{
+    void *all[] = {l->begin, l->middle, l->end, l->col, l->candidate_row, l->candidate, l->searched, l->key, l->order};
+    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) mps__free(l->context, all[k]);
+    mps__neighbours_init(l, l->context, l->dim, l->dp);
+}
+
+bool mps__neighbours_fresh(const mps_neighbours *l, int64_t n, const double *x, double re_far)
+{
+    if (!l->valid || n != l->n || re_far != l->re_far) return false;
+    const double limit = 0.25 * l->skin * l->skin;
+    double worst = 0;
+    const int dim = l->dim;
+#pragma omp parallel for num_threads(l->threads) reduction(max : worst) schedule(static)
+    for (int64_t i = 0; i < n; i++) {
+        double s = 0;
+        for (int d = 0; d < dim; d++) {
+            double m = x[i * dim + d] - l->searched[i * dim + d];
+            s += m * m;
+        }
+        if (s > worst) worst = s;
+    }
+    return worst < limit;
+}
+
+/* Box of the particles and the packing of cell numbers into keys. */
+static mps_status map_cells(mps_neighbours *l, int64_t n, const double *x, double size, cell_map *m)
+{
+    *m = (cell_map){.size = size, .dim = l->dim, .bits = l->dim == 2 ? MPS__BITS_2D : MPS__BITS_3D};
+    const double limit = (double)(INT64_C(1) << m->bits) - 4.0;
+    for (int d = 0; d < l->dim; d++) {
+        double lo = x[d], hi = x[d];
+        int64_t far = 0;
+        for (int64_t i = 1; i < n; i++) {
+            double v = x[i * l->dim + d];
+            if (v < lo) lo = v;
+            if (v > hi) {
+                hi = v;
+                far = i;
+            }
+        }
+        MPS__CHECK(l->context, (hi - lo) / size < limit, "particles lie %g m apart along axis %d (particle %lld at %g): at most %g m", hi - lo, d,
+                   (long long)far, hi, limit * size);
+        m->lo[d] = lo - size; /* cell 0 stays empty, so that neighbours never wrap */
+    }
+    return MPS_OK;
+}
+
+static uint64_t cell_key(const cell_map *m, const double *x)
+{
+    uint64_t key = 0;
+    for (int d = m->dim - 1; d >= 0; d--) key = (key << m->bits) | (uint64_t)((x[d] - m->lo[d]) / m->size);
+    return key;
+}
+
+/* Stable least-significant-digit radix sort of (key, order); only digits that differ are passed over. */
+static void sort_keys(uint64_t *key, int32_t *order, int64_t n)
+{
+    uint64_t *k0 = key, *k1 = key + n;
+    int32_t *o0 = order, *o1 = order + n;
+    uint64_t differ = 0;
+    for (int64_t i = 1; i < n; i++) differ |= k0[i] ^ k0[0];
+    for (int shift = 0; shift < 64; shift += 8) {
+        if (!((differ >> shift) & 255)) continue;
+        int64_t count[257] = {0};
+        for (int64_t i = 0; i < n; i++) count[((k0[i] >> shift) & 255) + 1]++;
+        for (int b = 0; b < 256; b++) count[b + 1] += count[b];
+        for (int64_t i = 0; i < n; i++) {
+            int64_t to = count[(k0[i] >> shift) & 255]++;
+            k1[to] = k0[i];
+            o1[to] = o0[i];
+        }
+        uint64_t *k = k0;
+        int32_t *o = o0;
+        k0 = k1, k1 = k;
+        o0 = o1, o1 = o;
+    }
+    if (k0 != key) {
+        memcpy(key, k0, (size_t)n * sizeof *key);
+        memcpy(order, o0, (size_t)n * sizeof *order);
+    }
+}
+
+static mps_status reserve(mps_neighbours *l, int64_t n)
+{
+    if (n <= l->capacity) return MPS_OK;
+    mps__context *c = l->context;
+    int64_t wanted = n + n / 8;
+    struct {
+        void **place;
+        int64_t count;
+        size_t size;
+        void *fresh;
+    } a[] = {{(void **)&l->begin, wanted, sizeof *l->begin, NULL},
+             {(void **)&l->middle, wanted, sizeof *l->middle, NULL},
+             {(void **)&l->end, wanted, sizeof *l->end, NULL},
+             {(void **)&l->candidate_row, wanted + 1, sizeof *l->candidate_row, NULL},
+             {(void **)&l->searched, wanted * l->dim, sizeof *l->searched, NULL},
+             {(void **)&l->key, 2 * wanted, sizeof *l->key, NULL},
+             {(void **)&l->order, 2 * wanted, sizeof *l->order, NULL}};
+    const size_t count = sizeof a / sizeof a[0];
+    for (size_t k = 0; k < count; k++) {
+        a[k].fresh = mps__alloc(c, a[k].count, a[k].size);
+        if (!a[k].fresh) {
+            while (k-- > 0) mps__free(c, a[k].fresh);
+            return MPS_E_NOMEM;
+        }
+    }
+    for (size_t k = 0; k < count; k++) {
+        mps__free(c, *a[k].place);
+        *a[k].place = a[k].fresh;
+    }
+    l->capacity = wanted;
+    return MPS_OK;
+}
+
+static mps_status sort_cells(mps_neighbours *l, int64_t n, const double *x, double re_far, cell_map *m)
+{
+    l->valid = false;
+    MPS__TRY(reserve(l, n));
+    MPS__TRY(map_cells(l, n, x, re_far + l->skin, m));
+    for (int64_t i = 0; i < n; i++) {
+        l->key[i] = cell_key(m, x + i * l->dim);
+        l->order[i] = (int32_t)i;
+    }
+    sort_keys(l->key, l->order, n);
+    return MPS_OK;
+}
+
+mps_status mps__neighbours_order(mps_neighbours *l, int64_t n, const double *x, double re_far)
+{
+    cell_map m;
+    return sort_cells(l, n, x, re_far, &m);
+}
+
+static int64_t first_at_least(const uint64_t *key, int64_t n, uint64_t value)
+{
+    int64_t lo = 0;
+    while (n > 0) {
+        int64_t half = n / 2;
+        if (key[lo + half] < value) {
+            lo += half + 1;
+            n -= half + 1;
+        } else {
+            n = half;
+        }
+    }
+    return lo;
+}
+
+/* Ranges of sorted places that hold the cells around `key`: one for each row of three cells. */
+static int ranges_around(const mps_neighbours *l, const cell_map *m, uint64_t key, int64_t range[9][2])
+{
+    int count = 0;
+    for (int dz = m->dim == 3 ? -1 : 0; dz <= (m->dim == 3 ? 1 : 0); dz++)
+        for (int dy = -1; dy <= 1; dy++) {
+            int64_t step = (int64_t)dy * (INT64_C(1) << m->bits) + (m->dim == 3 ? (int64_t)dz * (INT64_C(1) << (2 * m->bits)) : 0);
+            uint64_t middle = key + (uint64_t)step;
+            int64_t first = first_at_least(l->key, l->n, middle - 1), last = first;
+            while (last < l->n && l->key[last] <= middle + 1) last++;
+            if (last > first) {
+                range[count][0] = first;
+                range[count++][1] = last;
+            }
+        }
+    return count;
+}
+
+static double distance2(const double *x, int64_t i, int64_t j, int dim)
+{
+    double s = 0;
+    for (int d = 0; d < dim; d++) {
+        double m = x[j * dim + d] - x[i * dim + d];
+        s += m * m;
+    }
+    return s;
+}
+
+static void sort_row(int32_t *row, int64_t n)
+{
+    for (int64_t k = 1; k < n; k++) {
+        int32_t v = row[k];
+        int64_t j = k;
+        for (; j > 0 && row[j - 1] > v; j--) row[j] = row[j - 1];
+        row[j] = v;
+    }
+}
+
+/* Count (fill = false) or store candidates of all particles of the cell that starts at sorted place `first`. */
+static void search_cell(mps_neighbours *l, const cell_map *m, int64_t first, double reach, bool fill)
+{
+    int64_t range[9][2];
+    const int ranges = ranges_around(l, m, l->key[first], range);
+    for (int64_t a = first; a < l->n && l->key[a] == l->key[first]; a++) {
+        const int32_t i = l->order[a];
+        int64_t count = 0;
+        int32_t *row = fill ? l->candidate + l->candidate_row[i] : NULL;
+        for (int k = 0; k < ranges; k++)
+            for (int64_t b = range[k][0]; b < range[k][1]; b++) {
+                const int32_t j = l->order[b];
+                if (j == i || distance2(l->x, i, j, l->dim) >= reach * reach) continue;
+                if (fill) row[count] = j;
+                count++;
+            }
+        if (fill)
+            sort_row(row, count);
+        else
+            l->candidate_row[i + 1] = count;
+    }
+}
+
+static void search_cells(mps_neighbours *l, const cell_map *m, double reach, bool fill)
+{
+#pragma omp parallel for num_threads(l->threads) schedule(dynamic, 256)
+    for (int64_t a = 0; a < l->n; a++)
+        if (a == 0 || l->key[a] != l->key[a - 1]) search_cell(l, m, a, reach, fill);
+}
+
+mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x, double re_near, double re_far)
+{
+    cell_map m;
+    MPS__TRY(sort_cells(l, n, x, re_far, &m));
+    l->n = n;
+    l->x = x;
+    l->re_near = re_near;
+    l->re_far = re_far;
+    const double reach = re_far + l->skin;
+    l->candidate_row[0] = 0;
+    search_cells(l, &m, reach, false);
+    for (int64_t i = 0; i < n; i++) l->candidate_row[i + 1] += l->candidate_row[i];
+    int64_t pairs = l->candidate_row[n], capacity = l->candidate_capacity;
+    MPS__TRY(mps__grow(l->context, (void **)&l->candidate, &capacity, 0, pairs, sizeof *l->candidate));
+    l->candidate_capacity = capacity;
+    MPS__TRY(mps__grow(l->context, (void **)&l->col, &l->pair_capacity, 0, pairs, sizeof *l->col));
+    search_cells(l, &m, reach, true);
+    memcpy(l->searched, x, (size_t)(n * l->dim) * sizeof *x);
+    l->valid = true;
+    return MPS_OK;
+}
+
+static void reverse(int32_t *a, int64_t n)
+{
+    for (int64_t k = 0; k < n / 2; k++) {
+        int32_t v = a[k];
+        a[k] = a[n - 1 - k];
+        a[n - 1 - k] = v;
+    }
+}
+
+/* One row, in the room its candidates take: near pairs grow from the front, the others from the back. */
+static inline void exact_row(mps_neighbours *l, const double *x, int64_t i, int dim)
+{
+    const double near2 = l->re_near * l->re_near, far2 = l->re_far * l->re_far, least = coincident * coincident * l->dp * l->dp;
+    const int64_t from = l->candidate_row[i], to = l->candidate_row[i + 1];
+    int64_t front = from, back = to;
+    for (int64_t k = from; k < to; k++) {
+        const int32_t j = l->candidate[k];
+        const double r2 = distance2(x, i, j, dim);
+        if (r2 >= far2 || r2 < least) continue;
+        if (r2 < near2)
+            l->col[front++] = j;
+        else
+            l->col[--back] = j;
+    }
+    reverse(l->col + back, to - back);
+    memmove(l->col + front, l->col + back, (size_t)(to - back) * sizeof *l->col);
+    l->begin[i] = from;
+    l->middle[i] = front;
+    l->end[i] = front + (to - back);
+}
+
+mps_status mps__neighbours_rows(mps_neighbours *l, const double *x)
+{
+    l->x = x;
+#pragma omp parallel for num_threads(l->threads) schedule(static)
+    for (int64_t i = 0; i < l->n; i++) {
+        if (l->dim == 2)
+            exact_row(l, x, i, 2);
+        else
+            exact_row(l, x, i, 3);
+    }
+    return MPS_OK;
+}
+
+/* ---- a list that stands alone ---------------------------------------------------------------------------------- */
+
+mps_status mps_neighbours_create(int32_t dim, double dp, const mps_allocator *allocator, mps_neighbours **list)
+{
+    if (!list) return MPS_E_ARG;
+    *list = NULL;
+    if ((dim != 2 && dim != 3) || !(dp > 0) || !isfinite(dp)) return MPS_E_ARG;
+    if (allocator && (!allocator->alloc || !allocator->release)) return MPS_E_ARG;
+    mps__context c = {.allocator = allocator ? *allocator : mps__allocator_default()};
+    mps_neighbours *l = mps__alloc(&c, 1, sizeof *l);
+    if (!l) return MPS_E_NOMEM;
+    mps__neighbours_init(l, NULL, dim, dp);
+    l->own = c;
+    l->context = &l->own;
+    *list = l;
+    return MPS_OK;
+}
+
+void mps_neighbours_destroy(mps_neighbours *list)
+{
+    if (!list) return;
+    mps__context c = list->own;
+    mps__neighbours_free(list);
+    mps__free(&c, list);
+}
+
+mps_status mps_neighbours_build(mps_neighbours *list, int64_t n, const double *x, double re_near, double re_far)
+{
+    if (!list) return MPS_E_ARG;
+    list->valid = false;
+    list->n = 0;
+    if (!x || n < 1 || n > INT32_MAX || !(re_near > 0) || !(re_far >= re_near) || !isfinite(re_far)) return MPS_E_ARG;
+    if (!mps__finite(x, n * list->dim)) return MPS_E_ARG;
+    list->skin = 0; /* every build searches anew */
+    mps_status status = mps__neighbours_search(list, n, x, re_near, re_far);
+    if (status == MPS_OK) status = mps__neighbours_rows(list, x);
+    if (status != MPS_OK) list->n = 0;
+    return status;
+}
+
+mps_status mps_neighbours_stencil(const mps_neighbours *list, int32_t which, const mps_kernel *kernel, mps_stencil *stencil)
+{
+    if (!list || !kernel || !stencil || list->n == 0 || (which != MPS_NEAR && which != MPS_FAR)) return MPS_E_ARG;
+    double re = which == MPS_NEAR ? list->re_near : list->re_far, n0, lambda;
+    MPS__TRY(mps_lattice_constants(kernel, list->dim, list->dp, re, &n0, &lambda));
+    *stencil = (mps_stencil){.struct_size = sizeof *stencil,
+                             .dim = list->dim,
+                             .n = list->n,
+                             .dp = list->dp,
+                             .re = re,
+                             .n0 = n0,
+                             .lambda = lambda,
+                             .kernel = *kernel,
+                             .threads = list->threads,
+                             .x = list->x,
+                             .begin = list->begin,
+                             .end = which == MPS_NEAR ? list->middle : list->end,
+                             .col = list->col};
+    return MPS_OK;
+}

@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The particle store: a table of arrays that grow, permute and shrink together. */
+#include "particles.h"
+#include <string.h>
+
+mps_status mps__particles_field_add(mps__particles *s, const char *name, int32_t components, size_t size, bool is_public, void **data)
+{
+    MPS__CHECK(s->context, s->fields < MPS__FIELDS_MAX, "field \"%s\" is one too many: at most %d", name, MPS__FIELDS_MAX);
+    mps__field *f = &s->field[s->fields];
+    memset(f, 0, sizeof *f);
+    MPS__CHECK(s->context, mps__name_copy(f->name, 32, name), "a field needs a name of 1..31 characters");
+    f->components = components;
+    f->size = size;
+    f->is_public = is_public;
+    f->data = data ? data : &f->own;
+    *f->data = mps__alloc(s->context, s->capacity * components, size);
+    if (!*f->data) return MPS_E_NOMEM;
+    s->fields++;
+    return MPS_OK;
+}
+
+mps_status mps__particles_init(mps__particles *s, mps__context *context, int32_t dim)
+{
+    *s = (mps__particles){.context = context, .dim = dim};
+    const struct {
+        const char *name;
+        int32_t components;
+        size_t size;
+        bool is_public;
+        void **data;
+    } built_in[] = {
+        {"position", dim, sizeof(double), true, (void **)&s->x},
+        {"velocity", dim, sizeof(double), true, (void **)&s->u},
+        {"pressure", 1, sizeof(double), true, (void **)&s->p},
+        {"number_density", 1, sizeof(double), true, (void **)&s->nd},
+        {"density", 1, sizeof(double), true, (void **)&s->rho},
+        {"ref", dim, sizeof(double), false, (void **)&s->ref},
+        {"area", dim, sizeof(double), false, (void **)&s->area},
+        {"id", 1, sizeof(int64_t), false, (void **)&s->id},
+        {"kind", 1, sizeof(int32_t), false, (void **)&s->kind},
+        {"phase", 1, sizeof(int32_t), false, (void **)&s->phase},
+        {"part", 1, sizeof(int32_t), false, (void **)&s->part},
+        {"region", 1, sizeof(int32_t), false, (void **)&s->region},
+        {"wall_of", 1, sizeof(int32_t), false, (void **)&s->wall_of},
+    };
+    for (size_t k = 0; k < sizeof built_in / sizeof built_in[0]; k++)
+        MPS__TRY(mps__particles_field_add(s, built_in[k].name, built_in[k].components, built_in[k].size, built_in[k].is_public, built_in[k].data));
+    return MPS_OK;
+}
+
+void mps__particles_free(mps__particles *s)
+{
+    for (int32_t k = 0; k < s->fields; k++) {
+        mps__free(s->context, *s->field[k].data);
+        *s->field[k].data = NULL;
+    }
+    s->fields = 0;
+    s->n = s->capacity = 0;
+}
+
+static size_t stride(const mps__field *f) { return (size_t)f->components * f->size; }
+
+/* New arrays for all fields, or none: the caller swaps them in when all are there. */
+static mps_status new_arrays(mps__particles *s, int64_t capacity, void *array[MPS__FIELDS_MAX])
+{
+    for (int32_t k = 0; k < s->fields; k++) {
+        array[k] = mps__alloc(s->context, capacity, stride(&s->field[k]));
+        if (!array[k]) {
+            while (k-- > 0) mps__free(s->context, array[k]);
+            return MPS_E_NOMEM;
+        }
+    }
+    return MPS_OK;
+}
+
+static void swap_arrays(mps__particles *s, int64_t capacity, void *array[MPS__FIELDS_MAX])
+{
+    for (int32_t k = 0; k < s->fields; k++) {
+        mps__free(s->context, *s->field[k].data);
+        *s->field[k].data = array[k];
+    }
+    s->capacity = capacity;
+}
+
+mps_status mps__particles_reserve(mps__particles *s, int64_t extra)
+{
+    int64_t wanted = s->n + extra;
+    MPS__CHECK(s->context, wanted <= INT32_MAX, "%lld particles: at most %d", (long long)wanted, INT32_MAX);
+    if (wanted <= s->capacity) return MPS_OK;
+    int64_t capacity = s->n > 0 ? wanted + wanted / 4 : wanted;
+    void *array[MPS__FIELDS_MAX];
+    MPS__TRY(new_arrays(s, capacity, array));
+    for (int32_t k = 0; k < s->fields; k++)
+        if (s->n > 0) memcpy(array[k], *s->field[k].data, (size_t)s->n * stride(&s->field[k]));
+    swap_arrays(s, capacity, array);
+    return MPS_OK;
+}
+
+int64_t mps__particles_append(mps__particles *s, int64_t count)
+{
+    int64_t first = s->n;
+    for (int32_t k = 0; k < s->fields; k++) {
+        size_t bytes = stride(&s->field[k]);
+        memset((char *)*s->field[k].data + (size_t)first * bytes, 0, (size_t)count * bytes);
+    }
+    for (int64_t i = first; i < first + count; i++) {
+        s->id[i] = s->next_id++;
+        s->wall_of[i] = -1;
+    }
+    s->n += count;
+    s->generation++;
+    return first;
+}
+
+mps_status mps__particles_permute(mps__particles *s, int64_t count, const int32_t *order)
+{
+    void *array[MPS__FIELDS_MAX];
+    int32_t *place = mps__alloc(s->context, s->n, sizeof *place); /* new place of an old one */
+    if (!place) return MPS_E_NOMEM;
+    if (new_arrays(s, s->capacity, array) != MPS_OK) {
+        mps__free(s->context, place);
+        return MPS_E_NOMEM;
+    }
+    for (int64_t i = 0; i < s->n; i++) place[i] = -1;
+    for (int64_t i = 0; i < count; i++) place[order[i]] = (int32_t)i;
+    for (int32_t k = 0; k < s->fields; k++) {
+        size_t bytes = stride(&s->field[k]);
+        const char *from = *s->field[k].data;
+        char *to = array[k];
+        for (int64_t i = 0; i < count; i++) memcpy(to + (size_t)i * bytes, from + (size_t)order[i] * bytes, bytes);
+    }
+    swap_arrays(s, s->capacity, array);
+    for (int64_t i = 0; i < count; i++)
+        if (s->wall_of[i] >= 0) s->wall_of[i] = place[s->wall_of[i]];
+    mps__free(s->context, place);
+    if (count != s->n) s->generation++;
+    s->n = count;
+    return MPS_OK;
+}
+
+mps__field *mps__particles_field(mps__particles *s, const char *name)
+{
+    for (int32_t k = 0; name && k < s->fields; k++)
+        if (strcmp(s->field[k].name, name) == 0) return &s->field[k];
+    return NULL;
+}
+
+int32_t mps__part_number(mps__particles *s, const char *name, bool add)
+{
+    for (int32_t k = 0; name && k < s->parts; k++)
+        if (strcmp(s->part_name[k], name) == 0) return k;
+    if (!add || s->parts == MPS__PARTS_MAX || !mps__name_copy(s->part_name[s->parts], MPS__PART_NAME, name)) return -1;
+    return s->parts++;
+}
+
+int32_t mps__particles_leases(const mps__particles *s)
+{
+    int32_t open = 0;
+    for (int32_t k = 0; k < s->fields; k++) open += s->field[k].readers + s->field[k].writer;
+    return open;
+}

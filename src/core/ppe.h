@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Layer 5: assembly of the pressure equation from pairs and terms. */
+#ifndef MPS_CORE_PPE_H
+#define MPS_CORE_PPE_H
+
+#include "solvers.h"
+#include <mps/model.h>
+
+typedef struct mps__ppe {
+    mps__context *context;
+    int64_t capacity, entry_capacity, n;  /* unknowns of the last assembly */
+    int32_t *unknown;                     /* [particles] row of a particle, -1: none */
+    int32_t *particle;                    /* [n] particle of a row */
+    int64_t *row, *member;                /* [n+1] CSR; [n+1] members of each row */
+    int32_t *members;                     /* particles that share a row */
+    int32_t *col;
+    double *val, *rhs, *shift, *weight, *x, *p;
+    int32_t *component;
+    mps_ppe_problem problem;
+} mps__ppe;
+
+void mps__ppe_init(mps__ppe *e, mps__context *context);
+void mps__ppe_free(mps__ppe *e);
+/* Build rows for all particles that own a pressure and are not fixed. */
+mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps_ppe_terms *t);
+/* Pressures of all particles from the solution e->p. */
+void mps__ppe_scatter(const mps__ppe *e, const mps_stage *s, const mps_ppe_terms *t, double *p);
+
+#endif

@@ -1,0 +1,270 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The free-surface gauge: where a smoothed fluid fraction along a line falls below one half.
+ *
+ * Particles are spread with cubic B-splines, dp wide along the line and diameter/2 across it: on a lattice the sum is a
+ * smooth step that passes 1/2 exactly half a spacing above the centres of the top layer, and it moves with the
+ * particles without a staircase. Drops and films fill less than half of the band and stay unseen. */
+#include "probe_gauge.h"
+#include <math.h>
+
+/* Above this fraction of solids a sample says nothing about the fluid. */
+static const double solid_limit = 0.9;
+
+/* A particle beside the line, in the line's own coordinates. */
+typedef struct beside {
+    double s, across[2];
+    double facing[2];    /* of walls: direction cosines of the wetted side across the line */
+    bool solid;
+} beside;
+
+typedef struct line {
+    int32_t sides;       /* directions across the line: 1 or 2 */
+    double dp, width, length;
+    double foot[3], along[3], across[2][3]; /* in the lab */
+    double tank_across[2][3];
+    int64_t count;
+    beside *list;
+} line;
+
+/* What the band holds at one place of the line. */
+typedef struct sample {
+    double fluid, solid;            /* fractions */
+    double fill;                    /* fluid fraction of what is not solid */
+    double shift[2], slope[2];      /* band centre; d fill / d across */
+} sample;
+
+/* Cubic B-spline and its derivative, q in spacings. */
+static double spline(double q)
+{
+    q = fabs(q);
+    if (q >= 2) return 0;
+    return q < 1 ? 2.0 / 3.0 + q * q * (0.5 * q - 1) : (2 - q) * (2 - q) * (2 - q) / 6;
+}
+
+static double spline_rate(double q)
+{
+    double a = fabs(q);
+    if (a >= 2) return 0;
+    double rate = a < 1 ? a * (1.5 * a - 2) : -0.5 * (2 - a) * (2 - a);
+    return q < 0 ? -rate : rate;
+}
+
+/* Unit vectors across the line. */
+static void across_vectors(int32_t dim, const double d[3], double out[2][3])
+{
+    if (dim == 2) {
+        out[0][0] = -d[1];
+        out[0][1] = d[0];
+        return;
+    }
+    int least = 0;
+    for (int k = 1; k < 3; k++)
+        if (fabs(d[k]) < fabs(d[least])) least = k;
+    double norm = sqrt(1 - d[least] * d[least]);
+    for (int k = 0; k < 3; k++) out[0][k] = ((k == least) - d[least] * d[k]) / norm;
+    for (int k = 0; k < 3; k++) {
+        int a = (k + 1) % 3, b = (k + 2) % 3;
+        out[1][k] = d[a] * out[0][b] - d[b] * out[0][a];
+    }
+}
+
+/* With several phases the liquid is what is denser than the mean of the lightest and the heaviest one present. */
+static double liquid_density(const mps__world *w)
+{
+    const mps__particles *s = &w->particles;
+    double low = INFINITY, high = 0;
+    for (int64_t i = 0; i < s->n; i++) {
+        if (s->kind[i] != MPS_FLUID) continue;
+        low = fmin(low, w->phase_density[s->phase[i]]);
+        high = fmax(high, w->phase_density[s->phase[i]]);
+    }
+    return high - low > 1e-6 * high ? 0.5 * (low + high) : 0;
+}
+
+static void line_init(line *l, const mps__world *w, const mps_probe *c)
+{
+    const mps__motion *m = &w->motion;
+    *l = (line){.sides = w->dim - 1, .dp = w->dp, .length = c->length};
+    /* narrower bands would see single columns */
+    l->width = fmax(c->diameter, 2 * w->dp) / 2;
+    mps__motion_point(m, &m->now, c->at, l->foot, NULL, NULL);
+    mps__motion_rotate(m, &m->now, c->direction, l->along);
+    across_vectors(w->dim, c->direction, l->tank_across);
+    for (int32_t e = 0; e < l->sides; e++) mps__motion_rotate(m, &m->now, l->tank_across[e], l->across[e]);
+}
+
+/* True if particle i is close enough to be seen from any place of the line. */
+static bool line_coordinates(const line *l, const mps__particles *s, int64_t i, beside *b)
+{
+    double r[3] = {0, 0, 0};
+    for (int32_t d = 0; d < s->dim; d++) r[d] = s->x[i * s->dim + d] - l->foot[d];
+    b->s = mps__dot(r, l->along, s->dim);
+    if (b->s < -3 * l->dp || b->s > l->length + 3 * l->dp) return false;
+    for (int32_t e = 0; e < l->sides; e++) {
+        b->across[e] = mps__dot(r, l->across[e], s->dim);
+        if (fabs(b->across[e]) > 4 * l->width) return false;
+    }
+    return true;
+}
+
+static void wall_facing(const line *l, const mps__particles *s, int64_t i, beside *b)
+{
+    const double *area = &s->area[i * s->dim];
+    double norm = sqrt(mps__dot(area, area, s->dim));
+    for (int32_t e = 0; e < l->sides; e++) b->facing[e] = norm > 0 ? mps__dot(area, l->tank_across[e], s->dim) / norm : 0;
+}
+
+/* Particles beside the line; the lighter phases are left out. */
+static mps_status line_collect(line *l, mps__world *w)
+{
+    const mps__particles *s = &w->particles;
+    double liquid = liquid_density(w);
+    int64_t capacity = 0;
+    for (int64_t i = 0; i < s->n; i++) {
+        beside b = {0};
+        bool fluid = s->kind[i] == MPS_FLUID;
+        if (fluid && w->phase_density[s->phase[i]] < liquid) continue;
+        if (!line_coordinates(l, s, i, &b)) continue;
+        b.solid = !fluid;
+        if (s->kind[i] == MPS_WALL) wall_facing(l, s, i, &b);
+        MPS__TRY(mps__grow(w->context, (void **)&l->list, &capacity, l->count, l->count + 1, sizeof b));
+        l->list[l->count++] = b;
+    }
+    return MPS_OK;
+}
+
+static bool near_axis(const line *l, const beside *b, double s)
+{
+    bool near = fabs(b->s - s) <= 1.01 * l->dp;
+    for (int32_t e = 0; e < l->sides; e++) near = near && fabs(b->across[e]) < 4.0 / 3.0 * l->width;
+    return near;
+}
+
+/* Beside a wall the band is moved off it, so that it looks at fluid and not at a film. */
+static void band_shift(const line *l, double s, double shift[2])
+{
+    double low[2] = {-INFINITY, -INFINITY}, high[2] = {INFINITY, INFINITY}, reach = 4.0 / 3.0 * l->width;
+    for (int64_t k = 0; k < l->count; k++) {
+        const beside *b = &l->list[k];
+        if (!b->solid || !near_axis(l, b, s)) continue;
+        for (int32_t e = 0; e < l->sides; e++) {
+            if (b->facing[e] > 0.5) low[e] = fmax(low[e], b->across[e]);
+            if (b->facing[e] < -0.5) high[e] = fmin(high[e], b->across[e]);
+        }
+    }
+    for (int32_t e = 0; e < l->sides; e++) {
+        shift[e] = 0;
+        if (low[e] > high[e]) continue; /* inside a solid */
+        shift[e] = fmin(fmax(0, low[e] + reach), high[e] - reach);
+        if (high[e] - low[e] < 2 * reach) shift[e] = 0.5 * (low[e] + high[e]);
+    }
+}
+
+static sample line_sample(const line *l, double s)
+{
+    sample out = {0};
+    double fluid_slope[2] = {0, 0}, solid_slope[2] = {0, 0};
+    band_shift(l, s, out.shift);
+    for (int64_t k = 0; k < l->count; k++) {
+        const beside *b = &l->list[k];
+        double weight = spline((b->s - s) / l->dp), q[2] = {0, 0}, across[2] = {1, 1};
+        if (weight == 0) continue;
+        for (int32_t e = 0; e < l->sides; e++) {
+            q[e] = (b->across[e] - out.shift[e]) / l->width;
+            across[e] = spline(q[e]) * l->dp / l->width;
+        }
+        *(b->solid ? &out.solid : &out.fluid) += weight * across[0] * across[1];
+        for (int32_t e = 0; e < l->sides; e++)
+            (b->solid ? solid_slope : fluid_slope)[e] -= weight * across[1 - e] * spline_rate(q[e]) * l->dp / (l->width * l->width);
+    }
+    double open = fmax(1 - out.solid, 1 - solid_limit);
+    out.fill = out.fluid / open;
+    for (int32_t e = 0; e < l->sides; e++) out.slope[e] = (fluid_slope[e] * open + out.fluid * solid_slope[e]) / (open * open);
+    return out;
+}
+
+/* Between low (more than half full) and high; under a ceiling the fluid alone counts. */
+static double crossing(const line *l, double low, double high, bool ceiling)
+{
+    for (int k = 0; k < 40; k++) {
+        double middle = 0.5 * (low + high);
+        sample here = line_sample(l, middle);
+        if ((ceiling ? here.fluid : here.fill) >= 0.5)
+            low = middle;
+        else
+            high = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+/* The band stands beside a wall, the gauge at it: follow the surface's slope, at most 45 degrees. */
+static double back_to_line(const line *l, double s)
+{
+    double e = 0.05 * l->dp, rate = (line_sample(l, s + e).fill - line_sample(l, s - e).fill) / (2 * e);
+    sample here = line_sample(l, s);
+    for (int32_t k = 0; k < l->sides; k++) {
+        if (here.shift[k] == 0 || rate >= -1e-3 / l->dp) continue;
+        double slope = -here.slope[k] / rate;
+        s -= here.shift[k] * fmin(fmax(slope, -1), 1);
+    }
+    return s;
+}
+
+/* A gap in the filling that is not the surface: it closes again within a spacing. */
+static bool gap_closes(const line *l, double s, double step)
+{
+    for (double ahead = step; ahead < 1.01 * l->dp; ahead += step)
+        if (line_sample(l, s + ahead).fill >= 0.5) return true;
+    return false;
+}
+
+/* March from the foot to the place where the filling ends. */
+static double find_surface(const line *l)
+{
+    double step = 0.5 * l->dp, wet = -1; /* the last place seen full */
+    bool solid = false;                  /* the last sample was */
+    int64_t last = (int64_t)ceil(l->length / step);
+    for (int64_t k = 0; k <= last; k++) {
+        double s = (double)k * step;
+        sample here = line_sample(l, s);
+        if (here.solid > solid_limit) {
+            solid = true;
+        } else if (here.fill >= 0.5) {
+            wet = s;
+            solid = false;
+        } else if (solid && wet >= 0) {
+            return crossing(l, fmax(wet - 2 * l->dp, 0), s, true) - 0.5 * l->dp;
+        } else if (wet >= 0 && !gap_closes(l, s, step)) {
+            return back_to_line(l, crossing(l, wet, s, false)) - 0.5 * l->dp;
+        } else if (wet < 0 && !solid && s > 1.5 * l->dp) {
+            return 0; /* dry foot */
+        }
+    }
+    return wet < 0 ? 0 : l->length;
+}
+
+static double topmost(const line *l)
+{
+    double top = 0;
+    for (int64_t k = 0; k < l->count; k++) {
+        const beside *b = &l->list[k];
+        bool inside = !b->solid;
+        for (int32_t e = 0; e < l->sides; e++) inside = inside && fabs(b->across[e]) <= l->width;
+        if (inside) top = fmax(top, b->s);
+    }
+    return top;
+}
+
+mps_status mps__gauge_measure(mps__world *w, const mps_probe *config, double *value)
+{
+    line l;
+    line_init(&l, w, config);
+    mps_status status = line_collect(&l, w);
+    if (status == MPS_OK) {
+        double surface = find_surface(&l);
+        if (config->count_drops) surface = fmax(surface, topmost(&l));
+        *value = fmin(fmax(surface, 0), l.length);
+    }
+    mps__free(w->context, l.list);
+    return status;
+}

@@ -1,0 +1,313 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Probes: checks when one is added, pressure on walls and in the fluid, forces. The gauge has its own file. */
+#include "probes.h"
+#include "probe_gauge.h"
+#include <math.h>
+#include <string.h>
+
+static double distance2(const double *a, const double *b, int32_t dim)
+{
+    double sum = 0;
+    for (int32_t d = 0; d < dim; d++) sum += (a[d] - b[d]) * (a[d] - b[d]);
+    return sum;
+}
+
+/* ---- pressure on a wall ---- */
+
+/* The wall particle nearest to a place of the tank's frame, -1 without walls. */
+static int64_t nearest_wall(const mps__world *w, const double *at, double *distance)
+{
+    const mps__particles *s = &w->particles;
+    int64_t best = -1;
+    double least = INFINITY;
+    for (int64_t i = 0; i < s->n; i++) {
+        if (s->kind[i] != MPS_WALL) continue;
+        double d2 = distance2(&s->ref[i * w->dim], at, w->dim);
+        if (d2 < least) {
+            least = d2;
+            best = i;
+        }
+    }
+    *distance = sqrt(least);
+    return best;
+}
+
+/* `at` moved onto the wall's face at particle a. */
+static void project_on_face(const mps__world *w, int64_t a, const double *at, double *out)
+{
+    const double *area = &w->particles.area[a * w->dim], *ref = &w->particles.ref[a * w->dim];
+    double norm2 = mps__dot(area, area, w->dim), off = 0;
+    for (int32_t d = 0; d < w->dim; d++) off += (at[d] - ref[d]) * area[d];
+    for (int32_t d = 0; d < w->dim; d++) out[d] = at[d] - (norm2 > 0 ? off / norm2 * area[d] : 0);
+}
+
+/* Linear (on a face in 3-D bilinear) between the wall particles around `at` of the nearest one's part. */
+static double wall_interpolate(const mps__world *w, int64_t nearest, const double *at)
+{
+    const mps__particles *s = &w->particles;
+    double on[3], sum = 0, weights = 0;
+    project_on_face(w, nearest, at, on);
+    for (int64_t i = 0; i < s->n; i++) {
+        if (s->kind[i] != MPS_WALL || s->part[i] != s->part[nearest]) continue;
+        double weight = 1;
+        for (int32_t d = 0; d < w->dim; d++) weight *= fmax(0, 1 - fabs(s->ref[i * w->dim + d] - on[d]) / w->dp);
+        sum += weight * s->p[i];
+        weights += weight;
+    }
+    return weights > 1e-12 ? sum / weights : s->p[nearest];
+}
+
+static mps_status measure_wall(const mps__world *w, const mps_probe *c, double *value)
+{
+    const mps__particles *s = &w->particles;
+    double radius2 = 0.25 * c->diameter * c->diameter * (1 + 1e-9), sum = 0, distance;
+    int64_t nearest = nearest_wall(w, c->at, &distance), count = 0;
+    if (nearest < 0) return mps__fail(w->context, MPS_E_STATE, "wall pressure: there is no wall particle any more");
+    for (int64_t i = 0; i < s->n; i++)
+        if (s->kind[i] == MPS_WALL && distance2(&s->ref[i * w->dim], c->at, w->dim) <= radius2) {
+            sum += s->p[i];
+            count++;
+        }
+    /* one particle alone would make a probe that jumps along the wall */
+    *value = count > 1 ? sum / (double)count : wall_interpolate(w, nearest, c->at);
+    return MPS_OK;
+}
+
+/* ---- pressure in the fluid ---- */
+
+/* Moments of the kernel-weighted pressures around a place. */
+typedef struct moments {
+    double weight, p, x[3], px[3], xx[9];
+    double low, high, nearest2;
+} moments;
+
+static void add_moment(moments *m, const double *r, double weight, double p)
+{
+    m->weight += weight;
+    m->p += weight * p;
+    for (int a = 0; a < 3; a++) {
+        m->x[a] += weight * r[a];
+        m->px[a] += weight * r[a] * p;
+        for (int b = 0; b < 3; b++) m->xx[3 * a + b] += weight * r[a] * r[b];
+    }
+    m->low = fmin(m->low, p);
+    m->high = fmax(m->high, p);
+}
+
+/* Solve the dim x dim system in place, symmetric positive definite; false if it is close to singular. */
+static bool solve_small(int32_t dim, double a[9], double b[3], double scale)
+{
+    for (int32_t k = 0; k < dim; k++) {
+        if (a[3 * k + k] < 1e-3 * scale) return false;
+        for (int32_t i = k + 1; i < dim; i++) {
+            double f = a[3 * i + k] / a[3 * k + k];
+            for (int32_t j = k; j < dim; j++) a[3 * i + j] -= f * a[3 * k + j];
+            b[i] -= f * b[k];
+        }
+    }
+    for (int32_t k = dim - 1; k >= 0; k--) {
+        for (int32_t j = k + 1; j < dim; j++) b[k] -= a[3 * k + j] * b[j];
+        b[k] /= a[3 * k + k];
+    }
+    return true;
+}
+
+/* Weighted mean, moved from the particles' centroid to the place by the weighted least-squares gradient. */
+static double moments_value(const mps__world *w, moments *m)
+{
+    double mean = m->p / m->weight, a[9], g[3], value = mean;
+    for (int i = 0; i < 3; i++) {
+        g[i] = m->px[i] / m->weight - mean * m->x[i] / m->weight;
+        for (int j = 0; j < 3; j++) a[3 * i + j] = m->xx[3 * i + j] / m->weight - m->x[i] * m->x[j] / (m->weight * m->weight);
+    }
+    if (!solve_small(w->dim, a, g, w->dp * w->dp)) return mean;
+    for (int32_t d = 0; d < w->dim; d++) value -= g[d] * m->x[d] / m->weight;
+    return fmin(fmax(value, m->low), m->high);
+}
+
+/* Fluid particles and the walls they wet; a dry wall has p = 0 exactly. */
+static void measure_fluid(const mps__world *w, const mps_probe *c, double *value)
+{
+    const mps__particles *s = &w->particles;
+    moments m = {.low = INFINITY, .high = -INFINITY, .nearest2 = INFINITY};
+    double at[3];
+    mps__motion_point(&w->motion, &w->motion.now, c->at, at, NULL, NULL);
+    for (int64_t i = 0; i < s->n; i++) {
+        if (s->kind[i] == MPS_DUMMY || (s->kind[i] == MPS_WALL && s->p[i] == 0)) continue;
+        double r[3] = {0, 0, 0}, d2 = distance2(&s->x[i * w->dim], at, w->dim);
+        if (d2 >= w->re_near * w->re_near) continue;
+        for (int32_t d = 0; d < w->dim; d++) r[d] = s->x[i * w->dim + d] - at[d];
+        add_moment(&m, r, mps_kernel_value(&w->kernel, fmax(sqrt(d2), 1e-3 * w->dp), w->re_near), s->p[i]);
+        if (s->kind[i] == MPS_FLUID) m.nearest2 = fmin(m.nearest2, d2);
+    }
+    /* the middle of four wall particles is 1.22 dp from the first layer of fluid */
+    bool wet = m.nearest2 < 1.25 * 1.25 * w->dp * w->dp;
+    *value = wet ? moments_value(w, &m) : 0;
+}
+
+/* ---- forces ---- */
+
+static bool part_matches(const char *wanted, const char *name)
+{
+    size_t length = strlen(wanted);
+    if (length > 0 && wanted[length - 1] == '.') return strncmp(wanted, name, length) == 0;
+    return strcmp(wanted, name) == 0;
+}
+
+/* -p A on every wall particle of the part; A points into the fluid. */
+static void measure_force(const mps__world *w, const mps__probe *probe, double *values)
+{
+    const mps__particles *s = &w->particles;
+    bool wanted[MPS__PARTS_MAX];
+    double at[3] = {0, 0, 0}, force[3] = {0, 0, 0}, moment[3] = {0, 0, 0};
+    for (int32_t k = 0; k < s->parts; k++) wanted[k] = !probe->config.part || part_matches(probe->part_name, s->part_name[k]);
+    mps__motion_point(&w->motion, &w->motion.now, probe->config.at, at, NULL, NULL);
+    for (int64_t i = 0; i < s->n; i++) {
+        if (s->kind[i] != MPS_WALL || s->p[i] == 0) continue;
+        if (s->part[i] >= 0 ? !wanted[s->part[i]] : probe->config.part != NULL) continue;
+        double f[3] = {0, 0, 0}, r[3] = {0, 0, 0};
+        mps__motion_rotate(&w->motion, &w->motion.now, &s->area[i * w->dim], f);
+        for (int32_t d = 0; d < w->dim; d++) {
+            f[d] *= -s->p[i];
+            force[d] += f[d];
+            r[d] = s->x[i * w->dim + d] - at[d];
+        }
+        for (int d = 0; d < 3; d++) moment[d] += r[(d + 1) % 3] * f[(d + 2) % 3] - r[(d + 2) % 3] * f[(d + 1) % 3];
+    }
+    memcpy(values, force, (size_t)w->dim * sizeof(double));
+    if (w->dim == 2)
+        values[2] = moment[2];
+    else
+        memcpy(values + 3, moment, sizeof moment);
+}
+
+/* ---- adding ---- */
+
+static bool solids_box(const mps__world *w, double lo[3], double hi[3])
+{
+    const mps__particles *s = &w->particles;
+    bool any = false;
+    for (int d = 0; d < 3; d++) {
+        lo[d] = INFINITY;
+        hi[d] = -INFINITY;
+    }
+    for (int64_t i = 0; i < s->n; i++) {
+        if (s->kind[i] == MPS_FLUID) continue;
+        any = true;
+        for (int32_t d = 0; d < w->dim; d++) {
+            lo[d] = fmin(lo[d], s->ref[i * w->dim + d]);
+            hi[d] = fmax(hi[d], s->ref[i * w->dim + d]);
+        }
+    }
+    return any;
+}
+
+static mps_status check_place(const mps__world *w, const mps_probe *c)
+{
+    double lo[3], hi[3];
+    if (!solids_box(w, lo, hi)) return mps__fail(w->context, MPS_E_STATE, "a probe needs solids around it: add the tank first");
+    for (int32_t d = 0; d < w->dim; d++)
+        MPS__CHECK(w->context, c->at[d] >= lo[d] - 1e-6 * w->dp && c->at[d] <= hi[d] + 1e-6 * w->dp,
+                   "probe.at[%d] is %g: outside the solids, which reach from %g to %g", (int)d, c->at[d], lo[d], hi[d]);
+    return MPS_OK;
+}
+
+static mps_status check_wall(const mps__world *w, const mps_probe *c)
+{
+    double distance;
+    int64_t nearest = nearest_wall(w, c->at, &distance);
+    MPS__CHECK(w->context, nearest >= 0, "wall pressure: there is no wall particle");
+    MPS__CHECK(w->context, distance <= 2 * w->dp, "wall pressure: the nearest wall particle is %g m away, at most 2 dp = %g m are allowed", distance, 2 * w->dp);
+    return MPS_OK;
+}
+
+/* From a place to where the line leaves the box of all solids, or the domain if it was given. */
+static double line_length(const mps__world *w, const mps_probe *c)
+{
+    double lo[3], hi[3], length = INFINITY;
+    if (!mps__world_domain(w, lo, hi)) return 0;
+    for (int32_t d = 0; d < w->dim; d++)
+        if (c->direction[d] != 0) length = fmin(length, ((c->direction[d] > 0 ? hi[d] : lo[d]) - c->at[d]) / c->direction[d]);
+    return length;
+}
+
+static mps_status check_gauge(const mps__world *w, mps_probe *c)
+{
+    MPS__CHECK(w->context, mps__finite(c->direction, w->dim), "probe.direction must be finite");
+    double norm = sqrt(mps__dot(c->direction, c->direction, w->dim));
+    MPS__CHECK(w->context, norm > 0, "probe.direction is zero");
+    for (int d = 0; d < 3; d++) c->direction[d] = d < w->dim ? c->direction[d] / norm : 0;
+    if (c->length == 0) c->length = line_length(w, c);
+    MPS__CHECK(w->context, isfinite(c->length) && c->length > 0, "probe.length is %g m: must be > 0, or 0 for the whole domain", c->length);
+    return MPS_OK;
+}
+
+static mps_status check_part(mps__world *w, const char *part)
+{
+    const mps__particles *s = &w->particles;
+    const char *names[MPS__PARTS_MAX];
+    for (int32_t k = 0; k < s->parts; k++) {
+        if (part_matches(part, s->part_name[k])) return MPS_OK;
+        names[k] = s->part_name[k];
+    }
+    return mps__fail(w->context, MPS_E_NAME, "no part is named \"%.40s\"; the nearest is \"%s\"", part, mps__nearest(part, names, s->parts));
+}
+
+static mps_status check_numbers(const mps__world *w, const mps_probe *c)
+{
+    MPS__CHECK(w->context, c->type >= MPS_PROBE_WALL_PRESSURE && c->type <= MPS_PROBE_FORCE, "probe.type is %d: must be %d..%d", (int)c->type,
+               MPS_PROBE_WALL_PRESSURE, MPS_PROBE_FORCE);
+    for (int32_t d = 0; d < w->dim; d++) MPS__CHECK(w->context, isfinite(c->at[d]), "probe.at[%d] is %g: must be finite", (int)d, c->at[d]);
+    MPS__CHECK(w->context, isfinite(c->diameter) && c->diameter >= 0, "probe.diameter is %g m: must be finite and >= 0", c->diameter);
+    MPS__CHECK(w->context, isfinite(c->length) && c->length >= 0, "probe.length is %g m: must be finite and >= 0", c->length);
+    MPS__CHECK(w->context, c->count_drops == 0 || c->count_drops == 1, "probe.count_drops is %d: must be 0 or 1", (int)c->count_drops);
+    return MPS_OK;
+}
+
+/* Check and complete a definition. */
+static mps_status check_probe(mps__world *w, mps_probe *c)
+{
+    MPS__TRY(check_numbers(w, c));
+    if (c->diameter == 0) c->diameter = c->type == MPS_PROBE_GAUGE ? 3 * w->dp : w->dp;
+    if (c->type == MPS_PROBE_FORCE) return c->part ? check_part(w, c->part) : MPS_OK;
+    MPS__TRY(check_place(w, c));
+    if (c->type == MPS_PROBE_WALL_PRESSURE) return check_wall(w, c);
+    return c->type == MPS_PROBE_GAUGE ? check_gauge(w, c) : MPS_OK;
+}
+
+void mps__probes_free(mps__context *c, mps__probes *p)
+{
+    mps__free(c, p->list);
+    *p = (mps__probes){0};
+}
+
+mps_status mps__probes_add(mps__world *w, mps__probes *p, const mps_probe *probe, int32_t *id)
+{
+    mps__probe added = {.config = *probe};
+    MPS__TRY(check_probe(w, &added.config));
+    if (probe->part) {
+        MPS__CHECK(w->context, mps__name_copy(added.part_name, sizeof added.part_name, probe->part), "probe.part must have 1..%d characters", MPS__PART_NAME - 1);
+        added.config.part = ""; /* only says that there is one: part_name holds it and may move with the list */
+    }
+    MPS__CHECK(w->context, p->count < INT32_MAX, "too many probes");
+    MPS__TRY(mps__grow(w->context, (void **)&p->list, &p->capacity, p->count, p->count + 1, sizeof added));
+    p->list[p->count] = added;
+    *id = (int32_t)p->count++;
+    return MPS_OK;
+}
+
+int32_t mps__probe_values(const mps__world *w, const mps__probe *p)
+{
+    if (p->config.type != MPS_PROBE_FORCE) return 1;
+    return w->dim == 2 ? 3 : 6;
+}
+
+mps_status mps__probe_measure(mps__world *w, const mps__probe *p, double *values)
+{
+    switch (p->config.type) {
+    case MPS_PROBE_WALL_PRESSURE: return measure_wall(w, &p->config, values);
+    case MPS_PROBE_GAUGE: return mps__gauge_measure(w, &p->config, values);
+    case MPS_PROBE_FLUID_PRESSURE: measure_fluid(w, &p->config, values); return MPS_OK;
+    default: measure_force(w, p, values); return MPS_OK;
+    }
+}

@@ -1,0 +1,221 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Create and destroy a simulation; configuration, phases and models of the public interface. */
+#include "sim.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const mps_config config_default = {
+    .struct_size = sizeof(mps_config), .dim = 2, .gravity = {0, -9.81, 0}, .kernel = "improved", .re_near = 2.1, .threads = 1, .speed_limit = 1000};
+static const mps_phase water = {.struct_size = sizeof(mps_phase), .density = 1000, .viscosity = 1e-3};
+
+mps_status mps_config_init(mps_config *config, size_t size)
+{
+    return mps__struct_init(config, size, &config_default, sizeof config_default);
+}
+
+mps_status mps_phase_init(mps_phase *phase, size_t size)
+{
+    return mps__struct_init(phase, size, &water, sizeof water);
+}
+
+static mps_status check_domain(mps__context *c, const mps_config *f, bool *given)
+{
+    *given = false;
+    for (int d = 0; d < f->dim; d++) *given = *given || f->domain_min[d] != 0 || f->domain_max[d] != 0;
+    for (int d = 0; *given && d < f->dim; d++)
+        MPS__CHECK(c, f->domain_max[d] > f->domain_min[d], "config.domain axis %d is %g..%g: max must be greater than min", d, f->domain_min[d], f->domain_max[d]);
+    return MPS_OK;
+}
+
+static mps_status check_config(mps__context *c, mps_config *f)
+{
+    if (f->dim == 0) f->dim = 2;
+    MPS__CHECK(c, f->dim == 2 || f->dim == 3, "config.dim is %d: 2 or 3", f->dim);
+    MPS__CHECK(c, f->dp > 0 && isfinite(f->dp), "config.dp is %g: must be > 0 m", f->dp);
+    if (f->re_near == 0) f->re_near = 2.1;
+    if (f->re_far == 0) f->re_far = f->dim == 2 ? 3.1 : 2.1;
+    MPS__CHECK(c, f->re_near > 1 && f->re_near <= 10, "config.re_near is %g dp: 1 < re_near <= 10", f->re_near);
+    MPS__CHECK(c, f->re_far >= f->re_near && f->re_far <= 10, "config.re_far is %g dp: re_near (%g) <= re_far <= 10", f->re_far, f->re_near);
+    if (f->threads == 0) f->threads = 1;
+    MPS__CHECK(c, f->threads >= 1 && f->threads <= 1024, "config.threads is %d: 1..1024", f->threads);
+    MPS__CHECK(c, f->lost_policy == MPS_LOST_REMOVE || f->lost_policy == MPS_LOST_ERROR, "config.lost_policy is %d: MPS_LOST_REMOVE or MPS_LOST_ERROR",
+               f->lost_policy);
+    MPS__CHECK(c, mps__finite(f->gravity, 3), "config.gravity is (%g, %g, %g): must be finite", f->gravity[0], f->gravity[1], f->gravity[2]);
+    MPS__CHECK(c, f->velocity_scale >= 0 && isfinite(f->velocity_scale), "config.velocity_scale is %g: must be >= 0 m/s", f->velocity_scale);
+    MPS__CHECK(c, mps__finite(f->domain_min, 3) && mps__finite(f->domain_max, 3), "config.domain_min or domain_max is not finite");
+    if (f->speed_limit == 0) f->speed_limit = config_default.speed_limit;
+    MPS__CHECK(c, f->speed_limit > 0, "config.speed_limit is %g: must be > 0 m/s", f->speed_limit);
+    MPS__CHECK(c, !f->allocator.alloc == !f->allocator.release, "config.allocator: alloc and release go together");
+    return MPS_OK;
+}
+
+static mps_status set_up(mps_sim *sim, const mps_config *f)
+{
+    mps__world *w = &sim->world;
+    MPS__TRY(mps__world_init(w, &sim->context, f->dim, f->dp));
+    const char *kernel = f->kernel ? f->kernel : config_default.kernel;
+    if (mps_kernel_find(kernel, &w->kernel) != MPS_OK) {
+        const char *names[] = {"improved", "original"};
+        return mps__fail(&sim->context, MPS_E_NAME, "config.kernel is \"%s\"; did you mean \"%s\"?", kernel, mps__nearest(kernel, names, 2));
+    }
+    for (int d = 0; d < f->dim; d++) w->g[d] = f->gravity[d];
+    const double g = sqrt(mps__dot(w->g, w->g, f->dim));
+    w->velocity_scale = f->velocity_scale > 0 ? f->velocity_scale : sqrt((g > 0 ? g : 9.81) * f->dp);
+    w->re_near = f->re_near * f->dp;
+    w->re_far = f->re_far * f->dp;
+    w->threads = f->threads;
+    w->lost_policy = f->lost_policy;
+    w->speed_limit = f->speed_limit;
+    w->moment_floor = 0.2;
+    MPS__TRY(check_domain(&sim->context, f, &w->domain_given));
+    memcpy(w->domain_min, f->domain_min, sizeof w->domain_min);
+    memcpy(w->domain_max, f->domain_max, sizeof w->domain_max);
+    mps_time_control_init(&w->control, sizeof w->control);
+    w->control.dt_min = 1e-9 * sqrt(f->dp / 9.81);
+    w->phase_defined[0] = true;
+    w->phase_density[0] = water.density;
+    w->phase_viscosity[0] = water.viscosity;
+    return mps__models_preset(&w->models, "imps");
+}
+
+mps_status mps_sim_create(const mps_config *config, mps_sim **sim)
+{
+    if (!sim) return MPS_E_ARG;
+    *sim = NULL;
+    mps__context c = {.allocator = mps__allocator_default()};
+    mps_config f = config_default;
+    mps_status status = mps__struct_in(&c, "mps_config", &f, sizeof f, config);
+    if (status == MPS_OK) status = check_config(&c, &f);
+    if (status == MPS_OK && f.allocator.alloc) c.allocator = f.allocator;
+    mps_sim *s = status == MPS_OK ? mps__alloc(&c, 1, sizeof *s) : NULL;
+    if (status == MPS_OK && !s) status = MPS_E_NOMEM;
+    if (s) {
+        s->context = c;
+        s->context.log = f.log;
+        s->context.log_user = f.log_user;
+        status = set_up(s, &f);
+        if (status == MPS_OK) {
+            *sim = s;
+            return MPS_OK;
+        }
+        c = s->context;
+        mps_sim_destroy(s);
+    }
+    if (config && f.error && f.error_size > 0) snprintf(f.error, f.error_size, "%s", c.error);
+    return status;
+}
+
+void mps_sim_destroy(mps_sim *sim)
+{
+    if (!sim) return;
+    mps__context c = sim->context;
+    mps__probes_free(&sim->context, &sim->probes);
+    mps__world_free(&sim->world);
+    mps__free(&c, sim);
+}
+
+const char *mps_sim_error(const mps_sim *sim)
+{
+    return sim ? sim->context.error : "the simulation is NULL";
+}
+
+mps_status mps_sim_shape(const mps_sim *sim, int32_t *dim, double *dp)
+{
+    if (!sim) return MPS_E_ARG;
+    if (dim) *dim = sim->world.dim;
+    if (dp) *dp = sim->world.dp;
+    return MPS_OK;
+}
+
+mps_status mps_sim_time(const mps_sim *sim, double *t, int64_t *steps)
+{
+    if (!sim) return MPS_E_ARG;
+    if (t) *t = sim->world.info.t;
+    if (steps) *steps = sim->world.info.step;
+    return MPS_OK;
+}
+
+mps_status mps_sim_set_threads(mps_sim *sim, int32_t threads)
+{
+    if (!sim) return MPS_E_ARG;
+    MPS__CHECK(&sim->context, threads >= 1 && threads <= 1024, "threads is %d: 1..1024", threads);
+    sim->world.threads = threads;
+    return MPS_OK;
+}
+
+mps_status mps_sim_set_phase(mps_sim *sim, int32_t index, const mps_phase *phase)
+{
+    if (!sim) return MPS_E_ARG;
+    mps_phase p = water;
+    MPS__CHECK(&sim->context, index >= 0 && index < MPS__PHASES, "phase index is %d: 0..%d", index, MPS__PHASES - 1);
+    MPS__TRY(mps__struct_in(&sim->context, "mps_phase", &p, sizeof p, phase));
+    MPS__CHECK(&sim->context, p.density > 0 && isfinite(p.density), "phase %d: density is %g: must be > 0 kg/m3", index, p.density);
+    MPS__CHECK(&sim->context, p.viscosity >= 0 && isfinite(p.viscosity), "phase %d: viscosity is %g: must be >= 0 Pa s", index, p.viscosity);
+    mps__world *w = &sim->world;
+    if (mps__particles_leases(&w->particles)) return mps__fail(&sim->context, MPS_E_BUSY, "a lease is open");
+    w->phase_defined[index] = true;
+    w->phase_density[index] = p.density;
+    w->phase_viscosity[index] = p.viscosity;
+    for (int64_t i = 0; i < w->particles.n; i++)
+        if (w->particles.phase[i] == index) w->particles.rho[i] = p.density;
+    return MPS_OK;
+}
+
+mps_status mps_sim_get_phase(const mps_sim *sim, int32_t index, mps_phase *phase)
+{
+    if (!sim) return MPS_E_ARG;
+    mps__context *c = mps__sim_context(sim);
+    MPS__CHECK(c, index >= 0 && index < MPS__PHASES && sim->world.phase_defined[index], "phase %d is not defined", index);
+    mps_phase p = water;
+    p.density = sim->world.phase_density[index];
+    p.viscosity = sim->world.phase_viscosity[index];
+    return mps__struct_out(c, "mps_phase", phase, &p, sizeof p);
+}
+
+/* ---- models ----------------------------------------------------------------------------------------------------- */
+
+mps_status mps_model_register(mps_sim *sim, const mps_model_ops *ops)
+{
+    return sim ? mps__models_register(&sim->world.models, ops) : MPS_E_ARG;
+}
+
+mps_status mps_sim_use_preset(mps_sim *sim, const char *name)
+{
+    return sim ? mps__models_preset(&sim->world.models, name) : MPS_E_ARG;
+}
+
+mps_status mps_model_use(mps_sim *sim, const char *name)
+{
+    return sim ? mps__models_use(&sim->world.models, name) : MPS_E_ARG;
+}
+
+mps_status mps_model_remove(mps_sim *sim, const char *slot)
+{
+    return sim ? mps__models_remove(&sim->world.models, slot) : MPS_E_ARG;
+}
+
+mps_status mps_model_set(mps_sim *sim, const char *slot, const char *key, double value)
+{
+    if (!sim) return MPS_E_ARG;
+    const mps_setting *s = NULL;
+    double *place = mps__models_value(&sim->world.models, slot, key, &s);
+    if (!place) return MPS_E_NAME;
+    MPS__CHECK(&sim->context, value >= s->min && value <= s->max, "%s.%s is %g: allowed %g..%g", slot, key, value, s->min, s->max);
+    *place = value;
+    return MPS_OK;
+}
+
+mps_status mps_model_get(const mps_sim *sim, const char *slot, const char *key, double *value)
+{
+    if (!sim || !value) return MPS_E_ARG;
+    const double *place = mps__models_value((mps__models *)&sim->world.models, slot, key, NULL);
+    if (!place) return MPS_E_NAME;
+    *value = *place;
+    return MPS_OK;
+}
+
+const char *mps_model_name(const mps_sim *sim, int32_t index)
+{
+    return sim && index >= 0 && index < sim->world.models.active ? sim->world.models.on[index].ops->name : NULL;
+}

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Layer 8: the handle. */
+#ifndef MPS_CORE_SIM_H
+#define MPS_CORE_SIM_H
+
+#include "probes.h"
+#include "world.h"
+#include <mps/sim.h>
+
+struct mps_sim {
+    mps__context context;
+    mps__world world;
+    mps__probes probes;
+    /* the lattice of the last tank */
+    bool has_tank;
+    double lattice_lo[3];
+    int64_t lattice_cells[3];
+};
+
+/* The handle's context is part of its private state: error text may change through a const handle. */
+static inline mps__context *mps__sim_context(const mps_sim *sim) { return (mps__context *)&sim->context; }
+
+#endif

@@ -1,0 +1,406 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* One time step, W22 section 2.5 and Fig. 2: predict, pressure equation, correct. The one file that knows the order. */
+#include "budget.h"
+#include "world.h"
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* What one step carries along; committed to the world only when all went well. */
+typedef struct step_state {
+    mps__world *w;
+    mps_stage stage;
+    mps_stencil near, far;
+    mps_ppe_terms terms;
+    mps__pose pose;       /* of the tank at the end of the step */
+    mps_step_info info;
+    mps__budget budget;
+    double clock;         /* beginning of the present stage */
+    bool not_converged;
+} step_state;
+
+/* ---- calling models -------------------------------------------------------------------------------------------- */
+
+double *mps_stage_scratch(mps_stage *s, int64_t count)
+{
+    mps__world *w = ((step_state *)s->host)->w;
+    mps__work *k = &w->work;
+    if (k->scratch_used == MPS__SCRATCH || count < 0) {
+        mps_stage_fail(s, "a verb may borrow at most %d blocks of scratch, of no negative size", MPS__SCRATCH);
+        return NULL;
+    }
+    const int32_t b = k->scratch_used;
+    if (count > k->scratch_capacity[b]) {
+        double *larger = mps__alloc(w->context, count + count / 8, sizeof *larger);
+        if (!larger) return NULL;
+        mps__free(w->context, k->scratch[b]);
+        k->scratch[b] = larger;
+        k->scratch_capacity[b] = count + count / 8;
+    }
+    memset(k->scratch[b], 0, (size_t)count * sizeof(double));
+    k->scratch_used++;
+    return k->scratch[b];
+}
+
+int mps_stage_fail(mps_stage *s, const char *format, ...)
+{
+    char text[MPS__ERROR_SIZE];
+    va_list list;
+    va_start(list, format);
+    vsnprintf(text, sizeof text, format, list);
+    va_end(list);
+    mps__fail(((step_state *)s->host)->w->context, MPS_E_PLUGIN, "%s", text);
+    return 1;
+}
+
+static mps_status verb_failed(step_state *q, const mps__model *m)
+{
+    char *error = q->w->context->error;
+    if (!error[0]) return mps__fail(q->w->context, MPS_E_PLUGIN, "model \"%s\" failed at t = %.9g s", m->ops->name, q->stage.t);
+    return mps__fail(q->w->context, MPS_E_PLUGIN, "model \"%s\" at t = %.9g s: %.300s", m->ops->name, q->stage.t, error);
+}
+
+/* Call one verb of all active models in their order. */
+#define EACH_MODEL(q, verb, ...)                                                                                     \
+    for (int32_t m_ = 0; m_ < (q)->w->models.active; m_++) {                                                         \
+        const mps__model *model_ = &(q)->w->models.on[m_];                                                           \
+        if (!model_->ops->verb) continue;                                                                            \
+        (q)->w->context->error[0] = 0;                                                                               \
+        const int failed_ = model_->ops->verb(model_->self, model_->k, __VA_ARGS__);                                 \
+        (q)->w->work.scratch_used = 0;                                                                               \
+        if (failed_) return verb_failed((q), model_);                                                                \
+    }
+
+/* ---- time step -------------------------------------------------------------------------------------------------- */
+
+static double least(double a, double b) { return b > 0 && b < a ? b : a; }
+
+/* dt of the control's limits; 0 is never returned. */
+static double choose_dt(const step_state *q)
+{
+    const mps__world *w = q->w;
+    const mps_time_control *c = &w->control;
+    if (c->dt > 0) return c->dt;
+    double dt = INFINITY, nu = 0;
+    const double speed = mps__world_speed(w);
+    for (int k = 0; k < MPS__PHASES; k++)
+        if (w->phase_defined[k]) nu = fmax(nu, w->phase_viscosity[k] / w->phase_density[k]);
+    if (speed > 0) dt = least(dt, c->cfl * w->dp / speed);
+    dt = least(dt, c->gravity * w->dp / w->velocity_scale);
+    if (nu > 0) dt = least(dt, c->viscous * w->dp * w->dp / nu);
+    dt = least(dt, c->dt_max);
+    for (int32_t m = 0; m < w->models.active; m++) {
+        const mps__model *k = &w->models.on[m];
+        if (k->ops->dt_limit) dt = least(dt, k->ops->dt_limit(k->self, k->k, &q->stage));
+    }
+    if (w->dt_previous > 0) dt = least(dt, c->growth * w->dt_previous);
+    return dt;
+}
+
+static mps_status set_dt(step_state *q, double dt_max)
+{
+    mps__world *w = q->w;
+    q->stage.dt = w->dt_previous;
+    double dt = choose_dt(q);
+    if (!(dt >= w->control.dt_min) && w->control.dt <= 0)
+        return mps__fail(w->context, MPS_E_DIVERGED, "the time step fell to %g s at t = %.9g s, below dt_min = %g s; the largest speed is %g m/s", dt, w->info.t,
+                         w->control.dt_min, mps__world_speed(w));
+    if (!isfinite(dt)) dt = dt_max;
+    q->stage.dt = fmin(dt, dt_max);
+    return MPS_OK;
+}
+
+/* ---- the stages -------------------------------------------------------------------------------------------------- */
+
+static void end_stage(step_state *q, int stage)
+{
+    const double now = mps__clock();
+    q->info.seconds[stage] += now - q->clock;
+    q->clock = now;
+}
+
+/* Velocity of a point of the tank over the last step; before the first: what the start convention says. */
+static void tank_velocity(const mps__world *w, const double *X, double *u)
+{
+    double from[3], to[3];
+    if (w->dt_before > 0) {
+        mps__motion_point(&w->motion, &w->before, X, from, NULL, NULL);
+        mps__motion_point(&w->motion, &w->motion.now, X, to, NULL, NULL);
+        for (int d = 0; d < w->dim; d++) u[d] = (to[d] - from[d]) / w->dt_before;
+    } else if (w->motion.start == MPS_START_WITH_TANK) {
+        mps__motion_point(&w->motion, &w->motion.now, X, NULL, u, NULL);
+    } else {
+        for (int d = 0; d < w->dim; d++) u[d] = 0;
+    }
+}
+
+/* Solids get the velocity that carries them to their next place; every particle the acceleration a rigid tank has there. */
+static void move_walls(step_state *q)
+{
+    mps__world *w = q->w;
+    mps__particles *s = &w->particles;
+    const int dim = w->dim;
+#pragma omp parallel for num_threads(w->threads) schedule(static)
+    for (int64_t i = 0; i < s->n; i++) {
+        double X[3], here[3], next[3], old[3];
+        if (s->kind[i] == MPS_FLUID)
+            mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * dim, X);
+        else
+            memcpy(X, s->ref + i * dim, (size_t)dim * sizeof *X);
+        mps__motion_point(&w->motion, &w->motion.now, X, here, NULL, NULL);
+        mps__motion_point(&w->motion, &q->pose, X, next, NULL, NULL);
+        tank_velocity(w, X, old);
+        for (int d = 0; d < dim; d++) {
+            const double u = (next[d] - here[d]) / q->stage.dt;
+            w->work.tank_accel[i * dim + d] = (u - old[d]) / q->stage.dt;
+            if (s->kind[i] != MPS_FLUID) s->u[i * dim + d] = u;
+        }
+    }
+}
+
+static void set_stage(step_state *q)
+{
+    mps__world *w = q->w;
+    mps__particles *s = &w->particles;
+    mps__work *k = &w->work;
+    q->stage = (mps_stage){.struct_size = sizeof q->stage,
+                           .dim = w->dim,
+                           .threads = w->threads,
+                           .n = s->n,
+                           .step = w->info.step + 1,
+                           .t = w->info.t,
+                           .dt = q->stage.dt,
+                           .dp = w->dp,
+                           .velocity_scale = w->velocity_scale,
+                           .g = {w->g[0], w->g[1], w->g[2]},
+                           .kind = s->kind,
+                           .phase = s->phase,
+                           .id = s->id,
+                           .x = s->x,
+                           .u = s->u,
+                           .p = s->p,
+                           .density = s->rho,
+                           .viscosity = w->phase_viscosity,
+                           .tank_accel = k->tank_accel,
+                           .area = s->area,
+                           .wall_of = s->wall_of,
+                           .number_density = s->nd,
+                           .region = s->region,
+                           .owner = k->owner,
+                           .offset = k->offset,
+                           .correction = k->correction,
+                           .near = &q->near,
+                           .far = &q->far,
+                           .host = q};
+    for (int p = 0; p < MPS__PHASES; p++) q->stage.phases += w->phase_defined[p];
+    q->terms = (mps_ppe_terms){.struct_size = sizeof q->terms, .rhs = k->rhs, .shift = k->shift, .value = k->value, .fixed = k->fixed};
+}
+
+/* Lists, number density, correction, regions and pressure owners at r^k. */
+static mps_status look_around(step_state *q)
+{
+    mps__world *w = q->w;
+    mps_stage *s = &q->stage;
+    MPS__TRY(mps__world_stencil(w, MPS_NEAR, &q->near));
+    MPS__TRY(mps__world_stencil(w, MPS_FAR, &q->far));
+    end_stage(q, MPS_STAGE_NEIGHBOURS);
+    move_walls(q);
+    MPS__TRY(mps_op_number_density(&q->near, s->number_density));
+    MPS__TRY(mps_op_correction(&q->near, w->moment_floor, s->correction));
+    for (int64_t i = 0; i < s->n; i++) {
+        s->region[i] = MPS_REGION_INNER;
+        s->owner[i] = s->kind[i] == MPS_DUMMY ? -1 : (int32_t)i;
+        s->offset[i] = 0;
+    }
+    EACH_MODEL(q, classify, s);
+    q->info.surface = 0;
+    for (int64_t i = 0; i < s->n; i++) q->info.surface += s->region[i] == MPS_REGION_SURFACE;
+    return MPS_OK;
+}
+
+/* u* = u + dt (a + g). Z14 (9). The power of a is what force models dissipate. */
+static mps_status predict(step_state *q)
+{
+    mps_stage *s = &q->stage;
+    mps__work *k = &q->w->work;
+    memset(k->a, 0, (size_t)(s->n * s->dim) * sizeof *k->a);
+    EACH_MODEL(q, force, s, k->a);
+    q->budget.viscous -= mps__budget_power(q->w, k->a, s->dt);
+    for (int64_t i = 0; i < s->n; i++)
+        if (s->kind[i] == MPS_FLUID)
+            for (int d = 0; d < s->dim; d++) s->u[i * s->dim + d] += s->dt * (k->a[i * s->dim + d] + s->g[d]);
+    return MPS_OK;
+}
+
+/* <lap p> = source. W22 (10). */
+static mps_status project(step_state *q)
+{
+    mps__world *w = q->w;
+    mps_stage *s = &q->stage;
+    const size_t bytes = (size_t)s->n * sizeof(double);
+    memset(q->terms.rhs, 0, bytes);
+    memset(q->terms.shift, 0, bytes);
+    memset(q->terms.value, 0, bytes);
+    for (int64_t i = 0; i < s->n; i++) q->terms.fixed[i] = s->region[i] == MPS_REGION_SURFACE || s->region[i] == MPS_REGION_SPRAY;
+    EACH_MODEL(q, source, s, &q->terms);
+    end_stage(q, MPS_STAGE_OPERATORS);
+    MPS__TRY(mps__ppe_assemble(&w->ppe, s, &q->terms));
+    end_stage(q, MPS_STAGE_PPE_SETUP);
+    mps_ppe_result result = {0};
+    if (w->ppe.n > 0) {
+        mps_status status = mps__solvers_solve(&w->solvers, &w->ppe.problem, w->ppe.p, &result);
+        if (status < 0) return mps__fail(w->context, status, "t = %.9g s: %.400s", s->t, w->context->error);
+        q->not_converged = status == MPS_W_NOT_CONVERGED;
+    }
+    mps__ppe_scatter(&w->ppe, s, &q->terms, s->p);
+    q->info.ppe_iterations = result.iterations;
+    q->info.ppe_residual = result.residual;
+    q->info.ppe_divergence = result.divergence;
+    q->info.ppe_unknowns = w->ppe.n;
+    end_stage(q, MPS_STAGE_PPE_SOLVE);
+    q->info.seconds[MPS_STAGE_PPE_SOLVE] -= result.setup_seconds;
+    q->info.seconds[MPS_STAGE_PPE_SETUP] += result.setup_seconds;
+    return MPS_OK;
+}
+
+/* u = u* + dt a(p), collisions, r = r + dt u + shift. Z14 (12)(13). */
+static mps_status correct(step_state *q)
+{
+    mps__world *w = q->w;
+    mps_stage *s = &q->stage;
+    mps__work *k = &w->work;
+    memset(k->a, 0, (size_t)(s->n * s->dim) * sizeof *k->a);
+    EACH_MODEL(q, gradient, s, k->a);
+    for (int64_t i = 0; i < s->n * s->dim; i++) s->u[i] += s->kind[i / s->dim] == MPS_FLUID ? s->dt * k->a[i] : 0;
+    q->budget.wall_work += mps__budget_wall_work(w, &q->pose, k->u0, s->dt);
+    double before, after, potential;
+    mps__budget_sum(w, &before, &potential);
+    EACH_MODEL(q, velocity, s);
+    mps__budget_sum(w, &after, &potential);
+    q->budget.collision += before - after;
+    memset(k->dx, 0, (size_t)(s->n * s->dim) * sizeof *k->dx);
+    EACH_MODEL(q, shift, s, k->dx);
+    mps__budget_sum(w, &before, &potential);
+    q->budget.shift += after - before + mps__budget_lift(w, k->dx);
+    for (int64_t i = 0; i < s->n; i++) {
+        double *x = w->particles.x + i * s->dim;
+        if (s->kind[i] == MPS_FLUID)
+            for (int d = 0; d < s->dim; d++) x[d] += s->dt * s->u[i * s->dim + d] + k->dx[i * s->dim + d];
+        else
+            mps__motion_point(&w->motion, &q->pose, w->particles.ref + i * s->dim, x, NULL, NULL);
+    }
+    return MPS_OK;
+}
+
+/* NaN and speeds beyond every physical range stop the run, with the particle and its place. */
+static mps_status check_result(step_state *q)
+{
+    const mps__world *w = q->w;
+    const mps_stage *s = &q->stage;
+    double most = 0;
+    int64_t worst = -1;
+    for (int64_t i = 0; i < s->n; i++) {
+        const double *u = s->u + i * s->dim, *x = s->x + i * s->dim;
+        const double speed = sqrt(mps__dot(u, u, s->dim));
+        if (isfinite(speed) && speed <= w->speed_limit && mps__finite(x, s->dim) && isfinite(s->p[i])) {
+            if (s->kind[i] == MPS_FLUID) most = fmax(most, speed);
+            continue;
+        }
+        worst = i;
+        break;
+    }
+    q->info.max_speed = most;
+    q->info.cfl = most * s->dt / s->dp;
+    if (worst < 0) return MPS_OK;
+    const double *u = s->u + worst * s->dim, *x = w->work.x0 + worst * s->dim;
+    return mps__fail(w->context, MPS_E_DIVERGED,
+                     "t = %.9g s: particle %lld at (%g, %g, %g) m got velocity (%g, %g, %g) m/s and pressure %g Pa; allowed: finite, at most %g m/s", s->t,
+                     (long long)s->id[worst], x[0], x[1], s->dim == 3 ? x[2] : 0, u[0], u[1], s->dim == 3 ? u[2] : 0, s->p[worst], w->speed_limit);
+}
+
+static void keep_state(mps__world *w)
+{
+    const size_t n = (size_t)w->particles.n, dim = (size_t)w->dim;
+    memcpy(w->work.x0, w->particles.x, n * dim * sizeof(double));
+    memcpy(w->work.u0, w->particles.u, n * dim * sizeof(double));
+    memcpy(w->work.p0, w->particles.p, n * sizeof(double));
+}
+
+static void restore_state(mps__world *w)
+{
+    const size_t n = (size_t)w->particles.n, dim = (size_t)w->dim;
+    memcpy(w->particles.x, w->work.x0, n * dim * sizeof(double));
+    memcpy(w->particles.u, w->work.u0, n * dim * sizeof(double));
+    memcpy(w->particles.p, w->work.p0, n * sizeof(double));
+}
+
+static mps_status run_stages(step_state *q)
+{
+    MPS__TRY(look_around(q));
+    MPS__TRY(predict(q));
+    MPS__TRY(project(q));
+    MPS__TRY(correct(q));
+    return check_result(q);
+}
+
+static void commit(step_state *q)
+{
+    mps__world *w = q->w;
+    q->info.step = w->info.step + 1;
+    q->info.dt = q->stage.dt;
+    q->info.t = q->pose.t;
+    q->info.lost = w->info.lost;
+    w->info = q->info;
+    w->before = w->motion.now;
+    w->dt_before = q->stage.dt;
+    w->motion.now = q->pose;
+    w->budget = q->budget;
+    if (!w->budget.started) {
+        w->budget.started = true;
+        w->budget.density_ref = mps__budget_mean_density(w);
+    }
+}
+
+/* The liquid starts with the tank's velocity, or everything from rest. */
+static void start(mps__world *w)
+{
+    mps__particles *s = &w->particles;
+    if (!w->start_pending) return;
+    w->start_pending = 0;
+    for (int64_t i = 0; i < s->n; i++) {
+        double X[3];
+        mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * w->dim, X);
+        mps__motion_point(&w->motion, &w->motion.now, X, NULL, s->u + i * w->dim, NULL);
+    }
+}
+
+mps_status mps__world_step(mps__world *w, double dt_max)
+{
+    step_state q = {.w = w, .clock = mps__clock()};
+    bool fluid = false;
+    for (int64_t i = 0; i < w->particles.n && !fluid; i++) fluid = w->particles.kind[i] == MPS_FLUID;
+    if (!fluid) return mps__fail(w->context, MPS_E_STATE, "there is no fluid particle to step");
+    start(w);
+    MPS__TRY(mps__world_neighbours(w));
+    set_stage(&q);
+    MPS__TRY(set_dt(&q, dt_max));
+    const double planned = q.stage.dt;
+    MPS__TRY(mps__motion_pose(&w->motion, w->info.t + q.stage.dt, &q.pose));
+    q.budget = w->budget;
+    if (!q.budget.started) {
+        double kinetic, potential;
+        mps__budget_sum(w, &kinetic, &potential);
+        q.budget.start = kinetic + potential;
+    }
+    keep_state(w);
+    mps_status status = run_stages(&q);
+    if (status < 0) {
+        restore_state(w);
+        return status;
+    }
+    commit(&q);
+    if (planned < dt_max || w->dt_previous == 0) w->dt_previous = planned; /* a step cut short says nothing about the next */
+    end_stage(&q, MPS_STAGE_CORRECT);
+    w->info.seconds[MPS_STAGE_CORRECT] = q.info.seconds[MPS_STAGE_CORRECT];
+    return q.not_converged ? MPS_W_NOT_CONVERGED : MPS_OK;
+}

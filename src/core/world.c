@@ -1,0 +1,220 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What a step stands on: domain, lost particles, sorted particles, neighbour lists, dummies and their walls. */
+#include "world.h"
+#include <string.h>
+
+mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, double dp)
+{
+    w->context = context;
+    w->dim = dim;
+    w->dp = dp;
+    w->threads = 1;
+    w->linked = -1;
+    mps__neighbours_init(&w->neighbours, context, dim, dp);
+    mps__ppe_init(&w->ppe, context);
+    mps__motion_init(&w->motion, context, dim);
+    MPS__TRY(mps__particles_init(&w->particles, context, dim));
+    MPS__TRY(mps__models_init(&w->models, context));
+    return mps__solvers_init(&w->solvers, context);
+}
+
+void mps__world_free(mps__world *w)
+{
+    mps__particles_free(&w->particles);
+    mps__neighbours_free(&w->neighbours);
+    mps__models_free(&w->models);
+    mps__solvers_free(&w->solvers);
+    mps__ppe_free(&w->ppe);
+    mps__motion_free(&w->motion);
+    mps__work *k = &w->work;
+    void *all[] = {k->owner, k->fixed, k->offset, k->correction, k->tank_accel, k->a, k->dx, k->rhs, k->shift, k->value, k->x0, k->u0, k->p0};
+    for (size_t a = 0; a < sizeof all / sizeof all[0]; a++) mps__free(w->context, all[a]);
+    for (int a = 0; a < MPS__SCRATCH; a++) mps__free(w->context, k->scratch[a]);
+}
+
+double mps__world_speed(const mps__world *w)
+{
+    const mps__particles *s = &w->particles;
+    double most = 0;
+    for (int64_t i = 0; i < s->n; i++) {
+        const double *u = s->u + i * w->dim;
+        most = fmax(most, mps__dot(u, u, w->dim));
+    }
+    return sqrt(most);
+}
+
+bool mps__world_domain(const mps__world *w, double lo[3], double hi[3])
+{
+    if (w->domain_given) {
+        memcpy(lo, w->domain_min, 3 * sizeof *lo);
+        memcpy(hi, w->domain_max, 3 * sizeof *hi);
+        return true;
+    }
+    const mps__particles *s = &w->particles;
+    bool any = false;
+    double margin = 0;
+    for (int64_t i = 0; i < s->n; i++) {
+        if (s->kind[i] == MPS_FLUID) continue;
+        for (int d = 0; d < w->dim; d++) {
+            const double v = s->ref[i * w->dim + d];
+            lo[d] = any ? fmin(lo[d], v) : v;
+            hi[d] = any ? fmax(hi[d], v) : v;
+        }
+        any = true;
+    }
+    for (int d = 0; any && d < w->dim; d++) margin = fmax(margin, hi[d] - lo[d]);
+    for (int d = 0; any && d < w->dim; d++) {
+        lo[d] -= margin;
+        hi[d] += margin;
+    }
+    return any;
+}
+
+static bool outside(const mps__world *w, int64_t i, const double *lo, const double *hi)
+{
+    double X[3];
+    if (w->particles.kind[i] != MPS_FLUID) return false;
+    mps__motion_to_tank(&w->motion, &w->motion.now, w->particles.x + i * w->dim, X);
+    for (int d = 0; d < w->dim; d++)
+        if (!(X[d] >= lo[d] && X[d] <= hi[d])) return true;
+    return false;
+}
+
+/* Apply the policy to fluid particles outside the domain. */
+static mps_status handle_lost(mps__world *w)
+{
+    mps__particles *s = &w->particles;
+    double lo[3], hi[3];
+    if (!mps__world_domain(w, lo, hi)) return MPS_OK;
+    int64_t lost = 0, first = -1;
+    for (int64_t i = s->n - 1; i >= 0; i--)
+        if (outside(w, i, lo, hi)) {
+            lost++;
+            first = i;
+        }
+    if (!lost) return MPS_OK;
+    const double *x = s->x + first * w->dim;
+    const double z = w->dim == 3 ? x[2] : 0;
+    if (w->lost_policy == MPS_LOST_ERROR)
+        return mps__fail(w->context, MPS_E_LOST, "%lld particles left the domain at t = %.6g s; particle %lld is at (%g, %g, %g) m", (long long)lost, w->info.t,
+                         (long long)s->id[first], x[0], x[1], z);
+    mps__log(w->context, MPS_LOG_WARNING, "t = %.6g s: %lld particles left the domain and were removed; particle %lld was at (%g, %g, %g) m", w->info.t,
+             (long long)lost, (long long)s->id[first], x[0], x[1], z);
+    int32_t *keep = mps__alloc(w->context, s->n, sizeof *keep);
+    if (!keep) return MPS_E_NOMEM;
+    int64_t count = 0;
+    for (int64_t i = 0; i < s->n; i++)
+        if (!outside(w, i, lo, hi)) keep[count++] = (int32_t)i;
+    mps_status status = mps__particles_permute(s, count, keep);
+    mps__free(w->context, keep);
+    if (status == MPS_OK) {
+        w->info.lost += lost;
+        w->neighbours.valid = false;
+    }
+    return status;
+}
+
+/* Each dummy belongs to its nearest wall particle (of two as near: the older). Beyond the far radius no fluid sees it either. */
+static void link_dummies(mps__world *w)
+{
+    mps__particles *s = &w->particles;
+    const mps_neighbours *l = &w->neighbours;
+    for (int64_t i = 0; i < s->n; i++) {
+        if (s->kind[i] != MPS_DUMMY) continue;
+        double best = INFINITY;
+        s->wall_of[i] = -1;
+        for (int64_t k = l->candidate_row[i]; k < l->candidate_row[i + 1]; k++) {
+            const int32_t j = l->candidate[k];
+            if (s->kind[j] != MPS_WALL) continue;
+            double r2 = 0;
+            for (int d = 0; d < w->dim; d++) r2 += pow(s->ref[(int64_t)j * w->dim + d] - s->ref[i * w->dim + d], 2);
+            const double margin = 1e-9 * w->dp * w->dp;
+            if (r2 > best + margin || (r2 > best - margin && s->id[j] > s->id[s->wall_of[i]])) continue;
+            best = r2;
+            s->wall_of[i] = j;
+        }
+    }
+}
+
+/* A wall particle given without an area faces away from its dummies. */
+static void estimate_areas(mps__world *w)
+{
+    mps__particles *s = &w->particles;
+    const int dim = w->dim;
+    double *sum = w->work.dx; /* free between steps */
+    memset(sum, 0, (size_t)(s->n * dim) * sizeof *sum);
+    for (int64_t i = 0; i < s->n; i++)
+        if (s->wall_of[i] >= 0)
+            for (int d = 0; d < dim; d++) sum[s->wall_of[i] * dim + d] += s->ref[s->wall_of[i] * dim + d] - s->ref[i * dim + d];
+    for (int64_t i = 0; i < s->n; i++) {
+        double *area = s->area + i * dim, *v = sum + i * dim;
+        const double length = sqrt(mps__dot(v, v, dim));
+        if (s->kind[i] != MPS_WALL || mps__dot(area, area, dim) > 0 || length < 1e-6 * w->dp) continue;
+        for (int d = 0; d < dim; d++) area[d] = v[d] / length * pow(w->dp, dim - 1);
+    }
+}
+
+static mps_status reserve_work(mps__world *w)
+{
+    mps__work *k = &w->work;
+    const int64_t n = w->particles.n, dim = w->dim;
+    if (n <= k->capacity) return MPS_OK;
+    const int64_t wanted = n + n / 8;
+    struct {
+        void **place;
+        int64_t count;
+        size_t size;
+    } a[] = {{(void **)&k->owner, wanted, sizeof(int32_t)},
+             {(void **)&k->fixed, wanted, sizeof(int32_t)},
+             {(void **)&k->offset, wanted, sizeof(double)},
+             {(void **)&k->correction, wanted * dim * dim, sizeof(double)},
+             {(void **)&k->tank_accel, wanted * dim, sizeof(double)},
+             {(void **)&k->a, wanted * dim, sizeof(double)},
+             {(void **)&k->dx, wanted * dim, sizeof(double)},
+             {(void **)&k->rhs, wanted, sizeof(double)},
+             {(void **)&k->shift, wanted, sizeof(double)},
+             {(void **)&k->value, wanted, sizeof(double)},
+             {(void **)&k->x0, wanted * dim, sizeof(double)},
+             {(void **)&k->u0, wanted * dim, sizeof(double)},
+             {(void **)&k->p0, wanted, sizeof(double)}};
+    k->capacity = 0; /* nothing in here outlives a step */
+    for (size_t i = 0; i < sizeof a / sizeof a[0]; i++) {
+        mps__free(w->context, *a[i].place);
+        *a[i].place = mps__alloc(w->context, a[i].count, a[i].size);
+        if (!*a[i].place) return MPS_E_NOMEM;
+    }
+    k->capacity = wanted;
+    return MPS_OK;
+}
+
+/* Sort the store along the cells and search anew. */
+static mps_status search(mps__world *w)
+{
+    mps__particles *s = &w->particles;
+    MPS__TRY(mps__neighbours_order(&w->neighbours, s->n, s->x, w->re_far));
+    MPS__TRY(mps__particles_permute(s, s->n, w->neighbours.order));
+    MPS__TRY(mps__neighbours_search(&w->neighbours, s->n, s->x, w->re_near, w->re_far));
+    if (w->linked != s->generation) {
+        link_dummies(w);
+        estimate_areas(w);
+        w->linked = s->generation;
+    }
+    return MPS_OK;
+}
+
+mps_status mps__world_neighbours(mps__world *w)
+{
+    mps__particles *s = &w->particles;
+    MPS__CHECK(w->context, s->n > 0, "there are no particles");
+    MPS__TRY(handle_lost(w));
+    MPS__TRY(reserve_work(w));
+    w->neighbours.threads = w->threads;
+    if (w->linked != s->generation || !mps__neighbours_fresh(&w->neighbours, s->n, s->x, w->re_far)) MPS__TRY(search(w));
+    return mps__neighbours_rows(&w->neighbours, s->x);
+}
+
+mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *stencil)
+{
+    mps_status status = mps_neighbours_stencil(&w->neighbours, which, &w->kernel, stencil);
+    return status == MPS_OK ? status : mps__fail(w->context, status, "the kernel has no lattice constants for radius %g dp", (which ? w->re_far : w->re_near) / w->dp);
+}

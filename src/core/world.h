@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Layer 6: everything a time step works on. */
+#ifndef MPS_CORE_WORLD_H
+#define MPS_CORE_WORLD_H
+
+#include "models.h"
+#include "motion.h"
+#include "neighbours.h"
+#include "operators.h"
+#include "particles.h"
+#include "ppe.h"
+#include <mps/step.h>
+
+enum { MPS__SCRATCH = 16 };
+
+/* Energies since creation [J]; see mps_energy. */
+typedef struct mps__budget {
+    double wall_work, viscous, collision, shift;
+    double start;      /* kinetic + potential before the first step */
+    double density_ref; /* mean n/n0 of inner particles after the first step */
+    bool started;
+} mps__budget;
+
+/* Arrays [n] or [n*dim] that live through one step; what a failed step is undone from. */
+typedef struct mps__work {
+    int64_t capacity;
+    int32_t *owner, *fixed;
+    double *offset, *correction, *tank_accel, *a, *dx;
+    double *rhs, *shift, *value;
+    double *x0, *u0, *p0;
+    double *scratch[MPS__SCRATCH]; /* blocks lent to verbs, kept from step to step */
+    int64_t scratch_capacity[MPS__SCRATCH];
+    int32_t scratch_used;
+} mps__work;
+
+typedef struct mps__world {
+    mps__context *context;
+    int32_t dim, threads, lost_policy, start_pending;
+    double dp, g[3], velocity_scale, re_near, re_far, speed_limit, moment_floor;
+    double domain_min[3], domain_max[3]; /* tank's frame */
+    bool domain_given;
+    mps_kernel kernel;
+    bool phase_defined[MPS__PHASES];
+    double phase_density[MPS__PHASES], phase_viscosity[MPS__PHASES];
+    mps__particles particles;
+    mps_neighbours neighbours;
+    mps__models models;
+    mps__solvers solvers;
+    mps__ppe ppe;
+    mps__motion motion;
+    mps_time_control control;
+    mps__budget budget;
+    mps_step_info info;   /* of the last step; t, step, lost go on */
+    double dt_previous;   /* 0 before the first step */
+    mps__pose before;     /* of the tank at the beginning of the last step, */
+    double dt_before;     /* which was this long */
+    mps__work work;
+    int64_t linked;       /* generation of the particles whose dummies know their walls */
+} mps__world;
+
+mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, double dp);
+void mps__world_free(mps__world *w);
+/* Lists at the present positions: search and sort if needed, then exact rows. Lost particles are handled here. */
+mps_status mps__world_neighbours(mps__world *w);
+/* The stencil of one radius from those lists. */
+mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *stencil);
+/* Largest speed of all particles [m/s]. */
+double mps__world_speed(const mps__world *w);
+/* One step, undone if it fails. step.c */
+mps_status mps__world_step(mps__world *w, double dt_max);
+/* Bounding box of the domain in the tank's frame. False without solids and without a given domain. */
+bool mps__world_domain(const mps__world *w, double lo[3], double hi[3]);
+
+#endif

@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Collisions, W22 (24)(25): pairs of fluid particles nearer than a distance that approach exchange momentum along their
+ * line; a fluid particle nearer than a distance to a wall loses the normal part of its approach. All pairs see the
+ * velocities before the collisions, so that the order of particles does not matter; momentum of pairs is conserved. */
+#include "builtin.h"
+
+enum { DISTANCE, RESTITUTION, WALL_DISTANCE };
+static const mps_setting settings[] = {{"distance", 0.6, 0.0, 1.5}, {"restitution", 0.5, 0.0, 1.0}, {"wall_distance", 0.5, 0.0, 1.5}};
+
+/* Change of velocity of i by its fluid neighbours. */
+static void fluid_pairs(const double *k, const mps_stage *s, int64_t i, double du[3])
+{
+    const mps_stencil *t = s->near;
+    const double reach = k[DISTANCE] * s->dp;
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        const int64_t j = t->col[p];
+        if (s->kind[j] != MPS_FLUID) continue;
+        const mps_pair q = mps_stencil_pair(t, i, p);
+        if (q.r >= reach) continue;
+        double un = 0; /* rate of separation */
+        for (int d = 0; d < s->dim; d++) un += (s->u[j * s->dim + d] - s->u[i * s->dim + d]) * q.d[d] / q.r;
+        if (un >= 0) continue;
+        const double share = (1.0 + k[RESTITUTION]) * s->density[j] / (s->density[i] + s->density[j]);
+        for (int d = 0; d < s->dim; d++) du[d] += share * un * q.d[d] / q.r;
+    }
+}
+
+/* Take away what carries i into the nearest face: the wall's normal, not the line to its particle, so that films slide. */
+static void wall_face(const double *k, const mps_stage *s, int64_t i, double du[3])
+{
+    const mps_stencil *t = s->near;
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        const int64_t j = t->col[p];
+        if (s->kind[j] != MPS_WALL) continue;
+        const mps_pair q = mps_stencil_pair(t, i, p);
+        const double *area = s->area + j * s->dim;
+        double size = 0, height = 0, un = 0;
+        for (int d = 0; d < s->dim; d++) size += area[d] * area[d];
+        size = sqrt(size);
+        if (size == 0) continue;
+        for (int d = 0; d < s->dim; d++) {
+            height -= q.d[d] * area[d] / size;
+            un += (s->u[i * s->dim + d] + du[d] - s->u[j * s->dim + d]) * area[d] / size;
+        }
+        const double across2 = q.r2 - height * height;
+        if (height >= k[WALL_DISTANCE] * s->dp || across2 > 0.6 * s->dp * s->dp || un >= 0) continue;
+        for (int d = 0; d < s->dim; d++) du[d] -= un * area[d] / size;
+    }
+}
+
+static int velocity(void *self, const double *k, mps_stage *s)
+{
+    (void)self;
+    double *change = mps_stage_scratch(s, s->n * s->dim);
+    if (!change) return 1;
+#pragma omp parallel for num_threads(s->threads) schedule(static)
+    for (int64_t i = 0; i < s->n; i++) {
+        if (s->kind[i] != MPS_FLUID) continue;
+        double du[3] = {0};
+        fluid_pairs(k, s, i, du);
+        wall_face(k, s, i, du);
+        for (int d = 0; d < s->dim; d++) change[i * s->dim + d] = du[d];
+    }
+    for (int64_t i = 0; i < s->n * s->dim; i++) s->u[i] += change[i];
+    return 0;
+}
+
+const mps_model_ops mps__collision_pair = {.struct_size = sizeof(mps_model_ops),
+                                           .api = MPS_MODEL_API,
+                                           .name = "collision.pair",
+                                           .order = 700,
+                                           .setting_count = 3,
+                                           .settings = settings,
+                                           .velocity = velocity};

@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* jacobi: the inverse of the diagonal. */
+#include "builtin.h"
+#include "kernels.h"
+#include <math.h>
+
+typedef struct jacobi {
+    mps_allocator allocator;
+    double *inverse; /* [capacity] */
+    int64_t n, capacity;
+    int threads;
+} jacobi;
+
+static int create(const mps_allocator *allocator, void **self)
+{
+    jacobi *j = mps__take(allocator, 1, sizeof *j);
+    if (!j) return MPS_PPE_NOMEM;
+    *j = (jacobi){.allocator = *allocator};
+    *self = j;
+    return 0;
+}
+
+static bool reserve(jacobi *j, int64_t n)
+{
+    if (n <= j->capacity) return true;
+    mps__give(&j->allocator, j->inverse);
+    j->capacity = n + n / 8;
+    j->inverse = mps__take(&j->allocator, j->capacity, sizeof *j->inverse);
+    if (!j->inverse) j->capacity = 0;
+    return j->inverse;
+}
+
+static int setup(void *self, const mps_ppe_problem *problem)
+{
+    jacobi *j = self;
+    if (!reserve(j, problem->n)) return MPS_PPE_NOMEM;
+    j->n = problem->n;
+    j->threads = problem->threads;
+    for (int64_t i = 0; i < problem->n; i++) {
+        double d = mps__rows_diagonal(problem, i);
+        if (!isfinite(d)) return MPS_PPE_NAN;
+        if (d < 0) return MPS_PPE_INDEFINITE;
+        j->inverse[i] = d > 0 ? 1 / d : 1; /* an empty row is a particle without neighbours, its residual is 0 */
+    }
+    return 0;
+}
+
+static int apply(void *self, const double *r, double *z)
+{
+    const jacobi *j = self;
+#pragma omp parallel for simd schedule(static) num_threads(mps__team(j->n, j->threads))
+    for (int64_t i = 0; i < j->n; i++) z[i] = j->inverse[i] * r[i];
+    return 0;
+}
+
+static void destroy(void *self)
+{
+    jacobi *j = self;
+    if (!j) return;
+    mps_allocator allocator = j->allocator;
+    mps__give(&allocator, j->inverse);
+    mps__give(&allocator, j);
+}
+
+const mps_preconditioner_ops mps__preconditioner_jacobi = {
+    .struct_size = sizeof(mps_preconditioner_ops),
+    .api = MPS_PPE_API,
+    .name = "jacobi",
+    .symmetric = 1,
+    .create = create,
+    .setup = setup,
+    .apply = apply,
+    .destroy = destroy,
+};

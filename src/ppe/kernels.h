@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Building blocks of the solvers. Reductions run over fixed blocks whose sums are added in order, so the bytes of a
+ * result do not depend on the number of threads. */
+#ifndef MPS_PPE_KERNELS_H
+#define MPS_PPE_KERNELS_H
+
+#include <mps/ppe.h>
+#include <stdbool.h>
+
+enum { MPS__BLOCK = 1024, MPS__TEAM_LEAST = 8192 };
+
+static inline int64_t mps__blocks(int64_t n) { return (n + MPS__BLOCK - 1) / MPS__BLOCK; }
+
+/* Threads worth waking for n elements. */
+static inline int mps__team(int64_t n, int threads) { return n < MPS__TEAM_LEAST || threads < 1 ? 1 : threads; }
+
+/* `count` elements (at least one) or NULL; not zeroed. */
+void *mps__take(const mps_allocator *allocator, int64_t count, size_t size);
+void mps__give(const mps_allocator *allocator, void *block);
+
+/* x'y over at most one block. */
+double mps__block_dot(const double *x, const double *y, int64_t count);
+/* x'y; partial [blocks] is scratch. */
+double mps__blocked_dot(const double *x, const double *y, int64_t n, int threads, double *partial);
+
+/* y = A x. @return x'y; partial [blocks] is scratch */
+double mps__rows_multiply(const mps_ppe_problem *problem, const double *x, double *y, double *partial);
+/* Diagonal of row i, 0 if the row has none. */
+double mps__rows_diagonal(const mps_ppe_problem *problem, int64_t i);
+/* Whether no row has a negative diagonal. */
+bool mps__rows_nonnegative(const mps_ppe_problem *problem);
+
+/* A first guess with NaN or infinity becomes zero. */
+void mps__guess_clean(double *p, int64_t n);
+/* Subtract the mean of p over each singular component, whose null vector is 1; sums [2 components] is scratch. */
+void mps__components_center(const mps_ppe_problem *problem, double *p, double *sums);
+
+/* How far a result is above the wanted limits; at most 1: both are met. */
+double mps__result_excess(const mps_ppe_problem *problem, const mps_ppe_result *result);
+
+double mps__seconds(void); /* monotonic */
+
+#endif

@@ -1,0 +1,268 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Driver of the iterative solvers. Each pass solves A d = b - A p from d = 0 and adds d to p. A SUNDIALS solver stops on
+ * its own, recursive residual; passes go on until the true one is small in both norms. */
+#include "krylov.h"
+#include "kernels.h"
+#include <math.h>
+#include <string.h>
+
+enum { IDLE_PASSES = 4 }; /* passes without progress before giving up */
+
+typedef struct krylov {
+    const mps__krylov_kind *kind;
+    mps__space space;
+    SUNLinearSolver solver;
+    N_Vector x, b, stop;
+    double *start, *residual, *correction, *inner; /* [capacity] */
+    double *sums;                                  /* [2 sum_capacity] */
+    int64_t sum_capacity;
+    /* of the solve in progress */
+    const mps_ppe_problem *problem;
+    const mps_preconditioner_ops *pc;
+    void *pc_self;
+    int failure; /* reason found by a callback, 0: none */
+} krylov;
+
+/* ---- callbacks of SUNDIALS: non-zero stops the solver ---- */
+
+static int apply(krylov *k, const double *r, double *z)
+{
+    k->failure = k->pc->apply(k->pc_self, r, z);
+    return k->failure ? -1 : 0;
+}
+
+/* z = A v, or A M^-1 v where the method leaves preconditioning to us. */
+static int times(void *data, N_Vector v, N_Vector z)
+{
+    krylov *k = data;
+    const double *x = mps__vector_data(v);
+    double *y = mps__vector_data(z);
+    if (k->pc && !k->kind->symmetric) {
+        if (apply(k, x, k->inner)) return -1;
+        x = k->inner;
+    }
+    double curvature = mps__rows_multiply(k->problem, x, y, k->space.partial);
+    mps__space_remember(&k->space, x, y, curvature);
+    if (!isfinite(curvature)) k->failure = MPS_PPE_BREAKDOWN;
+    else if (k->kind->symmetric && curvature < 0) k->failure = MPS_PPE_INDEFINITE;
+    else if (k->kind->symmetric && curvature == 0) k->failure = MPS_PPE_BREAKDOWN;
+    return k->failure ? -1 : 0;
+}
+
+/* z = M^-1 r inside conjugate gradients, which need r'z > 0. */
+static int precondition(void *data, N_Vector vr, N_Vector vz, sunrealtype tolerance, int side)
+{
+    (void)tolerance, (void)side;
+    krylov *k = data;
+    const double *r = mps__vector_data(vr);
+    double *z = mps__vector_data(vz);
+    if (apply(k, r, z)) return -1;
+    double dot = mps__blocked_dot(r, z, k->space.n, k->space.threads, k->space.partial);
+    mps__space_remember(&k->space, r, z, dot);
+    if (!isfinite(dot)) k->failure = MPS_PPE_NAN;
+    else if (dot <= 0) k->failure = MPS_PPE_INDEFINITE;
+    return k->failure ? -1 : 0;
+}
+
+/* ---- memory ---- */
+
+static void drop(krylov *k)
+{
+    const mps_allocator *a = &k->space.allocator;
+    if (k->solver) SUNLinSolFree(k->solver);
+    if (k->x) N_VDestroy(k->x);
+    if (k->b) N_VDestroy(k->b);
+    if (k->stop) N_VDestroy(k->stop);
+    mps__give(a, k->start);
+    mps__give(a, k->residual);
+    mps__give(a, k->correction);
+    mps__give(a, k->inner);
+    mps__give(a, k->space.partial);
+    k->solver = NULL;
+    k->x = k->b = k->stop = NULL;
+    k->start = k->residual = k->correction = k->inner = k->space.partial = NULL;
+    k->space.capacity = 0;
+}
+
+static bool make_arrays(krylov *k, int64_t capacity)
+{
+    const mps_allocator *a = &k->space.allocator;
+    k->space.capacity = capacity;
+    k->start = mps__take(a, capacity, sizeof *k->start);
+    k->residual = mps__take(a, capacity, sizeof *k->residual);
+    k->correction = mps__take(a, capacity, sizeof *k->correction);
+    k->inner = mps__take(a, capacity, sizeof *k->inner);
+    k->space.partial = mps__take(a, mps__blocks(capacity), sizeof *k->space.partial);
+    return k->start && k->residual && k->correction && k->inner && k->space.partial;
+}
+
+static bool make_solver(krylov *k)
+{
+    k->x = mps__vector_wrap(&k->space, k->correction);
+    k->b = mps__vector_wrap(&k->space, k->residual);
+    k->stop = mps__vector_stop(&k->space);
+    if (!k->x || !k->b || !k->stop) return false;
+    k->solver = k->kind->make(k->x, k->space.context);
+    if (!k->solver || SUNLinSolSetATimes(k->solver, k, times)) return false;
+    if (!k->kind->symmetric) return !SUNLinSolInitialize(k->solver);
+    return !SUNLinSolSetPreconditioner(k->solver, k, NULL, precondition) && !SUNLinSolSetScalingVectors(k->solver, k->stop, NULL) &&
+           !SUNLinSolInitialize(k->solver);
+}
+
+static bool make_sums(krylov *k, int64_t components)
+{
+    if (components <= k->sum_capacity) return true;
+    double *larger = mps__take(&k->space.allocator, 2 * components, sizeof *larger);
+    if (!larger) return false;
+    mps__give(&k->space.allocator, k->sums);
+    k->sums = larger;
+    k->sum_capacity = components;
+    return true;
+}
+
+/* Room for a problem; kept for the next one. */
+static bool prepare(krylov *k, const mps_ppe_problem *problem)
+{
+    k->space.n = problem->n;
+    k->space.threads = problem->threads;
+    k->space.weight = problem->divergence > 0 ? problem->weight : NULL;
+    if (problem->component && !make_sums(k, problem->components)) return false;
+    if (problem->n <= k->space.capacity) return true;
+    drop(k);
+    if (make_arrays(k, problem->n + problem->n / 8) && make_solver(k)) return true;
+    drop(k);
+    return false;
+}
+
+/* ---- solution ---- */
+
+/* One run of the method on A d = residual; p takes d. */
+static void run(krylov *k, double *p, double delta, mps_ppe_result *result)
+{
+    const mps_ppe_problem *problem = k->problem;
+    double *d = k->correction;
+    memset(d, 0, (size_t)problem->n * sizeof *d);
+    k->failure = 0;
+    SUNLinSolSetZeroGuess(k->solver, SUNTRUE);
+    int flag = k->kind->run(k->solver, k->pc != NULL, problem->max_iterations - result->iterations, k->x, k->b, delta);
+    result->iterations += SUNLinSolNumIters(k->solver);
+    bool stopped = flag == SUNLS_SUCCESS || flag == SUNLS_RES_REDUCED || flag == SUNLS_CONV_FAIL;
+    if (!stopped && !k->failure) k->failure = MPS_PPE_BREAKDOWN;
+    if (k->pc && !k->kind->symmetric) {
+        int reason = k->pc->apply(k->pc_self, d, k->inner);
+        if (reason) k->failure = reason;
+        d = k->inner;
+    }
+    mps__guess_clean(d, problem->n);
+    for (int64_t i = 0; i < problem->n; i++) p[i] += d[i];
+    mps__components_center(problem, p, k->sums);
+    mps_ppe_check(problem, p, k->residual, result);
+}
+
+/* Residual limit of the next run. Conjugate gradients measure the excess itself, the others the 2-norm; once the first
+ * limit has proved too loose aim a factor below. */
+static double next_limit(const krylov *k, const mps_ppe_result *result, double norm, bool first)
+{
+    double margin = first ? 1 : 0.5;
+    if (k->kind->symmetric) return margin;
+    return first ? k->space.norm_limit : margin * result->residual * norm / mps__result_excess(k->problem, result);
+}
+
+static int passes(krylov *k, double *p, double norm, mps_ppe_result *result)
+{
+    double best = mps__result_excess(k->problem, result);
+    for (int idle = 0, pass = 0; idle < IDLE_PASSES; pass++) {
+        if (result->iterations >= k->problem->max_iterations) return MPS_PPE_MAX_ITERATIONS;
+        run(k, p, next_limit(k, result, norm, pass == 0), result);
+        double excess = mps__result_excess(k->problem, result);
+        if (excess <= 1) return MPS_PPE_CONVERGED;
+        bool progress = excess < 0.9 * best;
+        /* a recurrence that broke down on its way may start afresh from what it reached */
+        if (k->failure && !(k->failure == MPS_PPE_BREAKDOWN && progress)) return k->failure;
+        idle = progress ? 0 : idle + 1;
+        if (excess < best) best = excess;
+    }
+    return MPS_PPE_MAX_ITERATIONS;
+}
+
+/* First guess and its residual; false: no guess gives a finite one. */
+static bool begin(krylov *k, double *p, mps_ppe_result *result)
+{
+    mps__components_center(k->problem, p, k->sums);
+    mps_ppe_check(k->problem, p, k->residual, result);
+    if (isfinite(result->residual)) return true;
+    memset(p, 0, (size_t)k->problem->n * sizeof *p);
+    mps_ppe_check(k->problem, p, k->residual, result);
+    return isfinite(result->residual);
+}
+
+static int setup(krylov *k, mps_ppe_result *result)
+{
+    if (k->kind->symmetric && !mps__rows_nonnegative(k->problem)) return MPS_PPE_INDEFINITE;
+    if (!k->pc) return 0;
+    double t = mps__seconds();
+    int reason = k->pc->setup(k->pc_self, k->problem);
+    result->setup_seconds = mps__seconds() - t;
+    return reason;
+}
+
+static int attempt(krylov *k, double *p, mps_ppe_result *result)
+{
+    const mps_ppe_problem *problem = k->problem;
+    size_t bytes = (size_t)problem->n * sizeof *p;
+    double norm = sqrt(mps__blocked_dot(problem->rhs, problem->rhs, problem->n, problem->threads, k->space.partial));
+    if (norm == 0) memset(p, 0, bytes);
+    if (!begin(k, p, result)) return MPS_PPE_NAN;
+    double excess = mps__result_excess(problem, result);
+    if (excess <= 1) return MPS_PPE_CONVERGED;
+    memcpy(k->start, p, bytes);
+    int reason = setup(k, result);
+    if (reason) return reason;
+    k->space.norm_limit = problem->tolerance * norm;
+    k->space.divergence_limit = problem->divergence;
+    reason = passes(k, p, norm, result);
+    bool failed = reason != MPS_PPE_CONVERGED && reason != MPS_PPE_MAX_ITERATIONS;
+    if (failed || !(mps__result_excess(problem, result) <= excess)) {
+        memcpy(p, k->start, bytes);
+        mps_ppe_check(problem, p, k->residual, result);
+    }
+    return reason;
+}
+
+int mps__krylov_create(const mps__krylov_kind *kind, const mps_allocator *allocator, void **self)
+{
+    krylov *k = mps__take(allocator, 1, sizeof *k);
+    if (!k) return MPS_PPE_NOMEM;
+    *k = (krylov){.kind = kind};
+    k->space.allocator = *allocator;
+    k->space.context = mps__sundials_context();
+    *self = k;
+    if (k->space.context) return 0;
+    mps__krylov_destroy(k);
+    *self = NULL;
+    return MPS_PPE_NOMEM;
+}
+
+void mps__krylov_solve(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc, void *pc_self, double *p,
+                       mps_ppe_result *result)
+{
+    krylov *k = self;
+    *result = (mps_ppe_result){MPS_PPE_NOMEM, 0, INFINITY, INFINITY, 0};
+    mps__guess_clean(p, problem->n);
+    if (!prepare(k, problem)) return;
+    k->problem = problem;
+    k->pc = pc;
+    k->pc_self = pc_self;
+    result->reason = attempt(k, p, result);
+}
+
+void mps__krylov_destroy(void *self)
+{
+    krylov *k = self;
+    if (!k) return;
+    drop(k);
+    mps_allocator allocator = k->space.allocator;
+    mps__give(&allocator, k->sums);
+    if (k->space.context) SUNContext_Free(&k->space.context);
+    mps__give(&allocator, k);
+}

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The one place that knows which SUNDIALS this is: 6.x (Debian has 6.4.1) or 7.x. */
+#ifndef MPS_PPE_SUNDIALS_COMPAT_H
+#define MPS_PPE_SUNDIALS_COMPAT_H
+
+#include <sundials/sundials_config.h>
+#include <sundials/sundials_context.h>
+#include <sundials/sundials_linearsolver.h>
+#include <sundials/sundials_nvector.h>
+#include <sundials/sundials_types.h>
+
+#if SUNDIALS_VERSION_MAJOR < 6
+#error "libmps needs SUNDIALS 6 or 7"
+#endif
+#ifndef SUNDIALS_DOUBLE_PRECISION
+#error "libmps needs SUNDIALS in double precision"
+#endif
+
+/* A context without MPI that never prints, or NULL. */
+static inline SUNContext mps__sundials_context(void)
+{
+    SUNContext context = NULL;
+#if SUNDIALS_VERSION_MAJOR >= 7
+    if (SUNContext_Create(SUN_COMM_NULL, &context)) return NULL;
+    SUNContext_ClearErrHandlers(context); /* the default handler writes to stderr */
+#else
+    if (SUNContext_Create(NULL, &context)) return NULL;
+#endif
+    return context;
+}
+
+#endif

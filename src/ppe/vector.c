@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The operations of mps__space's vectors; see vector.h. */
+#include "vector.h"
+#include "kernels.h"
+#include <math.h>
+
+typedef struct content {
+    mps__space *space;
+    double *data;
+    bool owned, stop;
+} content;
+
+static content *content_of(N_Vector v) { return v->content; }
+
+static mps__space *written(N_Vector v)
+{
+    mps__space *space = content_of(v)->space;
+    space->dot_x = space->dot_y = NULL;
+    return space;
+}
+
+static N_Vector_ID get_id(N_Vector v)
+{
+    (void)v;
+    return SUNDIALS_NVEC_CUSTOM;
+}
+
+static sunindextype get_length(N_Vector v) { return (sunindextype)content_of(v)->space->n; }
+
+static void destroy(N_Vector v)
+{
+    if (!v) return;
+    content *c = v->content;
+    if (c) {
+        mps_allocator allocator = c->space->allocator;
+        if (c->owned) mps__give(&allocator, c->data);
+        mps__give(&allocator, c);
+    }
+    v->content = NULL;
+    N_VFreeEmpty(v);
+}
+
+static N_Vector clone(N_Vector v)
+{
+    mps__space *space = content_of(v)->space;
+    double *data = mps__take(&space->allocator, space->capacity, sizeof *data);
+    if (!data) return NULL;
+    N_Vector w = mps__vector_wrap(space, data);
+    if (w)
+        content_of(w)->owned = true;
+    else
+        mps__give(&space->allocator, data);
+    return w;
+}
+
+static void linear_sum(sunrealtype a, N_Vector vx, sunrealtype b, N_Vector vy, N_Vector vz)
+{
+    mps__space *space = written(vz);
+    const double *x = mps__vector_data(vx), *y = mps__vector_data(vy);
+    double *z = mps__vector_data(vz);
+#pragma omp parallel for simd schedule(static) num_threads(mps__team(space->n, space->threads))
+    for (int64_t i = 0; i < space->n; i++) z[i] = a * x[i] + b * y[i];
+}
+
+static void fill(sunrealtype a, N_Vector vz)
+{
+    mps__space *space = written(vz);
+    double *z = mps__vector_data(vz);
+#pragma omp parallel for simd schedule(static) num_threads(mps__team(space->n, space->threads))
+    for (int64_t i = 0; i < space->n; i++) z[i] = a;
+}
+
+static void scale(sunrealtype a, N_Vector vx, N_Vector vz)
+{
+    mps__space *space = written(vz);
+    const double *x = mps__vector_data(vx);
+    double *z = mps__vector_data(vz);
+#pragma omp parallel for simd schedule(static) num_threads(mps__team(space->n, space->threads))
+    for (int64_t i = 0; i < space->n; i++) z[i] = a * x[i];
+}
+
+/* How far r is above the limits of both norms, in one pass. */
+static double excess(mps__space *space, const double *r)
+{
+    int64_t n = space->n, blocks = mps__blocks(n);
+    const double *weight = space->weight;
+    double largest = 0, squares = 0;
+    /* a maximum does not depend on the order */
+#pragma omp parallel for schedule(static) num_threads(mps__team(n, space->threads)) reduction(max : largest)
+    for (int64_t b = 0; b < blocks; b++) {
+        int64_t lo = b * MPS__BLOCK, hi = lo + MPS__BLOCK < n ? lo + MPS__BLOCK : n;
+        space->partial[b] = mps__block_dot(r + lo, r + lo, hi - lo);
+        for (int64_t i = lo; weight && i < hi; i++) largest = fmax(largest, fabs(r[i] * weight[i]));
+    }
+    for (int64_t b = 0; b < blocks; b++) squares += space->partial[b];
+    double norm = sqrt(squares) / space->norm_limit;
+    double divergence = weight ? largest / space->divergence_limit : 0;
+    return norm < divergence ? divergence : norm;
+}
+
+static void product(N_Vector vx, N_Vector vy, N_Vector vz)
+{
+    mps__space *space = written(vz);
+    const double *x = mps__vector_data(vx), *y = mps__vector_data(vy);
+    double *z = mps__vector_data(vz);
+    if (content_of(vy)->stop) {
+        /* z is only the scratch of "may I stop?", so its norm is all that is needed */
+        double e = excess(space, x);
+        mps__space_remember(space, z, z, e * e);
+        return;
+    }
+#pragma omp parallel for simd schedule(static) num_threads(mps__team(space->n, space->threads))
+    for (int64_t i = 0; i < space->n; i++) z[i] = x[i] * y[i];
+}
+
+static void quotient(N_Vector vx, N_Vector vy, N_Vector vz)
+{
+    mps__space *space = written(vz);
+    const double *x = mps__vector_data(vx), *y = mps__vector_data(vy);
+    double *z = mps__vector_data(vz);
+#pragma omp parallel for simd schedule(static) num_threads(mps__team(space->n, space->threads))
+    for (int64_t i = 0; i < space->n; i++) z[i] = x[i] / y[i];
+}
+
+static sunrealtype dot_product(N_Vector vx, N_Vector vy)
+{
+    const mps__space *space = content_of(vx)->space;
+    const double *x = mps__vector_data(vx), *y = mps__vector_data(vy);
+    bool known = (x == space->dot_x && y == space->dot_y) || (x == space->dot_y && y == space->dot_x);
+    return known ? space->dot : mps__blocked_dot(x, y, space->n, space->threads, space->partial);
+}
+
+static void set_ops(N_Vector v)
+{
+    v->ops->nvgetvectorid = get_id;
+    v->ops->nvgetlength = get_length;
+    v->ops->nvgetarraypointer = mps__vector_data;
+    v->ops->nvclone = clone;
+    v->ops->nvdestroy = destroy;
+    v->ops->nvlinearsum = linear_sum;
+    v->ops->nvconst = fill;
+    v->ops->nvscale = scale;
+    v->ops->nvprod = product;
+    v->ops->nvdiv = quotient;
+    v->ops->nvdotprod = dot_product;
+}
+
+N_Vector mps__vector_wrap(mps__space *space, double *data)
+{
+    content *c = mps__take(&space->allocator, 1, sizeof *c);
+    if (!c) return NULL;
+    *c = (content){space, data, false, false};
+    N_Vector v = N_VNewEmpty(space->context);
+    if (!v) {
+        mps__give(&space->allocator, c);
+        return NULL;
+    }
+    set_ops(v);
+    v->content = c;
+    return v;
+}
+
+N_Vector mps__vector_stop(mps__space *space)
+{
+    N_Vector v = mps__vector_wrap(space, NULL);
+    if (v) content_of(v)->stop = true;
+    return v;
+}
+
+double *mps__vector_data(N_Vector v) { return content_of(v)->data; }
+
+void mps__vector_point(N_Vector v, double *data) { content_of(v)->data = data; }
+
+void mps__space_remember(mps__space *space, const double *x, const double *y, double dot)
+{
+    space->dot_x = x;
+    space->dot_y = y;
+    space->dot = dot;
+}

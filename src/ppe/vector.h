@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A SUNDIALS vector that is threaded and deterministic, lives in the handle's memory and answers fused questions. */
+#ifndef MPS_PPE_VECTOR_H
+#define MPS_PPE_VECTOR_H
+
+#include "sundials_compat.h"
+#include <mps/ppe.h>
+#include <stdbool.h>
+
+/* What all vectors of one solver share. They are made for `capacity` elements and use the first n. */
+typedef struct mps__space {
+    mps_allocator allocator;
+    SUNContext context;
+    int64_t n, capacity;
+    int threads;
+    double *partial; /* [blocks of capacity] */
+    /* One dot product computed by the kernel that wrote its vectors, while they were in cache. Any other write forgets it. */
+    const double *dot_x, *dot_y;
+    double dot;
+    /* Limits behind the stopping vector. */
+    const double *weight; /* NULL: divergence not asked */
+    double norm_limit, divergence_limit;
+} mps__space;
+
+/* A vector over a borrowed array, or NULL. Its clones own theirs. */
+N_Vector mps__vector_wrap(mps__space *space, double *data);
+/* The stopping vector: N_VProd(r, stop, z) makes N_VDotProd(z, z) the square of how far r is above the limits. */
+N_Vector mps__vector_stop(mps__space *space);
+double *mps__vector_data(N_Vector v);
+void mps__vector_point(N_Vector v, double *data);
+
+/* The next N_VDotProd of x and y, in either order, answers `dot`. */
+void mps__space_remember(mps__space *space, const double *x, const double *y, double dot);
+
+#endif

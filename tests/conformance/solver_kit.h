@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Conformance kit of pressure solvers. Give it your tables; it builds systems like those of MPS, runs the solver over
+ * them and tells what it did wrong. Needs <mps/ppe.h>, the C library and nothing else; tables are tested unregistered. */
+#ifndef SOLVER_KIT_H
+#define SOLVER_KIT_H
+
+#include <mps/ppe.h>
+#include <stdbool.h>
+
+/* A system that owns its arrays, with its solution. */
+typedef struct kit_system {
+    mps_ppe_problem problem;
+    int64_t *row;
+    int32_t *col, *component;
+    double *val, *rhs, *shift, *weight, *x;
+    double *exact; /* [n] solution, of mean zero over each singular component */
+} kit_system;
+
+/* Jittered lattices of particles in separate boxes. */
+typedef struct kit_lattice {
+    int dim, nx, ny, nz;  /* particles along each side of a box; nz = 1 in 2-D */
+    int boxes;            /* 1.. */
+    int open;             /* the first `open` boxes have a free surface on top (Dirichlet), the others are singular */
+    double re;            /* kernel radius [dp] */
+    double contrast;      /* density of the upper half of a box is 1000 / contrast */
+    double compressible;  /* share of the mean diagonal added to every row as a shift */
+} kit_lattice;
+
+/* NULL when out of memory. */
+kit_system *kit_lattice_system(const kit_lattice *options);
+/* A small system from dense rows [n*n]; rhs = A exact. */
+kit_system *kit_dense_system(int n, const double *a, const double *exact);
+void kit_system_free(kit_system *system);
+
+/* An allocator that counts, and fails the fail_at-th allocation (1..; 0: never) and those after it. */
+typedef struct kit_memory {
+    mps_allocator allocator;
+    int64_t live, count, fail_at;
+} kit_memory;
+
+void kit_memory_init(kit_memory *memory);
+
+/* One solution from p with fresh states. @return the solver's reason */
+int kit_solve(const mps_solver_ops *solver, const mps_preconditioner_ops *pc, kit_memory *memory, const mps_ppe_problem *problem, double *p,
+              mps_ppe_result *result);
+
+/* |a - b| / |b| */
+double kit_difference(const double *a, const double *b, int64_t n);
+
+/* Run all checks. @param pc NULL for none. @return number of failed checks; each is told on stderr */
+int kit_check_solver(const mps_solver_ops *solver, const mps_preconditioner_ops *pc);
+/* Checks of a preconditioner alone: linear, symmetric and positive if it says so, finite, no leak. */
+int kit_check_preconditioner(const mps_preconditioner_ops *pc);
+
+#endif
