@@ -8,26 +8,26 @@ static const double LENGTH = 1, HEIGHT = 0.7, DEPTH = 0.5, AMPLITUDE = 0.02;
 
 /* Displace the lattice point (x, y) as linear theory does, which keeps areas: a straight stretch of the columns would
  * compress the water under the trough. What second order leaves at the top of a column is put right over its height. */
-static void displace(double x, double y, double top, double *out)
+static void displace(double x, double y, double k, double top, double *out)
 {
-    double k = acos(-1.0) / LENGTH, a = AMPLITUDE / sinh(k * top);
+    double a = AMPLITUDE / sinh(k * top);
     double surface_x = x - a * cosh(k * top) * sin(k * x), surface_y = top + AMPLITUDE * cos(k * x);
     out[0] = x - a * cosh(k * y) * sin(k * x);
     out[1] = y + a * sinh(k * y) * cos(k * x);
     out[1] *= (top + AMPLITUDE * cos(k * surface_x)) / surface_y;
 }
 
-static void add_water(run *r)
+static void add_water(run *r, double length)
 {
-    double dp = r->options.dp;
-    int columns = (int)lround(LENGTH / dp) - 1, rows = (int)lround(DEPTH / dp);
+    double dp = r->options.dp, k = acos(-1.0) / length;
+    int columns = (int)lround(length / dp) - 1, rows = (int)lround(DEPTH / dp);
     mps_particle_block block;
     mps_particle_block_init(&block, sizeof block);
     block.count = (int64_t)columns * rows;
     double *x = malloc((size_t)block.count * 2 * sizeof *x);
     if (!x) run_check(r, MPS_E_NOMEM, "water");
     for (int i = 0; x && i < columns; i++)
-        for (int j = 0; j < rows; j++) displace((i + 1) * dp, (j + 1) * dp, rows * dp, x + 2 * ((int64_t)i * rows + j));
+        for (int j = 0; j < rows; j++) displace((i + 1) * dp, (j + 1) * dp, k, rows * dp, x + 2 * ((int64_t)i * rows + j));
     block.position = x;
     mps_status status = mps_particles_add(r->sim, &block, NULL);
     free(x);
@@ -37,11 +37,12 @@ static void add_water(run *r)
 static void build(run *r)
 {
     mps_tank tank;
+    double built[3];
     mps_tank_init(&tank, sizeof tank);
     tank.size[0] = LENGTH;
     tank.size[1] = HEIGHT;
-    run_check(r, mps_geometry_tank(r->sim, &tank, NULL), "tank");
-    add_water(r);
+    run_check(r, mps_geometry_tank(r->sim, &tank, built), "tank");
+    add_water(r, built[0]);
 }
 
 int main(int argc, char **argv)

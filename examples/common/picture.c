@@ -91,6 +91,13 @@ static int compare_doubles(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+/* Two digits, rounded up: a scale one can read. */
+static double round_up(double value)
+{
+    double power = pow(10, floor(log10(value)) - 1);
+    return ceil(value / power) * power;
+}
+
 /* Top of the scale: the 99 % quantile of the fluid's pressures, so that one peak does not flatten the rest. */
 static double scene_p_max(const scene *s)
 {
@@ -103,7 +110,7 @@ static double scene_p_max(const scene *s)
         top = p[(n - 1) * 99 / 100];
     }
     free(p);
-    return top > 0 ? top : 1;
+    return top > 0 ? round_up(top) : 1;
 }
 
 /* The window: all walls with a little margin, or all fluid when there is no wall. */

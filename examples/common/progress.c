@@ -39,6 +39,7 @@ bool progress_step(progress *p, const mps_step_info *info)
     double now = progress_clock(), interval = p->terminal ? 0.1 : 5;
     if (p->quiet || now - p->shown < interval) return false;
     double rate = (double)(info->step - p->steps_shown) * (double)p->particles / (now - p->shown);
+    p->rate = p->rate > 0 ? 0.8 * p->rate + 0.2 * rate : rate; /* a tenth of a second is only a few steps */
     double eta = info->t > 0 ? (now - p->start) * (p->t_end - info->t) / info->t : 0;
     double percent = 100 * info->t / p->t_end;
     p->shown = now;
@@ -47,12 +48,12 @@ bool progress_step(progress *p, const mps_step_info *info)
         char left[32];
         progress_time(left, sizeof left, eta);
         const char *on = p->colour ? "\033[1m" : "", *off = p->colour ? "\033[0m" : "";
-        fprintf(stderr, "\r%s%5.1f %%%s  t %.3f s  dt %.1e s  CFL %.2f  PPE %3d  %.0f kparticles/s  left %s \033[K", on, percent, off,
-                info->t, info->dt, info->cfl, (int)info->ppe_iterations, rate / 1000, left);
+        fprintf(stderr, "\r%s%5.1f %%%s  t %.3f s  dt %.1e  CFL %.2f  PPE %3d  %.0f kp/s  left %s\033[K", on, percent, off, info->t,
+                info->dt, info->cfl, (int)info->ppe_iterations, p->rate / 1000, left);
         p->line = true;
     } else {
         fprintf(stderr, "percent=%.1f t=%.4f dt=%.3e cfl=%.3f ppe_iterations=%d particles_per_s=%.3e eta_s=%.0f\n", percent, info->t,
-                info->dt, info->cfl, (int)info->ppe_iterations, rate, eta);
+                info->dt, info->cfl, (int)info->ppe_iterations, p->rate, eta);
     }
     fflush(stderr);
     return true;

@@ -13,6 +13,7 @@ typedef struct progress {
     double t_end;
     int64_t particles;
     int64_t steps_shown; /* steps at the last output, for the rate */
+    double rate;         /* particles a second, smoothed */
 } progress;
 
 /* Wall clock, monotonic [s]. */

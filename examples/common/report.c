@@ -35,7 +35,13 @@ static void plots_unit(plots *all, const run *r, const char *unit)
     bool pressure = strcmp(unit, "Pa") == 0, length = strcmp(unit, "m") == 0;
     char file[48];
     snprintf(file, sizeof file, "plot_%s.svg", pressure ? "pressure" : length ? "elevation" : r->column[0].name);
-    plot *p = plots_add(all, file, pressure ? "Pressure" : length ? "Elevation" : "Values", pressure ? "p [Pa]" : length ? "[m]" : unit);
+    plot *p = plots_add(all, file,
+                        pressure ? "Pressure"
+                        : length ? "Elevation"
+                                 : "Values",
+                        pressure ? "p [Pa]"
+                        : length ? "height [m]"
+                                 : unit);
     for (int i = 0; i < r->own_columns; i++)
         if (strcmp(r->column[i].unit, unit) == 0) plot_add(p, column_of(&r->probes, r->column[i].name, 1 + i, 0));
     for (int i = 0; i < r->marks; i++) {

@@ -2,7 +2,8 @@
 /** @file geometry.h  Tanks, baffles and fluid fills on the papers' lattice.
  *
  *  Lattice points are lo + k dp. The wall layer lies ON the tank's wall, the first fluid particle one dp inside, dummy
- *  layers one and two dp behind the wall. 2-D: 199 x 62 fluid and 1974 boundary particles for Z14's surge tank. */
+ *  layers one and two dp behind the wall. 2-D: 199 x 62 fluid and 1974 boundary particles for Z14's surge tank.
+ *  Places are in the tank's frame; particles go where its pose at present puts them. */
 #ifndef MPS_GEOMETRY_H
 #define MPS_GEOMETRY_H
 
@@ -29,7 +30,8 @@ MPS_API mps_status mps_tank_init(mps_tank *tank, size_t size);
 MPS_API mps_status mps_geometry_tank(mps_sim *sim, const mps_tank *tank, double *built);
 
 /** Add a solid box (a baffle): lattice points of the closed box lo..hi, its outer layer walls, what lies inside dummies.
- *  Must follow mps_geometry_tank() and come before the fill; points taken by other solids are left out.
+ *  Must follow mps_geometry_tank() and come before the fill; points taken by other particles are left out, so that the
+ *  walls a baffle stands on stay. A box thinner than dp is one column of walls whose two faces cancel (net area 0).
  *  @param name  part name @param lo,hi [dim] corners [m]
  *  @return MPS_E_ARG if no lattice point lies inside */
 MPS_API mps_status mps_geometry_baffle(mps_sim *sim, const char *name, const double *lo, const double *hi);

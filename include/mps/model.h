@@ -16,10 +16,12 @@ MPS_BEGIN_DECLS
 
 /** Where a particle is, set by classify verbs. */
 enum {
-    MPS_REGION_INNER = 0,   /**< inside the fluid, or a solid particle */
-    MPS_REGION_NEAR = 1,    /**< inside, with a surface particle among its near neighbours */
-    MPS_REGION_SURFACE = 2, /**< on the free surface: p is given there */
-    MPS_REGION_SPRAY = 3    /**< detached: ballistic, p = 0 */
+    MPS_REGION_INNER = 0,   /**< inside the fluid, or a wetted solid particle */
+    MPS_REGION_SECOND = 1,  /**< fluid with a NEAR particle among its near neighbours */
+    MPS_REGION_NEAR = 2,    /**< fluid with a SURFACE particle among its near neighbours */
+    MPS_REGION_SURFACE = 3, /**< on the free surface: p is given there */
+    MPS_REGION_SPRAY = 4,   /**< detached fluid: ballistic, p = 0, in no operator of the pressure */
+    MPS_REGION_DRY = 5      /**< solid without fluid about it, and every dummy: p = 0, in no operator of the pressure */
 };
 
 /** Everything a verb may see; rows are particles in the present order. All arrays are borrowed for the call. */
@@ -47,24 +49,28 @@ typedef struct mps_stage {
     const double *area;       /**< [n*dim] wetted area vector of wall particles, into the fluid */
     const int32_t *wall_of;   /**< [n] nearest wall particle of a dummy, -1: none near */
     double *number_density;   /**< [n] sum W over the near pairs; classify may change it */
-    int32_t *region;          /**< [n] MPS_REGION_..., written by classify */
-    int32_t *owner;           /**< [n] whose pressure unknown a particle uses: itself, or the wall particle of a dummy; -1: none */
-    double *offset;           /**< [n] p_i = p_owner(i) + offset_i [Pa], written by classify */
-    double *correction;       /**< [n*dim*dim] B_i of mps_op_correction() over the near pairs; classify may change it */
+    const double *asymmetry;  /**< [n*dim] A_i over the near pairs, W22 (11) */
+    int32_t *region;          /**< [n] MPS_REGION_..., written by classify; fluid and walls arrive INNER, dummies DRY */
+    double *wet;              /**< [n] share 0..1 of a wall particle's fluid side that holds fluid, written by classify; arrives 1 */
+    double *correction;       /**< [n*dim*dim] B_i, symmetric, written by classify; arrives as the unit matrix */
     const mps_stencil *near;  /**< pairs within re_near */
     const mps_stencil *far;   /**< pairs within re_far */
     void *host;               /**< private */
 } mps_stage;
 
-/** The pressure equation row by row, units [1/s2]: sum_j k_ij (p_i - p_j) + shift_i p_i = rhs_i, k_ij = 2D/(n0 lambda) W_ij/rho_ij.
- *  What is given for a dummy counts for its owner. Verbs add to what they find. */
+/** The pressure equation: sum_j k_ij (p_i - p_j + q_ij) + shift_i p_i = rhs_i [1/s2] over pairs of fluid and walls, with
+ *  k_ij = 2D/(n0 lambda) W_ij/rho_ij and q_ij = rho_ij (b_i + b_j)/2 . r_ij, the difference p_j - p_i of a fluid that moves with
+ *  the tank. Unknowns are particles of regions INNER, SECOND and NEAR that are not fixed. Verbs add to what they find. */
 typedef struct mps_ppe_terms {
     uint32_t struct_size;  /**< sizeof(mps_ppe_terms) */
-    int32_t wall_pairs;    /**< 1: solid-solid pairs take part too; default 0 */
+    int32_t radius;        /**< MPS_NEAR or MPS_FAR (default): the pairs of the Laplacian */
+    int32_t complete_surface; /**< 1: pairs with one particle on the surface also carry the flux of those cut off by it; default 0 */
+    double wall_factor;    /**< weight of wall-wall pairs, times the smaller `wet` of the two; default 0 */
     double *rhs;           /**< [n] e.g. -div u* / dt */
-    double *shift;         /**< [n] >= 0, e.g. the missing half space at a free surface */
+    double *shift;         /**< [n] >= 0, e.g. compressibility */
     double *value;         /**< [n] pressure of fixed rows [Pa] */
-    int32_t *fixed;        /**< [n] 1: p_i = value_i (Dirichlet); region SURFACE and SPRAY arrive fixed at 0 */
+    int32_t *fixed;        /**< [n] 1: p_i = value_i (Dirichlet); region SURFACE arrives fixed at 0 */
+    double *body;          /**< [n*dim] b, e.g. g - tank_accel [m/s2]; default 0 */
 } mps_ppe_terms;
 
 /** A number a user may set by mps_model_set(). */
@@ -85,7 +91,7 @@ typedef struct mps_model_ops {
     /** New state in *self; NULL: the model has none. Non-zero: out of memory. */
     int (*create)(const mps_allocator *allocator, void **self);
     void (*destroy)(void *self); /**< needed with create */
-    /** Set region, owner, offset. */
+    /** Set region, wet, correction. */
     int (*classify)(void *self, const double *k, mps_stage *s);
     /** Add non-pressure accelerations a [n*dim] [m/s2] of fluid particles; gravity too, where a model puts it there. */
     int (*force)(void *self, const double *k, mps_stage *s, double *a);

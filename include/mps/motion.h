@@ -2,7 +2,8 @@
 /** @file motion.h  Rigid motion of the tank: six degrees of freedom about a given centre.
  *
  *  x(t) = c + d(t) + R(t) (X - c), R = Rz(yaw) Ry(pitch) Rx(roll). In 2-D only d[0], d[1] and yaw (about z) exist; a
- *  motion in another direction is refused. All walls, probes and gauges move with the tank. */
+ *  motion in another direction is refused. All walls, probes and gauges move with the tank. Setting a motion carries the
+ *  tank and its liquid to the motion's pose at the present time; between steps it should go on from the pose there is. */
 #ifndef MPS_MOTION_H
 #define MPS_MOTION_H
 

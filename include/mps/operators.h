@@ -149,6 +149,10 @@ MPS_API mps_status mps_op_asymmetry(const mps_stencil *s, double *a);
  *  @param floor  > 0, e.g. 0.2 @param b [n*dim*dim] out, symmetric; unit matrix for a particle without neighbours */
 MPS_API mps_status mps_op_correction(const mps_stencil *s, double floor, double *b);
 
+/** Inverse of a symmetric matrix m [dim*dim] whose eigenvalues are raised to `floor` where they are smaller.
+ *  @param inverse  [dim*dim] out */
+MPS_API mps_status mps_matrix_inverse_bounded(int32_t dim, const double *m, double floor, double *inverse);
+
 MPS_END_DECLS
 
 #endif

@@ -11,9 +11,12 @@ MPS_BEGIN_DECLS
 
 /** What a probe measures. */
 enum {
-    MPS_PROBE_WALL_PRESSURE = 0, /**< 1 value [Pa]: mean over the wall particles within diameter/2, else linear between the nearest */
+    MPS_PROBE_WALL_PRESSURE = 0, /**< 1 value [Pa]: mean over the wall particles within diameter/2; fewer than two:
+                                      linear between the nearest */
     MPS_PROBE_FLUID_PRESSURE = 1,/**< 1 value [Pa]: kernel-weighted, 0 outside the fluid */
-    MPS_PROBE_GAUGE = 2,         /**< 1 value [m]: distance from `at` along `direction` to the free surface */
+    MPS_PROBE_GAUGE = 2,         /**< 1 value [m]: distance from `at` along `direction` to the free surface: the centres of the top layer
+                                      on a lattice; 0 if `at` is dry. Beside a wall the band's centre is 2/3 diameter off it.
+                                      Of several phases the densest is the liquid */
     MPS_PROBE_FORCE = 3          /**< dim + (1 in 2-D, 3 in 3-D) values [N, N m; per m in 2-D]: pressure force and moment about `at` */
 };
 
@@ -23,10 +26,10 @@ typedef struct mps_probe {
     int32_t type;         /**< MPS_PROBE_... */
     double at[3];         /**< place in the tank's frame [m]; gauge: foot of the line; force: centre of moments */
     double direction[3];  /**< gauge: along the line; default +y */
-    double diameter;      /**< wall pressure: sensor diameter [m], default dp; gauge: width of the band looked at, default 3 dp */
+    double diameter;      /**< wall pressure: sensor diameter [m], default dp; gauge: width of its band, default 3 dp, at least 2 dp */
     double length;        /**< gauge: length of the line [m]; default: to the domain's end */
     const char *part;     /**< force: name of a part, a prefix ending in '.', or NULL for all solids */
-    int32_t count_drops;  /**< gauge: 1 counts detached drops and films too */
+    int32_t count_drops;  /**< gauge: 1: the topmost particle in the band, drops and films included */
 } mps_probe;
 
 /** Defaults. */

@@ -53,7 +53,8 @@ static void evaluate(const spline_table *s, int32_t column, int64_t k, double t,
     state->accel[dof] = a * m[k] + b * m[k + 1];
 }
 
-void *mps__motion_table_create(const mps_allocator *allocator, int64_t rows, const double *t, int32_t dofs, const int32_t *dof, const double *values)
+void *mps__motion_table_create(const mps_allocator *allocator, int64_t rows, const double *t, int32_t dofs, const int32_t *dof,
+                               const double *values)
 {
     /* t, values, second derivatives, scratch */
     uint64_t numbers = (uint64_t)rows * (2u * (uint64_t)dofs + 2u);

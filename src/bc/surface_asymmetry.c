@@ -4,8 +4,8 @@
  * The papers test wall particles too (walls = 1): dry walls have p = 0. */
 #include "builtin.h"
 
-enum { LOW, HIGH, SHARE, SPRAY, WALLS };
-static const mps_setting settings[] = {{"low", 0.8, 0.0, 1.0}, {"high", 0.97, 0.5, 1.0}, {"share", 0.9, 0.0, 2.0}, {"spray", 0.25, 0.0, 1.0}, {"walls", 0.0, 0.0, 1.0}};
+enum { LOW, HIGH, SHARE, SPRAY, WALLS, COMPLETE };
+static const mps_setting settings[] = {{"low", 0.8, 0.0, 1.0}, {"high", 0.97, 0.5, 1.0}, {"share", 0.9, 0.0, 2.0}, {"spray", 0.25, 0.0, 1.0}, {"walls", 0.0, 0.0, 1.0}, {"complete", 1.0, 0.0, 1.0}};
 
 /* |A| of a particle in the top row of a lattice that fills the half space below it. */
 static double lattice_asymmetry(const mps_stencil *t)
@@ -21,6 +21,29 @@ static double lattice_asymmetry(const mps_stencil *t)
     return t->dim * sum / t->n0;
 }
 
+/* Inner fluid particles with a near neighbour of region `from` become `to`. */
+static void spread(mps_stage *s, int32_t from, int32_t to)
+{
+    const mps_stencil *t = s->near;
+#pragma omp parallel for num_threads(s->threads) schedule(static)
+    for (int64_t i = 0; i < s->n; i++) {
+        if (s->kind[i] != MPS_FLUID || s->region[i] != MPS_REGION_INNER) continue;
+        for (int64_t p = t->begin[i]; p < t->end[i]; p++)
+            if (s->kind[t->col[p]] == MPS_FLUID && s->region[t->col[p]] == from) {
+                s->region[i] = to;
+                break;
+            }
+    }
+}
+
+/* The row below the surface reaches past it, where there is nobody: its pairs with the surface carry that flux too. */
+static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *terms)
+{
+    (void)self, (void)s;
+    terms->complete_surface = k[COMPLETE] > 0;
+    return 0;
+}
+
 static int classify(void *self, const double *k, mps_stage *s)
 {
     (void)self;
@@ -29,18 +52,18 @@ static int classify(void *self, const double *k, mps_stage *s)
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_FLUID && !(s->kind[i] == MPS_WALL && k[WALLS] > 0)) continue;
-        double a[3] = {0}, fluid = 0;
-        for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-            const mps_pair q = mps_stencil_pair(t, i, p);
-            for (int d = 0; d < 3; d++) a[d] -= q.w * q.d[d] / q.r;
-            if (s->kind[q.j] == MPS_FLUID) fluid += q.w;
-        }
-        const double n = s->number_density[i] / t->n0, size = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]) * t->dim / t->n0;
+        double fluid = 0, a2 = 0;
+        for (int64_t p = t->begin[i]; p < t->end[i]; p++)
+            if (s->kind[t->col[p]] == MPS_FLUID) fluid += mps_stencil_pair(t, i, p).w;
+        for (int d = 0; d < s->dim; d++) a2 += s->asymmetry[i * s->dim + d] * s->asymmetry[i * s->dim + d];
+        const double n = s->number_density[i] / t->n0;
         if (s->kind[i] == MPS_FLUID && fluid < k[SPRAY] * t->n0)
             s->region[i] = MPS_REGION_SPRAY;
-        else if (n < k[LOW] || (n < k[HIGH] && size > a0))
+        else if (n < k[LOW] || (n < k[HIGH] && sqrt(a2) > a0))
             s->region[i] = MPS_REGION_SURFACE;
     }
+    spread(s, MPS_REGION_SURFACE, MPS_REGION_NEAR);
+    spread(s, MPS_REGION_NEAR, MPS_REGION_SECOND);
     return 0;
 }
 
@@ -48,6 +71,7 @@ const mps_model_ops mps__surface_asymmetry = {.struct_size = sizeof(mps_model_op
                                               .api = MPS_MODEL_API,
                                               .name = "surface.asymmetry",
                                               .order = 100,
-                                              .setting_count = 5,
+                                              .setting_count = 6,
                                               .settings = settings,
-                                              .classify = classify};
+                                              .classify = classify,
+                                              .source = source};

@@ -3,13 +3,6 @@
  * pressures about them and no equation of their own. */
 #include "builtin.h"
 
-static int classify(void *self, const double *k, mps_stage *s)
-{
-    (void)self, (void)k;
-    for (int64_t i = 0; i < s->n; i++) s->owner[i] = s->kind[i] == MPS_DUMMY ? -1 : (int32_t)i;
-    return 0;
-}
-
 /* Before the gradient: pressures of dummies. */
 static int gradient(void *self, const double *k, mps_stage *s, double *a)
 {
@@ -31,4 +24,4 @@ static int gradient(void *self, const double *k, mps_stage *s, double *a)
 }
 
 const mps_model_ops mps__wall_extrapolate = {
-    .struct_size = sizeof(mps_model_ops), .api = MPS_MODEL_API, .name = "wall.extrapolate", .order = 200, .classify = classify, .gradient = gradient};
+    .struct_size = sizeof(mps_model_ops), .api = MPS_MODEL_API, .name = "wall.extrapolate", .order = 200, .gradient = gradient};

@@ -28,7 +28,8 @@ static mps_status tank_cells(mps_sim *sim, const mps_tank *tank, int64_t cells[3
         MPS__CHECK(&sim->context, isfinite(tank->lo[d]), "tank.lo[%d] is %g: must be finite", d, tank->lo[d]);
         MPS__CHECK(&sim->context, isfinite(n) && n >= 3, "tank.size[%d] is %g m: at least 3 spacings of %g m", d, tank->size[d], dp);
         points *= n + 1 + 2 * tank->dummy_layers;
-        MPS__CHECK(&sim->context, points < INT32_MAX, "tank.size[%d] is %g m: too many lattice points of spacing %g m", d, tank->size[d], dp);
+        MPS__CHECK(&sim->context, points < INT32_MAX, "tank.size[%d] is %g m: too many lattice points of spacing %g m", d, tank->size[d],
+                   dp);
         cells[d] = (int64_t)n;
     }
     return MPS_OK;
@@ -41,8 +42,8 @@ static void report_size(mps_sim *sim, const mps_tank *tank, const int64_t cells[
         double size = (double)cells[d] * sim->world.dp;
         if (built) built[d] = size;
         if (d < sim->world.dim && fabs(size - tank->size[d]) > 1e-6 * sim->world.dp)
-            mps__log(&sim->context, MPS_LOG_INFO, "tank \"%s\": size %g m in %c rounded to %g m, %lld spacings", tank->name, tank->size[d], axis[d], size,
-                     (long long)cells[d]);
+            mps__log(&sim->context, MPS_LOG_INFO, "tank \"%s\": size %g m in %c rounded to %g m, %lld spacings", tank->name, tank->size[d],
+                     axis[d], size, (long long)cells[d]);
     }
 }
 
@@ -61,8 +62,9 @@ static mps_status box_points(mps_sim *sim, const double *lo, const double *hi, m
 {
     MPS__TRY(has_tank(sim));
     MPS__TRY(corners(sim, lo, hi));
-    MPS__CHECK(&sim->context, mps__lattice_clip(sim, lo, hi, box), "the box contains no lattice point of the tank: spacing is %g m, the first point (%g, %g%s)",
-               sim->world.dp, sim->lattice_lo[0], sim->lattice_lo[1], sim->world.dim == 3 ? ", ..." : "");
+    MPS__CHECK(&sim->context, mps__lattice_clip(sim, lo, hi, box),
+               "the box contains no lattice point of the tank: spacing is %g m, the first point (%g, %g%s)", sim->world.dp,
+               sim->lattice_lo[0], sim->lattice_lo[1], sim->world.dim == 3 ? ", ..." : "");
     return MPS_OK;
 }
 
@@ -88,7 +90,8 @@ mps_status mps_geometry_tank(mps_sim *sim, const mps_tank *tank, double *built)
     MPS__TRY(mps__struct_in(&sim->context, "mps_tank", &t, sizeof t, tank));
     if (t.name == NULL) t.name = tank_defaults.name;
     if (t.dummy_layers == 0) t.dummy_layers = tank_defaults.dummy_layers;
-    MPS__CHECK(&sim->context, mps__name_copy(name, sizeof name, t.name), "tank.name \"%.40s\": must have 1..%d characters", t.name, (int)sizeof name - 1);
+    MPS__CHECK(&sim->context, mps__name_copy(name, sizeof name, t.name), "tank.name \"%.40s\": must have 1..%d characters", t.name,
+               (int)sizeof name - 1);
     MPS__CHECK(&sim->context, t.dummy_layers >= 1 && t.dummy_layers <= 8, "tank.dummy_layers is %d: must be 1..8", (int)t.dummy_layers);
     MPS__CHECK(&sim->context, t.open_top == 0 || t.open_top == 1, "tank.open_top is %d: must be 0 or 1", (int)t.open_top);
     MPS__TRY(tank_cells(sim, &t, cells));

@@ -5,7 +5,10 @@
 #include <math.h>
 #include <string.h>
 
-static void release_block(mps__context *c, void *user) { mps__free(c, user); }
+static void release_block(mps__context *c, void *user)
+{
+    mps__free(c, user);
+}
 
 static mps_status changeable(mps_sim *sim)
 {
@@ -16,11 +19,11 @@ static mps_status changeable(mps_sim *sim)
 
 static mps_status check_dof(mps_sim *sim, const char *what, int64_t index, int32_t dof)
 {
-    MPS__CHECK(&sim->context, dof >= 0 && dof < MPS_DOF_COUNT, "%s %lld: degree of freedom %d is not one of 0..%d", what, (long long)index, (int)dof,
-               MPS_DOF_COUNT - 1);
+    MPS__CHECK(&sim->context, dof >= 0 && dof < MPS_DOF_COUNT, "%s %lld: degree of freedom %d is not one of 0..%d", what, (long long)index,
+               (int)dof, MPS_DOF_COUNT - 1);
     bool flat = dof == MPS_SURGE || dof == MPS_HEAVE || dof == MPS_YAW;
-    MPS__CHECK(&sim->context, flat || sim->world.dim == 3, "%s %lld: degree of freedom %d needs 3-D; 2-D has surge 0, heave 1 and yaw 4", what,
-               (long long)index, (int)dof);
+    MPS__CHECK(&sim->context, flat || sim->world.dim == 3, "%s %lld: degree of freedom %d needs 3-D; 2-D has surge 0, heave 1 and yaw 4",
+               what, (long long)index, (int)dof);
     return MPS_OK;
 }
 
@@ -29,7 +32,9 @@ static void carry_particles(mps_sim *sim, const mps__motion *old)
 {
     const mps__motion *m = &sim->world.motion;
     mps__particles *s = &sim->world.particles;
-    if (memcmp(old->now.state.value, m->now.state.value, sizeof m->now.state.value) == 0 && memcmp(old->centre, m->centre, sizeof m->centre) == 0) return;
+    if (memcmp(old->now.state.value, m->now.state.value, sizeof m->now.state.value) == 0 &&
+        memcmp(old->centre, m->centre, sizeof m->centre) == 0)
+        return;
     for (int64_t i = 0; i < s->n; i++) {
         double X[3], *x = &s->x[i * s->dim];
         if (s->kind[i] == MPS_FLUID)
@@ -38,6 +43,8 @@ static void carry_particles(mps_sim *sim, const mps__motion *old)
             memcpy(X, &s->ref[i * s->dim], (size_t)s->dim * sizeof(double));
         mps__motion_point(m, &m->now, X, x, NULL, NULL);
     }
+    /* the way from the old pose to the new one is no motion: the tank begins anew */
+    sim->world.dt_before = 0;
 }
 
 /* Replace the motion; on failure the old one stays and `next` is released. */
@@ -88,8 +95,8 @@ static mps_status check_table_times(mps_sim *sim, int64_t rows, const double *t)
     mps__context *c = &sim->context;
     for (int64_t k = 0; k < rows; k++) {
         MPS__CHECK(c, isfinite(t[k]), "motion table: t is %g in row %lld, must be finite", t[k], (long long)k);
-        MPS__CHECK(c, k == 0 || t[k] > t[k - 1], "motion table: t = %.10g in row %lld does not increase, the row before has %.10g", t[k], (long long)k,
-                   t[k > 0 ? k - 1 : 0]);
+        MPS__CHECK(c, k == 0 || t[k] > t[k - 1], "motion table: t = %.10g in row %lld does not increase, the row before has %.10g", t[k],
+                   (long long)k, t[k > 0 ? k - 1 : 0]);
     }
     MPS__CHECK(c, t[0] <= sim->world.info.t, "motion table: t = %.10g in row 0 is after the present time %.10g", t[0], sim->world.info.t);
     return MPS_OK;
@@ -100,7 +107,8 @@ static mps_status check_table_columns(mps_sim *sim, int32_t dofs, const int32_t 
     for (int32_t c = 0; c < dofs; c++) {
         MPS__TRY(check_dof(sim, "motion table: column", c, dof[c]));
         for (int32_t b = 0; b < c; b++)
-            MPS__CHECK(&sim->context, dof[b] != dof[c], "motion table: columns %d and %d are both degree of freedom %d", (int)b, (int)c, (int)dof[c]);
+            MPS__CHECK(&sim->context, dof[b] != dof[c], "motion table: columns %d and %d are both degree of freedom %d", (int)b, (int)c,
+                       (int)dof[c]);
     }
     return MPS_OK;
 }
@@ -111,10 +119,11 @@ mps_status mps_motion_set_centre(mps_sim *sim, const double *centre, int32_t sta
     mps__world *w = &sim->world;
     MPS__TRY(changeable(sim));
     if (w->info.step > 0)
-        return mps__fail(&sim->context, MPS_E_STATE, "the centre is set before the first step; %lld steps were taken", (long long)w->info.step);
+        return mps__fail(&sim->context, MPS_E_STATE, "the centre is set before the first step; %lld steps were taken",
+                         (long long)w->info.step);
     MPS__CHECK(&sim->context, centre, "centre is NULL");
-    MPS__CHECK(&sim->context, start == MPS_START_AT_REST || start == MPS_START_WITH_TANK, "start is %d: must be MPS_START_AT_REST (0) or MPS_START_WITH_TANK (1)",
-               (int)start);
+    MPS__CHECK(&sim->context, start == MPS_START_AT_REST || start == MPS_START_WITH_TANK,
+               "start is %d: must be MPS_START_AT_REST (0) or MPS_START_WITH_TANK (1)", (int)start);
     mps__motion next = w->motion;
     for (int32_t d = 0; d < w->dim; d++) {
         MPS__CHECK(&sim->context, isfinite(centre[d]), "centre[%d] is %g: must be finite", (int)d, centre[d]);
@@ -152,7 +161,8 @@ mps_status mps_motion_set_table(mps_sim *sim, int64_t rows, const double *t, int
     MPS__TRY(check_table_columns(sim, dofs, dof));
     MPS__TRY(check_table_times(sim, rows, t));
     for (int64_t k = 0; k < rows * dofs; k++)
-        MPS__CHECK(c, isfinite(values[k]), "motion table: value %g in row %lld, column %d is not finite", values[k], (long long)(k / dofs), (int)(k % dofs));
+        MPS__CHECK(c, isfinite(values[k]), "motion table: value %g in row %lld, column %d is not finite", values[k], (long long)(k / dofs),
+                   (int)(k % dofs));
     void *data = mps__motion_table_create(&c->allocator, rows, t, dofs, dof, values);
     if (!data) return no_memory(sim, rows);
     return install_function(sim, mps__motion_table, data, true, t[rows - 1]);
@@ -193,7 +203,8 @@ mps_status mps_motion_to_lab(const mps_sim *sim, const double *tank, double *lab
     if (!sim) return MPS_E_ARG;
     const mps__motion *m = &sim->world.motion;
     MPS__CHECK(mps__sim_context(sim), tank && lab, "%s is NULL", tank ? "lab" : "tank");
-    MPS__CHECK(mps__sim_context(sim), mps__finite(tank, m->dim), "the point (%g, %g%s) is not finite", tank[0], tank[1], m->dim == 3 ? ", ..." : "");
+    MPS__CHECK(mps__sim_context(sim), mps__finite(tank, m->dim), "the point (%g, %g%s) is not finite", tank[0], tank[1],
+               m->dim == 3 ? ", ..." : "");
     mps__motion_point(m, &m->now, tank, lab, velocity, NULL);
     return MPS_OK;
 }

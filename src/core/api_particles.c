@@ -54,8 +54,8 @@ static mps_status check_overlap(mps_sim *sim, const mps_particle_block *b)
         memcpy(x, s->x, (size_t)(s->n * dim) * sizeof *x);
         memcpy(x + s->n * dim, b->position, (size_t)(b->count * dim) * sizeof *x);
         status = mps_neighbours_build(list, n, x, reach, reach);
-        if (status == MPS_E_ARG) mps__fail(&sim->context, status, "%s", list->context->error);
     }
+    if (status < 0) mps__fail(&sim->context, status, "%s", list ? list->context->error : "no memory to look for overlapping particles");
     for (int64_t i = s->n; status == MPS_OK && i < n; i++)
         for (int64_t k = list->candidate_row[i]; k < list->candidate_row[i + 1] && status == MPS_OK; k++) {
             const int64_t j = list->candidate[k];

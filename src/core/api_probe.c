@@ -7,7 +7,8 @@ static const mps_energy energy_defaults = {0};
 
 static mps_status find_probe(const mps_sim *sim, int32_t id, const mps__probe **probe)
 {
-    MPS__CHECK(mps__sim_context(sim), id >= 0 && id < sim->probes.count, "probe %d: there are %lld, counted from 0", (int)id, (long long)sim->probes.count);
+    MPS__CHECK(mps__sim_context(sim), id >= 0 && id < sim->probes.count, "probe %d: there are %lld, counted from 0", (int)id,
+               (long long)sim->probes.count);
     *probe = &sim->probes.list[id];
     return MPS_OK;
 }

@@ -82,6 +82,8 @@ mps_status mps_sim_stencil(mps_sim *sim, int32_t which, mps_stencil *stencil)
         MPS__TRY(mps__world_neighbours(&sim->world));
     } else if (!mps__neighbours_fresh(&sim->world.neighbours, sim->world.particles.n, sim->world.particles.x, sim->world.re_far)) {
         return mps__fail(&sim->context, MPS_E_BUSY, "the particles must be sorted anew, but a lease is open");
+    } else {
+        MPS__TRY(mps__neighbours_rows(&sim->world.neighbours, sim->world.particles.x)); /* they moved since the step's lists */
     }
     return mps__world_stencil(&sim->world, which, stencil);
 }

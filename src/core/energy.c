@@ -26,7 +26,8 @@ static void bulk_sums(const mps__world *w, mps_energy *e)
 mps_status mps__energy_measure(mps__world *w, mps_energy *e)
 {
     const mps__budget *b = &w->budget;
-    *e = (mps_energy){.struct_size = sizeof *e, .wall_work = b->wall_work, .viscous = b->viscous, .collision = b->collision, .shift = b->shift};
+    *e = (mps_energy){
+        .struct_size = sizeof *e, .wall_work = b->wall_work, .viscous = b->viscous, .collision = b->collision, .shift = b->shift};
     mps__budget_sum(w, &e->kinetic, &e->potential);
     bulk_sums(w, e);
     if (b->started) e->numerical = e->wall_work - e->viscous - e->collision - e->shift - (e->kinetic + e->potential - b->start);

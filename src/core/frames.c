@@ -2,9 +2,8 @@
 /* Frames for ParaView: XML PolyData (.vtp) with appended raw data, and the .pvd series that names them with their times.
  * Every file is written beside its place and renamed, so that a reader never sees half a file. */
 #define _POSIX_C_SOURCE 200809L
-#include "sim.h"
+#include "frames.h"
 #include <errno.h>
-#include <mps/output.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -12,7 +11,7 @@
 enum { NAME_SIZE = 48, CHUNK = 512, COLUMNS = MPS__FIELDS_MAX + 4 };
 
 struct mps_frames {
-    mps_sim *sim;
+    mps__world *world; /* borrowed */
     int32_t kinds;
     char name[NAME_SIZE];
     char *folder, *path, *temporary; /* the last two are room for file names */
@@ -42,14 +41,14 @@ typedef struct frame {
     const mps__particles *s;
     FILE *file;
     int64_t points;
-    uint64_t offset;      /* where the next array begins behind the '_' */
+    uint64_t offset; /* where the next array begins behind the '_' */
     int32_t columns;
     column column[COLUMNS];
 } frame;
 
 static mps_status io_failed(const mps_frames *f, const char *what, const char *path)
 {
-    return mps__fail(&f->sim->context, MPS_E_IO, "cannot %s \"%.300s\": %s", what, path, strerror(errno));
+    return mps__fail(f->world->context, MPS_E_IO, "cannot %s \"%.300s\": %s", what, path, strerror(errno));
 }
 
 /* A number as XML wants it, whatever the host program's locale says about the decimal point. */
@@ -64,11 +63,20 @@ static const char *number(char out[32], double value)
 static void print_escaped(FILE *file, const char *text)
 {
     for (; *text; text++) switch (*text) {
-        case '&': fputs("&amp;", file); break;
-        case '<': fputs("&lt;", file); break;
-        case '>': fputs("&gt;", file); break;
-        case '"': fputs("&quot;", file); break;
-        default: fputc((unsigned char)*text < 0x20 ? '_' : *text, file);
+        case '&':
+            fputs("&amp;", file);
+            break;
+        case '<':
+            fputs("&lt;", file);
+            break;
+        case '>':
+            fputs("&gt;", file);
+            break;
+        case '"':
+            fputs("&quot;", file);
+            break;
+        default:
+            fputc((unsigned char)*text < 0x20 ? '_' : *text, file);
         }
 }
 
@@ -80,7 +88,10 @@ static const char *byte_order(void)
     return first ? "LittleEndian" : "BigEndian";
 }
 
-static bool selected(const frame *f, int64_t i) { return (f->series->kinds >> f->s->kind[i] & 1) != 0; }
+static bool selected(const frame *f, int64_t i)
+{
+    return (f->series->kinds >> f->s->kind[i] & 1) != 0;
+}
 
 /* ---- columns ---- */
 
@@ -103,7 +114,8 @@ static void list_columns(frame *f)
     add_column(f, "phase", AS_UINT8, 1, s->phase);
     add_column(f, "id", AS_INT64, 1, s->id);
     for (int32_t k = 0; k < s->fields; k++)
-        if (s->field[k].data == &s->field[k].own && s->field[k].is_public) add_column(f, s->field[k].name, AS_FLOAT64, s->field[k].components, s->field[k].own);
+        if (s->field[k].data == &s->field[k].own && s->field[k].is_public)
+            add_column(f, s->field[k].name, AS_FLOAT64, s->field[k].components, s->field[k].own);
 }
 
 static uint64_t column_bytes(const frame *f, const column *c)
@@ -119,15 +131,22 @@ static void print_array(frame *f, const char *name, stored type, int32_t width, 
     f->offset += sizeof(uint64_t) + bytes;
 }
 
-static void print_column(frame *f, const column *c) { print_array(f, c->name, c->type, c->width, column_bytes(f, c)); }
+static void print_column(frame *f, const column *c)
+{
+    print_array(f, c->name, c->type, c->width, column_bytes(f, c));
+}
 
 static void print_xml(frame *f)
 {
     char t[32];
-    fprintf(f->file, "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"%s\" header_type=\"UInt64\">\n<PolyData>\n", byte_order());
-    fprintf(f->file, "<FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">%s</DataArray></FieldData>\n",
-            number(t, f->series->sim->world.info.t));
-    fprintf(f->file, "<Piece NumberOfPoints=\"%lld\" NumberOfVerts=\"%d\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n",
+    fprintf(f->file,
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"%s\" header_type=\"UInt64\">\n<PolyData>\n",
+            byte_order());
+    fprintf(f->file,
+            "<FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">%s</DataArray></FieldData>\n",
+            number(t, f->series->world->info.t));
+    fprintf(f->file,
+            "<Piece NumberOfPoints=\"%lld\" NumberOfVerts=\"%d\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n",
             (long long)f->points, f->points > 0);
     print_column(f, &f->column[0]);
     fprintf(f->file, "</Points>\n<PointData>\n");
@@ -148,15 +167,26 @@ static size_t store(unsigned char *out, const column *c, int64_t i, int32_t comp
     double d = c->type <= AS_FLOAT64 && !padding ? ((const double *)c->data)[place] : 0;
     float single = (float)d;
     switch (c->type) {
-    case AS_FLOAT32: memcpy(out, &single, sizeof single); break;
-    case AS_FLOAT64: memcpy(out, &d, sizeof d); break;
-    case AS_UINT8: *out = (unsigned char)((const int32_t *)c->data)[place]; break;
-    case AS_INT64: memcpy(out, (const int64_t *)c->data + place, sizeof(int64_t)); break;
+    case AS_FLOAT32:
+        memcpy(out, &single, sizeof single);
+        break;
+    case AS_FLOAT64:
+        memcpy(out, &d, sizeof d);
+        break;
+    case AS_UINT8:
+        *out = (unsigned char)((const int32_t *)c->data)[place];
+        break;
+    case AS_INT64:
+        memcpy(out, (const int64_t *)c->data + place, sizeof(int64_t));
+        break;
     }
     return stored_type[c->type].size;
 }
 
-static void write_size(frame *f, uint64_t bytes) { fwrite(&bytes, sizeof bytes, 1, f->file); }
+static void write_size(frame *f, uint64_t bytes)
+{
+    fwrite(&bytes, sizeof bytes, 1, f->file);
+}
 
 static void write_column(frame *f, const column *c)
 {
@@ -189,7 +219,7 @@ static void write_cell(frame *f)
 
 static void write_frame(const mps_frames *series, FILE *file)
 {
-    frame f = {.series = series, .s = &series->sim->world.particles, .file = file};
+    frame f = {.series = series, .s = &series->world->particles, .file = file};
     for (int64_t i = 0; i < f.s->n; i++) f.points += selected(&f, i);
     list_columns(&f);
     print_xml(&f);
@@ -203,7 +233,8 @@ static void write_series(const mps_frames *f, FILE *file)
     char t[32];
     fprintf(file, "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"%s\">\n<Collection>\n", byte_order());
     for (int64_t k = 0; k < f->count; k++)
-        fprintf(file, "<DataSet timestep=\"%s\" part=\"0\" file=\"%s/%s_%06lld.vtp\"/>\n", number(t, f->times[k]), f->name, f->name, (long long)k);
+        fprintf(file, "<DataSet timestep=\"%s\" part=\"0\" file=\"%s/%s_%06lld.vtp\"/>\n", number(t, f->times[k]), f->name, f->name,
+                (long long)k);
     fprintf(file, "</Collection>\n</VTKFile>\n");
 }
 
@@ -251,7 +282,7 @@ static bool good_name(const char *name)
 
 static mps_status open_series(mps_frames *f, const char *folder)
 {
-    mps__context *c = &f->sim->context;
+    mps__context *c = f->world->context;
     size_t length = strlen(folder);
     f->path_size = length + 2 * NAME_SIZE + 32;
     f->folder = mps__alloc(c, (int64_t)length + 1, 1);
@@ -263,20 +294,18 @@ static mps_status open_series(mps_frames *f, const char *folder)
     return update_series(f);
 }
 
-mps_status mps_frames_open(mps_sim *sim, const char *folder, const char *name, int32_t kinds, mps_frames **frames)
+mps_status mps__frames_open(mps__world *w, const char *folder, const char *name, int32_t kinds, mps_frames **frames)
 {
-    if (!sim) return MPS_E_ARG;
-    mps__context *c = &sim->context;
+    mps__context *c = w->context;
     const int32_t all = MPS_FRAMES_FLUID | MPS_FRAMES_WALL | MPS_FRAMES_DUMMY;
-    MPS__CHECK(c, frames, "frames is NULL");
     *frames = NULL;
     MPS__CHECK(c, folder && folder[0], "the folder of the frames is NULL or empty");
-    MPS__CHECK(c, good_name(name), "frames: name \"%.60s\" must have 1..%d of the characters A-Z a-z 0-9 _ - . and not begin with a dot", name ? name : "",
-               NAME_SIZE - 1);
+    MPS__CHECK(c, good_name(name), "frames: name \"%.60s\" must have 1..%d of the characters A-Z a-z 0-9 _ - . and not begin with a dot",
+               name ? name : "", NAME_SIZE - 1);
     MPS__CHECK(c, kinds >= 0 && kinds <= all, "frames: kinds is %d, must be a sum of MPS_FRAMES_..., 0..%d", (int)kinds, (int)all);
     mps_frames *f = mps__alloc(c, 1, sizeof *f);
     if (!f) return MPS_E_NOMEM;
-    f->sim = sim;
+    f->world = w;
     f->kinds = kinds ? kinds : MPS_FRAMES_FLUID | MPS_FRAMES_WALL;
     memcpy(f->name, name, strlen(name) + 1);
     mps_status status = open_series(f, folder);
@@ -291,10 +320,10 @@ mps_status mps_frames_write(mps_frames *frames)
 {
     mps_frames *f = frames;
     if (!f) return MPS_E_ARG;
-    MPS__TRY(mps__grow(&f->sim->context, (void **)&f->times, &f->capacity, f->count, f->count + 1, sizeof *f->times));
+    MPS__TRY(mps__grow(f->world->context, (void **)&f->times, &f->capacity, f->count, f->count + 1, sizeof *f->times));
     snprintf(f->path, f->path_size, "%s/%s/%s_%06lld.vtp", f->folder, f->name, f->name, (long long)f->count);
     MPS__TRY(write_file(f, write_frame));
-    f->times[f->count++] = f->sim->world.info.t;
+    f->times[f->count++] = f->world->info.t;
     mps_status status = update_series(f);
     if (status < 0) f->count--;
     return status;
@@ -303,7 +332,7 @@ mps_status mps_frames_write(mps_frames *frames)
 void mps_frames_close(mps_frames *frames)
 {
     if (!frames) return;
-    mps__context *c = &frames->sim->context;
+    mps__context *c = frames->world->context;
     mps__free(c, frames->folder);
     mps__free(c, frames->path);
     mps__free(c, frames->temporary);

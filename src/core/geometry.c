@@ -18,13 +18,13 @@ typedef struct plan {
     mps_sim *sim;
     mps__lattice_box box;
     int32_t dim;
-    unsigned char *state;               /* POINT_... of every lattice point of the box, x fastest */
+    unsigned char *state; /* POINT_... of every lattice point of the box, x fastest */
     bool (*choose)(const struct plan *p, const int64_t k[3]);
     void (*describe)(const struct plan *p, const int64_t k[3], site *out);
     int64_t taken, chosen;
     /* of solids: the box whose ends are faces, and the part of each end */
     int64_t first[3], last[3];
-    int32_t part[6];                    /* x0 x1 y0 y1 z0 z1 */
+    int32_t part[6]; /* x0 x1 y0 y1 z0 z1 */
     bool open_top;
     /* of fluid */
     int32_t phase;
@@ -146,7 +146,10 @@ static mps_status plan_build(plan *p)
     return MPS_OK;
 }
 
-static void plan_free(plan *p) { mps__free(&p->sim->context, p->state); }
+static void plan_free(plan *p)
+{
+    mps__free(&p->sim->context, p->state);
+}
 
 /* ---- solids ---- */
 
@@ -175,7 +178,10 @@ static int32_t tank_part(const plan *p, const int64_t k[3])
     return -1;
 }
 
-static bool tank_choose(const plan *p, const int64_t k[3]) { return tank_part(p, k) >= 0; }
+static bool tank_choose(const plan *p, const int64_t k[3])
+{
+    return tank_part(p, k) >= 0;
+}
 
 static void tank_describe(const plan *p, const int64_t k[3], site *out)
 {
@@ -228,7 +234,8 @@ static mps_status tank_run(plan *p, const char *name)
 {
     MPS__TRY(face_parts(p, name));
     MPS__TRY(plan_choose(p));
-    MPS__CHECK(&p->sim->context, p->taken == 0, "tank \"%s\" would stand on %lld particles that are there already", name, (long long)p->taken);
+    MPS__CHECK(&p->sim->context, p->taken == 0, "tank \"%s\" would stand on %lld particles that are there already", name,
+               (long long)p->taken);
     return plan_build(p);
 }
 
@@ -329,7 +336,8 @@ bool mps__lattice_clip(const mps_sim *sim, const double *lo, const double *hi, m
     memset(box, 0, sizeof *box);
     for (int d = 0; d < sim->world.dim; d++) {
         /* a point counts as inside when it is outside by rounding only */
-        double first = ceil((lo[d] - sim->lattice_lo[d]) / sim->world.dp - 1e-6), last = floor((hi[d] - sim->lattice_lo[d]) / sim->world.dp + 1e-6);
+        double first = ceil((lo[d] - sim->lattice_lo[d]) / sim->world.dp - 1e-6),
+               last = floor((hi[d] - sim->lattice_lo[d]) / sim->world.dp + 1e-6);
         double end = (double)sim->lattice_cells[d];
         if (first > end || last < 0 || first > last) return false;
         box->lo[d] = sim->lattice_lo[d];

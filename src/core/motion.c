@@ -18,10 +18,11 @@ static void cross(const double a[3], const double b[3], double out[3])
 
 static void rotation_matrix(const double q[MPS_DOF_COUNT], double R[9])
 {
-    double cr = cos(q[MPS_ROLL]), sr = sin(q[MPS_ROLL]), cp = cos(q[MPS_PITCH]), sp = sin(q[MPS_PITCH]), cy = cos(q[MPS_YAW]), sy = sin(q[MPS_YAW]);
-    const double rows[9] = {cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr,
-                            sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr,
-                            -sp,     cp * sr,                cp * cr};
+    double cr = cos(q[MPS_ROLL]), sr = sin(q[MPS_ROLL]), cp = cos(q[MPS_PITCH]), sp = sin(q[MPS_PITCH]), cy = cos(q[MPS_YAW]),
+           sy = sin(q[MPS_YAW]);
+    const double rows[9] = {
+        cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr, sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr, -sp, cp * sr,
+        cp * cr};
     memcpy(R, rows, sizeof rows);
 }
 
@@ -58,10 +59,11 @@ static mps_status check_state(const mps__motion *m, double t, const mps_motion_s
     static const char *const what[3] = {"value", "rate", "acceleration"};
     for (int k = 0; k < MPS_DOF_COUNT; k++)
         for (int v = 0; v < 3; v++) {
-            if (!isfinite(set[v][k])) return mps__fail(m->context, MPS_E_PLUGIN, "motion: %s %s is %g at t = %g s", dof_name[k], what[v], set[v][k], t);
+            if (!isfinite(set[v][k]))
+                return mps__fail(m->context, MPS_E_PLUGIN, "motion: %s %s is %g at t = %g s", dof_name[k], what[v], set[v][k], t);
             bool flat = k == MPS_SURGE || k == MPS_HEAVE || k == MPS_YAW;
-            MPS__CHECK(m->context, m->dim == 3 || flat || set[v][k] == 0, "motion: %s %s is %g at t = %g s, but 2-D has surge, heave and yaw only", dof_name[k],
-                       what[v], set[v][k], t);
+            MPS__CHECK(m->context, m->dim == 3 || flat || set[v][k] == 0,
+                       "motion: %s %s is %g at t = %g s, but 2-D has surge, heave and yaw only", dof_name[k], what[v], set[v][k], t);
         }
     return MPS_OK;
 }
@@ -106,7 +108,8 @@ mps_status mps__motion_pose(mps__motion *m, double t, mps__pose *pose)
         return MPS_OK;
     }
     if (t > m->t_end + end_slack)
-        return mps__fail(m->context, MPS_E_STATE, "the motion is not defined at t = %.10g s: the last row of its table is at %.10g s", t, m->t_end);
+        return mps__fail(m->context, MPS_E_STATE, "the motion is not defined at t = %.10g s: the last row of its table is at %.10g s", t,
+                         m->t_end);
     mps_motion_state state = {0};
     int failed = m->fn(m->user, t, &state);
     if (failed) return mps__fail(m->context, MPS_E_PLUGIN, "the motion callback failed with %d at t = %g s", failed, t);

@@ -6,6 +6,9 @@
 
 enum { MPS__BITS_2D = 31, MPS__BITS_3D = 21 };
 
+/* More particles in one cell are no cloud but an array nobody filled: n^2 pairs would take all memory. */
+enum { MPS__CROWD = 4096 };
+
 /* Skin [dp]: a search is good until some particle moved half of it. */
 static const double skin_of_dp = 0.25;
 
@@ -66,7 +69,7 @@ static mps_status map_cells(mps_neighbours *l, int64_t n, const double *x, doubl
         }
         MPS__CHECK(l->context, (hi - lo) / size < limit, "particles lie %g m apart along axis %d (particle %lld at %g): at most %g m", hi - lo, d,
                    (long long)far, hi, limit * size);
-        m->lo[d] = lo - size; /* cell 0 stays empty, so that neighbours never wrap */
+        m->lo[d] = lo - 2 * size; /* cell 0 stays empty, also when far from the origin lo - size rounds: neighbours never wrap */
     }
     return MPS_OK;
 }
@@ -139,6 +142,18 @@ static mps_status reserve(mps_neighbours *l, int64_t n)
     return MPS_OK;
 }
 
+/* Refuse cells with too many particles; keys are sorted. */
+static mps_status check_crowds(const mps_neighbours *l, int64_t n, const double *x, double size)
+{
+    for (int64_t from = 0, to = 0; from < n; from = to) {
+        while (to < n && l->key[to] == l->key[from]) to++;
+        const double *at = x + (int64_t)l->order[from] * l->dim;
+        MPS__CHECK(l->context, to - from <= MPS__CROWD, "%lld particles lie within %g m of each other, particle %d at (%g, %g) m is one: at most %d",
+                   (long long)(to - from), size, l->order[from], at[0], at[1], MPS__CROWD);
+    }
+    return MPS_OK;
+}
+
 static mps_status sort_cells(mps_neighbours *l, int64_t n, const double *x, double re_far, cell_map *m)
 {
     l->valid = false;
@@ -149,7 +164,7 @@ static mps_status sort_cells(mps_neighbours *l, int64_t n, const double *x, doub
         l->order[i] = (int32_t)i;
     }
     sort_keys(l->key, l->order, n);
-    return MPS_OK;
+    return check_crowds(l, n, x, m->size);
 }
 
 mps_status mps__neighbours_order(mps_neighbours *l, int64_t n, const double *x, double re_far)
@@ -253,7 +268,7 @@ mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x,
     l->candidate_row[0] = 0;
     search_cells(l, &m, reach, false);
     for (int64_t i = 0; i < n; i++) l->candidate_row[i + 1] += l->candidate_row[i];
-    int64_t pairs = l->candidate_row[n], capacity = l->candidate_capacity;
+    int64_t pairs = l->candidate_row[n] > 0 ? l->candidate_row[n] : 1, capacity = l->candidate_capacity; /* never a NULL list */
     MPS__TRY(mps__grow(l->context, (void **)&l->candidate, &capacity, 0, pairs, sizeof *l->candidate));
     l->candidate_capacity = capacity;
     MPS__TRY(mps__grow(l->context, (void **)&l->col, &l->pair_capacity, 0, pairs, sizeof *l->col));

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Assembly of the pressure equation, W22 (10)(16): a row for every particle that owns a pressure, dummies summed into their
- * wall particle's row, Dirichlet neighbours moved to the right side. */
+/* Assembly of the pressure equation, W22 (10)(16)(17): a row for every unknown, Dirichlet neighbours moved to the right side. */
 #include "ppe.h"
 #include "operators.h"
 #include <string.h>
@@ -12,7 +11,7 @@ void mps__ppe_init(mps__ppe *e, mps__context *context)
 
 void mps__ppe_free(mps__ppe *e)
 {
-    void *all[] = {e->unknown, e->particle, e->row, e->member, e->members, e->col, e->val, e->rhs, e->shift, e->weight, e->x, e->p, e->component};
+    void *all[] = {e->unknown, e->particle, e->row, e->col, e->val, e->rhs, e->shift, e->weight, e->x, e->p, e->component};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) mps__free(e->context, all[k]);
     mps__ppe_init(e, e->context);
 }
@@ -26,8 +25,7 @@ static mps_status reserve(mps__ppe *e, int64_t n, int dim)
         int64_t count;
         size_t size;
     } a[] = {{(void **)&e->unknown, wanted, sizeof *e->unknown}, {(void **)&e->particle, wanted, sizeof *e->particle},
-             {(void **)&e->row, wanted + 1, sizeof *e->row},     {(void **)&e->member, wanted + 1, sizeof *e->member},
-             {(void **)&e->members, wanted, sizeof *e->members}, {(void **)&e->rhs, wanted, sizeof *e->rhs},
+             {(void **)&e->row, wanted + 1, sizeof *e->row},     {(void **)&e->rhs, wanted, sizeof *e->rhs},
              {(void **)&e->shift, wanted, sizeof *e->shift},     {(void **)&e->weight, wanted, sizeof *e->weight},
              {(void **)&e->x, wanted * dim, sizeof *e->x},       {(void **)&e->p, wanted, sizeof *e->p},
              {(void **)&e->component, wanted, sizeof *e->component}};
@@ -42,77 +40,70 @@ static mps_status reserve(mps__ppe *e, int64_t n, int dim)
     return MPS_OK;
 }
 
-static inline bool takes_part(const mps_stage *s, const mps_ppe_terms *t, int32_t i, int32_t j)
+/* What an assembly looks at. */
+typedef struct assembly {
+    mps__ppe *e;
+    const mps_stage *s;
+    const mps_ppe_terms *t;
+    const mps_stencil *pairs;
+    double c;       /* 2D/(n0 lambda) */
+    double surface; /* weight of pairs with one particle on the surface */
+} assembly;
+
+/* Full flux of a linear pressure through the row below a flat surface, over that of the pairs the surface leaves. */
+static double complete_flux(const mps_stencil *t)
 {
-    if (s->owner[j] < 0 || s->owner[i] == s->owner[j]) return false;
-    return t->wall_pairs || s->kind[i] == MPS_FLUID || s->kind[j] == MPS_FLUID;
+    const int reach = (int)(t->re / t->dp) + 1, depth = t->dim == 3 ? reach : 0;
+    double full = 0, left = 0;
+    for (int k = -depth; k <= depth; k++)
+        for (int j = 1; j <= reach; j++)
+            for (int i = -reach; i <= reach; i++) {
+                const double r = t->dp * sqrt((double)(i * i + j * j + k * k));
+                const double w = r < t->re ? mps_kernel_weight(&t->kernel, r, t->re) : 0.0;
+                full += w * j * j;
+                left += w * j;
+            }
+    return full / left;
 }
 
 /* Density of a pair: the mean between fluids, W22 (17); next to a solid the fluid's. */
-static inline double pair_density(const mps_stage *s, int32_t i, int32_t j)
+static inline double pair_density(const mps_stage *s, int64_t i, int64_t j)
 {
-    if (s->kind[i] == s->kind[j] || (s->kind[i] != MPS_FLUID && s->kind[j] != MPS_FLUID)) return 0.5 * (s->density[i] + s->density[j]);
-    return s->kind[i] == MPS_FLUID ? s->density[i] : s->density[j];
+    const bool wall_i = s->kind[i] != MPS_FLUID, wall_j = s->kind[j] != MPS_FLUID;
+    if (wall_i == wall_j) return 0.5 * (s->density[i] + s->density[j]);
+    return wall_i ? s->density[j] : s->density[i];
 }
 
-static inline double pair_weight(const mps_stage *s, int32_t i, int32_t j)
+/* Weight of a pair by what its particles are; 0: it does not take part. */
+static inline double pair_factor(const assembly *a, int64_t i, int64_t j)
 {
-    double r2 = 0;
-    for (int d = 0; d < s->dim; d++) {
-        const double m = s->x[(int64_t)j * s->dim + d] - s->x[(int64_t)i * s->dim + d];
-        r2 += m * m;
-    }
-    return mps_kernel_weight(&s->far->kernel, sqrt(r2), s->far->re) / pair_density(s, i, j);
+    const mps_stage *s = a->s;
+    if (a->e->unknown[j] < 0 && !a->t->fixed[j]) return 0.0;
+    if (s->kind[i] == MPS_WALL && s->kind[j] == MPS_WALL) return a->t->wall_factor * fmin(s->wet[i], s->wet[j]);
+    return (s->region[i] == MPS_REGION_SURFACE) != (s->region[j] == MPS_REGION_SURFACE) ? a->surface : 1.0;
 }
 
-/* Members of each owner, ascending: e->member[owner] .. e->member[owner+1] in e->members. */
-static void group_members(mps__ppe *e, const mps_stage *s)
+/* Unknowns in the order of the particles; e->row takes upper bounds of the row starts. */
+static int64_t number_rows(const assembly *a)
 {
-    memset(e->member, 0, (size_t)(s->n + 1) * sizeof *e->member);
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->owner[i] >= 0) e->member[s->owner[i] + 1]++;
-    for (int64_t i = 0; i < s->n; i++) e->member[i + 1] += e->member[i];
-    int64_t *next = e->row; /* free until rows are counted */
-    memcpy(next, e->member, (size_t)(s->n + 1) * sizeof *next);
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->owner[i] >= 0) e->members[next[s->owner[i]]++] = (int32_t)i;
-}
-
-/* Most entries the row of owner u can have; 0: nothing to solve for. */
-static int64_t row_bound(const mps__ppe *e, const mps_stage *s, const mps_ppe_terms *t, int32_t u)
-{
-    int64_t count = 0;
-    bool shifted = false;
-    for (int64_t m = e->member[u]; m < e->member[u + 1]; m++) {
-        const int32_t i = e->members[m];
-        shifted = shifted || t->shift[i] > 0;
-        for (int64_t k = s->far->begin[i]; k < s->far->end[i]; k++) count += takes_part(s, t, i, s->far->col[k]);
-    }
-    return count || shifted ? count + 1 : 0;
-}
-
-/* Number the unknowns; e->row takes upper bounds of the row starts. */
-static int64_t number_rows(mps__ppe *e, const mps_stage *s, const mps_ppe_terms *t)
-{
-    int64_t *bound = e->row + 1;
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t u = 0; u < s->n; u++) bound[u] = s->owner[u] == u && !t->fixed[u] ? row_bound(e, s, t, (int32_t)u) : 0;
-    int64_t n = 0, entries = 0;
-    for (int64_t u = 0; u < s->n; u++) {
-        e->unknown[u] = -1;
-        if (!bound[u]) continue;
-        e->unknown[u] = (int32_t)n;
-        e->particle[n] = (int32_t)u;
-        entries += bound[u];
-        e->row[++n] = entries; /* n <= u + 1: never ahead of what is read */
-    }
+    mps__ppe *e = a->e;
+    const mps_stage *s = a->s;
+    int64_t entries = 0;
+    e->n = 0;
     e->row[0] = 0;
-    e->n = n;
+    for (int64_t i = 0; i < s->n; i++) {
+        const bool solved = s->kind[i] != MPS_DUMMY && s->region[i] < MPS_REGION_SURFACE && !a->t->fixed[i];
+        e->unknown[i] = solved ? (int32_t)e->n : -1;
+        if (!solved) continue;
+        e->particle[e->n++] = (int32_t)i;
+        entries += a->pairs->end[i] - a->pairs->begin[i] + 1;
+        e->row[e->n] = entries;
+    }
     return entries;
 }
 
-/* Sort by column (stable: sums do not depend on anything else) and add up equal columns. Returns the entries left. */
-static int64_t merge_row(int32_t *col, double *val, int64_t n)
+/* Ascending columns. Near pairs come sorted; far rows are two sorted runs, for which insertion is short work. */
+static void sort_row(int32_t *col, double *val, int64_t n)
 {
     for (int64_t k = 1; k < n; k++) {
         const int32_t c = col[k];
@@ -125,60 +116,50 @@ static int64_t merge_row(int32_t *col, double *val, int64_t n)
         col[j] = c;
         val[j] = v;
     }
-    int64_t left = 0;
-    for (int64_t k = 1; k < n; k++) {
-        if (col[k] == col[left]) {
-            val[left] += val[k];
-        } else {
-            col[++left] = col[k];
-            val[left] = val[k];
-        }
-    }
-    return left + 1;
 }
 
-/* Row r: pairs of all members against unknown, fixed and empty (p = offset) neighbours. */
-static int64_t fill_row(mps__ppe *e, const mps_stage *s, const mps_ppe_terms *t, int64_t r)
+/* Row r. Returns its entries. */
+static int64_t fill_row(const assembly *a, int64_t r)
 {
-    const double c = 2.0 * s->dim / (s->far->n0 * s->far->lambda);
-    const int32_t u = e->particle[r];
+    mps__ppe *e = a->e;
+    const mps_stage *s = a->s;
+    const int64_t i = e->particle[r];
     int32_t *col = e->col + e->row[r];
-    double *val = e->val + e->row[r], diagonal = 0, shift = 0, rhs = 0;
+    double *val = e->val + e->row[r], coupling = 0, shift = a->t->shift[i], rhs = a->t->rhs[i];
     int64_t count = 1;
-    for (int64_t m = e->member[u]; m < e->member[u + 1]; m++) {
-        const int32_t i = e->members[m];
-        rhs += t->rhs[i];
-        shift += t->shift[i];
-        for (int64_t k = s->far->begin[i]; k < s->far->end[i]; k++) {
-            const int32_t j = s->far->col[k];
-            if (!takes_part(s, t, i, j)) continue;
-            const double kij = c * pair_weight(s, i, j);
-            const int32_t o = s->owner[j];
-            if (e->unknown[o] >= 0) {
-                diagonal += kij;
-                col[count] = e->unknown[o];
-                val[count++] = -kij;
-            } else if (t->fixed[o]) {
-                shift += kij;
-                rhs += kij * t->value[o];
-            } else {
-                continue;
-            }
-            rhs -= kij * (s->offset[i] - s->offset[j]);
+    for (int64_t k = a->pairs->begin[i]; k < a->pairs->end[i]; k++) {
+        const mps_pair q = mps_stencil_pair(a->pairs, i, k);
+        const double factor = pair_factor(a, i, q.j);
+        if (factor == 0) continue;
+        const double rho = pair_density(s, i, q.j), kij = a->c * factor * q.w / rho;
+        double body = 0;
+        for (int d = 0; d < s->dim; d++) body += 0.5 * (a->t->body[i * s->dim + d] + a->t->body[q.j * s->dim + d]) * q.d[d];
+        rhs -= kij * rho * body;
+        if (e->unknown[q.j] < 0) {
+            shift += kij;
+            rhs += kij * a->t->value[q.j];
+            continue;
         }
+        coupling += kij;
+        col[count] = e->unknown[q.j];
+        val[count++] = -kij;
     }
-    if (diagonal + shift == 0) shift = 1.0; /* all neighbours are empty: p = 0 */
+    if (coupling + shift == 0) { /* nobody near: p = 0 */
+        shift = a->c / s->density[i];
+        rhs = 0;
+    }
     col[0] = (int32_t)r;
-    val[0] = diagonal + shift;
+    val[0] = coupling + shift;
+    sort_row(col, val, count);
     e->rhs[r] = rhs;
     e->shift[r] = shift;
     e->weight[r] = s->dt * s->dt;
-    e->p[r] = s->p[u];
-    for (int d = 0; d < s->dim; d++) e->x[r * s->dim + d] = s->x[(int64_t)u * s->dim + d];
-    return merge_row(col, val, count);
+    e->p[r] = s->p[i];
+    for (int d = 0; d < s->dim; d++) e->x[r * s->dim + d] = s->x[i * s->dim + d];
+    return count;
 }
 
-/* Close the gaps that merging left; rows move down only. */
+/* Close the gaps between the rows; they move down only. */
 static void compact_rows(mps__ppe *e, const int64_t *length)
 {
     int64_t to = 0;
@@ -233,26 +214,32 @@ static int32_t find_singular(mps__ppe *e, int32_t *queue)
     return singular;
 }
 
+static mps_status reserve_entries(mps__ppe *e, int64_t entries)
+{
+    if (entries <= e->entry_capacity) return MPS_OK;
+    mps__free(e->context, e->col);
+    mps__free(e->context, e->val);
+    e->entry_capacity = 0;
+    e->val = NULL;
+    e->col = mps__alloc(e->context, entries + entries / 8, sizeof *e->col);
+    e->val = mps__alloc(e->context, entries + entries / 8, sizeof *e->val);
+    if (!e->col || !e->val) return MPS_E_NOMEM;
+    e->entry_capacity = entries + entries / 8;
+    return MPS_OK;
+}
+
 mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps_ppe_terms *t)
 {
     e->n = 0;
     MPS__TRY(reserve(e, s->n, s->dim));
-    group_members(e, s);
-    const int64_t entries = number_rows(e, s, t);
-    if (entries > e->entry_capacity) {
-        mps__free(e->context, e->col);
-        mps__free(e->context, e->val);
-        e->entry_capacity = 0;
-        e->val = NULL;
-        e->col = mps__alloc(e->context, entries + entries / 8, sizeof *e->col);
-        e->val = mps__alloc(e->context, entries + entries / 8, sizeof *e->val);
-        if (!e->col || !e->val) return MPS_E_NOMEM;
-        e->entry_capacity = entries + entries / 8;
-    }
+    const mps_stencil *pairs = t->radius == MPS_NEAR ? s->near : s->far;
+    const assembly a = {.e = e, .s = s, .t = t, .pairs = pairs, .c = 2.0 * s->dim / (pairs->n0 * pairs->lambda),
+                        .surface = t->complete_surface ? complete_flux(pairs) : 1.0};
+    MPS__TRY(reserve_entries(e, number_rows(&a)));
     int64_t *length = mps__alloc(e->context, e->n, sizeof *length);
     if (!length) return MPS_E_NOMEM;
 #pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t r = 0; r < e->n; r++) length[r] = fill_row(e, s, t, r);
+    for (int64_t r = 0; r < e->n; r++) length[r] = fill_row(&a, r);
     compact_rows(e, length);
     const int32_t singular = find_singular(e, (int32_t *)(void *)length);
     mps__free(e->context, length);
@@ -276,12 +263,9 @@ mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps_ppe_term
 void mps__ppe_scatter(const mps__ppe *e, const mps_stage *s, const mps_ppe_terms *t, double *p)
 {
     for (int64_t i = 0; i < s->n; i++) {
-        const int32_t u = s->owner[i];
-        if (u < 0)
-            p[i] = 0;
-        else if (e->unknown[u] >= 0)
-            p[i] = e->p[e->unknown[u]] + s->offset[i];
+        if (e->unknown[i] >= 0)
+            p[i] = e->p[e->unknown[i]];
         else
-            p[i] = t->fixed[u] ? t->value[u] + s->offset[i] : 0;
+            p[i] = t->fixed[i] ? t->value[i] : 0;
     }
 }

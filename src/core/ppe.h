@@ -11,8 +11,7 @@ typedef struct mps__ppe {
     int64_t capacity, entry_capacity, n;  /* unknowns of the last assembly */
     int32_t *unknown;                     /* [particles] row of a particle, -1: none */
     int32_t *particle;                    /* [n] particle of a row */
-    int64_t *row, *member;                /* [n+1] CSR; [n+1] members of each row */
-    int32_t *members;                     /* particles that share a row */
+    int64_t *row;                         /* [n+1] CSR */
     int32_t *col;
     double *val, *rhs, *shift, *weight, *x, *p;
     int32_t *component;
@@ -21,7 +20,7 @@ typedef struct mps__ppe {
 
 void mps__ppe_init(mps__ppe *e, mps__context *context);
 void mps__ppe_free(mps__ppe *e);
-/* Build rows for all particles that own a pressure and are not fixed. */
+/* Build a row for every unknown, with the old pressures as the first guess. */
 mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps_ppe_terms *t);
 /* Pressures of all particles from the solution e->p. */
 void mps__ppe_scatter(const mps__ppe *e, const mps_stage *s, const mps_ppe_terms *t, double *p);

@@ -6,6 +6,7 @@
  * particles without a staircase. Drops and films fill less than half of the band and stay unseen. */
 #include "probe_gauge.h"
 #include <math.h>
+#include <stdlib.h>
 
 /* Above this fraction of solids a sample says nothing about the fluid. */
 static const double solid_limit = 0.9;
@@ -13,40 +14,31 @@ static const double solid_limit = 0.9;
 /* A particle beside the line, in the line's own coordinates. */
 typedef struct beside {
     double s, across[2];
-    double facing[2];    /* of walls: direction cosines of the wetted side across the line */
+    double facing[2]; /* of walls: direction cosines of the wetted side across the line */
     bool solid;
 } beside;
 
 typedef struct line {
-    int32_t sides;       /* directions across the line: 1 or 2 */
+    int32_t sides; /* directions across the line: 1 or 2 */
     double dp, width, length;
     double foot[3], along[3], across[2][3]; /* in the lab */
     double tank_across[2][3];
     int64_t count;
-    beside *list;
+    beside *list; /* by ascending s */
 } line;
 
 /* What the band holds at one place of the line. */
 typedef struct sample {
-    double fluid, solid;            /* fractions */
-    double fill;                    /* fluid fraction of what is not solid */
-    double shift[2], slope[2];      /* band centre; d fill / d across */
+    double fluid, solid; /* fractions */
+    double fill;         /* fluid fraction of what is not solid */
 } sample;
 
-/* Cubic B-spline and its derivative, q in spacings. */
+/* Cubic B-spline, q in spacings. */
 static double spline(double q)
 {
     q = fabs(q);
     if (q >= 2) return 0;
     return q < 1 ? 2.0 / 3.0 + q * q * (0.5 * q - 1) : (2 - q) * (2 - q) * (2 - q) / 6;
-}
-
-static double spline_rate(double q)
-{
-    double a = fabs(q);
-    if (a >= 2) return 0;
-    double rate = a < 1 ? a * (1.5 * a - 2) : -0.5 * (2 - a) * (2 - a);
-    return q < 0 ? -rate : rate;
 }
 
 /* Unit vectors across the line. */
@@ -114,6 +106,12 @@ static void wall_facing(const line *l, const mps__particles *s, int64_t i, besid
     for (int32_t e = 0; e < l->sides; e++) b->facing[e] = norm > 0 ? mps__dot(area, l->tank_across[e], s->dim) / norm : 0;
 }
 
+static int compare_places(const void *a, const void *b)
+{
+    const double d = ((const beside *)a)->s - ((const beside *)b)->s;
+    return (d > 0) - (d < 0);
+}
+
 /* Particles beside the line; the lighter phases are left out. */
 static mps_status line_collect(line *l, mps__world *w)
 {
@@ -130,26 +128,43 @@ static mps_status line_collect(line *l, mps__world *w)
         MPS__TRY(mps__grow(w->context, (void **)&l->list, &capacity, l->count, l->count + 1, sizeof b));
         l->list[l->count++] = b;
     }
+    if (l->count > 0) qsort(l->list, (size_t)l->count, sizeof *l->list, compare_places);
     return MPS_OK;
 }
 
-static bool near_axis(const line *l, const beside *b, double s)
+/* The first particle at s or beyond. */
+static int64_t first_from(const line *l, double s)
 {
-    bool near = fabs(b->s - s) <= 1.01 * l->dp;
+    int64_t low = 0, high = l->count;
+    while (low < high) {
+        int64_t middle = low + (high - low) / 2;
+        if (l->list[middle].s < s)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static bool near_axis(const line *l, const beside *b)
+{
+    bool near = true;
     for (int32_t e = 0; e < l->sides; e++) near = near && fabs(b->across[e]) < 4.0 / 3.0 * l->width;
     return near;
 }
 
-/* Beside a wall the band is moved off it, so that it looks at fluid and not at a film. */
+/* Beside a wall the band is moved off it, so that it looks at fluid and not at a film: its centre is at least two thirds
+ * of the diameter away. */
 static void band_shift(const line *l, double s, double shift[2])
 {
     double low[2] = {-INFINITY, -INFINITY}, high[2] = {INFINITY, INFINITY}, reach = 4.0 / 3.0 * l->width;
-    for (int64_t k = 0; k < l->count; k++) {
+    for (int64_t k = first_from(l, s - 1.01 * l->dp); k < l->count && l->list[k].s <= s + 1.01 * l->dp; k++) {
         const beside *b = &l->list[k];
-        if (!b->solid || !near_axis(l, b, s)) continue;
+        if (!b->solid || !near_axis(l, b)) continue;
         for (int32_t e = 0; e < l->sides; e++) {
-            if (b->facing[e] > 0.5) low[e] = fmax(low[e], b->across[e]);
-            if (b->facing[e] < -0.5) high[e] = fmin(high[e], b->across[e]);
+            /* a line well behind a face is inside the solid and stays there */
+            if (b->facing[e] > 0.5 && b->across[e] < 0.75 * l->dp) low[e] = fmax(low[e], b->across[e]);
+            if (b->facing[e] < -0.5 && b->across[e] > -0.75 * l->dp) high[e] = fmin(high[e], b->across[e]);
         }
     }
     for (int32_t e = 0; e < l->sides; e++) {
@@ -163,23 +178,15 @@ static void band_shift(const line *l, double s, double shift[2])
 static sample line_sample(const line *l, double s)
 {
     sample out = {0};
-    double fluid_slope[2] = {0, 0}, solid_slope[2] = {0, 0};
-    band_shift(l, s, out.shift);
-    for (int64_t k = 0; k < l->count; k++) {
+    double shift[2];
+    band_shift(l, s, shift);
+    for (int64_t k = first_from(l, s - 2 * l->dp); k < l->count && l->list[k].s < s + 2 * l->dp; k++) {
         const beside *b = &l->list[k];
-        double weight = spline((b->s - s) / l->dp), q[2] = {0, 0}, across[2] = {1, 1};
-        if (weight == 0) continue;
-        for (int32_t e = 0; e < l->sides; e++) {
-            q[e] = (b->across[e] - out.shift[e]) / l->width;
-            across[e] = spline(q[e]) * l->dp / l->width;
-        }
-        *(b->solid ? &out.solid : &out.fluid) += weight * across[0] * across[1];
-        for (int32_t e = 0; e < l->sides; e++)
-            (b->solid ? solid_slope : fluid_slope)[e] -= weight * across[1 - e] * spline_rate(q[e]) * l->dp / (l->width * l->width);
+        double weight = spline((b->s - s) / l->dp);
+        for (int32_t e = 0; e < l->sides; e++) weight *= spline((b->across[e] - shift[e]) / l->width) * l->dp / l->width;
+        *(b->solid ? &out.solid : &out.fluid) += weight;
     }
-    double open = fmax(1 - out.solid, 1 - solid_limit);
-    out.fill = out.fluid / open;
-    for (int32_t e = 0; e < l->sides; e++) out.slope[e] = (fluid_slope[e] * open + out.fluid * solid_slope[e]) / (open * open);
+    out.fill = out.fluid / fmax(1 - out.solid, 1 - solid_limit);
     return out;
 }
 
@@ -195,19 +202,6 @@ static double crossing(const line *l, double low, double high, bool ceiling)
             high = middle;
     }
     return 0.5 * (low + high);
-}
-
-/* The band stands beside a wall, the gauge at it: follow the surface's slope, at most 45 degrees. */
-static double back_to_line(const line *l, double s)
-{
-    double e = 0.05 * l->dp, rate = (line_sample(l, s + e).fill - line_sample(l, s - e).fill) / (2 * e);
-    sample here = line_sample(l, s);
-    for (int32_t k = 0; k < l->sides; k++) {
-        if (here.shift[k] == 0 || rate >= -1e-3 / l->dp) continue;
-        double slope = -here.slope[k] / rate;
-        s -= here.shift[k] * fmin(fmax(slope, -1), 1);
-    }
-    return s;
 }
 
 /* A gap in the filling that is not the surface: it closes again within a spacing. */
@@ -235,9 +229,10 @@ static double find_surface(const line *l)
         } else if (solid && wet >= 0) {
             return crossing(l, fmax(wet - 2 * l->dp, 0), s, true) - 0.5 * l->dp;
         } else if (wet >= 0 && !gap_closes(l, s, step)) {
-            return back_to_line(l, crossing(l, wet, s, false)) - 0.5 * l->dp;
-        } else if (wet < 0 && !solid && s > 1.5 * l->dp) {
-            return 0; /* dry foot */
+            return crossing(l, wet, s, false) - 0.5 * l->dp;
+        } else if (wet < 0) {
+            if (!solid && s > 1.5 * l->dp) return 0; /* dry foot */
+            solid = false;
         }
     }
     return wet < 0 ? 0 : l->length;

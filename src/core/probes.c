@@ -138,11 +138,9 @@ static void measure_fluid(const mps__world *w, const mps_probe *c, double *value
         if (d2 >= w->re_near * w->re_near) continue;
         for (int32_t d = 0; d < w->dim; d++) r[d] = s->x[i * w->dim + d] - at[d];
         add_moment(&m, r, mps_kernel_value(&w->kernel, fmax(sqrt(d2), 1e-3 * w->dp), w->re_near), s->p[i]);
-        if (s->kind[i] == MPS_FLUID) m.nearest2 = fmin(m.nearest2, d2);
+        m.nearest2 = fmin(m.nearest2, d2);
     }
-    /* the middle of four wall particles is 1.22 dp from the first layer of fluid */
-    bool wet = m.nearest2 < 1.25 * 1.25 * w->dp * w->dp;
-    *value = wet ? moments_value(w, &m) : 0;
+    *value = m.nearest2 < 0.25 * w->re_near * w->re_near ? moments_value(w, &m) : 0;
 }
 
 /* ---- forces ---- */
@@ -217,7 +215,8 @@ static mps_status check_wall(const mps__world *w, const mps_probe *c)
     double distance;
     int64_t nearest = nearest_wall(w, c->at, &distance);
     MPS__CHECK(w->context, nearest >= 0, "wall pressure: there is no wall particle");
-    MPS__CHECK(w->context, distance <= 2 * w->dp, "wall pressure: the nearest wall particle is %g m away, at most 2 dp = %g m are allowed", distance, 2 * w->dp);
+    MPS__CHECK(w->context, distance <= 2 * w->dp, "wall pressure: the nearest wall particle is %g m away, at most 2 dp = %g m are allowed",
+               distance, 2 * w->dp);
     return MPS_OK;
 }
 
@@ -250,13 +249,14 @@ static mps_status check_part(mps__world *w, const char *part)
         if (part_matches(part, s->part_name[k])) return MPS_OK;
         names[k] = s->part_name[k];
     }
-    return mps__fail(w->context, MPS_E_NAME, "no part is named \"%.40s\"; the nearest is \"%s\"", part, mps__nearest(part, names, s->parts));
+    return mps__fail(w->context, MPS_E_NAME, "no part is named \"%.40s\"; the nearest is \"%s\"", part,
+                     mps__nearest(part, names, s->parts));
 }
 
 static mps_status check_numbers(const mps__world *w, const mps_probe *c)
 {
-    MPS__CHECK(w->context, c->type >= MPS_PROBE_WALL_PRESSURE && c->type <= MPS_PROBE_FORCE, "probe.type is %d: must be %d..%d", (int)c->type,
-               MPS_PROBE_WALL_PRESSURE, MPS_PROBE_FORCE);
+    MPS__CHECK(w->context, c->type >= MPS_PROBE_WALL_PRESSURE && c->type <= MPS_PROBE_FORCE, "probe.type is %d: must be %d..%d",
+               (int)c->type, MPS_PROBE_WALL_PRESSURE, MPS_PROBE_FORCE);
     for (int32_t d = 0; d < w->dim; d++) MPS__CHECK(w->context, isfinite(c->at[d]), "probe.at[%d] is %g: must be finite", (int)d, c->at[d]);
     MPS__CHECK(w->context, isfinite(c->diameter) && c->diameter >= 0, "probe.diameter is %g m: must be finite and >= 0", c->diameter);
     MPS__CHECK(w->context, isfinite(c->length) && c->length >= 0, "probe.length is %g m: must be finite and >= 0", c->length);
@@ -286,7 +286,8 @@ mps_status mps__probes_add(mps__world *w, mps__probes *p, const mps_probe *probe
     mps__probe added = {.config = *probe};
     MPS__TRY(check_probe(w, &added.config));
     if (probe->part) {
-        MPS__CHECK(w->context, mps__name_copy(added.part_name, sizeof added.part_name, probe->part), "probe.part must have 1..%d characters", MPS__PART_NAME - 1);
+        MPS__CHECK(w->context, mps__name_copy(added.part_name, sizeof added.part_name, probe->part),
+                   "probe.part must have 1..%d characters", MPS__PART_NAME - 1);
         added.config.part = ""; /* only says that there is one: part_name holds it and may move with the list */
     }
     MPS__CHECK(w->context, p->count < INT32_MAX, "too many probes");
@@ -305,9 +306,15 @@ int32_t mps__probe_values(const mps__world *w, const mps__probe *p)
 mps_status mps__probe_measure(mps__world *w, const mps__probe *p, double *values)
 {
     switch (p->config.type) {
-    case MPS_PROBE_WALL_PRESSURE: return measure_wall(w, &p->config, values);
-    case MPS_PROBE_GAUGE: return mps__gauge_measure(w, &p->config, values);
-    case MPS_PROBE_FLUID_PRESSURE: measure_fluid(w, &p->config, values); return MPS_OK;
-    default: measure_force(w, p, values); return MPS_OK;
+    case MPS_PROBE_WALL_PRESSURE:
+        return measure_wall(w, &p->config, values);
+    case MPS_PROBE_GAUGE:
+        return mps__gauge_measure(w, &p->config, values);
+    case MPS_PROBE_FLUID_PRESSURE:
+        measure_fluid(w, &p->config, values);
+        return MPS_OK;
+    default:
+        measure_force(w, p, values);
+        return MPS_OK;
     }
 }

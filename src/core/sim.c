@@ -67,7 +67,6 @@ static mps_status set_up(mps_sim *sim, const mps_config *f)
     w->threads = f->threads;
     w->lost_policy = f->lost_policy;
     w->speed_limit = f->speed_limit;
-    w->moment_floor = 0.2;
     MPS__TRY(check_domain(&sim->context, f, &w->domain_given));
     memcpy(w->domain_min, f->domain_min, sizeof w->domain_min);
     memcpy(w->domain_max, f->domain_max, sizeof w->domain_max);
@@ -86,6 +85,10 @@ mps_status mps_sim_create(const mps_config *config, mps_sim **sim)
     mps__context c = {.allocator = mps__allocator_default()};
     mps_config f = config_default;
     mps_status status = mps__struct_in(&c, "mps_config", &f, sizeof f, config);
+    if (status == MPS_E_VERSION) { /* nothing was copied, but there is a place for the text */
+        f.error = config->error;
+        f.error_size = config->error_size;
+    }
     if (status == MPS_OK) status = check_config(&c, &f);
     if (status == MPS_OK && f.allocator.alloc) c.allocator = f.allocator;
     mps_sim *s = status == MPS_OK ? mps__alloc(&c, 1, sizeof *s) : NULL;

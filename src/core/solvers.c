@@ -33,8 +33,8 @@ static mps_status unknown(mps__context *c, const char *what, char (*names)[MPS__
 static mps_status check_new_name(mps__context *c, const char *what, char (*names)[MPS__NAME_SIZE], int count, const char *name)
 {
     MPS__CHECK(c, name && name[0], "a %s needs a name", what);
-    MPS__CHECK(c, strnlen(name, MPS__NAME_SIZE) < MPS__NAME_SIZE, "the name '%.60s...' of a %s is too long; at most %d characters", name, what,
-               MPS__NAME_SIZE - 1);
+    MPS__CHECK(c, strnlen(name, MPS__NAME_SIZE) < MPS__NAME_SIZE, "the name '%.60s...' of a %s is too long; at most %d characters", name,
+               what, MPS__NAME_SIZE - 1);
     MPS__CHECK(c, find(names, count, name) < 0, "a %s called '%s' is registered already", what, name);
     MPS__CHECK(c, count < MPS__SOLVERS_KNOWN, "no room for %s '%s': all %d places are taken", what, name, MPS__SOLVERS_KNOWN);
     return MPS_OK;
@@ -76,7 +76,8 @@ mps_status mps__solvers_register_preconditioner(mps__solvers *s, const mps_preco
     MPS__TRY(check_api(c, "preconditioner", copy.api));
     MPS__TRY(check_new_name(c, "preconditioner", s->preconditioner_name, s->preconditioners, copy.name));
     MPS__CHECK(c, strcmp(copy.name, "none") != 0, "a preconditioner cannot be called 'none'");
-    MPS__CHECK(c, copy.create && copy.setup && copy.apply && copy.destroy, "preconditioner '%s' lacks create, setup, apply or destroy", copy.name);
+    MPS__CHECK(c, copy.create && copy.setup && copy.apply && copy.destroy, "preconditioner '%s' lacks create, setup, apply or destroy",
+               copy.name);
     int k = s->preconditioners;
     mps__name_copy(s->preconditioner_name[k], MPS__NAME_SIZE, copy.name);
     copy.struct_size = sizeof copy;
@@ -88,7 +89,8 @@ mps_status mps__solvers_register_preconditioner(mps__solvers *s, const mps_preco
 
 /* ---- choice ---- */
 
-static mps_status choose(mps__solvers *s, const char *solver, const char *preconditioner, const mps_solver_ops **ops, const mps_preconditioner_ops **pc)
+static mps_status choose(mps__solvers *s, const char *solver, const char *preconditioner, const mps_solver_ops **ops,
+                         const mps_preconditioner_ops **pc)
 {
     mps__context *c = s->context;
     MPS__CHECK(c, solver, "solver is NULL; give a name");
@@ -138,11 +140,15 @@ mps_status mps__solvers_init(mps__solvers *s, mps__context *context)
 {
     *s = (mps__solvers){.context = context, .limits = default_limits};
     for (int k = 0; mps__builtin_solvers[k]; k++) MPS__TRY(mps__solvers_register(s, mps__builtin_solvers[k]));
-    for (int k = 0; mps__builtin_preconditioners[k]; k++) MPS__TRY(mps__solvers_register_preconditioner(s, mps__builtin_preconditioners[k]));
+    for (int k = 0; mps__builtin_preconditioners[k]; k++)
+        MPS__TRY(mps__solvers_register_preconditioner(s, mps__builtin_preconditioners[k]));
     return mps__solvers_use(s, "sundials.pcg", NULL);
 }
 
-void mps__solvers_free(mps__solvers *s) { discard(s); }
+void mps__solvers_free(mps__solvers *s)
+{
+    discard(s);
+}
 
 /* ---- limits ---- */
 
@@ -159,7 +165,8 @@ mps_status mps__solvers_set_limits(mps__solvers *s, const mps_solver_limits *lim
     if (copy.max_iterations == 0) copy.max_iterations = default_limits.max_iterations;
     if (copy.tolerance == 0) copy.tolerance = default_limits.tolerance;
     MPS__CHECK(c, copy.max_iterations > 0, "max_iterations is %d; allowed: at least 1, or 0 for the default", copy.max_iterations);
-    MPS__CHECK(c, copy.tolerance > 0 && copy.tolerance < 1, "tolerance is %g; allowed: between 0 and 1, or 0 for the default", copy.tolerance);
+    MPS__CHECK(c, copy.tolerance > 0 && copy.tolerance < 1, "tolerance is %g; allowed: between 0 and 1, or 0 for the default",
+               copy.tolerance);
     MPS__CHECK(c, copy.divergence >= 0 && isfinite(copy.divergence), "divergence is %g; allowed: at least 0, finite", copy.divergence);
     copy.struct_size = sizeof copy;
     s->limits = copy;
@@ -185,10 +192,14 @@ static const char *reason_text(int32_t reason)
 static mps_status status_of(int32_t reason)
 {
     switch (reason) {
-    case MPS_PPE_CONVERGED: return MPS_OK;
-    case MPS_PPE_MAX_ITERATIONS: return MPS_W_NOT_CONVERGED;
-    case MPS_PPE_NOMEM: return MPS_E_NOMEM;
-    default: return MPS_E_SOLVER;
+    case MPS_PPE_CONVERGED:
+        return MPS_OK;
+    case MPS_PPE_MAX_ITERATIONS:
+        return MPS_W_NOT_CONVERGED;
+    case MPS_PPE_NOMEM:
+        return MPS_E_NOMEM;
+    default:
+        return MPS_E_SOLVER;
     }
 }
 
@@ -207,10 +218,11 @@ mps_status mps__solvers_solve(mps__solvers *s, const mps_ppe_problem *problem, d
         status = MPS_E_SOLVER;
     }
     if (status == MPS_OK) return status;
-    return mps__fail(s->context, status, "solver '%s' with preconditioner '%s' %s: %d iterations of at most %d, residual %.3g (wanted %.3g), "
-                     "divergence %.3g (wanted %.3g), %lld unknowns", s->use->name, s->pc ? s->pc->name : "none", reason_text(result->reason),
-                     result->iterations, limited.max_iterations, result->residual, limited.tolerance, result->divergence, limited.divergence,
-                     (long long)problem->n);
+    return mps__fail(s->context, status,
+                     "solver '%s' with preconditioner '%s' %s: %d iterations of at most %d, residual %.3g (wanted %.3g), "
+                     "divergence %.3g (wanted %.3g), %lld unknowns",
+                     s->use->name, s->pc ? s->pc->name : "none", reason_text(result->reason), result->iterations, limited.max_iterations,
+                     result->residual, limited.tolerance, result->divergence, limited.divergence, (long long)problem->n);
 }
 
 /* ---- check for plug-ins ---- */

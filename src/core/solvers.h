@@ -17,8 +17,8 @@ typedef struct mps__solvers {
     char solver_name[MPS__SOLVERS_KNOWN][MPS__NAME_SIZE];
     char preconditioner_name[MPS__SOLVERS_KNOWN][MPS__NAME_SIZE];
     char default_name[MPS__SOLVERS_KNOWN][MPS__NAME_SIZE]; /* default preconditioner of each solver */
-    const mps_solver_ops *use;         /* in use */
-    const mps_preconditioner_ops *pc;  /* in use, or NULL */
+    const mps_solver_ops *use;                             /* in use */
+    const mps_preconditioner_ops *pc;                      /* in use, or NULL */
     void *use_self, *pc_self;
     mps_solver_limits limits;
 } mps__solvers;

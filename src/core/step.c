@@ -17,6 +17,7 @@ typedef struct step_state {
     mps__budget budget;
     double clock;         /* beginning of the present stage */
     bool not_converged;
+    bool no_memory;       /* a verb got no scratch */
 } step_state;
 
 /* ---- calling models -------------------------------------------------------------------------------------------- */
@@ -32,7 +33,10 @@ double *mps_stage_scratch(mps_stage *s, int64_t count)
     const int32_t b = k->scratch_used;
     if (count > k->scratch_capacity[b]) {
         double *larger = mps__alloc(w->context, count + count / 8, sizeof *larger);
-        if (!larger) return NULL;
+        if (!larger) {
+            ((step_state *)s->host)->no_memory = true;
+            return NULL;
+        }
         mps__free(w->context, k->scratch[b]);
         k->scratch[b] = larger;
         k->scratch_capacity[b] = count + count / 8;
@@ -56,8 +60,9 @@ int mps_stage_fail(mps_stage *s, const char *format, ...)
 static mps_status verb_failed(step_state *q, const mps__model *m)
 {
     char *error = q->w->context->error;
-    if (!error[0]) return mps__fail(q->w->context, MPS_E_PLUGIN, "model \"%s\" failed at t = %.9g s", m->ops->name, q->stage.t);
-    return mps__fail(q->w->context, MPS_E_PLUGIN, "model \"%s\" at t = %.9g s: %.300s", m->ops->name, q->stage.t, error);
+    const mps_status status = q->no_memory ? MPS_E_NOMEM : MPS_E_PLUGIN;
+    if (!error[0]) return mps__fail(q->w->context, status, "model \"%s\" failed at t = %.9g s", m->ops->name, q->stage.t);
+    return mps__fail(q->w->context, status, "model \"%s\" at t = %.9g s: %.300s", m->ops->name, q->stage.t, error);
 }
 
 /* Call one verb of all active models in their order. */
@@ -185,18 +190,18 @@ static void set_stage(step_state *q)
                            .area = s->area,
                            .wall_of = s->wall_of,
                            .number_density = s->nd,
+                           .asymmetry = k->asymmetry,
                            .region = s->region,
-                           .owner = k->owner,
-                           .offset = k->offset,
+                           .wet = k->wet,
                            .correction = k->correction,
                            .near = &q->near,
                            .far = &q->far,
                            .host = q};
     for (int p = 0; p < MPS__PHASES; p++) q->stage.phases += w->phase_defined[p];
-    q->terms = (mps_ppe_terms){.struct_size = sizeof q->terms, .rhs = k->rhs, .shift = k->shift, .value = k->value, .fixed = k->fixed};
+    q->terms = (mps_ppe_terms){.struct_size = sizeof q->terms, .radius = MPS_FAR, .rhs = k->rhs, .shift = k->shift, .value = k->value, .fixed = k->fixed, .body = k->body};
 }
 
-/* Lists, number density, correction, regions and pressure owners at r^k. */
+/* Number density, asymmetry, regions at r^k. */
 static mps_status look_around(step_state *q)
 {
     mps__world *w = q->w;
@@ -206,15 +211,15 @@ static mps_status look_around(step_state *q)
     end_stage(q, MPS_STAGE_NEIGHBOURS);
     move_walls(q);
     MPS__TRY(mps_op_number_density(&q->near, s->number_density));
-    MPS__TRY(mps_op_correction(&q->near, w->moment_floor, s->correction));
+    MPS__TRY(mps_op_asymmetry(&q->near, w->work.asymmetry));
+    const int dim = s->dim;
     for (int64_t i = 0; i < s->n; i++) {
-        s->region[i] = MPS_REGION_INNER;
-        s->owner[i] = s->kind[i] == MPS_DUMMY ? -1 : (int32_t)i;
-        s->offset[i] = 0;
+        s->region[i] = s->kind[i] == MPS_DUMMY ? MPS_REGION_DRY : MPS_REGION_INNER;
+        s->wet[i] = 1.0;
+        for (int d = 0; d < dim * dim; d++) s->correction[i * dim * dim + d] = d % (dim + 1) == 0;
     }
     EACH_MODEL(q, classify, s);
-    q->info.surface = 0;
-    for (int64_t i = 0; i < s->n; i++) q->info.surface += s->region[i] == MPS_REGION_SURFACE;
+    for (int64_t i = 0; i < s->n; i++) q->info.surface += s->kind[i] == MPS_FLUID && s->region[i] == MPS_REGION_SURFACE;
     return MPS_OK;
 }
 
@@ -241,7 +246,8 @@ static mps_status project(step_state *q)
     memset(q->terms.rhs, 0, bytes);
     memset(q->terms.shift, 0, bytes);
     memset(q->terms.value, 0, bytes);
-    for (int64_t i = 0; i < s->n; i++) q->terms.fixed[i] = s->region[i] == MPS_REGION_SURFACE || s->region[i] == MPS_REGION_SPRAY;
+    memset(q->terms.body, 0, bytes * (size_t)s->dim);
+    for (int64_t i = 0; i < s->n; i++) q->terms.fixed[i] = s->region[i] == MPS_REGION_SURFACE;
     EACH_MODEL(q, source, s, &q->terms);
     end_stage(q, MPS_STAGE_OPERATORS);
     MPS__TRY(mps__ppe_assemble(&w->ppe, s, &q->terms));

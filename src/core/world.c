@@ -27,7 +27,7 @@ void mps__world_free(mps__world *w)
     mps__ppe_free(&w->ppe);
     mps__motion_free(&w->motion);
     mps__work *k = &w->work;
-    void *all[] = {k->owner, k->fixed, k->offset, k->correction, k->tank_accel, k->a, k->dx, k->rhs, k->shift, k->value, k->x0, k->u0, k->p0};
+    void *all[] = {k->fixed, k->asymmetry, k->wet, k->correction, k->tank_accel, k->a, k->dx, k->rhs, k->shift, k->value, k->body, k->x0, k->u0, k->p0};
     for (size_t a = 0; a < sizeof all / sizeof all[0]; a++) mps__free(w->context, all[a]);
     for (int a = 0; a < MPS__SCRATCH; a++) mps__free(w->context, k->scratch[a]);
 }
@@ -164,9 +164,9 @@ static mps_status reserve_work(mps__world *w)
         void **place;
         int64_t count;
         size_t size;
-    } a[] = {{(void **)&k->owner, wanted, sizeof(int32_t)},
-             {(void **)&k->fixed, wanted, sizeof(int32_t)},
-             {(void **)&k->offset, wanted, sizeof(double)},
+    } a[] = {{(void **)&k->fixed, wanted, sizeof(int32_t)},
+             {(void **)&k->asymmetry, wanted * dim, sizeof(double)},
+             {(void **)&k->wet, wanted, sizeof(double)},
              {(void **)&k->correction, wanted * dim * dim, sizeof(double)},
              {(void **)&k->tank_accel, wanted * dim, sizeof(double)},
              {(void **)&k->a, wanted * dim, sizeof(double)},
@@ -174,6 +174,7 @@ static mps_status reserve_work(mps__world *w)
              {(void **)&k->rhs, wanted, sizeof(double)},
              {(void **)&k->shift, wanted, sizeof(double)},
              {(void **)&k->value, wanted, sizeof(double)},
+             {(void **)&k->body, wanted * dim, sizeof(double)},
              {(void **)&k->x0, wanted * dim, sizeof(double)},
              {(void **)&k->u0, wanted * dim, sizeof(double)},
              {(void **)&k->p0, wanted, sizeof(double)}};

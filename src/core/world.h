@@ -24,9 +24,9 @@ typedef struct mps__budget {
 /* Arrays [n] or [n*dim] that live through one step; what a failed step is undone from. */
 typedef struct mps__work {
     int64_t capacity;
-    int32_t *owner, *fixed;
-    double *offset, *correction, *tank_accel, *a, *dx;
-    double *rhs, *shift, *value;
+    int32_t *fixed;
+    double *asymmetry, *wet, *correction, *tank_accel, *a, *dx;
+    double *rhs, *shift, *value, *body;
     double *x0, *u0, *p0;
     double *scratch[MPS__SCRATCH]; /* blocks lent to verbs, kept from step to step */
     int64_t scratch_capacity[MPS__SCRATCH];
@@ -36,7 +36,7 @@ typedef struct mps__work {
 typedef struct mps__world {
     mps__context *context;
     int32_t dim, threads, lost_policy, start_pending;
-    double dp, g[3], velocity_scale, re_near, re_far, speed_limit, moment_floor;
+    double dp, g[3], velocity_scale, re_near, re_far, speed_limit;
     double domain_min[3], domain_max[3]; /* tank's frame */
     bool domain_given;
     mps_kernel kernel;

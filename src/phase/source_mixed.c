@@ -14,7 +14,7 @@ static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *term
     /* rows are -<lap p>/rho: signs are turned */
     for (int64_t i = 0; i < s->n; i++)
         terms->rhs[i] += -(1.0 - k[GAMMA]) * rate * div[i] + k[GAMMA] * rate * rate * (s->number_density[i] - n0) / n0;
-    terms->wall_pairs = 1;
+    terms->wall_factor = 1;
     return 0;
 }
 

@@ -8,5 +8,7 @@ const mps_solver_ops *const mps__builtin_solvers[] = {
 };
 
 const mps_preconditioner_ops *const mps__builtin_preconditioners[] = {
-    &mps__preconditioner_jacobi, &mps__preconditioner_ic0, NULL,
+    &mps__preconditioner_jacobi,
+    &mps__preconditioner_ic0,
+    NULL,
 };

@@ -6,7 +6,10 @@
 
 enum { CYCLE = 30 }; /* iterations between restarts = vectors kept */
 
-static SUNLinearSolver make(N_Vector like, SUNContext context) { return SUNLinSol_SPGMR(like, SUN_PREC_NONE, CYCLE, context); }
+static SUNLinearSolver make(N_Vector like, SUNContext context)
+{
+    return SUNLinSol_SPGMR(like, SUN_PREC_NONE, CYCLE, context);
+}
 
 static int run(SUNLinearSolver solver, bool preconditioned, int iterations, N_Vector x, N_Vector b, double delta)
 {
@@ -21,9 +24,12 @@ static int run(SUNLinearSolver solver, bool preconditioned, int iterations, N_Ve
     return flag;
 }
 
-static const mps__krylov_kind kind = {false, make, run};
+static const mps__krylov_kind kind = {false, CYCLE + 3, make, run};
 
-static int create(const mps_allocator *allocator, void **self) { return mps__krylov_create(&kind, allocator, self); }
+static int create(const mps_allocator *allocator, void **self)
+{
+    return mps__krylov_create(&kind, allocator, self);
+}
 
 const mps_solver_ops mps__solver_gmres = {
     .struct_size = sizeof(mps_solver_ops),

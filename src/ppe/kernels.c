@@ -73,8 +73,15 @@ double mps__rows_multiply(const mps_ppe_problem *problem, const double *x, doubl
 
 double mps__rows_diagonal(const mps_ppe_problem *problem, int64_t i)
 {
-    for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++)
+    int64_t lo = problem->row[i], hi = problem->row[i + 1];
+    while (lo < hi) { /* columns ascend */
+        int64_t k = lo + (hi - lo) / 2;
         if (problem->col[k] == i) return problem->val[k];
+        if (problem->col[k] < i)
+            lo = k + 1;
+        else
+            hi = k;
+    }
     return 0;
 }
 
@@ -112,7 +119,7 @@ void mps__components_center(const mps_ppe_problem *problem, double *p, double *s
 
 double mps__result_excess(const mps_ppe_problem *problem, const mps_ppe_result *result)
 {
-    double norm = result->residual / problem->tolerance;
+    double norm = result->residual == 0 ? 0 : result->residual / problem->tolerance;
     double divergence = problem->divergence > 0 ? result->divergence / problem->divergence : 0;
     return norm >= divergence ? norm : divergence;
 }

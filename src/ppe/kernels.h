@@ -9,10 +9,16 @@
 
 enum { MPS__BLOCK = 1024, MPS__TEAM_LEAST = 8192 };
 
-static inline int64_t mps__blocks(int64_t n) { return (n + MPS__BLOCK - 1) / MPS__BLOCK; }
+static inline int64_t mps__blocks(int64_t n)
+{
+    return (n + MPS__BLOCK - 1) / MPS__BLOCK;
+}
 
 /* Threads worth waking for n elements. */
-static inline int mps__team(int64_t n, int threads) { return n < MPS__TEAM_LEAST || threads < 1 ? 1 : threads; }
+static inline int mps__team(int64_t n, int threads)
+{
+    return n < MPS__TEAM_LEAST || threads < 1 ? 1 : threads;
+}
 
 /* `count` elements (at least one) or NULL; not zeroed. */
 void *mps__take(const mps_allocator *allocator, int64_t count, size_t size);

@@ -6,7 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-enum { IDLE_PASSES = 4 }; /* passes without progress before giving up */
+enum { IDLE_PASSES = 4 };            /* passes without progress before giving up */
+static const double DEEPEST = 1e-10; /* residual reduction of one pass */
 
 typedef struct krylov {
     const mps__krylov_kind *kind;
@@ -31,6 +32,14 @@ static int apply(krylov *k, const double *r, double *z)
     return k->failure ? -1 : 0;
 }
 
+/* Whether the curvature x'Ax < 0 is more than the rounding of a direction of no curvature. */
+static bool negative(const mps_ppe_problem *problem, const double *x, double curvature)
+{
+    double scale = 0;
+    for (int64_t i = 0; i < problem->n; i++) scale += mps__rows_diagonal(problem, i) * x[i] * x[i];
+    return -curvature > 1e-12 * scale;
+}
+
 /* z = A v, or A M^-1 v where the method leaves preconditioning to us. */
 static int times(void *data, N_Vector v, N_Vector z)
 {
@@ -43,9 +52,10 @@ static int times(void *data, N_Vector v, N_Vector z)
     }
     double curvature = mps__rows_multiply(k->problem, x, y, k->space.partial);
     mps__space_remember(&k->space, x, y, curvature);
-    if (!isfinite(curvature)) k->failure = MPS_PPE_BREAKDOWN;
-    else if (k->kind->symmetric && curvature < 0) k->failure = MPS_PPE_INDEFINITE;
-    else if (k->kind->symmetric && curvature == 0) k->failure = MPS_PPE_BREAKDOWN;
+    if (!isfinite(curvature))
+        k->failure = MPS_PPE_BREAKDOWN;
+    else if (k->kind->symmetric && curvature <= 0)
+        k->failure = negative(k->problem, x, curvature) ? MPS_PPE_INDEFINITE : MPS_PPE_BREAKDOWN;
     return k->failure ? -1 : 0;
 }
 
@@ -59,8 +69,10 @@ static int precondition(void *data, N_Vector vr, N_Vector vz, sunrealtype tolera
     if (apply(k, r, z)) return -1;
     double dot = mps__blocked_dot(r, z, k->space.n, k->space.threads, k->space.partial);
     mps__space_remember(&k->space, r, z, dot);
-    if (!isfinite(dot)) k->failure = MPS_PPE_NAN;
-    else if (dot <= 0) k->failure = MPS_PPE_INDEFINITE;
+    if (!isfinite(dot))
+        k->failure = MPS_PPE_NAN;
+    else if (dot <= 0)
+        k->failure = MPS_PPE_INDEFINITE;
     return k->failure ? -1 : 0;
 }
 
@@ -70,6 +82,7 @@ static void drop(krylov *k)
 {
     const mps_allocator *a = &k->space.allocator;
     if (k->solver) SUNLinSolFree(k->solver);
+    mps__space_release(&k->space);
     if (k->x) N_VDestroy(k->x);
     if (k->b) N_VDestroy(k->b);
     if (k->stop) N_VDestroy(k->stop);
@@ -102,6 +115,7 @@ static bool make_solver(krylov *k)
     k->b = mps__vector_wrap(&k->space, k->residual);
     k->stop = mps__vector_stop(&k->space);
     if (!k->x || !k->b || !k->stop) return false;
+    if (!mps__space_reserve(&k->space, k->kind->vectors)) return false;
     k->solver = k->kind->make(k->x, k->space.context);
     if (!k->solver || SUNLinSolSetATimes(k->solver, k, times)) return false;
     if (!k->kind->symmetric) return !SUNLinSolInitialize(k->solver);
@@ -142,6 +156,7 @@ static void run(krylov *k, double *p, double delta, mps_ppe_result *result)
     const mps_ppe_problem *problem = k->problem;
     double *d = k->correction;
     memset(d, 0, (size_t)problem->n * sizeof *d);
+    mps__components_center(problem, k->residual, k->sums); /* rounding must not leave what no p can produce */
     k->failure = 0;
     SUNLinSolSetZeroGuess(k->solver, SUNTRUE);
     int flag = k->kind->run(k->solver, k->pc != NULL, problem->max_iterations - result->iterations, k->x, k->b, delta);
@@ -159,13 +174,14 @@ static void run(krylov *k, double *p, double delta, mps_ppe_result *result)
     mps_ppe_check(problem, p, k->residual, result);
 }
 
-/* Residual limit of the next run. Conjugate gradients measure the excess itself, the others the 2-norm; once the first
- * limit has proved too loose aim a factor below. */
+/* Residual limit of the next run. Conjugate gradients measure the excess itself, the others the 2-norm. Where the first
+ * limit has proved too loose it aims a factor below; never deeper than a recursive residual can be trusted. */
 static double next_limit(const krylov *k, const mps_ppe_result *result, double norm, bool first)
 {
-    double margin = first ? 1 : 0.5;
-    if (k->kind->symmetric) return margin;
-    return first ? k->space.norm_limit : margin * result->residual * norm / mps__result_excess(k->problem, result);
+    double excess = mps__result_excess(k->problem, result);
+    double now = k->kind->symmetric ? excess : result->residual * norm;
+    double wanted = first && !k->kind->symmetric ? k->space.norm_limit : now / excess * (first ? 1 : 0.5);
+    return fmax(wanted, DEEPEST * now);
 }
 
 static int passes(krylov *k, double *p, double norm, mps_ppe_result *result)
@@ -177,8 +193,8 @@ static int passes(krylov *k, double *p, double norm, mps_ppe_result *result)
         double excess = mps__result_excess(k->problem, result);
         if (excess <= 1) return MPS_PPE_CONVERGED;
         bool progress = excess < 0.9 * best;
-        /* a recurrence that broke down on its way may start afresh from what it reached */
-        if (k->failure && !(k->failure == MPS_PPE_BREAKDOWN && progress)) return k->failure;
+        /* a recurrence that broke down on its way, or at the floor of rounding, may start afresh from what it reached */
+        if (k->failure && (k->failure != MPS_PPE_BREAKDOWN || (pass == 0 && !progress))) return k->failure;
         idle = progress ? 0 : idle + 1;
         if (excess < best) best = excess;
     }

@@ -9,6 +9,7 @@
 typedef struct mps__krylov_kind {
     /* 1: conjugate gradients: preconditions by itself, asks the stopping vector, needs positive curvature */
     bool symmetric;
+    int vectors; /* clones `make` and the first run ask for */
     SUNLinearSolver (*make)(N_Vector like, SUNContext context);
     /* Solve for x from zero until the residual is at most delta or `iterations` are used. */
     int (*run)(SUNLinearSolver solver, bool preconditioned, int iterations, N_Vector x, N_Vector b, double delta);

@@ -4,7 +4,10 @@
 #include "krylov.h"
 #include <sunlinsol/sunlinsol_pcg.h>
 
-static SUNLinearSolver make(N_Vector like, SUNContext context) { return SUNLinSol_PCG(like, SUN_PREC_NONE, 0, context); }
+static SUNLinearSolver make(N_Vector like, SUNContext context)
+{
+    return SUNLinSol_PCG(like, SUN_PREC_NONE, 0, context);
+}
 
 static int run(SUNLinearSolver solver, bool preconditioned, int iterations, N_Vector x, N_Vector b, double delta)
 {
@@ -13,9 +16,12 @@ static int run(SUNLinearSolver solver, bool preconditioned, int iterations, N_Ve
     return SUNLinSolSolve(solver, NULL, x, b, delta);
 }
 
-static const mps__krylov_kind kind = {true, make, run};
+static const mps__krylov_kind kind = {true, 4, make, run};
 
-static int create(const mps_allocator *allocator, void **self) { return mps__krylov_create(&kind, allocator, self); }
+static int create(const mps_allocator *allocator, void **self)
+{
+    return mps__krylov_create(&kind, allocator, self);
+}
 
 const mps_solver_ops mps__solver_pcg = {
     .struct_size = sizeof(mps_solver_ops),

@@ -7,10 +7,14 @@
 typedef struct content {
     mps__space *space;
     double *data;
+    N_Vector next; /* in the list of spare ones */
     bool owned, stop;
 } content;
 
-static content *content_of(N_Vector v) { return v->content; }
+static content *content_of(N_Vector v)
+{
+    return v->content;
+}
 
 static mps__space *written(N_Vector v)
 {
@@ -25,7 +29,10 @@ static N_Vector_ID get_id(N_Vector v)
     return SUNDIALS_NVEC_CUSTOM;
 }
 
-static sunindextype get_length(N_Vector v) { return (sunindextype)content_of(v)->space->n; }
+static sunindextype get_length(N_Vector v)
+{
+    return (sunindextype)content_of(v)->space->n;
+}
 
 static void destroy(N_Vector v)
 {
@@ -40,16 +47,24 @@ static void destroy(N_Vector v)
     N_VFreeEmpty(v);
 }
 
+static N_Vector new_owned(mps__space *space)
+{
+    double *data = mps__take(&space->allocator, space->capacity, sizeof *data);
+    if (!data) return NULL;
+    N_Vector v = mps__vector_wrap(space, data);
+    if (v)
+        content_of(v)->owned = true;
+    else
+        mps__give(&space->allocator, data);
+    return v;
+}
+
 static N_Vector clone(N_Vector v)
 {
     mps__space *space = content_of(v)->space;
-    double *data = mps__take(&space->allocator, space->capacity, sizeof *data);
-    if (!data) return NULL;
-    N_Vector w = mps__vector_wrap(space, data);
-    if (w)
-        content_of(w)->owned = true;
-    else
-        mps__give(&space->allocator, data);
+    N_Vector w = space->spare;
+    if (!w) return new_owned(space);
+    space->spare = content_of(w)->next;
     return w;
 }
 
@@ -149,7 +164,7 @@ N_Vector mps__vector_wrap(mps__space *space, double *data)
 {
     content *c = mps__take(&space->allocator, 1, sizeof *c);
     if (!c) return NULL;
-    *c = (content){space, data, false, false};
+    *c = (content){.space = space, .data = data};
     N_Vector v = N_VNewEmpty(space->context);
     if (!v) {
         mps__give(&space->allocator, c);
@@ -167,9 +182,35 @@ N_Vector mps__vector_stop(mps__space *space)
     return v;
 }
 
-double *mps__vector_data(N_Vector v) { return content_of(v)->data; }
+bool mps__space_reserve(mps__space *space, int count)
+{
+    for (int k = 0; k < count; k++) {
+        N_Vector v = new_owned(space);
+        if (!v) return false;
+        content_of(v)->next = space->spare;
+        space->spare = v;
+    }
+    return true;
+}
 
-void mps__vector_point(N_Vector v, double *data) { content_of(v)->data = data; }
+void mps__space_release(mps__space *space)
+{
+    while (space->spare) {
+        N_Vector v = space->spare;
+        space->spare = content_of(v)->next;
+        destroy(v);
+    }
+}
+
+double *mps__vector_data(N_Vector v)
+{
+    return content_of(v)->data;
+}
+
+void mps__vector_point(N_Vector v, double *data)
+{
+    content_of(v)->data = data;
+}
 
 void mps__space_remember(mps__space *space, const double *x, const double *y, double dot)
 {

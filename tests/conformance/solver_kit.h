@@ -18,12 +18,12 @@ typedef struct kit_system {
 
 /* Jittered lattices of particles in separate boxes. */
 typedef struct kit_lattice {
-    int dim, nx, ny, nz;  /* particles along each side of a box; nz = 1 in 2-D */
-    int boxes;            /* 1.. */
-    int open;             /* the first `open` boxes have a free surface on top (Dirichlet), the others are singular */
-    double re;            /* kernel radius [dp] */
-    double contrast;      /* density of the upper half of a box is 1000 / contrast */
-    double compressible;  /* share of the mean diagonal added to every row as a shift */
+    int dim, nx, ny, nz; /* particles along each side of a box; nz = 1 in 2-D */
+    int boxes;           /* 1.. */
+    int open;            /* the first `open` boxes have a free surface on top (Dirichlet), the others are singular */
+    double re;           /* kernel radius [dp] */
+    double contrast;     /* density of the upper half of a box is 1000 / contrast */
+    double compressible; /* share of the mean diagonal added to every row as a shift */
 } kit_lattice;
 
 /* NULL when out of memory. */

@@ -68,9 +68,20 @@ static kit_system *new_system(int dim, int64_t n, int64_t entries)
     s->weight = calloc((size_t)n, sizeof *s->weight);
     s->x = calloc((size_t)(n * dim), sizeof *s->x);
     s->exact = calloc((size_t)n, sizeof *s->exact);
-    s->problem = (mps_ppe_problem){.struct_size = sizeof s->problem, .dim = dim, .n = n, .row = s->row, .col = s->col, .val = s->val,
-                                   .rhs = s->rhs, .shift = s->shift, .weight = s->weight, .x = s->x, .dp = 0.01, .tolerance = 1e-10,
-                                   .max_iterations = 5000, .threads = 1};
+    s->problem = (mps_ppe_problem){.struct_size = sizeof s->problem,
+                                   .dim = dim,
+                                   .n = n,
+                                   .row = s->row,
+                                   .col = s->col,
+                                   .val = s->val,
+                                   .rhs = s->rhs,
+                                   .shift = s->shift,
+                                   .weight = s->weight,
+                                   .x = s->x,
+                                   .dp = 0.01,
+                                   .tolerance = 1e-10,
+                                   .max_iterations = 5000,
+                                   .threads = 1};
     if (s->row && s->col && s->component && s->val && s->rhs && s->shift && s->weight && s->x && s->exact) return s;
     kit_system_free(s);
     return NULL;

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Wall particles as half cells: the wall row is the mirrored lattice cut in two, so that fluid pairs count once, wall-wall pairs
+ * half, and dummies drop out (their mirror partner is the particle itself). Exact on a lattice, in corners too.
+ * A wall particle takes part as far as fluid lies about it: wet = kernel sum of the fluid over that of a full half space. */
+#include "builtin.h"
+
+/* Kernel sum over a half lattice without its boundary row. */
+static double half_sum(const mps_stencil *t)
+{
+    const int reach = (int)(t->re / t->dp) + 1, depth = t->dim == 3 ? reach : 0;
+    double sum = 0;
+    for (int k = -depth; k <= depth; k++)
+        for (int j = 1; j <= reach; j++)
+            for (int i = -reach; i <= reach; i++) {
+                const double r = t->dp * sqrt((double)(i * i + j * j + k * k));
+                if (r < t->re) sum += mps_kernel_weight(&t->kernel, r, t->re);
+            }
+    return sum;
+}
+
+static int classify(void *self, const double *k, mps_stage *s)
+{
+    (void)self, (void)k;
+    const mps_stencil *t = s->near;
+    const double full = half_sum(t);
+#pragma omp parallel for num_threads(s->threads) schedule(static)
+    for (int64_t i = 0; i < s->n; i++) {
+        if (s->kind[i] != MPS_WALL) continue;
+        double sum = 0;
+        for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+            const int64_t j = t->col[p];
+            /* spray does not count: a wall particle left with other walls alone would make the system singular */
+            if (s->kind[j] == MPS_FLUID && s->region[j] != MPS_REGION_SPRAY) sum += mps_stencil_pair(t, i, p).w;
+        }
+        s->wet[i] = sum < full ? sum / full : 1.0;
+        if (sum == 0) s->region[i] = MPS_REGION_DRY;
+    }
+    return 0;
+}
+
+/* Wall-wall pairs of the pressure equation. */
+static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *terms)
+{
+    (void)self, (void)k, (void)s;
+    terms->wall_factor = 0.5;
+    return 0;
+}
+
+const mps_model_ops mps__wall_half = {
+    .struct_size = sizeof(mps_model_ops), .api = MPS_MODEL_API, .name = "wall.half", .order = 200, .classify = classify, .source = source};

@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The public function of mps/output.h that takes a handle. */
+#include "frames.h"
+#include "sim.h"
+
+mps_status mps_frames_open(mps_sim *sim, const char *folder, const char *name, int32_t kinds, mps_frames **frames)
+{
+    if (!sim) return MPS_E_ARG;
+    MPS__CHECK(&sim->context, frames, "frames is NULL");
+    return mps__frames_open(&sim->world, folder, name, kinds, frames);
+}

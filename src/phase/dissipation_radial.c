@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Named dissipation: fluid pairs are damped along their line,
+ *   a_i = 2(D+2)/n0 sum (alpha l U_g + beta l max(0, -u_n)) w u_n/r r_ij, u_n the rate of separation, w = W/r^2.
+ * Pairwise, so momentum is conserved. alpha calms the lattice, beta takes the energy of violent impacts. */
+#include "builtin.h"
+
+enum { ALPHA, BETA };
+static const mps_setting settings[] = {{"alpha", 0.03, 0.0, 10.0}, {"beta", 1.0, 0.0, 10.0}};
+
+static int force(void *self, const double *k, mps_stage *s, double *a)
+{
+    (void)self;
+    const mps_stencil *t = s->near;
+    const int dim = s->dim;
+    const double c = 2.0 * (dim + 2) / t->n0;
+#pragma omp parallel for num_threads(s->threads) schedule(static)
+    for (int64_t i = 0; i < s->n; i++) {
+        if (s->kind[i] != MPS_FLUID) continue;
+        double sum[3] = {0};
+        for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+            const int64_t j = t->col[p];
+            if (s->kind[j] != MPS_FLUID) continue;
+            const mps_pair q = mps_stencil_pair(t, i, p);
+            double un = 0;
+            for (int d = 0; d < dim; d++) un += (s->u[j * dim + d] - s->u[i * dim + d]) * q.d[d] / q.r;
+            const double nu = s->dp * (k[ALPHA] * s->velocity_scale + (un < 0 ? -k[BETA] * un : 0.0));
+            const double share = 2.0 * s->density[j] / (s->density[i] + s->density[j]);
+            for (int d = 0; d < dim; d++) sum[d] += share * nu * q.w / q.r2 * un / q.r * q.d[d];
+        }
+        for (int d = 0; d < dim; d++) a[i * dim + d] += c * sum[d];
+    }
+    return 0;
+}
+
+const mps_model_ops mps__dissipation_radial = {.struct_size = sizeof(mps_model_ops),
+                                               .api = MPS_MODEL_API,
+                                               .name = "dissipation.radial",
+                                               .order = 310,
+                                               .setting_count = 2,
+                                               .settings = settings,
+                                               .force = force};

@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Particle shifting toward an even lattice: s_i = -c dt (U_g + max_j |u_j - u_i|) l D/n0 sum w r_ij over all kinds, at most
+ * `limit` l. In the first two rows of a free surface the part along its normal is taken away: it would expand the fluid. */
+#include "builtin.h"
+
+enum { STRENGTH, LIMIT };
+static const mps_setting settings[] = {{"strength", 1.0, 0.0, 10.0}, {"limit", 0.05, 0.0, 0.5}};
+
+/* Normal of the free surface near i: its own asymmetry, or the mean of its surface neighbours'. Not unit. */
+static void surface_normal(const mps_stage *s, int64_t i, double n[3])
+{
+    const mps_stencil *t = s->near;
+    for (int d = 0; d < s->dim; d++) n[d] = s->region[i] == MPS_REGION_SURFACE ? s->asymmetry[i * s->dim + d] : 0.0;
+    if (s->region[i] != MPS_REGION_NEAR) return;
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        const int64_t j = t->col[p];
+        if (s->region[j] != MPS_REGION_SURFACE) continue;
+        const double w = mps_stencil_pair(t, i, p).w;
+        for (int d = 0; d < s->dim; d++) n[d] += w * s->asymmetry[j * s->dim + d];
+    }
+}
+
+static void shift_of(const double *k, const mps_stage *s, int64_t i, double v[3])
+{
+    const mps_stencil *t = s->near;
+    const int dim = s->dim;
+    double most = 0, n[3] = {0}, n2 = 0, vn = 0, v2 = 0;
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        const mps_pair q = mps_stencil_pair(t, i, p);
+        for (int d = 0; d < dim; d++) v[d] += q.w / q.r2 * q.d[d];
+        if (s->kind[q.j] != MPS_FLUID) continue;
+        double du2 = 0;
+        for (int d = 0; d < dim; d++) du2 += (s->u[q.j * dim + d] - s->u[i * dim + d]) * (s->u[q.j * dim + d] - s->u[i * dim + d]);
+        most = fmax(most, du2);
+    }
+    const double c = -k[STRENGTH] * s->dt * (s->velocity_scale + sqrt(most)) * s->dp * dim / t->n0;
+    for (int d = 0; d < dim; d++) v[d] *= c;
+    surface_normal(s, i, n);
+    for (int d = 0; d < dim; d++) {
+        n2 += n[d] * n[d];
+        vn += n[d] * v[d];
+    }
+    for (int d = 0; d < dim; d++) {
+        if (n2 > 0) v[d] -= vn / n2 * n[d];
+        v2 += v[d] * v[d];
+    }
+    const double limit = k[LIMIT] * s->dp;
+    if (v2 > limit * limit)
+        for (int d = 0; d < dim; d++) v[d] *= limit / sqrt(v2);
+}
+
+static int shift(void *self, const double *k, mps_stage *s, double *dx)
+{
+    (void)self;
+#pragma omp parallel for num_threads(s->threads) schedule(static)
+    for (int64_t i = 0; i < s->n; i++) {
+        if (s->kind[i] != MPS_FLUID || s->region[i] == MPS_REGION_SPRAY) continue;
+        double v[3] = {0};
+        shift_of(k, s, i, v);
+        for (int d = 0; d < s->dim; d++) dx[i * s->dim + d] += v[d];
+    }
+    return 0;
+}
+
+const mps_model_ops mps__shift_tangential = {.struct_size = sizeof(mps_model_ops),
+                                             .api = MPS_MODEL_API,
+                                             .name = "shift.tangential",
+                                             .order = 800,
+                                             .setting_count = 2,
+                                             .settings = settings,
+                                             .shift = shift};

@@ -1,0 +1,165 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Source of the pressure equation for the scheme "imps":
+ *   -Div(v)/dt + delta/(tau dt),  Div_i = D/n0 sum w (v_j - v_i).B_i r_ij,
+ * v the velocities relative to the reference motion: gravity and the tank's acceleration are in the body field b = g - a_tank, so
+ * that hydrostatic and rigidly accelerated fluid is exact on any arrangement. Walls are free-slip: no-slip walls double the noise.
+ *
+ * delta is the volume deviation S/S0 - 1, S a kernel sum over a wide, smooth kernel. n/n0 would not do: its kernel is so peaked that an
+ * area-preserving stretch of the lattice changes n by several per cent, and the source then pumps the crests up. */
+#include "builtin.h"
+
+enum { TAU, CLIP };
+static const mps_setting settings[] = {{"tau", 1.0, 0.1, 1e6}, {"clip", 0.1, 0.0, 1.0}};
+
+/* Wendland C2, support h. */
+static double wide(double r, double h)
+{
+    const double q = 1.0 - r / h;
+    return q > 0 ? q * q * q * q * (5.0 - 4.0 * q) : 0.0;
+}
+
+static double wide_lattice(const mps_stencil *t)
+{
+    const int reach = (int)(t->re / t->dp) + 1, depth = t->dim == 3 ? reach : 0;
+    double sum = 0;
+    for (int k = -depth; k <= depth; k++)
+        for (int j = -reach; j <= reach; j++)
+            for (int i = -reach; i <= reach; i++) sum += wide(t->dp * sqrt((double)(i * i + j * j + k * k)), t->re);
+    return sum;
+}
+
+/* delta of each fluid particle, never negative near the surface, where the kernel is cut. */
+static void volume_deviation(const double *k, const mps_stage *s, double *delta)
+{
+    const mps_stencil *t = s->far;
+    const double full = wide_lattice(t);
+#pragma omp parallel for num_threads(s->threads) schedule(static)
+    for (int64_t i = 0; i < s->n; i++) {
+        if (s->kind[i] != MPS_FLUID || s->region[i] >= MPS_REGION_SURFACE) continue;
+        double sum = 1.0; /* wide(0) */
+        for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+            const double *a = s->x + i * s->dim, *b = s->x + (int64_t)t->col[p] * s->dim;
+            double r2 = 0;
+            for (int d = 0; d < s->dim; d++) r2 += (b[d] - a[d]) * (b[d] - a[d]);
+            sum += wide(sqrt(r2), t->re);
+        }
+        double v = sum / full - 1.0;
+        if (s->region[i] != MPS_REGION_INNER && v < 0) v = 0;
+        delta[i] = fmin(fmax(v, -k[CLIP]), k[CLIP]);
+    }
+}
+
+/* v: fluid without this step's gravity, walls with the velocity before this step's acceleration. */
+static void relative_velocity(const mps_stage *s, double *v)
+{
+    for (int64_t i = 0; i < s->n; i++)
+        for (int d = 0; d < s->dim; d++) {
+            const int64_t k = i * s->dim + d;
+            v[k] = s->u[k] - s->dt * (s->kind[i] == MPS_FLUID ? s->g[d] : s->tank_accel[k]);
+        }
+}
+
+/* Free slip: a wall particle keeps its velocity along its normal and takes that of the fluid about it along the face. */
+static void slip(const mps_stage *s, const double *v, double *slipped)
+{
+    const mps_stencil *t = s->near;
+    const int dim = s->dim;
+#pragma omp parallel for num_threads(s->threads) schedule(static)
+    for (int64_t i = 0; i < s->n; i++) {
+        for (int d = 0; d < dim; d++) slipped[i * dim + d] = v[i * dim + d];
+        if (s->kind[i] != MPS_WALL || s->region[i] == MPS_REGION_DRY) continue;
+        double sum[3] = {0}, weight = 0, size = 0, largest = 0;
+        for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+            const mps_pair q = mps_stencil_pair(t, i, p);
+            if (s->kind[q.j] != MPS_FLUID) continue;
+            weight += q.w;
+            for (int d = 0; d < dim; d++) sum[d] += q.w * (v[q.j * dim + d] - v[i * dim + d]);
+        }
+        const double *area = s->area + i * dim;
+        for (int d = 0; d < dim; d++) size += area[d] * area[d];
+        for (int d = 0; d < dim; d++) largest = fmax(largest, fabs(area[d]));
+        if (weight == 0 || size == 0) continue;
+        double normal = 0;
+        for (int d = 0; d < dim; d++) normal += sum[d] / weight * area[d] / sqrt(size);
+        /* where faces meet there is no free direction in 2-D, and only the edge in 3-D */
+        if (s->dim == 2 && size > 1.5 * largest * largest) continue;
+        for (int d = 0; d < dim; d++) slipped[i * dim + d] += sum[d] / weight - normal * area[d] / sqrt(size);
+    }
+}
+
+/* Divergence of a fluid particle, with B_i. */
+static double fluid_divergence(const mps_stage *s, const double *v, int64_t i)
+{
+    const mps_stencil *t = s->near;
+    const int dim = s->dim;
+    double g[9] = {0}, sum = 0; /* g = sum w (v_j - v_i) (x) r_ij */
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        const mps_pair q = mps_stencil_pair(t, i, p);
+        if (s->region[q.j] >= MPS_REGION_SPRAY) continue;
+        for (int d = 0; d < dim; d++)
+            for (int e = 0; e < dim; e++) g[d * dim + e] += q.w / q.r2 * (v[q.j * dim + d] - v[i * dim + d]) * q.d[e];
+    }
+    const double *b = s->correction + i * dim * dim;
+    for (int k = 0; k < dim * dim; k++) sum += b[k] * g[k];
+    return dim / t->n0 * sum;
+}
+
+/* Divergence of the half cell of a wall particle; weights as in its row of the pressure equation. */
+static double wall_divergence(const mps_stage *s, const double *v, int64_t i, double wall_factor)
+{
+    const mps_stencil *t = s->near;
+    double sum = 0;
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        const mps_pair q = mps_stencil_pair(t, i, p);
+        if (s->region[q.j] >= MPS_REGION_SPRAY) continue;
+        double flux = 0;
+        for (int d = 0; d < s->dim; d++) flux += (v[q.j * s->dim + d] - v[i * s->dim + d]) * q.d[d];
+        sum += q.w / q.r2 * flux * (s->kind[q.j] == MPS_WALL ? wall_factor * fmin(s->wet[i], s->wet[q.j]) : 1.0);
+    }
+    return s->dim / t->n0 * sum;
+}
+
+/* Kernel mean of delta over the fluid: its noise at the grid scale must not reach the pressure. */
+static double mean_deviation(const mps_stage *s, const double *delta, int64_t i)
+{
+    const mps_stencil *t = s->near;
+    const double own = 0.5 * mps_kernel_weight(&t->kernel, t->kernel.id == MPS_KERNEL_IMPROVED ? 0.0 : 0.5 * s->dp, t->re);
+    double sum = own * delta[i], weight = own;
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        if (s->kind[t->col[p]] != MPS_FLUID) continue;
+        const mps_pair q = mps_stencil_pair(t, i, p);
+        sum += q.w * delta[q.j];
+        weight += q.w;
+    }
+    return sum / weight;
+}
+
+static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *terms)
+{
+    (void)self;
+    double *delta = mps_stage_scratch(s, s->n), *v = mps_stage_scratch(s, s->n * s->dim), *w = mps_stage_scratch(s, s->n * s->dim);
+    if (!delta || !v || !w) return 1;
+    const double relax = 1.0 / (k[TAU] * s->dp / s->velocity_scale);
+    terms->radius = MPS_NEAR;
+    volume_deviation(k, s, delta);
+    relative_velocity(s, v);
+    slip(s, v, w);
+#pragma omp parallel for num_threads(s->threads) schedule(static)
+    for (int64_t i = 0; i < s->n; i++) {
+        for (int d = 0; d < s->dim; d++) terms->body[i * s->dim + d] += s->g[d] - s->tank_accel[i * s->dim + d];
+        if (s->region[i] >= MPS_REGION_SURFACE) continue;
+        if (s->kind[i] == MPS_FLUID)
+            terms->rhs[i] += (-fluid_divergence(s, w, i) + relax * mean_deviation(s, delta, i)) / s->dt;
+        else
+            terms->rhs[i] -= wall_divergence(s, w, i, terms->wall_factor) / s->dt;
+    }
+    return 0;
+}
+
+const mps_model_ops mps__source_volume = {.struct_size = sizeof(mps_model_ops),
+                                          .api = MPS_MODEL_API,
+                                          .name = "source.volume",
+                                          .order = 500,
+                                          .setting_count = 2,
+                                          .settings = settings,
+                                          .source = source};

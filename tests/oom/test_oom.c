@@ -1,0 +1,309 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Memory that runs out: the k-th allocation fails, for k = 1, 2, ... until a call runs through. Every failure is
+ * MPS_E_NOMEM with a text, leaves a handle that works, and at the end all memory is back. */
+#include <math.h>
+#include <mps/mps.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+/* Fails the allocation number `fail_at` (0: none) and counts what is out. */
+typedef struct memory {
+    int64_t live, count, fail_at;
+} memory;
+
+static void *memory_alloc(void *user, size_t size)
+{
+    memory *m = user;
+    if (++m->count == m->fail_at) return NULL;
+    void *block = malloc(size);
+    if (block) m->live++;
+    return block;
+}
+
+static void memory_release(void *user, void *block)
+{
+    ((memory *)user)->live--;
+    free(block);
+}
+
+static mps_allocator allocator_of(memory *m) { return (mps_allocator){memory_alloc, memory_release, m}; }
+
+static mps_status create(memory *m, mps_sim **sim, char *error, size_t error_size)
+{
+    mps_config config;
+    assert_int_equal(mps_config_init(&config, sizeof config), MPS_OK);
+    config.dp = 0.05;
+    config.allocator = allocator_of(m);
+    config.error = error;
+    config.error_size = error_size;
+    return mps_sim_create(&config, sim);
+}
+
+/* ---- scenes: what stands before the call under test -------------------------------------------------------------- */
+
+static mps_status add_tank(mps_sim *sim)
+{
+    mps_tank tank;
+    assert_int_equal(mps_tank_init(&tank, sizeof tank), MPS_OK);
+    tank.size[0] = tank.size[1] = 0.5;
+    tank.open_top = 1;
+    return mps_geometry_tank(sim, &tank, NULL);
+}
+
+static mps_status fill(mps_sim *sim)
+{
+    const double lo[2] = {0, 0}, hi[2] = {0.5, 0.3};
+    return mps_geometry_fill_box(sim, 0, lo, hi, NULL);
+}
+
+static void nothing(mps_sim *sim) { (void)sim; }
+static void tank_only(mps_sim *sim) { assert_int_equal(add_tank(sim), MPS_OK); }
+
+static void filled(mps_sim *sim)
+{
+    tank_only(sim);
+    assert_int_equal(fill(sim), MPS_OK);
+}
+
+static void stepped(mps_sim *sim)
+{
+    filled(sim);
+    for (int k = 0; k < 3; k++) assert_int_equal(mps_step(sim, 1e-3, NULL), MPS_OK);
+}
+
+/* Far above the pool, so that the next step sorts and grows everything. */
+static mps_status add_drop(mps_sim *sim, double y, int64_t count)
+{
+    double x[2 * 64];
+    mps_particle_block block;
+    assert_true(count <= 64);
+    assert_int_equal(mps_particle_block_init(&block, sizeof block), MPS_OK);
+    for (int64_t k = 0; k < count; k++) {
+        x[2 * k] = 0.1 + 0.04 * (double)(k % 8);
+        x[2 * k + 1] = y + 0.04 * (double)(k / 8);
+    }
+    block.count = count;
+    block.position = x;
+    return mps_particles_add(sim, &block, NULL);
+}
+
+static void grown(mps_sim *sim)
+{
+    stepped(sim);
+    assert_int_equal(add_drop(sim, 0.36, 64), MPS_OK);
+}
+
+/* ---- calls under test ---------------------------------------------------------------------------------------------- */
+
+static mps_status baffle(mps_sim *sim)
+{
+    const double lo[2] = {0.25, 0.05}, hi[2] = {0.25, 0.2};
+    return mps_geometry_baffle(sim, "baffle", lo, hi);
+}
+
+static int anywhere(void *user, const double *x) { return (void)user, x[1] < 0.3; }
+static mps_status fill_inside(mps_sim *sim) { return mps_geometry_fill(sim, 0, anywhere, NULL, NULL); }
+static mps_status add_block(mps_sim *sim) { return add_drop(sim, 0.36, 64); }
+
+static mps_status remove_some(mps_sim *sim)
+{
+    const int64_t ids[3] = {3, 1, 40};
+    return mps_particles_remove(sim, 3, ids);
+}
+
+static mps_status field_add(mps_sim *sim) { return mps_field_add(sim, "mine", 3); }
+
+static mps_status harmonics(mps_sim *sim)
+{
+    const mps_harmonic h = {.dof = MPS_SURGE, .amplitude = 0.01, .omega = 3};
+    return mps_motion_set_harmonics(sim, 1, &h);
+}
+
+static mps_status motion_table(mps_sim *sim)
+{
+    const double t[4] = {0, 1, 2, 3}, x[4] = {0, 0.01, 0, -0.01};
+    const int32_t dof = MPS_SURGE;
+    return mps_motion_set_table(sim, 4, t, 1, &dof, x);
+}
+
+static mps_status probe(mps_sim *sim)
+{
+    mps_probe p;
+    int32_t id = -1;
+    assert_int_equal(mps_probe_init(&p, sizeof p), MPS_OK);
+    p.at[1] = 0.1;
+    const mps_status status = mps_probe_add(sim, &p, &id);
+    assert_int_equal(id, status == MPS_OK ? 0 : -1);
+    return status;
+}
+
+static mps_status solver(mps_sim *sim) { return mps_solver_use(sim, "sundials.bicgstab", "ic0"); }
+static mps_status preset(mps_sim *sim) { return mps_sim_use_preset(sim, "imps.paper"); }
+static mps_status step(mps_sim *sim) { return mps_step(sim, 1e-3, NULL); }
+
+static mps_status stencil(mps_sim *sim)
+{
+    mps_stencil s;
+    return mps_sim_stencil(sim, MPS_FAR, &s);
+}
+
+/* ---- the loop -------------------------------------------------------------------------------------------------------- */
+
+/* Positions, velocities and pressures by id, so that the order does not matter. */
+static double *snapshot(mps_sim *sim, int64_t *count)
+{
+    static const char *const fields[3] = {"position", "velocity", "pressure"};
+    const int64_t *ids = NULL, n = mps_particles_count(sim, -1);
+    double *out = calloc((size_t)(5 * (n + 200)), sizeof *out);
+    int64_t at = 0;
+    assert_int_equal(mps_particles_tags(sim, &ids, NULL, NULL, NULL), MPS_OK);
+    for (int f = 0; f < 3; f++) {
+        mps_lease lease;
+        assert_int_equal(mps_lease_begin(sim, fields[f], MPS_READ, &lease), MPS_OK);
+        for (int64_t i = 0; i < n; i++)
+            for (int c = 0; c < lease.stride; c++) out[at + ids[i] * lease.stride + c] = lease.data[i * lease.stride + c];
+        at += (n + 64) * lease.stride;
+        assert_int_equal(mps_lease_end(sim, &lease), MPS_OK);
+    }
+    *count = 5 * n;
+    return out;
+}
+
+/* A failed call changed nothing one can see. */
+static void check_unchanged(mps_sim *sim, const double *before, int64_t count, double t)
+{
+    int64_t now = 0;
+    double time = -1, *after = snapshot(sim, &now);
+    assert_int_equal(now, count);
+    assert_memory_equal(after, before, (size_t)count * sizeof *after);
+    assert_int_equal(mps_sim_time(sim, &time, NULL), MPS_OK);
+    assert_true(time == t);
+    free(after);
+}
+
+typedef struct scene {
+    const char *name;
+    void (*prepare)(mps_sim *sim);
+    mps_status (*call)(mps_sim *sim);
+    int64_t least; /* allocations the call makes at least, so that the loop is known to test something */
+} scene;
+
+static const scene scenes[] = {
+    {"geometry_tank", nothing, add_tank, 2},      {"geometry_baffle", tank_only, baffle, 2},     {"geometry_fill_box", tank_only, fill, 2},
+    {"geometry_fill", tank_only, fill_inside, 2}, {"particles_add", filled, add_block, 5},       {"particles_remove", filled, remove_some, 5},
+    {"field_add", filled, field_add, 1},          {"motion_set_harmonics", filled, harmonics, 1}, {"motion_set_table", filled, motion_table, 1},
+    {"probe_add", filled, probe, 1},              {"solver_use", filled, solver, 1},             {"use_preset", filled, preset, 0},
+    {"first step", filled, step, 20},             {"later step", stepped, step, 1},              {"step of more", grown, step, 20},
+    {"stencil", filled, stencil, 10},             {"stencil of more", grown, stencil, 10},
+};
+
+/* Fail allocation k of one call. Returns false when the call had fewer than k. */
+static bool fail_once(const scene *s, int64_t k)
+{
+    memory m = {0, 0, 0};
+    mps_sim *sim = NULL;
+    double t = -1;
+    int64_t count = 0;
+    assert_int_equal(create(&m, &sim, NULL, 0), MPS_OK);
+    s->prepare(sim);
+    double *before = snapshot(sim, &count);
+    assert_int_equal(mps_sim_time(sim, &t, NULL), MPS_OK);
+    m.count = 0;
+    m.fail_at = k;
+    const mps_status status = s->call(sim);
+    const bool failed = m.count >= k;
+    m.fail_at = 0;
+    if (failed) {
+        if (status != MPS_E_NOMEM) fail_msg("%s, allocation %lld: %s: %s", s->name, (long long)k, mps_status_name(status), mps_sim_error(sim));
+        if (!strstr(mps_sim_error(sim), "memory")) fail_msg("%s, allocation %lld: the text is \"%s\"", s->name, (long long)k, mps_sim_error(sim));
+        check_unchanged(sim, before, count, t);
+        if (s->call(sim) != MPS_OK) fail_msg("%s, again after allocation %lld: %s", s->name, (long long)k, mps_sim_error(sim));
+    } else {
+        assert_int_equal(status, MPS_OK);
+        assert_true(m.count >= s->least);
+    }
+    if (mps_particles_count(sim, MPS_FLUID) > 0) assert_true(mps_step(sim, 1e-3, NULL) >= 0);
+    mps_sim_destroy(sim);
+    free(before);
+    if (m.live != 0) fail_msg("%s, allocation %lld: %lld blocks are not given back", s->name, (long long)k, (long long)m.live);
+    return failed;
+}
+
+static void run_scene(void **state)
+{
+    const scene *s = *state;
+    for (int64_t k = 1; fail_once(s, k); k++) assert_true(k < 1000);
+}
+
+static void sim_create(void **state)
+{
+    (void)state;
+    mps_status status = MPS_E_NOMEM;
+    int64_t k = 0;
+    while (status != MPS_OK) {
+        memory m = {0, 0, ++k};
+        mps_sim *sim = (mps_sim *)&m;
+        char error[200] = "";
+        status = create(&m, &sim, error, sizeof error);
+        if (status == MPS_OK) {
+            assert_true(m.live > 0);
+            mps_sim_destroy(sim);
+        } else {
+            assert_int_equal(status, MPS_E_NOMEM);
+            assert_null(sim);
+            assert_non_null(strstr(error, "memory"));
+        }
+        assert_int_equal(m.live, 0);
+    }
+    assert_true(k > 15);
+}
+
+static void neighbours(void **state)
+{
+    (void)state;
+    double x[200];
+    mps_kernel kernel;
+    mps_stencil s;
+    assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
+    for (int k = 0; k < 200; k++) x[k] = k % 2 ? k / 20 : k / 2 % 10;
+    for (int64_t k = 1;; k++) {
+        memory m = {0, 0, k};
+        const mps_allocator allocator = allocator_of(&m);
+        mps_neighbours *list = (mps_neighbours *)&m;
+        mps_status status = mps_neighbours_create(2, 1, &allocator, &list);
+        if (status != MPS_OK) {
+            assert_int_equal(status, MPS_E_NOMEM);
+            assert_null(list);
+            continue;
+        }
+        assert_true(k > 1);
+        status = mps_neighbours_build(list, 100, x, 2.1, 3.1);
+        const bool failed = status != MPS_OK;
+        if (failed) {
+            assert_int_equal(status, MPS_E_NOMEM);
+            assert_int_equal(mps_neighbours_stencil(list, MPS_NEAR, &kernel, &s), MPS_E_ARG); /* empty */
+            assert_int_equal(mps_neighbours_build(list, 100, x, 2.1, 3.1), MPS_OK);
+        }
+        assert_int_equal(mps_neighbours_stencil(list, MPS_NEAR, &kernel, &s), MPS_OK);
+        assert_int_equal(s.end[55] - s.begin[55], 12);
+        mps_neighbours_destroy(list);
+        assert_int_equal(m.live, 0);
+        if (!failed) {
+            assert_true(k > 8);
+            break;
+        }
+    }
+}
+
+int main(void)
+{
+    enum { SCENES = sizeof scenes / sizeof scenes[0] };
+    struct CMUnitTest tests[SCENES + 2] = {cmocka_unit_test(sim_create), cmocka_unit_test(neighbours)};
+    for (int k = 0; k < SCENES; k++) tests[k + 2] = (struct CMUnitTest){scenes[k].name, run_scene, NULL, NULL, (void *)&scenes[k]};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

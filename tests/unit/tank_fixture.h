@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A simulation with a tank, shared by the tests of geometry, motion, probes and frames. */
+#ifndef TANK_FIXTURE_H
+#define TANK_FIXTURE_H
+
+#include <math.h>
+#include <mps/mps.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define ASSERT_OK(sim, call) ASSERT_STATUS(sim, call, MPS_OK)
+#define ASSERT_STATUS(sim, call, wanted)                                                                                     \
+    do {                                                                                                                     \
+        mps_status got_ = (call);                                                                                            \
+        if (got_ != (wanted))                                                                                                \
+            fail_msg("%s: %s instead of %s: %s", #call, mps_status_name(got_), mps_status_name(wanted), mps_sim_error(sim)); \
+    } while (0)
+/* A refusal whose text contains `word`. */
+#define ASSERT_REFUSED(sim, call, wanted, word)                                                                          \
+    do {                                                                                                                 \
+        ASSERT_STATUS(sim, call, wanted);                                                                                \
+        if (!strstr(mps_sim_error(sim), (word))) fail_msg("\"%s\" does not mention \"%s\"", mps_sim_error(sim), (word)); \
+    } while (0)
+#define ASSERT_NEAR(a, b, tolerance)                                                                                         \
+    do {                                                                                                                     \
+        double a_ = (a), b_ = (b), t_ = (tolerance);                                                                         \
+        if (!(fabs(a_ - b_) <= t_)) fail_msg("%s = %.17g, %s = %.17g differ by %g > %g", #a, a_, #b, b_, fabs(a_ - b_), t_); \
+    } while (0)
+
+static inline mps_sim *new_sim(int32_t dim, double dp)
+{
+    mps_config config;
+    mps_sim *sim = NULL;
+    assert_int_equal(mps_config_init(&config, sizeof config), MPS_OK);
+    config.dim = dim;
+    config.dp = dp;
+    assert_int_equal(mps_sim_create(&config, &sim), MPS_OK);
+    return sim;
+}
+
+static inline void add_tank(mps_sim *sim, double sx, double sy, double sz)
+{
+    mps_tank tank;
+    assert_int_equal(mps_tank_init(&tank, sizeof tank), MPS_OK);
+    tank.size[0] = sx;
+    tank.size[1] = sy;
+    tank.size[2] = sz;
+    ASSERT_OK(sim, mps_geometry_tank(sim, &tank, NULL));
+}
+
+/* Fill from the lower corner of the tank up to `depth`; returns the particles added. */
+static inline int64_t fill_depth(mps_sim *sim, double sx, double depth, double sz)
+{
+    const double lo[3] = {0, 0, 0}, hi[3] = {sx, depth, sz};
+    int64_t added = 0;
+    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, &added));
+    return added;
+}
+
+#endif
