@@ -175,6 +175,18 @@ static bool draw_particles(image *m, const scene *s)
     return true;
 }
 
+/* The inside of the walls as a frame, where the walls themselves are not drawn. */
+static void draw_frame(image *m, const scene *s)
+{
+    int x = (int)(3 * s->dp * s->scale), width = (int)((s->hi[0] - s->lo[0]) * s->scale) - 2 * x;
+    int y = HEAD + x, height = (int)((s->hi[1] - s->lo[1]) * s->scale) - 2 * x;
+    colour grey = {0.55, 0.55, 0.58};
+    image_box(m, x, y, width, 2, grey);
+    image_box(m, x, y + height, width + 2, 2, grey);
+    image_box(m, x, y, 2, height, grey);
+    image_box(m, x + width, y, 2, height, grey);
+}
+
 static void draw_bar(image *m, const scene *s)
 {
     int x = m->width - BAR + 12, top = HEAD + 12, height = m->height - HEAD - 24;

@@ -5,7 +5,7 @@
 #include "builtin.h"
 
 enum { ALPHA, BETA };
-static const mps_setting settings[] = {{"alpha", 0.03, 0.0, 10.0}, {"beta", 1.0, 0.0, 10.0}};
+static const mps_setting settings[] = {{"alpha", 0.1, 0.0, 10.0}, {"beta", 1.0, 0.0, 10.0}};
 
 static int force(void *self, const double *k, mps_stage *s, double *a)
 {

@@ -5,7 +5,7 @@
 #include "builtin.h"
 
 enum { SECOND };
-static const mps_setting settings[] = {{"second_order", 1.0, 0.0, 1.0}};
+static const mps_setting settings[] = {{"second_order", 0.0, 0.0, 1.0}};
 
 /* G_i; with `first` not NULL the second pass. */
 static void corrected(const mps_stage *s, int64_t i, const double *first, double *g)

@@ -9,7 +9,7 @@
 #include "builtin.h"
 
 enum { TAU, CLIP };
-static const mps_setting settings[] = {{"tau", 1.0, 0.1, 1e6}, {"clip", 0.1, 0.0, 1.0}};
+static const mps_setting settings[] = {{"tau", 4.0, 0.1, 1e6}, {"clip", 0.1, 0.0, 1.0}};
 
 /* Wendland C2, support h. */
 static double wide(double r, double h)

@@ -43,6 +43,7 @@ static int64_t block_end(int64_t block, int64_t n)
 
 double mps__blocked_dot(const double *x, const double *y, int64_t n, int threads, double *partial)
 {
+    (void)threads; /* unused without OpenMP */
     int64_t blocks = mps__blocks(n);
 #pragma omp parallel for schedule(static) num_threads(mps__team(n, threads))
     for (int64_t b = 0; b < blocks; b++) {

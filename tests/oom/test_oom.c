@@ -76,6 +76,25 @@ static void stepped(mps_sim *sim)
     for (int k = 0; k < 3; k++) assert_int_equal(mps_step(sim, 1e-3, NULL), MPS_OK);
 }
 
+static void filled_for_bicgstab(mps_sim *sim)
+{
+    filled(sim);
+    assert_int_equal(mps_solver_use(sim, "sundials.bicgstab", "ic0"), MPS_OK);
+}
+
+static void filled_for_gmres(mps_sim *sim)
+{
+    filled(sim);
+    assert_int_equal(mps_solver_use(sim, "sundials.gmres", "jacobi"), MPS_OK);
+    assert_int_equal(mps_sim_use_preset(sim, "imps.paper"), MPS_OK);
+}
+
+static void filled_for_klu(mps_sim *sim)
+{
+    filled(sim);
+    assert_int_equal(mps_solver_use(sim, "sundials.klu", NULL), MPS_OK);
+}
+
 /* Far above the pool, so that the next step sorts and grows everything. */
 static mps_status add_drop(mps_sim *sim, double y, int64_t count)
 {
@@ -199,6 +218,8 @@ static const scene scenes[] = {
     {"field_add", filled, field_add, 1},          {"motion_set_harmonics", filled, harmonics, 1}, {"motion_set_table", filled, motion_table, 1},
     {"probe_add", filled, probe, 1},              {"solver_use", filled, solver, 1},             {"use_preset", filled, preset, 0},
     {"first step", filled, step, 20},             {"later step", stepped, step, 1},              {"step of more", grown, step, 20},
+    {"first step, bicgstab", filled_for_bicgstab, step, 20}, {"first step, gmres", filled_for_gmres, step, 20},
+    {"first step, klu", filled_for_klu, step, 20},
     {"stencil", filled, stencil, 10},             {"stencil of more", grown, stencil, 10},
 };
 

@@ -345,13 +345,35 @@ static void written_values(void **state)
     mps_sim_destroy(sim);
 }
 
+/* Particles moved since the lists were made: the stencil has the pairs of now, also while somebody reads. */
+static void stencil_under_lease(void **state)
+{
+    (void)state;
+    mps_sim *sim = pool();
+    mps_lease lease;
+    mps_stencil s;
+    ASSERT_OK(sim, mps_step(sim, 1e-3, NULL));
+    ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_WRITE, &lease));
+    for (int64_t i = 0; i < lease.count; i++) lease.data[2 * i] += (i % 3 - 1) * 0.1 * dp; /* less than half the skin of 0.25 dp */
+    ASSERT_OK(sim, mps_lease_end(sim, &lease));
+    ASSERT_OK(sim, mps_lease_begin(sim, "pressure", MPS_READ, &lease));
+    ASSERT_OK(sim, mps_sim_stencil(sim, MPS_NEAR, &s));
+    for (int64_t i = 0; i < s.n; i++) {
+        int64_t pairs = 0;
+        for (int64_t j = 0; j < s.n; j++) pairs += j != i && hypot(s.x[2 * j] - s.x[2 * i], s.x[2 * j + 1] - s.x[2 * i + 1]) < s.re;
+        assert_int_equal(s.end[i] - s.begin[i], pairs);
+    }
+    ASSERT_OK(sim, mps_lease_end(sim, &lease));
+    mps_sim_destroy(sim);
+}
+
 /* ---- fields and ids ------------------------------------------------------------------------------------------------------- */
 
 static void field_refused(void **state)
 {
     (void)state;
     mps_sim *sim = pool();
-    char name[8];
+    char name[16];
     ASSERT_REFUSED(sim, mps_field_add(sim, "pressure", 1), MPS_E_ARG, "exists");
     ASSERT_REFUSED(sim, mps_field_add(sim, "kind", 1), MPS_E_ARG, "exists"); /* a private one */
     ASSERT_REFUSED(sim, mps_field_add(sim, "mine", 0), MPS_E_ARG, "components is 0");
@@ -427,6 +449,7 @@ int main(void)
         cmocka_unit_test(coincident_walls), cmocka_unit_test(remove_by_id),    cmocka_unit_test(remove_refused),  cmocka_unit_test(remove_all),
         cmocka_unit_test(queries),          cmocka_unit_test(lease_conflicts), cmocka_unit_test(lease_refused),   cmocka_unit_test(lease_blocks),
         cmocka_unit_test(written_values),   cmocka_unit_test(field_refused),   cmocka_unit_test(field_travels),
+        cmocka_unit_test(stencil_under_lease),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

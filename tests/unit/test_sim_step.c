@@ -1,0 +1,465 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Stepping: time control, monitor, a user's model, and runs that fail - with the state as before, bit for bit. */
+#include "tank_fixture.h"
+#include <mps/model.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static const double dp = 0.05;
+
+/* ---- a model with every verb that pushes, fails or spoils on demand --------------------------------------------------- */
+
+enum { CLASSIFY, FORCE, SOURCE, GRADIENT, VELOCITY, SHIFT, VERBS };
+static const char *const verb_name[VERBS] = {"classify", "force", "source", "gradient", "velocity", "shift"};
+
+/* What the model under test does; one for all handles of this program. */
+static struct {
+    int fail;          /* verb that fails, -1: none */
+    int silent;        /* ... without mps_stage_fail() */
+    int spoil;         /* 1: NaN in a velocity, 2: in an acceleration, 3: a velocity beyond the limit */
+    int64_t victim;    /* id of the spoilt particle */
+    double dt_limit;   /* 0: none */
+    int created, destroyed, calls[VERBS];
+} test;
+
+static int verb(mps_stage *s, int which)
+{
+    test.calls[which]++;
+    if (test.fail != which) return 0;
+    for (int64_t i = 0; i < s->n; i++) s->p[i] = 1e9; /* a mess that must not be seen afterwards */
+    for (int64_t i = 0; i < s->n * s->dim; i++) s->u[i] = -77;
+    return test.silent ? 1 : mps_stage_fail(s, "the %s is out of order", verb_name[which]);
+}
+
+static int64_t place_of(const mps_stage *s, int64_t id)
+{
+    for (int64_t i = 0; i < s->n; i++)
+        if (s->id[i] == id) return i;
+    return 0;
+}
+
+static int create(const mps_allocator *allocator, void **self)
+{
+    test.created++;
+    *self = allocator->alloc(allocator->user, 8);
+    return *self == NULL;
+}
+
+static void destroy(void *self)
+{
+    test.destroyed++;
+    free(self); /* the handles here use the default allocator */
+}
+
+static int classify(void *self, const double *k, mps_stage *s) { return (void)self, (void)k, verb(s, CLASSIFY); }
+static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *t) { return (void)self, (void)k, (void)t, verb(s, SOURCE); }
+static int gradient(void *self, const double *k, mps_stage *s, double *a) { return (void)self, (void)k, (void)a, verb(s, GRADIENT); }
+static int shift(void *self, const double *k, mps_stage *s, double *dx) { return (void)self, (void)k, (void)dx, verb(s, SHIFT); }
+static double dt_limit(void *self, const double *k, const mps_stage *s) { return (void)self, (void)k, (void)s, test.dt_limit; }
+
+static int force(void *self, const double *k, mps_stage *s, double *a)
+{
+    assert_non_null(self);
+    for (int64_t i = 0; i < s->n; i++) a[i * s->dim] += k[0];
+    if (test.spoil == 2) a[place_of(s, test.victim) * s->dim] = NAN;
+    return verb(s, FORCE);
+}
+
+static int velocity(void *self, const double *k, mps_stage *s)
+{
+    (void)self, (void)k;
+    if (test.spoil == 1) s->u[place_of(s, test.victim) * s->dim + 1] = NAN;
+    if (test.spoil == 3) s->u[place_of(s, test.victim) * s->dim + 1] = 1e4;
+    return verb(s, VELOCITY);
+}
+
+static const mps_setting push_settings[] = {{"acceleration", 0, -100, 100}};
+static const mps_model_ops push = {.struct_size = sizeof(mps_model_ops), .api = MPS_MODEL_API, .name = "test.push", .order = 350, .setting_count = 1,
+                                   .settings = push_settings, .create = create, .destroy = destroy, .classify = classify, .force = force,
+                                   .source = source, .gradient = gradient, .velocity = velocity, .shift = shift, .dt_limit = dt_limit};
+
+static void reset_test(void)
+{
+    memset(&test, 0, sizeof test);
+    test.fail = -1;
+}
+
+static void use_push(mps_sim *sim)
+{
+    ASSERT_OK(sim, mps_model_register(sim, &push));
+    ASSERT_OK(sim, mps_model_use(sim, "test.push"));
+}
+
+/* ---- scenes ------------------------------------------------------------------------------------------------------------- */
+
+static void fill_pool(mps_sim *sim)
+{
+    mps_tank tank;
+    assert_int_equal(mps_tank_init(&tank, sizeof tank), MPS_OK);
+    tank.size[0] = tank.size[1] = 0.5;
+    ASSERT_OK(sim, mps_geometry_tank(sim, &tank, NULL));
+    fill_depth(sim, 0.5, 0.3, 0);
+}
+
+static mps_sim *pool(void)
+{
+    reset_test();
+    mps_sim *sim = new_sim(2, dp);
+    fill_pool(sim);
+    return sim;
+}
+
+static void set_velocity(mps_sim *sim, int64_t id, double ux, double uy)
+{
+    mps_lease u;
+    const int64_t at = mps_particle_index(sim, id);
+    ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &u));
+    u.data[u.stride * at] = ux;
+    u.data[u.stride * at + 1] = uy;
+    ASSERT_OK(sim, mps_lease_end(sim, &u));
+}
+
+static void set_position(mps_sim *sim, int64_t id, double x, double y)
+{
+    mps_lease p;
+    const int64_t at = mps_particle_index(sim, id);
+    ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_WRITE, &p));
+    p.data[p.stride * at] = x;
+    p.data[p.stride * at + 1] = y;
+    ASSERT_OK(sim, mps_lease_end(sim, &p));
+}
+
+/* Time, positions, velocities, pressures by id. */
+typedef struct picture {
+    double t, value[5000];
+    int64_t steps, n;
+} picture;
+
+static picture take_picture(mps_sim *sim)
+{
+    static const char *const fields[] = {"position", "velocity", "pressure"};
+    const int64_t *ids;
+    picture c;
+    int64_t at = 0;
+    memset(&c, 0, sizeof c);
+    c.n = mps_particles_count(sim, -1);
+    ASSERT_OK(sim, mps_sim_time(sim, &c.t, &c.steps));
+    ASSERT_OK(sim, mps_particles_tags(sim, &ids, NULL, NULL, NULL));
+    for (int f = 0; f < 3; f++) {
+        mps_lease l;
+        ASSERT_OK(sim, mps_lease_begin(sim, fields[f], MPS_READ, &l));
+        for (int64_t i = 0; i < l.count; i++) {
+            assert_true(ids[i] < 1000);
+            memcpy(c.value + at + ids[i] * l.stride, l.data + i * l.stride, (size_t)l.stride * sizeof(double));
+        }
+        at += 1000 * l.stride;
+        ASSERT_OK(sim, mps_lease_end(sim, &l));
+    }
+    return c;
+}
+
+static void assert_same(const picture *a, const picture *b)
+{
+    assert_true(a->t == b->t);
+    assert_int_equal(a->steps, b->steps);
+    assert_int_equal(a->n, b->n);
+    assert_memory_equal(a->value, b->value, sizeof a->value);
+}
+
+/* ---- a user's model --------------------------------------------------------------------------------------------------------- */
+
+/* Three drops far apart, no gravity, nothing else to act: du = a dt, dx = u dt. */
+static void acceleration(void **state)
+{
+    (void)state;
+    reset_test();
+    mps_config c;
+    mps_sim *sim = NULL;
+    mps_particle_block b;
+    mps_step_info info;
+    const double x[6] = {0, 0, 1, 0, 0, 1}, dt = 1e-3;
+    assert_int_equal(mps_config_init(&c, sizeof c), MPS_OK);
+    c.dp = dp;
+    memset(c.gravity, 0, sizeof c.gravity);
+    assert_int_equal(mps_sim_create(&c, &sim), MPS_OK);
+    assert_int_equal(mps_particle_block_init(&b, sizeof b), MPS_OK);
+    assert_int_equal(mps_step_info_init(&info, sizeof info), MPS_OK);
+    b.count = 3;
+    b.position = x;
+    ASSERT_OK(sim, mps_particles_add(sim, &b, NULL));
+    use_push(sim);
+    ASSERT_OK(sim, mps_model_set(sim, "test", "acceleration", 3));
+    ASSERT_OK(sim, mps_step(sim, dt, &info));
+    assert_true(info.dt == dt && info.t == dt && info.step == 1);
+    const picture p = take_picture(sim);
+    for (int k = 0; k < 3; k++) {
+        ASSERT_NEAR(p.value[2000 + 2 * k], 3 * dt, 1e-15);
+        ASSERT_NEAR(p.value[2 * k], x[2 * k] + 3 * dt * dt, 1e-15);
+        assert_true(p.value[2000 + 2 * k + 1] == 0);
+    }
+    for (int v = 0; v < VERBS; v++) assert_int_equal(test.calls[v], 1);
+    mps_sim_destroy(sim);
+    assert_true(test.created == 1 && test.destroyed == 1);
+}
+
+/* Whatever verb fails, the step did not happen - also not in what one cannot see: the run goes on as its twin does. */
+static void failing_model(void **state)
+{
+    (void)state;
+    mps_sim *twin = pool(), *sim = pool();
+    char word[64];
+    use_push(twin);
+    use_push(sim);
+    set_velocity(sim, 150, 0.3, 0.2);
+    set_velocity(twin, 150, 0.3, 0.2);
+    for (int v = -1; v < 2 * VERBS; v++) {
+        if (v >= 0) {
+            const picture before = take_picture(sim);
+            test.fail = v % VERBS;
+            test.silent = v / VERBS;
+            snprintf(word, sizeof word, "the %s is out of order", verb_name[test.fail]);
+            ASSERT_REFUSED(sim, mps_step(sim, 0.01, NULL), MPS_E_PLUGIN, test.silent ? "\"test.push\" failed" : word);
+            assert_non_null(strstr(mps_sim_error(sim), "test.push"));
+            const picture after = take_picture(sim);
+            assert_same(&before, &after);
+            test.fail = -1;
+        }
+        ASSERT_OK(sim, mps_step(sim, 0.01, NULL));
+        ASSERT_OK(twin, mps_step(twin, 0.01, NULL));
+        const picture a = take_picture(sim), b = take_picture(twin);
+        assert_same(&a, &b);
+    }
+    mps_sim_destroy(sim);
+    mps_sim_destroy(twin);
+}
+
+static void diverged(void **state)
+{
+    (void)state;
+    char particle[64];
+    mps_sim *sim = pool();
+    use_push(sim);
+    ASSERT_OK(sim, mps_step(sim, 1e-3, NULL));
+    test.victim = 0;
+    while (mps_particle_index(sim, test.victim) < 0 || test.victim < mps_particles_count(sim, -1) - mps_particles_count(sim, MPS_FLUID) + 10) test.victim++;
+    const picture before = take_picture(sim);
+    for (test.spoil = 1; test.spoil <= 3; test.spoil++) {
+        snprintf(particle, sizeof particle, "particle %lld at (%g, %g", (long long)test.victim, before.value[2 * test.victim], before.value[2 * test.victim + 1]);
+        const mps_status status = mps_step(sim, 1e-3, NULL);
+        if (test.spoil == 2) { /* NaN in the forces is caught at the latest by the pressure solver */
+            assert_true(status == MPS_E_DIVERGED || status == MPS_E_SOLVER);
+        } else {
+            assert_int_equal(status, MPS_E_DIVERGED);
+            if (!strstr(mps_sim_error(sim), particle)) fail_msg("\"%s\" does not mention \"%s\"", mps_sim_error(sim), particle);
+        }
+        const picture after = take_picture(sim);
+        assert_same(&before, &after);
+    }
+    test.spoil = 0;
+    ASSERT_OK(sim, mps_step(sim, 1e-3, NULL));
+    mps_sim_destroy(sim);
+}
+
+/* ---- time control --------------------------------------------------------------------------------------------------------------- */
+
+static mps_time_control control(void)
+{
+    mps_time_control c;
+    assert_int_equal(mps_time_control_init(&c, sizeof c), MPS_OK);
+    return c;
+}
+
+#define REFUSE(entry, value, word)                                                      \
+    do {                                                                                \
+        mps_time_control c_ = control();                                                \
+        c_.entry = (value);                                                             \
+        ASSERT_REFUSED(sim, mps_sim_set_time_control(sim, &c_), MPS_E_ARG, word);       \
+    } while (0)
+
+static void bad_time_control(void **state)
+{
+    (void)state;
+    mps_sim *sim = pool();
+    mps_time_control c = control();
+    REFUSE(dt, -1e-3, "dt is -0.001");
+    REFUSE(dt, NAN, "dt is");
+    REFUSE(dt, INFINITY, "dt is inf");
+    REFUSE(cfl, NAN, "NaN");
+    REFUSE(gravity, NAN, "NaN");
+    REFUSE(viscous, NAN, "NaN");
+    REFUSE(dt_max, NAN, "NaN");
+    REFUSE(growth, NAN, "growth");
+    REFUSE(growth, 1, "growth is 1");
+    REFUSE(dt_min, NAN, "dt_min");
+    REFUSE(dt_min, -1, "dt_min is -1");
+    REFUSE(struct_size, 0, "struct_size");
+    c.cfl = c.gravity = c.dt_max = -1;
+    ASSERT_REFUSED(sim, mps_sim_set_time_control(sim, &c), MPS_E_ARG, "off");
+    c.dt = 0;
+    ASSERT_REFUSED(sim, mps_sim_set_time_control(sim, &c), MPS_E_ARG, "off");
+    c.dt = 1e-3; /* a fixed step needs no limit */
+    ASSERT_OK(sim, mps_sim_set_time_control(sim, &c));
+    ASSERT_REFUSED(sim, mps_sim_set_time_control(sim, NULL), MPS_E_ARG, "NULL");
+    assert_int_equal(mps_sim_set_time_control(NULL, &c), MPS_E_ARG);
+    mps_sim_destroy(sim);
+}
+
+static double step_taken(mps_sim *sim, double dt_max)
+{
+    mps_step_info info;
+    assert_int_equal(mps_step_info_init(&info, sizeof info), MPS_OK);
+    ASSERT_OK(sim, mps_step(sim, dt_max, &info));
+    return info.dt;
+}
+
+/* Each limit in turn is the smallest and gives the step. */
+static void limits(void **state)
+{
+    (void)state;
+    const double g = sqrt(9.81 * dp);
+    mps_sim *sim = pool();
+    use_push(sim);
+    ASSERT_NEAR(step_taken(sim, 1), 0.03 * dp / g, 1e-15);
+    mps_time_control c = control();
+    c.dt_max = 1e-4;
+    ASSERT_OK(sim, mps_sim_set_time_control(sim, &c));
+    ASSERT_NEAR(step_taken(sim, 1), 1e-4, 1e-18);
+    c.dt_max = -1;
+    ASSERT_OK(sim, mps_sim_set_time_control(sim, &c)); /* forgets the previous step, */
+    test.dt_limit = 2e-4;
+    ASSERT_NEAR(step_taken(sim, 1), 2e-4, 1e-18);
+    test.dt_limit = 0;
+    ASSERT_NEAR(step_taken(sim, 1), 2.2e-4, 1e-15); /* which growth is measured against */
+    ASSERT_NEAR(step_taken(sim, 1e-5), 1e-5, 1e-18);
+    ASSERT_NEAR(step_taken(sim, 1), 1.1 * 2.2e-4, 1e-15); /* a step cut by the caller does not count */
+    c.dt = 5e-4;
+    ASSERT_OK(sim, mps_sim_set_time_control(sim, &c));
+    ASSERT_NEAR(step_taken(sim, 1), 5e-4, 1e-18);
+    c.dt = 0;
+    c.growth = -1;
+    ASSERT_OK(sim, mps_sim_set_time_control(sim, &c));
+    mps_phase honey;
+    assert_int_equal(mps_phase_init(&honey, sizeof honey), MPS_OK);
+    honey.viscosity = 1000;
+    ASSERT_OK(sim, mps_sim_set_phase(sim, 0, &honey));
+    ASSERT_NEAR(step_taken(sim, 1), 0.2 * dp * dp, 1e-15);
+    c.dt_min = 1e-2;
+    ASSERT_OK(sim, mps_sim_set_time_control(sim, &c));
+    ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_DIVERGED, "below dt_min = 0.01");
+    mps_sim_destroy(sim);
+}
+
+static void bad_steps(void **state)
+{
+    (void)state;
+    mps_sim *sim = pool();
+    const picture before = take_picture(sim);
+    const double bad[] = {0, -1, NAN, INFINITY};
+    mps_step_info info = {.struct_size = 0};
+    for (int k = 0; k < 4; k++) ASSERT_REFUSED(sim, mps_step(sim, bad[k], NULL), MPS_E_ARG, "dt_max is");
+    ASSERT_REFUSED(sim, mps_step(sim, 1e-3, &info), MPS_E_ARG, "struct_size");
+    ASSERT_REFUSED(sim, mps_run(sim, NAN, NULL, NULL), MPS_E_ARG, "t_end");
+    ASSERT_REFUSED(sim, mps_run(sim, INFINITY, NULL, NULL), MPS_E_ARG, "t_end");
+    ASSERT_REFUSED(sim, mps_run(sim, -1, NULL, NULL), MPS_E_ARG, "t_end is -1");
+    assert_int_equal(mps_step(NULL, 1e-3, NULL), MPS_E_ARG);
+    assert_int_equal(mps_run(NULL, 1, NULL, NULL), MPS_E_ARG);
+    const picture after = take_picture(sim);
+    assert_same(&before, &after);
+    ASSERT_OK(sim, mps_run(sim, 0, NULL, NULL)); /* there already */
+    mps_sim_destroy(sim);
+    sim = new_sim(2, dp);
+    ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_STATE, "no fluid");
+    add_tank(sim, 0.5, 0.5, 0);
+    ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_STATE, "no fluid");
+    ASSERT_REFUSED(sim, mps_run(sim, 1, NULL, NULL), MPS_E_STATE, "no fluid");
+    mps_sim_destroy(sim);
+}
+
+/* A shorter step info of an older program is filled up to its end and no further. */
+static void older_step_info(void **state)
+{
+    (void)state;
+    mps_sim *sim = pool();
+    mps_step_info info;
+    assert_int_equal(mps_step_info_init(&info, sizeof info), MPS_OK);
+    info.struct_size = offsetof(mps_step_info, cfl);
+    info.cfl = -5;
+    ASSERT_OK(sim, mps_step(sim, 1e-3, &info));
+    assert_true(info.struct_size == offsetof(mps_step_info, cfl) && info.dt == 1e-3 && info.cfl == -5);
+    mps_sim_destroy(sim);
+}
+
+/* ---- mps_run ------------------------------------------------------------------------------------------------------------------- */
+
+typedef struct watch {
+    int calls, stop_after;
+    double t, least;
+} watch;
+
+static int monitor(void *user, mps_sim *sim, const mps_step_info *info)
+{
+    watch *w = user;
+    double t = -1;
+    assert_int_equal(mps_sim_time(sim, &t, NULL), MPS_OK);
+    assert_true(info->struct_size == sizeof *info && info->t == t && info->t > w->t);
+    w->t = info->t;
+    w->least = fmin(w->least, info->dt);
+    return ++w->calls == w->stop_after;
+}
+
+static void run_to_the_end(void **state)
+{
+    (void)state;
+    const double dts[] = {0, 1e-3, 7e-4};
+    for (int k = 0; k < 3; k++) {
+        watch w = {.least = INFINITY};
+        mps_sim *sim = pool();
+        mps_time_control c = control();
+        double t = -1;
+        c.dt = dts[k];
+        ASSERT_OK(sim, mps_sim_set_time_control(sim, &c));
+        ASSERT_OK(sim, mps_run(sim, 0.02, monitor, &w));
+        ASSERT_OK(sim, mps_sim_time(sim, &t, NULL));
+        assert_true(t == 0.02 && w.t == 0.02); /* not nearly */
+        if (k == 1) assert_int_equal(w.calls, 20); /* a whole number of fixed steps is that number of steps */
+        assert_true(w.least > 1e-4);               /* no sliver at the end */
+        ASSERT_OK(sim, mps_run(sim, 0.021, monitor, &w));
+        assert_true(w.t == 0.021);
+        mps_sim_destroy(sim);
+    }
+}
+
+static void monitor_stops(void **state)
+{
+    (void)state;
+    watch w = {.stop_after = 4, .least = INFINITY};
+    mps_sim *sim = pool();
+    double t = -1;
+    int64_t steps = -1;
+    ASSERT_STATUS(sim, mps_run(sim, 1, monitor, &w), MPS_W_STOPPED);
+    ASSERT_OK(sim, mps_sim_time(sim, &t, &steps));
+    assert_true(w.calls == 4 && steps == 4 && t == w.t && t < 1);
+    mps_sim_destroy(sim);
+}
+
+/* The error of a step ends the run and is the run's. */
+static void run_fails(void **state)
+{
+    (void)state;
+    mps_sim *sim = pool();
+    use_push(sim);
+    test.fail = SHIFT;
+    ASSERT_REFUSED(sim, mps_run(sim, 1, NULL, NULL), MPS_E_PLUGIN, "shift");
+    mps_sim_destroy(sim);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(acceleration), cmocka_unit_test(failing_model),   cmocka_unit_test(diverged),       cmocka_unit_test(bad_time_control),
+        cmocka_unit_test(limits),       cmocka_unit_test(bad_steps),       cmocka_unit_test(older_step_info), cmocka_unit_test(run_to_the_end),
+        cmocka_unit_test(monitor_stops), cmocka_unit_test(run_fails),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
