@@ -215,10 +215,10 @@ static bool picture_draw(scene *s, const char *path)
     scene_window(s);
     s->p_max = scene_p_max(s);
     bool done = image_create(&m, s) && draw_particles(&m, s);
-    if (!done)
-        fprintf(stderr, "%s: out of memory\n", path);
-    else
-        draw_bar(&m, s), done = image_save(&m, path);
+    if (done && s->dim == 3) draw_frame(&m, s);
+    if (done) draw_bar(&m, s);
+    if (!done) fprintf(stderr, "%s: out of memory\n", path);
+    done = done && image_save(&m, path);
     free(m.pixel);
     return done;
 }

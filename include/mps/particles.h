@@ -62,7 +62,7 @@ enum { MPS_READ = 0, MPS_WRITE = 1 };
  *  @return MPS_E_NAME, MPS_E_BUSY (write against read) */
 MPS_API mps_status mps_lease_begin(mps_sim *sim, const char *field, int32_t mode, mps_lease *lease);
 
-/** Give a lease back; it becomes empty. Written values must be finite (MPS_E_ARG, and the lease stays open). */
+/** Give a lease back; it becomes empty. Written values must be finite, densities > 0 (else MPS_E_ARG, and the lease stays open). */
 MPS_API mps_status mps_lease_end(mps_sim *sim, mps_lease *lease);
 
 /** Read-only views of the integer properties, [mps_particles_count(sim, -1)] each; NULL outputs are skipped.

@@ -212,8 +212,8 @@ mps_status mps_lease_end(mps_sim *sim, mps_lease *lease)
     MPS__CHECK(&sim->context, write ? f->writer : f->readers > 0, "this lease of \"%s\" is not open", f->name);
     const double *data = *f->data;
     for (int64_t k = 0; write && k < s->n * f->components; k++)
-        MPS__CHECK(&sim->context, isfinite(data[k]), "field \"%s\" of particle %lld was written as %g: must be finite; the lease stays open", f->name,
-                   (long long)s->id[k / f->components], data[k]);
+        MPS__CHECK(&sim->context, isfinite(data[k]) && (data != s->rho || data[k] > 0), "field \"%s\" of particle %lld was written as %g: must be finite%s; the lease stays open", f->name,
+                   (long long)s->id[k / f->components], data[k], data == s->rho ? " and > 0" : "");
     if (write)
         f->writer = false;
     else

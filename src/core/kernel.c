@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Weight functions by name or callback, and their constants on a full lattice. */
-#include "operators.h"
+#include <math.h>
+#include <mps/operators.h>
 #include <string.h>
 
 mps_status mps_kernel_find(const char *name, mps_kernel *kernel)

@@ -33,6 +33,13 @@ static int32_t find_active(const mps__models *m, const char *slot)
     return -1;
 }
 
+/* As find_active(), but a full name must be the active model's own. */
+static int32_t find_named(const mps__models *m, const char *slot)
+{
+    const int32_t k = find_active(m, slot);
+    return k >= 0 && strchr(slot, '.') && strcmp(m->on[k].ops->name, slot) != 0 ? -1 : k;
+}
+
 static mps_status check_ops(mps__models *m, const mps_model_ops *ops)
 {
     mps__context *c = m->context;
@@ -119,7 +126,7 @@ mps_status mps__models_use(mps__models *m, const char *name)
 mps_status mps__models_remove(mps__models *m, const char *slot)
 {
     MPS__CHECK(m->context, slot, "the slot is NULL");
-    const int32_t k = find_active(m, slot);
+    const int32_t k = find_named(m, slot);
     if (k < 0) return mps__fail(m->context, MPS_E_NAME, "no active model in slot \"%s\"", slot);
     drop(m, k);
     return MPS_OK;
@@ -127,7 +134,7 @@ mps_status mps__models_remove(mps__models *m, const char *slot)
 
 double *mps__models_value(mps__models *m, const char *slot, const char *key, const mps_setting **setting)
 {
-    const int32_t which = slot ? find_active(m, slot) : -1;
+    const int32_t which = slot ? find_named(m, slot) : -1;
     if (which < 0 || !key) {
         mps__fail(m->context, MPS_E_NAME, "no active model in slot \"%s\"", slot ? slot : "NULL");
         return NULL;

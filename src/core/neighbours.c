@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Search of pairs: cells as sorted 64-bit keys (x fastest), candidates with a skin, exact rows at every step. */
 #include "neighbours.h"
-#include "operators.h"
+#include <math.h>
+#include <mps/operators.h>
 #include <string.h>
 
 enum { MPS__BITS_2D = 31, MPS__BITS_3D = 21 };

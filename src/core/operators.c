@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The public operators: argument checks, then the loop compiled for the dimension. */
-#include "operators.h"
+#include "base.h"
+#include <math.h>
+#include <mps/operators.h>
 
 /* Jacobi rotation of a symmetric matrix in the plane (p, q); columns of v take the eigenvectors. */
 static void rotate(double *a, double *v, int dim, int p, int q)

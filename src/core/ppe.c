@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Assembly of the pressure equation, W22 (10)(16)(17): a row for every unknown, Dirichlet neighbours moved to the right side. */
 #include "ppe.h"
-#include "operators.h"
+#include <math.h>
+#include <mps/operators.h>
 #include <string.h>
 
 void mps__ppe_init(mps__ppe *e, mps__context *context)

@@ -352,6 +352,7 @@ static mps_status run_stages(step_state *q)
 static void commit(step_state *q)
 {
     mps__world *w = q->w;
+    q->info.struct_size = sizeof q->info;
     q->info.step = w->info.step + 1;
     q->info.dt = q->stage.dt;
     q->info.t = q->pose.t;
@@ -380,28 +381,38 @@ static void start(mps__world *w)
     }
 }
 
+/* All that may fail after the state is kept. */
+static mps_status try_step(step_state *q, double dt_max, double *planned)
+{
+    mps__world *w = q->w;
+    start(w);
+    set_stage(q);
+    MPS__TRY(set_dt(q, dt_max));
+    *planned = q->stage.dt;
+    MPS__TRY(mps__motion_pose(&w->motion, w->info.t + q->stage.dt, &q->pose));
+    q->budget = w->budget;
+    if (!q->budget.started) {
+        double kinetic, potential;
+        mps__budget_sum(w, &kinetic, &potential);
+        q->budget.start = kinetic + potential;
+    }
+    return run_stages(q);
+}
+
 mps_status mps__world_step(mps__world *w, double dt_max)
 {
     step_state q = {.w = w, .clock = mps__clock()};
     bool fluid = false;
     for (int64_t i = 0; i < w->particles.n && !fluid; i++) fluid = w->particles.kind[i] == MPS_FLUID;
     if (!fluid) return mps__fail(w->context, MPS_E_STATE, "there is no fluid particle to step");
-    start(w);
     MPS__TRY(mps__world_neighbours(w));
-    set_stage(&q);
-    MPS__TRY(set_dt(&q, dt_max));
-    const double planned = q.stage.dt;
-    MPS__TRY(mps__motion_pose(&w->motion, w->info.t + q.stage.dt, &q.pose));
-    q.budget = w->budget;
-    if (!q.budget.started) {
-        double kinetic, potential;
-        mps__budget_sum(w, &kinetic, &potential);
-        q.budget.start = kinetic + potential;
-    }
     keep_state(w);
-    mps_status status = run_stages(&q);
+    const int32_t start_pending = w->start_pending;
+    double planned = 0;
+    const mps_status status = try_step(&q, dt_max, &planned);
     if (status < 0) {
         restore_state(w);
+        w->start_pending = start_pending;
         return status;
     }
     commit(&q);

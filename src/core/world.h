@@ -6,7 +6,8 @@
 #include "models.h"
 #include "motion.h"
 #include "neighbours.h"
-#include "operators.h"
+#include <math.h>
+#include <mps/operators.h>
 #include "particles.h"
 #include "ppe.h"
 #include <mps/step.h>

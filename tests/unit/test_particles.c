@@ -341,6 +341,11 @@ static void written_values(void **state)
     ASSERT_STATUS(sim, mps_lease_end(sim, &lease), MPS_E_ARG);
     lease.data[2 * 7 + 1] = 0;
     ASSERT_OK(sim, mps_lease_end(sim, &lease));
+    ASSERT_OK(sim, mps_lease_begin(sim, "density", MPS_WRITE, &lease));
+    lease.data[7] = 0;
+    ASSERT_REFUSED(sim, mps_lease_end(sim, &lease), MPS_E_ARG, "> 0");
+    lease.data[7] = 999;
+    ASSERT_OK(sim, mps_lease_end(sim, &lease));
     ASSERT_OK(sim, mps_step(sim, 1e-3, NULL));
     mps_sim_destroy(sim);
 }

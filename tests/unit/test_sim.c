@@ -237,6 +237,9 @@ static void settings(void **state)
     assert_true(active(sim, "surface.asymmetry") && !active(sim, "surface.original"));
     ASSERT_OK(sim, mps_model_use(sim, "surface.original")); /* a slot holds one */
     assert_true(!active(sim, "surface.asymmetry") && active(sim, "surface.original"));
+    double high;
+    ASSERT_STATUS(sim, mps_model_get(sim, "surface.asymmetry", "high", &high), MPS_E_NAME); /* a full name is not its neighbour's */
+    ASSERT_STATUS(sim, mps_model_remove(sim, "surface.asymmetry"), MPS_E_NAME);
     ASSERT_OK(sim, mps_model_remove(sim, "surface"));
     assert_false(active(sim, "surface.original"));
     ASSERT_STATUS(sim, mps_model_remove(sim, "surface"), MPS_E_NAME);

@@ -110,6 +110,26 @@ static mps_sim *pool(void)
     return sim;
 }
 
+static const double drop_places[6] = {0, 0, 1, 0, 0, 1};
+
+/* Three drops far apart, no walls, no gravity. */
+static mps_sim *drops(void)
+{
+    mps_config c;
+    mps_sim *sim = NULL;
+    mps_particle_block b;
+    reset_test();
+    assert_int_equal(mps_config_init(&c, sizeof c), MPS_OK);
+    c.dp = dp;
+    memset(c.gravity, 0, sizeof c.gravity);
+    assert_int_equal(mps_sim_create(&c, &sim), MPS_OK);
+    assert_int_equal(mps_particle_block_init(&b, sizeof b), MPS_OK);
+    b.count = 3;
+    b.position = drop_places;
+    ASSERT_OK(sim, mps_particles_add(sim, &b, NULL));
+    return sim;
+}
+
 static void set_velocity(mps_sim *sim, int64_t id, double ux, double uy)
 {
     mps_lease u;
@@ -118,16 +138,6 @@ static void set_velocity(mps_sim *sim, int64_t id, double ux, double uy)
     u.data[u.stride * at] = ux;
     u.data[u.stride * at + 1] = uy;
     ASSERT_OK(sim, mps_lease_end(sim, &u));
-}
-
-static void set_position(mps_sim *sim, int64_t id, double x, double y)
-{
-    mps_lease p;
-    const int64_t at = mps_particle_index(sim, id);
-    ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_WRITE, &p));
-    p.data[p.stride * at] = x;
-    p.data[p.stride * at + 1] = y;
-    ASSERT_OK(sim, mps_lease_end(sim, &p));
 }
 
 /* Time, positions, velocities, pressures by id. */
@@ -169,25 +179,14 @@ static void assert_same(const picture *a, const picture *b)
 
 /* ---- a user's model --------------------------------------------------------------------------------------------------------- */
 
-/* Three drops far apart, no gravity, nothing else to act: du = a dt, dx = u dt. */
+/* Nothing else acts on the drops: du = a dt, dx = u dt. */
 static void acceleration(void **state)
 {
     (void)state;
-    reset_test();
-    mps_config c;
-    mps_sim *sim = NULL;
-    mps_particle_block b;
+    mps_sim *sim = drops();
     mps_step_info info;
-    const double x[6] = {0, 0, 1, 0, 0, 1}, dt = 1e-3;
-    assert_int_equal(mps_config_init(&c, sizeof c), MPS_OK);
-    c.dp = dp;
-    memset(c.gravity, 0, sizeof c.gravity);
-    assert_int_equal(mps_sim_create(&c, &sim), MPS_OK);
-    assert_int_equal(mps_particle_block_init(&b, sizeof b), MPS_OK);
+    const double dt = 1e-3;
     assert_int_equal(mps_step_info_init(&info, sizeof info), MPS_OK);
-    b.count = 3;
-    b.position = x;
-    ASSERT_OK(sim, mps_particles_add(sim, &b, NULL));
     use_push(sim);
     ASSERT_OK(sim, mps_model_set(sim, "test", "acceleration", 3));
     ASSERT_OK(sim, mps_step(sim, dt, &info));
@@ -195,7 +194,7 @@ static void acceleration(void **state)
     const picture p = take_picture(sim);
     for (int k = 0; k < 3; k++) {
         ASSERT_NEAR(p.value[2000 + 2 * k], 3 * dt, 1e-15);
-        ASSERT_NEAR(p.value[2 * k], x[2 * k] + 3 * dt * dt, 1e-15);
+        ASSERT_NEAR(p.value[2 * k], drop_places[2 * k] + 3 * dt * dt, 1e-15);
         assert_true(p.value[2000 + 2 * k + 1] == 0);
     }
     for (int v = 0; v < VERBS; v++) assert_int_equal(test.calls[v], 1);
@@ -232,6 +231,35 @@ static void failing_model(void **state)
     }
     mps_sim_destroy(sim);
     mps_sim_destroy(twin);
+}
+
+static int surge(void *user, double t, mps_motion_state *state)
+{
+    (void)user, (void)t;
+    state->rate[MPS_SURGE] = 0.5;
+    state->value[MPS_SURGE] = 0.5 * t;
+    return 0;
+}
+
+/* The liquid gets the tank's velocity in the first step that succeeds, not in one that fails. */
+static void failing_start(void **state)
+{
+    (void)state;
+    const double centre[3] = {0, 0, 0};
+    mps_sim *sim = pool();
+    use_push(sim);
+    ASSERT_OK(sim, mps_motion_set_centre(sim, centre, MPS_START_WITH_TANK));
+    ASSERT_OK(sim, mps_motion_set_callback(sim, surge, NULL));
+    const picture before = take_picture(sim);
+    test.fail = SHIFT;
+    ASSERT_STATUS(sim, mps_step(sim, 1e-3, NULL), MPS_E_PLUGIN);
+    const picture after = take_picture(sim);
+    assert_same(&before, &after);
+    test.fail = -1;
+    ASSERT_OK(sim, mps_step(sim, 1e-3, NULL));
+    const picture moving = take_picture(sim);
+    for (int64_t id = 0; id < moving.n; id++) ASSERT_NEAR(moving.value[2000 + 2 * id], 0.5, 0.05);
+    mps_sim_destroy(sim);
 }
 
 static void diverged(void **state)
@@ -430,6 +458,25 @@ static void run_to_the_end(void **state)
     }
 }
 
+/* n fixed steps to n dt, whatever the sums round to. */
+static void whole_steps(void **state)
+{
+    (void)state;
+    const double dts[] = {1e-3, 7e-4, 1.0 / 3};
+    for (int k = 0; k < 3; k++)
+        for (int n = 1; n < 100; n += 7) {
+            watch w = {.least = INFINITY};
+            mps_sim *sim = drops();
+            mps_time_control c = control();
+            c.dt = dts[k];
+            ASSERT_OK(sim, mps_sim_set_time_control(sim, &c));
+            ASSERT_OK(sim, mps_run(sim, n * dts[k], monitor, &w));
+            if (w.calls != n) fail_msg("%d steps of %g s took %d, the smallest %g s", n, dts[k], w.calls, w.least);
+            assert_true(w.t == n * dts[k]);
+            mps_sim_destroy(sim);
+        }
+}
+
 static void monitor_stops(void **state)
 {
     (void)state;
@@ -457,9 +504,9 @@ static void run_fails(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(acceleration), cmocka_unit_test(failing_model),   cmocka_unit_test(diverged),       cmocka_unit_test(bad_time_control),
+        cmocka_unit_test(acceleration), cmocka_unit_test(failing_model),   cmocka_unit_test(failing_start),   cmocka_unit_test(diverged),       cmocka_unit_test(bad_time_control),
         cmocka_unit_test(limits),       cmocka_unit_test(bad_steps),       cmocka_unit_test(older_step_info), cmocka_unit_test(run_to_the_end),
-        cmocka_unit_test(monitor_stops), cmocka_unit_test(run_fails),
+        cmocka_unit_test(whole_steps),  cmocka_unit_test(monitor_stops),   cmocka_unit_test(run_fails),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

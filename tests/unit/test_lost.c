@@ -1,0 +1,206 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Particles that leave the domain: both policies, domains given and not, tanks that moved and turned. */
+#include "tank_fixture.h"
+#include <stdio.h>
+
+static const double dp = 0.05;
+
+typedef struct message {
+    int level, count;
+    char text[300];
+} message;
+
+static void keep_message(void *user, int level, const char *text)
+{
+    message *m = user;
+    m->level = level;
+    m->count++;
+    snprintf(m->text, sizeof m->text, "%s", text);
+}
+
+/* A pool in a tank of 0.5 m; the domain ends 0.7 m (its longest side with dummies) beyond the solids. */
+static mps_sim *pool(int32_t policy, message *m, const double *lo, const double *hi)
+{
+    mps_config c;
+    mps_sim *sim = NULL;
+    assert_int_equal(mps_config_init(&c, sizeof c), MPS_OK);
+    c.dp = dp;
+    c.lost_policy = policy;
+    c.log = keep_message;
+    c.log_user = m;
+    if (lo) memcpy(c.domain_min, lo, 2 * sizeof *lo);
+    if (hi) memcpy(c.domain_max, hi, 2 * sizeof *hi);
+    assert_int_equal(mps_sim_create(&c, &sim), MPS_OK);
+    add_tank(sim, 0.5, 0.5, 0);
+    fill_depth(sim, 0.5, 0.3, 0);
+    *m = (message){0};
+    return sim;
+}
+
+/* Any fluid particle. */
+static int64_t some_fluid(mps_sim *sim)
+{
+    const int64_t *ids;
+    const int32_t *kinds;
+    ASSERT_OK(sim, mps_particles_tags(sim, &ids, &kinds, NULL, NULL));
+    for (int64_t i = mps_particles_count(sim, -1) - 1; i >= 0; i--)
+        if (kinds[i] == MPS_FLUID) return ids[i];
+    fail_msg("there is no fluid");
+    return -1;
+}
+
+static void put(mps_sim *sim, int64_t id, double x, double y)
+{
+    mps_lease p;
+    const int64_t at = mps_particle_index(sim, id);
+    ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_WRITE, &p));
+    p.data[2 * at] = x;
+    p.data[2 * at + 1] = y;
+    ASSERT_OK(sim, mps_lease_end(sim, &p));
+}
+
+static int64_t lost_in_step(mps_sim *sim)
+{
+    mps_step_info info;
+    assert_int_equal(mps_step_info_init(&info, sizeof info), MPS_OK);
+    ASSERT_OK(sim, mps_step(sim, 1e-4, &info));
+    return info.lost;
+}
+
+static void removed_and_counted(void **state)
+{
+    (void)state;
+    message m;
+    char word[32];
+    mps_sim *sim = pool(MPS_LOST_REMOVE, &m, NULL, NULL);
+    const int64_t n = mps_particles_count(sim, -1), id = some_fluid(sim);
+    put(sim, id, 0.25, 1.25); /* within */
+    assert_int_equal(lost_in_step(sim), 0);
+    put(sim, id, 0.25, 1.35); /* beyond 0.6 + 0.7 */
+    assert_int_equal(lost_in_step(sim), 1);
+    assert_int_equal(mps_particles_count(sim, -1), n - 1);
+    assert_int_equal(mps_particle_index(sim, id), -1);
+    assert_true(m.level == MPS_LOG_WARNING && m.count == 1);
+    snprintf(word, sizeof word, "particle %lld was at", (long long)id);
+    assert_non_null(strstr(m.text, word));
+    put(sim, some_fluid(sim), -1e6, 0.1);
+    assert_int_equal(lost_in_step(sim), 2); /* since creation */
+    mps_sim_destroy(sim);
+}
+
+static void refused_by_policy(void **state)
+{
+    (void)state;
+    message m;
+    char word[32];
+    double t = -1;
+    int64_t steps = -1;
+    mps_sim *sim = pool(MPS_LOST_ERROR, &m, NULL, NULL);
+    const int64_t n = mps_particles_count(sim, -1), id = some_fluid(sim);
+    assert_int_equal(lost_in_step(sim), 0);
+    put(sim, id, 0.25, 1e9);
+    for (int k = 0; k < 2; k++) { /* as often as one tries */
+        snprintf(word, sizeof word, "particle %lld is at", (long long)id);
+        ASSERT_REFUSED(sim, mps_step(sim, 1e-4, NULL), MPS_E_LOST, word);
+    }
+    ASSERT_OK(sim, mps_sim_time(sim, &t, &steps));
+    assert_true(t == 1e-4 && steps == 1 && m.count == 0);
+    assert_int_equal(mps_particles_count(sim, -1), n);
+    mps_lease p;
+    ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &p));
+    assert_true(p.data[2 * mps_particle_index(sim, id) + 1] == 1e9);
+    ASSERT_OK(sim, mps_lease_end(sim, &p));
+    ASSERT_OK(sim, mps_particles_remove(sim, 1, &id)); /* the way out */
+    assert_int_equal(lost_in_step(sim), 0);
+    mps_sim_destroy(sim);
+}
+
+static void given_domain(void **state)
+{
+    (void)state;
+    message m;
+    const double lo[2] = {-0.1, -0.1}, hi[2] = {0.6, 0.6};
+    mps_sim *sim = pool(MPS_LOST_REMOVE, &m, lo, hi);
+    const int64_t id = some_fluid(sim);
+    put(sim, id, 0.25, 0.59);
+    assert_int_equal(lost_in_step(sim), 0);
+    put(sim, id, 0.25, 0.61);
+    assert_int_equal(lost_in_step(sim), 1);
+    mps_sim_destroy(sim);
+}
+
+/* Turned by a quarter and carried away: lab (x, y) = (5 - Y, 2 + X). */
+static int quarter_turn(void *user, double t, mps_motion_state *state)
+{
+    (void)user, (void)t;
+    state->value[MPS_SURGE] = 5;
+    state->value[MPS_HEAVE] = 2;
+    state->value[MPS_YAW] = acos(-1.0) / 2;
+    return 0;
+}
+
+/* The domain goes with the tank: what counts is the place in the tank's frame. */
+static void moved_tank(void **state)
+{
+    (void)state;
+    message m;
+    mps_sim *sim = pool(MPS_LOST_REMOVE, &m, NULL, NULL);
+    const int64_t n = mps_particles_count(sim, -1), id = some_fluid(sim);
+    ASSERT_OK(sim, mps_motion_set_callback(sim, quarter_turn, NULL));
+    assert_int_equal(lost_in_step(sim), 0); /* far from where the tank was */
+    assert_int_equal(mps_particles_count(sim, -1), n);
+    put(sim, id, 5 - 1.25, 2 + 0.25); /* over the open end of the tank, which lies on its side now */
+    assert_int_equal(lost_in_step(sim), 0);
+    put(sim, id, 5 - 1.35, 2 + 0.25);
+    assert_int_equal(lost_in_step(sim), 1);
+    put(sim, some_fluid(sim), 0.25, 0.25); /* where the tank was */
+    assert_int_equal(lost_in_step(sim), 2);
+    mps_sim_destroy(sim);
+}
+
+/* Without solids there is no domain, and a particle far out is still no reason to hang. */
+static void no_domain(void **state)
+{
+    (void)state;
+    mps_sim *sim = new_sim(2, dp);
+    const double x[6] = {0, 0, dp, 0, 1e6 * dp, 1e6 * dp};
+    mps_particle_block b;
+    assert_int_equal(mps_particle_block_init(&b, sizeof b), MPS_OK);
+    b.count = 3;
+    b.position = x;
+    ASSERT_OK(sim, mps_particles_add(sim, &b, NULL));
+    assert_int_equal(lost_in_step(sim), 0);
+    put(sim, 2, 1e15, 0);
+    ASSERT_REFUSED(sim, mps_step(sim, 1e-4, NULL), MPS_E_ARG, "apart along axis 0");
+    assert_int_equal(mps_particles_count(sim, -1), 3);
+    put(sim, 2, 1, 0);
+    assert_int_equal(lost_in_step(sim), 0);
+    mps_sim_destroy(sim);
+}
+
+/* Nobody left: the step that lost the last fluid says so. */
+static void all_lost(void **state)
+{
+    (void)state;
+    message m;
+    mps_sim *sim = pool(MPS_LOST_REMOVE, &m, NULL, NULL);
+    while (mps_particles_count(sim, MPS_FLUID) > 1) {
+        const int64_t id = some_fluid(sim);
+        ASSERT_OK(sim, mps_particles_remove(sim, 1, &id));
+    }
+    put(sim, some_fluid(sim), 100, 100);
+    const mps_status first = mps_step(sim, 1e-4, NULL);
+    assert_true(first == MPS_OK || first == MPS_E_STATE);
+    ASSERT_REFUSED(sim, mps_step(sim, 1e-4, NULL), MPS_E_STATE, "no fluid");
+    assert_int_equal(mps_particles_count(sim, MPS_FLUID), 0);
+    mps_sim_destroy(sim);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(removed_and_counted), cmocka_unit_test(refused_by_policy), cmocka_unit_test(given_domain),
+        cmocka_unit_test(moved_tank),          cmocka_unit_test(no_domain),         cmocka_unit_test(all_lost),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
