@@ -237,6 +237,8 @@ static mps_status predict(step_state *q)
     return MPS_OK;
 }
 
+static mps_status check_result(step_state *q);
+
 /* <lap p> = source. W22 (10). */
 static mps_status project(step_state *q)
 {
@@ -255,6 +257,7 @@ static mps_status project(step_state *q)
     mps_ppe_result result = {0};
     if (w->ppe.n > 0) {
         mps_status status = mps__solvers_solve(&w->solvers, &w->ppe.problem, w->ppe.p, &result);
+        if (status == MPS_E_SOLVER) MPS__TRY(check_result(q)); /* a NaN of the prediction has a particle and a place */
         if (status < 0) return mps__fail(w->context, status, "t = %.9g s: %.400s", s->t, w->context->error);
         q->not_converged = status == MPS_W_NOT_CONVERGED;
     }

@@ -8,8 +8,8 @@
  * area-preserving stretch of the lattice changes n by several per cent, and the source then pumps the crests up. */
 #include "builtin.h"
 
-enum { TAU, CLIP };
-static const mps_setting settings[] = {{"tau", 4.0, 0.1, 1e6}, {"clip", 0.1, 0.0, 1.0}};
+enum { TAU, CLIP, STRAIN };
+static const mps_setting settings[] = {{"tau", 20.0, 0.1, 1e6}, {"clip", 0.1, 0.0, 1.0}, {"strain", 1.0, 0.0, 1.0}};
 
 /* Wendland C2, support h. */
 static double wide(double r, double h)
@@ -87,8 +87,10 @@ static void slip(const mps_stage *s, const double *v, double *slipped)
     }
 }
 
-/* Divergence of a fluid particle, with B_i. */
-static double fluid_divergence(const mps_stage *s, const double *v, int64_t i)
+/* Divergence of a fluid particle, with B_i, less the one that keeps its volume: the move x + dt v changes volumes by
+ * dt div v - dt^2 tr((grad v)^2)/2 + ..., so div v = dt tr((grad v)^2)/2 is wanted. With zero instead every strained particle is
+ * compressed at the rate dt |grad v|^2 and blown up again by delta against the pressure, which feeds waves. */
+static double fluid_divergence(const mps_stage *s, const double *v, int64_t i, double strain)
 {
     const mps_stencil *t = s->near;
     const int dim = s->dim;
@@ -100,8 +102,15 @@ static double fluid_divergence(const mps_stage *s, const double *v, int64_t i)
             for (int e = 0; e < dim; e++) g[d * dim + e] += q.w / q.r2 * (v[q.j * dim + d] - v[i * dim + d]) * q.d[e];
     }
     const double *b = s->correction + i * dim * dim;
-    for (int k = 0; k < dim * dim; k++) sum += b[k] * g[k];
-    return dim / t->n0 * sum;
+    double a[9] = {0}, square = 0; /* a = grad v */
+    for (int d = 0; d < dim; d++)
+        for (int e = 0; e < dim; e++)
+            for (int f = 0; f < dim; f++) a[d * dim + e] += dim / t->n0 * g[d * dim + f] * b[f * dim + e];
+    for (int d = 0; d < dim; d++) {
+        sum += a[d * dim + d];
+        for (int e = 0; e < dim; e++) square += a[d * dim + e] * a[e * dim + d];
+    }
+    return sum - 0.5 * strain * s->dt * square;
 }
 
 /* Divergence of the half cell of a wall particle; weights as in its row of the pressure equation. */
@@ -149,7 +158,7 @@ static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *term
         for (int d = 0; d < s->dim; d++) terms->body[i * s->dim + d] += s->g[d] - s->tank_accel[i * s->dim + d];
         if (s->region[i] >= MPS_REGION_SURFACE) continue;
         if (s->kind[i] == MPS_FLUID)
-            terms->rhs[i] += (-fluid_divergence(s, w, i) + relax * mean_deviation(s, delta, i)) / s->dt;
+            terms->rhs[i] += (-fluid_divergence(s, w, i, k[STRAIN]) + relax * mean_deviation(s, delta, i)) / s->dt;
         else
             terms->rhs[i] -= wall_divergence(s, w, i, terms->wall_factor) / s->dt;
     }
@@ -160,6 +169,6 @@ const mps_model_ops mps__source_volume = {.struct_size = sizeof(mps_model_ops),
                                           .api = MPS_MODEL_API,
                                           .name = "source.volume",
                                           .order = 500,
-                                          .setting_count = 2,
+                                          .setting_count = 3,
                                           .settings = settings,
                                           .source = source};

@@ -31,7 +31,10 @@ static void memory_release(void *user, void *block)
     free(block);
 }
 
-static mps_allocator allocator_of(memory *m) { return (mps_allocator){memory_alloc, memory_release, m}; }
+static mps_allocator allocator_of(memory *m)
+{
+    return (mps_allocator){memory_alloc, memory_release, m};
+}
 
 static mps_status create(memory *m, mps_sim **sim, char *error, size_t error_size)
 {
@@ -61,8 +64,14 @@ static mps_status fill(mps_sim *sim)
     return mps_geometry_fill_box(sim, 0, lo, hi, NULL);
 }
 
-static void nothing(mps_sim *sim) { (void)sim; }
-static void tank_only(mps_sim *sim) { assert_int_equal(add_tank(sim), MPS_OK); }
+static void nothing(mps_sim *sim)
+{
+    (void)sim;
+}
+static void tank_only(mps_sim *sim)
+{
+    assert_int_equal(add_tank(sim), MPS_OK);
+}
 
 static void filled(mps_sim *sim)
 {
@@ -125,9 +134,18 @@ static mps_status baffle(mps_sim *sim)
     return mps_geometry_baffle(sim, "baffle", lo, hi);
 }
 
-static int anywhere(void *user, const double *x) { return (void)user, x[1] < 0.3; }
-static mps_status fill_inside(mps_sim *sim) { return mps_geometry_fill(sim, 0, anywhere, NULL, NULL); }
-static mps_status add_block(mps_sim *sim) { return add_drop(sim, 0.36, 64); }
+static int anywhere(void *user, const double *x)
+{
+    return (void)user, x[1] < 0.3;
+}
+static mps_status fill_inside(mps_sim *sim)
+{
+    return mps_geometry_fill(sim, 0, anywhere, NULL, NULL);
+}
+static mps_status add_block(mps_sim *sim)
+{
+    return add_drop(sim, 0.36, 64);
+}
 
 static mps_status remove_some(mps_sim *sim)
 {
@@ -135,7 +153,10 @@ static mps_status remove_some(mps_sim *sim)
     return mps_particles_remove(sim, 3, ids);
 }
 
-static mps_status field_add(mps_sim *sim) { return mps_field_add(sim, "mine", 3); }
+static mps_status field_add(mps_sim *sim)
+{
+    return mps_field_add(sim, "mine", 3);
+}
 
 static mps_status harmonics(mps_sim *sim)
 {
@@ -161,9 +182,18 @@ static mps_status probe(mps_sim *sim)
     return status;
 }
 
-static mps_status solver(mps_sim *sim) { return mps_solver_use(sim, "sundials.bicgstab", "ic0"); }
-static mps_status preset(mps_sim *sim) { return mps_sim_use_preset(sim, "imps.paper"); }
-static mps_status step(mps_sim *sim) { return mps_step(sim, 1e-3, NULL); }
+static mps_status solver(mps_sim *sim)
+{
+    return mps_solver_use(sim, "sundials.bicgstab", "ic0");
+}
+static mps_status preset(mps_sim *sim)
+{
+    return mps_sim_use_preset(sim, "imps.paper");
+}
+static mps_status step(mps_sim *sim)
+{
+    return mps_step(sim, 1e-3, NULL);
+}
 
 static mps_status stencil(mps_sim *sim)
 {
@@ -213,14 +243,26 @@ typedef struct scene {
 } scene;
 
 static const scene scenes[] = {
-    {"geometry_tank", nothing, add_tank, 2},      {"geometry_baffle", tank_only, baffle, 2},     {"geometry_fill_box", tank_only, fill, 2},
-    {"geometry_fill", tank_only, fill_inside, 2}, {"particles_add", filled, add_block, 5},       {"particles_remove", filled, remove_some, 5},
-    {"field_add", filled, field_add, 1},          {"motion_set_harmonics", filled, harmonics, 1}, {"motion_set_table", filled, motion_table, 1},
-    {"probe_add", filled, probe, 1},              {"solver_use", filled, solver, 1},             {"use_preset", filled, preset, 0},
-    {"first step", filled, step, 20},             {"later step", stepped, step, 1},              {"step of more", grown, step, 20},
-    {"first step, bicgstab", filled_for_bicgstab, step, 20}, {"first step, gmres", filled_for_gmres, step, 20},
+    {"geometry_tank", nothing, add_tank, 2},
+    {"geometry_baffle", tank_only, baffle, 2},
+    {"geometry_fill_box", tank_only, fill, 2},
+    {"geometry_fill", tank_only, fill_inside, 2},
+    {"particles_add", filled, add_block, 5},
+    {"particles_remove", filled, remove_some, 5},
+    {"field_add", filled, field_add, 1},
+    {"motion_set_harmonics", filled, harmonics, 1},
+    {"motion_set_table", filled, motion_table, 1},
+    {"probe_add", filled, probe, 1},
+    {"solver_use", filled, solver, 1},
+    {"use_preset", filled, preset, 0},
+    {"first step", filled, step, 20},
+    {"later step", stepped, step, 1},
+    {"step of more", grown, step, 20},
+    {"first step, bicgstab", filled_for_bicgstab, step, 20},
+    {"first step, gmres", filled_for_gmres, step, 20},
     {"first step, klu", filled_for_klu, step, 20},
-    {"stencil", filled, stencil, 10},             {"stencil of more", grown, stencil, 10},
+    {"stencil", filled, stencil, 10},
+    {"stencil of more", grown, stencil, 10},
 };
 
 /* Fail allocation k of one call. Returns false when the call had fewer than k. */
@@ -240,8 +282,10 @@ static bool fail_once(const scene *s, int64_t k)
     const bool failed = m.count >= k;
     m.fail_at = 0;
     if (failed) {
-        if (status != MPS_E_NOMEM) fail_msg("%s, allocation %lld: %s: %s", s->name, (long long)k, mps_status_name(status), mps_sim_error(sim));
-        if (!strstr(mps_sim_error(sim), "memory")) fail_msg("%s, allocation %lld: the text is \"%s\"", s->name, (long long)k, mps_sim_error(sim));
+        if (status != MPS_E_NOMEM)
+            fail_msg("%s, allocation %lld: %s: %s", s->name, (long long)k, mps_status_name(status), mps_sim_error(sim));
+        if (!strstr(mps_sim_error(sim), "memory"))
+            fail_msg("%s, allocation %lld: the text is \"%s\"", s->name, (long long)k, mps_sim_error(sim));
         check_unchanged(sim, before, count, t);
         if (s->call(sim) != MPS_OK) fail_msg("%s, again after allocation %lld: %s", s->name, (long long)k, mps_sim_error(sim));
     } else {

@@ -30,10 +30,14 @@ static void scene_free(scene *s)
     cloud_free(&s->c);
 }
 
-static double *doubles(int64_t n) { return calloc((size_t)n, sizeof(double)); }
-
-static cloud lattice(int dim) { return dim == 2 ? cloud_lattice(2, 24, 20, 1, 0, 1) : cloud_lattice(3, 12, 11, 10, 0, 1); }
-static cloud jittered(int dim, uint64_t seed) { return dim == 2 ? cloud_lattice(2, 24, 20, 1, 0.3, seed) : cloud_lattice(3, 12, 11, 10, 0.3, seed); }
+static cloud lattice(int dim)
+{
+    return dim == 2 ? cloud_lattice(2, 24, 20, 1, 0, 1) : cloud_lattice(3, 12, 11, 10, 0, 1);
+}
+static cloud jittered(int dim, uint64_t seed)
+{
+    return dim == 2 ? cloud_lattice(2, 24, 20, 1, 0.3, seed) : cloud_lattice(3, 12, 11, 10, 0.3, seed);
+}
 static const int *sides(int dim)
 {
     static const int two[3] = {24, 20, 1}, three[3] = {12, 11, 10};
@@ -51,7 +55,8 @@ static void assert_close(const double *a, const double *b, int64_t n, double tol
 {
     const double scale = largest(b, n);
     for (int64_t k = 0; k < n; k++)
-        if (!(fabs(a[k] - b[k]) <= tolerance * scale)) fail_msg("value %lld: %.17g, not %.17g, of at most %g", (long long)k, a[k], b[k], scale);
+        if (!(fabs(a[k] - b[k]) <= tolerance * scale))
+            fail_msg("value %lld: %.17g, not %.17g, of at most %g", (long long)k, a[k], b[k], scale);
 }
 
 /* ---- consistency ------------------------------------------------------------------------------------------------ */
@@ -61,7 +66,7 @@ static void sum_of_weights(void **state)
     (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         scene s = scene_make(lattice(dim), 3.1);
-        double *n = doubles(s.c.n);
+        double *n = cloud_doubles(s.c.n);
         int64_t inside = 0;
         assert_int_equal(mps_op_number_density(&s.t, n), MPS_OK);
         for (int64_t i = 0; i < s.c.n; i++) {
@@ -84,7 +89,7 @@ static void constants_vanish(void **state)
     (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         scene s = scene_make(jittered(dim, 2), 2.1);
-        double *f = doubles(s.c.n * dim), *b = doubles(s.c.n * dim * dim), *out = doubles(s.c.n * dim);
+        double *f = cloud_doubles(s.c.n * dim), *b = cloud_doubles(s.c.n * dim * dim), *out = cloud_doubles(s.c.n * dim);
         for (int64_t k = 0; k < s.c.n * dim; k++) f[k] = 7.7;
         assert_int_equal(mps_op_correction(&s.t, 0.2, b), MPS_OK);
         for (int op = 0; op < 6; op++) {
@@ -109,7 +114,8 @@ static void check_linear(scene *s, const double *b, bool all)
 {
     static const double a[3] = {1.5, -2.25, 0.75}, G[9] = {1, 2, -1, 0.5, -3, 1, 4, -2, 2.5};
     const int dim = s->c.dim;
-    double *f = doubles(s->c.n), *u = doubles(s->c.n * dim), *grad = doubles(s->c.n * dim), *div = doubles(s->c.n), trace = 0;
+    double *f = cloud_doubles(s->c.n), *u = cloud_doubles(s->c.n * dim), *grad = cloud_doubles(s->c.n * dim), *div = cloud_doubles(s->c.n),
+           trace = 0;
     int64_t checked = 0;
     for (int64_t i = 0; i < s->c.n; i++) {
         f[i] = 3;
@@ -142,7 +148,7 @@ static void linear_fields(void **state)
         check_linear(&s, NULL, false);
         scene_free(&s);
         s = scene_make(jittered(dim, 3), 2.1);
-        double *b = doubles(s.c.n * dim * dim);
+        double *b = cloud_doubles(s.c.n * dim * dim);
         /* a floor low enough that no particle, not even in a corner, is bounded */
         assert_int_equal(mps_op_correction(&s.t, 1e-3, b), MPS_OK);
         check_linear(&s, b, true);
@@ -156,7 +162,7 @@ static void laplacian_of_square(void **state)
     (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         scene s = scene_make(lattice(dim), dim == 2 ? 4.1 : 3.1);
-        double *f = doubles(s.c.n), *lap = doubles(s.c.n);
+        double *f = cloud_doubles(s.c.n), *lap = cloud_doubles(s.c.n);
         int64_t checked = 0;
         for (int64_t k = 0; k < s.c.n * dim; k++) f[k / dim] += s.c.x[k] * s.c.x[k];
         assert_int_equal(mps_op_laplacian(&s.t, f, lap), MPS_OK);
@@ -179,7 +185,7 @@ enum { SCALARS = 3, VECTORS = 3, RESULTS = 6 };
 
 static void run_all(const scene *s, const double *f, const double *u, double *out[RESULTS])
 {
-    for (int k = 0; k < RESULTS; k++) out[k] = doubles(s->c.n * (k < SCALARS ? 1 : s->c.dim));
+    for (int k = 0; k < RESULTS; k++) out[k] = cloud_doubles(s->c.n * (k < SCALARS ? 1 : s->c.dim));
     assert_int_equal(mps_op_number_density(&s->t, out[0]), MPS_OK);
     assert_int_equal(mps_op_divergence(&s->t, u, out[1]), MPS_OK);
     assert_int_equal(mps_op_laplacian(&s->t, f, out[2]), MPS_OK);
@@ -242,7 +248,8 @@ static void permutation(void **state)
     for (int dim = 2; dim <= 3; dim++) {
         scene s = scene_make(jittered(dim, 7), 2.1);
         const int64_t n = s.c.n;
-        double *f = cloud_field(n, 8), *u = cloud_field(n * dim, 9), *g = doubles(n), *v = doubles(n * dim), *before[RESULTS], *after[RESULTS];
+        double *f = cloud_field(n, 8), *u = cloud_field(n * dim, 9), *g = cloud_doubles(n), *v = cloud_doubles(n * dim), *before[RESULTS],
+               *after[RESULTS];
         run_all(&s, f, u, before);
         cloud mixed = cloud_empty(dim, n);
         for (int64_t i = 0; i < n; i++) {
@@ -255,7 +262,7 @@ static void permutation(void **state)
         run_all(&p, g, v, after);
         for (int k = 0; k < RESULTS; k++) {
             const int c = k < SCALARS ? 1 : dim;
-            double *back = doubles(n * c);
+            double *back = cloud_doubles(n * c);
             for (int64_t i = 0; i < n; i++) memcpy(back + i * c, after[k] + (i * 1009 + 17) % n * c, (size_t)c * sizeof(double));
             assert_close(back, before[k], n * c, 1e-13);
             free(back);
@@ -291,7 +298,7 @@ static void momentum_balance(void **state)
     for (int dim = 2; dim <= 3; dim++) {
         scene s = scene_make(jittered(dim, 10), 2.1);
         const int64_t n = s.c.n;
-        double *f = cloud_field(n, 11), *grad = doubles(n * dim), *lap = doubles(n), sum = 0, size = 0;
+        double *f = cloud_field(n, 11), *grad = cloud_doubles(n * dim), *lap = cloud_doubles(n), sum = 0, size = 0;
         assert_int_equal(mps_op_gradient_conservative(&s.t, f, grad), MPS_OK);
         assert_int_equal(mps_op_laplacian(&s.t, f, lap), MPS_OK);
         for (int d = 0; d < dim; d++) {
@@ -323,7 +330,7 @@ static void adjoint_pairs(void **state)
         scene s = scene_make(jittered(dim, 12), 2.1);
         const int64_t n = s.c.n;
         double *f = cloud_field(n, 13), *g = cloud_field(n, 14), *u = cloud_field(n * dim, 15);
-        double *lf = doubles(n), *lg = doubles(n), *div = doubles(n), *grad = doubles(n * dim), size, other;
+        double *lf = cloud_doubles(n), *lg = cloud_doubles(n), *div = cloud_doubles(n), *grad = cloud_doubles(n * dim), size, other;
         assert_int_equal(mps_op_laplacian(&s.t, f, lf), MPS_OK);
         assert_int_equal(mps_op_laplacian(&s.t, g, lg), MPS_OK);
         assert_int_equal(mps_op_divergence(&s.t, u, div), MPS_OK);
@@ -364,7 +371,7 @@ static void asymmetry_of_half_space(void **state)
     (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         scene s = scene_make(lattice(dim), 2.1);
-        double *a = doubles(s.c.n * dim);
+        double *a = cloud_doubles(s.c.n * dim);
         const double top = CLOUD_DP * (sides(dim)[1] - 1);
         int64_t surface = 0;
         assert_int_equal(mps_op_asymmetry(&s.t, a), MPS_OK);
@@ -389,7 +396,7 @@ static void check_bounded(cloud c, double floor)
 {
     scene s = scene_make(c, 2.1);
     const int dim = c.dim;
-    double *b = doubles(c.n * dim * dim);
+    double *b = cloud_doubles(c.n * dim * dim);
     uint64_t seed = 16;
     assert_int_equal(mps_op_correction(&s.t, floor, b), MPS_OK);
     for (int64_t i = 0; i < c.n; i++) {
@@ -429,9 +436,9 @@ static void correction_bounded(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sum_of_weights),          cmocka_unit_test(constants_vanish), cmocka_unit_test(linear_fields),
-        cmocka_unit_test(laplacian_of_square),     cmocka_unit_test(permutation),      cmocka_unit_test(translation_and_rotation),
-        cmocka_unit_test(momentum_balance),        cmocka_unit_test(adjoint_pairs),    cmocka_unit_test(asymmetry_of_half_space),
+        cmocka_unit_test(sum_of_weights),      cmocka_unit_test(constants_vanish), cmocka_unit_test(linear_fields),
+        cmocka_unit_test(laplacian_of_square), cmocka_unit_test(permutation),      cmocka_unit_test(translation_and_rotation),
+        cmocka_unit_test(momentum_balance),    cmocka_unit_test(adjoint_pairs),    cmocka_unit_test(asymmetry_of_half_space),
         cmocka_unit_test(correction_bounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

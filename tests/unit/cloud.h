@@ -24,9 +24,15 @@ static inline double cloud_random(uint64_t *state)
     return (double)(int64_t)(*state >> 11) / (double)(INT64_C(1) << 52) - 1.0;
 }
 
+/* `count` zeros; free() them. */
+static inline double *cloud_doubles(int64_t count)
+{
+    return calloc(count > 0 ? (size_t)count : 1, sizeof(double));
+}
+
 static inline cloud cloud_empty(int32_t dim, int64_t n)
 {
-    return (cloud){dim, n, calloc((size_t)(n * dim), sizeof(double))};
+    return (cloud){dim, n, cloud_doubles(n * dim)};
 }
 
 /* A lattice, every coordinate moved by at most `jitter` dp. nz is 1 in 2-D. */
@@ -40,7 +46,10 @@ static inline cloud cloud_lattice(int32_t dim, int nx, int ny, int nz, double ji
     return c;
 }
 
-static inline void cloud_free(cloud *c) { free(c->x); }
+static inline void cloud_free(cloud *c)
+{
+    free(c->x);
+}
 
 static inline double cloud_distance2(const cloud *c, int64_t i, int64_t j)
 {
@@ -62,7 +71,7 @@ static inline int cloud_inside(const cloud *c, int64_t i, const int n[3], double
 /* A random field of `count` values. */
 static inline double *cloud_field(int64_t count, uint64_t seed)
 {
-    double *f = calloc((size_t)count, sizeof *f);
+    double *f = cloud_doubles(count);
     for (int64_t k = 0; k < count; k++) f[k] = cloud_random(&seed);
     return f;
 }

@@ -33,7 +33,10 @@ static void meter_release(void *user, void *block)
     free(head);
 }
 
-static mps_allocator meter_allocator(meter *m) { return (mps_allocator){meter_alloc, meter_release, m}; }
+static mps_allocator meter_allocator(meter *m)
+{
+    return (mps_allocator){meter_alloc, meter_release, m};
+}
 
 /* ---- the double loop -------------------------------------------------------------------------------------------- */
 
@@ -192,7 +195,8 @@ static void symmetric_pairs(void **state)
             const int32_t j = list->col[k];
             const bool close = k < list->middle[i];
             bool back = false;
-            for (int64_t m = close ? list->begin[j] : list->middle[j]; m < (close ? list->middle[j] : list->end[j]); m++) back = back || list->col[m] == i;
+            for (int64_t m = close ? list->begin[j] : list->middle[j]; m < (close ? list->middle[j] : list->end[j]); m++)
+                back = back || list->col[m] == i;
             assert_true(back);
         }
     mps_neighbours_destroy(list);
@@ -315,9 +319,17 @@ static void order_is_permutation(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(against_double_loop), cmocka_unit_test(far_from_origin), cmocka_unit_test(far_particle), cmocka_unit_test(coincident),
-        cmocka_unit_test(crowd),               cmocka_unit_test(symmetric_pairs), cmocka_unit_test(rebuild),      cmocka_unit_test(bad_arguments),
-        cmocka_unit_test(skin_rows),           cmocka_unit_test(skin_limit),      cmocka_unit_test(order_is_permutation),
+        cmocka_unit_test(against_double_loop),
+        cmocka_unit_test(far_from_origin),
+        cmocka_unit_test(far_particle),
+        cmocka_unit_test(coincident),
+        cmocka_unit_test(crowd),
+        cmocka_unit_test(symmetric_pairs),
+        cmocka_unit_test(rebuild),
+        cmocka_unit_test(bad_arguments),
+        cmocka_unit_test(skin_rows),
+        cmocka_unit_test(skin_limit),
+        cmocka_unit_test(order_is_permutation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

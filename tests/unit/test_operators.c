@@ -11,16 +11,29 @@
 static const double tolerance = 1e-13;
 
 enum { DENSITY, GRADIENT, CONSERVATIVE, GRADIENT_CORRECTED, DIVERGENCE, DIVERGENCE_CORRECTED, LAPLACIAN, LAPLACIAN_VECTOR, ASYMMETRY, OPS };
-static const char *const op_name[OPS] = {"density",    "gradient",  "conservative",     "corrected gradient", "divergence", "corrected divergence",
-                                         "laplacian", "vector laplacian", "asymmetry"};
+static const char *const op_name[OPS] = {
+    "density",   "gradient",         "conservative", "corrected gradient", "divergence", "corrected divergence",
+    "laplacian", "vector laplacian", "asymmetry"};
 
 typedef double (*weight_fn)(double r, double re);
 
-static double improved(double r, double re) { return re / (0.85 * r + 0.15 * re) - 1; }
-static double original(double r, double re) { return re / r - 1; }
-static double parabola(double r, double re) { return 3 * (1 - r / re) * (1 - r / re); }
+static double improved(double r, double re)
+{
+    return re / (0.85 * r + 0.15 * re) - 1;
+}
+static double original(double r, double re)
+{
+    return re / r - 1;
+}
+static double parabola(double r, double re)
+{
+    return 3 * (1 - r / re) * (1 - r / re);
+}
 
-static double user_parabola(void *user, double r, double re) { return *(const double *)user * (1 - r / re) * (1 - r / re); }
+static double user_parabola(void *user, double r, double re)
+{
+    return *(const double *)user * (1 - r / re) * (1 - r / re);
+}
 
 /* One cloud with fields on it, and what the operators made of them. */
 typedef struct bench {
@@ -41,7 +54,7 @@ static bench bench_make(cloud c)
     s.f = cloud_field(c.n, 11);
     s.u = cloud_field(c.n * c.dim, 12);
     s.b = cloud_field(c.n * c.dim * c.dim, 13);
-    for (int op = 0; op < OPS; op++) s.result[op] = calloc((size_t)(c.n * components(&s, op)), sizeof(double));
+    for (int op = 0; op < OPS; op++) s.result[op] = cloud_doubles(c.n * components(&s, op));
     return s;
 }
 
@@ -207,8 +220,8 @@ static void moment(const cloud *c, int64_t i, double re, double n0, double m[9])
         if (j == i || r2 >= re * re) continue;
         for (int a = 0; a < c->dim; a++)
             for (int b = 0; b < c->dim; b++)
-                m[a * c->dim + b] += c->dim / n0 * (c->x[j * c->dim + a] - c->x[i * c->dim + a]) * (c->x[j * c->dim + b] - c->x[i * c->dim + b]) / r2 *
-                                     improved(sqrt(r2), re);
+                m[a * c->dim + b] += c->dim / n0 * (c->x[j * c->dim + a] - c->x[i * c->dim + a]) *
+                                     (c->x[j * c->dim + b] - c->x[i * c->dim + b]) / r2 * improved(sqrt(r2), re);
     }
 }
 
@@ -228,7 +241,7 @@ static double identity_error(int dim, const double *b, const double *m)
 static void check_correction(cloud c)
 {
     const double re = 2.1 * CLOUD_DP;
-    double n0, lambda, m[9], *b = calloc((size_t)(c.n * c.dim * c.dim), sizeof *b);
+    double n0, lambda, m[9], *b = cloud_doubles(c.n * c.dim * c.dim);
     mps_kernel kernel;
     mps_stencil t;
     mps_neighbours *list = NULL;
@@ -254,10 +267,45 @@ static void correction_inverts(void **state)
     check_correction(cloud_lattice(3, 9, 9, 9, 0.25, 4));
 }
 
+/* On a line M has one eigenvalue of the line and zeros across it: those become the floor, and only those. */
+static void correction_floor(void **state)
+{
+    (void)state;
+    const double re = 2.1 * CLOUD_DP, floor = 0.2;
+    for (int dim = 2; dim <= 3; dim++) {
+        cloud c = cloud_lattice(dim, 20, 1, 1, 0, 5);
+        double n0, lambda, m[9], b[20 * 9];
+        mps_kernel kernel;
+        mps_stencil t;
+        mps_neighbours *list = NULL;
+        lattice(dim, re, improved, &n0, &lambda);
+        moment(&c, 10, re, n0, m);
+        assert_true(m[0] > floor);
+        assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
+        assert_int_equal(mps_neighbours_create(dim, CLOUD_DP, NULL, &list), MPS_OK);
+        assert_int_equal(mps_neighbours_build(list, c.n, c.x, re, re), MPS_OK);
+        assert_int_equal(mps_neighbours_stencil(list, MPS_NEAR, &kernel, &t), MPS_OK);
+        assert_int_equal(mps_op_correction(&t, floor, b), MPS_OK);
+        for (int i = 0; i < dim; i++)
+            for (int j = 0; j < dim; j++) {
+                const double exact = i != j ? 0 : i == 0 ? 1 / m[0] : 1 / floor;
+                assert_true(fabs(b[10 * dim * dim + i * dim + j] - exact) < 1e-13 / floor);
+            }
+        mps_neighbours_destroy(list);
+        cloud_free(&c);
+    }
+}
+
 /* ---- kernels and bad arguments ---------------------------------------------------------------------------------- */
 
-static double negative_kernel(void *user, double r, double re) { return (void)user, 0.5 * re - r; }
-static double nan_kernel(void *user, double r, double re) { return (void)user, NAN * r * re; }
+static double negative_kernel(void *user, double r, double re)
+{
+    return (void)user, 0.5 * re - r;
+}
+static double nan_kernel(void *user, double r, double re)
+{
+    return (void)user, NAN * r * re;
+}
 
 static void kernels(void **state)
 {
@@ -360,8 +408,9 @@ static void lone_particles(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(oracle_2d), cmocka_unit_test(oracle_3d),     cmocka_unit_test(correction_inverts),
-        cmocka_unit_test(kernels),   cmocka_unit_test(bad_arguments), cmocka_unit_test(lone_particles),
+        cmocka_unit_test(oracle_2d),        cmocka_unit_test(oracle_3d), cmocka_unit_test(correction_inverts),
+        cmocka_unit_test(correction_floor), cmocka_unit_test(kernels),   cmocka_unit_test(bad_arguments),
+        cmocka_unit_test(lone_particles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

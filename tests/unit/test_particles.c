@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Particles through the public interface: add, remove, ids, fields and leases, and everything that is refused. */
+#include "particles.h"
 #include "tank_fixture.h"
 #include <stdbool.h>
 #include <stdio.h>
@@ -350,6 +351,31 @@ static void written_values(void **state)
     mps_sim_destroy(sim);
 }
 
+/* Dummies keep their wall when the store is sorted, and lose it with it. */
+static void links_follow(void **state)
+{
+    (void)state;
+    mps__context context = {.allocator = mps__allocator_default()};
+    mps__particles s;
+    const int32_t order[4] = {3, 1, 4, 0}; /* 2 goes */
+    assert_int_equal(mps__particles_init(&s, &context, 2), MPS_OK);
+    assert_int_equal(mps__particles_reserve(&s, 5), MPS_OK);
+    assert_int_equal(mps__particles_append(&s, 5), 0);
+    for (int k = 0; k < 5; k++) assert_int_equal(s.wall_of[k], -1);
+    s.wall_of[0] = 3;
+    s.wall_of[1] = 2;
+    s.wall_of[3] = 4;
+    const int64_t generation = s.generation;
+    assert_int_equal(mps__particles_permute(&s, 4, order), MPS_OK);
+    assert_true(s.n == 4 && s.generation > generation);
+    const int32_t links[4] = {2, -1, -1, 0};
+    for (int k = 0; k < 4; k++) {
+        assert_int_equal(s.id[k], order[k]);
+        assert_int_equal(s.wall_of[k], links[k]);
+    }
+    mps__particles_free(&s);
+}
+
 /* Particles moved since the lists were made: the stencil has the pairs of now, also while somebody reads. */
 static void stencil_under_lease(void **state)
 {
@@ -450,11 +476,12 @@ static void field_travels(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(add_and_read),     cmocka_unit_test(add_refused),     cmocka_unit_test(overlap_refused), cmocka_unit_test(crowd_refused),
-        cmocka_unit_test(coincident_walls), cmocka_unit_test(remove_by_id),    cmocka_unit_test(remove_refused),  cmocka_unit_test(remove_all),
-        cmocka_unit_test(queries),          cmocka_unit_test(lease_conflicts), cmocka_unit_test(lease_refused),   cmocka_unit_test(lease_blocks),
-        cmocka_unit_test(written_values),   cmocka_unit_test(field_refused),   cmocka_unit_test(field_travels),
-        cmocka_unit_test(stencil_under_lease),
+        cmocka_unit_test(add_and_read),        cmocka_unit_test(add_refused),      cmocka_unit_test(overlap_refused),
+        cmocka_unit_test(crowd_refused),       cmocka_unit_test(coincident_walls), cmocka_unit_test(remove_by_id),
+        cmocka_unit_test(remove_refused),      cmocka_unit_test(remove_all),       cmocka_unit_test(queries),
+        cmocka_unit_test(lease_conflicts),     cmocka_unit_test(lease_refused),    cmocka_unit_test(lease_blocks),
+        cmocka_unit_test(written_values),      cmocka_unit_test(field_refused),    cmocka_unit_test(field_travels),
+        cmocka_unit_test(stencil_under_lease), cmocka_unit_test(links_follow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -39,10 +39,27 @@ static void tank_init(tank *k, cloud c)
         k->density[i] = rho0;
         k->wet[i] = 1;
     }
-    k->stage = (mps_stage){.struct_size = sizeof k->stage, .dim = c.dim, .threads = 1, .n = c.n, .dt = 1e-3, .dp = CLOUD_DP, .kind = k->kind, .x = c.x,
-                           .p = k->p, .density = k->density, .region = k->region, .wet = k->wet, .near = &k->near, .far = &k->far};
-    k->terms = (mps_ppe_terms){.struct_size = sizeof k->terms, .radius = MPS_FAR, .rhs = k->rhs, .shift = k->shift, .value = k->value,
-                               .fixed = k->fixed, .body = k->body};
+    k->stage = (mps_stage){.struct_size = sizeof k->stage,
+                           .dim = c.dim,
+                           .threads = 1,
+                           .n = c.n,
+                           .dt = 1e-3,
+                           .dp = CLOUD_DP,
+                           .kind = k->kind,
+                           .x = c.x,
+                           .p = k->p,
+                           .density = k->density,
+                           .region = k->region,
+                           .wet = k->wet,
+                           .near = &k->near,
+                           .far = &k->far};
+    k->terms = (mps_ppe_terms){.struct_size = sizeof k->terms,
+                               .radius = MPS_FAR,
+                               .rhs = k->rhs,
+                               .shift = k->shift,
+                               .value = k->value,
+                               .fixed = k->fixed,
+                               .body = k->body};
 }
 
 static void tank_free(tank *k)
@@ -71,7 +88,10 @@ static void add_surface(tank *k, int nx, double value)
     }
 }
 
-static void assemble(tank *k) { assert_int_equal(mps__ppe_assemble(&k->e, &k->stage, &k->terms), MPS_OK); }
+static void assemble(tank *k)
+{
+    assert_int_equal(mps__ppe_assemble(&k->e, &k->stage, &k->terms), MPS_OK);
+}
 
 static double entry(const mps__ppe *e, int64_t r, int32_t c)
 {
@@ -86,7 +106,10 @@ static double pair_rho(const tank *k, int64_t i, int64_t j)
     return fi == fj ? 0.5 * (k->density[i] + k->density[j]) : fi ? k->density[i] : k->density[j];
 }
 
-static bool in_equation(const tank *k, int64_t i) { return k->fixed[i] || (k->kind[i] != MPS_DUMMY && k->region[i] <= MPS_REGION_NEAR); }
+static bool in_equation(const tank *k, int64_t i)
+{
+    return k->fixed[i] || (k->kind[i] != MPS_DUMMY && k->region[i] <= MPS_REGION_NEAR);
+}
 
 /* What a cut-off surface loses of the flux of a linear pressure, as a factor on the pairs that are left. */
 static double surface_factor(const tank *k, double re)
@@ -365,8 +388,8 @@ static void detached_fluid(void **state)
     tank_init(&k, c);
     k.fixed[0] = k.fixed[60] = 1;
     k.value[60] = 42;
-    k.rhs[61] = 5;    /* no neighbour, no level: p = 0 */
-    k.shift[62] = 2;  /* no neighbour, but a level */
+    k.rhs[61] = 5;   /* no neighbour, no level: p = 0 */
+    k.shift[62] = 2; /* no neighbour, but a level */
     k.rhs[62] = 8;
     k.region[20] = MPS_REGION_SPRAY;
     k.rhs[20] = 3;
@@ -406,9 +429,14 @@ static void no_unknowns(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(matrix_and_double_loop), cmocka_unit_test(threads_agree), cmocka_unit_test(hydrostatic),
-        cmocka_unit_test(fixed_rows),             cmocka_unit_test(closed_tank),   cmocka_unit_test(separate_pools),
-        cmocka_unit_test(detached_fluid),         cmocka_unit_test(no_unknowns),
+        cmocka_unit_test(matrix_and_double_loop),
+        cmocka_unit_test(threads_agree),
+        cmocka_unit_test(hydrostatic),
+        cmocka_unit_test(fixed_rows),
+        cmocka_unit_test(closed_tank),
+        cmocka_unit_test(separate_pools),
+        cmocka_unit_test(detached_fluid),
+        cmocka_unit_test(no_unknowns),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -23,19 +23,23 @@ static void refuse(const mps_config *c, mps_status wanted, const char *word)
     mps_sim *sim = (mps_sim *)&wanted;
     c->error[0] = 0;
     const mps_status got = mps_sim_create(c, &sim);
-    if (got != wanted || !strstr(c->error, word)) fail_msg("%s instead of %s, \"%s\"; \"%s\" missing", mps_status_name(got), mps_status_name(wanted), c->error, word);
+    if (got != wanted || !strstr(c->error, word))
+        fail_msg("%s instead of %s, \"%s\"; \"%s\" missing", mps_status_name(got), mps_status_name(wanted), c->error, word);
     assert_null(sim);
 }
 
 /* One entry of a good configuration made bad. */
-#define REFUSE(entry, value, status, word)             \
-    do {                                               \
+#define REFUSE(entry, value, status, word)              \
+    do {                                                \
         mps_config c_ = good_config(text, sizeof text); \
-        c_.entry = (value);                            \
-        refuse(&c_, (status), (word));                 \
+        c_.entry = (value);                             \
+        refuse(&c_, (status), (word));                  \
     } while (0)
 
-static void *no_memory(void *user, size_t size) { return (void)user, (void)size, NULL; }
+static void *no_memory(void *user, size_t size)
+{
+    return (void)user, (void)size, NULL;
+}
 
 static void bad_configuration(void **state)
 {
@@ -286,15 +290,22 @@ static void phases(void **state)
 
 /* ---- registration ----------------------------------------------------------------------------------------------------------- */
 
-static int force(void *self, const double *k, mps_stage *s, double *a) { return (void)self, (void)k, (void)s, (void)a, 0; }
-static int count_create(const mps_allocator *allocator, void **self) { return (void)allocator, (void)self, 0; }
+static int force(void *self, const double *k, mps_stage *s, double *a)
+{
+    return (void)self, (void)k, (void)s, (void)a, 0;
+}
+static int count_create(const mps_allocator *allocator, void **self)
+{
+    return (void)allocator, (void)self, 0;
+}
 
-static const mps_model_ops good_model = {.struct_size = sizeof(mps_model_ops), .api = MPS_MODEL_API, .name = "mine.force", .order = 300, .force = force};
+static const mps_model_ops good_model = {
+    .struct_size = sizeof(mps_model_ops), .api = MPS_MODEL_API, .name = "mine.force", .order = 300, .force = force};
 
-#define REFUSE_MODEL(entry, value, status, word)                       \
-    do {                                                               \
-        mps_model_ops m_ = good_model;                                 \
-        m_.entry = (value);                                            \
+#define REFUSE_MODEL(entry, value, status, word)                         \
+    do {                                                                 \
+        mps_model_ops m_ = good_model;                                   \
+        m_.entry = (value);                                              \
         ASSERT_REFUSED(sim, mps_model_register(sim, &m_), status, word); \
     } while (0)
 
@@ -355,8 +366,14 @@ static void too_many_models(void **state)
     mps_sim_destroy(sim);
 }
 
-static double negative(void *user, double r, double re) { return (void)user, r - re; }
-static double flat(void *user, double r, double re) { return (void)user, 1 - r / re; }
+static double negative(void *user, double r, double re)
+{
+    return (void)user, r - re;
+}
+static double flat(void *user, double r, double re)
+{
+    return (void)user, 1 - r / re;
+}
 
 static void user_kernel(void **state)
 {
@@ -395,9 +412,10 @@ static void status_texts(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bad_configuration),  cmocka_unit_test(error_text),      cmocka_unit_test(versions),    cmocka_unit_test(defaults),
-        cmocka_unit_test(log_callback),       cmocka_unit_test(suggestions),     cmocka_unit_test(settings),    cmocka_unit_test(phases),
-        cmocka_unit_test(model_registration), cmocka_unit_test(too_many_models), cmocka_unit_test(user_kernel), cmocka_unit_test(status_texts),
+        cmocka_unit_test(bad_configuration), cmocka_unit_test(error_text),   cmocka_unit_test(versions),
+        cmocka_unit_test(defaults),          cmocka_unit_test(log_callback), cmocka_unit_test(suggestions),
+        cmocka_unit_test(settings),          cmocka_unit_test(phases),       cmocka_unit_test(model_registration),
+        cmocka_unit_test(too_many_models),   cmocka_unit_test(user_kernel),  cmocka_unit_test(status_texts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* mps_run(): the end is met exactly, in whole steps, the monitor may stop it, threads do not matter. */
+#include "tank_fixture.h"
+
+static const double dp = 0.05;
+
+static mps_sim *pool(void)
+{
+    mps_sim *sim = new_sim(2, dp);
+    add_tank(sim, 0.5, 0.5, 0);
+    fill_depth(sim, 0.5, 0.3, 0);
+    return sim;
+}
+
+/* One drop without walls: a step costs nothing. */
+static mps_sim *drop(void)
+{
+    const double x[2] = {0, 0};
+    mps_sim *sim = new_sim(2, dp);
+    mps_particle_block b;
+    assert_int_equal(mps_particle_block_init(&b, sizeof b), MPS_OK);
+    b.count = 1;
+    b.position = x;
+    ASSERT_OK(sim, mps_particles_add(sim, &b, NULL));
+    return sim;
+}
+
+static void set_fixed_step(mps_sim *sim, double dt)
+{
+    mps_time_control c;
+    assert_int_equal(mps_time_control_init(&c, sizeof c), MPS_OK);
+    c.dt = dt;
+    ASSERT_OK(sim, mps_sim_set_time_control(sim, &c));
+}
+
+typedef struct watch {
+    int calls, stop_after;
+    double t, least;
+} watch;
+
+static int monitor(void *user, mps_sim *sim, const mps_step_info *info)
+{
+    watch *w = user;
+    double t = -1;
+    assert_int_equal(mps_sim_time(sim, &t, NULL), MPS_OK);
+    assert_true(info->struct_size == sizeof *info && info->t == t && info->t > w->t);
+    w->t = info->t;
+    w->least = fmin(w->least, info->dt);
+    return ++w->calls == w->stop_after;
+}
+
+static void run_to_the_end(void **state)
+{
+    (void)state;
+    const double dts[] = {0, 1e-3, 7e-4};
+    for (int k = 0; k < 3; k++) {
+        watch w = {.least = INFINITY};
+        mps_sim *sim = pool();
+        double t = -1;
+        set_fixed_step(sim, dts[k]);
+        ASSERT_OK(sim, mps_run(sim, 0.02, monitor, &w));
+        ASSERT_OK(sim, mps_sim_time(sim, &t, NULL));
+        assert_true(t == 0.02 && w.t == 0.02);     /* not nearly */
+        if (k == 1) assert_int_equal(w.calls, 20); /* a whole number of fixed steps is that number of steps */
+        assert_true(w.least > 1e-4);               /* no sliver at the end */
+        ASSERT_OK(sim, mps_run(sim, 0.021, monitor, &w));
+        assert_true(w.t == 0.021);
+        mps_sim_destroy(sim);
+    }
+}
+
+/* n fixed steps to n dt, whatever the sums round to. */
+static void whole_steps(void **state)
+{
+    (void)state;
+    const double dts[] = {1e-3, 7e-4, 1.0 / 3};
+    for (int k = 0; k < 3; k++)
+        for (int n = 1; n < 100; n += 7) {
+            watch w = {.least = INFINITY};
+            mps_sim *sim = drop();
+            set_fixed_step(sim, dts[k]);
+            ASSERT_OK(sim, mps_run(sim, n * dts[k], monitor, &w));
+            if (w.calls != n) fail_msg("%d steps of %g s took %d, the smallest %g s", n, dts[k], w.calls, w.least);
+            assert_true(w.t == n * dts[k]);
+            mps_sim_destroy(sim);
+        }
+}
+
+static void monitor_stops(void **state)
+{
+    (void)state;
+    watch w = {.stop_after = 4, .least = INFINITY};
+    mps_sim *sim = pool();
+    double t = -1;
+    int64_t steps = -1;
+    ASSERT_STATUS(sim, mps_run(sim, 1, monitor, &w), MPS_W_STOPPED);
+    ASSERT_OK(sim, mps_sim_time(sim, &t, &steps));
+    assert_true(w.calls == 4 && steps == 4 && t == w.t && t < 1);
+    mps_sim_destroy(sim);
+}
+
+/* A pool that is shaken, with any number of threads: the same bytes, in the same order. */
+static void threads_agree(void **state)
+{
+    (void)state;
+    const mps_harmonic h = {.dof = MPS_SURGE, .amplitude = 0.02, .omega = 8};
+    static const char *const fields[] = {"position", "velocity", "pressure"};
+    mps_sim *sim[3];
+    for (int k = 0; k < 3; k++) {
+        sim[k] = pool();
+        ASSERT_OK(sim[k], mps_sim_set_threads(sim[k], k + 1));
+        ASSERT_OK(sim[k], mps_motion_set_harmonics(sim[k], 1, &h));
+        ASSERT_OK(sim[k], mps_run(sim[k], 0.1, NULL, NULL));
+    }
+    for (int k = 1; k < 3; k++)
+        for (int f = 0; f < 3; f++) {
+            mps_lease a, b;
+            ASSERT_OK(sim[0], mps_lease_begin(sim[0], fields[f], MPS_READ, &a));
+            ASSERT_OK(sim[k], mps_lease_begin(sim[k], fields[f], MPS_READ, &b));
+            assert_int_equal(a.count, b.count);
+            assert_memory_equal(a.data, b.data, (size_t)(a.count * a.stride) * sizeof(double));
+            ASSERT_OK(sim[0], mps_lease_end(sim[0], &a));
+            ASSERT_OK(sim[k], mps_lease_end(sim[k], &b));
+        }
+    for (int k = 0; k < 3; k++) mps_sim_destroy(sim[k]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(run_to_the_end), cmocka_unit_test(whole_steps), cmocka_unit_test(monitor_stops),
+                                       cmocka_unit_test(threads_agree)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
