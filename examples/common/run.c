@@ -146,6 +146,7 @@ void run_wall_pressure(run *r, const char *name, double x, double y, double z)
     probe.at[1] = y;
     probe.at[2] = z;
     run_probe_add(r, name, "Pa", &probe, 0);
+    r->column[r->columns - 1].pressure = true;
 }
 
 void run_gauge(run *r, const char *name, double x, double z, double level)

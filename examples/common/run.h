@@ -8,7 +8,7 @@
 #include "table.h"
 #include <mps/mps.h>
 
-enum { RUN_COLUMNS = 32, RUN_MARKS = 4, RUN_MARK_POINTS = 16, RUN_PICTURES = 4, RUN_ERROR = 640 };
+enum { RUN_COLUMNS = 32, RUN_COMMON = 8, RUN_MARKS = 4, RUN_MARK_POINTS = 16, RUN_PICTURES = 4, RUN_ERROR = 640 };
 
 /* A quantity of a driver's own. */
 typedef double (*run_value_fn)(void *user, mps_sim *sim);
@@ -18,6 +18,7 @@ typedef struct run_column {
     char name[32], unit[8];
     int32_t probe, component;
     double zero;
+    bool pressure; /* known after the first step */
     run_value_fn value;
     void *user;
 } run_column;
@@ -50,8 +51,9 @@ typedef struct run {
     int pictures;  /* taken so far */
     progress progress;
     run_totals totals;
-    double step_end; /* wall clock when the last step's outputs were done */
-    int messages;    /* of the library, shown so far */
+    double start[1 + RUN_COLUMNS + RUN_COMMON]; /* row of t = 0, until it is written after the first step */
+    double step_end;                            /* wall clock when the last step's outputs were done */
+    int messages;                               /* of the library, shown so far */
     bool output_failed;
 } run;
 

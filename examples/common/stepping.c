@@ -37,9 +37,7 @@ static bool run_note(run *r, mps_status status, const char *what)
 /* ---- rows ------------------------------------------------------------------------------------------------------ */
 
 /* Names of the columns every driver has; those of the energies follow the order of run_energies(). */
-static const char *const ENERGIES[] = {"pe", "wall_work", "viscous", "collision", "shift", "numerical"};
-
-enum { COMMON_COLUMNS = 2 + sizeof ENERGIES / sizeof *ENERGIES };
+static const char *const ENERGIES[RUN_COMMON - 2] = {"pe", "wall_work", "viscous", "collision", "shift", "numerical"};
 
 static void header_add(char *header, size_t size, const char *name, const char *unit)
 {
@@ -60,7 +58,7 @@ static bool run_open_probes(run *r)
     header_add(header, sizeof header, "ke", joule);
     header_add(header, sizeof header, "x_tank", "m");
     for (size_t i = 0; i < sizeof ENERGIES / sizeof *ENERGIES; i++) header_add(header, sizeof header, ENERGIES[i], joule);
-    return table_open(&r->probes, r->options.out, "probes.csv", header, 1 + r->columns + COMMON_COLUMNS, r->options.probe_dt);
+    return table_open(&r->probes, r->options.out, "probes.csv", header, 1 + r->columns + RUN_COMMON, r->options.probe_dt);
 }
 
 static void run_energies(run *r, double *out)
@@ -70,8 +68,8 @@ static void run_energies(run *r, double *out)
     mps_energy_init(&e, sizeof e);
     run_note(r, mps_energy_get(r->sim, &e), "energies");
     run_note(r, mps_motion_state_get(r->sim, &tank), "motion");
-    const double values[COMMON_COLUMNS] = {e.kinetic, tank.value[MPS_SURGE], e.potential, e.wall_work,
-                                           e.viscous, e.collision,           e.shift,     e.numerical};
+    const double values[RUN_COMMON] = {e.kinetic, tank.value[MPS_SURGE], e.potential, e.wall_work,
+                                       e.viscous, e.collision,           e.shift,     e.numerical};
     memcpy(out, values, sizeof values);
     r->totals.volume_error = e.volume_error;
 }
@@ -84,12 +82,26 @@ static double run_measure_column(run *r, const run_column *c)
     return values[c->component] - c->zero;
 }
 
-static void run_sample(run *r, double t)
+static void run_measure(run *r, double t, double *row)
 {
-    double row[1 + RUN_COLUMNS + COMMON_COLUMNS];
     row[0] = t;
     for (int i = 0; i < r->columns; i++) row[1 + i] = run_measure_column(r, &r->column[i]);
     run_energies(r, row + 1 + r->columns);
+}
+
+/* There is no pressure before the first step: the row of t = 0 waits for it and takes its pressures, or goes out without. */
+static void run_write_start(run *r, const double *first)
+{
+    for (int i = 0; first && i < r->columns; i++)
+        if (r->column[i].pressure) r->start[1 + i] = first[1 + i];
+    table_sample(&r->probes, r->start);
+}
+
+static void run_sample(run *r, double t)
+{
+    double row[1 + RUN_COLUMNS + RUN_COMMON];
+    run_measure(r, t, row);
+    if (r->totals.steps == 1) run_write_start(r, row);
     table_sample(&r->probes, row);
 }
 
@@ -143,7 +155,7 @@ static int run_monitor(void *user, mps_sim *sim, const mps_step_info *info)
         info->t, info->dt, info->cfl, info->ppe_iterations, info->ppe_residual, info->ppe_divergence, info->max_speed, (double)info->lost};
     table_append(&r->steps, row);
     /* interpolation needs the samples on both sides of an output time; the next step is at most a little longer than this one */
-    if (table_wants(&r->probes, info->t, 2 * info->dt)) run_sample(r, info->t);
+    if (r->totals.steps == 1 || table_wants(&r->probes, info->t, 2 * info->dt)) run_sample(r, info->t);
     run_frame(r, info->t);
     run_picture(r, info->t);
     if (progress_step(&r->progress, info)) {
@@ -172,6 +184,7 @@ static void run_close(run *r)
     mps_frames_close(r->frames);
     snprintf(path, sizeof path, "%s/picture_end.png", r->options.out);
     if (!picture_save(r->sim, path)) r->output_failed = true;
+    if (r->totals.steps == 0) run_write_start(r, NULL);
     if (!table_close(&r->probes) || !table_close(&r->steps)) r->output_failed = true;
 }
 
@@ -211,7 +224,7 @@ static void run_begin(run *r)
         fprintf(stderr, "%s: %s, dp %g m, %lld fluid, %lld wall, %lld dummy particles, to t = %g s\n", r->options.program, r->options.model,
                 r->options.dp, (long long)r->totals.fluid, (long long)r->totals.wall, (long long)r->totals.dummy, r->options.t_end);
     }
-    run_sample(r, 0);
+    run_measure(r, 0, r->start);
     run_frames_open(r);
     progress_begin(&r->progress, r->options.t_end, mps_particles_count(r->sim, -1), r->options.quiet);
     catch_interrupt();

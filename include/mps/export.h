@@ -11,7 +11,7 @@
 
 #ifdef __cplusplus
 #define MPS_BEGIN_DECLS extern "C" {
-#define MPS_END_DECLS }
+#define MPS_END_DECLS   }
 #else
 #define MPS_BEGIN_DECLS
 #define MPS_END_DECLS

@@ -12,6 +12,7 @@
 
 MPS_BEGIN_DECLS
 
+/** Version of this interface, for mps_model_ops.api. */
 #define MPS_MODEL_API 1u
 
 /** Where a particle is, set by classify verbs. */
@@ -62,22 +63,23 @@ typedef struct mps_stage {
  *  k_ij = 2D/(n0 lambda) W_ij/rho_ij and q_ij = rho_ij (b_i + b_j)/2 . r_ij, the difference p_j - p_i of a fluid that moves with
  *  the tank. Unknowns are particles of regions INNER, SECOND and NEAR that are not fixed. Verbs add to what they find. */
 typedef struct mps_ppe_terms {
-    uint32_t struct_size;  /**< sizeof(mps_ppe_terms) */
-    int32_t radius;        /**< MPS_NEAR or MPS_FAR (default): the pairs of the Laplacian */
+    uint32_t struct_size;     /**< sizeof(mps_ppe_terms) */
+    int32_t radius;           /**< MPS_NEAR or MPS_FAR (default): the pairs of the Laplacian */
     int32_t complete_surface; /**< 1: pairs with one particle on the surface also carry the flux of those cut off by it; default 0 */
-    double wall_factor;    /**< weight of wall-wall pairs, times the smaller `wet` of the two; default 0 */
-    double *rhs;           /**< [n] e.g. -div u* / dt */
-    double *shift;         /**< [n] >= 0, e.g. compressibility */
-    double *value;         /**< [n] pressure of fixed rows [Pa] */
-    int32_t *fixed;        /**< [n] 1: p_i = value_i (Dirichlet); region SURFACE arrives fixed at 0 */
-    double *body;          /**< [n*dim] b, e.g. g - tank_accel [m/s2]; default 0 */
+    double wall_factor;       /**< weight of wall-wall pairs, times the smaller `wet` of the two; default 0 */
+    double *rhs;              /**< [n] e.g. -div u* / dt */
+    double *shift;            /**< [n] >= 0, e.g. compressibility */
+    double *value;            /**< [n] pressure of fixed rows [Pa] */
+    int32_t *fixed;           /**< [n] 1: p_i = value_i (Dirichlet); region SURFACE arrives fixed at 0 */
+    double *body;             /**< [n*dim] b, e.g. g - tank_accel [m/s2]; default 0 */
 } mps_ppe_terms;
 
 /** A number a user may set by mps_model_set(). */
 typedef struct mps_setting {
-    const char *key;      /**< e.g. "distance" */
-    double initial;       /**< default */
-    double min, max;      /**< allowed, both included */
+    const char *key; /**< e.g. "distance" */
+    double initial;  /**< default */
+    double min;      /**< smallest allowed */
+    double max;      /**< largest allowed */
 } mps_setting;
 
 /** A model. Verbs are optional; they return 0, or non-zero after mps_stage_fail(). `k` holds the settings in the order of `settings`. */

@@ -25,7 +25,7 @@ typedef struct mps_motion_state {
 /** How the motion begins. */
 enum {
     MPS_START_AT_REST = 0,  /**< walls jump to their velocity, the liquid is at rest in the lab (the papers, default) */
-    MPS_START_WITH_TANK = 1 /**< the liquid has the tank's velocity at the time the motion is set */
+    MPS_START_WITH_TANK = 1 /**< the liquid takes the tank's velocity when the first step with this motion begins */
 };
 
 /** Centre of rotation [m], in the tank's frame, and the start convention; before the first step. Default: origin, at rest. */
@@ -51,7 +51,8 @@ MPS_API mps_status mps_motion_set_harmonics(mps_sim *sim, int32_t count, const m
  *  @param dof     [dofs] which degree of freedom each column is
  *  @param values  [rows*dofs] row by row [m, rad]
  *  @return MPS_E_ARG naming the first bad row */
-MPS_API mps_status mps_motion_set_table(mps_sim *sim, int64_t rows, const double *t, int32_t dofs, const int32_t *dof, const double *values);
+MPS_API mps_status mps_motion_set_table(mps_sim *sim, int64_t rows, const double *t, int32_t dofs, const int32_t *dof,
+                                        const double *values);
 
 /** Pose, rates and accelerations at a time; must be smooth and a function of t alone. Non-zero: failed (MPS_E_PLUGIN). */
 typedef int (*mps_motion_fn)(void *user, double t, mps_motion_state *state);

@@ -21,9 +21,9 @@ enum { MPS_KERNEL_IMPROVED = 1, MPS_KERNEL_ORIGINAL = 2, MPS_KERNEL_CUSTOM = 3 }
 
 /** A weight function by name or by callback. */
 typedef struct mps_kernel {
-    int32_t id;        /**< MPS_KERNEL_... */
-    mps_kernel_fn fn;  /**< callback of a user's kernel, else NULL */
-    void *user;        /**< first argument of fn */
+    int32_t id;       /**< MPS_KERNEL_... */
+    mps_kernel_fn fn; /**< callback of a user's kernel, else NULL */
+    void *user;       /**< first argument of fn */
 } mps_kernel;
 
 /** Find a built-in kernel: "improved" re/(0.85 r + 0.15 re) - 1, W22 (3), or "original" re/r - 1, Z14 (3). */
@@ -53,19 +53,20 @@ MPS_API mps_status mps_sim_set_kernel(mps_sim *sim, const mps_kernel *kernel);
 /** Read-only view of a cloud and its pairs for one radius. Row i: col[begin[i]] .. col[end[i]-1], r_ij < re, j != i.
  *  Pairs are symmetric. Valid until the cloud is built again, or until the callback that got it returns. */
 typedef struct mps_stencil {
-    uint32_t struct_size;  /**< sizeof(mps_stencil) */
-    int32_t dim;           /**< 2 or 3 */
-    int64_t n;             /**< particles */
-    double dp;             /**< spacing [m] */
-    double re;             /**< radius [m] */
-    double n0;             /**< lattice number density */
-    double lambda;         /**< lattice lambda [m2] */
-    mps_kernel kernel;     /**< weight function */
-    int32_t threads;       /**< OpenMP threads of operators */
-    const double *x;       /**< [n*dim] positions [m] */
-    const int64_t *begin;  /**< [n] first pair of a row */
-    const int64_t *end;    /**< [n] one past the last pair of a row */
-    const int32_t *col;    /**< neighbours */
+    uint32_t struct_size; /**< sizeof(mps_stencil) */
+    int32_t dim;          /**< 2 or 3 */
+    int64_t n;            /**< particles */
+    double dp;            /**< spacing [m] */
+    double re;            /**< radius [m] */
+    double n0;            /**< lattice number density */
+    double lambda;        /**< lattice lambda [m2] */
+    mps_kernel kernel;    /**< weight function */
+    int32_t threads;      /**< OpenMP threads of operators */
+    const double *x;      /**< [n*dim] positions [m] */
+    const int64_t *begin; /**< [n] first pair of a row */
+    const int64_t *end;   /**< [n] one past the last pair of a row */
+    const int32_t *col;   /**< neighbours */
+    const double *w_r2;   /**< NULL, or W/|r_ij|^2 beside col [1/m2], as in the verbs of a step */
 } mps_stencil;
 
 /** One pair of a row, for the inner loops of plug-ins. */
@@ -75,21 +76,35 @@ typedef struct mps_pair {
     double r;    /**< |r_ij| [m] */
     double w;    /**< W(r, re) */
     int64_t j;   /**< neighbour */
+    double w_r2; /**< W/|r_ij|^2 [1/m2] */
 } mps_pair;
+
+/** mps_stencil_pair() for a constant `dim` = s->dim: loops over d < dim unroll. */
+static inline mps_pair mps_stencil_pair_dim(int32_t dim, const mps_stencil *s, int64_t i, int64_t k)
+{
+    mps_pair q;
+    q.j = s->col[k];
+    const double *a = s->x + i * dim, *b = s->x + q.j * dim;
+    q.d[0] = b[0] - a[0];
+    q.d[1] = b[1] - a[1];
+    q.d[2] = dim == 3 ? b[2] - a[2] : 0.0;
+    q.r2 = q.d[0] * q.d[0] + q.d[1] * q.d[1];
+    if (dim == 3) q.r2 += q.d[2] * q.d[2];
+    q.r = sqrt(q.r2);
+    if (s->w_r2) {
+        q.w_r2 = s->w_r2[k];
+        q.w = q.w_r2 * q.r2;
+    } else {
+        q.w = mps_kernel_weight(&s->kernel, q.r, s->re);
+        q.w_r2 = q.w / q.r2;
+    }
+    return q;
+}
 
 /** Pair number k (begin[i] <= k < end[i]) of row i. */
 static inline mps_pair mps_stencil_pair(const mps_stencil *s, int64_t i, int64_t k)
 {
-    mps_pair q;
-    q.j = s->col[k];
-    const double *a = s->x + i * s->dim, *b = s->x + q.j * s->dim;
-    q.d[0] = b[0] - a[0];
-    q.d[1] = b[1] - a[1];
-    q.d[2] = s->dim == 3 ? b[2] - a[2] : 0.0;
-    q.r2 = q.d[0] * q.d[0] + q.d[1] * q.d[1] + q.d[2] * q.d[2];
-    q.r = sqrt(q.r2);
-    q.w = mps_kernel_weight(&s->kernel, q.r, s->re);
-    return q;
+    return mps_stencil_pair_dim(s->dim, s, i, k);
 }
 
 /** Neighbour list of a cloud. */
@@ -120,23 +135,23 @@ MPS_API mps_status mps_sim_stencil(mps_sim *sim, int32_t which, mps_stencil *ste
 /** n_i = sum_j W. W22 (7). @param n [s->n] out */
 MPS_API mps_status mps_op_number_density(const mps_stencil *s, double *n);
 
-/** <grad f>_i = D/n0 sum_j (f_j - f_i) r_ij/|r_ij|^2 W. W22 (4). @param f [n] @param grad [n*dim] out [f/m] */
+/** \<grad f\>_i = D/n0 sum_j (f_j - f_i) r_ij/|r_ij|^2 W. W22 (4). @param f [n] @param grad [n*dim] out [f/m] */
 MPS_API mps_status mps_op_gradient(const mps_stencil *s, const double *f, double *grad);
 
-/** <grad f>_i = D/n0 sum_j (f_j + f_i) r_ij/|r_ij|^2 W, momentum conserving. W22 (9). */
+/** \<grad f\>_i = D/n0 sum_j (f_j + f_i) r_ij/|r_ij|^2 W, momentum conserving. W22 (9). */
 MPS_API mps_status mps_op_gradient_conservative(const mps_stencil *s, const double *f, double *grad);
 
-/** <grad f>_i = D/n0 B_i sum_j (f_j - f_i) r_ij/|r_ij|^2 W, exact for linear f where B is not bounded.
+/** \<grad f\>_i = D/n0 B_i sum_j (f_j - f_i) r_ij/|r_ij|^2 W, exact for linear f where B is not bounded.
  *  @param b [n*dim*dim] from mps_op_correction() */
 MPS_API mps_status mps_op_gradient_corrected(const mps_stencil *s, const double *b, const double *f, double *grad);
 
-/** <div u>_i = D/n0 sum_j (u_j - u_i).r_ij/|r_ij|^2 W. W22 (5). @param u [n*dim] @param div [n] out */
+/** \<div u\>_i = D/n0 sum_j (u_j - u_i).r_ij/|r_ij|^2 W. W22 (5). @param u [n*dim] @param div [n] out */
 MPS_API mps_status mps_op_divergence(const mps_stencil *s, const double *u, double *div);
 
 /** As mps_op_divergence() with B_i: exact for linear u where B is not bounded. */
 MPS_API mps_status mps_op_divergence_corrected(const mps_stencil *s, const double *b, const double *u, double *div);
 
-/** <lap f>_i = 2D/(n0 lambda) sum_j (f_j - f_i) W. W22 (6). @param f [n] @param lap [n] out */
+/** \<lap f\>_i = 2D/(n0 lambda) sum_j (f_j - f_i) W. W22 (6). @param f [n] @param lap [n] out */
 MPS_API mps_status mps_op_laplacian(const mps_stencil *s, const double *f, double *lap);
 
 /** Laplacian of a vector field, component by component. @param u [n*dim] @param lap [n*dim] out */

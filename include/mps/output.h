@@ -14,6 +14,7 @@ typedef struct mps_frames mps_frames;
 enum { MPS_FRAMES_FLUID = 1, MPS_FRAMES_WALL = 2, MPS_FRAMES_DUMMY = 4 };
 
 /** Open a series: writes `<folder>/<name>.pvd` and `<folder>/<name>/<name>_000000.vtp` ...; the folder must exist.
+ *  Frames of an earlier series of the same folder and name are removed, other files are left alone.
  *  @param kinds   sum of MPS_FRAMES_..., 0 for fluid and wall
  *  @param frames  out; close with mps_frames_close(). The simulation must outlive it. */
 MPS_API mps_status mps_frames_open(mps_sim *sim, const char *folder, const char *name, int32_t kinds, mps_frames **frames);

@@ -48,10 +48,10 @@ MPS_API mps_status mps_field_add(mps_sim *sim, const char *name, int32_t compone
 
 /** Access to one array of all particles (all kinds), held between mps_lease_begin() and mps_lease_end(). */
 typedef struct mps_lease {
-    double *data;       /**< [count*stride]; write only through a write lease */
-    int64_t count;      /**< particles */
-    int32_t stride;     /**< doubles per particle */
-    int32_t slot;       /**< private */
+    double *data;   /**< [count*stride]; write only through a write lease */
+    int64_t count;  /**< particles */
+    int32_t stride; /**< doubles per particle */
+    int32_t slot;   /**< private */
 } mps_lease;
 
 /** How a field is leased: any number of readers or one writer. */
@@ -67,7 +67,8 @@ MPS_API mps_status mps_lease_end(mps_sim *sim, mps_lease *lease);
 
 /** Read-only views of the integer properties, [mps_particles_count(sim, -1)] each; NULL outputs are skipped.
  *  Valid until the next step, add or remove. */
-MPS_API mps_status mps_particles_tags(const mps_sim *sim, const int64_t **ids, const int32_t **kinds, const int32_t **phases, const int32_t **parts);
+MPS_API mps_status mps_particles_tags(const mps_sim *sim, const int64_t **ids, const int32_t **kinds, const int32_t **phases,
+                                      const int32_t **parts);
 
 /** Number of a named part, as in the `parts` array, or -1. */
 MPS_API int32_t mps_part_find(const mps_sim *sim, const char *name);

@@ -10,45 +10,46 @@
 
 MPS_BEGIN_DECLS
 
+/** Version of this interface, for mps_solver_ops.api and mps_preconditioner_ops.api. */
 #define MPS_PPE_API 1u
 
 /** One pressure equation; all arrays are borrowed for the duration of the call. */
 typedef struct mps_ppe_problem {
-    uint32_t struct_size;   /**< sizeof(mps_ppe_problem) */
-    int32_t dim;            /**< 2 or 3 */
-    int64_t n;              /**< unknowns */
-    const int64_t *row;     /**< [n+1] CSR row starts */
-    const int32_t *col;     /**< [row[n]] columns, ascending in a row, diagonal included */
-    const double *val;      /**< [row[n]] */
-    const double *rhs;      /**< [n]; already free of the null space when components are singular */
-    const double *shift;    /**< [n] s_i: the row sums */
-    const double *weight;   /**< [n] residual times weight = divergence times dt */
-    const double *x;        /**< [n*dim] positions of the unknowns [m] */
-    double dp;              /**< particle spacing [m] */
-    double tolerance;       /**< relative 2-norm of the residual wanted */
-    double divergence;      /**< largest |residual * weight| wanted; 0: not asked */
-    int32_t max_iterations; /**< at most */
-    int32_t threads;        /**< OpenMP threads */
-    int32_t components;     /**< singular components (no Dirichlet row, no shift) */
+    uint32_t struct_size;     /**< sizeof(mps_ppe_problem) */
+    int32_t dim;              /**< 2 or 3 */
+    int64_t n;                /**< unknowns */
+    const int64_t *row;       /**< [n+1] CSR row starts */
+    const int32_t *col;       /**< [row[n]] columns, ascending in a row, diagonal included */
+    const double *val;        /**< [row[n]] */
+    const double *rhs;        /**< [n]; already free of the null space when components are singular */
+    const double *shift;      /**< [n] s_i: the row sums */
+    const double *weight;     /**< [n] residual times weight = divergence times dt */
+    const double *x;          /**< [n*dim] positions of the unknowns [m] */
+    double dp;                /**< particle spacing [m] */
+    double tolerance;         /**< relative 2-norm of the residual wanted */
+    double divergence;        /**< largest |residual * weight| wanted; 0: not asked */
+    int32_t max_iterations;   /**< at most */
+    int32_t threads;          /**< OpenMP threads */
+    int32_t components;       /**< singular components (no Dirichlet row, no shift) */
     const int32_t *component; /**< [n] 0..components-1 of a singular one, else -1; NULL if there is none */
 } mps_ppe_problem;
 
 /** Why a solver stopped. */
 enum {
-    MPS_PPE_CONVERGED = 0,  /**< both tolerances met */
+    MPS_PPE_CONVERGED = 0,      /**< both tolerances met */
     MPS_PPE_MAX_ITERATIONS = 1, /**< best effort in p, residual as reported */
-    MPS_PPE_INDEFINITE = 2, /**< met a direction of negative curvature: matrix or preconditioner is not positive definite */
-    MPS_PPE_NAN = 3,        /**< NaN or infinity in matrix, right side or result */
-    MPS_PPE_BREAKDOWN = 4,  /**< factorisation or recurrence failed */
-    MPS_PPE_NOMEM = 5       /**< an allocation failed */
+    MPS_PPE_INDEFINITE = 2,     /**< met a direction of negative curvature: matrix or preconditioner is not positive definite */
+    MPS_PPE_NAN = 3,            /**< NaN or infinity in matrix, right side or result */
+    MPS_PPE_BREAKDOWN = 4,      /**< factorisation or recurrence failed */
+    MPS_PPE_NOMEM = 5           /**< an allocation failed */
 };
 
 /** What a solver reports. */
 typedef struct mps_ppe_result {
-    int32_t reason;      /**< MPS_PPE_... */
-    int32_t iterations;  /**< 0 for a direct solver */
-    double residual;     /**< true relative 2-norm |b - A p| / |b| */
-    double divergence;   /**< true largest |(b - A p)_i weight_i| */
+    int32_t reason;       /**< MPS_PPE_... */
+    int32_t iterations;   /**< 0 for a direct solver */
+    double residual;      /**< true relative 2-norm |b - A p| / |b| */
+    double divergence;    /**< true largest |(b - A p)_i weight_i| */
     double setup_seconds; /**< factorisation, preconditioner */
 } mps_ppe_result;
 
@@ -69,16 +70,18 @@ typedef struct mps_preconditioner_ops {
 
 /** A solver. */
 typedef struct mps_solver_ops {
-    uint32_t struct_size; /**< sizeof(mps_solver_ops) */
-    uint32_t api;         /**< MPS_PPE_API */
-    const char *name;     /**< e.g. "sundials.pcg" */
+    uint32_t struct_size;       /**< sizeof(mps_solver_ops) */
+    uint32_t api;               /**< MPS_PPE_API */
+    const char *name;           /**< e.g. "sundials.pcg" */
     const char *preconditioner; /**< default preconditioner, or NULL if it uses none */
-    int32_t symmetric;    /**< 1: needs a symmetric positive definite matrix and preconditioner */
-    int (*create)(const mps_allocator *allocator, void **self); /**< as above */
+    int32_t symmetric;          /**< 1: needs a symmetric positive definite matrix and preconditioner */
+    /** New state in *self, as for a preconditioner. */
+    int (*create)(const mps_allocator *allocator, void **self);
     /** Solve. p [n] holds the first guess and takes the solution. pc (ops, state) is NULL for "none"; its setup has not
      *  been called. Must fill `result`; p stays finite whatever happens. */
-    void (*solve)(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc, void *pc_self, double *p, mps_ppe_result *result);
-    void (*destroy)(void *self);
+    void (*solve)(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc, void *pc_self, double *p,
+                  mps_ppe_result *result);
+    void (*destroy)(void *self); /**< gives back all memory */
 } mps_solver_ops;
 
 /** Register a solver on a handle under its name; the table is copied. @return MPS_E_ARG for a taken name or a missing entry */

@@ -11,13 +11,13 @@ MPS_BEGIN_DECLS
 
 /** What a probe measures. */
 enum {
-    MPS_PROBE_WALL_PRESSURE = 0, /**< 1 value [Pa]: mean over the wall particles within diameter/2; fewer than two:
+    MPS_PROBE_WALL_PRESSURE = 0,  /**< 1 value [Pa]: mean over the wall particles within diameter/2; fewer than two:
                                       linear between the nearest */
-    MPS_PROBE_FLUID_PRESSURE = 1,/**< 1 value [Pa]: kernel-weighted, 0 outside the fluid */
-    MPS_PROBE_GAUGE = 2,         /**< 1 value [m]: distance from `at` along `direction` to the free surface: the centres of the top layer
+    MPS_PROBE_FLUID_PRESSURE = 1, /**< 1 value [Pa]: kernel-weighted, 0 outside the fluid */
+    MPS_PROBE_GAUGE = 2,          /**< 1 value [m]: distance from `at` along `direction` to the free surface: the centres of the top layer
                                       on a lattice; 0 if `at` is dry. Beside a wall the band's centre is 2/3 diameter off it.
                                       Of several phases the densest is the liquid */
-    MPS_PROBE_FORCE = 3          /**< dim + (1 in 2-D, 3 in 3-D) values [N, N m; per m in 2-D]: pressure force and moment about `at` */
+    MPS_PROBE_FORCE = 3           /**< dim + (1 in 2-D, 3 in 3-D) values [N, N m; per m in 2-D]: pressure force and moment about `at` */
 };
 
 /** Definition of a probe. */
@@ -48,19 +48,19 @@ MPS_API mps_status mps_probe_read(mps_sim *sim, int32_t id, double *values);
 
 /** Energies and bulk quantities of the fluid (per metre of width in 2-D) and the budget since creation. */
 typedef struct mps_energy {
-    uint32_t struct_size;  /**< set by mps_energy_init() */
-    double kinetic;        /**< sum m u^2 / 2 [J] */
-    double potential;      /**< -sum m g.x [J] */
-    double wall_work;      /**< work done by the walls on the fluid [J], by pressure */
-    double viscous;        /**< lost in force models (viscosity), >= 0 when dissipating [J] */
-    double collision;      /**< lost in collisions [J] */
-    double shift;          /**< lost in shifting, kinetic and potential [J] */
-    double numerical;      /**< the rest: wall_work - viscous - collision - shift - d(kinetic + potential) [J] */
-    double mass;           /**< [kg] */
-    double volume;         /**< sum m/rho scaled by the mean compression n0/n of inner particles [m3 or m2] */
-    double volume_error;   /**< 1 - mean n/n0 of inner particles against the first step, > 0: expanded */
-    double centre[3];      /**< centre of mass, lab frame [m] */
-    double momentum[3];    /**< [kg m/s] */
+    uint32_t struct_size; /**< set by mps_energy_init() */
+    double kinetic;       /**< sum m u^2 / 2 [J] */
+    double potential;     /**< -sum m g.x [J] */
+    double wall_work;     /**< work done by the walls on the fluid [J], by pressure */
+    double viscous;       /**< lost in force models (viscosity), >= 0 when dissipating [J] */
+    double collision;     /**< lost in collisions [J] */
+    double shift;         /**< lost in shifting, kinetic and potential [J] */
+    double numerical;     /**< the rest: wall_work - viscous - collision - shift - d(kinetic + potential) [J] */
+    double mass;          /**< [kg] */
+    double volume;        /**< sum m/rho scaled by the mean compression n0/n of inner particles [m3 or m2] */
+    double volume_error;  /**< 1 - mean n/n0 of inner particles against the first step, > 0: expanded */
+    double centre[3];     /**< centre of mass, lab frame [m] */
+    double momentum[3];   /**< [kg m/s] */
 } mps_energy;
 
 /** Set struct_size and zero. */

@@ -15,24 +15,24 @@ enum {
 
 /** Configuration of a simulation. Fill with mps_config_init(), then change what matters; zero means "default". */
 typedef struct mps_config {
-    uint32_t struct_size;     /**< set by mps_config_init() */
-    int32_t dim;              /**< 2 (default) or 3 */
-    double dp;                /**< initial particle spacing [m], > 0; no default */
-    double gravity[3];        /**< [m/s2], all zero = no gravity; mps_config_init() sets (0, -9.81, 0) */
-    const char *kernel;       /**< "improved" (default, W22 (3)), "original" (Z14 (3)) or one given to mps_kernel_register() */
-    double re_near;           /**< radius of n, gradient, divergence [dp]; default 2.1 */
-    double re_far;            /**< radius of the Laplacians [dp]; default 3.1 in 2-D, 2.1 in 3-D; >= re_near */
-    double velocity_scale;    /**< U_g [m/s] that scales models where |g| = 0; default sqrt(|g| dp), or sqrt(9.81 dp) without gravity */
-    int32_t threads;          /**< OpenMP threads; default 1 */
-    int32_t lost_policy;      /**< MPS_LOST_REMOVE or MPS_LOST_ERROR */
-    double domain_min[3];     /**< lower corner in the tank's frame [m]; with domain_max all zero: bounding box of all solids, */
-    double domain_max[3];     /**< enlarged by its longest side on every side */
-    double speed_limit;       /**< a faster particle is a diverged run [m/s]; default 1000 */
-    mps_allocator allocator;  /**< default malloc and free */
-    mps_log_fn log;           /**< NULL: silent */
-    void *log_user;           /**< first argument of log */
-    char *error;              /**< NULL, or where mps_sim_create() writes why it failed */
-    size_t error_size;        /**< bytes at `error` */
+    uint32_t struct_size;    /**< set by mps_config_init() */
+    int32_t dim;             /**< 2 (default) or 3 */
+    double dp;               /**< initial particle spacing [m], > 0; no default */
+    double gravity[3];       /**< [m/s2], all zero = no gravity; mps_config_init() sets (0, -9.81, 0) */
+    const char *kernel;      /**< "improved" (default, W22 (3)), "original" (Z14 (3)); a user's own: mps_sim_set_kernel() */
+    double re_near;          /**< radius of n, gradient, divergence [dp]; default 2.1 */
+    double re_far;           /**< radius of the Laplacians [dp]; default 3.1 in 2-D, 2.1 in 3-D; >= re_near */
+    double velocity_scale;   /**< U_g [m/s] that scales models where |g| = 0; default sqrt(|g| dp), or sqrt(9.81 dp) without gravity */
+    int32_t threads;         /**< OpenMP threads; default 1 */
+    int32_t lost_policy;     /**< MPS_LOST_REMOVE or MPS_LOST_ERROR */
+    double domain_min[3];    /**< lower corner in the tank's frame [m]; with domain_max all zero: bounding box of all solids, */
+    double domain_max[3];    /**< enlarged by its longest side on every side */
+    double speed_limit;      /**< a faster particle is a diverged run [m/s]; default 1000 */
+    mps_allocator allocator; /**< default malloc and free */
+    mps_log_fn log;          /**< NULL: silent */
+    void *log_user;          /**< first argument of log */
+    char *error;             /**< NULL, or where mps_sim_create() writes why it failed */
+    size_t error_size;       /**< bytes at `error` */
 } mps_config;
 
 /** Set every entry to its default. @param size sizeof(mps_config) of the caller's headers */
@@ -102,10 +102,10 @@ MPS_API const char *mps_model_name(const mps_sim *sim, int32_t index);
 
 /** Limits of the pressure solver. */
 typedef struct mps_solver_limits {
-    uint32_t struct_size;    /**< set by mps_solver_limits_init() */
-    int32_t max_iterations;  /**< default 2000 */
-    double tolerance;        /**< relative 2-norm of the residual; default 1e-6 */
-    double divergence;       /**< largest residual as a velocity divergence times dt, per particle; default 1e-4; 0: not checked */
+    uint32_t struct_size;   /**< set by mps_solver_limits_init() */
+    int32_t max_iterations; /**< default 2000 */
+    double tolerance;       /**< relative 2-norm of the residual; default 1e-6 */
+    double divergence;      /**< largest residual as a velocity divergence times dt, per particle; default 1e-4; 0: not checked */
 } mps_solver_limits;
 
 /** Defaults. */
@@ -114,7 +114,8 @@ MPS_API mps_status mps_solver_limits_init(mps_solver_limits *limits, size_t size
 /** Choose the pressure solver.
  *  @param solver          "sundials.pcg", "sundials.bicgstab", "sundials.gmres", "sundials.klu" or a registered one
  *  @param preconditioner  NULL (the solver's default), "none", "jacobi", "ic0" or a registered one
- *  @return MPS_E_NAME with the nearest known name */
+ *  @return MPS_E_NAME with the nearest known name; MPS_E_ARG for a preconditioner with a solver that uses none (sundials.klu) or an
+ *          unsymmetric one with a solver that needs a symmetric one (sundials.pcg) */
 MPS_API mps_status mps_solver_use(mps_sim *sim, const char *solver, const char *preconditioner);
 
 /** Change the solver's limits. */

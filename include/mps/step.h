@@ -37,18 +37,18 @@ enum {
 
 /** What the last step did. */
 typedef struct mps_step_info {
-    uint32_t struct_size;          /**< set by mps_step_info_init() */
-    int32_t ppe_iterations;        /**< of the pressure solver */
-    int64_t step;                  /**< number of this step, from 1 */
-    double t;                      /**< time reached [s] */
-    double dt;                     /**< step taken [s] */
-    double cfl;                    /**< dt |u|max / dp */
-    double max_speed;              /**< |u|max of the fluid in the lab's frame [m/s] */
-    double ppe_residual;           /**< relative 2-norm, true residual */
-    double ppe_divergence;         /**< largest residual as divergence times dt */
-    int64_t ppe_unknowns;          /**< rows of the pressure equation */
-    int64_t lost;                  /**< particles removed since creation */
-    int64_t surface;               /**< free-surface particles */
+    uint32_t struct_size;            /**< set by mps_step_info_init() */
+    int32_t ppe_iterations;          /**< of the pressure solver */
+    int64_t step;                    /**< number of this step, from 1 */
+    double t;                        /**< time reached [s] */
+    double dt;                       /**< step taken [s] */
+    double cfl;                      /**< dt |u|max / dp */
+    double max_speed;                /**< |u|max of the fluid in the lab's frame [m/s] */
+    double ppe_residual;             /**< relative 2-norm, true residual */
+    double ppe_divergence;           /**< largest residual as divergence times dt */
+    int64_t ppe_unknowns;            /**< rows of the pressure equation */
+    int64_t lost;                    /**< particles removed since creation */
+    int64_t surface;                 /**< free-surface particles */
     double seconds[MPS_STAGE_COUNT]; /**< wall clock by stage [s] */
 } mps_step_info;
 

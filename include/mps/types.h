@@ -23,7 +23,7 @@ enum {
 
 /** Memory callbacks of a handle; both or neither are set. */
 typedef struct mps_allocator {
-    void *(*alloc)(void *user, size_t size); /**< at least `size` bytes aligned as malloc does, or NULL */
+    void *(*alloc)(void *user, size_t size);  /**< at least `size` bytes aligned as malloc does, or NULL */
     void (*release)(void *user, void *block); /**< gives back a block; NULL is never passed */
     void *user;                               /**< first argument of both */
 } mps_allocator;

@@ -5,10 +5,10 @@
 
 #include <mps/export.h>
 
-#define MPS_VERSION_MAJOR 1
-#define MPS_VERSION_MINOR 0
-#define MPS_VERSION_PATCH 0
-#define MPS_VERSION_STRING "1.0.0"
+#define MPS_VERSION_MAJOR  1       /**< changes when programs must be compiled again */
+#define MPS_VERSION_MINOR  0       /**< changes when something is added */
+#define MPS_VERSION_PATCH  0       /**< changes when something is repaired */
+#define MPS_VERSION_STRING "1.0.0" /**< the three of these headers, "major.minor.patch" */
 
 MPS_BEGIN_DECLS
 

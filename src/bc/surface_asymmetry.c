@@ -3,6 +3,7 @@
  * surface row of a lattice. Particles with too little fluid about them are spray.
  * The papers test wall particles too (walls = 1): dry walls have p = 0. */
 #include "builtin.h"
+#include <stdbool.h>
 
 enum { LOW, HIGH, SHARE, SPRAY, WALLS, COMPLETE };
 static const mps_setting settings[] = {{"low", 0.8, 0.0, 1.0}, {"high", 0.97, 0.5, 1.0}, {"share", 0.9, 0.0, 2.0}, {"spray", 0.25, 0.0, 1.0}, {"walls", 0.0, 0.0, 1.0}, {"complete", 1.0, 0.0, 1.0}};
@@ -44,6 +45,16 @@ static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *term
     return 0;
 }
 
+/* Is the kernel sum over the fluid less than `enough`? */
+MPS__ROW bool detached(const int dim, const mps_stage *s, int64_t i, double enough)
+{
+    const mps_stencil *t = s->near;
+    double sum = 0;
+    for (int64_t p = t->begin[i]; p < t->end[i] && sum < enough; p++)
+        if (s->kind[t->col[p]] == MPS_FLUID) sum += mps_stencil_pair_dim(dim, t, i, p).w;
+    return sum < enough;
+}
+
 static int classify(void *self, const double *k, mps_stage *s)
 {
     (void)self;
@@ -52,12 +63,10 @@ static int classify(void *self, const double *k, mps_stage *s)
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_FLUID && !(s->kind[i] == MPS_WALL && k[WALLS] > 0)) continue;
-        double fluid = 0, a2 = 0;
-        for (int64_t p = t->begin[i]; p < t->end[i]; p++)
-            if (s->kind[t->col[p]] == MPS_FLUID) fluid += mps_stencil_pair(t, i, p).w;
+        double a2 = 0;
         for (int d = 0; d < s->dim; d++) a2 += s->asymmetry[i * s->dim + d] * s->asymmetry[i * s->dim + d];
         const double n = s->number_density[i] / t->n0;
-        if (s->kind[i] == MPS_FLUID && fluid < k[SPRAY] * t->n0)
+        if (s->kind[i] == MPS_FLUID && MPS__ROW_CALL(s, detached, s, i, k[SPRAY] * t->n0))
             s->region[i] = MPS_REGION_SPRAY;
         else if (n < k[LOW] || (n < k[HIGH] && sqrt(a2) > a0))
             s->region[i] = MPS_REGION_SURFACE;

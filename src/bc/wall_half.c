@@ -18,20 +18,26 @@ static double half_sum(const mps_stencil *t)
     return sum;
 }
 
+/* Kernel sum over the fluid. Spray does not count: a wall particle left with other walls alone would make the system singular. */
+MPS__ROW double fluid_sum(const int dim, const mps_stage *s, int64_t i)
+{
+    const mps_stencil *t = s->near;
+    double sum = 0;
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        const int64_t j = t->col[p];
+        if (s->kind[j] == MPS_FLUID && s->region[j] != MPS_REGION_SPRAY) sum += mps_stencil_pair_dim(dim, t, i, p).w;
+    }
+    return sum;
+}
+
 static int classify(void *self, const double *k, mps_stage *s)
 {
     (void)self, (void)k;
-    const mps_stencil *t = s->near;
-    const double full = half_sum(t);
+    const double full = half_sum(s->near);
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_WALL) continue;
-        double sum = 0;
-        for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-            const int64_t j = t->col[p];
-            /* spray does not count: a wall particle left with other walls alone would make the system singular */
-            if (s->kind[j] == MPS_FLUID && s->region[j] != MPS_REGION_SPRAY) sum += mps_stencil_pair(t, i, p).w;
-        }
+        const double sum = MPS__ROW_CALL(s, fluid_sum, s, i);
         s->wet[i] = sum < full ? sum / full : 1.0;
         if (sum == 0) s->region[i] = MPS_REGION_DRY;
     }

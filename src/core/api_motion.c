@@ -27,14 +27,19 @@ static mps_status check_dof(mps_sim *sim, const char *what, int64_t index, int32
     return MPS_OK;
 }
 
+static bool same(const double *a, const double *b, int count)
+{
+    for (int k = 0; k < count; k++)
+        if (a[k] != b[k]) return false;
+    return true;
+}
+
 /* Particles keep their place in the tank's frame. Velocities stay: a step sees the jump of the walls'. */
 static void carry_particles(mps_sim *sim, const mps__motion *old)
 {
     const mps__motion *m = &sim->world.motion;
     mps__particles *s = &sim->world.particles;
-    if (memcmp(old->now.state.value, m->now.state.value, sizeof m->now.state.value) == 0 &&
-        memcmp(old->centre, m->centre, sizeof m->centre) == 0)
-        return;
+    if (same(old->now.state.value, m->now.state.value, MPS_DOF_COUNT) && same(old->centre, m->centre, 3)) return;
     for (int64_t i = 0; i < s->n; i++) {
         double X[3], *x = &s->x[i * s->dim];
         if (s->kind[i] == MPS_FLUID)

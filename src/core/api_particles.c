@@ -27,16 +27,18 @@ static mps_status check_block(mps_sim *sim, const mps_particle_block *b)
     mps__context *c = &sim->context;
     const int dim = sim->world.dim;
     MPS__CHECK(c, b->kind >= MPS_FLUID && b->kind <= MPS_DUMMY, "block.kind is %d: MPS_FLUID, MPS_WALL or MPS_DUMMY", b->kind);
-    MPS__CHECK(c, b->phase >= 0 && b->phase < MPS__PHASES && sim->world.phase_defined[b->phase], "block.phase is %d: not a defined phase", b->phase);
+    MPS__CHECK(c, b->phase >= 0 && b->phase < MPS__PHASES && sim->world.phase_defined[b->phase], "block.phase is %d: not a defined phase",
+               b->phase);
     MPS__CHECK(c, b->count >= 1 && b->count <= INT32_MAX, "block.count is %lld: 1..%d", (long long)b->count, INT32_MAX);
     MPS__CHECK(c, b->position, "block.position is NULL");
-    MPS__CHECK(c, !b->part || strnlen(b->part, MPS__PART_NAME) < MPS__PART_NAME, "block.part is longer than %d characters", MPS__PART_NAME - 1);
+    MPS__CHECK(c, !b->part || strnlen(b->part, MPS__PART_NAME) < MPS__PART_NAME, "block.part is longer than %d characters",
+               MPS__PART_NAME - 1);
     const double *arrays[] = {b->position, b->velocity, b->area};
     const char *names[] = {"position", "velocity", "area"};
     for (int a = 0; a < 3; a++)
         for (int64_t k = 0; arrays[a] && k < b->count * dim; k++)
-            MPS__CHECK(c, isfinite(arrays[a][k]), "block.%s of particle %lld, axis %lld is %g: must be finite", names[a], (long long)(k / dim),
-                       (long long)(k % dim), arrays[a][k]);
+            MPS__CHECK(c, isfinite(arrays[a][k]), "block.%s of particle %lld, axis %lld is %g: must be finite", names[a],
+                       (long long)(k / dim), (long long)(k % dim), arrays[a][k]);
     return MPS_OK;
 }
 
@@ -61,8 +63,10 @@ static mps_status check_overlap(mps_sim *sim, const mps_particle_block *b)
             const int64_t j = list->candidate[k];
             const int32_t other = j < s->n ? s->kind[j] : b->kind;
             if (b->kind != MPS_FLUID && other != MPS_FLUID) continue;
-            status = mps__fail(&sim->context, MPS_E_ARG, "particle %lld of the block lies within %g dp of %s %lld at (%g, %g): at least %g dp apart", (long long)(i - s->n),
-                               overlap, j < s->n ? "particle" : "its particle", (long long)(j < s->n ? s->id[j] : j - s->n), x[j * dim], x[j * dim + 1], overlap);
+            status = mps__fail(&sim->context, MPS_E_ARG,
+                               "particle %lld of the block lies within %g dp of %s %lld at (%g, %g): at least %g dp apart",
+                               (long long)(i - s->n), overlap, j < s->n ? "particle" : "its particle",
+                               (long long)(j < s->n ? s->id[j] : j - s->n), x[j * dim], x[j * dim + 1], overlap);
         }
     mps_neighbours_destroy(list);
     mps__free(&sim->context, x);
@@ -86,7 +90,12 @@ static void store_block(mps_sim *sim, const mps_particle_block *b, int32_t part,
             mps__motion_point(&w->motion, &w->motion.now, s->ref + i * dim, NULL, w->info.step > 0 ? s->u + i * dim : NULL, NULL);
         else if (b->velocity)
             memcpy(s->u + i * dim, b->velocity + k * dim, (size_t)dim * sizeof(double));
-        if (b->area && b->kind == MPS_WALL) memcpy(s->area + i * dim, b->area + k * dim, (size_t)dim * sizeof(double));
+        if (b->area && b->kind == MPS_WALL) {
+            double tip[3];
+            for (int d = 0; d < dim; d++) tip[d] = s->x[i * dim + d] + b->area[k * dim + d];
+            mps__motion_to_tank(&w->motion, &w->motion.now, tip, s->area + i * dim);
+            for (int d = 0; d < dim; d++) s->area[i * dim + d] -= s->ref[i * dim + d];
+        }
     }
 }
 
@@ -103,7 +112,8 @@ mps_status mps_particles_add(mps_sim *sim, const mps_particle_block *block, int6
     int32_t part = -1;
     if (b.kind != MPS_FLUID) {
         part = mps__part_number(s, b.part ? b.part : "solid", true);
-        MPS__CHECK(&sim->context, part >= 0, "block.part \"%s\": empty, or one part too many (at most %d)", b.part ? b.part : "solid", MPS__PARTS_MAX);
+        MPS__CHECK(&sim->context, part >= 0, "block.part \"%s\": empty, or one part too many (at most %d)", b.part ? b.part : "solid",
+                   MPS__PARTS_MAX);
     }
     const int64_t first = mps__particles_append(s, b.count);
     store_block(sim, &b, part, first);
@@ -191,7 +201,8 @@ mps_status mps_lease_begin(mps_sim *sim, const char *field, int32_t mode, mps_le
     for (int32_t k = 0; k < s->fields; k++)
         if (s->field[k].is_public) names[count++] = s->field[k].name;
     mps__field *f = mps__particles_field(s, field);
-    if (!f || !f->is_public) return mps__fail(&sim->context, MPS_E_NAME, "no field \"%s\"; did you mean \"%s\"?", field, mps__nearest(field, names, count));
+    if (!f || !f->is_public)
+        return mps__fail(&sim->context, MPS_E_NAME, "no field \"%s\"; did you mean \"%s\"?", field, mps__nearest(field, names, count));
     if (f->writer || (mode == MPS_WRITE && f->readers > 0))
         return mps__fail(&sim->context, MPS_E_BUSY, "field \"%s\" is leased already, for %s", field, f->writer ? "writing" : "reading");
     if (mode == MPS_WRITE)
@@ -212,7 +223,8 @@ mps_status mps_lease_end(mps_sim *sim, mps_lease *lease)
     MPS__CHECK(&sim->context, write ? f->writer : f->readers > 0, "this lease of \"%s\" is not open", f->name);
     const double *data = *f->data;
     for (int64_t k = 0; write && k < s->n * f->components; k++)
-        MPS__CHECK(&sim->context, isfinite(data[k]) && (data != s->rho || data[k] > 0), "field \"%s\" of particle %lld was written as %g: must be finite%s; the lease stays open", f->name,
+        MPS__CHECK(&sim->context, isfinite(data[k]) && (data != s->rho || data[k] > 0),
+                   "field \"%s\" of particle %lld was written as %g: must be finite%s; the lease stays open", f->name,
                    (long long)s->id[k / f->components], data[k], data == s->rho ? " and > 0" : "");
     if (write)
         f->writer = false;

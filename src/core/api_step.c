@@ -24,7 +24,8 @@ mps_status mps_sim_set_time_control(mps_sim *sim, const mps_time_control *contro
     mps_time_control t = control_default;
     MPS__TRY(mps__struct_in(c, "mps_time_control", &t, sizeof t, control));
     MPS__CHECK(c, t.dt >= 0 && isfinite(t.dt), "time_control.dt is %g s: > 0, or 0 for an adaptive step", t.dt);
-    MPS__CHECK(c, t.dt > 0 || t.cfl > 0 || t.gravity > 0 || t.dt_max > 0, "time_control: cfl, gravity and dt_max are all off; one must be > 0");
+    MPS__CHECK(c, t.dt > 0 || t.cfl > 0 || t.gravity > 0 || t.dt_max > 0,
+               "time_control: cfl, gravity and dt_max are all off; one must be > 0");
     MPS__CHECK(c, !isnan(t.cfl) && !isnan(t.gravity) && !isnan(t.viscous) && !isnan(t.dt_max), "time_control: a limit is NaN");
     MPS__CHECK(c, t.growth < 0 || t.growth > 1, "time_control.growth is %g: > 1, or < 0 for none", t.growth);
     MPS__CHECK(c, t.dt_min >= 0 && isfinite(t.dt_min), "time_control.dt_min is %g s: >= 0", t.dt_min);
@@ -56,7 +57,8 @@ mps_status mps_run(mps_sim *sim, double t_end, mps_monitor_fn monitor, void *use
 {
     if (!sim) return MPS_E_ARG;
     mps__world *w = &sim->world;
-    MPS__CHECK(&sim->context, isfinite(t_end) && t_end >= w->info.t, "t_end is %g s: must be finite and not before the present time %g s", t_end, w->info.t);
+    MPS__CHECK(&sim->context, isfinite(t_end) && t_end >= w->info.t, "t_end is %g s: must be finite and not before the present time %g s",
+               t_end, w->info.t);
     mps_status result = MPS_OK;
     const double small = 1e-12 * fmax(1.0, fabs(t_end));
     while (t_end - w->info.t > small) {
@@ -76,7 +78,8 @@ mps_status mps_run(mps_sim *sim, double t_end, mps_monitor_fn monitor, void *use
 mps_status mps_sim_stencil(mps_sim *sim, int32_t which, mps_stencil *stencil)
 {
     if (!sim) return MPS_E_ARG;
-    MPS__CHECK(&sim->context, stencil && (which == MPS_NEAR || which == MPS_FAR), "stencil is NULL, or which is %d: MPS_NEAR or MPS_FAR", which);
+    MPS__CHECK(&sim->context, stencil && (which == MPS_NEAR || which == MPS_FAR), "stencil is NULL, or which is %d: MPS_NEAR or MPS_FAR",
+               which);
     const mps__field *x = mps__particles_field(&sim->world.particles, "position");
     if (x->writer) return mps__fail(&sim->context, MPS_E_BUSY, "positions are leased for writing");
     if (mps__particles_leases(&sim->world.particles) == 0) {
@@ -96,7 +99,8 @@ mps_status mps_sim_set_kernel(mps_sim *sim, const mps_kernel *kernel)
     if (sim->world.info.step > 0) return mps__fail(&sim->context, MPS_E_STATE, "the kernel cannot change after the first step");
     double n0;
     mps_status status = mps_lattice_constants(kernel, sim->world.dim, sim->world.dp, sim->world.re_near, &n0, NULL);
-    if (status != MPS_OK) return mps__fail(&sim->context, status, "the kernel is negative, not finite or zero on the lattice within re_near");
+    if (status != MPS_OK)
+        return mps__fail(&sim->context, status, "the kernel is negative, not finite or zero on the lattice within re_near");
     sim->world.kernel = *kernel;
     return MPS_OK;
 }

@@ -88,7 +88,9 @@ mps_status mps__struct_in(mps__context *c, const char *type, void *out, size_t s
     MPS__CHECK(c, given >= 2 * sizeof(uint32_t), "%s.struct_size is %u: call its _init function first", type, given);
     const unsigned char *bytes = in;
     for (size_t k = size; k < given; k++)
-        if (bytes[k]) return mps__fail(c, MPS_E_VERSION, "%s of %u bytes comes from a newer version and uses its entries; this one knows %zu", type, given, size);
+        if (bytes[k])
+            return mps__fail(c, MPS_E_VERSION, "%s of %u bytes comes from a newer version and uses its entries; this one knows %zu", type,
+                             given, size);
     memcpy(out, in, given < size ? given : size);
     return MPS_OK;
 }

@@ -38,9 +38,9 @@ void mps__log(mps__context *c, int level, const char *format, ...) __attribute__
     } while (0)
 
 /* Refuse an argument; kept in release builds. */
-#define MPS__CHECK(context, condition, ...)                                       \
-    do {                                                                          \
-        if (!(condition)) return mps__fail((context), MPS_E_ARG, __VA_ARGS__);    \
+#define MPS__CHECK(context, condition, ...)                                    \
+    do {                                                                       \
+        if (!(condition)) return mps__fail((context), MPS_E_ARG, __VA_ARGS__); \
     } while (0)
 
 /* Copy a caller's versioned struct into ours: a shorter one is completed from `defaults`, an unknown non-zero tail refused. */

@@ -3,6 +3,7 @@
  * Every file is written beside its place and renamed, so that a reader never sees half a file. */
 #define _POSIX_C_SOURCE 200809L
 #include "frames.h"
+#include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -272,6 +273,33 @@ static mps_status create_folder(const mps_frames *f)
     return MPS_OK;
 }
 
+/* "<name>_<digits>.vtp" */
+static bool is_frame(const char *series, const char *file)
+{
+    size_t length = strlen(series);
+    if (strncmp(file, series, length) != 0 || file[length] != '_') return false;
+    const char *digits = file + length + 1;
+    size_t count = strspn(digits, "0123456789");
+    return count >= 6 && strcmp(digits + count, ".vtp") == 0;
+}
+
+/* Frames of an earlier run in the same folder, which the new series may not reach; the .pvd names them no more. */
+static mps_status remove_old(const mps_frames *f)
+{
+    const struct dirent *entry;
+    mps_status status = MPS_OK;
+    snprintf(f->temporary, f->path_size + 8, "%s/%s", f->folder, f->name);
+    DIR *folder = opendir(f->temporary);
+    if (!folder) return io_failed(f, "read the folder", f->temporary);
+    while (status == MPS_OK && (entry = readdir(folder)) != NULL) {
+        if (!is_frame(f->name, entry->d_name) || strlen(entry->d_name) >= NAME_SIZE + 24) continue;
+        snprintf(f->path, f->path_size, "%s/%s/%s", f->folder, f->name, entry->d_name);
+        if (remove(f->path) != 0 && errno != ENOENT) status = io_failed(f, "remove", f->path);
+    }
+    closedir(folder);
+    return status;
+}
+
 /* Names go into paths and XML as they are. */
 static bool good_name(const char *name)
 {
@@ -291,7 +319,8 @@ static mps_status open_series(mps_frames *f, const char *folder)
     if (!f->folder || !f->path || !f->temporary) return MPS_E_NOMEM;
     memcpy(f->folder, folder, length + 1);
     MPS__TRY(create_folder(f));
-    return update_series(f);
+    MPS__TRY(update_series(f));
+    return remove_old(f);
 }
 
 mps_status mps__frames_open(mps__world *w, const char *folder, const char *name, int32_t kinds, mps_frames **frames)

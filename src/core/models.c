@@ -53,10 +53,10 @@ static mps_status check_ops(mps__models *m, const mps_model_ops *ops)
                "model \"%s\" has %d settings: 0..%d, with a table", ops->name, ops->setting_count, MPS__SETTINGS);
     for (int32_t k = 0; k < ops->setting_count; k++) {
         const mps_setting *s = &ops->settings[k];
-        MPS__CHECK(c, s->key && s->initial >= s->min && s->initial <= s->max, "model \"%s\": setting %d is outside its own range", ops->name, k);
+        MPS__CHECK(c, s->key && s->initial >= s->min && s->initial <= s->max, "model \"%s\": setting %d is outside its own range",
+                   ops->name, k);
     }
-    for (int32_t k = 0; k < m->known; k++)
-        MPS__CHECK(c, strcmp(m->name[k], ops->name) != 0, "model name \"%s\" is taken", ops->name);
+    for (int32_t k = 0; k < m->known; k++) MPS__CHECK(c, strcmp(m->name[k], ops->name) != 0, "model name \"%s\" is taken", ops->name);
     MPS__CHECK(c, m->known < MPS__MODELS_KNOWN, "model \"%s\" is one too many: at most %d", ops->name, MPS__MODELS_KNOWN);
     return MPS_OK;
 }
@@ -65,7 +65,8 @@ mps_status mps__models_register(mps__models *m, const mps_model_ops *ops)
 {
     mps_model_ops copy = {0};
     MPS__TRY(mps__struct_in(m->context, "mps_model_ops", &copy, sizeof copy, ops));
-    if (copy.api != MPS_MODEL_API) return mps__fail(m->context, MPS_E_VERSION, "model interface %u: this library speaks %u", copy.api, MPS_MODEL_API);
+    if (copy.api != MPS_MODEL_API)
+        return mps__fail(m->context, MPS_E_VERSION, "model interface %u: this library speaks %u", copy.api, MPS_MODEL_API);
     MPS__CHECK(m->context, copy.name, "a model needs a name");
     MPS__TRY(check_ops(m, &copy));
     mps__name_copy(m->name[m->known], MPS__NAME_SIZE, copy.name);
@@ -109,7 +110,8 @@ mps_status mps__models_use(mps__models *m, const char *name)
     while (which < m->known && strcmp(m->name[which], name) != 0) which++;
     if (which == m->known) return unknown_model(m, name);
     const int32_t old = find_active(m, name);
-    MPS__CHECK(m->context, old >= 0 || m->active < MPS__MODELS_ACTIVE, "model \"%s\" is one too many: at most %d are active", name, MPS__MODELS_ACTIVE);
+    MPS__CHECK(m->context, old >= 0 || m->active < MPS__MODELS_ACTIVE, "model \"%s\" is one too many: at most %d are active", name,
+               MPS__MODELS_ACTIVE);
     mps__model fresh = {.ops = &m->registry[which]};
     for (int32_t k = 0; k < fresh.ops->setting_count; k++) fresh.k[k] = fresh.ops->settings[k].initial;
     if (fresh.ops->create && fresh.ops->create(&m->context->allocator, &fresh.self) != 0)
@@ -147,7 +149,8 @@ double *mps__models_value(mps__models *m, const char *slot, const char *key, con
         if (setting) *setting = &ops->settings[k];
         return &m->on[which].k[k];
     }
-    mps__fail(m->context, MPS_E_NAME, "model \"%s\" has no setting \"%s\"; did you mean \"%s\"?", ops->name, key, mps__nearest(key, keys, ops->setting_count));
+    mps__fail(m->context, MPS_E_NAME, "model \"%s\" has no setting \"%s\"; did you mean \"%s\"?", ops->name, key,
+              mps__nearest(key, keys, ops->setting_count));
     return NULL;
 }
 

@@ -10,20 +10,20 @@
 typedef struct mps__pose {
     double t;
     mps_motion_state state;
-    double rotation[9];           /* R, row by row */
-    double omega[3], alpha[3];    /* angular velocity and acceleration in the lab [rad/s], [rad/s2] */
+    double rotation[9];        /* R, row by row */
+    double omega[3], alpha[3]; /* angular velocity and acceleration in the lab [rad/s], [rad/s2] */
 } mps__pose;
 
 typedef struct mps__motion {
     mps__context *context;
     int32_t dim, start;
     double centre[3];
-    mps_motion_fn fn;             /* NULL: the tank keeps the pose `hold` */
+    mps_motion_fn fn; /* NULL: the tank keeps the pose `hold` */
     void *user;
     void (*release)(mps__context *c, void *user); /* frees a built-in motion's data, or NULL */
-    double t_end;                 /* last time the motion is defined for */
+    double t_end;                                 /* last time the motion is defined for */
     mps_motion_state hold;
-    mps__pose now;                /* at the present time */
+    mps__pose now; /* at the present time */
 } mps__motion;
 
 void mps__motion_init(mps__motion *m, mps__context *context, int32_t dim);

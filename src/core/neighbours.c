@@ -29,7 +29,7 @@ mps_status mps__neighbours_init(mps_neighbours *l, mps__context *context, int32_
 
 void mps__neighbours_free(mps_neighbours *l)
 {
-    void *all[] = {l->begin, l->middle, l->end, l->col, l->candidate_row, l->candidate, l->searched, l->key, l->order};
+    void *all[] = {l->begin, l->middle, l->end, l->col, l->w_r2, l->candidate_row, l->candidate, l->searched, l->key, l->order};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) mps__free(l->context, all[k]);
     mps__neighbours_init(l, l->context, l->dim, l->dp);
 }
@@ -320,6 +320,17 @@ mps_status mps__neighbours_rows(mps_neighbours *l, const double *x)
         else
             exact_row(l, x, i, 3);
     }
+    return MPS_OK;
+}
+
+mps_status mps__neighbours_weights(mps_neighbours *l)
+{
+    if (l->weight_capacity >= l->pair_capacity) return MPS_OK;
+    mps__free(l->context, l->w_r2); /* nothing in it outlives a step */
+    l->weight_capacity = 0;
+    l->w_r2 = mps__alloc(l->context, l->pair_capacity, sizeof *l->w_r2);
+    if (!l->w_r2) return MPS_E_NOMEM;
+    l->weight_capacity = l->pair_capacity;
     return MPS_OK;
 }
 

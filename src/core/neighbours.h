@@ -13,16 +13,17 @@ struct mps_neighbours {
     mps__context own; /* context of a list that stands alone */
     int32_t dim, threads;
     double dp, skin, re_near, re_far;
-    int64_t n, capacity, pair_capacity, candidate_capacity;
+    int64_t n, capacity, pair_capacity, candidate_capacity, weight_capacity;
     const double *x;
     int64_t *begin, *middle, *end; /* [n] */
     int32_t *col;                  /* pairs within re_far at the present positions */
+    double *w_r2;                  /* NULL, or room for a weight beside each entry of col */
     int64_t *candidate_row;        /* [n+1] pairs within re_far + skin at the last search */
     int32_t *candidate;
-    double *searched;              /* [n*dim] positions at the last search */
-    uint64_t *key;                 /* [2 n] cell keys and scratch of the sort */
-    int32_t *order;                /* [2 n] */
-    bool valid;                    /* candidates belong to the present order */
+    double *searched; /* [n*dim] positions at the last search */
+    uint64_t *key;    /* [2 n] cell keys and scratch of the sort */
+    int32_t *order;   /* [2 n] */
+    bool valid;       /* candidates belong to the present order */
 };
 
 mps_status mps__neighbours_init(mps_neighbours *l, mps__context *context, int32_t dim, double dp);
@@ -36,5 +37,7 @@ mps_status mps__neighbours_order(mps_neighbours *l, int64_t n, const double *x, 
 mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x, double re_near, double re_far);
 /* Exact rows at the present positions from the candidates. */
 mps_status mps__neighbours_rows(mps_neighbours *l, const double *x);
+/* Make room for l->w_r2. */
+mps_status mps__neighbours_weights(mps_neighbours *l);
 
 #endif

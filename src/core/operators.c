@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The public operators: argument checks, then the loop compiled for the dimension. */
+#include "operators.h"
 #include "base.h"
 #include <math.h>
-#include <mps/operators.h>
 
 /* Jacobi rotation of a symmetric matrix in the plane (p, q); columns of v take the eigenvectors. */
 static void rotate(double *a, double *v, int dim, int p, int q)
@@ -27,9 +27,38 @@ static void rotate(double *a, double *v, int dim, int p, int q)
     }
 }
 
+/* Inverse by cofactors if all eigenvalues exceed `least`, that is, if m - least 1 is positive definite (its leading minors
+ * are positive). The rule for all but a few particles, and ten times cheaper than eigenvectors. */
+static bool inverse_regular_2d(const double *m, double least, double *inverse)
+{
+    if (!(m[0] > least && (m[0] - least) * (m[3] - least) > m[1] * m[1])) return false;
+    const double over = 1.0 / (m[0] * m[3] - m[1] * m[1]);
+    inverse[0] = over * m[3];
+    inverse[1] = inverse[2] = -over * m[1];
+    inverse[3] = over * m[0];
+    return true;
+}
+
+static bool inverse_regular_3d(const double *m, double least, double *inverse)
+{
+    const double a = m[0] - least, b = m[4] - least, c = m[8] - least, f = m[5], g = m[2], h = m[1];
+    const double minor = a * b - h * h, determinant = a * (b * c - f * f) - h * (h * c - f * g) + g * (h * f - b * g);
+    if (!(a > 0 && minor > 0 && determinant > 0)) return false;
+    const double xx = m[4] * m[8] - f * f, xy = f * g - h * m[8], xz = h * f - m[4] * g;
+    const double over = 1.0 / (m[0] * xx + h * xy + g * xz);
+    inverse[0] = over * xx;
+    inverse[1] = inverse[3] = over * xy;
+    inverse[2] = inverse[6] = over * xz;
+    inverse[4] = over * (m[0] * m[8] - g * g);
+    inverse[5] = inverse[7] = over * (h * g - m[0] * f);
+    inverse[8] = over * (m[0] * m[4] - h * h);
+    return true;
+}
+
 /* Inverse of a symmetric matrix whose eigenvalues are raised to `least`: bounded where neighbours are too few. */
 static void inverse_bounded(const double *m, int dim, double least, double *inverse)
 {
+    if (dim == 2 ? inverse_regular_2d(m, least, inverse) : inverse_regular_3d(m, least, inverse)) return;
     double a[9], v[9] = {0};
     for (int k = 0; k < dim * dim; k++) a[k] = m[k];
     for (int k = 0; k < dim; k++) v[k * dim + k] = 1.0;
@@ -68,6 +97,8 @@ static bool usable(const mps_stencil *s)
 {
     return s && s->struct_size == sizeof *s && (s->dim == 2 || s->dim == 3) && s->n > 0 && s->x && s->begin && s->end && s->col && s->n0 > 0;
 }
+
+void mps__op_weigh(const mps_stencil *s, double *w_r2, double *n, double *a) { DISPATCH(s, weigh, w_r2, n, a); }
 
 mps_status mps_op_number_density(const mps_stencil *s, double *n)
 {

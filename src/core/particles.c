@@ -29,22 +29,17 @@ mps_status mps__particles_init(mps__particles *s, mps__context *context, int32_t
         bool is_public;
         void **data;
     } built_in[] = {
-        {"position", dim, sizeof(double), true, (void **)&s->x},
-        {"velocity", dim, sizeof(double), true, (void **)&s->u},
-        {"pressure", 1, sizeof(double), true, (void **)&s->p},
-        {"number_density", 1, sizeof(double), true, (void **)&s->nd},
-        {"density", 1, sizeof(double), true, (void **)&s->rho},
-        {"ref", dim, sizeof(double), false, (void **)&s->ref},
-        {"area", dim, sizeof(double), false, (void **)&s->area},
-        {"id", 1, sizeof(int64_t), false, (void **)&s->id},
-        {"kind", 1, sizeof(int32_t), false, (void **)&s->kind},
-        {"phase", 1, sizeof(int32_t), false, (void **)&s->phase},
-        {"part", 1, sizeof(int32_t), false, (void **)&s->part},
-        {"region", 1, sizeof(int32_t), false, (void **)&s->region},
+        {"position", dim, sizeof(double), true, (void **)&s->x},      {"velocity", dim, sizeof(double), true, (void **)&s->u},
+        {"pressure", 1, sizeof(double), true, (void **)&s->p},        {"number_density", 1, sizeof(double), true, (void **)&s->nd},
+        {"density", 1, sizeof(double), true, (void **)&s->rho},       {"ref", dim, sizeof(double), false, (void **)&s->ref},
+        {"area", dim, sizeof(double), false, (void **)&s->area},      {"id", 1, sizeof(int64_t), false, (void **)&s->id},
+        {"kind", 1, sizeof(int32_t), false, (void **)&s->kind},       {"phase", 1, sizeof(int32_t), false, (void **)&s->phase},
+        {"part", 1, sizeof(int32_t), false, (void **)&s->part},       {"region", 1, sizeof(int32_t), false, (void **)&s->region},
         {"wall_of", 1, sizeof(int32_t), false, (void **)&s->wall_of},
     };
     for (size_t k = 0; k < sizeof built_in / sizeof built_in[0]; k++)
-        MPS__TRY(mps__particles_field_add(s, built_in[k].name, built_in[k].components, built_in[k].size, built_in[k].is_public, built_in[k].data));
+        MPS__TRY(mps__particles_field_add(s, built_in[k].name, built_in[k].components, built_in[k].size, built_in[k].is_public,
+                                          built_in[k].data));
     return MPS_OK;
 }
 
@@ -58,7 +53,10 @@ void mps__particles_free(mps__particles *s)
     s->n = s->capacity = 0;
 }
 
-static size_t stride(const mps__field *f) { return (size_t)f->components * f->size; }
+static size_t stride(const mps__field *f)
+{
+    return (size_t)f->components * f->size;
+}
 
 /* New arrays for all fields, or none: the caller swaps them in when all are there. */
 static mps_status new_arrays(mps__particles *s, int64_t capacity, void *array[MPS__FIELDS_MAX])

@@ -10,12 +10,12 @@ enum { MPS__FIELDS_MAX = 32, MPS__PHASES = 16, MPS__PARTS_MAX = 64, MPS__PART_NA
 /* One array that travels with the particles. */
 typedef struct mps__field {
     char name[MPS__NAME_SIZE];
-    int32_t components;   /* per particle */
-    size_t size;          /* bytes of a component */
-    bool is_public;       /* may be leased by name */
-    void **data;          /* where the pointer to the array lives */
-    void *own;            /* that place for user fields */
-    int32_t readers;      /* open leases */
+    int32_t components; /* per particle */
+    size_t size;        /* bytes of a component */
+    bool is_public;     /* may be leased by name */
+    void **data;        /* where the pointer to the array lives */
+    void *own;          /* that place for user fields */
+    int32_t readers;    /* open leases */
     bool writer;
 } mps__field;
 
@@ -23,19 +23,19 @@ typedef struct mps__particles {
     mps__context *context;
     int32_t dim;
     int64_t n, capacity, next_id;
-    double *x, *u;          /* [n*dim] */
-    double *p, *nd, *rho;   /* [n] pressure, number density, density */
-    double *ref;            /* [n*dim] place in the tank's frame (solids) */
-    double *area;           /* [n*dim] wetted area vector (walls) */
-    int64_t *id;            /* [n] stable, ascending at creation */
+    double *x, *u;        /* [n*dim] */
+    double *p, *nd, *rho; /* [n] pressure, number density, density */
+    double *ref;          /* [n*dim] place in the tank's frame (solids) */
+    double *area;         /* [n*dim] wetted area vector (walls), in the tank's frame */
+    int64_t *id;          /* [n] stable, ascending at creation */
     int32_t *kind, *phase, *part;
-    int32_t *region;        /* [n] MPS_REGION_... of the last step */
-    int32_t *wall_of;       /* [n] place of a dummy's wall particle, -1: none; follows when particles move */
+    int32_t *region;  /* [n] MPS_REGION_... of the last step */
+    int32_t *wall_of; /* [n] place of a dummy's wall particle, -1: none; follows when particles move */
     int32_t fields;
     mps__field field[MPS__FIELDS_MAX];
     int32_t parts;
     char part_name[MPS__PARTS_MAX][MPS__PART_NAME];
-    int64_t generation;     /* grows when particles come or go */
+    int64_t generation; /* grows when particles come or go */
 } mps__particles;
 
 mps_status mps__particles_init(mps__particles *s, mps__context *context, int32_t dim);

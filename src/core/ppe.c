@@ -120,7 +120,7 @@ static void sort_row(int32_t *col, double *val, int64_t n)
 }
 
 /* Row r. Returns its entries. */
-static int64_t fill_row(const assembly *a, int64_t r)
+static inline __attribute__((always_inline)) int64_t fill_row(const int dim, const assembly *a, int64_t r)
 {
     mps__ppe *e = a->e;
     const mps_stage *s = a->s;
@@ -129,12 +129,12 @@ static int64_t fill_row(const assembly *a, int64_t r)
     double *val = e->val + e->row[r], coupling = 0, shift = a->t->shift[i], rhs = a->t->rhs[i];
     int64_t count = 1;
     for (int64_t k = a->pairs->begin[i]; k < a->pairs->end[i]; k++) {
-        const mps_pair q = mps_stencil_pair(a->pairs, i, k);
-        const double factor = pair_factor(a, i, q.j);
+        const double factor = pair_factor(a, i, a->pairs->col[k]);
         if (factor == 0) continue;
+        const mps_pair q = mps_stencil_pair_dim(dim, a->pairs, i, k);
         const double rho = pair_density(s, i, q.j), kij = a->c * factor * q.w / rho;
         double body = 0;
-        for (int d = 0; d < s->dim; d++) body += 0.5 * (a->t->body[i * s->dim + d] + a->t->body[q.j * s->dim + d]) * q.d[d];
+        for (int d = 0; d < dim; d++) body += 0.5 * (a->t->body[i * dim + d] + a->t->body[q.j * dim + d]) * q.d[d];
         rhs -= kij * rho * body;
         if (e->unknown[q.j] < 0) {
             shift += kij;
@@ -240,7 +240,7 @@ mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps_ppe_term
     int64_t *length = mps__alloc(e->context, e->n, sizeof *length);
     if (!length) return MPS_E_NOMEM;
 #pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t r = 0; r < e->n; r++) length[r] = fill_row(&a, r);
+    for (int64_t r = 0; r < e->n; r++) length[r] = s->dim == 2 ? fill_row(2, &a, r) : fill_row(3, &a, r);
     compact_rows(e, length);
     const int32_t singular = find_singular(e, (int32_t *)(void *)length);
     mps__free(e->context, length);

@@ -8,10 +8,10 @@
 
 typedef struct mps__ppe {
     mps__context *context;
-    int64_t capacity, entry_capacity, n;  /* unknowns of the last assembly */
-    int32_t *unknown;                     /* [particles] row of a particle, -1: none */
-    int32_t *particle;                    /* [n] particle of a row */
-    int64_t *row;                         /* [n+1] CSR */
+    int64_t capacity, entry_capacity, n; /* unknowns of the last assembly */
+    int32_t *unknown;                    /* [particles] row of a particle, -1: none */
+    int32_t *particle;                   /* [n] particle of a row */
+    int64_t *row;                        /* [n+1] CSR */
     int32_t *col;
     double *val, *rhs, *shift, *weight, *x, *p;
     int32_t *component;

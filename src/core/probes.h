@@ -7,7 +7,7 @@
 #include <mps/probe.h>
 
 typedef struct mps__probe {
-    mps_probe config;     /* part points to part_name */
+    mps_probe config; /* part points to part_name */
     char part_name[MPS__PART_NAME];
 } mps__probe;
 

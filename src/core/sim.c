@@ -5,8 +5,13 @@
 #include <stdio.h>
 #include <string.h>
 
-static const mps_config config_default = {
-    .struct_size = sizeof(mps_config), .dim = 2, .gravity = {0, -9.81, 0}, .kernel = "improved", .re_near = 2.1, .threads = 1, .speed_limit = 1000};
+static const mps_config config_default = {.struct_size = sizeof(mps_config),
+                                          .dim = 2,
+                                          .gravity = {0, -9.81, 0},
+                                          .kernel = "improved",
+                                          .re_near = 2.1,
+                                          .threads = 1,
+                                          .speed_limit = 1000};
 static const mps_phase water = {.struct_size = sizeof(mps_phase), .density = 1000, .viscosity = 1e-3};
 
 mps_status mps_config_init(mps_config *config, size_t size)
@@ -24,7 +29,8 @@ static mps_status check_domain(mps__context *c, const mps_config *f, bool *given
     *given = false;
     for (int d = 0; d < f->dim; d++) *given = *given || f->domain_min[d] != 0 || f->domain_max[d] != 0;
     for (int d = 0; *given && d < f->dim; d++)
-        MPS__CHECK(c, f->domain_max[d] > f->domain_min[d], "config.domain axis %d is %g..%g: max must be greater than min", d, f->domain_min[d], f->domain_max[d]);
+        MPS__CHECK(c, f->domain_max[d] > f->domain_min[d], "config.domain axis %d is %g..%g: max must be greater than min", d,
+                   f->domain_min[d], f->domain_max[d]);
     return MPS_OK;
 }
 
@@ -36,13 +42,16 @@ static mps_status check_config(mps__context *c, mps_config *f)
     if (f->re_near == 0) f->re_near = 2.1;
     if (f->re_far == 0) f->re_far = f->dim == 2 ? 3.1 : 2.1;
     MPS__CHECK(c, f->re_near > 1 && f->re_near <= 10, "config.re_near is %g dp: 1 < re_near <= 10", f->re_near);
-    MPS__CHECK(c, f->re_far >= f->re_near && f->re_far <= 10, "config.re_far is %g dp: re_near (%g) <= re_far <= 10", f->re_far, f->re_near);
+    MPS__CHECK(c, f->re_far >= f->re_near && f->re_far <= 10, "config.re_far is %g dp: re_near (%g) <= re_far <= 10", f->re_far,
+               f->re_near);
     if (f->threads == 0) f->threads = 1;
     MPS__CHECK(c, f->threads >= 1 && f->threads <= 1024, "config.threads is %d: 1..1024", f->threads);
-    MPS__CHECK(c, f->lost_policy == MPS_LOST_REMOVE || f->lost_policy == MPS_LOST_ERROR, "config.lost_policy is %d: MPS_LOST_REMOVE or MPS_LOST_ERROR",
-               f->lost_policy);
-    MPS__CHECK(c, mps__finite(f->gravity, 3), "config.gravity is (%g, %g, %g): must be finite", f->gravity[0], f->gravity[1], f->gravity[2]);
-    MPS__CHECK(c, f->velocity_scale >= 0 && isfinite(f->velocity_scale), "config.velocity_scale is %g: must be >= 0 m/s", f->velocity_scale);
+    MPS__CHECK(c, f->lost_policy == MPS_LOST_REMOVE || f->lost_policy == MPS_LOST_ERROR,
+               "config.lost_policy is %d: MPS_LOST_REMOVE or MPS_LOST_ERROR", f->lost_policy);
+    MPS__CHECK(c, mps__finite(f->gravity, 3), "config.gravity is (%g, %g, %g): must be finite", f->gravity[0], f->gravity[1],
+               f->gravity[2]);
+    MPS__CHECK(c, f->velocity_scale >= 0 && isfinite(f->velocity_scale), "config.velocity_scale is %g: must be >= 0 m/s",
+               f->velocity_scale);
     MPS__CHECK(c, mps__finite(f->domain_min, 3) && mps__finite(f->domain_max, 3), "config.domain_min or domain_max is not finite");
     if (f->speed_limit == 0) f->speed_limit = config_default.speed_limit;
     MPS__CHECK(c, f->speed_limit > 0, "config.speed_limit is %g: must be > 0 m/s", f->speed_limit);
@@ -57,7 +66,8 @@ static mps_status set_up(mps_sim *sim, const mps_config *f)
     const char *kernel = f->kernel ? f->kernel : config_default.kernel;
     if (mps_kernel_find(kernel, &w->kernel) != MPS_OK) {
         const char *names[] = {"improved", "original"};
-        return mps__fail(&sim->context, MPS_E_NAME, "config.kernel is \"%s\"; did you mean \"%s\"?", kernel, mps__nearest(kernel, names, 2));
+        return mps__fail(&sim->context, MPS_E_NAME, "config.kernel is \"%s\"; did you mean \"%s\"?", kernel,
+                         mps__nearest(kernel, names, 2));
     }
     for (int d = 0; d < f->dim; d++) w->g[d] = f->gravity[d];
     const double g = sqrt(mps__dot(w->g, w->g, f->dim));
@@ -154,7 +164,8 @@ mps_status mps_sim_set_phase(mps_sim *sim, int32_t index, const mps_phase *phase
     MPS__CHECK(&sim->context, index >= 0 && index < MPS__PHASES, "phase index is %d: 0..%d", index, MPS__PHASES - 1);
     MPS__TRY(mps__struct_in(&sim->context, "mps_phase", &p, sizeof p, phase));
     MPS__CHECK(&sim->context, p.density > 0 && isfinite(p.density), "phase %d: density is %g: must be > 0 kg/m3", index, p.density);
-    MPS__CHECK(&sim->context, p.viscosity >= 0 && isfinite(p.viscosity), "phase %d: viscosity is %g: must be >= 0 Pa s", index, p.viscosity);
+    MPS__CHECK(&sim->context, p.viscosity >= 0 && isfinite(p.viscosity), "phase %d: viscosity is %g: must be >= 0 Pa s", index,
+               p.viscosity);
     mps__world *w = &sim->world;
     if (mps__particles_leases(&w->particles)) return mps__fail(&sim->context, MPS_E_BUSY, "a lease is open");
     w->phase_defined[index] = true;

@@ -18,6 +18,9 @@ struct mps_sim {
 };
 
 /* The handle's context is part of its private state: error text may change through a const handle. */
-static inline mps__context *mps__sim_context(const mps_sim *sim) { return (mps__context *)&sim->context; }
+static inline mps__context *mps__sim_context(const mps_sim *sim)
+{
+    return (mps__context *)&sim->context;
+}
 
 #endif

@@ -7,10 +7,12 @@ const char *mps_status_name(mps_status status)
 {
     switch (status) {
 #define MPS__NAME(name, value, meaning) \
-    case value: return #name;
+    case value:                         \
+        return #name;
         MPS_STATUS_LIST(MPS__NAME)
 #undef MPS__NAME
-    default: return "MPS_E_UNKNOWN";
+    default:
+        return "MPS_E_UNKNOWN";
     }
 }
 
@@ -18,10 +20,12 @@ const char *mps_status_text(mps_status status)
 {
     switch (status) {
 #define MPS__TEXT(name, value, meaning) \
-    case value: return meaning;
+    case value:                         \
+        return meaning;
         MPS_STATUS_LIST(MPS__TEXT)
 #undef MPS__TEXT
-    default: return "unknown status";
+    default:
+        return "unknown status";
     }
 }
 

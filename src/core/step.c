@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* One time step, W22 section 2.5 and Fig. 2: predict, pressure equation, correct. The one file that knows the order. */
 #include "budget.h"
+#include "operators.h"
 #include "world.h"
 #include <stdarg.h>
 #include <stdio.h>
@@ -12,12 +13,12 @@ typedef struct step_state {
     mps_stage stage;
     mps_stencil near, far;
     mps_ppe_terms terms;
-    mps__pose pose;       /* of the tank at the end of the step */
+    mps__pose pose; /* of the tank at the end of the step */
     mps_step_info info;
     mps__budget budget;
-    double clock;         /* beginning of the present stage */
+    double clock; /* beginning of the present stage */
     bool not_converged;
-    bool no_memory;       /* a verb got no scratch */
+    bool no_memory; /* a verb got no scratch */
 } step_state;
 
 /* ---- calling models -------------------------------------------------------------------------------------------- */
@@ -66,19 +67,22 @@ static mps_status verb_failed(step_state *q, const mps__model *m)
 }
 
 /* Call one verb of all active models in their order. */
-#define EACH_MODEL(q, verb, ...)                                                                                     \
-    for (int32_t m_ = 0; m_ < (q)->w->models.active; m_++) {                                                         \
-        const mps__model *model_ = &(q)->w->models.on[m_];                                                           \
-        if (!model_->ops->verb) continue;                                                                            \
-        (q)->w->context->error[0] = 0;                                                                               \
-        const int failed_ = model_->ops->verb(model_->self, model_->k, __VA_ARGS__);                                 \
-        (q)->w->work.scratch_used = 0;                                                                               \
-        if (failed_) return verb_failed((q), model_);                                                                \
+#define EACH_MODEL(q, verb, ...)                                                     \
+    for (int32_t m_ = 0; m_ < (q)->w->models.active; m_++) {                         \
+        const mps__model *model_ = &(q)->w->models.on[m_];                           \
+        if (!model_->ops->verb) continue;                                            \
+        (q)->w->context->error[0] = 0;                                               \
+        const int failed_ = model_->ops->verb(model_->self, model_->k, __VA_ARGS__); \
+        (q)->w->work.scratch_used = 0;                                               \
+        if (failed_) return verb_failed((q), model_);                                \
     }
 
 /* ---- time step -------------------------------------------------------------------------------------------------- */
 
-static double least(double a, double b) { return b > 0 && b < a ? b : a; }
+static double least(double a, double b)
+{
+    return b > 0 && b < a ? b : a;
+}
 
 /* dt of the control's limits; 0 is never returned. */
 static double choose_dt(const step_state *q)
@@ -108,7 +112,8 @@ static mps_status set_dt(step_state *q, double dt_max)
     q->stage.dt = w->dt_previous;
     double dt = choose_dt(q);
     if (!(dt >= w->control.dt_min) && w->control.dt <= 0)
-        return mps__fail(w->context, MPS_E_DIVERGED, "the time step fell to %g s at t = %.9g s, below dt_min = %g s; the largest speed is %g m/s", dt, w->info.t,
+        return mps__fail(w->context, MPS_E_DIVERGED,
+                         "the time step fell to %g s at t = %.9g s, below dt_min = %g s; the largest speed is %g m/s", dt, w->info.t,
                          w->control.dt_min, mps__world_speed(w));
     if (!isfinite(dt)) dt = dt_max;
     q->stage.dt = fmin(dt, dt_max);
@@ -139,7 +144,8 @@ static void tank_velocity(const mps__world *w, const double *X, double *u)
     }
 }
 
-/* Solids get the velocity that carries them to their next place; every particle the acceleration a rigid tank has there. */
+/* Solids get the velocity that carries them to their next place; every particle the acceleration a rigid tank has there.
+ * Area vectors turn with the tank. */
 static void move_walls(step_state *q)
 {
     mps__world *w = q->w;
@@ -155,6 +161,7 @@ static void move_walls(step_state *q)
         mps__motion_point(&w->motion, &w->motion.now, X, here, NULL, NULL);
         mps__motion_point(&w->motion, &q->pose, X, next, NULL, NULL);
         tank_velocity(w, X, old);
+        mps__motion_rotate(&w->motion, &w->motion.now, s->area + i * dim, w->work.area + i * dim);
         for (int d = 0; d < dim; d++) {
             const double u = (next[d] - here[d]) / q->stage.dt;
             w->work.tank_accel[i * dim + d] = (u - old[d]) / q->stage.dt;
@@ -187,7 +194,7 @@ static void set_stage(step_state *q)
                            .density = s->rho,
                            .viscosity = w->phase_viscosity,
                            .tank_accel = k->tank_accel,
-                           .area = s->area,
+                           .area = k->area,
                            .wall_of = s->wall_of,
                            .number_density = s->nd,
                            .asymmetry = k->asymmetry,
@@ -198,7 +205,13 @@ static void set_stage(step_state *q)
                            .far = &q->far,
                            .host = q};
     for (int p = 0; p < MPS__PHASES; p++) q->stage.phases += w->phase_defined[p];
-    q->terms = (mps_ppe_terms){.struct_size = sizeof q->terms, .radius = MPS_FAR, .rhs = k->rhs, .shift = k->shift, .value = k->value, .fixed = k->fixed, .body = k->body};
+    q->terms = (mps_ppe_terms){.struct_size = sizeof q->terms,
+                               .radius = MPS_FAR,
+                               .rhs = k->rhs,
+                               .shift = k->shift,
+                               .value = k->value,
+                               .fixed = k->fixed,
+                               .body = k->body};
 }
 
 /* Number density, asymmetry, regions at r^k. */
@@ -208,10 +221,11 @@ static mps_status look_around(step_state *q)
     mps_stage *s = &q->stage;
     MPS__TRY(mps__world_stencil(w, MPS_NEAR, &q->near));
     MPS__TRY(mps__world_stencil(w, MPS_FAR, &q->far));
+    MPS__TRY(mps__neighbours_weights(&w->neighbours));
     end_stage(q, MPS_STAGE_NEIGHBOURS);
     move_walls(q);
-    MPS__TRY(mps_op_number_density(&q->near, s->number_density));
-    MPS__TRY(mps_op_asymmetry(&q->near, w->work.asymmetry));
+    mps__op_weigh(&q->near, w->neighbours.w_r2, s->number_density, w->work.asymmetry);
+    q->near.w_r2 = w->neighbours.w_r2;
     const int dim = s->dim;
     for (int64_t i = 0; i < s->n; i++) {
         s->region[i] = s->kind[i] == MPS_DUMMY ? MPS_REGION_DRY : MPS_REGION_INNER;
@@ -322,9 +336,10 @@ static mps_status check_result(step_state *q)
     q->info.cfl = most * s->dt / s->dp;
     if (worst < 0) return MPS_OK;
     const double *u = s->u + worst * s->dim, *x = w->work.x0 + worst * s->dim;
-    return mps__fail(w->context, MPS_E_DIVERGED,
-                     "t = %.9g s: particle %lld at (%g, %g, %g) m got velocity (%g, %g, %g) m/s and pressure %g Pa; allowed: finite, at most %g m/s", s->t,
-                     (long long)s->id[worst], x[0], x[1], s->dim == 3 ? x[2] : 0, u[0], u[1], s->dim == 3 ? u[2] : 0, s->p[worst], w->speed_limit);
+    return mps__fail(
+        w->context, MPS_E_DIVERGED,
+        "t = %.9g s: particle %lld at (%g, %g, %g) m got velocity (%g, %g, %g) m/s and pressure %g Pa; allowed: finite, at most %g m/s",
+        s->t, (long long)s->id[worst], x[0], x[1], s->dim == 3 ? x[2] : 0, u[0], u[1], s->dim == 3 ? u[2] : 0, s->p[worst], w->speed_limit);
 }
 
 static void keep_state(mps__world *w)

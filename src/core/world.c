@@ -27,7 +27,8 @@ void mps__world_free(mps__world *w)
     mps__ppe_free(&w->ppe);
     mps__motion_free(&w->motion);
     mps__work *k = &w->work;
-    void *all[] = {k->fixed, k->asymmetry, k->wet, k->correction, k->tank_accel, k->a, k->dx, k->rhs, k->shift, k->value, k->body, k->x0, k->u0, k->p0};
+    void *all[] = {k->fixed, k->asymmetry, k->wet,   k->correction, k->tank_accel, k->area, k->a,  k->dx,
+                   k->rhs,   k->shift,     k->value, k->body,       k->x0,         k->u0, k->p0};
     for (size_t a = 0; a < sizeof all / sizeof all[0]; a++) mps__free(w->context, all[a]);
     for (int a = 0; a < MPS__SCRATCH; a++) mps__free(w->context, k->scratch[a]);
 }
@@ -96,10 +97,11 @@ static mps_status handle_lost(mps__world *w)
     const double *x = s->x + first * w->dim;
     const double z = w->dim == 3 ? x[2] : 0;
     if (w->lost_policy == MPS_LOST_ERROR)
-        return mps__fail(w->context, MPS_E_LOST, "%lld particles left the domain at t = %.6g s; particle %lld is at (%g, %g, %g) m", (long long)lost, w->info.t,
-                         (long long)s->id[first], x[0], x[1], z);
-    mps__log(w->context, MPS_LOG_WARNING, "t = %.6g s: %lld particles left the domain and were removed; particle %lld was at (%g, %g, %g) m", w->info.t,
-             (long long)lost, (long long)s->id[first], x[0], x[1], z);
+        return mps__fail(w->context, MPS_E_LOST, "%lld particles left the domain at t = %.6g s; particle %lld is at (%g, %g, %g) m",
+                         (long long)lost, w->info.t, (long long)s->id[first], x[0], x[1], z);
+    mps__log(w->context, MPS_LOG_WARNING,
+             "t = %.6g s: %lld particles left the domain and were removed; particle %lld was at (%g, %g, %g) m", w->info.t, (long long)lost,
+             (long long)s->id[first], x[0], x[1], z);
     int32_t *keep = mps__alloc(w->context, s->n, sizeof *keep);
     if (!keep) return MPS_E_NOMEM;
     int64_t count = 0;
@@ -169,6 +171,7 @@ static mps_status reserve_work(mps__world *w)
              {(void **)&k->wet, wanted, sizeof(double)},
              {(void **)&k->correction, wanted * dim * dim, sizeof(double)},
              {(void **)&k->tank_accel, wanted * dim, sizeof(double)},
+             {(void **)&k->area, wanted * dim, sizeof(double)},
              {(void **)&k->a, wanted * dim, sizeof(double)},
              {(void **)&k->dx, wanted * dim, sizeof(double)},
              {(void **)&k->rhs, wanted, sizeof(double)},
@@ -217,5 +220,7 @@ mps_status mps__world_neighbours(mps__world *w)
 mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *stencil)
 {
     mps_status status = mps_neighbours_stencil(&w->neighbours, which, &w->kernel, stencil);
-    return status == MPS_OK ? status : mps__fail(w->context, status, "the kernel has no lattice constants for radius %g dp", (which ? w->re_far : w->re_near) / w->dp);
+    return status == MPS_OK ? status
+                            : mps__fail(w->context, status, "the kernel has no lattice constants for radius %g dp",
+                                        (which ? w->re_far : w->re_near) / w->dp);
 }

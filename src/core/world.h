@@ -17,7 +17,7 @@ enum { MPS__SCRATCH = 16 };
 /* Energies since creation [J]; see mps_energy. */
 typedef struct mps__budget {
     double wall_work, viscous, collision, shift;
-    double start;      /* kinetic + potential before the first step */
+    double start;       /* kinetic + potential before the first step */
     double density_ref; /* mean n/n0 of inner particles after the first step */
     bool started;
 } mps__budget;
@@ -26,7 +26,7 @@ typedef struct mps__budget {
 typedef struct mps__work {
     int64_t capacity;
     int32_t *fixed;
-    double *asymmetry, *wet, *correction, *tank_accel, *a, *dx;
+    double *asymmetry, *wet, *correction, *tank_accel, *area, *a, *dx;
     double *rhs, *shift, *value, *body;
     double *x0, *u0, *p0;
     double *scratch[MPS__SCRATCH]; /* blocks lent to verbs, kept from step to step */
@@ -51,12 +51,12 @@ typedef struct mps__world {
     mps__motion motion;
     mps_time_control control;
     mps__budget budget;
-    mps_step_info info;   /* of the last step; t, step, lost go on */
-    double dt_previous;   /* 0 before the first step */
-    mps__pose before;     /* of the tank at the beginning of the last step, */
-    double dt_before;     /* which was this long */
+    mps_step_info info; /* of the last step; t, step, lost go on */
+    double dt_previous; /* 0 before the first step */
+    mps__pose before;   /* of the tank at the beginning of the last step, */
+    double dt_before;   /* which was this long */
     mps__work work;
-    int64_t linked;       /* generation of the particles whose dummies know their walls */
+    int64_t linked; /* generation of the particles whose dummies know their walls */
 } mps__world;
 
 mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, double dp);

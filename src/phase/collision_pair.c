@@ -8,44 +8,52 @@ enum { DISTANCE, RESTITUTION, WALL_DISTANCE };
 static const mps_setting settings[] = {{"distance", 0.6, 0.0, 1.5}, {"restitution", 0.5, 0.0, 1.0}, {"wall_distance", 0.5, 0.0, 1.5}};
 
 /* Change of velocity of i by its fluid neighbours. */
-static void fluid_pairs(const double *k, const mps_stage *s, int64_t i, double du[3])
+MPS__ROW void fluid_pairs(const int dim, const double *k, const mps_stage *s, int64_t i, double du[3])
 {
     const mps_stencil *t = s->near;
-    const double reach = k[DISTANCE] * s->dp;
+    const double reach = k[DISTANCE] * s->dp, reach2 = reach * reach;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         const int64_t j = t->col[p];
         if (s->kind[j] != MPS_FLUID) continue;
-        const mps_pair q = mps_stencil_pair(t, i, p);
-        if (q.r >= reach) continue;
-        double un = 0; /* rate of separation */
-        for (int d = 0; d < s->dim; d++) un += (s->u[j * s->dim + d] - s->u[i * s->dim + d]) * q.d[d] / q.r;
-        if (un >= 0) continue;
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
+        if (q.r2 >= reach2) continue;
+        double approach = 0; /* rate of separation times distance */
+        for (int d = 0; d < dim; d++) approach += (s->u[j * dim + d] - s->u[i * dim + d]) * q.d[d];
+        if (approach >= 0) continue;
         const double share = (1.0 + k[RESTITUTION]) * s->density[j] / (s->density[i] + s->density[j]);
-        for (int d = 0; d < s->dim; d++) du[d] += share * un * q.d[d] / q.r;
+        for (int d = 0; d < dim; d++) du[d] += share * approach / q.r2 * q.d[d];
     }
 }
 
 /* Take away what carries i into the nearest face: the wall's normal, not the line to its particle, so that films slide. */
-static void wall_face(const double *k, const mps_stage *s, int64_t i, double du[3])
+MPS__ROW void wall_face(const int dim, const double *k, const mps_stage *s, int64_t i, double du[3])
 {
     const mps_stencil *t = s->near;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         const int64_t j = t->col[p];
         if (s->kind[j] != MPS_WALL) continue;
-        const mps_pair q = mps_stencil_pair(t, i, p);
-        const double *area = s->area + j * s->dim;
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
+        const double *area = s->area + j * dim;
         double size = 0, height = 0, un = 0;
-        for (int d = 0; d < s->dim; d++) size += area[d] * area[d];
+        for (int d = 0; d < dim; d++) size += area[d] * area[d];
         size = sqrt(size);
         if (size == 0) continue;
-        for (int d = 0; d < s->dim; d++) {
+        for (int d = 0; d < dim; d++) {
             height -= q.d[d] * area[d] / size;
-            un += (s->u[i * s->dim + d] + du[d] - s->u[j * s->dim + d]) * area[d] / size;
+            un += (s->u[i * dim + d] + du[d] - s->u[j * dim + d]) * area[d] / size;
         }
         const double across2 = q.r2 - height * height;
         if (height >= k[WALL_DISTANCE] * s->dp || across2 > 0.6 * s->dp * s->dp || un >= 0) continue;
-        for (int d = 0; d < s->dim; d++) du[d] -= un * area[d] / size;
+        for (int d = 0; d < dim; d++) du[d] -= un * area[d] / size;
     }
+}
+
+MPS__ROW void collide(const int dim, const double *k, const mps_stage *s, int64_t i, double *change)
+{
+    double du[3] = {0};
+    fluid_pairs(dim, k, s, i, du);
+    wall_face(dim, k, s, i, du);
+    for (int d = 0; d < dim; d++) change[i * dim + d] = du[d];
 }
 
 static int velocity(void *self, const double *k, mps_stage *s)
@@ -54,13 +62,8 @@ static int velocity(void *self, const double *k, mps_stage *s)
     double *change = mps_stage_scratch(s, s->n * s->dim);
     if (!change) return 1;
 #pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_FLUID) continue;
-        double du[3] = {0};
-        fluid_pairs(k, s, i, du);
-        wall_face(k, s, i, du);
-        for (int d = 0; d < s->dim; d++) change[i * s->dim + d] = du[d];
-    }
+    for (int64_t i = 0; i < s->n; i++)
+        if (s->kind[i] == MPS_FLUID) MPS__ROW_CALL(s, collide, k, s, i, change);
     for (int64_t i = 0; i < s->n * s->dim; i++) s->u[i] += change[i];
     return 0;
 }

@@ -7,28 +7,30 @@
 enum { ALPHA, BETA };
 static const mps_setting settings[] = {{"alpha", 0.1, 0.0, 10.0}, {"beta", 1.0, 0.0, 10.0}};
 
+MPS__ROW void damp(const int dim, const double *k, const mps_stage *s, int64_t i, double *a)
+{
+    const mps_stencil *t = s->near;
+    const double *u = s->u + i * dim, c = 2.0 * (dim + 2) / t->n0, calm = k[ALPHA] * s->velocity_scale, rho = s->density[i];
+    double sum[3] = {0};
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        const int64_t j = t->col[p];
+        if (s->kind[j] != MPS_FLUID) continue;
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
+        double rate = 0; /* u_n r */
+        for (int d = 0; d < dim; d++) rate += (s->u[j * dim + d] - u[d]) * q.d[d];
+        const double nu = rate < 0 ? calm - k[BETA] * rate / q.r : calm;
+        const double share = s->density[j] / ((rho + s->density[j]) * q.r2) * nu * q.w_r2 * rate;
+        for (int d = 0; d < dim; d++) sum[d] += share * q.d[d];
+    }
+    for (int d = 0; d < dim; d++) a[i * dim + d] += 2.0 * s->dp * c * sum[d];
+}
+
 static int force(void *self, const double *k, mps_stage *s, double *a)
 {
     (void)self;
-    const mps_stencil *t = s->near;
-    const int dim = s->dim;
-    const double c = 2.0 * (dim + 2) / t->n0;
 #pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_FLUID) continue;
-        double sum[3] = {0};
-        for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-            const int64_t j = t->col[p];
-            if (s->kind[j] != MPS_FLUID) continue;
-            const mps_pair q = mps_stencil_pair(t, i, p);
-            double un = 0;
-            for (int d = 0; d < dim; d++) un += (s->u[j * dim + d] - s->u[i * dim + d]) * q.d[d] / q.r;
-            const double nu = s->dp * (k[ALPHA] * s->velocity_scale + (un < 0 ? -k[BETA] * un : 0.0));
-            const double share = 2.0 * s->density[j] / (s->density[i] + s->density[j]);
-            for (int d = 0; d < dim; d++) sum[d] += share * nu * q.w / q.r2 * un / q.r * q.d[d];
-        }
-        for (int d = 0; d < dim; d++) a[i * dim + d] += c * sum[d];
-    }
+    for (int64_t i = 0; i < s->n; i++)
+        if (s->kind[i] == MPS_FLUID) MPS__ROW_CALL(s, damp, k, s, i, a);
     return 0;
 }
 

@@ -8,24 +8,22 @@ enum { SECOND };
 static const mps_setting settings[] = {{"second_order", 0.0, 0.0, 1.0}};
 
 /* G_i; with `first` not NULL the second pass. */
-static void corrected(const mps_stage *s, int64_t i, const double *first, double *g)
+MPS__ROW void corrected(const int dim, const mps_stage *s, int64_t i, const double *first, double *g)
 {
     const mps_stencil *t = s->near;
-    const int dim = s->dim;
-    const double *b = s->correction + i * dim * dim;
+    const double *b = s->correction + i * dim * dim, *own = s->tank_accel + i * dim, rho = s->density[i], pi = s->p[i];
     double sum[3] = {0};
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const mps_pair q = mps_stencil_pair(t, i, p);
-        if (s->region[q.j] >= MPS_REGION_SPRAY) continue;
+        if (s->region[t->col[p]] >= MPS_REGION_SPRAY) continue;
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         double body = 0, slope = 0;
-        for (int d = 0; d < dim; d++)
-            body += 0.5 * (2.0 * s->g[d] - s->tank_accel[i * dim + d] - s->tank_accel[q.j * dim + d]) * q.d[d];
-        double difference = s->p[q.j] - s->p[i] - s->density[i] * body;
+        for (int d = 0; d < dim; d++) body += 0.5 * (2.0 * s->g[d] - own[d] - s->tank_accel[q.j * dim + d]) * q.d[d];
+        double difference = s->p[q.j] - pi - rho * body;
         if (first && s->kind[q.j] == MPS_FLUID) {
             for (int d = 0; d < dim; d++) slope += first[q.j * dim + d] * q.d[d];
             difference = 2.0 * difference - slope;
         }
-        for (int d = 0; d < dim; d++) sum[d] += q.w / q.r2 * difference * q.d[d];
+        for (int d = 0; d < dim; d++) sum[d] += q.w_r2 * difference * q.d[d];
     }
     for (int d = 0; d < dim; d++) {
         g[d] = 0;
@@ -41,13 +39,13 @@ static int gradient(void *self, const double *k, mps_stage *s, double *a)
     if (!g) return 1;
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID && s->region[i] != MPS_REGION_SPRAY) corrected(s, i, NULL, g + i * dim);
+        if (s->kind[i] == MPS_FLUID && s->region[i] != MPS_REGION_SPRAY) MPS__ROW_CALL(s, corrected, s, i, NULL, g + i * dim);
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_FLUID || s->region[i] == MPS_REGION_SPRAY) continue;
         double own[3];
         for (int d = 0; d < dim; d++) own[d] = g[i * dim + d];
-        if (k[SECOND] > 0 && s->region[i] == MPS_REGION_SURFACE) corrected(s, i, g, own);
+        if (k[SECOND] > 0 && s->region[i] == MPS_REGION_SURFACE) MPS__ROW_CALL(s, corrected, s, i, g, own);
         for (int d = 0; d < dim; d++) a[i * dim + d] -= s->g[d] - s->tank_accel[i * dim + d] + own[d] / s->density[i];
     }
     return 0;

@@ -6,22 +6,29 @@
 enum { FLOOR };
 static const mps_setting settings[] = {{"floor", 0.5, 0.01, 1.0}};
 
+MPS__ROW void moments(const int dim, const mps_stage *s, int64_t i, double m[9])
+{
+    const mps_stencil *t = s->near;
+    for (int d = 0; d < dim * dim; d++) m[d] = 0;
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        if (s->region[t->col[p]] >= MPS_REGION_SPRAY) continue;
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
+        for (int d = 0; d < dim; d++)
+            for (int e = d; e < dim; e++) m[d * dim + e] += q.w_r2 * q.d[d] * q.d[e];
+    }
+    for (int d = 0; d < dim; d++)
+        for (int e = d; e < dim; e++) m[e * dim + d] = m[d * dim + e] *= dim / t->n0;
+}
+
 static int classify(void *self, const double *k, mps_stage *s)
 {
     (void)self;
-    const mps_stencil *t = s->near;
     const int dim = s->dim;
-    const double c = dim / t->n0;
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_FLUID || s->region[i] == MPS_REGION_SPRAY) continue;
-        double m[9] = {0};
-        for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-            const mps_pair q = mps_stencil_pair(t, i, p);
-            if (s->region[q.j] >= MPS_REGION_SPRAY) continue;
-            for (int d = 0; d < dim; d++)
-                for (int e = 0; e < dim; e++) m[d * dim + e] += c * q.w / q.r2 * q.d[d] * q.d[e];
-        }
+        double m[9];
+        MPS__ROW_CALL(s, moments, s, i, m);
         mps_matrix_inverse_bounded(dim, m, k[FLOOR], s->correction + i * dim * dim);
     }
     return 0;

@@ -8,6 +8,10 @@
 enum { STRENGTH, LIMIT, TRANSPORT };
 static const mps_setting settings[] = {{"strength", 1.0, 0.0, 10.0}, {"limit", 0.05, 0.0, 0.5}, {"transport", 1.0, 0.0, 1.0}};
 
+/* fmax() and fmin() as one instruction; a NaN is found at the end of the step. */
+static inline double larger(double a, double b) { return a > b ? a : b; }
+static inline double smaller(double a, double b) { return a < b ? a : b; }
+
 /* Normal of the free surface near i: its own asymmetry, or the mean of its surface neighbours'. Not unit. */
 static void surface_normal(const mps_stage *s, int64_t i, double n[3])
 {
@@ -22,18 +26,18 @@ static void surface_normal(const mps_stage *s, int64_t i, double n[3])
     }
 }
 
-static void shift_of(const double *k, const mps_stage *s, int64_t i, double v[3])
+MPS__ROW void shift_of(const int dim, const double *k, const mps_stage *s, int64_t i, double v[3])
 {
     const mps_stencil *t = s->near;
-    const int dim = s->dim;
+    const double *u = s->u + i * dim;
     double most = 0, n[3] = {0}, n2 = 0, vn = 0, v2 = 0;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const mps_pair q = mps_stencil_pair(t, i, p);
-        for (int d = 0; d < dim; d++) v[d] += q.w / q.r2 * q.d[d];
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
+        for (int d = 0; d < dim; d++) v[d] += q.w_r2 * q.d[d];
         if (s->kind[q.j] != MPS_FLUID) continue;
         double du2 = 0;
-        for (int d = 0; d < dim; d++) du2 += (s->u[q.j * dim + d] - s->u[i * dim + d]) * (s->u[q.j * dim + d] - s->u[i * dim + d]);
-        most = fmax(most, du2);
+        for (int d = 0; d < dim; d++) du2 += (s->u[q.j * dim + d] - u[d]) * (s->u[q.j * dim + d] - u[d]);
+        most = larger(most, du2);
     }
     const double c = -k[STRENGTH] * s->dt * (s->velocity_scale + sqrt(most)) * s->dp * dim / t->n0;
     for (int d = 0; d < dim; d++) v[d] *= c;
@@ -52,26 +56,27 @@ static void shift_of(const double *k, const mps_stage *s, int64_t i, double v[3]
 }
 
 /* du = s.grad u at i, between the least and the greatest difference its neighbours have. */
-static void transport(const mps_stage *s, int64_t i, const double *shift, double *du)
+MPS__ROW void transport(const int dim, const mps_stage *s, int64_t i, const double *shift, double *du)
 {
     const mps_stencil *t = s->near;
-    const int dim = s->dim;
+    const double *u = s->u + i * dim;
     double m[9] = {0}, g[9] = {0}, b[9], low[3] = {0}, high[3] = {0};
     const double c = dim / t->n0;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const mps_pair q = mps_stencil_pair(t, i, p);
-        if (s->kind[q.j] != MPS_FLUID || s->phase[q.j] != s->phase[i] || s->region[q.j] == MPS_REGION_SPRAY) continue;
-        const double w = c * q.w / q.r2;
+        const int64_t j = t->col[p];
+        if (s->kind[j] != MPS_FLUID || s->phase[j] != s->phase[i] || s->region[j] == MPS_REGION_SPRAY) continue;
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
+        const double w = c * q.w_r2;
         for (int d = 0; d < dim; d++) {
-            const double v = s->u[q.j * dim + d] - s->u[i * dim + d];
-            low[d] = fmin(low[d], v);
-            high[d] = fmax(high[d], v);
-            for (int e = 0; e < dim; e++) {
-                g[d * dim + e] += w * v * q.d[e];
-                m[d * dim + e] += w * q.d[d] * q.d[e];
-            }
+            const double v = s->u[j * dim + d] - u[d];
+            low[d] = smaller(low[d], v);
+            high[d] = larger(high[d], v);
+            for (int e = 0; e < dim; e++) g[d * dim + e] += w * v * q.d[e];
+            for (int e = d; e < dim; e++) m[d * dim + e] += w * q.d[d] * q.d[e];
         }
     }
+    for (int d = 0; d < dim; d++)
+        for (int e = 0; e < d; e++) m[d * dim + e] = m[e * dim + d];
     mps_matrix_inverse_bounded(dim, m, 0.25, b);
     for (int d = 0; d < dim; d++) {
         double v = 0;
@@ -91,8 +96,8 @@ static int shift(void *self, const double *k, mps_stage *s, double *dx)
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_FLUID || s->region[i] == MPS_REGION_SPRAY) continue;
         double v[3] = {0};
-        shift_of(k, s, i, v);
-        if (k[TRANSPORT] > 0) transport(s, i, v, du + i * dim);
+        MPS__ROW_CALL(s, shift_of, k, s, i, v);
+        if (k[TRANSPORT] > 0) MPS__ROW_CALL(s, transport, s, i, v, du + i * dim);
         for (int d = 0; d < dim; d++) dx[i * dim + d] += v[d];
     }
     for (int64_t i = 0; i < s->n * dim; i++) s->u[i] += du[i];

@@ -28,6 +28,20 @@ static double wide_lattice(const mps_stencil *t)
     return sum;
 }
 
+/* Kernel sum over all pairs and the particle itself. */
+MPS__ROW double wide_sum(const int dim, const mps_stencil *t, int64_t i)
+{
+    const double *a = t->x + i * dim;
+    double sum = 1.0; /* wide(0) */
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        const double *b = t->x + (int64_t)t->col[p] * dim;
+        double r2 = 0;
+        for (int d = 0; d < dim; d++) r2 += (b[d] - a[d]) * (b[d] - a[d]);
+        sum += wide(sqrt(r2), t->re);
+    }
+    return sum;
+}
+
 /* delta of each fluid particle, never negative near the surface, where the kernel is cut. */
 static void volume_deviation(const double *k, const mps_stage *s, double *delta)
 {
@@ -36,70 +50,68 @@ static void volume_deviation(const double *k, const mps_stage *s, double *delta)
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_FLUID || s->region[i] >= MPS_REGION_SURFACE) continue;
-        double sum = 1.0; /* wide(0) */
-        for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-            const double *a = s->x + i * s->dim, *b = s->x + (int64_t)t->col[p] * s->dim;
-            double r2 = 0;
-            for (int d = 0; d < s->dim; d++) r2 += (b[d] - a[d]) * (b[d] - a[d]);
-            sum += wide(sqrt(r2), t->re);
-        }
-        double v = sum / full - 1.0;
+        double v = MPS__ROW_CALL(s, wide_sum, t, i) / full - 1.0;
         if (s->region[i] != MPS_REGION_INNER && v < 0) v = 0;
         delta[i] = fmin(fmax(v, -k[CLIP]), k[CLIP]);
     }
 }
 
-/* v: fluid without this step's gravity, walls with the velocity before this step's acceleration. */
+/* v: fluid as if it moved with the tank during this step, without gravity and pressure; walls with the velocity of this step. */
 static void relative_velocity(const mps_stage *s, double *v)
 {
     for (int64_t i = 0; i < s->n; i++)
         for (int d = 0; d < s->dim; d++) {
             const int64_t k = i * s->dim + d;
-            v[k] = s->u[k] - s->dt * (s->kind[i] == MPS_FLUID ? s->g[d] : s->tank_accel[k]);
+            v[k] = s->u[k] - (s->kind[i] == MPS_FLUID ? s->dt * (s->g[d] - s->tank_accel[k]) : 0.0);
         }
 }
 
 /* Free slip: a wall particle keeps its velocity along its normal and takes that of the fluid about it along the face. */
-static void slip(const mps_stage *s, const double *v, double *slipped)
+MPS__ROW void slip_row(const int dim, const mps_stage *s, const double *v, int64_t i, double *slipped)
 {
     const mps_stencil *t = s->near;
+    double sum[3] = {0}, weight = 0, size = 0, largest = 0;
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        if (s->kind[t->col[p]] != MPS_FLUID) continue;
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
+        weight += q.w;
+        for (int d = 0; d < dim; d++) sum[d] += q.w * (v[q.j * dim + d] - v[i * dim + d]);
+    }
+    const double *area = s->area + i * dim;
+    for (int d = 0; d < dim; d++) size += area[d] * area[d];
+    for (int d = 0; d < dim; d++) largest = fmax(largest, fabs(area[d]));
+    if (weight == 0 || size == 0) return;
+    double normal = 0;
+    for (int d = 0; d < dim; d++) normal += sum[d] / weight * area[d] / sqrt(size);
+    /* where faces meet there is no free direction in 2-D, and only the edge in 3-D */
+    if (dim == 2 && size > 1.5 * largest * largest) return;
+    for (int d = 0; d < dim; d++) slipped[i * dim + d] += sum[d] / weight - normal * area[d] / sqrt(size);
+}
+
+static void slip(const mps_stage *s, const double *v, double *slipped)
+{
     const int dim = s->dim;
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         for (int d = 0; d < dim; d++) slipped[i * dim + d] = v[i * dim + d];
-        if (s->kind[i] != MPS_WALL || s->region[i] == MPS_REGION_DRY) continue;
-        double sum[3] = {0}, weight = 0, size = 0, largest = 0;
-        for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-            const mps_pair q = mps_stencil_pair(t, i, p);
-            if (s->kind[q.j] != MPS_FLUID) continue;
-            weight += q.w;
-            for (int d = 0; d < dim; d++) sum[d] += q.w * (v[q.j * dim + d] - v[i * dim + d]);
-        }
-        const double *area = s->area + i * dim;
-        for (int d = 0; d < dim; d++) size += area[d] * area[d];
-        for (int d = 0; d < dim; d++) largest = fmax(largest, fabs(area[d]));
-        if (weight == 0 || size == 0) continue;
-        double normal = 0;
-        for (int d = 0; d < dim; d++) normal += sum[d] / weight * area[d] / sqrt(size);
-        /* where faces meet there is no free direction in 2-D, and only the edge in 3-D */
-        if (s->dim == 2 && size > 1.5 * largest * largest) continue;
-        for (int d = 0; d < dim; d++) slipped[i * dim + d] += sum[d] / weight - normal * area[d] / sqrt(size);
+        if (s->kind[i] == MPS_WALL && s->region[i] != MPS_REGION_DRY) MPS__ROW_CALL(s, slip_row, s, v, i, slipped);
     }
 }
 
 /* Divergence of a fluid particle, with B_i, less the one that keeps its volume: the move x + dt v changes volumes by
  * dt div v - dt^2 tr((grad v)^2)/2 + ..., so div v = dt tr((grad v)^2)/2 is wanted. With zero instead every strained particle is
  * compressed at the rate dt |grad v|^2 and blown up again by delta against the pressure, which feeds waves. */
-static double fluid_divergence(const mps_stage *s, const double *v, int64_t i, double strain)
+MPS__ROW double fluid_divergence(const int dim, const mps_stage *s, const double *v, int64_t i, double strain)
 {
     const mps_stencil *t = s->near;
-    const int dim = s->dim;
     double g[9] = {0}, sum = 0; /* g = sum w (v_j - v_i) (x) r_ij */
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const mps_pair q = mps_stencil_pair(t, i, p);
-        if (s->region[q.j] >= MPS_REGION_SPRAY) continue;
-        for (int d = 0; d < dim; d++)
-            for (int e = 0; e < dim; e++) g[d * dim + e] += q.w / q.r2 * (v[q.j * dim + d] - v[i * dim + d]) * q.d[e];
+        if (s->region[t->col[p]] >= MPS_REGION_SPRAY) continue;
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
+        for (int d = 0; d < dim; d++) {
+            const double rate = q.w_r2 * (v[q.j * dim + d] - v[i * dim + d]);
+            for (int e = 0; e < dim; e++) g[d * dim + e] += rate * q.d[e];
+        }
     }
     const double *b = s->correction + i * dim * dim;
     double a[9] = {0}, square = 0; /* a = grad v */
@@ -114,29 +126,29 @@ static double fluid_divergence(const mps_stage *s, const double *v, int64_t i, d
 }
 
 /* Divergence of the half cell of a wall particle; weights as in its row of the pressure equation. */
-static double wall_divergence(const mps_stage *s, const double *v, int64_t i, double wall_factor)
+MPS__ROW double wall_divergence(const int dim, const mps_stage *s, const double *v, int64_t i, double wall_factor)
 {
     const mps_stencil *t = s->near;
     double sum = 0;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const mps_pair q = mps_stencil_pair(t, i, p);
-        if (s->region[q.j] >= MPS_REGION_SPRAY) continue;
+        if (s->region[t->col[p]] >= MPS_REGION_SPRAY) continue;
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         double flux = 0;
-        for (int d = 0; d < s->dim; d++) flux += (v[q.j * s->dim + d] - v[i * s->dim + d]) * q.d[d];
-        sum += q.w / q.r2 * flux * (s->kind[q.j] == MPS_WALL ? wall_factor * fmin(s->wet[i], s->wet[q.j]) : 1.0);
+        for (int d = 0; d < dim; d++) flux += (v[q.j * dim + d] - v[i * dim + d]) * q.d[d];
+        sum += q.w_r2 * flux * (s->kind[q.j] == MPS_WALL ? wall_factor * fmin(s->wet[i], s->wet[q.j]) : 1.0);
     }
-    return s->dim / t->n0 * sum;
+    return dim / t->n0 * sum;
 }
 
 /* Kernel mean of delta over the fluid: its noise at the grid scale must not reach the pressure. */
-static double mean_deviation(const mps_stage *s, const double *delta, int64_t i)
+MPS__ROW double mean_deviation(const int dim, const mps_stage *s, const double *delta, int64_t i)
 {
     const mps_stencil *t = s->near;
     const double own = 0.5 * mps_kernel_weight(&t->kernel, t->kernel.id == MPS_KERNEL_IMPROVED ? 0.0 : 0.5 * s->dp, t->re);
     double sum = own * delta[i], weight = own;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         if (s->kind[t->col[p]] != MPS_FLUID) continue;
-        const mps_pair q = mps_stencil_pair(t, i, p);
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         sum += q.w * delta[q.j];
         weight += q.w;
     }
@@ -158,9 +170,9 @@ static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *term
         for (int d = 0; d < s->dim; d++) terms->body[i * s->dim + d] += s->g[d] - s->tank_accel[i * s->dim + d];
         if (s->region[i] >= MPS_REGION_SURFACE) continue;
         if (s->kind[i] == MPS_FLUID)
-            terms->rhs[i] += (-fluid_divergence(s, w, i, k[STRAIN]) + relax * mean_deviation(s, delta, i)) / s->dt;
+            terms->rhs[i] += (-MPS__ROW_CALL(s, fluid_divergence, s, w, i, k[STRAIN]) + relax * MPS__ROW_CALL(s, mean_deviation, s, delta, i)) / s->dt;
         else
-            terms->rhs[i] -= wall_divergence(s, w, i, terms->wall_factor) / s->dt;
+            terms->rhs[i] -= MPS__ROW_CALL(s, wall_divergence, s, w, i, terms->wall_factor) / s->dt;
     }
     return 0;
 }

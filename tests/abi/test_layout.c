@@ -107,7 +107,7 @@ AT(mps_kernel, id, 0);
 AT(mps_kernel, fn, 8);
 AT(mps_kernel, user, 16);
 
-SIZE(mps_stencil, 112);
+SIZE(mps_stencil, 120);
 AT(mps_stencil, struct_size, 0);
 AT(mps_stencil, dim, 4);
 AT(mps_stencil, n, 8);
@@ -121,13 +121,15 @@ AT(mps_stencil, x, 80);
 AT(mps_stencil, begin, 88);
 AT(mps_stencil, end, 96);
 AT(mps_stencil, col, 104);
+AT(mps_stencil, w_r2, 112);
 
-SIZE(mps_pair, 56);
+SIZE(mps_pair, 64);
 AT(mps_pair, d, 0);
 AT(mps_pair, r2, 24);
 AT(mps_pair, r, 32);
 AT(mps_pair, w, 40);
 AT(mps_pair, j, 48);
+AT(mps_pair, w_r2, 56);
 
 SIZE(mps_particle_block, 56);
 AT(mps_particle_block, struct_size, 0);

@@ -172,6 +172,47 @@ static void series_names_all_frames(void **state)
     mps_sim_destroy(sim);
 }
 
+static void touch(const char *name)
+{
+    char path[256];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *f = fopen(path, "wb");
+    assert_non_null(f);
+    fclose(f);
+}
+
+static bool there(const char *name)
+{
+    char path[256];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return access(path, F_OK) == 0;
+}
+
+/* A shorter series in the folder of a longer one leaves no old frame behind, and takes nothing that is not its own. */
+static void old_frames_go(void **state)
+{
+    (void)state;
+    static const char *const kept[] = {"again/again_notes.txt",     "again/again_00000.vtp",  "again/again_000001.vtp.gz",
+                                       "again/other_000001.vtp",    "again/again_00000x.vtp", "again/again_1_000001.vtp",
+                                       "again/again-000001.vtp.tmp"};
+    mps_sim *sim = prepared(2);
+    mps_frames *frames;
+    ASSERT_OK(sim, mps_frames_open(sim, folder, "again", 0, &frames));
+    for (int k = 0; k < 3; k++) ASSERT_OK(sim, mps_frames_write(frames));
+    mps_frames_close(frames);
+    for (size_t k = 0; k < sizeof kept / sizeof *kept; k++) touch(kept[k]);
+    touch("again/again_1000000.vtp");
+    ASSERT_OK(sim, mps_frames_open(sim, folder, "again", 0, &frames));
+    ASSERT_OK(sim, mps_frames_write(frames));
+    mps_frames_close(frames);
+    assert_true(there("again/again_000000.vtp"));
+    assert_false(there("again/again_000001.vtp"));
+    assert_false(there("again/again_000002.vtp"));
+    assert_false(there("again/again_1000000.vtp"));
+    for (size_t k = 0; k < sizeof kept / sizeof *kept; k++) assert_true(there(kept[k]));
+    mps_sim_destroy(sim);
+}
+
 static void no_particle_of_a_kind(void **state)
 {
     (void)state;
@@ -223,9 +264,8 @@ static void refusals(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(frames_read_back),
-        cmocka_unit_test(series_names_all_frames),
-        cmocka_unit_test(no_particle_of_a_kind),
+        cmocka_unit_test(frames_read_back), cmocka_unit_test(series_names_all_frames),
+        cmocka_unit_test(old_frames_go),    cmocka_unit_test(no_particle_of_a_kind),
         cmocka_unit_test(refusals),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

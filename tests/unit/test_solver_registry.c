@@ -227,7 +227,7 @@ static void test_register_full(void **state)
 {
     mps_sim *sim = *state;
     mps_status status = MPS_OK;
-    char name[16];
+    char name[32];
     for (int k = 0; status == MPS_OK && k <= MPS__SOLVERS_KNOWN; k++) {
         snprintf(name, sizeof name, "solver %d", k);
         mps_solver_ops ops = dummy_solver(name, NULL);
