@@ -79,6 +79,7 @@ void run_open(run *r, const cli_options *o)
     config.dim = o->dim;
     config.dp = o->dp;
     config.threads = o->threads;
+    if (strcmp(o->model, "imps.paper") == 0 && o->dim == 2) config.re_far = 4.1; /* W22; in 3-D no paper says */
     config.log = run_log;
     config.log_user = r;
     config.error = error;

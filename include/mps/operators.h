@@ -43,6 +43,17 @@ static inline double mps_kernel_weight(const mps_kernel *kernel, double r, doubl
     return kernel->fn(kernel->user, r, re);
 }
 
+/** w[k] = W(r[k], re), unchecked; the built-in kernels take several r at a time. w may be r. */
+static inline void mps_kernel_weights(const mps_kernel *kernel, double re, int32_t count, const double *r, double *w)
+{
+    if (kernel->id == MPS_KERNEL_IMPROVED)
+        for (int32_t k = 0; k < count; k++) w[k] = re / (0.85 * r[k] + 0.15 * re) - 1.0;
+    else if (kernel->id == MPS_KERNEL_ORIGINAL)
+        for (int32_t k = 0; k < count; k++) w[k] = re / r[k] - 1.0;
+    else
+        for (int32_t k = 0; k < count; k++) w[k] = kernel->fn(kernel->user, r[k], re);
+}
+
 /** Constants of a full square or cubic lattice: n0 = sum W and lambda = sum W r^2 / sum W, W22 (7)(8).
  *  @param re  radius [m] @param n0,lambda out, either may be NULL; lambda [m2] */
 MPS_API mps_status mps_lattice_constants(const mps_kernel *kernel, int32_t dim, double dp, double re, double *n0, double *lambda);

@@ -9,8 +9,8 @@ MPS_BEGIN_DECLS
 
 /** What happens to a fluid particle that leaves the domain. */
 enum {
-    MPS_LOST_REMOVE = 0, /**< removed, counted in mps_step_info.lost and logged (default) */
-    MPS_LOST_ERROR = 1   /**< the step fails with MPS_E_LOST and is undone */
+    MPS_LOST_REMOVE = 0, /**< removed when the next step begins, counted in mps_step_info.lost and logged (default) */
+    MPS_LOST_ERROR = 1   /**< the next step fails with MPS_E_LOST and names it; remove it to go on */
 };
 
 /** Configuration of a simulation. Fill with mps_config_init(), then change what matters; zero means "default". */

@@ -6,7 +6,8 @@
 #include <stdbool.h>
 
 enum { LOW, HIGH, SHARE, SPRAY, WALLS, COMPLETE };
-static const mps_setting settings[] = {{"low", 0.8, 0.0, 1.0}, {"high", 0.97, 0.5, 1.0}, {"share", 0.9, 0.0, 2.0}, {"spray", 0.25, 0.0, 1.0}, {"walls", 0.0, 0.0, 1.0}, {"complete", 1.0, 0.0, 1.0}};
+static const mps_setting settings[] = {{"low", 0.8, 0.0, 1.0},    {"high", 0.97, 0.5, 1.0}, {"share", 0.9, 0.0, 2.0},
+                                       {"spray", 0.25, 0.0, 1.0}, {"walls", 0.0, 0.0, 1.0}, {"complete", 1.0, 0.0, 1.0}};
 
 /* |A| of a particle in the top row of a lattice that fills the half space below it. */
 static double lattice_asymmetry(const mps_stencil *t)

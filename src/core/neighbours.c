@@ -10,6 +10,12 @@ enum { MPS__BITS_2D = 31, MPS__BITS_3D = 21 };
 /* More particles in one cell are no cloud but an array nobody filled: n^2 pairs would take all memory. */
 enum { MPS__CROWD = 4096 };
 
+/* Places looked at between two copies of what was found. */
+enum { MPS__CHUNK = 256 };
+
+/* Functions compiled for each constant `dim`. */
+#define MPS__DIM_INLINE static inline __attribute__((always_inline))
+
 /* Skin [dp]: a search is good until some particle moved half of it. */
 static const double skin_of_dp = 0.25;
 
@@ -68,8 +74,8 @@ static mps_status map_cells(mps_neighbours *l, int64_t n, const double *x, doubl
                 far = i;
             }
         }
-        MPS__CHECK(l->context, (hi - lo) / size < limit, "particles lie %g m apart along axis %d (particle %lld at %g): at most %g m", hi - lo, d,
-                   (long long)far, hi, limit * size);
+        MPS__CHECK(l->context, (hi - lo) / size < limit, "particles lie %g m apart along axis %d (particle %lld at %g): at most %g m",
+                   hi - lo, d, (long long)far, hi, limit * size);
         m->lo[d] = lo - 2 * size; /* cell 0 stays empty, also when far from the origin lo - size rounds: neighbours never wrap */
     }
     return MPS_OK;
@@ -149,8 +155,9 @@ static mps_status check_crowds(const mps_neighbours *l, int64_t n, const double 
     for (int64_t from = 0, to = 0; from < n; from = to) {
         while (to < n && l->key[to] == l->key[from]) to++;
         const double *at = x + (int64_t)l->order[from] * l->dim;
-        MPS__CHECK(l->context, to - from <= MPS__CROWD, "%lld particles lie within %g m of each other, particle %d at (%g, %g) m is one: at most %d",
-                   (long long)(to - from), size, l->order[from], at[0], at[1], MPS__CROWD);
+        MPS__CHECK(l->context, to - from <= MPS__CROWD,
+                   "%lld particles lie within %g m of each other, particle %d at (%g, %g) m is one: at most %d", (long long)(to - from),
+                   size, l->order[from], at[0], at[1], MPS__CROWD);
     }
     return MPS_OK;
 }
@@ -227,34 +234,82 @@ static void sort_row(int32_t *row, int64_t n)
     }
 }
 
+/* Positions of the sorted places, one axis after the other, so that loops over places run along memory. They borrow
+ * l->searched, which takes its own values after the search. */
+static void gather_places(mps_neighbours *l)
+{
+#pragma omp parallel for num_threads(l->threads) schedule(static)
+    for (int64_t a = 0; a < l->n; a++)
+        for (int d = 0; d < l->dim; d++) l->searched[d * l->n + a] = l->x[(int64_t)l->order[a] * l->dim + d];
+}
+
+/* Squared distance of two places; `axis` says where their coordinates begin. */
+static inline double place_distance2(const double *const axis[3], int64_t a, int64_t b, const int dim)
+{
+    const double dx = axis[0][b] - axis[0][a], dy = axis[1][b] - axis[1][a];
+    if (dim == 2) return dx * dx + dy * dy;
+    const double dz = axis[2][b] - axis[2][a];
+    return dx * dx + dy * dy + dz * dz;
+}
+
+/* Places of a range nearer to place a than reach; a itself is one of them if it lies in the range. */
+MPS__DIM_INLINE int64_t count_range(const mps_neighbours *l, int64_t a, const int64_t range[2], double reach2, const int dim)
+{
+    const double *const axis[3] = {l->searched, l->searched + l->n, l->searched + (dim - 1) * l->n};
+    int64_t count = 0;
+    for (int64_t b = range[0]; b < range[1]; b++) count += place_distance2(axis, a, b, dim) < reach2;
+    return count;
+}
+
+/* Store the particles of a range nearer to place a, without its own. Compaction without branches: every second or third place is
+ * near, and no processor guesses which. */
+MPS__DIM_INLINE int64_t fill_range(const mps_neighbours *l, int64_t a, const int64_t range[2], double reach2, int32_t *row, const int dim)
+{
+    const double *const axis[3] = {l->searched, l->searched + l->n, l->searched + (dim - 1) * l->n};
+    int64_t count = 0;
+    for (int64_t from = range[0]; from < range[1]; from += MPS__CHUNK) {
+        const int64_t to = from + MPS__CHUNK < range[1] ? from + MPS__CHUNK : range[1];
+        int32_t found[MPS__CHUNK + 1];
+        int64_t n = 0;
+        for (int64_t b = from; b < to; b++) {
+            found[n] = l->order[b];
+            n += (place_distance2(axis, a, b, dim) < reach2) & (b != a);
+        }
+        memcpy(row + count, found, (size_t)n * sizeof *found);
+        count += n;
+    }
+    return count;
+}
+
 /* Count (fill = false) or store candidates of all particles of the cell that starts at sorted place `first`. */
-static void search_cell(mps_neighbours *l, const cell_map *m, int64_t first, double reach, bool fill)
+MPS__DIM_INLINE void search_cell(mps_neighbours *l, const cell_map *m, int64_t first, double reach2, bool fill, const int dim)
 {
     int64_t range[9][2];
     const int ranges = ranges_around(l, m, l->key[first], range);
     for (int64_t a = first; a < l->n && l->key[a] == l->key[first]; a++) {
         const int32_t i = l->order[a];
         int64_t count = 0;
-        int32_t *row = fill ? l->candidate + l->candidate_row[i] : NULL;
-        for (int k = 0; k < ranges; k++)
-            for (int64_t b = range[k][0]; b < range[k][1]; b++) {
-                const int32_t j = l->order[b];
-                if (j == i || distance2(l->x, i, j, l->dim) >= reach * reach) continue;
-                if (fill) row[count] = j;
-                count++;
-            }
-        if (fill)
+        if (fill) {
+            int32_t *row = l->candidate + l->candidate_row[i];
+            for (int k = 0; k < ranges; k++) count += fill_range(l, a, range[k], reach2, row + count, dim);
             sort_row(row, count);
-        else
-            l->candidate_row[i + 1] = count;
+        } else {
+            for (int k = 0; k < ranges; k++) count += count_range(l, a, range[k], reach2, dim);
+            l->candidate_row[i + 1] = count - 1;
+        }
     }
 }
 
 static void search_cells(mps_neighbours *l, const cell_map *m, double reach, bool fill)
 {
 #pragma omp parallel for num_threads(l->threads) schedule(dynamic, 256)
-    for (int64_t a = 0; a < l->n; a++)
-        if (a == 0 || l->key[a] != l->key[a - 1]) search_cell(l, m, a, reach, fill);
+    for (int64_t a = 0; a < l->n; a++) {
+        if (a > 0 && l->key[a] == l->key[a - 1]) continue;
+        if (l->dim == 2)
+            search_cell(l, m, a, reach * reach, fill, 2);
+        else
+            search_cell(l, m, a, reach * reach, fill, 3);
+    }
 }
 
 mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x, double re_near, double re_far)
@@ -267,6 +322,7 @@ mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x,
     l->re_far = re_far;
     const double reach = re_far + l->skin;
     l->candidate_row[0] = 0;
+    gather_places(l);
     search_cells(l, &m, reach, false);
     for (int64_t i = 0; i < n; i++) l->candidate_row[i + 1] += l->candidate_row[i];
     int64_t pairs = l->candidate_row[n] > 0 ? l->candidate_row[n] : 1, capacity = l->candidate_capacity; /* never a NULL list */
@@ -288,23 +344,23 @@ static void reverse(int32_t *a, int64_t n)
     }
 }
 
-/* One row, in the room its candidates take: near pairs grow from the front, the others from the back. */
-static inline void exact_row(mps_neighbours *l, const double *x, int64_t i, int dim)
+/* One row, in the room its candidates take: near pairs grow from the front, the others from the back. Each candidate is written to
+ * both ends and counted at one or none: the room left is never less than the candidates left, and there are no branches. */
+MPS__DIM_INLINE void exact_row(mps_neighbours *l, const double *x, int64_t i, const int dim)
 {
     const double near2 = l->re_near * l->re_near, far2 = l->re_far * l->re_far, least = coincident * coincident * l->dp * l->dp;
     const int64_t from = l->candidate_row[i], to = l->candidate_row[i + 1];
+    int32_t *const col = l->col;
     int64_t front = from, back = to;
     for (int64_t k = from; k < to; k++) {
         const int32_t j = l->candidate[k];
         const double r2 = distance2(x, i, j, dim);
-        if (r2 >= far2 || r2 < least) continue;
-        if (r2 < near2)
-            l->col[front++] = j;
-        else
-            l->col[--back] = j;
+        col[front] = col[back - 1] = j;
+        front += (r2 < near2) & (r2 >= least);
+        back -= (r2 >= near2) & (r2 < far2);
     }
-    reverse(l->col + back, to - back);
-    memmove(l->col + front, l->col + back, (size_t)(to - back) * sizeof *l->col);
+    if (front < back) memmove(col + front, col + back, (size_t)(to - back) * sizeof *col);
+    reverse(col + front, to - back);
     l->begin[i] = from;
     l->middle[i] = front;
     l->end[i] = front + (to - back);

@@ -73,32 +73,39 @@ static void inverse_bounded(const double *m, int dim, double least, double *inve
         }
 }
 
-#define MPS__DIM 2
+/* Pairs worked on at a time: the longest usual row, for buffers on the stack. */
+enum { MPS__PAIRS = 64 };
+
+#define MPS__DIM     2
 #define MPS__NAME(f) f##_2d
 #include "operators.inc"
 #undef MPS__DIM
 #undef MPS__NAME
 
-#define MPS__DIM 3
+#define MPS__DIM     3
 #define MPS__NAME(f) f##_3d
 #include "operators.inc"
 #undef MPS__DIM
 #undef MPS__NAME
 
-#define DISPATCH(s, f, ...)                            \
-    do {                                               \
-        if ((s)->dim == 2)                             \
-            f##_2d((s), __VA_ARGS__);                  \
-        else                                           \
-            f##_3d((s), __VA_ARGS__);                  \
+#define DISPATCH(s, f, ...)           \
+    do {                              \
+        if ((s)->dim == 2)            \
+            f##_2d((s), __VA_ARGS__); \
+        else                          \
+            f##_3d((s), __VA_ARGS__); \
     } while (0)
 
 static bool usable(const mps_stencil *s)
 {
-    return s && s->struct_size == sizeof *s && (s->dim == 2 || s->dim == 3) && s->n > 0 && s->x && s->begin && s->end && s->col && s->n0 > 0;
+    return s && s->struct_size == sizeof *s && (s->dim == 2 || s->dim == 3) && s->n > 0 && s->x && s->begin && s->end && s->col &&
+           s->n0 > 0;
 }
 
-void mps__op_weigh(const mps_stencil *s, double *w_r2, double *n, double *a) { DISPATCH(s, weigh, w_r2, n, a); }
+void mps__op_weigh(const mps_stencil *s, double *w_r2, double *n, double *a)
+{
+    DISPATCH(s, weigh, w_r2, n, a);
+}
 
 mps_status mps_op_number_density(const mps_stencil *s, double *n)
 {

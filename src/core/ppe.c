@@ -25,10 +25,10 @@ static mps_status reserve(mps__ppe *e, int64_t n, int dim)
         void **place;
         int64_t count;
         size_t size;
-    } a[] = {{(void **)&e->unknown, wanted, sizeof *e->unknown}, {(void **)&e->particle, wanted, sizeof *e->particle},
-             {(void **)&e->row, wanted + 1, sizeof *e->row},     {(void **)&e->rhs, wanted, sizeof *e->rhs},
-             {(void **)&e->shift, wanted, sizeof *e->shift},     {(void **)&e->weight, wanted, sizeof *e->weight},
-             {(void **)&e->x, wanted * dim, sizeof *e->x},       {(void **)&e->p, wanted, sizeof *e->p},
+    } a[] = {{(void **)&e->unknown, wanted, sizeof *e->unknown},    {(void **)&e->particle, wanted, sizeof *e->particle},
+             {(void **)&e->row, wanted + 1, sizeof *e->row},        {(void **)&e->rhs, wanted, sizeof *e->rhs},
+             {(void **)&e->shift, wanted, sizeof *e->shift},        {(void **)&e->weight, wanted, sizeof *e->weight},
+             {(void **)&e->x, wanted * dim, sizeof *e->x},          {(void **)&e->p, wanted, sizeof *e->p},
              {(void **)&e->component, wanted, sizeof *e->component}};
     /* nothing here outlives an assembly: the old blocks go first, a failure leaves an empty object */
     e->capacity = 0;
@@ -103,7 +103,7 @@ static int64_t number_rows(const assembly *a)
     return entries;
 }
 
-/* Ascending columns. Near pairs come sorted; far rows are two sorted runs, for which insertion is short work. */
+/* Ascending columns: far rows are two sorted runs, for which insertion is short work. */
 static void sort_row(int32_t *col, double *val, int64_t n)
 {
     for (int64_t k = 1; k < n; k++) {
@@ -127,7 +127,8 @@ static inline __attribute__((always_inline)) int64_t fill_row(const int dim, con
     const int64_t i = e->particle[r];
     int32_t *col = e->col + e->row[r];
     double *val = e->val + e->row[r], coupling = 0, shift = a->t->shift[i], rhs = a->t->rhs[i];
-    int64_t count = 1;
+    int64_t count = 0, diagonal = -1;
+    bool sorted = true;
     for (int64_t k = a->pairs->begin[i]; k < a->pairs->end[i]; k++) {
         const double factor = pair_factor(a, i, a->pairs->col[k]);
         if (factor == 0) continue;
@@ -142,16 +143,18 @@ static inline __attribute__((always_inline)) int64_t fill_row(const int dim, con
             continue;
         }
         coupling += kij;
+        if (diagonal < 0 && e->unknown[q.j] > r) col[diagonal = count++] = (int32_t)r;
+        sorted = sorted && (count == 0 || col[count - 1] < e->unknown[q.j]);
         col[count] = e->unknown[q.j];
         val[count++] = -kij;
     }
+    if (diagonal < 0) col[diagonal = count++] = (int32_t)r;
     if (coupling + shift == 0) { /* nobody near: p = 0 */
         shift = a->c / s->density[i];
         rhs = 0;
     }
-    col[0] = (int32_t)r;
-    val[0] = coupling + shift;
-    sort_row(col, val, count);
+    val[diagonal] = coupling + shift;
+    if (!sorted) sort_row(col, val, count);
     e->rhs[r] = rhs;
     e->shift[r] = shift;
     e->weight[r] = s->dt * s->dt;
@@ -234,7 +237,11 @@ mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps_ppe_term
     e->n = 0;
     MPS__TRY(reserve(e, s->n, s->dim));
     const mps_stencil *pairs = t->radius == MPS_NEAR ? s->near : s->far;
-    const assembly a = {.e = e, .s = s, .t = t, .pairs = pairs, .c = 2.0 * s->dim / (pairs->n0 * pairs->lambda),
+    const assembly a = {.e = e,
+                        .s = s,
+                        .t = t,
+                        .pairs = pairs,
+                        .c = 2.0 * s->dim / (pairs->n0 * pairs->lambda),
                         .surface = t->complete_surface ? complete_flux(pairs) : 1.0};
     MPS__TRY(reserve_entries(e, number_rows(&a)));
     int64_t *length = mps__alloc(e->context, e->n, sizeof *length);

@@ -274,6 +274,7 @@ static mps_status project(step_state *q)
         if (status == MPS_E_SOLVER) MPS__TRY(check_result(q)); /* a NaN of the prediction has a particle and a place */
         if (status < 0) return mps__fail(w->context, status, "t = %.9g s: %.400s", s->t, w->context->error);
         q->not_converged = status == MPS_W_NOT_CONVERGED;
+        if (q->not_converged) mps__log(w->context, MPS_LOG_WARNING, "t = %.9g s: %.400s", s->t, w->context->error);
     }
     mps__ppe_scatter(&w->ppe, s, &q->terms, s->p);
     q->info.ppe_iterations = result.iterations;

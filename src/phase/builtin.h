@@ -6,7 +6,7 @@
 #include <mps/model.h>
 
 /* Loops over the pairs of one row take dim as their first argument and are compiled for 2 and 3, so that loops over d unroll. */
-#define MPS__ROW static inline __attribute__((always_inline))
+#define MPS__ROW                 static inline __attribute__((always_inline))
 #define MPS__ROW_CALL(s, f, ...) ((s)->dim == 2 ? f(2, __VA_ARGS__) : f(3, __VA_ARGS__))
 
 extern const mps_model_ops mps__moments_bounded;

@@ -8,9 +8,15 @@
 enum { STRENGTH, LIMIT, TRANSPORT };
 static const mps_setting settings[] = {{"strength", 1.0, 0.0, 10.0}, {"limit", 0.05, 0.0, 0.5}, {"transport", 1.0, 0.0, 1.0}};
 
-/* fmax() and fmin() as one instruction; a NaN is found at the end of the step. */
-static inline double larger(double a, double b) { return a > b ? a : b; }
-static inline double smaller(double a, double b) { return a < b ? a : b; }
+/* fmax() and fmin() as one instruction: `b` may be NaN and does not count then. */
+static inline double larger(double a, double b)
+{
+    return b > a ? b : a;
+}
+static inline double smaller(double a, double b)
+{
+    return b < a ? b : a;
+}
 
 /* Normal of the free surface near i: its own asymmetry, or the mean of its surface neighbours'. Not unit. */
 static void surface_normal(const mps_stage *s, int64_t i, double n[3])
@@ -26,21 +32,45 @@ static void surface_normal(const mps_stage *s, int64_t i, double n[3])
     }
 }
 
-MPS__ROW void shift_of(const int dim, const double *k, const mps_stage *s, int64_t i, double v[3])
+/* What one pass over the pairs of a particle collects. */
+typedef struct pair_sums {
+    double even[3];         /* sum w r_ij over all kinds */
+    double most;            /* largest |u_j - u_i|^2 of the fluid */
+    double m[9], g[9];      /* sum w r_ij (x) r_ij and (u_j - u_i) (x) r_ij over fluid of the same phase */
+    double low[3], high[3]; /* range of u_j - u_i there */
+} pair_sums;
+
+MPS__ROW void collect(const int dim, const mps_stage *s, int64_t i, pair_sums *c)
 {
     const mps_stencil *t = s->near;
     const double *u = s->u + i * dim;
-    double most = 0, n[3] = {0}, n2 = 0, vn = 0, v2 = 0;
+    *c = (pair_sums){0};
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        for (int d = 0; d < dim; d++) v[d] += q.w_r2 * q.d[d];
+        for (int d = 0; d < dim; d++) c->even[d] += q.w_r2 * q.d[d];
         if (s->kind[q.j] != MPS_FLUID) continue;
-        double du2 = 0;
-        for (int d = 0; d < dim; d++) du2 += (s->u[q.j * dim + d] - u[d]) * (s->u[q.j * dim + d] - u[d]);
-        most = larger(most, du2);
+        double v[3], v2 = 0;
+        for (int d = 0; d < dim; d++) {
+            v[d] = s->u[q.j * dim + d] - u[d];
+            v2 += v[d] * v[d];
+        }
+        c->most = larger(c->most, v2);
+        if (s->phase[q.j] != s->phase[i] || s->region[q.j] == MPS_REGION_SPRAY) continue;
+        for (int d = 0; d < dim; d++) {
+            c->low[d] = smaller(c->low[d], v[d]);
+            c->high[d] = larger(c->high[d], v[d]);
+            for (int e = 0; e < dim; e++) c->g[d * dim + e] += q.w_r2 * v[d] * q.d[e];
+            for (int e = d; e < dim; e++) c->m[d * dim + e] += q.w_r2 * q.d[d] * q.d[e];
+        }
     }
-    const double c = -k[STRENGTH] * s->dt * (s->velocity_scale + sqrt(most)) * s->dp * dim / t->n0;
-    for (int d = 0; d < dim; d++) v[d] *= c;
+}
+
+static void shift_of(const double *k, const mps_stage *s, int64_t i, const pair_sums *sums, double v[3])
+{
+    const int dim = s->dim;
+    double n[3] = {0}, n2 = 0, vn = 0, v2 = 0;
+    const double c = -k[STRENGTH] * s->dt * (s->velocity_scale + sqrt(sums->most)) * s->dp * dim / s->near->n0;
+    for (int d = 0; d < dim; d++) v[d] = c * sums->even[d];
     surface_normal(s, i, n);
     for (int d = 0; d < dim; d++) {
         n2 += n[d] * n[d];
@@ -56,33 +86,19 @@ MPS__ROW void shift_of(const int dim, const double *k, const mps_stage *s, int64
 }
 
 /* du = s.grad u at i, between the least and the greatest difference its neighbours have. */
-MPS__ROW void transport(const int dim, const mps_stage *s, int64_t i, const double *shift, double *du)
+static void transport(const mps_stage *s, const pair_sums *sums, const double *shift, double *du)
 {
-    const mps_stencil *t = s->near;
-    const double *u = s->u + i * dim;
-    double m[9] = {0}, g[9] = {0}, b[9], low[3] = {0}, high[3] = {0};
-    const double c = dim / t->n0;
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const int64_t j = t->col[p];
-        if (s->kind[j] != MPS_FLUID || s->phase[j] != s->phase[i] || s->region[j] == MPS_REGION_SPRAY) continue;
-        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        const double w = c * q.w_r2;
-        for (int d = 0; d < dim; d++) {
-            const double v = s->u[j * dim + d] - u[d];
-            low[d] = smaller(low[d], v);
-            high[d] = larger(high[d], v);
-            for (int e = 0; e < dim; e++) g[d * dim + e] += w * v * q.d[e];
-            for (int e = d; e < dim; e++) m[d * dim + e] += w * q.d[d] * q.d[e];
-        }
-    }
+    const int dim = s->dim;
+    const double c = dim / s->near->n0;
+    double m[9], b[9];
     for (int d = 0; d < dim; d++)
-        for (int e = 0; e < d; e++) m[d * dim + e] = m[e * dim + d];
+        for (int e = d; e < dim; e++) m[d * dim + e] = m[e * dim + d] = c * sums->m[d * dim + e];
     mps_matrix_inverse_bounded(dim, m, 0.25, b);
     for (int d = 0; d < dim; d++) {
         double v = 0;
         for (int e = 0; e < dim; e++)
-            for (int f = 0; f < dim; f++) v += g[d * dim + e] * b[e * dim + f] * shift[f];
-        du[d] = fmin(fmax(v, low[d]), high[d]);
+            for (int f = 0; f < dim; f++) v += c * sums->g[d * dim + e] * b[e * dim + f] * shift[f];
+        du[d] = smaller(sums->high[d], larger(sums->low[d], v));
     }
 }
 
@@ -95,9 +111,11 @@ static int shift(void *self, const double *k, mps_stage *s, double *dx)
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_FLUID || s->region[i] == MPS_REGION_SPRAY) continue;
-        double v[3] = {0};
-        MPS__ROW_CALL(s, shift_of, k, s, i, v);
-        if (k[TRANSPORT] > 0) MPS__ROW_CALL(s, transport, s, i, v, du + i * dim);
+        pair_sums sums;
+        double v[3];
+        MPS__ROW_CALL(s, collect, s, i, &sums);
+        shift_of(k, s, i, &sums, v);
+        if (k[TRANSPORT] > 0) transport(s, &sums, v, du + i * dim);
         for (int d = 0; d < dim; d++) dx[i * dim + d] += v[d];
     }
     for (int64_t i = 0; i < s->n * dim; i++) s->u[i] += du[i];

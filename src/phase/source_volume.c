@@ -11,11 +11,11 @@
 enum { TAU, CLIP, STRAIN };
 static const mps_setting settings[] = {{"tau", 20.0, 0.1, 1e6}, {"clip", 0.1, 0.0, 1.0}, {"strain", 1.0, 0.0, 1.0}};
 
-/* Wendland C2, support h. */
-static double wide(double r, double h)
+/* Wendland C2 at distance r < h, support h = 1/over. */
+static inline double wide(double r, double over)
 {
-    const double q = 1.0 - r / h;
-    return q > 0 ? q * q * q * q * (5.0 - 4.0 * q) : 0.0;
+    const double q = 1.0 - r * over, q2 = q * q;
+    return q2 * q2 * (5.0 - 4.0 * q);
 }
 
 static double wide_lattice(const mps_stencil *t)
@@ -24,20 +24,23 @@ static double wide_lattice(const mps_stencil *t)
     double sum = 0;
     for (int k = -depth; k <= depth; k++)
         for (int j = -reach; j <= reach; j++)
-            for (int i = -reach; i <= reach; i++) sum += wide(t->dp * sqrt((double)(i * i + j * j + k * k)), t->re);
+            for (int i = -reach; i <= reach; i++) {
+                const double r = t->dp * sqrt((double)(i * i + j * j + k * k));
+                if (r < t->re) sum += wide(r, 1.0 / t->re);
+            }
     return sum;
 }
 
 /* Kernel sum over all pairs and the particle itself. */
 MPS__ROW double wide_sum(const int dim, const mps_stencil *t, int64_t i)
 {
-    const double *a = t->x + i * dim;
+    const double *a = t->x + i * dim, over = 1.0 / t->re;
     double sum = 1.0; /* wide(0) */
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         const double *b = t->x + (int64_t)t->col[p] * dim;
         double r2 = 0;
         for (int d = 0; d < dim; d++) r2 += (b[d] - a[d]) * (b[d] - a[d]);
-        sum += wide(sqrt(r2), t->re);
+        sum += wide(sqrt(r2), over);
     }
     return sum;
 }
@@ -170,7 +173,9 @@ static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *term
         for (int d = 0; d < s->dim; d++) terms->body[i * s->dim + d] += s->g[d] - s->tank_accel[i * s->dim + d];
         if (s->region[i] >= MPS_REGION_SURFACE) continue;
         if (s->kind[i] == MPS_FLUID)
-            terms->rhs[i] += (-MPS__ROW_CALL(s, fluid_divergence, s, w, i, k[STRAIN]) + relax * MPS__ROW_CALL(s, mean_deviation, s, delta, i)) / s->dt;
+            terms->rhs[i] += (-MPS__ROW_CALL(s, fluid_divergence, s, w, i, k[STRAIN]) +
+                              relax * MPS__ROW_CALL(s, mean_deviation, s, delta, i)) /
+                             s->dt;
         else
             terms->rhs[i] -= MPS__ROW_CALL(s, wall_divergence, s, w, i, terms->wall_factor) / s->dt;
     }

@@ -2,14 +2,30 @@
 /* Viscous acceleration a = nu <lap u>, W22 (2)(6), over all pairs: solids are seen with their own velocity (no slip). */
 #include "builtin.h"
 
+enum { PAIRS = 64 };
+
+/* W of the pairs from..from+count-1 of row i, roots and divisions several at a time. */
+MPS__ROW void weights(const int dim, const mps_stencil *t, int64_t i, int64_t from, int count, double *w)
+{
+    for (int k = 0; k < count; k++) {
+        const double *a = t->x + i * dim, *b = t->x + (int64_t)t->col[from + k] * dim;
+        w[k] = 0;
+        for (int d = 0; d < dim; d++) w[k] += (b[d] - a[d]) * (b[d] - a[d]);
+    }
+    for (int k = 0; k < count; k++) w[k] = sqrt(w[k]);
+    mps_kernel_weights(&t->kernel, t->re, count, w, w);
+}
+
 MPS__ROW void diffuse(const int dim, const mps_stage *s, int64_t i, double nu, double *a)
 {
     const mps_stencil *t = s->far;
     const double *u = s->u + i * dim, c = 2.0 * dim / (t->n0 * t->lambda);
-    double sum[3] = {0};
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        for (int d = 0; d < dim; d++) sum[d] += (s->u[q.j * dim + d] - u[d]) * q.w;
+    double sum[3] = {0}, w[PAIRS];
+    for (int64_t from = t->begin[i]; from < t->end[i]; from += PAIRS) {
+        const int count = t->end[i] - from < PAIRS ? (int)(t->end[i] - from) : PAIRS;
+        weights(dim, t, i, from, count, w);
+        for (int k = 0; k < count; k++)
+            for (int d = 0; d < dim; d++) sum[d] += (s->u[(int64_t)t->col[from + k] * dim + d] - u[d]) * w[k];
     }
     for (int d = 0; d < dim; d++) a[i * dim + d] += c * nu * sum[d];
 }

@@ -77,6 +77,7 @@ columns() { # driver, header wanted, options...
 columns sloshing_surge 't[s],P1[Pa],P2[Pa],P3[Pa],P4[Pa],P5[Pa],eta_left[m],eta_right[m],ke[J/m],x_tank[m],pe[J/m]'
 columns static_tank 't[s],P1[Pa],P2[Pa],P3[Pa],eta_left[m],ke[J],x_tank[m]' --dim 3
 columns standing_wave 't[s],eta_left[m],ke[J/m],x_tank[m]'
+awk -F, 'NR == 2 && $2 > 0 {found = 1} END {exit !found}' static_tank/probes.csv || fail "static_tank/probes.csv has no pressure in the row of t = 0"
 
 # a run without report and frames
 runs 0 static_tank --dp 0.025 --t-end 0.005 --frames 0 --no-report --out bare

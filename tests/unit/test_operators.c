@@ -307,6 +307,25 @@ static double nan_kernel(void *user, double r, double re)
     return (void)user, NAN * r * re;
 }
 
+/* Many weights at once are the weights one by one. */
+static void kernel_rows(void **state)
+{
+    (void)state;
+    double r[7], w[7];
+    mps_kernel k[3];
+    assert_int_equal(mps_kernel_find("improved", &k[0]), MPS_OK);
+    assert_int_equal(mps_kernel_find("original", &k[1]), MPS_OK);
+    assert_int_equal(mps_kernel_custom(negative_kernel, NULL, &k[2]), MPS_OK);
+    for (int i = 0; i < 7; i++) r[i] = 0.1 + 0.27 * i;
+    for (int n = 0; n < 3; n++) {
+        mps_kernel_weights(&k[n], 2.1, 7, r, w);
+        for (int i = 0; i < 7; i++) assert_true(w[i] == mps_kernel_weight(&k[n], r[i], 2.1));
+        memcpy(w, r, sizeof w);
+        mps_kernel_weights(&k[n], 2.1, 6, w, w);
+        assert_true(w[5] == mps_kernel_weight(&k[n], r[5], 2.1) && w[6] == r[6]);
+    }
+}
+
 static void kernels(void **state)
 {
     (void)state;
@@ -408,9 +427,9 @@ static void lone_particles(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(oracle_2d),        cmocka_unit_test(oracle_3d), cmocka_unit_test(correction_inverts),
-        cmocka_unit_test(correction_floor), cmocka_unit_test(kernels),   cmocka_unit_test(bad_arguments),
-        cmocka_unit_test(lone_particles),
+        cmocka_unit_test(oracle_2d),        cmocka_unit_test(oracle_3d),   cmocka_unit_test(correction_inverts),
+        cmocka_unit_test(correction_floor), cmocka_unit_test(kernels),     cmocka_unit_test(bad_arguments),
+        cmocka_unit_test(lone_particles),   cmocka_unit_test(kernel_rows),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
