@@ -50,6 +50,7 @@ typedef struct mps_stage {
     const double *area;       /**< [n*dim] wetted area vector of wall particles, into the fluid */
     const int32_t *wall_of;   /**< [n] nearest wall particle of a dummy, -1: none near */
     double *number_density;   /**< [n] sum W over the near pairs; classify may change it */
+    const double *volume;     /**< [n] mps_op_volume_deviation() over the far pairs */
     const double *asymmetry;  /**< [n*dim] A_i over the near pairs, W22 (11) */
     int32_t *region;          /**< [n] MPS_REGION_..., written by classify; fluid and walls arrive INNER, dummies DRY */
     double *wet;              /**< [n] share 0..1 of a wall particle's fluid side that holds fluid, written by classify; arrives 1 */

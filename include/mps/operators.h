@@ -146,6 +146,10 @@ MPS_API mps_status mps_sim_stencil(mps_sim *sim, int32_t which, mps_stencil *ste
 /** n_i = sum_j W. W22 (7). @param n [s->n] out */
 MPS_API mps_status mps_op_number_density(const mps_stencil *s, double *n);
 
+/** delta_i = S_i/S0 - 1, S_i = sum over j and i itself of a Wendland C2 kernel of support s->re: what a particle is short of its
+ *  volume. Unlike n it hardly sees the shape of the lattice. @param delta [s->n] out [-] */
+MPS_API mps_status mps_op_volume_deviation(const mps_stencil *s, double *delta);
+
 /** \<grad f\>_i = D/n0 sum_j (f_j - f_i) r_ij/|r_ij|^2 W. W22 (4). @param f [n] @param grad [n*dim] out [f/m] */
 MPS_API mps_status mps_op_gradient(const mps_stencil *s, const double *f, double *grad);
 

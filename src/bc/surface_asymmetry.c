@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Free surface, W22 (11)(12), Z14 (16)(17): n < low n0, or n < high n0 and |A| > share |A|0, where |A|0 belongs to the
- * surface row of a lattice. Particles with too little fluid about them are spray.
+ * surface row of a lattice. In a violent flow inner particles fall below low n0 too, and p = 0 amid high pressure tears the fluid:
+ * between lone n0 and low n0 some asymmetry is asked for as well, |A| > low_share |A|0 (lone = low is the paper's). Particles with too little fluid about them are spray.
  * The papers test wall particles too (walls = 1): dry walls have p = 0. */
 #include "builtin.h"
 #include <stdbool.h>
 
-enum { LOW, HIGH, SHARE, SPRAY, WALLS, COMPLETE };
-static const mps_setting settings[] = {{"low", 0.8, 0.0, 1.0},    {"high", 0.97, 0.5, 1.0}, {"share", 0.9, 0.0, 2.0},
-                                       {"spray", 0.25, 0.0, 1.0}, {"walls", 0.0, 0.0, 1.0}, {"complete", 1.0, 0.0, 1.0}};
+enum { LOW, HIGH, SHARE, SPRAY, WALLS, COMPLETE, LONE, LOW_SHARE };
+static const mps_setting settings[] = {{"low", 0.8, 0.0, 1.0},    {"high", 0.97, 0.5, 1.0},    {"share", 0.9, 0.0, 2.0},
+                                       {"spray", 0.25, 0.0, 1.0}, {"walls", 0.0, 0.0, 1.0},    {"complete", 1.0, 0.0, 1.0},
+                                       {"lone", 0.6, 0.0, 1.0},   {"low_share", 0.4, 0.0, 2.0}};
 
 /* |A| of a particle in the top row of a lattice that fills the half space below it. */
 static double lattice_asymmetry(const mps_stencil *t)
@@ -60,16 +62,17 @@ static int classify(void *self, const double *k, mps_stage *s)
 {
     (void)self;
     const mps_stencil *t = s->near;
-    const double a0 = k[SHARE] * lattice_asymmetry(t);
+    const double a0 = lattice_asymmetry(t);
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_FLUID && !(s->kind[i] == MPS_WALL && k[WALLS] > 0)) continue;
-        double a2 = 0;
-        for (int d = 0; d < s->dim; d++) a2 += s->asymmetry[i * s->dim + d] * s->asymmetry[i * s->dim + d];
+        double a = 0;
+        for (int d = 0; d < s->dim; d++) a += s->asymmetry[i * s->dim + d] * s->asymmetry[i * s->dim + d];
+        a = sqrt(a) / a0;
         const double n = s->number_density[i] / t->n0;
         if (s->kind[i] == MPS_FLUID && MPS__ROW_CALL(s, detached, s, i, k[SPRAY] * t->n0))
             s->region[i] = MPS_REGION_SPRAY;
-        else if (n < k[LOW] || (n < k[HIGH] && sqrt(a2) > a0))
+        else if (n < k[LONE] || (n < k[LOW] && a > k[LOW_SHARE]) || (n < k[HIGH] && a > k[SHARE]))
             s->region[i] = MPS_REGION_SURFACE;
     }
     spread(s, MPS_REGION_SURFACE, MPS_REGION_NEAR);
@@ -81,7 +84,7 @@ const mps_model_ops mps__surface_asymmetry = {.struct_size = sizeof(mps_model_op
                                               .api = MPS_MODEL_API,
                                               .name = "surface.asymmetry",
                                               .order = 100,
-                                              .setting_count = 6,
+                                              .setting_count = 8,
                                               .settings = settings,
                                               .classify = classify,
                                               .source = source};

@@ -61,15 +61,14 @@ double mps__budget_lift(const mps__world *w, const double *dx)
     return sum;
 }
 
-double mps__budget_mean_density(const mps__world *w)
+double mps__budget_mean_deviation(const mps__world *w)
 {
     const mps__particles *s = &w->particles;
-    double sum = 0, n0 = 0;
+    double sum = 0;
     int64_t count = 0;
-    if (mps_lattice_constants(&w->kernel, w->dim, w->dp, w->re_near, &n0, NULL) != MPS_OK) return 0;
     for (int64_t i = 0; i < s->n; i++)
         if (s->kind[i] == MPS_FLUID && s->region[i] == MPS_REGION_INNER) {
-            sum += s->nd[i] / n0;
+            sum += w->work.volume[i];
             count++;
         }
     return count ? sum / (double)count : 0;

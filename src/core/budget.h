@@ -14,7 +14,7 @@ double mps__budget_power(const mps__world *w, const double *a, double dt);
 double mps__budget_wall_work(const mps__world *w, const mps__pose *end, const double *u0, double dt);
 /* Potential energy lost by displacements dx [J]. */
 double mps__budget_lift(const mps__world *w, const double *dx);
-/* Mean n/n0 of inner fluid particles; 0 if there is none. */
-double mps__budget_mean_density(const mps__world *w);
+/* Mean volume deviation of inner fluid particles in the step just made; 0 if there is none. */
+double mps__budget_mean_deviation(const mps__world *w);
 
 #endif

@@ -31,11 +31,7 @@ mps_status mps__energy_measure(mps__world *w, mps_energy *e)
     mps__budget_sum(w, &e->kinetic, &e->potential);
     bulk_sums(w, e);
     if (b->started) e->numerical = e->wall_work - e->viscous - e->collision - e->shift - (e->kinetic + e->potential - b->start);
-    /* regions and number densities are those of the last step; particles added since have none */
-    double density = w->info.step > 0 && w->linked == w->particles.generation ? mps__budget_mean_density(w) : 0;
-    if (density > 0) {
-        e->volume /= density;
-        if (b->density_ref > 0) e->volume_error = 1 - density / b->density_ref;
-    }
+    e->volume /= 1.0 + b->deviation;
+    e->volume_error = b->deviation_start - b->deviation;
     return MPS_OK;
 }

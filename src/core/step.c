@@ -197,6 +197,7 @@ static void set_stage(step_state *q)
                            .area = k->area,
                            .wall_of = s->wall_of,
                            .number_density = s->nd,
+                           .volume = k->volume,
                            .asymmetry = k->asymmetry,
                            .region = s->region,
                            .wet = k->wet,
@@ -225,6 +226,7 @@ static mps_status look_around(step_state *q)
     end_stage(q, MPS_STAGE_NEIGHBOURS);
     move_walls(q);
     mps__op_weigh(&q->near, w->neighbours.w_r2, s->number_density, w->work.asymmetry);
+    MPS__TRY(mps_op_volume_deviation(&q->far, w->work.volume));
     q->near.w_r2 = w->neighbours.w_r2;
     const int dim = s->dim;
     for (int64_t i = 0; i < s->n; i++) {
@@ -381,9 +383,10 @@ static void commit(step_state *q)
     w->dt_before = q->stage.dt;
     w->motion.now = q->pose;
     w->budget = q->budget;
+    w->budget.deviation = mps__budget_mean_deviation(w);
     if (!w->budget.started) {
         w->budget.started = true;
-        w->budget.density_ref = mps__budget_mean_density(w);
+        w->budget.deviation_start = w->budget.deviation;
     }
 }
 

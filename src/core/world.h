@@ -17,8 +17,8 @@ enum { MPS__SCRATCH = 16 };
 /* Energies since creation [J]; see mps_energy. */
 typedef struct mps__budget {
     double wall_work, viscous, collision, shift;
-    double start;       /* kinetic + potential before the first step */
-    double density_ref; /* mean n/n0 of inner particles after the first step */
+    double start;                      /* kinetic + potential before the first step */
+    double deviation, deviation_start; /* mean volume deviation of inner fluid in the last step and the first */
     bool started;
 } mps__budget;
 
@@ -26,7 +26,7 @@ typedef struct mps__budget {
 typedef struct mps__work {
     int64_t capacity;
     int32_t *fixed;
-    double *asymmetry, *wet, *correction, *tank_accel, *area, *a, *dx;
+    double *volume, *asymmetry, *wet, *correction, *tank_accel, *area, *a, *dx;
     double *rhs, *shift, *value, *body;
     double *x0, *u0, *p0;
     double *scratch[MPS__SCRATCH]; /* blocks lent to verbs, kept from step to step */

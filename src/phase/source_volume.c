@@ -4,56 +4,19 @@
  * v the velocities relative to the reference motion: gravity and the tank's acceleration are in the body field b = g - a_tank, so
  * that hydrostatic and rigidly accelerated fluid is exact on any arrangement. Walls are free-slip: no-slip walls double the noise.
  *
- * delta is the volume deviation S/S0 - 1, S a kernel sum over a wide, smooth kernel. n/n0 would not do: its kernel is so peaked that an
- * area-preserving stretch of the lattice changes n by several per cent, and the source then pumps the crests up. */
+ * delta is the volume deviation of mps_op_volume_deviation(), clipped and averaged. */
 #include "builtin.h"
 
 enum { TAU, CLIP, STRAIN };
 static const mps_setting settings[] = {{"tau", 20.0, 0.1, 1e6}, {"clip", 0.1, 0.0, 1.0}, {"strain", 1.0, 0.0, 1.0}};
 
-/* Wendland C2 at distance r < h, support h = 1/over. */
-static inline double wide(double r, double over)
-{
-    const double q = 1.0 - r * over, q2 = q * q;
-    return q2 * q2 * (5.0 - 4.0 * q);
-}
-
-static double wide_lattice(const mps_stencil *t)
-{
-    const int reach = (int)(t->re / t->dp) + 1, depth = t->dim == 3 ? reach : 0;
-    double sum = 0;
-    for (int k = -depth; k <= depth; k++)
-        for (int j = -reach; j <= reach; j++)
-            for (int i = -reach; i <= reach; i++) {
-                const double r = t->dp * sqrt((double)(i * i + j * j + k * k));
-                if (r < t->re) sum += wide(r, 1.0 / t->re);
-            }
-    return sum;
-}
-
-/* Kernel sum over all pairs and the particle itself. */
-MPS__ROW double wide_sum(const int dim, const mps_stencil *t, int64_t i)
-{
-    const double *a = t->x + i * dim, over = 1.0 / t->re;
-    double sum = 1.0; /* wide(0) */
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const double *b = t->x + (int64_t)t->col[p] * dim;
-        double r2 = 0;
-        for (int d = 0; d < dim; d++) r2 += (b[d] - a[d]) * (b[d] - a[d]);
-        sum += wide(sqrt(r2), over);
-    }
-    return sum;
-}
-
 /* delta of each fluid particle, never negative near the surface, where the kernel is cut. */
 static void volume_deviation(const double *k, const mps_stage *s, double *delta)
 {
-    const mps_stencil *t = s->far;
-    const double full = wide_lattice(t);
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_FLUID || s->region[i] >= MPS_REGION_SURFACE) continue;
-        double v = MPS__ROW_CALL(s, wide_sum, t, i) / full - 1.0;
+        double v = s->volume[i];
         if (s->region[i] != MPS_REGION_INNER && v < 0) v = 0;
         delta[i] = fmin(fmax(v, -k[CLIP]), k[CLIP]);
     }
