@@ -10,10 +10,10 @@
 /* Allowed difference over the largest of the summed terms. */
 static const double tolerance = 1e-13;
 
-enum { DENSITY, GRADIENT, CONSERVATIVE, GRADIENT_CORRECTED, DIVERGENCE, DIVERGENCE_CORRECTED, LAPLACIAN, LAPLACIAN_VECTOR, ASYMMETRY, OPS };
+enum { DENSITY, GRADIENT, CONSERVATIVE, GRADIENT_CORRECTED, DIVERGENCE, DIVERGENCE_CORRECTED, LAPLACIAN, LAPLACIAN_VECTOR, ASYMMETRY, VOLUME, OPS };
 static const char *const op_name[OPS] = {
     "density",   "gradient",         "conservative", "corrected gradient", "divergence", "corrected divergence",
-    "laplacian", "vector laplacian", "asymmetry"};
+    "laplacian", "vector laplacian", "asymmetry",    "volume"};
 
 typedef double (*weight_fn)(double r, double re);
 
@@ -28,6 +28,12 @@ static double original(double r, double re)
 static double parabola(double r, double re)
 {
     return 3 * (1 - r / re) * (1 - r / re);
+}
+
+/* Wendland C2, one at the centre. */
+static double wendland(double r, double re)
+{
+    return pow(1 - r / re, 4) * (1 + 4 * r / re);
 }
 
 static double user_parabola(void *user, double r, double re)
@@ -78,6 +84,7 @@ static void bench_run(bench *s, const mps_stencil *t)
     assert_int_equal(mps_op_laplacian(t, s->f, s->result[LAPLACIAN]), MPS_OK);
     assert_int_equal(mps_op_laplacian_vector(t, s->u, s->result[LAPLACIAN_VECTOR]), MPS_OK);
     assert_int_equal(mps_op_asymmetry(t, s->result[ASYMMETRY]), MPS_OK);
+    assert_int_equal(mps_op_volume_deviation(t, s->result[VOLUME]), MPS_OK);
 }
 
 /* ---- the oracle ------------------------------------------------------------------------------------------------ */
@@ -132,25 +139,31 @@ static void lattice(int dim, double re, weight_fn weight, double *n0, double *la
     *lambda = m / n;
 }
 
-static double factor(int op, int dim, double n0, double lambda)
+static double factor(int op, int dim, double n0, double lambda, double s0)
 {
     if (op == DENSITY) return 1;
+    if (op == VOLUME) return 1 / s0;
     return op == LAPLACIAN || op == LAPLACIAN_VECTOR ? 2.0 * dim / (n0 * lambda) : dim / n0;
 }
 
 static void compare(const bench *s, double re, weight_fn weight)
 {
-    double n0, lambda, worst[OPS] = {0};
+    double n0, lambda, s0, unused, worst[OPS] = {0};
     lattice(s->c.dim, re, weight, &n0, &lambda);
+    lattice(s->c.dim, re, wendland, &s0, &unused);
     for (int64_t i = 0; i < s->c.n; i++) {
         total t[OPS] = {{{0}, 0}};
+        add(&t[VOLUME], 0, 1); /* the particle itself */
         for (int64_t j = 0; j < s->c.n; j++) {
             const double r2 = cloud_distance2(&s->c, i, j);
-            if (j != i && r2 < re * re) add_pair(s, i, j, r2, weight(sqrt(r2), re), t);
+            if (j == i || r2 >= re * re) continue;
+            add_pair(s, i, j, r2, weight(sqrt(r2), re), t);
+            add(&t[VOLUME], 0, wendland(sqrt(r2), re));
         }
         for (int op = 0; op < OPS; op++)
             for (int d = 0; d < components(s, op); d++) {
-                const double c = factor(op, s->c.dim, n0, lambda), got = s->result[op][i * components(s, op) + d];
+                const double c = factor(op, s->c.dim, n0, lambda, 1 + s0);
+                const double got = s->result[op][i * components(s, op) + d] + (op == VOLUME); /* a deviation from one */
                 assert_true(isfinite(got));
                 worst[op] = fmax(worst[op], fabs(got - c * t[op].sum[d]) / (c * t[op].largest));
             }
@@ -368,6 +381,7 @@ static void refuse_all(const mps_stencil *t, const double *in, double *out)
     assert_int_equal(mps_op_laplacian_vector(t, in, out), MPS_E_ARG);
     assert_int_equal(mps_op_asymmetry(t, out), MPS_E_ARG);
     assert_int_equal(mps_op_correction(t, 0.2, out), MPS_E_ARG);
+    assert_int_equal(mps_op_volume_deviation(t, out), MPS_E_ARG);
 }
 
 static void bad_arguments(void **state)
@@ -424,12 +438,43 @@ static void lone_particles(void **state)
     mps_neighbours_destroy(list);
 }
 
+/* An area-preserving stretch by 10 %, as in every steep crest: n takes it for more than 1 % of compression, the volume
+ * measure must not see a tenth of that. */
+static void stretched_lattice(void **state)
+{
+    (void)state;
+    cloud c = cloud_lattice(2, 21, 21, 1, 0, 1);
+    const int64_t middle = 10 * 21 + 10;
+    double *n = cloud_doubles(c.n), *delta = cloud_doubles(c.n), n0;
+    mps_kernel kernel;
+    mps_stencil t;
+    mps_neighbours *list = NULL;
+    for (int64_t i = 0; i < c.n; i++) {
+        c.x[2 * i] *= 1.1;
+        c.x[2 * i + 1] /= 1.1;
+    }
+    assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
+    assert_int_equal(mps_neighbours_create(2, CLOUD_DP, NULL, &list), MPS_OK);
+    assert_int_equal(mps_neighbours_build(list, c.n, c.x, 2.1 * CLOUD_DP, 3.1 * CLOUD_DP), MPS_OK);
+    assert_int_equal(mps_neighbours_stencil(list, MPS_NEAR, &kernel, &t), MPS_OK);
+    n0 = t.n0;
+    assert_int_equal(mps_op_number_density(&t, n), MPS_OK);
+    assert_int_equal(mps_neighbours_stencil(list, MPS_FAR, &kernel, &t), MPS_OK);
+    assert_int_equal(mps_op_volume_deviation(&t, delta), MPS_OK);
+    assert_true(n[middle] / n0 - 1 > 0.01);
+    assert_true(fabs(delta[middle]) < 0.001);
+    mps_neighbours_destroy(list);
+    free(n);
+    free(delta);
+    cloud_free(&c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(oracle_2d),        cmocka_unit_test(oracle_3d),   cmocka_unit_test(correction_inverts),
         cmocka_unit_test(correction_floor), cmocka_unit_test(kernels),     cmocka_unit_test(bad_arguments),
-        cmocka_unit_test(lone_particles),   cmocka_unit_test(kernel_rows),
+        cmocka_unit_test(lone_particles),   cmocka_unit_test(kernel_rows), cmocka_unit_test(stretched_lattice),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
