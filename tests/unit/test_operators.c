@@ -10,10 +10,22 @@
 /* Allowed difference over the largest of the summed terms. */
 static const double tolerance = 1e-13;
 
-enum { DENSITY, GRADIENT, CONSERVATIVE, GRADIENT_CORRECTED, DIVERGENCE, DIVERGENCE_CORRECTED, LAPLACIAN, LAPLACIAN_VECTOR, ASYMMETRY, VOLUME, OPS };
+enum {
+    DENSITY,
+    GRADIENT,
+    CONSERVATIVE,
+    GRADIENT_CORRECTED,
+    DIVERGENCE,
+    DIVERGENCE_CORRECTED,
+    LAPLACIAN,
+    LAPLACIAN_VECTOR,
+    ASYMMETRY,
+    VOLUME,
+    OPS
+};
 static const char *const op_name[OPS] = {
-    "density",   "gradient",         "conservative", "corrected gradient", "divergence", "corrected divergence",
-    "laplacian", "vector laplacian", "asymmetry",    "volume"};
+    "density",          "gradient",  "conservative", "corrected gradient", "divergence", "corrected divergence", "laplacian",
+    "vector laplacian", "asymmetry", "volume"};
 
 typedef double (*weight_fn)(double r, double re);
 
