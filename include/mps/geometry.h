@@ -31,7 +31,9 @@ MPS_API mps_status mps_geometry_tank(mps_sim *sim, const mps_tank *tank, double 
 
 /** Add a solid box (a baffle): lattice points of the closed box lo..hi, its outer layer walls, what lies inside dummies.
  *  Must follow mps_geometry_tank() and come before the fill; points taken by other particles are left out, so that the
- *  walls a baffle stands on stay. A box thinner than dp is one column of walls whose two faces cancel (net area 0).
+ *  walls a baffle stands on stay. A box thinner than dp is one column of walls whose two faces cancel (net area 0: no force).
+ *  Give a baffle with liquid on both sides at least 2 dp (three layers): through a thinner one the sides feel each other; a warning is
+ *  logged.
  *  @param name  part name @param lo,hi [dim] corners [m]
  *  @return MPS_E_ARG if no lattice point lies inside */
 MPS_API mps_status mps_geometry_baffle(mps_sim *sim, const char *name, const double *lo, const double *hi);

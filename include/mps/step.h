@@ -63,7 +63,8 @@ MPS_API mps_status mps_step_info_init(mps_step_info *info, size_t size);
  *          (positions, velocities, pressures and time are as before the call) */
 MPS_API mps_status mps_step(mps_sim *sim, double dt_max, mps_step_info *info);
 
-/** Called after every step of mps_run(); non-zero stops the run. Must not step, add or remove. */
+/** Called after every step of mps_run(); non-zero stops the run. It may read; stepping,
+ *  adding and removing are refused there with MPS_E_STATE. */
 typedef int (*mps_monitor_fn)(void *user, mps_sim *sim, const mps_step_info *info);
 
 /** Step until t_end, the last step cut so that t_end is met exactly.

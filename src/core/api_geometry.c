@@ -9,6 +9,7 @@ static const mps_tank tank_defaults = {.name = "tank", .dummy_layers = 2};
 static mps_status changeable(mps_sim *sim)
 {
     int32_t open = mps__particles_leases(&sim->world.particles);
+    if (sim->in_monitor) return mps__fail(&sim->context, MPS_E_STATE, "a monitor must not add particles");
     if (open > 0) return mps__fail(&sim->context, MPS_E_BUSY, "%d leases are open: give them back before adding particles", (int)open);
     return MPS_OK;
 }
@@ -26,7 +27,8 @@ static mps_status tank_cells(mps_sim *sim, const mps_tank *tank, int64_t cells[3
     for (int d = 0; d < sim->world.dim; d++) {
         double n = round(tank->size[d] / dp);
         MPS__CHECK(&sim->context, isfinite(tank->lo[d]), "tank.lo[%d] is %g: must be finite", d, tank->lo[d]);
-        MPS__CHECK(&sim->context, isfinite(n) && n >= 3, "tank.size[%d] is %g m: at least 3 spacings of %g m", d, tank->size[d], dp);
+        MPS__CHECK(&sim->context, isfinite(n) && tank->size[d] >= (3 - 1e-6) * dp, "tank.size[%d] is %g m: at least 3 spacings of %g m", d,
+                   tank->size[d], dp);
         points *= n + 1 + 2 * tank->dummy_layers;
         MPS__CHECK(&sim->context, points < INT32_MAX, "tank.size[%d] is %g m: too many lattice points of spacing %g m", d, tank->size[d],
                    dp);

@@ -19,6 +19,7 @@ mps_status mps_particle_block_init(mps_particle_block *block, size_t size)
 static mps_status not_leased(mps_sim *sim)
 {
     const int32_t open = mps__particles_leases(&sim->world.particles);
+    if (sim->in_monitor) return mps__fail(&sim->context, MPS_E_STATE, "a monitor must not add or remove");
     return open ? mps__fail(&sim->context, MPS_E_BUSY, "%d lease(s) are open", open) : MPS_OK;
 }
 

@@ -37,6 +37,7 @@ mps_status mps_sim_set_time_control(mps_sim *sim, const mps_time_control *contro
 
 static mps_status ready(mps_sim *sim)
 {
+    if (sim->in_monitor) return mps__fail(&sim->context, MPS_E_STATE, "a monitor must not step");
     const int32_t open = mps__particles_leases(&sim->world.particles);
     return open ? mps__fail(&sim->context, MPS_E_BUSY, "%d lease(s) are open; end them before stepping", open) : MPS_OK;
 }
@@ -57,6 +58,7 @@ mps_status mps_run(mps_sim *sim, double t_end, mps_monitor_fn monitor, void *use
 {
     if (!sim) return MPS_E_ARG;
     mps__world *w = &sim->world;
+    if (sim->in_monitor) return mps__fail(&sim->context, MPS_E_STATE, "a monitor must not step");
     MPS__CHECK(&sim->context, isfinite(t_end) && t_end >= w->info.t, "t_end is %g s: must be finite and not before the present time %g s",
                t_end, w->info.t);
     mps_status result = MPS_OK;
@@ -70,7 +72,10 @@ mps_status mps_run(mps_sim *sim, double t_end, mps_monitor_fn monitor, void *use
         if (status < 0) return status;
         if (status > 0) result = status;
         if (fabs(t_end - w->info.t) <= fmax(small, 1e-6 * w->info.dt)) w->info.t = t_end;
-        if (monitor && monitor(user, sim, &w->info)) return MPS_W_STOPPED;
+        sim->in_monitor = true;
+        const int stop = monitor && monitor(user, sim, &w->info);
+        sim->in_monitor = false;
+        if (stop) return MPS_W_STOPPED;
     }
     return result;
 }

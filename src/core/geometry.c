@@ -287,7 +287,18 @@ mps_status mps__geometry_baffle(mps_sim *sim, const char *name, const mps__latti
     int32_t parts = sim->world.particles.parts;
     mps_status status = baffle_run(&p, name);
     plan_free(&p);
-    if (status < 0) sim->world.particles.parts = parts;
+    if (status < 0) {
+        sim->world.particles.parts = parts;
+        return status;
+    }
+    /* two columns are within the radius of the operators of what stands on both sides */
+    for (int d = 0; d < sim->world.dim; d++) {
+        const int64_t layers = box->last[d] - box->first[d] + 1;
+        if (layers < 3)
+            mps__log(&sim->context, MPS_LOG_WARNING,
+                     "baffle \"%s\" has %lld layers across axis %d: with fewer than 3 (2 dp = %g m) liquid on one side feels the other",
+                     name, (long long)layers, d, 2 * sim->world.dp);
+    }
     return status;
 }
 

@@ -152,19 +152,36 @@ static bool part_matches(const char *wanted, const char *name)
     return strcmp(wanted, name) == 0;
 }
 
+/* Particles on an edge of a tank carry area of two or three faces but one part: the component of the area across axis d
+ * belongs to the face it looks away from, "<name>.x0" if it points along +x. */
+static bool face_wanted(const mps__particles *s, const mps__probe *probe, int64_t i, int d)
+{
+    char name[MPS__PART_NAME];
+    if (!probe->config.part) return true;
+    if (s->part[i] < 0) return false;
+    memcpy(name, s->part_name[s->part[i]], sizeof name);
+    const size_t n = strlen(name);
+    const double across = s->area[i * s->dim + d];
+    if (across != 0 && n > 3 && name[n - 3] == '.' && strchr("xyz", name[n - 2]) && strchr("01", name[n - 1])) {
+        const char own[2] = {name[n - 2], name[n - 1]};
+        name[n - 2] = "xyz"[d];
+        name[n - 1] = across > 0 ? '0' : '1';
+        if (mps__part_number((mps__particles *)s, name, false) < 0) memcpy(name + n - 2, own, 2);
+    }
+    return part_matches(probe->part_name, name);
+}
+
 /* -p A on every wall particle of the part; A points into the fluid. */
 static void measure_force(const mps__world *w, const mps__probe *probe, double *values)
 {
     const mps__particles *s = &w->particles;
-    bool wanted[MPS__PARTS_MAX];
     double at[3] = {0, 0, 0}, force[3] = {0, 0, 0}, moment[3] = {0, 0, 0};
-    for (int32_t k = 0; k < s->parts; k++) wanted[k] = !probe->config.part || part_matches(probe->part_name, s->part_name[k]);
     mps__motion_point(&w->motion, &w->motion.now, probe->config.at, at, NULL, NULL);
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_WALL || s->p[i] == 0) continue;
-        if (s->part[i] >= 0 ? !wanted[s->part[i]] : probe->config.part != NULL) continue;
-        double f[3] = {0, 0, 0}, r[3] = {0, 0, 0};
-        mps__motion_rotate(&w->motion, &w->motion.now, &s->area[i * w->dim], f);
+        double f[3] = {0, 0, 0}, r[3] = {0, 0, 0}, area[3] = {0, 0, 0};
+        for (int32_t d = 0; d < w->dim; d++) area[d] = face_wanted(s, probe, i, d) ? s->area[i * w->dim + d] : 0;
+        mps__motion_rotate(&w->motion, &w->motion.now, area, f);
         for (int32_t d = 0; d < w->dim; d++) {
             f[d] *= -s->p[i];
             force[d] += f[d];

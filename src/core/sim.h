@@ -11,6 +11,7 @@ struct mps_sim {
     mps__context context;
     mps__world world;
     mps__probes probes;
+    bool in_monitor; /* the handle must not step, add or remove */
     /* the lattice of the last tank */
     bool has_tank;
     double lattice_lo[3];

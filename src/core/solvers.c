@@ -204,6 +204,18 @@ static mps_status status_of(int32_t reason)
     }
 }
 
+/* A plug-in's word is not taken for its residual. */
+static mps_status verify(mps__solvers *s, const mps_ppe_problem *problem, const double *p, mps_ppe_result *result)
+{
+    double *work = mps__alloc(s->context, problem->n, sizeof *work);
+    if (!work) return MPS_E_NOMEM;
+    mps_ppe_check(problem, p, work, result);
+    mps__free(s->context, work);
+    if (result->residual <= 10 * problem->tolerance) return MPS_OK;
+    result->reason = MPS_PPE_MAX_ITERATIONS;
+    return MPS_W_NOT_CONVERGED;
+}
+
 mps_status mps__solvers_solve(mps__solvers *s, const mps_ppe_problem *problem, double *p, mps_ppe_result *result)
 {
     mps_ppe_problem limited = *problem;
@@ -218,7 +230,10 @@ mps_status mps__solvers_solve(mps__solvers *s, const mps_ppe_problem *problem, d
         result->reason = MPS_PPE_NAN;
         status = MPS_E_SOLVER;
     }
-    if (status == MPS_OK) return status;
+    if (status == MPS_OK) {
+        status = verify(s, &limited, p, result);
+        if (status != MPS_W_NOT_CONVERGED) return status;
+    }
     return mps__fail(s->context, status,
                      "solver '%s' with preconditioner '%s' %s: %d iterations of at most %d, residual %.3g (wanted %.3g), "
                      "divergence %.3g (wanted %.3g), %lld unknowns",

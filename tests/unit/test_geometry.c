@@ -304,6 +304,7 @@ static void tank_refusals(void **state)
     ASSERT_REFUSED(sim, mps_geometry_tank(sim, &bad, NULL), MPS_E_ARG, word); \
     assert_int_equal(mps_particles_count(sim, -1), 0)
     REFUSE(bad.size[1] = 0.2, "size[1] is 0.2");
+    REFUSE(bad.size[1] = 0.29, "size[1] is 0.29"); /* not rounded up */
     REFUSE(bad.size[0] = NAN, "size[0]");
     REFUSE(bad.size[0] = INFINITY, "size[0]");
     REFUSE(bad.size[0] = 1e30, "size[0]");

@@ -99,6 +99,41 @@ static void monitor_stops(void **state)
     mps_sim_destroy(sim);
 }
 
+/* What a monitor must not do is refused; reading is allowed. */
+static int meddle(void *user, mps_sim *sim, const mps_step_info *info)
+{
+    int *calls = user;
+    const double x[2] = {0.2, 0.45};
+    const int64_t id = 0;
+    mps_particle_block b;
+    mps_lease lease;
+    ASSERT_OK(sim, mps_particle_block_init(&b, sizeof b));
+    b.count = 1;
+    b.position = x;
+    ++*calls;
+    ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_STATE, "monitor");
+    ASSERT_REFUSED(sim, mps_run(sim, info->t + 1e-3, NULL, NULL), MPS_E_STATE, "monitor");
+    ASSERT_REFUSED(sim, mps_particles_add(sim, &b, NULL), MPS_E_STATE, "monitor");
+    ASSERT_REFUSED(sim, mps_particles_remove(sim, 1, &id), MPS_E_STATE, "monitor");
+    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, x, x, NULL), MPS_E_STATE, "monitor");
+    ASSERT_OK(sim, mps_lease_begin(sim, "pressure", MPS_READ, &lease));
+    ASSERT_OK(sim, mps_lease_end(sim, &lease));
+    return *calls == 2;
+}
+
+static void monitor_meddles(void **state)
+{
+    (void)state;
+    int calls = 0;
+    int64_t steps = 0;
+    mps_sim *sim = pool();
+    ASSERT_STATUS(sim, mps_run(sim, 1, meddle, &calls), MPS_W_STOPPED);
+    ASSERT_OK(sim, mps_sim_time(sim, NULL, &steps));
+    assert_int_equal(steps, 2);
+    ASSERT_OK(sim, mps_step(sim, 1e-3, NULL)); /* allowed again */
+    mps_sim_destroy(sim);
+}
+
 /* A pool that is shaken, with any number of threads: the same bytes, in the same order. */
 static void threads_agree(void **state)
 {
@@ -128,6 +163,6 @@ static void threads_agree(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(run_to_the_end), cmocka_unit_test(whole_steps), cmocka_unit_test(monitor_stops),
-                                       cmocka_unit_test(threads_agree)};
+                                       cmocka_unit_test(monitor_meddles), cmocka_unit_test(threads_agree)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

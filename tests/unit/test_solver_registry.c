@@ -296,6 +296,7 @@ static void test_solve_policy(void **state)
     };
     assert_int_equal(mps_solver_register(sim, &ops), MPS_OK);
     assert_int_equal(mps_solver_use(sim, "my", NULL), MPS_OK);
+    told_p = 2; /* the solution */
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         told = (mps_ppe_result){cases[k].reason, 17, 0.25, 0.5, 0};
         expect_error(sim, mps__solvers_solve(s, &problem, &p, &result), cases[k].status, cases[k].text);
@@ -303,7 +304,10 @@ static void test_solve_policy(void **state)
     }
     assert_true(seen.tolerance == 1e-6 && seen.divergence == 1e-4 && seen.max_iterations == 2000);
     told.reason = MPS_PPE_CONVERGED;
-    told_p = NAN; /* a plug-in that breaks its promise */
+    told_p = 0; /* a plug-in that claims too much */
+    assert_int_equal(mps__solvers_solve(s, &problem, &p, &result), MPS_W_NOT_CONVERGED);
+    assert_true(result.residual == 1);
+    told_p = NAN;
     expect_error(sim, mps__solvers_solve(s, &problem, &p, &result), MPS_E_SOLVER, "NaN");
     assert_int_equal(result.reason, MPS_PPE_NAN);
 }
