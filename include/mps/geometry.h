@@ -12,7 +12,7 @@
 MPS_BEGIN_DECLS
 
 /** A rectangular tank. Faces are parts named "<name>.x0", ".x1", ".y0", ".y1", ".z0", ".z1" (edges belong to the
- *  first face in the order y0, y1, x0, x1, z0, z1). "Up" is y in 2-D and 3-D. */
+ *  first face in the order y0, y1, x0, x1, z0, z1; a force probe counts them with each face they touch). "Up" is y in 2-D and 3-D. */
 typedef struct mps_tank {
     uint32_t struct_size; /**< set by mps_tank_init() */
     const char *name;     /**< default "tank" */
