@@ -29,6 +29,16 @@ static plot_series column_of(const table *t, const char *label, int column, doub
     return (plot_series){.label = label, .x = t->kept, .y = t->kept + column, .count = t->count, .stride = t->columns, .shift = shift};
 }
 
+/* Leave out the first half per cent of a run: the impulse of walls that start at speed would flatten all the rest. */
+static void skip_start(plot_series *s, double t_end)
+{
+    while (s->count > 2 && s->x[0] < 0.005 * t_end) {
+        s->x += s->stride;
+        s->y += s->stride;
+        s->count--;
+    }
+}
+
 /* One plot for all own columns of a unit, with the known points of that unit. */
 static void plots_unit(plots *all, const run *r, const char *unit)
 {
@@ -42,8 +52,12 @@ static void plots_unit(plots *all, const run *r, const char *unit)
                         pressure ? "p [Pa]"
                         : length ? "height [m]"
                                  : unit);
-    for (int i = 0; i < r->own_columns; i++)
-        if (strcmp(r->column[i].unit, unit) == 0) plot_add(p, column_of(&r->probes, r->column[i].name, 1 + i, 0));
+    for (int i = 0; i < r->own_columns; i++) {
+        if (strcmp(r->column[i].unit, unit) != 0) continue;
+        plot_series column = column_of(&r->probes, r->column[i].name, 1 + i, 0);
+        if (pressure) skip_start(&column, r->options.t_end);
+        plot_add(p, column);
+    }
     for (int i = 0; i < r->marks; i++) {
         const run_mark *m = &r->mark[i];
         if (strcmp(m->unit, unit) != 0) continue;
@@ -88,26 +102,12 @@ static void plots_make(plots *all, const run *r)
 
 /* ---- the page --------------------------------------------------------------------------------------------------- */
 
-static void html_text(FILE *out, const char *text)
-{
-    for (; *text; text++) {
-        if (*text == '&')
-            fputs("&amp;", out);
-        else if (*text == '<')
-            fputs("&lt;", out);
-        else if (*text == '>')
-            fputs("&gt;", out);
-        else
-            fputc(*text, out);
-    }
-}
-
 static void html_row(FILE *out, const char *name, const char *value)
 {
     fputs("<tr><td>", out);
-    html_text(out, name);
+    svg_text(out, name);
     fputs("</td><td>", out);
-    html_text(out, value);
+    svg_text(out, value);
     fputs("</td></tr>\n", out);
 }
 
@@ -206,7 +206,7 @@ static void report_write(FILE *out, const run *r, const plots *all)
           "0}img,svg{max-width:100%;height:auto}.two{display:flex;flex-wrap:wrap;gap:4em}</style></head><body>\n",
           out);
     fprintf(out, "<h1>%s</h1>\n<p>", r->options.program);
-    html_text(out, r->options.about);
+    svg_text(out, r->options.about);
     fputs("</p>\n<div class=\"two\"><div>\n", out);
     html_settings(out, r);
     fputs("</div><div>\n", out);

@@ -45,7 +45,7 @@ static void axis_finish(axis *a, int ticks, bool snap)
     a->hi = ceil(a->hi / a->tick - 1e-9) * a->tick;
 }
 
-static void svg_text(FILE *out, const char *text)
+void svg_text(FILE *out, const char *text)
 {
     for (; *text; text++) {
         if (*text == '&')

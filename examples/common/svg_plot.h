@@ -32,4 +32,7 @@ void plot_svg(FILE *out, const plot *p);
 /* Write it as a file of its own. @return false with a message on stderr */
 bool plot_save(const char *folder, const char *name, const plot *p);
 
+/* Text with the characters replaced that mean something in SVG and HTML. */
+void svg_text(FILE *out, const char *text);
+
 #endif

@@ -66,7 +66,7 @@ static void slip(const mps_stage *s, const double *v, double *slipped)
 
 /* Divergence of a fluid particle, with B_i, less the one that keeps its volume: the move x + dt v changes volumes by
  * dt div v - dt^2 tr((grad v)^2)/2 + ..., so div v = dt tr((grad v)^2)/2 is wanted. With zero instead every strained particle is
- * compressed at the rate dt |grad v|^2 and blown up again by delta against the pressure, which feeds waves. */
+ * compressed at the rate dt |grad v|^2 and blown up again by delta against the pressure. */
 MPS__ROW double fluid_divergence(const int dim, const mps_stage *s, const double *v, int64_t i, double strain)
 {
     const mps_stencil *t = s->near;
