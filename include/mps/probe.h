@@ -11,11 +11,12 @@ MPS_BEGIN_DECLS
 
 /** What a probe measures. */
 enum {
-    MPS_PROBE_WALL_PRESSURE = 0,  /**< 1 value [Pa]: mean over the wall particles within diameter/2; fewer than two:
-                                      linear between the nearest */
+    MPS_PROBE_WALL_PRESSURE = 0,  /**< 1 value [Pa]: mean over a disc of `diameter` (2-D: a strip) on the face at `at`, linear between the
+                                      wall particles; what reaches beyond the face does not count */
     MPS_PROBE_FLUID_PRESSURE = 1, /**< 1 value [Pa]: kernel-weighted, 0 outside the fluid */
     MPS_PROBE_GAUGE = 2,          /**< 1 value [m]: distance from `at` along `direction` to the free surface: the centres of the top layer
-                                      on a lattice; 0 if `at` is dry. Beside a wall the band's centre is 2/3 diameter off it.
+                                      on a lattice; 0 if `at` is dry. Beside a wall the band's centre is 2/3 diameter off it, from there
+                                      the surface goes on straight. A film one particle thick is no surface, two are.
                                       Of several phases the densest is the liquid */
     MPS_PROBE_FORCE = 3           /**< dim + (1 in 2-D, 3 in 3-D) values [N, N m; per m in 2-D]: pressure force and moment about `at` */
 };
@@ -30,6 +31,8 @@ typedef struct mps_probe {
     double length;        /**< gauge: length of the line [m]; default: to the domain's end */
     const char *part;     /**< force: name of a part, a prefix ending in '.', or NULL for all solids */
     int32_t count_drops;  /**< gauge: 1: the topmost particle in the band, drops and films included */
+    double average;       /**< mean over the last `average` seconds [s], see mps_probe_series(); default 0: the value now */
+    double rate;          /**< samples a second [Hz] kept for mps_probe_series(), at most 1e9; default 0: none */
 } mps_probe;
 
 /** Defaults. */
@@ -43,8 +46,26 @@ MPS_API mps_status mps_probe_add(mps_sim *sim, const mps_probe *probe, int32_t *
 /** Number of values of a probe, or -1. */
 MPS_API int32_t mps_probe_size(const mps_sim *sim, int32_t id);
 
-/** Measure now. @param values [mps_probe_size()] out */
+/** Measure now; with an average: the mean up to now.
+ *  @param values  [mps_probe_size()] out
+ *  @return MPS_E_ARG, MPS_E_NOMEM, MPS_E_STATE (the walls are gone) */
 MPS_API mps_status mps_probe_read(mps_sim *sim, int32_t id, double *values);
+
+/** Samples of a probe with a `rate` since it was added or cleared: at t = k / rate, k whole, up to the present time.
+ *  Between steps the signal s is linear; with an `average` T, sample(t) = integral of s from t - T to t, over T, and over what there
+ *  is while the probe is younger than T. Each step counts with the state it left, seen at the latest when the next step begins;
+ *  before the first step of a simulation pressures are those after it.
+ *  Steps need memory for this: mps_step() fails with MPS_E_NOMEM before anything moved, and can be called again.
+ *  @param count   out, or NULL: samples
+ *  @param t       out, or NULL: times [count], ascending [s]
+ *  @param values  out, or NULL: [count][mps_probe_size()]; both arrays are the library's, valid until the next step, read,
+ *                 clear or mps_probe_series() of this probe
+ *  @return MPS_E_ARG, MPS_E_NOMEM, MPS_E_STATE (the rate is 0, or the walls are gone) */
+MPS_API mps_status mps_probe_series(mps_sim *sim, int32_t id, int64_t *count, const double **t, const double **values);
+
+/** Forget the samples so far, so that a long run needs no endless memory: 8 (1 + size) bytes a sample. Averages go on.
+ *  @return MPS_E_ARG, MPS_E_STATE (the rate is 0) */
+MPS_API mps_status mps_probe_series_clear(mps_sim *sim, int32_t id);
 
 /** Energies and bulk quantities of the fluid (per metre of width in 2-D) and the budget since creation. */
 typedef struct mps_energy {

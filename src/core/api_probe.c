@@ -5,7 +5,7 @@
 static const mps_probe probe_defaults = {.direction = {0, 1, 0}};
 static const mps_energy energy_defaults = {0};
 
-static mps_status find_probe(const mps_sim *sim, int32_t id, const mps__probe **probe)
+static mps_status find_probe(const mps_sim *sim, int32_t id, mps__probe **probe)
 {
     MPS__CHECK(mps__sim_context(sim), id >= 0 && id < sim->probes.count, "probe %d: there are %lld, counted from 0", (int)id,
                (long long)sim->probes.count);
@@ -29,7 +29,7 @@ mps_status mps_probe_add(mps_sim *sim, const mps_probe *probe, int32_t *id)
 
 int32_t mps_probe_size(const mps_sim *sim, int32_t id)
 {
-    const mps__probe *probe = NULL;
+    mps__probe *probe = NULL;
     if (!sim || find_probe(sim, id, &probe) < 0) return -1;
     return mps__probe_values(&sim->world, probe);
 }
@@ -37,10 +37,38 @@ int32_t mps_probe_size(const mps_sim *sim, int32_t id)
 mps_status mps_probe_read(mps_sim *sim, int32_t id, double *values)
 {
     if (!sim) return MPS_E_ARG;
-    const mps__probe *probe = NULL;
+    mps__probe *probe = NULL;
     MPS__CHECK(&sim->context, values, "values is NULL");
     MPS__TRY(find_probe(sim, id, &probe));
-    return mps__probe_measure(&sim->world, probe, values);
+    return mps__probe_read(&sim->world, probe, values);
+}
+
+/* A probe that keeps samples. */
+static mps_status find_series(mps_sim *sim, int32_t id, mps__probe **probe)
+{
+    MPS__TRY(find_probe(sim, id, probe));
+    return (*probe)->config.rate > 0 ? MPS_OK : mps__fail(&sim->context, MPS_E_STATE, "probe %d keeps no samples: its rate is 0", (int)id);
+}
+
+mps_status mps_probe_series(mps_sim *sim, int32_t id, int64_t *count, const double **t, const double **values)
+{
+    if (!sim) return MPS_E_ARG;
+    mps__probe *probe = NULL;
+    MPS__TRY(find_series(sim, id, &probe));
+    MPS__TRY(mps__probe_take(&sim->world, probe));
+    if (count) *count = probe->series.count;
+    if (t) *t = probe->series.t;
+    if (values) *values = probe->series.value;
+    return MPS_OK;
+}
+
+mps_status mps_probe_series_clear(mps_sim *sim, int32_t id)
+{
+    if (!sim) return MPS_E_ARG;
+    mps__probe *probe = NULL;
+    MPS__TRY(find_series(sim, id, &probe));
+    probe->series.count = 0;
+    return MPS_OK;
 }
 
 mps_status mps_energy_init(mps_energy *energy, size_t size)

@@ -49,6 +49,8 @@ mps_status mps_step(mps_sim *sim, double dt_max, mps_step_info *info)
     mps_step_info probe = info_default;
     if (info) MPS__TRY(mps__struct_in(&sim->context, "mps_step_info", &probe, sizeof probe, info));
     MPS__TRY(ready(sim));
+    /* before the step, not after it: what runs out of memory here leaves no step half done */
+    MPS__TRY(mps__probes_take(&sim->world, &sim->probes));
     mps_status status = mps__world_step(&sim->world, dt_max);
     if (status >= 0 && info) MPS__TRY(mps__struct_out(&sim->context, "mps_step_info", info, &sim->world.info, sizeof sim->world.info));
     return status;
@@ -92,7 +94,7 @@ mps_status mps_sim_stencil(mps_sim *sim, int32_t which, mps_stencil *stencil)
     } else if (!mps__neighbours_fresh(&sim->world.neighbours, sim->world.particles.n, sim->world.particles.x, sim->world.re_far)) {
         return mps__fail(&sim->context, MPS_E_BUSY, "the particles must be sorted anew, but a lease is open");
     } else {
-        MPS__TRY(mps__neighbours_rows(&sim->world.neighbours, sim->world.particles.x)); /* they moved since the step's lists */
+        MPS__TRY(mps__world_rows(&sim->world)); /* they moved since the step's lists */
     }
     return mps__world_stencil(&sim->world, which, stencil);
 }

@@ -5,6 +5,7 @@
  * smooth step that passes 1/2 exactly half a spacing above the centres of the top layer, and it moves with the
  * particles without a staircase. Drops and films fill less than half of the band and stay unseen. */
 #include "probe_gauge.h"
+#include "plates.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -15,6 +16,7 @@ static const double solid_limit = 0.9;
 typedef struct beside {
     double s, across[2];
     double facing[2]; /* of walls: direction cosines of the wetted side across the line */
+    double share;     /* of a particle's size: one half for each face of a thin plate */
     bool solid;
 } beside;
 
@@ -24,7 +26,9 @@ typedef struct line {
     double foot[3], along[3], across[2][3]; /* in the lab */
     double tank_across[2][3];
     int64_t count;
-    beside *list; /* by ascending s */
+    beside *list;    /* by ascending s */
+    bool faces;      /* some of them are of a wall along the line */
+    double extra[2]; /* added to the shift of the band */
 } line;
 
 /* What the band holds at one place of the line. */
@@ -41,34 +45,21 @@ static double spline(double q)
     return q < 1 ? 2.0 / 3.0 + q * q * (0.5 * q - 1) : (2 - q) * (2 - q) * (2 - q) / 6;
 }
 
-/* Unit vectors across the line. */
-static void across_vectors(int32_t dim, const double d[3], double out[2][3])
-{
-    if (dim == 2) {
-        out[0][0] = -d[1];
-        out[0][1] = d[0];
-        return;
-    }
-    int least = 0;
-    for (int k = 1; k < 3; k++)
-        if (fabs(d[k]) < fabs(d[least])) least = k;
-    double norm = sqrt(1 - d[least] * d[least]);
-    for (int k = 0; k < 3; k++) out[0][k] = ((k == least) - d[least] * d[k]) / norm;
-    for (int k = 0; k < 3; k++) {
-        int a = (k + 1) % 3, b = (k + 2) % 3;
-        out[1][k] = d[a] * out[0][b] - d[b] * out[0][a];
-    }
-}
-
 /* With several phases the liquid is what is denser than the mean of the lightest and the heaviest one present. */
 static double liquid_density(const mps__world *w)
 {
     const mps__particles *s = &w->particles;
     double low = INFINITY, high = 0;
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_FLUID) continue;
-        low = fmin(low, w->phase_density[s->phase[i]]);
-        high = fmax(high, w->phase_density[s->phase[i]]);
+    int32_t phases = 0;
+    bool present[MPS__PHASES] = {false};
+    for (int p = 0; p < MPS__PHASES; p++) phases += w->phase_defined[p];
+    if (phases < 2) return 0;
+    for (int64_t i = 0; i < s->n; i++)
+        if (s->kind[i] == MPS_FLUID) present[s->phase[i]] = true;
+    for (int p = 0; p < MPS__PHASES; p++) {
+        if (!present[p]) continue;
+        low = fmin(low, w->phase_density[p]);
+        high = fmax(high, w->phase_density[p]);
     }
     return high - low > 1e-6 * high ? 0.5 * (low + high) : 0;
 }
@@ -81,29 +72,32 @@ static void line_init(line *l, const mps__world *w, const mps_probe *c)
     l->width = fmax(c->diameter, 2 * w->dp) / 2;
     mps__motion_point(m, &m->now, c->at, l->foot, NULL, NULL);
     mps__motion_rotate(m, &m->now, c->direction, l->along);
-    across_vectors(w->dim, c->direction, l->tank_across);
+    mps__probe_across(w->dim, c->direction, l->tank_across);
     for (int32_t e = 0; e < l->sides; e++) mps__motion_rotate(m, &m->now, l->tank_across[e], l->across[e]);
 }
 
 /* True if particle i is close enough to be seen from any place of the line. */
 static bool line_coordinates(const line *l, const mps__particles *s, int64_t i, beside *b)
 {
-    double r[3] = {0, 0, 0};
-    for (int32_t d = 0; d < s->dim; d++) r[d] = s->x[i * s->dim + d] - l->foot[d];
-    b->s = mps__dot(r, l->along, s->dim);
-    if (b->s < -3 * l->dp || b->s > l->length + 3 * l->dp) return false;
+    const double *x = &s->x[i * s->dim];
+    const double r[3] = {x[0] - l->foot[0], x[1] - l->foot[1], s->dim == 3 ? x[2] - l->foot[2] : 0};
+    /* most particles are beside the line, few before or behind it */
     for (int32_t e = 0; e < l->sides; e++) {
         b->across[e] = mps__dot(r, l->across[e], s->dim);
-        if (fabs(b->across[e]) > 4 * l->width) return false;
+        if (fabs(b->across[e]) > 5 * l->width) return false;
     }
-    return true;
+    b->s = mps__dot(r, l->along, s->dim);
+    return b->s >= -3 * l->dp && b->s <= l->length + 3 * l->dp;
 }
 
-static void wall_facing(const line *l, const mps__particles *s, int64_t i, beside *b)
+static void wall_facing(line *l, const mps__particles *s, int64_t i, beside *b)
 {
     const double *area = &s->area[i * s->dim];
     double norm = sqrt(mps__dot(area, area, s->dim));
-    for (int32_t e = 0; e < l->sides; e++) b->facing[e] = norm > 0 ? mps__dot(area, l->tank_across[e], s->dim) / norm : 0;
+    for (int32_t e = 0; e < l->sides; e++) {
+        b->facing[e] = norm > 0 ? mps__dot(area, l->tank_across[e], s->dim) / norm : 0;
+        l->faces = l->faces || fabs(b->facing[e]) > 0.5;
+    }
 }
 
 static int compare_places(const void *a, const void *b)
@@ -120,10 +114,11 @@ static mps_status line_collect(line *l, mps__world *w)
     int64_t capacity = 0;
     for (int64_t i = 0; i < s->n; i++) {
         beside b = {0};
-        bool fluid = s->kind[i] == MPS_FLUID;
+        if (mps__is_shadow(s, i) || !line_coordinates(l, s, i, &b)) continue;
+        const bool fluid = s->kind[i] == MPS_FLUID;
         if (fluid && w->phase_density[s->phase[i]] < liquid) continue;
-        if (!line_coordinates(l, s, i, &b)) continue;
         b.solid = !fluid;
+        b.share = mps__plates_share(w, i);
         if (s->kind[i] == MPS_WALL) wall_facing(l, s, i, &b);
         MPS__TRY(mps__grow(w->context, (void **)&l->list, &capacity, l->count, l->count + 1, sizeof b));
         l->list[l->count++] = b;
@@ -158,7 +153,7 @@ static bool near_axis(const line *l, const beside *b)
 static void band_shift(const line *l, double s, double shift[2])
 {
     double low[2] = {-INFINITY, -INFINITY}, high[2] = {INFINITY, INFINITY}, reach = 4.0 / 3.0 * l->width;
-    for (int64_t k = first_from(l, s - 1.01 * l->dp); k < l->count && l->list[k].s <= s + 1.01 * l->dp; k++) {
+    for (int64_t k = first_from(l, s - 1.01 * l->dp); l->faces && k < l->count && l->list[k].s <= s + 1.01 * l->dp; k++) {
         const beside *b = &l->list[k];
         if (!b->solid || !near_axis(l, b)) continue;
         for (int32_t e = 0; e < l->sides; e++) {
@@ -182,18 +177,18 @@ static sample line_sample(const line *l, double s)
     band_shift(l, s, shift);
     for (int64_t k = first_from(l, s - 2 * l->dp); k < l->count && l->list[k].s < s + 2 * l->dp; k++) {
         const beside *b = &l->list[k];
-        double weight = spline((b->s - s) / l->dp);
-        for (int32_t e = 0; e < l->sides; e++) weight *= spline((b->across[e] - shift[e]) / l->width) * l->dp / l->width;
+        double weight = b->share * spline((b->s - s) / l->dp);
+        for (int32_t e = 0; e < l->sides; e++) weight *= spline((b->across[e] - shift[e] - l->extra[e]) / l->width) * l->dp / l->width;
         *(b->solid ? &out.solid : &out.fluid) += weight;
     }
     out.fill = out.fluid / fmax(1 - out.solid, 1 - solid_limit);
     return out;
 }
 
-/* Between low (more than half full) and high; under a ceiling the fluid alone counts. */
+/* Between low (more than half full) and high, to 1e-7 of them; under a ceiling the fluid alone counts. */
 static double crossing(const line *l, double low, double high, bool ceiling)
 {
-    for (int k = 0; k < 40; k++) {
+    for (int k = 0; k < 24; k++) {
         double middle = 0.5 * (low + high);
         sample here = line_sample(l, middle);
         if ((ceiling ? here.fluid : here.fill) >= 0.5)
@@ -212,8 +207,54 @@ static bool gap_closes(const line *l, double s, double step)
     return false;
 }
 
+/* How far the band could move on to the side `sign` of e before it comes as near to a solid as it is to the first. */
+static double room(const line *l, double s, const double shift[2], int32_t e, double sign)
+{
+    double least = INFINITY;
+    for (int64_t k = first_from(l, s - 1.01 * l->dp); k < l->count && l->list[k].s <= s + 1.01 * l->dp; k++) {
+        const beside *b = &l->list[k];
+        const double ahead = sign * (b->across[e] - shift[e]);
+        if (!b->solid || ahead <= 0) continue;
+        if (l->sides == 2 && fabs(b->across[1 - e] - shift[1 - e]) >= 4.0 / 3.0 * l->width) continue;
+        least = fmin(least, ahead - 4.0 / 3.0 * l->width);
+    }
+    return least;
+}
+
+/* Slope of the surface towards side e, from a second band `ahead` further on; none where it is steeper than the first
+ * band is wide: that is the end of a run-up. Between slopes of 1/2 and 1 the use of it fades. */
+static double slope_ahead(line *l, double surface, int32_t e, double ahead)
+{
+    const double low = surface - fabs(ahead), high = surface + fabs(ahead);
+    double slope = 0;
+    l->extra[e] = ahead;
+    if (line_sample(l, low).fill >= 0.5 && line_sample(l, high).fill < 0.5) slope = (crossing(l, low, high, false) - surface) / ahead;
+    l->extra[e] = 0;
+    return slope * fmin(fmax(2 - 2 * fabs(slope), 0), 1);
+}
+
+/* 1 where nothing is above the surface; a film on the wall lifts the first band only, and that is no slope. */
+static double clear_above(const line *l, double surface)
+{
+    return fmax(0, 1 - 10 * line_sample(l, surface + 3 * l->dp).fluid);
+}
+
+/* Where the band was moved off a wall it saw the surface there; from that to the line it goes on straight. */
+static double at_line(line *l, double surface)
+{
+    double shift[2], out = surface;
+    if (!l->faces) return surface;
+    const double trust = clear_above(l, surface);
+    band_shift(l, surface, shift);
+    for (int32_t e = 0; e < l->sides; e++) {
+        const double sign = shift[e] > 0 ? 1 : -1, ahead = fmin(l->width, room(l, surface, shift, e, sign));
+        if (shift[e] != 0 && ahead >= 0.5 * l->width) out -= trust * shift[e] * slope_ahead(l, surface, e, sign * ahead);
+    }
+    return out;
+}
+
 /* March from the foot to the place where the filling ends. */
-static double find_surface(const line *l)
+static double find_surface(line *l)
 {
     double step = 0.5 * l->dp, wet = -1; /* the last place seen full */
     bool solid = false;                  /* the last sample was */
@@ -229,7 +270,7 @@ static double find_surface(const line *l)
         } else if (solid && wet >= 0) {
             return crossing(l, fmax(wet - 2 * l->dp, 0), s, true) - 0.5 * l->dp;
         } else if (wet >= 0 && !gap_closes(l, s, step)) {
-            return crossing(l, wet, s, false) - 0.5 * l->dp;
+            return at_line(l, crossing(l, wet, s, false)) - 0.5 * l->dp;
         } else if (wet < 0) {
             if (!solid && s > 1.5 * l->dp) return 0; /* dry foot */
             solid = false;

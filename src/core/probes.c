@@ -1,9 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Probes: checks when one is added, pressure on walls and in the fluid, forces. The gauge has its own file. */
+/* Probes: checks when one is added, pressure in the fluid, forces. Wall sensors, gauges and series have files of their own. */
 #include "probes.h"
+#include "plates.h"
 #include "probe_gauge.h"
 #include <math.h>
 #include <string.h>
+
+/* Fastest sampling [Hz], so that samples can be counted. */
+static const double RATE_MAX = 1e9;
 
 static double distance2(const double *a, const double *b, int32_t dim)
 {
@@ -12,65 +16,22 @@ static double distance2(const double *a, const double *b, int32_t dim)
     return sum;
 }
 
-/* ---- pressure on a wall ---- */
-
-/* The wall particle nearest to a place of the tank's frame, -1 without walls. */
-static int64_t nearest_wall(const mps__world *w, const double *at, double *distance)
+void mps__probe_across(int32_t dim, const double d[3], double out[2][3])
 {
-    const mps__particles *s = &w->particles;
-    int64_t best = -1;
-    double least = INFINITY;
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_WALL) continue;
-        double d2 = distance2(&s->ref[i * w->dim], at, w->dim);
-        if (d2 < least) {
-            least = d2;
-            best = i;
-        }
+    if (dim == 2) {
+        out[0][0] = -d[1];
+        out[0][1] = d[0];
+        return;
     }
-    *distance = sqrt(least);
-    return best;
-}
-
-/* `at` moved onto the wall's face at particle a. */
-static void project_on_face(const mps__world *w, int64_t a, const double *at, double *out)
-{
-    const double *area = &w->particles.area[a * w->dim], *ref = &w->particles.ref[a * w->dim];
-    double norm2 = mps__dot(area, area, w->dim), off = 0;
-    for (int32_t d = 0; d < w->dim; d++) off += (at[d] - ref[d]) * area[d];
-    for (int32_t d = 0; d < w->dim; d++) out[d] = at[d] - (norm2 > 0 ? off / norm2 * area[d] : 0);
-}
-
-/* Linear (on a face in 3-D bilinear) between the wall particles around `at` of the nearest one's part. */
-static double wall_interpolate(const mps__world *w, int64_t nearest, const double *at)
-{
-    const mps__particles *s = &w->particles;
-    double on[3], sum = 0, weights = 0;
-    project_on_face(w, nearest, at, on);
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_WALL || s->part[i] != s->part[nearest]) continue;
-        double weight = 1;
-        for (int32_t d = 0; d < w->dim; d++) weight *= fmax(0, 1 - fabs(s->ref[i * w->dim + d] - on[d]) / w->dp);
-        sum += weight * s->p[i];
-        weights += weight;
+    int least = 0;
+    for (int k = 1; k < 3; k++)
+        if (fabs(d[k]) < fabs(d[least])) least = k;
+    double norm = sqrt(1 - d[least] * d[least]);
+    for (int k = 0; k < 3; k++) out[0][k] = ((k == least) - d[least] * d[k]) / norm;
+    for (int k = 0; k < 3; k++) {
+        int a = (k + 1) % 3, b = (k + 2) % 3;
+        out[1][k] = d[a] * out[0][b] - d[b] * out[0][a];
     }
-    return weights > 1e-12 ? sum / weights : s->p[nearest];
-}
-
-static mps_status measure_wall(const mps__world *w, const mps_probe *c, double *value)
-{
-    const mps__particles *s = &w->particles;
-    double radius2 = 0.25 * c->diameter * c->diameter * (1 + 1e-9), sum = 0, distance;
-    int64_t nearest = nearest_wall(w, c->at, &distance), count = 0;
-    if (nearest < 0) return mps__fail(w->context, MPS_E_STATE, "wall pressure: there is no wall particle any more");
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_WALL && distance2(&s->ref[i * w->dim], c->at, w->dim) <= radius2) {
-            sum += s->p[i];
-            count++;
-        }
-    /* one particle alone would make a probe that jumps along the wall */
-    *value = count > 1 ? sum / (double)count : wall_interpolate(w, nearest, c->at);
-    return MPS_OK;
 }
 
 /* ---- pressure in the fluid ---- */
@@ -135,7 +96,7 @@ static void measure_fluid(const mps__world *w, const mps_probe *c, double *value
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] == MPS_DUMMY || (s->kind[i] == MPS_WALL && s->p[i] == 0)) continue;
         double r[3] = {0, 0, 0}, d2 = distance2(&s->x[i * w->dim], at, w->dim);
-        if (d2 >= w->re_near * w->re_near) continue;
+        if (d2 >= w->re_near * w->re_near || mps__plates_hide(w, c->at, i)) continue;
         for (int32_t d = 0; d < w->dim; d++) r[d] = s->x[i * w->dim + d] - at[d];
         add_moment(&m, r, mps_kernel_value(&w->kernel, fmax(sqrt(d2), 1e-3 * w->dp), w->re_near), s->p[i]);
         m.nearest2 = fmin(m.nearest2, d2);
@@ -153,12 +114,15 @@ static bool part_matches(const char *wanted, const char *name)
 }
 
 /* Particles on an edge of a tank carry area of two or three faces but one part: the component of the area across axis d
- * belongs to the face it looks away from, "<name>.x0" if it points along +x. */
-static bool face_wanted(const mps__particles *s, const mps__probe *probe, int64_t i, int d)
+ * belongs to the face it looks away from, "<name>.x0" if it points along +x; at the foot of a thin plate to the plate. */
+static bool face_wanted(const mps__world *w, const mps__probe *probe, int64_t i, int d)
 {
+    const mps__particles *s = &w->particles;
     char name[MPS__PART_NAME];
     if (!probe->config.part) return true;
     if (s->part[i] < 0) return false;
+    const int32_t part = mps__plates_part(w, i, d);
+    if (part >= 0) return part_matches(probe->part_name, s->part_name[part]);
     memcpy(name, s->part_name[s->part[i]], sizeof name);
     const size_t n = strlen(name);
     const double across = s->area[i * s->dim + d];
@@ -180,7 +144,7 @@ static void measure_force(const mps__world *w, const mps__probe *probe, double *
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_WALL || s->p[i] == 0) continue;
         double f[3] = {0, 0, 0}, r[3] = {0, 0, 0}, area[3] = {0, 0, 0};
-        for (int32_t d = 0; d < w->dim; d++) area[d] = face_wanted(s, probe, i, d) ? s->area[i * w->dim + d] : 0;
+        for (int32_t d = 0; d < w->dim; d++) area[d] = face_wanted(w, probe, i, d) ? s->area[i * w->dim + d] : 0;
         mps__motion_rotate(&w->motion, &w->motion.now, area, f);
         for (int32_t d = 0; d < w->dim; d++) {
             f[d] *= -s->p[i];
@@ -229,9 +193,8 @@ static mps_status check_place(const mps__world *w, const mps_probe *c)
 
 static mps_status check_wall(const mps__world *w, const mps_probe *c)
 {
-    double distance;
-    int64_t nearest = nearest_wall(w, c->at, &distance);
-    MPS__CHECK(w->context, nearest >= 0, "wall pressure: there is no wall particle");
+    const double distance = mps__sensor_distance(w, c->at);
+    MPS__CHECK(w->context, isfinite(distance), "wall pressure: there is no wall particle");
     MPS__CHECK(w->context, distance <= 2 * w->dp, "wall pressure: the nearest wall particle is %g m away, at most 2 dp = %g m are allowed",
                distance, 2 * w->dp);
     return MPS_OK;
@@ -277,6 +240,8 @@ static mps_status check_numbers(const mps__world *w, const mps_probe *c)
     for (int32_t d = 0; d < w->dim; d++) MPS__CHECK(w->context, isfinite(c->at[d]), "probe.at[%d] is %g: must be finite", (int)d, c->at[d]);
     MPS__CHECK(w->context, isfinite(c->diameter) && c->diameter >= 0, "probe.diameter is %g m: must be finite and >= 0", c->diameter);
     MPS__CHECK(w->context, isfinite(c->length) && c->length >= 0, "probe.length is %g m: must be finite and >= 0", c->length);
+    MPS__CHECK(w->context, isfinite(c->average) && c->average >= 0, "probe.average is %g s: must be finite and >= 0", c->average);
+    MPS__CHECK(w->context, c->rate >= 0 && c->rate <= RATE_MAX, "probe.rate is %g Hz: 0..%g", c->rate, RATE_MAX);
     MPS__CHECK(w->context, c->count_drops == 0 || c->count_drops == 1, "probe.count_drops is %d: must be 0 or 1", (int)c->count_drops);
     return MPS_OK;
 }
@@ -292,23 +257,43 @@ static mps_status check_probe(mps__world *w, mps_probe *c)
     return c->type == MPS_PROBE_GAUGE ? check_gauge(w, c) : MPS_OK;
 }
 
+static void free_probe(mps__context *c, mps__probe *p)
+{
+    mps__sensor_free(c, &p->sensor);
+    mps__series_free(c, &p->series);
+}
+
 void mps__probes_free(mps__context *c, mps__probes *p)
 {
+    for (int64_t k = 0; k < p->count; k++) free_probe(c, &p->list[k]);
     mps__free(c, p->list);
     *p = (mps__probes){0};
+}
+
+/* What a checked definition needs besides; the caller frees it if it fails. */
+static mps_status complete(mps__world *w, mps__probe *p, const char *part)
+{
+    if (part) {
+        MPS__CHECK(w->context, mps__name_copy(p->part_name, sizeof p->part_name, part), "probe.part must have 1..%d characters",
+                   MPS__PART_NAME - 1);
+        p->config.part = ""; /* only says that there is one: part_name holds it and may move with the list */
+    }
+    p->series.step = -1;
+    p->series.size = mps__probe_values(w, p);
+    return p->config.type == MPS_PROBE_WALL_PRESSURE ? mps__sensor_build(w, &p->config, &p->sensor) : MPS_OK;
 }
 
 mps_status mps__probes_add(mps__world *w, mps__probes *p, const mps_probe *probe, int32_t *id)
 {
     mps__probe added = {.config = *probe};
     MPS__TRY(check_probe(w, &added.config));
-    if (probe->part) {
-        MPS__CHECK(w->context, mps__name_copy(added.part_name, sizeof added.part_name, probe->part),
-                   "probe.part must have 1..%d characters", MPS__PART_NAME - 1);
-        added.config.part = ""; /* only says that there is one: part_name holds it and may move with the list */
-    }
     MPS__CHECK(w->context, p->count < INT32_MAX, "too many probes");
-    MPS__TRY(mps__grow(w->context, (void **)&p->list, &p->capacity, p->count, p->count + 1, sizeof added));
+    mps_status status = complete(w, &added, probe->part);
+    if (status == MPS_OK) status = mps__grow(w->context, (void **)&p->list, &p->capacity, p->count, p->count + 1, sizeof added);
+    if (status < 0) {
+        free_probe(w->context, &added);
+        return status;
+    }
     p->list[p->count] = added;
     *id = (int32_t)p->count++;
     return MPS_OK;
@@ -320,11 +305,13 @@ int32_t mps__probe_values(const mps__world *w, const mps__probe *p)
     return w->dim == 2 ? 3 : 6;
 }
 
-mps_status mps__probe_measure(mps__world *w, const mps__probe *p, double *values)
+/* ---- reading ---- */
+
+mps_status mps__probe_measure(mps__world *w, mps__probe *p, double *values)
 {
     switch (p->config.type) {
     case MPS_PROBE_WALL_PRESSURE:
-        return measure_wall(w, &p->config, values);
+        return mps__sensor_read(w, &p->config, &p->sensor, values);
     case MPS_PROBE_GAUGE:
         return mps__gauge_measure(w, &p->config, values);
     case MPS_PROBE_FLUID_PRESSURE:
@@ -334,4 +321,36 @@ mps_status mps__probe_measure(mps__world *w, const mps__probe *p, double *values
         measure_force(w, p, values);
         return MPS_OK;
     }
+}
+
+mps_status mps__probe_take(mps__world *w, mps__probe *p)
+{
+    double values[MPS__PROBE_VALUES];
+    if ((p->config.average == 0 && p->config.rate == 0) || p->series.step == w->info.step) return MPS_OK;
+    if (w->info.step == 0 && p->config.type != MPS_PROBE_GAUGE) {
+        /* there is no pressure before the first step: what it brings holds from the beginning */
+        p->series.waits = true;
+        p->series.start = w->info.t;
+        return MPS_OK;
+    }
+    MPS__TRY(mps__probe_measure(w, p, values));
+    return mps__series_take(w->context, &p->series, &p->config, &w->info, values);
+}
+
+mps_status mps__probes_take(mps__world *w, mps__probes *p)
+{
+    for (int64_t k = 0; k < p->count; k++) {
+        const mps_status status = mps__probe_take(w, &p->list[k]);
+        if (status < 0) return mps__fail(w->context, status, "no step was done, probe %d: %.400s", (int)k, w->context->error);
+    }
+    return MPS_OK;
+}
+
+mps_status mps__probe_read(mps__world *w, mps__probe *p, double *values)
+{
+    if (p->config.average == 0) return mps__probe_measure(w, p, values);
+    MPS__TRY(mps__probe_take(w, p));
+    if (p->series.rows == 0) return mps__probe_measure(w, p, values);
+    mps__series_mean(&p->series, w->info.t - p->config.average, w->info.t, values);
+    return MPS_OK;
 }

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Layer 7: wall pressure over the area of a sensor. */
+#ifndef MPS_CORE_PROBE_SENSOR_H
+#define MPS_CORE_PROBE_SENSOR_H
+
+#include "world.h"
+#include <mps/probe.h>
+
+/* A wall particle under the sensor and its share of the area. */
+typedef struct mps__sensor_weight {
+    int64_t id;
+    int64_t place; /* where it was last seen: sorting moves it */
+    double weight;
+} mps__sensor_weight;
+
+typedef struct mps__sensor {
+    int64_t count, capacity;
+    mps__sensor_weight *list;   /* by ascending id; the weights' sum is 1 */
+    int64_t generation, linked; /* of the particles it was made for */
+} mps__sensor;
+
+void mps__sensor_free(mps__context *c, mps__sensor *sensor);
+/* Distance from a place of the tank's frame to the nearest wall particle; infinite without walls. */
+double mps__sensor_distance(const mps__world *w, const double *at);
+/* Find the particles under the sensor and their weights; on failure the old ones stay. There must be a wall. */
+mps_status mps__sensor_build(mps__world *w, const mps_probe *config, mps__sensor *sensor);
+/* Mean pressure now; anew only if particles came or went. */
+mps_status mps__sensor_read(mps__world *w, const mps_probe *config, mps__sensor *sensor, double *value);
+
+#endif
