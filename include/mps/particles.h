@@ -70,6 +70,11 @@ MPS_API mps_status mps_lease_end(mps_sim *sim, mps_lease *lease);
 MPS_API mps_status mps_particles_tags(const mps_sim *sim, const int64_t **ids, const int32_t **kinds, const int32_t **phases,
                                       const int32_t **parts);
 
+/** Thin plates: view [mps_particles_count(sim, -1)] of the number, from 1, of the plate a particle belongs to, else 0: its walls, walls it
+ *  stands on, and dummies. These dummies stand behind one side of the plate, that is in the liquid of the other, where nobody sees them:
+ *  leave them out of pictures. Valid as those of mps_particles_tags(). */
+MPS_API mps_status mps_particles_plates(const mps_sim *sim, const int32_t **plates);
+
 /** Number of a named part, as in the `parts` array, or -1. */
 MPS_API int32_t mps_part_find(const mps_sim *sim, const char *name);
 

@@ -63,7 +63,7 @@ static mps_status check_overlap(mps_sim *sim, const mps_particle_block *b)
         for (int64_t k = list->candidate_row[i]; k < list->candidate_row[i + 1] && status == MPS_OK; k++) {
             const int64_t j = list->candidate[k];
             const int32_t other = j < s->n ? s->kind[j] : b->kind;
-            if (b->kind != MPS_FLUID && other != MPS_FLUID) continue;
+            if ((b->kind != MPS_FLUID && other != MPS_FLUID) || (j < s->n && mps__is_shadow(s, j))) continue;
             status = mps__fail(&sim->context, MPS_E_ARG,
                                "particle %lld of the block lies within %g dp of %s %lld at (%g, %g): at least %g dp apart",
                                (long long)(i - s->n), overlap, j < s->n ? "particle" : "its particle",
@@ -242,6 +242,14 @@ mps_status mps_particles_tags(const mps_sim *sim, const int64_t **ids, const int
     if (kinds) *kinds = sim->world.particles.kind;
     if (phases) *phases = sim->world.particles.phase;
     if (parts) *parts = sim->world.particles.part;
+    return MPS_OK;
+}
+
+mps_status mps_particles_plates(const mps_sim *sim, const int32_t **plates)
+{
+    if (!sim) return MPS_E_ARG;
+    MPS__CHECK(mps__sim_context(sim), plates, "plates is NULL");
+    *plates = sim->world.particles.plate;
     return MPS_OK;
 }
 

@@ -91,7 +91,7 @@ static const char *byte_order(void)
 
 static bool selected(const frame *f, int64_t i)
 {
-    return (f->series->kinds >> f->s->kind[i] & 1) != 0;
+    return (f->series->kinds >> f->s->kind[i] & 1) != 0 && !mps__is_shadow(f->s, i);
 }
 
 /* ---- columns ---- */

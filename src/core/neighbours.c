@@ -366,6 +366,29 @@ MPS__DIM_INLINE void exact_row(mps_neighbours *l, const double *x, int64_t i, co
     l->end[i] = front + (to - back);
 }
 
+/* Pairs from..to-1 that see each other, moved to `out`; they stay in order. Returns the end. */
+static int64_t keep_visible(mps_neighbours *l, const mps__seer *a, int64_t from, int64_t to, int64_t out)
+{
+    const mps__screens *s = l->screens;
+    for (int64_t k = from; k < to; k++) {
+        const int32_t j = l->col[k], slot = s->slot[j];
+        if (slot < 0 || !mps__screens_hidden(s, a, &s->seer[slot])) l->col[out++] = j;
+    }
+    return out;
+}
+
+/* Take away what screens hide. */
+static void screen_rows(mps_neighbours *l)
+{
+#pragma omp parallel for num_threads(l->threads) schedule(static)
+    for (int64_t k = 0; k < l->screens->seers; k++) {
+        const mps__seer *a = &l->screens->seer[k];
+        const int64_t i = a->particle, middle = l->middle[i], end = l->end[i];
+        l->middle[i] = keep_visible(l, a, l->begin[i], middle, l->begin[i]);
+        l->end[i] = keep_visible(l, a, middle, end, l->middle[i]);
+    }
+}
+
 mps_status mps__neighbours_rows(mps_neighbours *l, const double *x)
 {
     l->x = x;
@@ -376,6 +399,7 @@ mps_status mps__neighbours_rows(mps_neighbours *l, const double *x)
         else
             exact_row(l, x, i, 3);
     }
+    if (l->screens && l->screens->count > 0) screen_rows(l);
     return MPS_OK;
 }
 

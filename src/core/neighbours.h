@@ -4,6 +4,7 @@
 #define MPS_CORE_NEIGHBOURS_H
 
 #include "base.h"
+#include "screens.h"
 #include <mps/operators.h>
 
 /* Rows: near pairs in begin[i]..middle[i], the others up to end[i]; ascending columns in each part, so that sums
@@ -20,10 +21,11 @@ struct mps_neighbours {
     double *w_r2;                  /* NULL, or room for a weight beside each entry of col */
     int64_t *candidate_row;        /* [n+1] pairs within re_far + skin at the last search */
     int32_t *candidate;
-    double *searched; /* [n*dim] positions at the last search */
-    uint64_t *key;    /* [2 n] cell keys and scratch of the sort */
-    int32_t *order;   /* [2 n] */
-    bool valid;       /* candidates belong to the present order */
+    double *searched;            /* [n*dim] positions at the last search */
+    uint64_t *key;               /* [2 n] cell keys and scratch of the sort */
+    int32_t *order;              /* [2 n] */
+    bool valid;                  /* candidates belong to the present order */
+    const mps__screens *screens; /* NULL, or what hides particles from each other; its seers are up to date */
 };
 
 mps_status mps__neighbours_init(mps_neighbours *l, mps__context *context, int32_t dim, double dp);

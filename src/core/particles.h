@@ -31,6 +31,7 @@ typedef struct mps__particles {
     int32_t *kind, *phase, *part;
     int32_t *region;  /* [n] MPS_REGION_... of the last step */
     int32_t *wall_of; /* [n] place of a dummy's wall particle, -1: none; follows when particles move */
+    int32_t *plate;   /* [n] number of the screen + 1 of walls of thin plates, of walls they stand on, and of dummies: their shadows */
     int32_t fields;
     mps__field field[MPS__FIELDS_MAX];
     int32_t parts;
@@ -53,5 +54,11 @@ mps_status mps__particles_field_add(mps__particles *s, const char *name, int32_t
 int32_t mps__part_number(mps__particles *s, const char *name, bool add);
 /* Open leases of all fields. */
 int32_t mps__particles_leases(const mps__particles *s);
+
+/* A dummy behind one side of a thin plate, which stands in the liquid of the other side. */
+static inline bool mps__is_shadow(const mps__particles *s, int64_t i)
+{
+    return s->plate[i] != 0 && s->kind[i] == MPS_DUMMY;
+}
 
 #endif

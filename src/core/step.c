@@ -2,7 +2,7 @@
 /* One time step, W22 section 2.5 and Fig. 2: predict, pressure equation, correct. The one file that knows the order. */
 #include "budget.h"
 #include "operators.h"
-#include "world.h"
+#include "plates.h"
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -315,6 +315,7 @@ static mps_status correct(step_state *q)
         else
             mps__motion_point(&w->motion, &q->pose, w->particles.ref + i * s->dim, x, NULL, NULL);
     }
+    mps__plates_stop(w, &q->pose);
     return MPS_OK;
 }
 

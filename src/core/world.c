@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What a step stands on: domain, lost particles, sorted particles, neighbour lists, dummies and their walls. */
-#include "world.h"
+#include "plates.h"
 #include <string.h>
 
 mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, double dp)
@@ -11,6 +11,8 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
     w->threads = 1;
     w->linked = -1;
     mps__neighbours_init(&w->neighbours, context, dim, dp);
+    mps__screens_init(&w->screens, context, dim);
+    w->neighbours.screens = &w->screens;
     mps__ppe_init(&w->ppe, context);
     mps__motion_init(&w->motion, context, dim);
     MPS__TRY(mps__particles_init(&w->particles, context, dim));
@@ -22,6 +24,7 @@ void mps__world_free(mps__world *w)
 {
     mps__particles_free(&w->particles);
     mps__neighbours_free(&w->neighbours);
+    mps__screens_free(&w->screens);
     mps__models_free(&w->models);
     mps__solvers_free(&w->solvers);
     mps__ppe_free(&w->ppe);
@@ -116,6 +119,16 @@ static mps_status handle_lost(mps__world *w)
     return status;
 }
 
+/* The shadows of a plate belong to the face before them. */
+static bool may_belong(const mps__world *w, int64_t dummy, int64_t wall)
+{
+    const mps__particles *s = &w->particles;
+    if (!mps__is_shadow(s, dummy)) return true;
+    const mps__screen *screen = &w->screens.list[s->plate[dummy] - 1];
+    return s->plate[wall] == s->plate[dummy] &&
+           mps__dot(s->area + wall * s->dim, screen->normal, s->dim) * mps__screen_height(screen, s->ref + dummy * s->dim) < 0;
+}
+
 /* Each dummy belongs to its nearest wall particle (of two as near: the older). Beyond the far radius no fluid sees it either. */
 static void link_dummies(mps__world *w)
 {
@@ -127,7 +140,7 @@ static void link_dummies(mps__world *w)
         s->wall_of[i] = -1;
         for (int64_t k = l->candidate_row[i]; k < l->candidate_row[i + 1]; k++) {
             const int32_t j = l->candidate[k];
-            if (s->kind[j] != MPS_WALL) continue;
+            if (s->kind[j] != MPS_WALL || !may_belong(w, i, j)) continue;
             double r2 = 0;
             for (int d = 0; d < w->dim; d++) r2 += pow(s->ref[(int64_t)j * w->dim + d] - s->ref[i * w->dim + d], 2);
             const double margin = 1e-9 * w->dp * w->dp;
@@ -204,7 +217,9 @@ static mps_status search(mps__world *w)
         estimate_areas(w);
         w->linked = s->generation;
     }
-    return MPS_OK;
+    const mps_status status = mps__plates_find(w);
+    if (status < 0) w->neighbours.valid = false;
+    return status;
 }
 
 mps_status mps__world_neighbours(mps__world *w)
@@ -215,7 +230,13 @@ mps_status mps__world_neighbours(mps__world *w)
     MPS__TRY(reserve_work(w));
     w->neighbours.threads = w->threads;
     if (w->linked != s->generation || !mps__neighbours_fresh(&w->neighbours, s->n, s->x, w->re_far)) MPS__TRY(search(w));
-    return mps__neighbours_rows(&w->neighbours, s->x);
+    return mps__world_rows(w);
+}
+
+mps_status mps__world_rows(mps__world *w)
+{
+    mps__plates_look(w);
+    return mps__neighbours_rows(&w->neighbours, w->particles.x);
 }
 
 mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *stencil)

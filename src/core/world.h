@@ -45,6 +45,7 @@ typedef struct mps__world {
     double phase_density[MPS__PHASES], phase_viscosity[MPS__PHASES];
     mps__particles particles;
     mps_neighbours neighbours;
+    mps__screens screens; /* thin plates, in the tank's frame */
     mps__models models;
     mps__solvers solvers;
     mps__ppe ppe;
@@ -63,6 +64,8 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
 void mps__world_free(mps__world *w);
 /* Lists at the present positions: search and sort if needed, then exact rows. Lost particles are handled here. */
 mps_status mps__world_neighbours(mps__world *w);
+/* Exact rows at the present positions from lists that are fresh. */
+mps_status mps__world_rows(mps__world *w);
 /* The stencil of one radius from those lists. */
 mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *stencil);
 /* Largest speed of all particles [m/s]. */

@@ -29,6 +29,7 @@ MPS__ROW void fluid_pairs(const int dim, const double *k, const mps_stage *s, in
 MPS__ROW void wall_face(const int dim, const double *k, const mps_stage *s, int64_t i, double du[3])
 {
     const mps_stencil *t = s->near;
+    const double least = 1e-4 * (dim == 2 ? s->dp : s->dp * s->dp); /* the edge of a plate has a direction, but no face */
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         const int64_t j = t->col[p];
         if (s->kind[j] != MPS_WALL) continue;
@@ -37,7 +38,7 @@ MPS__ROW void wall_face(const int dim, const double *k, const mps_stage *s, int6
         double size = 0, height = 0, un = 0;
         for (int d = 0; d < dim; d++) size += area[d] * area[d];
         size = sqrt(size);
-        if (size == 0) continue;
+        if (size < least) continue;
         for (int d = 0; d < dim; d++) {
             height -= q.d[d] * area[d] / size;
             un += (s->u[i * dim + d] + du[d] - s->u[j * dim + d]) * area[d] / size;

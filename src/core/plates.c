@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Who stands near a thin plate, where it sees from, and that nobody passes. */
+#include "plates.h"
+#include <string.h>
+
+/* Walls see from this far [dp] above their face, and fluid is never nearer to the plane of a plate than this. */
+static const double above_face = 1e-5, off_plane = 1e-2;
+
+static void wall_sight(const mps__world *w, int64_t i, double at[3])
+{
+    const double *area = w->particles.area + i * w->dim, size = sqrt(mps__dot(area, area, w->dim));
+    for (int d = 0; d < w->dim; d++) at[d] = w->particles.ref[i * w->dim + d] + (size > 0 ? above_face * w->dp * area[d] / size : 0);
+}
+
+/* Fluid in the very plane of a plate, beyond its edge, would see both of its faces: it is put on one side. */
+static void fluid_sight(const mps__world *w, const double *x, double at[3])
+{
+    mps__motion_to_tank(&w->motion, &w->motion.now, x, at);
+    for (int32_t k = 0; k < w->screens.count; k++) {
+        const mps__screen *s = &w->screens.list[k];
+        const double height = mps__screen_height(s, at), least = height < 0 ? -off_plane * w->dp : off_plane * w->dp;
+        if (fabs(height) >= fabs(least)) continue;
+        for (int d = 0; d < w->dim; d++) at[d] += (least - height) * s->normal[d];
+    }
+}
+
+static void sight(const mps__world *w, int64_t i, double at[3])
+{
+    const mps__particles *s = &w->particles;
+    at[2] = 0;
+    if (s->kind[i] == MPS_FLUID)
+        fluid_sight(w, s->x + i * w->dim, at);
+    else if (s->kind[i] == MPS_WALL)
+        wall_sight(w, i, at);
+    else
+        memcpy(at, s->ref + i * w->dim, (size_t)w->dim * sizeof *at);
+}
+
+/* Near enough to be, until the next search, the partner of a particle or of a shadow beyond some screen. */
+static bool near_screen(const mps__world *w, const double *X)
+{
+    const double depth = fmax(3 * w->dp, w->re_far), reach = w->re_far + depth + w->neighbours.skin;
+    for (int32_t k = 0; k < w->screens.count; k++)
+        if (mps__screen_distance(&w->screens.list[k], X) < reach) return true;
+    return false;
+}
+
+/* A plate whose walls are gone hides nothing. */
+static void set_active(mps__world *w)
+{
+    const mps__particles *s = &w->particles;
+    mps__screens *p = &w->screens;
+    for (int32_t k = 0; k < p->count; k++) p->list[k].active = false;
+    for (int64_t i = 0; i < s->n; i++)
+        if (s->plate[i] > 0 && s->kind[i] == MPS_WALL && s->part[i] == p->list[s->plate[i] - 1].part)
+            p->list[s->plate[i] - 1].active = true;
+}
+
+mps_status mps__plates_find(mps__world *w)
+{
+    const mps__particles *s = &w->particles;
+    mps__screens *p = &w->screens;
+    if (p->count == 0) return MPS_OK;
+    set_active(w);
+    MPS__TRY(mps__grow(w->context, (void **)&p->slot, &p->slot_capacity, 0, s->n, sizeof *p->slot));
+    p->seers = 0;
+    for (int64_t i = 0; i < s->n; i++) {
+        mps__seer seer = {.particle = (int32_t)i, .shadow = mps__is_shadow(s, i) ? s->plate[i] : 0};
+        sight(w, i, seer.at);
+        mps__screens_sides(p, &seer);
+        p->slot[i] = -1;
+        if (!near_screen(w, seer.at)) continue;
+        MPS__TRY(mps__grow(w->context, (void **)&p->seer, &p->seer_capacity, p->seers, p->seers + 1, sizeof seer));
+        p->slot[i] = (int32_t)p->seers;
+        p->seer[p->seers++] = seer;
+    }
+    return MPS_OK;
+}
+
+void mps__plates_look(mps__world *w)
+{
+    mps__screens *p = &w->screens;
+#pragma omp parallel for num_threads(w->threads) schedule(static)
+    for (int64_t k = 0; k < p->seers; k++) {
+        mps__seer *seer = &p->seer[k];
+        if (w->particles.kind[seer->particle] != MPS_FLUID) continue;
+        sight(w, seer->particle, seer->at);
+        mps__screens_sides(p, seer);
+    }
+}
+
+/* Back to the height it had, with the velocity along the plate. */
+static void stop(mps__world *w, const mps__pose *end, int64_t i, const mps__screen *s, double height, double X[3])
+{
+    double *x = w->particles.x + i * w->dim, *u = w->particles.u + i * w->dim, n[3], v[3], approach = 0;
+    const double back = height - mps__screen_height(s, X);
+    for (int d = 0; d < w->dim; d++) X[d] += back * s->normal[d];
+    mps__motion_point(&w->motion, end, X, x, v, NULL);
+    mps__motion_rotate(&w->motion, end, s->normal, n);
+    for (int d = 0; d < w->dim; d++) approach += (u[d] - v[d]) * n[d];
+    for (int d = 0; d < w->dim; d++) u[d] -= approach * height < 0 ? approach * n[d] : 0;
+}
+
+void mps__plates_stop(mps__world *w, const mps__pose *end)
+{
+    const mps__screens *p = &w->screens;
+    if (p->count == 0) return;
+    for (int64_t k = 0; k < p->seers; k++) {
+        const mps__seer *seer = &p->seer[k];
+        const int64_t i = seer->particle;
+        double X[3] = {0};
+        if (w->particles.kind[i] != MPS_FLUID) continue;
+        mps__motion_to_tank(&w->motion, end, w->particles.x + i * w->dim, X);
+        for (int32_t m = 0; m < p->count; m++)
+            if (p->list[m].active && mps__screen_crossed(&p->list[m], seer->at, X))
+                stop(w, end, i, &p->list[m], mps__screen_height(&p->list[m], seer->at), X);
+    }
+}
+
+bool mps__plates_hide(const mps__world *w, const double *X, int64_t i)
+{
+    if (w->screens.count == 0) return false;
+    mps__seer from = {0}, to = {0};
+    if (mps__is_shadow(&w->particles, i)) return true;
+    memcpy(from.at, X, (size_t)w->dim * sizeof *X);
+    sight(w, i, to.at);
+    mps__screens_sides(&w->screens, &from);
+    mps__screens_sides(&w->screens, &to);
+    return mps__screens_hidden(&w->screens, &from, &to);
+}
+
+int32_t mps__plates_part(const mps__world *w, int64_t i, int d)
+{
+    const int32_t plate = w->particles.plate[i];
+    if (plate == 0 || w->screens.list[plate - 1].axis != d || w->particles.area[i * w->dim + d] == 0) return -1;
+    return w->screens.list[plate - 1].part;
+}
+
+double mps__plates_share(const mps__world *w, int64_t i)
+{
+    const mps__particles *s = &w->particles;
+    if (s->plate[i] == 0 || s->kind[i] != MPS_WALL || w->screens.list[s->plate[i] - 1].columns > 1) return 1;
+    return mps__dot(s->area + i * w->dim, w->screens.list[s->plate[i] - 1].normal, w->dim) != 0 ? 0.5 : 1;
+}

@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Who is hidden from whom. */
+#include "screens.h"
+#include <math.h>
+
+/* Screens whose sides a particle remembers. */
+enum { MPS__SCREEN_BITS = 64 };
+
+void mps__screens_init(mps__screens *s, mps__context *context, int32_t dim)
+{
+    *s = (mps__screens){.context = context, .dim = dim};
+}
+
+void mps__screens_free(mps__screens *s)
+{
+    mps__free(s->context, s->list);
+    mps__free(s->context, s->seer);
+    mps__free(s->context, s->slot);
+    mps__screens_init(s, s->context, s->dim);
+}
+
+mps_status mps__screens_reserve(mps__screens *s)
+{
+    return mps__grow(s->context, (void **)&s->list, &s->capacity, s->count, s->count + 1, sizeof *s->list);
+}
+
+void mps__screens_add(mps__screens *s, const mps__screen *screen)
+{
+    s->list[s->count++] = *screen;
+}
+
+/* Component along v of X seen from the corner; vectors of 2-D have a zero third component. */
+static double component(const mps__screen *s, const double *v, const double *X)
+{
+    double sum = 0;
+    for (int d = 0; d < 3; d++) sum += v[d] == 0 ? 0 : v[d] * (X[d] - s->corner[d]);
+    return sum;
+}
+
+double mps__screen_height(const mps__screen *s, const double *X)
+{
+    return component(s, s->normal, X);
+}
+
+double mps__screen_distance(const mps__screen *s, const double *X)
+{
+    double square = pow(mps__screen_height(s, X), 2);
+    for (int e = 0; e < 2; e++) {
+        const double at = component(s, s->along[e], X), off = at < 0 ? at : fmax(0, at - s->length[e]);
+        square += off * off;
+    }
+    return sqrt(square);
+}
+
+bool mps__screen_crossed(const mps__screen *s, const double *a, const double *b)
+{
+    const double ha = mps__screen_height(s, a), hb = mps__screen_height(s, b);
+    if (!(ha * hb < 0)) return false;
+    const double share = ha / (ha - hb);
+    for (int e = 0; e < 2; e++) {
+        const double from = component(s, s->along[e], a), at = from + share * (component(s, s->along[e], b) - from);
+        if (at < s->from[e] || at > s->to[e]) return false;
+    }
+    return true;
+}
+
+void mps__screens_sides(const mps__screens *s, mps__seer *a)
+{
+    a->above = 0;
+    for (int32_t k = 0; k < s->count && k < MPS__SCREEN_BITS; k++) a->above |= (uint64_t)(mps__screen_height(&s->list[k], a->at) > 0) << k;
+}
+
+/* Where plates meet, a line may cross several screens: what is seen there is the shadow of the first of them. Most pairs stand on the same
+ * side of all of them. */
+bool mps__screens_hidden(const mps__screens *s, const mps__seer *a, const mps__seer *b)
+{
+    const int32_t shadow = a->shadow ? a->shadow : b->shadow;
+    const uint64_t apart = a->above ^ b->above;
+    if (a->shadow && b->shadow) return true;
+    if (!apart && s->count <= MPS__SCREEN_BITS) return shadow != 0;
+    for (int32_t k = 0; k < s->count; k++) {
+        if (k < MPS__SCREEN_BITS && !(apart >> k & 1)) continue;
+        if (s->list[k].active && mps__screen_crossed(&s->list[k], a->at, b->at)) return shadow != k + 1;
+    }
+    return shadow != 0;
+}

@@ -1,0 +1,496 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Thin plates: what is built, and that each particle sees the liquid of its own side, all of it, and once. */
+#include "sim.h"
+#include "tank_fixture.h"
+
+static const double dp = 0.05;
+
+/* A plate of `columns` across x from x = 0.5 on, from the floor up to `top`, right across the tank. */
+static void add_plate(mps_sim *sim, int columns, double bottom, double top)
+{
+    const double lo[3] = {0.5, bottom, 0}, hi[3] = {0.5 + (columns - 1) * dp, top, 0.3};
+    ASSERT_OK(sim, mps_geometry_baffle(sim, "plate", lo, hi));
+}
+
+/* Tank 0.5 m long a side of the plate, 0.6 high, water up to 0.4. */
+static mps_sim *divided(int dim, int columns)
+{
+    mps_sim *sim = new_sim(dim, dp);
+    const double length = columns ? 1 + (columns - 1) * dp : 0.5;
+    add_tank(sim, length, 0.6, 0.3);
+    if (columns) add_plate(sim, columns, 0, 0.6);
+    fill_depth(sim, length, 0.4, 0.3);
+    return sim;
+}
+
+/* Kernel sums of row i over fluid, walls and dummies. */
+static void row_sums(const mps_stencil *t, const int32_t *kind, int64_t i, double sum[3])
+{
+    sum[0] = sum[1] = sum[2] = 0;
+    for (int64_t k = t->begin[i]; k < t->end[i]; k++) {
+        const mps_pair q = mps_stencil_pair(t, i, k);
+        sum[kind[q.j]] += q.w;
+    }
+}
+
+/* The particle of b at the place of particle i of a, moved by `offset` along x, of the same kind, and on the same side. */
+static int64_t same_place(const mps__particles *a, int64_t i, const mps__particles *b, double offset, double side)
+{
+    for (int64_t j = 0; j < b->n; j++) {
+        double r2 = 0;
+        for (int d = 0; d < a->dim; d++) r2 += pow(a->ref[i * a->dim + d] + (d == 0 ? offset : 0) - b->ref[j * a->dim + d], 2);
+        if (r2 < 1e-6 * dp * dp && b->kind[j] == a->kind[i] && !mps__is_shadow(b, j) &&
+            (b->plate[j] == 0 || b->area[j * a->dim] * side > 0))
+            return j;
+    }
+    return -1;
+}
+
+static void keep_places(mps_sim *sim)
+{
+    mps__particles *s = &sim->world.particles;
+    for (int64_t i = 0; i < s->n * s->dim; i++)
+        if (s->kind[i / s->dim] == MPS_FLUID) s->ref[i] = s->x[i];
+}
+
+/* Rows and areas of a divided tank are those of two tanks. */
+static void compare_with_tank(int dim, int columns, int right)
+{
+    mps_sim *one = divided(dim, 0), *two = divided(dim, columns);
+    const double offset = right ? 0.5 + (columns - 1) * dp : 0;
+    mps_stencil a[2], b[2];
+    for (int which = MPS_NEAR; which <= MPS_FAR; which++) {
+        ASSERT_OK(one, mps_sim_stencil(one, which, &a[which]));
+        ASSERT_OK(two, mps_sim_stencil(two, which, &b[which]));
+    }
+    const mps__particles *s = &one->world.particles, *t = &two->world.particles;
+    keep_places(one);
+    keep_places(two);
+    for (int64_t i = 0; i < s->n; i++) {
+        if (s->kind[i] == MPS_DUMMY) continue;
+        const int64_t j = same_place(s, i, t, offset, right ? 1 : -1);
+        assert_true(j >= 0);
+        for (int d = 0; d < dim; d++) ASSERT_NEAR(s->area[i * dim + d], t->area[j * dim + d], 1e-14);
+        for (int which = MPS_NEAR; which <= MPS_FAR; which++) {
+            double wanted[3], got[3];
+            row_sums(&a[which], s->kind, i, wanted);
+            row_sums(&b[which], t->kind, j, got);
+            for (int kind = 0; kind < (s->kind[i] == MPS_FLUID ? 3 : 2); kind++) ASSERT_NEAR(got[kind], wanted[kind], 1e-9);
+        }
+    }
+    mps_sim_destroy(one);
+    mps_sim_destroy(two);
+}
+
+static void divided_tank_is_two_tanks(void **state)
+{
+    (void)state;
+    for (int columns = 1; columns <= 3; columns++)
+        for (int right = 0; right < 2; right++) {
+            compare_with_tank(2, columns, right);
+            compare_with_tank(3, columns, right);
+        }
+}
+
+/* Inside the liquid a plate without thickness takes no place: around its edges every lattice point is seen once. */
+static void edges_are_seen_once(void **state)
+{
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++) {
+        mps_sim *sim = new_sim(dim, dp);
+        const double lo[3] = {0.5, 0.3, 0.4}, hi[3] = {0.5, 0.6, 0.6};
+        add_tank(sim, 1, 1, 1);
+        ASSERT_OK(sim, mps_geometry_baffle(sim, "plate", lo, hi));
+        fill_depth(sim, 1, 1, 1);
+        for (int which = MPS_NEAR; which <= MPS_FAR; which++) {
+            mps_stencil t;
+            int64_t checked = 0;
+            ASSERT_OK(sim, mps_sim_stencil(sim, which, &t));
+            const mps__particles *s = &sim->world.particles;
+            for (int64_t i = 0; i < s->n; i++) {
+                double sum[3];
+                if (s->kind[i] != MPS_FLUID || fabs(s->x[i * dim] - 0.5) > 0.3) continue;
+                row_sums(&t, s->kind, i, sum);
+                ASSERT_NEAR(sum[0] + sum[1] + sum[2], t.n0, 1e-9);
+                checked++;
+            }
+            assert_true(checked > 100);
+        }
+        mps_sim_destroy(sim);
+    }
+}
+
+/* The same off the lattice: the sum does not jump by a particle's weight when one passes over the edge. */
+static void passing_the_edge(void **state)
+{
+    (void)state;
+    mps_sim *sim = new_sim(2, dp);
+    mps_stencil t;
+    add_tank(sim, 1, 1, 0);
+    add_plate(sim, 1, 0, 0.5);
+    fill_depth(sim, 1, 0.9, 0);
+    double least = INFINITY, most = 0;
+    for (int k = -20; k <= 20; k++) {
+        mps__particles *s = &sim->world.particles;
+        int64_t moved = -1;
+        double sum[3];
+        for (int64_t i = 0; i < s->n; i++)
+            if (s->kind[i] == MPS_FLUID && hypot(s->x[2 * i] - 0.5, s->x[2 * i + 1] - 0.55) < 0.4 * dp) moved = i;
+        assert_true(moved >= 0);
+        s->x[2 * moved] = 0.5 + 0.01 * k * dp;
+        sim->world.neighbours.valid = false;
+        const int64_t id = s->id[moved];
+        ASSERT_OK(sim, mps_sim_stencil(sim, MPS_FAR, &t));
+        const int64_t i = mps_particle_index(sim, id);
+        row_sums(&t, s->kind, i, sum);
+        least = fmin(least, sum[0] + sum[1] + sum[2]);
+        most = fmax(most, sum[0] + sum[1] + sum[2]);
+    }
+    assert_true(most - least < 0.02 * t.n0);
+    mps_sim_destroy(sim);
+}
+
+static void areas(void **state)
+{
+    (void)state;
+    for (int columns = 1; columns <= 3; columns++) {
+        mps_sim *sim = new_sim(2, dp);
+        double side[2] = {0, 0}, up = 0, floor = 0;
+        int64_t walls = 0;
+        add_tank(sim, 1, 0.6, 0);
+        add_plate(sim, columns, 0, 0.3);
+        const mps__particles *s = &sim->world.particles;
+        const int32_t part = mps_part_find(sim, "plate");
+        for (int64_t i = 0; i < s->n; i++) {
+            if (s->kind[i] != MPS_WALL) continue;
+            if (s->plate[i]) side[s->area[2 * i] > 0] += s->area[2 * i];
+            if (s->plate[i] && s->part[i] == part) up += s->area[2 * i + 1];
+            if (s->ref[2 * i + 1] == 0) floor += s->area[2 * i + 1];
+            walls += s->part[i] == part;
+        }
+        /* of one column the edge takes half a cell of both sides, with the same pressure on both */
+        const double height = 0.3 - (columns == 1 ? 0.5 * dp : 0);
+        ASSERT_NEAR(side[0], -height, 1e-14);
+        ASSERT_NEAR(side[1], height, 1e-14);
+        ASSERT_NEAR(up, (columns - 1) * dp, 1e-5 * dp);
+        ASSERT_NEAR(floor, 1 - (columns - 1) * dp, 1e-14);
+        assert_int_equal(walls, columns == 1 ? 2 * 5 + 1 : 2 * 6 + columns - 2);
+        mps_sim_destroy(sim);
+    }
+}
+
+/* A box next to the floor is built down to it; one that lies flat on the floor is a step with one wet side. */
+static void what_is_a_plate(void **state)
+{
+    (void)state;
+    mps_sim *sim = new_sim(2, dp);
+    const double lo[2] = {0.2, 0}, hi[2] = {0.6, dp}, thick[2] = {0.8, 0.3}, end[2] = {0.8 + 3 * dp, 0.5};
+    add_tank(sim, 1, 0.6, 0);
+    add_plate(sim, 1, 0.4, 0.6 - dp);
+    assert_int_equal(sim->world.screens.count, 1);
+    ASSERT_NEAR(sim->world.screens.list[0].length[0], 0.2, 1e-12);
+    ASSERT_OK(sim, mps_geometry_baffle(sim, "step", lo, hi));
+    ASSERT_OK(sim, mps_geometry_baffle(sim, "box", thick, end));
+    assert_int_equal(sim->world.screens.count, 1);
+    mps_sim_destroy(sim);
+}
+
+/* Shadows take nobody's place. */
+static void shadows_are_not_in_the_way(void **state)
+{
+    (void)state;
+    mps_sim *sim = new_sim(2, dp);
+    mps_particle_block block;
+    const double beside[2] = {0.55, 0.3}, on[2] = {0.5, 0.3};
+    const int32_t *plates, *kinds;
+    int64_t shadows = 0;
+    add_tank(sim, 1, 0.6, 0);
+    add_plate(sim, 1, 0, 0.6);
+    assert_int_equal(fill_depth(sim, 1, 0.2, 0), 4 * (19 - 1));
+    mps_particle_block_init(&block, sizeof block);
+    block.count = 1;
+    block.position = beside;
+    ASSERT_OK(sim, mps_particles_add(sim, &block, NULL));
+    block.position = on;
+    ASSERT_REFUSED(sim, mps_particles_add(sim, &block, NULL), MPS_E_ARG, "apart");
+    ASSERT_OK(sim, mps_particles_plates(sim, &plates));
+    ASSERT_OK(sim, mps_particles_tags(sim, NULL, &kinds, NULL, NULL));
+    for (int64_t i = 0; i < mps_particles_count(sim, -1); i++) shadows += plates[i] && kinds[i] == MPS_DUMMY;
+    assert_int_equal(shadows, 2 * 2 * (13 + 2 * 2));
+    ASSERT_REFUSED(sim, mps_particles_plates(sim, NULL), MPS_E_ARG, "plates");
+    assert_int_equal(mps_particles_plates(NULL, &plates), MPS_E_ARG);
+    mps_sim_destroy(sim);
+}
+
+/* Each shadow belongs to the face before it. */
+static void shadows_know_their_wall(void **state)
+{
+    (void)state;
+    mps_sim *sim = divided(2, 1);
+    mps_stencil t;
+    int64_t linked = 0;
+    ASSERT_OK(sim, mps_sim_stencil(sim, MPS_NEAR, &t));
+    const mps__particles *s = &sim->world.particles;
+    for (int64_t i = 0; i < s->n; i++) {
+        if (!mps__is_shadow(s, i) || s->wall_of[i] < 0) continue;
+        assert_true((s->ref[2 * i] - 0.5) * s->area[2 * s->wall_of[i]] < 0);
+        linked++;
+    }
+    assert_true(linked > 40);
+    mps_sim_destroy(sim);
+}
+
+/* Pressures on the left of a plate; on the right the water stands `right` deep. */
+static int64_t pressures_left(double right, double *p)
+{
+    mps_sim *sim = new_sim(2, dp);
+    mps_time_control control;
+    const double lo[2] = {0, 0}, hi[2] = {0.5, 0.4}, lo2[2] = {0.5, 0}, hi2[2] = {1, right};
+    int64_t count = 0;
+    add_tank(sim, 1, 0.6, 0);
+    add_plate(sim, 1, 0, 0.6);
+    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL));
+    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo2, hi2, NULL));
+    ASSERT_OK(sim, mps_solver_use(sim, "sundials.klu", NULL));
+    ASSERT_OK(sim, mps_time_control_init(&control, sizeof control));
+    control.dt = 1e-3;
+    ASSERT_OK(sim, mps_sim_set_time_control(sim, &control));
+    ASSERT_OK(sim, mps_run(sim, 0.01, NULL, NULL));
+    const mps__particles *s = &sim->world.particles;
+    for (int64_t id = 0; id < s->next_id; id++) {
+        const int64_t i = mps_particle_index(sim, id);
+        if (s->kind[i] == MPS_FLUID && s->x[2 * i] < 0.5) p[count++] = s->p[i];
+    }
+    mps_sim_destroy(sim);
+    return count;
+}
+
+/* The direct solver shares nothing between the sides but the order of elimination: equal to rounding. */
+static void sides_do_not_feel_each_other(void **state)
+{
+    (void)state;
+    double a[100], b[100];
+    const int64_t count = pressures_left(0.1, a);
+    assert_int_equal(count, 8 * 9);
+    assert_int_equal(pressures_left(0.5, b), count);
+    assert_true(a[0] > 3000);
+    for (int64_t k = 0; k < count; k++) ASSERT_NEAR(a[k], b[k], 1e-8);
+}
+
+/* Drops shot at a plate, several spacings a step, stay on their side and lose their speed toward it, also in a tank that turns. */
+static void nobody_passes(void **state)
+{
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++) {
+        mps_sim *sim = new_sim(dim, dp);
+        mps_time_control control;
+        mps_particle_block block;
+        const double centre[3] = {0.3, 0.1, 0}, at[4][3] = {{0.1, 0.1, 0.2}, {0.3, 0.2, 0.2}, {0.4, 0.4, 0.2}, {0.9, 0.3, 0.2}};
+        const mps_harmonic turn = {.dof = MPS_YAW, .amplitude = 0.5, .omega = 5};
+        double x[12], u[12] = {0};
+        int64_t ids[4];
+        ASSERT_OK(sim, mps_motion_set_centre(sim, centre, MPS_START_AT_REST));
+        ASSERT_OK(sim, mps_motion_set_harmonics(sim, 1, &turn));
+        add_tank(sim, 1, 0.6, 0.4);
+        const double lo[3] = {0.5, 0, 0}, hi[3] = {0.5, 0.6, 0.4};
+        ASSERT_OK(sim, mps_geometry_baffle(sim, "plate", lo, hi));
+        mps_particle_block_init(&block, sizeof block);
+        block.count = 4;
+        block.position = x;
+        block.velocity = u;
+        for (int k = 0; k < 4; k++) {
+            memcpy(x + k * dim, at[k], (size_t)dim * sizeof *x);
+            u[k * dim] = k < 3 ? 40 : -40;
+        }
+        ASSERT_OK(sim, mps_particles_add(sim, &block, ids));
+        mps_time_control_init(&control, sizeof control);
+        control.dt = 4e-3; /* 3 dp a step */
+        ASSERT_OK(sim, mps_sim_set_time_control(sim, &control));
+        for (int k = 0; k < 10; k++) ASSERT_OK(sim, mps_step(sim, 1, NULL));
+        for (int k = 0; k < 4; k++) {
+            const mps__particles *s = &sim->world.particles;
+            const int64_t i = mps_particle_index(sim, ids[k]);
+            double X[3];
+            mps__motion_to_tank(&sim->world.motion, &sim->world.motion.now, s->x + i * dim, X);
+            assert_true(k < 3 ? X[0] < 0.5 && X[0] > 0.3 : X[0] > 0.5 && X[0] < 0.7);
+            assert_true(fabs(s->u[i * dim]) < 10);
+        }
+        mps_sim_destroy(sim);
+    }
+}
+
+/* Force and both faces' pressures, by probes on either side of one column. */
+static void probes_tell_the_sides(void **state)
+{
+    (void)state;
+    mps_sim *sim = new_sim(2, dp);
+    const double lo[2] = {0, 0}, hi[2] = {0.5, 0.4};
+    mps_probe probe;
+    int32_t left, right, force, inside;
+    double p, f[3];
+    add_tank(sim, 1, 0.6, 0);
+    add_plate(sim, 1, 0, 0.6);
+    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL));
+    mps_probe_init(&probe, sizeof probe);
+    probe.at[0] = 0.5 - 1e-3 * dp;
+    probe.at[1] = 0.2;
+    ASSERT_OK(sim, mps_probe_add(sim, &probe, &left));
+    probe.at[0] = 0.5 + 1e-3 * dp;
+    ASSERT_OK(sim, mps_probe_add(sim, &probe, &right));
+    probe.type = MPS_PROBE_FLUID_PRESSURE;
+    probe.at[0] = 0.5 + 0.3 * dp;
+    ASSERT_OK(sim, mps_probe_add(sim, &probe, &inside));
+    probe.type = MPS_PROBE_FORCE;
+    probe.part = "plate";
+    ASSERT_OK(sim, mps_probe_add(sim, &probe, &force));
+    ASSERT_OK(sim, mps_run(sim, 0.02, NULL, NULL));
+    ASSERT_OK(sim, mps_probe_read(sim, left, &p));
+    ASSERT_NEAR(p, 1000 * 9.81 * 0.2, 40);
+    ASSERT_OK(sim, mps_probe_read(sim, right, &p));
+    ASSERT_NEAR(p, 0, 0);
+    ASSERT_OK(sim, mps_probe_read(sim, inside, &p));
+    ASSERT_NEAR(p, 0, 0);
+    ASSERT_OK(sim, mps_probe_read(sim, force, f));
+    /* the row above the surface has the surface row's weight hanging on it */
+    ASSERT_NEAR(f[0], 1000 * 9.81 * (0.5 * 0.4 * 0.4 - dp * dp), 0.01 * 1000 * 9.81 * 0.08);
+    mps_sim_destroy(sim);
+}
+
+/* Without its walls a plate hides nothing. */
+static void removed_plate(void **state)
+{
+    (void)state;
+    mps_sim *sim = divided(2, 1);
+    mps_stencil t;
+    int64_t ids[2 * 13], count = 0, across = 0;
+    const mps__particles *s = &sim->world.particles;
+    const int32_t part = mps_part_find(sim, "plate");
+    for (int64_t i = 0; i < s->n; i++)
+        if (s->kind[i] == MPS_WALL && s->part[i] == part) ids[count++] = s->id[i];
+    assert_int_equal(count, 2 * 11);
+    for (int pass = 0; pass < 2; pass++) {
+        across = 0;
+        ASSERT_OK(sim, mps_sim_stencil(sim, MPS_NEAR, &t));
+        for (int64_t i = 0; i < s->n; i++)
+            for (int64_t k = t.begin[i]; k < t.end[i]; k++)
+                across += s->kind[i] == MPS_FLUID && s->kind[t.col[k]] == MPS_FLUID && (s->x[2 * i] - 0.5) * (s->x[2 * t.col[k]] - 0.5) < 0;
+        assert_true(pass ? across > 0 : across == 0);
+        if (!pass) ASSERT_OK(sim, mps_particles_remove(sim, count, ids));
+    }
+    mps_sim_destroy(sim);
+}
+
+/* A shelf on a wall between two compartments: its corners are corners of a tank, the other side is a flat wall. */
+static void plate_on_plate(void **state)
+{
+    (void)state;
+    mps_sim *sim = new_sim(2, dp), *tank = new_sim(2, dp);
+    const double lo[2] = {0.5, 0.3}, hi[2] = {0.8, 0.3};
+    mps_stencil t, u;
+    double corner[3], flat[3], sum[3];
+    add_tank(tank, 1, 0.6, 0);
+    fill_depth(tank, 1, 0.6, 0);
+    add_tank(sim, 1, 0.6, 0);
+    add_plate(sim, 1, 0, 0.6);
+    ASSERT_OK(sim, mps_geometry_baffle(sim, "shelf", lo, hi));
+    fill_depth(sim, 1, 0.6, 0);
+    ASSERT_OK(tank, mps_sim_stencil(tank, MPS_NEAR, &u));
+    ASSERT_OK(sim, mps_sim_stencil(sim, MPS_NEAR, &t));
+    const mps__particles *a = &tank->world.particles, *b = &sim->world.particles;
+    for (int64_t i = 0; i < a->n; i++) {
+        if (hypot(a->x[2 * i] - dp, a->x[2 * i + 1] - dp) < 1e-9) row_sums(&u, a->kind, i, corner);
+        if (hypot(a->x[2 * i] - dp, a->x[2 * i + 1] - 0.3) < 1e-9) row_sums(&u, a->kind, i, flat);
+    }
+    int64_t found = 0;
+    for (int64_t i = 0; i < b->n; i++)
+        for (int where = 0; where < 3; where++) {
+            const double *wanted = where < 2 ? corner : flat, x = where < 2 ? 0.5 + dp : 0.5 - dp,
+                         y = 0.3 + (where < 2 ? where * 2 - 1 : 0) * dp;
+            if (b->kind[i] != MPS_FLUID || hypot(b->x[2 * i] - x, b->x[2 * i + 1] - y) > 1e-9) continue;
+            row_sums(&t, b->kind, i, sum);
+            for (int kind = 0; kind < 3; kind++) ASSERT_NEAR(sum[kind], wanted[kind], 1e-9);
+            found++;
+        }
+    assert_int_equal(found, 3);
+    mps_sim_destroy(sim);
+    mps_sim_destroy(tank);
+}
+
+/* An inclined plate that ends half a spacing above the floor: true area, no fluid too near, nobody sees through it or under it. */
+static void inclined_plate(void **state)
+{
+    (void)state;
+    mps_sim *sim = new_sim(2, dp);
+    const double corner[2] = {0.3, 0.5 * dp}, edge[2] = {0.3, 0.4}, normal[2] = {-0.8, 0.6}, top = 0.4;
+    double area = 0;
+    mps_stencil t;
+    add_tank(sim, 1, 0.6, 0);
+    ASSERT_OK(sim, mps_geometry_plate(sim, "leaning", corner, edge, NULL));
+    fill_depth(sim, 1, 0.5, 0);
+    ASSERT_OK(sim, mps_sim_stencil(sim, MPS_FAR, &t));
+    const mps__particles *s = &sim->world.particles;
+    for (int64_t i = 0; i < s->n; i++) {
+        const double *x = s->x + 2 * i, height = (x[0] - corner[0]) * normal[0] + (x[1] - corner[1]) * normal[1];
+        if (s->kind[i] == MPS_WALL && s->plate[i]) area += fmax(0, s->area[2 * i] * normal[0] + s->area[2 * i + 1] * normal[1]);
+        if (s->kind[i] == MPS_DUMMY || s->plate[i] || x[1] > top) continue;
+        assert_true(s->kind[i] == MPS_WALL || fabs(height) > 0.7 * dp - 1e-12);
+        for (int64_t k = t.begin[i]; k < t.end[i]; k++) {
+            const int32_t j = t.col[k];
+            const double *y = s->x + 2 * j;
+            if (s->kind[j] == MPS_DUMMY || s->plate[j] || y[1] > top) continue;
+            assert_true(height * ((y[0] - corner[0]) * normal[0] + (y[1] - corner[1]) * normal[1]) > 0);
+        }
+    }
+    ASSERT_NEAR(area, 0.5, 1e-12);
+    mps_sim_destroy(sim);
+}
+
+static void refusals(void **state)
+{
+    (void)state;
+    mps_sim *flat = new_sim(2, dp), *sim = new_sim(3, dp);
+    const double at[3] = {0.3, 0.1, 0.1}, up[3] = {0, 0.3, 0}, slant[3] = {0.2, 0.3, 0}, along[3] = {0, 0, 0.2}, none[3] = {0, 0, 0},
+                 far[3] = {0, 2, 0}, nan[3] = {NAN, 0, 0};
+    ASSERT_REFUSED(flat, mps_geometry_plate(flat, "p", at, up, NULL), MPS_E_STATE, "mps_geometry_tank");
+    add_tank(flat, 1, 0.6, 0);
+    add_tank(sim, 1, 0.6, 0.4);
+    const int64_t before = mps_particles_count(sim, -1);
+    assert_int_equal(mps_geometry_plate(NULL, "p", at, up, along), MPS_E_ARG);
+    ASSERT_REFUSED(flat, mps_geometry_plate(flat, "p", at, up, along), MPS_E_ARG, "edge2");
+    ASSERT_REFUSED(sim, mps_geometry_plate(sim, "p", at, up, NULL), MPS_E_ARG, "edge2");
+    ASSERT_REFUSED(sim, mps_geometry_plate(sim, "p", at, up, slant), MPS_E_ARG, "right angles");
+    ASSERT_REFUSED(sim, mps_geometry_plate(sim, "p", at, none, along), MPS_E_ARG, "at least 2 spacings");
+    ASSERT_REFUSED(sim, mps_geometry_plate(sim, "p", at, far, along), MPS_E_ARG, "leaves the tank");
+    ASSERT_REFUSED(sim, mps_geometry_plate(sim, "p", nan, up, along), MPS_E_ARG, "finite");
+    ASSERT_REFUSED(sim, mps_geometry_plate(sim, "p", at, nan, along), MPS_E_ARG, "finite");
+    ASSERT_REFUSED(sim, mps_geometry_plate(sim, "", at, up, along), MPS_E_ARG, "name");
+    assert_int_equal(mps_particles_count(sim, -1), before);
+    assert_int_equal(mps_part_find(sim, "p"), -1);
+    ASSERT_OK(sim, mps_geometry_plate(sim, "p", at, up, along));
+    ASSERT_REFUSED(sim, mps_geometry_plate(sim, "again", at, up, along), MPS_E_ARG, "taken");
+    assert_int_equal(mps_part_find(sim, "again"), -1);
+    assert_int_equal(sim->world.screens.count, 1);
+    mps_sim_destroy(flat);
+    mps_sim_destroy(sim);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(divided_tank_is_two_tanks),
+        cmocka_unit_test(edges_are_seen_once),
+        cmocka_unit_test(passing_the_edge),
+        cmocka_unit_test(areas),
+        cmocka_unit_test(what_is_a_plate),
+        cmocka_unit_test(shadows_are_not_in_the_way),
+        cmocka_unit_test(shadows_know_their_wall),
+        cmocka_unit_test(sides_do_not_feel_each_other),
+        cmocka_unit_test(nobody_passes),
+        cmocka_unit_test(probes_tell_the_sides),
+        cmocka_unit_test(removed_plate),
+        cmocka_unit_test(plate_on_plate),
+        cmocka_unit_test(inclined_plate),
+        cmocka_unit_test(refusals),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
