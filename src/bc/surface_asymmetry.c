@@ -2,14 +2,17 @@
 /* Free surface, W22 (11)(12), Z14 (16)(17): n < low n0, or n < high n0 and |A| > share |A|0, where |A|0 belongs to the
  * surface row of a lattice. In a violent flow inner particles fall below low n0 too, and p = 0 amid high pressure tears the fluid:
  * between lone n0 and low n0 some asymmetry is asked for as well, |A| > low_share |A|0 (lone = low is the paper's). Particles with too little fluid about them are spray.
- * The papers test wall particles too (walls = 1): dry walls have p = 0. */
+ * The papers test wall particles too (walls = 1): dry walls have p = 0.
+ * Beside a wall that goes on above the surface n is too large and |A| too small: there a neighbour of the surface belongs to it as well if
+ * n < contact_low n0 and |A| > contact_share |A|0 (contact = 1: in 3-D, where the lattice itself is at the limit; 2: in 2-D too; 0: never). */
 #include "builtin.h"
 #include <stdbool.h>
 
-enum { LOW, HIGH, SHARE, SPRAY, WALLS, COMPLETE, LONE, LOW_SHARE };
-static const mps_setting settings[] = {{"low", 0.8, 0.0, 1.0},    {"high", 0.97, 0.5, 1.0},    {"share", 0.9, 0.0, 2.0},
-                                       {"spray", 0.25, 0.0, 1.0}, {"walls", 0.0, 0.0, 1.0},    {"complete", 1.0, 0.0, 1.0},
-                                       {"lone", 0.6, 0.0, 1.0},   {"low_share", 0.4, 0.0, 2.0}};
+enum { LOW, HIGH, SHARE, SPRAY, WALLS, COMPLETE, LONE, LOW_SHARE, CONTACT, CONTACT_LOW, CONTACT_SHARE };
+static const mps_setting settings[] = {{"low", 0.8, 0.0, 1.0},          {"high", 0.97, 0.5, 1.0},         {"share", 0.9, 0.0, 2.0},
+                                       {"spray", 0.25, 0.0, 1.0},       {"walls", 0.0, 0.0, 1.0},         {"complete", 1.0, 0.0, 1.0},
+                                       {"lone", 0.6, 0.0, 1.0},         {"low_share", 0.4, 0.0, 2.0},     {"contact", 1.0, 0.0, 2.0},
+                                       {"contact_low", 0.95, 0.0, 1.0}, {"contact_share", 0.55, 0.0, 2.0}};
 
 /* |A| of a particle in the top row of a lattice that fills the half space below it. */
 static double lattice_asymmetry(const mps_stencil *t)
@@ -58,6 +61,43 @@ MPS__ROW bool detached(const int dim, const mps_stage *s, int64_t i, double enou
     return sum < enough;
 }
 
+/* |A|/|A|0 */
+static double asymmetry_of(const mps_stage *s, int64_t i, double a0)
+{
+    double a = 0;
+    for (int d = 0; d < s->dim; d++) a += s->asymmetry[i * s->dim + d] * s->asymmetry[i * s->dim + d];
+    return sqrt(a) / a0;
+}
+
+/* Does a particle see both a wall and the surface within 1.5 dp? */
+MPS__ROW bool at_contact(const int dim, const mps_stage *s, int64_t i)
+{
+    const mps_stencil *t = s->near;
+    bool wall = false, surface = false;
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
+        if (q.r2 > 2.25 * s->dp * s->dp) continue;
+        wall = wall || s->kind[q.j] == MPS_WALL;
+        surface = surface || (s->kind[q.j] == MPS_FLUID && s->region[q.j] == MPS_REGION_SURFACE);
+    }
+    return wall && surface;
+}
+
+/* Where the surface meets a wall. All see the surface as it was before. */
+static int mark_contact(const double *k, mps_stage *s, double a0)
+{
+    double *found = mps_stage_scratch(s, s->n);
+    if (!found) return 1;
+#pragma omp parallel for num_threads(s->threads) schedule(static)
+    for (int64_t i = 0; i < s->n; i++)
+        if (s->kind[i] == MPS_FLUID && s->region[i] == MPS_REGION_INNER && s->number_density[i] < k[CONTACT_LOW] * s->near->n0 &&
+            asymmetry_of(s, i, a0) > k[CONTACT_SHARE])
+            found[i] = MPS__ROW_CALL(s, at_contact, s, i);
+    for (int64_t i = 0; i < s->n; i++)
+        if (found[i] > 0) s->region[i] = MPS_REGION_SURFACE;
+    return 0;
+}
+
 static int classify(void *self, const double *k, mps_stage *s)
 {
     (void)self;
@@ -66,15 +106,14 @@ static int classify(void *self, const double *k, mps_stage *s)
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_FLUID && !(s->kind[i] == MPS_WALL && k[WALLS] > 0)) continue;
-        double a = 0;
-        for (int d = 0; d < s->dim; d++) a += s->asymmetry[i * s->dim + d] * s->asymmetry[i * s->dim + d];
-        a = sqrt(a) / a0;
+        const double a = asymmetry_of(s, i, a0);
         const double n = s->number_density[i] / t->n0;
         if (s->kind[i] == MPS_FLUID && MPS__ROW_CALL(s, detached, s, i, k[SPRAY] * t->n0))
             s->region[i] = MPS_REGION_SPRAY;
         else if (n < k[LONE] || (n < k[LOW] && a > k[LOW_SHARE]) || (n < k[HIGH] && a > k[SHARE]))
             s->region[i] = MPS_REGION_SURFACE;
     }
+    if (k[CONTACT] > (s->dim == 3 ? 0.5 : 1.5) && mark_contact(k, s, a0)) return 1;
     spread(s, MPS_REGION_SURFACE, MPS_REGION_NEAR);
     spread(s, MPS_REGION_NEAR, MPS_REGION_SECOND);
     return 0;
@@ -84,7 +123,7 @@ const mps_model_ops mps__surface_asymmetry = {.struct_size = sizeof(mps_model_op
                                               .api = MPS_MODEL_API,
                                               .name = "surface.asymmetry",
                                               .order = 100,
-                                              .setting_count = 8,
+                                              .setting_count = 11,
                                               .settings = settings,
                                               .classify = classify,
                                               .source = source};

@@ -113,6 +113,86 @@ mps_status mps_geometry_baffle(mps_sim *sim, const char *name, const double *lo,
     return mps__geometry_baffle(sim, copy, &box);
 }
 
+/* Of one edge of a plate. */
+static mps_status plate_edge(mps_sim *sim, mps__plate_shape *s, int e, const double *edge)
+{
+    const int dim = sim->world.dim;
+    const double dp = sim->world.dp;
+    MPS__CHECK(&sim->context, edge, "edge%s of the plate is NULL", e ? "2" : "");
+    MPS__CHECK(&sim->context, mps__finite(edge, dim), "edge%s of the plate is not finite", e ? "2" : "");
+    const double length = sqrt(mps__dot(edge, edge, dim)), cells = round(length / dp);
+    MPS__CHECK(&sim->context, length >= (2 - 1e-6) * dp && cells < INT32_MAX,
+               "edge%s of the plate is %g m long: at least 2 spacings of %g m", e ? "2" : "", length, dp);
+    for (int d = 0; d < dim; d++) s->along[e][d] = edge[d] / length;
+    s->nodes[e] = (int64_t)cells + 1;
+    s->spacing[e] = length / cells;
+    return MPS_OK;
+}
+
+static void plate_normal(mps__plate_shape *s, int dim)
+{
+    const double *a = s->along[0], *b = s->along[1];
+    s->normal[0] = dim == 2 ? -a[1] : a[1] * b[2] - a[2] * b[1];
+    s->normal[1] = dim == 2 ? a[0] : a[2] * b[0] - a[0] * b[2];
+    s->normal[2] = dim == 2 ? 0 : a[0] * b[1] - a[1] * b[0];
+}
+
+/* Axis of the normal of a plate whose nodes are lattice points, else -1. */
+static int32_t plate_axis(const mps_sim *sim, const mps__plate_shape *s)
+{
+    const double dp = sim->world.dp, small = 1e-6;
+    int32_t axis = -1;
+    for (int d = 0; d < sim->world.dim; d++) {
+        const double q = (s->corner[d] - sim->lattice_lo[d]) / dp;
+        if (fabs(q - round(q)) > small) return -1;
+        if (fabs(s->normal[d]) > 1 - small) axis = d;
+    }
+    for (int e = 0; e < sim->world.dim - 1; e++) {
+        double largest = 0;
+        for (int d = 0; d < sim->world.dim; d++) largest = fmax(largest, fabs(s->along[e][d]));
+        if (largest < 1 - small || fabs(s->spacing[e] - dp) > small * dp) return -1;
+    }
+    return axis;
+}
+
+/* All four corners lie in the tank. */
+static mps_status plate_inside(mps_sim *sim, const mps__plate_shape *s)
+{
+    for (int corner = 0; corner < 2 * (sim->world.dim - 1); corner++)
+        for (int d = 0; d < sim->world.dim; d++) {
+            double at = s->corner[d];
+            for (int e = 0; e < 2; e++) at += (corner >> e & 1) * (double)(s->nodes[e] - 1) * s->spacing[e] * s->along[e][d];
+            const double lo = sim->lattice_lo[d], hi = lo + (double)sim->lattice_cells[d] * sim->world.dp, slack = 1e-6 * sim->world.dp;
+            MPS__CHECK(&sim->context, at >= lo - slack && at <= hi + slack,
+                       "the plate leaves the tank: coordinate [%d] of a corner is %g, allowed %g..%g", d, at, lo, hi);
+        }
+    return MPS_OK;
+}
+
+mps_status mps_geometry_plate(mps_sim *sim, const char *name, const double *corner, const double *edge, const double *edge2)
+{
+    if (!sim) return MPS_E_ARG;
+    const int dim = sim->world.dim;
+    mps__plate_shape s = {.nodes = {1, 1}, .spacing = {sim->world.dp, sim->world.dp}, .columns = 1};
+    char copy[MPS__PART_NAME];
+    MPS__TRY(changeable(sim));
+    MPS__CHECK(&sim->context, mps__name_copy(copy, sizeof copy, name), "the plate's name must have 1..%d characters", MPS__PART_NAME - 1);
+    MPS__TRY(has_tank(sim));
+    MPS__CHECK(&sim->context, corner && mps__finite(corner, dim), "the plate's corner is NULL or not finite");
+    memcpy(s.corner, corner, (size_t)dim * sizeof *corner);
+    MPS__TRY(plate_edge(sim, &s, 0, edge));
+    MPS__CHECK(&sim->context, dim == 3 || !edge2, "edge2 of the plate is given: in 2-D a plate has one edge");
+    if (dim == 3) {
+        MPS__TRY(plate_edge(sim, &s, 1, edge2));
+        MPS__CHECK(&sim->context, fabs(mps__dot(s.along[0], s.along[1], 3)) < 1e-6,
+                   "the edges of the plate are not at right angles: the cosine between them is %g", mps__dot(s.along[0], s.along[1], 3));
+    }
+    plate_normal(&s, dim);
+    s.axis = plate_axis(sim, &s);
+    MPS__TRY(plate_inside(sim, &s));
+    return mps__geometry_plate(sim, copy, &s);
+}
+
 mps_status mps_geometry_fill_box(mps_sim *sim, int32_t phase, const double *lo, const double *hi, int64_t *added)
 {
     if (!sim) return MPS_E_ARG;

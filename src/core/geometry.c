@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tanks, baffles and fills: choose lattice points that are free, then append them all at once. */
 #include "geometry.h"
+#include "packing.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -25,11 +26,12 @@ typedef struct plan {
     /* of solids: the box whose ends are faces, and the part of each end */
     int64_t first[3], last[3];
     int32_t part[6]; /* x0 x1 y0 y1 z0 z1 */
-    bool open_top;
+    bool open_top, of_tank;
     /* of fluid */
     int32_t phase;
     mps_inside_fn inside;
     void *user;
+    mps__packing packing; /* beside solids of any shape */
 } plan;
 
 static void plan_init(plan *p, mps_sim *sim, const mps__lattice_box *box)
@@ -79,10 +81,42 @@ static void mark_taken(plan *p)
     const mps__motion *m = &p->sim->world.motion;
     for (int64_t i = 0; i < s->n; i++) {
         double X[3];
+        if (mps__is_shadow(s, i)) continue;
         mps__motion_to_tank(m, &m->now, &s->x[i * p->dim], X);
         int64_t place = occupied(p, X);
         if (place >= 0) p->state[place] = POINT_TAKEN;
     }
+}
+
+/* Points that would press against a plate which is not on the lattice. */
+static void mark_plates(plan *p)
+{
+    static const double least = 0.7; /* [dp] */
+    const mps__screens *s = &p->sim->world.screens;
+    int64_t k[3] = {p->box.first[0], p->box.first[1], p->box.first[2]}, place = 0;
+    bool any = false;
+    for (int32_t m = 0; m < s->count; m++) any = any || s->list[m].axis < 0;
+    if (!any) return;
+    do {
+        double X[3] = {0, 0, 0};
+        lattice_point(p, k, X);
+        for (int32_t m = 0; m < s->count; m++)
+            if (s->list[m].axis < 0 && mps__screen_distance(&s->list[m], X) < least * p->sim->world.dp) p->state[place] = POINT_TAKEN;
+        place++;
+    } while (plan_next(p, k));
+}
+
+/* Points in a solid or nearer than half a cell to its surface. */
+static void mark_solids(plan *p)
+{
+    int64_t k[3] = {p->box.first[0], p->box.first[1], p->box.first[2]}, place = 0;
+    if (p->sim->solids == 0 || p->of_tank) return;
+    do {
+        double X[3] = {0, 0, 0};
+        lattice_point(p, k, X);
+        if (mps__solid_covers(p->sim, X)) p->state[place] = POINT_TAKEN;
+        place++;
+    } while (plan_next(p, k));
 }
 
 static void mark_chosen(plan *p)
@@ -106,9 +140,10 @@ static void place_particle(const plan *p, const int64_t k[3], int64_t i)
     mps__world *w = &p->sim->world;
     mps__particles *s = &w->particles;
     site here = {0};
-    double X[3];
+    double X[3] = {0, 0, 0};
     p->describe(p, k, &here);
     lattice_point(p, k, X);
+    mps__packing_place(&p->packing, k, X);
     /* before the first step walls stand still, so that they jump to their velocity in it */
     bool moving = here.kind != MPS_FLUID && w->info.step > 0;
     mps__motion_point(&w->motion, &w->motion.now, X, &s->x[i * p->dim], moving ? &s->u[i * p->dim] : NULL, NULL);
@@ -128,6 +163,8 @@ static mps_status plan_choose(plan *p)
     p->state = mps__alloc(&p->sim->context, plan_points(p), 1);
     if (!p->state) return MPS_E_NOMEM;
     mark_taken(p);
+    mark_plates(p);
+    mark_solids(p);
     mark_chosen(p);
     return MPS_OK;
 }
@@ -149,6 +186,7 @@ static mps_status plan_build(plan *p)
 static void plan_free(plan *p)
 {
     mps__free(&p->sim->context, p->state);
+    mps__packing_free(&p->packing);
 }
 
 /* ---- solids ---- */
@@ -252,6 +290,7 @@ mps_status mps__geometry_tank(mps_sim *sim, const mps_tank *tank, const int64_t 
     p.choose = tank_choose;
     p.describe = tank_describe;
     p.open_top = tank->open_top != 0;
+    p.of_tank = true;
     memcpy(p.last, cells, sizeof p.last);
     int32_t parts = sim->world.particles.parts;
     mps_status status = tank_run(&p, tank->name);
@@ -261,6 +300,7 @@ mps_status mps__geometry_tank(mps_sim *sim, const mps_tank *tank, const int64_t 
         return status;
     }
     sim->has_tank = true;
+    sim->lattice_of_solids = false;
     memcpy(sim->lattice_lo, box.lo, sizeof sim->lattice_lo);
     memcpy(sim->lattice_cells, cells, sizeof sim->lattice_cells);
     return MPS_OK;
@@ -279,6 +319,8 @@ static mps_status baffle_run(plan *p, const char *name)
 mps_status mps__geometry_baffle(mps_sim *sim, const char *name, const mps__lattice_box *box)
 {
     plan p;
+    mps__plate_shape shape;
+    if (mps__plate_of_box(sim, box, &shape)) return mps__geometry_plate(sim, name, &shape);
     plan_init(&p, sim, box);
     p.choose = choose_all;
     p.describe = baffle_describe;
@@ -287,18 +329,7 @@ mps_status mps__geometry_baffle(mps_sim *sim, const char *name, const mps__latti
     int32_t parts = sim->world.particles.parts;
     mps_status status = baffle_run(&p, name);
     plan_free(&p);
-    if (status < 0) {
-        sim->world.particles.parts = parts;
-        return status;
-    }
-    /* two columns are within the radius of the operators of what stands on both sides */
-    for (int d = 0; d < sim->world.dim; d++) {
-        const int64_t layers = box->last[d] - box->first[d] + 1;
-        if (layers < 3)
-            mps__log(&sim->context, MPS_LOG_WARNING,
-                     "baffle \"%s\" has %lld layers across axis %d: with fewer than 3 (2 dp = %g m) liquid on one side feels the other",
-                     name, (long long)layers, d, 2 * sim->world.dp);
-    }
+    if (status < 0) sim->world.particles.parts = parts;
     return status;
 }
 
@@ -322,6 +353,7 @@ static void fluid_describe(const plan *p, const int64_t k[3], site *out)
 
 static mps_status fluid_run(plan *p)
 {
+    MPS__TRY(mps__packing_make(&p->packing, p->sim));
     MPS__TRY(plan_choose(p));
     MPS__CHECK(&p->sim->context, p->chosen > 0, "nothing to fill: no free lattice point lies inside (%lld are taken)", (long long)p->taken);
     return plan_build(p);

@@ -12,10 +12,22 @@ typedef struct mps__lattice_box {
     int64_t first[3], last[3];
 } mps__lattice_box;
 
+/* A thin plate: nodes on a rectangle (in 2-D a line), one to three columns of them side by side. */
+typedef struct mps__plate_shape {
+    double corner[3], normal[3], along[2][3]; /* tank's frame; the last three are unit vectors */
+    double spacing[2];
+    int64_t nodes[2]; /* along the edges; the second is 1 in 2-D */
+    int32_t columns;
+    int32_t axis; /* of the normal on the tank's lattice, -1: the plate does not stand on it */
+} mps__plate_shape;
+
 /* Lattice points of the closed box lo..hi that lie in the last tank; false if there is none. */
 bool mps__lattice_clip(const mps_sim *sim, const double *lo, const double *hi, mps__lattice_box *box);
 mps_status mps__geometry_tank(mps_sim *sim, const mps_tank *tank, const int64_t cells[3]);
 mps_status mps__geometry_baffle(mps_sim *sim, const char *name, const mps__lattice_box *box);
+/* True if a box is thin and has liquid on both sides, or may have; then its shape. */
+bool mps__plate_of_box(mps_sim *sim, const mps__lattice_box *box, mps__plate_shape *shape);
+mps_status mps__geometry_plate(mps_sim *sim, const char *name, const mps__plate_shape *shape);
 /* `inside` may be NULL: all points. */
 mps_status mps__geometry_fill(mps_sim *sim, int32_t phase, const mps__lattice_box *box, mps_inside_fn inside, void *user, int64_t *added);
 

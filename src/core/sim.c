@@ -124,6 +124,8 @@ void mps_sim_destroy(mps_sim *sim)
     if (!sim) return;
     mps__context c = sim->context;
     mps__probes_free(&sim->context, &sim->probes);
+    for (int32_t k = 0; k < sim->solids; k++) mps__distances_free(&sim->solid[k], &c);
+    mps__free(&c, sim->solid);
     mps__world_free(&sim->world);
     mps__free(&c, sim);
 }

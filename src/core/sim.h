@@ -3,6 +3,7 @@
 #ifndef MPS_CORE_SIM_H
 #define MPS_CORE_SIM_H
 
+#include "contour.h"
 #include "probes.h"
 #include "world.h"
 #include <mps/sim.h>
@@ -12,10 +13,15 @@ struct mps_sim {
     mps__world world;
     mps__probes probes;
     bool in_monitor; /* the handle must not step, add or remove */
-    /* the lattice of the last tank */
+    /* the lattice of the last tank, or of all solids */
     bool has_tank;
+    bool lattice_of_solids;
     double lattice_lo[3];
     int64_t lattice_cells[3];
+    /* where the solids are */
+    int32_t solids;
+    int64_t solid_capacity;
+    mps__distances *solid;
 };
 
 /* The handle's context is part of its private state: error text may change through a const handle. */

@@ -49,8 +49,8 @@ MPS__ROW void slip_row(const int dim, const mps_stage *s, const double *v, int64
     if (weight == 0 || size == 0) return;
     double normal = 0;
     for (int d = 0; d < dim; d++) normal += sum[d] / weight * area[d] / sqrt(size);
-    /* where faces meet there is no free direction in 2-D, and only the edge in 3-D */
-    if (dim == 2 && size > 1.5 * largest * largest) return;
+    /* where faces of the lattice meet (half a cell of each) there is no free direction in 2-D, and only the edge in 3-D */
+    if (dim == 2 && size > 1.5 * largest * largest && size < 0.6 * s->dp * s->dp) return;
     for (int d = 0; d < dim; d++) slipped[i * dim + d] += sum[d] / weight - normal * area[d] / sqrt(size);
 }
 

@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Solids of mps/geometry.h: argument checks, then solid.c. */
+#include "solid.h"
+#include "stl.h"
+#include <math.h>
+#include <string.h>
+
+static const mps_solid solid_defaults = {.name = "solid", .dummy_layers = 2};
+static const mps_stl stl_defaults = {.name = "solid", .dummy_layers = 2, .scale = 1};
+
+static mps_status changeable(mps_sim *sim)
+{
+    const int32_t open = mps__particles_leases(&sim->world.particles);
+    if (sim->in_monitor) return mps__fail(&sim->context, MPS_E_STATE, "a monitor must not add particles");
+    if (open > 0) return mps__fail(&sim->context, MPS_E_BUSY, "%d leases are open: give them back before adding particles", (int)open);
+    if (sim->world.info.step > 0)
+        return mps__fail(&sim->context, MPS_E_STATE, "solids are added before the first step; %lld steps were taken",
+                         (long long)sim->world.info.step);
+    return MPS_OK;
+}
+
+static mps_status check_name(mps_sim *sim, const char *type, const char *name, int32_t layers, char *copy)
+{
+    MPS__CHECK(&sim->context, mps__name_copy(copy, MPS__PART_NAME, name), "%s.name \"%.40s\": must have 1..%d characters", type, name,
+               MPS__PART_NAME - 1);
+    MPS__CHECK(&sim->context, layers >= 1 && layers <= 8, "%s.dummy_layers is %d: must be 1..8", type, (int)layers);
+    return MPS_OK;
+}
+
+static mps_status check_solid(mps_sim *sim, const mps_solid *s)
+{
+    mps__context *c = &sim->context;
+    MPS__CHECK(c, s->distance || s->inside, "solid \"%s\" has neither a distance nor an inside", s->name);
+    MPS__CHECK(c, !s->distance || !s->inside, "solid \"%s\" has both a distance and an inside: must be one of them", s->name);
+    MPS__CHECK(c, s->invert == 0 || s->invert == 1, "solid.invert is %d: must be 0 or 1", (int)s->invert);
+    for (int d = 0; d < sim->world.dim; d++) {
+        MPS__CHECK(c, isfinite(s->lo[d]) && isfinite(s->hi[d]), "the solid's box [%d] is %g .. %g: must be finite", d, s->lo[d], s->hi[d]);
+        MPS__CHECK(c, s->hi[d] - s->lo[d] >= (1 - 1e-6) * sim->world.dp,
+                   "the solid's box [%d] is %g .. %g: must be at least dp = %g m long", d, s->lo[d], s->hi[d], sim->world.dp);
+    }
+    return MPS_OK;
+}
+
+mps_status mps_solid_init(mps_solid *solid, size_t size)
+{
+    return mps__struct_init(solid, size, &solid_defaults, sizeof solid_defaults);
+}
+
+mps_status mps_geometry_solid(mps_sim *sim, const mps_solid *solid)
+{
+    if (!sim) return MPS_E_ARG;
+    mps_solid s = solid_defaults;
+    char name[MPS__PART_NAME];
+    MPS__TRY(changeable(sim));
+    MPS__TRY(mps__struct_in(&sim->context, "mps_solid", &s, sizeof s, solid));
+    if (s.name == NULL) s.name = solid_defaults.name;
+    if (s.dummy_layers == 0) s.dummy_layers = solid_defaults.dummy_layers;
+    MPS__TRY(check_name(sim, "solid", s.name, s.dummy_layers, name));
+    MPS__TRY(check_solid(sim, &s));
+    mps__solid add = {.name = name, .layers = s.dummy_layers};
+    add.shape = (mps__shape){
+        .dim = sim->world.dim, .dp = sim->world.dp, .sign = s.invert ? -1 : 1, .distance = s.distance, .inside = s.inside, .user = s.user};
+    memcpy(add.lo, s.lo, (size_t)sim->world.dim * sizeof(double));
+    memcpy(add.hi, s.hi, (size_t)sim->world.dim * sizeof(double));
+    return mps__solid_add(sim, &add);
+}
+
+/* ---- STL ---- */
+
+mps_status mps_stl_init(mps_stl *stl, size_t size)
+{
+    return mps__struct_init(stl, size, &stl_defaults, sizeof stl_defaults);
+}
+
+static mps_status check_stl(mps_sim *sim, const char *path, const mps_stl *s)
+{
+    mps__context *c = &sim->context;
+    MPS__CHECK(c, sim->world.dim == 3, "an STL file needs 3-D: this simulation is 2-D");
+    MPS__CHECK(c, path && path[0], "the path of the STL file is %s", path ? "empty" : "NULL");
+    MPS__CHECK(c, isfinite(s->scale) && s->scale > 0, "stl.scale is %g: must be > 0", s->scale);
+    MPS__CHECK(c, mps__finite(s->shift, 3), "stl.shift is (%g, %g, %g) m: must be finite", s->shift[0], s->shift[1], s->shift[2]);
+    MPS__CHECK(c, s->container == 0 || s->container == 1, "stl.container is %d: must be 0 or 1", (int)s->container);
+    return MPS_OK;
+}
+
+/* Scale and shift; lo and hi become the bounding box. */
+static void place_mesh(mps__mesh *m, const mps_stl *s, double *lo, double *hi)
+{
+    for (int d = 0; d < 3; d++) {
+        lo[d] = INFINITY;
+        hi[d] = -INFINITY;
+    }
+    for (int64_t k = 0; k < 3 * m->points; k++) {
+        const int d = (int)(k % 3);
+        m->x[k] = m->x[k] * s->scale + s->shift[d];
+        lo[d] = fmin(lo[d], m->x[k]);
+        hi[d] = fmax(hi[d], m->x[k]);
+    }
+}
+
+/* A closed surface whose normals look to the liquid, ready for distances. */
+static mps_status prepare_mesh(mps_sim *sim, mps__mesh *m, const char *path, bool container)
+{
+    mps__context *c = &sim->context;
+    mps__mesh_faults f;
+    MPS__TRY(mps__mesh_weld(m, &f));
+    MPS__CHECK(c, m->elements > 0, "\"%.200s\" has no triangle with an area", path);
+    MPS__CHECK(c, f.open == 0, "\"%.200s\" is not closed: %lld edges have no second triangle, the first is at (%g, %g, %g) m", path,
+               (long long)f.open, f.open_at[0], f.open_at[1], f.open_at[2]);
+    MPS__CHECK(c, f.turned == 0, "\"%.200s\" is not oriented: at %lld edges a triangle is turned over, the first is at (%g, %g, %g) m",
+               path, (long long)f.turned, f.turned_at[0], f.turned_at[1], f.turned_at[2]);
+    const double volume = mps__mesh_volume(m);
+    if (f.degenerate > 0) mps__log(c, MPS_LOG_INFO, "\"%.200s\": %lld triangles have no area", path, (long long)f.degenerate);
+    if (volume < 0) mps__log(c, MPS_LOG_INFO, "\"%.200s\" is inside out: turned over", path);
+    if ((volume < 0) != container) mps__mesh_turn(m);
+    return mps__mesh_finish(m);
+}
+
+static mps_status add_mesh(mps_sim *sim, const char *path, const mps_stl *s, mps__mesh *m, double built[6])
+{
+    mps__solid add = {.name = s->name, .layers = s->dummy_layers};
+    place_mesh(m, s, add.lo, add.hi);
+    MPS__CHECK(&sim->context, mps__finite(add.lo, 3) && mps__finite(add.hi, 3),
+               "\"%.200s\": a coordinate is not finite after scaling by %g", path, s->scale);
+    MPS__TRY(prepare_mesh(sim, m, path, s->container != 0));
+    add.shape = (mps__shape){.dim = 3, .dp = sim->world.dp, .sign = 1, .mesh = m};
+    memcpy(built, add.lo, sizeof add.lo);
+    memcpy(built + 3, add.hi, sizeof add.hi);
+    return mps__solid_add(sim, &add);
+}
+
+mps_status mps_geometry_stl(mps_sim *sim, const char *path, const mps_stl *stl, double *built)
+{
+    if (!sim) return MPS_E_ARG;
+    mps_stl s = stl_defaults;
+    char name[MPS__PART_NAME];
+    double box[6];
+    mps__mesh mesh;
+    MPS__TRY(changeable(sim));
+    MPS__TRY(mps__struct_in(&sim->context, "mps_stl", &s, sizeof s, stl));
+    if (s.name == NULL) s.name = stl_defaults.name;
+    if (s.dummy_layers == 0) s.dummy_layers = stl_defaults.dummy_layers;
+    if (s.scale == 0) s.scale = stl_defaults.scale;
+    MPS__TRY(check_name(sim, "stl", s.name, s.dummy_layers, name));
+    MPS__TRY(check_stl(sim, path, &s));
+    s.name = name;
+    mps__mesh_init(&mesh, &sim->context, 3);
+    mps_status status = mps__stl_read(&mesh, path);
+    if (status == MPS_OK) status = add_mesh(sim, path, &s, &mesh, box);
+    mps__mesh_free(&mesh);
+    if (status == MPS_OK && built) memcpy(built, box, sizeof box);
+    return status;
+}

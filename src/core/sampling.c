@@ -1,0 +1,238 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Wall particles: vertices of the contour - corners first, then edges, then what lies on the lattice - thinned to a distance, then moved
+ * apart along the surface. A flat face on the lattice gets exactly the lattice's points. Areas: each patch belongs to the nearest. */
+#include "sampling.h"
+#include <math.h>
+#include <string.h>
+
+enum { SWEEPS = 40, CLASSES = 3, ODD = 4 };
+
+/* In spacings: room to particles that are there, first and last distance tried for thinning, reach and length of the repulsion. */
+static const double room = 0.7, widest = 0.9, narrowest = 0.6, range = 1.6, push = 0.35;
+/* Of dummies to walls and to each other; depth to which a wall has to be solid. */
+static const double wall_room = 0.7, layer_room = 0.75, gap_room = 0.8, thin_depth = 2.99;
+
+static bool is_kept(const mps__samples *s, const double x[3])
+{
+    for (int d = 0; d < s->shape->dim; d++)
+        if (x[d] < s->keep_lo[d] || x[d] > s->keep_hi[d]) return false;
+    return true;
+}
+
+static double length_of(const double v[3])
+{
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+/* ---- thinning ---- */
+
+static mps_status add_wall(mps__samples *s, const mps__vertex *v)
+{
+    MPS__TRY(mps__grow(s->context, (void **)&s->feature, &s->feature_capacity, s->wall.count, s->wall.count + 1, sizeof *s->feature));
+    s->feature[s->wall.count] = v->feature;
+    return mps__buckets_add(&s->wall, v->x);
+}
+
+/* Take vertices of one feature whose cells are off the lattice along `odd` axes. */
+static mps_status take_vertices(mps__samples *s, int32_t feature, int32_t odd, double distance)
+{
+    const double dp = s->shape->dp;
+    for (int64_t k = 0; k < s->contour->vertices; k++) {
+        const mps__vertex *v = &s->contour->vertex[k];
+        if (v->feature != feature || v->odd != odd || !is_kept(s, v->x)) continue;
+        if (s->others && mps__buckets_nearest(s->others, v->x, room * dp, NULL) >= 0) continue;
+        if (mps__buckets_nearest(&s->wall, v->x, distance * dp, NULL) < 0) MPS__TRY(add_wall(s, v));
+    }
+    return MPS_OK;
+}
+
+/* In 2-D vertices are too far apart to choose from: places between those on the lattice. */
+static mps_status take_patches(mps__samples *s, double distance)
+{
+    const double dp = s->shape->dp;
+    for (int64_t k = 0; k < s->contour->patches; k++) {
+        mps__vertex v = {.feature = MPS__FACE};
+        memcpy(v.x, s->contour->patch[k].x, sizeof v.x);
+        if (!is_kept(s, v.x) || mps__buckets_nearest(&s->wall, v.x, distance * dp, NULL) >= 0) continue;
+        if (s->others && mps__buckets_nearest(s->others, v.x, room * dp, NULL) >= 0) continue;
+        if (mps__shape_project(s->shape, v.x, dp)) MPS__TRY(add_wall(s, &v));
+    }
+    return MPS_OK;
+}
+
+/* Area on which wall particles are to be placed. */
+static double surface_of(const mps__samples *s)
+{
+    double sum = 0;
+    for (int64_t k = 0; k < s->contour->patches; k++)
+        if (is_kept(s, s->contour->patch[k].x)) sum += length_of(s->contour->patch[k].area);
+    return sum;
+}
+
+/* The widest distance that leaves one particle for every dp^(dim-1) of the surface. */
+static mps_status thin_out(mps__samples *s, const double *lo, const double *hi)
+{
+    const double dp = s->shape->dp, wanted = s->surface / pow(dp, s->shape->dim - 1);
+    for (double distance = widest; distance > narrowest; distance -= 0.02) {
+        mps__buckets_free(&s->wall);
+        MPS__TRY(mps__buckets_init(&s->wall, s->context, s->shape->dim, lo, hi, dp));
+        for (int32_t feature = MPS__CORNER; feature <= MPS__FACE; feature++)
+            for (int32_t odd = 0; odd < (s->shape->dim == 3 || feature < MPS__FACE ? ODD : 1); odd++)
+                MPS__TRY(take_vertices(s, feature, odd, distance));
+        if (s->shape->dim == 2) MPS__TRY(take_patches(s, distance));
+        if ((double)s->wall.count > 0.98 * wanted) break;
+    }
+    return MPS_OK;
+}
+
+/* ---- moving apart ---- */
+
+/* Sum of the pushes on one particle: corners feel nobody, edges one another. */
+typedef struct pushes {
+    const mps__samples *s;
+    int64_t self;
+    double range, sum[3];
+} pushes;
+
+static void add_push(void *user, int64_t point, const double d[3], double r2)
+{
+    pushes *p = user;
+    if (point == p->self || (p->self >= 0 && p->s->feature[point] > p->s->feature[p->self])) return;
+    const double r = sqrt(r2), q = 1 - r / p->range;
+    for (int a = 0; a < 3 && r > 0; a++) p->sum[a] -= q * q * d[a] / r;
+}
+
+static bool move_apart(const mps__samples *s, int64_t i, double x[3])
+{
+    const double dp = s->shape->dp;
+    pushes p = {s, i, range * dp, {0, 0, 0}};
+    memcpy(x, s->wall.x + 3 * i, 3 * sizeof *x);
+    if (s->feature[i] == MPS__CORNER) return false;
+    mps__buckets_visit(&s->wall, x, p.range, add_push, &p);
+    p.self = -1;
+    if (s->others) mps__buckets_visit(s->others, x, p.range, add_push, &p);
+    double moved[3];
+    for (int d = 0; d < 3; d++) moved[d] = x[d] + push * dp * p.sum[d];
+    const bool found = s->feature[i] == MPS__EDGE ? mps__shape_project_feature(s->shape, moved) : mps__shape_project(s->shape, moved, dp);
+    double way[3];
+    for (int d = 0; d < 3; d++) way[d] = moved[d] - x[d];
+    if (!found || !(length_of(way) < 0.5 * dp) || !is_kept(s, moved)) return false;
+    memcpy(x, moved, sizeof moved);
+    return true;
+}
+
+/* One sweep: all particles see the places before it. */
+static mps_status sweep(mps__samples *s, const double *lo, const double *hi)
+{
+    mps__buckets next;
+    mps_status status = mps__buckets_init(&next, s->context, s->shape->dim, lo, hi, s->shape->dp);
+    if (status == MPS_OK) status = mps__buckets_reserve(&next, s->wall.count);
+    for (int64_t i = 0; i < s->wall.count && status == MPS_OK; i++) {
+        double x[3];
+        move_apart(s, i, x);
+        status = mps__buckets_add(&next, x);
+    }
+    if (status < 0) {
+        mps__buckets_free(&next);
+        return status;
+    }
+    mps__buckets_free(&s->wall);
+    s->wall = next;
+    return MPS_OK;
+}
+
+/* ---- areas and thickness ---- */
+
+static mps_status share_area(mps__samples *s)
+{
+    s->area = mps__alloc(s->context, 3 * s->wall.count, sizeof *s->area);
+    if (!s->area) return MPS_E_NOMEM;
+    for (int64_t k = 0; k < s->contour->patches; k++) {
+        const mps__patch *p = &s->contour->patch[k];
+        if (!is_kept(s, p->x)) continue;
+        const int64_t i = mps__buckets_nearest(&s->wall, p->x, 2 * s->shape->dp, NULL);
+        for (int d = 0; d < 3 && i >= 0; d++) s->area[3 * i + d] += p->area[d];
+    }
+    return MPS_OK;
+}
+
+/* Walk into the solid: does it end before 3 dp? */
+static void look_behind(mps__samples *s, int64_t i)
+{
+    const double dp = s->shape->dp, *x = s->wall.x + 3 * i;
+    double n[3];
+    if (s->feature[i] != MPS__FACE) return;
+    mps__shape_true(s->shape, x, n);
+    for (double depth = 0.5; depth < thin_depth + 0.5; depth += 0.5) {
+        double at[3];
+        for (int d = 0; d < 3; d++) at[d] = x[d] - fmin(depth, thin_depth) * dp * n[d];
+        if (!(mps__shape_at(s->shape, at) > 0) || !is_kept(s, at)) continue;
+        if (s->thin++ == 0) memcpy(s->thin_at, x, sizeof s->thin_at);
+        return;
+    }
+}
+
+mps_status mps__samples_walls(mps__samples *s, const double *lo, const double *hi)
+{
+    s->surface = surface_of(s);
+    MPS__TRY(thin_out(s, lo, hi));
+    for (int k = 0; k < SWEEPS; k++) MPS__TRY(sweep(s, lo, hi));
+    MPS__TRY(share_area(s));
+    for (int64_t i = 0; i < s->wall.count; i++) look_behind(s, i);
+    return mps__buckets_init(&s->dummy, s->context, s->shape->dim, lo, hi, s->shape->dp);
+}
+
+/* ---- dummies ---- */
+
+/* Is there room for a dummy? */
+static mps_status offer_dummy(mps__samples *s, const double x[3], double spacing)
+{
+    const double dp = s->shape->dp;
+    if (s->others && mps__buckets_nearest(s->others, x, room * dp, NULL) >= 0) return MPS_OK;
+    if (!is_kept(s, x) || mps__buckets_nearest(&s->wall, x, wall_room * dp, NULL) >= 0) return MPS_OK;
+    if (mps__buckets_nearest(&s->dummy, x, spacing * dp, NULL) >= 0) return MPS_OK;
+    return mps__buckets_add(&s->dummy, x);
+}
+
+/* Straight behind the wall particles of faces, where the depth is what it should be. */
+static mps_status place_layer(mps__samples *s, int32_t layer)
+{
+    const double dp = s->shape->dp;
+    for (int64_t i = 0; i < s->wall.count; i++) {
+        double n[3], at[3];
+        if (s->feature[i] != MPS__FACE) continue;
+        mps__shape_true(s->shape, s->wall.x + 3 * i, n);
+        for (int d = 0; d < 3; d++) at[d] = s->wall.x[3 * i + d] - layer * dp * n[d];
+        const double depth = -mps__shape_true(s->shape, at, NULL);
+        if (fabs(depth - layer * dp) < 0.3 * dp) MPS__TRY(offer_dummy(s, at, layer_room));
+    }
+    return MPS_OK;
+}
+
+/* Lattice points at the right depth that belong to what was placed, where there is room. */
+static mps_status fill_gaps(mps__samples *s, int32_t layers, const mps__distances *lattice)
+{
+    const double dp = s->shape->dp, reach = (layers + 1) * dp;
+    const int64_t points = lattice->n[0] * lattice->n[1] * lattice->n[2];
+    for (int64_t k = 0; k < points; k++) {
+        double x[3];
+        if (lattice->value[k] > -0.5 * dp || lattice->value[k] < -(layers + 0.5) * dp) continue;
+        mps__distances_place(lattice, k, x);
+        if (mps__buckets_nearest(&s->wall, x, reach, NULL) >= 0) MPS__TRY(offer_dummy(s, x, gap_room));
+    }
+    return MPS_OK;
+}
+
+mps_status mps__samples_dummies(mps__samples *s, int32_t layers, const mps__distances *lattice)
+{
+    for (int32_t k = 1; k <= layers; k++) MPS__TRY(place_layer(s, k));
+    return fill_gaps(s, layers, lattice);
+}
+
+void mps__samples_free(mps__samples *s)
+{
+    mps__buckets_free(&s->wall);
+    mps__buckets_free(&s->dummy);
+    mps__free(s->context, s->feature);
+    mps__free(s->context, s->area);
+}

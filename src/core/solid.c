@@ -1,0 +1,250 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Add a solid: distances on the lattice, contour, wall particles and dummies; then everything into the store at once. */
+#include "solid.h"
+#include "sampling.h"
+#include <math.h>
+#include <string.h>
+
+/* How near to the surface no fluid is placed: the wall's half cell [dp]. */
+static const double half_cell = 0.5;
+
+/* What one call makes. */
+typedef struct work {
+    mps_sim *sim;
+    const mps__solid *solid;
+    mps__shape shape;
+    mps__mesh mesh; /* of a solid known by its inside alone */
+    mps__contour_box box;
+    mps__distances distances;
+    mps__contour contour;
+    mps__buckets others;
+    mps__samples samples;
+    double around_lo[3], around_hi[3]; /* of all that is placed */
+    bool new_lattice;
+} work;
+
+static void work_free(work *w)
+{
+    mps__context *c = &w->sim->context;
+    mps__mesh_free(&w->mesh);
+    mps__distances_free(&w->distances, c);
+    mps__contour_free(&w->contour, c);
+    mps__buckets_free(&w->others);
+    mps__samples_free(&w->samples);
+}
+
+bool mps__solid_covers(const mps_sim *sim, const double *X)
+{
+    bool within = !sim->lattice_of_solids;
+    for (int32_t k = 0; k < sim->solids; k++) {
+        double r;
+        if (!mps__distances_at(&sim->solid[k], X, &r)) continue;
+        if (r < (half_cell + 1e-6) * sim->world.dp) return true;
+        within = true;
+    }
+    return !within;
+}
+
+/* ---- the box and what is there already ---- */
+
+/* The lattice point at or below lo, and what has to be kept: with a tank what lies between its walls. */
+static void make_box(work *w)
+{
+    mps_sim *sim = w->sim;
+    const double dp = sim->world.dp, margin = (w->solid->layers + 2) * dp;
+    mps__contour_box *b = &w->box;
+    memcpy(b->lo, w->solid->lo, sizeof b->lo);
+    memcpy(b->hi, w->solid->hi, sizeof b->hi);
+    for (int d = 0; d < sim->world.dim; d++) {
+        const double origin = sim->has_tank ? sim->lattice_lo[d] : b->lo[d];
+        const bool tank = sim->has_tank && !sim->lattice_of_solids;
+        b->anchor[d] = origin + dp * floor((b->lo[d] - origin) / dp + 1e-6);
+        b->keep_lo[d] = tank ? origin - 1e-6 * dp : -INFINITY;
+        b->keep_hi[d] = tank ? origin + ((double)sim->lattice_cells[d] + 1e-6) * dp : INFINITY;
+        w->around_lo[d] = b->anchor[d] - margin;
+        w->around_hi[d] = b->hi[d] + margin;
+    }
+    w->new_lattice = !sim->has_tank;
+}
+
+/* Solid particles near the new one, in the tank's frame. */
+static mps_status collect_others(work *w)
+{
+    const mps__particles *s = &w->sim->world.particles;
+    const int dim = w->sim->world.dim;
+    MPS__TRY(mps__buckets_init(&w->others, &w->sim->context, dim, w->around_lo, w->around_hi, w->sim->world.dp));
+    for (int64_t i = 0; i < s->n; i++) {
+        double x[3] = {0, 0, 0};
+        bool near = s->kind[i] != MPS_FLUID && !mps__is_shadow(s, i);
+        memcpy(x, s->ref + i * dim, (size_t)dim * sizeof *x);
+        for (int d = 0; d < dim; d++) near = near && x[d] > w->around_lo[d] && x[d] < w->around_hi[d];
+        if (near) MPS__TRY(mps__buckets_add(&w->others, x));
+    }
+    return MPS_OK;
+}
+
+/* ---- the surface ---- */
+
+/* A solid known by its inside alone gets a mesh to measure distances from. */
+static mps_status find_shape(work *w)
+{
+    w->shape = w->solid->shape;
+    if (!w->shape.inside || w->shape.mesh) return MPS_OK;
+    mps__mesh_init(&w->mesh, &w->sim->context, w->shape.dim);
+    /* the surface may end at a tank's walls, but distances are asked for beyond them: look a little further */
+    mps__contour_box box = w->box;
+    for (int d = 0; d < w->shape.dim; d++) {
+        box.anchor[d] = w->around_lo[d];
+        box.lo[d] = w->around_lo[d];
+        box.hi[d] = w->around_hi[d];
+    }
+    MPS__TRY(mps__contour_mesh(&w->shape, &box, &w->mesh));
+    w->shape.mesh = &w->mesh;
+    return MPS_OK;
+}
+
+static mps_status no_surface(const work *w)
+{
+    const mps__solid *s = w->solid;
+    double centre[3] = {0, 0, 0};
+    for (int d = 0; d < w->shape.dim; d++) centre[d] = 0.5 * (s->lo[d] + s->hi[d]);
+    return mps__fail(&w->sim->context, MPS_E_ARG,
+                     "solid \"%s\" has no surface in its box (%g, %g, %g) .. (%g, %g, %g) m that could be seen with a spacing of %g m: %s",
+                     s->name, s->lo[0], s->lo[1], s->lo[2], s->hi[0], s->hi[1], s->hi[2], w->sim->world.dp,
+                     mps__shape_at(&s->shape, centre) > 0 ? "nothing is solid" : "everything is solid");
+}
+
+static mps_status find_surface(work *w)
+{
+    mps__context *c = &w->sim->context;
+    MPS__TRY(find_shape(w));
+    if (w->shape.inside && w->mesh.elements == 0) return no_surface(w);
+    MPS__TRY(mps__distances_make(&w->distances, c, &w->shape, w->around_lo, w->around_hi));
+    if (w->shape.mesh) w->shape.known = &w->distances;
+    MPS__TRY(mps__contour_find(&w->contour, c, &w->shape, &w->box));
+    const double *at = w->contour.open_at;
+    MPS__CHECK(c, !w->contour.open, "the surface of solid \"%s\" leaves its box at (%g, %g, %g) m: the box must contain it", w->solid->name,
+               at[0], at[1], at[2]);
+    return w->contour.patches == 0 ? no_surface(w) : MPS_OK;
+}
+
+/* ---- the particles ---- */
+
+/* Fluid that would be in the solid. */
+static mps_status check_fluid(const work *w)
+{
+    const mps__world *world = &w->sim->world;
+    const mps__particles *s = &world->particles;
+    for (int64_t i = 0; i < s->n; i++) {
+        double X[3] = {0, 0, 0}, r;
+        if (s->kind[i] != MPS_FLUID) continue;
+        mps__motion_to_tank(&world->motion, &world->motion.now, s->x + i * world->dim, X);
+        if (mps__distances_at(&w->distances, X, &r) && r < 0.3 * world->dp)
+            return mps__fail(&w->sim->context, MPS_E_ARG,
+                             "fluid particle %lld at (%g, %g, %g) m is in the way of solid \"%s\": add solids before the fill",
+                             (long long)s->id[i], X[0], X[1], X[2], w->solid->name);
+    }
+    return MPS_OK;
+}
+
+static mps_status sample(work *w)
+{
+    mps__samples *s = &w->samples;
+    *s = (mps__samples){.context = &w->sim->context, .shape = &w->shape, .contour = &w->contour, .others = &w->others};
+    memcpy(s->keep_lo, w->box.keep_lo, sizeof s->keep_lo);
+    memcpy(s->keep_hi, w->box.keep_hi, sizeof s->keep_hi);
+    MPS__TRY(mps__samples_walls(s, w->around_lo, w->around_hi));
+    MPS__CHECK(&w->sim->context, s->wall.count > 0, "all of the surface of solid \"%s\" lies at or behind walls that are there already",
+               w->solid->name);
+    return mps__samples_dummies(s, w->solid->layers, &w->distances);
+}
+
+/* Walls of others that are inside of the new solid are wetted no more. */
+static void cover_walls(const work *w)
+{
+    mps__particles *s = &w->sim->world.particles;
+    for (int64_t i = 0; i < s->n; i++) {
+        double X[3] = {0, 0, 0}, r;
+        if (s->kind[i] != MPS_WALL) continue;
+        memcpy(X, s->ref + i * s->dim, (size_t)s->dim * sizeof *X);
+        if (mps__distances_at(&w->distances, X, &r) && r < -half_cell * w->sim->world.dp) s->kind[i] = MPS_DUMMY;
+    }
+}
+
+static void append(const work *w, const mps__buckets *from, int32_t kind, int32_t part)
+{
+    mps__world *world = &w->sim->world;
+    mps__particles *s = &world->particles;
+    const size_t bytes = (size_t)s->dim * sizeof(double);
+    int64_t i = mps__particles_append(s, from->count);
+    for (int64_t k = 0; k < from->count; k++, i++) {
+        const double *X = from->x + 3 * k;
+        const bool moving = world->info.step > 0;
+        mps__motion_point(&world->motion, &world->motion.now, X, s->x + i * s->dim, moving ? s->u + i * s->dim : NULL, NULL);
+        memcpy(s->ref + i * s->dim, X, bytes);
+        if (kind == MPS_WALL) memcpy(s->area + i * s->dim, w->samples.area + 3 * k, bytes);
+        s->kind[i] = kind;
+        s->part[i] = part;
+        s->rho[i] = world->phase_density[0];
+    }
+}
+
+/* The lattice of fills: the first solid's, made larger by each further one. A tank's stays. */
+static void extend_lattice(work *w)
+{
+    mps_sim *sim = w->sim;
+    const double dp = sim->world.dp;
+    if (sim->has_tank && !sim->lattice_of_solids) return;
+    for (int d = 0; d < sim->world.dim; d++) {
+        const double hi = sim->lattice_lo[d] + (double)sim->lattice_cells[d] * dp, end = w->box.hi[d];
+        if (w->new_lattice || w->box.anchor[d] < sim->lattice_lo[d]) sim->lattice_lo[d] = w->box.anchor[d];
+        sim->lattice_cells[d] = (int64_t)floor(((w->new_lattice ? end : fmax(end, hi)) - sim->lattice_lo[d]) / dp + 1e-6);
+    }
+    sim->has_tank = sim->lattice_of_solids = true;
+}
+
+static void report(const work *w)
+{
+    const mps__samples *s = &w->samples;
+    mps__context *c = &w->sim->context;
+    mps__log(c, MPS_LOG_INFO, "solid \"%s\": surface %g m%s, %lld wall particles, %lld dummies", w->solid->name, s->surface,
+             w->shape.dim == 3 ? "2" : "", (long long)s->wall.count, (long long)s->dummy.count);
+    if (s->thin > 0)
+        mps__log(
+            c, MPS_LOG_WARNING,
+            "solid \"%s\" is thinner than 3 dp = %g m at %lld wall particles, first at (%g, %g, %g) m: liquid on one side feels the other",
+            w->solid->name, 3 * w->shape.dp, (long long)s->thin, s->thin_at[0], s->thin_at[1], s->thin_at[2]);
+}
+
+static mps_status build(work *w)
+{
+    mps_sim *sim = w->sim;
+    mps__particles *s = &sim->world.particles;
+    make_box(w);
+    MPS__TRY(collect_others(w));
+    MPS__TRY(find_surface(w));
+    MPS__TRY(check_fluid(w));
+    MPS__TRY(sample(w));
+    MPS__TRY(mps__grow(&sim->context, (void **)&sim->solid, &sim->solid_capacity, sim->solids, sim->solids + 1, sizeof *sim->solid));
+    MPS__TRY(mps__particles_reserve(s, w->samples.wall.count + w->samples.dummy.count));
+    const int32_t part = mps__part_number(s, w->solid->name, true);
+    MPS__CHECK(&sim->context, part >= 0, "part \"%s\" is one too many: at most %d", w->solid->name, MPS__PARTS_MAX);
+    /* nothing fails from here on */
+    cover_walls(w);
+    append(w, &w->samples.wall, MPS_WALL, part);
+    append(w, &w->samples.dummy, MPS_DUMMY, part);
+    extend_lattice(w);
+    sim->solid[sim->solids++] = w->distances;
+    w->distances.value = NULL;
+    sim->world.neighbours.valid = false;
+    report(w);
+    return MPS_OK;
+}
+
+mps_status mps__solid_add(mps_sim *sim, const mps__solid *solid)
+{
+    work w = {.sim = sim, .solid = solid};
+    const mps_status status = build(&w);
+    work_free(&w);
+    return status;
+}

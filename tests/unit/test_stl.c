@@ -1,0 +1,403 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* STL files: both forms, scale, what is wrong with a mesh, files cut short and with bytes changed; distances to meshes. */
+#include "mesh.h"
+#include "sim.h"
+#include "tank_fixture.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+static char folder[] = "/tmp/mps_stl_XXXXXX", path[64];
+
+/* ---- meshes ---- */
+
+enum { MOST = 4096 };
+
+typedef struct triangles {
+    int count;
+    float x[MOST][9];
+} triangles;
+
+static void add_triangle(triangles *t, const double *a, const double *b, const double *c)
+{
+    assert_true(t->count < MOST);
+    for (int d = 0; d < 3; d++) {
+        t->x[t->count][d] = (float)a[d];
+        t->x[t->count][3 + d] = (float)b[d];
+        t->x[t->count][6 + d] = (float)c[d];
+    }
+    t->count++;
+}
+
+/* Box 0..2 x 0..1.2 x 0..1.6, normals outward. */
+static triangles box_mesh(void)
+{
+    static const int face[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    triangles t = {0};
+    double p[8][3];
+    for (int k = 0; k < 8; k++) {
+        p[k][0] = k & 1 ? 2 : 0;
+        p[k][1] = k & 2 ? 1.2 : 0;
+        p[k][2] = k & 4 ? 1.6 : 0;
+    }
+    for (int f = 0; f < 6; f++) {
+        add_triangle(&t, p[face[f][0]], p[face[f][1]], p[face[f][2]]);
+        add_triangle(&t, p[face[f][0]], p[face[f][2]], p[face[f][3]]);
+    }
+    return t;
+}
+
+/* A unit sphere about (1, 1, 1), n by 2 n faces. */
+static void sphere_point(int n, int i, int j, double x[3])
+{
+    const double pi = 3.14159265358979323846, a = pi * i / n, b = pi * (j % (2 * n)) / n;
+    x[0] = 1 + (i % n ? sin(a) * cos(b) : 0);
+    x[1] = 1 + (i % n ? cos(a) : i ? -1 : 1);
+    x[2] = 1 + (i % n ? sin(a) * sin(b) : 0);
+}
+
+static triangles sphere_mesh(int n)
+{
+    triangles t = {0};
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < 2 * n; j++) {
+            double p[4][3];
+            sphere_point(n, i, j, p[0]);
+            sphere_point(n, i + 1, j, p[1]);
+            sphere_point(n, i + 1, j + 1, p[2]);
+            sphere_point(n, i, j + 1, p[3]);
+            if (i + 1 < n) add_triangle(&t, p[0], p[2], p[1]);
+            if (i > 0) add_triangle(&t, p[0], p[3], p[2]);
+        }
+    return t;
+}
+
+static void turn(triangles *t, int k)
+{
+    for (int d = 0; d < 3; d++) {
+        const float first = t->x[k][d];
+        t->x[k][d] = t->x[k][3 + d];
+        t->x[k][3 + d] = first;
+    }
+}
+
+/* ---- files ---- */
+
+static void write_bytes(const void *bytes, size_t size)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* @return size; the caller frees *bytes */
+static size_t binary_of(const triangles *t, unsigned char **bytes)
+{
+    const size_t size = 84 + 50 * (size_t)t->count;
+    *bytes = calloc(size, 1);
+    assert_non_null(*bytes);
+    memcpy(*bytes, "solid, but binary", 17);
+    for (int k = 0; k < 4; k++) (*bytes)[80 + k] = (unsigned char)(t->count >> 8 * k);
+    for (int i = 0; i < t->count; i++) memcpy(*bytes + 84 + 50 * i + 12, t->x[i], sizeof t->x[i]);
+    return size;
+}
+
+static void write_binary(const triangles *t)
+{
+    unsigned char *bytes;
+    const size_t size = binary_of(t, &bytes);
+    write_bytes(bytes, size);
+    free(bytes);
+}
+
+static void write_ascii(const triangles *t)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    fprintf(file, "solid a tank\r\n");
+    for (int i = 0; i < t->count; i++) {
+        const float *x = t->x[i];
+        fprintf(file, " facet normal nan 0 0\n  OUTER loop\n");
+        for (int k = 0; k < 3; k++) fprintf(file, "   vertex %.9e %.9g %+.9E\n", x[3 * k], x[3 * k + 1], x[3 * k + 2]);
+        fprintf(file, "  endloop\n endfacet\n");
+    }
+    fprintf(file, "endsolid a tank\n");
+    assert_int_equal(fclose(file), 0);
+}
+
+static mps_status read_file(mps_sim *sim, int container, double scale)
+{
+    mps_stl stl;
+    double built[6];
+    assert_int_equal(mps_stl_init(&stl, sizeof stl), MPS_OK);
+    stl.container = container;
+    stl.scale = scale;
+    return mps_geometry_stl(sim, path, &stl, built);
+}
+
+/* ---- tests ---- */
+
+static double area_of(const mps_sim *sim, double *volume)
+{
+    const mps__particles *s = &sim->world.particles;
+    double area = 0;
+    *volume = 0;
+    for (int64_t i = 0; i < s->n; i++) {
+        if (s->kind[i] != MPS_WALL) continue;
+        area += sqrt(mps__dot(&s->area[3 * i], &s->area[3 * i], 3));
+        *volume -= mps__dot(&s->area[3 * i], &s->ref[3 * i], 3) / 3;
+    }
+    return area;
+}
+
+static void both_forms(void **state)
+{
+    (void)state;
+    const triangles t = box_mesh();
+    int64_t walls[2];
+    for (int ascii = 0; ascii < 2; ascii++) {
+        mps_sim *sim = new_sim(3, 0.2);
+        double volume;
+        if (ascii)
+            write_ascii(&t);
+        else
+            write_binary(&t);
+        ASSERT_OK(sim, read_file(sim, 1, 1));
+        ASSERT_NEAR(area_of(sim, &volume), 15.04, 1.2); /* edges, see test_solid.c */
+        ASSERT_NEAR(volume, 3.84, 0.01);
+        const mps__particles *s = &sim->world.particles;
+        for (int64_t i = 0; i < s->n; i++) {
+            if (s->kind[i] != MPS_WALL) continue;
+            const double *x = &s->ref[3 * i];
+            const double near = fmin(fmin(fmin(x[0], 2 - x[0]), fmin(x[1], 1.2 - x[1])), fmin(x[2], 1.6 - x[2]));
+            ASSERT_NEAR(near, 0, 1e-4);
+        }
+        walls[ascii] = mps_particles_count(sim, MPS_WALL);
+        const double lo[3] = {0, 0, 0}, hi[3] = {2, 0.6, 1.6};
+        int64_t added;
+        ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, &added));
+        assert_int_equal(added, 9 * 3 * 7);
+        mps_sim_destroy(sim);
+    }
+    assert_int_equal(walls[0], walls[1]);
+}
+
+/* Millimetres, inside out, as a body. */
+static void scale_and_orientation(void **state)
+{
+    (void)state;
+    triangles t = sphere_mesh(16);
+    for (int turned = 0; turned < 2; turned++) {
+        for (int k = 0; turned && k < t.count; k++) turn(&t, k);
+        write_binary(&t);
+        for (int container = 0; container < 2; container++) {
+            mps_sim *sim = new_sim(3, 1e-4);
+            double volume;
+            ASSERT_OK(sim, read_file(sim, container, 1e-3));
+            ASSERT_NEAR(area_of(sim, &volume) * 1e6, 4 * 3.14159, 0.02 * 4 * 3.14159);
+            /* about (1, 1, 1) mm: the areas' sum is zero, so the place does not matter */
+            ASSERT_NEAR(volume * 1e9, container ? 4.13 : -4.13, 0.1);
+            mps_sim_destroy(sim);
+        }
+    }
+}
+
+static void refused(mps_status wanted, const char *word)
+{
+    mps_sim *sim = new_sim(3, 0.2);
+    ASSERT_REFUSED(sim, read_file(sim, 1, 1), wanted, word);
+    assert_int_equal(mps_particles_count(sim, -1), 0);
+    mps_sim_destroy(sim);
+}
+
+static void bad_meshes(void **state)
+{
+    (void)state;
+    triangles t = box_mesh();
+    t.count--;
+    write_binary(&t);
+    refused(MPS_E_ARG, "not closed: 3 edges");
+    t = box_mesh();
+    turn(&t, 5);
+    write_binary(&t);
+    refused(MPS_E_ARG, "not oriented: at 3 edges");
+    t = box_mesh();
+    t.x[3][4] = NAN;
+    write_binary(&t);
+    refused(MPS_E_ARG, "coordinate 4 of triangle 3 is nan");
+    t.count = 0;
+    write_binary(&t);
+    refused(MPS_E_ARG, "no triangles");
+    write_ascii(&t);
+    refused(MPS_E_ARG, "no triangles");
+    t.count = 1;
+    memset(t.x[0], 0, sizeof t.x[0]);
+    write_binary(&t);
+    refused(MPS_E_ARG, "no triangle with an area");
+}
+
+static void bad_files(void **state)
+{
+    (void)state;
+    unsigned char *bytes;
+    const triangles t = box_mesh();
+    const size_t size = binary_of(&t, &bytes);
+    bytes[0] = 'x';
+    write_bytes(bytes, size - 1);
+    refused(MPS_E_IO, "of 12 triangles it would have 684");
+    write_bytes(bytes, 50);
+    refused(MPS_E_IO, "has 50 bytes");
+    bytes[80] = 13;
+    write_bytes(bytes, size);
+    refused(MPS_E_IO, "of 13 triangles");
+    free(bytes);
+    static const char *const text[][2] = {
+        {"solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0", "ends in line 5"},
+        {"solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 1,5\n", "\"1,5\" instead of"},
+        {"solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 1e999\n", "\"1e999\" instead of"},
+        {"solid x\nfacet normal 0 0 1\nouter ring\n", "line 3: \"ring\" instead of \"loop\""},
+        {"solid x\nrubbish\n", "\"rubbish\" instead of \"facet\""},
+        {"solid x\nendsolid x\nmore\n", "\"more\" instead of \"solid\""},
+    };
+    for (size_t k = 0; k < sizeof text / sizeof text[0]; k++) {
+        write_bytes(text[k][0], strlen(text[k][0]));
+        refused(MPS_E_IO, text[k][1]);
+    }
+    unlink(path);
+    refused(MPS_E_IO, "cannot open");
+    mps_sim *sim = new_sim(2, 0.1);
+    ASSERT_REFUSED(sim, read_file(sim, 1, 1), MPS_E_ARG, "needs 3-D");
+    mps_sim_destroy(sim);
+    sim = new_sim(3, 0.1);
+    ASSERT_REFUSED(sim, read_file(sim, 1, -1), MPS_E_ARG, "stl.scale");
+    ASSERT_REFUSED(sim, mps_geometry_stl(sim, "", &(mps_stl){.struct_size = sizeof(mps_stl)}, NULL), MPS_E_ARG, "empty");
+    mps_sim_destroy(sim);
+}
+
+/* A triangle of no area on an edge is skipped and the mesh is still closed. */
+static void degenerate_triangles(void **state)
+{
+    (void)state;
+    triangles t = box_mesh();
+    memcpy(t.x[t.count], t.x[0], sizeof t.x[0]);
+    memcpy(&t.x[t.count][6], &t.x[0][3], 3 * sizeof(float));
+    t.count++;
+    write_binary(&t);
+    mps_sim *sim = new_sim(3, 0.2);
+    ASSERT_OK(sim, read_file(sim, 1, 1));
+    mps_sim_destroy(sim);
+}
+
+static uint32_t random_number(uint32_t *seed)
+{
+    *seed = *seed * 1664525u + 1013904223u;
+    return *seed >> 8;
+}
+
+/* Whatever is in the file: an answer, and nothing added unless it is MPS_OK. */
+static void try_file(void)
+{
+    mps_sim *sim = new_sim(3, 0.5);
+    const mps_status status = read_file(sim, 1, 1);
+    if (status != MPS_OK) {
+        assert_true(status == MPS_E_ARG || status == MPS_E_IO || status == MPS_E_NOMEM);
+        assert_true(mps_sim_error(sim)[0] != 0);
+        assert_int_equal(mps_particles_count(sim, -1), 0);
+    }
+    mps_sim_destroy(sim);
+}
+
+static void damaged_files(void **state)
+{
+    (void)state;
+    const triangles t = box_mesh();
+    for (int ascii = 0; ascii < 2; ascii++) {
+        unsigned char *bytes = NULL;
+        uint32_t seed = 7;
+        size_t size = binary_of(&t, &bytes);
+        if (ascii) {
+            write_ascii(&t);
+            FILE *file = fopen(path, "rb");
+            free(bytes);
+            bytes = calloc(1 << 16, 1);
+            assert_true(file && bytes);
+            size = fread(bytes, 1, 1 << 16, file);
+            fclose(file);
+        }
+        for (size_t cut = 0; cut < size; cut += 1 + size / 60) {
+            write_bytes(bytes, cut);
+            try_file();
+        }
+        for (int k = 0; k < 120; k++) {
+            const size_t at = random_number(&seed) % size;
+            const unsigned char kept = bytes[at];
+            bytes[at] ^= (unsigned char)(1 << random_number(&seed) % 8);
+            write_bytes(bytes, size);
+            try_file();
+            bytes[at] = kept;
+        }
+        free(bytes);
+    }
+}
+
+/* The side of a place near faces, edges and corners of a box, and its distance. */
+static void distances(void **state)
+{
+    (void)state;
+    const triangles t = box_mesh();
+    mps__context context = {.allocator = mps__allocator_default()};
+    mps__mesh m;
+    mps__mesh_faults faults;
+    mps__mesh_init(&m, &context, 3);
+    assert_int_equal(mps__mesh_reserve(&m, 3 * t.count, t.count), MPS_OK);
+    for (int k = 0; k < 9 * t.count; k++) m.x[k] = t.x[k / 9][k % 9];
+    for (int k = 0; k < 3 * t.count; k++) m.corner[k] = k;
+    m.points = 3 * t.count;
+    m.elements = t.count;
+    assert_int_equal(mps__mesh_weld(&m, &faults), MPS_OK);
+    assert_int_equal(m.points, 8);
+    assert_int_equal(faults.open + faults.turned + faults.degenerate, 0);
+    assert_int_equal(mps__mesh_finish(&m), MPS_OK);
+    ASSERT_NEAR(mps__mesh_volume(&m), 3.84, 1e-6);
+    const double size[3] = {2, (float)1.2, (float)1.6};
+    for (int k = 0; k < 5 * 5 * 5; k++) {
+        const int step[3] = {k % 5, k / 5 % 5, k / 25};
+        double x[3], foot[3], n[3], out2 = 0, most = -INFINITY;
+        for (int d = 0; d < 3; d++) {
+            x[d] = size[d] * (0.37 * step[d] - 0.3);
+            const double q = fmax(-x[d], x[d] - size[d]);
+            out2 += fmax(q, 0) * fmax(q, 0);
+            most = fmax(most, q);
+        }
+        const double r = mps__mesh_distance(&m, x, foot, n);
+        ASSERT_NEAR(r, fmin(most, 0) + sqrt(out2), 1e-12);
+        for (int d = 0; d < 3; d++) ASSERT_NEAR(foot[d] + r * n[d], x[d], 1e-12);
+    }
+    mps__mesh_free(&m);
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    if (!mkdtemp(folder)) return 1;
+    snprintf(path, sizeof path, "%s/tank.stl", folder);
+    return 0;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    unlink(path);
+    return rmdir(folder);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(both_forms), cmocka_unit_test(scale_and_orientation), cmocka_unit_test(bad_meshes),
+        cmocka_unit_test(bad_files),  cmocka_unit_test(degenerate_triangles),  cmocka_unit_test(damaged_files),
+        cmocka_unit_test(distances),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
