@@ -10,7 +10,7 @@ static const double CREST[] = {0.065, 0.120, 0.1585, 0.109, 0.019};
 
 static void build(run *r)
 {
-    const mps_harmonic motion = {.dof = MPS_SURGE, .amplitude = AMPLITUDE, .omega = OMEGA};
+    const mps_harmonic motion = {.dof = MPS_SURGE, .amplitude = r->options.amplitude, .omega = OMEGA};
     const double lo[] = {0, 0}, hi[] = {WIDTH, DEPTH};
     mps_tank tank;
     mps_tank_init(&tank, sizeof tank);
@@ -28,7 +28,7 @@ static void add_columns(run *r)
     for (int i = 0; i < 5; i++) run_wall_pressure(r, name[i], 0, 0.05 * (i + 1), 0);
     run_gauge(r, "eta_left", dp, 0, level);
     run_gauge(r, "eta_right", WIDTH - dp, 0, level);
-    run_mark_add(r, "crests, FNPF", "m", 5, CREST_T, CREST);
+    if (r->options.amplitude == AMPLITUDE) run_mark_add(r, "crests, FNPF", "m", 5, CREST_T, CREST);
 }
 
 int main(int argc, char **argv)
@@ -40,6 +40,7 @@ int main(int argc, char **argv)
     o.dp_min = 0.0005;
     o.dp_max = 0.05;
     o.t_end = 5.4;
+    o.amplitude = AMPLITUDE;
     cli_parse(&o, argc, argv);
     run_open(&r, &o);
     build(&r);

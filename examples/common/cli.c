@@ -9,7 +9,7 @@
 
 enum { CLI_THREADS_MAX = 1024, CLI_FRAMES_MAX = 100000 };
 
-typedef enum cli_type { TYPE_TEXT, TYPE_REAL, TYPE_INT, TYPE_FLAG, TYPE_HELP, TYPE_VERSION } cli_type;
+typedef enum cli_type { TYPE_TEXT, TYPE_REAL, TYPE_INT, TYPE_LIST, TYPE_TIMES, TYPE_FLAG, TYPE_HELP, TYPE_VERSION } cli_type;
 
 /* One option; `value` points into cli_options. Reals are checked against min < value <= max. */
 typedef struct cli_option {
@@ -20,12 +20,15 @@ typedef struct cli_option {
     bool flag; /* what a TYPE_FLAG sets */
 } cli_option;
 
-enum { CLI_OPTIONS = 16 };
+enum { CLI_OPTIONS = 24 };
 
 static int cli_table(cli_options *o, cli_option *table)
 {
     int n = 0;
     table[n++] = (cli_option){"--model", "NAME", "imps or imps.paper", TYPE_TEXT, &o->model, 0, 0, false};
+    table[n++] = (cli_option){"--use", "SLOT.VARIANT", "exchange a model of the preset; may be repeated", TYPE_LIST, &o->use, 0, 0, false};
+    table[n++] = (cli_option){"--set", "SLOT.KEY=X", "change a number of a model; may be repeated", TYPE_LIST, &o->set, 0, 0, false};
+    table[n++] = (cli_option){"--re-far", "X", "far radius [dp]; without it the preset's", TYPE_REAL, &o->re_far, 2.1, 10, false};
     table[n++] = (cli_option){"--dp", "M", "particle spacing [m]", TYPE_REAL, &o->dp, o->dp_min, o->dp_max, false};
     table[n++] = (cli_option){"--dt", "S", "fixed time step [s]; without it the step adapts", TYPE_REAL, &o->dt, 0, 0.1, false};
     table[n++] = (cli_option){"--cfl", "C", "adaptive step: largest dt u / dp", TYPE_REAL, &o->cfl, 0, 1, false};
@@ -36,7 +39,15 @@ static int cli_table(cli_options *o, cli_option *table)
     table[n++] = (cli_option){"--frames",     "N",  "frames for ParaView besides the first; 0: none", TYPE_INT, &o->frames, 0,
                               CLI_FRAMES_MAX, false};
     table[n++] = (cli_option){"--probe-dt", "S", "interval of rows in probes.csv [s]", TYPE_REAL, &o->probe_dt, 0, 10, false};
+    table[n++] = (cli_option){
+        "--sensor-average", "S", "wall pressures are means of the last S seconds", TYPE_REAL, &o->sensor_average, 0, 10, false};
+    table[n++] = (cli_option){"--pictures", "T,T,..", "times of the pictures [s]; without it quarters", TYPE_TIMES, o, 0, 0, false};
     if (o->has_dim) table[n++] = (cli_option){"--dim", "D", "2 or 3 dimensions", TYPE_INT, &o->dim, 2, 3, false};
+    if (o->amplitude > 0) table[n++] = (cli_option){"--amplitude", "M", "of the motion [m]", TYPE_REAL, &o->amplitude, 0, 10, false};
+    if (o->has_layers)
+        table[n++] = (cli_option){"--layers", "N", "columns of the baffle; 0: as it is thick", TYPE_INT, &o->layers, 0, 100, false};
+    if (o->has_stl) table[n++] = (cli_option){"--stl", "FILE", "a closed tank of your own, instead", TYPE_TEXT, &o->stl, 0, 0, false};
+    if (o->has_stl) table[n++] = (cli_option){"--stl-scale", "M", "[m] a unit of the file", TYPE_REAL, &o->stl_scale, 0, 1e6, false};
     table[n++] = (cli_option){"--no-report", NULL, "no report.html", TYPE_FLAG, &o->report, 0, 0, false};
     table[n++] = (cli_option){"--quiet", NULL, "no progress", TYPE_FLAG, &o->quiet, 0, 0, true};
     table[n++] = (cli_option){"--version", NULL, "version of the library", TYPE_VERSION, NULL, 0, 0, false};
@@ -48,7 +59,7 @@ static int cli_table(cli_options *o, cli_option *table)
 static void cli_default_text(const cli_option *e, char *text, size_t size)
 {
     text[0] = '\0';
-    if (e->type == TYPE_TEXT) snprintf(text, size, " (%s)", *(const char **)e->value);
+    if (e->type == TYPE_TEXT && *(const char **)e->value) snprintf(text, size, " (%s)", *(const char **)e->value);
     if (e->type == TYPE_INT) snprintf(text, size, " (%d)", *(int32_t *)e->value);
     if (e->type == TYPE_REAL && *(double *)e->value > 0) snprintf(text, size, " (%g)", *(double *)e->value);
 }
@@ -60,7 +71,7 @@ static void cli_help(const cli_options *o, const cli_option *table, int n)
         char left[32], initial[128];
         snprintf(left, sizeof left, "%s %s", table[i].name, table[i].argument ? table[i].argument : "");
         cli_default_text(&table[i], initial, sizeof initial);
-        printf("  %-16s %s%s\n", left, table[i].help, initial);
+        printf("  %-18s %s%s\n", left, table[i].help, initial);
     }
     printf("\nWrites probes.csv, summary.json, frames.pvd with frames/, plots, pictures and report.html into the folder of --out.\n"
            "Exit: 0 done, 1 failed, 2 wrong value, 3 diverged (outputs stay readable), 130 interrupted by Ctrl-C.\n");
@@ -84,7 +95,7 @@ static void cli_refuse_value(const cli_options *o, const cli_option *e, const ch
         snprintf(allowed, sizeof allowed, "a number, %g to %g", e->min, e->max);
     else
         snprintf(allowed, sizeof allowed, "a number greater than 0, at most %g", e->max);
-    fprintf(stderr, "%s: %s %s: must be %s\n", o->program, e->name, text[0] ? text : "(empty)", allowed);
+    fprintf(stderr, "%s: %s %s: must be %s\n", o->program, e->name, text, allowed);
     exit(CLI_USAGE);
 }
 
@@ -101,11 +112,46 @@ static void cli_set_number(const cli_options *o, const cli_option *e, const char
         *(double *)e->value = value;
 }
 
+/* Increasing times, e.g. "2.2,2.3". */
+static void cli_set_times(cli_options *o, const cli_option *e, const char *text)
+{
+    const char *at = text;
+    o->pictures = 0;
+    for (bool more = true; more; at++) {
+        char *end;
+        double t = strtod(at, &end), before = o->pictures > 0 ? o->picture_t[o->pictures - 1] : 0;
+        more = *end == ',';
+        if (end == at || (*end && !more) || !isfinite(t) || t <= before || o->pictures == CLI_TIMES)
+            cli_refuse(o, "%s %s: must be increasing times greater than 0, at most 24 of them", e->name, text);
+        o->picture_t[o->pictures++] = t;
+        at = end;
+    }
+}
+
+static void cli_add_text(const cli_options *o, const cli_option *e, const char *text)
+{
+    cli_list *list = e->value;
+    if (list->count == CLI_LIST) cli_refuse(o, "%s %s: is one too many", e->name, text);
+    list->text[list->count++] = text;
+}
+
 static cli_option *cli_find(cli_option *table, int n, const char *name, size_t length)
 {
     for (int i = 0; i < n; i++)
         if (strlen(table[i].name) == length && strncmp(table[i].name, name, length) == 0) return &table[i];
     return NULL;
+}
+
+static void cli_set(cli_options *o, const cli_option *e, const char *text)
+{
+    if (e->type == TYPE_TEXT)
+        *(const char **)e->value = text;
+    else if (e->type == TYPE_LIST)
+        cli_add_text(o, e, text);
+    else if (e->type == TYPE_TIMES)
+        cli_set_times(o, e, text);
+    else
+        cli_set_number(o, e, text);
 }
 
 /* Handle argv[*i]; both "--dp 0.01" and "--dp=0.01" are understood. */
@@ -126,12 +172,8 @@ static void cli_take(cli_options *o, cli_option *table, int n, int argc, char **
     }
     const char *text = equals ? equals + 1 : *i + 1 < argc ? argv[++*i] : NULL;
     if (!text) cli_refuse(o, "%s needs a value: %s", e->name, e->argument);
-    if (e->type == TYPE_TEXT) {
-        if (!text[0]) cli_refuse(o, "%s: must not be empty%s", e->name, "");
-        *(const char **)e->value = text;
-        return;
-    }
-    cli_set_number(o, e, text);
+    if (!text[0]) cli_refuse(o, "%s: must not be empty%s", e->name, "");
+    cli_set(o, e, text);
 }
 
 void cli_defaults(cli_options *o, const char *program, const char *about)
@@ -147,6 +189,7 @@ void cli_defaults(cli_options *o, const char *program, const char *about)
                        .t_end = 1,
                        .t_max = 1e4,
                        .probe_dt = 1e-3,
+                       .stl_scale = 1,
                        .threads = 2,
                        .frames = 50,
                        .dim = 2,
@@ -159,4 +202,5 @@ void cli_parse(cli_options *o, int argc, char **argv)
     int n = cli_table(o, table);
     for (int i = 1; i < argc; i++) cli_take(o, table, n, argc, argv, &i);
     if (o->dt > 0 && o->dt > o->t_end) cli_refuse(o, "--dt is longer than --t-end%s%s", "", "");
+    if (o->pictures > 0 && o->picture_t[o->pictures - 1] > o->t_end) cli_refuse(o, "--pictures has times later than --t-end%s%s", "", "");
 }

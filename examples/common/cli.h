@@ -9,22 +9,40 @@
 /* Exit codes of every driver. */
 enum { CLI_OK = 0, CLI_FAILED = 1, CLI_USAGE = 2, CLI_DIVERGED = 3, CLI_INTERRUPTED = 130 };
 
+enum { CLI_LIST = 32, CLI_TIMES = 24 };
+
+/* The texts of an option that may be given several times. */
+typedef struct cli_list {
+    int count;
+    const char *text[CLI_LIST];
+} cli_list;
+
 /* What a driver can be asked for. A driver fills in its own defaults before it parses. */
 typedef struct cli_options {
-    const char *program;       /* name of the case, also of its report */
-    const char *about;         /* one line for --help */
-    const char *model;         /* preset of the library */
-    const char *solver;        /* "solver" or "solver/preconditioner" */
-    const char *out;           /* folder of all outputs */
-    double dp, dp_min, dp_max; /* spacing [m] and what makes sense for this case */
-    double dt;                 /* fixed step [s]; 0: adaptive */
-    double cfl;                /* adaptive: dt u / dp */
-    double t_end, t_max;       /* [s] */
-    double probe_dt;           /* rows of probes.csv [s] */
-    int32_t threads;           /* OpenMP threads */
-    int32_t frames;            /* frames besides the first */
-    int32_t dim;               /* 2 or 3 */
-    bool has_dim;              /* the driver offers --dim */
+    const char *program;         /* name of the case, also of its report */
+    const char *about;           /* one line for --help */
+    const char *model;           /* preset of the library */
+    cli_list use, set;           /* "slot.variant" and "slot.key=value", on top of the preset */
+    double re_far;               /* far radius [dp]; 0: the library's */
+    const char *solver;          /* "solver" or "solver/preconditioner" */
+    const char *out;             /* folder of all outputs */
+    double dp, dp_min, dp_max;   /* spacing [m] and what makes sense for this case */
+    double dt;                   /* fixed step [s]; 0: adaptive */
+    double cfl;                  /* adaptive: dt u / dp */
+    double t_end, t_max;         /* [s] */
+    double probe_dt;             /* rows of probes.csv [s] */
+    double sensor_average;       /* wall pressures are means over this [s]; 0: as they are */
+    int32_t threads;             /* OpenMP threads */
+    int32_t frames;              /* frames besides the first */
+    int pictures;                /* 0: at quarters of the time */
+    double picture_t[CLI_TIMES]; /* [s], ascending */
+    int32_t dim;                 /* 2 or 3 */
+    double amplitude;            /* of the motion [m]; offered by drivers that set it */
+    int32_t layers;              /* columns of a baffle; 0: as it is thick */
+    bool has_dim, has_layers;    /* the driver offers --dim, --layers */
+    const char *stl;             /* NULL, or a file with the tank; offered if has_stl */
+    double stl_scale;            /* [m] a unit of it */
+    bool has_stl;
     bool report, quiet;
 } cli_options;
 

@@ -24,8 +24,8 @@ typedef struct scene {
     int32_t dim;
     int64_t n;
     const double *x, *p;
-    const int32_t *kind, *phase;
-    double dp, lo[2], hi[2], scale, p_max, t;
+    const int32_t *kind, *phase, *plate;
+    double dp, lo[3], hi[3], scale, p_max, t;
 } scene;
 
 /* Five colours of equal steps a phase: dark to light, so that the maps read in grey too. */
@@ -119,7 +119,7 @@ static void scene_window(scene *s)
     int32_t kind = MPS_FLUID;
     for (int64_t i = 0; i < s->n; i++)
         if (s->kind[i] == MPS_WALL) kind = MPS_WALL;
-    for (int d = 0; d < 2; d++) {
+    for (int d = 0; d < s->dim; d++) {
         s->lo[d] = INFINITY;
         s->hi[d] = -INFINITY;
         for (int64_t i = 0; i < s->n; i++) {
@@ -161,30 +161,24 @@ static int compare_depths(const void *a, const void *b)
     return x->z != y->z ? (x->z > y->z) - (x->z < y->z) : (x->i > y->i) - (x->i < y->i);
 }
 
-/* In 3-D from the back to the front and without the walls, which would hide the flow. */
+/* In 3-D what is about the middle across z, one or two layers, so that baffles and levels between the walls are seen. */
+static bool in_slice(const scene *s, int64_t i)
+{
+    return s->dim == 2 || fabs(s->x[i * 3 + 2] - 0.5 * (s->lo[2] + s->hi[2])) <= 0.75 * s->dp;
+}
+
+/* From the back to the front. */
 static bool draw_particles(image *m, const scene *s)
 {
     depth *order = malloc((size_t)s->n * sizeof *order);
     int64_t n = 0;
     if (!order) return false;
     for (int64_t i = 0; i < s->n; i++)
-        if (s->dim == 2 || s->kind[i] == MPS_FLUID) order[n++] = (depth){s->dim == 3 ? s->x[i * 3 + 2] : 0, i};
+        if (in_slice(s, i) && !(s->kind[i] == MPS_DUMMY && s->plate[i])) order[n++] = (depth){s->dim == 3 ? s->x[i * 3 + 2] : 0, i};
     qsort(order, (size_t)n, sizeof *order, compare_depths);
     for (int64_t k = 0; k < n; k++) draw_particle(m, s, order[k].i);
     free(order);
     return true;
-}
-
-/* The inside of the walls as a frame, where the walls themselves are not drawn. */
-static void draw_frame(image *m, const scene *s)
-{
-    int x = (int)(3 * s->dp * s->scale), width = (int)((s->hi[0] - s->lo[0]) * s->scale) - 2 * x;
-    int y = HEAD + x, height = (int)((s->hi[1] - s->lo[1]) * s->scale) - 2 * x;
-    colour grey = {0.55, 0.55, 0.58};
-    image_box(m, x, y, width, 2, grey);
-    image_box(m, x, y + height, width + 2, 2, grey);
-    image_box(m, x, y, 2, height, grey);
-    image_box(m, x + width, y, 2, height, grey);
 }
 
 static void draw_bar(image *m, const scene *s)
@@ -196,7 +190,7 @@ static void draw_bar(image *m, const scene *s)
         snprintf(text, sizeof text, "%.0f", s->p_max * (4 - k) / 4);
         image_text(m, x + 26, top + height * k / 4 - FONT_HEIGHT, text);
     }
-    snprintf(text, sizeof text, "t = %.3f s   pressure [Pa]", s->t);
+    snprintf(text, sizeof text, "t = %.3f s   pressure [Pa]%s", s->t, s->dim == 3 ? "   middle slice" : "");
     image_text(m, 12, 10, text);
 }
 
@@ -215,7 +209,6 @@ static bool picture_draw(scene *s, const char *path)
     scene_window(s);
     s->p_max = scene_p_max(s);
     bool done = image_create(&m, s) && draw_particles(&m, s);
-    if (done && s->dim == 3) draw_frame(&m, s);
     if (done) draw_bar(&m, s);
     if (!done) fprintf(stderr, "%s: out of memory\n", path);
     done = done && image_save(&m, path);
@@ -236,6 +229,7 @@ bool picture_save(mps_sim *sim, const char *path)
     s.x = x.data;
     s.p = p.data;
     mps_particles_tags(sim, NULL, &s.kind, &s.phase, NULL);
+    mps_particles_plates(sim, &s.plate);
     done = picture_draw(&s, path);
     mps_lease_end(sim, &p);
 fail_x:

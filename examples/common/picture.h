@@ -6,7 +6,7 @@
 #include <mps/mps.h>
 #include <stdbool.h>
 
-/* Draw the present state, in 3-D as seen along -z. @return false with a message on stderr */
+/* Draw the present state, in 3-D a slice one and a half spacings thick in the middle of z. @return false with a message on stderr */
 bool picture_save(mps_sim *sim, const char *path);
 
 #endif

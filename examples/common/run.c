@@ -48,6 +48,29 @@ static void run_refuse(run *r, const char *option, const char *value, const char
     exit(CLI_USAGE);
 }
 
+/* "slot.key=value"; the slot may be a full name, so the key begins behind the last dot. */
+static void run_set_model(run *r, const char *text)
+{
+    char slot[96], *key, *end;
+    const char *equals = strchr(text, '=');
+    snprintf(slot, sizeof slot, "%.*s", equals ? (int)(equals - text) : (int)strlen(text), text);
+    key = strrchr(slot, '.');
+    double value = equals ? strtod(equals + 1, &end) : 0;
+    if (!equals || !key || end == equals + 1 || *end) run_refuse(r, "--set", text, "must be slot.key=number", "");
+    *key++ = '\0';
+    if (mps_model_set(r->sim, slot, key, value) != MPS_OK) run_refuse(r, "--set", text, mps_sim_error(r->sim), "");
+}
+
+static void run_use_models(run *r)
+{
+    const cli_options *o = &r->options;
+    if (mps_sim_use_preset(r->sim, o->model) != MPS_OK)
+        run_refuse(r, "--model", o->model, mps_sim_error(r->sim), "; there are imps, imps.paper");
+    for (int i = 0; i < o->use.count; i++)
+        if (mps_model_use(r->sim, o->use.text[i]) != MPS_OK) run_refuse(r, "--use", o->use.text[i], mps_sim_error(r->sim), "");
+    for (int i = 0; i < o->set.count; i++) run_set_model(r, o->set.text[i]);
+}
+
 static void run_use_solver(run *r)
 {
     const char *text = r->options.solver, *slash = strchr(text, '/');
@@ -80,6 +103,7 @@ void run_open(run *r, const cli_options *o)
     config.dp = o->dp;
     config.threads = o->threads;
     if (strcmp(o->model, "imps.paper") == 0 && o->dim == 2) config.re_far = 4.1; /* W22; in 3-D no paper says */
+    if (o->re_far > 0) config.re_far = o->re_far;
     config.log = run_log;
     config.log_user = r;
     config.error = error;
@@ -89,8 +113,7 @@ void run_open(run *r, const cli_options *o)
         fprintf(stderr, "%s: %s: %s\n", o->program, mps_status_name(status), error);
         exit(status == MPS_E_ARG ? CLI_USAGE : CLI_FAILED);
     }
-    if (mps_sim_use_preset(r->sim, o->model) != MPS_OK)
-        run_refuse(r, "--model", o->model, mps_sim_error(r->sim), "; there are imps, imps.paper");
+    run_use_models(r);
     run_use_solver(r);
     run_set_time(r);
 }
@@ -138,7 +161,7 @@ static void run_probe_add(run *r, const char *name, const char *unit, const mps_
     c->zero = zero;
 }
 
-void run_wall_pressure(run *r, const char *name, double x, double y, double z)
+void run_wall_sensor(run *r, const char *name, double x, double y, double z, double diameter)
 {
     mps_probe probe;
     mps_probe_init(&probe, sizeof probe);
@@ -146,18 +169,29 @@ void run_wall_pressure(run *r, const char *name, double x, double y, double z)
     probe.at[0] = x;
     probe.at[1] = y;
     probe.at[2] = z;
+    probe.diameter = diameter;
+    probe.average = r->options.sensor_average;
     run_probe_add(r, name, "Pa", &probe, 0);
     r->column[r->columns - 1].pressure = true;
 }
 
-void run_gauge(run *r, const char *name, double x, double z, double level)
+void run_wall_pressure(run *r, const char *name, double x, double y, double z)
+{
+    run_wall_sensor(r, name, x, y, z, 0);
+}
+
+void run_gauge_from(run *r, const char *name, const double *foot, double level)
 {
     mps_probe probe;
     mps_probe_init(&probe, sizeof probe);
     probe.type = MPS_PROBE_GAUGE;
-    probe.at[0] = x;
-    probe.at[2] = z;
-    run_probe_add(r, name, "m", &probe, level);
+    memcpy(probe.at, foot, sizeof probe.at);
+    run_probe_add(r, name, "m", &probe, level - foot[1]);
+}
+
+void run_gauge(run *r, const char *name, double x, double z, double level)
+{
+    run_gauge_from(r, name, (const double[]){x, 0, z}, level);
 }
 
 void run_value(run *r, const char *name, const char *unit, run_value_fn value, void *user)

@@ -8,7 +8,7 @@
 #include "table.h"
 #include <mps/mps.h>
 
-enum { RUN_COLUMNS = 32, RUN_COMMON = 8, RUN_MARKS = 4, RUN_MARK_POINTS = 16, RUN_PICTURES = 4, RUN_ERROR = 640 };
+enum { RUN_COLUMNS = 32, RUN_COMMON = 8, RUN_MARKS = 4, RUN_MARK_POINTS = 16, RUN_ERROR = 640 };
 
 /* A quantity of a driver's own. */
 typedef double (*run_value_fn)(void *user, mps_sim *sim);
@@ -66,7 +66,11 @@ double run_level(run *r);
 
 /* Columns, in the order of the file. Places are in the tank's frame. */
 void run_wall_pressure(run *r, const char *name, double x, double y, double z);
+/* A sensor with a face of this diameter [m], from one spacing up averaged over it. */
+void run_wall_sensor(run *r, const char *name, double x, double y, double z, double diameter);
 void run_gauge(run *r, const char *name, double x, double z, double level);
+/* A gauge that begins above the floor, e.g. on a baffle. @param foot [3] [m] */
+void run_gauge_from(run *r, const char *name, const double *foot, double level);
 void run_value(run *r, const char *name, const char *unit, run_value_fn value, void *user);
 void run_mark_add(run *r, const char *label, const char *unit, int count, const double *t, const double *value);
 

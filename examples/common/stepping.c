@@ -9,6 +9,8 @@
 #include <string.h>
 #include <time.h>
 
+enum { RUN_QUARTERS = 4 };
+
 static volatile sig_atomic_t interrupted;
 
 /* The handler is there for one signal only: a second Ctrl-C ends the program at once. */
@@ -123,11 +125,16 @@ static void run_frame(run *r, double t)
     r->frame = (int64_t)(t / interval + 1e-9) + 1;
 }
 
+/* At the times asked for, or at quarters; the end has a picture of its own. */
 static void run_picture(run *r, double t)
 {
-    if (t < r->options.t_end * (r->pictures + 1) / RUN_PICTURES || r->pictures == RUN_PICTURES - 1) return; /* the last one shows the end */
+    const cli_options *o = &r->options;
+    int count = o->pictures > 0 ? o->pictures : RUN_QUARTERS - 1;
+    if (r->pictures == count) return;
+    double next = o->pictures > 0 ? o->picture_t[r->pictures] : o->t_end * (r->pictures + 1) / RUN_QUARTERS;
+    if (t < next - 1e-9 * o->t_end) return;
     char path[560];
-    snprintf(path, sizeof path, "%s/picture_%d.png", r->options.out, ++r->pictures);
+    snprintf(path, sizeof path, "%s/picture_%d.png", o->out, ++r->pictures);
     if (!picture_save(r->sim, path)) r->output_failed = true;
 }
 

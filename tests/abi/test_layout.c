@@ -24,6 +24,25 @@ AT(mps_tank, size, 40);
 AT(mps_tank, open_top, 64);
 AT(mps_tank, dummy_layers, 68);
 
+SIZE(mps_solid, 96);
+AT(mps_solid, struct_size, 0);
+AT(mps_solid, dummy_layers, 4);
+AT(mps_solid, name, 8);
+AT(mps_solid, lo, 16);
+AT(mps_solid, hi, 40);
+AT(mps_solid, distance, 64);
+AT(mps_solid, inside, 72);
+AT(mps_solid, user, 80);
+AT(mps_solid, invert, 88);
+
+SIZE(mps_stl, 56);
+AT(mps_stl, struct_size, 0);
+AT(mps_stl, dummy_layers, 4);
+AT(mps_stl, name, 8);
+AT(mps_stl, scale, 16);
+AT(mps_stl, shift, 24);
+AT(mps_stl, container, 48);
+
 SIZE(mps_stage, 248);
 AT(mps_stage, struct_size, 0);
 AT(mps_stage, dim, 4);
@@ -194,7 +213,7 @@ AT(mps_solver_ops, create, 32);
 AT(mps_solver_ops, solve, 40);
 AT(mps_solver_ops, destroy, 48);
 
-SIZE(mps_probe, 88);
+SIZE(mps_probe, 104);
 AT(mps_probe, struct_size, 0);
 AT(mps_probe, type, 4);
 AT(mps_probe, at, 8);
@@ -203,6 +222,8 @@ AT(mps_probe, diameter, 56);
 AT(mps_probe, length, 64);
 AT(mps_probe, part, 72);
 AT(mps_probe, count_drops, 80);
+AT(mps_probe, average, 88);
+AT(mps_probe, rate, 96);
 
 SIZE(mps_energy, 136);
 AT(mps_energy, struct_size, 0);

@@ -49,6 +49,21 @@ refused 'unknown option --dim' standing_wave --dim 3
 refused 'unknown option --bogus' standing_wave --bogus
 refused '--dp needs a value' standing_wave --dp
 refused '--quiet takes no value' standing_wave --quiet=yes
+refused 'unknown option --amplitude' static_tank --amplitude 0.1
+refused '--amplitude 0: must be a number greater than 0' sloshing_high_fill --amplitude 0
+refused '--layers -1: must be a whole number, 0 to 100' sloshing_baffle_2d --layers -1
+refused 'unknown option --layers' dam_break --layers 1
+refused '--pictures 1,0.5: must be increasing times' sloshing_breaking --pictures 1,0.5
+refused '--pictures 1,: must be increasing times' sloshing_breaking --pictures 1,
+refused '--pictures has times later than --t-end' sloshing_breaking --pictures 1,2 --t-end 1.5
+refused 'did you mean "shift.tangential"' static_tank --use shift.tangentia
+refused '--set shift.bogus=1: model "shift.tangential" has no setting "bogus"' static_tank --set shift.bogus=1
+refused '--set bogus.strain=1: ' static_tank --set bogus.strain=1
+refused '--set collision.distance=-1: ' static_tank --set collision.distance=-1
+refused '--set collision=1: must be slot.key=number' static_tank --set collision=1
+refused '--set collision.distance: must be slot.key=number' static_tank --set collision.distance
+refused '--set collision.distance=0.5x: must be slot.key=number' static_tank --set=collision.distance=0.5x
+refused '--re-far 1.5: must be a number, 2.1 to 10' static_tank --re-far 1.5
 refused 'there are imps, imps.paper' static_tank --model mmps
 refused 'there are sundials.pcg' static_tank --solver magic
 refused '--out /dev/null/x: Not a directory' static_tank --out /dev/null/x
@@ -57,13 +72,13 @@ refused '--out /dev/null/x: Not a directory' static_tank --out /dev/null/x
 "$drivers/static_tank" --version | grep -q 'libmps [0-9]' || fail "--version"
 
 # a short run of each: header, number and spacing of rows, every key of the summary, frames
-columns() { # driver, header wanted, options...
-    runs 0 "$1" --dp 0.025 --t-end 0.02 --frames 2 --out "$1" --quiet "${@:3}"
+columns() { # driver, dp, fluid particles, header wanted, options...
+    runs 0 "$1" --dp "$2" --t-end 0.02 --frames 2 --out "$1" --quiet "${@:5}"
     [ -s log ] && fail "$1 --quiet says: $(cat log)"
     has "$1" probes.csv steps.csv summary.json frames.pvd picture_1.png picture_end.png plot_energy.svg plot_dt.svg plot_ppe.svg report.html
     local header
     header=$(head -1 "$1/probes.csv")
-    case $header in "$2"*) ;; *) fail "$1/probes.csv begins $header" ;; esac
+    case $header in "$4"*) ;; *) fail "$1/probes.csv begins $header" ;; esac
     [ "$(wc -l <"$1/probes.csv")" = 22 ] || fail "$1/probes.csv has $(wc -l <"$1/probes.csv") lines instead of 22"
     awk -F, 'NR == 1 {n = NF} NF != n {exit 1} NR > 1 && ($1 - (NR - 2) * 1e-3) ^ 2 > 1e-24 {exit 1} /nan/ {exit 1}' "$1/probes.csv" ||
         fail "$1/probes.csv: rows are not complete or not every 1e-3 s"
@@ -72,12 +87,52 @@ columns() { # driver, header wanted, options...
         grep -q "^  \"$key\": " "$1/summary.json" || fail "$1/summary.json has no $key"
     done
     grep -q '"status": "ok"' "$1/summary.json" || fail "$1: status is not ok"
+    grep -q "\"n_fluid\": $3," "$1/summary.json" || fail "$1 has $(grep n_fluid "$1/summary.json") instead of $3"
     [ "$(find "$1/frames" -name '*.vtp' | wc -l)" -ge 3 ] || fail "$1: fewer than 3 frames"
 }
-columns sloshing_surge 't[s],P1[Pa],P2[Pa],P3[Pa],P4[Pa],P5[Pa],eta_left[m],eta_right[m],ke[J/m],x_tank[m],pe[J/m]'
-columns static_tank 't[s],P1[Pa],P2[Pa],P3[Pa],eta_left[m],ke[J],x_tank[m]' --dim 3
-columns standing_wave 't[s],eta_left[m],ke[J/m],x_tank[m]'
+columns sloshing_surge 0.025 310 't[s],P1[Pa],P2[Pa],P3[Pa],P4[Pa],P5[Pa],eta_left[m],eta_right[m],ke[J/m],x_tank[m],pe[J/m]'
+columns sloshing_high_fill 0.025 276 't[s],P1[Pa],eta_right[m],ke[J/m],x_tank[m]'
+columns sloshing_low_fill 0.015 78 't[s],P1[Pa],eta_right[m],ke[J/m],x_tank[m]'
+columns sloshing_breaking 0.025 357 't[s],P1[Pa],P2[Pa],P3[Pa],eta_left[m],eta_right[m],air_volume[m2],ke[J/m],x_tank[m]'
+columns sloshing_baffle_2d 0.01 978 't[s],eta_a[m],eta_b[m],eta_c[m],ke[J/m],x_tank[m]'
+columns sloshing_baffle_3d 0.025 1859 't[s],eta_a[m],eta_b[m],eta_c[m],ke[J],x_tank[m]'
+columns dam_break 0.025 288 't[s],P1[Pa],P2[Pa],P3[Pa],P4[Pa],front[m],ke[J/m],x_tank[m]'
+columns static_tank 0.025 616 't[s],P1[Pa],P2[Pa],P3[Pa],eta_left[m],ke[J],x_tank[m]' --dim 3
+columns standing_wave 0.025 780 't[s],eta_left[m],ke[J/m],x_tank[m]'
 awk -F, 'NR == 2 && $2 > 0 {found = 1} END {exit !found}' static_tank/probes.csv || fail "static_tank/probes.csv has no pressure in the row of t = 0"
+
+# particle numbers: Z14's surge tank, the dam break in 3-D
+counts() { # fluid, walls and dummies, driver, options...
+    runs 0 "${@:3}" --t-end 1e-5 --frames 0 --no-report --quiet --out counts
+    local fluid wall dummy
+    for key in fluid wall dummy; do declare $key="$(sed -n "s/.*\"n_$key\": \([0-9]*\),.*/\1/p" counts/summary.json)"; done
+    [ "$fluid $((wall + dummy))" = "$1 $2" ] || fail "${*:3}: $fluid + $wall + $dummy particles instead of $1 + $2"
+}
+counts 12338 1974 sloshing_surge --dp 0.004
+counts 1440 14766 dam_break --dim 3 --dp 0.025
+
+# motions at t = 0.02: -a (1 - cos wt), also with an amplitude of one's own, and a sin wt
+tank_is() { # folder, formula
+    local column
+    column=$(head -1 "$1/probes.csv" | tr , '\n' | grep -n x_tank | cut -d: -f1)
+    awk -F, -v c="$column" 'END {x = '"$2"'; exit !(x != 0 && ($c / x - 1) ^ 2 < 1e-18)}' "$1/probes.csv" || fail "$1: the tank is not at $2"
+}
+tank_is sloshing_high_fill '-0.005 * (1 - cos(6.85 * 0.02))'
+tank_is sloshing_low_fill '-0.01 * (1 - cos(2.825 * 0.02))'
+tank_is sloshing_breaking '0.1 * sin(8 * atan2(1, 1) * 0.496 * 0.02)'
+tank_is sloshing_baffle_2d '0.1 * sin(3.53 * 0.02)'
+tank_is sloshing_baffle_3d '0.03 * sin(6.582 * 0.02)'
+runs 0 sloshing_high_fill --dp 0.025 --t-end 0.02 --frames 0 --amplitude 5e-4 --out small
+tank_is small '-5e-4 * (1 - cos(6.85 * 0.02))'
+
+# models exchanged, numbers changed: the run is another one; pictures at times of one's own
+runs 0 sloshing_high_fill --dp 0.025 --t-end 0.02 --frames 0 --use viscosity.laplacian --set collision.distance=0.7 --set collision.pair.distance=0.6 \
+    --pictures 0.005,0.01 --out same
+cmp -s same/probes.csv sloshing_high_fill/probes.csv || fail "settings equal to the preset's change the run"
+has same picture_1.png picture_2.png picture_end.png
+[ ! -e same/picture_3.png ] || fail "--pictures 0.005,0.01 makes three"
+runs 0 sloshing_high_fill --dp 0.025 --t-end 0.02 --frames 0 --use gradient.conservative --set source.strain=0 --out other
+if cmp -s other/probes.csv sloshing_high_fill/probes.csv; then fail "--use and --set change nothing"; fi
 
 # a run without report and frames
 runs 0 static_tank --dp 0.025 --t-end 0.005 --frames 0 --no-report --out bare

@@ -85,6 +85,31 @@ static void stepped(mps_sim *sim)
     for (int k = 0; k < 3; k++) assert_int_equal(mps_step(sim, 1e-3, NULL), MPS_OK);
 }
 
+/* With probes that keep averages and samples, a thousand of them in the next step. */
+static void sampled(mps_sim *sim)
+{
+    filled(sim);
+    for (int32_t type = 0; type < 4; type++) {
+        mps_probe p;
+        int32_t id;
+        assert_int_equal(mps_probe_init(&p, sizeof p), MPS_OK);
+        p.type = type;
+        p.at[1] = type == MPS_PROBE_GAUGE ? 0 : 0.1;
+        p.average = 1e-3;
+        p.rate = 1e6;
+        assert_int_equal(mps_probe_add(sim, &p, &id), MPS_OK);
+    }
+    for (int k = 0; k < 2; k++) assert_int_equal(mps_step(sim, 1e-3, NULL), MPS_OK);
+}
+
+static void with_plate(mps_sim *sim)
+{
+    const double lo[2] = {0.25, 0}, hi[2] = {0.25, 0.2};
+    tank_only(sim);
+    assert_int_equal(mps_geometry_baffle(sim, "plate", lo, hi), MPS_OK);
+    assert_int_equal(fill(sim), MPS_OK);
+}
+
 static void filled_for_bicgstab(mps_sim *sim)
 {
     filled(sim);
@@ -134,6 +159,12 @@ static mps_status baffle(mps_sim *sim)
     return mps_geometry_baffle(sim, "baffle", lo, hi);
 }
 
+static mps_status plate(mps_sim *sim)
+{
+    const double corner[2] = {0.2, 0.05}, edge[2] = {0.1, 0.15};
+    return mps_geometry_plate(sim, "plate", corner, edge, NULL);
+}
+
 static int anywhere(void *user, const double *x)
 {
     return (void)user, x[1] < 0.3;
@@ -142,6 +173,42 @@ static mps_status fill_inside(mps_sim *sim)
 {
     return mps_geometry_fill(sim, 0, anywhere, NULL, NULL);
 }
+
+static double round_shell(void *user, const double *x)
+{
+    return (void)user, 0.3 - hypot(x[0] - 0.3, x[1] - 0.3);
+}
+
+static int round_inside(void *user, const double *x)
+{
+    return round_shell(user, x) < 0;
+}
+
+static mps_status add_solid(mps_sim *sim, mps_distance_fn distance, mps_inside_fn inside)
+{
+    mps_solid solid;
+    assert_int_equal(mps_solid_init(&solid, sizeof solid), MPS_OK);
+    solid.distance = distance;
+    solid.inside = inside;
+    solid.hi[0] = solid.hi[1] = 0.6;
+    return mps_geometry_solid(sim, &solid);
+}
+
+static mps_status solid(mps_sim *sim)
+{
+    return add_solid(sim, round_shell, NULL);
+}
+
+static mps_status solid_by_inside(mps_sim *sim)
+{
+    return add_solid(sim, NULL, round_inside);
+}
+
+static void solid_only(mps_sim *sim)
+{
+    assert_int_equal(solid(sim), MPS_OK);
+}
+
 static mps_status add_block(mps_sim *sim)
 {
     return add_drop(sim, 0.36, 64);
@@ -180,6 +247,20 @@ static mps_status probe(mps_sim *sim)
     const mps_status status = mps_probe_add(sim, &p, &id);
     assert_int_equal(id, status == MPS_OK ? 0 : -1);
     return status;
+}
+
+static mps_status series(mps_sim *sim)
+{
+    int64_t count = -1;
+    const mps_status status = mps_probe_series(sim, 0, &count, NULL, NULL);
+    assert_int_equal(count, status == MPS_OK ? 2001 : -1);
+    return status;
+}
+
+static mps_status read_gauge(mps_sim *sim)
+{
+    double value;
+    return mps_probe_read(sim, 2, &value);
 }
 
 static mps_status solver(mps_sim *sim)
@@ -245,8 +326,13 @@ typedef struct scene {
 static const scene scenes[] = {
     {"geometry_tank", nothing, add_tank, 2},
     {"geometry_baffle", tank_only, baffle, 2},
+    {"geometry_plate", tank_only, plate, 2},
+    {"step with a plate", with_plate, step, 20},
     {"geometry_fill_box", tank_only, fill, 2},
     {"geometry_fill", tank_only, fill_inside, 2},
+    {"geometry_solid", nothing, solid, 50},
+    {"geometry_solid by inside", nothing, solid_by_inside, 60},
+    {"geometry_fill beside a solid", solid_only, fill_inside, 30},
     {"particles_add", filled, add_block, 5},
     {"particles_remove", filled, remove_some, 5},
     {"field_add", filled, field_add, 1},
@@ -258,6 +344,9 @@ static const scene scenes[] = {
     {"first step", filled, step, 20},
     {"later step", stepped, step, 1},
     {"step of more", grown, step, 20},
+    {"step with samples", sampled, step, 8},
+    {"probe_series", sampled, series, 2},
+    {"probe_read", sampled, read_gauge, 3},
     {"first step, bicgstab", filled_for_bicgstab, step, 20},
     {"first step, gmres", filled_for_gmres, step, 20},
     {"first step, klu", filled_for_klu, step, 20},
