@@ -4,14 +4,15 @@
  * between lone n0 and low n0 some asymmetry is asked for as well, |A| > low_share |A|0 (lone = low is the paper's). Particles with too little fluid about them are spray.
  * The papers test wall particles too (walls = 1): dry walls have p = 0.
  * Beside a wall that goes on above the surface n is too large and |A| too small: there a neighbour of the surface belongs to it as well if
- * n < contact_low n0 and |A| > contact_share |A|0 (contact = 1: in 3-D, where the lattice itself is at the limit; 2: in 2-D too; 0: never). */
+ * n < contact_low n0 and |A| > contact_share |A|0 (contact = 1). Without it such
+ * particles flicker in and out of the surface: a 3-D tank does not come to rest, a trough in 2-D breaks up at the wall. */
 #include "builtin.h"
 #include <stdbool.h>
 
 enum { LOW, HIGH, SHARE, SPRAY, WALLS, COMPLETE, LONE, LOW_SHARE, CONTACT, CONTACT_LOW, CONTACT_SHARE };
 static const mps_setting settings[] = {{"low", 0.8, 0.0, 1.0},          {"high", 0.97, 0.5, 1.0},         {"share", 0.9, 0.0, 2.0},
                                        {"spray", 0.25, 0.0, 1.0},       {"walls", 0.0, 0.0, 1.0},         {"complete", 1.0, 0.0, 1.0},
-                                       {"lone", 0.6, 0.0, 1.0},         {"low_share", 0.4, 0.0, 2.0},     {"contact", 1.0, 0.0, 2.0},
+                                       {"lone", 0.6, 0.0, 1.0},         {"low_share", 0.4, 0.0, 2.0},     {"contact", 1.0, 0.0, 1.0},
                                        {"contact_low", 0.95, 0.0, 1.0}, {"contact_share", 0.55, 0.0, 2.0}};
 
 /* |A| of a particle in the top row of a lattice that fills the half space below it. */
@@ -113,7 +114,7 @@ static int classify(void *self, const double *k, mps_stage *s)
         else if (n < k[LONE] || (n < k[LOW] && a > k[LOW_SHARE]) || (n < k[HIGH] && a > k[SHARE]))
             s->region[i] = MPS_REGION_SURFACE;
     }
-    if (k[CONTACT] > (s->dim == 3 ? 0.5 : 1.5) && mark_contact(k, s, a0)) return 1;
+    if (k[CONTACT] > 0 && mark_contact(k, s, a0)) return 1;
     spread(s, MPS_REGION_SURFACE, MPS_REGION_NEAR);
     spread(s, MPS_REGION_NEAR, MPS_REGION_SECOND);
     return 0;

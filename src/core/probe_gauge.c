@@ -3,7 +3,8 @@
  *
  * Particles are spread with cubic B-splines, dp wide along the line and diameter/2 across it: on a lattice the sum is a
  * smooth step that passes 1/2 exactly half a spacing above the centres of the top layer, and it moves with the
- * particles without a staircase. Drops and films fill less than half of the band and stay unseen. */
+ * particles without a staircase. Drops and films fill less than half of the band and stay unseen. Rows of a stretched lattice
+ * (1.3 : 1 in a crest) are further apart: how far the centres are below is taken from the surface particles themselves. */
 #include "probe_gauge.h"
 #include "plates.h"
 #include <math.h>
@@ -17,7 +18,7 @@ typedef struct beside {
     double s, across[2];
     double facing[2]; /* of walls: direction cosines of the wetted side across the line */
     double share;     /* of a particle's size: one half for each face of a thin plate */
-    bool solid;
+    bool solid, top;  /* top: on the free surface */
 } beside;
 
 typedef struct line {
@@ -118,6 +119,7 @@ static mps_status line_collect(line *l, mps__world *w)
         const bool fluid = s->kind[i] == MPS_FLUID;
         if (fluid && w->phase_density[s->phase[i]] < liquid) continue;
         b.solid = !fluid;
+        b.top = fluid && s->region[i] == MPS_REGION_SURFACE;
         b.share = mps__plates_share(w, i);
         if (s->kind[i] == MPS_WALL) wall_facing(l, s, i, &b);
         MPS__TRY(mps__grow(w->context, (void **)&l->list, &capacity, l->count, l->count + 1, sizeof b));
@@ -253,6 +255,23 @@ static double at_line(line *l, double surface)
     return out;
 }
 
+/* From the end of the filling down to the centres of the top row: the mean over the surface particles in the band, half a
+ * spacing where there are none, or where they are not a row below it. */
+static double row_below(const line *l, double surface)
+{
+    double sum = 0, weights = 0, shift[2];
+    band_shift(l, surface, shift);
+    for (int64_t k = first_from(l, surface - 1.5 * l->dp); k < l->count && l->list[k].s < surface + 0.5 * l->dp; k++) {
+        const beside *b = &l->list[k];
+        double weight = b->top ? b->share : 0;
+        for (int32_t e = 0; e < l->sides; e++) weight *= spline((b->across[e] - shift[e]) / l->width);
+        sum += weight * (surface - b->s);
+        weights += weight;
+    }
+    const double depth = weights > 0 ? sum / weights : 0.5 * l->dp;
+    return fabs(depth - 0.5 * l->dp) < 0.3 * l->dp ? depth : 0.5 * l->dp;
+}
+
 /* March from the foot to the place where the filling ends. */
 static double find_surface(line *l)
 {
@@ -270,7 +289,8 @@ static double find_surface(line *l)
         } else if (solid && wet >= 0) {
             return crossing(l, fmax(wet - 2 * l->dp, 0), s, true) - 0.5 * l->dp;
         } else if (wet >= 0 && !gap_closes(l, s, step)) {
-            return at_line(l, crossing(l, wet, s, false)) - 0.5 * l->dp;
+            const double surface = crossing(l, wet, s, false);
+            return at_line(l, surface) - row_below(l, surface);
         } else if (wet < 0) {
             if (!solid && s > 1.5 * l->dp) return 0; /* dry foot */
             solid = false;

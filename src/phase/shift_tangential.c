@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Particle shifting toward an even lattice: s_i = -c dt (U_g + max_j |u_j - u_i|) l D/n0 sum w r_ij over all kinds, at most
  * `limit` l. In the first two rows of a free surface the part along its normal is taken away: it would expand the fluid.
+ * In calm water the sum w r_ij would push the fluid toward walls and corners for ever, against the volume term: a disordered lattice
+ * presses on an ordered one. So the U_g part keeps what varies from particle to particle and loses the share `filter` of its kernel
+ * mean. The part of the strain rate stays whole: it repairs what a violent flow tears.
  * With `transport` the velocity goes along: u += s.grad u over fluid of the same phase, within the range of its neighbours'
  * velocities (over all neighbours, or unbounded, a lone drop would accelerate itself). */
 #include "builtin.h"
 
-enum { STRENGTH, LIMIT, TRANSPORT };
-static const mps_setting settings[] = {{"strength", 1.0, 0.0, 10.0}, {"limit", 0.05, 0.0, 0.5}, {"transport", 1.0, 0.0, 1.0}};
+enum { STRENGTH, LIMIT, TRANSPORT, FILTER };
+static const mps_setting settings[] = {
+    {"strength", 1.0, 0.0, 10.0}, {"limit", 0.05, 0.0, 0.5}, {"transport", 1.0, 0.0, 1.0}, {"filter", 0.8, 0.0, 1.0}};
 
 /* fmax() and fmin() as one instruction: `b` may be NaN and does not count then. */
 static inline double larger(double a, double b)
@@ -34,20 +38,31 @@ static void surface_normal(const mps_stage *s, int64_t i, double n[3])
 
 /* What one pass over the pairs of a particle collects. */
 typedef struct pair_sums {
-    double even[3];         /* sum w r_ij over all kinds */
+    double mean[3], weight; /* kernel sums over inner fluid: of the unevenness, and of 1 */
     double most;            /* largest |u_j - u_i|^2 of the fluid */
     double m[9], g[9];      /* sum w r_ij (x) r_ij and (u_j - u_i) (x) r_ij over fluid of the same phase */
     double low[3], high[3]; /* range of u_j - u_i there */
 } pair_sums;
 
-MPS__ROW void collect(const int dim, const mps_stage *s, int64_t i, pair_sums *c)
+/* sum w r_ij over all kinds */
+MPS__ROW void unevenness(const int dim, const mps_stage *s, int64_t i, double *even)
+{
+    const mps_stencil *t = s->near;
+    double sum[3] = {0};
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
+        for (int d = 0; d < dim; d++) sum[d] += q.w_r2 * q.d[d];
+    }
+    for (int d = 0; d < dim; d++) even[i * dim + d] = sum[d];
+}
+
+MPS__ROW void collect(const int dim, const mps_stage *s, const double *even, int64_t i, pair_sums *c)
 {
     const mps_stencil *t = s->near;
     const double *u = s->u + i * dim;
     *c = (pair_sums){0};
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        for (int d = 0; d < dim; d++) c->even[d] += q.w_r2 * q.d[d];
         if (s->kind[q.j] != MPS_FLUID) continue;
         double v[3], v2 = 0;
         for (int d = 0; d < dim; d++) {
@@ -55,6 +70,10 @@ MPS__ROW void collect(const int dim, const mps_stage *s, int64_t i, pair_sums *c
             v2 += v[d] * v[d];
         }
         c->most = larger(c->most, v2);
+        if (s->region[q.j] < MPS_REGION_SURFACE) {
+            c->weight += q.w;
+            for (int d = 0; d < dim; d++) c->mean[d] += q.w * even[q.j * dim + d];
+        }
         if (s->phase[q.j] != s->phase[i] || s->region[q.j] == MPS_REGION_SPRAY) continue;
         for (int d = 0; d < dim; d++) {
             c->low[d] = smaller(c->low[d], v[d]);
@@ -65,12 +84,14 @@ MPS__ROW void collect(const int dim, const mps_stage *s, int64_t i, pair_sums *c
     }
 }
 
-static void shift_of(const double *k, const mps_stage *s, int64_t i, const pair_sums *sums, double v[3])
+/* `even`: of particle i. */
+static void shift_of(const double *k, const mps_stage *s, int64_t i, const double *even, const pair_sums *sums, double v[3])
 {
     const int dim = s->dim;
     double n[3] = {0}, n2 = 0, vn = 0, v2 = 0;
-    const double c = -k[STRENGTH] * s->dt * (s->velocity_scale + sqrt(sums->most)) * s->dp * dim / s->near->n0;
-    for (int d = 0; d < dim; d++) v[d] = c * sums->even[d];
+    const double c = -k[STRENGTH] * s->dt * s->dp * dim / s->near->n0, calm = c * s->velocity_scale, torn = c * sqrt(sums->most);
+    const double smooth = sums->weight > 0 ? k[FILTER] * calm / sums->weight : 0;
+    for (int d = 0; d < dim; d++) v[d] = (calm + torn) * even[d] - smooth * sums->mean[d];
     surface_normal(s, i, n);
     for (int d = 0; d < dim; d++) {
         n2 += n[d] * n[d];
@@ -106,15 +127,18 @@ static int shift(void *self, const double *k, mps_stage *s, double *dx)
 {
     (void)self;
     const int dim = s->dim;
-    double *du = mps_stage_scratch(s, s->n * dim);
-    if (!du) return 1;
+    double *du = mps_stage_scratch(s, s->n * dim), *even = mps_stage_scratch(s, s->n * dim);
+    if (!du || !even) return 1;
+#pragma omp parallel for num_threads(s->threads) schedule(static)
+    for (int64_t i = 0; i < s->n; i++)
+        if (s->kind[i] == MPS_FLUID && s->region[i] != MPS_REGION_SPRAY) MPS__ROW_CALL(s, unevenness, s, i, even);
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_FLUID || s->region[i] == MPS_REGION_SPRAY) continue;
         pair_sums sums;
         double v[3];
-        MPS__ROW_CALL(s, collect, s, i, &sums);
-        shift_of(k, s, i, &sums, v);
+        MPS__ROW_CALL(s, collect, s, even, i, &sums);
+        shift_of(k, s, i, even + i * dim, &sums, v);
         if (k[TRANSPORT] > 0) transport(s, &sums, v, du + i * dim);
         for (int d = 0; d < dim; d++) dx[i * dim + d] += v[d];
     }
@@ -126,6 +150,6 @@ const mps_model_ops mps__shift_tangential = {.struct_size = sizeof(mps_model_ops
                                              .api = MPS_MODEL_API,
                                              .name = "shift.tangential",
                                              .order = 800,
-                                             .setting_count = 3,
+                                             .setting_count = 4,
                                              .settings = settings,
                                              .shift = shift};
