@@ -99,6 +99,7 @@ columns sloshing_baffle_3d 0.025 1859 't[s],eta_a[m],eta_b[m],eta_c[m],ke[J],x_t
 columns dam_break 0.025 288 't[s],P1[Pa],P2[Pa],P3[Pa],P4[Pa],front[m],ke[J/m],x_tank[m]'
 columns static_tank 0.025 616 't[s],P1[Pa],P2[Pa],P3[Pa],eta_left[m],ke[J],x_tank[m]' --dim 3
 columns standing_wave 0.025 780 't[s],eta_left[m],ke[J/m],x_tank[m]'
+columns cylinder_tank 0.05 566 't[s],P_bottom[Pa],eta_middle[m],eta_left[m],F_x[N],F_y[N],ke[J],x_tank[m]'
 awk -F, 'NR == 2 && $2 > 0 {found = 1} END {exit !found}' static_tank/probes.csv || fail "static_tank/probes.csv has no pressure in the row of t = 0"
 
 # particle numbers: Z14's surge tank, the dam break in 3-D
@@ -133,6 +134,32 @@ has same picture_1.png picture_2.png picture_end.png
 [ ! -e same/picture_3.png ] || fail "--pictures 0.005,0.01 makes three"
 runs 0 sloshing_high_fill --dp 0.025 --t-end 0.02 --frames 0 --use gradient.conservative --set source.strain=0 --out other
 if cmp -s other/probes.csv sloshing_high_fill/probes.csv; then fail "--use and --set change nothing"; fi
+
+# a tank from a file: a box of 600 x 400 x 300 mm, two triangles a face
+awk 'BEGIN {
+    split("0 0 0 600 0 0 600 400 0 0 400 0 0 0 300 600 0 300 600 400 300 0 400 300", c)
+    split("1432 5678 1265 3487 2376 1584", face)
+    print "solid box"
+    for (f = 1; f <= 6; f++)
+        for (h = 0; h < 2; h++) {
+            print "facet normal 0 0 0\nouter loop"
+            for (k = 1; k <= 3; k++) {
+                v = substr(face[f], k == 1 ? 1 : k + h, 1)
+                print "vertex", c[3 * v - 2], c[3 * v - 1], c[3 * v]
+            }
+            print "endloop\nendfacet"
+        }
+    print "endsolid box"
+}' >box.stl
+runs 0 cylinder_tank --stl box.stl --stl-scale 0.001 --dp 0.05 --t-end 0.02 --frames 0 --out box
+grep -q '"n_fluid": 220,' box/summary.json || fail "the box from a file has $(grep n_fluid box/summary.json) instead of 220 = 11 x 4 x 5"
+head -8 box.stl >torn.stl
+runs 1 cylinder_tank --stl torn.stl --dp 0.05 --t-end 0.02 --out torn
+grep -q 'torn.stl' log || fail "a torn file is not named: $(cat log)"
+
+# a sensor's average is smoother than the signal
+runs 0 sloshing_high_fill --dp 0.025 --t-end 0.02 --frames 0 --sensor-average 0.005 --out averaged
+if cmp -s averaged/probes.csv sloshing_high_fill/probes.csv; then fail "--sensor-average changes nothing"; fi
 
 # a run without report and frames
 runs 0 static_tank --dp 0.025 --t-end 0.005 --frames 0 --no-report --out bare
