@@ -8,12 +8,13 @@
  * large in both, a full step overshoots more than twice and the error grows from step to step with changing sign: hence the gain below 1.
  * A steady pressure does not feel it, a change arrives 1/gain steps later.
  *
- * delta is the volume deviation of mps_op_volume_deviation(), clipped and averaged. */
+ * delta is the volume deviation of mps_op_volume_deviation(), clipped and averaged. Its error follows the waves, so tau is long (20 tau_g):
+ * a short one feeds them. What an impact compressed by per cents has to come back before the next: beyond `firm` the time falls to tau_g. */
 #include "builtin.h"
 
-enum { TAU, CLIP, STRAIN, GAIN };
+enum { TAU, CLIP, STRAIN, GAIN, FIRM };
 static const mps_setting settings[] = {
-    {"tau", 20.0, 0.1, 1e6}, {"clip", 0.1, 0.0, 1.0}, {"strain", 1.0, 0.0, 1.0}, {"gain", 0.7, 0.05, 1.0}};
+    {"tau", 20.0, 0.1, 1e6}, {"clip", 0.1, 0.0, 1.0}, {"strain", 1.0, 0.0, 1.0}, {"gain", 0.7, 0.05, 1.0}, {"firm", 0.03, 1e-3, 1.0}};
 
 /* delta of each fluid particle, never negative near the surface, where the kernel is cut. */
 static void volume_deviation(const double *k, const mps_stage *s, double *delta)
@@ -126,12 +127,19 @@ MPS__ROW double mean_deviation(const int dim, const mps_stage *s, const double *
     return sum / weight;
 }
 
+/* 1/tau, up to 1/tau_g where delta is beyond `firm`. */
+static inline double relaxation(const double *k, double delta)
+{
+    const double square = delta * delta / (k[FIRM] * k[FIRM]);
+    return fmin((1.0 + square * square) / k[TAU], 1.0);
+}
+
 static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *terms)
 {
     (void)self;
     double *delta = mps_stage_scratch(s, s->n), *v = mps_stage_scratch(s, s->n * s->dim), *w = mps_stage_scratch(s, s->n * s->dim);
     if (!delta || !v || !w) return 1;
-    const double relax = 1.0 / (k[TAU] * s->dp / s->velocity_scale), gain = k[GAIN] / s->dt;
+    const double rate = s->velocity_scale / s->dp, gain = k[GAIN] / s->dt;
     terms->radius = MPS_NEAR;
     volume_deviation(k, s, delta);
     relative_velocity(s, v);
@@ -140,11 +148,12 @@ static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *term
     for (int64_t i = 0; i < s->n; i++) {
         for (int d = 0; d < s->dim; d++) terms->body[i * s->dim + d] += s->g[d] - s->tank_accel[i * s->dim + d];
         if (s->region[i] >= MPS_REGION_SURFACE) continue;
-        if (s->kind[i] == MPS_FLUID)
-            terms->rhs[i] += gain * (relax * MPS__ROW_CALL(s, mean_deviation, s, delta, i) -
-                                     MPS__ROW_CALL(s, fluid_divergence, s, w, i, k[STRAIN]));
-        else
+        if (s->kind[i] == MPS_FLUID) {
+            const double mean = MPS__ROW_CALL(s, mean_deviation, s, delta, i);
+            terms->rhs[i] += gain * (rate * relaxation(k, mean) * mean - MPS__ROW_CALL(s, fluid_divergence, s, w, i, k[STRAIN]));
+        } else {
             terms->rhs[i] -= gain * MPS__ROW_CALL(s, wall_divergence, s, w, i, terms->wall_factor);
+        }
     }
     return 0;
 }
@@ -153,6 +162,6 @@ const mps_model_ops mps__source_volume = {.struct_size = sizeof(mps_model_ops),
                                           .api = MPS_MODEL_API,
                                           .name = "source.volume",
                                           .order = 500,
-                                          .setting_count = 4,
+                                          .setting_count = 5,
                                           .settings = settings,
                                           .source = source};
