@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Sourced by demo and check: find out which Debian packages are missing, say so, install them.
+# Sourced by demo, check and validate: find out which Debian packages are missing, say so, install them.
 
 BUILD_PACKAGES=(gcc libc6-dev make cmake libsundials-dev libsuitesparse-dev libpng-dev zlib1g-dev)
 CHECK_PACKAGES=("${BUILD_PACKAGES[@]}" g++ pkg-config libcmocka-dev clang-format clang-tidy doxygen python3 binutils)
+VALIDATE_PACKAGES=(python3 python3-numpy python3-matplotlib python3-pil)
 
 missing_packages() {
     local package

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The cases: which driver with which options at which spacings, and how it is evaluated."""
+from dataclasses import dataclass
+from typing import Callable
+
+import evaluate as e
+
+LEVELS = ("coarse", "standard", "fine")
+
+
+@dataclass(frozen=True)
+class Run:
+    """One run of a driver. `minutes`: CPU minutes on one core of about 2.5 GHz, to plan with."""
+    case: str
+    driver: str
+    dp: float
+    level: str
+    minutes: float
+    options: tuple = ()
+    suffix: str = ""
+
+    @property
+    def name(self):
+        return f"{self.case}-{self.dp:g}{self.suffix}"
+
+    @property
+    def paper(self):
+        return self.suffix == "-paper"
+
+
+@dataclass(frozen=True)
+class Case:
+    """`spacings`: dp -> CPU minutes, coarsest first: of level coarse, standard, fine. `expected`: figures that reached their limit at the
+    coarsest dp, with some room, and must go on doing so. `paper`: also with the literal equations, at the coarsest dp."""
+    name: str
+    driver: str
+    spacings: dict
+    evaluate: Callable
+    options: tuple = ()
+    levels: tuple = LEVELS
+    paper: bool = True
+    expected: tuple = ()
+
+    def runs(self):
+        for (dp, minutes), level in zip(self.spacings.items(), self.levels):
+            yield Run(self.name, self.driver, dp, level, minutes, self.options)
+        if self.paper:
+            dp, minutes = next(iter(self.spacings.items()))
+            yield Run(self.name, self.driver, dp, "standard", minutes, (*self.options, "--model", "imps.paper"), "-paper")
+
+
+def options(text):
+    return tuple(text.split())
+
+
+STILL = ("P1, mean error [% of rho g h]", "P2, mean error [% of rho g h]", "P3, mean error [% of rho g h]", "P1..P3, largest rms [% of rho g h]",
+         "level [% of the depth]")
+HIGH_FILL = ("crest 1", "crest 1, time", "crest 2", "crest 2, time", "crest 5", "P1, peak at 0.58 s", "P1, peak at 1.50 s", "P1, peak at 2.40 s",
+             "P1, peak at 3.30 s", "P1, peak at 3.60 s", "P1, dip between 3.30 and 3.60 s (20 ms mean)")
+SURGE = ("crest 1, damped FNPF", "crest 1, damped FNPF, time", "crest 2, damped FNPF", "crest 2, damped FNPF, time", "crest 3, damped FNPF, time",
+         "crest 2, undamped FNPF")
+BAFFLE = ("line of the spectrum at gauge a", "line of the spectrum at gauge c", "amplitude at gauge a / unbaffled", "amplitude at gauge c / unbaffled",
+          "volume error [%]")
+
+CASES = [
+    Case("static_tank", "static_tank", {0.02: 0.15, 0.01: 1, 0.005: 6}, e.static_tank, expected=STILL),
+    Case("static_tank_3d", "static_tank", {0.03: 0.5, 0.02: 2}, e.static_tank_3d, options("--dim 3"), expected=STILL),
+    Case("standing_wave", "standing_wave", {0.02: 0.5, 0.01: 3, 0.005: 20}, e.standing_wave, options("--t-end 6.1"),
+         expected=("frequency", "amplitude after 5 periods / viscous")),
+    Case("small_surge", "sloshing_high_fill", {0.02: 0.1, 0.01: 0.5, 0.005: 4}, e.small_surge, options("--amplitude 5e-4 --t-end 3"),
+         paper=False),
+    Case("sloshing_high_fill", "sloshing_high_fill", {0.02: 0.2, 0.01: 1, 0.005: 6}, e.high_fill, expected=HIGH_FILL),
+    Case("sloshing_surge", "sloshing_surge", {0.016: 0.4, 0.008: 2, 0.004: 20}, e.surge, expected=SURGE),
+    Case("surge_counts", "sloshing_surge", {0.004: 0.1}, e.surge_counts, options("--t-end 1e-4"), paper=False,
+         expected=("fluid particles", "wall and dummy particles")),
+    Case("sloshing_low_fill", "sloshing_low_fill", {0.005: 1, 0.00375: 2.5, 0.0025: 9}, e.low_fill, options("--pictures 2.75,4.8,6.1,7.85"),
+         expected=("run-up at the left wall, time of the largest P1",)),
+    Case("sloshing_breaking", "sloshing_breaking", {0.02: 0.5, 0.01: 5}, e.breaking, options("--t-end 8 --pictures 2.2,2.3,2.4,2.5")),
+    Case("sloshing_baffle_2d", "sloshing_baffle_2d", {0.012: 0.8, 0.006: 7}, e.baffle_2d, options("--t-end 10"), expected=BAFFLE),
+    Case("sloshing_baffle_3d", "sloshing_baffle_3d", {0.02: 6, 0.01: 80}, e.baffle_3d, options("--t-end 3"), ("coarse", "fine"),
+         expected=("time reached",)),
+    Case("baffle_3d_counts", "sloshing_baffle_3d", {0.005: 3}, e.baffle_3d_counts, options("--layers 1 --t-end 1e-5"), ("standard",), False),
+    Case("dam_break", "dam_break", {0.02: 0.1, 0.01: 0.4, 0.005: 5}, e.dam_break),
+    Case("dam_break_3d", "dam_break", {0.02: 2}, e.dam_break, options("--dim 3"), ("coarse",)),
+    Case("long_surge", "sloshing_surge", {0.01: 14}, e.long_run, options("--t-end 60 --probe-dt 0.002"), ("fine",), False),
+    Case("long_breaking", "sloshing_breaking", {0.01: 15}, e.long_breaking, options("--t-end 20 --probe-dt 0.002"), ("fine",), False),
+]
+
+
+def find(names):
+    """Cases by name, all for None; ValueError with what there is."""
+    if names is None:
+        return CASES
+    known = {case.name: case for case in CASES}
+    wrong = [name for name in names if name not in known]
+    if wrong:
+        raise ValueError(f"no case {', '.join(wrong)}; there are {', '.join(known)}")
+    return [known[name] for name in names]
+
+
+def runs(cases, level):
+    """Runs up to a level of resolution."""
+    allowed = LEVELS[:LEVELS.index(level) + 1]
+    return [run for case in cases for run in case.runs() if run.level in allowed]

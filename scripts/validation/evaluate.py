@@ -1,0 +1,238 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is measured in every case, from one run. Limits are those of the acceptance table; heights are above the still level as placed."""
+from math import pi
+
+import numpy as np
+
+import measures as m
+import theory
+from results import absent, at_least, below, bounded, difference, fact, relative
+
+G, WATER = theory.G, theory.WATER
+
+# Fully nonlinear potential flow, computed for these tanks. Damped: modal damping ratio 0.005.
+HIGH_FILL_CRESTS = [(1.16, 0.0244), (2.08, 0.0456), (2.99, 0.0700), (3.91, 0.0982), (4.85, 0.1303)]
+HIGH_FILL_PEAKS = [(0.58, 2812), (1.50, 2869), (2.40, 2925), (3.30, 2991), (3.60, 2916), (4.21, 3071), (4.55, 3001)]
+SURGE_DAMPED = [(1.11, 0.0650), (2.12, 0.1200), (3.19, 0.1585), (4.26, 0.1090)]
+SURGE_UNDAMPED = [(1.104, 0.0663), (2.125, 0.1260), (3.207, 0.1764), (4.273, 0.1193)]
+BAFFLE_UNBAFFLED = 0.048  # amplitude at the outer gauges [m]
+BAFFLE_OMEGA, BREAKING_PERIOD = 3.53, 1 / 0.496
+# Lobovsky et al. 2014, 0.3 m high: median arrival at the sensor 15 mm up, first peak 3 mm up, in sqrt(H/g) and rho g H
+DAM_H, DAM_DENSITY, DAM_ARRIVAL, DAM_PEAK = 0.3, 997.0, 2.46, 2.84
+
+
+def still_water(o, depth):
+    level = o.level(depth)
+    scale, use = WATER * G * level, o.t > 0.5
+    figures, rms = [], 0
+    for i, y in enumerate((0.05, 0.10, 0.15)):
+        p = o[f"P{i + 1}"][use]
+        figures.append(bounded(f"P{i + 1}, mean error [% of rho g h]", 100 * (p.mean() - WATER * G * (level - y)) / scale if use.any() else np.nan,
+                               "{:+.2f}", 0.5, 2))
+        rms = max(rms, 100 * p.std() / scale if use.any() else np.nan)
+    ke, late, early = o["ke"], o.t > o.t[-1] - 1, (o.t > 0.5) & (o.t < 1.5)
+    return figures + [
+        bounded("P1..P3, largest rms [% of rho g h]", rms, "{:.2f}", 0.5, 2),
+        bounded("level [% of the depth]", 100 * o["eta_left"][use].mean() / level if use.any() else np.nan, "{:+.2f}", 1, 1),
+        fact("kinetic energy, .5-1.5 s", ke[early].mean() if early.any() else np.nan, "{:.1e} J"),
+        fact("kinetic energy, last second", ke[late].mean(), "{:.1e} J"),
+        fact("kinetic / potential energy, last second", ke[late].mean() / o["pe"][late].mean(), "{:.1e}")]
+
+
+def static_tank(o, refs):
+    return still_water(o, 0.25)
+
+
+def static_tank_3d(o, refs):
+    return still_water(o, 0.2)
+
+
+def standing_wave(o, refs):
+    length, k, a, periods = 1.0, pi, 0.02, 5
+    level = o.level(0.5)
+    omega = theory.standing_wave(k, level, a)
+    if o.t[-1] < 2 * pi / omega * 3:
+        return [absent("frequency")]
+    eta = o["eta_left"]
+    w, first, growth = m.growing_wave(o.t, eta, omega, (theory.natural(2 * pi / length, level),))
+    period = 2 * pi / omega
+    ratio = (1 + growth * periods * period) / theory.viscous_decay(k, periods * period)
+    crests = [eta[0]] + [m.crest(o.t, eta, n * period)[1] for n in range(1, periods + 1)]
+    figures = [relative("frequency", w, omega, "{:.4f}/s", 0.3, 1),
+               at_least("amplitude after 5 periods / viscous", ratio, "{:.3f}", 0.95, 0.85),
+               fact("growth a period", 100 * growth * period, "{:+.2f} %"),
+               fact("first amplitude of the fit", 1e3 * first, "{:.2f} mm")]
+    return figures + [fact(f"height at the left wall after {n} periods", 1e3 * c, "{:.2f} mm") for n, c in enumerate(crests)]
+
+
+def small_surge(o, refs):
+    tank = theory.Surge(0.6, o.level(0.3), 5e-4, 6.85)
+    t, use = o.t, (o.t > 0.05) & (o.t <= 3)
+    eta, p = tank.elevation(t, 0.58), tank.left_wall_pressure(t, 0.02)
+    p1 = m.running_mean(t, o["P1"], 0.005)
+    return [bounded("eta_right, NRMS [%]", 100 * m.nrms(t, o["eta_right"], t, eta, 0.05, 2.99), "{:.1f}", 2, 5),
+            bounded("P1, NRMS [%]", 100 * m.nrms(t, p1, t, p, 0.05, 2.99), "{:.1f}", 2, 5),
+            fact("eta_right, factor to theory", m.ratio(o["eta_right"][use], eta[use]), "{:.3f}"),
+            fact("P1, factor to theory", m.ratio(p1[use], p[use]), "{:.3f}"),
+            fact("P1, mean above theory", float(np.mean((p1 - p)[use])), "{:+.1f} Pa"),
+            bounded("P1, noise about the 5 ms mean", 100 * m.noise(t, o["P1"]) / (WATER * G * tank.depth), "{:.3f} % of rho g h")]
+
+
+def crests(o, y, reference, label, good, fair, late, until=np.inf):
+    """Heights and times of crests; after `until` without verdict."""
+    figures = []
+    for n, (t_ref, y_ref) in enumerate(reference, 1):
+        t, height = m.crest(o.t, y, t_ref)
+        limits = (good, fair) if t_ref < until else (None, None)
+        figures.append(relative(f"crest {n}{label}", height, y_ref, "{:.4f} m", *limits))
+        limits = late if t_ref < until else (None, None)
+        figures.append(difference(f"crest {n}{label}, time", t, t_ref, "{:.3f} s", "{:+.0f} ms", *limits, scale=1000))
+    return figures
+
+
+def noise_figures(o, names, depth):
+    scale = WATER * G * o.level(depth)
+    return [bounded(f"{name}, noise about the 5 ms mean", 100 * m.noise(o.t, o[name]) / scale, "{:.2f} % of rho g h") for name in names]
+
+
+def high_fill(o, refs):
+    t, p1 = o.t, m.running_mean(o.t, o["P1"], 0.005)
+    figures = crests(o, o["eta_right"], HIGH_FILL_CRESTS, "", 5, 10, (0.01, 0.02))
+    for t_ref, p_ref in HIGH_FILL_PEAKS:
+        figures.append(relative(f"P1, peak at {t_ref:.2f} s", m.peak(t, p1, t_ref, 0.12), p_ref, "{:.0f} Pa", 1.5, 3))
+    smooth = m.running_mean(t, o["P1"], 0.02)
+    for one, two in ((3.30, 3.60), (4.21, 4.55)):
+        figures.append(at_least(f"P1, dip between {one:.2f} and {two:.2f} s (20 ms mean)", m.dip(t, smooth, one, two), "{:.0f} Pa", 10, 1e-9))
+    ref = refs.series("theory/koh1_fnpf_impulsive_N28_d0.0.csv", (0, 2, 3))
+    if ref is None:
+        figures += [absent("eta_right, NRMS to 5 s"), absent("P1, NRMS to 5 s")]
+    else:
+        figures += [bounded("eta_right, NRMS to 5 s", 100 * m.nrms(t, o["eta_right"], ref[0], ref[1], 0.2, 5), "{:.1f} %"),
+                    bounded("P1, NRMS to 5 s", 100 * m.nrms(t, p1, ref[0], ref[2], 0.2, 5), "{:.1f} %")]
+    return figures + noise_figures(o, ["P1"], 0.3)
+
+
+def surge(o, refs):
+    eta = m.running_mean(o.t, o["eta_left"], 0.005)
+    figures = crests(o, eta, SURGE_DAMPED, ", damped FNPF", 6, 10, (0.03, 0.03), 4)
+    figures += crests(o, eta, SURGE_UNDAMPED, ", undamped FNPF", 6, 10, (0.03, 0.03), 4)
+    for text, name in (("damped", "N20_d0.005"), ("undamped", "N24_d0.0")):
+        ref = refs.series(f"theory/dsme_fnpf_impulsive_{name}.csv", (0, 4, 5, 6))
+        for i in range(3):
+            label = f"P{i + 1}, NRMS to 3.2 s, {text} FNPF"
+            if ref is None:
+                figures.append(absent(label))
+                continue
+            p = m.running_mean(o.t, o[f"P{i + 1}"], 0.005) + WATER * G * (0.25 - o.level(0.25))
+            figures.append(bounded(label, 100 * m.nrms(o.t, p, ref[0], ref[i + 1], 0.2, 3.2), "{:.1f} %"))
+    return figures + noise_figures(o, ["P1", "P2", "P3", "P4", "P5"], 0.25)
+
+
+def surge_counts(o, refs):
+    s = o.summary
+    return [difference("fluid particles", s["n_fluid"], 12338, "{:.0f}", "{:+.0f}", 0, 0),
+            difference("wall and dummy particles", s["n_wall"] + s["n_dummy"], 1974, "{:.0f}", "{:+.0f}", 0, 0)]
+
+
+def low_fill(o, refs):
+    t, eta, p1 = o.t, m.running_mean(o.t, o["eta_right"], 0.02), m.running_mean(o.t, o["P1"], 0.02)
+    figures = [fact(f"largest height at the right wall near {near:.2f} s, time", m.crest(t, eta, near, 0.5)[0], "{:.2f} s") for near in (2.75, 4.80, 6.10)]
+    return [*figures,
+            difference("run-up at the left wall, time of the largest P1", m.crest(t, p1, 7.85, 0.5)[0], 7.85, "{:.2f} s", "{:+.2f} s", 0.15, 0.15),
+            *noise_figures(o, ["P1"], 0.03)]
+
+
+def impacts(t, p, period, first=1.5):
+    """Times at which the pressure first exceeds that of still water in every period, and of its largest value after that."""
+    onsets, largest, threshold, begin = [], [], WATER * G * 0.18, first
+    while (above := np.flatnonzero((t >= begin) & (p > threshold))).size:
+        onsets.append(t[above[0]])
+        inside = (t >= onsets[-1]) & (t < onsets[-1] + period / 2)
+        largest.append(t[inside][np.argmax(p[inside])])
+        begin = onsets[-1] + 0.7 * period
+    return onsets, largest
+
+
+def mean_interval(times):
+    return np.polyfit(range(len(times)), times, 1)[0] if len(times) > 2 else np.nan
+
+
+def breaking(o, refs):
+    t, p1 = o.t, m.running_mean(o.t, o["P1"], 0.002)
+    onsets, largest = impacts(t, p1, BREAKING_PERIOD)
+    late = t > 1.5
+    limited = np.clip(m.running_mean(t, o["P1"], 0.02), 0, WATER * G * 0.18)  # or the largest impact decides alone
+    again = m.repeat_time(t[late], limited[late], 1.5, 2.5) if t[-1] > 7 else np.nan
+    figures = [relative("period of P1 up to rho g h, autocorrelation", again, BREAKING_PERIOD, "{:.3f} s", 1, 1),
+               relative("mean interval of impacts, by their onset", mean_interval(onsets), BREAKING_PERIOD, "{:.3f} s", 1, 1),
+               relative("mean interval of impacts, by their peak", mean_interval(largest), BREAKING_PERIOD, "{:.3f} s", 1, 1),
+               fact("impacts", len(onsets), "{:.0f}"),
+               fact("first impact, onset", onsets[0] if onsets else np.nan, "{:.3f} s")]
+    for name in ("P1", "P2", "P3"):
+        figures.append(fact(f"{name}, largest after a 2 ms mean", m.largest(m.running_mean(t, o[name], 0.002)[t > 0.1]), "{:.0f} Pa"))
+    volume = 1.3 * 0.9 - o["air_volume"]
+    return figures + [bounded("volume, largest change [%]", 100 * np.abs(volume / volume[0] - 1).max(), "{:.2f}")]
+
+
+def baffle_2d(o, refs):
+    t, late = o.t, o.t > 2
+    if t[-1] < 5:
+        return [absent("forcing line")]
+    a, c = (m.running_mean(t, o[name], 0.02) for name in ("eta_a", "eta_c"))
+    figures = [relative(f"line of the spectrum at gauge {n}", m.line(t[late], y[late], 2, 5.5), BAFFLE_OMEGA, "{:.3f}/s", 1, 1)
+               for n, y in (("a", a), ("c", c))]
+    for n, y in (("a", a), ("c", c)):
+        ratio = m.harmonic(t[late], y[late], BAFFLE_OMEGA) / BAFFLE_UNBAFFLED
+        figures.append(below(f"amplitude at gauge {n} / unbaffled", ratio, "{:.2f}", 1))
+    return figures + [bounded("volume error [%]", 100 * o.summary["volume_error"], "{:+.2f}", 1, 1)]
+
+
+def baffle_3d(o, refs):
+    across = m.running_mean(o.t, o["eta_a"], 0.01) - m.running_mean(o.t, o["eta_c"], 0.01)
+    i = int(np.argmax(np.abs(across)))
+    return [at_least("time reached", float(o.t[-1]), "{:.2f} s", 3 - 1e-6, 3 - 1e-6),
+            fact("largest level difference across the baffle", float(across[i]), "{:+.3f} m"),
+            fact("at", float(o.t[i]), "{:.2f} s"),
+            bounded("volume error [%]", 100 * o.summary["volume_error"], "{:+.2f}")]
+
+
+def baffle_3d_counts(o, refs):
+    s = o.summary
+    return [relative("fluid particles", s["n_fluid"], 274195, "{:.0f}", 0.1, 0.1),
+            relative("all particles", s["n_fluid"] + s["n_wall"] + s["n_dummy"], 376695, "{:.0f}", 0.1, 0.1)]
+
+
+def dam_break(o, refs):
+    t = o.t * np.sqrt(G / DAM_H)
+    scale = DAM_DENSITY * G * DAM_H
+    p2, p1 = m.running_mean(o.t, o["P2"], 0.005) / scale, m.running_mean(o.t, o["P1"], 0.001) / scale
+    arrival = t[np.argmax(p2 > 0.2)] if (p2 > 0.2).any() else np.nan
+    figures = [difference("arrival at 15 mm, t*", arrival, DAM_ARRIVAL, "{:.2f}", "{:+.2f}", 0.1, 0.1),
+               relative("P1, largest to t* = 3.2 (1 ms mean), p*", p1[t < 3.2].max(), DAM_PEAK, "{:.2f}", 30, 30),
+               fact("P1, largest of all, p*", p1.max(), "{:.2f}")]
+    label = "P2, share of t* > 3 inside the band"
+    band = refs.series("reference/lobovsky_h300_pressure_percentiles.csv", (0, 1, 2, 3))
+    if band is None:
+        return figures + [absent(label)]
+    low, middle, high = (np.interp(t, band[0], band[i]) for i in (1, 2, 3))
+    use, wide = (t > 3) & (t < min(band[0][-1], t[-1] - 0.03)), 0.1 * np.abs(middle)
+    share = 100 * m.band_share(t[use], p2[use], (low - wide)[use], (high + wide)[use])
+    plateau = (t > 4) & (t < 5.5)
+    return figures + [at_least(label, share, "{:.0f} %", 80, 80),
+                      fact("P2, mean over t* = 4..5.5 / median", p2[plateau].mean() / middle[plateau].mean(), "{:.2f}")]
+
+
+def long_breaking(o, refs):
+    return long_run(o, refs) + breaking(o, refs)
+
+
+def long_run(o, refs):
+    wanted = float(o.run.options[o.run.options.index("--t-end") + 1])
+    quarter = len(o.t) // 4
+    figures = [at_least("time reached", float(o.t[-1]), "{:.1f} s", wanted - 1e-6, wanted - 1e-6),
+               bounded("volume error [%]", 100 * o.summary["volume_error"], "{:+.2f}"),
+               below("particles lost [% of the liquid]", 100 * o.summary["particles_lost"] / o.summary["n_fluid"], "{:.2f}", 0.1),
+               fact("potential energy, mean of the last quarter / start", o["pe"][-quarter:].mean() / o["pe"][0], "{:.4f}"),
+               fact("kinetic energy, mean of the last / second quarter", o["ke"][-quarter:].mean() / o["ke"][quarter:2 * quarter].mean(), "{:.2f}"),
+               fact("work of the walls", o["wall_work"][-1], "{:.1f} J/m")]
+    return figures + [fact(f"of it {name}", 100 * o[name][-1] / o["wall_work"][-1], "{:.1f} %") for name in ("viscous", "collision", "shift", "numerical")]

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Which plots and pictures belong to which case. Every function takes the outcomes of a case, coarse to fine, and yields (file, panels)."""
+from math import pi
+
+import numpy as np
+
+import evaluate as e
+import measures as m
+import theory
+from plots import Panel
+
+
+def named(o):
+    return f"dp {o.dp:g}"
+
+
+def smooth(o, name, window=0.005):
+    return m.running_mean(o.t, o[name], window)
+
+
+def overlay(title, unit, outcomes, name, window=None, factor=1.0, begin=0.0, **axes):
+    """One column of all runs in one panel, without what is before `begin`: a jump of the walls' velocity is a blow."""
+    panel = Panel(title, unit, **axes)
+    for o in outcomes:
+        use = o.t >= begin
+        panel.curve(named(o), o.t[use], factor * (smooth(o, name, window) if window else o[name])[use])
+    return panel
+
+
+def marks(panel, label, points, symbol="o"):
+    t, y = zip(*points)
+    return panel.marks(label, t, y, symbol)
+
+
+def still_water(outcomes, depth, name):
+    panel = Panel("pressure 0.05 m above the floor, less hydrostatic", "Pa")
+    for o in outcomes:
+        panel.curve(named(o), o.t, o["P1"] - theory.WATER * theory.G * (o.level(depth) - 0.05))
+    yield f"{name}.svg", [panel, overlay("kinetic energy", "J", outcomes, "ke", logarithmic=True, y_limits=(1e-9, 1e-1))]
+
+
+def static_tank(outcomes, refs):
+    yield from still_water(outcomes, 0.25, "static_tank")
+
+
+def static_tank_3d(outcomes, refs):
+    yield from still_water(outcomes, 0.2, "static_tank_3d")
+
+
+def standing_wave(outcomes, refs):
+    panel = overlay("height at the left wall", "mm", outcomes, "eta_left", factor=1e3)
+    t = np.linspace(0, 5.92, 300)
+    w = theory.standing_wave(pi, 0.5, 0.02)
+    energy = Panel("kinetic and potential energy, change", "J/m")
+    for o in outcomes:
+        energy.curve(named(o), o.t, o["ke"] + o["pe"] - o["ke"][0] - o["pe"][0])
+    yield "standing_wave.svg", [panel.reference("first harmonic, viscous", t, 20 * np.cos(w * t) * theory.viscous_decay(pi, t)), energy]
+
+
+def small_surge(outcomes, refs):
+    tank, t = theory.Surge(0.6, 0.3, 5e-4, 6.85), np.linspace(0, 3, 300)
+    eta = overlay("height 0.02 m from the right wall", "mm", outcomes, "eta_right", factor=1e3)
+    p = overlay("P1, 5 ms mean", "Pa", outcomes, "P1", 0.005, y_limits=(2715, 2775))
+    yield "small_surge.svg", [eta.reference("linear theory", t, 1e3 * tank.elevation(t, 0.58)),
+                              p.reference("linear theory", t, tank.left_wall_pressure(t, 0.02))]
+
+
+def high_fill(outcomes, refs):
+    eta, p = overlay("height 0.02 m from the right wall", "m", outcomes, "eta_right"), overlay("P1, 5 ms mean", "Pa", outcomes, "P1", 0.005)
+    marks(eta, "FNPF", e.HIGH_FILL_CRESTS)
+    marks(p, "FNPF", e.HIGH_FILL_PEAKS)
+    yield "high_fill.svg", [eta, p]
+
+
+def surge(outcomes, refs):
+    panels = [overlay(f"height at the {side} wall", "m", outcomes, f"eta_{side}", 0.005) for side in ("left", "right")]
+    marks(panels[0], "FNPF, damped", e.SURGE_DAMPED)
+    marks(panels[0], "FNPF, undamped", e.SURGE_UNDAMPED, "x")
+    yield "surge_elevation.svg", panels
+    yield "surge_pressure.svg", [overlay(f"P{i}, {0.05 * i:.2f} m above the floor, 5 ms mean", "Pa", outcomes, f"P{i}", 0.005, begin=0.05)
+                                  for i in (1, 3, 5)]
+    o = outcomes[-1]
+    budget = Panel(f"energy since the start, dp {o.dp:g}", "J/m").curve("kinetic + potential", o.t, o["ke"] + o["pe"] - o["ke"][0] - o["pe"][0])
+    for name in ("wall_work", "viscous", "numerical"):
+        budget.curve(name.replace("_", " "), o.t, o[name])
+    yield "surge_energy.svg", [budget]
+
+
+def low_fill(outcomes, refs):
+    yield "low_fill.svg", [overlay("height 0.02 m from the right wall, 20 ms mean", "m", outcomes, "eta_right", 0.02),
+                           overlay("P1, 20 ms mean", "Pa", outcomes, "P1", 0.02)]
+
+
+def breaking(outcomes, refs):
+    volume = Panel("volume of the liquid, change", "%")
+    for o in outcomes:
+        liquid = 1.3 * 0.9 - o["air_volume"]
+        volume.curve(named(o), o.t, 100 * (liquid / liquid[0] - 1))
+    yield "breaking.svg", [overlay(f"{name}, 2 ms mean", "Pa", outcomes, name, 0.002, begin=0.05) for name in ("P1", "P2", "P3")] + [volume]
+
+
+def baffle_2d(outcomes, refs):
+    yield "baffle_2d.svg", [overlay(f"gauge {x}, {place}", "m", outcomes, f"eta_{x}", 0.01)
+                            for x, place in (("a", "left"), ("b", "above the baffle"), ("c", "right"))]
+
+
+def baffle_3d(outcomes, refs):
+    yield "baffle_3d.svg", [overlay(f"gauge {x}, {place}", "m", outcomes, f"eta_{x}", 0.01) for x, place in (("a", "left"), ("c", "right"))]
+
+
+def dam_panels(outcomes, refs):
+    x_label, scale = "t* = t sqrt(g/H)", e.DAM_DENSITY * theory.G * e.DAM_H
+    one, two = Panel("P1, 3 mm up, 1 ms mean", "p*", x_label, (-0.3, 4)), Panel("P2, 15 mm up, 5 ms mean", "p*", x_label, (-0.3, 3))
+    front = Panel("front", "m", "t* = t sqrt(g/H)")
+    band = refs.series("reference/lobovsky_h300_pressure_percentiles.csv", (0, 1, 2, 3))
+    if band is not None:
+        two.band("2.5-97.5 % of 100 experiments", band[0], band[1], band[3])
+        two.reference("their median", band[0], band[2])
+    for o in outcomes:
+        t = o.t * np.sqrt(theory.G / e.DAM_H)
+        one.curve(named(o), t, smooth(o, "P1", 0.001) / scale)
+        two.curve(named(o), t, smooth(o, "P2") / scale)
+        front.curve(named(o), t[t < 3], o["front"][t < 3])
+    return [one, two, front]
+
+
+def dam_break(outcomes, refs):
+    yield "dam_break.svg", dam_panels(outcomes, refs)
+
+
+def dam_break_3d(outcomes, refs):
+    yield "dam_break_3d.svg", dam_panels(outcomes, refs)[:2]
+
+
+def long_run(outcomes, refs, name):
+    o = outcomes[-1]
+    energy = Panel("energy since the start", "J/m").curve("kinetic", o.t, o["ke"]).curve("potential", o.t, o["pe"] - o["pe"][0])
+    yield f"{name}.svg", [overlay("height at the left wall, 5 ms mean", "m", outcomes, "eta_left", 0.005), energy]
+
+
+PLOTS = {"static_tank": static_tank, "static_tank_3d": static_tank_3d, "standing_wave": standing_wave, "small_surge": small_surge,
+         "sloshing_high_fill": high_fill, "sloshing_surge": surge, "sloshing_low_fill": low_fill, "sloshing_breaking": breaking,
+         "sloshing_baffle_2d": baffle_2d, "sloshing_baffle_3d": baffle_3d, "dam_break": dam_break, "dam_break_3d": dam_break_3d,
+         "long_surge": lambda o, r: long_run(o, r, "long_surge"), "long_breaking": lambda o, r: long_run(o, r, "long_breaking")}
+
+# case -> file, the driver's pictures in it, of the finest run, and perhaps how much of their height from the floor is shown
+PICTURES = {"sloshing_surge": ("surge_flow.png", (2, 3)), "sloshing_low_fill": ("low_fill_flow.png", (1, 2, 3, 4), 0.25),
+            "sloshing_breaking": ("breaking_flow.png", (1, 2, 3, 4)), "sloshing_baffle_2d": ("baffle_2d_flow.png", (1, 2)),
+            "sloshing_baffle_3d": ("baffle_3d_flow.png", (1, 2)), "dam_break": ("dam_break_flow.png", (1, 2, 3, "end"))}

@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""docs/validation.md and docs/plots/ from the runs that are there: tables and plots are put into the text of validation.md.in."""
+import json
+import re
+from pathlib import Path
+
+import figures as fig
+import measures
+import plots
+from results import GOOD, MISSED, NO_REFERENCE, PASS, to_json
+
+HERE = Path(__file__).resolve().parent
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    return "\n".join(lines + ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows])
+
+
+def cell(figure):
+    if figure is None:
+        return "-"
+    return NO_REFERENCE if figure.form == NO_REFERENCE else figure.text()
+
+
+def column_name(outcome):
+    return f"dp {outcome.dp:g}" + ("" if outcome.current else " (older build)")
+
+
+def figure_table(results):
+    """Rows are figures, columns are spacings, then the observed order where there is an error."""
+    names = list(dict.fromkeys(f.name for _, figures in results for f in figures))
+    with_order = len(results) > 1 and any(f.error is not None for _, figures in results for f in figures)
+    rows = []
+    for name in names:
+        found = [next((f for f in figures if f.name == name), None) for _, figures in results]
+        reference = next((f for f in found if f is not None and f.reference is not None), None)
+        row = [name, reference.form.format(reference.reference) if reference else ""] + [cell(f) for f in found]
+        if with_order:
+            slope = measures.order([o.dp for o, _ in results], [f.error if f else None for f in found])
+            row.append("" if slope is None else f"{slope:.1f}")
+        rows.append(row)
+    head = ["", "reference"] + [column_name(o) for o, _ in results] + (["order"] if with_order else [])
+    return table(head, rows)
+
+
+def run_table(outcomes):
+    rows = []
+    for o in outcomes:
+        s = o.summary
+        numerical = f"{o['numerical'][-1]:+.3g}" if "numerical" in o.column else ""
+        rows.append([f"{o.dp:g}", f"{s['n_fluid']} + {s['n_wall']} + {s['n_dummy']}", "end" if o.complete else f"{s['status']} at {s['t_end']:.3g} s",
+                     s["steps"], f"{s['cpu_s']:.0f}", f"{1e3 * s['cpu_s'] / max(1, s['steps']):.1f}", f"{100 * s['volume_error']:+.2f} %",
+                     s["particles_lost"], f"{s['max_speed']:.2g}", numerical])
+    head = ["dp [m]", "fluid + wall + dummy", "reached", "steps", "CPU s", "ms/step", "volume error", "lost", "max speed [m/s]", "`numerical` [J/m, 3-D: J]"]
+    return table(head, rows)
+
+
+def command_lines(outcomes):
+    o = outcomes[0]
+    options = " ".join(o.run.options)
+    return f"`{o.run.driver}{' ' + options if options else ''} --dp {', '.join(f'{o.dp:g}' for o in outcomes)}`"
+
+
+def overview(results):
+    """How many figures of each case reached which limit at its finest spacing, and which did not."""
+    rows = []
+    for name, found in results.items():
+        if found:
+            outcome, figures = found[-1]
+            count = {verdict: sum(f.verdict == verdict for f in figures) for verdict in (GOOD, PASS, MISSED)}
+            missed = "; ".join(f.name.split(" [")[0] for f in figures if f.verdict == MISSED)
+            rows.append([name, f"{outcome.dp:g}", *count.values(), missed])
+    return table(["case", "finest dp", *(GOOD, PASS, MISSED), "what is not reached"], rows)
+
+
+def paper_table(outcomes):
+    rows = []
+    for o in outcomes:
+        s = o.summary
+        message = re.sub(r"\s+", " ", s["error"] or "").replace("|", "/")
+        name = f"`{o.run.driver}`" + (" (3-D)" if s.get("dim") == 3 else "")
+        rows.append([name, f"{o.dp:g}", f"{s['t_end']:.2f} s", "end" if o.complete else s["status"], message])
+    return table(["driver", "dp", "ran to", "", "message"], rows) if rows else "Not run."
+
+
+class Page:
+    """Everything that is known about the runs; `expected` verdicts that were missed are collected in `worse`."""
+
+    def __init__(self, runner, cases, refs):
+        self.refs, self.results, self.paper = refs, {}, []
+        for case in cases:
+            outcomes = [o for o in (runner.outcome(run) for run in case.runs()) if o]
+            self.paper += [o for o in outcomes if o.run.paper]
+            found = [(o, case.evaluate(o, refs) if len(o.t) > 1 or o.complete else [])
+                     for o in sorted((o for o in outcomes if not o.run.paper), key=lambda o: -o.dp)]
+            for o, figures in found:
+                (o.folder / "figures.json").write_text(json.dumps(to_json(figures), indent=1, default=float) + "\n")
+            self.results[case.name] = found
+
+    def section(self, name, folder):
+        results = self.results.get(name, [])
+        if not results:
+            return "Not run."
+        outcomes = [o for o, _ in results]
+        parts = [command_lines(outcomes), figure_table(results), run_table(outcomes)]
+        for picture in self.draw(name, outcomes, folder):
+            parts.append(f"![{name.replace('_', ' ')}](plots/{picture})")
+        return "\n\n".join(parts)
+
+    def draw(self, name, outcomes, folder):
+        complete = [o for o in outcomes if len(o.t) > 20]
+        if name in fig.PLOTS and complete:
+            for file, panels in fig.PLOTS[name](complete, self.refs):
+                if plots.save(folder / file, panels):
+                    yield file
+        if name in fig.PICTURES:
+            file, numbers, *part = fig.PICTURES[name]
+            if plots.pictures(folder / file, [outcomes[-1].folder / f"picture_{n}.png" for n in numbers], *part):
+                yield file
+
+    def write(self, docs):
+        folder = docs / "plots"
+        folder.mkdir(parents=True, exist_ok=True)
+        text = (HERE / "validation.md.in").read_text(encoding="utf-8")
+        text = text.replace("@overview@", overview(self.results))
+        text = text.replace("@paper@", paper_table(self.paper))
+        text = re.sub(r"@case (\w+)@", lambda match: self.section(match.group(1), folder), text)
+        (docs / "validation.md").write_text(text, encoding="utf-8")

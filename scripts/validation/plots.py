@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""One style for all plots: small SVG files whose text stays text, and pictures of the flow as small PNG files."""
+import matplotlib
+
+matplotlib.use("svg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+
+COLOURS = ["#4c78a8", "#f58518", "#54a24b", "#b279a2"]  # coarse to fine
+REFERENCE = "#333333"
+POINTS = 320  # of a curve
+LARGEST = 60000  # bytes of a plot
+
+plt.rcParams.update({
+    "svg.fonttype": "none", "svg.hashsalt": "libmps", "font.family": ["DejaVu Sans"], "font.size": 9,
+    "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.color": "#e4e4e4", "grid.linewidth": 0.6, "axes.linewidth": 0.7,
+    "axes.titlesize": 9, "axes.titlelocation": "left", "lines.linewidth": 0.9, "legend.frameon": False, "legend.fontsize": 8,
+    "path.simplify_threshold": 0.5})
+
+
+def thin(t, y, points=POINTS):
+    """At most `points` points; of every interval the smallest and the largest, so that peaks stay."""
+    use = np.isfinite(y)
+    t, y = np.asarray(t)[use], np.asarray(y)[use]
+    if len(t) <= points:
+        return t, y
+    keep = set()
+    for part in np.array_split(np.arange(len(t)), points // 2):
+        keep |= {part[int(np.argmin(y[part]))], part[int(np.argmax(y[part]))]}
+    keep = np.array(sorted(keep | {0, len(t) - 1}))
+    return t[keep], y[keep]
+
+
+class Panel:
+    """One pair of axes: curves, marks and a band."""
+
+    def __init__(self, title, y_label, x_label="t [s]", y_limits=None, logarithmic=False):
+        self.title, self.y_label, self.x_label, self.y_limits, self.logarithmic = title, y_label, x_label, y_limits, logarithmic
+        self.items = []
+
+    def curve(self, label, t, y, colour=None, dashed=False):
+        self.items.append(("curve", label, t, y, colour, dashed))
+        return self
+
+    def reference(self, label, t, y):
+        return self.curve(label, t, y, REFERENCE, True)
+
+    def marks(self, label, t, y, symbol="o"):
+        self.items.append(("marks", label, t, y, REFERENCE, symbol))
+        return self
+
+    def band(self, label, t, low, high):
+        self.items.append(("band", label, t, (low, high), "#bbbbbb", False))
+        return self
+
+    def draw(self, axes, points):
+        number = 0
+        for kind, label, t, y, colour, style in self.items:
+            if kind == "curve":
+                if colour is None:
+                    colour, number = COLOURS[number % len(COLOURS)], number + 1
+                axes.plot(*thin(t, y, points), color=colour, linestyle=(0, (4, 2)) if style else "-", label=label)
+            elif kind == "marks":
+                axes.plot(t, y, style, color=colour, markersize=4, markerfacecolor="none", label=label)
+            else:
+                pick = np.linspace(0, len(t) - 1, min(len(t), points)).astype(int)
+                axes.fill_between(t[pick], y[0][pick], y[1][pick], color=colour, alpha=0.45, linewidth=0, label=label)
+        axes.set_title(self.title)
+        axes.set_ylabel(self.y_label)
+        axes.set_xlabel(self.x_label)
+        if self.logarithmic:
+            axes.set_yscale("log")
+        if self.y_limits:
+            axes.set_ylim(*self.y_limits)
+        axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
+
+
+def save(path, panels):
+    """Write the panels below each other; coarser curves if the file gets too large. False if there is nothing to draw."""
+    panels = [panel for panel in panels if panel.items]
+    if not panels:
+        return False
+    points = POINTS
+    while True:
+        figure, all_axes = plt.subplots(len(panels), 1, figsize=(8.6, 2.3 * len(panels) + 0.2), squeeze=False)
+        for panel, axes in zip(panels, all_axes[:, 0]):
+            panel.draw(axes, points)
+        figure.tight_layout(pad=0.6)
+        figure.savefig(path, metadata={"Date": None, "Creator": None})
+        plt.close(figure)
+        if path.stat().st_size <= LARGEST or points < 60:
+            return True
+        points = int(points * 0.75)
+
+
+def palette():
+    """The colours of the drivers' pictures (examples/common/picture.c), and half of them with white for what scaling makes of the edges."""
+    from PIL import Image
+    fluid = np.array([(18, 33, 107), (26, 102, 173), (56, 176, 168), (173, 219, 97), (252, 237, 64)])
+    steps = np.linspace(0, 4, 57)
+    hues = np.column_stack([np.interp(steps, range(5), fluid[:, i]) for i in range(3)])
+    solid = np.array([(0, 0, 0), (26, 26, 26), (140, 140, 148), (214, 214, 219), (255, 255, 255)])
+    edges = (np.concatenate([hues[::4], solid]) + 255) / 2
+    colours = Image.new("P", (1, 1))
+    colours.putpalette([int(part) for part in np.concatenate([hues, solid, edges]).ravel()])
+    return colours
+
+
+def lower(image, part):
+    """The lower part of a picture below its caption, without the colour bar."""
+    from PIL import Image
+    width, caption = round(0.89 * image.width), round(0.05 * image.height)
+    below = image.crop((0, round((1 - part) * image.height), width, image.height))
+    result = Image.new("RGB", (width, caption + below.height), "white")
+    result.paste(image.crop((0, 0, width, caption)), (0, 0))
+    result.paste(below, (0, caption))
+    return result
+
+
+def pictures(path, sources, part=1.0, columns=2, width=620):
+    """Pictures of a driver side by side, with few colours so that the file stays small. False if none is there."""
+    from PIL import Image  # comes with matplotlib
+    images = [Image.open(source).convert("RGB") for source in sources if source.exists()]
+    if not images:
+        return False
+    colours, columns = palette(), min(columns, len(images))
+    if part < 1:
+        images = [lower(image, part) for image in images]
+    images = [image.resize((width, round(image.height * width / image.width)), Image.Resampling.LANCZOS) for image in images]
+    height, rows = max(image.height for image in images), -(-len(images) // columns)
+    sheet = Image.new("RGB", (columns * width, rows * height), "white")
+    for i, image in enumerate(images):
+        sheet.paste(image, (i % columns * width, i // columns * height))
+    sheet.quantize(palette=colours, dither=Image.Dither.NONE).save(path, optimize=True)
+    return True
