@@ -372,7 +372,7 @@ static void limits(void **state)
     const double g = sqrt(9.81 * dp);
     mps_sim *sim = pool();
     use_push(sim);
-    ASSERT_NEAR(step_taken(sim, 1), 0.03 * dp / g, 1e-15);
+    ASSERT_NEAR(step_taken(sim, 1), 0.06 * dp / g, 1e-15);
     mps_time_control c = control();
     c.dt_max = 1e-4;
     ASSERT_OK(sim, mps_sim_set_time_control(sim, &c));
