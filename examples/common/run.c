@@ -79,7 +79,7 @@ static void run_use_solver(run *r)
     if (mps_solver_use(r->sim, solver, slash ? slash + 1 : NULL) != MPS_OK) {
         run_refuse(r, "--solver", text, mps_sim_error(r->sim),
                    "; there are sundials.pcg, sundials.bicgstab, sundials.gmres, sundials.klu, and behind a / the preconditioners none, "
-                   "jacobi, ic0");
+                   "jacobi, ic0, auxgrid");
     }
 }
 

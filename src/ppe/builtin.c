@@ -10,5 +10,6 @@ const mps_solver_ops *const mps__builtin_solvers[] = {
 const mps_preconditioner_ops *const mps__builtin_preconditioners[] = {
     &mps__preconditioner_jacobi,
     &mps__preconditioner_ic0,
+    &mps__preconditioner_auxgrid,
     NULL,
 };

@@ -11,6 +11,7 @@ extern const mps_solver_ops mps__solver_gmres;
 extern const mps_solver_ops mps__solver_klu;
 extern const mps_preconditioner_ops mps__preconditioner_jacobi;
 extern const mps_preconditioner_ops mps__preconditioner_ic0;
+extern const mps_preconditioner_ops mps__preconditioner_auxgrid;
 
 /* All of them, ended by NULL. */
 extern const mps_solver_ops *const mps__builtin_solvers[];

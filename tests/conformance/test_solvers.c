@@ -61,6 +61,21 @@ static double *solved(const mps_solver_ops *solver, const mps_preconditioner_ops
     return p;
 }
 
+static size_t bytes_taken;
+
+static void *take_bytes(void *user, size_t size)
+{
+    (void)user;
+    bytes_taken += size;
+    return malloc(size);
+}
+
+static void give_bytes(void *user, void *block)
+{
+    (void)user;
+    free(block);
+}
+
 /* All pairs agree with the direct solver to 1e-8. */
 static void test_against_direct(void **state)
 {
@@ -84,24 +99,105 @@ static void test_against_direct(void **state)
     }
 }
 
+static int32_t iterations_of(const mps_preconditioner_ops *pc, const kit_lattice *lattice)
+{
+    kit_system *s = kit_lattice_system(lattice);
+    kit_memory memory;
+    mps_ppe_result result;
+    double *p = calloc((size_t)s->problem.n, sizeof *p);
+    kit_memory_init(&memory);
+    s->problem.tolerance = 1e-6;
+    assert_int_equal(kit_solve(&mps__solver_pcg, pc, &memory, &s->problem, p, &result), MPS_PPE_CONVERGED);
+    free(p);
+    kit_system_free(s);
+    return result.iterations;
+}
+
 /* The built-in preconditioners earn their names. */
 static void test_iterations(void **state)
 {
     (void)state;
     static const kit_lattice lattice = {2, 100, 80, 1, 1, 1, 3.1, 1, 0};
+    int32_t jacobi = iterations_of(&mps__preconditioner_jacobi, &lattice);
+    assert_true(jacobi < 250);
+    assert_true(iterations_of(&mps__preconditioner_ic0, &lattice) < jacobi / 3);
+}
+
+/* The background grid makes the iterations independent of the number of unknowns and of the densities. */
+static void test_auxgrid_iterations(void **state)
+{
+    (void)state;
+    static const kit_lattice lattices[] = {
+        {2, 40, 30, 1, 1, 1, 3.1, 1, 0},   {2, 160, 120, 1, 1, 1, 3.1, 1, 0}, {2, 80, 60, 1, 1, 1, 3.1, 1000, 0},
+        {2, 80, 60, 1, 1, 0, 3.1, 1, 0},   {3, 16, 16, 16, 1, 1, 2.1, 1, 0},  {3, 16, 16, 16, 1, 1, 2.1, 1000, 0},
+        {2, 12, 12, 1, 30, 15, 3.1, 1, 0},
+    };
+    for (size_t i = 0; i < sizeof lattices / sizeof lattices[0]; i++)
+        assert_in_range(iterations_of(&mps__preconditioner_auxgrid, &lattices[i]), 1, 20);
+}
+
+/* Systems of one to five rows, rows without entries, particles at any distance. */
+static void test_auxgrid_few(void **state)
+{
+    (void)state;
+    static const double far[5] = {0, 1e-9, 0.02, 10, 1e12}, exact[5] = {1, -2, 3, 4, -5};
+    for (int n = 1; n <= 5; n++)
+        for (int chain = 0; chain < 2; chain++) {
+            double a[25] = {0};
+            for (int i = 0; i < n; i++) a[i * n + i] = 2 + i;
+            for (int i = 1; chain && i < n; i++) a[i * n + i - 1] = a[(i - 1) * n + i] = -1;
+            kit_system *s = kit_dense_system(n, a, exact);
+            for (int i = 0; i < n; i++) s->x[2 * i] = far[i];
+            double *p = solved(&mps__solver_pcg, &mps__preconditioner_auxgrid, &s->problem);
+            assert_true(kit_difference(p, exact, n) < 1e-8);
+            free(p);
+            kit_system_free(s);
+        }
+}
+
+/* A drop ten metres away costs a few bytes, not a grid of ten metres. */
+static void test_auxgrid_far_drop(void **state)
+{
+    (void)state;
+    static const kit_lattice lattice = {3, 12, 12, 12, 2, 1, 2.1, 1, 0};
     kit_system *s = kit_lattice_system(&lattice);
-    const mps_preconditioner_ops *pcs[] = {&mps__preconditioner_jacobi, &mps__preconditioner_ic0};
-    mps_ppe_result result[2];
-    s->problem.tolerance = 1e-6;
-    for (int k = 0; k < 2; k++) {
-        kit_memory memory;
-        kit_memory_init(&memory);
-        double *p = calloc((size_t)s->problem.n, sizeof *p);
-        assert_int_equal(kit_solve(&mps__solver_pcg, pcs[k], &memory, &s->problem, p, &result[k]), MPS_PPE_CONVERGED);
-        free(p);
+    for (int64_t i = s->problem.n / 2; i < s->problem.n; i++) s->x[3 * i] += 10 + 1e3 * s->problem.dp;
+    bytes_taken = 0;
+    void *self = NULL;
+    const mps_allocator allocator = {take_bytes, give_bytes, NULL};
+    assert_int_equal(mps__preconditioner_auxgrid.create(&allocator, &self), 0);
+    assert_int_equal(mps__preconditioner_auxgrid.setup(self, &s->problem), MPS_PPE_CONVERGED);
+    assert_true(bytes_taken < 400 * (size_t)s->problem.n + 300000);
+    const size_t first = bytes_taken;
+    assert_int_equal(mps__preconditioner_auxgrid.setup(self, &s->problem), MPS_PPE_CONVERGED);
+    assert_int_equal(bytes_taken, first); /* kept for the next time */
+    mps__preconditioner_auxgrid.destroy(self);
+    kit_system_free(s);
+}
+
+/* What is not finite in the matrix is said, and the state serves again afterwards. */
+static void test_auxgrid_nan(void **state)
+{
+    (void)state;
+    static const kit_lattice lattice = {2, 30, 24, 1, 1, 1, 3.1, 1, 0};
+    kit_system *s = kit_lattice_system(&lattice);
+    kit_memory memory;
+    kit_memory_init(&memory);
+    void *self = NULL;
+    double *z = calloc((size_t)s->problem.n, sizeof *z);
+    assert_int_equal(mps__preconditioner_auxgrid.create(&memory.allocator, &self), 0);
+    for (int64_t k = 0; k < s->row[2]; k++) {
+        const double value = s->val[k];
+        s->val[k] = k % 2 ? NAN : -INFINITY;
+        assert_int_not_equal(mps__preconditioner_auxgrid.setup(self, &s->problem), MPS_PPE_CONVERGED);
+        s->val[k] = value;
     }
-    assert_true(result[0].iterations < 250);
-    assert_true(result[1].iterations < result[0].iterations / 3);
+    assert_int_equal(mps__preconditioner_auxgrid.setup(self, &s->problem), MPS_PPE_CONVERGED);
+    assert_int_equal(mps__preconditioner_auxgrid.apply(self, s->rhs, z), MPS_PPE_CONVERGED);
+    for (int64_t i = 0; i < s->problem.n; i++) assert_true(isfinite(z[i]));
+    mps__preconditioner_auxgrid.destroy(self);
+    assert_int_equal(memory.live, 0);
+    free(z);
     kit_system_free(s);
 }
 
@@ -139,9 +235,11 @@ static void test_check(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_pcg),        cmocka_unit_test(test_bicgstab),        cmocka_unit_test(test_gmres),
-        cmocka_unit_test(test_klu),        cmocka_unit_test(test_preconditioners), cmocka_unit_test(test_against_direct),
-        cmocka_unit_test(test_iterations), cmocka_unit_test(test_ic0_shift),       cmocka_unit_test(test_check),
+        cmocka_unit_test(test_pcg),         cmocka_unit_test(test_bicgstab),         cmocka_unit_test(test_gmres),
+        cmocka_unit_test(test_klu),         cmocka_unit_test(test_preconditioners),  cmocka_unit_test(test_against_direct),
+        cmocka_unit_test(test_iterations),  cmocka_unit_test(test_ic0_shift),        cmocka_unit_test(test_auxgrid_iterations),
+        cmocka_unit_test(test_auxgrid_few), cmocka_unit_test(test_auxgrid_far_drop), cmocka_unit_test(test_auxgrid_nan),
+        cmocka_unit_test(test_check),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -123,6 +123,12 @@ static void filled_for_gmres(mps_sim *sim)
     assert_int_equal(mps_sim_use_preset(sim, "imps.paper"), MPS_OK);
 }
 
+static void filled_for_auxgrid(mps_sim *sim)
+{
+    filled(sim);
+    assert_int_equal(mps_solver_use(sim, "sundials.pcg", "auxgrid"), MPS_OK);
+}
+
 static void filled_for_klu(mps_sim *sim)
 {
     filled(sim);
@@ -349,6 +355,7 @@ static const scene scenes[] = {
     {"probe_read", sampled, read_gauge, 3},
     {"first step, bicgstab", filled_for_bicgstab, step, 20},
     {"first step, gmres", filled_for_gmres, step, 20},
+    {"first step, auxgrid", filled_for_auxgrid, step, 20},
     {"first step, klu", filled_for_klu, step, 20},
     {"stencil", filled, stencil, 10},
     {"stencil of more", grown, stencil, 10},

@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* auxgrid: the V-cycle. Sweeps down go red, black and sweeps up black, red, so that the cycle is a symmetric operator. */
+#include "auxgrid.h"
+#include "kernels.h"
+#include <math.h>
+#include <string.h>
+
+enum { SWEEPS = 2 };
+static const double no_level = 1e-10; /* share of the diagonal below which a pivot belongs to a constant pressure */
+
+/* ---- direct solution of the last grid ---- */
+
+static void fill_matrix(mps__grid *g, const mps__grid_level *l)
+{
+    int sides = 2 * g->dim;
+    memset(g->factor, 0, (size_t)(l->cells * l->cells) * sizeof *g->factor);
+    for (int64_t c = 0; c < l->cells; c++) {
+        double *row = g->factor + c * l->cells;
+        row[c] = l->shift[c];
+        for (int64_t s = c * sides; s < (c + 1) * sides; s++) {
+            row[c] += (double)l->link[s];
+            row[l->next[s]] -= (double)l->link[s];
+        }
+    }
+}
+
+/* L D L' in place of the lower triangle. A component without a level keeps one pivot of zero: its last cell is held. */
+static void factorise_last(mps__grid *g, const mps__grid_level *l)
+{
+    int64_t n = l->cells;
+    fill_matrix(g, l);
+    for (int64_t i = 0; i < n; i++) {
+        double *row = g->factor + i * n, whole = row[i], d = whole;
+        for (int64_t j = 0; j < i; j++) {
+            const double *other = g->factor + j * n;
+            double s = row[j]; /* becomes L_ij D_j */
+            for (int64_t k = 0; k < j; k++) s -= row[k] * other[k];
+            row[j] = s;
+        }
+        for (int64_t j = 0; j < i; j++) {
+            double s = row[j];
+            row[j] *= g->pivot[j];
+            d -= s * row[j];
+        }
+        g->pivot[i] = d > no_level * whole ? 1 / d : 0;
+    }
+}
+
+static void solve_last(const mps__grid *g, mps__grid_level *l)
+{
+    int64_t n = l->cells;
+    for (int64_t i = 0; i < n; i++) {
+        const double *row = g->factor + i * n;
+        double s = l->b[i];
+        for (int64_t j = 0; j < i; j++) s -= row[j] * l->x[j];
+        l->x[i] = s;
+    }
+    for (int64_t i = 0; i < n; i++) l->x[i] *= g->pivot[i];
+    for (int64_t i = n - 1; i >= 0; i--) {
+        const double *row = g->factor + i * n;
+        for (int64_t j = 0; j < i; j++) l->x[j] -= row[j] * l->x[i];
+    }
+}
+
+bool mps__grid_factorise(mps__grid *g)
+{
+    for (int k = 0; k < g->levels; k++) {
+        mps__grid_level *l = &g->level[k];
+        for (int64_t c = 0; c < l->cells; c++) {
+            double d = l->shift[c];
+            for (int64_t s = c * 2 * g->dim; s < (c + 1) * 2 * g->dim; s++) d += (double)l->link[s];
+            if (!isfinite(d)) return false;
+            l->inverse[c] = d > 0 ? 1 / d : 0;
+        }
+    }
+    factorise_last(g, &g->level[g->levels - 1]);
+    return true;
+}
+
+/* ---- cycle ---- */
+
+static double pull(const mps__grid_level *l, int sides, int64_t c)
+{
+    const int32_t *next = l->next + c * sides;
+    const float *link = l->link + c * sides;
+    double s = 0;
+    for (int k = 0; k < sides; k++) s += (double)link[k] * l->x[next[k]];
+    return s;
+}
+
+/* One colour: each cell solved for itself. */
+static void relax(const mps__grid *g, mps__grid_level *l, int64_t from, int64_t to)
+{
+    int sides = 2 * g->dim;
+#pragma omp parallel for schedule(static) num_threads(mps__team(to - from, g->threads))
+    for (int64_t c = from; c < to; c++) l->x[c] = (l->b[c] + pull(l, sides, c)) * l->inverse[c];
+}
+
+static void sweep_down(const mps__grid *g, mps__grid_level *l)
+{
+    for (int64_t c = 0; c < l->red; c++) l->x[c] = l->b[c] * l->inverse[c]; /* the black ones are zero */
+    for (int64_t c = l->red; c < l->cells; c++) l->x[c] = 0;                /* read at missing neighbours, times zero */
+    relax(g, l, l->red, l->cells);
+    for (int s = 1; s < SWEEPS; s++) {
+        relax(g, l, 0, l->red);
+        relax(g, l, l->red, l->cells);
+    }
+}
+
+static void sweep_up(const mps__grid *g, mps__grid_level *l)
+{
+    for (int s = 0; s < SWEEPS; s++) {
+        relax(g, l, l->red, l->cells);
+        relax(g, l, 0, l->red);
+    }
+}
+
+static void spread(const mps__grid_level *l, int dim, int64_t point, double value)
+{
+    const int32_t *at = l->at + (point << dim);
+    const float *share = l->share + (point << dim);
+    for (int k = 0; k < 1 << dim; k++) l->b[at[k]] += (double)share[k] * value;
+}
+
+void mps__grid_restrict(const mps__grid *g, mps__grid_level *l, const double *values, double scale)
+{
+    memset(l->b, 0, (size_t)l->cells * sizeof *l->b);
+    for (int64_t i = 0; i < l->points; i++) spread(l, g->dim, i, scale * values[i]);
+}
+
+/* What is left of the right side, to the next grid. The black cells were solved last: only red ones have a residual. */
+static void restrict_residual(const mps__grid *g, const mps__grid_level *fine, mps__grid_level *l)
+{
+    memset(l->b, 0, (size_t)l->cells * sizeof *l->b);
+    for (int64_t c = 0; c < fine->red; c++) {
+        if (l->home[c] < 0) continue;
+        spread(l, g->dim, c, fine->b[c] + pull(fine, 2 * g->dim, c) - fine->x[c] / fine->inverse[c]);
+    }
+}
+
+static void correct(const mps__grid *g, mps__grid_level *fine, const mps__grid_level *l)
+{
+#pragma omp parallel for schedule(static) num_threads(mps__team(fine->cells, g->threads))
+    for (int64_t c = 0; c < fine->cells; c++)
+        if (l->home[c] >= 0) fine->x[c] += mps__grid_value(l, g->dim, c);
+}
+
+void mps__grid_cycle(mps__grid *g)
+{
+    int last = g->levels - 1;
+    for (int k = 0; k < last; k++) {
+        sweep_down(g, &g->level[k]);
+        restrict_residual(g, &g->level[k], &g->level[k + 1]);
+    }
+    solve_last(g, &g->level[last]);
+    for (int k = last - 1; k >= 0; k--) {
+        correct(g, &g->level[k], &g->level[k + 1]);
+        sweep_up(g, &g->level[k]);
+    }
+}

@@ -1,0 +1,284 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* auxgrid: cell size, conductances between cells and the shares of the points. A matrix entry k_ij is a wire from particle i
+ * to j; where it crosses from cell to cell along an axis it adds k_ij |x_j - x_i| / size, both along that axis. For a linear
+ * pressure that is the energy of the wires, and between two densities it is what lets the pressure through. */
+#include "auxgrid.h"
+#include "kernels.h"
+#include <float.h>
+#include <math.h>
+
+enum { FEW_ENTRIES = 4, MAX_STEPS = 12 };
+static const double one_density = 4; /* arithmetic over harmonic mean of the conductivities, below which there is one */
+
+static double square_distance(const mps_ppe_problem *problem, int64_t i, int64_t j)
+{
+    double r2 = 0;
+    for (int a = 0; a < problem->dim; a++) {
+        double d = problem->x[j * problem->dim + a] - problem->x[i * problem->dim + a];
+        r2 += d * d;
+    }
+    return r2;
+}
+
+/* Mean k_ij r_ij^2 of a row: the inverse density but for a factor that all rows share. @return entries that count */
+static int64_t conductivity(const mps_ppe_problem *problem, int64_t i, double *kappa)
+{
+    int64_t entries = 0;
+    double sum = 0;
+    for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) {
+        double c = -problem->val[k];
+        int32_t j = problem->col[k];
+        if (j == i || (c <= 0 && c >= -DBL_MAX)) continue; /* what is not finite stays to be seen */
+        sum += c * square_distance(problem, i, j);
+        entries++;
+    }
+    *kappa = entries > 0 ? sum / (double)entries : 0;
+    return entries;
+}
+
+int mps__grid_measure(mps__grid *g, const mps_ppe_problem *problem)
+{
+    double largest = 0, sum = 0, inverses = 0, rows = 0;
+    for (int64_t i = 0; i < problem->n; i++) {
+        int64_t entries = conductivity(problem, i, &g->point_kappa[i]);
+        double kappa = g->point_kappa[i];
+        if (!isfinite(kappa)) return MPS_PPE_NAN;
+        if (kappa > largest) largest = kappa;
+        if (entries < FEW_ENTRIES || !(kappa > 0)) continue; /* a lone pair at the end of the kernel says little */
+        sum += kappa;
+        inverses += 1 / kappa;
+        rows += 1;
+    }
+    bool one = !(sum * inverses > one_density * rows * rows);
+    g->dim = problem->dim;
+    g->unit = largest > 0 ? problem->dp * problem->dp / largest : 1;
+    g->size = problem->dp * (!one ? 2 : problem->dim == 2 ? 3 : 2.5);
+    g->per_size = 1 / g->size;
+    return 0;
+}
+
+/* Position in cells, within the range of coordinates. */
+static double position(const mps__grid *g, const mps_ppe_problem *problem, int64_t i, int a)
+{
+    const double most = (1 << MPS__GRID_BITS) - 0.5;
+    double u = (problem->x[i * problem->dim + a] - g->lo[a]) * g->per_size;
+    u = u > 0 ? u : 0;
+    return u < most ? u : most;
+}
+
+void mps__grid_place(mps__grid *g, const mps_ppe_problem *problem)
+{
+    for (int a = 0; a < problem->dim; a++) {
+        double lo = INFINITY;
+        for (int64_t i = 0; i < problem->n; i++) lo = fmin(lo, problem->x[i * problem->dim + a]);
+        g->lo[a] = lo - 0.5 * g->size;
+    }
+    for (int64_t i = 0; i < problem->n; i++) {
+        g->point_key[i] = 0;
+        for (int a = 0; a < problem->dim; a++) g->point_key[i] |= (int64_t)position(g, problem, i, a) << (a * MPS__GRID_BITS);
+    }
+}
+
+/* ---- conductances ---- */
+
+typedef struct wire {
+    double x[3], d[3]; /* start and difference in cells */
+    int left[3];       /* steps still to go along each axis */
+    int steps;
+    int64_t link[MAX_STEPS]; /* crossed so far */
+} wire;
+
+/* Next axis to step along: the plane that the wire meets first, unless there is no cell behind it. -1: none */
+static int next_axis(const mps__grid *g, const mps__grid_level *l, const wire *w, int32_t cell)
+{
+    int best = -1;
+    double first = INFINITY;
+    for (int a = 0; a < g->dim; a++) {
+        int up = w->d[a] > 0;
+        if (w->left[a] == 0 || l->next[(int64_t)cell * 2 * g->dim + 2 * a + up] == cell) continue;
+        double plane = (double)(mps__grid_coordinate(l->key[cell], a) + up);
+        double t = (plane - w->x[a]) / w->d[a];
+        if (t < first) {
+            first = t;
+            best = a;
+        }
+    }
+    return best;
+}
+
+/* Cells from one to the next along the wire. False: they are too far apart or not joined. */
+static bool follow(const mps__grid *g, const mps__grid_level *l, wire *w, int32_t from, int32_t to)
+{
+    int all = 0;
+    for (int a = 0; a < g->dim; a++) {
+        int64_t left = mps__grid_coordinate(l->key[to], a) - mps__grid_coordinate(l->key[from], a);
+        if (left > MAX_STEPS || left < -MAX_STEPS) return false;
+        w->left[a] = (int)(left < 0 ? -left : left);
+        all += w->left[a];
+    }
+    if (all > MAX_STEPS) return false;
+    for (w->steps = 0; w->steps < all; w->steps++) {
+        int a = next_axis(g, l, w, from);
+        if (a < 0) return false;
+        w->left[a]--;
+        w->link[w->steps] = (int64_t)from * 2 * g->dim + 2 * a + (w->d[a] > 0);
+        from = l->next[w->link[w->steps]];
+    }
+    return true;
+}
+
+/* Add to a link from both sides. */
+static void join(const mps__grid *g, mps__grid_level *l, int64_t link, float c)
+{
+    int sides = 2 * g->dim, side = (int)(link % sides);
+    l->link[link] += c;
+    l->link[(int64_t)l->next[link] * sides + (side ^ 1)] += c;
+}
+
+static void add_wire(const mps__grid *g, mps__grid_level *l, wire *w, const int32_t home[2], double k)
+{
+    if (!follow(g, l, w, home[0], home[1])) return;
+    for (int s = 0; s < w->steps; s++) join(g, l, w->link[s], (float)(k * fabs(w->d[w->link[s] % (2 * g->dim) / 2])));
+}
+
+static void add_row(const mps__grid *g, mps__grid_level *l, const mps_ppe_problem *problem, int64_t i)
+{
+    double start[3] = {0};
+    for (int a = 0; a < g->dim; a++) start[a] = position(g, problem, i, a);
+    for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) {
+        int32_t j = problem->col[k], home[2] = {l->home[i], l->home[j]};
+        if (j <= i || home[0] == home[1] || !(problem->val[k] < 0)) continue;
+        wire w;
+        for (int a = 0; a < g->dim; a++) {
+            w.x[a] = start[a];
+            w.d[a] = position(g, problem, j, a) - start[a];
+        }
+        add_wire(g, l, &w, home, -problem->val[k] * g->unit);
+    }
+}
+
+/* ---- shares of the points ---- */
+
+/* Shares of the 2^dim cells around a point. far[a] is the share of the cell beside its own along axis a, below or above as
+ * side[a] says; only cells joined to the own one by links count, and a cell that conducts less counts less. */
+static void set_shares(const mps__grid *g, mps__grid_level *l, int64_t point, const double *far, const int *side)
+{
+    int corners = 1 << g->dim;
+    int32_t home = l->home[point], *at = l->at + point * corners;
+    float *share = l->share + point * corners;
+    double kappa = g->point_kappa[point], w[8], sum = 0;
+    for (int k = 0; k < corners; k++) {
+        at[k] = k == 0 ? home : -1;
+        w[k] = 1;
+        for (int a = 0; a < g->dim; a++) {
+            w[k] *= k >> a & 1 ? far[a] : 1 - far[a];
+            int32_t before = k >> a & 1 ? at[k ^ 1 << a] : -1;
+            if (at[k] >= 0 || before < 0) continue;
+            int64_t link = (int64_t)before * 2 * g->dim + 2 * a + side[a];
+            if (l->link[link] > 0) at[k] = l->next[link];
+        }
+        if (at[k] < 0) w[k] = 0;
+        if (at[k] >= 0 && kappa > l->kappa[at[k]]) w[k] *= l->kappa[at[k]] / kappa;
+        sum += w[k];
+    }
+    for (int k = 0; k < corners; k++) {
+        share[k] = (float)(sum > 0 ? w[k] / sum : k == 0);
+        if (at[k] < 0) at[k] = home;
+    }
+}
+
+static void share_particle(const mps__grid *g, mps__grid_level *l, const mps_ppe_problem *problem, int64_t i)
+{
+    double far[3];
+    int side[3];
+    for (int a = 0; a < g->dim; a++) {
+        double u = position(g, problem, i, a), f = u - floor(u) - 0.5;
+        side[a] = f > 0;
+        far[a] = fabs(f);
+    }
+    set_shares(g, l, i, far, side);
+}
+
+/* What holds the pressure's level, to the cells that the particle takes its value from: a cell filled at its edge only would
+ * otherwise hold a value that no particle has. */
+static void share_shift(const mps__grid *g, mps__grid_level *l, int64_t i, double shift)
+{
+    const int32_t *at = l->at + (i << g->dim);
+    const float *share = l->share + (i << g->dim);
+    for (int k = 0; k < 1 << g->dim; k++) l->shift[at[k]] += (double)share[k] * shift;
+}
+
+void mps__grid_from_matrix(mps__grid *g, const mps_ppe_problem *problem)
+{
+    mps__grid_level *l = &g->level[0];
+    for (int64_t i = 0; i < problem->n; i++) {
+        int32_t c = l->home[i];
+        l->kappa[c] += g->point_kappa[i];
+        l->count[c] += 1;
+        add_row(g, l, problem, i);
+    }
+    for (int64_t c = 0; c < l->cells; c++) l->kappa[c] /= l->count[c];
+#pragma omp parallel for schedule(static) num_threads(mps__team(problem->n, problem->threads))
+    for (int64_t i = 0; i < problem->n; i++) share_particle(g, l, problem, i);
+    for (int64_t i = 0; i < problem->n; i++)
+        if (problem->shift[i] > 0) share_shift(g, l, i, problem->shift[i] * g->unit);
+}
+
+/* ---- coarser grids: two cells become one along each axis ---- */
+
+static bool is_linked(const mps__grid *g, const mps__grid_level *l, int64_t cell)
+{
+    for (int s = 0; s < 2 * g->dim; s++)
+        if (l->link[cell * 2 * g->dim + s] > 0) return true;
+    return false;
+}
+
+/* Cells without links are solved on their own grid and have no coarser one. */
+static void place_cells(mps__grid *g, const mps__grid_level *fine)
+{
+    for (int64_t c = 0; c < fine->cells; c++) {
+        g->point_kappa[c] = fine->kappa[c];
+        g->point_key[c] = is_linked(g, fine, c) ? 0 : -1;
+        for (int a = 0; a < g->dim && g->point_key[c] >= 0; a++)
+            g->point_key[c] |= mps__grid_coordinate(fine->key[c], a) / 2 << (a * MPS__GRID_BITS);
+    }
+}
+
+/* The wires that cross between coarse cells are as many as those between fine ones, and half as long in cells. */
+static void add_cell(const mps__grid *g, const mps__grid_level *fine, mps__grid_level *l, int64_t c)
+{
+    int32_t home = l->home[c];
+    l->shift[home] += fine->shift[c];
+    l->kappa[home] += fine->count[c] * fine->kappa[c];
+    l->count[home] += fine->count[c];
+    for (int a = 0; a < g->dim; a++) {
+        int64_t link = c * 2 * g->dim + 2 * a + 1;
+        int32_t other = l->home[fine->next[link]];
+        if (fine->link[link] > 0 && other != home) join(g, l, (int64_t)home * 2 * g->dim + 2 * a + 1, 0.5f * fine->link[link]);
+    }
+}
+
+static void from_finer(mps__grid *g, const mps__grid_level *fine, mps__grid_level *l)
+{
+    static const double far[3] = {0.25, 0.25, 0.25};
+    for (int64_t c = 0; c < fine->cells; c++)
+        if (l->home[c] >= 0) add_cell(g, fine, l, c);
+    for (int64_t c = 0; c < l->cells; c++) l->kappa[c] /= l->count[c];
+    for (int64_t c = 0; c < fine->cells; c++) {
+        int side[3];
+        for (int a = 0; a < g->dim; a++) side[a] = (int)(mps__grid_coordinate(fine->key[c], a) & 1);
+        if (l->home[c] >= 0) set_shares(g, l, c, far, side);
+    }
+}
+
+bool mps__grid_coarsen(mps__grid *g)
+{
+    while (g->levels < MPS__GRID_LEVELS && g->level[g->levels - 1].cells >= MPS__GRID_DIRECT) {
+        mps__grid_level *fine = &g->level[g->levels - 1], *l = fine + 1;
+        place_cells(g, fine);
+        if (!mps__grid_cells(g, l, fine->cells)) return false;
+        from_finer(g, fine, l);
+        g->levels++;
+    }
+    return true;
+}
