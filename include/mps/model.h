@@ -58,6 +58,7 @@ typedef struct mps_stage {
     const mps_stencil *near;  /**< pairs within re_near */
     const mps_stencil *far;   /**< pairs within re_far */
     void *host;               /**< private */
+    double *density_smooth;   /**< [n] density for operators of the pressure, written by classify; arrives as a copy of density [kg/m3] */
 } mps_stage;
 
 /** The pressure equation: sum_j k_ij (p_i - p_j + q_ij) + shift_i p_i = rhs_i [1/s2] over pairs of fluid and walls, with

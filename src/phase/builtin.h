@@ -14,6 +14,13 @@ extern const mps_model_ops mps__viscosity_laplacian, mps__dissipation_radial;
 extern const mps_model_ops mps__source_mixed, mps__source_volume;
 extern const mps_model_ops mps__gradient_conservative, mps__gradient_corrected;
 extern const mps_model_ops mps__collision_pair, mps__shift_tangential;
+extern const mps_model_ops mps__density_smooth, mps__viscosity_pair, mps__tension_csf, mps__gas_compressible, mps__gradient_density;
+
+/* Phases of mps_stage.viscosity. */
+enum { MPS__PHASE_LIMIT = 16 };
+
+/* Least density of the fluid of each phase [kg/m3]; 0 without any. */
+void mps__phase_densities(const mps_stage *s, double rho[MPS__PHASE_LIMIT]);
 
 /* All of them; the last entry is NULL. */
 const mps_model_ops *const *mps__builtin_phase(void);

@@ -43,7 +43,7 @@ AT(mps_stl, scale, 16);
 AT(mps_stl, shift, 24);
 AT(mps_stl, container, 48);
 
-SIZE(mps_stage, 248);
+SIZE(mps_stage, 256);
 AT(mps_stage, struct_size, 0);
 AT(mps_stage, dim, 4);
 AT(mps_stage, threads, 8);
@@ -75,6 +75,7 @@ AT(mps_stage, correction, 216);
 AT(mps_stage, near, 224);
 AT(mps_stage, far, 232);
 AT(mps_stage, host, 240);
+AT(mps_stage, density_smooth, 248);
 
 SIZE(mps_ppe_terms, 64);
 AT(mps_ppe_terms, struct_size, 0);

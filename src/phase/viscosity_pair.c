@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Viscous acceleration of several phases, W22 (14)(15): a_i = 2D/(n0 lambda rho_i) sum mu_ij (u_j - u_i) W over all pairs,
+ *   mu_ij = [(mu_i^theta + mu_j^theta)/2]^(1/theta), theta -1: harmonic mean, 1: arithmetic, 0: geometric.
+ * mu_ij is symmetric, so pairs of fluid exchange momentum and lose none. Solids have the fluid's own viscosity and are seen with
+ * their own velocity (no slip). */
+#include "builtin.h"
+
+enum { THETA };
+static const mps_setting settings[] = {{"theta", -1.0, -1.0, 1.0}};
+
+/* W22 (15), the last of its expressions. */
+static double mean_viscosity(double theta, double a, double b)
+{
+    if (a == b) return a;
+    if (theta <= 0 && (a == 0 || b == 0)) return 0;
+    if (fabs(theta) < 1e-6) return sqrt(a * b);
+    if (theta == -1.0) return 2.0 * a * b / (a + b);
+    return pow(0.5 * (pow(a, theta) + pow(b, theta)), 1.0 / theta);
+}
+
+MPS__ROW void diffuse(const int dim, const mps_stage *s, const double *mean, int64_t i, double *a)
+{
+    const mps_stencil *t = s->far;
+    const double *u = s->u + i * dim, *mu = mean + MPS__PHASE_LIMIT * s->phase[i];
+    const double c = 2.0 * dim / (t->n0 * t->lambda * s->density[i]);
+    double sum[3] = {0};
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
+        const double w = q.w * mu[s->kind[q.j] == MPS_FLUID ? s->phase[q.j] : s->phase[i]];
+        for (int d = 0; d < dim; d++) sum[d] += w * (s->u[q.j * dim + d] - u[d]);
+    }
+    for (int d = 0; d < dim; d++) a[i * dim + d] += c * sum[d];
+}
+
+static int force(void *self, const double *k, mps_stage *s, double *a)
+{
+    (void)self;
+    double mean[MPS__PHASE_LIMIT * MPS__PHASE_LIMIT];
+    for (int p = 0; p < MPS__PHASE_LIMIT; p++)
+        for (int q = 0; q < MPS__PHASE_LIMIT; q++)
+            mean[MPS__PHASE_LIMIT * p + q] = mean_viscosity(k[THETA], s->viscosity[p], s->viscosity[q]);
+#pragma omp parallel for num_threads(s->threads) schedule(static)
+    for (int64_t i = 0; i < s->n; i++)
+        if (s->kind[i] == MPS_FLUID) MPS__ROW_CALL(s, diffuse, s, mean, i, a);
+    return 0;
+}
+
+/* A light fluid beside a viscous one; what a phase does to itself is the limit of the time control. */
+static double dt_limit(void *self, const double *k, const mps_stage *s)
+{
+    (void)self;
+    double rho[MPS__PHASE_LIMIT], nu = 0;
+    mps__phase_densities(s, rho);
+    for (int p = 0; p < MPS__PHASE_LIMIT; p++)
+        for (int q = 0; q < MPS__PHASE_LIMIT; q++)
+            if (p != q && rho[p] > 0 && rho[q] > 0) nu = fmax(nu, mean_viscosity(k[THETA], s->viscosity[p], s->viscosity[q]) / rho[p]);
+    return nu > 0 ? 0.2 * s->dp * s->dp / nu : INFINITY;
+}
+
+const mps_model_ops mps__viscosity_pair = {.struct_size = sizeof(mps_model_ops),
+                                           .api = MPS_MODEL_API,
+                                           .name = "viscosity.pair",
+                                           .order = 300,
+                                           .setting_count = 1,
+                                           .settings = settings,
+                                           .force = force,
+                                           .dt_limit = dt_limit};

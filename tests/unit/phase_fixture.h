@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Models one at a time: a simulation without any, free clouds of fluid, and a spy that keeps what the verbs before it left. */
+#ifndef PHASE_FIXTURE_H
+#define PHASE_FIXTURE_H
+
+#include "cloud.h"
+#include "tank_fixture.h"
+#include <mps/model.h>
+#include <stdlib.h>
+
+enum { SPY_ROOM = 40000 };
+
+/* By id, of the last step. `pressure` and `rhs`, where given, are laid into the stage before the models under test. */
+static struct {
+    double a[3 * SPY_ROOM], dp_a[3 * SPY_ROOM], density[SPY_ROOM], shift[SPY_ROOM], rhs[SPY_ROOM], p[SPY_ROOM];
+    double (*pressure)(const double *x, int dim);
+    double given_rhs;
+} spy;
+
+static inline int spy_lay_rhs(void *self, const double *k, mps_stage *s, mps_ppe_terms *t)
+{
+    (void)self, (void)k;
+    for (int64_t i = 0; i < s->n; i++) t->rhs[i] += spy.given_rhs;
+    return 0;
+}
+
+static inline int spy_lay_pressure(void *self, const double *k, mps_stage *s, double *a)
+{
+    (void)self, (void)k, (void)a;
+    for (int64_t i = 0; spy.pressure && i < s->n; i++) s->p[i] = spy.pressure(s->x + i * s->dim, s->dim);
+    return 0;
+}
+
+static inline int spy_force(void *self, const double *k, mps_stage *s, double *a)
+{
+    (void)self, (void)k;
+    assert_true(s->n <= SPY_ROOM);
+    for (int64_t i = 0; i < s->n * s->dim; i++) spy.a[s->id[i / s->dim] * s->dim + i % s->dim] = a[i];
+    for (int64_t i = 0; i < s->n; i++) spy.density[s->id[i]] = s->density_smooth[i];
+    return 0;
+}
+
+static inline int spy_source(void *self, const double *k, mps_stage *s, mps_ppe_terms *t)
+{
+    (void)self, (void)k;
+    for (int64_t i = 0; i < s->n; i++) {
+        spy.shift[s->id[i]] = t->shift[i];
+        spy.rhs[s->id[i]] = t->rhs[i];
+    }
+    return 0;
+}
+
+static inline int spy_gradient(void *self, const double *k, mps_stage *s, double *a)
+{
+    (void)self, (void)k;
+    for (int64_t i = 0; i < s->n * s->dim; i++) spy.dp_a[s->id[i / s->dim] * s->dim + i % s->dim] = a[i];
+    for (int64_t i = 0; i < s->n; i++) spy.p[s->id[i]] = s->p[i];
+    return 0;
+}
+
+static const mps_model_ops spy_before = {.struct_size = sizeof(mps_model_ops),
+                                         .api = MPS_MODEL_API,
+                                         .name = "before.spy",
+                                         .order = 50,
+                                         .source = spy_lay_rhs,
+                                         .gradient = spy_lay_pressure};
+static const mps_model_ops spy_after = {.struct_size = sizeof(mps_model_ops),
+                                        .api = MPS_MODEL_API,
+                                        .name = "after.spy",
+                                        .order = 950,
+                                        .force = spy_force,
+                                        .source = spy_source,
+                                        .gradient = spy_gradient};
+
+/* No gravity, no models but the spy, steps of `dt`. re_far in dp. */
+static inline mps_sim *bare_sim(int32_t dim, double dp, double re_far, double dt)
+{
+    mps_config config;
+    mps_time_control control;
+    mps_sim *sim = NULL;
+    memset(&spy, 0, sizeof spy);
+    assert_int_equal(mps_config_init(&config, sizeof config), MPS_OK);
+    config.dim = dim;
+    config.dp = dp;
+    config.re_far = re_far;
+    memset(config.gravity, 0, sizeof config.gravity);
+    assert_int_equal(mps_sim_create(&config, &sim), MPS_OK);
+    while (mps_model_name(sim, 0)) ASSERT_OK(sim, mps_model_remove(sim, mps_model_name(sim, 0)));
+    ASSERT_OK(sim, mps_model_register(sim, &spy_before));
+    ASSERT_OK(sim, mps_model_register(sim, &spy_after));
+    ASSERT_OK(sim, mps_model_use(sim, "before.spy"));
+    ASSERT_OK(sim, mps_model_use(sim, "after.spy"));
+    assert_int_equal(mps_time_control_init(&control, sizeof control), MPS_OK);
+    control.dt = dt;
+    ASSERT_OK(sim, mps_sim_set_time_control(sim, &control));
+    return sim;
+}
+
+static inline void set_phase(mps_sim *sim, int32_t index, double density, double viscosity)
+{
+    mps_phase phase;
+    assert_int_equal(mps_phase_init(&phase, sizeof phase), MPS_OK);
+    phase.density = density;
+    phase.viscosity = viscosity;
+    ASSERT_OK(sim, mps_sim_set_phase(sim, index, &phase));
+}
+
+/* `count` zeros; free() them. */
+static inline int32_t *cloud_phases(int64_t count)
+{
+    return calloc(count > 0 ? (size_t)count : 1, sizeof(int32_t));
+}
+
+/* Particle i of the cloud gets phase[i] and id i. */
+static inline void add_cloud(mps_sim *sim, const cloud *c, const int32_t *phase, const double *u)
+{
+    mps_particle_block b;
+    for (int64_t i = 0; i < c->n; i++) {
+        int64_t run = 1;
+        while (i + run < c->n && phase[i + run] == phase[i]) run++;
+        assert_int_equal(mps_particle_block_init(&b, sizeof b), MPS_OK);
+        b.phase = phase[i];
+        b.count = run;
+        b.position = c->x + i * c->dim;
+        b.velocity = u ? u + i * c->dim : NULL;
+        ASSERT_OK(sim, mps_particles_add(sim, &b, NULL));
+        i += run - 1;
+    }
+}
+
+/* A field by id; free() it. */
+static inline double *field_by_id(mps_sim *sim, const char *name)
+{
+    const int64_t *ids;
+    mps_lease l;
+    ASSERT_OK(sim, mps_particles_tags(sim, &ids, NULL, NULL, NULL));
+    ASSERT_OK(sim, mps_lease_begin(sim, name, MPS_READ, &l));
+    double *v = cloud_doubles(l.count * l.stride);
+    for (int64_t i = 0; i < l.count; i++) memcpy(v + ids[i] * l.stride, l.data + i * l.stride, (size_t)l.stride * sizeof *v);
+    ASSERT_OK(sim, mps_lease_end(sim, &l));
+    return v;
+}
+
+#endif

@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* collision.pair between phases of very different density: momentum, energy, order of particles. */
+#include "phase_fixture.h"
+
+static const double rho[2] = {1000, 1};
+
+/* Velocities after one step with collisions alone, by id. */
+static double *after(const cloud *c, const int32_t *phase, const double *u)
+{
+    mps_sim *sim = bare_sim(c->dim, CLOUD_DP, 2.1, 1e-9);
+    set_phase(sim, 0, rho[0], 0);
+    set_phase(sim, 1, rho[1], 0);
+    add_cloud(sim, c, phase, u);
+    ASSERT_OK(sim, mps_model_use(sim, "collision.pair"));
+    ASSERT_OK(sim, mps_model_set(sim, "collision", "distance", 1.1));
+    ASSERT_OK(sim, mps_step(sim, 1, NULL));
+    double *v = field_by_id(sim, "velocity");
+    mps_sim_destroy(sim);
+    return v;
+}
+
+static cloud crowd(int dim)
+{
+    return dim == 2 ? cloud_lattice(2, 24, 20, 1, 0.3, 3) : cloud_lattice(3, 10, 9, 8, 0.3, 3);
+}
+
+static int32_t *two_phases(int64_t n)
+{
+    int32_t *phase = cloud_phases(n);
+    for (int64_t i = 0; i < n; i++) phase[i] = i / 5 % 2;
+    return phase;
+}
+
+static void momentum(void **state)
+{
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++) {
+        cloud c = crowd(dim);
+        int32_t *phase = two_phases(c.n);
+        double *u = cloud_field(c.n * dim, 4), *v = after(&c, phase, u);
+        for (int d = 0; d < dim; d++) {
+            double sum = 0, size = 0;
+            int64_t hit = 0;
+            for (int64_t i = 0; i < c.n; i++) {
+                const double change = rho[phase[i]] * (v[i * dim + d] - u[i * dim + d]);
+                sum += change;
+                size += rho[phase[i]] * fabs(u[i * dim + d]);
+                hit += change != 0;
+            }
+            assert_true(hit > c.n / 4 && fabs(sum) <= 1e-13 * size);
+        }
+        cloud_free(&c);
+        free(phase);
+        free(u);
+        free(v);
+    }
+}
+
+/* W22 (24)(25) for one pair. */
+static void lone_pair(void **state)
+{
+    (void)state;
+    const double x[4] = {0, 0, 0.5 * CLOUD_DP, 0}, u[4] = {0, 3, -2, 0};
+    const int32_t phase[2] = {0, 1};
+    const cloud c = {2, 2, (double *)x};
+    double *v = after(&c, phase, u);
+    ASSERT_NEAR(v[0], 1.5 * -2 * rho[1] / (rho[0] + rho[1]), 1e-15);
+    ASSERT_NEAR(v[2], -2 + 1.5 * 2 * rho[0] / (rho[0] + rho[1]), 1e-14);
+    assert_true(v[1] == 3 && v[3] == 0);
+    free(v);
+}
+
+/* Particles added in another order collide alike. */
+static void order(void **state)
+{
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++) {
+        cloud c = crowd(dim), mixed = cloud_empty(dim, c.n);
+        int32_t *phase = two_phases(c.n), *other = cloud_phases(c.n);
+        double *u = cloud_field(c.n * dim, 5), *w = cloud_doubles(c.n * dim), *v = after(&c, phase, u);
+        for (int64_t i = 0; i < c.n; i++) {
+            const int64_t to = (i * 1009 + 17) % c.n; /* 1009 is prime and divides neither n */
+            memcpy(mixed.x + to * dim, c.x + i * dim, (size_t)dim * sizeof(double));
+            memcpy(w + to * dim, u + i * dim, (size_t)dim * sizeof(double));
+            other[to] = phase[i];
+        }
+        double *back = after(&mixed, other, w);
+        for (int64_t i = 0; i < c.n; i++)
+            for (int d = 0; d < dim; d++) ASSERT_NEAR(back[(i * 1009 + 17) % c.n * dim + d], v[i * dim + d], 1e-14);
+        cloud_free(&c);
+        cloud_free(&mixed);
+        free(phase);
+        free(other);
+        free(u);
+        free(w);
+        free(v);
+        free(back);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(momentum), cmocka_unit_test(lone_pair), cmocka_unit_test(order)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* viscosity.pair: means of viscosity, momentum, walls, two layers in shear, its time step. */
+#include "phase_fixture.h"
+
+/* A lone pair: a_i = 2D/(n0 lambda rho_i) mu_ij du W. */
+static void means(void **state)
+{
+    (void)state;
+    static const double theta[] = {-1, -0.5, 0, 0.5, 1}, a = 0.002, b = 0.05;
+    for (int t = 0; t < 5; t++) {
+        const double two[4] = {0, 0, CLOUD_DP, 0}, u[4] = {0, 0, 0, 1};
+        const int32_t phase[2] = {0, 1};
+        const cloud c = {2, 2, (double *)two};
+        const double mu = theta[t] == 0 ? sqrt(a * b) : pow((pow(a, theta[t]) + pow(b, theta[t])) / 2, 1 / theta[t]);
+        double n0, lambda;
+        mps_kernel kernel;
+        mps_sim *sim = bare_sim(2, CLOUD_DP, 3.1, 1e-9);
+        set_phase(sim, 0, 1000, a);
+        set_phase(sim, 1, 10, b);
+        add_cloud(sim, &c, phase, u);
+        ASSERT_OK(sim, mps_model_use(sim, "viscosity.pair"));
+        ASSERT_OK(sim, mps_model_set(sim, "viscosity", "theta", theta[t]));
+        ASSERT_OK(sim, mps_step(sim, 1, NULL));
+        assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
+        assert_int_equal(mps_lattice_constants(&kernel, 2, CLOUD_DP, 3.1 * CLOUD_DP, &n0, &lambda), MPS_OK);
+        const double wanted = 4 / (n0 * lambda) * mu * mps_kernel_value(&kernel, CLOUD_DP, 3.1 * CLOUD_DP);
+        ASSERT_NEAR(spy.a[1] * 1000 / wanted, 1, 1e-12);
+        ASSERT_NEAR(spy.a[3] * 10 / wanted, -1, 1e-12);
+        mps_sim_destroy(sim);
+    }
+}
+
+/* Pairs lose no momentum, whatever the densities and the mean. */
+static void momentum(void **state)
+{
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++)
+        for (double theta = -1; theta <= 1; theta += 0.75) {
+            static const double rho[3] = {1000, 1.2, 800};
+            cloud c = dim == 2 ? cloud_lattice(2, 20, 18, 1, 0.3, 1) : cloud_lattice(3, 8, 8, 7, 0.3, 1);
+            double *u = cloud_field(c.n * dim, 2);
+            int32_t *phase = cloud_phases(c.n);
+            for (int64_t i = 0; i < c.n; i++) phase[i] = (int32_t)(i / 7 % 3);
+            mps_sim *sim = bare_sim(dim, CLOUD_DP, 3.1, 1e-9);
+            for (int p = 0; p < 3; p++) set_phase(sim, p, rho[p], 1e-3 * pow(7, p));
+            add_cloud(sim, &c, phase, u);
+            ASSERT_OK(sim, mps_model_use(sim, "viscosity.pair"));
+            ASSERT_OK(sim, mps_model_set(sim, "viscosity", "theta", theta));
+            ASSERT_OK(sim, mps_step(sim, 1, NULL));
+            for (int d = 0; d < dim; d++) {
+                double sum = 0, size = 0;
+                for (int64_t i = 0; i < c.n; i++) {
+                    sum += rho[phase[i]] * spy.a[i * dim + d];
+                    size += fabs(rho[phase[i]] * spy.a[i * dim + d]);
+                }
+                assert_true(size > 0 && fabs(sum) <= 1e-13 * size);
+            }
+            mps_sim_destroy(sim);
+            cloud_free(&c);
+            free(u);
+            free(phase);
+        }
+}
+
+/* One phase in a tank: viscosity.laplacian, though phase 0, which the walls carry, is something else. */
+static void walls_take_the_fluid(void **state)
+{
+    (void)state;
+    double *wanted = NULL;
+    static const char *const model[] = {"viscosity.laplacian", "viscosity.pair"};
+    for (int m = 0; m < 2; m++) {
+        const double lo[3] = {0}, hi[3] = {0.5, 0.3, 0};
+        mps_sim *sim = bare_sim(2, 0.05, 3.1, 1e-6);
+        set_phase(sim, 0, 1000, 5.0);
+        set_phase(sim, 1, 900, 1e-3);
+        add_tank(sim, 0.5, 0.5, 0);
+        ASSERT_OK(sim, mps_geometry_fill_box(sim, 1, lo, hi, NULL));
+        mps_lease u;
+        ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &u));
+        for (int64_t k = 0; k < u.count * u.stride; k++) u.data[k] = 1.0;
+        ASSERT_OK(sim, mps_lease_end(sim, &u));
+        ASSERT_OK(sim, mps_model_use(sim, model[m]));
+        ASSERT_OK(sim, mps_step(sim, 1, NULL));
+        const int64_t n = mps_particles_count(sim, -1) * 2;
+        double most = 0;
+        if (m == 0) wanted = cloud_doubles(n);
+        for (int64_t k = 0; k < n; k++) {
+            if (m == 0) wanted[k] = spy.a[k];
+            most = fmax(most, fabs(wanted[k]));
+        }
+        assert_true(most > 1e-4);
+        for (int64_t k = 0; k < n; k++) ASSERT_NEAR(spy.a[k], wanted[k], 1e-12 * most);
+        mps_sim_destroy(sim);
+    }
+    free(wanted);
+}
+
+/* ---- Couette ------------------------------------------------------------------------------------------------------------ */
+
+enum { ROWS = 24, COLUMNS = 5, BELT = 3 };
+static const double belt_speed = 1e-9; /* so slow that nobody gets anywhere */
+
+/* The outermost rows are plates. */
+static int belts(void *self, const double *k, mps_stage *s)
+{
+    (void)self, (void)k;
+    for (int64_t i = 0; i < s->n; i++) {
+        const int64_t row = s->id[i] / COLUMNS;
+        if (row < BELT || row >= ROWS - BELT) s->u[2 * i] = row < BELT ? 0 : belt_speed;
+    }
+    return 0;
+}
+static const mps_model_ops belt = {
+    .struct_size = sizeof(mps_model_ops), .api = MPS_MODEL_API, .name = "belt.test", .order = 900, .velocity = belts};
+
+/* Steady: mu du/dy is the same in both layers, and with the harmonic mean the velocity of the interface is that of sharp layers. */
+static void couette(void **state)
+{
+    (void)state;
+    static const double theta[] = {-1, 1}, mu[2] = {1.0, 4.0};
+    for (int t = 0; t < 2; t++) {
+        cloud c = cloud_lattice(2, COLUMNS, ROWS, 1, 0, 1);
+        int32_t phase[ROWS * COLUMNS];
+        for (int64_t i = 0; i < c.n; i++) phase[i] = i / COLUMNS >= ROWS / 2;
+        mps_sim *sim = bare_sim(2, CLOUD_DP, 3.1, 0.04 * CLOUD_DP * CLOUD_DP);
+        set_phase(sim, 0, 1, mu[0]);
+        set_phase(sim, 1, 1, mu[1]);
+        add_cloud(sim, &c, phase, NULL);
+        ASSERT_OK(sim, mps_model_register(sim, &belt));
+        ASSERT_OK(sim, mps_model_use(sim, "belt.test"));
+        ASSERT_OK(sim, mps_model_use(sim, "viscosity.pair"));
+        ASSERT_OK(sim, mps_model_set(sim, "viscosity", "theta", theta[t]));
+        for (int step = 0; step < 6000; step++) ASSERT_OK(sim, mps_step(sim, 1, NULL));
+        double *u = field_by_id(sim, "velocity");
+#define ROW(r) u[2 * ((r)*COLUMNS + COLUMNS / 2)]
+        const double low = ROW(8) - ROW(5), high = ROW(18) - ROW(15);
+        const double below = ROW(8) + 3.5 / 3 * low, above = ROW(15) - 3.5 / 3 * high; /* both carried on to the interface */
+        print_message("theta %g: slopes %.4f to 1, jump at the interface %.4f of the speed\n", theta[t], low / high,
+                      (above - below) / belt_speed);
+        ASSERT_NEAR(low / high, mu[1] / mu[0], 0.02 * mu[1] / mu[0]);
+        assert_true(theta[t] > 0 || fabs(above - below) < 0.03 * belt_speed);
+        free(u);
+        mps_sim_destroy(sim);
+        cloud_free(&c);
+    }
+}
+
+/* The arithmetic mean makes gas next to syrup stiff: the model asks for shorter steps. */
+static void time_step(void **state)
+{
+    (void)state;
+    const double two[4] = {0, 0, CLOUD_DP, 0};
+    const int32_t phase[2] = {0, 1};
+    const cloud c = {2, 2, (double *)two};
+    mps_step_info info;
+    mps_sim *sim = bare_sim(2, CLOUD_DP, 3.1, 0);
+    mps_time_control control;
+    assert_int_equal(mps_time_control_init(&control, sizeof control), MPS_OK);
+    control.gravity = control.viscous = -1;
+    ASSERT_OK(sim, mps_sim_set_time_control(sim, &control));
+    set_phase(sim, 0, 1000, 10);
+    set_phase(sim, 1, 1, 0.1);
+    add_cloud(sim, &c, phase, NULL);
+    ASSERT_OK(sim, mps_model_use(sim, "viscosity.pair"));
+    ASSERT_OK(sim, mps_model_set(sim, "viscosity", "theta", 1));
+    assert_int_equal(mps_step_info_init(&info, sizeof info), MPS_OK);
+    ASSERT_OK(sim, mps_step(sim, 1, &info));
+    ASSERT_NEAR(info.dt, 0.2 * CLOUD_DP * CLOUD_DP / 5.05, 1e-12);
+    mps_sim_destroy(sim);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(means), cmocka_unit_test(momentum), cmocka_unit_test(walls_take_the_fluid),
+                                       cmocka_unit_test(couette), cmocka_unit_test(time_step)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
