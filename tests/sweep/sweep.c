@@ -124,7 +124,7 @@ static const char *verdict(const options *o, const findings *f)
     if (f->status < 0) return mps_status_name(f->status);
     if (f->bad) return "nan";
     if (f->missing) return "silent_loss";
-    if (stop_asked) return "timeout";
+    if (stop_asked) return "stopped";
     if (f->info.lost && !o->what.open_top) return "lost";
     if (f->outside > LEAK && !o->what.open_top) return "leak";
     if (f->max_speed > TOO_FAST * (f->tank_speed + sqrt(2 * 9.81 * sqrt(fall)))) return "too_fast";
@@ -162,6 +162,7 @@ static void run(const options *o, mps_sim *sim, findings *f)
     int pictures = 0;
     f->fluid = mps_particles_count(sim, MPS_FLUID);
     while (f->info.t < o->t_end * (1 - 1e-12) && f->status >= 0 && !stop_asked && !f->bad) {
+        if (mps_particles_count(sim, MPS_FLUID) == 0) break; /* an open tank may lose all */
         if (o->every > 0 && f->info.t >= pictures * o->every) take_picture(o, sim, pictures++);
         step(o, sim, f);
         if (f->info.step % CHECK_EVERY == 0 || f->status < 0) check(o, sim, f);
