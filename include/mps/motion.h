@@ -13,7 +13,7 @@ MPS_BEGIN_DECLS
 
 /** Degrees of freedom in tables and harmonics. */
 enum { MPS_SURGE = 0, MPS_HEAVE = 1, MPS_SWAY = 2, MPS_ROLL = 3, MPS_YAW = 4, MPS_PITCH = 5, MPS_DOF_COUNT = 6 };
-/* along x, y (up), z; about x, y, z. */
+/* along x, y (up), z; about x, z, y. */
 
 /** Pose and its first two derivatives, one entry for each degree of freedom [m, rad; per s; per s2]. */
 typedef struct mps_motion_state {

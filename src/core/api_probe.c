@@ -46,8 +46,11 @@ mps_status mps_probe_read(mps_sim *sim, int32_t id, double *values)
 /* A probe that keeps samples. */
 static mps_status find_series(mps_sim *sim, int32_t id, mps__probe **probe)
 {
-    MPS__TRY(find_probe(sim, id, probe));
-    return (*probe)->config.rate > 0 ? MPS_OK : mps__fail(&sim->context, MPS_E_STATE, "probe %d keeps no samples: its rate is 0", (int)id);
+    mps__probe *found = NULL;
+    MPS__TRY(find_probe(sim, id, &found));
+    *probe = found;
+    return found && found->config.rate > 0 ? MPS_OK
+                                           : mps__fail(&sim->context, MPS_E_STATE, "probe %d keeps no samples: its rate is 0", (int)id);
 }
 
 mps_status mps_probe_series(mps_sim *sim, int32_t id, int64_t *count, const double **t, const double **values)

@@ -302,7 +302,8 @@ static void segment_patch(const grid *g, const cut *c, const double *const v[4],
 
 static void quad_patch(const cut *c, const double *const v[4], int part, mps__patch *out)
 {
-    const double step = 1.0 / SPLIT_3D, s = step * (part % SPLIT_3D), t = step * (part / SPLIT_3D);
+    const int column = part % SPLIT_3D, row = part / SPLIT_3D;
+    const double step = 1.0 / SPLIT_3D, s = step * column, t = step * row;
     double a[4][3], p[3], q[3];
     bilinear(v, s, t, a[0]);
     bilinear(v, s + step, t, a[1]);

@@ -84,12 +84,18 @@ typedef struct place {
     int32_t index;
 } place;
 
+static int compare_coordinates(const double *a, const double *b)
+{
+    for (int d = 0; d < 3; d++)
+        if (a[d] != b[d]) return a[d] < b[d] ? -1 : 1;
+    return 0;
+}
+
 static int compare_places(const void *a, const void *b)
 {
     const place *p = a, *q = b;
-    for (int d = 0; d < 3; d++)
-        if (p->x[d] != q->x[d]) return p->x[d] < q->x[d] ? -1 : 1;
-    return (p->index > q->index) - (p->index < q->index);
+    const int order = compare_coordinates(p->x, q->x);
+    return order ? order : (p->index > q->index) - (p->index < q->index);
 }
 
 /* Points with equal coordinates become one. */
@@ -105,7 +111,7 @@ static mps_status weld_points(mps__mesh *m)
         qsort(p, (size_t)m->points, sizeof *p, compare_places);
         int64_t kept = 0;
         for (int64_t i = 0; i < m->points; i++) {
-            if (i == 0 || memcmp(p[i].x, p[i - 1].x, sizeof p[i].x) != 0) memcpy(m->x + 3 * kept++, p[i].x, sizeof p[i].x);
+            if (i == 0 || compare_coordinates(p[i].x, p[i - 1].x) != 0) memcpy(m->x + 3 * kept++, p[i].x, sizeof p[i].x);
             number[p[i].index] = (int32_t)(kept - 1);
         }
         m->points = kept;
