@@ -55,7 +55,7 @@ def options(text):
 
 STILL = ("P1, mean error [% of rho g h]", "P2, mean error [% of rho g h]", "P3, mean error [% of rho g h]", "P1..P3, largest rms [% of rho g h]",
          "level [% of the depth]")
-HIGH_FILL = ("crest 1", "crest 1, time", "crest 2", "crest 2, time", "crest 5", "P1, peak at 0.58 s", "P1, peak at 1.50 s", "P1, peak at 2.40 s",
+HIGH_FILL = ("crest 1", "crest 1, time", "crest 2", "crest 2, time", "P1, peak at 0.58 s", "P1, peak at 1.50 s", "P1, peak at 2.40 s",
              "P1, peak at 3.30 s", "P1, peak at 3.60 s", "P1, dip between 3.30 and 3.60 s (20 ms mean)")
 SURGE = ("crest 1, damped FNPF", "crest 1, damped FNPF, time", "crest 2, damped FNPF", "crest 2, damped FNPF, time", "crest 3, damped FNPF, time",
          "crest 2, undamped FNPF")
