@@ -43,21 +43,23 @@ mps_status mps_probe_read(mps_sim *sim, int32_t id, double *values)
     return mps__probe_read(&sim->world, probe, values);
 }
 
-/* A probe that keeps samples. */
-static mps_status find_series(mps_sim *sim, int32_t id, mps__probe **probe)
+/* A probe that keeps samples; NULL: there is none, and the status says why. */
+static mps__probe *find_series(mps_sim *sim, int32_t id, mps_status *status)
 {
-    mps__probe *found = NULL;
-    MPS__TRY(find_probe(sim, id, &found));
-    *probe = found;
-    return found && found->config.rate > 0 ? MPS_OK
-                                           : mps__fail(&sim->context, MPS_E_STATE, "probe %d keeps no samples: its rate is 0", (int)id);
+    mps__probe *probe = NULL;
+    *status = find_probe(sim, id, &probe);
+    if (*status < 0 || !probe) return NULL;
+    if (probe->config.rate > 0) return probe;
+    *status = mps__fail(&sim->context, MPS_E_STATE, "probe %d keeps no samples: its rate is 0", (int)id);
+    return NULL;
 }
 
 mps_status mps_probe_series(mps_sim *sim, int32_t id, int64_t *count, const double **t, const double **values)
 {
     if (!sim) return MPS_E_ARG;
-    mps__probe *probe = NULL;
-    MPS__TRY(find_series(sim, id, &probe));
+    mps_status status;
+    mps__probe *probe = find_series(sim, id, &status);
+    if (!probe) return status;
     MPS__TRY(mps__probe_take(&sim->world, probe));
     if (count) *count = probe->series.count;
     if (t) *t = probe->series.t;
@@ -68,8 +70,9 @@ mps_status mps_probe_series(mps_sim *sim, int32_t id, int64_t *count, const doub
 mps_status mps_probe_series_clear(mps_sim *sim, int32_t id)
 {
     if (!sim) return MPS_E_ARG;
-    mps__probe *probe = NULL;
-    MPS__TRY(find_series(sim, id, &probe));
+    mps_status status;
+    mps__probe *probe = find_series(sim, id, &status);
+    if (!probe) return status;
     probe->series.count = 0;
     return MPS_OK;
 }

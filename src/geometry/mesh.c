@@ -342,7 +342,7 @@ mps_status mps__mesh_finish(mps__mesh *m)
         if (m->elements > 0) build(m, l, 0, (int32_t)m->elements);
         for (int64_t e = 0; e < m->elements; e++) m->order[e] = l[e].element;
     }
-    for (int d = 0; d < 3 && m->nodes > 0; d++) m->size = fmax(m->size, m->node[0].hi[d] - m->node[0].lo[d]);
+    for (int d = 0; d < 3 && m->node && m->nodes > 0; d++) m->size = fmax(m->size, m->node[0].hi[d] - m->node[0].lo[d]);
     mps__free(m->context, l);
     return l && m->order && m->node ? MPS_OK : MPS_E_NOMEM;
 }

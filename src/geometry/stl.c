@@ -214,7 +214,7 @@ static mps_status parse(mps__mesh *m, file *f)
                          f->path, (long long)f->size, HEADER);
     else if (!fits)
         return mps__fail(c, MPS_E_IO, "\"%.200s\" has %lld bytes: as a binary STL file of %lld triangles it would have %lld", f->path,
-                         (long long)f->size, (long long)count, (long long)(HEADER + RECORD * count));
+                         (long long)f->size, (long long)count, HEADER + RECORD * (long long)count);
     else
         MPS__TRY(parse_binary(m, f));
     MPS__CHECK(c, m->elements > 0, "\"%.200s\" has no triangles", f->path);
