@@ -9,7 +9,7 @@
 #define MPS__ROW                 static inline __attribute__((always_inline))
 #define MPS__ROW_CALL(s, f, ...) ((s)->dim == 2 ? f(2, __VA_ARGS__) : f(3, __VA_ARGS__))
 
-extern const mps_model_ops mps__surface_asymmetry, mps__surface_original;
+extern const mps_model_ops mps__surface_asymmetry, mps__surface_detached, mps__surface_original;
 extern const mps_model_ops mps__wall_half, mps__wall_extrapolate;
 
 /* All of them; the last entry is NULL. */

@@ -71,8 +71,8 @@ static double complete_flux(const mps_stencil *t)
 static inline double pair_density(const mps_stage *s, int64_t i, int64_t j)
 {
     const bool wall_i = s->kind[i] != MPS_FLUID, wall_j = s->kind[j] != MPS_FLUID;
-    if (wall_i == wall_j) return 0.5 * (s->density[i] + s->density[j]);
-    return wall_i ? s->density[j] : s->density[i];
+    if (wall_i == wall_j) return 0.5 * (s->density_smooth[i] + s->density_smooth[j]);
+    return wall_i ? s->density_smooth[j] : s->density_smooth[i];
 }
 
 /* Weight of a pair by what its particles are; 0: it does not take part. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Pressure gradient with B_i: G_i = D/n0 B_i sum w (P_j - P_i - q_ij) r_ij over fluid and wet walls, q_ij the pressure difference of a
- * fluid that moves with the tank; a_i = -b - G_i/rho with b = g - a_tank (gravity is in u* already).
- * Surface particles see one side only: a second pass with 2 (P_j - P_i) - G_j.r_ij makes them second order. */
+/* Pressure gradient with B_i: G_i = D/n0 B_i sum w [(P_j - P_i)/rho_ij - b_ij.r_ij] r_ij over fluid and wet walls, b_ij.r_ij that of a fluid
+ * that moves with the tank, rho_ij = (rho_i + rho_j)/2 as in W22 (18) or, next to a wall, rho_i; a_i = -b - G_i with b = g - a_tank
+ * (gravity is in u* already). Surface particles see one side only: a second pass with 2 (P_j - P_i) - G_j.r_ij makes them second order. */
 #include "builtin.h"
 
 enum { SECOND };
@@ -11,14 +11,15 @@ static const mps_setting settings[] = {{"second_order", 0.0, 0.0, 1.0}};
 MPS__ROW void corrected(const int dim, const mps_stage *s, int64_t i, const double *first, double *g)
 {
     const mps_stencil *t = s->near;
-    const double *b = s->correction + i * dim * dim, *own = s->tank_accel + i * dim, rho = s->density[i], pi = s->p[i];
+    const double *b = s->correction + i * dim * dim, *own = s->tank_accel + i * dim, rho = s->density_smooth[i], pi = s->p[i];
     double sum[3] = {0};
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         if (s->region[t->col[p]] >= MPS_REGION_SPRAY) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         double body = 0, slope = 0;
         for (int d = 0; d < dim; d++) body += 0.5 * (2.0 * s->g[d] - own[d] - s->tank_accel[q.j * dim + d]) * q.d[d];
-        double difference = s->p[q.j] - pi - rho * body;
+        const double mean = s->kind[q.j] == MPS_FLUID ? 0.5 * (rho + s->density_smooth[q.j]) : rho;
+        double difference = (s->p[q.j] - pi) / mean - body;
         if (first && s->kind[q.j] == MPS_FLUID) {
             for (int d = 0; d < dim; d++) slope += first[q.j * dim + d] * q.d[d];
             difference = 2.0 * difference - slope;
@@ -46,7 +47,7 @@ static int gradient(void *self, const double *k, mps_stage *s, double *a)
         double own[3];
         for (int d = 0; d < dim; d++) own[d] = g[i * dim + d];
         if (k[SECOND] > 0 && s->region[i] == MPS_REGION_SURFACE) MPS__ROW_CALL(s, corrected, s, i, g, own);
-        for (int d = 0; d < dim; d++) a[i * dim + d] -= s->g[d] - s->tank_accel[i * dim + d] + own[d] / s->density[i];
+        for (int d = 0; d < dim; d++) a[i * dim + d] -= s->g[d] - s->tank_accel[i * dim + d] + own[d];
     }
     return 0;
 }

@@ -11,10 +11,11 @@
  * delta is the volume deviation of mps_op_volume_deviation(), clipped and averaged. Its error follows the waves, so tau is long (20 tau_g):
  * a short one feeds them. What an impact compressed by per cents has to come back before the next: beyond `firm` the time falls to tau_g. */
 #include "builtin.h"
+#include <stdbool.h>
 
-enum { TAU, CLIP, STRAIN, GAIN, FIRM };
+enum { TAU, CLIP, STRAIN, GAIN, FIRM, RAPID, TORN };
 static const mps_setting settings[] = {
-    {"tau", 20.0, 0.1, 1e6}, {"clip", 0.1, 0.0, 1.0}, {"strain", 1.0, 0.0, 1.0}, {"gain", 0.7, 0.05, 1.0}, {"firm", 0.03, 1e-3, 1.0}};
+    {"tau", 20.0, 0.1, 1e6}, {"clip", 0.1, 0.0, 1.0}, {"strain", 1.0, 0.0, 1.0}, {"gain", 0.7, 0.05, 1.0}, {"firm", 0.03, 1e-3, 1.0}, {"rapid", 0.0, 0.0, 1.0}, {"torn", 0.15, 1e-3, 10.0}};
 
 /* delta of each fluid particle, never negative near the surface, where the kernel is cut. */
 static void volume_deviation(const double *k, const mps_stage *s, double *delta)
@@ -38,6 +39,13 @@ static void relative_velocity(const mps_stage *s, double *v)
         }
 }
 
+/* Share of a neighbour's velocity in that of the face between: by mass, so that water does not see what the air beside it does. With it
+ * the divergence is the adjoint of a pressure gradient over rho_ij. */
+static inline double face_share(const mps_stage *s, int64_t i, int64_t j)
+{
+    return s->kind[j] == MPS_FLUID ? 2.0 * s->density[j] / (s->density[i] + s->density[j]) : 1.0;
+}
+
 /* Free slip: a wall particle keeps its velocity along its normal and takes that of the fluid about it along the face. */
 MPS__ROW void slip_row(const int dim, const mps_stage *s, const double *v, int64_t i, double *slipped)
 {
@@ -46,8 +54,9 @@ MPS__ROW void slip_row(const int dim, const mps_stage *s, const double *v, int64
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         if (s->kind[t->col[p]] != MPS_FLUID) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        weight += q.w;
-        for (int d = 0; d < dim; d++) sum[d] += q.w * (v[q.j * dim + d] - v[i * dim + d]);
+        const double mass = q.w * s->density[q.j];
+        weight += mass;
+        for (int d = 0; d < dim; d++) sum[d] += mass * (v[q.j * dim + d] - v[i * dim + d]);
     }
     const double *area = s->area + i * dim;
     for (int d = 0; d < dim; d++) size += area[d] * area[d];
@@ -70,22 +79,44 @@ static void slip(const mps_stage *s, const double *v, double *slipped)
     }
 }
 
+/* B_i with the shares of faces, for a particle beside another density. */
+MPS__ROW void face_correction(const int dim, const mps_stage *s, int64_t i, double *b)
+{
+    const mps_stencil *t = s->near;
+    double m[9] = {0};
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        if (s->region[t->col[p]] >= MPS_REGION_SPRAY) continue;
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
+        const double share = dim / t->n0 * face_share(s, i, q.j) * q.w_r2;
+        for (int d = 0; d < dim; d++)
+            for (int e = 0; e < dim; e++) m[d * dim + e] += share * q.d[d] * q.d[e];
+    }
+    mps_matrix_inverse_bounded(dim, m, 0.5, b);
+}
+
 /* Divergence of a fluid particle, with B_i, less the one that keeps its volume: the move x + dt v changes volumes by
  * dt div v - dt^2 tr((grad v)^2)/2 + ..., so div v = dt tr((grad v)^2)/2 is wanted. With zero instead every strained particle is
  * compressed at the rate dt |grad v|^2 and blown up again by delta against the pressure. */
 MPS__ROW double fluid_divergence(const int dim, const mps_stage *s, const double *v, int64_t i, double strain)
 {
     const mps_stencil *t = s->near;
-    double g[9] = {0}, sum = 0; /* g = sum w (v_j - v_i) (x) r_ij */
+    double g[9] = {0}, sum = 0, own[9]; /* g = sum w (v_j - v_i) (x) r_ij */
+    bool mixed = false;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         if (s->region[t->col[p]] >= MPS_REGION_SPRAY) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
+        const double share = face_share(s, i, q.j), w = share * q.w_r2;
+        mixed = mixed || share != 1.0;
         for (int d = 0; d < dim; d++) {
-            const double rate = q.w_r2 * (v[q.j * dim + d] - v[i * dim + d]);
+            const double rate = w * (v[q.j * dim + d] - v[i * dim + d]);
             for (int e = 0; e < dim; e++) g[d * dim + e] += rate * q.d[e];
         }
     }
     const double *b = s->correction + i * dim * dim;
+    if (mixed) {
+        face_correction(dim, s, i, own);
+        b = own;
+    }
     double a[9] = {0}, square = 0; /* a = grad v */
     for (int d = 0; d < dim; d++)
         for (int e = 0; e < dim; e++)
@@ -128,10 +159,10 @@ MPS__ROW double mean_deviation(const int dim, const mps_stage *s, const double *
 }
 
 /* 1/tau, up to 1/tau_g where delta is beyond `firm`. */
-static inline double relaxation(const double *k, double delta)
+static inline double relaxation(const double *k, double delta, double most)
 {
-    const double square = delta * delta / (k[FIRM] * k[FIRM]);
-    return fmin((1.0 + square * square) / k[TAU], 1.0);
+    const double square = delta * delta / (k[FIRM] * k[FIRM]), torn = delta * delta / (k[TORN] * k[TORN]);
+    return fmin((1.0 + square * square) / k[TAU], 1.0) + fmin(torn * torn, 1.0) * most;
 }
 
 static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *terms)
@@ -150,7 +181,7 @@ static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *term
         if (s->region[i] >= MPS_REGION_SURFACE) continue;
         if (s->kind[i] == MPS_FLUID) {
             const double mean = MPS__ROW_CALL(s, mean_deviation, s, delta, i);
-            terms->rhs[i] += gain * (rate * relaxation(k, mean) * mean - MPS__ROW_CALL(s, fluid_divergence, s, w, i, k[STRAIN]));
+            terms->rhs[i] += gain * (rate * relaxation(k, mean, k[RAPID] / (s->dt * rate)) * mean - MPS__ROW_CALL(s, fluid_divergence, s, w, i, k[STRAIN]));
         } else {
             terms->rhs[i] -= gain * MPS__ROW_CALL(s, wall_divergence, s, w, i, terms->wall_factor);
         }
@@ -162,6 +193,6 @@ const mps_model_ops mps__source_volume = {.struct_size = sizeof(mps_model_ops),
                                           .api = MPS_MODEL_API,
                                           .name = "source.volume",
                                           .order = 500,
-                                          .setting_count = 5,
+                                          .setting_count = 7,
                                           .settings = settings,
                                           .source = source};
