@@ -45,6 +45,12 @@ static void test_klu(void **state)
     kit_over(&mps__solver_klu);
 }
 
+static void test_kinsol(void **state)
+{
+    (void)state;
+    kit_over(&mps__solver_kinsol);
+}
+
 static void test_preconditioners(void **state)
 {
     (void)state;
@@ -235,10 +241,19 @@ static void test_check(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_pcg),         cmocka_unit_test(test_bicgstab),         cmocka_unit_test(test_gmres),
-        cmocka_unit_test(test_klu),         cmocka_unit_test(test_preconditioners),  cmocka_unit_test(test_against_direct),
-        cmocka_unit_test(test_iterations),  cmocka_unit_test(test_ic0_shift),        cmocka_unit_test(test_auxgrid_iterations),
-        cmocka_unit_test(test_auxgrid_few), cmocka_unit_test(test_auxgrid_far_drop), cmocka_unit_test(test_auxgrid_nan),
+        cmocka_unit_test(test_pcg),
+        cmocka_unit_test(test_bicgstab),
+        cmocka_unit_test(test_gmres),
+        cmocka_unit_test(test_klu),
+        cmocka_unit_test(test_kinsol),
+        cmocka_unit_test(test_preconditioners),
+        cmocka_unit_test(test_against_direct),
+        cmocka_unit_test(test_iterations),
+        cmocka_unit_test(test_ic0_shift),
+        cmocka_unit_test(test_auxgrid_iterations),
+        cmocka_unit_test(test_auxgrid_few),
+        cmocka_unit_test(test_auxgrid_far_drop),
+        cmocka_unit_test(test_auxgrid_nan),
         cmocka_unit_test(test_check),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
