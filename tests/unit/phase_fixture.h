@@ -72,6 +72,7 @@ static inline int spy_source(void *self, const double *k, mps_stage *s, mps_ppe_
 static inline int spy_gradient(void *self, const double *k, mps_stage *s, double *a)
 {
     (void)self, (void)k;
+    spy.level_free = s->level_free;
     for (int64_t i = 0; i < s->n * s->dim; i++) spy.dp_a[s->id[i / s->dim] * s->dim + i % s->dim] = a[i];
     for (int64_t i = 0; i < s->n; i++) spy.p[s->id[i]] = s->p[i];
     return 0;

@@ -233,11 +233,15 @@ static void equation_of_state(void **state)
         if (printed && !mixed) continue;
         mps_sim *sim = gas(models[kind / 2]);
         const double strain = kind / 2 == 1 ? 0.05 : swollen; /* beyond what a linear law would give */
+        mps_solver_limits limits;
+        assert_int_equal(mps_solver_limits_init(&limits, sizeof limits), MPS_OK);
+        limits.tolerance = 1e-10; /* the right side is mostly the old pressure: its last changes are small against it */
+        ASSERT_OK(sim, mps_solver_set_limits(sim, &limits));
         ASSERT_OK(sim, mps_model_use(sim, mixed ? "source.mixed" : "source.volume"));
         ASSERT_OK(sim, mps_model_set(sim, "source", mixed ? "gamma" : "tau", 0.1));
         if (printed) ASSERT_OK(sim, mps_model_set(sim, "gas", "printed", 1));
         spy.given_deviation = strain;
-        for (int k = 0; k < 1200; k++) ASSERT_OK(sim, mps_step(sim, 1, NULL));
+        for (int k = 0; k < (mixed ? 200 : 4000); k++) ASSERT_OK(sim, mps_step(sim, 1, NULL));
         for (int64_t i = 72; i < 144; i++) {
             ASSERT_NEAR(wanted_deviation(kind / 2 == 1, spy.p[i]) / strain, printed ? 0.1 : 1.0, 1e-4);
             ASSERT_NEAR(spy.number[i] - 1, printed ? strain : 0, 1e-4 * strain);
