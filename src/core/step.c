@@ -480,6 +480,7 @@ mps_status mps__world_step(mps__world *w, double dt_max)
         w->start_pending = start_pending;
         return status;
     }
+    if (w->info.step == 0) mps__world_note_phases(w);
     commit(&q);
     if (planned < dt_max || w->dt_previous == 0) w->dt_previous = planned; /* a step cut short says nothing about the next */
     end_stage(&q, MPS_STAGE_CORRECT);

@@ -49,6 +49,15 @@ double mps__world_speed(const mps__world *w)
     return sqrt(most);
 }
 
+void mps__world_note_phases(const mps__world *w)
+{
+    bool any[MPS__PHASES] = {false};
+    for (int64_t i = 0; i < w->particles.n; i++)
+        if (w->particles.kind[i] == MPS_FLUID) any[w->particles.phase[i]] = true;
+    for (int p = 1; p < MPS__PHASES; p++) /* phase 0 is there without anybody's doing */
+        if (w->phase_defined[p] && !any[p]) mps__log(w->context, MPS_LOG_WARNING, "phase %d is defined, but no fluid particle is of it", p);
+}
+
 bool mps__world_domain(const mps__world *w, double lo[3], double hi[3])
 {
     if (w->domain_given) {

@@ -70,6 +70,8 @@ mps_status mps__world_neighbours(mps__world *w);
 mps_status mps__world_rows(mps__world *w);
 /* The stencil of one radius from those lists. */
 mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *stencil);
+/* Tell the log of phases that were defined and have no fluid. */
+void mps__world_note_phases(const mps__world *w);
 /* Largest speed of all particles [m/s]. */
 double mps__world_speed(const mps__world *w);
 /* One step, undone if it fails. step.c */

@@ -33,8 +33,9 @@ static inline bool mps__is_gas(const mps_stage *s, int64_t i, double phase)
 
 /* Fail unless there is fluid of this phase and all of it moves below the speed of sound. Non-zero: failed. */
 int mps__gas_check(mps_stage *s, double phase, double sound);
-/* The equation of state wants particle i denser by the share `deviation`: what is left of its deviations is error. */
-void mps__gas_expect(mps_stage *s, int64_t i, double deviation);
+/* The equation of state wants particles denser by the shares `denser` [n] (0: a lattice as it was), which become scratch. What is left of
+ * the deviations of all particles is error. Non-zero: failed. */
+int mps__gas_expect(mps_stage *s, double *denser);
 
 /* All of them; the last entry is NULL. */
 const mps_model_ops *const *mps__builtin_phase(void);

@@ -20,8 +20,18 @@ int mps__gas_check(mps_stage *s, double phase, double sound)
     return 0;
 }
 
-void mps__gas_expect(mps_stage *s, int64_t i, double deviation)
+/* Each particle counts with the volume that the equation of state gives it, 1/(1 + denser), in the sums about its neighbours too: walls and
+ * liquid beside a compressed gas keep their own. */
+int mps__gas_expect(mps_stage *s, double *denser)
 {
-    s->volume[i] -= deviation;
-    s->number_density[i] -= s->near->n0 * deviation;
+    double *sum = mps_stage_scratch(s, s->n);
+    if (!sum) return 1;
+    for (int64_t i = 0; i < s->n; i++) denser[i] /= 1.0 + denser[i];
+    if (mps_op_volume_sum(s->far, denser, sum) != MPS_OK) return mps_stage_fail(s, "the volumes of the gas cannot be summed");
+    for (int64_t i = 0; i < s->n; i++) s->volume[i] -= sum[i];
+#pragma omp parallel for num_threads(s->threads) schedule(static)
+    for (int64_t i = 0; i < s->n; i++)
+        for (int64_t p = s->near->begin[i]; p < s->near->end[i]; p++)
+            if (denser[s->near->col[p]] != 0) s->number_density[i] -= denser[s->near->col[p]] * mps_stencil_pair(s->near, i, p).w;
+    return 0;
 }

@@ -1,23 +1,27 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Compressibility of one phase by its speed of sound Cs: d rho = dp/Cs^2. On the left side of the pressure equation divided by rho stands
  *   (p^{k+1} - p^k)/(rho Cs^2 dt^2),
- * the change of a step, and sources that correct the density see its deviation from the equation of state p = rho Cs^2 (n - n0)/n0: volume
- * and number_density lose the share p^k/(rho Cs^2). So at rest the pressure is that of the equation of state, whatever weight or
- * relaxation time the source has.
+ * the change of a step, and sources that correct the density see its deviation from the equation of state p = rho Cs^2 (n - n0)/n0: in
+ * `volume` and `number_density` each gas particle counts with the volume that it has by p^k. So at rest the pressure is that of the
+ * equation of state, whatever weight or relaxation time the source has.
  * With `printed` p^{k+1}/(rho Cs^2 dt^2) alone, W22 (26) to the letter. The old pressure is lost, and the gas gives way for ever: at rest
  * the source holds p = gamma rho Cs^2 (n - n0)/n0, which is a gas 1/gamma times as soft. */
 #include "builtin.h"
 
 enum { PHASE, SOUND, PRINTED };
+static const double LEAST = -0.9; /* (n - n0)/n0 where a linear law would leave no gas at all */
 static const mps_setting settings[] = {{"phase", 1.0, 0.0, MPS__PHASE_LIMIT - 1}, {"sound", 340.0, 1.0, 1e4}, {"printed", 0.0, 0.0, 1.0}};
 
 static int classify(void *self, const double *k, mps_stage *s)
 {
     (void)self;
     if (mps__gas_check(s, k[PHASE], k[SOUND])) return 1;
-    for (int64_t i = 0; i < s->n && !(k[PRINTED] > 0); i++)
-        if (mps__is_gas(s, i, k[PHASE])) mps__gas_expect(s, i, s->p[i] / (s->density[i] * k[SOUND] * k[SOUND]));
-    return 0;
+    if (k[PRINTED] > 0) return 0;
+    double *denser = mps_stage_scratch(s, s->n);
+    if (!denser) return 1;
+    for (int64_t i = 0; i < s->n; i++)
+        if (mps__is_gas(s, i, k[PHASE])) denser[i] = fmax(s->p[i] / (s->density[i] * k[SOUND] * k[SOUND]), LEAST);
+    return mps__gas_expect(s, denser);
 }
 
 static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *terms)

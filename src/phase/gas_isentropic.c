@@ -16,10 +16,11 @@ static int classify(void *self, const double *k, mps_stage *s)
     mps__phase_densities(s, rho);
     const double own = rho[(int)k[PHASE]];
     if (mps__gas_check(s, k[PHASE], own > 0 ? sqrt(k[EXPONENT] * k[AMBIENT] / own) : INFINITY)) return 1;
+    double *denser = mps_stage_scratch(s, s->n);
+    if (!denser) return 1;
     for (int64_t i = 0; i < s->n; i++)
-        if (mps__is_gas(s, i, k[PHASE]))
-            mps__gas_expect(s, i, exp(mps_ppe_law(k[AMBIENT], s->p[i], NULL) / (k[AMBIENT] * k[EXPONENT])) - 1.0);
-    return 0;
+        if (mps__is_gas(s, i, k[PHASE])) denser[i] = exp(mps_ppe_law(k[AMBIENT], s->p[i], NULL) / (k[AMBIENT] * k[EXPONENT])) - 1.0;
+    return mps__gas_expect(s, denser);
 }
 
 static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *terms)

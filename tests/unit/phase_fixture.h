@@ -14,18 +14,26 @@ enum { SPY_ROOM = 40000 };
 static struct {
     double a[3 * SPY_ROOM], dp_a[3 * SPY_ROOM], density[SPY_ROOM], shift[SPY_ROOM], rhs[SPY_ROOM], gas[SPY_ROOM], law[SPY_ROOM],
         p[SPY_ROOM];
-    double volume[SPY_ROOM], number[SPY_ROOM]; /* the latter over n0 */
+    double volume[SPY_ROOM], number[SPY_ROOM], wide_sum[SPY_ROOM], near_sum[SPY_ROOM]; /* numbers over n0 */
     int32_t level_free;
     double (*pressure)(const double *x, int dim);
     double given_rhs, given_deviation;
 } spy;
 
+/* As if every particle had `given_deviation` less volume than its share. */
 static inline int spy_lay_deviation(void *self, const double *k, mps_stage *s)
 {
     (void)self, (void)k;
-    for (int64_t i = 0; spy.given_deviation != 0 && i < s->n; i++) {
-        s->volume[i] = spy.given_deviation;
-        s->number_density[i] = (1 + spy.given_deviation) * s->near->n0;
+    if (spy.given_deviation == 0) return 0;
+    double *one = mps_stage_scratch(s, s->n), *sum = mps_stage_scratch(s, s->n);
+    assert_true(one && sum);
+    for (int64_t i = 0; i < s->n; i++) one[i] = 1;
+    assert_int_equal(mps_op_volume_sum(s->far, one, sum), MPS_OK);
+    for (int64_t i = 0; i < s->n; i++) {
+        spy.wide_sum[s->id[i]] = sum[i];
+        spy.near_sum[s->id[i]] = s->number_density[i] / s->near->n0;
+        s->volume[i] = spy.given_deviation * sum[i];
+        s->number_density[i] = s->near->n0 + spy.given_deviation * s->number_density[i];
     }
     return 0;
 }

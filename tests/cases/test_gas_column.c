@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A closed column of gas settles under its own weight: the volume of each quarter of it is that of its pressures by the gas law, the
+ * weight is carried, and a change of the law is seen. Scheme imps; the gas is heavy and soft so that it is compressed by per cents. */
+#include "../unit/tank_fixture.h"
+#include <stdlib.h>
+
+static const double dp = 0.05, width = 0.4, height = 1, rho = 1000, ambient = 2e4;
+
+/* exponent 0: linear, with the speed of sound of 1.4. */
+static mps_sim *column(double exponent)
+{
+    mps_sim *sim = new_sim(2, dp);
+    mps_phase gas;
+    assert_int_equal(mps_phase_init(&gas, sizeof gas), MPS_OK);
+    gas.density = rho;
+    gas.viscosity = 100; /* to come to rest */
+    ASSERT_OK(sim, mps_sim_set_phase(sim, 0, &gas));
+    add_tank(sim, width, height, 0);
+    fill_depth(sim, width, height, 0);
+    ASSERT_OK(sim, mps_model_remove(sim, "surface"));
+    if (exponent > 0) {
+        ASSERT_OK(sim, mps_model_use(sim, "gas.isentropic"));
+        ASSERT_OK(sim, mps_model_set(sim, "gas", "ambient", ambient));
+        ASSERT_OK(sim, mps_model_set(sim, "gas", "exponent", exponent));
+        ASSERT_OK(sim, mps_solver_use(sim, "sundials.kinsol", NULL));
+    } else {
+        ASSERT_OK(sim, mps_model_use(sim, "gas.compressible"));
+        ASSERT_OK(sim, mps_model_set(sim, "gas", "sound", sqrt(1.4 * ambient / rho)));
+    }
+    ASSERT_OK(sim, mps_model_set(sim, "gas", "phase", 0));
+    return sim;
+}
+
+static double volume_by_law(double exponent, double p)
+{
+    return exponent > 0 ? pow(1 + p / ambient, -1 / exponent) : 1 / (1 + p / (1.4 * ambient));
+}
+
+typedef struct place {
+    double y, p;
+} place;
+
+static int by_height(const void *a, const void *b)
+{
+    const double x = ((const place *)a)->y, y = ((const place *)b)->y;
+    return (x > y) - (x < y);
+}
+
+/* The fluid from below; free() it. */
+static place *sorted(mps_sim *sim, int64_t *count)
+{
+    const int32_t *kinds;
+    mps_lease p, x;
+    place *all = calloc((size_t)mps_particles_count(sim, -1), sizeof *all);
+    *count = 0;
+    ASSERT_OK(sim, mps_particles_tags(sim, NULL, &kinds, NULL, NULL));
+    ASSERT_OK(sim, mps_lease_begin(sim, "pressure", MPS_READ, &p));
+    ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &x));
+    for (int64_t i = 0; i < p.count; i++)
+        if (kinds[i] == MPS_FLUID) all[(*count)++] = (place){x.data[2 * i + 1], p.data[i]};
+    ASSERT_OK(sim, mps_lease_end(sim, &p));
+    ASSERT_OK(sim, mps_lease_end(sim, &x));
+    qsort(all, (size_t)*count, sizeof *all, by_height);
+    return all;
+}
+
+/* Height of the lowest `rows` rows of `columns` particles, less the half cell of the floor, and what the law gives for it. */
+static double share_height(const place *all, int64_t columns, int64_t rows, double exponent, double *law)
+{
+    double below = 0, above = 0;
+    *law = 0;
+    for (int64_t k = 0; k < rows * columns; k++) *law += volume_by_law(exponent, all[k].p) * dp / (double)columns;
+    for (int64_t k = 0; k < columns; k++) {
+        below += all[(rows - 1) * columns + k].y / (double)columns;
+        above += all[rows * columns + k].y / (double)columns;
+    }
+    return 0.5 * (below + above) - 0.5 * dp;
+}
+
+static void settled(void **state)
+{
+    (void)state;
+    static const double exponents[] = {0, 1, 1.4};
+    for (int e = 0; e < 3; e++) {
+        int64_t count;
+        double law;
+        mps_sim *sim = column(exponents[e]);
+        ASSERT_OK(sim, mps_run(sim, 2, NULL, NULL));
+        place *all = sorted(sim, &count);
+        const int64_t columns = 7, rows = count / columns;
+        assert_int_equal(count, columns * 19);
+        for (int64_t part = 1; part < 4; part++) {
+            const int64_t lower = rows * part / 4;
+            const double got = share_height(all, columns, lower, exponents[e], &law);
+            print_message("exponent %g, lowest %lld rows: compressed %.1f %%, volume %+.2f %% of the law's\n", exponents[e],
+                          (long long)lower, 100 * (1 - law / ((double)lower * dp)), 100 * (got / law - 1));
+            ASSERT_NEAR(got / law, 1, 0.01);
+            if (part < 3) assert_true(law < 0.93 * (double)lower * dp);
+        }
+        double low = 0, high = 0;
+        for (int64_t k = 0; k < columns; k++) {
+            low += all[k].p / (double)columns;
+            high += all[count - 1 - k].p / (double)columns;
+        }
+        const double weight = rho * 9.81 * (all[count - 1].y - all[0].y);
+        print_message("exponent %g: weight %+.2f %%\n", exponents[e], 100 * ((low - high) / weight - 1));
+        ASSERT_NEAR((low - high) / weight, 1, 0.02); /* inertia and weight of a particle are rho0's, compressed or not */
+        free(all);
+        mps_sim_destroy(sim);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(settled)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
