@@ -36,6 +36,9 @@ int mps__gas_check(mps_stage *s, double phase, double sound);
 /* The equation of state wants particles denser by the shares `denser` [n] (0: a lattice as it was), which become scratch. What is left of
  * the deviations of all particles is error. Non-zero: failed. */
 int mps__gas_expect(mps_stage *s, double *denser);
+/* In a tank that no fixed pressure opens, keep the volume of the gas: `surplus`, what its particles' volumes by the law are above their
+ * share (sum, in cells of the lattice), and the sum of all sources are taken off. Call it before the gas adds its own terms. */
+void mps__gas_conserve(const mps_stage *s, mps_ppe_terms *terms, double phase, double surplus);
 
 /* All of them; the last entry is NULL. */
 const mps_model_ops *const *mps__builtin_phase(void);

@@ -35,3 +35,30 @@ int mps__gas_expect(mps_stage *s, double *denser)
             if (denser[s->near->col[p]] != 0) s->number_density[i] -= denser[s->near->col[p]] * mps_stencil_pair(s->near, i, p).w;
     return 0;
 }
+
+static inline bool in_equation(const mps_stage *s, int64_t i)
+{
+    return s->kind[i] != MPS_DUMMY && s->region[i] < MPS_REGION_SURFACE;
+}
+
+/* The tank is rigid and the liquid keeps its volume, so the gas keeps its own, whatever happens. But divergences that are summed over all
+ * rows leave a rest, and a gas integrates it: a mean error of 0.1 1/s is 14 kPa a second in air. */
+void mps__gas_conserve(const mps_stage *s, mps_ppe_terms *terms, double phase, double surplus)
+{
+    static const double share = 0.1; /* of the surplus that a step takes away */
+    double sum = 0;
+    int64_t rows = 0, gas = 0;
+    for (int64_t i = 0; i < s->n; i++) {
+        if (terms->fixed[i]) return;
+        if (!in_equation(s, i)) continue;
+        sum += terms->rhs[i];
+        rows++;
+        gas += mps__is_gas(s, i, phase);
+    }
+    const double extra = gas > 0 ? share * surplus / ((double)gas * s->dt * s->dt) : 0.0;
+    for (int64_t i = 0; i < s->n; i++) {
+        if (!in_equation(s, i)) continue;
+        terms->rhs[i] -= sum / (double)rows;
+        if (mps__is_gas(s, i, phase)) terms->rhs[i] += extra;
+    }
+}

@@ -8,9 +8,16 @@
  * the source holds p = gamma rho Cs^2 (n - n0)/n0, which is a gas 1/gamma times as soft. */
 #include "builtin.h"
 
-enum { PHASE, SOUND, PRINTED };
+enum { PHASE, SOUND, PRINTED, CONSERVE };
 static const double LEAST = -0.9; /* (n - n0)/n0 where a linear law would leave no gas at all */
-static const mps_setting settings[] = {{"phase", 1.0, 0.0, MPS__PHASE_LIMIT - 1}, {"sound", 340.0, 1.0, 1e4}, {"printed", 0.0, 0.0, 1.0}};
+static const mps_setting settings[] = {
+    {"phase", 1.0, 0.0, MPS__PHASE_LIMIT - 1}, {"sound", 340.0, 1.0, 1e4}, {"printed", 0.0, 0.0, 1.0}, {"conserve", 1.0, 0.0, 1.0}};
+
+/* (n - n0)/n0 of a particle at its pressure. */
+static inline double by_law(const double *k, const mps_stage *s, int64_t i)
+{
+    return fmax(s->p[i] / (s->density[i] * k[SOUND] * k[SOUND]), LEAST);
+}
 
 static int classify(void *self, const double *k, mps_stage *s)
 {
@@ -20,13 +27,17 @@ static int classify(void *self, const double *k, mps_stage *s)
     double *denser = mps_stage_scratch(s, s->n);
     if (!denser) return 1;
     for (int64_t i = 0; i < s->n; i++)
-        if (mps__is_gas(s, i, k[PHASE])) denser[i] = fmax(s->p[i] / (s->density[i] * k[SOUND] * k[SOUND]), LEAST);
+        if (mps__is_gas(s, i, k[PHASE])) denser[i] = by_law(k, s, i);
     return mps__gas_expect(s, denser);
 }
 
 static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *terms)
 {
     (void)self;
+    double surplus = 0;
+    for (int64_t i = 0; i < s->n; i++)
+        if (mps__is_gas(s, i, k[PHASE])) surplus += 1.0 / (1.0 + by_law(k, s, i)) - 1.0;
+    if (k[CONSERVE] > 0 && !(k[PRINTED] > 0)) mps__gas_conserve(s, terms, k[PHASE], surplus);
     for (int64_t i = 0; i < s->n; i++) {
         if (!mps__is_gas(s, i, k[PHASE])) continue;
         const double stiffness = 1.0 / (s->density[i] * k[SOUND] * k[SOUND] * s->dt * s->dt);
@@ -40,7 +51,7 @@ const mps_model_ops mps__gas_compressible = {.struct_size = sizeof(mps_model_ops
                                              .api = MPS_MODEL_API,
                                              .name = "gas.compressible",
                                              .order = 510,
-                                             .setting_count = 3,
+                                             .setting_count = 4,
                                              .settings = settings,
                                              .classify = classify,
                                              .source = source};
