@@ -2,7 +2,7 @@
 # What the library stands on: SUNDIALS (Krylov and sparse direct solvers), OpenMP where there is one.
 
 # 6.4 and 7.x both serve; the package's own version file would refuse the one that was not asked for.
-set(components nvecserial sunlinsolpcg sunlinsolspbcgs sunlinsolspgmr sunlinsolklu sunmatrixsparse)
+set(components kinsol nvecserial sunlinsolpcg sunlinsolspbcgs sunlinsolspgmr sunlinsolklu sunmatrixsparse)
 find_package(SUNDIALS REQUIRED COMPONENTS ${components})
 if(SUNDIALS_VERSION VERSION_LESS 6.4)
   message(FATAL_ERROR "SUNDIALS ${SUNDIALS_VERSION} is too old, 6.4 or newer is needed")

@@ -50,7 +50,7 @@ typedef struct mps_stage {
     const double *area;       /**< [n*dim] wetted area vector of wall particles, into the fluid */
     const int32_t *wall_of;   /**< [n] nearest wall particle of a dummy, -1: none near */
     double *number_density;   /**< [n] sum W over the near pairs; classify may change it */
-    const double *volume;     /**< [n] mps_op_volume_deviation() over the far pairs */
+    double *volume;           /**< [n] mps_op_volume_deviation() over the far pairs; classify may change it */
     const double *asymmetry;  /**< [n*dim] A_i over the near pairs, W22 (11) */
     int32_t *region;          /**< [n] MPS_REGION_..., written by classify; fluid and walls arrive INNER, dummies DRY */
     double *wet;              /**< [n] share 0..1 of a wall particle's fluid side that holds fluid, written by classify; arrives 1 */
@@ -59,11 +59,14 @@ typedef struct mps_stage {
     const mps_stencil *far;   /**< pairs within re_far */
     void *host;               /**< private */
     double *density_smooth;   /**< [n] density for operators of the pressure, written by classify; arrives as a copy of density [kg/m3] */
+    const double *tension;    /**< [16*16] sigma between two phases by mps_sim_set_tension() [N/m], symmetric; < 0: not set */
+    int32_t level_free;       /**< from `gradient` on, 1: nothing fixed the level of the pressures, their mean is 0; else 0 */
 } mps_stage;
 
-/** The pressure equation: sum_j k_ij (p_i - p_j + q_ij) + shift_i p_i = rhs_i [1/s2] over pairs of fluid and walls, with
- *  k_ij = 2D/(n0 lambda) W_ij/rho_ij and q_ij = rho_ij (b_i + b_j)/2 . r_ij, the difference p_j - p_i of a fluid that moves with
- *  the tank. Unknowns are particles of regions INNER, SECOND and NEAR that are not fixed. Verbs add to what they find. */
+/** The pressure equation: sum_j k_ij (p_i - p_j + q_ij) + gain (shift_i p_i + gas_i f(p_i)) = gain rhs_i [1/s2] over pairs of fluid and
+ *  walls, with k_ij = 2D/(n0 lambda) W_ij/rho_ij and q_ij = rho_ij (b_i + b_j)/2 . r_ij, the difference p_j - p_i of a fluid that moves
+ *  with the tank. f(p) = p, or P ln(1 + p/P) where law_i = P > 0, which needs a solver of nonlinear rows. Unknowns are particles of
+ *  regions INNER, SECOND and NEAR that are not fixed. Verbs add to what they find. */
 typedef struct mps_ppe_terms {
     uint32_t struct_size;     /**< sizeof(mps_ppe_terms) */
     int32_t radius;           /**< MPS_NEAR or MPS_FAR (default): the pairs of the Laplacian */
@@ -74,6 +77,9 @@ typedef struct mps_ppe_terms {
     double *value;            /**< [n] pressure of fixed rows [Pa] */
     int32_t *fixed;           /**< [n] 1: p_i = value_i (Dirichlet); region SURFACE arrives fixed at 0 */
     double *body;             /**< [n*dim] b, e.g. g - tank_accel [m/s2]; default 0 */
+    double gain;              /**< share of the divergence that a step takes away: default 1 */
+    double *gas;              /**< [n] >= 0, compressibility of a gas; default 0 */
+    double *law;              /**< [n] P_i of the law of the gas [Pa]; default 0: linear */
 } mps_ppe_terms;
 
 /** A number a user may set by mps_model_set(). */

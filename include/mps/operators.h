@@ -150,6 +150,10 @@ MPS_API mps_status mps_op_number_density(const mps_stencil *s, double *n);
  *  volume. Unlike n it hardly sees the shape of the lattice. @param delta [s->n] out [-] */
 MPS_API mps_status mps_op_volume_deviation(const mps_stencil *s, double *delta);
 
+/** Sum of f by the same kernel, over S0: for f = 1 it is 1 + delta_i. With the volumes f_j that particles should have, in cells of the
+ *  lattice, it is 1 where they have them. @param f [n] @param sum [n] out, not f */
+MPS_API mps_status mps_op_volume_sum(const mps_stencil *s, const double *f, double *sum);
+
 /** \<grad f\>_i = D/n0 sum_j (f_j - f_i) r_ij/|r_ij|^2 W. W22 (4). @param f [n] @param grad [n*dim] out [f/m] */
 MPS_API mps_status mps_op_gradient(const mps_stencil *s, const double *f, double *grad);
 

@@ -2,7 +2,8 @@
 /** @file ppe.h  Plug-in interface of pressure solvers and preconditioners.
  *
  *  The system is A p = b: row i is sum_j k_ij (p_i - p_j) + s_i p_i = b_i with k_ij = k_ji, s_i >= 0. A is symmetric positive
- *  (semi-)definite for the default models. Built-in solvers use this interface and no other. */
+ *  (semi-)definite for the default models. Rows of a gas may be nonlinear: A p + gas (f(p) - p) = b, f by mps_ppe_law(); A holds
+ *  their linear part, so gas_i <= s_i. Built-in solvers use this interface and no other. */
 #ifndef MPS_PPE_H
 #define MPS_PPE_H
 
@@ -32,6 +33,8 @@ typedef struct mps_ppe_problem {
     int32_t threads;          /**< OpenMP threads */
     int32_t components;       /**< singular components (no Dirichlet row, no shift) */
     const int32_t *component; /**< [n] 0..components-1 of a singular one, else -1; NULL if there is none */
+    const double *gas;        /**< [n] >= 0, coefficient of a nonlinear row; NULL if there is no nonlinear row */
+    const double *law;        /**< [n] P_i > 0 of a nonlinear row [Pa], 0 of a linear one; NULL with gas */
 } mps_ppe_problem;
 
 /** Why a solver stopped. */
@@ -82,6 +85,7 @@ typedef struct mps_solver_ops {
     void (*solve)(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc, void *pc_self, double *p,
                   mps_ppe_result *result);
     void (*destroy)(void *self); /**< gives back all memory */
+    int32_t nonlinear;           /**< 1: solves problems with nonlinear rows (mps_ppe_problem.law) too; default 0 */
 } mps_solver_ops;
 
 /** Register a solver on a handle under its name; the table is copied. @return MPS_E_ARG for a taken name or a missing entry */
@@ -89,6 +93,13 @@ MPS_API mps_status mps_solver_register(mps_sim *sim, const mps_solver_ops *ops);
 
 /** Register a preconditioner on a handle. */
 MPS_API mps_status mps_preconditioner_register(mps_sim *sim, const mps_preconditioner_ops *ops);
+
+/** Law of a nonlinear row: f(p) = P ln(1 + p/P), which has f(0) = 0 and the slope 1 there; rising and concave. Below p = -0.99 P, where
+ *  next to no gas is left, it goes on along its tangent, so that it is finite for every p.
+ *  @param law    P [Pa]; 0: f(p) = p
+ *  @param slope  NULL, or out: f'(p) > 0
+ *  @return f(p) [Pa] */
+MPS_API double mps_ppe_law(double law, double p, double *slope);
 
 /** Check of a solution, for plug-ins: fills residual and divergence of `result` with the true values for p.
  *  @param work [n] scratch, holds b - A p afterwards */

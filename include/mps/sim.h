@@ -76,6 +76,14 @@ MPS_API mps_status mps_sim_set_phase(mps_sim *sim, int32_t index, const mps_phas
 /** Read phase `index`. @return MPS_E_ARG if it was never defined */
 MPS_API mps_status mps_sim_get_phase(const mps_sim *sim, int32_t index, mps_phase *phase);
 
+/** Set the surface tension between two phases. Used by the model "tension.csf", which has a value of its own for pairs not set here.
+ *  @param a, b   two different defined phases, in any order
+ *  @param sigma  [N/m], >= 0 */
+MPS_API mps_status mps_sim_set_tension(mps_sim *sim, int32_t a, int32_t b, double sigma);
+
+/** Read the surface tension between two phases [N/m]. @return MPS_E_ARG if it was never set */
+MPS_API mps_status mps_sim_get_tension(const mps_sim *sim, int32_t a, int32_t b, double *sigma);
+
 /* ---- models -------------------------------------------------------------------------------------------------- */
 
 /** Replace all models by a named list: "imps" (stable and accurate, default) or "imps.paper" (W22 (1)-(12) to the letter).
@@ -112,7 +120,7 @@ typedef struct mps_solver_limits {
 MPS_API mps_status mps_solver_limits_init(mps_solver_limits *limits, size_t size);
 
 /** Choose the pressure solver.
- *  @param solver          "sundials.pcg", "sundials.bicgstab", "sundials.gmres", "sundials.klu" or a registered one
+ *  @param solver          "sundials.pcg", "sundials.bicgstab", "sundials.gmres", "sundials.klu", "sundials.kinsol" (the one for gas.isentropic) or a registered one
  *  @param preconditioner  NULL (the solver's default), "none", "jacobi", "ic0", "auxgrid" or a registered one
  *  @return MPS_E_NAME with the nearest known name; MPS_E_ARG for a preconditioner with a solver that uses none (sundials.klu) or an
  *          unsymmetric one with a solver that needs a symmetric one (sundials.pcg) */

@@ -4,6 +4,7 @@
 #define MPS_BC_BUILTIN_H
 
 #include <mps/model.h>
+#include <stdbool.h>
 
 /* Loops over the pairs of one row take dim as their first argument and are compiled for 2 and 3, so that loops over d unroll. */
 #define MPS__ROW                 static inline __attribute__((always_inline))
@@ -11,6 +12,12 @@
 
 extern const mps_model_ops mps__surface_asymmetry, mps__surface_detached, mps__surface_original;
 extern const mps_model_ops mps__wall_half, mps__wall_extrapolate;
+extern const mps_model_ops mps__reference_gas, mps__reference_lid;
+
+/* Unit vector against gravity; false without gravity. */
+bool mps__upward(const mps_stage *s, double up[3]);
+/* Height of particle i along it [m]. */
+double mps__height(const mps_stage *s, const double up[3], int64_t i);
 
 /* All of them; the last entry is NULL. */
 const mps_model_ops *const *mps__builtin_bc(void);

@@ -12,7 +12,7 @@ void mps__ppe_init(mps__ppe *e, mps__context *context)
 
 void mps__ppe_free(mps__ppe *e)
 {
-    void *all[] = {e->unknown, e->particle, e->row, e->col, e->val, e->rhs, e->shift, e->weight, e->x, e->p, e->component};
+    void *all[] = {e->unknown, e->particle, e->row, e->col, e->val, e->rhs, e->shift, e->gas, e->law, e->weight, e->x, e->p, e->component};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) mps__free(e->context, all[k]);
     mps__ppe_init(e, e->context);
 }
@@ -25,10 +25,16 @@ static mps_status reserve(mps__ppe *e, int64_t n, int dim)
         void **place;
         int64_t count;
         size_t size;
-    } a[] = {{(void **)&e->unknown, wanted, sizeof *e->unknown},    {(void **)&e->particle, wanted, sizeof *e->particle},
-             {(void **)&e->row, wanted + 1, sizeof *e->row},        {(void **)&e->rhs, wanted, sizeof *e->rhs},
-             {(void **)&e->shift, wanted, sizeof *e->shift},        {(void **)&e->weight, wanted, sizeof *e->weight},
-             {(void **)&e->x, wanted * dim, sizeof *e->x},          {(void **)&e->p, wanted, sizeof *e->p},
+    } a[] = {{(void **)&e->unknown, wanted, sizeof *e->unknown},
+             {(void **)&e->particle, wanted, sizeof *e->particle},
+             {(void **)&e->row, wanted + 1, sizeof *e->row},
+             {(void **)&e->rhs, wanted, sizeof *e->rhs},
+             {(void **)&e->shift, wanted, sizeof *e->shift},
+             {(void **)&e->gas, wanted, sizeof *e->gas},
+             {(void **)&e->law, wanted, sizeof *e->law},
+             {(void **)&e->weight, wanted, sizeof *e->weight},
+             {(void **)&e->x, wanted * dim, sizeof *e->x},
+             {(void **)&e->p, wanted, sizeof *e->p},
              {(void **)&e->component, wanted, sizeof *e->component}};
     /* nothing here outlives an assembly: the old blocks go first, a failure leaves an empty object */
     e->capacity = 0;
@@ -126,7 +132,8 @@ static inline __attribute__((always_inline)) int64_t fill_row(const int dim, con
     const mps_stage *s = a->s;
     const int64_t i = e->particle[r];
     int32_t *col = e->col + e->row[r];
-    double *val = e->val + e->row[r], coupling = 0, shift = a->t->shift[i], rhs = a->t->rhs[i];
+    const double gain = a->t->gain, gas = gain * a->t->gas[i];
+    double *val = e->val + e->row[r], coupling = 0, shift = gain * a->t->shift[i] + gas, rhs = gain * a->t->rhs[i];
     int64_t count = 0, diagonal = -1;
     bool sorted = true;
     for (int64_t k = a->pairs->begin[i]; k < a->pairs->end[i]; k++) {
@@ -157,6 +164,8 @@ static inline __attribute__((always_inline)) int64_t fill_row(const int dim, con
     if (!sorted) sort_row(col, val, count);
     e->rhs[r] = rhs;
     e->shift[r] = shift;
+    e->gas[r] = gas;
+    e->law[r] = gas > 0 ? a->t->law[i] : 0;
     e->weight[r] = s->dt * s->dt;
     e->p[r] = s->p[i];
     for (int d = 0; d < s->dim; d++) e->x[r * s->dim + d] = s->x[i * s->dim + d];
@@ -201,11 +210,17 @@ static int64_t flood(mps__ppe *e, int64_t seed, int32_t *queue, bool *level)
 static int32_t find_singular(mps__ppe *e, int32_t *queue)
 {
     int32_t singular = 0;
+    int64_t largest = 0;
+    e->level_free = false;
     for (int64_t r = 0; r < e->n; r++) e->component[r] = -2;
     for (int64_t seed = 0; seed < e->n; seed++) {
         if (e->component[seed] != -2) continue;
         bool level;
         const int64_t count = flood(e, seed, queue, &level);
+        if (count > largest) {
+            largest = count;
+            e->level_free = !level;
+        }
         if (level) continue;
         double mean = 0;
         for (int64_t k = 0; k < count; k++) mean += e->rhs[queue[k]] / (double)count;
@@ -216,6 +231,14 @@ static int32_t find_singular(mps__ppe *e, int32_t *queue)
         singular++;
     }
     return singular;
+}
+
+/* Whether a row follows a law that is not linear. */
+static bool nonlinear(const mps__ppe *e)
+{
+    for (int64_t r = 0; r < e->n; r++)
+        if (e->law[r] > 0) return true;
+    return false;
 }
 
 static mps_status reserve_entries(mps__ppe *e, int64_t entries)
@@ -251,6 +274,7 @@ mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps_ppe_term
     compact_rows(e, length);
     const int32_t singular = find_singular(e, (int32_t *)(void *)length);
     mps__free(e->context, length);
+    const bool with_law = nonlinear(e);
     e->problem = (mps_ppe_problem){.struct_size = sizeof e->problem,
                                    .dim = s->dim,
                                    .n = e->n,
@@ -264,7 +288,9 @@ mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps_ppe_term
                                    .dp = s->dp,
                                    .threads = s->threads,
                                    .components = singular,
-                                   .component = singular ? e->component : NULL};
+                                   .component = singular ? e->component : NULL,
+                                   .gas = with_law ? e->gas : NULL,
+                                   .law = with_law ? e->law : NULL};
     return MPS_OK;
 }
 

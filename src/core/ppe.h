@@ -13,8 +13,9 @@ typedef struct mps__ppe {
     int32_t *particle;                   /* [n] particle of a row */
     int64_t *row;                        /* [n+1] CSR */
     int32_t *col;
-    double *val, *rhs, *shift, *weight, *x, *p;
+    double *val, *rhs, *shift, *gas, *law, *weight, *x, *p;
     int32_t *component;
+    bool level_free; /* the largest component has no level */
     mps_ppe_problem problem;
 } mps__ppe;
 

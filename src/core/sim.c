@@ -189,6 +189,38 @@ mps_status mps_sim_get_phase(const mps_sim *sim, int32_t index, mps_phase *phase
     return mps__struct_out(c, "mps_phase", phase, &p, sizeof p);
 }
 
+static mps_status check_pair(mps__context *c, const mps__world *w, int32_t a, int32_t b)
+{
+    const int32_t both[2] = {a, b};
+    for (int k = 0; k < 2; k++)
+        MPS__CHECK(c, both[k] >= 0 && both[k] < MPS__PHASES && w->phase_defined[both[k]], "phase %d is not defined", both[k]);
+    MPS__CHECK(c, a != b, "surface tension of phase %d with itself: the phases must differ", a);
+    return MPS_OK;
+}
+
+mps_status mps_sim_set_tension(mps_sim *sim, int32_t a, int32_t b, double sigma)
+{
+    if (!sim) return MPS_E_ARG;
+    mps__world *w = &sim->world;
+    MPS__TRY(check_pair(&sim->context, w, a, b));
+    MPS__CHECK(&sim->context, sigma >= 0 && isfinite(sigma), "surface tension of phases %d and %d is %g: must be >= 0 N/m, finite", a, b,
+               sigma);
+    w->tension[a * MPS__PHASES + b] = w->tension[b * MPS__PHASES + a] = sigma;
+    return MPS_OK;
+}
+
+mps_status mps_sim_get_tension(const mps_sim *sim, int32_t a, int32_t b, double *sigma)
+{
+    if (!sim) return MPS_E_ARG;
+    mps__context *c = mps__sim_context(sim);
+    MPS__TRY(check_pair(c, &sim->world, a, b));
+    MPS__CHECK(c, sigma, "sigma is NULL");
+    const double value = sim->world.tension[a * MPS__PHASES + b];
+    MPS__CHECK(c, value >= 0, "surface tension of phases %d and %d was never set", a, b);
+    *sigma = value;
+    return MPS_OK;
+}
+
 /* ---- models ----------------------------------------------------------------------------------------------------- */
 
 mps_status mps_model_register(mps_sim *sim, const mps_model_ops *ops)

@@ -243,12 +243,31 @@ mps_status mps__solvers_solve(mps__solvers *s, const mps_ppe_problem *problem, d
 
 /* ---- check for plug-ins ---- */
 
+double mps_ppe_law(double law, double p, double *slope)
+{
+    static const double least = 0.01; /* of 1 + p/P that the logarithm is used for */
+    if (!(law > 0)) {
+        if (slope) *slope = 1;
+        return p;
+    }
+    const double share = 1 + p / law, used = share < least ? least : share;
+    if (slope) *slope = 1 / used;
+    return law * (log(used) + (share - used) / used);
+}
+
+static bool has_law(const mps_ppe_problem *problem)
+{
+    return problem->struct_size >= sizeof *problem && problem->law;
+}
+
 static void residual_rows(const mps_ppe_problem *problem, const double *p, double *r)
 {
+    const double *law = has_law(problem) ? problem->law : NULL;
 #pragma omp parallel for schedule(static) num_threads(problem->threads > 1 ? problem->threads : 1) if (problem->n > 8192)
     for (int64_t i = 0; i < problem->n; i++) {
         double s = 0;
         for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) s += problem->val[k] * p[problem->col[k]];
+        if (law && law[i] > 0) s += problem->gas[i] * (mps_ppe_law(law[i], p[i], NULL) - p[i]);
         r[i] = problem->rhs[i] - s;
     }
 }

@@ -66,15 +66,20 @@ static mps_status verb_failed(step_state *q, const mps__model *m)
     return mps__fail(q->w->context, status, "model \"%s\" at t = %.9g s: %.300s", m->ops->name, q->stage.t, error);
 }
 
+/* Call one verb of a model that has it. */
+#define CALL_VERB(q, model, verb, ...)                                                  \
+    do {                                                                                \
+        (q)->w->context->error[0] = 0;                                                  \
+        const int failed_ = (model)->ops->verb((model)->self, (model)->k, __VA_ARGS__); \
+        (q)->w->work.scratch_used = 0;                                                  \
+        if (failed_) return verb_failed((q), (model));                                  \
+    } while (0)
+
 /* Call one verb of all active models in their order. */
-#define EACH_MODEL(q, verb, ...)                                                     \
-    for (int32_t m_ = 0; m_ < (q)->w->models.active; m_++) {                         \
-        const mps__model *model_ = &(q)->w->models.on[m_];                           \
-        if (!model_->ops->verb) continue;                                            \
-        (q)->w->context->error[0] = 0;                                               \
-        const int failed_ = model_->ops->verb(model_->self, model_->k, __VA_ARGS__); \
-        (q)->w->work.scratch_used = 0;                                               \
-        if (failed_) return verb_failed((q), model_);                                \
+#define EACH_MODEL(q, verb, ...)                                          \
+    for (int32_t m_ = 0; m_ < (q)->w->models.active; m_++) {              \
+        const mps__model *model_ = &(q)->w->models.on[m_];                \
+        if (model_->ops->verb) CALL_VERB((q), model_, verb, __VA_ARGS__); \
     }
 
 /* ---- time step -------------------------------------------------------------------------------------------------- */
@@ -205,7 +210,8 @@ static void set_stage(step_state *q)
                            .near = &q->near,
                            .far = &q->far,
                            .host = q,
-                           .density_smooth = k->density_smooth};
+                           .density_smooth = k->density_smooth,
+                           .tension = w->tension};
     for (int p = 0; p < MPS__PHASES; p++) q->stage.phases += w->phase_defined[p];
     q->terms = (mps_ppe_terms){.struct_size = sizeof q->terms,
                                .radius = MPS_FAR,
@@ -213,7 +219,10 @@ static void set_stage(step_state *q)
                                .shift = k->shift,
                                .value = k->value,
                                .fixed = k->fixed,
-                               .body = k->body};
+                               .body = k->body,
+                               .gain = 1.0,
+                               .gas = k->gas,
+                               .law = k->law};
 }
 
 /* Number density, asymmetry, regions at r^k. */
@@ -257,6 +266,34 @@ static mps_status predict(step_state *q)
 
 static mps_status check_result(step_state *q);
 
+/* Call the source verbs; a gas law asks for a solver of nonlinear rows. */
+static mps_status collect_sources(step_state *q)
+{
+    const mps__world *w = q->w;
+    for (int32_t m = 0; m < w->models.active; m++) {
+        const mps__model *model = &w->models.on[m];
+        if (!model->ops->source) continue;
+        CALL_VERB(q, model, source, &q->stage, &q->terms);
+        for (int64_t i = 0; i < q->stage.n && !w->solvers.use->nonlinear; i++)
+            if (q->terms.law[i] > 0)
+                return mps__fail(w->context, MPS_E_STATE,
+                                 "model \"%s\" makes the pressure equation nonlinear, and solver '%s' is for linear ones: choose "
+                                 "'sundials.kinsol'",
+                                 model->ops->name, w->solvers.use->name);
+    }
+    return MPS_OK;
+}
+
+static void note_level(step_state *q)
+{
+    mps__world *w = q->w;
+    q->stage.level_free = w->ppe.level_free;
+    if (!w->ppe.level_free || w->level_told) return;
+    w->level_told = true;
+    mps__log(w->context, MPS_LOG_INFO,
+             "t = %.9g s: no surface, fixed pressure or compressible phase gives the pressures a level; their mean is zero", q->stage.t);
+}
+
 /* <lap p> = source. W22 (10). */
 static mps_status project(step_state *q)
 {
@@ -267,10 +304,13 @@ static mps_status project(step_state *q)
     memset(q->terms.shift, 0, bytes);
     memset(q->terms.value, 0, bytes);
     memset(q->terms.body, 0, bytes * (size_t)s->dim);
+    memset(q->terms.gas, 0, bytes);
+    memset(q->terms.law, 0, bytes);
     for (int64_t i = 0; i < s->n; i++) q->terms.fixed[i] = s->region[i] == MPS_REGION_SURFACE;
-    EACH_MODEL(q, source, s, &q->terms);
+    MPS__TRY(collect_sources(q));
     end_stage(q, MPS_STAGE_OPERATORS);
     MPS__TRY(mps__ppe_assemble(&w->ppe, s, &q->terms));
+    note_level(q);
     end_stage(q, MPS_STAGE_PPE_SETUP);
     mps_ppe_result result = {0};
     if (w->ppe.n > 0) {
@@ -440,6 +480,7 @@ mps_status mps__world_step(mps__world *w, double dt_max)
         w->start_pending = start_pending;
         return status;
     }
+    if (w->info.step == 0) mps__world_note_phases(w);
     commit(&q);
     if (planned < dt_max || w->dt_previous == 0) w->dt_previous = planned; /* a step cut short says nothing about the next */
     end_stage(&q, MPS_STAGE_CORRECT);

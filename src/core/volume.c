@@ -49,3 +49,30 @@ mps_status mps_op_volume_deviation(const mps_stencil *s, double *delta)
     for (int64_t i = 0; i < s->n; i++) delta[i] = (s->dim == 2 ? wide_sum(2, s, i) : wide_sum(3, s, i)) / full - 1.0;
     return MPS_OK;
 }
+
+/* Kernel sum of f over all pairs and the particle itself. */
+static inline __attribute__((always_inline)) double wide_sum_of(const int dim, const mps_stencil *t, const double *f, int64_t i)
+{
+    const double *a = t->x + i * dim, over = 1.0 / t->re;
+    double sum = f[i]; /* wide(0) = 1 */
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        const int64_t j = t->col[p];
+        const double *b = t->x + j * dim;
+        double r2 = 0;
+        if (f[j] == 0) continue;
+        for (int d = 0; d < dim; d++) r2 += (b[d] - a[d]) * (b[d] - a[d]);
+        sum += f[j] * wide(sqrt(r2), over);
+    }
+    return sum;
+}
+
+mps_status mps_op_volume_sum(const mps_stencil *s, const double *f, double *sum)
+{
+    if (!s || !f || !sum || f == sum || s->struct_size != sizeof *s || (s->dim != 2 && s->dim != 3) || s->n <= 0 || !s->x || !s->begin ||
+        !s->end || !s->col)
+        return MPS_E_ARG;
+    const double full = wide_lattice(s);
+#pragma omp parallel for num_threads(s->threads) schedule(static)
+    for (int64_t i = 0; i < s->n; i++) sum[i] = (s->dim == 2 ? wide_sum_of(2, s, f, i) : wide_sum_of(3, s, f, i)) / full;
+    return MPS_OK;
+}

@@ -10,6 +10,7 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
     w->dp = dp;
     w->threads = 1;
     w->linked = -1;
+    for (int k = 0; k < MPS__PHASES * MPS__PHASES; k++) w->tension[k] = -1.0;
     mps__neighbours_init(&w->neighbours, context, dim, dp);
     mps__screens_init(&w->screens, context, dim);
     w->neighbours.screens = &w->screens;
@@ -30,8 +31,9 @@ void mps__world_free(mps__world *w)
     mps__ppe_free(&w->ppe);
     mps__motion_free(&w->motion);
     mps__work *k = &w->work;
-    void *all[] = {k->fixed, k->volume, k->asymmetry, k->wet,   k->density_smooth, k->correction, k->tank_accel, k->area, k->a,
-                   k->dx,    k->rhs,    k->shift,     k->value, k->body,           k->x0,         k->u0,         k->p0};
+    void *all[] = {k->fixed, k->volume, k->asymmetry, k->wet,   k->density_smooth, k->correction, k->tank_accel, k->area,
+                   k->a,     k->dx,     k->rhs,       k->shift, k->value,          k->body,       k->gas,        k->law,
+                   k->x0,    k->u0,     k->p0};
     for (size_t a = 0; a < sizeof all / sizeof all[0]; a++) mps__free(w->context, all[a]);
     for (int a = 0; a < MPS__SCRATCH; a++) mps__free(w->context, k->scratch[a]);
 }
@@ -45,6 +47,15 @@ double mps__world_speed(const mps__world *w)
         most = fmax(most, mps__dot(u, u, w->dim));
     }
     return sqrt(most);
+}
+
+void mps__world_note_phases(const mps__world *w)
+{
+    bool any[MPS__PHASES] = {false};
+    for (int64_t i = 0; i < w->particles.n; i++)
+        if (w->particles.kind[i] == MPS_FLUID) any[w->particles.phase[i]] = true;
+    for (int p = 1; p < MPS__PHASES; p++) /* phase 0 is there without anybody's doing */
+        if (w->phase_defined[p] && !any[p]) mps__log(w->context, MPS_LOG_WARNING, "phase %d is defined, but no fluid particle is of it", p);
 }
 
 bool mps__world_domain(const mps__world *w, double lo[3], double hi[3])
@@ -193,6 +204,8 @@ static mps_status reserve_work(mps__world *w)
              {(void **)&k->shift, wanted, sizeof(double)},
              {(void **)&k->value, wanted, sizeof(double)},
              {(void **)&k->body, wanted * dim, sizeof(double)},
+             {(void **)&k->gas, wanted, sizeof(double)},
+             {(void **)&k->law, wanted, sizeof(double)},
              {(void **)&k->x0, wanted * dim, sizeof(double)},
              {(void **)&k->u0, wanted * dim, sizeof(double)},
              {(void **)&k->p0, wanted, sizeof(double)}};

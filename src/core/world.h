@@ -27,7 +27,7 @@ typedef struct mps__work {
     int64_t capacity;
     int32_t *fixed;
     double *volume, *asymmetry, *wet, *density_smooth, *correction, *tank_accel, *area, *a, *dx;
-    double *rhs, *shift, *value, *body;
+    double *rhs, *shift, *value, *body, *gas, *law;
     double *x0, *u0, *p0;
     double *scratch[MPS__SCRATCH]; /* blocks lent to verbs, kept from step to step */
     int64_t scratch_capacity[MPS__SCRATCH];
@@ -43,6 +43,7 @@ typedef struct mps__world {
     mps_kernel kernel;
     bool phase_defined[MPS__PHASES];
     double phase_density[MPS__PHASES], phase_viscosity[MPS__PHASES];
+    double tension[MPS__PHASES * MPS__PHASES]; /* < 0: not set */
     mps__particles particles;
     mps_neighbours neighbours;
     mps__screens screens; /* thin plates, in the tank's frame */
@@ -57,7 +58,8 @@ typedef struct mps__world {
     mps__pose before;   /* of the tank at the beginning of the last step, */
     double dt_before;   /* which was this long */
     mps__work work;
-    int64_t linked; /* generation of the particles whose dummies know their walls */
+    int64_t linked;  /* generation of the particles whose dummies know their walls */
+    bool level_told; /* that nothing fixes the level of the pressures */
 } mps__world;
 
 mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, double dp);
@@ -68,6 +70,8 @@ mps_status mps__world_neighbours(mps__world *w);
 mps_status mps__world_rows(mps__world *w);
 /* The stencil of one radius from those lists. */
 mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *stencil);
+/* Tell the log of phases that were defined and have no fluid. */
+void mps__world_note_phases(const mps__world *w);
 /* Largest speed of all particles [m/s]. */
 double mps__world_speed(const mps__world *w);
 /* One step, undone if it fails. step.c */

@@ -170,7 +170,8 @@ static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *term
     (void)self;
     double *delta = mps_stage_scratch(s, s->n), *v = mps_stage_scratch(s, s->n * s->dim), *w = mps_stage_scratch(s, s->n * s->dim);
     if (!delta || !v || !w) return 1;
-    const double rate = s->velocity_scale / s->dp, gain = k[GAIN] / s->dt;
+    const double rate = s->velocity_scale / s->dp, over = 1.0 / s->dt;
+    terms->gain = k[GAIN];
     terms->radius = MPS_NEAR;
     volume_deviation(k, s, delta);
     relative_velocity(s, v);
@@ -181,9 +182,10 @@ static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *term
         if (s->region[i] >= MPS_REGION_SURFACE) continue;
         if (s->kind[i] == MPS_FLUID) {
             const double mean = MPS__ROW_CALL(s, mean_deviation, s, delta, i);
-            terms->rhs[i] += gain * (rate * relaxation(k, mean, k[RAPID] / (s->dt * rate)) * mean - MPS__ROW_CALL(s, fluid_divergence, s, w, i, k[STRAIN]));
+            const double back = rate * relaxation(k, mean, k[RAPID] / (s->dt * rate)) * mean;
+            terms->rhs[i] += over * (back - MPS__ROW_CALL(s, fluid_divergence, s, w, i, k[STRAIN]));
         } else {
-            terms->rhs[i] -= gain * MPS__ROW_CALL(s, wall_divergence, s, w, i, terms->wall_factor);
+            terms->rhs[i] -= over * MPS__ROW_CALL(s, wall_divergence, s, w, i, terms->wall_factor);
         }
     }
     return 0;

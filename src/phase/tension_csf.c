@@ -6,7 +6,8 @@
  * where the interface bends around i's own phase, so that the pressure is higher inside of a drop; W22 (22) has the other sign,
  * with which drops would swell.
  *
- * Where three phases meet each one sees the contour between itself and all others, and one sigma holds for all pairs of phases.
+ * sigma is that of mps_sim_set_tension() for a pair of phases, else the setting. Where three phases meet each one sees the contour
+ * between itself and all others, and <grad C> is summed with the sigma of each pair.
  * Solids belong to no phase: fluid alone makes f, which is a contact angle of 90 degrees. f sees through thin plates.
  *
  * `radius` (rs, in dp) decides the noise: kappa is a second derivative of steps. Circle of radius 10.5 dp cut from a
@@ -123,8 +124,15 @@ static double curvature(const mps_stage *s, const contour_sums *m, double thresh
     return fmin(fmax(sum / (size2 * sqrt(size2)), -most), most);
 }
 
-/* <grad C>_i / rho_i. False without another phase about. */
-MPS__ROW bool colour_gradient(const int dim, const mps_stage *s, int64_t i, double grad[3])
+/* Of two phases [N/m]; `other` where the pair has none of its own. */
+static inline double pair_sigma(const mps_stage *s, int32_t a, int32_t b, double other)
+{
+    const double own = s->tension[a * MPS__PHASE_LIMIT + b];
+    return own >= 0 ? own : other;
+}
+
+/* sigma <grad C>_i / rho_i. False without tension about. */
+MPS__ROW bool colour_gradient(const int dim, const mps_stage *s, double sigma, int64_t i, double grad[3])
 {
     const mps_stencil *t = s->near;
     bool any = false;
@@ -132,8 +140,10 @@ MPS__ROW bool colour_gradient(const int dim, const mps_stage *s, int64_t i, doub
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         const int64_t j = t->col[p];
         if (s->kind[j] != MPS_FLUID || s->phase[j] == s->phase[i]) continue;
+        const double own = pair_sigma(s, s->phase[i], s->phase[j], sigma);
+        if (own == 0) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        const double share = dim / t->n0 * q.w_r2 * 2.0 / (s->density[i] + s->density[j]);
+        const double share = own * dim / t->n0 * q.w_r2 * 2.0 / (s->density[i] + s->density[j]);
         any = true;
         for (int d = 0; d < dim; d++) grad[d] += share * q.d[d];
     }
@@ -155,33 +165,34 @@ static int force(void *self, const double *k, mps_stage *s, double *a)
 {
     (void)self;
     cell_grid grid = {.side = k[RADIUS] * s->dp};
-    if (k[SIGMA] == 0 || one_phase(s)) return 0;
+    if (one_phase(s)) return 0;
     if (!build_grid(s, &grid)) return 1;
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         double grad[3];
         contour_sums m;
-        if (s->kind[i] != MPS_FLUID || !MPS__ROW_CALL(s, colour_gradient, s, i, grad)) continue;
+        if (s->kind[i] != MPS_FLUID || !MPS__ROW_CALL(s, colour_gradient, s, k[SIGMA], i, grad)) continue;
         collect(s, &grid, i, &m);
         const double kappa = curvature(s, &m, k[THRESHOLD]);
-        for (int d = 0; d < s->dim; d++) a[i * s->dim + d] -= k[SIGMA] * kappa * grad[d];
+        for (int d = 0; d < s->dim; d++) a[i * s->dim + d] -= kappa * grad[d];
     }
     return 0;
 }
 
-/* Half the time in which the shortest capillary wave runs over a spacing, of the two lightest phases. */
+/* Half the time in which the shortest capillary wave runs over a spacing, of the quickest pair of phases. */
 static double dt_limit(void *self, const double *k, const mps_stage *s)
 {
     (void)self;
-    double rho[MPS__PHASE_LIMIT], low = INFINITY, next = INFINITY;
-    mps__phase_densities(s, rho);
-    for (int p = 0; p < MPS__PHASE_LIMIT; p++) {
-        if (rho[p] == 0) continue;
-        next = fmin(next, fmax(low, rho[p]));
-        low = fmin(low, rho[p]);
-    }
     const double pi = 3.14159265358979323846;
-    return k[SIGMA] > 0 ? 0.5 * sqrt(0.5 * (low + next) * pow(s->dp, 3) / (2.0 * pi * k[SIGMA])) : INFINITY;
+    double rho[MPS__PHASE_LIMIT], limit = INFINITY;
+    mps__phase_densities(s, rho);
+    for (int a = 0; a < MPS__PHASE_LIMIT; a++)
+        for (int b = 0; b < a; b++) {
+            const double sigma = pair_sigma(s, a, b, k[SIGMA]);
+            if (rho[a] == 0 || rho[b] == 0 || sigma == 0) continue;
+            limit = fmin(limit, 0.5 * sqrt(0.5 * (rho[a] + rho[b]) * pow(s->dp, 3) / (2.0 * pi * sigma)));
+        }
+    return limit;
 }
 
 const mps_model_ops mps__tension_csf = {.struct_size = sizeof(mps_model_ops),

@@ -9,6 +9,7 @@ extern const mps_solver_ops mps__solver_pcg;
 extern const mps_solver_ops mps__solver_bicgstab;
 extern const mps_solver_ops mps__solver_gmres;
 extern const mps_solver_ops mps__solver_klu;
+extern const mps_solver_ops mps__solver_kinsol;
 extern const mps_preconditioner_ops mps__preconditioner_jacobi;
 extern const mps_preconditioner_ops mps__preconditioner_ic0;
 extern const mps_preconditioner_ops mps__preconditioner_auxgrid;

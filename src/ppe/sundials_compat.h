@@ -3,6 +3,7 @@
 #ifndef MPS_PPE_SUNDIALS_COMPAT_H
 #define MPS_PPE_SUNDIALS_COMPAT_H
 
+#include <kinsol/kinsol.h>
 #include <sundials/sundials_config.h>
 #include <sundials/sundials_context.h>
 #include <sundials/sundials_linearsolver.h>
@@ -27,6 +28,16 @@ static inline SUNContext mps__sundials_context(void)
     if (SUNContext_Create(NULL, &context)) return NULL;
 #endif
     return context;
+}
+
+/* KINSOL's memory; it never prints either. NULL when memory is out. */
+static inline void *mps__kinsol_create(SUNContext context)
+{
+    void *kinsol = KINCreate(context);
+#if SUNDIALS_VERSION_MAJOR < 7
+    if (kinsol && KINSetErrFile(kinsol, NULL)) KINFree(&kinsol);
+#endif
+    return kinsol;
 }
 
 #endif

@@ -118,9 +118,9 @@ static void product(N_Vector vx, N_Vector vy, N_Vector vz)
     mps__space *space = written(vz);
     const double *x = mps__vector_data(vx), *y = mps__vector_data(vy);
     double *z = mps__vector_data(vz);
-    if (content_of(vy)->stop) {
+    if (content_of(vx)->stop || content_of(vy)->stop) {
         /* z is only the scratch of "may I stop?", so its norm is all that is needed */
-        double e = excess(space, x);
+        double e = excess(space, content_of(vx)->stop ? y : x);
         mps__space_remember(space, z, z, e * e);
         return;
     }
@@ -145,6 +145,54 @@ static sunrealtype dot_product(N_Vector vx, N_Vector vy)
     return known ? space->dot : mps__blocked_dot(x, y, space->n, space->threads, space->partial);
 }
 
+static void absolute(N_Vector vx, N_Vector vz)
+{
+    mps__space *space = written(vz);
+    const double *x = mps__vector_data(vx);
+    double *z = mps__vector_data(vz);
+#pragma omp parallel for simd schedule(static) num_threads(mps__team(space->n, space->threads))
+    for (int64_t i = 0; i < space->n; i++) z[i] = fabs(x[i]);
+}
+
+static void inverse(N_Vector vx, N_Vector vz)
+{
+    mps__space *space = written(vz);
+    const double *x = mps__vector_data(vx);
+    double *z = mps__vector_data(vz);
+#pragma omp parallel for simd schedule(static) num_threads(mps__team(space->n, space->threads))
+    for (int64_t i = 0; i < space->n; i++) z[i] = 1.0 / x[i];
+}
+
+static sunrealtype largest_norm(N_Vector vx)
+{
+    const mps__space *space = content_of(vx)->space;
+    const double *x = mps__vector_data(vx);
+    double largest = 0;
+    if (x == space->dot_x && x == space->dot_y) return sqrt(space->dot); /* a vector that N_VProd made of the stopping vector */
+    for (int64_t i = 0; i < space->n; i++) largest = fmax(largest, fabs(x[i]));
+    return largest;
+}
+
+static sunrealtype least(N_Vector vx)
+{
+    const mps__space *space = content_of(vx)->space;
+    const double *x = mps__vector_data(vx);
+    if (content_of(vx)->stop) return 1;
+    double smallest = INFINITY;
+    for (int64_t i = 0; i < space->n; i++) smallest = fmin(smallest, x[i]);
+    return smallest;
+}
+
+static sunrealtype weighted_norm(N_Vector vx, N_Vector vw)
+{
+    mps__space *space = content_of(vx)->space;
+    const double *x = mps__vector_data(vx), *w = mps__vector_data(vw);
+    if (content_of(vw)->stop) return excess(space, x);
+    double squares = 0;
+    for (int64_t i = 0; i < space->n; i++) squares += x[i] * w[i] * (x[i] * w[i]);
+    return sqrt(squares);
+}
+
 static void set_ops(N_Vector v)
 {
     v->ops->nvgetvectorid = get_id;
@@ -158,6 +206,11 @@ static void set_ops(N_Vector v)
     v->ops->nvprod = product;
     v->ops->nvdiv = quotient;
     v->ops->nvdotprod = dot_product;
+    v->ops->nvabs = absolute;
+    v->ops->nvinv = inverse;
+    v->ops->nvmaxnorm = largest_norm;
+    v->ops->nvmin = least;
+    v->ops->nvwl2norm = weighted_norm;
 }
 
 N_Vector mps__vector_wrap(mps__space *space, double *data)
@@ -210,6 +263,11 @@ double *mps__vector_data(N_Vector v)
 void mps__vector_point(N_Vector v, double *data)
 {
     content_of(v)->data = data;
+}
+
+void mps__vector_written(N_Vector v)
+{
+    written(v);
 }
 
 void mps__space_remember(mps__space *space, const double *x, const double *y, double dot)

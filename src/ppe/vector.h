@@ -25,13 +25,16 @@ typedef struct mps__space {
 
 /* A vector over a borrowed array, or NULL. Its clones own theirs. */
 N_Vector mps__vector_wrap(mps__space *space, double *data);
-/* The stopping vector: N_VProd(r, stop, z) makes N_VDotProd(z, z) the square of how far r is above the limits. */
+/* The stopping vector: N_VProd of r and it to z makes N_VDotProd(z, z) the square of how far r is above the limits, and N_VMaxNorm(z) that
+ * itself; N_VWL2Norm(r, stop) is it at once. */
 N_Vector mps__vector_stop(mps__space *space);
 /* Make `count` vectors ahead of N_VClone. False when out of memory. */
 bool mps__space_reserve(mps__space *space, int count);
 void mps__space_release(mps__space *space);
 double *mps__vector_data(N_Vector v);
 void mps__vector_point(N_Vector v, double *data);
+/* To be called by who writes through mps__vector_data(): what was remembered of dot products is void. */
+void mps__vector_written(N_Vector v);
 
 /* The next N_VDotProd of x and y, in either order, answers `dot`. */
 void mps__space_remember(mps__space *space, const double *x, const double *y, double dot);

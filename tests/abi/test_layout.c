@@ -43,7 +43,7 @@ AT(mps_stl, scale, 16);
 AT(mps_stl, shift, 24);
 AT(mps_stl, container, 48);
 
-SIZE(mps_stage, 256);
+SIZE(mps_stage, 272);
 AT(mps_stage, struct_size, 0);
 AT(mps_stage, dim, 4);
 AT(mps_stage, threads, 8);
@@ -76,8 +76,10 @@ AT(mps_stage, near, 224);
 AT(mps_stage, far, 232);
 AT(mps_stage, host, 240);
 AT(mps_stage, density_smooth, 248);
+AT(mps_stage, tension, 256);
+AT(mps_stage, level_free, 264);
 
-SIZE(mps_ppe_terms, 64);
+SIZE(mps_ppe_terms, 88);
 AT(mps_ppe_terms, struct_size, 0);
 AT(mps_ppe_terms, radius, 4);
 AT(mps_ppe_terms, complete_surface, 8);
@@ -87,6 +89,9 @@ AT(mps_ppe_terms, shift, 32);
 AT(mps_ppe_terms, value, 40);
 AT(mps_ppe_terms, fixed, 48);
 AT(mps_ppe_terms, body, 56);
+AT(mps_ppe_terms, gain, 64);
+AT(mps_ppe_terms, gas, 72);
+AT(mps_ppe_terms, law, 80);
 
 SIZE(mps_setting, 32);
 AT(mps_setting, key, 0);
@@ -168,7 +173,7 @@ AT(mps_lease, count, 8);
 AT(mps_lease, stride, 16);
 AT(mps_lease, slot, 20);
 
-SIZE(mps_ppe_problem, 120);
+SIZE(mps_ppe_problem, 136);
 AT(mps_ppe_problem, struct_size, 0);
 AT(mps_ppe_problem, dim, 4);
 AT(mps_ppe_problem, n, 8);
@@ -186,6 +191,8 @@ AT(mps_ppe_problem, max_iterations, 96);
 AT(mps_ppe_problem, threads, 100);
 AT(mps_ppe_problem, components, 104);
 AT(mps_ppe_problem, component, 112);
+AT(mps_ppe_problem, gas, 120);
+AT(mps_ppe_problem, law, 128);
 
 SIZE(mps_ppe_result, 32);
 AT(mps_ppe_result, reason, 0);
@@ -204,7 +211,7 @@ AT(mps_preconditioner_ops, setup, 32);
 AT(mps_preconditioner_ops, apply, 40);
 AT(mps_preconditioner_ops, destroy, 48);
 
-SIZE(mps_solver_ops, 56);
+SIZE(mps_solver_ops, 64);
 AT(mps_solver_ops, struct_size, 0);
 AT(mps_solver_ops, api, 4);
 AT(mps_solver_ops, name, 8);
@@ -213,6 +220,7 @@ AT(mps_solver_ops, symmetric, 24);
 AT(mps_solver_ops, create, 32);
 AT(mps_solver_ops, solve, 40);
 AT(mps_solver_ops, destroy, 48);
+AT(mps_solver_ops, nonlinear, 56);
 
 SIZE(mps_probe, 104);
 AT(mps_probe, struct_size, 0);

@@ -45,6 +45,12 @@ static void test_klu(void **state)
     kit_over(&mps__solver_klu);
 }
 
+static void test_kinsol(void **state)
+{
+    (void)state;
+    kit_over(&mps__solver_kinsol);
+}
+
 static void test_preconditioners(void **state)
 {
     (void)state;
@@ -214,6 +220,122 @@ static void test_ic0_shift(void **state)
     kit_system_free(s);
 }
 
+/* ---- nonlinear rows: sundials.kinsol ---- */
+
+/* Every second row follows the law of a gas at `law`; the right side is that of s->exact. */
+static void make_gas(kit_system *s, double law, double *gas, double *laws)
+{
+    for (int64_t i = 0; i < s->problem.n; i++) {
+        gas[i] = 0.9 * s->shift[i];
+        laws[i] = i % 2 ? law : 0;
+        s->rhs[i] += gas[i] * (mps_ppe_law(laws[i], s->exact[i], NULL) - s->exact[i]);
+    }
+    s->problem.gas = gas;
+    s->problem.law = laws;
+}
+
+/* One row, a p + g (P ln(1 + p/P) - p) = b, against bisection; from p strongly compressed to nearly empty, from any guess. */
+static void test_gas_scalar(void **state)
+{
+    (void)state;
+    static const double a[1] = {3}, law[1] = {100}, gas[1] = {2.5}, guesses[] = {0, -99.9, -1e6, 1e6, NAN};
+    for (double wanted = -98; wanted < 1e4; wanted += wanted < 100 ? 11 : 1500)
+        for (size_t g = 0; g < sizeof guesses / sizeof guesses[0]; g++) {
+            kit_system *s = kit_dense_system(1, a, &wanted);
+            kit_memory memory;
+            mps_ppe_result result;
+            double p = guesses[g], low = -99.9999, high = 1e5;
+            kit_memory_init(&memory);
+            s->problem.gas = gas;
+            s->problem.law = law;
+            s->problem.tolerance = 1e-12;
+            s->rhs[0] = 3 * wanted + 2.5 * (100 * log(1 + wanted / 100) - wanted);
+            for (int k = 0; k < 200; k++) {
+                const double middle = 0.5 * (low + high);
+                *(0.5 * middle + 250 * log(1 + middle / 100) < s->rhs[0] ? &low : &high) = middle;
+            }
+            assert_int_equal(kit_solve(&mps__solver_kinsol, &mps__preconditioner_jacobi, &memory, &s->problem, &p, &result), 0);
+            assert_true(fabs(p - low) < 1e-8 * (1 + fabs(low)) && result.residual <= 1e-12 && result.iterations > 0);
+            kit_system_free(s);
+        }
+}
+
+/* Lattices half of gas, with all preconditioners: the exact solution in few iterations, the same bytes with more threads, no leak. */
+static void test_gas_lattice(void **state)
+{
+    (void)state;
+    static const kit_lattice lattices[] = {
+        {2, 60, 50, 1, 1, 1, 3.1, 1, 0.01}, {2, 110, 90, 1, 1, 0, 2.1, 1000, 0.001}, {3, 9, 9, 9, 1, 0, 2.1, 1, 1}};
+    for (size_t k = 0; k < sizeof lattices / sizeof lattices[0]; k++)
+        for (int pc = 0; mps__builtin_preconditioners[pc]; pc++) {
+            kit_system *s = kit_lattice_system(&lattices[k]);
+            const size_t n = (size_t)s->problem.n;
+            double *gas = calloc(5 * n, sizeof *gas), *p = gas + 2 * n, *more = gas + 3 * n, deepest = 0;
+            mps_ppe_result result, again;
+            kit_memory memory;
+            for (size_t i = 0; i < n; i++) deepest = fmax(deepest, -s->exact[i]);
+            make_gas(s, deepest / 0.95, gas, gas + n); /* down to a twentieth of the ambient pressure */
+            s->problem.tolerance = 1e-10;
+            kit_memory_init(&memory);
+            assert_int_equal(kit_solve(&mps__solver_kinsol, mps__builtin_preconditioners[pc], &memory, &s->problem, p, &result), 0);
+            assert_true(kit_difference(p, s->exact, s->problem.n) < 1e-6 && result.residual <= 1e-10);
+            s->problem.threads = 3;
+            assert_int_equal(kit_solve(&mps__solver_kinsol, mps__builtin_preconditioners[pc], &memory, &s->problem, more, &again), 0);
+            assert_memory_equal(p, more, n * sizeof *p);
+            assert_int_equal(memory.live, 0);
+            s->problem.gas = s->problem.law = NULL;
+            s->problem.threads = 1;
+            memset(p, 0, n * sizeof *p);
+            assert_int_equal(kit_solve(&mps__solver_kinsol, mps__builtin_preconditioners[pc], &memory, &s->problem, p, &again), 0);
+            print_message("lattice %zu, %s: %d iterations, linear %d\n", k, mps__builtin_preconditioners[pc]->name, result.iterations,
+                          again.iterations);
+            assert_true(result.iterations < 4 * again.iterations + 20);
+            free(gas);
+            kit_system_free(s);
+        }
+}
+
+/* Any allocation may fail on a nonlinear problem too. */
+static void test_gas_memory(void **state)
+{
+    (void)state;
+    static const kit_lattice lattice = {2, 12, 10, 1, 2, 1, 2.1, 1, 0.01};
+    kit_system *s = kit_lattice_system(&lattice);
+    double gas[240], laws[240], p[240] = {0};
+    int reason = MPS_PPE_NOMEM;
+    assert_int_equal(s->problem.n, 240);
+    make_gas(s, 1e6, gas, laws);
+    for (int64_t fail_at = 1; reason == MPS_PPE_NOMEM; fail_at++) {
+        kit_memory memory;
+        mps_ppe_result result;
+        kit_memory_init(&memory);
+        memory.fail_at = fail_at;
+        reason = kit_solve(&mps__solver_kinsol, &mps__preconditioner_ic0, &memory, &s->problem, p, &result);
+        assert_int_equal(memory.live, 0);
+    }
+    assert_int_equal(reason, MPS_PPE_CONVERGED);
+    kit_system_free(s);
+}
+
+/* The law: slope 1 at 0, its own derivative, one tangent below -0.99 P, finite for any p; without P linear. */
+static void test_gas_law(void **state)
+{
+    (void)state;
+    double slope, low, high, tangent;
+    assert_true(mps_ppe_law(1e5, 0, &slope) == 0 && slope == 1);
+    assert_true(fabs(mps_ppe_law(1e5, 1e5, &slope) - 1e5 * log(2)) < 1e-9 && slope == 0.5);
+    for (double p = -3e5; p < 3e5; p += 1.1e4) {
+        low = mps_ppe_law(1e5, p - 1, NULL);
+        high = mps_ppe_law(1e5, p + 1, NULL);
+        mps_ppe_law(1e5, p, &slope);
+        assert_true(fabs((high - low) / 2 - slope) < 1e-6 * slope);
+    }
+    mps_ppe_law(1e5, -0.99e5, &tangent);
+    mps_ppe_law(1e5, -1e9, &slope);
+    assert_true(fabs(tangent / slope - 1) < 1e-12);
+    assert_true(mps_ppe_law(0, -7, &slope) == -7 && slope == 1);
+}
+
 static void test_check(void **state)
 {
     (void)state;
@@ -235,11 +357,24 @@ static void test_check(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_pcg),         cmocka_unit_test(test_bicgstab),         cmocka_unit_test(test_gmres),
-        cmocka_unit_test(test_klu),         cmocka_unit_test(test_preconditioners),  cmocka_unit_test(test_against_direct),
-        cmocka_unit_test(test_iterations),  cmocka_unit_test(test_ic0_shift),        cmocka_unit_test(test_auxgrid_iterations),
-        cmocka_unit_test(test_auxgrid_few), cmocka_unit_test(test_auxgrid_far_drop), cmocka_unit_test(test_auxgrid_nan),
+        cmocka_unit_test(test_pcg),
+        cmocka_unit_test(test_bicgstab),
+        cmocka_unit_test(test_gmres),
+        cmocka_unit_test(test_klu),
+        cmocka_unit_test(test_kinsol),
+        cmocka_unit_test(test_preconditioners),
+        cmocka_unit_test(test_against_direct),
+        cmocka_unit_test(test_iterations),
+        cmocka_unit_test(test_ic0_shift),
+        cmocka_unit_test(test_auxgrid_iterations),
+        cmocka_unit_test(test_auxgrid_few),
+        cmocka_unit_test(test_auxgrid_far_drop),
+        cmocka_unit_test(test_auxgrid_nan),
         cmocka_unit_test(test_check),
+        cmocka_unit_test(test_gas_scalar),
+        cmocka_unit_test(test_gas_lattice),
+        cmocka_unit_test(test_gas_memory),
+        cmocka_unit_test(test_gas_law),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

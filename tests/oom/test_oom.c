@@ -129,6 +129,20 @@ static void filled_for_auxgrid(mps_sim *sim)
     assert_int_equal(mps_solver_use(sim, "sundials.pcg", "auxgrid"), MPS_OK);
 }
 
+/* A closed tank of gas alone: nonlinear rows. */
+static void gas_for_kinsol(mps_sim *sim)
+{
+    mps_tank tank;
+    const double lo[2] = {0, 0}, hi[2] = {0.5, 0.5};
+    assert_int_equal(mps_tank_init(&tank, sizeof tank), MPS_OK);
+    tank.size[0] = tank.size[1] = 0.5;
+    assert_int_equal(mps_geometry_tank(sim, &tank, NULL), MPS_OK);
+    assert_int_equal(mps_geometry_fill_box(sim, 0, lo, hi, NULL), MPS_OK);
+    assert_int_equal(mps_model_use(sim, "gas.isentropic"), MPS_OK);
+    assert_int_equal(mps_model_set(sim, "gas", "phase", 0), MPS_OK);
+    assert_int_equal(mps_solver_use(sim, "sundials.kinsol", NULL), MPS_OK);
+}
+
 static void filled_for_klu(mps_sim *sim)
 {
     filled(sim);
@@ -357,6 +371,7 @@ static const scene scenes[] = {
     {"first step, gmres", filled_for_gmres, step, 20},
     {"first step, auxgrid", filled_for_auxgrid, step, 20},
     {"first step, klu", filled_for_klu, step, 20},
+    {"first step, kinsol", gas_for_kinsol, step, 20},
     {"stencil", filled, stencil, 10},
     {"stencil of more", grown, stencil, 10},
 };

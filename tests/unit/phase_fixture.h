@@ -10,12 +10,33 @@
 
 enum { SPY_ROOM = 40000 };
 
-/* By id, of the last step. `pressure` and `rhs`, where given, are laid into the stage before the models under test. */
+/* By id, of the last step. `pressure`, `rhs` and `deviation`, where given, are laid into the stage before the models under test. */
 static struct {
-    double a[3 * SPY_ROOM], dp_a[3 * SPY_ROOM], density[SPY_ROOM], shift[SPY_ROOM], rhs[SPY_ROOM], p[SPY_ROOM];
+    double a[3 * SPY_ROOM], dp_a[3 * SPY_ROOM], density[SPY_ROOM], shift[SPY_ROOM], rhs[SPY_ROOM], gas[SPY_ROOM], law[SPY_ROOM],
+        p[SPY_ROOM];
+    double volume[SPY_ROOM], number[SPY_ROOM], wide_sum[SPY_ROOM], near_sum[SPY_ROOM]; /* numbers over n0 */
+    int32_t level_free;
     double (*pressure)(const double *x, int dim);
-    double given_rhs;
+    double given_rhs, given_deviation;
 } spy;
+
+/* As if every particle had `given_deviation` less volume than its share. */
+static inline int spy_lay_deviation(void *self, const double *k, mps_stage *s)
+{
+    (void)self, (void)k;
+    if (spy.given_deviation == 0) return 0;
+    double *one = mps_stage_scratch(s, s->n), *sum = mps_stage_scratch(s, s->n);
+    assert_true(one && sum);
+    for (int64_t i = 0; i < s->n; i++) one[i] = 1;
+    assert_int_equal(mps_op_volume_sum(s->far, one, sum), MPS_OK);
+    for (int64_t i = 0; i < s->n; i++) {
+        spy.wide_sum[s->id[i]] = sum[i];
+        spy.near_sum[s->id[i]] = s->number_density[i] / s->near->n0;
+        s->volume[i] = spy.given_deviation * sum[i];
+        s->number_density[i] = s->near->n0 + spy.given_deviation * s->number_density[i];
+    }
+    return 0;
+}
 
 static inline int spy_lay_rhs(void *self, const double *k, mps_stage *s, mps_ppe_terms *t)
 {
@@ -36,7 +57,11 @@ static inline int spy_force(void *self, const double *k, mps_stage *s, double *a
     (void)self, (void)k;
     assert_true(s->n <= SPY_ROOM);
     for (int64_t i = 0; i < s->n * s->dim; i++) spy.a[s->id[i / s->dim] * s->dim + i % s->dim] = a[i];
-    for (int64_t i = 0; i < s->n; i++) spy.density[s->id[i]] = s->density_smooth[i];
+    for (int64_t i = 0; i < s->n; i++) {
+        spy.density[s->id[i]] = s->density_smooth[i];
+        spy.volume[s->id[i]] = s->volume[i];
+        spy.number[s->id[i]] = s->number_density[i] / s->near->n0;
+    }
     return 0;
 }
 
@@ -46,6 +71,8 @@ static inline int spy_source(void *self, const double *k, mps_stage *s, mps_ppe_
     for (int64_t i = 0; i < s->n; i++) {
         spy.shift[s->id[i]] = t->shift[i];
         spy.rhs[s->id[i]] = t->rhs[i];
+        spy.gas[s->id[i]] = t->gas[i];
+        spy.law[s->id[i]] = t->law[i];
     }
     return 0;
 }
@@ -53,6 +80,7 @@ static inline int spy_source(void *self, const double *k, mps_stage *s, mps_ppe_
 static inline int spy_gradient(void *self, const double *k, mps_stage *s, double *a)
 {
     (void)self, (void)k;
+    spy.level_free = s->level_free;
     for (int64_t i = 0; i < s->n * s->dim; i++) spy.dp_a[s->id[i / s->dim] * s->dim + i % s->dim] = a[i];
     for (int64_t i = 0; i < s->n; i++) spy.p[s->id[i]] = s->p[i];
     return 0;
@@ -62,6 +90,7 @@ static const mps_model_ops spy_before = {.struct_size = sizeof(mps_model_ops),
                                          .api = MPS_MODEL_API,
                                          .name = "before.spy",
                                          .order = 50,
+                                         .classify = spy_lay_deviation,
                                          .source = spy_lay_rhs,
                                          .gradient = spy_lay_pressure};
 static const mps_model_ops spy_after = {.struct_size = sizeof(mps_model_ops),

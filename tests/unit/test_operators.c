@@ -21,11 +21,12 @@ enum {
     LAPLACIAN_VECTOR,
     ASYMMETRY,
     VOLUME,
+    VOLUME_SUM,
     OPS
 };
 static const char *const op_name[OPS] = {
     "density",          "gradient",  "conservative", "corrected gradient", "divergence", "corrected divergence", "laplacian",
-    "vector laplacian", "asymmetry", "volume"};
+    "vector laplacian", "asymmetry", "volume",       "volume sum"};
 
 typedef double (*weight_fn)(double r, double re);
 
@@ -97,6 +98,7 @@ static void bench_run(bench *s, const mps_stencil *t)
     assert_int_equal(mps_op_laplacian_vector(t, s->u, s->result[LAPLACIAN_VECTOR]), MPS_OK);
     assert_int_equal(mps_op_asymmetry(t, s->result[ASYMMETRY]), MPS_OK);
     assert_int_equal(mps_op_volume_deviation(t, s->result[VOLUME]), MPS_OK);
+    assert_int_equal(mps_op_volume_sum(t, s->f, s->result[VOLUME_SUM]), MPS_OK);
 }
 
 /* ---- the oracle ------------------------------------------------------------------------------------------------ */
@@ -154,7 +156,7 @@ static void lattice(int dim, double re, weight_fn weight, double *n0, double *la
 static double factor(int op, int dim, double n0, double lambda, double s0)
 {
     if (op == DENSITY) return 1;
-    if (op == VOLUME) return 1 / s0;
+    if (op == VOLUME || op == VOLUME_SUM) return 1 / s0;
     return op == LAPLACIAN || op == LAPLACIAN_VECTOR ? 2.0 * dim / (n0 * lambda) : dim / n0;
 }
 
@@ -166,11 +168,13 @@ static void compare(const bench *s, double re, weight_fn weight)
     for (int64_t i = 0; i < s->c.n; i++) {
         total t[OPS] = {{{0}, 0}};
         add(&t[VOLUME], 0, 1); /* the particle itself */
+        add(&t[VOLUME_SUM], 0, s->f[i]);
         for (int64_t j = 0; j < s->c.n; j++) {
             const double r2 = cloud_distance2(&s->c, i, j);
             if (j == i || r2 >= re * re) continue;
             add_pair(s, i, j, r2, weight(sqrt(r2), re), t);
             add(&t[VOLUME], 0, wendland(sqrt(r2), re));
+            add(&t[VOLUME_SUM], 0, s->f[j] * wendland(sqrt(r2), re));
         }
         for (int op = 0; op < OPS; op++)
             for (int d = 0; d < components(s, op); d++) {
@@ -394,6 +398,7 @@ static void refuse_all(const mps_stencil *t, const double *in, double *out)
     assert_int_equal(mps_op_asymmetry(t, out), MPS_E_ARG);
     assert_int_equal(mps_op_correction(t, 0.2, out), MPS_E_ARG);
     assert_int_equal(mps_op_volume_deviation(t, out), MPS_E_ARG);
+    assert_int_equal(mps_op_volume_sum(t, in, out), MPS_E_ARG);
 }
 
 static void bad_arguments(void **state)

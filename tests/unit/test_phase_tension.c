@@ -272,6 +272,78 @@ static void three_phases(void **state)
     free(first);
 }
 
+/* Work of swelling of the drop about a centre, over sigma and (D-1) times its surface; 2-D. */
+static double share_of_sigma(const cloud *c, const double centre[2], double radius)
+{
+    double work = 0;
+    for (int64_t i = 0; i < c->n; i++) {
+        const double r[2] = {c->x[2 * i] - centre[0], c->x[2 * i + 1] - centre[1]};
+        if (hypot(r[0], r[1]) > 1.9 * radius) continue;
+        for (int d = 0; d < 2; d++) work -= 1000 * CLOUD_DP * CLOUD_DP * spy.a[2 * i + d] * r[d] / sigma;
+    }
+    return work / (2 * 3.14159265358979323846 * radius);
+}
+
+/* Two drops of different phases: each has the tension of its own pair, and what is not set has the setting. */
+static void pairs(void **state)
+{
+    (void)state;
+    static const double cases[4][3] = {{1, 3, 0}, {0, 2, 5}, {-1, 2, 0.5}, {-1, -1, 4}}; /* pair 0-1, pair 0-2, setting; < 0: not set */
+    cloud c = cloud_lattice(2, 80, 40, 1, 0, 9);
+    int32_t *phase = cloud_phases(c.n);
+    const double radius = 8 * CLOUD_DP, centre[2][2] = {{20.31 * CLOUD_DP, 20.17 * CLOUD_DP}, {60.31 * CLOUD_DP, 20.17 * CLOUD_DP}};
+    for (int64_t i = 0; i < c.n; i++)
+        for (int k = 0; k < 2; k++)
+            if (hypot(c.x[2 * i] - centre[k][0], c.x[2 * i + 1] - centre[k][1]) < radius) phase[i] = k + 1;
+    for (int n = 0; n < 4; n++) {
+        mps_sim *sim = bare_sim(2, CLOUD_DP, 3.1, 1e-6);
+        for (int p = 0; p < 3; p++) set_phase(sim, p, 1000, 0);
+        add_cloud(sim, &c, phase, NULL);
+        ASSERT_OK(sim, mps_model_use(sim, "tension.csf"));
+        ASSERT_OK(sim, mps_model_set(sim, "tension", "sigma", cases[n][2] * sigma));
+        if (cases[n][0] >= 0) ASSERT_OK(sim, mps_sim_set_tension(sim, 0, 1, cases[n][0] * sigma));
+        if (cases[n][1] >= 0) ASSERT_OK(sim, mps_sim_set_tension(sim, 2, 0, cases[n][1] * sigma));
+        ASSERT_OK(sim, mps_step(sim, 1, NULL));
+        for (int k = 0; k < 2; k++) {
+            const double wanted = cases[n][k] >= 0 ? cases[n][k] : cases[n][2];
+            ASSERT_NEAR(share_of_sigma(&c, centre[k], radius), wanted, 0.03 * wanted);
+        }
+        mps_sim_destroy(sim);
+    }
+    free(phase);
+    cloud_free(&c);
+}
+
+static void pairs_refused(void **state)
+{
+    (void)state;
+    mps_sim *sim = bare_sim(2, CLOUD_DP, 3.1, 1e-6);
+    double value = -7;
+    set_phase(sim, 1, 1.2, 0);
+    ASSERT_REFUSED(sim, mps_sim_get_tension(sim, 0, 1, &value), MPS_E_ARG, "never set");
+    ASSERT_OK(sim, mps_sim_set_tension(sim, 1, 0, 0.05));
+    ASSERT_OK(sim, mps_sim_get_tension(sim, 0, 1, &value));
+    assert_true(value == 0.05);
+    ASSERT_REFUSED(sim, mps_sim_set_tension(sim, 0, 1, -0.07), MPS_E_ARG, "is -0.07: must be >= 0");
+    ASSERT_REFUSED(sim, mps_sim_set_tension(sim, 0, 1, NAN), MPS_E_ARG, "phases 0 and 1");
+    ASSERT_REFUSED(sim, mps_sim_set_tension(sim, 0, 1, INFINITY), MPS_E_ARG, "finite");
+    ASSERT_REFUSED(sim, mps_sim_set_tension(sim, 0, 2, 0.07), MPS_E_ARG, "phase 2 is not defined");
+    ASSERT_REFUSED(sim, mps_sim_set_tension(sim, -1, 1, 0.07), MPS_E_ARG, "phase -1 is not defined");
+    ASSERT_REFUSED(sim, mps_sim_set_tension(sim, 0, 16, 0.07), MPS_E_ARG, "phase 16 is not defined");
+    ASSERT_REFUSED(sim, mps_sim_set_tension(sim, 1, 1, 0.07), MPS_E_ARG, "phase 1 with itself");
+    ASSERT_REFUSED(sim, mps_sim_get_tension(sim, 0, 1, NULL), MPS_E_ARG, "NULL");
+    assert_int_equal(mps_sim_set_tension(NULL, 0, 1, 0.07), MPS_E_ARG);
+    assert_int_equal(mps_sim_get_tension(NULL, 0, 1, &value), MPS_E_ARG);
+    ASSERT_OK(sim, mps_sim_get_tension(sim, 1, 0, &value));
+    assert_true(value == 0.05);
+    ASSERT_OK(sim, mps_sim_set_tension(sim, 0, 1, 0)); /* none is a value */
+    ASSERT_OK(sim, mps_sim_get_tension(sim, 1, 0, &value));
+    assert_true(value == 0);
+    ASSERT_OK(sim, mps_model_use(sim, "tension.csf"));
+    ASSERT_REFUSED(sim, mps_model_set(sim, "tension", "sigma", -0.07), MPS_E_ARG, "sigma is -0.07");
+    mps_sim_destroy(sim);
+}
+
 /* The shortest capillary wave. */
 static void time_step(void **state)
 {
@@ -292,6 +364,10 @@ static void time_step(void **state)
     assert_int_equal(mps_step_info_init(&info, sizeof info), MPS_OK);
     ASSERT_OK(sim, mps_step(sim, 1, &info));
     ASSERT_NEAR(info.dt, 0.5 * sqrt(750 * pow(CLOUD_DP, 3) / (2 * 3.14159265358979323846 * sigma)), 1e-12);
+    ASSERT_OK(sim, mps_sim_set_tension(sim, 0, 1, 4 * sigma));
+    ASSERT_OK(sim, mps_sim_set_time_control(sim, &control));
+    ASSERT_OK(sim, mps_step(sim, 1, &info));
+    ASSERT_NEAR(info.dt, 0.25 * sqrt(750 * pow(CLOUD_DP, 3) / (2 * 3.14159265358979323846 * sigma)), 1e-12);
     mps_sim_destroy(sim);
 }
 
@@ -299,6 +375,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(circles),     cmocka_unit_test(spheres),      cmocka_unit_test(heavy_drop),       cmocka_unit_test(flat),
-        cmocka_unit_test(derivatives), cmocka_unit_test(three_phases), cmocka_unit_test(laplace_pressure), cmocka_unit_test(time_step)};
+        cmocka_unit_test(derivatives), cmocka_unit_test(three_phases), cmocka_unit_test(laplace_pressure), cmocka_unit_test(time_step),
+        cmocka_unit_test(pairs),       cmocka_unit_test(pairs_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -17,7 +17,7 @@ typedef struct tank {
     mps__context context;
     mps__ppe e;
     int32_t kind[MOST], region[MOST], fixed[MOST];
-    double p[MOST], density[MOST], wet[MOST], rhs[MOST], shift[MOST], value[MOST], body[3 * MOST];
+    double p[MOST], density[MOST], wet[MOST], rhs[MOST], shift[MOST], value[MOST], body[3 * MOST], gas[MOST], law[MOST];
     mps_stage stage;
     mps_ppe_terms terms;
 } tank;
@@ -59,7 +59,10 @@ static void tank_init(tank *k, cloud c)
                                .shift = k->shift,
                                .value = k->value,
                                .fixed = k->fixed,
-                               .body = k->body};
+                               .body = k->body,
+                               .gain = 1,
+                               .gas = k->gas,
+                               .law = k->law};
 }
 
 static void tank_free(tank *k)
@@ -143,7 +146,7 @@ static double coefficient(const tank *k, int64_t i, int64_t j)
 /* sum_j k_ij (p_i - p_j + q_ij) + shift p_i - rhs for a particle, with p of all particles given. */
 static double residual(const tank *k, int64_t i, const double *p)
 {
-    double sum = k->shift[i] * p[i] - k->rhs[i];
+    double sum = k->terms.gain * (k->shift[i] * p[i] - k->rhs[i]);
     for (int64_t j = 0; j < k->c.n; j++) {
         double q = 0;
         for (int d = 0; d < k->c.dim; d++)
@@ -212,6 +215,7 @@ static void check_all_terms(int radius, int complete, double walls)
     k.terms.radius = radius;
     k.terms.complete_surface = complete;
     k.terms.wall_factor = walls;
+    k.terms.gain = radius == MPS_NEAR ? 0.7 : 1;
     for (int64_t i = 0; i < k.c.n; i++) {
         k.density[i] = i % 14 < 7 ? 1000 : 1;
         k.wet[i] = 0.5 + 0.5 * cloud_random(&seed);

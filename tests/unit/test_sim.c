@@ -186,6 +186,33 @@ static void log_callback(void **state)
     mps_sim_destroy(sim);
 }
 
+static void append_warning(void *user, int level, const char *text)
+{
+    char *all = user;
+    if (level == MPS_LOG_WARNING) snprintf(all + strlen(all), 300 - strlen(all), "%s;", text);
+}
+
+/* A phase that nothing is made of is most likely a mistake, and is said once. */
+static void empty_phase(void **state)
+{
+    (void)state;
+    char text[100], warnings[300] = "";
+    mps_config c = good_config(text, sizeof text);
+    mps_phase p;
+    mps_sim *sim = NULL;
+    c.log = append_warning;
+    c.log_user = warnings;
+    assert_int_equal(mps_sim_create(&c, &sim), MPS_OK);
+    assert_int_equal(mps_phase_init(&p, sizeof p), MPS_OK);
+    for (int k = 1; k < 4; k++) ASSERT_OK(sim, mps_sim_set_phase(sim, k, &p));
+    add_tank(sim, 0.5, 0.5, 0);
+    const double lo[2] = {0, 0}, hi[2] = {0.5, 0.3};
+    ASSERT_OK(sim, mps_geometry_fill_box(sim, 2, lo, hi, NULL));
+    for (int k = 0; k < 3; k++) ASSERT_OK(sim, mps_step(sim, 1e-4, NULL));
+    assert_string_equal(warnings, "phase 1 is defined, but no fluid particle is of it;phase 3 is defined, but no fluid particle is of it;");
+    mps_sim_destroy(sim);
+}
+
 /* ---- names and settings ------------------------------------------------------------------------------------------------ */
 
 static void suggestions(void **state)
@@ -412,10 +439,11 @@ static void status_texts(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bad_configuration), cmocka_unit_test(error_text),   cmocka_unit_test(versions),
-        cmocka_unit_test(defaults),          cmocka_unit_test(log_callback), cmocka_unit_test(suggestions),
-        cmocka_unit_test(settings),          cmocka_unit_test(phases),       cmocka_unit_test(model_registration),
-        cmocka_unit_test(too_many_models),   cmocka_unit_test(user_kernel),  cmocka_unit_test(status_texts),
+        cmocka_unit_test(bad_configuration),  cmocka_unit_test(error_text),      cmocka_unit_test(versions),
+        cmocka_unit_test(defaults),           cmocka_unit_test(log_callback),    cmocka_unit_test(empty_phase),
+        cmocka_unit_test(suggestions),        cmocka_unit_test(settings),        cmocka_unit_test(phases),
+        cmocka_unit_test(model_registration), cmocka_unit_test(too_many_models), cmocka_unit_test(user_kernel),
+        cmocka_unit_test(status_texts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -56,7 +56,7 @@ static int dummy_apply(void *self, const double *r, double *z)
 
 static mps_solver_ops dummy_solver(const char *name, const char *pc)
 {
-    return (mps_solver_ops){sizeof(mps_solver_ops), MPS_PPE_API, name, pc, 1, dummy_create, dummy_solve, dummy_destroy};
+    return (mps_solver_ops){sizeof(mps_solver_ops), MPS_PPE_API, name, pc, 1, dummy_create, dummy_solve, dummy_destroy, 0};
 }
 
 static mps_preconditioner_ops dummy_preconditioner(const char *name)
@@ -318,8 +318,8 @@ static void test_solve(void **state)
     mps_ppe_problem problem = tiny();
     mps_ppe_result result;
     double p = 0;
-    static const char *const names[] = {"sundials.pcg", "sundials.bicgstab", "sundials.gmres", "sundials.klu"};
-    for (int k = 0; k < 4; k++, p = 0) {
+    static const char *const names[] = {"sundials.pcg", "sundials.bicgstab", "sundials.gmres", "sundials.klu", "sundials.kinsol"};
+    for (int k = 0; k < 5; k++, p = 0) {
         assert_int_equal(mps_solver_use(sim, names[k], NULL), MPS_OK);
         assert_int_equal(mps__solvers_solve(&sim->world.solvers, &problem, &p, &result), MPS_OK);
         assert_true(fabs(p - 2) < 1e-12);

@@ -1,0 +1,335 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* sundials.kinsol: Newton's method with conjugate gradients inside, for a gas whose rows are nonlinear; a linear problem takes one step.
+ *   F(p) = A p + gas (f(p) - p) - b,   J = A + gas (f'(p) - 1).
+ * J is an M-matrix and F is concave, so the first full step lands below the solution and the others rise to it from any guess (Newton's
+ * theorem of monotone convergence): no line search is needed, and no bound on p, because mps_ppe_law() is finite everywhere.
+ *
+ * All norms are "how far above the limits": the scaling vector of F is the stopping vector (vector.h), so KINSOL and its linear solver
+ * both stop at 1, and a step is solved no deeper than that asks for. */
+#include "builtin.h"
+#include "kernels.h"
+#include <kinsol/kinsol.h>
+#include <math.h>
+#include <string.h>
+#include <sunlinsol/sunlinsol_pcg.h>
+#include "vector.h"
+
+enum { CLONES = 9, MOST_STEPS = 60 }; /* KINSOL asks for 5 vectors, conjugate gradients for 4 */
+static const double DEEPEST = 1e-10;  /* residual reduction of one linear solution */
+
+typedef struct newton {
+    mps__space space;
+    void *kinsol;
+    SUNLinearSolver solver;
+    N_Vector p, one, stop;
+    double *start, *residual, *inner, *slope, *ones; /* [capacity] */
+    double *val, *shift;                             /* matrix and row sums of J at the first guess, for the preconditioner */
+    double *sums;                                    /* [2 sum_capacity] */
+    int64_t sum_capacity, val_capacity;
+    /* of the solve in progress */
+    const mps_ppe_problem *problem;
+    mps_ppe_problem first; /* the linear problem of the first step */
+    const mps_preconditioner_ops *pc;
+    void *pc_self;
+    int failure; /* reason found by a callback, 0: none */
+    bool pc_ready;
+    double setup_seconds;
+} newton;
+
+/* ---- callbacks of SUNDIALS: negative stops the solver ---- */
+
+static int residual(N_Vector vp, N_Vector vf, void *data)
+{
+    newton *k = data;
+    double *f = mps__vector_data(vf);
+    mps_ppe_result unused;
+    mps__vector_written(vf);
+    mps_ppe_check(k->problem, mps__vector_data(vp), f, &unused);
+    for (int64_t i = 0; i < k->space.n; i++) f[i] = -f[i];
+    mps__components_center(k->problem, f, k->sums); /* rounding must not leave what no p can produce */
+    return 0;
+}
+
+/* gas (f' - 1), what J has on its diagonal beside A. */
+static void set_slope(newton *k, const double *p)
+{
+    for (int64_t i = 0; i < k->space.n; i++) {
+        double slope;
+        mps_ppe_law(k->problem->law[i], p[i], &slope);
+        k->slope[i] = k->problem->gas[i] * (slope - 1);
+    }
+}
+
+static bool negative(const mps_ppe_problem *problem, const double *x, double curvature)
+{
+    double scale = 0;
+    for (int64_t i = 0; i < problem->n; i++) scale += mps__rows_diagonal(problem, i) * x[i] * x[i];
+    return -curvature > 1e-12 * scale;
+}
+
+static int times(N_Vector vx, N_Vector vy, N_Vector vp, sunbooleantype *changed, void *data)
+{
+    (void)vp, (void)changed;
+    newton *k = data;
+    const double *x = mps__vector_data(vx);
+    double *y = mps__vector_data(vy), curvature = mps__rows_multiply(k->problem, x, y, k->space.partial);
+    mps__vector_written(vy);
+    if (k->problem->law) {
+        for (int64_t i = 0; i < k->space.n; i++) y[i] += k->slope[i] * x[i];
+        curvature = mps__blocked_dot(x, y, k->space.n, k->space.threads, k->space.partial);
+    }
+    mps__space_remember(&k->space, x, y, curvature);
+    if (!isfinite(curvature))
+        k->failure = MPS_PPE_BREAKDOWN;
+    else if (curvature <= 0)
+        k->failure = negative(k->problem, x, curvature) ? MPS_PPE_INDEFINITE : MPS_PPE_BREAKDOWN;
+    return k->failure ? -1 : 0;
+}
+
+/* Before each step: what is left of the iterations, the slopes at p, and once the preconditioner. */
+static int begin_step(N_Vector vp, N_Vector scale, N_Vector f, N_Vector f_scale, void *data)
+{
+    (void)scale, (void)f, (void)f_scale;
+    newton *k = data;
+    long used = 0;
+    KINGetNumLinIters(k->kinsol, &used);
+    if (used >= k->problem->max_iterations) return -1;
+    SUNLinSol_PCGSetMaxl(k->solver, k->problem->max_iterations - (int)used);
+    if (k->problem->law) set_slope(k, mps__vector_data(vp));
+    if (!k->pc || k->pc_ready) return 0;
+    const double t = mps__seconds();
+    k->failure = k->pc->setup(k->pc_self, &k->first);
+    k->setup_seconds += mps__seconds() - t;
+    k->pc_ready = !k->failure;
+    return k->failure ? -1 : 0;
+}
+
+/* z = M^-1 r in the place of r. */
+static int precondition(N_Vector vp, N_Vector scale, N_Vector f, N_Vector f_scale, N_Vector vr, void *data)
+{
+    (void)vp, (void)scale, (void)f, (void)f_scale;
+    newton *k = data;
+    double *z = mps__vector_data(vr);
+    memcpy(k->inner, z, (size_t)k->space.n * sizeof *z);
+    mps__vector_written(vr);
+    k->failure = k->pc->apply(k->pc_self, k->inner, z);
+    if (k->failure) return -1;
+    const double dot = mps__blocked_dot(k->inner, z, k->space.n, k->space.threads, k->space.partial);
+    if (!isfinite(dot))
+        k->failure = MPS_PPE_NAN;
+    else if (dot <= 0)
+        k->failure = MPS_PPE_INDEFINITE;
+    return k->failure ? -1 : 0;
+}
+
+/* ---- memory ---- */
+
+static void drop(newton *k)
+{
+    const mps_allocator *a = &k->space.allocator;
+    if (k->kinsol) KINFree(&k->kinsol);
+    if (k->solver) SUNLinSolFree(k->solver);
+    mps__space_release(&k->space);
+    if (k->p) N_VDestroy(k->p);
+    if (k->one) N_VDestroy(k->one);
+    if (k->stop) N_VDestroy(k->stop);
+    double **all[] = {&k->start, &k->residual, &k->inner, &k->slope, &k->ones, &k->shift, &k->space.partial};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        mps__give(a, *all[i]);
+        *all[i] = NULL;
+    }
+    k->kinsol = NULL;
+    k->solver = NULL;
+    k->p = k->one = k->stop = NULL;
+    k->space.capacity = 0;
+}
+
+static bool make_arrays(newton *k, int64_t capacity)
+{
+    const mps_allocator *a = &k->space.allocator;
+    k->space.capacity = capacity;
+    k->space.partial = mps__take(a, mps__blocks(capacity), sizeof(double));
+    if (!k->space.partial) return false;
+    double **all[] = {&k->start, &k->residual, &k->inner, &k->slope, &k->ones, &k->shift};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        *all[i] = mps__take(a, capacity, sizeof(double));
+        if (!*all[i]) return false;
+    }
+    for (int64_t i = 0; i < capacity; i++) k->ones[i] = 1;
+    return true;
+}
+
+static bool make_solver(newton *k)
+{
+    k->p = mps__vector_wrap(&k->space, k->start);
+    k->one = mps__vector_wrap(&k->space, k->ones);
+    k->stop = mps__vector_stop(&k->space);
+    if (!k->p || !k->one || !k->stop || !mps__space_reserve(&k->space, CLONES)) return false;
+    k->solver = SUNLinSol_PCG(k->p, SUN_PREC_LEFT, 0, k->space.context);
+    k->kinsol = mps__kinsol_create(k->space.context);
+    return k->solver && k->kinsol && !KINInit(k->kinsol, residual, k->p) && !KINSetUserData(k->kinsol, k) &&
+           !KINSetLinearSolver(k->kinsol, k->solver, NULL) && !KINSetJacTimesVecFn(k->kinsol, times) &&
+           !KINSetPreconditioner(k->kinsol, begin_step, precondition) && !KINSetMaxSetupCalls(k->kinsol, 1) &&
+           !KINSetMaxNewtonStep(k->kinsol, 1e200) && !KINSetFuncNormTol(k->kinsol, 1.0) && !KINSetScaledStepTol(k->kinsol, 1e-15) &&
+           !KINSetNumMaxIters(k->kinsol, MOST_STEPS);
+}
+
+/* Make an array hold `count` doubles; what was in it is lost. */
+static bool grow(const newton *k, double **array, int64_t *capacity, int64_t count)
+{
+    if (count <= *capacity) return true;
+    double *larger = mps__take(&k->space.allocator, count, sizeof *larger);
+    if (!larger) return false;
+    mps__give(&k->space.allocator, *array);
+    *array = larger;
+    *capacity = count;
+    return true;
+}
+
+/* Room for a problem; kept for the next one. */
+static bool prepare(newton *k, const mps_ppe_problem *problem)
+{
+    k->space.n = problem->n;
+    k->space.threads = problem->threads;
+    k->space.weight = problem->divergence > 0 ? problem->weight : NULL;
+    if (problem->component && !grow(k, &k->sums, &k->sum_capacity, 2 * (int64_t)problem->components)) return false;
+    if (problem->law && !grow(k, &k->val, &k->val_capacity, problem->row[problem->n])) return false;
+    if (problem->n <= k->space.capacity) return true;
+    drop(k);
+    if (make_arrays(k, problem->n + problem->n / 8) && make_solver(k)) return true;
+    drop(k);
+    return false;
+}
+
+/* ---- solution ---- */
+
+/* J at p as a linear problem, for the preconditioner. */
+static void linearise(newton *k, const double *p)
+{
+    const mps_ppe_problem *problem = k->problem;
+    k->first = *problem;
+    if (!problem->law) return;
+    set_slope(k, p);
+    memcpy(k->val, problem->val, (size_t)problem->row[problem->n] * sizeof *k->val);
+    for (int64_t i = 0; i < problem->n; i++) {
+        k->shift[i] = problem->shift[i] + k->slope[i];
+        for (int64_t e = problem->row[i]; e < problem->row[i + 1]; e++)
+            if (problem->col[e] == i) k->val[e] += k->slope[i];
+    }
+    k->first.val = k->val;
+    k->first.shift = k->shift;
+    k->first.gas = k->first.law = NULL;
+}
+
+/* How deep each step is solved: a linear problem at once to the end, others as Eisenstat and Walker 1996 have it, their choice 2. */
+static void set_forcing(newton *k, double excess)
+{
+    KINSetEtaForm(k->kinsol, k->problem->law ? KIN_ETACHOICE2 : KIN_ETACONSTANT);
+    if (!k->problem->law) KINSetEtaConstValue(k->kinsol, fmin(fmax(0.5 / excess, DEEPEST), 0.5));
+}
+
+/* One run of KINSOL from p. */
+static int run(newton *k, double *p, mps_ppe_result *result)
+{
+    long iterations = 0;
+    k->failure = 0;
+    mps__vector_point(k->p, p);
+    SUNLinSol_PCGSetPrecType(k->solver, k->pc ? SUN_PREC_LEFT : SUN_PREC_NONE);
+    const int flag = KINSol(k->kinsol, k->p, KIN_NONE, k->one, k->stop);
+    KINGetNumLinIters(k->kinsol, &iterations);
+    result->iterations = iterations < k->problem->max_iterations ? (int32_t)iterations : k->problem->max_iterations;
+    result->setup_seconds = k->setup_seconds;
+    mps__guess_clean(p, k->problem->n);
+    mps__components_center(k->problem, p, k->sums);
+    mps_ppe_check(k->problem, p, k->residual, result);
+    if (mps__result_excess(k->problem, result) <= 1) return MPS_PPE_CONVERGED;
+    if (flag == KIN_MEM_FAIL) return MPS_PPE_NOMEM;
+    /* a recurrence that broke down at the floor of rounding has done what it could */
+    return k->failure == MPS_PPE_BREAKDOWN || !k->failure ? MPS_PPE_MAX_ITERATIONS : k->failure;
+}
+
+/* First guess; false: no guess gives a finite residual. */
+static bool begin(newton *k, double *p, mps_ppe_result *result)
+{
+    mps__components_center(k->problem, p, k->sums);
+    mps_ppe_check(k->problem, p, k->residual, result);
+    if (isfinite(result->residual)) return true;
+    memset(p, 0, (size_t)k->problem->n * sizeof *p);
+    mps_ppe_check(k->problem, p, k->residual, result);
+    return isfinite(result->residual);
+}
+
+static int attempt(newton *k, double *p, mps_ppe_result *result)
+{
+    const mps_ppe_problem *problem = k->problem;
+    const size_t bytes = (size_t)problem->n * sizeof *p;
+    const double norm = sqrt(mps__blocked_dot(problem->rhs, problem->rhs, problem->n, problem->threads, k->space.partial));
+    if (norm == 0) memset(p, 0, bytes);
+    if (!begin(k, p, result)) return MPS_PPE_NAN;
+    const double excess = mps__result_excess(problem, result);
+    if (excess <= 1) return MPS_PPE_CONVERGED;
+    if (!mps__rows_nonnegative(problem)) return MPS_PPE_INDEFINITE;
+    memcpy(k->start, p, bytes);
+    linearise(k, p);
+    k->space.norm_limit = problem->tolerance * norm;
+    k->space.divergence_limit = problem->divergence;
+    k->pc_ready = false;
+    k->setup_seconds = 0;
+    set_forcing(k, excess);
+    const int reason = run(k, p, result);
+    const bool failed = reason != MPS_PPE_CONVERGED && reason != MPS_PPE_MAX_ITERATIONS;
+    if (failed || !(mps__result_excess(problem, result) <= excess)) {
+        memcpy(p, k->start, bytes);
+        mps_ppe_check(problem, p, k->residual, result);
+    }
+    return reason;
+}
+
+static void destroy(void *self)
+{
+    newton *k = self;
+    if (!k) return;
+    drop(k);
+    const mps_allocator allocator = k->space.allocator;
+    mps__give(&allocator, k->sums);
+    mps__give(&allocator, k->val);
+    if (k->space.context) SUNContext_Free(&k->space.context);
+    mps__give(&allocator, k);
+}
+
+static int create(const mps_allocator *allocator, void **self)
+{
+    newton *k = mps__take(allocator, 1, sizeof *k);
+    if (!k) return MPS_PPE_NOMEM;
+    *k = (newton){.space = {.allocator = *allocator, .context = mps__sundials_context()}};
+    *self = k;
+    if (k->space.context) return 0;
+    destroy(k);
+    *self = NULL;
+    return MPS_PPE_NOMEM;
+}
+
+static void solve(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc, void *pc_self, double *p,
+                  mps_ppe_result *result)
+{
+    newton *k = self;
+    *result = (mps_ppe_result){MPS_PPE_NOMEM, 0, INFINITY, INFINITY, 0};
+    mps__guess_clean(p, problem->n);
+    if (!prepare(k, problem)) return;
+    k->problem = problem;
+    k->pc = pc;
+    k->pc_self = pc_self;
+    result->reason = attempt(k, p, result);
+}
+
+const mps_solver_ops mps__solver_kinsol = {
+    .struct_size = sizeof(mps_solver_ops),
+    .api = MPS_PPE_API,
+    .name = "sundials.kinsol",
+    .preconditioner = "ic0",
+    .symmetric = 1,
+    .create = create,
+    .solve = solve,
+    .destroy = destroy,
+    .nonlinear = 1,
+};
