@@ -8,7 +8,7 @@
 #include "table.h"
 #include <mps/mps.h>
 
-enum { RUN_COLUMNS = 32, RUN_COMMON = 8, RUN_MARKS = 4, RUN_MARK_POINTS = 16, RUN_ERROR = 640 };
+enum { RUN_COLUMNS = 32, RUN_COMMON = 9, RUN_MARKS = 4, RUN_MARK_POINTS = 16, RUN_ERROR = 640 };
 
 /* A quantity of a driver's own. */
 typedef double (*run_value_fn)(void *user, mps_sim *sim);
@@ -61,7 +61,11 @@ typedef struct run {
 void run_open(run *r, const cli_options *o);
 /* Exit with a message unless a call of the library succeeded; for building the case. */
 void run_check(run *r, mps_status status, const char *what);
-/* Height of the highest fluid particle above the lab's origin: the still level as placed, layers * dp [m]. */
+/* The model is one of several phases: what the liquid leaves of a tank is gas. */
+bool run_has_gas(const run *r);
+/* Define a phase: 0 is the liquid, 1 what is around it [kg/m3], [Pa s]. */
+void run_phase(run *r, int32_t index, double density, double viscosity);
+/* Height of the highest particle of phase 0 above the lab's origin: the still level as placed, layers * dp [m]. */
 double run_level(run *r);
 
 /* Columns, in the order of the file. Places are in the tank's frame. */
