@@ -244,6 +244,11 @@ void run_value(run *r, const char *name, const char *unit, run_value_fn value, v
     c->user = user;
 }
 
+void run_figure_add(run *r, const char *name, run_value_fn value, void *user)
+{
+    if (r->figures < RUN_FIGURES) r->figure[r->figures++] = (run_figure){.name = name, .value = value, .user = user};
+}
+
 void run_mark_add(run *r, const char *label, const char *unit, int count, const double *t, const double *value)
 {
     if (r->marks == RUN_MARKS || count > RUN_MARK_POINTS) return;

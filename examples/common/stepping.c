@@ -192,6 +192,7 @@ static void run_close(run *r)
     mps_frames_close(r->frames);
     snprintf(path, sizeof path, "%s/picture_end.png", r->options.out);
     if (!picture_save(r->sim, path)) r->output_failed = true;
+    for (int i = 0; i < r->figures; i++) r->figure[i].measured = r->figure[i].value(r->figure[i].user, r->sim);
     if (r->totals.steps == 0) run_write_start(r, NULL);
     if (!table_close(&r->probes) || !table_close(&r->steps)) r->output_failed = true;
 }
