@@ -13,7 +13,7 @@ typedef struct fluids {
 
 static const fluids CASES[] = {{{1000, 100}, {10, 1}, 24.5}, {{1000, 1}, {10, 0.1}, 1.96}};
 static const double SIZE[] = {1, 2, 0}, CENTRE[] = {0.5, 0.5}, RADIUS = 0.25, GRAVITY = 0.98;
-static const double SMOOTHING = 1.5; /* of the interface, in spacings */
+static const double SMOOTHING = 2; /* of the interface, in spacings */
 
 static int in_bubble(void *user, const double *x)
 {

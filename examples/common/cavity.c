@@ -72,20 +72,20 @@ static int64_t body_fill(cavities *c, int64_t first, int32_t number)
     return count;
 }
 
-/* Empty space of the `count` cells in the queue and of the liquid cells beside them. */
+/* Empty space of the `count` cells in the queue and of the liquid cells up to two away, which are not quite full. */
 static double body_volume(cavities *c, int64_t count)
 {
     const raster *g = &c->grid;
     double sum = 0;
-    for (int64_t i = 0; i < count; i++) {
-        sum += emptiness(g, c->queue[i]);
-        for (int k = 0; k < 2 * g->dim; k++) {
-            int64_t next = across(g, c->queue[i], k);
-            if (next < 0 || c->body[next] != LIQUID) continue;
-            sum += emptiness(g, next);
-            c->body[next] = LIQUID - 1; /* once only */
-        }
-    }
+    for (int ring = 0; ring < 2; ring++)
+        for (int64_t i = 0, end = count; i < end; i++)
+            for (int k = 0; k < 2 * g->dim; k++) {
+                int64_t next = across(g, c->queue[i], k);
+                if (next < 0 || c->body[next] != LIQUID) continue;
+                c->body[next] = LIQUID - 1; /* once only */
+                c->queue[count++] = next;
+            }
+    for (int64_t i = 0; i < count; i++) sum += emptiness(g, c->queue[i]);
     return sum * pow(g->dp, g->dim);
 }
 

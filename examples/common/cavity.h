@@ -18,7 +18,7 @@ void cavities_free(cavities *c);
 /* Volume of all cavities [m2; m3 in 3-D], NAN if it cannot be measured: cells of one spacing that are less than half full of liquid
  * make bodies, cells with a common face belong together; the largest body is the open space above the liquid, bodies of
  * fewer than four cells are gaps between particles, the others are cavities. What of their border cells is empty counts too, so that the
- * volume of a cavity is exact to about 0.01 dp of its border. A gas is not looked at: with and without one it is the same measure. */
+ * volume of a cavity is that of the particles missing to 0.02 dp of its border; the half cell beside a wall is not part of it. A gas is not looked at: with and without one it is the same measure. */
 double cavities_volume(cavities *c, mps_sim *sim);
 
 #endif
