@@ -21,12 +21,12 @@ static int below(void *user, const double *x)
 
 static void build(run *r)
 {
-    const double lo[] = {0, 0};
+    double lo[3], hi[3];
     run_phase(r, 0, HEAVY, VISCOSITY);
     run_phase(r, 1, LIGHT, VISCOSITY);
-    tank_walls(r, SIZE);
+    tank_walls_about(r, SIZE, 1, lo, hi);
     run_check(r, mps_geometry_fill(r->sim, 1, below, NULL, NULL), "light fluid");
-    run_check(r, mps_geometry_fill_box(r->sim, 0, lo, SIZE, NULL), "heavy fluid");
+    run_check(r, mps_geometry_fill_box(r->sim, 0, lo, hi, NULL), "heavy fluid");
 }
 
 /* Highest and lowest point of the interface. */

@@ -1,27 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Two fluids at rest, Wen, Zhao & Wan 2022 section 4.1: 0.75 m of 1000 kg/m3 below 0.75 m of 1 kg/m3 in a closed tank 1 m wide. */
-#include "common/phases.h"
-#include "common/run.h"
+#include "common/tank.h"
 #include <math.h>
 
-static const double WIDTH = 1, LAYER = 0.75, HEAVY = 1000, LIGHT = 1, VISCOSITY = 1e-3;
+static const double SIZE[] = {1, 1.5, 0}, LAYER = 0.75, HEAVY = 1000, LIGHT = 1, VISCOSITY = 1e-3;
 
-/* The lattice is laid so that the interface, half a spacing above the upper row of the heavy fluid, lies at LAYER: the floor is then as
- * far below y = 0 as half a spacing, if LAYER is a whole number of them. */
 static void build(run *r)
 {
-    double dp = r->options.dp;
-    int rows = (int)lround(LAYER / dp);
-    const double lo[] = {0, LAYER - (rows + 0.5) * dp}, hi[] = {WIDTH, LAYER + (rows + 0.5) * dp}, middle[] = {WIDTH, LAYER};
-    mps_tank tank;
-    mps_tank_init(&tank, sizeof tank);
-    tank.lo[1] = lo[1];
-    tank.size[0] = WIDTH;
-    tank.size[1] = hi[1] - lo[1];
+    double lo[3], hi[3];
     run_phase(r, 0, HEAVY, VISCOSITY);
     run_phase(r, 1, LIGHT, VISCOSITY);
-    run_check(r, mps_geometry_tank(r->sim, &tank, NULL), "tank");
-    run_check(r, mps_geometry_fill_box(r->sim, 0, lo, middle, NULL), "heavy fluid");
+    tank_walls_about(r, SIZE, LAYER, lo, hi);
+    run_check(r, mps_geometry_fill_box(r->sim, 0, lo, (const double[]){hi[0], LAYER}, NULL), "heavy fluid");
     run_check(r, mps_geometry_fill_box(r->sim, 1, lo, hi, NULL), "light fluid");
 }
 

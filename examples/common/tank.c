@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Building tanks of water. */
 #include "tank.h"
+#include <math.h>
 #include <string.h>
 
 void tank_walls(run *r, const double *size)
@@ -8,6 +9,21 @@ void tank_walls(run *r, const double *size)
     mps_tank tank;
     mps_tank_init(&tank, sizeof tank);
     memcpy(tank.size, size, sizeof tank.size);
+    run_check(r, mps_geometry_tank(r->sim, &tank, NULL), "tank");
+}
+
+void tank_walls_about(run *r, const double *size, double middle, double *lo, double *hi)
+{
+    double dp = r->options.dp, half = (floor(size[1] / 2 / dp + 1e-6) + 0.5) * dp;
+    mps_tank tank;
+    mps_tank_init(&tank, sizeof tank);
+    memcpy(tank.size, size, sizeof tank.size);
+    tank.lo[1] = middle - half;
+    tank.size[1] = 2 * half;
+    for (int d = 0; d < 3; d++) {
+        lo[d] = tank.lo[d];
+        hi[d] = tank.lo[d] + tank.size[d];
+    }
     run_check(r, mps_geometry_tank(r->sim, &tank, NULL), "tank");
 }
 

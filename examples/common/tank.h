@@ -21,6 +21,9 @@ typedef void (*tank_columns_fn)(run *r, const tank_case *c);
 
 /* Walls only; the lattice of the fills is laid. @param size inner [m] */
 void tank_walls(run *r, const double *size);
+/* The same with the lattice laid so that y = middle is halfway between two rows: two fluids meet there. The tank reaches as far up as
+ * down from it, y = 0 may be up to a spacing off its floor. @param lo,hi [3] out: its corners */
+void tank_walls_about(run *r, const double *size, double middle, double *lo, double *hi);
 /* Walls, water up to the depth, air above it where the model has a gas, and the motion. */
 void tank_build(run *r, const tank_case *c);
 /* Command line, run and outputs. The options hold the driver's defaults. @return exit code of the program */
