@@ -55,12 +55,13 @@ typedef struct cli_options {
     const char *stl;             /* NULL, or a file with the tank; offered if has_stl */
     double stl_scale;            /* [m] a unit of it */
     bool has_stl;
-    double gravity;   /* downwards [m/s2] */
-    double sigma;     /* surface tension [N/m], for models that have it */
-    bool has_sigma;   /* the driver offers --sigma */
-    bool sigma_given; /* by the user */
-    bool no_gas;      /* both phases are liquids: the model of the gas is switched off */
-    int owns;         /* options of this driver alone */
+    double gravity;     /* downwards [m/s2] */
+    double sigma;       /* surface tension [N/m], for models that have it */
+    bool has_sigma;     /* the driver offers --sigma */
+    bool sigma_given;   /* by the user */
+    bool no_gas;        /* both phases are liquids: the model of the gas is switched off */
+    const char *prefer; /* NULL, or "slot.key=value", set before --set where the model has it */
+    int owns;           /* options of this driver alone */
     cli_option own[CLI_OWN];
     bool report, quiet;
 } cli_options;

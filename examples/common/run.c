@@ -48,8 +48,8 @@ static void run_refuse(run *r, const char *option, const char *value, const char
     exit(CLI_USAGE);
 }
 
-/* "slot.key=value"; the slot may be a full name, so the key begins behind the last dot. */
-static void run_set_model(run *r, const char *text)
+/* "slot.key=value"; the slot may be a full name, so the key begins behind the last dot. @return the library's answer */
+static mps_status run_set_model(run *r, const char *text)
 {
     char slot[96], *key, *end;
     const char *equals = strchr(text, '=');
@@ -58,7 +58,7 @@ static void run_set_model(run *r, const char *text)
     double value = equals ? strtod(equals + 1, &end) : 0;
     if (!equals || !key || end == equals + 1 || *end) run_refuse(r, "--set", text, "must be slot.key=number", "");
     *key++ = '\0';
-    if (mps_model_set(r->sim, slot, key, value) != MPS_OK) run_refuse(r, "--set", text, mps_sim_error(r->sim), "");
+    return mps_model_set(r->sim, slot, key, value);
 }
 
 static bool run_has_model(const run *r, const char *slot)
@@ -88,7 +88,9 @@ static void run_use_models(run *r)
     for (int i = 0; i < o->use.count; i++)
         if (mps_model_use(r->sim, o->use.text[i]) != MPS_OK) run_refuse(r, "--use", o->use.text[i], mps_sim_error(r->sim), "");
     run_set_tension(r);
-    for (int i = 0; i < o->set.count; i++) run_set_model(r, o->set.text[i]);
+    if (o->prefer) run_set_model(r, o->prefer);
+    for (int i = 0; i < o->set.count; i++)
+        if (run_set_model(r, o->set.text[i]) != MPS_OK) run_refuse(r, "--set", o->set.text[i], mps_sim_error(r->sim), "");
 }
 
 static void run_use_solver(run *r)
