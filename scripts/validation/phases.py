@@ -37,7 +37,7 @@ def static_two_fluid(o, refs):
 
 def rayleigh_taylor(o, refs):
     errors = {t: max(abs(o.at("ytop", t) - top), abs(o.at("ybot", t) - bottom)) for t, top, bottom in TIPS}
-    figures = [fact(f"tips at {t} s", o.at(name, t), "{:.3f} m") for t, _, _ in TIPS for name in ("ytop", "ybot")]
+    figures = [difference(f"{name} at {tip[0]} s", o.at(name, tip[0]), tip[i], "{:.3f} m", "{:+.3f} m") for tip in TIPS for i, name in ((1, "ytop"), (2, "ybot"))]
     figures += [bounded("tips, largest error at 1, 2, 3 s", max(errors[t] for t in (1, 2, 3)), "{:.3f} m", 0.015, 0.03),
                 bounded("tips, largest error at 4, 5 s", max(errors[4], errors[5]), "{:.3f} m", 0.03, 0.06)]
     ref = refs.series(*TIPS_SERIES)
@@ -93,7 +93,7 @@ def droplet_oscillation(o, refs):
     omega = sqrt(6 * SIGMA / ((WATER + AIR) * drop_radius(o) ** 3))
     if o.t[-1] < 2 * pi / omega * 1.5:
         return [absent("period")]
-    w, _, growth = m.growing_wave(o.t, o["rx"], omega, ())
+    w, growth = m.damped_wave(o.t, o["rx"], omega)
     period = 2 * pi / omega
     viscous = -4 * 1e-6 / drop_radius(o) ** 2
     return [relative("period", 1e3 * 2 * pi / w, 1e3 * period, "{:.2f} ms", 3, 3),
@@ -106,7 +106,7 @@ def air_cushion(o, refs):
     omega, shorter = sqrt(stiffness / (WATER * SLUG * CUSHION)), WATER * G * SLUG / stiffness
     if o.t[-1] < 2 * pi / omega * 4:
         return [absent("frequency")]
-    w, _, growth = m.growing_wave(o.t, o["x_slug"], omega, ())
+    w, growth = m.damped_wave(o.t, o["x_slug"], omega)
     whole = int(o.t[-1] * omega / (2 * pi)) * 2 * pi / omega  # periods, so that the mean is that of the rest
     return [relative("frequency", w / (2 * pi), omega / (2 * pi), "{:.3f} Hz", 2, 5),
             relative("dH/H", -o["x_slug"][o.t <= whole].mean() / CUSHION, shorter, "{:.5f}", 10, 10),
