@@ -154,8 +154,9 @@ def rayleigh_taylor(outcomes, refs):
     for i, (name, text) in enumerate((("ytop", "highest"), ("ybot", "lowest")), 1):
         panel = overlay(f"{text} point of the interface", "m", outcomes, name)
         if ref is not None:
-            panel.reference("volume of fluid", ref[0], ref[i])
-        panels.append(marks(panel, "volume of fluid", [(tip[0], tip[i]) for tip in ph.TIPS]))
+            panels.append(panel.reference("volume of fluid", ref[0], ref[i]))
+        else:
+            panels.append(marks(panel, "volume of fluid", [(tip[0], tip[i]) for tip in ph.TIPS]))
     yield "rayleigh_taylor.svg", panels
 
 
