@@ -19,16 +19,12 @@ typedef struct bins {
 static void build(run *r, double *built)
 {
     const double lo[] = {0, 0, 0}, hi[] = {COLUMN_LENGTH, COLUMN_HEIGHT, BREADTH};
-    mps_phase water;
     mps_tank tank;
-    mps_phase_init(&water, sizeof water);
-    water.density = DENSITY;
-    water.viscosity = DENSITY * KINEMATIC_VISCOSITY;
     mps_tank_init(&tank, sizeof tank);
     tank.size[0] = LENGTH;
     tank.size[1] = HEIGHT;
     tank.size[2] = BREADTH;
-    run_check(r, mps_sim_set_phase(r->sim, 0, &water), "water");
+    run_phase(r, 0, DENSITY, DENSITY * KINEMATIC_VISCOSITY);
     run_check(r, mps_geometry_tank(r->sim, &tank, built), "tank");
     run_check(r, mps_geometry_fill_box(r->sim, 0, lo, hi, NULL), "water");
 }

@@ -1,57 +1,41 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Breaking wave of Wen, Zhao & Wan 2022 section 5.3 (experiment of Rafiee et al. 2011): a tank 1.3 x 0.9 m, 0.18 m of water,
- * moved by x = a sin(2 pi f t). */
-#include "common/run.h"
+/* Breaking wave of Wen, Zhao & Wan 2022 section 5.3 (experiment of Rafiee et al. 2011): a tank 1.3 x 0.9 m, in 3-D 0.1 m wide,
+ * 0.18 m of water, moved by x = a sin(2 pi f t), f = 0.496 Hz. */
+#include "common/cavity.h"
+#include "common/tank.h"
 #include <math.h>
 
-static const double WIDTH = 1.3, HEIGHT = 0.9, DEPTH = 0.18, AMPLITUDE = 0.1, FREQUENCY = 0.496;
+static const double FREQUENCY = 0.496;
+static tank_case tank = {.size = {1.3, 0.9, 0.1}, .depth = 0.18, .motion = {.dof = MPS_SURGE, .amplitude = 0.1}};
 
-static void build(run *r)
-{
-    const mps_harmonic motion = {.dof = MPS_SURGE, .amplitude = r->options.amplitude, .omega = 2 * acos(-1.0) * FREQUENCY};
-    const double lo[] = {0, 0}, hi[] = {WIDTH, DEPTH};
-    mps_tank tank;
-    mps_tank_init(&tank, sizeof tank);
-    tank.size[0] = WIDTH;
-    tank.size[1] = HEIGHT;
-    run_check(r, mps_geometry_tank(r->sim, &tank, NULL), "tank");
-    run_check(r, mps_geometry_fill_box(r->sim, 0, lo, hi, NULL), "water");
-    run_check(r, mps_motion_set_harmonics(r->sim, 1, &motion), "motion");
-}
-
-/* The models have no air: what the liquid leaves of the tank, so a change is an error of the liquid's volume. */
+/* The cavity under the plunging crest: a model with air keeps it, one without lets it fall in. */
 static double air_volume(void *user, mps_sim *sim)
 {
-    mps_energy e;
-    (void)user;
-    mps_energy_init(&e, sizeof e);
-    return mps_energy_get(sim, &e) == MPS_OK ? WIDTH * HEIGHT - e.volume : NAN;
+    return cavities_volume(user, sim);
 }
 
-static void add_columns(run *r)
+static void add_columns(run *r, const tank_case *c)
 {
-    double level = run_level(r), dp = r->options.dp;
-    run_wall_pressure(r, "P1", WIDTH, 0.165, 0);
-    run_wall_pressure(r, "P2", WIDTH, 0.180, 0);
-    run_wall_pressure(r, "P3", WIDTH, 0.195, 0);
-    run_gauge(r, "eta_left", dp, 0, level);
-    run_gauge(r, "eta_right", WIDTH - dp, 0, level);
-    run_value(r, "air_volume", "m2", air_volume, NULL);
+    static const char *const name[] = {"P1", "P2", "P3"};
+    static cavities below;
+    double level = run_level(r), dp = r->options.dp, middle = c->size[2] / 2;
+    for (int i = 0; i < 3; i++) run_wall_pressure(r, name[i], c->size[0], 0.165 + 0.015 * i, middle);
+    run_gauge(r, "eta_left", dp, middle, level);
+    run_gauge(r, "eta_right", c->size[0] - dp, middle, level);
+    if (!cavities_create(&below, r->sim, c->size)) run_check(r, MPS_E_NOMEM, "cavities");
+    run_value(r, "air_volume", r->options.dim == 3 ? "m3" : "m2", air_volume, &below);
 }
 
 int main(int argc, char **argv)
 {
     cli_options o;
-    run r;
     cli_defaults(&o, "sloshing_breaking", "breaking wave of Wen, Zhao & Wan 2022, section 5.3: x = 0.1 m sin(2 pi 0.496/s t)");
     o.dp = 0.01;
     o.dp_min = 0.0005;
     o.dp_max = 0.03;
     o.t_end = 4.5;
-    o.amplitude = AMPLITUDE;
-    cli_parse(&o, argc, argv);
-    run_open(&r, &o);
-    build(&r);
-    add_columns(&r);
-    return run_finish(&r);
+    o.has_dim = true;
+    cli_own(&o, (cli_option){"--width", "M", "of the tank in 3-D [m]", TYPE_REAL, &tank.size[2], 0.01, 2, false});
+    tank.motion.omega = 2 * acos(-1.0) * FREQUENCY;
+    return tank_main(&o, &tank, add_columns, argc, argv);
 }

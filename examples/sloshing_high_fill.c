@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Half-full tank of Wen, Zhao & Wan 2022 section 5.1: 0.6 x 0.6 m, 0.3 m of water, moved by x = -a (1 - cos wt). */
-#include "common/run.h"
+#include "common/tank.h"
 
-static const double SIZE = 0.6, DEPTH = 0.3, AMPLITUDE = 0.005, OMEGA = 6.85;
+static const tank_case tank = {
+    .size = {0.6, 0.6}, .depth = 0.3, .motion = {.dof = MPS_SURGE, .form = 1, .amplitude = 0.005, .omega = 6.85}};
 
 /* Fully nonlinear potential flow: crests of the gauge above still level, and peaks of P1, two from each hump after 3 s. */
 static const double CREST_T[] = {1.16, 2.08, 2.99, 3.91, 4.85};
@@ -10,23 +11,11 @@ static const double CREST[] = {0.0244, 0.0456, 0.0700, 0.0982, 0.1303};
 static const double PEAK_T[] = {0.58, 1.50, 2.40, 3.30, 3.60, 4.21, 4.55};
 static const double PEAK[] = {2812, 2869, 2925, 2991, 2916, 3071, 3001};
 
-static void build(run *r)
-{
-    const mps_harmonic motion = {.dof = MPS_SURGE, .form = 1, .amplitude = r->options.amplitude, .omega = OMEGA};
-    const double lo[] = {0, 0}, hi[] = {SIZE, DEPTH};
-    mps_tank tank;
-    mps_tank_init(&tank, sizeof tank);
-    tank.size[0] = tank.size[1] = SIZE;
-    run_check(r, mps_geometry_tank(r->sim, &tank, NULL), "tank");
-    run_check(r, mps_geometry_fill_box(r->sim, 0, lo, hi, NULL), "water");
-    run_check(r, mps_motion_set_harmonics(r->sim, 1, &motion), "motion");
-}
-
-static void add_columns(run *r)
+static void add_columns(run *r, const tank_case *c)
 {
     run_wall_pressure(r, "P1", 0, 0.02, 0);
-    run_gauge(r, "eta_right", SIZE - 0.02, 0, run_level(r));
-    if (r->options.amplitude != AMPLITUDE) return; /* the marks belong to the paper's */
+    run_gauge(r, "eta_right", c->size[0] - 0.02, 0, run_level(r));
+    if (r->options.amplitude != c->motion.amplitude) return; /* the marks belong to the paper's */
     run_mark_add(r, "peaks of P1, FNPF", "Pa", 7, PEAK_T, PEAK);
     run_mark_add(r, "crests, FNPF", "m", 5, CREST_T, CREST);
 }
@@ -34,16 +23,10 @@ static void add_columns(run *r)
 int main(int argc, char **argv)
 {
     cli_options o;
-    run r;
     cli_defaults(&o, "sloshing_high_fill", "half-full tank of Wen, Zhao & Wan 2022, section 5.1: x = -0.005 m (1 - cos(6.85/s t))");
     o.dp = 0.01;
     o.dp_min = 0.0005;
     o.dp_max = 0.05;
     o.t_end = 5;
-    o.amplitude = AMPLITUDE;
-    cli_parse(&o, argc, argv);
-    run_open(&r, &o);
-    build(&r);
-    add_columns(&r);
-    return run_finish(&r);
+    return tank_main(&o, &tank, add_columns, argc, argv);
 }

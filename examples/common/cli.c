@@ -9,23 +9,12 @@
 
 enum { CLI_THREADS_MAX = 1024, CLI_FRAMES_MAX = 100000 };
 
-typedef enum cli_type { TYPE_TEXT, TYPE_REAL, TYPE_INT, TYPE_LIST, TYPE_TIMES, TYPE_FLAG, TYPE_HELP, TYPE_VERSION } cli_type;
-
-/* One option; `value` points into cli_options. Reals are checked against min < value <= max. */
-typedef struct cli_option {
-    const char *name, *argument, *help;
-    cli_type type;
-    void *value;
-    double min, max;
-    bool flag; /* what a TYPE_FLAG sets */
-} cli_option;
-
-enum { CLI_OPTIONS = 24 };
+enum { CLI_OPTIONS = 32 };
 
 static int cli_table(cli_options *o, cli_option *table)
 {
     int n = 0;
-    table[n++] = (cli_option){"--model", "NAME", "imps or imps.paper", TYPE_TEXT, &o->model, 0, 0, false};
+    table[n++] = (cli_option){"--model", "NAME", "imps, mmps, imps.paper or mmps.paper", TYPE_TEXT, &o->model, 0, 0, false};
     table[n++] = (cli_option){"--use", "SLOT.VARIANT", "exchange a model of the preset; may be repeated", TYPE_LIST, &o->use, 0, 0, false};
     table[n++] = (cli_option){"--set", "SLOT.KEY=X", "change a number of a model; may be repeated", TYPE_LIST, &o->set, 0, 0, false};
     table[n++] = (cli_option){"--re-far", "X", "far radius [dp]; without it the preset's", TYPE_REAL, &o->re_far, 2.1, 10, false};
@@ -48,11 +37,25 @@ static int cli_table(cli_options *o, cli_option *table)
         table[n++] = (cli_option){"--layers", "N", "columns of the baffle; 0: as it is thick", TYPE_INT, &o->layers, 0, 100, false};
     if (o->has_stl) table[n++] = (cli_option){"--stl", "FILE", "a closed tank of your own, instead", TYPE_TEXT, &o->stl, 0, 0, false};
     if (o->has_stl) table[n++] = (cli_option){"--stl-scale", "M", "[m] a unit of the file", TYPE_REAL, &o->stl_scale, 0, 1e6, false};
+    if (o->has_sigma)
+        table[n++] = (cli_option){"--sigma", "N/M", "surface tension [N/m], of models that have it", TYPE_REAL, &o->sigma, -1, 100, false};
+    for (int i = 0; i < o->owns; i++) table[n++] = o->own[i];
     table[n++] = (cli_option){"--no-report", NULL, "no report.html", TYPE_FLAG, &o->report, 0, 0, false};
     table[n++] = (cli_option){"--quiet", NULL, "no progress", TYPE_FLAG, &o->quiet, 0, 0, true};
     table[n++] = (cli_option){"--version", NULL, "version of the library", TYPE_VERSION, NULL, 0, 0, false};
     table[n++] = (cli_option){"--help", NULL, "this text", TYPE_HELP, NULL, 0, 0, false};
     return n;
+}
+
+/* Word `index` of "one|two"; its length, or 0 behind the last. */
+static int cli_word(const char *words, int32_t index, const char **word)
+{
+    for (; index > 0 && *words; index--) {
+        words += strcspn(words, "|");
+        words += *words == '|';
+    }
+    *word = words;
+    return (int)strcspn(words, "|");
 }
 
 /* The default of an option as it is shown in --help. */
@@ -61,7 +64,12 @@ static void cli_default_text(const cli_option *e, char *text, size_t size)
     text[0] = '\0';
     if (e->type == TYPE_TEXT && *(const char **)e->value) snprintf(text, size, " (%s)", *(const char **)e->value);
     if (e->type == TYPE_INT) snprintf(text, size, " (%d)", *(int32_t *)e->value);
-    if (e->type == TYPE_REAL && *(double *)e->value > 0) snprintf(text, size, " (%g)", *(double *)e->value);
+    if (e->type == TYPE_REAL && (*(double *)e->value > 0 || e->min < 0)) snprintf(text, size, " (%g)", *(double *)e->value);
+    if (e->type == TYPE_CHOICE) {
+        const char *word;
+        int length = cli_word(e->argument, *(int32_t *)e->value, &word);
+        snprintf(text, size, " (%.*s)", length, word);
+    }
 }
 
 static void cli_help(const cli_options *o, const cli_option *table, int n)
@@ -94,22 +102,36 @@ static void cli_refuse_value(const cli_options *o, const cli_option *e, const ch
     else if (e->min > 0)
         snprintf(allowed, sizeof allowed, "a number, %g to %g", e->min, e->max);
     else
-        snprintf(allowed, sizeof allowed, "a number greater than 0, at most %g", e->max);
+        snprintf(allowed, sizeof allowed, "a number %s 0, at most %g", e->min < 0 ? "not less than" : "greater than", e->max);
     fprintf(stderr, "%s: %s %s: must be %s\n", o->program, e->name, text, allowed);
     exit(CLI_USAGE);
 }
 
-static void cli_set_number(const cli_options *o, const cli_option *e, const char *text)
+static void cli_set_number(cli_options *o, const cli_option *e, const char *text)
 {
     char *end;
     double value = strtod(text, &end);
-    bool lower = e->type == TYPE_INT || e->min > 0 ? value >= e->min : value > 0;
+    bool lower = e->type == TYPE_INT || e->min > 0 ? value >= e->min : e->min < 0 ? value >= 0 : value > 0;
     bool whole = e->type != TYPE_INT || value == floor(value);
     if (end == text || *end != '\0' || !isfinite(value) || !lower || value > e->max || !whole) cli_refuse_value(o, e, text);
     if (e->type == TYPE_INT)
         *(int32_t *)e->value = (int32_t)value;
     else
         *(double *)e->value = value;
+    o->sigma_given = o->sigma_given || e->value == &o->sigma;
+}
+
+static void cli_set_choice(const cli_options *o, const cli_option *e, const char *text)
+{
+    const char *word;
+    int32_t index = 0;
+    for (int length; (length = cli_word(e->argument, index, &word)) > 0; index++) {
+        if ((int)strlen(text) != length || strncmp(text, word, (size_t)length) != 0) continue;
+        *(int32_t *)e->value = index;
+        return;
+    }
+    fprintf(stderr, "%s: %s %s: must be one of %s\n", o->program, e->name, text, e->argument);
+    exit(CLI_USAGE);
 }
 
 /* Increasing times, e.g. "2.2,2.3". */
@@ -150,6 +172,8 @@ static void cli_set(cli_options *o, const cli_option *e, const char *text)
         cli_add_text(o, e, text);
     else if (e->type == TYPE_TIMES)
         cli_set_times(o, e, text);
+    else if (e->type == TYPE_CHOICE)
+        cli_set_choice(o, e, text);
     else
         cli_set_number(o, e, text);
 }
@@ -190,10 +214,17 @@ void cli_defaults(cli_options *o, const char *program, const char *about)
                        .t_max = 1e4,
                        .probe_dt = 1e-3,
                        .stl_scale = 1,
+                       .gravity = 9.81,
+                       .sigma = 7.27e-2, /* water and air */
                        .threads = 2,
                        .frames = 50,
                        .dim = 2,
                        .report = true};
+}
+
+void cli_own(cli_options *o, cli_option option)
+{
+    if (o->owns < CLI_OWN) o->own[o->owns++] = option;
 }
 
 void cli_parse(cli_options *o, int argc, char **argv)

@@ -9,7 +9,19 @@
 /* Exit codes of every driver. */
 enum { CLI_OK = 0, CLI_FAILED = 1, CLI_USAGE = 2, CLI_DIVERGED = 3, CLI_INTERRUPTED = 130 };
 
-enum { CLI_LIST = 32, CLI_TIMES = 24 };
+enum { CLI_LIST = 32, CLI_TIMES = 24, CLI_OWN = 4 };
+
+/* How the text of an option is read. TYPE_CHOICE: one of the words of `argument`, "one|two", into an int32_t from 0. */
+typedef enum cli_type { TYPE_TEXT, TYPE_REAL, TYPE_INT, TYPE_CHOICE, TYPE_LIST, TYPE_TIMES, TYPE_FLAG, TYPE_HELP, TYPE_VERSION } cli_type;
+
+/* One option. Reals are checked against min <= value <= max, with min = 0 against 0 < value; min < 0 stands for 0 <= value. */
+typedef struct cli_option {
+    const char *name, *argument, *help;
+    cli_type type;
+    void *value;
+    double min, max;
+    bool flag; /* what a TYPE_FLAG sets */
+} cli_option;
 
 /* The texts of an option that may be given several times. */
 typedef struct cli_list {
@@ -43,11 +55,21 @@ typedef struct cli_options {
     const char *stl;             /* NULL, or a file with the tank; offered if has_stl */
     double stl_scale;            /* [m] a unit of it */
     bool has_stl;
+    double gravity;     /* downwards [m/s2] */
+    double sigma;       /* surface tension [N/m], for models that have it */
+    bool has_sigma;     /* the driver offers --sigma */
+    bool sigma_given;   /* by the user */
+    bool no_gas;        /* both phases are liquids: the model of the gas is switched off */
+    const char *prefer; /* NULL, or "slot.key=value", set before --set where the model has it */
+    int owns;           /* options of this driver alone */
+    cli_option own[CLI_OWN];
     bool report, quiet;
 } cli_options;
 
 /* Sensible defaults for everything but program, about, dp and t_end. */
 void cli_defaults(cli_options *o, const char *program, const char *about);
+/* Offer an option of this driver alone; its default is what `value` holds. */
+void cli_own(cli_options *o, cli_option option);
 /* Parse; prints --help or what is wrong and exits. */
 void cli_parse(cli_options *o, int argc, char **argv);
 

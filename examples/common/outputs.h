@@ -10,7 +10,17 @@ enum { STEP_T, STEP_DT, STEP_CFL, STEP_ITERATIONS, STEP_RESIDUAL, STEP_DIVERGENC
 #define STEP_HEADER "t[s],dt[s],cfl,ppe_iterations,ppe_residual,ppe_divergence,max_speed[m/s],lost"
 
 /* Places of the common columns in probes.csv, behind the driver's own. */
-enum { COLUMN_KE = 1, COLUMN_TANK, COLUMN_PE, COLUMN_WALL_WORK, COLUMN_VISCOUS, COLUMN_COLLISION, COLUMN_SHIFT, COLUMN_NUMERICAL };
+enum {
+    COLUMN_KE = 1,
+    COLUMN_TANK,
+    COLUMN_PE,
+    COLUMN_WALL_WORK,
+    COLUMN_VISCOUS,
+    COLUMN_COLLISION,
+    COLUMN_SHIFT,
+    COLUMN_NUMERICAL,
+    COLUMN_VOLUME
+};
 
 /* summary.json. @return false with a message on stderr */
 bool summary_save(const run *r);

@@ -25,13 +25,15 @@ typedef struct scene {
     int64_t n;
     const double *x, *p;
     const int32_t *kind, *phase, *plate;
-    double dp, lo[3], hi[3], scale, p_max, t;
+    double dp, lo[3], hi[3], scale, p_min, p_max, t;
+    int32_t phases; /* the highest number among the fluid, plus one */
 } scene;
 
-/* Five colours of equal steps a phase: dark to light, so that the maps read in grey too. */
+/* Five colours of equal steps a phase: dark to light, so that the maps read in grey too. Phase 1, mostly the gas about the liquid, is the
+ * other way round: pale where the liquid beside it is dark. */
 static const colour MAP[MAPS][5] = {
     {{0.07, 0.13, 0.42}, {0.10, 0.40, 0.68}, {0.22, 0.69, 0.66}, {0.68, 0.86, 0.38}, {0.99, 0.93, 0.25}},
-    {{0.45, 0.05, 0.10}, {0.75, 0.20, 0.12}, {0.92, 0.45, 0.20}, {0.98, 0.70, 0.40}, {1.00, 0.90, 0.70}},
+    {{0.90, 0.87, 0.82}, {0.92, 0.80, 0.64}, {0.90, 0.66, 0.44}, {0.82, 0.46, 0.27}, {0.62, 0.25, 0.14}},
     {{0.25, 0.05, 0.40}, {0.50, 0.15, 0.58}, {0.74, 0.33, 0.66}, {0.90, 0.56, 0.76}, {0.99, 0.82, 0.90}},
 };
 
@@ -98,19 +100,26 @@ static double round_up(double value)
     return ceil(value / power) * power;
 }
 
-/* Top of the scale: the 99 % quantile of the fluid's pressures, so that one peak does not flatten the rest. */
-static double scene_p_max(const scene *s)
+/* The scale: 0 to the 99 % quantile of the fluid's pressures, so that one peak does not flatten the rest. In closed tanks full of fluid the
+ * pressure may be negative all over: several phases have a lower end as well. */
+static void scene_scale(scene *s)
 {
-    double *p = malloc((size_t)s->n * sizeof *p), top = 0;
+    double *p = malloc((size_t)s->n * sizeof *p), top = 0, bottom = 0;
     int64_t n = 0;
-    for (int64_t i = 0; p && i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID) p[n++] = s->p[i];
+    for (int64_t i = 0; i < s->n; i++) {
+        if (s->kind[i] != MPS_FLUID) continue;
+        if (s->phase[i] >= s->phases) s->phases = s->phase[i] + 1;
+        if (p) p[n++] = s->p[i];
+    }
     if (n > 0) {
         qsort(p, (size_t)n, sizeof *p, compare_doubles);
         top = p[(n - 1) * 99 / 100];
+        if (s->phases > 1) bottom = p[(n - 1) / 100];
     }
     free(p);
-    return top > 0 ? round_up(top) : 1;
+    s->p_max = top > 0 ? round_up(top) : 0;
+    s->p_min = bottom < -0.05 * s->p_max ? -round_up(-bottom) : 0;
+    if (s->p_max == s->p_min) s->p_max = s->p_min + 1;
 }
 
 /* The window: all walls with a little margin, or all fluid when there is no wall. */
@@ -145,7 +154,7 @@ static void draw_particle(image *m, const scene *s, int64_t i)
 {
     colour c = {0.55, 0.55, 0.58};
     if (s->kind[i] == MPS_DUMMY) c = (colour){0.84, 0.84, 0.86};
-    if (s->kind[i] == MPS_FLUID) c = map_colour(s->phase[i], s->p[i] / s->p_max);
+    if (s->kind[i] == MPS_FLUID) c = map_colour(s->phase[i], (s->p[i] - s->p_min) / (s->p_max - s->p_min));
     double x = (s->x[i * s->dim] - s->lo[0]) * s->scale, y = (s->hi[1] - s->x[i * s->dim + 1]) * s->scale + HEAD;
     image_disc(m, x, y, 0.5 * s->dp * s->scale, c);
 }
@@ -181,16 +190,31 @@ static bool draw_particles(image *m, const scene *s)
     return true;
 }
 
-static void draw_bar(image *m, const scene *s)
+/* Of each phase one, with its number below if there are several. */
+static void draw_bars(image *m, const scene *s, int x, int top, int height)
 {
-    int x = m->width - BAR + 12, top = HEAD + 12, height = m->height - HEAD - 24;
-    char text[64];
-    for (int j = 0; j < height; j++) image_box(m, x, top + j, 20, 1, map_colour(0, 1 - (double)j / height));
-    for (int k = 0; k <= 4; k++) {
-        snprintf(text, sizeof text, "%.0f", s->p_max * (4 - k) / 4);
-        image_text(m, x + 26, top + height * k / 4 - FONT_HEIGHT, text);
+    int count = s->phases > 1 ? s->phases < MAPS ? s->phases : MAPS : 1, width = count > 1 ? FONT_SCALE * FONT_WIDTH + 2 : 20;
+    char text[16];
+    for (int b = 0; b < count; b++) {
+        for (int j = 0; j < height; j++) image_box(m, x + b * width, top + j, width, 1, map_colour(b, 1 - (double)j / height));
+        snprintf(text, sizeof text, "%d", b);
+        if (count > 1) image_text(m, x + b * width + 1, top + height + 6, text);
     }
-    snprintf(text, sizeof text, "t = %.3f s   pressure [Pa]%s", s->t, s->dim == 3 ? "   middle slice" : "");
+}
+
+static void draw_scale(image *m, const scene *s)
+{
+    int x = m->width - BAR + 12, top = HEAD + 12, height = m->height - HEAD - (s->phases > 1 ? 40 : 24);
+    int right = x + (s->phases > MAPS - 1 ? 42 : s->phases > 1 ? 30 : 26);
+    char text[64];
+    draw_bars(m, s, x, top, height);
+    for (int k = 0; k <= 4; k++) {
+        const double p = s->p_max + (s->p_min - s->p_max) * k / 4;
+        snprintf(text, sizeof text, fmax(s->p_max, -s->p_min) < 10 ? "%.2f" : "%.0f", p);
+        image_text(m, right, top + height * k / 4 - FONT_HEIGHT, text);
+    }
+    snprintf(text, sizeof text, "t = %.3f s   pressure [Pa]%s%s", s->t, s->phases > 1 ? " by phase" : "",
+             s->dim == 3 ? "   middle slice" : "");
     image_text(m, 12, 10, text);
 }
 
@@ -207,9 +231,9 @@ static bool picture_draw(scene *s, const char *path)
 {
     image m = {0};
     scene_window(s);
-    s->p_max = scene_p_max(s);
+    scene_scale(s);
     bool done = image_create(&m, s) && draw_particles(&m, s);
-    if (done) draw_bar(&m, s);
+    if (done) draw_scale(&m, s);
     if (!done) fprintf(stderr, "%s: out of memory\n", path);
     done = done && image_save(&m, path);
     free(m.pixel);

@@ -48,8 +48,8 @@ static void run_refuse(run *r, const char *option, const char *value, const char
     exit(CLI_USAGE);
 }
 
-/* "slot.key=value"; the slot may be a full name, so the key begins behind the last dot. */
-static void run_set_model(run *r, const char *text)
+/* "slot.key=value"; the slot may be a full name, so the key begins behind the last dot. @return the library's answer */
+static mps_status run_set_model(run *r, const char *text)
 {
     char slot[96], *key, *end;
     const char *equals = strchr(text, '=');
@@ -58,17 +58,39 @@ static void run_set_model(run *r, const char *text)
     double value = equals ? strtod(equals + 1, &end) : 0;
     if (!equals || !key || end == equals + 1 || *end) run_refuse(r, "--set", text, "must be slot.key=number", "");
     *key++ = '\0';
-    if (mps_model_set(r->sim, slot, key, value) != MPS_OK) run_refuse(r, "--set", text, mps_sim_error(r->sim), "");
+    return mps_model_set(r->sim, slot, key, value);
+}
+
+static bool run_has_model(const run *r, const char *slot)
+{
+    const char *name;
+    for (int32_t i = 0; (name = mps_model_name(r->sim, i)) != NULL; i++)
+        if (strncmp(name, slot, strlen(slot)) == 0 && name[strlen(slot)] == '.') return true;
+    return false;
+}
+
+/* The case's surface tension, which --set may change again. */
+static void run_set_tension(run *r)
+{
+    const cli_options *o = &r->options;
+    if (run_has_model(r, "tension"))
+        run_check(r, mps_model_set(r->sim, "tension", "sigma", o->sigma), "surface tension");
+    else if (o->sigma_given)
+        run_refuse(r, "--sigma with --model", o->model, "has no surface tension", "; --use tension.csf adds it");
 }
 
 static void run_use_models(run *r)
 {
     const cli_options *o = &r->options;
     if (mps_sim_use_preset(r->sim, o->model) != MPS_OK)
-        run_refuse(r, "--model", o->model, mps_sim_error(r->sim), "; there are imps, imps.paper");
+        run_refuse(r, "--model", o->model, mps_sim_error(r->sim), "; there are imps, mmps, imps.paper, mmps.paper");
+    if (o->no_gas && run_has_model(r, "gas")) run_check(r, mps_model_remove(r->sim, "gas"), "models");
     for (int i = 0; i < o->use.count; i++)
         if (mps_model_use(r->sim, o->use.text[i]) != MPS_OK) run_refuse(r, "--use", o->use.text[i], mps_sim_error(r->sim), "");
-    for (int i = 0; i < o->set.count; i++) run_set_model(r, o->set.text[i]);
+    run_set_tension(r);
+    if (o->prefer) run_set_model(r, o->prefer);
+    for (int i = 0; i < o->set.count; i++)
+        if (run_set_model(r, o->set.text[i]) != MPS_OK) run_refuse(r, "--set", o->set.text[i], mps_sim_error(r->sim), "");
 }
 
 static void run_use_solver(run *r)
@@ -83,13 +105,20 @@ static void run_use_solver(run *r)
     }
 }
 
+/* To the letter of the papers. */
+static bool run_is_paper(const cli_options *o)
+{
+    size_t length = strlen(o->model);
+    return length > 6 && strcmp(o->model + length - 6, ".paper") == 0;
+}
+
 static void run_set_time(run *r)
 {
     mps_time_control control;
     mps_time_control_init(&control, sizeof control);
     control.dt = r->options.dt;
     control.cfl = r->options.cfl;
-    if (strcmp(r->options.model, "imps.paper") == 0) control.gravity = 0.03; /* W22's steps are 0.01; at 0.06 it fails even sooner */
+    if (run_is_paper(&r->options)) control.gravity = 0.03; /* W22's steps are 0.01; at 0.06 it fails even sooner */
     run_check(r, mps_sim_set_time_control(r->sim, &control), "time step");
 }
 
@@ -103,7 +132,8 @@ void run_open(run *r, const cli_options *o)
     config.dim = o->dim;
     config.dp = o->dp;
     config.threads = o->threads;
-    if (strcmp(o->model, "imps.paper") == 0 && o->dim == 2) config.re_far = 4.1; /* W22; in 3-D no paper says */
+    config.gravity[1] = -o->gravity;
+    if (run_is_paper(o) && o->dim == 2) config.re_far = 4.1; /* W22; in 3-D no paper says */
     if (o->re_far > 0) config.re_far = o->re_far;
     config.log = run_log;
     config.log_user = r;
@@ -127,15 +157,29 @@ void run_check(run *r, mps_status status, const char *what)
     exit(status == MPS_E_ARG ? CLI_USAGE : CLI_FAILED); /* the geometry is fixed: what does not fit is an option, mostly --dp */
 }
 
+bool run_has_gas(const run *r)
+{
+    return strncmp(r->options.model, "mmps", 4) == 0;
+}
+
+void run_phase(run *r, int32_t index, double density, double viscosity)
+{
+    mps_phase phase;
+    mps_phase_init(&phase, sizeof phase);
+    phase.density = density;
+    phase.viscosity = viscosity;
+    run_check(r, mps_sim_set_phase(r->sim, index, &phase), "phase");
+}
+
 double run_level(run *r)
 {
-    const int32_t *kind;
+    const int32_t *kind, *phase;
     mps_lease x = {0};
     double level = -INFINITY;
-    run_check(r, mps_particles_tags(r->sim, NULL, &kind, NULL, NULL), "still level");
+    run_check(r, mps_particles_tags(r->sim, NULL, &kind, &phase, NULL), "still level");
     run_check(r, mps_lease_begin(r->sim, "position", MPS_READ, &x), "still level");
     for (int64_t i = 0; i < x.count; i++)
-        if (kind[i] == MPS_FLUID) level = fmax(level, x.data[i * x.stride + 1]);
+        if (kind[i] == MPS_FLUID && phase[i] == 0) level = fmax(level, x.data[i * x.stride + 1]);
     run_check(r, mps_lease_end(r->sim, &x), "still level");
     return level;
 }
@@ -200,6 +244,11 @@ void run_value(run *r, const char *name, const char *unit, run_value_fn value, v
     run_column *c = run_column_add(r, name, unit);
     c->value = value;
     c->user = user;
+}
+
+void run_figure_add(run *r, const char *name, run_value_fn value, void *user)
+{
+    if (r->figures < RUN_FIGURES) r->figure[r->figures++] = (run_figure){.name = name, .value = value, .user = user};
 }
 
 void run_mark_add(run *r, const char *label, const char *unit, int count, const double *t, const double *value)

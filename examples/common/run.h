@@ -8,7 +8,7 @@
 #include "table.h"
 #include <mps/mps.h>
 
-enum { RUN_COLUMNS = 32, RUN_COMMON = 8, RUN_MARKS = 4, RUN_MARK_POINTS = 16, RUN_ERROR = 640 };
+enum { RUN_COLUMNS = 32, RUN_COMMON = 9, RUN_MARKS = 4, RUN_FIGURES = 4, RUN_MARK_POINTS = 16, RUN_ERROR = 640 };
 
 /* A quantity of a driver's own. */
 typedef double (*run_value_fn)(void *user, mps_sim *sim);
@@ -30,6 +30,14 @@ typedef struct run_mark {
     double t[RUN_MARK_POINTS], value[RUN_MARK_POINTS];
 } run_mark;
 
+/* A number of a driver's own for summary.json, measured after the last step. */
+typedef struct run_figure {
+    const char *name;
+    run_value_fn value;
+    void *user;
+    double measured;
+} run_figure;
+
 /* Sums over the run, for summary.json and the report. */
 typedef struct run_totals {
     int64_t fluid, wall, dummy, steps, not_converged, lost;
@@ -42,9 +50,10 @@ typedef struct run_totals {
 typedef struct run {
     cli_options options;
     mps_sim *sim;
-    int columns, own_columns, marks; /* own: those of the driver, before the common ones */
+    int columns, own_columns, marks, figures; /* own: those of the driver, before the common ones */
     run_column column[RUN_COLUMNS];
     run_mark mark[RUN_MARKS];
+    run_figure figure[RUN_FIGURES];
     table probes, steps;
     mps_frames *frames;
     int64_t frame; /* next frame */
@@ -61,7 +70,11 @@ typedef struct run {
 void run_open(run *r, const cli_options *o);
 /* Exit with a message unless a call of the library succeeded; for building the case. */
 void run_check(run *r, mps_status status, const char *what);
-/* Height of the highest fluid particle above the lab's origin: the still level as placed, layers * dp [m]. */
+/* The model is one of several phases: what the liquid leaves of a tank is gas. */
+bool run_has_gas(const run *r);
+/* Define a phase: 0 is the liquid, 1 what is around it [kg/m3], [Pa s]. */
+void run_phase(run *r, int32_t index, double density, double viscosity);
+/* Height of the highest particle of phase 0 above the lab's origin: the still level as placed, layers * dp [m]. */
 double run_level(run *r);
 
 /* Columns, in the order of the file. Places are in the tank's frame. */
@@ -72,6 +85,8 @@ void run_gauge(run *r, const char *name, double x, double z, double level);
 /* A gauge that begins above the floor, e.g. on a baffle. @param foot [3] [m] */
 void run_gauge_from(run *r, const char *name, const double *foot, double level);
 void run_value(run *r, const char *name, const char *unit, run_value_fn value, void *user);
+/* A number for summary.json. */
+void run_figure_add(run *r, const char *name, run_value_fn value, void *user);
 void run_mark_add(run *r, const char *label, const char *unit, int count, const double *t, const double *value);
 
 /* Step to the end with all outputs, destroy the simulation. @return exit code of the program */

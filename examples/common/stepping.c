@@ -38,8 +38,8 @@ static bool run_note(run *r, mps_status status, const char *what)
 
 /* ---- rows ------------------------------------------------------------------------------------------------------ */
 
-/* Names of the columns every driver has; those of the energies follow the order of run_energies(). */
-static const char *const ENERGIES[RUN_COMMON - 2] = {"pe", "wall_work", "viscous", "collision", "shift", "numerical"};
+/* Names of the columns every driver has, in the order of run_energies(); behind those of the energies comes volume_error. */
+static const char *const ENERGIES[] = {"pe", "wall_work", "viscous", "collision", "shift", "numerical"};
 
 static void header_add(char *header, size_t size, const char *name, const char *unit)
 {
@@ -60,6 +60,7 @@ static bool run_open_probes(run *r)
     header_add(header, sizeof header, "ke", joule);
     header_add(header, sizeof header, "x_tank", "m");
     for (size_t i = 0; i < sizeof ENERGIES / sizeof *ENERGIES; i++) header_add(header, sizeof header, ENERGIES[i], joule);
+    snprintf(header + strlen(header), sizeof header - strlen(header), ",volume_error");
     return table_open(&r->probes, r->options.out, "probes.csv", header, 1 + r->columns + RUN_COMMON, r->options.probe_dt);
 }
 
@@ -70,8 +71,8 @@ static void run_energies(run *r, double *out)
     mps_energy_init(&e, sizeof e);
     run_note(r, mps_energy_get(r->sim, &e), "energies");
     run_note(r, mps_motion_state_get(r->sim, &tank), "motion");
-    const double values[RUN_COMMON] = {e.kinetic, tank.value[MPS_SURGE], e.potential, e.wall_work,
-                                       e.viscous, e.collision,           e.shift,     e.numerical};
+    const double values[RUN_COMMON] = {e.kinetic, tank.value[MPS_SURGE], e.potential,   e.wall_work, e.viscous, e.collision,
+                                       e.shift,   e.numerical,           e.volume_error};
     memcpy(out, values, sizeof values);
     r->totals.volume_error = e.volume_error;
 }
@@ -191,6 +192,7 @@ static void run_close(run *r)
     mps_frames_close(r->frames);
     snprintf(path, sizeof path, "%s/picture_end.png", r->options.out);
     if (!picture_save(r->sim, path)) r->output_failed = true;
+    for (int i = 0; i < r->figures; i++) r->figure[i].measured = r->figure[i].value(r->figure[i].user, r->sim);
     if (r->totals.steps == 0) run_write_start(r, NULL);
     if (!table_close(&r->probes) || !table_close(&r->steps)) r->output_failed = true;
 }

@@ -78,6 +78,7 @@ static void summary_write(FILE *out, const run *r)
     json_text(out, "ppe_solver", both);
     json_number(out, "volume_error", r->totals.volume_error);
     json_number(out, "max_speed", r->totals.max_speed);
+    for (int i = 0; i < r->figures; i++) json_number(out, r->figure[i].name, r->figure[i].measured);
     json_text(out, "status", r->totals.status);
     json_text(out, "error", r->totals.error);
     json_text(out, "version", mps_version(NULL, NULL, NULL));

@@ -17,7 +17,7 @@ enum {
     MPS_PROBE_GAUGE = 2,          /**< 1 value [m]: distance from `at` along `direction` to the free surface: the centres of the top layer
                                       on a lattice; 0 if `at` is dry. Beside a wall the band's centre is 2/3 diameter off it, from there
                                       the surface goes on straight. A film one particle thick is no surface, two are.
-                                      Of several phases the densest is the liquid */
+                                      Below another phase: the interface, half a spacing above these centres, less that half spacing */
     MPS_PROBE_FORCE = 3           /**< dim + (1 in 2-D, 3 in 3-D) values [N, N m; per m in 2-D]: pressure force and moment about `at` */
 };
 
@@ -33,6 +33,8 @@ typedef struct mps_probe {
     int32_t count_drops;  /**< gauge: 1: the topmost particle in the band, drops and films included */
     double average;       /**< mean over the last `average` seconds [s], see mps_probe_series(); default 0: the value now */
     double rate;          /**< samples a second [Hz] kept for mps_probe_series(), at most 1e9; default 0: none */
+    uint32_t phases;      /**< gauge: the phases that are below the surface, bit 1 << phase for each; default 0: the liquid, all that are
+                               denser than the mean of the lightest and the densest there */
 } mps_probe;
 
 /** Defaults. */

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Callable
 
 import evaluate as e
+import phases as ph
 
 LEVELS = ("coarse", "standard", "fine")
 
@@ -24,29 +25,31 @@ class Run:
         return f"{self.case}-{self.dp:g}{self.suffix}"
 
     @property
-    def paper(self):
-        return self.suffix == "-paper"
+    def other_model(self):
+        """Not the model of the case: literal equations, or one that is not meant for it."""
+        return self.options[-1] if self.suffix else None
 
 
 @dataclass(frozen=True)
 class Case:
     """`spacings`: dp -> CPU minutes, coarsest first: of level coarse, standard, fine. `expected`: figures that reached their limit at the
-    coarsest dp, with some room, and must go on doing so. `paper`: also with the literal equations, at the coarsest dp."""
+    coarsest dp, with some room, and must go on doing so. `others`: models tried at the coarsest dp to see how far they get."""
     name: str
     driver: str
     spacings: dict
     evaluate: Callable
     options: tuple = ()
     levels: tuple = LEVELS
-    paper: bool = True
+    others: tuple = ("imps.paper",)
     expected: tuple = ()
 
     def runs(self):
         for (dp, minutes), level in zip(self.spacings.items(), self.levels):
             yield Run(self.name, self.driver, dp, level, minutes, self.options)
-        if self.paper:
+        for model in self.others:
             dp, minutes = next(iter(self.spacings.items()))
-            yield Run(self.name, self.driver, dp, "standard", minutes, (*self.options, "--model", "imps.paper"), "-paper")
+            suffix = "-paper" if model == "imps.paper" else f"-{model}"
+            yield Run(self.name, self.driver, dp, "standard", minutes, (*self.options, "--model", model), suffix)
 
 
 def options(text):
@@ -68,10 +71,10 @@ CASES = [
     Case("standing_wave", "standing_wave", {0.02: 0.5, 0.01: 3, 0.005: 20}, e.standing_wave, options("--t-end 6.1"),
          expected=("frequency", "amplitude after 5 periods / viscous")),
     Case("small_surge", "sloshing_high_fill", {0.02: 0.1, 0.01: 0.5, 0.005: 4}, e.small_surge, options("--amplitude 5e-4 --t-end 3"),
-         paper=False),
+         others=()),
     Case("sloshing_high_fill", "sloshing_high_fill", {0.02: 0.2, 0.01: 1, 0.005: 6}, e.high_fill, expected=HIGH_FILL),
     Case("sloshing_surge", "sloshing_surge", {0.016: 0.4, 0.008: 2, 0.004: 20}, e.surge, expected=SURGE),
-    Case("surge_counts", "sloshing_surge", {0.004: 0.1}, e.surge_counts, options("--t-end 1e-4"), paper=False,
+    Case("surge_counts", "sloshing_surge", {0.004: 0.1}, e.surge_counts, options("--t-end 1e-4"), others=(),
          expected=("fluid particles", "wall and dummy particles")),
     Case("sloshing_low_fill", "sloshing_low_fill", {0.005: 1, 0.00375: 2.5, 0.0025: 9}, e.low_fill, options("--pictures 2.75,4.8,6.1,7.85"),
          expected=("run-up at the left wall, time of the largest P1",)),
@@ -79,11 +82,22 @@ CASES = [
     Case("sloshing_baffle_2d", "sloshing_baffle_2d", {0.012: 0.8, 0.006: 7}, e.baffle_2d, options("--t-end 10"), expected=BAFFLE),
     Case("sloshing_baffle_3d", "sloshing_baffle_3d", {0.02: 6, 0.01: 80}, e.baffle_3d, options("--t-end 3"), ("coarse", "fine"),
          expected=("time reached",)),
-    Case("baffle_3d_counts", "sloshing_baffle_3d", {0.005: 3}, e.baffle_3d_counts, options("--layers 1 --t-end 1e-5"), ("standard",), False),
+    Case("baffle_3d_counts", "sloshing_baffle_3d", {0.005: 3}, e.baffle_3d_counts, options("--layers 1 --t-end 1e-5"), ("standard",), ()),
+    Case("static_two_fluid", "static_two_fluid", {0.02: 2, 0.01: 15}, ph.static_two_fluid, others=("mmps.paper", "imps")),
+    Case("rayleigh_taylor", "rayleigh_taylor", {0.025: 0.5, 0.0125: 3, 0.01: 6}, ph.rayleigh_taylor, others=("mmps.paper", "imps")),
+    Case("rising_bubble", "rising_bubble", {0.025: 0.5, 0.02: 1, 0.0125: 4}, ph.rising_bubble, others=("mmps.paper",)),
+    Case("rising_bubble_2", "rising_bubble", {0.02: 2, 0.0125: 8}, ph.rising_bubble_2, options("--case 2"), ("standard", "fine"), ()),
+    Case("droplet", "droplet", {5e-4: 0.5, 2.5e-4: 3}, ph.droplet, others=("mmps.paper",)),
+    Case("droplet_oscillation", "droplet", {5e-4: 0.5, 2.5e-4: 3}, ph.droplet_oscillation, options("--mode oscillation"), others=("mmps.paper",)),
+    Case("air_cushion", "air_cushion", {0.02: 0.1, 0.01: 0.3, 0.005: 1}, ph.air_cushion, others=("mmps.paper",)),
+    Case("high_fill_air", "sloshing_high_fill", {0.02: 1, 0.01: 5}, ph.high_fill_air, options("--model mmps"), others=("mmps.paper",)),
+    Case("low_fill_air", "sloshing_low_fill", {0.00375: 40}, e.low_fill, options("--model mmps --pictures 2.75,4.8,6.1,7.85"), ("fine",), ()),
+    Case("breaking_air", "sloshing_breaking", {0.02: 3, 0.01: 25}, ph.breaking_air, options("--model mmps --t-end 8 --pictures 2.2,2.3,2.4,2.5"),
+         others=("mmps.paper",)),
     Case("dam_break", "dam_break", {0.02: 0.1, 0.01: 0.4, 0.005: 5}, e.dam_break),
     Case("dam_break_3d", "dam_break", {0.02: 2}, e.dam_break, options("--dim 3"), ("coarse",)),
-    Case("long_surge", "sloshing_surge", {0.01: 14}, e.long_run, options("--t-end 60 --probe-dt 0.002"), ("fine",), False),
-    Case("long_breaking", "sloshing_breaking", {0.01: 15}, e.long_breaking, options("--t-end 20 --probe-dt 0.002"), ("fine",), False),
+    Case("long_surge", "sloshing_surge", {0.01: 14}, e.long_run, options("--t-end 60 --probe-dt 0.002"), ("fine",), ()),
+    Case("long_breaking", "sloshing_breaking", {0.01: 15}, e.long_breaking, options("--t-end 20 --probe-dt 0.002"), ("fine",), ()),
 ]
 
 

@@ -17,6 +17,7 @@ SURGE_DAMPED = [(1.11, 0.0650), (2.12, 0.1200), (3.19, 0.1585), (4.26, 0.1090)]
 SURGE_UNDAMPED = [(1.104, 0.0663), (2.125, 0.1260), (3.207, 0.1764), (4.273, 0.1193)]
 BAFFLE_UNBAFFLED = 0.048  # amplitude at the outer gauges [m]
 BAFFLE_OMEGA, BREAKING_PERIOD = 3.53, 1 / 0.496
+CLOSING = 2.3  # of the cavity in the breaking wave [s]
 # Lobovsky et al. 2014, 0.3 m high: median arrival at the sensor 15 mm up, first peak 3 mm up, in sqrt(H/g) and rho g H
 DAM_H, DAM_DENSITY, DAM_ARRIVAL, DAM_PEAK = 0.3, 997.0, 2.46, 2.84
 
@@ -157,6 +158,19 @@ def mean_interval(times):
     return np.polyfit(range(len(times)), times, 1)[0] if len(times) > 2 else np.nan
 
 
+def cavity(o):
+    """Of the first period: when it is there for good, its largest volume, and what is left of it a little later."""
+    first = (o.t > 1.8) & (o.t < 2.9)
+    t, volume = o.t[first], o["air_volume"][first]
+    if not len(t) or not volume.max() > 10 * o.dp**2:
+        return [difference("cavity, closes", np.nan, CLOSING, "{:.2f} s", "{:+.2f} s", 0.1, 0.1)]
+    closes = t[np.argmax(volume > 0.5 * volume.max())]
+    after = (t > closes + 0.02) & (t < closes + 0.12)
+    return [difference("cavity, closes", closes, CLOSING, "{:.2f} s", "{:+.2f} s", 0.1, 0.1),
+            fact("cavity, largest volume", 1e4 * volume.max(), "{:.1f} cm2"),
+            fact("cavity, least / largest volume within 0.12 s", volume[after].min() / volume[after].max() if after.any() else np.nan, "{:.2f}")]
+
+
 def breaking(o, refs):
     t, p1 = o.t, m.running_mean(o.t, o["P1"], 0.002)
     onsets, largest = impacts(t, p1, BREAKING_PERIOD)
@@ -170,8 +184,7 @@ def breaking(o, refs):
                fact("first impact, onset", onsets[0] if onsets else np.nan, "{:.3f} s")]
     for name in ("P1", "P2", "P3"):
         figures.append(fact(f"{name}, largest after a 2 ms mean", m.largest(m.running_mean(t, o[name], 0.002)[t > 0.1]), "{:.0f} Pa"))
-    volume = 1.3 * 0.9 - o["air_volume"]
-    return figures + [bounded("volume, largest change [%]", 100 * np.abs(volume / volume[0] - 1).max(), "{:.2f}")]
+    return figures + [bounded("volume, largest change [%]", 100 * np.abs(o["volume_error"]).max(), "{:.2f}"), *cavity(o)]
 
 
 def baffle_2d(o, refs):

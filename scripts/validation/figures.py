@@ -6,6 +6,7 @@ import numpy as np
 
 import evaluate as e
 import measures as m
+import phases as ph
 import theory
 from plots import Panel
 
@@ -65,11 +66,11 @@ def small_surge(outcomes, refs):
                               p.reference("linear theory", t, tank.left_wall_pressure(t, 0.02))]
 
 
-def high_fill(outcomes, refs):
+def high_fill(outcomes, refs, name="high_fill"):
     eta, p = overlay("height 0.02 m from the right wall", "m", outcomes, "eta_right"), overlay("P1, 5 ms mean", "Pa", outcomes, "P1", 0.005)
     marks(eta, "FNPF", e.HIGH_FILL_CRESTS)
     marks(p, "FNPF", e.HIGH_FILL_PEAKS)
-    yield "high_fill.svg", [eta, p]
+    yield f"{name}.svg", [eta, p]
 
 
 def surge(outcomes, refs):
@@ -86,17 +87,17 @@ def surge(outcomes, refs):
     yield "surge_energy.svg", [budget]
 
 
-def low_fill(outcomes, refs):
-    yield "low_fill.svg", [overlay("height 0.02 m from the right wall, 20 ms mean", "m", outcomes, "eta_right", 0.02),
+def low_fill(outcomes, refs, name="low_fill"):
+    yield f"{name}.svg", [overlay("height 0.02 m from the right wall, 20 ms mean", "m", outcomes, "eta_right", 0.02),
                            overlay("P1, 20 ms mean", "Pa", outcomes, "P1", 0.02)]
 
 
-def breaking(outcomes, refs):
+def breaking(outcomes, refs, name="breaking"):
     volume = Panel("volume of the liquid, change", "%")
     for o in outcomes:
-        liquid = 1.3 * 0.9 - o["air_volume"]
-        volume.curve(named(o), o.t, 100 * (liquid / liquid[0] - 1))
-    yield "breaking.svg", [overlay(f"{name}, 2 ms mean", "Pa", outcomes, name, 0.002, begin=0.05) for name in ("P1", "P2", "P3")] + [volume]
+        volume.curve(named(o), o.t, 100 * o["volume_error"])
+    yield f"{name}.svg", [overlay(f"{p}, 2 ms mean", "Pa", outcomes, p, 0.002, begin=0.05) for p in ("P1", "P2", "P3")] + [
+        overlay("cavities", "cm2", outcomes, "air_volume", factor=1e4), volume]
 
 
 def baffle_2d(outcomes, refs):
@@ -138,12 +139,63 @@ def long_run(outcomes, refs, name):
     yield f"{name}.svg", [overlay("height at the left wall, 5 ms mean", "m", outcomes, "eta_left", 0.005), energy]
 
 
+def static_two_fluid(outcomes, refs):
+    panels = []
+    for i, y in enumerate((0.25, 0.5, 0.75), 1):
+        panel = Panel(f"pressure {y} m above the floor, less the exact one", "Pa")
+        for o in outcomes:
+            panel.curve(named(o), o.t, o[f"P{i}"] - theory.G * (ph.LIGHT * ph.LAYER + ph.HEAVY * (ph.LAYER - y)))
+        panels.append(panel)
+    yield "static_two_fluid.svg", [*panels, overlay("kinetic energy", "J/m", outcomes, "ke", logarithmic=True)]
+
+
+def rayleigh_taylor(outcomes, refs):
+    ref, panels = refs.series(*ph.TIPS_SERIES), []
+    for i, (name, text) in enumerate((("ytop", "highest"), ("ybot", "lowest")), 1):
+        panel = overlay(f"{text} point of the interface", "m", outcomes, name)
+        if ref is not None:
+            panels.append(panel.reference("volume of fluid", ref[0], ref[i]))
+        else:
+            panels.append(marks(panel, "volume of fluid", [(tip[0], tip[i]) for tip in ph.TIPS]))
+    yield "rayleigh_taylor.svg", panels
+
+
+def rising_bubble(outcomes, refs, number=1):
+    ref, panels = refs.series(ph.BUBBLE_SERIES.format(number), (0, 2, 3, 4)), []
+    for i, name, text, unit in ((2, "yc", "height of the centre", "m"), (3, "v", "rise velocity", "m/s"), (1, "circularity", "circularity", "")):
+        panel = overlay(text, unit, outcomes, name)
+        if ref is not None:
+            panel.reference("Hysing et al. 2009", ref[0], ref[i])
+        panels.append(panel)
+    yield f"rising_bubble{'' if number == 1 else f'_{number}'}.svg", panels
+
+
+def droplet(outcomes, refs):
+    panel = overlay("pressure jump", "Pa", outcomes, "dp", y_limits=(0, 30))
+    t = outcomes[-1].t[[0, -1]]
+    yield "droplet.svg", [panel.reference("sigma/R", t, [ph.SIGMA / ph.drop_radius(outcomes[-1])] * 2)]
+
+
+def droplet_oscillation(outcomes, refs):
+    yield "droplet_oscillation.svg", [overlay("half axis along x", "mm", outcomes, "rx", factor=1e3)]
+
+
+def air_cushion(outcomes, refs):
+    yield "air_cushion.svg", [overlay("displacement of the slug", "mm", outcomes, "x_slug", factor=1e3)]
+
+
 PLOTS = {"static_tank": static_tank, "static_tank_3d": static_tank_3d, "standing_wave": standing_wave, "small_surge": small_surge,
          "sloshing_high_fill": high_fill, "sloshing_surge": surge, "sloshing_low_fill": low_fill, "sloshing_breaking": breaking,
          "sloshing_baffle_2d": baffle_2d, "sloshing_baffle_3d": baffle_3d, "dam_break": dam_break, "dam_break_3d": dam_break_3d,
+         "static_two_fluid": static_two_fluid, "rayleigh_taylor": rayleigh_taylor, "rising_bubble": rising_bubble,
+         "rising_bubble_2": lambda o, r: rising_bubble(o, r, 2), "droplet": droplet, "droplet_oscillation": droplet_oscillation,
+         "air_cushion": air_cushion, "high_fill_air": lambda o, r: high_fill(o, r, "high_fill_air"),
+         "low_fill_air": lambda o, r: low_fill(o, r, "low_fill_air"), "breaking_air": lambda o, r: breaking(o, r, "breaking_air"),
          "long_surge": lambda o, r: long_run(o, r, "long_surge"), "long_breaking": lambda o, r: long_run(o, r, "long_breaking")}
 
 # case -> file, the driver's pictures in it, of the finest run, and perhaps how much of their height from the floor is shown
 PICTURES = {"sloshing_surge": ("surge_flow.png", (2, 3)), "sloshing_low_fill": ("low_fill_flow.png", (1, 2, 3, 4), 0.25),
             "sloshing_breaking": ("breaking_flow.png", (1, 2, 3, 4)), "sloshing_baffle_2d": ("baffle_2d_flow.png", (1, 2)),
-            "sloshing_baffle_3d": ("baffle_3d_flow.png", (1, 2)), "dam_break": ("dam_break_flow.png", (1, 2, 3, "end"))}
+            "sloshing_baffle_3d": ("baffle_3d_flow.png", (1, 2)), "dam_break": ("dam_break_flow.png", (1, 2, 3, "end")),
+            "rayleigh_taylor": ("rayleigh_taylor_flow.png", (1, 2, 3, "end")), "rising_bubble": ("rising_bubble_flow.png", (1, 2, 3, "end")),
+            "low_fill_air": ("low_fill_air_flow.png", (1, 2, 3, 4), 0.25), "breaking_air": ("breaking_air_flow.png", (1, 2, 3, 4))}

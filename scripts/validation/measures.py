@@ -96,6 +96,20 @@ def growing_wave(t, y, omega, others):
     return lo, float(np.hypot(c[0], c[1])), float(c[2] / c[0])
 
 
+def damped_wave(t, y, omega):
+    """Frequency and growth [1/s] of one wave of any phase about a constant, by least squares, the frequency within a third of `omega`."""
+    def rest(w, g):
+        e = np.exp(g * t)
+        a = np.column_stack([e * np.cos(w * t), e * np.sin(w * t), np.ones_like(t)])
+        return np.sum((y - a @ np.linalg.lstsq(a, y, rcond=None)[0]) ** 2)
+    w, g, reach_w, reach_g = omega, 0.0, omega / 3, omega / 3
+    for _ in range(12):
+        trials = [(rest(a, b), a, b) for a in np.linspace(w - reach_w, w + reach_w, 13) for b in np.linspace(g - reach_g, g + reach_g, 7)]
+        _, w, g = min(trials)
+        reach_w, reach_g = reach_w / 3, reach_g / 2
+    return float(w), float(g)
+
+
 def repeat_time(t, y, lo, hi):
     """Shift between lo and hi [s] at which a series is most like itself."""
     step = t[1] - t[0]

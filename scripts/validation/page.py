@@ -74,26 +74,26 @@ def overview(results):
     return table(["case", "finest dp", *(GOOD, PASS, MISSED), "what is not reached"], rows)
 
 
-def paper_table(outcomes):
+def others_table(outcomes):
     rows = []
     for o in outcomes:
         s = o.summary
         message = re.sub(r"\s+", " ", s["error"] or "").replace("|", "/")
         name = f"`{o.run.driver}`" + (" (3-D)" if s.get("dim") == 3 else "")
-        rows.append([name, f"{o.dp:g}", f"{s['t_end']:.2f} s", "end" if o.complete else s["status"], message])
-    return table(["driver", "dp", "ran to", "", "message"], rows) if rows else "Not run."
+        rows.append([name, o.run.other_model, f"{o.dp:g}", f"{s['t_end']:.2f} s", "end" if o.complete else s["status"], message])
+    return table(["driver", "model", "dp", "ran to", "", "message"], rows) if rows else "Not run."
 
 
 class Page:
     """Everything that is known about the runs; `expected` verdicts that were missed are collected in `worse`."""
 
     def __init__(self, runner, cases, refs):
-        self.refs, self.results, self.paper = refs, {}, []
+        self.refs, self.results, self.others = refs, {}, []
         for case in cases:
             outcomes = [o for o in (runner.outcome(run) for run in case.runs()) if o]
-            self.paper += [o for o in outcomes if o.run.paper]
+            self.others += [o for o in outcomes if o.run.other_model]
             found = [(o, case.evaluate(o, refs) if len(o.t) > 1 or o.complete else [])
-                     for o in sorted((o for o in outcomes if not o.run.paper), key=lambda o: -o.dp)]
+                     for o in sorted((o for o in outcomes if not o.run.other_model), key=lambda o: -o.dp)]
             for o, figures in found:
                 (o.folder / "figures.json").write_text(json.dumps(to_json(figures), indent=1, default=float) + "\n")
             self.results[case.name] = found
@@ -124,6 +124,6 @@ class Page:
         folder.mkdir(parents=True, exist_ok=True)
         text = (HERE / "validation.md.in").read_text(encoding="utf-8")
         text = text.replace("@overview@", overview(self.results))
-        text = text.replace("@paper@", paper_table(self.paper))
+        text = text.replace("@others@", others_table(self.others))
         text = re.sub(r"@case (\w+)@", lambda match: self.section(match.group(1), folder), text)
         (docs / "validation.md").write_text(text, encoding="utf-8")

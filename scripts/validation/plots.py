@@ -97,8 +97,8 @@ def palette():
     """The colours of the drivers' pictures (examples/common/picture.c), and half of them with white for what scaling makes of the edges."""
     from PIL import Image
     fluid = np.array([(18, 33, 107), (26, 102, 173), (56, 176, 168), (173, 219, 97), (252, 237, 64)])
-    steps = np.linspace(0, 4, 57)
-    hues = np.column_stack([np.interp(steps, range(5), fluid[:, i]) for i in range(3)])
+    gas = np.array([(230, 222, 209), (235, 204, 163), (230, 168, 112), (209, 117, 69), (158, 64, 36)])
+    hues = np.concatenate([np.column_stack([np.interp(np.linspace(0, 4, n), range(5), m[:, i]) for i in range(3)]) for m, n in ((fluid, 57), (gas, 17))])
     solid = np.array([(0, 0, 0), (26, 26, 26), (140, 140, 148), (214, 214, 219), (255, 255, 255)])
     edges = (np.concatenate([hues[::4], solid]) + 255) / 2
     colours = Image.new("P", (1, 1))

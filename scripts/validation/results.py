@@ -79,11 +79,12 @@ class References:
         self.folder = Path(folder) if folder else None
 
     def series(self, name, columns):
-        """Columns by number of a CSV file with one header line, or None."""
+        """Columns by number of a CSV file with one header line, or of a .txt file with blanks and none; or None."""
         path = self.folder / name if self.folder else None
         if not path or not path.exists():
             return None
-        rows = np.genfromtxt(path, delimiter=",", skip_header=1)[:, columns]
+        comma = path.suffix == ".csv"
+        rows = np.genfromtxt(path, delimiter="," if comma else None, skip_header=int(comma))[:, columns]
         return rows[np.isfinite(rows).all(axis=1)].T
 
 
@@ -103,6 +104,17 @@ class Outcome:
 
     def __getitem__(self, name):
         return self.column[name]
+
+    def beside(self, case):
+        """The run of another case at the same spacing, if it is there."""
+        try:
+            return Outcome(self.run, self.folder.parent / f"{case}-{self.dp:g}")
+        except (OSError, ValueError, KeyError):
+            return None
+
+    def at(self, name, t):
+        """A column at one time, not a number after the end."""
+        return float(np.interp(t, self.t, self[name])) if self.t[-1] > t - 1e-9 else np.nan
 
     def level(self, depth):
         """Still level as placed: whole layers."""

@@ -4,7 +4,10 @@
  * Particles are spread with cubic B-splines, dp wide along the line and diameter/2 across it: on a lattice the sum is a
  * smooth step that passes 1/2 exactly half a spacing above the centres of the top layer, and it moves with the
  * particles without a staircase. Drops and films fill less than half of the band and stay unseen. Rows of a stretched lattice
- * (1.3 : 1 in a crest) are further apart: how far the centres are below is taken from the surface particles themselves. */
+ * (1.3 : 1 in a crest) are further apart: how far the centres are below is taken from the surface particles themselves.
+ *
+ * Below another phase the same step lies halfway between the rows of both, where the interface is, however far the rows are apart: half a
+ * spacing less is the reading, so that still water reads the same with air above it and without. */
 #include "probe_gauge.h"
 #include "plates.h"
 #include <math.h>
@@ -46,23 +49,23 @@ static double spline(double q)
     return q < 1 ? 2.0 / 3.0 + q * q * (0.5 * q - 1) : (2 - q) * (2 - q) * (2 - q) / 6;
 }
 
-/* With several phases the liquid is what is denser than the mean of the lightest and the heaviest one present. */
-static double liquid_density(const mps__world *w)
+/* What is below the surface, a bit for each phase: as asked for, or what is denser than the mean of the lightest and the heaviest there. */
+static uint32_t liquid_phases(const mps__world *w, const mps_probe *c)
 {
     const mps__particles *s = &w->particles;
     double low = INFINITY, high = 0;
-    int32_t phases = 0;
-    bool present[MPS__PHASES] = {false};
-    for (int p = 0; p < MPS__PHASES; p++) phases += w->phase_defined[p];
-    if (phases < 2) return 0;
+    uint32_t present = 0, liquid = 0;
+    if (c->phases) return c->phases;
     for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID) present[s->phase[i]] = true;
+        if (s->kind[i] == MPS_FLUID) present |= UINT32_C(1) << s->phase[i];
     for (int p = 0; p < MPS__PHASES; p++) {
-        if (!present[p]) continue;
+        if (!(present >> p & 1)) continue;
         low = fmin(low, w->phase_density[p]);
         high = fmax(high, w->phase_density[p]);
     }
-    return high - low > 1e-6 * high ? 0.5 * (low + high) : 0;
+    for (int p = 0; p < MPS__PHASES; p++)
+        if (w->phase_density[p] >= 0.5 * (low + high)) liquid |= UINT32_C(1) << p;
+    return liquid;
 }
 
 static void line_init(line *l, const mps__world *w, const mps_probe *c)
@@ -107,17 +110,16 @@ static int compare_places(const void *a, const void *b)
     return (d > 0) - (d < 0);
 }
 
-/* Particles beside the line; the lighter phases are left out. */
-static mps_status line_collect(line *l, mps__world *w)
+/* Particles beside the line; phases that are not below the surface are left out. */
+static mps_status line_collect(line *l, mps__world *w, uint32_t phases)
 {
     const mps__particles *s = &w->particles;
-    double liquid = liquid_density(w);
     int64_t capacity = 0;
     for (int64_t i = 0; i < s->n; i++) {
         beside b = {0};
         if (mps__is_shadow(s, i) || !line_coordinates(l, s, i, &b)) continue;
         const bool fluid = s->kind[i] == MPS_FLUID;
-        if (fluid && w->phase_density[s->phase[i]] < liquid) continue;
+        if (fluid && !(phases >> s->phase[i] & 1)) continue;
         b.solid = !fluid;
         b.top = fluid && s->region[i] == MPS_REGION_SURFACE;
         b.share = mps__plates_share(w, i);
@@ -315,7 +317,7 @@ mps_status mps__gauge_measure(mps__world *w, const mps_probe *config, double *va
 {
     line l;
     line_init(&l, w, config);
-    mps_status status = line_collect(&l, w);
+    mps_status status = line_collect(&l, w, liquid_phases(w, config));
     if (status == MPS_OK) {
         double surface = find_surface(&l);
         if (config->count_drops) surface = fmax(surface, topmost(&l));

@@ -242,6 +242,8 @@ static mps_status check_numbers(const mps__world *w, const mps_probe *c)
     MPS__CHECK(w->context, isfinite(c->length) && c->length >= 0, "probe.length is %g m: must be finite and >= 0", c->length);
     MPS__CHECK(w->context, isfinite(c->average) && c->average >= 0, "probe.average is %g s: must be finite and >= 0", c->average);
     MPS__CHECK(w->context, c->rate >= 0 && c->rate <= RATE_MAX, "probe.rate is %g Hz: 0..%g", c->rate, RATE_MAX);
+    MPS__CHECK(w->context, c->phases >> MPS__PHASES == 0, "probe.phases is 0x%x: bits 0..%d are phases", (unsigned)c->phases,
+               MPS__PHASES - 1);
     MPS__CHECK(w->context, c->count_drops == 0 || c->count_drops == 1, "probe.count_drops is %d: must be 0 or 1", (int)c->count_drops);
     return MPS_OK;
 }

@@ -222,7 +222,7 @@ AT(mps_solver_ops, solve, 40);
 AT(mps_solver_ops, destroy, 48);
 AT(mps_solver_ops, nonlinear, 56);
 
-SIZE(mps_probe, 104);
+SIZE(mps_probe, 112);
 AT(mps_probe, struct_size, 0);
 AT(mps_probe, type, 4);
 AT(mps_probe, at, 8);
@@ -233,6 +233,7 @@ AT(mps_probe, part, 72);
 AT(mps_probe, count_drops, 80);
 AT(mps_probe, average, 88);
 AT(mps_probe, rate, 96);
+AT(mps_probe, phases, 104);
 
 SIZE(mps_energy, 136);
 AT(mps_energy, struct_size, 0);

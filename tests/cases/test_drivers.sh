@@ -64,11 +64,19 @@ refused '--set collision=1: must be slot.key=number' static_tank --set collision
 refused '--set collision.distance: must be slot.key=number' static_tank --set collision.distance
 refused '--set collision.distance=0.5x: must be slot.key=number' static_tank --set=collision.distance=0.5x
 refused '--re-far 1.5: must be a number, 2.1 to 10' static_tank --re-far 1.5
-refused 'there are imps, imps.paper' static_tank --model mmps
+refused 'there are imps, mmps, imps.paper, mmps.paper' static_tank --model magic
+refused '--sigma -1: must be a number not less than 0, at most 100' droplet --sigma -1
+refused '--sigma with --model imps: has no surface tension' droplet --model imps --sigma 0.01
+refused 'unknown option --sigma' rayleigh_taylor --sigma 0
+refused '--mode jump: must be one of rest|oscillation' droplet --mode jump
+refused '--mode res: must be one of rest|oscillation' droplet --mode res
+refused '--case 3: must be one of 1|2' rising_bubble --case 3
+refused '--width 0: must be a number, 0.01 to 2' sloshing_breaking --dim 3 --width 0
 refused 'there are sundials.pcg' static_tank --solver magic
 refused '--out /dev/null/x: Not a directory' static_tank --out /dev/null/x
 
 "$drivers/static_tank" --help | grep -q -- '--probe-dt S' || fail "--help does not list --probe-dt"
+"$drivers/droplet" --help | grep -q -- '--mode rest|oscillation .* (rest)' || fail "--help does not list --mode with its default"
 "$drivers/static_tank" --version | grep -q 'libmps [0-9]' || fail "--version"
 
 # a short run of each: header, number and spacing of rows, every key of the summary, frames
@@ -99,8 +107,44 @@ columns sloshing_baffle_3d 0.025 1859 't[s],eta_a[m],eta_b[m],eta_c[m],ke[J],x_t
 columns dam_break 0.025 288 't[s],P1[Pa],P2[Pa],P3[Pa],P4[Pa],front[m],ke[J/m],x_tank[m]'
 columns static_tank 0.025 616 't[s],P1[Pa],P2[Pa],P3[Pa],eta_left[m],ke[J],x_tank[m]' --dim 3
 columns standing_wave 0.025 780 't[s],eta_left[m],ke[J/m],x_tank[m]'
+columns static_two_fluid 0.05 570 't[s],P1[Pa],P2[Pa],P3[Pa],ke[J/m],x_tank[m],pe[J/m]'
+columns rayleigh_taylor 0.05 760 't[s],ytop[m],ybot[m],ke[J/m],x_tank[m],pe[J/m]'
+columns rising_bubble 0.05 741 't[s],yc[m],v[m/s],circularity,ke[J/m],x_tank[m],pe[J/m]'
+columns droplet 0.001 361 't[s],dp[Pa],rx[m],ke[J/m],x_tank[m],pe[J/m]'
+columns air_cushion 0.02 200 't[s],x_slug[m],ke[J/m],x_tank[m],pe[J/m]'
 columns cylinder_tank 0.05 566 't[s],P_bottom[Pa],eta_middle[m],eta_left[m],F_x[N],F_y[N],ke[J],x_tank[m]'
 awk -F, 'NR == 2 && $2 > 0 {found = 1} END {exit !found}' static_tank/probes.csv || fail "static_tank/probes.csv has no pressure in the row of t = 0"
+
+# what the drivers of two phases begin with and end with
+value_is() { # folder, column, row (1: t = 0), value, tolerance
+    local column
+    column=$(head -1 "$1/probes.csv" | tr , '\n' | grep -n "^$2\(\[\|\$\)" | cut -d: -f1)
+    awk -F, -v c="$column" -v row="$3" -v v="$4" -v e="$5" 'NR == row + 1 {exit !(($c - v) ^ 2 <= e * e)}' "$1/probes.csv" ||
+        fail "$1: $2 in row $3 is not $4 +- $5"
+}
+value_is rayleigh_taylor ytop 1 1.15 0.026
+value_is rayleigh_taylor ybot 1 0.85 0.026
+value_is rising_bubble yc 1 0.5 0.02
+value_is rising_bubble circularity 1 1 0.03
+value_is droplet rx 1 0.005 2e-4
+value_is air_cushion x_slug 1 0 0
+awk -F, 'END {exit !(($2 - $4 - 4905) ^ 2 < 250 ^ 2)}' static_two_fluid/probes.csv || fail "static_two_fluid: P1 - P3 is not rho g 0.5 m"
+grep -q '"trespass": -0.0' static_two_fluid/summary.json || fail "static_two_fluid has $(grep trespass static_two_fluid/summary.json)"
+grep -q '"strays": 0,' rayleigh_taylor/summary.json || fail "rayleigh_taylor has $(grep strays rayleigh_taylor/summary.json)"
+runs 0 droplet --mode oscillation --dp 0.001 --t-end 0.02 --frames 0 --out moving
+cmp -s moving/probes.csv droplet/probes.csv && fail "--mode oscillation changes nothing"
+runs 0 droplet --mode oscillation --sigma 0 --dp 0.001 --t-end 0.002 --frames 0 --out free
+value_is free ke 1 0 0
+runs 0 rising_bubble --case 2 --dp 0.05 --t-end 0.02 --frames 0 --out bubble2
+cmp -s bubble2/probes.csv rising_bubble/probes.csv && fail "--case 2 changes nothing"
+
+# air above the water, in 3-D too
+runs 0 sloshing_high_fill --model mmps --dp 0.025 --t-end 0.02 --frames 0 --out air
+grep -q '"n_fluid": 529,' air/summary.json || fail "the tank with air has $(grep n_fluid air/summary.json) instead of 529 = 23 x 23"
+value_is air eta_right 1 0 2e-3
+runs 0 sloshing_breaking --model mmps --dim 3 --width 0.15 --dp 0.03 --t-end 0.005 --frames 0 --out air3
+grep -q '"n_fluid": 4872,' air3/summary.json || fail "the tank with air has $(grep n_fluid air3/summary.json) instead of 4872 = 42 x 29 x 4"
+grep -q 'air_volume\[m3\]' air3/probes.csv || fail "no air_volume[m3] in 3-D"
 
 # particle numbers: Z14's surge tank, the dam break in 3-D
 counts() { # fluid, walls and dummies, driver, options...

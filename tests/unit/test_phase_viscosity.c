@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* viscosity.pair: means of viscosity, momentum, walls, two layers in shear, its time step. */
 #include "phase_fixture.h"
+#include <stdbool.h>
 
 /* A lone pair: a_i = 2D/(n0 lambda rho_i) mu_ij du W. */
 static void means(void **state)
@@ -95,6 +96,39 @@ static void walls_take_the_fluid(void **state)
     free(wanted);
 }
 
+/* Friction of walls across x and y, the fluid moving along both, with some of them slippery. */
+static void slippery_walls(void **state)
+{
+    (void)state;
+    for (int slip = 0; slip < 4; slip++) {
+        const double lo[2] = {0}, hi[2] = {0.5, 0.5};
+        mps_sim *sim = bare_sim(2, 0.05, 3.1, 1e-6);
+        add_tank(sim, 0.5, 0.5, 0);
+        ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL));
+        mps_lease u;
+        ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &u));
+        for (int64_t k = 0; k < u.count * u.stride; k++) u.data[k] = 1.0;
+        ASSERT_OK(sim, mps_lease_end(sim, &u));
+        ASSERT_OK(sim, mps_model_use(sim, "viscosity.pair"));
+        ASSERT_OK(sim, mps_model_set(sim, "viscosity", "slip", slip));
+        ASSERT_OK(sim, mps_step(sim, 1, NULL));
+        const int64_t *ids;
+        const int32_t *kind;
+        mps_lease x;
+        ASSERT_OK(sim, mps_particles_tags(sim, &ids, &kind, NULL, NULL));
+        ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &x));
+        for (int64_t i = 0; i < x.count; i++) {
+            const double *at = x.data + 2 * i, a = spy.a[2 * ids[i]];
+            const bool beside_x = fmin(at[0], 0.5 - at[0]) < 0.06, beside_y = fmin(at[1], 0.5 - at[1]) < 0.06;
+            if (kind[i] != MPS_FLUID || beside_x == beside_y) continue;
+            if (fmax(fabs(at[0] - 0.25), fabs(at[1] - 0.25)) > 0.21 || fmin(fabs(at[0] - 0.25), fabs(at[1] - 0.25)) > 0.06) continue;
+            assert_true((slip & (beside_x ? 1 : 2)) ? a == 0 : a < -1e-6);
+        }
+        ASSERT_OK(sim, mps_lease_end(sim, &x));
+        mps_sim_destroy(sim);
+    }
+}
+
 /* ---- Couette ------------------------------------------------------------------------------------------------------------ */
 
 enum { ROWS = 24, COLUMNS = 5, BELT = 3 };
@@ -171,7 +205,7 @@ static void time_step(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(means), cmocka_unit_test(momentum), cmocka_unit_test(walls_take_the_fluid),
-                                       cmocka_unit_test(couette), cmocka_unit_test(time_step)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(means),          cmocka_unit_test(momentum), cmocka_unit_test(walls_take_the_fluid),
+                                       cmocka_unit_test(slippery_walls), cmocka_unit_test(couette),  cmocka_unit_test(time_step)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

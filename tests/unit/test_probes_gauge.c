@@ -319,19 +319,93 @@ static void gauge_of_dry_and_full_tanks(void **state)
     mps_sim_destroy(sim);
 }
 
-/* The heavier of two fluids is the liquid. */
+static void define_phase(mps_sim *sim, int32_t index, double density)
+{
+    mps_phase phase;
+    assert_int_equal(mps_phase_init(&phase, sizeof phase), MPS_OK);
+    phase.density = density;
+    ASSERT_OK(sim, mps_sim_set_phase(sim, index, &phase));
+}
+
+/* The heavier of two fluids is the liquid, whatever its number. */
 static void gauge_of_two_fluids(void **state)
 {
     (void)state;
-    mps_sim *sim = filled(2, 0.1);
-    mps_phase air;
     const double lo[2] = {0, 0}, hi[2] = {0.4, 0.3};
-    mps_phase_init(&air, sizeof air);
-    air.density = 1.29;
-    ASSERT_OK(sim, mps_sim_set_phase(sim, 1, &air));
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 1, lo, hi, NULL));
-    const mps_probe p = probe_of(MPS_PROBE_GAUGE, 0.2, 0, 0);
-    ASSERT_NEAR(read_one(sim, &p), 0.1, 0.01 * dp);
+    for (int32_t liquid = 0; liquid < 2; liquid++) {
+        mps_sim *sim = filled(2, 0);
+        define_phase(sim, liquid, 1000);
+        define_phase(sim, 1 - liquid, 1.29);
+        ASSERT_OK(sim, mps_geometry_fill_box(sim, liquid, lo, (const double[]){0.4, 0.1}, NULL));
+        ASSERT_OK(sim, mps_geometry_fill_box(sim, 1 - liquid, lo, hi, NULL));
+        for (double x = 0; x < 0.4; x += 0.0137) {
+            const mps_probe p = probe_of(MPS_PROBE_GAUGE, x, 0, 0);
+            ASSERT_NEAR(read_one(sim, &p), 0.1, 0.015 * dp);
+        }
+        mps_sim_destroy(sim);
+    }
+}
+
+/* Fill phase `phase` of a column at x upwards from `from`, rows `step` apart, below `to`. @return the next row */
+static double add_rows(mps_sim *sim, int32_t phase, double x, double from, double to, double step)
+{
+    double at[2 * 64];
+    mps_particle_block block;
+    mps_particle_block_init(&block, sizeof block);
+    block.phase = phase;
+    block.position = at;
+    for (; from < to - 0.25 * step && block.count < 64; from += step, block.count++) {
+        at[2 * block.count] = x;
+        at[2 * block.count + 1] = from;
+    }
+    ASSERT_OK(sim, mps_particles_add(sim, &block, NULL));
+    return from;
+}
+
+/* A sloping interface, rows of a wave's crest (1.2 dp apart, so columns 1/1.2) and of its trough: it is halfway between the rows. */
+static void gauge_of_an_interface(void **state)
+{
+    (void)state;
+    for (double stretch = 0.9; stretch < 1.25; stretch += 0.1)
+        for (double c = -0.2; c < 0.25; c += 0.2) {
+            mps_sim *sim = filled(2, 0);
+            define_phase(sim, 1, 1.29);
+            for (double x = dp; x < 0.4 - 0.6 * dp; x += dp / stretch) {
+                const double top = 0.15 + c * (x - 0.2), step = stretch * dp, rows = floor((top - 0.5 * step - 0.6 * dp) / step);
+                double y = add_rows(sim, 0, x, top - (rows + 0.5) * step, top, step);
+                add_rows(sim, 1, x, y, 0.3 - 0.6 * dp, step);
+            }
+            for (double x = 0.05; x < 0.35; x += 0.0137) {
+                const mps_probe p = probe_of(MPS_PROBE_GAUGE, x, 0, 0);
+                ASSERT_NEAR(read_one(sim, &p), 0.15 + c * (x - 0.2) - 0.5 * dp, 0.05 * dp);
+            }
+            mps_sim_destroy(sim);
+        }
+}
+
+/* Oil on water below air: the surface of the oil, or that of the water. */
+static void gauge_of_chosen_phases(void **state)
+{
+    (void)state;
+    static const double density[3] = {1.29, 800, 1000}, height[3] = {0.3, 0.2, 0.1}, lo[2] = {0, 0};
+    mps_sim *sim = filled(2, 0);
+    for (int32_t k = 2; k >= 0; k--) {
+        define_phase(sim, k, density[k]);
+        ASSERT_OK(sim, mps_geometry_fill_box(sim, k, lo, (const double[]){0.4, height[k]}, NULL));
+    }
+    mps_probe p = probe_of(MPS_PROBE_GAUGE, 0.123, 0, 0);
+    ASSERT_NEAR(read_one(sim, &p), 0.2, 0.015 * dp);
+    p.phases = 1u << 2;
+    ASSERT_NEAR(read_one(sim, &p), 0.1, 0.015 * dp);
+    p.phases = 1u << 2 | 1u << 1;
+    ASSERT_NEAR(read_one(sim, &p), 0.2, 0.015 * dp);
+    p.phases = 1u << 1; /* its foot is in the water */
+    ASSERT_NEAR(read_one(sim, &p), 0, 0);
+    p.at[1] = 0.15;
+    ASSERT_NEAR(read_one(sim, &p), 0.05, 0.015 * dp);
+    p.phases = 1u << 16;
+    int32_t id;
+    ASSERT_REFUSED(sim, mps_probe_add(sim, &p, &id), MPS_E_ARG, "probe.phases is 0x10000");
     mps_sim_destroy(sim);
 }
 
@@ -353,6 +427,8 @@ int main(void)
         cmocka_unit_test(gauge_through_a_dry_baffle),
         cmocka_unit_test(gauge_of_dry_and_full_tanks),
         cmocka_unit_test(gauge_of_two_fluids),
+        cmocka_unit_test(gauge_of_an_interface),
+        cmocka_unit_test(gauge_of_chosen_phases),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A slug of water on a cushion of compressible air: w^2 = rho_a c^2/(rho_w L H), and at rest the cushion is shorter by
+ * rho_w g L/(rho_a c^2) of its height H. The models of several phases know no free surface, so that the slug stands in the middle of a closed
+ * tube between two columns of 2 H, which together are as stiff as one of H below it. It is let go where the air has no pressure. */
+#include "common/phases.h"
+#include "common/tank.h"
+#include <math.h>
+
+static const double SLUG = 0.2, CUSHION = 0.2, WATER = 1000, WATER_VISCOSITY = 1e-3;
+static const double SPACINGS = 5; /* width of the tube: water stays on air only where there is no room to turn over */
+
+/* The lattice is laid so that the slug has its length between the middles of the two rows at its ends. */
+static void build(run *r)
+{
+    double dp = r->options.dp, bottom = 2 * CUSHION, top = bottom + SLUG;
+    int rows = (int)lround(bottom / dp);
+    const double lo[] = {0, bottom - (rows + 0.5) * dp};
+    const double slug_lo[] = {0, bottom}, slug_hi[] = {SPACINGS * dp, top}, hi[] = {SPACINGS * dp, top + (rows + 1) * dp};
+    mps_tank tank;
+    mps_tank_init(&tank, sizeof tank);
+    tank.lo[1] = lo[1];
+    tank.size[0] = hi[0];
+    tank.size[1] = (2 * rows + 1 + lround(SLUG / dp)) * dp;
+    run_phase(r, 0, WATER, WATER_VISCOSITY);
+    run_phase(r, 1, TANK_AIR_DENSITY, TANK_AIR_VISCOSITY);
+    run_check(r, mps_geometry_tank(r->sim, &tank, NULL), "tube");
+    run_check(r, mps_geometry_fill_box(r->sim, 0, slug_lo, slug_hi, NULL), "slug");
+    run_check(r, mps_geometry_fill_box(r->sim, 1, lo, hi, NULL), "air");
+}
+
+/* How far the slug is above where it was let go. */
+static double displacement(void *user, mps_sim *sim)
+{
+    phase_means m;
+    const double *start = user;
+    return phase_means_get(sim, 0, &m) ? m.x[1] - *start : NAN;
+}
+
+static void add_columns(run *r, double *start)
+{
+    phase_means m;
+    if (!phase_means_get(r->sim, 0, &m)) run_check(r, MPS_E_STATE, "slug");
+    *start = m.x[1];
+    run_value(r, "x_slug", "m", displacement, start);
+}
+
+int main(int argc, char **argv)
+{
+    cli_options o;
+    run r;
+    double start;
+    cli_defaults(&o, "air_cushion", "slug of water, 0.2 m long, on a cushion of air: 9.718 Hz, 2.63 mm");
+    o.model = "mmps";
+    o.dp = 0.01;
+    o.dp_min = 0.001;
+    o.dp_max = 0.04;
+    o.t_end = 0.6;
+    o.has_sigma = true;
+    cli_parse(&o, argc, argv);
+    run_open(&r, &o);
+    build(&r);
+    add_columns(&r, &start);
+    return run_finish(&r);
+}

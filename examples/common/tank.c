@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Building tanks of water. */
+#include "tank.h"
+#include <math.h>
+#include <string.h>
+
+void tank_walls(run *r, const double *size)
+{
+    mps_tank tank;
+    mps_tank_init(&tank, sizeof tank);
+    memcpy(tank.size, size, sizeof tank.size);
+    run_check(r, mps_geometry_tank(r->sim, &tank, NULL), "tank");
+}
+
+void tank_walls_about(run *r, const double *size, double middle, double *lo, double *hi)
+{
+    double dp = r->options.dp, half = (floor(size[1] / 2 / dp + 1e-6) + 0.5) * dp;
+    mps_tank tank;
+    mps_tank_init(&tank, sizeof tank);
+    memcpy(tank.size, size, sizeof tank.size);
+    tank.lo[1] = middle - half;
+    tank.size[1] = 2 * half;
+    for (int d = 0; d < 3; d++) {
+        lo[d] = tank.lo[d];
+        hi[d] = tank.lo[d] + tank.size[d];
+    }
+    run_check(r, mps_geometry_tank(r->sim, &tank, NULL), "tank");
+}
+
+void tank_build(run *r, const tank_case *c)
+{
+    const double lo[3] = {0}, level[3] = {c->size[0], c->depth, c->size[2]};
+    mps_harmonic motion = c->motion;
+    motion.amplitude = r->options.amplitude;
+    tank_walls(r, c->size);
+    run_check(r, mps_geometry_fill_box(r->sim, 0, lo, level, NULL), "water");
+    if (run_has_gas(r)) {
+        run_phase(r, 1, TANK_AIR_DENSITY, TANK_AIR_VISCOSITY);
+        run_check(r, mps_geometry_fill_box(r->sim, 1, lo, c->size, NULL), "air");
+    }
+    run_check(r, mps_motion_set_harmonics(r->sim, 1, &motion), "motion");
+}
+
+int tank_main(cli_options *o, const tank_case *c, tank_columns_fn columns, int argc, char **argv)
+{
+    run r;
+    o->amplitude = c->motion.amplitude;
+    o->has_sigma = true;
+    cli_parse(o, argc, argv);
+    run_open(&r, o);
+    tank_build(&r, c);
+    columns(&r, c);
+    return run_finish(&r);
+}

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Rectangular tanks with water in them, and all the rest of a driver that is such a tank. */
+#ifndef MPS_EXAMPLES_TANK_H
+#define MPS_EXAMPLES_TANK_H
+
+#include "run.h"
+
+/* Air as everywhere in these cases [kg/m3], [Pa s]. */
+#define TANK_AIR_DENSITY   1.29
+#define TANK_AIR_VISCOSITY 1.5e-5
+
+/* A tank that moves along x. */
+typedef struct tank_case {
+    double size[3];      /* inner [m]; the third in 3-D */
+    double depth;        /* of the water [m] */
+    mps_harmonic motion; /* what --amplitude gives replaces its amplitude */
+} tank_case;
+
+/* Name and add the columns of probes.csv that are the driver's own. */
+typedef void (*tank_columns_fn)(run *r, const tank_case *c);
+
+/* Walls only; the lattice of the fills is laid. @param size inner [m] */
+void tank_walls(run *r, const double *size);
+/* The same with the lattice laid so that y = middle is halfway between two rows: two fluids meet there. The tank reaches as far up as
+ * down from it, y = 0 may be up to a spacing off its floor. @param lo,hi [3] out: its corners */
+void tank_walls_about(run *r, const double *size, double middle, double *lo, double *hi);
+/* Walls, water up to the depth, air above it where the model has a gas, and the motion. */
+void tank_build(run *r, const tank_case *c);
+/* Command line, run and outputs. The options hold the driver's defaults. @return exit code of the program */
+int tank_main(cli_options *o, const tank_case *c, tank_columns_fn columns, int argc, char **argv);
+
+#endif

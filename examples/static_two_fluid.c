@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Two fluids at rest, Wen, Zhao & Wan 2022 section 4.1: 0.75 m of 1000 kg/m3 below 0.75 m of 1 kg/m3 in a closed tank 1 m wide. */
+#include "common/tank.h"
+#include <math.h>
+
+static const double SIZE[] = {1, 1.5, 0}, LAYER = 0.75, HEAVY = 1000, LIGHT = 1, VISCOSITY = 1e-3;
+
+static void build(run *r)
+{
+    double lo[3], hi[3];
+    run_phase(r, 0, HEAVY, VISCOSITY);
+    run_phase(r, 1, LIGHT, VISCOSITY);
+    tank_walls_about(r, SIZE, LAYER, lo, hi);
+    run_check(r, mps_geometry_fill_box(r->sim, 0, lo, (const double[]){hi[0], LAYER}, NULL), "heavy fluid");
+    run_check(r, mps_geometry_fill_box(r->sim, 1, lo, hi, NULL), "light fluid");
+}
+
+/* How far a fluid reaches beyond the interface [m]. */
+static double trespass(void *user, mps_sim *sim)
+{
+    const int32_t *kind, *phase;
+    mps_lease x = {0};
+    double most = -INFINITY;
+    (void)user;
+    if (mps_particles_tags(sim, NULL, &kind, &phase, NULL) != MPS_OK || mps_lease_begin(sim, "position", MPS_READ, &x) != MPS_OK)
+        return NAN;
+    for (int64_t i = 0; i < x.count; i++) {
+        const double above = x.data[i * x.stride + 1] - LAYER;
+        if (kind[i] == MPS_FLUID) most = fmax(most, phase[i] == 0 ? above : -above);
+    }
+    return mps_lease_end(sim, &x) == MPS_OK ? most : NAN;
+}
+
+static void add_columns(run *r)
+{
+    static const char *const name[] = {"P1", "P2", "P3"};
+    for (int i = 0; i < 3; i++) run_wall_pressure(r, name[i], 0, 0.25 * (i + 1), 0);
+    run_figure_add(r, "trespass", trespass, NULL);
+}
+
+int main(int argc, char **argv)
+{
+    cli_options o;
+    run r;
+    cli_defaults(&o, "static_two_fluid", "two fluids at rest, Wen, Zhao & Wan 2022, section 4.1: 1000 kg/m3 below 1 kg/m3");
+    o.model = "mmps";
+    o.dp = 0.02;
+    o.dp_min = 0.001;
+    o.dp_max = 0.1;
+    o.t_end = 5;
+    o.has_sigma = true;
+    cli_parse(&o, argc, argv);
+    run_open(&r, &o);
+    build(&r);
+    add_columns(&r);
+    return run_finish(&r);
+}
