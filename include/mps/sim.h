@@ -113,7 +113,8 @@ MPS_API mps_status mps_solver_limits_init(mps_solver_limits *limits, size_t size
 
 /** Choose the pressure solver.
  *  @param solver          "sundials.pcg", "sundials.bicgstab", "sundials.gmres", "sundials.klu" or a registered one
- *  @param preconditioner  NULL (the solver's default: "auxgrid" of sundials.pcg, for which "jacobi" steps in with a warning should it fail), "none", "jacobi", "ic0", "auxgrid" or a registered one
+ *  @param preconditioner  NULL (the solver's default), "none", "jacobi", "ic0", "auxgrid" or a registered one; should "auxgrid", the
+ *                         default of sundials.pcg, fail at a matrix, "jacobi" solves again and a warning is logged
  *  @return MPS_E_NAME with the nearest known name; MPS_E_ARG for a preconditioner with a solver that uses none (sundials.klu) or an
  *          unsymmetric one with a solver that needs a symmetric one (sundials.pcg) */
 MPS_API mps_status mps_solver_use(mps_sim *sim, const char *solver, const char *preconditioner);
