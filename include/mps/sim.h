@@ -120,8 +120,10 @@ typedef struct mps_solver_limits {
 MPS_API mps_status mps_solver_limits_init(mps_solver_limits *limits, size_t size);
 
 /** Choose the pressure solver.
- *  @param solver          "sundials.pcg", "sundials.bicgstab", "sundials.gmres", "sundials.klu", "sundials.kinsol" (the one for gas.isentropic) or a registered one
- *  @param preconditioner  NULL (the solver's default), "none", "jacobi", "ic0", "auxgrid" or a registered one
+ *  @param solver          "sundials.pcg", "sundials.bicgstab", "sundials.gmres", "sundials.klu", "sundials.kinsol" (the one for
+ *                         gas.isentropic) or a registered one
+ *  @param preconditioner  NULL (the solver's default), "none", "jacobi", "ic0", "auxgrid" or a registered one; should "auxgrid", the
+ *                         default of sundials.pcg, fail at a matrix, "jacobi" solves again and a warning is logged
  *  @return MPS_E_NAME with the nearest known name; MPS_E_ARG for a preconditioner with a solver that uses none (sundials.klu) or an
  *          unsymmetric one with a solver that needs a symmetric one (sundials.pcg) */
 MPS_API mps_status mps_solver_use(mps_sim *sim, const char *solver, const char *preconditioner);

@@ -110,6 +110,8 @@ static mps_status choose(mps__solvers *s, const char *solver, const char *precon
 
 static void discard(mps__solvers *s)
 {
+    if (s->spare_self) mps__preconditioner_jacobi.destroy(s->spare_self);
+    s->spare_self = NULL;
     if (s->use) s->use->destroy(s->use_self);
     if (s->pc) s->pc->destroy(s->pc_self);
     s->use = NULL;
@@ -216,6 +218,23 @@ static mps_status verify(mps__solvers *s, const mps_ppe_problem *problem, const 
     return MPS_W_NOT_CONVERGED;
 }
 
+/* auxgrid is the default for its speed, and not proved for every matrix of a plug-in: where it fails jacobi solves again. */
+static void solve(mps__solvers *s, const mps_ppe_problem *problem, double *p, mps_ppe_result *result)
+{
+    const mps_preconditioner_ops *spare = &mps__preconditioner_jacobi;
+    mps_ppe_result second = {0};
+    s->use->solve(s->use_self, problem, s->pc, s->pc_self, p, result);
+    const bool failed = result->reason == MPS_PPE_INDEFINITE || result->reason == MPS_PPE_BREAKDOWN;
+    if (!failed || !s->pc || strcmp(s->pc->name, mps__preconditioner_auxgrid.name) != 0) return;
+    if (!s->spare_self && spare->create(&s->context->allocator, &s->spare_self)) return;
+    s->use->solve(s->use_self, problem, spare, s->spare_self, p, &second);
+    mps__log(s->context, MPS_LOG_WARNING, "preconditioner '%s' %s after %d iterations; with '%s' the solver %s", s->pc->name,
+             reason_text(result->reason), result->iterations, spare->name, reason_text(second.reason));
+    second.iterations += result->iterations;
+    second.setup_seconds += result->setup_seconds;
+    *result = second;
+}
+
 mps_status mps__solvers_solve(mps__solvers *s, const mps_ppe_problem *problem, double *p, mps_ppe_result *result)
 {
     mps_ppe_problem limited = *problem;
@@ -224,7 +243,7 @@ mps_status mps__solvers_solve(mps__solvers *s, const mps_ppe_problem *problem, d
     limited.max_iterations = s->limits.max_iterations;
     *result = (mps_ppe_result){0};
     if (problem->n == 0) return MPS_OK;
-    s->use->solve(s->use_self, &limited, s->pc, s->pc_self, p, result);
+    solve(s, &limited, p, result);
     mps_status status = status_of(result->reason);
     if (status >= 0 && !mps__finite(p, problem->n)) {
         result->reason = MPS_PPE_NAN;
@@ -260,30 +279,42 @@ static bool has_law(const mps_ppe_problem *problem)
     return problem->struct_size >= sizeof *problem && problem->law;
 }
 
-static void residual_rows(const mps_ppe_problem *problem, const double *p, double *r)
+/* Rows are summed in a fixed number of parts, each by one thread: the same bytes for any number of threads. */
+enum { PARTS = 64 };
+
+typedef struct check_sums {
+    double squares, rhs_squares, largest, poison; /* a NaN is larger than nothing, so it is carried apart */
+} check_sums;
+
+static check_sums check_rows(const mps_ppe_problem *problem, const double *p, double *r, int64_t from, int64_t to)
 {
     const double *law = has_law(problem) ? problem->law : NULL;
-#pragma omp parallel for schedule(static) num_threads(problem->threads > 1 ? problem->threads : 1) if (problem->n > 8192)
-    for (int64_t i = 0; i < problem->n; i++) {
+    check_sums c = {0};
+    for (int64_t i = from; i < to; i++) {
         double s = 0;
         for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) s += problem->val[k] * p[problem->col[k]];
         if (law && law[i] > 0) s += problem->gas[i] * (mps_ppe_law(law[i], p[i], NULL) - p[i]);
         r[i] = problem->rhs[i] - s;
+        const double d = problem->weight ? fabs(r[i] * problem->weight[i]) : 0;
+        c.squares += r[i] * r[i];
+        c.rhs_squares += problem->rhs[i] * problem->rhs[i];
+        if (d > c.largest) c.largest = d;
+        c.poison += 0 * d;
     }
+    return c;
 }
 
 void mps_ppe_check(const mps_ppe_problem *problem, const double *p, double *work, mps_ppe_result *result)
 {
-    /* both sums in the order of the rows: the same bytes for any number of threads */
-    double squares = 0, rhs_squares = 0, largest = 0, poison = 0;
-    residual_rows(problem, p, work);
-    for (int64_t i = 0; i < problem->n; i++) {
-        double d = problem->weight ? fabs(work[i] * problem->weight[i]) : 0;
-        squares += work[i] * work[i];
-        rhs_squares += problem->rhs[i] * problem->rhs[i];
-        if (d > largest) largest = d;
-        poison += 0 * d; /* a NaN is larger than nothing, so it is carried apart */
+    check_sums part[PARTS], c = {0};
+#pragma omp parallel for schedule(static) num_threads(problem->threads > 1 ? problem->threads : 1) if (problem->n > 8192)
+    for (int k = 0; k < PARTS; k++) part[k] = check_rows(problem, p, work, problem->n * k / PARTS, problem->n * (k + 1) / PARTS);
+    for (int k = 0; k < PARTS; k++) {
+        c.squares += part[k].squares;
+        c.rhs_squares += part[k].rhs_squares;
+        c.poison += part[k].poison;
+        if (part[k].largest > c.largest) c.largest = part[k].largest;
     }
-    result->residual = sqrt(squares) / (rhs_squares > 0 ? sqrt(rhs_squares) : 1);
-    result->divergence = largest + poison;
+    result->residual = sqrt(c.squares) / (c.rhs_squares > 0 ? sqrt(c.rhs_squares) : 1);
+    result->divergence = c.largest + c.poison;
 }

@@ -20,6 +20,7 @@ typedef struct mps__solvers {
     const mps_solver_ops *use;                             /* in use */
     const mps_preconditioner_ops *pc;                      /* in use, or NULL */
     void *use_self, *pc_self;
+    void *spare_self; /* of the preconditioner that steps in for one that fails, made when it is needed; NULL before */
     mps_solver_limits limits;
 } mps__solvers;
 

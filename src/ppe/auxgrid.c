@@ -34,13 +34,15 @@ static bool reserve(auxgrid *a, int64_t n)
 
 static int invert_diagonal(auxgrid *a, const mps_ppe_problem *problem)
 {
+    int bad = 0, negative = 0;
+#pragma omp parallel for schedule(static) num_threads(mps__team(problem->n, problem->threads)) reduction(| : bad, negative)
     for (int64_t i = 0; i < problem->n; i++) {
         double d = mps__rows_diagonal(problem, i);
-        if (!isfinite(d)) return MPS_PPE_NAN;
-        if (d < 0) return MPS_PPE_INDEFINITE;
+        bad |= !isfinite(d);
+        negative |= d < 0;
         a->inverse[i] = d > 0 ? 1 / d : 1; /* an empty row is a particle without neighbours, its residual is 0 */
     }
-    return 0;
+    return bad ? MPS_PPE_NAN : negative ? MPS_PPE_INDEFINITE : 0;
 }
 
 static int build_grids(mps__grid *g, const mps_ppe_problem *problem)
@@ -49,7 +51,7 @@ static int build_grids(mps__grid *g, const mps_ppe_problem *problem)
     if (reason) return reason;
     mps__grid_place(g, problem);
     if (!mps__grid_cells(g, &g->level[0], problem->n)) return MPS_PPE_NOMEM;
-    mps__grid_from_matrix(g, problem);
+    if (!mps__grid_from_matrix(g, problem)) return MPS_PPE_NOMEM;
     g->levels = 1;
     if (!mps__grid_coarsen(g)) return MPS_PPE_NOMEM;
     return mps__grid_factorise(g) ? 0 : MPS_PPE_NAN;
@@ -76,7 +78,7 @@ static int apply(void *self, const double *r, double *z)
     mps__grid *g = &a->grid;
     if (a->n == 0) return 0;
     mps__grid_level *first = &g->level[0];
-    mps__grid_restrict(g, first, r, g->unit);
+    mps__grid_restrict(g, r, g->unit);
     mps__grid_cycle(g);
 #pragma omp parallel for schedule(static) num_threads(mps__team(a->n, g->threads))
     for (int64_t i = 0; i < a->n; i++) z[i] = a->inverse[i] * r[i] + mps__grid_value(first, g->dim, i);

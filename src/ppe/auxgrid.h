@@ -8,9 +8,10 @@
 #include <stdbool.h>
 
 enum {
-    MPS__GRID_BITS = 20,   /* of a cell's coordinate; what lies further out is put into the last cell */
-    MPS__GRID_LEVELS = 22, /* after 20 halvings one cell is left */
-    MPS__GRID_DIRECT = 150 /* fewer cells are solved directly */
+    MPS__GRID_BITS = 20,    /* of a cell's coordinate; what lies further out is put into the last cell */
+    MPS__GRID_LEVELS = 22,  /* after 20 halvings one cell is left */
+    MPS__GRID_DIRECT = 150, /* fewer cells are solved directly */
+    MPS__GRID_CHUNKS = 8 /* parts of the particles, each summed by one thread; a fixed number, so that sums do not depend on the threads */
 };
 
 /* One grid, and how the points above it (particles, or the cells of the finer grid) reach its cells. The `red` cells, whose
@@ -45,8 +46,11 @@ typedef struct mps__grid {
     int64_t *point_key;  /* [points] coordinates of the cell that holds a point, -1: none */
     double *point_kappa; /* [points] */
     int32_t *order;      /* [points] cells in order of appearance to cells by colour */
-    double *factor;      /* [direct * direct] L of the last grid's L D L' */
-    double *pivot;       /* [direct] 1/D, 0 where D is */
+    int64_t part_capacity;
+    void *parts; /* [chunks * cells] what each chunk adds to the first grid: floats [2 dim] of links, or a double */
+    int32_t range[MPS__GRID_CHUNKS][2][2]; /* red and black cells that a chunk adds to, first and one past the last */
+    double *factor;                        /* [direct * direct] L of the last grid's L D L' */
+    double *pivot;                         /* [direct] 1/D, 0 where D is */
 } mps__grid;
 
 /* ---- cells (auxgrid_cells.c) ---- */
@@ -57,6 +61,13 @@ static inline int64_t mps__grid_coordinate(int64_t key, int axis)
 }
 
 void mps__grid_release(mps__grid *g);
+/* Room for what the chunks add to the first grid. */
+bool mps__grid_reserve_parts(mps__grid *g);
+/* First point of a chunk; of the one behind the last: the end. */
+static inline int64_t mps__grid_chunk(int64_t points, int chunk)
+{
+    return points * chunk / MPS__GRID_CHUNKS;
+}
 /* Room to find the cells of so many points. */
 bool mps__grid_reserve(mps__grid *g, int64_t points);
 /* Cells and neighbours of a level from point_key; links and sums are zero. False when out of memory. */
@@ -68,8 +79,8 @@ bool mps__grid_cells(mps__grid *g, mps__grid_level *l, int64_t points);
 int mps__grid_measure(mps__grid *g, const mps_ppe_problem *problem);
 /* Coordinates of the particles' cells into point_key. */
 void mps__grid_place(mps__grid *g, const mps_ppe_problem *problem);
-/* Coefficients of the first grid and the shares of the particles. */
-void mps__grid_from_matrix(mps__grid *g, const mps_ppe_problem *problem);
+/* Coefficients of the first grid and the shares of the particles. False when out of memory. */
+bool mps__grid_from_matrix(mps__grid *g, const mps_ppe_problem *problem);
 /* All coarser grids. False when out of memory. */
 bool mps__grid_coarsen(mps__grid *g);
 
@@ -79,8 +90,8 @@ bool mps__grid_coarsen(mps__grid *g);
 bool mps__grid_factorise(mps__grid *g);
 /* One V-cycle from b to x of the first grid. */
 void mps__grid_cycle(mps__grid *g);
-/* Sum the points' values into the right side of a level. */
-void mps__grid_restrict(const mps__grid *g, mps__grid_level *l, const double *values, double scale);
+/* Sum the particles' values into the right side of the first grid. */
+void mps__grid_restrict(mps__grid *g, const double *values, double scale);
 /* Value of a point from the cells around it. */
 static inline double mps__grid_value(const mps__grid_level *l, int dim, int64_t point)
 {

@@ -64,12 +64,13 @@ static bool reserve_cells(mps__grid *g, mps__grid_level *l, int64_t cells)
 
 static void drop_work(mps__grid *g)
 {
-    void *all[] = {g->point_key, g->point_kappa, g->order, g->table_key, g->table_cell};
+    void *all[] = {g->point_key, g->point_kappa, g->order, g->table_key, g->table_cell, g->parts};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) mps__give(&g->allocator, all[k]);
     g->point_key = g->table_key = NULL;
     g->point_kappa = NULL;
     g->order = g->table_cell = NULL;
-    g->point_capacity = g->table_capacity = 0;
+    g->parts = NULL;
+    g->point_capacity = g->table_capacity = g->part_capacity = 0;
 }
 
 static int64_t table_for(int64_t points)
@@ -98,6 +99,17 @@ bool mps__grid_reserve(mps__grid *g, int64_t points)
     } else
         drop_work(g);
     return g->point_capacity > 0;
+}
+
+bool mps__grid_reserve_parts(mps__grid *g)
+{
+    int64_t cells = g->level[0].cells;
+    if (cells < g->part_capacity) return true;
+    mps__give(&g->allocator, g->parts);
+    g->part_capacity = cells + cells / 8 + 1;
+    g->parts = mps__take(&g->allocator, MPS__GRID_CHUNKS * g->part_capacity, 2 * (size_t)g->dim * sizeof(float));
+    if (!g->parts) g->part_capacity = 0;
+    return g->parts;
 }
 
 void mps__grid_release(mps__grid *g)
@@ -136,8 +148,8 @@ static void find_cells(mps__grid *g, mps__grid_level *l)
     l->cells = l->red = 0;
     for (int64_t i = 0; i < l->points; i++) {
         int64_t key = g->point_key[i];
-        l->home[i] = -1;
-        if (key < 0) continue;
+        l->home[i] = i > 0 && key == g->point_key[i - 1] ? l->home[i - 1] : -1; /* particles come sorted along cells */
+        if (key < 0 || l->home[i] >= 0) continue;
         int64_t s = slot(g, key);
         if (g->table_key[s] < 0) {
             g->table_key[s] = key;

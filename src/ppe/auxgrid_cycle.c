@@ -98,8 +98,9 @@ static void relax(const mps__grid *g, mps__grid_level *l, int64_t from, int64_t 
 
 static void sweep_down(const mps__grid *g, mps__grid_level *l)
 {
-    for (int64_t c = 0; c < l->red; c++) l->x[c] = l->b[c] * l->inverse[c]; /* the black ones are zero */
-    for (int64_t c = l->red; c < l->cells; c++) l->x[c] = 0;                /* read at missing neighbours, times zero */
+#pragma omp parallel for schedule(static) num_threads(mps__team(l->cells, g->threads))
+    for (int64_t c = 0; c < l->cells; c++)
+        l->x[c] = c < l->red ? l->b[c] * l->inverse[c] : 0; /* black ones: read at missing neighbours, times zero */
     relax(g, l, l->red, l->cells);
     for (int s = 1; s < SWEEPS; s++) {
         relax(g, l, 0, l->red);
@@ -115,17 +116,50 @@ static void sweep_up(const mps__grid *g, mps__grid_level *l)
     }
 }
 
-static void spread(const mps__grid_level *l, int dim, int64_t point, double value)
+static void spread(const mps__grid_level *l, int dim, int64_t point, double value, double *b)
 {
     const int32_t *at = l->at + (point << dim);
     const float *share = l->share + (point << dim);
-    for (int k = 0; k < 1 << dim; k++) l->b[at[k]] += (double)share[k] * value;
+    for (int k = 0; k < 1 << dim; k++) b[at[k]] += (double)share[k] * value;
 }
 
-void mps__grid_restrict(const mps__grid *g, mps__grid_level *l, const double *values, double scale)
+/* What chunk c of the particles adds to the cells. */
+static void restrict_chunk(mps__grid *g, int c, const double *values, double scale)
 {
-    memset(l->b, 0, (size_t)l->cells * sizeof *l->b);
-    for (int64_t i = 0; i < l->points; i++) spread(l, g->dim, i, scale * values[i]);
+    const mps__grid_level *l = &g->level[0];
+    double *b = (double *)g->parts + c * l->cells;
+    for (int colour = 0; colour < 2; colour++)
+        for (int32_t k = g->range[c][colour][0]; k < g->range[c][colour][1]; k++) b[k] = 0;
+    for (int64_t i = mps__grid_chunk(l->points, c); i < mps__grid_chunk(l->points, c + 1); i++) spread(l, g->dim, i, scale * values[i], b);
+}
+
+/* Right sides of cells from..to-1 of one colour. */
+static void sum_chunks(mps__grid *g, int colour, int64_t from, int64_t to)
+{
+    mps__grid_level *l = &g->level[0];
+    for (int64_t k = from; k < to; k++) l->b[k] = 0;
+    for (int c = 0; c < MPS__GRID_CHUNKS; c++) {
+        const double *b = (const double *)g->parts + c * l->cells;
+        const int64_t first = g->range[c][colour][0] > from ? g->range[c][colour][0] : from;
+        const int64_t last = g->range[c][colour][1] < to ? g->range[c][colour][1] : to;
+        for (int64_t k = first; k < last; k++) l->b[k] += b[k];
+    }
+}
+
+void mps__grid_restrict(mps__grid *g, const double *values, double scale)
+{
+    const mps__grid_level *l = &g->level[0];
+    const int64_t red = mps__blocks(l->red), blocks = red + mps__blocks(l->cells - l->red);
+#pragma omp parallel num_threads(mps__team(l->points, g->threads))
+    {
+#pragma omp for schedule(static, 1)
+        for (int c = 0; c < MPS__GRID_CHUNKS; c++) restrict_chunk(g, c, values, scale);
+#pragma omp for schedule(static)
+        for (int64_t k = 0; k < blocks; k++) {
+            const int64_t from = k < red ? k * MPS__BLOCK : l->red + (k - red) * MPS__BLOCK, end = k < red ? l->red : l->cells;
+            sum_chunks(g, k >= red, from, from + MPS__BLOCK < end ? from + MPS__BLOCK : end);
+        }
+    }
 }
 
 /* What is left of the right side, to the next grid. The black cells were solved last: only red ones have a residual. */
@@ -134,7 +168,7 @@ static void restrict_residual(const mps__grid *g, const mps__grid_level *fine, m
     memset(l->b, 0, (size_t)l->cells * sizeof *l->b);
     for (int64_t c = 0; c < fine->red; c++) {
         if (l->home[c] < 0) continue;
-        spread(l, g->dim, c, fine->b[c] + pull(fine, 2 * g->dim, c) - fine->x[c] / fine->inverse[c]);
+        spread(l, g->dim, c, fine->b[c] + pull(fine, 2 * g->dim, c) - fine->x[c] / fine->inverse[c], l->b);
     }
 }
 

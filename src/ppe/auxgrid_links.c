@@ -6,6 +6,7 @@
 #include "kernels.h"
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 enum { FEW_ENTRIES = 4, MAX_STEPS = 12 };
 static const double one_density = 4; /* arithmetic over harmonic mean of the conductivities, below which there is one */
@@ -39,12 +40,13 @@ static int64_t conductivity(const mps_ppe_problem *problem, int64_t i, double *k
 int mps__grid_measure(mps__grid *g, const mps_ppe_problem *problem)
 {
     double largest = 0, sum = 0, inverses = 0, rows = 0;
+#pragma omp parallel for schedule(static) num_threads(mps__team(problem->n, problem->threads))
+    for (int64_t i = 0; i < problem->n; i++) g->order[i] = (int32_t)conductivity(problem, i, &g->point_kappa[i]);
     for (int64_t i = 0; i < problem->n; i++) {
-        int64_t entries = conductivity(problem, i, &g->point_kappa[i]);
         double kappa = g->point_kappa[i];
         if (!isfinite(kappa)) return MPS_PPE_NAN;
         if (kappa > largest) largest = kappa;
-        if (entries < FEW_ENTRIES || !(kappa > 0)) continue; /* a lone pair at the end of the kernel says little */
+        if (g->order[i] < FEW_ENTRIES || !(kappa > 0)) continue; /* a lone pair at the end of the kernel says little */
         sum += kappa;
         inverses += 1 / kappa;
         rows += 1;
@@ -73,6 +75,7 @@ void mps__grid_place(mps__grid *g, const mps_ppe_problem *problem)
         for (int64_t i = 0; i < problem->n; i++) lo = fmin(lo, problem->x[i * problem->dim + a]);
         g->lo[a] = lo - 0.5 * g->size;
     }
+#pragma omp parallel for schedule(static) num_threads(mps__team(problem->n, problem->threads))
     for (int64_t i = 0; i < problem->n; i++) {
         g->point_key[i] = 0;
         for (int a = 0; a < problem->dim; a++) g->point_key[i] |= (int64_t)position(g, problem, i, a) << (a * MPS__GRID_BITS);
@@ -127,33 +130,51 @@ static bool follow(const mps__grid *g, const mps__grid_level *l, wire *w, int32_
     return true;
 }
 
-/* Add to a link from both sides. */
-static void join(const mps__grid *g, mps__grid_level *l, int64_t link, float c)
+/* Add to one of the links from both sides. */
+static void join(const mps__grid *g, const mps__grid_level *l, int64_t link, float c, float *links)
 {
     int sides = 2 * g->dim, side = (int)(link % sides);
-    l->link[link] += c;
-    l->link[(int64_t)l->next[link] * sides + (side ^ 1)] += c;
+    links[link] += c;
+    links[(int64_t)l->next[link] * sides + (side ^ 1)] += c;
 }
 
-static void add_wire(const mps__grid *g, mps__grid_level *l, wire *w, const int32_t home[2], double k)
+static void add_wire(const mps__grid *g, const mps__grid_level *l, wire *w, const int32_t home[2], double k, float *links)
 {
     if (!follow(g, l, w, home[0], home[1])) return;
-    for (int s = 0; s < w->steps; s++) join(g, l, w->link[s], (float)(k * fabs(w->d[w->link[s] % (2 * g->dim) / 2])));
+    for (int s = 0; s < w->steps; s++) join(g, l, w->link[s], (float)(k * fabs(w->d[w->link[s] % (2 * g->dim) / 2])), links);
 }
 
-static void add_row(const mps__grid *g, mps__grid_level *l, const mps_ppe_problem *problem, int64_t i)
+/* The wire from point i to j if their cells have a face in common, as most do. */
+static bool add_short_wire(const mps__grid *g, const mps__grid_level *l, const mps_ppe_problem *problem, int64_t i, int32_t j, double k,
+                           float *links)
+{
+    int32_t home = l->home[i];
+    int64_t step = l->key[l->home[j]] - l->key[home];
+    for (int a = 0; a < g->dim; a++) {
+        int64_t one = (int64_t)1 << (a * MPS__GRID_BITS);
+        if (step != one && step != -one) continue;
+        double d = position(g, problem, j, a) - position(g, problem, i, a);
+        join(g, l, (int64_t)home * 2 * g->dim + 2 * a + (step > 0), (float)(k * fabs(d)), links);
+        return true;
+    }
+    return false;
+}
+
+static void add_row(const mps__grid *g, const mps__grid_level *l, const mps_ppe_problem *problem, int64_t i, float *links)
 {
     double start[3] = {0};
     for (int a = 0; a < g->dim; a++) start[a] = position(g, problem, i, a);
     for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) {
         int32_t j = problem->col[k], home[2] = {l->home[i], l->home[j]};
         if (j <= i || home[0] == home[1] || !(problem->val[k] < 0)) continue;
+        double conductance = -problem->val[k] * g->unit;
+        if (add_short_wire(g, l, problem, i, j, conductance, links)) continue;
         wire w;
         for (int a = 0; a < g->dim; a++) {
             w.x[a] = start[a];
             w.d[a] = position(g, problem, j, a) - start[a];
         }
-        add_wire(g, l, &w, home, -problem->val[k] * g->unit);
+        add_wire(g, l, &w, home, conductance, links);
     }
 }
 
@@ -208,20 +229,56 @@ static void share_shift(const mps__grid *g, mps__grid_level *l, int64_t i, doubl
     for (int k = 0; k < 1 << g->dim; k++) l->shift[at[k]] += (double)share[k] * shift;
 }
 
-void mps__grid_from_matrix(mps__grid *g, const mps_ppe_problem *problem)
+/* Links of the first grid: each chunk of the rows has its own, their sums have a fixed order. */
+static void add_rows(mps__grid *g, mps__grid_level *l, const mps_ppe_problem *problem)
+{
+    const int64_t links = l->cells * 2 * g->dim;
+    float *parts = g->parts;
+#pragma omp parallel num_threads(mps__team(problem->n, problem->threads))
+    {
+#pragma omp for schedule(static, 1)
+        for (int c = 0; c < MPS__GRID_CHUNKS; c++) {
+            float *part = parts + c * links;
+            memset(part, 0, (size_t)links * sizeof *part);
+            for (int64_t i = mps__grid_chunk(problem->n, c); i < mps__grid_chunk(problem->n, c + 1); i++) add_row(g, l, problem, i, part);
+        }
+#pragma omp for schedule(static)
+        for (int64_t k = 0; k < links; k++)
+            for (int c = 0; c < MPS__GRID_CHUNKS; c++) l->link[k] += parts[c * links + k];
+    }
+}
+
+/* Shares of the particles, and which cells of each colour a chunk of them reaches. */
+static void share_chunk(mps__grid *g, mps__grid_level *l, const mps_ppe_problem *problem, int chunk)
+{
+    int32_t range[2][2] = {{INT32_MAX, 0}, {INT32_MAX, 0}};
+    for (int64_t i = mps__grid_chunk(problem->n, chunk); i < mps__grid_chunk(problem->n, chunk + 1); i++) {
+        share_particle(g, l, problem, i);
+        for (int64_t k = i << g->dim; k < (i + 1) << g->dim; k++) {
+            int32_t *r = range[l->at[k] >= l->red];
+            if (l->at[k] < r[0]) r[0] = l->at[k];
+            if (l->at[k] >= r[1]) r[1] = l->at[k] + 1;
+        }
+    }
+    memcpy(g->range[chunk], range, sizeof range);
+}
+
+bool mps__grid_from_matrix(mps__grid *g, const mps_ppe_problem *problem)
 {
     mps__grid_level *l = &g->level[0];
+    if (!mps__grid_reserve_parts(g)) return false;
     for (int64_t i = 0; i < problem->n; i++) {
         int32_t c = l->home[i];
         l->kappa[c] += g->point_kappa[i];
         l->count[c] += 1;
-        add_row(g, l, problem, i);
     }
     for (int64_t c = 0; c < l->cells; c++) l->kappa[c] /= l->count[c];
-#pragma omp parallel for schedule(static) num_threads(mps__team(problem->n, problem->threads))
-    for (int64_t i = 0; i < problem->n; i++) share_particle(g, l, problem, i);
+    add_rows(g, l, problem);
+#pragma omp parallel for schedule(static, 1) num_threads(mps__team(problem->n, problem->threads))
+    for (int c = 0; c < MPS__GRID_CHUNKS; c++) share_chunk(g, l, problem, c);
     for (int64_t i = 0; i < problem->n; i++)
         if (problem->shift[i] > 0) share_shift(g, l, i, problem->shift[i] * g->unit);
+    return true;
 }
 
 /* ---- coarser grids: two cells become one along each axis ---- */
@@ -254,7 +311,7 @@ static void add_cell(const mps__grid *g, const mps__grid_level *fine, mps__grid_
     for (int a = 0; a < g->dim; a++) {
         int64_t link = c * 2 * g->dim + 2 * a + 1;
         int32_t other = l->home[fine->next[link]];
-        if (fine->link[link] > 0 && other != home) join(g, l, (int64_t)home * 2 * g->dim + 2 * a + 1, 0.5f * fine->link[link]);
+        if (fine->link[link] > 0 && other != home) join(g, l, (int64_t)home * 2 * g->dim + 2 * a + 1, 0.5f * fine->link[link], l->link);
     }
 }
 

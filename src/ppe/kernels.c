@@ -88,9 +88,10 @@ double mps__rows_diagonal(const mps_ppe_problem *problem, int64_t i)
 
 bool mps__rows_nonnegative(const mps_ppe_problem *problem)
 {
-    for (int64_t i = 0; i < problem->n; i++)
-        if (mps__rows_diagonal(problem, i) < 0) return false;
-    return true;
+    int negative = 0;
+#pragma omp parallel for schedule(static) num_threads(mps__team(problem->n, problem->threads)) reduction(| : negative)
+    for (int64_t i = 0; i < problem->n; i++) negative |= mps__rows_diagonal(problem, i) < 0;
+    return !negative;
 }
 
 void mps__guess_clean(double *p, int64_t n)

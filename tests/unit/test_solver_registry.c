@@ -103,7 +103,7 @@ static void expect_pair(const mps_sim *sim, const char *solver, const char *pc)
 static void test_choice(void **state)
 {
     mps_sim *sim = *state;
-    expect_pair(sim, "sundials.pcg", "ic0");
+    expect_pair(sim, "sundials.pcg", "auxgrid");
     assert_int_equal(mps_solver_use(sim, "sundials.bicgstab", "ic0"), MPS_OK);
     expect_pair(sim, "sundials.bicgstab", "ic0");
     assert_int_equal(mps_solver_use(sim, "sundials.gmres", "none"), MPS_OK);
@@ -121,7 +121,7 @@ static void test_wrong_names(void **state)
     expect_error(sim, mps_solver_use(sim, "sundials.pcg", "nome"), MPS_E_NAME, "did you mean 'none'");
     expect_error(sim, mps_solver_use(sim, NULL, NULL), MPS_E_ARG, "NULL");
     expect_error(sim, mps_solver_use(sim, "sundials.klu", "jacobi"), MPS_E_ARG, "uses no preconditioner");
-    expect_pair(sim, "sundials.pcg", "ic0");
+    expect_pair(sim, "sundials.pcg", "auxgrid");
 }
 
 static void test_no_sim(void **state)
@@ -201,7 +201,7 @@ static void test_register_refused(void **state)
     ops.struct_size = offsetof(mps_solver_ops, solve); /* an older table without its last verbs */
     expect_error(sim, mps_solver_register(sim, &ops), MPS_E_ARG, "lacks");
     expect_error(sim, mps_solver_register(sim, NULL), MPS_E_ARG, "NULL");
-    expect_pair(sim, "sundials.pcg", "ic0");
+    expect_pair(sim, "sundials.pcg", "auxgrid");
 }
 
 static void test_register_preconditioner(void **state)
@@ -247,7 +247,7 @@ static void test_create_fails(void **state)
     create_result = 1;
     expect_error(sim, mps_solver_use(sim, "my", NULL), MPS_E_NOMEM, "solver 'my'");
     expect_error(sim, mps_solver_use(sim, "sundials.pcg", "mine"), MPS_E_NOMEM, "preconditioner 'mine'");
-    expect_pair(sim, "sundials.pcg", "ic0");
+    expect_pair(sim, "sundials.pcg", "auxgrid");
     create_result = 0;
 }
 
@@ -329,6 +329,47 @@ static void test_solve(void **state)
     assert_true(result.iterations == 0 && result.residual == 0);
 }
 
+static char logged[256];
+
+static void keep_log(void *user, int level, const char *text)
+{
+    (void)user;
+    assert_int_equal(level, MPS_LOG_WARNING);
+    snprintf(logged, sizeof logged, "%s", text);
+}
+
+static int failing_setup(void *self, const mps_ppe_problem *problem)
+{
+    (void)self, (void)problem;
+    return MPS_PPE_BREAKDOWN;
+}
+
+/* Where the default preconditioner fails jacobi takes its place, and says so. */
+static void test_fall_back(void **state)
+{
+    mps_sim *sim = *state;
+    mps__solvers *s = &sim->world.solvers;
+    mps_ppe_problem problem = tiny();
+    mps_ppe_result result;
+    double p = 0;
+    s->context->log = keep_log;
+    for (int k = 0; k < s->preconditioners; k++)
+        if (strcmp(s->preconditioner_name[k], "auxgrid") == 0) s->preconditioner[k].setup = failing_setup;
+    for (int again = 0; again < 2; again++, p = 0) {
+        logged[0] = 0;
+        assert_int_equal(mps__solvers_solve(s, &problem, &p, &result), MPS_OK);
+        assert_true(fabs(p - 2) < 1e-12);
+        assert_non_null(strstr(logged, "'auxgrid' broke down"));
+        assert_non_null(strstr(logged, "with 'jacobi' the solver converged"));
+    }
+    logged[0] = 0; /* one that was asked for by name has no stand-in */
+    assert_int_equal(mps_solver_use(sim, "sundials.pcg", "ic0"), MPS_OK);
+    for (int k = 0; k < s->preconditioners; k++)
+        if (strcmp(s->preconditioner_name[k], "ic0") == 0) s->preconditioner[k].setup = failing_setup;
+    expect_error(sim, mps__solvers_solve(s, &problem, &p, &result), MPS_E_SOLVER, "broke down");
+    assert_string_equal(logged, "");
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, make_sim, drop_sim)
 
 int main(void)
@@ -344,6 +385,7 @@ int main(void)
         TEST(test_create_fails),
         TEST(test_solve_policy),
         TEST(test_solve),
+        TEST(test_fall_back),
         cmocka_unit_test(test_no_sim),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The cases: the dam break of Lobovsky et al. 2014 and the breaking wave of Wen, Zhao & Wan 2022, as in the drivers. */
+#include "bench.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct bench_kind {
+    const char *name;
+    int32_t dim;
+    double tank[3], fill[3], density, viscosity;
+    mps_harmonic motion;
+};
+
+static const struct bench_kind kinds[] = {
+    {"dam2d", 2, {1.61, 0.6, 0}, {0.6, 0.3, 0}, 997, 997 * 8.9e-7, {0}},
+    {"dam3d", 3, {1.61, 0.6, 0.15}, {0.6, 0.3, 0.15}, 997, 997 * 8.9e-7, {0}},
+    {"breaking", 2, {1.3, 0.9, 0}, {1.3, 0.18, 0}, 1000, 1e-3, {.dof = MPS_SURGE, .amplitude = 0.1, .omega = 3.1164599471}},
+};
+
+const char *bench_case_find(const char *name, bench_case *c)
+{
+    const char *slash = strchr(name, '/');
+    char *end;
+    *c = (bench_case){0};
+    if (!slash || strlen(name) >= sizeof c->name) return "must be kind/dp, as in dam2d/2.5, dp in mm";
+    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++)
+        if (strlen(kinds[k].name) == (size_t)(slash - name) && strncmp(name, kinds[k].name, (size_t)(slash - name)) == 0)
+            c->kind = &kinds[k];
+    if (!c->kind) return "kinds are dam2d, dam3d, breaking";
+    c->dp = 1e-3 * strtod(slash + 1, &end);
+    if (*end || !(c->dp >= 1e-4 && c->dp <= 0.05)) return "dp must be 0.1 to 50 mm";
+    strcpy(c->name, name);
+    return NULL;
+}
+
+static void check(mps_sim *sim, mps_status status, const char *what)
+{
+    if (status < 0) bench_fail(what, mps_sim_error(sim));
+}
+
+mps_sim *bench_case_make(const bench_case *c, int32_t threads, double re_far, bench_memory *memory)
+{
+    const struct bench_kind *k = c->kind;
+    const double lo[3] = {0};
+    char error[256] = "";
+    mps_sim *sim;
+    mps_config config;
+    mps_phase liquid;
+    mps_tank tank;
+    mps_config_init(&config, sizeof config);
+    config.dim = k->dim;
+    config.dp = c->dp;
+    config.threads = threads;
+    if (re_far > 0) config.re_far = re_far;
+    config.allocator = bench_allocator(memory);
+    config.error = error;
+    config.error_size = sizeof error;
+    if (mps_sim_create(&config, &sim) != MPS_OK) bench_fail("simulation", error);
+    mps_phase_init(&liquid, sizeof liquid);
+    liquid.density = k->density;
+    liquid.viscosity = k->viscosity;
+    check(sim, mps_sim_set_phase(sim, 0, &liquid), "liquid");
+    mps_tank_init(&tank, sizeof tank);
+    memcpy(tank.size, k->tank, sizeof tank.size);
+    check(sim, mps_geometry_tank(sim, &tank, NULL), "tank");
+    check(sim, mps_geometry_fill_box(sim, 0, lo, k->fill, NULL), "fill");
+    if (k->motion.amplitude > 0) check(sim, mps_motion_set_harmonics(sim, 1, &k->motion), "motion");
+    return sim;
+}
