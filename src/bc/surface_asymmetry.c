@@ -52,13 +52,13 @@ static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *term
     return 0;
 }
 
-/* Is the kernel sum over the fluid less than `enough`? */
-MPS__ROW bool detached(const int dim, const mps_stage *s, int64_t i, double enough)
+/* Is the kernel sum over the fluid, with or without its spray, less than `enough`? */
+MPS__ROW bool detached(const int dim, const mps_stage *s, int64_t i, bool with_spray, double enough)
 {
     const mps_stencil *t = s->near;
     double sum = 0;
     for (int64_t p = t->begin[i]; p < t->end[i] && sum < enough; p++)
-        if (s->kind[t->col[p]] == MPS_FLUID) sum += mps_stencil_pair_dim(dim, t, i, p).w;
+        if (s->kind[t->col[p]] == MPS_FLUID && (with_spray || s->region[t->col[p]] != MPS_REGION_SPRAY)) sum += mps_stencil_pair_dim(dim, t, i, p).w;
     return sum < enough;
 }
 
@@ -99,6 +99,21 @@ static int mark_contact(const double *k, mps_stage *s, double a0)
     return 0;
 }
 
+/* What is left of the fluid amid spray has p = 0: one or two particles that shared a pressure with the walls of a corner alone would take
+ * all that these push away. All see the regions as they were before. */
+static int mark_islands(const double *k, mps_stage *s)
+{
+    double *found = mps_stage_scratch(s, s->n);
+    if (!found) return 1;
+#pragma omp parallel for num_threads(s->threads) schedule(static)
+    for (int64_t i = 0; i < s->n; i++)
+        if (s->kind[i] == MPS_FLUID && s->region[i] == MPS_REGION_INNER)
+            found[i] = MPS__ROW_CALL(s, detached, s, i, false, k[SPRAY] * s->near->n0);
+    for (int64_t i = 0; i < s->n; i++)
+        if (found[i] > 0) s->region[i] = MPS_REGION_SURFACE;
+    return 0;
+}
+
 static int classify(void *self, const double *k, mps_stage *s)
 {
     (void)self;
@@ -109,11 +124,12 @@ static int classify(void *self, const double *k, mps_stage *s)
         if (s->kind[i] != MPS_FLUID && !(s->kind[i] == MPS_WALL && k[WALLS] > 0)) continue;
         const double a = asymmetry_of(s, i, a0);
         const double n = s->number_density[i] / t->n0;
-        if (s->kind[i] == MPS_FLUID && MPS__ROW_CALL(s, detached, s, i, k[SPRAY] * t->n0))
+        if (s->kind[i] == MPS_FLUID && MPS__ROW_CALL(s, detached, s, i, true, k[SPRAY] * t->n0))
             s->region[i] = MPS_REGION_SPRAY;
         else if (n < k[LONE] || (n < k[LOW] && a > k[LOW_SHARE]) || (n < k[HIGH] && a > k[SHARE]))
             s->region[i] = MPS_REGION_SURFACE;
     }
+    if (mark_islands(k, s)) return 1;
     if (k[CONTACT] > 0 && mark_contact(k, s, a0)) return 1;
     spread(s, MPS_REGION_SURFACE, MPS_REGION_NEAR);
     spread(s, MPS_REGION_NEAR, MPS_REGION_SECOND);

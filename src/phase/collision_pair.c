@@ -3,6 +3,7 @@
  * line; a fluid particle nearer than a distance to a wall loses the normal part of its approach. All pairs see the
  * velocities before the collisions, so that the order of particles does not matter; momentum of pairs is conserved. */
 #include "builtin.h"
+#include <stdbool.h>
 
 enum { DISTANCE, RESTITUTION, WALL_DISTANCE };
 static const mps_setting settings[] = {{"distance", 0.6, 0.0, 1.5}, {"restitution", 0.5, 0.0, 1.0}, {"wall_distance", 0.5, 0.0, 1.5}};
@@ -25,27 +26,36 @@ MPS__ROW void fluid_pairs(const int dim, const double *k, const mps_stage *s, in
     }
 }
 
-/* Take away what carries i into the nearest face: the wall's normal, not the line to its particle, so that films slide. */
-MPS__ROW void wall_face(const int dim, const double *k, const mps_stage *s, int64_t i, double du[3])
+/* Direction away from wall j, and the height in it; false where j is not in the way. A face is met along its normal, not along the line to
+ * its particle, so that films slide. The edge of a thin plate has a direction, but no face: it is a round post. */
+MPS__ROW bool obstacle(const int dim, const double *k, const mps_stage *s, const mps_pair *q, double n[3])
+{
+    const double reach = k[WALL_DISTANCE] * s->dp, least = 1e-4 * (dim == 2 ? s->dp : s->dp * s->dp);
+    const double *area = s->area + q->j * dim;
+    double size = 0, height = 0;
+    for (int d = 0; d < dim; d++) size += area[d] * area[d];
+    size = sqrt(size);
+    if (size < least) {
+        const double r = sqrt(q->r2);
+        for (int d = 0; d < dim; d++) n[d] = -q->d[d] / r;
+        return size > 0 && r < reach;
+    }
+    for (int d = 0; d < dim; d++) n[d] = area[d] / size;
+    for (int d = 0; d < dim; d++) height -= q->d[d] * n[d];
+    return height < reach && q->r2 - height * height <= 0.6 * s->dp * s->dp;
+}
+
+/* Take away what carries i into walls. */
+MPS__ROW void walls(const int dim, const double *k, const mps_stage *s, int64_t i, double du[3])
 {
     const mps_stencil *t = s->near;
-    const double least = 1e-4 * (dim == 2 ? s->dp : s->dp * s->dp); /* the edge of a plate has a direction, but no face */
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const int64_t j = t->col[p];
-        if (s->kind[j] != MPS_WALL) continue;
+        if (s->kind[t->col[p]] != MPS_WALL) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        const double *area = s->area + j * dim;
-        double size = 0, height = 0, un = 0;
-        for (int d = 0; d < dim; d++) size += area[d] * area[d];
-        size = sqrt(size);
-        if (size < least) continue;
-        for (int d = 0; d < dim; d++) {
-            height -= q.d[d] * area[d] / size;
-            un += (s->u[i * dim + d] + du[d] - s->u[j * dim + d]) * area[d] / size;
-        }
-        const double across2 = q.r2 - height * height;
-        if (height >= k[WALL_DISTANCE] * s->dp || across2 > 0.6 * s->dp * s->dp || un >= 0) continue;
-        for (int d = 0; d < dim; d++) du[d] -= un * area[d] / size;
+        double n[3], un = 0;
+        if (!obstacle(dim, k, s, &q, n)) continue;
+        for (int d = 0; d < dim; d++) un += (s->u[i * dim + d] + du[d] - s->u[q.j * dim + d]) * n[d];
+        for (int d = 0; d < dim && un < 0; d++) du[d] -= un * n[d];
     }
 }
 
@@ -53,7 +63,7 @@ MPS__ROW void collide(const int dim, const double *k, const mps_stage *s, int64_
 {
     double du[3] = {0};
     fluid_pairs(dim, k, s, i, du);
-    wall_face(dim, k, s, i, du);
+    walls(dim, k, s, i, du);
     for (int d = 0; d < dim; d++) change[i * dim + d] = du[d];
 }
 
