@@ -133,7 +133,7 @@ grep -q '"trespass": -0.0' static_two_fluid/summary.json || fail "static_two_flu
 grep -q '"strays": 0,' rayleigh_taylor/summary.json || fail "rayleigh_taylor has $(grep strays rayleigh_taylor/summary.json)"
 runs 0 droplet --mode oscillation --dp 0.001 --t-end 0.02 --frames 0 --out moving
 cmp -s moving/probes.csv droplet/probes.csv && fail "--mode oscillation changes nothing"
-runs 0 droplet --mode oscillation --use tension.csf --sigma 0 --dp 0.001 --t-end 0.002 --frames 0 --out free
+runs 0 droplet --mode oscillation --sigma 0 --dp 0.001 --t-end 0.002 --frames 0 --out free
 value_is free ke 1 0 0
 runs 0 rising_bubble --case 2 --dp 0.05 --t-end 0.02 --frames 0 --out bubble2
 cmp -s bubble2/probes.csv rising_bubble/probes.csv && fail "--case 2 changes nothing"
