@@ -4,13 +4,13 @@
  * tube between two columns of 2 H, which together are as stiff as one of H below it. It is let go where the air has no pressure.
  *
  * Water above air falls through it. To keep it up the slug is as tough as syrup and slides along the walls without friction: its motion as a
- * whole is that of water, only what bends its ends takes ten times as long. */
+ * whole is that of water, only what bends its ends takes several times as long. */
 #include "common/phases.h"
 #include "common/tank.h"
 #include <math.h>
 
-static const double SLUG = 0.2, CUSHION = 0.2, WATER = 1000, TOUGH = 20;
-static const double SPACINGS = 5; /* width of the tube */
+static const double SLUG = 0.2, CUSHION = 0.2, WATER = 1000, TOUGH = 50;
+static const double SPACINGS = 20; /* width of the tube: its walls hold half a spacing of air each that does not give way */
 
 /* The lattice is laid so that the slug has its length between the middles of the two rows at its ends. */
 static void build(run *r)
@@ -59,7 +59,7 @@ int main(int argc, char **argv)
     o.dp = 0.01;
     o.dp_min = 0.001;
     o.dp_max = 0.04;
-    o.t_end = 0.6;
+    o.t_end = 0.5;
     o.has_sigma = true;
     cli_parse(&o, argc, argv);
     run_open(&r, &o);
