@@ -44,6 +44,7 @@ int main(int argc, char **argv)
     run r;
     cli_defaults(&o, "static_two_fluid", "two fluids at rest, Wen, Zhao & Wan 2022, section 4.1: 1000 kg/m3 below 1 kg/m3");
     o.model = "mmps";
+    o.need = "reference.lid";
     o.dp = 0.02;
     o.dp_min = 0.001;
     o.dp_max = 0.1;

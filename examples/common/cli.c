@@ -50,6 +50,7 @@ static int cli_table(cli_options *o, cli_option *table)
 /* Word `index` of "one|two"; its length, or 0 behind the last. */
 static int cli_word(const char *words, int32_t index, const char **word)
 {
+    if (!words) words = ""; /* an option without an argument */
     for (; index > 0 && *words; index--) {
         words += strcspn(words, "|");
         words += *words == '|';

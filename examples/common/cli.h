@@ -60,6 +60,7 @@ typedef struct cli_options {
     bool has_sigma;     /* the driver offers --sigma */
     bool sigma_given;   /* by the user */
     bool no_gas;        /* both phases are liquids: the model of the gas is switched off */
+    const char *need;   /* NULL, or "slot.variant" that a model of several phases gets where its slot is empty */
     const char *prefer; /* NULL, or "slot.key=value", set before --set where the model has it */
     int owns;           /* options of this driver alone */
     cli_option own[CLI_OWN];

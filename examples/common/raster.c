@@ -6,6 +6,7 @@
 #include <string.h>
 
 enum { REACH = 16 }; /* nodes a particle can reach along an axis */
+static const double widest = 3;
 
 /* Where a particle falls along one axis. */
 typedef struct axis {
@@ -24,7 +25,7 @@ static double spline(double q)
 bool raster_create(raster *g, mps_sim *sim, const double *lo, const double *hi, double width)
 {
     bool done = true;
-    *g = (raster){.width = fmin(fmax(width, 1), REACH / 4 - 1), .count = 1, .step = -1};
+    *g = (raster){.width = fmin(fmax(width, 1), widest), .count = 1, .step = -1};
     mps_sim_shape(sim, &g->dim, &g->dp);
     for (int d = 0; d < 3; d++) {
         g->size[d] = d < g->dim ? (int64_t)floor((hi[d] - lo[d]) / g->dp + 1e-6) + 1 : 1;

@@ -69,6 +69,17 @@ static bool run_has_model(const run *r, const char *slot)
     return false;
 }
 
+/* What the case cannot do without, and what it must not have. */
+static void run_suit_models(run *r)
+{
+    const cli_options *o = &r->options;
+    char slot[48];
+    if (o->no_gas && run_has_model(r, "gas")) run_check(r, mps_model_remove(r->sim, "gas"), "models");
+    if (!o->need || !run_has_gas(r)) return;
+    snprintf(slot, sizeof slot, "%.*s", (int)strcspn(o->need, "."), o->need);
+    if (!run_has_model(r, slot)) run_check(r, mps_model_use(r->sim, o->need), "models");
+}
+
 /* The case's surface tension, which --set may change again. */
 static void run_set_tension(run *r)
 {
@@ -84,7 +95,7 @@ static void run_use_models(run *r)
     const cli_options *o = &r->options;
     if (mps_sim_use_preset(r->sim, o->model) != MPS_OK)
         run_refuse(r, "--model", o->model, mps_sim_error(r->sim), "; there are imps, mmps, imps.paper, mmps.paper");
-    if (o->no_gas && run_has_model(r, "gas")) run_check(r, mps_model_remove(r->sim, "gas"), "models");
+    run_suit_models(r);
     for (int i = 0; i < o->use.count; i++)
         if (mps_model_use(r->sim, o->use.text[i]) != MPS_OK) run_refuse(r, "--use", o->use.text[i], mps_sim_error(r->sim), "");
     run_set_tension(r);

@@ -46,6 +46,7 @@ int tank_main(cli_options *o, const tank_case *c, tank_columns_fn columns, int a
     run r;
     o->amplitude = c->motion.amplitude;
     o->has_sigma = true;
+    o->need = "reference.lid"; /* in a closed tank full of liquid and gas something must set the level of the pressures */
     cli_parse(o, argc, argv);
     run_open(&r, o);
     tank_build(&r, c);
