@@ -6,16 +6,19 @@
  *
  * The gradient and this divergence are not made to undo each other exactly. In films of one or two particles on a wall, where B is
  * large in both, a full step overshoots more than twice and the error grows from step to step with changing sign: hence the gain below 1.
- * A steady pressure does not feel it, a change arrives 1/gain steps later.
+ * A steady pressure does not feel it, a change arrives 1/gain steps later. But the strain of the flow adds -dt T to Div(v) in every step,
+ * T = tr((grad v)^2): if that waits too, every strained particle is compressed at the rate (1/gain - 1) dt T, and delta blows it up
+ * again against the pressure of another time and place. It is known beforehand, so the share `forward` of it is asked for whole.
  *
  * delta is the volume deviation of mps_op_volume_deviation(), clipped and averaged. Its error follows the waves, so tau is long (20 tau_g):
  * a short one feeds them. What an impact compressed by per cents has to come back before the next: beyond `firm` the time falls to tau_g. */
 #include "builtin.h"
 #include <stdbool.h>
 
-enum { TAU, CLIP, STRAIN, GAIN, FIRM, RAPID, TORN };
-static const mps_setting settings[] = {
-    {"tau", 20.0, 0.1, 1e6}, {"clip", 0.1, 0.0, 1.0}, {"strain", 1.0, 0.0, 1.0}, {"gain", 0.7, 0.05, 1.0}, {"firm", 0.03, 1e-3, 1.0}, {"rapid", 0.0, 0.0, 1.0}, {"torn", 0.15, 1e-3, 10.0}};
+enum { TAU, CLIP, STRAIN, GAIN, FIRM, RAPID, TORN, FORWARD };
+static const mps_setting settings[] = {{"tau", 20.0, 0.1, 1e6},    {"clip", 0.1, 0.0, 1.0},   {"strain", 1.0, 0.0, 1.0},
+                                       {"gain", 0.7, 0.05, 1.0},   {"firm", 0.03, 1e-3, 1.0}, {"rapid", 0.0, 0.0, 1.0},
+                                       {"torn", 0.15, 1e-3, 10.0}, {"forward", 0.0, 0.0, 1.0}};
 
 /* delta of each fluid particle, never negative near the surface, where the kernel is cut. */
 static void volume_deviation(const double *k, const mps_stage *s, double *delta)
@@ -94,9 +97,9 @@ MPS__ROW void face_correction(const int dim, const mps_stage *s, int64_t i, doub
     mps_matrix_inverse_bounded(dim, m, 0.5, b);
 }
 
-/* Divergence of a fluid particle, with B_i, less the one that keeps its volume: the move x + dt v changes volumes by
- * dt div v - dt^2 tr((grad v)^2)/2 + ..., so div v = dt tr((grad v)^2)/2 is wanted. With zero instead every strained particle is
- * compressed at the rate dt |grad v|^2 and blown up again by delta against the pressure. */
+/* Divergence of a fluid particle, with B_i, less `strain` dt T: the move x + dt v changes volumes by dt div v - dt^2 T/2 + ..., so
+ * div v = dt T/2 is wanted after the step; before it strain = 1/gain - 1/2 asks for T beyond the gain as well. With zero instead every
+ * strained particle is compressed at the rate (1/gain - 1/2) dt T and blown up again by delta against the pressure. */
 MPS__ROW double fluid_divergence(const int dim, const mps_stage *s, const double *v, int64_t i, double strain)
 {
     const mps_stencil *t = s->near;
@@ -125,7 +128,7 @@ MPS__ROW double fluid_divergence(const int dim, const mps_stage *s, const double
         sum += a[d * dim + d];
         for (int e = 0; e < dim; e++) square += a[d * dim + e] * a[e * dim + d];
     }
-    return sum - 0.5 * strain * s->dt * square;
+    return sum - strain * s->dt * square;
 }
 
 /* Divergence of the half cell of a wall particle; weights as in its row of the pressure equation. */
@@ -171,6 +174,7 @@ static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *term
     double *delta = mps_stage_scratch(s, s->n), *v = mps_stage_scratch(s, s->n * s->dim), *w = mps_stage_scratch(s, s->n * s->dim);
     if (!delta || !v || !w) return 1;
     const double rate = s->velocity_scale / s->dp, over = 1.0 / s->dt;
+    const double strain = k[STRAIN] * (0.5 + k[FORWARD] * (1.0 / k[GAIN] - 1.0));
     terms->gain = k[GAIN];
     terms->radius = MPS_NEAR;
     volume_deviation(k, s, delta);
@@ -183,7 +187,7 @@ static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *term
         if (s->kind[i] == MPS_FLUID) {
             const double mean = MPS__ROW_CALL(s, mean_deviation, s, delta, i);
             const double back = rate * relaxation(k, mean, k[RAPID] / (s->dt * rate)) * mean;
-            terms->rhs[i] += over * (back - MPS__ROW_CALL(s, fluid_divergence, s, w, i, k[STRAIN]));
+            terms->rhs[i] += over * (back - MPS__ROW_CALL(s, fluid_divergence, s, w, i, strain));
         } else {
             terms->rhs[i] -= over * MPS__ROW_CALL(s, wall_divergence, s, w, i, terms->wall_factor);
         }
@@ -195,6 +199,6 @@ const mps_model_ops mps__source_volume = {.struct_size = sizeof(mps_model_ops),
                                           .api = MPS_MODEL_API,
                                           .name = "source.volume",
                                           .order = 500,
-                                          .setting_count = 7,
+                                          .setting_count = 8,
                                           .settings = settings,
                                           .source = source};
