@@ -18,7 +18,7 @@ enum { MPS__SCRATCH = 16 };
 typedef struct mps__budget {
     double wall_work, viscous, collision, shift;
     double start;                      /* kinetic + potential before the first step */
-    double deviation, deviation_start; /* mean volume deviation of inner fluid in the last step and the first */
+    double deviation, deviation_start; /* mean volume deviation of regions INNER and SECOND in the last step and the first */
     bool started;
 } mps__budget;
 
