@@ -140,7 +140,8 @@ enum { MPS_NEAR = 0, MPS_FAR = 1 };
 MPS_API mps_status mps_neighbours_stencil(const mps_neighbours *list, int32_t which, const mps_kernel *kernel, mps_stencil *stencil);
 
 /** The stencil of a simulation's particles at their present positions (all kinds). Rebuilds the list if needed.
- *  Valid until the next step, add or remove. @return MPS_E_BUSY while positions are leased for writing */
+ *  Valid until the next step, add or remove, and until particles are moved. Leases for reading do not matter: while any lease is open,
+ *  nobody is put at another place. @return MPS_E_BUSY while positions are leased for writing */
 MPS_API mps_status mps_sim_stencil(mps_sim *sim, int32_t which, mps_stencil *stencil);
 
 /** n_i = sum_j W. W22 (7). @param n [s->n] out */

@@ -80,8 +80,8 @@ typedef struct mps_energy {
     double shift;         /**< lost in shifting, kinetic and potential [J] */
     double numerical;     /**< the rest: wall_work - viscous - collision - shift - d(kinetic + potential) [J] */
     double mass;          /**< [kg] */
-    double volume;        /**< sum m/rho, over 1 + mean volume deviation of inner fluid [m3 or m2] */
-    double volume_error;  /**< mean volume deviation of inner fluid in the first step minus now, > 0: expanded */
+    double volume;        /**< sum m/rho, over 1 + mean volume deviation of fluid below the surface's first band [m3 or m2] */
+    double volume_error;  /**< that mean deviation in the first step minus now, > 0: expanded */
     double centre[3];     /**< centre of mass, lab frame [m] */
     double momentum[3];   /**< [kg m/s] */
 } mps_energy;

@@ -7,7 +7,8 @@
 
 MPS_BEGIN_DECLS
 
-/** What happens to a fluid particle that leaves the domain. */
+/** What happens to a fluid particle that leaves the domain, or the tank: less than dp from a dummy that stands behind a wall, on the same
+ *  side of its face, with no wall particle nearer. Spilled liquid touches the tank that way. */
 enum {
     MPS_LOST_REMOVE = 0, /**< removed when the next step begins, counted in mps_step_info.lost and logged (default) */
     MPS_LOST_ERROR = 1   /**< the next step fails with MPS_E_LOST and names it; remove it to go on */

@@ -20,7 +20,7 @@ typedef int32_t mps_status;
     X(MPS_E_NAME, -4, "no model, solver, field or part has this name")                          \
     X(MPS_E_STATE, -5, "the call is not allowed now")                                           \
     X(MPS_E_DIVERGED, -6, "a value became NaN or left every physical range")                    \
-    X(MPS_E_LOST, -7, "a particle left the domain")                                             \
+    X(MPS_E_LOST, -7, "a particle left the domain or is behind a wall")                         \
     X(MPS_E_SOLVER, -8, "the pressure solver broke down")                                       \
     X(MPS_E_PLUGIN, -9, "a plug-in reported a failure")                                         \
     X(MPS_E_IO, -10, "a file could not be read or written")                                     \

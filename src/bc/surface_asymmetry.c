@@ -58,7 +58,8 @@ MPS__ROW bool detached(const int dim, const mps_stage *s, int64_t i, bool with_s
     const mps_stencil *t = s->near;
     double sum = 0;
     for (int64_t p = t->begin[i]; p < t->end[i] && sum < enough; p++)
-        if (s->kind[t->col[p]] == MPS_FLUID && (with_spray || s->region[t->col[p]] != MPS_REGION_SPRAY)) sum += mps_stencil_pair_dim(dim, t, i, p).w;
+        if (s->kind[t->col[p]] == MPS_FLUID && (with_spray || s->region[t->col[p]] != MPS_REGION_SPRAY))
+            sum += mps_stencil_pair_dim(dim, t, i, p).w;
     return sum < enough;
 }
 

@@ -89,13 +89,7 @@ mps_status mps_sim_stencil(mps_sim *sim, int32_t which, mps_stencil *stencil)
                which);
     const mps__field *x = mps__particles_field(&sim->world.particles, "position");
     if (x->writer) return mps__fail(&sim->context, MPS_E_BUSY, "positions are leased for writing");
-    if (mps__particles_leases(&sim->world.particles) == 0) {
-        MPS__TRY(mps__world_neighbours(&sim->world));
-    } else if (!mps__neighbours_fresh(&sim->world.neighbours, sim->world.particles.n, sim->world.particles.x, sim->world.re_far)) {
-        return mps__fail(&sim->context, MPS_E_BUSY, "the particles must be sorted anew, but a lease is open");
-    } else {
-        MPS__TRY(mps__world_rows(&sim->world)); /* they moved since the step's lists */
-    }
+    MPS__TRY(mps__particles_leases(&sim->world.particles) ? mps__world_neighbours_kept(&sim->world) : mps__world_neighbours(&sim->world));
     return mps__world_stencil(&sim->world, which, stencil);
 }
 

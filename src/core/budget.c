@@ -67,7 +67,7 @@ double mps__budget_mean_deviation(const mps__world *w)
     double sum = 0;
     int64_t count = 0;
     for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID && s->region[i] == MPS_REGION_INNER) {
+        if (s->kind[i] == MPS_FLUID && s->region[i] <= MPS_REGION_SECOND) {
             sum += w->work.volume[i];
             count++;
         }

@@ -31,9 +31,9 @@ void mps__world_free(mps__world *w)
     mps__ppe_free(&w->ppe);
     mps__motion_free(&w->motion);
     mps__work *k = &w->work;
-    void *all[] = {k->fixed, k->volume, k->asymmetry, k->wet,   k->density_smooth, k->correction, k->tank_accel, k->area,
-                   k->a,     k->dx,     k->rhs,       k->shift, k->value,          k->body,       k->gas,        k->law,
-                   k->x0,    k->u0,     k->p0};
+    void *all[] = {k->fixed, k->gone, k->volume, k->asymmetry, k->wet,   k->density_smooth, k->correction, k->tank_accel,
+                   k->area,  k->a,    k->dx,     k->rhs,       k->shift, k->value,          k->body,       k->gas,
+                   k->law,   k->x0,   k->u0,     k->p0};
     for (size_t a = 0; a < sizeof all / sizeof all[0]; a++) mps__free(w->context, all[a]);
     for (int a = 0; a < MPS__SCRATCH; a++) mps__free(w->context, k->scratch[a]);
 }
@@ -95,15 +95,13 @@ static bool outside(const mps__world *w, int64_t i, const double *lo, const doub
     return false;
 }
 
-/* Apply the policy to fluid particles outside the domain. */
-static mps_status handle_lost(mps__world *w)
+/* Apply the policy to the particles with `gone`, if any; the text says where they are. */
+static mps_status handle_lost(mps__world *w, const bool *gone, const char *where)
 {
     mps__particles *s = &w->particles;
-    double lo[3], hi[3];
-    if (!mps__world_domain(w, lo, hi)) return MPS_OK;
-    int64_t lost = 0, first = -1;
+    int64_t lost = 0, first = -1, count = 0;
     for (int64_t i = s->n - 1; i >= 0; i--)
-        if (outside(w, i, lo, hi)) {
+        if (gone[i]) {
             lost++;
             first = i;
         }
@@ -111,16 +109,14 @@ static mps_status handle_lost(mps__world *w)
     const double *x = s->x + first * w->dim;
     const double z = w->dim == 3 ? x[2] : 0;
     if (w->lost_policy == MPS_LOST_ERROR)
-        return mps__fail(w->context, MPS_E_LOST, "%lld particles left the domain at t = %.6g s; particle %lld is at (%g, %g, %g) m",
-                         (long long)lost, w->info.t, (long long)s->id[first], x[0], x[1], z);
-    mps__log(w->context, MPS_LOG_WARNING,
-             "t = %.6g s: %lld particles left the domain and were removed; particle %lld was at (%g, %g, %g) m", w->info.t, (long long)lost,
-             (long long)s->id[first], x[0], x[1], z);
+        return mps__fail(w->context, MPS_E_LOST, "%lld particles %s at t = %.6g s; particle %lld is at (%g, %g, %g) m", (long long)lost,
+                         where, w->info.t, (long long)s->id[first], x[0], x[1], z);
+    mps__log(w->context, MPS_LOG_WARNING, "t = %.6g s: %lld particles %s and were removed; particle %lld was at (%g, %g, %g) m", w->info.t,
+             (long long)lost, where, (long long)s->id[first], x[0], x[1], z);
     int32_t *keep = mps__alloc(w->context, s->n, sizeof *keep);
     if (!keep) return MPS_E_NOMEM;
-    int64_t count = 0;
     for (int64_t i = 0; i < s->n; i++)
-        if (!outside(w, i, lo, hi)) keep[count++] = (int32_t)i;
+        if (!gone[i]) keep[count++] = (int32_t)i;
     mps_status status = mps__particles_permute(s, count, keep);
     mps__free(w->context, keep);
     if (status == MPS_OK) {
@@ -128,6 +124,56 @@ static mps_status handle_lost(mps__world *w)
         w->neighbours.valid = false;
     }
     return status;
+}
+
+static mps_status leave_domain(mps__world *w)
+{
+    double lo[3], hi[3];
+    if (!mps__world_domain(w, lo, hi)) return MPS_OK;
+    bool *gone = w->work.gone;
+    for (int64_t i = 0; i < w->particles.n; i++) gone[i] = outside(w, i, lo, hi);
+    return handle_lost(w, gone, "left the domain");
+}
+
+static double distance2(const mps__world *w, int64_t i, int64_t j)
+{
+    double sum = 0;
+    for (int d = 0; d < w->dim; d++) sum += pow(w->particles.x[j * w->dim + d] - w->particles.x[i * w->dim + d], 2);
+    return sum;
+}
+
+/* Is particle i, `r2` from a dummy, beyond the face this dummy stands behind, and is no wall nearer than the dummy? */
+static bool behind(const mps__world *w, int64_t i, int64_t dummy, double r2)
+{
+    const mps__particles *s = &w->particles;
+    const mps_neighbours *l = &w->neighbours;
+    const int64_t wall = s->wall_of[dummy];
+    double X[3], height = 0;
+    if (wall < 0) return false;
+    mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * w->dim, X);
+    for (int d = 0; d < w->dim; d++) height += (X[d] - s->ref[wall * w->dim + d]) * s->area[wall * w->dim + d];
+    for (int64_t p = l->begin[i]; height < 0 && p < l->middle[i]; p++)
+        if (s->kind[l->col[p]] == MPS_WALL && distance2(w, i, l->col[p]) <= r2) return false;
+    return height < 0;
+}
+
+/* Liquid that ran over the rim of an open tank touches its walls from behind. There they would press it as if it stood before them. */
+static mps_status leave_tank(mps__world *w)
+{
+    const mps__particles *s = &w->particles;
+    const mps_neighbours *l = &w->neighbours;
+    bool *gone = w->work.gone;
+    memset(gone, 0, (size_t)s->n * sizeof *gone);
+    for (int64_t i = 0; i < s->n; i++) {
+        if (s->kind[i] != MPS_DUMMY || mps__is_shadow(s, i)) continue;
+        for (int64_t p = l->begin[i]; p < l->middle[i]; p++) {
+            const int64_t j = l->col[p];
+            if (s->kind[j] != MPS_FLUID || gone[j]) continue;
+            const double r2 = distance2(w, i, j);
+            gone[j] = r2 < w->dp * w->dp && behind(w, j, i, r2);
+        }
+    }
+    return handle_lost(w, gone, "are behind a wall");
 }
 
 /* The shadows of a plate belong to the face before them. */
@@ -191,6 +237,7 @@ static mps_status reserve_work(mps__world *w)
         int64_t count;
         size_t size;
     } a[] = {{(void **)&k->fixed, wanted, sizeof(int32_t)},
+             {(void **)&k->gone, wanted, sizeof(bool)},
              {(void **)&k->volume, wanted, sizeof(double)},
              {(void **)&k->asymmetry, wanted * dim, sizeof(double)},
              {(void **)&k->wet, wanted, sizeof(double)},
@@ -219,12 +266,10 @@ static mps_status reserve_work(mps__world *w)
     return MPS_OK;
 }
 
-/* Sort the store along the cells and search anew. */
+/* Lists of the particles in the order they have. */
 static mps_status search(mps__world *w)
 {
     mps__particles *s = &w->particles;
-    MPS__TRY(mps__neighbours_order(&w->neighbours, s->n, s->x, w->re_far));
-    MPS__TRY(mps__particles_permute(s, s->n, w->neighbours.order));
     MPS__TRY(mps__neighbours_search(&w->neighbours, s->n, s->x, w->re_near, w->re_far));
     if (w->linked != s->generation) {
         link_dummies(w);
@@ -236,15 +281,40 @@ static mps_status search(mps__world *w)
     return status;
 }
 
+/* Sort the store along the cells and search anew, where needed. */
+static mps_status renew(mps__world *w)
+{
+    mps__particles *s = &w->particles;
+    w->neighbours.threads = w->threads;
+    if (w->linked == s->generation && mps__neighbours_fresh(&w->neighbours, s->n, s->x, w->re_far)) return mps__world_rows(w);
+    MPS__TRY(mps__neighbours_order(&w->neighbours, s->n, s->x, w->re_far));
+    MPS__TRY(mps__particles_permute(s, s->n, w->neighbours.order));
+    MPS__TRY(search(w));
+    return mps__world_rows(w);
+}
+
 mps_status mps__world_neighbours(mps__world *w)
+{
+    MPS__CHECK(w->context, w->particles.n > 0, "there are no particles");
+    MPS__TRY(reserve_work(w));
+    MPS__TRY(leave_domain(w));
+    MPS__TRY(renew(w));
+    const int64_t lost = w->info.lost;
+    MPS__TRY(leave_tank(w));
+    return w->info.lost > lost ? renew(w) : MPS_OK;
+}
+
+mps_status mps__world_neighbours_kept(mps__world *w)
 {
     mps__particles *s = &w->particles;
     MPS__CHECK(w->context, s->n > 0, "there are no particles");
-    MPS__TRY(handle_lost(w));
     MPS__TRY(reserve_work(w));
     w->neighbours.threads = w->threads;
-    if (w->linked != s->generation || !mps__neighbours_fresh(&w->neighbours, s->n, s->x, w->re_far)) MPS__TRY(search(w));
-    return mps__world_rows(w);
+    const bool fresh = w->linked == s->generation && mps__neighbours_fresh(&w->neighbours, s->n, s->x, w->re_far);
+    if (!fresh) MPS__TRY(search(w));
+    MPS__TRY(mps__world_rows(w));
+    if (!fresh) w->neighbours.valid = false; /* the next step sorts, as it would have done */
+    return MPS_OK;
 }
 
 mps_status mps__world_rows(mps__world *w)

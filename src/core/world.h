@@ -18,7 +18,7 @@ enum { MPS__SCRATCH = 16 };
 typedef struct mps__budget {
     double wall_work, viscous, collision, shift;
     double start;                      /* kinetic + potential before the first step */
-    double deviation, deviation_start; /* mean volume deviation of inner fluid in the last step and the first */
+    double deviation, deviation_start; /* mean volume deviation of regions INNER and SECOND in the last step and the first */
     bool started;
 } mps__budget;
 
@@ -26,6 +26,7 @@ typedef struct mps__budget {
 typedef struct mps__work {
     int64_t capacity;
     int32_t *fixed;
+    bool *gone; /* particles to be removed */
     double *volume, *asymmetry, *wet, *density_smooth, *correction, *tank_accel, *area, *a, *dx;
     double *rhs, *shift, *value, *body, *gas, *law;
     double *x0, *u0, *p0;
@@ -66,6 +67,8 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
 void mps__world_free(mps__world *w);
 /* Lists at the present positions: search and sort if needed, then exact rows. Lost particles are handled here. */
 mps_status mps__world_neighbours(mps__world *w);
+/* The same for a reader who holds arrays: nobody is removed or put elsewhere. */
+mps_status mps__world_neighbours_kept(mps__world *w);
 /* Exact rows at the present positions from lists that are fresh. */
 mps_status mps__world_rows(mps__world *w);
 /* The stencil of one radius from those lists. */

@@ -12,7 +12,7 @@ static char folder[64];
 static int make_folder(void **state)
 {
     (void)state;
-    strcpy(folder, "/tmp/mps_frames_XXXXXX");
+    strcpy(folder, "mps_frames_XXXXXX");
     return mkdtemp(folder) ? 0 : -1;
 }
 

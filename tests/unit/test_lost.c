@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Particles that leave the domain: both policies, domains given and not, tanks that moved and turned. */
+/* Particles that leave the domain or the tank: both policies, domains given and not, tanks that moved and turned. */
 #include "tank_fixture.h"
 #include <stdio.h>
 
@@ -119,14 +119,62 @@ static void given_domain(void **state)
 {
     (void)state;
     message m;
-    const double lo[2] = {-0.1, -0.1}, hi[2] = {0.6, 0.6};
+    const double lo[2] = {-0.1, -0.1}, hi[2] = {0.6, 0.8};
     mps_sim *sim = pool(MPS_LOST_REMOVE, &m, lo, hi);
     const int64_t id = some_fluid(sim);
-    put(sim, id, 0.25, 0.59);
+    put(sim, id, 0.25, 0.79);
     assert_int_equal(lost_in_step(sim), 0);
-    put(sim, id, 0.25, 0.61);
+    put(sim, id, 0.25, 0.81);
     assert_int_equal(lost_in_step(sim), 1);
     mps_sim_destroy(sim);
+}
+
+/* Where the nearest solid is a dummy, and its wall's face looks the other way, the liquid is out of the tank. */
+static void behind_a_wall(void **state)
+{
+    (void)state;
+    message m;
+    mps_sim *sim = pool(MPS_LOST_REMOVE, &m, NULL, NULL);
+    const int64_t id = some_fluid(sim);
+    const double before[][2] = {{0.1 * dp, 0.42}, {-0.4 * dp, 0.42}, {0.1 * dp, 0.1 * dp}, {-5 * dp, 0.25}};
+    for (size_t k = 0; k < sizeof before / sizeof before[0]; k++) { /* at a wall, in its plane, in a corner, a spacing from the dummies */
+        put(sim, id, before[k][0], before[k][1]);
+        assert_int_equal(lost_in_step(sim), 0);
+    }
+    put(sim, id, -0.6 * dp, 0.42);
+    assert_int_equal(lost_in_step(sim), 1);
+    assert_int_equal(mps_particle_index(sim, id), -1);
+    assert_non_null(strstr(m.text, "behind a wall"));
+    put(sim, some_fluid(sim), 0.25, -2.8 * dp); /* under the floor */
+    assert_int_equal(lost_in_step(sim), 2);
+    mps_sim_destroy(sim);
+    sim = pool(MPS_LOST_ERROR, &m, NULL, NULL);
+    const int64_t n = mps_particles_count(sim, -1);
+    put(sim, some_fluid(sim), -0.6 * dp, 0.42);
+    ASSERT_REFUSED(sim, mps_step(sim, 1e-4, NULL), MPS_E_LOST, "behind a wall");
+    assert_int_equal(mps_particles_count(sim, -1), n);
+    mps_sim_destroy(sim);
+}
+
+/* Nobody is behind a plate: its shadows stand in the liquid of the other side, dummies between its columns behind both faces. */
+static void beside_a_plate(void **state)
+{
+    (void)state;
+    for (int columns = 1; columns <= 3; columns++) {
+        mps_sim *sim = new_sim(2, dp);
+        const double lo[2] = {0.25, 0}, hi[2] = {0.25 + (columns - 1) * dp, 0.45};
+        add_tank(sim, 0.5, 0.6, 0);
+        ASSERT_OK(sim, mps_geometry_baffle(sim, "plate", lo, hi));
+        fill_depth(sim, 0.5, 0.3, 0);
+        const int64_t id = some_fluid(sim);
+        put(sim, id, 0.25 - 0.2 * dp, 0.42);
+        assert_int_equal(lost_in_step(sim), 0);
+        put(sim, id, hi[0] + 0.2 * dp, 0.42);
+        assert_int_equal(lost_in_step(sim), 0);
+        put(sim, id, 0.25, 0.45 + 0.3 * dp); /* over its edge */
+        assert_int_equal(lost_in_step(sim), 0);
+        mps_sim_destroy(sim);
+    }
 }
 
 /* Turned by a quarter and carried away: lab (x, y) = (5 - Y, 2 + X). */
@@ -153,8 +201,10 @@ static void moved_tank(void **state)
     assert_int_equal(lost_in_step(sim), 0);
     put(sim, id, 5 - 1.35, 2 + 0.25);
     assert_int_equal(lost_in_step(sim), 1);
-    put(sim, some_fluid(sim), 0.25, 0.25); /* where the tank was */
+    put(sim, some_fluid(sim), 5 + 0.6 * dp, 2 + 0.25); /* behind its floor */
     assert_int_equal(lost_in_step(sim), 2);
+    put(sim, some_fluid(sim), 0.25, 0.25); /* where the tank was */
+    assert_int_equal(lost_in_step(sim), 3);
     mps_sim_destroy(sim);
 }
 
@@ -200,7 +250,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(removed_and_counted), cmocka_unit_test(refused_by_policy), cmocka_unit_test(given_domain),
-        cmocka_unit_test(moved_tank),          cmocka_unit_test(no_domain),         cmocka_unit_test(all_lost),
+        cmocka_unit_test(behind_a_wall),       cmocka_unit_test(beside_a_plate),    cmocka_unit_test(moved_tank),
+        cmocka_unit_test(no_domain),           cmocka_unit_test(all_lost),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -312,7 +312,8 @@ static void lease_blocks(void **state)
         ASSERT_STATUS(sim, mps_motion_clear(sim), MPS_E_BUSY);
         assert_int_equal(mps_phase_init(&phase, sizeof phase), MPS_OK);
         ASSERT_STATUS(sim, mps_sim_set_phase(sim, 1, &phase), MPS_E_BUSY);
-        ASSERT_STATUS(sim, mps_sim_stencil(sim, MPS_NEAR, &s), MPS_E_BUSY); /* the lists were never built */
+        ASSERT_STATUS(sim, mps_sim_stencil(sim, MPS_NEAR, &s), mode == MPS_READ ? MPS_OK : MPS_E_BUSY);
+        assert_true(mode == MPS_WRITE || (s.n == n && s.x == lease.data));
         ASSERT_OK(sim, mps_lease_end(sim, &lease));
     }
     ASSERT_OK(sim, mps_sim_time(sim, &t, &steps));
@@ -376,26 +377,47 @@ static void links_follow(void **state)
     mps__particles_free(&s);
 }
 
-/* Particles moved since the lists were made: the stencil has the pairs of now, also while somebody reads. */
-static void stencil_under_lease(void **state)
+/* The stencil has the pairs of now, also while somebody reads, and nobody is put elsewhere; what comes after is as without it. */
+static void stencil_of_moved(double shift, bool look, double *after)
 {
-    (void)state;
     mps_sim *sim = pool();
     mps_lease lease;
     mps_stencil s;
+    const int64_t *ids;
+    int64_t before[1000];
     ASSERT_OK(sim, mps_step(sim, 1e-3, NULL));
     ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_WRITE, &lease));
-    for (int64_t i = 0; i < lease.count; i++) lease.data[2 * i] += (i % 3 - 1) * 0.1 * dp; /* less than half the skin of 0.25 dp */
+    for (int64_t i = 0; i < lease.count; i++) lease.data[2 * i] += (i % 3 - 1) * shift * dp;
     ASSERT_OK(sim, mps_lease_end(sim, &lease));
     ASSERT_OK(sim, mps_lease_begin(sim, "pressure", MPS_READ, &lease));
-    ASSERT_OK(sim, mps_sim_stencil(sim, MPS_NEAR, &s));
-    for (int64_t i = 0; i < s.n; i++) {
-        int64_t pairs = 0;
-        for (int64_t j = 0; j < s.n; j++) pairs += j != i && hypot(s.x[2 * j] - s.x[2 * i], s.x[2 * j + 1] - s.x[2 * i + 1]) < s.re;
-        assert_int_equal(s.end[i] - s.begin[i], pairs);
+    ASSERT_OK(sim, mps_particles_tags(sim, &ids, NULL, NULL, NULL));
+    memcpy(before, ids, (size_t)lease.count * sizeof *ids);
+    for (int again = 0; look && again < 2; again++) {
+        ASSERT_OK(sim, mps_sim_stencil(sim, MPS_NEAR, &s));
+        for (int64_t i = 0; i < s.n; i++) {
+            int64_t pairs = 0;
+            for (int64_t j = 0; j < s.n; j++) pairs += j != i && hypot(s.x[2 * j] - s.x[2 * i], s.x[2 * j + 1] - s.x[2 * i + 1]) < s.re;
+            assert_int_equal(s.end[i] - s.begin[i], pairs);
+        }
+        assert_memory_equal(before, ids, (size_t)lease.count * sizeof *ids);
     }
     ASSERT_OK(sim, mps_lease_end(sim, &lease));
+    ASSERT_OK(sim, mps_step(sim, 1e-3, NULL));
+    for (int d = 0; d < 2; d++) by_id(sim, "position", d, after + 1000 * d);
     mps_sim_destroy(sim);
+}
+
+static void stencil_under_lease(void **state)
+{
+    (void)state;
+    double seen[2000], unseen[2000];
+    for (int far = 0; far < 2; far++) { /* within half the skin of 0.25 dp, and beyond: a new search */
+        memset(seen, 0, sizeof seen);
+        memset(unseen, 0, sizeof unseen);
+        stencil_of_moved(far ? 0.3 : 0.1, true, seen);
+        stencil_of_moved(far ? 0.3 : 0.1, false, unseen);
+        assert_memory_equal(seen, unseen, sizeof seen);
+    }
 }
 
 /* ---- fields and ids ------------------------------------------------------------------------------------------------------- */

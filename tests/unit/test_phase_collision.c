@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* collision.pair between phases of very different density: momentum, energy, order of particles. */
+/* collision.pair: phases of very different density (momentum, order of particles), edges of thin plates. */
 #include "phase_fixture.h"
 
 static const double rho[2] = {1000, 1};
@@ -70,6 +70,51 @@ static void lone_pair(void **state)
     free(v);
 }
 
+/* Velocity after a step with collisions alone of a drop at `x` [dp] from the upper edge of a plate of one column. */
+static void after_edge(int dim, const double *x, const double *u, double *v)
+{
+    const double dp = CLOUD_DP, lo[3] = {10 * dp, 0, 0}, hi[3] = {10 * dp, 6 * dp, 8 * dp};
+    mps_sim *sim = bare_sim(dim, dp, 2.1, 1e-9);
+    mps_particle_block b;
+    double at[3];
+    int64_t id;
+    add_tank(sim, 20 * dp, 16 * dp, 8 * dp);
+    ASSERT_OK(sim, mps_geometry_baffle(sim, "plate", lo, hi));
+    ASSERT_OK(sim, mps_model_use(sim, "collision.pair"));
+    for (int d = 0; d < dim; d++) at[d] = (d == 0 ? hi[0] : d == 1 ? hi[1] : 4 * dp) + x[d] * dp;
+    assert_int_equal(mps_particle_block_init(&b, sizeof b), MPS_OK);
+    b.count = 1;
+    b.position = at;
+    b.velocity = u;
+    ASSERT_OK(sim, mps_particles_add(sim, &b, &id));
+    ASSERT_OK(sim, mps_step(sim, 1, NULL));
+    double *all = field_by_id(sim, "velocity");
+    memcpy(v, all + id * dim, (size_t)dim * sizeof *v);
+    free(all);
+    mps_sim_destroy(sim);
+}
+
+/* The edge of a thin plate is a round post: what approaches along the line to it is lost, the rest stays. */
+static void edge_is_a_post(void **state)
+{
+    (void)state;
+    const double above[3] = {0, 0.4, 0}, aslant[3] = {0.3, 0.3, 0}, off[3] = {0.4, 0.4, 0};
+    const double down[3] = {0, -1, 0}, up[3] = {0, 1, 0}, past[3] = {2, -1, 0.5};
+    double v[3];
+    for (int dim = 2; dim <= 3; dim++) {
+        after_edge(dim, above, down, v);
+        assert_true(fabs(v[0]) < 1e-12 && fabs(v[1]) < 1e-12);
+        after_edge(dim, above, past, v);
+        assert_true(fabs(v[0] - 2) < 1e-12 && fabs(v[1]) < 1e-12 && (dim == 2 || fabs(v[2] - 0.5) < 1e-12));
+        after_edge(dim, aslant, down, v);
+        assert_true(fabs(v[0] - 0.5) < 1e-12 && fabs(v[1] + 0.5) < 1e-12);
+        after_edge(dim, above, up, v);
+        assert_true(v[0] == 0 && v[1] == 1);
+        after_edge(dim, off, down, v);
+        assert_true(v[0] == 0 && v[1] == -1);
+    }
+}
+
 /* Particles added in another order collide alike. */
 static void order(void **state)
 {
@@ -100,6 +145,7 @@ static void order(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(momentum), cmocka_unit_test(lone_pair), cmocka_unit_test(order)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(momentum), cmocka_unit_test(lone_pair), cmocka_unit_test(edge_is_a_post),
+                                       cmocka_unit_test(order)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-static char folder[] = "/tmp/mps_stl_XXXXXX", path[64];
+static char folder[] = "mps_stl_XXXXXX", path[64];
 
 /* ---- meshes ---- */
 

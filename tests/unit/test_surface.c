@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* surface.asymmetry: what is surface, and what is left amid spray; the volume error of liquid a few rows deep. */
+#include "tank_fixture.h"
+#include <mps/model.h>
+
+static const double dp = 0.05;
+
+static int32_t region[1000]; /* by id, of the last step */
+
+static int keep_regions(void *self, const double *k, mps_stage *s, mps_ppe_terms *terms)
+{
+    (void)self, (void)k, (void)terms;
+    for (int64_t i = 0; i < s->n; i++) region[s->id[i]] = s->region[i];
+    return 0;
+}
+
+static const mps_model_ops keeper = {
+    .struct_size = sizeof(mps_model_ops), .api = MPS_MODEL_API, .name = "keeper.regions", .order = 950, .source = keep_regions};
+
+/* Id of the first of `count` particles at x [count*2], in dp, in the lower left corner of a tank, after a step. */
+static int64_t classified(int64_t count, const double *x)
+{
+    double at[16];
+    int64_t ids[8];
+    mps_particle_block b;
+    mps_sim *sim = new_sim(2, dp);
+    ASSERT_OK(sim, mps_model_register(sim, &keeper));
+    ASSERT_OK(sim, mps_model_use(sim, "keeper.regions"));
+    add_tank(sim, 0.5, 0.5, 0);
+    for (int64_t k = 0; k < 2 * count; k++) at[k] = x[k] * dp;
+    assert_int_equal(mps_particle_block_init(&b, sizeof b), MPS_OK);
+    b.count = count;
+    b.position = at;
+    ASSERT_OK(sim, mps_particles_add(sim, &b, ids));
+    ASSERT_OK(sim, mps_step(sim, 1e-5, NULL));
+    mps_sim_destroy(sim);
+    return ids[0];
+}
+
+/* Its two neighbours have too little fluid about them and are spray. The one in the corner has enough, but all of it is spray. */
+static void island_in_a_corner(void **state)
+{
+    (void)state;
+    const double x[] = {1, 1, 2, 1, 1, 2, 2, 2};
+    int64_t id = classified(3, x);
+    assert_true(region[id + 1] == MPS_REGION_SPRAY && region[id + 2] == MPS_REGION_SPRAY);
+    assert_int_equal(region[id], MPS_REGION_SURFACE);
+    id = classified(4, x); /* with a fourth it is a puddle */
+    assert_int_equal(region[id + 3], MPS_REGION_SURFACE);
+    assert_true(region[id] < MPS_REGION_SURFACE);
+}
+
+/* Five rows: none of them is further from the surface than the second band, and still a squeeze of 2 % is seen. */
+static void volume_of_shallow_liquid(void **state)
+{
+    (void)state;
+    mps_energy e;
+    mps_lease x;
+    const int32_t *kind;
+    mps_sim *sim = new_sim(2, dp);
+    add_tank(sim, 1, 0.5, 0);
+    assert_true(fill_depth(sim, 1, 5.5 * dp, 0) > 0);
+    ASSERT_OK(sim, mps_step(sim, 1e-6, NULL));
+    ASSERT_OK(sim, mps_particles_tags(sim, NULL, &kind, NULL, NULL));
+    ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_WRITE, &x));
+    for (int64_t i = 0; i < x.count; i++)
+        if (kind[i] == MPS_FLUID) x.data[2 * i] *= 0.98;
+    ASSERT_OK(sim, mps_lease_end(sim, &x));
+    ASSERT_OK(sim, mps_step(sim, 1e-6, NULL));
+    assert_int_equal(mps_energy_init(&e, sizeof e), MPS_OK);
+    ASSERT_OK(sim, mps_energy_get(sim, &e));
+    assert_true(e.volume_error < -0.008 && e.volume_error > -0.02); /* the walls are where they were */
+    mps_sim_destroy(sim);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(island_in_a_corner), cmocka_unit_test(volume_of_shallow_liquid)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
