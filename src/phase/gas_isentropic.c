@@ -2,7 +2,8 @@
 /* A gas that is compressed without losing heat: rho = rho0 (1 + p/P)^(1/e), P the pressure of the ambient air, rho0 the density of the
  * phase, e the exponent (1.4 for air; 1: isothermal). On the left side of the pressure equation divided by rho stands the change of ln rho,
  *   [ln(1 + p^{k+1}/P) - ln(1 + p^k/P)]/(e dt^2),
- * which is nonlinear: the solver must be one for that (sundials.kinsol). Sources that correct the density see its deviation from the law. */
+ * which is nonlinear: the solver must be one for that (sundials.kinsol). Sources that correct the density see its deviation from the law.
+ * `conserve` as in gas.compressible. */
 #include "builtin.h"
 
 enum { PHASE, AMBIENT, EXPONENT, CONSERVE };
