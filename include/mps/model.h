@@ -49,14 +49,14 @@ typedef struct mps_stage {
     const double *tank_accel; /**< [n*dim] acceleration over this step of the rigid tank at the particle's place, solid or fluid [m/s2] */
     const double *area;       /**< [n*dim] wetted area vector of wall particles, into the fluid */
     const int32_t *wall_of;   /**< [n] nearest wall particle of a dummy, -1: none near */
-    double *number_density;   /**< [n] sum W over the near pairs; classify may change it */
+    double *number_density;   /**< [n] sum W over the near pairs, kept where a solid has no fluid about it; classify may change it */
     double *volume;           /**< [n] mps_op_volume_deviation() over the far pairs; classify may change it */
     const double *asymmetry;  /**< [n*dim] A_i over the near pairs, W22 (11) */
     int32_t *region;          /**< [n] MPS_REGION_..., written by classify; fluid and walls arrive INNER, dummies DRY */
     double *wet;              /**< [n] share 0..1 of a wall particle's fluid side that holds fluid, written by classify; arrives 1 */
     double *correction;       /**< [n*dim*dim] B_i, symmetric, written by classify; arrives as the unit matrix */
-    const mps_stencil *near;  /**< pairs within re_near */
-    const mps_stencil *far;   /**< pairs within re_far */
+    const mps_stencil *near;  /**< pairs within re_near; rows of solids without fluid within the radii may be empty */
+    const mps_stencil *far;   /**< pairs within re_far, likewise; row i of one need not begin where row i of the other does */
     void *host;               /**< private */
     double *density_smooth;   /**< [n] density for operators of the pressure, written by classify; arrives as a copy of density [kg/m3] */
     const double *tension;    /**< [16*16] sigma between two phases by mps_sim_set_tension() [N/m], symmetric; < 0: not set */

@@ -90,7 +90,7 @@ mps_status mps_sim_stencil(mps_sim *sim, int32_t which, mps_stencil *stencil)
     const mps__field *x = mps__particles_field(&sim->world.particles, "position");
     if (x->writer) return mps__fail(&sim->context, MPS_E_BUSY, "positions are leased for writing");
     MPS__TRY(mps__particles_leases(&sim->world.particles) ? mps__world_neighbours_kept(&sim->world) : mps__world_neighbours(&sim->world));
-    return mps__world_stencil(&sim->world, which, stencil);
+    return mps__world_stencil_all(&sim->world, which, stencil);
 }
 
 mps_status mps_sim_set_kernel(mps_sim *sim, const mps_kernel *kernel)

@@ -57,6 +57,8 @@ bool mps__name_copy(char *out, size_t capacity, const char *name);
 
 bool mps__finite(const double *values, int64_t count);
 double mps__clock(void); /* monotonic [s] */
+/* Set numbers to zero with so many threads. */
+void mps__zero(double *values, int64_t count, int threads);
 
 static inline double mps__dot(const double *a, const double *b, int dim)
 {

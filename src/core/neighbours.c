@@ -16,8 +16,8 @@ enum { MPS__CHUNK = 256 };
 /* Functions compiled for each constant `dim`. */
 #define MPS__DIM_INLINE static inline __attribute__((always_inline))
 
-/* Skin [dp]: a search is good until some particle moved half of it. */
-static const double skin_of_dp = 0.25;
+/* Skin [dp]: a search is good until some particle moved half of it. At the default CFL of 0.2 that is every other step at least. */
+static const double skin_of_dp = 0.45;
 
 /* Pairs nearer than this [dp] have no direction and are left out: they are the two faces of a thin plate. */
 static const double coincident = 1e-6;
@@ -35,7 +35,8 @@ mps_status mps__neighbours_init(mps_neighbours *l, mps__context *context, int32_
 
 void mps__neighbours_free(mps_neighbours *l)
 {
-    void *all[] = {l->begin, l->middle, l->end, l->col, l->w_r2, l->candidate_row, l->candidate, l->searched, l->key, l->order};
+    void *all[] = {l->near_begin,    l->near_col,  l->begin,    l->middle, l->end,   l->col, l->w_r2,
+                   l->candidate_row, l->candidate, l->searched, l->key,    l->order, l->idle};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) mps__free(l->context, all[k]);
     mps__neighbours_init(l, l->context, l->dim, l->dp);
 }
@@ -65,15 +66,14 @@ static mps_status map_cells(mps_neighbours *l, int64_t n, const double *x, doubl
     const double limit = (double)(INT64_C(1) << m->bits) - 4.0;
     for (int d = 0; d < l->dim; d++) {
         double lo = x[d], hi = x[d];
-        int64_t far = 0;
+#pragma omp parallel for num_threads(l->threads) reduction(min : lo) reduction(max : hi) schedule(static)
         for (int64_t i = 1; i < n; i++) {
-            double v = x[i * l->dim + d];
+            const double v = x[i * l->dim + d];
             if (v < lo) lo = v;
-            if (v > hi) {
-                hi = v;
-                far = i;
-            }
+            if (v > hi) hi = v;
         }
+        int64_t far = 0;
+        while ((hi - lo) / size >= limit && x[far * l->dim + d] != hi) far++;
         MPS__CHECK(l->context, (hi - lo) / size < limit, "particles lie %g m apart along axis %d (particle %lld at %g): at most %g m",
                    hi - lo, d, (long long)far, hi, limit * size);
         m->lo[d] = lo - 2 * size; /* cell 0 stays empty, also when far from the origin lo - size rounds: neighbours never wrap */
@@ -128,11 +128,13 @@ static mps_status reserve(mps_neighbours *l, int64_t n)
         void *fresh;
     } a[] = {{(void **)&l->begin, wanted, sizeof *l->begin, NULL},
              {(void **)&l->middle, wanted, sizeof *l->middle, NULL},
+             {(void **)&l->near_begin, wanted + 1, sizeof *l->near_begin, NULL},
              {(void **)&l->end, wanted, sizeof *l->end, NULL},
              {(void **)&l->candidate_row, wanted + 1, sizeof *l->candidate_row, NULL},
              {(void **)&l->searched, wanted * l->dim, sizeof *l->searched, NULL},
              {(void **)&l->key, 2 * wanted, sizeof *l->key, NULL},
-             {(void **)&l->order, 2 * wanted, sizeof *l->order, NULL}};
+             {(void **)&l->order, 2 * wanted, sizeof *l->order, NULL},
+             {(void **)&l->idle, wanted, sizeof *l->idle, NULL}};
     const size_t count = sizeof a / sizeof a[0];
     for (size_t k = 0; k < count; k++) {
         a[k].fresh = mps__alloc(c, a[k].count, a[k].size);
@@ -164,9 +166,10 @@ static mps_status check_crowds(const mps_neighbours *l, int64_t n, const double 
 
 static mps_status sort_cells(mps_neighbours *l, int64_t n, const double *x, double re_far, cell_map *m)
 {
-    l->valid = false;
+    l->valid = l->sorted = false;
     MPS__TRY(reserve(l, n));
     MPS__TRY(map_cells(l, n, x, re_far + l->skin, m));
+#pragma omp parallel for num_threads(l->threads) schedule(static)
     for (int64_t i = 0; i < n; i++) {
         l->key[i] = cell_key(m, x + i * l->dim);
         l->order[i] = (int32_t)i;
@@ -179,6 +182,12 @@ mps_status mps__neighbours_order(mps_neighbours *l, int64_t n, const double *x, 
 {
     cell_map m;
     return sort_cells(l, n, x, re_far, &m);
+}
+
+void mps__neighbours_sorted(mps_neighbours *l, int64_t n)
+{
+    for (int64_t i = 0; i < n; i++) l->order[i] = (int32_t)i;
+    l->sorted = true;
 }
 
 static int64_t first_at_least(const uint64_t *key, int64_t n, uint64_t value)
@@ -243,21 +252,27 @@ static void gather_places(mps_neighbours *l)
         for (int d = 0; d < l->dim; d++) l->searched[d * l->n + a] = l->x[(int64_t)l->order[a] * l->dim + d];
 }
 
-/* Squared distance of two places; `axis` says where their coordinates begin. */
-static inline double place_distance2(const double *const axis[3], int64_t a, int64_t b, const int dim)
+/* Squared distances of place a to from..to-1, at most MPS__CHUNK: a loop of its own, so that the compiler takes several at a time. */
+MPS__DIM_INLINE void measure_places(const mps_neighbours *l, int64_t a, int64_t from, int64_t to, const int dim, double *r2)
 {
-    const double dx = axis[0][b] - axis[0][a], dy = axis[1][b] - axis[1][a];
-    if (dim == 2) return dx * dx + dy * dy;
-    const double dz = axis[2][b] - axis[2][a];
-    return dx * dx + dy * dy + dz * dz;
+    const double *const x = l->searched, *const y = x + l->n, *const z = x + (dim - 1) * l->n;
+    const double xa = x[a], ya = y[a], za = z[a];
+    for (int64_t b = from; b < to; b++) {
+        const double dx = x[b] - xa, dy = y[b] - ya, dz = dim == 3 ? z[b] - za : 0.0;
+        r2[b - from] = dim == 3 ? dx * dx + dy * dy + dz * dz : dx * dx + dy * dy;
+    }
 }
 
 /* Places of a range nearer to place a than reach; a itself is one of them if it lies in the range. */
 MPS__DIM_INLINE int64_t count_range(const mps_neighbours *l, int64_t a, const int64_t range[2], double reach2, const int dim)
 {
-    const double *const axis[3] = {l->searched, l->searched + l->n, l->searched + (dim - 1) * l->n};
     int64_t count = 0;
-    for (int64_t b = range[0]; b < range[1]; b++) count += place_distance2(axis, a, b, dim) < reach2;
+    for (int64_t from = range[0]; from < range[1]; from += MPS__CHUNK) {
+        const int64_t to = from + MPS__CHUNK < range[1] ? from + MPS__CHUNK : range[1];
+        double r2[MPS__CHUNK];
+        measure_places(l, a, from, to, dim, r2);
+        for (int64_t k = 0; k < to - from; k++) count += r2[k] < reach2;
+    }
     return count;
 }
 
@@ -265,27 +280,49 @@ MPS__DIM_INLINE int64_t count_range(const mps_neighbours *l, int64_t a, const in
  * near, and no processor guesses which. */
 MPS__DIM_INLINE int64_t fill_range(const mps_neighbours *l, int64_t a, const int64_t range[2], double reach2, int32_t *row, const int dim)
 {
-    const double *const axis[3] = {l->searched, l->searched + l->n, l->searched + (dim - 1) * l->n};
     int64_t count = 0;
     for (int64_t from = range[0]; from < range[1]; from += MPS__CHUNK) {
         const int64_t to = from + MPS__CHUNK < range[1] ? from + MPS__CHUNK : range[1];
         int32_t found[MPS__CHUNK + 1];
+        double r2[MPS__CHUNK];
         int64_t n = 0;
+        measure_places(l, a, from, to, dim, r2);
         for (int64_t b = from; b < to; b++) {
             found[n] = l->order[b];
-            n += (place_distance2(axis, a, b, dim) < reach2) & (b != a);
+            n += (r2[b - from] < reach2) & (b != a);
         }
-        memcpy(row + count, found, (size_t)n * sizeof *found);
+        for (int64_t k = 0; k < n; k++) row[count + k] = found[k];
         count += n;
     }
     return count;
+}
+
+/* Is there fluid in the cells of these ranges? Yes where nobody knows the kinds. */
+static bool any_fluid(const mps_neighbours *l, int64_t range[9][2], int ranges)
+{
+    if (!l->kind) return true;
+    for (int k = 0; k < ranges; k++)
+        for (int64_t b = range[k][0]; b < range[k][1]; b++)
+            if (l->kind[l->order[b]] == MPS_FLUID) return true;
+    return false;
+}
+
+/* A solid without fluid among its candidates. */
+static bool is_idle(const mps_neighbours *l, int64_t i, const int32_t *row, int64_t count)
+{
+    if (!l->kind || l->kind[i] == MPS_FLUID) return false;
+    for (int64_t k = 0; k < count; k++)
+        if (l->kind[row[k]] == MPS_FLUID) return false;
+    return true;
 }
 
 /* Count (fill = false) or store candidates of all particles of the cell that starts at sorted place `first`. */
 MPS__DIM_INLINE void search_cell(mps_neighbours *l, const cell_map *m, int64_t first, double reach2, bool fill, const int dim)
 {
     int64_t range[9][2];
-    const int ranges = ranges_around(l, m, l->key[first], range);
+    int ranges = ranges_around(l, m, l->key[first], range);
+    const bool alone = !any_fluid(l, range, ranges);
+    if (alone) ranges = 0;
     for (int64_t a = first; a < l->n && l->key[a] == l->key[first]; a++) {
         const int32_t i = l->order[a];
         int64_t count = 0;
@@ -293,9 +330,10 @@ MPS__DIM_INLINE void search_cell(mps_neighbours *l, const cell_map *m, int64_t f
             int32_t *row = l->candidate + l->candidate_row[i];
             for (int k = 0; k < ranges; k++) count += fill_range(l, a, range[k], reach2, row + count, dim);
             sort_row(row, count);
+            l->idle[i] = is_idle(l, i, row, count);
         } else {
             for (int k = 0; k < ranges; k++) count += count_range(l, a, range[k], reach2, dim);
-            l->candidate_row[i + 1] = count - 1;
+            l->candidate_row[i + 1] = alone ? 0 : count - 1; /* without itself */
         }
     }
 }
@@ -312,10 +350,24 @@ static void search_cells(mps_neighbours *l, const cell_map *m, double reach, boo
     }
 }
 
+/* Room for `count` entries, not kept and not zeroed in what was there; far too much of it is given back. */
+static mps_status fit(mps_neighbours *l, void **block, int64_t *capacity, int64_t count, size_t size)
+{
+    if (*block && *capacity >= count && *capacity < 2 * count + 1024) return MPS_OK;
+    mps__free(l->context, *block);
+    *capacity = 0;
+    *block = mps__alloc(l->context, count + count / 16, size);
+    if (!*block) return MPS_E_NOMEM;
+    *capacity = count + count / 16;
+    return MPS_OK;
+}
+
 mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x, double re_near, double re_far)
 {
-    cell_map m;
-    MPS__TRY(sort_cells(l, n, x, re_far, &m));
+    cell_map m = {.dim = l->dim, .bits = l->dim == 2 ? MPS__BITS_2D : MPS__BITS_3D};
+    if (!l->sorted) MPS__TRY(sort_cells(l, n, x, re_far, &m));
+    l->sorted = false;
+    l->partial = l->kind != NULL;
     l->n = n;
     l->x = x;
     l->re_near = re_near;
@@ -325,12 +377,10 @@ mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x,
     gather_places(l);
     search_cells(l, &m, reach, false);
     for (int64_t i = 0; i < n; i++) l->candidate_row[i + 1] += l->candidate_row[i];
-    int64_t pairs = l->candidate_row[n] > 0 ? l->candidate_row[n] : 1, capacity = l->candidate_capacity; /* never a NULL list */
-    MPS__TRY(mps__grow(l->context, (void **)&l->candidate, &capacity, 0, pairs, sizeof *l->candidate));
-    l->candidate_capacity = capacity;
-    MPS__TRY(mps__grow(l->context, (void **)&l->col, &l->pair_capacity, 0, pairs, sizeof *l->col));
+    MPS__TRY(fit(l, (void **)&l->candidate, &l->candidate_capacity, l->candidate_row[n], sizeof *l->candidate));
     search_cells(l, &m, reach, true);
     memcpy(l->searched, x, (size_t)(n * l->dim) * sizeof *x);
+    l->kind = NULL;
     l->valid = true;
     return MPS_OK;
 }
@@ -349,7 +399,7 @@ static void reverse(int32_t *a, int64_t n)
 MPS__DIM_INLINE void exact_row(mps_neighbours *l, const double *x, int64_t i, const int dim)
 {
     const double near2 = l->re_near * l->re_near, far2 = l->re_far * l->re_far, least = coincident * coincident * l->dp * l->dp;
-    const int64_t from = l->candidate_row[i], to = l->candidate_row[i + 1];
+    const int64_t from = l->candidate_row[i], to = l->idle[i] ? from : l->candidate_row[i + 1];
     int32_t *const col = l->col;
     int64_t front = from, back = to;
     for (int64_t k = from; k < to; k++) {
@@ -391,6 +441,7 @@ static void screen_rows(mps_neighbours *l)
 
 mps_status mps__neighbours_rows(mps_neighbours *l, const double *x)
 {
+    MPS__TRY(fit(l, (void **)&l->col, &l->pair_capacity, l->candidate_row[l->n], sizeof *l->col));
     l->x = x;
 #pragma omp parallel for num_threads(l->threads) schedule(static)
     for (int64_t i = 0; i < l->n; i++) {
@@ -403,15 +454,12 @@ mps_status mps__neighbours_rows(mps_neighbours *l, const double *x)
     return MPS_OK;
 }
 
-mps_status mps__neighbours_weights(mps_neighbours *l)
+mps_status mps__neighbours_near(mps_neighbours *l)
 {
-    if (l->weight_capacity >= l->pair_capacity) return MPS_OK;
-    mps__free(l->context, l->w_r2); /* nothing in it outlives a step */
-    l->weight_capacity = 0;
-    l->w_r2 = mps__alloc(l->context, l->pair_capacity, sizeof *l->w_r2);
-    if (!l->w_r2) return MPS_E_NOMEM;
-    l->weight_capacity = l->pair_capacity;
-    return MPS_OK;
+    l->near_begin[0] = 0;
+    for (int64_t i = 0; i < l->n; i++) l->near_begin[i + 1] = l->near_begin[i] + l->middle[i] - l->begin[i];
+    MPS__TRY(fit(l, (void **)&l->near_col, &l->near_capacity, l->near_begin[l->n], sizeof *l->near_col));
+    return fit(l, (void **)&l->w_r2, &l->weight_capacity, l->near_begin[l->n], sizeof *l->w_r2);
 }
 
 /* ---- a list that stands alone ---------------------------------------------------------------------------------- */

@@ -102,9 +102,9 @@ static bool usable(const mps_stencil *s)
            s->n0 > 0;
 }
 
-void mps__op_weigh(const mps_stencil *s, double *w_r2, double *n, double *a)
+void mps__op_weigh(const mps_stencil *s, const mps__weighed *out)
 {
-    DISPATCH(s, weigh, w_r2, n, a);
+    DISPATCH(s, weigh, out);
 }
 
 mps_status mps_op_number_density(const mps_stencil *s, double *n)

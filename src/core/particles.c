@@ -110,27 +110,66 @@ int64_t mps__particles_append(mps__particles *s, int64_t count)
     return first;
 }
 
+/* Is every particle at its place already? */
+static bool in_order(const mps__particles *s, int64_t count, const int32_t *order)
+{
+    if (count != s->n) return false;
+    for (int64_t i = 0; i < count; i++)
+        if (order[i] != i) return false;
+    return true;
+}
+
+/* Elements from..to-1 of the new order. A copy of a constant size is an instruction or two, of any other a call. */
+static void gather(char *to, const char *from, const int32_t *order, int64_t first, int64_t last, size_t bytes)
+{
+#define GATHER(size) \
+    for (int64_t i = first; i < last; i++) memcpy(to + (size_t)i * (size), from + (size_t)order[i] * (size), (size))
+    if (bytes == 4)
+        GATHER(4);
+    else if (bytes == 8)
+        GATHER(8);
+    else if (bytes == 16)
+        GATHER(16);
+    else if (bytes == 24)
+        GATHER(24);
+    else
+        GATHER(bytes);
+#undef GATHER
+}
+
+/* One array through `scratch`, as large as the array. */
+static void permute_field(mps__particles *s, const mps__field *f, int64_t count, const int32_t *order, char *scratch)
+{
+    enum { PARTS = 64 };
+    const size_t bytes = stride(f);
+    char *data = *f->data;
+#pragma omp parallel num_threads(s->threads > 1 ? s->threads : 1)
+    {
+#pragma omp for schedule(static)
+        for (int p = 0; p < PARTS; p++) gather(scratch, data, order, count * p / PARTS, count * (p + 1) / PARTS, bytes);
+#pragma omp for schedule(static)
+        for (int p = 0; p < PARTS; p++) {
+            const size_t from = (size_t)(count * p / PARTS) * bytes, to = (size_t)(count * (p + 1) / PARTS) * bytes;
+            memcpy(data + from, scratch + from, to - from);
+        }
+    }
+}
+
 mps_status mps__particles_permute(mps__particles *s, int64_t count, const int32_t *order)
 {
-    void *array[MPS__FIELDS_MAX];
-    int32_t *place = mps__alloc(s->context, s->n, sizeof *place); /* new place of an old one */
-    if (!place) return MPS_E_NOMEM;
-    if (new_arrays(s, s->capacity, array) != MPS_OK) {
-        mps__free(s->context, place);
-        return MPS_E_NOMEM;
-    }
+    size_t largest = sizeof(int32_t);
+    if (in_order(s, count, order)) return MPS_OK;
+    for (int32_t k = 0; k < s->fields; k++)
+        if (stride(&s->field[k]) > largest) largest = stride(&s->field[k]);
+    char *scratch = mps__alloc(s->context, s->n, largest);
+    if (!scratch) return MPS_E_NOMEM;
+    for (int32_t k = 0; k < s->fields; k++) permute_field(s, &s->field[k], count, order, scratch);
+    int32_t *place = (int32_t *)(void *)scratch; /* new place of an old one */
     for (int64_t i = 0; i < s->n; i++) place[i] = -1;
     for (int64_t i = 0; i < count; i++) place[order[i]] = (int32_t)i;
-    for (int32_t k = 0; k < s->fields; k++) {
-        size_t bytes = stride(&s->field[k]);
-        const char *from = *s->field[k].data;
-        char *to = array[k];
-        for (int64_t i = 0; i < count; i++) memcpy(to + (size_t)i * bytes, from + (size_t)order[i] * bytes, bytes);
-    }
-    swap_arrays(s, s->capacity, array);
     for (int64_t i = 0; i < count; i++)
         if (s->wall_of[i] >= 0) s->wall_of[i] = place[s->wall_of[i]];
-    mps__free(s->context, place);
+    mps__free(s->context, scratch);
     if (count != s->n) s->generation++;
     s->n = count;
     return MPS_OK;

@@ -21,7 +21,7 @@ typedef struct mps__field {
 
 typedef struct mps__particles {
     mps__context *context;
-    int32_t dim;
+    int32_t dim, threads; /* threads: to move particles with, 0: one */
     int64_t n, capacity, next_id;
     double *x, *u;        /* [n*dim] */
     double *p, *nd, *rho; /* [n] pressure, number density, density */

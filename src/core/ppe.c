@@ -12,7 +12,8 @@ void mps__ppe_init(mps__ppe *e, mps__context *context)
 
 void mps__ppe_free(mps__ppe *e)
 {
-    void *all[] = {e->unknown, e->particle, e->row, e->col, e->val, e->rhs, e->shift, e->gas, e->law, e->weight, e->x, e->p, e->component};
+    void *all[] = {e->unknown, e->particle, e->row,    e->col, e->val, e->rhs,       e->shift,
+                   e->gas,     e->law,      e->weight, e->x,   e->p,   e->component, e->queue};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) mps__free(e->context, all[k]);
     mps__ppe_init(e, e->context);
 }
@@ -35,7 +36,8 @@ static mps_status reserve(mps__ppe *e, int64_t n, int dim)
              {(void **)&e->weight, wanted, sizeof *e->weight},
              {(void **)&e->x, wanted * dim, sizeof *e->x},
              {(void **)&e->p, wanted, sizeof *e->p},
-             {(void **)&e->component, wanted, sizeof *e->component}};
+             {(void **)&e->component, wanted, sizeof *e->component},
+             {(void **)&e->queue, wanted, sizeof *e->queue}};
     /* nothing here outlives an assembly: the old blocks go first, a failure leaves an empty object */
     e->capacity = 0;
     for (size_t k = 0; k < sizeof a / sizeof a[0]; k++) {
@@ -90,23 +92,41 @@ static inline double pair_factor(const assembly *a, int64_t i, int64_t j)
     return (s->region[i] == MPS_REGION_SURFACE) != (s->region[j] == MPS_REGION_SURFACE) ? a->surface : 1.0;
 }
 
-/* Unknowns in the order of the particles; e->row takes upper bounds of the row starts. */
-static int64_t number_rows(const assembly *a)
+/* Unknowns in the order of the particles. */
+static void number_rows(const assembly *a)
 {
     mps__ppe *e = a->e;
     const mps_stage *s = a->s;
-    int64_t entries = 0;
     e->n = 0;
-    e->row[0] = 0;
     for (int64_t i = 0; i < s->n; i++) {
         const bool solved = s->kind[i] != MPS_DUMMY && s->region[i] < MPS_REGION_SURFACE && !a->t->fixed[i];
         e->unknown[i] = solved ? (int32_t)e->n : -1;
-        if (!solved) continue;
-        e->particle[e->n++] = (int32_t)i;
-        entries += a->pairs->end[i] - a->pairs->begin[i] + 1;
-        e->row[e->n] = entries;
+        if (solved) e->particle[e->n++] = (int32_t)i;
     }
-    return entries;
+}
+
+/* Entries of row r, its diagonal included. */
+static int64_t count_row(const assembly *a, int64_t r)
+{
+    const mps__ppe *e = a->e;
+    const int64_t i = e->particle[r];
+    int64_t count = 1;
+    for (int64_t k = a->pairs->begin[i]; k < a->pairs->end[i]; k++) {
+        const int64_t j = a->pairs->col[k];
+        count += e->unknown[j] >= 0 && (a->s->kind[i] == MPS_FLUID || pair_factor(a, i, j) != 0);
+    }
+    return count;
+}
+
+/* Row starts. Returns the entries of all. */
+static int64_t start_rows(const assembly *a)
+{
+    mps__ppe *e = a->e;
+    e->row[0] = 0;
+#pragma omp parallel for num_threads(a->s->threads) schedule(static)
+    for (int64_t r = 0; r < e->n; r++) e->row[r + 1] = count_row(a, r);
+    for (int64_t r = 0; r < e->n; r++) e->row[r + 1] += e->row[r];
+    return e->row[e->n];
 }
 
 /* Ascending columns: far rows are two sorted runs, for which insertion is short work. */
@@ -125,8 +145,7 @@ static void sort_row(int32_t *col, double *val, int64_t n)
     }
 }
 
-/* Row r. Returns its entries. */
-static inline __attribute__((always_inline)) int64_t fill_row(const int dim, const assembly *a, int64_t r)
+static inline __attribute__((always_inline)) void fill_row(const int dim, const assembly *a, int64_t r)
 {
     mps__ppe *e = a->e;
     const mps_stage *s = a->s;
@@ -169,21 +188,6 @@ static inline __attribute__((always_inline)) int64_t fill_row(const int dim, con
     e->weight[r] = s->dt * s->dt;
     e->p[r] = s->p[i];
     for (int d = 0; d < s->dim; d++) e->x[r * s->dim + d] = s->x[i * s->dim + d];
-    return count;
-}
-
-/* Close the gaps between the rows; they move down only. */
-static void compact_rows(mps__ppe *e, const int64_t *length)
-{
-    int64_t to = 0;
-    for (int64_t r = 0; r < e->n; r++) {
-        const int64_t from = e->row[r];
-        memmove(e->col + to, e->col + from, (size_t)length[r] * sizeof *e->col);
-        memmove(e->val + to, e->val + from, (size_t)length[r] * sizeof *e->val);
-        e->row[r] = to;
-        to += length[r];
-    }
-    e->row[e->n] = to;
 }
 
 /* Visit the component of row `seed`, breadth first; its rows stand in `queue`. Returns their number. */
@@ -266,14 +270,16 @@ mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps_ppe_term
                         .pairs = pairs,
                         .c = 2.0 * s->dim / (pairs->n0 * pairs->lambda),
                         .surface = t->complete_surface ? complete_flux(pairs) : 1.0};
-    MPS__TRY(reserve_entries(e, number_rows(&a)));
-    int64_t *length = mps__alloc(e->context, e->n, sizeof *length);
-    if (!length) return MPS_E_NOMEM;
+    number_rows(&a);
+    MPS__TRY(reserve_entries(e, start_rows(&a)));
 #pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t r = 0; r < e->n; r++) length[r] = s->dim == 2 ? fill_row(2, &a, r) : fill_row(3, &a, r);
-    compact_rows(e, length);
-    const int32_t singular = find_singular(e, (int32_t *)(void *)length);
-    mps__free(e->context, length);
+    for (int64_t r = 0; r < e->n; r++) {
+        if (s->dim == 2)
+            fill_row(2, &a, r);
+        else
+            fill_row(3, &a, r);
+    }
+    const int32_t singular = find_singular(e, e->queue);
     const bool with_law = nonlinear(e);
     e->problem = (mps_ppe_problem){.struct_size = sizeof e->problem,
                                    .dim = s->dim,
@@ -296,6 +302,7 @@ mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps_ppe_term
 
 void mps__ppe_scatter(const mps__ppe *e, const mps_stage *s, const mps_ppe_terms *t, double *p)
 {
+#pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         if (e->unknown[i] >= 0)
             p[i] = e->p[e->unknown[i]];

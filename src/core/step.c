@@ -42,7 +42,7 @@ double *mps_stage_scratch(mps_stage *s, int64_t count)
         k->scratch[b] = larger;
         k->scratch_capacity[b] = count + count / 8;
     }
-    memset(k->scratch[b], 0, (size_t)count * sizeof(double));
+    mps__zero(k->scratch[b], count, w->threads);
     k->scratch_used++;
     return k->scratch[b];
 }
@@ -225,6 +225,23 @@ static void set_stage(step_state *q)
                                .law = k->law};
 }
 
+/* Weights of the near pairs, and their rows without gaps; where the radii are equal the far rows are the same. */
+static void weigh_pairs(step_state *q)
+{
+    const mps_neighbours *l = &q->w->neighbours;
+    mps__op_weigh(&q->near, &(mps__weighed){.begin = l->near_begin,
+                                            .col = l->near_col,
+                                            .w_r2 = l->w_r2,
+                                            .idle = l->idle,
+                                            .n = q->stage.number_density,
+                                            .a = q->w->work.asymmetry});
+    q->near.begin = l->near_begin;
+    q->near.end = l->near_begin + 1;
+    q->near.col = l->near_col;
+    if (q->near.re == q->far.re) q->far = q->near;
+    q->near.w_r2 = l->w_r2;
+}
+
 /* Number density, asymmetry, regions at r^k. */
 static mps_status look_around(step_state *q)
 {
@@ -232,13 +249,13 @@ static mps_status look_around(step_state *q)
     mps_stage *s = &q->stage;
     MPS__TRY(mps__world_stencil(w, MPS_NEAR, &q->near));
     MPS__TRY(mps__world_stencil(w, MPS_FAR, &q->far));
-    MPS__TRY(mps__neighbours_weights(&w->neighbours));
+    MPS__TRY(mps__neighbours_near(&w->neighbours));
     end_stage(q, MPS_STAGE_NEIGHBOURS);
     move_walls(q);
-    mps__op_weigh(&q->near, w->neighbours.w_r2, s->number_density, w->work.asymmetry);
+    weigh_pairs(q);
     MPS__TRY(mps_op_volume_deviation(&q->far, w->work.volume));
-    q->near.w_r2 = w->neighbours.w_r2;
     const int dim = s->dim;
+#pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         s->region[i] = s->kind[i] == MPS_DUMMY ? MPS_REGION_DRY : MPS_REGION_INNER;
         s->wet[i] = 1.0;
@@ -246,7 +263,10 @@ static mps_status look_around(step_state *q)
         for (int d = 0; d < dim * dim; d++) s->correction[i * dim * dim + d] = d % (dim + 1) == 0;
     }
     EACH_MODEL(q, classify, s);
-    for (int64_t i = 0; i < s->n; i++) q->info.surface += s->kind[i] == MPS_FLUID && s->region[i] == MPS_REGION_SURFACE;
+    int64_t surface = 0;
+#pragma omp parallel for num_threads(s->threads) reduction(+ : surface) schedule(static)
+    for (int64_t i = 0; i < s->n; i++) surface += s->kind[i] == MPS_FLUID && s->region[i] == MPS_REGION_SURFACE;
+    q->info.surface = surface;
     return MPS_OK;
 }
 
@@ -255,9 +275,10 @@ static mps_status predict(step_state *q)
 {
     mps_stage *s = &q->stage;
     mps__work *k = &q->w->work;
-    memset(k->a, 0, (size_t)(s->n * s->dim) * sizeof *k->a);
+    mps__zero(k->a, s->n * s->dim, s->threads);
     EACH_MODEL(q, force, s, k->a);
     q->budget.viscous -= mps__budget_power(q->w, k->a, s->dt);
+#pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++)
         if (s->kind[i] == MPS_FLUID)
             for (int d = 0; d < s->dim; d++) s->u[i * s->dim + d] += s->dt * (k->a[i * s->dim + d] + s->g[d]);
@@ -299,13 +320,13 @@ static mps_status project(step_state *q)
 {
     mps__world *w = q->w;
     mps_stage *s = &q->stage;
-    const size_t bytes = (size_t)s->n * sizeof(double);
-    memset(q->terms.rhs, 0, bytes);
-    memset(q->terms.shift, 0, bytes);
-    memset(q->terms.value, 0, bytes);
-    memset(q->terms.body, 0, bytes * (size_t)s->dim);
-    memset(q->terms.gas, 0, bytes);
-    memset(q->terms.law, 0, bytes);
+    mps__zero(q->terms.rhs, s->n, s->threads);
+    mps__zero(q->terms.shift, s->n, s->threads);
+    mps__zero(q->terms.value, s->n, s->threads);
+    mps__zero(q->terms.body, s->n * s->dim, s->threads);
+    mps__zero(q->terms.gas, s->n, s->threads);
+    mps__zero(q->terms.law, s->n, s->threads);
+#pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) q->terms.fixed[i] = s->region[i] == MPS_REGION_SURFACE;
     MPS__TRY(collect_sources(q));
     end_stage(q, MPS_STAGE_OPERATORS);
@@ -337,8 +358,9 @@ static mps_status correct(step_state *q)
     mps__world *w = q->w;
     mps_stage *s = &q->stage;
     mps__work *k = &w->work;
-    memset(k->a, 0, (size_t)(s->n * s->dim) * sizeof *k->a);
+    mps__zero(k->a, s->n * s->dim, s->threads);
     EACH_MODEL(q, gradient, s, k->a);
+#pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n * s->dim; i++) s->u[i] += s->kind[i / s->dim] == MPS_FLUID ? s->dt * k->a[i] : 0;
     q->budget.wall_work += mps__budget_wall_work(w, &q->pose, k->u0, s->dt);
     double before, after, potential;
@@ -346,10 +368,11 @@ static mps_status correct(step_state *q)
     EACH_MODEL(q, velocity, s);
     mps__budget_sum(w, &after, &potential);
     q->budget.collision += before - after;
-    memset(k->dx, 0, (size_t)(s->n * s->dim) * sizeof *k->dx);
+    mps__zero(k->dx, s->n * s->dim, s->threads);
     EACH_MODEL(q, shift, s, k->dx);
     mps__budget_sum(w, &before, &potential);
     q->budget.shift += after - before + mps__budget_lift(w, k->dx);
+#pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         double *x = w->particles.x + i * s->dim;
         if (s->kind[i] == MPS_FLUID)
@@ -367,20 +390,19 @@ static mps_status check_result(step_state *q)
     const mps__world *w = q->w;
     const mps_stage *s = &q->stage;
     double most = 0;
-    int64_t worst = -1;
+    int64_t worst = s->n;
+#pragma omp parallel for num_threads(s->threads) reduction(max : most) reduction(min : worst) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         const double *u = s->u + i * s->dim, *x = s->x + i * s->dim;
         const double speed = sqrt(mps__dot(u, u, s->dim));
-        if (isfinite(speed) && speed <= w->speed_limit && mps__finite(x, s->dim) && isfinite(s->p[i])) {
-            if (s->kind[i] == MPS_FLUID) most = fmax(most, speed);
-            continue;
-        }
-        worst = i;
-        break;
+        if (!(isfinite(speed) && speed <= w->speed_limit && mps__finite(x, s->dim) && isfinite(s->p[i])))
+            worst = i < worst ? i : worst;
+        else if (s->kind[i] == MPS_FLUID)
+            most = speed > most ? speed : most;
     }
     q->info.max_speed = most;
     q->info.cfl = most * s->dt / s->dp;
-    if (worst < 0) return MPS_OK;
+    if (worst == s->n) return MPS_OK;
     const double *u = s->u + worst * s->dim, *x = w->work.x0 + worst * s->dim;
     return mps__fail(
         w->context, MPS_E_DIVERGED,
@@ -390,10 +412,15 @@ static mps_status check_result(step_state *q)
 
 static void keep_state(mps__world *w)
 {
-    const size_t n = (size_t)w->particles.n, dim = (size_t)w->dim;
-    memcpy(w->work.x0, w->particles.x, n * dim * sizeof(double));
-    memcpy(w->work.u0, w->particles.u, n * dim * sizeof(double));
-    memcpy(w->work.p0, w->particles.p, n * sizeof(double));
+    const mps__particles *s = &w->particles;
+#pragma omp parallel for num_threads(w->threads) schedule(static)
+    for (int64_t i = 0; i < s->n; i++) {
+        w->work.p0[i] = s->p[i];
+        for (int64_t k = i * w->dim; k < (i + 1) * w->dim; k++) {
+            w->work.x0[k] = s->x[k];
+            w->work.u0[k] = s->u[k];
+        }
+    }
 }
 
 static void restore_state(mps__world *w)

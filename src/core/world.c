@@ -12,8 +12,10 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
     w->linked = -1;
     for (int k = 0; k < MPS__PHASES * MPS__PHASES; k++) w->tension[k] = -1.0;
     mps__neighbours_init(&w->neighbours, context, dim, dp);
+    mps__neighbours_init(&w->complete, context, dim, dp);
+    w->complete.skin = 0; /* searched whenever somebody asks */
     mps__screens_init(&w->screens, context, dim);
-    w->neighbours.screens = &w->screens;
+    w->neighbours.screens = w->complete.screens = &w->screens;
     mps__ppe_init(&w->ppe, context);
     mps__motion_init(&w->motion, context, dim);
     MPS__TRY(mps__particles_init(&w->particles, context, dim));
@@ -25,6 +27,7 @@ void mps__world_free(mps__world *w)
 {
     mps__particles_free(&w->particles);
     mps__neighbours_free(&w->neighbours);
+    mps__neighbours_free(&w->complete);
     mps__screens_free(&w->screens);
     mps__models_free(&w->models);
     mps__solvers_free(&w->solvers);
@@ -42,9 +45,10 @@ double mps__world_speed(const mps__world *w)
 {
     const mps__particles *s = &w->particles;
     double most = 0;
+#pragma omp parallel for num_threads(w->threads) reduction(max : most) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
-        const double *u = s->u + i * w->dim;
-        most = fmax(most, mps__dot(u, u, w->dim));
+        const double *u = s->u + i * w->dim, square = mps__dot(u, u, w->dim);
+        most = square > most ? square : most; /* a NaN does not count */
     }
     return sqrt(most);
 }
@@ -131,6 +135,7 @@ static mps_status leave_domain(mps__world *w)
     double lo[3], hi[3];
     if (!mps__world_domain(w, lo, hi)) return MPS_OK;
     bool *gone = w->work.gone;
+#pragma omp parallel for num_threads(w->threads) schedule(static)
     for (int64_t i = 0; i < w->particles.n; i++) gone[i] = outside(w, i, lo, hi);
     return handle_lost(w, gone, "left the domain");
 }
@@ -266,17 +271,39 @@ static mps_status reserve_work(mps__world *w)
     return MPS_OK;
 }
 
-/* Lists of the particles in the order they have. */
-static mps_status search(mps__world *w)
+/* What is done once when particles came or went: dummies find their walls, walls their areas, and solids the number density that they
+ * keep as long as no fluid is about. All candidates are there. */
+static mps_status link_solids(mps__world *w)
+{
+    mps_stencil near;
+    link_dummies(w);
+    estimate_areas(w);
+    MPS__TRY(mps__plates_find(w));
+    MPS__TRY(mps__world_rows(w));
+    MPS__TRY(mps__world_stencil(w, MPS_NEAR, &near));
+    MPS__TRY(mps_op_number_density(&near, w->particles.nd));
+    w->linked = w->particles.generation;
+    return MPS_OK;
+}
+
+/* Lists of the particles in the order they have, which is that of the cells if they are `sorted`. */
+static mps_status search_lists(mps__world *w, bool sorted, bool all)
 {
     mps__particles *s = &w->particles;
-    MPS__TRY(mps__neighbours_search(&w->neighbours, s->n, s->x, w->re_near, w->re_far));
-    if (w->linked != s->generation) {
-        link_dummies(w);
-        estimate_areas(w);
-        w->linked = s->generation;
+    if (sorted) mps__neighbours_sorted(&w->neighbours, s->n);
+    w->neighbours.kind = all ? NULL : s->kind;
+    return mps__neighbours_search(&w->neighbours, s->n, s->x, w->re_near, w->re_far);
+}
+
+static mps_status search(mps__world *w, bool sorted)
+{
+    mps_status status = MPS_OK;
+    if (w->linked != w->particles.generation) {
+        MPS__TRY(search_lists(w, sorted, true));
+        status = link_solids(w);
     }
-    const mps_status status = mps__plates_find(w);
+    if (status == MPS_OK) status = search_lists(w, sorted, false);
+    if (status == MPS_OK) status = mps__plates_find(w);
     if (status < 0) w->neighbours.valid = false;
     return status;
 }
@@ -285,11 +312,11 @@ static mps_status search(mps__world *w)
 static mps_status renew(mps__world *w)
 {
     mps__particles *s = &w->particles;
-    w->neighbours.threads = w->threads;
+    w->neighbours.threads = s->threads = w->threads;
     if (w->linked == s->generation && mps__neighbours_fresh(&w->neighbours, s->n, s->x, w->re_far)) return mps__world_rows(w);
     MPS__TRY(mps__neighbours_order(&w->neighbours, s->n, s->x, w->re_far));
     MPS__TRY(mps__particles_permute(s, s->n, w->neighbours.order));
-    MPS__TRY(search(w));
+    MPS__TRY(search(w, true));
     return mps__world_rows(w);
 }
 
@@ -309,9 +336,9 @@ mps_status mps__world_neighbours_kept(mps__world *w)
     mps__particles *s = &w->particles;
     MPS__CHECK(w->context, s->n > 0, "there are no particles");
     MPS__TRY(reserve_work(w));
-    w->neighbours.threads = w->threads;
+    w->neighbours.threads = s->threads = w->threads;
     const bool fresh = w->linked == s->generation && mps__neighbours_fresh(&w->neighbours, s->n, s->x, w->re_far);
-    if (!fresh) MPS__TRY(search(w));
+    if (!fresh) MPS__TRY(search(w, false));
     MPS__TRY(mps__world_rows(w));
     if (!fresh) w->neighbours.valid = false; /* the next step sorts, as it would have done */
     return MPS_OK;
@@ -321,6 +348,17 @@ mps_status mps__world_rows(mps__world *w)
 {
     mps__plates_look(w);
     return mps__neighbours_rows(&w->neighbours, w->particles.x);
+}
+
+mps_status mps__world_stencil_all(mps__world *w, int32_t which, mps_stencil *stencil)
+{
+    mps__particles *s = &w->particles;
+    mps_neighbours *l = &w->complete;
+    if (!w->neighbours.partial) return mps__world_stencil(w, which, stencil);
+    l->threads = w->threads;
+    MPS__TRY(mps__neighbours_search(l, s->n, s->x, w->re_near, w->re_far));
+    MPS__TRY(mps__neighbours_rows(l, s->x));
+    return mps_neighbours_stencil(l, which, &w->kernel, stencil);
 }
 
 mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *stencil)

@@ -47,7 +47,8 @@ typedef struct mps__world {
     double tension[MPS__PHASES * MPS__PHASES]; /* < 0: not set */
     mps__particles particles;
     mps_neighbours neighbours;
-    mps__screens screens; /* thin plates, in the tank's frame */
+    mps_neighbours complete; /* the same with the rows of solids without fluid about them, for those who ask; else empty */
+    mps__screens screens;    /* thin plates, in the tank's frame */
     mps__models models;
     mps__solvers solvers;
     mps__ppe ppe;
@@ -73,6 +74,8 @@ mps_status mps__world_neighbours_kept(mps__world *w);
 mps_status mps__world_rows(mps__world *w);
 /* The stencil of one radius from those lists. */
 mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *stencil);
+/* A stencil that has the rows of all particles, from lists that are fresh. */
+mps_status mps__world_stencil_all(mps__world *w, int32_t which, mps_stencil *stencil);
 /* Tell the log of phases that were defined and have no fluid. */
 void mps__world_note_phases(const mps__world *w);
 /* Largest speed of all particles [m/s]. */

@@ -75,6 +75,7 @@ static int velocity(void *self, const double *k, mps_stage *s)
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++)
         if (s->kind[i] == MPS_FLUID) MPS__ROW_CALL(s, collide, k, s, i, change);
+#pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n * s->dim; i++) s->u[i] += change[i];
     return 0;
 }

@@ -142,6 +142,7 @@ static int shift(void *self, const double *k, mps_stage *s, double *dx)
         if (k[TRANSPORT] > 0) transport(s, &sums, v, du + i * dim);
         for (int d = 0; d < dim; d++) dx[i * dim + d] += v[d];
     }
+#pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n * dim; i++) s->u[i] += du[i];
     return 0;
 }

@@ -35,6 +35,7 @@ static void volume_deviation(const double *k, const mps_stage *s, double *delta)
 /* v: fluid as if it moved with the tank during this step, without gravity and pressure; walls with the velocity of this step. */
 static void relative_velocity(const mps_stage *s, double *v)
 {
+#pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++)
         for (int d = 0; d < s->dim; d++) {
             const int64_t k = i * s->dim + d;

@@ -144,17 +144,14 @@ static void add_wire(const mps__grid *g, const mps__grid_level *l, wire *w, cons
     for (int s = 0; s < w->steps; s++) join(g, l, w->link[s], (float)(k * fabs(w->d[w->link[s] % (2 * g->dim) / 2])), links);
 }
 
-/* The wire from point i to j if their cells have a face in common, as most do. */
-static bool add_short_wire(const mps__grid *g, const mps__grid_level *l, const mps_ppe_problem *problem, int64_t i, int32_t j, double k,
-                           float *links)
+/* The same for cells with a face in common, as most are. False: they have none. */
+static bool add_short_wire(const mps__grid *g, const mps__grid_level *l, const wire *w, const int32_t home[2], double k, float *links)
 {
-    int32_t home = l->home[i];
-    int64_t step = l->key[l->home[j]] - l->key[home];
+    int64_t step = l->key[home[1]] - l->key[home[0]];
     for (int a = 0; a < g->dim; a++) {
         int64_t one = (int64_t)1 << (a * MPS__GRID_BITS);
         if (step != one && step != -one) continue;
-        double d = position(g, problem, j, a) - position(g, problem, i, a);
-        join(g, l, (int64_t)home * 2 * g->dim + 2 * a + (step > 0), (float)(k * fabs(d)), links);
+        join(g, l, (int64_t)home[0] * 2 * g->dim + 2 * a + (step > 0), (float)(k * fabs(w->d[a])), links);
         return true;
     }
     return false;
@@ -168,13 +165,12 @@ static void add_row(const mps__grid *g, const mps__grid_level *l, const mps_ppe_
         int32_t j = problem->col[k], home[2] = {l->home[i], l->home[j]};
         if (j <= i || home[0] == home[1] || !(problem->val[k] < 0)) continue;
         double conductance = -problem->val[k] * g->unit;
-        if (add_short_wire(g, l, problem, i, j, conductance, links)) continue;
         wire w;
         for (int a = 0; a < g->dim; a++) {
             w.x[a] = start[a];
             w.d[a] = position(g, problem, j, a) - start[a];
         }
-        add_wire(g, l, &w, home, conductance, links);
+        if (!add_short_wire(g, l, &w, home, conductance, links)) add_wire(g, l, &w, home, conductance, links);
     }
 }
 

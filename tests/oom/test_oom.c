@@ -354,7 +354,7 @@ static const scene scenes[] = {
     {"geometry_solid by inside", nothing, solid_by_inside, 60},
     {"geometry_fill beside a solid", solid_only, fill_inside, 30},
     {"particles_add", filled, add_block, 5},
-    {"particles_remove", filled, remove_some, 5},
+    {"particles_remove", filled, remove_some, 3},
     {"field_add", filled, field_add, 1},
     {"motion_set_harmonics", filled, harmonics, 1},
     {"motion_set_table", filled, motion_table, 1},

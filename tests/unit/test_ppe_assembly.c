@@ -51,6 +51,7 @@ static void tank_init(tank *k, cloud c)
                            .density = k->density,
                            .region = k->region,
                            .wet = k->wet,
+                           .density_smooth = k->density,
                            .near = &k->near,
                            .far = &k->far};
     k->terms = (mps_ppe_terms){.struct_size = sizeof k->terms,
