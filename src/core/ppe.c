@@ -75,12 +75,10 @@ static double complete_flux(const mps_stencil *t)
     return full / left;
 }
 
-/* Density of a pair: the mean between fluids, W22 (17); next to a solid the fluid's. */
+/* Density of a pair, W22 (17). Walls have that of the fluid beside them. */
 static inline double pair_density(const mps_stage *s, int64_t i, int64_t j)
 {
-    const bool wall_i = s->kind[i] != MPS_FLUID, wall_j = s->kind[j] != MPS_FLUID;
-    if (wall_i == wall_j) return 0.5 * (s->density_smooth[i] + s->density_smooth[j]);
-    return wall_i ? s->density_smooth[j] : s->density_smooth[i];
+    return 0.5 * (s->density_smooth[i] + s->density_smooth[j]);
 }
 
 /* Weight of a pair by what its particles are; 0: it does not take part. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Pressure gradient with B_i: G_i = D/n0 B_i sum w [(P_j - P_i)/rho_ij - b_ij.r_ij] r_ij over fluid and wet walls, b_ij.r_ij that of a fluid
- * that moves with the tank, rho_ij = (rho_i + rho_j)/2 as in W22 (18) or, next to a wall, rho_i; a_i = -b - G_i with b = g - a_tank
+ * that moves with the tank, rho_ij = (rho_i + rho_j)/2 as in W22 (18); a_i = -b - G_i with b = g - a_tank
  * (gravity is in u* already). Surface particles see one side only: a second pass with 2 (P_j - P_i) - G_j.r_ij makes them second order. */
 #include "builtin.h"
 
@@ -18,7 +18,7 @@ MPS__ROW void corrected(const int dim, const mps_stage *s, int64_t i, const doub
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         double body = 0, slope = 0;
         for (int d = 0; d < dim; d++) body += 0.5 * (2.0 * s->g[d] - own[d] - s->tank_accel[q.j * dim + d]) * q.d[d];
-        const double mean = s->kind[q.j] == MPS_FLUID ? 0.5 * (rho + s->density_smooth[q.j]) : rho;
+        const double mean = 0.5 * (rho + s->density_smooth[q.j]);
         double difference = (s->p[q.j] - pi) / mean - body;
         if (first && s->kind[q.j] == MPS_FLUID) {
             for (int d = 0; d < dim; d++) slope += first[q.j * dim + d] * q.d[d];
