@@ -11,7 +11,10 @@
  * again against the pressure of another time and place. It is known beforehand, so the share `forward` of it is asked for whole.
  *
  * delta is the volume deviation of mps_op_volume_deviation(), clipped and averaged. Its error follows the waves, so tau is long (20 tau_g):
- * a short one feeds them. What an impact compressed by per cents has to come back before the next: beyond `firm` the time falls to tau_g. */
+ * a short one feeds them. What an impact compressed by per cents has to come back before the next: beyond `firm` the time falls to tau_g.
+ * Gas that is torn or piled up by tens of per cents (`torn`) comes back in dt/`rapid`.
+ *
+ * Beside another density velocities of neighbours count by mass: the face between water and air moves with the water. */
 #include "builtin.h"
 #include <stdbool.h>
 
@@ -162,7 +165,7 @@ MPS__ROW double mean_deviation(const int dim, const mps_stage *s, const double *
     return sum / weight;
 }
 
-/* 1/tau, up to 1/tau_g where delta is beyond `firm`. */
+/* 1/tau, up to 1/tau_g where delta is beyond `firm`, and up to `most` more where it is beyond `torn`. */
 static inline double relaxation(const double *k, double delta, double most)
 {
     const double square = delta * delta / (k[FIRM] * k[FIRM]), torn = delta * delta / (k[TORN] * k[TORN]);
