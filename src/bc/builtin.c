@@ -26,6 +26,21 @@ double mps__height(const mps_stage *s, const double up[3], int64_t i)
     return height;
 }
 
+double mps__density_beside(const mps_stage *s, int64_t i)
+{
+    const mps_stencil *t = s->near;
+    double density = s->density[i], nearest = INFINITY;
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        const int64_t j = t->col[p];
+        if (s->kind[j] != MPS_FLUID || s->region[j] == MPS_REGION_SPRAY) continue;
+        const mps_pair q = mps_stencil_pair(t, i, p);
+        if (q.r2 >= nearest) continue;
+        nearest = q.r2;
+        density = s->density[j];
+    }
+    return density;
+}
+
 const mps_model_ops *const *mps__builtin_bc(void)
 {
     return all;

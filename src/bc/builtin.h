@@ -19,6 +19,9 @@ bool mps__upward(const mps_stage *s, double up[3]);
 /* Height of particle i along it [m]. */
 double mps__height(const mps_stage *s, const double up[3], int64_t i);
 
+/* Density of the fluid nearest to a solid particle, spray aside; its own without any near. */
+double mps__density_beside(const mps_stage *s, int64_t i);
+
 /* All of them; the last entry is NULL. */
 const mps_model_ops *const *mps__builtin_bc(void);
 

@@ -3,6 +3,16 @@
  * pressures about them and no equation of their own. */
 #include "builtin.h"
 
+/* Solids have no density of their own: beside gas they must not be as heavy as water. */
+static int classify(void *self, const double *k, mps_stage *s)
+{
+    (void)self, (void)k;
+#pragma omp parallel for num_threads(s->threads) schedule(static)
+    for (int64_t i = 0; i < s->n; i++)
+        if (s->kind[i] != MPS_FLUID) s->density_smooth[i] = mps__density_beside(s, i);
+    return 0;
+}
+
 /* Before the gradient: pressures of dummies. */
 static int gradient(void *self, const double *k, mps_stage *s, double *a)
 {
@@ -23,5 +33,9 @@ static int gradient(void *self, const double *k, mps_stage *s, double *a)
     return 0;
 }
 
-const mps_model_ops mps__wall_extrapolate = {
-    .struct_size = sizeof(mps_model_ops), .api = MPS_MODEL_API, .name = "wall.extrapolate", .order = 200, .gradient = gradient};
+const mps_model_ops mps__wall_extrapolate = {.struct_size = sizeof(mps_model_ops),
+                                             .api = MPS_MODEL_API,
+                                             .name = "wall.extrapolate",
+                                             .order = 200,
+                                             .classify = classify,
+                                             .gradient = gradient};

@@ -18,20 +18,14 @@ static double half_sum(const mps_stencil *t)
     return sum;
 }
 
-/* Kernel sum over the fluid, and the density of the nearest: the half cell is a piece of it. Spray does not count: a wall particle left
- * with other walls alone would make the system singular. */
-MPS__ROW double fluid_sum(const int dim, const mps_stage *s, int64_t i, double *density)
+/* Kernel sum over the fluid. Spray does not count: a wall particle left with other walls alone would make the system singular. */
+MPS__ROW double fluid_sum(const int dim, const mps_stage *s, int64_t i)
 {
     const mps_stencil *t = s->near;
-    double sum = 0, nearest = INFINITY;
+    double sum = 0;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         const int64_t j = t->col[p];
-        if (s->kind[j] != MPS_FLUID || s->region[j] == MPS_REGION_SPRAY) continue;
-        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        sum += q.w;
-        if (q.r2 >= nearest) continue;
-        nearest = q.r2;
-        *density = s->density[j];
+        if (s->kind[j] == MPS_FLUID && s->region[j] != MPS_REGION_SPRAY) sum += mps_stencil_pair_dim(dim, t, i, p).w;
     }
     return sum;
 }
@@ -43,9 +37,10 @@ static int classify(void *self, const double *k, mps_stage *s)
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_WALL) continue;
-        const double sum = MPS__ROW_CALL(s, fluid_sum, s, i, s->density_smooth + i);
+        const double sum = MPS__ROW_CALL(s, fluid_sum, s, i);
         s->wet[i] = sum < full ? sum / full : 1.0;
         if (sum == 0) s->region[i] = MPS_REGION_DRY;
+        s->density_smooth[i] = mps__density_beside(s, i);
     }
     return 0;
 }

@@ -2,7 +2,8 @@
 /* Pressure gradient for high ratios of density, W22 (18):
  *   a_i = -D/n0 sum [2 (P_j - P_i)/(rho_i + rho_j) + (P_i - P'_i)/rho_i] r_ij/|r_ij|^2 W,
  * P'_i the smallest pressure of i and its neighbours of the same phase; the second term keeps particles apart. Densities are the
- * smoothed ones. Solids belong to no phase: next to them rho is the fluid's own. Dummies need pressures: `wall.extrapolate`. */
+ * smoothed ones; solids have that of the fluid beside them: with the gas's own a wall below the contact line would
+ * throw the gas off. Dummies need pressures and densities: `wall.extrapolate`. */
 #include "builtin.h"
 
 /* P'_i */
@@ -24,8 +25,7 @@ MPS__ROW void accelerate(const int dim, const mps_stage *s, int64_t i, double *a
     double sum[3] = {0};
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        const double other = s->kind[q.j] == MPS_FLUID ? s->density_smooth[q.j] : rho;
-        const double share = q.w_r2 * (2.0 * (s->p[q.j] - s->p[i]) / (rho + other) + apart);
+        const double share = q.w_r2 * (2.0 * (s->p[q.j] - s->p[i]) / (rho + s->density_smooth[q.j]) + apart);
         for (int d = 0; d < dim; d++) sum[d] += share * q.d[d];
     }
     for (int d = 0; d < dim; d++) a[i * dim + d] -= dim / t->n0 * sum[d];
