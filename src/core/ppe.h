@@ -16,7 +16,7 @@ typedef struct mps__ppe {
     double *val, *rhs, *shift, *gas, *law, *weight, *x, *p;
     int32_t *component;
     bool level_free; /* the largest component has no level */
-    int32_t *queue; /* [n] scratch */
+    int32_t *queue;  /* [n] scratch */
     mps_ppe_problem problem;
 } mps__ppe;
 
