@@ -15,7 +15,7 @@ static struct {
     double a[3 * SPY_ROOM], dp_a[3 * SPY_ROOM], density[SPY_ROOM], shift[SPY_ROOM], rhs[SPY_ROOM], gas[SPY_ROOM], law[SPY_ROOM],
         p[SPY_ROOM];
     double volume[SPY_ROOM], number[SPY_ROOM], wide_sum[SPY_ROOM], near_sum[SPY_ROOM]; /* numbers over n0 */
-    int32_t level_free;
+    int32_t level_free, region[SPY_ROOM];
     double (*pressure)(const double *x, int dim);
     double given_rhs, given_deviation;
 } spy;
@@ -59,6 +59,7 @@ static inline int spy_force(void *self, const double *k, mps_stage *s, double *a
     for (int64_t i = 0; i < s->n * s->dim; i++) spy.a[s->id[i / s->dim] * s->dim + i % s->dim] = a[i];
     for (int64_t i = 0; i < s->n; i++) {
         spy.density[s->id[i]] = s->density_smooth[i];
+        spy.region[s->id[i]] = s->region[i];
         spy.volume[s->id[i]] = s->volume[i];
         spy.number[s->id[i]] = s->number_density[i] / s->near->n0;
     }

@@ -136,6 +136,7 @@ static void gradient_of_linear(void **state)
     for (int dim = 2; dim <= 3; dim++) {
         const double dp = 0.05, lo[3] = {0}, hi[3] = {0.4, 0.4, 0.4};
         mps_sim *sim = bare_sim(dim, dp, 3.1, 1e-6);
+        set_phase(sim, 0, 1.2, 0); /* of the solids: no model of walls gives them that of the fluid */
         set_phase(sim, 1, 1.2, 0);
         add_tank(sim, 0.4, 0.4, 0.4);
         ASSERT_OK(sim, mps_geometry_fill_box(sim, 1, lo, hi, NULL));

@@ -106,8 +106,7 @@ static double entry(const mps__ppe *e, int64_t r, int32_t c)
 
 static double pair_rho(const tank *k, int64_t i, int64_t j)
 {
-    const bool fi = k->kind[i] == MPS_FLUID, fj = k->kind[j] == MPS_FLUID;
-    return fi == fj ? 0.5 * (k->density[i] + k->density[j]) : fi ? k->density[i] : k->density[j];
+    return 0.5 * (k->density[i] + k->density[j]);
 }
 
 static bool in_equation(const tank *k, int64_t i)

@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The presets of several phases: which models they switch on, and every setting that is not the model's own default. */
+#include "../bc/builtin.h"
+#include "../phase/builtin.h"
+#include "tank_fixture.h"
+#include <mps/model.h>
+
+typedef struct changed {
+    const char *model, *key;
+    double value;
+} changed;
+
+typedef struct wanted {
+    const char *preset;
+    const char *const *models; /* in the order of a step, NULL after the last */
+    const changed *settings;   /* model NULL after the last */
+} wanted;
+
+static const char *const mmps_models[] = {"surface.detached",
+                                          "reference.lid",
+                                          "wall.half",
+                                          "moments.bounded",
+                                          "viscosity.pair",
+                                          "dissipation.radial",
+                                          "tension.csf",
+                                          "source.volume",
+                                          "gas.compressible",
+                                          "gradient.corrected",
+                                          "collision.pair",
+                                          "shift.tangential",
+                                          NULL};
+static const changed mmps_settings[] = {
+    {"source.volume", "clip", 0.5}, {"source.volume", "rapid", 0.1}, {"collision.pair", "restitution", 0}, {NULL, NULL, 0}};
+static const char *const paper_models[] = {"wall.extrapolate", "density.smooth",   "viscosity.pair",   "tension.csf",    "reference.gas",
+                                           "source.mixed",     "gas.compressible", "gradient.density", "collision.pair", NULL};
+static const changed paper_settings[] = {{"gas.compressible", "printed", 1}, {"collision.pair", "distance", 0.8}, {NULL, NULL, 0}};
+static const wanted list[] = {{"mmps", mmps_models, mmps_settings}, {"mmps.paper", paper_models, paper_settings}};
+
+static const mps_model_ops *built_in(const char *name)
+{
+    const mps_model_ops *const *lists[] = {mps__builtin_bc(), mps__builtin_phase()};
+    for (int l = 0; l < 2; l++)
+        for (const mps_model_ops *const *ops = lists[l]; *ops; ops++)
+            if (strcmp((*ops)->name, name) == 0) return *ops;
+    return NULL;
+}
+
+/* What the preset makes of a setting; counts those that differ from the default. */
+static double wanted_value(const changed *settings, const char *model, const mps_setting *s, int *different)
+{
+    for (const changed *c = settings; c->model; c++)
+        if (strcmp(c->model, model) == 0 && strcmp(c->key, s->key) == 0) {
+            assert_true(c->value != s->initial); /* else the line of the table says nothing */
+            ++*different;
+            return c->value;
+        }
+    return s->initial;
+}
+
+static void models_and_settings(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < sizeof list / sizeof list[0]; k++) {
+        int different = 0, lines = 0;
+        mps_sim *sim = new_sim(2, 0.05);
+        ASSERT_OK(sim, mps_model_set(sim, "source", "clip", 0.3)); /* of the preset before: gone with it */
+        ASSERT_OK(sim, mps_model_set(sim, "collision", "distance", 0.55));
+        ASSERT_OK(sim, mps_sim_use_preset(sim, list[k].preset));
+        for (int32_t m = 0; list[k].models[m] || mps_model_name(sim, m); m++) {
+            const char *name = mps_model_name(sim, m);
+            if (!name || !list[k].models[m] || strcmp(name, list[k].models[m]) != 0)
+                fail_msg("%s: model %d is %s instead of %s", list[k].preset, m, name ? name : "none",
+                         list[k].models[m] ? list[k].models[m] : "none");
+            const mps_model_ops *ops = built_in(name);
+            assert_non_null(ops);
+            for (int32_t s = 0; s < ops->setting_count; s++) {
+                double value = NAN;
+                ASSERT_OK(sim, mps_model_get(sim, name, ops->settings[s].key, &value));
+                if (value != wanted_value(list[k].settings, name, &ops->settings[s], &different))
+                    fail_msg("%s: %s of %s is %g", list[k].preset, ops->settings[s].key, name, value);
+            }
+        }
+        while (list[k].settings[lines].model) lines++;
+        assert_int_equal(different, lines); /* every line was met */
+        mps_sim_destroy(sim);
+    }
+}
+
+/* A preset that is not there names the nearest and leaves what was chosen. */
+static void misspelt(void **state)
+{
+    (void)state;
+    static const char *const names[][2] = {{"mmp", "\"mmp\"; did you mean \"mmps\""},
+                                           {"mmsp", "\"mmsp\"; did you mean \"mmps\""},
+                                           {"mmps.papr", "\"mmps.papr\"; did you mean \"mmps.paper\""},
+                                           {"mmps-paper", "\"mmps-paper\"; did you mean \"mmps.paper\""}};
+    mps_sim *sim = new_sim(2, 0.05);
+    ASSERT_OK(sim, mps_sim_use_preset(sim, "mmps"));
+    for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)
+        ASSERT_REFUSED(sim, mps_sim_use_preset(sim, names[k][0]), MPS_E_NAME, names[k][1]);
+    for (int32_t m = 0; mmps_models[m]; m++) assert_string_equal(mps_model_name(sim, m), mmps_models[m]);
+    mps_sim_destroy(sim);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(models_and_settings), cmocka_unit_test(misspelt)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

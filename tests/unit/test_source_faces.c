@@ -1,0 +1,201 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* source.volume where densities meet: faces by mass, and what is asked for where the volume is torn. */
+#include "phase_fixture.h"
+#include <stdbool.h>
+
+static const double DT = 0.02, water = 1000;
+
+/* Water (phase 0) over a tilted plane below which is air (phase 1), or all of it phase 0; free() the phases. */
+static cloud two_layers(int dim, double jitter, int32_t **phase)
+{
+    const int side = dim == 2 ? 16 : 10;
+    const cloud c = cloud_lattice(dim, side, side, dim == 3 ? side : 1, jitter, 21);
+    *phase = cloud_phases(c.n);
+    for (int64_t i = 0; i < c.n; i++) (*phase)[i] = c.x[i * dim] + 0.3 * c.x[i * dim + 1] < 0.65 * side * CLOUD_DP;
+    return c;
+}
+
+/* spy.rhs of the source alone, nothing relaxed; phase 1 is `ratio` times lighter. */
+static void source(const cloud *c, const int32_t *phase, double ratio, const double *u, double strain)
+{
+    mps_sim *sim = bare_sim(c->dim, CLOUD_DP, 3.1, DT);
+    set_phase(sim, 0, water, 0);
+    set_phase(sim, 1, water / ratio, 0);
+    add_cloud(sim, c, phase, u);
+    ASSERT_OK(sim, mps_model_use(sim, "moments.bounded"));
+    ASSERT_OK(sim, mps_model_use(sim, "source.volume"));
+    ASSERT_OK(sim, mps_model_set(sim, "source", "clip", 0));
+    ASSERT_OK(sim, mps_model_set(sim, "source", "strain", strain));
+    ASSERT_OK(sim, mps_step(sim, 1, NULL));
+    mps_sim_destroy(sim);
+}
+
+/* Is M - 0.501 of the faces by mass positive definite, so that its inverse is not bounded? Also says whether another density is near. */
+static bool regular(const cloud *c, const int32_t *phase, double ratio, int64_t i, bool *beside)
+{
+    const int dim = c->dim;
+    const double re = 2.1 * CLOUD_DP, rho[2] = {water, water / ratio};
+    double m[3][3] = {{0}}, n0;
+    mps_kernel kernel;
+    assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
+    assert_int_equal(mps_lattice_constants(&kernel, dim, CLOUD_DP, re, &n0, NULL), MPS_OK);
+    for (int64_t j = 0; j < c->n; j++) {
+        const double r2 = cloud_distance2(c, i, j);
+        if (j == i || r2 >= re * re) continue;
+        const double share = 2 * rho[phase[j]] / (rho[phase[i]] + rho[phase[j]]);
+        *beside = *beside || phase[j] != phase[i];
+        for (int d = 0; d < dim; d++)
+            for (int e = 0; e < dim; e++)
+                m[d][e] += dim / n0 * share * mps_kernel_value(&kernel, sqrt(r2), re) / r2 * (c->x[j * dim + d] - c->x[i * dim + d]) *
+                           (c->x[j * dim + e] - c->x[i * dim + e]);
+    }
+    for (int d = 0; d < dim; d++) m[d][d] -= 0.501;
+    const double two = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+    const double three = m[2][2] * two - m[2][1] * (m[0][0] * m[1][2] - m[0][2] * m[1][0]) +
+                         m[2][0] * (m[0][1] * m[1][2] - m[0][2] * m[1][1]);
+    return m[0][0] > 0 && two > 0 && (dim == 2 || three > 0);
+}
+
+static bool inside(const cloud *c, int64_t i)
+{
+    const int side = c->dim == 2 ? 16 : 10;
+    return cloud_inside(c, i, (const int[3]){side, side, side}, 2.3 * CLOUD_DP);
+}
+
+/* u = A x: the source is -(tr A - dt tr(A A)/2)/dt whoever is beside whom, on a lattice and on a jittered one. */
+static void linear_flow(void **state)
+{
+    (void)state;
+    static const double a[2][9] = {{1.3, 0.4, -2, 0.5}, {1, 0.3, -0.2, 0.5, -2, 0.1, 0.7, 0.2, 1.7}}, ratios[] = {1000, 20, 1.8, 1};
+    for (int k = 0; k < 16; k++) {
+        const int dim = 2 + k / 8;
+        const double ratio = ratios[k % 4], *A = a[dim - 2];
+        int32_t *phase;
+        cloud c = two_layers(dim, k / 4 % 2 ? 0.15 : 0, &phase);
+        double *u = cloud_doubles(c.n * dim), trace = 0, square = 0;
+        int64_t water_beside = 0, air_beside = 0;
+        for (int64_t q = 0; q < c.n * dim; q++)
+            for (int e = 0; e < dim; e++) u[q] += A[q % dim * dim + e] * c.x[q / dim * dim + e];
+        for (int d = 0; d < dim; d++) {
+            trace += A[d * dim + d];
+            for (int e = 0; e < dim; e++) square += A[d * dim + e] * A[e * dim + d];
+        }
+        source(&c, phase, ratio, u, 1);
+        for (int64_t i = 0; i < c.n; i++) {
+            bool beside = false;
+            if (!inside(&c, i) || !regular(&c, phase, ratio, i, &beside)) continue;
+            ASSERT_NEAR(-DT * spy.rhs[i], trace - 0.5 * DT * square, 1e-10);
+            water_beside += beside && phase[i] == 0;
+            air_beside += beside && phase[i] == 1;
+        }
+        assert_true(air_beside > 10 && water_beside > 10); /* of heavy ones some at a bent interface are bounded */
+        cloud_free(&c);
+        free(phase);
+        free(u);
+    }
+}
+
+/* Largest change of the sources of phase `whose` when phase `moved` gets other velocities. */
+static double influence(int dim, double ratio, int moved, int whose)
+{
+    int32_t *phase;
+    cloud c = two_layers(dim, 0.15, &phase);
+    double *u = cloud_field(c.n * dim, 5), *rhs = cloud_doubles(c.n), most = 0;
+    source(&c, phase, ratio, u, 0);
+    memcpy(rhs, spy.rhs, (size_t)c.n * sizeof *rhs);
+    for (int64_t i = 0; i < c.n; i++)
+        for (int d = 0; d < dim && phase[i] == moved; d++) u[i * dim + d] = 3 * u[i * dim + d] + (d == 0 ? -5 : 2);
+    source(&c, phase, ratio, u, 0);
+    for (int64_t i = 0; i < c.n; i++)
+        if (inside(&c, i) && phase[i] == whose) most = fmax(most, fabs(spy.rhs[i] - rhs[i]));
+    cloud_free(&c);
+    free(phase);
+    free(u);
+    free(rhs);
+    return most;
+}
+
+/* Water sees of the air beside it what the ratio of densities lets through; air sees all of the water. */
+static void water_minds_water(void **state)
+{
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++) {
+        const double equal = influence(dim, 1, 1, 0);
+        for (double ratio = 100; ratio < 20000; ratio *= 10) {
+            const double seen = influence(dim, ratio, 1, 0) / equal, back = influence(dim, ratio, 0, 1) / equal;
+            print_message("%d-D, %g: water %.3g / ratio, air %.3g\n", dim, ratio, seen * ratio, back);
+            assert_true(seen > 0 && seen < 5 / ratio);
+            assert_true(back > 0.5);
+        }
+    }
+}
+
+/* Two phases of one density are one, byte for byte. */
+static void equal_densities(void **state)
+{
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++) {
+        int32_t *phase;
+        cloud c = two_layers(dim, 0.15, &phase);
+        double *u = cloud_field(c.n * dim, 5), *rhs = cloud_doubles(c.n);
+        source(&c, phase, 1, u, 1);
+        memcpy(rhs, spy.rhs, (size_t)c.n * sizeof *rhs);
+        memset(phase, 0, (size_t)c.n * sizeof *phase);
+        source(&c, phase, 1, u, 1);
+        assert_memory_equal(rhs, spy.rhs, (size_t)c.n * sizeof *rhs);
+        assert_true(fabs(rhs[c.n / 2]) > 1);
+        cloud_free(&c);
+        free(phase);
+        free(u);
+        free(rhs);
+    }
+}
+
+/* ---- relaxation of the volume ---------------------------------------------------------------------------------------------- */
+
+/* Source of a particle amid a lattice at rest that is off by about `deviation`, which it returns clipped. */
+static double relaxed(double deviation, double rapid, double dt, double *delta)
+{
+    cloud c = cloud_lattice(2, 16, 16, 1, 0, 1);
+    int32_t *phase = cloud_phases(c.n);
+    mps_sim *sim = bare_sim(2, CLOUD_DP, 3.1, dt);
+    const int64_t i = 8 * 16 + 8;
+    set_phase(sim, 0, water, 0);
+    add_cloud(sim, &c, phase, NULL);
+    spy.given_deviation = deviation;
+    ASSERT_OK(sim, mps_model_use(sim, "moments.bounded"));
+    ASSERT_OK(sim, mps_model_use(sim, "source.volume"));
+    ASSERT_OK(sim, mps_model_set(sim, "source", "clip", 0.5));
+    ASSERT_OK(sim, mps_model_set(sim, "source", "rapid", rapid));
+    assert_true(mps_step(sim, 1, NULL) >= 0); /* whether such a pressure converges is of no interest */
+    *delta = fmin(fmax(spy.volume[i], -0.5), 0.5);
+    mps_sim_destroy(sim);
+    cloud_free(&c);
+    free(phase);
+    return spy.rhs[i];
+}
+
+/* 1/tau below `firm`, then up to 1/tau_g; from `torn` on the share `rapid` of it in one step, and never more than that share of the clip. */
+static void torn_volume(void **state)
+{
+    (void)state;
+    static const double deviations[] = {0.01, -0.02, 0.05, 0.1, 0.15, -0.15, 0.2, -0.3, 0.5, 3, -0.9}, rapids[] = {0, 0.1, 0.4};
+    const double rate = sqrt(9.81 * CLOUD_DP) / CLOUD_DP, tau = 20, firm = 0.03, torn = 0.15;
+    for (int r = 0; r < 3; r++)
+        for (double dt = 1e-5; dt < 0.02; dt *= 10)
+            for (size_t k = 0; k < sizeof deviations / sizeof deviations[0]; k++) {
+                double delta;
+                const double got = dt * relaxed(deviations[k], rapids[r], dt, &delta);
+                const double slow = rate * fmin((1 + pow(delta / firm, 4)) / tau, 1), fast = rapids[r] / dt * fmin(pow(delta / torn, 4), 1);
+                ASSERT_NEAR(delta, fmin(fmax(deviations[k], -0.5), 0.5), 0.01 * fabs(deviations[k]));
+                ASSERT_NEAR(got / ((slow + fast) * delta), 1, 1e-9);
+                assert_true(fabs(got) <= 0.5 * (rate + rapids[r] / dt) * (1 + 1e-9));
+            }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(linear_flow), cmocka_unit_test(water_minds_water),
+                                       cmocka_unit_test(equal_densities), cmocka_unit_test(torn_volume)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Water below air in a closed tank with the scheme of several phases: the densities that walls take, and that what is at rest stays so. */
+#include "phase_fixture.h"
+
+static const double dp = 0.05, water = 1000, air = 1, size[3] = {0.4, 0.5, 0.3}, middle = 0.225;
+
+static void fill(mps_sim *sim)
+{
+    const double lo[3] = {0}, water_top[3] = {size[0], middle, size[2]}, air_floor[3] = {0, middle, 0};
+    set_phase(sim, 0, water, 1e-3);
+    set_phase(sim, 1, air, 1.8e-5);
+    add_tank(sim, size[0], size[1], size[2]);
+    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, water_top, NULL));
+    ASSERT_OK(sim, mps_geometry_fill_box(sim, 1, air_floor, size, NULL));
+}
+
+/* ---- walls ----------------------------------------------------------------------------------------------------------------- */
+
+/* Every fluid particle away from its place by up to `jitter` dp. */
+static void jitter_fluid(mps_sim *sim, int dim, double jitter)
+{
+    const int32_t *kinds;
+    uint64_t seed = 17;
+    mps_lease x;
+    ASSERT_OK(sim, mps_particles_tags(sim, NULL, &kinds, NULL, NULL));
+    ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_WRITE, &x));
+    for (int64_t k = 0; k < x.count * dim; k++)
+        if (kinds[k / dim] == MPS_FLUID) x.data[k] += jitter * dp * cloud_random(&seed);
+    ASSERT_OK(sim, mps_lease_end(sim, &x));
+}
+
+/* Density of the nearest fluid within re_near, or of the wall itself. */
+static double nearest_density(const double *x, const double *rho, const int32_t *kind, int64_t n, int dim, int64_t i)
+{
+    double least = pow(2.1 * dp, 2), found = rho[i];
+    for (int64_t j = 0; j < n; j++) {
+        double r2 = 0;
+        for (int d = 0; d < dim; d++) r2 += pow(x[j * dim + d] - x[i * dim + d], 2);
+        if (kind[j] != MPS_FLUID || r2 >= least) continue;
+        least = r2;
+        found = rho[j];
+    }
+    return found;
+}
+
+static int32_t *kinds_by_id(mps_sim *sim)
+{
+    const int64_t *ids;
+    const int32_t *kinds;
+    const int64_t n = mps_particles_count(sim, -1);
+    int32_t *kind = cloud_phases(n);
+    ASSERT_OK(sim, mps_particles_tags(sim, &ids, &kinds, NULL, NULL));
+    for (int64_t i = 0; i < n; i++) kind[ids[i]] = kinds[i];
+    return kind;
+}
+
+/* A wall particle has the density of the fluid nearest to it; with the walls of the papers a dummy too. */
+static void walls_take_density(void **state)
+{
+    (void)state;
+    for (int m = 0; m < 4; m++) {
+        const int dim = 2 + m / 2, dummies = m % 2;
+        int64_t of[2] = {0};
+        mps_sim *sim = bare_sim(dim, dp, 3.1, 1e-9);
+        fill(sim);
+        jitter_fluid(sim, dim, 0.2);
+        ASSERT_OK(sim, mps_model_use(sim, dummies ? "wall.extrapolate" : "wall.half"));
+        double *x = field_by_id(sim, "position"), *rho = field_by_id(sim, "density");
+        int32_t *kind = kinds_by_id(sim);
+        const int64_t n = mps_particles_count(sim, -1);
+        ASSERT_OK(sim, mps_step(sim, 1, NULL));
+        for (int64_t i = 0; i < n; i++) {
+            if (kind[i] == MPS_FLUID) assert_true(spy.density[i] == rho[i]);
+            if (kind[i] != MPS_WALL && !(dummies && kind[i] == MPS_DUMMY)) continue;
+            assert_true(spy.density[i] == nearest_density(x, rho, kind, n, dim, i));
+            of[0] += spy.density[i] == water;
+            of[1] += spy.density[i] == air;
+        }
+        assert_true(of[0] > 10 && of[1] > 10);
+        free(x);
+        free(rho);
+        free(kind);
+        mps_sim_destroy(sim);
+    }
+}
+
+/* A lone drop of water before the wall of the air: the wall is that of the drop, unless the drop is spray. */
+static void spray_before_wall(void **state)
+{
+    (void)state;
+    for (int detached = 0; detached < 2; detached++) {
+        mps_sim *sim = bare_sim(2, dp, 3.1, 1e-9);
+        fill(sim);
+        ASSERT_OK(sim, mps_model_use(sim, "wall.half"));
+        if (detached) ASSERT_OK(sim, mps_model_use(sim, "surface.detached"));
+        double *x = field_by_id(sim, "position");
+        int32_t *kind = kinds_by_id(sim);
+        int64_t drop = -1, wall = -1;
+        for (int64_t i = 0; i < mps_particles_count(sim, -1); i++) {
+            if (kind[i] == MPS_FLUID && x[2 * i] < 1.5 * dp && fabs(x[2 * i + 1] - 8 * dp) < 0.1 * dp) drop = i;
+            if (kind[i] == MPS_WALL && x[2 * i] < 0.1 * dp && fabs(x[2 * i + 1] - 8 * dp) < 0.1 * dp) wall = i;
+        }
+        assert_true(drop >= 0 && wall >= 0);
+        const int64_t *ids;
+        mps_lease rho;
+        ASSERT_OK(sim, mps_particles_tags(sim, &ids, NULL, NULL, NULL));
+        ASSERT_OK(sim, mps_lease_begin(sim, "density", MPS_WRITE, &rho));
+        for (int64_t i = 0; i < rho.count; i++)
+            if (ids[i] == drop) rho.data[i] = water;
+        ASSERT_OK(sim, mps_lease_end(sim, &rho));
+        ASSERT_OK(sim, mps_step(sim, 1, NULL));
+        assert_int_equal(spy.region[drop], detached ? MPS_REGION_SPRAY : MPS_REGION_INNER);
+        assert_true(spy.density[wall] == (detached ? air : water));
+        free(x);
+        free(kind);
+        mps_sim_destroy(sim);
+    }
+}
+
+/* ---- rest -------------------------------------------------------------------------------------------------------------------- */
+
+/* Largest difference between the pressures of the fluid, each less that of layers at rest, over that of the depth of the water. */
+static double head_error(mps_sim *sim, int dim)
+{
+    const int32_t *kinds;
+    double low = INFINITY, high = -INFINITY;
+    mps_lease p, x;
+    ASSERT_OK(sim, mps_particles_tags(sim, NULL, &kinds, NULL, NULL));
+    ASSERT_OK(sim, mps_lease_begin(sim, "pressure", MPS_READ, &p));
+    ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &x));
+    for (int64_t i = 0; i < p.count; i++) {
+        if (kinds[i] != MPS_FLUID) continue;
+        const double above = x.data[i * dim + 1] - middle, head = p.data[i] + 9.81 * (above < 0 ? water : air) * above;
+        low = fmin(low, head);
+        high = fmax(high, head);
+    }
+    ASSERT_OK(sim, mps_lease_end(sim, &p));
+    ASSERT_OK(sim, mps_lease_end(sim, &x));
+    return (high - low) / (9.81 * water * middle);
+}
+
+/* Nothing moves but the interface by a little: its pairs of 2 dp have other shares of water than a mean of two densities has. */
+static void at_rest(void **state)
+{
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++) {
+        double *first[3] = {NULL};
+        for (int threads = 1; threads <= 3; threads += 2) {
+            static const char *const fields[] = {"position", "velocity", "pressure"};
+            mps_step_info info;
+            mps_sim *sim = new_sim(dim, dp);
+            fill(sim);
+            ASSERT_OK(sim, mps_sim_use_preset(sim, "mmps"));
+            ASSERT_OK(sim, mps_sim_set_threads(sim, threads));
+            assert_int_equal(mps_step_info_init(&info, sizeof info), MPS_OK);
+            for (int step = 0; step < 20; step++) ASSERT_OK(sim, mps_step(sim, 1, &info));
+            print_message("%d-D: largest speed %.3g m/s, pressures to %.2g of rho g h\n", dim, info.max_speed, head_error(sim, dim));
+            assert_true(info.max_speed < 0.02); /* sqrt(g dp) is 0.7; walls with a density of their own: above 0.1 */
+            assert_true(head_error(sim, dim) < 5e-3);
+            for (int f = 0; f < 3; f++) {
+                double *now = field_by_id(sim, fields[f]);
+                const size_t bytes = (size_t)mps_particles_count(sim, -1) * (f < 2 ? (size_t)dim : 1) * sizeof *now;
+                if (first[f]) assert_memory_equal(now, first[f], bytes);
+                free(first[f]);
+                first[f] = now;
+            }
+            mps_sim_destroy(sim);
+        }
+        for (int f = 0; f < 3; f++) free(first[f]);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(walls_take_density), cmocka_unit_test(spray_before_wall),
+                                       cmocka_unit_test(at_rest)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
