@@ -13,7 +13,7 @@ enum { CLI_OPTIONS = 32 };
 
 static int cli_table(cli_options *o, cli_option *table)
 {
-    const char *models = o->two_phases ? "imps, mmps, imps.paper or mmps.paper" : "imps or imps.paper";
+    const char *models = o->two_phases ? "imps, mmps (several phases), imps.paper or mmps.paper" : "imps or imps.paper";
     int n = 0;
     table[n++] = (cli_option){"--model", "NAME", models, TYPE_TEXT, &o->model, 0, 0, false};
     table[n++] = (cli_option){"--use", "SLOT.VARIANT", "exchange a model of the preset; may be repeated", TYPE_LIST, &o->use, 0, 0, false};

@@ -165,8 +165,8 @@ mps_status mps_sim_set_phase(mps_sim *sim, int32_t index, const mps_phase *phase
     mps_phase p = water;
     MPS__CHECK(&sim->context, index >= 0 && index < MPS__PHASES, "phase index is %d: 0..%d", index, MPS__PHASES - 1);
     MPS__TRY(mps__struct_in(&sim->context, "mps_phase", &p, sizeof p, phase));
-    MPS__CHECK(&sim->context, p.density > 0 && isfinite(p.density), "phase %d: density is %g: must be > 0 kg/m3", index, p.density);
-    MPS__CHECK(&sim->context, p.viscosity >= 0 && isfinite(p.viscosity), "phase %d: viscosity is %g: must be >= 0 Pa s", index,
+    MPS__CHECK(&sim->context, p.density > 0 && isfinite(p.density), "phase %d: density is %g: must be > 0 kg/m3, finite", index, p.density);
+    MPS__CHECK(&sim->context, p.viscosity >= 0 && isfinite(p.viscosity), "phase %d: viscosity is %g: must be >= 0 Pa s, finite", index,
                p.viscosity);
     mps__world *w = &sim->world;
     if (mps__particles_leases(&w->particles)) return mps__fail(&sim->context, MPS_E_BUSY, "a lease is open");
