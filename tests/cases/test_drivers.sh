@@ -144,7 +144,7 @@ value_is free ke 1 0 0
 runs 0 rising_bubble --case 2 --dp 0.05 --t-end 0.02 --frames 0 --out bubble2
 cmp -s bubble2/probes.csv rising_bubble/probes.csv && fail "--case 2 changes nothing"
 
-runs 0 droplet --model mmps.paper --dp 0.001 --t-end 1e-4 --frames 0 --out drop_paper # without gravity nothing is uppermost
+runs 0 droplet --model mmps.paper --dp 0.001 --t-end 0.002 --frames 0 --out drop_paper # without gravity nothing is uppermost
 
 # air above the water, in 3-D too
 runs 0 sloshing_high_fill --model mmps --dp 0.025 --t-end 0.02 --frames 0 --out air
