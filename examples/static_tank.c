@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Water at rest: 0.8 x 0.25 m in a tank 0.8 x 0.5 m, or 0.3 x 0.2 x 0.2 m in 3-D. Pressures must be hydrostatic and nothing move. */
-#include "common/run.h"
+#include "common/tank.h"
 
 /* Inner size of the tank and depth of the water [m]; y is up. */
 static const double SIZE[2][3] = {{0.8, 0.5, 0}, {0.3, 0.4, 0.2}};
@@ -10,10 +10,7 @@ static void build(run *r)
 {
     int k = r->options.dim - 2;
     const double lo[] = {0, 0, 0}, hi[] = {SIZE[k][0], DEPTH[k], SIZE[k][2]};
-    mps_tank tank;
-    mps_tank_init(&tank, sizeof tank);
-    for (int d = 0; d < 3; d++) tank.size[d] = SIZE[k][d];
-    run_check(r, mps_geometry_tank(r->sim, &tank, NULL), "tank");
+    tank_walls(r, SIZE[k]);
     run_check(r, mps_geometry_fill_box(r->sim, 0, lo, hi, NULL), "water");
 }
 

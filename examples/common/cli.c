@@ -13,8 +13,9 @@ enum { CLI_OPTIONS = 32 };
 
 static int cli_table(cli_options *o, cli_option *table)
 {
+    const char *models = o->two_phases ? "imps, mmps (several phases), imps.paper or mmps.paper" : "imps or imps.paper";
     int n = 0;
-    table[n++] = (cli_option){"--model", "NAME", "imps, mmps, imps.paper or mmps.paper", TYPE_TEXT, &o->model, 0, 0, false};
+    table[n++] = (cli_option){"--model", "NAME", models, TYPE_TEXT, &o->model, 0, 0, false};
     table[n++] = (cli_option){"--use", "SLOT.VARIANT", "exchange a model of the preset; may be repeated", TYPE_LIST, &o->use, 0, 0, false};
     table[n++] = (cli_option){"--set", "SLOT.KEY=X", "change a number of a model; may be repeated", TYPE_LIST, &o->set, 0, 0, false};
     table[n++] = (cli_option){"--re-far", "X", "far radius [dp]; without it the preset's", TYPE_REAL, &o->re_far, 2.1, 10, false};
@@ -83,7 +84,7 @@ static void cli_help(const cli_options *o, const cli_option *table, int n)
         printf("  %-18s %s%s\n", left, table[i].help, initial);
     }
     printf("\nWrites probes.csv, summary.json, frames.pvd with frames/, plots, pictures and report.html into the folder of --out.\n"
-           "Exit: 0 done, 1 failed, 2 wrong value, 3 diverged (outputs stay readable), 130 interrupted by Ctrl-C.\n");
+           "Exit: 0 done, 1 failed, 2 wrong value, 3 diverged or beyond a model (outputs stay readable), 130 interrupted by Ctrl-C.\n");
     exit(CLI_OK);
 }
 
@@ -231,6 +232,7 @@ void cli_own(cli_options *o, cli_option option)
 void cli_parse(cli_options *o, int argc, char **argv)
 {
     cli_option table[CLI_OPTIONS];
+    o->two_phases = o->need || strncmp(o->model, "mmps", 4) == 0;
     int n = cli_table(o, table);
     for (int i = 1; i < argc; i++) cli_take(o, table, n, argc, argv, &i);
     if (o->dt > 0 && o->dt > o->t_end) cli_refuse(o, "--dt is longer than --t-end%s%s", "", "");

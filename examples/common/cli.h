@@ -59,6 +59,7 @@ typedef struct cli_options {
     double sigma;       /* surface tension [N/m], for models that have it */
     bool has_sigma;     /* the driver offers --sigma */
     bool sigma_given;   /* by the user */
+    bool two_phases;    /* models of several phases suit the case; set by cli_parse(): they are its default, or it has a `need` */
     bool no_gas;        /* both phases are liquids: the model of the gas is switched off */
     const char *need;   /* NULL, or "slot.variant" that a model of several phases gets where its slot is empty */
     const char *prefer; /* NULL, or "slot.key=value", set before --set where the model has it */

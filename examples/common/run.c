@@ -75,6 +75,8 @@ static void run_suit_models(run *r)
     const cli_options *o = &r->options;
     char slot[48];
     if (o->no_gas && run_has_model(r, "gas")) run_check(r, mps_model_remove(r->sim, "gas"), "models");
+    if (o->gravity == 0 && run_has_model(r, "reference"))
+        run_check(r, mps_model_remove(r->sim, "reference"), "models"); /* it asks where up is */
     if (!o->need || !run_has_gas(r)) return;
     snprintf(slot, sizeof slot, "%.*s", (int)strcspn(o->need, "."), o->need);
     if (!run_has_model(r, slot)) run_check(r, mps_model_use(r->sim, o->need), "models");
@@ -95,6 +97,8 @@ static void run_use_models(run *r)
     const cli_options *o = &r->options;
     if (mps_sim_use_preset(r->sim, o->model) != MPS_OK)
         run_refuse(r, "--model", o->model, mps_sim_error(r->sim), "; there are imps, mmps, imps.paper, mmps.paper");
+    if (run_has_gas(r) && !o->two_phases)
+        run_refuse(r, "--model", o->model, "is for two phases, this case has one", "; there are imps, imps.paper");
     run_suit_models(r);
     for (int i = 0; i < o->use.count; i++)
         if (mps_model_use(r->sim, o->use.text[i]) != MPS_OK) run_refuse(r, "--use", o->use.text[i], mps_sim_error(r->sim), "");
@@ -111,8 +115,8 @@ static void run_use_solver(run *r)
     snprintf(solver, sizeof solver, "%.*s", slash ? (int)(slash - text) : (int)strlen(text), text);
     if (mps_solver_use(r->sim, solver, slash ? slash + 1 : NULL) != MPS_OK) {
         run_refuse(r, "--solver", text, mps_sim_error(r->sim),
-                   "; there are sundials.pcg, sundials.bicgstab, sundials.gmres, sundials.klu, and behind a / the preconditioners none, "
-                   "jacobi, ic0, auxgrid");
+                   "; there are sundials.pcg, sundials.bicgstab, sundials.gmres, sundials.klu, sundials.kinsol, and behind a / the "
+                   "preconditioners none, jacobi, ic0, auxgrid");
     }
 }
 

@@ -182,6 +182,8 @@ static int run_exit_code(const run *r, mps_status status)
     if (r->output_failed || status == MPS_E_NOMEM || status == MPS_E_IO) return CLI_FAILED;
     if (status == MPS_W_STOPPED) return interrupted ? CLI_INTERRUPTED : CLI_FAILED;
     if (status == MPS_E_DIVERGED || status == MPS_E_LOST || status == MPS_E_SOLVER) return CLI_DIVERGED;
+    if (status == MPS_E_PLUGIN || status == MPS_E_STATE) /* models that do not fit together or to the case, or a flow beyond a model */
+        return r->totals.steps == 0 ? CLI_USAGE : CLI_DIVERGED;
     return status < 0 ? CLI_FAILED : CLI_OK;
 }
 

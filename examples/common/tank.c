@@ -33,6 +33,7 @@ void tank_build(run *r, const tank_case *c)
     mps_harmonic motion = c->motion;
     motion.amplitude = r->options.amplitude;
     tank_walls(r, c->size);
+    if (c->plate.top > 0) baffle_add(r, &c->plate, c->size[2]);
     run_check(r, mps_geometry_fill_box(r->sim, 0, lo, level, NULL), "water");
     if (run_has_gas(r)) {
         run_phase(r, 1, TANK_AIR_DENSITY, TANK_AIR_VISCOSITY);
@@ -45,8 +46,10 @@ int tank_main(cli_options *o, const tank_case *c, tank_columns_fn columns, int a
 {
     run r;
     o->amplitude = c->motion.amplitude;
-    o->has_sigma = true;
-    o->need = "reference.lid"; /* in a closed tank full of liquid and gas something must set the level of the pressures */
+    o->has_layers = c->plate.top > 0;
+    o->has_sigma = !o->has_layers;
+    if (!o->has_layers)
+        o->need = "reference.lid"; /* in a closed tank full of liquid and gas something must set the level of the pressures */
     cli_parse(o, argc, argv);
     run_open(&r, o);
     tank_build(&r, c);

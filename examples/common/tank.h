@@ -3,6 +3,7 @@
 #ifndef MPS_EXAMPLES_TANK_H
 #define MPS_EXAMPLES_TANK_H
 
+#include "baffle.h"
 #include "run.h"
 
 /* Air as everywhere in these cases [kg/m3], [Pa s]. */
@@ -14,6 +15,7 @@ typedef struct tank_case {
     double size[3];      /* inner [m]; the third in 3-D */
     double depth;        /* of the water [m] */
     mps_harmonic motion; /* what --amplitude gives replaces its amplitude */
+    baffle plate;        /* a baffle across it; top 0: none. With one the case is for one liquid */
 } tank_case;
 
 /* Name and add the columns of probes.csv that are the driver's own. */
@@ -24,7 +26,7 @@ void tank_walls(run *r, const double *size);
 /* The same with the lattice laid so that y = middle is halfway between two rows: two fluids meet there. The tank reaches as far up as
  * down from it, y = 0 may be up to a spacing off its floor. @param lo,hi [3] out: its corners */
 void tank_walls_about(run *r, const double *size, double middle, double *lo, double *hi);
-/* Walls, water up to the depth, air above it where the model has a gas, and the motion. */
+/* Walls, baffle, water up to the depth, air above it where the model has a gas, and the motion. */
 void tank_build(run *r, const tank_case *c);
 /* Command line, run and outputs. The options hold the driver's defaults. @return exit code of the program */
 int tank_main(cli_options *o, const tank_case *c, tank_columns_fn columns, int argc, char **argv);

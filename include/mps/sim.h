@@ -61,7 +61,7 @@ MPS_API mps_status mps_sim_time(const mps_sim *sim, double *t, int64_t *steps);
 /** Number of OpenMP threads. @param threads 1..1024 */
 MPS_API mps_status mps_sim_set_threads(mps_sim *sim, int32_t threads);
 
-/** Properties of one phase. */
+/** Properties of one phase. Its number has no meaning to the handle, but models have one for it: phase 1 is the gas of "mmps". */
 typedef struct mps_phase {
     uint32_t struct_size; /**< set by mps_phase_init() */
     double density;       /**< rho [kg/m3], > 0; default 1000 */
@@ -71,7 +71,8 @@ typedef struct mps_phase {
 /** Set water: 1000 kg/m3, 1e-3 Pa s. */
 MPS_API mps_status mps_phase_init(mps_phase *phase, size_t size);
 
-/** Define or change phase `index` (0..15). Particles of that phase take its density at once. */
+/** Define or change phase `index` (0..15), before its particles are added. Those there are take its density at once.
+ *  @return MPS_E_ARG (which value is wrong, and what is allowed), MPS_E_BUSY */
 MPS_API mps_status mps_sim_set_phase(mps_sim *sim, int32_t index, const mps_phase *phase);
 
 /** Read phase `index`. @return MPS_E_ARG if it was never defined */
@@ -87,8 +88,15 @@ MPS_API mps_status mps_sim_get_tension(const mps_sim *sim, int32_t a, int32_t b,
 
 /* ---- models -------------------------------------------------------------------------------------------------- */
 
-/** Replace all models by a named list: "imps" (stable and accurate, default) or "imps.paper" (W22 (1)-(12) to the letter).
- *  A preset is nothing but calls of mps_model_use() and mps_model_set(). Settings made before are gone. */
+/** Replace all models by a named list. A preset is nothing but calls of mps_model_use() and mps_model_set(). Settings made before are gone.
+ *
+ *  "imps" (default): one liquid with a free surface, stable and accurate.
+ *  "mmps": several phases that fill the tank together, without a free surface; the operators of "imps", stable at densities of 1000 : 1,
+ *  with surface tension ("tension.csf", 0.0727 N/m unless set) and phase 1 a gas ("gas.compressible", 340 m/s unless set, whatever its
+ *  density). A step fails without fluid of the gas, or when it moves at its speed of sound. Two liquids: mps_model_remove(sim, "gas").
+ *  "imps.paper": W22 (1)-(12) to the letter; "mmps.paper": W22 (10)-(26). For comparison: they are less stable, and want
+ *  mps_config.re_far 4.1 in 2-D and mps_time_control.gravity 0.03, which a preset cannot set.
+ *  @return MPS_E_NAME with the nearest known name, MPS_E_NOMEM */
 MPS_API mps_status mps_sim_use_preset(mps_sim *sim, const char *name);
 
 /** Switch a model on. Names are "slot.variant"; a slot holds one model, the one already there is replaced.

@@ -59,7 +59,8 @@ MPS_API mps_status mps_step_info_init(mps_step_info *info, size_t size);
  *  @param sim     simulation with no open lease (else MPS_E_BUSY) and at least one fluid particle
  *  @param dt_max  upper bound of the step [s], > 0 and finite; the step taken is info->dt
  *  @param info    NULL, or out, with struct_size set
- *  @return MPS_OK, MPS_W_NOT_CONVERGED; MPS_E_DIVERGED, MPS_E_LOST, MPS_E_SOLVER, MPS_E_NOMEM, MPS_E_PLUGIN
+ *  @return MPS_OK, MPS_W_NOT_CONVERGED; MPS_E_DIVERGED, MPS_E_LOST, MPS_E_SOLVER, MPS_E_NOMEM, MPS_E_PLUGIN (a model, built in or
+ *          not, cannot go on: no gas, or faster than sound), MPS_E_STATE (no fluid; rows of a nonlinear gas with a solver of linear ones)
  *          (positions, velocities, pressures and time are as before the call) */
 MPS_API mps_status mps_step(mps_sim *sim, double dt_max, mps_step_info *info);
 

@@ -10,10 +10,12 @@ static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *term
 {
     (void)self;
     double top = -INFINITY, up[3];
-    if (!mps__upward(s, up)) return mps_stage_fail(s, "without gravity there is no uppermost layer");
+    if (!mps__upward(s, up)) return mps_stage_fail(s, "without gravity there is no uppermost layer: remove the model \"reference\"");
     for (int64_t i = 0; i < s->n; i++)
         if (s->kind[i] == MPS_FLUID && s->phase[i] == (int32_t)k[PHASE]) top = fmax(top, mps__height(s, up, i));
-    if (isinf(top)) return mps_stage_fail(s, "phase %d has no fluid particle; choose the phase that is the gas", (int)k[PHASE]);
+    if (isinf(top))
+        return mps_stage_fail(
+            s, "phase %d has no fluid particle: add the gas, set reference.phase to it, or remove the model \"reference\"", (int)k[PHASE]);
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_FLUID || s->phase[i] != (int32_t)k[PHASE] || mps__height(s, up, i) < top - k[LAYER] * s->dp) continue;
         terms->fixed[i] = 1;

@@ -20,7 +20,7 @@ static int gradient(void *self, const double *k, mps_stage *s, double *a)
     (void)self, (void)a;
     double top = -INFINITY, sum = 0, weight = 0, up[3];
     if (!s->level_free) return 0;
-    if (!mps__upward(s, up)) return mps_stage_fail(s, "without gravity there is no highest wall");
+    if (!mps__upward(s, up)) return mps_stage_fail(s, "without gravity there is no highest wall: remove the model \"reference\"");
     for (int64_t i = 0; i < s->n; i++)
         if (wetted(s, i)) top = fmax(top, mps__height(s, up, i));
     for (int64_t i = 0; i < s->n; i++) {

@@ -96,11 +96,16 @@ void mps__models_free(mps__models *m)
     while (m->active > 0) drop(m, m->active - 1);
 }
 
+/* Who means a slot that is there means one of its models. */
 static mps_status unknown_model(mps__models *m, const char *name)
 {
     const char *names[MPS__MODELS_KNOWN];
-    for (int32_t k = 0; k < m->known; k++) names[k] = m->name[k];
-    return mps__fail(m->context, MPS_E_NAME, "no model \"%s\"; did you mean \"%s\"?", name, mps__nearest(name, names, m->known));
+    bool slot = false;
+    int32_t count = 0;
+    for (int32_t k = 0; k < m->known; k++) slot = slot || same_slot(m->name[k], name);
+    for (int32_t k = 0; k < m->known; k++)
+        if (!slot || same_slot(m->name[k], name)) names[count++] = m->name[k];
+    return mps__fail(m->context, MPS_E_NAME, "no model \"%s\"; did you mean \"%s\"?", name, mps__nearest(name, names, count));
 }
 
 mps_status mps__models_use(mps__models *m, const char *name)

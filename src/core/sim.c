@@ -165,8 +165,8 @@ mps_status mps_sim_set_phase(mps_sim *sim, int32_t index, const mps_phase *phase
     mps_phase p = water;
     MPS__CHECK(&sim->context, index >= 0 && index < MPS__PHASES, "phase index is %d: 0..%d", index, MPS__PHASES - 1);
     MPS__TRY(mps__struct_in(&sim->context, "mps_phase", &p, sizeof p, phase));
-    MPS__CHECK(&sim->context, p.density > 0 && isfinite(p.density), "phase %d: density is %g: must be > 0 kg/m3", index, p.density);
-    MPS__CHECK(&sim->context, p.viscosity >= 0 && isfinite(p.viscosity), "phase %d: viscosity is %g: must be >= 0 Pa s", index,
+    MPS__CHECK(&sim->context, p.density > 0 && isfinite(p.density), "phase %d: density is %g: must be > 0 kg/m3, finite", index, p.density);
+    MPS__CHECK(&sim->context, p.viscosity >= 0 && isfinite(p.viscosity), "phase %d: viscosity is %g: must be >= 0 Pa s, finite", index,
                p.viscosity);
     mps__world *w = &sim->world;
     if (mps__particles_leases(&w->particles)) return mps__fail(&sim->context, MPS_E_BUSY, "a lease is open");
@@ -182,7 +182,8 @@ mps_status mps_sim_get_phase(const mps_sim *sim, int32_t index, mps_phase *phase
 {
     if (!sim) return MPS_E_ARG;
     mps__context *c = mps__sim_context(sim);
-    MPS__CHECK(c, index >= 0 && index < MPS__PHASES && sim->world.phase_defined[index], "phase %d is not defined", index);
+    MPS__CHECK(c, index >= 0 && index < MPS__PHASES && sim->world.phase_defined[index],
+               "phase %d is not defined: call mps_sim_set_phase() first", index);
     mps_phase p = water;
     p.density = sim->world.phase_density[index];
     p.viscosity = sim->world.phase_viscosity[index];
@@ -193,7 +194,8 @@ static mps_status check_pair(mps__context *c, const mps__world *w, int32_t a, in
 {
     const int32_t both[2] = {a, b};
     for (int k = 0; k < 2; k++)
-        MPS__CHECK(c, both[k] >= 0 && both[k] < MPS__PHASES && w->phase_defined[both[k]], "phase %d is not defined", both[k]);
+        MPS__CHECK(c, both[k] >= 0 && both[k] < MPS__PHASES && w->phase_defined[both[k]],
+                   "phase %d is not defined: call mps_sim_set_phase() first", both[k]);
     MPS__CHECK(c, a != b, "surface tension of phase %d with itself: the phases must differ", a);
     return MPS_OK;
 }

@@ -13,10 +13,15 @@ int mps__gas_check(mps_stage *s, double phase, double sound)
         most = fmax(most, square);
         count++;
     }
-    if (count == 0) return mps_stage_fail(s, "phase %d has no fluid particle; choose the phase that is the gas", (int)phase);
+    if (phase != floor(phase)) return mps_stage_fail(s, "gas.phase is %g: must be a whole number", phase);
+    if (count == 0)
+        return mps_stage_fail(s,
+                              "phase %d has no fluid particle: add the gas, or set gas.phase to it; with liquids alone remove the model "
+                              "\"gas\"; one liquid with a surface: preset \"imps\"",
+                              (int)phase);
     if (!(sqrt(most) < sound))
-        return mps_stage_fail(s, "a particle of phase %d moves at %g m/s, and its speed of sound is %g m/s: it must be greater", (int)phase,
-                              sqrt(most), sound);
+        return mps_stage_fail(s, "a particle of phase %d moves at %g m/s, and the speed of sound there is %g m/s: it must be greater",
+                              (int)phase, sqrt(most), sound);
     return 0;
 }
 

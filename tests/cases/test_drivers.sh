@@ -65,6 +65,8 @@ refused '--set collision.distance: must be slot.key=number' static_tank --set co
 refused '--set collision.distance=0.5x: must be slot.key=number' static_tank --set=collision.distance=0.5x
 refused '--re-far 1.5: must be a number, 2.1 to 10' static_tank --re-far 1.5
 refused 'there are imps, mmps, imps.paper, mmps.paper' static_tank --model magic
+refused '--model mmps: is for two phases, this case has one; there are imps, imps.paper' static_tank --model mmps
+refused '--model mmps.paper: is for two phases' dam_break --model mmps.paper
 refused '--sigma -1: must be a number not less than 0, at most 100' droplet --sigma -1
 refused '--sigma with --model imps: has no surface tension' droplet --model imps --sigma 0.01
 refused 'unknown option --sigma' rayleigh_taylor --sigma 0
@@ -73,6 +75,10 @@ refused '--mode res: must be one of rest|oscillation' droplet --mode res
 refused '--case 3: must be one of 1|2' rising_bubble --case 3
 refused '--width 0: must be a number, 0.01 to 2' sloshing_breaking --dim 3 --width 0
 refused 'there are sundials.pcg' static_tank --solver magic
+refused 'sundials.klu, sundials.kinsol, and behind' air_cushion --solver magic
+refused "choose 'sundials.kinsol'" air_cushion --dp 0.04 --use gas.isentropic --frames 0 --no-report --out nonlinear
+refused 'phase 3 has no fluid particle: add the gas, or set gas.phase' air_cushion --dp 0.04 --set gas.phase=3 --frames 0 --no-report --out no_gas
+refused 'gas.phase is 1.5: must be a whole number' air_cushion --dp 0.04 --set gas.phase=1.5 --frames 0 --no-report --out no_gas
 refused '--out /dev/null/x: Not a directory' static_tank --out /dev/null/x
 
 "$drivers/static_tank" --help | grep -q -- '--probe-dt S' || fail "--help does not list --probe-dt"
@@ -137,6 +143,8 @@ runs 0 droplet --mode oscillation --sigma 0 --dp 0.001 --t-end 0.002 --frames 0 
 value_is free ke 1 0 0
 runs 0 rising_bubble --case 2 --dp 0.05 --t-end 0.02 --frames 0 --out bubble2
 cmp -s bubble2/probes.csv rising_bubble/probes.csv && fail "--case 2 changes nothing"
+
+runs 0 droplet --model mmps.paper --dp 0.001 --t-end 0.002 --frames 0 --out drop_paper # without gravity nothing is uppermost
 
 # air above the water, in 3-D too
 runs 0 sloshing_high_fill --model mmps --dp 0.025 --t-end 0.02 --frames 0 --out air
@@ -215,6 +223,10 @@ runs 3 sloshing_surge --dp 0.025 --dt 0.1 --t-end 5 --out diverged
 grep -q 'at t = .*step' log || fail "a diverged run does not say when: $(cat log)"
 has diverged probes.csv summary.json report.html
 grep -q '"status": "MPS_E_' diverged/summary.json || fail "a diverged run's status: $(grep status diverged/summary.json)"
+
+# a gas that would move at its speed of sound
+runs 3 sloshing_high_fill --model mmps --dp 0.05 --set gas.sound=1 --amplitude 0.5 --out fast
+grep -q 'phase 1 moves at .* m/s, and the speed of sound there is 1 m/s' log || fail "a gas that is too fast: $(cat log)"
 
 # Ctrl-C
 "$drivers/static_tank" --dp 0.02 --t-end 1000 --out stopped --threads 1 >log 2>&1 &

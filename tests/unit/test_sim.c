@@ -220,6 +220,7 @@ static void suggestions(void **state)
     (void)state;
     mps_sim *sim = new_sim(2, 0.05);
     double v = 0;
+    ASSERT_REFUSED(sim, mps_model_use(sim, "tension"), MPS_E_NAME, "no model \"tension\"; did you mean \"tension.csf\"");
     ASSERT_REFUSED(sim, mps_sim_use_preset(sim, "ims"), MPS_E_NAME, "\"ims\"; did you mean \"imps\"");
     ASSERT_REFUSED(sim, mps_sim_use_preset(sim, "imps.papr"), MPS_E_NAME, "\"imps.paper\"");
     ASSERT_REFUSED(sim, mps_sim_use_preset(sim, NULL), MPS_E_ARG, "NULL");
