@@ -27,7 +27,8 @@ static int classify(void *self, const double *k, mps_stage *s)
         if (s->kind[i] == MPS_FLUID) lightest = fmin(lightest, s->density[i]);
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID && s->density[i] > lightest && MPS__ROW_CALL(s, company, s, i, enough) < enough) s->region[i] = MPS_REGION_SPRAY;
+        if (s->kind[i] == MPS_FLUID && s->density[i] > lightest && MPS__ROW_CALL(s, company, s, i, enough) < enough)
+            s->region[i] = MPS_REGION_SPRAY;
     return 0;
 }
 

@@ -33,7 +33,7 @@ static double left_over(int dim, double distance, double speed, const int32_t ph
     return left;
 }
 
-/* 1 - dt 2 dp 2(D+2)/n0 nu W/r^2, with nu = alpha U_g + beta u_n, at most 0.15 dp/dt. */
+/* 1 - dt 2 dp 2(D+2)/n0 nu W/r^2, with nu = alpha U_g + beta u_n, at most 0.15 dp/dt, nearer than dp less by (r/dp)^3. */
 static double wanted(int dim, double distance, double speed)
 {
     const double r = distance * CLOUD_DP, re = 2.1 * CLOUD_DP;
@@ -41,7 +41,7 @@ static double wanted(int dim, double distance, double speed)
     double n0;
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
     assert_int_equal(mps_lattice_constants(&kernel, dim, CLOUD_DP, re, &n0, NULL), MPS_OK);
-    const double nu = fmin(0.1 * sqrt(9.81 * CLOUD_DP) + speed, 0.15 * CLOUD_DP / DT);
+    const double nu = fmin(0.1 * sqrt(9.81 * CLOUD_DP) + speed, 0.15 * CLOUD_DP / DT * fmin(1, distance * distance * distance));
     return 1 - DT * 2 * CLOUD_DP * 2 * (dim + 2) / n0 * nu * mps_kernel_value(&kernel, r, re) / (r * r);
 }
 
@@ -52,7 +52,7 @@ static void approaching(void **state)
     static const int32_t phases[3][2] = {{0, 0}, {0, 1}, {1, 0}};
     for (int dim = 2; dim <= 3; dim++)
         for (int p = 0; p < 3; p++)
-            for (double distance = 0.8; distance < 2; distance += 0.2) {
+            for (double distance = 0.4; distance < 2; distance += 0.2) {
                 double before = 1;
                 for (double speed = 0.1; speed < 300; speed *= 3) { /* 300 m/s are 19 dp in a step */
                     const double left = left_over(dim, distance, speed, phases[p]);
