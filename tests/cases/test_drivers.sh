@@ -219,7 +219,7 @@ if [ -e bare/report.html ] || [ -e bare/frames.pvd ]; then fail "--no-report --f
 has bare probes.csv summary.json
 
 # the outputs of a run that breaks off are readable: steps far too long for a tank that starts with a jump
-runs 3 sloshing_surge --dp 0.025 --dt 0.1 --t-end 5 --out diverged
+runs 3 sloshing_surge --model imps.paper --dp 0.025 --dt 0.1 --t-end 5 --out diverged
 grep -q 'at t = .*step' log || fail "a diverged run does not say when: $(cat log)"
 has diverged probes.csv summary.json report.html
 grep -q '"status": "MPS_E_' diverged/summary.json || fail "a diverged run's status: $(grep status diverged/summary.json)"
