@@ -61,11 +61,13 @@ typedef struct mps_stage {
     double *density_smooth;   /**< [n] density for operators of the pressure, written by classify; arrives as a copy of density [kg/m3] */
     const double *tension;    /**< [16*16] sigma between two phases by mps_sim_set_tension() [N/m], symmetric; < 0: not set */
     int32_t level_free;       /**< from `gradient` on, 1: nothing fixed the level of the pressures, their mean is 0; else 0 */
+    double *
+        capillary; /**< [n] sigma kappa: what a phase has more pressure than the other across an interface, written by classify; arrives 0 [Pa] */
 } mps_stage;
 
 /** The pressure equation: sum_j k_ij (p_i - p_j + q_ij) + gain (shift_i p_i + gas_i f(p_i)) = gain rhs_i [1/s2] over pairs of fluid and
  *  walls, with k_ij = 2D/(n0 lambda) W_ij/rho_ij and q_ij = rho_ij (b_i + b_j)/2 . r_ij, the difference p_j - p_i of a fluid that moves
- *  with the tank. f(p) = p, or P ln(1 + p/P) where law_i = P > 0, which needs a solver of nonlinear rows. Unknowns are particles of
+ *  with the tank, less (capillary_i - capillary_j)/2 between phases. f(p) = p, or P ln(1 + p/P) where law_i = P > 0, which needs a solver of nonlinear rows. Unknowns are particles of
  *  regions INNER, SECOND and NEAR that are not fixed. Verbs add to what they find. */
 typedef struct mps_ppe_terms {
     uint32_t struct_size;     /**< sizeof(mps_ppe_terms) */

@@ -81,6 +81,12 @@ static inline double pair_density(const mps_stage *s, int64_t i, int64_t j)
     return 0.5 * (s->density_smooth[i] + s->density_smooth[j]);
 }
 
+/* p_i - p_j by surface tension. */
+static inline double capillary_jump(const mps_stage *s, int64_t i, int64_t j)
+{
+    return s->phase && s->phase[i] != s->phase[j] ? 0.5 * (s->capillary[i] - s->capillary[j]) : 0.0;
+}
+
 /* Weight of a pair by what its particles are; 0: it does not take part. */
 static inline double pair_factor(const assembly *a, int64_t i, int64_t j)
 {
@@ -160,7 +166,7 @@ static inline __attribute__((always_inline)) void fill_row(const int dim, const 
         const double rho = pair_density(s, i, q.j), kij = a->c * factor * q.w / rho;
         double body = 0;
         for (int d = 0; d < dim; d++) body += 0.5 * (a->t->body[i * dim + d] + a->t->body[q.j * dim + d]) * q.d[d];
-        rhs -= kij * rho * body;
+        rhs -= kij * (rho * body - capillary_jump(s, i, q.j));
         if (e->unknown[q.j] < 0) {
             shift += kij;
             rhs += kij * a->t->value[q.j];

@@ -19,7 +19,8 @@ MPS__ROW void corrected(const int dim, const mps_stage *s, int64_t i, const doub
         double body = 0, slope = 0;
         for (int d = 0; d < dim; d++) body += 0.5 * (2.0 * s->g[d] - own[d] - s->tank_accel[q.j * dim + d]) * q.d[d];
         const double mean = 0.5 * (rho + s->density_smooth[q.j]);
-        double difference = (s->p[q.j] - pi) / mean - body;
+        const double jump = s->phase[q.j] != s->phase[i] ? 0.5 * (s->capillary[i] - s->capillary[q.j]) : 0.0;
+        double difference = (s->p[q.j] - pi + jump) / mean - body;
         if (first && s->kind[q.j] == MPS_FLUID) {
             for (int d = 0; d < dim; d++) slope += first[q.j * dim + d] * q.d[d];
             difference = 2.0 * difference - slope;

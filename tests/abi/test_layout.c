@@ -43,7 +43,7 @@ AT(mps_stl, scale, 16);
 AT(mps_stl, shift, 24);
 AT(mps_stl, container, 48);
 
-SIZE(mps_stage, 272);
+SIZE(mps_stage, 280);
 AT(mps_stage, struct_size, 0);
 AT(mps_stage, dim, 4);
 AT(mps_stage, threads, 8);
@@ -78,6 +78,7 @@ AT(mps_stage, host, 240);
 AT(mps_stage, density_smooth, 248);
 AT(mps_stage, tension, 256);
 AT(mps_stage, level_free, 264);
+AT(mps_stage, capillary, 272);
 
 SIZE(mps_ppe_terms, 88);
 AT(mps_ppe_terms, struct_size, 0);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* tension.csf: curvature of circles and spheres, flat interfaces, balance of forces, pressure inside a drop. */
+/* tension.csf: curvature of circles and spheres, flat interfaces, balance of forces, pressure inside a drop; tension.jump: the same pressure
+ * with less motion. */
 #include "phase_fixture.h"
 
 static const double sigma = 0.07;
@@ -242,6 +243,52 @@ static void laplace_pressure(void **state)
     }
 }
 
+/* One step of a drop from rest with one curvature for both models: jump of the pressure over (D-1) sigma/R, and the root of the mean
+ * of rho u^2. */
+static double step_from_rest(int dim, const char *model, double *motion)
+{
+    static const double density[2] = {1, 1000};
+    const double radius = dim == 2 ? 10 : 6;
+    drop s = drop_make(dim, radius, dim == 2 ? 9 : 6, 0.1, density);
+    ASSERT_OK(s.sim, mps_model_use(s.sim, model));
+    ASSERT_OK(s.sim, mps_model_set(s.sim, "tension", "sigma", sigma));
+    ASSERT_OK(s.sim, mps_model_set(s.sim, "tension", "radius", dim == 2 ? 8.1 : 6.1));
+    ASSERT_OK(s.sim, mps_model_use(s.sim, "source.mixed"));
+    ASSERT_OK(s.sim, mps_model_set(s.sim, "source", "gamma", 0));
+    ASSERT_OK(s.sim, mps_model_use(s.sim, "moments.bounded"));
+    ASSERT_OK(s.sim, mps_model_use(s.sim, "gradient.corrected"));
+    ASSERT_OK(s.sim, mps_step(s.sim, 1, NULL));
+    double *u = field_by_id(s.sim, "velocity"), mean[2] = {0}, count[2] = {0};
+    *motion = 0;
+    for (int64_t i = 0; i < s.c.n; i++) {
+        double r2 = 0;
+        for (int d = 0; d < dim; d++) {
+            r2 += pow((s.c.x[dim * i + d] - s.centre[d]) / CLOUD_DP, 2);
+            *motion += density[s.phase[i]] * u[dim * i + d] * u[dim * i + d] / (double)s.c.n;
+        }
+        const int out = r2 > radius * radius;
+        if (fabs(sqrt(r2) - radius) < 3) continue;
+        mean[out] += spy.p[i];
+        count[out]++;
+    }
+    *motion = sqrt(*motion);
+    free(u);
+    drop_free(&s);
+    return (mean[0] / count[0] - mean[1] / count[1]) * radius * CLOUD_DP / ((dim - 1) * sigma);
+}
+
+static void jump_at_rest(void **state)
+{
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++) {
+        double motion[2];
+        const double force = step_from_rest(dim, "tension.csf", &motion[0]), jump = step_from_rest(dim, "tension.jump", &motion[1]);
+        print_message("%d-D: pressure %.3f by force, %.3f by jump; motion %.2g, %.2g\n", dim, force, jump, motion[0], motion[1]);
+        ASSERT_NEAR(jump, 1, 0.02);
+        assert_true(motion[1] < 0.5 * motion[0]);
+    }
+}
+
 /* Three phases, any number of threads: the same bytes, all finite. */
 static void three_phases(void **state)
 {
@@ -374,8 +421,8 @@ static void time_step(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(circles),     cmocka_unit_test(spheres),      cmocka_unit_test(heavy_drop),       cmocka_unit_test(flat),
-        cmocka_unit_test(derivatives), cmocka_unit_test(three_phases), cmocka_unit_test(laplace_pressure), cmocka_unit_test(time_step),
-        cmocka_unit_test(pairs),       cmocka_unit_test(pairs_refused)};
+        cmocka_unit_test(circles),     cmocka_unit_test(spheres),       cmocka_unit_test(heavy_drop),       cmocka_unit_test(flat),
+        cmocka_unit_test(derivatives), cmocka_unit_test(three_phases),  cmocka_unit_test(laplace_pressure), cmocka_unit_test(time_step),
+        cmocka_unit_test(pairs),       cmocka_unit_test(pairs_refused), cmocka_unit_test(jump_at_rest)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
