@@ -284,7 +284,7 @@ static void jump_at_rest(void **state)
         double motion[2];
         const double force = step_from_rest(dim, "tension.csf", &motion[0]), jump = step_from_rest(dim, "tension.jump", &motion[1]);
         print_message("%d-D: pressure %.3f by force, %.3f by jump; motion %.2g, %.2g\n", dim, force, jump, motion[0], motion[1]);
-        ASSERT_NEAR(jump, 1, 0.02);
+        ASSERT_NEAR(jump, 1, dim == 2 ? 0.01 : 0.05); /* the radius is 10 dp, and 6 in 3-D */
         assert_true(motion[1] < 0.5 * motion[0]);
     }
 }
