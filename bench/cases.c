@@ -31,7 +31,7 @@ const char *bench_case_find(const char *name, bench_case *c)
     if (!c->kind) return "kinds are dam2d, dam3d, breaking";
     c->dp = 1e-3 * strtod(slash + 1, &end);
     if (*end || !(c->dp >= 1e-4 && c->dp <= 0.05)) return "dp must be 0.1 to 50 mm";
-    strcpy(c->name, name);
+    memcpy(c->name, name, strlen(name) + 1);
     return NULL;
 }
 
