@@ -81,10 +81,11 @@ static inline double pair_density(const mps_stage *s, int64_t i, int64_t j)
     return 0.5 * (s->density_smooth[i] + s->density_smooth[j]);
 }
 
-/* p_i - p_j by surface tension. */
+/* p_i - p_j by surface tension; solids belong to no phase. */
 static inline double capillary_jump(const mps_stage *s, int64_t i, int64_t j)
 {
-    return s->phase && s->phase[i] != s->phase[j] ? 0.5 * (s->capillary[i] - s->capillary[j]) : 0.0;
+    const bool across = s->phase && s->phase[i] != s->phase[j] && s->kind[i] == MPS_FLUID && s->kind[j] == MPS_FLUID;
+    return across ? 0.5 * (s->capillary[i] - s->capillary[j]) : 0.0;
 }
 
 /* Weight of a pair by what its particles are; 0: it does not take part. */

@@ -3,6 +3,7 @@
  * that moves with the tank, rho_ij = (rho_i + rho_j)/2 as in W22 (18); a_i = -b - G_i with b = g - a_tank
  * (gravity is in u* already). Surface particles see one side only: a second pass with 2 (P_j - P_i) - G_j.r_ij makes them second order. */
 #include "builtin.h"
+#include <stdbool.h>
 
 enum { SECOND };
 static const mps_setting settings[] = {{"second_order", 0.0, 0.0, 1.0}};
@@ -19,7 +20,8 @@ MPS__ROW void corrected(const int dim, const mps_stage *s, int64_t i, const doub
         double body = 0, slope = 0;
         for (int d = 0; d < dim; d++) body += 0.5 * (2.0 * s->g[d] - own[d] - s->tank_accel[q.j * dim + d]) * q.d[d];
         const double mean = 0.5 * (rho + s->density_smooth[q.j]);
-        const double jump = s->phase[q.j] != s->phase[i] ? 0.5 * (s->capillary[i] - s->capillary[q.j]) : 0.0;
+        const bool across = s->phase[q.j] != s->phase[i] && s->kind[q.j] == MPS_FLUID;
+        const double jump = across ? 0.5 * (s->capillary[i] - s->capillary[q.j]) : 0.0;
         double difference = (s->p[q.j] - pi + jump) / mean - body;
         if (first && s->kind[q.j] == MPS_FLUID) {
             for (int d = 0; d < dim; d++) slope += first[q.j * dim + d] * q.d[d];

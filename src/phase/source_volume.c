@@ -50,7 +50,8 @@ static void relative_velocity(const mps_stage *s, double *v)
  * the divergence is the adjoint of a pressure gradient over rho_ij. */
 static inline double face_share(const mps_stage *s, int64_t i, int64_t j)
 {
-    return s->kind[j] == MPS_FLUID ? 2.0 * s->density[j] / (s->density[i] + s->density[j]) : 1.0;
+    if (s->phase[i] == s->phase[j] || s->kind[j] != MPS_FLUID) return 1.0;
+    return 2.0 * s->density[j] / (s->density[i] + s->density[j]);
 }
 
 /* Free slip: a wall particle keeps its velocity along its normal and takes that of the fluid about it along the face. */
