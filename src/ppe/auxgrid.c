@@ -41,14 +41,14 @@ static int invert_diagonal(auxgrid *a, const mps_ppe_problem *problem)
         bad |= !isfinite(d);
         negative |= d < 0;
         a->inverse[i] = d > 0 ? 1 / d : 1; /* an empty row is a particle without neighbours, its residual is 0 */
+        a->grid.point_kappa[i] = d;
     }
     return bad ? MPS_PPE_NAN : negative ? MPS_PPE_INDEFINITE : 0;
 }
 
 static int build_grids(mps__grid *g, const mps_ppe_problem *problem)
 {
-    int reason = mps__grid_measure(g, problem);
-    if (reason) return reason;
+    mps__grid_measure(g, problem);
     mps__grid_place(g, problem);
     if (!mps__grid_cells(g, &g->level[0], problem->n)) return MPS_PPE_NOMEM;
     if (!mps__grid_from_matrix(g, problem)) return MPS_PPE_NOMEM;

@@ -35,6 +35,7 @@ typedef struct mps__grid_level {
 typedef struct mps__grid {
     mps_allocator allocator;
     int dim, threads;
+    bool one; /* one density everywhere */
     double lo[3], size, per_size; /* corner, edge and 1 / edge of the first grid's cells [m] */
     double unit;                  /* matrix entries times this are of order one */
     int levels;
@@ -75,8 +76,8 @@ bool mps__grid_cells(mps__grid *g, mps__grid_level *l, int64_t points);
 
 /* ---- coefficients (auxgrid_links.c) ---- */
 
-/* Conductivity of each row, from which the cell size follows. @return MPS_PPE_CONVERGED or MPS_PPE_NAN */
-int mps__grid_measure(mps__grid *g, const mps_ppe_problem *problem);
+/* Conductivity of each row from its diagonal, which point_kappa comes with; the cell size follows. */
+void mps__grid_measure(mps__grid *g, const mps_ppe_problem *problem);
 /* Coordinates of the particles' cells into point_key. */
 void mps__grid_place(mps__grid *g, const mps_ppe_problem *problem);
 /* Coefficients of the first grid and the shares of the particles. False when out of memory. */

@@ -53,6 +53,17 @@ double mps__blocked_dot(const double *x, const double *y, int64_t n, int threads
     return sum_in_order(partial, blocks);
 }
 
+/* Four sums: one would wait for each addition. */
+static double row_dot(const double *val, const int32_t *col, int64_t count, const double *x)
+{
+    double s[4] = {0};
+    int64_t k = 0;
+    for (; k + 4 <= count; k += 4)
+        for (int a = 0; a < 4; a++) s[a] += val[k + a] * x[col[k + a]];
+    for (; k < count; k++) s[0] += val[k] * x[col[k]];
+    return (s[0] + s[2]) + (s[1] + s[3]);
+}
+
 double mps__rows_multiply(const mps_ppe_problem *problem, const double *x, double *y, double *partial)
 {
     int64_t n = problem->n, blocks = mps__blocks(n);
@@ -63,9 +74,7 @@ double mps__rows_multiply(const mps_ppe_problem *problem, const double *x, doubl
     for (int64_t b = 0; b < blocks; b++) {
         int64_t lo = b * MPS__BLOCK, hi = block_end(b, n);
         for (int64_t i = lo; i < hi; i++) {
-            double s = 0;
-            for (int64_t k = row[i]; k < row[i + 1]; k++) s += val[k] * x[col[k]];
-            y[i] = s;
+            y[i] = row_dot(val + row[i], col + row[i], row[i + 1] - row[i], x);
         }
         partial[b] = mps__block_dot(x + lo, y + lo, hi - lo);
     }
