@@ -14,7 +14,7 @@ typedef struct header {
     double dp;
 } header;
 
-static const char magic[8] = "mpsppe1";
+static const char magic[8] = "mpsppe2";
 static const char *record_file;
 
 _Noreturn void bench_fail(const char *what, const char *why)
@@ -54,6 +54,7 @@ static void write_system(const mps_ppe_problem *p, const double *guess)
     put(f, p->row, sizeof *p->row, p->n + 1);
     put(f, p->col, sizeof *p->col, h.entries);
     put(f, p->val, sizeof *p->val, h.entries);
+    put(f, p->diagonal, sizeof *p->diagonal, p->n);
     put(f, p->rhs, sizeof *p->rhs, p->n);
     put(f, p->shift, sizeof *p->shift, p->n);
     put(f, p->weight, sizeof *p->weight, p->n);
@@ -109,6 +110,7 @@ static double *read_system(const char *file, mps_ppe_problem *p)
     p->row = get(f, file, sizeof *p->row, h.n + 1);
     p->col = get(f, file, sizeof *p->col, h.entries);
     p->val = get(f, file, sizeof *p->val, h.entries);
+    p->diagonal = get(f, file, sizeof *p->diagonal, h.n);
     p->rhs = get(f, file, sizeof *p->rhs, h.n);
     p->shift = get(f, file, sizeof *p->shift, h.n);
     p->weight = get(f, file, sizeof *p->weight, h.n);
@@ -121,7 +123,7 @@ static double *read_system(const char *file, mps_ppe_problem *p)
 
 static void free_system(mps_ppe_problem *p, double *guess)
 {
-    const void *all[] = {p->row, p->col, p->val, p->rhs, p->shift, p->weight, p->x, p->component, guess};
+    const void *all[] = {p->row, p->col, p->val, p->diagonal, p->rhs, p->shift, p->weight, p->x, p->component, guess};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) free((void *)(uintptr_t)all[k]);
 }
 

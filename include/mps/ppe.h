@@ -19,9 +19,10 @@ typedef struct mps_ppe_problem {
     uint32_t struct_size;     /**< sizeof(mps_ppe_problem) */
     int32_t dim;              /**< 2 or 3 */
     int64_t n;                /**< unknowns */
-    const int64_t *row;       /**< [n+1] CSR row starts */
-    const int32_t *col;       /**< [row[n]] columns, ascending in a row, diagonal included */
-    const double *val;        /**< [row[n]] */
+    const int64_t *row;       /**< [n+1] CSR row starts of the entries beside the diagonal */
+    const int32_t *col;       /**< [row[n]] columns, ascending in a row */
+    const float *val;         /**< [row[n]] -k_ij: half the memory traffic of doubles; entries ij and ji are equal */
+    const double *diagonal;   /**< [n] s_i + sum_j k_ij of the entries as they are stored, so that rows keep their sum */
     const double *rhs;        /**< [n]; already free of the null space when components are singular */
     const double *shift;      /**< [n] s_i: the row sums */
     const double *weight;     /**< [n] residual times weight = divergence times dt */

@@ -12,7 +12,7 @@ void mps__ppe_init(mps__ppe *e, mps__context *context)
 
 void mps__ppe_free(mps__ppe *e)
 {
-    void *all[] = {e->unknown, e->particle, e->row,    e->col, e->val, e->rhs,       e->shift,
+    void *all[] = {e->unknown, e->particle, e->row, e->col, e->val, e->diagonal, e->rhs, e->shift,
                    e->gas,     e->law,      e->weight, e->x,   e->p,   e->component, e->queue};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) mps__free(e->context, all[k]);
     mps__ppe_init(e, e->context);
@@ -29,6 +29,7 @@ static mps_status reserve(mps__ppe *e, int64_t n, int dim)
     } a[] = {{(void **)&e->unknown, wanted, sizeof *e->unknown},
              {(void **)&e->particle, wanted, sizeof *e->particle},
              {(void **)&e->row, wanted + 1, sizeof *e->row},
+             {(void **)&e->diagonal, wanted, sizeof *e->diagonal},
              {(void **)&e->rhs, wanted, sizeof *e->rhs},
              {(void **)&e->shift, wanted, sizeof *e->shift},
              {(void **)&e->gas, wanted, sizeof *e->gas},
@@ -110,12 +111,12 @@ static void number_rows(const assembly *a)
     }
 }
 
-/* Entries of row r, its diagonal included. */
+/* Entries of row r beside the diagonal. */
 static int64_t count_row(const assembly *a, int64_t r)
 {
     const mps__ppe *e = a->e;
     const int64_t i = e->particle[r];
-    int64_t count = 1;
+    int64_t count = 0;
     for (int64_t k = a->pairs->begin[i]; k < a->pairs->end[i]; k++) {
         const int64_t j = a->pairs->col[k];
         count += e->unknown[j] >= 0 && (a->s->kind[i] == MPS_FLUID || pair_factor(a, i, j) != 0);
@@ -135,11 +136,11 @@ static int64_t start_rows(const assembly *a)
 }
 
 /* Ascending columns: far rows are two sorted runs, for which insertion is short work. */
-static void sort_row(int32_t *col, double *val, int64_t n)
+static void sort_row(int32_t *col, float *val, int64_t n)
 {
     for (int64_t k = 1; k < n; k++) {
         const int32_t c = col[k];
-        const double v = val[k];
+        const float v = val[k];
         int64_t j = k;
         for (; j > 0 && col[j - 1] > c; j--) {
             col[j] = col[j - 1];
@@ -157,14 +158,17 @@ static inline __attribute__((always_inline)) void fill_row(const int dim, const 
     const int64_t i = e->particle[r];
     int32_t *col = e->col + e->row[r];
     const double gain = a->t->gain, gas = gain * a->t->gas[i];
-    double *val = e->val + e->row[r], coupling = 0, shift = gain * a->t->shift[i] + gas, rhs = gain * a->t->rhs[i];
-    int64_t count = 0, diagonal = -1;
+    float *val = e->val + e->row[r];
+    double coupling = 0, shift = gain * a->t->shift[i] + gas, rhs = gain * a->t->rhs[i];
+    int64_t count = 0;
     bool sorted = true;
     for (int64_t k = a->pairs->begin[i]; k < a->pairs->end[i]; k++) {
         const double factor = pair_factor(a, i, a->pairs->col[k]);
         if (factor == 0) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, a->pairs, i, k);
-        const double rho = pair_density(s, i, q.j), kij = a->c * factor * q.w / rho;
+        const double rho = pair_density(s, i, q.j);
+        const float entry = (float)(a->c * factor * q.w / rho); /* the same from both sides, and in the diagonal */
+        const double kij = (double)entry;
         double body = 0;
         for (int d = 0; d < dim; d++) body += 0.5 * (a->t->body[i * dim + d] + a->t->body[q.j * dim + d]) * q.d[d];
         rhs -= kij * (rho * body - capillary_jump(s, i, q.j));
@@ -174,17 +178,15 @@ static inline __attribute__((always_inline)) void fill_row(const int dim, const 
             continue;
         }
         coupling += kij;
-        if (diagonal < 0 && e->unknown[q.j] > r) col[diagonal = count++] = (int32_t)r;
         sorted = sorted && (count == 0 || col[count - 1] < e->unknown[q.j]);
         col[count] = e->unknown[q.j];
-        val[count++] = -kij;
+        val[count++] = -entry;
     }
-    if (diagonal < 0) col[diagonal = count++] = (int32_t)r;
     if (coupling + shift == 0) { /* nobody near: p = 0 */
         shift = a->c / s->density[i];
         rhs = 0;
     }
-    val[diagonal] = coupling + shift;
+    e->diagonal[r] = coupling + shift;
     if (!sorted) sort_row(col, val, count);
     e->rhs[r] = rhs;
     e->shift[r] = shift;
@@ -292,6 +294,7 @@ mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps_ppe_term
                                    .row = e->row,
                                    .col = e->col,
                                    .val = e->val,
+                                   .diagonal = e->diagonal,
                                    .rhs = e->rhs,
                                    .shift = e->shift,
                                    .weight = e->weight,

@@ -11,9 +11,10 @@ typedef struct mps__ppe {
     int64_t capacity, entry_capacity, n; /* unknowns of the last assembly */
     int32_t *unknown;                    /* [particles] row of a particle, -1: none */
     int32_t *particle;                   /* [n] particle of a row */
-    int64_t *row;                        /* [n+1] CSR */
+    int64_t *row;                        /* [n+1] CSR beside the diagonal */
     int32_t *col;
-    double *val, *rhs, *shift, *gas, *law, *weight, *x, *p;
+    float *val;
+    double *diagonal, *rhs, *shift, *gas, *law, *weight, *x, *p;
     int32_t *component;
     bool level_free; /* the largest component has no level */
     int32_t *queue;  /* [n] scratch */

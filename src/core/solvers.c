@@ -291,8 +291,8 @@ static check_sums check_rows(const mps_ppe_problem *problem, const double *p, do
     const double *law = has_law(problem) ? problem->law : NULL;
     check_sums c = {0};
     for (int64_t i = from; i < to; i++) {
-        double s = 0;
-        for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) s += problem->val[k] * p[problem->col[k]];
+        double s = problem->diagonal[i] * p[i];
+        for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) s += (double)problem->val[k] * p[problem->col[k]];
         if (law && law[i] > 0) s += problem->gas[i] * (mps_ppe_law(law[i], p[i], NULL) - p[i]);
         r[i] = problem->rhs[i] - s;
         const double d = problem->weight ? fabs(r[i] * problem->weight[i]) : 0;

@@ -37,11 +37,10 @@ static int invert_diagonal(auxgrid *a, const mps_ppe_problem *problem)
     int bad = 0, negative = 0;
 #pragma omp parallel for schedule(static) num_threads(mps__team(problem->n, problem->threads)) reduction(| : bad, negative)
     for (int64_t i = 0; i < problem->n; i++) {
-        double d = mps__rows_diagonal(problem, i);
+        double d = problem->diagonal[i];
         bad |= !isfinite(d);
         negative |= d < 0;
         a->inverse[i] = d > 0 ? 1 / d : 1; /* an empty row is a particle without neighbours, its residual is 0 */
-        a->grid.point_kappa[i] = d;
     }
     return bad ? MPS_PPE_NAN : negative ? MPS_PPE_INDEFINITE : 0;
 }

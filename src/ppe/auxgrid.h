@@ -76,7 +76,7 @@ bool mps__grid_cells(mps__grid *g, mps__grid_level *l, int64_t points);
 
 /* ---- coefficients (auxgrid_links.c) ---- */
 
-/* Conductivity of each row from its diagonal, which point_kappa comes with; the cell size follows. */
+/* Conductivity of each row, from which the cell size follows. */
 void mps__grid_measure(mps__grid *g, const mps_ppe_problem *problem);
 /* Coordinates of the particles' cells into point_key. */
 void mps__grid_place(mps__grid *g, const mps_ppe_problem *problem);

@@ -28,8 +28,7 @@ static double mean_square(const mps_ppe_problem *problem)
     double squares = 0, sum = 0;
     for (int64_t i = 0; i < problem->n; i += SAMPLE)
         for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) {
-            const double c = -problem->val[k];
-            if (!(c > 0)) continue;
+            const double c = fmax(-(double)problem->val[k], 0);
             squares += c * square_distance(problem, i, problem->col[k]);
             sum += c;
         }
@@ -42,8 +41,8 @@ void mps__grid_measure(mps__grid *g, const mps_ppe_problem *problem)
     const double square = mean_square(problem);
     double largest = 0, sum = 0, inverses = 0, rows = 0;
     for (int64_t i = 0; i < problem->n; i++) {
-        const int64_t entries = problem->row[i + 1] - problem->row[i] - 1;
-        const double flux = fmax(g->point_kappa[i] - problem->shift[i], 0) * square, kappa = entries > 0 ? flux / (double)entries : 0;
+        const int64_t entries = problem->row[i + 1] - problem->row[i];
+        const double flux = fmax(problem->diagonal[i] - problem->shift[i], 0) * square, kappa = entries > 0 ? flux / (double)entries : 0;
         g->point_kappa[i] = kappa;
         if (kappa > largest) largest = kappa;
         if (entries < FEW_ENTRIES || !(kappa > 0)) continue; /* a lone pair at the end of the kernel says little */
@@ -163,7 +162,7 @@ static void add_row(const mps__grid *g, const mps__grid_level *l, const mps_ppe_
     for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) {
         int32_t j = problem->col[k], home[2] = {l->home[i], l->home[j]};
         if (j <= i || home[0] == home[1] || !(problem->val[k] < 0)) continue;
-        double conductance = -problem->val[k] * g->unit;
+        double conductance = -(double)problem->val[k] * g->unit;
         wire w;
         for (int a = 0; a < g->dim; a++) {
             w.x[a] = start[a];
@@ -253,7 +252,7 @@ static void link_cells(const mps__grid *g, mps__grid_level *l, const mps_ppe_pro
     double *conductance = l->x;
     for (int64_t k = 0; k < l->cells; k++) conductance[k] = 0;
     for (int64_t i = 0; i < problem->n; i++)
-        conductance[l->home[i]] += c * g->point_kappa[i] * (double)(problem->row[i + 1] - problem->row[i] - 1);
+        conductance[l->home[i]] += c * g->point_kappa[i] * (double)(problem->row[i + 1] - problem->row[i]);
     for (int64_t k = 0; k < l->cells * sides; k++) {
         const int64_t cell = k / sides, other = l->next[k];
         if (other != cell) l->link[k] = (float)sqrt(conductance[cell] * conductance[other]);

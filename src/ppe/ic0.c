@@ -79,17 +79,16 @@ static bool reserve_entries(ic0 *f, int64_t entries)
     return f->entry_capacity > 0;
 }
 
-/* Row of the matrix into `work`. @return its diagonal */
-static double scatter(ic0 *f, const mps_ppe_problem *problem, int64_t i)
+/* Row of the matrix into `work`. */
+static void scatter(ic0 *f, const mps_ppe_problem *problem, int64_t i)
 {
-    double diagonal = 0;
+    f->mark[i] = (int32_t)i;
+    f->work[i] = problem->diagonal[i];
     for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) {
         int32_t j = problem->col[k];
         f->mark[j] = (int32_t)i;
-        f->work[j] = problem->val[k];
-        if (j == i) diagonal = problem->val[k];
+        f->work[j] = (double)problem->val[k];
     }
-    return diagonal;
 }
 
 /* Subtract what row j < i of U contributes to row i. @return the fill that fell outside the pattern */
@@ -127,7 +126,8 @@ static bool factorise(ic0 *f, const mps_ppe_problem *problem, double shift)
     f->row[0] = 0;
     for (int64_t i = 0; i < problem->n; i++) f->mark[i] = -1;
     for (int64_t i = 0; i < problem->n; i++) {
-        double diagonal = scatter(f, problem, i), dropped = 0;
+        double diagonal = problem->diagonal[i], dropped = 0;
+        scatter(f, problem, i);
         f->mark[i] = (int32_t)i;
         if (diagonal == 0) diagonal = 1; /* an empty row is a particle without neighbours, its residual is 0 */
         f->work[i] = diagonal * (1 + shift);
@@ -142,7 +142,7 @@ static bool factorise(ic0 *f, const mps_ppe_problem *problem, double shift)
 static int check_diagonal(const mps_ppe_problem *problem)
 {
     for (int64_t i = 0; i < problem->n; i++) {
-        double d = mps__rows_diagonal(problem, i);
+        double d = problem->diagonal[i];
         if (!isfinite(d)) return MPS_PPE_NAN;
         if (d < 0) return MPS_PPE_INDEFINITE;
     }

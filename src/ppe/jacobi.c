@@ -37,7 +37,7 @@ static int setup(void *self, const mps_ppe_problem *problem)
     j->n = problem->n;
     j->threads = problem->threads;
     for (int64_t i = 0; i < problem->n; i++) {
-        double d = mps__rows_diagonal(problem, i);
+        double d = problem->diagonal[i];
         if (!isfinite(d)) return MPS_PPE_NAN;
         if (d < 0) return MPS_PPE_INDEFINITE;
         j->inverse[i] = d > 0 ? 1 / d : 1; /* an empty row is a particle without neighbours, its residual is 0 */

@@ -54,13 +54,13 @@ double mps__blocked_dot(const double *x, const double *y, int64_t n, int threads
 }
 
 /* Four sums: one would wait for each addition. */
-static double row_dot(const double *val, const int32_t *col, int64_t count, const double *x)
+static double row_dot(const float *val, const int32_t *col, int64_t count, const double *x)
 {
     double s[4] = {0};
     int64_t k = 0;
     for (; k + 4 <= count; k += 4)
-        for (int a = 0; a < 4; a++) s[a] += val[k + a] * x[col[k + a]];
-    for (; k < count; k++) s[0] += val[k] * x[col[k]];
+        for (int a = 0; a < 4; a++) s[a] += (double)val[k + a] * x[col[k + a]];
+    for (; k < count; k++) s[0] += (double)val[k] * x[col[k]];
     return (s[0] + s[2]) + (s[1] + s[3]);
 }
 
@@ -69,37 +69,23 @@ double mps__rows_multiply(const mps_ppe_problem *problem, const double *x, doubl
     int64_t n = problem->n, blocks = mps__blocks(n);
     const int64_t *row = problem->row;
     const int32_t *col = problem->col;
-    const double *val = problem->val;
+    const float *val = problem->val;
 #pragma omp parallel for schedule(static) num_threads(mps__team(n, problem->threads))
     for (int64_t b = 0; b < blocks; b++) {
         int64_t lo = b * MPS__BLOCK, hi = block_end(b, n);
         for (int64_t i = lo; i < hi; i++) {
-            y[i] = row_dot(val + row[i], col + row[i], row[i + 1] - row[i], x);
+            y[i] = problem->diagonal[i] * x[i] + row_dot(val + row[i], col + row[i], row[i + 1] - row[i], x);
         }
         partial[b] = mps__block_dot(x + lo, y + lo, hi - lo);
     }
     return sum_in_order(partial, blocks);
 }
 
-double mps__rows_diagonal(const mps_ppe_problem *problem, int64_t i)
-{
-    int64_t lo = problem->row[i], hi = problem->row[i + 1];
-    while (lo < hi) { /* columns ascend */
-        int64_t k = lo + (hi - lo) / 2;
-        if (problem->col[k] == i) return problem->val[k];
-        if (problem->col[k] < i)
-            lo = k + 1;
-        else
-            hi = k;
-    }
-    return 0;
-}
-
 bool mps__rows_nonnegative(const mps_ppe_problem *problem)
 {
     int negative = 0;
 #pragma omp parallel for schedule(static) num_threads(mps__team(problem->n, problem->threads)) reduction(| : negative)
-    for (int64_t i = 0; i < problem->n; i++) negative |= mps__rows_diagonal(problem, i) < 0;
+    for (int64_t i = 0; i < problem->n; i++) negative |= problem->diagonal[i] < 0;
     return !negative;
 }
 

@@ -31,8 +31,6 @@ double mps__blocked_dot(const double *x, const double *y, int64_t n, int threads
 
 /* y = A x. @return x'y; partial [blocks] is scratch */
 double mps__rows_multiply(const mps_ppe_problem *problem, const double *x, double *y, double *partial);
-/* Diagonal of row i, 0 if the row has none. */
-double mps__rows_diagonal(const mps_ppe_problem *problem, int64_t i);
 /* Whether no row has a negative diagonal. */
 bool mps__rows_nonnegative(const mps_ppe_problem *problem);
 

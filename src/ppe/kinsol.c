@@ -23,9 +23,9 @@ typedef struct newton {
     SUNLinearSolver solver;
     N_Vector p, one, stop;
     double *start, *residual, *inner, *slope, *ones; /* [capacity] */
-    double *val, *shift;                             /* matrix and row sums of J at the first guess, for the preconditioner */
+    double *diagonal, *shift;                        /* diagonal and row sums of J at the first guess, for the preconditioner */
     double *sums;                                    /* [2 sum_capacity] */
-    int64_t sum_capacity, val_capacity;
+    int64_t sum_capacity;
     /* of the solve in progress */
     const mps_ppe_problem *problem;
     mps_ppe_problem first; /* the linear problem of the first step */
@@ -63,7 +63,7 @@ static void set_slope(newton *k, const double *p)
 static bool negative(const mps_ppe_problem *problem, const double *x, double curvature)
 {
     double scale = 0;
-    for (int64_t i = 0; i < problem->n; i++) scale += mps__rows_diagonal(problem, i) * x[i] * x[i];
+    for (int64_t i = 0; i < problem->n; i++) scale += problem->diagonal[i] * x[i] * x[i];
     return -curvature > 1e-12 * scale;
 }
 
@@ -133,7 +133,7 @@ static void drop(newton *k)
     if (k->p) N_VDestroy(k->p);
     if (k->one) N_VDestroy(k->one);
     if (k->stop) N_VDestroy(k->stop);
-    double **all[] = {&k->start, &k->residual, &k->inner, &k->slope, &k->ones, &k->shift, &k->space.partial};
+    double **all[] = {&k->start, &k->residual, &k->inner, &k->slope, &k->ones, &k->diagonal, &k->shift, &k->space.partial};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         mps__give(a, *all[i]);
         *all[i] = NULL;
@@ -150,7 +150,7 @@ static bool make_arrays(newton *k, int64_t capacity)
     k->space.capacity = capacity;
     k->space.partial = mps__take(a, mps__blocks(capacity), sizeof(double));
     if (!k->space.partial) return false;
-    double **all[] = {&k->start, &k->residual, &k->inner, &k->slope, &k->ones, &k->shift};
+    double **all[] = {&k->start, &k->residual, &k->inner, &k->slope, &k->ones, &k->diagonal, &k->shift};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         *all[i] = mps__take(a, capacity, sizeof(double));
         if (!*all[i]) return false;
@@ -193,7 +193,6 @@ static bool prepare(newton *k, const mps_ppe_problem *problem)
     k->space.threads = problem->threads;
     k->space.weight = problem->divergence > 0 ? problem->weight : NULL;
     if (problem->component && !grow(k, &k->sums, &k->sum_capacity, 2 * (int64_t)problem->components)) return false;
-    if (problem->law && !grow(k, &k->val, &k->val_capacity, problem->row[problem->n])) return false;
     if (problem->n <= k->space.capacity) return true;
     drop(k);
     if (make_arrays(k, problem->n + problem->n / 8) && make_solver(k)) return true;
@@ -210,13 +209,11 @@ static void linearise(newton *k, const double *p)
     k->first = *problem;
     if (!problem->law) return;
     set_slope(k, p);
-    memcpy(k->val, problem->val, (size_t)problem->row[problem->n] * sizeof *k->val);
     for (int64_t i = 0; i < problem->n; i++) {
         k->shift[i] = problem->shift[i] + k->slope[i];
-        for (int64_t e = problem->row[i]; e < problem->row[i + 1]; e++)
-            if (problem->col[e] == i) k->val[e] += k->slope[i];
+        k->diagonal[i] = problem->diagonal[i] + k->slope[i];
     }
-    k->first.val = k->val;
+    k->first.diagonal = k->diagonal;
     k->first.shift = k->shift;
     k->first.gas = k->first.law = NULL;
 }
@@ -292,7 +289,6 @@ static void destroy(void *self)
     drop(k);
     const mps_allocator allocator = k->space.allocator;
     mps__give(&allocator, k->sums);
-    mps__give(&allocator, k->val);
     if (k->space.context) SUNContext_Free(&k->space.context);
     mps__give(&allocator, k);
 }

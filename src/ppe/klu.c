@@ -73,7 +73,7 @@ static bool open_job(const klu *k, job *j, const mps_ppe_problem *problem)
     j->sums = mps__take(a, 2 * (int64_t)problem->components, sizeof(double));
     j->pin = mps__take(a, problem->components, sizeof(int32_t));
     if (!j->residual || !j->correction || !j->start || !j->sums || !j->pin) return false;
-    j->matrix = SUNSparseMatrix(n, n, (sunindextype)problem->row[n] + problem->components, CSR_MAT, k->context);
+    j->matrix = SUNSparseMatrix(n, n, (sunindextype)problem->row[n] + n, CSR_MAT, k->context);
     j->x = N_VMake_Serial(n, j->correction, k->context);
     j->b = N_VMake_Serial(n, j->residual, k->context);
     return j->matrix && j->x && j->b;
@@ -104,17 +104,15 @@ static void fill_matrix(const job *j)
     double *val = SUNSparseMatrix_Data(j->matrix);
     sunindextype at = 0;
     for (int64_t i = 0; i < problem->n; i++) {
+        const double d = problem->diagonal[i];
         row[i] = at;
-        if (pinned(j, i)) {
-            double d = mps__rows_diagonal(problem, i);
-            col[at] = i;
-            val[at++] = d > 0 ? d : 1;
-            continue;
-        }
+        col[at] = i; /* columns need no order */
+        val[at++] = pinned(j, i) && !(d > 0) ? 1 : d;
+        if (pinned(j, i)) continue;
         for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) {
             if (pinned(j, problem->col[k])) continue;
             col[at] = problem->col[k];
-            val[at++] = problem->val[k];
+            val[at++] = (double)problem->val[k];
         }
     }
     row[problem->n] = at;

@@ -36,7 +36,7 @@ static int apply(krylov *k, const double *r, double *z)
 static bool negative(const mps_ppe_problem *problem, const double *x, double curvature)
 {
     double scale = 0;
-    for (int64_t i = 0; i < problem->n; i++) scale += mps__rows_diagonal(problem, i) * x[i] * x[i];
+    for (int64_t i = 0; i < problem->n; i++) scale += problem->diagonal[i] * x[i] * x[i];
     return -curvature > 1e-12 * scale;
 }
 

@@ -66,8 +66,8 @@ static void measure(const mps_ppe_problem *problem, const double *p, mps_ppe_res
     double r2 = 0, b2 = 0;
     result->divergence = 0;
     for (int64_t i = 0; i < problem->n; i++) {
-        double r = problem->rhs[i];
-        for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) r -= problem->val[k] * p[problem->col[k]];
+        double r = problem->rhs[i] - problem->diagonal[i] * p[i];
+        for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) r -= (double)problem->val[k] * p[problem->col[k]];
         r2 += r * r;
         b2 += problem->rhs[i] * problem->rhs[i];
         result->divergence = fmax(result->divergence, fabs(r * problem->weight[i]));
@@ -227,19 +227,19 @@ static void check_warm_start(pair *k)
 /* The solver's answer to a spoiled system: the reason wanted, and p finite (seen by solve()). */
 static void check_nan(pair *k)
 {
-    static const double bad[] = {NAN, INFINITY};
-    for (int which = 0; which < 6; which++) {
+    static const float bad[] = {NAN, INFINITY};
+    static const char *const name[] = {"guess", "matrix", "diagonal", "rhs"};
+    for (int which = 0; which < 8; which++) {
         kit_system *s = kit_lattice_system(&lattices[0].lattice);
         mps_ppe_result result;
-        double *where[] = {&s->val[s->row[100] + 3], &s->rhs[50], &s->exact[7]};
-        *where[which % 3] = bad[which / 3];
+        double *where[] = {&s->exact[7], NULL, &s->diagonal[100], &s->rhs[50]};
+        if (where[which % 4])
+            *where[which % 4] = (double)bad[which / 4];
+        else
+            s->val[s->row[100] + 3] = bad[which / 4];
         double *p = solve(k, &s->problem, s->exact, &result, "NaN");
-        int wanted = which % 3 == 2 ? MPS_PPE_CONVERGED : MPS_PPE_NAN; /* a bad guess is simply not used */
-        EXPECT(k, result.reason == wanted, "%g in %s: reason %d", bad[which / 3],
-               which % 3 == 0   ? "matrix"
-               : which % 3 == 1 ? "rhs"
-                                : "guess",
-               result.reason);
+        int wanted = which % 4 == 0 ? MPS_PPE_CONVERGED : MPS_PPE_NAN; /* a bad guess is simply not used */
+        EXPECT(k, result.reason == wanted, "%g in %s: reason %d", (double)bad[which / 4], name[which % 4], result.reason);
         free(p);
         kit_system_free(s);
     }
@@ -251,14 +251,12 @@ static void check_indefinite(pair *k)
     for (int which = 0; which < 2; which++) {
         kit_system *s = kit_lattice_system(&lattices[0].lattice);
         mps_ppe_result result;
-        for (int64_t i = 0; i < s->problem.n; i++)
-            for (int64_t e = s->row[i]; e < s->row[i + 1]; e++) {
-                if (s->col[e] != i) continue;
-                if (which == 0)
-                    s->val[e] *= 0.6; /* negative curvature, positive diagonal */
-                else if (i == 77)
-                    s->val[e] = -s->val[e];
-            }
+        for (int64_t i = 0; i < s->problem.n; i++) {
+            if (which == 0)
+                s->diagonal[i] *= 0.6; /* negative curvature, positive diagonal */
+            else if (i == 77)
+                s->diagonal[i] = -s->diagonal[i];
+        }
         double *p = solve(k, &s->problem, NULL, &result, "indefinite");
         if (strict)
             EXPECT(k, result.reason == MPS_PPE_INDEFINITE, "%s: reason %d", which ? "negative diagonal" : "small diagonal", result.reason);

@@ -12,7 +12,8 @@ typedef struct kit_system {
     mps_ppe_problem problem;
     int64_t *row;
     int32_t *col, *component;
-    double *val, *rhs, *shift, *weight, *x;
+    float *val;
+    double *diagonal, *rhs, *shift, *weight, *x;
     double *exact; /* [n] solution, of mean zero over each singular component */
 } kit_system;
 

@@ -47,6 +47,7 @@ void kit_system_free(kit_system *s)
     free(s->col);
     free(s->component);
     free(s->val);
+    free(s->diagonal);
     free(s->rhs);
     free(s->shift);
     free(s->weight);
@@ -63,6 +64,7 @@ static kit_system *new_system(int dim, int64_t n, int64_t entries)
     s->col = calloc((size_t)entries, sizeof *s->col);
     s->component = calloc((size_t)n, sizeof *s->component);
     s->val = calloc((size_t)entries, sizeof *s->val);
+    s->diagonal = calloc((size_t)n, sizeof *s->diagonal);
     s->rhs = calloc((size_t)n, sizeof *s->rhs);
     s->shift = calloc((size_t)n, sizeof *s->shift);
     s->weight = calloc((size_t)n, sizeof *s->weight);
@@ -74,6 +76,7 @@ static kit_system *new_system(int dim, int64_t n, int64_t entries)
                                    .row = s->row,
                                    .col = s->col,
                                    .val = s->val,
+                                   .diagonal = s->diagonal,
                                    .rhs = s->rhs,
                                    .shift = s->shift,
                                    .weight = s->weight,
@@ -82,7 +85,7 @@ static kit_system *new_system(int dim, int64_t n, int64_t entries)
                                    .tolerance = 1e-10,
                                    .max_iterations = 5000,
                                    .threads = 1};
-    if (s->row && s->col && s->component && s->val && s->rhs && s->shift && s->weight && s->x && s->exact) return s;
+    if (s->row && s->col && s->component && s->val && s->diagonal && s->rhs && s->shift && s->weight && s->x && s->exact) return s;
     kit_system_free(s);
     return NULL;
 }
@@ -91,8 +94,8 @@ static kit_system *new_system(int dim, int64_t n, int64_t entries)
 static void set_rhs(kit_system *s)
 {
     for (int64_t i = 0; i < s->problem.n; i++) {
-        s->rhs[i] = 0;
-        for (int64_t k = s->row[i]; k < s->row[i + 1]; k++) s->rhs[i] += s->val[k] * s->exact[s->col[k]];
+        s->rhs[i] = s->diagonal[i] * s->exact[i];
+        for (int64_t k = s->row[i]; k < s->row[i + 1]; k++) s->rhs[i] += (double)s->val[k] * s->exact[s->col[k]];
     }
 }
 
@@ -104,9 +107,10 @@ kit_system *kit_dense_system(int n, const double *a, const double *exact)
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < n; j++) {
             s->shift[i] += a[i * n + j];
-            if (a[i * n + j] == 0 && i != j) continue;
+            if (i == j) s->diagonal[i] = a[i * n + j];
+            if (a[i * n + j] == 0 || i == j) continue;
             s->col[at] = j;
-            s->val[at++] = a[i * n + j];
+            s->val[at++] = (float)a[i * n + j];
         }
         s->row[i + 1] = at;
         s->exact[i] = exact[i];
@@ -160,23 +164,22 @@ static void fill_row(const kit_lattice *o, kit_system *s, int64_t n)
     int reach = (int)o->re + 1, reach_z = o->dim == 3 ? reach : 0;
     int i = (int)(n % o->nx), j = (int)(n / o->nx % o->ny), k = (int)(n / ((int64_t)o->nx * o->ny) % o->nz);
     int box = (int)(n / ((int64_t)o->nx * o->ny * o->nz));
-    int64_t at = s->row[n], diagonal = -1;
+    int64_t at = s->row[n];
     double sum = 0;
     for (int dk = -reach_z; dk <= reach_z; dk++)
         for (int dj = -reach; dj <= reach; dj++)
             for (int di = -reach; di <= reach; di++) {
                 int64_t m = site(o, box, i + di, j + dj, k + dk);
-                double c = m < 0 ? 0 : coupling(o, s, n, m);
-                if (m == n) diagonal = at;
-                if (c == 0 && m != n) continue;
+                const float c = m < 0 || m == n ? 0 : (float)coupling(o, s, n, m);
+                if (c == 0) continue;
                 s->col[at] = (int32_t)m;
                 s->val[at++] = -c;
-                if (m != n) sum += c;
+                sum += (double)c;
             }
     int height = o->dim == 2 ? o->ny - 1 - j : o->nz - 1 - k;
     if (box < o->open && height == 0) s->shift[n] = 0.5 * sum; /* neighbours on the free surface, p = 0 there */
     s->shift[n] += o->compressible * sum;
-    s->val[diagonal] = s->shift[n] + sum;
+    s->diagonal[n] = s->shift[n] + sum;
     s->row[n + 1] = at;
 }
 

@@ -99,8 +99,9 @@ static void assemble(tank *k)
 
 static double entry(const mps__ppe *e, int64_t r, int32_t c)
 {
+    if (c == r) return e->diagonal[r];
     for (int64_t m = e->row[r]; m < e->row[r + 1]; m++)
-        if (e->col[m] == c) return e->val[m];
+        if (e->col[m] == c) return (double)e->val[m];
     return 0;
 }
 
@@ -129,7 +130,7 @@ static double surface_factor(const tank *k, double re)
     return k->terms.complete_surface ? full / left : 1;
 }
 
-/* 2D/(n0 lambda) W/rho of one pair; 0 if it takes no part. */
+/* 2D/(n0 lambda) W/rho of one pair, in single precision as the matrix has it; 0 if it takes no part. */
 static double coefficient(const tank *k, int64_t i, int64_t j)
 {
     const mps_stencil *t = k->terms.radius == MPS_NEAR ? &k->near : &k->far;
@@ -140,7 +141,7 @@ static double coefficient(const tank *k, int64_t i, int64_t j)
         factor = k->terms.wall_factor * fmin(k->wet[i], k->wet[j]);
     else if ((k->region[i] == MPS_REGION_SURFACE) != (k->region[j] == MPS_REGION_SURFACE))
         factor = surface_factor(k, t->re);
-    return factor * 2 * k->c.dim / (t->n0 * t->lambda) * (t->re / (0.85 * r + 0.15 * t->re) - 1) / pair_rho(k, i, j);
+    return (double)(float)(2 * k->c.dim / (t->n0 * t->lambda) * factor * (t->re / (0.85 * r + 0.15 * t->re) - 1) / pair_rho(k, i, j));
 }
 
 /* sum_j k_ij (p_i - p_j + q_ij) + shift p_i - rhs for a particle, with p of all particles given. */
@@ -162,7 +163,8 @@ static void solve(tank *k, double *p)
     const int64_t n = k->e.n;
     double *a = calloc((size_t)(n * (n + 1)), sizeof *a);
     for (int64_t r = 0; r < n; r++) {
-        for (int64_t m = k->e.row[r]; m < k->e.row[r + 1]; m++) a[r * (n + 1) + k->e.col[m]] = k->e.val[m];
+        a[r * (n + 1) + r] = k->e.diagonal[r];
+        for (int64_t m = k->e.row[r]; m < k->e.row[r + 1]; m++) a[r * (n + 1) + k->e.col[m]] = (double)k->e.val[m];
         a[r * (n + 1) + n] = k->e.rhs[r];
     }
     for (int64_t c = 0; c < n; c++)
@@ -181,7 +183,7 @@ static void solve(tank *k, double *p)
 
 /* ---- structure --------------------------------------------------------------------------------------------------- */
 
-/* Columns ascend and hold the diagonal, A is symmetric, row sums are the shift. */
+/* Columns ascend, without the diagonal, A is symmetric, row sums are the shift. */
 static void check_matrix(const mps__ppe *e)
 {
     const mps_ppe_problem *q = &e->problem;
@@ -189,15 +191,15 @@ static void check_matrix(const mps__ppe *e)
     assert_int_equal(q->n, e->n);
     assert_int_equal(q->row[0], 0);
     for (int64_t r = 0; r < q->n; r++) {
-        double sum = 0;
         const double diagonal = entry(e, r, (int32_t)r);
+        double sum = diagonal;
         assert_true(diagonal > 0 && q->shift[r] >= 0);
         for (int64_t m = q->row[r]; m < q->row[r + 1]; m++) {
             assert_in_range(q->col[m], 0, q->n - 1);
             assert_true(m == q->row[r] || q->col[m] > q->col[m - 1]);
-            assert_true(q->col[m] == r || q->val[m] < 0);
-            assert_true(fabs(q->val[m] - entry(e, q->col[m], (int32_t)r)) <= 1e-14 * diagonal);
-            sum += q->val[m];
+            assert_true(q->col[m] != r && q->val[m] < 0);
+            assert_true((double)q->val[m] == entry(e, q->col[m], (int32_t)r));
+            sum += (double)q->val[m];
         }
         assert_true(fabs(sum - q->shift[r]) <= 1e-12 * diagonal);
     }

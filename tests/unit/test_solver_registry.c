@@ -254,15 +254,17 @@ static void test_create_fails(void **state)
 /* One unknown: 2 p = 4. */
 static mps_ppe_problem tiny(void)
 {
-    static const int64_t row[2] = {0, 1};
+    static const int64_t row[2] = {0, 0};
     static const int32_t col[1] = {0};
-    static const double val[1] = {2}, rhs[1] = {4}, shift[1] = {2}, weight[1] = {1}, x[2] = {0};
+    static const float val[1] = {0};
+    static const double diagonal[1] = {2}, rhs[1] = {4}, shift[1] = {2}, weight[1] = {1}, x[2] = {0};
     return (mps_ppe_problem){.struct_size = sizeof(mps_ppe_problem),
                              .dim = 2,
                              .n = 1,
                              .row = row,
                              .col = col,
                              .val = val,
+                             .diagonal = diagonal,
                              .rhs = rhs,
                              .shift = shift,
                              .weight = weight,
