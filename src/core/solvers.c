@@ -143,6 +143,7 @@ mps_status mps__solvers_init(mps__solvers *s, mps__context *context)
 {
     *s = (mps__solvers){.context = context, .limits = default_limits};
     for (int k = 0; mps__builtin_solvers[k]; k++) MPS__TRY(mps__solvers_register(s, mps__builtin_solvers[k]));
+    s->built_in = s->solvers;
     for (int k = 0; mps__builtin_preconditioners[k]; k++)
         MPS__TRY(mps__solvers_register_preconditioner(s, mps__builtin_preconditioners[k]));
     return mps__solvers_use(s, "sundials.pcg", NULL);
@@ -249,7 +250,7 @@ mps_status mps__solvers_solve(mps__solvers *s, const mps_ppe_problem *problem, d
         result->reason = MPS_PPE_NAN;
         status = MPS_E_SOLVER;
     }
-    if (status == MPS_OK) {
+    if (status == MPS_OK && s->use >= &s->solver[s->built_in]) {
         status = verify(s, &limited, p, result);
         if (status != MPS_W_NOT_CONVERGED) return status;
     }

@@ -12,6 +12,7 @@ enum { MPS__SOLVERS_KNOWN = 16 };
 typedef struct mps__solvers {
     mps__context *context;
     int32_t solvers, preconditioners;
+    int32_t built_in; /* the first ones, which check their own results */
     mps_solver_ops solver[MPS__SOLVERS_KNOWN];
     mps_preconditioner_ops preconditioner[MPS__SOLVERS_KNOWN];
     char solver_name[MPS__SOLVERS_KNOWN][MPS__NAME_SIZE];
