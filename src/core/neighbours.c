@@ -13,6 +13,9 @@ enum { MPS__CROWD = 4096 };
 /* Places looked at between two copies of what was found. */
 enum { MPS__CHUNK = 256 };
 
+/* Parts of the particles whose rows are made by one thread each. */
+enum { MPS__PARTS = 64 };
+
 /* Functions compiled for each constant `dim`. */
 #define MPS__DIM_INLINE static inline __attribute__((always_inline))
 
@@ -35,8 +38,7 @@ mps_status mps__neighbours_init(mps_neighbours *l, mps__context *context, int32_
 
 void mps__neighbours_free(mps_neighbours *l)
 {
-    void *all[] = {l->near_begin,    l->near_col,  l->begin,    l->middle, l->end,   l->col, l->w_r2,
-                   l->candidate_row, l->candidate, l->searched, l->key,    l->order, l->idle};
+    void *all[] = {l->near_begin, l->near_col, l->begin, l->middle, l->end, l->col, l->w_r2, l->searched, l->key, l->order, l->idle, l->scratch};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) mps__free(l->context, all[k]);
     mps__neighbours_init(l, l->context, l->dim, l->dp);
 }
@@ -126,11 +128,10 @@ static mps_status reserve(mps_neighbours *l, int64_t n)
         int64_t count;
         size_t size;
         void *fresh;
-    } a[] = {{(void **)&l->begin, wanted, sizeof *l->begin, NULL},
+    } a[] = {{(void **)&l->begin, wanted + 1, sizeof *l->begin, NULL},
              {(void **)&l->middle, wanted, sizeof *l->middle, NULL},
              {(void **)&l->near_begin, wanted + 1, sizeof *l->near_begin, NULL},
              {(void **)&l->end, wanted, sizeof *l->end, NULL},
-             {(void **)&l->candidate_row, wanted + 1, sizeof *l->candidate_row, NULL},
              {(void **)&l->searched, wanted * l->dim, sizeof *l->searched, NULL},
              {(void **)&l->key, 2 * wanted, sizeof *l->key, NULL},
              {(void **)&l->order, 2 * wanted, sizeof *l->order, NULL},
@@ -327,13 +328,13 @@ MPS__DIM_INLINE void search_cell(mps_neighbours *l, const cell_map *m, int64_t f
         const int32_t i = l->order[a];
         int64_t count = 0;
         if (fill) {
-            int32_t *row = l->candidate + l->candidate_row[i];
+            int32_t *row = l->col + l->begin[i];
             for (int k = 0; k < ranges; k++) count += fill_range(l, a, range[k], reach2, row + count, dim);
             sort_row(row, count);
             l->idle[i] = is_idle(l, i, row, count);
         } else {
             for (int k = 0; k < ranges; k++) count += count_range(l, a, range[k], reach2, dim);
-            l->candidate_row[i + 1] = alone ? 0 : count - 1; /* without itself */
+            l->begin[i + 1] = alone ? 0 : count - 1; /* without itself */
         }
     }
 }
@@ -373,11 +374,16 @@ mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x,
     l->re_near = re_near;
     l->re_far = re_far;
     const double reach = re_far + l->skin;
-    l->candidate_row[0] = 0;
+    l->begin[0] = 0;
     gather_places(l);
     search_cells(l, &m, reach, false);
-    for (int64_t i = 0; i < n; i++) l->candidate_row[i + 1] += l->candidate_row[i];
-    MPS__TRY(fit(l, (void **)&l->candidate, &l->candidate_capacity, l->candidate_row[n], sizeof *l->candidate));
+    l->longest = 0;
+    for (int64_t i = 0; i < n; i++) {
+        if (l->begin[i + 1] > l->longest) l->longest = l->begin[i + 1];
+        l->begin[i + 1] += l->begin[i];
+    }
+    MPS__TRY(fit(l, (void **)&l->scratch, &l->scratch_capacity, MPS__PARTS * 2 * l->longest, sizeof *l->scratch));
+    MPS__TRY(fit(l, (void **)&l->col, &l->pair_capacity, l->begin[n], sizeof *l->col));
     search_cells(l, &m, reach, true);
     memcpy(l->searched, x, (size_t)(n * l->dim) * sizeof *x);
     l->kind = NULL;
@@ -385,49 +391,45 @@ mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x,
     return MPS_OK;
 }
 
-static void reverse(int32_t *a, int64_t n)
-{
-    for (int64_t k = 0; k < n / 2; k++) {
-        int32_t v = a[k];
-        a[k] = a[n - 1 - k];
-        a[n - 1 - k] = v;
-    }
-}
-
-/* One row, in the room its candidates take: near pairs grow from the front, the others from the back. Each candidate is written to
- * both ends and counted at one or none: the room left is never less than the candidates left, and there are no branches. */
-MPS__DIM_INLINE void exact_row(mps_neighbours *l, const double *x, int64_t i, const int dim)
+/* One row parted: near pairs, the others within reach, what is out of it, the last two by way of `scratch`. Each candidate is written to
+ * all three and counted at one: no branches. Few have changed their part since the last step, so that sorting is short work. */
+MPS__DIM_INLINE void exact_row(mps_neighbours *l, const double *x, int64_t i, int32_t *scratch, const int dim)
 {
     const double near2 = l->re_near * l->re_near, far2 = l->re_far * l->re_far, least = coincident * coincident * l->dp * l->dp;
-    const int64_t from = l->candidate_row[i], to = l->idle[i] ? from : l->candidate_row[i + 1];
-    int32_t *const col = l->col;
-    int64_t front = from, back = to;
-    for (int64_t k = from; k < to; k++) {
-        const int32_t j = l->candidate[k];
+    const int64_t count = l->idle[i] ? 0 : l->begin[i + 1] - l->begin[i];
+    int32_t *const row = l->col + l->begin[i], *const far = scratch, *const out = scratch + l->longest;
+    int64_t nears = 0, fars = 0, outs = 0;
+    for (int64_t k = 0; k < count; k++) {
+        const int32_t j = row[k];
         const double r2 = distance2(x, i, j, dim);
-        col[front] = col[back - 1] = j;
-        front += (r2 < near2) & (r2 >= least);
-        back -= (r2 >= near2) & (r2 < far2);
+        const bool within = (r2 < far2) & (r2 >= least), close = within & (r2 < near2);
+        row[nears] = far[fars] = out[outs] = j;
+        nears += close;
+        fars += within & !close;
+        outs += !within;
     }
-    if (front < back) memmove(col + front, col + back, (size_t)(to - back) * sizeof *col);
-    reverse(col + front, to - back);
-    l->begin[i] = from;
-    l->middle[i] = front;
-    l->end[i] = front + (to - back);
+    memcpy(row + nears, far, (size_t)fars * sizeof *row);
+    memcpy(row + nears + fars, out, (size_t)outs * sizeof *row);
+    sort_row(row, nears);
+    sort_row(row + nears, fars);
+    l->middle[i] = l->begin[i] + nears;
+    l->end[i] = l->middle[i] + fars;
 }
 
-/* Pairs from..to-1 that see each other, moved to `out`; they stay in order. Returns the end. */
+/* Pairs from..to-1 that see each other change places with those from `out` on; they stay in order. Returns the end. */
 static int64_t keep_visible(mps_neighbours *l, const mps__seer *a, int64_t from, int64_t to, int64_t out)
 {
     const mps__screens *s = l->screens;
     for (int64_t k = from; k < to; k++) {
         const int32_t j = l->col[k], slot = s->slot[j];
-        if (slot < 0 || !mps__screens_hidden(s, a, &s->seer[slot])) l->col[out++] = j;
+        if (slot >= 0 && mps__screens_hidden(s, a, &s->seer[slot])) continue;
+        l->col[k] = l->col[out];
+        l->col[out++] = j;
     }
     return out;
 }
 
-/* Take away what screens hide. */
+/* What screens hide goes behind the others. */
 static void screen_rows(mps_neighbours *l)
 {
 #pragma omp parallel for num_threads(l->threads) schedule(static)
@@ -439,19 +441,20 @@ static void screen_rows(mps_neighbours *l)
     }
 }
 
-mps_status mps__neighbours_rows(mps_neighbours *l, const double *x)
+void mps__neighbours_rows(mps_neighbours *l, const double *x)
 {
-    MPS__TRY(fit(l, (void **)&l->col, &l->pair_capacity, l->candidate_row[l->n], sizeof *l->col));
     l->x = x;
 #pragma omp parallel for num_threads(l->threads) schedule(static)
-    for (int64_t i = 0; i < l->n; i++) {
-        if (l->dim == 2)
-            exact_row(l, x, i, 2);
-        else
-            exact_row(l, x, i, 3);
+    for (int part = 0; part < MPS__PARTS; part++) {
+        int32_t *scratch = l->scratch + 2 * l->longest * part;
+        for (int64_t i = l->n * part / MPS__PARTS; i < l->n * (part + 1) / MPS__PARTS; i++) {
+            if (l->dim == 2)
+                exact_row(l, x, i, scratch, 2);
+            else
+                exact_row(l, x, i, scratch, 3);
+        }
     }
     if (l->screens && l->screens->count > 0) screen_rows(l);
-    return MPS_OK;
 }
 
 mps_status mps__neighbours_near(mps_neighbours *l)
@@ -497,8 +500,10 @@ mps_status mps_neighbours_build(mps_neighbours *list, int64_t n, const double *x
     if (!mps__finite(x, n * list->dim)) return MPS_E_ARG;
     list->skin = 0; /* every build searches anew */
     mps_status status = mps__neighbours_search(list, n, x, re_near, re_far);
-    if (status == MPS_OK) status = mps__neighbours_rows(list, x);
-    if (status != MPS_OK) list->n = 0;
+    if (status == MPS_OK)
+        mps__neighbours_rows(list, x);
+    else
+        list->n = 0;
     return status;
 }
 

@@ -8,26 +8,26 @@
 #include <mps/operators.h>
 
 /* Rows: near pairs in begin[i]..middle[i], the others up to end[i]; ascending columns in each part, so that sums
- * do not depend on how the list was found. */
+ * do not depend on how the list was found. Up to begin[i+1] follow those that may come within reach before the next search. */
 struct mps_neighbours {
     mps__context *context;
     mps__context own; /* context of a list that stands alone */
     int32_t dim, threads;
     double dp, skin, re_near, re_far;
-    int64_t n, capacity, pair_capacity, candidate_capacity, near_capacity, weight_capacity;
+    int64_t n, capacity, pair_capacity, near_capacity, weight_capacity, scratch_capacity;
     const double *x;
-    int64_t *begin, *middle, *end; /* [n] */
-    int32_t *col;                  /* pairs within re_far at the present positions */
+    int64_t *begin, *middle, *end; /* [n+1], [n], [n] */
+    int32_t *col;                  /* [begin[n]] pairs within re_far + skin at the last search */
     int64_t *near_begin;           /* [n+1] near rows once more, without gaps: what most loops of a step run along */
     int32_t *near_col;             /* [near_begin[n]] */
     double *w_r2;                  /* [near_begin[n]] room for a weight beside each entry of near_col */
-    int64_t *candidate_row;        /* [n+1] pairs within re_far + skin at the last search */
-    int32_t *candidate;
     double *searched;            /* [n*dim] positions at the last search */
     uint64_t *key;               /* [2 n] cell keys and scratch of the sort */
     int32_t *order;              /* [2 n] */
     bool valid;                  /* candidates belong to the present order */
     bool sorted;                 /* the store was just sorted along the keys: the next search needs no order */
+    int64_t longest;             /* candidates of one row, at most */
+    int32_t *scratch;            /* two rows of them for each part of the particles */
     const int32_t *kind;         /* of the next search: NULL, or kinds of the particles, and solids without fluid about them get no pairs */
     bool partial;                /* the last search left such solids out: */
     uint8_t *idle;               /* [n] 1 for each of them */
@@ -46,7 +46,7 @@ void mps__neighbours_sorted(mps_neighbours *l, int64_t n);
 /* Search candidates; positions must be finite and are borrowed. l->kind is forgotten. */
 mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x, double re_near, double re_far);
 /* Exact rows at the present positions from the candidates. */
-mps_status mps__neighbours_rows(mps_neighbours *l, const double *x);
+void mps__neighbours_rows(mps_neighbours *l, const double *x);
 /* Set l->near_begin and make room for what stands in its rows. */
 mps_status mps__neighbours_near(mps_neighbours *l);
 

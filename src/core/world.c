@@ -200,8 +200,8 @@ static void link_dummies(mps__world *w)
         if (s->kind[i] != MPS_DUMMY) continue;
         double best = INFINITY;
         s->wall_of[i] = -1;
-        for (int64_t k = l->candidate_row[i]; k < l->candidate_row[i + 1]; k++) {
-            const int32_t j = l->candidate[k];
+        for (int64_t k = l->begin[i]; k < l->begin[i + 1]; k++) {
+            const int32_t j = l->col[k];
             if (s->kind[j] != MPS_WALL || !may_belong(w, i, j)) continue;
             double r2 = 0;
             for (int d = 0; d < w->dim; d++) r2 += pow(s->ref[(int64_t)j * w->dim + d] - s->ref[i * w->dim + d], 2);
@@ -280,7 +280,7 @@ static mps_status link_solids(mps__world *w)
     link_dummies(w);
     estimate_areas(w);
     MPS__TRY(mps__plates_find(w));
-    MPS__TRY(mps__world_rows(w));
+    mps__world_rows(w);
     MPS__TRY(mps__world_stencil(w, MPS_NEAR, &near));
     MPS__TRY(mps_op_number_density(&near, w->particles.nd));
     w->linked = w->particles.generation;
@@ -314,11 +314,13 @@ static mps_status renew(mps__world *w)
 {
     mps__particles *s = &w->particles;
     w->neighbours.threads = s->threads = w->threads;
-    if (w->linked == s->generation && mps__neighbours_fresh(&w->neighbours, s->n, s->x, w->re_far)) return mps__world_rows(w);
-    MPS__TRY(mps__neighbours_order(&w->neighbours, s->n, s->x, w->re_far));
-    MPS__TRY(mps__particles_permute(s, s->n, w->neighbours.order));
-    MPS__TRY(search(w, true));
-    return mps__world_rows(w);
+    if (w->linked != s->generation || !mps__neighbours_fresh(&w->neighbours, s->n, s->x, w->re_far)) {
+        MPS__TRY(mps__neighbours_order(&w->neighbours, s->n, s->x, w->re_far));
+        MPS__TRY(mps__particles_permute(s, s->n, w->neighbours.order));
+        MPS__TRY(search(w, true));
+    }
+    mps__world_rows(w);
+    return MPS_OK;
 }
 
 mps_status mps__world_neighbours(mps__world *w)
@@ -340,15 +342,15 @@ mps_status mps__world_neighbours_kept(mps__world *w)
     w->neighbours.threads = s->threads = w->threads;
     const bool fresh = w->linked == s->generation && mps__neighbours_fresh(&w->neighbours, s->n, s->x, w->re_far);
     if (!fresh) MPS__TRY(search(w, false));
-    MPS__TRY(mps__world_rows(w));
+    mps__world_rows(w);
     if (!fresh) w->neighbours.valid = false; /* the next step sorts, as it would have done */
     return MPS_OK;
 }
 
-mps_status mps__world_rows(mps__world *w)
+void mps__world_rows(mps__world *w)
 {
     mps__plates_look(w);
-    return mps__neighbours_rows(&w->neighbours, w->particles.x);
+    mps__neighbours_rows(&w->neighbours, w->particles.x);
 }
 
 mps_status mps__world_stencil_all(mps__world *w, int32_t which, mps_stencil *stencil)
@@ -358,7 +360,7 @@ mps_status mps__world_stencil_all(mps__world *w, int32_t which, mps_stencil *ste
     if (!w->neighbours.partial) return mps__world_stencil(w, which, stencil);
     l->threads = w->threads;
     MPS__TRY(mps__neighbours_search(l, s->n, s->x, w->re_near, w->re_far));
-    MPS__TRY(mps__neighbours_rows(l, s->x));
+    mps__neighbours_rows(l, s->x);
     return mps_neighbours_stencil(l, which, &w->kernel, stencil);
 }
 

@@ -71,7 +71,7 @@ mps_status mps__world_neighbours(mps__world *w);
 /* The same for a reader who holds arrays: nobody is removed or put elsewhere. */
 mps_status mps__world_neighbours_kept(mps__world *w);
 /* Exact rows at the present positions from lists that are fresh. */
-mps_status mps__world_rows(mps__world *w);
+void mps__world_rows(mps__world *w);
 /* The stencil of one radius from those lists. */
 mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *stencil);
 /* A stencil that has the rows of all particles, from lists that are fresh. */

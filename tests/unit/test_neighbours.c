@@ -264,7 +264,7 @@ static void skin_rows(void **state)
     assert_int_equal(mps__neighbours_search(&l, c.n, c.x, near_radius, far_radius), MPS_OK);
     for (int64_t i = 0; i < c.n * 2; i++) c.x[i] += 0.35 * l.skin * cloud_random(&seed); /* at most 0.35 sqrt(2) < 0.5 skins */
     assert_true(mps__neighbours_fresh(&l, c.n, c.x, far_radius));
-    assert_int_equal(mps__neighbours_rows(&l, c.x), MPS_OK);
+    mps__neighbours_rows(&l, c.x);
     check_list(&c, &l);
     mps__neighbours_free(&l);
     cloud_free(&c);
