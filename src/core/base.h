@@ -26,6 +26,12 @@ void mps__free(mps__context *c, void *block);
 /* Grow *block to hold `count` elements (of which `used` are kept); the new part is zeroed. Never shrinks. */
 mps_status mps__grow(mps__context *c, void **block, int64_t *capacity, int64_t used, int64_t count, size_t size);
 
+/* Elements to ask for when an array of `capacity` must hold n: a first time just these, later some to grow into. */
+static inline int64_t mps__room(int64_t n, int64_t capacity)
+{
+    return capacity > 0 ? n + n / 8 : n;
+}
+
 /* Set the error text and return `status`. */
 mps_status mps__fail(mps__context *c, mps_status status, const char *format, ...) __attribute__((format(printf, 3, 4)));
 void mps__log(mps__context *c, int level, const char *format, ...) __attribute__((format(printf, 3, 4)));

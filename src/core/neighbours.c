@@ -122,7 +122,7 @@ static mps_status reserve(mps_neighbours *l, int64_t n)
 {
     if (n <= l->capacity) return MPS_OK;
     mps__context *c = l->context;
-    int64_t wanted = n + n / 8;
+    const int64_t wanted = mps__room(n, l->capacity);
     struct {
         void **place;
         int64_t count;
@@ -357,9 +357,9 @@ static mps_status fit(mps_neighbours *l, void **block, int64_t *capacity, int64_
     if (*block && *capacity >= count && *capacity < 2 * count + 1024) return MPS_OK;
     mps__free(l->context, *block);
     *capacity = 0;
-    *block = mps__alloc(l->context, count + count / 16, size);
+    *block = mps__alloc(l->context, count + count / 32, size);
     if (!*block) return MPS_E_NOMEM;
-    *capacity = count + count / 16;
+    *capacity = count + count / 32;
     return MPS_OK;
 }
 

@@ -85,7 +85,7 @@ mps_status mps__particles_reserve(mps__particles *s, int64_t extra)
     int64_t wanted = s->n + extra;
     MPS__CHECK(s->context, wanted <= INT32_MAX, "%lld particles: at most %d", (long long)wanted, INT32_MAX);
     if (wanted <= s->capacity) return MPS_OK;
-    int64_t capacity = s->n > 0 ? wanted + wanted / 4 : wanted;
+    const int64_t least = s->n + s->n / 4, capacity = wanted > least ? wanted : least;
     void *array[MPS__FIELDS_MAX];
     MPS__TRY(new_arrays(s, capacity, array));
     for (int32_t k = 0; k < s->fields; k++)

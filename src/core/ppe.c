@@ -21,7 +21,7 @@ void mps__ppe_free(mps__ppe *e)
 static mps_status reserve(mps__ppe *e, int64_t n, int dim)
 {
     if (n <= e->capacity) return MPS_OK;
-    const int64_t wanted = n + n / 8;
+    const int64_t wanted = mps__room(n, e->capacity);
     struct {
         void **place;
         int64_t count;
@@ -259,10 +259,10 @@ static mps_status reserve_entries(mps__ppe *e, int64_t entries)
     mps__free(e->context, e->val);
     e->entry_capacity = 0;
     e->val = NULL;
-    e->col = mps__alloc(e->context, entries + entries / 8, sizeof *e->col);
-    e->val = mps__alloc(e->context, entries + entries / 8, sizeof *e->val);
+    e->col = mps__alloc(e->context, entries + entries / 32, sizeof *e->col);
+    e->val = mps__alloc(e->context, entries + entries / 32, sizeof *e->val);
     if (!e->col || !e->val) return MPS_E_NOMEM;
-    e->entry_capacity = entries + entries / 8;
+    e->entry_capacity = entries + entries / 32;
     return MPS_OK;
 }
 

@@ -370,15 +370,16 @@ static mps_status correct(step_state *q)
     EACH_MODEL(q, velocity, s);
     mps__budget_sum(w, &after, &potential);
     q->budget.collision += before - after;
-    mps__zero(k->dx, s->n * s->dim, s->threads);
-    EACH_MODEL(q, shift, s, k->dx);
+    double *const dx = k->a; /* the accelerations are done with */
+    mps__zero(dx, s->n * s->dim, s->threads);
+    EACH_MODEL(q, shift, s, dx);
     mps__budget_sum(w, &before, &potential);
-    q->budget.shift += after - before + mps__budget_lift(w, k->dx);
+    q->budget.shift += after - before + mps__budget_lift(w, dx);
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         double *x = w->particles.x + i * s->dim;
         if (s->kind[i] == MPS_FLUID)
-            for (int d = 0; d < s->dim; d++) x[d] += s->dt * s->u[i * s->dim + d] + k->dx[i * s->dim + d];
+            for (int d = 0; d < s->dim; d++) x[d] += s->dt * s->u[i * s->dim + d] + dx[i * s->dim + d];
         else
             mps__motion_point(&w->motion, &q->pose, w->particles.ref + i * s->dim, x, NULL, NULL);
     }

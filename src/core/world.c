@@ -35,7 +35,7 @@ void mps__world_free(mps__world *w)
     mps__motion_free(&w->motion);
     mps__work *k = &w->work;
     void *all[] = {k->fixed,      k->gone, k->volume, k->asymmetry, k->wet, k->density_smooth, k->capillary, k->correction,
-                   k->tank_accel, k->area, k->a,      k->dx,        k->rhs, k->shift,          k->value,     k->body,
+                   k->tank_accel, k->area, k->a,        k->rhs, k->shift,          k->value,     k->body,
                    k->gas,        k->law,  k->x0,     k->u0,        k->p0};
     for (size_t a = 0; a < sizeof all / sizeof all[0]; a++) mps__free(w->context, all[a]);
     for (int a = 0; a < MPS__SCRATCH; a++) mps__free(w->context, k->scratch[a]);
@@ -218,7 +218,7 @@ static void estimate_areas(mps__world *w)
 {
     mps__particles *s = &w->particles;
     const int dim = w->dim;
-    double *sum = w->work.dx; /* free between steps */
+    double *sum = w->work.a; /* free between steps */
     memset(sum, 0, (size_t)(s->n * dim) * sizeof *sum);
     for (int64_t i = 0; i < s->n; i++)
         if (s->wall_of[i] >= 0)
@@ -236,7 +236,7 @@ static mps_status reserve_work(mps__world *w)
     mps__work *k = &w->work;
     const int64_t n = w->particles.n, dim = w->dim;
     if (n <= k->capacity) return MPS_OK;
-    const int64_t wanted = n + n / 8;
+    const int64_t wanted = mps__room(n, k->capacity);
     struct {
         void **place;
         int64_t count;
@@ -252,7 +252,6 @@ static mps_status reserve_work(mps__world *w)
              {(void **)&k->tank_accel, wanted * dim, sizeof(double)},
              {(void **)&k->area, wanted * dim, sizeof(double)},
              {(void **)&k->a, wanted * dim, sizeof(double)},
-             {(void **)&k->dx, wanted * dim, sizeof(double)},
              {(void **)&k->rhs, wanted, sizeof(double)},
              {(void **)&k->shift, wanted, sizeof(double)},
              {(void **)&k->value, wanted, sizeof(double)},

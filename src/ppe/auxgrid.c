@@ -26,7 +26,7 @@ static bool reserve(auxgrid *a, int64_t n)
     if (n <= a->capacity) return true;
     const mps_allocator *allocator = &a->grid.allocator;
     mps__give(allocator, a->inverse);
-    a->capacity = n + n / 8;
+    a->capacity = n + n / 32;
     a->inverse = mps__take(allocator, a->capacity, sizeof *a->inverse);
     if (!a->inverse) a->capacity = 0;
     return a->inverse;

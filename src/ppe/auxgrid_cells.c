@@ -30,7 +30,7 @@ static bool reserve_points(mps__grid *g, mps__grid_level *l, int64_t points)
 {
     if (points <= l->point_capacity) return true;
     drop_points(g, l);
-    int64_t capacity = points + points / 8;
+    int64_t capacity = points + points / 32;
     l->home = mps__take(&g->allocator, capacity, sizeof *l->home);
     l->at = mps__take(&g->allocator, capacity << g->dim, sizeof *l->at);
     l->share = mps__take(&g->allocator, capacity << g->dim, sizeof *l->share);
@@ -87,7 +87,7 @@ bool mps__grid_reserve(mps__grid *g, int64_t points)
     if (!g->factor || !g->pivot) return false;
     if (points <= g->point_capacity) return true;
     drop_work(g);
-    int64_t capacity = points + points / 8, table = table_for(capacity);
+    int64_t capacity = points + points / 32, table = table_for(capacity);
     g->point_key = mps__take(&g->allocator, capacity, sizeof *g->point_key);
     g->point_kappa = mps__take(&g->allocator, capacity, sizeof *g->point_kappa);
     g->order = mps__take(&g->allocator, capacity, sizeof *g->order);

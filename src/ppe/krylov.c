@@ -104,9 +104,9 @@ static bool make_arrays(krylov *k, int64_t capacity)
     k->start = mps__take(a, capacity, sizeof *k->start);
     k->residual = mps__take(a, capacity, sizeof *k->residual);
     k->correction = mps__take(a, capacity, sizeof *k->correction);
-    k->inner = mps__take(a, capacity, sizeof *k->inner);
+    if (!k->kind->symmetric) k->inner = mps__take(a, capacity, sizeof *k->inner);
     k->space.partial = mps__take(a, mps__blocks(capacity), sizeof *k->space.partial);
-    return k->start && k->residual && k->correction && k->inner && k->space.partial;
+    return k->start && k->residual && k->correction && (k->inner || k->kind->symmetric) && k->space.partial;
 }
 
 static bool make_solver(krylov *k)
@@ -143,7 +143,7 @@ static bool prepare(krylov *k, const mps_ppe_problem *problem)
     if (problem->component && !make_sums(k, problem->components)) return false;
     if (problem->n <= k->space.capacity) return true;
     drop(k);
-    if (make_arrays(k, problem->n + problem->n / 8) && make_solver(k)) return true;
+    if (make_arrays(k, problem->n + problem->n / 32) && make_solver(k)) return true;
     drop(k);
     return false;
 }
