@@ -11,7 +11,7 @@ MPS__ROW void damp(const int dim, const double *k, const mps_stage *s, int64_t i
 {
     const mps_stencil *t = s->near;
     const double *u = s->u + i * dim, c = 2.0 * (dim + 2) / t->n0, calm = k[ALPHA] * s->velocity_scale, rho = s->density[i];
-    const double most = 0.15 * s->dp / s->dt; /* more would turn velocities round in a step; nearer than dp still less */
+    const double most = 0.15 * s->dp / s->dt, most_near = most / (s->dp * s->dp * s->dp); /* more would turn velocities round in a step */
     double sum[3] = {0};
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         const int64_t j = t->col[p];
@@ -19,8 +19,10 @@ MPS__ROW void damp(const int dim, const double *k, const mps_stage *s, int64_t i
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         double rate = 0; /* u_n r */
         for (int d = 0; d < dim; d++) rate += (s->u[j * dim + d] - u[d]) * q.d[d];
-        const double nu = fmin(rate < 0 ? calm - k[BETA] * rate / q.r : calm, most * fmin(1.0, q.r2 * q.r / (s->dp * s->dp * s->dp)));
-        const double share = s->density[j] / ((rho + s->density[j]) * q.r2) * nu * q.w_r2 * rate;
+        const double over = 1.0 / q.r, limit = q.r < s->dp ? most_near * q.r2 * q.r : most; /* nearer than dp still less */
+        double nu = rate < 0 ? calm - k[BETA] * rate * over : calm;
+        nu = nu < limit ? nu : limit;
+        const double share = s->density[j] / (rho + s->density[j]) * over * over * nu * q.w_r2 * rate;
         for (int d = 0; d < dim; d++) sum[d] += share * q.d[d];
     }
     for (int d = 0; d < dim; d++) a[i * dim + d] += 2.0 * s->dp * c * sum[d];
