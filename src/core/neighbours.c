@@ -38,7 +38,8 @@ mps_status mps__neighbours_init(mps_neighbours *l, mps__context *context, int32_
 
 void mps__neighbours_free(mps_neighbours *l)
 {
-    void *all[] = {l->near_begin, l->near_col, l->begin, l->middle, l->end, l->col, l->w_r2, l->searched, l->key, l->order, l->idle, l->scratch};
+    void *all[] = {l->near_begin, l->near_col, l->begin, l->middle, l->end,  l->col,
+                   l->w_r2,       l->searched, l->key,   l->order,  l->idle, l->scratch};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) mps__free(l->context, all[k]);
     mps__neighbours_init(l, l->context, l->dim, l->dp);
 }

@@ -21,13 +21,13 @@ struct mps_neighbours {
     int64_t *near_begin;           /* [n+1] near rows once more, without gaps: what most loops of a step run along */
     int32_t *near_col;             /* [near_begin[n]] */
     double *w_r2;                  /* [near_begin[n]] room for a weight beside each entry of near_col */
-    double *searched;            /* [n*dim] positions at the last search */
-    uint64_t *key;               /* [2 n] cell keys and scratch of the sort */
-    int32_t *order;              /* [2 n] */
-    bool valid;                  /* candidates belong to the present order */
-    bool sorted;                 /* the store was just sorted along the keys: the next search needs no order */
-    int64_t longest;             /* candidates of one row, at most */
-    int32_t *scratch;            /* two rows of them for each part of the particles */
+    double *searched;              /* [n*dim] positions at the last search */
+    uint64_t *key;                 /* [2 n] cell keys and scratch of the sort */
+    int32_t *order;                /* [2 n] */
+    bool valid;                    /* candidates belong to the present order */
+    bool sorted;                   /* the store was just sorted along the keys: the next search needs no order */
+    int64_t longest;               /* candidates of one row, at most */
+    int32_t *scratch;              /* two rows of them for each part of the particles */
     const int32_t *kind;         /* of the next search: NULL, or kinds of the particles, and solids without fluid about them get no pairs */
     bool partial;                /* the last search left such solids out: */
     uint8_t *idle;               /* [n] 1 for each of them */

@@ -12,7 +12,7 @@ void mps__ppe_init(mps__ppe *e, mps__context *context)
 
 void mps__ppe_free(mps__ppe *e)
 {
-    void *all[] = {e->unknown, e->particle, e->row, e->col, e->val, e->diagonal, e->rhs, e->shift,
+    void *all[] = {e->unknown, e->particle, e->row,    e->col, e->val, e->diagonal,  e->rhs,  e->shift,
                    e->gas,     e->law,      e->weight, e->x,   e->p,   e->component, e->queue};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) mps__free(e->context, all[k]);
     mps__ppe_init(e, e->context);

@@ -10,7 +10,7 @@
 
 enum { FEW_ENTRIES = 4, MAX_STEPS = 12, SAMPLE = 16 };
 static const double one_density = 4; /* arithmetic over harmonic mean of the conductivities, below which there is one */
-static const double stiffer = 1.5;     /* iterations for 1, 1.15, 1.3, 1.5, 1.8: 14, 13.5, 13, 13, 13 */
+static const double stiffer = 1.5;   /* iterations for 1, 1.15, 1.3, 1.5, 1.8: 14, 13.5, 13, 13, 13 */
 
 static double square_distance(const mps_ppe_problem *problem, int64_t i, int64_t j)
 {

@@ -362,7 +362,7 @@ static const scene scenes[] = {
     {"solver_use", filled, solver, 1},
     {"use_preset", filled, preset, 0},
     {"first step", filled, step, 20},
-    {"later step", stepped, step, 1},
+    {"later step", stepped, step, 0}, /* has all it needs */
     {"step of more", grown, step, 20},
     {"step with samples", sampled, step, 8},
     {"probe_series", sampled, series, 2},
