@@ -3,6 +3,9 @@
 #include "../src/ppe/builtin.h"
 #include "bench.h"
 #include <math.h>
+#ifdef MPS_BENCH_HYPRE
+#include <mps/hypre.h>
+#endif
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -125,8 +128,29 @@ static void free_system(mps_ppe_problem *p, double *guess)
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) free((void *)(uintptr_t)all[k]);
 }
 
+/* The table of hypre.boomeramg, or NULL for other names and where it was not built. */
+static const mps_solver_ops *hypre_solver(const char *name)
+{
+    if (strncmp(name, "hypre.", 6) != 0) return NULL;
+#ifdef MPS_BENCH_HYPRE
+    static mps_solver_ops ops;
+    if (mps_hypre_solver(NULL, &ops) < 0) bench_fail(name, "hypre does not start");
+    return &ops;
+#else
+    return NULL;
+#endif
+}
+
+void bench_plugin(mps_sim *sim, const char *pair)
+{
+    const mps_solver_ops *ops = hypre_solver(pair);
+    if (ops && mps_solver_register(sim, ops) < 0) bench_fail(pair, mps_sim_error(sim));
+}
+
 static const mps_solver_ops *find_solver(const char *name, size_t length)
 {
+    const mps_solver_ops *plugin = hypre_solver(name);
+    if (plugin && strlen(plugin->name) == length && strncmp(plugin->name, name, length) == 0) return plugin;
     for (int k = 0; mps__builtin_solvers[k]; k++)
         if (strlen(mps__builtin_solvers[k]->name) == length && strncmp(mps__builtin_solvers[k]->name, name, length) == 0)
             return mps__builtin_solvers[k];
@@ -151,7 +175,7 @@ int bench_replay(const char *file, const char *pair, int32_t threads, double tol
     mps_ppe_problem problem;
     mps_ppe_result result = {0};
     double *guess = read_system(file, &problem), *p = malloc((size_t)problem.n * sizeof *p), least = INFINITY, setup = INFINITY;
-    void *self = NULL, *pc_self = NULL;
+    void *self = ops->user, *pc_self = pc ? pc->user : NULL;
     problem.threads = threads;
     problem.tolerance = tolerance;
     problem.max_iterations = 2000;
