@@ -30,7 +30,7 @@ typedef struct outcome {
 
 static const char usage[] =
     "usage: mps_bench [options]\n"
-    "  --case kind/dp     dam2d, dam3d or breaking, dp in mm; may be given several times\n"
+    "  --case kind/dp     dam2d, dam3d, air2d, air3d or breaking, dp in mm; may be given several times\n"
     "                     (default dam2d/5 dam2d/2.5 dam2d/1.25 dam3d/10 dam3d/5 breaking/10)\n"
     "  --threads n        may be given several times (default 1)\n"
     "  --solver s/p       solver and preconditioner, may be given several times (default: the library's;\n"
