@@ -23,7 +23,7 @@ mps_allocator bench_allocator(bench_memory *memory);
 
 /* ---- cases (cases.c) ---- */
 
-/* "kind/dp in mm", e.g. "dam2d/2.5"; kinds are dam2d, dam3d, breaking. */
+/* "kind/dp in mm", e.g. "dam2d/2.5"; kinds are dam2d, dam3d, air2d, air3d, breaking. */
 typedef struct bench_case {
     char name[BENCH_NAME];
     const struct bench_kind *kind;
@@ -40,6 +40,8 @@ mps_sim *bench_case_make(const bench_case *c, int32_t threads, double re_far, be
 /* A solver "bench.record" that writes each pressure equation it is given to the file, over the one before, and leaves the solution to
  * sundials.pcg with the preconditioner. */
 void bench_record(mps_sim *sim, const char *file);
+/* Register what a plug-in library brings, if the name of the solver asks for one. */
+void bench_plugin(mps_sim *sim, const char *pair);
 /* Solve the equation of a file by "solver/preconditioner" `repeats` times and print the least times. */
 int bench_replay(const char *file, const char *pair, int32_t threads, double tolerance, int repeats);
 

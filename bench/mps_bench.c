@@ -30,10 +30,11 @@ typedef struct outcome {
 
 static const char usage[] =
     "usage: mps_bench [options]\n"
-    "  --case kind/dp     dam2d, dam3d or breaking, dp in mm; may be given several times\n"
+    "  --case kind/dp     dam2d, dam3d, air2d, air3d or breaking, dp in mm; may be given several times\n"
     "                     (default dam2d/5 dam2d/2.5 dam2d/1.25 dam3d/10 dam3d/5 breaking/10)\n"
     "  --threads n        may be given several times (default 1)\n"
-    "  --solver s/p       solver and preconditioner, may be given several times (default: the library's)\n"
+    "  --solver s/p       solver and preconditioner, may be given several times (default: the library's;\n"
+    "                     also hypre.boomeramg, if built with hypre)\n"
     "  --steps n          steps measured (default 40)\n"
     "  --warm n           steps before them (default 10)\n"
     "  --skip t           physical time before them [s] (default 0)\n"
@@ -106,6 +107,7 @@ static void use_solver(mps_sim *sim, const char *pair)
     char solver[BENCH_NAME];
     const char *slash = strchr(pair, '/');
     if (!pair[0]) return;
+    bench_plugin(sim, pair);
     snprintf(solver, sizeof solver, "%.*s", slash ? (int)(slash - pair) : (int)strlen(pair), pair);
     if (mps_solver_use(sim, solver, slash ? slash + 1 : NULL) < 0) bench_fail(pair, mps_sim_error(sim));
 }

@@ -63,13 +63,14 @@ typedef struct mps_preconditioner_ops {
     uint32_t api;         /**< MPS_PPE_API */
     const char *name;     /**< e.g. "jacobi" */
     int32_t symmetric;    /**< 1: M is symmetric positive definite (conjugate gradients need it) */
-    /** New state in *self (may stay NULL). Non-zero: out of memory. Memory comes from `allocator`. */
+    /** New state in *self (may stay `user`). Non-zero: out of memory. Memory comes from `allocator`. */
     int (*create)(const mps_allocator *allocator, void **self);
     /** Prepare for a matrix, which stays valid until the last apply. @return MPS_PPE_CONVERGED, or a reason of failure */
     int (*setup)(void *self, const mps_ppe_problem *problem);
     /** z = M^-1 r, both [n]. @return as setup */
     int (*apply)(void *self, const double *r, double *z);
     void (*destroy)(void *self); /**< gives back all memory */
+    void *user;                  /**< what *self holds when create is called, e.g. settings; default NULL */
 } mps_preconditioner_ops;
 
 /** A solver. */
@@ -87,6 +88,7 @@ typedef struct mps_solver_ops {
                   mps_ppe_result *result);
     void (*destroy)(void *self); /**< gives back all memory */
     int32_t nonlinear;           /**< 1: solves problems with nonlinear rows (mps_ppe_problem.law) too; default 0 */
+    void *user;                  /**< as for a preconditioner */
 } mps_solver_ops;
 
 /** Register a solver on a handle under its name; the table is copied. @return MPS_E_ARG for a taken name or a missing entry */

@@ -123,9 +123,9 @@ mps_status mps__solvers_use(mps__solvers *s, const char *solver, const char *pre
 {
     const mps_solver_ops *ops = NULL;
     const mps_preconditioner_ops *pc = NULL;
-    void *self = NULL, *pc_self = NULL;
     const mps_status status = choose(s, solver, preconditioner, &ops, &pc);
     if (status < 0 || !ops) return status;
+    void *self = ops->user, *pc_self = pc ? pc->user : NULL;
     if (ops->create(&s->context->allocator, &self)) return mps__fail(s->context, MPS_E_NOMEM, "no memory for solver '%s'", ops->name);
     if (pc && pc->create(&s->context->allocator, &pc_self)) {
         ops->destroy(self);

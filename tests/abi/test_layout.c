@@ -203,7 +203,7 @@ AT(mps_ppe_result, residual, 8);
 AT(mps_ppe_result, divergence, 16);
 AT(mps_ppe_result, setup_seconds, 24);
 
-SIZE(mps_preconditioner_ops, 56);
+SIZE(mps_preconditioner_ops, 64);
 AT(mps_preconditioner_ops, struct_size, 0);
 AT(mps_preconditioner_ops, api, 4);
 AT(mps_preconditioner_ops, name, 8);
@@ -212,8 +212,9 @@ AT(mps_preconditioner_ops, create, 24);
 AT(mps_preconditioner_ops, setup, 32);
 AT(mps_preconditioner_ops, apply, 40);
 AT(mps_preconditioner_ops, destroy, 48);
+AT(mps_preconditioner_ops, user, 56);
 
-SIZE(mps_solver_ops, 64);
+SIZE(mps_solver_ops, 72);
 AT(mps_solver_ops, struct_size, 0);
 AT(mps_solver_ops, api, 4);
 AT(mps_solver_ops, name, 8);
@@ -223,6 +224,7 @@ AT(mps_solver_ops, create, 32);
 AT(mps_solver_ops, solve, 40);
 AT(mps_solver_ops, destroy, 48);
 AT(mps_solver_ops, nonlinear, 56);
+AT(mps_solver_ops, user, 64);
 
 SIZE(mps_probe, 112);
 AT(mps_probe, struct_size, 0);

@@ -49,7 +49,7 @@ double kit_difference(const double *a, const double *b, int64_t n)
 int kit_solve(const mps_solver_ops *solver, const mps_preconditioner_ops *pc, kit_memory *memory, const mps_ppe_problem *problem, double *p,
               mps_ppe_result *result)
 {
-    void *self = NULL, *pc_self = NULL;
+    void *self = solver->user, *pc_self = pc ? pc->user : NULL;
     *result = (mps_ppe_result){.reason = MPS_PPE_NOMEM};
     if (solver->create(&memory->allocator, &self)) return MPS_PPE_NOMEM;
     if (!pc || !pc->create(&memory->allocator, &pc_self)) {
@@ -327,7 +327,7 @@ static void check_reuse(pair *k)
     static const int order[] = {4, 0, 2, 6, 0};
     kit_memory memory;
     kit_memory_init(&memory);
-    void *self = NULL, *pc_self = NULL;
+    void *self = k->solver->user, *pc_self = k->pc ? k->pc->user : NULL;
     bool made = !k->solver->create(&memory.allocator, &self) && (!k->pc || !k->pc->create(&memory.allocator, &pc_self));
     for (size_t i = 0; made && i < sizeof order / sizeof order[0]; i++) {
         kit_system *s = kit_lattice_system(&lattices[order[i]].lattice);
@@ -429,7 +429,7 @@ int kit_check_preconditioner(const mps_preconditioner_ops *pc)
     pair k = {NULL, pc, 0};
     kit_memory memory;
     kit_memory_init(&memory);
-    void *self = NULL;
+    void *self = pc->user;
     if (!EXPECT(&k, !pc->create(&memory.allocator, &self), "create failed")) return k.failures;
     for (size_t i = 0; i + 1 < sizeof lattices / sizeof lattices[0]; i++) {
         kit_system *s = kit_lattice_system(&lattices[i].lattice);

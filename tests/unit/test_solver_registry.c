@@ -16,13 +16,15 @@
 
 static int live;             /* states alive */
 static int create_result;    /* what create answers */
+static void *got_user;       /* what *self held when create was called last */
 static mps_ppe_result told;  /* what solve reports */
 static double told_p;        /* the pressure it gives */
 static mps_ppe_problem seen; /* the problem it got */
 
 static int dummy_create(const mps_allocator *allocator, void **self)
 {
-    (void)allocator, (void)self;
+    (void)allocator;
+    got_user = *self;
     if (!create_result) live++;
     return create_result;
 }
@@ -56,13 +58,13 @@ static int dummy_apply(void *self, const double *r, double *z)
 
 static mps_solver_ops dummy_solver(const char *name, const char *pc)
 {
-    return (mps_solver_ops){sizeof(mps_solver_ops), MPS_PPE_API, name, pc, 1, dummy_create, dummy_solve, dummy_destroy, 0};
+    return (mps_solver_ops){sizeof(mps_solver_ops), MPS_PPE_API, name, pc, 1, dummy_create, dummy_solve, dummy_destroy, 0, NULL};
 }
 
 static mps_preconditioner_ops dummy_preconditioner(const char *name)
 {
     return (mps_preconditioner_ops){
-        sizeof(mps_preconditioner_ops), MPS_PPE_API, name, 1, dummy_create, dummy_setup, dummy_apply, dummy_destroy};
+        sizeof(mps_preconditioner_ops), MPS_PPE_API, name, 1, dummy_create, dummy_setup, dummy_apply, dummy_destroy, NULL};
 }
 
 /* ---- fixture ---- */
@@ -221,6 +223,28 @@ static void test_register_preconditioner(void **state)
     expect_error(sim, mps_solver_use(sim, "sundials.pcg", "skew"), MPS_E_ARG, "needs a symmetric");
     assert_int_equal(mps_solver_use(sim, "sundials.gmres", "skew"), MPS_OK);
     expect_pair(sim, "sundials.gmres", "skew");
+}
+
+/* Settings of a plug-in reach its create; a table from before there were any has none. */
+static void test_user(void **state)
+{
+    mps_sim *sim = *state;
+    int settings[2];
+    mps_solver_ops ops = dummy_solver("my.solver", "mine"), old = dummy_solver("my.old", NULL);
+    mps_preconditioner_ops pc = dummy_preconditioner("mine");
+    ops.user = &settings[0];
+    pc.user = &settings[1];
+    old.user = &settings[0];
+    old.struct_size = offsetof(mps_solver_ops, user);
+    assert_int_equal(mps_preconditioner_register(sim, &pc), MPS_OK);
+    assert_int_equal(mps_solver_register(sim, &ops), MPS_OK);
+    assert_int_equal(mps_solver_register(sim, &old), MPS_OK);
+    assert_int_equal(mps_solver_use(sim, "my.solver", "none"), MPS_OK);
+    assert_ptr_equal(got_user, &settings[0]);
+    assert_int_equal(mps_solver_use(sim, "my.solver", NULL), MPS_OK);
+    assert_ptr_equal(got_user, &settings[1]);
+    assert_int_equal(mps_solver_use(sim, "my.old", NULL), MPS_OK);
+    assert_null(got_user);
 }
 
 static void test_register_full(void **state)
@@ -382,6 +406,7 @@ int main(void)
         TEST(test_limits),
         TEST(test_register_solver),
         TEST(test_register_refused),
+        TEST(test_user),
         TEST(test_register_full),
         TEST(test_register_preconditioner),
         TEST(test_create_fails),

@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The matrix of a pressure equation in hypre's form, and one V-cycle of BoomerAMG on it. */
+#include "amg.h"
+#include <math.h>
+#include <string.h>
+
+/* Share of the diagonal that is added to it in components of no pressure level: their coarsest grid would be singular. Far below the least
+ * eigenvalue of a tank, (dp/length)^2, far above rounding. */
+static const double GROUND = 1e-8;
+
+void *mps__hypre_take(const mps_allocator *allocator, int64_t count, size_t size)
+{
+    if (count < 1) count = 1;
+    if ((uint64_t)count > SIZE_MAX / size) return NULL;
+    return allocator->alloc(allocator->user, (size_t)count * size);
+}
+
+void mps__hypre_give(const mps_allocator *allocator, void *block)
+{
+    if (block) allocator->release(allocator->user, block);
+}
+
+/* ---- memory ---- */
+
+static void drop_objects(mps__amg *a)
+{
+    if (a->cycle) HYPRE_BoomerAMGDestroy(a->cycle);
+    if (a->matrix) HYPRE_IJMatrixDestroy(a->matrix);
+    if (a->r) HYPRE_IJVectorDestroy(a->r);
+    if (a->z) HYPRE_IJVectorDestroy(a->z);
+    a->cycle = NULL;
+    a->matrix = NULL;
+    a->r = a->z = NULL;
+}
+
+void mps__amg_release(mps__amg *a)
+{
+    const mps_allocator allocator = a->allocator;
+    drop_objects(a);
+    mps__hypre_give(&allocator, a->index);
+    mps__hypre_give(&allocator, a->length);
+    mps__hypre_give(&allocator, a->columns);
+    mps__hypre_give(&allocator, a->values);
+    *a = (mps__amg){.allocator = allocator};
+}
+
+static bool reserve(mps__amg *a, const mps_ppe_problem *problem)
+{
+    int64_t longest = 1;
+    for (int64_t i = 0; i < problem->n; i++) {
+        const int64_t length = problem->row[i + 1] - problem->row[i];
+        if (length > longest) longest = length;
+    }
+    if (problem->n <= a->capacity && longest <= a->longest) return true;
+    mps__amg_release(a);
+    const mps_allocator *allocator = &a->allocator;
+    a->capacity = problem->n + problem->n / 8;
+    a->longest = 2 * longest;
+    a->index = mps__hypre_take(allocator, a->capacity, sizeof *a->index);
+    a->length = mps__hypre_take(allocator, a->capacity, sizeof *a->length);
+    a->columns = mps__hypre_take(allocator, a->longest, sizeof *a->columns);
+    a->values = mps__hypre_take(allocator, a->longest, sizeof *a->values);
+    if (a->index && a->length && a->columns && a->values) return true;
+    mps__amg_release(a);
+    return false;
+}
+
+/* ---- matrix ---- */
+
+/* Entries of row i into columns and values; an empty row gets a diagonal of 1. @return how many */
+static HYPRE_Int copy_row(mps__amg *a, const mps_ppe_problem *problem, int64_t i)
+{
+    const bool floating = problem->component && problem->component[i] >= 0;
+    HYPRE_Int count = 0, diagonal = -1;
+    for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) {
+        if (problem->col[k] == i) diagonal = count;
+        a->columns[count] = problem->col[k];
+        a->values[count++] = problem->val[k];
+    }
+    if (diagonal < 0) {
+        diagonal = count;
+        a->columns[count] = (HYPRE_BigInt)i;
+        a->values[count++] = 0;
+    }
+    if (floating) a->values[diagonal] *= 1 + GROUND;
+    if (!(a->values[diagonal] > 0)) a->values[diagonal] = 1;
+    return count;
+}
+
+static void make_matrix(mps__amg *a, const mps_ppe_problem *problem)
+{
+    const HYPRE_BigInt last = (HYPRE_BigInt)problem->n - 1;
+    for (int64_t i = 0; i < problem->n; i++) {
+        a->index[i] = (HYPRE_BigInt)i;
+        a->length[i] = (HYPRE_Int)(problem->row[i + 1] - problem->row[i]) + 1;
+    }
+    HYPRE_IJMatrixCreate(MPI_COMM_SELF, 0, last, 0, last, &a->matrix);
+    HYPRE_IJMatrixSetObjectType(a->matrix, HYPRE_PARCSR);
+    HYPRE_IJMatrixSetRowSizes(a->matrix, a->length);
+    HYPRE_IJMatrixInitialize(a->matrix);
+    for (int64_t i = 0; i < problem->n; i++) {
+        HYPRE_Int count = copy_row(a, problem, i);
+        HYPRE_IJMatrixSetValues(a->matrix, 1, &count, &a->index[i], a->columns, a->values);
+    }
+    HYPRE_IJMatrixAssemble(a->matrix);
+}
+
+static void make_vector(const mps__amg *a, HYPRE_IJVector *v)
+{
+    HYPRE_IJVectorCreate(MPI_COMM_SELF, 0, (HYPRE_BigInt)a->n - 1, v);
+    HYPRE_IJVectorSetObjectType(*v, HYPRE_PARCSR);
+    HYPRE_IJVectorInitialize(*v);
+    HYPRE_IJVectorAssemble(*v);
+}
+
+/* ---- multigrid ---- */
+
+static void make_cycle(mps__amg *a, const mps_hypre_settings *settings)
+{
+    static const HYPRE_Int coarsest = 3;
+    HYPRE_BoomerAMGCreate(&a->cycle);
+    HYPRE_BoomerAMGSetPrintLevel(a->cycle, 0);
+    HYPRE_BoomerAMGSetMaxIter(a->cycle, 1);
+    HYPRE_BoomerAMGSetTol(a->cycle, 0);
+    HYPRE_BoomerAMGSetCoarsenType(a->cycle, settings->coarsening);
+    HYPRE_BoomerAMGSetInterpType(a->cycle, settings->interpolation);
+    HYPRE_BoomerAMGSetPMaxElmts(a->cycle, settings->row_entries);
+    HYPRE_BoomerAMGSetStrongThreshold(a->cycle, settings->threshold);
+    HYPRE_BoomerAMGSetAggNumLevels(a->cycle, settings->aggressive_levels);
+    HYPRE_BoomerAMGSetRelaxType(a->cycle, settings->relaxation); /* but a direct solution on the coarsest grid */
+    HYPRE_BoomerAMGSetRelaxOrder(a->cycle, 0);
+    HYPRE_BoomerAMGSetNumSweeps(a->cycle, settings->sweeps);
+    HYPRE_BoomerAMGSetCycleNumSweeps(a->cycle, 1, coarsest);
+}
+
+static void *object_of(HYPRE_IJVector v)
+{
+    void *object = NULL;
+    HYPRE_IJVectorGetObject(v, &object);
+    return object;
+}
+
+/* hypre collects its errors in one flag. */
+static int outcome(void)
+{
+    const HYPRE_Int error = HYPRE_GetError();
+    HYPRE_ClearAllErrors();
+    return !error ? 0 : error & HYPRE_ERROR_MEMORY ? MPS_PPE_NOMEM : MPS_PPE_BREAKDOWN;
+}
+
+int mps__amg_setup(mps__amg *a, const mps_ppe_problem *problem, const mps_hypre_settings *settings)
+{
+    void *matrix = NULL;
+    drop_objects(a); /* the pattern changes every step, so nothing is kept */
+    if (problem->row[problem->n] + problem->n >= INT32_MAX) return MPS_PPE_BREAKDOWN;
+    if (!reserve(a, problem)) return MPS_PPE_NOMEM;
+    a->n = problem->n;
+    HYPRE_ClearAllErrors();
+    make_matrix(a, problem);
+    make_vector(a, &a->r);
+    make_vector(a, &a->z);
+    make_cycle(a, settings);
+    HYPRE_IJMatrixGetObject(a->matrix, &matrix);
+    HYPRE_BoomerAMGSetup(a->cycle, matrix, object_of(a->r), object_of(a->z));
+    return outcome();
+}
+
+int mps__amg_apply(mps__amg *a, const double *r, double *z)
+{
+    void *matrix = NULL;
+    HYPRE_IJMatrixGetObject(a->matrix, &matrix);
+    HYPRE_IJVectorSetValues(a->r, (HYPRE_Int)a->n, a->index, r);
+    HYPRE_ParVectorSetConstantValues(object_of(a->z), 0);
+    HYPRE_BoomerAMGSolve(a->cycle, matrix, object_of(a->r), object_of(a->z));
+    HYPRE_IJVectorGetValues(a->z, (HYPRE_Int)a->n, a->index, z);
+    return outcome();
+}

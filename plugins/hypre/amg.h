@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* One cycle of BoomerAMG, and the solver around it. */
+#ifndef MPS_HYPRE_AMG_H
+#define MPS_HYPRE_AMG_H
+
+#include <HYPRE.h>
+#include <HYPRE_IJ_mv.h>
+#include <HYPRE_parcsr_ls.h>
+#include <mps/hypre.h>
+#include <stdbool.h>
+
+/* A prepared matrix. Zero-initialise, with the allocator. */
+typedef struct mps__amg {
+    mps_allocator allocator;
+    int64_t n, capacity, longest;
+    HYPRE_BigInt *index;   /* [capacity] 0, 1, 2, ... */
+    HYPRE_Int *length;     /* [capacity] entries of a row */
+    HYPRE_BigInt *columns; /* [longest] of one row */
+    double *values;        /* [longest] */
+    HYPRE_IJMatrix matrix;
+    HYPRE_IJVector r, z;
+    HYPRE_Solver cycle;
+} mps__amg;
+
+/* Both return 0 or a reason MPS_PPE_... */
+int mps__amg_setup(mps__amg *a, const mps_ppe_problem *problem, const mps_hypre_settings *settings);
+/* z = M^-1 r, M symmetric positive definite. */
+int mps__amg_apply(mps__amg *a, const double *r, double *z);
+/* Free all but the allocator. */
+void mps__amg_release(mps__amg *a);
+
+/* `count` elements (at least one) or NULL; not zeroed. */
+void *mps__hypre_take(const mps_allocator *allocator, int64_t count, size_t size);
+void mps__hypre_give(const mps_allocator *allocator, void *block);
+
+extern const mps_hypre_settings mps__hypre_defaults;
+/* Verbs of the solver (pcg.c). */
+int mps__hypre_create(const mps_allocator *allocator, void **self);
+void mps__hypre_solve(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc, void *pc_self, double *p,
+                      mps_ppe_result *result);
+void mps__hypre_destroy(void *self);
+
+#endif

@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/** @file hypre.h  Pressure solver "hypre.boomeramg" of the plug-in library libmps_hypre: conjugate gradients with the algebraic multigrid
+ *  of hypre as preconditioner. It shares no code with the built-in solvers, so that they can be checked against it.
+ *
+ *  hypre needs MPI. Where MPI is not running the library starts it, for this process alone, and ends it with the program; a program that
+ *  uses MPI itself starts it before the first call of this library and ends it, after its last simulation is destroyed. hypre keeps a
+ *  state of its own for the whole process: only one handle at a time may step with this solver. hypre takes its memory from malloc and ends
+ *  the program if there is none. */
+#ifndef MPS_HYPRE_H
+#define MPS_HYPRE_H
+
+#include <mps/ppe.h>
+
+MPS_BEGIN_DECLS
+
+/** Settings of BoomerAMG; numbers of methods are those of hypre's manual. Fill with mps_hypre_settings_init(). */
+typedef struct mps_hypre_settings {
+    uint32_t struct_size;      /**< set by mps_hypre_settings_init() */
+    int32_t coarsening;        /**< 0..22; default 8: PMIS */
+    int32_t interpolation;     /**< 0..18; default 6: extended+i */
+    int32_t row_entries;       /**< most entries in a row of the interpolation, 0..100, 0: any number; default 4 */
+    int32_t relaxation;        /**< a symmetric one: 6, 7, 8, 16 or 18; default 18: l1-Jacobi */
+    int32_t sweeps;            /**< relaxations before and after each coarse grid, 1..16; default 1 */
+    int32_t aggressive_levels; /**< finest levels that are coarsened twice, 0..25; default 1 */
+    double threshold;          /**< least strength of a strong connection, 0 <= threshold < 1; default 0.5 */
+    char *error;               /**< NULL, or where a failed call of this library writes why */
+    size_t error_size;         /**< bytes at `error` */
+} mps_hypre_settings;
+
+/** Set every entry to its default. @param size sizeof(mps_hypre_settings) of the caller's headers */
+MPS_API mps_status mps_hypre_settings_init(mps_hypre_settings *settings, size_t size);
+
+/** Table of the solver, for mps_solver_register() or to be called directly; starts MPI where it is not running.
+ *  @param settings  NULL for the defaults, else borrowed: read when a state is created, which mps_solver_use() does
+ *  @param ops       out
+ *  @return MPS_E_ARG (which setting is wrong, and what is allowed), MPS_E_VERSION, MPS_E_STATE if MPI has ended already or does not start;
+ *          text in settings->error */
+MPS_API mps_status mps_hypre_solver(const mps_hypre_settings *settings, mps_solver_ops *ops);
+
+/** Register "hypre.boomeramg" on a handle; mps_solver_use(sim, "hypre.boomeramg", NULL) then takes it into use.
+ *  @param settings  as for mps_hypre_solver(); must live until the handle is destroyed
+ *  @return as mps_hypre_solver() and mps_solver_register() */
+MPS_API mps_status mps_hypre_register(mps_sim *sim, const mps_hypre_settings *settings);
+
+MPS_END_DECLS
+
+#endif

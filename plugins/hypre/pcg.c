@@ -1,0 +1,286 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Conjugate gradients around BoomerAMG. Each pass solves A d = b - A p from d = 0 and adds d to p; passes go on until the true residual is
+ * small in both norms. */
+#include "amg.h"
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+enum { IDLE_PASSES = 4, ARRAYS = 6 };
+static const double DEEPEST = 1e-10; /* residual reduction of one pass */
+
+typedef struct pcg {
+    mps__amg amg;
+    mps_hypre_settings settings;
+    double *block;                                               /* [ARRAYS * capacity] all of the next */
+    double *start, *residual, *d, *z, *direction, *image, *sums; /* sums: [2 sum_capacity] */
+    int64_t capacity, sum_capacity;
+    /* of the solve in progress */
+    const mps_ppe_problem *problem;
+    double norm_limit;
+} pcg;
+
+/* ---- small parts ---- */
+
+static double seconds(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static double dot(const double *x, const double *y, int64_t n)
+{
+    double s = 0;
+    for (int64_t i = 0; i < n; i++) s += x[i] * y[i];
+    return s;
+}
+
+static double diagonal(const mps_ppe_problem *problem, int64_t i)
+{
+    for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++)
+        if (problem->col[k] == i) return problem->val[k];
+    return 0;
+}
+
+/* A first guess with NaN or infinity becomes zero. */
+static void clean(double *p, int64_t n)
+{
+    double sum = 0; /* NaN as soon as one entry is not finite */
+    for (int64_t i = 0; i < n; i++) sum += 0.0 * p[i];
+    if (sum != 0) memset(p, 0, (size_t)n * sizeof *p);
+}
+
+/* Take the mean over each singular component off p. */
+static void center(const pcg *s, double *p)
+{
+    const mps_ppe_problem *problem = s->problem;
+    const int32_t components = problem->component ? problem->components : 0;
+    double *counts = s->sums + components;
+    if (components < 1) return;
+    memset(s->sums, 0, 2 * (size_t)components * sizeof *s->sums);
+    for (int64_t i = 0; i < problem->n; i++) {
+        const int32_t c = problem->component[i];
+        if (c < 0) continue;
+        s->sums[c] += p[i];
+        counts[c] += 1;
+    }
+    for (int64_t i = 0; i < problem->n; i++) {
+        const int32_t c = problem->component[i];
+        if (c >= 0) p[i] -= s->sums[c] / counts[c];
+    }
+}
+
+/* image = A direction. @return their product */
+static double multiply(const pcg *s)
+{
+    const mps_ppe_problem *problem = s->problem;
+    double curvature = 0;
+    for (int64_t i = 0; i < problem->n; i++) {
+        double sum = 0;
+        for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) sum += problem->val[k] * s->direction[problem->col[k]];
+        s->image[i] = sum;
+        curvature += sum * s->direction[i];
+    }
+    return curvature;
+}
+
+/* Whether a curvature below zero is more than the rounding of a direction of no curvature. */
+static bool negative(const pcg *s, double curvature)
+{
+    double scale = 0;
+    for (int64_t i = 0; i < s->problem->n; i++) scale += diagonal(s->problem, i) * s->direction[i] * s->direction[i];
+    return -curvature > 1e-12 * scale;
+}
+
+/* How far a residual is above the wanted limits; at most 1: both are met. */
+static double excess(const pcg *s, const double *r)
+{
+    const mps_ppe_problem *problem = s->problem;
+    double largest = 0;
+    if (problem->divergence > 0)
+        for (int64_t i = 0; i < problem->n; i++) largest = fmax(largest, fabs(r[i] * problem->weight[i]) / problem->divergence);
+    return fmax(largest, sqrt(dot(r, r, problem->n)) / s->norm_limit);
+}
+
+static double result_excess(const mps_ppe_problem *problem, const mps_ppe_result *result)
+{
+    const double norm = result->residual / problem->tolerance;
+    return problem->divergence > 0 ? fmax(norm, result->divergence / problem->divergence) : norm;
+}
+
+/* ---- memory ---- */
+
+static bool reserve(pcg *s, const mps_ppe_problem *problem)
+{
+    const mps_allocator *allocator = &s->amg.allocator;
+    const int64_t components = problem->component ? problem->components : 0;
+    if (components > s->sum_capacity) {
+        mps__hypre_give(allocator, s->sums);
+        s->sums = mps__hypre_take(allocator, 2 * components, sizeof *s->sums);
+        s->sum_capacity = s->sums ? components : 0;
+        if (!s->sums) return false;
+    }
+    if (problem->n <= s->capacity) return true;
+    mps__hypre_give(allocator, s->block);
+    s->capacity = problem->n + problem->n / 8;
+    s->block = mps__hypre_take(allocator, ARRAYS * s->capacity, sizeof *s->block);
+    double **arrays[ARRAYS] = {&s->start, &s->residual, &s->d, &s->z, &s->direction, &s->image};
+    for (int k = 0; k < ARRAYS; k++) *arrays[k] = s->block ? s->block + k * s->capacity : NULL;
+    if (!s->block) s->capacity = 0;
+    return s->block;
+}
+
+/* ---- solution ---- */
+
+/* z = M^-1 r within what A can produce. @return r'z in *product */
+static int precondition(pcg *s, double *product)
+{
+    const int reason = mps__amg_apply(&s->amg, s->residual, s->z);
+    if (reason) return reason;
+    center(s, s->z);
+    *product = dot(s->residual, s->z, s->problem->n);
+    return !isfinite(*product) ? MPS_PPE_NAN : *product <= 0 ? MPS_PPE_INDEFINITE : 0;
+}
+
+/* One step along the direction. */
+static int advance(pcg *s, double product)
+{
+    const double curvature = multiply(s), step = product / curvature;
+    if (!isfinite(curvature)) return MPS_PPE_BREAKDOWN;
+    if (curvature <= 0) return negative(s, curvature) ? MPS_PPE_INDEFINITE : MPS_PPE_BREAKDOWN;
+    for (int64_t i = 0; i < s->problem->n; i++) {
+        s->d[i] += step * s->direction[i];
+        s->residual[i] -= step * s->image[i];
+    }
+    return 0;
+}
+
+/* A d = residual, until the recursive residual is below the limit or `most` iterations are done. */
+static int descend(pcg *s, double limit, int32_t most, int32_t *iterations)
+{
+    double product = 0, before;
+    const int64_t n = s->problem->n;
+    memset(s->d, 0, (size_t)n * sizeof *s->d);
+    for (int32_t k = 0; k < most && excess(s, s->residual) > limit; k++) {
+        before = product;
+        int reason = precondition(s, &product);
+        if (reason) return reason;
+        const double beta = k ? product / before : 0;
+        for (int64_t i = 0; i < n; i++) s->direction[i] = s->z[i] + (k ? beta * s->direction[i] : 0);
+        reason = advance(s, product);
+        if (reason) return reason;
+        ++*iterations;
+    }
+    return 0;
+}
+
+static int pass(pcg *s, double *p, double share, mps_ppe_result *result)
+{
+    const mps_ppe_problem *problem = s->problem;
+    center(s, s->residual); /* rounding must not leave what no p can produce */
+    const double limit = fmax(share, DEEPEST * excess(s, s->residual));
+    const int failure = descend(s, limit, problem->max_iterations - result->iterations, &result->iterations);
+    clean(s->d, problem->n);
+    for (int64_t i = 0; i < problem->n; i++) p[i] += s->d[i];
+    center(s, p);
+    mps_ppe_check(problem, p, s->residual, result);
+    return failure;
+}
+
+static int passes(pcg *s, double *p, mps_ppe_result *result)
+{
+    double best = result_excess(s->problem, result);
+    bool first = true;
+    for (int idle = 0; idle < IDLE_PASSES; first = false) {
+        if (result->iterations >= s->problem->max_iterations) return MPS_PPE_MAX_ITERATIONS;
+        const int failure = pass(s, p, first ? 1 : 0.5, result);
+        const double now = result_excess(s->problem, result);
+        if (now <= 1) return MPS_PPE_CONVERGED;
+        const bool progress = now < 0.9 * best;
+        /* a recurrence that broke down on its way, or at the floor of rounding, may start afresh from what it reached */
+        if (failure && (failure != MPS_PPE_BREAKDOWN || (first && !progress))) return failure;
+        idle = progress ? 0 : idle + 1;
+        best = fmin(best, now);
+    }
+    return MPS_PPE_MAX_ITERATIONS;
+}
+
+/* First guess and its residual; false: no guess gives a finite one. */
+static bool begin(const pcg *s, double *p, mps_ppe_result *result)
+{
+    center(s, p);
+    mps_ppe_check(s->problem, p, s->residual, result);
+    if (isfinite(result->residual)) return true;
+    memset(p, 0, (size_t)s->problem->n * sizeof *p);
+    mps_ppe_check(s->problem, p, s->residual, result);
+    return isfinite(result->residual);
+}
+
+static int setup(pcg *s, mps_ppe_result *result)
+{
+    const double t = seconds();
+    for (int64_t i = 0; i < s->problem->n; i++)
+        if (diagonal(s->problem, i) < 0) return MPS_PPE_INDEFINITE;
+    const int reason = mps__amg_setup(&s->amg, s->problem, &s->settings);
+    result->setup_seconds = seconds() - t;
+    return reason;
+}
+
+static int attempt(pcg *s, double *p, mps_ppe_result *result)
+{
+    const mps_ppe_problem *problem = s->problem;
+    const size_t bytes = (size_t)problem->n * sizeof *p;
+    const double norm = sqrt(dot(problem->rhs, problem->rhs, problem->n));
+    if (norm == 0) memset(p, 0, bytes);
+    if (!begin(s, p, result)) return MPS_PPE_NAN;
+    const double guessed = result_excess(problem, result);
+    if (guessed <= 1) return MPS_PPE_CONVERGED;
+    memcpy(s->start, p, bytes);
+    int reason = setup(s, result);
+    if (reason) return reason;
+    s->norm_limit = problem->tolerance * (norm > 0 ? norm : 1);
+    reason = passes(s, p, result);
+    const bool failed = reason != MPS_PPE_CONVERGED && reason != MPS_PPE_MAX_ITERATIONS;
+    if (failed || !(result_excess(problem, result) <= guessed)) {
+        memcpy(p, s->start, bytes);
+        mps_ppe_check(problem, p, s->residual, result);
+    }
+    return reason;
+}
+
+/* ---- verbs ---- */
+
+/* *self holds the settings on entry, NULL for the defaults. */
+int mps__hypre_create(const mps_allocator *allocator, void **self)
+{
+    const mps_hypre_settings *settings = *self;
+    pcg *s = mps__hypre_take(allocator, 1, sizeof *s);
+    *self = s;
+    if (!s) return MPS_PPE_NOMEM;
+    *s = (pcg){.amg.allocator = *allocator, .settings = settings ? *settings : mps__hypre_defaults};
+    return 0;
+}
+
+void mps__hypre_solve(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc, void *pc_self, double *p,
+                      mps_ppe_result *result)
+{
+    (void)pc, (void)pc_self;
+    pcg *s = self;
+    *result = (mps_ppe_result){MPS_PPE_NOMEM, 0, INFINITY, INFINITY, 0};
+    clean(p, problem->n);
+    if (!reserve(s, problem)) return;
+    s->problem = problem;
+    result->reason = attempt(s, p, result);
+}
+
+void mps__hypre_destroy(void *self)
+{
+    pcg *s = self;
+    if (!s) return;
+    const mps_allocator allocator = s->amg.allocator;
+    mps__amg_release(&s->amg);
+    mps__hypre_give(&allocator, s->block);
+    mps__hypre_give(&allocator, s->sums);
+    mps__hypre_give(&allocator, s);
+}
