@@ -48,7 +48,7 @@ static bool reserve(mps__amg *a, const mps_ppe_problem *problem)
 {
     int64_t longest = 1;
     for (int64_t i = 0; i < problem->n; i++) {
-        const int64_t length = problem->row[i + 1] - problem->row[i];
+        const int64_t length = problem->row[i + 1] - problem->row[i] + 1;
         if (length > longest) longest = length;
     }
     if (problem->n <= a->capacity && longest <= a->longest) return true;
@@ -67,23 +67,18 @@ static bool reserve(mps__amg *a, const mps_ppe_problem *problem)
 
 /* ---- matrix ---- */
 
-/* Entries of row i into columns and values; an empty row gets a diagonal of 1. @return how many */
+/* Entries of row i into columns and values, the diagonal first; an empty row gets a diagonal of 1. @return how many */
 static HYPRE_Int copy_row(mps__amg *a, const mps_ppe_problem *problem, int64_t i)
 {
     const bool floating = problem->component && problem->component[i] >= 0;
-    HYPRE_Int count = 0, diagonal = -1;
+    const double diagonal = problem->diagonal[i] * (floating ? 1 + GROUND : 1);
+    HYPRE_Int count = 0;
+    a->columns[count] = (HYPRE_BigInt)i;
+    a->values[count++] = diagonal > 0 ? diagonal : 1;
     for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) {
-        if (problem->col[k] == i) diagonal = count;
         a->columns[count] = problem->col[k];
-        a->values[count++] = problem->val[k];
+        a->values[count++] = (double)problem->val[k];
     }
-    if (diagonal < 0) {
-        diagonal = count;
-        a->columns[count] = (HYPRE_BigInt)i;
-        a->values[count++] = 0;
-    }
-    if (floating) a->values[diagonal] *= 1 + GROUND;
-    if (!(a->values[diagonal] > 0)) a->values[diagonal] = 1;
     return count;
 }
 

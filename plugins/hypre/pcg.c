@@ -36,13 +36,6 @@ static double dot(const double *x, const double *y, int64_t n)
     return s;
 }
 
-static double diagonal(const mps_ppe_problem *problem, int64_t i)
-{
-    for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++)
-        if (problem->col[k] == i) return problem->val[k];
-    return 0;
-}
-
 /* A first guess with NaN or infinity becomes zero. */
 static void clean(double *p, int64_t n)
 {
@@ -77,8 +70,8 @@ static double multiply(const pcg *s)
     const mps_ppe_problem *problem = s->problem;
     double curvature = 0;
     for (int64_t i = 0; i < problem->n; i++) {
-        double sum = 0;
-        for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) sum += problem->val[k] * s->direction[problem->col[k]];
+        double sum = problem->diagonal[i] * s->direction[i];
+        for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) sum += (double)problem->val[k] * s->direction[problem->col[k]];
         s->image[i] = sum;
         curvature += sum * s->direction[i];
     }
@@ -89,7 +82,7 @@ static double multiply(const pcg *s)
 static bool negative(const pcg *s, double curvature)
 {
     double scale = 0;
-    for (int64_t i = 0; i < s->problem->n; i++) scale += diagonal(s->problem, i) * s->direction[i] * s->direction[i];
+    for (int64_t i = 0; i < s->problem->n; i++) scale += s->problem->diagonal[i] * s->direction[i] * s->direction[i];
     return -curvature > 1e-12 * scale;
 }
 
@@ -221,7 +214,7 @@ static int setup(pcg *s, mps_ppe_result *result)
 {
     const double t = seconds();
     for (int64_t i = 0; i < s->problem->n; i++)
-        if (diagonal(s->problem, i) < 0) return MPS_PPE_INDEFINITE;
+        if (s->problem->diagonal[i] < 0) return MPS_PPE_INDEFINITE;
     const int reason = mps__amg_setup(&s->amg, s->problem, &s->settings);
     result->setup_seconds = seconds() - t;
     return reason;
