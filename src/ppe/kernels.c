@@ -2,6 +2,7 @@
 /* Memory, blocked reductions, row products and the null space: what all solvers share. */
 #define _POSIX_C_SOURCE 200809L
 #include "kernels.h"
+#include <math.h>
 #include <string.h>
 #include <time.h>
 
@@ -112,6 +113,23 @@ void mps__components_center(const mps_ppe_problem *problem, double *p, double *s
         int32_t c = problem->component[i];
         if (c >= 0) p[i] -= sums[c] / counts[c];
     }
+}
+
+bool mps__guess_begin(const mps_ppe_problem *problem, double *p, double *residual, double *sums, mps_ppe_result *result)
+{
+    mps__components_center(problem, p, sums);
+    mps_ppe_check(problem, p, residual, result);
+    if (isfinite(result->residual)) return true;
+    memset(p, 0, (size_t)problem->n * sizeof *p);
+    mps_ppe_check(problem, p, residual, result);
+    return isfinite(result->residual);
+}
+
+bool mps__curvature_negative(const mps_ppe_problem *problem, const double *x, double curvature)
+{
+    double scale = 0;
+    for (int64_t i = 0; i < problem->n; i++) scale += problem->diagonal[i] * x[i] * x[i];
+    return -curvature > 1e-12 * scale;
 }
 
 double mps__result_excess(const mps_ppe_problem *problem, const mps_ppe_result *result)

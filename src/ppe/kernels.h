@@ -36,6 +36,10 @@ bool mps__rows_nonnegative(const mps_ppe_problem *problem);
 
 /* A first guess with NaN or infinity becomes zero. */
 void mps__guess_clean(double *p, int64_t n);
+/* The guess a solver begins with, zero if p leads nowhere, centred, and its residual in `residual` [n]. False: not even that is finite. */
+bool mps__guess_begin(const mps_ppe_problem *problem, double *p, double *residual, double *sums, mps_ppe_result *result);
+/* Whether the curvature x'Ax < 0 is more than the rounding of a direction of no curvature. */
+bool mps__curvature_negative(const mps_ppe_problem *problem, const double *x, double curvature);
 /* Subtract the mean of p over each singular component, whose null vector is 1; sums [2 components] is scratch. */
 void mps__components_center(const mps_ppe_problem *problem, double *p, double *sums);
 

@@ -60,13 +60,6 @@ static void set_slope(newton *k, const double *p)
     }
 }
 
-static bool negative(const mps_ppe_problem *problem, const double *x, double curvature)
-{
-    double scale = 0;
-    for (int64_t i = 0; i < problem->n; i++) scale += problem->diagonal[i] * x[i] * x[i];
-    return -curvature > 1e-12 * scale;
-}
-
 static int times(N_Vector vx, N_Vector vy, N_Vector vp, sunbooleantype *changed, void *data)
 {
     (void)vp, (void)changed;
@@ -82,7 +75,7 @@ static int times(N_Vector vx, N_Vector vy, N_Vector vp, sunbooleantype *changed,
     if (!isfinite(curvature))
         k->failure = MPS_PPE_BREAKDOWN;
     else if (curvature <= 0)
-        k->failure = negative(k->problem, x, curvature) ? MPS_PPE_INDEFINITE : MPS_PPE_BREAKDOWN;
+        k->failure = mps__curvature_negative(k->problem, x, curvature) ? MPS_PPE_INDEFINITE : MPS_PPE_BREAKDOWN;
     return k->failure ? -1 : 0;
 }
 
@@ -245,24 +238,13 @@ static int run(newton *k, double *p, mps_ppe_result *result)
     return k->failure == MPS_PPE_BREAKDOWN || !k->failure ? MPS_PPE_MAX_ITERATIONS : k->failure;
 }
 
-/* First guess; false: no guess gives a finite residual. */
-static bool begin(newton *k, double *p, mps_ppe_result *result)
-{
-    mps__components_center(k->problem, p, k->sums);
-    mps_ppe_check(k->problem, p, k->residual, result);
-    if (isfinite(result->residual)) return true;
-    memset(p, 0, (size_t)k->problem->n * sizeof *p);
-    mps_ppe_check(k->problem, p, k->residual, result);
-    return isfinite(result->residual);
-}
-
 static int attempt(newton *k, double *p, mps_ppe_result *result)
 {
     const mps_ppe_problem *problem = k->problem;
     const size_t bytes = (size_t)problem->n * sizeof *p;
     const double norm = sqrt(mps__blocked_dot(problem->rhs, problem->rhs, problem->n, problem->threads, k->space.partial));
     if (norm == 0) memset(p, 0, bytes);
-    if (!begin(k, p, result)) return MPS_PPE_NAN;
+    if (!mps__guess_begin(k->problem, p, k->residual, k->sums, result)) return MPS_PPE_NAN;
     const double excess = mps__result_excess(problem, result);
     if (excess <= 1) return MPS_PPE_CONVERGED;
     if (!mps__rows_nonnegative(problem)) return MPS_PPE_INDEFINITE;

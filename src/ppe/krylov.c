@@ -32,14 +32,6 @@ static int apply(krylov *k, const double *r, double *z)
     return k->failure ? -1 : 0;
 }
 
-/* Whether the curvature x'Ax < 0 is more than the rounding of a direction of no curvature. */
-static bool negative(const mps_ppe_problem *problem, const double *x, double curvature)
-{
-    double scale = 0;
-    for (int64_t i = 0; i < problem->n; i++) scale += problem->diagonal[i] * x[i] * x[i];
-    return -curvature > 1e-12 * scale;
-}
-
 /* z = A v, or A M^-1 v where the method leaves preconditioning to us. */
 static int times(void *data, N_Vector v, N_Vector z)
 {
@@ -55,7 +47,7 @@ static int times(void *data, N_Vector v, N_Vector z)
     if (!isfinite(curvature))
         k->failure = MPS_PPE_BREAKDOWN;
     else if (k->kind->symmetric && curvature <= 0)
-        k->failure = negative(k->problem, x, curvature) ? MPS_PPE_INDEFINITE : MPS_PPE_BREAKDOWN;
+        k->failure = mps__curvature_negative(k->problem, x, curvature) ? MPS_PPE_INDEFINITE : MPS_PPE_BREAKDOWN;
     return k->failure ? -1 : 0;
 }
 
@@ -201,17 +193,6 @@ static int passes(krylov *k, double *p, double norm, mps_ppe_result *result)
     return MPS_PPE_MAX_ITERATIONS;
 }
 
-/* First guess and its residual; false: no guess gives a finite one. */
-static bool begin(krylov *k, double *p, mps_ppe_result *result)
-{
-    mps__components_center(k->problem, p, k->sums);
-    mps_ppe_check(k->problem, p, k->residual, result);
-    if (isfinite(result->residual)) return true;
-    memset(p, 0, (size_t)k->problem->n * sizeof *p);
-    mps_ppe_check(k->problem, p, k->residual, result);
-    return isfinite(result->residual);
-}
-
 static int setup(krylov *k, mps_ppe_result *result)
 {
     if (k->kind->symmetric && !mps__rows_nonnegative(k->problem)) return MPS_PPE_INDEFINITE;
@@ -228,7 +209,7 @@ static int attempt(krylov *k, double *p, mps_ppe_result *result)
     size_t bytes = (size_t)problem->n * sizeof *p;
     double norm = sqrt(mps__blocked_dot(problem->rhs, problem->rhs, problem->n, problem->threads, k->space.partial));
     if (norm == 0) memset(p, 0, bytes);
-    if (!begin(k, p, result)) return MPS_PPE_NAN;
+    if (!mps__guess_begin(k->problem, p, k->residual, k->sums, result)) return MPS_PPE_NAN;
     double excess = mps__result_excess(problem, result);
     if (excess <= 1) return MPS_PPE_CONVERGED;
     memcpy(k->start, p, bytes);
