@@ -22,6 +22,19 @@ enum {
     COLUMN_VOLUME
 };
 
+/* Columns of momentum.csv behind the time, for each axis. */
+enum {
+    MOMENTUM_TOTAL,
+    MOMENTUM_GRAVITY,
+    MOMENTUM_FORCE,
+    MOMENTUM_PRESSURE,
+    MOMENTUM_WALLS,
+    MOMENTUM_NUMERICAL,
+    MOMENTUM_COLLISION,
+    MOMENTUM_SHIFT,
+    MOMENTUM_COLUMNS
+};
+
 /* summary.json. @return false with a message on stderr */
 bool summary_save(const run *r);
 /* plot_*.svg, and report.html unless it was not wanted. @return false with a message on stderr */

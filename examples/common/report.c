@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { REPORT_PLOTS = 10 };
+enum { REPORT_PLOTS = 13 };
 
 /* All plots of a run with the file each goes to. */
 typedef struct plots {
@@ -90,11 +90,29 @@ static void plots_energy(plots *all, const run *r)
     plot_add(p, column_of(t, "lost: numerical", base + COLUMN_NUMERICAL, 0));
 }
 
+/* What acts along one axis; weight and floor, which balance each other, would hide the rest. */
+static void plots_momentum(plots *all, const run *r, int axis)
+{
+    static const char *const file[] = {"plot_momentum_x.svg", "plot_momentum_y.svg", "plot_momentum_z.svg"};
+    static const char *const title[] = {"Momentum along x", "Momentum along y", "Momentum along z"};
+    const table *t = &r->momentum;
+    const int base = 1 + axis * MOMENTUM_COLUMNS;
+    const double weight = t->count > 0 ? t->kept[(t->count - 1) * t->columns + base + MOMENTUM_GRAVITY] : 0;
+    plot *p = plots_add(all, file[axis], title[axis], r->options.dim == 3 ? "[N s]" : "[N s/m]");
+    plot_add(p, column_of(t, "momentum", base + MOMENTUM_TOTAL, 0));
+    if (weight == 0) plot_add(p, column_of(t, "from walls", base + MOMENTUM_WALLS, 0));
+    plot_add(p, column_of(t, "from force models", base + MOMENTUM_FORCE, 0));
+    plot_add(p, column_of(t, "from collisions", base + MOMENTUM_COLLISION, 0));
+    plot_add(p, column_of(t, "from shifts", base + MOMENTUM_SHIFT, 0));
+    plot_add(p, column_of(t, "numerical", base + MOMENTUM_NUMERICAL, 0));
+}
+
 static void plots_make(plots *all, const run *r)
 {
     all->count = 0;
     plots_columns(all, r);
     plots_energy(all, r);
+    for (int d = 0; d < (r->options.dim == 3 ? 3 : 2); d++) plots_momentum(all, r, d);
     plot_add(plots_add(all, "plot_dt.svg", "Time step", "dt [s]"), column_of(&r->steps, "dt", STEP_DT, 0));
     plot_add(plots_add(all, "plot_ppe.svg", "Pressure solver", "iterations"), column_of(&r->steps, "iterations", STEP_ITERATIONS, 0));
     plot_add(plots_add(all, "plot_speed.svg", "Largest speed", "|u| [m/s]"), column_of(&r->steps, "largest speed", STEP_SPEED, 0));

@@ -54,7 +54,7 @@ typedef struct run {
     run_column column[RUN_COLUMNS];
     run_mark mark[RUN_MARKS];
     run_figure figure[RUN_FIGURES];
-    table probes, steps;
+    table probes, steps, momentum;
     mps_frames *frames;
     int64_t frame; /* next frame */
     int pictures;  /* taken so far */

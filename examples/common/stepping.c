@@ -64,6 +64,34 @@ static bool run_open_probes(run *r)
     return table_open(&r->probes, r->options.out, "probes.csv", header, 1 + r->columns + RUN_COMMON, r->options.probe_dt);
 }
 
+/* Names of the columns of momentum.csv, in the order of MOMENTUM_TOTAL and on. */
+static const char *const MOMENTA[] = {"momentum", "gravity", "force", "pressure", "walls", "numerical", "collision", "shift"};
+
+static bool run_open_momentum(run *r)
+{
+    char header[3 * MOMENTUM_COLUMNS * 32] = "t[s]", name[32];
+    const int dim = r->options.dim == 3 ? 3 : 2;
+    for (int d = 0; d < dim; d++)
+        for (int k = 0; k < MOMENTUM_COLUMNS; k++) {
+            snprintf(name, sizeof name, "%s_%c", MOMENTA[k], "xyz"[d]);
+            header_add(header, sizeof header, name, dim == 3 ? "N s" : "N s/m");
+        }
+    return table_open(&r->momentum, r->options.out, "momentum.csv", header, 1 + dim * MOMENTUM_COLUMNS, r->options.probe_dt);
+}
+
+static void run_momentum(run *r, double t)
+{
+    mps_momentum m;
+    double row[1 + 3 * MOMENTUM_COLUMNS] = {t};
+    const int dim = r->options.dim == 3 ? 3 : 2;
+    mps_momentum_init(&m, sizeof m);
+    run_note(r, mps_momentum_get(r->sim, &m), "momentum");
+    const double *const values[MOMENTUM_COLUMNS] = {m.total, m.gravity, m.force, m.pressure, m.walls, m.numerical, m.collision, m.shift};
+    for (int d = 0; d < dim; d++)
+        for (int k = 0; k < MOMENTUM_COLUMNS; k++) row[1 + d * MOMENTUM_COLUMNS + k] = values[k][d];
+    table_sample(&r->momentum, row);
+}
+
 static void run_energies(run *r, double *out)
 {
     mps_energy e;
@@ -106,6 +134,7 @@ static void run_sample(run *r, double t)
     run_measure(r, t, row);
     if (r->totals.steps == 1) run_write_start(r, row);
     table_sample(&r->probes, row);
+    run_momentum(r, t);
 }
 
 /* ---- frames and pictures ---------------------------------------------------------------------------------------- */
@@ -168,6 +197,7 @@ static int run_monitor(void *user, mps_sim *sim, const mps_step_info *info)
     run_picture(r, info->t);
     if (progress_step(&r->progress, info)) {
         table_flush(&r->probes);
+        table_flush(&r->momentum);
         table_flush(&r->steps);
     }
     r->step_end = progress_clock();
@@ -196,7 +226,7 @@ static void run_close(run *r)
     if (!picture_save(r->sim, path)) r->output_failed = true;
     for (int i = 0; i < r->figures; i++) r->figure[i].measured = r->figure[i].value(r->figure[i].user, r->sim);
     if (r->totals.steps == 0) run_write_start(r, NULL);
-    if (!table_close(&r->probes) || !table_close(&r->steps)) r->output_failed = true;
+    if (!table_close(&r->probes) || !table_close(&r->momentum) || !table_close(&r->steps)) r->output_failed = true;
 }
 
 static void run_say(const run *r, int code, mps_status status)
@@ -230,12 +260,14 @@ static void run_begin(run *r)
     r->totals.fluid = mps_particles_count(r->sim, MPS_FLUID);
     r->totals.wall = mps_particles_count(r->sim, MPS_WALL);
     r->totals.dummy = mps_particles_count(r->sim, MPS_DUMMY);
-    if (!run_open_probes(r) || !table_open(&r->steps, r->options.out, "steps.csv", STEP_HEADER, STEP_COLUMNS, 0)) exit(CLI_FAILED);
+    if (!run_open_probes(r) || !run_open_momentum(r) || !table_open(&r->steps, r->options.out, "steps.csv", STEP_HEADER, STEP_COLUMNS, 0))
+        exit(CLI_FAILED);
     if (!r->options.quiet) {
         fprintf(stderr, "%s: %s, dp %g m, %lld fluid, %lld wall, %lld dummy particles, to t = %g s\n", r->options.program, r->options.model,
                 r->options.dp, (long long)r->totals.fluid, (long long)r->totals.wall, (long long)r->totals.dummy, r->options.t_end);
     }
     run_measure(r, 0, r->start);
+    run_momentum(r, 0);
     run_frames_open(r);
     progress_begin(&r->progress, r->options.t_end, mps_particles_count(r->sim, -1), r->options.quiet);
     catch_interrupt();
@@ -258,6 +290,7 @@ int run_finish(run *r)
     if (!summary_save(r) || !report_save(r)) code = code == CLI_OK ? CLI_FAILED : code;
     run_say(r, code, status);
     table_free(&r->probes);
+    table_free(&r->momentum);
     table_free(&r->steps);
     mps_sim_destroy(r->sim);
     return code;

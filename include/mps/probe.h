@@ -92,6 +92,27 @@ MPS_API mps_status mps_energy_init(mps_energy *energy, size_t size);
 /** Measure energies now. */
 MPS_API mps_status mps_energy_get(mps_sim *sim, mps_energy *energy);
 
+/** Momentum of the fluid (per metre of width in 2-D) and what has changed it since creation [kg m/s]:
+ *  total = that before the first step + gravity + force + pressure + collision + shift. */
+typedef struct mps_momentum {
+    uint32_t struct_size; /**< set by mps_momentum_init() */
+    double total[3];      /**< sum m u, now */
+    double gravity[3];    /**< weight times time */
+    double force[3];      /**< by force models: friction at walls; pairs inside the fluid add nothing */
+    double pressure[3];   /**< by pressure gradients, */
+    double walls[3];      /**< of that what the walls gave: the integral of their sum p A over time */
+    double numerical[3];  /**< and the rest, pressure - walls: weight and inertia of the half cells that walls stand for, which are no
+                                 particles (of order dp), and that a gradient exact for linear pressures does not conserve momentum */
+    double collision[3];  /**< by collisions, those with walls */
+    double shift[3];      /**< by velocities transported with shifted particles */
+} mps_momentum;
+
+/** Set struct_size and zero. */
+MPS_API mps_status mps_momentum_init(mps_momentum *momentum, size_t size);
+
+/** Measure the momentum now. */
+MPS_API mps_status mps_momentum_get(mps_sim *sim, mps_momentum *momentum);
+
 MPS_END_DECLS
 
 #endif

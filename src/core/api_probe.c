@@ -4,6 +4,7 @@
 
 static const mps_probe probe_defaults = {.direction = {0, 1, 0}};
 static const mps_energy energy_defaults = {0};
+static const mps_momentum momentum_defaults = {0};
 
 static mps_status find_probe(const mps_sim *sim, int32_t id, mps__probe **probe)
 {
@@ -88,4 +89,17 @@ mps_status mps_energy_get(mps_sim *sim, mps_energy *energy)
     mps_energy now;
     MPS__TRY(mps__energy_measure(&sim->world, &now));
     return mps__struct_out(&sim->context, "mps_energy", energy, &now, sizeof now);
+}
+
+mps_status mps_momentum_init(mps_momentum *momentum, size_t size)
+{
+    return mps__struct_init(momentum, size, &momentum_defaults, sizeof momentum_defaults);
+}
+
+mps_status mps_momentum_get(mps_sim *sim, mps_momentum *momentum)
+{
+    if (!sim) return MPS_E_ARG;
+    mps_momentum now;
+    mps__momentum_measure(&sim->world, &now);
+    return mps__struct_out(&sim->context, "mps_momentum", momentum, &now, sizeof now);
 }

@@ -1,30 +1,28 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Energy sums. Particles are summed in a fixed number of parts, each by one thread: the same bytes for any number of threads. */
+/* Sums of energy and momentum. Particles are summed in a fixed number of parts, each by one thread: the same bytes for any number of threads. */
 #include "budget.h"
 #include <string.h>
 
-enum { PARTS = 64 };
+enum { PARTS = 64, SUMS = 8 };
 
-/* What a particle adds to a sum or two. */
-typedef struct pair_of_sums {
-    double first, second;
-} pair_of_sums;
-typedef void (*term_fn)(const mps__world *w, const void *data, int64_t i, pair_of_sums *sum);
+/* What a particle adds to up to eight sums. */
+typedef struct sums {
+    double of[SUMS];
+} sums;
+typedef void (*term_fn)(const mps__world *w, const void *data, int64_t i, double *sum);
 
-/* Sums over the fluid. */
-static pair_of_sums sum_fluid(const mps__world *w, term_fn term, const void *data)
+/* Sums over the particles of one kind. */
+static sums sum_kind(const mps__world *w, int32_t kind, term_fn term, const void *data)
 {
     const int64_t n = w->particles.n;
-    pair_of_sums part[PARTS] = {{0}}, sum = {0};
+    sums part[PARTS] = {{{0}}}, all = {{0}};
 #pragma omp parallel for num_threads(w->threads) schedule(static)
     for (int p = 0; p < PARTS; p++)
         for (int64_t i = n * p / PARTS; i < n * (p + 1) / PARTS; i++)
-            if (w->particles.kind[i] == MPS_FLUID) term(w, data, i, &part[p]);
-    for (int p = 0; p < PARTS; p++) {
-        sum.first += part[p].first;
-        sum.second += part[p].second;
-    }
-    return sum;
+            if (w->particles.kind[i] == kind) term(w, data, i, part[p].of);
+    for (int p = 0; p < PARTS; p++)
+        for (int k = 0; k < SUMS; k++) all.of[k] += part[p].of[k];
+    return all;
 }
 
 static double mass(const mps__world *w, int64_t i)
@@ -32,19 +30,19 @@ static double mass(const mps__world *w, int64_t i)
     return w->particles.rho[i] * (w->dim == 2 ? w->dp * w->dp : w->dp * w->dp * w->dp);
 }
 
-static void energy_term(const mps__world *w, const void *data, int64_t i, pair_of_sums *sum)
+static void energy_term(const mps__world *w, const void *data, int64_t i, double *sum)
 {
     (void)data;
     const double *u = w->particles.u + i * w->dim;
-    sum->first += 0.5 * mass(w, i) * mps__dot(u, u, w->dim);
-    sum->second -= mass(w, i) * mps__dot(w->g, w->particles.x + i * w->dim, w->dim);
+    sum[0] += 0.5 * mass(w, i) * mps__dot(u, u, w->dim);
+    sum[1] -= mass(w, i) * mps__dot(w->g, w->particles.x + i * w->dim, w->dim);
+    for (int d = 0; d < w->dim; d++) sum[2 + d] += mass(w, i) * u[d];
 }
 
-void mps__budget_sum(const mps__world *w, double *kinetic, double *potential)
+void mps__budget_sum(const mps__world *w, mps__bulk *bulk)
 {
-    const pair_of_sums sum = sum_fluid(w, energy_term, NULL);
-    *kinetic = sum.first;
-    *potential = sum.second;
+    const sums s = sum_kind(w, MPS_FLUID, energy_term, NULL);
+    *bulk = (mps__bulk){s.of[0], s.of[1], {s.of[2], s.of[3], s.of[4]}};
 }
 
 typedef struct acceleration {
@@ -52,16 +50,34 @@ typedef struct acceleration {
     double dt;
 } acceleration;
 
-static void power_term(const mps__world *w, const void *data, int64_t i, pair_of_sums *sum)
+static void push_term(const mps__world *w, const void *data, int64_t i, double *sum)
 {
     const acceleration *k = data;
-    const double *b = k->a + i * w->dim;
-    sum->first += mass(w, i) * k->dt * (mps__dot(b, w->particles.u + i * w->dim, w->dim) + 0.5 * k->dt * mps__dot(b, b, w->dim));
+    const double *b = k->a + i * w->dim, *u = w->particles.u + i * w->dim, m = mass(w, i);
+    sum[0] += m * k->dt * (mps__dot(b, u, w->dim) + 0.5 * k->dt * mps__dot(b, b, w->dim));
+    sum[1] += m;
+    for (int d = 0; d < w->dim; d++) {
+        sum[2 + d] += m * u[d];
+        sum[5 + d] += m * k->dt * b[d];
+    }
 }
 
-double mps__budget_power(const mps__world *w, const double *a, double dt)
+void mps__budget_push(const mps__world *w, const double *a, double dt, mps__push *push)
 {
-    return sum_fluid(w, power_term, &(acceleration){a, dt}).first;
+    const sums s = sum_kind(w, MPS_FLUID, push_term, &(acceleration){a, dt});
+    *push = (mps__push){s.of[0], s.of[1], {s.of[2], s.of[3], s.of[4]}, {s.of[5], s.of[6], s.of[7]}};
+}
+
+static void wall_term(const mps__world *w, const void *data, int64_t i, double *sum)
+{
+    const double *area = (const double *)data + i * w->dim;
+    for (int d = 0; d < w->dim; d++) sum[d] += w->particles.p[i] * area[d];
+}
+
+void mps__budget_wall_force(const mps__world *w, double force[3])
+{
+    const sums s = sum_kind(w, MPS_WALL, wall_term, w->work.area);
+    memcpy(force, s.of, 3 * sizeof *force);
 }
 
 typedef struct tank_move {
@@ -69,7 +85,7 @@ typedef struct tank_move {
     const double *omega, *u0;
 } tank_move;
 
-static void wall_work_term(const mps__world *w, const void *data, int64_t i, pair_of_sums *sum)
+static void wall_work_term(const mps__world *w, const void *data, int64_t i, double *sum)
 {
     const tank_move *k = data;
     const double *o = k->omega;
@@ -78,7 +94,7 @@ static void wall_work_term(const mps__world *w, const void *data, int64_t i, pai
     const double spin[3] = {o[1] * r[2] - o[2] * r[1], o[2] * r[0] - o[0] * r[2], o[0] * r[1] - o[1] * r[0]};
     for (int d = 0; d < w->dim; d++) {
         v[d] = (k->c1[d] - k->c0[d]) / k->dt + spin[d];
-        sum->first += mass(w, i) * v[d] * (w->particles.u[i * w->dim + d] - k->u0[i * w->dim + d] - k->dt * w->g[d]);
+        sum[0] += mass(w, i) * v[d] * (w->particles.u[i * w->dim + d] - k->u0[i * w->dim + d] - k->dt * w->g[d]);
     }
 }
 
@@ -87,29 +103,29 @@ double mps__budget_wall_work(const mps__world *w, const mps__pose *end, const do
     tank_move k = {.dt = dt, .omega = end->omega, .u0 = u0};
     mps__motion_point(&w->motion, &w->motion.now, w->motion.centre, k.c0, NULL, NULL);
     mps__motion_point(&w->motion, end, w->motion.centre, k.c1, NULL, NULL);
-    return sum_fluid(w, wall_work_term, &k).first;
+    return sum_kind(w, MPS_FLUID, wall_work_term, &k).of[0];
 }
 
-static void lift_term(const mps__world *w, const void *data, int64_t i, pair_of_sums *sum)
+static void lift_term(const mps__world *w, const void *data, int64_t i, double *sum)
 {
-    sum->first += mass(w, i) * mps__dot(w->g, (const double *)data + i * w->dim, w->dim);
+    sum[0] += mass(w, i) * mps__dot(w->g, (const double *)data + i * w->dim, w->dim);
 }
 
 double mps__budget_lift(const mps__world *w, const double *dx)
 {
-    return sum_fluid(w, lift_term, dx).first;
+    return sum_kind(w, MPS_FLUID, lift_term, dx).of[0];
 }
 
-static void deviation_term(const mps__world *w, const void *data, int64_t i, pair_of_sums *sum)
+static void deviation_term(const mps__world *w, const void *data, int64_t i, double *sum)
 {
     (void)data;
     if (w->particles.region[i] > MPS_REGION_SECOND) return;
-    sum->first += w->work.volume[i];
-    sum->second += 1;
+    sum[0] += w->work.volume[i];
+    sum[1] += 1;
 }
 
 double mps__budget_mean_deviation(const mps__world *w)
 {
-    const pair_of_sums sum = sum_fluid(w, deviation_term, NULL);
-    return sum.second > 0 ? sum.first / sum.second : 0;
+    const sums s = sum_kind(w, MPS_FLUID, deviation_term, NULL);
+    return s.of[1] > 0 ? s.of[0] / s.of[1] : 0;
 }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Energies, mass, volume and momentum of the fluid. */
+/* Energies, mass, volume and momentum of the fluid, and the budgets of energy and momentum. */
 #include "budget.h"
 #include "probes.h"
+#include <string.h>
 
 static void bulk_sums(const mps__world *w, mps_energy *e)
 {
@@ -12,10 +13,7 @@ static void bulk_sums(const mps__world *w, mps_energy *e)
         if (s->kind[i] != MPS_FLUID) continue;
         double mass = s->rho[i] * volume;
         e->mass += mass;
-        for (int32_t d = 0; d < w->dim; d++) {
-            e->centre[d] += mass * s->x[i * w->dim + d];
-            e->momentum[d] += mass * s->u[i * w->dim + d];
-        }
+        for (int32_t d = 0; d < w->dim; d++) e->centre[d] += mass * s->x[i * w->dim + d];
         count++;
     }
     e->volume = volume * (double)count;
@@ -28,10 +26,24 @@ mps_status mps__energy_measure(mps__world *w, mps_energy *e)
     const mps__budget *b = &w->budget;
     *e = (mps_energy){
         .struct_size = sizeof *e, .wall_work = b->wall_work, .viscous = b->viscous, .collision = b->collision, .shift = b->shift};
-    mps__budget_sum(w, &e->kinetic, &e->potential);
+    mps__bulk bulk;
+    mps__budget_sum(w, &bulk);
+    e->kinetic = bulk.kinetic;
+    e->potential = bulk.potential;
+    memcpy(e->momentum, bulk.momentum, sizeof e->momentum);
     bulk_sums(w, e);
     if (b->started) e->numerical = e->wall_work - e->viscous - e->collision - e->shift - (e->kinetic + e->potential - b->start);
     e->volume /= 1.0 + b->deviation;
     e->volume_error = b->deviation_start - b->deviation;
     return MPS_OK;
+}
+
+void mps__momentum_measure(const mps__world *w, mps_momentum *m)
+{
+    mps__bulk bulk;
+    mps__budget_sum(w, &bulk);
+    *m = w->budget.momentum;
+    m->struct_size = sizeof *m;
+    memcpy(m->total, bulk.momentum, sizeof m->total);
+    for (int d = 0; d < w->dim; d++) m->numerical[d] = m->pressure[d] - m->walls[d];
 }

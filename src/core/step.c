@@ -16,7 +16,8 @@ typedef struct step_state {
     mps__pose pose; /* of the tank at the end of the step */
     mps_step_info info;
     mps__budget budget;
-    double clock; /* beginning of the present stage */
+    double momentum[3]; /* of the prediction */
+    double clock;       /* beginning of the present stage */
     bool not_converged;
     bool no_memory; /* a verb got no scratch */
 } step_state;
@@ -272,6 +273,37 @@ static mps_status look_around(step_state *q)
     return MPS_OK;
 }
 
+/* What force models and gravity are about to do. */
+static void note_forces(step_state *q)
+{
+    const mps_stage *s = &q->stage;
+    mps_momentum *m = &q->budget.momentum;
+    mps__push push;
+    mps__budget_push(q->w, q->w->work.a, s->dt, &push);
+    q->budget.viscous -= push.energy;
+    for (int d = 0; d < s->dim; d++) {
+        const double weight = push.mass * s->dt * s->g[d];
+        m->force[d] += push.impulse[d];
+        m->gravity[d] += weight;
+        q->momentum[d] = push.momentum[d] + push.impulse[d] + weight;
+    }
+}
+
+/* What the new pressures have done; `bulk` takes the state they left. */
+static void note_pressure(step_state *q, mps__bulk *bulk)
+{
+    mps__world *w = q->w;
+    mps_momentum *m = &q->budget.momentum;
+    double force[3];
+    q->budget.wall_work += mps__budget_wall_work(w, &q->pose, w->work.u0, q->stage.dt);
+    mps__budget_sum(w, bulk);
+    mps__budget_wall_force(w, force);
+    for (int d = 0; d < w->dim; d++) {
+        m->pressure[d] += bulk->momentum[d] - q->momentum[d];
+        m->walls[d] += q->stage.dt * force[d];
+    }
+}
+
 /* u* = u + dt (a + g). Z14 (9). The power of a is what force models dissipate. */
 static mps_status predict(step_state *q)
 {
@@ -279,7 +311,7 @@ static mps_status predict(step_state *q)
     mps__work *k = &q->w->work;
     mps__zero(k->a, s->n * s->dim, s->threads);
     EACH_MODEL(q, force, s, k->a);
-    q->budget.viscous -= mps__budget_power(q->w, k->a, s->dt);
+    note_forces(q);
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++)
         if (s->kind[i] == MPS_FLUID)
@@ -364,17 +396,20 @@ static mps_status correct(step_state *q)
     EACH_MODEL(q, gradient, s, k->a);
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n * s->dim; i++) s->u[i] += s->kind[i / s->dim] == MPS_FLUID ? s->dt * k->a[i] : 0;
-    q->budget.wall_work += mps__budget_wall_work(w, &q->pose, k->u0, s->dt);
-    double before, after, potential;
-    mps__budget_sum(w, &before, &potential);
+    mps__bulk pushed, collided, shifted;
+    note_pressure(q, &pushed);
     EACH_MODEL(q, velocity, s);
-    mps__budget_sum(w, &after, &potential);
-    q->budget.collision += before - after;
+    mps__budget_sum(w, &collided);
+    q->budget.collision += pushed.kinetic - collided.kinetic;
     double *const dx = k->a; /* the accelerations are done with */
     mps__zero(dx, s->n * s->dim, s->threads);
     EACH_MODEL(q, shift, s, dx);
-    mps__budget_sum(w, &before, &potential);
-    q->budget.shift += after - before + mps__budget_lift(w, dx);
+    mps__budget_sum(w, &shifted);
+    q->budget.shift += collided.kinetic - shifted.kinetic + mps__budget_lift(w, dx);
+    for (int d = 0; d < s->dim; d++) {
+        q->budget.momentum.collision[d] += collided.momentum[d] - pushed.momentum[d];
+        q->budget.momentum.shift[d] += shifted.momentum[d] - collided.momentum[d];
+    }
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         double *x = w->particles.x + i * s->dim;
@@ -487,9 +522,9 @@ static mps_status try_step(step_state *q, double dt_max, double *planned)
     MPS__TRY(mps__motion_pose(&w->motion, w->info.t + q->stage.dt, &q->pose));
     q->budget = w->budget;
     if (!q->budget.started) {
-        double kinetic, potential;
-        mps__budget_sum(w, &kinetic, &potential);
-        q->budget.start = kinetic + potential;
+        mps__bulk bulk;
+        mps__budget_sum(w, &bulk);
+        q->budget.start = bulk.kinetic + bulk.potential;
     }
     return run_stages(q);
 }

@@ -10,14 +10,16 @@
 #include <mps/operators.h>
 #include "particles.h"
 #include "ppe.h"
+#include <mps/probe.h>
 #include <mps/step.h>
 
 enum { MPS__SCRATCH = 16 };
 
-/* Energies since creation [J]; see mps_energy. */
+/* Energies [J] and impulses since creation; see mps_energy and mps_momentum. */
 typedef struct mps__budget {
     double wall_work, viscous, collision, shift;
     double start;                      /* kinetic + potential before the first step */
+    mps_momentum momentum;             /* but for its `total` and `numerical` */
     double deviation, deviation_start; /* mean volume deviation of regions INNER and SECOND in the last step and the first */
     bool started;
 } mps__budget;

@@ -254,6 +254,17 @@ AT(mps_energy, volume_error, 80);
 AT(mps_energy, centre, 88);
 AT(mps_energy, momentum, 112);
 
+SIZE(mps_momentum, 200);
+AT(mps_momentum, struct_size, 0);
+AT(mps_momentum, total, 8);
+AT(mps_momentum, gravity, 32);
+AT(mps_momentum, force, 56);
+AT(mps_momentum, pressure, 80);
+AT(mps_momentum, walls, 104);
+AT(mps_momentum, numerical, 128);
+AT(mps_momentum, collision, 152);
+AT(mps_momentum, shift, 176);
+
 SIZE(mps_config, 192);
 AT(mps_config, struct_size, 0);
 AT(mps_config, dim, 4);

@@ -89,7 +89,7 @@ refused '--out /dev/null/x: Not a directory' static_tank --out /dev/null/x
 columns() { # driver, dp, fluid particles, header wanted, options...
     runs 0 "$1" --dp "$2" --t-end 0.02 --frames 2 --out "$1" --quiet "${@:5}"
     [ -s log ] && fail "$1 --quiet says: $(cat log)"
-    has "$1" probes.csv steps.csv summary.json frames.pvd picture_1.png picture_end.png plot_energy.svg plot_dt.svg plot_ppe.svg report.html
+    has "$1" probes.csv momentum.csv steps.csv summary.json frames.pvd picture_1.png picture_end.png plot_energy.svg plot_momentum_x.svg plot_momentum_y.svg plot_dt.svg plot_ppe.svg report.html
     local header
     header=$(head -1 "$1/probes.csv")
     case $header in "$4"*) ;; *) fail "$1/probes.csv begins $header" ;; esac

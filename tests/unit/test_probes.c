@@ -127,6 +127,50 @@ static void energy_budget(void **state)
     mps_sim_destroy(sim);
 }
 
+static void momentum(mps_sim *sim, mps_momentum *m)
+{
+    assert_int_equal(mps_momentum_init(m, sizeof *m), MPS_OK);
+    ASSERT_OK(sim, mps_momentum_get(sim, m));
+    assert_int_equal(m->struct_size, sizeof *m);
+}
+
+/* Everything that changes the momentum is in the budget, in a tank that is shaken. */
+static void momentum_budget(void **state)
+{
+    (void)state;
+    mps_sim *sim = filled(2, 0.1);
+    const mps_harmonic surge = {.dof = MPS_SURGE, .amplitude = 0.02, .omega = 20};
+    mps_momentum start, m;
+    ASSERT_OK(sim, mps_motion_set_harmonics(sim, 1, &surge));
+    momentum(sim, &start);
+    for (int k = 0; k < 60; k++) assert_true(mps_step(sim, 1, NULL) >= 0);
+    momentum(sim, &m);
+    for (int d = 0; d < 2; d++) {
+        const double sum = start.total[d] + m.gravity[d] + m.force[d] + m.pressure[d] + m.collision[d] + m.shift[d];
+        ASSERT_NEAR(m.total[d], sum, 1e-9 * fabs(m.gravity[1]));
+        ASSERT_NEAR(m.numerical[d], m.pressure[d] - m.walls[d], 1e-12);
+    }
+    assert_true(fabs(m.total[0]) > 0.1 && m.gravity[0] == 0 && m.gravity[1] < 0);
+    assert_true(m.walls[0] * m.pressure[0] > 0);
+    ASSERT_REFUSED(sim, mps_momentum_get(sim, NULL), MPS_E_ARG, "NULL");
+    assert_int_equal(mps_momentum_get(NULL, &m), MPS_E_ARG);
+    mps_sim_destroy(sim);
+}
+
+/* At rest the floor carries the weight, and that of the half cells that the side walls stand for. */
+static void momentum_at_rest(void **state)
+{
+    (void)state;
+    mps_sim *sim = filled(2, 0.1);
+    mps_momentum m;
+    for (int k = 0; k < 60; k++) assert_true(mps_step(sim, 1, NULL) >= 0);
+    momentum(sim, &m);
+    ASSERT_NEAR(m.walls[1], -m.gravity[1] * 0.4 / 0.39, 0.004 * fabs(m.gravity[1]));
+    ASSERT_NEAR(m.total[1], 0, 1e-3 * fabs(m.gravity[1]));
+    ASSERT_NEAR(m.walls[0], 0, 1e-3 * fabs(m.gravity[1]));
+    mps_sim_destroy(sim);
+}
+
 /* ---- refusals ---- */
 
 static void refusals(void **state)
@@ -177,6 +221,8 @@ int main(void)
         cmocka_unit_test(force_turns_with_the_tank),
         cmocka_unit_test(energies_of_a_block),
         cmocka_unit_test(energy_budget),
+        cmocka_unit_test(momentum_budget),
+        cmocka_unit_test(momentum_at_rest),
         cmocka_unit_test(refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
