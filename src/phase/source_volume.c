@@ -14,14 +14,19 @@
  * a short one feeds them. What an impact compressed by per cents has to come back before the next: beyond `firm` the time falls to tau_g.
  * Gas that is torn or piled up by tens of per cents (`torn`) comes back in dt/`rapid`.
  *
- * Beside another density velocities of neighbours count by mass: the face between water and air moves with the water. */
+ * Beside another density velocities of neighbours count by mass: the face between water and air moves with the water, and so does what
+ * stands before a wall that both touch.
+ *
+ * A velocity that must go within a step takes a pressure ~ 1/dt. Gas squeezed out of a closing gap is ten times as fast as the water that
+ * drives it, and makes the steps as short; so `pace` lets the denser fluids ask, in each step, for the share only that the step is of the
+ * one their own speed would allow. Their pressures are then those of steps of that length. */
 #include "builtin.h"
 #include <stdbool.h>
 
-enum { TAU, CLIP, STRAIN, GAIN, FIRM, RAPID, TORN, FORWARD };
-static const mps_setting settings[] = {{"tau", 20.0, 0.1, 1e6},    {"clip", 0.1, 0.0, 1.0},   {"strain", 1.0, 0.0, 1.0},
-                                       {"gain", 0.7, 0.05, 1.0},   {"firm", 0.03, 1e-3, 1.0}, {"rapid", 0.0, 0.0, 1.0},
-                                       {"torn", 0.15, 1e-3, 10.0}, {"forward", 0.0, 0.0, 1.0}};
+enum { TAU, CLIP, STRAIN, GAIN, FIRM, RAPID, TORN, FORWARD, PACE };
+static const mps_setting settings[] = {{"tau", 20.0, 0.1, 1e6},    {"clip", 0.1, 0.0, 1.0},    {"strain", 1.0, 0.0, 1.0},
+                                       {"gain", 0.7, 0.05, 1.0},   {"firm", 0.03, 1e-3, 1.0},  {"rapid", 0.0, 0.0, 1.0},
+                                       {"torn", 0.15, 1e-3, 10.0}, {"forward", 0.0, 0.0, 1.0}, {"pace", 1.0, 0.0, 1.0}};
 
 /* delta of each fluid particle, never negative near the surface, where the kernel is cut. */
 static void volume_deviation(const double *k, const mps_stage *s, double *delta)
@@ -136,17 +141,36 @@ MPS__ROW double fluid_divergence(const int dim, const mps_stage *s, const double
     return sum - strain * s->dt * square;
 }
 
-/* Divergence of the half cell of a wall particle; weights as in its row of the pressure equation. */
+/* Kernel mean of the density of the fluid about a wall particle, exact for one phase; 0 without any fluid. */
+MPS__ROW double mean_density(const int dim, const mps_stage *s, int64_t i)
+{
+    const mps_stencil *t = s->near;
+    double rho = 0, sum = 0, weight = 0;
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        const int64_t j = t->col[p];
+        if (s->kind[j] != MPS_FLUID || s->region[j] >= MPS_REGION_SPRAY) continue;
+        const double w = mps_stencil_pair_dim(dim, t, i, p).w;
+        if (rho == 0) rho = s->density[j];
+        sum += w * (s->density[j] - rho);
+        weight += w;
+    }
+    return weight > 0 ? rho + sum / weight : rho;
+}
+
+/* Divergence of the half cell of a wall particle; weights as in its row of the pressure equation. Where water and gas share the cell, both
+ * count by mass: a gas that shoots along the wall would set the pressure of the water there. */
 MPS__ROW double wall_divergence(const int dim, const mps_stage *s, const double *v, int64_t i, double wall_factor)
 {
     const mps_stencil *t = s->near;
+    const double rho = mean_density(dim, s, i);
     double sum = 0;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         if (s->region[t->col[p]] >= MPS_REGION_SPRAY) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         double flux = 0;
         for (int d = 0; d < dim; d++) flux += (v[q.j * dim + d] - v[i * dim + d]) * q.d[d];
-        sum += q.w_r2 * flux * (s->kind[q.j] == MPS_WALL ? wall_factor * fmin(s->wet[i], s->wet[q.j]) : 1.0);
+        const double fluid = s->kind[q.j] == MPS_FLUID ? s->density[q.j] / rho : 1.0;
+        sum += q.w_r2 * flux * (s->kind[q.j] == MPS_WALL ? wall_factor * fmin(s->wet[i], s->wet[q.j]) : fluid);
     }
     return dim / t->n0 * sum;
 }
@@ -173,6 +197,38 @@ static inline double relaxation(const double *k, double delta, double most)
     return fmin((1.0 + square * square) / k[TAU], 1.0) + fmin(torn * torn, 1.0) * most;
 }
 
+/* Share of the source that a step asks for, by density: 1 for the lightest fluid, `heavy` for the heaviest. */
+typedef struct pacing {
+    double lightest, span, heavy;
+} pacing;
+
+static pacing set_pace(const mps_stage *s, double on)
+{
+    double lightest = INFINITY, heaviest = 0, dense = 0, any = 0;
+    for (int64_t i = 0; i < s->n; i++) {
+        if (s->kind[i] != MPS_FLUID) continue;
+        lightest = fmin(lightest, s->density[i]);
+        heaviest = fmax(heaviest, s->density[i]);
+    }
+    for (int64_t i = 0; i < s->n; i++) {
+        if (s->kind[i] != MPS_FLUID || s->region[i] >= MPS_REGION_SURFACE) continue;
+        double square = 0;
+        for (int d = 0; d < s->dim; d++) square += s->u[i * s->dim + d] * s->u[i * s->dim + d];
+        any = fmax(any, square);
+        if (s->density[i] > lightest) dense = fmax(dense, square);
+    }
+    const double calm = 0.2 / 0.06 * s->velocity_scale; /* below it a step is 0.06 tau_g, beyond it 0.2 dp/u */
+    const double share = fmax(sqrt(dense), calm) / fmax(sqrt(any), calm);
+    return (pacing){lightest, heaviest - lightest, heaviest > lightest ? 1.0 - on * (1.0 - share) : 1.0};
+}
+
+static inline double row_pace(const pacing *p, const mps_stage *s, int64_t i)
+{
+    if (p->heavy == 1.0) return 1.0;
+    const double rho = s->kind[i] == MPS_FLUID ? s->density[i] : s->density_smooth[i];
+    return 1.0 - (1.0 - p->heavy) * (rho - p->lightest) / p->span;
+}
+
 static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *terms)
 {
     (void)self;
@@ -182,6 +238,7 @@ static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *term
     const double strain = k[STRAIN] * (0.5 + k[FORWARD] * (1.0 / k[GAIN] - 1.0));
     terms->gain = k[GAIN];
     terms->radius = MPS_NEAR;
+    const pacing pace = set_pace(s, k[PACE]);
     volume_deviation(k, s, delta);
     relative_velocity(s, v);
     slip(s, v, w);
@@ -189,12 +246,13 @@ static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *term
     for (int64_t i = 0; i < s->n; i++) {
         for (int d = 0; d < s->dim; d++) terms->body[i * s->dim + d] += s->g[d] - s->tank_accel[i * s->dim + d];
         if (s->region[i] >= MPS_REGION_SURFACE) continue;
+        const double share = row_pace(&pace, s, i);
         if (s->kind[i] == MPS_FLUID) {
             const double mean = MPS__ROW_CALL(s, mean_deviation, s, delta, i);
-            const double back = rate * relaxation(k, mean, k[RAPID] / (s->dt * rate)) * mean;
-            terms->rhs[i] += over * (back - MPS__ROW_CALL(s, fluid_divergence, s, w, i, strain));
+            const double back = rate * relaxation(k, mean, share * k[RAPID] / (s->dt * rate)) * mean;
+            terms->rhs[i] += share * over * (back - MPS__ROW_CALL(s, fluid_divergence, s, w, i, strain));
         } else {
-            terms->rhs[i] -= over * MPS__ROW_CALL(s, wall_divergence, s, w, i, terms->wall_factor);
+            terms->rhs[i] -= share * over * MPS__ROW_CALL(s, wall_divergence, s, w, i, terms->wall_factor);
         }
     }
     return 0;
@@ -204,6 +262,6 @@ const mps_model_ops mps__source_volume = {.struct_size = sizeof(mps_model_ops),
                                           .api = MPS_MODEL_API,
                                           .name = "source.volume",
                                           .order = 500,
-                                          .setting_count = 8,
+                                          .setting_count = 9,
                                           .settings = settings,
                                           .source = source};

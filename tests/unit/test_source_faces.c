@@ -15,8 +15,8 @@ static cloud two_layers(int dim, double jitter, int32_t **phase)
     return c;
 }
 
-/* spy.rhs of the source alone, nothing relaxed; phase 1 is `ratio` times lighter. */
-static void source(const cloud *c, const int32_t *phase, double ratio, const double *u, double strain)
+/* spy.rhs of the source alone, nothing relaxed; phase 1 is `ratio` times lighter, `pace` how much of it phase 0 waits for. */
+static void source(const cloud *c, const int32_t *phase, double ratio, const double *u, double strain, double pace)
 {
     mps_sim *sim = bare_sim(c->dim, CLOUD_DP, 3.1, DT);
     set_phase(sim, 0, water, 0);
@@ -26,6 +26,7 @@ static void source(const cloud *c, const int32_t *phase, double ratio, const dou
     ASSERT_OK(sim, mps_model_use(sim, "source.volume"));
     ASSERT_OK(sim, mps_model_set(sim, "source", "clip", 0));
     ASSERT_OK(sim, mps_model_set(sim, "source", "strain", strain));
+    ASSERT_OK(sim, mps_model_set(sim, "source", "pace", pace));
     ASSERT_OK(sim, mps_step(sim, 1, NULL));
     mps_sim_destroy(sim);
 }
@@ -80,7 +81,7 @@ static void linear_flow(void **state)
             trace += A[d * dim + d];
             for (int e = 0; e < dim; e++) square += A[d * dim + e] * A[e * dim + d];
         }
-        source(&c, phase, ratio, u, 1);
+        source(&c, phase, ratio, u, 1, 0);
         for (int64_t i = 0; i < c.n; i++) {
             bool beside = false;
             if (!inside(&c, i) || !regular(&c, phase, ratio, i, &beside)) continue;
@@ -101,11 +102,11 @@ static double influence(int dim, double ratio, int moved, int whose)
     int32_t *phase;
     cloud c = two_layers(dim, 0.15, &phase);
     double *u = cloud_field(c.n * dim, 5), *rhs = cloud_doubles(c.n), most = 0;
-    source(&c, phase, ratio, u, 0);
+    source(&c, phase, ratio, u, 0, 0);
     memcpy(rhs, spy.rhs, (size_t)c.n * sizeof *rhs);
     for (int64_t i = 0; i < c.n; i++)
         for (int d = 0; d < dim && phase[i] == moved; d++) u[i * dim + d] = 3 * u[i * dim + d] + (d == 0 ? -5 : 2);
-    source(&c, phase, ratio, u, 0);
+    source(&c, phase, ratio, u, 0, 0);
     for (int64_t i = 0; i < c.n; i++)
         if (inside(&c, i) && phase[i] == whose) most = fmax(most, fabs(spy.rhs[i] - rhs[i]));
     cloud_free(&c);
@@ -138,16 +139,62 @@ static void equal_densities(void **state)
         int32_t *phase;
         cloud c = two_layers(dim, 0.15, &phase);
         double *u = cloud_field(c.n * dim, 5), *rhs = cloud_doubles(c.n);
-        source(&c, phase, 1, u, 1);
+        source(&c, phase, 1, u, 1, 0);
         memcpy(rhs, spy.rhs, (size_t)c.n * sizeof *rhs);
         memset(phase, 0, (size_t)c.n * sizeof *phase);
-        source(&c, phase, 1, u, 1);
+        source(&c, phase, 1, u, 1, 0);
         assert_memory_equal(rhs, spy.rhs, (size_t)c.n * sizeof *rhs);
         assert_true(fabs(rhs[c.n / 2]) > 1);
         cloud_free(&c);
         free(phase);
         free(u);
         free(rhs);
+    }
+}
+
+/* ---- pace of the denser fluid ------------------------------------------------------------------------------------------------ */
+
+/* Multiply the velocities of one phase. */
+static void speed_up(const cloud *c, const int32_t *phase, int of, double factor, double *u)
+{
+    for (int64_t k = 0; k < c->n * c->dim; k++)
+        if (phase[k / c->dim] == of) u[k] *= factor;
+}
+
+static double largest(const cloud *c, const int32_t *phase, int of, const double *u)
+{
+    double most = 0;
+    for (int64_t i = 0; i < c->n; i++) {
+        double square = 0;
+        for (int d = 0; d < c->dim; d++) square += u[i * c->dim + d] * u[i * c->dim + d];
+        if (phase[i] == of) most = fmax(most, sqrt(square));
+    }
+    return most;
+}
+
+/* Air that is faster than the water makes steps shorter by the ratio of speeds, beyond 10/3 sqrt(g dp): the water asks for that share of
+ * its source, the air for all of its own, whatever `pace` is. Water that is faster is not hurried. */
+static void water_keeps_its_pace(void **state)
+{
+    (void)state;
+    static const double factors[] = {0.2, 30, 300};
+    for (int k = 0; k < 6; k++) {
+        const int dim = 2 + k / 3;
+        const double calm = 10.0 / 3 * sqrt(9.81 * CLOUD_DP);
+        int32_t *phase;
+        cloud c = two_layers(dim, 0.15, &phase);
+        double *u = cloud_field(c.n * dim, 5), *full = cloud_doubles(c.n);
+        speed_up(&c, phase, 1, factors[k % 3], u);
+        source(&c, phase, 1000, u, 0, 0);
+        memcpy(full, spy.rhs, (size_t)c.n * sizeof *full);
+        source(&c, phase, 1000, u, 0, 1);
+        const double slow = fmax(largest(&c, phase, 0, u), calm), share = slow / fmax(fmax(slow, largest(&c, phase, 1, u)), calm);
+        assert_true(k % 3 == 0 ? share == 1 : share < 0.5);
+        for (int64_t i = 0; i < c.n; i++) ASSERT_NEAR(spy.rhs[i], (phase[i] == 0 ? share : 1) * full[i], 1e-9 * fabs(full[i]));
+        cloud_free(&c);
+        free(phase);
+        free(u);
+        free(full);
     }
 }
 
@@ -196,6 +243,7 @@ static void torn_volume(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(linear_flow), cmocka_unit_test(water_minds_water),
-                                       cmocka_unit_test(equal_densities), cmocka_unit_test(torn_volume)};
+                                       cmocka_unit_test(equal_densities), cmocka_unit_test(water_keeps_its_pace),
+                                       cmocka_unit_test(torn_volume)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
