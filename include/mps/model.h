@@ -63,7 +63,18 @@ typedef struct mps_stage {
     int32_t level_free;       /**< from `gradient` on, 1: nothing fixed the level of the pressures, their mean is 0; else 0 */
     double *
         capillary; /**< [n] sigma kappa: what a phase has more pressure than the other across an interface, written by classify; arrives 0 [Pa] */
+    double
+        *depth; /**< [n] distance from an interface between two densities, on the particle's own side, written by classify; arrives 0: not
+                        known [m] */
 } mps_stage;
+
+/** rho_ij of a pair of the pressure equation [kg/m3]: the mean along the line between both, by their distances from the interface;
+ *  (rho_i + rho_j)/2, W22 (17), where these are not known. */
+static inline double mps_stage_pair_density(const mps_stage *s, int64_t i, int64_t j)
+{
+    const double a = s->density_smooth[i], b = s->density_smooth[j], f = s->depth[i], h = s->depth[j];
+    return a == b || !(f > 0 && h > 0) ? 0.5 * (a + b) : (f * a + h * b) / (f + h);
+}
 
 /** The pressure equation: sum_j k_ij (p_i - p_j + q_ij) + gain (shift_i p_i + gas_i f(p_i)) = gain rhs_i [1/s2] over pairs of fluid and
  *  walls, with k_ij = 2D/(n0 lambda) W_ij/rho_ij and q_ij = rho_ij (b_i + b_j)/2 . r_ij, the difference p_j - p_i of a fluid that moves

@@ -2,6 +2,7 @@
 /* Assembly of the pressure equation, W22 (10)(16)(17): a row for every unknown, Dirichlet neighbours moved to the right side. */
 #include "ppe.h"
 #include <math.h>
+#include <mps/model.h>
 #include <mps/operators.h>
 #include <string.h>
 
@@ -74,12 +75,6 @@ static double complete_flux(const mps_stencil *t)
                 left += w * j;
             }
     return full / left;
-}
-
-/* Density of a pair, W22 (17). Walls have that of the fluid beside them. */
-static inline double pair_density(const mps_stage *s, int64_t i, int64_t j)
-{
-    return 0.5 * (s->density_smooth[i] + s->density_smooth[j]);
 }
 
 /* p_i - p_j by surface tension; solids belong to no phase. */
@@ -166,7 +161,7 @@ static inline __attribute__((always_inline)) void fill_row(const int dim, const 
         const double factor = pair_factor(a, i, a->pairs->col[k]);
         if (factor == 0) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, a->pairs, i, k);
-        const double rho = pair_density(s, i, q.j);
+        const double rho = mps_stage_pair_density(s, i, q.j);
         const float entry = (float)(a->c * factor * q.w / rho); /* the same from both sides, and in the diagonal */
         const double kij = (double)entry;
         double body = 0;

@@ -213,7 +213,8 @@ static void set_stage(step_state *q)
                            .host = q,
                            .density_smooth = k->density_smooth,
                            .tension = w->tension,
-                           .capillary = k->capillary};
+                           .capillary = k->capillary,
+                           .depth = k->depth};
     for (int p = 0; p < MPS__PHASES; p++) q->stage.phases += w->phase_defined[p];
     q->terms = (mps_ppe_terms){.struct_size = sizeof q->terms,
                                .radius = MPS_FAR,
@@ -262,7 +263,7 @@ static mps_status look_around(step_state *q)
         s->region[i] = s->kind[i] == MPS_DUMMY ? MPS_REGION_DRY : MPS_REGION_INNER;
         s->wet[i] = 1.0;
         s->density_smooth[i] = s->density[i];
-        s->capillary[i] = 0;
+        s->capillary[i] = s->depth[i] = 0;
         for (int d = 0; d < dim * dim; d++) s->correction[i * dim * dim + d] = d % (dim + 1) == 0;
     }
     EACH_MODEL(q, classify, s);

@@ -34,9 +34,9 @@ void mps__world_free(mps__world *w)
     mps__ppe_free(&w->ppe);
     mps__motion_free(&w->motion);
     mps__work *k = &w->work;
-    void *all[] = {k->fixed,      k->gone, k->volume, k->asymmetry, k->wet,   k->density_smooth, k->capillary, k->correction,
-                   k->tank_accel, k->area, k->a,      k->rhs,       k->shift, k->value,          k->body,      k->gas,
-                   k->law,        k->x0,   k->u0,     k->p0};
+    void *all[] = {k->fixed,      k->gone,       k->volume, k->asymmetry, k->wet, k->density_smooth, k->capillary, k->depth,
+                   k->correction, k->tank_accel, k->area,   k->a,         k->rhs, k->shift,          k->value,     k->body,
+                   k->gas,        k->law,        k->x0,     k->u0,        k->p0};
     for (size_t a = 0; a < sizeof all / sizeof all[0]; a++) mps__free(w->context, all[a]);
     for (int a = 0; a < MPS__SCRATCH; a++) mps__free(w->context, k->scratch[a]);
 }
@@ -248,6 +248,7 @@ static mps_status reserve_work(mps__world *w)
              {(void **)&k->wet, wanted, sizeof(double)},
              {(void **)&k->density_smooth, wanted, sizeof(double)},
              {(void **)&k->capillary, wanted, sizeof(double)},
+             {(void **)&k->depth, wanted, sizeof(double)},
              {(void **)&k->correction, wanted * dim * dim, sizeof(double)},
              {(void **)&k->tank_accel, wanted * dim, sizeof(double)},
              {(void **)&k->area, wanted * dim, sizeof(double)},

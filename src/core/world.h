@@ -29,7 +29,7 @@ typedef struct mps__work {
     int64_t capacity;
     int32_t *fixed;
     bool *gone; /* particles to be removed */
-    double *volume, *asymmetry, *wet, *density_smooth, *capillary, *correction, *tank_accel, *area, *a;
+    double *volume, *asymmetry, *wet, *density_smooth, *capillary, *depth, *correction, *tank_accel, *area, *a;
     double *rhs, *shift, *value, *body, *gas, *law;
     double *x0, *u0, *p0;
     double *scratch[MPS__SCRATCH]; /* blocks lent to verbs, kept from step to step */

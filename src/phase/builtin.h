@@ -16,7 +16,8 @@ extern const mps_model_ops mps__viscosity_laplacian, mps__dissipation_radial;
 extern const mps_model_ops mps__source_mixed, mps__source_volume;
 extern const mps_model_ops mps__gradient_conservative, mps__gradient_corrected;
 extern const mps_model_ops mps__collision_pair, mps__shift_tangential;
-extern const mps_model_ops mps__density_smooth, mps__viscosity_pair, mps__tension_csf, mps__tension_jump, mps__gradient_density;
+extern const mps_model_ops mps__density_smooth, mps__density_interface, mps__viscosity_pair, mps__tension_csf, mps__tension_jump,
+    mps__gradient_density;
 extern const mps_model_ops mps__gas_compressible, mps__gas_isentropic;
 
 /* Phases of mps_stage.viscosity. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Pressure gradient with B_i: G_i = D/n0 B_i sum w [(P_j - P_i)/rho_ij - b_ij.r_ij] r_ij over fluid and wet walls, b_ij.r_ij that of a fluid
- * that moves with the tank, rho_ij = (rho_i + rho_j)/2 as in W22 (18); a_i = -b - G_i with b = g - a_tank
+ * that moves with the tank, rho_ij as in the pressure equation; a_i = -b - G_i with b = g - a_tank
  * (gravity is in u* already). Surface particles see one side only: a second pass with 2 (P_j - P_i) - G_j.r_ij makes them second order. */
 #include "builtin.h"
 #include <stdbool.h>
@@ -12,17 +12,17 @@ static const mps_setting settings[] = {{"second_order", 0.0, 0.0, 1.0}};
 MPS__ROW void corrected(const int dim, const mps_stage *s, int64_t i, const double *first, double *g)
 {
     const mps_stencil *t = s->near;
-    const double *b = s->correction + i * dim * dim, *own = s->tank_accel + i * dim, rho = s->density_smooth[i], pi = s->p[i];
+    const double *b = s->correction + i * dim * dim, *own = s->tank_accel + i * dim, pi = s->p[i];
     double sum[3] = {0};
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         if (s->region[t->col[p]] >= MPS_REGION_SPRAY) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         double body = 0, slope = 0;
         for (int d = 0; d < dim; d++) body += 0.5 * (2.0 * s->g[d] - own[d] - s->tank_accel[q.j * dim + d]) * q.d[d];
-        const double mean = 0.5 * (rho + s->density_smooth[q.j]);
+        const double rho = mps_stage_pair_density(s, i, q.j);
         const bool across = s->phase[q.j] != s->phase[i] && s->kind[q.j] == MPS_FLUID;
         const double jump = across ? 0.5 * (s->capillary[i] - s->capillary[q.j]) : 0.0;
-        double difference = (s->p[q.j] - pi + jump) / mean - body;
+        double difference = (s->p[q.j] - pi + jump) / rho - body;
         if (first && s->kind[q.j] == MPS_FLUID) {
             for (int d = 0; d < dim; d++) slope += first[q.j * dim + d] * q.d[d];
             difference = 2.0 * difference - slope;

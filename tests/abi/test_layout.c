@@ -43,7 +43,7 @@ AT(mps_stl, scale, 16);
 AT(mps_stl, shift, 24);
 AT(mps_stl, container, 48);
 
-SIZE(mps_stage, 280);
+SIZE(mps_stage, 288);
 AT(mps_stage, struct_size, 0);
 AT(mps_stage, dim, 4);
 AT(mps_stage, threads, 8);
@@ -79,6 +79,7 @@ AT(mps_stage, density_smooth, 248);
 AT(mps_stage, tension, 256);
 AT(mps_stage, level_free, 264);
 AT(mps_stage, capillary, 272);
+AT(mps_stage, depth, 280);
 
 SIZE(mps_ppe_terms, 88);
 AT(mps_ppe_terms, struct_size, 0);
