@@ -67,6 +67,26 @@ static void disc_is_round(void **state)
     }
 }
 
+static int in_ellipse(void *user, const double *x)
+{
+    const disc *d = user; /* twice as long as high */
+    return hypot((x[0] - d->x) / sqrt(2.0), (x[1] - d->y) * sqrt(2.0)) < d->radius;
+}
+
+/* Ellipses of a bubble's size and flatness: 2 sqrt(pi area)/circumference is 0.9169. */
+static void ellipse_is_as_long(void **state)
+{
+    (void)state;
+    uint64_t seed = 5;
+    for (int k = 0; k < 12; k++) {
+        const disc d = {0.5 + dp * cloud_random(&seed), 0.4 + dp * cloud_random(&seed), (10.0 + k) * dp};
+        const contour c = contour_of(box_with(2, in_ellipse, d, 1, 0), 2);
+        const double circularity = 2 * sqrt(pi * c.area) / c.length;
+        print_message("ellipse of %d dp: circularity %+.4f\n", 10 + k, circularity - 0.9169);
+        assert_true(fabs(circularity - 0.9169) < 0.01);
+    }
+}
+
 static int under_a_line(void *user, const double *x)
 {
     const disc *d = user;
@@ -189,9 +209,9 @@ static void means_of_a_phase(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(disc_is_round),      cmocka_unit_test(line_is_straight),     cmocka_unit_test(no_line_in_one_phase),
-        cmocka_unit_test(cavity_is_measured), cmocka_unit_test(gaps_are_no_cavities), cmocka_unit_test(strays_are_counted),
-        cmocka_unit_test(means_of_a_phase),
+        cmocka_unit_test(disc_is_round),        cmocka_unit_test(ellipse_is_as_long), cmocka_unit_test(line_is_straight),
+        cmocka_unit_test(no_line_in_one_phase), cmocka_unit_test(cavity_is_measured), cmocka_unit_test(gaps_are_no_cavities),
+        cmocka_unit_test(strays_are_counted),   cmocka_unit_test(means_of_a_phase),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -17,7 +17,7 @@ typedef struct tank {
     mps__context context;
     mps__ppe e;
     int32_t kind[MOST], region[MOST], fixed[MOST];
-    double p[MOST], density[MOST], wet[MOST], rhs[MOST], shift[MOST], value[MOST], body[3 * MOST], gas[MOST], law[MOST];
+    double p[MOST], density[MOST], wet[MOST], depth[MOST], rhs[MOST], shift[MOST], value[MOST], body[3 * MOST], gas[MOST], law[MOST];
     mps_stage stage;
     mps_ppe_terms terms;
 } tank;
@@ -52,6 +52,7 @@ static void tank_init(tank *k, cloud c)
                            .region = k->region,
                            .wet = k->wet,
                            .density_smooth = k->density,
+                           .depth = k->depth,
                            .near = &k->near,
                            .far = &k->far};
     k->terms = (mps_ppe_terms){.struct_size = sizeof k->terms,
