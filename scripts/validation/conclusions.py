@@ -3,6 +3,7 @@
 
 Every function takes a Book, which finds runs, and yields Checks."""
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -168,14 +169,13 @@ def high_fill(book):
 # ---- shallow tank ------------------------------------------------------------------------------------------------------
 
 class Surface:
-    """Heights of the liquid over place and time, from the frames of a run."""
+    """Heights of the liquid over place and time, from the frames of a run: `h` smoothed over 50 mm, and `left` as it is beside the left wall."""
 
-    def __init__(self, o, columns=60):
-        rows = []
-        for t, path in fr.times(o.folder):
-            self.x, h = fr.heights(fr.Frame(t, path), o.dp, columns)
-            rows.append((t, m.running_mean(self.x, h, 5 * WIDTH / columns)))
-        self.t, self.h = np.array([t for t, _ in rows]), np.array([h for _, h in rows])
+    def __init__(self, folder, dp, columns=60):
+        rows = [(t, *fr.heights(fr.Frame(t, path), dp, columns)) for t, path in fr.times(folder)]
+        self.x, self.t = rows[0][1], np.array([row[0] for row in rows])
+        self.left = np.array([row[2][0] for row in rows])
+        self.h = np.array([m.running_mean(self.x, row[2], 5 * WIDTH / columns) for row in rows])
 
     def crests(self, i, least=0.1 * SHALLOW):
         """Places of the maxima of one frame that stand out by `least` on both sides."""
@@ -229,28 +229,35 @@ def second(s):
 
 
 def run_up(s):
-    """When the liquid stands highest at the left wall."""
-    about = np.flatnonzero(np.abs(s.t - RUN_UP) <= 0.5)
-    if not len(about):
-        return False, "not reached"
-    i = about[np.argmax(s.h[about, 0])]
-    return abs(s.t[i] - RUN_UP) <= REACH, f"{s.t[i]:.2f} s: {1e3 * s.h[i, 0]:.0f} mm at the left wall"
+    """A time about 7.85 s at which the liquid stands highest at the left wall, higher than before and after."""
+    there = [i for i in s.frames(RUN_UP) if s.left[i] == s.left[max(0, i - 2):i + 3].max() and s.left[i] > 1.5 * SHALLOW]
+    if not there:
+        return False, "no run-up"
+    i = max(there, key=lambda i: s.left[i])
+    return True, f"{s.t[i]:.2f} s: {1e3 * s.left[i]:.0f} mm at the left wall, {s.left[i] / SHALLOW:.1f} times the depth"
+
+
+@cache
+def surface(folder, dp):
+    return Surface(folder, dp)
 
 
 def low_fill(book):
     says = {standing: "2.75 s: a standing wave", travelling: "4.80 s: a travelling crest", second: "6.10 s: a second crest",
             run_up: "7.85 s: run-up and breaking at the left wall"}
-    runs = [(name, o, Surface(o)) for name, o in (("imps", book.get("low_fill_flow")), ("mmps", book.get("low_fill_flow_air"))) if o and fr.times(o.folder)]
+    runs = [(name, o, surface(o.folder, o.dp)) for name, o in (("imps", book.get("low_fill_flow")), ("mmps", book.get("low_fill_flow_air")))
+            if o and fr.times(o.folder)]
     for measure, text in says.items():
         if not runs:
             yield from missing(text)
-        for name, o, surface in runs:
-            good, found = measure(surface)
+        for name, o, heights in runs:
+            good, found = measure(heights)
             yield Check(f"`{name}`: {text}", f"dp {o.dp:g}: {found}", bool(good))
 
 
 # ---- breaking wave -----------------------------------------------------------------------------------------------------
 
+@cache
 def outlines_apart(one, two):
     """[(t, greatest, 95 %, mean distance in spacings)] of the outlines of two runs in frames of the same time."""
     rows, other = [], fr.times(two.folder)

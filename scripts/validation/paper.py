@@ -141,7 +141,7 @@ def low_fill_figures(book, folder):
     panels = []
     for name, o in of_models(book, imps=("low_fill_flow", None), mmps=("low_fill_flow_air", None)):
         if fr.times(o.folder):
-            s = c.Surface(o)
+            s = c.surface(o.folder, o.dp)
             panels.append((f"{name}, dp {o.dp:g}", s.x, s.t, 1e3 * s.h, (c.STANDING, c.TRAVELLING, c.SECOND, c.RUN_UP)))
     if plots.maps(folder / "paper_low_fill_waves.png", panels, "depth [mm]"):
         yield "paper_low_fill_waves.png"

@@ -158,7 +158,7 @@ def save_picture(figure, path):
     for dpi in (110, 95, 80, 65, 50):
         buffer = BytesIO()
         figure.savefig(buffer, format="png", dpi=dpi)
-        Image.open(buffer).convert("RGB").quantize(48, dither=Image.Dither.NONE).save(path, optimize=True)
+        Image.open(buffer).convert("RGB").quantize(64, dither=Image.Dither.NONE).save(path, optimize=True)
         if path.stat().st_size <= LARGEST_PICTURE:
             break
     plt.close(figure)
@@ -187,13 +187,13 @@ def flow(path, rows, window):
 
 
 def maps(path, panels, label):
-    """Values over place and time, one panel beside the other: (title, x, t, values[t][x]), with marks (t, text) on the left."""
+    """Values over place and time, one panel beside the other: (title, x, t, values[t][x], times marked by a line)."""
     if not panels:
         return False
-    figure, grid = plt.subplots(1, len(panels), figsize=(4.5 * len(panels), 5.2), squeeze=False, sharey=True)
-    largest = max(np.nanpercentile(values, 99.5) for _, _, _, values, _ in panels)
+    figure, grid = plt.subplots(1, len(panels), figsize=(4.5 * len(panels), 5.2), squeeze=False, sharey=True, layout="constrained")
+    least, largest = np.nanpercentile(np.concatenate([values.ravel() for _, _, _, values, _ in panels]), (0.5, 99.5))
     for axes, (title, x, t, values, marks) in zip(grid[0], panels):
-        image = axes.pcolormesh(x, t, values, vmin=0, vmax=largest, cmap="YlGnBu", shading="nearest", rasterized=True)
+        image = axes.pcolormesh(x, t, values, vmin=least, vmax=largest, cmap="YlGnBu", shading="nearest", rasterized=True)
         for mark in marks:
             axes.axhline(mark, color="#c03020", linewidth=0.6)
         axes.set_title(title)
