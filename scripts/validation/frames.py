@@ -99,11 +99,11 @@ def points(lines, step):
 
 
 def apart(one, two):
-    """Of two sets of points, how far those of either are from the other: all of them."""
+    """Of two sets of points: x of all of them and how far each is from the other set."""
     if not len(one) or not len(two):
-        return np.array([np.nan])
+        return np.array([np.nan]), np.array([np.nan])
     distance = np.hypot(one[:, None, 0] - two[None, :, 0], one[:, None, 1] - two[None, :, 1])
-    return np.concatenate([distance.min(axis=1), distance.min(axis=0)])
+    return np.concatenate([one[:, 0], two[:, 0]]), np.concatenate([distance.min(axis=1), distance.min(axis=0)])
 
 
 def heights(frame, dp, columns=120):

@@ -113,15 +113,15 @@ def taylor_figures(book, folder):
         yield "paper_taylor_flow.png"
 
 
-def side_by_side(book, folder, file, cases, at, window):
-    """Frames of a case without and with gas beside each other, one row a time; over the second the outline of the first."""
-    one, two = (book.get(case) for case in cases)
+def side_by_side(book, folder, file, cases, at, window, one_row=False):
+    """Frames of a case without and with gas beside each other, one row a time or all in one; over the second the outline of the first."""
+    one, two = book.pair(*cases)
     rows = []
     for t in at:
         a, b = (fr.near(o.folder, t) if o else None for o in (one, two))
         rows.append([(f"{name}, {t:.2f} s", frame, o.dp, lines) for name, o, frame, lines in (
             ("imps", one, a, ()), ("mmps; line: imps", two, b, fr.outline(a, one.dp) if a else ())) if o])
-    if plots.flow(folder / file, rows, window):
+    if plots.flow(folder / file, [sum(rows, [])] if one_row else rows, window):
         yield file
 
 
@@ -133,7 +133,7 @@ def high_fill_figures(book, folder):
         panel.marks("FNPF", *zip(*points))
     if runs and plots.save(folder / "paper_high_fill.svg", [p, eta]):
         yield "paper_high_fill.svg"
-    yield from side_by_side(book, folder, "paper_high_fill_flow.png", ("high_fill_late", "high_fill_late_air"), (4.8, 5.8, 6.8), (0, 0.6))
+    yield from side_by_side(book, folder, "paper_high_fill_flow.png", ("high_fill_late", "high_fill_late_air"), (4.8, 6.8), (0, 0.6), True)
 
 
 def low_fill_figures(book, folder):
@@ -148,16 +148,16 @@ def low_fill_figures(book, folder):
 
 
 def breaking_figures(book, folder):
-    distance = Panel("greatest distance between the outlines of imps and mmps", "dp")
+    distance = Panel("distance between the outlines of imps and mmps off the walls, greatest", "dp", y_limits=(0, 8))
     for dp in (0.02, 0.01):
         one, two = book.get("breaking_start", None, dp), book.get("breaking_start_air", None, dp)
         if one and two and fr.times(one.folder) and fr.times(two.folder):
             rows = c.outlines_apart(one, two)
-            distance.curve(f"dp {dp:g}", rows[:, 0], rows[:, 1]).curve(f"dp {dp:g}, 95 % of it", rows[:, 0], rows[:, 2])
+            distance.curve(f"dp {dp:g}", rows[:, 0], rows[:, 2]).curve(f"dp {dp:g}, 95 % of all", rows[:, 0], rows[:, 3])
     distance.reference(f"{c.SAME} dp", [0, c.SAME_UNTIL], [c.SAME] * 2)
     if plots.save(folder / "paper_breaking_profiles.svg", [distance]):
         yield "paper_breaking_profiles.svg"
-    yield from side_by_side(book, folder, "paper_breaking_flow.png", ("breaking_start", "breaking_start_air"), (2.2, 2.3, 2.4, 2.5, 2.6), (0, 0.55))
+    yield from side_by_side(book, folder, "paper_breaking_flow.png", ("breaking_start", "breaking_start_air"), (2.2, 2.3, 2.4, 2.5), (0, 0.5))
     runs = [(f"{name}, dp {o.dp:g}", o) for name, case in (("imps", "breaking_start"), ("mmps", "breaking_start_air")) for o in book.all(case)]
     panels = [overlay(Panel(f"{p}, 2 ms mean", "Pa"), runs, lambda o, p=p: np.where(o.t > 0.05, m.running_mean(o.t, o[p], 0.002), np.nan)) for p in ("P1", "P3")]
     panels.append(overlay(Panel("air that is closed in", "cm2"), runs, lambda o: 1e4 * o["air_volume"]))

@@ -140,10 +140,10 @@ def draw_frame(axes, frame, dp, window, lines):
     """Particles as discs: liquid, what is about it, walls; lines over them. `window`: what is shown [m], from the floor's left end."""
     from matplotlib.collections import EllipseCollection
     (x0, y0), (x1, _) = frame.walls()
-    for particles, colour, size in ((frame.x[frame.kind == 1], SOLID, 1.0), (frame.particles(1), GAS, 0.8), (frame.particles(0), WATER, 0.9)):
+    for particles, colour, size in ((frame.x[frame.kind == 1], SOLID, 0.9), (frame.particles(1), GAS, 0.6), (frame.particles(0), WATER, 0.8)):
         if len(particles):
             axes.add_collection(EllipseCollection(size * dp, size * dp, 0, units="x", offsets=particles - (x0, y0), transOffset=axes.transData,
-                                                  facecolors=colour, linewidths=0))
+                                                  facecolors=colour, linewidths=0, antialiaseds=False))
     for line in lines:
         axes.plot(line[:, 0], line[:, 1], color="#c03020", linewidth=0.8)
     axes.set_xlim(-dp, x1 - x0 + dp)
@@ -155,7 +155,7 @@ def save_picture(figure, path):
     """Write a figure as PNG of few colours, with fewer pixels if the file gets too large."""
     from io import BytesIO
     from PIL import Image
-    for dpi in (110, 95, 80, 65, 50):
+    for dpi in (130, 110, 95, 80, 65, 50):
         buffer = BytesIO()
         figure.savefig(buffer, format="png", dpi=dpi)
         Image.open(buffer).convert("RGB").quantize(64, dither=Image.Dither.NONE).save(path, optimize=True)
@@ -173,7 +173,7 @@ def flow(path, rows, window):
     (x0, _), (x1, _) = first.walls()
     columns = max(len(row) for row in rows)
     wide = 9.0 / columns
-    figure, grid = plt.subplots(len(rows), columns, figsize=(9.0, len(rows) * (wide * (window[1] - window[0]) / (x1 - x0) + 0.25)), squeeze=False)
+    figure, grid = plt.subplots(len(rows), columns, figsize=(9.0, len(rows) * (wide * (window[1] - window[0]) / (x1 - x0) + 0.3)), squeeze=False)
     for axes in grid.ravel():
         axes.set_axis_off()
     for r, row in enumerate(rows):
@@ -181,7 +181,7 @@ def flow(path, rows, window):
             axes.set_title(title)
             if frame:
                 draw_frame(axes, frame, dp, window, lines)
-    figure.tight_layout(pad=0.4)
+    figure.tight_layout(pad=0.6)
     save_picture(figure, path)
     return True
 
