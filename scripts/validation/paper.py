@@ -167,6 +167,8 @@ def breaking_figures(book, folder):
 
 SECTIONS = {"static": (c.static, static_figures), "rayleigh_taylor": (c.rayleigh_taylor, taylor_figures), "high_fill": (c.high_fill, high_fill_figures),
             "low_fill": (c.low_fill, low_fill_figures), "breaking": (c.breaking, breaking_figures)}
+TITLES = {"static": "Two fluids at rest", "rayleigh_taylor": "Rayleigh-Taylor instability", "high_fill": "Half-full tank", "low_fill": "Shallow tank",
+          "breaking": "Breaking wave"}
 
 
 def checks_table(checks):
@@ -177,7 +179,7 @@ def overview(found):
     rows = []
     for name, checks in found.items():
         verdicts = [check.verdict().split(",")[0] for check in checks]
-        rows.append([f"[{name.replace('_', ' ')}](#{name.replace('_', '-')})"] + [verdicts.count(v) or "" for v in (c.CONFIRMED, c.NOT_CONFIRMED, c.NOT_RUN)])
+        rows.append([f"[{TITLES[name]}](#{TITLES[name].lower().replace(' ', '-')})"] + [verdicts.count(v) or "" for v in (c.CONFIRMED, c.NOT_CONFIRMED, c.NOT_RUN)])
     return table(["case", c.CONFIRMED, c.NOT_CONFIRMED, c.NOT_RUN], rows)
 
 
