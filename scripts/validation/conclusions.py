@@ -177,6 +177,7 @@ class Surface:
     """Heights of the liquid over place and time, from the frames of a run: `h` smoothed over 50 mm, and `left` as it is beside the left wall."""
 
     def __init__(self, folder, dp, columns=60):
+        self.folder, self.dp = folder, dp
         rows = [(t, *fr.heights(fr.Frame(t, path), dp, columns)) for t, path in fr.times(folder)]
         self.x, self.t = rows[0][1], np.array([row[0] for row in rows])
         self.left = np.array([row[2][0] for row in rows])
@@ -242,6 +243,13 @@ def run_up(s):
     return True, f"{s.t[i]:.2f} s: {1e3 * s.left[i]:.0f} mm at the left wall, {s.left[i] / SHALLOW:.1f} times the depth"
 
 
+def breaks(s):
+    """An outline that overhangs by a spacing or more in the left half about 7.85 s."""
+    there = [(fr.overhang(fr.outline(fr.near(s.folder, s.t[i]), s.dp), WIDTH / 2), s.t[i]) for i in s.frames(RUN_UP)]
+    most, t = max(there, default=(0.0, np.nan))
+    return most >= s.dp, f"outlines overhang by {most / s.dp:.1f} dp at most, at {t:.2f} s"
+
+
 @cache
 def surface(folder, dp):
     return Surface(folder, dp)
@@ -249,7 +257,7 @@ def surface(folder, dp):
 
 def low_fill(book):
     says = {standing: "2.75 s: a standing wave", travelling: "4.80 s: a travelling crest", second: "6.10 s: a second crest",
-            run_up: "7.85 s: run-up and breaking at the left wall"}
+            run_up: "7.85 s: run-up at the left wall", breaks: "... where it breaks"}
     runs = [(name, o, surface(o.folder, o.dp)) for name, o in (("imps", book.get("low_fill_flow")), ("mmps", book.get("low_fill_flow_air")))
             if o and fr.times(o.folder)]
     for measure, text in says.items():
@@ -257,7 +265,7 @@ def low_fill(book):
             yield from missing(text)
         for name, o, heights in runs:
             good, found = measure(heights)
-            yield Check(f"`{name}`: {text}", f"dp {o.dp:g}: {found}", bool(good))
+            yield Check(f"`{name}`: {text}", f"dp {o.dp:g}: {found}", bool(good), "six particles of depth do not resolve that" if measure is breaks else "")
 
 
 # ---- breaking wave -----------------------------------------------------------------------------------------------------

@@ -106,6 +106,15 @@ def apart(one, two):
     return np.concatenate([one[:, 0], two[:, 0]]), np.concatenate([distance.min(axis=1), distance.min(axis=0)])
 
 
+def overhang(lines, until=np.inf):
+    """How far outlines turn back along x [m], left of `until`: a wave that breaks."""
+    most = 0.0
+    for line in lines:
+        x = line[:, 0] if line[-1, 0] > line[0, 0] else line[::-1, 0]
+        most = max(most, (np.maximum.accumulate(x) - x)[x < until].max(initial=0.0))
+    return most
+
+
 def heights(frame, dp, columns=120):
     """Depth of the liquid at places between the walls, drops left out: highest point of the outline there, less half a spacing, which is the
     height of the highest row."""
