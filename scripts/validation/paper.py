@@ -95,7 +95,7 @@ def interface_lines(refs, t):
     if not path or not path.exists():
         return []
     blocks = [block.split() for block in path.read_text().split("\n\n")]
-    return [np.array(block, float).reshape(-1, 2) for block in blocks if block]
+    return [np.array(block, float).reshape(-1, 2) for block in blocks if len(block) == 4]
 
 
 def taylor_figures(book, folder):
