@@ -194,8 +194,9 @@ def write(page, docs):
         return "\n\n".join([checks_table(found[name]), *images])
 
     text = (HERE / "paper-cases.md.in").read_text(encoding="utf-8")
-    older = sorted(o.run.name for runs in book.runs.values() for o in runs if not o.current)
-    text = text.replace("@older@", f"Runs of drivers that have been built anew since: {', '.join(older)}." if older else "")
+    here = {case for rows in CASES.values() for case in rows.values()} | page.paper
+    older = sorted(o.run.name for runs in book.runs.values() for o in runs if not o.current and o.run.case in here)
+    text = text.replace("@older@", f"Built anew since these runs: the drivers of {', '.join(older)}." if older else "")
     text = text.replace("@overview@", overview(found)).replace("@models@", models_table(book)).replace("@failures@", failures_table(book))
     text = re.sub(r"@section (\w+)@", section, text)
     (docs / "paper-cases.md").write_text(text, encoding="utf-8")
