@@ -195,8 +195,9 @@ def write(page, docs):
 
     text = (HERE / "paper-cases.md.in").read_text(encoding="utf-8")
     here = {case for rows in CASES.values() for case in rows.values()} | page.paper
-    older = sorted(o.run.name for runs in book.runs.values() for o in runs if not o.current and o.run.case in here)
-    text = text.replace("@older@", f"Built anew since these runs: the drivers of {', '.join(older)}." if older else "")
+    used = [o for runs in book.runs.values() for o in runs if o.run.case in here]
+    older = sum(not o.current for o in used)
+    text = text.replace("@older@", f"{older} of {len(used)} runs are of drivers that have been built anew since.\n\n" if older else "")
     text = text.replace("@overview@", overview(found)).replace("@models@", models_table(book)).replace("@failures@", failures_table(book))
     text = re.sub(r"@section (\w+)@", section, text)
     (docs / "paper-cases.md").write_text(text, encoding="utf-8")
