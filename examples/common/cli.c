@@ -232,7 +232,8 @@ void cli_own(cli_options *o, cli_option option)
 void cli_parse(cli_options *o, int argc, char **argv)
 {
     cli_option table[CLI_OPTIONS];
-    o->two_phases = o->need || strncmp(o->model, "mmps", 4) == 0;
+    o->both_phases = strncmp(o->model, "mmps", 4) == 0;
+    o->two_phases = o->need || o->both_phases;
     int n = cli_table(o, table);
     for (int i = 1; i < argc; i++) cli_take(o, table, n, argc, argv, &i);
     if (o->dt > 0 && o->dt > o->t_end) cli_refuse(o, "--dt is longer than --t-end%s%s", "", "");

@@ -60,8 +60,9 @@ typedef struct cli_options {
     bool has_sigma;     /* the driver offers --sigma */
     bool sigma_given;   /* by the user */
     bool two_phases;    /* models of several phases suit the case; set by cli_parse(): they are its default, or it has a `need` */
+    bool both_phases;   /* the case has two phases whatever the model; set by cli_parse(): a model of several phases is its default */
     bool no_gas;        /* both phases are liquids: the model of the gas is switched off */
-    const char *need;   /* NULL, or "slot.variant" that a model of several phases gets where its slot is empty */
+    const char *need;   /* NULL, or "slot.variant" that every model gets where there are two phases and its slot is empty */
     const char *prefer; /* NULL, or "slot.key=value", set before --set where the model has it */
     int owns;           /* options of this driver alone */
     cli_option own[CLI_OWN];

@@ -77,7 +77,9 @@ static void run_suit_models(run *r)
     if (o->no_gas && run_has_model(r, "gas")) run_check(r, mps_model_remove(r->sim, "gas"), "models");
     if (o->gravity == 0 && run_has_model(r, "reference"))
         run_check(r, mps_model_remove(r->sim, "reference"), "models"); /* it asks where up is */
-    if (!o->need || !run_has_gas(r)) return;
+    else if (o->no_gas)
+        run_check(r, mps_model_use(r->sim, "reference.lid"), "models"); /* p = 0 atop the gas, as in the papers, is within the tank */
+    if (!o->need || !(o->both_phases || run_has_gas(r))) return;
     snprintf(slot, sizeof slot, "%.*s", (int)strcspn(o->need, "."), o->need);
     if (!run_has_model(r, slot)) run_check(r, mps_model_use(r->sim, o->need), "models");
 }

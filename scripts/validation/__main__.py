@@ -4,6 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
+import paper
 from cases import LEVELS, find, runs
 from page import Page, cell
 from results import GOOD, PASS, References
@@ -13,7 +14,7 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 
 
 def arguments():
-    p = argparse.ArgumentParser(prog="scripts/validate", description="Run the validation cases, compare them, write docs/validation.md and docs/plots.")
+    p = argparse.ArgumentParser(prog="scripts/validate", description="Run the validation cases, compare them, write docs/validation.md, docs/paper-cases.md and docs/plots.")
     p.add_argument("--no-install", action="store_true", help="do not install missing packages")
     p.add_argument("--data", metavar="DIR", help="folder with reference/ and theory/: series to compare with")
     p.add_argument("--jobs", type=int, default=1, metavar="N", help="drivers at a time, each on one thread (1)")
@@ -22,7 +23,7 @@ def arguments():
     p.add_argument("--resolutions", choices=LEVELS, default="standard", help="up to which spacing (standard)")
     p.add_argument("--examples", default=str(ROOT / "build/release/examples"), metavar="DIR", help="drivers that are built already")
     p.add_argument("--no-run", action="store_true", help="evaluate what is there")
-    p.add_argument("--docs", default=str(ROOT / "docs"), metavar="DIR", help="folder of validation.md and plots (docs)")
+    p.add_argument("--docs", default=str(ROOT / "docs"), metavar="DIR", help="folder of the pages and plots (docs)")
     p.add_argument("--no-page", action="store_true", help="print the figures, write no page")
     p.add_argument("--again", action="store_true", help="run also what is there already")
     p.add_argument("--list", action="store_true", help="list the runs and stop")
@@ -76,7 +77,8 @@ def main():
     show(page, options.cases)
     if not options.no_page:
         page.write(Path(options.docs))
-        say(f"\nwrote {options.docs}/validation.md and plots")
+        paper.write(page, Path(options.docs))
+        say(f"\nwrote {options.docs}/validation.md, paper-cases.md and plots")
     worse = list(worse_than_expected(page, options.cases))
     for text in worse:
         say(f"WORSE {text}")

@@ -33,7 +33,8 @@ class Run:
 @dataclass(frozen=True)
 class Case:
     """`spacings`: dp -> CPU minutes, coarsest first: of level coarse, standard, fine. `expected`: figures that reached their limit at the
-    coarsest dp, with some room, and must go on doing so. `others`: models tried at the coarsest dp to see how far they get."""
+    coarsest dp, with some room, and must go on doing so. `others`: models tried at the coarsest dp to see how far they get. `paper`: made for
+    docs/paper-cases.md alone, with frames."""
     name: str
     driver: str
     spacings: dict
@@ -42,6 +43,7 @@ class Case:
     levels: tuple = LEVELS
     others: tuple = ("imps.paper",)
     expected: tuple = ()
+    paper: bool = False
 
     def runs(self):
         for (dp, minutes), level in zip(self.spacings.items(), self.levels):
@@ -64,6 +66,8 @@ SURGE = ("crest 1, damped FNPF", "crest 1, damped FNPF, time", "crest 2, damped 
          "crest 2, undamped FNPF")
 BAFFLE = ("line of the spectrum at gauge a", "line of the spectrum at gauge c", "amplitude at gauge a / unbaffled", "amplitude at gauge c / unbaffled",
           "volume error [%]")
+TWO_PHASES = ("mmps.paper", "imps", "imps.paper")
+LOW_FILL, START = "--t-end 10 --frames 200 --pictures 2.75,4.8,6.1,7.85", "--t-end 3 --frames 30"
 
 CASES = [
     Case("static_tank", "static_tank", {0.02: 0.15, 0.01: 1, 0.005: 6}, e.static_tank, expected=STILL),
@@ -83,17 +87,26 @@ CASES = [
     Case("sloshing_baffle_3d", "sloshing_baffle_3d", {0.02: 6, 0.01: 80}, e.baffle_3d, options("--t-end 3"), ("coarse", "fine"),
          expected=("time reached",)),
     Case("baffle_3d_counts", "sloshing_baffle_3d", {0.005: 3}, e.baffle_3d_counts, options("--layers 1 --t-end 1e-5"), ("standard",), ()),
-    Case("static_two_fluid", "static_two_fluid", {0.02: 2, 0.01: 15}, ph.static_two_fluid, others=("mmps.paper", "imps")),
-    Case("rayleigh_taylor", "rayleigh_taylor", {0.025: 0.5, 0.0125: 3, 0.01: 6}, ph.rayleigh_taylor, others=("mmps.paper", "imps")),
-    Case("rising_bubble", "rising_bubble", {0.025: 0.5, 0.02: 1, 0.0125: 4}, ph.rising_bubble, others=("mmps.paper",)),
+    Case("static_two_fluid", "static_two_fluid", {0.02: 2, 0.01: 15}, ph.static_two_fluid, others=TWO_PHASES),
+    Case("rayleigh_taylor", "rayleigh_taylor", {0.025: 0.5, 0.0125: 3, 0.01: 6}, ph.rayleigh_taylor, others=TWO_PHASES),
+    Case("rising_bubble", "rising_bubble", {0.025: 0.5, 0.02: 1, 0.0125: 4}, ph.rising_bubble, others=TWO_PHASES),
     Case("rising_bubble_2", "rising_bubble", {0.02: 2, 0.0125: 8}, ph.rising_bubble_2, options("--case 2"), ("standard", "fine"), ()),
-    Case("droplet", "droplet", {5e-4: 0.5, 2.5e-4: 3}, ph.droplet, others=("mmps.paper",)),
-    Case("droplet_oscillation", "droplet", {5e-4: 0.5, 2.5e-4: 3}, ph.droplet_oscillation, options("--mode oscillation"), others=("mmps.paper",)),
-    Case("air_cushion", "air_cushion", {0.02: 0.1, 0.01: 0.3, 0.005: 1}, ph.air_cushion, others=("mmps.paper",)),
+    Case("droplet", "droplet", {5e-4: 0.5, 2.5e-4: 3}, ph.droplet, others=TWO_PHASES),
+    Case("droplet_oscillation", "droplet", {5e-4: 0.5, 2.5e-4: 3}, ph.droplet_oscillation, options("--mode oscillation"), others=TWO_PHASES),
+    Case("air_cushion", "air_cushion", {0.02: 0.1, 0.01: 0.3, 0.005: 1}, ph.air_cushion, others=TWO_PHASES),
     Case("high_fill_air", "sloshing_high_fill", {0.02: 1, 0.01: 5}, ph.high_fill_air, options("--model mmps"), others=("mmps.paper",)),
     Case("low_fill_air", "sloshing_low_fill", {0.00375: 40}, e.low_fill, options("--model mmps --pictures 2.75,4.8,6.1,7.85"), ("fine",), ()),
     Case("breaking_air", "sloshing_breaking", {0.02: 3, 0.01: 25}, ph.breaking_air, options("--model mmps --t-end 8 --pictures 2.2,2.3,2.4,2.5"),
          others=("mmps.paper",)),
+    Case("rayleigh_taylor_flow", "rayleigh_taylor", {0.0125: 3}, ph.rayleigh_taylor, options("--frames 5"), ("standard",), ("imps",), paper=True),
+    Case("high_fill_late", "sloshing_high_fill", {0.01: 1}, e.late, options("--t-end 8 --frames 80"), ("standard",), (), paper=True),
+    Case("high_fill_late_air", "sloshing_high_fill", {0.01: 1.5}, e.late, options("--model mmps --t-end 8 --frames 80"), ("standard",), (), paper=True),
+    Case("low_fill_flow", "sloshing_low_fill", {0.01: 0.3, 0.005: 1}, e.low_fill, options(LOW_FILL), ("standard",) * 2, (), paper=True),
+    Case("low_fill_flow_air", "sloshing_low_fill", {0.01: 1.5, 0.005: 10}, e.low_fill, options(f"--model mmps {LOW_FILL}"), ("standard",) * 2,
+         ("mmps.paper",), paper=True),
+    Case("breaking_start", "sloshing_breaking", {0.02: 0.2, 0.01: 1}, e.breaking_start, options(START), ("standard",) * 2, (), paper=True),
+    Case("breaking_start_air", "sloshing_breaking", {0.02: 0.5, 0.01: 4}, e.breaking_start, options(f"--model mmps {START}"), ("standard",) * 2, (),
+         paper=True),
     Case("dam_break", "dam_break", {0.02: 0.1, 0.01: 0.4, 0.005: 5}, e.dam_break),
     Case("dam_break_3d", "dam_break", {0.02: 2}, e.dam_break, options("--dim 3"), ("coarse",)),
     Case("long_surge", "sloshing_surge", {0.01: 14}, e.long_run, options("--t-end 60 --probe-dt 0.002"), ("fine",), ()),

@@ -187,6 +187,19 @@ def breaking(o, refs):
     return figures + [bounded("volume, largest change [%]", 100 * np.abs(o["volume_error"]).max(), "{:.2f}"), *cavity(o)]
 
 
+def breaking_start(o, refs):
+    """Up to the first impact and shortly after."""
+    return [fact(f"{name}, largest after a 2 ms mean", m.largest(m.running_mean(o.t, o[name], 0.002)[o.t > 0.1]), "{:.0f} Pa") for name in ("P1", "P2", "P3")
+            ] + cavity(o)
+
+
+def late(o, refs):
+    """Beyond the time of potential flow: what two models are compared by."""
+    after = o.t > 5
+    return [fact("largest height after 5 s", m.largest(o["eta_right"][after]), "{:.3f} m"), fact("P1, largest after 5 s, 20 ms mean", m.largest(
+        m.running_mean(o.t, o["P1"], 0.02)[after]), "{:.0f} Pa")]
+
+
 def baffle_2d(o, refs):
     t, late = o.t, o.t > 2
     if t[-1] < 5:

@@ -85,10 +85,11 @@ def others_table(outcomes):
 
 
 class Page:
-    """Everything that is known about the runs; `expected` verdicts that were missed are collected in `worse`."""
+    """Everything that is known about the runs; `paper`: cases that are made for docs/paper-cases.md."""
 
     def __init__(self, runner, cases, refs):
         self.refs, self.results, self.others = refs, {}, []
+        self.paper = {case.name for case in cases if case.paper}
         for case in cases:
             outcomes = [o for o in (runner.outcome(run) for run in case.runs()) if o]
             self.others += [o for o in outcomes if o.run.other_model]
@@ -123,7 +124,7 @@ class Page:
         folder = docs / "plots"
         folder.mkdir(parents=True, exist_ok=True)
         text = (HERE / "validation.md.in").read_text(encoding="utf-8")
-        text = text.replace("@overview@", overview(self.results))
-        text = text.replace("@others@", others_table(self.others))
+        text = text.replace("@overview@", overview({name: found for name, found in self.results.items() if name not in self.paper}))
+        text = text.replace("@others@", others_table([o for o in self.others if o.run.case not in self.paper]))
         text = re.sub(r"@case (\w+)@", lambda match: self.section(match.group(1), folder), text)
         (docs / "validation.md").write_text(text, encoding="utf-8")

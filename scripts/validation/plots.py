@@ -8,8 +8,9 @@ import numpy as np  # noqa: E402
 
 COLOURS = ["#4c78a8", "#f58518", "#54a24b", "#b279a2"]  # coarse to fine
 REFERENCE = "#333333"
+WATER, GAS, SOLID = "#2f6fb0", "#d9c9b0", "#8c8c94"
 POINTS = 320  # of a curve
-LARGEST = 60000  # bytes of a plot
+LARGEST, LARGEST_PICTURE = 60000, 180000  # bytes of a plot, of a picture
 
 plt.rcParams.update({
     "svg.fonttype": "none", "svg.hashsalt": "libmps", "font.family": ["DejaVu Sans"], "font.size": 9,
@@ -132,4 +133,73 @@ def pictures(path, sources, part=1.0, columns=2, width=620):
     for i, image in enumerate(images):
         sheet.paste(image, (i % columns * width, i // columns * height))
     sheet.quantize(palette=colours, dither=Image.Dither.NONE).save(path, optimize=True)
+    return True
+
+
+def draw_frame(axes, frame, dp, window, lines):
+    """Particles as discs: liquid, what is about it, walls; lines over them. `window`: what is shown [m], from the floor's left end."""
+    from matplotlib.collections import EllipseCollection
+    (x0, y0), (x1, _) = frame.walls()
+    for particles, colour, size in ((frame.x[frame.kind == 1], SOLID, 0.9), (frame.particles(1), GAS, 0.6), (frame.particles(0), WATER, 0.8)):
+        if len(particles):
+            axes.add_collection(EllipseCollection(size * dp, size * dp, 0, units="x", offsets=particles - (x0, y0), transOffset=axes.transData,
+                                                  facecolors=colour, linewidths=0, antialiaseds=False))
+    for line in lines:
+        axes.plot(line[:, 0], line[:, 1], color="#c03020", linewidth=0.8)
+    axes.set_xlim(-dp, x1 - x0 + dp)
+    axes.set_ylim(window[0] - dp, window[1] + dp)
+    axes.set_aspect("equal")
+
+
+def save_picture(figure, path):
+    """Write a figure as PNG of few colours, with fewer pixels if the file gets too large."""
+    from io import BytesIO
+    from PIL import Image
+    for dpi in (130, 110, 95, 80, 65, 50):
+        buffer = BytesIO()
+        figure.savefig(buffer, format="png", dpi=dpi)
+        Image.open(buffer).convert("RGB").quantize(64, dither=Image.Dither.NONE).save(path, optimize=True)
+        if path.stat().st_size <= LARGEST_PICTURE:
+            break
+    plt.close(figure)
+
+
+def flow(path, rows, window):
+    """Frames beside and below each other. `rows`: lists of (title, frame, dp, lines over it), frame None where there is none; `window`: heights
+    shown. False if there is no frame at all."""
+    first = next((frame for row in rows for _, frame, *_ in row if frame), None)
+    if not first:
+        return False
+    (x0, _), (x1, _) = first.walls()
+    columns = max(len(row) for row in rows)
+    wide = 9.0 / columns
+    figure, grid = plt.subplots(len(rows), columns, figsize=(9.0, len(rows) * (wide * (window[1] - window[0]) / (x1 - x0) + 0.3)), squeeze=False)
+    for axes in grid.ravel():
+        axes.set_axis_off()
+    for r, row in enumerate(rows):
+        for axes, (title, frame, dp, lines) in zip(grid[r], row):
+            axes.set_title(title)
+            if frame:
+                draw_frame(axes, frame, dp, window, lines)
+    figure.tight_layout(pad=0.6)
+    save_picture(figure, path)
+    return True
+
+
+def maps(path, panels, label):
+    """Values over place and time, one panel beside the other: (title, x, t, values[t][x], times marked by a line)."""
+    if not panels:
+        return False
+    figure, grid = plt.subplots(1, len(panels), figsize=(4.5 * len(panels), 5.2), squeeze=False, sharey=True, layout="constrained")
+    least, largest = np.nanpercentile(np.concatenate([values.ravel() for _, _, _, values, _ in panels]), (0.5, 99.5))
+    for axes, (title, x, t, values, marks) in zip(grid[0], panels):
+        image = axes.pcolormesh(x, t, values, vmin=least, vmax=largest, cmap="YlGnBu", shading="nearest", rasterized=True)
+        for mark in marks:
+            axes.axhline(mark, color="#c03020", linewidth=0.6)
+        axes.set_title(title)
+        axes.set_xlabel("x [m]")
+        axes.set_ylabel("t [s]")
+        axes.grid(False)
+    figure.colorbar(image, ax=list(grid[0]), label=label)
+    save_picture(figure, path)
     return True

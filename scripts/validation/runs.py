@@ -4,6 +4,7 @@ import fcntl
 import hashlib
 import json
 import os
+import shutil
 import subprocess
 import sys
 import threading
@@ -73,9 +74,9 @@ class Runner:
             self.done += 1
             say(f"[{self.done}/{count}] {run.name}: about {run.minutes:g} CPU minutes ...")
         folder = self.folder(run)
-        folder.mkdir(parents=True, exist_ok=True)
-        for old in folder.iterdir():
-            old.unlink()
+        if folder.exists():
+            shutil.rmtree(folder)
+        folder.mkdir(parents=True)
         begin, command = time.monotonic(), self.command(run)
         environment = {"OMP_WAIT_POLICY": "passive", **os.environ}
         with open(folder / "run.log", "w", encoding="utf-8") as log:
