@@ -4,6 +4,8 @@
  * A wall particle takes part as far as fluid lies about it: wet = kernel sum of the fluid over that of a full half space. */
 #include "builtin.h"
 
+static const double NEARLY = 0.7;
+
 /* Kernel sum over a half lattice without its boundary row. */
 static double half_sum(const mps_stencil *t)
 {
@@ -30,9 +32,9 @@ MPS__ROW double fluid_sum(const int dim, const mps_stage *s, int64_t i)
     return sum;
 }
 
-/* Density of the fluid beside a wall particle: that of the nearest, and of others as far as they are hardly farther away. Had it the
- * nearest one's alone, its row would turn from gas to water within a step where a wave runs up the wall, and its pressure with it. A steep
- * weight: in a still tank the next neighbours across the surface count 1e-5. */
+/* Density of the fluid beside a wall particle: that of the nearest, and of others as far as they are hardly farther away (W/r^2 more than
+ * `NEARLY` of the nearest one's, some 7 % in distance). With the nearest one's alone its row would turn from gas to water within a step where a
+ * wave runs up the wall, and its pressure with it. Counting those farther away moves the pressures of a still tank by 0.1 % of rho g h. */
 MPS__ROW double density_beside(const int dim, const mps_stage *s, int64_t i)
 {
     const mps_stencil *t = s->near;
@@ -48,9 +50,9 @@ MPS__ROW double density_beside(const int dim, const mps_stage *s, int64_t i)
     for (int64_t p = t->begin[i]; p < t->end[i] && nearest > 0; p++) {
         const int64_t j = t->col[p];
         if (s->kind[j] != MPS_FLUID || s->region[j] == MPS_REGION_SPRAY) continue;
-        const double ratio = mps_stencil_pair_dim(dim, t, i, p).w_r2 / nearest, square = ratio * ratio, fourth = square * square;
-        sum += fourth * fourth * (s->density[j] - rho);
-        weight += fourth * fourth;
+        const double nearly = fmax(0, mps_stencil_pair_dim(dim, t, i, p).w_r2 / nearest - NEARLY);
+        sum += nearly * nearly * (s->density[j] - rho);
+        weight += nearly * nearly;
     }
     return weight > 0 ? rho + sum / weight : rho;
 }

@@ -47,19 +47,26 @@ static inline bool in_equation(const mps_stage *s, int64_t i)
 }
 
 /* The tank is rigid and the liquid keeps its volume, so the gas keeps its own, whatever happens. But divergences that are summed over all
- * rows leave a rest, and a gas integrates it: a mean error of 0.1 1/s is 14 kPa a second in air. The gas takes the rest: spread over all
- * rows, what one row asks for in an impact would be a source in the whole of the liquid, and a pressure of kPa for a step. */
+ * rows leave a rest, and a gas integrates it: a mean error of 0.1 1/s is 14 kPa a second in air. All rows share it while it is small, as in
+ * calm tanks, where the gas alone would press 0.2 % of rho g h into the liquid. What one row asks for in an impact is for the gas alone:
+ * as a source in the whole of the liquid it would be a pressure of many kPa for a step. */
 void mps__gas_conserve(const mps_stage *s, mps_ppe_terms *terms, double phase, double surplus)
 {
-    static const double share = 0.1; /* of the surplus that a step takes away */
+    static const double share = 0.1;   /* of the surplus that a step takes away */
+    static const double small = 0.005; /* of g/dp: the rest of which each row takes its part */
+    const double bound = small * s->velocity_scale * s->velocity_scale / (s->dp * s->dp);
     double sum = 0;
-    int64_t gas = 0;
+    int64_t rows = 0, gas = 0;
     for (int64_t i = 0; i < s->n; i++) {
         if (terms->fixed[i]) return;
         if (!in_equation(s, i)) continue;
         sum += terms->rhs[i];
+        rows++;
         gas += mps__is_gas(s, i, phase);
     }
+    if (gas == 0) return;
+    const double part = fmin(fmax(sum / (double)rows, -bound), bound);
+    const double own = (share * surplus / (s->dt * s->dt) - (sum - part * (double)rows)) / (double)gas;
     for (int64_t i = 0; i < s->n; i++)
-        if (in_equation(s, i) && mps__is_gas(s, i, phase)) terms->rhs[i] += (share * surplus / (s->dt * s->dt) - sum) / (double)gas;
+        if (in_equation(s, i)) terms->rhs[i] += (mps__is_gas(s, i, phase) ? own : 0.0) - part;
 }

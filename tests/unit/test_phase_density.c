@@ -259,7 +259,7 @@ static void equation_of_state(void **state)
     }
 }
 
-/* In a closed tank the sources of all rows cancel, at the expense of the gas alone, which returns to the pressures at which it has its
+/* In a closed tank the sources of all rows cancel, at the expense of the gas but for 0.005 g/dp in each row; the gas returns to the pressures at which it has its
  * volume; not so if one row is fixed. */
 static void conserved(void **state)
 {
@@ -278,7 +278,7 @@ static void conserved(void **state)
         double sum = 0;
         for (int64_t i = 0; i < 144; i++) sum += spy.rhs[i] / 144;
         ASSERT_NEAR(sum, open ? 1e6 : 0, 1e-6);
-        for (int64_t i = 0; i < 72 && !open; i++) assert_true(spy.rhs[i] == 1e6);
+        for (int64_t i = 0; i < 72 && !open; i++) ASSERT_NEAR(spy.rhs[i], 1e6 - 0.005 * 9.81 / CLOUD_DP, 1e-6);
         if (!open) {
             mps_lease p;
             spy.given_rhs = 0;
