@@ -66,11 +66,9 @@ mps_status mps_run(mps_sim *sim, double t_end, mps_monitor_fn monitor, void *use
     mps_status result = MPS_OK;
     const double small = 1e-12 * fmax(1.0, fabs(t_end));
     while (t_end - w->info.t > small) {
-        double rest = t_end - w->info.t;
-        /* no sliver at the end: the last two steps share what is left; rounding is not something left */
-        const double slack = 1e-6 * w->dt_previous;
-        if (w->dt_previous > 0 && rest > w->dt_previous + slack && rest < 2 * w->dt_previous - slack) rest *= 0.5;
-        const mps_status status = mps_step(sim, rest, NULL);
+        w->ending = true;
+        const mps_status status = mps_step(sim, t_end - w->info.t, NULL);
+        w->ending = false;
         if (status < 0) return status;
         if (status > 0) result = status;
         if (fabs(t_end - w->info.t) <= fmax(small, 1e-6 * w->info.dt)) w->info.t = t_end;

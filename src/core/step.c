@@ -112,7 +112,9 @@ static double choose_dt(const step_state *q)
     return dt;
 }
 
-static mps_status set_dt(step_state *q, double dt_max)
+/* The step to take, and the one the limits allow: they differ where the last two steps of a run share what is left of it, so that none is
+ * a sliver, whose pressure has no meaning. Rounding is not something left. */
+static mps_status set_dt(step_state *q, double dt_max, double *planned)
 {
     mps__world *w = q->w;
     q->stage.dt = w->dt_previous;
@@ -122,7 +124,9 @@ static mps_status set_dt(step_state *q, double dt_max)
                          "the time step fell to %g s at t = %.9g s, below dt_min = %g s; the largest speed is %g m/s", dt, w->info.t,
                          w->control.dt_min, mps__world_speed(w));
     if (!isfinite(dt)) dt = dt_max;
-    q->stage.dt = fmin(dt, dt_max);
+    *planned = fmin(dt, dt_max);
+    const bool share = w->ending && *planned < (1 - 1e-6) * dt_max && 2 * *planned > (1 + 1e-6) * dt_max;
+    q->stage.dt = share ? 0.5 * dt_max : *planned;
     return MPS_OK;
 }
 
@@ -518,8 +522,7 @@ static mps_status try_step(step_state *q, double dt_max, double *planned)
     mps__world *w = q->w;
     start(w);
     set_stage(q);
-    MPS__TRY(set_dt(q, dt_max));
-    *planned = q->stage.dt;
+    MPS__TRY(set_dt(q, dt_max, planned));
     MPS__TRY(mps__motion_pose(&w->motion, w->info.t + q->stage.dt, &q->pose));
     q->budget = w->budget;
     if (!q->budget.started) {

@@ -59,6 +59,7 @@ typedef struct mps__world {
     mps__budget budget;
     mps_step_info info; /* of the last step; t, step, lost go on */
     double dt_previous; /* 0 before the first step */
+    bool ending;        /* dt_max of a step is what is left of a run */
     mps__pose before;   /* of the tank at the beginning of the last step, */
     double dt_before;   /* which was this long */
     mps__work work;

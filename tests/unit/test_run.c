@@ -35,7 +35,7 @@ static void set_fixed_step(mps_sim *sim, double dt)
 
 typedef struct watch {
     int calls, stop_after;
-    double t, least;
+    double t, dt, least;
 } watch;
 
 static int monitor(void *user, mps_sim *sim, const mps_step_info *info)
@@ -45,6 +45,7 @@ static int monitor(void *user, mps_sim *sim, const mps_step_info *info)
     assert_int_equal(mps_sim_time(sim, &t, NULL), MPS_OK);
     assert_true(info->struct_size == sizeof *info && info->t == t && info->t > w->t);
     w->t = info->t;
+    w->dt = info->dt;
     w->least = fmin(w->least, info->dt);
     return ++w->calls == w->stop_after;
 }
@@ -84,6 +85,26 @@ static void whole_steps(void **state)
             assert_true(w.t == n * dts[k]);
             mps_sim_destroy(sim);
         }
+}
+
+/* Steps of a drop that falls get shorter and shorter: the one that would end the run falls short by a thousandth. */
+static void no_sliver(void **state)
+{
+    (void)state;
+    for (int n = 60; n < 90; n += 3) {
+        watch w = {.stop_after = n, .least = INFINITY};
+        mps_sim *sim = drop();
+        ASSERT_STATUS(sim, mps_run(sim, 10, monitor, &w), MPS_W_STOPPED);
+        const double end = w.t + w.dt, dt = w.dt;
+        w.least = INFINITY;
+        w.stop_after = 0;
+        w.calls = 0;
+        ASSERT_OK(sim, mps_run(sim, end, monitor, &w));
+        assert_true(w.t == end && w.calls == 2 && w.least > 0.49 * dt);
+        ASSERT_STATUS(sim, (w.stop_after = 3, mps_run(sim, 10, monitor, &w)), MPS_W_STOPPED);
+        assert_true(w.dt > 0.9 * dt); /* the share was no limit of the next step */
+        mps_sim_destroy(sim);
+    }
 }
 
 static void monitor_stops(void **state)
@@ -162,7 +183,8 @@ static void threads_agree(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(run_to_the_end), cmocka_unit_test(whole_steps), cmocka_unit_test(monitor_stops),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(run_to_the_end),  cmocka_unit_test(whole_steps),
+                                       cmocka_unit_test(no_sliver),       cmocka_unit_test(monitor_stops),
                                        cmocka_unit_test(monitor_meddles), cmocka_unit_test(threads_agree)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
