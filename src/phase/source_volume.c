@@ -14,8 +14,7 @@
  * a short one feeds them. What an impact compressed by per cents has to come back before the next: beyond `firm` the time falls to tau_g.
  * Gas that is torn or piled up by tens of per cents (`torn`) comes back in dt/`rapid`.
  *
- * Beside another density velocities of neighbours count by mass: the face between water and air moves with the water, and so does what
- * stands before a wall that both touch.
+ * Beside another density velocities of neighbours count by mass: the face between water and air moves with the water.
  *
  * A velocity that must go within a step takes a pressure ~ 1/dt. Gas squeezed out of a closing gap is ten times as fast as the water that
  * drives it, and makes the steps as short; so `pace` lets the denser fluids ask, in each step, for the share only that the step is of the
@@ -141,36 +140,47 @@ MPS__ROW double fluid_divergence(const int dim, const mps_stage *s, const double
     return sum - strain * s->dt * square;
 }
 
-/* Kernel mean of the density of the fluid about a wall particle, exact for one phase; 0 without any fluid. */
-MPS__ROW double mean_density(const int dim, const mps_stage *s, int64_t i)
+/* Speed below which a step is 0.06 tau_g; beyond it 0.2 dp/u. */
+static inline double calm_speed(const mps_stage *s)
 {
-    const mps_stencil *t = s->near;
-    double rho = 0, sum = 0, weight = 0;
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const int64_t j = t->col[p];
-        if (s->kind[j] != MPS_FLUID || s->region[j] >= MPS_REGION_SPRAY) continue;
-        const double w = mps_stencil_pair_dim(dim, t, i, p).w;
-        if (rho == 0) rho = s->density[j];
-        sum += w * (s->density[j] - rho);
-        weight += w;
-    }
-    return weight > 0 ? rho + sum / weight : rho;
+    return 0.2 / 0.06 * s->velocity_scale;
 }
 
-/* Divergence of the half cell of a wall particle; weights as in its row of the pressure equation. Where water and gas share the cell, both
- * count by mass: a gas that shoots along the wall would set the pressure of the water there. */
+/* Largest speed against a wall particle of the fluid about it that is as dense as the wall's row, calm water's at least. */
+MPS__ROW double wall_speed(const int dim, const mps_stage *s, const double *v, int64_t i)
+{
+    const mps_stencil *t = s->near;
+    double most = calm_speed(s) * calm_speed(s);
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        const int64_t j = t->col[p];
+        if (s->kind[j] != MPS_FLUID || s->density[j] < 0.5 * s->density_smooth[i] || s->region[j] >= MPS_REGION_SPRAY) continue;
+        double square = 0;
+        for (int d = 0; d < dim; d++) square += (v[j * dim + d] - v[i * dim + d]) * (v[j * dim + d] - v[i * dim + d]);
+        most = fmax(most, square);
+    }
+    return sqrt(most);
+}
+
+/* Divergence of the half cell of a wall particle; weights as in its row of the pressure equation. Where gas and water share the cell, gas
+ * counts with the speed of the water at most: one that shoots along the wall would set the pressure of the water there. */
 MPS__ROW double wall_divergence(const int dim, const mps_stage *s, const double *v, int64_t i, double wall_factor)
 {
     const mps_stencil *t = s->near;
-    const double rho = mean_density(dim, s, i);
-    double sum = 0;
+    double sum = 0, limit = 0;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         if (s->region[t->col[p]] >= MPS_REGION_SPRAY) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        double flux = 0;
-        for (int d = 0; d < dim; d++) flux += (v[q.j * dim + d] - v[i * dim + d]) * q.d[d];
-        const double fluid = s->kind[q.j] == MPS_FLUID ? s->density[q.j] / rho : 1.0;
-        sum += q.w_r2 * flux * (s->kind[q.j] == MPS_WALL ? wall_factor * fmin(s->wet[i], s->wet[q.j]) : fluid);
+        double flux = 0, square = 0, share = 1.0;
+        for (int d = 0; d < dim; d++) {
+            const double rate = v[q.j * dim + d] - v[i * dim + d];
+            flux += rate * q.d[d];
+            square += rate * rate;
+        }
+        if (s->kind[q.j] == MPS_FLUID && s->density[q.j] < 0.5 * s->density_smooth[i]) {
+            if (limit == 0) limit = wall_speed(dim, s, v, i);
+            if (square > limit * limit) share = limit / sqrt(square);
+        }
+        sum += q.w_r2 * flux * (s->kind[q.j] == MPS_WALL ? wall_factor * fmin(s->wet[i], s->wet[q.j]) : share);
     }
     return dim / t->n0 * sum;
 }
@@ -217,8 +227,7 @@ static pacing set_pace(const mps_stage *s, double on)
         any = fmax(any, square);
         if (s->density[i] > lightest) dense = fmax(dense, square);
     }
-    const double calm = 0.2 / 0.06 * s->velocity_scale; /* below it a step is 0.06 tau_g, beyond it 0.2 dp/u */
-    const double share = fmax(sqrt(dense), calm) / fmax(sqrt(any), calm);
+    const double share = fmax(sqrt(dense), calm_speed(s)) / fmax(sqrt(any), calm_speed(s));
     return (pacing){lightest, heaviest - lightest, heaviest > lightest ? 1.0 - on * (1.0 - share) : 1.0};
 }
 

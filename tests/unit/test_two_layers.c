@@ -134,6 +134,54 @@ static void spray_before_wall(void **state)
     }
 }
 
+/* Sources of the walls, by id, with the air at `speed` away from the left wall and the water at rest; free() them. */
+static double *wall_sources(double speed, int64_t *n)
+{
+    const int32_t *kinds, *phases;
+    mps_lease u;
+    mps_sim *sim = bare_sim(2, dp, 3.1, 1e-4);
+    fill(sim);
+    ASSERT_OK(sim, mps_model_use(sim, "wall.half"));
+    ASSERT_OK(sim, mps_model_use(sim, "moments.bounded"));
+    ASSERT_OK(sim, mps_model_use(sim, "source.volume"));
+    ASSERT_OK(sim, mps_model_set(sim, "source", "pace", 0));
+    ASSERT_OK(sim, mps_particles_tags(sim, NULL, &kinds, &phases, NULL));
+    ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &u));
+    for (int64_t i = 0; i < u.count; i++)
+        if (kinds[i] == MPS_FLUID && phases[i] == 1) u.data[2 * i] = speed;
+    ASSERT_OK(sim, mps_lease_end(sim, &u));
+    assert_true(mps_step(sim, 1, NULL) >= 0);
+    *n = mps_particles_count(sim, -1);
+    double *rhs = cloud_doubles(*n);
+    memcpy(rhs, spy.rhs, (size_t)*n * sizeof *rhs);
+    mps_sim_destroy(sim);
+    return rhs;
+}
+
+/* Beyond the speed of calm water the air beside a wall of the water changes nothing there, however fast; walls of the air see all of it. */
+static void water_walls_mind_water(void **state)
+{
+    (void)state;
+    int64_t n;
+    double *slow = wall_sources(10, &n), *fast = wall_sources(100, &n), most[2] = {0}, seen = 0;
+    mps_sim *sim = new_sim(2, dp);
+    fill(sim);
+    int32_t *kind = kinds_by_id(sim);
+    mps_sim_destroy(sim);
+    for (int64_t i = 0; i < n; i++) {
+        const int air_wall = spy.density[i] == air;
+        if (kind[i] != MPS_WALL) continue;
+        most[air_wall] = fmax(most[air_wall], fabs(fast[i] - slow[i]));
+        if (!air_wall) seen = fmax(seen, fabs(slow[i]));
+    }
+    print_message("walls of the water change by %.3g, of the air by %.3g 1/s2; source %.3g\n", most[0], most[1], seen);
+    assert_true(most[1] > 0 && most[0] < 0.02 * most[1]);
+    assert_true(seen > 0);
+    free(slow);
+    free(fast);
+    free(kind);
+}
+
 /* ---- rest -------------------------------------------------------------------------------------------------------------------- */
 
 /* Largest difference between the pressures of the fluid, each less that of layers at rest, over that of the depth of the water. */
@@ -191,6 +239,6 @@ static void at_rest(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(walls_take_density), cmocka_unit_test(spray_before_wall),
-                                       cmocka_unit_test(at_rest)};
+                                       cmocka_unit_test(water_walls_mind_water), cmocka_unit_test(at_rest)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
