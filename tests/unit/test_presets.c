@@ -16,20 +16,13 @@ typedef struct wanted {
     const changed *settings;   /* model NULL after the last */
 } wanted;
 
-static const char *const mmps_models[] = {"surface.detached",
-                                          "reference.lid",
-                                          "wall.half",
-                                          "moments.bounded",
-                                          "density.interface",
-                                          "viscosity.pair",
-                                          "dissipation.radial",
-                                          "tension.jump",
-                                          "source.volume",
-                                          "gas.compressible",
-                                          "gradient.corrected",
-                                          "collision.pair",
-                                          "shift.tangential",
-                                          NULL};
+static const char *const mmps_models[] = {"surface.detached",   "reference.lid",
+                                          "wall.half",          "moments.bounded",
+                                          "density.interface",  "viscosity.pair",
+                                          "dissipation.radial", "tension.jump",
+                                          "source.volume",      "gas.compressible",
+                                          "gradient.corrected", "collision.pair",
+                                          "shift.tangential",   NULL};
 static const changed mmps_settings[] = {
     {"source.volume", "clip", 0.5}, {"source.volume", "rapid", 0.1}, {"collision.pair", "restitution", 0}, {NULL, NULL, 0}};
 static const char *const paper_models[] = {"wall.extrapolate", "density.smooth",   "viscosity.pair",   "tension.csf",    "reference.gas",
