@@ -113,7 +113,7 @@ static measured run(double dp, double heavy, double light)
     return m;
 }
 
-/* Errors are of first order: at dp = L/20 and L/40, for 2 : 1 -4.9 and -3.3 %, for 1000 : 1 -3.1 and -1.8 %. */
+/* Waves are slow: at dp = L/20 and L/40, for 2 : 1 -4.9 and -3.3 %, for 1000 : 1 -3.1 and -1.8 %, an order of 0.6 to 0.8. */
 static void near_theory(double heavy, double light, double most)
 {
     const measured coarse = run(0.05, heavy, light), fine = run(0.025, heavy, light);
