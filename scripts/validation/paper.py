@@ -157,7 +157,7 @@ def breaking_figures(book, folder):
     distance.reference(f"{c.SAME} dp", [0, c.SAME_UNTIL], [c.SAME] * 2)
     if plots.save(folder / "paper_breaking_profiles.svg", [distance]):
         yield "paper_breaking_profiles.svg"
-    yield from side_by_side(book, folder, "paper_breaking_flow.png", ("breaking_start", "breaking_start_air"), (1.9, 2.2, 2.3, 2.4, 2.5), (0, 0.55))
+    yield from side_by_side(book, folder, "paper_breaking_flow.png", ("breaking_start", "breaking_start_air"), (1.9, 2.2, 2.3, 2.4, 2.5, 2.6), (0, 0.55))
     runs = [(f"{name}, dp {o.dp:g}", o) for name, case in (("imps", "breaking_start"), ("mmps", "breaking_start_air")) for o in book.all(case)]
     panels = [overlay(Panel(f"{p}, 2 ms mean", "Pa"), runs, lambda o, p=p: np.where(o.t > 0.05, m.running_mean(o.t, o[p], 0.002), np.nan)) for p in ("P1", "P3")]
     panels.append(overlay(Panel("air that is closed in", "cm2"), runs, lambda o: 1e4 * o["air_volume"]))
