@@ -159,16 +159,20 @@ def mean_interval(times):
 
 
 def cavity(o):
-    """Of the first period: when it is there for good, its largest volume, and what is left of it a little later."""
-    first = (o.t > 1.8) & (o.t < 2.9)
-    t, volume = o.t[first], o["air_volume"][first]
+    """What the crest closes in where it meets the right wall: when it is there for good, its largest volume, and what is left of it a little
+    later. Drops that fall back at the left wall close pockets at other times. A crest about to close flickers between open and closed
+    within milliseconds: what does not last has no volume."""
+    onsets, _ = impacts(o.t, m.running_mean(o.t, o["P1"], 0.002), BREAKING_PERIOD)
+    first = abs(o.t - onsets[0]) < 0.1 if onsets else (o.t > 1.8) & (o.t < 2.9)
+    t, volume = o.t[first], m.running_median(o.t, o["air_volume"], 0.02)[first]
     if not len(t) or not volume.max() > 10 * o.dp**2:
         return [difference("cavity, closes", np.nan, CLOSING, "{:.2f} s", "{:+.2f} s", 0.1, 0.1)]
     closes = t[np.argmax(volume > 0.5 * volume.max())]
-    after = (t > closes + 0.02) & (t < closes + 0.12)
+    after = (o.t > closes + 0.02) & (o.t < closes + 0.12)
+    late = m.running_median(o.t, o["air_volume"], 0.02)[after]
     return [difference("cavity, closes", closes, CLOSING, "{:.2f} s", "{:+.2f} s", 0.1, 0.1),
             fact("cavity, largest volume", 1e4 * volume.max(), "{:.1f} cm2"),
-            fact("cavity, least / largest volume within 0.12 s", volume[after].min() / volume[after].max() if after.any() else np.nan, "{:.2f}")]
+            fact("cavity, least / largest volume within 0.12 s", late.min() / volume.max() if len(late) else np.nan, "{:.2f}")]
 
 
 def breaking(o, refs):

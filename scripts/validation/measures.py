@@ -3,6 +3,13 @@
 import numpy as np
 
 
+def running_median(t, y, width):
+    """Median over `width` about each time."""
+    half = max(1, int(round(0.5 * width / (t[1] - t[0]))))
+    padded = np.pad(y, half, mode="edge")
+    return np.median(np.lib.stride_tricks.sliding_window_view(padded, 2 * half + 1), axis=1)
+
+
 def running_mean(t, y, window):
     """Mean over a centred window [s]; the ends are means over what is there of it."""
     n = max(1, int(round(window / (t[1] - t[0]))))
