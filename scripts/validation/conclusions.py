@@ -329,7 +329,7 @@ def breaking_cavity(book):
         yield Check(says, f"dp {o.dp:g}: closes at {closes:.2f} s, first impact at {impact(o)}", abs(closes - e.CLOSING) <= 0.1,
                     "it overturns 0.2 s later; the front meets the wall at the same time with every spacing and model")
         yield Check(f"`{name}`: {fate}", f"{figures['cavity, largest volume']:.1f} cm2, within 0.12 s no less than {100 * least:.0f} % of it, at 3 s {left:.1f} cm2",
-                    bool(least < 0.2 if filled else least > 0.5))
+                    bool(least < 0.2 if filled else least > 0.5), "the gas breaks up into smaller pockets while the jet carries it up the wall")
 
 
 def impact(o):
