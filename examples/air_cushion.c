@@ -10,20 +10,18 @@
 #include <math.h>
 
 static const double SLUG = 0.2, CUSHION = 0.2, WATER = 1000, TOUGH = 50;
-static const double SPACINGS = 20; /* width of the tube: its walls hold half a spacing of air each that does not give way */
+static const double SPACINGS = 20; /* width of the tube */
 
-/* The lattice is laid so that the slug has its length between the middles of the two rows at its ends. */
+/* The slug is half a spacing below the middle: the rows at its ends lie half a spacing inside it, those at the ends of the tube a whole one. */
 static void build(run *r)
 {
-    double dp = r->options.dp, bottom = 2 * CUSHION, top = bottom + SLUG;
-    int rows = (int)lround(bottom / dp);
-    const double lo[] = {0, bottom - (rows + 0.5) * dp};
-    const double slug_lo[] = {0, bottom}, slug_hi[] = {SPACINGS * dp, top}, hi[] = {SPACINGS * dp, top + (rows + 1) * dp};
+    const double dp = r->options.dp, column = dp * (double)lround(2 * CUSHION / dp), length = dp * (double)lround(SLUG / dp);
+    const double bottom = column - 0.5 * dp, lo[] = {0, 0}, hi[] = {SPACINGS * dp, 2 * column + length};
+    const double slug_lo[] = {0, bottom}, slug_hi[] = {SPACINGS * dp, bottom + length};
     mps_tank tank;
     mps_tank_init(&tank, sizeof tank);
-    tank.lo[1] = lo[1];
     tank.size[0] = hi[0];
-    tank.size[1] = (2 * rows + 1 + lround(SLUG / dp)) * dp;
+    tank.size[1] = hi[1];
     run_phase(r, 0, WATER, TOUGH);
     run_phase(r, 1, TANK_AIR_DENSITY, TANK_AIR_VISCOSITY);
     run_check(r, mps_geometry_tank(r->sim, &tank, NULL), "tube");

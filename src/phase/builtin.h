@@ -37,6 +37,8 @@ int mps__gas_check(mps_stage *s, double phase, double sound);
 /* The equation of state wants particles denser by the shares `denser` [n] (0: a lattice as it was), which become scratch. What is left of
  * the deviations of all particles is error. Non-zero: failed. */
 int mps__gas_expect(mps_stage *s, double *denser);
+/* Share of the cell of particle i that holds gas; of a wall particle's, where walls are parts of cells (wall_factor > 0). */
+double mps__gas_share(const mps_stage *s, int64_t i, double phase, double wall_factor);
 /* In a tank that no fixed pressure opens, keep the volume of the gas: `surplus`, what its particles' volumes by the law are above their
  * share (sum, in cells of the lattice), and the sum of all sources are taken off. Call it before the gas adds its own terms. */
 void mps__gas_conserve(const mps_stage *s, mps_ppe_terms *terms, double phase, double surplus);

@@ -41,6 +41,30 @@ int mps__gas_expect(mps_stage *s, double *denser)
     return 0;
 }
 
+/* Share of the cell of a wall particle that holds gas: of the part of a cell that it stands for, as much as there is gas among the fluid
+ * beside it. */
+MPS__ROW double wall_share(const int dim, const mps_stage *s, int64_t i, double phase, double wall_factor)
+{
+    const mps_stencil *t = s->near;
+    double fluid = 0, gas = 0, walls = 0;
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        const int64_t j = t->col[p];
+        if (s->region[j] >= MPS_REGION_SPRAY) continue;
+        const double w = mps_stencil_pair_dim(dim, t, i, p).w;
+        if (s->kind[j] == MPS_FLUID) fluid += w;
+        if (mps__is_gas(s, j, phase)) gas += w;
+        if (s->kind[j] == MPS_WALL) walls += wall_factor * w;
+    }
+    return fluid > 0 ? gas / fluid * (fluid + walls) / t->n0 : 0.0;
+}
+
+double mps__gas_share(const mps_stage *s, int64_t i, double phase, double wall_factor)
+{
+    if (s->kind[i] == MPS_FLUID) return mps__is_gas(s, i, phase) ? 1.0 : 0.0;
+    if (s->kind[i] == MPS_DUMMY || s->region[i] >= MPS_REGION_SPRAY || wall_factor == 0) return 0.0;
+    return MPS__ROW_CALL(s, wall_share, s, i, phase, wall_factor);
+}
+
 static inline bool in_equation(const mps_stage *s, int64_t i)
 {
     return s->kind[i] != MPS_DUMMY && s->region[i] < MPS_REGION_SURFACE;

@@ -36,13 +36,16 @@ static int classify(void *self, const double *k, mps_stage *s)
 static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *terms)
 {
     (void)self;
-    double surplus = 0;
+    double surplus = 0, rho[MPS__PHASE_LIMIT];
+    mps__phase_densities(s, rho);
     for (int64_t i = 0; i < s->n; i++)
         if (mps__is_gas(s, i, k[PHASE])) surplus += 1.0 / (1.0 + by_law(k, s, i)) - 1.0;
     if (k[CONSERVE] > 0 && !(k[PRINTED] > 0)) mps__gas_conserve(s, terms, k[PHASE], surplus);
+    const double whole = 1.0 / (k[SOUND] * k[SOUND] * s->dt * s->dt), own = rho[(int)k[PHASE]];
+#pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
-        if (!mps__is_gas(s, i, k[PHASE])) continue;
-        const double stiffness = 1.0 / (s->density[i] * k[SOUND] * k[SOUND] * s->dt * s->dt);
+        const double stiffness = mps__gas_share(s, i, k[PHASE], terms->wall_factor) * whole /
+                                 (s->kind[i] == MPS_FLUID ? s->density[i] : own);
         terms->gas[i] += stiffness;
         terms->rhs[i] += k[PRINTED] > 0 ? 0.0 : stiffness * s->p[i];
     }

@@ -37,9 +37,11 @@ static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *term
     for (int64_t i = 0; i < s->n; i++)
         if (mps__is_gas(s, i, k[PHASE])) surplus += 1.0 / (1.0 + by_law(k, s, i)) - 1.0;
     if (k[CONSERVE] > 0) mps__gas_conserve(s, terms, k[PHASE], surplus);
-    const double stiffness = 1.0 / (k[EXPONENT] * k[AMBIENT] * s->dt * s->dt);
+    const double whole = 1.0 / (k[EXPONENT] * k[AMBIENT] * s->dt * s->dt);
+#pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
-        if (!mps__is_gas(s, i, k[PHASE])) continue;
+        const double stiffness = mps__gas_share(s, i, k[PHASE], terms->wall_factor) * whole;
+        if (stiffness == 0) continue;
         terms->gas[i] += stiffness;
         terms->law[i] = k[AMBIENT];
         terms->rhs[i] += stiffness * mps_ppe_law(k[AMBIENT], s->p[i], NULL);
