@@ -211,7 +211,7 @@ void cli_defaults(cli_options *o, const char *program, const char *about)
                        .out = "out",
                        .dp_min = 1e-5,
                        .dp_max = 1,
-                       .cfl = 0.2,
+                       .cfl = 0.3,
                        .t_end = 1,
                        .t_max = 1e4,
                        .probe_dt = 1e-3,

@@ -11,7 +11,7 @@ MPS_BEGIN_DECLS
 typedef struct mps_time_control {
     uint32_t struct_size; /**< set by mps_time_control_init() */
     double dt;            /**< > 0: fixed step [s], the other entries are ignored; 0 (default): adaptive */
-    double cfl;           /**< dt |u|max / dp; default 0.2 */
+    double cfl;           /**< dt |u|max / dp; default 0.3 */
     double gravity;       /**< dt U_g / dp, U_g the velocity scale; default 0.06 */
     double viscous;       /**< dt nu / dp^2; default 0.2 */
     double growth;        /**< largest dt / previous dt; default 1.1 */

@@ -4,7 +4,7 @@
 #include <math.h>
 
 static const mps_time_control control_default = {
-    .struct_size = sizeof(mps_time_control), .cfl = 0.2, .gravity = 0.06, .viscous = 0.2, .growth = 1.1};
+    .struct_size = sizeof(mps_time_control), .cfl = 0.3, .gravity = 0.06, .viscous = 0.2, .growth = 1.1};
 static const mps_step_info info_default = {.struct_size = sizeof(mps_step_info)};
 
 mps_status mps_time_control_init(mps_time_control *control, size_t size)

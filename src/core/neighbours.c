@@ -19,8 +19,8 @@ enum { MPS__PARTS = 64 };
 /* Functions compiled for each constant `dim`. */
 #define MPS__DIM_INLINE static inline __attribute__((always_inline))
 
-/* Skin [dp]: a search is good until some particle moved half of it. At the default CFL of 0.2 that is every other step at least. */
-static const double skin_of_dp = 0.45;
+/* Skin [dp]: a search is good until some particle moved half of it. At the default CFL of 0.3 that is every other step at least. */
+static const double skin_of_dp = 0.62;
 
 /* Pairs nearer than this [dp] have no direction and are left out: they are the two faces of a thin plate. */
 static const double coincident = 1e-6;

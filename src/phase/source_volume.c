@@ -140,10 +140,10 @@ MPS__ROW double fluid_divergence(const int dim, const mps_stage *s, const double
     return sum - strain * s->dt * square;
 }
 
-/* Speed below which a step is 0.06 tau_g; beyond it 0.2 dp/u. */
+/* Speed below which a step is 0.06 tau_g; beyond it 0.3 dp/u. */
 static inline double calm_speed(const mps_stage *s)
 {
-    return 0.2 / 0.06 * s->velocity_scale;
+    return 0.3 / 0.06 * s->velocity_scale;
 }
 
 /* Largest speed against a wall particle of the fluid about it that is as dense as the wall's row, calm water's at least. */

@@ -91,7 +91,7 @@ static void whole_steps(void **state)
 static void no_sliver(void **state)
 {
     (void)state;
-    for (int n = 60; n < 90; n += 3) {
+    for (int n = 110; n < 140; n += 3) {
         watch w = {.stop_after = n, .least = INFINITY};
         mps_sim *sim = drop();
         ASSERT_STATUS(sim, mps_run(sim, 10, monitor, &w), MPS_W_STOPPED);
