@@ -91,11 +91,12 @@ MPS__ROW bool foot_in_way(const int dim, const double *k, const mps_stage *s, in
 MPS__ROW void walls(const int dim, const double *k, const mps_stage *s, int64_t i, double du[3])
 {
     const mps_stencil *t = s->near;
+    const double reach = k[WALL_DISTANCE] * s->dp;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         if (s->kind[t->col[p]] != MPS_WALL) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         double n[3], un = 0;
-        if (!away(dim, s, &q, n)) continue;
+        if (!away(dim, s, &q, n) || height_over(dim, &q, n) >= reach) continue;
         for (int d = 0; d < dim; d++) un += (s->u[i * dim + d] + du[d] - s->u[q.j * dim + d]) * n[d];
         if (un >= 0 || !(in_way(dim, k, s, &q, n) || foot_in_way(dim, k, s, i, &q, n))) continue;
         for (int d = 0; d < dim; d++) du[d] -= un * n[d];
