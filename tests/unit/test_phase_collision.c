@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* collision.pair: phases of very different density (momentum, order of particles), edges of thin plates. */
+/* collision.pair: phases of very different density (momentum, order of particles), edges of thin plates, corners
+ * between solids. */
 #include "phase_fixture.h"
 
 static const double rho[2] = {1000, 1};
@@ -115,6 +116,108 @@ static void edge_is_a_post(void **state)
     }
 }
 
+/* A corner of a solid and a tank, with collisions alone: the box of the solid and a point in the corner [dp], whose component along axis d
+ * grows into the liquid by side[d]; 0: the corner is alike along that axis. */
+typedef struct corner {
+    int dim;
+    double lo[3], hi[3], at[3], side[3];
+} corner;
+
+enum { THROW_STEPS = 8 };
+
+static const double room[3] = {10, 8, 6};
+
+/* How deep x [dp] is behind the solid's faces in the tank, or, beyond a slip of 0.25 dp, behind a wall of the tank: at its own
+ * edges drops meet one face, which is aslant. */
+static double depth_in(const corner *c, const double *x)
+{
+    double solid = INFINITY, beyond = -INFINITY;
+    for (int d = 0; d < c->dim; d++) {
+        if (c->lo[d] > 0) solid = fmin(solid, x[d] - c->lo[d]);
+        if (c->hi[d] < room[d]) solid = fmin(solid, c->hi[d] - x[d]);
+        beyond = fmax(beyond, fmax(-x[d], x[d] - room[d]) - 0.25);
+    }
+    return fmax(solid, beyond);
+}
+
+static mps_sim *corner_sim(const corner *c)
+{
+    const double dp = CLOUD_DP;
+    double lo[3], hi[3];
+    mps_sim *sim = bare_sim(c->dim, dp, 2.1, 1);
+    for (int d = 0; d < 3; d++) {
+        lo[d] = c->lo[d] * dp;
+        hi[d] = c->hi[d] * dp;
+    }
+    add_tank(sim, room[0] * dp, room[1] * dp, room[2] * dp);
+    ASSERT_OK(sim, mps_geometry_baffle(sim, "solid", lo, hi));
+    ASSERT_OK(sim, mps_model_use(sim, "collision.pair"));
+    return sim;
+}
+
+/* Largest depth of a drop thrown from x [dp] with u [dp per step]. */
+static double thrown(mps_sim *sim, const corner *c, const double *x, const double *u)
+{
+    const double dp = CLOUD_DP;
+    double at[3], go[3], deepest = -INFINITY;
+    int64_t id;
+    mps_particle_block b;
+    assert_int_equal(mps_particle_block_init(&b, sizeof b), MPS_OK);
+    for (int d = 0; d < c->dim; d++) {
+        at[d] = x[d] * dp;
+        go[d] = u[d] * dp;
+    }
+    b.count = 1;
+    b.position = at;
+    b.velocity = go;
+    ASSERT_OK(sim, mps_particles_add(sim, &b, &id));
+    for (int k = 0; k < THROW_STEPS && mps_particle_index(sim, id) >= 0; k++) {
+        mps_lease p;
+        ASSERT_OK(sim, mps_step(sim, 1, NULL));
+        ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &p));
+        for (int d = 0; d < c->dim; d++) at[d] = p.data[mps_particle_index(sim, id) * c->dim + d] / dp;
+        deepest = fmax(deepest, depth_in(c, at));
+        ASSERT_OK(sim, mps_lease_end(sim, &p));
+    }
+    ASSERT_OK(sim, mps_particles_remove(sim, 1, &id));
+    return deepest;
+}
+
+/* From many places near the corner, in all directions into it, faster along one face than along the others. */
+static void stays_out(const corner *c, int throws)
+{
+    mps_sim *sim = corner_sim(c);
+    double *random = cloud_field((int64_t)throws * 6, 7), x[3], u[3];
+    for (int k = 0; k < throws; k++) {
+        for (int d = 0; d < 3; d++) {
+            const double place = 0.5 + 0.5 * random[6 * k + d], speed = random[6 * k + 3 + d]; /* 0..1, -1..1 */
+            x[d] = c->at[d] + (c->side[d] != 0 ? c->side[d] * (0.1 + 0.45 * place) : place);
+            u[d] = 0.2 * (c->side[d] != 0 ? c->side[d] * fmin(speed, 0.1) : speed);
+        }
+        const double deepest = thrown(sim, c, x, u);
+        if (deepest > 0)
+            fail_msg("%d-D: from (%g, %g, %g) by (%g, %g, %g) it got %g dp deep", c->dim, x[0], x[1], x[2], u[0], u[1], u[2], deepest);
+    }
+    free(random);
+    mps_sim_destroy(sim);
+}
+
+/* Particles that a solid shares with the tank have the tank's normal; the solid keeps drops out there too. */
+static void corners_are_closed(void **state)
+{
+    (void)state;
+    const corner c[] = {
+        {2, {3, 0, 0}, {7, 4, 0}, {3, 0, 0}, {-1, 1, 0}},    /* before a solid on the floor */
+        {2, {3, 0, 0}, {7, 4, 0}, {7, 0, 0}, {1, 1, 0}},     /* behind it */
+        {2, {6, 2, 0}, {10, 6, 0}, {10, 6, 0}, {-1, 1, 0}},  /* on a shelf */
+        {2, {6, 2, 0}, {10, 6, 0}, {10, 2, 0}, {-1, -1, 0}}, /* under it */
+        {3, {3, 0, 0}, {7, 4, 6}, {3, 0, 2}, {-1, 1, 0}},    /* the same, along an edge and in corners of three faces */
+        {3, {3, 0, 0}, {7, 4, 6}, {7, 0, 6}, {1, 1, -1}},    {3, {3, 0, 0}, {7, 4, 6}, {5, 4, 0}, {0, 1, 1}},
+        {3, {6, 2, 0}, {10, 6, 6}, {10, 6, 0}, {-1, 1, 1}},  {3, {6, 2, 0}, {10, 6, 6}, {10, 2, 6}, {-1, -1, -1}},
+    };
+    for (size_t k = 0; k < sizeof c / sizeof c[0]; k++) stays_out(&c[k], c[k].dim == 2 ? 200 : 40);
+}
+
 /* Particles added in another order collide alike. */
 static void order(void **state)
 {
@@ -146,6 +249,6 @@ static void order(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(momentum), cmocka_unit_test(lone_pair), cmocka_unit_test(edge_is_a_post),
-                                       cmocka_unit_test(order)};
+                                       cmocka_unit_test(corners_are_closed), cmocka_unit_test(order)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
