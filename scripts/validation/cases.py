@@ -98,6 +98,8 @@ CASES = [
     Case("low_fill_air", "sloshing_low_fill", {0.00375: 40}, e.low_fill, options("--model mmps --pictures 2.75,4.8,6.1,7.85"), ("fine",), ()),
     Case("breaking_air", "sloshing_breaking", {0.02: 3, 0.01: 25, 0.005: 200}, ph.breaking_air, options("--model mmps --t-end 8 --pictures 2.2,2.3,2.4,2.5"),
          others=("mmps.paper",)),
+    Case("breaking_air_3d", "sloshing_breaking", {0.02: 15}, ph.breaking_air_3d,
+         options("--model mmps --dim 3 --t-end 3 --pictures 2.2,2.4,2.6,2.8"), ("standard",), ()),
     Case("rayleigh_taylor_flow", "rayleigh_taylor", {0.0125: 3}, ph.rayleigh_taylor, options("--frames 5"), ("standard",), ("imps",), paper=True),
     Case("high_fill_late", "sloshing_high_fill", {0.01: 1}, e.late, options("--t-end 8 --frames 80"), ("standard",), (), paper=True),
     Case("high_fill_late_air", "sloshing_high_fill", {0.01: 1.5}, e.late, options("--model mmps --t-end 8 --frames 80"), ("standard",), (), paper=True),

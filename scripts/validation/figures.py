@@ -191,6 +191,7 @@ PLOTS = {"static_tank": static_tank, "static_tank_3d": static_tank_3d, "standing
          "rising_bubble_2": lambda o, r: rising_bubble(o, r, 2), "droplet": droplet, "droplet_oscillation": droplet_oscillation,
          "air_cushion": air_cushion, "high_fill_air": lambda o, r: high_fill(o, r, "high_fill_air"),
          "low_fill_air": lambda o, r: low_fill(o, r, "low_fill_air"), "breaking_air": lambda o, r: breaking(o, r, "breaking_air"),
+         "breaking_air_3d": lambda o, r: breaking(o, r, "breaking_air_3d"),
          "long_surge": lambda o, r: long_run(o, r, "long_surge"), "long_breaking": lambda o, r: long_run(o, r, "long_breaking")}
 
 # case -> file, the driver's pictures in it, of the finest run, and perhaps how much of their height from the floor is shown
@@ -198,4 +199,5 @@ PICTURES = {"sloshing_surge": ("surge_flow.png", (2, 3)), "sloshing_low_fill": (
             "sloshing_breaking": ("breaking_flow.png", (1, 2, 3, 4)), "sloshing_baffle_2d": ("baffle_2d_flow.png", (1, 2)),
             "sloshing_baffle_3d": ("baffle_3d_flow.png", (1, 2)), "dam_break": ("dam_break_flow.png", (1, 2, 3, "end")),
             "rayleigh_taylor": ("rayleigh_taylor_flow.png", (1, 2, 3, "end")), "rising_bubble": ("rising_bubble_flow.png", (1, 2, 3, "end")),
-            "low_fill_air": ("low_fill_air_flow.png", (1, 2, 3, 4), 0.25), "breaking_air": ("breaking_air_flow.png", (1, 2, 3, 4))}
+            "low_fill_air": ("low_fill_air_flow.png", (1, 2, 3, 4), 0.25), "breaking_air": ("breaking_air_flow.png", (1, 2, 3, 4)),
+            "breaking_air_3d": ("breaking_air_3d_flow.png", (1, 2, 3, 4))}

@@ -133,3 +133,16 @@ def breaking_air(o, refs):
         return figures + [absent(label)]
     one, two = (m.largest(m.running_mean(x.t, x["P1"], 0.002)[x.t > 0.1]) for x in (other, o))
     return figures + [at_least(label, one / two, "{:.2f}", 1.2, 1.2)]
+
+
+def breaking_air_3d(o, refs):
+    figures = [at_least("time reached", float(o.t[-1]), "{:.2f} s", 3 - 1e-6, 3 - 1e-6),
+               bounded("volume error [%]", 100 * o.summary["volume_error"], "{:+.2f}", 1, 1)]
+    figures += [fact(f"{name}, largest after a 2 ms mean", m.largest(m.running_mean(o.t, o[name], 0.002)[o.t > 0.1]), "{:.0f} Pa")
+                for name in ("P1", "P2", "P3")]
+    flat, label = o.beside("breaking_air"), "height at the right wall to 2.2 s, largest difference from 2-D"
+    if flat is None:
+        return figures + [absent(label)]
+    use = o.t < 2.2
+    apart = m.running_mean(o.t, o["eta_right"], 0.02) - np.interp(o.t, flat.t, m.running_mean(flat.t, flat["eta_right"], 0.02))
+    return figures + [fact(label, 1e3 * np.abs(apart[use]).max(), "{:.0f} mm")]
