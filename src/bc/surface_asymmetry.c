@@ -2,6 +2,9 @@
 /* Free surface, W22 (11)(12), Z14 (16)(17): n < low n0, or n < high n0 and |A| > share |A|0, where |A|0 belongs to the
  * surface row of a lattice. In a violent flow inner particles fall below low n0 too, and p = 0 amid high pressure tears the fluid:
  * between lone n0 and low n0 some asymmetry is asked for as well, |A| > low_share |A|0 (lone = low is the paper's). Particles with too little fluid about them are spray.
+ * A film of one row on a wall has n0 and more, because the wall is near, but is more one-sided than any surface: |A|/|A|0 > film n/n0. As inner
+ * particles such rows answer to their own pressure with the wrong sign, see docs/numerics.md. With n on the right what is squeezed together,
+ * and one-sided for that, does not lose its pressure.
  * The papers test wall particles too (walls = 1): dry walls have p = 0.
  * Beside a wall that goes on above the surface n is too large and |A| too small: there a neighbour of the surface belongs to it as well if
  * n < contact_low n0 and |A| > contact_share |A|0 (contact = 1). Without it such
@@ -9,11 +12,11 @@
 #include "builtin.h"
 #include <stdbool.h>
 
-enum { LOW, HIGH, SHARE, SPRAY, WALLS, COMPLETE, LONE, LOW_SHARE, CONTACT, CONTACT_LOW, CONTACT_SHARE };
-static const mps_setting settings[] = {{"low", 0.8, 0.0, 1.0},          {"high", 0.97, 0.5, 1.0},         {"share", 0.9, 0.0, 2.0},
-                                       {"spray", 0.25, 0.0, 1.0},       {"walls", 0.0, 0.0, 1.0},         {"complete", 1.0, 0.0, 1.0},
-                                       {"lone", 0.6, 0.0, 1.0},         {"low_share", 0.4, 0.0, 2.0},     {"contact", 1.0, 0.0, 1.0},
-                                       {"contact_low", 0.95, 0.0, 1.0}, {"contact_share", 0.55, 0.0, 2.0}};
+enum { LOW, HIGH, SHARE, SPRAY, WALLS, COMPLETE, LONE, LOW_SHARE, CONTACT, CONTACT_LOW, CONTACT_SHARE, FILM };
+static const mps_setting settings[] = {{"low", 0.8, 0.0, 1.0},          {"high", 0.97, 0.5, 1.0},          {"share", 0.9, 0.0, 2.0},
+                                       {"spray", 0.25, 0.0, 1.0},       {"walls", 0.0, 0.0, 1.0},          {"complete", 1.0, 0.0, 1.0},
+                                       {"lone", 0.6, 0.0, 1.0},         {"low_share", 0.4, 0.0, 2.0},      {"contact", 1.0, 0.0, 1.0},
+                                       {"contact_low", 0.95, 0.0, 1.0}, {"contact_share", 0.55, 0.0, 2.0}, {"film", 1.1, 0.0, 100.0}};
 
 /* |A| of a particle in the top row of a lattice that fills the half space below it. */
 static double lattice_asymmetry(const mps_stencil *t)
@@ -127,7 +130,7 @@ static int classify(void *self, const double *k, mps_stage *s)
         const double n = s->number_density[i] / t->n0;
         if (s->kind[i] == MPS_FLUID && MPS__ROW_CALL(s, detached, s, i, true, k[SPRAY] * t->n0))
             s->region[i] = MPS_REGION_SPRAY;
-        else if (n < k[LONE] || (n < k[LOW] && a > k[LOW_SHARE]) || (n < k[HIGH] && a > k[SHARE]))
+        else if (n < k[LONE] || (n < k[LOW] && a > k[LOW_SHARE]) || (n < k[HIGH] && a > k[SHARE]) || a > k[FILM] * n)
             s->region[i] = MPS_REGION_SURFACE;
     }
     if (mark_islands(k, s)) return 1;
@@ -141,7 +144,7 @@ const mps_model_ops mps__surface_asymmetry = {.struct_size = sizeof(mps_model_op
                                               .api = MPS_MODEL_API,
                                               .name = "surface.asymmetry",
                                               .order = 100,
-                                              .setting_count = 11,
+                                              .setting_count = 12,
                                               .settings = settings,
                                               .classify = classify,
                                               .source = source};

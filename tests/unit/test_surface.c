@@ -20,8 +20,8 @@ static const mps_model_ops keeper = {
 /* Id of the first of `count` particles at x [count*2], in dp, in the lower left corner of a tank, after a step. */
 static int64_t classified(int64_t count, const double *x)
 {
-    double at[16];
-    int64_t ids[8];
+    double at[42];
+    int64_t ids[21];
     mps_particle_block b;
     mps_sim *sim = new_sim(2, dp);
     ASSERT_OK(sim, mps_model_register(sim, &keeper));
@@ -50,6 +50,21 @@ static void island_in_a_corner(void **state)
     assert_true(region[id] < MPS_REGION_SURFACE);
 }
 
+/* A row of seven half a spacing above the floor, the middle one of which has more about it than in a full lattice, is a film with p = 0.
+ * Under two more rows it is not. */
+static void film_on_the_floor(void **state)
+{
+    (void)state;
+    double x[42];
+    for (int k = 0; k < 21; k++) {
+        const int column = (k % 7 + 3) % 7; /* the middle first */
+        x[2 * k] = 2 + column;
+        x[2 * k + 1] = 0.5 + k / 7;
+    }
+    assert_int_equal(region[classified(7, x)], MPS_REGION_SURFACE);
+    assert_true(region[classified(21, x)] < MPS_REGION_SURFACE);
+}
+
 /* Five rows: none of them is further from the surface than the second band, and still a squeeze of 2 % is seen. */
 static void volume_of_shallow_liquid(void **state)
 {
@@ -75,6 +90,7 @@ static void volume_of_shallow_liquid(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(island_in_a_corner), cmocka_unit_test(volume_of_shallow_liquid)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(island_in_a_corner), cmocka_unit_test(film_on_the_floor),
+                                       cmocka_unit_test(volume_of_shallow_liquid)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
