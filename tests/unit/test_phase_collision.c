@@ -238,6 +238,7 @@ static void feet_are_closed(void **state)
     (void)state;
     const corner c[] = {{.dim = 2, .lo = {5.38}, .at = {5.38, 0}, .side = {-1, 1}, .plate = {-2.4, 3.2}},
                         {.dim = 2, .lo = {4.75}, .at = {4.75, 0}, .side = {-1, 1}, .plate = {2.1, 3.8}},
+                        {.dim = 2, .lo = {5.38}, .at = {5.18, 0}, .side = {-1, 1}, .plate = {-3, 2.6}},
                         {.dim = 2, .lo = {4.75}, .at = {4.75, 0}, .side = {1, 1}, .plate = {2.1, 3.8}},
                         {.dim = 3, .lo = {5.38}, .at = {5.38, 0, 3}, .side = {-1, 1, 0}, .plate = {-2.4, 3.2}},
                         {.dim = 3, .lo = {4.75}, .at = {4.75, 0, 3}, .side = {-1, 1, 0}, .plate = {2.1, 3.8}},
