@@ -6,11 +6,14 @@
  * mean. The part of the strain rate stays whole: it repairs what a violent flow tears.
  * With `transport` the velocity goes along: u += s.grad u over fluid of the same phase, within the range of its neighbours'
  * velocities (over all neighbours, or unbounded, a lone drop would accelerate itself). */
-#include "builtin.h"
+#include "walls.h"
 
 enum { STRENGTH, LIMIT, TRANSPORT, FILTER };
 static const mps_setting settings[] = {
     {"strength", 1.0, 0.0, 10.0}, {"limit", 0.05, 0.0, 0.5}, {"transport", 1.0, 0.0, 1.0}, {"filter", 0.8, 0.0, 1.0}};
+
+/* Nearer to a wall [dp] it does not carry anybody on towards it. */
+static const double wall_distance = 0.5;
 
 /* fmax() and fmin() as one instruction: `b` may be NaN and does not count then. */
 static inline double larger(double a, double b)
@@ -139,6 +142,7 @@ static int shift(void *self, const double *k, mps_stage *s, double *dx)
         double v[3];
         MPS__ROW_CALL(s, collect, s, even, i, &sums);
         shift_of(k, s, i, even + i * dim, &sums, v);
+        mps__walls_keep_off(s, wall_distance * s->dp, NULL, i, v);
         if (k[TRANSPORT] > 0) transport(s, &sums, v, du + i * dim);
         for (int d = 0; d < dim; d++) dx[i * dim + d] += v[d];
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* collision.pair: phases of very different density (momentum, order of particles), edges of thin plates, corners
- * between solids. */
+ * of tanks and between solids. */
 #include "phase_fixture.h"
 
 static const double rho[2] = {1000, 1};
@@ -116,26 +116,26 @@ static void edge_is_a_post(void **state)
     }
 }
 
-/* A corner of a solid and a tank, with collisions alone: the box of the solid and a point in the corner [dp], whose component along axis d
- * grows into the liquid by side[d]; 0: the corner is alike along that axis. */
+/* A corner of a tank, or of a tank and a solid, with collisions alone: the box of the solid, if it has a size, and a point in the corner
+ * [dp], whose component along axis d grows into the liquid by side[d]; 0: the corner is alike along that axis. A plate, if there is one, goes
+ * from lo[] by plate[]. */
 typedef struct corner {
     int dim;
-    double lo[3], hi[3], at[3], side[3];
+    double lo[3], hi[3], at[3], side[3], plate[2];
 } corner;
 
 enum { THROW_STEPS = 8 };
 
 static const double room[3] = {10, 8, 6};
 
-/* How deep x [dp] is behind the solid's faces in the tank, or, beyond a slip of 0.25 dp, behind a wall of the tank: at its own
- * edges drops meet one face, which is aslant. */
+/* How deep x [dp] is behind the solid's faces in the tank, or behind a wall of the tank. */
 static double depth_in(const corner *c, const double *x)
 {
-    double solid = INFINITY, beyond = -INFINITY;
+    double solid = c->plate[1] > 0 ? -INFINITY : INFINITY, beyond = -INFINITY;
     for (int d = 0; d < c->dim; d++) {
         if (c->lo[d] > 0) solid = fmin(solid, x[d] - c->lo[d]);
         if (c->hi[d] < room[d]) solid = fmin(solid, c->hi[d] - x[d]);
-        beyond = fmax(beyond, fmax(-x[d], x[d] - room[d]) - 0.25);
+        beyond = fmax(beyond, fmax(-x[d], x[d] - room[d]));
     }
     return fmax(solid, beyond);
 }
@@ -144,13 +144,17 @@ static mps_sim *corner_sim(const corner *c)
 {
     const double dp = CLOUD_DP;
     double lo[3], hi[3];
+    const double up[3] = {c->plate[0] * dp, c->plate[1] * dp, 0}, across[3] = {0, 0, room[2] * dp};
     mps_sim *sim = bare_sim(c->dim, dp, 2.1, 1);
     for (int d = 0; d < 3; d++) {
         lo[d] = c->lo[d] * dp;
         hi[d] = c->hi[d] * dp;
     }
     add_tank(sim, room[0] * dp, room[1] * dp, room[2] * dp);
-    ASSERT_OK(sim, mps_geometry_baffle(sim, "solid", lo, hi));
+    if (c->plate[1] > 0)
+        ASSERT_OK(sim, mps_geometry_plate(sim, "plate", lo, up, c->dim == 3 ? across : NULL));
+    else if (c->hi[1] > 0)
+        ASSERT_OK(sim, mps_geometry_baffle(sim, "solid", lo, hi));
     ASSERT_OK(sim, mps_model_use(sim, "collision.pair"));
     return sim;
 }
@@ -207,15 +211,80 @@ static void corners_are_closed(void **state)
 {
     (void)state;
     const corner c[] = {
-        {2, {3, 0, 0}, {7, 4, 0}, {3, 0, 0}, {-1, 1, 0}},    /* before a solid on the floor */
-        {2, {3, 0, 0}, {7, 4, 0}, {7, 0, 0}, {1, 1, 0}},     /* behind it */
-        {2, {6, 2, 0}, {10, 6, 0}, {10, 6, 0}, {-1, 1, 0}},  /* on a shelf */
-        {2, {6, 2, 0}, {10, 6, 0}, {10, 2, 0}, {-1, -1, 0}}, /* under it */
-        {3, {3, 0, 0}, {7, 4, 6}, {3, 0, 2}, {-1, 1, 0}},    /* the same, along an edge and in corners of three faces */
-        {3, {3, 0, 0}, {7, 4, 6}, {7, 0, 6}, {1, 1, -1}},    {3, {3, 0, 0}, {7, 4, 6}, {5, 4, 0}, {0, 1, 1}},
-        {3, {6, 2, 0}, {10, 6, 6}, {10, 6, 0}, {-1, 1, 1}},  {3, {6, 2, 0}, {10, 6, 6}, {10, 2, 6}, {-1, -1, -1}},
+        {2, {3, 0, 0}, {7, 4, 0}, {3, 0, 0}, {-1, 1, 0}, {0}},    /* before a solid on the floor */
+        {2, {3, 0, 0}, {7, 4, 0}, {7, 0, 0}, {1, 1, 0}, {0}},     /* behind it */
+        {2, {6, 2, 0}, {10, 6, 0}, {10, 6, 0}, {-1, 1, 0}, {0}},  /* on a shelf */
+        {2, {6, 2, 0}, {10, 6, 0}, {10, 2, 0}, {-1, -1, 0}, {0}}, /* under it */
+        {3, {3, 0, 0}, {7, 4, 6}, {3, 0, 2}, {-1, 1, 0}, {0}},    /* the same, along an edge and in corners of three faces */
+        {3, {3, 0, 0}, {7, 4, 6}, {7, 0, 6}, {1, 1, -1}, {0}},    {3, {3, 0, 0}, {7, 4, 6}, {5, 4, 0}, {0, 1, 1}, {0}},
+        {3, {6, 2, 0}, {10, 6, 6}, {10, 6, 0}, {-1, 1, 1}, {0}},  {3, {6, 2, 0}, {10, 6, 6}, {10, 2, 6}, {-1, -1, -1}, {0}},
     };
     for (size_t k = 0; k < sizeof c / sizeof c[0]; k++) stays_out(&c[k], c[k].dim == 2 ? 200 : 40);
+}
+
+/* The edges of a tank have one normal, aslant; the faces that meet there keep drops in all the same. */
+static void edges_are_closed(void **state)
+{
+    (void)state;
+    const corner c[] = {{.dim = 2, .at = {0, 0}, .side = {1, 1}},       {.dim = 2, .at = {10, 8}, .side = {-1, -1}},
+                        {.dim = 3, .at = {0, 0, 2}, .side = {1, 1, 0}}, {.dim = 3, .at = {10, 4, 6}, .side = {-1, 0, -1}},
+                        {.dim = 3, .at = {0, 0, 0}, .side = {1, 1, 1}}, {.dim = 3, .at = {10, 8, 0}, .side = {-1, -1, 1}}};
+    for (size_t k = 0; k < sizeof c / sizeof c[0]; k++) stays_out(&c[k], c[k].dim == 2 ? 200 : 100);
+}
+
+/* A plate that stands askew on a wall has no particles there, and hides those of the wall from one side. */
+static void feet_are_closed(void **state)
+{
+    (void)state;
+    const corner c[] = {{.dim = 2, .lo = {5.38}, .at = {5.38, 0}, .side = {-1, 1}, .plate = {-2.4, 3.2}},
+                        {.dim = 2, .lo = {4.75}, .at = {4.75, 0}, .side = {-1, 1}, .plate = {2.1, 3.8}},
+                        {.dim = 2, .lo = {5.38}, .at = {5.18, 0}, .side = {-1, 1}, .plate = {-3, 2.6}},
+                        {.dim = 2, .lo = {4.75}, .at = {4.75, 0}, .side = {1, 1}, .plate = {2.1, 3.8}},
+                        {.dim = 3, .lo = {5.38}, .at = {5.38, 0, 3}, .side = {-1, 1, 0}, .plate = {-2.4, 3.2}},
+                        {.dim = 3, .lo = {4.75}, .at = {4.75, 0, 3}, .side = {-1, 1, 0}, .plate = {2.1, 3.8}},
+                        {.dim = 3, .lo = {4.75}, .at = {4.75, 0, 0}, .side = {-1, 1, 1}, .plate = {2.1, 3.8}},
+                        {.dim = 3, .lo = {4.75}, .at = {4.75, 0, 6}, .side = {1, 1, -1}, .plate = {2.1, 3.8}}};
+    for (size_t k = 0; k < sizeof c / sizeof c[0]; k++) stays_out(&c[k], c[k].dim == 2 ? 200 : 100);
+}
+
+/* Liquid squeezed against the floor, with the shift alone, whose velocities are along the floor: what is within 0.5 dp of it does not sink. */
+static void shift_keeps_off(void **state)
+{
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++) {
+        const double dp = CLOUD_DP;
+        cloud c = dim == 2 ? cloud_lattice(2, 9, 6, 1, 0.2, 8) : cloud_lattice(3, 9, 6, 5, 0.2, 8);
+        int32_t *phase = cloud_phases(c.n);
+        double *u = cloud_field(c.n * dim, 9), low = INFINITY;
+        mps_sim *sim = bare_sim(dim, dp, 2.1, 0.1 * dp);
+        for (int64_t i = 0; i < c.n; i++) low = fmin(low, c.x[i * dim + 1]);
+        for (int64_t i = 0; i < c.n; i++) {
+            c.x[i * dim] += 2 * dp;
+            c.x[i * dim + 1] = 0.6 * (c.x[i * dim + 1] - low) + 0.15 * dp;
+            if (dim == 3) c.x[i * dim + 2] += 2 * dp;
+            u[i * dim + 1] = 0;
+        }
+        add_tank(sim, 14 * dp, 8 * dp, 10 * dp);
+        const int64_t first = mps_particles_count(sim, MPS_WALL) + mps_particles_count(sim, MPS_DUMMY);
+        add_cloud(sim, &c, phase, u);
+        ASSERT_OK(sim, mps_model_use(sim, "shift.tangential"));
+        ASSERT_OK(sim, mps_step(sim, 1, NULL));
+        double *x = field_by_id(sim, "position");
+        int64_t near = 0, sunk = 0;
+        for (int64_t i = 0; i < c.n; i++) {
+            const double before = c.x[i * dim + 1], after_it = x[(first + i) * dim + 1];
+            if (before < 0.5 * dp)
+                near++, assert_true(after_it >= before * (1 - 1e-12));
+            else
+                sunk += after_it < before;
+        }
+        assert_true(near > 5 && sunk > 5);
+        mps_sim_destroy(sim);
+        cloud_free(&c);
+        free(phase);
+        free(u);
+        free(x);
+    }
 }
 
 /* Particles added in another order collide alike. */
@@ -248,7 +317,9 @@ static void order(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(momentum), cmocka_unit_test(lone_pair), cmocka_unit_test(edge_is_a_post),
-                                       cmocka_unit_test(corners_are_closed), cmocka_unit_test(order)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(momentum),         cmocka_unit_test(lone_pair),
+                                       cmocka_unit_test(edge_is_a_post),   cmocka_unit_test(corners_are_closed),
+                                       cmocka_unit_test(edges_are_closed), cmocka_unit_test(feet_are_closed),
+                                       cmocka_unit_test(shift_keeps_off),  cmocka_unit_test(order)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
