@@ -4,6 +4,7 @@
  * the change of a step, and sources that correct the density see its deviation from the equation of state p = rho Cs^2 (n - n0)/n0: in
  * `volume` and `number_density` each gas particle counts with the volume that it has by p^k. So at rest the pressure is that of the
  * equation of state, whatever weight or relaxation time the source has.
+ * Walls give way too, as far as the part of a cell that they stand for holds gas.
  * With `conserve` a gas in a closed tank keeps its volume, so its mean pressure does not run away; pressures are then above those of the
  * filling. Switch it off where sources are to change the volume of the gas.
  * With `printed` p^{k+1}/(rho Cs^2 dt^2) alone, W22 (26) to the letter. The old pressure is lost, and the gas gives way for ever: at rest

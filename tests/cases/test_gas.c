@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compressible gas with the scheme imps: a column settles under its own weight, a swirl in a closed tank keeps its mean pressure. */
+/* Compressible gas with the scheme imps: a column settles under its own weight, a swirl in a closed tank keeps its mean pressure,
+ * half cells of walls give way. */
 #include "../unit/tank_fixture.h"
 #include <mps/model.h>
 #include <mps/ppe.h>
