@@ -31,12 +31,13 @@ static void means(void **state)
     }
 }
 
-/* Pairs lose no momentum, whatever the densities and the mean. */
+/* Pairs lose no momentum, whatever the densities and the mean, and no moment of momentum if they act along their line. */
 static void momentum(void **state)
 {
     (void)state;
     for (int dim = 2; dim <= 3; dim++)
-        for (double theta = -1; theta <= 1; theta += 0.75) {
+        for (double theta = -1; theta <= 1; theta += 0.25) {
+            const bool whole = theta > -0.3;
             static const double rho[3] = {1000, 1.2, 800};
             cloud c = dim == 2 ? cloud_lattice(2, 20, 18, 1, 0.3, 1) : cloud_lattice(3, 8, 8, 7, 0.3, 1);
             double *u = cloud_field(c.n * dim, 2);
@@ -47,7 +48,15 @@ static void momentum(void **state)
             add_cloud(sim, &c, phase, u);
             ASSERT_OK(sim, mps_model_use(sim, "viscosity.pair"));
             ASSERT_OK(sim, mps_model_set(sim, "viscosity", "theta", theta));
+            ASSERT_OK(sim, mps_model_set(sim, "viscosity", "stress", whole));
             ASSERT_OK(sim, mps_step(sim, 1, NULL));
+            double moment = 0, arm = 0;
+            for (int64_t i = 0; whole && i < c.n; i++) {
+                const double *x = c.x + i * dim, *a = spy.a + i * dim, about_z = x[0] * a[1] - x[1] * a[0];
+                moment += rho[phase[i]] * about_z;
+                arm += rho[phase[i]] * fabs(about_z);
+            }
+            assert_true(fabs(moment) <= 1e-13 * arm);
             for (int d = 0; d < dim; d++) {
                 double sum = 0, size = 0;
                 for (int64_t i = 0; i < c.n; i++) {
@@ -61,6 +70,66 @@ static void momentum(void **state)
             free(u);
             free(phase);
         }
+}
+
+/* u = A x of two fluids, phase 1 beyond the middle of the cloud: accelerations by the model; dim 2, row major A. */
+static mps_sim *linear_flow(const cloud *c, const double *A, const double *mu, double stress)
+{
+    double *u = cloud_doubles(c->n * c->dim), middle = 0;
+    int32_t *phase = cloud_phases(c->n);
+    for (int64_t i = 0; i < c->n; i++) middle += c->x[i * c->dim] / (double)c->n;
+    for (int64_t i = 0; i < c->n; i++) {
+        phase[i] = c->x[i * c->dim] > middle;
+        for (int d = 0; d < c->dim; d++)
+            for (int e = 0; e < c->dim; e++) u[i * c->dim + d] += A[d * c->dim + e] * c->x[i * c->dim + e];
+    }
+    mps_sim *sim = bare_sim(c->dim, CLOUD_DP, 3.1, 1e-9);
+    for (int p = 0; p < 2; p++) set_phase(sim, p, 1000, mu[p]);
+    add_cloud(sim, c, phase, u);
+    ASSERT_OK(sim, mps_model_use(sim, "viscosity.pair"));
+    ASSERT_OK(sim, mps_model_set(sim, "viscosity", "stress", stress));
+    ASSERT_OK(sim, mps_step(sim, 1, NULL));
+    free(u);
+    free(phase);
+    return sim;
+}
+
+/* Fluids that turn as one body feel nothing with the whole stress; div(mu grad u) pushes at their interface. */
+static void rigid_rotation(void **state)
+{
+    (void)state;
+    static const double turn2[4] = {0, -1, 1, 0}, turn3[9] = {0, -1, 0.5, 1, 0, -2, -0.5, 2, 0}, mu[2] = {1, 10};
+    for (int dim = 2; dim <= 3; dim++) {
+        cloud c = dim == 2 ? cloud_lattice(2, 20, 18, 1, 0.3, 1) : cloud_lattice(3, 8, 8, 7, 0.3, 1);
+        double most[2] = {0};
+        for (int whole = 0; whole < 2; whole++) {
+            mps_sim *sim = linear_flow(&c, dim == 2 ? turn2 : turn3, mu, whole);
+            for (int64_t k = 0; k < c.n * dim; k++) most[whole] = fmax(most[whole], fabs(spy.a[k]));
+            mps_sim_destroy(sim);
+        }
+        print_message("%d-D: largest acceleration of rigid rotation %.3g, whole stress %.3g m/s2\n", dim, most[0], most[1]);
+        assert_true(most[0] > 0.1 && most[1] < 1e-11 * most[0]);
+        cloud_free(&c);
+    }
+}
+
+/* Stretched at the rate `rate`, the interface bears the jump of the normal stress, 2 (mu_1 - mu_0) rate on its area; div(mu grad u) has half of it. */
+static void jump_of_stress(void **state)
+{
+    (void)state;
+    static const double rate = 3, A[4] = {3, 0, 0, -3}, mu[2] = {1, 10};
+    enum { ACROSS = 20, ALONG = 17 };
+    for (int whole = 0; whole < 2; whole++) {
+        cloud c = cloud_lattice(2, ACROSS, ALONG, 1, 0, 1);
+        mps_sim *sim = linear_flow(&c, A, mu, whole);
+        double force = 0; /* on a row, away from its ends and from other sides of the cloud */
+        for (int64_t i = 4; i < ACROSS - 4; i++) force += 1000 * CLOUD_DP * CLOUD_DP * spy.a[2 * (i + ACROSS * (ALONG / 2))];
+        const double jump = force / CLOUD_DP / ((mu[1] - mu[0]) * rate);
+        print_message("jump of the normal stress %.4f, of (mu_1 - mu_0) du/dx\n", jump);
+        ASSERT_NEAR(jump, whole ? 2 : 1, 0.03);
+        mps_sim_destroy(sim);
+        cloud_free(&c);
+    }
 }
 
 /* One phase in a tank: viscosity.laplacian, though phase 0, which the walls carry, is something else. */
@@ -205,7 +274,13 @@ static void time_step(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(means),          cmocka_unit_test(momentum), cmocka_unit_test(walls_take_the_fluid),
-                                       cmocka_unit_test(slippery_walls), cmocka_unit_test(couette),  cmocka_unit_test(time_step)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(means),
+                                       cmocka_unit_test(momentum),
+                                       cmocka_unit_test(rigid_rotation),
+                                       cmocka_unit_test(jump_of_stress),
+                                       cmocka_unit_test(walls_take_the_fluid),
+                                       cmocka_unit_test(slippery_walls),
+                                       cmocka_unit_test(couette),
+                                       cmocka_unit_test(time_step)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
