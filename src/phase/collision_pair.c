@@ -31,7 +31,7 @@ MPS__ROW void collide(const int dim, const double *k, const mps_stage *s, int64_
     double du[3] = {0}, v[3];
     fluid_pairs(dim, k, s, i, du);
     for (int d = 0; d < dim; d++) v[d] = u[d] + du[d];
-    mps__walls_keep_off(s, k[WALL_DISTANCE] * s->dp, s->u, i, v);
+    mps__walls_keep_off(s, k[WALL_DISTANCE] * s->dp, 0, s->u, i, v);
     for (int d = 0; d < dim; d++) change[i * dim + d] = v[d] - u[d];
 }
 

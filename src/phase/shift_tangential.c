@@ -12,7 +12,7 @@ enum { STRENGTH, LIMIT, TRANSPORT, FILTER };
 static const mps_setting settings[] = {
     {"strength", 1.0, 0.0, 10.0}, {"limit", 0.05, 0.0, 0.5}, {"transport", 1.0, 0.0, 1.0}, {"filter", 0.8, 0.0, 1.0}};
 
-/* Nearer to a wall [dp] it does not carry anybody on towards it. */
+/* Nearer to a wall [dp] it does not carry anybody on towards it, and out of the nearer half it brings all, spray as well. */
 static const double wall_distance = 0.5;
 
 /* fmax() and fmin() as one instruction: `b` may be NaN and does not count then. */
@@ -137,13 +137,16 @@ static int shift(void *self, const double *k, mps_stage *s, double *dx)
         if (s->kind[i] == MPS_FLUID && s->region[i] != MPS_REGION_SPRAY) MPS__ROW_CALL(s, unevenness, s, i, even);
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_FLUID || s->region[i] == MPS_REGION_SPRAY) continue;
+        if (s->kind[i] != MPS_FLUID) continue;
+        const bool spray = s->region[i] == MPS_REGION_SPRAY;
         pair_sums sums;
-        double v[3];
-        MPS__ROW_CALL(s, collect, s, even, i, &sums);
-        shift_of(k, s, i, even + i * dim, &sums, v);
-        mps__walls_keep_off(s, wall_distance * s->dp, NULL, i, v);
-        if (k[TRANSPORT] > 0) transport(s, &sums, v, du + i * dim);
+        double v[3] = {0};
+        if (!spray) {
+            MPS__ROW_CALL(s, collect, s, even, i, &sums);
+            shift_of(k, s, i, even + i * dim, &sums, v);
+        }
+        mps__walls_keep_off(s, wall_distance * s->dp, k[LIMIT] * s->dp, NULL, i, v);
+        if (k[TRANSPORT] > 0 && !spray) transport(s, &sums, v, du + i * dim);
         for (int d = 0; d < dim; d++) dx[i * dim + d] += v[d];
     }
 #pragma omp parallel for num_threads(s->threads) schedule(static)

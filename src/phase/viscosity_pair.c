@@ -51,15 +51,20 @@ static double *find_slippery(mps_stage *s, int axes)
     return slippery;
 }
 
-/* slippery: NULL if no wall is; whole: pairs act along their line. */
-MPS__ROW void diffuse(const int dim, const mps_stage *s, const double *mean, const double *slippery, bool whole, int64_t i, double *a)
+typedef struct law {
+    double mean[MPS__PHASE_LIMIT * MPS__PHASE_LIMIT]; /* mu of pairs of phases */
+    const double *slippery;                           /* NULL if no wall is */
+    bool whole;                                       /* pairs act along their line */
+} law;
+
+MPS__ROW void diffuse(const int dim, const mps_stage *s, const law *k, int64_t i, double *a)
 {
     const mps_stencil *t = s->far;
-    const double *u = s->u + i * dim, *mu = mean + MPS__PHASE_LIMIT * s->phase[i];
+    const double *u = s->u + i * dim, *mu = k->mean + MPS__PHASE_LIMIT * s->phase[i];
     const double c = 2.0 * dim / (t->n0 * t->lambda * s->density[i]);
     double sum[3] = {0};
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        if (slippery && slippery[t->col[p]] > 0) continue;
+        if (k->slippery && k->slippery[t->col[p]] > 0) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         const double w = q.w * mu[s->kind[q.j] == MPS_FLUID ? s->phase[q.j] : s->phase[i]];
         double du[3], along = 0;
@@ -68,7 +73,7 @@ MPS__ROW void diffuse(const int dim, const mps_stage *s, const double *mean, con
             along += du[d] * q.d[d];
         }
         along *= (dim + 2) / (q.r * q.r);
-        for (int d = 0; d < dim; d++) sum[d] += w * (whole ? along * q.d[d] : du[d]);
+        for (int d = 0; d < dim; d++) sum[d] += w * (k->whole ? along * q.d[d] : du[d]);
     }
     for (int d = 0; d < dim; d++) a[i * dim + d] += c * sum[d];
 }
@@ -76,15 +81,14 @@ MPS__ROW void diffuse(const int dim, const mps_stage *s, const double *mean, con
 static int force(void *self, const double *k, mps_stage *s, double *a)
 {
     (void)self;
-    const bool whole = k[STRESS] >= 0.5;
-    double mean[MPS__PHASE_LIMIT * MPS__PHASE_LIMIT], *slippery = NULL;
-    if (k[SLIP] >= 1 && !(slippery = find_slippery(s, (int)k[SLIP]))) return 1;
+    law how = {.whole = k[STRESS] >= 0.5};
+    if (k[SLIP] >= 1 && !(how.slippery = find_slippery(s, (int)k[SLIP]))) return 1;
     for (int p = 0; p < MPS__PHASE_LIMIT; p++)
         for (int q = 0; q < MPS__PHASE_LIMIT; q++)
-            mean[MPS__PHASE_LIMIT * p + q] = mean_viscosity(k[THETA], s->viscosity[p], s->viscosity[q]);
+            how.mean[MPS__PHASE_LIMIT * p + q] = mean_viscosity(k[THETA], s->viscosity[p], s->viscosity[q]);
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID) MPS__ROW_CALL(s, diffuse, s, mean, slippery, whole, i, a);
+        if (s->kind[i] == MPS_FLUID) MPS__ROW_CALL(s, diffuse, s, &how, i, a);
     return 0;
 }
 

@@ -63,8 +63,20 @@ MPS__ROW bool in_way(const int dim, const mps_stage *s, double reach, int64_t i,
     return aside2 <= 0.6 * square || (height > -reach && aside2 <= 2 * square && goes_on(dim, s, i, q, n, height));
 }
 
+/* What mps__walls_keep_off() was asked for. */
+typedef struct task {
+    double reach, lift;
+    const double *u;
+} task;
+
+/* How fast a particle has to move away from a face at least: it is let out of the half next to the wall. */
+static inline double outward(const task *k, double height)
+{
+    return height > -k->reach && height < 0.5 * k->reach ? fmin(k->lift, 0.5 * k->reach - height) : 0;
+}
+
 /* One turn of all walls. @return whether v has changed */
-MPS__ROW bool turn(const int dim, const mps_stage *s, double reach, const double *u, int64_t i, double v[3])
+MPS__ROW bool turn(const int dim, const mps_stage *s, const task *k, int64_t i, double v[3])
 {
     const mps_stencil *t = s->near;
     bool changed = false;
@@ -72,17 +84,19 @@ MPS__ROW bool turn(const int dim, const mps_stage *s, double reach, const double
         if (s->kind[t->col[p]] != MPS_WALL) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         double n[3], vn = 0;
-        if (!away(dim, s, &q, n) || height_over(dim, &q, n) >= reach) continue;
-        for (int d = 0; d < dim; d++) vn += (v[d] - (u ? u[q.j * dim + d] : 0)) * n[d];
-        if (vn >= 0 || !in_way(dim, s, reach, i, &q, n)) continue;
-        for (int d = 0; d < dim; d++) v[d] -= vn * n[d];
+        if (!away(dim, s, &q, n) || height_over(dim, &q, n) >= k->reach) continue;
+        const double least = outward(k, height_over(dim, &q, n));
+        for (int d = 0; d < dim; d++) vn += (v[d] - (k->u ? k->u[q.j * dim + d] : 0)) * n[d];
+        if (vn >= least || !in_way(dim, s, k->reach, i, &q, n)) continue;
+        for (int d = 0; d < dim; d++) v[d] += (least - vn) * n[d];
         changed = true;
     }
     return changed;
 }
 
-void mps__walls_keep_off(const mps_stage *s, double reach, const double *u, int64_t i, double v[3])
+void mps__walls_keep_off(const mps_stage *s, double reach, double lift, const double *u, int64_t i, double v[3])
 {
+    const task asked = {reach, lift, u};
     for (int k = 0; k < TURNS; k++)
-        if (!MPS__ROW_CALL(s, turn, s, reach, u, i, v)) return;
+        if (!MPS__ROW_CALL(s, turn, s, &asked, i, v)) return;
 }

@@ -287,6 +287,45 @@ static void shift_keeps_off(void **state)
     }
 }
 
+/* A drop that came over the rim lies in the plane of a wall: it comes out by 0.05 dp a step until it is 0.25 dp off, and gains no speed. */
+static void out_of_the_wall(void **state)
+{
+    (void)state;
+    static const double places[][3] = {{-0.3, 5.4, 3.1}, {10.3, 4.9, 3.1}, {4.6, -0.2, 3.1}, {0.02, 5.3, 3.1}};
+    for (int dim = 2; dim <= 3; dim++)
+        for (size_t k = 0; k < sizeof places / sizeof places[0]; k++) {
+            const double dp = CLOUD_DP;
+            const int axis = k == 2;
+            double at[3];
+            mps_sim *sim = bare_sim(dim, dp, 2.1, 0.1 * dp);
+            add_tank(sim, room[0] * dp, room[1] * dp, room[2] * dp);
+            mps_particle_block b;
+            assert_int_equal(mps_particle_block_init(&b, sizeof b), MPS_OK);
+            for (int d = 0; d < dim; d++) at[d] = places[k][d] * dp;
+            b.count = 1;
+            b.position = at;
+            ASSERT_OK(sim, mps_particles_add(sim, &b, NULL));
+            ASSERT_OK(sim, mps_model_use(sim, "surface.asymmetry"));
+            ASSERT_OK(sim, mps_model_use(sim, "collision.pair"));
+            ASSERT_OK(sim, mps_model_use(sim, "shift.tangential"));
+            const int64_t id = mps_particles_count(sim, -1) - 1;
+            for (int step = 0; step < 15; step++) {
+                ASSERT_OK(sim, mps_step(sim, 1, NULL));
+                double *x = field_by_id(sim, "position"), *u = field_by_id(sim, "velocity");
+                for (int d = 0; d < dim; d++) {
+                    const double moved = fabs(x[id * dim + d] - at[d]) / dp;
+                    assert_true(u[id * dim + d] == 0 && moved < (d == axis ? 0.05 + 1e-12 : 1e-12));
+                    at[d] = x[id * dim + d];
+                }
+                free(x);
+                free(u);
+            }
+            const double off = fmin(at[axis], room[axis] * dp - at[axis]) / dp;
+            ASSERT_NEAR(off, 0.25, 1e-9);
+            mps_sim_destroy(sim);
+        }
+}
+
 /* Particles added in another order collide alike. */
 static void order(void **state)
 {
@@ -317,9 +356,9 @@ static void order(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(momentum),         cmocka_unit_test(lone_pair),
-                                       cmocka_unit_test(edge_is_a_post),   cmocka_unit_test(corners_are_closed),
-                                       cmocka_unit_test(edges_are_closed), cmocka_unit_test(feet_are_closed),
-                                       cmocka_unit_test(shift_keeps_off),  cmocka_unit_test(order)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(momentum),           cmocka_unit_test(lone_pair),        cmocka_unit_test(edge_is_a_post),
+        cmocka_unit_test(corners_are_closed), cmocka_unit_test(edges_are_closed), cmocka_unit_test(feet_are_closed),
+        cmocka_unit_test(shift_keeps_off),    cmocka_unit_test(out_of_the_wall),  cmocka_unit_test(order)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
