@@ -71,7 +71,7 @@ LOW_FILL, START = "--t-end 10 --frames 200 --pictures 2.75,4.8,6.1,7.85", "--t-e
 
 CASES = [
     Case("static_tank", "static_tank", {0.02: 0.15, 0.01: 1, 0.005: 6}, e.static_tank, expected=STILL),
-    Case("static_tank_3d", "static_tank", {0.03: 0.5, 0.02: 2}, e.static_tank_3d, options("--dim 3"), expected=STILL),
+    Case("static_tank_3d", "static_tank", {0.03: 0.5, 0.02: 2, 0.015: 6}, e.static_tank_3d, options("--dim 3"), expected=STILL),
     Case("standing_wave", "standing_wave", {0.02: 0.5, 0.01: 3, 0.005: 20}, e.standing_wave, options("--t-end 6.1"),
          expected=("frequency", "amplitude after 5 periods / viscous")),
     Case("small_surge", "sloshing_high_fill", {0.02: 0.1, 0.01: 0.5, 0.005: 4}, e.small_surge, options("--amplitude 5e-4 --t-end 3"),
@@ -83,7 +83,7 @@ CASES = [
     Case("sloshing_low_fill", "sloshing_low_fill", {0.005: 1, 0.00375: 2.5, 0.0025: 9}, e.low_fill, options("--pictures 2.75,4.8,6.1,7.85"),
          expected=("run-up at the left wall, time of the largest P1",)),
     Case("sloshing_breaking", "sloshing_breaking", {0.02: 0.5, 0.01: 5, 0.005: 50}, e.breaking, options("--t-end 8 --pictures 2.2,2.3,2.4,2.5")),
-    Case("sloshing_baffle_2d", "sloshing_baffle_2d", {0.012: 0.8, 0.006: 7}, e.baffle_2d, options("--t-end 10"), expected=BAFFLE),
+    Case("sloshing_baffle_2d", "sloshing_baffle_2d", {0.012: 0.5, 0.008: 1.5, 0.006: 3}, e.baffle_2d, options("--t-end 10"), expected=BAFFLE),
     Case("sloshing_baffle_3d", "sloshing_baffle_3d", {0.02: 6, 0.01: 80}, e.baffle_3d, options("--t-end 3"), ("coarse", "fine"),
          expected=("time reached",)),
     Case("baffle_3d_counts", "sloshing_baffle_3d", {0.005: 3}, e.baffle_3d_counts, options("--layers 1 --t-end 1e-5"), ("standard",), ()),
@@ -110,7 +110,7 @@ CASES = [
     Case("breaking_start_air", "sloshing_breaking", {0.02: 0.5, 0.01: 4}, e.breaking_start, options(f"--model mmps {START}"), ("standard",) * 2, (),
          paper=True),
     Case("dam_break", "dam_break", {0.02: 0.1, 0.01: 0.4, 0.005: 5}, e.dam_break),
-    Case("dam_break_3d", "dam_break", {0.02: 2}, e.dam_break, options("--dim 3"), ("coarse",)),
+    Case("dam_break_3d", "dam_break", {0.03: 0.3, 0.02: 1, 0.015: 3}, e.dam_break, options("--dim 3")),
     Case("long_surge", "sloshing_surge", {0.01: 14}, e.long_run, options("--t-end 60 --probe-dt 0.002"), ("fine",), ()),
     Case("long_breaking", "sloshing_breaking", {0.01: 15}, e.long_breaking, options("--t-end 20 --probe-dt 0.002"), ("fine",), ()),
 ]
