@@ -46,7 +46,8 @@ typedef struct mps_stage {
     double *p;                /**< [n] pressures [Pa]; from `gradient` on the new ones */
     const double *density;    /**< [n] rho [kg/m3] */
     const double *viscosity;  /**< [16] mu of the phases [Pa s] */
-    const double *tank_accel; /**< [n*dim] acceleration over this step of the rigid tank at the particle's place, solid or fluid [m/s2] */
+    double *tank_accel;       /**< [n*dim] acceleration over this step of the rigid tank at the particle's place, solid or fluid: the motion
+                                 from which pressures are reckoned; g in a body of fluid that falls freely; classify may change it [m/s2] */
     const double *area;       /**< [n*dim] wetted area vector of wall particles, into the fluid */
     const int32_t *wall_of;   /**< [n] nearest wall particle of a dummy, -1: none near */
     double *number_density;   /**< [n] sum W over the near pairs, kept where a solid has no fluid about it; classify may change it */

@@ -11,7 +11,7 @@
 #define MPS__ROW_CALL(s, f, ...) ((s)->dim == 2 ? f(2, __VA_ARGS__) : f(3, __VA_ARGS__))
 
 extern const mps_model_ops mps__surface_asymmetry, mps__surface_detached, mps__surface_original;
-extern const mps_model_ops mps__wall_half, mps__wall_extrapolate;
+extern const mps_model_ops mps__wall_half, mps__wall_extrapolate, mps__body_free;
 extern const mps_model_ops mps__reference_gas, mps__reference_lid;
 
 /* Unit vector against gravity; false without gravity. */
