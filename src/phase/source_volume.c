@@ -109,9 +109,10 @@ MPS__ROW void face_correction(const int dim, const mps_stage *s, int64_t i, doub
 /* Divergence of a fluid particle, with B_i, less `strain` dt T: the move x + dt v changes volumes by dt div v - dt^2 T/2 + ..., so
  * div v = dt T/2 is wanted after the step; before it strain = 1/gain - 1/2 asks for T beyond the gain as well. With zero instead every
  * strained particle is compressed at the rate (1/gain - 1/2) dt T and blown up again by delta against the pressure. */
-MPS__ROW double fluid_divergence(const int dim, const mps_stage *s, const double *v, int64_t i, double strain)
+MPS__ROW double fluid_divergence(const int dim, const mps_stage *stage, const double *v, int64_t i, double strain)
 {
-    const mps_stencil *t = s->near;
+    const mps_stage copy = *stage, *s = &copy;
+    const mps_stencil near = *s->near, *t = &near;
     double g[9] = {0}, sum = 0, own[9]; /* g = sum w (v_j - v_i) (x) r_ij */
     bool mixed = false;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
@@ -126,7 +127,7 @@ MPS__ROW double fluid_divergence(const int dim, const mps_stage *s, const double
     }
     const double *b = s->correction + i * dim * dim;
     if (mixed) {
-        face_correction(dim, s, i, own);
+        face_correction(dim, stage, i, own);
         b = own;
     }
     double a[9] = {0}, square = 0; /* a = grad v */
@@ -188,11 +189,12 @@ MPS__ROW double wall_divergence(const int dim, const mps_stage *s, const double 
 /* Kernel mean of delta over the fluid: its noise at the grid scale must not reach the pressure. */
 MPS__ROW double mean_deviation(const int dim, const mps_stage *s, const double *delta, int64_t i)
 {
-    const mps_stencil *t = s->near;
+    const mps_stencil near = *s->near, *t = &near;
+    const int32_t *kind = s->kind;
     const double own = 0.5 * mps_kernel_weight(&t->kernel, t->kernel.id == MPS_KERNEL_IMPROVED ? 0.0 : 0.5 * s->dp, t->re);
     double sum = own * delta[i], weight = own;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        if (s->kind[t->col[p]] != MPS_FLUID) continue;
+        if (kind[t->col[p]] != MPS_FLUID) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         sum += q.w * delta[q.j];
         weight += q.w;
