@@ -225,14 +225,9 @@ static int ranges_around(const mps_neighbours *l, const cell_map *m, uint64_t ke
     return count;
 }
 
-static double distance2(const double *x, int64_t i, int64_t j, int dim)
+static inline double distance2(const double *x, int64_t i, int64_t j, int dim)
 {
-    double s = 0;
-    for (int d = 0; d < dim; d++) {
-        double m = x[j * dim + d] - x[i * dim + d];
-        s += m * m;
-    }
-    return s;
+    return mps__square_between(x + i * dim, x + j * dim, dim);
 }
 
 static void sort_row(int32_t *row, int64_t n)

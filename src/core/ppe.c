@@ -57,6 +57,7 @@ typedef struct assembly {
     const mps_stage *s;
     const mps_ppe_terms *t;
     const mps_stencil *pairs;
+    const int32_t *unknown;
     double c;       /* 2D/(n0 lambda) */
     double surface; /* weight of pairs with one particle on the surface */
 } assembly;
@@ -85,9 +86,10 @@ static inline double capillary_jump(const mps_stage *s, int64_t i, int64_t j)
 }
 
 /* Weight of a pair by what its particles are; 0: it does not take part. An unknown is not on the surface. */
-static inline double pair_factor(const assembly *a, const mps_stage *s, int64_t i, int64_t j)
+static inline double pair_factor(const assembly *a, int64_t i, int64_t j)
 {
-    if (a->e->unknown[j] < 0 && !a->t->fixed[j]) return 0.0;
+    const mps_stage *s = a->s;
+    if (a->unknown[j] < 0 && !a->t->fixed[j]) return 0.0;
     if (s->kind[i] == MPS_WALL && s->kind[j] == MPS_WALL) return a->t->wall_factor * fmin(s->wet[i], s->wet[j]);
     return s->region[j] == MPS_REGION_SURFACE ? a->surface : 1.0;
 }
@@ -113,7 +115,7 @@ static int64_t count_row(const assembly *a, int64_t r)
     int64_t count = 0;
     for (int64_t k = a->pairs->begin[i]; k < a->pairs->end[i]; k++) {
         const int64_t j = a->pairs->col[k];
-        count += e->unknown[j] >= 0 && (a->s->kind[i] == MPS_FLUID || pair_factor(a, a->s, i, j) != 0);
+        count += e->unknown[j] >= 0 && (a->s->kind[i] == MPS_FLUID || pair_factor(a, i, j) != 0);
     }
     return count;
 }
@@ -145,13 +147,13 @@ static void sort_row(int32_t *col, float *val, int64_t n)
     }
 }
 
-static inline __attribute__((always_inline)) void fill_row(const int dim, const assembly *a, int64_t r)
+static inline __attribute__((always_inline)) void fill_row(const int dim, const assembly *all, int64_t r)
 {
-    mps__ppe *e = a->e;
-    const mps_stage stage = *a->s, *s = &stage; /* copies, so that the pointers in them stay in registers */
-    const mps_stencil near = *a->pairs, *pairs = &near;
-    const int32_t *unknown = e->unknown;
-    const double *body = a->t->body, *value = a->t->value;
+    mps__ppe *e = all->e;
+    const mps_stage stage = *all->s, *s = &stage; /* copies, so that the pointers in them stay in registers */
+    const mps_stencil stencil = *all->pairs, *pairs = &stencil;
+    const mps_ppe_terms terms = *all->t;
+    const assembly copy = {e, s, &terms, pairs, all->unknown, all->c, all->surface}, *a = &copy;
     const int64_t i = e->particle[r];
     int32_t *col = e->col + e->row[r];
     const double gain = a->t->gain, gas = gain * a->t->gas[i];
@@ -161,19 +163,19 @@ static inline __attribute__((always_inline)) void fill_row(const int dim, const 
     int32_t last = -1;
     bool sorted = true;
     for (int64_t k = pairs->begin[i]; k < pairs->end[i]; k++) {
-        const double factor = pair_factor(a, s, i, pairs->col[k]);
+        const double factor = pair_factor(a, i, pairs->col[k]);
         if (factor == 0) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, pairs, i, k);
         const double rho = mps_stage_pair_density(s, i, q.j);
         const float entry = (float)(a->c * factor * q.w / rho); /* the same from both sides, and in the diagonal */
         const double kij = (double)entry;
         double slope = 0;
-        for (int d = 0; d < dim; d++) slope += 0.5 * (body[i * dim + d] + body[q.j * dim + d]) * q.d[d];
+        for (int d = 0; d < dim; d++) slope += 0.5 * (terms.body[i * dim + d] + terms.body[q.j * dim + d]) * q.d[d];
         rhs -= kij * (rho * slope - capillary_jump(s, i, q.j));
-        const int32_t column = unknown[q.j];
+        const int32_t column = a->unknown[q.j];
         if (column < 0) {
             shift += kij;
-            rhs += kij * value[q.j];
+            rhs += kij * terms.value[q.j];
             continue;
         }
         coupling += kij;
@@ -274,6 +276,7 @@ mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps_ppe_term
                         .s = s,
                         .t = t,
                         .pairs = pairs,
+                        .unknown = e->unknown,
                         .c = 2.0 * s->dim / (pairs->n0 * pairs->lambda),
                         .surface = t->complete_surface ? complete_flux(pairs) : 1.0};
     number_rows(&a);

@@ -27,6 +27,16 @@ static const mps_setting settings[] = {{"tau", 20.0, 0.1, 1e6},    {"clip", 0.1,
                                        {"gain", 0.7, 0.05, 1.0},   {"firm", 0.03, 1e-3, 1.0},  {"rapid", 0.0, 0.0, 1.0},
                                        {"torn", 0.15, 1e-3, 10.0}, {"forward", 0.0, 0.0, 1.0}, {"pace", 1.0, 0.0, 1.0}};
 
+/* fmax() and fmin() as one instruction: `b` may be NaN and does not count then. */
+static inline double larger(double a, double b)
+{
+    return b > a ? b : a;
+}
+static inline double smaller(double a, double b)
+{
+    return b < a ? b : a;
+}
+
 /* delta of each fluid particle, never negative near the surface, where the kernel is cut. */
 static void volume_deviation(const double *k, const mps_stage *s, double *delta)
 {
@@ -35,7 +45,7 @@ static void volume_deviation(const double *k, const mps_stage *s, double *delta)
         if (s->kind[i] != MPS_FLUID || s->region[i] >= MPS_REGION_SURFACE) continue;
         double v = s->volume[i];
         if (s->region[i] != MPS_REGION_INNER && v < 0) v = 0;
-        delta[i] = fmin(fmax(v, -k[CLIP]), k[CLIP]);
+        delta[i] = smaller(k[CLIP], larger(-k[CLIP], v));
     }
 }
 
@@ -206,7 +216,7 @@ MPS__ROW double mean_deviation(const int dim, const mps_stage *s, const double *
 static inline double relaxation(const double *k, double delta, double most)
 {
     const double square = delta * delta / (k[FIRM] * k[FIRM]), torn = delta * delta / (k[TORN] * k[TORN]);
-    return fmin((1.0 + square * square) / k[TAU], 1.0) + fmin(torn * torn, 1.0) * most;
+    return smaller(1.0, (1.0 + square * square) / k[TAU]) + smaller(1.0, torn * torn) * most;
 }
 
 /* Share of the source that a step asks for, by density: 1 for the lightest fluid, `heavy` for the heaviest. */
@@ -219,15 +229,15 @@ static pacing set_pace(const mps_stage *s, double on)
     double lightest = INFINITY, heaviest = 0, dense = 0, any = 0;
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_FLUID) continue;
-        lightest = fmin(lightest, s->density[i]);
-        heaviest = fmax(heaviest, s->density[i]);
+        lightest = smaller(lightest, s->density[i]);
+        heaviest = larger(heaviest, s->density[i]);
     }
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_FLUID || s->region[i] >= MPS_REGION_SURFACE) continue;
         double square = 0;
         for (int d = 0; d < s->dim; d++) square += s->u[i * s->dim + d] * s->u[i * s->dim + d];
-        any = fmax(any, square);
-        if (s->density[i] > lightest) dense = fmax(dense, square);
+        any = larger(any, square);
+        if (s->density[i] > lightest) dense = larger(dense, square);
     }
     const double share = fmax(sqrt(dense), calm_speed(s)) / fmax(sqrt(any), calm_speed(s));
     return (pacing){lightest, heaviest - lightest, heaviest > lightest ? 1.0 - on * (1.0 - share) : 1.0};

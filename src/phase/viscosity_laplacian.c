@@ -9,8 +9,8 @@ MPS__ROW void weights(const int dim, const mps_stencil *t, int64_t i, int64_t fr
 {
     for (int k = 0; k < count; k++) {
         const double *a = t->x + i * dim, *b = t->x + (int64_t)t->col[from + k] * dim;
-        w[k] = 0;
-        for (int d = 0; d < dim; d++) w[k] += (b[d] - a[d]) * (b[d] - a[d]);
+        const double x = b[0] - a[0], y = b[1] - a[1], z = dim == 3 ? b[2] - a[2] : 0;
+        w[k] = dim == 3 ? x * x + y * y + z * z : x * x + y * y;
     }
     for (int k = 0; k < count; k++) w[k] = sqrt(w[k]);
     mps_kernel_weights(&t->kernel, t->re, count, w, w);
