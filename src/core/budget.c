@@ -21,8 +21,10 @@ typedef void (*part_fn)(const mps__world *w, const void *data, range r, sums *pa
 static inline __attribute__((always_inline)) void add_terms(const mps__world *w, int32_t kind, term_fn term, const void *data, range r,
                                                             sums *part)
 {
+    sums sum = *part; /* a local one stays in registers */
     for (int64_t i = r.from; i < r.to; i++)
-        if (w->particles.kind[i] == kind) term(w, data, i, part->of);
+        if (w->particles.kind[i] == kind) term(w, data, i, sum.of);
+    *part = sum;
 }
 
 static sums sum_parts(const mps__world *w, part_fn add, const void *data)

@@ -45,6 +45,7 @@ typedef struct pair_sums {
     double most;            /* largest |u_j - u_i|^2 of the fluid */
     double m[9], g[9];      /* sum w r_ij (x) r_ij and (u_j - u_i) (x) r_ij over fluid of the same phase */
     double low[3], high[3]; /* range of u_j - u_i there */
+    double even[3];         /* own unevenness */
     bool solids;            /* among the pairs */
 } pair_sums;
 
@@ -66,6 +67,7 @@ MPS__ROW void collect(const int dim, const mps_stage *stage, const double *even,
     const mps_stencil near = *s->near, *t = &near;
     const double *u = s->u + i * dim;
     *c = (pair_sums){0};
+    for (int d = 0; d < dim; d++) c->even[d] = even[i * dim + d];
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         if (s->kind[t->col[p]] != MPS_FLUID) {
             c->solids = true;
@@ -92,14 +94,12 @@ MPS__ROW void collect(const int dim, const mps_stage *stage, const double *even,
     }
 }
 
-/* `even`: of particle i. */
-MPS__ROW void shift_of(const int dim, const double *k, const mps_stage *s, int64_t i, const double *even, const pair_sums *sums,
-                       double v[3])
+MPS__ROW void shift_of(const int dim, const double *k, const mps_stage *s, int64_t i, const pair_sums *sums, double v[3])
 {
     double n[3] = {0}, n2 = 0, vn = 0, v2 = 0;
     const double c = -k[STRENGTH] * s->dt * s->dp * dim / s->near->n0, calm = c * s->velocity_scale, torn = c * sqrt(sums->most);
     const double smooth = sums->weight > 0 ? k[FILTER] * calm / sums->weight : 0;
-    for (int d = 0; d < dim; d++) v[d] = (calm + torn) * even[d] - smooth * sums->mean[d];
+    for (int d = 0; d < dim; d++) v[d] = (calm + torn) * sums->even[d] - smooth * sums->mean[d];
     surface_normal(s, i, n);
     for (int d = 0; d < dim; d++) {
         n2 += n[d] * n[d];
@@ -136,7 +136,7 @@ MPS__ROW void move(const int dim, const double *k, const mps_stage *s, int64_t i
     pair_sums sums;
     double v[3];
     collect(dim, s, even, i, &sums);
-    shift_of(dim, k, s, i, even + i * dim, &sums, v);
+    shift_of(dim, k, s, i, &sums, v);
     if (sums.solids) mps__walls_keep_off(s, wall_distance * s->dp, NULL, i, v);
     if (k[TRANSPORT] > 0) transport(dim, s, &sums, v, out[1] + i * dim);
     for (int d = 0; d < dim; d++) out[0][i * dim + d] += v[d];
