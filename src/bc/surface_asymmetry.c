@@ -32,18 +32,17 @@ static double lattice_asymmetry(const mps_stencil *t)
     return t->dim * sum / t->n0;
 }
 
-/* Inner fluid particles with a near neighbour of region `from` become `to`. */
+/* Inner fluid particles with a near neighbour of region `from` become `to`. These are few, and pairs are symmetric: one thread looks about
+ * each of them sooner than all threads about everybody else. */
 static void spread(mps_stage *s, int32_t from, int32_t to)
 {
     const mps_stencil *t = s->near;
-#pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_FLUID || s->region[i] != MPS_REGION_INNER) continue;
-        for (int64_t p = t->begin[i]; p < t->end[i]; p++)
-            if (s->kind[t->col[p]] == MPS_FLUID && s->region[t->col[p]] == from) {
-                s->region[i] = to;
-                break;
-            }
+        if (s->region[i] != from || s->kind[i] != MPS_FLUID) continue;
+        for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+            const int64_t j = t->col[p];
+            if (s->region[j] == MPS_REGION_INNER && s->kind[j] == MPS_FLUID) s->region[j] = to;
+        }
     }
 }
 
@@ -109,10 +108,14 @@ static int mark_islands(const double *k, mps_stage *s)
 {
     double *found = mps_stage_scratch(s, s->n);
     if (!found) return 1;
+    const mps_stencil *t = s->near;
+    for (int64_t i = 0; i < s->n; i++)
+        for (int64_t p = t->begin[i]; s->region[i] == MPS_REGION_SPRAY && p < t->end[i]; p++) found[t->col[p]] = 1;
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID && s->region[i] == MPS_REGION_INNER)
-            found[i] = MPS__ROW_CALL(s, detached, s, i, false, k[SPRAY] * s->near->n0);
+        if (found[i] > 0) /* beside spray: the others are not detached, or they would be spray */
+            found[i] = s->kind[i] == MPS_FLUID && s->region[i] == MPS_REGION_INNER &&
+                       MPS__ROW_CALL(s, detached, s, i, false, k[SPRAY] * t->n0);
     for (int64_t i = 0; i < s->n; i++)
         if (found[i] > 0) s->region[i] = MPS_REGION_SURFACE;
     return 0;

@@ -66,6 +66,13 @@ double mps__clock(void); /* monotonic [s] */
 /* Set numbers to zero with so many threads. */
 void mps__zero(double *values, int64_t count, int threads);
 
+/* |b - a|^2 */
+static inline double mps__square_between(const double *a, const double *b, int dim)
+{
+    const double x = b[0] - a[0], y = b[1] - a[1], z = dim == 3 ? b[2] - a[2] : 0;
+    return dim == 3 ? x * x + y * y + z * z : x * x + y * y;
+}
+
 static inline double mps__dot(const double *a, const double *b, int dim)
 {
     double s = a[0] * b[0] + a[1] * b[1];

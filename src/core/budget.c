@@ -11,15 +11,28 @@ typedef struct sums {
 } sums;
 typedef void (*term_fn)(const mps__world *w, const void *data, int64_t i, double *sum);
 
-/* Sums over the particles of one kind. */
-static sums sum_kind(const mps__world *w, int32_t kind, term_fn term, const void *data)
+/* Particles from..to-1. */
+typedef struct range {
+    int64_t from, to;
+} range;
+typedef void (*part_fn)(const mps__world *w, const void *data, range r, sums *part);
+
+/* The terms of one kind of particles. Each kind of term has its own loop, in which its function is inlined. */
+static inline __attribute__((always_inline)) void add_terms(const mps__world *w, int32_t kind, term_fn term, const void *data, range r,
+                                                            sums *part)
+{
+    sums sum = *part; /* a local one stays in registers */
+    for (int64_t i = r.from; i < r.to; i++)
+        if (w->particles.kind[i] == kind) term(w, data, i, sum.of);
+    *part = sum;
+}
+
+static sums sum_parts(const mps__world *w, part_fn add, const void *data)
 {
     const int64_t n = w->particles.n;
     sums part[PARTS] = {{{0}}}, all = {{0}};
 #pragma omp parallel for num_threads(w->threads) schedule(static)
-    for (int p = 0; p < PARTS; p++)
-        for (int64_t i = n * p / PARTS; i < n * (p + 1) / PARTS; i++)
-            if (w->particles.kind[i] == kind) term(w, data, i, part[p].of);
+    for (int p = 0; p < PARTS; p++) add(w, data, (range){n * p / PARTS, n * (p + 1) / PARTS}, &part[p]);
     for (int p = 0; p < PARTS; p++)
         for (int k = 0; k < SUMS; k++) all.of[k] += part[p].of[k];
     return all;
@@ -39,9 +52,14 @@ static void energy_term(const mps__world *w, const void *data, int64_t i, double
     for (int d = 0; d < w->dim; d++) sum[2 + d] += mass(w, i) * u[d];
 }
 
+static void add_energy(const mps__world *w, const void *data, range r, sums *part)
+{
+    add_terms(w, MPS_FLUID, energy_term, data, r, part);
+}
+
 void mps__budget_sum(const mps__world *w, mps__bulk *bulk)
 {
-    const sums s = sum_kind(w, MPS_FLUID, energy_term, NULL);
+    const sums s = sum_parts(w, add_energy, NULL);
     *bulk = (mps__bulk){s.of[0], s.of[1], {s.of[2], s.of[3], s.of[4]}};
 }
 
@@ -62,9 +80,14 @@ static void push_term(const mps__world *w, const void *data, int64_t i, double *
     }
 }
 
+static void add_push(const mps__world *w, const void *data, range r, sums *part)
+{
+    add_terms(w, MPS_FLUID, push_term, data, r, part);
+}
+
 void mps__budget_push(const mps__world *w, const double *a, double dt, mps__push *push)
 {
-    const sums s = sum_kind(w, MPS_FLUID, push_term, &(acceleration){a, dt});
+    const sums s = sum_parts(w, add_push, &(acceleration){a, dt});
     *push = (mps__push){s.of[0], s.of[1], {s.of[2], s.of[3], s.of[4]}, {s.of[5], s.of[6], s.of[7]}};
 }
 
@@ -74,9 +97,14 @@ static void wall_term(const mps__world *w, const void *data, int64_t i, double *
     for (int d = 0; d < w->dim; d++) sum[d] += w->particles.p[i] * area[d];
 }
 
+static void add_wall(const mps__world *w, const void *data, range r, sums *part)
+{
+    add_terms(w, MPS_WALL, wall_term, data, r, part);
+}
+
 void mps__budget_wall_force(const mps__world *w, double force[3])
 {
-    const sums s = sum_kind(w, MPS_WALL, wall_term, w->work.area);
+    const sums s = sum_parts(w, add_wall, w->work.area);
     memcpy(force, s.of, 3 * sizeof *force);
 }
 
@@ -98,12 +126,17 @@ static void wall_work_term(const mps__world *w, const void *data, int64_t i, dou
     }
 }
 
+static void add_wall_work(const mps__world *w, const void *data, range r, sums *part)
+{
+    add_terms(w, MPS_FLUID, wall_work_term, data, r, part);
+}
+
 double mps__budget_wall_work(const mps__world *w, const mps__pose *end, const double *u0, double dt)
 {
     tank_move k = {.dt = dt, .omega = end->omega, .u0 = u0};
     mps__motion_point(&w->motion, &w->motion.now, w->motion.centre, k.c0, NULL, NULL);
     mps__motion_point(&w->motion, end, w->motion.centre, k.c1, NULL, NULL);
-    return sum_kind(w, MPS_FLUID, wall_work_term, &k).of[0];
+    return sum_parts(w, add_wall_work, &k).of[0];
 }
 
 static void lift_term(const mps__world *w, const void *data, int64_t i, double *sum)
@@ -111,9 +144,14 @@ static void lift_term(const mps__world *w, const void *data, int64_t i, double *
     sum[0] += mass(w, i) * mps__dot(w->g, (const double *)data + i * w->dim, w->dim);
 }
 
+static void add_lift(const mps__world *w, const void *data, range r, sums *part)
+{
+    add_terms(w, MPS_FLUID, lift_term, data, r, part);
+}
+
 double mps__budget_lift(const mps__world *w, const double *dx)
 {
-    return sum_kind(w, MPS_FLUID, lift_term, dx).of[0];
+    return sum_parts(w, add_lift, dx).of[0];
 }
 
 static void deviation_term(const mps__world *w, const void *data, int64_t i, double *sum)
@@ -124,8 +162,13 @@ static void deviation_term(const mps__world *w, const void *data, int64_t i, dou
     sum[1] += 1;
 }
 
+static void add_deviation(const mps__world *w, const void *data, range r, sums *part)
+{
+    add_terms(w, MPS_FLUID, deviation_term, data, r, part);
+}
+
 double mps__budget_mean_deviation(const mps__world *w)
 {
-    const sums s = sum_kind(w, MPS_FLUID, deviation_term, NULL);
+    const sums s = sum_parts(w, add_deviation, NULL);
     return s.of[1] > 0 ? s.of[0] / s.of[1] : 0;
 }

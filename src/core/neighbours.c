@@ -225,14 +225,9 @@ static int ranges_around(const mps_neighbours *l, const cell_map *m, uint64_t ke
     return count;
 }
 
-static double distance2(const double *x, int64_t i, int64_t j, int dim)
+static inline double distance2(const double *x, int64_t i, int64_t j, int dim)
 {
-    double s = 0;
-    for (int d = 0; d < dim; d++) {
-        double m = x[j * dim + d] - x[i * dim + d];
-        s += m * m;
-    }
-    return s;
+    return mps__square_between(x + i * dim, x + j * dim, dim);
 }
 
 static void sort_row(int32_t *row, int64_t n)
@@ -386,24 +381,52 @@ mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x,
     MPS__TRY(fit(l, (void **)&l->scratch, &l->scratch_capacity, MPS__PARTS * 2 * l->longest, sizeof *l->scratch));
     MPS__TRY(fit(l, (void **)&l->col, &l->pair_capacity, l->begin[n], sizeof *l->col));
     search_cells(l, &m, reach, true);
+    for (int64_t i = 0; i < n; i++) l->middle[i] = l->end[i] = l->begin[i]; /* not parted yet */
     memcpy(l->searched, x, (size_t)(n * l->dim) * sizeof *x);
     l->kind = NULL;
     l->valid = true;
     return MPS_OK;
 }
 
+/* Squares of the distances between which pairs are near, far and out of reach. */
+typedef struct rings {
+    double least, near2, far2;
+} rings;
+
+/* Whether the squared distances of i to some of its candidates are all in [least, most). */
+MPS__DIM_INLINE bool all_between(const mps_neighbours *l, int64_t i, const int32_t *row, int64_t count, const double ring[2], const int dim)
+{
+    double nearest = INFINITY, farthest = 0;
+    for (int64_t k = 0; k < count; k++) {
+        const double r2 = distance2(l->x, i, row[k], dim);
+        nearest = r2 < nearest ? r2 : nearest;
+        farthest = r2 > farthest ? r2 : farthest;
+    }
+    return nearest >= ring[0] && farthest < ring[1];
+}
+
+/* Whether each candidate is still in the part where the last step put it: then the row is what it should be. */
+MPS__DIM_INLINE bool row_stands(const mps_neighbours *l, int64_t i, const rings *g, const int dim)
+{
+    const int32_t *row = l->col;
+    const double near[2] = {g->least, g->near2}, far[2] = {g->near2, g->far2}, out[2] = {g->far2, INFINITY};
+    return all_between(l, i, row + l->begin[i], l->middle[i] - l->begin[i], near, dim) &&
+           all_between(l, i, row + l->middle[i], l->end[i] - l->middle[i], far, dim) &&
+           all_between(l, i, row + l->end[i], l->begin[i + 1] - l->end[i], out, dim);
+}
+
 /* One row parted: near pairs, the others within reach, what is out of it, the last two by way of `scratch`. Each candidate is written to
  * all three and counted at one: no branches. Few have changed their part since the last step, so that sorting is short work. */
-MPS__DIM_INLINE void exact_row(mps_neighbours *l, const double *x, int64_t i, int32_t *scratch, const int dim)
+MPS__DIM_INLINE void exact_row(mps_neighbours *l, int64_t i, const rings *g, int32_t *scratch, const int dim)
 {
-    const double near2 = l->re_near * l->re_near, far2 = l->re_far * l->re_far, least = coincident * coincident * l->dp * l->dp;
-    const int64_t count = l->idle[i] ? 0 : l->begin[i + 1] - l->begin[i];
+    if (l->idle[i] || row_stands(l, i, g, dim)) return;
+    const int64_t count = l->begin[i + 1] - l->begin[i];
     int32_t *const row = l->col + l->begin[i], *const far = scratch, *const out = scratch + l->longest;
     int64_t nears = 0, fars = 0, outs = 0;
     for (int64_t k = 0; k < count; k++) {
         const int32_t j = row[k];
-        const double r2 = distance2(x, i, j, dim);
-        const bool within = (r2 < far2) & (r2 >= least), close = within & (r2 < near2);
+        const double r2 = distance2(l->x, i, j, dim);
+        const bool within = (r2 < g->far2) & (r2 >= g->least), close = within & (r2 < g->near2);
         row[nears] = far[fars] = out[outs] = j;
         nears += close;
         fars += within & !close;
@@ -444,15 +467,16 @@ static void screen_rows(mps_neighbours *l)
 
 void mps__neighbours_rows(mps_neighbours *l, const double *x)
 {
+    const rings g = {coincident * coincident * l->dp * l->dp, l->re_near * l->re_near, l->re_far * l->re_far};
     l->x = x;
 #pragma omp parallel for num_threads(l->threads) schedule(static)
     for (int part = 0; part < MPS__PARTS; part++) {
         int32_t *scratch = l->scratch + 2 * l->longest * part;
         for (int64_t i = l->n * part / MPS__PARTS; i < l->n * (part + 1) / MPS__PARTS; i++) {
             if (l->dim == 2)
-                exact_row(l, x, i, scratch, 2);
+                exact_row(l, i, &g, scratch, 2);
             else
-                exact_row(l, x, i, scratch, 3);
+                exact_row(l, i, &g, scratch, 3);
         }
     }
     if (l->screens && l->screens->count > 0) screen_rows(l);

@@ -57,6 +57,7 @@ typedef struct assembly {
     const mps_stage *s;
     const mps_ppe_terms *t;
     const mps_stencil *pairs;
+    const int32_t *unknown;
     double c;       /* 2D/(n0 lambda) */
     double surface; /* weight of pairs with one particle on the surface */
 } assembly;
@@ -84,13 +85,13 @@ static inline double capillary_jump(const mps_stage *s, int64_t i, int64_t j)
     return across ? 0.5 * (s->capillary[i] - s->capillary[j]) : 0.0;
 }
 
-/* Weight of a pair by what its particles are; 0: it does not take part. */
+/* Weight of a pair by what its particles are; 0: it does not take part. An unknown is not on the surface. */
 static inline double pair_factor(const assembly *a, int64_t i, int64_t j)
 {
     const mps_stage *s = a->s;
-    if (a->e->unknown[j] < 0 && !a->t->fixed[j]) return 0.0;
+    if (a->unknown[j] < 0 && !a->t->fixed[j]) return 0.0;
     if (s->kind[i] == MPS_WALL && s->kind[j] == MPS_WALL) return a->t->wall_factor * fmin(s->wet[i], s->wet[j]);
-    return (s->region[i] == MPS_REGION_SURFACE) != (s->region[j] == MPS_REGION_SURFACE) ? a->surface : 1.0;
+    return s->region[j] == MPS_REGION_SURFACE ? a->surface : 1.0;
 }
 
 /* Unknowns in the order of the particles. */
@@ -146,35 +147,40 @@ static void sort_row(int32_t *col, float *val, int64_t n)
     }
 }
 
-static inline __attribute__((always_inline)) void fill_row(const int dim, const assembly *a, int64_t r)
+static inline __attribute__((always_inline)) void fill_row(const int dim, const assembly *all, int64_t r)
 {
-    mps__ppe *e = a->e;
-    const mps_stage *s = a->s;
+    mps__ppe *e = all->e;
+    const mps_stage stage = *all->s, *s = &stage; /* copies, so that the pointers in them stay in registers */
+    const mps_stencil stencil = *all->pairs, *pairs = &stencil;
+    const mps_ppe_terms terms = *all->t;
+    const assembly copy = {e, s, &terms, pairs, all->unknown, all->c, all->surface}, *a = &copy;
     const int64_t i = e->particle[r];
     int32_t *col = e->col + e->row[r];
     const double gain = a->t->gain, gas = gain * a->t->gas[i];
     float *val = e->val + e->row[r];
     double coupling = 0, shift = gain * a->t->shift[i] + gas, rhs = gain * a->t->rhs[i];
     int64_t count = 0;
+    int32_t last = -1;
     bool sorted = true;
-    for (int64_t k = a->pairs->begin[i]; k < a->pairs->end[i]; k++) {
-        const double factor = pair_factor(a, i, a->pairs->col[k]);
+    for (int64_t k = pairs->begin[i]; k < pairs->end[i]; k++) {
+        const double factor = pair_factor(a, i, pairs->col[k]);
         if (factor == 0) continue;
-        const mps_pair q = mps_stencil_pair_dim(dim, a->pairs, i, k);
+        const mps_pair q = mps_stencil_pair_dim(dim, pairs, i, k);
         const double rho = mps_stage_pair_density(s, i, q.j);
         const float entry = (float)(a->c * factor * q.w / rho); /* the same from both sides, and in the diagonal */
         const double kij = (double)entry;
-        double body = 0;
-        for (int d = 0; d < dim; d++) body += 0.5 * (a->t->body[i * dim + d] + a->t->body[q.j * dim + d]) * q.d[d];
-        rhs -= kij * (rho * body - capillary_jump(s, i, q.j));
-        if (e->unknown[q.j] < 0) {
+        double slope = 0;
+        for (int d = 0; d < dim; d++) slope += 0.5 * (terms.body[i * dim + d] + terms.body[q.j * dim + d]) * q.d[d];
+        rhs -= kij * (rho * slope - capillary_jump(s, i, q.j));
+        const int32_t column = a->unknown[q.j];
+        if (column < 0) {
             shift += kij;
-            rhs += kij * a->t->value[q.j];
+            rhs += kij * terms.value[q.j];
             continue;
         }
         coupling += kij;
-        sorted = sorted && (count == 0 || col[count - 1] < e->unknown[q.j]);
-        col[count] = e->unknown[q.j];
+        sorted = sorted & (column > last);
+        col[count] = last = column;
         val[count++] = -entry;
     }
     if (coupling + shift == 0) { /* nobody near: p = 0 */
@@ -270,6 +276,7 @@ mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps_ppe_term
                         .s = s,
                         .t = t,
                         .pairs = pairs,
+                        .unknown = e->unknown,
                         .c = 2.0 * s->dim / (pairs->n0 * pairs->lambda),
                         .surface = t->complete_surface ? complete_flux(pairs) : 1.0};
     number_rows(&a);

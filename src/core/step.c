@@ -154,6 +154,20 @@ static void tank_velocity(const mps__world *w, const double *X, double *u)
     }
 }
 
+/* Whether the tank has the same place in both poses. */
+static bool same_place(const mps__pose *a, const mps__pose *b)
+{
+    return memcmp(a->state.value, b->state.value, sizeof a->state.value) == 0 && memcmp(a->rotation, b->rotation, sizeof a->rotation) == 0;
+}
+
+/* Whether the tank neither moves in this step nor was moving before it. */
+static bool at_rest(const step_state *q)
+{
+    const mps__world *w = q->w;
+    const bool was = w->dt_before > 0 ? same_place(&w->before, &w->motion.now) : w->motion.start != MPS_START_WITH_TANK;
+    return was && same_place(&w->motion.now, &q->pose);
+}
+
 /* Solids get the velocity that carries them to their next place; every particle the acceleration a rigid tank has there.
  * Area vectors turn with the tank. */
 static void move_walls(step_state *q)
@@ -161,9 +175,16 @@ static void move_walls(step_state *q)
     mps__world *w = q->w;
     mps__particles *s = &w->particles;
     const int dim = w->dim;
+    const bool rest = at_rest(q);
 #pragma omp parallel for num_threads(w->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         double X[3], here[3], next[3], old[3];
+        mps__motion_rotate(&w->motion, &w->motion.now, s->area + i * dim, w->work.area + i * dim);
+        for (int d = 0; d < dim && rest; d++) {
+            w->work.tank_accel[i * dim + d] = 0;
+            if (s->kind[i] != MPS_FLUID) s->u[i * dim + d] = 0;
+        }
+        if (rest) continue;
         if (s->kind[i] == MPS_FLUID)
             mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * dim, X);
         else
@@ -171,7 +192,6 @@ static void move_walls(step_state *q)
         mps__motion_point(&w->motion, &w->motion.now, X, here, NULL, NULL);
         mps__motion_point(&w->motion, &q->pose, X, next, NULL, NULL);
         tank_velocity(w, X, old);
-        mps__motion_rotate(&w->motion, &w->motion.now, s->area + i * dim, w->work.area + i * dim);
         for (int d = 0; d < dim; d++) {
             const double u = (next[d] - here[d]) / q->stage.dt;
             w->work.tank_accel[i * dim + d] = (u - old[d]) / q->stage.dt;
@@ -400,7 +420,8 @@ static mps_status correct(step_state *q)
     mps__zero(k->a, s->n * s->dim, s->threads);
     EACH_MODEL(q, gradient, s, k->a);
 #pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n * s->dim; i++) s->u[i] += s->kind[i / s->dim] == MPS_FLUID ? s->dt * k->a[i] : 0;
+    for (int64_t i = 0; i < s->n; i++)
+        for (int64_t a = i * s->dim; a < (i + 1) * s->dim; a++) s->u[a] += s->kind[i] == MPS_FLUID ? s->dt * k->a[a] : 0;
     mps__bulk pushed, collided, shifted;
     note_pressure(q, &pushed);
     EACH_MODEL(q, velocity, s);

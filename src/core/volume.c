@@ -29,17 +29,14 @@ static double wide_lattice(const mps_stencil *t)
 }
 
 /* Kernel sum over all pairs and the particle itself. Short loops, one thing each: the compiler takes several roots at a time. */
-static inline __attribute__((always_inline)) double wide_sum(const int dim, const mps_stencil *t, int64_t i)
+static inline __attribute__((always_inline)) double wide_sum(const int dim, const mps_stencil *stencil, int64_t i)
 {
+    const mps_stencil copy = *stencil, *t = &copy; /* its pointers stay in registers */
     const double *a = t->x + i * dim, over = 1.0 / t->re;
     double sum = 1.0, r[PAIRS]; /* wide(0) */
     for (int64_t from = t->begin[i]; from < t->end[i]; from += PAIRS) {
         const int count = t->end[i] - from < PAIRS ? (int)(t->end[i] - from) : PAIRS;
-        for (int k = 0; k < count; k++) {
-            const double *b = t->x + (int64_t)t->col[from + k] * dim;
-            r[k] = 0;
-            for (int d = 0; d < dim; d++) r[k] += (b[d] - a[d]) * (b[d] - a[d]);
-        }
+        for (int k = 0; k < count; k++) r[k] = mps__square_between(a, t->x + (int64_t)t->col[from + k] * dim, dim);
         for (int k = 0; k < count; k++) r[k] = wide(sqrt(r[k]), over);
         for (int k = 0; k < count; k++) sum += r[k];
     }

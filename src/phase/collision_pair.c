@@ -7,14 +7,27 @@
 enum { DISTANCE, RESTITUTION, WALL_DISTANCE };
 static const mps_setting settings[] = {{"distance", 0.6, 0.0, 1.5}, {"restitution", 0.5, 0.0, 1.0}, {"wall_distance", 0.5, 0.0, 1.5}};
 
-/* Change of velocity of i by its fluid neighbours. */
-MPS__ROW void fluid_pairs(const int dim, const double *k, const mps_stage *s, int64_t i, double du[3])
+/* W/r^2 of pairs nearer than a distance is more than this: what spares most pairs a look at where they are. */
+static double least_weight(const mps_stencil *t, double distance)
 {
-    const mps_stencil *t = s->near;
+    if (t->kernel.id == MPS_KERNEL_CUSTOM || !(distance < t->re)) return -1;
+    return (mps_kernel_weight(&t->kernel, distance, t->re) - 1e-9) / (distance * distance);
+}
+
+/* Change of velocity of i by its fluid neighbours. @return whether it has solid ones too */
+MPS__ROW bool fluid_pairs(const int dim, const double *k, const mps_stage *stage, double least, int64_t i, double du[3])
+{
+    const mps_stage copy = *stage, *s = &copy;
+    const mps_stencil near = *s->near, *t = &near;
     const double reach = k[DISTANCE] * s->dp, reach2 = reach * reach;
+    bool solids = false;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         const int64_t j = t->col[p];
-        if (s->kind[j] != MPS_FLUID) continue;
+        if (s->kind[j] != MPS_FLUID) {
+            solids = true;
+            continue;
+        }
+        if (t->w_r2[p] < least) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         if (q.r2 >= reach2) continue;
         double approach = 0; /* rate of separation times distance */
@@ -23,15 +36,16 @@ MPS__ROW void fluid_pairs(const int dim, const double *k, const mps_stage *s, in
         const double share = (1.0 + k[RESTITUTION]) * s->density[j] / (s->density[i] + s->density[j]);
         for (int d = 0; d < dim; d++) du[d] += share * approach / q.r2 * q.d[d];
     }
+    return solids;
 }
 
-MPS__ROW void collide(const int dim, const double *k, const mps_stage *s, int64_t i, double *change)
+MPS__ROW void collide(const int dim, const double *k, const mps_stage *s, double least, int64_t i, double *change)
 {
     const double *u = s->u + i * dim;
     double du[3] = {0}, v[3];
-    fluid_pairs(dim, k, s, i, du);
+    const bool solids = fluid_pairs(dim, k, s, least, i, du);
     for (int d = 0; d < dim; d++) v[d] = u[d] + du[d];
-    mps__walls_keep_off(s, k[WALL_DISTANCE] * s->dp, 0, s->u, i, v);
+    if (solids) mps__walls_keep_off(s, k[WALL_DISTANCE] * s->dp, 0, s->u, i, v);
     for (int d = 0; d < dim; d++) change[i * dim + d] = v[d] - u[d];
 }
 
@@ -39,10 +53,11 @@ static int velocity(void *self, const double *k, mps_stage *s)
 {
     (void)self;
     double *change = mps_stage_scratch(s, s->n * s->dim);
+    const double least = least_weight(s->near, k[DISTANCE] * s->dp);
     if (!change) return 1;
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID) MPS__ROW_CALL(s, collide, k, s, i, change);
+        if (s->kind[i] == MPS_FLUID) MPS__ROW_CALL(s, collide, k, s, least, i, change);
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n * s->dim; i++) s->u[i] += change[i];
     return 0;

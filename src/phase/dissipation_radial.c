@@ -4,28 +4,56 @@
  * Pairwise, so momentum is conserved. alpha calms the lattice, beta takes the energy of violent impacts. */
 #include "builtin.h"
 
+enum { PAIRS = 32 };
 enum { ALPHA, BETA };
 static const mps_setting settings[] = {{"alpha", 0.1, 0.0, 10.0}, {"beta", 1.0, 0.0, 10.0}};
+
+/* Fluid neighbours of a particle, one quantity after the other, so that roots and divisions are taken several at a time. */
+typedef struct block {
+    int count;
+    double d[3][PAIRS], r2[PAIRS], rate[PAIRS], w_r2[PAIRS], rho[PAIRS]; /* rate: u_n r */
+} block;
+
+MPS__ROW void gather(const int dim, const mps_stage *stage, int64_t i, const int64_t pairs[2], block *b)
+{
+    const mps_stage copy = *stage, *s = &copy;
+    const mps_stencil near = *s->near, *t = &near;
+    const double *u = s->u + i * dim;
+    int n = 0;
+    for (int64_t p = pairs[0]; p < pairs[1]; p++) {
+        if (s->kind[t->col[p]] != MPS_FLUID) continue;
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
+        double rate = 0;
+        for (int d = 0; d < dim; d++) {
+            b->d[d][n] = q.d[d];
+            rate += (s->u[q.j * dim + d] - u[d]) * q.d[d];
+        }
+        b->r2[n] = q.r2;
+        b->rate[n] = rate;
+        b->w_r2[n] = q.w_r2;
+        b->rho[n++] = s->density[q.j];
+    }
+    b->count = n;
+}
 
 MPS__ROW void damp(const int dim, const double *k, const mps_stage *s, int64_t i, double *a)
 {
     const mps_stencil *t = s->near;
-    const double *u = s->u + i * dim, c = 2.0 * (dim + 2) / t->n0, calm = k[ALPHA] * s->velocity_scale, rho = s->density[i];
-    const double most = 0.15 * s->dp / s->dt, most_near = most / (s->dp * s->dp * s->dp); /* more would turn velocities round in a step */
-    double sum[3] = {0};
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const int64_t j = t->col[p];
-        if (s->kind[j] != MPS_FLUID) continue;
-        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        double rate = 0; /* u_n r */
-        for (int d = 0; d < dim; d++) rate += (s->u[j * dim + d] - u[d]) * q.d[d];
-        const double over = 1.0 / q.r, limit = q.r < s->dp ? most_near * q.r2 * q.r : most; /* nearer than dp still less */
-        double nu = rate < 0 ? calm - k[BETA] * rate * over : calm;
-        nu = nu < limit ? nu : limit;
-        const double share = s->density[j] / (rho + s->density[j]) * over * over * nu * q.w_r2 * rate;
-        for (int d = 0; d < dim; d++) sum[d] += share * q.d[d];
+    const double c = 2.0 * (dim + 2) / t->n0, calm = k[ALPHA] * s->velocity_scale, beta = k[BETA], rho = s->density[i], dp = s->dp;
+    const double most = 0.15 * dp / s->dt, most_near = most / (dp * dp * dp); /* more would turn velocities round in a step */
+    double sum[3] = {0}, share[PAIRS];
+    block b;
+    for (int64_t p = t->begin[i]; p < t->end[i]; p += PAIRS) {
+        gather(dim, s, i, (const int64_t[]){p, p + PAIRS < t->end[i] ? p + PAIRS : t->end[i]}, &b);
+        for (int n = 0; n < b.count; n++) {
+            const double r = sqrt(b.r2[n]), over = 1.0 / r, less = most_near * b.r2[n] * r; /* nearer than dp still less */
+            const double limit = r < dp ? less : most, closing = b.rate[n] < 0 ? b.rate[n] : 0.0, nu = calm - beta * closing * over;
+            share[n] = b.rho[n] / (rho + b.rho[n]) * over * over * (nu < limit ? nu : limit) * b.w_r2[n] * b.rate[n];
+        }
+        for (int n = 0; n < b.count; n++)
+            for (int d = 0; d < dim; d++) sum[d] += share[n] * b.d[d][n];
     }
-    for (int d = 0; d < dim; d++) a[i * dim + d] += 2.0 * s->dp * c * sum[d];
+    for (int d = 0; d < dim; d++) a[i * dim + d] += 2.0 * dp * c * sum[d];
 }
 
 static int force(void *self, const double *k, mps_stage *s, double *a)

@@ -9,16 +9,18 @@ enum { SECOND };
 static const mps_setting settings[] = {{"second_order", 0.0, 0.0, 1.0}};
 
 /* G_i; with `first` not NULL the second pass. */
-MPS__ROW void corrected(const int dim, const mps_stage *s, int64_t i, const double *first, double *g)
+MPS__ROW void corrected(const int dim, const mps_stage *stage, int64_t i, const double *first, double *g)
 {
-    const mps_stencil *t = s->near;
-    const double *b = s->correction + i * dim * dim, *own = s->tank_accel + i * dim, pi = s->p[i];
-    double sum[3] = {0};
+    const mps_stage copy = *stage, *s = &copy;
+    const mps_stencil near = *s->near, *t = &near;
+    const double *b = s->correction + i * dim * dim, pi = s->p[i];
+    double sum[3] = {0}, own[3];
+    for (int d = 0; d < dim; d++) own[d] = 2.0 * s->g[d] - s->tank_accel[i * dim + d];
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         if (s->region[t->col[p]] >= MPS_REGION_SPRAY) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         double body = 0, slope = 0;
-        for (int d = 0; d < dim; d++) body += 0.5 * (2.0 * s->g[d] - own[d] - s->tank_accel[q.j * dim + d]) * q.d[d];
+        for (int d = 0; d < dim; d++) body += 0.5 * (own[d] - s->tank_accel[q.j * dim + d]) * q.d[d];
         const double rho = mps_stage_pair_density(s, i, q.j);
         const bool across = s->phase[q.j] != s->phase[i] && s->kind[q.j] == MPS_FLUID;
         const double jump = across ? 0.5 * (s->capillary[i] - s->capillary[q.j]) : 0.0;

@@ -8,7 +8,7 @@ static const mps_setting settings[] = {{"floor", 0.5, 0.01, 1.0}};
 
 MPS__ROW void moments(const int dim, const mps_stage *s, int64_t i, double m[9])
 {
-    const mps_stencil *t = s->near;
+    const mps_stencil near = *s->near, *t = &near;
     for (int d = 0; d < dim * dim; d++) m[d] = 0;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         if (s->region[t->col[p]] >= MPS_REGION_SPRAY) continue;

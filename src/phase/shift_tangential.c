@@ -45,12 +45,14 @@ typedef struct pair_sums {
     double most;            /* largest |u_j - u_i|^2 of the fluid */
     double m[9], g[9];      /* sum w r_ij (x) r_ij and (u_j - u_i) (x) r_ij over fluid of the same phase */
     double low[3], high[3]; /* range of u_j - u_i there */
+    double even[3];         /* own unevenness */
+    bool solids;            /* among the pairs */
 } pair_sums;
 
 /* sum w r_ij over all kinds */
 MPS__ROW void unevenness(const int dim, const mps_stage *s, int64_t i, double *even)
 {
-    const mps_stencil *t = s->near;
+    const mps_stencil near = *s->near, *t = &near;
     double sum[3] = {0};
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
@@ -59,14 +61,19 @@ MPS__ROW void unevenness(const int dim, const mps_stage *s, int64_t i, double *e
     for (int d = 0; d < dim; d++) even[i * dim + d] = sum[d];
 }
 
-MPS__ROW void collect(const int dim, const mps_stage *s, const double *even, int64_t i, pair_sums *c)
+MPS__ROW void collect(const int dim, const mps_stage *stage, const double *even, int64_t i, pair_sums *c)
 {
-    const mps_stencil *t = s->near;
+    const mps_stage copy = *stage, *s = &copy;
+    const mps_stencil near = *s->near, *t = &near;
     const double *u = s->u + i * dim;
     *c = (pair_sums){0};
+    for (int d = 0; d < dim; d++) c->even[d] = even[i * dim + d];
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        if (s->kind[t->col[p]] != MPS_FLUID) {
+            c->solids = true;
+            continue;
+        }
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        if (s->kind[q.j] != MPS_FLUID) continue;
         double v[3], v2 = 0;
         for (int d = 0; d < dim; d++) {
             v[d] = s->u[q.j * dim + d] - u[d];
@@ -87,14 +94,12 @@ MPS__ROW void collect(const int dim, const mps_stage *s, const double *even, int
     }
 }
 
-/* `even`: of particle i. */
-static void shift_of(const double *k, const mps_stage *s, int64_t i, const double *even, const pair_sums *sums, double v[3])
+MPS__ROW void shift_of(const int dim, const double *k, const mps_stage *s, int64_t i, const pair_sums *sums, double v[3])
 {
-    const int dim = s->dim;
     double n[3] = {0}, n2 = 0, vn = 0, v2 = 0;
     const double c = -k[STRENGTH] * s->dt * s->dp * dim / s->near->n0, calm = c * s->velocity_scale, torn = c * sqrt(sums->most);
     const double smooth = sums->weight > 0 ? k[FILTER] * calm / sums->weight : 0;
-    for (int d = 0; d < dim; d++) v[d] = (calm + torn) * even[d] - smooth * sums->mean[d];
+    for (int d = 0; d < dim; d++) v[d] = (calm + torn) * sums->even[d] - smooth * sums->mean[d];
     surface_normal(s, i, n);
     for (int d = 0; d < dim; d++) {
         n2 += n[d] * n[d];
@@ -110,9 +115,8 @@ static void shift_of(const double *k, const mps_stage *s, int64_t i, const doubl
 }
 
 /* du = s.grad u at i, between the least and the greatest difference its neighbours have. */
-static void transport(const mps_stage *s, const pair_sums *sums, const double *shift, double *du)
+MPS__ROW void transport(const int dim, const mps_stage *s, const pair_sums *sums, const double *shift, double *du)
 {
-    const int dim = s->dim;
     const double c = dim / s->near->n0;
     double m[9], b[9];
     for (int d = 0; d < dim; d++)
@@ -126,6 +130,21 @@ static void transport(const mps_stage *s, const pair_sums *sums, const double *s
     }
 }
 
+/* Displacement of a particle, and with k[TRANSPORT] the change of its velocity. All is one function, so that the sums stay in registers. */
+MPS__ROW void move(const int dim, const double *k, const mps_stage *s, int64_t i, const double *even, double *const out[2])
+{
+    const bool spray = s->region[i] == MPS_REGION_SPRAY;
+    pair_sums sums = {.solids = true};
+    double v[3] = {0};
+    if (!spray) {
+        collect(dim, s, even, i, &sums);
+        shift_of(dim, k, s, i, &sums, v);
+    }
+    if (sums.solids) mps__walls_keep_off(s, wall_distance * s->dp, k[LIMIT] * s->dp, NULL, i, v);
+    if (k[TRANSPORT] > 0 && !spray) transport(dim, s, &sums, v, out[1] + i * dim);
+    for (int d = 0; d < dim; d++) out[0][i * dim + d] += v[d];
+}
+
 static int shift(void *self, const double *k, mps_stage *s, double *dx)
 {
     (void)self;
@@ -136,19 +155,8 @@ static int shift(void *self, const double *k, mps_stage *s, double *dx)
     for (int64_t i = 0; i < s->n; i++)
         if (s->kind[i] == MPS_FLUID && s->region[i] != MPS_REGION_SPRAY) MPS__ROW_CALL(s, unevenness, s, i, even);
 #pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_FLUID) continue;
-        const bool spray = s->region[i] == MPS_REGION_SPRAY;
-        pair_sums sums;
-        double v[3] = {0};
-        if (!spray) {
-            MPS__ROW_CALL(s, collect, s, even, i, &sums);
-            shift_of(k, s, i, even + i * dim, &sums, v);
-        }
-        mps__walls_keep_off(s, wall_distance * s->dp, k[LIMIT] * s->dp, NULL, i, v);
-        if (k[TRANSPORT] > 0 && !spray) transport(s, &sums, v, du + i * dim);
-        for (int d = 0; d < dim; d++) dx[i * dim + d] += v[d];
-    }
+    for (int64_t i = 0; i < s->n; i++)
+        if (s->kind[i] == MPS_FLUID) MPS__ROW_CALL(s, move, k, s, i, even, (double *[]){dx, du});
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n * dim; i++) s->u[i] += du[i];
     return 0;

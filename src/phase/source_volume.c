@@ -27,6 +27,16 @@ static const mps_setting settings[] = {{"tau", 20.0, 0.1, 1e6},    {"clip", 0.1,
                                        {"gain", 0.7, 0.05, 1.0},   {"firm", 0.03, 1e-3, 1.0},  {"rapid", 0.0, 0.0, 1.0},
                                        {"torn", 0.15, 1e-3, 10.0}, {"forward", 0.0, 0.0, 1.0}, {"pace", 1.0, 0.0, 1.0}};
 
+/* fmax() and fmin() as one instruction: `b` may be NaN and does not count then. */
+static inline double larger(double a, double b)
+{
+    return b > a ? b : a;
+}
+static inline double smaller(double a, double b)
+{
+    return b < a ? b : a;
+}
+
 /* delta of each fluid particle, never negative near the surface, where the kernel is cut. */
 static void volume_deviation(const double *k, const mps_stage *s, double *delta)
 {
@@ -35,7 +45,7 @@ static void volume_deviation(const double *k, const mps_stage *s, double *delta)
         if (s->kind[i] != MPS_FLUID || s->region[i] >= MPS_REGION_SURFACE) continue;
         double v = s->volume[i];
         if (s->region[i] != MPS_REGION_INNER && v < 0) v = 0;
-        delta[i] = fmin(fmax(v, -k[CLIP]), k[CLIP]);
+        delta[i] = smaller(k[CLIP], larger(-k[CLIP], v));
     }
 }
 
@@ -106,17 +116,33 @@ MPS__ROW void face_correction(const int dim, const mps_stage *s, int64_t i, doub
     mps_matrix_inverse_bounded(dim, m, 0.5, b);
 }
 
+/* What the source of a fluid particle is made of. */
+typedef struct fields {
+    const double *v, *delta; /* [n*dim], [n] */
+    double strain, own;      /* own: weight of a particle's own delta in the kernel mean */
+} fields;
+
 /* Divergence of a fluid particle, with B_i, less `strain` dt T: the move x + dt v changes volumes by dt div v - dt^2 T/2 + ..., so
  * div v = dt T/2 is wanted after the step; before it strain = 1/gain - 1/2 asks for T beyond the gain as well. With zero instead every
- * strained particle is compressed at the rate (1/gain - 1/2) dt T and blown up again by delta against the pressure. */
-MPS__ROW double fluid_divergence(const int dim, const mps_stage *s, const double *v, int64_t i, double strain)
+ * strained particle is compressed at the rate (1/gain - 1/2) dt T and blown up again by delta against the pressure. Also the kernel mean of delta over
+ * the fluid: its noise at the grid scale must not reach the pressure. */
+MPS__ROW double fluid_divergence(const int dim, const mps_stage *stage, const fields *of, int64_t i, double *deviation)
 {
-    const mps_stencil *t = s->near;
+    const mps_stage copy = *stage, *s = &copy;
+    const mps_stencil near = *s->near, *t = &near;
+    const double *v = of->v, *delta = of->delta, self = of->own;
     double g[9] = {0}, sum = 0, own[9]; /* g = sum w (v_j - v_i) (x) r_ij */
+    double deltas = self * delta[i], weight = self;
     bool mixed = false;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        if (s->region[t->col[p]] >= MPS_REGION_SPRAY) continue;
+        const bool fluid = s->kind[t->col[p]] == MPS_FLUID, apart = s->region[t->col[p]] >= MPS_REGION_SPRAY;
+        if (apart && !fluid) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
+        if (fluid) {
+            deltas += q.w * delta[q.j];
+            weight += q.w;
+        }
+        if (apart) continue;
         const double share = face_share(s, i, q.j), w = share * q.w_r2;
         mixed = mixed || share != 1.0;
         for (int d = 0; d < dim; d++) {
@@ -124,9 +150,10 @@ MPS__ROW double fluid_divergence(const int dim, const mps_stage *s, const double
             for (int e = 0; e < dim; e++) g[d * dim + e] += rate * q.d[e];
         }
     }
+    *deviation = deltas / weight;
     const double *b = s->correction + i * dim * dim;
     if (mixed) {
-        face_correction(dim, s, i, own);
+        face_correction(dim, stage, i, own);
         b = own;
     }
     double a[9] = {0}, square = 0; /* a = grad v */
@@ -137,7 +164,7 @@ MPS__ROW double fluid_divergence(const int dim, const mps_stage *s, const double
         sum += a[d * dim + d];
         for (int e = 0; e < dim; e++) square += a[d * dim + e] * a[e * dim + d];
     }
-    return sum - strain * s->dt * square;
+    return sum - of->strain * s->dt * square;
 }
 
 /* Speed below which a step is 0.06 tau_g; beyond it 0.3 dp/u. */
@@ -185,26 +212,11 @@ MPS__ROW double wall_divergence(const int dim, const mps_stage *s, const double 
     return dim / t->n0 * sum;
 }
 
-/* Kernel mean of delta over the fluid: its noise at the grid scale must not reach the pressure. */
-MPS__ROW double mean_deviation(const int dim, const mps_stage *s, const double *delta, int64_t i)
-{
-    const mps_stencil *t = s->near;
-    const double own = 0.5 * mps_kernel_weight(&t->kernel, t->kernel.id == MPS_KERNEL_IMPROVED ? 0.0 : 0.5 * s->dp, t->re);
-    double sum = own * delta[i], weight = own;
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        if (s->kind[t->col[p]] != MPS_FLUID) continue;
-        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        sum += q.w * delta[q.j];
-        weight += q.w;
-    }
-    return sum / weight;
-}
-
 /* 1/tau, up to 1/tau_g where delta is beyond `firm`, and up to `most` more where it is beyond `torn`. */
 static inline double relaxation(const double *k, double delta, double most)
 {
     const double square = delta * delta / (k[FIRM] * k[FIRM]), torn = delta * delta / (k[TORN] * k[TORN]);
-    return fmin((1.0 + square * square) / k[TAU], 1.0) + fmin(torn * torn, 1.0) * most;
+    return smaller(1.0, (1.0 + square * square) / k[TAU]) + smaller(1.0, torn * torn) * most;
 }
 
 /* Share of the source that a step asks for, by density: 1 for the lightest fluid, `heavy` for the heaviest. */
@@ -217,15 +229,15 @@ static pacing set_pace(const mps_stage *s, double on)
     double lightest = INFINITY, heaviest = 0, dense = 0, any = 0;
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_FLUID) continue;
-        lightest = fmin(lightest, s->density[i]);
-        heaviest = fmax(heaviest, s->density[i]);
+        lightest = smaller(lightest, s->density[i]);
+        heaviest = larger(heaviest, s->density[i]);
     }
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_FLUID || s->region[i] >= MPS_REGION_SURFACE) continue;
         double square = 0;
         for (int d = 0; d < s->dim; d++) square += s->u[i * s->dim + d] * s->u[i * s->dim + d];
-        any = fmax(any, square);
-        if (s->density[i] > lightest) dense = fmax(dense, square);
+        any = larger(any, square);
+        if (s->density[i] > lightest) dense = larger(dense, square);
     }
     const double share = fmax(sqrt(dense), calm_speed(s)) / fmax(sqrt(any), calm_speed(s));
     return (pacing){lightest, heaviest - lightest, heaviest > lightest ? 1.0 - on * (1.0 - share) : 1.0};
@@ -244,7 +256,11 @@ static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *term
     double *delta = mps_stage_scratch(s, s->n), *v = mps_stage_scratch(s, s->n * s->dim), *w = mps_stage_scratch(s, s->n * s->dim);
     if (!delta || !v || !w) return 1;
     const double rate = s->velocity_scale / s->dp, over = 1.0 / s->dt;
-    const double strain = k[STRAIN] * (0.5 + k[FORWARD] * (1.0 / k[GAIN] - 1.0));
+    const mps_stencil *t = s->near;
+    const fields f = {.v = w,
+                      .delta = delta,
+                      .strain = k[STRAIN] * (0.5 + k[FORWARD] * (1.0 / k[GAIN] - 1.0)),
+                      .own = 0.5 * mps_kernel_weight(&t->kernel, t->kernel.id == MPS_KERNEL_IMPROVED ? 0.0 : 0.5 * s->dp, t->re)};
     terms->gain = k[GAIN];
     terms->radius = MPS_NEAR;
     const pacing pace = set_pace(s, k[PACE]);
@@ -257,9 +273,10 @@ static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *term
         if (s->region[i] >= MPS_REGION_SURFACE) continue;
         const double share = row_pace(&pace, s, i);
         if (s->kind[i] == MPS_FLUID) {
-            const double mean = MPS__ROW_CALL(s, mean_deviation, s, delta, i);
+            double mean;
+            const double divergence = MPS__ROW_CALL(s, fluid_divergence, s, &f, i, &mean);
             const double back = rate * relaxation(k, mean, share * k[RAPID] / (s->dt * rate)) * mean;
-            terms->rhs[i] += share * over * (back - MPS__ROW_CALL(s, fluid_divergence, s, w, i, strain));
+            terms->rhs[i] += share * over * (back - divergence);
         } else {
             terms->rhs[i] -= share * over * MPS__ROW_CALL(s, wall_divergence, s, w, i, terms->wall_factor);
         }

@@ -9,8 +9,8 @@ MPS__ROW void weights(const int dim, const mps_stencil *t, int64_t i, int64_t fr
 {
     for (int k = 0; k < count; k++) {
         const double *a = t->x + i * dim, *b = t->x + (int64_t)t->col[from + k] * dim;
-        w[k] = 0;
-        for (int d = 0; d < dim; d++) w[k] += (b[d] - a[d]) * (b[d] - a[d]);
+        const double x = b[0] - a[0], y = b[1] - a[1], z = dim == 3 ? b[2] - a[2] : 0;
+        w[k] = dim == 3 ? x * x + y * y + z * z : x * x + y * y;
     }
     for (int k = 0; k < count; k++) w[k] = sqrt(w[k]);
     mps_kernel_weights(&t->kernel, t->re, count, w, w);
@@ -18,14 +18,14 @@ MPS__ROW void weights(const int dim, const mps_stencil *t, int64_t i, int64_t fr
 
 MPS__ROW void diffuse(const int dim, const mps_stage *s, int64_t i, double nu, double *a)
 {
-    const mps_stencil *t = s->far;
-    const double *u = s->u + i * dim, c = 2.0 * dim / (t->n0 * t->lambda);
+    const mps_stencil far = *s->far, *t = &far;
+    const double *all = s->u, *u = all + i * dim, c = 2.0 * dim / (t->n0 * t->lambda);
     double sum[3] = {0}, w[PAIRS];
     for (int64_t from = t->begin[i]; from < t->end[i]; from += PAIRS) {
         const int count = t->end[i] - from < PAIRS ? (int)(t->end[i] - from) : PAIRS;
         weights(dim, t, i, from, count, w);
         for (int k = 0; k < count; k++)
-            for (int d = 0; d < dim; d++) sum[d] += (s->u[(int64_t)t->col[from + k] * dim + d] - u[d]) * w[k];
+            for (int d = 0; d < dim; d++) sum[d] += (all[(int64_t)t->col[from + k] * dim + d] - u[d]) * w[k];
     }
     for (int d = 0; d < dim; d++) a[i * dim + d] += c * nu * sum[d];
 }

@@ -93,14 +93,18 @@ bool mps__grid_factorise(mps__grid *g);
 void mps__grid_cycle(mps__grid *g);
 /* Sum the particles' values into the right side of the first grid. */
 void mps__grid_restrict(mps__grid *g, const double *values, double scale);
-/* Value of a point from the cells around it. */
+/* Value of a point from the cells around it; for a constant number of corners, 2^dim, the loop unrolls. */
+static inline double mps__grid_value_of(const mps__grid_level *l, const int corners, int64_t point)
+{
+    const int32_t *at = l->at + point * corners;
+    const float *share = l->share + point * corners;
+    double s = 0;
+    for (int k = 0; k < corners; k++) s += (double)share[k] * l->x[at[k]];
+    return s;
+}
 static inline double mps__grid_value(const mps__grid_level *l, int dim, int64_t point)
 {
-    const int32_t *at = l->at + (point << dim);
-    const float *share = l->share + (point << dim);
-    double s = 0;
-    for (int k = 0; k < 1 << dim; k++) s += (double)share[k] * l->x[at[k]];
-    return s;
+    return dim == 2 ? mps__grid_value_of(l, 4, point) : mps__grid_value_of(l, 8, point);
 }
 
 #endif

@@ -79,13 +79,19 @@ bool mps__grid_factorise(mps__grid *g)
 
 /* ---- cycle ---- */
 
-static double pull(const mps__grid_level *l, int sides, int64_t c)
+static inline double pull_from(const mps__grid_level *l, const int sides, int64_t c)
 {
     const int32_t *next = l->next + c * sides;
     const float *link = l->link + c * sides;
     double s = 0;
     for (int k = 0; k < sides; k++) s += (double)link[k] * l->x[next[k]];
     return s;
+}
+
+/* What the neighbours of a cell pull it to. */
+static inline double pull(const mps__grid_level *l, int sides, int64_t c)
+{
+    return sides == 4 ? pull_from(l, 4, c) : pull_from(l, 6, c);
 }
 
 /* One colour: each cell solved for itself. */
@@ -116,11 +122,20 @@ static void sweep_up(const mps__grid *g, mps__grid_level *l)
     }
 }
 
-static void spread(const mps__grid_level *l, int dim, int64_t point, double value, double *b)
+/* Add a value to the 2^dim corners about a point. */
+static inline void spread_over(const mps__grid_level *l, const int corners, int64_t point, double value, double *b)
 {
-    const int32_t *at = l->at + (point << dim);
-    const float *share = l->share + (point << dim);
-    for (int k = 0; k < 1 << dim; k++) b[at[k]] += (double)share[k] * value;
+    const int32_t *at = l->at + point * corners;
+    const float *share = l->share + point * corners;
+    for (int k = 0; k < corners; k++) b[at[k]] += (double)share[k] * value;
+}
+
+static inline void spread(const mps__grid_level *l, int dim, int64_t point, double value, double *b)
+{
+    if (dim == 2)
+        spread_over(l, 4, point, value, b);
+    else
+        spread_over(l, 8, point, value, b);
 }
 
 /* What chunk c of the particles adds to the cells. */

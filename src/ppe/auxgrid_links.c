@@ -176,20 +176,21 @@ static void add_row(const mps__grid *g, const mps__grid_level *l, const mps_ppe_
 
 /* Shares of the 2^dim cells around a point. far[a] is the share of the cell beside its own along axis a, below or above as
  * side[a] says; only cells joined to the own one by links count, and a cell that conducts less counts less. */
-static void set_shares(const mps__grid *g, mps__grid_level *l, int64_t point, const double *far, const int *side)
+static inline __attribute__((always_inline)) void set_shares_of(const int dim, const mps__grid *g, mps__grid_level *l, int64_t point,
+                                                                const double *far, const int *side)
 {
-    int corners = 1 << g->dim;
+    const int corners = 1 << dim;
     int32_t home = l->home[point], *at = l->at + point * corners;
     float *share = l->share + point * corners;
     double kappa = g->point_kappa[point], w[8], sum = 0;
     for (int k = 0; k < corners; k++) {
         at[k] = k == 0 ? home : -1;
         w[k] = 1;
-        for (int a = 0; a < g->dim; a++) {
+        for (int a = 0; a < dim; a++) {
             w[k] *= k >> a & 1 ? far[a] : 1 - far[a];
             int32_t before = k >> a & 1 ? at[k ^ 1 << a] : -1;
             if (at[k] >= 0 || before < 0) continue;
-            int64_t link = (int64_t)before * 2 * g->dim + 2 * a + side[a];
+            int64_t link = (int64_t)before * 2 * dim + 2 * a + side[a];
             if (l->link[link] > 0) at[k] = l->next[link];
         }
         if (at[k] < 0) w[k] = 0;
@@ -200,6 +201,14 @@ static void set_shares(const mps__grid *g, mps__grid_level *l, int64_t point, co
         share[k] = (float)(sum > 0 ? w[k] / sum : k == 0);
         if (at[k] < 0) at[k] = home;
     }
+}
+
+static void set_shares(const mps__grid *g, mps__grid_level *l, int64_t point, const double *far, const int *side)
+{
+    if (g->dim == 2)
+        set_shares_of(2, g, l, point, far, side);
+    else
+        set_shares_of(3, g, l, point, far, side);
 }
 
 static void share_particle(const mps__grid *g, mps__grid_level *l, const mps_ppe_problem *problem, int64_t i)
