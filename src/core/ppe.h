@@ -8,13 +8,15 @@
 
 typedef struct mps__ppe {
     mps__context *context;
-    int64_t capacity, entry_capacity, n; /* unknowns of the last assembly */
-    int32_t *unknown;                    /* [particles] row of a particle, -1: none */
-    int32_t *particle;                   /* [n] particle of a row */
-    int64_t *row;                        /* [n+1] CSR beside the diagonal */
+    mps__scratch own, *scratch; /* where all arrays are: its own, or one shared with others. They last until these take it again */
+    int64_t n;                  /* unknowns of the last assembly */
+    int32_t *unknown;           /* [particles] row of a particle, -1: none */
+    int32_t *particle;          /* [n] particle of a row */
+    int64_t *row;               /* [n+1] CSR beside the diagonal */
     int32_t *col;
     float *val;
-    double *diagonal, *rhs, *shift, *gas, *law, *weight, *x, *p;
+    double *diagonal, *rhs, *shift, *weight, *x, *p;
+    double *gas, *law; /* NULL: all rows are linear */
     int32_t *component;
     bool level_free; /* the largest component has no level */
     int32_t *queue;  /* [n] scratch */

@@ -19,7 +19,8 @@ typedef struct step_state {
     double momentum[3]; /* of the prediction */
     double clock;       /* beginning of the present stage */
     bool not_converged;
-    bool no_memory; /* a verb got no scratch */
+    bool no_memory;     /* a verb got no scratch */
+    bool solved, moved; /* pressures and positions are new, the old ones kept */
 } step_state;
 
 /* ---- calling models -------------------------------------------------------------------------------------------- */
@@ -33,19 +34,14 @@ double *mps_stage_scratch(mps_stage *s, int64_t count)
         return NULL;
     }
     const int32_t b = k->scratch_used;
-    if (count > k->scratch_capacity[b]) {
-        double *larger = mps__alloc(w->context, count + count / 8, sizeof *larger);
-        if (!larger) {
-            ((step_state *)s->host)->no_memory = true;
-            return NULL;
-        }
-        mps__free(w->context, k->scratch[b]);
-        k->scratch[b] = larger;
-        k->scratch_capacity[b] = count + count / 8;
+    double *block = mps__scratch_take(w->context, &w->scratch, b, count, sizeof *block);
+    if (!block) {
+        ((step_state *)s->host)->no_memory = true;
+        return NULL;
     }
-    mps__zero(k->scratch[b], count, w->threads);
+    mps__zero(block, count, w->threads);
     k->scratch_used++;
-    return k->scratch[b];
+    return block;
 }
 
 int mps_stage_fail(mps_stage *s, const char *format, ...)
@@ -128,6 +124,14 @@ static mps_status set_dt(step_state *q, double dt_max, double *planned)
     const bool share = w->ending && *planned < (1 - 1e-6) * dt_max && 2 * *planned > (1 + 1e-6) * dt_max;
     q->stage.dt = share ? 0.5 * dt_max : *planned;
     return MPS_OK;
+}
+
+/* Copy, to undo a failed step from. */
+static void keep(double *kept, const double *values, int64_t count, int threads)
+{
+    (void)threads; /* unused without OpenMP */
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (int64_t k = 0; k < count; k++) kept[k] = values[k];
 }
 
 /* ---- the stages -------------------------------------------------------------------------------------------------- */
@@ -380,6 +384,8 @@ static mps_status project(step_state *q)
         q->not_converged = status == MPS_W_NOT_CONVERGED;
         if (q->not_converged) mps__log(w->context, MPS_LOG_WARNING, "t = %.9g s: %.400s", s->t, w->context->error);
     }
+    keep(w->work.p0, s->p, s->n, s->threads);
+    q->solved = true;
     mps__ppe_scatter(&w->ppe, s, &q->terms, s->p);
     q->info.ppe_iterations = result.iterations;
     q->info.ppe_residual = result.residual;
@@ -415,6 +421,8 @@ static mps_status correct(step_state *q)
         q->budget.momentum.collision[d] += collided.momentum[d] - pushed.momentum[d];
         q->budget.momentum.shift[d] += shifted.momentum[d] - collided.momentum[d];
     }
+    keep(k->x0, s->x, s->n * s->dim, s->threads);
+    q->moved = true;
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         double *x = w->particles.x + i * s->dim;
@@ -446,32 +454,20 @@ static mps_status check_result(step_state *q)
     q->info.max_speed = most;
     q->info.cfl = most * s->dt / s->dp;
     if (worst == s->n) return MPS_OK;
-    const double *u = s->u + worst * s->dim, *x = w->work.x0 + worst * s->dim;
+    const double *u = s->u + worst * s->dim, *x = (q->moved ? w->work.x0 : s->x) + worst * s->dim;
     return mps__fail(
         w->context, MPS_E_DIVERGED,
         "t = %.9g s: particle %lld at (%g, %g, %g) m got velocity (%g, %g, %g) m/s and pressure %g Pa; allowed: finite, at most %g m/s",
         s->t, (long long)s->id[worst], x[0], x[1], s->dim == 3 ? x[2] : 0, u[0], u[1], s->dim == 3 ? u[2] : 0, s->p[worst], w->speed_limit);
 }
 
-static void keep_state(mps__world *w)
+static void restore_state(const step_state *q)
 {
-    const mps__particles *s = &w->particles;
-#pragma omp parallel for num_threads(w->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) {
-        w->work.p0[i] = s->p[i];
-        for (int64_t k = i * w->dim; k < (i + 1) * w->dim; k++) {
-            w->work.x0[k] = s->x[k];
-            w->work.u0[k] = s->u[k];
-        }
-    }
-}
-
-static void restore_state(mps__world *w)
-{
+    const mps__world *w = q->w;
     const size_t n = (size_t)w->particles.n, dim = (size_t)w->dim;
-    memcpy(w->particles.x, w->work.x0, n * dim * sizeof(double));
     memcpy(w->particles.u, w->work.u0, n * dim * sizeof(double));
-    memcpy(w->particles.p, w->work.p0, n * sizeof(double));
+    if (q->solved) memcpy(w->particles.p, w->work.p0, n * sizeof(double));
+    if (q->moved) memcpy(w->particles.x, w->work.x0, n * dim * sizeof(double));
 }
 
 static mps_status run_stages(step_state *q)
@@ -540,12 +536,12 @@ mps_status mps__world_step(mps__world *w, double dt_max)
     for (int64_t i = 0; i < w->particles.n && !fluid; i++) fluid = w->particles.kind[i] == MPS_FLUID;
     if (!fluid) return mps__fail(w->context, MPS_E_STATE, "there is no fluid particle to step");
     MPS__TRY(mps__world_neighbours(w));
-    keep_state(w);
+    keep(w->work.u0, w->particles.u, w->particles.n * w->dim, w->threads);
     const int32_t start_pending = w->start_pending;
     double planned = 0;
     const mps_status status = try_step(&q, dt_max, &planned);
     if (status < 0) {
-        restore_state(w);
+        restore_state(&q);
         w->start_pending = start_pending;
         return status;
     }
