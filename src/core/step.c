@@ -158,8 +158,7 @@ static void tank_velocity(const mps__world *w, const double *X, double *u)
     }
 }
 
-/* Solids get the velocity that carries them to their next place; every particle the acceleration a rigid tank has there.
- * Area vectors turn with the tank. */
+/* Solids get the velocity that carries them to their next place; every particle the acceleration a rigid tank has there. */
 static void move_walls(step_state *q)
 {
     mps__world *w = q->w;
@@ -175,13 +174,26 @@ static void move_walls(step_state *q)
         mps__motion_point(&w->motion, &w->motion.now, X, here, NULL, NULL);
         mps__motion_point(&w->motion, &q->pose, X, next, NULL, NULL);
         tank_velocity(w, X, old);
-        mps__motion_rotate(&w->motion, &w->motion.now, s->area + i * dim, w->work.area + i * dim);
         for (int d = 0; d < dim; d++) {
             const double u = (next[d] - here[d]) / q->stage.dt;
             w->work.tank_accel[i * dim + d] = (u - old[d]) / q->stage.dt;
             if (s->kind[i] != MPS_FLUID) s->u[i * dim + d] = u;
         }
     }
+}
+
+/* Area vectors turn with the tank. */
+static mps_status turn_areas(mps__world *w)
+{
+    const mps__particles *s = &w->particles;
+    mps__work *k = &w->work;
+    k->area = s->area;
+    if (!mps__motion_turned(&w->motion.now)) return MPS_OK;
+    MPS__TRY(mps__grow(w->context, (void **)&k->turned, &k->turned_capacity, 0, s->n * w->dim, sizeof *k->turned));
+#pragma omp parallel for num_threads(w->threads) schedule(static)
+    for (int64_t i = 0; i < s->n; i++) mps__motion_rotate(&w->motion, &w->motion.now, s->area + i * w->dim, k->turned + i * w->dim);
+    k->area = k->turned;
+    return MPS_OK;
 }
 
 static void set_stage(step_state *q)
@@ -517,6 +529,7 @@ static mps_status try_step(step_state *q, double dt_max, double *planned)
 {
     mps__world *w = q->w;
     start(w);
+    MPS__TRY(turn_areas(w));
     set_stage(q);
     MPS__TRY(set_dt(q, dt_max, planned));
     MPS__TRY(mps__motion_pose(&w->motion, w->info.t + q->stage.dt, &q->pose));

@@ -36,7 +36,7 @@ void mps__world_free(mps__world *w)
     mps__motion_free(&w->motion);
     mps__work *k = &w->work;
     void *all[] = {k->fixed, k->gone,       k->volume,     k->asymmetry, k->wet, k->density_smooth, k->capillary,
-                   k->depth, k->correction, k->tank_accel, k->area,      k->a,   k->value,          k->u0};
+                   k->depth, k->correction, k->tank_accel, k->turned,    k->a,   k->value,          k->u0};
     for (size_t a = 0; a < sizeof all / sizeof all[0]; a++) mps__free(w->context, all[a]);
     mps__scratch_free(w->context, &w->scratch);
 }
@@ -251,7 +251,6 @@ static mps_status reserve_work(mps__world *w)
              {(void **)&k->depth, wanted, sizeof(double)},
              {(void **)&k->correction, wanted * dim * dim, sizeof(double)},
              {(void **)&k->tank_accel, wanted * dim, sizeof(double)},
-             {(void **)&k->area, wanted * dim, sizeof(double)},
              {(void **)&k->a, wanted * dim, sizeof(double)},
              {(void **)&k->value, wanted * 5, sizeof(double)},
              {(void **)&k->u0, wanted * dim, sizeof(double)}};

@@ -24,10 +24,11 @@ typedef struct mps__budget {
 
 /* Arrays [n] or [n*dim] that live through one step; what a failed step is undone from. */
 typedef struct mps__work {
-    int64_t capacity;
+    int64_t capacity, turned_capacity;
     int32_t *fixed;
     bool *gone; /* particles to be removed */
-    double *volume, *asymmetry, *wet, *density_smooth, *capillary, *depth, *correction, *tank_accel, *area, *a;
+    double *volume, *asymmetry, *wet, *density_smooth, *capillary, *depth, *correction, *tank_accel, *turned, *a;
+    const double *area;                      /* wetted area vectors in the lab: in turned, or those of the particles */
     double *value, *rhs, *shift, *gas, *law; /* one block */
     double *u0;
     double *body;         /* a: the pressure equation has no accelerations */
