@@ -85,16 +85,20 @@ static int32_t *carve_numbers(char **room, int64_t count)
 static mps_status reserve_rows(const assembly *a)
 {
     mps__ppe *e = a->e;
-    const int64_t n = e->n, wide = 6 + a->s->dim;
-    char *room = mps__scratch_take(e->context, e->scratch, ROWS, 2 * (wide * n + 1) + 3 * n + a->s->n, sizeof(int32_t));
+    const int64_t n = e->n, late = e->spare ? 0 : 3 + a->s->dim;
+    char *room = mps__scratch_take(e->context, e->scratch, ROWS, 2 * ((4 + late) * n + 1) + n + a->s->n, sizeof(int32_t));
     if (!room) return MPS_E_NOMEM;
-    double **const arrays[] = {&e->diagonal, &e->rhs, &e->shift, &e->weight, &e->p};
-    for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++) *arrays[k] = carve(&room, n);
-    e->x = carve(&room, n * a->s->dim);
+    e->diagonal = carve(&room, n);
+    e->rhs = carve(&room, n);
+    e->shift = carve(&room, n);
     e->row = (int64_t *)(void *)carve(&room, n + 1);
+    e->x = e->spare ? e->spare_x : carve(&room, n * a->s->dim);
+    char *spare = e->spare ? (char *)e->spare : (char *)carve(&room, 3 * n);
+    e->weight = carve(&spare, n);
+    e->p = carve(&spare, n);
+    e->component = carve_numbers(&spare, n);
+    e->queue = carve_numbers(&spare, n);
     e->particle = carve_numbers(&room, n);
-    e->component = carve_numbers(&room, n);
-    e->queue = carve_numbers(&room, n);
     e->unknown = carve_numbers(&room, a->s->n);
     return MPS_OK;
 }
@@ -213,6 +217,14 @@ static inline __attribute__((always_inline)) void fill_row(const int dim, const 
         e->gas[r] = gas;
         e->law[r] = gas > 0 ? a->t->law[i] : 0;
     }
+}
+
+/* What rows are not made of. It may stand where the terms were. */
+static void note_unknown(const assembly *a, int64_t r)
+{
+    const mps__ppe *e = a->e;
+    const mps_stage *s = a->s;
+    const int64_t i = e->particle[r];
     e->weight[r] = s->dt * s->dt;
     e->p[r] = s->p[i];
     for (int d = 0; d < s->dim; d++) e->x[r * s->dim + d] = s->x[i * s->dim + d];
@@ -290,6 +302,8 @@ mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps_ppe_term
         else
             fill_row(3, &a, r);
     }
+#pragma omp parallel for num_threads(s->threads) schedule(static)
+    for (int64_t r = 0; r < e->n; r++) note_unknown(&a, r);
     const int32_t singular = find_singular(e, e->queue);
     e->problem = (mps_ppe_problem){.struct_size = sizeof e->problem,
                                    .dim = s->dim,

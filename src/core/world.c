@@ -265,6 +265,8 @@ static mps_status reserve_work(mps__world *w)
     k->body = k->a;
     k->p0 = k->rhs;
     k->x0 = k->shift;
+    w->ppe.spare = k->shift;
+    w->ppe.spare_x = k->body;
     k->capacity = wanted;
     return MPS_OK;
 }
