@@ -352,10 +352,10 @@ static void search_cells(mps_neighbours *l, const cell_map *m, double reach, boo
     }
 }
 
-/* Room for `count` entries, not kept and not zeroed in what was there; far too much of it is given back. */
+/* Room for `count` entries, not kept and not zeroed in what was there. Too much is given back: the first search has rows of all solids. */
 static mps_status fit(mps_neighbours *l, void **block, int64_t *capacity, int64_t count, size_t size)
 {
-    if (*block && *capacity >= count && *capacity < 2 * count + 1024) return MPS_OK;
+    if (*block && *capacity >= count && *capacity < count + count / 4 + 1024) return MPS_OK;
     mps__free(l->context, *block);
     *capacity = 0;
     *block = mps__alloc(l->context, count + count / 32, size);
