@@ -122,6 +122,7 @@ static mps_status number_rows(const assembly *a)
 {
     mps__ppe *e = a->e;
     int64_t rows = 0;
+#pragma omp parallel for num_threads(a->s->threads) reduction(+ : rows) schedule(static)
     for (int64_t i = 0; i < a->s->n; i++) rows += is_unknown(a, i);
     e->n = rows;
     MPS__TRY(reserve_rows(a));

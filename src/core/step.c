@@ -19,8 +19,8 @@ typedef struct step_state {
     double momentum[3]; /* of the prediction */
     double clock;       /* beginning of the present stage */
     bool not_converged;
-    bool no_memory;     /* a verb got no scratch */
-    bool solved, moved; /* pressures and positions are new, the old ones kept */
+    bool no_memory; /* a verb got no scratch */
+    bool moved;     /* positions are new, the old ones kept */
 } step_state;
 
 /* ---- calling models -------------------------------------------------------------------------------------------- */
@@ -396,8 +396,6 @@ static mps_status project(step_state *q)
         q->not_converged = status == MPS_W_NOT_CONVERGED;
         if (q->not_converged) mps__log(w->context, MPS_LOG_WARNING, "t = %.9g s: %.400s", s->t, w->context->error);
     }
-    keep(w->work.p0, s->p, s->n, s->threads);
-    q->solved = true;
     mps__ppe_scatter(&w->ppe, s, &q->terms, s->p);
     q->info.ppe_iterations = result.iterations;
     q->info.ppe_residual = result.residual;
@@ -478,7 +476,7 @@ static void restore_state(const step_state *q)
     const mps__world *w = q->w;
     const size_t n = (size_t)w->particles.n, dim = (size_t)w->dim;
     memcpy(w->particles.u, w->work.u0, n * dim * sizeof(double));
-    if (q->solved) memcpy(w->particles.p, w->work.p0, n * sizeof(double));
+    memcpy(w->particles.p, w->work.p0, n * sizeof(double));
     if (q->moved) memcpy(w->particles.x, w->work.x0, n * dim * sizeof(double));
 }
 
@@ -550,6 +548,7 @@ mps_status mps__world_step(mps__world *w, double dt_max)
     if (!fluid) return mps__fail(w->context, MPS_E_STATE, "there is no fluid particle to step");
     MPS__TRY(mps__world_neighbours(w));
     keep(w->work.u0, w->particles.u, w->particles.n * w->dim, w->threads);
+    keep(w->work.p0, w->particles.p, w->particles.n, w->threads);
     const int32_t start_pending = w->start_pending;
     double planned = 0;
     const mps_status status = try_step(&q, dt_max, &planned);

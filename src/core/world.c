@@ -35,8 +35,9 @@ void mps__world_free(mps__world *w)
     mps__ppe_free(&w->ppe);
     mps__motion_free(&w->motion);
     mps__work *k = &w->work;
-    void *all[] = {k->fixed, k->gone,       k->volume,     k->asymmetry, k->wet, k->density_smooth, k->capillary,
-                   k->depth, k->correction, k->tank_accel, k->turned,    k->a,   k->value,          k->u0};
+    void *all[] = {k->fixed,          k->gone,      k->volume, k->asymmetry,  k->wet,
+                   k->density_smooth, k->capillary, k->depth,  k->correction, k->tank_accel,
+                   k->turned,         k->a,         k->value,  k->u0,         k->p0};
     for (size_t a = 0; a < sizeof all / sizeof all[0]; a++) mps__free(w->context, all[a]);
     mps__scratch_free(w->context, &w->scratch);
 }
@@ -253,7 +254,8 @@ static mps_status reserve_work(mps__world *w)
              {(void **)&k->tank_accel, wanted * dim, sizeof(double)},
              {(void **)&k->a, wanted * dim, sizeof(double)},
              {(void **)&k->value, wanted * 5, sizeof(double)},
-             {(void **)&k->u0, wanted * dim, sizeof(double)}};
+             {(void **)&k->u0, wanted * dim, sizeof(double)},
+             {(void **)&k->p0, wanted, sizeof(double)}};
     k->capacity = 0; /* nothing in here outlives a step */
     for (size_t i = 0; i < sizeof a / sizeof a[0]; i++) {
         mps__free(w->context, *a[i].place);
@@ -263,7 +265,6 @@ static mps_status reserve_work(mps__world *w)
     double **const terms[] = {&k->rhs, &k->shift, &k->gas, &k->law};
     for (int i = 0; i < 4; i++) *terms[i] = k->value + (i + 1) * wanted;
     k->body = k->a;
-    k->p0 = k->rhs;
     k->x0 = k->shift;
     w->ppe.spare = k->shift;
     w->ppe.spare_x = k->body;

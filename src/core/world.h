@@ -30,9 +30,9 @@ typedef struct mps__work {
     double *volume, *asymmetry, *wet, *density_smooth, *capillary, *depth, *correction, *tank_accel, *turned, *a;
     const double *area;                      /* wetted area vectors in the lab: in turned, or those of the particles */
     double *value, *rhs, *shift, *gas, *law; /* one block */
-    double *u0;
+    double *u0, *p0;
     double *body;         /* a: the pressure equation has no accelerations */
-    double *p0, *x0;      /* pressures before the new ones are set, in rhs; positions before particles move, from shift on */
+    double *x0;           /* positions before particles move, from shift on */
     int32_t scratch_used; /* blocks lent to the verb in progress */
 } mps__work;
 
