@@ -57,6 +57,22 @@ mps_status mps__grow(mps__context *c, void **block, int64_t *capacity, int64_t u
     return MPS_OK;
 }
 
+void *mps__scratch_take(mps__context *c, mps__scratch *s, int32_t block, int64_t count, size_t size)
+{
+    if (s->block[block] && (uint64_t)count <= s->bytes[block] / size) return s->block[block];
+    mps__free(c, s->block[block]);
+    s->bytes[block] = 0;
+    s->block[block] = mps__alloc(c, count + count / 32, size);
+    if (s->block[block]) s->bytes[block] = (size_t)(count + count / 32) * size;
+    return s->block[block];
+}
+
+void mps__scratch_free(mps__context *c, mps__scratch *s)
+{
+    for (int k = 0; k < MPS__SCRATCH; k++) mps__free(c, s->block[k]);
+    *s = (mps__scratch){{NULL}, {0}};
+}
+
 mps_status mps__fail(mps__context *c, mps_status status, const char *format, ...)
 {
     /* a text may quote the previous one */

@@ -32,6 +32,17 @@ static inline int64_t mps__room(int64_t n, int64_t capacity)
     return capacity > 0 ? n + n / 8 : n;
 }
 
+/* Blocks for what lives no longer than a verb, a search or the solution of an equation: one after the other they take the same memory. */
+enum { MPS__SCRATCH = 16 };
+typedef struct mps__scratch {
+    void *block[MPS__SCRATCH];
+    size_t bytes[MPS__SCRATCH];
+} mps__scratch;
+
+/* Block number `block` for `count` elements, or NULL with the error text set. It holds anything: who took it before is done with it. */
+void *mps__scratch_take(mps__context *c, mps__scratch *s, int32_t block, int64_t count, size_t size);
+void mps__scratch_free(mps__context *c, mps__scratch *s);
+
 /* Set the error text and return `status`. */
 mps_status mps__fail(mps__context *c, mps_status status, const char *format, ...) __attribute__((format(printf, 3, 4)));
 void mps__log(mps__context *c, int level, const char *format, ...) __attribute__((format(printf, 3, 4)));

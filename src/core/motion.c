@@ -144,6 +144,13 @@ void mps__motion_to_tank(const mps__motion *m, const mps__pose *pose, const doub
     for (int d = 0; d < m->dim; d++) X[d] = m->centre[d] + (R[d] * r[0] + R[3 + d] * r[1] + R[6 + d] * r[2]);
 }
 
+bool mps__motion_turned(const mps__pose *pose)
+{
+    bool turned = false;
+    for (int k = 0; k < 9; k++) turned |= pose->rotation[k] != (k % 4 == 0);
+    return turned;
+}
+
 void mps__motion_rotate(const mps__motion *m, const mps__pose *pose, const double *V, double *v)
 {
     double in[3] = {V[0], V[1], m->dim == 3 ? V[2] : 0.0}, out[3];

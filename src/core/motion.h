@@ -34,6 +34,8 @@ mps_status mps__motion_pose(mps__motion *m, double t, mps__pose *pose);
 void mps__motion_point(const mps__motion *m, const mps__pose *pose, const double *X, double *x, double *v, double *a);
 /* Back from the lab to the tank's frame. */
 void mps__motion_to_tank(const mps__motion *m, const mps__pose *pose, const double *x, double *X);
+/* Whether vectors of the tank's frame are others in the lab. */
+bool mps__motion_turned(const mps__pose *pose);
 /* Rotate a vector of the tank's frame into the lab. */
 void mps__motion_rotate(const mps__motion *m, const mps__pose *pose, const double *V, double *v);
 

@@ -32,15 +32,15 @@ typedef struct cell_map {
 
 mps_status mps__neighbours_init(mps_neighbours *l, mps__context *context, int32_t dim, double dp)
 {
-    *l = (mps_neighbours){.context = context, .dim = dim, .dp = dp, .threads = 1, .skin = skin_of_dp * dp};
+    *l = (mps_neighbours){.context = context, .dim = dim, .dp = dp, .threads = 1, .skin = skin_of_dp * dp, .shared = &l->own_scratch};
     return MPS_OK;
 }
 
 void mps__neighbours_free(mps_neighbours *l)
 {
-    void *all[] = {l->near_begin, l->near_col, l->begin, l->middle, l->end,  l->col,
-                   l->w_r2,       l->searched, l->key,   l->order,  l->idle, l->scratch};
+    void *all[] = {l->near_begin, l->near_col, l->begin, l->middle, l->far_end, l->col, l->w_r2, l->searched, l->idle, l->scratch};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) mps__free(l->context, all[k]);
+    mps__scratch_free(l->context, &l->own_scratch);
     mps__neighbours_init(l, l->context, l->dim, l->dp);
 }
 
@@ -132,10 +132,7 @@ static mps_status reserve(mps_neighbours *l, int64_t n)
     } a[] = {{(void **)&l->begin, wanted + 1, sizeof *l->begin, NULL},
              {(void **)&l->middle, wanted, sizeof *l->middle, NULL},
              {(void **)&l->near_begin, wanted + 1, sizeof *l->near_begin, NULL},
-             {(void **)&l->end, wanted, sizeof *l->end, NULL},
              {(void **)&l->searched, wanted * l->dim, sizeof *l->searched, NULL},
-             {(void **)&l->key, 2 * wanted, sizeof *l->key, NULL},
-             {(void **)&l->order, 2 * wanted, sizeof *l->order, NULL},
              {(void **)&l->idle, wanted, sizeof *l->idle, NULL}};
     const size_t count = sizeof a / sizeof a[0];
     for (size_t k = 0; k < count; k++) {
@@ -170,6 +167,9 @@ static mps_status sort_cells(mps_neighbours *l, int64_t n, const double *x, doub
 {
     l->valid = l->sorted = false;
     MPS__TRY(reserve(l, n));
+    l->key = mps__scratch_take(l->context, l->shared, 0, 2 * n, sizeof *l->key);
+    l->order = mps__scratch_take(l->context, l->shared, 1, 2 * n, sizeof *l->order);
+    if (!l->key || !l->order) return MPS_E_NOMEM;
     MPS__TRY(map_cells(l, n, x, re_far + l->skin, m));
 #pragma omp parallel for num_threads(l->threads) schedule(static)
     for (int64_t i = 0; i < n; i++) {
@@ -347,10 +347,10 @@ static void search_cells(mps_neighbours *l, const cell_map *m, double reach, boo
     }
 }
 
-/* Room for `count` entries, not kept and not zeroed in what was there; far too much of it is given back. */
+/* Room for `count` entries, not kept and not zeroed in what was there. Too much is given back: the first search has rows of all solids. */
 static mps_status fit(mps_neighbours *l, void **block, int64_t *capacity, int64_t count, size_t size)
 {
-    if (*block && *capacity >= count && *capacity < 2 * count + 1024) return MPS_OK;
+    if (*block && *capacity >= count && *capacity < count + count / 4 + 1024) return MPS_OK;
     mps__free(l->context, *block);
     *capacity = 0;
     *block = mps__alloc(l->context, count + count / 32, size);
@@ -378,6 +378,8 @@ mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x,
         if (l->begin[i + 1] > l->longest) l->longest = l->begin[i + 1];
         l->begin[i + 1] += l->begin[i];
     }
+    if (re_near < re_far) MPS__TRY(fit(l, (void **)&l->far_end, &l->far_capacity, n, sizeof *l->far_end));
+    l->end = re_near < re_far ? l->far_end : l->middle;
     MPS__TRY(fit(l, (void **)&l->scratch, &l->scratch_capacity, MPS__PARTS * 2 * l->longest, sizeof *l->scratch));
     MPS__TRY(fit(l, (void **)&l->col, &l->pair_capacity, l->begin[n], sizeof *l->col));
     search_cells(l, &m, reach, true);

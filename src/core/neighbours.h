@@ -14,20 +14,22 @@ struct mps_neighbours {
     mps__context own; /* context of a list that stands alone */
     int32_t dim, threads;
     double dp, skin, re_near, re_far;
-    int64_t n, capacity, pair_capacity, near_capacity, weight_capacity, scratch_capacity;
+    int64_t n, capacity, pair_capacity, near_capacity, weight_capacity, scratch_capacity, far_capacity;
     const double *x;
-    int64_t *begin, *middle, *end; /* [n+1], [n], [n] */
-    int32_t *col;                  /* [begin[n]] pairs within re_far + skin at the last search */
-    int64_t *near_begin;           /* [n+1] near rows once more, without gaps: what most loops of a step run along */
-    int32_t *near_col;             /* [near_begin[n]] */
-    double *w_r2;                  /* [near_begin[n]] room for a weight beside each entry of near_col */
-    double *searched;              /* [n*dim] positions at the last search */
-    uint64_t *key;                 /* [2 n] cell keys and scratch of the sort */
-    int32_t *order;                /* [2 n] */
-    bool valid;                    /* candidates belong to the present order */
-    bool sorted;                   /* the store was just sorted along the keys: the next search needs no order */
-    int64_t longest;               /* candidates of one row, at most */
-    int32_t *scratch;              /* two rows of them for each part of the particles */
+    int64_t *begin, *middle, *end;     /* [n+1], [n], [n]; the last are the same where the radii are */
+    int64_t *far_end;                  /* [n] where they are not */
+    int32_t *col;                      /* [begin[n]] pairs within re_far + skin at the last search */
+    int64_t *near_begin;               /* [n+1] near rows once more, without gaps: what most loops of a step run along */
+    int32_t *near_col;                 /* [near_begin[n]] */
+    double *w_r2;                      /* [near_begin[n]] room for a weight beside each entry of near_col */
+    double *searched;                  /* [n*dim] positions at the last search */
+    uint64_t *key;                     /* [2 n] cell keys and scratch of the sort; from the order to the end of the search */
+    int32_t *order;                    /* [2 n] likewise */
+    mps__scratch own_scratch, *shared; /* where these two are: its own, or one shared with others */
+    bool valid;                        /* candidates belong to the present order */
+    bool sorted;                       /* the store was just sorted along the keys: the next search needs no order */
+    int64_t longest;                   /* candidates of one row, at most */
+    int32_t *scratch;                  /* two rows of them for each part of the particles */
     const int32_t *kind;         /* of the next search: NULL, or kinds of the particles, and solids without fluid about them get no pairs */
     bool partial;                /* the last search left such solids out: */
     uint8_t *idle;               /* [n] 1 for each of them */

@@ -21,7 +21,7 @@ mps_status mps__particles_field_add(mps__particles *s, const char *name, int32_t
 
 mps_status mps__particles_init(mps__particles *s, mps__context *context, int32_t dim)
 {
-    *s = (mps__particles){.context = context, .dim = dim};
+    *s = (mps__particles){.context = context, .dim = dim, .scratch = &s->own};
     const struct {
         const char *name;
         int32_t components;
@@ -49,6 +49,7 @@ void mps__particles_free(mps__particles *s)
         mps__free(s->context, *s->field[k].data);
         *s->field[k].data = NULL;
     }
+    mps__scratch_free(s->context, &s->own);
     s->fields = 0;
     s->n = s->capacity = 0;
 }
@@ -161,7 +162,7 @@ mps_status mps__particles_permute(mps__particles *s, int64_t count, const int32_
     if (in_order(s, count, order)) return MPS_OK;
     for (int32_t k = 0; k < s->fields; k++)
         if (stride(&s->field[k]) > largest) largest = stride(&s->field[k]);
-    char *scratch = mps__alloc(s->context, s->n, largest);
+    char *scratch = mps__scratch_take(s->context, s->scratch, 2, s->n, largest); /* 0 and 1 may hold the order */
     if (!scratch) return MPS_E_NOMEM;
     for (int32_t k = 0; k < s->fields; k++) permute_field(s, &s->field[k], count, order, scratch);
     int32_t *place = (int32_t *)(void *)scratch; /* new place of an old one */
@@ -169,7 +170,6 @@ mps_status mps__particles_permute(mps__particles *s, int64_t count, const int32_
     for (int64_t i = 0; i < count; i++) place[order[i]] = (int32_t)i;
     for (int64_t i = 0; i < count; i++)
         if (s->wall_of[i] >= 0) s->wall_of[i] = place[s->wall_of[i]];
-    mps__free(s->context, scratch);
     if (count != s->n) s->generation++;
     s->n = count;
     return MPS_OK;

@@ -36,7 +36,8 @@ typedef struct mps__particles {
     mps__field field[MPS__FIELDS_MAX];
     int32_t parts;
     char part_name[MPS__PARTS_MAX][MPS__PART_NAME];
-    int64_t generation; /* grows when particles come or go */
+    int64_t generation;         /* grows when particles come or go */
+    mps__scratch own, *scratch; /* to move particles with: its own, or one shared with others */
 } mps__particles;
 
 mps_status mps__particles_init(mps__particles *s, mps__context *context, int32_t dim);

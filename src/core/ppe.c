@@ -6,49 +6,18 @@
 #include <mps/operators.h>
 #include <string.h>
 
+/* Blocks of scratch. */
+enum { VALUES, COLUMNS, ROWS, LAWS };
+
 void mps__ppe_init(mps__ppe *e, mps__context *context)
 {
-    *e = (mps__ppe){.context = context};
+    *e = (mps__ppe){.context = context, .scratch = &e->own};
 }
 
 void mps__ppe_free(mps__ppe *e)
 {
-    void *all[] = {e->unknown, e->particle, e->row,    e->col, e->val, e->diagonal,  e->rhs,  e->shift,
-                   e->gas,     e->law,      e->weight, e->x,   e->p,   e->component, e->queue};
-    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) mps__free(e->context, all[k]);
+    mps__scratch_free(e->context, &e->own);
     mps__ppe_init(e, e->context);
-}
-
-static mps_status reserve(mps__ppe *e, int64_t n, int dim)
-{
-    if (n <= e->capacity) return MPS_OK;
-    const int64_t wanted = mps__room(n, e->capacity);
-    struct {
-        void **place;
-        int64_t count;
-        size_t size;
-    } a[] = {{(void **)&e->unknown, wanted, sizeof *e->unknown},
-             {(void **)&e->particle, wanted, sizeof *e->particle},
-             {(void **)&e->row, wanted + 1, sizeof *e->row},
-             {(void **)&e->diagonal, wanted, sizeof *e->diagonal},
-             {(void **)&e->rhs, wanted, sizeof *e->rhs},
-             {(void **)&e->shift, wanted, sizeof *e->shift},
-             {(void **)&e->gas, wanted, sizeof *e->gas},
-             {(void **)&e->law, wanted, sizeof *e->law},
-             {(void **)&e->weight, wanted, sizeof *e->weight},
-             {(void **)&e->x, wanted * dim, sizeof *e->x},
-             {(void **)&e->p, wanted, sizeof *e->p},
-             {(void **)&e->component, wanted, sizeof *e->component},
-             {(void **)&e->queue, wanted, sizeof *e->queue}};
-    /* nothing here outlives an assembly: the old blocks go first, a failure leaves an empty object */
-    e->capacity = 0;
-    for (size_t k = 0; k < sizeof a / sizeof a[0]; k++) {
-        mps__free(e->context, *a[k].place);
-        *a[k].place = mps__alloc(e->context, a[k].count, a[k].size);
-        if (!*a[k].place) return MPS_E_NOMEM;
-    }
-    e->capacity = wanted;
-    return MPS_OK;
 }
 
 /* What an assembly looks at. */
@@ -94,17 +63,77 @@ static inline double pair_factor(const assembly *a, int64_t i, int64_t j)
     return s->region[j] == MPS_REGION_SURFACE ? a->surface : 1.0;
 }
 
-/* Unknowns in the order of the particles. */
-static void number_rows(const assembly *a)
+static inline bool is_unknown(const assembly *a, int64_t i)
+{
+    return a->s->kind[i] != MPS_DUMMY && a->s->region[i] < MPS_REGION_SURFACE && !a->t->fixed[i];
+}
+
+static double *carve(char **room, int64_t count)
+{
+    double *array = (double *)(void *)*room;
+    *room += (size_t)count * sizeof *array;
+    return array;
+}
+
+static int32_t *carve_numbers(char **room, int64_t count)
+{
+    int32_t *array = (int32_t *)(void *)*room;
+    *room += (size_t)count * sizeof *array;
+    return array;
+}
+
+/* Arrays of the rows, all in one block: those of eight bytes first. */
+static mps_status reserve_rows(const assembly *a)
 {
     mps__ppe *e = a->e;
-    const mps_stage *s = a->s;
-    e->n = 0;
-    for (int64_t i = 0; i < s->n; i++) {
-        const bool solved = s->kind[i] != MPS_DUMMY && s->region[i] < MPS_REGION_SURFACE && !a->t->fixed[i];
-        e->unknown[i] = solved ? (int32_t)e->n : -1;
-        if (solved) e->particle[e->n++] = (int32_t)i;
+    const int64_t n = e->n, late = e->spare ? 0 : 3 + a->s->dim;
+    char *room = mps__scratch_take(e->context, e->scratch, ROWS, 2 * ((4 + late) * n + 1) + n + a->s->n, sizeof(int32_t));
+    if (!room) return MPS_E_NOMEM;
+    e->diagonal = carve(&room, n);
+    e->rhs = carve(&room, n);
+    e->shift = carve(&room, n);
+    e->row = (int64_t *)(void *)carve(&room, n + 1);
+    e->x = e->spare ? e->spare_x : carve(&room, n * a->s->dim);
+    char *spare = e->spare ? (char *)e->spare : (char *)carve(&room, 3 * n);
+    e->weight = carve(&spare, n);
+    e->p = carve(&spare, n);
+    e->component = carve_numbers(&spare, n);
+    e->queue = carve_numbers(&spare, n);
+    e->particle = carve_numbers(&room, n);
+    e->unknown = carve_numbers(&room, a->s->n);
+    return MPS_OK;
+}
+
+/* Room for laws of gases, where any row has one. */
+static mps_status reserve_laws(const assembly *a)
+{
+    mps__ppe *e = a->e;
+    bool any = false;
+    e->gas = e->law = NULL;
+    for (int64_t i = 0; i < a->s->n && !any; i++) any = a->t->law[i] > 0 && a->t->gain * a->t->gas[i] > 0 && is_unknown(a, i);
+    if (!any) return MPS_OK;
+    e->gas = mps__scratch_take(e->context, e->scratch, LAWS, 2 * e->n, sizeof *e->gas);
+    if (!e->gas) return MPS_E_NOMEM;
+    e->law = e->gas + e->n;
+    return MPS_OK;
+}
+
+/* Unknowns in the order of the particles. */
+static mps_status number_rows(const assembly *a)
+{
+    mps__ppe *e = a->e;
+    int64_t rows = 0;
+#pragma omp parallel for num_threads(a->s->threads) reduction(+ : rows) schedule(static)
+    for (int64_t i = 0; i < a->s->n; i++) rows += is_unknown(a, i);
+    e->n = rows;
+    MPS__TRY(reserve_rows(a));
+    rows = 0;
+    for (int64_t i = 0; i < a->s->n; i++) {
+        const bool solved = is_unknown(a, i);
+        e->unknown[i] = solved ? (int32_t)rows : -1;
+        if (solved) e->particle[rows++] = (int32_t)i;
     }
+    return reserve_laws(a);
 }
 
 /* Entries of row r beside the diagonal. */
@@ -191,8 +220,18 @@ static inline __attribute__((always_inline)) void fill_row(const int dim, const 
     if (!sorted) sort_row(col, val, count);
     e->rhs[r] = rhs;
     e->shift[r] = shift;
-    e->gas[r] = gas;
-    e->law[r] = gas > 0 ? a->t->law[i] : 0;
+    if (e->law) {
+        e->gas[r] = gas;
+        e->law[r] = gas > 0 ? a->t->law[i] : 0;
+    }
+}
+
+/* What rows are not made of. It may stand where the terms were. */
+static void note_unknown(const assembly *a, int64_t r)
+{
+    const mps__ppe *e = a->e;
+    const mps_stage *s = a->s;
+    const int64_t i = e->particle[r];
     e->weight[r] = s->dt * s->dt;
     e->p[r] = s->p[i];
     for (int d = 0; d < s->dim; d++) e->x[r * s->dim + d] = s->x[i * s->dim + d];
@@ -245,41 +284,24 @@ static int32_t find_singular(mps__ppe *e, int32_t *queue)
     return singular;
 }
 
-/* Whether a row follows a law that is not linear. */
-static bool nonlinear(const mps__ppe *e)
-{
-    for (int64_t r = 0; r < e->n; r++)
-        if (e->law[r] > 0) return true;
-    return false;
-}
-
 static mps_status reserve_entries(mps__ppe *e, int64_t entries)
 {
-    if (entries <= e->entry_capacity) return MPS_OK;
-    mps__free(e->context, e->col);
-    mps__free(e->context, e->val);
-    e->entry_capacity = 0;
-    e->val = NULL;
-    e->col = mps__alloc(e->context, entries + entries / 32, sizeof *e->col);
-    e->val = mps__alloc(e->context, entries + entries / 32, sizeof *e->val);
-    if (!e->col || !e->val) return MPS_E_NOMEM;
-    e->entry_capacity = entries + entries / 32;
-    return MPS_OK;
+    e->col = mps__scratch_take(e->context, e->scratch, COLUMNS, entries, sizeof *e->col);
+    e->val = mps__scratch_take(e->context, e->scratch, VALUES, entries, sizeof *e->val);
+    return e->col && e->val ? MPS_OK : MPS_E_NOMEM;
 }
 
 mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps_ppe_terms *t)
 {
-    e->n = 0;
-    MPS__TRY(reserve(e, s->n, s->dim));
     const mps_stencil *pairs = t->radius == MPS_NEAR ? s->near : s->far;
-    const assembly a = {.e = e,
-                        .s = s,
-                        .t = t,
-                        .pairs = pairs,
-                        .unknown = e->unknown,
-                        .c = 2.0 * s->dim / (pairs->n0 * pairs->lambda),
-                        .surface = t->complete_surface ? complete_flux(pairs) : 1.0};
-    number_rows(&a);
+    assembly a = {.e = e,
+                  .s = s,
+                  .t = t,
+                  .pairs = pairs,
+                  .c = 2.0 * s->dim / (pairs->n0 * pairs->lambda),
+                  .surface = t->complete_surface ? complete_flux(pairs) : 1.0};
+    MPS__TRY(number_rows(&a));
+    a.unknown = e->unknown;
     MPS__TRY(reserve_entries(e, start_rows(&a)));
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t r = 0; r < e->n; r++) {
@@ -288,8 +310,9 @@ mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps_ppe_term
         else
             fill_row(3, &a, r);
     }
+#pragma omp parallel for num_threads(s->threads) schedule(static)
+    for (int64_t r = 0; r < e->n; r++) note_unknown(&a, r);
     const int32_t singular = find_singular(e, e->queue);
-    const bool with_law = nonlinear(e);
     e->problem = (mps_ppe_problem){.struct_size = sizeof e->problem,
                                    .dim = s->dim,
                                    .n = e->n,
@@ -305,8 +328,8 @@ mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps_ppe_term
                                    .threads = s->threads,
                                    .components = singular,
                                    .component = singular ? e->component : NULL,
-                                   .gas = with_law ? e->gas : NULL,
-                                   .law = with_law ? e->law : NULL};
+                                   .gas = e->gas,
+                                   .law = e->law};
     return MPS_OK;
 }
 

@@ -8,13 +8,16 @@
 
 typedef struct mps__ppe {
     mps__context *context;
-    int64_t capacity, entry_capacity, n; /* unknowns of the last assembly */
-    int32_t *unknown;                    /* [particles] row of a particle, -1: none */
-    int32_t *particle;                   /* [n] particle of a row */
-    int64_t *row;                        /* [n+1] CSR beside the diagonal */
+    mps__scratch own, *scratch; /* where all arrays are: its own, or one shared with others. They last until these take it again */
+    double *spare, *spare_x;    /* NULL, or room [3 particles], [particles*dim] that is free when rows are filled: terms but `value` */
+    int64_t n;                  /* unknowns of the last assembly */
+    int32_t *unknown;           /* [particles] row of a particle, -1: none */
+    int32_t *particle;          /* [n] particle of a row */
+    int64_t *row;               /* [n+1] CSR beside the diagonal */
     int32_t *col;
     float *val;
-    double *diagonal, *rhs, *shift, *gas, *law, *weight, *x, *p;
+    double *diagonal, *rhs, *shift, *weight, *x, *p;
+    double *gas, *law; /* NULL: all rows are linear */
     int32_t *component;
     bool level_free; /* the largest component has no level */
     int32_t *queue;  /* [n] scratch */
@@ -23,7 +26,7 @@ typedef struct mps__ppe {
 
 void mps__ppe_init(mps__ppe *e, mps__context *context);
 void mps__ppe_free(mps__ppe *e);
-/* Build a row for every unknown, with the old pressures as the first guess. */
+/* Build a row for every unknown, with the old pressures as the first guess. Of the terms `value` and `fixed` are left where e->spare is theirs. */
 mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps_ppe_terms *t);
 /* Pressures of all particles from the solution e->p. */
 void mps__ppe_scatter(const mps__ppe *e, const mps_stage *s, const mps_ppe_terms *t, double *p);

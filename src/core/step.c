@@ -20,6 +20,7 @@ typedef struct step_state {
     double clock;       /* beginning of the present stage */
     bool not_converged;
     bool no_memory; /* a verb got no scratch */
+    bool moved;     /* positions are new, the old ones kept */
 } step_state;
 
 /* ---- calling models -------------------------------------------------------------------------------------------- */
@@ -33,19 +34,14 @@ double *mps_stage_scratch(mps_stage *s, int64_t count)
         return NULL;
     }
     const int32_t b = k->scratch_used;
-    if (count > k->scratch_capacity[b]) {
-        double *larger = mps__alloc(w->context, count + count / 8, sizeof *larger);
-        if (!larger) {
-            ((step_state *)s->host)->no_memory = true;
-            return NULL;
-        }
-        mps__free(w->context, k->scratch[b]);
-        k->scratch[b] = larger;
-        k->scratch_capacity[b] = count + count / 8;
+    double *block = mps__scratch_take(w->context, &w->scratch, b, count, sizeof *block);
+    if (!block) {
+        ((step_state *)s->host)->no_memory = true;
+        return NULL;
     }
-    mps__zero(k->scratch[b], count, w->threads);
+    mps__zero(block, count, w->threads);
     k->scratch_used++;
-    return k->scratch[b];
+    return block;
 }
 
 int mps_stage_fail(mps_stage *s, const char *format, ...)
@@ -130,6 +126,14 @@ static mps_status set_dt(step_state *q, double dt_max, double *planned)
     return MPS_OK;
 }
 
+/* Copy, to undo a failed step from. */
+static void keep(double *kept, const double *values, int64_t count, int threads)
+{
+    (void)threads; /* unused without OpenMP */
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (int64_t k = 0; k < count; k++) kept[k] = values[k];
+}
+
 /* ---- the stages -------------------------------------------------------------------------------------------------- */
 
 static void end_stage(step_state *q, int stage)
@@ -168,8 +172,7 @@ static bool at_rest(const step_state *q)
     return was && same_place(&w->motion.now, &q->pose);
 }
 
-/* Solids get the velocity that carries them to their next place; every particle the acceleration a rigid tank has there.
- * Area vectors turn with the tank. */
+/* Solids get the velocity that carries them to their next place; every particle the acceleration a rigid tank has there. */
 static void move_walls(step_state *q)
 {
     mps__world *w = q->w;
@@ -179,7 +182,6 @@ static void move_walls(step_state *q)
 #pragma omp parallel for num_threads(w->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         double X[3], here[3], next[3], old[3];
-        mps__motion_rotate(&w->motion, &w->motion.now, s->area + i * dim, w->work.area + i * dim);
         for (int d = 0; d < dim && rest; d++) {
             w->work.tank_accel[i * dim + d] = 0;
             if (s->kind[i] != MPS_FLUID) s->u[i * dim + d] = 0;
@@ -198,6 +200,20 @@ static void move_walls(step_state *q)
             if (s->kind[i] != MPS_FLUID) s->u[i * dim + d] = u;
         }
     }
+}
+
+/* Area vectors turn with the tank. */
+static mps_status turn_areas(mps__world *w)
+{
+    const mps__particles *s = &w->particles;
+    mps__work *k = &w->work;
+    k->area = s->area;
+    if (!mps__motion_turned(&w->motion.now)) return MPS_OK;
+    MPS__TRY(mps__grow(w->context, (void **)&k->turned, &k->turned_capacity, 0, s->n * w->dim, sizeof *k->turned));
+#pragma omp parallel for num_threads(w->threads) schedule(static)
+    for (int64_t i = 0; i < s->n; i++) mps__motion_rotate(&w->motion, &w->motion.now, s->area + i * w->dim, k->turned + i * w->dim);
+    k->area = k->turned;
+    return MPS_OK;
 }
 
 static void set_stage(step_state *q)
@@ -436,6 +452,8 @@ static mps_status correct(step_state *q)
         q->budget.momentum.collision[d] += collided.momentum[d] - pushed.momentum[d];
         q->budget.momentum.shift[d] += shifted.momentum[d] - collided.momentum[d];
     }
+    keep(k->x0, s->x, s->n * s->dim, s->threads);
+    q->moved = true;
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         double *x = w->particles.x + i * s->dim;
@@ -467,32 +485,20 @@ static mps_status check_result(step_state *q)
     q->info.max_speed = most;
     q->info.cfl = most * s->dt / s->dp;
     if (worst == s->n) return MPS_OK;
-    const double *u = s->u + worst * s->dim, *x = w->work.x0 + worst * s->dim;
+    const double *u = s->u + worst * s->dim, *x = (q->moved ? w->work.x0 : s->x) + worst * s->dim;
     return mps__fail(
         w->context, MPS_E_DIVERGED,
         "t = %.9g s: particle %lld at (%g, %g, %g) m got velocity (%g, %g, %g) m/s and pressure %g Pa; allowed: finite, at most %g m/s",
         s->t, (long long)s->id[worst], x[0], x[1], s->dim == 3 ? x[2] : 0, u[0], u[1], s->dim == 3 ? u[2] : 0, s->p[worst], w->speed_limit);
 }
 
-static void keep_state(mps__world *w)
+static void restore_state(const step_state *q)
 {
-    const mps__particles *s = &w->particles;
-#pragma omp parallel for num_threads(w->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) {
-        w->work.p0[i] = s->p[i];
-        for (int64_t k = i * w->dim; k < (i + 1) * w->dim; k++) {
-            w->work.x0[k] = s->x[k];
-            w->work.u0[k] = s->u[k];
-        }
-    }
-}
-
-static void restore_state(mps__world *w)
-{
+    const mps__world *w = q->w;
     const size_t n = (size_t)w->particles.n, dim = (size_t)w->dim;
-    memcpy(w->particles.x, w->work.x0, n * dim * sizeof(double));
     memcpy(w->particles.u, w->work.u0, n * dim * sizeof(double));
     memcpy(w->particles.p, w->work.p0, n * sizeof(double));
+    if (q->moved) memcpy(w->particles.x, w->work.x0, n * dim * sizeof(double));
 }
 
 static mps_status run_stages(step_state *q)
@@ -542,6 +548,7 @@ static mps_status try_step(step_state *q, double dt_max, double *planned)
 {
     mps__world *w = q->w;
     start(w);
+    MPS__TRY(turn_areas(w));
     set_stage(q);
     MPS__TRY(set_dt(q, dt_max, planned));
     MPS__TRY(mps__motion_pose(&w->motion, w->info.t + q->stage.dt, &q->pose));
@@ -561,12 +568,13 @@ mps_status mps__world_step(mps__world *w, double dt_max)
     for (int64_t i = 0; i < w->particles.n && !fluid; i++) fluid = w->particles.kind[i] == MPS_FLUID;
     if (!fluid) return mps__fail(w->context, MPS_E_STATE, "there is no fluid particle to step");
     MPS__TRY(mps__world_neighbours(w));
-    keep_state(w);
+    keep(w->work.u0, w->particles.u, w->particles.n * w->dim, w->threads);
+    keep(w->work.p0, w->particles.p, w->particles.n, w->threads);
     const int32_t start_pending = w->start_pending;
     double planned = 0;
     const mps_status status = try_step(&q, dt_max, &planned);
     if (status < 0) {
-        restore_state(w);
+        restore_state(&q);
         w->start_pending = start_pending;
         return status;
     }

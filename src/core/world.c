@@ -19,6 +19,7 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
     mps__ppe_init(&w->ppe, context);
     mps__motion_init(&w->motion, context, dim);
     MPS__TRY(mps__particles_init(&w->particles, context, dim));
+    w->neighbours.shared = w->complete.shared = w->ppe.scratch = w->particles.scratch = &w->scratch;
     MPS__TRY(mps__models_init(&w->models, context));
     return mps__solvers_init(&w->solvers, context);
 }
@@ -34,11 +35,11 @@ void mps__world_free(mps__world *w)
     mps__ppe_free(&w->ppe);
     mps__motion_free(&w->motion);
     mps__work *k = &w->work;
-    void *all[] = {k->fixed,      k->gone,       k->volume, k->asymmetry, k->wet, k->density_smooth, k->capillary, k->depth,
-                   k->correction, k->tank_accel, k->area,   k->a,         k->rhs, k->shift,          k->value,     k->body,
-                   k->gas,        k->law,        k->x0,     k->u0,        k->p0};
+    void *all[] = {k->fixed,          k->gone,      k->volume, k->asymmetry,  k->wet,
+                   k->density_smooth, k->capillary, k->depth,  k->correction, k->tank_accel,
+                   k->turned,         k->a,         k->value,  k->u0,         k->p0};
     for (size_t a = 0; a < sizeof all / sizeof all[0]; a++) mps__free(w->context, all[a]);
-    for (int a = 0; a < MPS__SCRATCH; a++) mps__free(w->context, k->scratch[a]);
+    mps__scratch_free(w->context, &w->scratch);
 }
 
 double mps__world_speed(const mps__world *w)
@@ -251,15 +252,8 @@ static mps_status reserve_work(mps__world *w)
              {(void **)&k->depth, wanted, sizeof(double)},
              {(void **)&k->correction, wanted * dim * dim, sizeof(double)},
              {(void **)&k->tank_accel, wanted * dim, sizeof(double)},
-             {(void **)&k->area, wanted * dim, sizeof(double)},
              {(void **)&k->a, wanted * dim, sizeof(double)},
-             {(void **)&k->rhs, wanted, sizeof(double)},
-             {(void **)&k->shift, wanted, sizeof(double)},
-             {(void **)&k->value, wanted, sizeof(double)},
-             {(void **)&k->body, wanted * dim, sizeof(double)},
-             {(void **)&k->gas, wanted, sizeof(double)},
-             {(void **)&k->law, wanted, sizeof(double)},
-             {(void **)&k->x0, wanted * dim, sizeof(double)},
+             {(void **)&k->value, wanted * 5, sizeof(double)},
              {(void **)&k->u0, wanted * dim, sizeof(double)},
              {(void **)&k->p0, wanted, sizeof(double)}};
     k->capacity = 0; /* nothing in here outlives a step */
@@ -268,6 +262,12 @@ static mps_status reserve_work(mps__world *w)
         *a[i].place = mps__alloc(w->context, a[i].count, a[i].size);
         if (!*a[i].place) return MPS_E_NOMEM;
     }
+    double **const terms[] = {&k->rhs, &k->shift, &k->gas, &k->law};
+    for (int i = 0; i < 4; i++) *terms[i] = k->value + (i + 1) * wanted;
+    k->body = k->a;
+    k->x0 = k->shift;
+    w->ppe.spare = k->shift;
+    w->ppe.spare_x = k->body;
     k->capacity = wanted;
     return MPS_OK;
 }

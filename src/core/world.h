@@ -13,8 +13,6 @@
 #include <mps/probe.h>
 #include <mps/step.h>
 
-enum { MPS__SCRATCH = 16 };
-
 /* Energies [J] and impulses since creation; see mps_energy and mps_momentum. */
 typedef struct mps__budget {
     double wall_work, viscous, collision, shift;
@@ -26,15 +24,16 @@ typedef struct mps__budget {
 
 /* Arrays [n] or [n*dim] that live through one step; what a failed step is undone from. */
 typedef struct mps__work {
-    int64_t capacity;
+    int64_t capacity, turned_capacity;
     int32_t *fixed;
     bool *gone; /* particles to be removed */
-    double *volume, *asymmetry, *wet, *density_smooth, *capillary, *depth, *correction, *tank_accel, *area, *a;
-    double *rhs, *shift, *value, *body, *gas, *law;
-    double *x0, *u0, *p0;
-    double *scratch[MPS__SCRATCH]; /* blocks lent to verbs, kept from step to step */
-    int64_t scratch_capacity[MPS__SCRATCH];
-    int32_t scratch_used;
+    double *volume, *asymmetry, *wet, *density_smooth, *capillary, *depth, *correction, *tank_accel, *turned, *a;
+    const double *area;                      /* wetted area vectors in the lab: in turned, or those of the particles */
+    double *value, *rhs, *shift, *gas, *law; /* one block */
+    double *u0, *p0;
+    double *body;         /* a: the pressure equation has no accelerations */
+    double *x0;           /* positions before particles move, from shift on */
+    int32_t scratch_used; /* blocks lent to the verb in progress */
 } mps__work;
 
 typedef struct mps__world {
@@ -54,6 +53,7 @@ typedef struct mps__world {
     mps__models models;
     mps__solvers solvers;
     mps__ppe ppe;
+    mps__scratch scratch; /* of searches, verbs and the equation */
     mps__motion motion;
     mps_time_control control;
     mps__budget budget;

@@ -8,8 +8,8 @@
 
 typedef struct auxgrid {
     mps__grid grid;
-    double *inverse; /* [capacity] of the diagonal */
-    int64_t n, capacity;
+    double *inverse; /* [n] of the diagonal, in memory of the grid that is free once it is there */
+    int64_t n;
 } auxgrid;
 
 static int create(const mps_allocator *allocator, void **self)
@@ -21,18 +21,7 @@ static int create(const mps_allocator *allocator, void **self)
     return 0;
 }
 
-static bool reserve(auxgrid *a, int64_t n)
-{
-    if (n <= a->capacity) return true;
-    const mps_allocator *allocator = &a->grid.allocator;
-    mps__give(allocator, a->inverse);
-    a->capacity = n + n / 32;
-    a->inverse = mps__take(allocator, a->capacity, sizeof *a->inverse);
-    if (!a->inverse) a->capacity = 0;
-    return a->inverse;
-}
-
-static int invert_diagonal(auxgrid *a, const mps_ppe_problem *problem)
+static int check_diagonal(const mps_ppe_problem *problem)
 {
     int bad = 0, negative = 0;
 #pragma omp parallel for schedule(static) num_threads(mps__team(problem->n, problem->threads)) reduction(| : bad, negative)
@@ -40,9 +29,18 @@ static int invert_diagonal(auxgrid *a, const mps_ppe_problem *problem)
         double d = problem->diagonal[i];
         bad |= !isfinite(d);
         negative |= d < 0;
-        a->inverse[i] = d > 0 ? 1 / d : 1; /* an empty row is a particle without neighbours, its residual is 0 */
     }
     return bad ? MPS_PPE_NAN : negative ? MPS_PPE_INDEFINITE : 0;
+}
+
+static void invert_diagonal(auxgrid *a, const mps_ppe_problem *problem)
+{
+    a->inverse = a->grid.point_kappa;
+#pragma omp parallel for schedule(static) num_threads(mps__team(problem->n, problem->threads))
+    for (int64_t i = 0; i < problem->n; i++) {
+        const double d = problem->diagonal[i];
+        a->inverse[i] = d > 0 ? 1 / d : 1; /* an empty row is a particle without neighbours, its residual is 0 */
+    }
 }
 
 static int build_grids(mps__grid *g, const mps_ppe_problem *problem)
@@ -66,9 +64,11 @@ static int setup(void *self, const mps_ppe_problem *problem)
     g->dim = problem->dim;
     g->threads = problem->threads;
     g->levels = 0;
-    if (!reserve(a, problem->n) || !mps__grid_reserve(g, problem->n)) return MPS_PPE_NOMEM;
-    int reason = invert_diagonal(a, problem);
-    return reason || problem->n == 0 ? reason : build_grids(g, problem);
+    if (!mps__grid_reserve(g, problem->n)) return MPS_PPE_NOMEM;
+    int reason = check_diagonal(problem);
+    if (!reason && problem->n > 0) reason = build_grids(g, problem);
+    if (!reason) invert_diagonal(a, problem);
+    return reason;
 }
 
 static int apply(void *self, const double *r, double *z)
@@ -90,7 +90,6 @@ static void destroy(void *self)
     if (!a) return;
     mps_allocator allocator = a->grid.allocator;
     mps__grid_release(&a->grid);
-    mps__give(&allocator, a->inverse);
     mps__give(&allocator, a);
 }
 

@@ -45,10 +45,11 @@ typedef struct mps__grid {
     int32_t *table_cell;                /* [table_size] */
     int64_t point_capacity;
     int64_t *point_key;  /* [points] coordinates of the cell that holds a point, -1: none */
-    double *point_kappa; /* [points] */
-    int32_t *order;      /* [points] cells in order of appearance to cells by colour */
-    int64_t part_capacity;
-    void *parts; /* [chunks * cells] what each chunk adds to the first grid: floats [2 dim] of links, or a double */
+    double *point_kappa; /* [points]; free when all grids are there */
+    int64_t order_capacity;
+    int32_t *order;       /* [cells] cells in order of appearance to cells by colour */
+    size_t part_capacity; /* bytes */
+    void *parts;          /* [chunks * cells] what each chunk adds to the first grid: floats [2 dim] of links, or a double */
     int32_t range[MPS__GRID_CHUNKS][2][2]; /* red and black cells that a chunk adds to, first and one past the last */
     double *factor;                        /* [direct * direct] L of the last grid's L D L' */
     double *pivot;                         /* [direct] 1/D, 0 where D is */

@@ -70,14 +70,36 @@ static void drop_work(mps__grid *g)
     g->point_kappa = NULL;
     g->order = g->table_cell = NULL;
     g->parts = NULL;
-    g->point_capacity = g->table_capacity = g->part_capacity = 0;
+    g->point_capacity = g->table_capacity = g->order_capacity = 0;
+    g->part_capacity = 0;
 }
 
-static int64_t table_for(int64_t points)
+static int64_t table_for(int64_t cells)
 {
     int64_t size = 16;
-    while (size < points + points / 2) size *= 2;
+    while (size < cells + cells / 2) size *= 2;
     return size;
+}
+
+static bool reserve_table(mps__grid *g, int64_t size)
+{
+    if (size <= g->table_capacity) return true;
+    mps__give(&g->allocator, g->table_key);
+    mps__give(&g->allocator, g->table_cell);
+    g->table_key = mps__take(&g->allocator, size, sizeof *g->table_key);
+    g->table_cell = mps__take(&g->allocator, size, sizeof *g->table_cell);
+    g->table_capacity = g->table_key && g->table_cell ? size : 0;
+    return g->table_capacity > 0;
+}
+
+static bool reserve_order(mps__grid *g, int64_t cells)
+{
+    if (cells < g->order_capacity) return true;
+    mps__give(&g->allocator, g->order);
+    g->order_capacity = cells + cells / 8 + 1;
+    g->order = mps__take(&g->allocator, g->order_capacity, sizeof *g->order);
+    if (!g->order) g->order_capacity = 0;
+    return g->order;
 }
 
 bool mps__grid_reserve(mps__grid *g, int64_t points)
@@ -85,29 +107,26 @@ bool mps__grid_reserve(mps__grid *g, int64_t points)
     if (!g->factor) g->factor = mps__take(&g->allocator, MPS__GRID_DIRECT * MPS__GRID_DIRECT, sizeof *g->factor);
     if (!g->pivot) g->pivot = mps__take(&g->allocator, MPS__GRID_DIRECT, sizeof *g->pivot);
     if (!g->factor || !g->pivot) return false;
-    if (points <= g->point_capacity) return true;
+    if (points <= g->point_capacity && g->table_capacity > 0) return true;
     drop_work(g);
-    int64_t capacity = points + points / 32, table = table_for(capacity);
+    const int64_t capacity = points + points / 32;
     g->point_key = mps__take(&g->allocator, capacity, sizeof *g->point_key);
     g->point_kappa = mps__take(&g->allocator, capacity, sizeof *g->point_kappa);
-    g->order = mps__take(&g->allocator, capacity, sizeof *g->order);
-    g->table_key = mps__take(&g->allocator, table, sizeof *g->table_key);
-    g->table_cell = mps__take(&g->allocator, table, sizeof *g->table_cell);
-    if (g->point_key && g->point_kappa && g->order && g->table_key && g->table_cell) {
+    if (g->point_key && g->point_kappa && reserve_table(g, table_for(points / 8)))
         g->point_capacity = capacity;
-        g->table_capacity = table;
-    } else
+    else
         drop_work(g);
     return g->point_capacity > 0;
 }
 
 bool mps__grid_reserve_parts(mps__grid *g)
 {
-    int64_t cells = g->level[0].cells;
-    if (cells < g->part_capacity) return true;
+    const size_t cells = (size_t)g->level[0].cells, links = 2 * (size_t)g->dim * sizeof(float);
+    const size_t each = MPS__GRID_CHUNKS * (g->one ? sizeof(double) : links); /* 2 dim floats are no less than a double */
+    if (cells * each < g->part_capacity) return true;
     mps__give(&g->allocator, g->parts);
-    g->part_capacity = cells + cells / 8 + 1;
-    g->parts = mps__take(&g->allocator, MPS__GRID_CHUNKS * g->part_capacity, 2 * (size_t)g->dim * sizeof(float));
+    g->part_capacity = (cells + cells / 8 + 1) * each;
+    g->parts = mps__take(&g->allocator, (int64_t)g->part_capacity, 1);
     if (!g->parts) g->part_capacity = 0;
     return g->parts;
 }
@@ -140,10 +159,11 @@ static bool is_red(int64_t key)
     return ((mps__grid_coordinate(key, 0) + mps__grid_coordinate(key, 1) + mps__grid_coordinate(key, 2)) & 1) == 0;
 }
 
-/* Homes by order of appearance; counts cells and red ones. */
-static void find_cells(mps__grid *g, mps__grid_level *l)
+/* Homes by order of appearance; counts cells and red ones. False: the table is too small. */
+static bool fill_table(mps__grid *g, mps__grid_level *l)
 {
-    g->table_size = table_for(l->points);
+    const int64_t all = table_for(l->points);
+    g->table_size = all < g->table_capacity ? all : g->table_capacity;
     for (int64_t s = 0; s < g->table_size; s++) g->table_key[s] = -1;
     l->cells = l->red = 0;
     for (int64_t i = 0; i < l->points; i++) {
@@ -152,12 +172,22 @@ static void find_cells(mps__grid *g, mps__grid_level *l)
         if (key < 0 || l->home[i] >= 0) continue;
         int64_t s = slot(g, key);
         if (g->table_key[s] < 0) {
+            if (l->cells + l->cells / 2 >= g->table_size) return false;
             g->table_key[s] = key;
             g->table_cell[s] = (int32_t)l->cells++;
             l->red += is_red(key);
         }
         l->home[i] = g->table_cell[s];
     }
+    return true;
+}
+
+/* The table starts with room for a few points in each cell; where they are fewer it grows, and stays so. */
+static bool find_cells(mps__grid *g, mps__grid_level *l)
+{
+    while (!fill_table(g, l))
+        if (!reserve_table(g, 2 * g->table_capacity)) return false;
+    return true;
 }
 
 /* Number the red cells first. */
@@ -198,8 +228,7 @@ bool mps__grid_cells(mps__grid *g, mps__grid_level *l, int64_t points)
 {
     if (!reserve_points(g, l, points)) return false;
     l->points = points;
-    find_cells(g, l);
-    if (!reserve_cells(g, l, l->cells)) return false;
+    if (!find_cells(g, l) || !reserve_cells(g, l, l->cells) || !reserve_order(g, l->cells)) return false;
     sort_cells(g, l);
     find_neighbours(g, l);
     for (int64_t c = 0; c < l->cells; c++) l->shift[c] = l->kappa[c] = l->count[c] = 0;
