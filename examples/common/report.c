@@ -88,6 +88,7 @@ static void plots_energy(plots *all, const run *r)
     plot_add(p, column_of(t, "lost: collision", base + COLUMN_COLLISION, 0));
     plot_add(p, column_of(t, "lost: shift", base + COLUMN_SHIFT, 0));
     plot_add(p, column_of(t, "lost: numerical", base + COLUMN_NUMERICAL, 0));
+    plot_add(p, column_of(t, "added", base + COLUMN_ADDED, 0));
 }
 
 /* What acts along one axis; weight and floor, which balance each other, would hide the rest. */
@@ -104,6 +105,7 @@ static void plots_momentum(plots *all, const run *r, int axis)
     plot_add(p, column_of(t, "from force models", base + MOMENTUM_FORCE, 0));
     plot_add(p, column_of(t, "from collisions", base + MOMENTUM_COLLISION, 0));
     plot_add(p, column_of(t, "from shifts", base + MOMENTUM_SHIFT, 0));
+    plot_add(p, column_of(t, "added", base + MOMENTUM_ADDED, 0));
     plot_add(p, column_of(t, "numerical", base + MOMENTUM_NUMERICAL, 0));
 }
 

@@ -8,7 +8,7 @@
 #include "table.h"
 #include <mps/mps.h>
 
-enum { RUN_COLUMNS = 32, RUN_COMMON = 9, RUN_MARKS = 4, RUN_FIGURES = 4, RUN_MARK_POINTS = 16, RUN_ERROR = 640 };
+enum { RUN_COLUMNS = 32, RUN_COMMON = 10, RUN_MARKS = 4, RUN_FIGURES = 4, RUN_MARK_POINTS = 16, RUN_ERROR = 640 };
 
 /* A quantity of a driver's own. */
 typedef double (*run_value_fn)(void *user, mps_sim *sim);

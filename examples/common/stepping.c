@@ -39,7 +39,7 @@ static bool run_note(run *r, mps_status status, const char *what)
 /* ---- rows ------------------------------------------------------------------------------------------------------ */
 
 /* Names of the columns every driver has, in the order of run_energies(); behind those of the energies comes volume_error. */
-static const char *const ENERGIES[] = {"pe", "wall_work", "viscous", "collision", "shift", "numerical"};
+static const char *const ENERGIES[] = {"pe", "wall_work", "viscous", "collision", "shift", "numerical", "added"};
 
 static void header_add(char *header, size_t size, const char *name, const char *unit)
 {
@@ -65,7 +65,7 @@ static bool run_open_probes(run *r)
 }
 
 /* Names of the columns of momentum.csv, in the order of MOMENTUM_TOTAL and on. */
-static const char *const MOMENTA[] = {"momentum", "gravity", "force", "pressure", "walls", "numerical", "collision", "shift"};
+static const char *const MOMENTA[] = {"momentum", "gravity", "force", "pressure", "walls", "numerical", "collision", "shift", "added"};
 
 static bool run_open_momentum(run *r)
 {
@@ -86,7 +86,8 @@ static void run_momentum(run *r, double t)
     const int dim = r->options.dim == 3 ? 3 : 2;
     mps_momentum_init(&m, sizeof m);
     run_note(r, mps_momentum_get(r->sim, &m), "momentum");
-    const double *const values[MOMENTUM_COLUMNS] = {m.total, m.gravity, m.force, m.pressure, m.walls, m.numerical, m.collision, m.shift};
+    const double *const values[MOMENTUM_COLUMNS] = {m.total,     m.gravity,   m.force, m.pressure, m.walls,
+                                                    m.numerical, m.collision, m.shift, m.added};
     for (int d = 0; d < dim; d++)
         for (int k = 0; k < MOMENTUM_COLUMNS; k++) row[1 + d * MOMENTUM_COLUMNS + k] = values[k][d];
     table_sample(&r->momentum, row);
@@ -99,8 +100,8 @@ static void run_energies(run *r, double *out)
     mps_energy_init(&e, sizeof e);
     run_note(r, mps_energy_get(r->sim, &e), "energies");
     run_note(r, mps_motion_state_get(r->sim, &tank), "motion");
-    const double values[RUN_COMMON] = {e.kinetic, tank.value[MPS_SURGE], e.potential,   e.wall_work, e.viscous, e.collision,
-                                       e.shift,   e.numerical,           e.volume_error};
+    const double values[RUN_COMMON] = {e.kinetic, tank.value[MPS_SURGE], e.potential, e.wall_work,   e.viscous, e.collision,
+                                       e.shift,   e.numerical,           e.added,     e.volume_error};
     memcpy(out, values, sizeof values);
     r->totals.volume_error = e.volume_error;
 }

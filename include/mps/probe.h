@@ -74,16 +74,22 @@ typedef struct mps_energy {
     uint32_t struct_size; /**< set by mps_energy_init() */
     double kinetic;       /**< sum m u^2 / 2 [J] */
     double potential;     /**< -sum m g.x [J] */
-    double wall_work;     /**< work done by the walls on the fluid [J], by pressure */
-    double viscous;       /**< lost in force models (viscosity), >= 0 when dissipating [J] */
-    double collision;     /**< lost in collisions [J] */
+    double wall_work;     /**< work done by the walls on the fluid [J], by pressure; of an impulse, with the mean of their velocities before
+                               and after it */
+    double viscous;       /**< lost in force models (viscosity), >= 0 when dissipating; < 0: they drive the fluid, as moving walls do that
+                               drag it along [J] */
+    double collision;     /**< lost in collisions, and of drops stopped by thin plates [J] */
     double shift;         /**< lost in shifting, kinetic and potential [J] */
-    double numerical;     /**< the rest: wall_work - viscous - collision - shift - d(kinetic + potential) [J] */
+    double numerical;     /**< the rest: wall_work + added - viscous - collision - shift - d(kinetic + potential) [J], d: since before the
+                               first step */
     double mass;          /**< [kg] */
     double volume;        /**< sum m/rho, over 1 + mean volume deviation of fluid below the surface's first band [m3 or m2] */
     double volume_error;  /**< that mean deviation in the first step minus now, > 0: expanded */
     double centre[3];     /**< centre of mass, lab frame [m] */
     double momentum[3];   /**< [kg m/s] */
+    double added;         /**< kinetic + potential that came from outside since before the first step, < 0: that went [J]: with particles
+                               added, removed and lost, densities set anew, fields written between steps, a tank put elsewhere by a new
+                               motion, and MPS_START_WITH_TANK */
 } mps_energy;
 
 /** Set struct_size and zero. */
@@ -93,7 +99,7 @@ MPS_API mps_status mps_energy_init(mps_energy *energy, size_t size);
 MPS_API mps_status mps_energy_get(mps_sim *sim, mps_energy *energy);
 
 /** Momentum of the fluid (per metre of width in 2-D) and what has changed it since creation [kg m/s]:
- *  total = that before the first step + gravity + force + pressure + collision + shift. */
+ *  total = that before the first step + gravity + force + pressure + collision + shift + added. */
 typedef struct mps_momentum {
     uint32_t struct_size; /**< set by mps_momentum_init() */
     double total[3];      /**< sum m u, now */
@@ -103,8 +109,9 @@ typedef struct mps_momentum {
     double walls[3];      /**< of that what the walls gave: the integral of their sum p A over time */
     double numerical[3];  /**< and the rest, pressure - walls: weight and inertia of the half cells that walls stand for, which are no
                                  particles (of order dp), and that a gradient exact for linear pressures does not conserve momentum */
-    double collision[3];  /**< by collisions, those with walls */
+    double collision[3];  /**< by collisions, those with walls, and thin plates that stop drops */
     double shift[3];      /**< by velocities transported with shifted particles */
+    double added[3];      /**< from outside, as in mps_energy */
 } mps_momentum;
 
 /** Set struct_size and zero. */

@@ -108,22 +108,51 @@ void mps__budget_wall_force(const mps__world *w, double force[3])
     memcpy(force, s.of, 3 * sizeof *force);
 }
 
+/* A rigid velocity, about `centre`, and the impulses it works on. */
 typedef struct tank_move {
-    double c0[3], c1[3], dt;
-    const double *omega, *u0;
+    double centre[3], v[3], omega[3], dt;
+    const double *a;
 } tank_move;
+
+/* Add half the velocity from one pose to another. Its turn is the part of (R1 R0^T - 1)/dt without strain, of what the walls really do. */
+static void add_half_move(const mps__motion *m, const mps__pose *from, const mps__pose *to, double dt, tank_move *k)
+{
+    double c0[3] = {0}, c1[3] = {0}, turn[9] = {0};
+    mps__motion_point(m, from, m->centre, c0, NULL, NULL);
+    mps__motion_point(m, to, m->centre, c1, NULL, NULL);
+    for (int r = 0; r < 9; r++) turn[r] = mps__dot(to->rotation + r / 3 * 3, from->rotation + r % 3 * 3, 3);
+    for (int d = 0; d < 3; d++) {
+        const int e = (d + 1) % 3, f = (d + 2) % 3;
+        k->v[d] += 0.5 * (c1[d] - c0[d]) / dt;
+        k->omega[d] += 0.25 * (turn[f * 3 + e] - turn[e * 3 + f]) / dt;
+    }
+}
+
+/* Mean of the velocities of the last step and of this one; before the first: what the start convention says. */
+static tank_move mean_move(const mps__world *w, const mps__pose *end, double dt)
+{
+    const mps__motion *m = &w->motion;
+    tank_move k = {.dt = dt};
+    mps__motion_point(m, &m->now, m->centre, k.centre, NULL, NULL);
+    add_half_move(m, &m->now, end, dt, &k);
+    if (w->dt_before > 0)
+        add_half_move(m, &w->before, &m->now, w->dt_before, &k);
+    else if (m->start == MPS_START_WITH_TANK)
+        for (int d = 0; d < 3; d++) {
+            k.v[d] += d < w->dim ? 0.5 * m->now.state.rate[d] : 0;
+            k.omega[d] += 0.5 * m->now.omega[d];
+        }
+    return k;
+}
 
 static void wall_work_term(const mps__world *w, const void *data, int64_t i, double *sum)
 {
     const tank_move *k = data;
-    const double *o = k->omega;
-    double r[3] = {0}, v[3];
-    for (int d = 0; d < w->dim; d++) r[d] = w->particles.x[i * w->dim + d] - k->c0[d];
+    const double *o = k->omega, *a = k->a + i * w->dim;
+    double r[3] = {0};
+    for (int d = 0; d < w->dim; d++) r[d] = w->particles.x[i * w->dim + d] - k->centre[d];
     const double spin[3] = {o[1] * r[2] - o[2] * r[1], o[2] * r[0] - o[0] * r[2], o[0] * r[1] - o[1] * r[0]};
-    for (int d = 0; d < w->dim; d++) {
-        v[d] = (k->c1[d] - k->c0[d]) / k->dt + spin[d];
-        sum[0] += mass(w, i) * v[d] * (w->particles.u[i * w->dim + d] - k->u0[i * w->dim + d] - k->dt * w->g[d]);
-    }
+    for (int d = 0; d < w->dim; d++) sum[0] += mass(w, i) * k->dt * a[d] * (k->v[d] + spin[d]);
 }
 
 static void add_wall_work(const mps__world *w, const void *data, range r, sums *part)
@@ -131,11 +160,10 @@ static void add_wall_work(const mps__world *w, const void *data, range r, sums *
     add_terms(w, MPS_FLUID, wall_work_term, data, r, part);
 }
 
-double mps__budget_wall_work(const mps__world *w, const mps__pose *end, const double *u0, double dt)
+double mps__budget_wall_work(const mps__world *w, const mps__pose *end, const double *a, double dt)
 {
-    tank_move k = {.dt = dt, .omega = end->omega, .u0 = u0};
-    mps__motion_point(&w->motion, &w->motion.now, w->motion.centre, k.c0, NULL, NULL);
-    mps__motion_point(&w->motion, end, w->motion.centre, k.c1, NULL, NULL);
+    tank_move k = mean_move(w, end, dt);
+    k.a = a;
     return sum_parts(w, add_wall_work, &k).of[0];
 }
 
@@ -152,6 +180,26 @@ static void add_lift(const mps__world *w, const void *data, range r, sums *part)
 double mps__budget_lift(const mps__world *w, const double *dx)
 {
     return sum_parts(w, add_lift, dx).of[0];
+}
+
+void mps__budget_book_added(const mps__world *w, mps__budget *b)
+{
+    mps__bulk now;
+    mps__budget_sum(w, &now);
+    b->added += now.kinetic + now.potential - (b->last.kinetic + b->last.potential);
+    for (int d = 0; d < w->dim; d++) b->momentum.added[d] += now.momentum[d] - b->last.momentum[d];
+    b->last = now;
+}
+
+void mps__budget_update(const mps__world *w, mps__budget *b)
+{
+    if (b->started) {
+        mps__budget_book_added(w, b);
+        return;
+    }
+    *b = (mps__budget){0}; /* a first step that failed leaves nothing */
+    mps__budget_sum(w, &b->last);
+    b->start = b->last.kinetic + b->last.potential;
 }
 
 static void deviation_term(const mps__world *w, const void *data, int64_t i, double *sum)

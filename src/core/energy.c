@@ -23,27 +23,30 @@ static void bulk_sums(const mps__world *w, mps_energy *e)
 
 mps_status mps__energy_measure(mps__world *w, mps_energy *e)
 {
-    const mps__budget *b = &w->budget;
-    *e = (mps_energy){
-        .struct_size = sizeof *e, .wall_work = b->wall_work, .viscous = b->viscous, .collision = b->collision, .shift = b->shift};
-    mps__bulk bulk;
-    mps__budget_sum(w, &bulk);
-    e->kinetic = bulk.kinetic;
-    e->potential = bulk.potential;
-    memcpy(e->momentum, bulk.momentum, sizeof e->momentum);
+    mps__budget b = w->budget;
+    mps__budget_update(w, &b);
+    *e = (mps_energy){.struct_size = sizeof *e,
+                      .kinetic = b.last.kinetic,
+                      .potential = b.last.potential,
+                      .wall_work = b.wall_work,
+                      .viscous = b.viscous,
+                      .collision = b.collision,
+                      .shift = b.shift,
+                      .added = b.added};
+    memcpy(e->momentum, b.last.momentum, sizeof e->momentum);
     bulk_sums(w, e);
-    if (b->started) e->numerical = e->wall_work - e->viscous - e->collision - e->shift - (e->kinetic + e->potential - b->start);
-    e->volume /= 1.0 + b->deviation;
-    e->volume_error = b->deviation_start - b->deviation;
+    e->numerical = e->wall_work + e->added - e->viscous - e->collision - e->shift - (e->kinetic + e->potential - b.start);
+    e->volume /= 1.0 + b.deviation;
+    e->volume_error = b.deviation_start - b.deviation;
     return MPS_OK;
 }
 
 void mps__momentum_measure(const mps__world *w, mps_momentum *m)
 {
-    mps__bulk bulk;
-    mps__budget_sum(w, &bulk);
-    *m = w->budget.momentum;
+    mps__budget b = w->budget;
+    mps__budget_update(w, &b);
+    *m = b.momentum;
     m->struct_size = sizeof *m;
-    memcpy(m->total, bulk.momentum, sizeof m->total);
+    memcpy(m->total, b.last.momentum, sizeof m->total);
     for (int d = 0; d < w->dim; d++) m->numerical[d] = m->pressure[d] - m->walls[d];
 }

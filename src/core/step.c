@@ -336,7 +336,7 @@ static void note_pressure(step_state *q, mps__bulk *bulk)
     mps__world *w = q->w;
     mps_momentum *m = &q->budget.momentum;
     double force[3];
-    q->budget.wall_work += mps__budget_wall_work(w, &q->pose, w->work.u0, q->stage.dt);
+    q->budget.wall_work += mps__budget_wall_work(w, &q->pose, w->work.a, q->stage.dt);
     mps__budget_sum(w, bulk);
     mps__budget_wall_force(w, force);
     for (int d = 0; d < w->dim; d++) {
@@ -427,6 +427,19 @@ static mps_status project(step_state *q)
     return MPS_OK;
 }
 
+/* Drops that plates stop have collided with them. */
+static void stop_at_plates(step_state *q)
+{
+    mps__world *w = q->w;
+    mps__bulk moved, stopped;
+    if (w->screens.count == 0) return;
+    mps__budget_sum(w, &moved);
+    mps__plates_stop(w, &q->pose);
+    mps__budget_sum(w, &stopped);
+    q->budget.collision += moved.kinetic + moved.potential - stopped.kinetic - stopped.potential;
+    for (int d = 0; d < w->dim; d++) q->budget.momentum.collision[d] += stopped.momentum[d] - moved.momentum[d];
+}
+
 /* u = u* + dt a(p), collisions, r = r + dt u + shift. Z14 (12)(13). */
 static mps_status correct(step_state *q)
 {
@@ -462,7 +475,7 @@ static mps_status correct(step_state *q)
         else
             mps__motion_point(&w->motion, &q->pose, w->particles.ref + i * s->dim, x, NULL, NULL);
     }
-    mps__plates_stop(w, &q->pose);
+    stop_at_plates(q);
     return MPS_OK;
 }
 
@@ -523,6 +536,7 @@ static void commit(step_state *q)
     w->dt_before = q->stage.dt;
     w->motion.now = q->pose;
     w->budget = q->budget;
+    mps__budget_sum(w, &w->budget.last);
     w->budget.deviation = mps__budget_mean_deviation(w);
     if (!w->budget.started) {
         w->budget.started = true;
@@ -531,7 +545,7 @@ static void commit(step_state *q)
 }
 
 /* The liquid starts with the tank's velocity, or everything from rest. */
-static void start(mps__world *w)
+static void start(mps__world *w, mps__budget *budget)
 {
     mps__particles *s = &w->particles;
     if (!w->start_pending) return;
@@ -541,24 +555,30 @@ static void start(mps__world *w)
         mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * w->dim, X);
         mps__motion_point(&w->motion, &w->motion.now, X, NULL, s->u + i * w->dim, NULL);
     }
+    mps__budget_book_added(w, budget);
 }
 
 /* All that may fail after the state is kept. */
 static mps_status try_step(step_state *q, double dt_max, double *planned)
 {
     mps__world *w = q->w;
-    start(w);
+    q->budget = w->budget;
+    start(w, &q->budget);
     MPS__TRY(turn_areas(w));
     set_stage(q);
     MPS__TRY(set_dt(q, dt_max, planned));
     MPS__TRY(mps__motion_pose(&w->motion, w->info.t + q->stage.dt, &q->pose));
-    q->budget = w->budget;
-    if (!q->budget.started) {
-        mps__bulk bulk;
-        mps__budget_sum(w, &bulk);
-        q->budget.start = bulk.kinetic + bulk.potential;
-    }
     return run_stages(q);
+}
+
+/* Books what has come, changed or gone since the last step, and who is lost now, whatever becomes of this step. */
+static mps_status find_neighbours(mps__world *w)
+{
+    const int64_t lost = w->info.lost;
+    mps__budget_update(w, &w->budget);
+    const mps_status status = mps__world_neighbours(w);
+    if (w->info.lost > lost) mps__budget_book_added(w, &w->budget);
+    return status;
 }
 
 mps_status mps__world_step(mps__world *w, double dt_max)
@@ -567,7 +587,7 @@ mps_status mps__world_step(mps__world *w, double dt_max)
     bool fluid = false;
     for (int64_t i = 0; i < w->particles.n && !fluid; i++) fluid = w->particles.kind[i] == MPS_FLUID;
     if (!fluid) return mps__fail(w->context, MPS_E_STATE, "there is no fluid particle to step");
-    MPS__TRY(mps__world_neighbours(w));
+    MPS__TRY(find_neighbours(w));
     keep(w->work.u0, w->particles.u, w->particles.n * w->dim, w->threads);
     keep(w->work.p0, w->particles.p, w->particles.n, w->threads);
     const int32_t start_pending = w->start_pending;

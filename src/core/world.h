@@ -13,11 +13,18 @@
 #include <mps/probe.h>
 #include <mps/step.h>
 
+/* The state of the fluid as a whole. */
+typedef struct mps__bulk {
+    double kinetic, potential; /* potential: -m g.x [J] */
+    double momentum[3];        /* [kg m/s] */
+} mps__bulk;
+
 /* Energies [J] and impulses since creation; see mps_energy and mps_momentum. */
 typedef struct mps__budget {
-    double wall_work, viscous, collision, shift;
+    double wall_work, viscous, collision, shift, added;
     double start;                      /* kinetic + potential before the first step */
     mps_momentum momentum;             /* but for its `total` and `numerical` */
+    mps__bulk last;                    /* up to here all is booked: what the last step left */
     double deviation, deviation_start; /* mean volume deviation of regions INNER and SECOND in the last step and the first */
     bool started;
 } mps__budget;

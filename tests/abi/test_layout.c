@@ -240,7 +240,7 @@ AT(mps_probe, average, 88);
 AT(mps_probe, rate, 96);
 AT(mps_probe, phases, 104);
 
-SIZE(mps_energy, 136);
+SIZE(mps_energy, 144);
 AT(mps_energy, struct_size, 0);
 AT(mps_energy, kinetic, 8);
 AT(mps_energy, potential, 16);
@@ -254,8 +254,9 @@ AT(mps_energy, volume, 72);
 AT(mps_energy, volume_error, 80);
 AT(mps_energy, centre, 88);
 AT(mps_energy, momentum, 112);
+AT(mps_energy, added, 136);
 
-SIZE(mps_momentum, 200);
+SIZE(mps_momentum, 224);
 AT(mps_momentum, struct_size, 0);
 AT(mps_momentum, total, 8);
 AT(mps_momentum, gravity, 32);
@@ -265,6 +266,7 @@ AT(mps_momentum, walls, 104);
 AT(mps_momentum, numerical, 128);
 AT(mps_momentum, collision, 152);
 AT(mps_momentum, shift, 176);
+AT(mps_momentum, added, 200);
 
 SIZE(mps_config, 192);
 AT(mps_config, struct_size, 0);
