@@ -118,10 +118,18 @@ static void energy_budget(void **state)
     mps__world *w = &sim->world;
     mps_energy e;
     mps_energy_init(&e, sizeof e);
-    w->budget = (mps__budget){
-        .wall_work = 5, .viscous = 1, .collision = 0.5, .shift = 0.25, .start = 1, .deviation = -0.02, .started = true};
+    w->budget = (mps__budget){.wall_work = 5,
+                              .viscous = 1,
+                              .collision = 0.5,
+                              .shift = 0.25,
+                              .added = 2,
+                              .start = 1,
+                              .last = {.potential = 3},
+                              .deviation = -0.02,
+                              .started = true};
     ASSERT_OK(sim, mps_energy_get(sim, &e));
-    ASSERT_NEAR(e.numerical, 5 - 1 - 0.5 - 0.25 - (e.kinetic + e.potential - 1), 1e-12);
+    ASSERT_NEAR(e.added, 2 + e.kinetic + e.potential - 3, 1e-12);
+    ASSERT_NEAR(e.numerical, 5 + e.added - 1 - 0.5 - 0.25 - (e.kinetic + e.potential - 1), 1e-12);
     ASSERT_NEAR(e.volume_error, 0.02, 1e-12);
     ASSERT_NEAR(e.volume, 0.039 / 0.98, 1e-12);
     mps_sim_destroy(sim);
@@ -146,7 +154,7 @@ static void momentum_budget(void **state)
     for (int k = 0; k < 60; k++) assert_true(mps_step(sim, 1, NULL) >= 0);
     momentum(sim, &m);
     for (int d = 0; d < 2; d++) {
-        const double sum = start.total[d] + m.gravity[d] + m.force[d] + m.pressure[d] + m.collision[d] + m.shift[d];
+        const double sum = start.total[d] + m.gravity[d] + m.force[d] + m.pressure[d] + m.collision[d] + m.shift[d] + m.added[d];
         ASSERT_NEAR(m.total[d], sum, 1e-9 * fabs(m.gravity[1]));
         ASSERT_NEAR(m.numerical[d], m.pressure[d] - m.walls[d], 1e-12);
     }

@@ -1,0 +1,331 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The budgets of energy and momentum: what counts as work of the walls, what comes from outside, and that both close. */
+#include "budget.h"
+#include "probe_fixture.h"
+#include "sim.h"
+#include <mps/model.h>
+#include <stdlib.h>
+
+/* Sums of a few thousand terms, of this size, are exact to this part. */
+static const double rounding = 1e-12;
+
+static mps_energy energy_of(mps_sim *sim)
+{
+    mps_energy e;
+    assert_int_equal(mps_energy_init(&e, sizeof e), MPS_OK);
+    ASSERT_OK(sim, mps_energy_get(sim, &e));
+    return e;
+}
+
+static mps_momentum momentum_of(mps_sim *sim)
+{
+    mps_momentum m;
+    assert_int_equal(mps_momentum_init(&m, sizeof m), MPS_OK);
+    ASSERT_OK(sim, mps_momentum_get(sim, &m));
+    return m;
+}
+
+/* Both identities, from the state before the first step on. */
+static void assert_closed(mps_sim *sim, const mps_energy *start, const mps_momentum *before)
+{
+    const mps_energy e = energy_of(sim);
+    const mps_momentum m = momentum_of(sim);
+    const double size = fabs(e.potential) + fabs(start->potential) + e.kinetic + fabs(e.added) + fabs(e.wall_work);
+    const double change = e.kinetic + e.potential - start->kinetic - start->potential;
+    ASSERT_NEAR(e.wall_work + e.added - e.viscous - e.collision - e.shift - e.numerical, change, rounding * size);
+    double most = 0;
+    for (int d = 0; d < 2; d++) most = fmax(most, fabs(m.total[d]) + fabs(m.gravity[d]) + fabs(m.pressure[d]) + fabs(m.added[d]));
+    for (int d = 0; d < 2; d++) {
+        const double sum = m.gravity[d] + m.force[d] + m.pressure[d] + m.collision[d] + m.shift[d] + m.added[d];
+        ASSERT_NEAR(m.total[d] - before->total[d], sum, rounding * most);
+    }
+}
+
+static mps_sim *weightless(double fill)
+{
+    mps_config config;
+    mps_sim *sim = NULL;
+    assert_int_equal(mps_config_init(&config, sizeof config), MPS_OK);
+    config.dp = dp;
+    config.gravity[1] = 0;
+    assert_int_equal(mps_sim_create(&config, &sim), MPS_OK);
+    add_tank(sim, 0.4, 0.3, 0.1);
+    if (fill > 0) fill_depth(sim, 0.4, fill, 0.1);
+    return sim;
+}
+
+static void take_steps(mps_sim *sim, int count)
+{
+    for (int k = 0; k < count; k++) assert_true(mps_step(sim, 1, NULL) >= 0);
+}
+
+/* ---- work of the walls ---- */
+
+static const double pull = 2; /* [m/s2] */
+
+static int pull_fluid(void *self, const double *settings, mps_stage *s, double *a)
+{
+    (void)self;
+    (void)settings;
+    for (int64_t i = 0; i < s->n; i++)
+        if (s->kind[i] == MPS_FLUID) a[i * s->dim] += pull;
+    return 0;
+}
+
+static int steady(void *user, double t, mps_motion_state *state)
+{
+    const double speed = *(const double *)user;
+    state->value[MPS_SURGE] = speed * t;
+    state->rate[MPS_SURGE] = speed;
+    return 0;
+}
+
+/* A drop in the middle of a steadily moving tank, that touches nothing, is driven by a force model: walls do nothing. */
+static void force_models_are_no_walls(void **state)
+{
+    (void)state;
+    mps_sim *sim = weightless(0);
+    double speed = 1;
+    const double lo[2] = {0.15, 0.1}, hi[2] = {0.2, 0.15}, centre[2] = {0, 0};
+    const mps_model_ops ops = {.struct_size = sizeof ops, .api = MPS_MODEL_API, .name = "test.pull", .order = 300, .force = pull_fluid};
+    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL));
+    ASSERT_OK(sim, mps_model_register(sim, &ops));
+    ASSERT_OK(sim, mps_model_use(sim, "test.pull"));
+    ASSERT_OK(sim, mps_motion_set_callback(sim, steady, &speed));
+    ASSERT_OK(sim, mps_motion_set_centre(sim, centre, MPS_START_WITH_TANK));
+    const mps_energy start = energy_of(sim);
+    const mps_momentum before = momentum_of(sim);
+    take_steps(sim, 20);
+    const mps_energy e = energy_of(sim);
+    const double t = sim->world.info.t, work = 0.5 * e.mass * (pow(speed + pull * t, 2) - speed * speed);
+    /* m v a t, what was booked here, is of the size of `work`; the solver's tolerance leaves 1e-6 of it */
+    assert_true(work > 0.01);
+    ASSERT_NEAR(e.wall_work, 0, 1e-6 * work);
+    ASSERT_NEAR(e.viscous, -work, 1e-6 * work);
+    ASSERT_NEAR(e.numerical, 0, 1e-6 * work);
+    assert_closed(sim, &start, &before);
+    mps_sim_destroy(sim);
+}
+
+/* A full tank jumps from rest to its speed: its walls give the liquid m V^2/2, and it moves as a rigid body from then on. */
+static void impulsive_start(void **state)
+{
+    (void)state;
+    mps_sim *sim = filled(2, 0.3);
+    const mps_harmonic surge = {.dof = MPS_SURGE, .amplitude = 0.02, .omega = 6};
+    ASSERT_OK(sim, mps_motion_set_harmonics(sim, 1, &surge));
+    const mps_energy start = energy_of(sim);
+    const mps_momentum before = momentum_of(sim);
+    take_steps(sim, 1);
+    mps_energy e = energy_of(sim);
+    const double speed = 0.02 * sin(6 * sim->world.info.t) / sim->world.info.t, given = 0.5 * e.mass * speed * speed;
+    /* pressures are exact to the tolerance of the solver, 1e-6 */
+    ASSERT_NEAR(e.wall_work, given, 1e-5 * given);
+    ASSERT_NEAR(e.numerical, 0, 1e-5 * given);
+    for (int k = 0; k < 40; k++) {
+        take_steps(sim, 1);
+        ASSERT_NEAR(energy_of(sim).numerical, 0, 1e-5 * given);
+    }
+    e = energy_of(sim);
+    ASSERT_NEAR(e.wall_work, e.kinetic, 1e-5 * given);
+    assert_true(e.kinetic < 0.9 * given && e.added == 0); /* the speed did change */
+    assert_closed(sim, &start, &before);
+    mps_sim_destroy(sim);
+}
+
+/* A liquid that starts with the tank's velocity has it from nobody; the walls slow it down. */
+static void start_with_the_tank(void **state)
+{
+    (void)state;
+    mps_sim *sim = filled(2, 0.3);
+    const mps_harmonic surge = {.dof = MPS_SURGE, .amplitude = 0.02, .omega = 6};
+    const double centre[2] = {0, 0}, speed = 0.12;
+    ASSERT_OK(sim, mps_motion_set_centre(sim, centre, MPS_START_WITH_TANK));
+    ASSERT_OK(sim, mps_motion_set_harmonics(sim, 1, &surge));
+    const mps_energy start = energy_of(sim);
+    const mps_momentum before = momentum_of(sim);
+    ASSERT_NEAR(before.total[0], 0, 0);
+    take_steps(sim, 40);
+    const mps_energy e = energy_of(sim);
+    const mps_momentum m = momentum_of(sim);
+    const double given = 0.5 * e.mass * speed * speed;
+    ASSERT_NEAR(e.added, given, rounding * e.potential);
+    ASSERT_NEAR(m.added[0], e.mass * speed, rounding * e.mass);
+    ASSERT_NEAR(e.wall_work, e.kinetic - given, 1e-5 * given);
+    ASSERT_NEAR(e.numerical, 0, 1e-5 * given);
+    assert_true(e.wall_work < -0.1 * given);
+    assert_closed(sim, &start, &before);
+    mps_sim_destroy(sim);
+}
+
+/* Of a torque too: the turn of this step, and of the one before it. */
+static void work_of_a_turn(void **state)
+{
+    (void)state;
+    enum { STEP_MS = 10 };
+    mps_sim *sim = weightless(0.2);
+    mps__world *w = &sim->world;
+    const double centre[2] = {0.1, 0.05}, dt = STEP_MS * 1e-3;
+    const mps_harmonic yaw = {.dof = MPS_YAW, .amplitude = 0.3, .omega = 2};
+    ASSERT_OK(sim, mps_motion_set_centre(sim, centre, MPS_START_AT_REST));
+    ASSERT_OK(sim, mps_motion_set_harmonics(sim, 1, &yaw));
+    mps__pose end;
+    double *a = calloc((size_t)(2 * w->particles.n), sizeof *a), inertia = 0;
+    assert_non_null(a);
+    ASSERT_OK(sim, mps__motion_pose(&w->motion, dt, &end));
+    for (int64_t i = 0; i < w->particles.n; i++) {
+        const double *x = w->particles.x + 2 * i, r[2] = {x[0] - centre[0], x[1] - centre[1]};
+        a[2 * i] = -3 * r[1];
+        a[2 * i + 1] = 3 * r[0];
+        if (w->particles.kind[i] == MPS_FLUID) inertia += 1000 * dp * dp * (r[0] * r[0] + r[1] * r[1]);
+    }
+    const double first = 0.3 * sin(2 * dt), impulse = 3 * dt * inertia;
+    /* from rest: half the speed of this step, that of its chord without the strain */
+    ASSERT_NEAR(mps__budget_wall_work(w, &end, a, dt), impulse * 0.5 * sin(first) / dt, rounding * impulse);
+    w->before = w->motion.now;
+    w->dt_before = dt;
+    w->motion.now = end;
+    ASSERT_OK(sim, mps__motion_pose(&w->motion, 3 * dt, &end));
+    const double second = 0.3 * sin(6 * dt) - first, rate = 0.5 * (sin(first) / dt + sin(second) / (2 * dt));
+    ASSERT_NEAR(mps__budget_wall_work(w, &end, a, 2 * dt), 2 * impulse * rate, rounding * impulse);
+    free(a);
+    mps_sim_destroy(sim);
+}
+
+/* ---- what comes from outside ---- */
+
+/* A sloshing tank in the middle of its run, so that what comes and goes has energies of both kinds. */
+static mps_sim *sloshing(mps_energy *start, mps_momentum *before)
+{
+    mps_sim *sim = filled(2, 0.1);
+    const mps_harmonic surge = {.dof = MPS_SURGE, .amplitude = 0.02, .omega = 10};
+    ASSERT_OK(sim, mps_motion_set_harmonics(sim, 1, &surge));
+    *start = energy_of(sim);
+    *before = momentum_of(sim);
+    take_steps(sim, 30);
+    assert_true(momentum_of(sim).added[0] == 0 && energy_of(sim).added == 0);
+    return sim;
+}
+
+/* What happened since `e` and `m` were taken went to `added`, all of it and nothing else. */
+static void assert_added(mps_sim *sim, const mps_energy *e, const mps_momentum *m)
+{
+    const mps_energy now = energy_of(sim);
+    const mps_momentum p = momentum_of(sim);
+    const double change = now.kinetic + now.potential - e->kinetic - e->potential;
+    assert_true(fabs(change) > 1e-3);
+    ASSERT_NEAR(now.added - e->added, change, rounding * (e->potential + now.potential));
+    ASSERT_NEAR(now.numerical, e->numerical, rounding * (e->potential + now.potential));
+    for (int d = 0; d < 2; d++) ASSERT_NEAR(p.added[d] - m->added[d], p.total[d] - m->total[d], rounding * e->mass);
+}
+
+/* Do something between two steps, and go on. */
+#define BETWEEN(...)                              \
+    do {                                          \
+        const mps_energy e_ = energy_of(sim);     \
+        const mps_momentum m_ = momentum_of(sim); \
+        __VA_ARGS__                               \
+        assert_added(sim, &e_, &m_);              \
+        assert_closed(sim, &start, &before);      \
+        take_steps(sim, 5);                       \
+        assert_closed(sim, &start, &before);      \
+    } while (0)
+
+static void remove_fluid(mps_sim *sim, int64_t count)
+{
+    const mps__particles *s = &sim->world.particles;
+    int64_t ids[64], n = 0;
+    for (int64_t i = 0; i < s->n && n < count; i++)
+        if (s->kind[i] == MPS_FLUID) ids[n++] = s->id[i];
+    ASSERT_OK(sim, mps_particles_remove(sim, n, ids));
+}
+
+static void added_between_steps(void **state)
+{
+    (void)state;
+    mps_energy start;
+    mps_momentum before;
+    mps_sim *sim = sloshing(&start, &before);
+    const double x[4] = {0.2, 0.2, 0.21, 0.2}, u[4] = {1, -2, 1, -2};
+    mps_particle_block block;
+    assert_int_equal(mps_particle_block_init(&block, sizeof block), MPS_OK);
+    block.count = 2;
+    block.position = x;
+    block.velocity = u;
+    BETWEEN(ASSERT_OK(sim, mps_particles_add(sim, &block, NULL)););
+    const double lo[2] = {0.05, 0.2}, hi[2] = {0.1, 0.25};
+    BETWEEN(ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL)););
+    BETWEEN(remove_fluid(sim, 40););
+    mps_phase oil;
+    assert_int_equal(mps_phase_init(&oil, sizeof oil), MPS_OK);
+    oil.density = 800;
+    BETWEEN(ASSERT_OK(sim, mps_sim_set_phase(sim, 0, &oil)););
+    mps_lease lease;
+    BETWEEN(ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &lease)); lease.data[0] += 0.5; lease.data[1] -= 1;
+            for (int64_t i = 2; i < lease.count; i++) lease.data[2 * i] *= 0.9; ASSERT_OK(sim, mps_lease_end(sim, &lease)););
+    const mps_harmonic elsewhere = {.dof = MPS_HEAVE, .form = 1, .amplitude = 0.05, .omega = 10};
+    BETWEEN(ASSERT_OK(sim, mps_motion_set_harmonics(sim, 1, &elsewhere)););
+    mps_sim_destroy(sim);
+}
+
+/* What leaves the domain takes with it what it has. */
+static void lost_particles(void **state)
+{
+    (void)state;
+    mps_energy start;
+    mps_momentum before;
+    mps_sim *sim = sloshing(&start, &before);
+    const double x[2] = {0.2, 100}, u[2] = {3, 1};
+    mps_particle_block block;
+    assert_int_equal(mps_particle_block_init(&block, sizeof block), MPS_OK);
+    block.count = 1;
+    block.position = x;
+    block.velocity = u;
+    const double mass = 1000 * dp * dp, brought = mass * (5 + 9.81 * 100), numerical = energy_of(sim).numerical;
+    ASSERT_OK(sim, mps_particles_add(sim, &block, NULL));
+    ASSERT_NEAR(energy_of(sim).added, brought, rounding * brought);
+    ASSERT_NEAR(momentum_of(sim).added[0], 3 * mass, rounding * mass);
+    take_steps(sim, 1);
+    assert_int_equal(sim->world.info.lost, 1);
+    ASSERT_NEAR(energy_of(sim).added, 0, rounding * brought);
+    ASSERT_NEAR(momentum_of(sim).added[0], 0, rounding * mass);
+    /* the step itself loses next to nothing of that */
+    ASSERT_NEAR(energy_of(sim).numerical, numerical, 1e-3 * brought);
+    assert_closed(sim, &start, &before);
+    mps_sim_destroy(sim);
+}
+
+/* A particle shot at a plate is stopped by it, which is a collision. */
+static void stopped_by_a_plate(void **state)
+{
+    (void)state;
+    mps_sim *sim = weightless(0);
+    const double corner[2] = {0.2, 0}, edge[2] = {0, 0.3}, x[2] = {0.185, 0.151}, u[2] = {20, 0};
+    mps_particle_block block;
+    assert_int_equal(mps_particle_block_init(&block, sizeof block), MPS_OK);
+    block.count = 1;
+    block.position = x;
+    block.velocity = u;
+    ASSERT_OK(sim, mps_geometry_plate(sim, "plate", corner, edge, NULL));
+    ASSERT_OK(sim, mps_model_remove(sim, "collision"));
+    ASSERT_OK(sim, mps_particles_add(sim, &block, NULL));
+    const mps_energy start = energy_of(sim);
+    const mps_momentum before = momentum_of(sim);
+    take_steps(sim, 20);
+    const double given = 0.5 * 1000 * dp * dp * 400;
+    assert_true(energy_of(sim).collision > 0.5 * given && momentum_of(sim).collision[0] < -1);
+    ASSERT_NEAR(energy_of(sim).numerical, 0, rounding * given);
+    assert_closed(sim, &start, &before);
+    mps_sim_destroy(sim);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(force_models_are_no_walls), cmocka_unit_test(impulsive_start),
+        cmocka_unit_test(start_with_the_tank),       cmocka_unit_test(work_of_a_turn),
+        cmocka_unit_test(added_between_steps),       cmocka_unit_test(lost_particles),
+        cmocka_unit_test(stopped_by_a_plate),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
