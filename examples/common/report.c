@@ -75,6 +75,11 @@ static void plots_columns(plots *all, const run *r)
     }
 }
 
+static double last_of(const table *t, int column)
+{
+    return t->count > 0 ? t->kept[(t->count - 1) * t->columns + column] : 0;
+}
+
 static void plots_energy(plots *all, const run *r)
 {
     const table *t = &r->probes;
@@ -88,7 +93,7 @@ static void plots_energy(plots *all, const run *r)
     plot_add(p, column_of(t, "lost: collision", base + COLUMN_COLLISION, 0));
     plot_add(p, column_of(t, "lost: shift", base + COLUMN_SHIFT, 0));
     plot_add(p, column_of(t, "lost: numerical", base + COLUMN_NUMERICAL, 0));
-    plot_add(p, column_of(t, "added", base + COLUMN_ADDED, 0));
+    if (last_of(t, base + COLUMN_ADDED) != 0) plot_add(p, column_of(t, "added", base + COLUMN_ADDED, 0));
 }
 
 /* What acts along one axis; weight and floor, which balance each other, would hide the rest. */
@@ -98,14 +103,14 @@ static void plots_momentum(plots *all, const run *r, int axis)
     static const char *const title[] = {"Momentum along x", "Momentum along y", "Momentum along z"};
     const table *t = &r->momentum;
     const int base = 1 + axis * MOMENTUM_COLUMNS;
-    const double weight = t->count > 0 ? t->kept[(t->count - 1) * t->columns + base + MOMENTUM_GRAVITY] : 0;
+    const double weight = last_of(t, base + MOMENTUM_GRAVITY);
     plot *p = plots_add(all, file[axis], title[axis], r->options.dim == 3 ? "[N s]" : "[N s/m]");
     plot_add(p, column_of(t, "momentum", base + MOMENTUM_TOTAL, 0));
     if (weight == 0) plot_add(p, column_of(t, "from walls", base + MOMENTUM_WALLS, 0));
     plot_add(p, column_of(t, "from force models", base + MOMENTUM_FORCE, 0));
     plot_add(p, column_of(t, "from collisions", base + MOMENTUM_COLLISION, 0));
     plot_add(p, column_of(t, "from shifts", base + MOMENTUM_SHIFT, 0));
-    plot_add(p, column_of(t, "added", base + MOMENTUM_ADDED, 0));
+    if (last_of(t, base + MOMENTUM_ADDED) != 0) plot_add(p, column_of(t, "added", base + MOMENTUM_ADDED, 0));
     plot_add(p, column_of(t, "numerical", base + MOMENTUM_NUMERICAL, 0));
 }
 

@@ -436,7 +436,7 @@ static void stop_at_plates(step_state *q)
     mps__budget_sum(w, &moved);
     mps__plates_stop(w, &q->pose);
     mps__budget_sum(w, &stopped);
-    q->budget.collision += moved.kinetic + moved.potential - stopped.kinetic - stopped.potential;
+    q->budget.collision += (moved.kinetic - stopped.kinetic) + (moved.potential - stopped.potential);
     for (int d = 0; d < w->dim; d++) q->budget.momentum.collision[d] += stopped.momentum[d] - moved.momentum[d];
 }
 
