@@ -26,12 +26,14 @@ typedef struct mps_tank {
 MPS_API mps_status mps_tank_init(mps_tank *tank, size_t size);
 
 /** Add the walls of a tank; its lattice is the one fills use from now on.
- *  @param built  NULL, or [3] out: the size built [m] after rounding to the lattice (a rounding is logged) */
+ *  @param built  NULL, or [3] out: the size built [m] after rounding to the lattice (a rounding is logged)
+ *  @return MPS_E_ARG (also for fluid in the way, with its place), MPS_E_STATE after the first step, MPS_E_BUSY, MPS_E_NOMEM; nothing is
+ *          added then */
 MPS_API mps_status mps_geometry_tank(mps_sim *sim, const mps_tank *tank, double *built);
 
 /** Add a solid box (a baffle): lattice points of the closed box lo..hi, its outer layer walls, what lies inside dummies.
- *  Must follow mps_geometry_tank() and come before the fill; points taken by other particles are left out, so that the
- *  walls a baffle stands on stay.
+ *  Must follow mps_geometry_tank() and come before the fill: fluid nearer than dp/2 to its points is refused. Points taken by other
+ *  solids are left out, so that the walls a baffle stands on stay.
  *
  *  A box of one to three layers across one axis, open to the liquid on both sides, is a plate: the liquid on one side does not feel
  *  the other, and walls the plate stands on are divided between the sides. It reaches a wall that is next to it on the lattice. One layer
@@ -39,7 +41,8 @@ MPS_API mps_status mps_geometry_tank(mps_sim *sim, const mps_tank *tank, double 
  *  speak of. So forces are those on both faces, and a wall probe looks at the side its place lies on; at the very plane it is the older one.
  *  Dummies of a plate: see mps_particles_plates().
  *  @param name  part name @param lo,hi [dim] corners [m]
- *  @return MPS_E_ARG if no lattice point lies inside */
+ *  @return MPS_E_ARG if no lattice point lies inside, all are taken, or fluid is in the way (with its place); MPS_E_STATE without a tank
+ *          and after the first step; MPS_E_BUSY, MPS_E_NOMEM; nothing is added then */
 MPS_API mps_status mps_geometry_baffle(mps_sim *sim, const char *name, const double *lo, const double *hi);
 
 /** Add a plate without thickness anywhere in the tank, e.g. an inclined baffle; otherwise as a baffle of one layer. Its particles have a
@@ -49,7 +52,8 @@ MPS_API mps_status mps_geometry_baffle(mps_sim *sim, const char *name, const dou
  *  @param corner  [dim] an end (2-D), a corner (3-D) [m]
  *  @param edge    [dim] from there to the other end, or along one side [m], at least 2 dp long
  *  @param edge2   [3] along the other side [m], at right angles to `edge`, at least 2 dp long; NULL in 2-D
- *  @return MPS_E_ARG, also if the plate leaves the tank or all its points are taken; MPS_E_STATE without a tank; MPS_E_BUSY */
+ *  @return MPS_E_ARG, also if the plate leaves the tank, all its points are taken or fluid is nearer than dp/2 (with its place);
+ *          MPS_E_STATE without a tank and after the first step; MPS_E_BUSY, MPS_E_NOMEM; nothing is added then */
 MPS_API mps_status mps_geometry_plate(mps_sim *sim, const char *name, const double *corner, const double *edge, const double *edge2);
 
 /** Fill a box with fluid of a phase: free lattice points of the closed box.

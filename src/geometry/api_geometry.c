@@ -6,14 +6,6 @@
 
 static const mps_tank tank_defaults = {.name = "tank", .dummy_layers = 2};
 
-static mps_status changeable(mps_sim *sim)
-{
-    int32_t open = mps__particles_leases(&sim->world.particles);
-    if (sim->in_monitor) return mps__fail(&sim->context, MPS_E_STATE, "a monitor must not add particles");
-    if (open > 0) return mps__fail(&sim->context, MPS_E_BUSY, "%d leases are open: give them back before adding particles", (int)open);
-    return MPS_OK;
-}
-
 static mps_status has_tank(mps_sim *sim)
 {
     if (!sim->has_tank) return mps__fail(&sim->context, MPS_E_STATE, "there is no lattice yet: call mps_geometry_tank() first");
@@ -88,7 +80,7 @@ mps_status mps_geometry_tank(mps_sim *sim, const mps_tank *tank, double *built)
     mps_tank t = tank_defaults;
     char name[MPS__PART_NAME - 3]; /* room for ".x0" */
     int64_t cells[3] = {0, 0, 0};
-    MPS__TRY(changeable(sim));
+    MPS__TRY(mps__solids_allowed(sim));
     MPS__TRY(mps__struct_in(&sim->context, "mps_tank", &t, sizeof t, tank));
     if (t.name == NULL) t.name = tank_defaults.name;
     if (t.dummy_layers == 0) t.dummy_layers = tank_defaults.dummy_layers;
@@ -107,7 +99,7 @@ mps_status mps_geometry_baffle(mps_sim *sim, const char *name, const double *lo,
     if (!sim) return MPS_E_ARG;
     mps__lattice_box box;
     char copy[MPS__PART_NAME];
-    MPS__TRY(changeable(sim));
+    MPS__TRY(mps__solids_allowed(sim));
     MPS__CHECK(&sim->context, mps__name_copy(copy, sizeof copy, name), "the baffle's name must have 1..%d characters", MPS__PART_NAME - 1);
     MPS__TRY(box_points(sim, lo, hi, &box));
     return mps__geometry_baffle(sim, copy, &box);
@@ -175,7 +167,7 @@ mps_status mps_geometry_plate(mps_sim *sim, const char *name, const double *corn
     const int dim = sim->world.dim;
     mps__plate_shape s = {.nodes = {1, 1}, .spacing = {sim->world.dp, sim->world.dp}, .columns = 1};
     char copy[MPS__PART_NAME];
-    MPS__TRY(changeable(sim));
+    MPS__TRY(mps__solids_allowed(sim));
     MPS__CHECK(&sim->context, mps__name_copy(copy, sizeof copy, name), "the plate's name must have 1..%d characters", MPS__PART_NAME - 1);
     MPS__TRY(has_tank(sim));
     MPS__CHECK(&sim->context, corner && mps__finite(corner, dim), "the plate's corner is NULL or not finite");
@@ -197,7 +189,7 @@ mps_status mps_geometry_fill_box(mps_sim *sim, int32_t phase, const double *lo, 
 {
     if (!sim) return MPS_E_ARG;
     mps__lattice_box box;
-    MPS__TRY(changeable(sim));
+    MPS__TRY(mps__fill_allowed(sim));
     MPS__TRY(phase_ok(sim, phase));
     MPS__TRY(box_points(sim, lo, hi, &box));
     return mps__geometry_fill(sim, phase, &box, NULL, NULL, added);
@@ -206,7 +198,7 @@ mps_status mps_geometry_fill_box(mps_sim *sim, int32_t phase, const double *lo, 
 mps_status mps_geometry_fill(mps_sim *sim, int32_t phase, mps_inside_fn inside, void *user, int64_t *added)
 {
     if (!sim) return MPS_E_ARG;
-    MPS__TRY(changeable(sim));
+    MPS__TRY(mps__fill_allowed(sim));
     MPS__TRY(phase_ok(sim, phase));
     MPS__TRY(has_tank(sim));
     MPS__CHECK(&sim->context, inside, "inside is NULL: use mps_geometry_fill_box() to fill a box");

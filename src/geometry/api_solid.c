@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Solids of mps/geometry.h: argument checks, then solid.c. */
+#include "geometry.h"
 #include "solid.h"
 #include "stl.h"
 #include <math.h>
@@ -7,17 +8,6 @@
 
 static const mps_solid solid_defaults = {.name = "solid", .dummy_layers = 2};
 static const mps_stl stl_defaults = {.name = "solid", .dummy_layers = 2, .scale = 1};
-
-static mps_status changeable(mps_sim *sim)
-{
-    const int32_t open = mps__particles_leases(&sim->world.particles);
-    if (sim->in_monitor) return mps__fail(&sim->context, MPS_E_STATE, "a monitor must not add particles");
-    if (open > 0) return mps__fail(&sim->context, MPS_E_BUSY, "%d leases are open: give them back before adding particles", (int)open);
-    if (sim->world.info.step > 0)
-        return mps__fail(&sim->context, MPS_E_STATE, "solids are added before the first step; %lld steps were taken",
-                         (long long)sim->world.info.step);
-    return MPS_OK;
-}
 
 static mps_status check_name(mps_sim *sim, const char *type, const char *name, int32_t layers, char *copy)
 {
@@ -51,7 +41,7 @@ mps_status mps_geometry_solid(mps_sim *sim, const mps_solid *solid)
     if (!sim) return MPS_E_ARG;
     mps_solid s = solid_defaults;
     char name[MPS__PART_NAME];
-    MPS__TRY(changeable(sim));
+    MPS__TRY(mps__solids_allowed(sim));
     MPS__TRY(mps__struct_in(&sim->context, "mps_solid", &s, sizeof s, solid));
     if (s.name == NULL) s.name = solid_defaults.name;
     if (s.dummy_layers == 0) s.dummy_layers = solid_defaults.dummy_layers;
@@ -136,7 +126,7 @@ mps_status mps_geometry_stl(mps_sim *sim, const char *path, const mps_stl *stl, 
     char name[MPS__PART_NAME];
     double box[6];
     mps__mesh mesh;
-    MPS__TRY(changeable(sim));
+    MPS__TRY(mps__solids_allowed(sim));
     MPS__TRY(mps__struct_in(&sim->context, "mps_stl", &s, sizeof s, stl));
     if (s.name == NULL) s.name = stl_defaults.name;
     if (s.dummy_layers == 0) s.dummy_layers = stl_defaults.dummy_layers;

@@ -14,6 +14,31 @@ typedef struct site {
     double area[3];
 } site;
 
+mps_status mps__fill_allowed(mps_sim *sim)
+{
+    const int32_t open = mps__particles_leases(&sim->world.particles);
+    if (sim->in_monitor) return mps__fail(&sim->context, MPS_E_STATE, "a monitor must not add particles");
+    if (open > 0) return mps__fail(&sim->context, MPS_E_BUSY, "%d leases are open: give them back before adding particles", (int)open);
+    return MPS_OK;
+}
+
+mps_status mps__solids_allowed(mps_sim *sim)
+{
+    MPS__TRY(mps__fill_allowed(sim));
+    if (sim->world.info.step > 0)
+        return mps__fail(&sim->context, MPS_E_STATE, "solids are added before the first step; %lld steps were taken",
+                         (long long)sim->world.info.step);
+    return MPS_OK;
+}
+
+mps_status mps__in_the_way(mps_sim *sim, int64_t i, const double *X, const char *what, const char *name)
+{
+    return mps__fail(&sim->context, MPS_E_ARG,
+                     "fluid particle %lld at (%g, %g, %g) m is in the way of %s \"%s\": add solids before the fill, or keep fluid half a "
+                     "spacing, %g m, away from their particles",
+                     (long long)sim->world.particles.id[i], X[0], X[1], sim->world.dim == 3 ? X[2] : 0, what, name, 0.5 * sim->world.dp);
+}
+
 /* One call's work: which points, what they become, and what was there before. */
 typedef struct plan {
     mps_sim *sim;
@@ -144,9 +169,8 @@ static void place_particle(const plan *p, const int64_t k[3], int64_t i)
     p->describe(p, k, &here);
     lattice_point(p, k, X);
     mps__packing_place(&p->packing, k, X);
-    /* before the first step walls stand still, so that they jump to their velocity in it */
-    bool moving = here.kind != MPS_FLUID && w->info.step > 0;
-    mps__motion_point(&w->motion, &w->motion.now, X, &s->x[i * p->dim], moving ? &s->u[i * p->dim] : NULL, NULL);
+    /* solids stand still before the first step, so that they jump to their velocity in it */
+    mps__motion_point(&w->motion, &w->motion.now, X, &s->x[i * p->dim], NULL, NULL);
     if (here.kind != MPS_FLUID) {
         memcpy(&s->ref[i * p->dim], X, (size_t)p->dim * sizeof(double));
         memcpy(&s->area[i * p->dim], here.area, (size_t)p->dim * sizeof(double));
@@ -190,6 +214,31 @@ static void plan_free(plan *p)
 }
 
 /* ---- solids ---- */
+
+/* Whether a place lies nearer than half a spacing, along every axis, to the points of the box, and for a tank not in its inside. */
+static bool in_solid(const plan *p, const double *X)
+{
+    const double half = 0.5 - 1e-6;
+    bool inside = p->of_tank;
+    for (int d = 0; d < p->dim; d++) {
+        const double q = (X[d] - p->box.lo[d]) / p->sim->world.dp;
+        if (q <= (double)p->box.first[d] - half || q >= (double)p->box.last[d] + half) return false;
+        inside = inside && q >= (double)p->first[d] + half && (q <= (double)p->last[d] - half || (d == 1 && p->open_top));
+    }
+    return !inside;
+}
+
+static mps_status check_fluid(const plan *p, const char *what, const char *name)
+{
+    const mps__world *w = &p->sim->world;
+    for (int64_t i = 0; i < w->particles.n; i++) {
+        double X[3];
+        if (w->particles.kind[i] != MPS_FLUID) continue;
+        mps__motion_to_tank(&w->motion, &w->motion.now, w->particles.x + i * p->dim, X);
+        if (in_solid(p, X)) return mps__in_the_way(p->sim, i, X, what, name);
+    }
+    return MPS_OK;
+}
 
 /* Trapezoid rule over the face across axis `a`: dp for every other axis, half of it at the face's ends. A box one
  * point thick stands for dp. */
@@ -270,6 +319,7 @@ static mps_status face_parts(plan *p, const char *name)
 
 static mps_status tank_run(plan *p, const char *name)
 {
+    MPS__TRY(check_fluid(p, "tank", name));
     MPS__TRY(face_parts(p, name));
     MPS__TRY(plan_choose(p));
     MPS__CHECK(&p->sim->context, p->taken == 0, "tank \"%s\" would stand on %lld particles that are there already", name,
@@ -309,6 +359,7 @@ mps_status mps__geometry_tank(mps_sim *sim, const mps_tank *tank, const int64_t 
 static mps_status baffle_run(plan *p, const char *name)
 {
     mps__context *c = &p->sim->context;
+    MPS__TRY(check_fluid(p, "baffle", name));
     p->part[0] = mps__part_number(&p->sim->world.particles, name, true);
     MPS__CHECK(c, p->part[0] >= 0, "part \"%s\" is one too many: at most %d", name, MPS__PARTS_MAX);
     MPS__TRY(plan_choose(p));

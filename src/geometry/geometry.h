@@ -21,6 +21,11 @@ typedef struct mps__plate_shape {
     int32_t axis; /* of the normal on the tank's lattice, -1: the plate does not stand on it */
 } mps__plate_shape;
 
+/* Whether particles may be added now, and whether solids may. */
+mps_status mps__fill_allowed(mps_sim *sim);
+mps_status mps__solids_allowed(mps_sim *sim);
+/* The refusal of a solid that would stand on fluid particle i, which is at X in the tank's frame; `what` is e.g. "baffle". */
+mps_status mps__in_the_way(mps_sim *sim, int64_t i, const double *X, const char *what, const char *name);
 /* Lattice points of the closed box lo..hi that lie in the last tank; false if there is none. */
 bool mps__lattice_clip(const mps_sim *sim, const double *lo, const double *hi, mps__lattice_box *box);
 mps_status mps__geometry_tank(mps_sim *sim, const mps_tank *tank, const int64_t cells[3]);

@@ -360,7 +360,27 @@ static void put(builder *b, const place *p, int64_t i)
     if (!fresh) return;
     memcpy(s->ref + i * b->dim, p->X, (size_t)b->dim * sizeof *p->X);
     s->rho[i] = w->phase_density[0];
-    mps__motion_point(&w->motion, &w->motion.now, p->X, s->x + i * b->dim, w->info.step > 0 ? s->u + i * b->dim : NULL, NULL);
+    mps__motion_point(&w->motion, &w->motion.now, p->X, s->x + i * b->dim, NULL, NULL);
+}
+
+/* Fluid nearer than half a spacing to the rectangle of a column. */
+static mps_status check_fluid(const builder *b, const char *name)
+{
+    const mps__world *w = &b->sim->world;
+    for (int64_t i = 0; i < w->particles.n; i++) {
+        double X[3] = {0, 0, 0};
+        if (w->particles.kind[i] != MPS_FLUID) continue;
+        mps__motion_to_tank(&w->motion, &w->motion.now, w->particles.x + i * b->dim, X);
+        const double above = component(b->shape.normal, X, b->shape.corner, b->dim);
+        double square = pow(fmax(0, fabs(above) - column_height(b, b->shape.columns - 1)), 2);
+        for (int e = 0; e < b->dim - 1; e++) {
+            const double at = component(b->shape.along[e], X, b->shape.corner, b->dim),
+                         length = (double)(b->shape.nodes[e] - 1) * b->shape.spacing[e];
+            square += pow(at < 0 ? at : fmax(0, at - length), 2);
+        }
+        if (square < 0.25 * (1 - 1e-6) * b->dp * b->dp) return mps__in_the_way(b->sim, i, X, "plate", name);
+    }
+    return MPS_OK;
 }
 
 static mps_status build(builder *b, const char *name)
@@ -368,6 +388,7 @@ static mps_status build(builder *b, const char *name)
     mps__world *w = &b->sim->world;
     mps__context *c = &b->sim->context;
     int64_t fresh = 0;
+    MPS__TRY(check_fluid(b, name));
     b->part = mps__part_number(&w->particles, name, true);
     MPS__CHECK(c, b->part >= 0, "part \"%s\" is one too many: at most %d", name, MPS__PARTS_MAX);
     MPS__TRY(find_residents(b));

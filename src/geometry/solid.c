@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Add a solid: distances on the lattice, contour, wall particles and dummies; then everything into the store at once. */
 #include "solid.h"
+#include "geometry.h"
 #include "sampling.h"
 #include <math.h>
 #include <string.h>
@@ -139,10 +140,7 @@ static mps_status check_fluid(const work *w)
         double X[3] = {0, 0, 0}, r;
         if (s->kind[i] != MPS_FLUID) continue;
         mps__motion_to_tank(&world->motion, &world->motion.now, s->x + i * world->dim, X);
-        if (mps__distances_at(&w->distances, X, &r) && r < 0.3 * world->dp)
-            return mps__fail(&w->sim->context, MPS_E_ARG,
-                             "fluid particle %lld at (%g, %g, %g) m is in the way of solid \"%s\": add solids before the fill",
-                             (long long)s->id[i], X[0], X[1], X[2], w->solid->name);
+        if (mps__distances_at(&w->distances, X, &r) && r < 0.3 * world->dp) return mps__in_the_way(w->sim, i, X, "solid", w->solid->name);
     }
     return MPS_OK;
 }
@@ -179,8 +177,7 @@ static void append(const work *w, const mps__buckets *from, int32_t kind, int32_
     int64_t i = mps__particles_append(s, from->count);
     for (int64_t k = 0; k < from->count; k++, i++) {
         const double *X = from->x + 3 * k;
-        const bool moving = world->info.step > 0;
-        mps__motion_point(&world->motion, &world->motion.now, X, s->x + i * s->dim, moving ? s->u + i * s->dim : NULL, NULL);
+        mps__motion_point(&world->motion, &world->motion.now, X, s->x + i * s->dim, NULL, NULL);
         memcpy(s->ref + i * s->dim, X, bytes);
         if (kind == MPS_WALL) memcpy(s->area + i * s->dim, w->samples.area + 3 * k, bytes);
         s->kind[i] = kind;

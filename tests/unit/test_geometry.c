@@ -375,6 +375,65 @@ static void fill_refusals(void **state)
     mps_sim_destroy(sim);
 }
 
+/* A solid never encloses fluid: whatever comes nearer than half a spacing is refused with its place, and nothing is added. */
+static void fluid_in_the_way(void **state)
+{
+    (void)state;
+    const double lo[2] = {0.3, 0.2}, hi[2] = {0.7, 0.5}, thin[2] = {0.3, 0.5}, corner[2] = {0.33, 0.12}, edge[2] = {0.2, 0.21};
+    for (int late = 0; late < 2; late++) {
+        const mps_status wanted = late ? MPS_E_STATE : MPS_E_ARG;
+        const char *word = late ? "1 steps were taken" : "at (0.3, 0.2, 0) m is in the way of";
+        mps_sim *sim = new_sim(2, 0.1);
+        add_tank(sim, 1, 1, 0);
+        fill_depth(sim, 1, 0.5, 0);
+        if (late) ASSERT_OK(sim, mps_step(sim, 1, NULL));
+        const int64_t before = mps_particles_count(sim, -1);
+        ASSERT_REFUSED(sim, mps_geometry_baffle(sim, "b", lo, hi), wanted, word);
+        ASSERT_REFUSED(sim, mps_geometry_baffle(sim, "b", lo, thin), wanted, word);
+        ASSERT_REFUSED(sim, mps_geometry_plate(sim, "b", corner, edge, NULL), wanted, late ? word : "half a spacing, 0.05 m");
+        assert_int_equal(mps_particles_count(sim, -1), before);
+        assert_int_equal(mps_part_find(sim, "b"), -1);
+        mps_tank second;
+        assert_int_equal(mps_tank_init(&second, sizeof second), MPS_OK);
+        second.name = "second";
+        second.lo[0] = 3;
+        second.size[0] = second.size[1] = 1;
+        ASSERT_STATUS(sim, mps_geometry_tank(sim, &second, NULL), late ? MPS_E_STATE : MPS_OK);
+        mps_sim_destroy(sim);
+    }
+}
+
+/* Fluid that is nowhere near a lattice point of the solid is in its way all the same; half a spacing off it is not, nor in a tank. */
+static void fluid_between_the_points(void **state)
+{
+    (void)state;
+    const double at[5][2] = {{0.55, 0.35}, {0.251, 0.35}, {0.25, 0.35}, {-0.15, 0.5}, {0.5, 0.05}};
+    const char *const way[5] = {"baffle", "baffle", NULL, "tank", NULL};
+    for (int k = 0; k < 5; k++) {
+        mps_sim *sim = new_sim(2, 0.1);
+        mps_particle_block block;
+        mps_tank tank;
+        const double lo[2] = {0.3, 0.2}, hi[2] = {0.7, 0.5};
+        assert_int_equal(mps_tank_init(&tank, sizeof tank), MPS_OK);
+        tank.size[0] = tank.size[1] = 1;
+        assert_int_equal(mps_particle_block_init(&block, sizeof block), MPS_OK);
+        block.count = 1;
+        block.position = at[k];
+        ASSERT_OK(sim, mps_particles_add(sim, &block, NULL));
+        if (way[k] && way[k][0] == 't') {
+            ASSERT_REFUSED(sim, mps_geometry_tank(sim, &tank, NULL), MPS_E_ARG, "at (-0.15, 0.5, 0) m is in the way of tank \"tank\"");
+            assert_int_equal(mps_part_find(sim, "tank.x0"), -1);
+        } else {
+            ASSERT_OK(sim, mps_geometry_tank(sim, &tank, NULL));
+            if (way[k])
+                ASSERT_REFUSED(sim, mps_geometry_baffle(sim, "b", lo, hi), MPS_E_ARG, way[k]);
+            else
+                ASSERT_OK(sim, mps_geometry_baffle(sim, "b", lo, hi));
+        }
+        mps_sim_destroy(sim);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -394,6 +453,8 @@ int main(void)
         cmocka_unit_test(moved_tank),
         cmocka_unit_test(tank_refusals),
         cmocka_unit_test(fill_refusals),
+        cmocka_unit_test(fluid_in_the_way),
+        cmocka_unit_test(fluid_between_the_points),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
