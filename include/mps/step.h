@@ -10,7 +10,8 @@ MPS_BEGIN_DECLS
 /** Time step control. dt = min of all limits; every limit can be moved or switched off (< 0). */
 typedef struct mps_time_control {
     uint32_t struct_size; /**< set by mps_time_control_init() */
-    double dt;            /**< > 0: fixed step [s], the other entries are ignored; 0 (default): adaptive */
+    double dt;            /**< > 0: fixed step [s], the other entries are ignored; 0 (default): adaptive. A warning is logged once when
+                               fluid moves more than dp in a fixed step */
     double cfl;           /**< dt |u|max / dp; default 0.3 */
     double gravity;       /**< dt U_g / dp, U_g the velocity scale; default 0.06 */
     double viscous;       /**< dt nu / dp^2; default 0.2 */
@@ -59,7 +60,9 @@ MPS_API mps_status mps_step_info_init(mps_step_info *info, size_t size);
  *  @param sim     simulation with no open lease (else MPS_E_BUSY) and at least one fluid particle
  *  @param dt_max  upper bound of the step [s], > 0 and finite; the step taken is info->dt
  *  @param info    NULL, or out, with struct_size set
- *  @return MPS_OK, MPS_W_NOT_CONVERGED; MPS_E_DIVERGED, MPS_E_LOST, MPS_E_SOLVER, MPS_E_NOMEM, MPS_E_PLUGIN (a model, built in or
+ *  @return MPS_OK, MPS_W_NOT_CONVERGED; MPS_E_DIVERGED (what is not finite or faster than mps_config.speed_limit; a step below dt_min;
+ *          with a fixed step, or a cfl that is off or above 1: fluid that would move farther than walls and dummies are deep, 1 +
+ *          dummy_layers spacings), MPS_E_LOST, MPS_E_SOLVER, MPS_E_NOMEM, MPS_E_PLUGIN (a model, built in or
  *          not, cannot go on: no gas, or faster than sound), MPS_E_STATE (no fluid; rows of a nonlinear gas with a solver of linear ones)
  *          (positions, velocities, pressures and time are as before the call) */
 MPS_API mps_status mps_step(mps_sim *sim, double dt_max, mps_step_info *info);

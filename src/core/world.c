@@ -54,6 +54,11 @@ double mps__world_speed(const mps__world *w)
     return sqrt(most);
 }
 
+void mps__world_note_layers(mps__world *w, int32_t layers)
+{
+    if (w->layers == 0 || layers < w->layers) w->layers = layers;
+}
+
 void mps__world_note_phases(const mps__world *w)
 {
     bool any[MPS__PHASES] = {false};

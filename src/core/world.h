@@ -71,7 +71,9 @@ typedef struct mps__world {
     double dt_before;   /* which was this long */
     mps__work work;
     int64_t linked;  /* generation of the particles whose dummies know their walls */
+    int32_t layers;  /* of dummies behind the walls, the fewest of all tanks and solids; 0: there is none */
     bool level_told; /* that nothing fixes the level of the pressures */
+    bool moves_told; /* that a fixed step is long for its speeds */
 } mps__world;
 
 mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, double dp);
@@ -86,6 +88,8 @@ void mps__world_rows(mps__world *w);
 mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *stencil);
 /* A stencil that has the rows of all particles, from lists that are fresh. */
 mps_status mps__world_stencil_all(mps__world *w, int32_t which, mps_stencil *stencil);
+/* A tank or solid has so many layers of dummies. */
+void mps__world_note_layers(mps__world *w, int32_t layers);
 /* Tell the log of phases that were defined and have no fluid. */
 void mps__world_note_phases(const mps__world *w);
 /* Largest speed of all particles [m/s]. */

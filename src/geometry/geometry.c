@@ -351,6 +351,7 @@ mps_status mps__geometry_tank(mps_sim *sim, const mps_tank *tank, const int64_t 
     }
     sim->has_tank = true;
     sim->lattice_of_solids = false;
+    mps__world_note_layers(&sim->world, tank->dummy_layers);
     memcpy(sim->lattice_lo, box.lo, sizeof sim->lattice_lo);
     memcpy(sim->lattice_cells, cells, sizeof sim->lattice_cells);
     return MPS_OK;

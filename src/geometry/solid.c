@@ -234,6 +234,7 @@ static mps_status build(work *w)
     sim->solid[sim->solids++] = w->distances;
     w->distances.value = NULL;
     sim->world.neighbours.valid = false;
+    mps__world_note_layers(&sim->world, w->solid->layers);
     report(w);
     return MPS_OK;
 }

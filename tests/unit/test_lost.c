@@ -246,12 +246,117 @@ static void all_lost(void **state)
     mps_sim_destroy(sim);
 }
 
+/* ---- steps that are too long for what the walls can hold ---- */
+
+/* A drop in the middle of an empty tank of 1 m, with 31 m/s. */
+static mps_sim *bullet(int32_t layers, message *m, const mps_time_control *control)
+{
+    mps_config c;
+    mps_tank tank;
+    mps_particle_block block;
+    mps_sim *sim = NULL;
+    const double x[2] = {0.5, 0.5}, u[2] = {31, 0};
+    assert_int_equal(mps_config_init(&c, sizeof c), MPS_OK);
+    c.dp = dp;
+    c.log = keep_message;
+    c.log_user = m;
+    assert_int_equal(mps_sim_create(&c, &sim), MPS_OK);
+    assert_int_equal(mps_tank_init(&tank, sizeof tank), MPS_OK);
+    tank.size[0] = tank.size[1] = 1;
+    tank.dummy_layers = layers;
+    ASSERT_OK(sim, mps_geometry_tank(sim, &tank, NULL));
+    assert_int_equal(mps_particle_block_init(&block, sizeof block), MPS_OK);
+    block.count = 1;
+    block.position = x;
+    block.velocity = u;
+    ASSERT_OK(sim, mps_particles_add(sim, &block, NULL));
+    ASSERT_OK(sim, mps_sim_set_time_control(sim, control));
+    *m = (message){0};
+    return sim;
+}
+
+static mps_time_control fixed_step(double dt)
+{
+    mps_time_control c;
+    assert_int_equal(mps_time_control_init(&c, sizeof c), MPS_OK);
+    c.dt = dt;
+    return c;
+}
+
+/* 3.1 spacings are more than a wall and two dummies: the step is undone. One more layer holds them, and so does a tank that goes along. */
+static void too_long_steps(void **state)
+{
+    (void)state;
+    message m;
+    mps_time_control control = fixed_step(5e-3);
+    const double place[3] = {0.5, 0.5, 0};
+    mps_sim *sim = bullet(2, &m, &control);
+    mps_lease x;
+    double t;
+    ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_DIVERGED,
+                   "at (0.5, 0.5, 0) m would move 0.155 m in a step of 0.005 s, at 31 m/s; allowed: at most 0.15 m");
+    ASSERT_OK(sim, mps_sim_time(sim, &t, NULL));
+    assert_true(t == 0 && m.count == 0);
+    const int64_t i = mps_particles_count(sim, -1) - 1;
+    ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &x));
+    for (int d = 0; d < 2; d++) {
+        int64_t at = 0;
+        while (at < i && !(x.data[2 * at] == place[0] && x.data[2 * at + 1] == place[1])) at++;
+        assert_true(x.data[2 * at + d] == place[d]);
+    }
+    ASSERT_OK(sim, mps_lease_end(sim, &x));
+    mps_sim_destroy(sim);
+    sim = bullet(3, &m, &control);
+    ASSERT_OK(sim, mps_step(sim, 1, NULL));
+    mps_sim_destroy(sim);
+    const double times[2] = {0, 1}, way[2] = {0, 31};
+    const int32_t surge = MPS_SURGE;
+    sim = bullet(2, &m, &control);
+    ASSERT_OK(sim, mps_motion_set_table(sim, 2, times, 1, &surge, way));
+    ASSERT_OK(sim, mps_step(sim, 1, NULL));
+    assert_int_equal(m.count, 0);
+    mps_sim_destroy(sim);
+    control = fixed_step(0);
+    control.gravity = -1;
+    control.cfl = 3.2;
+    sim = bullet(2, &m, &control);
+    ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_DIVERGED, "would move 0.16 m");
+    mps_sim_destroy(sim);
+}
+
+/* More than a spacing a step is told once, and only of steps that do not follow the speed. */
+static void long_steps_are_told_once(void **state)
+{
+    (void)state;
+    message m;
+    mps_time_control control = fixed_step(2e-3); /* 1.24 spacings */
+    mps_sim *sim = bullet(2, &m, &control);
+    for (int k = 0; k < 3; k++) ASSERT_OK(sim, mps_step(sim, 1, NULL));
+    assert_int_equal(m.count, 1);
+    assert_int_equal(m.level, MPS_LOG_WARNING);
+    assert_non_null(strstr(m.text, "fixed step of 0.002 s"));
+    assert_non_null(strstr(m.text, "0.062 m"));
+    mps_sim_destroy(sim);
+    control = fixed_step(1.6e-3); /* 0.99 */
+    sim = bullet(2, &m, &control);
+    for (int k = 0; k < 3; k++) ASSERT_OK(sim, mps_step(sim, 1, NULL));
+    assert_int_equal(m.count, 0);
+    mps_sim_destroy(sim);
+    control = fixed_step(0);
+    sim = bullet(2, &m, &control);
+    for (int k = 0; k < 3; k++) ASSERT_OK(sim, mps_step(sim, 1, NULL));
+    assert_int_equal(m.count, 0);
+    mps_sim_destroy(sim);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(removed_and_counted), cmocka_unit_test(refused_by_policy), cmocka_unit_test(given_domain),
-        cmocka_unit_test(behind_a_wall),       cmocka_unit_test(beside_a_plate),    cmocka_unit_test(moved_tank),
+        cmocka_unit_test(removed_and_counted), cmocka_unit_test(refused_by_policy),
+        cmocka_unit_test(given_domain),        cmocka_unit_test(behind_a_wall),
+        cmocka_unit_test(beside_a_plate),      cmocka_unit_test(moved_tank),
         cmocka_unit_test(no_domain),           cmocka_unit_test(all_lost),
+        cmocka_unit_test(too_long_steps),      cmocka_unit_test(long_steps_are_told_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -285,13 +285,19 @@ static void nobody_passes(void **state)
         mps_sim *sim = new_sim(dim, dp);
         mps_time_control control;
         mps_particle_block block;
+        mps_tank tank;
         const double centre[3] = {0.3, 0.1, 0}, at[4][3] = {{0.1, 0.1, 0.2}, {0.3, 0.2, 0.2}, {0.4, 0.4, 0.2}, {0.9, 0.3, 0.2}};
         const mps_harmonic turn = {.dof = MPS_YAW, .amplitude = 0.5, .omega = 5};
         double x[12], u[12] = {0};
         int64_t ids[4];
         ASSERT_OK(sim, mps_motion_set_centre(sim, centre, MPS_START_AT_REST));
         ASSERT_OK(sim, mps_motion_set_harmonics(sim, 1, &turn));
-        add_tank(sim, 1, 0.6, 0.4);
+        mps_tank_init(&tank, sizeof tank);
+        tank.size[0] = 1;
+        tank.size[1] = 0.6;
+        tank.size[2] = 0.4;
+        tank.dummy_layers = 3; /* 4 dp deep */
+        ASSERT_OK(sim, mps_geometry_tank(sim, &tank, NULL));
         const double lo[3] = {0.5, 0, 0}, hi[3] = {0.5, 0.6, 0.4};
         ASSERT_OK(sim, mps_geometry_baffle(sim, "plate", lo, hi));
         mps_particle_block_init(&block, sizeof block);
