@@ -115,7 +115,7 @@ typedef struct mps_model_ops {
     /** New state in *self; NULL: the model has none. Non-zero: out of memory. */
     int (*create)(const mps_allocator *allocator, void **self);
     void (*destroy)(void *self); /**< needed with create */
-    /** Set region, wet, correction. */
+    /** Set region, wet, correction. Another region than MPS_REGION_INNER .. MPS_REGION_DRY fails the step with MPS_E_PLUGIN. */
     int (*classify)(void *self, const double *k, mps_stage *s);
     /** Add non-pressure accelerations a [n*dim] [m/s2] of fluid particles; gravity too, where a model puts it there. */
     int (*force)(void *self, const double *k, mps_stage *s, double *a);
@@ -127,7 +127,8 @@ typedef struct mps_model_ops {
     int (*velocity)(void *self, const double *k, mps_stage *s);
     /** Add displacements dx [n*dim] [m] of fluid particles beside dt u; may change s->u to transport it. */
     int (*shift)(void *self, const double *k, mps_stage *s, double *dx);
-    /** Largest time step [s] this model allows; called before the step, s->dt is the previous one. */
+    /** Largest time step [s] this model allows, > 0; INFINITY: any (else the step fails with MPS_E_PLUGIN). Called before the step, s->dt is
+     *  the previous one; not called where the step is fixed. */
     double (*dt_limit)(void *self, const double *k, const mps_stage *s);
 } mps_model_ops;
 

@@ -81,7 +81,13 @@ mps_status mps__models_init(mps__models *m, mps__context *context)
     const mps_model_ops *const *lists[] = {mps__builtin_bc(), mps__builtin_phase()};
     for (size_t l = 0; l < 2; l++)
         for (const mps_model_ops *const *ops = lists[l]; *ops; ops++) MPS__TRY(mps__models_register(m, *ops));
+    m->built_in = m->known;
     return MPS_OK;
+}
+
+bool mps__models_foreign(const mps__models *m, const mps__model *model)
+{
+    return model->ops >= &m->registry[m->built_in];
 }
 
 static void drop(mps__models *m, int32_t k)

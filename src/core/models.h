@@ -16,7 +16,7 @@ typedef struct mps__model {
 
 typedef struct mps__models {
     mps__context *context;
-    int32_t known, active;
+    int32_t known, active, built_in; /* the first of those known are the library's own */
     mps_model_ops registry[MPS__MODELS_KNOWN];
     char name[MPS__MODELS_KNOWN][MPS__NAME_SIZE];
     mps__model on[MPS__MODELS_ACTIVE]; /* ascending order of calling */
@@ -28,6 +28,8 @@ mps_status mps__models_register(mps__models *m, const mps_model_ops *ops);
 mps_status mps__models_use(mps__models *m, const char *name);
 mps_status mps__models_preset(mps__models *m, const char *name);
 mps_status mps__models_remove(mps__models *m, const char *slot);
+/* Whether an active model is a stranger's. */
+bool mps__models_foreign(const mps__models *m, const mps__model *model);
 /* The setting `key` of the model in a slot; NULL with the error set. `setting` may be NULL. */
 double *mps__models_value(mps__models *m, const char *slot, const char *key, const mps_setting **setting);
 

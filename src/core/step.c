@@ -86,13 +86,31 @@ static double least(double a, double b)
     return b > 0 && b < a ? b : a;
 }
 
-/* dt of the control's limits; 0 is never returned. */
-static double choose_dt(const step_state *q)
+/* The smallest of what the models allow. */
+static mps_status limit_dt(const step_state *q, double *dt)
+{
+    const mps__world *w = q->w;
+    for (int32_t m = 0; m < w->models.active; m++) {
+        const mps__model *k = &w->models.on[m];
+        if (!k->ops->dt_limit) continue;
+        const double limit = k->ops->dt_limit(k->self, k->k, &q->stage);
+        if (!(limit > 0))
+            return mps__fail(w->context, MPS_E_PLUGIN,
+                             "model \"%s\" at t = %.9g s: its dt_limit is %g s; must be > 0, INFINITY for no limit", k->ops->name,
+                             w->info.t, limit);
+        *dt = least(*dt, limit);
+    }
+    return MPS_OK;
+}
+
+/* dt of the control's limits; never 0. */
+static mps_status choose_dt(const step_state *q, double *chosen)
 {
     const mps__world *w = q->w;
     const mps_time_control *c = &w->control;
-    if (c->dt > 0) return c->dt;
     double dt = INFINITY, nu = 0;
+    *chosen = c->dt;
+    if (c->dt > 0) return MPS_OK;
     const double speed = mps__world_speed(w);
     for (int k = 0; k < MPS__PHASES; k++)
         if (w->phase_defined[k]) nu = fmax(nu, w->phase_viscosity[k] / w->phase_density[k]);
@@ -100,12 +118,10 @@ static double choose_dt(const step_state *q)
     dt = least(dt, c->gravity * w->dp / w->velocity_scale);
     if (nu > 0) dt = least(dt, c->viscous * w->dp * w->dp / nu);
     dt = least(dt, c->dt_max);
-    for (int32_t m = 0; m < w->models.active; m++) {
-        const mps__model *k = &w->models.on[m];
-        if (k->ops->dt_limit) dt = least(dt, k->ops->dt_limit(k->self, k->k, &q->stage));
-    }
+    MPS__TRY(limit_dt(q, &dt));
     if (w->dt_previous > 0) dt = least(dt, c->growth * w->dt_previous);
-    return dt;
+    *chosen = dt;
+    return MPS_OK;
 }
 
 /* The step to take, and the one the limits allow: they differ where the last two steps of a run share what is left of it, so that none is
@@ -114,7 +130,8 @@ static mps_status set_dt(step_state *q, double dt_max, double *planned)
 {
     mps__world *w = q->w;
     q->stage.dt = w->dt_previous;
-    double dt = choose_dt(q);
+    double dt;
+    MPS__TRY(choose_dt(q, &dt));
     if (!(dt >= w->control.dt_min) && w->control.dt <= 0)
         return mps__fail(w->context, MPS_E_DIVERGED,
                          "the time step fell to %g s at t = %.9g s, below dt_min = %g s; the largest speed is %g m/s", dt, w->info.t,
@@ -285,6 +302,34 @@ static void weigh_pairs(step_state *q)
     q->near.w_r2 = l->w_r2;
 }
 
+/* A stranger's model may leave anything in the regions, and everything after counts on them. */
+static mps_status check_regions(const step_state *q, const mps__model *model)
+{
+    const mps_stage *s = &q->stage;
+    int64_t first = s->n;
+#pragma omp parallel for num_threads(s->threads) reduction(min : first) schedule(static)
+    for (int64_t i = 0; i < s->n; i++)
+        if (s->region[i] < MPS_REGION_INNER || s->region[i] > MPS_REGION_DRY) first = i < first ? i : first;
+    if (first == s->n) return MPS_OK;
+    const double *x = s->x + first * s->dim;
+    return mps__fail(q->w->context, MPS_E_PLUGIN,
+                     "model \"%s\" at t = %.9g s: its classify left region %d at particle %lld, (%g, %g, %g) m; must be %d..%d",
+                     model->ops->name, s->t, (int)s->region[first], (long long)s->id[first], x[0], x[1], s->dim == 3 ? x[2] : 0,
+                     MPS_REGION_INNER, MPS_REGION_DRY);
+}
+
+static mps_status classify(step_state *q)
+{
+    const mps__models *models = &q->w->models;
+    for (int32_t m = 0; m < models->active; m++) {
+        const mps__model *model = &models->on[m];
+        if (!model->ops->classify) continue;
+        CALL_VERB(q, model, classify, &q->stage);
+        if (mps__models_foreign(models, model)) MPS__TRY(check_regions(q, model));
+    }
+    return MPS_OK;
+}
+
 /* Number density, asymmetry, regions at r^k. */
 static mps_status look_around(step_state *q)
 {
@@ -306,7 +351,7 @@ static mps_status look_around(step_state *q)
         s->capillary[i] = s->depth[i] = 0;
         for (int d = 0; d < dim * dim; d++) s->correction[i * dim * dim + d] = d % (dim + 1) == 0;
     }
-    EACH_MODEL(q, classify, s);
+    MPS__TRY(classify(q));
     int64_t surface = 0;
 #pragma omp parallel for num_threads(s->threads) reduction(+ : surface) schedule(static)
     for (int64_t i = 0; i < s->n; i++) surface += s->kind[i] == MPS_FLUID && s->region[i] == MPS_REGION_SURFACE;

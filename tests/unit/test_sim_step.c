@@ -19,7 +19,8 @@ static struct {
     int silent;      /* ... without mps_stage_fail() */
     int spoil;       /* 1: NaN in a velocity, 2: in an acceleration, 3: a velocity beyond the limit */
     int64_t victim;  /* id of the spoilt particle */
-    double dt_limit; /* 0: none */
+    double dt_limit; /* INFINITY: none */
+    int32_t region;  /* what classify leaves at the victim, MPS_REGION_INNER: nothing */
     int created, destroyed, calls[VERBS];
 } test;
 
@@ -54,7 +55,9 @@ static void destroy(void *self)
 
 static int classify(void *self, const double *k, mps_stage *s)
 {
-    return (void)self, (void)k, verb(s, CLASSIFY);
+    (void)self, (void)k;
+    if (test.region != MPS_REGION_INNER) s->region[place_of(s, test.victim)] = test.region;
+    return verb(s, CLASSIFY);
 }
 static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *t)
 {
@@ -110,6 +113,7 @@ static void reset_test(void)
 {
     memset(&test, 0, sizeof test);
     test.fail = -1;
+    test.dt_limit = INFINITY;
 }
 
 static void use_push(mps_sim *sim)
@@ -269,6 +273,36 @@ static int surge(void *user, double t, mps_motion_state *state)
 }
 
 /* The liquid gets the tank's velocity in the first step that succeeds, not in one that fails. */
+static void values_out_of_range(void **state)
+{
+    (void)state;
+    const int32_t region[] = {-1, 6, 77};
+    const double limit[] = {NAN, 0, -1};
+    char word[64];
+    mps_sim *sim = pool();
+    use_push(sim);
+    test.victim = 10;
+    ASSERT_OK(sim, mps_step(sim, 1e-3, NULL));
+    const picture before = take_picture(sim);
+    for (int k = 0; k < 3; k++) {
+        test.region = region[k];
+        snprintf(word, sizeof word, "left region %d at particle 10, (", (int)region[k]);
+        ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_PLUGIN, word);
+        ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_PLUGIN, "model \"test.push\" at t = 0.001 s");
+        test.region = MPS_REGION_INNER;
+        test.dt_limit = limit[k];
+        snprintf(word, sizeof word, "its dt_limit is %g s", limit[k]);
+        ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_PLUGIN, word);
+        ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_PLUGIN, "model \"test.push\" at t = 0.001 s");
+        test.dt_limit = INFINITY;
+        const picture after = take_picture(sim);
+        assert_same(&before, &after);
+    }
+    test.region = MPS_REGION_DRY; /* the last one there is */
+    ASSERT_OK(sim, mps_step(sim, 1e-3, NULL));
+    mps_sim_destroy(sim);
+}
+
 static void failing_start(void **state)
 {
     (void)state;
@@ -381,7 +415,7 @@ static void limits(void **state)
     ASSERT_OK(sim, mps_sim_set_time_control(sim, &c)); /* forgets the previous step, */
     test.dt_limit = 2e-4;
     ASSERT_NEAR(step_taken(sim, 1), 2e-4, 1e-18);
-    test.dt_limit = 0;
+    test.dt_limit = INFINITY;
     ASSERT_NEAR(step_taken(sim, 1), 2.2e-4, 1e-15); /* which growth is measured against */
     ASSERT_NEAR(step_taken(sim, 1e-5), 1e-5, 1e-18);
     ASSERT_NEAR(step_taken(sim, 1), 1.1 * 2.2e-4, 1e-15); /* a step cut by the caller does not count */
@@ -456,9 +490,10 @@ static void run_fails(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(acceleration), cmocka_unit_test(failing_model),    cmocka_unit_test(failing_start),
-        cmocka_unit_test(diverged),     cmocka_unit_test(bad_time_control), cmocka_unit_test(limits),
-        cmocka_unit_test(bad_steps),    cmocka_unit_test(older_step_info),  cmocka_unit_test(run_fails),
+        cmocka_unit_test(acceleration),  cmocka_unit_test(failing_model), cmocka_unit_test(values_out_of_range),
+        cmocka_unit_test(failing_start), cmocka_unit_test(diverged),      cmocka_unit_test(bad_time_control),
+        cmocka_unit_test(limits),        cmocka_unit_test(bad_steps),     cmocka_unit_test(older_step_info),
+        cmocka_unit_test(run_fails),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
