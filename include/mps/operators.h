@@ -185,7 +185,7 @@ MPS_API mps_status mps_op_asymmetry(const mps_stencil *s, double *a);
 MPS_API mps_status mps_op_correction(const mps_stencil *s, double floor, double *b);
 
 /** Inverse of a symmetric matrix m [dim*dim] whose eigenvalues are raised to `floor` where they are smaller.
- *  @param inverse  [dim*dim] out */
+ *  @param inverse  [dim*dim] out @return MPS_E_ARG: dim is not 2 or 3, m is not finite, floor is not > 0 and finite */
 MPS_API mps_status mps_matrix_inverse_bounded(int32_t dim, const double *m, double floor, double *inverse);
 
 MPS_END_DECLS

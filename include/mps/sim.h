@@ -42,7 +42,8 @@ MPS_API mps_status mps_config_init(mps_config *config, size_t size);
 /** Create an empty simulation with the preset "imps", phase 0 = water, solver "sundials.pcg".
  *  @param config  copied; strings too
  *  @param sim     out: the handle, or NULL on failure; destroy with mps_sim_destroy()
- *  @return MPS_OK, MPS_E_ARG, MPS_E_NAME, MPS_E_VERSION, MPS_E_NOMEM; text in config->error */
+ *  @return MPS_OK, MPS_E_ARG, MPS_E_NAME, MPS_E_VERSION, MPS_E_NOMEM; text in config->error, if struct_size reaches over error_size: it
+ *          is not looked for behind the struct, so a config that mps_config_init() never saw (struct_size 0) gets the status alone */
 MPS_API mps_status mps_sim_create(const mps_config *config, mps_sim **sim);
 
 /** Destroy a simulation and all it owns. NULL is allowed. */
@@ -100,7 +101,7 @@ MPS_API mps_status mps_sim_get_tension(const mps_sim *sim, int32_t a, int32_t b,
 MPS_API mps_status mps_sim_use_preset(mps_sim *sim, const char *name);
 
 /** Switch a model on. Names are "slot.variant"; a slot holds one model, the one already there is replaced.
- *  @return MPS_E_NAME with the nearest known name */
+ *  @return MPS_E_NAME with the nearest known name, or those of the slot, or all slots */
 MPS_API mps_status mps_model_use(mps_sim *sim, const char *name);
 
 /** Switch the model in a slot off. @param slot "collision", or the full name */

@@ -7,7 +7,8 @@
 
 MPS_BEGIN_DECLS
 
-/** Time step control. dt = min of all limits; every limit can be moved or switched off (< 0). */
+/** Time step control. dt = min of all limits. cfl, gravity, viscous and dt_max are off where they are 0 or less; of cfl, gravity and
+ *  dt_max one must be on. Zero is no default here: begin with mps_time_control_init(). */
 typedef struct mps_time_control {
     uint32_t struct_size; /**< set by mps_time_control_init() */
     double dt;            /**< > 0: fixed step [s], the other entries are ignored; 0 (default): adaptive. A warning is logged once when
@@ -15,15 +16,16 @@ typedef struct mps_time_control {
     double cfl;           /**< dt |u|max / dp; default 0.3 */
     double gravity;       /**< dt U_g / dp, U_g the velocity scale; default 0.06 */
     double viscous;       /**< dt nu / dp^2; default 0.2 */
-    double growth;        /**< largest dt / previous dt; default 1.1 */
-    double dt_max;        /**< [s]; default none */
-    double dt_min;        /**< smaller is MPS_E_DIVERGED [s]; default 1e-9 sqrt(dp/9.81) */
+    double growth;        /**< largest dt / previous dt, > 1; default 1.1; < 0: no limit */
+    double dt_max;        /**< [s]; default 0: none */
+    double dt_min;        /**< smaller is MPS_E_DIVERGED [s], >= 0; default 0: 1e-9 sqrt(dp/9.81). It cannot be switched off */
 } mps_time_control;
 
 /** Defaults. */
 MPS_API mps_status mps_time_control_init(mps_time_control *control, size_t size);
 
-/** Use a time step control from the next step on. */
+/** Use a time step control from the next step on, which does not count as growth of the one before.
+ *  @return MPS_E_ARG (which value, and what is allowed) */
 MPS_API mps_status mps_sim_set_time_control(mps_sim *sim, const mps_time_control *control);
 
 /** Stages of a step, for timings. */

@@ -198,12 +198,13 @@ mps_status mps_lease_begin(mps_sim *sim, const char *field, int32_t mode, mps_le
     MPS__CHECK(&sim->context, field && lease, "field or lease is NULL");
     MPS__CHECK(&sim->context, mode == MPS_READ || mode == MPS_WRITE, "mode is %d: MPS_READ or MPS_WRITE", mode);
     const char *names[MPS__FIELDS_MAX];
+    char hint[MPS__HINT_SIZE];
     int count = 0;
     for (int32_t k = 0; k < s->fields; k++)
         if (s->field[k].is_public) names[count++] = s->field[k].name;
     mps__field *f = mps__particles_field(s, field);
     if (!f || !f->is_public)
-        return mps__fail(&sim->context, MPS_E_NAME, "no field \"%s\"; did you mean \"%s\"?", field, mps__nearest(field, names, count));
+        return mps__fail(&sim->context, MPS_E_NAME, "no field \"%.60s\"; %s", field, mps__hint(hint, '"', field, names, count));
     if (f->writer || (mode == MPS_WRITE && f->readers > 0))
         return mps__fail(&sim->context, MPS_E_BUSY, "field \"%s\" is leased already, for %s", field, f->writer ? "writing" : "reading");
     if (mode == MPS_WRITE)

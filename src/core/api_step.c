@@ -17,6 +17,17 @@ mps_status mps_step_info_init(mps_step_info *info, size_t size)
     return mps__struct_init(info, size, &info_default, sizeof info_default);
 }
 
+static mps_status check_limits(mps__context *c, const mps_time_control *t)
+{
+    const double value[] = {t->cfl, t->gravity, t->viscous, t->dt_max};
+    static const char *const name[] = {"cfl", "gravity", "viscous", "dt_max"};
+    for (int k = 0; k < 4; k++)
+        MPS__CHECK(c, !isnan(value[k]), "time_control.%s is %g: must be a number, <= 0 for no limit", name[k], value[k]);
+    MPS__CHECK(c, t->dt > 0 || t->cfl > 0 || t->gravity > 0 || t->dt_max > 0,
+               "time_control: cfl %g, gravity %g and dt_max %g are all off; one must be > 0", t->cfl, t->gravity, t->dt_max);
+    return MPS_OK;
+}
+
 mps_status mps_sim_set_time_control(mps_sim *sim, const mps_time_control *control)
 {
     if (!sim) return MPS_E_ARG;
@@ -24,9 +35,7 @@ mps_status mps_sim_set_time_control(mps_sim *sim, const mps_time_control *contro
     mps_time_control t = control_default;
     MPS__TRY(mps__struct_in(c, "mps_time_control", &t, sizeof t, control));
     MPS__CHECK(c, t.dt >= 0 && isfinite(t.dt), "time_control.dt is %g s: > 0, or 0 for an adaptive step", t.dt);
-    MPS__CHECK(c, t.dt > 0 || t.cfl > 0 || t.gravity > 0 || t.dt_max > 0,
-               "time_control: cfl, gravity and dt_max are all off; one must be > 0");
-    MPS__CHECK(c, !isnan(t.cfl) && !isnan(t.gravity) && !isnan(t.viscous) && !isnan(t.dt_max), "time_control: a limit is NaN");
+    MPS__TRY(check_limits(c, &t));
     MPS__CHECK(c, t.growth < 0 || t.growth > 1, "time_control.growth is %g: > 1, or < 0 for none", t.growth);
     MPS__CHECK(c, t.dt_min >= 0 && isfinite(t.dt_min), "time_control.dt_min is %g s: >= 0", t.dt_min);
     if (t.dt_min == 0) t.dt_min = 1e-9 * sqrt(sim->world.dp / 9.81);
@@ -91,6 +100,22 @@ mps_status mps_sim_stencil(mps_sim *sim, int32_t which, mps_stencil *stencil)
     return mps__world_stencil_all(&sim->world, which, stencil);
 }
 
+/* Why the kernel has no lattice constants. */
+static mps_status bad_kernel(mps_sim *sim, const mps_kernel *kernel)
+{
+    const mps__world *w = &sim->world;
+    const int reach = (int)(w->re_near / w->dp) + 1;
+    const int most = w->dim * reach * reach;
+    MPS__CHECK(&sim->context, kernel->id >= MPS_KERNEL_IMPROVED && kernel->id <= MPS_KERNEL_CUSTOM,
+               "kernel.id is %d: fill it with mps_kernel_find() or mps_kernel_custom()", kernel->id);
+    for (int square = 1; square <= most; square++) { /* more than the distances of a lattice: the first bad one is named */
+        const double r = w->dp * sqrt(square), value = mps_kernel_value(kernel, r, w->re_near);
+        MPS__CHECK(&sim->context, value >= 0 && isfinite(value), "the kernel is %g at r = %g m of re = %g m: must be >= 0 and finite",
+                   value, r, w->re_near);
+    }
+    return mps__fail(&sim->context, MPS_E_ARG, "the kernel is 0 at all distances of a lattice of %g m within re = %g m", w->dp, w->re_near);
+}
+
 mps_status mps_sim_set_kernel(mps_sim *sim, const mps_kernel *kernel)
 {
     if (!sim) return MPS_E_ARG;
@@ -98,8 +123,7 @@ mps_status mps_sim_set_kernel(mps_sim *sim, const mps_kernel *kernel)
     if (sim->world.info.step > 0) return mps__fail(&sim->context, MPS_E_STATE, "the kernel cannot change after the first step");
     double n0;
     mps_status status = mps_lattice_constants(kernel, sim->world.dim, sim->world.dp, sim->world.re_near, &n0, NULL);
-    if (status != MPS_OK)
-        return mps__fail(&sim->context, status, "the kernel is negative, not finite or zero on the lattice within re_near");
+    if (status != MPS_OK) return bad_kernel(sim, kernel);
     sim->world.kernel = *kernel;
     return MPS_OK;
 }

@@ -96,12 +96,19 @@ void mps__log(mps__context *c, int level, const char *format, ...)
     c->log(c->log_user, level, text);
 }
 
+/* Tables of plug-ins have no _init function. */
+static mps_status no_size(mps__context *c, const char *type, uint32_t given)
+{
+    if (strstr(type, "_ops")) return mps__fail(c, MPS_E_ARG, "%s.struct_size is %u: set it to sizeof(%s)", type, given, type);
+    return mps__fail(c, MPS_E_ARG, "%s.struct_size is %u: call its _init function first", type, given);
+}
+
 mps_status mps__struct_in(mps__context *c, const char *type, void *out, size_t size, const void *in)
 {
     uint32_t given;
     MPS__CHECK(c, in, "%s is NULL", type);
     memcpy(&given, in, sizeof given);
-    MPS__CHECK(c, given >= 2 * sizeof(uint32_t), "%s.struct_size is %u: call its _init function first", type, given);
+    if (given < 2 * sizeof(uint32_t)) return no_size(c, type, given);
     const unsigned char *bytes = in;
     for (size_t k = size; k < given; k++)
         if (bytes[k])
@@ -116,7 +123,7 @@ mps_status mps__struct_out(mps__context *c, const char *type, void *out, const v
     uint32_t given;
     MPS__CHECK(c, out, "%s is NULL", type);
     memcpy(&given, out, sizeof given);
-    MPS__CHECK(c, given >= 2 * sizeof(uint32_t), "%s.struct_size is %u: call its _init function first", type, given);
+    if (given < 2 * sizeof(uint32_t)) return no_size(c, type, given);
     memcpy(out, in, given < size ? given : size);
     memcpy(out, &given, sizeof given);
     return MPS_OK;
@@ -152,10 +159,10 @@ static int edit_distance(const char *a, const char *b)
     return row[lb];
 }
 
-const char *mps__nearest(const char *name, const char *const *names, int count)
+const char *mps__near(const char *name, const char *const *names, int count)
 {
-    const char *best = "(none)";
-    int least = INT32_MAX;
+    const char *best = NULL;
+    int least = 2 + (int)(strnlen(name, MPS__ERROR_SIZE) / 4); /* one slip, and one more for every four letters, are near */
     for (int k = 0; k < count; k++) {
         int d = edit_distance(name, names[k]);
         if (d < least) {
@@ -164,6 +171,34 @@ const char *mps__nearest(const char *name, const char *const *names, int count)
         }
     }
     return best;
+}
+
+const char *mps__list(char out[MPS__HINT_SIZE], char quote, const char *const *names, int count)
+{
+    size_t used = 0;
+    out[0] = 0;
+    for (int k = 0; k < count; k++) {
+        const size_t left = MPS__HINT_SIZE - used;
+        const int length = snprintf(out + used, left, "%s%c%s%c", k ? ", " : "", quote, names[k], quote);
+        if (length < 0 || (size_t)length >= left) {
+            out[used] = 0; /* no names by halves */
+            break;
+        }
+        used += (size_t)length;
+    }
+    return out;
+}
+
+const char *mps__hint(char out[MPS__HINT_SIZE], char quote, const char *name, const char *const *names, int count)
+{
+    char list[MPS__HINT_SIZE];
+    const char *near = mps__near(name, names, count);
+    if (near)
+        snprintf(out, MPS__HINT_SIZE, "did you mean %c%s%c?", quote, near, quote);
+    else
+        snprintf(out, MPS__HINT_SIZE, "there %s %.370s", count > 1 ? "are" : "is",
+                 count > 0 ? mps__list(list, quote, names, count) : "none");
+    return out;
 }
 
 bool mps__name_copy(char *out, size_t capacity, const char *name)

@@ -6,7 +6,7 @@
 #include <mps/types.h>
 #include <stdbool.h>
 
-enum { MPS__ERROR_SIZE = 512, MPS__NAME_SIZE = 48 };
+enum { MPS__ERROR_SIZE = 512, MPS__HINT_SIZE = 384, MPS__NAME_SIZE = 48 };
 
 /* What every layer needs of its handle: where memory comes from and where errors go. */
 typedef struct mps__context {
@@ -67,8 +67,12 @@ mps_status mps__struct_out(mps__context *c, const char *type, void *out, const v
 /* Body of every ..._init(): copy `defaults` into the caller's struct of `size` bytes and set struct_size. */
 mps_status mps__struct_init(void *out, size_t size, const void *defaults, size_t full);
 
-/* The nearest of `count` names to `name` by edit distance, for error texts. */
-const char *mps__nearest(const char *name, const char *const *names, int count);
+/* The nearest of `count` names to `name` by edit distance, NULL if none is near. */
+const char *mps__near(const char *name, const char *const *names, int count);
+/* For error texts: all names in quotes, with a comma between two of them. Returns `out`. */
+const char *mps__list(char out[MPS__HINT_SIZE], char quote, const char *const *names, int count);
+/* For error texts: whether the nearest name was meant, or which there are. Returns `out`. */
+const char *mps__hint(char out[MPS__HINT_SIZE], char quote, const char *name, const char *const *names, int count);
 /* Copy a name of at most capacity-1 characters; false if it is NULL, empty or too long. */
 bool mps__name_copy(char *out, size_t capacity, const char *name);
 

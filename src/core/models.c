@@ -102,16 +102,36 @@ void mps__models_free(mps__models *m)
     while (m->active > 0) drop(m, m->active - 1);
 }
 
+/* Names of all slots, each once. */
+static int32_t list_slots(const mps__models *m, char slot[][MPS__NAME_SIZE], const char *names[])
+{
+    int32_t count = 0;
+    for (int32_t k = 0; k < m->known; k++) {
+        bool first = true;
+        for (int32_t j = 0; j < k; j++) first = first && !same_slot(m->name[j], m->name[k]);
+        if (!first) continue;
+        memcpy(slot[count], m->name[k], slot_length(m->name[k]));
+        slot[count][slot_length(m->name[k])] = 0;
+        names[count] = slot[count];
+        count++;
+    }
+    return count;
+}
+
 /* Who means a slot that is there means one of its models. */
 static mps_status unknown_model(mps__models *m, const char *name)
 {
     const char *names[MPS__MODELS_KNOWN];
-    bool slot = false;
+    char hint[MPS__HINT_SIZE], slot[MPS__MODELS_KNOWN][MPS__NAME_SIZE];
     int32_t count = 0;
-    for (int32_t k = 0; k < m->known; k++) slot = slot || same_slot(m->name[k], name);
     for (int32_t k = 0; k < m->known; k++)
-        if (!slot || same_slot(m->name[k], name)) names[count++] = m->name[k];
-    return mps__fail(m->context, MPS_E_NAME, "no model \"%s\"; did you mean \"%s\"?", name, mps__nearest(name, names, count));
+        if (same_slot(m->name[k], name)) names[count++] = m->name[k];
+    if (count > 0) return mps__fail(m->context, MPS_E_NAME, "no model \"%.60s\"; %s", name, mps__hint(hint, '"', name, names, count));
+    for (int32_t k = 0; k < m->known; k++) names[k] = m->name[k];
+    const char *near = mps__near(name, names, m->known);
+    if (near) return mps__fail(m->context, MPS_E_NAME, "no model \"%.60s\"; did you mean \"%s\"?", name, near);
+    return mps__fail(m->context, MPS_E_NAME, "no model \"%.60s\"; the slots are %s", name,
+                     mps__list(hint, '"', names, list_slots(m, slot, names)));
 }
 
 mps_status mps__models_use(mps__models *m, const char *name)
@@ -148,20 +168,27 @@ mps_status mps__models_remove(mps__models *m, const char *slot)
 double *mps__models_value(mps__models *m, const char *slot, const char *key, const mps_setting **setting)
 {
     const int32_t which = slot ? find_named(m, slot) : -1;
-    if (which < 0 || !key) {
+    if (which < 0) {
         mps__fail(m->context, MPS_E_NAME, "no active model in slot \"%s\"", slot ? slot : "NULL");
         return NULL;
     }
     const mps_model_ops *ops = m->on[which].ops;
     const char *keys[MPS__SETTINGS];
+    char hint[MPS__HINT_SIZE];
     for (int32_t k = 0; k < ops->setting_count; k++) {
         keys[k] = ops->settings[k].key;
-        if (strcmp(keys[k], key) != 0) continue;
+        if (!key || strcmp(keys[k], key) != 0) continue;
         if (setting) *setting = &ops->settings[k];
         return &m->on[which].k[k];
     }
-    mps__fail(m->context, MPS_E_NAME, "model \"%s\" has no setting \"%s\"; did you mean \"%s\"?", ops->name, key,
-              mps__nearest(key, keys, ops->setting_count));
+    if (ops->setting_count == 0)
+        mps__fail(m->context, MPS_E_NAME, "model \"%s\" has no setting", ops->name);
+    else if (!key)
+        mps__fail(m->context, MPS_E_NAME, "the key of a setting of model \"%s\" is NULL; there are %s", ops->name,
+                  mps__list(hint, '"', keys, ops->setting_count));
+    else
+        mps__fail(m->context, MPS_E_NAME, "model \"%s\" has no setting \"%.60s\"; %s", ops->name, key,
+                  mps__hint(hint, '"', key, keys, ops->setting_count));
     return NULL;
 }
 
@@ -169,6 +196,7 @@ mps_status mps__models_preset(mps__models *m, const char *name)
 {
     MPS__CHECK(m->context, name, "the preset's name is NULL");
     const char *names[PRESET_COUNT];
+    char hint[MPS__HINT_SIZE];
     for (size_t p = 0; p < PRESET_COUNT; p++) {
         names[p] = presets[p].name;
         if (strcmp(name, names[p]) != 0) continue;
@@ -189,5 +217,5 @@ mps_status mps__models_preset(mps__models *m, const char *name)
         }
         return status;
     }
-    return mps__fail(m->context, MPS_E_NAME, "no preset \"%s\"; did you mean \"%s\"?", name, mps__nearest(name, names, PRESET_COUNT));
+    return mps__fail(m->context, MPS_E_NAME, "no preset \"%.60s\"; %s", name, mps__hint(hint, '"', name, names, PRESET_COUNT));
 }

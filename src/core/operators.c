@@ -180,6 +180,7 @@ mps_status mps_op_correction(const mps_stencil *s, double floor, double *b)
 mps_status mps_matrix_inverse_bounded(int32_t dim, const double *m, double floor, double *inverse)
 {
     if ((dim != 2 && dim != 3) || !m || !inverse || !(floor > 0) || !isfinite(floor)) return MPS_E_ARG;
+    if (!mps__finite(m, dim * dim)) return MPS_E_ARG;
     inverse_bounded(m, dim, floor, inverse);
     return MPS_OK;
 }

@@ -212,9 +212,9 @@ static double line_length(const mps__world *w, const mps_probe *c)
 
 static mps_status check_gauge(const mps__world *w, mps_probe *c)
 {
-    MPS__CHECK(w->context, mps__finite(c->direction, w->dim), "probe.direction must be finite");
-    double norm = sqrt(mps__dot(c->direction, c->direction, w->dim));
-    MPS__CHECK(w->context, norm > 0, "probe.direction is zero");
+    const double *a = c->direction, norm = sqrt(mps__dot(a, a, w->dim));
+    MPS__CHECK(w->context, norm > 0 && isfinite(norm), "probe.direction is (%g, %g, %g): must be finite and not zero", a[0], a[1],
+               w->dim == 3 ? a[2] : 0);
     for (int d = 0; d < 3; d++) c->direction[d] = d < w->dim ? c->direction[d] / norm : 0;
     if (c->length == 0) c->length = line_length(w, c);
     MPS__CHECK(w->context, isfinite(c->length) && c->length > 0, "probe.length is %g m: must be > 0, or 0 for the whole domain", c->length);
@@ -225,12 +225,12 @@ static mps_status check_part(mps__world *w, const char *part)
 {
     const mps__particles *s = &w->particles;
     const char *names[MPS__PARTS_MAX];
+    char hint[MPS__HINT_SIZE];
     for (int32_t k = 0; k < s->parts; k++) {
         if (part_matches(part, s->part_name[k])) return MPS_OK;
         names[k] = s->part_name[k];
     }
-    return mps__fail(w->context, MPS_E_NAME, "no part is named \"%.40s\"; the nearest is \"%s\"", part,
-                     mps__nearest(part, names, s->parts));
+    return mps__fail(w->context, MPS_E_NAME, "no part is named \"%.40s\"; %s", part, mps__hint(hint, '"', part, names, s->parts));
 }
 
 static mps_status check_numbers(const mps__world *w, const mps_probe *c)

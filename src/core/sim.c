@@ -52,7 +52,10 @@ static mps_status check_config(mps__context *c, mps_config *f)
                f->gravity[2]);
     MPS__CHECK(c, f->velocity_scale >= 0 && isfinite(f->velocity_scale), "config.velocity_scale is %g: must be >= 0 m/s",
                f->velocity_scale);
-    MPS__CHECK(c, mps__finite(f->domain_min, 3) && mps__finite(f->domain_max, 3), "config.domain_min or domain_max is not finite");
+    for (int d = 0; d < 3; d++) {
+        MPS__CHECK(c, isfinite(f->domain_min[d]), "config.domain_min[%d] is %g: must be finite", d, f->domain_min[d]);
+        MPS__CHECK(c, isfinite(f->domain_max[d]), "config.domain_max[%d] is %g: must be finite", d, f->domain_max[d]);
+    }
     if (f->speed_limit == 0) f->speed_limit = config_default.speed_limit;
     MPS__CHECK(c, f->speed_limit > 0, "config.speed_limit is %g: must be > 0 m/s", f->speed_limit);
     MPS__CHECK(c, !f->allocator.alloc == !f->allocator.release, "config.allocator: alloc and release go together");
@@ -66,8 +69,8 @@ static mps_status set_up(mps_sim *sim, const mps_config *f)
     const char *kernel = f->kernel ? f->kernel : config_default.kernel;
     if (mps_kernel_find(kernel, &w->kernel) != MPS_OK) {
         const char *names[] = {"improved", "original"};
-        return mps__fail(&sim->context, MPS_E_NAME, "config.kernel is \"%s\"; did you mean \"%s\"?", kernel,
-                         mps__nearest(kernel, names, 2));
+        char hint[MPS__HINT_SIZE];
+        return mps__fail(&sim->context, MPS_E_NAME, "config.kernel is \"%.60s\"; %s", kernel, mps__hint(hint, '"', kernel, names, 2));
     }
     for (int d = 0; d < f->dim; d++) w->g[d] = f->gravity[d];
     const double g = sqrt(mps__dot(w->g, w->g, f->dim));
@@ -258,7 +261,8 @@ mps_status mps_model_set(mps_sim *sim, const char *slot, const char *key, double
 
 mps_status mps_model_get(const mps_sim *sim, const char *slot, const char *key, double *value)
 {
-    if (!sim || !value) return MPS_E_ARG;
+    if (!sim) return MPS_E_ARG;
+    MPS__CHECK(mps__sim_context(sim), value, "value is NULL");
     const double *place = mps__models_value((mps__models *)&sim->world.models, slot, key, NULL);
     if (!place) return MPS_E_NAME;
     *value = *place;

@@ -25,9 +25,10 @@ static int find(char (*names)[MPS__NAME_SIZE], int count, const char *name)
 static mps_status unknown(mps__context *c, const char *what, char (*names)[MPS__NAME_SIZE], int count, const char *extra, const char *name)
 {
     const char *list[MPS__SOLVERS_KNOWN + 1];
+    char hint[MPS__HINT_SIZE];
     for (int k = 0; k < count; k++) list[k] = names[k];
     if (extra) list[count++] = extra;
-    return mps__fail(c, MPS_E_NAME, "no %s is called '%.60s'; did you mean '%s'?", what, name, mps__nearest(name, list, count));
+    return mps__fail(c, MPS_E_NAME, "no %s is called '%.60s'; %s", what, name, mps__hint(hint, '\'', name, list, count));
 }
 
 static mps_status check_new_name(mps__context *c, const char *what, char (*names)[MPS__NAME_SIZE], int count, const char *name)

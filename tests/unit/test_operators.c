@@ -428,6 +428,12 @@ static void bad_arguments(void **state)
     assert_int_equal(mps_op_divergence_corrected(&t, in, NULL, out), MPS_E_ARG);
     const double floors[] = {0, -1, NAN, INFINITY};
     for (int k = 0; k < 4; k++) assert_int_equal(mps_op_correction(&t, floors[k], out), MPS_E_ARG);
+    for (int k = 0; k < 4; k++) {
+        double m[4] = {2, 1, 1, 2};
+        assert_int_equal(mps_matrix_inverse_bounded(2, m, 0.2, out), MPS_OK);
+        m[k] = k < 2 ? NAN : INFINITY;
+        assert_int_equal(mps_matrix_inverse_bounded(2, m, 0.2, out), MPS_E_ARG);
+    }
     mps_neighbours_destroy(list);
 }
 

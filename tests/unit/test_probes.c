@@ -199,12 +199,12 @@ static void refusals(void **state)
     REFUSE(MPS_PROBE_FLUID_PRESSURE, p.at[0] = -1, MPS_E_ARG, "probe.at[0] is -1");
     REFUSE(MPS_PROBE_FLUID_PRESSURE, p.at[0] = NAN, MPS_E_ARG, "finite");
     REFUSE(MPS_PROBE_WALL_PRESSURE, p.diameter = -1, MPS_E_ARG, "diameter is -1");
-    REFUSE(MPS_PROBE_GAUGE, p.direction[1] = 0, MPS_E_ARG, "direction is zero");
-    REFUSE(MPS_PROBE_GAUGE, p.direction[0] = NAN, MPS_E_ARG, "direction");
+    REFUSE(MPS_PROBE_GAUGE, p.direction[1] = 0, MPS_E_ARG, "direction is (0, 0, 0)");
+    REFUSE(MPS_PROBE_GAUGE, p.direction[0] = INFINITY, MPS_E_ARG, "direction is (inf, 1, 0)");
     REFUSE(MPS_PROBE_GAUGE, p.length = -1, MPS_E_ARG, "length is -1");
     REFUSE(MPS_PROBE_GAUGE, p.length = INFINITY, MPS_E_ARG, "length is inf");
     REFUSE(MPS_PROBE_GAUGE, p.count_drops = 3, MPS_E_ARG, "count_drops is 3");
-    REFUSE(MPS_PROBE_FORCE, p.part = "tank.x3", MPS_E_NAME, "nearest is \"tank.x0\"");
+    REFUSE(MPS_PROBE_FORCE, p.part = "tank.x3", MPS_E_NAME, "did you mean \"tank.x0\"?");
     REFUSE(MPS_PROBE_FORCE, p.part = "hull.", MPS_E_NAME, "hull.");
     REFUSE(MPS_PROBE_FORCE, p.at[1] = INFINITY, MPS_E_ARG, "finite");
     REFUSE(7, p.type = 7, MPS_E_ARG, "type is 7");

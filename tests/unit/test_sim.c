@@ -62,7 +62,9 @@ static void bad_configuration(void **state)
     REFUSE(threads, -1, MPS_E_ARG, "threads is -1");
     REFUSE(threads, 2000, MPS_E_ARG, "threads is 2000");
     REFUSE(lost_policy, 2, MPS_E_ARG, "lost_policy is 2");
-    REFUSE(domain_max[0], NAN, MPS_E_ARG, "domain");
+    REFUSE(kernel, "wendland", MPS_E_NAME, "\"wendland\"; there are \"improved\", \"original\"");
+    REFUSE(domain_max[0], NAN, MPS_E_ARG, "domain_max[0] is ");
+    REFUSE(domain_min[1], INFINITY, MPS_E_ARG, "domain_min[1] is inf");
     REFUSE(domain_min[1], 1, MPS_E_ARG, "domain axis 0");
     REFUSE(speed_limit, -1, MPS_E_ARG, "speed_limit is -1");
     REFUSE(speed_limit, NAN, MPS_E_ARG, "speed_limit");
@@ -220,7 +222,19 @@ static void suggestions(void **state)
     (void)state;
     mps_sim *sim = new_sim(2, 0.05);
     double v = 0;
-    ASSERT_REFUSED(sim, mps_model_use(sim, "tension"), MPS_E_NAME, "no model \"tension\"; did you mean \"tension.csf\"");
+    ASSERT_REFUSED(sim, mps_model_use(sim, "tension"), MPS_E_NAME, "no model \"tension\"; there are \"tension.csf\", \"tension.jump\"");
+    ASSERT_REFUSED(sim, mps_model_use(sim, "tension.cfs"), MPS_E_NAME, "did you mean \"tension.csf\"?");
+    ASSERT_REFUSED(sim, mps_model_use(sim, "surface."), MPS_E_NAME, "there are \"surface.asymmetry\", \"surface.detached\", ");
+    ASSERT_REFUSED(sim, mps_model_use(sim, "surfce.asymmetry"), MPS_E_NAME, "did you mean \"surface.asymmetry\"?");
+    ASSERT_REFUSED(sim, mps_model_use(sim, "foo"), MPS_E_NAME, "no model \"foo\"; the slots are \"");
+    assert_non_null(strstr(mps_sim_error(sim), "\"surface\", "));
+    assert_null(strstr(strstr(mps_sim_error(sim), "\"surface\"") + 1, "\"surface\"")); /* each once */
+    assert_null(strstr(mps_sim_error(sim), "wall.half"));
+    ASSERT_REFUSED(sim, mps_sim_use_preset(sim, "no such thing"), MPS_E_NAME, "there are \"imps\", ");
+    ASSERT_REFUSED(sim, mps_solver_use(sim, "petsc", NULL), MPS_E_NAME, "there are 'sundials.pcg', ");
+    ASSERT_REFUSED(sim, mps_model_set(sim, "surface", "xyz", 1), MPS_E_NAME, "has no setting \"xyz\"; there are \"");
+    ASSERT_OK(sim, mps_model_use(sim, "gradient.conservative"));
+    ASSERT_REFUSED(sim, mps_model_set(sim, "gradient", "x", 1), MPS_E_NAME, "model \"gradient.conservative\" has no setting");
     ASSERT_REFUSED(sim, mps_sim_use_preset(sim, "ims"), MPS_E_NAME, "\"ims\"; did you mean \"imps\"");
     ASSERT_REFUSED(sim, mps_sim_use_preset(sim, "imps.papr"), MPS_E_NAME, "\"imps.paper\"");
     ASSERT_REFUSED(sim, mps_sim_use_preset(sim, NULL), MPS_E_ARG, "NULL");
@@ -230,7 +244,9 @@ static void suggestions(void **state)
     ASSERT_REFUSED(sim, mps_model_get(sim, "surface", "hihg", &v), MPS_E_NAME, "\"high\"");
     ASSERT_REFUSED(sim, mps_model_set(sim, "surfac", "low", 0.8), MPS_E_NAME, "\"surfac\"");
     ASSERT_REFUSED(sim, mps_model_set(sim, NULL, "low", 0.8), MPS_E_NAME, "NULL");
-    ASSERT_STATUS(sim, mps_model_set(sim, "surface", NULL, 0.8), MPS_E_NAME);
+    ASSERT_REFUSED(sim, mps_model_set(sim, "surface", NULL, 0.8), MPS_E_NAME, "key of a setting of model \"surface.asymmetry\" is NULL");
+    ASSERT_REFUSED(sim, mps_model_get(sim, "surface", NULL, &v), MPS_E_NAME, "is NULL; there are \"");
+    ASSERT_REFUSED(sim, mps_model_get(sim, "surface", "low", NULL), MPS_E_ARG, "value is NULL");
     ASSERT_REFUSED(sim, mps_model_remove(sim, "colision"), MPS_E_NAME, "colision");
     ASSERT_REFUSED(sim, mps_model_remove(sim, NULL), MPS_E_ARG, "NULL");
     ASSERT_REFUSED(sim, mps_solver_use(sim, "sundials.pgc", NULL), MPS_E_NAME, "'sundials.pcg'");
@@ -353,7 +369,7 @@ static void model_registration(void **state)
     REFUSE_MODEL(create, count_create, MPS_E_ARG, "destroy");
     REFUSE_MODEL(setting_count, 1, MPS_E_ARG, "settings");
     REFUSE_MODEL(setting_count, 17, MPS_E_ARG, "settings");
-    REFUSE_MODEL(struct_size, 0, MPS_E_ARG, "struct_size");
+    REFUSE_MODEL(struct_size, 0, MPS_E_ARG, "struct_size is 0: set it to sizeof(mps_model_ops)");
     mps_model_ops m = good_model;
     m.setting_count = 1;
     m.settings = outside;
@@ -398,6 +414,10 @@ static double negative(void *user, double r, double re)
 {
     return (void)user, r - re;
 }
+static double zero(void *user, double r, double re)
+{
+    return (void)user, (void)r, (void)re, 0;
+}
 static double flat(void *user, double r, double re)
 {
     return (void)user, 1 - r / re;
@@ -414,7 +434,11 @@ static void user_kernel(void **state)
     fill_depth(sim, 0.5, 0.3, 0);
     ASSERT_REFUSED(sim, mps_sim_set_kernel(sim, NULL), MPS_E_ARG, "NULL");
     assert_int_equal(mps_kernel_custom(negative, NULL, &k), MPS_OK);
-    ASSERT_REFUSED(sim, mps_sim_set_kernel(sim, &k), MPS_E_ARG, "kernel");
+    ASSERT_REFUSED(sim, mps_sim_set_kernel(sim, &k), MPS_E_ARG, "the kernel is -0.055 at r = 0.05 m of re = 0.105 m");
+    assert_int_equal(mps_kernel_custom(zero, NULL, &k), MPS_OK);
+    ASSERT_REFUSED(sim, mps_sim_set_kernel(sim, &k), MPS_E_ARG, "is 0 at all distances");
+    k.id = 0;
+    ASSERT_REFUSED(sim, mps_sim_set_kernel(sim, &k), MPS_E_ARG, "kernel.id is 0");
     assert_int_equal(mps_kernel_custom(flat, NULL, &k), MPS_OK);
     ASSERT_OK(sim, mps_sim_set_kernel(sim, &k));
     ASSERT_OK(sim, mps_sim_stencil(sim, MPS_NEAR, &s));

@@ -371,10 +371,11 @@ static void bad_time_control(void **state)
     REFUSE(dt, -1e-3, "dt is -0.001");
     REFUSE(dt, NAN, "dt is");
     REFUSE(dt, INFINITY, "dt is inf");
-    REFUSE(cfl, NAN, "NaN");
-    REFUSE(gravity, NAN, "NaN");
-    REFUSE(viscous, NAN, "NaN");
-    REFUSE(dt_max, NAN, "NaN");
+    REFUSE(cfl, NAN, "time_control.cfl is ");
+    REFUSE(gravity, NAN, "time_control.gravity is ");
+    REFUSE(viscous, NAN, "time_control.viscous is ");
+    REFUSE(dt_max, NAN, "time_control.dt_max is ");
+    REFUSE(growth, 0, "growth is 0");
     REFUSE(growth, NAN, "growth");
     REFUSE(growth, 1, "growth is 1");
     REFUSE(dt_min, NAN, "dt_min");
@@ -382,7 +383,7 @@ static void bad_time_control(void **state)
     REFUSE(struct_size, 0, "struct_size");
     c.cfl = c.gravity = c.dt_max = -1;
     ASSERT_REFUSED(sim, mps_sim_set_time_control(sim, &c), MPS_E_ARG, "off");
-    c.dt = 0;
+    c.cfl = c.gravity = c.dt_max = 0; /* as off as -1 */
     ASSERT_REFUSED(sim, mps_sim_set_time_control(sim, &c), MPS_E_ARG, "off");
     c.dt = 1e-3; /* a fixed step needs no limit */
     ASSERT_OK(sim, mps_sim_set_time_control(sim, &c));
