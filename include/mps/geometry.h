@@ -16,7 +16,7 @@ MPS_BEGIN_DECLS
 typedef struct mps_tank {
     uint32_t struct_size; /**< set by mps_tank_init() */
     const char *name;     /**< default "tank" */
-    double lo[3];         /**< lower corner [m] */
+    double lo[3];         /**< lower corner [m]; the whole tank within 1e9 dp of the origin, where its lattice points still differ */
     double size[3];       /**< inner size [m]; rounded to whole spacings, at least 3 dp */
     int32_t open_top;     /**< 1: no wall at the upper y end; the side walls end there */
     int32_t dummy_layers; /**< default 2 */

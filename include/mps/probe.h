@@ -27,13 +27,15 @@ typedef struct mps_probe {
     int32_t type;         /**< MPS_PROBE_... */
     double at[3];         /**< place in the tank's frame [m]; gauge: foot of the line; force: centre of moments */
     double direction[3];  /**< gauge: along the line; default +y */
-    double diameter;      /**< wall pressure: sensor diameter [m], default dp; gauge: width of its band, default 3 dp, at least 2 dp */
+    double diameter;      /**< wall pressure: sensor diameter [m], default dp; gauge: width of its band, default 3 dp; less
+                               than 2 dp is taken for 2 dp */
     double length;        /**< gauge: length of the line [m]; default: to the domain's end */
     const char *part;     /**< force: name of a part, a prefix ending in '.', or NULL for all solids */
     int32_t count_drops;  /**< gauge: 1: the topmost particle in the band, drops and films included */
     double average;       /**< mean over the last `average` seconds [s], see mps_probe_series(); default 0: the value now */
     double rate;          /**< samples a second [Hz] kept for mps_probe_series(), at most 1e9; default 0: none */
-    uint32_t phases;      /**< gauge: the phases that are below the surface, bit 1 << phase for each; default 0: the liquid, all that are
+    uint32_t
+        phases; /**< gauge: the phases that are below the surface, defined before, bit 1 << phase for each; default 0: the liquid, all that are
                                denser than the mean of the lightest and the densest there */
 } mps_probe;
 

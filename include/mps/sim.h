@@ -18,7 +18,7 @@ enum {
 typedef struct mps_config {
     uint32_t struct_size;    /**< set by mps_config_init() */
     int32_t dim;             /**< 2 (default) or 3 */
-    double dp;               /**< initial particle spacing [m], > 0; no default */
+    double dp;               /**< initial particle spacing [m], 1e-12..1e12; no default */
     double gravity[3];       /**< [m/s2], all zero = no gravity; mps_config_init() sets (0, -9.81, 0) */
     const char *kernel;      /**< "improved" (default, W22 (3)), "original" (Z14 (3)); a user's own: mps_sim_set_kernel() */
     double re_near;          /**< radius of n, gradient, divergence [dp]; default 2.1 */

@@ -14,6 +14,9 @@ static const mps_config config_default = {.struct_size = sizeof(mps_config),
                                           .speed_limit = 1000};
 static const mps_phase water = {.struct_size = sizeof(mps_phase), .density = 1000, .viscosity = 1e-3};
 
+/* Spacings whose powers are numbers [m]. */
+static const double DP_MIN = 1e-12, DP_MAX = 1e12;
+
 mps_status mps_config_init(mps_config *config, size_t size)
 {
     return mps__struct_init(config, size, &config_default, sizeof config_default);
@@ -38,7 +41,7 @@ static mps_status check_config(mps__context *c, mps_config *f)
 {
     if (f->dim == 0) f->dim = 2;
     MPS__CHECK(c, f->dim == 2 || f->dim == 3, "config.dim is %d: 2 or 3", f->dim);
-    MPS__CHECK(c, f->dp > 0 && isfinite(f->dp), "config.dp is %g: must be > 0 m", f->dp);
+    MPS__CHECK(c, f->dp >= DP_MIN && f->dp <= DP_MAX, "config.dp is %g m: must be %g..%g m", f->dp, DP_MIN, DP_MAX);
     if (f->re_near == 0) f->re_near = 2.1;
     if (f->re_far == 0) f->re_far = f->dim == 2 ? 3.1 : 2.1;
     MPS__CHECK(c, f->re_near > 1 && f->re_near <= 10, "config.re_near is %g dp: 1 < re_near <= 10", f->re_near);

@@ -9,6 +9,14 @@
 static const mps_solid solid_defaults = {.name = "solid", .dummy_layers = 2};
 static const mps_stl stl_defaults = {.name = "solid", .dummy_layers = 2, .scale = 1};
 
+/* The box of a body in a tank may reach as far as it likes; others make the lattice. */
+static mps_status check_corner(mps_sim *sim, const char *what, const double *lo)
+{
+    if (sim->has_tank && !sim->lattice_of_solids) return MPS_OK;
+    for (int d = 0; d < sim->world.dim; d++) MPS__TRY(mps__place_resolved(sim, what, d, lo[d]));
+    return MPS_OK;
+}
+
 static mps_status check_name(mps_sim *sim, const char *type, const char *name, int32_t layers, char *copy)
 {
     MPS__CHECK(&sim->context, mps__name_copy(copy, MPS__PART_NAME, name), "%s.name \"%.40s\": must have 1..%d characters", type, name,
@@ -28,7 +36,7 @@ static mps_status check_solid(mps_sim *sim, const mps_solid *s)
         MPS__CHECK(c, s->hi[d] - s->lo[d] >= (1 - 1e-6) * sim->world.dp,
                    "the solid's box [%d] is %g .. %g: must be at least dp = %g m long", d, s->lo[d], s->hi[d], sim->world.dp);
     }
-    return MPS_OK;
+    return check_corner(sim, "solid.lo", s->lo);
 }
 
 mps_status mps_solid_init(mps_solid *solid, size_t size)
@@ -112,6 +120,7 @@ static mps_status add_mesh(mps_sim *sim, const char *path, const mps_stl *s, mps
     place_mesh(m, s, add.lo, add.hi);
     MPS__CHECK(&sim->context, mps__finite(add.lo, 3) && mps__finite(add.hi, 3),
                "\"%.200s\": a coordinate is not finite after scaling by %g", path, s->scale);
+    MPS__TRY(check_corner(sim, "the STL file's lower corner ", add.lo));
     MPS__TRY(prepare_mesh(sim, m, path, s->container != 0));
     add.shape = (mps__shape){.dim = 3, .dp = sim->world.dp, .sign = 1, .mesh = m};
     memcpy(built, add.lo, sizeof add.lo);

@@ -31,6 +31,15 @@ mps_status mps__solids_allowed(mps_sim *sim)
     return MPS_OK;
 }
 
+mps_status mps__place_resolved(mps_sim *sim, const char *what, int d, double place)
+{
+    static const double most = 1e9; /* [dp]: rounding is then below the millionth of a spacing that lattice points are told apart by */
+    MPS__CHECK(&sim->context, fabs(place) <= most * sim->world.dp,
+               "%s[%d] puts solids at %g m: places must be within %g m, %g spacings, of the origin", what, d, place, most * sim->world.dp,
+               most);
+    return MPS_OK;
+}
+
 mps_status mps__in_the_way(mps_sim *sim, int64_t i, const double *X, const char *what, const char *name)
 {
     return mps__fail(&sim->context, MPS_E_ARG,

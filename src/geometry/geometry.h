@@ -24,6 +24,8 @@ typedef struct mps__plate_shape {
 /* Whether particles may be added now, and whether solids may. */
 mps_status mps__fill_allowed(mps_sim *sim);
 mps_status mps__solids_allowed(mps_sim *sim);
+/* Lattice points must differ in their coordinates; `what` is what is at fault in the refusal, e.g. "tank.lo". */
+mps_status mps__place_resolved(mps_sim *sim, const char *what, int d, double place);
 /* The refusal of a solid that would stand on fluid particle i, which is at X in the tank's frame; `what` is e.g. "baffle". */
 mps_status mps__in_the_way(mps_sim *sim, int64_t i, const double *X, const char *what, const char *name);
 /* Lattice points of the closed box lo..hi that lie in the last tank; false if there is none. */

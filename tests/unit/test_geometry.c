@@ -313,6 +313,8 @@ static void tank_refusals(void **state)
     REFUSE(bad.size[0] = INFINITY, "size[0]");
     REFUSE(bad.size[0] = 1e30, "size[0]");
     REFUSE(bad.lo[0] = NAN, "lo[0]");
+    REFUSE(bad.lo[0] = 1e15, "lo[0] puts solids at 1e+15 m: places must be within 1e+08 m");
+    REFUSE(bad.lo[1] = -1.1e8, "lo[1] puts solids at -1.1e+08 m");
     REFUSE(bad.dummy_layers = -1, "dummy_layers is -1");
     REFUSE(bad.open_top = 2, "open_top is 2");
     REFUSE(bad.name = "", "name");

@@ -201,6 +201,7 @@ static void refusals(void **state)
     REFUSE(MPS_PROBE_WALL_PRESSURE, p.diameter = -1, MPS_E_ARG, "diameter is -1");
     REFUSE(MPS_PROBE_GAUGE, p.direction[1] = 0, MPS_E_ARG, "direction is (0, 0, 0)");
     REFUSE(MPS_PROBE_GAUGE, p.direction[0] = INFINITY, MPS_E_ARG, "direction is (inf, 1, 0)");
+    REFUSE(MPS_PROBE_GAUGE, p.phases = 8 | 1, MPS_E_ARG, "phases is 0x9: phase 3 is not defined");
     REFUSE(MPS_PROBE_GAUGE, p.length = -1, MPS_E_ARG, "length is -1");
     REFUSE(MPS_PROBE_GAUGE, p.length = INFINITY, MPS_E_ARG, "length is inf");
     REFUSE(MPS_PROBE_GAUGE, p.count_drops = 3, MPS_E_ARG, "count_drops is 3");

@@ -49,6 +49,8 @@ static void bad_configuration(void **state)
     REFUSE(dp, -0.1, MPS_E_ARG, "dp is -0.1");
     REFUSE(dp, NAN, MPS_E_ARG, "dp is");
     REFUSE(dp, INFINITY, MPS_E_ARG, "dp is inf");
+    REFUSE(dp, 1e-300, MPS_E_ARG, "dp is 1e-300 m: must be 1e-12..1e+12 m");
+    REFUSE(dp, 1e300, MPS_E_ARG, "dp is 1e+300 m");
     REFUSE(dim, 1, MPS_E_ARG, "dim is 1: 2 or 3");
     REFUSE(dim, 4, MPS_E_ARG, "dim is 4: 2 or 3");
     REFUSE(gravity[1], NAN, MPS_E_ARG, "gravity");

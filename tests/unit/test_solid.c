@@ -325,6 +325,8 @@ static void refusals(void **state)
     refused(sim, bad, "must be finite");
     bad.hi[1] = 1e9;
     refused(sim, bad, "too many");
+    bad.lo[1] = 1e9 - 1;
+    refused(sim, bad, "solid.lo[1] puts solids at 1e+09 m");
     bad = good;
     bad.invert = 2;
     refused(sim, bad, "solid.invert is 2");
