@@ -43,9 +43,14 @@ typedef struct mps_probe {
 MPS_API mps_status mps_probe_init(mps_probe *probe, size_t size);
 
 /** Add a probe. Solids must be there before.
- *  @param id  out: 0, 1, ...
+ *  @param id  out: 0, 1, ..., never one that was there before
  *  @return MPS_E_ARG (outside the solids' bounding box, no wall particle within 2 dp of a wall probe; says how far), MPS_E_NAME */
 MPS_API mps_status mps_probe_add(mps_sim *sim, const mps_probe *probe, int32_t *id);
+
+/** Remove a probe and its samples, between steps or in the monitor; arrays of its mps_probe_series() are gone. Numbers of other probes
+ *  stay. A wall probe with an average or a rate must go with its walls: without them no further step is done.
+ *  @return MPS_E_ARG: there is no such probe, or it was removed */
+MPS_API mps_status mps_probe_remove(mps_sim *sim, int32_t id);
 
 /** Number of values of a probe, or -1. */
 MPS_API int32_t mps_probe_size(const mps_sim *sim, int32_t id);

@@ -10,6 +10,7 @@ static mps_status find_probe(const mps_sim *sim, int32_t id, mps__probe **probe)
 {
     MPS__CHECK(mps__sim_context(sim), id >= 0 && id < sim->probes.count, "probe %d: there are %lld, counted from 0", (int)id,
                (long long)sim->probes.count);
+    MPS__CHECK(mps__sim_context(sim), !sim->probes.list[id].removed, "probe %d was removed", (int)id);
     *probe = &sim->probes.list[id];
     return MPS_OK;
 }
@@ -26,6 +27,15 @@ mps_status mps_probe_add(mps_sim *sim, const mps_probe *probe, int32_t *id)
     MPS__CHECK(&sim->context, id, "id is NULL");
     MPS__TRY(mps__struct_in(&sim->context, "mps_probe", &p, sizeof p, probe));
     return mps__probes_add(&sim->world, &sim->probes, &p, id);
+}
+
+mps_status mps_probe_remove(mps_sim *sim, int32_t id)
+{
+    if (!sim) return MPS_E_ARG;
+    mps__probe *probe = NULL;
+    MPS__TRY(find_probe(sim, id, &probe));
+    mps__probe_remove(&sim->context, probe);
+    return MPS_OK;
 }
 
 int32_t mps_probe_size(const mps_sim *sim, int32_t id)

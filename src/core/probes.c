@@ -304,6 +304,12 @@ mps_status mps__probes_add(mps__world *w, mps__probes *p, const mps_probe *probe
     return MPS_OK;
 }
 
+void mps__probe_remove(mps__context *c, mps__probe *p)
+{
+    free_probe(c, p);
+    *p = (mps__probe){.removed = true};
+}
+
 int32_t mps__probe_values(const mps__world *w, const mps__probe *p)
 {
     if (p->config.type != MPS_PROBE_FORCE) return 1;
@@ -345,6 +351,7 @@ mps_status mps__probe_take(mps__world *w, mps__probe *p)
 mps_status mps__probes_take(mps__world *w, mps__probes *p)
 {
     for (int64_t k = 0; k < p->count; k++) {
+        if (p->list[k].removed) continue;
         const mps_status status = mps__probe_take(w, &p->list[k]);
         if (status < 0) return mps__fail(w->context, status, "no step was done, probe %d: %.400s", (int)k, w->context->error);
     }

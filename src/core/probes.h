@@ -13,6 +13,7 @@ typedef struct mps__probe {
     char part_name[MPS__PART_NAME];
     mps__sensor sensor; /* of a wall pressure */
     mps__series series; /* of an average or a rate */
+    bool removed;       /* its place in the list stays: numbers are not used again */
 } mps__probe;
 
 typedef struct mps__probes {
@@ -22,6 +23,7 @@ typedef struct mps__probes {
 
 void mps__probes_free(mps__context *c, mps__probes *p);
 mps_status mps__probes_add(mps__world *w, mps__probes *p, const mps_probe *probe, int32_t *id);
+void mps__probe_remove(mps__context *c, mps__probe *p);
 int32_t mps__probe_values(const mps__world *w, const mps__probe *p);
 /* The present value. */
 mps_status mps__probe_measure(mps__world *w, mps__probe *p, double *values);

@@ -259,13 +259,72 @@ static void refusals(void **state)
     mps_sim_destroy(sim);
 }
 
+/* ---- removing ---- */
+
+/* The numbers of other probes stay and are not given again; their samples go on. */
+static void removed_probes(void **state)
+{
+    (void)state;
+    const int64_t *ids;
+    const int32_t *kinds;
+    int64_t walls[2000], count = 0, samples = 0;
+    int32_t id[4];
+    double value;
+    mps_sim *sim = new_sim(2, 0.05);
+    mps_probe wall, gauge;
+    add_tank(sim, 0.5, 0.5, 0);
+    fill_depth(sim, 0.5, 0.3, 0);
+    assert_int_equal(mps_probe_init(&wall, sizeof wall), MPS_OK);
+    wall.at[1] = 0.1;
+    wall.rate = 1e4;
+    wall.average = 1e-3;
+    assert_int_equal(mps_probe_init(&gauge, sizeof gauge), MPS_OK);
+    gauge.type = MPS_PROBE_GAUGE;
+    gauge.at[0] = 0.25;
+    gauge.rate = 1e4;
+    ASSERT_OK(sim, mps_probe_add(sim, &gauge, &id[0]));
+    ASSERT_OK(sim, mps_probe_add(sim, &wall, &id[1]));
+    ASSERT_OK(sim, mps_probe_add(sim, &gauge, &id[2]));
+    ASSERT_OK(sim, mps_run(sim, 2e-3, NULL, NULL));
+    ASSERT_OK(sim, mps_particles_tags(sim, &ids, &kinds, NULL, NULL));
+    for (int64_t i = 0; i < mps_particles_count(sim, -1); i++)
+        if (kinds[i] == MPS_WALL) walls[count++] = ids[i];
+    ASSERT_OK(sim, mps_particles_remove(sim, count, walls));
+    ASSERT_REFUSED(sim, mps_step(sim, 1e-4, NULL), MPS_E_STATE, "probe 1");
+    ASSERT_OK(sim, mps_probe_remove(sim, id[1]));
+    ASSERT_OK(sim, mps_run(sim, 3e-3, NULL, NULL));
+    ASSERT_REFUSED(sim, mps_probe_read(sim, id[1], &value), MPS_E_ARG, "probe 1 was removed");
+    ASSERT_REFUSED(sim, mps_probe_series(sim, id[1], NULL, NULL, NULL), MPS_E_ARG, "probe 1 was removed");
+    ASSERT_REFUSED(sim, mps_probe_remove(sim, id[1]), MPS_E_ARG, "probe 1 was removed");
+    assert_int_equal(mps_probe_size(sim, id[1]), -1);
+    for (int k = 0; k < 3; k += 2) {
+        ASSERT_OK(sim, mps_probe_series(sim, id[k], &samples, NULL, NULL));
+        assert_int_equal(samples, 31);
+    }
+    ASSERT_OK(sim, mps_probe_add(sim, &gauge, &id[3]));
+    assert_int_equal(id[3], 3);
+    ASSERT_OK(sim, mps_probe_remove(sim, id[3])); /* the last one too */
+    ASSERT_REFUSED(sim, mps_probe_remove(sim, 4), MPS_E_ARG, "probe 4: there are 4");
+    ASSERT_REFUSED(sim, mps_probe_remove(sim, -1), MPS_E_ARG, "probe -1");
+    assert_int_equal(mps_probe_remove(NULL, 0), MPS_E_ARG);
+    ASSERT_OK(sim, mps_probe_read(sim, id[2], &value));
+    mps_sim_destroy(sim);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(average_of_a_line), cmocka_unit_test(averages_need_little_memory), cmocka_unit_test(average_before_the_first_step),
-        cmocka_unit_test(samples_of_a_line), cmocka_unit_test(samples_from_the_middle),     cmocka_unit_test(clearing),
-        cmocka_unit_test(samples_of_forces), cmocka_unit_test(samples_of_a_gauge),          cmocka_unit_test(walls_that_are_gone),
+        cmocka_unit_test(average_of_a_line),
+        cmocka_unit_test(averages_need_little_memory),
+        cmocka_unit_test(average_before_the_first_step),
+        cmocka_unit_test(samples_of_a_line),
+        cmocka_unit_test(samples_from_the_middle),
+        cmocka_unit_test(clearing),
+        cmocka_unit_test(samples_of_forces),
+        cmocka_unit_test(samples_of_a_gauge),
+        cmocka_unit_test(walls_that_are_gone),
         cmocka_unit_test(refusals),
+        cmocka_unit_test(removed_probes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
