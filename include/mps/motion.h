@@ -43,8 +43,12 @@ typedef struct mps_harmonic {
 /** Sum of harmonics; copied. @param count >= 1 */
 MPS_API mps_status mps_motion_set_harmonics(mps_sim *sim, int32_t count, const mps_harmonic *harmonics);
 
-/** Motion from a table, interpolated by a natural cubic spline (C2); copied. Outside the table the end value is held
- *  and the run is stopped with MPS_E_STATE once t is beyond the last row by more than 1e-9 s.
+/** Motion from a table, interpolated by a natural cubic spline (C2); copied. Its accelerations at the first and last row are zero, its
+ *  velocities there are not: a tank that is to stop needs some rows of equal values at the end.
+ *
+ *  A step that would end beyond the last row by more than 1e-9 s is not done: MPS_E_STATE, and the simulation can go on with another
+ *  motion. mps_run() to the time of the last row meets it exactly; mps_step() does not cut its step to it, but takes at most the dt_max it
+ *  is given. mps_motion_clear() then leaves the tank where it is, at once without velocity.
  *  @param rows    >= 2
  *  @param t       [rows] strictly increasing, t[0] <= present time [s]
  *  @param dofs    number of columns, 1..6

@@ -128,7 +128,8 @@ MPS_API mps_status mps_neighbours_create(int32_t dim, double dp, const mps_alloc
 /** Destroy a list; NULL is allowed. */
 MPS_API void mps_neighbours_destroy(mps_neighbours *list);
 
-/** Find all pairs of two radii; positions are borrowed until the next build.
+/** Find all pairs of two radii; positions are borrowed until the next build. Particles nearer than 1e-6 dp to each other are no pair: what
+ *  has no distance has no direction (so are the two faces of a thin plate). They do not add to each other's sums.
  *  @param n particles, 1..2^31-1 @param x [n*dim] finite @param re_near,re_far radii [m], 0 < re_near <= re_far
  *  @return MPS_E_ARG, MPS_E_NOMEM (the list is empty then) */
 MPS_API mps_status mps_neighbours_build(mps_neighbours *list, int64_t n, const double *x, double re_near, double re_far);

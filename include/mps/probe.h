@@ -18,7 +18,8 @@ enum {
                                       on a lattice; 0 if `at` is dry. Beside a wall the band's centre is 2/3 diameter off it, from there
                                       the surface goes on straight. A film one particle thick is no surface, two are.
                                       Below another phase: the interface, half a spacing above these centres, less that half spacing */
-    MPS_PROBE_FORCE = 3           /**< dim + (1 in 2-D, 3 in 3-D) values [N, N m; per m in 2-D]: pressure force and moment about `at` */
+    MPS_PROBE_FORCE = 3           /**< dim + (1 in 2-D, 3 in 3-D) values [N, N m; per m in 2-D]: pressure force and moment about `at`,
+                                      which moves with the tank; components along the axes of the lab, not of the tank */
 };
 
 /** Definition of a probe. */
@@ -102,7 +103,10 @@ typedef struct mps_energy {
 /** Set struct_size and zero. */
 MPS_API mps_status mps_energy_init(mps_energy *energy, size_t size);
 
-/** Measure energies now. */
+/** Measure energies now. Mass and volume are those of the particles: the half cells of liquid that walls stand for are none. The liquid
+ *  has dp/2 times the area (in 2-D the length) of its wetted walls more volume than said here. On a lattice the half cells above the
+ *  centres of the top layer make up for those at the floor, so that fluid between the side walls of a tank of length L lacks dp/L of it,
+ *  in 3-D also dp over its width. */
 MPS_API mps_status mps_energy_get(mps_sim *sim, mps_energy *energy);
 
 /** Momentum of the fluid (per metre of width in 2-D) and what has changed it since creation [kg m/s]:
