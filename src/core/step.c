@@ -575,17 +575,24 @@ static mps_status jumped(const step_state *q, int64_t i, double limit)
                      distance / q->stage.dt, limit);
 }
 
-/* What moves farther in a step than the layers of the solids are deep may come out behind them, and nobody would see that it went through.
- * Steps that follow the speed never get there. */
+/* Steps that follow the speed never get there, unless a stranger's model pushes. */
+static bool may_jump(const mps__world *w)
+{
+    const mps_time_control *c = &w->control;
+    bool foreign = false;
+    for (int32_t m = 0; m < w->models.active; m++) foreign = foreign || mps__models_foreign(&w->models, &w->models.on[m]);
+    return c->dt > 0 || c->cfl <= 0 || c->cfl > 1 || foreign;
+}
+
+/* What moves farther in a step than the layers of the solids are deep may come out behind them, and nobody would see that it went through. */
 static mps_status check_moves(const step_state *q)
 {
     mps__world *w = q->w;
     const mps__particles *s = &w->particles;
-    const mps_time_control *c = &w->control;
     const double limit = (1 + (w->layers > 0 ? w->layers : layers_unknown)) * w->dp;
     double most = 0;
     int64_t first = s->n, solids = 0;
-    if (c->dt <= 0 && c->cfl > 0 && c->cfl <= 1) return MPS_OK;
+    if (!may_jump(w)) return MPS_OK;
 #pragma omp parallel for num_threads(w->threads) reduction(max : most) reduction(min : first) reduction(+ : solids) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         const double distance = s->kind[i] == MPS_FLUID ? moved(q, i) : 0;
@@ -594,7 +601,7 @@ static mps_status check_moves(const step_state *q)
         if (distance > limit) first = i < first ? i : first;
     }
     if (solids > 0 && first < s->n) return jumped(q, first, limit);
-    if (c->dt > 0 && most > w->dp && !w->moves_told) {
+    if (w->control.dt > 0 && most > w->dp && !w->moves_told) {
         w->moves_told = true;
         mps__log(
             w->context, MPS_LOG_WARNING,

@@ -17,7 +17,7 @@ static const char *const verb_name[VERBS] = {"classify", "force", "source", "gra
 static struct {
     int fail;        /* verb that fails, -1: none */
     int silent;      /* ... without mps_stage_fail() */
-    int spoil;       /* 1: NaN in a velocity, 2: in an acceleration, 3: a velocity beyond the limit */
+    int spoil;       /* 1: NaN in a velocity, 2: in an acceleration, 3: a velocity beyond the limit, 4: a shift through the walls */
     int64_t victim;  /* id of the spoilt particle */
     double dt_limit; /* INFINITY: none */
     int32_t region;  /* what classify leaves at the victim, MPS_REGION_INNER: nothing */
@@ -69,7 +69,9 @@ static int gradient(void *self, const double *k, mps_stage *s, double *a)
 }
 static int shift(void *self, const double *k, mps_stage *s, double *dx)
 {
-    return (void)self, (void)k, (void)dx, verb(s, SHIFT);
+    (void)self, (void)k;
+    if (test.spoil == 4) dx[place_of(s, test.victim) * s->dim] += 4 * s->dp;
+    return verb(s, SHIFT);
 }
 static double dt_limit(void *self, const double *k, const mps_stage *s)
 {
@@ -335,7 +337,7 @@ static void diverged(void **state)
            test.victim < mps_particles_count(sim, -1) - mps_particles_count(sim, MPS_FLUID) + 10)
         test.victim++;
     const picture before = take_picture(sim);
-    for (test.spoil = 1; test.spoil <= 3; test.spoil++) {
+    for (test.spoil = 1; test.spoil <= 4; test.spoil++) {
         snprintf(particle, sizeof particle, "particle %lld at (%g, %g", (long long)test.victim, before.value[2 * test.victim],
                  before.value[2 * test.victim + 1]);
         ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_DIVERGED, particle);
