@@ -550,67 +550,6 @@ static mps_status check_result(step_state *q)
         s->t, (long long)s->id[worst], x[0], x[1], s->dim == 3 ? x[2] : 0, u[0], u[1], s->dim == 3 ? u[2] : 0, s->p[worst], w->speed_limit);
 }
 
-/* Layers of dummies behind walls that a user gave particle by particle. */
-static const int32_t layers_unknown = 2;
-
-/* How far a fluid particle went with respect to the tank. */
-static double moved(const step_state *q, int64_t i)
-{
-    const mps__world *w = q->w;
-    double from[3], to[3], square = 0;
-    mps__motion_to_tank(&w->motion, &w->motion.now, w->work.x0 + i * w->dim, from);
-    mps__motion_to_tank(&w->motion, &q->pose, w->particles.x + i * w->dim, to);
-    for (int d = 0; d < w->dim; d++) square += (to[d] - from[d]) * (to[d] - from[d]);
-    return sqrt(square);
-}
-
-static mps_status jumped(const step_state *q, int64_t i, double limit)
-{
-    const mps__world *w = q->w;
-    const double *x = w->work.x0 + i * w->dim, distance = moved(q, i);
-    return mps__fail(w->context, MPS_E_DIVERGED,
-                     "t = %.9g s: fluid particle %lld at (%g, %g, %g) m would move %g m in a step of %g s, at %g m/s; allowed: at most "
-                     "%g m, as deep as walls and their dummies are. Take a shorter step, or an adaptive one",
-                     q->stage.t, (long long)w->particles.id[i], x[0], x[1], w->dim == 3 ? x[2] : 0, distance, q->stage.dt,
-                     distance / q->stage.dt, limit);
-}
-
-/* Steps that follow the speed never get there, unless a stranger's model pushes. */
-static bool may_jump(const mps__world *w)
-{
-    const mps_time_control *c = &w->control;
-    bool foreign = false;
-    for (int32_t m = 0; m < w->models.active; m++) foreign = foreign || mps__models_foreign(&w->models, &w->models.on[m]);
-    return c->dt > 0 || c->cfl <= 0 || c->cfl > 1 || foreign;
-}
-
-/* What moves farther in a step than the layers of the solids are deep may come out behind them, and nobody would see that it went through. */
-static mps_status check_moves(const step_state *q)
-{
-    mps__world *w = q->w;
-    const mps__particles *s = &w->particles;
-    const double limit = (1 + (w->layers > 0 ? w->layers : layers_unknown)) * w->dp;
-    double most = 0;
-    int64_t first = s->n, solids = 0;
-    if (!may_jump(w)) return MPS_OK;
-#pragma omp parallel for num_threads(w->threads) reduction(max : most) reduction(min : first) reduction(+ : solids) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) {
-        const double distance = s->kind[i] == MPS_FLUID ? moved(q, i) : 0;
-        solids += s->kind[i] != MPS_FLUID;
-        most = distance > most ? distance : most;
-        if (distance > limit) first = i < first ? i : first;
-    }
-    if (solids > 0 && first < s->n) return jumped(q, first, limit);
-    if (w->control.dt > 0 && most > w->dp && !w->moves_told) {
-        w->moves_told = true;
-        mps__log(
-            w->context, MPS_LOG_WARNING,
-            "t = %.9g s: in a fixed step of %g s fluid moves up to %g m, more than a spacing of %g m: the step is too long for its speed",
-            q->stage.t, q->stage.dt, most, w->dp);
-    }
-    return MPS_OK;
-}
-
 static void restore_state(const step_state *q)
 {
     const mps__world *w = q->w;
@@ -627,7 +566,7 @@ static mps_status run_stages(step_state *q)
     MPS__TRY(project(q));
     MPS__TRY(correct(q));
     MPS__TRY(check_result(q));
-    return check_moves(q);
+    return mps__world_check_moves(q->w, &q->pose, q->stage.dt);
 }
 
 static void commit(step_state *q)

@@ -96,6 +96,8 @@ void mps__world_note_phases(const mps__world *w);
 double mps__world_speed(const mps__world *w);
 /* One step, undone if it fails. step.c */
 mps_status mps__world_step(mps__world *w, double dt_max);
+/* Fluid that passes a wall in a step of dt that ends at a pose; the places before it are work.x0. moves.c */
+mps_status mps__world_check_moves(mps__world *w, const mps__pose *next, double dt);
 /* Bounding box of the domain in the tank's frame. False without solids and without a given domain. */
 bool mps__world_domain(const mps__world *w, double lo[3], double hi[3]);
 

@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Layer 6: how far fluid goes in a step, against what the walls can hold. */
+#include "world.h"
+
+/* Layers of dummies behind walls that a user gave particle by particle. */
+static const int32_t layers_unknown = 2;
+
+static double limit_of(const mps__world *w)
+{
+    return (1 + (w->layers > 0 ? w->layers : layers_unknown)) * w->dp;
+}
+
+/* How far a fluid particle went with respect to the tank. */
+static double moved(const mps__world *w, const mps__pose *next, int64_t i)
+{
+    double from[3], to[3], square = 0;
+    mps__motion_to_tank(&w->motion, &w->motion.now, w->work.x0 + i * w->dim, from);
+    mps__motion_to_tank(&w->motion, next, w->particles.x + i * w->dim, to);
+    for (int d = 0; d < w->dim; d++) square += (to[d] - from[d]) * (to[d] - from[d]);
+    return sqrt(square);
+}
+
+static mps_status jumped(const mps__world *w, const mps__pose *next, double dt, int64_t i)
+{
+    const double *x = w->work.x0 + i * w->dim, distance = moved(w, next, i);
+    return mps__fail(w->context, MPS_E_DIVERGED,
+                     "t = %.9g s: fluid particle %lld at (%g, %g, %g) m would move %g m in a step of %g s, at %g m/s; allowed: at most "
+                     "%g m, as deep as walls and their dummies are. Take a shorter step, or an adaptive one",
+                     w->info.t, (long long)w->particles.id[i], x[0], x[1], w->dim == 3 ? x[2] : 0, distance, dt, distance / dt,
+                     limit_of(w));
+}
+
+/* Steps that follow the speed never get there, unless a stranger's model pushes. */
+static bool may_jump(const mps__world *w)
+{
+    const mps_time_control *c = &w->control;
+    bool foreign = false;
+    for (int32_t m = 0; m < w->models.active; m++) foreign = foreign || mps__models_foreign(&w->models, &w->models.on[m]);
+    return c->dt > 0 || c->cfl <= 0 || c->cfl > 1 || foreign;
+}
+
+/* What moves farther in a step than the layers of the solids are deep may come out behind them, and nobody would see that it went through. */
+mps_status mps__world_check_moves(mps__world *w, const mps__pose *next, double dt)
+{
+    const mps__particles *s = &w->particles;
+    const double limit = limit_of(w);
+    double most = 0;
+    int64_t first = s->n, solids = 0;
+    if (!may_jump(w)) return MPS_OK;
+#pragma omp parallel for num_threads(w->threads) reduction(max : most) reduction(min : first) reduction(+ : solids) schedule(static)
+    for (int64_t i = 0; i < s->n; i++) {
+        const double distance = s->kind[i] == MPS_FLUID ? moved(w, next, i) : 0;
+        solids += s->kind[i] != MPS_FLUID;
+        most = distance > most ? distance : most;
+        if (distance > limit) first = i < first ? i : first;
+    }
+    if (solids > 0 && first < s->n) return jumped(w, next, dt, first);
+    if (w->control.dt > 0 && most > w->dp && !w->moves_told) {
+        w->moves_told = true;
+        mps__log(
+            w->context, MPS_LOG_WARNING,
+            "t = %.9g s: in a fixed step of %g s fluid moves up to %g m, more than a spacing of %g m: the step is too long for its speed",
+            w->info.t, dt, most, w->dp);
+    }
+    return MPS_OK;
+}
