@@ -27,41 +27,41 @@ enum {
 
 /** Everything a verb may see; rows are particles in the present order. All arrays are borrowed for the call. */
 typedef struct mps_stage {
-    uint32_t struct_size;     /**< sizeof(mps_stage) */
-    int32_t dim;              /**< 2 or 3 */
-    int32_t threads;          /**< OpenMP threads to use */
-    int32_t phases;           /**< phases defined */
-    int64_t n;                /**< particles */
-    int64_t step;             /**< number of this step, from 1 */
-    double t;                 /**< time at the beginning of the step [s] */
-    double dt;                /**< step [s] */
-    double dp;                /**< spacing [m] */
-    double velocity_scale;    /**< U_g [m/s] */
-    double g[3];              /**< gravity [m/s2] */
-    const int32_t *kind;      /**< [n] MPS_FLUID ... */
-    const int32_t *phase;     /**< [n] */
-    const int64_t *id;        /**< [n] */
-    const double *x;          /**< [n*dim] positions at the beginning of the step [m] */
-    double *u;                /**< [n*dim] velocities [m/s]; of walls: the tank's over this step; written by `velocity` */
-    double *p;                /**< [n] pressures [Pa]; from `gradient` on the new ones */
-    const double *density;    /**< [n] rho [kg/m3] */
-    const double *viscosity;  /**< [16] mu of the phases [Pa s] */
-    double *tank_accel;       /**< [n*dim] acceleration over this step of the rigid tank at the particle's place, solid or fluid: the motion
+    uint32_t struct_size;    /**< sizeof(mps_stage) */
+    int32_t dim;             /**< 2 or 3 */
+    int32_t threads;         /**< OpenMP threads to use */
+    int32_t phases;          /**< phases defined */
+    int64_t n;               /**< particles */
+    int64_t step;            /**< number of this step, from 1 */
+    double t;                /**< time at the beginning of the step [s] */
+    double dt;               /**< step [s] */
+    double dp;               /**< spacing [m] */
+    double velocity_scale;   /**< U_g [m/s] */
+    double g[3];             /**< gravity [m/s2] */
+    const int32_t *kind;     /**< [n] MPS_FLUID ... */
+    const int32_t *phase;    /**< [n] */
+    const int64_t *id;       /**< [n] */
+    const double *x;         /**< [n*dim] positions at the beginning of the step [m] */
+    double *u;               /**< [n*dim] velocities [m/s]; of walls: the tank's over this step; written by `velocity` */
+    double *p;               /**< [n] pressures [Pa]; from `gradient` on the new ones */
+    const double *density;   /**< [n] rho [kg/m3] */
+    const double *viscosity; /**< [16] mu of the phases [Pa s] */
+    double *tank_accel;      /**< [n*dim] acceleration over this step of the rigid tank at the particle's place, solid or fluid: the motion
                                  from which pressures are reckoned; g in a body of fluid that falls freely; classify may change it [m/s2] */
-    const double *area;       /**< [n*dim] wetted area vector of wall particles, into the fluid */
-    const int32_t *wall_of;   /**< [n] nearest wall particle of a dummy, -1: none near */
-    double *number_density;   /**< [n] sum W over the near pairs, kept where a solid has no fluid about it; classify may change it */
-    double *volume;           /**< [n] mps_op_volume_deviation() over the far pairs; classify may change it */
-    const double *asymmetry;  /**< [n*dim] A_i over the near pairs, W22 (11) */
-    int32_t *region;          /**< [n] MPS_REGION_..., written by classify; fluid and walls arrive INNER, dummies DRY */
-    double *wet;              /**< [n] share 0..1 of a wall particle's fluid side that holds fluid, written by classify; arrives 1 */
-    double *correction;       /**< [n*dim*dim] B_i, symmetric, written by classify; arrives as the unit matrix */
-    const mps_stencil *near;  /**< pairs within re_near; rows of solids without fluid within the radii may be empty */
-    const mps_stencil *far;   /**< pairs within re_far, likewise; row i of one need not begin where row i of the other does */
-    void *host;               /**< private */
-    double *density_smooth;   /**< [n] density for operators of the pressure, written by classify; arrives as a copy of density [kg/m3] */
-    const double *tension;    /**< [16*16] sigma between two phases by mps_sim_set_tension() [N/m], symmetric; < 0: not set */
-    int32_t level_free;       /**< from `gradient` on, 1: nothing fixed the level of the pressures, their mean is 0; else 0 */
+    const double *area;      /**< [n*dim] wetted area vector of wall particles, into the fluid */
+    const int32_t *wall_of;  /**< [n] nearest wall particle of a dummy, -1: none near */
+    double *number_density;  /**< [n] sum W over the near pairs, kept where a solid has no fluid about it; classify may change it */
+    double *volume;          /**< [n] mps_op_volume_deviation() over the far pairs; classify may change it */
+    const double *asymmetry; /**< [n*dim] A_i over the near pairs, W22 (11) */
+    int32_t *region;         /**< [n] MPS_REGION_..., written by classify; fluid and walls arrive INNER, dummies DRY */
+    double *wet;             /**< [n] share 0..1 of a wall particle's fluid side that holds fluid, written by classify; arrives 1 */
+    double *correction;      /**< [n*dim*dim] B_i, symmetric, written by classify; arrives as the unit matrix */
+    const mps_stencil *near; /**< pairs within re_near; rows of solids without fluid within the radii may be empty */
+    const mps_stencil *far;  /**< pairs within re_far, likewise; row i of one need not begin where row i of the other does */
+    void *host;              /**< private */
+    double *density_smooth;  /**< [n] density for operators of the pressure, written by classify; arrives as a copy of density [kg/m3] */
+    const double *tension;   /**< [16*16] sigma between two phases by mps_sim_set_tension() [N/m], symmetric; < 0: not set */
+    int32_t level_free;      /**< from `gradient` on, 1: nothing fixed the level of the pressures, their mean is 0; else 0 */
     double *
         capillary; /**< [n] sigma kappa: what a phase has more pressure than the other across an interface, written by classify; arrives 0 [Pa] */
     double
