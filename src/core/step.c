@@ -178,7 +178,10 @@ static void tank_velocity(const mps__world *w, const double *X, double *u)
 /* Whether the tank has the same place in both poses. */
 static bool same_place(const mps__pose *a, const mps__pose *b)
 {
-    return memcmp(a->state.value, b->state.value, sizeof a->state.value) == 0 && memcmp(a->rotation, b->rotation, sizeof a->rotation) == 0;
+    bool same = true;
+    for (int k = 0; k < MPS_DOF_COUNT; k++) same = same && a->state.value[k] == b->state.value[k];
+    for (int k = 0; k < 9; k++) same = same && a->rotation[k] == b->rotation[k];
+    return same;
 }
 
 /* Whether the tank neither moves in this step nor was moving before it. */
