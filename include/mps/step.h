@@ -65,8 +65,9 @@ MPS_API mps_status mps_step_info_init(mps_step_info *info, size_t size);
  *  @return MPS_OK, MPS_W_NOT_CONVERGED; MPS_E_DIVERGED (what is not finite or faster than mps_config.speed_limit; a step below dt_min;
  *          with a fixed step, a cfl that is off or above 1, or a plug-in among the models: fluid that would move farther than walls and
  *          dummies are deep, 1 + dummy_layers spacings), MPS_E_LOST, MPS_E_SOLVER, MPS_E_NOMEM, MPS_E_PLUGIN (a model, built in or
- *          not, cannot go on: no gas, or faster than sound; a plug-in left a region or dt_limit that there is not), MPS_E_STATE (no fluid; rows of a nonlinear gas with a solver of linear ones)
- *          (positions, velocities, pressures and time are as before the call) */
+ *          not, cannot go on: no gas, or faster than sound; a plug-in left a region or dt_limit that there is not), MPS_E_STATE (no
+ *          fluid; rows of a nonlinear gas with a solver of linear ones); after an error positions, velocities, pressures and time are as
+ *          before the call, and particles that were lost in it are back */
 MPS_API mps_status mps_step(mps_sim *sim, double dt_max, mps_step_info *info);
 
 /** Called after every step of mps_run(); non-zero stops the run. Refused there with MPS_E_STATE: mps_step(), mps_run(),

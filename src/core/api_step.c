@@ -108,6 +108,7 @@ static mps_status bad_kernel(mps_sim *sim, const mps_kernel *kernel)
     const int most = w->dim * reach * reach;
     MPS__CHECK(&sim->context, kernel->id >= MPS_KERNEL_IMPROVED && kernel->id <= MPS_KERNEL_CUSTOM,
                "kernel.id is %d: fill it with mps_kernel_find() or mps_kernel_custom()", kernel->id);
+    MPS__CHECK(&sim->context, kernel->id != MPS_KERNEL_CUSTOM || kernel->fn, "kernel.fn is NULL: fill it with mps_kernel_custom()");
     for (int square = 1; square <= most; square++) { /* more than the distances of a lattice: the first bad one is named */
         const double r = w->dp * sqrt(square), value = mps_kernel_value(kernel, r, w->re_near);
         MPS__CHECK(&sim->context, value >= 0 && isfinite(value), "the kernel is %g at r = %g m of re = %g m: must be >= 0 and finite",

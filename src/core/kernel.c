@@ -2,6 +2,7 @@
 /* Weight functions by name or callback, and their constants on a full lattice. */
 #include <math.h>
 #include <mps/operators.h>
+#include <stdbool.h>
 #include <string.h>
 
 mps_status mps_kernel_find(const char *name, mps_kernel *kernel)
@@ -20,15 +21,21 @@ mps_status mps_kernel_custom(mps_kernel_fn fn, void *user, mps_kernel *kernel)
     return MPS_OK;
 }
 
+static bool usable(const mps_kernel *kernel)
+{
+    return kernel && kernel->id >= MPS_KERNEL_IMPROVED && kernel->id <= MPS_KERNEL_CUSTOM &&
+           (kernel->id != MPS_KERNEL_CUSTOM || kernel->fn);
+}
+
 double mps_kernel_value(const mps_kernel *kernel, double r, double re)
 {
-    if (!kernel || kernel->id < MPS_KERNEL_IMPROVED || kernel->id > MPS_KERNEL_CUSTOM || !(r >= 0) || !(r < re)) return 0.0;
+    if (!usable(kernel) || !(r >= 0) || !(r < re)) return 0.0;
     return mps_kernel_weight(kernel, r, re);
 }
 
 mps_status mps_lattice_constants(const mps_kernel *kernel, int32_t dim, double dp, double re, double *n0, double *lambda)
 {
-    if (!kernel || kernel->id < MPS_KERNEL_IMPROVED || kernel->id > MPS_KERNEL_CUSTOM) return MPS_E_ARG;
+    if (!usable(kernel)) return MPS_E_ARG;
     if ((dim != 2 && dim != 3) || !(dp > 0) || !(re > dp) || !(re < 100 * dp)) return MPS_E_ARG;
     const int reach = (int)(re / dp) + 1, depth = dim == 3 ? reach : 0;
     double n = 0, moment = 0;

@@ -612,6 +612,7 @@ static mps_status try_step(step_state *q, double dt_max, double *planned)
 {
     mps__world *w = q->w;
     q->budget = w->budget;
+    if (w->aside > 0) mps__budget_book_added(w, &q->budget);
     start(w, &q->budget);
     MPS__TRY(turn_areas(w));
     set_stage(q);
@@ -620,23 +621,19 @@ static mps_status try_step(step_state *q, double dt_max, double *planned)
     return run_stages(q);
 }
 
-/* Books what has come, changed or gone since the last step, and who is lost now, whatever becomes of this step. */
-static mps_status find_neighbours(mps__world *w)
+static bool any_fluid(const mps__world *w)
 {
-    const int64_t lost = w->info.lost;
-    mps__budget_update(w, &w->budget);
-    const mps_status status = mps__world_neighbours(w);
-    if (w->info.lost > lost) mps__budget_book_added(w, &w->budget);
-    return status;
+    for (int64_t i = 0; i < w->particles.n; i++)
+        if (w->particles.kind[i] == MPS_FLUID) return true;
+    return false;
 }
 
 mps_status mps__world_step(mps__world *w, double dt_max)
 {
     step_state q = {.w = w, .clock = mps__clock()};
-    bool fluid = false;
-    for (int64_t i = 0; i < w->particles.n && !fluid; i++) fluid = w->particles.kind[i] == MPS_FLUID;
-    if (!fluid) return mps__fail(w->context, MPS_E_STATE, "there is no fluid particle to step");
-    MPS__TRY(find_neighbours(w));
+    if (!any_fluid(w)) return mps__fail(w->context, MPS_E_STATE, "there is no fluid particle to step");
+    mps__budget_update(w, &w->budget); /* what has come, changed or gone since the last step, whatever becomes of this one */
+    MPS__TRY(mps__world_neighbours(w));
     keep(w->work.u0, w->particles.u, w->particles.n * w->dim, w->threads);
     keep(w->work.p0, w->particles.p, w->particles.n, w->threads);
     const int32_t start_pending = w->start_pending;
@@ -644,6 +641,7 @@ mps_status mps__world_step(mps__world *w, double dt_max)
     const mps_status status = try_step(&q, dt_max, &planned);
     if (status < 0) {
         restore_state(&q);
+        mps__world_take_back(w);
         w->start_pending = start_pending;
         return status;
     }

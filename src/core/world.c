@@ -105,6 +105,21 @@ static bool outside(const mps__world *w, int64_t i, const double *lo, const doub
     return false;
 }
 
+/* The last particles are no more, but they stay where they are in memory: what comes now may fail. */
+static void set_aside(mps__world *w, int64_t count)
+{
+    w->particles.n -= count;
+    w->particles.generation++;
+    w->info.lost += count;
+    w->aside += count;
+    w->neighbours.valid = false;
+}
+
+void mps__world_take_back(mps__world *w)
+{
+    if (w->aside > 0) set_aside(w, -w->aside);
+}
+
 /* Apply the policy to the particles with `gone`, if any; the text says where they are. */
 static mps_status handle_lost(mps__world *w, const bool *gone, const char *where)
 {
@@ -123,16 +138,15 @@ static mps_status handle_lost(mps__world *w, const bool *gone, const char *where
                          where, w->info.t, (long long)s->id[first], x[0], x[1], z);
     mps__log(w->context, MPS_LOG_WARNING, "t = %.6g s: %lld particles %s and were removed; particle %lld was at (%g, %g, %g) m", w->info.t,
              (long long)lost, where, (long long)s->id[first], x[0], x[1], z);
-    int32_t *keep = mps__alloc(w->context, s->n, sizeof *keep);
-    if (!keep) return MPS_E_NOMEM;
+    int32_t *order = mps__alloc(w->context, s->n, sizeof *order);
+    if (!order) return MPS_E_NOMEM;
     for (int64_t i = 0; i < s->n; i++)
-        if (!gone[i]) keep[count++] = (int32_t)i;
-    mps_status status = mps__particles_permute(s, count, keep);
-    mps__free(w->context, keep);
-    if (status == MPS_OK) {
-        w->info.lost += lost;
-        w->neighbours.valid = false;
-    }
+        if (!gone[i]) order[count++] = (int32_t)i;
+    for (int64_t i = 0; i < s->n; i++)
+        if (gone[i]) order[count++] = (int32_t)i;
+    const mps_status status = mps__particles_permute(s, count, order);
+    mps__free(w->context, order);
+    if (status == MPS_OK) set_aside(w, lost);
     return status;
 }
 
@@ -331,12 +345,16 @@ static mps_status renew(mps__world *w)
 mps_status mps__world_neighbours(mps__world *w)
 {
     MPS__CHECK(w->context, w->particles.n > 0, "there are no particles");
+    w->aside = 0;
     MPS__TRY(reserve_work(w));
-    MPS__TRY(leave_domain(w));
-    MPS__TRY(renew(w));
-    const int64_t lost = w->info.lost;
-    MPS__TRY(leave_tank(w));
-    return w->info.lost > lost ? renew(w) : MPS_OK;
+    mps_status status = leave_domain(w);
+    if (w->particles.n == 0) status = mps__fail(w->context, MPS_E_STATE, "t = %.6g s: all particles left the domain", w->info.t);
+    if (status == MPS_OK) status = renew(w);
+    const int64_t aside = w->aside;
+    if (status == MPS_OK) status = leave_tank(w);
+    if (status == MPS_OK && w->aside > aside) status = renew(w);
+    if (status < 0) mps__world_take_back(w);
+    return status;
 }
 
 mps_status mps__world_neighbours_kept(mps__world *w)

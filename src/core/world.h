@@ -70,6 +70,7 @@ typedef struct mps__world {
     mps__pose before;   /* of the tank at the beginning of the last step, */
     double dt_before;   /* which was this long */
     mps__work work;
+    int64_t aside;   /* lost particles that lie behind the others, until the next are looked for */
     int64_t linked;  /* generation of the particles whose dummies know their walls */
     int32_t layers;  /* of dummies behind the walls, the fewest of all tanks and solids; 0: there is none */
     bool level_told; /* that nothing fixes the level of the pressures */
@@ -80,6 +81,8 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
 void mps__world_free(mps__world *w);
 /* Lists at the present positions: search and sort if needed, then exact rows. Lost particles are handled here. */
 mps_status mps__world_neighbours(mps__world *w);
+/* Those that were removed last come back, as long as nothing was added since. */
+void mps__world_take_back(mps__world *w);
 /* The same for a reader who holds arrays: nobody is removed or put elsewhere. */
 mps_status mps__world_neighbours_kept(mps__world *w);
 /* Exact rows at the present positions from lists that are fresh. */

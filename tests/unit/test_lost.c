@@ -324,6 +324,73 @@ static void too_long_steps(void **state)
     mps_sim_destroy(sim);
 }
 
+/* A step that fails loses nobody, whatever it removed before: not from the store, the count or the budget. */
+static void failed_step_loses_nobody(void **state)
+{
+    (void)state;
+    message m;
+    mps_time_control control = fixed_step(5e-3);
+    mps_sim *sim = bullet(2, &m, &control);
+    mps_particle_block block;
+    mps_step_info info;
+    mps_energy energy;
+    mps_lease u;
+    const double far[2] = {0.5, 1e3};
+    int64_t id;
+    assert_int_equal(mps_particle_block_init(&block, sizeof block), MPS_OK);
+    block.count = 1;
+    block.position = far;
+    ASSERT_OK(sim, mps_particles_add(sim, &block, &id));
+    ASSERT_OK(sim, mps_field_add(sim, "mark", 1));
+    const int64_t n = mps_particles_count(sim, -1);
+    ASSERT_OK(sim, mps_lease_begin(sim, "mark", MPS_WRITE, &u));
+    u.data[mps_particle_index(sim, id)] = 7;
+    ASSERT_OK(sim, mps_lease_end(sim, &u));
+    for (int k = 0; k < 2; k++) {
+        ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_DIVERGED, "would move 0.155 m");
+        assert_int_equal(mps_particles_count(sim, -1), n);
+    }
+    ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &u));
+    assert_true(u.data[2 * mps_particle_index(sim, id) + 1] == far[1]);
+    ASSERT_OK(sim, mps_lease_end(sim, &u));
+    ASSERT_OK(sim, mps_lease_begin(sim, "mark", MPS_READ, &u));
+    assert_true(u.data[mps_particle_index(sim, id)] == 7);
+    ASSERT_OK(sim, mps_lease_end(sim, &u));
+    control.dt = 1e-4;
+    ASSERT_OK(sim, mps_sim_set_time_control(sim, &control));
+    assert_int_equal(mps_step_info_init(&info, sizeof info), MPS_OK);
+    ASSERT_OK(sim, mps_step(sim, 1, &info));
+    assert_int_equal(info.lost, 1);
+    assert_int_equal(mps_particles_count(sim, -1), n - 1);
+    assert_int_equal(mps_particle_index(sim, id), -1);
+    assert_int_equal(mps_energy_init(&energy, sizeof energy), MPS_OK);
+    ASSERT_OK(sim, mps_energy_get(sim, &energy));
+    const double potential = 1000 * dp * dp * 9.81 * far[1];
+    assert_true(fabs(energy.added + potential) < 1e-9 * potential); /* booked once */
+    mps_sim_destroy(sim);
+}
+
+/* A cloud without walls in a domain it has left. */
+static void everything_lost(void **state)
+{
+    (void)state;
+    mps_config c;
+    mps_particle_block block;
+    mps_sim *sim = NULL;
+    const double x[2] = {0.5, 5};
+    assert_int_equal(mps_config_init(&c, sizeof c), MPS_OK);
+    c.dp = dp;
+    c.domain_max[0] = c.domain_max[1] = 1;
+    assert_int_equal(mps_sim_create(&c, &sim), MPS_OK);
+    assert_int_equal(mps_particle_block_init(&block, sizeof block), MPS_OK);
+    block.count = 1;
+    block.position = x;
+    ASSERT_OK(sim, mps_particles_add(sim, &block, NULL));
+    for (int k = 0; k < 2; k++) ASSERT_REFUSED(sim, mps_step(sim, 1e-4, NULL), MPS_E_STATE, "all particles left the domain");
+    assert_int_equal(mps_particles_count(sim, -1), 1);
+    mps_sim_destroy(sim);
+}
+
 /* More than a spacing a step is told once, and only of steps that do not follow the speed. */
 static void long_steps_are_told_once(void **state)
 {
@@ -352,11 +419,18 @@ static void long_steps_are_told_once(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(removed_and_counted), cmocka_unit_test(refused_by_policy),
-        cmocka_unit_test(given_domain),        cmocka_unit_test(behind_a_wall),
-        cmocka_unit_test(beside_a_plate),      cmocka_unit_test(moved_tank),
-        cmocka_unit_test(no_domain),           cmocka_unit_test(all_lost),
-        cmocka_unit_test(too_long_steps),      cmocka_unit_test(long_steps_are_told_once),
+        cmocka_unit_test(removed_and_counted),
+        cmocka_unit_test(refused_by_policy),
+        cmocka_unit_test(given_domain),
+        cmocka_unit_test(behind_a_wall),
+        cmocka_unit_test(beside_a_plate),
+        cmocka_unit_test(moved_tank),
+        cmocka_unit_test(no_domain),
+        cmocka_unit_test(all_lost),
+        cmocka_unit_test(too_long_steps),
+        cmocka_unit_test(long_steps_are_told_once),
+        cmocka_unit_test(failed_step_loses_nobody),
+        cmocka_unit_test(everything_lost),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
