@@ -23,7 +23,7 @@ mps_allocator bench_allocator(bench_memory *memory);
 
 /* ---- cases (cases.c) ---- */
 
-/* "kind/dp in mm", e.g. "dam2d/2.5"; kinds are dam2d, dam3d, air2d, air3d, breaking. */
+/* "kind/dp in mm", e.g. "dam2d/2.5"; kinds are dam2d, dam3d, air2d, air3d, static2d, breaking, breaking_air. */
 typedef struct bench_case {
     char name[BENCH_NAME];
     const struct bench_kind *kind;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The cases: the dam break of Lobovsky et al. 2014 and the breaking wave of Wen, Zhao & Wan 2022, as in the drivers; and the dam break in a
- * tank full of air. */
+/* The cases, as in the drivers: the dam break of Lobovsky et al. 2014, the breaking wave of Wen, Zhao & Wan 2022, both also in a tank full
+ * of air, and two liquids at rest of the latter. */
 #include "bench.h"
 #include <math.h>
 #include <stdio.h>
@@ -12,15 +12,17 @@ struct bench_kind {
     int32_t dim;
     double tank[3], fill[3], density, viscosity;
     mps_harmonic motion;
-    bool air; /* fills the rest of the tank */
+    enum { EMPTY, AIR, LIGHT_LIQUID } rest; /* what fills the rest of the tank */
 };
 
 static const struct bench_kind kinds[] = {
-    {"dam2d", 2, {1.61, 0.6, 0}, {0.6, 0.3, 0}, 997, 997 * 8.9e-7, {0}, false},
-    {"dam3d", 3, {1.61, 0.6, 0.15}, {0.6, 0.3, 0.15}, 997, 997 * 8.9e-7, {0}, false},
-    {"air2d", 2, {1.61, 0.6, 0}, {0.6, 0.3, 0}, 997, 997 * 8.9e-7, {0}, true},
-    {"air3d", 3, {1.61, 0.6, 0.15}, {0.6, 0.3, 0.15}, 997, 997 * 8.9e-7, {0}, true},
-    {"breaking", 2, {1.3, 0.9, 0}, {1.3, 0.18, 0}, 1000, 1e-3, {.dof = MPS_SURGE, .amplitude = 0.1, .omega = 3.1164599471}, false},
+    {"dam2d", 2, {1.61, 0.6, 0}, {0.6, 0.3, 0}, 997, 997 * 8.9e-7, {0}, EMPTY},
+    {"dam3d", 3, {1.61, 0.6, 0.15}, {0.6, 0.3, 0.15}, 997, 997 * 8.9e-7, {0}, EMPTY},
+    {"air2d", 2, {1.61, 0.6, 0}, {0.6, 0.3, 0}, 997, 997 * 8.9e-7, {0}, AIR},
+    {"air3d", 3, {1.61, 0.6, 0.15}, {0.6, 0.3, 0.15}, 997, 997 * 8.9e-7, {0}, AIR},
+    {"static2d", 2, {1, 1.5, 0}, {1, 0.75, 0}, 1000, 1e-3, {0}, LIGHT_LIQUID},
+    {"breaking", 2, {1.3, 0.9, 0}, {1.3, 0.18, 0}, 1000, 1e-3, {.dof = MPS_SURGE, .amplitude = 0.1, .omega = 3.1164599471}, EMPTY},
+    {"breaking_air", 2, {1.3, 0.9, 0}, {1.3, 0.18, 0}, 1000, 1e-3, {.dof = MPS_SURGE, .amplitude = 0.1, .omega = 3.1164599471}, AIR},
 };
 
 const char *bench_case_find(const char *name, bench_case *c)
@@ -32,7 +34,7 @@ const char *bench_case_find(const char *name, bench_case *c)
     for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++)
         if (strlen(kinds[k].name) == (size_t)(slash - name) && strncmp(name, kinds[k].name, (size_t)(slash - name)) == 0)
             c->kind = &kinds[k];
-    if (!c->kind) return "kinds are dam2d, dam3d, air2d, air3d, breaking";
+    if (!c->kind) return "kinds are dam2d, dam3d, air2d, air3d, static2d, breaking, breaking_air";
     c->dp = 1e-3 * strtod(slash + 1, &end);
     if (*end || !(c->dp >= 1e-4 && c->dp <= 0.05)) return "dp must be 0.1 to 50 mm";
     memcpy(c->name, name, strlen(name) + 1);
@@ -44,15 +46,16 @@ static void check(mps_sim *sim, mps_status status, const char *what)
     if (status < 0) bench_fail(what, mps_sim_error(sim));
 }
 
-static void add_air(mps_sim *sim, const struct bench_kind *k)
+static void fill_rest(mps_sim *sim, const struct bench_kind *k)
 {
     const double lo[3] = {0};
-    mps_phase air;
-    mps_phase_init(&air, sizeof air);
-    air.density = 1.29;
-    air.viscosity = 1.8e-5;
-    check(sim, mps_sim_set_phase(sim, 1, &air), "air");
-    check(sim, mps_geometry_fill_box(sim, 1, lo, k->tank, NULL), "air");
+    mps_phase light;
+    mps_phase_init(&light, sizeof light);
+    light.density = k->rest == AIR ? 1.29 : 1;
+    light.viscosity = k->rest == AIR ? 1.8e-5 : 1e-3;
+    check(sim, mps_sim_set_phase(sim, 1, &light), "light fluid");
+    check(sim, mps_geometry_fill_box(sim, 1, lo, k->tank, NULL), "light fluid");
+    if (k->rest == LIGHT_LIQUID) check(sim, mps_model_remove(sim, "gas"), "gas");
 }
 
 mps_sim *bench_case_make(const bench_case *c, int32_t threads, double re_far, bench_memory *memory)
@@ -73,7 +76,7 @@ mps_sim *bench_case_make(const bench_case *c, int32_t threads, double re_far, be
     config.error = error;
     config.error_size = sizeof error;
     if (mps_sim_create(&config, &sim) != MPS_OK) bench_fail("simulation", error);
-    if (k->air) check(sim, mps_sim_use_preset(sim, "mmps"), "preset");
+    if (k->rest != EMPTY) check(sim, mps_sim_use_preset(sim, "mmps"), "preset");
     mps_phase_init(&liquid, sizeof liquid);
     liquid.density = k->density;
     liquid.viscosity = k->viscosity;
@@ -82,7 +85,7 @@ mps_sim *bench_case_make(const bench_case *c, int32_t threads, double re_far, be
     memcpy(tank.size, k->tank, sizeof tank.size);
     check(sim, mps_geometry_tank(sim, &tank, NULL), "tank");
     check(sim, mps_geometry_fill_box(sim, 0, lo, k->fill, NULL), "fill");
-    if (k->air) add_air(sim, k);
+    if (k->rest != EMPTY) fill_rest(sim, k);
     if (k->motion.amplitude > 0) check(sim, mps_motion_set_harmonics(sim, 1, &k->motion), "motion");
     return sim;
 }

@@ -30,8 +30,9 @@ typedef struct outcome {
 
 static const char usage[] =
     "usage: mps_bench [options]\n"
-    "  --case kind/dp     dam2d, dam3d, air2d, air3d or breaking, dp in mm; may be given several times\n"
-    "                     (default dam2d/5 dam2d/2.5 dam2d/1.25 dam3d/10 dam3d/5 breaking/10)\n"
+    "  --case kind/dp     dam2d, dam3d, air2d, air3d, static2d, breaking or breaking_air, dp in mm; may be given\n"
+    "                     several times (default dam2d/5 dam2d/2.5 dam2d/1.25 dam3d/10 dam3d/5 breaking/10\n"
+    "                     static2d/10 breaking_air/10)\n"
     "  --threads n        may be given several times (default 1)\n"
     "  --solver s/p       solver and preconditioner, may be given several times (default: the library's;\n"
     "                     also hypre.boomeramg, if built with hypre)\n"
@@ -240,7 +241,8 @@ static void replay_all(const options *o)
 
 int main(int argc, char **argv)
 {
-    static const char *const usual[] = {"dam2d/5", "dam2d/2.5", "dam2d/1.25", "dam3d/10", "dam3d/5", "breaking/10"};
+    static const char *const usual[] = {"dam2d/5", "dam2d/2.5",   "dam2d/1.25",  "dam3d/10",
+                                        "dam3d/5", "breaking/10", "static2d/10", "breaking_air/10"};
     options o = {.steps = 40, .warm = 10, .repeats = 1, .tolerance = 1e-6};
     parse(&o, argc, argv);
     const bool chosen = o.cases.count > 0;
