@@ -20,6 +20,7 @@ typedef struct options {
     scenario what;
     const char *model, *pictures; /* pictures: NULL, or the beginning of their paths */
     double t_end, every;          /* [s] */
+    double refine;                /* the spacing is what was drawn, over this */
 } options;
 
 /* What was seen so far. */
@@ -188,8 +189,8 @@ static void report(const options *o, const findings *f, const char *error)
 static int usage(const char *what)
 {
     fprintf(stderr,
-            "sweep: %s\nusage: sweep --seed N [--dim 2|3] [--t-end S] [--model NAME] [--pictures PATH [--every S]]\n"
-            "--pictures: PATH_end.png, and PATH_000.png ... every S seconds\n",
+            "sweep: %s\nusage: sweep --seed N [--dim 2|3] [--refine X] [--t-end S] [--model NAME] [--pictures PATH [--every S]]\n"
+            "--refine: the spacing drawn, over X; --pictures: PATH_end.png, and PATH_000.png ... every S seconds\n",
             what);
     return 2;
 }
@@ -221,6 +222,8 @@ static const char *parse(options *o, int argc, char **argv)
             good = seeded = parse_seed(value, &seed);
         else if (!strcmp(name, "--dim"))
             good = parse_number(value, &dim) && (dim == 2 || dim == 3);
+        else if (!strcmp(name, "--refine"))
+            good = parse_number(value, &o->refine);
         else if (!strcmp(name, "--t-end"))
             good = parse_number(value, &o->t_end);
         else if (!strcmp(name, "--every"))
@@ -233,12 +236,13 @@ static const char *parse(options *o, int argc, char **argv)
             return "unknown option";
     }
     if (good && seeded) scenario_draw(&o->what, seed, (int32_t)dim);
+    o->what.dp /= o->refine;
     return !good ? "a value is missing or bad" : seeded ? NULL : "--seed is needed";
 }
 
 int main(int argc, char **argv)
 {
-    options o = {.model = "imps", .t_end = 5};
+    options o = {.model = "imps", .t_end = 5, .refine = 1};
     findings f = {.outside = -INFINITY, .min_dt = INFINITY};
     mps_sim *sim = NULL;
     const char *problem = parse(&o, argc, argv);
