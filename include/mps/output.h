@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/** @file output.h  Frames for ParaView: one .vtp file a frame and a .pvd series that is valid after every frame. */
+/** @file output.h  Frames for ParaView: one .vtp file a frame and a .pvd series that is valid after every frame; and checkpoints. */
 #ifndef MPS_OUTPUT_H
 #define MPS_OUTPUT_H
 
@@ -10,12 +10,13 @@ MPS_BEGIN_DECLS
 /** A series of frames. */
 typedef struct mps_frames mps_frames;
 
-/** Which particles go into a frame. */
-enum { MPS_FRAMES_FLUID = 1, MPS_FRAMES_WALL = 2, MPS_FRAMES_DUMMY = 4 };
+/** Which particles go into a frame; and whether a series goes on. */
+enum { MPS_FRAMES_FLUID = 1, MPS_FRAMES_WALL = 2, MPS_FRAMES_DUMMY = 4, MPS_FRAMES_CONTINUE = 8 };
 
 /** Open a series: writes `<folder>/<name>.pvd` and `<folder>/<name>/<name>_000000.vtp` ...; the folder must exist.
- *  Frames of an earlier series of the same folder and name are removed, other files are left alone.
- *  @param kinds   sum of MPS_FRAMES_..., 0 for fluid and wall
+ *  Frames of an earlier series of the same folder and name are removed, other files are left alone. With MPS_FRAMES_CONTINUE those up to
+ *  the present time stay, and the series goes on behind them; MPS_E_IO if the .pvd that is there cannot be read.
+ *  @param kinds   sum of MPS_FRAMES_..., without any kind fluid and wall
  *  @param frames  out; close with mps_frames_close(). The simulation must outlive it. */
 MPS_API mps_status mps_frames_open(mps_sim *sim, const char *folder, const char *name, int32_t kinds, mps_frames **frames);
 
@@ -25,6 +26,20 @@ MPS_API mps_status mps_frames_write(mps_frames *frames);
 
 /** Close a series; NULL is allowed. */
 MPS_API void mps_frames_close(mps_frames *frames);
+
+/** Write all that the next steps depend on to a file: particles with their fields and order, time, budgets, what probes keep for averages
+ *  and samples. It is written beside its place and renamed, so that there is always a whole one. Little-endian, with a checksum for each
+ *  part; about 150 bytes a particle. May be called by a monitor. What a plug-in keeps outside of fields is not in it.
+ *  @return MPS_E_IO with the path and the system's reason; MPS_E_BUSY while a lease for writing is open; MPS_E_NOMEM */
+MPS_API mps_status mps_checkpoint_write(mps_sim *sim, const char *path);
+
+/** Go on where mps_checkpoint_write() was called, in a simulation that was set up by the same calls: configuration, phases, models with
+ *  their settings, solids, fields, motion, probes. This is compared, and a difference refused. With the same time control, solver and
+ *  limits, too, the steps that follow are those of the run that did not stop, bit for bit, with any number of threads. The particles that
+ *  are there are replaced, ids are those of the file.
+ *  @return MPS_E_IO (cannot be read, is cut short, damaged or no checkpoint), MPS_E_VERSION (of a newer library, or another byte order),
+ *          MPS_E_ARG (which setting differs, and both values), MPS_E_BUSY (lease), MPS_E_STATE (in a monitor), MPS_E_NOMEM */
+MPS_API mps_status mps_checkpoint_read(mps_sim *sim, const char *path);
 
 MPS_END_DECLS
 
