@@ -95,6 +95,18 @@ mps_status mps__particles_reserve(mps__particles *s, int64_t extra)
     return MPS_OK;
 }
 
+mps_status mps__particles_replace(mps__particles *s, int64_t n, const void *const from[])
+{
+    const int64_t capacity = n > 0 ? n : 1;
+    void *array[MPS__FIELDS_MAX];
+    MPS__TRY(new_arrays(s, capacity, array));
+    for (int32_t k = 0; k < s->fields; k++) memcpy(array[k], from[k], (size_t)n * stride(&s->field[k]));
+    swap_arrays(s, capacity, array);
+    s->n = n;
+    s->generation++;
+    return MPS_OK;
+}
+
 int64_t mps__particles_append(mps__particles *s, int64_t count)
 {
     int64_t first = s->n;

@@ -39,6 +39,7 @@ void mps__world_free(mps__world *w)
                    k->density_smooth, k->capillary, k->depth,  k->correction, k->tank_accel,
                    k->turned,         k->a,         k->value,  k->u0,         k->p0};
     for (size_t a = 0; a < sizeof all / sizeof all[0]; a++) mps__free(w->context, all[a]);
+    mps__free(w->context, w->listed_at);
     mps__scratch_free(w->context, &w->scratch);
 }
 
@@ -328,11 +329,31 @@ static mps_status search(mps__world *w, bool sorted)
     return status;
 }
 
+/* The candidates of a search that was done before a checkpoint, unless particles came or went since: the store has its order already. */
+static mps_status list_again(mps__world *w)
+{
+    mps__particles *s = &w->particles;
+    double *const now = s->x;
+    if (!w->listed_at) return MPS_OK;
+    if (w->linked == s->generation) {
+        s->x = w->listed_at;
+        mps_status status = search_lists(w, false, false);
+        if (status == MPS_OK) status = mps__plates_find(w);
+        s->x = now;
+        w->neighbours.valid = status == MPS_OK;
+        MPS__TRY(status);
+    }
+    mps__free(w->context, w->listed_at);
+    w->listed_at = NULL;
+    return MPS_OK;
+}
+
 /* Sort the store along the cells and search anew, where needed. */
 static mps_status renew(mps__world *w)
 {
     mps__particles *s = &w->particles;
     w->neighbours.threads = s->threads = w->threads;
+    MPS__TRY(list_again(w));
     if (w->linked != s->generation || !mps__neighbours_fresh(&w->neighbours, s->n, s->x, w->re_far)) {
         MPS__TRY(mps__neighbours_order(&w->neighbours, s->n, s->x, w->re_far));
         MPS__TRY(mps__particles_permute(s, s->n, w->neighbours.order));
@@ -363,6 +384,7 @@ mps_status mps__world_neighbours_kept(mps__world *w)
     MPS__CHECK(w->context, s->n > 0, "there are no particles");
     MPS__TRY(reserve_work(w));
     w->neighbours.threads = s->threads = w->threads;
+    MPS__TRY(list_again(w));
     const bool fresh = w->linked == s->generation && mps__neighbours_fresh(&w->neighbours, s->n, s->x, w->re_far);
     if (!fresh) MPS__TRY(search(w, false));
     mps__world_rows(w);

@@ -70,11 +70,12 @@ typedef struct mps__world {
     mps__pose before;   /* of the tank at the beginning of the last step, */
     double dt_before;   /* which was this long */
     mps__work work;
-    int64_t aside;   /* lost particles that lie behind the others, until the next are looked for */
-    int64_t linked;  /* generation of the particles whose dummies know their walls */
-    int32_t layers;  /* of dummies behind the walls, the fewest of all tanks and solids; 0: there is none */
-    bool level_told; /* that nothing fixes the level of the pressures */
-    bool moves_told; /* that a fixed step is long for its speeds */
+    double *listed_at; /* NULL, or positions [n*dim] of the search whose candidates still hold, but are to be found again */
+    int64_t aside;     /* lost particles that lie behind the others, until the next are looked for */
+    int64_t linked;    /* generation of the particles whose dummies know their walls */
+    int32_t layers;    /* of dummies behind the walls, the fewest of all tanks and solids; 0: there is none */
+    bool level_told;   /* that nothing fixes the level of the pressures */
+    bool moves_told;   /* that a fixed step is long for its speeds */
 } mps__world;
 
 mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, double dp);

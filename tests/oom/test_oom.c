@@ -7,6 +7,7 @@
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <cmocka.h>
@@ -100,6 +101,33 @@ static void sampled(mps_sim *sim)
         assert_int_equal(mps_probe_add(sim, &p, &id), MPS_OK);
     }
     for (int k = 0; k < 2; k++) assert_int_equal(mps_step(sim, 1e-3, NULL), MPS_OK);
+}
+
+static const char checkpoint[] = "oom.checkpoint";
+
+static mps_status write_checkpoint(mps_sim *sim)
+{
+    return mps_checkpoint_write(sim, checkpoint);
+}
+
+static mps_status read_checkpoint(mps_sim *sim)
+{
+    return mps_checkpoint_read(sim, checkpoint);
+}
+
+/* A step beyond a checkpoint. */
+static void beyond(mps_sim *sim)
+{
+    sampled(sim);
+    assert_int_equal(write_checkpoint(sim), MPS_OK);
+    assert_int_equal(mps_step(sim, 1e-3, NULL), MPS_OK);
+}
+
+/* And back. */
+static void restored(mps_sim *sim)
+{
+    beyond(sim);
+    assert_int_equal(read_checkpoint(sim), MPS_OK);
 }
 
 static void with_plate(mps_sim *sim)
@@ -374,6 +402,9 @@ static const scene scenes[] = {
     {"first step, kinsol", gas_for_kinsol, step, 20},
     {"stencil", filled, stencil, 10},
     {"stencil of more", grown, stencil, 10},
+    {"checkpoint_write", sampled, write_checkpoint, 3},
+    {"checkpoint_read", beyond, read_checkpoint, 20},
+    {"step after checkpoint_read", restored, step, 8},
 };
 
 /* Fail allocation k of one call. Returns false when the call had fewer than k. */
@@ -481,5 +512,7 @@ int main(void)
     enum { SCENES = sizeof scenes / sizeof scenes[0] };
     struct CMUnitTest tests[SCENES + 2] = {cmocka_unit_test(sim_create), cmocka_unit_test(neighbours)};
     for (int k = 0; k < SCENES; k++) tests[k + 2] = (struct CMUnitTest){scenes[k].name, run_scene, NULL, NULL, (void *)&scenes[k]};
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    remove(checkpoint);
+    return failed;
 }

@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Checkpoints of the public interface. */
+#include "checkpoint.h"
+#include <mps/output.h>
+
+static const char setup_part[] = "set-up";
+
+/* The text of the set-up, in memory of its own. */
+static mps_status make_setup(mps_sim *sim, mps__text *text)
+{
+    *text = (mps__text){NULL, 0};
+    mps__setup_text(sim, text);
+    text->data = mps__alloc(&sim->context, text->size, 1);
+    if (!text->data) return MPS_E_NOMEM;
+    text->size = 0;
+    mps__setup_text(sim, text);
+    return MPS_OK;
+}
+
+static void put_all(mps_sim *sim, const mps__text *setup, mps__archive *a)
+{
+    mps__archive_put(a, setup_part, setup->data, 1, setup->size);
+    mps__state_put(sim, a);
+}
+
+mps_status mps_checkpoint_write(mps_sim *sim, const char *path)
+{
+    if (!sim) return MPS_E_ARG;
+    mps__context *c = &sim->context;
+    MPS__CHECK(c, path && path[0], "the path of the checkpoint is NULL or empty");
+    for (int32_t k = 0; k < sim->world.particles.fields; k++)
+        if (sim->world.particles.field[k].writer)
+            return mps__fail(c, MPS_E_BUSY, "field \"%s\" is leased for writing", sim->world.particles.field[k].name);
+    mps__archive a = {.context = c};
+    mps__text setup;
+    mps_status status = make_setup(sim, &setup);
+    if (status == MPS_OK) {
+        put_all(sim, &setup, &a);
+        status = mps__archive_room(&a);
+    }
+    if (status == MPS_OK) {
+        put_all(sim, &setup, &a);
+        status = mps__archive_save(&a, path);
+    }
+    mps__free(c, setup.data);
+    mps__archive_free(&a);
+    return status;
+}
+
+static mps_status check_setup(mps_sim *sim, const mps__archive *a)
+{
+    mps__text here;
+    int64_t size;
+    const char *saved = mps__archive_get(a, setup_part, 1, &size);
+    if (!saved) return MPS_E_VERSION;
+    MPS__CHECK(&sim->context, size > 0 && saved[size - 1] == 0, "the checkpoint's \"%s\" does not end", setup_part);
+    mps_status status = make_setup(sim, &here);
+    if (status == MPS_OK) status = mps__setup_compare(&sim->context, saved, here.data);
+    mps__free(&sim->context, here.data);
+    return status;
+}
+
+mps_status mps_checkpoint_read(mps_sim *sim, const char *path)
+{
+    if (!sim) return MPS_E_ARG;
+    mps__context *c = &sim->context;
+    MPS__CHECK(c, path && path[0], "the path of the checkpoint is NULL or empty");
+    if (sim->in_monitor) return mps__fail(c, MPS_E_STATE, "a monitor must not read a checkpoint");
+    const int32_t open = mps__particles_leases(&sim->world.particles);
+    if (open) return mps__fail(c, MPS_E_BUSY, "%d lease(s) are open; end them before reading a checkpoint", open);
+    mps__archive a = {.context = c};
+    mps_status status = mps__archive_load(&a, path);
+    if (status == MPS_OK) status = check_setup(sim, &a);
+    if (status == MPS_OK) status = mps__state_get(sim, &a);
+    mps__archive_free(&a);
+    return status;
+}

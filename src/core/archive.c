@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Archives in memory and in files. */
+#define _POSIX_C_SOURCE 200809L
+#include "archive.h"
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { VERSION = 1, BYTE_ORDER_MARK = 0x01020304 };
+
+static const char magic[8] = {'m', 'p', 's', 's', 't', 'a', 't', 'e'}, last_part[] = "end";
+
+typedef struct head {
+    char magic[8];
+    uint32_t version, order;
+} head;
+
+typedef struct part {
+    char name[MPS__PART_TITLE];
+    uint32_t bytes, checksum; /* the checksum is that of the part with 0 in its place */
+    int64_t count;
+} part;
+
+uint32_t mps__checksum(uint32_t before, const void *data, size_t bytes)
+{
+    static const uint32_t nibble[16] = {0,          0x1db71064, 0x3b6e20c8, 0x26d930ac, 0x76dc4190, 0x6b6b51f4, 0x4db26158, 0x5005713c,
+                                        0xedb88320, 0xf00f9344, 0xd6d6a3e8, 0xcb61b38c, 0x9b64c2b0, 0x86d3d2d4, 0xa00ae278, 0xbdbdf21c};
+    const unsigned char *p = data;
+    uint32_t c = ~before;
+    for (size_t k = 0; k < bytes; k++) {
+        c = nibble[(c ^ p[k]) & 15] ^ (c >> 4);
+        c = nibble[(c ^ (p[k] >> 4)) & 15] ^ (c >> 4);
+    }
+    return ~c;
+}
+
+static uint32_t part_checksum(part p, const void *elements)
+{
+    p.checksum = 0;
+    return mps__checksum(mps__checksum(0, &p, sizeof p), elements, (size_t)p.count * p.bytes);
+}
+
+/* Bytes of the elements in the file. */
+static int64_t padded(const part *p)
+{
+    return (p->count * (int64_t)p->bytes + 7) / 8 * 8;
+}
+
+/* ---- writing ---- */
+
+static void put_bytes(mps__archive *a, const void *data, size_t bytes)
+{
+    if (a->data && bytes > 0) memcpy(a->data + a->size, data, bytes);
+    a->size += (int64_t)bytes;
+}
+
+static void put_head(mps__archive *a)
+{
+    head h = {.version = VERSION, .order = BYTE_ORDER_MARK};
+    memcpy(h.magic, magic, sizeof magic);
+    put_bytes(a, &h, sizeof h);
+}
+
+void mps__archive_put(mps__archive *a, const char *name, const void *elements, size_t bytes, int64_t count)
+{
+    static const char zeros[8] = {0};
+    part p = {.bytes = (uint32_t)bytes, .count = count};
+    const size_t size = (size_t)count * bytes;
+    strncpy(p.name, name, sizeof p.name - 1);
+    if (a->size == 0) put_head(a);
+    if (a->data) p.checksum = part_checksum(p, elements);
+    put_bytes(a, &p, sizeof p);
+    put_bytes(a, elements, size);
+    put_bytes(a, zeros, (size_t)padded(&p) - size);
+}
+
+mps_status mps__archive_room(mps__archive *a)
+{
+    const int64_t end = (int64_t)sizeof(part);
+    a->data = mps__alloc(a->context, a->size + end, 1);
+    a->size = 0;
+    return a->data ? MPS_OK : MPS_E_NOMEM;
+}
+
+static mps_status io_failed(mps__context *c, const char *what, const char *path)
+{
+    return mps__fail(c, MPS_E_IO, "cannot %s \"%.300s\": %s", what, path, strerror(errno));
+}
+
+/* On the disk before it takes the place of what was there: a machine that stops in between has one or the other. */
+static bool write_all(const mps__archive *a, FILE *file)
+{
+    bool good = fwrite(a->data, 1, (size_t)a->size, file) == (size_t)a->size && fflush(file) == 0 && fsync(fileno(file)) == 0;
+    const int error = errno;
+    if (fclose(file) != 0) return false;
+    if (!good) errno = error;
+    return good;
+}
+
+static mps_status save_through(const mps__archive *a, const char *path, const char *temporary)
+{
+    FILE *file = fopen(temporary, "wb");
+    if (!file) return io_failed(a->context, "create", temporary);
+    mps_status status = MPS_OK;
+    if (!write_all(a, file))
+        status = io_failed(a->context, "write", temporary);
+    else if (rename(temporary, path) != 0)
+        status = io_failed(a->context, "replace", path);
+    if (status < 0) remove(temporary);
+    return status;
+}
+
+mps_status mps__archive_save(mps__archive *a, const char *path)
+{
+    mps__archive_put(a, last_part, NULL, 1, 0);
+    const size_t size = strlen(path) + sizeof ".tmp";
+    char *temporary = mps__alloc(a->context, (int64_t)size, 1);
+    if (!temporary) return MPS_E_NOMEM;
+    snprintf(temporary, size, "%s.tmp", path);
+    const mps_status status = save_through(a, path, temporary);
+    mps__free(a->context, temporary);
+    return status;
+}
+
+/* ---- reading ---- */
+
+static mps_status read_all(mps__archive *a, FILE *file, const char *path)
+{
+    if ((fgetc(file) == EOF && ferror(file)) || fseek(file, 0, SEEK_END) != 0) return io_failed(a->context, "read", path);
+    const long size = ftell(file);
+    if (size < 0 || fseek(file, 0, SEEK_SET) != 0) return io_failed(a->context, "read", path);
+    a->data = mps__alloc(a->context, size, 1);
+    if (!a->data) return MPS_E_NOMEM;
+    errno = 0;
+    if (fread(a->data, 1, (size_t)size, file) != (size_t)size) return io_failed(a->context, "read", path);
+    a->size = size;
+    return MPS_OK;
+}
+
+static mps_status check_head(const mps__archive *a, const char *path)
+{
+    head h;
+    if (a->size < (int64_t)sizeof h || memcmp(a->data, magic, sizeof magic) != 0)
+        return mps__fail(a->context, MPS_E_IO, "\"%.300s\" is no checkpoint", path);
+    memcpy(&h, a->data, sizeof h);
+    if (h.order != BYTE_ORDER_MARK)
+        return mps__fail(a->context, MPS_E_VERSION, "\"%.300s\" is from a machine with another byte order", path);
+    if (h.version != VERSION)
+        return mps__fail(a->context, MPS_E_VERSION, "\"%.300s\" has format %u; this library knows %d", path, (unsigned)h.version, VERSION);
+    return MPS_OK;
+}
+
+/* The part at an offset, whole and as it was written; false if it is not. */
+static bool part_at(const mps__archive *a, int64_t at, part *p)
+{
+    if (a->size - at < (int64_t)sizeof *p) return false;
+    memcpy(p, a->data + at, sizeof *p);
+    const int64_t room = a->size - at - (int64_t)sizeof *p;
+    return p->count >= 0 && p->bytes > 0 && p->count <= room / p->bytes && padded(p) <= room && memchr(p->name, 0, sizeof p->name);
+}
+
+/* The zeros behind the elements count as well: a file that is not what was written is not trusted. */
+static bool part_whole(const part *p, const unsigned char *elements)
+{
+    for (int64_t k = p->count * (int64_t)p->bytes; k < padded(p); k++)
+        if (elements[k] != 0) return false;
+    return part_checksum(*p, elements) == p->checksum;
+}
+
+static mps_status check_parts(const mps__archive *a, const char *path)
+{
+    part p = {{0}, 0, 0, 0};
+    for (int64_t at = (int64_t)sizeof(head); strcmp(p.name, last_part) != 0; at += (int64_t)sizeof p + padded(&p)) {
+        if (!part_at(a, at, &p)) return mps__fail(a->context, MPS_E_IO, "checkpoint \"%.300s\" is cut short or damaged", path);
+        if (!part_whole(&p, a->data + at + sizeof p))
+            return mps__fail(a->context, MPS_E_IO, "checkpoint \"%.300s\" is damaged: the checksum of \"%s\" is wrong", path, p.name);
+    }
+    return MPS_OK;
+}
+
+mps_status mps__archive_load(mps__archive *a, const char *path)
+{
+    FILE *file = fopen(path, "rb");
+    if (!file) return io_failed(a->context, "read", path);
+    mps_status status = read_all(a, file, path);
+    fclose(file);
+    if (status == MPS_OK) status = check_head(a, path);
+    return status == MPS_OK ? check_parts(a, path) : status;
+}
+
+const void *mps__archive_get(const mps__archive *a, const char *name, size_t bytes, int64_t *count)
+{
+    part p = {{0}, 0, 0, 0};
+    for (int64_t at = (int64_t)sizeof(head); part_at(a, at, &p) && strcmp(p.name, last_part) != 0; at += (int64_t)sizeof p + padded(&p)) {
+        if (strcmp(p.name, name) != 0) continue;
+        *count = p.count;
+        if (p.bytes == bytes) return a->data + at + sizeof p;
+        mps__fail(a->context, MPS_E_VERSION, "\"%s\" of the checkpoint has elements of %u bytes; this library has %zu", name,
+                  (unsigned)p.bytes, bytes);
+        return NULL;
+    }
+    mps__fail(a->context, MPS_E_VERSION, "the checkpoint has no \"%s\"", name);
+    return NULL;
+}
+
+void mps__archive_free(mps__archive *a)
+{
+    mps__free(a->context, a->data);
+    a->data = NULL;
+    a->size = 0;
+}

@@ -1,0 +1,462 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Checkpoints: what goes on from one is what did not stop, to the last bit; files that are not what they were are refused. */
+#define _POSIX_C_SOURCE 200809L
+#include "tank_fixture.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+enum { STEPS = 30, PATH = 128 };
+
+static char folder[] = "/tmp/mps_checkpoint_XXXXXX";
+
+static int make_folder(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static const char *path_of(char out[PATH], const char *name)
+{
+    snprintf(out, PATH, "%s/%s", folder, name);
+    return out;
+}
+
+static int remove_folder(void **state)
+{
+    char command[PATH];
+    (void)state;
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    return system(command);
+}
+
+/* ---- scenes ---- */
+
+static void shake(mps_sim *sim, double amplitude)
+{
+    const mps_harmonic motion[2] = {{.dof = MPS_SURGE, .amplitude = amplitude, .omega = 12},
+                                    {.dof = MPS_YAW, .amplitude = 0.2, .omega = 9}};
+    ASSERT_OK(sim, mps_motion_set_harmonics(sim, 2, motion));
+}
+
+static void add_probes(mps_sim *sim)
+{
+    mps_probe probe;
+    int32_t id;
+    assert_int_equal(mps_probe_init(&probe, sizeof probe), MPS_OK);
+    probe.at[1] = 0.1;
+    probe.average = 0.03;
+    probe.rate = 300;
+    ASSERT_OK(sim, mps_probe_add(sim, &probe, &id));
+    probe.type = MPS_PROBE_FORCE;
+    probe.average = 0;
+    ASSERT_OK(sim, mps_probe_add(sim, &probe, &id));
+    probe.type = MPS_PROBE_GAUGE;
+    probe.rate = 0;
+    probe.at[0] = 0.2;
+    probe.at[1] = 0;
+    ASSERT_OK(sim, mps_probe_add(sim, &probe, &id));
+    ASSERT_OK(sim, mps_probe_add(sim, &probe, &id));
+    ASSERT_OK(sim, mps_probe_remove(sim, id));
+}
+
+static mps_sim *shaken(void)
+{
+    mps_sim *sim = new_sim(2, 0.05);
+    add_tank(sim, 0.6, 0.6, 0);
+    fill_depth(sim, 0.6, 0.3, 0);
+    ASSERT_OK(sim, mps_field_add(sim, "mark", 2));
+    add_probes(sim);
+    shake(sim, 0.1);
+    return sim;
+}
+
+static mps_sim *with_air(void)
+{
+    const double lo[2] = {0, 0}, hi[2] = {0.6, 0.6};
+    mps_phase air;
+    mps_sim *sim = new_sim(2, 0.04);
+    assert_int_equal(mps_phase_init(&air, sizeof air), MPS_OK);
+    air.density = 1.2;
+    air.viscosity = 1.8e-5;
+    ASSERT_OK(sim, mps_sim_use_preset(sim, "mmps"));
+    ASSERT_OK(sim, mps_sim_set_phase(sim, 1, &air));
+    add_tank(sim, 0.6, 0.6, 0);
+    fill_depth(sim, 0.6, 0.3, 0);
+    ASSERT_OK(sim, mps_geometry_fill_box(sim, 1, lo, hi, NULL));
+    add_probes(sim);
+    shake(sim, 0.05);
+    return sim;
+}
+
+static mps_sim *with_gas_law(void)
+{
+    mps_sim *sim = with_air();
+    ASSERT_OK(sim, mps_model_use(sim, "gas.isentropic"));
+    ASSERT_OK(sim, mps_solver_use(sim, "sundials.kinsol", NULL));
+    return sim;
+}
+
+/* A column falls over a plate that leans, and drops start outside of where anything may be. */
+static mps_sim *plate(void)
+{
+    const double lost[4] = {0.3, 50, 0.4, 60}, foot[2] = {0.6, 0}, edge[2] = {0.05, 0.15};
+    mps_sim *sim = new_sim(2, 0.04);
+    mps_particle_block block;
+    add_tank(sim, 1, 0.6, 0);
+    ASSERT_OK(sim, mps_geometry_plate(sim, "plate", foot, edge, NULL));
+    fill_depth(sim, 0.4, 0.4, 0);
+    assert_int_equal(mps_particle_block_init(&block, sizeof block), MPS_OK);
+    block.count = 2;
+    block.position = lost;
+    ASSERT_OK(sim, mps_particles_add(sim, &block, NULL));
+    return sim;
+}
+
+static mps_sim *dam_3d(void)
+{
+    mps_sim *sim = new_sim(3, 0.1);
+    add_tank(sim, 1, 0.6, 0.4);
+    fill_depth(sim, 0.5, 0.4, 0.4);
+    ASSERT_OK(sim, mps_sim_set_threads(sim, 2));
+    return sim;
+}
+
+typedef mps_sim *(*scene)(void);
+static const scene scenes[] = {shaken, with_air, with_gas_law, plate, dam_3d};
+enum { SCENES = sizeof scenes / sizeof scenes[0] };
+
+/* Some steps; on the way something that users do between steps. */
+static void go(mps_sim *sim, int64_t steps)
+{
+    int64_t done;
+    for (int64_t k = 0; k < steps; k++) {
+        mps_lease mark;
+        ASSERT_OK(sim, mps_sim_time(sim, NULL, &done));
+        if (done == 20 && mps_lease_begin(sim, "mark", MPS_WRITE, &mark) == MPS_OK) {
+            for (int64_t i = 0; i < mark.count * mark.stride; i++) mark.data[i] = (double)i;
+            ASSERT_OK(sim, mps_lease_end(sim, &mark));
+        }
+        ASSERT_OK(sim, mps_step(sim, 0.01, NULL));
+    }
+}
+
+/* ---- comparison ---- */
+
+static void same_field(mps_sim *a, mps_sim *b, const char *name)
+{
+    mps_lease x, y;
+    if (mps_lease_begin(a, name, MPS_READ, &x) != MPS_OK) return; /* not in this scene */
+    ASSERT_OK(b, mps_lease_begin(b, name, MPS_READ, &y));
+    assert_int_equal(x.count, y.count);
+    assert_memory_equal(x.data, y.data, (size_t)(x.count * x.stride) * sizeof *x.data);
+    ASSERT_OK(a, mps_lease_end(a, &x));
+    ASSERT_OK(b, mps_lease_end(b, &y));
+}
+
+static void same_tags(mps_sim *a, mps_sim *b)
+{
+    const int64_t *ids[2], n = mps_particles_count(a, -1);
+    const int32_t *tag[2][3];
+    ASSERT_OK(a, mps_particles_tags(a, &ids[0], &tag[0][0], &tag[0][1], &tag[0][2]));
+    ASSERT_OK(b, mps_particles_tags(b, &ids[1], &tag[1][0], &tag[1][1], &tag[1][2]));
+    assert_memory_equal(ids[0], ids[1], (size_t)n * sizeof(int64_t));
+    for (int k = 0; k < 3; k++) assert_memory_equal(tag[0][k], tag[1][k], (size_t)n * sizeof(int32_t));
+}
+
+static void same_budgets(mps_sim *a, mps_sim *b)
+{
+    mps_energy e[2];
+    mps_momentum m[2];
+    double t[2];
+    int64_t steps[2];
+    for (int k = 0; k < 2; k++) {
+        mps_sim *sim = k ? b : a;
+        memset(&e[k], 0, sizeof e[k]);
+        memset(&m[k], 0, sizeof m[k]);
+        assert_int_equal(mps_energy_init(&e[k], sizeof e[k]), MPS_OK);
+        assert_int_equal(mps_momentum_init(&m[k], sizeof m[k]), MPS_OK);
+        ASSERT_OK(sim, mps_energy_get(sim, &e[k]));
+        ASSERT_OK(sim, mps_momentum_get(sim, &m[k]));
+        ASSERT_OK(sim, mps_sim_time(sim, &t[k], &steps[k]));
+    }
+    assert_memory_equal(&e[0], &e[1], sizeof e[0]);
+    assert_memory_equal(&m[0], &m[1], sizeof m[0]);
+    assert_memory_equal(&t[0], &t[1], sizeof t[0]);
+    assert_int_equal(steps[0], steps[1]);
+}
+
+static void same_probes(mps_sim *a, mps_sim *b)
+{
+    for (int32_t id = 0; id < 3; id++) {
+        const int32_t size = mps_probe_size(a, id);
+        const double *t[2], *samples[2];
+        double value[2][6] = {{0}};
+        int64_t count[2];
+        if (size < 0) return; /* no probes in this scene */
+        ASSERT_OK(a, mps_probe_read(a, id, value[0]));
+        ASSERT_OK(b, mps_probe_read(b, id, value[1]));
+        assert_memory_equal(value[0], value[1], sizeof value[0]);
+        if (mps_probe_series(a, id, &count[0], &t[0], &samples[0]) != MPS_OK) continue;
+        ASSERT_OK(b, mps_probe_series(b, id, &count[1], &t[1], &samples[1]));
+        assert_true(count[0] == count[1]);
+        assert_memory_equal(t[0], t[1], (size_t)count[0] * sizeof(double));
+        assert_memory_equal(samples[0], samples[1], (size_t)(count[0] * size) * sizeof(double));
+    }
+}
+
+static void same(mps_sim *a, mps_sim *b)
+{
+    static const char *const fields[] = {"position", "velocity", "pressure", "number_density", "density", "mark"};
+    assert_int_equal(mps_particles_count(a, -1), mps_particles_count(b, -1));
+    same_tags(a, b);
+    for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++) same_field(a, b, fields[k]);
+    same_budgets(a, b);
+    same_probes(a, b);
+}
+
+/* ---- going on ---- */
+
+/* From the start, between two searches, after some, and twice over: what follows is what would have been. Writing changes nothing. */
+static void goes_on(void **state)
+{
+    static const int64_t at[] = {0, 1, 6, 22};
+    enum { TIMES = sizeof at / sizeof at[0] };
+    char path[TIMES][PATH], name[16], again[PATH];
+    (void)state;
+    for (int s = 0; s < SCENES; s++) {
+        mps_sim *through = scenes[s](), *stopped = scenes[s]();
+        int64_t done = 0;
+        go(through, STEPS);
+        for (int k = 0; k < TIMES; done = at[k++]) {
+            go(stopped, at[k] - done);
+            snprintf(name, sizeof name, "at%d", k);
+            ASSERT_OK(stopped, mps_checkpoint_write(stopped, path_of(path[k], name)));
+        }
+        go(stopped, STEPS - done);
+        same(through, stopped);
+        mps_sim_destroy(stopped);
+        for (int k = 0; k < TIMES; k++) {
+            mps_sim *sim = scenes[s]();
+            ASSERT_OK(sim, mps_checkpoint_read(sim, path[k]));
+            ASSERT_OK(sim, mps_checkpoint_write(sim, path_of(again, "again")));
+            go(sim, 3);
+            ASSERT_OK(sim, mps_checkpoint_read(sim, again)); /* back */
+            go(sim, STEPS - at[k]);
+            same(through, sim);
+            mps_sim_destroy(sim);
+        }
+        mps_sim_destroy(through);
+    }
+}
+
+/* Particles that come between a checkpoint and the next step, and those that are lost in it. */
+static void particles_come_and_go(void **state)
+{
+    char path[PATH];
+    const double x[2] = {0.3, 0.5}, far[2] = {0.3, 99};
+    mps_particle_block block;
+    mps_sim *sim[2] = {shaken(), shaken()};
+    int64_t id[2][2];
+    (void)state;
+    assert_int_equal(mps_particle_block_init(&block, sizeof block), MPS_OK);
+    block.count = 1;
+    go(sim[0], 20);
+    ASSERT_OK(sim[0], mps_checkpoint_write(sim[0], path_of(path, "come")));
+    ASSERT_OK(sim[1], mps_checkpoint_read(sim[1], path));
+    for (int k = 0; k < 2; k++) {
+        block.position = x;
+        ASSERT_OK(sim[k], mps_particles_add(sim[k], &block, &id[k][0]));
+        block.position = far;
+        ASSERT_OK(sim[k], mps_particles_add(sim[k], &block, &id[k][1]));
+        go(sim[k], 10);
+        assert_int_equal(mps_particle_index(sim[k], id[k][1]), -1);
+    }
+    assert_true(id[0][0] == id[1][0] && id[0][1] == id[1][1]);
+    same(sim[0], sim[1]);
+    for (int k = 0; k < 2; k++) mps_sim_destroy(sim[k]);
+}
+
+static int write_on_the_way(void *user, mps_sim *sim, const mps_step_info *info)
+{
+    ASSERT_OK(sim, mps_checkpoint_write(sim, user));
+    ASSERT_REFUSED(sim, mps_checkpoint_read(sim, user), MPS_E_STATE, "monitor");
+    return info->step == 10;
+}
+
+static void from_a_monitor(void **state)
+{
+    char path[PATH];
+    mps_sim *a = with_air(), *b = with_air();
+    (void)state;
+    path_of(path, "monitor");
+    ASSERT_STATUS(a, mps_run(a, 1, write_on_the_way, path), MPS_W_STOPPED);
+    ASSERT_OK(b, mps_checkpoint_read(b, path));
+    same(a, b);
+    ASSERT_OK(a, mps_run(a, 0.2, NULL, NULL));
+    ASSERT_OK(b, mps_run(b, 0.2, NULL, NULL));
+    same(a, b);
+    mps_sim_destroy(a);
+    mps_sim_destroy(b);
+}
+
+/* ---- refusals ---- */
+
+static int other_motion(void *user, double t, mps_motion_state *state)
+{
+    (void)user;
+    state->value[MPS_SURGE] = 0.2 * t;
+    return 0;
+}
+
+/* What differs, and the word for it. */
+typedef struct difference {
+    void (*make)(mps_sim *sim);
+    const char *word;
+} difference;
+
+static void thicker(mps_sim *sim)
+{
+    const mps_phase p = {.struct_size = sizeof p, .density = 1001, .viscosity = 1e-3};
+    ASSERT_OK(sim, mps_sim_set_phase(sim, 0, &p));
+}
+static void other_setting(mps_sim *sim)
+{
+    ASSERT_OK(sim, mps_model_set(sim, "collision", "distance", 0.77));
+}
+static void other_model(mps_sim *sim)
+{
+    ASSERT_OK(sim, mps_model_remove(sim, "shift"));
+}
+static void one_more_field(mps_sim *sim)
+{
+    ASSERT_OK(sim, mps_field_add(sim, "colour", 1));
+}
+static void one_more_probe(mps_sim *sim)
+{
+    add_probes(sim);
+}
+static void moved_otherwise(mps_sim *sim)
+{
+    ASSERT_OK(sim, mps_motion_set_callback(sim, other_motion, NULL));
+}
+static void not_moved(mps_sim *sim)
+{
+    ASSERT_OK(sim, mps_motion_clear(sim));
+}
+
+static void other_set_ups(void **state)
+{
+    static const difference all[] = {{thicker, "\"phase 0 density 1000\" where this simulation has \"phase 0 density 1001\""},
+                                     {other_setting, "distance 0.77"},
+                                     {other_model, "\"model shift."},
+                                     {one_more_field, "\"field colour of 1\""},
+                                     {one_more_probe, "\"probe 4 type 0\""},
+                                     {moved_otherwise, "the motion is another one: at t = "},
+                                     {not_moved, "\"motion given\" where this simulation has \"motion none\""}};
+    char path[PATH];
+    mps_sim *sim = shaken(), *kept = shaken();
+    (void)state;
+    go(sim, 5);
+    ASSERT_OK(sim, mps_checkpoint_write(sim, path_of(path, "set-up")));
+    mps_sim_destroy(sim);
+    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
+        sim = shaken();
+        all[k].make(sim);
+        ASSERT_REFUSED(sim, mps_checkpoint_read(sim, path), MPS_E_ARG, all[k].word);
+        same_field(sim, kept, "position");
+        go(sim, 1); /* it is none the worse */
+        mps_sim_destroy(sim);
+    }
+    sim = with_air();
+    ASSERT_REFUSED(sim, mps_checkpoint_read(sim, path), MPS_E_ARG, "set up by the same calls");
+    mps_sim_destroy(sim);
+    sim = dam_3d();
+    ASSERT_REFUSED(sim, mps_checkpoint_read(sim, path), MPS_E_ARG, "\"dimensions 2\"");
+    mps_sim_destroy(sim);
+    sim = new_sim(2, 0.04);
+    add_tank(sim, 0.64, 0.6, 0);
+    ASSERT_REFUSED(sim, mps_checkpoint_read(sim, path), MPS_E_ARG, "the checkpoint has");
+    mps_sim_destroy(sim);
+    mps_sim_destroy(kept);
+}
+
+static void calls_at_the_wrong_time(void **state)
+{
+    char path[PATH];
+    mps_sim *sim = shaken();
+    mps_lease x;
+    (void)state;
+    ASSERT_OK(sim, mps_checkpoint_write(sim, path_of(path, "lease")));
+    ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_READ, &x));
+    ASSERT_OK(sim, mps_checkpoint_write(sim, path));
+    ASSERT_REFUSED(sim, mps_checkpoint_read(sim, path), MPS_E_BUSY, "1 lease");
+    ASSERT_OK(sim, mps_lease_end(sim, &x));
+    ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &x));
+    ASSERT_REFUSED(sim, mps_checkpoint_write(sim, path), MPS_E_BUSY, "\"velocity\" is leased");
+    ASSERT_OK(sim, mps_lease_end(sim, &x));
+    assert_int_equal(mps_checkpoint_write(NULL, path), MPS_E_ARG);
+    assert_int_equal(mps_checkpoint_read(NULL, path), MPS_E_ARG);
+    ASSERT_REFUSED(sim, mps_checkpoint_write(sim, NULL), MPS_E_ARG, "path");
+    ASSERT_REFUSED(sim, mps_checkpoint_read(sim, ""), MPS_E_ARG, "path");
+    ASSERT_REFUSED(sim, mps_checkpoint_write(sim, "/nowhere/there/x"), MPS_E_IO, "cannot create \"/nowhere/there/x.tmp\": No such file");
+    ASSERT_REFUSED(sim, mps_checkpoint_read(sim, path_of(path, "missing")), MPS_E_IO, "No such file");
+    ASSERT_REFUSED(sim, mps_checkpoint_read(sim, folder), MPS_E_IO, "cannot read");
+    mps_sim_destroy(sim);
+}
+
+/* ---- damage ---- */
+
+static void write_file(const char *path, const unsigned char *bytes, size_t size)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+}
+
+static size_t read_file(const char *path, unsigned char *bytes, size_t room)
+{
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    const size_t size = fread(bytes, 1, room, file);
+    assert_true(size < room);
+    assert_int_equal(fclose(file), 0);
+    return size;
+}
+
+/* A bit turned anywhere, an end anywhere: always told, nothing taken. */
+static void damaged_files(void **state)
+{
+    static unsigned char bytes[1 << 20];
+    char path[PATH];
+    mps_sim *sim = shaken(), *kept = shaken();
+    (void)state;
+    ASSERT_OK(sim, mps_checkpoint_write(sim, path_of(path, "damaged")));
+    const size_t size = read_file(path, bytes, sizeof bytes);
+    for (size_t k = 0; k < size; k += k < 150 ? 1 : 211) {
+        bytes[k] ^= 1 << k % 8;
+        write_file(path, bytes, size);
+        const mps_status status = mps_checkpoint_read(sim, path);
+        bytes[k] ^= 1 << k % 8;
+        if (status != MPS_E_IO && status != MPS_E_VERSION) fail_msg("byte %zu of %zu turned: %s", k, size, mps_status_name(status));
+    }
+    for (size_t k = 0; k < size; k += k < 150 ? 1 : 1013) {
+        write_file(path, bytes, k);
+        ASSERT_REFUSED(sim, mps_checkpoint_read(sim, path), MPS_E_IO, k < 16 ? "is no checkpoint" : "cut short");
+    }
+    write_file(path, (const unsigned char *)"something else altogether", 25);
+    ASSERT_REFUSED(sim, mps_checkpoint_read(sim, path), MPS_E_IO, "is no checkpoint");
+    same(sim, kept);
+    mps_sim_destroy(sim);
+    mps_sim_destroy(kept);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(goes_on),       cmocka_unit_test(particles_come_and_go),   cmocka_unit_test(from_a_monitor),
+        cmocka_unit_test(other_set_ups), cmocka_unit_test(calls_at_the_wrong_time), cmocka_unit_test(damaged_files),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
