@@ -217,13 +217,13 @@ static mps_status check_motion(const arrival *v)
 {
     static const char *const name[MPS_DOF_COUNT] = {"surge", "heave", "sway", "roll", "yaw", "pitch"};
     mps__world *w = &v->sim->world;
-    mps__pose saved, here;
+    mps__pose saved = {0}, here;
     for (int k = 0; k < v->count; k++)
         if (v->slots[k].at == &w->motion.now) memcpy(&saved, v->value[k], sizeof saved);
     if (!w->motion.fn) return MPS_OK;
     MPS__TRY(mps__motion_pose(&w->motion, saved.t, &here));
     for (int d = 0; d < MPS_DOF_COUNT; d++)
-        MPS__CHECK(w->context, memcmp(&saved.state.value[d], &here.state.value[d], sizeof(double)) == 0,
+        MPS__CHECK(w->context, saved.state.value[d] == here.state.value[d],
                    "the motion is another one: at t = %.9g s %s is %.17g, in the checkpoint %.17g", saved.t, name[d], here.state.value[d],
                    saved.state.value[d]);
     return MPS_OK;
