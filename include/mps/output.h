@@ -15,7 +15,9 @@ enum { MPS_FRAMES_FLUID = 1, MPS_FRAMES_WALL = 2, MPS_FRAMES_DUMMY = 4, MPS_FRAM
 
 /** Open a series: writes `<folder>/<name>.pvd` and `<folder>/<name>/<name>_000000.vtp` ...; the folder must exist.
  *  Frames of an earlier series of the same folder and name are removed, other files are left alone. With MPS_FRAMES_CONTINUE those up to
- *  the present time stay, and the series goes on behind them; MPS_E_IO if the .pvd that is there cannot be read.
+ *  the present time stay, later ones are removed, and the series goes on behind them: a run that was interrupted, after
+ *  mps_checkpoint_read(). A state at the time of the last frame then takes its place, so that no time is there twice. Without a .pvd a
+ *  series begins; MPS_E_IO, and nothing is removed, if that which is there is not as mps_frames_write() left it.
  *  @param kinds   sum of MPS_FRAMES_..., without any kind fluid and wall
  *  @param frames  out; close with mps_frames_close(). The simulation must outlive it. */
 MPS_API mps_status mps_frames_open(mps_sim *sim, const char *folder, const char *name, int32_t kinds, mps_frames **frames);

@@ -5,11 +5,13 @@
 #include "frames.h"
 #include <dirent.h>
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
-enum { NAME_SIZE = 48, CHUNK = 512, COLUMNS = MPS__FIELDS_MAX + 4 };
+enum { NAME_SIZE = 48, CHUNK = 512, COLUMNS = MPS__FIELDS_MAX + 4, LINE_SIZE = 256 };
 
 struct mps_frames {
     mps__world *world; /* borrowed */
@@ -19,6 +21,7 @@ struct mps_frames {
     size_t path_size;
     int64_t count, capacity;
     double *times;
+    bool continues; /* frames of a run before this one are in it */
 };
 
 /* How a column's numbers are stored in the file. */
@@ -59,6 +62,17 @@ static const char *number(char out[32], double value)
     for (char *c = out; *c; c++)
         if (*c == ',') *c = '.';
     return out;
+}
+
+/* What number() wrote, as strtod() wants it. */
+static double number_back(const char *text)
+{
+    char own[32], half[8];
+    snprintf(half, sizeof half, "%.1f", 0.5);
+    snprintf(own, sizeof own, "%.31s", text);
+    for (char *c = own; *c; c++)
+        if (*c == '.') *c = half[1];
+    return strtod(own, NULL);
 }
 
 static void print_escaped(FILE *file, const char *text)
@@ -229,14 +243,28 @@ static void write_frame(const mps_frames *series, FILE *file)
     fprintf(file, "\n</AppendedData>\n</VTKFile>\n");
 }
 
-static void write_series(const mps_frames *f, FILE *file)
+static const char series_head[] =
+    "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"%s\">\n<Collection>\n";
+static const char series_time[] = "<DataSet timestep=\"";
+static const char series_end[] = "</Collection>\n</VTKFile>\n";
+
+/* The line of frame k in the .pvd. */
+static void series_line(const mps_frames *f, int64_t k, double time, char line[LINE_SIZE])
 {
     char t[32];
-    fprintf(file, "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"%s\">\n<Collection>\n", byte_order());
-    for (int64_t k = 0; k < f->count; k++)
-        fprintf(file, "<DataSet timestep=\"%s\" part=\"0\" file=\"%s/%s_%06lld.vtp\"/>\n", number(t, f->times[k]), f->name, f->name,
-                (long long)k);
-    fprintf(file, "</Collection>\n</VTKFile>\n");
+    snprintf(line, LINE_SIZE, "%s%s\" part=\"0\" file=\"%s/%s_%06lld.vtp\"/>\n", series_time, number(t, time), f->name, f->name,
+             (long long)k);
+}
+
+static void write_series(const mps_frames *f, FILE *file)
+{
+    char line[LINE_SIZE];
+    fprintf(file, series_head, byte_order());
+    for (int64_t k = 0; k < f->count; k++) {
+        series_line(f, k, f->times[k], line);
+        fputs(line, file);
+    }
+    fputs(series_end, file);
 }
 
 /* Write f->path through f->temporary. */
@@ -273,14 +301,14 @@ static mps_status create_folder(const mps_frames *f)
     return MPS_OK;
 }
 
-/* "<name>_<digits>.vtp" */
-static bool is_frame(const char *series, const char *file)
+/* "<name>_<digits>.vtp" that the series does not name. */
+static bool is_old_frame(const mps_frames *f, const char *file)
 {
-    size_t length = strlen(series);
-    if (strncmp(file, series, length) != 0 || file[length] != '_') return false;
+    size_t length = strlen(f->name);
+    if (strncmp(file, f->name, length) != 0 || file[length] != '_') return false;
     const char *digits = file + length + 1;
     size_t count = strspn(digits, "0123456789");
-    return count >= 6 && strcmp(digits + count, ".vtp") == 0;
+    return count >= 6 && strcmp(digits + count, ".vtp") == 0 && strtoll(digits, NULL, 10) >= f->count;
 }
 
 /* Frames of an earlier run in the same folder, which the new series may not reach; the .pvd names them no more. */
@@ -292,13 +320,70 @@ static mps_status remove_old(const mps_frames *f)
     DIR *folder = opendir(f->temporary);
     if (!folder) return io_failed(f, "read the folder", f->temporary);
     while (status == MPS_OK && (entry = readdir(folder)) != NULL) {
-        if (!is_frame(f->name, entry->d_name) || strlen(entry->d_name) >= NAME_SIZE + 24) continue;
+        if (!is_old_frame(f, entry->d_name) || strlen(entry->d_name) >= NAME_SIZE + 24) continue;
         snprintf(f->path, f->path_size, "%s/%s/%s", f->folder, f->name, entry->d_name);
         if (remove(f->path) != 0 && errno != ENOENT) status = io_failed(f, "remove", f->path);
     }
     closedir(folder);
     return status;
 }
+
+/* ---- going on with a series -------------------------------------------------------------------------------------- */
+
+/* Rounding of a time, as at the end of mps_run(). */
+static double time_slack(const mps_frames *f)
+{
+    return 1e-12 * fmax(1.0, fabs(f->world->info.t));
+}
+
+static bool read_text(FILE *file, const char *wanted)
+{
+    for (; *wanted; wanted++)
+        if (fgetc(file) != *wanted) return false;
+    return true;
+}
+
+/* Times of the frames up to the present one. Every line must be the one that is written for its number and time. */
+static mps_status read_times(mps_frames *f, FILE *file, bool *good)
+{
+    char head[LINE_SIZE], line[LINE_SIZE] = "", wanted[LINE_SIZE];
+    const size_t before = strlen(series_time);
+    const double last = f->world->info.t + time_slack(f);
+    bool later = false;
+    snprintf(head, sizeof head, series_head, byte_order());
+    *good = read_text(file, head);
+    for (int64_t k = 0; *good && fgets(line, sizeof line, file) && strncmp(line, series_time, before) == 0; k++) {
+        const double time = number_back(line + before);
+        series_line(f, k, time, wanted);
+        *good = strcmp(line, wanted) == 0;
+        later = later || !(time <= last);
+        if (later) continue;
+        MPS__TRY(mps__grow(f->world->context, (void **)&f->times, &f->capacity, f->count, f->count + 1, sizeof *f->times));
+        f->times[f->count++] = time;
+    }
+    const char *newline = strchr(series_end, '\n') + 1;
+    *good = *good && strncmp(line, series_end, (size_t)(newline - series_end)) == 0 && read_text(file, newline) && fgetc(file) == EOF;
+    return MPS_OK;
+}
+
+/* The series that is there; none is an empty one. */
+static mps_status read_series(mps_frames *f)
+{
+    bool good = false;
+    snprintf(f->path, f->path_size, "%s/%s.pvd", f->folder, f->name);
+    FILE *file = fopen(f->path, "rb");
+    if (!file) return errno == ENOENT ? MPS_OK : io_failed(f, "read", f->path);
+    mps_status status = read_times(f, file, &good);
+    if (status == MPS_OK && ferror(file))
+        status = io_failed(f, "read", f->path);
+    else if (status == MPS_OK && !good)
+        status = mps__fail(f->world->context, MPS_E_IO,
+                           "cannot go on with \"%.300s\": it is not as mps_frames_write() leaves it; without it a series begins", f->path);
+    fclose(file);
+    return status;
+}
+
+/* ---- opening ----------------------------------------------------------------------------------------------------- */
 
 /* Names go into paths and XML as they are. */
 static bool good_name(const char *name)
@@ -319,6 +404,7 @@ static mps_status open_series(mps_frames *f, const char *folder)
     if (!f->folder || !f->path || !f->temporary) return MPS_E_NOMEM;
     memcpy(f->folder, folder, length + 1);
     MPS__TRY(create_folder(f));
+    if (f->continues) MPS__TRY(read_series(f));
     MPS__TRY(update_series(f));
     return remove_old(f);
 }
@@ -326,7 +412,7 @@ static mps_status open_series(mps_frames *f, const char *folder)
 mps_status mps__frames_open(mps__world *w, const char *folder, const char *name, int32_t kinds, mps_frames **frames)
 {
     mps__context *c = w->context;
-    const int32_t all = MPS_FRAMES_FLUID | MPS_FRAMES_WALL | MPS_FRAMES_DUMMY;
+    const int32_t some = MPS_FRAMES_FLUID | MPS_FRAMES_WALL | MPS_FRAMES_DUMMY, all = some | MPS_FRAMES_CONTINUE;
     *frames = NULL;
     MPS__CHECK(c, folder && folder[0], "the folder of the frames is NULL or empty");
     MPS__CHECK(c, good_name(name), "frames: name \"%.60s\" must have 1..%d of the characters A-Z a-z 0-9 _ - . and not begin with a dot",
@@ -335,7 +421,8 @@ mps_status mps__frames_open(mps__world *w, const char *folder, const char *name,
     mps_frames *f = mps__alloc(c, 1, sizeof *f);
     if (!f) return MPS_E_NOMEM;
     f->world = w;
-    f->kinds = kinds ? kinds : MPS_FRAMES_FLUID | MPS_FRAMES_WALL;
+    f->kinds = kinds & some ? kinds & some : MPS_FRAMES_FLUID | MPS_FRAMES_WALL;
+    f->continues = (kinds & MPS_FRAMES_CONTINUE) != 0;
     memcpy(f->name, name, strlen(name) + 1);
     mps_status status = open_series(f, folder);
     if (status < 0)
@@ -345,13 +432,21 @@ mps_status mps__frames_open(mps__world *w, const char *folder, const char *name,
     return status;
 }
 
+/* A run that goes on where another was interrupted may write its state again: the frame with the same time is written anew. */
+static bool repeats_last(const mps_frames *f)
+{
+    return f->continues && f->count > 0 && fabs(f->world->info.t - f->times[f->count - 1]) <= time_slack(f);
+}
+
 mps_status mps_frames_write(mps_frames *frames)
 {
     mps_frames *f = frames;
     if (!f) return MPS_E_ARG;
-    MPS__TRY(mps__grow(f->world->context, (void **)&f->times, &f->capacity, f->count, f->count + 1, sizeof *f->times));
-    snprintf(f->path, f->path_size, "%s/%s/%s_%06lld.vtp", f->folder, f->name, f->name, (long long)f->count);
+    const int64_t place = f->count - repeats_last(f);
+    MPS__TRY(mps__grow(f->world->context, (void **)&f->times, &f->capacity, f->count, place + 1, sizeof *f->times));
+    snprintf(f->path, f->path_size, "%s/%s/%s_%06lld.vtp", f->folder, f->name, f->name, (long long)place);
     MPS__TRY(write_file(f, write_frame));
+    if (place < f->count) return MPS_OK;
     f->times[f->count++] = f->world->info.t;
     mps_status status = update_series(f);
     if (status < 0) f->count--;

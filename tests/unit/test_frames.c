@@ -2,6 +2,7 @@
 /* Frames are read back with a small parser of the format; the series is valid after every frame. */
 #include "sim.h"
 #include "tank_fixture.h"
+#include <locale.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
@@ -213,6 +214,160 @@ static void old_frames_go(void **state)
     mps_sim_destroy(sim);
 }
 
+/* A series of four frames at 0, 0.1, 0.2, 0.3 s, with something of another's beside them. */
+static mps_sim *four_frames(const char *name)
+{
+    char other[64];
+    mps_sim *sim = prepared(2);
+    mps_frames *frames;
+    ASSERT_OK(sim, mps_frames_open(sim, folder, name, 0, &frames));
+    for (int k = 0; k < 4; k++) {
+        sim->world.info.t = 0.1 * k;
+        ASSERT_OK(sim, mps_frames_write(frames));
+    }
+    mps_frames_close(frames);
+    snprintf(other, sizeof other, "%s/notes.vtp", name);
+    touch(other);
+    return sim;
+}
+
+/* The .pvd names frames at these times and no other, they are there, and the next one is not. */
+static void check_series(const char *name, int count, const double *t)
+{
+    char file[64], wanted[4096] = "<Collection>\n";
+    size_t size;
+    for (int k = 0; k < count; k++) {
+        size = strlen(wanted);
+        snprintf(wanted + size, sizeof wanted - size, "<DataSet timestep=\"%.17g\" part=\"0\" file=\"%s/%s_%06d.vtp\"/>\n", t[k], name,
+                 name, k);
+        snprintf(file, sizeof file, "%s/%s_%06d.vtp", name, name, k);
+        assert_true(there(file));
+    }
+    snprintf(file, sizeof file, "%s/%s_%06d.vtp", name, name, count);
+    assert_false(there(file));
+    strcat(wanted, "</Collection>\n");
+    snprintf(file, sizeof file, "%s.pvd", name);
+    char *text = slurp(file, &size);
+    assert_non_null(strstr(text, wanted));
+    free(text);
+    snprintf(file, sizeof file, "%s/notes.vtp", name);
+    assert_true(there(file));
+}
+
+static void series_goes_on(void **state)
+{
+    (void)state;
+    mps_frames *frames;
+    for (int at = 0; at < 2; at++) { /* between two frames, and, but for rounding, at one */
+        mps_sim *sim = four_frames("on");
+        sim->world.info.t = at ? 0.2 * (1 - 1e-15) : 0.25;
+        ASSERT_OK(sim, mps_frames_open(sim, folder, "on", MPS_FRAMES_CONTINUE | MPS_FRAMES_WALL, &frames));
+        check_series("on", 3, (const double[]){0, 0.1, 0.2});
+        sim->world.info.t = 0.26;
+        ASSERT_OK(sim, mps_frames_write(frames));
+        check_series("on", 4, (const double[]){0, 0.1, 0.2, 0.26});
+        check_frame(sim, "on/on_000000.vtp", 3);
+        check_frame(sim, "on/on_000003.vtp", MPS_FRAMES_WALL);
+        mps_frames_close(frames);
+        mps_sim_destroy(sim);
+    }
+}
+
+/* What is written at the time of the last frame takes its place. */
+static void no_time_twice(void **state)
+{
+    (void)state;
+    mps_frames *frames;
+    mps_sim *sim = four_frames("twice");
+    ASSERT_OK(sim, mps_frames_open(sim, folder, "twice", MPS_FRAMES_CONTINUE | MPS_FRAMES_DUMMY, &frames));
+    for (int k = 0; k < 2; k++) ASSERT_OK(sim, mps_frames_write(frames));
+    check_series("twice", 4, (const double[]){0, 0.1, 0.2, 0.1 * 3});
+    check_frame(sim, "twice/twice_000003.vtp", MPS_FRAMES_DUMMY);
+    check_frame(sim, "twice/twice_000002.vtp", 3);
+    sim->world.info.t = 0.4;
+    for (int k = 0; k < 2; k++) ASSERT_OK(sim, mps_frames_write(frames));
+    check_series("twice", 5, (const double[]){0, 0.1, 0.2, 0.1 * 3, 0.4});
+    mps_frames_close(frames);
+    mps_sim_destroy(sim);
+}
+
+static void nothing_to_go_on_with(void **state)
+{
+    (void)state;
+    mps_frames *frames;
+    mps_sim *sim = prepared(2);
+    ASSERT_OK(sim, mps_frames_open(sim, folder, "fresh", MPS_FRAMES_CONTINUE, &frames));
+    touch("fresh/notes.vtp");
+    check_series("fresh", 0, NULL);
+    ASSERT_OK(sim, mps_frames_write(frames));
+    check_series("fresh", 1, (const double[]){0});
+    check_frame(sim, "fresh/fresh_000000.vtp", 3);
+    mps_frames_close(frames);
+    sim->world.info.t = -1; /* before all there are */
+    ASSERT_OK(sim, mps_frames_open(sim, folder, "fresh", MPS_FRAMES_CONTINUE, &frames));
+    check_series("fresh", 0, NULL);
+    mps_frames_close(frames);
+    mps_sim_destroy(sim);
+}
+
+static void put(const char *name, const char *text, size_t size)
+{
+    char path[256];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *f = fopen(path, "wb");
+    assert_non_null(f);
+    assert_int_equal(fwrite(text, 1, size, f), size);
+    fclose(f);
+}
+
+/* A .pvd that is cut short anywhere, or has another character in any place, is refused and all frames stay. */
+static void foreign_series_stays(void **state)
+{
+    (void)state;
+    mps_frames *frames;
+    mps_sim *sim = four_frames("alien");
+    size_t size;
+    char *text = slurp("alien.pvd", &size);
+    sim->world.info.t = 0.15;
+    for (size_t k = 0; k < size; k++)
+        for (int how = 0; how < 2; how++) {
+            const char was = text[k];
+            text[k] = '~';
+            put("alien.pvd", text, how ? size : k);
+            text[k] = was;
+            ASSERT_REFUSED(sim, mps_frames_open(sim, folder, "alien", MPS_FRAMES_CONTINUE, &frames), MPS_E_IO, "alien.pvd\": it is not as");
+            assert_null(frames);
+        }
+    put("alien.pvd", text, size + 1); /* something behind it */
+    ASSERT_REFUSED(sim, mps_frames_open(sim, folder, "alien", MPS_FRAMES_CONTINUE, &frames), MPS_E_IO, "it is not as");
+    put("alien.pvd", text, size);
+    check_series("alien", 4, (const double[]){0, 0.1, 0.2, 0.1 * 3});
+    ASSERT_OK(sim, mps_frames_open(sim, folder, "alien", MPS_FRAMES_CONTINUE, &frames));
+    check_series("alien", 2, (const double[]){0, 0.1});
+    mps_frames_close(frames);
+    free(text);
+    mps_sim_destroy(sim);
+}
+
+/* The host program's locale has a decimal comma; skipped where no such locale is installed. */
+static void series_goes_on_with_a_comma(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "de_DE", "fr_FR"};
+    bool comma = false;
+    for (int k = 0; k < 5 && !comma; k++) comma = setlocale(LC_NUMERIC, names[k]) && strcmp(localeconv()->decimal_point, ",") == 0;
+    if (!comma) skip();
+    mps_frames *frames;
+    mps_sim *sim = four_frames("comma");
+    sim->world.info.t = 0.25;
+    mps_status status = mps_frames_open(sim, folder, "comma", MPS_FRAMES_CONTINUE, &frames);
+    setlocale(LC_NUMERIC, "C");
+    ASSERT_OK(sim, status);
+    check_series("comma", 3, (const double[]){0, 0.1, 0.2});
+    mps_frames_close(frames);
+    mps_sim_destroy(sim);
+}
+
 static void no_particle_of_a_kind(void **state)
 {
     (void)state;
@@ -244,7 +399,7 @@ static void refusals(void **state)
     ASSERT_REFUSED(sim, mps_frames_open(sim, folder, NULL, 0, &frames), MPS_E_ARG, "name");
     ASSERT_REFUSED(sim, mps_frames_open(sim, "", "run", 0, &frames), MPS_E_ARG, "folder");
     ASSERT_REFUSED(sim, mps_frames_open(sim, NULL, "run", 0, &frames), MPS_E_ARG, "folder");
-    ASSERT_REFUSED(sim, mps_frames_open(sim, folder, "run", 8, &frames), MPS_E_ARG, "kinds is 8");
+    ASSERT_REFUSED(sim, mps_frames_open(sim, folder, "run", 16, &frames), MPS_E_ARG, "kinds is 16");
     ASSERT_REFUSED(sim, mps_frames_open(sim, folder, "run", 0, NULL), MPS_E_ARG, "frames is NULL");
     assert_int_equal(mps_frames_open(NULL, folder, "run", 0, &frames), MPS_E_ARG);
     assert_int_equal(mps_frames_write(NULL), MPS_E_ARG);
@@ -264,9 +419,11 @@ static void refusals(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(frames_read_back), cmocka_unit_test(series_names_all_frames),
-        cmocka_unit_test(old_frames_go),    cmocka_unit_test(no_particle_of_a_kind),
-        cmocka_unit_test(refusals),
+        cmocka_unit_test(frames_read_back),      cmocka_unit_test(series_names_all_frames),
+        cmocka_unit_test(old_frames_go),         cmocka_unit_test(series_goes_on),
+        cmocka_unit_test(no_time_twice),         cmocka_unit_test(nothing_to_go_on_with),
+        cmocka_unit_test(foreign_series_stays),  cmocka_unit_test(series_goes_on_with_a_comma),
+        cmocka_unit_test(no_particle_of_a_kind), cmocka_unit_test(refusals),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
