@@ -28,6 +28,15 @@ static int cli_table(cli_options *o, cli_option *table)
     table[n++] = (cli_option){"--out", "DIR", "folder for all outputs", TYPE_TEXT, &o->out, 0, 0, false};
     table[n++] = (cli_option){"--frames",     "N",  "frames for ParaView besides the first; 0: none", TYPE_INT, &o->frames, 0,
                               CLI_FRAMES_MAX, false};
+    table[n++] = (cli_option){"--checkpoint",
+                              "S",
+                              "a checkpoint every S simulated seconds and at the end; without it only at Ctrl-C",
+                              TYPE_REAL,
+                              &o->checkpoint,
+                              0,
+                              o->t_max,
+                              false};
+    table[n++] = (cli_option){"--resume", NULL, "go on from the checkpoint in the folder of --out", TYPE_FLAG, &o->resume, 0, 0, true};
     table[n++] = (cli_option){"--probe-dt", "S", "interval of rows in probes.csv [s]", TYPE_REAL, &o->probe_dt, 0, 10, false};
     table[n++] = (cli_option){
         "--sensor-average", "S", "wall pressures are means of the last S seconds", TYPE_REAL, &o->sensor_average, 0, 10, false};
@@ -83,8 +92,11 @@ static void cli_help(const cli_options *o, const cli_option *table, int n)
         cli_default_text(&table[i], initial, sizeof initial);
         printf("  %-18s %s%s\n", left, table[i].help, initial);
     }
-    printf("\nWrites probes.csv, summary.json, frames.pvd with frames/, plots, pictures and report.html into the folder of --out.\n"
-           "Exit: 0 done, 1 failed, 2 wrong value, 3 diverged or beyond a model (outputs stay readable), 130 interrupted by Ctrl-C.\n");
+    printf(
+        "\nWrites probes.csv, summary.json, frames.pvd with frames/, plots, pictures and report.html into the folder of --out.\n"
+        "Ctrl-C (or SIGTERM) ends the run after its step with checkpoint.mps there as well; --resume and the same options go on from it,\n"
+        "also to a later --t-end. What the files hold beyond the checkpoint is computed again.\n"
+        "Exit: 0 done, 1 failed, 2 wrong value, 3 diverged or beyond a model (outputs stay readable), 130 interrupted by Ctrl-C.\n");
     exit(CLI_OK);
 }
 

@@ -38,6 +38,8 @@ typedef struct cli_options {
     double re_far;               /* far radius [dp]; 0: the library's */
     const char *solver;          /* "solver" or "solver/preconditioner" */
     const char *out;             /* folder of all outputs */
+    double checkpoint;           /* interval of checkpoints [s]; 0: only when interrupted */
+    bool resume;                 /* go on from the checkpoint in `out` */
     double dp, dp_min, dp_max;   /* spacing [m] and what makes sense for this case */
     double dt;                   /* fixed step [s]; 0: adaptive */
     double cfl;                  /* adaptive: dt u / dp */

@@ -37,6 +37,8 @@ enum {
     MOMENTUM_COLUMNS
 };
 
+/* Remember the first thing that went wrong besides stepping. @return false if it did */
+bool run_note(run *r, mps_status status, const char *what);
 /* summary.json. @return false with a message on stderr */
 bool summary_save(const run *r);
 /* plot_*.svg, and report.html unless it was not wanted. @return false with a message on stderr */

@@ -23,6 +23,12 @@ void progress_begin(progress *p, double t_end, int64_t particles, bool quiet)
     p->start = p->shown = progress_clock();
 }
 
+void progress_from(progress *p, double t, int64_t steps)
+{
+    p->t_begin = t;
+    p->steps_shown = steps;
+}
+
 static void progress_time(char *text, size_t size, double seconds)
 {
     long s = seconds < 359999 ? (long)(seconds + 0.5) : 359999;
@@ -40,7 +46,8 @@ bool progress_step(progress *p, const mps_step_info *info)
     if (p->quiet || now - p->shown < interval) return false;
     double rate = (double)(info->step - p->steps_shown) * (double)p->particles / (now - p->shown);
     p->rate = p->rate > 0 ? 0.8 * p->rate + 0.2 * rate : rate; /* a tenth of a second is only a few steps */
-    double eta = info->t > 0 ? (now - p->start) * (p->t_end - info->t) / info->t : 0;
+    double done = info->t - p->t_begin;
+    double eta = done > 0 ? (now - p->start) * (p->t_end - info->t) / done : 0;
     double percent = 100 * info->t / p->t_end;
     p->shown = now;
     p->steps_shown = info->step;

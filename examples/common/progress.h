@@ -10,7 +10,7 @@ typedef struct progress {
     bool quiet, terminal, colour;
     bool line;           /* a line without its newline stands on the terminal */
     double start, shown; /* wall clock [s] */
-    double t_end;
+    double t_begin, t_end;
     int64_t particles;
     int64_t steps_shown; /* steps at the last output, for the rate */
     double rate;         /* particles a second, smoothed */
@@ -19,6 +19,8 @@ typedef struct progress {
 /* Wall clock, monotonic [s]. */
 double progress_clock(void);
 void progress_begin(progress *p, double t_end, int64_t particles, bool quiet);
+/* The run goes on from here: what was computed before took no time. */
+void progress_from(progress *p, double t, int64_t steps);
 /* Show a step if it is time to. @return true if something was shown (about ten times a second, or every few seconds) */
 bool progress_step(progress *p, const mps_step_info *info);
 /* Free the line for a message on stderr. */

@@ -164,7 +164,7 @@ static void html_settings(FILE *out, const run *r)
 static void html_results(FILE *out, const run *r)
 {
     const run_totals *s = &r->totals;
-    double steps = s->steps > 0 ? (double)s->steps : 1;
+    double steps = s->steps > 0 ? (double)s->steps : 1, here = s->steps_here > 0 ? (double)s->steps_here : 1;
     fputs("<h2>Run</h2>\n<table>\n", out);
     html_row(out, "status", s->status);
     if (s->error[0]) html_row(out, "message", s->error);
@@ -178,8 +178,9 @@ static void html_results(FILE *out, const run *r)
     html_number(out, "steps", (double)s->steps, "");
     html_number(out, "mean time step", s->t / steps, "s");
     html_number(out, "pressure iterations a step", s->ppe_iterations / steps, "");
+    if (s->t_before > 0) html_number(out, "wall clock is that since t =", s->t_before, "s");
     html_number(out, "wall clock", s->wall_s, "s");
-    html_number(out, "wall clock a step", 1e3 * s->step_s / steps, "ms");
+    html_number(out, "wall clock a step", 1e3 * s->step_s / here, "ms");
     fputs("</table>\n", out);
 }
 

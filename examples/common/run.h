@@ -38,9 +38,10 @@ typedef struct run_figure {
     double measured;
 } run_figure;
 
-/* Sums over the run, for summary.json and the report. */
+/* Sums over the run, for summary.json and the report. Of one that goes on from a checkpoint: seconds are without what was before it. */
 typedef struct run_totals {
-    int64_t fluid, wall, dummy, steps, not_converged, lost;
+    int64_t fluid, wall, dummy, steps, steps_here, not_converged, lost; /* steps_here: without those before the checkpoint */
+    double t_before;                                                    /* time of the checkpoint; 0: none */
     double t, wall_s, cpu_s, step_s, output_s, max_speed, volume_error;
     double ppe_iterations, seconds[MPS_STAGE_COUNT];
     const char *status;
@@ -60,6 +61,9 @@ typedef struct run {
     int pictures;  /* taken so far */
     progress progress;
     run_totals totals;
+    int64_t checkpoint;                         /* next checkpoint */
+    double checkpoint_t;                        /* of the last; 0: none */
+    double frame_t;                             /* of the last frame; -1: none yet */
     double start[1 + RUN_COLUMNS + RUN_COMMON]; /* row of t = 0, until it is written after the first step */
     double step_end;                            /* wall clock when the last step's outputs were done */
     int messages;                               /* of the library, shown so far */

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Stepping a run to its end: rows, frames and pictures after each step, Ctrl-C, and what to say when it fails. */
+/* Stepping a run to its end: rows, frames, pictures and checkpoints after each step, Ctrl-C, and what to say when it fails. */
 #include "outputs.h"
 #include "picture.h"
+#include "resume.h"
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -13,7 +14,7 @@ enum { RUN_QUARTERS = 4 };
 
 static volatile sig_atomic_t interrupted;
 
-/* The handler is there for one signal only: a second Ctrl-C ends the program at once. */
+/* The handler is there for one signal of each kind only: a second Ctrl-C ends the program at once. */
 static void on_interrupt(int signal)
 {
     (void)signal;
@@ -25,10 +26,10 @@ static void catch_interrupt(void)
     struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
 }
 
-/* Remember the first thing that went wrong besides stepping. */
-static bool run_note(run *r, mps_status status, const char *what)
+bool run_note(run *r, mps_status status, const char *what)
 {
     if (status >= 0) return true;
     r->output_failed = true;
@@ -47,6 +48,13 @@ static void header_add(char *header, size_t size, const char *name, const char *
     snprintf(header + used, size - used, ",%s[%s]", name, unit);
 }
 
+static bool run_open_table(run *r, table *t, const char *name, const char *header, int columns, double interval)
+{
+    if (!table_create(t, r->options.out, name, columns, interval)) return false;
+    if (!r->options.resume) return table_begin(t, header);
+    return table_resume(t, header, r->totals.t_before, t == &r->steps ? resume_add_step : NULL, r);
+}
+
 static bool run_open_probes(run *r)
 {
     char header[RUN_COLUMNS * 48] = "t[s]";
@@ -61,7 +69,7 @@ static bool run_open_probes(run *r)
     header_add(header, sizeof header, "x_tank", "m");
     for (size_t i = 0; i < sizeof ENERGIES / sizeof *ENERGIES; i++) header_add(header, sizeof header, ENERGIES[i], joule);
     snprintf(header + strlen(header), sizeof header - strlen(header), ",volume_error");
-    return table_open(&r->probes, r->options.out, "probes.csv", header, 1 + r->columns + RUN_COMMON, r->options.probe_dt);
+    return run_open_table(r, &r->probes, "probes.csv", header, 1 + r->columns + RUN_COMMON, r->options.probe_dt);
 }
 
 /* Names of the columns of momentum.csv, in the order of MOMENTUM_TOTAL and on. */
@@ -76,7 +84,7 @@ static bool run_open_momentum(run *r)
             snprintf(name, sizeof name, "%s_%c", MOMENTA[k], "xyz"[d]);
             header_add(header, sizeof header, name, dim == 3 ? "N s" : "N s/m");
         }
-    return table_open(&r->momentum, r->options.out, "momentum.csv", header, 1 + dim * MOMENTUM_COLUMNS, r->options.probe_dt);
+    return run_open_table(r, &r->momentum, "momentum.csv", header, 1 + dim * MOMENTUM_COLUMNS, r->options.probe_dt);
 }
 
 static void run_momentum(run *r, double t)
@@ -140,32 +148,53 @@ static void run_sample(run *r, double t)
 
 /* ---- frames and pictures ---------------------------------------------------------------------------------------- */
 
+/* The state at t, unless it is in the last frame already. */
+static void run_frame_write(run *r, double t)
+{
+    if (!r->frames || t <= r->frame_t) return;
+    run_note(r, mps_frames_write(r->frames), "frames");
+    r->frame_t = t;
+}
+
+/* Number of the first frame behind t. */
+static int64_t run_frame_next(const run *r, double t)
+{
+    return (int64_t)(t / r->options.t_end * r->options.frames + 1e-9) + 1;
+}
+
 static void run_frames_open(run *r)
 {
+    const bool resume = r->options.resume;
+    r->frame_t = -1;
     if (r->options.frames == 0) return;
-    if (run_note(r, mps_frames_open(r->sim, r->options.out, "frames", 0, &r->frames), "frames"))
-        run_note(r, mps_frames_write(r->frames), "frames");
-    r->frame = 1;
+    run_note(r, mps_frames_open(r->sim, r->options.out, "frames", resume ? MPS_FRAMES_CONTINUE : 0, &r->frames), "frames");
+    if (!resume) run_frame_write(r, 0);
+    r->frame = run_frame_next(r, r->totals.t);
 }
 
 static void run_frame(run *r, double t)
 {
     double interval = r->options.t_end / (r->options.frames > 0 ? r->options.frames : 1);
     if (!r->frames || t < (double)r->frame * interval - 1e-9 * interval) return;
-    run_note(r, mps_frames_write(r->frames), "frames");
-    r->frame = (int64_t)(t / interval + 1e-9) + 1;
+    run_frame_write(r, t);
+    r->frame = run_frame_next(r, t);
 }
 
 /* At the times asked for, or at quarters; the end has a picture of its own. */
-static void run_picture(run *r, double t)
+static bool run_picture_due(const run *r, double t)
 {
     const cli_options *o = &r->options;
     int count = o->pictures > 0 ? o->pictures : RUN_QUARTERS - 1;
-    if (r->pictures == count) return;
+    if (r->pictures == count) return false;
     double next = o->pictures > 0 ? o->picture_t[r->pictures] : o->t_end * (r->pictures + 1) / RUN_QUARTERS;
-    if (t < next - 1e-9 * o->t_end) return;
+    return t >= next - 1e-9 * o->t_end;
+}
+
+static void run_picture(run *r, double t)
+{
     char path[560];
-    snprintf(path, sizeof path, "%s/picture_%d.png", o->out, ++r->pictures);
+    if (!run_picture_due(r, t)) return;
+    snprintf(path, sizeof path, "%s/picture_%d.png", r->options.out, ++r->pictures);
     if (!picture_save(r->sim, path)) r->output_failed = true;
 }
 
@@ -175,6 +204,7 @@ static void run_add_up(run *r, const mps_step_info *info)
 {
     run_totals *s = &r->totals;
     s->steps++;
+    s->steps_here++;
     s->t = info->t;
     s->lost = info->lost;
     s->max_speed = fmax(s->max_speed, info->max_speed);
@@ -196,6 +226,7 @@ static int run_monitor(void *user, mps_sim *sim, const mps_step_info *info)
     if (r->totals.steps == 1 || table_wants(&r->probes, info->t, 2 * info->dt)) run_sample(r, info->t);
     run_frame(r, info->t);
     run_picture(r, info->t);
+    if (resume_due(r, info->t)) resume_save(r);
     if (progress_step(&r->progress, info)) {
         table_flush(&r->probes);
         table_flush(&r->momentum);
@@ -218,10 +249,17 @@ static int run_exit_code(const run *r, mps_status status)
     return status < 0 ? CLI_FAILED : CLI_OK;
 }
 
+/* Where an interrupted run can go on, and one that has come to its end can be extended. */
+static void run_last_checkpoint(run *r, mps_status status)
+{
+    if (status < 0 || r->output_failed) return;
+    if (status == MPS_W_STOPPED || r->options.checkpoint > 0) resume_save(r);
+}
+
 static void run_close(run *r)
 {
     char path[560];
-    if (r->frames) run_note(r, mps_frames_write(r->frames), "frames"); /* the last state, also of a run that broke off */
+    run_frame_write(r, r->totals.t); /* the last state, also of a run that broke off */
     mps_frames_close(r->frames);
     snprintf(path, sizeof path, "%s/picture_end.png", r->options.out);
     if (!picture_save(r->sim, path)) r->output_failed = true;
@@ -235,15 +273,17 @@ static void run_say(const run *r, int code, mps_status status)
     const run_totals *s = &r->totals;
     const char *program = r->options.program;
     if (code == CLI_INTERRUPTED)
-        fprintf(stderr, "%s: interrupted at t = %.6g s after %lld steps; outputs are complete up to there\n", program, s->t,
-                (long long)s->steps);
+        fprintf(
+            stderr,
+            "%s: interrupted at t = %.6g s after %lld steps; outputs are complete up to there; go on with --resume and the same options\n",
+            program, s->t, (long long)s->steps);
     else if (status < 0)
         fprintf(stderr, "%s: %s at t = %.6g s, step %lld: %s\n", program, mps_status_name(status), s->t, (long long)s->steps + 1, s->error);
     else if (code != CLI_OK)
         fprintf(stderr, "%s: %s\n", program, s->error[0] ? s->error : "an output could not be written");
     if (r->options.quiet) return;
     fprintf(stderr, "%s: t = %.6g s, %lld steps in %.1f s (%.2f ms a step, %.1f pressure iterations), %lld particles lost, outputs in %s\n",
-            program, s->t, (long long)s->steps, s->wall_s, s->steps ? 1e3 * s->step_s / (double)s->steps : 0,
+            program, s->t, (long long)s->steps_here, s->wall_s, s->steps_here ? 1e3 * s->step_s / (double)s->steps_here : 0,
             s->steps ? s->ppe_iterations / (double)s->steps : 0, (long long)s->lost, r->options.out);
 }
 
@@ -254,6 +294,25 @@ static double cpu_clock(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+static void run_open_tables(run *r)
+{
+    if (r->options.resume)
+        resume_load(r);
+    else
+        resume_forget(r);
+    if (!run_open_probes(r) || !run_open_momentum(r) || !run_open_table(r, &r->steps, "steps.csv", STEP_HEADER, STEP_COLUMNS, 0))
+        exit(r->options.resume ? CLI_USAGE : CLI_FAILED);
+    if (r->options.resume) resume_tables(r);
+}
+
+/* The state that the first step begins with. Its row is in the files where a run goes on: it is only what the next one is interpolated from. */
+static void run_first_rows(run *r)
+{
+    run_measure(r, r->totals.t, r->start);
+    if (r->options.resume) table_sample(&r->probes, r->start);
+    run_momentum(r, r->totals.t);
+}
+
 /* Open everything and take the first row and frame. */
 static void run_begin(run *r)
 {
@@ -261,16 +320,17 @@ static void run_begin(run *r)
     r->totals.fluid = mps_particles_count(r->sim, MPS_FLUID);
     r->totals.wall = mps_particles_count(r->sim, MPS_WALL);
     r->totals.dummy = mps_particles_count(r->sim, MPS_DUMMY);
-    if (!run_open_probes(r) || !run_open_momentum(r) || !table_open(&r->steps, r->options.out, "steps.csv", STEP_HEADER, STEP_COLUMNS, 0))
-        exit(CLI_FAILED);
+    run_open_tables(r);
     if (!r->options.quiet) {
-        fprintf(stderr, "%s: %s, dp %g m, %lld fluid, %lld wall, %lld dummy particles, to t = %g s\n", r->options.program, r->options.model,
-                r->options.dp, (long long)r->totals.fluid, (long long)r->totals.wall, (long long)r->totals.dummy, r->options.t_end);
+        fprintf(stderr, "%s: %s, dp %g m, %lld fluid, %lld wall, %lld dummy particles, from t = %g to %g s\n", r->options.program,
+                r->options.model, r->options.dp, (long long)r->totals.fluid, (long long)r->totals.wall, (long long)r->totals.dummy,
+                r->totals.t, r->options.t_end);
     }
-    run_measure(r, 0, r->start);
-    run_momentum(r, 0);
+    run_first_rows(r);
     run_frames_open(r);
+    while (r->options.resume && run_picture_due(r, r->totals.t)) r->pictures++; /* taken before */
     progress_begin(&r->progress, r->options.t_end, mps_particles_count(r->sim, -1), r->options.quiet);
+    progress_from(&r->progress, r->totals.t, r->totals.steps);
     catch_interrupt();
 }
 
@@ -283,6 +343,7 @@ int run_finish(run *r)
     if (!r->output_failed) status = mps_run(r->sim, r->options.t_end, run_monitor, r);
     if (status < 0) snprintf(r->totals.error, sizeof r->totals.error, "%s", mps_sim_error(r->sim));
     progress_clear(&r->progress);
+    run_last_checkpoint(r, status);
     run_close(r);
     r->totals.wall_s = progress_clock() - wall;
     r->totals.cpu_s = cpu_clock() - cpu;

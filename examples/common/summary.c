@@ -29,9 +29,9 @@ static void json_number(FILE *out, const char *key, double value)
         fprintf(out, ",\n  \"%s\": null", key);
 }
 
-static double per_step(const run *r, double sum)
+static double per_step(double sum, int64_t steps)
 {
-    return r->totals.steps ? sum / (double)r->totals.steps : 0;
+    return steps ? sum / (double)steps : 0;
 }
 
 static void summary_counts(FILE *out, const run *r)
@@ -52,12 +52,13 @@ static void summary_times(FILE *out, const run *r)
     struct rusage usage;
     getrusage(RUSAGE_SELF, &usage);
     json_number(out, "t_end", s->t);
-    json_number(out, "dt_mean", per_step(r, s->t));
+    json_number(out, "t_resumed", s->t_before);
+    json_number(out, "dt_mean", per_step(s->t, s->steps));
     json_number(out, "wall_s", s->wall_s);
     json_number(out, "cpu_s", s->cpu_s);
-    json_number(out, "s_per_step", per_step(r, s->step_s));
+    json_number(out, "s_per_step", per_step(s->step_s, s->steps_here));
     json_number(out, "output_s", s->output_s);
-    json_number(out, "ppe_iterations_mean", per_step(r, s->ppe_iterations));
+    json_number(out, "ppe_iterations_mean", per_step(s->ppe_iterations, s->steps));
     json_number(out, "ppe_s", s->seconds[MPS_STAGE_PPE_SETUP] + s->seconds[MPS_STAGE_PPE_SOLVE]);
     json_number(out, "neighbour_s", s->seconds[MPS_STAGE_NEIGHBOURS]);
     json_number(out, "operators_s", s->seconds[MPS_STAGE_OPERATORS] + s->seconds[MPS_STAGE_CORRECT]);

@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { TABLE_ROWS = 8192 }; /* kept in memory; more than a plot has pixels */
 
@@ -27,21 +28,29 @@ static void table_keep(table *t, const double *row)
     memcpy(t->kept + t->count++ * t->columns, row, (size_t)t->columns * sizeof *row);
 }
 
-bool table_open(table *t, const char *folder, const char *name, const char *header, int columns, double interval)
+bool table_create(table *t, const char *folder, const char *name, int columns, double interval)
 {
     *t = (table){.columns = columns, .interval = interval, .stride = 1};
     snprintf(t->path, sizeof t->path, "%s/%s", folder, name);
     t->before = calloc((size_t)columns, sizeof *t->before);
     t->row = calloc((size_t)columns, sizeof *t->row);
     t->kept = calloc((size_t)columns * TABLE_ROWS, sizeof *t->kept);
-    t->file = fopen(t->path, "w");
-    if (!t->file)
-        fprintf(stderr, "%s: %s\n", t->path, strerror(errno));
-    else if (!t->before || !t->row || !t->kept)
-        fprintf(stderr, "%s: out of memory\n", t->path);
-    else
-        return fprintf(t->file, "%s\n", header) > 0;
+    if (t->before && t->row && t->kept) return true;
+    fprintf(stderr, "%s: out of memory\n", t->path);
     return false;
+}
+
+static bool table_refuse(const table *t, const char *why)
+{
+    fprintf(stderr, "%s: %s\n", t->path, why);
+    return false;
+}
+
+bool table_begin(table *t, const char *header)
+{
+    t->file = fopen(t->path, "w");
+    if (!t->file) return table_refuse(t, strerror(errno));
+    return fprintf(t->file, "%s\n", header) > 0;
 }
 
 void table_append(table *t, const double *row)
@@ -80,9 +89,76 @@ void table_sample(table *t, const double *row)
     t->has_before = true;
 }
 
+/* ---- going on with a file ---------------------------------------------------------------------------------------- */
+
+/* A whole row: a number for each column, and nothing else. */
+static bool table_parse(const char *line, int columns, double *row)
+{
+    for (int i = 0; i < columns; i++) {
+        char *end;
+        row[i] = strtod(line, &end);
+        if (end == line || *end != (i + 1 < columns ? ',' : '\n')) return false;
+        line = end + 1;
+    }
+    return *line == '\0';
+}
+
+/* Take rows as long as they are whole and not later than `time`; t->end is behind the last of them. */
+static bool table_read(table *t, double time, table_row_fn each, void *user)
+{
+    char *line = NULL;
+    size_t size = 0;
+    bool good = true;
+    while (good && getline(&line, &size, t->file) > 0 && table_parse(line, t->columns, t->row)) {
+        if (t->row[0] > time + 1e-9 * t->interval) break;
+        good = t->interval == 0 || t->row[0] == table_time(t);
+        if (!good) break;
+        table_keep(t, t->row);
+        if (each) each(user, t->row);
+        t->next++;
+        t->end = ftell(t->file);
+    }
+    free(line);
+    return good;
+}
+
+static bool table_same_header(table *t, const char *header)
+{
+    char *line = NULL;
+    size_t size = 0, length = strlen(header);
+    bool same = getline(&line, &size, t->file) > 0 && strncmp(line, header, length) == 0 && strcmp(line + length, "\n") == 0;
+    free(line);
+    t->end = ftell(t->file);
+    return same;
+}
+
+bool table_resume(table *t, const char *header, double time, table_row_fn each, void *user)
+{
+    t->file = fopen(t->path, "r+");
+    if (!t->file) return table_refuse(t, strerror(errno));
+    if (!table_same_header(t, header)) return table_refuse(t, "has not the columns of this run");
+    if (!table_read(t, time, each, user)) return table_refuse(t, "has rows at other times; --probe-dt must be what it was");
+    if (t->interval > 0 && table_wants(t, time, 0)) return table_refuse(t, "ends before the checkpoint");
+    return true;
+}
+
+bool table_cut(table *t)
+{
+    if (fseek(t->file, t->end, SEEK_SET) == 0 && ftruncate(fileno(t->file), (off_t)t->end) == 0) return true;
+    return table_refuse(t, strerror(errno));
+}
+
+/* ---- the end ----------------------------------------------------------------------------------------------------- */
+
 void table_flush(table *t)
 {
     if (fflush(t->file) != 0) t->failed = true;
+}
+
+void table_sync(table *t)
+{
+    table_flush(t);
+    if (fsync(fileno(t->file)) != 0) t->failed = true;
 }
 
 bool table_close(table *t)

@@ -13,6 +13,7 @@ typedef struct table {
     char path[512];
     double interval; /* rows at k * interval; 0: whatever is appended */
     int64_t next;    /* k of the next row */
+    long end;        /* where a file that goes on is cut */
     bool has_before;
     double *before; /* [columns] last sample, to interpolate from */
     double *row;    /* [columns] scratch */
@@ -21,8 +22,19 @@ typedef struct table {
     bool failed; /* out of memory or disk */
 } table;
 
+/* What is done with each row of a file that is there. */
+typedef void (*table_row_fn)(void *user, const double *row);
+
+/* Room for a table in <folder>/<name>, whose file table_begin() or table_resume() opens. @return false with a message on stderr */
+bool table_create(table *t, const char *folder, const char *name, int columns, double interval);
 /* Open the file and write the header. @return false with a message on stderr */
-bool table_open(table *t, const char *folder, const char *name, const char *header, int columns, double interval);
+bool table_begin(table *t, const char *header);
+/* Open the file that is there and read its rows up to this time, as if they had just been written. Nothing is changed before table_cut().
+ * @param each  NULL, or called for each of them
+ * @return false with a message on stderr: another header, other times of rows, or rows are missing */
+bool table_resume(table *t, const char *header, double time, table_row_fn each, void *user);
+/* Drop the later rows. @return false with a message on stderr */
+bool table_cut(table *t);
 /* Write a row as it is. */
 void table_append(table *t, const double *row);
 /* True if a row may fall before time + ahead, so that a sample is needed now. */
@@ -30,6 +42,8 @@ bool table_wants(const table *t, double time, double ahead);
 /* Give a sample (row[0] is the time); rows at the exact output times in between are interpolated linearly. */
 void table_sample(table *t, const double *row);
 void table_flush(table *t);
+/* Flush it as far as the disk. */
+void table_sync(table *t);
 /* @return false with a message on stderr if anything could not be written */
 bool table_close(table *t);
 void table_free(table *t);

@@ -1,0 +1,141 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Checkpoints of the drivers: a run that was interrupted or killed and goes on leaves the same bytes as one that ran through.
+# usage: tests/cases/test_resume.sh FOLDER_OF_DRIVERS
+set -uo pipefail
+drivers=$(realpath "${1:?usage: test_resume.sh FOLDER_OF_DRIVERS}")
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch" || exit 1
+failures=0
+fail() {
+    echo "FAILED: $*"
+    failures=$((failures + 1))
+}
+
+runs() { # exit code, driver, options...
+    local wanted=$1 code
+    shift
+    "$drivers/$1" "${@:2}" --threads 1 >log 2>&1
+    code=$?
+    [ $code = "$wanted" ] || { fail "$*: exit $code instead of $wanted"; cat log; }
+}
+
+# A refusal touches none of the outputs.
+refused() { # text that must be in the message, folder, driver, options...
+    local text=$1 folder=$2 file
+    shift 2
+    rm -rf before && cp -r "$folder" before
+    runs 2 "$@" --resume --out "$folder"
+    grep -qF -- "$text" log || fail "$*: says '$(cat log)', not '$text'"
+    diff -rq before "$folder" || fail "$*: is refused and changes $folder"
+}
+
+# Send a signal to a run as soon as it has written a checkpoint.
+stopped() { # signal, exit code, folder, driver, options...
+    local signal=$1 wanted=$2 folder=$3 pid code tries=0
+    shift 3
+    "$drivers/$1" "${@:2}" --out "$folder" --threads 1 >log 2>&1 &
+    pid=$!
+    until [ -e "$folder/checkpoint.mps" ] || [ $((tries += 1)) -gt 3000 ]; do sleep 0.02; done
+    kill -"$signal" $pid
+    wait $pid 2>/dev/null
+    code=$?
+    [ $code = "$wanted" ] || { fail "$* and $signal: exit $code instead of $wanted"; cat log; }
+}
+
+same() { # folder, folder
+    local file
+    for file in probes.csv momentum.csv steps.csv; do cmp "$1/$file" "$2/$file" || fail "$2/$file is not that of $1"; done
+    for file in "$1"/plot_*.svg "$1"/picture_*.png; do cmp "$file" "$2/${file#*/}" || fail "$2/${file#*/} is not that of $1"; done
+}
+
+# All frames the series names are there and no other, at increasing times.
+series() { # folder
+    sed -n 's/.*timestep="\([^"]*\)".*/\1/p' "$1/frames.pvd" | awk 'NR > 1 && $1 <= last {exit 1} {last = $1}' || fail "$1/frames.pvd: times do not increase"
+    sed -n 's/.*file="\([^"]*\)".*/\1/p' "$1/frames.pvd" | diff - <(cd "$1" && find frames -name '*.vtp' | sort) || fail "$1/frames.pvd does not name its files"
+}
+
+# Ctrl-C, and SIGKILL a while after a checkpoint.
+goes_on() { # name, interval of checkpoints, driver, options...
+    local name=$1 interval=$2
+    shift 2
+    runs 0 "$@" --frames 20 --out "$name"
+    stopped INT 130 "$name.int" "$@" --frames 20 --checkpoint "$interval"
+    grep -q 'go on with --resume' log || fail "$*: Ctrl-C does not say how to go on: $(cat log)"
+    runs 0 "$@" --frames 20 --out "$name.int" --resume
+    same "$name" "$name.int"
+    series "$name.int"
+    stopped KILL 137 "$name.kill" "$@" --frames 20 --checkpoint "$interval"
+    printf '1,2' >>"$name.kill/probes.csv" # a row of which only half came to the disk
+    tail -n 2 "$name/steps.csv" >>"$name.kill/steps.csv"
+    cat "$name/probes.csv" >>"$name.kill/probes.csv" # more than the rest of the run will write
+    runs 0 "$@" --frames 20 --out "$name.kill" --resume --checkpoint "$interval"
+    same "$name" "$name.kill"
+    series "$name.kill"
+    diff -rq "$name/frames" "$name.kill/frames" || fail "$name.kill has other frames than $name"
+    cmp "$name/frames.pvd" "$name.kill/frames.pvd" || fail "$name.kill/frames.pvd is not that of $name"
+}
+goes_on surge 0.2 sloshing_surge --dp 0.025 --t-end 1
+goes_on air 0.02 sloshing_high_fill --model mmps --dp 0.05 --t-end 0.1 --sensor-average 0.005
+goes_on solid 0.04 sloshing_baffle_3d --dp 0.025 --t-end 0.12
+
+# an end with a checkpoint, and a later end
+tank=(static_tank --dp 0.04 --probe-dt 0.002)
+runs 0 "${tank[@]}" --t-end 0.05 --frames 2 --checkpoint 1 --out longer
+cp longer/probes.csv shorter.csv
+cp longer/steps.csv shorter_steps.csv
+refused 'later than --t-end 0.04' longer "${tank[@]}" --t-end 0.04
+refused 'probes.csv: has rows at other times; --probe-dt' longer static_tank --dp 0.04 --probe-dt 0.001 --t-end 0.1
+refused 'dp 0.04' longer static_tank --dp 0.05 --probe-dt 0.002 --t-end 0.1
+refused 'distance 0.5' longer "${tank[@]}" --t-end 0.1 --set collision.distance=0.5
+refused 'must be set up by the same calls' longer sloshing_surge --dp 0.04 --probe-dt 0.002 --t-end 0.1
+runs 0 "${tank[@]}" --t-end 0.1 --frames 4 --resume --checkpoint 1 --out longer
+cmp -n "$(stat -c %s shorter.csv)" shorter.csv longer/probes.csv || fail "a run that is extended has other rows at its beginning"
+[ "$(wc -l <longer/probes.csv)" = 52 ] || fail "an extended run has $(wc -l <longer/probes.csv) lines instead of 52"
+grep -q '"t_resumed": 0.05' longer/summary.json || fail "an extended run's summary: $(grep t_resumed longer/summary.json)"
+grep -q "\"steps\": $(($(wc -l <longer/steps.csv) - 1))," longer/summary.json || fail "an extended run's steps: $(grep steps longer/summary.json)"
+series longer
+[ "$(grep -c DataSet longer/frames.pvd)" = 5 ] || fail "an extended run has $(grep -c DataSet longer/frames.pvd) frames instead of 5"
+runs 0 "${tank[@]}" --t-end 0.1 --frames 4 --resume --out longer # nothing is left to do
+series longer
+
+# what cannot be gone on with
+refused 'checkpoint.mps": No such file' surge sloshing_surge --dp 0.025 --t-end 1
+mkdir empty
+refused 'checkpoint.mps": No such file' empty sloshing_surge --dp 0.025 --t-end 1
+damage() { # text that must be in the message, shell command that damages the copy
+    rm -rf damaged && cp -r longer damaged
+    (cd damaged && eval "$2") || fail "cannot damage: $2"
+    refused "$1" damaged "${tank[@]}" --t-end 0.2
+}
+size=$(stat -c %s longer/checkpoint.mps)
+for at in 0 3 $((size / 4)) $((size / 2)) $((size - 1)); do
+    damage 'checkpoint.mps"' "printf '\\x5a' | dd of=checkpoint.mps bs=1 seek=$at conv=notrunc status=none"
+    damage 'checkpoint.mps"' "truncate -s $at checkpoint.mps"
+done
+damage 'probes.csv: has not the columns of this run' "sed -i '1s/P1/P7/' probes.csv"
+damage 'momentum.csv: ends before the checkpoint' "sed -i '\$d' momentum.csv"
+damage 'steps.csv has not the steps of the checkpoint' "sed -i '\$d' steps.csv"
+damage 'steps.csv has not the steps of the checkpoint' "sed -i '5d' steps.csv"
+damage 'probes.csv: ends before the checkpoint' "sed -i '5s/,/;/' probes.csv"
+damage 'steps.csv: No such file' 'rm steps.csv'
+rm -rf damaged && cp -r longer damaged && echo more >>damaged/frames.pvd
+runs 1 "${tank[@]}" --t-end 0.2 --resume --out damaged
+grep -q 'frames.pvd' log || fail "a series that is not ours: $(cat log)"
+
+# a run that begins anew leaves no checkpoint of an older one
+runs 0 "${tank[@]}" --t-end 0.01 --frames 0 --out longer
+[ ! -e longer/checkpoint.mps ] || fail "a checkpoint stays behind"
+
+# without --checkpoint there is one at SIGTERM
+"$drivers/static_tank" --dp 0.04 --t-end 1000 --frames 0 --out term --threads 1 >log 2>&1 &
+pid=$!
+until [ -e term/picture_end.png ] || [ "$(wc -l 2>/dev/null <term/probes.csv || echo 0)" -gt 1 ]; do sleep 0.05; done
+kill -TERM $pid
+wait $pid
+[ $? = 130 ] || { fail "SIGTERM: not exit 130"; cat log; }
+[ -s term/checkpoint.mps ] || fail "SIGTERM leaves no checkpoint"
+
+if [ $failures -gt 0 ]; then exit 1; fi
+echo "runs go on as if they had not stopped"
