@@ -171,11 +171,13 @@ static bool part_whole(const part *p, const unsigned char *elements)
 static mps_status check_parts(const mps__archive *a, const char *path)
 {
     part p = {{0}, 0, 0, 0};
-    for (int64_t at = (int64_t)sizeof(head); strcmp(p.name, last_part) != 0; at += (int64_t)sizeof p + padded(&p)) {
+    int64_t at = (int64_t)sizeof(head);
+    for (; strcmp(p.name, last_part) != 0; at += (int64_t)sizeof p + padded(&p)) {
         if (!part_at(a, at, &p)) return mps__fail(a->context, MPS_E_IO, "checkpoint \"%.300s\" is cut short or damaged", path);
         if (!part_whole(&p, a->data + at + sizeof p))
             return mps__fail(a->context, MPS_E_IO, "checkpoint \"%.300s\" is damaged: the checksum of \"%s\" is wrong", path, p.name);
     }
+    if (at != a->size) return mps__fail(a->context, MPS_E_IO, "checkpoint \"%.300s\" is damaged: it goes on behind its end", path);
     return MPS_OK;
 }
 

@@ -445,6 +445,9 @@ static void damaged_files(void **state)
         write_file(path, bytes, k);
         ASSERT_REFUSED(sim, mps_checkpoint_read(sim, path), MPS_E_IO, k < 16 ? "is no checkpoint" : "cut short");
     }
+    bytes[size] = 0;
+    write_file(path, bytes, size + 1);
+    ASSERT_REFUSED(sim, mps_checkpoint_read(sim, path), MPS_E_IO, "goes on behind its end");
     write_file(path, (const unsigned char *)"something else altogether", 25);
     ASSERT_REFUSED(sim, mps_checkpoint_read(sim, path), MPS_E_IO, "is no checkpoint");
     same(sim, kept);
