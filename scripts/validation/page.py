@@ -49,8 +49,9 @@ def run_table(outcomes):
     for o in outcomes:
         s = o.summary
         numerical = f"{o['numerical'][-1]:+.3g}" if "numerical" in o.column else ""
+        whole = not s.get("t_resumed")  # else the times are those of its last part
         rows.append([f"{o.dp:g}", f"{s['n_fluid']} + {s['n_wall']} + {s['n_dummy']}", "end" if o.complete else f"{s['status']} at {s['t_end']:.3g} s",
-                     s["steps"], f"{s['cpu_s']:.0f}", f"{1e3 * s['cpu_s'] / max(1, s['steps']):.1f}", f"{100 * s['volume_error']:+.2f} %",
+                     s["steps"], f"{s['cpu_s']:.0f}" if whole else "", f"{1e3 * s['cpu_s'] / max(1, s['steps']):.1f}" if whole else "", f"{100 * s['volume_error']:+.2f} %",
                      s["particles_lost"], f"{s['max_speed']:.2g}", numerical])
     head = ["dp [m]", "fluid + wall + dummy", "reached", "steps", "CPU s", "ms/step", "volume error", "lost", "max speed [m/s]", "`numerical` [J/m, 3-D: J]"]
     return table(head, rows)

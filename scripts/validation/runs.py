@@ -14,7 +14,9 @@ from pathlib import Path
 
 from results import Outcome
 
-DIVERGED, INTERRUPTED = 3, 130
+USAGE, DIVERGED, INTERRUPTED = 2, 3, 130
+LONG = 5  # minutes, from which on a run leaves checkpoints
+CHECKPOINTS = ["--checkpoint", "0.1"]
 
 
 def say(text):
@@ -74,15 +76,29 @@ class Runner:
             self.done += 1
             say(f"[{self.done}/{count}] {run.name}: about {run.minutes:g} CPU minutes ...")
         folder = self.folder(run)
-        if folder.exists():
-            shutil.rmtree(folder)
-        folder.mkdir(parents=True)
-        begin, command = time.monotonic(), self.command(run)
+        begin, command = time.monotonic(), self.command(run) + self.begin(run)
         environment = {"OMP_WAIT_POLICY": "passive", **os.environ}
         with open(folder / "run.log", "w", encoding="utf-8") as log:
             code = subprocess.call([str(self.examples / command[0]), *command[1:], "--out", str(folder)], stdout=log, stderr=log, env=environment)
         seconds = time.monotonic() - begin
         self.finish(run, code, seconds)
+
+    def begin(self, run):
+        """Make the folder of a run, or find it with a checkpoint of the same command and program. Returns the options for that."""
+        folder = self.folder(run)
+        begun = {"command": self.command(run), "binary": self.binary(run.driver)}
+        try:
+            same = json.loads((folder / "begun.json").read_text()) == begun
+        except (OSError, ValueError):
+            same = False
+        if same and (folder / "checkpoint.mps").exists() and not (folder / "run.json").exists():
+            say(f"{run.name}: goes on from its checkpoint")
+            return [*CHECKPOINTS, "--resume"]
+        if folder.exists():
+            shutil.rmtree(folder)
+        folder.mkdir(parents=True)
+        (folder / "begun.json").write_text(json.dumps(begun) + "\n")
+        return CHECKPOINTS if run.minutes >= LONG else []
 
     def finish(self, run, code, seconds):
         folder = self.folder(run)
@@ -90,6 +106,8 @@ class Runner:
         if code not in (0, DIVERGED):
             self.stop = self.stop or code in (INTERRUPTED, -2)
             say(f"{run.name}: exit {code}: {' '.join(tail)}")
+            if code == USAGE:  # perhaps a checkpoint that does not fit its files: the next time from the beginning
+                (folder / "begun.json").unlink(missing_ok=True)
             return
         note = {"command": self.command(run), "binary": self.binary(run.driver), "exit": code, "wall_s": round(seconds, 1),
                 "when": time.strftime("%Y-%m-%d"), "message": " ".join(tail) if code else ""}
