@@ -103,6 +103,12 @@ static void put_probes(const mps__probes *p, mps__text *t)
         }
         line(t, "probe %lld type %d", (long long)k, (int)c->type);
         line(t, "probe %lld at %.17g %.17g %.17g", (long long)k, c->at[0], c->at[1], c->at[2]);
+        line(t, "probe %lld along %.17g %.17g %.17g", (long long)k, c->direction[0], c->direction[1], c->direction[2]);
+        line(t, "probe %lld diameter %.17g", (long long)k, c->diameter);
+        line(t, "probe %lld length %.17g", (long long)k, c->length);
+        line(t, "probe %lld part %s", (long long)k, p->list[k].part_name);
+        line(t, "probe %lld phases %u", (long long)k, (unsigned)c->phases);
+        line(t, "probe %lld drops %d", (long long)k, (int)c->count_drops);
         line(t, "probe %lld average %.17g", (long long)k, c->average);
         line(t, "probe %lld rate %.17g", (long long)k, c->rate);
     }
