@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Particles of the public interface: add, remove, fields, leases. */
 #define _POSIX_C_SOURCE 200809L
+#include "plates.h"
 #include "sim.h"
 #include <math.h>
 #include <mps/particles.h>
@@ -160,6 +161,7 @@ mps_status mps_particles_remove(mps_sim *sim, int64_t count, const int64_t *ids)
         if (gone) status = mps__particles_permute(s, left, keep);
         mps__free(&sim->context, gone);
         if (status == MPS_OK) sim->world.neighbours.valid = false;
+        if (status == MPS_OK) mps__plates_set_active(&sim->world);
     }
     mps__free(&sim->context, place);
     return status;

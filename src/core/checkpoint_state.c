@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Layer 8: the state of a simulation, what the next step depends on and what has been booked so far. */
 #include "checkpoint.h"
+#include "plates.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -237,6 +238,7 @@ static mps_status move_in(arrival *v)
     MPS__TRY(mps__particles_replace(&w->particles, v->n, v->field));
     for (int k = 0; k < v->count; k++) memcpy(v->slots[k].at, v->value[k], v->slots[k].size);
     w->linked = v->have.linked ? w->particles.generation : -1;
+    mps__plates_set_active(w);
     w->neighbours.valid = false;
     w->aside = 0;
     mps__free(w->context, w->listed_at);

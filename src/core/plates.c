@@ -45,8 +45,7 @@ static bool near_screen(const mps__world *w, const double *X)
     return false;
 }
 
-/* A plate whose walls are gone hides nothing. */
-static void set_active(mps__world *w)
+void mps__plates_set_active(mps__world *w)
 {
     const mps__particles *s = &w->particles;
     mps__screens *p = &w->screens;
@@ -61,7 +60,7 @@ mps_status mps__plates_find(mps__world *w)
     const mps__particles *s = &w->particles;
     mps__screens *p = &w->screens;
     if (p->count == 0) return MPS_OK;
-    set_active(w);
+    mps__plates_set_active(w);
     MPS__TRY(mps__grow(w->context, (void **)&p->slot, &p->slot_capacity, 0, s->n, sizeof *p->slot));
     p->seers = 0;
     for (int64_t i = 0; i < s->n; i++) {

@@ -5,6 +5,8 @@
 
 #include "world.h"
 
+/* A plate whose walls are gone hides nothing; whenever particles come back or go otherwise than by a step. */
+void mps__plates_set_active(mps__world *w);
 /* Find the particles near a plate; once a search of neighbours, which keeps its lists for a while. */
 mps_status mps__plates_find(mps__world *w);
 /* Where those particles see from, at the present positions. */

@@ -122,6 +122,39 @@ static mps_sim *dam_3d(void)
     return sim;
 }
 
+/* A gate between two depths, and a sensor in the liquid beside it. */
+static mps_sim *gate(void)
+{
+    const double foot[2] = {0.4, 0}, edge[2] = {0, 0.4}, lo[2] = {0.4, 0}, hi[2] = {1, 0.2};
+    mps_sim *sim = new_sim(2, 0.04);
+    mps_probe probe;
+    int32_t id;
+    add_tank(sim, 1, 0.6, 0);
+    ASSERT_OK(sim, mps_geometry_plate(sim, "gate", foot, edge, NULL));
+    fill_depth(sim, 0.4, 0.36, 0);
+    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL));
+    assert_int_equal(mps_probe_init(&probe, sizeof probe), MPS_OK);
+    probe.type = MPS_PROBE_FLUID_PRESSURE;
+    probe.at[0] = 0.38;
+    probe.at[1] = 0.1;
+    probe.rate = 300;
+    ASSERT_OK(sim, mps_probe_add(sim, &probe, &id));
+    return sim;
+}
+
+static void take_out(mps_sim *sim, const char *name)
+{
+    const int64_t *ids, n = mps_particles_count(sim, -1);
+    const int32_t *parts, part = mps_part_find(sim, name);
+    int64_t *own = malloc((size_t)n * sizeof *own), count = 0;
+    assert_non_null(own);
+    ASSERT_OK(sim, mps_particles_tags(sim, &ids, NULL, NULL, &parts));
+    for (int64_t i = 0; i < n; i++)
+        if (parts[i] == part) own[count++] = ids[i];
+    ASSERT_OK(sim, mps_particles_remove(sim, count, own));
+    free(own);
+}
+
 typedef mps_sim *(*scene)(void);
 static const scene scenes[] = {shaken, with_air, with_gas_law, plate, dam_3d};
 enum { SCENES = sizeof scenes / sizeof scenes[0] };
@@ -186,23 +219,25 @@ static void same_budgets(mps_sim *a, mps_sim *b)
     assert_int_equal(steps[0], steps[1]);
 }
 
+static void same_probe(mps_sim *a, mps_sim *b, int32_t id)
+{
+    const int32_t size = mps_probe_size(a, id);
+    const double *t[2], *samples[2];
+    double value[2][6] = {{0}};
+    int64_t count[2];
+    ASSERT_OK(a, mps_probe_read(a, id, value[0]));
+    ASSERT_OK(b, mps_probe_read(b, id, value[1]));
+    assert_memory_equal(value[0], value[1], sizeof value[0]);
+    if (mps_probe_series(a, id, &count[0], &t[0], &samples[0]) != MPS_OK) return;
+    ASSERT_OK(b, mps_probe_series(b, id, &count[1], &t[1], &samples[1]));
+    assert_true(count[0] == count[1]);
+    assert_memory_equal(t[0], t[1], (size_t)count[0] * sizeof(double));
+    assert_memory_equal(samples[0], samples[1], (size_t)(count[0] * size) * sizeof(double));
+}
+
 static void same_probes(mps_sim *a, mps_sim *b)
 {
-    for (int32_t id = 0; id < 3; id++) {
-        const int32_t size = mps_probe_size(a, id);
-        const double *t[2], *samples[2];
-        double value[2][6] = {{0}};
-        int64_t count[2];
-        if (size < 0) return; /* no probes in this scene */
-        ASSERT_OK(a, mps_probe_read(a, id, value[0]));
-        ASSERT_OK(b, mps_probe_read(b, id, value[1]));
-        assert_memory_equal(value[0], value[1], sizeof value[0]);
-        if (mps_probe_series(a, id, &count[0], &t[0], &samples[0]) != MPS_OK) continue;
-        ASSERT_OK(b, mps_probe_series(b, id, &count[1], &t[1], &samples[1]));
-        assert_true(count[0] == count[1]);
-        assert_memory_equal(t[0], t[1], (size_t)count[0] * sizeof(double));
-        assert_memory_equal(samples[0], samples[1], (size_t)(count[0] * size) * sizeof(double));
-    }
+    for (int32_t id = 0; id < 3 && mps_probe_size(a, id) > 0; id++) same_probe(a, b, id);
 }
 
 static void same(mps_sim *a, mps_sim *b)
@@ -275,6 +310,27 @@ static void particles_come_and_go(void **state)
     assert_true(id[0][0] == id[1][0] && id[0][1] == id[1][1]);
     same(sim[0], sim[1]);
     for (int k = 0; k < 2; k++) mps_sim_destroy(sim[k]);
+}
+
+/* A gate that was taken out hides nothing from a probe, also where the next search of neighbours is still to come. */
+static void without_a_gate(void **state)
+{
+    char path[PATH];
+    mps_sim *a = gate(), *b = gate();
+    (void)state;
+    go(a, 5);
+    take_out(a, "gate");
+    go(a, 15);
+    ASSERT_OK(a, mps_checkpoint_write(a, path_of(path, "gate")));
+    ASSERT_REFUSED(b, mps_checkpoint_read(b, path), MPS_E_ARG, "solid particles");
+    take_out(b, "gate");
+    ASSERT_OK(b, mps_checkpoint_read(b, path));
+    same_probe(a, b, 0);
+    go(a, 5);
+    go(b, 5);
+    same(a, b);
+    mps_sim_destroy(a);
+    mps_sim_destroy(b);
 }
 
 static int write_on_the_way(void *user, mps_sim *sim, const mps_step_info *info)
@@ -458,8 +514,9 @@ static void damaged_files(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(goes_on),       cmocka_unit_test(particles_come_and_go),   cmocka_unit_test(from_a_monitor),
-        cmocka_unit_test(other_set_ups), cmocka_unit_test(calls_at_the_wrong_time), cmocka_unit_test(damaged_files),
+        cmocka_unit_test(goes_on),        cmocka_unit_test(particles_come_and_go), cmocka_unit_test(without_a_gate),
+        cmocka_unit_test(from_a_monitor), cmocka_unit_test(other_set_ups),         cmocka_unit_test(calls_at_the_wrong_time),
+        cmocka_unit_test(damaged_files),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
