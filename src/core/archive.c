@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 enum { VERSION = 1, BYTE_ORDER_MARK = 0x01020304 };
@@ -98,6 +99,15 @@ static bool write_all(const mps__archive *a, FILE *file)
     return good;
 }
 
+/* A device or the like is not replaced by a file. */
+static mps_status check_place(mps__context *c, const char *path)
+{
+    struct stat there;
+    if (stat(path, &there) == 0 && !S_ISREG(there.st_mode))
+        return mps__fail(c, MPS_E_IO, "cannot replace \"%.300s\": it is there and no regular file", path);
+    return MPS_OK;
+}
+
 static mps_status save_through(const mps__archive *a, const char *path, const char *temporary)
 {
     FILE *file = fopen(temporary, "wb");
@@ -114,6 +124,7 @@ static mps_status save_through(const mps__archive *a, const char *path, const ch
 mps_status mps__archive_save(mps__archive *a, const char *path)
 {
     mps__archive_put(a, last_part, NULL, 1, 0);
+    MPS__TRY(check_place(a->context, path));
     const size_t size = strlen(path) + sizeof ".tmp";
     char *temporary = mps__alloc(a->context, (int64_t)size, 1);
     if (!temporary) return MPS_E_NOMEM;

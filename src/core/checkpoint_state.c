@@ -146,6 +146,43 @@ static mps_status find_slots(arrival *v)
     return MPS_OK;
 }
 
+/* What a slot will be. */
+static void slot_value(const arrival *v, const void *at, void *value)
+{
+    for (int k = 0; k < v->count; k++)
+        if (v->slots[k].at == at) memcpy(value, v->value[k], v->slots[k].size);
+}
+
+/* A checksum tells damage, not what another program wrote: numbers that places in memory are reckoned from are looked at. */
+static mps_status check_tags(const arrival *v, const char *name, int64_t least, int64_t most)
+{
+    mps__particles *s = &v->sim->world.particles;
+    const mps__field *f = mps__particles_field(s, name);
+    const void *values = v->field[f - s->field];
+    for (int64_t i = 0; i < v->n; i++) {
+        const int64_t value = f->size == sizeof(int64_t) ? ((const int64_t *)values)[i] : ((const int32_t *)values)[i];
+        if (value < least || value > most)
+            return mps__fail(v->a->context, MPS_E_IO, "the checkpoint is damaged: \"%s\" of particle %lld is %lld; must be %lld..%lld",
+                             name, (long long)i, (long long)value, (long long)least, (long long)most);
+    }
+    return MPS_OK;
+}
+
+static mps_status check_particles(const arrival *v)
+{
+    const mps__world *w = &v->sim->world;
+    int64_t next_id = 0;
+    slot_value(v, &w->particles.next_id, &next_id);
+    if (v->n > INT32_MAX)
+        return mps__fail(v->a->context, MPS_E_IO, "the checkpoint has %lld particles: at most %d", (long long)v->n, INT32_MAX);
+    MPS__TRY(check_tags(v, "id", 0, next_id - 1));
+    MPS__TRY(check_tags(v, "kind", MPS_FLUID, MPS_DUMMY));
+    MPS__TRY(check_tags(v, "phase", 0, MPS__PHASES - 1));
+    MPS__TRY(check_tags(v, "part", -1, w->particles.parts - 1));
+    MPS__TRY(check_tags(v, "wall_of", -1, v->n - 1));
+    return check_tags(v, "plate", 0, w->screens.count);
+}
+
 static mps_status find_particles(arrival *v)
 {
     const mps__particles *s = &v->sim->world.particles;
@@ -153,6 +190,7 @@ static mps_status find_particles(arrival *v)
     if (!mps__archive_get(v->a, "field id", sizeof *s->id, &v->n)) return MPS_E_VERSION;
     for (int32_t k = 0; k < s->fields; k++)
         if (!(v->field[k] = part(v, title(name, "field", s->field[k].name), element(&s->field[k]), v->n))) return MPS_E_VERSION;
+    MPS__TRY(check_particles(v));
     const void *have = part(v, "lists", sizeof v->have, 1);
     if (!have) return MPS_E_VERSION;
     memcpy(&v->have, have, sizeof v->have);
@@ -185,6 +223,9 @@ static mps_status find_series(const arrival *v, int64_t k, mps__series *s)
     const void *from = part(v, probe_title(name, k, "series"), sizeof state, 1);
     if (!from) return MPS_E_VERSION;
     memcpy(&state, from, sizeof state);
+    if (state.next < 0)
+        return mps__fail(v->a->context, MPS_E_IO, "the checkpoint is damaged: the next sample of probe %lld is number %lld", (long long)k,
+                         (long long)state.next);
     s->step = state.step;
     s->waits = state.waits != 0;
     s->next = state.next;
@@ -219,8 +260,7 @@ static mps_status check_motion(const arrival *v)
     static const char *const name[MPS_DOF_COUNT] = {"surge", "heave", "sway", "roll", "yaw", "pitch"};
     mps__world *w = &v->sim->world;
     mps__pose saved = {0}, here;
-    for (int k = 0; k < v->count; k++)
-        if (v->slots[k].at == &w->motion.now) memcpy(&saved, v->value[k], sizeof saved);
+    slot_value(v, &w->motion.now, &saved);
     if (!w->motion.fn) return MPS_OK;
     MPS__TRY(mps__motion_pose(&w->motion, saved.t, &here));
     for (int d = 0; d < MPS_DOF_COUNT; d++)

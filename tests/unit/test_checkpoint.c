@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Checkpoints: what goes on from one is what did not stop, to the last bit; files that are not what they were are refused. */
 #define _POSIX_C_SOURCE 200809L
+#include "archive.h"
 #include "tank_fixture.h"
 #include <stdio.h>
 #include <stdlib.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 enum { STEPS = 30, PATH = 128 };
@@ -481,6 +483,86 @@ static size_t read_file(const char *path, unsigned char *bytes, size_t room)
     return size;
 }
 
+/* A number of a file, and what is said when it is another. */
+typedef struct forgery {
+    const char *part;
+    int64_t number, value;
+    size_t size;
+    const char *word;
+} forgery;
+
+/* Put the value into its part, with the checksum that belongs to it. */
+static void forge(unsigned char *bytes, const forgery *f)
+{
+    enum { HEAD = 16, PART = MPS__PART_TITLE + 16 };
+    unsigned char *part = bytes + HEAD;
+    for (;;) {
+        uint32_t size, checksum = 0;
+        int64_t count;
+        memcpy(&size, part + MPS__PART_TITLE, sizeof size);
+        memcpy(&count, part + MPS__PART_TITLE + 8, sizeof count);
+        const size_t used = (size_t)count * size;
+        if (strcmp((char *)part, f->part) == 0) {
+            const int32_t narrow = (int32_t)f->value;
+            memcpy(part + PART + (size_t)f->number * f->size, f->size == 4 ? (const void *)&narrow : &f->value, f->size);
+            memcpy(part + MPS__PART_TITLE + 4, &checksum, sizeof checksum);
+            checksum = mps__checksum(0, part, PART + used);
+            memcpy(part + MPS__PART_TITLE + 4, &checksum, sizeof checksum);
+            return;
+        }
+        assert_string_not_equal((char *)part, "end");
+        part += PART + (used + 7) / 8 * 8;
+    }
+}
+
+/* Files whose checksums are right and whose numbers would lead out of arrays. */
+static void forged_files(void **state)
+{
+    static const forgery all[] = {{"field kind", 5, 3, 4, "\"kind\" of particle 5 is 3; must be 0..2"},
+                                  {"field phase", 7, 16, 4, "\"phase\" of particle 7 is 16; must be 0..15"},
+                                  {"field part", 0, 99, 4, "\"part\" of particle 0 is 99"},
+                                  {"field plate", 1, 1, 4, "\"plate\" of particle 1 is 1; must be 0..0"},
+                                  {"field wall_of", 2, -2, 4, "\"wall_of\" of particle 2 is -2"},
+                                  {"field id", 4, INT64_C(1) << 40, 8, "\"id\" of particle 4"},
+                                  {"particles.next_id", 0, 3, 8, "\"id\" of particle"},
+                                  {"probe 0 series", 2, INT64_MIN, 8, "the next sample of probe 0"}};
+    static unsigned char bytes[1 << 20], copy[1 << 20];
+    char path[PATH];
+    mps_sim *sim = shaken(), *kept = shaken();
+    (void)state;
+    for (int k = 0; k < 2; k++) go(k ? sim : kept, 3);
+    ASSERT_OK(sim, mps_checkpoint_write(sim, path_of(path, "forged")));
+    const size_t size = read_file(path, bytes, sizeof bytes);
+    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
+        memcpy(copy, bytes, size);
+        forge(copy, &all[k]);
+        write_file(path, copy, size);
+        ASSERT_REFUSED(sim, mps_checkpoint_read(sim, path), MPS_E_IO, all[k].word);
+    }
+    for (int k = 0; k < 2; k++) go(k ? sim : kept, 3);
+    same(sim, kept);
+    mps_sim_destroy(sim);
+    mps_sim_destroy(kept);
+}
+
+/* A checkpoint takes the place of a file, not of what only looks like one; and leaves nothing beside it. */
+static void odd_places(void **state)
+{
+    char path[PATH], beside[PATH];
+    struct stat there;
+    mps_sim *sim = shaken();
+    (void)state;
+    path_of(path, "pipe");
+    path_of(beside, "pipe.tmp");
+    assert_int_equal(mkfifo(path, 0600), 0);
+    ASSERT_REFUSED(sim, mps_checkpoint_write(sim, path), MPS_E_IO, "no regular file");
+    assert_int_equal(stat(path, &there), 0);
+    assert_true(S_ISFIFO(there.st_mode));
+    ASSERT_REFUSED(sim, mps_checkpoint_write(sim, folder), MPS_E_IO, "no regular file");
+    assert_int_not_equal(access(beside, F_OK), 0);
+    mps_sim_destroy(sim);
+}
+
 /* A bit turned anywhere, an end anywhere: always told, nothing taken. */
 static void damaged_files(void **state)
 {
@@ -516,7 +598,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(goes_on),        cmocka_unit_test(particles_come_and_go), cmocka_unit_test(without_a_gate),
         cmocka_unit_test(from_a_monitor), cmocka_unit_test(other_set_ups),         cmocka_unit_test(calls_at_the_wrong_time),
-        cmocka_unit_test(damaged_files),
+        cmocka_unit_test(damaged_files),  cmocka_unit_test(forged_files),          cmocka_unit_test(odd_places),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
