@@ -30,15 +30,19 @@ MPS_API mps_status mps_frames_write(mps_frames *frames);
 MPS_API void mps_frames_close(mps_frames *frames);
 
 /** Write all that the next steps depend on to a file: particles with their fields and order, time, budgets, what probes keep for averages
- *  and samples. It is written beside its place and renamed, so that there is always a whole one. Little-endian, with a checksum for each
- *  part; about 150 bytes a particle. May be called by a monitor. What a plug-in keeps outside of fields is not in it.
- *  @return MPS_E_IO with the path and the system's reason; MPS_E_BUSY while a lease for writing is open; MPS_E_NOMEM */
+ *  and samples. It is written beside its place ("<path>.tmp") and renamed, so that there is always a whole one; a
+ *  link is replaced, not followed. In the byte order of the machine, with a checksum for each part; about 150 bytes a particle. May be
+ *  called by a monitor. What a plug-in, a motion callback or a solver of the user keeps outside of fields is not in it.
+ *  @return MPS_E_IO with the path and the system's reason, also where there is something that is no regular file; MPS_E_BUSY while a lease
+ *          for writing is open; MPS_E_NOMEM */
 MPS_API mps_status mps_checkpoint_write(mps_sim *sim, const char *path);
 
 /** Go on where mps_checkpoint_write() was called, in a simulation that was set up by the same calls: configuration, phases, models with
- *  their settings, solids, fields, motion, probes. This is compared, and a difference refused. With the same time control, solver and
- *  limits, too, the steps that follow are those of the run that did not stop, bit for bit, with any number of threads. The particles that
- *  are there are replaced, ids are those of the file.
+ *  their settings, solids, fields, motion, probes. This is compared, and a difference refused; of the motion where the tank is at the time
+ *  of the file; not the code of callbacks, lost_policy, speed_limit and threads. With the same time control (set before this call: setting
+ *  it lets the growth of steps begin anew), solver and limits, too, the steps that follow are those of the run that did not stop, bit for
+ *  bit, with any number of threads. The particles that are there are replaced, ids are those of the file; pointers that were given out
+ *  before (tags, stencils, samples of probes) are no longer valid.
  *  @return MPS_E_IO (cannot be read, is cut short, damaged or no checkpoint), MPS_E_VERSION (of a newer library, or another byte order),
  *          MPS_E_ARG (which setting differs, and both values), MPS_E_BUSY (lease), MPS_E_STATE (in a monitor), MPS_E_NOMEM */
 MPS_API mps_status mps_checkpoint_read(mps_sim *sim, const char *path);
