@@ -335,6 +335,46 @@ static void without_a_gate(void **state)
     mps_sim_destroy(b);
 }
 
+/* The liquid moved with the tank from the beginning, which then came to rest where it was; a first step so short that the next ones grow;
+ * and a drop that was lost. */
+static void came_to_rest(void **state)
+{
+    const double centre[2] = {0.3, 0.1}, far[2] = {0.3, 99};
+    char path[PATH];
+    mps_particle_block block;
+    mps_step_info info[2];
+    mps_sim *sim[2] = {shaken(), shaken()};
+    (void)state;
+    assert_int_equal(mps_particle_block_init(&block, sizeof block), MPS_OK);
+    block.count = 1;
+    block.position = far;
+    for (int k = 0; k < 2; k++) ASSERT_OK(sim[k], mps_motion_set_centre(sim[k], centre, MPS_START_WITH_TANK));
+    ASSERT_OK(sim[0], mps_step(sim[0], 1e-5, NULL));
+    for (int part = 0; part < 2; part++) {
+        ASSERT_OK(sim[0], mps_checkpoint_write(sim[0], path_of(path, "rest")));
+        ASSERT_OK(sim[1], mps_checkpoint_read(sim[1], path));
+        for (int k = 0; k < 2; k++) {
+            go(sim[k], 6);
+            same(sim[0], sim[k]);
+        }
+        if (part == 0) {
+            ASSERT_OK(sim[0], mps_motion_clear(sim[0]));
+            ASSERT_OK(sim[0], mps_particles_add(sim[0], &block, NULL));
+            go(sim[0], 1);
+            mps_sim_destroy(sim[1]);
+            sim[1] = shaken();
+            ASSERT_OK(sim[1], mps_motion_set_centre(sim[1], centre, MPS_START_WITH_TANK));
+            ASSERT_OK(sim[1], mps_motion_clear(sim[1]));
+        }
+    }
+    for (int k = 0; k < 2; k++) {
+        assert_int_equal(mps_step_info_init(&info[k], sizeof info[k]), MPS_OK);
+        ASSERT_OK(sim[k], mps_step(sim[k], 0.01, &info[k]));
+        assert_int_equal(info[k].lost, 1);
+        mps_sim_destroy(sim[k]);
+    }
+}
+
 static int write_on_the_way(void *user, mps_sim *sim, const mps_step_info *info)
 {
     ASSERT_OK(sim, mps_checkpoint_write(sim, user));
@@ -596,9 +636,16 @@ static void damaged_files(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(goes_on),        cmocka_unit_test(particles_come_and_go), cmocka_unit_test(without_a_gate),
-        cmocka_unit_test(from_a_monitor), cmocka_unit_test(other_set_ups),         cmocka_unit_test(calls_at_the_wrong_time),
-        cmocka_unit_test(damaged_files),  cmocka_unit_test(forged_files),          cmocka_unit_test(odd_places),
+        cmocka_unit_test(goes_on),
+        cmocka_unit_test(particles_come_and_go),
+        cmocka_unit_test(without_a_gate),
+        cmocka_unit_test(came_to_rest),
+        cmocka_unit_test(from_a_monitor),
+        cmocka_unit_test(other_set_ups),
+        cmocka_unit_test(calls_at_the_wrong_time),
+        cmocka_unit_test(damaged_files),
+        cmocka_unit_test(forged_files),
+        cmocka_unit_test(odd_places),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
