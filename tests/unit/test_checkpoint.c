@@ -336,18 +336,19 @@ static void without_a_gate(void **state)
 }
 
 /* The liquid moved with the tank from the beginning, which then came to rest where it was; a first step so short that the next ones grow;
- * and a drop that was lost. */
+ * a drop that was lost, and two that collided. */
 static void came_to_rest(void **state)
 {
-    const double centre[2] = {0.3, 0.1}, far[2] = {0.3, 99};
+    const double centre[2] = {0.3, 0.1}, drops[6] = {0.3, 99, 0.3, 0.5, 0.32, 0.5}, speeds[6] = {0, 0, 1, 0, -1, 0};
     char path[PATH];
     mps_particle_block block;
     mps_step_info info[2];
     mps_sim *sim[2] = {shaken(), shaken()};
     (void)state;
     assert_int_equal(mps_particle_block_init(&block, sizeof block), MPS_OK);
-    block.count = 1;
-    block.position = far;
+    block.count = 3;
+    block.position = drops;
+    block.velocity = speeds;
     for (int k = 0; k < 2; k++) ASSERT_OK(sim[k], mps_motion_set_centre(sim[k], centre, MPS_START_WITH_TANK));
     ASSERT_OK(sim[0], mps_step(sim[0], 1e-5, NULL));
     for (int part = 0; part < 2; part++) {
