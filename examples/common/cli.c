@@ -33,7 +33,7 @@ static int cli_table(cli_options *o, cli_option *table)
                               "a checkpoint every S simulated seconds and at the end; without it only at Ctrl-C",
                               TYPE_REAL,
                               &o->checkpoint,
-                              0,
+                              1e-6,
                               o->t_max,
                               false};
     table[n++] = (cli_option){"--resume", NULL, "go on from the checkpoint in the folder of --out", TYPE_FLAG, &o->resume, 0, 0, true};

@@ -44,6 +44,7 @@ refused '--cfl -1: must be' sloshing_surge --cfl -1
 refused '--t-end 1e9: must be' standing_wave --t-end 1e9
 refused '--threads 1.5: must be a whole number, 1 to 1024' standing_wave --threads 1.5
 refused '--frames -1: must be' standing_wave --frames -1
+refused '--checkpoint 1e-300: must be a number, 1e-06 to' standing_wave --checkpoint 1e-300
 refused '--dim 4: must be a whole number, 2 to 3' static_tank --dim 4
 refused 'unknown option --dim' standing_wave --dim 3
 refused 'unknown option --bogus' standing_wave --bogus
