@@ -10,7 +10,7 @@
 
 enum { STEPS = 30, PATH = 128 };
 
-static char folder[] = "/tmp/mps_checkpoint_XXXXXX";
+static char folder[] = "mps_checkpoint_XXXXXX";
 
 static int make_folder(void **state)
 {
