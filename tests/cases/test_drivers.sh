@@ -3,15 +3,7 @@
 # Command line and outputs of the drivers: wrong values are refused by name, outputs are complete, exit codes are kept.
 # usage: tests/cases/test_drivers.sh FOLDER_OF_DRIVERS
 set -uo pipefail
-drivers=$(realpath "${1:?usage: test_drivers.sh FOLDER_OF_DRIVERS}")
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-cd "$scratch" || exit 1
-failures=0
-fail() {
-    echo "FAILED: $*"
-    failures=$((failures + 1))
-}
+. "$(dirname "$0")/drivers.sh"
 
 refused() { # text that must be in the message, driver, options...
     local text=$1 message code
@@ -20,14 +12,6 @@ refused() { # text that must be in the message, driver, options...
     code=$?
     [ $code = 2 ] || fail "$*: exit $code instead of 2"
     grep -qF -- "$text" <<<"$message" || fail "$*: says '$message', not '$text'"
-}
-
-runs() { # exit code, driver, options...
-    local wanted=$1 code
-    shift
-    "$drivers/$1" "${@:2}" --threads 1 >log 2>&1
-    code=$?
-    [ $code = "$wanted" ] || { fail "$*: exit $code instead of $wanted"; cat log; }
 }
 
 has() { # folder, files...

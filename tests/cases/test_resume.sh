@@ -3,23 +3,7 @@
 # Checkpoints of the drivers: a run that was interrupted or killed and goes on leaves the same bytes as one that ran through.
 # usage: tests/cases/test_resume.sh FOLDER_OF_DRIVERS
 set -uo pipefail
-drivers=$(realpath "${1:?usage: test_resume.sh FOLDER_OF_DRIVERS}")
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-cd "$scratch" || exit 1
-failures=0
-fail() {
-    echo "FAILED: $*"
-    failures=$((failures + 1))
-}
-
-runs() { # exit code, driver, options...
-    local wanted=$1 code
-    shift
-    "$drivers/$1" "${@:2}" --threads 1 >log 2>&1
-    code=$?
-    [ $code = "$wanted" ] || { fail "$*: exit $code instead of $wanted"; cat log; }
-}
+. "$(dirname "$0")/drivers.sh"
 
 # A refusal touches none of the outputs.
 refused() { # text that must be in the message, folder, driver, options...
