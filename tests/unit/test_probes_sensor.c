@@ -43,7 +43,7 @@ static void linear_up_the_wall(void **state)
         for (double y = 0.011; y < 0.18; y += 0.0037) {
             mps_probe p = probe_of(MPS_PROBE_WALL_PRESSURE, 0, y, 0.0512);
             ASSERT_NEAR(read_one(sim, &p), 9810 * (0.2 - y), 1e-9);
-            p.at[0] = 0.4 + 0.7 * dp; /* behind the wall */
+            p.at[0] = 0.4 + 0.45 * dp; /* behind the wall */
             ASSERT_NEAR(read_one(sim, &p), 9810 * (0.2 - y), 1e-9);
         }
         mps_sim_destroy(sim);
