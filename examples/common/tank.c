@@ -34,10 +34,10 @@ void tank_build(run *r, const tank_case *c)
     motion.amplitude = r->options.amplitude;
     tank_walls(r, c->size);
     if (c->plate.top > 0) baffle_add(r, &c->plate, c->size[2]);
-    run_check(r, mps_geometry_fill_box(r->sim, 0, lo, level, NULL), "water");
+    run_check(r, mps_geometry_fill_box(r->sim, 0, lo, level, NULL, NULL), "water");
     if (run_has_gas(r)) {
         run_phase(r, 1, TANK_AIR_DENSITY, TANK_AIR_VISCOSITY);
-        run_check(r, mps_geometry_fill_box(r->sim, 1, lo, c->size, NULL), "air");
+        run_check(r, mps_geometry_fill_box(r->sim, 1, lo, c->size, NULL, NULL), "air");
     }
     run_check(r, mps_motion_set_harmonics(r->sim, 1, &motion), "motion");
 }

@@ -65,7 +65,7 @@ static void baffles(void **state)
             const double left = 0.2, right = left + (layers - 1) * dp, lo[3] = {left, 0, 0}, hi[3] = {right, 0.1, 0.1}, z = 0.043;
             const double side = layers == 1 ? 1e-6 : 0;
             mps_sim *sim = filled(dim, 0);
-            ASSERT_OK(sim, mps_geometry_baffle(sim, "baffle", lo, hi));
+            ASSERT_OK(sim, mps_geometry_baffle(sim, "baffle", lo, hi, NULL));
             write_linear(sim);
             for (double y = 0.03 * dp; y < 9.6 * dp; y += 0.31 * dp)
                 for (int large = 0; large < 2; large++) {
@@ -89,7 +89,7 @@ static void sides_of_baffles(void **state)
     for (int layers = 1; layers <= 6; layers++) {
         const double left = 0.2, right = left + (layers - 1) * dp, lo[2] = {left, 0}, hi[2] = {right, 0.3};
         mps_sim *sim = filled(2, 0);
-        ASSERT_OK(sim, mps_geometry_baffle(sim, "baffle", lo, hi));
+        ASSERT_OK(sim, mps_geometry_baffle(sim, "baffle", lo, hi, NULL));
         const mps__particles *s = &sim->world.particles;
         for (int64_t i = 0; i < s->n; i++) {
             const double *X = &s->ref[2 * i], *area = &s->area[2 * i];
@@ -273,7 +273,7 @@ static void beyond_the_end(void **state)
     tank.open_top = 1;
     ASSERT_OK(sim, mps_geometry_tank(sim, &tank, NULL));
     const double lo[2] = {0.1, 0.08}, hi[2] = {0.1, 0.15};
-    ASSERT_OK(sim, mps_geometry_baffle(sim, "plate", lo, hi));
+    ASSERT_OK(sim, mps_geometry_baffle(sim, "plate", lo, hi, NULL));
     mps_probe p = probe_of(MPS_PROBE_WALL_PRESSURE, 0.1 + 1e-6, 0.15 + 0.8 * dp, 0);
     ASSERT_REFUSED(sim, mps_probe_add(sim, &p, &id), MPS_E_ARG, "0.008 m beyond the end of the face");
     p.at[1] = 0.15 + 0.4 * dp;
