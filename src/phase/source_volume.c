@@ -12,7 +12,9 @@
  *
  * delta is the volume deviation of mps_op_volume_deviation(), clipped and averaged. Its error follows the waves, so tau is long (20 tau_g):
  * a short one feeds them. What an impact compressed by per cents has to come back before the next: beyond `firm` the time falls to tau_g.
- * Gas that is torn or piled up by tens of per cents (`torn`) comes back in dt/`rapid`.
+ * Gas that is torn or piled up by tens of per cents (`torn`) comes back in dt/`rapid`. The set-up itself has a delta beside walls that are not on
+ * the lattice, 10 % where they slope by 45 degrees. Asked for at once it took twice the hydrostatic pressure in the first step; it comes on
+ * over the first `start` tau_g instead.
  *
  * Beside another density velocities of neighbours count by mass: the face between water and air moves with the water.
  *
@@ -22,10 +24,10 @@
 #include "builtin.h"
 #include <stdbool.h>
 
-enum { TAU, CLIP, STRAIN, GAIN, FIRM, RAPID, TORN, FORWARD, PACE };
-static const mps_setting settings[] = {{"tau", 20.0, 0.1, 1e6},    {"clip", 0.1, 0.0, 1.0},    {"strain", 1.0, 0.0, 1.0},
-                                       {"gain", 0.7, 0.05, 1.0},   {"firm", 0.03, 1e-3, 1.0},  {"rapid", 0.0, 0.0, 1.0},
-                                       {"torn", 0.15, 1e-3, 10.0}, {"forward", 0.0, 0.0, 1.0}, {"pace", 1.0, 0.0, 1.0}};
+enum { TAU, CLIP, STRAIN, GAIN, FIRM, RAPID, TORN, FORWARD, PACE, START };
+static const mps_setting settings[] = {
+    {"tau", 20.0, 0.1, 1e6},  {"clip", 0.1, 0.0, 1.0},    {"strain", 1.0, 0.0, 1.0},  {"gain", 0.7, 0.05, 1.0}, {"firm", 0.03, 1e-3, 1.0},
+    {"rapid", 0.0, 0.0, 1.0}, {"torn", 0.15, 1e-3, 10.0}, {"forward", 0.0, 0.0, 1.0}, {"pace", 1.0, 0.0, 1.0},  {"start", 5.0, 0.0, 1e6}};
 
 /* fmax() and fmin() as one instruction: `b` may be NaN and does not count then. */
 static inline double larger(double a, double b)
@@ -264,6 +266,7 @@ static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *term
     terms->gain = k[GAIN];
     terms->radius = MPS_NEAR;
     const pacing pace = set_pace(s, k[PACE]);
+    const double on = k[START] > 0 ? smaller(1.0, s->t * rate / k[START]) : 1.0;
     volume_deviation(k, s, delta);
     relative_velocity(s, v);
     slip(s, v, w);
@@ -275,7 +278,7 @@ static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *term
         if (s->kind[i] == MPS_FLUID) {
             double mean;
             const double divergence = MPS__ROW_CALL(s, fluid_divergence, s, &f, i, &mean);
-            const double back = rate * relaxation(k, mean, share * k[RAPID] / (s->dt * rate)) * mean;
+            const double back = on * rate * relaxation(k, mean, share * k[RAPID] / (s->dt * rate)) * mean;
             terms->rhs[i] += share * over * (back - divergence);
         } else {
             terms->rhs[i] -= share * over * MPS__ROW_CALL(s, wall_divergence, s, w, i, terms->wall_factor);
@@ -288,6 +291,6 @@ const mps_model_ops mps__source_volume = {.struct_size = sizeof(mps_model_ops),
                                           .api = MPS_MODEL_API,
                                           .name = "source.volume",
                                           .order = 500,
-                                          .setting_count = 9,
+                                          .setting_count = 10,
                                           .settings = settings,
                                           .source = source};
