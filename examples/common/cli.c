@@ -39,7 +39,7 @@ static int cli_table(cli_options *o, cli_option *table)
     table[n++] = (cli_option){"--resume", NULL, "go on from the checkpoint in the folder of --out", TYPE_FLAG, &o->resume, 0, 0, true};
     table[n++] = (cli_option){"--probe-dt", "S", "interval of rows in probes.csv [s]", TYPE_REAL, &o->probe_dt, 0, 10, false};
     table[n++] = (cli_option){
-        "--sensor-average", "S", "wall pressures are means of the last S seconds", TYPE_REAL, &o->sensor_average, 0, 10, false};
+        "--sensor-average", "S", "wall pressures are means of the last S seconds; without it dp/u_max", TYPE_REAL, &o->sensor_average, 0, 10, false};
     table[n++] = (cli_option){"--pictures", "T,T,..", "times of the pictures [s]; without it quarters", TYPE_TIMES, o, 0, 0, false};
     if (o->has_dim) table[n++] = (cli_option){"--dim", "D", "2 or 3 dimensions", TYPE_INT, &o->dim, 2, 3, false};
     if (o->amplitude > 0) table[n++] = (cli_option){"--amplitude", "M", "of the motion [m]", TYPE_REAL, &o->amplitude, 0, 10, false};
@@ -227,6 +227,7 @@ void cli_defaults(cli_options *o, const char *program, const char *about)
                        .t_end = 1,
                        .t_max = 1e4,
                        .probe_dt = 1e-3,
+                       .sensor_average = MPS_AVERAGE_AUTO,
                        .stl_scale = 1,
                        .gravity = 9.81,
                        .sigma = 7.27e-2, /* water and air */

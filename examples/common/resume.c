@@ -86,6 +86,9 @@ void resume_add_step(void *user, const double *row)
     s->lost = (int64_t)row[STEP_LOST];
     s->max_speed = fmax(s->max_speed, row[STEP_SPEED]);
     s->ppe_iterations += row[STEP_ITERATIONS];
+    s->ppe_solves += row[STEP_SOLVES];
+    s->crossing_least = s->steps == 1 ? row[STEP_CROSSING] : fmin(s->crossing_least, row[STEP_CROSSING]);
+    s->crossing_most = fmax(s->crossing_most, row[STEP_CROSSING]);
 }
 
 void resume_tables(run *r)

@@ -43,7 +43,8 @@ typedef struct run_totals {
     int64_t fluid, wall, dummy, steps, steps_here, not_converged, lost; /* steps_here: without those before the checkpoint */
     double t_before;                                                    /* time of the checkpoint; 0: none */
     double t, wall_s, cpu_s, step_s, output_s, max_speed, volume_error;
-    double ppe_iterations, seconds[MPS_STAGE_COUNT];
+    double crossing_least, crossing_most; /* mps_step_info.crossing_time [s] */
+    double ppe_iterations, ppe_solves, seconds[MPS_STAGE_COUNT];
     const char *status;
     char error[RUN_ERROR];
 } run_totals;

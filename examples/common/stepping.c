@@ -200,15 +200,11 @@ static void run_picture(run *r, double t)
 
 /* ---- steps ------------------------------------------------------------------------------------------------------ */
 
-static void run_add_up(run *r, const mps_step_info *info)
+static void run_add_up(run *r, const mps_step_info *info, const double *row)
 {
     run_totals *s = &r->totals;
-    s->steps++;
+    resume_add_step(r, row);
     s->steps_here++;
-    s->t = info->t;
-    s->lost = info->lost;
-    s->max_speed = fmax(s->max_speed, info->max_speed);
-    s->ppe_iterations += info->ppe_iterations;
     s->step_s += progress_clock() - r->step_end;
     for (int k = 0; k < MPS_STAGE_COUNT; k++) s->seconds[k] += info->seconds[k];
 }
@@ -218,9 +214,10 @@ static int run_monitor(void *user, mps_sim *sim, const mps_step_info *info)
     run *r = user;
     (void)sim;
     double begin = progress_clock();
-    run_add_up(r, info);
     const double row[STEP_COLUMNS] = {
-        info->t, info->dt, info->cfl, info->ppe_iterations, info->ppe_residual, info->ppe_divergence, info->max_speed, (double)info->lost};
+        info->t, info->dt, info->cfl, info->ppe_iterations, info->ppe_residual, info->ppe_divergence, info->max_speed, (double)info->lost,
+        info->crossing_time, info->ppe_solves};
+    run_add_up(r, info, row);
     table_append(&r->steps, row);
     /* interpolation needs the samples on both sides of an output time; the next step is at most a little longer than this one */
     if (r->totals.steps == 1 || table_wants(&r->probes, info->t, 2 * info->dt)) run_sample(r, info->t);

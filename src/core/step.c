@@ -17,6 +17,7 @@ typedef struct step_state {
     mps_step_info info;
     mps__budget budget;
     double momentum[3]; /* of the prediction */
+    mps__jump jump;
     double clock;       /* beginning of the present stage */
     bool not_converged;
     bool no_memory; /* a verb got no scratch */
@@ -192,6 +193,20 @@ static bool at_rest(const step_state *q)
     return was && same_place(&w->motion.now, &q->pose);
 }
 
+/* A velocity that changes within a step by more than twice as much as in the last one, and than by 2 g, jumps. */
+static void note_jump(step_state *q)
+{
+    const mps__world *w = q->w;
+    double most = 0;
+    for (int64_t i = 0; i < q->stage.n; i++) {
+        const double *a = w->work.tank_accel + i * w->dim;
+        if (w->particles.kind[i] != MPS_FLUID) most = fmax(most, mps__dot(a, a, w->dim));
+    }
+    q->jump = (mps__jump){sqrt(most), w->jump.since < INT32_MAX ? w->jump.since + 1 : INT32_MAX};
+    if (q->jump.accel > 2 * w->velocity_scale * w->velocity_scale / w->dp && q->jump.accel > 2 * w->jump.accel) q->jump.since = 0;
+    q->stage.since_jump = q->jump.since;
+}
+
 /* Solids get the velocity that carries them to their next place; every particle the acceleration a rigid tank has there. */
 static void move_walls(step_state *q)
 {
@@ -343,6 +358,7 @@ static mps_status look_around(step_state *q)
     MPS__TRY(mps__neighbours_near(&w->neighbours));
     end_stage(q, MPS_STAGE_NEIGHBOURS);
     move_walls(q);
+    note_jump(q);
     weigh_pairs(q);
     MPS__TRY(mps_op_volume_deviation(&q->far, w->work.volume));
     const int dim = s->dim;
@@ -386,7 +402,7 @@ static void note_pressure(step_state *q, mps__bulk *bulk)
     double force[3];
     q->budget.wall_work += mps__budget_wall_work(w, &q->pose, w->work.a, q->stage.dt);
     mps__budget_sum(w, bulk);
-    mps__budget_wall_force(w, force);
+    mps__budget_wall_force(w, w->work.load, force);
     for (int d = 0; d < w->dim; d++) {
         m->pressure[d] += bulk->momentum[d] - q->momentum[d];
         m->walls[d] += q->stage.dt * force[d];
@@ -450,21 +466,24 @@ static mps_status project(step_state *q)
     mps__zero(q->terms.gas, s->n, s->threads);
     mps__zero(q->terms.law, s->n, s->threads);
 #pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) q->terms.fixed[i] = s->region[i] == MPS_REGION_SURFACE;
+    for (int64_t i = 0; i < s->n; i++) q->terms.fixed[i] = s->region[i] == MPS_REGION_SURFACE ? MPS_ROW_FIXED : MPS_ROW_FREE;
     MPS__TRY(collect_sources(q));
     end_stage(q, MPS_STAGE_OPERATORS);
     MPS__TRY(mps__ppe_assemble(&w->ppe, s, &q->terms));
     note_level(q);
     end_stage(q, MPS_STAGE_PPE_SETUP);
     mps_ppe_result result = {0};
+    w->bounds.held = w->particles.held;
+    w->bounds.solves = 0;
     if (w->ppe.n > 0) {
-        mps_status status = mps__solvers_solve(&w->solvers, &w->ppe.problem, w->ppe.p, &result);
+        mps_status status = mps__bounds_solve(&w->bounds, &w->solvers, &w->ppe, s, &q->terms, &result);
         if (status == MPS_E_SOLVER) MPS__TRY(check_result(q)); /* a NaN of the prediction has a particle and a place */
         if (status < 0) return mps__fail(w->context, status, "t = %.9g s: %.400s", s->t, w->context->error);
         q->not_converged = status == MPS_W_NOT_CONVERGED;
         if (q->not_converged) mps__log(w->context, MPS_LOG_WARNING, "t = %.9g s: %.400s", s->t, w->context->error);
     }
     mps__ppe_scatter(&w->ppe, s, &q->terms, s->p);
+    q->info.ppe_solves = w->bounds.solves;
     q->info.ppe_iterations = result.iterations;
     q->info.ppe_residual = result.residual;
     q->info.ppe_divergence = result.divergence;
@@ -496,6 +515,9 @@ static mps_status correct(step_state *q)
     mps__work *k = &w->work;
     mps__zero(k->a, s->n * s->dim, s->threads);
     EACH_MODEL(q, gradient, s, k->a);
+    s->wall_pressure = k->load;
+    keep(s->wall_pressure, s->p, s->n, s->threads);
+    EACH_MODEL(q, load, s);
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++)
         for (int64_t a = i * s->dim; a < (i + 1) * s->dim; a++) s->u[a] += s->kind[i] == MPS_FLUID ? s->dt * k->a[a] : 0;
@@ -532,17 +554,22 @@ static mps_status check_result(step_state *q)
 {
     const mps__world *w = q->w;
     const mps_stage *s = &q->stage;
-    double most = 0;
+    double most = 0, liquid = 0, dense = 0;
     int64_t worst = s->n;
-#pragma omp parallel for num_threads(s->threads) reduction(max : most) reduction(min : worst) schedule(static)
+    for (int k = 0; k < MPS__PHASES; k++)
+        if (w->phase_defined[k]) dense = fmax(dense, 0.5 * w->phase_density[k]);
+#pragma omp parallel for num_threads(s->threads) reduction(max : most, liquid) reduction(min : worst) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         const double *u = s->u + i * s->dim, *x = s->x + i * s->dim;
         const double speed = sqrt(mps__dot(u, u, s->dim));
         if (!(isfinite(speed) && speed <= w->speed_limit && mps__finite(x, s->dim) && isfinite(s->p[i])))
             worst = i < worst ? i : worst;
-        else if (s->kind[i] == MPS_FLUID)
+        else if (s->kind[i] == MPS_FLUID) {
             most = speed > most ? speed : most;
+            if (s->density[i] >= dense) liquid = speed > liquid ? speed : liquid;
+        }
     }
+    q->info.crossing_time = mps__crossing_time(w, liquid);
     q->info.max_speed = most;
     q->info.cfl = most * s->dt / s->dp;
     if (worst == s->n) return MPS_OK;
@@ -584,6 +611,10 @@ static void commit(step_state *q)
     w->before = w->motion.now;
     w->dt_before = q->stage.dt;
     w->motion.now = q->pose;
+    keep(w->particles.load, w->work.load, w->particles.n, w->threads);
+    w->info.separated = 0;
+    for (int64_t i = 0; i < w->particles.n; i++) w->info.separated += w->particles.held[i] = q->terms.fixed[i] == MPS__ROW_HELD;
+    w->jump = q->jump;
     w->budget = q->budget;
     mps__budget_sum(w, &w->budget.last);
     w->budget.deviation = mps__budget_mean_deviation(w);

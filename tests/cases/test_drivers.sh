@@ -97,7 +97,7 @@ columns sloshing_baffle_2d 0.01 978 't[s],eta_a[m],eta_b[m],eta_c[m],ke[J/m],x_t
 columns sloshing_baffle_3d 0.025 1859 't[s],eta_a[m],eta_b[m],eta_c[m],ke[J],x_tank[m]'
 columns dam_break 0.025 288 't[s],P1[Pa],P2[Pa],P3[Pa],P4[Pa],front[m],ke[J/m],x_tank[m]'
 columns static_tank 0.025 616 't[s],P1[Pa],P2[Pa],P3[Pa],eta_left[m],ke[J],x_tank[m]' --dim 3
-columns standing_wave 0.025 780 't[s],eta_left[m],ke[J/m],x_tank[m]'
+columns standing_wave 0.025 780 't[s],eta_left[m],x_centre[m],ke[J/m],x_tank[m]'
 columns static_two_fluid 0.05 570 't[s],P1[Pa],P2[Pa],P3[Pa],ke[J/m],x_tank[m],pe[J/m]'
 columns rayleigh_taylor 0.05 760 't[s],ytop[m],ybot[m],ke[J/m],x_tank[m],pe[J/m]'
 columns rising_bubble 0.05 741 't[s],yc[m],v[m/s],circularity,ke[J/m],x_tank[m],pe[J/m]'
