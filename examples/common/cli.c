@@ -38,8 +38,14 @@ static int cli_table(cli_options *o, cli_option *table)
                               false};
     table[n++] = (cli_option){"--resume", NULL, "go on from the checkpoint in the folder of --out", TYPE_FLAG, &o->resume, 0, 0, true};
     table[n++] = (cli_option){"--probe-dt", "S", "interval of rows in probes.csv [s]", TYPE_REAL, &o->probe_dt, 0, 10, false};
-    table[n++] = (cli_option){
-        "--sensor-average", "S", "wall pressures are means of the last S seconds; without it dp/u_max", TYPE_REAL, &o->sensor_average, 0, 10, false};
+    table[n++] = (cli_option){"--sensor-average",
+                              "S",
+                              "wall pressures are means of the last S seconds; 0: as they are; without it dp/u_max",
+                              TYPE_REAL,
+                              &o->sensor_average,
+                              -1,
+                              10,
+                              false};
     table[n++] = (cli_option){"--pictures", "T,T,..", "times of the pictures [s]; without it quarters", TYPE_TIMES, o, 0, 0, false};
     if (o->has_dim) table[n++] = (cli_option){"--dim", "D", "2 or 3 dimensions", TYPE_INT, &o->dim, 2, 3, false};
     if (o->amplitude > 0) table[n++] = (cli_option){"--amplitude", "M", "of the motion [m]", TYPE_REAL, &o->amplitude, 0, 10, false};

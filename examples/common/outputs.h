@@ -6,7 +6,19 @@
 #include "run.h"
 
 /* Columns of steps.csv. */
-enum { STEP_T, STEP_DT, STEP_CFL, STEP_ITERATIONS, STEP_RESIDUAL, STEP_DIVERGENCE, STEP_SPEED, STEP_LOST, STEP_CROSSING, STEP_SOLVES, STEP_COLUMNS };
+enum {
+    STEP_T,
+    STEP_DT,
+    STEP_CFL,
+    STEP_ITERATIONS,
+    STEP_RESIDUAL,
+    STEP_DIVERGENCE,
+    STEP_SPEED,
+    STEP_LOST,
+    STEP_CROSSING,
+    STEP_SOLVES,
+    STEP_COLUMNS
+};
 #define STEP_HEADER "t[s],dt[s],cfl,ppe_iterations,ppe_residual,ppe_divergence,max_speed[m/s],lost,crossing_time[s],ppe_solves"
 
 /* Places of the common columns in probes.csv, behind the driver's own. */

@@ -215,8 +215,8 @@ static int run_monitor(void *user, mps_sim *sim, const mps_step_info *info)
     (void)sim;
     double begin = progress_clock();
     const double row[STEP_COLUMNS] = {
-        info->t, info->dt, info->cfl, info->ppe_iterations, info->ppe_residual, info->ppe_divergence, info->max_speed, (double)info->lost,
-        info->crossing_time, info->ppe_solves};
+        info->t,         info->dt,           info->cfl,           info->ppe_iterations, info->ppe_residual, info->ppe_divergence,
+        info->max_speed, (double)info->lost, info->crossing_time, info->ppe_solves};
     run_add_up(r, info, row);
     table_append(&r->steps, row);
     /* interpolation needs the samples on both sides of an output time; the next step is at most a little longer than this one */

@@ -23,8 +23,7 @@ MPS__ROW double least_pressure(const int dim, const mps_stage *s, int64_t i)
         if (!surface && !(s->kind[j] == MPS_FLUID && region == MPS_REGION_SPRAY) && !(s->kind[j] == MPS_WALL && region == MPS_REGION_DRY))
             continue;
         double body = 0;
-        for (int d = 0; d < dim && surface; d++)
-            body += (s->g[d] - s->tank_accel[i * dim + d]) * (s->x[i * dim + d] - s->x[j * dim + d]);
+        for (int d = 0; d < dim && surface; d++) body += (s->g[d] - s->tank_accel[i * dim + d]) * (s->x[i * dim + d] - s->x[j * dim + d]);
         least = fmin(least, fmin(0, s->density[j] * body));
     }
     return least;

@@ -120,8 +120,8 @@ static bool choose(mps__bounds *b, const mps__ppe *e)
     bool changed = false;
     for (int64_t k = 0; k < b->count; k++) {
         struct mps__bound *row = &b->list[k];
-        const bool held =
-            row->held ? residual(e, row->row) >= -row->margin * e->diagonal[row->row] : e->p[row->row] < row->least - row->margin;
+        const bool held = row->held ? residual(e, row->row) >= -row->margin * e->diagonal[row->row]
+                                    : e->p[row->row] < row->least - row->margin;
         changed = changed || held != row->held;
         row->held = held;
     }
@@ -138,7 +138,8 @@ static mps_status solve_held(mps__bounds *b, mps__solvers *solvers, mps__ppe *e,
     return status;
 }
 
-mps_status mps__bounds_solve(mps__bounds *b, mps__solvers *solvers, mps__ppe *e, const mps_stage *s, mps_ppe_terms *t, mps_ppe_result *result)
+mps_status mps__bounds_solve(mps__bounds *b, mps__solvers *solvers, mps__ppe *e, const mps_stage *s, mps_ppe_terms *t,
+                             mps_ppe_result *result)
 {
     mps_status status = MPS_OK;
     int32_t iterations = 0;

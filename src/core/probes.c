@@ -98,7 +98,8 @@ static void measure_fluid(const mps__world *w, const mps_probe *c, double *value
         double r[3] = {0, 0, 0}, d2 = distance2(&s->x[i * w->dim], at, w->dim);
         if (d2 >= w->re_near * w->re_near || mps__plates_hide(w, c->at, i)) continue;
         for (int32_t d = 0; d < w->dim; d++) r[d] = s->x[i * w->dim + d] - at[d];
-        add_moment(&m, r, mps_kernel_value(&w->kernel, fmax(sqrt(d2), 1e-3 * w->dp), w->re_near), s->kind[i] == MPS_WALL ? s->load[i] : s->p[i]);
+        add_moment(&m, r, mps_kernel_value(&w->kernel, fmax(sqrt(d2), 1e-3 * w->dp), w->re_near),
+                   s->kind[i] == MPS_WALL ? s->load[i] : s->p[i]);
         m.nearest2 = fmin(m.nearest2, d2);
     }
     *value = m.nearest2 < 0.25 * w->re_near * w->re_near ? moments_value(w, &m) : 0;
@@ -348,10 +349,11 @@ static void note_window(mps__world *w, const mps__probes *p, int64_t k)
     const mps_probe *c = &p->list[k].config;
     if (w->window_told || c->type == MPS_PROBE_GAUGE || window(w, c) >= w->info.crossing_time) return;
     w->window_told = true;
-    mps__log(w->context, MPS_LOG_WARNING,
-             "t = %.6g s: probe %d averages over %g s; liquid crosses a spacing in %g s, and pressures of impacts over less than that depend "
-             "on the time step (average = MPS_AVERAGE_AUTO follows it)",
-             w->info.t, (int)k, c->average, w->info.crossing_time);
+    mps__log(
+        w->context, MPS_LOG_WARNING,
+        "t = %.6g s: probe %d averages over %g s; liquid crosses a spacing in %g s, and pressures of impacts over less than that depend "
+        "on the time step (average = MPS_AVERAGE_AUTO follows it)",
+        w->info.t, (int)k, c->average, w->info.crossing_time);
 }
 
 mps_status mps__probe_take(mps__world *w, mps__probe *p)

@@ -7,6 +7,12 @@
 #include <stdio.h>
 #include <string.h>
 
+/* So many steps at most share what is left of a run. */
+static const double SHARED_STEPS = 20;
+
+/* Share of its way to that of the present step that the spread of pressures goes in a step. */
+static const double SPREAD_SHARE = 0.2;
+
 /* What one step carries along; committed to the world only when all went well. */
 typedef struct step_state {
     mps__world *w;
@@ -18,7 +24,8 @@ typedef struct step_state {
     mps__budget budget;
     double momentum[3]; /* of the prediction */
     mps__jump jump;
-    double clock;       /* beginning of the present stage */
+    double spread; /* time that a gain below 1 spreads pressures over [s] */
+    double clock;  /* beginning of the present stage */
     bool not_converged;
     bool no_memory; /* a verb got no scratch */
     bool moved;     /* positions are new, the old ones kept */
@@ -125,8 +132,8 @@ static mps_status choose_dt(const step_state *q, double *chosen)
     return MPS_OK;
 }
 
-/* The step to take, and the one the limits allow: they differ where the last two steps of a run share what is left of it, so that none is
- * a sliver, whose pressure has no meaning. Rounding is not something left. */
+/* The step to take, and the one the limits allow: they differ where the last steps of a run share what is left of it, so that none is a
+ * sliver. Pressures of a tank that accelerates jump with dt, by half of its change. Rounding is not something left. */
 static mps_status set_dt(step_state *q, double dt_max, double *planned)
 {
     mps__world *w = q->w;
@@ -139,8 +146,8 @@ static mps_status set_dt(step_state *q, double dt_max, double *planned)
                          w->control.dt_min, mps__world_speed(w));
     if (!isfinite(dt)) dt = dt_max;
     *planned = fmin(dt, dt_max);
-    const bool share = w->ending && *planned < (1 - 1e-6) * dt_max && 2 * *planned > (1 + 1e-6) * dt_max;
-    q->stage.dt = share ? 0.5 * dt_max : *planned;
+    const double steps = ceil(dt_max / *planned * (1 - 1e-6));
+    q->stage.dt = w->ending && steps <= SHARED_STEPS ? dt_max / steps : *planned;
     return MPS_OK;
 }
 
@@ -444,6 +451,15 @@ static mps_status collect_sources(step_state *q)
     return MPS_OK;
 }
 
+/* A gain g below 1 leaves (1 - g) dt/g =: T of a steady demand to later steps. In a shorter step g would ask for what longer ones left at
+ * once: pressures would jump by (1 - g)(dt_before/dt - 1). With g = dt/(dt + T) they do not feel dt; T follows the steps slowly. */
+static void spread_gain(step_state *q)
+{
+    const double dt = q->stage.dt, gain = q->terms.gain, wanted = dt * (1 - gain) / gain;
+    q->spread = q->w->spread > 0 ? q->w->spread + SPREAD_SHARE * (wanted - q->w->spread) : wanted;
+    q->terms.gain = dt / (dt + q->spread);
+}
+
 static void note_level(step_state *q)
 {
     mps__world *w = q->w;
@@ -468,6 +484,7 @@ static mps_status project(step_state *q)
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) q->terms.fixed[i] = s->region[i] == MPS_REGION_SURFACE ? MPS_ROW_FIXED : MPS_ROW_FREE;
     MPS__TRY(collect_sources(q));
+    spread_gain(q);
     end_stage(q, MPS_STAGE_OPERATORS);
     MPS__TRY(mps__ppe_assemble(&w->ppe, s, &q->terms));
     note_level(q);
@@ -615,6 +632,7 @@ static void commit(step_state *q)
     w->info.separated = 0;
     for (int64_t i = 0; i < w->particles.n; i++) w->info.separated += w->particles.held[i] = q->terms.fixed[i] == MPS__ROW_HELD;
     w->jump = q->jump;
+    w->spread = q->spread;
     w->budget = q->budget;
     mps__budget_sum(w, &w->budget.last);
     w->budget.deviation = mps__budget_mean_deviation(w);

@@ -79,6 +79,7 @@ typedef struct mps__world {
     mps__pose before;   /* of the tank at the beginning of the last step, */
     double dt_before;   /* which was this long */
     mps__jump jump;     /* of the tank's velocity */
+    double spread;      /* time that a gain below 1 spreads pressures over, 0 before the first step [s] */
     mps__work work;
     double *listed_at; /* NULL, or positions [n*dim] of the search whose candidates still hold, but are to be found again */
     int64_t aside;     /* lost particles that lie behind the others, until the next are looked for */

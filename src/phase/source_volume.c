@@ -23,10 +23,9 @@
 #include <stdbool.h>
 
 enum { TAU, CLIP, STRAIN, GAIN, FIRM, RAPID, TORN, FORWARD, PACE, ASIDE };
-static const mps_setting settings[] = {{"tau", 20.0, 0.1, 1e6},    {"clip", 0.1, 0.0, 1.0},    {"strain", 1.0, 0.0, 1.0},
-                                       {"gain", 0.7, 0.05, 1.0},   {"firm", 0.03, 1e-3, 1.0},  {"rapid", 0.0, 0.0, 1.0},
-                                       {"torn", 0.15, 1e-3, 10.0}, {"forward", 0.0, 0.0, 1.0}, {"pace", 1.0, 0.0, 1.0},
-                                       {"aside", 1.0, 0.0, 1.0}};
+static const mps_setting settings[] = {
+    {"tau", 20.0, 0.1, 1e6},  {"clip", 0.1, 0.0, 1.0},    {"strain", 1.0, 0.0, 1.0},  {"gain", 0.7, 0.05, 1.0}, {"firm", 0.03, 1e-3, 1.0},
+    {"rapid", 0.0, 0.0, 1.0}, {"torn", 0.15, 1e-3, 10.0}, {"forward", 0.0, 0.0, 1.0}, {"pace", 1.0, 0.0, 1.0},  {"aside", 1.0, 0.0, 1.0}};
 
 /* fmax() and fmin() as one instruction: `b` may be NaN and does not count then. */
 static inline double larger(double a, double b)
@@ -279,7 +278,8 @@ static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *term
         if (s->kind[i] == MPS_FLUID) {
             double mean;
             const double divergence = MPS__ROW_CALL(s, fluid_divergence, s, &f, i, &mean);
-            const double back = rate * relaxation(k, mean, larger(0.0, 1.0 - 2.0 * k[ASIDE] * solid[i]), share * k[RAPID] / (s->dt * rate)) * mean;
+            const double back = rate *
+                                relaxation(k, mean, larger(0.0, 1.0 - 2.0 * k[ASIDE] * solid[i]), share * k[RAPID] / (s->dt * rate)) * mean;
             terms->rhs[i] += share * over * (back - divergence);
         } else {
             terms->rhs[i] -= share * over * MPS__ROW_CALL(s, wall_divergence, s, w, i, terms->wall_factor);

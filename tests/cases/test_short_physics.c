@@ -379,7 +379,6 @@ static void full_tank(void **state)
         mps_probe p;
         mps_probe_init(&p, sizeof p);
         memcpy(p.at, at[k], sizeof p.at);
-        p.average = 0;
         OK(r.sim, mps_probe_add(r.sim, &p, &id[k]));
     }
     for (int k = 1; k <= 100; k++) {
