@@ -81,7 +81,7 @@ static void cli_default_text(const cli_option *e, char *text, size_t size)
     text[0] = '\0';
     if (e->type == TYPE_TEXT && *(const char **)e->value) snprintf(text, size, " (%s)", *(const char **)e->value);
     if (e->type == TYPE_INT) snprintf(text, size, " (%d)", *(int32_t *)e->value);
-    if (e->type == TYPE_REAL && (*(double *)e->value > 0 || e->min < 0)) snprintf(text, size, " (%g)", *(double *)e->value);
+    if (e->type == TYPE_REAL && (*(double *)e->value > 0 || (e->min < 0 && *(double *)e->value == 0))) snprintf(text, size, " (%g)", *(double *)e->value);
     if (e->type == TYPE_CHOICE) {
         const char *word;
         int length = cli_word(e->argument, *(int32_t *)e->value, &word);
@@ -106,7 +106,7 @@ static void cli_help(const cli_options *o, const cli_option *table, int n)
     exit(CLI_OK);
 }
 
-static void cli_refuse(const cli_options *o, const char *format, const char *a, const char *b)
+void cli_refuse(const cli_options *o, const char *format, const char *a, const char *b)
 {
     fprintf(stderr, "%s: ", o->program);
     fprintf(stderr, format, a, b);
@@ -255,6 +255,7 @@ void cli_parse(cli_options *o, int argc, char **argv)
     o->two_phases = o->need || o->both_phases;
     int n = cli_table(o, table);
     for (int i = 1; i < argc; i++) cli_take(o, table, n, argc, argv, &i);
-    if (o->dt > 0 && o->dt > o->t_end) cli_refuse(o, "--dt is longer than --t-end%s%s", "", "");
-    if (o->pictures > 0 && o->picture_t[o->pictures - 1] > o->t_end) cli_refuse(o, "--pictures has times later than --t-end%s%s", "", "");
+    if (o->t_end > 0 && o->dt > o->t_end) cli_refuse(o, "--dt is longer than --t-end%s%s", "", "");
+    if (o->t_end > 0 && o->pictures > 0 && o->picture_t[o->pictures - 1] > o->t_end)
+        cli_refuse(o, "--pictures has times later than --t-end%s%s", "", "");
 }

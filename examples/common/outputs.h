@@ -51,6 +51,8 @@ enum {
 
 /* Remember the first thing that went wrong besides stepping. @return false if it did */
 bool run_note(run *r, mps_status status, const char *what);
+/* Value of one of the driver's own columns now; NAN if it cannot be measured. */
+double run_measure_column(run *r, const run_column *c);
 /* summary.json. @return false with a message on stderr */
 bool summary_save(const run *r);
 /* plot_*.svg, and report.html unless it was not wanted. @return false with a message on stderr */

@@ -58,6 +58,9 @@ refused 'unknown option --sigma' rayleigh_taylor --sigma 0
 refused '--mode jump: must be one of rest|oscillation' droplet --mode jump
 refused '--mode res: must be one of rest|oscillation' droplet --mode res
 refused '--case 3: must be one of 1|2' rising_bubble --case 3
+refused '--case dam: must be one of flat|film|wedge|jet|column|floor|box' impact --case dam
+refused '--rows 0: must be a whole number, 1 to 100' impact --case film --rows 0
+refused '--dim 3: this case is for 2 dimensions' impact --case wedge --dim 3
 refused '--width 0: must be a number, 0.01 to 2' sloshing_breaking --dim 3 --width 0
 refused 'there are sundials.pcg' static_tank --solver magic
 refused 'sundials.klu, sundials.kinsol, and behind' air_cushion --solver magic
@@ -98,6 +101,8 @@ columns sloshing_baffle_3d 0.025 1859 't[s],eta_a[m],eta_b[m],eta_c[m],ke[J],x_t
 columns dam_break 0.025 288 't[s],P1[Pa],P2[Pa],P3[Pa],P4[Pa],front[m],ke[J/m],x_tank[m]'
 columns static_tank 0.025 616 't[s],P1[Pa],P2[Pa],P3[Pa],eta_left[m],ke[J],x_tank[m]' --dim 3
 columns standing_wave 0.025 780 't[s],eta_left[m],x_centre[m],ke[J/m],x_tank[m]'
+columns impact 0.05 800 't[s],P_10[Pa],P_25[Pa],P_50[Pa],P_75[Pa],P_bottom[Pa],P_mean[Pa],F[N/m],ke[J/m],x_tank[m]' --probe-dt 1e-3
+has impact trace.csv
 columns static_two_fluid 0.05 570 't[s],P1[Pa],P2[Pa],P3[Pa],ke[J/m],x_tank[m],pe[J/m]'
 columns rayleigh_taylor 0.05 760 't[s],ytop[m],ybot[m],ke[J/m],x_tank[m],pe[J/m]'
 columns rising_bubble 0.05 741 't[s],yc[m],v[m/s],circularity,ke[J/m],x_tank[m],pe[J/m]'
