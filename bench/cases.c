@@ -54,7 +54,7 @@ static void fill_rest(mps_sim *sim, const struct bench_kind *k)
     light.density = k->rest == AIR ? 1.29 : 1;
     light.viscosity = k->rest == AIR ? 1.8e-5 : 1e-3;
     check(sim, mps_sim_set_phase(sim, 1, &light), "light fluid");
-    check(sim, mps_geometry_fill_box(sim, 1, lo, k->tank, NULL), "light fluid");
+    check(sim, mps_geometry_fill_box(sim, 1, lo, k->tank, NULL, NULL), "light fluid");
     if (k->rest == LIGHT_LIQUID) check(sim, mps_model_remove(sim, "gas"), "gas");
 }
 
@@ -84,7 +84,7 @@ mps_sim *bench_case_make(const bench_case *c, int32_t threads, double re_far, be
     mps_tank_init(&tank, sizeof tank);
     memcpy(tank.size, k->tank, sizeof tank.size);
     check(sim, mps_geometry_tank(sim, &tank, NULL), "tank");
-    check(sim, mps_geometry_fill_box(sim, 0, lo, k->fill, NULL), "fill");
+    check(sim, mps_geometry_fill_box(sim, 0, lo, k->fill, NULL, NULL), "fill");
     if (k->rest != EMPTY) fill_rest(sim, k);
     if (k->motion.amplitude > 0) check(sim, mps_motion_set_harmonics(sim, 1, &k->motion), "motion");
     return sim;

@@ -27,7 +27,7 @@ static void build(run *r, const fluids *f)
     for (int p = 0; p < 2; p++) run_phase(r, p, f->density[p], f->viscosity[p]);
     tank_walls(r, SIZE);
     run_check(r, mps_geometry_fill(r->sim, 1, in_bubble, NULL, NULL), "bubble");
-    run_check(r, mps_geometry_fill_box(r->sim, 0, lo, SIZE, NULL), "liquid");
+    run_check(r, mps_geometry_fill_box(r->sim, 0, lo, SIZE, NULL, NULL), "liquid");
 }
 
 static double height(void *user, mps_sim *sim)

@@ -34,25 +34,35 @@ void tank_build(run *r, const tank_case *c)
     motion.amplitude = r->options.amplitude;
     tank_walls(r, c->size);
     if (c->plate.top > 0) baffle_add(r, &c->plate, c->size[2]);
-    run_check(r, mps_geometry_fill_box(r->sim, 0, lo, level, NULL), "water");
+    run_check(r, mps_geometry_fill_box(r->sim, 0, lo, level, NULL, NULL), "water");
     if (run_has_gas(r)) {
         run_phase(r, 1, TANK_AIR_DENSITY, TANK_AIR_VISCOSITY);
-        run_check(r, mps_geometry_fill_box(r->sim, 1, lo, c->size, NULL), "air");
+        run_check(r, mps_geometry_fill_box(r->sim, 1, lo, c->size, NULL, NULL), "air");
     }
     run_check(r, mps_motion_set_harmonics(r->sim, 1, &motion), "motion");
 }
 
-int tank_main(cli_options *o, const tank_case *c, tank_columns_fn columns, int argc, char **argv)
+void tank_parse(cli_options *o, const tank_case *c, int argc, char **argv)
 {
-    run r;
     o->amplitude = c->motion.amplitude;
     o->has_layers = c->plate.top > 0;
     o->has_sigma = !o->has_layers;
     if (!o->has_layers)
         o->need = "reference.lid"; /* in a closed tank full of liquid and gas something must set the level of the pressures */
     cli_parse(o, argc, argv);
+}
+
+int tank_run(const cli_options *o, const tank_case *c, tank_columns_fn columns)
+{
+    run r;
     run_open(&r, o);
     tank_build(&r, c);
     columns(&r, c);
     return run_finish(&r);
+}
+
+int tank_main(cli_options *o, const tank_case *c, tank_columns_fn columns, int argc, char **argv)
+{
+    tank_parse(o, c, argc, argv);
+    return tank_run(o, c, columns);
 }

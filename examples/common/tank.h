@@ -28,6 +28,9 @@ void tank_walls(run *r, const double *size);
 void tank_walls_about(run *r, const double *size, double middle, double *lo, double *hi);
 /* Walls, baffle, water up to the depth, air above it where the model has a gas, and the motion. */
 void tank_build(run *r, const tank_case *c);
+/* Command line of a driver of such a tank, and run and outputs; the case may be changed in between. */
+void tank_parse(cli_options *o, const tank_case *c, int argc, char **argv);
+int tank_run(const cli_options *o, const tank_case *c, tank_columns_fn columns);
 /* Command line, run and outputs. The options hold the driver's defaults. @return exit code of the program */
 int tank_main(cli_options *o, const tank_case *c, tank_columns_fn columns, int argc, char **argv);
 

@@ -40,10 +40,11 @@ MPS_API mps_status mps_geometry_tank(mps_sim *sim, const mps_tank *tank, double 
  *  has no thickness: each lattice point carries two walls, one a side, with opposite areas, a point of a free edge one wall without area to
  *  speak of. So forces are those on both faces, and a wall probe looks at the side its place lies on; at the very plane it is the older one.
  *  Dummies of a plate: see mps_particles_plates().
- *  @param name  part name @param lo,hi [dim] corners [m]
+ *  @param name   part name @param lo,hi [dim] corners [m]
+ *  @param built  NULL, or [2*dim] out: corners of the box of its lattice points [m] (what differs from lo and hi is logged)
  *  @return MPS_E_ARG if no lattice point lies inside, all are taken, or fluid is in the way (with its place); MPS_E_STATE without a tank
  *          and after the first step; MPS_E_BUSY, MPS_E_NOMEM; nothing is added then */
-MPS_API mps_status mps_geometry_baffle(mps_sim *sim, const char *name, const double *lo, const double *hi);
+MPS_API mps_status mps_geometry_baffle(mps_sim *sim, const char *name, const double *lo, const double *hi, double *built);
 
 /** Add a plate without thickness anywhere in the tank, e.g. an inclined baffle; otherwise as a baffle of one layer. Its particles have a
  *  lattice of their own, about dp wide; fills leave out points nearer than 0.7 dp. An edge stands on a wall if it lies within 0.75 dp
@@ -56,9 +57,17 @@ MPS_API mps_status mps_geometry_baffle(mps_sim *sim, const char *name, const dou
  *          MPS_E_STATE without a tank and after the first step; MPS_E_BUSY, MPS_E_NOMEM; nothing is added then */
 MPS_API mps_status mps_geometry_plate(mps_sim *sim, const char *name, const double *corner, const double *edge, const double *edge2);
 
-/** Fill a box with fluid of a phase: free lattice points of the closed box.
- *  @param added  NULL, or out: particles added @return MPS_E_ARG if there is none */
-MPS_API mps_status mps_geometry_fill_box(mps_sim *sim, int32_t phase, const double *lo, const double *hi, int64_t *added);
+/** Fill a box with fluid of a phase: free lattice points of the closed box. The level of n rows is n dp above the floor, so that a depth
+ *  which is no multiple of dp becomes the next smaller one: mps_geometry_fill_level() keeps it.
+ *  @param added  NULL, or out: particles added
+ *  @param built  NULL, or [2*dim] out: corners of the box of lattice points [m] (what differs from lo and hi is logged)
+ *  @return MPS_E_ARG (no lattice point, none is free), MPS_E_STATE without a tank, MPS_E_BUSY, MPS_E_NOMEM; nothing is added then */
+MPS_API mps_status mps_geometry_fill_box(mps_sim *sim, int32_t phase, const double *lo, const double *hi, int64_t *added, double *built);
+
+/** Fill a box up to the level hi[1] [m]. If this lies between two rows of the lattice, the upper row gets the share of its points that the
+ *  mass below the level needs, evenly spread; the liquid at rest settles to the level. All else as mps_geometry_fill_box().
+ *  @param built  NULL, or [2*dim] out: built[dim+1] is the level of the mass that was filled in [m] */
+MPS_API mps_status mps_geometry_fill_level(mps_sim *sim, int32_t phase, const double *lo, const double *hi, int64_t *added, double *built);
 
 /** Non-zero if a point [dim] [m] is inside. */
 typedef int (*mps_inside_fn)(void *user, const double *x);

@@ -12,7 +12,11 @@ MPS_BEGIN_DECLS
 /** What a probe measures. */
 enum {
     MPS_PROBE_WALL_PRESSURE = 0,  /**< 1 value [Pa]: mean over a disc of `diameter` (2-D: a strip) on the face at `at`, linear between the
-                                      wall particles; what reaches beyond the face does not count */
+                                      wall particles; what reaches beyond the face does not count. A linear pressure is exact on any flat
+                                      face, also where its particles are no lattice; on a curved one of radius R, with a diameter of dp, it
+                                      is that of a place at most dp^2/(3 R) away. The face is the one whose plane is nearest to `at`. `at`
+                                      may be before the face with a wall particle within 2 dp, at most dp/2 behind it, and at most dp/2
+                                      beyond its end */
     MPS_PROBE_FLUID_PRESSURE = 1, /**< 1 value [Pa]: kernel-weighted, 0 outside the fluid */
     MPS_PROBE_GAUGE = 2,          /**< 1 value [m]: distance from `at` along `direction` to the free surface: the centres of the top layer
                                       on a lattice; 0 if `at` is dry. Beside a wall the band's centre is 2/3 diameter off it, from there
@@ -50,7 +54,8 @@ MPS_API mps_status mps_probe_init(mps_probe *probe, size_t size);
 
 /** Add a probe. Solids must be there before.
  *  @param id  out: 0, 1, ..., never one that was there before
- *  @return MPS_E_ARG (outside the solids' bounding box, no wall particle within 2 dp of a wall probe; says how far), MPS_E_NAME */
+ *  @return MPS_E_ARG (outside the solids' bounding box; a wall probe with no wall particle within 2 dp, or more than dp/2 behind the
+ *          face of its wall or beyond the end of that face; says how far), MPS_E_NAME, MPS_E_NOMEM */
 MPS_API mps_status mps_probe_add(mps_sim *sim, const mps_probe *probe, int32_t *id);
 
 /** Remove a probe and its samples, between steps or in the monitor; arrays of its mps_probe_series() are gone. Numbers of other probes

@@ -13,12 +13,13 @@ typedef struct mps_time_control {
     uint32_t struct_size; /**< set by mps_time_control_init() */
     double dt;            /**< > 0: fixed step [s], the other entries are ignored; 0 (default): adaptive. A warning is logged once when
                                fluid moves more than dp in a fixed step */
-    double cfl;           /**< dt |u|max / dp; default 0.3 */
-    double gravity;       /**< dt U_g / dp, U_g the velocity scale; default 0.06 */
-    double viscous;       /**< dt nu / dp^2; default 0.2 */
-    double growth;        /**< largest dt / previous dt, > 1; default 1.1; < 0: no limit */
-    double dt_max;        /**< [s]; default 0: none */
-    double dt_min;        /**< smaller is MPS_E_DIVERGED [s], >= 0; default 0: 1e-9 sqrt(dp/9.81). It cannot be switched off */
+    double cfl;     /**< dt |u|max / dp; default 0.3; |u| of the fluid, and of walls in the step to come, and of both against each other */
+    double gravity; /**< dt U_g / dp, U_g the velocity scale; default 0.06 */
+    double viscous; /**< dt nu / dp^2; default 0.2 */
+    double
+        growth; /**< largest dt / previous dt, > 1; default 1.1; < 0: no limit. Steps cut by dt_max, here or of mps_step(), do not count */
+    double dt_max; /**< [s]; default 0: none; may be below dt_min */
+    double dt_min; /**< if all other limits give less: MPS_E_DIVERGED [s], >= 0; default 0: 1e-9 sqrt(dp/9.81). It cannot be switched off */
 } mps_time_control;
 
 /** Defaults. */

@@ -95,7 +95,7 @@ CASES = [
     Case("sloshing_baffle_2d", "sloshing_baffle_2d", {0.012: 0.5, 0.008: 1.5, 0.006: 3}, e.baffle_2d, options("--t-end 10"), expected=BAFFLE),
     Case("sloshing_baffle_3d", "sloshing_baffle_3d", {0.02: 6, 0.01: 80}, e.baffle_3d, options("--t-end 3"), ("coarse", "fine"),
          expected=("time reached",)),
-    Case("baffle_3d_counts", "sloshing_baffle_3d", {0.005: 3}, e.baffle_3d_counts, options("--layers 1 --t-end 1e-5"), ("standard",), ()),
+    Case("baffle_3d_counts", "sloshing_baffle_3d", {0.005: 3}, e.baffle_3d_counts, options("--paper-baffle --t-end 1e-5"), ("standard",), ()),
     Case("static_two_fluid", "static_two_fluid", {0.02: 2, 0.01: 15}, ph.static_two_fluid, others=TWO_PHASES),
     Case("rayleigh_taylor", "rayleigh_taylor", {0.025: 0.5, 0.0125: 3, 0.01: 6}, ph.rayleigh_taylor, others=TWO_PHASES),
     Case("rising_bubble", "rising_bubble", {0.025: 0.5, 0.02: 1, 0.0125: 4}, ph.rising_bubble, others=TWO_PHASES),

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Layer 6: how far fluid goes in a step, against what the walls can hold. */
+/* Layer 6: how far fluid goes in a step, against what the walls can hold, and how far the walls. */
 #include "world.h"
+#include <string.h>
 
 /* Layers of dummies behind walls that a user gave particle by particle. */
 static const int32_t layers_unknown = 2;
@@ -63,4 +64,27 @@ mps_status mps__world_check_moves(mps__world *w, const mps__pose *next, double d
             w->info.t, dt, most, w->dp);
     }
     return MPS_OK;
+}
+
+double mps__world_way_of_walls(const mps__world *w, const mps__pose *pose, double dt)
+{
+    const mps__particles *s = &w->particles;
+    double most = 0;
+#pragma omp parallel for num_threads(w->threads) reduction(max : most) schedule(static)
+    for (int64_t i = 0; i < s->n; i++) {
+        double X[3], here[3], next[3], square = 0;
+        const bool fluid = s->kind[i] == MPS_FLUID;
+        if (fluid)
+            mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * w->dim, X);
+        else
+            memcpy(X, s->ref + i * w->dim, (size_t)w->dim * sizeof *X);
+        mps__motion_point(&w->motion, &w->motion.now, X, here, NULL, NULL);
+        mps__motion_point(&w->motion, pose, X, next, NULL, NULL);
+        for (int d = 0; d < w->dim; d++) {
+            const double way = next[d] - here[d] - (fluid ? dt * s->u[i * w->dim + d] : 0);
+            square += way * way;
+        }
+        most = square > most ? square : most;
+    }
+    return sqrt(most);
 }

@@ -6,7 +6,7 @@
 #include "world.h"
 #include <mps/probe.h>
 
-/* A wall particle under the sensor and its share of the area. */
+/* A wall particle under the sensor and its share of the area; < 0 where pressure is extrapolated from others. */
 typedef struct mps__sensor_weight {
     int64_t id;
     int64_t place; /* where it was last seen: sorting moves it */
@@ -22,6 +22,9 @@ typedef struct mps__sensor {
 void mps__sensor_free(mps__context *c, mps__sensor *sensor);
 /* Distance from a place of the tank's frame to the nearest wall particle; infinite without walls. */
 double mps__sensor_distance(const mps__world *w, const double *at);
+/* Distance of the sensor's place before the plane of its face, < 0: behind it, 0: the face has no sides; and along it beyond the face's
+ * ends, <= 0: on it [m]. There must be a wall. */
+mps_status mps__sensor_place(mps__world *w, const mps_probe *config, double *off, double *beyond);
 /* Find the particles under the sensor and their weights; on failure the old ones stay. There must be a wall. */
 mps_status mps__sensor_build(mps__world *w, const mps_probe *config, mps__sensor *sensor);
 /* Mean pressure now; anew only if particles came or went. */

@@ -184,20 +184,30 @@ static bool solids_box(const mps__world *w, double lo[3], double hi[3])
 
 static mps_status check_place(const mps__world *w, const mps_probe *c)
 {
+    const double slack = (c->type == MPS_PROBE_WALL_PRESSURE ? 2 : 1e-6) * w->dp; /* sensors have limits of their own, see check_wall() */
     double lo[3], hi[3];
     if (!solids_box(w, lo, hi)) return mps__fail(w->context, MPS_E_STATE, "a probe needs solids around it: add the tank first");
     for (int32_t d = 0; d < w->dim; d++)
-        MPS__CHECK(w->context, c->at[d] >= lo[d] - 1e-6 * w->dp && c->at[d] <= hi[d] + 1e-6 * w->dp,
+        MPS__CHECK(w->context, c->at[d] >= lo[d] - slack && c->at[d] <= hi[d] + slack,
                    "probe.at[%d] is %g: outside the solids, which reach from %g to %g", (int)d, c->at[d], lo[d], hi[d]);
     return MPS_OK;
 }
 
-static mps_status check_wall(const mps__world *w, const mps_probe *c)
+/* A sensor belongs on its wall: rounding of a tank to its lattice puts it up to half a spacing behind a face or beyond its end. */
+static mps_status check_wall(mps__world *w, const mps_probe *c)
 {
-    const double distance = mps__sensor_distance(w, c->at);
+    const double distance = mps__sensor_distance(w, c->at), half = 0.5 * w->dp, slack = 1e-6 * w->dp;
+    double off, beyond;
     MPS__CHECK(w->context, isfinite(distance), "wall pressure: there is no wall particle");
     MPS__CHECK(w->context, distance <= 2 * w->dp, "wall pressure: the nearest wall particle is %g m away, at most 2 dp = %g m are allowed",
                distance, 2 * w->dp);
+    MPS__TRY(mps__sensor_place(w, c, &off, &beyond));
+    MPS__CHECK(
+        w->context, off >= -half - slack,
+        "wall pressure: probe.at lies %g m behind the face of its wall; allowed: on the liquid's side, or at most dp/2 = %g m behind", -off,
+        half);
+    MPS__CHECK(w->context, beyond <= half + slack,
+               "wall pressure: probe.at lies %g m beyond the end of the face of its wall; allowed: at most dp/2 = %g m", beyond, half);
     return MPS_OK;
 }
 

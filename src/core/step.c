@@ -111,43 +111,69 @@ static mps_status limit_dt(const step_state *q, double *dt)
     return MPS_OK;
 }
 
-/* dt of the control's limits; never 0. */
+/* dt of the limits of the state, and of the growth since the last step that they chose; never 0. */
 static mps_status choose_dt(const step_state *q, double *chosen)
 {
     const mps__world *w = q->w;
     const mps_time_control *c = &w->control;
     double dt = INFINITY, nu = 0;
-    *chosen = c->dt;
-    if (c->dt > 0) return MPS_OK;
     const double speed = mps__world_speed(w);
     for (int k = 0; k < MPS__PHASES; k++)
         if (w->phase_defined[k]) nu = fmax(nu, w->phase_viscosity[k] / w->phase_density[k]);
     if (speed > 0) dt = least(dt, c->cfl * w->dp / speed);
     dt = least(dt, c->gravity * w->dp / w->velocity_scale);
     if (nu > 0) dt = least(dt, c->viscous * w->dp * w->dp / nu);
-    dt = least(dt, c->dt_max);
     MPS__TRY(limit_dt(q, &dt));
     if (w->dt_previous > 0) dt = least(dt, c->growth * w->dt_previous);
     *chosen = dt;
     return MPS_OK;
 }
 
-/* The step to take, and the one the limits allow: they differ where the last steps of a run share what is left of it, so that none is a
- * sliver. Pressures of a tank that accelerates jump with dt, by half of its change. Rounding is not something left. */
+/* Shorten a step of at most `longest` until walls move no farther in it, or in half of it, than the cfl number allows. Where they speed up
+ * the way is that of a power of the time: square roots do not fall below what is needed. */
+static mps_status follow_walls(step_state *q, double longest, double *dt)
+{
+    mps__world *w = q->w;
+    const int trials = 40;
+    const double allowed = w->control.cfl * w->dp;
+    double trial = fmin(*dt, longest);
+    if (allowed <= 0 || !w->motion.fn) return MPS_OK;
+    for (int k = 0; k < trials; k++) {
+        double way = 0;
+        for (int part = 1; part <= 2; part++) {
+            mps__pose pose;
+            MPS__TRY(mps__motion_pose(&w->motion, w->info.t + trial / part, &pose));
+            way = fmax(way, part * mps__world_way_of_walls(w, &pose, trial / part));
+        }
+        if (way <= allowed * (1 + 1e-9)) return MPS_OK;
+        trial *= k < trials / 2 && way > 1.02 * allowed ? sqrt(allowed / way) : allowed / way;
+        *dt = trial;
+    }
+    return MPS_OK;
+}
+
+/* The step to take; `planned` is the one the limits chose, 0 if the caller cut it. They also differ where the last steps of a run share
+ * what is left of it, so that none is a sliver: pressures of a tank that accelerates jump with dt, by half of its change. Rounding is not
+ * something left. */
 static mps_status set_dt(step_state *q, double dt_max, double *planned)
 {
     mps__world *w = q->w;
+    const mps_time_control *c = &w->control;
+    const double longest = c->dt > 0 ? dt_max : least(dt_max, c->dt_max);
     q->stage.dt = w->dt_previous;
-    double dt;
-    MPS__TRY(choose_dt(q, &dt));
-    if (!(dt >= w->control.dt_min) && w->control.dt <= 0)
-        return mps__fail(w->context, MPS_E_DIVERGED,
-                         "the time step fell to %g s at t = %.9g s, below dt_min = %g s; the largest speed is %g m/s", dt, w->info.t,
-                         w->control.dt_min, mps__world_speed(w));
-    if (!isfinite(dt)) dt = dt_max;
-    *planned = fmin(dt, dt_max);
-    const double steps = ceil(dt_max / *planned * (1 - 1e-6));
-    q->stage.dt = w->ending && steps <= SHARED_STEPS ? dt_max / steps : *planned;
+    double dt = c->dt;
+    if (c->dt <= 0) {
+        MPS__TRY(choose_dt(q, &dt));
+        MPS__TRY(follow_walls(q, longest, &dt));
+        if (!(dt >= c->dt_min))
+            return mps__fail(w->context, MPS_E_DIVERGED,
+                             "the time step fell to %g s at t = %.9g s, below dt_min = %g s; the largest speed is %g m/s%s", dt, w->info.t,
+                             c->dt_min, mps__world_speed(w), w->motion.fn ? ", or that of the walls in this step is too large" : "");
+    }
+    const double step = fmin(dt, longest);
+    *planned = dt <= longest ? dt : 0;
+    const double steps = ceil(dt_max / step * (1 - 1e-6));
+    q->stage.dt = w->ending && steps <= SHARED_STEPS ? dt_max / steps : step;
     return MPS_OK;
 }
 
@@ -696,7 +722,7 @@ mps_status mps__world_step(mps__world *w, double dt_max)
     }
     if (w->info.step == 0) mps__world_note_phases(w);
     commit(&q);
-    if (planned < dt_max || w->dt_previous == 0) w->dt_previous = planned; /* a step cut short says nothing about the next */
+    if (planned > 0) w->dt_previous = planned; /* a step cut short says nothing about the next */
     end_stage(&q, MPS_STAGE_CORRECT);
     w->info.seconds[MPS_STAGE_CORRECT] = q.info.seconds[MPS_STAGE_CORRECT];
     return q.not_converged ? MPS_W_NOT_CONVERGED : MPS_OK;

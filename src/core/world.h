@@ -74,7 +74,7 @@ typedef struct mps__world {
     mps_time_control control;
     mps__budget budget;
     mps_step_info info; /* of the last step; t, step, lost go on */
-    double dt_previous; /* 0 before the first step */
+    double dt_previous; /* of the last step that the limits chose, not the caller; 0: none yet */
     bool ending;        /* dt_max of a step is what is left of a run */
     mps__pose before;   /* of the tank at the beginning of the last step, */
     double dt_before;   /* which was this long */
@@ -124,6 +124,8 @@ double mps__world_speed(const mps__world *w);
 mps_status mps__world_step(mps__world *w, double dt_max);
 /* Fluid that passes a wall in a step of dt that ends at a pose; the places before it are work.x0. moves.c */
 mps_status mps__world_check_moves(mps__world *w, const mps__pose *next, double dt);
+/* Farthest way [m] of the walls from the present pose to another, and of the fluid as they see it if it keeps its velocity for dt. moves.c */
+double mps__world_way_of_walls(const mps__world *w, const mps__pose *pose, double dt);
 /* Bounding box of the domain in the tank's frame. False without solids and without a given domain. */
 bool mps__world_domain(const mps__world *w, double lo[3], double hi[3]);
 

@@ -2,6 +2,7 @@
 /* The public functions of mps/geometry.h: argument checks, then geometry.c. */
 #include "geometry.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static const mps_tank tank_defaults = {.name = "tank", .dummy_layers = 2};
@@ -64,6 +65,25 @@ static mps_status box_points(mps_sim *sim, const double *lo, const double *hi, m
     return MPS_OK;
 }
 
+/* Corners of the points of a box, and the log of what differs from what was asked for. */
+static void report_box(mps_sim *sim, const char *what, const double *lo, const double *hi, const mps__lattice_box *box, double *built)
+{
+    static const char axis[3] = {'x', 'y', 'z'};
+    const int dim = sim->world.dim;
+    const double dp = sim->world.dp;
+    for (int d = 0; d < dim; d++) {
+        const double first = box->lo[d] + (double)box->first[d] * dp;
+        const double last = box->lo[d] + ((double)box->last[d] - (d == 1 && box->top > 0 ? 1 - box->top : 0)) * dp;
+        if (built) {
+            built[d] = first;
+            built[dim + d] = last;
+        }
+        if (fabs(first - lo[d]) > 1e-6 * dp || fabs(last - hi[d]) > 1e-6 * dp)
+            mps__log(&sim->context, MPS_LOG_INFO, "%s: %g .. %g m in %c became %g .. %g m, on the lattice in the tank", what, lo[d], hi[d],
+                     axis[d], first, last);
+    }
+}
+
 static mps_status phase_ok(mps_sim *sim, int32_t phase)
 {
     MPS__CHECK(&sim->context, phase >= 0 && phase < MPS__PHASES, "phase %d: must be 0..%d", (int)phase, MPS__PHASES - 1);
@@ -96,7 +116,7 @@ mps_status mps_geometry_tank(mps_sim *sim, const mps_tank *tank, double *built)
     return MPS_OK;
 }
 
-mps_status mps_geometry_baffle(mps_sim *sim, const char *name, const double *lo, const double *hi)
+mps_status mps_geometry_baffle(mps_sim *sim, const char *name, const double *lo, const double *hi, double *built)
 {
     if (!sim) return MPS_E_ARG;
     mps__lattice_box box;
@@ -104,7 +124,11 @@ mps_status mps_geometry_baffle(mps_sim *sim, const char *name, const double *lo,
     MPS__TRY(mps__solids_allowed(sim));
     MPS__CHECK(&sim->context, mps__name_copy(copy, sizeof copy, name), "the baffle's name must have 1..%d characters", MPS__PART_NAME - 1);
     MPS__TRY(box_points(sim, lo, hi, &box));
-    return mps__geometry_baffle(sim, copy, &box);
+    MPS__TRY(mps__geometry_baffle(sim, copy, &box));
+    char what[MPS__PART_NAME + 16];
+    snprintf(what, sizeof what, "baffle \"%s\"", copy);
+    report_box(sim, what, lo, hi, &box, built);
+    return MPS_OK;
 }
 
 /* Of one edge of a plate. */
@@ -187,14 +211,39 @@ mps_status mps_geometry_plate(mps_sim *sim, const char *name, const double *corn
     return mps__geometry_plate(sim, copy, &s);
 }
 
-mps_status mps_geometry_fill_box(mps_sim *sim, int32_t phase, const double *lo, const double *hi, int64_t *added)
+static mps_status fill_points(mps_sim *sim, int32_t phase, const double *lo, const double *hi, mps__lattice_box *box)
+{
+    MPS__TRY(mps__fill_allowed(sim));
+    MPS__TRY(phase_ok(sim, phase));
+    return box_points(sim, lo, hi, box);
+}
+
+mps_status mps_geometry_fill_box(mps_sim *sim, int32_t phase, const double *lo, const double *hi, int64_t *added, double *built)
 {
     if (!sim) return MPS_E_ARG;
     mps__lattice_box box;
-    MPS__TRY(mps__fill_allowed(sim));
-    MPS__TRY(phase_ok(sim, phase));
-    MPS__TRY(box_points(sim, lo, hi, &box));
-    return mps__geometry_fill(sim, phase, &box, NULL, NULL, added);
+    MPS__TRY(fill_points(sim, phase, lo, hi, &box));
+    MPS__TRY(mps__geometry_fill(sim, phase, &box, NULL, NULL, added));
+    report_box(sim, "fill", lo, hi, &box, built);
+    return MPS_OK;
+}
+
+mps_status mps_geometry_fill_level(mps_sim *sim, int32_t phase, const double *lo, const double *hi, int64_t *added, double *built)
+{
+    if (!sim) return MPS_E_ARG;
+    mps__lattice_box box;
+    MPS__TRY(has_tank(sim));
+    MPS__TRY(corners(sim, lo, hi));
+    const int dim = sim->world.dim;
+    const double rows = (hi[1] - sim->lattice_lo[1]) / sim->world.dp, part = rows - floor(rows + 1e-6);
+    double top[3] = {0, 0, 0};
+    memcpy(top, hi, (size_t)dim * sizeof *top);
+    if (part > 1e-6) top[1] = sim->lattice_lo[1] + (floor(rows) + 1) * sim->world.dp;
+    MPS__TRY(fill_points(sim, phase, lo, top, &box));
+    if (part > 1e-6 && (double)box.last[1] > rows) box.top = part;
+    MPS__TRY(mps__geometry_fill(sim, phase, &box, NULL, NULL, added));
+    report_box(sim, "fill", lo, hi, &box, built);
+    return MPS_OK;
 }
 
 mps_status mps_geometry_fill(mps_sim *sim, int32_t phase, mps_inside_fn inside, void *user, int64_t *added)
@@ -204,7 +253,7 @@ mps_status mps_geometry_fill(mps_sim *sim, int32_t phase, mps_inside_fn inside, 
     MPS__TRY(phase_ok(sim, phase));
     MPS__TRY(has_tank(sim));
     MPS__CHECK(&sim->context, inside, "inside is NULL: use mps_geometry_fill_box() to fill a box");
-    mps__lattice_box box = {{0}, {0}, {0}};
+    mps__lattice_box box = {.lo = {0}};
     for (int d = 0; d < sim->world.dim; d++) {
         box.lo[d] = sim->lattice_lo[d];
         box.last[d] = sim->lattice_cells[d];

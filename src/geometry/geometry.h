@@ -10,6 +10,7 @@
 typedef struct mps__lattice_box {
     double lo[3];
     int64_t first[3], last[3];
+    double top; /* > 0: of the last row along y a fill takes this share of the points, evenly spread; 0: all of them */
 } mps__lattice_box;
 
 /* A thin plate: nodes on a rectangle (in 2-D a line), one to three columns of them side by side. */
@@ -35,7 +36,7 @@ mps_status mps__geometry_baffle(mps_sim *sim, const char *name, const mps__latti
 /* True if a box is thin and has liquid on both sides, or may have; then its shape. */
 bool mps__plate_of_box(mps_sim *sim, const mps__lattice_box *box, mps__plate_shape *shape);
 mps_status mps__geometry_plate(mps_sim *sim, const char *name, const mps__plate_shape *shape);
-/* `inside` may be NULL: all points. */
-mps_status mps__geometry_fill(mps_sim *sim, int32_t phase, const mps__lattice_box *box, mps_inside_fn inside, void *user, int64_t *added);
+/* `inside` may be NULL: all points. box->top becomes the share that was taken. */
+mps_status mps__geometry_fill(mps_sim *sim, int32_t phase, mps__lattice_box *box, mps_inside_fn inside, void *user, int64_t *added);
 
 #endif

@@ -158,6 +158,7 @@ counts() { # fluid, walls and dummies, driver, options...
 }
 counts 12338 1974 sloshing_surge --dp 0.004
 counts 1440 14766 dam_break --dim 3 --dp 0.025
+counts 3945 8676 sloshing_baffle_3d --paper-baffle --dp 0.02 # at the paper's dp 0.005: 274195 111360
 
 # motions at t = 0.02: -a (1 - cos wt), also with an amplitude of one's own, and a sin wt
 tank_is() { # folder, formula

@@ -42,7 +42,7 @@ static mps_sim *two_liquids(double dp, const double *rho, double level)
         phase.density = rho[p];
         phase.viscosity = 0;
         OK(sim, mps_sim_set_phase(sim, p, &phase));
-        OK(sim, mps_geometry_fill_box(sim, p, lo, p == 0 ? top : lid, NULL));
+        OK(sim, mps_geometry_fill_box(sim, p, lo, p == 0 ? top : lid, NULL, NULL));
     }
     return sim;
 }

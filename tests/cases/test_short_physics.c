@@ -61,7 +61,7 @@ static void record_open(record *r, int32_t dim, double dp, const double *size, d
     OK(r->sim, mps_tank_init(&tank, sizeof tank));
     for (int d = 0; d < 3; d++) tank.size[d] = size[d];
     OK(r->sim, mps_geometry_tank(r->sim, &tank, NULL));
-    if (depth > 0) OK(r->sim, mps_geometry_fill_box(r->sim, 0, lo, hi, NULL));
+    if (depth > 0) OK(r->sim, mps_geometry_fill_box(r->sim, 0, lo, hi, NULL, NULL));
 }
 
 static void record_close(record *r)

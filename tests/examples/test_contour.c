@@ -34,7 +34,7 @@ static mps_sim *box_with(int32_t dim, mps_inside_fn inside, disc d, int32_t phas
     ASSERT_OK(sim, mps_sim_set_phase(sim, 1, &other));
     add_tank(sim, size[0], size[1], size[2]);
     ASSERT_OK(sim, mps_geometry_fill(sim, phase, inside, &d, NULL));
-    if (rest >= 0) ASSERT_OK(sim, mps_geometry_fill_box(sim, rest, lo, size, NULL));
+    if (rest >= 0) ASSERT_OK(sim, mps_geometry_fill_box(sim, rest, lo, size, NULL, NULL));
     return sim;
 }
 

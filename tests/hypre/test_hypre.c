@@ -172,8 +172,8 @@ static mps_sim *make_tank(int32_t dim, bool air)
     mps_tank_init(&tank, sizeof tank);
     memcpy(tank.size, rest, sizeof rest);
     assert_int_equal(mps_geometry_tank(sim, &tank, NULL), MPS_OK);
-    assert_int_equal(mps_geometry_fill_box(sim, 0, lo, water, NULL), MPS_OK);
-    if (air) assert_int_equal(mps_geometry_fill_box(sim, 1, lo, rest, NULL), MPS_OK);
+    assert_int_equal(mps_geometry_fill_box(sim, 0, lo, water, NULL, NULL), MPS_OK);
+    if (air) assert_int_equal(mps_geometry_fill_box(sim, 1, lo, rest, NULL, NULL), MPS_OK);
     return sim;
 }
 

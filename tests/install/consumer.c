@@ -19,7 +19,7 @@ static int fill(mps_sim *sim)
     tank.size[0] = 0.4;
     tank.size[1] = 0.4;
     if (report(sim, mps_geometry_tank(sim, &tank, NULL), "tank")) return 1;
-    return report(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL), "water");
+    return report(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL), "water");
 }
 
 int main(void)

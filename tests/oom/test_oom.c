@@ -62,7 +62,7 @@ static mps_status add_tank(mps_sim *sim)
 static mps_status fill(mps_sim *sim)
 {
     const double lo[2] = {0, 0}, hi[2] = {0.5, 0.3};
-    return mps_geometry_fill_box(sim, 0, lo, hi, NULL);
+    return mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL);
 }
 
 static void nothing(mps_sim *sim)
@@ -134,7 +134,7 @@ static void with_plate(mps_sim *sim)
 {
     const double lo[2] = {0.25, 0}, hi[2] = {0.25, 0.2};
     tank_only(sim);
-    assert_int_equal(mps_geometry_baffle(sim, "plate", lo, hi), MPS_OK);
+    assert_int_equal(mps_geometry_baffle(sim, "plate", lo, hi, NULL), MPS_OK);
     assert_int_equal(fill(sim), MPS_OK);
 }
 
@@ -165,7 +165,7 @@ static void gas_for_kinsol(mps_sim *sim)
     assert_int_equal(mps_tank_init(&tank, sizeof tank), MPS_OK);
     tank.size[0] = tank.size[1] = 0.5;
     assert_int_equal(mps_geometry_tank(sim, &tank, NULL), MPS_OK);
-    assert_int_equal(mps_geometry_fill_box(sim, 0, lo, hi, NULL), MPS_OK);
+    assert_int_equal(mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL), MPS_OK);
     assert_int_equal(mps_model_use(sim, "gas.isentropic"), MPS_OK);
     assert_int_equal(mps_model_set(sim, "gas", "phase", 0), MPS_OK);
     assert_int_equal(mps_solver_use(sim, "sundials.kinsol", NULL), MPS_OK);
@@ -204,7 +204,7 @@ static void grown(mps_sim *sim)
 static mps_status baffle(mps_sim *sim)
 {
     const double lo[2] = {0.25, 0.05}, hi[2] = {0.25, 0.2};
-    return mps_geometry_baffle(sim, "baffle", lo, hi);
+    return mps_geometry_baffle(sim, "baffle", lo, hi, NULL);
 }
 
 static mps_status plate(mps_sim *sim)

@@ -159,7 +159,7 @@ static void draw_motion(scenario *s, uint64_t *state)
 static mps_status build_obstacle(const scenario *s, mps_sim *sim, const double *built)
 {
     const double edge2[3] = {0, 0, built[2]};
-    if (s->obstacle == OBSTACLE_BAFFLE) return mps_geometry_baffle(sim, "baffle", s->lo, s->hi);
+    if (s->obstacle == OBSTACLE_BAFFLE) return mps_geometry_baffle(sim, "baffle", s->lo, s->hi, NULL);
     if (s->obstacle == OBSTACLE_PLATE) return mps_geometry_plate(sim, "plate", s->lo, s->hi, s->dim == 3 ? edge2 : NULL);
     return MPS_OK;
 }
@@ -198,7 +198,7 @@ mps_status scenario_build(const scenario *s, const char *model, mps_sim **sim, d
     if (!status) status = mps_sim_use_preset(*sim, model);
     if (!status) status = build_solids(s, *sim, built);
     const double hi[3] = {built[0], s->depth, built[2]};
-    if (!status) status = mps_geometry_fill_box(*sim, 0, lo, hi, NULL);
+    if (!status) status = mps_geometry_fill_box(*sim, 0, lo, hi, NULL, NULL);
     if (!status) status = mps_motion_set_centre(*sim, s->centre, s->start);
     if (!status) status = mps_motion_set_harmonics(*sim, s->harmonics, s->harmonic);
     return status;

@@ -58,7 +58,7 @@ static inline int64_t fill_depth(mps_sim *sim, double sx, double depth, double s
 {
     const double lo[3] = {0, 0, 0}, hi[3] = {sx, depth, sz};
     int64_t added = 0;
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, &added));
+    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, &added, NULL));
     return added;
 }
 

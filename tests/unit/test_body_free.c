@@ -79,7 +79,7 @@ static void pools_are_held(void **state)
             const double lo[3] = {0}, hi[3] = {0.4, rows * 0.02, 0};
             mps_sim *sim = new_sim(2, 0.02);
             add_tank(sim, 0.4, 0.4, 0);
-            ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL));
+            ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL));
             if (k) ASSERT_OK(sim, mps_model_remove(sim, "body"));
             ASSERT_OK(sim, mps_run(sim, 0.05, NULL, NULL));
             n = mps_particles_count(sim, -1);

@@ -91,7 +91,7 @@ static void force_models_are_no_walls(void **state)
     double speed = 1;
     const double lo[2] = {0.15, 0.1}, hi[2] = {0.2, 0.15}, centre[2] = {0, 0};
     const mps_model_ops ops = {.struct_size = sizeof ops, .api = MPS_MODEL_API, .name = "test.pull", .order = 300, .force = pull_fluid};
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL));
+    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL));
     ASSERT_OK(sim, mps_model_register(sim, &ops));
     ASSERT_OK(sim, mps_model_use(sim, "test.pull"));
     ASSERT_OK(sim, mps_motion_set_callback(sim, steady, &speed));
@@ -257,7 +257,7 @@ static void added_between_steps(void **state)
     block.velocity = u;
     BETWEEN(ASSERT_OK(sim, mps_particles_add(sim, &block, NULL)););
     const double lo[2] = {0.05, 0.2}, hi[2] = {0.1, 0.25};
-    BETWEEN(ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL)););
+    BETWEEN(ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL)););
     BETWEEN(remove_fluid(sim, 40););
     mps_phase oil;
     assert_int_equal(mps_phase_init(&oil, sizeof oil), MPS_OK);

@@ -85,7 +85,7 @@ static mps_sim *with_air(void)
     ASSERT_OK(sim, mps_sim_set_phase(sim, 1, &air));
     add_tank(sim, 0.6, 0.6, 0);
     fill_depth(sim, 0.6, 0.3, 0);
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 1, lo, hi, NULL));
+    ASSERT_OK(sim, mps_geometry_fill_box(sim, 1, lo, hi, NULL, NULL));
     add_probes(sim);
     shake(sim, 0.05);
     return sim;
@@ -134,7 +134,7 @@ static mps_sim *gate(void)
     add_tank(sim, 1, 0.6, 0);
     ASSERT_OK(sim, mps_geometry_plate(sim, "gate", foot, edge, NULL));
     fill_depth(sim, 0.4, 0.36, 0);
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL));
+    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL));
     assert_int_equal(mps_probe_init(&probe, sizeof probe), MPS_OK);
     probe.type = MPS_PROBE_FLUID_PRESSURE;
     probe.at[0] = 0.38;

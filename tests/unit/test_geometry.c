@@ -60,10 +60,10 @@ static void fill_includes_its_ends(void **state)
     add_tank(sim, 0.57, 0.3, 0);
     const double lo[2] = {0.1, 0.1}, hi[2] = {0.1 + 7 * 0.002, 0.1 + 3 * 0.002};
     int64_t added = 0;
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, &added));
+    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, &added, NULL));
     assert_int_equal(added, 8 * 4);
     /* twice the same: nothing is free */
-    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, lo, hi, &added), MPS_E_ARG, "32 are taken");
+    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, lo, hi, &added, NULL), MPS_E_ARG, "32 are taken");
     mps_sim_destroy(sim);
 }
 
@@ -153,7 +153,7 @@ static void baffle_on_floor(void **state)
     add_tank(sim, 0.57, 0.5, 0);
     const int64_t tank = mps_particles_count(sim, -1);
     const double lo[2] = {0.282, 0}, hi[2] = {0.288, 0.15};
-    ASSERT_OK(sim, mps_geometry_baffle(sim, "baffle", lo, hi));
+    ASSERT_OK(sim, mps_geometry_baffle(sim, "baffle", lo, hi, NULL));
     assert_int_equal(mps_particles_count(sim, -1) - tank, 4 * 75);
     const mps__particles *s = &sim->world.particles;
     const int32_t part = mps_part_find(sim, "baffle");
@@ -180,7 +180,7 @@ static void baffle_free_standing_3d(void **state)
     add_tank(sim, 1, 0.6, 0.4);
     const int64_t tank = mps_particles_count(sim, -1);
     const double lo[3] = {0.4, 0.1, 0.1}, hi[3] = {0.55, 0.3, 0.3};
-    ASSERT_OK(sim, mps_geometry_baffle(sim, "box", lo, hi));
+    ASSERT_OK(sim, mps_geometry_baffle(sim, "box", lo, hi, NULL));
     assert_int_equal(mps_particles_count(sim, -1) - tank, 4 * 5 * 5);
     assert_int_equal(mps_particles_count(sim, MPS_DUMMY), 2 * 3 * 3 + 25 * 17 * 13 - 21 * 13 * 9);
     const mps__particles *s = &sim->world.particles;
@@ -203,7 +203,7 @@ static void thin_baffle(void **state)
     add_tank(sim, 0.4, 0.3, 0);
     const int64_t walls = mps_particles_count(sim, MPS_WALL);
     const double lo[2] = {0.197, 0}, hi[2] = {0.203, 0.1};
-    ASSERT_OK(sim, mps_geometry_baffle(sim, "plate", lo, hi));
+    ASSERT_OK(sim, mps_geometry_baffle(sim, "plate", lo, hi, NULL));
     assert_int_equal(mps_particles_count(sim, MPS_WALL) - walls, 1 + 2 * 9 + 1);
     const mps__particles *s = &sim->world.particles;
     double sum[2] = {0, 0}, size = 0;
@@ -349,29 +349,29 @@ static void fill_refusals(void **state)
     mps_sim *sim = new_sim(2, 0.1);
     const double lo[2] = {0, 0}, hi[2] = {1, 1}, nan[2] = {0, NAN}, far[2] = {5, 5}, farther[2] = {6, 6}, between[2] = {0.42, 0.42},
                  below[2] = {0.48, 0.48};
-    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL), MPS_E_STATE, "mps_geometry_tank");
+    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL), MPS_E_STATE, "mps_geometry_tank");
     ASSERT_REFUSED(sim, mps_geometry_fill(sim, 0, everywhere, NULL, NULL), MPS_E_STATE, "mps_geometry_tank");
-    ASSERT_REFUSED(sim, mps_geometry_baffle(sim, "b", lo, hi), MPS_E_STATE, "mps_geometry_tank");
+    ASSERT_REFUSED(sim, mps_geometry_baffle(sim, "b", lo, hi, NULL), MPS_E_STATE, "mps_geometry_tank");
     add_tank(sim, 1, 1, 0);
     const int64_t before = mps_particles_count(sim, -1);
-    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 1, lo, hi, NULL), MPS_E_ARG, "phase 1 is not defined");
-    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 16, lo, hi, NULL), MPS_E_ARG, "0..15");
-    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, -1, lo, hi, NULL), MPS_E_ARG, "phase -1");
-    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, lo, nan, NULL), MPS_E_ARG, "finite");
-    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, hi, lo, NULL), MPS_E_ARG, "inverted");
-    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, NULL, hi, NULL), MPS_E_ARG, "NULL");
-    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, far, farther, NULL), MPS_E_ARG, "no lattice point");
-    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, between, below, NULL), MPS_E_ARG, "no lattice point");
-    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, lo, lo, NULL), MPS_E_ARG, "nothing to fill");
+    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 1, lo, hi, NULL, NULL), MPS_E_ARG, "phase 1 is not defined");
+    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 16, lo, hi, NULL, NULL), MPS_E_ARG, "0..15");
+    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, -1, lo, hi, NULL, NULL), MPS_E_ARG, "phase -1");
+    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, lo, nan, NULL, NULL), MPS_E_ARG, "finite");
+    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, hi, lo, NULL, NULL), MPS_E_ARG, "inverted");
+    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, NULL, hi, NULL, NULL), MPS_E_ARG, "NULL");
+    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, far, farther, NULL, NULL), MPS_E_ARG, "no lattice point");
+    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, between, below, NULL, NULL), MPS_E_ARG, "no lattice point");
+    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, lo, lo, NULL, NULL), MPS_E_ARG, "nothing to fill");
     ASSERT_REFUSED(sim, mps_geometry_fill(sim, 0, NULL, NULL, NULL), MPS_E_ARG, "inside is NULL");
-    ASSERT_REFUSED(sim, mps_geometry_baffle(sim, "", between, hi), MPS_E_ARG, "name");
-    ASSERT_REFUSED(sim, mps_geometry_baffle(sim, "b", between, below), MPS_E_ARG, "no lattice point");
-    ASSERT_REFUSED(sim, mps_geometry_baffle(sim, "b", lo, lo), MPS_E_ARG, "taken");
+    ASSERT_REFUSED(sim, mps_geometry_baffle(sim, "", between, hi, NULL), MPS_E_ARG, "name");
+    ASSERT_REFUSED(sim, mps_geometry_baffle(sim, "b", between, below, NULL), MPS_E_ARG, "no lattice point");
+    ASSERT_REFUSED(sim, mps_geometry_baffle(sim, "b", lo, lo, NULL), MPS_E_ARG, "taken");
     assert_int_equal(mps_part_find(sim, "b"), -1);
     mps_lease lease;
     ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &lease));
-    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL), MPS_E_BUSY, "leases");
-    ASSERT_STATUS(sim, mps_geometry_baffle(sim, "b", lo, hi), MPS_E_BUSY);
+    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL), MPS_E_BUSY, "leases");
+    ASSERT_STATUS(sim, mps_geometry_baffle(sim, "b", lo, hi, NULL), MPS_E_BUSY);
     ASSERT_OK(sim, mps_lease_end(sim, &lease));
     assert_int_equal(mps_particles_count(sim, -1), before);
     mps_sim_destroy(sim);
@@ -390,8 +390,8 @@ static void fluid_in_the_way(void **state)
         fill_depth(sim, 1, 0.5, 0);
         if (late) ASSERT_OK(sim, mps_step(sim, 1, NULL));
         const int64_t before = mps_particles_count(sim, -1);
-        ASSERT_REFUSED(sim, mps_geometry_baffle(sim, "b", lo, hi), wanted, word);
-        ASSERT_REFUSED(sim, mps_geometry_baffle(sim, "b", lo, thin), wanted, word);
+        ASSERT_REFUSED(sim, mps_geometry_baffle(sim, "b", lo, hi, NULL), wanted, word);
+        ASSERT_REFUSED(sim, mps_geometry_baffle(sim, "b", lo, thin, NULL), wanted, word);
         ASSERT_REFUSED(sim, mps_geometry_plate(sim, "b", corner, edge, NULL), wanted, late ? word : "half a spacing, 0.05 m");
         assert_int_equal(mps_particles_count(sim, -1), before);
         assert_int_equal(mps_part_find(sim, "b"), -1);
@@ -428,9 +428,9 @@ static void fluid_between_the_points(void **state)
         } else {
             ASSERT_OK(sim, mps_geometry_tank(sim, &tank, NULL));
             if (way[k])
-                ASSERT_REFUSED(sim, mps_geometry_baffle(sim, "b", lo, hi), MPS_E_ARG, way[k]);
+                ASSERT_REFUSED(sim, mps_geometry_baffle(sim, "b", lo, hi, NULL), MPS_E_ARG, way[k]);
             else
-                ASSERT_OK(sim, mps_geometry_baffle(sim, "b", lo, hi));
+                ASSERT_OK(sim, mps_geometry_baffle(sim, "b", lo, hi, NULL));
         }
         mps_sim_destroy(sim);
     }

@@ -164,7 +164,7 @@ static void beside_a_plate(void **state)
         mps_sim *sim = new_sim(2, dp);
         const double lo[2] = {0.25, 0}, hi[2] = {0.25 + (columns - 1) * dp, 0.45};
         add_tank(sim, 0.5, 0.6, 0);
-        ASSERT_OK(sim, mps_geometry_baffle(sim, "plate", lo, hi));
+        ASSERT_OK(sim, mps_geometry_baffle(sim, "plate", lo, hi, NULL));
         fill_depth(sim, 0.5, 0.3, 0);
         const int64_t id = some_fluid(sim);
         put(sim, id, 0.25 - 0.2 * dp, 0.42);

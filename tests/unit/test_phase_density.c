@@ -139,7 +139,7 @@ static void gradient_of_linear(void **state)
         set_phase(sim, 0, 1.2, 0); /* of the solids: no model of walls gives them that of the fluid */
         set_phase(sim, 1, 1.2, 0);
         add_tank(sim, 0.4, 0.4, 0.4);
-        ASSERT_OK(sim, mps_geometry_fill_box(sim, 1, lo, hi, NULL));
+        ASSERT_OK(sim, mps_geometry_fill_box(sim, 1, lo, hi, NULL, NULL));
         ASSERT_OK(sim, mps_model_use(sim, "gradient.density"));
         double *x = field_by_id(sim, "position");
         const int64_t *ids;

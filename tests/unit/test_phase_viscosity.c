@@ -144,7 +144,7 @@ static void walls_take_the_fluid(void **state)
         set_phase(sim, 0, 1000, 5.0);
         set_phase(sim, 1, 900, 1e-3);
         add_tank(sim, 0.5, 0.5, 0);
-        ASSERT_OK(sim, mps_geometry_fill_box(sim, 1, lo, hi, NULL));
+        ASSERT_OK(sim, mps_geometry_fill_box(sim, 1, lo, hi, NULL, NULL));
         mps_lease u;
         ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &u));
         for (int64_t k = 0; k < u.count * u.stride; k++) u.data[k] = 1.0;
@@ -173,7 +173,7 @@ static void slippery_walls(void **state)
         const double lo[2] = {0}, hi[2] = {0.5, 0.5};
         mps_sim *sim = bare_sim(2, 0.05, 3.1, 1e-6);
         add_tank(sim, 0.5, 0.5, 0);
-        ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL));
+        ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL));
         mps_lease u;
         ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &u));
         for (int64_t k = 0; k < u.count * u.stride; k++) u.data[k] = 1.0;

@@ -9,7 +9,7 @@ static const double dp = 0.05;
 static void add_plate(mps_sim *sim, int columns, double bottom, double top)
 {
     const double lo[3] = {0.5, bottom, 0}, hi[3] = {0.5 + (columns - 1) * dp, top, 0.3};
-    ASSERT_OK(sim, mps_geometry_baffle(sim, "plate", lo, hi));
+    ASSERT_OK(sim, mps_geometry_baffle(sim, "plate", lo, hi, NULL));
 }
 
 /* Tank 0.5 m long a side of the plate, 0.6 high, water up to 0.4. */
@@ -100,7 +100,7 @@ static void edges_are_seen_once(void **state)
         mps_sim *sim = new_sim(dim, dp);
         const double lo[3] = {0.5, 0.3, 0.4}, hi[3] = {0.5, 0.6, 0.6};
         add_tank(sim, 1, 1, 1);
-        ASSERT_OK(sim, mps_geometry_baffle(sim, "plate", lo, hi));
+        ASSERT_OK(sim, mps_geometry_baffle(sim, "plate", lo, hi, NULL));
         fill_depth(sim, 1, 1, 1);
         for (int which = MPS_NEAR; which <= MPS_FAR; which++) {
             mps_stencil t;
@@ -189,8 +189,8 @@ static void what_is_a_plate(void **state)
     add_plate(sim, 1, 0.4, 0.6 - dp);
     assert_int_equal(sim->world.screens.count, 1);
     ASSERT_NEAR(sim->world.screens.list[0].length[0], 0.2, 1e-12);
-    ASSERT_OK(sim, mps_geometry_baffle(sim, "step", lo, hi));
-    ASSERT_OK(sim, mps_geometry_baffle(sim, "box", thick, end));
+    ASSERT_OK(sim, mps_geometry_baffle(sim, "step", lo, hi, NULL));
+    ASSERT_OK(sim, mps_geometry_baffle(sim, "box", thick, end, NULL));
     assert_int_equal(sim->world.screens.count, 1);
     mps_sim_destroy(sim);
 }
@@ -249,8 +249,8 @@ static int64_t pressures_left(double right, double *p)
     int64_t count = 0;
     add_tank(sim, 1, 0.6, 0);
     add_plate(sim, 1, 0, 0.6);
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL));
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo2, hi2, NULL));
+    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL));
+    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo2, hi2, NULL, NULL));
     ASSERT_OK(sim, mps_solver_use(sim, "sundials.klu", NULL));
     ASSERT_OK(sim, mps_time_control_init(&control, sizeof control));
     control.dt = 1e-3;
@@ -299,7 +299,7 @@ static void nobody_passes(void **state)
         tank.dummy_layers = 3; /* 4 dp deep */
         ASSERT_OK(sim, mps_geometry_tank(sim, &tank, NULL));
         const double lo[3] = {0.5, 0, 0}, hi[3] = {0.5, 0.6, 0.4};
-        ASSERT_OK(sim, mps_geometry_baffle(sim, "plate", lo, hi));
+        ASSERT_OK(sim, mps_geometry_baffle(sim, "plate", lo, hi, NULL));
         mps_particle_block_init(&block, sizeof block);
         block.count = 4;
         block.position = x;
@@ -336,7 +336,7 @@ static void probes_tell_the_sides(void **state)
     double p, f[3];
     add_tank(sim, 1, 0.6, 0);
     add_plate(sim, 1, 0, 0.6);
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL));
+    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL));
     mps_probe_init(&probe, sizeof probe);
     probe.at[0] = 0.5 - 1e-3 * dp;
     probe.at[1] = 0.2;
@@ -398,7 +398,7 @@ static void plate_on_plate(void **state)
     fill_depth(tank, 1, 0.6, 0);
     add_tank(sim, 1, 0.6, 0);
     add_plate(sim, 1, 0, 0.6);
-    ASSERT_OK(sim, mps_geometry_baffle(sim, "shelf", lo, hi));
+    ASSERT_OK(sim, mps_geometry_baffle(sim, "shelf", lo, hi, NULL));
     fill_depth(sim, 1, 0.6, 0);
     ASSERT_OK(tank, mps_sim_stencil(tank, MPS_NEAR, &u));
     ASSERT_OK(sim, mps_sim_stencil(sim, MPS_NEAR, &t));

@@ -211,7 +211,7 @@ static void empty_phase(void **state)
     for (int k = 1; k < 4; k++) ASSERT_OK(sim, mps_sim_set_phase(sim, k, &p));
     add_tank(sim, 0.5, 0.5, 0);
     const double lo[2] = {0, 0}, hi[2] = {0.5, 0.3};
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 2, lo, hi, NULL));
+    ASSERT_OK(sim, mps_geometry_fill_box(sim, 2, lo, hi, NULL, NULL));
     for (int k = 0; k < 3; k++) ASSERT_OK(sim, mps_step(sim, 1e-4, NULL));
     assert_string_equal(warnings, "phase 1 is defined, but no fluid particle is of it;phase 3 is defined, but no fluid particle is of it;");
     mps_sim_destroy(sim);

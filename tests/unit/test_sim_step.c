@@ -439,6 +439,49 @@ static void limits(void **state)
     mps_sim_destroy(sim);
 }
 
+/* Walls jump to their speed in the first step: it is as short as the speed asks for, and nothing is lost. */
+static void fast_walls(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        const bool turn = k == 2, against = k == 1; /* against: the liquid comes towards the walls, the speeds add up */
+        const mps_harmonic shock = {.dof = turn ? MPS_YAW : MPS_SURGE, .amplitude = turn ? 1 : 1000, .omega = turn ? 200 : 0.2};
+        const double speed = against ? 320 : turn ? 200 * 0.6 * sqrt(2) : 200, allowed = 0.3 * dp / speed;
+        mps_step_info info;
+        mps_sim *sim = pool();
+        const picture before = take_picture(sim);
+        ASSERT_OK(sim, mps_motion_set_harmonics(sim, 1, &shock));
+        for (int64_t id = 0; against && id < before.n; id++)
+            if (mps_particle_index(sim, id) >= 0) set_velocity(sim, id, -120, 0);
+        assert_int_equal(mps_step_info_init(&info, sizeof info), MPS_OK);
+        ASSERT_STATUS(sim, mps_step(sim, 1, &info), MPS_OK);
+        assert_true(info.dt <= 1.03 * allowed && info.dt > 0.9 * allowed);
+        for (int more = 0; more < 20; more++) ASSERT_STATUS(sim, mps_step(sim, 1, &info), MPS_OK);
+        assert_int_equal(info.lost, 0);
+        mps_sim_destroy(sim);
+    }
+}
+
+/* A sliver that the caller asked for, by an argument or by the control, does not make the next step fail. */
+static void slivers(void **state)
+{
+    (void)state;
+    const double g = sqrt(9.81 * dp);
+    mps_sim *sim = pool();
+    ASSERT_NEAR(step_taken(sim, 1e-12), 1e-12, 1e-27);
+    ASSERT_NEAR(step_taken(sim, 1), 0.06 * dp / g, 1e-15);
+    mps_sim_destroy(sim);
+    sim = pool();
+    mps_time_control c = control();
+    c.dt_max = 1e-12;
+    ASSERT_OK(sim, mps_sim_set_time_control(sim, &c));
+    for (int k = 0; k < 3; k++) ASSERT_NEAR(step_taken(sim, 1), 1e-12, 1e-27);
+    c.dt_max = 0;
+    ASSERT_OK(sim, mps_sim_set_time_control(sim, &c));
+    ASSERT_NEAR(step_taken(sim, 1), 0.06 * dp / g, 1e-15);
+    mps_sim_destroy(sim);
+}
+
 static void bad_steps(void **state)
 {
     (void)state;
@@ -496,7 +539,7 @@ int main(void)
         cmocka_unit_test(acceleration),  cmocka_unit_test(failing_model), cmocka_unit_test(values_out_of_range),
         cmocka_unit_test(failing_start), cmocka_unit_test(diverged),      cmocka_unit_test(bad_time_control),
         cmocka_unit_test(limits),        cmocka_unit_test(bad_steps),     cmocka_unit_test(older_step_info),
-        cmocka_unit_test(run_fails),
+        cmocka_unit_test(run_fails),     cmocka_unit_test(fast_walls),    cmocka_unit_test(slivers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -164,7 +164,7 @@ static void a_box_is_a_tank(void **state)
     assert_int_equal(mps_particles_count(a, MPS_WALL), mps_particles_count(b, MPS_WALL));
     const double lo[2] = {-1, -0.6}, hi[2] = {1, 0};
     int64_t added = 0;
-    ASSERT_OK(a, mps_geometry_fill_box(a, 0, lo, hi, &added));
+    ASSERT_OK(a, mps_geometry_fill_box(a, 0, lo, hi, &added, NULL));
     assert_int_equal(added, fill_depth(b, 2, 0.6, 0));
     const mps__particles *s = &a->world.particles, *t = &b->world.particles;
     for (int64_t i = 0; i < s->n; i++) {
@@ -303,7 +303,7 @@ static void refused(mps_sim *sim, mps_solid solid, const char *word)
     assert_int_equal(mps_particles_count(sim, -1), 0);
     assert_int_equal(mps_part_find(sim, "solid"), -1);
     const double lo[2] = {0, 0}, hi[2] = {1, 1};
-    ASSERT_STATUS(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL), MPS_E_STATE);
+    ASSERT_STATUS(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL), MPS_E_STATE);
 }
 
 static void refusals(void **state)

@@ -176,7 +176,7 @@ static void both_forms(void **state)
         walls[ascii] = mps_particles_count(sim, MPS_WALL);
         const double lo[3] = {0, 0, 0}, hi[3] = {2, 0.6, 1.6};
         int64_t added;
-        ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, &added));
+        ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, &added, NULL));
         assert_int_equal(added, 9 * 3 * 7);
         mps_sim_destroy(sim);
     }

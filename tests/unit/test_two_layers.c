@@ -10,8 +10,8 @@ static void fill(mps_sim *sim)
     set_phase(sim, 0, water, 1e-3);
     set_phase(sim, 1, air, 1.8e-5);
     add_tank(sim, size[0], size[1], size[2]);
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, water_top, NULL));
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 1, air_floor, size, NULL));
+    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, water_top, NULL, NULL));
+    ASSERT_OK(sim, mps_geometry_fill_box(sim, 1, air_floor, size, NULL, NULL));
 }
 
 /* ---- walls ----------------------------------------------------------------------------------------------------------------- */
