@@ -137,8 +137,9 @@ typedef struct mps_model_ops {
     int (*velocity)(void *self, const double *k, mps_stage *s);
     /** Add displacements dx [n*dim] [m] of fluid particles beside dt u; may change s->u to transport it. */
     int (*shift)(void *self, const double *k, mps_stage *s, double *dx);
-    /** Largest time step [s] this model allows, > 0; INFINITY: any (else the step fails with MPS_E_PLUGIN). Called before the step, s->dt is
-     *  that of the last step which the caller did not cut, 0: none; not called where the step is fixed. */
+    /** Largest time step [s] this model allows, > 0; INFINITY: any (else the step fails with MPS_E_PLUGIN). Called before the step: s->dt is
+     *  that of the last step which the caller did not cut, 0: none; the stencils are those of the step, nothing is classified yet. Not
+     *  called where the step is fixed. */
     double (*dt_limit)(void *self, const double *k, const mps_stage *s);
     /** Change s->wall_pressure, what probes and forces see of the new pressures. */
     int (*load)(void *self, const double *k, mps_stage *s);

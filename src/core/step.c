@@ -386,8 +386,6 @@ static mps_status look_around(step_state *q)
 {
     mps__world *w = q->w;
     mps_stage *s = &q->stage;
-    MPS__TRY(mps__world_stencil(w, MPS_NEAR, &q->near));
-    MPS__TRY(mps__world_stencil(w, MPS_FAR, &q->far));
     MPS__TRY(mps__neighbours_near(&w->neighbours));
     end_stage(q, MPS_STAGE_NEIGHBOURS);
     move_walls(q);
@@ -691,6 +689,8 @@ static mps_status try_step(step_state *q, double dt_max, double *planned)
     start(w, &q->budget);
     MPS__TRY(turn_areas(w));
     set_stage(q);
+    MPS__TRY(mps__world_stencil(w, MPS_NEAR, &q->near));
+    MPS__TRY(mps__world_stencil(w, MPS_FAR, &q->far));
     MPS__TRY(set_dt(q, dt_max, planned));
     MPS__TRY(mps__motion_pose(&w->motion, w->info.t + q->stage.dt, &q->pose));
     return run_stages(q);

@@ -41,7 +41,8 @@ static const changed mmps_settings[] = {{"viscosity.pair", "stress", 1},
                                         {NULL, NULL, 0}};
 static const char *const paper_models[] = {"wall.extrapolate", "density.smooth",   "viscosity.pair",   "tension.csf",    "reference.gas",
                                            "source.mixed",     "gas.compressible", "gradient.density", "collision.pair", NULL};
-static const changed paper_settings[] = {{"gas.compressible", "printed", 1}, {"collision.pair", "distance", 0.8}, {NULL, NULL, 0}};
+static const changed paper_settings[] = {
+    {"viscosity.pair", "mirror", 0}, {"gas.compressible", "printed", 1}, {"collision.pair", "distance", 0.8}, {NULL, NULL, 0}};
 static const wanted list[] = {
     {"imps", imps_models, imps_settings}, {"mmps", mmps_models, mmps_settings}, {"mmps.paper", paper_models, paper_settings}};
 
