@@ -38,8 +38,14 @@ static int cli_table(cli_options *o, cli_option *table)
                               false};
     table[n++] = (cli_option){"--resume", NULL, "go on from the checkpoint in the folder of --out", TYPE_FLAG, &o->resume, 0, 0, true};
     table[n++] = (cli_option){"--probe-dt", "S", "interval of rows in probes.csv [s]", TYPE_REAL, &o->probe_dt, 0, 10, false};
-    table[n++] = (cli_option){
-        "--sensor-average", "S", "wall pressures are means of the last S seconds", TYPE_REAL, &o->sensor_average, 0, 10, false};
+    table[n++] = (cli_option){"--sensor-average",
+                              "S",
+                              "wall pressures are means of the last S seconds; 0: as they are; without it dp/u_max",
+                              TYPE_REAL,
+                              &o->sensor_average,
+                              -1,
+                              10,
+                              false};
     table[n++] = (cli_option){"--pictures", "T,T,..", "times of the pictures [s]; without it quarters", TYPE_TIMES, o, 0, 0, false};
     if (o->has_dim) table[n++] = (cli_option){"--dim", "D", "2 or 3 dimensions", TYPE_INT, &o->dim, 2, 3, false};
     if (o->amplitude > 0) table[n++] = (cli_option){"--amplitude", "M", "of the motion [m]", TYPE_REAL, &o->amplitude, 0, 10, false};
@@ -75,7 +81,7 @@ static void cli_default_text(const cli_option *e, char *text, size_t size)
     text[0] = '\0';
     if (e->type == TYPE_TEXT && *(const char **)e->value) snprintf(text, size, " (%s)", *(const char **)e->value);
     if (e->type == TYPE_INT) snprintf(text, size, " (%d)", *(int32_t *)e->value);
-    if (e->type == TYPE_REAL && (*(double *)e->value > 0 || e->min < 0)) snprintf(text, size, " (%g)", *(double *)e->value);
+    if (e->type == TYPE_REAL && (*(double *)e->value > 0 || (e->min < 0 && *(double *)e->value == 0))) snprintf(text, size, " (%g)", *(double *)e->value);
     if (e->type == TYPE_CHOICE) {
         const char *word;
         int length = cli_word(e->argument, *(int32_t *)e->value, &word);
@@ -100,7 +106,7 @@ static void cli_help(const cli_options *o, const cli_option *table, int n)
     exit(CLI_OK);
 }
 
-static void cli_refuse(const cli_options *o, const char *format, const char *a, const char *b)
+void cli_refuse(const cli_options *o, const char *format, const char *a, const char *b)
 {
     fprintf(stderr, "%s: ", o->program);
     fprintf(stderr, format, a, b);
@@ -227,6 +233,7 @@ void cli_defaults(cli_options *o, const char *program, const char *about)
                        .t_end = 1,
                        .t_max = 1e4,
                        .probe_dt = 1e-3,
+                       .sensor_average = MPS_AVERAGE_AUTO,
                        .stl_scale = 1,
                        .gravity = 9.81,
                        .sigma = 7.27e-2, /* water and air */
@@ -248,6 +255,7 @@ void cli_parse(cli_options *o, int argc, char **argv)
     o->two_phases = o->need || o->both_phases;
     int n = cli_table(o, table);
     for (int i = 1; i < argc; i++) cli_take(o, table, n, argc, argv, &i);
-    if (o->dt > 0 && o->dt > o->t_end) cli_refuse(o, "--dt is longer than --t-end%s%s", "", "");
-    if (o->pictures > 0 && o->picture_t[o->pictures - 1] > o->t_end) cli_refuse(o, "--pictures has times later than --t-end%s%s", "", "");
+    if (o->t_end > 0 && o->dt > o->t_end) cli_refuse(o, "--dt is longer than --t-end%s%s", "", "");
+    if (o->t_end > 0 && o->pictures > 0 && o->picture_t[o->pictures - 1] > o->t_end)
+        cli_refuse(o, "--pictures has times later than --t-end%s%s", "", "");
 }

@@ -9,7 +9,7 @@
 /* Exit codes of every driver. */
 enum { CLI_OK = 0, CLI_FAILED = 1, CLI_USAGE = 2, CLI_DIVERGED = 3, CLI_INTERRUPTED = 130 };
 
-enum { CLI_LIST = 32, CLI_TIMES = 24, CLI_OWN = 4 };
+enum { CLI_LIST = 32, CLI_TIMES = 24, CLI_OWN = 8 };
 
 /* How the text of an option is read. TYPE_CHOICE: one of the words of `argument`, "one|two", into an int32_t from 0. */
 typedef enum cli_type { TYPE_TEXT, TYPE_REAL, TYPE_INT, TYPE_CHOICE, TYPE_LIST, TYPE_TIMES, TYPE_FLAG, TYPE_HELP, TYPE_VERSION } cli_type;
@@ -43,9 +43,9 @@ typedef struct cli_options {
     double dp, dp_min, dp_max;   /* spacing [m] and what makes sense for this case */
     double dt;                   /* fixed step [s]; 0: adaptive */
     double cfl;                  /* adaptive: dt u / dp */
-    double t_end, t_max;         /* [s] */
+    double t_end, t_max;         /* [s]; t_end 0: the driver sets it after parsing */
     double probe_dt;             /* rows of probes.csv [s] */
-    double sensor_average;       /* wall pressures are means over this [s]; 0: as they are */
+    double sensor_average;       /* wall pressures are means over this [s]; MPS_AVERAGE_AUTO: over mps_step_info.crossing_time */
     int32_t threads;             /* OpenMP threads */
     int32_t frames;              /* frames besides the first */
     int pictures;                /* 0: at quarters of the time */
@@ -57,16 +57,17 @@ typedef struct cli_options {
     const char *stl;             /* NULL, or a file with the tank; offered if has_stl */
     double stl_scale;            /* [m] a unit of it */
     bool has_stl;
-    double gravity;     /* downwards [m/s2] */
-    double sigma;       /* surface tension [N/m], for models that have it */
-    bool has_sigma;     /* the driver offers --sigma */
-    bool sigma_given;   /* by the user */
-    bool two_phases;    /* models of several phases suit the case; set by cli_parse(): they are its default, or it has a `need` */
-    bool both_phases;   /* the case has two phases whatever the model; set by cli_parse(): a model of several phases is its default */
-    bool no_gas;        /* both phases are liquids: the model of the gas is switched off */
-    const char *need;   /* NULL, or "slot.variant" that every model gets where there are two phases and its slot is empty */
-    const char *prefer; /* NULL, or "slot.key=value", set before --set where the model has it */
-    int owns;           /* options of this driver alone */
+    double gravity;        /* downwards [m/s2] */
+    double velocity_scale; /* mps_config.velocity_scale [m/s]; 0: the library's */
+    double sigma;          /* surface tension [N/m], for models that have it */
+    bool has_sigma;        /* the driver offers --sigma */
+    bool sigma_given;      /* by the user */
+    bool two_phases;       /* models of several phases suit the case; set by cli_parse(): they are its default, or it has a `need` */
+    bool both_phases;      /* the case has two phases whatever the model; set by cli_parse(): a model of several phases is its default */
+    bool no_gas;           /* both phases are liquids: the model of the gas is switched off */
+    const char *need;      /* NULL, or "slot.variant" that every model gets where there are two phases and its slot is empty */
+    const char *prefer;    /* NULL, or "slot.key=value", set before --set where the model has it */
+    int owns;              /* options of this driver alone */
     cli_option own[CLI_OWN];
     bool report, quiet;
 } cli_options;
@@ -77,5 +78,7 @@ void cli_defaults(cli_options *o, const char *program, const char *about);
 void cli_own(cli_options *o, cli_option option);
 /* Parse; prints --help or what is wrong and exits. */
 void cli_parse(cli_options *o, int argc, char **argv);
+/* Exit with a message; `format` has two %s. */
+void cli_refuse(const cli_options *o, const char *format, const char *a, const char *b);
 
 #endif

@@ -6,8 +6,20 @@
 #include "run.h"
 
 /* Columns of steps.csv. */
-enum { STEP_T, STEP_DT, STEP_CFL, STEP_ITERATIONS, STEP_RESIDUAL, STEP_DIVERGENCE, STEP_SPEED, STEP_LOST, STEP_COLUMNS };
-#define STEP_HEADER "t[s],dt[s],cfl,ppe_iterations,ppe_residual,ppe_divergence,max_speed[m/s],lost"
+enum {
+    STEP_T,
+    STEP_DT,
+    STEP_CFL,
+    STEP_ITERATIONS,
+    STEP_RESIDUAL,
+    STEP_DIVERGENCE,
+    STEP_SPEED,
+    STEP_LOST,
+    STEP_CROSSING,
+    STEP_SOLVES,
+    STEP_COLUMNS
+};
+#define STEP_HEADER "t[s],dt[s],cfl,ppe_iterations,ppe_residual,ppe_divergence,max_speed[m/s],lost,crossing_time[s],ppe_solves"
 
 /* Places of the common columns in probes.csv, behind the driver's own. */
 enum {
@@ -39,6 +51,8 @@ enum {
 
 /* Remember the first thing that went wrong besides stepping. @return false if it did */
 bool run_note(run *r, mps_status status, const char *what);
+/* Value of one of the driver's own columns now; NAN if it cannot be measured. */
+double run_measure_column(run *r, const run_column *c);
 /* summary.json. @return false with a message on stderr */
 bool summary_save(const run *r);
 /* plot_*.svg, and report.html unless it was not wanted. @return false with a message on stderr */

@@ -3,6 +3,7 @@
  * before each checkpoint, so that also after a kill they reach at least up to it. */
 #include "resume.h"
 #include "outputs.h"
+#include "trace.h"
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -31,7 +32,8 @@ void resume_save(run *r)
     table_sync(&r->probes);
     table_sync(&r->momentum);
     table_sync(&r->steps);
-    if (r->probes.failed || r->momentum.failed || r->steps.failed)
+    if (r->trace) table_sync(&r->trace->file);
+    if (r->probes.failed || r->momentum.failed || r->steps.failed || (r->trace && r->trace->file.failed))
         r->output_failed = true;
     else if (run_note(r, mps_checkpoint_write(r->sim, path), "checkpoint"))
         r->checkpoint_t = r->totals.t;
@@ -86,6 +88,9 @@ void resume_add_step(void *user, const double *row)
     s->lost = (int64_t)row[STEP_LOST];
     s->max_speed = fmax(s->max_speed, row[STEP_SPEED]);
     s->ppe_iterations += row[STEP_ITERATIONS];
+    s->ppe_solves += row[STEP_SOLVES];
+    s->crossing_least = s->steps == 1 ? row[STEP_CROSSING] : fmin(s->crossing_least, row[STEP_CROSSING]);
+    s->crossing_most = fmax(s->crossing_most, row[STEP_CROSSING]);
 }
 
 void resume_tables(run *r)
@@ -94,6 +99,6 @@ void resume_tables(run *r)
     mps_sim_time(r->sim, NULL, &steps);
     if (r->totals.steps != steps || r->totals.t != r->totals.t_before)
         resume_refuse(r, CLI_USAGE, "steps.csv has not the steps of the checkpoint");
-    if (!table_cut(&r->probes) || !table_cut(&r->momentum) || !table_cut(&r->steps))
+    if (!table_cut(&r->probes) || !table_cut(&r->momentum) || !table_cut(&r->steps) || (r->trace && !table_cut(&r->trace->file)))
         resume_refuse(r, CLI_FAILED, "the files of rows cannot be cut at the checkpoint");
 }

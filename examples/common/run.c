@@ -150,6 +150,7 @@ void run_open(run *r, const cli_options *o)
     config.dp = o->dp;
     config.threads = o->threads;
     config.gravity[1] = -o->gravity;
+    config.velocity_scale = o->velocity_scale;
     if (run_is_paper(o) && o->dim == 2) config.re_far = 4.1; /* W22; in 3-D no paper says */
     if (o->re_far > 0) config.re_far = o->re_far;
     config.log = run_log;
@@ -254,6 +255,18 @@ void run_gauge_from(run *r, const char *name, const double *foot, double level)
 void run_gauge(run *r, const char *name, double x, double z, double level)
 {
     run_gauge_from(r, name, (const double[]){x, 0, z}, level);
+}
+
+void run_force(run *r, const char *name, const char *part, int32_t component)
+{
+    mps_probe probe;
+    mps_probe_init(&probe, sizeof probe);
+    probe.type = MPS_PROBE_FORCE;
+    probe.part = part;
+    run_probe_add(r, name, r->options.dim == 3 ? "N" : "N/m", &probe, 0);
+    run_column *c = &r->column[r->columns - 1];
+    c->component = component;
+    c->pressure = true;
 }
 
 void run_value(run *r, const char *name, const char *unit, run_value_fn value, void *user)

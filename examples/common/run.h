@@ -8,7 +8,7 @@
 #include "table.h"
 #include <mps/mps.h>
 
-enum { RUN_COLUMNS = 32, RUN_COMMON = 10, RUN_MARKS = 4, RUN_FIGURES = 4, RUN_MARK_POINTS = 16, RUN_ERROR = 640 };
+enum { RUN_COLUMNS = 32, RUN_COMMON = 10, RUN_MARKS = 4, RUN_FIGURES = 32, RUN_MARK_POINTS = 16, RUN_ERROR = 640 };
 
 /* A quantity of a driver's own. */
 typedef double (*run_value_fn)(void *user, mps_sim *sim);
@@ -43,7 +43,8 @@ typedef struct run_totals {
     int64_t fluid, wall, dummy, steps, steps_here, not_converged, lost; /* steps_here: without those before the checkpoint */
     double t_before;                                                    /* time of the checkpoint; 0: none */
     double t, wall_s, cpu_s, step_s, output_s, max_speed, volume_error;
-    double ppe_iterations, seconds[MPS_STAGE_COUNT];
+    double crossing_least, crossing_most; /* mps_step_info.crossing_time [s] */
+    double ppe_iterations, ppe_solves, seconds[MPS_STAGE_COUNT];
     const char *status;
     char error[RUN_ERROR];
 } run_totals;
@@ -56,6 +57,7 @@ typedef struct run {
     run_mark mark[RUN_MARKS];
     run_figure figure[RUN_FIGURES];
     table probes, steps, momentum;
+    struct trace *trace; /* NULL, or every step of the driver's own columns: trace.h */
     mps_frames *frames;
     int64_t frame; /* next frame */
     int pictures;  /* taken so far */
@@ -88,6 +90,8 @@ void run_wall_sensor(run *r, const char *name, double x, double y, double z, dou
 void run_gauge(run *r, const char *name, double x, double z, double level);
 /* A gauge that begins above the floor, e.g. on a baffle. @param foot [3] [m] */
 void run_gauge_from(run *r, const char *name, const double *foot, double level);
+/* A component of the pressure force on a part, or on all solids for NULL. */
+void run_force(run *r, const char *name, const char *part, int32_t component);
 void run_value(run *r, const char *name, const char *unit, run_value_fn value, void *user);
 /* A number for summary.json. */
 void run_figure_add(run *r, const char *name, run_value_fn value, void *user);

@@ -3,6 +3,7 @@
 #include "outputs.h"
 #include "picture.h"
 #include "resume.h"
+#include "trace.h"
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -114,7 +115,7 @@ static void run_energies(run *r, double *out)
     r->totals.volume_error = e.volume_error;
 }
 
-static double run_measure_column(run *r, const run_column *c)
+double run_measure_column(run *r, const run_column *c)
 {
     double values[8] = {0};
     if (c->value) return c->value(c->user, r->sim);
@@ -200,15 +201,11 @@ static void run_picture(run *r, double t)
 
 /* ---- steps ------------------------------------------------------------------------------------------------------ */
 
-static void run_add_up(run *r, const mps_step_info *info)
+static void run_add_up(run *r, const mps_step_info *info, const double *row)
 {
     run_totals *s = &r->totals;
-    s->steps++;
+    resume_add_step(r, row);
     s->steps_here++;
-    s->t = info->t;
-    s->lost = info->lost;
-    s->max_speed = fmax(s->max_speed, info->max_speed);
-    s->ppe_iterations += info->ppe_iterations;
     s->step_s += progress_clock() - r->step_end;
     for (int k = 0; k < MPS_STAGE_COUNT; k++) s->seconds[k] += info->seconds[k];
 }
@@ -218,10 +215,12 @@ static int run_monitor(void *user, mps_sim *sim, const mps_step_info *info)
     run *r = user;
     (void)sim;
     double begin = progress_clock();
-    run_add_up(r, info);
     const double row[STEP_COLUMNS] = {
-        info->t, info->dt, info->cfl, info->ppe_iterations, info->ppe_residual, info->ppe_divergence, info->max_speed, (double)info->lost};
+        info->t,         info->dt,           info->cfl,           info->ppe_iterations, info->ppe_residual, info->ppe_divergence,
+        info->max_speed, (double)info->lost, info->crossing_time, info->ppe_solves};
+    run_add_up(r, info, row);
     table_append(&r->steps, row);
+    if (r->trace) trace_step(r, info->t, info->dt);
     /* interpolation needs the samples on both sides of an output time; the next step is at most a little longer than this one */
     if (r->totals.steps == 1 || table_wants(&r->probes, info->t, 2 * info->dt)) run_sample(r, info->t);
     run_frame(r, info->t);
@@ -231,6 +230,7 @@ static int run_monitor(void *user, mps_sim *sim, const mps_step_info *info)
         table_flush(&r->probes);
         table_flush(&r->momentum);
         table_flush(&r->steps);
+        if (r->trace) table_flush(&r->trace->file);
     }
     r->step_end = progress_clock();
     r->totals.output_s += r->step_end - begin;
@@ -265,6 +265,7 @@ static void run_close(run *r)
     if (!picture_save(r->sim, path)) r->output_failed = true;
     for (int i = 0; i < r->figures; i++) r->figure[i].measured = r->figure[i].value(r->figure[i].user, r->sim);
     if (r->totals.steps == 0) run_write_start(r, NULL);
+    if (r->trace && !table_close(&r->trace->file)) r->output_failed = true;
     if (!table_close(&r->probes) || !table_close(&r->momentum) || !table_close(&r->steps)) r->output_failed = true;
 }
 
@@ -300,7 +301,8 @@ static void run_open_tables(run *r)
         resume_load(r);
     else
         resume_forget(r);
-    if (!run_open_probes(r) || !run_open_momentum(r) || !run_open_table(r, &r->steps, "steps.csv", STEP_HEADER, STEP_COLUMNS, 0))
+    if (!run_open_probes(r) || !run_open_momentum(r) || !run_open_table(r, &r->steps, "steps.csv", STEP_HEADER, STEP_COLUMNS, 0) ||
+        !trace_open(r))
         exit(r->options.resume ? CLI_USAGE : CLI_FAILED);
     if (r->options.resume) resume_tables(r);
 }
@@ -311,6 +313,7 @@ static void run_first_rows(run *r)
     run_measure(r, r->totals.t, r->start);
     if (r->options.resume) table_sample(&r->probes, r->start);
     run_momentum(r, r->totals.t);
+    if (r->trace && !r->options.resume) trace_step(r, 0, 0);
 }
 
 /* Open everything and take the first row and frame. */
@@ -354,6 +357,7 @@ int run_finish(run *r)
     table_free(&r->probes);
     table_free(&r->momentum);
     table_free(&r->steps);
+    if (r->trace) trace_free(r->trace);
     mps_sim_destroy(r->sim);
     return code;
 }

@@ -59,10 +59,20 @@ static void summary_times(FILE *out, const run *r)
     json_number(out, "s_per_step", per_step(s->step_s, s->steps_here));
     json_number(out, "output_s", s->output_s);
     json_number(out, "ppe_iterations_mean", per_step(s->ppe_iterations, s->steps));
+    json_number(out, "ppe_solves_mean", per_step(s->ppe_solves, s->steps));
     json_number(out, "ppe_s", s->seconds[MPS_STAGE_PPE_SETUP] + s->seconds[MPS_STAGE_PPE_SOLVE]);
     json_number(out, "neighbour_s", s->seconds[MPS_STAGE_NEIGHBOURS]);
     json_number(out, "operators_s", s->seconds[MPS_STAGE_OPERATORS] + s->seconds[MPS_STAGE_CORRECT]);
     json_number(out, "peak_rss_bytes", 1024.0 * (double)usage.ru_maxrss);
+}
+
+/* What pressures were averaged over [s]. */
+static void summary_average(FILE *out, const run *r)
+{
+    const bool follows = r->options.sensor_average == MPS_AVERAGE_AUTO;
+    json_text(out, "sensor_average", follows ? "dp/u_max" : "given");
+    json_number(out, "sensor_average_least", follows ? r->totals.crossing_least : r->options.sensor_average);
+    json_number(out, "sensor_average_most", follows ? r->totals.crossing_most : r->options.sensor_average);
 }
 
 static void summary_write(FILE *out, const run *r)
@@ -79,6 +89,7 @@ static void summary_write(FILE *out, const run *r)
     json_text(out, "ppe_solver", both);
     json_number(out, "volume_error", r->totals.volume_error);
     json_number(out, "max_speed", r->totals.max_speed);
+    summary_average(out, r);
     for (int i = 0; i < r->figures; i++) json_number(out, r->figure[i].name, r->figure[i].measured);
     json_text(out, "status", r->totals.status);
     json_text(out, "error", r->totals.error);

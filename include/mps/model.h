@@ -2,7 +2,7 @@
 /** @file model.h  Plug-in interface of the models of a time step: forces, walls, free surface, source, gradient, ...
  *
  *  A model is a table of verbs. A step calls them in this order, each verb for all active models in the order of their slots:
- *  classify, force, source, [the pressure equation is solved], gradient, velocity, shift. Built-in models use this
+ *  classify, force, source, [the pressure equation is solved], gradient, load, velocity, shift. Built-in models use this
  *  interface and no other. Verbs loop over rows with `s->threads` threads and write only their own row. */
 #ifndef MPS_MODEL_H
 #define MPS_MODEL_H
@@ -67,6 +67,9 @@ typedef struct mps_stage {
     double
         *depth; /**< [n] distance from an interface between two densities, on the particle's own side, written by classify; arrives 0: not
                         known [m] */
+    int64_t since_jump;    /**< steps since the velocity of the tank jumped, 0: in this one; large where it never did */
+    double *wall_pressure; /**< [n] pressure on the walls as probes and forces see it, written by `load`, where it arrives as p [Pa]; NULL
+                                before */
 } mps_stage;
 
 /** rho_ij of a pair of the pressure equation [kg/m3]: the mean along the line between both, by their distances from the interface;
@@ -76,6 +79,13 @@ static inline double mps_stage_pair_density(const mps_stage *s, int64_t i, int64
     const double a = s->density_smooth[i], b = s->density_smooth[j], f = s->depth[i], h = s->depth[j];
     return a == b || !(f > 0 && h > 0) ? 0.5 * (a + b) : (f * a + h * b) / (f + h);
 }
+
+/** Conditions on a row of the pressure equation, for mps_ppe_terms.fixed. */
+enum {
+    MPS_ROW_FREE = 0,  /**< the equation holds */
+    MPS_ROW_FIXED = 1, /**< p_i = value_i (Dirichlet) */
+    MPS_ROW_LEAST = 2  /**< p_i >= value_i: where p_i is above, the equation holds; at value_i the row's fluid may separate from it */
+};
 
 /** The pressure equation: sum_j k_ij (p_i - p_j + q_ij) + gain (shift_i p_i + gas_i f(p_i)) = gain rhs_i [1/s2] over pairs of fluid and
  *  walls, with k_ij = 2D/(n0 lambda) W_ij/rho_ij and q_ij = rho_ij (b_i + b_j)/2 . r_ij, the difference p_j - p_i of a fluid that moves
@@ -88,8 +98,8 @@ typedef struct mps_ppe_terms {
     double wall_factor;       /**< weight of wall-wall pairs, times the smaller `wet` of the two; default 0 */
     double *rhs;              /**< [n] e.g. -div u* / dt */
     double *shift;            /**< [n] >= 0, e.g. compressibility */
-    double *value;            /**< [n] pressure of fixed rows [Pa] */
-    int32_t *fixed;           /**< [n] 1: p_i = value_i (Dirichlet); region SURFACE arrives fixed at 0 */
+    double *value;            /**< [n] pressure of rows that are fixed or have a least one [Pa] */
+    int32_t *fixed;           /**< [n] MPS_ROW_...; region SURFACE arrives fixed at 0 */
     double *body;             /**< [n*dim] b, e.g. g - tank_accel [m/s2]; default 0 */
     double gain;              /**< share of the divergence that a step takes away: default 1 */
     double *gas;              /**< [n] >= 0, compressibility of a gas; default 0 */
@@ -127,9 +137,12 @@ typedef struct mps_model_ops {
     int (*velocity)(void *self, const double *k, mps_stage *s);
     /** Add displacements dx [n*dim] [m] of fluid particles beside dt u; may change s->u to transport it. */
     int (*shift)(void *self, const double *k, mps_stage *s, double *dx);
-    /** Largest time step [s] this model allows, > 0; INFINITY: any (else the step fails with MPS_E_PLUGIN). Called before the step, s->dt is
-     *  that of the last step which the caller did not cut, 0: none; not called where the step is fixed. */
+    /** Largest time step [s] this model allows, > 0; INFINITY: any (else the step fails with MPS_E_PLUGIN). Called before the step: s->dt is
+     *  that of the last step which the caller did not cut, 0: none; the stencils are those of the step, nothing is classified yet. Not
+     *  called where the step is fixed. */
     double (*dt_limit)(void *self, const double *k, const mps_stage *s);
+    /** Change s->wall_pressure, what probes and forces see of the new pressures. */
+    int (*load)(void *self, const double *k, mps_stage *s);
 } mps_model_ops;
 
 /** Register a model on a handle; the table is copied. Then choose it with mps_model_use().

@@ -26,6 +26,9 @@ enum {
                                       which moves with the tank; components along the axes of the lab, not of the tank */
 };
 
+/** For mps_probe.average: what the resolution can tell, mps_step_info.crossing_time. */
+#define MPS_AVERAGE_AUTO (-1.0)
+
 /** Definition of a probe. */
 typedef struct mps_probe {
     uint32_t struct_size; /**< set by mps_probe_init() */
@@ -37,7 +40,9 @@ typedef struct mps_probe {
     double length;        /**< gauge: length of the line [m]; default: to the domain's end */
     const char *part;     /**< force: name of a part, a prefix ending in '.', or NULL for all solids */
     int32_t count_drops;  /**< gauge: 1: the topmost particle in the band, drops and films included */
-    double average;       /**< mean over the last `average` seconds [s], see mps_probe_series(); default 0: the value now */
+    double average;       /**< mean over the last `average` seconds [s], see mps_probe_series(); 0: the value now. Default MPS_AVERAGE_AUTO:
+                               pressures and forces over mps_step_info.crossing_time, gauges 0. A pressure that is averaged over less
+                               depends on the time step in impacts; a warning with the values is logged once. A mean lags by half its time */
     double rate;          /**< samples a second [Hz] kept for mps_probe_series(), at most 1e9; default 0: none */
     uint32_t
         phases; /**< gauge: the phases that are below the surface, defined before, bit 1 << phase for each; default 0: the liquid, all that are

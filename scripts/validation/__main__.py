@@ -19,7 +19,7 @@ def arguments():
     p.add_argument("--data", metavar="DIR", help="folder with reference/ and theory/: series to compare with")
     p.add_argument("--jobs", type=int, default=1, metavar="N", help="drivers at a time, each on one thread (1)")
     p.add_argument("--out", default=str(ROOT / "build/validation"), metavar="DIR", help="folder for the runs (build/validation)")
-    p.add_argument("--only", metavar="CASE,CASE", help="these cases; the page is written from all that are there")
+    p.add_argument("--only", metavar="CASE,CASE", help="these cases, also impact_*; the page is written from all that are there")
     p.add_argument("--resolutions", choices=LEVELS, default="standard", help="up to which spacing (standard)")
     p.add_argument("--examples", default=str(ROOT / "build/release/examples"), metavar="DIR", help="drivers that are built already")
     p.add_argument("--no-run", action="store_true", help="evaluate what is there")
@@ -51,7 +51,7 @@ def worse_than_expected(page, cases):
     """Figures of the coarsest spacing that once reached their limits and do not any more."""
     for case in cases:
         for outcome, figures in page.results[case.name]:
-            if outcome.dp != next(iter(case.spacings)):
+            if outcome.dp != next(iter(case.spacings)) or outcome.run.cfl is not None:
                 continue
             if not outcome.complete:
                 yield f"{outcome.run.name}: {outcome.summary['status']}"

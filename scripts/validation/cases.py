@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The cases: which driver with which options at which spacings, and how it is evaluated."""
 from dataclasses import dataclass
+from fnmatch import fnmatch
 from typing import Callable
 
 import evaluate as e
+import impacts as im
 import phases as ph
 
 LEVELS = ("coarse", "standard", "fine")
@@ -19,10 +21,11 @@ class Run:
     minutes: float
     options: tuple = ()
     suffix: str = ""
+    cfl: float | None = None
 
     @property
     def name(self):
-        return f"{self.case}-{self.dp:g}{self.suffix}"
+        return f"{self.case}-{self.dp:g}{self.suffix}" + ("" if self.cfl is None else f"-cfl{self.cfl:g}")
 
     @property
     def other_model(self):
@@ -33,7 +36,7 @@ class Run:
 @dataclass(frozen=True)
 class Case:
     """`spacings`: dp -> CPU minutes, coarsest first: of level coarse, standard, fine. `expected`: figures that reached their limit at the
-    coarsest dp, with some room, and must go on doing so. `others`: models tried at the coarsest dp to see how far they get. `paper`: made for
+    coarsest dp, with some room, and must go on doing so. `cfl`: lengths of the step tried at one dp, too. `others`: models tried at the coarsest dp to see how far they get. `paper`: made for
     docs/paper-cases.md alone, with frames."""
     name: str
     driver: str
@@ -44,10 +47,15 @@ class Case:
     others: tuple = ("imps.paper",)
     expected: tuple = ()
     paper: bool = False
+    cfl: tuple = ()
+    cfl_dp: float = 0
 
     def runs(self):
         for (dp, minutes), level in zip(self.spacings.items(), self.levels):
             yield Run(self.name, self.driver, dp, level, minutes, self.options)
+        for cfl in self.cfl:
+            minutes = self.spacings[self.cfl_dp] * max(1, 0.3 / cfl)
+            yield Run(self.name, self.driver, self.cfl_dp, "standard", minutes, (*self.options, "--cfl", f"{cfl:g}"), cfl=cfl)
         for model in self.others:
             dp, minutes = next(iter(self.spacings.items()))
             suffix = "-paper" if model == "imps.paper" else f"-{model}"
@@ -67,6 +75,7 @@ SURGE = ("crest 1, damped FNPF", "crest 1, damped FNPF, time", "crest 2, damped 
 BAFFLE = ("line of the spectrum at gauge a", "line of the spectrum at gauge c", "amplitude at gauge a / unbaffled", "amplitude at gauge c / unbaffled",
           "volume error [%]")
 TWO_PHASES = ("mmps.paper", "imps", "imps.paper")
+STEPS = (0.05, 0.1, 0.2, 0.5)
 LOW_FILL, START = "--t-end 10 --frames 200 --pictures 2.75,4.8,6.1,7.85", "--t-end 3 --frames 30"
 
 CASES = [
@@ -111,20 +120,31 @@ CASES = [
          paper=True),
     Case("dam_break", "dam_break", {0.02: 0.1, 0.01: 0.4, 0.005: 5}, e.dam_break),
     Case("dam_break_3d", "dam_break", {0.03: 0.3, 0.02: 1, 0.015: 3}, e.dam_break, options("--dim 3")),
+    Case("impact_flat", "impact", {0.05: 0.02, 0.025: 0.1, 0.0125: 0.4}, im.flat, options("--case flat"), others=(), cfl=STEPS, cfl_dp=0.025),
+    Case("impact_flat_3d", "impact", {0.05: 0.1, 0.025: 0.4}, im.flat, options("--case flat --dim 3"), others=()),
+    *(Case(f"impact_film_{n}", "impact", {0.01: 0.02}, im.film, options(f"--case film --rows {n}"), others=(), cfl=STEPS, cfl_dp=0.01) for n in (1, 2, 3, 4)),
+    *(Case(f"impact_wedge_{n}", "impact", {0.01: 0.3, 0.005: 2, 0.0025: 15}, im.wedge, options(f"--case wedge --deadrise {n}"), others=(),
+           expected=("walls / fluid",) if n == 30 else ()) for n in (20, 30, 40)),
+    Case("impact_jet", "impact", {0.05: 0.1, 0.025: 1}, im.jet, options("--case jet"), others=(), cfl=STEPS, cfl_dp=0.05),
+    Case("impact_column", "impact", {0.05: 0.02, 0.025: 0.02, 0.0125: 0.1}, im.column, options("--case column"), others=(), cfl=STEPS, cfl_dp=0.025,
+         expected=("largest pressure before contact", "rebound / U", "pressure at rest")),
+    Case("impact_floor", "impact", {0.025: 0.02, 0.0125: 0.1}, im.leaving_floor, options("--case floor"), others=(), cfl=STEPS, cfl_dp=0.025),
+    Case("impact_box", "impact", {0.04: 0.02, 0.02: 0.1, 0.01: 0.5}, im.box, options("--case box"), others=()),
+    Case("impact_box_3d", "impact", {0.04: 0.3, 0.032: 0.5, 0.02: 3}, im.box, options("--case box --dim 3"), others=()),
     Case("long_surge", "sloshing_surge", {0.01: 14}, e.long_run, options("--t-end 60 --probe-dt 0.002"), ("fine",), ()),
     Case("long_breaking", "sloshing_breaking", {0.01: 15}, e.long_breaking, options("--t-end 20 --probe-dt 0.002"), ("fine",), ()),
 ]
 
 
 def find(names):
-    """Cases by name, all for None; ValueError with what there is."""
+    """Cases by name or pattern (impact_*), all for None; ValueError with what there is."""
     if names is None:
         return CASES
-    known = {case.name: case for case in CASES}
-    wrong = [name for name in names if name not in known]
+    known = [case.name for case in CASES]
+    wrong = [name for name in names if not any(fnmatch(k, name) for k in known)]
     if wrong:
         raise ValueError(f"no case {', '.join(wrong)}; there are {', '.join(known)}")
-    return [known[name] for name in names]
+    return [case for name in names for case in CASES if fnmatch(case.name, name)]
 
 
 def runs(cases, level):

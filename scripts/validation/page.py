@@ -24,20 +24,23 @@ def cell(figure):
 
 
 def column_name(outcome):
-    return f"dp {outcome.dp:g}" + ("" if outcome.current else " (older build)")
+    cfl = "" if outcome.run.cfl is None else f", cfl {outcome.run.cfl:g}"
+    return f"dp {outcome.dp:g}{cfl}" + ("" if outcome.current else " (older build)")
 
 
 def figure_table(results):
     """Rows are figures, columns are spacings, then the observed order where there is an error."""
     names = list(dict.fromkeys(f.name for _, figures in results for f in figures))
-    with_order = len(results) > 1 and any(f.error is not None for _, figures in results for f in figures)
+    plain = [o.run.cfl is None for o, _ in results]
+    with_order = sum(plain) > 1 and any(f.error is not None for _, figures in results for f in figures)
     rows = []
     for name in names:
         found = [next((f for f in figures if f.name == name), None) for _, figures in results]
         reference = next((f for f in found if f is not None and f.reference is not None), None)
         row = [name, reference.form.format(reference.reference) if reference else ""] + [cell(f) for f in found]
         if with_order:
-            slope = measures.order([o.dp for o, _ in results], [f.error if f else None for f in found])
+            same = [(o.dp, f.error if f else None) for (o, _), f, use in zip(results, found, plain) if use]
+            slope = measures.order(*zip(*same))
             row.append("" if slope is None else f"{slope:.1f}")
         rows.append(row)
     head = ["", "reference"] + [column_name(o) for o, _ in results] + (["order"] if with_order else [])
@@ -50,7 +53,7 @@ def run_table(outcomes):
         s = o.summary
         numerical = f"{o['numerical'][-1]:+.3g}" if "numerical" in o.column else ""
         whole = not s.get("t_resumed")  # else the times are those of its last part
-        rows.append([f"{o.dp:g}", f"{s['n_fluid']} + {s['n_wall']} + {s['n_dummy']}", "end" if o.complete else f"{s['status']} at {s['t_end']:.3g} s",
+        rows.append([column_name(o).split(" (")[0][3:], f"{s['n_fluid']} + {s['n_wall']} + {s['n_dummy']}", "end" if o.complete else f"{s['status']} at {s['t_end']:.3g} s",
                      s["steps"], f"{s['cpu_s']:.0f}" if whole else "", f"{1e3 * s['cpu_s'] / max(1, s['steps']):.1f}" if whole else "", f"{100 * s['volume_error']:+.2f} %",
                      s["particles_lost"], f"{s['max_speed']:.2g}", numerical])
     head = ["dp [m]", "fluid + wall + dummy", "reached", "steps", "CPU s", "ms/step", "volume error", "lost", "max speed [m/s]", "`numerical` [J/m, 3-D: J]"]
@@ -58,9 +61,10 @@ def run_table(outcomes):
 
 
 def command_lines(outcomes):
-    o = outcomes[0]
+    plain = [o for o in outcomes if o.run.cfl is None] or outcomes
+    o = plain[0]
     options = " ".join(o.run.options)
-    return f"`{o.run.driver}{' ' + options if options else ''} --dp {', '.join(f'{o.dp:g}' for o in outcomes)}`"
+    return f"`{o.run.driver}{' ' + options if options else ''} --dp {', '.join(f'{o.dp:g}' for o in plain)}`"
 
 
 def overview(results):
@@ -95,7 +99,7 @@ class Page:
             outcomes = [o for o in (runner.outcome(run) for run in case.runs()) if o]
             self.others += [o for o in outcomes if o.run.other_model]
             found = [(o, case.evaluate(o, refs) if len(o.t) > 1 or o.complete else [])
-                     for o in sorted((o for o in outcomes if not o.run.other_model), key=lambda o: -o.dp)]
+                     for o in sorted((o for o in outcomes if not o.run.other_model), key=lambda o: (-o.dp, o.run.cfl is None, o.run.cfl))]
             for o, figures in found:
                 (o.folder / "figures.json").write_text(json.dumps(to_json(figures), indent=1, default=float) + "\n")
             self.results[case.name] = found

@@ -2,9 +2,17 @@
 /* List of the built-in models of boundaries. */
 #include "builtin.h"
 
-static const mps_model_ops *const all[] = {&mps__surface_asymmetry, &mps__surface_detached, &mps__surface_original,
-                                           &mps__wall_half,         &mps__wall_extrapolate, &mps__body_free,
-                                           &mps__reference_gas,     &mps__reference_lid,    NULL};
+static const mps_model_ops *const all[] = {&mps__surface_asymmetry,
+                                           &mps__surface_detached,
+                                           &mps__surface_original,
+                                           &mps__wall_half,
+                                           &mps__wall_extrapolate,
+                                           &mps__body_free,
+                                           &mps__reference_gas,
+                                           &mps__reference_lid,
+                                           &mps__load_reaction,
+                                           &mps__separation_void,
+                                           NULL};
 
 bool mps__upward(const mps_stage *s, double up[3])
 {

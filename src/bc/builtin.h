@@ -12,6 +12,7 @@
 
 extern const mps_model_ops mps__surface_asymmetry, mps__surface_detached, mps__surface_original;
 extern const mps_model_ops mps__wall_half, mps__wall_extrapolate, mps__body_free;
+extern const mps_model_ops mps__load_reaction, mps__separation_void;
 extern const mps_model_ops mps__reference_gas, mps__reference_lid;
 
 /* Unit vector against gravity; false without gravity. */

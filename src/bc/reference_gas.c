@@ -18,7 +18,7 @@ static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *term
             s, "phase %d has no fluid particle: add the gas, set reference.phase to it, or remove the model \"reference\"", (int)k[PHASE]);
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_FLUID || s->phase[i] != (int32_t)k[PHASE] || mps__height(s, up, i) < top - k[LAYER] * s->dp) continue;
-        terms->fixed[i] = 1;
+        terms->fixed[i] = MPS_ROW_FIXED;
         terms->value[i] = 0;
     }
     return 0;

@@ -6,6 +6,9 @@
 
 static const double NEARLY = 0.7;
 
+/* Fluid stands before a face if it is so far above its plane, over dp. */
+static const double ABOVE = 0.1;
+
 /* Kernel sum over a half lattice without its boundary row. */
 static double half_sum(const mps_stencil *t)
 {
@@ -20,16 +23,26 @@ static double half_sum(const mps_stencil *t)
     return sum;
 }
 
-/* Kernel sum over the fluid. Spray does not count: a wall particle left with other walls alone would make the system singular. */
+/* Kernel sum over the fluid. Spray does not count: a wall particle left with other walls alone would make the system singular. Nor does fluid that
+ * is all behind the plane of the face: beyond an edge a wall would take the pressure of liquid in front of the other face. */
 MPS__ROW double fluid_sum(const int dim, const mps_stage *s, int64_t i)
 {
     const mps_stencil *t = s->near;
-    double sum = 0;
+    const double *area = s->area + i * dim;
+    double sum = 0, size = 0;
+    for (int d = 0; d < dim; d++) size += area[d] * area[d];
+    bool before = size == 0;
+    const double least = ABOVE * s->dp * sqrt(size);
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         const int64_t j = t->col[p];
-        if (s->kind[j] == MPS_FLUID && s->region[j] != MPS_REGION_SPRAY) sum += mps_stencil_pair_dim(dim, t, i, p).w;
+        if (s->kind[j] != MPS_FLUID || s->region[j] == MPS_REGION_SPRAY) continue;
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
+        double height = 0;
+        for (int d = 0; d < dim; d++) height += q.d[d] * area[d];
+        before = before || height > least;
+        sum += q.w;
     }
-    return sum;
+    return before ? sum : 0;
 }
 
 /* Density of the fluid beside a wall particle: that of the nearest, and of others as far as they are hardly farther away (W/r^2 more than

@@ -2,7 +2,7 @@
 /* The public functions of mps/probe.h. */
 #include "sim.h"
 
-static const mps_probe probe_defaults = {.direction = {0, 1, 0}};
+static const mps_probe probe_defaults = {.direction = {0, 1, 0}, .average = MPS_AVERAGE_AUTO};
 static const mps_energy energy_defaults = {0};
 static const mps_momentum momentum_defaults = {0};
 

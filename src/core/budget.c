@@ -93,8 +93,8 @@ void mps__budget_push(const mps__world *w, const double *a, double dt, mps__push
 
 static void wall_term(const mps__world *w, const void *data, int64_t i, double *sum)
 {
-    const double *area = (const double *)data + i * w->dim;
-    for (int d = 0; d < w->dim; d++) sum[d] += w->particles.p[i] * area[d];
+    const double *area = w->work.area + i * w->dim;
+    for (int d = 0; d < w->dim; d++) sum[d] += ((const double *)data)[i] * area[d];
 }
 
 static void add_wall(const mps__world *w, const void *data, range r, sums *part)
@@ -102,9 +102,9 @@ static void add_wall(const mps__world *w, const void *data, range r, sums *part)
     add_terms(w, MPS_WALL, wall_term, data, r, part);
 }
 
-void mps__budget_wall_force(const mps__world *w, double force[3])
+void mps__budget_wall_force(const mps__world *w, const double *pressure, double force[3])
 {
-    const sums s = sum_parts(w, add_wall, w->work.area);
+    const sums s = sum_parts(w, add_wall, pressure);
     memcpy(force, s.of, 3 * sizeof *force);
 }
 

@@ -15,7 +15,7 @@ typedef struct mps__push {
 void mps__budget_sum(const mps__world *w, mps__bulk *bulk);
 void mps__budget_push(const mps__world *w, const double *a, double dt, mps__push *push);
 /* Force of the walls on the fluid, sum p A, in the step in progress [N]. */
-void mps__budget_wall_force(const mps__world *w, double force[3]);
+void mps__budget_wall_force(const mps__world *w, const double *pressure, double force[3]);
 /* Work of the rigid tank on the fluid over a step that gives it accelerations `a` by pressure, from the change of its momentum and moment
  * of momentum: F.v + T.omega holds for any distribution of the forces on the walls [J]. An impulse that takes the walls from v0 to v1
  * works with their mean. */

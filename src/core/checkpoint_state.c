@@ -21,11 +21,13 @@ static int list_slots(mps__world *w, slot out[SLOTS])
 #member, &w->member, sizeof w->member \
     }
     const slot all[] = {SLOT(info.t),           SLOT(info.step),
-                        SLOT(info.lost),        SLOT(dt_previous),
+                        SLOT(info.lost),        SLOT(info.crossing_time),
+                        SLOT(window_told),      SLOT(dt_previous),
                         SLOT(dt_before),        SLOT(start_pending),
                         SLOT(level_told),       SLOT(moves_told),
                         SLOT(motion.now),       SLOT(motion.hold),
-                        SLOT(before),           SLOT(particles.next_id),
+                        SLOT(before),           SLOT(jump),
+                        SLOT(spread),           SLOT(particles.next_id),
                         SLOT(budget.wall_work), SLOT(budget.viscous),
                         SLOT(budget.collision), SLOT(budget.shift),
                         SLOT(budget.added),     SLOT(budget.start),
@@ -62,7 +64,7 @@ static const char *probe_title(char out[MPS__PART_TITLE], int64_t probe, const c
 
 static bool has_series(const mps__probe *p)
 {
-    return !p->removed && (p->config.average > 0 || p->config.rate > 0);
+    return !p->removed && (p->config.average != 0 || p->config.rate > 0);
 }
 
 static size_t element(const mps__field *f)

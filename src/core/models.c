@@ -46,7 +46,7 @@ static mps_status check_ops(mps__models *m, const mps_model_ops *ops)
     const char *dot = strchr(ops->name, '.');
     MPS__CHECK(c, dot && dot != ops->name && dot[1] && strlen(ops->name) < MPS__NAME_SIZE,
                "model name \"%s\": must be \"slot.variant\" of at most %d characters", ops->name, MPS__NAME_SIZE - 1);
-    MPS__CHECK(c, ops->classify || ops->force || ops->source || ops->gradient || ops->velocity || ops->shift || ops->dt_limit,
+    MPS__CHECK(c, ops->classify || ops->force || ops->source || ops->gradient || ops->velocity || ops->shift || ops->dt_limit || ops->load,
                "model \"%s\" has no verb", ops->name);
     MPS__CHECK(c, !ops->create == !ops->destroy, "model \"%s\": create and destroy go together", ops->name);
     MPS__CHECK(c, ops->setting_count >= 0 && ops->setting_count <= MPS__SETTINGS && (ops->setting_count == 0 || ops->settings),

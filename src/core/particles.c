@@ -29,13 +29,14 @@ mps_status mps__particles_init(mps__particles *s, mps__context *context, int32_t
         bool is_public;
         void **data;
     } built_in[] = {
-        {"position", dim, sizeof(double), true, (void **)&s->x},      {"velocity", dim, sizeof(double), true, (void **)&s->u},
-        {"pressure", 1, sizeof(double), true, (void **)&s->p},        {"number_density", 1, sizeof(double), true, (void **)&s->nd},
-        {"density", 1, sizeof(double), true, (void **)&s->rho},       {"ref", dim, sizeof(double), false, (void **)&s->ref},
-        {"area", dim, sizeof(double), false, (void **)&s->area},      {"id", 1, sizeof(int64_t), false, (void **)&s->id},
-        {"kind", 1, sizeof(int32_t), false, (void **)&s->kind},       {"phase", 1, sizeof(int32_t), false, (void **)&s->phase},
-        {"part", 1, sizeof(int32_t), false, (void **)&s->part},       {"region", 1, sizeof(int32_t), false, (void **)&s->region},
-        {"wall_of", 1, sizeof(int32_t), false, (void **)&s->wall_of}, {"plate", 1, sizeof(int32_t), false, (void **)&s->plate},
+        {"position", dim, sizeof(double), true, (void **)&s->x},       {"velocity", dim, sizeof(double), true, (void **)&s->u},
+        {"pressure", 1, sizeof(double), true, (void **)&s->p},         {"number_density", 1, sizeof(double), true, (void **)&s->nd},
+        {"density", 1, sizeof(double), true, (void **)&s->rho},        {"ref", dim, sizeof(double), false, (void **)&s->ref},
+        {"area", dim, sizeof(double), false, (void **)&s->area},       {"id", 1, sizeof(int64_t), false, (void **)&s->id},
+        {"kind", 1, sizeof(int32_t), false, (void **)&s->kind},        {"phase", 1, sizeof(int32_t), false, (void **)&s->phase},
+        {"part", 1, sizeof(int32_t), false, (void **)&s->part},        {"region", 1, sizeof(int32_t), false, (void **)&s->region},
+        {"wall_of", 1, sizeof(int32_t), false, (void **)&s->wall_of},  {"plate", 1, sizeof(int32_t), false, (void **)&s->plate},
+        {"wall_pressure", 1, sizeof(double), true, (void **)&s->load}, {"held", 1, sizeof(int32_t), false, (void **)&s->held},
     };
     for (size_t k = 0; k < sizeof built_in / sizeof built_in[0]; k++)
         MPS__TRY(mps__particles_field_add(s, built_in[k].name, built_in[k].components, built_in[k].size, built_in[k].is_public,

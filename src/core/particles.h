@@ -25,11 +25,13 @@ typedef struct mps__particles {
     int64_t n, capacity, next_id;
     double *x, *u;        /* [n*dim] */
     double *p, *nd, *rho; /* [n] pressure, number density, density */
+    double *load;         /* [n] pressure on walls, as probes and forces see it */
     double *ref;          /* [n*dim] place in the tank's frame (solids) */
     double *area;         /* [n*dim] wetted area vector (walls), in the tank's frame */
     int64_t *id;          /* [n] stable, ascending at creation */
     int32_t *kind, *phase, *part;
     int32_t *region;  /* [n] MPS_REGION_... of the last step */
+    int32_t *held;    /* [n] 1: its pressure was the least allowed in the last step */
     int32_t *wall_of; /* [n] place of a dummy's wall particle, -1: none; follows when particles move */
     int32_t *plate;   /* [n] number of the screen + 1 of walls of thin plates, of walls they stand on, and of dummies: their shadows */
     int32_t fields;

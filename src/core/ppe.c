@@ -58,14 +58,14 @@ static inline double capillary_jump(const mps_stage *s, int64_t i, int64_t j)
 static inline double pair_factor(const assembly *a, int64_t i, int64_t j)
 {
     const mps_stage *s = a->s;
-    if (a->unknown[j] < 0 && !a->t->fixed[j]) return 0.0;
+    if (a->unknown[j] < 0 && a->t->fixed[j] != MPS_ROW_FIXED) return 0.0;
     if (s->kind[i] == MPS_WALL && s->kind[j] == MPS_WALL) return a->t->wall_factor * fmin(s->wet[i], s->wet[j]);
     return s->region[j] == MPS_REGION_SURFACE ? a->surface : 1.0;
 }
 
 static inline bool is_unknown(const assembly *a, int64_t i)
 {
-    return a->s->kind[i] != MPS_DUMMY && a->s->region[i] < MPS_REGION_SURFACE && !a->t->fixed[i];
+    return a->s->kind[i] != MPS_DUMMY && a->s->region[i] < MPS_REGION_SURFACE && a->t->fixed[i] != MPS_ROW_FIXED;
 }
 
 static double *carve(char **room, int64_t count)
@@ -340,6 +340,6 @@ void mps__ppe_scatter(const mps__ppe *e, const mps_stage *s, const mps_ppe_terms
         if (e->unknown[i] >= 0)
             p[i] = e->p[e->unknown[i]];
         else
-            p[i] = t->fixed[i] ? t->value[i] : 0;
+            p[i] = t->fixed[i] == MPS_ROW_FIXED ? t->value[i] : 0;
     }
 }

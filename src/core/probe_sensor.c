@@ -533,7 +533,7 @@ mps_status mps__sensor_read(mps__world *w, const mps_probe *config, mps__sensor 
     }
     if (!in_place(s, sensor)) locate(s, sensor);
     double sum = 0;
-    for (int64_t k = 0; k < sensor->count; k++) sum += sensor->list[k].weight * s->p[sensor->list[k].place];
+    for (int64_t k = 0; k < sensor->count; k++) sum += sensor->list[k].weight * s->load[sensor->list[k].place];
     *value = sum;
     return MPS_OK;
 }

@@ -84,22 +84,22 @@ static mps_status reserve(mps__context *c, mps__series *s, int64_t samples)
     return mps__grow(c, (void **)&s->value, &s->value_capacity, s->count * s->size, total * s->size, sizeof *s->value);
 }
 
-mps_status mps__series_take(mps__context *c, mps__series *s, const mps_probe *config, const mps_step_info *now, const double *values)
+mps_status mps__series_take(mps__context *c, mps__series *s, const mps__window *window, const mps_step_info *now, const double *values)
 {
     const double start = s->waits ? s->start : now->t;
-    const int64_t next = s->step < 0 ? sample_number(start, config->rate, true) : s->next;
-    const int64_t end = config->rate > 0 ? sample_number(now->t, config->rate, false) : next;
+    const int64_t next = s->step < 0 ? sample_number(start, window->rate, true) : s->next;
+    const int64_t end = window->rate > 0 ? sample_number(now->t, window->rate, false) : next;
     MPS__TRY(reserve(c, s, end > next ? end - next : 0));
     if (s->waits && start < now->t) push(s, start, values);
     push(s, now->t, values);
     s->waits = false;
     s->step = now->step;
     for (s->next = next; s->next < end; s->next++) {
-        const double t = (double)s->next / config->rate;
+        const double t = (double)s->next / window->rate;
         s->t[s->count] = t;
-        mps__series_mean(s, t - config->average, t, s->value + s->count++ * s->size);
+        mps__series_mean(s, t - window->average, t, s->value + s->count++ * s->size);
     }
-    trim(s, now->t - config->average);
+    trim(s, now->t - window->reach);
     return MPS_OK;
 }
 

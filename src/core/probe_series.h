@@ -22,8 +22,14 @@ typedef struct mps__series {
     double *t, *value;
 } mps__series;
 
+/* What a series takes. */
+typedef struct mps__window {
+    double average, reach; /* mean over so long now, and ever at most [s] */
+    double rate;           /* samples a second; 0: none */
+} mps__window;
+
 /* A row of the present state, and the samples that are due by now. On failure nothing changed. */
-mps_status mps__series_take(mps__context *c, mps__series *s, const mps_probe *config, const mps_step_info *now, const double *values);
+mps_status mps__series_take(mps__context *c, mps__series *s, const mps__window *window, const mps_step_info *now, const double *values);
 /* Mean from `from` to `to`, both cut off to what is kept; there must be a row. */
 void mps__series_mean(const mps__series *s, double from, double to, double *out);
 void mps__series_free(mps__context *c, mps__series *s);

@@ -94,11 +94,12 @@ static void measure_fluid(const mps__world *w, const mps_probe *c, double *value
     double at[3];
     mps__motion_point(&w->motion, &w->motion.now, c->at, at, NULL, NULL);
     for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] == MPS_DUMMY || (s->kind[i] == MPS_WALL && s->p[i] == 0)) continue;
+        if (s->kind[i] == MPS_DUMMY || (s->kind[i] == MPS_WALL && s->load[i] == 0)) continue;
         double r[3] = {0, 0, 0}, d2 = distance2(&s->x[i * w->dim], at, w->dim);
         if (d2 >= w->re_near * w->re_near || mps__plates_hide(w, c->at, i)) continue;
         for (int32_t d = 0; d < w->dim; d++) r[d] = s->x[i * w->dim + d] - at[d];
-        add_moment(&m, r, mps_kernel_value(&w->kernel, fmax(sqrt(d2), 1e-3 * w->dp), w->re_near), s->p[i]);
+        add_moment(&m, r, mps_kernel_value(&w->kernel, fmax(sqrt(d2), 1e-3 * w->dp), w->re_near),
+                   s->kind[i] == MPS_WALL ? s->load[i] : s->p[i]);
         m.nearest2 = fmin(m.nearest2, d2);
     }
     *value = m.nearest2 < 0.25 * w->re_near * w->re_near ? moments_value(w, &m) : 0;
@@ -142,12 +143,12 @@ static void measure_force(const mps__world *w, const mps__probe *probe, double *
     double at[3] = {0, 0, 0}, force[3] = {0, 0, 0}, moment[3] = {0, 0, 0};
     mps__motion_point(&w->motion, &w->motion.now, probe->config.at, at, NULL, NULL);
     for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_WALL || s->p[i] == 0) continue;
+        if (s->kind[i] != MPS_WALL || s->load[i] == 0) continue;
         double f[3] = {0, 0, 0}, r[3] = {0, 0, 0}, area[3] = {0, 0, 0};
         for (int32_t d = 0; d < w->dim; d++) area[d] = face_wanted(w, probe, i, d) ? s->area[i * w->dim + d] : 0;
         mps__motion_rotate(&w->motion, &w->motion.now, area, f);
         for (int32_t d = 0; d < w->dim; d++) {
-            f[d] *= -s->p[i];
+            f[d] *= -s->load[i];
             force[d] += f[d];
             r[d] = s->x[i * w->dim + d] - at[d];
         }
@@ -253,7 +254,8 @@ static mps_status check_numbers(const mps__world *w, const mps_probe *c)
     for (int32_t d = 0; d < w->dim; d++) MPS__CHECK(w->context, isfinite(c->at[d]), "probe.at[%d] is %g: must be finite", (int)d, c->at[d]);
     MPS__CHECK(w->context, isfinite(c->diameter) && c->diameter >= 0, "probe.diameter is %g m: must be finite and >= 0", c->diameter);
     MPS__CHECK(w->context, isfinite(c->length) && c->length >= 0, "probe.length is %g m: must be finite and >= 0", c->length);
-    MPS__CHECK(w->context, isfinite(c->average) && c->average >= 0, "probe.average is %g s: must be finite and >= 0", c->average);
+    MPS__CHECK(w->context, isfinite(c->average) && (c->average >= 0 || c->average == MPS_AVERAGE_AUTO),
+               "probe.average is %g s: must be finite and >= 0, or MPS_AVERAGE_AUTO (%g)", c->average, MPS_AVERAGE_AUTO);
     MPS__CHECK(w->context, c->rate >= 0 && c->rate <= RATE_MAX, "probe.rate is %g Hz: 0..%g", c->rate, RATE_MAX);
     MPS__CHECK(w->context, c->phases >> MPS__PHASES == 0, "probe.phases is 0x%x: bits 0..%d are phases", (unsigned)c->phases,
                MPS__PHASES - 1);
@@ -265,6 +267,7 @@ static mps_status check_numbers(const mps__world *w, const mps_probe *c)
 static mps_status check_probe(mps__world *w, mps_probe *c)
 {
     MPS__TRY(check_numbers(w, c));
+    if (c->type == MPS_PROBE_GAUGE && c->average == MPS_AVERAGE_AUTO) c->average = 0;
     if (c->diameter == 0) c->diameter = c->type == MPS_PROBE_GAUGE ? 3 * w->dp : w->dp;
     if (c->type == MPS_PROBE_FORCE) return c->part ? check_part(w, c->part) : MPS_OK;
     MPS__TRY(check_place(w, c));
@@ -344,6 +347,25 @@ mps_status mps__probe_measure(mps__world *w, mps__probe *p, double *values)
     }
 }
 
+/* What a probe averages over at present [s]. */
+static double window(const mps__world *w, const mps_probe *c)
+{
+    return c->average == MPS_AVERAGE_AUTO ? w->info.crossing_time : c->average;
+}
+
+/* Say once that a pressure is averaged over less than the resolution can tell. */
+static void note_window(mps__world *w, const mps__probes *p, int64_t k)
+{
+    const mps_probe *c = &p->list[k].config;
+    if (w->window_told || c->type == MPS_PROBE_GAUGE || window(w, c) >= w->info.crossing_time) return;
+    w->window_told = true;
+    mps__log(
+        w->context, MPS_LOG_WARNING,
+        "t = %.6g s: probe %d averages over %g s; liquid crosses a spacing in %g s, and pressures of impacts over less than that depend "
+        "on the time step (average = MPS_AVERAGE_AUTO follows it)",
+        w->info.t, (int)k, c->average, w->info.crossing_time);
+}
+
 mps_status mps__probe_take(mps__world *w, mps__probe *p)
 {
     double values[MPS__PROBE_VALUES];
@@ -355,13 +377,16 @@ mps_status mps__probe_take(mps__world *w, mps__probe *p)
         return MPS_OK;
     }
     MPS__TRY(mps__probe_measure(w, p, values));
-    return mps__series_take(w->context, &p->series, &p->config, &w->info, values);
+    const mps__window now = {window(w, &p->config), p->config.average == MPS_AVERAGE_AUTO ? mps__crossing_limit(w) : p->config.average,
+                             p->config.rate};
+    return mps__series_take(w->context, &p->series, &now, &w->info, values);
 }
 
 mps_status mps__probes_take(mps__world *w, mps__probes *p)
 {
     for (int64_t k = 0; k < p->count; k++) {
         if (p->list[k].removed) continue;
+        note_window(w, p, k);
         const mps_status status = mps__probe_take(w, &p->list[k]);
         if (status < 0) return mps__fail(w->context, status, "no step was done, probe %d: %.400s", (int)k, w->context->error);
     }
@@ -373,6 +398,6 @@ mps_status mps__probe_read(mps__world *w, mps__probe *p, double *values)
     if (p->config.average == 0) return mps__probe_measure(w, p, values);
     MPS__TRY(mps__probe_take(w, p));
     if (p->series.rows == 0) return mps__probe_measure(w, p, values);
-    mps__series_mean(&p->series, w->info.t - p->config.average, w->info.t, values);
+    mps__series_mean(&p->series, w->info.t - window(w, &p->config), w->info.t, values);
     return MPS_OK;
 }

@@ -7,6 +7,12 @@
 #include <stdio.h>
 #include <string.h>
 
+/* So many steps at most share what is left of a run. */
+static const double SHARED_STEPS = 20;
+
+/* Share of its way to that of the present step that the spread of pressures goes in a step. */
+static const double SPREAD_SHARE = 0.2;
+
 /* What one step carries along; committed to the world only when all went well. */
 typedef struct step_state {
     mps__world *w;
@@ -17,7 +23,9 @@ typedef struct step_state {
     mps_step_info info;
     mps__budget budget;
     double momentum[3]; /* of the prediction */
-    double clock;       /* beginning of the present stage */
+    mps__jump jump;
+    double spread; /* time that a gain below 1 spreads pressures over [s] */
+    double clock;  /* beginning of the present stage */
     bool not_converged;
     bool no_memory; /* a verb got no scratch */
     bool moved;     /* positions are new, the old ones kept */
@@ -144,8 +152,9 @@ static mps_status follow_walls(step_state *q, double longest, double *dt)
     return MPS_OK;
 }
 
-/* The step to take; `planned` is the one the limits chose, 0 if the caller cut it. They also differ where the last two steps of a run share
- * what is left of it, so that none is a sliver, whose pressure has no meaning. Rounding is not something left. */
+/* The step to take; `planned` is the one the limits chose, 0 if the caller cut it. They also differ where the last steps of a run share
+ * what is left of it, so that none is a sliver: pressures of a tank that accelerates jump with dt, by half of its change. Rounding is not
+ * something left. */
 static mps_status set_dt(step_state *q, double dt_max, double *planned)
 {
     mps__world *w = q->w;
@@ -163,8 +172,8 @@ static mps_status set_dt(step_state *q, double dt_max, double *planned)
     }
     const double step = fmin(dt, longest);
     *planned = dt <= longest ? dt : 0;
-    const bool share = w->ending && step < (1 - 1e-6) * dt_max && 2 * step > (1 + 1e-6) * dt_max;
-    q->stage.dt = share ? 0.5 * dt_max : step;
+    const double steps = ceil(dt_max / step * (1 - 1e-6));
+    q->stage.dt = w->ending && steps <= SHARED_STEPS ? dt_max / steps : step;
     return MPS_OK;
 }
 
@@ -215,6 +224,20 @@ static bool at_rest(const step_state *q)
     const mps__world *w = q->w;
     const bool was = w->dt_before > 0 ? same_place(&w->before, &w->motion.now) : w->motion.start != MPS_START_WITH_TANK;
     return was && same_place(&w->motion.now, &q->pose);
+}
+
+/* A velocity that changes within a step by more than twice as much as in the last one, and than by 2 g, jumps. */
+static void note_jump(step_state *q)
+{
+    const mps__world *w = q->w;
+    double most = 0;
+    for (int64_t i = 0; i < q->stage.n; i++) {
+        const double *a = w->work.tank_accel + i * w->dim;
+        if (w->particles.kind[i] != MPS_FLUID) most = fmax(most, mps__dot(a, a, w->dim));
+    }
+    q->jump = (mps__jump){sqrt(most), w->jump.since < INT32_MAX ? w->jump.since + 1 : INT32_MAX};
+    if (q->jump.accel > 2 * w->velocity_scale * w->velocity_scale / w->dp && q->jump.accel > 2 * w->jump.accel) q->jump.since = 0;
+    q->stage.since_jump = q->jump.since;
 }
 
 /* Solids get the velocity that carries them to their next place; every particle the acceleration a rigid tank has there. */
@@ -363,11 +386,10 @@ static mps_status look_around(step_state *q)
 {
     mps__world *w = q->w;
     mps_stage *s = &q->stage;
-    MPS__TRY(mps__world_stencil(w, MPS_NEAR, &q->near));
-    MPS__TRY(mps__world_stencil(w, MPS_FAR, &q->far));
     MPS__TRY(mps__neighbours_near(&w->neighbours));
     end_stage(q, MPS_STAGE_NEIGHBOURS);
     move_walls(q);
+    note_jump(q);
     weigh_pairs(q);
     MPS__TRY(mps_op_volume_deviation(&q->far, w->work.volume));
     const int dim = s->dim;
@@ -411,7 +433,7 @@ static void note_pressure(step_state *q, mps__bulk *bulk)
     double force[3];
     q->budget.wall_work += mps__budget_wall_work(w, &q->pose, w->work.a, q->stage.dt);
     mps__budget_sum(w, bulk);
-    mps__budget_wall_force(w, force);
+    mps__budget_wall_force(w, w->work.load, force);
     for (int d = 0; d < w->dim; d++) {
         m->pressure[d] += bulk->momentum[d] - q->momentum[d];
         m->walls[d] += q->stage.dt * force[d];
@@ -453,6 +475,15 @@ static mps_status collect_sources(step_state *q)
     return MPS_OK;
 }
 
+/* A gain g below 1 leaves (1 - g) dt/g =: T of a steady demand to later steps. In a shorter step g would ask for what longer ones left at
+ * once: pressures would jump by (1 - g)(dt_before/dt - 1). With g = dt/(dt + T) they do not feel dt; T follows the steps slowly. */
+static void spread_gain(step_state *q)
+{
+    const double dt = q->stage.dt, gain = q->terms.gain, wanted = dt * (1 - gain) / gain;
+    q->spread = q->w->spread > 0 ? q->w->spread + SPREAD_SHARE * (wanted - q->w->spread) : wanted;
+    q->terms.gain = dt / (dt + q->spread);
+}
+
 static void note_level(step_state *q)
 {
     mps__world *w = q->w;
@@ -475,21 +506,25 @@ static mps_status project(step_state *q)
     mps__zero(q->terms.gas, s->n, s->threads);
     mps__zero(q->terms.law, s->n, s->threads);
 #pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) q->terms.fixed[i] = s->region[i] == MPS_REGION_SURFACE;
+    for (int64_t i = 0; i < s->n; i++) q->terms.fixed[i] = s->region[i] == MPS_REGION_SURFACE ? MPS_ROW_FIXED : MPS_ROW_FREE;
     MPS__TRY(collect_sources(q));
+    spread_gain(q);
     end_stage(q, MPS_STAGE_OPERATORS);
     MPS__TRY(mps__ppe_assemble(&w->ppe, s, &q->terms));
     note_level(q);
     end_stage(q, MPS_STAGE_PPE_SETUP);
     mps_ppe_result result = {0};
+    w->bounds.held = w->particles.held;
+    w->bounds.solves = 0;
     if (w->ppe.n > 0) {
-        mps_status status = mps__solvers_solve(&w->solvers, &w->ppe.problem, w->ppe.p, &result);
+        mps_status status = mps__bounds_solve(&w->bounds, &w->solvers, &w->ppe, s, &q->terms, &result);
         if (status == MPS_E_SOLVER) MPS__TRY(check_result(q)); /* a NaN of the prediction has a particle and a place */
         if (status < 0) return mps__fail(w->context, status, "t = %.9g s: %.400s", s->t, w->context->error);
         q->not_converged = status == MPS_W_NOT_CONVERGED;
         if (q->not_converged) mps__log(w->context, MPS_LOG_WARNING, "t = %.9g s: %.400s", s->t, w->context->error);
     }
     mps__ppe_scatter(&w->ppe, s, &q->terms, s->p);
+    q->info.ppe_solves = w->bounds.solves;
     q->info.ppe_iterations = result.iterations;
     q->info.ppe_residual = result.residual;
     q->info.ppe_divergence = result.divergence;
@@ -521,6 +556,9 @@ static mps_status correct(step_state *q)
     mps__work *k = &w->work;
     mps__zero(k->a, s->n * s->dim, s->threads);
     EACH_MODEL(q, gradient, s, k->a);
+    s->wall_pressure = k->load;
+    keep(s->wall_pressure, s->p, s->n, s->threads);
+    EACH_MODEL(q, load, s);
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++)
         for (int64_t a = i * s->dim; a < (i + 1) * s->dim; a++) s->u[a] += s->kind[i] == MPS_FLUID ? s->dt * k->a[a] : 0;
@@ -557,17 +595,22 @@ static mps_status check_result(step_state *q)
 {
     const mps__world *w = q->w;
     const mps_stage *s = &q->stage;
-    double most = 0;
+    double most = 0, liquid = 0, dense = 0;
     int64_t worst = s->n;
-#pragma omp parallel for num_threads(s->threads) reduction(max : most) reduction(min : worst) schedule(static)
+    for (int k = 0; k < MPS__PHASES; k++)
+        if (w->phase_defined[k]) dense = fmax(dense, 0.5 * w->phase_density[k]);
+#pragma omp parallel for num_threads(s->threads) reduction(max : most, liquid) reduction(min : worst) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         const double *u = s->u + i * s->dim, *x = s->x + i * s->dim;
         const double speed = sqrt(mps__dot(u, u, s->dim));
         if (!(isfinite(speed) && speed <= w->speed_limit && mps__finite(x, s->dim) && isfinite(s->p[i])))
             worst = i < worst ? i : worst;
-        else if (s->kind[i] == MPS_FLUID)
+        else if (s->kind[i] == MPS_FLUID) {
             most = speed > most ? speed : most;
+            if (s->density[i] >= dense) liquid = speed > liquid ? speed : liquid;
+        }
     }
+    q->info.crossing_time = mps__crossing_time(w, liquid);
     q->info.max_speed = most;
     q->info.cfl = most * s->dt / s->dp;
     if (worst == s->n) return MPS_OK;
@@ -609,6 +652,11 @@ static void commit(step_state *q)
     w->before = w->motion.now;
     w->dt_before = q->stage.dt;
     w->motion.now = q->pose;
+    keep(w->particles.load, w->work.load, w->particles.n, w->threads);
+    w->info.separated = 0;
+    for (int64_t i = 0; i < w->particles.n; i++) w->info.separated += w->particles.held[i] = q->terms.fixed[i] == MPS__ROW_HELD;
+    w->jump = q->jump;
+    w->spread = q->spread;
     w->budget = q->budget;
     mps__budget_sum(w, &w->budget.last);
     w->budget.deviation = mps__budget_mean_deviation(w);
@@ -641,6 +689,8 @@ static mps_status try_step(step_state *q, double dt_max, double *planned)
     start(w, &q->budget);
     MPS__TRY(turn_areas(w));
     set_stage(q);
+    MPS__TRY(mps__world_stencil(w, MPS_NEAR, &q->near));
+    MPS__TRY(mps__world_stencil(w, MPS_FAR, &q->far));
     MPS__TRY(set_dt(q, dt_max, planned));
     MPS__TRY(mps__motion_pose(&w->motion, w->info.t + q->stage.dt, &q->pose));
     return run_stages(q);

@@ -17,6 +17,8 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
     mps__screens_init(&w->screens, context, dim);
     w->neighbours.screens = w->complete.screens = &w->screens;
     mps__ppe_init(&w->ppe, context);
+    mps__bounds_init(&w->bounds, context);
+    w->jump.since = INT32_MAX;
     mps__motion_init(&w->motion, context, dim);
     MPS__TRY(mps__particles_init(&w->particles, context, dim));
     w->neighbours.shared = w->complete.shared = w->ppe.scratch = w->particles.scratch = &w->scratch;
@@ -33,6 +35,7 @@ void mps__world_free(mps__world *w)
     mps__models_free(&w->models);
     mps__solvers_free(&w->solvers);
     mps__ppe_free(&w->ppe);
+    mps__bounds_free(&w->bounds);
     mps__motion_free(&w->motion);
     mps__work *k = &w->work;
     void *all[] = {k->fixed,          k->gone,      k->volume, k->asymmetry,  k->wet,
@@ -285,6 +288,7 @@ static mps_status reserve_work(mps__world *w)
     double **const terms[] = {&k->rhs, &k->shift, &k->gas, &k->law};
     for (int i = 0; i < 4; i++) *terms[i] = k->value + (i + 1) * wanted;
     k->body = k->a;
+    k->load = k->rhs;
     k->x0 = k->shift;
     w->ppe.spare = k->shift;
     w->ppe.spare_x = k->body;

@@ -3,6 +3,7 @@
 #ifndef MPS_CORE_WORLD_H
 #define MPS_CORE_WORLD_H
 
+#include "bounds.h"
 #include "models.h"
 #include "motion.h"
 #include "neighbours.h"
@@ -39,9 +40,16 @@ typedef struct mps__work {
     double *value, *rhs, *shift, *gas, *law; /* one block */
     double *u0, *p0;
     double *body;         /* a: the pressure equation has no accelerations */
+    double *load;         /* rhs: pressure on walls, from the gradient on */
     double *x0;           /* positions before particles move, from shift on */
     int32_t scratch_used; /* blocks lent to the verb in progress */
 } mps__work;
+
+/* When the velocity of the tank jumped last. */
+typedef struct mps__jump {
+    double accel;  /* largest |a| of the solids in the last step [m/s2] */
+    int64_t since; /* steps */
+} mps__jump;
 
 typedef struct mps__world {
     mps__context *context;
@@ -60,6 +68,7 @@ typedef struct mps__world {
     mps__models models;
     mps__solvers solvers;
     mps__ppe ppe;
+    mps__bounds bounds;
     mps__scratch scratch; /* of searches, verbs and the equation */
     mps__motion motion;
     mps_time_control control;
@@ -69,6 +78,8 @@ typedef struct mps__world {
     bool ending;        /* dt_max of a step is what is left of a run */
     mps__pose before;   /* of the tank at the beginning of the last step, */
     double dt_before;   /* which was this long */
+    mps__jump jump;     /* of the tank's velocity */
+    double spread;      /* time that a gain below 1 spreads pressures over, 0 before the first step [s] */
     mps__work work;
     double *listed_at; /* NULL, or positions [n*dim] of the search whose candidates still hold, but are to be found again */
     int64_t aside;     /* lost particles that lie behind the others, until the next are looked for */
@@ -76,6 +87,7 @@ typedef struct mps__world {
     int32_t layers;    /* of dummies behind the walls, the fewest of all tanks and solids; 0: there is none */
     bool level_told;   /* that nothing fixes the level of the pressures */
     bool moves_told;   /* that a fixed step is long for its speeds */
+    bool window_told;  /* that a probe averages over less than the resolution can tell */
 } mps__world;
 
 mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, double dp);
@@ -96,6 +108,16 @@ mps_status mps__world_stencil_all(mps__world *w, int32_t which, mps_stencil *ste
 void mps__world_note_layers(mps__world *w, int32_t layers);
 /* Tell the log of phases that were defined and have no fluid. */
 void mps__world_note_phases(const mps__world *w);
+/* Largest mps_step_info.crossing_time [s]: below 5 U_g steps do not depend on the speed. */
+static inline double mps__crossing_limit(const mps__world *w)
+{
+    return w->dp / (5 * w->velocity_scale);
+}
+/* mps_step_info.crossing_time at a speed. In calm liquid there are no impacts to be averaged, and a mean lags. */
+static inline double mps__crossing_time(const mps__world *w, double speed)
+{
+    return fmin(1, speed / w->velocity_scale) * fmin(w->dp / speed, mps__crossing_limit(w));
+}
 /* Largest speed of all particles [m/s]. */
 double mps__world_speed(const mps__world *w);
 /* One step, undone if it fails. step.c */

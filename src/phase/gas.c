@@ -82,7 +82,7 @@ void mps__gas_conserve(const mps_stage *s, mps_ppe_terms *terms, double phase, d
     double sum = 0;
     int64_t rows = 0, gas = 0;
     for (int64_t i = 0; i < s->n; i++) {
-        if (terms->fixed[i]) return;
+        if (terms->fixed[i] == MPS_ROW_FIXED) return;
         if (!in_equation(s, i)) continue;
         sum += terms->rhs[i];
         rows++;

@@ -24,10 +24,11 @@
 #include "builtin.h"
 #include <stdbool.h>
 
-enum { TAU, CLIP, STRAIN, GAIN, FIRM, RAPID, TORN, FORWARD, PACE, START };
-static const mps_setting settings[] = {
-    {"tau", 20.0, 0.1, 1e6},  {"clip", 0.1, 0.0, 1.0},    {"strain", 1.0, 0.0, 1.0},  {"gain", 0.7, 0.05, 1.0}, {"firm", 0.03, 1e-3, 1.0},
-    {"rapid", 0.0, 0.0, 1.0}, {"torn", 0.15, 1e-3, 10.0}, {"forward", 0.0, 0.0, 1.0}, {"pace", 1.0, 0.0, 1.0},  {"start", 5.0, 0.0, 1e6}};
+enum { TAU, CLIP, STRAIN, GAIN, FIRM, RAPID, TORN, FORWARD, PACE, ASIDE, START };
+static const mps_setting settings[] = {{"tau", 20.0, 0.1, 1e6},    {"clip", 0.1, 0.0, 1.0},    {"strain", 1.0, 0.0, 1.0},
+                                       {"gain", 0.7, 0.05, 1.0},   {"firm", 0.03, 1e-3, 1.0},  {"rapid", 0.0, 0.0, 1.0},
+                                       {"torn", 0.15, 1e-3, 10.0}, {"forward", 0.0, 0.0, 1.0}, {"pace", 1.0, 0.0, 1.0},
+                                       {"aside", 1.0, 0.0, 1.0},   {"start", 5.0, 0.0, 1e6}};
 
 /* fmax() and fmin() as one instruction: `b` may be NaN and does not count then. */
 static inline double larger(double a, double b)
@@ -215,10 +216,10 @@ MPS__ROW double wall_divergence(const int dim, const mps_stage *s, const double 
 }
 
 /* 1/tau, up to 1/tau_g where delta is beyond `firm`, and up to `most` more where it is beyond `torn`. */
-static inline double relaxation(const double *k, double delta, double most)
+static inline double relaxation(const double *k, double delta, double open, double most)
 {
     const double square = delta * delta / (k[FIRM] * k[FIRM]), torn = delta * delta / (k[TORN] * k[TORN]);
-    return smaller(1.0, (1.0 + square * square) / k[TAU]) + smaller(1.0, torn * torn) * most;
+    return smaller(1.0, (open + square * square) / k[TAU]) + smaller(1.0, torn * torn) * most;
 }
 
 /* Share of the source that a step asks for, by density: 1 for the lightest fluid, `heavy` for the heaviest. */
@@ -256,7 +257,10 @@ static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *term
 {
     (void)self;
     double *delta = mps_stage_scratch(s, s->n), *v = mps_stage_scratch(s, s->n * s->dim), *w = mps_stage_scratch(s, s->n * s->dim);
-    if (!delta || !v || !w) return 1;
+    double *is = mps_stage_scratch(s, s->n), *solid = mps_stage_scratch(s, s->n);
+    if (!delta || !v || !w || !is || !solid) return 1;
+    for (int64_t i = 0; i < s->n; i++) is[i] = s->kind[i] != MPS_FLUID;
+    mps_op_volume_sum(s->far, is, solid);
     const double rate = s->velocity_scale / s->dp, over = 1.0 / s->dt;
     const mps_stencil *t = s->near;
     const fields f = {.v = w,
@@ -278,7 +282,8 @@ static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *term
         if (s->kind[i] == MPS_FLUID) {
             double mean;
             const double divergence = MPS__ROW_CALL(s, fluid_divergence, s, &f, i, &mean);
-            const double back = on * rate * relaxation(k, mean, share * k[RAPID] / (s->dt * rate)) * mean;
+            const double back = on * rate *
+                                relaxation(k, mean, larger(0.0, 1.0 - 2.0 * k[ASIDE] * solid[i]), share * k[RAPID] / (s->dt * rate)) * mean;
             terms->rhs[i] += share * over * (back - divergence);
         } else {
             terms->rhs[i] -= share * over * MPS__ROW_CALL(s, wall_divergence, s, w, i, terms->wall_factor);
@@ -291,6 +296,6 @@ const mps_model_ops mps__source_volume = {.struct_size = sizeof(mps_model_ops),
                                           .api = MPS_MODEL_API,
                                           .name = "source.volume",
                                           .order = 500,
-                                          .setting_count = 10,
+                                          .setting_count = 11,
                                           .settings = settings,
                                           .source = source};

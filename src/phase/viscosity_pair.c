@@ -6,13 +6,15 @@
  *   a_i = 2D (D + 2)/(n0 lambda rho_i) sum mu_ij [(u_j - u_i).e] e W,
  * which is div(mu (grad u + grad u^T)) wherever div u = 0. In a square lattice (far radius 3.1 dp) shear along and across it differs by 1.2 %.
  * mu_ij is symmetric, so pairs of fluid exchange momentum and lose none; with `stress` 1 no moment of momentum either. Solids have
- * the fluid's own viscosity and are seen with their own velocity, dummies too, which is no slip: a linear profile is 0 at 0.2 dp behind the
- * wall with a far radius of 3.1 dp, at 0.4 dp with 4.1 dp (half of that with `stress` 1). `slip` names walls that exert no friction, by the
- * axis of the lab their normal is closest to: 1 x, 2 y, 4 z, or the sum of several; 7: all. */
-#include "builtin.h"
+ * the fluid's own viscosity. Walls do not slip: they have the tank's velocity, and with `mirror` 1 (default) dummies are seen mirrored
+ * (friction.h). With `mirror` 0, W22, dummies have the tank's velocity too: a linear profile is 0 at 0.2 dp behind the wall with a far radius of
+ * 3.1 dp, at 0.4 dp with 4.1 dp (half of that with `stress` 1). `slip` names walls that exert no friction, by the axis of the lab their normal
+ * is closest to: 1 x, 2 y, 4 z, or the sum of several; 7: all. */
+#include "friction.h"
 
-enum { THETA, SLIP, STRESS };
-static const mps_setting settings[] = {{"theta", -1.0, -1.0, 1.0}, {"slip", 0.0, 0.0, 7.0}, {"stress", 0.0, 0.0, 1.0}};
+enum { THETA, SLIP, STRESS, MIRROR };
+static const mps_setting settings[] = {
+    {"theta", -1.0, -1.0, 1.0}, {"slip", 0.0, 0.0, 7.0}, {"stress", 0.0, 0.0, 1.0}, {"mirror", 1.0, 0.0, 1.0}};
 
 /* W22 (15), the last of its expressions. */
 static double mean_viscosity(double theta, double a, double b)
@@ -55,6 +57,7 @@ typedef struct law {
     double mean[MPS__PHASE_LIMIT * MPS__PHASE_LIMIT]; /* mu of pairs of phases */
     const double *slippery;                           /* NULL if no wall is */
     bool whole;                                       /* pairs act along their line */
+    bool mirror;                                      /* dummies are seen mirrored */
 } law;
 
 MPS__ROW void diffuse(const int dim, const mps_stage *s, const law *k, int64_t i, double *a)
@@ -68,10 +71,11 @@ MPS__ROW void diffuse(const int dim, const mps_stage *s, const law *k, int64_t i
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         const double w = q.w * mu[s->kind[q.j] == MPS_FLUID ? s->phase[q.j] : s->phase[i]];
         double du[3], along = 0;
-        for (int d = 0; d < dim; d++) {
-            du[d] = s->u[q.j * dim + d] - u[d];
-            along += du[d] * q.d[d];
-        }
+        if (k->mirror && s->kind[q.j] == MPS_DUMMY)
+            mps__mirror_velocity(dim, s, i, q.j, du);
+        else
+            for (int d = 0; d < dim; d++) du[d] = s->u[q.j * dim + d] - u[d];
+        for (int d = 0; d < dim; d++) along += du[d] * q.d[d];
         along *= (dim + 2) / (q.r * q.r);
         for (int d = 0; d < dim; d++) sum[d] += w * (k->whole ? along * q.d[d] : du[d]);
     }
@@ -81,7 +85,7 @@ MPS__ROW void diffuse(const int dim, const mps_stage *s, const law *k, int64_t i
 static int force(void *self, const double *k, mps_stage *s, double *a)
 {
     (void)self;
-    law how = {.whole = k[STRESS] >= 0.5};
+    law how = {.whole = k[STRESS] >= 0.5, .mirror = k[MIRROR] >= 0.5};
     if (k[SLIP] >= 1 && !(how.slippery = find_slippery(s, (int)k[SLIP]))) return 1;
     for (int p = 0; p < MPS__PHASE_LIMIT; p++)
         for (int q = 0; q < MPS__PHASE_LIMIT; q++)
@@ -92,23 +96,28 @@ static int force(void *self, const double *k, mps_stage *s, double *a)
     return 0;
 }
 
-/* A light fluid beside a viscous one; what a phase does to itself is the limit of the time control. */
+/* A light fluid beside a viscous one; what a phase does to itself is the limit of the time control. The whole stress acts along a pair only, and
+ * more strongly: steps are stable below lambda/(2 (D + 2) nu), 0.18 dp^2/nu with a far radius of 2.1 dp. */
 static double dt_limit(void *self, const double *k, const mps_stage *s)
 {
     (void)self;
-    double rho[MPS__PHASE_LIMIT], nu = 0;
+    double rho[MPS__PHASE_LIMIT], nu = 0, own = 0;
     mps__phase_densities(s, rho);
+    for (int p = 0; p < MPS__PHASE_LIMIT; p++)
+        if (rho[p] > 0) own = fmax(own, s->viscosity[p] / rho[p]);
     for (int p = 0; p < MPS__PHASE_LIMIT; p++)
         for (int q = 0; q < MPS__PHASE_LIMIT; q++)
             if (p != q && rho[p] > 0 && rho[q] > 0) nu = fmax(nu, mean_viscosity(k[THETA], s->viscosity[p], s->viscosity[q]) / rho[p]);
-    return nu > 0 ? 0.2 * s->dp * s->dp / nu : INFINITY;
+    const double mixed = nu > 0 ? 0.2 * s->dp * s->dp / nu : INFINITY;
+    if (k[STRESS] < 0.5 || own == 0) return mixed;
+    return fmin(mixed, 0.7 * s->far->lambda / (2 * (s->dim + 2) * fmax(nu, own)));
 }
 
 const mps_model_ops mps__viscosity_pair = {.struct_size = sizeof(mps_model_ops),
                                            .api = MPS_MODEL_API,
                                            .name = "viscosity.pair",
                                            .order = 300,
-                                           .setting_count = 3,
+                                           .setting_count = 4,
                                            .settings = settings,
                                            .force = force,
                                            .dt_limit = dt_limit};

@@ -43,7 +43,7 @@ AT(mps_stl, scale, 16);
 AT(mps_stl, shift, 24);
 AT(mps_stl, container, 48);
 
-SIZE(mps_stage, 288);
+SIZE(mps_stage, 304);
 AT(mps_stage, struct_size, 0);
 AT(mps_stage, dim, 4);
 AT(mps_stage, threads, 8);
@@ -78,6 +78,8 @@ AT(mps_stage, host, 240);
 AT(mps_stage, density_smooth, 248);
 AT(mps_stage, tension, 256);
 AT(mps_stage, level_free, 264);
+AT(mps_stage, since_jump, 288);
+AT(mps_stage, wall_pressure, 296);
 AT(mps_stage, capillary, 272);
 AT(mps_stage, depth, 280);
 
@@ -101,7 +103,7 @@ AT(mps_setting, initial, 8);
 AT(mps_setting, min, 16);
 AT(mps_setting, max, 24);
 
-SIZE(mps_model_ops, 104);
+SIZE(mps_model_ops, 112);
 AT(mps_model_ops, struct_size, 0);
 AT(mps_model_ops, api, 4);
 AT(mps_model_ops, name, 8);
@@ -117,6 +119,7 @@ AT(mps_model_ops, gradient, 72);
 AT(mps_model_ops, velocity, 80);
 AT(mps_model_ops, shift, 88);
 AT(mps_model_ops, dt_limit, 96);
+AT(mps_model_ops, load, 104);
 
 SIZE(mps_motion_state, 144);
 AT(mps_motion_state, value, 0);
@@ -309,7 +312,7 @@ AT(mps_time_control, growth, 40);
 AT(mps_time_control, dt_max, 48);
 AT(mps_time_control, dt_min, 56);
 
-SIZE(mps_step_info, 128);
+SIZE(mps_step_info, 144);
 AT(mps_step_info, struct_size, 0);
 AT(mps_step_info, ppe_iterations, 4);
 AT(mps_step_info, step, 8);
@@ -323,6 +326,9 @@ AT(mps_step_info, ppe_unknowns, 64);
 AT(mps_step_info, lost, 72);
 AT(mps_step_info, surface, 80);
 AT(mps_step_info, seconds, 88);
+AT(mps_step_info, crossing_time, 128);
+AT(mps_step_info, ppe_solves, 136);
+AT(mps_step_info, separated, 140);
 
 SIZE(mps_allocator, 24);
 AT(mps_allocator, alloc, 0);

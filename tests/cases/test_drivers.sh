@@ -58,6 +58,11 @@ refused 'unknown option --sigma' rayleigh_taylor --sigma 0
 refused '--mode jump: must be one of rest|oscillation' droplet --mode jump
 refused '--mode res: must be one of rest|oscillation' droplet --mode res
 refused '--case 3: must be one of 1|2' rising_bubble --case 3
+refused '--case dam: must be one of flat|film|wedge|jet|column|floor|box' impact --case dam
+refused '--rows 0: must be a whole number, 1 to 100' impact --case film --rows 0
+refused '--dim 3: this case is for 2 dimensions' impact --case wedge --dim 3
+refused '--liquid honey: must be one of water|oil' sloshing_roll --liquid honey
+refused '--angle 0: must be a number, 0.01 to 20' sloshing_roll --angle 0
 refused '--width 0: must be a number, 0.01 to 2' sloshing_breaking --dim 3 --width 0
 refused 'there are sundials.pcg' static_tank --solver magic
 refused 'sundials.klu, sundials.kinsol, and behind' air_cushion --solver magic
@@ -93,11 +98,14 @@ columns sloshing_surge 0.025 310 't[s],P1[Pa],P2[Pa],P3[Pa],P4[Pa],P5[Pa],eta_le
 columns sloshing_high_fill 0.025 276 't[s],P1[Pa],eta_right[m],ke[J/m],x_tank[m]'
 columns sloshing_low_fill 0.015 78 't[s],P1[Pa],eta_right[m],ke[J/m],x_tank[m]'
 columns sloshing_breaking 0.025 357 't[s],P1[Pa],P2[Pa],P3[Pa],eta_left[m],eta_right[m],air_volume[m2],ke[J/m],x_tank[m]'
+columns sloshing_roll 0.031 84 't[s],P_left[Pa],P_right[Pa],eta_left[m],eta_quarter[m],eta_right[m],angle[deg],ke[J/m],x_tank[m]'
 columns sloshing_baffle_2d 0.01 978 't[s],eta_a[m],eta_b[m],eta_c[m],ke[J/m],x_tank[m]'
 columns sloshing_baffle_3d 0.025 1859 't[s],eta_a[m],eta_b[m],eta_c[m],ke[J],x_tank[m]'
 columns dam_break 0.025 288 't[s],P1[Pa],P2[Pa],P3[Pa],P4[Pa],front[m],ke[J/m],x_tank[m]'
 columns static_tank 0.025 616 't[s],P1[Pa],P2[Pa],P3[Pa],eta_left[m],ke[J],x_tank[m]' --dim 3
-columns standing_wave 0.025 780 't[s],eta_left[m],ke[J/m],x_tank[m]'
+columns standing_wave 0.025 780 't[s],eta_left[m],x_centre[m],ke[J/m],x_tank[m]'
+columns impact 0.05 800 't[s],P_10[Pa],P_25[Pa],P_50[Pa],P_75[Pa],P_bottom[Pa],P_mean[Pa],F[N/m],ke[J/m],x_tank[m]' --probe-dt 1e-3
+has impact trace.csv
 columns static_two_fluid 0.05 570 't[s],P1[Pa],P2[Pa],P3[Pa],ke[J/m],x_tank[m],pe[J/m]'
 columns rayleigh_taylor 0.05 760 't[s],ytop[m],ybot[m],ke[J/m],x_tank[m],pe[J/m]'
 columns rising_bubble 0.05 741 't[s],yc[m],v[m/s],circularity,ke[J/m],x_tank[m],pe[J/m]'
@@ -118,6 +126,7 @@ value_is rayleigh_taylor ybot 1 0.85 0.026
 value_is rising_bubble yc 1 0.5 0.02
 value_is rising_bubble circularity 1 1 0.03
 value_is droplet rx 1 0.005 2e-4
+value_is sloshing_roll angle 1 0 0
 value_is air_cushion x_slug 1 0 0
 awk -F, 'END {exit !(($2 - $4 - 4905) ^ 2 < 250 ^ 2)}' static_two_fluid/probes.csv || fail "static_two_fluid: P1 - P3 is not rho g 0.5 m"
 grep -q '"trespass": -0.0' static_two_fluid/summary.json || fail "static_two_fluid has $(grep trespass static_two_fluid/summary.json)"
@@ -126,6 +135,10 @@ runs 0 droplet --mode oscillation --dp 0.001 --t-end 0.02 --frames 0 --out movin
 cmp -s moving/probes.csv droplet/probes.csv && fail "--mode oscillation changes nothing"
 runs 0 droplet --mode oscillation --sigma 0 --dp 0.001 --t-end 0.002 --frames 0 --out free
 value_is free ke 1 0 0
+runs 0 sloshing_roll --liquid water --dp 0.031 --t-end 0.02 --frames 0 --out roll_water
+cmp -s roll_water/probes.csv sloshing_roll/probes.csv && fail "--liquid water changes nothing"
+runs 0 sloshing_roll --ramp 0 --angle 2 --dp 0.031 --t-end 0.02 --frames 0 --out roll_jump
+value_is roll_jump angle 21 0.154081 1e-6 # 2 sin(2 pi 0.02/1.62953)
 runs 0 rising_bubble --case 2 --dp 0.05 --t-end 0.02 --frames 0 --out bubble2
 cmp -s bubble2/probes.csv rising_bubble/probes.csv && fail "--case 2 changes nothing"
 

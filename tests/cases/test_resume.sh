@@ -31,6 +31,7 @@ stopped() { # signal, exit code, folder, driver, options...
 same() { # folder, folder
     local file
     for file in probes.csv momentum.csv steps.csv; do cmp "$1/$file" "$2/$file" || fail "$2/$file is not that of $1"; done
+    [ ! -e "$1/trace.csv" ] || cmp "$1/trace.csv" "$2/trace.csv" || fail "$2/trace.csv is not that of $1"
     for file in "$1"/plot_*.svg "$1"/picture_*.png; do cmp "$file" "$2/${file#*/}" || fail "$2/${file#*/} is not that of $1"; done
 }
 
@@ -62,6 +63,7 @@ goes_on() { # name, interval of checkpoints, driver, options...
 }
 goes_on surge 0.2 sloshing_surge --dp 0.025 --t-end 1
 goes_on air 0.02 sloshing_high_fill --model mmps --dp 0.05 --t-end 0.1 --sensor-average 0.005
+goes_on impact 0.02 impact --case flat --dp 0.02 --cfl 0.1
 goes_on solid 0.04 sloshing_baffle_3d --dp 0.025 --t-end 0.12
 
 # an end with a checkpoint, and a later end

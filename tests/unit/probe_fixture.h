@@ -32,15 +32,18 @@ static inline double read_one(mps_sim *sim, const mps_probe *p)
 /* p = 1000 g (level - y) below `level` in the tank's frame, 0 above, on fluid and walls. */
 static inline void write_hydrostatic(mps_sim *sim, double level)
 {
+    static const char *const fields[] = {"pressure", "wall_pressure"};
     const mps__particles *s = &sim->world.particles;
-    mps_lease lease;
-    ASSERT_OK(sim, mps_lease_begin(sim, "pressure", MPS_WRITE, &lease));
-    for (int64_t i = 0; i < lease.count; i++) {
-        double X[3];
-        mps__motion_to_tank(&sim->world.motion, &sim->world.motion.now, &s->x[i * s->dim], X);
-        lease.data[i] = s->kind[i] == MPS_DUMMY ? 0 : 9810 * fmax(0, level - X[1]);
+    for (int f = 0; f < 2; f++) {
+        mps_lease lease;
+        ASSERT_OK(sim, mps_lease_begin(sim, fields[f], MPS_WRITE, &lease));
+        for (int64_t i = 0; i < lease.count; i++) {
+            double X[3];
+            mps__motion_to_tank(&sim->world.motion, &sim->world.motion.now, &s->x[i * s->dim], X);
+            lease.data[i] = s->kind[i] == MPS_DUMMY ? 0 : 9810 * fmax(0, level - X[1]);
+        }
+        ASSERT_OK(sim, mps_lease_end(sim, &lease));
     }
-    ASSERT_OK(sim, mps_lease_end(sim, &lease));
 }
 
 static inline mps_sim *filled(int32_t dim, double depth)

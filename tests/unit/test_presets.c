@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The presets of several phases: which models they switch on, and every setting that is not the model's own default. */
+/* The presets: which models they switch on, and every setting that is not the model's own default. */
 #include "../bc/builtin.h"
 #include "../phase/builtin.h"
 #include "tank_fixture.h"
@@ -16,13 +16,24 @@ typedef struct wanted {
     const changed *settings;   /* model NULL after the last */
 } wanted;
 
-static const char *const mmps_models[] = {"surface.detached",   "reference.lid",
-                                          "wall.half",          "moments.bounded",
-                                          "density.interface",  "viscosity.pair",
-                                          "dissipation.radial", "tension.jump",
-                                          "source.volume",      "gas.compressible",
-                                          "gradient.corrected", "collision.pair",
-                                          "shift.tangential",   NULL};
+static const char *const imps_models[] = {"surface.asymmetry",
+                                          "wall.half",
+                                          "body.free",
+                                          "moments.bounded",
+                                          "viscosity.laplacian",
+                                          "dissipation.radial",
+                                          "source.volume",
+                                          "separation.void",
+                                          "gradient.corrected",
+                                          "load.reaction",
+                                          "collision.pair",
+                                          "shift.tangential",
+                                          NULL};
+static const changed imps_settings[] = {{"collision.pair", "restitution", 0}, {NULL, NULL, 0}};
+static const char *const mmps_models[] = {
+    "surface.detached",   "reference.lid",      "wall.half",      "moments.bounded",  "density.interface",
+    "viscosity.pair",     "dissipation.radial", "tension.jump",   "source.volume",    "gas.compressible",
+    "gradient.corrected", "load.reaction",      "collision.pair", "shift.tangential", NULL};
 static const changed mmps_settings[] = {{"viscosity.pair", "stress", 1},
                                         {"source.volume", "clip", 0.5},
                                         {"source.volume", "rapid", 0.1},
@@ -30,8 +41,10 @@ static const changed mmps_settings[] = {{"viscosity.pair", "stress", 1},
                                         {NULL, NULL, 0}};
 static const char *const paper_models[] = {"wall.extrapolate", "density.smooth",   "viscosity.pair",   "tension.csf",    "reference.gas",
                                            "source.mixed",     "gas.compressible", "gradient.density", "collision.pair", NULL};
-static const changed paper_settings[] = {{"gas.compressible", "printed", 1}, {"collision.pair", "distance", 0.8}, {NULL, NULL, 0}};
-static const wanted list[] = {{"mmps", mmps_models, mmps_settings}, {"mmps.paper", paper_models, paper_settings}};
+static const changed paper_settings[] = {
+    {"viscosity.pair", "mirror", 0}, {"gas.compressible", "printed", 1}, {"collision.pair", "distance", 0.8}, {NULL, NULL, 0}};
+static const wanted list[] = {
+    {"imps", imps_models, imps_settings}, {"mmps", mmps_models, mmps_settings}, {"mmps.paper", paper_models, paper_settings}};
 
 static const mps_model_ops *built_in(const char *name)
 {

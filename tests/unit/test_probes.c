@@ -58,7 +58,7 @@ static void force_turns_with_the_tank(void **state)
     const mps_harmonic h[3] = {{MPS_ROLL, 0, 0.3, 1, 1}, {MPS_YAW, 0, 0.5, 1, 1.5}, {MPS_PITCH, 0, 0.4, 1, 2}};
     ASSERT_OK(sim, mps_motion_set_harmonics(sim, 3, h));
     mps_lease lease;
-    ASSERT_OK(sim, mps_lease_begin(sim, "pressure", MPS_WRITE, &lease));
+    ASSERT_OK(sim, mps_lease_begin(sim, "wall_pressure", MPS_WRITE, &lease));
     for (int64_t i = 0; i < lease.count; i++) lease.data[i] = 500;
     ASSERT_OK(sim, mps_lease_end(sim, &lease));
     mps_probe p = probe_of(MPS_PROBE_FORCE, 0.1, 0, 0.075);

@@ -7,7 +7,7 @@
 static void write_linear(mps_sim *sim, double a, const double b[3])
 {
     const mps__particles *s = &sim->world.particles;
-    for (int64_t i = 0; i < s->n; i++) s->p[i] = s->kind[i] == MPS_WALL ? a + mps__dot(b, &s->ref[i * s->dim], s->dim) : 0;
+    for (int64_t i = 0; i < s->n; i++) s->load[i] = s->kind[i] == MPS_WALL ? a + mps__dot(b, &s->ref[i * s->dim], s->dim) : 0;
 }
 
 /* The same pressures on the same walls, whatever their order. */
@@ -16,7 +16,7 @@ static void write_random(mps_sim *sim)
     const mps__particles *s = &sim->world.particles;
     for (int64_t i = 0; i < s->n; i++) {
         uint64_t seed = (uint64_t)s->id[i] * 2654435761u + 1;
-        for (int k = 0; k < 4; k++) s->p[i] = 1000 * cloud_random(&seed);
+        for (int k = 0; k < 4; k++) s->load[i] = 1000 * cloud_random(&seed);
     }
 }
 
@@ -24,6 +24,7 @@ static mps_probe sensor_at(double x, double y, double z, double diameter)
 {
     mps_probe p = probe_of(MPS_PROBE_WALL_PRESSURE, x, y, z);
     p.diameter = diameter;
+    p.average = 0;
     return p;
 }
 
@@ -132,7 +133,7 @@ static void sides_of_a_plate(void **state)
         ASSERT_OK(sim, mps_particles_add(sim, &block, NULL));
     }
     const mps__particles *s = &sim->world.particles;
-    for (int64_t i = 0; i < s->n; i++) s->p[i] = fabs(s->ref[2 * i] - 0.2) > 1e-9 ? 0 : s->area[2 * i] > 0 ? 700 : 300;
+    for (int64_t i = 0; i < s->n; i++) s->load[i] = fabs(s->ref[2 * i] - 0.2) > 1e-9 ? 0 : s->area[2 * i] > 0 ? 700 : 300;
     ASSERT_NEAR(read_sensor(sim, 0.2 - 1e-6, 0.1, 0, 0.03), 300, 1e-9);
     ASSERT_NEAR(read_sensor(sim, 0.2 + 1e-6, 0.1, 0, 0.03), 700, 1e-9);
     ASSERT_NEAR(read_sensor(sim, 0.2, 0.1, 0, 0.03), 300, 1e-9); /* on neither: the older */
@@ -157,7 +158,7 @@ static void partly_covered(void **state)
     mps_sim *sim = filled(2, 0);
     const mps__particles *s = &sim->world.particles;
     for (int64_t i = 0; i < s->n; i++)
-        s->p[i] = s->kind[i] == MPS_WALL && fabs(s->ref[2 * i]) < 1e-9 && fabs(s->ref[2 * i + 1] - 0.15) < 1e-9 ? 600 : 0;
+        s->load[i] = s->kind[i] == MPS_WALL && fabs(s->ref[2 * i]) < 1e-9 && fabs(s->ref[2 * i + 1] - 0.15) < 1e-9 ? 600 : 0;
     ASSERT_NEAR(read_sensor(sim, 0, 0.15, 0, 4 * dp), 600 / 4.0, 1e-9);
     ASSERT_NEAR(read_sensor(sim, 0, 0.15, 0, dp), 600 * 0.75, 1e-9);
     ASSERT_NEAR(read_sensor(sim, 0, 0.15 + 2 * dp, 0, 4 * dp), 600 * 0.5 / 4, 1e-9);

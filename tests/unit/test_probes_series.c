@@ -38,7 +38,7 @@ static double now(mps_sim *sim)
 
 static void write_pressure(mps_sim *sim, double value)
 {
-    for (int64_t i = 0; i < sim->world.particles.n; i++) sim->world.particles.p[i] = value;
+    for (int64_t i = 0; i < sim->world.particles.n; i++) sim->world.particles.load[i] = value;
 }
 
 /* A step of length number k, after which all pressures are line(t). */
@@ -242,7 +242,7 @@ static void refusals(void **state)
     p = probe_of(MPS_PROBE_WALL_PRESSURE, 0, 0.1, 0); \
     change;                                           \
     ASSERT_REFUSED(sim, mps_probe_add(sim, &p, &id), MPS_E_ARG, word)
-    REFUSE(p.average = -1, "average is -1");
+    REFUSE(p.average = -2, "average is -2");
     REFUSE(p.average = NAN, "average");
     REFUSE(p.average = INFINITY, "average is inf");
     REFUSE(p.rate = -1, "rate is -1");

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A dam break runs over a low box on the floor; in 3-D half of it, with a wall on the plane of symmetry, the box's side free. The stream
+ * presses on the whole front face; on the top behind the edge and on the rear face, where the void reaches, nothing pulls. */
+#include "impact.h"
+#include <math.h>
+
+static const double LENGTH = 3.2, HEIGHT = 1, HALF_BREADTH = 0.48, COLUMN_LENGTH = 1.24, COLUMN_HEIGHT = 0.55, GRAVITY = 9.81;
+static const double FRONT = 2.4, BOX = 0.16, BOX_HALF_BREADTH = 0.2; /* near face, length and height [m] */
+static const double PASSED = 0.6, END = 0.9;                         /* the stream passes [s] */
+enum { FRONTS = 4, TOPS = 4 };
+
+static void set(impact *c, cli_options *o)
+{
+    o->gravity = GRAVITY;
+    c->speed = sqrt(2 * GRAVITY * COLUMN_HEIGHT);
+    o->t_end = END;
+}
+
+static void build_walls(impact *c)
+{
+    run *r = &c->run;
+    const double size[] = {LENGTH, HEIGHT, HALF_BREADTH};
+    const double lo[] = {FRONT, 0, 0}, hi[] = {FRONT + BOX, BOX, BOX_HALF_BREADTH}, zero[3] = {0};
+    const double column[] = {COLUMN_LENGTH, COLUMN_HEIGHT, HALF_BREADTH};
+    impact_water(c);
+    impact_walls(c, size, false);
+    run_check(r, mps_geometry_baffle(r->sim, "box", lo, hi), "box");
+    run_check(r, mps_geometry_fill_box(r->sim, 0, zero, column, NULL), "water");
+}
+
+static void build(impact *c)
+{
+    static const char *const name[] = {"F1", "F2", "F3", "F4", "T1", "T2", "T3", "T4", "R"};
+    static const char *const mean[] = {"F1_mean", "F2_mean", "F3_mean", "F4_mean", "T1_mean", "T2_mean", "T3_mean", "T4_mean", "R_mean"};
+    static const char *const least[] = {"F1_least", "F2_least", "F3_least", "F4_least", "T1_least",
+                                        "T2_least", "T3_least", "T4_least", "R_least"};
+    run *r = &c->run;
+    const double dp = r->options.dp, pressure = c->density * c->speed * c->speed;
+    const impact_span passing = {PASSED, END, 0}, smooth = {PASSED, END, 2 * dp / c->speed};
+    build_walls(c);
+    for (int i = 0; i <= FRONTS + TOPS; i++) {
+        const double part = (2 * (i % FRONTS) + 1) / 8.0 * BOX;
+        const double x = i < FRONTS          ? FRONT
+                         : i < FRONTS + TOPS ? FRONT + part
+                                             : FRONT + BOX,
+                     y = i < FRONTS          ? part
+                         : i < FRONTS + TOPS ? BOX
+                                             : 0.5 * BOX;
+        run_wall_sensor(r, name[i], x, y, 0.5 * BOX_HALF_BREADTH, dp);
+        impact_figure(c, mean[i], TRACE_MEAN, impact_last(c), passing, 1);
+        impact_figure(c, least[i], TRACE_LEAST, impact_last(c), smooth, 1);
+    }
+    run_force(r, "Fx", "box", 0);
+    impact_figure(c, "force_x", TRACE_MEAN, impact_last(c), passing, 1);
+    run_force(r, "Fy", "box", 1);
+    impact_figure(c, "force_y", TRACE_MEAN, impact_last(c), passing, 1);
+    impact_given(c, "rho_u2", pressure);
+}
+
+const impact_case impact_box = {set, build, 0.02, true};

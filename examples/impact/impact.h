@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Cases of liquid that meets walls, whose pressures, impulses or forces are known. */
+#ifndef MPS_EXAMPLES_IMPACT_H
+#define MPS_EXAMPLES_IMPACT_H
+
+#include "common/trace.h"
+
+typedef struct impact {
+    run run;
+    trace rows;
+    trace_measure measure[RUN_FIGURES];
+    double density, speed; /* of the liquid [kg/m3], of its approach [m/s] */
+    double contact;        /* time at which the foremost row is one spacing from the wall: half cells of liquid and wall meet [s] */
+    double deadrise;       /* of the wedge [degrees] */
+    double block;          /* half width and depth of the liquid that meets the wedge [m] */
+    int32_t layers;        /* rows of the film */
+} impact;
+
+/* One case. `set` completes the options before the run opens, `build` adds particles, columns and figures. */
+typedef struct impact_case {
+    void (*set)(impact *c, cli_options *o);
+    void (*build)(impact *c);
+    double dp;     /* default spacing [m] */
+    bool in_space; /* also in 3-D */
+} impact_case;
+
+extern const impact_case impact_flat, impact_film, impact_wedge, impact_jet, impact_column, impact_floor, impact_box;
+
+enum { IMPACT_GAP = 6, IMPACT_SLICE = 6 }; /* in spacings: foremost row to wall at the start; width of a slice in 3-D */
+
+/* No gravity: the speed of the flow scales what gravity scales elsewhere. */
+void impact_weightless(impact *c, cli_options *o);
+/* Water without viscosity: walls have free slip. */
+void impact_water(impact *c);
+/* Walls of a box from the origin; in 3-D the third size is whole spacings as well. */
+void impact_walls(impact *c, const double *size, bool open);
+/* Fill the lattice points of columns and rows first..last, counted from the origin in spacings; in 3-D from side to side. */
+void impact_fill(impact *c, const int *columns, const int *rows);
+/* Give all fluid a velocity. */
+void impact_start(impact *c, double u, double v);
+/* Width of a slice that walls reach over, and of the liquid particles in it [m]; 1 and 1 in 2-D. */
+double impact_width(const impact *c);
+double impact_fluid_width(const impact *c);
+
+/* A figure of summary.json: `kind` of a column between two times, means over `window`, over `scale`. Columns: impact_last() or TRACE_... */
+typedef struct impact_span {
+    double from, to, window;
+} impact_span;
+void impact_figure(impact *c, const char *name, trace_kind kind, int column, impact_span span, double scale);
+/* A known number beside them. */
+void impact_given(impact *c, const char *name, double value);
+/* Column of trace.csv that was added last. */
+int impact_last(const impact *c);
+
+#endif

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A jet falls on a wide wall, without gravity: while it is steady, rho U^2/2 at the stagnation point and rho U^2 b in all. */
+#include "impact.h"
+#include <math.h>
+
+static const double WIDTH = 1;                           /* b [m] */
+enum { LENGTH = 6, HALF_WALL = 12, BEGIN = 2, END = 5 }; /* of the jet and the wall, and of the steady phase after contact [b, b/U] */
+
+static void set(impact *c, cli_options *o)
+{
+    const double b = lround(WIDTH / o->dp) * o->dp;
+    impact_weightless(c, o);
+    c->contact = (IMPACT_GAP - 1) * o->dp / c->speed;
+    o->t_end = c->contact + END * b / c->speed + o->dp / c->speed;
+}
+
+static void build(impact *c)
+{
+    run *r = &c->run;
+    const double dp = r->options.dp, rho = c->density, u = c->speed;
+    const int wide = (int)lround(WIDTH / dp), left = HALF_WALL * wide;
+    const int across[] = {left, left + wide - 1}, up[] = {IMPACT_GAP, IMPACT_GAP + LENGTH * wide - 1};
+    const double size[] = {(2 * left + wide - 1) * dp, (up[1] + IMPACT_GAP) * dp, IMPACT_SLICE * dp};
+    const double b = wide * dp, middle = 0.5 * size[0];
+    const impact_span steady = {c->contact + BEGIN * b / u, c->contact + END * b / u, 0};
+    const impact_span start = {0, c->contact + 4 * dp / u, 0}, smooth = {0, start.to, dp / u}, settled = {steady.from, steady.to, dp / u};
+    impact_water(c);
+    impact_walls(c, size, false);
+    impact_fill(c, across, up);
+    impact_start(c, 0, -u);
+    run_wall_sensor(r, "P", middle, 0, 0.5 * size[2], 2 * dp);
+    const int pressure = impact_last(c);
+    run_wall_sensor(r, "P_quarter", middle + 0.25 * b, 0, 0.5 * size[2], 2 * dp);
+    run_force(r, "F", "tank.y0", 1);
+    const int force = impact_last(c);
+    impact_figure(c, "stagnation", TRACE_MEAN, pressure, steady, 0.5 * rho * u * u);
+    impact_figure(c, "stagnation_least", TRACE_LEAST, pressure, settled, 0.5 * rho * u * u);
+    impact_figure(c, "stagnation_largest", TRACE_LARGEST, pressure, settled, 0.5 * rho * u * u);
+    impact_figure(c, "force_walls", TRACE_MEAN, force, steady, -rho * u * u * b * impact_width(c));
+    impact_figure(c, "force_fluid", TRACE_CHANGE, TRACE_MOMENTUM + 1, steady,
+                  rho * u * b * impact_fluid_width(c) * u * (steady.to - steady.from));
+    impact_figure(c, "peak_raw", TRACE_LARGEST, pressure, start, rho * u * u);
+    impact_figure(c, "peak_mean", TRACE_LARGEST, pressure, smooth, rho * u * u);
+}
+
+const impact_case impact_jet = {set, build, 0.05, true};

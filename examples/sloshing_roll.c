@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Lateral impact of a shallow liquid, SPHERIC validation test 10 (Souto-Iglesias et al. 2011): a tank 0.9 x 0.508 m, 0.093 m of water or
+ * sunflower oil, rolls about the middle of its floor by 4 degrees, with 0.85 of the first natural period. */
+#include "common/tank.h"
+#include <math.h>
+
+enum { WATER, OIL };
+static const struct {
+    double density, viscosity;
+} LIQUID[] = {{998, 8.94e-4}, {900, 0.045}};
+
+static const double SIZE[] = {0.9, 0.508, 0.062}, DEPTH = 0.093, CYCLES = 0.85, DEGREES = 4, PI = 3.14159265358979;
+
+/* The roll: a(t) = amplitude sin(w t), with an amplitude that grows over the first `ramp` periods. */
+typedef struct roll {
+    double amplitude, omega, ramp;
+} roll;
+
+/* Period of the longest wave of a tank of this length, by linear theory. */
+static double natural_period(double gravity)
+{
+    const double k = PI / SIZE[0];
+    return 2 * PI / sqrt(gravity * k * tanh(k * DEPTH));
+}
+
+static int turn(void *user, double t, mps_motion_state *s)
+{
+    const roll *m = user;
+    const double x = m->ramp > 0 ? fmin(1, t * m->omega / (2 * PI * m->ramp)) : 1, over = m->ramp > 0 ? m->omega / (2 * PI * m->ramp) : 0;
+    /* 10 x^3 - 15 x^4 + 6 x^5: velocity and acceleration are continuous */
+    const double a = m->amplitude, f = a * x * x * x * (10 - 15 * x + 6 * x * x), df = a * over * 30 * x * x * (1 - x) * (1 - x),
+                 ddf = a * over * over * 60 * x * (1 - x) * (1 - 2 * x), w = m->omega, sine = sin(w * t), cosine = cos(w * t);
+    s->value[MPS_YAW] = f * sine;
+    s->rate[MPS_YAW] = df * sine + f * w * cosine;
+    s->accel[MPS_YAW] = ddf * sine + 2 * df * w * cosine - f * w * w * sine;
+    return 0;
+}
+
+static double angle(void *user, mps_sim *sim)
+{
+    mps_motion_state s;
+    (void)user;
+    return mps_motion_state_get(sim, &s) == MPS_OK ? s.value[MPS_YAW] * 180 / PI : NAN;
+}
+
+static void build(run *r, int32_t liquid, roll *m)
+{
+    const double lo[3] = {0}, level[3] = {SIZE[0], DEPTH, SIZE[2]}, middle[3] = {0.5 * SIZE[0], 0, 0.5 * SIZE[2]};
+    tank_walls(r, SIZE);
+    run_phase(r, 0, LIQUID[liquid].density, LIQUID[liquid].viscosity);
+    run_check(r, mps_geometry_fill_box(r->sim, 0, lo, level, NULL), "liquid");
+    if (run_has_gas(r)) {
+        run_phase(r, 1, TANK_AIR_DENSITY, TANK_AIR_VISCOSITY);
+        run_check(r, mps_geometry_fill_box(r->sim, 1, lo, SIZE, NULL), "air");
+    }
+    run_check(r, mps_motion_set_centre(r->sim, middle, MPS_START_AT_REST), "centre");
+    run_check(r, mps_motion_set_callback(r->sim, turn, m), "motion");
+}
+
+/* Pressures at the still level on both sides, heights at both walls and at a quarter of the length. */
+static void add_columns(run *r)
+{
+    const double level = run_level(r), dp = r->options.dp, z = 0.5 * SIZE[2];
+    run_wall_pressure(r, "P_left", 0, DEPTH, z);
+    run_wall_pressure(r, "P_right", SIZE[0], DEPTH, z);
+    run_gauge(r, "eta_left", dp, z, level);
+    run_gauge(r, "eta_quarter", 0.25 * SIZE[0], z, level);
+    run_gauge(r, "eta_right", SIZE[0] - dp, z, level);
+    run_value(r, "angle", "deg", angle, NULL);
+}
+
+int main(int argc, char **argv)
+{
+    cli_options o;
+    run r;
+    int32_t liquid = OIL;
+    double degrees = DEGREES, cycles = CYCLES;
+    roll m = {.ramp = 0.5};
+    cli_defaults(&o, "sloshing_roll",
+                 "lateral impact of a shallow liquid in a tank that rolls about the middle of its floor, by 4 degrees");
+    o.dp = 0.00775;
+    o.dp_min = 0.001;
+    o.dp_max = 0.031;
+    o.t_end = 5;
+    o.has_dim = o.has_sigma = true;
+    o.need = "reference.lid"; /* in a closed tank full of liquid and gas something must set the level of the pressures */
+    cli_own(&o, (cli_option){"--liquid", "water|oil", "998 kg/m3 and 0.894 mPa s, or 900 kg/m3 and 45 mPa s", TYPE_CHOICE, &liquid, 0, 0,
+                             false});
+    cli_own(&o, (cli_option){"--angle", "DEG", "amplitude of the roll [deg]", TYPE_REAL, &degrees, 0.01, 20, false});
+    cli_own(&o, (cli_option){"--cycles", "R", "period over the first natural period", TYPE_REAL, &cycles, 0.2, 5, false});
+    cli_own(&o, (cli_option){"--ramp", "N", "periods in which the amplitude grows", TYPE_REAL, &m.ramp, -1, 10, false});
+    cli_parse(&o, argc, argv);
+    m.amplitude = degrees * PI / 180;
+    m.omega = 2 * PI / (cycles * natural_period(o.gravity));
+    run_open(&r, &o);
+    build(&r, liquid, &m);
+    add_columns(&r);
+    return run_finish(&r);
+}
