@@ -29,7 +29,7 @@ void impact_fill(impact *c, const int *columns, const int *rows)
 {
     const double dp = c->run.options.dp, lo[] = {(columns[0] - 0.1) * dp, (rows[0] - 0.1) * dp, 0};
     const double hi[] = {(columns[1] + 0.1) * dp, (rows[1] + 0.1) * dp, 1e3};
-    run_check(&c->run, mps_geometry_fill_box(c->run.sim, 0, lo, hi, NULL), "water");
+    run_check(&c->run, mps_geometry_fill_box(c->run.sim, 0, lo, hi, NULL, NULL), "water");
 }
 
 void impact_start(impact *c, double u, double v)

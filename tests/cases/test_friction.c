@@ -166,7 +166,7 @@ static void build(mps_sim *sim, const flow *f)
     tank.size[0] = SLUG + 2 * GAP;
     tank.size[1] = GAP;
     OK(sim, mps_geometry_tank(sim, &tank, NULL));
-    OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL));
+    OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL));
 }
 
 /* @param model NULL, or the viscosity to use with the whole stress @param radius far radius [dp] */
