@@ -13,7 +13,7 @@ static double linear(const double *X, int dim)
 static void write_linear(mps_sim *sim)
 {
     const mps__particles *s = &sim->world.particles;
-    for (int64_t i = 0; i < s->n; i++) s->p[i] = s->kind[i] == MPS_WALL ? linear(&s->ref[i * s->dim], s->dim) : 0;
+    for (int64_t i = 0; i < s->n; i++) s->load[i] = s->kind[i] == MPS_WALL ? linear(&s->ref[i * s->dim], s->dim) : 0;
 }
 
 /* The sensor reads the pressure at its own place up to `off` spacings. */
@@ -94,7 +94,7 @@ static void sides_of_baffles(void **state)
         for (int64_t i = 0; i < s->n; i++) {
             const double *X = &s->ref[2 * i], *area = &s->area[2 * i];
             const double before = X[0] - left + (layers == 1 ? 1e-6 * area[0] / dp : 0);
-            s->p[i] = s->kind[i] == MPS_WALL && before < 1e-9 ? linear(X, 2) : 0;
+            s->load[i] = s->kind[i] == MPS_WALL && before < 1e-9 ? linear(X, 2) : 0;
         }
         for (double t = 0.1 * dp; t < 3 * dp; t += 0.31 * dp) {
             assert_linear(sim, left - 1e-6, t, 0, point, 1e-3);

@@ -433,6 +433,7 @@ static void start_beside_sloping_walls(void **state)
             mps_probe p;
             assert_int_equal(mps_probe_init(&p, sizeof p), MPS_OK);
             memcpy(p.at, place[k], sizeof place[k]);
+            p.average = 0;
             ASSERT_OK(sim, mps_probe_add(sim, &p, &id[k]));
         }
         for (int step = 0; step < 100; step++) {
