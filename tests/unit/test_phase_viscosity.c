@@ -198,6 +198,46 @@ static void slippery_walls(void **state)
     }
 }
 
+/* Shear along the floor, u = y from 0 on its face: no force in the rows next to it, since dummies are seen mirrored. With their own velocity the
+ * first row is pulled along. */
+static void shear_along_the_floor(void **state)
+{
+    (void)state;
+    static const char *const model[] = {"viscosity.laplacian", "viscosity.pair"};
+    for (int variant = 0; variant < 12; variant++) {
+        const int dim = 2 + variant % 2, kind_of = variant / 2 % 3, mirror = variant < 6;
+        const double dp = 0.05, lo[3] = {0}, hi[3] = {0.7, 0.5, 0.7};
+        mps_sim *sim = bare_sim(dim, dp, 3.1, 1e-9);
+        set_phase(sim, 0, 1, 1);
+        add_tank(sim, 0.7, 0.7, 0.7);
+        ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL));
+        ASSERT_OK(sim, mps_model_use(sim, model[kind_of > 0]));
+        ASSERT_OK(sim, mps_model_set(sim, "viscosity", "mirror", mirror));
+        if (kind_of == 2) ASSERT_OK(sim, mps_model_set(sim, "viscosity", "stress", 1));
+        const int64_t *ids;
+        const int32_t *kind;
+        mps_lease x, u;
+        ASSERT_OK(sim, mps_particles_tags(sim, &ids, &kind, NULL, NULL));
+        ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &x));
+        ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &u));
+        for (int64_t i = 0; i < x.count; i++) u.data[i * dim] = kind[i] == MPS_FLUID ? x.data[i * dim + 1] : 0;
+        ASSERT_OK(sim, mps_lease_end(sim, &u));
+        ASSERT_OK(sim, mps_lease_end(sim, &x));
+        ASSERT_OK(sim, mps_step(sim, 1, NULL));
+        double most = 0;
+        ASSERT_OK(sim, mps_particles_tags(sim, &ids, &kind, NULL, NULL));
+        ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &x));
+        for (int64_t i = 0; i < x.count; i++) {
+            const double *at = x.data + i * dim;
+            const bool aside = fabs(at[0] - 0.35) > 0.16 || (dim == 3 && fabs(at[2] - 0.35) > 0.16);
+            if (kind[i] == MPS_FLUID && at[1] < 0.31 && !aside) most = fmax(most, fabs(spy.a[ids[i] * dim]));
+        }
+        ASSERT_OK(sim, mps_lease_end(sim, &x));
+        assert_true(mirror ? most * dp < 1e-7 : most * dp > 0.05); /* of nu du/dy */
+        mps_sim_destroy(sim);
+    }
+}
+
 /* ---- Couette ------------------------------------------------------------------------------------------------------------ */
 
 enum { ROWS = 24, COLUMNS = 5, BELT = 3 };
@@ -280,6 +320,7 @@ int main(void)
                                        cmocka_unit_test(jump_of_stress),
                                        cmocka_unit_test(walls_take_the_fluid),
                                        cmocka_unit_test(slippery_walls),
+                                       cmocka_unit_test(shear_along_the_floor),
                                        cmocka_unit_test(couette),
                                        cmocka_unit_test(time_step)};
     return cmocka_run_group_tests(tests, NULL, NULL);
