@@ -7,11 +7,12 @@
 #include <math.h>
 
 static const double SIDE = 0.2, FOOT = 0.6; /* wetted side at the end; half width of the wedge [m] */
-enum { SENSORS = 160 };                     /* along the side */
+enum { SENSORS = 160, FIRST = 2 };          /* along the side; the first, in spacings from the edge */
 
 /* Sensors one spacing apart along the side; their largest value is a column. */
 typedef struct row {
     int count;
+    double spacing;
     int32_t probe[SENSORS];
 } row;
 
@@ -49,15 +50,33 @@ static double side(void *user, const double *x)
     return (x[1] - w->top + w->slope * x[0]) * w->cosine;
 }
 
+/* Number of the sensor with the largest value; -1 if one cannot be read. */
+static int find_largest(const row *s, mps_sim *sim, double *most)
+{
+    int at = 0;
+    double value;
+    *most = 0;
+    for (int i = 0; i < s->count; i++) {
+        if (mps_probe_read(sim, s->probe[i], &value) != MPS_OK) return -1;
+        if (value > *most) at = i;
+        *most = fmax(*most, value);
+    }
+    return at;
+}
+
 static double largest(void *user, mps_sim *sim)
 {
+    double most;
+    return find_largest(user, sim, &most) < 0 ? NAN : most;
+}
+
+/* Where it is along the side, from the edge of the wedge. */
+static double place(void *user, mps_sim *sim)
+{
     const row *s = user;
-    double most = 0, value;
-    for (int i = 0; i < s->count; i++) {
-        if (mps_probe_read(sim, s->probe[i], &value) != MPS_OK) return NAN;
-        most = fmax(most, value);
-    }
-    return most;
+    double most;
+    const int at = find_largest(s, sim, &most);
+    return at < 0 ? NAN : (at + FIRST) * s->spacing;
 }
 
 /* The jet is not looked at: sensors reach 2.5 times as far as the undisturbed surface. */
@@ -69,8 +88,8 @@ static void add_row(impact *c, const wedge *w, row *s, const char *name, double 
     probe.type = MPS_PROBE_WALL_PRESSURE;
     probe.diameter = diameter;
     probe.average = average;
-    s->count = 0;
-    for (int i = 2; i * dp < 2.5 * SIDE && s->count < SENSORS; i++) {
+    *s = (row){.spacing = dp};
+    for (int i = FIRST; i * dp < 2.5 * SIDE && s->count < SENSORS; i++) {
         probe.at[0] = i * dp * w->cosine;
         probe.at[1] = w->top - i * dp * sine;
         if (probe.at[1] < 3 * dp) break;
@@ -127,6 +146,8 @@ static void build(impact *c)
     add_row(c, &w, &w.wide, "P_4dp", 4 * dp, tick);
     impact_figure(c, "cp_4dp", TRACE_MEAN, impact_last(c), mean, 0.5 * rho * v * v);
     impact_figure(c, "cp_4dp_mean", TRACE_MEAN, impact_last(c), second, 0.5 * rho * v * v);
+    run_value(r, "s_4dp", "m", place, &w.wide);
+    impact_figure(c, "place", TRACE_MEAN, impact_last(c), mean, SIDE);
     impact_given(c, "wetted_dp", SIDE / dp);
 }
 

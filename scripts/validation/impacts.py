@@ -4,8 +4,8 @@ import numpy as np
 
 from results import at_least, below, fact, relative
 
-# Deadrise -> largest Cp = p/(rho V^2/2) and F/(rho V^3 t) of the self-similar flow (Zhao and Faltinsen 1993)
-WEDGE = {20: (17.8, 42.5), 30: (6.93, 14.1), 40: (3.27, 5.48)}
+# Deadrise -> largest Cp = p/(rho V^2/2), its height in V t above the undisturbed surface, F/(rho V^3 t) of the self-similar flow (Zhao and Faltinsen 1993)
+WEDGE = {20: (17.8, 0.509, 42.5), 30: (6.93, 0.424, 14.1), 40: (3.27, 0.287, 5.48)}
 SUCTION = 0.1  # that is allowed, in rho U^2, of the column in rho g h
 
 
@@ -47,11 +47,12 @@ def film(o, refs):
 
 
 def wedge(o, refs):
-    cp, force = WEDGE[int(option(o, "--deadrise", "30"))]
+    cp, rise, force = WEDGE[int(option(o, "--deadrise", "30"))]
     return [fact("wetted side [dp]", number(o, "wetted_dp"), "{:.0f}"),
             relative("largest Cp, sensor of 2 dp, dp/V", number(o, "cp_2dp"), cp, "{:.2f}", 10, 10),
             relative("largest Cp, sensor of 4 dp, dp/V", number(o, "cp_4dp"), cp, "{:.2f}", 10, 10),
             relative("the same, mean of the second half", number(o, "cp_4dp_mean"), cp, "{:.2f}"),
+            relative("its place along the side / wetted side", number(o, "place"), 1 + rise, "{:.2f}"),
             fact("largest Cp of a step, second half", number(o, "cp_raw_largest"), "{:.1f}"),
             relative("force, slope of the second half", number(o, "force_slope"), force, "{:.2f}", 5, 5),
             relative("force over its time, mean of the second half", number(o, "force_mean"), force, "{:.2f}"),
