@@ -2,7 +2,7 @@
 """What is measured where liquid meets walls. The driver computes the figures from every step; here they meet their limits."""
 import numpy as np
 
-from results import at_least, below, fact, relative
+from results import at_least, below, bounded, fact, relative
 
 # Deadrise -> largest Cp = p/(rho V^2/2), its height in V t above the undisturbed surface, F/(rho V^3 t) of the self-similar flow (Zhao and Faltinsen 1993)
 WEDGE = {20: (17.8, 0.509, 42.5), 30: (6.93, 0.424, 14.1), 40: (3.27, 0.287, 5.48)}
@@ -89,10 +89,12 @@ def leaving_floor(o, refs):
 
 
 def box(o, refs):
-    """Means and least means over 2 dp/U while the stream passes [kPa]."""
+    """Means while the stream passes; least means over 2 dp/U from then to the end."""
     scale, figures = number(o, "rho_u2"), []
-    for name in ("F1", "F2", "F3", "F4", "T1", "T2", "T3", "T4", "R"):
+    for name in ("F1", "F2", "F3", "F4"):
         figures.append(fact(f"{name}, mean", 1e-3 * number(o, f"{name}_mean"), "{:+.2f} kPa"))
+    for name in ("T1", "T2", "T3", "T4", "R"):
+        figures.append(bounded(f"{name}, mean / (rho U^2)", number(o, f"{name}_mean") / scale, "{:+.3f}", SUCTION, SUCTION))
     for name in ("F4", "T1", "T2", "T3", "T4", "R"):
         figures.append(at_least(f"{name}, least / (rho U^2)", number(o, f"{name}_least") / scale, "{:+.3f}", -SUCTION, -SUCTION))
     unit = "N" if o.summary.get("dim") == 3 else "N/m"
