@@ -210,7 +210,7 @@ static void shear_along_the_floor(void **state)
         mps_sim *sim = bare_sim(dim, dp, 3.1, 1e-9);
         set_phase(sim, 0, 1, 1);
         add_tank(sim, 0.7, 0.7, 0.7);
-        ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL));
+        ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL));
         ASSERT_OK(sim, mps_model_use(sim, model[kind_of > 0]));
         ASSERT_OK(sim, mps_model_set(sim, "viscosity", "mirror", mirror));
         if (kind_of == 2) ASSERT_OK(sim, mps_model_set(sim, "viscosity", "stress", 1));
