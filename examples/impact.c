@@ -32,6 +32,7 @@ int main(int argc, char **argv)
     o.dp_max = 0.1;
     o.t_end = 0;
     o.probe_dt = 0;
+    o.sensor_average = 0; /* the figures are means of their own */
     cli_parse(&o, argc, argv);
     choose(&c, &o, CASES[number]);
     run_open(&c.run, &o);

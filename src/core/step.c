@@ -610,7 +610,7 @@ static mps_status check_result(step_state *q)
             if (s->density[i] >= dense) liquid = speed > liquid ? speed : liquid;
         }
     }
-    q->info.crossing_time = mps__crossing_time(w, liquid);
+    q->info.crossing_time = mps__crossing_time(w, liquid, s->dt);
     q->info.max_speed = most;
     q->info.cfl = most * s->dt / s->dp;
     if (worst == s->n) return MPS_OK;

@@ -113,10 +113,12 @@ static inline double mps__crossing_limit(const mps__world *w)
 {
     return w->dp / (5 * w->velocity_scale);
 }
-/* mps_step_info.crossing_time at a speed. In calm liquid there are no impacts to be averaged, and a mean lags. */
-static inline double mps__crossing_time(const mps__world *w, double speed)
+/* mps_step_info.crossing_time after a step dt that ends with this speed. In calm liquid there are no impacts to be averaged, and a mean lags.
+ * It changes slowly: a mean over a time that shrinks does not count all of an impulse. */
+static inline double mps__crossing_time(const mps__world *w, double speed, double dt)
 {
-    return fmin(1, speed / w->velocity_scale) * fmin(w->dp / speed, mps__crossing_limit(w));
+    const double last = w->info.crossing_time, wanted = fmin(1, speed / w->velocity_scale) * fmin(w->dp / speed, mps__crossing_limit(w));
+    return w->info.step > 0 ? fmin(fmax(wanted, last - 0.1 * dt), last + 0.1 * dt) : wanted;
 }
 /* Largest speed of all particles [m/s]. */
 double mps__world_speed(const mps__world *w);
