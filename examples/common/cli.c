@@ -81,7 +81,8 @@ static void cli_default_text(const cli_option *e, char *text, size_t size)
     text[0] = '\0';
     if (e->type == TYPE_TEXT && *(const char **)e->value) snprintf(text, size, " (%s)", *(const char **)e->value);
     if (e->type == TYPE_INT) snprintf(text, size, " (%d)", *(int32_t *)e->value);
-    if (e->type == TYPE_REAL && (*(double *)e->value > 0 || (e->min < 0 && *(double *)e->value == 0))) snprintf(text, size, " (%g)", *(double *)e->value);
+    if (e->type == TYPE_REAL && (*(double *)e->value > 0 || (e->min < 0 && *(double *)e->value == 0)))
+        snprintf(text, size, " (%g)", *(double *)e->value);
     if (e->type == TYPE_CHOICE) {
         const char *word;
         int length = cli_word(e->argument, *(int32_t *)e->value, &word);

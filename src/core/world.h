@@ -126,6 +126,10 @@ double mps__world_speed(const mps__world *w);
 mps_status mps__world_step(mps__world *w, double dt_max);
 /* Fluid that passes a wall in a step of dt that ends at a pose; the places before it are work.x0. moves.c */
 mps_status mps__world_check_moves(mps__world *w, const mps__pose *next, double dt);
+/* The step to take, in s->dt; `planned` is the one the limits chose, 0 if the caller cut it. They also differ where the last steps of a run
+ * share what is left of it, so that none is a sliver: pressures of a tank that accelerates jump with dt, by half of its change. Rounding is
+ * not something left. limits.c */
+mps_status mps__world_limit_step(mps__world *w, mps_stage *s, double dt_max, double *planned);
 /* Farthest way [m] of the walls from the present pose to another, and of the fluid as they see it if it keeps its velocity for dt. moves.c */
 double mps__world_way_of_walls(const mps__world *w, const mps__pose *pose, double dt);
 /* Bounding box of the domain in the tank's frame. False without solids and without a given domain. */

@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Layer 6: how long a step may be. */
+#include "world.h"
+
+/* So many steps at most share what is left of a run. */
+static const double SHARED_STEPS = 20;
+
+static double least(double a, double b)
+{
+    return b > 0 && b < a ? b : a;
+}
+
+/* The smallest of what the models allow. */
+static mps_status limit_dt(const mps__world *w, const mps_stage *s, double *dt)
+{
+    for (int32_t m = 0; m < w->models.active; m++) {
+        const mps__model *k = &w->models.on[m];
+        if (!k->ops->dt_limit) continue;
+        const double limit = k->ops->dt_limit(k->self, k->k, s);
+        if (!(limit > 0))
+            return mps__fail(w->context, MPS_E_PLUGIN,
+                             "model \"%s\" at t = %.9g s: its dt_limit is %g s; must be > 0, INFINITY for no limit", k->ops->name,
+                             w->info.t, limit);
+        *dt = least(*dt, limit);
+    }
+    return MPS_OK;
+}
+
+/* dt of the limits of the state, and of the growth since the last step that they chose; never 0. */
+static mps_status choose_dt(const mps__world *w, const mps_stage *s, double *chosen)
+{
+    const mps_time_control *c = &w->control;
+    double dt = INFINITY, nu = 0;
+    const double speed = mps__world_speed(w);
+    for (int k = 0; k < MPS__PHASES; k++)
+        if (w->phase_defined[k]) nu = fmax(nu, w->phase_viscosity[k] / w->phase_density[k]);
+    if (speed > 0) dt = least(dt, c->cfl * w->dp / speed);
+    dt = least(dt, c->gravity * w->dp / w->velocity_scale);
+    if (nu > 0) dt = least(dt, c->viscous * w->dp * w->dp / nu);
+    MPS__TRY(limit_dt(w, s, &dt));
+    if (w->dt_previous > 0) dt = least(dt, c->growth * w->dt_previous);
+    *chosen = dt;
+    return MPS_OK;
+}
+
+/* Shorten a step of at most `longest` until walls move no farther in it, or in half of it, than the cfl number allows. Where they speed up
+ * the way is that of a power of the time: square roots do not fall below what is needed. */
+static mps_status follow_walls(mps__world *w, double longest, double *dt)
+{
+    const int trials = 40;
+    const double allowed = w->control.cfl * w->dp;
+    double trial = fmin(*dt, longest);
+    if (allowed <= 0 || !w->motion.fn) return MPS_OK;
+    for (int k = 0; k < trials; k++) {
+        double way = 0;
+        for (int part = 1; part <= 2; part++) {
+            mps__pose pose;
+            MPS__TRY(mps__motion_pose(&w->motion, w->info.t + trial / part, &pose));
+            way = fmax(way, part * mps__world_way_of_walls(w, &pose, trial / part));
+        }
+        if (way <= allowed * (1 + 1e-9)) return MPS_OK;
+        trial *= k < trials / 2 && way > 1.02 * allowed ? sqrt(allowed / way) : allowed / way;
+        *dt = trial;
+    }
+    return MPS_OK;
+}
+
+mps_status mps__world_limit_step(mps__world *w, mps_stage *s, double dt_max, double *planned)
+{
+    const mps_time_control *c = &w->control;
+    const double longest = c->dt > 0 ? dt_max : least(dt_max, c->dt_max);
+    s->dt = w->dt_previous;
+    double dt = c->dt;
+    if (c->dt <= 0) {
+        MPS__TRY(choose_dt(w, s, &dt));
+        MPS__TRY(follow_walls(w, longest, &dt));
+        if (!(dt >= c->dt_min))
+            return mps__fail(w->context, MPS_E_DIVERGED,
+                             "the time step fell to %g s at t = %.9g s, below dt_min = %g s; the largest speed is %g m/s%s", dt, w->info.t,
+                             c->dt_min, mps__world_speed(w), w->motion.fn ? ", or that of the walls in this step is too large" : "");
+    }
+    const double step = fmin(dt, longest);
+    *planned = dt <= longest ? dt : 0;
+    const double steps = ceil(dt_max / step * (1 - 1e-6));
+    s->dt = w->ending && steps <= SHARED_STEPS ? dt_max / steps : step;
+    return MPS_OK;
+}
