@@ -141,8 +141,8 @@ typedef struct mps_model_ops {
      *  that of the last step which the caller did not cut, 0: none; the stencils are those of the step, nothing is classified yet. Not
      *  called where the step is fixed. */
     double (*dt_limit)(void *self, const double *k, const mps_stage *s);
-    /** Change s->wall_pressure, what probes and forces see of the new pressures. */
-    int (*load)(void *self, const double *k, mps_stage *s);
+    /** Change s->wall_pressure, what probes and forces see of the new pressures. @param a [n*dim] accelerations by `gradient` [m/s2] */
+    int (*load)(void *self, const double *k, mps_stage *s, const double *a);
 } mps_model_ops;
 
 /** Register a model on a handle; the table is copied. Then choose it with mps_model_use().

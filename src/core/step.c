@@ -465,7 +465,7 @@ static mps_status correct(step_state *q)
     EACH_MODEL(q, gradient, s, k->a);
     s->wall_pressure = k->load;
     keep(s->wall_pressure, s->p, s->n, s->threads);
-    EACH_MODEL(q, load, s);
+    EACH_MODEL(q, load, s, k->a);
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++)
         for (int64_t a = i * s->dim; a < (i + 1) * s->dim; a++) s->u[a] += s->kind[i] == MPS_FLUID ? s->dt * k->a[a] : 0;
