@@ -3,7 +3,7 @@
 #ifndef MPS_CORE_PROBE_SENSOR_H
 #define MPS_CORE_PROBE_SENSOR_H
 
-#include "world.h"
+#include "probe_face.h"
 #include <mps/probe.h>
 
 /* A wall particle under the sensor and its share of the area; < 0 where pressure is extrapolated from others. */
@@ -20,8 +20,6 @@ typedef struct mps__sensor {
 } mps__sensor;
 
 void mps__sensor_free(mps__context *c, mps__sensor *sensor);
-/* Distance from a place of the tank's frame to the nearest wall particle; infinite without walls. */
-double mps__sensor_distance(const mps__world *w, const double *at);
 /* Distance of the sensor's place before the plane of its face, < 0: behind it, 0: the face has no sides; and along it beyond the face's
  * ends, <= 0: on it [m]. There must be a wall. */
 mps_status mps__sensor_place(mps__world *w, const mps_probe *config, double *off, double *beyond);
