@@ -9,7 +9,7 @@
 
 enum { CLI_THREADS_MAX = 1024, CLI_FRAMES_MAX = 100000 };
 
-enum { CLI_OPTIONS = 32 };
+enum { CLI_OPTIONS = 40 };
 
 static int cli_table(cli_options *o, cli_option *table)
 {
@@ -22,6 +22,8 @@ static int cli_table(cli_options *o, cli_option *table)
     table[n++] = (cli_option){"--dp", "M", "particle spacing [m]", TYPE_REAL, &o->dp, o->dp_min, o->dp_max, false};
     table[n++] = (cli_option){"--dt", "S", "fixed time step [s]; without it the step adapts", TYPE_REAL, &o->dt, 0, 0.1, false};
     table[n++] = (cli_option){"--cfl", "C", "adaptive step: largest dt u / dp", TYPE_REAL, &o->cfl, 0, 1, false};
+    table[n++] = (cli_option){"--calm", "C",  "adaptive step: largest dt sqrt(g / dp); without it the preset's", TYPE_REAL, &o->calm, 0,
+                              1,        false};
     table[n++] = (cli_option){"--t-end", "S", "time simulated [s]", TYPE_REAL, &o->t_end, 0, o->t_max, false};
     table[n++] = (cli_option){"--threads", "N", "OpenMP threads", TYPE_INT, &o->threads, 1, CLI_THREADS_MAX, false};
     table[n++] = (cli_option){"--solver", "NAME", "pressure solver, also solver/preconditioner", TYPE_TEXT, &o->solver, 0, 0, false};

@@ -43,6 +43,7 @@ typedef struct cli_options {
     double dp, dp_min, dp_max;   /* spacing [m] and what makes sense for this case */
     double dt;                   /* fixed step [s]; 0: adaptive */
     double cfl;                  /* adaptive: dt u / dp */
+    double calm;                 /* adaptive: dt sqrt(g / dp); 0: as the model has it */
     double t_end, t_max;         /* [s]; t_end 0: the driver sets it after parsing */
     double probe_dt;             /* rows of probes.csv [s] */
     double sensor_average;       /* wall pressures are means over this [s]; MPS_AVERAGE_AUTO: over mps_step_info.crossing_time */

@@ -136,6 +136,7 @@ static void run_set_time(run *r)
     control.dt = r->options.dt;
     control.cfl = r->options.cfl;
     if (run_is_paper(&r->options)) control.gravity = 0.03; /* W22's steps are 0.01; at 0.06 it fails even sooner */
+    if (r->options.calm > 0) control.gravity = r->options.calm;
     run_check(r, mps_sim_set_time_control(r->sim, &control), "time step");
 }
 
