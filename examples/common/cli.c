@@ -42,7 +42,7 @@ static int cli_table(cli_options *o, cli_option *table)
     table[n++] = (cli_option){"--probe-dt", "S", "interval of rows in probes.csv [s]", TYPE_REAL, &o->probe_dt, 0, 10, false};
     table[n++] = (cli_option){"--sensor-average",
                               "S",
-                              "wall pressures are means of the last S seconds; 0: as they are; without it dp/u_max",
+                              "wall pressures and forces are means of the last S seconds; 0: as they are; without it dp/u_max",
                               TYPE_REAL,
                               &o->sensor_average,
                               -1,

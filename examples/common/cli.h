@@ -46,7 +46,7 @@ typedef struct cli_options {
     double calm;                 /* adaptive: dt sqrt(g / dp); 0: as the model has it */
     double t_end, t_max;         /* [s]; t_end 0: the driver sets it after parsing */
     double probe_dt;             /* rows of probes.csv [s] */
-    double sensor_average;       /* wall pressures are means over this [s]; MPS_AVERAGE_AUTO: over mps_step_info.crossing_time */
+    double sensor_average;       /* wall pressures and forces are means over this [s]; MPS_AVERAGE_AUTO: over mps_step_info.crossing_time */
     int32_t threads;             /* OpenMP threads */
     int32_t frames;              /* frames besides the first */
     int pictures;                /* 0: at quarters of the time */

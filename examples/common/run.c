@@ -264,6 +264,7 @@ void run_force(run *r, const char *name, const char *part, int32_t component)
     mps_probe_init(&probe, sizeof probe);
     probe.type = MPS_PROBE_FORCE;
     probe.part = part;
+    probe.average = r->options.sensor_average;
     run_probe_add(r, name, r->options.dim == 3 ? "N" : "N/m", &probe, 0);
     run_column *c = &r->column[r->columns - 1];
     c->component = component;

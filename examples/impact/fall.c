@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Gravity. `column`: liquid as wide as its tank falls flat on the floor; nothing before, impulse rho h U, no rebound, rho g h in the end.
- * `floor`: a column that stands free on a floor which leaves downwards at 2 g; the liquid falls freely, pressure 0, a gap of g t^2/2. */
+ * `floor`: a column that stands free on a floor which leaves downwards at 2 g. Liquid that the void reaches falls freely, with pressure 0 and a
+ * gap of g t^2/2; it reaches the rim first. The middle is shut off from it: no air can get in there, so the floor takes its liquid along and
+ * pulls until the void has come in from the rims. So the rim has an exact answer, the middle and its gap have none. */
 #include "impact.h"
 #include <math.h>
 

@@ -111,7 +111,7 @@ def baffle_3d(outcomes, refs):
 
 def dam_panels(outcomes, refs):
     x_label, scale = "t* = t sqrt(g/H)", e.DAM_DENSITY * theory.G * e.DAM_H
-    one, two = Panel("P1, 3 mm up, 1 ms mean", "p*", x_label, (-0.3, 4)), Panel("P2, 15 mm up, 5 ms mean", "p*", x_label, (-0.3, 3))
+    one, two = Panel("P1, 3 mm up, mean over dp/u", "p*", x_label, (-0.3, 4)), Panel("P2, 15 mm up, 5 ms mean", "p*", x_label, (-0.3, 3))
     front = Panel("front", "m", "t* = t sqrt(g/H)")
     band = refs.series("reference/lobovsky_h300_pressure_percentiles.csv", (0, 1, 2, 3))
     if band is not None:
@@ -119,7 +119,7 @@ def dam_panels(outcomes, refs):
         two.reference("their median", band[0], band[2])
     for o in outcomes:
         t = o.t * np.sqrt(theory.G / e.DAM_H)
-        one.curve(named(o), t, smooth(o, "P1", 0.001) / scale)
+        one.curve(named(o), t, o["P1"] / scale)
         two.curve(named(o), t, smooth(o, "P2") / scale)
         front.curve(named(o), t[t < 3], o["front"][t < 3])
     return [one, two, front]

@@ -7,6 +7,7 @@ from pathlib import Path
 import figures as fig
 import measures
 import plots
+import trust
 from results import GOOD, MISSED, NO_REFERENCE, PASS, to_json
 
 HERE = Path(__file__).resolve().parent
@@ -129,6 +130,7 @@ class Page:
         folder = docs / "plots"
         folder.mkdir(parents=True, exist_ok=True)
         text = (HERE / "validation.md.in").read_text(encoding="utf-8")
+        text = text.replace("@trust@", table(trust.HEAD, trust.rows(self.results)))
         text = text.replace("@overview@", overview({name: found for name, found in self.results.items() if name not in self.paper}))
         text = text.replace("@others@", others_table([o for o in self.others if o.run.case not in self.paper]))
         text = re.sub(r"@case (\w+)@", lambda match: self.section(match.group(1), folder), text)

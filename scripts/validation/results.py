@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a run left behind, what is compared with it, and a figure with its verdict."""
 import json
+import re
 from dataclasses import asdict, dataclass
 from math import isfinite
 from pathlib import Path
@@ -101,6 +102,28 @@ class Outcome:
             rows = np.loadtxt(file, delimiter=",", ndmin=2)
         self.column = dict(zip(names, rows.T))
         self.t = self.column["t"]
+        self.undo_lag()
+
+    def averages(self):
+        """Time [s] over which the sensors average, at the rows of probes.csv."""
+        if self.summary.get("sensor_average") == "given":
+            return np.full(len(self.t), float(self.summary.get("sensor_average_most") or 0))
+        path = self.folder / "steps.csv"
+        if not path.exists():
+            return np.zeros(len(self.t))
+        with open(path, encoding="utf-8") as file:
+            names = [name.split("[")[0] for name in file.readline().strip().split(",")]
+            if "crossing_time" not in names:  # an older build
+                return np.zeros(len(self.t))
+            t, average = np.loadtxt(file, delimiter=",", ndmin=2, usecols=(0, names.index("crossing_time"))).T
+        return np.interp(self.t, t, average)
+
+    def undo_lag(self):
+        """A sensor shows the mean of the last `average` seconds, which belongs to the middle of them: wall pressures P1, P2, .. earlier by half."""
+        half = 0.5 * self.averages()
+        for name in self.column:
+            if re.fullmatch(r"P\d+", name) and half.any():
+                self.column[name] = np.interp(self.t, self.t - half, self.column[name])
 
     def __getitem__(self, name):
         return self.column[name]

@@ -3,7 +3,7 @@
  * surface row of a lattice. In a violent flow inner particles fall below low n0 too, and p = 0 amid high pressure tears the fluid:
  * between lone n0 and low n0 some asymmetry is asked for as well, |A| > low_share |A|0 (lone = low is the paper's). Particles with too little fluid about them are spray.
  * A film of one row on a wall has n0 and more, because the wall is near, but is more one-sided than any surface: |A|/|A|0 > film n/n0. As inner
- * particles such rows answer to their own pressure with the wrong sign, see docs/numerics.md. With n on the right what is squeezed together,
+ * particles such rows answer to their own pressure with the wrong sign, see docs/records/numerics-history.md. With n on the right what is squeezed together,
  * and one-sided for that, does not lose its pressure.
  * The papers test wall particles too (walls = 1): dry walls have p = 0.
  * Beside a wall that goes on above the surface n is too large and |A| too small: there a neighbour of the surface belongs to it as well if

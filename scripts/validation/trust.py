@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The table that begins docs/validation.md: what a user can rely on, within what, at which resolution."""
+import re
+
+import numpy as np
+
+# Quantity, case, figures of it, number of rows of particles over what depth or height [m]
+ROWS = [
+    ("pressure of liquid at rest, of rho g h", "static_tank", r"P\d, mean error", 0.25),
+    ("pressure of liquid at rest, 3-D", "static_tank_3d", r"P\d, mean error", 0.2),
+    ("frequency of a standing wave", "standing_wave", r"frequency", 0.5),
+    ("its growth a period", "standing_wave", r"growth a period", 0.5),
+    ("sloshing crests 1 to 5, up to .4 of the depth", "sloshing_high_fill", r"crest \d$", 0.3),
+    ("pressure humps at the wall of this tank", "sloshing_high_fill", r"P1, peak", 0.3),
+    ("sloshing crests 1 to 3, up to .7 of the depth", "sloshing_surge", r"crest [123], undamped FNPF$", 0.25),
+    ("the next crest, which breaks", "sloshing_surge", r"crest 4, undamped FNPF$", 0.25),
+    ("energy of this wave", "sloshing_surge", r"energy at", 0.25),
+    ("impulse of a flat impact at the bottom", "impact_flat", r"impulse at the bottom", 1),
+    ("impulse of a flat impact, mean of the wall", "impact_flat", r"impulse, mean", 1),
+    ("stagnation pressure of a jet, mean", "impact_jet", r"stagnation pressure", 1),
+    ("largest pressure on a wedge of 30 degrees", "impact_wedge_30", r"largest Cp, sensor of 4 dp", 0.2),
+    ("first peak of a dam break, mean over dp/u", "dam_break", r"P1, largest to t\*", 0.3),
+]
+
+
+def worst(figures, pattern):
+    """Largest error [%] of the figures whose name begins so; None without any."""
+    errors = [abs(f.error) for f in figures if re.match(pattern, f.name) and f.error is not None]
+    return max(errors) if errors and np.all(np.isfinite(errors)) else None
+
+
+def rows(results):
+    """One row a quantity: its name, rows of particles and largest error at each spacing, coarsest first."""
+    for text, case, pattern, depth in ROWS:
+        plain = [(o, figures) for o, figures in results.get(case, []) if o.run.cfl is None][:3]
+        if not plain:
+            continue
+        counts = ", ".join(f"{depth / o.dp:.0f}" for o, _ in plain)
+        errors = [worst(figures, pattern) for _, figures in plain]
+        cells = ["-" if e is None else f"{e:.1f} %" if e >= 0.05 else "< 0.1 %" for e in errors]
+        yield [text, f"`{case}`", counts, *cells, *[""] * (3 - len(cells))]
+
+
+HEAD = ["error of", "case", "rows of particles", "coarse", "standard", "fine"]
