@@ -54,6 +54,12 @@ static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *term
     return 0;
 }
 
+/* By n/n0 and |A|/|A|0. */
+static inline bool on_surface(const double *k, double n, double a)
+{
+    return n < k[LONE] || (n < k[LOW] && a > k[LOW_SHARE]) || (n < k[HIGH] && a > k[SHARE]) || a > k[FILM] * n;
+}
+
 /* Is the kernel sum over the fluid, with or without its spray, less than `enough`? */
 MPS__ROW bool detached(const int dim, const mps_stage *s, int64_t i, bool with_spray, double enough)
 {
@@ -102,9 +108,36 @@ static int mark_contact(const double *k, mps_stage *s, double a0)
     return 0;
 }
 
-/* What is left of the fluid amid spray has p = 0: one or two particles that shared a pressure with the walls of a corner alone would take
- * all that these push away. All see the regions as they were before. */
-static int mark_islands(const double *k, mps_stage *s)
+/* n and |A|/|A|0 of a particle as if there were no spray: no pressure acts on it, so that it is void for the others. */
+MPS__ROW void without_spray(const int dim, const mps_stage *s, int64_t i, double a0, double *n, double *a)
+{
+    const mps_stencil *t = s->near;
+    double sum = s->number_density[i], left[3], square = 0;
+    for (int d = 0; d < dim; d++) left[d] = s->asymmetry[i * dim + d];
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        if (s->region[t->col[p]] != MPS_REGION_SPRAY) continue;
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
+        sum -= q.w;
+        for (int d = 0; d < dim; d++) left[d] += dim / t->n0 * q.w * q.d[d] / q.r;
+    }
+    for (int d = 0; d < dim; d++) square += left[d] * left[d];
+    *n = sum / t->n0;
+    *a = sqrt(square) / a0;
+}
+
+/* Is a particle beside spray on the surface, or one of the last of its body? What is left of the fluid amid spray has p = 0: one or two particles
+ * that shared a pressure with the walls of a corner alone would take all that these push away. */
+static bool beside_spray(const double *k, const mps_stage *s, int64_t i, double a0)
+{
+    double n, a;
+    if (s->kind[i] != MPS_FLUID || s->region[i] != MPS_REGION_INNER) return false;
+    if (MPS__ROW_CALL(s, detached, s, i, false, k[SPRAY] * s->near->n0)) return true;
+    MPS__ROW_CALL(s, without_spray, s, i, a0, &n, &a);
+    return on_surface(k, n, a);
+}
+
+/* All see the regions as they were before. */
+static int mark_beside_spray(const double *k, mps_stage *s, double a0)
 {
     double *found = mps_stage_scratch(s, s->n);
     if (!found) return 1;
@@ -113,9 +146,7 @@ static int mark_islands(const double *k, mps_stage *s)
         for (int64_t p = t->begin[i]; s->region[i] == MPS_REGION_SPRAY && p < t->end[i]; p++) found[t->col[p]] = 1;
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++)
-        if (found[i] > 0) /* beside spray: the others are not detached, or they would be spray */
-            found[i] = s->kind[i] == MPS_FLUID && s->region[i] == MPS_REGION_INNER &&
-                       MPS__ROW_CALL(s, detached, s, i, false, k[SPRAY] * t->n0);
+        if (found[i] > 0) found[i] = beside_spray(k, s, i, a0);
     for (int64_t i = 0; i < s->n; i++)
         if (found[i] > 0) s->region[i] = MPS_REGION_SURFACE;
     return 0;
@@ -133,10 +164,10 @@ static int classify(void *self, const double *k, mps_stage *s)
         const double n = s->number_density[i] / t->n0;
         if (s->kind[i] == MPS_FLUID && MPS__ROW_CALL(s, detached, s, i, true, k[SPRAY] * t->n0))
             s->region[i] = MPS_REGION_SPRAY;
-        else if (n < k[LONE] || (n < k[LOW] && a > k[LOW_SHARE]) || (n < k[HIGH] && a > k[SHARE]) || a > k[FILM] * n)
+        else if (on_surface(k, n, a))
             s->region[i] = MPS_REGION_SURFACE;
     }
-    if (mark_islands(k, s)) return 1;
+    if (mark_beside_spray(k, s, a0)) return 1;
     if (k[CONTACT] > 0 && mark_contact(k, s, a0)) return 1;
     spread(s, MPS_REGION_SURFACE, MPS_REGION_NEAR);
     spread(s, MPS_REGION_NEAR, MPS_REGION_SECOND);
