@@ -17,6 +17,7 @@ static int cli_table(cli_options *o, cli_option *table)
     int n = 0;
     table[n++] = (cli_option){"--model", "NAME", models, TYPE_TEXT, &o->model, 0, 0, false};
     table[n++] = (cli_option){"--use", "SLOT.VARIANT", "exchange a model of the preset; may be repeated", TYPE_LIST, &o->use, 0, 0, false};
+    table[n++] = (cli_option){"--remove", "SLOT", "leave out a model of the preset; may be repeated", TYPE_LIST, &o->remove, 0, 0, false};
     table[n++] = (cli_option){"--set", "SLOT.KEY=X", "change a number of a model; may be repeated", TYPE_LIST, &o->set, 0, 0, false};
     table[n++] = (cli_option){"--re-far", "X", "far radius [dp]; without it the preset's", TYPE_REAL, &o->re_far, 2.1, 10, false};
     table[n++] = (cli_option){"--dp", "M", "particle spacing [m]", TYPE_REAL, &o->dp, o->dp_min, o->dp_max, false};

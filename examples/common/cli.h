@@ -34,7 +34,7 @@ typedef struct cli_options {
     const char *program;         /* name of the case, also of its report */
     const char *about;           /* one line for --help */
     const char *model;           /* preset of the library */
-    cli_list use, set;           /* "slot.variant" and "slot.key=value", on top of the preset */
+    cli_list use, remove, set;   /* "slot.variant", "slot" and "slot.key=value", on top of the preset */
     double re_far;               /* far radius [dp]; 0: the library's */
     const char *solver;          /* "solver" or "solver/preconditioner" */
     const char *out;             /* folder of all outputs */

@@ -104,6 +104,8 @@ static void run_use_models(run *r)
     run_suit_models(r);
     for (int i = 0; i < o->use.count; i++)
         if (mps_model_use(r->sim, o->use.text[i]) != MPS_OK) run_refuse(r, "--use", o->use.text[i], mps_sim_error(r->sim), "");
+    for (int i = 0; i < o->remove.count; i++)
+        if (mps_model_remove(r->sim, o->remove.text[i]) != MPS_OK) run_refuse(r, "--remove", o->remove.text[i], mps_sim_error(r->sim), "");
     run_set_tension(r);
     if (o->prefer) run_set_model(r, o->prefer);
     for (int i = 0; i < o->set.count; i++)

@@ -148,8 +148,9 @@ MPS_API mps_status mps_sim_stencil(mps_sim *sim, int32_t which, mps_stencil *ste
 /** n_i = sum_j W. W22 (7). @param n [s->n] out */
 MPS_API mps_status mps_op_number_density(const mps_stencil *s, double *n);
 
-/** delta_i = S_i/S0 - 1, S_i = sum over j and i itself of a Wendland C2 kernel of support s->re: what a particle is short of its
- *  volume. Unlike n it hardly sees the shape of the lattice. @param delta [s->n] out [-] */
+/** delta_i = S_i/S0 - 1, S_i = sum over j and i itself of a kernel of support s->re: what a particle is short of its volume.
+ *  The kernel is Wendland C2 in 2-D and (1 - q^2)^3, q = r/re, in 3-D. Unlike n it hardly sees the shape of the lattice.
+ *  @param delta [s->n] out [-] */
 MPS_API mps_status mps_op_volume_deviation(const mps_stencil *s, double *delta);
 
 /** Sum of f by the same kernel, over S0: for f = 1 it is 1 + delta_i. With the volumes f_j that particles should have, in cells of the

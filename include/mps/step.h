@@ -57,7 +57,7 @@ typedef struct mps_step_info {
     double crossing_time;            /**< dp/u, u = |u|max of the liquid (all that is half as dense as the densest phase or more): pressures
                                           that change faster depend on the time step. At most dp/(5 U_g); where u < U_g, in calm
                                           liquid, u/U_g times that. It changes by a tenth of the time that passes at most [s] */
-    int32_t ppe_solves;              /**< solutions of the pressure equation: more than one where walls let go of the liquid */
+    int32_t ppe_solves;              /**< solutions of the pressure equation: 2 beside void, more while walls let go of the liquid */
     int32_t separated;               /**< wall particles at their least pressure, that the liquid may leave */
 } mps_step_info;
 

@@ -3,7 +3,8 @@
  *   p_i >= least_i,   r_i = (A p - b)_i >= 0,   (p_i - least_i) r_i = 0,   elsewhere A p = b,
  * a linear complementarity problem with an M-matrix. Policy iteration solves it: the equation with the pressures of a set of rows held
  * at their least; then rows below their least are held and held rows with r_i < 0 are let go, until the set stays. It begins with the set and
- * the pressures of the last step, so that mostly one or two solutions are enough.
+ * the pressures of the last step, so that mostly two solutions are enough: a loose one that chooses the set, and that of the chosen set, which
+ * begins there. Holding a row leaves its diagonal and those about it as they are, so that all share the preconditioner of the first.
  * Held rows are pinned in place, A being assembled once: their pairs are moved to the right side, and back after the solution. */
 #include "bounds.h"
 #include <math.h>
@@ -11,6 +12,9 @@
 
 /* Solutions of a step at most: what is not settled then is so in the next step. */
 enum { SOLVES = 5 };
+
+/* The first solution only has to say which rows are held: its tolerances are so many times those of the others. */
+static const double LOOSE = 100;
 
 /* Pressures this near to their least, over rho U_g^2, are at it. */
 static const double NEARLY = 1e-3;
@@ -128,12 +132,12 @@ static bool choose(mps__bounds *b, const mps__ppe *e)
     return changed;
 }
 
-static mps_status solve_held(mps__bounds *b, mps__solvers *solvers, mps__ppe *e, mps_ppe_result *result)
+static mps_status solve_held(mps__bounds *b, mps__solvers *solvers, mps__ppe *e, const mps__effort *effort, mps_ppe_result *result)
 {
     mps_status status = MPS_OK;
     for (int64_t k = 0; k < b->count && status == MPS_OK; k++)
         if (b->list[k].held) status = pin(b, e, &b->list[k]);
-    if (status == MPS_OK) status = mps__solvers_solve(solvers, &e->problem, e->p, result);
+    if (status == MPS_OK) status = mps__solvers_solve_series(solvers, &e->problem, effort, e->p, result);
     let_go(b, e);
     return status;
 }
@@ -144,14 +148,17 @@ mps_status mps__bounds_solve(mps__bounds *b, mps__solvers *solvers, mps__ppe *e,
     mps_status status = MPS_OK;
     int32_t iterations = 0;
     double setup = 0;
-    MPS__TRY(collect(b, e, s, t));
     bool again = true;
-    for (b->solves = 0; again && b->solves < SOLVES; b->solves++) {
-        status = solve_held(b, solvers, e, result);
+    MPS__TRY(collect(b, e, s, t));
+    bool last = b->count == 0;
+    for (b->solves = 0; again; last = true) {
+        status = solve_held(b, solvers, e, &(mps__effort){last ? 1 : LOOSE, b->solves > 0}, result);
         if (status < 0) return status;
+        b->solves++;
         iterations += result->iterations;
         setup += result->setup_seconds;
-        again = status == MPS_OK && choose(b, e);
+        const bool changed = status == MPS_OK && choose(b, e);
+        again = status == MPS_OK && (!last || (changed && b->solves < SOLVES));
     }
     for (int64_t k = 0; k < b->count; k++)
         if (b->list[k].held) t->fixed[e->particle[b->list[k].row]] = MPS__ROW_HELD;

@@ -220,12 +220,33 @@ static mps_status verify(mps__solvers *s, const mps_ppe_problem *problem, const 
     return MPS_W_NOT_CONVERGED;
 }
 
+/* The preconditioner in use behind another table: its set-up is left out where that of a matrix nearly the same is there. */
+static int setup_unless_ready(void *self, const mps_ppe_problem *problem)
+{
+    mps__solvers *s = self;
+    const int reason = s->again && s->ready ? MPS_PPE_CONVERGED : s->pc->setup(s->pc_self, problem);
+    s->ready = reason == MPS_PPE_CONVERGED;
+    return reason;
+}
+
+static int apply_in_use(void *self, const double *r, double *z)
+{
+    const mps__solvers *s = self;
+    return s->pc->apply(s->pc_self, r, z);
+}
+
 /* auxgrid is the default for its speed, and not proved for every matrix of a plug-in: where it fails jacobi solves again. */
 static void solve(mps__solvers *s, const mps_ppe_problem *problem, double *p, mps_ppe_result *result)
 {
     const mps_preconditioner_ops *spare = &mps__preconditioner_jacobi;
     mps_ppe_result second = {0};
-    s->use->solve(s->use_self, problem, s->pc, s->pc_self, p, result);
+    mps_preconditioner_ops pc;
+    if (s->pc) {
+        pc = *s->pc;
+        pc.setup = setup_unless_ready;
+        pc.apply = apply_in_use;
+    }
+    s->use->solve(s->use_self, problem, s->pc ? &pc : NULL, s->pc ? s : NULL, p, result);
     const bool failed = result->reason == MPS_PPE_INDEFINITE || result->reason == MPS_PPE_BREAKDOWN;
     if (!failed || !s->pc || strcmp(s->pc->name, mps__preconditioner_auxgrid.name) != 0) return;
     if (!s->spare_self && spare->create(&s->context->allocator, &s->spare_self)) return;
@@ -239,9 +260,17 @@ static void solve(mps__solvers *s, const mps_ppe_problem *problem, double *p, mp
 
 mps_status mps__solvers_solve(mps__solvers *s, const mps_ppe_problem *problem, double *p, mps_ppe_result *result)
 {
+    return mps__solvers_solve_series(s, problem, &(mps__effort){.looser = 1}, p, result);
+}
+
+mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *problem, const mps__effort *effort, double *p,
+                                     mps_ppe_result *result)
+{
     mps_ppe_problem limited = *problem;
-    limited.tolerance = s->limits.tolerance;
-    limited.divergence = s->limits.divergence;
+    limited.tolerance = effort->looser * s->limits.tolerance;
+    limited.divergence = effort->looser * s->limits.divergence;
+    s->again = effort->again;
+    s->ready = s->ready && effort->again;
     limited.max_iterations = s->limits.max_iterations;
     *result = (mps_ppe_result){0};
     if (problem->n == 0) return MPS_OK;

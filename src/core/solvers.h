@@ -23,7 +23,15 @@ typedef struct mps__solvers {
     void *use_self, *pc_self;
     void *spare_self; /* of the preconditioner that steps in for one that fails, made when it is needed; NULL before */
     mps_solver_limits limits;
+    bool again; /* of the present call's effort */
+    bool ready; /* the preconditioner is set up for the present series */
 } mps__solvers;
+
+/* How one matrix of a series is solved. */
+typedef struct mps__effort {
+    double looser; /* factor of the tolerances, >= 1 */
+    bool again;    /* not the first: it has the rows and the diagonal of the one before, whose preconditioner is kept */
+} mps__effort;
 
 mps_status mps__solvers_init(mps__solvers *s, mps__context *context); /* registers the built-ins, uses sundials.pcg */
 void mps__solvers_free(mps__solvers *s);
@@ -34,5 +42,7 @@ mps_status mps__solvers_set_limits(mps__solvers *s, const mps_solver_limits *lim
 /* Solve with the pair in use, to the limits of `s` whatever `problem` says about them. MPS_OK, MPS_W_NOT_CONVERGED, or
  * MPS_E_SOLVER / MPS_E_NOMEM with the numbers in the text. */
 mps_status mps__solvers_solve(mps__solvers *s, const mps_ppe_problem *problem, double *p, mps_ppe_result *result);
+mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *problem, const mps__effort *effort, double *p,
+                                     mps_ppe_result *result);
 
 #endif

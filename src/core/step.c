@@ -133,7 +133,8 @@ static bool at_rest(const step_state *q)
     return was && same_place(&w->motion.now, &q->pose);
 }
 
-/* A velocity that changes within a step by more than twice as much as in the last one, and than by 2 g, jumps. */
+/* A velocity that changes within a step by more than twice as much as in the last one, and than by 2 g, jumps. Velocities are means over a step, so
+ * half a step lies on either side of the change: over dt alone a steady acceleration would jump where a step is cut short. */
 static void note_jump(step_state *q)
 {
     const mps__world *w = q->w;
@@ -142,7 +143,8 @@ static void note_jump(step_state *q)
         const double *a = w->work.tank_accel + i * w->dim;
         if (w->particles.kind[i] != MPS_FLUID) most = fmax(most, mps__dot(a, a, w->dim));
     }
-    q->jump = (mps__jump){sqrt(most), w->jump.since < INT32_MAX ? w->jump.since + 1 : INT32_MAX};
+    const double dt = q->stage.dt, change = w->dt_before > 0 ? 2 * dt / (dt + w->dt_before) : 1;
+    q->jump = (mps__jump){change * sqrt(most), w->jump.since < INT32_MAX ? w->jump.since + 1 : INT32_MAX};
     if (q->jump.accel > 2 * w->velocity_scale * w->velocity_scale / w->dp && q->jump.accel > 2 * w->jump.accel) q->jump.since = 0;
     q->stage.since_jump = q->jump.since;
 }

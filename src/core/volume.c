@@ -8,10 +8,16 @@
 /* Pairs worked on at a time. */
 enum { PAIRS = 64 };
 
-/* Wendland C2 at distance r < h, support h = 1/over. */
-static inline double wide(double r, double over)
+/* Kernel at the squared distance r2 < h^2, support h = 1/over. 2-D: Wendland C2. 3-D: (1 - q^2)^3. Support there is 2.1 dp as a rule, so few that
+ * the particle itself is a third of a sum of C2, and disordered liquid looks 2 % denser than the lattice; with the broader kernel sums are those of
+ * Voronoi volumes to some tenths of a per cent. */
+static inline __attribute__((always_inline)) double wide(const int dim, double r2, double over)
 {
-    const double q = 1.0 - r * over, q2 = q * q;
+    if (dim == 3) {
+        const double b = 1.0 - r2 * over * over;
+        return b * b * b;
+    }
+    const double q = 1.0 - sqrt(r2) * over, q2 = q * q;
     return q2 * q2 * (5.0 - 4.0 * q);
 }
 
@@ -23,7 +29,7 @@ static double wide_lattice(const mps_stencil *t)
         for (int j = -reach; j <= reach; j++)
             for (int i = -reach; i <= reach; i++) {
                 const double r = t->dp * sqrt((double)(i * i + j * j + k * k));
-                if (r < t->re) sum += wide(r, 1.0 / t->re);
+                if (r < t->re) sum += wide(t->dim, r * r, 1.0 / t->re);
             }
     return sum;
 }
@@ -37,7 +43,7 @@ static inline __attribute__((always_inline)) double wide_sum(const int dim, cons
     for (int64_t from = t->begin[i]; from < t->end[i]; from += PAIRS) {
         const int count = t->end[i] - from < PAIRS ? (int)(t->end[i] - from) : PAIRS;
         for (int k = 0; k < count; k++) r[k] = mps__square_between(a, t->x + (int64_t)t->col[from + k] * dim, dim);
-        for (int k = 0; k < count; k++) r[k] = wide(sqrt(r[k]), over);
+        for (int k = 0; k < count; k++) r[k] = wide(dim, r[k], over);
         for (int k = 0; k < count; k++) sum += r[k];
     }
     return sum;
@@ -65,7 +71,7 @@ static inline __attribute__((always_inline)) double wide_sum_of(const int dim, c
         double r2 = 0;
         if (f[j] == 0) continue;
         for (int d = 0; d < dim; d++) r2 += (b[d] - a[d]) * (b[d] - a[d]);
-        sum += f[j] * wide(sqrt(r2), over);
+        sum += f[j] * wide(dim, r2, over);
     }
     return sum;
 }

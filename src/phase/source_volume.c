@@ -40,14 +40,16 @@ static inline double smaller(double a, double b)
     return b < a ? b : a;
 }
 
-/* delta of each fluid particle, never negative near the surface, where the kernel is cut. */
+/* delta of each fluid particle, never negative near the surface, where the kernel is cut. The second band has no surface particle within the near
+ * radius: a kernel that reaches half a spacing farther at most is whole there. */
 static void volume_deviation(const double *k, const mps_stage *s, double *delta)
 {
+    const int32_t whole = s->far->re <= s->near->re + 0.5 * s->dp ? MPS_REGION_SECOND : MPS_REGION_INNER;
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_FLUID || s->region[i] >= MPS_REGION_SURFACE) continue;
         double v = s->volume[i];
-        if (s->region[i] != MPS_REGION_INNER && v < 0) v = 0;
+        if (s->region[i] > whole && v < 0) v = 0;
         delta[i] = smaller(k[CLIP], larger(-k[CLIP], v));
     }
 }

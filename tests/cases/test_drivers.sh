@@ -42,6 +42,7 @@ refused '--pictures 1,0.5: must be increasing times' sloshing_breaking --picture
 refused '--pictures 1,: must be increasing times' sloshing_breaking --pictures 1,
 refused '--pictures has times later than --t-end' sloshing_breaking --pictures 1,2 --t-end 1.5
 refused 'did you mean "shift.tangential"' static_tank --use shift.tangentia
+refused 'separatio' static_tank --remove separatio
 refused '--set shift.bogus=1: model "shift.tangential" has no setting "bogus"' static_tank --set shift.bogus=1
 refused '--set bogus.strain=1: ' static_tank --set bogus.strain=1
 refused '--set collision.distance=-1: ' static_tank --set collision.distance=-1
@@ -190,6 +191,8 @@ has same picture_1.png picture_2.png picture_end.png
 [ ! -e same/picture_3.png ] || fail "--pictures 0.005,0.01 makes three"
 runs 0 sloshing_high_fill --dp 0.025 --t-end 0.02 --frames 0 --use gradient.conservative --set source.strain=0 --out other
 if cmp -s other/probes.csv sloshing_high_fill/probes.csv; then fail "--use and --set change nothing"; fi
+runs 0 sloshing_high_fill --dp 0.025 --t-end 0.02 --frames 0 --remove dissipation --out fewer
+if cmp -s fewer/probes.csv sloshing_high_fill/probes.csv; then fail "--remove changes nothing"; fi
 
 # a tank from a file: a box of 600 x 400 x 300 mm, two triangles a face
 awk 'BEGIN {

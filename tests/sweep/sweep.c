@@ -10,14 +10,22 @@
 #include <string.h>
 #include <time.h>
 
-enum { CHECK_EVERY = 50, PATH_SIZE = 512 };
+enum { CHECK_EVERY = 50, PATH_SIZE = 512, CHANGES = 16 };
 
 static const double LEAK = 0.5;       /* [dp] beyond a wall of a closed tank */
 static const double TOO_FAST = 5;     /* times the speed of the tank and of a fall through it */
 static const double TOO_DENSE = 0.05; /* mean volume deviation */
 
+/* A change of the preset: what to do, and with what. */
+typedef struct change {
+    char what; /* 'u'se, 'r'emove, 's'et */
+    const char *text;
+} change;
+
 typedef struct options {
     scenario what;
+    change change[CHANGES];
+    int changes;
     const char *model, *pictures; /* pictures: NULL, or the beginning of their paths */
     double t_end, every;          /* [s] */
     double refine;                /* the spacing is what was drawn, over this */
@@ -133,6 +141,33 @@ static const char *verdict(const options *o, const findings *f)
     return NULL;
 }
 
+/* ---- models -------------------------------------------------------------------------------------------------------- */
+
+/* "slot.key=number" */
+static mps_status set_model(mps_sim *sim, const char *text)
+{
+    char slot[96];
+    const char *equals = strchr(text, '=');
+    snprintf(slot, sizeof slot, "%.*s", equals ? (int)(equals - text) : 0, text);
+    char *key = strrchr(slot, '.'), *end;
+    const double value = equals ? strtod(equals + 1, &end) : 0;
+    if (!key || end == equals + 1 || *end) return MPS_E_ARG;
+    *key++ = '\0';
+    return mps_model_set(sim, slot, key, value);
+}
+
+/* In the order of the command line. */
+static mps_status change_models(const options *o, mps_sim *sim)
+{
+    mps_status status = MPS_OK;
+    for (int k = 0; k < o->changes && status == MPS_OK; k++) {
+        const change *c = &o->change[k];
+        status = c->what == 'u' ? mps_model_use(sim, c->text) : c->what == 'r' ? mps_model_remove(sim, c->text) : set_model(sim, c->text);
+        if (status != MPS_OK) fprintf(stderr, "sweep: cannot apply '%s': %s\n", c->text, mps_sim_error(sim));
+    }
+    return status;
+}
+
 /* ---- the run ------------------------------------------------------------------------------------------------------- */
 
 static void take_picture(const options *o, mps_sim *sim, int number)
@@ -190,6 +225,7 @@ static int usage(const char *what)
 {
     fprintf(stderr,
             "sweep: %s\nusage: sweep --seed N [--dim 2|3] [--refine X] [--t-end S] [--model NAME] [--pictures PATH [--every S]]\n"
+            "  [--use SLOT.VARIANT] [--remove SLOT] [--set SLOT.KEY=X]\n"
             "--refine: the spacing drawn, over X; --pictures: PATH_end.png, and PATH_000.png ... every S seconds\n",
             what);
     return 2;
@@ -208,6 +244,14 @@ static int parse_seed(const char *text, uint64_t *seed)
     errno = 0;
     *seed = strtoull(text, &end, 10);
     return *text >= '0' && *text <= '9' && !*end && !errno;
+}
+
+/* --use, --remove and --set may be repeated. */
+static int parse_change(options *o, const char *name, const char *value)
+{
+    if (o->changes == CHANGES || !*value) return 0;
+    o->change[o->changes++] = (change){name[2], value};
+    return 1;
 }
 
 /* @return NULL, or what is wrong */
@@ -232,6 +276,8 @@ static const char *parse(options *o, int argc, char **argv)
             good = *(o->model = value) != 0;
         else if (!strcmp(name, "--pictures"))
             good = *(o->pictures = value) != 0;
+        else if (!strcmp(name, "--use") || !strcmp(name, "--remove") || !strcmp(name, "--set"))
+            good = parse_change(o, name, value);
         else
             return "unknown option";
     }
@@ -249,6 +295,7 @@ int main(int argc, char **argv)
     if (problem) return usage(problem);
     signal(SIGTERM, ask_stop);
     f.status = scenario_build(&o.what, o.model, &sim, f.built);
+    if (f.status >= 0) f.status = change_models(&o, sim);
     if (f.status >= 0) run(&o, sim, &f);
     f.wrong = verdict(&o, &f);
     report(&o, &f, sim ? mps_sim_error(sim) : "no handle");

@@ -43,10 +43,15 @@ static double parabola(double r, double re)
     return 3 * (1 - r / re) * (1 - r / re);
 }
 
-/* Wendland C2, one at the centre. */
-static double wendland(double r, double re)
+/* Volume measure, one at the centre: Wendland C2 in 2-D, broader in 3-D. */
+static double wide_2d(double r, double re)
 {
     return pow(1 - r / re, 4) * (1 + 4 * r / re);
+}
+
+static double wide_3d(double r, double re)
+{
+    return pow(1 - r * r / (re * re), 3);
 }
 
 static double user_parabola(void *user, double r, double re)
@@ -164,7 +169,8 @@ static void compare(const bench *s, double re, weight_fn weight)
 {
     double n0, lambda, s0, unused, worst[OPS] = {0};
     lattice(s->c.dim, re, weight, &n0, &lambda);
-    lattice(s->c.dim, re, wendland, &s0, &unused);
+    const weight_fn wide = s->c.dim == 2 ? wide_2d : wide_3d;
+    lattice(s->c.dim, re, wide, &s0, &unused);
     for (int64_t i = 0; i < s->c.n; i++) {
         total t[OPS] = {{{0}, 0}};
         add(&t[VOLUME], 0, 1); /* the particle itself */
@@ -173,8 +179,8 @@ static void compare(const bench *s, double re, weight_fn weight)
             const double r2 = cloud_distance2(&s->c, i, j);
             if (j == i || r2 >= re * re) continue;
             add_pair(s, i, j, r2, weight(sqrt(r2), re), t);
-            add(&t[VOLUME], 0, wendland(sqrt(r2), re));
-            add(&t[VOLUME_SUM], 0, s->f[j] * wendland(sqrt(r2), re));
+            add(&t[VOLUME], 0, wide(sqrt(r2), re));
+            add(&t[VOLUME_SUM], 0, s->f[j] * wide(sqrt(r2), re));
         }
         for (int op = 0; op < OPS; op++)
             for (int d = 0; d < components(s, op); d++) {
