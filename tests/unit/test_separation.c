@@ -9,11 +9,12 @@
 
 static const double GRAVITY = 9.81, RHO = 1000;
 
-/* Walls beside void in the steps so far: their lowest pressure over that of a static liquid as deep as the near radius. */
+/* Of the steps so far. */
 static struct {
-    double least, suction; /* suction: of all of them, sum of p dt where p < 0 [Pa s] */
-    const bool *among;     /* by id: walls that count; NULL: all */
-    int64_t seen;
+    double least;      /* lowest pressure of walls beside void, over that of a static liquid as deep as the near radius */
+    double suction;    /* sum of -p dt over all walls that count, where p < 0 [Pa s] */
+    const bool *among; /* by id: walls that count; NULL: all */
+    int64_t seen;      /* pressures of walls beside void */
 } spy;
 
 static bool sees_void(const mps_stage *s, int64_t i)
@@ -94,7 +95,8 @@ static void watch(mps_sim *sim, const bool *among)
 {
     ASSERT_OK(sim, mps_model_register(sim, &spy_model));
     ASSERT_OK(sim, mps_model_use(sim, "after.spy"));
-    spy.least = spy.suction = spy.seen = 0;
+    spy.least = spy.suction = 0;
+    spy.seen = 0;
     spy.among = among;
 }
 

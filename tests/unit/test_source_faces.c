@@ -241,10 +241,45 @@ static void torn_volume(void **state)
             }
 }
 
+/* An expansion of the second band, the middle of seven rows, is relaxed where the kernel of the volume does not reach the surface. */
+static void expansion_below_surface(void **state)
+{
+    (void)state;
+    static const struct {
+        int dim;
+        double far;
+        bool relaxed;
+    } cases[] = {{2, 3.1, false}, {2, 2.1, true}, {3, 2.1, true}, {3, 3.1, false}};
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++)
+        for (int sign = -1; sign <= 1; sign += 2) {
+            const int dim = cases[k].dim;
+            cloud c = cloud_lattice(dim, 7, 7, dim == 3 ? 7 : 1, 0, 1);
+            int32_t *phase = cloud_phases(c.n);
+            mps_sim *sim = bare_sim(dim, CLOUD_DP, cases[k].far, DT);
+            set_phase(sim, 0, water, 0);
+            add_cloud(sim, &c, phase, NULL);
+            spy.given_deviation = 0.02 * sign;
+            ASSERT_OK(sim, mps_model_use(sim, "surface.asymmetry"));
+            ASSERT_OK(sim, mps_model_set(sim, "surface", "film", 0.9)); /* by the asymmetry alone: the spy sets n as well */
+            ASSERT_OK(sim, mps_model_use(sim, "moments.bounded"));
+            ASSERT_OK(sim, mps_model_use(sim, "source.volume"));
+            ASSERT_OK(sim, mps_model_set(sim, "source", "start", 0));
+            ASSERT_OK(sim, mps_step(sim, 1, NULL));
+            assert_int_equal(spy.region[c.n / 2], MPS_REGION_SECOND);
+            if (sign > 0 || cases[k].relaxed)
+                assert_true(sign * spy.rhs[c.n / 2] > 0);
+            else
+                assert_true(spy.rhs[c.n / 2] == 0);
+            mps_sim_destroy(sim);
+            cloud_free(&c);
+            free(phase);
+        }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(linear_flow), cmocka_unit_test(water_minds_water),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(linear_flow),     cmocka_unit_test(water_minds_water),
                                        cmocka_unit_test(equal_densities), cmocka_unit_test(water_keeps_its_pace),
-                                       cmocka_unit_test(torn_volume)};
+                                       cmocka_unit_test(torn_volume),     cmocka_unit_test(expansion_below_surface)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
