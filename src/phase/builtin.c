@@ -2,25 +2,11 @@
 /* List of the built-in models of the fluid. */
 #include "builtin.h"
 
-static const mps_model_ops *const all[] = {&mps__moments_bounded,
-                                           &mps__viscosity_laplacian,
-                                           &mps__dissipation_radial,
-                                           &mps__source_mixed,
-                                           &mps__source_volume,
-                                           &mps__gradient_conservative,
-                                           &mps__gradient_corrected,
-                                           &mps__collision_pair,
-                                           &mps__shift_tangential,
-                                           &mps__density_smooth,
-                                           &mps__density_interface,
-                                           &mps__viscosity_pair,
-                                           &mps__tension_csf,
-                                           &mps__tension_jump,
-                                           &mps__gas_compressible,
-                                           &mps__gas_isentropic,
-                                           &mps__gradient_density,
-                                           &mps__friction_sides,
-                                           NULL};
+static const mps_model_ops *const all[] = {
+    &mps__moments_bounded,       &mps__viscosity_laplacian, &mps__dissipation_radial, &mps__source_mixed,     &mps__source_volume,
+    &mps__gradient_conservative, &mps__gradient_corrected,  &mps__collision_pair,     &mps__shift_tangential, &mps__density_smooth,
+    &mps__density_interface,     &mps__viscosity_pair,      &mps__tension_csf,        &mps__tension_jump,     &mps__gas_compressible,
+    &mps__gas_isentropic,        &mps__gradient_density,    &mps__friction_sides,     &mps__drag_lone,        NULL};
 
 void mps__phase_densities(const mps_stage *s, double rho[MPS__PHASE_LIMIT])
 {

@@ -13,6 +13,7 @@
 
 extern const mps_model_ops mps__moments_bounded;
 extern const mps_model_ops mps__viscosity_laplacian, mps__dissipation_radial, mps__friction_sides;
+extern const mps_model_ops mps__drag_lone;
 extern const mps_model_ops mps__source_mixed, mps__source_volume;
 extern const mps_model_ops mps__gradient_conservative, mps__gradient_corrected;
 extern const mps_model_ops mps__collision_pair, mps__shift_tangential;

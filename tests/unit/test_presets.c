@@ -30,10 +30,10 @@ static const char *const imps_models[] = {"surface.asymmetry",
                                           "shift.tangential",
                                           NULL};
 static const changed imps_settings[] = {{"collision.pair", "restitution", 0}, {NULL, NULL, 0}};
-static const char *const mmps_models[] = {
-    "surface.detached",   "reference.lid",      "wall.half",      "moments.bounded",  "density.interface",
-    "viscosity.pair",     "dissipation.radial", "tension.jump",   "source.volume",    "gas.compressible",
-    "gradient.corrected", "load.reaction",      "collision.pair", "shift.tangential", NULL};
+static const char *const mmps_models[] = {"surface.detached",  "reference.lid",    "wall.half",          "moments.bounded",
+                                          "density.interface", "viscosity.pair",   "dissipation.radial", "tension.jump",
+                                          "source.volume",     "gas.compressible", "gradient.corrected", "load.reaction",
+                                          "drag.lone",         "collision.pair",   "shift.tangential",   NULL};
 static const changed mmps_settings[] = {{"viscosity.pair", "stress", 1},
                                         {"source.volume", "clip", 0.5},
                                         {"source.volume", "rapid", 0.1},
