@@ -169,6 +169,7 @@ static mps_status find_base(mps__face *f, mps__world *w, const mps_probe *c)
     f->base = least_remote(f, on_face);
     if (!f->base) f->base = least_remote(f, any_with_normal);
     if (!f->base) f->base = least_remote(f, any_wall);
+    if (!f->base) return mps__fail(w->context, MPS_E_STATE, "wall pressure: there is no wall particle");
     face_normal(f, w);
     f->off = -mps__dot(f->base->r, f->normal, 3);
     mps__probe_across(w->dim, f->normal, f->tangent);
