@@ -1,159 +1,382 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/** @file model.h  Plug-in interface of the models of a time step: forces, walls, free surface, source, gradient, ...
+/** @file model.h  Plug-in interface of models: forces, walls, free surface, source, gradient, ...
  *
- *  A model is a table of verbs. A step calls them in this order, each verb for all active models in the order of their slots:
- *  classify, force, source, [the pressure equation is solved], gradient, load, velocity, shift. Built-in models use this
- *  interface and no other. Verbs loop over rows with `s->threads` threads and write only their own row. */
+ *  A model is a table: name, help, settings, the channels it brings and its verbs. A channel is a
+ *  named array with a value per particle. A verb says when it runs and which channels it reads and
+ *  writes; it gets those arrays and no others. The library makes, clears, moves, saves and frees
+ *  channels, and it runs all loops over particles. Built-in models use this interface and no other.
+ *
+ *  Notation: n particles, dim = 2 or 3; rows are particles in their present order.
+ *
+ *  Order: moments run in the order of MPS_LIMIT .. MPS_SHIFT. Within a moment a verb that writes a
+ *  channel runs before verbs that change it, and these run before verbs that only read it. `after`
+ *  and `before` add to this; where nothing decides, the order of the list of models holds, which
+ *  is that of registration. mps_verb_info_get() tells the order that results. */
 #ifndef MPS_MODEL_H
 #define MPS_MODEL_H
 
+#include <mps/flux.h>
 #include <mps/operators.h>
 #include <mps/types.h>
 
 MPS_BEGIN_DECLS
 
-/** Version of this interface, for mps_model_ops.api. */
+/** Version of this interface, for mps_model_ops.api: it fixes the layout of all tables below. */
 #define MPS_MODEL_API 1u
 
-/** Where a particle is, set by classify verbs. */
+/** Region of a particle: values of the channel "region", written in MPS_CLASSIFY. */
 enum {
-    MPS_REGION_INNER = 0,   /**< inside the fluid, or a wetted solid particle */
-    MPS_REGION_SECOND = 1,  /**< fluid with a NEAR particle among its near neighbours */
-    MPS_REGION_NEAR = 2,    /**< fluid with a SURFACE particle among its near neighbours */
-    MPS_REGION_SURFACE = 3, /**< on the free surface: p is given there */
-    MPS_REGION_SPRAY = 4,   /**< detached fluid: ballistic, p = 0, in no operator of the pressure */
-    MPS_REGION_DRY = 5      /**< solid without fluid about it, and every dummy: p = 0, in no operator of the pressure */
+    /** Inside the fluid, or a wetted solid particle. */
+    MPS_REGION_INNER = 0,
+    /** Fluid with a NEAR particle among its near neighbours. */
+    MPS_REGION_SECOND = 1,
+    /** Fluid with a SURFACE particle among its near neighbours. */
+    MPS_REGION_NEAR = 2,
+    /** On the free surface: the pressure is given there. */
+    MPS_REGION_SURFACE = 3,
+    /** Detached fluid: ballistic, p = 0, in no operator of the pressure. */
+    MPS_REGION_SPRAY = 4,
+    /** Solid without fluid about it, and every dummy: p = 0, in no operator of the pressure. */
+    MPS_REGION_DRY = 5
 };
 
-/** Everything a verb may see; rows are particles in the present order. All arrays are borrowed for the call. */
-typedef struct mps_stage {
-    uint32_t struct_size;    /**< sizeof(mps_stage) */
-    int32_t dim;             /**< 2 or 3 */
-    int32_t threads;         /**< OpenMP threads to use */
-    int32_t phases;          /**< phases defined */
-    int64_t n;               /**< particles */
-    int64_t step;            /**< number of this step, from 1 */
-    double t;                /**< time at the beginning of the step [s] */
-    double dt;               /**< step [s] */
-    double dp;               /**< spacing [m] */
-    double velocity_scale;   /**< U_g [m/s] */
-    double g[3];             /**< gravity [m/s2] */
-    const int32_t *kind;     /**< [n] MPS_FLUID ... */
-    const int32_t *phase;    /**< [n] */
-    const int64_t *id;       /**< [n] */
-    const double *x;         /**< [n*dim] positions at the beginning of the step [m] */
-    double *u;               /**< [n*dim] velocities [m/s]; of walls: the tank's over this step; written by `velocity` */
-    double *p;               /**< [n] pressures [Pa]; from `gradient` on the new ones */
-    const double *density;   /**< [n] rho [kg/m3] */
-    const double *viscosity; /**< [16] mu of the phases [Pa s] */
-    double *tank_accel;      /**< [n*dim] acceleration over this step of the rigid tank at the particle's place, solid or fluid: the motion
-                                 from which pressures are reckoned; g in a body of fluid that falls freely; classify may change it [m/s2] */
-    const double *area;      /**< [n*dim] wetted area vector of wall particles, into the fluid */
-    const int32_t *wall_of;  /**< [n] nearest wall particle of a dummy, -1: none near */
-    double *number_density;  /**< [n] sum W over the near pairs, kept where a solid has no fluid about it; classify may change it */
-    double *volume;          /**< [n] mps_op_volume_deviation() over the far pairs; classify may change it */
-    const double *asymmetry; /**< [n*dim] A_i over the near pairs, W22 (11) */
-    int32_t *region;         /**< [n] MPS_REGION_..., written by classify; fluid and walls arrive INNER, dummies DRY */
-    double *wet;             /**< [n] share 0..1 of a wall particle's fluid side that holds fluid, written by classify; arrives 1 */
-    double *correction;      /**< [n*dim*dim] B_i, symmetric, written by classify; arrives as the unit matrix */
-    const mps_stencil *near; /**< pairs within re_near; rows of solids without fluid within the radii may be empty */
-    const mps_stencil *far;  /**< pairs within re_far, likewise; row i of one need not begin where row i of the other does */
-    void *host;              /**< private */
-    double *density_smooth;  /**< [n] density for operators of the pressure, written by classify; arrives as a copy of density [kg/m3] */
-    const double *tension;   /**< [16*16] sigma between two phases by mps_sim_set_tension() [N/m], symmetric; < 0: not set */
-    int32_t level_free;      /**< from `gradient` on, 1: nothing fixed the level of the pressures, their mean is 0; else 0 */
-    double *
-        capillary; /**< [n] sigma kappa: what a phase has more pressure than the other across an interface, written by classify; arrives 0 [Pa] */
-    double
-        *depth; /**< [n] distance from an interface between two densities, on the particle's own side, written by classify; arrives 0: not
-                        known [m] */
-    int64_t since_jump;    /**< steps since the velocity of the tank jumped, 0: in this one; large where it never did */
-    double *wall_pressure; /**< [n] pressure on the walls as probes and forces see it, written by `load`, where it arrives as p [Pa]; NULL
-                                before */
-} mps_stage;
-
-/** rho_ij of a pair of the pressure equation [kg/m3]: the mean along the line between both, by their distances from the interface;
- *  (rho_i + rho_j)/2, W22 (17), where these are not known. */
-static inline double mps_stage_pair_density(const mps_stage *s, int64_t i, int64_t j)
-{
-    const double a = s->density_smooth[i], b = s->density_smooth[j], f = s->depth[i], h = s->depth[j];
-    return a == b || !(f > 0 && h > 0) ? 0.5 * (a + b) : (f * a + h * b) / (f + h);
-}
-
-/** Conditions on a row of the pressure equation, for mps_ppe_terms.fixed. */
+/** Moments of a step: when a verb runs. */
 enum {
-    MPS_ROW_FREE = 0,  /**< the equation holds */
-    MPS_ROW_FIXED = 1, /**< p_i = value_i (Dirichlet) */
-    MPS_ROW_LEAST = 2  /**< p_i >= value_i: where p_i is above, the equation holds; at value_i the row's fluid may separate from it */
+    /** Before the step: lower s->dt_limit. s->dt is that of the last step which the caller did not
+     *  cut (0: none). Channels that live for a step cannot be used. Skipped if dt is fixed. */
+    MPS_LIMIT = 0,
+    /** Write "region" and what follows from it. Another value fails with MPS_E_PLUGIN. */
+    MPS_CLASSIFY = 1,
+    /** Write the quantities that later moments read. */
+    MPS_PREPARE = 2,
+    /** Add non-pressure accelerations of fluid particles to "acceleration". */
+    MPS_FORCE = 3,
+    /** Add to the pressure equation; "velocity" is u*. The equation is solved after this. */
+    MPS_SOURCE = 4,
+    /** Change the new pressures. */
+    MPS_LEVEL = 5,
+    /** Add accelerations by the new pressures to "acceleration", which arrives as 0. */
+    MPS_GRADIENT = 6,
+    /** Change "wall_pressure"; "acceleration" holds what MPS_GRADIENT left. */
+    MPS_LOAD = 7,
+    /** Change velocities after the correction, e.g. collisions. */
+    MPS_VELOCITY = 8,
+    /** Add to "displacement" of fluid particles; may change "velocity" to transport it. */
+    MPS_SHIFT = 9,
+    /** Number of moments. */
+    MPS_MOMENT_COUNT = 10
 };
 
-/** The pressure equation: sum_j k_ij (p_i - p_j + q_ij) + gain (shift_i p_i + gas_i f(p_i)) = gain rhs_i [1/s2] over pairs of fluid and
- *  walls, with k_ij = 2D/(n0 lambda) W_ij/rho_ij and q_ij = rho_ij (b_i + b_j)/2 . r_ij, the difference p_j - p_i of a fluid that moves
- *  with the tank, less (capillary_i - capillary_j)/2 between phases. f(p) = p, or P ln(1 + p/P) where law_i = P > 0, which needs a solver of nonlinear rows. Unknowns are particles of
- *  regions INNER, SECOND and NEAR that are not fixed. Verbs add to what they find. */
-typedef struct mps_ppe_terms {
-    uint32_t struct_size;     /**< sizeof(mps_ppe_terms) */
-    int32_t radius;           /**< MPS_NEAR or MPS_FAR (default): the pairs of the Laplacian */
-    int32_t complete_surface; /**< 1: pairs with one particle on the surface also carry the flux of those cut off by it; default 0 */
-    double wall_factor;       /**< weight of wall-wall pairs, times the smaller `wet` of the two; default 0 */
-    double *rhs;              /**< [n] e.g. -div u* / dt */
-    double *shift;            /**< [n] >= 0, e.g. compressibility */
-    double *value;            /**< [n] pressure of rows that are fixed or have a least one [Pa] */
-    int32_t *fixed;           /**< [n] MPS_ROW_...; region SURFACE arrives fixed at 0 */
-    double *body;             /**< [n*dim] b, e.g. g - tank_accel [m/s2]; default 0 */
-    double gain;              /**< share of the divergence that a step takes away: default 1 */
-    double *gas;              /**< [n] >= 0, compressibility of a gas; default 0 */
-    double *law;              /**< [n] P_i of the law of the gas [Pa]; default 0: linear */
-} mps_ppe_terms;
+/** How a verb uses a channel: a sum of these. READ + WRITE changes values. */
+enum {
+    /** Reads the value of its own row. */
+    MPS_USE_READ = 1,
+    /** Reads values of neighbours within the far radius too. Implies MPS_USE_READ. */
+    MPS_USE_NEIGHBOURS = 2,
+    /** Writes values of its own row. Alone: the values before are not read. */
+    MPS_USE_WRITE = 4,
+    /** Reads and writes its own row. */
+    MPS_USE_CHANGE = 5,
+    /** The channel may be missing: no active model brings it. Its array is NULL then. */
+    MPS_USE_OPTIONAL = 8
+};
 
-/** A number a user may set by mps_model_set(). */
+/** A channel that a verb uses. Its array is s->data[k], k the place in mps_verb.uses. */
+typedef struct mps_use {
+    /** Name of the channel. */
+    const char *channel;
+    /** Sum of MPS_USE_... */
+    int32_t access;
+} mps_use;
+
+/** How long a channel lives. */
+enum {
+    /** From the beginning of MPS_CLASSIFY to the end of the step; not kept. */
+    MPS_LIFE_STEP = 0,
+    /** As long as its particle: it travels with it, is saved by checkpoints, comes back after a
+     *  failed step, and is a field for mps_lease_begin(). Real numbers only. */
+    MPS_LIFE_PARTICLE = 1
+};
+
+/** Type of the numbers of a channel or a setting. */
+enum {
+    /** double */
+    MPS_TYPE_REAL = 0,
+    /** int32_t of a channel, a whole number of a setting */
+    MPS_TYPE_INTEGER = 1,
+    /** Settings only: 0 (off) or 1 (on). */
+    MPS_TYPE_FLAG = 2
+};
+
+/** Components of a vector and of a matrix: dim and dim*dim numbers. */
+enum { MPS_VECTOR = -1, MPS_MATRIX = -2 };
+
+/** A named array with a value per particle that a model brings. Two models may bring the same one
+ *  if all entries but `help` agree. mps_channel_info_get() lists the library's own channels. */
+typedef struct mps_channel {
+    /** 1..31 characters, not one of the library's own. */
+    const char *name;
+    /** e.g. "kg/m3"; "-" for none */
+    const char *unit;
+    /** One line: what it is. */
+    const char *help;
+    /** Numbers per particle: 1..9, MPS_VECTOR or MPS_MATRIX. */
+    int32_t components;
+    /** MPS_TYPE_REAL or MPS_TYPE_INTEGER */
+    int32_t type;
+    /** MPS_LIFE_... */
+    int32_t life;
+    /** Value at the beginning of a step (of a life for MPS_LIFE_PARTICLE); on the diagonal of a
+     *  matrix, whose other entries are 0. */
+    double initial;
+} mps_channel;
+
+/** A number that a user may set with mps_model_set(). */
 typedef struct mps_setting {
-    const char *key; /**< e.g. "distance" */
-    double initial;  /**< default */
-    double min;      /**< smallest allowed */
-    double max;      /**< largest allowed */
+    /** e.g. "distance" */
+    const char *key;
+    /** e.g. "dp"; "-" for none */
+    const char *unit;
+    /** One line: what it does. */
+    const char *help;
+    /** MPS_TYPE_... */
+    int32_t type;
+    /** Default. */
+    double initial;
+    /** Smallest allowed value. */
+    double min;
+    /** Largest allowed value. */
+    double max;
 } mps_setting;
 
-/** A model. Verbs are optional; they return 0, or non-zero after mps_stage_fail(). `k` holds the settings in the order of `settings`. */
+/** Scalars of the pressure equation, to be set from MPS_CLASSIFY to MPS_SOURCE:
+ *    sum_j k_ij (p_i - p_j + q_ij) + gain (shift_i p_i + gas_i f(p_i)) = gain source_i   [1/s2]
+ *  over pairs of fluid and walls, k_ij and q_ij as in mps/flux.h, and
+ *    "pressure_source" [1/s2], e.g. -div u* / dt; arrives 0
+ *    "pressure_shift" >= 0 [1/(Pa s2)], e.g. compressibility; arrives 0
+ *    "gas_shift" >= 0 [1/(Pa s2)], "gas_law" P [Pa]: f(p) = p, or P ln(1 + p/P) where P > 0, which
+ *    needs a solver of nonlinear rows; arrive 0
+ *    "pressure_condition" MPS_ROW_..., "pressure_value" [Pa]; arrive FIXED at 0 on the surface,
+ *    FREE elsewhere.
+ *  Unknowns are particles of regions INNER, SECOND and NEAR that are not fixed. */
+typedef struct mps_equation {
+    /** The pairs of the Laplacian: MPS_NEAR or MPS_FAR (default). */
+    int32_t radius;
+    /** 1: pairs with one particle on the surface also carry the flux of the pairs that the surface
+     *  cuts off; default 0. */
+    int32_t complete_surface;
+    /** 1: pressures are those beyond a fluid that moves with the tank, b = g - a_tank in
+     *  mps/flux.h; default 0. */
+    int32_t body;
+    /** Kept 0. */
+    int32_t reserved;
+    /** Weight of wall-wall pairs, times the smaller "wetted_share" of both; default 0. */
+    double wall_factor;
+    /** Share of the divergence that a step takes away, 0 < gain <= 1; default 1. */
+    double gain;
+} mps_equation;
+
+/** Conditions on a row of the pressure equation: values of the channel "pressure_condition". */
+enum {
+    /** The equation holds. */
+    MPS_ROW_FREE = 0,
+    /** p_i = value_i (Dirichlet). */
+    MPS_ROW_FIXED = 1,
+    /** p_i >= value_i. The equation holds where p_i is above; at value_i fluid may separate. */
+    MPS_ROW_LEAST = 2
+};
+
+/** What a verb sees. All arrays are borrowed for the call. */
+typedef struct mps_stage {
+    /** sizeof(mps_stage) */
+    uint32_t struct_size;
+    /** 2 or 3 */
+    int32_t dim;
+    /** The moment: MPS_LIMIT .. MPS_SHIFT. */
+    int32_t moment;
+    /** Number of phases defined. */
+    int32_t phases;
+    /** Number of particles. */
+    int64_t n;
+    /** Number of this step, from 1. */
+    int64_t step;
+    /** Steps since the velocity of the tank jumped; 0: in this one; large if it never did. */
+    int64_t since_jump;
+    /** Time at the beginning of the step [s]. */
+    double t;
+    /** Length of the step [s]. */
+    double dt;
+    /** Spacing [m]. */
+    double dp;
+    /** U_g [m/s] */
+    double velocity_scale;
+    /** Gravity [m/s2]. */
+    double g[3];
+    /** [n] MPS_FLUID ... */
+    const int32_t *kind;
+    /** [n] number of the phase of fluid particles */
+    const int32_t *phase;
+    /** [n] */
+    const int64_t *id;
+    /** [n*dim] positions at the beginning of the step [m] */
+    const double *x;
+    /** [n*dim] wetted area vector of wall particles, into the fluid [m^(dim-1)] */
+    const double *area;
+    /** [n] nearest wall particle of a dummy; -1: none near */
+    const int32_t *wall_of;
+    /** Pairs within re_near. Rows of solids without fluid within the radii may be empty. */
+    const mps_stencil *near;
+    /** Pairs within re_far, likewise. Row i of one need not begin where row i of the other does. */
+    const mps_stencil *far;
+    /** [16] mu of the phases [Pa s] */
+    const double *viscosity;
+    /** [16*16] sigma of two phases by mps_sim_set_tension() [N/m], symmetric; < 0: not set */
+    const double *tension;
+    /** From MPS_FORCE on: fluxes of pairs of the pressure equation. NULL before. */
+    const mps_flux *flux;
+    /** From MPS_CLASSIFY to MPS_SOURCE: scalars of the pressure equation. NULL otherwise. */
+    mps_equation *equation;
+    /** From MPS_LEVEL on, 1: nothing fixed the level of the pressures, their mean is 0; else 0. */
+    int32_t level_free;
+    /** Kept 0. */
+    int32_t reserved;
+    /** In MPS_LIMIT: longest step allowed [s], arrives INFINITY; a verb lowers it, to > 0. */
+    double dt_limit;
+    /** Arrays of the verb's uses, in their order; double or int32_t. */
+    void *const *data;
+    /** Values of the model's settings, in their order. */
+    const double *setting;
+    /** State of the model: what mps_model_ops.create made, else mps_model_ops.user. */
+    void *self;
+    /** Private. */
+    void *host;
+} mps_stage;
+
+/** One action of a model at one moment of a step. */
+typedef struct mps_verb {
+    /** MPS_LIMIT .. MPS_SHIFT */
+    int32_t moment;
+    /** Number of entries of uses, 0..24. */
+    int32_t use_count;
+    /** Channels that it uses. */
+    const mps_use *uses;
+    /** NULL, or a slot, e.g. "source": it runs after that model. "*": after all others. */
+    const char *after;
+    /** NULL, or a slot: it runs before that model. "*": before all others. */
+    const char *before;
+    /** The action. @return 0, or non-zero after mps_stage_fail() */
+    int (*run)(mps_stage *s);
+} mps_verb;
+
+/** A model. All strings and tables must outlive the handle. */
 typedef struct mps_model_ops {
-    uint32_t struct_size;        /**< sizeof(mps_model_ops) */
-    uint32_t api;                /**< MPS_MODEL_API */
-    const char *name;            /**< "slot.variant", at most 47 characters */
-    int32_t order;               /**< verbs run by ascending order, then in the order of mps_model_use(); built-ins use 100..900 */
-    int32_t setting_count;       /**< entries of settings, at most 16 */
-    const mps_setting *settings; /**< must outlive the handle */
-    /** New state in *self; NULL: the model has none. Non-zero: out of memory. */
+    /** sizeof(mps_model_ops) */
+    uint32_t struct_size;
+    /** MPS_MODEL_API */
+    uint32_t api;
+    /** "slot.variant", at most 47 characters; a slot holds one model. */
+    const char *name;
+    /** One line: what it models. */
+    const char *help;
+    /** Entries of settings, 0..16. */
+    int32_t setting_count;
+    /** Entries of channels, 0..8. */
+    int32_t channel_count;
+    /** Entries of verbs, 1..16. */
+    int32_t verb_count;
+    /** Kept 0. */
+    int32_t reserved;
+    /** Numbers that a user may set. */
+    const mps_setting *settings;
+    /** Channels that it brings. */
+    const mps_channel *channels;
+    /** What it does. */
+    const mps_verb *verbs;
+    /** NULL, or make a state in *self, which holds `user` before. Non-zero: no memory. */
     int (*create)(const mps_allocator *allocator, void **self);
-    void (*destroy)(void *self); /**< needed with create */
-    /** Set region, wet, correction. Another region than MPS_REGION_INNER .. MPS_REGION_DRY fails the step with MPS_E_PLUGIN. */
-    int (*classify)(void *self, const double *k, mps_stage *s);
-    /** Add non-pressure accelerations a [n*dim] [m/s2] of fluid particles; gravity too, where a model puts it there. */
-    int (*force)(void *self, const double *k, mps_stage *s, double *a);
-    /** Add to the pressure equation; s->u is u*. */
-    int (*source)(void *self, const double *k, mps_stage *s, mps_ppe_terms *terms);
-    /** Add accelerations a [n*dim] due to the new pressures s->p. */
-    int (*gradient)(void *self, const double *k, mps_stage *s, double *a);
-    /** Change velocities after the correction, e.g. collisions. */
-    int (*velocity)(void *self, const double *k, mps_stage *s);
-    /** Add displacements dx [n*dim] [m] of fluid particles beside dt u; may change s->u to transport it. */
-    int (*shift)(void *self, const double *k, mps_stage *s, double *dx);
-    /** Largest time step [s] this model allows, > 0; INFINITY: any (else the step fails with MPS_E_PLUGIN). Called before the step: s->dt is
-     *  that of the last step which the caller did not cut, 0: none; the stencils are those of the step, nothing is classified yet. Not
-     *  called where the step is fixed. */
-    double (*dt_limit)(void *self, const double *k, const mps_stage *s);
-    /** Change s->wall_pressure, what probes and forces see of the new pressures. @param a [n*dim] accelerations by `gradient` [m/s2] */
-    int (*load)(void *self, const double *k, mps_stage *s, const double *a);
+    /** Gives back what create made; needed with create. */
+    void (*destroy)(const mps_allocator *allocator, void *self);
+    /** Data of the caller, e.g. a pointer that the verbs need as s->self. */
+    void *user;
 } mps_model_ops;
 
 /** Register a model on a handle; the table is copied. Then choose it with mps_model_use().
- *  @return MPS_E_ARG for a taken or malformed name, a setting out of its own range, no verb at all; MPS_E_VERSION */
+ *  @return MPS_E_ARG (which entry, and what is allowed), MPS_E_VERSION, MPS_E_BUSY */
 MPS_API mps_status mps_model_register(mps_sim *sim, const mps_model_ops *ops);
 
-/** Scratch of `count` doubles, zeroed, given back by itself when the verb returns; NULL when memory is out (and the error is set). */
+/* ---- loops and sums over particles ----------------------------------------------------------- */
+
+/** Work on rows begin .. end-1. It may write rows of its own only. */
+typedef void (*mps_rows_fn)(const mps_stage *s, void *arguments, int64_t begin, int64_t end);
+
+/** Run a function over all rows, in parts at the same time. Returns when all are done. */
+MPS_API void mps_stage_rows(const mps_stage *s, mps_rows_fn rows, void *arguments);
+
+/** Add what rows begin .. end-1 contribute to sums[count], or raise maxima[count]. */
+typedef void (*mps_sums_fn)(const mps_stage *s, void *arguments, int64_t begin, int64_t end,
+                            double *sums);
+
+/** Sums over all rows: the same bytes for any number of threads.
+ *  @param count  1..16 @param sums  [count] out */
+MPS_API void mps_stage_sum(const mps_stage *s, int32_t count, mps_sums_fn add, void *arguments,
+                           double *sums);
+
+/** Maxima over all rows. @param count  1..16 @param maxima  [count] out; -INFINITY without rows */
+MPS_API void mps_stage_max(const mps_stage *s, int32_t count, mps_sums_fn raise, void *arguments,
+                           double *maxima);
+
+/** Mark rows that have a near neighbour among some rows.
+ *  @param member  [n] not 0 for these rows @param beside  [n] out: 1 or 0 */
+MPS_API void mps_stage_beside(const mps_stage *s, const int32_t *member, int32_t *beside);
+
+/** Label bodies: sets of rows linked by near pairs. @param member  [n] in: not 0 for rows in bodies
+ *  @param body  [n] out: 0.. in the order of their first row, -1 for rows in none
+ *  @param count  out: number of bodies @return 0, or non-zero after a failure (no memory) */
+MPS_API int mps_stage_bodies(mps_stage *s, const int32_t *member, int32_t *body, int32_t *count);
+
+/** Scratch of `count` doubles, zeroed, valid until the verb returns. At most 16 of a verb.
+ *  @return NULL: no memory, or too many (the error is set; let the verb return non-zero) */
 MPS_API double *mps_stage_scratch(mps_stage *s, int64_t count);
 
-/** Report a failure of a verb; text as printf. Always returns 1, so that a verb can end with it. */
+/** As mps_stage_scratch(), of integers. */
+MPS_API int32_t *mps_stage_scratch_integers(mps_stage *s, int64_t count);
+
+/** Report a failure of a verb; text as printf. Returns 1, so that a verb can end with it. */
 MPS_API int mps_stage_fail(mps_stage *s, const char *format, ...);
+
+/** For row functions: inlined into their loops. */
+#if defined(__GNUC__)
+#define MPS_ROW static inline __attribute__((always_inline))
+#else
+#define MPS_ROW static inline
+#endif
+
+/** Define the mps_rows_fn `name` from a row function
+ *    MPS_ROW void row(const int dim, const mps_stage *s, type *arguments, int64_t i);
+ *  compiled for dim = 2 and 3, so that loops over dim unroll. */
+#define MPS_ROWS(name, row, type)                                                                  \
+    static void name(const mps_stage *s, void *arguments, int64_t begin, int64_t end)              \
+    {                                                                                              \
+        type *const given = (type *)arguments;                                                     \
+        if (s->dim == 2)                                                                           \
+            for (int64_t i = begin; i < end; i++) row(2, s, given, i);                             \
+        else                                                                                       \
+            for (int64_t i = begin; i < end; i++) row(3, s, given, i);                             \
+    }
+
+/** Define the mps_sums_fn `name` from a row function
+ *    MPS_ROW void row(const int dim, const mps_stage *s, type *arguments, int64_t i, double *sums);
+ *  For mps_stage_max() it raises sums[k]. */
+#define MPS_SUMS(name, row, type)                                                                  \
+    static void name(const mps_stage *s, void *arguments, int64_t begin, int64_t end,              \
+                     double *sums)                                                                 \
+    {                                                                                              \
+        type *const given = (type *)arguments;                                                     \
+        if (s->dim == 2)                                                                           \
+            for (int64_t i = begin; i < end; i++) row(2, s, given, i, sums);                       \
+        else                                                                                       \
+            for (int64_t i = begin; i < end; i++) row(3, s, given, i, sums);                       \
+    }
 
 MPS_END_DECLS
 
