@@ -329,10 +329,23 @@ MPS_API void mps_stage_max(const mps_stage *s, int32_t count, mps_sums_fn raise,
  *  @param member  [n] not 0 for these rows @param beside  [n] out: 1 or 0 */
 MPS_API void mps_stage_beside(const mps_stage *s, const int32_t *member, int32_t *beside);
 
-/** Label bodies: sets of rows linked by near pairs. @param member  [n] in: not 0 for rows in bodies
- *  @param body  [n] out: 0.. in the order of their first row, -1 for rows in none
- *  @param count  out: number of bodies @return 0, or non-zero after a failure (no memory) */
-MPS_API int mps_stage_bodies(mps_stage *s, const int32_t *member, int32_t *body, int32_t *count);
+/** Roles of rows in mps_stage_bodies(). */
+enum {
+    /** Belongs to no body. */
+    MPS_BODY_NONE = 0,
+    /** Belongs to the body of its neighbours. */
+    MPS_BODY_MEMBER = 1,
+    /** Member where the search of a body begins. Bodies without a seed are not found. */
+    MPS_BODY_SEED = 2,
+    /** Belongs to no body and holds those beside it. */
+    MPS_BODY_ANCHOR = 3
+};
+
+/** Find bodies, sets of rows linked by near pairs, that no anchor holds.
+ *  @param most  larger bodies are taken for held @param role  [n] MPS_BODY_...
+ *  @param body  [n] out: 0.. for rows of bodies that are free, else -1
+ *  @return 0, or non-zero after a failure (no memory; the error is set) */
+MPS_API int mps_stage_bodies(mps_stage *s, int32_t most, const int32_t *role, int32_t *body);
 
 /** Scratch of `count` doubles, zeroed, valid until the verb returns. At most 16 of a verb.
  *  @return NULL: no memory, or too many (the error is set; let the verb return non-zero) */

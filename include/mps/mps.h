@@ -4,6 +4,7 @@
 #define MPS_MPS_H
 
 #include <mps/geometry.h>
+#include <mps/list.h>
 #include <mps/motion.h>
 #include <mps/operators.h>
 #include <mps/output.h>

@@ -71,6 +71,7 @@ typedef struct mps_preconditioner_ops {
     int (*apply)(void *self, const double *r, double *z);
     void (*destroy)(void *self); /**< gives back all memory */
     void *user;                  /**< what *self holds when create is called, e.g. settings; default NULL */
+    const char *help;            /**< NULL, or one line for lists */
 } mps_preconditioner_ops;
 
 /** A solver. What is demanded of it, with every matrix; the kit of tests/conformance checks a table for all of this (solver_kit.h:
@@ -104,6 +105,7 @@ typedef struct mps_solver_ops {
     void (*destroy)(void *self); /**< gives back all memory */
     int32_t nonlinear;           /**< 1: solves problems with nonlinear rows (mps_ppe_problem.law) too; default 0 */
     void *user;                  /**< as for a preconditioner */
+    const char *help;            /**< NULL, or one line for lists */
 } mps_solver_ops;
 
 /** Register a solver on a handle under its name; the table is copied. @return MPS_E_ARG for a taken name or a missing entry */

@@ -25,7 +25,7 @@ static void put_all(mps_sim *sim, const mps__text *setup, mps__archive *a)
 
 mps_status mps_checkpoint_write(mps_sim *sim, const char *path)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__READS(sim);
     mps__context *c = &sim->context;
     MPS__CHECK(c, path && path[0], "the path of the checkpoint is NULL or empty");
     for (int32_t k = 0; k < sim->world.particles.fields; k++)
@@ -62,10 +62,9 @@ static mps_status check_setup(mps_sim *sim, const mps__archive *a)
 
 mps_status mps_checkpoint_read(mps_sim *sim, const char *path)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__CHANGES(sim);
     mps__context *c = &sim->context;
     MPS__CHECK(c, path && path[0], "the path of the checkpoint is NULL or empty");
-    if (sim->in_monitor) return mps__fail(c, MPS_E_STATE, "a monitor must not read a checkpoint");
     const int32_t open = mps__particles_leases(&sim->world.particles);
     if (open) return mps__fail(c, MPS_E_BUSY, "%d lease(s) are open; end them before reading a checkpoint", open);
     mps__archive a = {.context = c};

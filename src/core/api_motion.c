@@ -120,7 +120,7 @@ static mps_status check_table_columns(mps_sim *sim, int32_t dofs, const int32_t 
 
 mps_status mps_motion_set_centre(mps_sim *sim, const double *centre, int32_t start)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__CHANGES(sim);
     mps__world *w = &sim->world;
     MPS__TRY(changeable(sim));
     if (w->info.step > 0)
@@ -145,7 +145,7 @@ mps_status mps_motion_set_centre(mps_sim *sim, const double *centre, int32_t sta
 
 mps_status mps_motion_set_harmonics(mps_sim *sim, int32_t count, const mps_harmonic *harmonics)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__CHANGES(sim);
     MPS__TRY(changeable(sim));
     MPS__CHECK(&sim->context, count >= 1, "harmonics: count is %d, must be at least 1", (int)count);
     MPS__CHECK(&sim->context, harmonics, "harmonics is NULL");
@@ -157,7 +157,7 @@ mps_status mps_motion_set_harmonics(mps_sim *sim, int32_t count, const mps_harmo
 
 mps_status mps_motion_set_table(mps_sim *sim, int64_t rows, const double *t, int32_t dofs, const int32_t *dof, const double *values)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__CHANGES(sim);
     mps__context *c = &sim->context;
     MPS__TRY(changeable(sim));
     MPS__CHECK(c, rows >= 2 && rows <= INT32_MAX, "motion table: %lld rows, must be 2..%d", (long long)rows, INT32_MAX);
@@ -175,7 +175,7 @@ mps_status mps_motion_set_table(mps_sim *sim, int64_t rows, const double *t, int
 
 mps_status mps_motion_set_callback(mps_sim *sim, mps_motion_fn fn, void *user)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__CHANGES(sim);
     MPS__TRY(changeable(sim));
     MPS__CHECK(&sim->context, fn, "the motion callback is NULL: use mps_motion_clear() for no motion");
     return install_function(sim, fn, user, false, INFINITY);
@@ -183,7 +183,7 @@ mps_status mps_motion_set_callback(mps_sim *sim, mps_motion_fn fn, void *user)
 
 mps_status mps_motion_clear(mps_sim *sim)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__CHANGES(sim);
     MPS__TRY(changeable(sim));
     mps__motion next = sim->world.motion;
     memset(&next.hold, 0, sizeof next.hold);

@@ -5,7 +5,7 @@
 
 mps_status mps_frames_open(mps_sim *sim, const char *folder, const char *name, int32_t kinds, mps_frames **frames)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__READS(sim);
     MPS__CHECK(&sim->context, frames, "frames is NULL");
     return mps__frames_open(&sim->world, folder, name, kinds, frames);
 }

@@ -20,7 +20,6 @@ mps_status mps_particle_block_init(mps_particle_block *block, size_t size)
 static mps_status not_leased(mps_sim *sim)
 {
     const int32_t open = mps__particles_leases(&sim->world.particles);
-    if (sim->in_monitor) return mps__fail(&sim->context, MPS_E_STATE, "a monitor must not add or remove");
     return open ? mps__fail(&sim->context, MPS_E_BUSY, "%d lease(s) are open", open) : MPS_OK;
 }
 
@@ -103,7 +102,7 @@ static void store_block(mps_sim *sim, const mps_particle_block *b, int32_t part,
 
 mps_status mps_particles_add(mps_sim *sim, const mps_particle_block *block, int64_t *ids)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__CHANGES(sim);
     mps__particles *s = &sim->world.particles;
     mps_particle_block b = block_default;
     MPS__TRY(not_leased(sim));
@@ -137,7 +136,7 @@ static int32_t *places(mps_sim *sim)
 
 mps_status mps_particles_remove(mps_sim *sim, int64_t count, const int64_t *ids)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__CHANGES(sim);
     mps__particles *s = &sim->world.particles;
     MPS__TRY(not_leased(sim));
     MPS__CHECK(&sim->context, count >= 1 && ids, "remove: count is %lld with %s ids", (long long)count, ids ? "given" : "no");
@@ -185,7 +184,7 @@ int64_t mps_particle_index(const mps_sim *sim, int64_t id)
 
 mps_status mps_field_add(mps_sim *sim, const char *name, int32_t components)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__CHANGES(sim);
     MPS__TRY(not_leased(sim));
     MPS__CHECK(&sim->context, name && name[0] && strnlen(name, 32) < 32, "a field's name has 1..31 characters");
     MPS__CHECK(&sim->context, components >= 1 && components <= 9, "field \"%s\": components is %d: 1..9", name, components);
@@ -195,10 +194,11 @@ mps_status mps_field_add(mps_sim *sim, const char *name, int32_t components)
 
 mps_status mps_lease_begin(mps_sim *sim, const char *field, int32_t mode, mps_lease *lease)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__READS(sim);
     mps__particles *s = &sim->world.particles;
     MPS__CHECK(&sim->context, field && lease, "field or lease is NULL");
     MPS__CHECK(&sim->context, mode == MPS_READ || mode == MPS_WRITE, "mode is %d: MPS_READ or MPS_WRITE", mode);
+    if (mode == MPS_WRITE) MPS__CHANGES(sim);
     const char *names[MPS__FIELDS_MAX];
     char hint[MPS__HINT_SIZE];
     int count = 0;
@@ -219,7 +219,7 @@ mps_status mps_lease_begin(mps_sim *sim, const char *field, int32_t mode, mps_le
 
 mps_status mps_lease_end(mps_sim *sim, mps_lease *lease)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__READS(sim);
     mps__particles *s = &sim->world.particles;
     MPS__CHECK(&sim->context, lease && lease->slot >= 2 && lease->slot / 2 <= s->fields, "this lease is not open");
     mps__field *f = &s->field[lease->slot / 2 - 1];

@@ -22,7 +22,7 @@ mps_status mps_probe_init(mps_probe *probe, size_t size)
 
 mps_status mps_probe_add(mps_sim *sim, const mps_probe *probe, int32_t *id)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__CHANGES(sim);
     mps_probe p = probe_defaults;
     MPS__CHECK(&sim->context, id, "id is NULL");
     MPS__TRY(mps__struct_in(&sim->context, "mps_probe", &p, sizeof p, probe));
@@ -31,7 +31,7 @@ mps_status mps_probe_add(mps_sim *sim, const mps_probe *probe, int32_t *id)
 
 mps_status mps_probe_remove(mps_sim *sim, int32_t id)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__CHANGES(sim);
     mps__probe *probe = NULL;
     MPS__TRY(find_probe(sim, id, &probe));
     mps__probe_remove(&sim->context, probe);
@@ -47,7 +47,7 @@ int32_t mps_probe_size(const mps_sim *sim, int32_t id)
 
 mps_status mps_probe_read(mps_sim *sim, int32_t id, double *values)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__READS(sim);
     mps__probe *probe = NULL;
     MPS__CHECK(&sim->context, values, "values is NULL");
     MPS__TRY(find_probe(sim, id, &probe));
@@ -67,7 +67,7 @@ static mps__probe *find_series(mps_sim *sim, int32_t id, mps_status *status)
 
 mps_status mps_probe_series(mps_sim *sim, int32_t id, int64_t *count, const double **t, const double **values)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__READS(sim);
     mps_status status;
     mps__probe *probe = find_series(sim, id, &status);
     if (!probe) return status;
@@ -80,7 +80,7 @@ mps_status mps_probe_series(mps_sim *sim, int32_t id, int64_t *count, const doub
 
 mps_status mps_probe_series_clear(mps_sim *sim, int32_t id)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__READS(sim);
     mps_status status;
     mps__probe *probe = find_series(sim, id, &status);
     if (!probe) return status;
@@ -95,7 +95,7 @@ mps_status mps_energy_init(mps_energy *energy, size_t size)
 
 mps_status mps_energy_get(mps_sim *sim, mps_energy *energy)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__READS(sim);
     mps_energy now;
     MPS__TRY(mps__energy_measure(&sim->world, &now));
     return mps__struct_out(&sim->context, "mps_energy", energy, &now, sizeof now);
@@ -108,7 +108,7 @@ mps_status mps_momentum_init(mps_momentum *momentum, size_t size)
 
 mps_status mps_momentum_get(mps_sim *sim, mps_momentum *momentum)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__READS(sim);
     mps_momentum now;
     mps__momentum_measure(&sim->world, &now);
     return mps__struct_out(&sim->context, "mps_momentum", momentum, &now, sizeof now);

@@ -4,12 +4,14 @@
 
 mps_status mps_solver_use(mps_sim *sim, const char *solver, const char *preconditioner)
 {
-    return sim ? mps__solvers_use(&sim->world.solvers, solver, preconditioner) : MPS_E_ARG;
+    MPS__CHANGES(sim);
+    return mps__solvers_use(&sim->world.solvers, solver, preconditioner);
 }
 
 mps_status mps_solver_set_limits(mps_sim *sim, const mps_solver_limits *limits)
 {
-    return sim ? mps__solvers_set_limits(&sim->world.solvers, limits) : MPS_E_ARG;
+    MPS__CHANGES(sim);
+    return mps__solvers_set_limits(&sim->world.solvers, limits);
 }
 
 mps_status mps_solver_name(const mps_sim *sim, const char **solver, const char **preconditioner)
@@ -23,10 +25,12 @@ mps_status mps_solver_name(const mps_sim *sim, const char **solver, const char *
 
 mps_status mps_solver_register(mps_sim *sim, const mps_solver_ops *ops)
 {
-    return sim ? mps__solvers_register(&sim->world.solvers, ops) : MPS_E_ARG;
+    MPS__CHANGES(sim);
+    return mps__solvers_register(&sim->world.solvers, ops);
 }
 
 mps_status mps_preconditioner_register(mps_sim *sim, const mps_preconditioner_ops *ops)
 {
-    return sim ? mps__solvers_register_preconditioner(&sim->world.solvers, ops) : MPS_E_ARG;
+    MPS__CHANGES(sim);
+    return mps__solvers_register_preconditioner(&sim->world.solvers, ops);
 }

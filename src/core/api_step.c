@@ -30,7 +30,7 @@ static mps_status check_limits(mps__context *c, const mps_time_control *t)
 
 mps_status mps_sim_set_time_control(mps_sim *sim, const mps_time_control *control)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__CHANGES(sim);
     mps__context *c = &sim->context;
     mps_time_control t = control_default;
     MPS__TRY(mps__struct_in(c, "mps_time_control", &t, sizeof t, control));
@@ -46,30 +46,30 @@ mps_status mps_sim_set_time_control(mps_sim *sim, const mps_time_control *contro
 
 static mps_status ready(mps_sim *sim)
 {
-    if (sim->in_monitor) return mps__fail(&sim->context, MPS_E_STATE, "a monitor must not step");
     const int32_t open = mps__particles_leases(&sim->world.particles);
     return open ? mps__fail(&sim->context, MPS_E_BUSY, "%d lease(s) are open; end them before stepping", open) : MPS_OK;
 }
 
 mps_status mps_step(mps_sim *sim, double dt_max, mps_step_info *info)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__CHANGES(sim);
     MPS__CHECK(&sim->context, dt_max > 0 && isfinite(dt_max), "dt_max is %g s: must be > 0 and finite", dt_max);
     mps_step_info probe = info_default;
     if (info) MPS__TRY(mps__struct_in(&sim->context, "mps_step_info", &probe, sizeof probe, info));
     MPS__TRY(ready(sim));
     /* before the step, not after it: what runs out of memory here leaves no step half done */
     MPS__TRY(mps__probes_take(&sim->world, &sim->probes));
+    const mps__lock before = mps__lock_set(&sim->context, MPS__LOCKED, "a callback in a step");
     mps_status status = mps__world_step(&sim->world, dt_max);
+    sim->context.lock = before;
     if (status >= 0 && info) MPS__TRY(mps__struct_out(&sim->context, "mps_step_info", info, &sim->world.info, sizeof sim->world.info));
     return status;
 }
 
 mps_status mps_run(mps_sim *sim, double t_end, mps_monitor_fn monitor, void *user)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__CHANGES(sim);
     mps__world *w = &sim->world;
-    if (sim->in_monitor) return mps__fail(&sim->context, MPS_E_STATE, "a monitor must not step");
     MPS__CHECK(&sim->context, isfinite(t_end) && t_end >= w->info.t, "t_end is %g s: must be finite and not before the present time %g s",
                t_end, w->info.t);
     mps_status result = MPS_OK;
@@ -81,9 +81,9 @@ mps_status mps_run(mps_sim *sim, double t_end, mps_monitor_fn monitor, void *use
         if (status < 0) return status;
         if (status > 0) result = status;
         if (fabs(t_end - w->info.t) <= fmax(small, 1e-6 * w->info.dt)) w->info.t = t_end;
-        sim->in_monitor = true;
+        const mps__lock before = mps__lock_set(&sim->context, MPS__READ_ONLY, "a monitor");
         const int stop = monitor && monitor(user, sim, &w->info);
-        sim->in_monitor = false;
+        sim->context.lock = before;
         if (stop) return MPS_W_STOPPED;
     }
     return result;
@@ -91,7 +91,7 @@ mps_status mps_run(mps_sim *sim, double t_end, mps_monitor_fn monitor, void *use
 
 mps_status mps_sim_stencil(mps_sim *sim, int32_t which, mps_stencil *stencil)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__READS(sim);
     MPS__CHECK(&sim->context, stencil && (which == MPS_NEAR || which == MPS_FAR), "stencil is NULL, or which is %d: MPS_NEAR or MPS_FAR",
                which);
     const mps__field *x = mps__particles_field(&sim->world.particles, "position");
@@ -119,7 +119,7 @@ static mps_status bad_kernel(mps_sim *sim, const mps_kernel *kernel)
 
 mps_status mps_sim_set_kernel(mps_sim *sim, const mps_kernel *kernel)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__CHANGES(sim);
     MPS__CHECK(&sim->context, kernel, "kernel is NULL");
     if (sim->world.info.step > 0) return mps__fail(&sim->context, MPS_E_STATE, "the kernel cannot change after the first step");
     double n0;

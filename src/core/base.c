@@ -85,6 +85,13 @@ mps_status mps__fail(mps__context *c, mps_status status, const char *format, ...
     return status;
 }
 
+mps__lock mps__lock_set(mps__context *c, int32_t level, const char *what)
+{
+    const mps__lock before = c->lock;
+    if (level >= before.level) c->lock = (mps__lock){level, what};
+    return before;
+}
+
 void mps__log(mps__context *c, int level, const char *format, ...)
 {
     if (!c->log) return;
@@ -93,7 +100,9 @@ void mps__log(mps__context *c, int level, const char *format, ...)
     va_start(list, format);
     vsnprintf(text, sizeof text, format, list);
     va_end(list);
+    const mps__lock before = mps__lock_set(c, MPS__LOCKED, "a log callback");
     c->log(c->log_user, level, text);
+    c->lock = before;
 }
 
 /* Tables of plug-ins have no _init function. */
@@ -229,4 +238,11 @@ void mps__zero(double *values, int64_t count, int threads)
     (void)threads; /* unused without OpenMP */
 #pragma omp parallel for num_threads(threads) schedule(static) if (count > 8192)
     for (int64_t k = 0; k < count; k++) values[k] = 0;
+}
+
+void mps__copy(double *to, const double *from, int64_t count, int threads)
+{
+    (void)threads; /* unused without OpenMP */
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (int64_t k = 0; k < count; k++) to[k] = from[k];
 }

@@ -8,11 +8,25 @@
 
 enum { MPS__ERROR_SIZE = 512, MPS__HINT_SIZE = 384, MPS__NAME_SIZE = 48 };
 
+/* What code of the host program may do while the library calls it. */
+enum {
+    MPS__UNLOCKED = 0,
+    MPS__READ_ONLY = 1, /* in a monitor: all that changes nothing */
+    MPS__LOCKED = 2     /* in a verb or a callback: next to nothing */
+};
+
+/* Set while the library calls code of the host program. */
+typedef struct mps__lock {
+    int32_t level;
+    const char *what; /* e.g. "a monitor" */
+} mps__lock;
+
 /* What every layer needs of its handle: where memory comes from and where errors go. */
 typedef struct mps__context {
     mps_allocator allocator;
     mps_log_fn log;
     void *log_user;
+    mps__lock lock;
     char error[MPS__ERROR_SIZE];
 } mps__context;
 
@@ -47,6 +61,9 @@ void mps__scratch_free(mps__context *c, mps__scratch *s);
 mps_status mps__fail(mps__context *c, mps_status status, const char *format, ...) __attribute__((format(printf, 3, 4)));
 void mps__log(mps__context *c, int level, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
+/* Lock the handle, at least as much as it is already; put back what this returns afterwards. */
+mps__lock mps__lock_set(mps__context *c, int32_t level, const char *what);
+
 /* Propagate a failure. */
 #define MPS__TRY(call)                   \
     do {                                 \
@@ -80,6 +97,8 @@ bool mps__finite(const double *values, int64_t count);
 double mps__clock(void); /* monotonic [s] */
 /* Set numbers to zero with so many threads. */
 void mps__zero(double *values, int64_t count, int threads);
+/* Copy numbers with so many threads. */
+void mps__copy(double *to, const double *from, int64_t count, int threads);
 
 /* |b - a|^2 */
 static inline double mps__square_between(const double *a, const double *b, int dim)

@@ -45,14 +45,14 @@ void mps__bounds_free(mps__bounds *b)
 }
 
 /* Rows of components whose level is free are left out: their pressures are known but for a constant. */
-static mps_status collect(mps__bounds *b, const mps__ppe *e, const mps_stage *s, const mps_ppe_terms *t)
+static mps_status collect(mps__bounds *b, const mps__ppe *e, const mps_stage *s, const mps__ppe_terms *t)
 {
     b->count = 0;
     for (int64_t r = 0; r < e->n; r++) {
         const int64_t i = e->particle[r];
-        if (t->fixed[i] != MPS_ROW_LEAST || e->component[r] >= 0 || (e->law && e->law[r] > 0)) continue;
+        if (t->condition[i] != MPS_ROW_LEAST || e->component[r] >= 0 || (e->law && e->law[r] > 0)) continue;
         MPS__TRY(mps__grow(b->context, (void **)&b->list, &b->capacity, b->count, b->count + 1, sizeof *b->list));
-        const double margin = NEARLY * s->density_smooth[i] * s->velocity_scale * s->velocity_scale;
+        const double margin = NEARLY * t->flux->density[i] * s->velocity_scale * s->velocity_scale;
         b->list[b->count++] = (struct mps__bound){r, t->value[i], margin, b->held[i] != 0};
     }
     return MPS_OK;
@@ -142,7 +142,7 @@ static mps_status solve_held(mps__bounds *b, mps__solvers *solvers, mps__ppe *e,
     return status;
 }
 
-mps_status mps__bounds_solve(mps__bounds *b, mps__solvers *solvers, mps__ppe *e, const mps_stage *s, mps_ppe_terms *t,
+mps_status mps__bounds_solve(mps__bounds *b, mps__solvers *solvers, mps__ppe *e, const mps_stage *s, mps__ppe_terms *t,
                              mps_ppe_result *result)
 {
     mps_status status = MPS_OK;
@@ -161,7 +161,7 @@ mps_status mps__bounds_solve(mps__bounds *b, mps__solvers *solvers, mps__ppe *e,
         again = status == MPS_OK && (!last || (changed && b->solves < SOLVES));
     }
     for (int64_t k = 0; k < b->count; k++)
-        if (b->list[k].held) t->fixed[e->particle[b->list[k].row]] = MPS__ROW_HELD;
+        if (b->list[k].held) t->condition[e->particle[b->list[k].row]] = MPS__ROW_HELD;
     result->iterations = iterations;
     result->setup_seconds = setup;
     return status;

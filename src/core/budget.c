@@ -206,7 +206,7 @@ static void deviation_term(const mps__world *w, const void *data, int64_t i, dou
 {
     (void)data;
     if (w->particles.region[i] > MPS_REGION_SECOND) return;
-    sum[0] += w->work.volume[i];
+    sum[0] += w->work.volume_deviation[i];
     sum[1] += 1;
 }
 

@@ -442,6 +442,9 @@ mps_status mps_frames_write(mps_frames *frames)
 {
     mps_frames *f = frames;
     if (!f) return MPS_E_ARG;
+    if (f->world->context->lock.level > MPS__READ_ONLY)
+        return mps__fail(f->world->context, MPS_E_BUSY, "mps_frames_write() was called from %s: call it when mps_step() has returned",
+                         f->world->context->lock.what);
     const int64_t place = f->count - repeats_last(f);
     MPS__TRY(mps__grow(f->world->context, (void **)&f->times, &f->capacity, f->count, place + 1, sizeof *f->times));
     snprintf(f->path, f->path_size, "%s/%s/%s_%06lld.vtp", f->folder, f->name, f->name, (long long)place);

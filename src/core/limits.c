@@ -10,24 +10,8 @@ static double least(double a, double b)
     return b > 0 && b < a ? b : a;
 }
 
-/* The smallest of what the models allow. */
-static mps_status limit_dt(const mps__world *w, const mps_stage *s, double *dt)
-{
-    for (int32_t m = 0; m < w->models.active; m++) {
-        const mps__model *k = &w->models.on[m];
-        if (!k->ops->dt_limit) continue;
-        const double limit = k->ops->dt_limit(k->self, k->k, s);
-        if (!(limit > 0))
-            return mps__fail(w->context, MPS_E_PLUGIN,
-                             "model \"%s\" at t = %.9g s: its dt_limit is %g s; must be > 0, INFINITY for no limit", k->ops->name,
-                             w->info.t, limit);
-        *dt = least(*dt, limit);
-    }
-    return MPS_OK;
-}
-
 /* dt of the limits of the state, and of the growth since the last step that they chose; never 0. */
-static mps_status choose_dt(const mps__world *w, const mps_stage *s, double *chosen)
+static mps_status choose_dt(mps__world *w, mps_stage *s, double *chosen)
 {
     const mps_time_control *c = &w->control;
     double dt = INFINITY, nu = 0;
@@ -37,7 +21,9 @@ static mps_status choose_dt(const mps__world *w, const mps_stage *s, double *cho
     if (speed > 0) dt = least(dt, c->cfl * w->dp / speed);
     dt = least(dt, c->gravity * w->dp / w->velocity_scale);
     if (nu > 0) dt = least(dt, c->viscous * w->dp * w->dp / nu);
-    MPS__TRY(limit_dt(w, s, &dt));
+    s->dt_limit = INFINITY;
+    MPS__TRY(mps__host_run(&w->host, s, MPS_LIMIT));
+    dt = least(dt, s->dt_limit);
     if (w->dt_previous > 0) dt = least(dt, c->growth * w->dt_previous);
     *chosen = dt;
     return MPS_OK;

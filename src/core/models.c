@@ -20,7 +20,7 @@ static size_t slot_length(const char *name)
     return dot ? (size_t)(dot - name) : strlen(name);
 }
 
-static bool same_slot(const char *a, const char *b)
+bool mps__same_slot(const char *a, const char *b)
 {
     size_t n = slot_length(a);
     return n == slot_length(b) && strncmp(a, b, n) == 0;
@@ -29,7 +29,7 @@ static bool same_slot(const char *a, const char *b)
 static int32_t find_active(const mps__models *m, const char *slot)
 {
     for (int32_t k = 0; k < m->active; k++)
-        if (same_slot(m->on[k].ops->name, slot)) return k;
+        if (mps__same_slot(m->on[k].ops->name, slot)) return k;
     return -1;
 }
 
@@ -40,24 +40,71 @@ static int32_t find_named(const mps__models *m, const char *slot)
     return k >= 0 && strchr(slot, '.') && strcmp(m->on[k].ops->name, slot) != 0 ? -1 : k;
 }
 
+static mps_status check_settings(mps__context *c, const mps_model_ops *ops)
+{
+    for (int32_t k = 0; k < ops->setting_count; k++) {
+        const mps_setting *s = &ops->settings[k];
+        MPS__CHECK(c, s->key && s->key[0] && s->unit && s->help, "model '%s': setting %d has no key, unit or help", ops->name, (int)k);
+        MPS__CHECK(c, s->initial >= s->min && s->initial <= s->max, "model '%s': setting '%s' is %g, outside its range %g..%g",
+                   ops->name, s->key, s->initial, s->min, s->max);
+        MPS__CHECK(c, s->type >= MPS_TYPE_REAL && s->type <= MPS_TYPE_FLAG, "model '%s': setting '%s' has type %d: MPS_TYPE_...",
+                   ops->name, s->key, (int)s->type);
+        MPS__CHECK(c, s->type != MPS_TYPE_FLAG || (s->min == 0 && s->max == 1), "model '%s': flag '%s' allows %g..%g: must be 0..1",
+                   ops->name, s->key, s->min, s->max);
+    }
+    return MPS_OK;
+}
+
+static mps_status check_verbs(mps__context *c, const mps_model_ops *ops)
+{
+    const int32_t known = MPS_USE_READ | MPS_USE_NEIGHBOURS | MPS_USE_WRITE | MPS_USE_OPTIONAL;
+    for (int32_t v = 0; v < ops->verb_count; v++) {
+        const mps_verb *verb = &ops->verbs[v];
+        MPS__CHECK(c, verb->run, "model '%s': verb %d has no function", ops->name, (int)v);
+        MPS__CHECK(c, verb->moment >= 0 && verb->moment < MPS_MOMENT_COUNT, "model '%s': verb %d has moment %d: MPS_LIMIT..MPS_SHIFT",
+                   ops->name, (int)v, (int)verb->moment);
+        MPS__CHECK(c, verb->use_count >= 0 && verb->use_count <= MPS__USES && (verb->use_count == 0 || verb->uses),
+                   "model '%s': verb %d has %d uses: 0..%d, with a table", ops->name, (int)v, (int)verb->use_count, MPS__USES);
+        for (int32_t u = 0; u < verb->use_count; u++)
+            MPS__CHECK(c,
+                       verb->uses[u].channel && !(verb->uses[u].access & ~known) &&
+                           verb->uses[u].access & (MPS_USE_READ | MPS_USE_NEIGHBOURS | MPS_USE_WRITE),
+                       "model '%s': use %d of verb %d has no channel, or access %d, which is no sum of MPS_USE_...", ops->name, (int)u,
+                       (int)v, (int)verb->uses[u].access);
+    }
+    return MPS_OK;
+}
+
+/* Tables that a model describes itself with. */
+static mps_status check_tables(mps__context *c, const mps_model_ops *ops)
+{
+    const struct {
+        const char *what;
+        int32_t count, least, most;
+        const void *table;
+    } all[] = {{"settings", ops->setting_count, 0, MPS__SETTINGS, ops->settings},
+               {"channels", ops->channel_count, 0, MPS__BROUGHT, ops->channels},
+               {"verbs", ops->verb_count, 1, MPS__VERBS, ops->verbs}};
+    for (int k = 0; k < 3; k++)
+        MPS__CHECK(c, all[k].count >= all[k].least && all[k].count <= all[k].most && (all[k].count == 0 || all[k].table),
+                   "model '%s' has %d %s: %d..%d, with a table", ops->name, (int)all[k].count, all[k].what, (int)all[k].least,
+                   (int)all[k].most);
+    MPS__TRY(check_settings(c, ops));
+    for (int32_t k = 0; k < ops->channel_count; k++) MPS__TRY(mps__channel_check(c, ops->name, &ops->channels[k]));
+    return check_verbs(c, ops);
+}
+
 static mps_status check_ops(mps__models *m, const mps_model_ops *ops)
 {
     mps__context *c = m->context;
     const char *dot = strchr(ops->name, '.');
     MPS__CHECK(c, dot && dot != ops->name && dot[1] && strlen(ops->name) < MPS__NAME_SIZE,
-               "model name \"%s\": must be \"slot.variant\" of at most %d characters", ops->name, MPS__NAME_SIZE - 1);
-    MPS__CHECK(c, ops->classify || ops->force || ops->source || ops->gradient || ops->velocity || ops->shift || ops->dt_limit || ops->load,
-               "model \"%s\" has no verb", ops->name);
-    MPS__CHECK(c, !ops->create == !ops->destroy, "model \"%s\": create and destroy go together", ops->name);
-    MPS__CHECK(c, ops->setting_count >= 0 && ops->setting_count <= MPS__SETTINGS && (ops->setting_count == 0 || ops->settings),
-               "model \"%s\" has %d settings: 0..%d, with a table", ops->name, ops->setting_count, MPS__SETTINGS);
-    for (int32_t k = 0; k < ops->setting_count; k++) {
-        const mps_setting *s = &ops->settings[k];
-        MPS__CHECK(c, s->key && s->initial >= s->min && s->initial <= s->max, "model \"%s\": setting %d is outside its own range",
-                   ops->name, k);
-    }
-    for (int32_t k = 0; k < m->known; k++) MPS__CHECK(c, strcmp(m->name[k], ops->name) != 0, "model name \"%s\" is taken", ops->name);
-    MPS__CHECK(c, m->known < MPS__MODELS_KNOWN, "model \"%s\" is one too many: at most %d", ops->name, MPS__MODELS_KNOWN);
+               "model name '%s': must be 'slot.variant' of at most %d characters", ops->name, MPS__NAME_SIZE - 1);
+    MPS__CHECK(c, ops->help && ops->help[0], "model '%s' has no help text", ops->name);
+    MPS__CHECK(c, !ops->create == !ops->destroy, "model '%s': create and destroy go together", ops->name);
+    MPS__TRY(check_tables(c, ops));
+    for (int32_t k = 0; k < m->known; k++) MPS__CHECK(c, strcmp(m->name[k], ops->name) != 0, "model name '%s' is taken", ops->name);
+    MPS__CHECK(c, m->known < MPS__MODELS_KNOWN, "model '%s' is one too many: at most %d", ops->name, MPS__MODELS_KNOWN);
     return MPS_OK;
 }
 
@@ -66,7 +113,7 @@ mps_status mps__models_register(mps__models *m, const mps_model_ops *ops)
     mps_model_ops copy = {0};
     MPS__TRY(mps__struct_in(m->context, "mps_model_ops", &copy, sizeof copy, ops));
     if (copy.api != MPS_MODEL_API)
-        return mps__fail(m->context, MPS_E_VERSION, "model interface %u: this library speaks %u", copy.api, MPS_MODEL_API);
+        return mps__fail(m->context, MPS_E_VERSION, "model interface %u: this library has %u", copy.api, MPS_MODEL_API);
     MPS__CHECK(m->context, copy.name, "a model needs a name");
     MPS__TRY(check_ops(m, &copy));
     mps__name_copy(m->name[m->known], MPS__NAME_SIZE, copy.name);
@@ -75,9 +122,9 @@ mps_status mps__models_register(mps__models *m, const mps_model_ops *ops)
     return MPS_OK;
 }
 
-mps_status mps__models_init(mps__models *m, mps__context *context)
+mps_status mps__models_init(mps__models *m, mps__context *context, mps__channels *channels, mps__particles *particles)
 {
-    *m = (mps__models){.context = context};
+    *m = (mps__models){.context = context, .channels = channels, .particles = particles};
     const mps_model_ops *const *lists[] = {mps__builtin_bc(), mps__builtin_phase()};
     for (size_t l = 0; l < 2; l++)
         for (const mps_model_ops *const *ops = lists[l]; *ops; ops++) MPS__TRY(mps__models_register(m, *ops));
@@ -92,7 +139,10 @@ bool mps__models_foreign(const mps__models *m, const mps__model *model)
 
 static void drop(mps__models *m, int32_t k)
 {
-    if (m->on[k].ops->destroy) m->on[k].ops->destroy(m->on[k].self);
+    const mps_model_ops *ops = m->on[k].ops;
+    if (ops->destroy) ops->destroy(&m->context->allocator, m->on[k].self);
+    mps__channels_drop(m->channels, ops);
+    m->changes++;
     memmove(&m->on[k], &m->on[k + 1], (size_t)(m->active - k - 1) * sizeof m->on[0]);
     m->active--;
 }
@@ -108,7 +158,7 @@ static int32_t list_slots(const mps__models *m, char slot[][MPS__NAME_SIZE], con
     int32_t count = 0;
     for (int32_t k = 0; k < m->known; k++) {
         bool first = true;
-        for (int32_t j = 0; j < k; j++) first = first && !same_slot(m->name[j], m->name[k]);
+        for (int32_t j = 0; j < k; j++) first = first && !mps__same_slot(m->name[j], m->name[k]);
         if (!first) continue;
         memcpy(slot[count], m->name[k], slot_length(m->name[k]));
         slot[count][slot_length(m->name[k])] = 0;
@@ -125,13 +175,29 @@ static mps_status unknown_model(mps__models *m, const char *name)
     char hint[MPS__HINT_SIZE], slot[MPS__MODELS_KNOWN][MPS__NAME_SIZE];
     int32_t count = 0;
     for (int32_t k = 0; k < m->known; k++)
-        if (same_slot(m->name[k], name)) names[count++] = m->name[k];
+        if (mps__same_slot(m->name[k], name)) names[count++] = m->name[k];
     if (count > 0) return mps__fail(m->context, MPS_E_NAME, "no model \"%.60s\"; %s", name, mps__hint(hint, '"', name, names, count));
     for (int32_t k = 0; k < m->known; k++) names[k] = m->name[k];
     const char *near = mps__near(name, names, m->known);
     if (near) return mps__fail(m->context, MPS_E_NAME, "no model \"%.60s\"; did you mean \"%s\"?", name, near);
     return mps__fail(m->context, MPS_E_NAME, "no model \"%.60s\"; the slots are %s", name,
                      mps__list(hint, '"', names, list_slots(m, slot, names)));
+}
+
+/* A model that is ready to be switched on: its state is made, its channels are there. */
+static mps_status make(mps__models *m, int32_t which, mps__model *fresh)
+{
+    const mps_model_ops *ops = &m->registry[which];
+    *fresh = (mps__model){.ops = ops, .self = ops->user};
+    for (int32_t k = 0; k < ops->setting_count; k++) fresh->k[k] = ops->settings[k].initial;
+    const mps__lock before = mps__lock_set(m->context, MPS__LOCKED, "create of a model");
+    const bool failed = ops->create && ops->create(&m->context->allocator, &fresh->self) != 0;
+    m->context->lock = before;
+    if (failed)
+        return mps__fail(m->context, MPS_E_NOMEM, "no memory for model '%s'", ops->name);
+    const mps_status status = mps__channels_bring(m->channels, m->particles, ops);
+    if (status < 0 && ops->destroy) ops->destroy(&m->context->allocator, fresh->self);
+    return status;
 }
 
 mps_status mps__models_use(mps__models *m, const char *name)
@@ -143,16 +209,15 @@ mps_status mps__models_use(mps__models *m, const char *name)
     const int32_t old = find_active(m, name);
     MPS__CHECK(m->context, old >= 0 || m->active < MPS__MODELS_ACTIVE, "model \"%s\" is one too many: at most %d are active", name,
                MPS__MODELS_ACTIVE);
-    mps__model fresh = {.ops = &m->registry[which]};
-    for (int32_t k = 0; k < fresh.ops->setting_count; k++) fresh.k[k] = fresh.ops->settings[k].initial;
-    if (fresh.ops->create && fresh.ops->create(&m->context->allocator, &fresh.self) != 0)
-        return mps__fail(m->context, MPS_E_NOMEM, "no memory for model \"%s\"", name);
+    mps__model fresh;
+    MPS__TRY(make(m, which, &fresh));
     if (old >= 0) drop(m, old);
     int32_t place = m->active;
-    while (place > 0 && m->on[place - 1].ops->order > fresh.ops->order) place--;
+    while (place > 0 && m->on[place - 1].ops > fresh.ops) place--;
     memmove(&m->on[place + 1], &m->on[place], (size_t)(m->active - place) * sizeof m->on[0]);
     m->on[place] = fresh;
     m->active++;
+    m->changes++;
     return MPS_OK;
 }
 
@@ -213,9 +278,18 @@ mps_status mps__models_preset(mps__models *m, const char *name)
             mps__models_free(&kept);
         } else {
             mps__models_free(m);
+            kept.changes = m->changes;
             *m = kept;
         }
         return status;
     }
     return mps__fail(m->context, MPS_E_NAME, "no preset \"%.60s\"; %s", name, mps__hint(hint, '"', name, names, PRESET_COUNT));
+}
+
+bool mps__models_preset_info(int32_t k, const char **name, const char **help)
+{
+    if (k < 0 || k >= (int32_t)PRESET_COUNT) return false;
+    *name = presets[k].name;
+    *help = presets[k].help;
+    return true;
 }

@@ -111,7 +111,9 @@ mps_status mps__motion_pose(mps__motion *m, double t, mps__pose *pose)
         return mps__fail(m->context, MPS_E_STATE, "the motion is not defined at t = %.10g s: the last row of its table is at %.10g s", t,
                          m->t_end);
     mps_motion_state state = {0};
+    const mps__lock before = mps__lock_set(m->context, MPS__LOCKED, "a motion");
     int failed = m->fn(m->user, t, &state);
+    m->context->lock = before;
     if (failed) return mps__fail(m->context, MPS_E_PLUGIN, "the motion callback failed with %d at t = %g s", failed, t);
     MPS__TRY(check_state(m, t, &state));
     pose_from_state(pose, t, &state);

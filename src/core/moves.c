@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Layer 6: how far fluid goes in a step, against what the walls can hold, and how far the walls. */
+/* Layer 6: checks of what a step has done: finite, not too fast, and not farther than the walls can hold; how far the walls go. */
 #include "world.h"
 #include <string.h>
 
@@ -87,4 +87,34 @@ double mps__world_way_of_walls(const mps__world *w, const mps__pose *pose, doubl
         most = square > most ? square : most;
     }
     return sqrt(most);
+}
+
+/* NaN and speeds beyond every physical range stop the run, with the particle and its place. */
+mps_status mps__world_check_result(const mps__world *w, const mps_stage *s, bool arrived, mps_step_info *info)
+{
+    const double *v = w->particles.u, *p = w->particles.p;
+    double most = 0, liquid = 0, dense = 0;
+    int64_t worst = s->n;
+    for (int k = 0; k < MPS__PHASES; k++)
+        if (w->phase_defined[k]) dense = fmax(dense, 0.5 * w->phase_density[k]);
+#pragma omp parallel for num_threads(w->threads) reduction(max : most, liquid) reduction(min : worst) schedule(static)
+    for (int64_t i = 0; i < s->n; i++) {
+        const double *u = v + i * s->dim, *x = s->x + i * s->dim;
+        const double speed = sqrt(mps__dot(u, u, s->dim));
+        if (!(isfinite(speed) && speed <= w->speed_limit && mps__finite(x, s->dim) && isfinite(p[i])))
+            worst = i < worst ? i : worst;
+        else if (s->kind[i] == MPS_FLUID) {
+            most = speed > most ? speed : most;
+            if (w->particles.rho[i] >= dense) liquid = speed > liquid ? speed : liquid;
+        }
+    }
+    info->crossing_time = mps__crossing_time(w, liquid, s->dt);
+    info->max_speed = most;
+    info->cfl = most * s->dt / s->dp;
+    if (worst == s->n) return MPS_OK;
+    const double *u = v + worst * s->dim, *x = (arrived ? w->work.x0 : s->x) + worst * s->dim;
+    return mps__fail(
+        w->context, MPS_E_DIVERGED,
+        "t = %.9g s: particle %lld at (%g, %g, %g) m got velocity (%g, %g, %g) m/s and pressure %g Pa; allowed: finite, at most %g m/s",
+        s->t, (long long)s->id[worst], x[0], x[1], s->dim == 3 ? x[2] : 0, u[0], u[1], s->dim == 3 ? u[2] : 0, p[worst], w->speed_limit);
 }

@@ -48,6 +48,7 @@ void mps__particles_free(mps__particles *s)
 {
     for (int32_t k = 0; k < s->fields; k++) {
         mps__free(s->context, *s->field[k].data);
+        mps__free(s->context, s->field[k].kept);
         *s->field[k].data = NULL;
     }
     mps__scratch_free(s->context, &s->own);
@@ -108,13 +109,32 @@ mps_status mps__particles_replace(mps__particles *s, int64_t n, const void *cons
     return MPS_OK;
 }
 
+static void begin_field(const mps__field *f, int64_t first, int64_t count)
+{
+    double *values = *f->data;
+    memset((char *)*f->data + (size_t)first * stride(f), 0, (size_t)count * stride(f));
+    for (int64_t k = first * f->components; f->begin != 0 && k < (first + count) * f->components; k++) values[k] = f->begin;
+}
+
+void mps__particles_field_begin(mps__particles *s, const char *name, double value)
+{
+    mps__field *f = mps__particles_field(s, name);
+    f->begin = value;
+    begin_field(f, 0, s->n);
+}
+
+void mps__particles_field_drop(mps__particles *s)
+{
+    mps__field *f = &s->field[--s->fields];
+    mps__free(s->context, *f->data);
+    mps__free(s->context, f->kept);
+    *f->data = NULL;
+}
+
 int64_t mps__particles_append(mps__particles *s, int64_t count)
 {
     int64_t first = s->n;
-    for (int32_t k = 0; k < s->fields; k++) {
-        size_t bytes = stride(&s->field[k]);
-        memset((char *)*s->field[k].data + (size_t)first * bytes, 0, (size_t)count * bytes);
-    }
+    for (int32_t k = 0; k < s->fields; k++) begin_field(&s->field[k], first, count);
     for (int64_t i = first; i < first + count; i++) {
         s->id[i] = s->next_id++;
         s->wall_of[i] = -1;

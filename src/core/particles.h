@@ -17,6 +17,10 @@ typedef struct mps__field {
     void *own;          /* that place for user fields */
     int32_t readers;    /* open leases */
     bool writer;
+    double begin; /* value of new particles, of fields of doubles */
+    bool undone;  /* a failed step brings it back from `kept` */
+    void *kept;
+    int64_t kept_capacity;
 } mps__field;
 
 typedef struct mps__particles {
@@ -55,6 +59,10 @@ int64_t mps__particles_append(mps__particles *s, int64_t count);
 mps_status mps__particles_permute(mps__particles *s, int64_t count, const int32_t *order);
 mps__field *mps__particles_field(mps__particles *s, const char *name);
 mps_status mps__particles_field_add(mps__particles *s, const char *name, int32_t components, size_t size, bool is_public, void **data);
+/* Values of a field of doubles, of the particles there are and of those to come. */
+void mps__particles_field_begin(mps__particles *s, const char *name, double value);
+/* The last field is gone. */
+void mps__particles_field_drop(mps__particles *s);
 /* Number of a named part, added if it is new; -1 if there is no room or the name is too long. */
 int32_t mps__part_number(mps__particles *s, const char *name, bool add);
 /* Open leases of all fields. */

@@ -24,7 +24,7 @@ void mps__ppe_free(mps__ppe *e)
 typedef struct assembly {
     mps__ppe *e;
     const mps_stage *s;
-    const mps_ppe_terms *t;
+    const mps__ppe_terms *t;
     const mps_stencil *pairs;
     const int32_t *unknown;
     double c;       /* 2D/(n0 lambda) */
@@ -47,25 +47,18 @@ static double complete_flux(const mps_stencil *t)
     return full / left;
 }
 
-/* p_i - p_j by surface tension; solids belong to no phase. */
-static inline double capillary_jump(const mps_stage *s, int64_t i, int64_t j)
-{
-    const bool across = s->phase && s->phase[i] != s->phase[j] && s->kind[i] == MPS_FLUID && s->kind[j] == MPS_FLUID;
-    return across ? 0.5 * (s->capillary[i] - s->capillary[j]) : 0.0;
-}
-
 /* Weight of a pair by what its particles are; 0: it does not take part. An unknown is not on the surface. */
 static inline double pair_factor(const assembly *a, int64_t i, int64_t j)
 {
     const mps_stage *s = a->s;
-    if (a->unknown[j] < 0 && a->t->fixed[j] != MPS_ROW_FIXED) return 0.0;
-    if (s->kind[i] == MPS_WALL && s->kind[j] == MPS_WALL) return a->t->wall_factor * fmin(s->wet[i], s->wet[j]);
-    return s->region[j] == MPS_REGION_SURFACE ? a->surface : 1.0;
+    if (a->unknown[j] < 0 && a->t->condition[j] != MPS_ROW_FIXED) return 0.0;
+    if (s->kind[i] == MPS_WALL && s->kind[j] == MPS_WALL) return mps_flux_wall_share(a->t->flux, i, j);
+    return a->t->region[j] == MPS_REGION_SURFACE ? a->surface : 1.0;
 }
 
 static inline bool is_unknown(const assembly *a, int64_t i)
 {
-    return a->s->kind[i] != MPS_DUMMY && a->s->region[i] < MPS_REGION_SURFACE && a->t->fixed[i] != MPS_ROW_FIXED;
+    return a->s->kind[i] != MPS_DUMMY && a->t->region[i] < MPS_REGION_SURFACE && a->t->condition[i] != MPS_ROW_FIXED;
 }
 
 static double *carve(char **room, int64_t count)
@@ -110,7 +103,7 @@ static mps_status reserve_laws(const assembly *a)
     mps__ppe *e = a->e;
     bool any = false;
     e->gas = e->law = NULL;
-    for (int64_t i = 0; i < a->s->n && !any; i++) any = a->t->law[i] > 0 && a->t->gain * a->t->gas[i] > 0 && is_unknown(a, i);
+    for (int64_t i = 0; i < a->s->n && !any; i++) any = a->t->law[i] > 0 && a->t->equation.gain * a->t->gas[i] > 0 && is_unknown(a, i);
     if (!any) return MPS_OK;
     e->gas = mps__scratch_take(e->context, e->scratch, LAWS, 2 * e->n, sizeof *e->gas);
     if (!e->gas) return MPS_E_NOMEM;
@@ -123,7 +116,7 @@ static mps_status number_rows(const assembly *a)
 {
     mps__ppe *e = a->e;
     int64_t rows = 0;
-#pragma omp parallel for num_threads(a->s->threads) reduction(+ : rows) schedule(static)
+#pragma omp parallel for num_threads(a->t->threads) reduction(+ : rows) schedule(static)
     for (int64_t i = 0; i < a->s->n; i++) rows += is_unknown(a, i);
     e->n = rows;
     MPS__TRY(reserve_rows(a));
@@ -154,7 +147,7 @@ static int64_t start_rows(const assembly *a)
 {
     mps__ppe *e = a->e;
     e->row[0] = 0;
-#pragma omp parallel for num_threads(a->s->threads) schedule(static)
+#pragma omp parallel for num_threads(a->t->threads) schedule(static)
     for (int64_t r = 0; r < e->n; r++) e->row[r + 1] = count_row(a, r);
     for (int64_t r = 0; r < e->n; r++) e->row[r + 1] += e->row[r];
     return e->row[e->n];
@@ -181,13 +174,15 @@ static inline __attribute__((always_inline)) void fill_row(const int dim, const 
     mps__ppe *e = all->e;
     const mps_stage stage = *all->s, *s = &stage; /* copies, so that the pointers in them stay in registers */
     const mps_stencil stencil = *all->pairs, *pairs = &stencil;
-    const mps_ppe_terms terms = *all->t;
+    const mps_flux flux = *all->t->flux;
+    mps__ppe_terms terms = *all->t;
+    terms.flux = &flux;
     const assembly copy = {e, s, &terms, pairs, all->unknown, all->c, all->surface}, *a = &copy;
     const int64_t i = e->particle[r];
     int32_t *col = e->col + e->row[r];
-    const double gain = a->t->gain, gas = gain * a->t->gas[i];
+    const double gain = terms.equation.gain, gas = gain * a->t->gas[i];
     float *val = e->val + e->row[r];
-    double coupling = 0, shift = gain * a->t->shift[i] + gas, rhs = gain * a->t->rhs[i];
+    double coupling = 0, shift = gain * a->t->shift[i] + gas, rhs = gain * a->t->source[i];
     int64_t count = 0;
     int32_t last = -1;
     bool sorted = true;
@@ -195,12 +190,10 @@ static inline __attribute__((always_inline)) void fill_row(const int dim, const 
         const double factor = pair_factor(a, i, pairs->col[k]);
         if (factor == 0) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, pairs, i, k);
-        const double rho = mps_stage_pair_density(s, i, q.j);
+        const double rho = mps_flux_density(&flux, i, q.j);
         const float entry = (float)(a->c * factor * q.w / rho); /* the same from both sides, and in the diagonal */
         const double kij = (double)entry;
-        double slope = 0;
-        for (int d = 0; d < dim; d++) slope += 0.5 * (terms.body[i * dim + d] + terms.body[q.j * dim + d]) * q.d[d];
-        rhs -= kij * (rho * slope - capillary_jump(s, i, q.j));
+        rhs -= kij * (rho * mps_flux_body(&flux, dim, i, q.j, q.d) - mps_flux_jump(&flux, i, q.j));
         const int32_t column = a->unknown[q.j];
         if (column < 0) {
             shift += kij;
@@ -212,8 +205,8 @@ static inline __attribute__((always_inline)) void fill_row(const int dim, const 
         col[count] = last = column;
         val[count++] = -entry;
     }
-    if (coupling + shift == 0) { /* nobody near: p = 0 */
-        shift = a->c / s->density[i];
+    if (coupling + shift == 0) { /* no pair: p = 0 */
+        shift = a->c / terms.density[i];
         rhs = 0;
     }
     e->diagonal[r] = coupling + shift;
@@ -233,7 +226,7 @@ static void note_unknown(const assembly *a, int64_t r)
     const mps_stage *s = a->s;
     const int64_t i = e->particle[r];
     e->weight[r] = s->dt * s->dt;
-    e->p[r] = s->p[i];
+    e->p[r] = a->t->pressure[i];
     for (int d = 0; d < s->dim; d++) e->x[r * s->dim + d] = s->x[i * s->dim + d];
 }
 
@@ -291,26 +284,26 @@ static mps_status reserve_entries(mps__ppe *e, int64_t entries)
     return e->col && e->val ? MPS_OK : MPS_E_NOMEM;
 }
 
-mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps_ppe_terms *t)
+mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps__ppe_terms *t)
 {
-    const mps_stencil *pairs = t->radius == MPS_NEAR ? s->near : s->far;
+    const mps_stencil *pairs = t->equation.radius == MPS_NEAR ? s->near : s->far;
     assembly a = {.e = e,
                   .s = s,
                   .t = t,
                   .pairs = pairs,
                   .c = 2.0 * s->dim / (pairs->n0 * pairs->lambda),
-                  .surface = t->complete_surface ? complete_flux(pairs) : 1.0};
+                  .surface = t->equation.complete_surface ? complete_flux(pairs) : 1.0};
     MPS__TRY(number_rows(&a));
     a.unknown = e->unknown;
     MPS__TRY(reserve_entries(e, start_rows(&a)));
-#pragma omp parallel for num_threads(s->threads) schedule(static)
+#pragma omp parallel for num_threads(t->threads) schedule(static)
     for (int64_t r = 0; r < e->n; r++) {
         if (s->dim == 2)
             fill_row(2, &a, r);
         else
             fill_row(3, &a, r);
     }
-#pragma omp parallel for num_threads(s->threads) schedule(static)
+#pragma omp parallel for num_threads(t->threads) schedule(static)
     for (int64_t r = 0; r < e->n; r++) note_unknown(&a, r);
     const int32_t singular = find_singular(e, e->queue);
     e->problem = (mps_ppe_problem){.struct_size = sizeof e->problem,
@@ -325,7 +318,7 @@ mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps_ppe_term
                                    .weight = e->weight,
                                    .x = e->x,
                                    .dp = s->dp,
-                                   .threads = s->threads,
+                                   .threads = t->threads,
                                    .components = singular,
                                    .component = singular ? e->component : NULL,
                                    .gas = e->gas,
@@ -333,13 +326,13 @@ mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps_ppe_term
     return MPS_OK;
 }
 
-void mps__ppe_scatter(const mps__ppe *e, const mps_stage *s, const mps_ppe_terms *t, double *p)
+void mps__ppe_scatter(const mps__ppe *e, const mps_stage *s, const mps__ppe_terms *t, double *p)
 {
-#pragma omp parallel for num_threads(s->threads) schedule(static)
+#pragma omp parallel for num_threads(t->threads) schedule(static)
     for (int64_t i = 0; i < s->n; i++) {
         if (e->unknown[i] >= 0)
             p[i] = e->p[e->unknown[i]];
         else
-            p[i] = t->fixed[i] == MPS_ROW_FIXED ? t->value[i] : 0;
+            p[i] = t->condition[i] == MPS_ROW_FIXED ? t->value[i] : 0;
     }
 }

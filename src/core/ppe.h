@@ -6,6 +6,17 @@
 #include "solvers.h"
 #include <mps/model.h>
 
+/* What models say of the equation: mps_equation, the fluxes of its pairs, and its channels. */
+typedef struct mps__ppe_terms {
+    mps_equation equation;
+    const mps_flux *flux;
+    const int32_t *region;
+    const double *density, *pressure; /* [n] those before the solution */
+    double *source, *shift, *value, *gas, *law;
+    int32_t *condition;
+    int32_t threads;
+} mps__ppe_terms;
+
 typedef struct mps__ppe {
     mps__context *context;
     mps__scratch own, *scratch; /* where all arrays are: its own, or one shared with others. They last until these take it again */
@@ -26,9 +37,9 @@ typedef struct mps__ppe {
 
 void mps__ppe_init(mps__ppe *e, mps__context *context);
 void mps__ppe_free(mps__ppe *e);
-/* Build a row for every unknown, with the old pressures as the first guess. Of the terms `value` and `fixed` are left where e->spare is theirs. */
-mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps_ppe_terms *t);
+/* Build a row for every unknown, with the old pressures as the first guess. Of the terms `value` and `condition` are left where e->spare is theirs. */
+mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps__ppe_terms *t);
 /* Pressures of all particles from the solution e->p. */
-void mps__ppe_scatter(const mps__ppe *e, const mps_stage *s, const mps_ppe_terms *t, double *p);
+void mps__ppe_scatter(const mps__ppe *e, const mps_stage *s, const mps__ppe_terms *t, double *p);
 
 #endif

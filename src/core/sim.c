@@ -128,6 +128,10 @@ mps_status mps_sim_create(const mps_config *config, mps_sim **sim)
 void mps_sim_destroy(mps_sim *sim)
 {
     if (!sim) return;
+    if (sim->context.lock.level > MPS__UNLOCKED) {
+        mps__log(&sim->context, MPS_LOG_WARNING, "mps_sim_destroy() was called from %s, and does nothing there", sim->context.lock.what);
+        return;
+    }
     mps__context c = sim->context;
     mps__probes_free(&sim->context, &sim->probes);
     for (int32_t k = 0; k < sim->solids; k++) mps__distances_free(&sim->solid[k], &c);
@@ -159,7 +163,7 @@ mps_status mps_sim_time(const mps_sim *sim, double *t, int64_t *steps)
 
 mps_status mps_sim_set_threads(mps_sim *sim, int32_t threads)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__CHANGES(sim);
     MPS__CHECK(&sim->context, threads >= 1 && threads <= 1024, "threads is %d: 1..1024", threads);
     sim->world.threads = threads;
     return MPS_OK;
@@ -167,7 +171,7 @@ mps_status mps_sim_set_threads(mps_sim *sim, int32_t threads)
 
 mps_status mps_sim_set_phase(mps_sim *sim, int32_t index, const mps_phase *phase)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__CHANGES(sim);
     mps_phase p = water;
     MPS__CHECK(&sim->context, index >= 0 && index < MPS__PHASES, "phase index is %d: 0..%d", index, MPS__PHASES - 1);
     MPS__TRY(mps__struct_in(&sim->context, "mps_phase", &p, sizeof p, phase));
@@ -208,7 +212,7 @@ static mps_status check_pair(mps__context *c, const mps__world *w, int32_t a, in
 
 mps_status mps_sim_set_tension(mps_sim *sim, int32_t a, int32_t b, double sigma)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__CHANGES(sim);
     mps__world *w = &sim->world;
     MPS__TRY(check_pair(&sim->context, w, a, b));
     MPS__CHECK(&sim->context, sigma >= 0 && isfinite(sigma), "surface tension of phases %d and %d is %g: must be >= 0 N/m, finite", a, b,
@@ -233,27 +237,31 @@ mps_status mps_sim_get_tension(const mps_sim *sim, int32_t a, int32_t b, double 
 
 mps_status mps_model_register(mps_sim *sim, const mps_model_ops *ops)
 {
-    return sim ? mps__models_register(&sim->world.models, ops) : MPS_E_ARG;
+    MPS__CHANGES(sim);
+    return mps__models_register(&sim->world.models, ops);
 }
 
 mps_status mps_sim_use_preset(mps_sim *sim, const char *name)
 {
-    return sim ? mps__models_preset(&sim->world.models, name) : MPS_E_ARG;
+    MPS__CHANGES(sim);
+    return mps__models_preset(&sim->world.models, name);
 }
 
 mps_status mps_model_use(mps_sim *sim, const char *name)
 {
-    return sim ? mps__models_use(&sim->world.models, name) : MPS_E_ARG;
+    MPS__CHANGES(sim);
+    return mps__models_use(&sim->world.models, name);
 }
 
 mps_status mps_model_remove(mps_sim *sim, const char *slot)
 {
-    return sim ? mps__models_remove(&sim->world.models, slot) : MPS_E_ARG;
+    MPS__CHANGES(sim);
+    return mps__models_remove(&sim->world.models, slot);
 }
 
 mps_status mps_model_set(mps_sim *sim, const char *slot, const char *key, double value)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__CHANGES(sim);
     const mps_setting *s = NULL;
     double *place = mps__models_value(&sim->world.models, slot, key, &s);
     if (!place) return MPS_E_NAME;

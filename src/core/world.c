@@ -22,7 +22,15 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
     mps__motion_init(&w->motion, context, dim);
     MPS__TRY(mps__particles_init(&w->particles, context, dim));
     w->neighbours.shared = w->complete.shared = w->ppe.scratch = w->particles.scratch = &w->scratch;
-    MPS__TRY(mps__models_init(&w->models, context));
+    mps__channels_init(&w->channels, context, dim);
+    w->host = (mps__host){.context = context,
+                          .models = &w->models,
+                          .channels = &w->channels,
+                          .particles = &w->particles,
+                          .scratch = &w->scratch,
+                          .threads = 1};
+    mps__plan_init(&w->host.plan);
+    MPS__TRY(mps__models_init(&w->models, context, &w->channels, &w->particles));
     return mps__solvers_init(&w->solvers, context);
 }
 
@@ -37,10 +45,10 @@ void mps__world_free(mps__world *w)
     mps__ppe_free(&w->ppe);
     mps__bounds_free(&w->bounds);
     mps__motion_free(&w->motion);
+    mps__channels_free(&w->channels);
     mps__work *k = &w->work;
-    void *all[] = {k->fixed,          k->gone,      k->volume, k->asymmetry,  k->wet,
-                   k->density_smooth, k->capillary, k->depth,  k->correction, k->tank_accel,
-                   k->turned,         k->a,         k->value,  k->u0,         k->p0};
+    void *all[] = {k->gone,   k->tank_acceleration, k->volume_deviation, k->asymmetry, k->pressure_density,
+                   k->turned, k->motion,            k->value,            k->condition};
     for (size_t a = 0; a < sizeof all / sizeof all[0]; a++) mps__free(w->context, all[a]);
     mps__free(w->context, w->listed_at);
     mps__scratch_free(w->context, &w->scratch);
@@ -242,7 +250,7 @@ static void estimate_areas(mps__world *w)
 {
     mps__particles *s = &w->particles;
     const int dim = w->dim;
-    double *sum = w->work.a; /* free between steps */
+    double *sum = w->work.motion; /* free between steps */
     memset(sum, 0, (size_t)(s->n * dim) * sizeof *sum);
     for (int64_t i = 0; i < s->n; i++)
         if (s->wall_of[i] >= 0)
@@ -265,33 +273,26 @@ static mps_status reserve_work(mps__world *w)
         void **place;
         int64_t count;
         size_t size;
-    } a[] = {{(void **)&k->fixed, wanted, sizeof(int32_t)},
+    } a[] = {{(void **)&k->condition, wanted, sizeof(int32_t)},
              {(void **)&k->gone, wanted, sizeof(bool)},
-             {(void **)&k->volume, wanted, sizeof(double)},
+             {(void **)&k->volume_deviation, wanted, sizeof(double)},
              {(void **)&k->asymmetry, wanted * dim, sizeof(double)},
-             {(void **)&k->wet, wanted, sizeof(double)},
-             {(void **)&k->density_smooth, wanted, sizeof(double)},
-             {(void **)&k->capillary, wanted, sizeof(double)},
-             {(void **)&k->depth, wanted, sizeof(double)},
-             {(void **)&k->correction, wanted * dim * dim, sizeof(double)},
-             {(void **)&k->tank_accel, wanted * dim, sizeof(double)},
-             {(void **)&k->a, wanted * dim, sizeof(double)},
-             {(void **)&k->value, wanted * 5, sizeof(double)},
-             {(void **)&k->u0, wanted * dim, sizeof(double)},
-             {(void **)&k->p0, wanted, sizeof(double)}};
+             {(void **)&k->pressure_density, wanted, sizeof(double)},
+             {(void **)&k->tank_acceleration, wanted * dim, sizeof(double)},
+             {(void **)&k->motion, wanted * dim, sizeof(double)},
+             {(void **)&k->value, wanted * 5, sizeof(double)}};
     k->capacity = 0; /* nothing in here outlives a step */
     for (size_t i = 0; i < sizeof a / sizeof a[0]; i++) {
         mps__free(w->context, *a[i].place);
         *a[i].place = mps__alloc(w->context, a[i].count, a[i].size);
         if (!*a[i].place) return MPS_E_NOMEM;
     }
-    double **const terms[] = {&k->rhs, &k->shift, &k->gas, &k->law};
+    double **const terms[] = {&k->source, &k->shift, &k->gas, &k->law};
     for (int i = 0; i < 4; i++) *terms[i] = k->value + (i + 1) * wanted;
-    k->body = k->a;
-    k->load = k->rhs;
+    k->load = k->source;
     k->x0 = k->shift;
     w->ppe.spare = k->shift;
-    w->ppe.spare_x = k->body;
+    w->ppe.spare_x = k->motion;
     k->capacity = wanted;
     return MPS_OK;
 }

@@ -4,7 +4,7 @@
 #define MPS_CORE_WORLD_H
 
 #include "bounds.h"
-#include "models.h"
+#include "host.h"
 #include "motion.h"
 #include "neighbours.h"
 #include <math.h>
@@ -30,19 +30,18 @@ typedef struct mps__budget {
     bool started;
 } mps__budget;
 
-/* Arrays [n] or [n*dim] that live through one step; what a failed step is undone from. */
+/* Arrays [n] or [n*dim] that live through one step. Those that verbs of models use are channels. */
 typedef struct mps__work {
     int64_t capacity, turned_capacity;
-    int32_t *fixed;
     bool *gone; /* particles to be removed */
-    double *volume, *asymmetry, *wet, *density_smooth, *capillary, *depth, *correction, *tank_accel, *turned, *a;
-    const double *area;                      /* wetted area vectors in the lab: in turned, or those of the particles */
-    double *value, *rhs, *shift, *gas, *law; /* one block */
-    double *u0, *p0;
-    double *body;         /* a: the pressure equation has no accelerations */
-    double *load;         /* rhs: pressure on walls, from the gradient on */
-    double *x0;           /* positions before particles move, from shift on */
-    int32_t scratch_used; /* blocks lent to the verb in progress */
+    double *tank_acceleration, *volume_deviation, *asymmetry, *pressure_density;
+    double *turned;
+    const double *area;                        /* wetted area vectors in the lab: in turned, or those of the particles */
+    double *motion;                            /* accelerations, then displacements */
+    double *value, *source, *shift, *gas, *law; /* of the pressure equation; one block */
+    int32_t *condition;                        /* of its rows */
+    double *load;                              /* source: pressure on walls, from the load on */
+    double *x0;                                /* shift: positions before particles move, from then on */
 } mps__work;
 
 /* When the velocity of the tank jumped last. */
@@ -66,6 +65,8 @@ typedef struct mps__world {
     mps_neighbours complete; /* the same with the rows of solids without fluid about them, for those who ask; else empty */
     mps__screens screens;    /* thin plates, in the tank's frame */
     mps__models models;
+    mps__channels channels;
+    mps__host host;
     mps__solvers solvers;
     mps__ppe ppe;
     mps__bounds bounds;
@@ -124,6 +125,9 @@ static inline double mps__crossing_time(const mps__world *w, double speed, doubl
 double mps__world_speed(const mps__world *w);
 /* One step, undone if it fails. step.c */
 mps_status mps__world_step(mps__world *w, double dt_max);
+/* Fail for what is not finite or too fast, with the particle and its place, which is in work.x0 if particles arrived at new ones. Sets the
+ * speeds of `info`. moves.c */
+mps_status mps__world_check_result(const mps__world *w, const mps_stage *s, bool arrived, mps_step_info *info);
 /* Fluid that passes a wall in a step of dt that ends at a pose; the places before it are work.x0. moves.c */
 mps_status mps__world_check_moves(mps__world *w, const mps__pose *next, double dt);
 /* The step to take, in s->dt; `planned` is the one the limits chose, 0 if the caller cut it. They also differ where the last steps of a run

@@ -98,7 +98,7 @@ mps_status mps_tank_init(mps_tank *tank, size_t size)
 
 mps_status mps_geometry_tank(mps_sim *sim, const mps_tank *tank, double *built)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__CHANGES(sim);
     mps_tank t = tank_defaults;
     char name[MPS__PART_NAME - 3]; /* room for ".x0" */
     int64_t cells[3] = {0, 0, 0};
@@ -118,7 +118,7 @@ mps_status mps_geometry_tank(mps_sim *sim, const mps_tank *tank, double *built)
 
 mps_status mps_geometry_baffle(mps_sim *sim, const char *name, const double *lo, const double *hi, double *built)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__CHANGES(sim);
     mps__lattice_box box;
     char copy[MPS__PART_NAME];
     MPS__TRY(mps__solids_allowed(sim));
@@ -189,7 +189,7 @@ static mps_status plate_inside(mps_sim *sim, const mps__plate_shape *s)
 
 mps_status mps_geometry_plate(mps_sim *sim, const char *name, const double *corner, const double *edge, const double *edge2)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__CHANGES(sim);
     const int dim = sim->world.dim;
     mps__plate_shape s = {.nodes = {1, 1}, .spacing = {sim->world.dp, sim->world.dp}, .columns = 1};
     char copy[MPS__PART_NAME];
@@ -220,7 +220,7 @@ static mps_status fill_points(mps_sim *sim, int32_t phase, const double *lo, con
 
 mps_status mps_geometry_fill_box(mps_sim *sim, int32_t phase, const double *lo, const double *hi, int64_t *added, double *built)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__CHANGES(sim);
     mps__lattice_box box;
     MPS__TRY(fill_points(sim, phase, lo, hi, &box));
     MPS__TRY(mps__geometry_fill(sim, phase, &box, NULL, NULL, added));
@@ -230,7 +230,7 @@ mps_status mps_geometry_fill_box(mps_sim *sim, int32_t phase, const double *lo, 
 
 mps_status mps_geometry_fill_level(mps_sim *sim, int32_t phase, const double *lo, const double *hi, int64_t *added, double *built)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__CHANGES(sim);
     mps__lattice_box box;
     MPS__TRY(has_tank(sim));
     MPS__TRY(corners(sim, lo, hi));
@@ -248,7 +248,7 @@ mps_status mps_geometry_fill_level(mps_sim *sim, int32_t phase, const double *lo
 
 mps_status mps_geometry_fill(mps_sim *sim, int32_t phase, mps_inside_fn inside, void *user, int64_t *added)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__CHANGES(sim);
     MPS__TRY(mps__fill_allowed(sim));
     MPS__TRY(phase_ok(sim, phase));
     MPS__TRY(has_tank(sim));
@@ -258,5 +258,8 @@ mps_status mps_geometry_fill(mps_sim *sim, int32_t phase, mps_inside_fn inside, 
         box.lo[d] = sim->lattice_lo[d];
         box.last[d] = sim->lattice_cells[d];
     }
-    return mps__geometry_fill(sim, phase, &box, inside, user, added);
+    const mps__lock before = mps__lock_set(&sim->context, MPS__LOCKED, "an inside callback");
+    const mps_status status = mps__geometry_fill(sim, phase, &box, inside, user, added);
+    sim->context.lock = before;
+    return status;
 }

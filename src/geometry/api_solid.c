@@ -46,7 +46,7 @@ mps_status mps_solid_init(mps_solid *solid, size_t size)
 
 mps_status mps_geometry_solid(mps_sim *sim, const mps_solid *solid)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__CHANGES(sim);
     mps_solid s = solid_defaults;
     char name[MPS__PART_NAME];
     MPS__TRY(mps__solids_allowed(sim));
@@ -60,7 +60,10 @@ mps_status mps_geometry_solid(mps_sim *sim, const mps_solid *solid)
         .dim = sim->world.dim, .dp = sim->world.dp, .sign = s.invert ? -1 : 1, .distance = s.distance, .inside = s.inside, .user = s.user};
     memcpy(add.lo, s.lo, (size_t)sim->world.dim * sizeof(double));
     memcpy(add.hi, s.hi, (size_t)sim->world.dim * sizeof(double));
-    return mps__solid_add(sim, &add);
+    const mps__lock before = mps__lock_set(&sim->context, MPS__LOCKED, "a callback of a solid");
+    const mps_status status = mps__solid_add(sim, &add);
+    sim->context.lock = before;
+    return status;
 }
 
 /* ---- STL ---- */
@@ -130,7 +133,7 @@ static mps_status add_mesh(mps_sim *sim, const char *path, const mps_stl *s, mps
 
 mps_status mps_geometry_stl(mps_sim *sim, const char *path, const mps_stl *stl, double *built)
 {
-    if (!sim) return MPS_E_ARG;
+    MPS__CHANGES(sim);
     mps_stl s = stl_defaults;
     char name[MPS__PART_NAME];
     double box[6];

@@ -17,7 +17,6 @@ typedef struct site {
 mps_status mps__fill_allowed(mps_sim *sim)
 {
     const int32_t open = mps__particles_leases(&sim->world.particles);
-    if (sim->in_monitor) return mps__fail(&sim->context, MPS_E_STATE, "a monitor must not add particles");
     if (open > 0) return mps__fail(&sim->context, MPS_E_BUSY, "%d leases are open: give them back before adding particles", (int)open);
     return MPS_OK;
 }

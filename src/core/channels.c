@@ -1,0 +1,251 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The list of channels and their arrays. */
+#include "channels.h"
+#include <math.h>
+#include <string.h>
+
+/* Bits of moments. */
+enum {
+    ALL = (1 << MPS_MOMENT_COUNT) - 1,
+    STEP = ALL & ~(1 << MPS_LIMIT),
+    SORTING = 1 << MPS_CLASSIFY | 1 << MPS_PREPARE,
+    EARLY = SORTING | 1 << MPS_FORCE | 1 << MPS_SOURCE,
+    SOLVED = 1 << MPS_LEVEL | 1 << MPS_GRADIENT | 1 << MPS_LOAD | 1 << MPS_VELOCITY | 1 << MPS_SHIFT,
+    FORCE = 1 << MPS_FORCE,
+    SOURCE = 1 << MPS_SOURCE,
+    LEVEL = 1 << MPS_LEVEL,
+    PUSH = 1 << MPS_FORCE | 1 << MPS_GRADIENT,
+    LOAD = 1 << MPS_LOAD,
+    MOVE = 1 << MPS_VELOCITY | 1 << MPS_SHIFT,
+    SHIFT = 1 << MPS_SHIFT
+};
+
+/* A channel of the library. */
+typedef struct own_channel {
+    const char *name, *unit, *help;
+    int32_t components, type;
+    uint32_t reads, writes;
+} own_channel;
+
+static const own_channel own[MPS__OWN_CHANNELS] = {
+    [MPS__VELOCITY] = {"velocity", "m/s",
+                       "velocity; of solids that of the tank over this step; in MPS_SOURCE u*",
+                       MPS_VECTOR, MPS_TYPE_REAL, ALL, MOVE},
+    [MPS__PRESSURE] = {"pressure", "Pa", "pressure; from MPS_LEVEL on the new one", 1,
+                       MPS_TYPE_REAL, ALL, LEVEL},
+    [MPS__DENSITY] = {"density", "kg/m3", "density of the particle's phase", 1, MPS_TYPE_REAL, ALL,
+                      0},
+    [MPS__NUMBER_DENSITY] = {"number_density", "-", "sum of W over near pairs, W22 (7)", 1,
+                             MPS_TYPE_REAL, ALL, SORTING},
+    [MPS__REGION] = {"region", "-", "MPS_REGION_...; arrives INNER, of dummies DRY", 1,
+                     MPS_TYPE_INTEGER, STEP, 1 << MPS_CLASSIFY},
+    [MPS__TANK_ACCELERATION] = {"tank_acceleration", "m/s2",
+                                "acceleration of the rigid tank at the particle over this step",
+                                MPS_VECTOR, MPS_TYPE_REAL, STEP, SORTING},
+    [MPS__VOLUME_DEVIATION] = {"volume_deviation", "-", "mps_op_volume_deviation() over far pairs",
+                               1, MPS_TYPE_REAL, STEP, SORTING},
+    [MPS__ASYMMETRY] = {"asymmetry", "-", "A over near pairs, points out of the fluid, W22 (11)",
+                        MPS_VECTOR, MPS_TYPE_REAL, STEP, 0},
+    [MPS__PRESSURE_DENSITY] = {"pressure_density", "kg/m3",
+                               "density in operators of the pressure; arrives as density", 1,
+                               MPS_TYPE_REAL, STEP, SORTING},
+    [MPS__ACCELERATION] = {"acceleration", "m/s2",
+                           "sum of the accelerations of this moment; arrives 0 in MPS_FORCE and "
+                           "MPS_GRADIENT",
+                           MPS_VECTOR, MPS_TYPE_REAL, PUSH | LOAD, PUSH},
+    [MPS__DISPLACEMENT] = {"displacement", "m", "displacement beside dt u; arrives 0", MPS_VECTOR,
+                           MPS_TYPE_REAL, SHIFT, SHIFT},
+    [MPS__PRESSURE_SOURCE] = {"pressure_source", "1/s2", "right side of the pressure equation", 1,
+                              MPS_TYPE_REAL, SOURCE, SOURCE},
+    [MPS__PRESSURE_SHIFT] = {"pressure_shift", "1/(Pa s2)", "compressibility of a row, >= 0", 1,
+                             MPS_TYPE_REAL, SOURCE, SOURCE},
+    [MPS__PRESSURE_VALUE] = {"pressure_value", "Pa", "given or least pressure of a row", 1,
+                             MPS_TYPE_REAL, SOURCE, SOURCE},
+    [MPS__PRESSURE_CONDITION] = {"pressure_condition", "-", "MPS_ROW_...", 1, MPS_TYPE_INTEGER,
+                                 SOURCE, SOURCE},
+    [MPS__GAS_SHIFT] = {"gas_shift", "1/(Pa s2)", "compressibility of a row of gas, >= 0", 1,
+                        MPS_TYPE_REAL, SOURCE, SOURCE},
+    [MPS__GAS_LAW] = {"gas_law", "Pa", "P of a nonlinear law of a gas; 0: linear", 1, MPS_TYPE_REAL,
+                      SOURCE, SOURCE},
+    [MPS__WALL_PRESSURE] = {"wall_pressure", "Pa",
+                            "pressure that probes and forces see; arrives as pressure", 1,
+                            MPS_TYPE_REAL, LOAD, LOAD},
+};
+
+static int32_t numbers(const mps__channels *c, int32_t components)
+{
+    if (components == MPS_VECTOR) return c->dim;
+    return components == MPS_MATRIX ? c->dim * c->dim : components;
+}
+
+static size_t element(const mps__channel *k)
+{
+    return (size_t)k->components * (k->spec.type == MPS_TYPE_INTEGER ? sizeof(int32_t) : sizeof(double));
+}
+
+void mps__channels_init(mps__channels *c, mps__context *context, int32_t dim)
+{
+    *c = (mps__channels){.context = context, .dim = dim, .count = MPS__OWN_CHANNELS};
+    for (int32_t k = 0; k < MPS__OWN_CHANNELS; k++)
+        c->list[k] = (mps__channel){.spec = {.name = own[k].name,
+                                             .unit = own[k].unit,
+                                             .help = own[k].help,
+                                             .components = own[k].components,
+                                             .type = own[k].type},
+                                    .reads = own[k].reads,
+                                    .writes = own[k].writes,
+                                    .components = numbers(c, own[k].components)};
+}
+
+/* Channels of the library belong to others. */
+void mps__channels_free(mps__channels *c)
+{
+    for (int32_t k = MPS__OWN_CHANNELS; k < c->count; k++) mps__free(c->context, c->list[k].array);
+    c->count = c->count < MPS__OWN_CHANNELS ? c->count : MPS__OWN_CHANNELS;
+}
+
+int32_t mps__channels_find(const mps__channels *c, const char *name)
+{
+    for (int32_t k = 0; k < c->count; k++)
+        if (strcmp(c->list[k].spec.name, name) == 0) return k;
+    return -1;
+}
+
+mps_status mps__channel_check(mps__context *c, const char *model, const mps_channel *s)
+{
+    MPS__CHECK(c, s->name && s->name[0] && strnlen(s->name, 32) < 32,
+               "model '%s': a channel's name has 1..31 characters", model);
+    MPS__CHECK(c, s->unit && s->help, "model '%s': channel '%s' has no unit or no help", model, s->name);
+    MPS__CHECK(c, (s->components >= 1 && s->components <= 9) || s->components == MPS_VECTOR || s->components == MPS_MATRIX,
+               "model '%s': channel '%s' has %d components: 1..9, MPS_VECTOR or MPS_MATRIX", model, s->name,
+               (int)s->components);
+    MPS__CHECK(c, s->type == MPS_TYPE_REAL || (s->type == MPS_TYPE_INTEGER && s->life == MPS_LIFE_STEP),
+               "model '%s': channel '%s' has type %d and life %d: real, or integer for a step", model, s->name,
+               (int)s->type, (int)s->life);
+    MPS__CHECK(c, s->life == MPS_LIFE_STEP || s->life == MPS_LIFE_PARTICLE,
+               "model '%s': channel '%s' has life %d: MPS_LIFE_STEP or MPS_LIFE_PARTICLE", model, s->name, (int)s->life);
+    MPS__CHECK(c, isfinite(s->initial), "model '%s': channel '%s' begins with %g: must be finite", model, s->name, s->initial);
+    for (int32_t k = 0; k < MPS__OWN_CHANNELS; k++)
+        MPS__CHECK(c, strcmp(own[k].name, s->name) != 0, "model '%s' brings channel '%s', which is the library's own", model,
+                   s->name);
+    return MPS_OK;
+}
+
+static bool same_spec(const mps_channel *a, const mps_channel *b)
+{
+    return strcmp(a->unit, b->unit) == 0 && a->components == b->components && a->type == b->type && a->life == b->life &&
+           a->initial == b->initial;
+}
+
+/* A channel that lives as long as a particle is a field. A field of this name that the user made is taken. */
+static mps_status bring_field(mps__channels *c, mps__particles *s, const char *model, const mps_channel *spec)
+{
+    const int32_t components = numbers(c, spec->components);
+    mps__field *f = mps__particles_field(s, spec->name);
+    if (f) {
+        MPS__CHECK(c->context, f->is_public && f->data == &f->own && f->components == components,
+                   "model '%s' needs field '%s' of %d components, and there is another one of this name", model, spec->name,
+                   (int)components);
+        return MPS_OK;
+    }
+    MPS__TRY(mps__particles_field_add(s, spec->name, components, sizeof(double), true, NULL));
+    mps__particles_field_begin(s, spec->name, spec->initial);
+    return MPS_OK;
+}
+
+static mps_status bring(mps__channels *c, mps__particles *s, const char *model, const mps_channel *spec)
+{
+    const int32_t k = mps__channels_find(c, spec->name);
+    if (k >= 0) {
+        MPS__CHECK(c->context, same_spec(&c->list[k].spec, spec),
+                   "model '%s' and another active one bring channel '%s', and describe it differently", model, spec->name);
+        c->list[k].users++;
+        return MPS_OK;
+    }
+    MPS__CHECK(c->context, c->count < MPS__CHANNELS, "channel '%s' of model '%s' is one too many: at most %d", spec->name, model,
+               MPS__CHANNELS);
+    mps__channel fresh = {.spec = *spec, .reads = STEP, .writes = STEP, .components = numbers(c, spec->components), .users = 1};
+    if (spec->life == MPS_LIFE_PARTICLE) {
+        MPS__TRY(bring_field(c, s, model, spec));
+        fresh.reads = fresh.writes = ALL;
+    } else {
+        MPS__CHECK(c->context, !mps__particles_field(s, spec->name), "model '%s' brings channel '%s', and a field has this name",
+                   model, spec->name);
+        fresh.array = mps__alloc(c->context, c->capacity, element(&fresh));
+        if (!fresh.array) return MPS_E_NOMEM;
+    }
+    c->list[c->count++] = fresh;
+    return MPS_OK;
+}
+
+static void drop(mps__channels *c, const char *name)
+{
+    const int32_t k = mps__channels_find(c, name);
+    if (k < MPS__OWN_CHANNELS || --c->list[k].users > 0) return;
+    mps__free(c->context, c->list[k].array);
+    memmove(&c->list[k], &c->list[k + 1], (size_t)(c->count - k - 1) * sizeof c->list[0]);
+    c->count--;
+}
+
+mps_status mps__channels_bring(mps__channels *c, mps__particles *s, const mps_model_ops *ops)
+{
+    const int32_t fields = s->fields;
+    for (int32_t k = 0; k < ops->channel_count; k++) {
+        const mps_status status = bring(c, s, ops->name, &ops->channels[k]);
+        if (status == MPS_OK) continue;
+        while (k-- > 0) drop(c, ops->channels[k].name);
+        while (s->fields > fields) mps__particles_field_drop(s);
+        return status;
+    }
+    return MPS_OK;
+}
+
+void mps__channels_drop(mps__channels *c, const mps_model_ops *ops)
+{
+    for (int32_t k = 0; k < ops->channel_count; k++) drop(c, ops->channels[k].name);
+}
+
+mps_status mps__channels_reserve(mps__channels *c, int64_t n)
+{
+    if (n <= c->capacity) return MPS_OK;
+    const int64_t wanted = mps__room(n, c->capacity);
+    c->capacity = 0; /* nothing in here outlives a step */
+    for (int32_t k = MPS__OWN_CHANNELS; k < c->count; k++) {
+        mps__channel *own_array = &c->list[k];
+        if (own_array->spec.life != MPS_LIFE_STEP) continue;
+        mps__free(c->context, own_array->array);
+        own_array->array = mps__alloc(c->context, wanted, element(own_array));
+        if (!own_array->array) return MPS_E_NOMEM;
+    }
+    c->capacity = wanted;
+    return MPS_OK;
+}
+
+/* Rows of a channel that begin anew. */
+static void begin_rows(const mps__channel *k, int32_t dim, int64_t n, int32_t threads)
+{
+    const int32_t width = k->components, diagonal = k->spec.components == MPS_MATRIX ? dim + 1 : 1;
+    (void)threads; /* unused without OpenMP */
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (int64_t i = 0; i < n; i++)
+        for (int32_t d = 0; d < width; d++) {
+            const double value = d % diagonal == 0 ? k->spec.initial : 0;
+            if (k->spec.type == MPS_TYPE_INTEGER)
+                ((int32_t *)k->array)[i * width + d] = (int32_t)value;
+            else
+                ((double *)k->array)[i * width + d] = value;
+        }
+}
+
+void mps__channels_begin(mps__channels *c, int64_t n, int32_t threads)
+{
+    for (int32_t k = MPS__OWN_CHANNELS; k < c->count; k++)
+        if (c->list[k].spec.life == MPS_LIFE_STEP) begin_rows(&c->list[k], c->dim, n, threads);
+}
+
+void *mps__channels_array(const mps__channels *c, mps__particles *s, int32_t k)
+{
+    if (c->list[k].spec.life == MPS_LIFE_STEP) return c->list[k].array;
+    mps__field *f = mps__particles_field(s, c->list[k].spec.name);
+    return f ? *f->data : NULL;
+}
