@@ -1,26 +1,49 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Wall pressure by action and reaction: a wall shows the pressure that the fluid beside it received.
+/* Wall pressure by action and reaction: a wall shows the pressure that the fluid beside it
+ * received.
  *
- * The row of a wall asks for the pressure that stops all fluid within its radius in one step, however far from the wall it still is. The
- * gradient gives a particle only the share W/r^2 of the pair, so the particle goes on and the wall asks again: for one row of particles at 1,
- * 1.5 and 1.9 dp the impulse of these pressures is 2, 9 and 140 times the momentum. So p_i is right for the equation and wrong as a load.
+ * The row of a wall requires the pressure that stops all fluid within its radius in one step, at
+ * whatever distance from the wall. The gradient gives a particle only the share W/r^2 of the pair,
+ * so the particle moves on and the row requires the same again: for one row of particles at 1, 1.5
+ * and 1.9 dp the impulse of these pressures is 2, 9 and 140 times the momentum. So p_i is right for
+ * the equation and wrong as a load.
  *
  *   P_i = p' + sum_j c_ij e_j,   c_ij = s_j V D/(n0 A_i) w_ij n.B_j r_ij
  *
- * over the fluid j about wall i, r_ij = x_j - x_i, w = W/r^2, n the normal, A_i the area, V = dp^D. p'_j = p_j - rho b.r_ij is the pressure of j carried to the
- * wall, p' its kernel mean. c_ij is the share of j in the face: in the lattice they add up to 1 with s_j = 2 inside the fluid, where the other half of B_j is that
- * of the row behind, and s_j = 1 on the surface. e_j is what pressure rises to the wall beyond p'_j: inside the fluid with the acceleration a_j that
- * all pressures gave it, e_j = rho (a_j + b).r_ij; on the surface, where the wall alone pushes, e_j = p_i - p'_j. Where pressures are linear P_i is p_i.
- * A wall shows no more suction than it has in the equation: one that lets go of the liquid (separation.void) shows none. The flow does not change. */
+ * over the fluid j about wall i, r_ij = x_j - x_i, w = W/r^2, n the normal, A_i the area,
+ * V = dp^D. p'_j = p_j - rho b.r_ij is the pressure of j carried to the wall, p' its kernel mean.
+ * c_ij is the share of j in the face. In the lattice the shares add up to 1 with s_j = 2 inside the
+ * fluid, where the other half of B_j belongs to the row behind, and s_j = 1 on the surface. e_j is
+ * how much the pressure rises to the wall beyond p'_j: inside the fluid with the acceleration a_j
+ * that all pressures gave it, e_j = rho (a_j + b).r_ij; on the surface, where the wall alone
+ * pushes, e_j = p_i - p'_j. Where pressures are linear P_i is p_i.
+ *
+ * A wall shows no more suction than it has in the equation: one from which the liquid separates
+ * (separation.void) shows none. The flow does not change. */
 #include "builtin.h"
+
+enum { PRESSURE, ACCELERATION, TANK_ACCELERATION, REGION, CORRECTION, WALL_PRESSURE, USES };
+static const mps_use uses[USES] = {[PRESSURE] = {"pressure", MPS_USE_NEIGHBOURS},
+                                   [ACCELERATION] = {"acceleration", MPS_USE_NEIGHBOURS},
+                                   [TANK_ACCELERATION] = {"tank_acceleration", MPS_USE_NEIGHBOURS},
+                                   [REGION] = {"region", MPS_USE_NEIGHBOURS},
+                                   [CORRECTION] = {"correction", MPS_USE_NEIGHBOURS},
+                                   [WALL_PRESSURE] = {"wall_pressure", MPS_USE_WRITE}};
+
+typedef struct fields {
+    const double *p, *a, *tank_acceleration, *correction;
+    const int32_t *region;
+    double *wall_pressure;
+} fields;
 
 /* Sums over the fluid about a wall particle. */
 typedef struct contact {
     double weight, p, rise; /* sum W, sum W p'_j, A_i sum c_ij e_j */
 } contact;
 
-/* Unit normal of a wall particle. @return its area; 0: a plate's edge, say, which has none to speak of */
-MPS__ROW double face(const int dim, const mps_stage *s, int64_t i, double n[3])
+/* Unit normal of a wall particle. @return its area; 0: too small for a face, e.g. the edge of a
+ * plate */
+MPS_ROW double face(const int dim, const mps_stage *s, int64_t i, double n[3])
 {
     double size = 0;
     for (int d = 0; d < dim; d++) size += s->area[i * dim + d] * s->area[i * dim + d];
@@ -29,48 +52,68 @@ MPS__ROW double face(const int dim, const mps_stage *s, int64_t i, double n[3])
     return size > 1e-4 * (dim == 2 ? s->dp : s->dp * s->dp) ? size : 0;
 }
 
-MPS__ROW contact sum_contact(const int dim, const mps_stage *s, const double *a, int64_t i, const double n[3])
+MPS_ROW contact sum_contact(const int dim, const mps_stage *s, const fields *f, int64_t i,
+                            const double n[3])
 {
     const mps_stencil *t = s->near;
+    const double *tank = f->tank_acceleration;
     const double cell = (dim == 2 ? s->dp * s->dp : s->dp * s->dp * s->dp) * dim / t->n0;
     contact c = {0};
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         const int64_t j = t->col[p];
-        if (s->kind[j] != MPS_FLUID || s->region[j] >= MPS_REGION_SPRAY) continue;
+        if (s->kind[j] != MPS_FLUID || f->region[j] >= MPS_REGION_SPRAY) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        const double *b = s->correction + j * dim * dim, rho = mps_stage_pair_density(s, i, j);
+        const double *b = f->correction + j * dim * dim, rho = mps_flux_density(s->flux, i, j);
         double body = 0, slope = 0, push = 0;
         for (int d = 0; d < dim; d++) {
-            body += (s->g[d] - 0.5 * (s->tank_accel[i * dim + d] + s->tank_accel[j * dim + d])) * q.d[d];
-            slope += a[j * dim + d] * q.d[d];
+            body += (s->g[d] - 0.5 * (tank[i * dim + d] + tank[j * dim + d])) * q.d[d];
+            slope += f->a[j * dim + d] * q.d[d];
             for (int e = 0; e < dim; e++) push += n[d] * b[d * dim + e] * q.d[e];
         }
-        const double carried = s->p[j] - rho * body;
-        const bool surface = s->region[j] == MPS_REGION_SURFACE;
+        const double carried = f->p[j] - rho * body;
+        const bool surface = f->region[j] == MPS_REGION_SURFACE;
         c.weight += q.w;
         c.p += q.w * carried;
-        c.rise += cell * q.w_r2 * push * (surface ? s->p[i] - carried : 2.0 * rho * (slope + body));
+        c.rise += cell * q.w_r2 * push * (surface ? f->p[i] - carried : 2.0 * rho * (slope + body));
     }
     return c;
 }
 
-MPS__ROW double wall_pressure(const int dim, const mps_stage *s, const double *a, int64_t i)
+MPS_ROW double pressure_of(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
     double n[3];
     const double size = face(dim, s, i, n);
-    const contact c = sum_contact(dim, s, a, i, n);
-    if (c.weight == 0) return s->p[i];
-    return fmax(c.p / c.weight + (size > 0 ? c.rise / size : 0), fmin(s->p[i], 0));
+    const contact c = sum_contact(dim, s, f, i, n);
+    if (c.weight == 0) return f->p[i];
+    return fmax(c.p / c.weight + (size > 0 ? c.rise / size : 0), fmin(f->p[i], 0));
 }
 
-static int load(void *self, const double *k, mps_stage *s, const double *a)
+MPS_ROW void load_row(const int dim, const mps_stage *s, fields *f, int64_t i)
 {
-    (void)self, (void)k;
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_WALL && s->region[i] != MPS_REGION_DRY) s->wall_pressure[i] = MPS__ROW_CALL(s, wall_pressure, s, a, i);
+    if (s->kind[i] != MPS_WALL || f->region[i] == MPS_REGION_DRY) return;
+    f->wall_pressure[i] = pressure_of(dim, s, f, i);
+}
+MPS_ROWS(load_rows, load_row, fields)
+
+static int load_walls(mps_stage *s)
+{
+    fields f = {.p = s->data[PRESSURE],
+                .a = s->data[ACCELERATION],
+                .tank_acceleration = s->data[TANK_ACCELERATION],
+                .correction = s->data[CORRECTION],
+                .region = s->data[REGION],
+                .wall_pressure = s->data[WALL_PRESSURE]};
+    mps_stage_rows(s, load_rows, &f);
     return 0;
 }
 
+static const mps_verb verbs[] = {
+    {.moment = MPS_LOAD, .use_count = USES, .uses = uses, .run = load_walls}};
+
 const mps_model_ops mps__load_reaction = {
-    .struct_size = sizeof(mps_model_ops), .api = MPS_MODEL_API, .name = "load.reaction", .order = 650, .load = load};
+    .struct_size = sizeof(mps_model_ops),
+    .api = MPS_MODEL_API,
+    .name = "load.reaction",
+    .help = "pressure on walls as the reaction to what the fluid beside them received",
+    .verb_count = 1,
+    .verbs = verbs};

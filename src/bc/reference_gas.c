@@ -1,33 +1,71 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Level of the pressures in a closed tank, as W22 has it: p = 0 in the uppermost layer of the gas, `layer` dp thick, against gravity. These
- * particles are Dirichlet rows: the divergence there is nobody's, and gas may leave through them in the long run. */
+/* Level of the pressures in a closed tank, as W22 has it: p = 0 in the uppermost layer of the gas,
+ * `layer` dp thick, against gravity. These particles are Dirichlet rows: the equation does not hold
+ * there, and gas may leave through them in a long run. */
 #include "builtin.h"
 
-enum { PHASE, LAYER };
-static const mps_setting settings[] = {{"phase", 1.0, 0.0, 15.0}, {"layer", 0.75, 0.1, 100.0}};
+enum { PHASE, LAYER, SETTINGS };
+static const mps_setting settings[SETTINGS] = {
+    [PHASE] = {"phase", "-", "number of the phase of the gas", MPS_TYPE_INTEGER, 1.0, 0.0, 15.0},
+    [LAYER] = {"layer", "dp", "thickness of the layer at p = 0", MPS_TYPE_REAL, 0.75, 0.1, 100.0}};
 
-static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *terms)
+enum { PRESSURE_CONDITION, PRESSURE_VALUE, USES };
+static const mps_use uses[USES] = {[PRESSURE_CONDITION] = {"pressure_condition", MPS_USE_WRITE},
+                                   [PRESSURE_VALUE] = {"pressure_value", MPS_USE_WRITE}};
+
+typedef struct fields {
+    int32_t *condition;
+    double *value;
+    double up[3], top; /* against gravity; height of the highest gas */
+} fields;
+
+static inline bool is_gas(const mps_stage *s, int64_t i)
 {
-    (void)self;
-    double top = -INFINITY, up[3];
-    if (!mps__upward(s, up)) return mps_stage_fail(s, "without gravity there is no uppermost layer: remove the model \"reference\"");
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID && s->phase[i] == (int32_t)k[PHASE]) top = fmax(top, mps__height(s, up, i));
-    if (isinf(top))
-        return mps_stage_fail(
-            s, "phase %d has no fluid particle: add the gas, set reference.phase to it, or remove the model \"reference\"", (int)k[PHASE]);
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_FLUID || s->phase[i] != (int32_t)k[PHASE] || mps__height(s, up, i) < top - k[LAYER] * s->dp) continue;
-        terms->fixed[i] = MPS_ROW_FIXED;
-        terms->value[i] = 0;
-    }
+    return s->kind[i] == MPS_FLUID && s->phase[i] == (int32_t)s->setting[PHASE];
+}
+
+MPS_ROW void top_row(const int dim, const mps_stage *s, fields *f, int64_t i, double *most)
+{
+    (void)dim;
+    if (is_gas(s, i)) most[0] = fmax(most[0], mps__height(s, f->up, i));
+}
+MPS_SUMS(top_rows, top_row, fields)
+
+MPS_ROW void layer_row(const int dim, const mps_stage *s, fields *f, int64_t i)
+{
+    (void)dim;
+    if (!is_gas(s, i)) return;
+    if (mps__height(s, f->up, i) < f->top - s->setting[LAYER] * s->dp) return;
+    f->condition[i] = MPS_ROW_FIXED;
+    f->value[i] = 0;
+}
+MPS_ROWS(layer_rows, layer_row, fields)
+
+static int fix_layer(mps_stage *s)
+{
+    fields f = {.condition = s->data[PRESSURE_CONDITION], .value = s->data[PRESSURE_VALUE]};
+    if (!mps__upward(s, f.up))
+        return mps_stage_fail(s, "without gravity there is no uppermost layer: remove the model "
+                                 "\"reference\"");
+    mps_stage_max(s, 1, top_rows, &f, &f.top);
+    if (isinf(f.top))
+        return mps_stage_fail(s,
+                              "phase %d has no fluid particle: add the gas, set reference.phase to "
+                              "it, or remove the model \"reference\"",
+                              (int)s->setting[PHASE]);
+    mps_stage_rows(s, layer_rows, &f);
     return 0;
 }
 
-const mps_model_ops mps__reference_gas = {.struct_size = sizeof(mps_model_ops),
-                                          .api = MPS_MODEL_API,
-                                          .name = "reference.gas",
-                                          .order = 450,
-                                          .setting_count = 2,
-                                          .settings = settings,
-                                          .source = source};
+static const mps_verb verbs[] = {
+    {.moment = MPS_SOURCE, .use_count = USES, .uses = uses, .run = fix_layer}};
+
+const mps_model_ops mps__reference_gas = {
+    .struct_size = sizeof(mps_model_ops),
+    .api = MPS_MODEL_API,
+    .name = "reference.gas",
+    .help = "level of the pressures in a closed tank: p = 0 in the uppermost gas, W22",
+    .setting_count = SETTINGS,
+    .settings = settings,
+    .verb_count = 1,
+    .verbs = verbs};

@@ -1,43 +1,90 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Level of the pressures in a tank that is full to its lid: after the solution the mean pressure of the highest wetted wall particles is
- * taken off all others. A gauge and no more: differences of pressure, and so the flow, do not change, and nothing leaks as through a
- * fixed pressure. It does nothing where something fixed the level: a surface, a Dirichlet row, a compressible phase.
- * Weights fall with the depth below the highest place as exp(-depth/(layer dp)): in a rolling tank the level passes smoothly from one
- * corner to the other. It runs before pressures are extrapolated to dummies. */
+/* Level of the pressures in a tank that is full to its lid: after the solution the mean pressure of
+ * the highest wetted wall particles is subtracted from all pressures. Differences of pressure, and
+ * so the flow, do not change, and no fluid leaves as through a fixed pressure. The model does
+ * nothing where a surface, a Dirichlet row or a compressible phase fixes the level.
+ *
+ * Weights fall with the depth below the highest place as exp(-depth/(layer dp)), times the wetted
+ * share: in a rolling tank the level passes smoothly from one corner to the other. */
 #include "builtin.h"
 
-enum { LAYER };
-static const mps_setting settings[] = {{"layer", 0.5, 0.05, 100.0}};
+enum { LAYER, SETTINGS };
+static const mps_setting settings[SETTINGS] = {
+    [LAYER] = {"layer", "dp", "depth over which the weight of the walls falls by e", MPS_TYPE_REAL,
+               0.5, 0.05, 100.0}};
+
+enum { REGION, WETTED_SHARE, PRESSURE, USES };
+static const mps_use uses[USES] = {
+    [REGION] = {"region", MPS_USE_READ},
+    [WETTED_SHARE] = {"wetted_share", MPS_USE_READ | MPS_USE_OPTIONAL},
+    [PRESSURE] = {"pressure", MPS_USE_CHANGE}};
+
+typedef struct fields {
+    const int32_t *region;
+    const double *wetted_share; /* NULL: 1 */
+    double *pressure;
+    double up[3], top, mean; /* against gravity; height of the highest wall; its pressure */
+} fields;
 
 /* Wall particles in the equation. */
-static inline bool wetted(const mps_stage *s, int64_t i)
+static inline bool wetted(const mps_stage *s, const fields *f, int64_t i)
 {
-    return s->kind[i] == MPS_WALL && s->region[i] < MPS_REGION_SURFACE;
+    return s->kind[i] == MPS_WALL && f->region[i] < MPS_REGION_SURFACE;
 }
 
-static int gradient(void *self, const double *k, mps_stage *s, double *a)
+MPS_ROW void top_row(const int dim, const mps_stage *s, fields *f, int64_t i, double *most)
 {
-    (void)self, (void)a;
-    double top = -INFINITY, sum = 0, weight = 0, up[3];
+    (void)dim;
+    if (wetted(s, f, i)) most[0] = fmax(most[0], mps__height(s, f->up, i));
+}
+MPS_SUMS(top_rows, top_row, fields)
+
+/* Sums of weight times pressure, and of the weight. */
+MPS_ROW void mean_row(const int dim, const mps_stage *s, fields *f, int64_t i, double *sums)
+{
+    (void)dim;
+    if (!wetted(s, f, i)) return;
+    const double share = f->wetted_share ? f->wetted_share[i] : 1.0;
+    const double w = share * exp((mps__height(s, f->up, i) - f->top) / (s->setting[LAYER] * s->dp));
+    sums[0] += w * f->pressure[i];
+    sums[1] += w;
+}
+MPS_SUMS(mean_rows, mean_row, fields)
+
+MPS_ROW void level_row(const int dim, const mps_stage *s, fields *f, int64_t i)
+{
+    (void)dim, (void)s;
+    if (f->region[i] < MPS_REGION_SPRAY) f->pressure[i] -= f->mean;
+}
+MPS_ROWS(level_rows, level_row, fields)
+
+static int subtract_mean(mps_stage *s)
+{
+    double sums[2];
+    fields f = {.region = s->data[REGION],
+                .wetted_share = s->data[WETTED_SHARE],
+                .pressure = s->data[PRESSURE]};
     if (!s->level_free) return 0;
-    if (!mps__upward(s, up)) return mps_stage_fail(s, "without gravity there is no highest wall: remove the model \"reference\"");
-    for (int64_t i = 0; i < s->n; i++)
-        if (wetted(s, i)) top = fmax(top, mps__height(s, up, i));
-    for (int64_t i = 0; i < s->n; i++) {
-        if (!wetted(s, i)) continue;
-        const double w = s->wet[i] * exp((mps__height(s, up, i) - top) / (k[LAYER] * s->dp));
-        sum += w * s->p[i];
-        weight += w;
-    }
-    for (int64_t i = 0; i < s->n && weight > 0; i++)
-        if (s->region[i] < MPS_REGION_SPRAY) s->p[i] -= sum / weight;
+    if (!mps__upward(s, f.up))
+        return mps_stage_fail(
+            s, "without gravity there is no highest wall: remove the model \"reference\"");
+    mps_stage_max(s, 1, top_rows, &f, &f.top);
+    mps_stage_sum(s, 2, mean_rows, &f, sums);
+    if (!(sums[1] > 0)) return 0;
+    f.mean = sums[0] / sums[1];
+    mps_stage_rows(s, level_rows, &f);
     return 0;
 }
 
-const mps_model_ops mps__reference_lid = {.struct_size = sizeof(mps_model_ops),
-                                          .api = MPS_MODEL_API,
-                                          .name = "reference.lid",
-                                          .order = 150,
-                                          .setting_count = 1,
-                                          .settings = settings,
-                                          .gradient = gradient};
+static const mps_verb verbs[] = {
+    {.moment = MPS_LEVEL, .use_count = USES, .uses = uses, .run = subtract_mean}};
+
+const mps_model_ops mps__reference_lid = {
+    .struct_size = sizeof(mps_model_ops),
+    .api = MPS_MODEL_API,
+    .name = "reference.lid",
+    .help = "level of the pressures in a full tank: mean 0 at the highest walls",
+    .setting_count = SETTINGS,
+    .settings = settings,
+    .verb_count = 1,
+    .verbs = verbs};

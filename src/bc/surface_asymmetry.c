@@ -1,29 +1,92 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Free surface, W22 (11)(12), Z14 (16)(17): n < low n0, or n < high n0 and |A| > share |A|0, where |A|0 belongs to the
- * surface row of a lattice. In a violent flow inner particles fall below low n0 too, and p = 0 amid high pressure tears the fluid:
- * between lone n0 and low n0 some asymmetry is asked for as well, |A| > low_share |A|0 (lone = low is the paper's). Particles with too little fluid about them are spray.
- * A film of one row on a wall has n0 and more, because the wall is near, but is more one-sided than any surface: |A|/|A|0 > film n/n0. As inner
- * particles such rows answer to their own pressure with the wrong sign, see docs/records/numerics-history.md. With n on the right what is squeezed together,
- * and one-sided for that, does not lose its pressure.
- * The papers test wall particles too (walls = 1): dry walls have p = 0.
- * Beside a wall that goes on above the surface n is too large and |A| too small: there a neighbour of the surface belongs to it as well if
- * n < contact_low n0 and |A| > contact_share |A|0 (contact = 1). Without it such
- * particles flicker in and out of the surface: a 3-D tank does not come to rest, a trough in 2-D breaks up at the wall. */
+/* Free surface by number density n and asymmetry A, W22 (11)(12), Z14 (16)(17). With |A|0 that of
+ * the surface row of a lattice, a particle is on the surface if one of these holds:
+ *
+ *   n < lone n0
+ *   n < low n0   and  |A| > low_share |A|0
+ *   n < high n0  and  |A| > share |A|0
+ *   |A|/|A|0 > film n/n0
+ *
+ * The papers have lone = low: n < low n0 alone. In a violent flow inner particles fall below low n0
+ * too, and p = 0 amid high pressure tears the fluid; so some asymmetry is required there.
+ * The last line finds films of one row on a wall. They have n0 and more, because the wall is near,
+ * but are more one-sided than any surface. As inner particles such rows respond to their own
+ * pressure with the wrong sign, see docs/records/numerics-history.md. The factor n keeps the
+ * pressure of particles that are squeezed together, and one-sided for that reason.
+ *
+ * Particles with too little fluid about them are spray. The papers test wall particles too
+ * (walls = 1): dry walls have p = 0.
+ *
+ * Beside a wall that continues above the surface n is too large and |A| too small. There a
+ * neighbour of the surface is on the surface as well if n < contact_low n0 and
+ * |A| > contact_share |A|0 (contact = 1). Without this test such particles change between surface
+ * and inside from step to step: a 3-D tank does not come to rest, and a trough in 2-D breaks up at
+ * the wall.
+ *
+ * The row below the surface reaches past it, where there are no particles: its pairs with the
+ * surface carry that flux too (complete = 1). */
 #include "builtin.h"
-#include <stdbool.h>
 
-enum { LOW, HIGH, SHARE, SPRAY, WALLS, COMPLETE, LONE, LOW_SHARE, CONTACT, CONTACT_LOW, CONTACT_SHARE, FILM };
-static const mps_setting settings[] = {{"low", 0.8, 0.0, 1.0},          {"high", 0.97, 0.5, 1.0},          {"share", 0.9, 0.0, 2.0},
-                                       {"spray", 0.25, 0.0, 1.0},       {"walls", 0.0, 0.0, 1.0},          {"complete", 1.0, 0.0, 1.0},
-                                       {"lone", 0.6, 0.0, 1.0},         {"low_share", 0.4, 0.0, 2.0},      {"contact", 1.0, 0.0, 1.0},
-                                       {"contact_low", 0.95, 0.0, 1.0}, {"contact_share", 0.55, 0.0, 2.0}, {"film", 1.1, 0.0, 100.0}};
+enum {
+    LOW,
+    HIGH,
+    SHARE,
+    SPRAY,
+    WALLS,
+    COMPLETE,
+    LONE,
+    LOW_SHARE,
+    CONTACT,
+    CONTACT_LOW,
+    CONTACT_SHARE,
+    FILM,
+    SETTINGS
+};
+static const mps_setting settings[SETTINGS] = {
+    [LOW] = {"low", "n0", "surface if n is below and the asymmetry above low_share", MPS_TYPE_REAL,
+             0.8, 0.0, 1.0},
+    [HIGH] = {"high", "n0", "surface if n is below and the asymmetry above share", MPS_TYPE_REAL,
+              0.97, 0.5, 1.0},
+    [SHARE] = {"share", "-", "asymmetry for high, over that of a flat surface", MPS_TYPE_REAL, 0.9,
+               0.0, 2.0},
+    [SPRAY] = {"spray", "n0", "spray if the kernel sum over the fluid is below", MPS_TYPE_REAL,
+               0.25, 0.0, 1.0},
+    [WALLS] = {"walls", "-", "wall particles can be on the surface too", MPS_TYPE_FLAG, 0.0, 0.0,
+               1.0},
+    [COMPLETE] = {"complete", "-", "pairs with the surface carry the flux that it cuts off",
+                  MPS_TYPE_FLAG, 1.0, 0.0, 1.0},
+    [LONE] = {"lone", "n0", "surface if n is below, at any asymmetry", MPS_TYPE_REAL, 0.6, 0.0,
+              1.0},
+    [LOW_SHARE] = {"low_share", "-", "asymmetry for low, over that of a flat surface",
+                   MPS_TYPE_REAL, 0.4, 0.0, 2.0},
+    [CONTACT] = {"contact", "-", "other limits where the surface meets a wall", MPS_TYPE_FLAG, 1.0,
+                 0.0, 1.0},
+    [CONTACT_LOW] = {"contact_low", "n0", "as low, where the surface meets a wall", MPS_TYPE_REAL,
+                     0.95, 0.0, 1.0},
+    [CONTACT_SHARE] = {"contact_share", "-", "as low_share, where the surface meets a wall",
+                       MPS_TYPE_REAL, 0.55, 0.0, 2.0},
+    [FILM] = {"film", "-", "surface if the asymmetry over n/n0 is above: a film", MPS_TYPE_REAL,
+              1.1, 0.0, 100.0}};
+
+enum { NUMBER_DENSITY, ASYMMETRY, REGION, USES };
+static const mps_use uses[USES] = {[NUMBER_DENSITY] = {"number_density", MPS_USE_READ},
+                                   [ASYMMETRY] = {"asymmetry", MPS_USE_READ},
+                                   [REGION] = {"region", MPS_USE_NEIGHBOURS | MPS_USE_CHANGE}};
+
+typedef struct fields {
+    const double *number_density, *asymmetry;
+    int32_t *region;
+    int32_t *member, *mark; /* [n] fluid of region `from`; rows that a pass has found */
+    int32_t from, to;
+    double a0; /* |A|0 */
+} fields;
 
 /* |A| of a particle in the top row of a lattice that fills the half space below it. */
 static double lattice_asymmetry(const mps_stencil *t)
 {
-    const int reach = (int)(t->re / t->dp) + 1, depth = t->dim == 3 ? reach : 0;
+    const int reach = (int)(t->re / t->dp) + 1, across = t->dim == 3 ? reach : 0;
     double sum = 0;
-    for (int k = -depth; k <= depth; k++)
+    for (int k = -across; k <= across; k++)
         for (int j = -reach; j < 0; j++)
             for (int i = -reach; i <= reach; i++) {
                 const double r = t->dp * sqrt((double)(i * i + j * j + k * k));
@@ -32,55 +95,129 @@ static double lattice_asymmetry(const mps_stencil *t)
     return t->dim * sum / t->n0;
 }
 
-/* Inner fluid particles with a near neighbour of region `from` become `to`. These are few, and pairs are symmetric: one thread looks about
- * each of them sooner than all threads about everybody else. */
-static void spread(mps_stage *s, int32_t from, int32_t to)
-{
-    const mps_stencil *t = s->near;
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->region[i] != from || s->kind[i] != MPS_FLUID) continue;
-        for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-            const int64_t j = t->col[p];
-            if (s->region[j] == MPS_REGION_INNER && s->kind[j] == MPS_FLUID) s->region[j] = to;
-        }
-    }
-}
-
-/* The row below the surface reaches past it, where there is nobody: its pairs with the surface carry that flux too. */
-static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *terms)
-{
-    (void)self, (void)s;
-    terms->complete_surface = k[COMPLETE] > 0;
-    return 0;
-}
-
 /* By n/n0 and |A|/|A|0. */
 static inline bool on_surface(const double *k, double n, double a)
 {
-    return n < k[LONE] || (n < k[LOW] && a > k[LOW_SHARE]) || (n < k[HIGH] && a > k[SHARE]) || a > k[FILM] * n;
+    return n < k[LONE] || (n < k[LOW] && a > k[LOW_SHARE]) || (n < k[HIGH] && a > k[SHARE]) ||
+           a > k[FILM] * n;
 }
 
-/* Is the kernel sum over the fluid, with or without its spray, less than `enough`? */
-MPS__ROW bool detached(const int dim, const mps_stage *s, int64_t i, bool with_spray, double enough)
+/* Whether the kernel sum over the fluid, with or without its spray, is less than `enough`. */
+MPS_ROW bool detached(const int dim, const mps_stage *s, const int32_t *region, int64_t i,
+                      bool with_spray, double enough)
 {
     const mps_stencil *t = s->near;
     double sum = 0;
     for (int64_t p = t->begin[i]; p < t->end[i] && sum < enough; p++)
-        if (s->kind[t->col[p]] == MPS_FLUID && (with_spray || s->region[t->col[p]] != MPS_REGION_SPRAY))
+        if (s->kind[t->col[p]] == MPS_FLUID &&
+            (with_spray || region[t->col[p]] != MPS_REGION_SPRAY))
             sum += mps_stencil_pair_dim(dim, t, i, p).w;
     return sum < enough;
 }
 
 /* |A|/|A|0 */
-static double asymmetry_of(const mps_stage *s, int64_t i, double a0)
+MPS_ROW double asymmetry_of(const int dim, const fields *f, int64_t i)
 {
     double a = 0;
-    for (int d = 0; d < s->dim; d++) a += s->asymmetry[i * s->dim + d] * s->asymmetry[i * s->dim + d];
-    return sqrt(a) / a0;
+    for (int d = 0; d < dim; d++) a += f->asymmetry[i * dim + d] * f->asymmetry[i * dim + d];
+    return sqrt(a) / f->a0;
 }
 
-/* Does a particle see both a wall and the surface within 1.5 dp? */
-MPS__ROW bool at_contact(const int dim, const mps_stage *s, int64_t i)
+/* ---- surface and spray by the sums of each particle ------------------------------------------ */
+
+MPS_ROW void own_row(const int dim, const mps_stage *s, fields *f, int64_t i)
+{
+    const double *k = s->setting, n0 = s->near->n0;
+    if (s->kind[i] != MPS_FLUID && !(s->kind[i] == MPS_WALL && k[WALLS] > 0)) return;
+    const double a = asymmetry_of(dim, f, i);
+    const double n = f->number_density[i] / n0;
+    if (s->kind[i] == MPS_FLUID && detached(dim, s, f->region, i, true, k[SPRAY] * n0))
+        f->region[i] = MPS_REGION_SPRAY;
+    else if (on_surface(k, n, a))
+        f->region[i] = MPS_REGION_SURFACE;
+}
+MPS_ROWS(own_rows, own_row, fields)
+
+/* ---- particles beside others: found first, changed after that -------------------------------- */
+
+MPS_ROW void from_row(const int dim, const mps_stage *s, fields *f, int64_t i)
+{
+    (void)dim;
+    f->member[i] = f->region[i] == f->from && s->kind[i] == MPS_FLUID;
+}
+MPS_ROWS(from_rows, from_row, fields)
+
+/* Mark particles with a near neighbour in the fluid of region `from`. */
+static void mark_beside(const mps_stage *s, fields *f, int32_t from)
+{
+    f->from = from;
+    mps_stage_rows(s, from_rows, f);
+    mps_stage_beside(s, f->member, f->mark);
+}
+
+MPS_ROW void surface_row(const int dim, const mps_stage *s, fields *f, int64_t i)
+{
+    (void)dim, (void)s;
+    if (f->mark[i]) f->region[i] = MPS_REGION_SURFACE;
+}
+MPS_ROWS(surface_rows, surface_row, fields)
+
+MPS_ROW void spread_row(const int dim, const mps_stage *s, fields *f, int64_t i)
+{
+    (void)dim;
+    if (!f->mark[i] || f->region[i] != MPS_REGION_INNER || s->kind[i] != MPS_FLUID) return;
+    f->region[i] = f->to;
+}
+MPS_ROWS(spread_rows, spread_row, fields)
+
+/* Inner fluid particles with a near neighbour of region `from` become `to`. */
+static void spread(const mps_stage *s, fields *f, int32_t from, int32_t to)
+{
+    mark_beside(s, f, from);
+    f->to = to;
+    mps_stage_rows(s, spread_rows, f);
+}
+
+/* n/n0 and |A|/|A|0 of a particle as if there were no spray: no pressure acts on spray, so that it
+ * counts as void for its neighbours. */
+MPS_ROW void without_spray(const int dim, const mps_stage *s, const fields *f, int64_t i, double *n,
+                           double *a)
+{
+    const mps_stencil *t = s->near;
+    double sum = f->number_density[i], left[3], square = 0;
+    for (int d = 0; d < dim; d++) left[d] = f->asymmetry[i * dim + d];
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        if (f->region[t->col[p]] != MPS_REGION_SPRAY) continue;
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
+        sum -= q.w;
+        for (int d = 0; d < dim; d++) left[d] += dim / t->n0 * q.w * q.d[d] / q.r;
+    }
+    for (int d = 0; d < dim; d++) square += left[d] * left[d];
+    *n = sum / t->n0;
+    *a = sqrt(square) / f->a0;
+}
+
+/* Whether an inner particle beside spray is on the surface, or one of the last of its body. Fluid
+ * that is left amid spray has p = 0: one or two particles that share a pressure only with the walls
+ * of a corner would take all the momentum that these walls give. */
+MPS_ROW bool beside_spray(const int dim, const mps_stage *s, const fields *f, int64_t i)
+{
+    const double *k = s->setting;
+    double n, a;
+    if (s->kind[i] != MPS_FLUID || f->region[i] != MPS_REGION_INNER) return false;
+    if (detached(dim, s, f->region, i, false, k[SPRAY] * s->near->n0)) return true;
+    without_spray(dim, s, f, i, &n, &a);
+    return on_surface(k, n, a);
+}
+
+MPS_ROW void beside_spray_row(const int dim, const mps_stage *s, fields *f, int64_t i)
+{
+    if (f->mark[i]) f->mark[i] = beside_spray(dim, s, f, i);
+}
+MPS_ROWS(beside_spray_rows, beside_spray_row, fields)
+
+/* Whether a particle has both a wall and the surface within 1.5 dp. */
+MPS_ROW bool at_contact(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
     const mps_stencil *t = s->near;
     bool wall = false, surface = false;
@@ -88,97 +225,54 @@ MPS__ROW bool at_contact(const int dim, const mps_stage *s, int64_t i)
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         if (q.r2 > 2.25 * s->dp * s->dp) continue;
         wall = wall || s->kind[q.j] == MPS_WALL;
-        surface = surface || (s->kind[q.j] == MPS_FLUID && s->region[q.j] == MPS_REGION_SURFACE);
+        surface = surface || (s->kind[q.j] == MPS_FLUID && f->region[q.j] == MPS_REGION_SURFACE);
     }
     return wall && surface;
 }
 
-/* Where the surface meets a wall. All see the surface as it was before. */
-static int mark_contact(const double *k, mps_stage *s, double a0)
+MPS_ROW void contact_row(const int dim, const mps_stage *s, fields *f, int64_t i)
 {
-    double *found = mps_stage_scratch(s, s->n);
-    if (!found) return 1;
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID && s->region[i] == MPS_REGION_INNER && s->number_density[i] < k[CONTACT_LOW] * s->near->n0 &&
-            asymmetry_of(s, i, a0) > k[CONTACT_SHARE])
-            found[i] = MPS__ROW_CALL(s, at_contact, s, i);
-    for (int64_t i = 0; i < s->n; i++)
-        if (found[i] > 0) s->region[i] = MPS_REGION_SURFACE;
-    return 0;
+    const double *k = s->setting;
+    f->mark[i] = s->kind[i] == MPS_FLUID && f->region[i] == MPS_REGION_INNER &&
+                 f->number_density[i] < k[CONTACT_LOW] * s->near->n0 &&
+                 asymmetry_of(dim, f, i) > k[CONTACT_SHARE] && at_contact(dim, s, f, i);
 }
+MPS_ROWS(contact_rows, contact_row, fields)
 
-/* n and |A|/|A|0 of a particle as if there were no spray: no pressure acts on it, so that it is void for the others. */
-MPS__ROW void without_spray(const int dim, const mps_stage *s, int64_t i, double a0, double *n, double *a)
+/* ---- the verb -------------------------------------------------------------------------------- */
+
+static int find_surface(mps_stage *s)
 {
-    const mps_stencil *t = s->near;
-    double sum = s->number_density[i], left[3], square = 0;
-    for (int d = 0; d < dim; d++) left[d] = s->asymmetry[i * dim + d];
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        if (s->region[t->col[p]] != MPS_REGION_SPRAY) continue;
-        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        sum -= q.w;
-        for (int d = 0; d < dim; d++) left[d] += dim / t->n0 * q.w * q.d[d] / q.r;
+    fields f = {.number_density = s->data[NUMBER_DENSITY],
+                .asymmetry = s->data[ASYMMETRY],
+                .region = s->data[REGION],
+                .member = mps_stage_scratch_integers(s, s->n),
+                .mark = mps_stage_scratch_integers(s, s->n),
+                .a0 = lattice_asymmetry(s->near)};
+    if (!f.member || !f.mark) return 1;
+    s->equation->complete_surface = s->setting[COMPLETE] > 0;
+    mps_stage_rows(s, own_rows, &f);
+    mark_beside(s, &f, MPS_REGION_SPRAY);
+    mps_stage_rows(s, beside_spray_rows, &f);
+    mps_stage_rows(s, surface_rows, &f);
+    if (s->setting[CONTACT] > 0) {
+        mps_stage_rows(s, contact_rows, &f);
+        mps_stage_rows(s, surface_rows, &f);
     }
-    for (int d = 0; d < dim; d++) square += left[d] * left[d];
-    *n = sum / t->n0;
-    *a = sqrt(square) / a0;
-}
-
-/* Is a particle beside spray on the surface, or one of the last of its body? What is left of the fluid amid spray has p = 0: one or two particles
- * that shared a pressure with the walls of a corner alone would take all that these push away. */
-static bool beside_spray(const double *k, const mps_stage *s, int64_t i, double a0)
-{
-    double n, a;
-    if (s->kind[i] != MPS_FLUID || s->region[i] != MPS_REGION_INNER) return false;
-    if (MPS__ROW_CALL(s, detached, s, i, false, k[SPRAY] * s->near->n0)) return true;
-    MPS__ROW_CALL(s, without_spray, s, i, a0, &n, &a);
-    return on_surface(k, n, a);
-}
-
-/* All see the regions as they were before. */
-static int mark_beside_spray(const double *k, mps_stage *s, double a0)
-{
-    double *found = mps_stage_scratch(s, s->n);
-    if (!found) return 1;
-    const mps_stencil *t = s->near;
-    for (int64_t i = 0; i < s->n; i++)
-        for (int64_t p = t->begin[i]; s->region[i] == MPS_REGION_SPRAY && p < t->end[i]; p++) found[t->col[p]] = 1;
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++)
-        if (found[i] > 0) found[i] = beside_spray(k, s, i, a0);
-    for (int64_t i = 0; i < s->n; i++)
-        if (found[i] > 0) s->region[i] = MPS_REGION_SURFACE;
+    spread(s, &f, MPS_REGION_SURFACE, MPS_REGION_NEAR);
+    spread(s, &f, MPS_REGION_NEAR, MPS_REGION_SECOND);
     return 0;
 }
 
-static int classify(void *self, const double *k, mps_stage *s)
-{
-    (void)self;
-    const mps_stencil *t = s->near;
-    const double a0 = lattice_asymmetry(t);
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_FLUID && !(s->kind[i] == MPS_WALL && k[WALLS] > 0)) continue;
-        const double a = asymmetry_of(s, i, a0);
-        const double n = s->number_density[i] / t->n0;
-        if (s->kind[i] == MPS_FLUID && MPS__ROW_CALL(s, detached, s, i, true, k[SPRAY] * t->n0))
-            s->region[i] = MPS_REGION_SPRAY;
-        else if (on_surface(k, n, a))
-            s->region[i] = MPS_REGION_SURFACE;
-    }
-    if (mark_beside_spray(k, s, a0)) return 1;
-    if (k[CONTACT] > 0 && mark_contact(k, s, a0)) return 1;
-    spread(s, MPS_REGION_SURFACE, MPS_REGION_NEAR);
-    spread(s, MPS_REGION_NEAR, MPS_REGION_SECOND);
-    return 0;
-}
+static const mps_verb verbs[] = {
+    {.moment = MPS_CLASSIFY, .use_count = USES, .uses = uses, .run = find_surface}};
 
-const mps_model_ops mps__surface_asymmetry = {.struct_size = sizeof(mps_model_ops),
-                                              .api = MPS_MODEL_API,
-                                              .name = "surface.asymmetry",
-                                              .order = 100,
-                                              .setting_count = 12,
-                                              .settings = settings,
-                                              .classify = classify,
-                                              .source = source};
+const mps_model_ops mps__surface_asymmetry = {
+    .struct_size = sizeof(mps_model_ops),
+    .api = MPS_MODEL_API,
+    .name = "surface.asymmetry",
+    .help = "free surface and spray by number density and asymmetry, W22 (11)(12)",
+    .setting_count = SETTINGS,
+    .settings = settings,
+    .verb_count = 1,
+    .verbs = verbs};

@@ -1,41 +1,75 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Several phases fill the tank: there is no free surface. What has too little of its own kind about it is spray, a drop that flies through
- * the gas without feeling its pressure: sum W min(1, rho_j/rho_i) over the fluid < spray n0. In the pressure equation a lone drop before a
- * wall gets a pressure above the wall's, which draws it into the wall. The lightest phase is never spray. */
+/* Spray of the heavier phases where several phases fill the tank and there is no free surface: a
+ * particle is spray if
+ *   sum_j W_ij min(1, rho_j/rho_i) < spray n0   over the fluid j about it.
+ * Such a drop flies through the gas and does not feel its pressure. In the pressure equation a
+ * single drop before a wall gets a pressure above the wall's, which draws it into the wall.
+ * Particles of the lightest phase are never spray. */
 #include "builtin.h"
 
-enum { SPRAY };
-static const mps_setting settings[] = {{"spray", 0.25, 0.0, 1.0}};
+enum { SPRAY, SETTINGS };
+static const mps_setting settings[SETTINGS] = {
+    [SPRAY] = {"spray", "n0", "spray if the kernel sum over fluid of its density is below",
+               MPS_TYPE_REAL, 0.25, 0.0, 1.0}};
 
-MPS__ROW double company(const int dim, const mps_stage *s, int64_t i, double enough)
+enum { DENSITY, REGION, USES };
+static const mps_use uses[USES] = {
+    [DENSITY] = {"density", MPS_USE_NEIGHBOURS}, [REGION] = {"region", MPS_USE_WRITE}};
+
+typedef struct fields {
+    const double *density;
+    int32_t *region;
+    double enough, lightest; /* limit of the kernel sum; least density of the fluid */
+} fields;
+
+MPS_ROW void lightest_row(const int dim, const mps_stage *s, fields *f, int64_t i, double *most)
+{
+    (void)dim;
+    if (s->kind[i] == MPS_FLUID) most[0] = fmax(most[0], -f->density[i]);
+}
+MPS_SUMS(lightest_rows, lightest_row, fields)
+
+/* The sum above, up to `enough`. */
+MPS_ROW double sum_about(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
     const mps_stencil *t = s->near;
     double sum = 0;
-    for (int64_t p = t->begin[i]; p < t->end[i] && sum < enough; p++) {
+    for (int64_t p = t->begin[i]; p < t->end[i] && sum < f->enough; p++) {
         const int64_t j = t->col[p];
-        if (s->kind[j] == MPS_FLUID) sum += mps_stencil_pair_dim(dim, t, i, p).w * fmin(1.0, s->density[j] / s->density[i]);
+        if (s->kind[j] == MPS_FLUID)
+            sum += mps_stencil_pair_dim(dim, t, i, p).w * fmin(1.0, f->density[j] / f->density[i]);
     }
     return sum;
 }
 
-static int classify(void *self, const double *k, mps_stage *s)
+MPS_ROW void spray_row(const int dim, const mps_stage *s, fields *f, int64_t i)
 {
-    (void)self;
-    const double enough = k[SPRAY] * s->near->n0;
-    double lightest = INFINITY;
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID) lightest = fmin(lightest, s->density[i]);
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID && s->density[i] > lightest && MPS__ROW_CALL(s, company, s, i, enough) < enough)
-            s->region[i] = MPS_REGION_SPRAY;
+    if (s->kind[i] != MPS_FLUID || !(f->density[i] > f->lightest)) return;
+    if (sum_about(dim, s, f, i) < f->enough) f->region[i] = MPS_REGION_SPRAY;
+}
+MPS_ROWS(spray_rows, spray_row, fields)
+
+static int find_spray(mps_stage *s)
+{
+    double most;
+    fields f = {.density = s->data[DENSITY],
+                .region = s->data[REGION],
+                .enough = s->setting[SPRAY] * s->near->n0};
+    mps_stage_max(s, 1, lightest_rows, &f, &most);
+    f.lightest = -most;
+    mps_stage_rows(s, spray_rows, &f);
     return 0;
 }
 
-const mps_model_ops mps__surface_detached = {.struct_size = sizeof(mps_model_ops),
-                                             .api = MPS_MODEL_API,
-                                             .name = "surface.detached",
-                                             .order = 100,
-                                             .setting_count = 1,
-                                             .settings = settings,
-                                             .classify = classify};
+static const mps_verb verbs[] = {
+    {.moment = MPS_CLASSIFY, .use_count = USES, .uses = uses, .run = find_spray}};
+
+const mps_model_ops mps__surface_detached = {
+    .struct_size = sizeof(mps_model_ops),
+    .api = MPS_MODEL_API,
+    .name = "surface.detached",
+    .help = "spray of the heavier phases in a tank without a free surface",
+    .setting_count = SETTINGS,
+    .settings = settings,
+    .verb_count = 1,
+    .verbs = verbs};

@@ -1,22 +1,46 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Free surface by number density alone, Z14 (15): n < beta n0, fluid and wall particles alike: dry walls have p = 0. */
+/* Free surface by number density alone, Z14 (15): n < beta n0, fluid and wall particles alike. Dry
+ * walls are on the surface too and have p = 0. */
 #include "builtin.h"
 
-enum { BETA };
-static const mps_setting settings[] = {{"beta", 0.97, 0.5, 1.0}};
+enum { BETA, SETTINGS };
+static const mps_setting settings[SETTINGS] = {
+    [BETA] = {"beta", "n0", "on the surface if the number density is below", MPS_TYPE_REAL, 0.97,
+              0.5, 1.0}};
 
-static int classify(void *self, const double *k, mps_stage *s)
+enum { NUMBER_DENSITY, REGION, USES };
+static const mps_use uses[USES] = {
+    [NUMBER_DENSITY] = {"number_density", MPS_USE_READ}, [REGION] = {"region", MPS_USE_WRITE}};
+
+typedef struct fields {
+    const double *number_density;
+    int32_t *region;
+} fields;
+
+MPS_ROW void surface_row(const int dim, const mps_stage *s, fields *f, int64_t i)
 {
-    (void)self;
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] != MPS_DUMMY && s->number_density[i] < k[BETA] * s->near->n0) s->region[i] = MPS_REGION_SURFACE;
+    (void)dim;
+    if (s->kind[i] == MPS_DUMMY) return;
+    if (f->number_density[i] < s->setting[BETA] * s->near->n0) f->region[i] = MPS_REGION_SURFACE;
+}
+MPS_ROWS(surface_rows, surface_row, fields)
+
+static int find_surface(mps_stage *s)
+{
+    fields f = {.number_density = s->data[NUMBER_DENSITY], .region = s->data[REGION]};
+    mps_stage_rows(s, surface_rows, &f);
     return 0;
 }
 
-const mps_model_ops mps__surface_original = {.struct_size = sizeof(mps_model_ops),
-                                             .api = MPS_MODEL_API,
-                                             .name = "surface.original",
-                                             .order = 100,
-                                             .setting_count = 1,
-                                             .settings = settings,
-                                             .classify = classify};
+static const mps_verb verbs[] = {
+    {.moment = MPS_CLASSIFY, .use_count = USES, .uses = uses, .run = find_surface}};
+
+const mps_model_ops mps__surface_original = {
+    .struct_size = sizeof(mps_model_ops),
+    .api = MPS_MODEL_API,
+    .name = "surface.original",
+    .help = "free surface by number density alone, Z14 (15)",
+    .setting_count = SETTINGS,
+    .settings = settings,
+    .verb_count = 1,
+    .verbs = verbs};

@@ -1,41 +1,98 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Walls of the papers: wall particles take part in the pressure equation, dummies get the kernel mean of the fluid and wall
- * pressures about them and no equation of their own. */
+/* Walls of the papers: wall particles take part in the pressure equation as fluid does. Dummies
+ * have no equation; they get the kernel mean of the fluid and wall pressures about them. */
 #include "builtin.h"
 
-/* Solids have no density of their own: beside gas they must not be as heavy as water. */
-static int classify(void *self, const double *k, mps_stage *s)
-{
-    (void)self, (void)k;
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] != MPS_FLUID) s->density_smooth[i] = mps__density_beside(s, i);
-    return 0;
-}
+/* ---- density of solids ----------------------------------------------------------------------- */
 
-/* Before the gradient: pressures of dummies. */
-static int gradient(void *self, const double *k, mps_stage *s, double *a)
+enum { DENSITY, REGION, PRESSURE_DENSITY, DENSITY_USES };
+static const mps_use density_uses[DENSITY_USES] = {
+    [DENSITY] = {"density", MPS_USE_NEIGHBOURS},
+    [REGION] = {"region", MPS_USE_NEIGHBOURS},
+    [PRESSURE_DENSITY] = {"pressure_density", MPS_USE_WRITE}};
+
+typedef struct densities {
+    const double *density;
+    const int32_t *region;
+    double *pressure_density;
+} densities;
+
+/* Density of the fluid nearest to a solid particle, spray aside; its own without any near. */
+MPS_ROW double density_beside(const int dim, const mps_stage *s, const densities *f, int64_t i)
 {
-    (void)self, (void)k, (void)a;
     const mps_stencil *t = s->near;
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_DUMMY) continue;
-        double sum = 0, weight = 0;
-        for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-            const mps_pair q = mps_stencil_pair(t, i, p);
-            if (s->kind[q.j] == MPS_DUMMY) continue;
-            sum += q.w * s->p[q.j];
-            weight += q.w;
-        }
-        s->p[i] = weight > 0 ? sum / weight : 0;
+    double density = f->density[i], nearest = INFINITY;
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        const int64_t j = t->col[p];
+        if (s->kind[j] != MPS_FLUID || f->region[j] == MPS_REGION_SPRAY) continue;
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
+        if (q.r2 >= nearest) continue;
+        nearest = q.r2;
+        density = f->density[j];
     }
+    return density;
+}
+
+MPS_ROW void density_row(const int dim, const mps_stage *s, densities *f, int64_t i)
+{
+    if (s->kind[i] != MPS_FLUID) f->pressure_density[i] = density_beside(dim, s, f, i);
+}
+MPS_ROWS(density_rows, density_row, densities)
+
+/* Solids have no density of their own: beside gas they must not be as heavy as water. */
+static int take_densities(mps_stage *s)
+{
+    densities f = {.density = s->data[DENSITY],
+                   .region = s->data[REGION],
+                   .pressure_density = s->data[PRESSURE_DENSITY]};
+    mps_stage_rows(s, density_rows, &f);
     return 0;
 }
 
-const mps_model_ops mps__wall_extrapolate = {.struct_size = sizeof(mps_model_ops),
-                                             .api = MPS_MODEL_API,
-                                             .name = "wall.extrapolate",
-                                             .order = 200,
-                                             .classify = classify,
-                                             .gradient = gradient};
+/* ---- pressures of dummies -------------------------------------------------------------------- */
+
+enum { PRESSURE, PRESSURE_USES };
+static const mps_use pressure_uses[PRESSURE_USES] = {
+    [PRESSURE] = {"pressure", MPS_USE_NEIGHBOURS | MPS_USE_CHANGE}};
+
+typedef struct pressures {
+    double *pressure; /* written of dummies, read of the others */
+} pressures;
+
+MPS_ROW void dummy_row(const int dim, const mps_stage *s, pressures *f, int64_t i)
+{
+    const mps_stencil *t = s->near;
+    if (s->kind[i] != MPS_DUMMY) return;
+    double sum = 0, weight = 0;
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
+        if (s->kind[q.j] == MPS_DUMMY) continue;
+        sum += q.w * f->pressure[q.j];
+        weight += q.w;
+    }
+    f->pressure[i] = weight > 0 ? sum / weight : 0;
+}
+MPS_ROWS(dummy_rows, dummy_row, pressures)
+
+static int extrapolate(mps_stage *s)
+{
+    pressures f = {.pressure = s->data[PRESSURE]};
+    mps_stage_rows(s, dummy_rows, &f);
+    return 0;
+}
+
+static const mps_verb verbs[] = {
+    {.moment = MPS_PREPARE, .use_count = DENSITY_USES, .uses = density_uses, .run = take_densities},
+    {.moment = MPS_LEVEL,
+     .use_count = PRESSURE_USES,
+     .uses = pressure_uses,
+     .after = "reference",
+     .run = extrapolate}};
+
+const mps_model_ops mps__wall_extrapolate = {
+    .struct_size = sizeof(mps_model_ops),
+    .api = MPS_MODEL_API,
+    .name = "wall.extrapolate",
+    .help = "walls of the papers: dummies get the mean pressure about them",
+    .verb_count = 2,
+    .verbs = verbs};

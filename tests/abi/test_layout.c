@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Layout of the public structs on x86-64, written by make_layout. Sizes may grow, offsets never change within a major version. */
+#include <mps/flux.h>
 #include <mps/geometry.h>
 #include <mps/model.h>
 #include <mps/motion.h>
@@ -15,6 +16,19 @@
 #if defined(__x86_64__) && !defined(__ILP32__)
 #define SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), #type)
 #define AT(type, member, bytes) _Static_assert(offsetof(type, member) == (bytes), #type "." #member)
+
+SIZE(mps_flux, 96);
+AT(mps_flux, struct_size, 0);
+AT(mps_flux, body, 4);
+AT(mps_flux, kind, 8);
+AT(mps_flux, phase, 16);
+AT(mps_flux, density, 24);
+AT(mps_flux, distance, 32);
+AT(mps_flux, jump, 40);
+AT(mps_flux, wetted, 48);
+AT(mps_flux, tank_acceleration, 56);
+AT(mps_flux, g, 64);
+AT(mps_flux, wall_factor, 88);
 
 SIZE(mps_tank, 72);
 AT(mps_tank, struct_size, 0);
@@ -43,83 +57,92 @@ AT(mps_stl, scale, 16);
 AT(mps_stl, shift, 24);
 AT(mps_stl, container, 48);
 
-SIZE(mps_stage, 304);
+SIZE(mps_use, 16);
+AT(mps_use, channel, 0);
+AT(mps_use, access, 8);
+
+SIZE(mps_channel, 48);
+AT(mps_channel, name, 0);
+AT(mps_channel, unit, 8);
+AT(mps_channel, help, 16);
+AT(mps_channel, components, 24);
+AT(mps_channel, type, 28);
+AT(mps_channel, life, 32);
+AT(mps_channel, initial, 40);
+
+SIZE(mps_setting, 56);
+AT(mps_setting, key, 0);
+AT(mps_setting, unit, 8);
+AT(mps_setting, help, 16);
+AT(mps_setting, type, 24);
+AT(mps_setting, initial, 32);
+AT(mps_setting, min, 40);
+AT(mps_setting, max, 48);
+
+SIZE(mps_equation, 32);
+AT(mps_equation, radius, 0);
+AT(mps_equation, complete_surface, 4);
+AT(mps_equation, body, 8);
+AT(mps_equation, reserved, 12);
+AT(mps_equation, wall_factor, 16);
+AT(mps_equation, gain, 24);
+
+SIZE(mps_stage, 240);
 AT(mps_stage, struct_size, 0);
 AT(mps_stage, dim, 4);
-AT(mps_stage, threads, 8);
+AT(mps_stage, moment, 8);
 AT(mps_stage, phases, 12);
 AT(mps_stage, n, 16);
 AT(mps_stage, step, 24);
-AT(mps_stage, t, 32);
-AT(mps_stage, dt, 40);
-AT(mps_stage, dp, 48);
-AT(mps_stage, velocity_scale, 56);
-AT(mps_stage, g, 64);
-AT(mps_stage, kind, 88);
-AT(mps_stage, phase, 96);
-AT(mps_stage, id, 104);
-AT(mps_stage, x, 112);
-AT(mps_stage, u, 120);
-AT(mps_stage, p, 128);
-AT(mps_stage, density, 136);
-AT(mps_stage, viscosity, 144);
-AT(mps_stage, tank_accel, 152);
-AT(mps_stage, area, 160);
-AT(mps_stage, wall_of, 168);
-AT(mps_stage, number_density, 176);
-AT(mps_stage, volume, 184);
-AT(mps_stage, asymmetry, 192);
-AT(mps_stage, region, 200);
-AT(mps_stage, wet, 208);
-AT(mps_stage, correction, 216);
-AT(mps_stage, near, 224);
-AT(mps_stage, far, 232);
-AT(mps_stage, host, 240);
-AT(mps_stage, density_smooth, 248);
-AT(mps_stage, tension, 256);
-AT(mps_stage, level_free, 264);
-AT(mps_stage, since_jump, 288);
-AT(mps_stage, wall_pressure, 296);
-AT(mps_stage, capillary, 272);
-AT(mps_stage, depth, 280);
+AT(mps_stage, since_jump, 32);
+AT(mps_stage, t, 40);
+AT(mps_stage, dt, 48);
+AT(mps_stage, dp, 56);
+AT(mps_stage, velocity_scale, 64);
+AT(mps_stage, g, 72);
+AT(mps_stage, kind, 96);
+AT(mps_stage, phase, 104);
+AT(mps_stage, id, 112);
+AT(mps_stage, x, 120);
+AT(mps_stage, area, 128);
+AT(mps_stage, wall_of, 136);
+AT(mps_stage, near, 144);
+AT(mps_stage, far, 152);
+AT(mps_stage, viscosity, 160);
+AT(mps_stage, tension, 168);
+AT(mps_stage, flux, 176);
+AT(mps_stage, equation, 184);
+AT(mps_stage, level_free, 192);
+AT(mps_stage, reserved, 196);
+AT(mps_stage, dt_limit, 200);
+AT(mps_stage, data, 208);
+AT(mps_stage, setting, 216);
+AT(mps_stage, self, 224);
+AT(mps_stage, host, 232);
 
-SIZE(mps_ppe_terms, 88);
-AT(mps_ppe_terms, struct_size, 0);
-AT(mps_ppe_terms, radius, 4);
-AT(mps_ppe_terms, complete_surface, 8);
-AT(mps_ppe_terms, wall_factor, 16);
-AT(mps_ppe_terms, rhs, 24);
-AT(mps_ppe_terms, shift, 32);
-AT(mps_ppe_terms, value, 40);
-AT(mps_ppe_terms, fixed, 48);
-AT(mps_ppe_terms, body, 56);
-AT(mps_ppe_terms, gain, 64);
-AT(mps_ppe_terms, gas, 72);
-AT(mps_ppe_terms, law, 80);
+SIZE(mps_verb, 40);
+AT(mps_verb, moment, 0);
+AT(mps_verb, use_count, 4);
+AT(mps_verb, uses, 8);
+AT(mps_verb, after, 16);
+AT(mps_verb, before, 24);
+AT(mps_verb, run, 32);
 
-SIZE(mps_setting, 32);
-AT(mps_setting, key, 0);
-AT(mps_setting, initial, 8);
-AT(mps_setting, min, 16);
-AT(mps_setting, max, 24);
-
-SIZE(mps_model_ops, 112);
+SIZE(mps_model_ops, 88);
 AT(mps_model_ops, struct_size, 0);
 AT(mps_model_ops, api, 4);
 AT(mps_model_ops, name, 8);
-AT(mps_model_ops, order, 16);
-AT(mps_model_ops, setting_count, 20);
-AT(mps_model_ops, settings, 24);
-AT(mps_model_ops, create, 32);
-AT(mps_model_ops, destroy, 40);
-AT(mps_model_ops, classify, 48);
-AT(mps_model_ops, force, 56);
-AT(mps_model_ops, source, 64);
-AT(mps_model_ops, gradient, 72);
-AT(mps_model_ops, velocity, 80);
-AT(mps_model_ops, shift, 88);
-AT(mps_model_ops, dt_limit, 96);
-AT(mps_model_ops, load, 104);
+AT(mps_model_ops, help, 16);
+AT(mps_model_ops, setting_count, 24);
+AT(mps_model_ops, channel_count, 28);
+AT(mps_model_ops, verb_count, 32);
+AT(mps_model_ops, reserved, 36);
+AT(mps_model_ops, settings, 40);
+AT(mps_model_ops, channels, 48);
+AT(mps_model_ops, verbs, 56);
+AT(mps_model_ops, create, 64);
+AT(mps_model_ops, destroy, 72);
+AT(mps_model_ops, user, 80);
 
 SIZE(mps_motion_state, 144);
 AT(mps_motion_state, value, 0);

@@ -131,11 +131,11 @@ static double middle(const double *x, const int32_t *kind, int64_t n)
 
 static double friction; /* momentum per mass that force models gave to the middle of the slug */
 
-static int watch(void *self, const double *k, mps_stage *s, double *a)
+static int watch(mps_stage *s)
 {
+    const double *a = s->data[0];
     double sum = 0, count = 0;
     const double centre = middle(s->x, s->kind, s->n);
-    (void)self, (void)k;
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_FLUID || fabs(s->x[2 * i] - centre) > 0.5 * GAP) continue;
         sum += a[2 * i];
@@ -145,8 +145,18 @@ static int watch(void *self, const double *k, mps_stage *s, double *a)
     return 0;
 }
 
-static const mps_model_ops watcher = {
-    .struct_size = sizeof(mps_model_ops), .api = MPS_MODEL_API, .name = "watch.test", .order = 950, .force = watch};
+static const mps_use watch_uses[] = {{"acceleration", MPS_USE_READ}};
+static const mps_verb watch_verbs[] = {{.moment = MPS_FORCE,
+                                        .use_count = 1,
+                                        .uses = watch_uses,
+                                        .after = "*",
+                                        .run = watch}};
+static const mps_model_ops watcher = {.struct_size = sizeof(mps_model_ops),
+                                      .api = MPS_MODEL_API,
+                                      .name = "watch.test",
+                                      .help = "adds up the friction",
+                                      .verb_count = 1,
+                                      .verbs = watch_verbs};
 
 static void build(mps_sim *sim, const flow *f)
 {

@@ -169,17 +169,27 @@ static void mean_pressure(void **state)
 
 static double give; /* sum over all rows, for 1 Pa, in cells of the lattice */
 
-static int count_cells(void *self, const double *k, mps_stage *s, mps_ppe_terms *terms)
+static int count_cells(mps_stage *s)
 {
-    (void)self, (void)k;
+    const double *gas = s->data[0];
     const double whole = 1.0 / (rho * 1.4 * ambient / rho * s->dt * s->dt);
     give = 0;
-    for (int64_t i = 0; i < s->n; i++) give += terms->gas[i] / whole;
+    for (int64_t i = 0; i < s->n; i++) give += gas[i] / whole;
     return 0;
 }
 
-static const mps_model_ops counter = {
-    .struct_size = sizeof(mps_model_ops), .api = MPS_MODEL_API, .name = "counter.gas", .order = 900, .source = count_cells};
+static const mps_use counter_uses[] = {{"gas_shift", MPS_USE_READ}};
+static const mps_verb counter_verbs[] = {{.moment = MPS_SOURCE,
+                                          .use_count = 1,
+                                          .uses = counter_uses,
+                                          .after = "*",
+                                          .run = count_cells}};
+static const mps_model_ops counter = {.struct_size = sizeof(mps_model_ops),
+                                      .api = MPS_MODEL_API,
+                                      .name = "counter.gas",
+                                      .help = "adds up the compressibility of the gas",
+                                      .verb_count = 1,
+                                      .verbs = counter_verbs};
 
 /* Walls stand for half cells, edges for quarters, corners for eighths: the whole tank gives way, whatever its size. */
 static void walls_give_way(void **state)

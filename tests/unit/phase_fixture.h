@@ -21,9 +21,20 @@ static struct {
 } spy;
 
 /* As if every particle had `given_deviation` less volume than its share. */
-static inline int spy_lay_deviation(void *self, const double *k, mps_stage *s)
+static inline int spy_lay_number(mps_stage *s)
 {
-    (void)self, (void)k;
+    double *number_density = s->data[0];
+    if (spy.given_deviation == 0) return 0;
+    for (int64_t i = 0; i < s->n; i++) {
+        spy.near_sum[s->id[i]] = number_density[i] / s->near->n0;
+        number_density[i] = s->near->n0 + spy.given_deviation * number_density[i];
+    }
+    return 0;
+}
+
+static inline int spy_lay_deviation(mps_stage *s)
+{
+    double *volume_deviation = s->data[0];
     if (spy.given_deviation == 0) return 0;
     double *one = mps_stage_scratch(s, s->n), *sum = mps_stage_scratch(s, s->n);
     assert_true(one && sum);
@@ -31,76 +42,137 @@ static inline int spy_lay_deviation(void *self, const double *k, mps_stage *s)
     assert_int_equal(mps_op_volume_sum(s->far, one, sum), MPS_OK);
     for (int64_t i = 0; i < s->n; i++) {
         spy.wide_sum[s->id[i]] = sum[i];
-        spy.near_sum[s->id[i]] = s->number_density[i] / s->near->n0;
-        s->volume[i] = spy.given_deviation * sum[i];
-        s->number_density[i] = s->near->n0 + spy.given_deviation * s->number_density[i];
+        volume_deviation[i] = spy.given_deviation * sum[i];
     }
     return 0;
 }
 
-static inline int spy_lay_rhs(void *self, const double *k, mps_stage *s, mps_ppe_terms *t)
+static inline int spy_lay_rhs(mps_stage *s)
 {
-    (void)self, (void)k;
-    for (int64_t i = 0; i < s->n; i++) t->rhs[i] += spy.given_rhs;
+    double *source = s->data[0];
+    for (int64_t i = 0; i < s->n; i++) source[i] += spy.given_rhs;
     return 0;
 }
 
-static inline int spy_lay_pressure(void *self, const double *k, mps_stage *s, double *a)
+static inline int spy_lay_pressure(mps_stage *s)
 {
-    (void)self, (void)k, (void)a;
-    for (int64_t i = 0; spy.pressure && i < s->n; i++) s->p[i] = spy.pressure(s->x + i * s->dim, s->dim);
+    double *p = s->data[0];
+    for (int64_t i = 0; spy.pressure && i < s->n; i++)
+        p[i] = spy.pressure(s->x + i * s->dim, s->dim);
     return 0;
 }
 
-static inline int spy_force(void *self, const double *k, mps_stage *s, double *a)
-{
-    (void)self, (void)k;
-    assert_true(s->n <= SPY_ROOM);
-    for (int64_t i = 0; i < s->n * s->dim; i++) spy.a[s->id[i / s->dim] * s->dim + i % s->dim] = a[i];
-    for (int64_t i = 0; i < s->n; i++) {
-        spy.density[s->id[i]] = s->density_smooth[i];
-        spy.region[s->id[i]] = s->region[i];
-        spy.volume[s->id[i]] = s->volume[i];
-        spy.number[s->id[i]] = s->number_density[i] / s->near->n0;
-    }
-    return 0;
-}
+static const mps_use spy_number_uses[] = {{"number_density", MPS_USE_CHANGE}};
+static const mps_use spy_deviation_uses[] = {{"volume_deviation", MPS_USE_CHANGE}};
+static const mps_use spy_rhs_uses[] = {{"pressure_source", MPS_USE_CHANGE}};
+static const mps_use spy_pressure_uses[] = {{"pressure", MPS_USE_CHANGE}};
 
-static inline int spy_source(void *self, const double *k, mps_stage *s, mps_ppe_terms *t)
-{
-    (void)self, (void)k;
-    for (int64_t i = 0; i < s->n; i++) {
-        spy.shift[s->id[i]] = t->shift[i];
-        spy.rhs[s->id[i]] = t->rhs[i];
-        spy.gas[s->id[i]] = t->gas[i];
-        spy.law[s->id[i]] = t->law[i];
-    }
-    return 0;
-}
-
-static inline int spy_gradient(void *self, const double *k, mps_stage *s, double *a)
-{
-    (void)self, (void)k;
-    spy.level_free = s->level_free;
-    for (int64_t i = 0; i < s->n * s->dim; i++) spy.dp_a[s->id[i / s->dim] * s->dim + i % s->dim] = a[i];
-    for (int64_t i = 0; i < s->n; i++) spy.p[s->id[i]] = s->p[i];
-    return 0;
-}
-
+static const mps_verb spy_before_verbs[] = {{.moment = MPS_CLASSIFY,
+                                             .use_count = 1,
+                                             .uses = spy_number_uses,
+                                             .before = "*",
+                                             .run = spy_lay_number},
+                                            {.moment = MPS_PREPARE,
+                                             .use_count = 1,
+                                             .uses = spy_deviation_uses,
+                                             .before = "*",
+                                             .run = spy_lay_deviation},
+                                            {.moment = MPS_SOURCE,
+                                             .use_count = 1,
+                                             .uses = spy_rhs_uses,
+                                             .before = "*",
+                                             .run = spy_lay_rhs},
+                                            {.moment = MPS_LEVEL,
+                                             .use_count = 1,
+                                             .uses = spy_pressure_uses,
+                                             .before = "*",
+                                             .run = spy_lay_pressure}};
 static const mps_model_ops spy_before = {.struct_size = sizeof(mps_model_ops),
                                          .api = MPS_MODEL_API,
                                          .name = "before.spy",
-                                         .order = 50,
-                                         .classify = spy_lay_deviation,
-                                         .source = spy_lay_rhs,
-                                         .gradient = spy_lay_pressure};
+                                         .help = "lays values into the stage",
+                                         .verb_count = 4,
+                                         .verbs = spy_before_verbs};
+
+enum { SPY_ACCELERATION, SPY_DENSITY, SPY_REGION, SPY_DEVIATION, SPY_NUMBER, SPY_FORCE_USES };
+static const mps_use spy_force_uses[SPY_FORCE_USES] = {
+    [SPY_ACCELERATION] = {"acceleration", MPS_USE_READ},
+    [SPY_DENSITY] = {"pressure_density", MPS_USE_READ},
+    [SPY_REGION] = {"region", MPS_USE_READ},
+    [SPY_DEVIATION] = {"volume_deviation", MPS_USE_READ},
+    [SPY_NUMBER] = {"number_density", MPS_USE_READ}};
+
+static inline int spy_force(mps_stage *s)
+{
+    const double *a = s->data[SPY_ACCELERATION], *density = s->data[SPY_DENSITY];
+    const double *volume = s->data[SPY_DEVIATION], *number = s->data[SPY_NUMBER];
+    const int32_t *region = s->data[SPY_REGION];
+    const int dim = s->dim;
+    assert_true(s->n <= SPY_ROOM);
+    for (int64_t i = 0; i < s->n * dim; i++) spy.a[s->id[i / dim] * dim + i % dim] = a[i];
+    for (int64_t i = 0; i < s->n; i++) {
+        spy.density[s->id[i]] = density[i];
+        spy.region[s->id[i]] = region[i];
+        spy.volume[s->id[i]] = volume[i];
+        spy.number[s->id[i]] = number[i] / s->near->n0;
+    }
+    return 0;
+}
+
+enum { SPY_SHIFT, SPY_RHS, SPY_GAS, SPY_LAW, SPY_SOURCE_USES };
+static const mps_use spy_source_uses[SPY_SOURCE_USES] = {
+    [SPY_SHIFT] = {"pressure_shift", MPS_USE_READ},
+    [SPY_RHS] = {"pressure_source", MPS_USE_READ},
+    [SPY_GAS] = {"gas_shift", MPS_USE_READ},
+    [SPY_LAW] = {"gas_law", MPS_USE_READ}};
+
+static inline int spy_source(mps_stage *s)
+{
+    const double *shift = s->data[SPY_SHIFT], *rhs = s->data[SPY_RHS];
+    const double *gas = s->data[SPY_GAS], *law = s->data[SPY_LAW];
+    for (int64_t i = 0; i < s->n; i++) {
+        spy.shift[s->id[i]] = shift[i];
+        spy.rhs[s->id[i]] = rhs[i];
+        spy.gas[s->id[i]] = gas[i];
+        spy.law[s->id[i]] = law[i];
+    }
+    return 0;
+}
+
+static const mps_use spy_gradient_uses[] = {{"acceleration", MPS_USE_READ},
+                                            {"pressure", MPS_USE_READ}};
+
+static inline int spy_gradient(mps_stage *s)
+{
+    const double *a = s->data[0], *p = s->data[1];
+    const int dim = s->dim;
+    spy.level_free = s->level_free;
+    for (int64_t i = 0; i < s->n * dim; i++) spy.dp_a[s->id[i / dim] * dim + i % dim] = a[i];
+    for (int64_t i = 0; i < s->n; i++) spy.p[s->id[i]] = p[i];
+    return 0;
+}
+
+static const mps_verb spy_after_verbs[] = {{.moment = MPS_FORCE,
+                                            .use_count = SPY_FORCE_USES,
+                                            .uses = spy_force_uses,
+                                            .after = "*",
+                                            .run = spy_force},
+                                           {.moment = MPS_SOURCE,
+                                            .use_count = SPY_SOURCE_USES,
+                                            .uses = spy_source_uses,
+                                            .after = "*",
+                                            .run = spy_source},
+                                           {.moment = MPS_GRADIENT,
+                                            .use_count = 2,
+                                            .uses = spy_gradient_uses,
+                                            .after = "*",
+                                            .run = spy_gradient}};
 static const mps_model_ops spy_after = {.struct_size = sizeof(mps_model_ops),
                                         .api = MPS_MODEL_API,
                                         .name = "after.spy",
-                                        .order = 950,
-                                        .force = spy_force,
-                                        .source = spy_source,
-                                        .gradient = spy_gradient};
+                                        .help = "keeps what other models left",
+                                        .verb_count = 3,
+                                        .verbs = spy_after_verbs};
 
 /* No gravity, no models but the spy, steps of `dt`. re_far in dp. */
 static inline mps_sim *bare_sim(int32_t dim, double dp, double re_far, double dt)

@@ -66,14 +66,17 @@ static void take_steps(mps_sim *sim, int count)
 
 static const double pull = 2; /* [m/s2] */
 
-static int pull_fluid(void *self, const double *settings, mps_stage *s, double *a)
+static int pull_fluid(mps_stage *s)
 {
-    (void)self;
-    (void)settings;
+    double *a = s->data[0];
     for (int64_t i = 0; i < s->n; i++)
         if (s->kind[i] == MPS_FLUID) a[i * s->dim] += pull;
     return 0;
 }
+
+static const mps_use pull_uses[] = {{"acceleration", MPS_USE_CHANGE}};
+static const mps_verb pull_verbs[] = {
+    {.moment = MPS_FORCE, .use_count = 1, .uses = pull_uses, .run = pull_fluid}};
 
 static int steady(void *user, double t, mps_motion_state *state)
 {
@@ -90,7 +93,12 @@ static void force_models_are_no_walls(void **state)
     mps_sim *sim = weightless(0);
     double speed = 1;
     const double lo[2] = {0.15, 0.1}, hi[2] = {0.2, 0.15}, centre[2] = {0, 0};
-    const mps_model_ops ops = {.struct_size = sizeof ops, .api = MPS_MODEL_API, .name = "test.pull", .order = 300, .force = pull_fluid};
+    const mps_model_ops ops = {.struct_size = sizeof ops,
+                               .api = MPS_MODEL_API,
+                               .name = "test.pull",
+                               .help = "accelerates the fluid",
+                               .verb_count = 1,
+                               .verbs = pull_verbs};
     ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL));
     ASSERT_OK(sim, mps_model_register(sim, &ops));
     ASSERT_OK(sim, mps_model_use(sim, "test.pull"));

@@ -244,17 +244,28 @@ enum { ROWS = 24, COLUMNS = 5, BELT = 3 };
 static const double belt_speed = 1e-9; /* so slow that nobody gets anywhere */
 
 /* The outermost rows are plates. */
-static int belts(void *self, const double *k, mps_stage *s)
+static int belts(mps_stage *s)
 {
-    (void)self, (void)k;
+    double *u = s->data[0];
     for (int64_t i = 0; i < s->n; i++) {
         const int64_t row = s->id[i] / COLUMNS;
-        if (row < BELT || row >= ROWS - BELT) s->u[2 * i] = row < BELT ? 0 : belt_speed;
+        if (row < BELT || row >= ROWS - BELT) u[2 * i] = row < BELT ? 0 : belt_speed;
     }
     return 0;
 }
-static const mps_model_ops belt = {
-    .struct_size = sizeof(mps_model_ops), .api = MPS_MODEL_API, .name = "belt.test", .order = 900, .velocity = belts};
+
+static const mps_use belt_uses[] = {{"velocity", MPS_USE_CHANGE}};
+static const mps_verb belt_verbs[] = {{.moment = MPS_VELOCITY,
+                                       .use_count = 1,
+                                       .uses = belt_uses,
+                                       .after = "*",
+                                       .run = belts}};
+static const mps_model_ops belt = {.struct_size = sizeof(mps_model_ops),
+                                   .api = MPS_MODEL_API,
+                                   .name = "belt.test",
+                                   .help = "moves the outermost rows as plates",
+                                   .verb_count = 1,
+                                   .verbs = belt_verbs};
 
 /* Steady: mu du/dy is the same in both layers, and with the harmonic mean the velocity of the interface is that of sharp layers. */
 static void couette(void **state)

@@ -17,34 +17,47 @@ static struct {
     int64_t seen;      /* pressures of walls beside void */
 } spy;
 
-static bool sees_void(const mps_stage *s, int64_t i)
+enum { PRESSURE, REGION, TANK_ACCELERATION, USES };
+static const mps_use uses[USES] = {[PRESSURE] = {"pressure", MPS_USE_READ},
+                                   [REGION] = {"region", MPS_USE_NEIGHBOURS},
+                                   [TANK_ACCELERATION] = {"tank_acceleration", MPS_USE_READ}};
+
+static bool sees_void(const mps_stage *s, const int32_t *region, int64_t i)
 {
     bool seen = false;
     for (int64_t p = s->near->begin[i]; p < s->near->end[i]; p++) {
         const int64_t j = s->near->col[p];
-        seen = seen || (s->kind[j] == MPS_FLUID && s->region[j] >= MPS_REGION_SURFACE) ||
-               (s->kind[j] == MPS_WALL && s->region[j] == MPS_REGION_DRY);
+        seen = seen || (s->kind[j] == MPS_FLUID && region[j] >= MPS_REGION_SURFACE) ||
+               (s->kind[j] == MPS_WALL && region[j] == MPS_REGION_DRY);
     }
     return seen;
 }
 
-static int look(void *self, const double *k, mps_stage *s, double *a)
+static int look(mps_stage *s)
 {
-    (void)self, (void)k, (void)a;
+    const double *pressure = s->data[PRESSURE], *tank = s->data[TANK_ACCELERATION];
+    const int32_t *region = s->data[REGION];
     for (int64_t i = 0; i < s->n; i++) {
         double b = 0;
-        if (s->kind[i] != MPS_WALL || s->region[i] != MPS_REGION_INNER || (spy.among && !spy.among[s->id[i]])) continue;
-        spy.suction -= s->dt * fmin(0, s->p[i]);
-        if (!sees_void(s, i)) continue;
-        for (int d = 0; d < s->dim; d++) b += pow(s->g[d] - s->tank_accel[i * s->dim + d], 2);
-        spy.least = fmin(spy.least, s->p[i] / (RHO * sqrt(b) * s->near->re));
+        if (s->kind[i] != MPS_WALL || region[i] != MPS_REGION_INNER) continue;
+        if (spy.among && !spy.among[s->id[i]]) continue;
+        spy.suction -= s->dt * fmin(0, pressure[i]);
+        if (!sees_void(s, region, i)) continue;
+        for (int d = 0; d < s->dim; d++) b += pow(s->g[d] - tank[i * s->dim + d], 2);
+        spy.least = fmin(spy.least, pressure[i] / (RHO * sqrt(b) * s->near->re));
         spy.seen++;
     }
     return 0;
 }
 
-static const mps_model_ops spy_model = {
-    .struct_size = sizeof(mps_model_ops), .api = MPS_MODEL_API, .name = "after.spy", .order = 950, .gradient = look};
+static const mps_verb spy_verbs[] = {
+    {.moment = MPS_GRADIENT, .use_count = USES, .uses = uses, .after = "*", .run = look}};
+static const mps_model_ops spy_model = {.struct_size = sizeof(mps_model_ops),
+                                        .api = MPS_MODEL_API,
+                                        .name = "after.spy",
+                                        .help = "keeps the suction of walls",
+                                        .verb_count = 1,
+                                        .verbs = spy_verbs};
 
 /* ---- scenes ---- */
 

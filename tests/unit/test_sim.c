@@ -336,17 +336,22 @@ static void phases(void **state)
 
 /* ---- registration ----------------------------------------------------------------------------------------------------------- */
 
-static int force(void *self, const double *k, mps_stage *s, double *a)
+static int force(mps_stage *s)
 {
-    return (void)self, (void)k, (void)s, (void)a, 0;
+    return (void)s, 0;
 }
 static int count_create(const mps_allocator *allocator, void **self)
 {
     return (void)allocator, (void)self, 0;
 }
 
-static const mps_model_ops good_model = {
-    .struct_size = sizeof(mps_model_ops), .api = MPS_MODEL_API, .name = "mine.force", .order = 300, .force = force};
+static const mps_verb good_verbs[] = {{.moment = MPS_FORCE, .run = force}};
+static const mps_model_ops good_model = {.struct_size = sizeof(mps_model_ops),
+                                         .api = MPS_MODEL_API,
+                                         .name = "mine.force",
+                                         .help = "does nothing",
+                                         .verb_count = 1,
+                                         .verbs = good_verbs};
 
 #define REFUSE_MODEL(entry, value, status, word)                         \
     do {                                                                 \
@@ -358,7 +363,8 @@ static const mps_model_ops good_model = {
 static void model_registration(void **state)
 {
     (void)state;
-    static const mps_setting outside[] = {{"a", 5, 0, 1}}, nameless[] = {{NULL, 0, 0, 1}};
+    static const mps_setting outside[] = {{"a", "-", "", MPS_TYPE_REAL, 5, 0, 1}};
+    static const mps_setting nameless[] = {{NULL, "-", "", MPS_TYPE_REAL, 0, 0, 1}};
     mps_sim *sim = new_sim(2, 0.05);
     REFUSE_MODEL(name, NULL, MPS_E_ARG, "name");
     REFUSE_MODEL(name, "force", MPS_E_ARG, "slot.variant");
@@ -367,7 +373,9 @@ static void model_registration(void **state)
     REFUSE_MODEL(name, "mine.a_name_that_is_longer_than_forty_seven_characters", MPS_E_ARG, "slot.variant");
     REFUSE_MODEL(name, "surface.asymmetry", MPS_E_ARG, "taken");
     REFUSE_MODEL(api, 2, MPS_E_VERSION, "interface 2");
-    REFUSE_MODEL(force, NULL, MPS_E_ARG, "no verb");
+    REFUSE_MODEL(verb_count, 0, MPS_E_ARG, "verb");
+    REFUSE_MODEL(verb_count, 17, MPS_E_ARG, "verb");
+    REFUSE_MODEL(verbs, NULL, MPS_E_ARG, "verb");
     REFUSE_MODEL(create, count_create, MPS_E_ARG, "destroy");
     REFUSE_MODEL(setting_count, 1, MPS_E_ARG, "settings");
     REFUSE_MODEL(setting_count, 17, MPS_E_ARG, "settings");

@@ -8,28 +8,39 @@
 
 static const double dp = 0.05;
 
-/* ---- a model with every verb that pushes, fails or spoils on demand --------------------------------------------------- */
+/* ---- a model with a verb in every moment that pushes, fails or spoils on demand -------------- */
 
-enum { CLASSIFY, FORCE, SOURCE, GRADIENT, VELOCITY, SHIFT, VERBS };
-static const char *const verb_name[VERBS] = {"classify", "force", "source", "gradient", "velocity", "shift"};
+enum { CLASSIFY, PREPARE, FORCE, SOURCE, LEVEL, GRADIENT, LOAD, VELOCITY, SHIFT, VERBS };
+static const char *const verb_name[VERBS] = {"classify", "prepare", "force",    "source", "level",
+                                             "gradient", "load",    "velocity", "shift"};
 
 /* What the model under test does; one for all handles of this program. */
 static struct {
     int fail;        /* verb that fails, -1: none */
     int silent;      /* ... without mps_stage_fail() */
-    int spoil;       /* 1: NaN in a velocity, 2: in an acceleration, 3: a velocity beyond the limit, 4: a shift through the walls */
+    int spoil;       /* 1: NaN in a velocity, 2: in an acceleration, 3: a velocity beyond the limit,
+                        4: a shift through the walls */
     int64_t victim;  /* id of the spoilt particle */
     double dt_limit; /* INFINITY: none */
     int32_t region;  /* what classify leaves at the victim, MPS_REGION_INNER: nothing */
     int created, destroyed, calls[VERBS];
 } test;
 
+/* All verbs change velocities and pressures; some a third channel. */
+enum { U, P, THIRD };
+#define MESS {"velocity", MPS_USE_CHANGE}, {"pressure", MPS_USE_CHANGE}
+static const mps_use mess_uses[] = {MESS};
+static const mps_use classify_uses[] = {MESS, {"region", MPS_USE_CHANGE}};
+static const mps_use force_uses[] = {MESS, {"acceleration", MPS_USE_CHANGE}};
+static const mps_use shift_uses[] = {MESS, {"displacement", MPS_USE_CHANGE}};
+
 static int verb(mps_stage *s, int which)
 {
+    double *u = s->data[U], *p = s->data[P];
     test.calls[which]++;
     if (test.fail != which) return 0;
-    for (int64_t i = 0; i < s->n; i++) s->p[i] = 1e9; /* a mess that must not be seen afterwards */
-    for (int64_t i = 0; i < s->n * s->dim; i++) s->u[i] = -77;
+    for (int64_t i = 0; i < s->n; i++) p[i] = 1e9; /* a mess that must not be seen afterwards */
+    for (int64_t i = 0; i < s->n * s->dim; i++) u[i] = -77;
     return test.silent ? 1 : mps_stage_fail(s, "the %s is out of order", verb_name[which]);
 }
 
@@ -47,69 +58,97 @@ static int create(const mps_allocator *allocator, void **self)
     return *self == NULL;
 }
 
-static void destroy(void *self)
+static void destroy(const mps_allocator *allocator, void *self)
 {
     test.destroyed++;
-    free(self); /* the handles here use the default allocator */
+    allocator->release(allocator->user, self);
 }
 
-static int classify(void *self, const double *k, mps_stage *s)
+static int limit(mps_stage *s)
 {
-    (void)self, (void)k;
-    if (test.region != MPS_REGION_INNER) s->region[place_of(s, test.victim)] = test.region;
+    if (!(test.dt_limit >= s->dt_limit)) s->dt_limit = test.dt_limit; /* NaN too */
+    return 0;
+}
+
+static int classify(mps_stage *s)
+{
+    int32_t *region = s->data[THIRD];
+    if (test.region != MPS_REGION_INNER) region[place_of(s, test.victim)] = test.region;
     return verb(s, CLASSIFY);
 }
-static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *t)
+
+static int prepare(mps_stage *s)
 {
-    return (void)self, (void)k, (void)t, verb(s, SOURCE);
-}
-static int gradient(void *self, const double *k, mps_stage *s, double *a)
-{
-    return (void)self, (void)k, (void)a, verb(s, GRADIENT);
-}
-static int shift(void *self, const double *k, mps_stage *s, double *dx)
-{
-    (void)self, (void)k;
-    if (test.spoil == 4) dx[place_of(s, test.victim) * s->dim] += 4 * s->dp;
-    return verb(s, SHIFT);
-}
-static double dt_limit(void *self, const double *k, const mps_stage *s)
-{
-    return (void)self, (void)k, (void)s, test.dt_limit;
+    return verb(s, PREPARE);
 }
 
-static int force(void *self, const double *k, mps_stage *s, double *a)
+static int force(mps_stage *s)
 {
-    assert_non_null(self);
-    for (int64_t i = 0; i < s->n; i++) a[i * s->dim] += k[0];
+    double *a = s->data[THIRD];
+    assert_non_null(s->self);
+    for (int64_t i = 0; i < s->n; i++) a[i * s->dim] += s->setting[0];
     if (test.spoil == 2) a[place_of(s, test.victim) * s->dim] = NAN;
     return verb(s, FORCE);
 }
 
-static int velocity(void *self, const double *k, mps_stage *s)
+static int source(mps_stage *s)
 {
-    (void)self, (void)k;
-    if (test.spoil == 1) s->u[place_of(s, test.victim) * s->dim + 1] = NAN;
-    if (test.spoil == 3) s->u[place_of(s, test.victim) * s->dim + 1] = 1e4;
+    return verb(s, SOURCE);
+}
+
+static int level(mps_stage *s)
+{
+    return verb(s, LEVEL);
+}
+
+static int gradient(mps_stage *s)
+{
+    return verb(s, GRADIENT);
+}
+
+static int load(mps_stage *s)
+{
+    return verb(s, LOAD);
+}
+
+static int velocity(mps_stage *s)
+{
+    double *u = s->data[U];
+    if (test.spoil == 1) u[place_of(s, test.victim) * s->dim + 1] = NAN;
+    if (test.spoil == 3) u[place_of(s, test.victim) * s->dim + 1] = 1e4;
     return verb(s, VELOCITY);
 }
 
-static const mps_setting push_settings[] = {{"acceleration", 0, -100, 100}};
+static int shift(mps_stage *s)
+{
+    double *dx = s->data[THIRD];
+    if (test.spoil == 4) dx[place_of(s, test.victim) * s->dim] += 4 * s->dp;
+    return verb(s, SHIFT);
+}
+
+static const mps_setting push_settings[] = {
+    {"acceleration", "m/s2", "along the first axis", MPS_TYPE_REAL, 0, -100, 100}};
+static const mps_verb push_verbs[] = {
+    {.moment = MPS_LIMIT, .run = limit},
+    {.moment = MPS_CLASSIFY, .use_count = 3, .uses = classify_uses, .after = "*", .run = classify},
+    {.moment = MPS_PREPARE, .use_count = 2, .uses = mess_uses, .run = prepare},
+    {.moment = MPS_FORCE, .use_count = 3, .uses = force_uses, .run = force},
+    {.moment = MPS_SOURCE, .use_count = 2, .uses = mess_uses, .run = source},
+    {.moment = MPS_LEVEL, .use_count = 2, .uses = mess_uses, .run = level},
+    {.moment = MPS_GRADIENT, .use_count = 2, .uses = mess_uses, .run = gradient},
+    {.moment = MPS_LOAD, .use_count = 2, .uses = mess_uses, .run = load},
+    {.moment = MPS_VELOCITY, .use_count = 2, .uses = mess_uses, .run = velocity},
+    {.moment = MPS_SHIFT, .use_count = 3, .uses = shift_uses, .run = shift}};
 static const mps_model_ops push = {.struct_size = sizeof(mps_model_ops),
                                    .api = MPS_MODEL_API,
                                    .name = "test.push",
-                                   .order = 350,
+                                   .help = "pushes, fails or spoils on demand",
                                    .setting_count = 1,
                                    .settings = push_settings,
+                                   .verb_count = 10,
+                                   .verbs = push_verbs,
                                    .create = create,
-                                   .destroy = destroy,
-                                   .classify = classify,
-                                   .force = force,
-                                   .source = source,
-                                   .gradient = gradient,
-                                   .velocity = velocity,
-                                   .shift = shift,
-                                   .dt_limit = dt_limit};
+                                   .destroy = destroy};
 
 static void reset_test(void)
 {

@@ -7,15 +7,25 @@ static const double dp = 0.05;
 
 static int32_t region[1000]; /* by id, of the last step */
 
-static int keep_regions(void *self, const double *k, mps_stage *s, mps_ppe_terms *terms)
+static int keep_regions(mps_stage *s)
 {
-    (void)self, (void)k, (void)terms;
-    for (int64_t i = 0; i < s->n; i++) region[s->id[i]] = s->region[i];
+    const int32_t *regions = s->data[0];
+    for (int64_t i = 0; i < s->n; i++) region[s->id[i]] = regions[i];
     return 0;
 }
 
-static const mps_model_ops keeper = {
-    .struct_size = sizeof(mps_model_ops), .api = MPS_MODEL_API, .name = "keeper.regions", .order = 950, .source = keep_regions};
+static const mps_use keeper_uses[] = {{"region", MPS_USE_READ}};
+static const mps_verb keeper_verbs[] = {{.moment = MPS_SOURCE,
+                                         .use_count = 1,
+                                         .uses = keeper_uses,
+                                         .after = "*",
+                                         .run = keep_regions}};
+static const mps_model_ops keeper = {.struct_size = sizeof(mps_model_ops),
+                                     .api = MPS_MODEL_API,
+                                     .name = "keeper.regions",
+                                     .help = "keeps the regions of a step",
+                                     .verb_count = 1,
+                                     .verbs = keeper_verbs};
 
 /* Id of the first of `count` particles at x [count*2], in dp, in the lower left corner of a tank, after a step. */
 static int64_t classified(int64_t count, const double *x)
