@@ -347,27 +347,6 @@ enum {
  *  @return 0, or non-zero after a failure (no memory; the error is set) */
 MPS_API int mps_stage_bodies(mps_stage *s, int32_t most, const int32_t *role, int32_t *body);
 
-/** Part of a row in mps_stage_bodies_free(). */
-enum {
-    /** None: its pairs are not followed. */
-    MPS_BODY_NONE = 0,
-    /** A row of a body. */
-    MPS_BODY_MEMBER = 1,
-    /** A row of a body; only bodies with such a row are looked at. */
-    MPS_BODY_SEED = 2,
-    /** Holds the bodies that have a near pair with it; belongs to none. */
-    MPS_BODY_ANCHOR = 3
-};
-
-/** Mark the rows of small bodies that nothing holds. A body is a set of MEMBER and SEED rows linked
- *  by near pairs. It is marked if it has a SEED, no near pair with an ANCHOR and at most `most`
- *  rows. Cheaper than mps_stage_bodies() where most rows belong to a large or held body: a body is
- *  followed only until one of these is known.
- *  @param part  [n] MPS_BODY_... @param is_free  [n] out: 1 or 0
- *  @return 0, or non-zero after a failure (no memory) */
-MPS_API int mps_stage_bodies_free(mps_stage *s, const int32_t *part, int64_t most,
-                                  int32_t *is_free);
-
 /** Scratch of `count` doubles, zeroed, valid until the verb returns. At most 16 of a verb.
  *  @return NULL: no memory, or too many (the error is set; let the verb return non-zero) */
 MPS_API double *mps_stage_scratch(mps_stage *s, int64_t count);

@@ -9,7 +9,7 @@
  * as held. A body without a particle on the surface is left as it is. */
 #include "builtin.h"
 
-static const int64_t LARGE = 1000;
+enum { LARGE = 1000 };
 
 enum { REGION, TANK_ACCELERATION, USES };
 static const mps_use uses[USES] = {[REGION] = {"region", MPS_USE_READ},
@@ -18,25 +18,25 @@ static const mps_use uses[USES] = {[REGION] = {"region", MPS_USE_READ},
 typedef struct fields {
     const int32_t *region;
     double *tank_acceleration;
-    int32_t *part, *is_free; /* [n] MPS_BODY_...; rows of free bodies */
+    int32_t *role, *body; /* [n] MPS_BODY_...; number of a free body, or -1 */
 } fields;
 
 /* Wetted solids hold the fluid beside them. Spray and dry solids take no part. */
-MPS_ROW void part_row(const int dim, const mps_stage *s, fields *f, int64_t i)
+MPS_ROW void role_row(const int dim, const mps_stage *s, fields *f, int64_t i)
 {
     (void)dim;
     if (f->region[i] >= MPS_REGION_SPRAY)
-        f->part[i] = MPS_BODY_NONE;
+        f->role[i] = MPS_BODY_NONE;
     else if (s->kind[i] != MPS_FLUID)
-        f->part[i] = MPS_BODY_ANCHOR;
+        f->role[i] = MPS_BODY_ANCHOR;
     else
-        f->part[i] = f->region[i] == MPS_REGION_SURFACE ? MPS_BODY_SEED : MPS_BODY_MEMBER;
+        f->role[i] = f->region[i] == MPS_REGION_SURFACE ? MPS_BODY_SEED : MPS_BODY_MEMBER;
 }
-MPS_ROWS(part_rows, part_row, fields)
+MPS_ROWS(role_rows, role_row, fields)
 
 MPS_ROW void free_row(const int dim, const mps_stage *s, fields *f, int64_t i)
 {
-    if (!f->is_free[i]) return;
+    if (f->body[i] < 0) return;
     for (int d = 0; d < dim; d++) f->tank_acceleration[i * dim + d] = s->g[d];
 }
 MPS_ROWS(free_rows, free_row, fields)
@@ -45,11 +45,11 @@ static int free_bodies(mps_stage *s)
 {
     fields f = {.region = s->data[REGION],
                 .tank_acceleration = s->data[TANK_ACCELERATION],
-                .part = mps_stage_scratch_integers(s, s->n),
-                .is_free = mps_stage_scratch_integers(s, s->n)};
-    if (!f.part || !f.is_free) return 1;
-    mps_stage_rows(s, part_rows, &f);
-    if (mps_stage_bodies_free(s, f.part, LARGE, f.is_free)) return 1;
+                .role = mps_stage_scratch_integers(s, s->n),
+                .body = mps_stage_scratch_integers(s, s->n)};
+    if (!f.role || !f.body) return 1;
+    mps_stage_rows(s, role_rows, &f);
+    if (mps_stage_bodies(s, LARGE, f.role, f.body)) return 1;
     mps_stage_rows(s, free_rows, &f);
     return 0;
 }

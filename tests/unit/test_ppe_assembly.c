@@ -16,10 +16,11 @@ typedef struct tank {
     mps_stencil near, far;
     mps__context context;
     mps__ppe e;
-    int32_t kind[MOST], region[MOST], fixed[MOST];
-    double p[MOST], density[MOST], wet[MOST], depth[MOST], rhs[MOST], shift[MOST], value[MOST], body[3 * MOST], gas[MOST], law[MOST];
+    int32_t kind[MOST], phase[MOST], region[MOST], fixed[MOST];
+    double p[MOST], density[MOST], wet[MOST], depth[MOST], rhs[MOST], shift[MOST], value[MOST], accel[3 * MOST], gas[MOST], law[MOST];
     mps_stage stage;
-    mps_ppe_terms terms;
+    mps_flux flux;
+    mps__ppe_terms terms;
 } tank;
 
 static void tank_init(tank *k, cloud c)
@@ -41,30 +42,33 @@ static void tank_init(tank *k, cloud c)
     }
     k->stage = (mps_stage){.struct_size = sizeof k->stage,
                            .dim = c.dim,
-                           .threads = 1,
                            .n = c.n,
                            .dt = 1e-3,
                            .dp = CLOUD_DP,
                            .kind = k->kind,
                            .x = c.x,
-                           .p = k->p,
-                           .density = k->density,
-                           .region = k->region,
-                           .wet = k->wet,
-                           .density_smooth = k->density,
-                           .depth = k->depth,
                            .near = &k->near,
                            .far = &k->far};
-    k->terms = (mps_ppe_terms){.struct_size = sizeof k->terms,
-                               .radius = MPS_FAR,
-                               .rhs = k->rhs,
-                               .shift = k->shift,
-                               .value = k->value,
-                               .fixed = k->fixed,
-                               .body = k->body,
-                               .gain = 1,
-                               .gas = k->gas,
-                               .law = k->law};
+    k->flux = (mps_flux){.struct_size = sizeof k->flux,
+                         .body = 1,
+                         .kind = k->kind,
+                         .phase = k->phase,
+                         .density = k->density,
+                         .distance = k->depth,
+                         .wetted = k->wet,
+                         .tank_acceleration = k->accel};
+    k->terms = (mps__ppe_terms){.equation = {.radius = MPS_FAR, .gain = 1},
+                                .flux = &k->flux,
+                                .region = k->region,
+                                .density = k->density,
+                                .pressure = k->p,
+                                .source = k->rhs,
+                                .shift = k->shift,
+                                .value = k->value,
+                                .gas = k->gas,
+                                .law = k->law,
+                                .condition = k->fixed,
+                                .threads = 1};
 }
 
 static void tank_free(tank *k)
@@ -128,18 +132,18 @@ static double surface_factor(const tank *k, double re)
                 full += j * j * (re / (0.85 * r + 0.15 * re) - 1);
                 left += j * (re / (0.85 * r + 0.15 * re) - 1);
             }
-    return k->terms.complete_surface ? full / left : 1;
+    return k->terms.equation.complete_surface ? full / left : 1;
 }
 
 /* 2D/(n0 lambda) W/rho of one pair, in single precision as the matrix has it; 0 if it takes no part. */
 static double coefficient(const tank *k, int64_t i, int64_t j)
 {
-    const mps_stencil *t = k->terms.radius == MPS_NEAR ? &k->near : &k->far;
+    const mps_stencil *t = k->terms.equation.radius == MPS_NEAR ? &k->near : &k->far;
     const double r = sqrt(cloud_distance2(&k->c, i, j));
     if (i == j || r >= t->re || !in_equation(k, i) || !in_equation(k, j)) return 0;
     double factor = 1;
     if (k->kind[i] == MPS_WALL && k->kind[j] == MPS_WALL)
-        factor = k->terms.wall_factor * fmin(k->wet[i], k->wet[j]);
+        factor = k->flux.wall_factor * fmin(k->wet[i], k->wet[j]);
     else if ((k->region[i] == MPS_REGION_SURFACE) != (k->region[j] == MPS_REGION_SURFACE))
         factor = surface_factor(k, t->re);
     return (double)(float)(2 * k->c.dim / (t->n0 * t->lambda) * factor * (t->re / (0.85 * r + 0.15 * t->re) - 1) / pair_rho(k, i, j));
@@ -148,11 +152,11 @@ static double coefficient(const tank *k, int64_t i, int64_t j)
 /* sum_j k_ij (p_i - p_j + q_ij) + shift p_i - rhs for a particle, with p of all particles given. */
 static double residual(const tank *k, int64_t i, const double *p)
 {
-    double sum = k->terms.gain * (k->shift[i] * p[i] - k->rhs[i]);
+    double sum = k->terms.equation.gain * (k->shift[i] * p[i] - k->rhs[i]);
     for (int64_t j = 0; j < k->c.n; j++) {
         double q = 0;
         for (int d = 0; d < k->c.dim; d++)
-            q += 0.5 * (k->body[i * k->c.dim + d] + k->body[j * k->c.dim + d]) * (k->c.x[j * k->c.dim + d] - k->c.x[i * k->c.dim + d]);
+            q -= 0.5 * (k->accel[i * k->c.dim + d] + k->accel[j * k->c.dim + d]) * (k->c.x[j * k->c.dim + d] - k->c.x[i * k->c.dim + d]);
         sum += coefficient(k, i, j) * (p[i] - p[j] + pair_rho(k, i, j) * q);
     }
     return sum;
@@ -215,16 +219,16 @@ static void check_all_terms(int radius, int complete, double walls)
     tank_init(&k, cloud_lattice(2, 14, 14, 1, 0.2, 2));
     add_floor(&k, 14);
     add_surface(&k, 14, 50);
-    k.terms.radius = radius;
-    k.terms.complete_surface = complete;
-    k.terms.wall_factor = walls;
-    k.terms.gain = radius == MPS_NEAR ? 0.7 : 1;
+    k.terms.equation.radius = radius;
+    k.terms.equation.complete_surface = complete;
+    k.flux.wall_factor = walls;
+    k.terms.equation.gain = radius == MPS_NEAR ? 0.7 : 1;
     for (int64_t i = 0; i < k.c.n; i++) {
         k.density[i] = i % 14 < 7 ? 1000 : 1;
         k.wet[i] = 0.5 + 0.5 * cloud_random(&seed);
         k.rhs[i] = cloud_random(&seed);
         k.shift[i] = i % 5 == 0 ? 0.01 : 0;
-        for (int d = 0; d < 2; d++) k.body[2 * i + d] = gravity * cloud_random(&seed);
+        for (int d = 0; d < 2; d++) k.accel[2 * i + d] = gravity * cloud_random(&seed);
     }
     assemble(&k);
     assert_int_equal(k.e.n, 14 * 11); /* walls and fluid, less the surface */
@@ -260,7 +264,7 @@ static void threads_agree(void **state)
     tank_init(&one, cloud_lattice(3, 8, 7, 8, 0.2, 3));
     tank_init(&two, cloud_lattice(3, 8, 7, 8, 0.2, 3));
     for (int64_t i = 0; i < one.c.n; i++) one.fixed[i] = two.fixed[i] = i % 11 == 0;
-    two.stage.threads = 2;
+    two.terms.threads = 2;
     assemble(&one);
     assemble(&two);
     check_matrix(&one.e);
@@ -283,13 +287,13 @@ static void hydrostatic(void **state)
         tank k;
         double p[MOST];
         tank_init(&k, cloud_lattice(2, 12, 15, 1, variant % 2 ? 0.3 : 0, 4));
-        const double top = 14 * CLOUD_DP, slope[2] = {2.5, -gravity};
+        const double top = 14 * CLOUD_DP, slope[2] = {2.5, -gravity}, accel[2] = {-2.5, gravity};
         add_floor(&k, 12);
         add_surface(&k, 12, 0);
-        k.terms.complete_surface = variant / 2;
-        k.terms.wall_factor = 0.5 * (variant / 2);
+        k.terms.equation.complete_surface = variant / 2;
+        k.flux.wall_factor = 0.5 * (variant / 2);
         for (int64_t i = 0; i < k.c.n; i++) {
-            memcpy(k.body + 2 * i, slope, sizeof slope);
+            memcpy(k.accel + 2 * i, accel, sizeof accel);
             if (k.fixed[i]) k.value[i] = rho0 * (slope[0] * k.c.x[2 * i] - slope[1] * (top - k.c.x[2 * i + 1]));
         }
         assemble(&k);
