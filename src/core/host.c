@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Calls of verbs: what they get, and what is checked after them. */
-#include "host.h"
+#include "guard.h"
 #include <math.h>
 
 static mps_status verb_failed(mps__host *h, const mps__call *call, double t)
@@ -57,6 +57,19 @@ static mps_status run_call(mps__host *h, mps_stage *s, const mps__call *call)
     return failed ? verb_failed(h, call, s->t) : check_after(h, s, call);
 }
 
+#ifdef MPS_CHECKED
+static mps_status run_checked(mps__host *h, mps_stage *s, const mps__call *call)
+{
+    mps__guard guard;
+    mps_status status = mps__guard_begin(&guard, h, s, call);
+    if (status == MPS_OK) status = run_call(h, s, call);
+    const mps_status after = mps__guard_end(&guard, h, s, call);
+    return status < 0 ? status : after;
+}
+#else
+#define run_checked run_call
+#endif
+
 mps_status mps__host_run(mps__host *h, mps_stage *s, int32_t moment)
 {
     const mps__lock before = mps__lock_set(h->context, MPS__LOCKED, "a verb of a model");
@@ -64,7 +77,7 @@ mps_status mps__host_run(mps__host *h, mps_stage *s, int32_t moment)
     s->moment = moment;
     s->host = h;
     for (int32_t k = h->plan.begin[moment]; k < h->plan.begin[moment + 1] && status == MPS_OK; k++)
-        status = run_call(h, s, &h->plan.call[k]);
+        status = run_checked(h, s, &h->plan.call[k]);
     h->context->lock = before;
     return status;
 }

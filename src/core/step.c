@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* One time step, W22 section 2.5 and Fig. 2: predict, pressure equation, correct. The one file that knows the order. */
+#include "guard.h"
 #include "step.h"
 #include "undo.h"
 
@@ -268,6 +269,9 @@ mps_status mps__world_step(mps__world *w, double dt_max)
     }
     if (w->info.step == 0) mps__world_note_phases(w);
     commit(&q);
+#ifdef MPS_CHECKED
+    mps__guard_poison(&w->host);
+#endif
     if (planned > 0) w->dt_previous = planned; /* a step cut short says nothing about the next */
     end_stage(&q, MPS_STAGE_CORRECT);
     w->info.seconds[MPS_STAGE_CORRECT] = q.info.seconds[MPS_STAGE_CORRECT];
