@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Command line of the drivers: one table, every value checked by name and range. */
 #include "cli.h"
+#include "listing.h"
 #include <math.h>
 #include <mps/mps.h>
 #include <stdio.h>
@@ -61,6 +62,7 @@ static int cli_table(cli_options *o, cli_option *table)
     for (int i = 0; i < o->owns; i++) table[n++] = o->own[i];
     table[n++] = (cli_option){"--no-report", NULL, "no report.html", TYPE_FLAG, &o->report, 0, 0, false};
     table[n++] = (cli_option){"--quiet", NULL, "no progress", TYPE_FLAG, &o->quiet, 0, 0, true};
+    table[n++] = (cli_option){"--list-models", NULL, "all models with settings, channels and solvers", TYPE_LISTING, NULL, 0, 0, false};
     table[n++] = (cli_option){"--version", NULL, "version of the library", TYPE_VERSION, NULL, 0, 0, false};
     table[n++] = (cli_option){"--help", NULL, "this text", TYPE_HELP, NULL, 0, 0, false};
     return n;
@@ -209,6 +211,7 @@ static void cli_take(cli_options *o, cli_option *table, int n, int argc, char **
     cli_option *e = cli_find(table, n, name, equals ? (size_t)(equals - name) : strlen(name));
     if (!e) cli_refuse(o, "unknown option %s%s", name, "");
     if (e->type == TYPE_HELP) cli_help(o, table, n);
+    if (e->type == TYPE_LISTING) exit(listing_print());
     if (e->type == TYPE_VERSION) {
         printf("%s, libmps %s\n", o->program, mps_version(NULL, NULL, NULL));
         exit(CLI_OK);

@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Lists of the library, printed from the library itself. */
+#include "listing.h"
+#include <math.h>
+#include <mps/model.h>
+#include <mps/mps.h>
+#include <stdio.h>
+
+static const char *const type_name[] = {"real", "integer", "flag"};
+
+static void print_number(double value)
+{
+    if (value >= 1e6)
+        printf("1e%g", log10(value));
+    else
+        printf("%g", value);
+}
+
+static void print_settings(const mps_sim *sim, const char *model)
+{
+    mps_setting_info k;
+    mps_setting_info_init(&k, sizeof k);
+    for (int32_t i = 0; mps_setting_info_get(sim, model, i, &k) == MPS_OK; i++) {
+        if (i == 0) printf("| setting | default | range | unit | |\n|---|---|---|---|---|\n");
+        printf("| `%s` | ", k.key);
+        print_number(k.initial);
+        if (k.type == MPS_TYPE_FLAG)
+            printf(" | 0 or 1");
+        else {
+            printf(" | ");
+            print_number(k.min);
+            printf(" .. ");
+            print_number(k.max);
+        }
+        printf(" | %s | %s |\n", k.unit, k.help);
+    }
+    printf("\n");
+}
+
+static void print_models(const mps_sim *sim)
+{
+    mps_model_info m;
+    mps_model_info_init(&m, sizeof m);
+    printf("## Models\n\nSwitch a model on with `mps_model_use()`, change a setting with `mps_model_set()`; in drivers `--use NAME`,\n"
+           "`--set SLOT.KEY=VALUE`. The first word of a name is its slot, which holds one model.\n\n");
+    for (int32_t i = 0; mps_model_info_get(sim, i, &m) == MPS_OK; i++) {
+        printf("### %s\n\n%s.\n\n", m.name, m.help);
+        if (m.settings > 0) print_settings(sim, m.name);
+    }
+}
+
+static void print_channels(const mps_sim *sim)
+{
+    mps_channel_info c;
+    mps_channel_info_init(&c, sizeof c);
+    printf("## Channels of the library\n\nArrays with values per particle that verbs of models may use.\n\n"
+           "| channel | numbers in 2-D | type | unit | |\n|---|---|---|---|---|\n");
+    for (int32_t i = 0; mps_channel_info_get(sim, i, &c) == MPS_OK; i++)
+        if (c.own) printf("| `%s` | %d | %s | %s | %s |\n", c.name, (int)c.components, type_name[c.type], c.unit, c.help);
+    printf("\n## Channels of models\n\n| channel | numbers in 2-D | type | unit | |\n|---|---|---|---|---|\n");
+}
+
+/* Channels that the models of a preset bring, unless an earlier one did. */
+static void print_brought(const mps_sim *sim)
+{
+    mps_channel_info c;
+    mps_channel_info_init(&c, sizeof c);
+    for (int32_t i = 0; mps_channel_info_get(sim, i, &c) == MPS_OK; i++)
+        if (!c.own) printf("| `%s` | %d | %s | %s | %s |\n", c.name, (int)c.components, type_name[c.type], c.unit, c.help);
+}
+
+static void print_order(mps_sim *sim, const char *preset)
+{
+    mps_verb_info v;
+    mps_verb_info_init(&v, sizeof v);
+    if (mps_sim_use_preset(sim, preset) != MPS_OK) return;
+    printf("## Order of a step: %s\n\n`r` reads its own row, `n` neighbours too, `w` writes, `?` may be missing.\n\n"
+           "| moment | model | channels |\n|---|---|---|\n",
+           preset);
+    for (int32_t i = 0; mps_verb_info_get(sim, i, &v) == MPS_OK; i++) printf("| %s | `%s` | %s |\n", v.moment_name, v.model, v.uses);
+    printf("\n");
+}
+
+typedef mps_status (*name_fn)(const mps_sim *sim, int32_t index, mps_name_info *info);
+
+static void print_names(const mps_sim *sim, const char *title, name_fn get)
+{
+    mps_name_info n;
+    mps_name_info_init(&n, sizeof n);
+    printf("## %s\n\n| name | |\n|---|---|\n", title);
+    for (int32_t i = 0; get(sim, i, &n) == MPS_OK; i++) printf("| `%s` | %s%s |\n", n.name, n.help, n.active ? " (default)" : "");
+    printf("\n");
+}
+
+int listing_print(void)
+{
+    mps_config config;
+    mps_sim *sim = NULL;
+    mps_config_init(&config, sizeof config);
+    config.dp = 1;
+    if (mps_sim_create(&config, &sim) != MPS_OK) return 1;
+    printf("# Models, channels and solvers\n\nPrinted by any driver with `--list-models`.\n\n");
+    print_names(sim, "Presets", mps_preset_info_get);
+    print_models(sim);
+    print_channels(sim);
+    mps_sim_use_preset(sim, "mmps"); /* brings all channels */
+    print_brought(sim);
+    printf("\n");
+    print_order(sim, "imps");
+    print_order(sim, "mmps");
+    mps_sim_use_preset(sim, "imps");
+    print_names(sim, "Pressure solvers", mps_solver_info_get);
+    print_names(sim, "Preconditioners", mps_preconditioner_info_get);
+    print_names(sim, "Kernels", mps_kernel_info_get);
+    mps_sim_destroy(sim);
+    return 0;
+}
