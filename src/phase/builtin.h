@@ -1,50 +1,65 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The built-in models of the fluid, in one place. */
+/* Tables of the built-in models of the fluid, and helpers that several of these models share. */
 #ifndef MPS_PHASE_BUILTIN_H
 #define MPS_PHASE_BUILTIN_H
 
 #include <mps/model.h>
-#include <mps/ppe.h>
 #include <stdbool.h>
 
-/* Loops over the pairs of one row take dim as their first argument and are compiled for 2 and 3, so that loops over d unroll. */
-#define MPS__ROW                 static inline __attribute__((always_inline))
-#define MPS__ROW_CALL(s, f, ...) ((s)->dim == 2 ? f(2, __VA_ARGS__) : f(3, __VA_ARGS__))
-
 extern const mps_model_ops mps__moments_bounded;
-extern const mps_model_ops mps__viscosity_laplacian, mps__dissipation_radial, mps__friction_sides;
-extern const mps_model_ops mps__drag_lone;
+extern const mps_model_ops mps__density_smooth, mps__density_interface;
+extern const mps_model_ops mps__viscosity_laplacian, mps__viscosity_pair;
+extern const mps_model_ops mps__dissipation_radial;
+extern const mps_model_ops mps__tension_csf, mps__tension_jump;
+extern const mps_model_ops mps__friction_sides;
 extern const mps_model_ops mps__source_mixed, mps__source_volume;
-extern const mps_model_ops mps__gradient_conservative, mps__gradient_corrected;
-extern const mps_model_ops mps__collision_pair, mps__shift_tangential;
-extern const mps_model_ops mps__density_smooth, mps__density_interface, mps__viscosity_pair, mps__tension_csf, mps__tension_jump,
-    mps__gradient_density;
 extern const mps_model_ops mps__gas_compressible, mps__gas_isentropic;
+extern const mps_model_ops mps__gradient_conservative, mps__gradient_corrected;
+extern const mps_model_ops mps__gradient_density;
+extern const mps_model_ops mps__drag_lone, mps__collision_pair;
+extern const mps_model_ops mps__shift_tangential;
 
-/* Phases of mps_stage.viscosity. */
+/* All of them, in the order of registration; the last entry is NULL. */
+const mps_model_ops *const *mps__builtin_phase(void);
+
+/* Length of mps_stage.viscosity, and of a side of mps_stage.tension. */
 enum { MPS__PHASE_LIMIT = 16 };
 
-/* Least density of the fluid of each phase [kg/m3]; 0 without any. */
-void mps__phase_densities(const mps_stage *s, double rho[MPS__PHASE_LIMIT]);
+/* Smallest density of the fluid particles of each phase [kg/m3]; 0 for a phase without particles.
+ * density: [n] the channel "density". */
+void mps__phase_densities(const mps_stage *s, const double *density, double rho[MPS__PHASE_LIMIT]);
 
-/* Whether particle i is fluid of the phase of a setting. */
+/* True for a fluid particle of the phase that a setting names. */
 static inline bool mps__is_gas(const mps_stage *s, int64_t i, double phase)
 {
     return s->kind[i] == MPS_FLUID && s->phase[i] == (int32_t)phase;
 }
 
-/* Fail unless there is fluid of this phase and all of it moves below the speed of sound. Non-zero: failed. */
-int mps__gas_check(mps_stage *s, double phase, double sound);
-/* The equation of state wants particles denser by the shares `denser` [n] (0: a lattice as it was), which become scratch. What is left of
- * the deviations of all particles is error. Non-zero: failed. */
-int mps__gas_expect(mps_stage *s, double *denser);
-/* Share of the cell of particle i that holds gas; of a wall particle's, where walls are parts of cells (wall_factor > 0). */
-double mps__gas_share(const mps_stage *s, int64_t i, double phase, double wall_factor);
-/* In a tank that no fixed pressure opens, keep the volume of the gas: `surplus`, what its particles' volumes by the law are above their
- * share (sum, in cells of the lattice), and the sum of all sources are taken off. Call it before the gas adds its own terms. */
-void mps__gas_conserve(const mps_stage *s, mps_ppe_terms *terms, double phase, double surplus);
+/* Fails if no fluid particle has this phase, or if one is not slower than the speed of sound.
+ * Returns non-zero after a failure. */
+int mps__gas_check(mps_stage *s, double phase, double sound, const double *velocity);
 
-/* All of them; the last entry is NULL. */
-const mps_model_ops *const *mps__builtin_phase(void);
+/* Takes the volumes by the equation of state from the channels "volume_deviation" and
+ * "number_density": both then hold the error of the volumes alone.
+ * denser: [n] (n - n0)/n0 by the equation of state, 0 for other particles; overwritten.
+ * Returns non-zero after a failure. */
+int mps__gas_expect(mps_stage *s, double *denser, double *volume_deviation, double *number_density);
+
+/* Share of the cell of particle i that holds gas, 0..1. Cells of wall particles count if
+ * mps_equation.wall_factor > 0. region: the channel of that name. */
+double mps__gas_share(const mps_stage *s, const int32_t *region, int64_t i, double phase);
+
+/* Arrays that mps__gas_conserve() works on. */
+typedef struct mps__gas_rows {
+    const int32_t *region;    /* channel "region" */
+    const int32_t *condition; /* channel "pressure_condition" */
+    double *source;           /* channel "pressure_source", changed */
+    double phase;             /* phase of the gas */
+} mps__gas_rows;
+
+/* Keeps the volume of the gas if no row of the pressure equation is fixed: subtracts the sum of all
+ * sources, and a part of `surplus`, the sum over the gas of (volume by the equation of state - 1)
+ * in cells of the lattice. Call it before the gas adds its own terms. */
+void mps__gas_conserve(const mps_stage *s, mps__gas_rows *rows, double surplus);
 
 #endif

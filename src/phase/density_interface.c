@@ -1,55 +1,100 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How far each particle is from an interface between two densities, so that pairs across it have the density that fluid at rest needs,
- *   rho_ij = (f_i rho_i + f_j rho_j)/(f_i + f_j),  f the distances of both,
- * the mean along the line between them (mps_stage_pair_density()). Of (rho_i + rho_j)/2 no pressure can make all pairs of a particle agree
- * unless the interface halves each of them, and fluid at rest is stirred.
- * The interface about a particle is a plane: its normal is the mean direction of the pairs across it, from heavy to light, and it goes through
- * the mean of their middles. Both are means over the far radius less half a spacing, so that the lattice does not show. What is beyond its
- * own plane is `least` dp from it. Where pairs point everywhere (drops and threads of a few particles: |sum r_ij|/sum |r_ij| below `flat`) all
- * are half a spacing away, which makes the mean of both densities, W22 (17). Solids are on the side of the plane on which they stand. */
+/* Distance of each particle from an interface between two densities. Pairs across the interface
+ * take from it the density that fluid at rest needs,
+ *   rho_ij = (f_i rho_i + f_j rho_j)/(f_i + f_j),  f_i, f_j the distances,
+ * the mean along the line between both (mps_pair_density()). With (rho_i + rho_j)/2 the pairs of a
+ * particle agree on a pressure only if the interface halves each of them; elsewhere fluid at rest
+ * is stirred.
+ *
+ * Near a particle the interface is a plane. Its normal is the mean direction of the pairs across
+ * the interface, from heavy to light; it passes through the mean of their middles. Both means cover
+ * the far radius less half a spacing, so that the lattice does not show.
+ *  - A particle beyond the plane of its own side: its distance is `least`.
+ *  - Pairs in all directions (drops and threads of a few particles, |sum r_ij|/sum |r_ij| below
+ *    `flat`): all distances are half a spacing, which gives (rho_i + rho_j)/2, W22 (17).
+ *  - A solid particle takes the density of the side of the plane on which it is.
+ * W22: Wen, Zhao & Wan 2022. */
 #include "builtin.h"
 
-enum { LEAST, FLAT };
-static const mps_setting settings[] = {{"least", 0.1, 0.01, 0.5}, {"flat", 0.5, 0.0, 0.99}};
-static const double BLEND = 0.2; /* of |sum r_ij|/sum |r_ij| between a mean and a plane */
+enum { LEAST, FLAT, SETTINGS };
+static const mps_setting settings[SETTINGS] = {
+    [LEAST] = {"least", "dp", "Smallest distance from the interface", MPS_TYPE_REAL, 0.1, 0.01,
+               0.5},
+    [FLAT] = {"flat", "-", "Smallest alignment of pairs that makes a plane", MPS_TYPE_REAL, 0.5,
+              0.0, 0.99}};
 
-/* Weighted sums over pairs across an interface: of 1, of their middles less x_i, of the way to the lighter particle, of its length. */
+/* Width of the range above `flat` in which the plane takes over from half a spacing. */
+static const double BLEND = 0.2;
+
+static const mps_channel channels[] = {
+    {.name = "interface_distance",
+     .unit = "m",
+     .help = "Distance from an interface between two densities; 0: not known",
+     .components = 1,
+     .type = MPS_TYPE_REAL,
+     .life = MPS_LIFE_STEP,
+     .initial = 0.0}};
+
+enum { DENSITY, REGION, PRESSURE_DENSITY, INTERFACE_DISTANCE, USES };
+static const mps_use uses[USES] = {
+    [DENSITY] = {"density", MPS_USE_NEIGHBOURS},
+    [REGION] = {"region", MPS_USE_NEIGHBOURS},
+    [PRESSURE_DENSITY] = {"pressure_density", MPS_USE_NEIGHBOURS | MPS_USE_CHANGE},
+    [INTERFACE_DISTANCE] = {"interface_distance", MPS_USE_CHANGE}};
+
+typedef struct fields {
+    const double *density;
+    const int32_t *region;
+    double *pressure_density, *distance;
+    int32_t *heavy; /* [n] 1: a near neighbour is lighter */
+    double *rho;    /* [n] new "pressure_density" */
+} fields;
+
+/* Weighted sums over pairs across an interface. */
 typedef struct crossing {
-    double weight, middle[3], toward[3], length, heaviest, lightest;
+    double weight;             /* sum of the weights */
+    double middle[3];          /* of the middles of the pairs, less x_i */
+    double toward[3], length;  /* of the vectors to the lighter particle, and of their lengths */
+    double heaviest, lightest; /* densities met */
 } crossing;
 
-static inline bool in_fluid(const mps_stage *s, int64_t i)
+static inline bool in_fluid(const mps_stage *s, const fields *f, int64_t i)
 {
-    return s->kind[i] == MPS_FLUID && s->region[i] < MPS_REGION_SPRAY;
+    return s->kind[i] == MPS_FLUID && f->region[i] < MPS_REGION_SPRAY;
 }
 
-/* Whether lighter fluid is among the near neighbours of a fluid particle. */
-static bool above_lighter(const mps_stage *s, int64_t i)
+/* Finds fluid with lighter fluid among its near neighbours. */
+MPS_ROW void find_heavy(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
+    (void)dim;
     const mps_stencil *t = s->near;
     bool found = false;
-    if (!in_fluid(s, i)) return false;
-    for (int64_t p = t->begin[i]; p < t->end[i] && !found; p++) found = in_fluid(s, t->col[p]) && s->density[t->col[p]] < s->density[i];
-    return found;
-}
-
-/* Whether a pair of particle i has two densities. */
-static bool at_interface(const mps_stage *s, int64_t i)
-{
-    const mps_stencil *t = s->near;
-    bool found = false;
-    if (s->region[i] >= MPS_REGION_SPRAY) return false;
+    if (!in_fluid(s, f, i)) return;
     for (int64_t p = t->begin[i]; p < t->end[i] && !found; p++)
-        found = s->region[t->col[p]] < MPS_REGION_SPRAY && s->density_smooth[t->col[p]] != s->density_smooth[i];
+        found = in_fluid(s, f, t->col[p]) && f->density[t->col[p]] < f->density[i];
+    f->heavy[i] = found;
+}
+MPS_ROWS(find_heavy_rows, find_heavy, fields)
+
+/* True if a near pair of particle i has two densities. */
+MPS_ROW bool at_interface(const mps_stage *s, const fields *f, int64_t i)
+{
+    const mps_stencil *t = s->near;
+    const double *rho = f->pressure_density;
+    bool found = false;
+    if (f->region[i] >= MPS_REGION_SPRAY) return false;
+    for (int64_t p = t->begin[i]; p < t->end[i] && !found; p++)
+        found = f->region[t->col[p]] < MPS_REGION_SPRAY && rho[t->col[p]] != rho[i];
     return found;
 }
 
-/* The pairs of particle j, at `at` from i, with lighter fluid. */
-MPS__ROW void add_pairs(const int dim, const mps_stage *s, int64_t j, const double *at, double reach, crossing *c)
+/* Adds the pairs of particle j with lighter fluid. at: x_j - x_i. */
+MPS_ROW void add_pairs(const int dim, const mps_stage *s, const fields *f, int64_t j,
+                       const double *at, double reach, crossing *c)
 {
     const mps_stencil *t = s->near;
     for (int64_t p = t->begin[j]; p < t->end[j]; p++) {
-        if (!in_fluid(s, t->col[p]) || s->density[t->col[p]] >= s->density[j]) continue;
+        if (!in_fluid(s, f, t->col[p]) || f->density[t->col[p]] >= f->density[j]) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, j, p);
         double middle[3], r2 = 0;
         for (int d = 0; d < dim; d++) {
@@ -60,8 +105,8 @@ MPS__ROW void add_pairs(const int dim, const mps_stage *s, int64_t j, const doub
         const double near = 1.0 - sqrt(r2) / reach, w = near * near * q.w;
         c->weight += w;
         c->length += w * q.r;
-        c->heaviest = fmax(c->heaviest, s->density[j]);
-        c->lightest = fmin(c->lightest, s->density[q.j]);
+        c->heaviest = fmax(c->heaviest, f->density[j]);
+        c->lightest = fmin(c->lightest, f->density[q.j]);
         for (int d = 0; d < dim; d++) {
             c->middle[d] += w * middle[d];
             c->toward[d] += w * q.d[d];
@@ -69,50 +114,74 @@ MPS__ROW void add_pairs(const int dim, const mps_stage *s, int64_t j, const doub
     }
 }
 
-/* Distance of i from the interface; `rho` is its density for operators of the pressure, changed where i is solid. */
-MPS__ROW double distance(const int dim, const double *k, const mps_stage *s, const double *heavy, int64_t i, double *rho)
+/* Distance of i from the interface; changes *rho, its "pressure_density", if i is solid. */
+MPS_ROW double distance_of(const int dim, const mps_stage *s, const fields *f, int64_t i,
+                           double *rho)
 {
     static const double here[3] = {0};
     const mps_stencil *t = s->far;
-    const double reach = t->re - 0.5 * s->dp, unknown = 0.5 * s->dp;
+    const double *k = s->setting, reach = t->re - 0.5 * s->dp, unknown = 0.5 * s->dp;
     crossing c = {.lightest = INFINITY};
-    double size = 0, f = 0;
-    if (heavy[i] > 0) add_pairs(dim, s, i, here, reach, &c);
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++)
-        if (heavy[t->col[p]] > 0) add_pairs(dim, s, t->col[p], mps_stencil_pair_dim(dim, t, i, p).d, reach, &c);
+    double size = 0, height = 0;
+    if (f->heavy[i]) add_pairs(dim, s, f, i, here, reach, &c);
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        const int64_t j = t->col[p];
+        if (f->heavy[j]) add_pairs(dim, s, f, j, mps_stencil_pair_dim(dim, t, i, p).d, reach, &c);
+    }
     for (int d = 0; d < dim; d++) {
         size += c.toward[d] * c.toward[d];
-        f += c.middle[d] * c.toward[d];
+        height += c.middle[d] * c.toward[d];
     }
     if (!(size > 0)) return unknown;
     size = sqrt(size);
-    f /= c.weight * size; /* from i to the plane, toward the lighter side */
+    height /= c.weight * size; /* from i to the plane, toward the lighter side */
     const double trust = fmin(1.0, fmax(0.0, (size / c.length - k[FLAT]) / BLEND));
-    if (s->kind[i] != MPS_FLUID && trust > 0.5) *rho = f > 0 ? c.heaviest : c.lightest;
-    if (*rho < c.heaviest) f = -f;
-    return fmax(k[LEAST] * s->dp, trust * f + (1.0 - trust) * unknown);
+    if (s->kind[i] != MPS_FLUID && trust > 0.5) *rho = height > 0 ? c.heaviest : c.lightest;
+    if (*rho < c.heaviest) height = -height;
+    return fmax(k[LEAST] * s->dp, trust * height + (1.0 - trust) * unknown);
 }
 
-static int classify(void *self, const double *k, mps_stage *s)
+MPS_ROW void find_distance(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
-    (void)self;
-    double *heavy = mps_stage_scratch(s, s->n), *rho = mps_stage_scratch(s, s->n); /* heavy: beside lighter fluid */
-    if (!heavy || !rho) return 1;
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) heavy[i] = above_lighter(s, i);
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) {
-        rho[i] = s->density_smooth[i];
-        if (at_interface(s, i)) s->depth[i] = MPS__ROW_CALL(s, distance, k, s, heavy, i, &rho[i]);
-    }
-    for (int64_t i = 0; i < s->n; i++) s->density_smooth[i] = rho[i];
+    double rho = f->pressure_density[i];
+    if (at_interface(s, f, i)) f->distance[i] = distance_of(dim, s, f, i, &rho);
+    f->rho[i] = rho;
+}
+MPS_ROWS(find_distance_rows, find_distance, fields)
+
+MPS_ROW void keep_density(const int dim, const mps_stage *s, const fields *f, int64_t i)
+{
+    (void)dim, (void)s;
+    f->pressure_density[i] = f->rho[i];
+}
+MPS_ROWS(keep_density_rows, keep_density, fields)
+
+static int find_distances(mps_stage *s)
+{
+    fields f = {.density = s->data[DENSITY],
+                .region = s->data[REGION],
+                .pressure_density = s->data[PRESSURE_DENSITY],
+                .distance = s->data[INTERFACE_DISTANCE],
+                .heavy = mps_stage_scratch_integers(s, s->n),
+                .rho = mps_stage_scratch(s, s->n)};
+    if (!f.heavy || !f.rho) return 1;
+    mps_stage_rows(s, find_heavy_rows, &f);
+    mps_stage_rows(s, find_distance_rows, &f);
+    mps_stage_rows(s, keep_density_rows, &f);
     return 0;
 }
 
-const mps_model_ops mps__density_interface = {.struct_size = sizeof(mps_model_ops),
-                                              .api = MPS_MODEL_API,
-                                              .name = "density.interface",
-                                              .order = 260,
-                                              .setting_count = 2,
-                                              .settings = settings,
-                                              .classify = classify};
+static const mps_verb verbs[] = {
+    {.moment = MPS_PREPARE, .use_count = USES, .uses = uses, .run = find_distances}};
+
+const mps_model_ops mps__density_interface = {
+    .struct_size = sizeof(mps_model_ops),
+    .api = MPS_MODEL_API,
+    .name = "density.interface",
+    .help = "Distances from interfaces, for the densities of pairs across them",
+    .setting_count = SETTINGS,
+    .settings = settings,
+    .channel_count = 1,
+    .channels = channels,
+    .verb_count = 1,
+    .verbs = verbs};

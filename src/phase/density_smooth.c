@@ -1,41 +1,63 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Density smoothing, W22 (13): rho_i = (rho_i W_self + sum rho_j W)/(W_self + sum W) over the fluid within the near radius, for fluid
- * that has another density there: a region two radii wide about an interface. W22 does not give W_self; it is `self` times W(0),
- * and the larger it is, the less is smoothed. The mass of a particle stays its phase's: only `density_smooth` is written. */
+/* Density smoothing, W22 (13), W22: Wen, Zhao & Wan 2022:
+ *   rho_i = (rho_i W_self + sum rho_j W)/(W_self + sum W)  over the fluid within the near radius.
+ * It changes fluid that has another density within that radius: a band two radii wide at an
+ * interface. W22 does not give W_self. Here it is `self` times W(0): the larger `self`, the weaker
+ * the smoothing. Only "pressure_density" changes: a particle keeps the mass of its phase. */
 #include "builtin.h"
 
-enum { SELF };
-static const mps_setting settings[] = {{"self", 100.0, 0.0, 1e6}};
+enum { SELF, SETTINGS };
+static const mps_setting settings[SETTINGS] = {
+    [SELF] = {"self", "-", "Weight of a particle's own density, in W(0): larger smooths less",
+              MPS_TYPE_REAL, 100.0, 0.0, 1e6}};
 
-MPS__ROW double smoothed(const int dim, const mps_stage *s, double self, int64_t i)
+enum { DENSITY, SMOOTHED, USES };
+static const mps_use uses[USES] = {
+    [DENSITY] = {"density", MPS_USE_NEIGHBOURS}, [SMOOTHED] = {"pressure_density", MPS_USE_CHANGE}};
+
+typedef struct fields {
+    const double *density;
+    double *smoothed;
+    double self; /* W_self */
+} fields;
+
+/* Sums are of the differences, so that a density without other densities near it keeps its bits. */
+MPS_ROW void smooth(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
+    if (s->kind[i] != MPS_FLUID) return;
     const mps_stencil *t = s->near;
-    const double rho = s->density[i];
-    double sum = 0, weight = self; /* of the differences: without any the density is kept to the bit */
+    const double rho = f->density[i];
+    double sum = 0, weight = f->self;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         if (s->kind[t->col[p]] != MPS_FLUID) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        sum += q.w * (s->density[q.j] - rho);
+        sum += q.w * (f->density[q.j] - rho);
         weight += q.w;
     }
-    return sum == 0 ? rho : rho + sum / weight;
+    f->smoothed[i] = sum == 0 ? rho : rho + sum / weight;
 }
+MPS_ROWS(smooth_rows, smooth, fields)
 
-static int classify(void *self, const double *k, mps_stage *s)
+static int smooth_densities(mps_stage *s)
 {
-    (void)self;
-    const mps_kernel *kernel = &s->near->kernel; /* only the improved one is finite at 0 for certain */
-    const double own = k[SELF] * mps_kernel_weight(kernel, kernel->id == MPS_KERNEL_IMPROVED ? 0.0 : 0.5 * s->dp, s->near->re);
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID) s->density_smooth[i] = MPS__ROW_CALL(s, smoothed, s, own, i);
+    const mps_kernel *kernel = &s->near->kernel; /* only "improved" is surely finite at 0 */
+    const double r = kernel->id == MPS_KERNEL_IMPROVED ? 0.0 : 0.5 * s->dp;
+    fields f = {.density = s->data[DENSITY],
+                .smoothed = s->data[SMOOTHED],
+                .self = s->setting[SELF] * mps_kernel_weight(kernel, r, s->near->re)};
+    mps_stage_rows(s, smooth_rows, &f);
     return 0;
 }
 
-const mps_model_ops mps__density_smooth = {.struct_size = sizeof(mps_model_ops),
-                                           .api = MPS_MODEL_API,
-                                           .name = "density.smooth",
-                                           .order = 260,
-                                           .setting_count = 1,
-                                           .settings = settings,
-                                           .classify = classify};
+static const mps_verb verbs[] = {
+    {.moment = MPS_PREPARE, .use_count = USES, .uses = uses, .run = smooth_densities}};
+
+const mps_model_ops mps__density_smooth = {
+    .struct_size = sizeof(mps_model_ops),
+    .api = MPS_MODEL_API,
+    .name = "density.smooth",
+    .help = "Density that changes smoothly across interfaces, for the operators of the pressure",
+    .setting_count = SETTINGS,
+    .settings = settings,
+    .verb_count = 1,
+    .verbs = verbs};

@@ -1,31 +1,47 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Named dissipation: fluid pairs are damped along their line,
- *   a_i = 2(D+2)/n0 sum (alpha l U_g + beta l max(0, -u_n)) w u_n/r r_ij, u_n the rate of separation, w = W/r^2.
- * Pairwise, so momentum is conserved. alpha calms the lattice, beta takes the energy of violent impacts.
- * On a shear flow alpha acts as a kinematic viscosity alpha l U_g/D. The fluid's own viscosity nu calms the lattice as well, so `viscous` D nu (mean
- * of the pair) is taken off alpha l U_g, down to 0: together they have the larger of the two, and a viscous liquid has its own viscosity. */
+/* Artificial dissipation: damps pairs of fluid particles along their line,
+ *   a_i = 2(D+2)/n0 sum (alpha l U_g + beta l max(0, -u_n)) w u_n/r r_ij,
+ * l the spacing, u_n the rate of separation, w = W/r^2. The force of a pair conserves momentum.
+ * alpha calms the lattice; beta takes the energy of violent impacts.
+ * On a shear flow alpha acts as a kinematic viscosity alpha l U_g/D. The viscosity nu of the fluid
+ * calms the lattice too. So `viscous` D nu (mean of the pair) is subtracted from alpha l U_g, down
+ * to 0: both together are the larger of the two, and a viscous liquid keeps its own viscosity. */
 #include "builtin.h"
 
 enum { PAIRS = 32 };
-enum { ALPHA, BETA, VISCOUS };
-static const mps_setting settings[] = {{"alpha", 0.1, 0.0, 10.0}, {"beta", 1.0, 0.0, 10.0}, {"viscous", 1.0, 0.0, 1.0}};
 
-/* Fluid neighbours of a particle, one quantity after the other, so that roots and divisions are taken several at a time. */
+enum { ALPHA, BETA, VISCOUS, SETTINGS };
+static const mps_setting settings[SETTINGS] = {
+    [ALPHA] = {"alpha", "-", "Damping of all pairs", MPS_TYPE_REAL, 0.1, 0.0, 10.0},
+    [BETA] = {"beta", "-", "Damping of pairs that approach", MPS_TYPE_REAL, 1.0, 0.0, 10.0},
+    [VISCOUS] = {"viscous", "-", "Share of the fluid's viscosity that is subtracted from alpha",
+                 MPS_TYPE_REAL, 1.0, 0.0, 1.0}};
+
+enum { VELOCITY, DENSITY, ACCELERATION, USES };
+static const mps_use uses[USES] = {[VELOCITY] = {"velocity", MPS_USE_NEIGHBOURS},
+                                   [DENSITY] = {"density", MPS_USE_NEIGHBOURS},
+                                   [ACCELERATION] = {"acceleration", MPS_USE_CHANGE}};
+
+typedef struct fields {
+    const double *velocity, *density;
+    double *acceleration;
+    double half[MPS__PHASE_LIMIT]; /* half of what a phase adds to alpha U_g of a pair [m/s] */
+} fields;
+
+/* Fluid neighbours of a particle, array by array: roots and divisions run several at a time. */
 typedef struct block {
     int count;
-    double d[3][PAIRS], r2[PAIRS], rate[PAIRS], w_r2[PAIRS], rho[PAIRS], calm[PAIRS]; /* rate: u_n r */
+    double d[3][PAIRS], r2[PAIRS], rate[PAIRS], w_r2[PAIRS], rho[PAIRS]; /* rate: u_n r */
+    double calm[PAIRS];
 } block;
 
-/* Half of what each phase adds to alpha U_g of a pair [m/s]. */
-typedef struct calming {
-    double half[MPS__PHASE_LIMIT];
-} calming;
-
-MPS__ROW void gather(const int dim, const mps_stage *stage, int64_t i, const int64_t pairs[2], const calming *c, block *b)
+MPS_ROW void gather(const int dim, const mps_stage *stage, const fields *f, int64_t i,
+                    const int64_t pairs[2], block *b)
 {
     const mps_stage copy = *stage, *s = &copy;
     const mps_stencil near = *s->near, *t = &near;
-    const double *u = s->u + i * dim;
+    const double *all = f->velocity, *rho = f->density, *half = f->half;
+    const double *u = all + i * dim;
     int n = 0;
     for (int64_t p = pairs[0]; p < pairs[1]; p++) {
         if (s->kind[t->col[p]] != MPS_FLUID) continue;
@@ -33,56 +49,71 @@ MPS__ROW void gather(const int dim, const mps_stage *stage, int64_t i, const int
         double rate = 0;
         for (int d = 0; d < dim; d++) {
             b->d[d][n] = q.d[d];
-            rate += (s->u[q.j * dim + d] - u[d]) * q.d[d];
+            rate += (all[q.j * dim + d] - u[d]) * q.d[d];
         }
         b->r2[n] = q.r2;
         b->rate[n] = rate;
         b->w_r2[n] = q.w_r2;
-        b->calm[n] = c->half[s->phase[q.j]];
-        b->rho[n++] = s->density[q.j];
+        b->calm[n] = half[s->phase[q.j]];
+        b->rho[n++] = rho[q.j];
     }
     b->count = n;
 }
 
-MPS__ROW void damp(const int dim, const double *k, const mps_stage *s, const calming *phases, int64_t i, double *a)
+MPS_ROW void damp(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
+    if (s->kind[i] != MPS_FLUID) return;
     const mps_stencil *t = s->near;
-    const double c = 2.0 * (dim + 2) / t->n0, own = phases->half[s->phase[i]], beta = k[BETA], rho = s->density[i], dp = s->dp;
-    const double most = 0.15 * dp / s->dt, most_near = most / (dp * dp * dp); /* more would turn velocities round in a step */
+    const double c = 2.0 * (dim + 2) / t->n0, own = f->half[s->phase[i]], rho = f->density[i];
+    const double beta = s->setting[BETA], dp = s->dp;
+    /* a larger viscosity would reverse velocities within a step; the limit falls below r = dp */
+    const double most = 0.15 * dp / s->dt, most_near = most / (dp * dp * dp);
     double sum[3] = {0}, share[PAIRS];
     block b;
     for (int64_t p = t->begin[i]; p < t->end[i]; p += PAIRS) {
-        gather(dim, s, i, (const int64_t[]){p, p + PAIRS < t->end[i] ? p + PAIRS : t->end[i]}, phases, &b);
+        const int64_t end = p + PAIRS < t->end[i] ? p + PAIRS : t->end[i];
+        gather(dim, s, f, i, (const int64_t[]){p, end}, &b);
         for (int n = 0; n < b.count; n++) {
-            const double r = sqrt(b.r2[n]), over = 1.0 / r, less = most_near * b.r2[n] * r; /* nearer than dp still less */
+            const double r = sqrt(b.r2[n]), over = 1.0 / r, less = most_near * b.r2[n] * r;
             const double limit = r < dp ? less : most, closing = b.rate[n] < 0 ? b.rate[n] : 0.0;
-            const double calm = own + b.calm[n], nu = (calm > 0 ? calm : 0.0) - beta * closing * over;
-            share[n] = b.rho[n] / (rho + b.rho[n]) * over * over * (nu < limit ? nu : limit) * b.w_r2[n] * b.rate[n];
+            const double calm = own + b.calm[n];
+            const double nu = (calm > 0 ? calm : 0.0) - beta * closing * over;
+            share[n] = b.rho[n] / (rho + b.rho[n]) * over * over * (nu < limit ? nu : limit) *
+                       b.w_r2[n] * b.rate[n];
         }
         for (int n = 0; n < b.count; n++)
             for (int d = 0; d < dim; d++) sum[d] += share[n] * b.d[d][n];
     }
-    for (int d = 0; d < dim; d++) a[i * dim + d] += 2.0 * dp * c * sum[d];
+    for (int d = 0; d < dim; d++) f->acceleration[i * dim + d] += 2.0 * dp * c * sum[d];
 }
+MPS_ROWS(damp_rows, damp, fields)
 
-static int force(void *self, const double *k, mps_stage *s, double *a)
+static int damp_pairs(mps_stage *s)
 {
-    (void)self;
-    calming c;
+    fields f = {.velocity = s->data[VELOCITY],
+                .density = s->data[DENSITY],
+                .acceleration = s->data[ACCELERATION]};
+    const double *k = s->setting;
     double rho[MPS__PHASE_LIMIT];
-    mps__phase_densities(s, rho);
-    for (int p = 0; p < MPS__PHASE_LIMIT; p++)
-        c.half[p] = 0.5 * (k[ALPHA] * s->velocity_scale - (rho[p] > 0 ? k[VISCOUS] * s->dim * s->viscosity[p] / (rho[p] * s->dp) : 0.0));
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID) MPS__ROW_CALL(s, damp, k, s, &c, i, a);
+    mps__phase_densities(s, f.density, rho);
+    for (int p = 0; p < MPS__PHASE_LIMIT; p++) {
+        const double viscous = k[VISCOUS] * s->dim * s->viscosity[p];
+        f.half[p] = 0.5 * (k[ALPHA] * s->velocity_scale -
+                           (rho[p] > 0 ? viscous / (rho[p] * s->dp) : 0.0));
+    }
+    mps_stage_rows(s, damp_rows, &f);
     return 0;
 }
 
-const mps_model_ops mps__dissipation_radial = {.struct_size = sizeof(mps_model_ops),
-                                               .api = MPS_MODEL_API,
-                                               .name = "dissipation.radial",
-                                               .order = 310,
-                                               .setting_count = 3,
-                                               .settings = settings,
-                                               .force = force};
+static const mps_verb verbs[] = {
+    {.moment = MPS_FORCE, .use_count = USES, .uses = uses, .run = damp_pairs}};
+
+const mps_model_ops mps__dissipation_radial = {
+    .struct_size = sizeof(mps_model_ops),
+    .api = MPS_MODEL_API,
+    .name = "dissipation.radial",
+    .help = "Artificial dissipation: damps pairs of fluid particles along their line",
+    .setting_count = SETTINGS,
+    .settings = settings,
+    .verb_count = 1,
+    .verbs = verbs};

@@ -1,37 +1,65 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Drag of a dense fluid on single particles of a lighter one. Gas among drops, or between water and a wall, with less of its own phase about it
- * than a row of particles has (`company` n0) is smaller than the operators resolve, and the pressures of the water throw it about.
- * Of its velocity against the mean of the denser fluid about it more than `times` U is taken, times its lone share max(0, 1 - c_i/company),
- * c_i = sum W/n0 over its own phase. U is the largest velocity of that fluid and of the walls about it against the same mean, at least U_g.
- * Pairs with the denser fluid exchange momentum, with weights that leave no particle more to lose than its relative velocity: momentum is
- * conserved, kinetic energy falls and is booked with the collisions. */
+/* Drag of a dense fluid on single particles of a lighter fluid: gas among drops, or gas between
+ * water and a wall. If less of its own phase is about a particle than about one in a row of
+ * particles (`company` n0), it is smaller than the operators resolve, and the pressures of the
+ * water throw it about.
+ * Let v be its velocity relative to the mean velocity of the denser fluid about it. The part of v
+ * above `times` U is removed, times its lone share max(0, 1 - c_i/company), c_i = sum W/n0 over its
+ * own phase. U is the largest velocity, relative to the same mean, of the denser fluid and of the
+ * walls about it, and at least U_g.
+ * Pairs with the denser fluid exchange the momentum. Their weights are such that no particle loses
+ * more than its relative velocity: momentum is conserved and kinetic energy falls (it is booked
+ * with the collisions). */
 #include "builtin.h"
 
-enum { COMPANY, TIMES };
-/* 1/3: in a row of particles it is 0.34 */
-static const mps_setting settings[] = {{"company", 1.0 / 3.0, 0.01, 1.0}, {"times", 3.0, 0.0, 100.0}};
+enum { COMPANY, TIMES, SETTINGS };
+static const mps_setting settings[SETTINGS] = {
+    [COMPANY] = {"company", "n0",
+                 "Number density of its own phase below which gas is lone; "
+                 "a row of particles has 0.34",
+                 MPS_TYPE_REAL, 1.0 / 3.0, 0.01, 1.0},
+    [TIMES] = {"times", "-", "Largest speed of lone gas over that of the denser fluid about it",
+               MPS_TYPE_REAL, 3.0, 0.0, 100.0}};
 
-static inline bool apart(const mps_stage *s, int64_t i, int64_t j)
+enum { VELOCITY, DENSITY, REGION, USES };
+static const mps_use uses[USES] = {[VELOCITY] = {"velocity", MPS_USE_NEIGHBOURS | MPS_USE_CHANGE},
+                                   [DENSITY] = {"density", MPS_USE_NEIGHBOURS},
+                                   [REGION] = {"region", MPS_USE_NEIGHBOURS}};
+
+typedef struct fields {
+    double *velocity;
+    const double *density;
+    const int32_t *region;
+    double *share;  /* [n] excess() */
+    double *weight; /* [n] weigh() */
+    double *change; /* [n*dim] of the velocity */
+} fields;
+
+/* True if j is fluid of another density than i. */
+static inline bool apart(const mps_stage *s, const double *rho, int64_t i, int64_t j)
 {
-    return s->kind[j] == MPS_FLUID && s->density[j] != s->density[i];
+    return s->kind[j] == MPS_FLUID && rho[j] != rho[i];
 }
 
-/* Sum of W m_j/(m_i + m_j) over lighter and denser fluid about i. */
-MPS__ROW double weigh(const int dim, const mps_stage *s, int64_t i)
+/* Sum of W m_j/(m_i + m_j) over the fluid of other densities about i. */
+MPS_ROW double weigh(const int dim, const mps_stage *s, const double *rho, int64_t i)
 {
     const mps_stencil *t = s->near;
     double sum = 0;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         const int64_t j = t->col[p];
-        if (apart(s, i, j)) sum += mps_stencil_pair_dim(dim, t, i, p).w * s->density[j] / (s->density[i] + s->density[j]);
+        if (!apart(s, rho, i, j)) continue;
+        sum += mps_stencil_pair_dim(dim, t, i, p).w * rho[j] / (rho[i] + rho[j]);
     }
     return sum;
 }
 
-/* Lone share of i; mean velocity of the denser fluid about it. */
-MPS__ROW double look_round(const int dim, const double *k, const mps_stage *s, int64_t i, double mean[3])
+/* Lone share of i. mean: out, mean velocity of the denser fluid about it. */
+MPS_ROW double look_round(const int dim, const mps_stage *s, const fields *f, int64_t i,
+                          double mean[3])
 {
     const mps_stencil *t = s->near;
+    const double *u = f->velocity, *rho = f->density;
     double own = 0, dense = 0;
     for (int d = 0; d < dim; d++) mean[d] = 0;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
@@ -39,69 +67,95 @@ MPS__ROW double look_round(const int dim, const double *k, const mps_stage *s, i
         if (s->kind[j] != MPS_FLUID) continue;
         const double w = mps_stencil_pair_dim(dim, t, i, p).w;
         if (s->phase[j] == s->phase[i]) own += w;
-        if (s->density[j] <= s->density[i]) continue;
+        if (rho[j] <= rho[i]) continue;
         dense += w;
-        for (int d = 0; d < dim; d++) mean[d] += w * s->u[j * dim + d];
+        for (int d = 0; d < dim; d++) mean[d] += w * u[j * dim + d];
     }
     for (int d = 0; d < dim && dense > 0; d++) mean[d] /= dense;
-    return dense > 0 ? fmax(0.0, 1.0 - own / (k[COMPANY] * t->n0)) : 0.0;
+    return dense > 0 ? fmax(0.0, 1.0 - own / (s->setting[COMPANY] * t->n0)) : 0.0;
 }
 
-/* Share of its velocity against the denser fluid about it that i loses. */
-MPS__ROW double excess(const int dim, const double *k, const mps_stage *s, int64_t i)
+/* Share of the velocity of i relative to the denser fluid that i loses. */
+MPS_ROW double excess(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
     const mps_stencil *t = s->near;
+    const double *u = f->velocity, *rho = f->density;
     double mean[3], fastest = s->velocity_scale * s->velocity_scale, own = 0;
-    const double lone = look_round(dim, k, s, i, mean);
+    const double lone = look_round(dim, s, f, i, mean);
     if (lone == 0) return 0;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         const int64_t j = t->col[p];
-        if (s->kind[j] == MPS_FLUID ? s->density[j] <= s->density[i] : s->region[j] == MPS_REGION_DRY) continue;
+        if (s->kind[j] == MPS_FLUID ? rho[j] <= rho[i] : f->region[j] == MPS_REGION_DRY) continue;
         double square = 0;
-        for (int d = 0; d < dim; d++) square += (s->u[j * dim + d] - mean[d]) * (s->u[j * dim + d] - mean[d]);
+        for (int d = 0; d < dim; d++)
+            square += (u[j * dim + d] - mean[d]) * (u[j * dim + d] - mean[d]);
         fastest = fmax(fastest, square);
     }
-    for (int d = 0; d < dim; d++) own += (s->u[i * dim + d] - mean[d]) * (s->u[i * dim + d] - mean[d]);
-    const double limit = k[TIMES] * sqrt(fastest);
+    for (int d = 0; d < dim; d++) own += (u[i * dim + d] - mean[d]) * (u[i * dim + d] - mean[d]);
+    const double limit = s->setting[TIMES] * sqrt(fastest);
     return own > limit * limit ? lone * (1.0 - limit / sqrt(own)) : 0.0;
 }
 
-MPS__ROW void drag(const int dim, const mps_stage *s, const double *share, const double *weight, int64_t i, double *change)
+MPS_ROW void judge(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
+    if (s->kind[i] != MPS_FLUID) return;
+    f->share[i] = excess(dim, s, f, i);
+    f->weight[i] = weigh(dim, s, f->density, i);
+}
+MPS_ROWS(judge_rows, judge, fields)
+
+MPS_ROW void drag(const int dim, const mps_stage *s, const fields *f, int64_t i)
+{
+    if (s->kind[i] != MPS_FLUID) return;
     const mps_stencil *t = s->near;
+    const double *u = f->velocity, *rho = f->density;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         const int64_t j = t->col[p];
-        if (!apart(s, i, j)) continue;
-        const double part = share[s->density[i] < s->density[j] ? i : j];
+        if (!apart(s, rho, i, j)) continue;
+        const double part = f->share[rho[i] < rho[j] ? i : j];
         if (part == 0) continue;
-        const double w = mps_stencil_pair_dim(dim, t, i, p).w / fmax(weight[i], weight[j]), mass = s->density[i] + s->density[j];
-        for (int d = 0; d < dim; d++) change[i * dim + d] += part * w * s->density[j] / mass * (s->u[j * dim + d] - s->u[i * dim + d]);
+        const double most = fmax(f->weight[i], f->weight[j]), mass = rho[i] + rho[j];
+        const double w = mps_stencil_pair_dim(dim, t, i, p).w / most;
+        for (int d = 0; d < dim; d++)
+            f->change[i * dim + d] += part * w * rho[j] / mass * (u[j * dim + d] - u[i * dim + d]);
     }
 }
+MPS_ROWS(drag_rows, drag, fields)
 
-static int velocity(void *self, const double *k, mps_stage *s)
+MPS_ROW void add_change(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
-    (void)self;
-    double *share = mps_stage_scratch(s, s->n), *weight = mps_stage_scratch(s, s->n), *change = mps_stage_scratch(s, s->n * s->dim);
-    if (!share || !weight || !change) return 1;
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_FLUID) continue;
-        share[i] = MPS__ROW_CALL(s, excess, k, s, i);
-        weight[i] = MPS__ROW_CALL(s, weigh, s, i);
-    }
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID) MPS__ROW_CALL(s, drag, s, share, weight, i, change);
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n * s->dim; i++) s->u[i] += change[i];
+    (void)s;
+    for (int d = 0; d < dim; d++) f->velocity[i * dim + d] += f->change[i * dim + d];
+}
+MPS_ROWS(add_change_rows, add_change, fields)
+
+static int drag_lone_gas(mps_stage *s)
+{
+    fields f = {.velocity = s->data[VELOCITY],
+                .density = s->data[DENSITY],
+                .region = s->data[REGION],
+                .share = mps_stage_scratch(s, s->n),
+                .weight = mps_stage_scratch(s, s->n),
+                .change = mps_stage_scratch(s, s->n * s->dim)};
+    if (!f.share || !f.weight || !f.change) return 1;
+    mps_stage_rows(s, judge_rows, &f);
+    mps_stage_rows(s, drag_rows, &f);
+    mps_stage_rows(s, add_change_rows, &f);
     return 0;
 }
 
-const mps_model_ops mps__drag_lone = {.struct_size = sizeof(mps_model_ops),
-                                      .api = MPS_MODEL_API,
-                                      .name = "drag.lone",
-                                      .order = 690,
-                                      .setting_count = 2,
-                                      .settings = settings,
-                                      .velocity = velocity};
+static const mps_verb verbs[] = {{.moment = MPS_VELOCITY,
+                                  .use_count = USES,
+                                  .uses = uses,
+                                  .before = "collision",
+                                  .run = drag_lone_gas}};
+
+const mps_model_ops mps__drag_lone = {
+    .struct_size = sizeof(mps_model_ops),
+    .api = MPS_MODEL_API,
+    .name = "drag.lone",
+    .help = "Drag of a dense fluid on single particles of a lighter one",
+    .setting_count = SETTINGS,
+    .settings = settings,
+    .verb_count = 1,
+    .verbs = verbs};

@@ -1,21 +1,26 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Friction at walls: the velocity with which fluid sees the dummies behind a wall, so that its velocity relative to the tank is 0 on the face
- * of the wall (no slip). With the dummies' own velocity a linear profile is 0 at 0.2 dp behind the face (far radius 3.1 dp). */
+/* Friction at walls: the velocity of a dummy as the fluid before the wall sees it, such that the
+ * velocity relative to the tank is 0 on the face of the wall (no slip). With the dummies' own
+ * velocity a linear profile is 0 at 0.2 dp behind the face (far radius 3.1 dp). */
 #ifndef MPS_PHASE_FRICTION_H
 #define MPS_PHASE_FRICTION_H
 
 #include "builtin.h"
 
-/* Nearer than this to the face [dp] a particle counts less and less for the mirror: the wall particles themselves hold it. */
+/* Distance from the face [dp] below which the mirror acts less and less on a particle: there the
+ * wall particles themselves hold it. */
 static const double mps__mirror_near = 0.5;
 
-/* Velocity of dummy j less that of fluid particle i, the dummy having the opposite of i's velocity relative to the tank, times the ratio
- * of their distances from the face of j's wall. The tank's velocity at i is that of the wall and the dummy continued: rigid rotation
- * with the tank is no shear. Its spin about the normal is left out; it cancels over the dummies about i. */
-MPS__ROW void mps__mirror_velocity(const int dim, const mps_stage *s, int64_t i, int64_t j, double du[3])
+/* Velocity of dummy j less that of fluid particle i. The dummy takes the opposite of i's velocity
+ * relative to the tank, times the ratio of their distances from the face of j's wall. The tank's
+ * velocity at i is extrapolated from wall and dummy, so that rigid rotation with the tank is no
+ * shear. Its spin about the normal is left out: it cancels over the dummies about i.
+ * velocity: [n*dim] the channel. */
+MPS_ROW void mps__mirror_velocity(const int dim, const mps_stage *s, const double *velocity,
+                                  int64_t i, int64_t j, double du[3])
 {
     const int64_t w = s->wall_of[j];
-    const double *u = s->u + i * dim, *v = s->u + j * dim;
+    const double *u = velocity + i * dim, *v = velocity + j * dim;
     for (int d = 0; d < dim; d++) du[d] = v[d] - u[d];
     if (w < 0) return;
     double size = 0, above = 0, below = 0, apart = 0, turn = 0, ahead = 0;
@@ -24,7 +29,7 @@ MPS__ROW void mps__mirror_velocity(const int dim, const mps_stage *s, int64_t i,
         const double area = s->area[w * dim + d];
         r[d] = s->x[j * dim + d] - s->x[w * dim + d];
         h[d] = s->x[i * dim + d] - s->x[w * dim + d];
-        dv[d] = v[d] - s->u[w * dim + d];
+        dv[d] = v[d] - velocity[w * dim + d];
         size += area * area;
         above += area * h[d];
         below -= area * r[d];
@@ -36,7 +41,10 @@ MPS__ROW void mps__mirror_velocity(const int dim, const mps_stage *s, int64_t i,
     const double over = 1.0 / sqrt(size), near = mps__mirror_near * s->dp, y = above * over;
     const double ratio = below * over * y / (y > near ? y * y : near * near);
     /* Omega x h with Omega = r x dv / r^2 is (dv (r.h) - r (dv.h))/r^2 */
-    for (int d = 0; d < dim; d++) du[d] -= ratio * (u[d] - s->u[w * dim + d] - (dv[d] * ahead - r[d] * turn) / apart);
+    for (int d = 0; d < dim; d++) {
+        const double spin = (dv[d] * ahead - r[d] * turn) / apart;
+        du[d] -= ratio * (u[d] - velocity[w * dim + d] - spin);
+    }
 }
 
 #endif

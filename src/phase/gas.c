@@ -1,55 +1,93 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the models of a compressible phase have in common. */
+/* What the models of a compressible phase share. */
 #include "builtin.h"
 
-int mps__gas_check(mps_stage *s, double phase, double sound)
+typedef struct speeds {
+    const double *velocity;
+    double phase;
+} speeds;
+
+/* Maxima over the gas: of |u|^2, of 1. */
+MPS_ROW void raise_speed(const int dim, const mps_stage *s, const speeds *f, int64_t i,
+                         double *most)
 {
-    double most = 0;
-    int64_t count = 0;
-    for (int64_t i = 0; i < s->n; i++) {
-        if (!mps__is_gas(s, i, phase)) continue;
-        double square = 0;
-        for (int d = 0; d < s->dim; d++) square += s->u[i * s->dim + d] * s->u[i * s->dim + d];
-        most = fmax(most, square);
-        count++;
-    }
-    if (phase != floor(phase)) return mps_stage_fail(s, "gas.phase is %g: must be a whole number", phase);
-    if (count == 0)
-        return mps_stage_fail(s,
-                              "phase %d has no fluid particle: add the gas, or set gas.phase to it; with liquids alone remove the model "
-                              "\"gas\"; one liquid with a surface: preset \"imps\"",
-                              (int)phase);
-    if (!(sqrt(most) < sound))
-        return mps_stage_fail(s, "a particle of phase %d moves at %g m/s, and the speed of sound there is %g m/s: it must be greater",
-                              (int)phase, sqrt(most), sound);
+    if (!mps__is_gas(s, i, f->phase)) return;
+    double square = 0;
+    for (int d = 0; d < dim; d++) square += f->velocity[i * dim + d] * f->velocity[i * dim + d];
+    most[0] = fmax(most[0], square);
+    most[1] = 1;
+}
+MPS_SUMS(raise_speed_rows, raise_speed, speeds)
+
+int mps__gas_check(mps_stage *s, double phase, double sound, const double *velocity)
+{
+    double most[2];
+    mps_stage_max(s, 2, raise_speed_rows, &(speeds){velocity, phase}, most);
+    if (!(most[1] > 0))
+        return mps_stage_fail(
+            s,
+            "phase %d has no fluid particle: add the gas, or set gas.phase to it; "
+            "with liquids alone remove the model \"gas\"; one liquid with a "
+            "surface: preset \"imps\"",
+            (int)phase);
+    const double fastest = sqrt(fmax(most[0], 0));
+    if (!(fastest < sound))
+        return mps_stage_fail(
+            s,
+            "a particle of phase %d moves at %g m/s, and the speed of sound there "
+            "is %g m/s: it must be greater",
+            (int)phase, fastest, sound);
     return 0;
 }
 
-/* Each particle counts with the volume that the equation of state gives it, 1/(1 + denser), in the sums about its neighbours too: walls and
- * liquid beside a compressed gas keep their own. */
-int mps__gas_expect(mps_stage *s, double *denser)
-{
-    double *sum = mps_stage_scratch(s, s->n);
-    if (!sum) return 1;
-    for (int64_t i = 0; i < s->n; i++) denser[i] /= 1.0 + denser[i];
-    if (mps_op_volume_sum(s->far, denser, sum) != MPS_OK) return mps_stage_fail(s, "the volumes of the gas cannot be summed");
-    for (int64_t i = 0; i < s->n; i++) s->volume[i] -= sum[i];
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++)
-        for (int64_t p = s->near->begin[i]; p < s->near->end[i]; p++)
-            if (denser[s->near->col[p]] != 0) s->number_density[i] -= denser[s->near->col[p]] * mps_stencil_pair(s->near, i, p).w;
-    return 0;
-}
+typedef struct volumes {
+    double *denser, *sum;
+    double *volume_deviation, *number_density;
+} volumes;
 
-/* Share of the cell of a wall particle that holds gas: of the part of a cell that it stands for, as much as there is gas among the fluid
- * beside it. */
-MPS__ROW double wall_share(const int dim, const mps_stage *s, int64_t i, double phase, double wall_factor)
+/* (n - n0)/n0 of the particle becomes the share by which its volume is smaller. */
+MPS_ROW void shrink(const int dim, const mps_stage *s, const volumes *f, int64_t i)
+{
+    (void)dim, (void)s;
+    f->denser[i] /= 1.0 + f->denser[i];
+}
+MPS_ROWS(shrink_rows, shrink, volumes)
+
+MPS_ROW void subtract(const int dim, const mps_stage *s, const volumes *f, int64_t i)
 {
     const mps_stencil *t = s->near;
+    f->volume_deviation[i] -= f->sum[i];
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        const double less = f->denser[t->col[p]];
+        if (less != 0) f->number_density[i] -= less * mps_stencil_pair_dim(dim, t, i, p).w;
+    }
+}
+MPS_ROWS(subtract_rows, subtract, volumes)
+
+/* Each particle counts with its volume by the equation of state, 1/(1 + denser), in the sums about
+ * its neighbours too: walls and liquid beside a compressed gas keep their own. */
+int mps__gas_expect(mps_stage *s, double *denser, double *volume_deviation, double *number_density)
+{
+    volumes f = {denser, mps_stage_scratch(s, s->n), volume_deviation, number_density};
+    if (!f.sum) return 1;
+    mps_stage_rows(s, shrink_rows, &f);
+    if (mps_op_volume_sum(s->far, denser, f.sum) != MPS_OK)
+        return mps_stage_fail(s, "the volumes of the gas cannot be summed");
+    mps_stage_rows(s, subtract_rows, &f);
+    return 0;
+}
+
+/* Share of the cell of a wall particle that holds gas: the part of the cell that the wall particle
+ * stands for, times the share of gas in the fluid beside it. */
+MPS_ROW double wall_share(const int dim, const mps_stage *s, const int32_t *region, int64_t i,
+                          double phase)
+{
+    const mps_stencil *t = s->near;
+    const double wall_factor = s->equation->wall_factor;
     double fluid = 0, gas = 0, walls = 0;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         const int64_t j = t->col[p];
-        if (s->region[j] >= MPS_REGION_SPRAY) continue;
+        if (region[j] >= MPS_REGION_SPRAY) continue;
         const double w = mps_stencil_pair_dim(dim, t, i, p).w;
         if (s->kind[j] == MPS_FLUID) fluid += w;
         if (mps__is_gas(s, j, phase)) gas += w;
@@ -58,39 +96,65 @@ MPS__ROW double wall_share(const int dim, const mps_stage *s, int64_t i, double 
     return fluid > 0 ? gas / fluid * (fluid + walls) / t->n0 : 0.0;
 }
 
-double mps__gas_share(const mps_stage *s, int64_t i, double phase, double wall_factor)
+double mps__gas_share(const mps_stage *s, const int32_t *region, int64_t i, double phase)
 {
     if (s->kind[i] == MPS_FLUID) return mps__is_gas(s, i, phase) ? 1.0 : 0.0;
-    if (s->kind[i] == MPS_DUMMY || s->region[i] >= MPS_REGION_SPRAY || wall_factor == 0) return 0.0;
-    return MPS__ROW_CALL(s, wall_share, s, i, phase, wall_factor);
+    if (s->kind[i] == MPS_DUMMY || region[i] >= MPS_REGION_SPRAY) return 0.0;
+    if (s->equation->wall_factor == 0) return 0.0;
+    return s->dim == 2 ? wall_share(2, s, region, i, phase) : wall_share(3, s, region, i, phase);
 }
 
-static inline bool in_equation(const mps_stage *s, int64_t i)
+static inline bool in_equation(const mps_stage *s, const int32_t *region, int64_t i)
 {
-    return s->kind[i] != MPS_DUMMY && s->region[i] < MPS_REGION_SURFACE;
+    return s->kind[i] != MPS_DUMMY && region[i] < MPS_REGION_SURFACE;
 }
 
-/* The tank is rigid and the liquid keeps its volume, so the gas keeps its own, whatever happens. But divergences that are summed over all
- * rows leave a rest, and a gas integrates it: a mean error of 0.1 1/s is 14 kPa a second in air. All rows share it while it is small, as in
- * calm tanks, where the gas alone would press 0.2 % of rho g h into the liquid. What one row asks for in an impact is for the gas alone:
- * as a source in the whole of the liquid it would be a pressure of many kPa for a step. */
-void mps__gas_conserve(const mps_stage *s, mps_ppe_terms *terms, double phase, double surplus)
+/* Sums: of the sources in the equation, of their rows, of rows of the gas, of fixed rows. */
+enum { SOURCES, ROWS, GAS, FIXED, SUMS };
+
+MPS_ROW void add_source(const int dim, const mps_stage *s, const mps__gas_rows *f, int64_t i,
+                        double *sums)
 {
-    static const double share = 0.1;   /* of the surplus that a step takes away */
-    static const double small = 0.005; /* of g/dp: the rest of which each row takes its part */
+    (void)dim;
+    if (f->condition[i] == MPS_ROW_FIXED) sums[FIXED]++;
+    if (!in_equation(s, f->region, i)) return;
+    sums[SOURCES] += f->source[i];
+    sums[ROWS]++;
+    if (mps__is_gas(s, i, f->phase)) sums[GAS]++;
+}
+MPS_SUMS(add_source_rows, add_source, mps__gas_rows)
+
+/* What mps__gas_conserve() subtracts: from the gas, from each row. */
+typedef struct balance {
+    const mps__gas_rows *rows;
+    double gas, part;
+} balance;
+
+MPS_ROW void subtract_balance(const int dim, const mps_stage *s, const balance *f, int64_t i)
+{
+    (void)dim;
+    if (!in_equation(s, f->rows->region, i)) return;
+    f->rows->source[i] += (mps__is_gas(s, i, f->rows->phase) ? f->gas : 0.0) - f->part;
+}
+MPS_ROWS(subtract_balance_rows, subtract_balance, balance)
+
+/* The tank is rigid and the liquid keeps its volume, so the gas must keep its volume. But the sum
+ * of the divergences over all rows is not exactly 0, and a gas integrates the rest: a mean error of
+ * 0.1 1/s is 14 kPa a second in air.
+ *  - A small rest, as in calm tanks: all rows share it. Taken from the gas alone it would press
+ *    0.2 % of rho g h into the liquid.
+ *  - What is larger, as a single row asks for in an impact: taken from the gas alone. As a source
+ *    in the whole liquid it would be a pressure of many kPa for a step. */
+void mps__gas_conserve(const mps_stage *s, mps__gas_rows *rows, double surplus)
+{
+    static const double share = 0.1;   /* of the surplus that a step removes */
+    static const double small = 0.005; /* bound of the shared rest, in g/dp */
     const double bound = small * s->velocity_scale * s->velocity_scale / (s->dp * s->dp);
-    double sum = 0;
-    int64_t rows = 0, gas = 0;
-    for (int64_t i = 0; i < s->n; i++) {
-        if (terms->fixed[i] == MPS_ROW_FIXED) return;
-        if (!in_equation(s, i)) continue;
-        sum += terms->rhs[i];
-        rows++;
-        gas += mps__is_gas(s, i, phase);
-    }
-    if (gas == 0) return;
-    const double part = fmin(fmax(sum / (double)rows, -bound), bound);
-    const double own = (share * surplus / (s->dt * s->dt) - (sum - part * (double)rows)) / (double)gas;
-    for (int64_t i = 0; i < s->n; i++)
-        if (in_equation(s, i)) terms->rhs[i] += (mps__is_gas(s, i, phase) ? own : 0.0) - part;
+    double sums[SUMS];
+    mps_stage_sum(s, SUMS, add_source_rows, rows, sums);
+    if (sums[FIXED] > 0 || sums[GAS] == 0) return;
+    const double part = fmin(fmax(sums[SOURCES] / sums[ROWS], -bound), bound);
+    const double rest = sums[SOURCES] - part * sums[ROWS];
+    const double own = (share * surplus / (s->dt * s->dt) - rest) / sums[GAS];
+    mps_stage_rows(s, subtract_balance_rows, &(balance){rows, own, part});
 }

@@ -1,63 +1,143 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compressibility of one phase by its speed of sound Cs: d rho = dp/Cs^2. On the left side of the pressure equation divided by rho stands
- *   (p^{k+1} - p^k)/(rho Cs^2 dt^2),
- * the change of a step, and sources that correct the density see its deviation from the equation of state p = rho Cs^2 (n - n0)/n0: in
- * `volume` and `number_density` each gas particle counts with the volume that it has by p^k. So at rest the pressure is that of the
- * equation of state, whatever weight or relaxation time the source has.
- * Walls give way too, as far as the part of a cell that they stand for holds gas.
- * With `conserve` a gas in a closed tank keeps its volume, so its mean pressure does not run away; pressures are then above those of the
- * filling. Switch it off where sources are to change the volume of the gas.
- * With `printed` p^{k+1}/(rho Cs^2 dt^2) alone, W22 (26) to the letter. The old pressure is lost, and the gas gives way for ever: at rest
- * the source holds p = gamma rho Cs^2 (n - n0)/n0, which is a gas 1/gamma times as soft. */
+/* Compressibility of one phase by its speed of sound Cs: d rho = dp/Cs^2. The pressure equation,
+ * divided by rho, gets the change of a step on its left side,
+ *   (p^{k+1} - p^k)/(rho Cs^2 dt^2).
+ * In "volume_deviation" and "number_density" each gas particle counts with its volume by the
+ * equation of state p = rho Cs^2 (n - n0)/n0 at p^k. So sources that correct the density see its
+ * deviation from the equation of state, and at rest the pressure is that of the equation of state,
+ * for any weight or relaxation time of the source.
+ * Walls are compressible too, as far as the part of a cell that they stand for holds gas.
+ *   conserve: a gas in a closed tank keeps its volume, so that its mean pressure does not drift;
+ *     pressures are then relative to the filling. Switch it off if sources change the volume.
+ *   printed: p^{k+1}/(rho Cs^2 dt^2) alone, W22 (26) to the letter. The old pressure is lost, and
+ *     the gas is compressed without end: at rest the source holds p = gamma rho Cs^2 (n - n0)/n0,
+ *     a gas 1/gamma times as soft.
+ * W22: Wen, Zhao & Wan 2022. */
 #include "builtin.h"
 
-enum { PHASE, SOUND, PRINTED, CONSERVE };
-static const double LEAST = -0.9; /* (n - n0)/n0 where a linear law would leave no gas at all */
-static const mps_setting settings[] = {
-    {"phase", 1.0, 0.0, MPS__PHASE_LIMIT - 1}, {"sound", 340.0, 1.0, 1e4}, {"printed", 0.0, 0.0, 1.0}, {"conserve", 1.0, 0.0, 1.0}};
+enum { PHASE, SOUND, PRINTED, CONSERVE, SETTINGS };
+static const mps_setting settings[SETTINGS] = {
+    [PHASE] = {"phase", "-", "Number of the phase that is a gas", MPS_TYPE_INTEGER, 1.0, 0.0,
+               MPS__PHASE_LIMIT - 1},
+    [SOUND] = {"sound", "m/s", "Speed of sound", MPS_TYPE_REAL, 340.0, 1.0, 1e4},
+    [PRINTED] = {"printed", "-", "1: W22 (26) to the letter, which loses the old pressure",
+                 MPS_TYPE_FLAG, 0.0, 0.0, 1.0},
+    [CONSERVE] = {"conserve", "-", "1: the gas in a closed tank keeps its volume", MPS_TYPE_FLAG,
+                  1.0, 0.0, 1.0}};
+
+enum {
+    EXPECT_VELOCITY,
+    EXPECT_PRESSURE,
+    EXPECT_DENSITY,
+    EXPECT_VOLUME,
+    EXPECT_NUMBER,
+    EXPECT_USES
+};
+static const mps_use expect_uses[EXPECT_USES] = {
+    [EXPECT_VELOCITY] = {"velocity", MPS_USE_READ},
+    [EXPECT_PRESSURE] = {"pressure", MPS_USE_READ},
+    [EXPECT_DENSITY] = {"density", MPS_USE_READ},
+    [EXPECT_VOLUME] = {"volume_deviation", MPS_USE_CHANGE},
+    [EXPECT_NUMBER] = {"number_density", MPS_USE_CHANGE}};
+
+enum { PRESSURE, DENSITY, REGION, CONDITION, GAS_SHIFT, SOURCE, USES };
+static const mps_use uses[USES] = {
+    [PRESSURE] = {"pressure", MPS_USE_READ},     [DENSITY] = {"density", MPS_USE_READ},
+    [REGION] = {"region", MPS_USE_NEIGHBOURS},   [CONDITION] = {"pressure_condition", MPS_USE_READ},
+    [GAS_SHIFT] = {"gas_shift", MPS_USE_CHANGE}, [SOURCE] = {"pressure_source", MPS_USE_CHANGE}};
+
+/* (n - n0)/n0 at which a linear law would leave no gas at all. */
+static const double LEAST = -0.9;
+
+typedef struct fields {
+    const double *pressure, *density;
+    const int32_t *region;
+    double *denser;             /* [n] (n - n0)/n0 of the gas */
+    double *gas_shift, *source; /* [n] */
+    double whole;               /* 1/(Cs^2 dt^2) */
+    double own;                 /* density of the gas */
+} fields;
 
 /* (n - n0)/n0 of a particle at its pressure. */
-static inline double by_law(const double *k, const mps_stage *s, int64_t i)
+static inline double by_law(const mps_stage *s, const fields *f, int64_t i)
 {
-    return fmax(s->p[i] / (s->density[i] * k[SOUND] * k[SOUND]), LEAST);
+    const double sound = s->setting[SOUND];
+    return fmax(f->pressure[i] / (f->density[i] * sound * sound), LEAST);
 }
 
-static int classify(void *self, const double *k, mps_stage *s)
+MPS_ROW void find_denser(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
-    (void)self;
-    if (mps__gas_check(s, k[PHASE], k[SOUND])) return 1;
+    (void)dim;
+    if (mps__is_gas(s, i, s->setting[PHASE])) f->denser[i] = by_law(s, f, i);
+}
+MPS_ROWS(find_denser_rows, find_denser, fields)
+
+static int expect_volumes(mps_stage *s)
+{
+    const double *k = s->setting;
+    if (mps__gas_check(s, k[PHASE], k[SOUND], s->data[EXPECT_VELOCITY])) return 1;
     if (k[PRINTED] > 0) return 0;
-    double *denser = mps_stage_scratch(s, s->n);
-    if (!denser) return 1;
-    for (int64_t i = 0; i < s->n; i++)
-        if (mps__is_gas(s, i, k[PHASE])) denser[i] = by_law(k, s, i);
-    return mps__gas_expect(s, denser);
+    fields f = {.pressure = s->data[EXPECT_PRESSURE],
+                .density = s->data[EXPECT_DENSITY],
+                .denser = mps_stage_scratch(s, s->n)};
+    if (!f.denser) return 1;
+    mps_stage_rows(s, find_denser_rows, &f);
+    return mps__gas_expect(s, f.denser, s->data[EXPECT_VOLUME], s->data[EXPECT_NUMBER]);
 }
 
-static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *terms)
+/* Sum over the gas: volume by the law less 1, in cells of the lattice. */
+MPS_ROW void add_surplus(const int dim, const mps_stage *s, const fields *f, int64_t i, double *sum)
 {
-    (void)self;
-    double surplus = 0, rho[MPS__PHASE_LIMIT];
-    mps__phase_densities(s, rho);
-    for (int64_t i = 0; i < s->n; i++)
-        if (mps__is_gas(s, i, k[PHASE])) surplus += 1.0 / (1.0 + by_law(k, s, i)) - 1.0;
-    if (k[CONSERVE] > 0 && !(k[PRINTED] > 0)) mps__gas_conserve(s, terms, k[PHASE], surplus);
-    const double whole = 1.0 / (k[SOUND] * k[SOUND] * s->dt * s->dt), own = rho[(int)k[PHASE]];
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) {
-        const double stiffness = mps__gas_share(s, i, k[PHASE], terms->wall_factor) * whole /
-                                 (s->kind[i] == MPS_FLUID ? s->density[i] : own);
-        terms->gas[i] += stiffness;
-        terms->rhs[i] += k[PRINTED] > 0 ? 0.0 : stiffness * s->p[i];
+    (void)dim;
+    if (mps__is_gas(s, i, s->setting[PHASE])) sum[0] += 1.0 / (1.0 + by_law(s, f, i)) - 1.0;
+}
+MPS_SUMS(add_surplus_rows, add_surplus, fields)
+
+MPS_ROW void compress(const int dim, const mps_stage *s, const fields *f, int64_t i)
+{
+    (void)dim;
+    const double *k = s->setting, rho = s->kind[i] == MPS_FLUID ? f->density[i] : f->own;
+    const double stiffness = mps__gas_share(s, f->region, i, k[PHASE]) * f->whole / rho;
+    f->gas_shift[i] += stiffness;
+    f->source[i] += k[PRINTED] > 0 ? 0.0 : stiffness * f->pressure[i];
+}
+MPS_ROWS(compress_rows, compress, fields)
+
+static int compress_gas(mps_stage *s)
+{
+    const double *k = s->setting;
+    fields f = {.pressure = s->data[PRESSURE],
+                .density = s->data[DENSITY],
+                .region = s->data[REGION],
+                .gas_shift = s->data[GAS_SHIFT],
+                .source = s->data[SOURCE],
+                .whole = 1.0 / (k[SOUND] * k[SOUND] * s->dt * s->dt)};
+    double surplus, rho[MPS__PHASE_LIMIT];
+    mps__phase_densities(s, f.density, rho);
+    f.own = rho[(int)k[PHASE]];
+    if (k[CONSERVE] > 0 && !(k[PRINTED] > 0)) {
+        mps__gas_rows rows = {f.region, s->data[CONDITION], f.source, k[PHASE]};
+        mps_stage_sum(s, 1, add_surplus_rows, &f, &surplus);
+        mps__gas_conserve(s, &rows, surplus);
     }
+    mps_stage_rows(s, compress_rows, &f);
     return 0;
 }
 
-const mps_model_ops mps__gas_compressible = {.struct_size = sizeof(mps_model_ops),
-                                             .api = MPS_MODEL_API,
-                                             .name = "gas.compressible",
-                                             .order = 510,
-                                             .setting_count = 4,
-                                             .settings = settings,
-                                             .classify = classify,
-                                             .source = source};
+static const mps_verb verbs[] = {
+    {.moment = MPS_PREPARE, .use_count = EXPECT_USES, .uses = expect_uses, .run = expect_volumes},
+    {.moment = MPS_SOURCE,
+     .use_count = USES,
+     .uses = uses,
+     .after = "source",
+     .run = compress_gas}};
+
+const mps_model_ops mps__gas_compressible = {
+    .struct_size = sizeof(mps_model_ops),
+    .api = MPS_MODEL_API,
+    .name = "gas.compressible",
+    .help = "Compressibility of one phase by its speed of sound",
+    .setting_count = SETTINGS,
+    .settings = settings,
+    .verb_count = 2,
+    .verbs = verbs};

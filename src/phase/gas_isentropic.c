@@ -1,59 +1,135 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A gas that is compressed without losing heat: rho = rho0 (1 + p/P)^(1/e), P the pressure of the ambient air, rho0 the density of the
- * phase, e the exponent (1.4 for air; 1: isothermal). On the left side of the pressure equation divided by rho stands the change of ln rho,
- *   [ln(1 + p^{k+1}/P) - ln(1 + p^k/P)]/(e dt^2),
- * which is nonlinear: the solver must be one for that (sundials.kinsol). Sources that correct the density see its deviation from the law.
- * `conserve` as in gas.compressible. */
+/* Isentropic gas, compressed without exchange of heat: rho = rho0 (1 + p/P)^(1/e), P the pressure
+ * of the ambient air, rho0 the density of the phase, e the exponent (1.4 for air; 1: isothermal).
+ * The pressure equation, divided by rho, gets the change of ln rho on its left side,
+ *   [ln(1 + p^{k+1}/P) - ln(1 + p^k/P)]/(e dt^2).
+ * This is nonlinear: the solver must handle it (sundials.kinsol). Sources that correct the density
+ * see its deviation from the law. `conserve` as in gas.compressible. */
 #include "builtin.h"
 
-enum { PHASE, AMBIENT, EXPONENT, CONSERVE };
-static const mps_setting settings[] = {
-    {"phase", 1.0, 0.0, MPS__PHASE_LIMIT - 1}, {"ambient", 101325.0, 1.0, 1e9}, {"exponent", 1.4, 1.0, 10.0}, {"conserve", 1.0, 0.0, 1.0}};
+#include <mps/ppe.h>
+
+enum { PHASE, AMBIENT, EXPONENT, CONSERVE, SETTINGS };
+static const mps_setting settings[SETTINGS] = {
+    [PHASE] = {"phase", "-", "Number of the phase that is a gas", MPS_TYPE_INTEGER, 1.0, 0.0,
+               MPS__PHASE_LIMIT - 1},
+    [AMBIENT] = {"ambient", "Pa", "Pressure of the ambient air", MPS_TYPE_REAL, 101325.0, 1.0, 1e9},
+    [EXPONENT] = {"exponent", "-", "1.4: air; 1: isothermal", MPS_TYPE_REAL, 1.4, 1.0, 10.0},
+    [CONSERVE] = {"conserve", "-", "1: the gas in a closed tank keeps its volume", MPS_TYPE_FLAG,
+                  1.0, 0.0, 1.0}};
+
+enum {
+    EXPECT_VELOCITY,
+    EXPECT_PRESSURE,
+    EXPECT_DENSITY,
+    EXPECT_VOLUME,
+    EXPECT_NUMBER,
+    EXPECT_USES
+};
+static const mps_use expect_uses[EXPECT_USES] = {
+    [EXPECT_VELOCITY] = {"velocity", MPS_USE_READ},
+    [EXPECT_PRESSURE] = {"pressure", MPS_USE_READ},
+    [EXPECT_DENSITY] = {"density", MPS_USE_READ},
+    [EXPECT_VOLUME] = {"volume_deviation", MPS_USE_CHANGE},
+    [EXPECT_NUMBER] = {"number_density", MPS_USE_CHANGE}};
+
+enum { PRESSURE, REGION, CONDITION, GAS_SHIFT, GAS_LAW, SOURCE, USES };
+static const mps_use uses[USES] = {[PRESSURE] = {"pressure", MPS_USE_READ},
+                                   [REGION] = {"region", MPS_USE_NEIGHBOURS},
+                                   [CONDITION] = {"pressure_condition", MPS_USE_READ},
+                                   [GAS_SHIFT] = {"gas_shift", MPS_USE_CHANGE},
+                                   [GAS_LAW] = {"gas_law", MPS_USE_CHANGE},
+                                   [SOURCE] = {"pressure_source", MPS_USE_CHANGE}};
+
+typedef struct fields {
+    const double *pressure;
+    const int32_t *region;
+    double *denser;                       /* [n] (n - n0)/n0 of the gas */
+    double *gas_shift, *gas_law, *source; /* [n] */
+    double whole;                         /* 1/(e P dt^2) */
+} fields;
 
 /* (n - n0)/n0 of a particle at its pressure. */
-static inline double by_law(const double *k, const mps_stage *s, int64_t i)
+static inline double by_law(const mps_stage *s, const fields *f, int64_t i)
 {
-    return exp(mps_ppe_law(k[AMBIENT], s->p[i], NULL) / (k[AMBIENT] * k[EXPONENT])) - 1.0;
+    const double *k = s->setting;
+    return exp(mps_ppe_law(k[AMBIENT], f->pressure[i], NULL) / (k[AMBIENT] * k[EXPONENT])) - 1.0;
 }
 
-static int classify(void *self, const double *k, mps_stage *s)
+MPS_ROW void find_denser(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
-    (void)self;
+    (void)dim;
+    if (mps__is_gas(s, i, s->setting[PHASE])) f->denser[i] = by_law(s, f, i);
+}
+MPS_ROWS(find_denser_rows, find_denser, fields)
+
+static int expect_volumes(mps_stage *s)
+{
+    const double *k = s->setting;
     double rho[MPS__PHASE_LIMIT];
-    mps__phase_densities(s, rho);
+    mps__phase_densities(s, s->data[EXPECT_DENSITY], rho);
     const double own = rho[(int)k[PHASE]];
-    if (mps__gas_check(s, k[PHASE], own > 0 ? sqrt(k[EXPONENT] * k[AMBIENT] / own) : INFINITY)) return 1;
-    double *denser = mps_stage_scratch(s, s->n);
-    if (!denser) return 1;
-    for (int64_t i = 0; i < s->n; i++)
-        if (mps__is_gas(s, i, k[PHASE])) denser[i] = by_law(k, s, i);
-    return mps__gas_expect(s, denser);
+    const double sound = own > 0 ? sqrt(k[EXPONENT] * k[AMBIENT] / own) : INFINITY;
+    if (mps__gas_check(s, k[PHASE], sound, s->data[EXPECT_VELOCITY])) return 1;
+    fields f = {.pressure = s->data[EXPECT_PRESSURE], .denser = mps_stage_scratch(s, s->n)};
+    if (!f.denser) return 1;
+    mps_stage_rows(s, find_denser_rows, &f);
+    return mps__gas_expect(s, f.denser, s->data[EXPECT_VOLUME], s->data[EXPECT_NUMBER]);
 }
 
-static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *terms)
+/* Sum over the gas: volume by the law less 1, in cells of the lattice. */
+MPS_ROW void add_surplus(const int dim, const mps_stage *s, const fields *f, int64_t i, double *sum)
 {
-    (void)self;
-    double surplus = 0;
-    for (int64_t i = 0; i < s->n; i++)
-        if (mps__is_gas(s, i, k[PHASE])) surplus += 1.0 / (1.0 + by_law(k, s, i)) - 1.0;
-    if (k[CONSERVE] > 0) mps__gas_conserve(s, terms, k[PHASE], surplus);
-    const double whole = 1.0 / (k[EXPONENT] * k[AMBIENT] * s->dt * s->dt);
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) {
-        const double stiffness = mps__gas_share(s, i, k[PHASE], terms->wall_factor) * whole;
-        if (stiffness == 0) continue;
-        terms->gas[i] += stiffness;
-        terms->law[i] = k[AMBIENT];
-        terms->rhs[i] += stiffness * mps_ppe_law(k[AMBIENT], s->p[i], NULL);
+    (void)dim;
+    if (mps__is_gas(s, i, s->setting[PHASE])) sum[0] += 1.0 / (1.0 + by_law(s, f, i)) - 1.0;
+}
+MPS_SUMS(add_surplus_rows, add_surplus, fields)
+
+MPS_ROW void compress(const int dim, const mps_stage *s, const fields *f, int64_t i)
+{
+    (void)dim;
+    const double *k = s->setting;
+    const double stiffness = mps__gas_share(s, f->region, i, k[PHASE]) * f->whole;
+    if (stiffness == 0) return;
+    f->gas_shift[i] += stiffness;
+    f->gas_law[i] = k[AMBIENT];
+    f->source[i] += stiffness * mps_ppe_law(k[AMBIENT], f->pressure[i], NULL);
+}
+MPS_ROWS(compress_rows, compress, fields)
+
+static int compress_gas(mps_stage *s)
+{
+    const double *k = s->setting;
+    fields f = {.pressure = s->data[PRESSURE],
+                .region = s->data[REGION],
+                .gas_shift = s->data[GAS_SHIFT],
+                .gas_law = s->data[GAS_LAW],
+                .source = s->data[SOURCE],
+                .whole = 1.0 / (k[EXPONENT] * k[AMBIENT] * s->dt * s->dt)};
+    double surplus;
+    if (k[CONSERVE] > 0) {
+        mps__gas_rows rows = {f.region, s->data[CONDITION], f.source, k[PHASE]};
+        mps_stage_sum(s, 1, add_surplus_rows, &f, &surplus);
+        mps__gas_conserve(s, &rows, surplus);
     }
+    mps_stage_rows(s, compress_rows, &f);
     return 0;
 }
 
-const mps_model_ops mps__gas_isentropic = {.struct_size = sizeof(mps_model_ops),
-                                           .api = MPS_MODEL_API,
-                                           .name = "gas.isentropic",
-                                           .order = 510,
-                                           .setting_count = 4,
-                                           .settings = settings,
-                                           .classify = classify,
-                                           .source = source};
+static const mps_verb verbs[] = {
+    {.moment = MPS_PREPARE, .use_count = EXPECT_USES, .uses = expect_uses, .run = expect_volumes},
+    {.moment = MPS_SOURCE,
+     .use_count = USES,
+     .uses = uses,
+     .after = "source",
+     .run = compress_gas}};
+
+const mps_model_ops mps__gas_isentropic = {
+    .struct_size = sizeof(mps_model_ops),
+    .api = MPS_MODEL_API,
+    .name = "gas.isentropic",
+    .help = "A gas that is compressed without exchange of heat; needs a nonlinear solver",
+    .setting_count = SETTINGS,
+    .settings = settings,
+    .verb_count = 2,
+    .verbs = verbs};

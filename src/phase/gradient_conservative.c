@@ -1,17 +1,44 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Pressure gradient that conserves momentum, W22 (9): a_i = -D/(n0 rho) sum (P_j + P_i) r_ij/|r_ij|^2 W. */
+/* Pressure gradient that conserves momentum, W22 (9), W22: Wen, Zhao & Wan 2022:
+ *   a_i = -D/(n0 rho) sum (P_j + P_i) r_ij/|r_ij|^2 W. */
 #include "builtin.h"
 
-static int gradient(void *self, const double *k, mps_stage *s, double *a)
+enum { PRESSURE, DENSITY, ACCELERATION, USES };
+static const mps_use uses[USES] = {[PRESSURE] = {"pressure", MPS_USE_NEIGHBOURS},
+                                   [DENSITY] = {"density", MPS_USE_READ},
+                                   [ACCELERATION] = {"acceleration", MPS_USE_CHANGE}};
+
+typedef struct fields {
+    const double *density, *gradient;
+    double *acceleration;
+} fields;
+
+MPS_ROW void accelerate(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
-    (void)self, (void)k;
-    double *g = mps_stage_scratch(s, s->n * s->dim);
-    if (!g || mps_op_gradient_conservative(s->near, s->p, g) != MPS_OK) return 1;
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID)
-            for (int d = 0; d < s->dim; d++) a[i * s->dim + d] -= g[i * s->dim + d] / s->density[i];
+    if (s->kind[i] != MPS_FLUID) return;
+    for (int64_t d = i * dim; d < (i + 1) * dim; d++)
+        f->acceleration[d] -= f->gradient[d] / f->density[i];
+}
+MPS_ROWS(accelerate_rows, accelerate, fields)
+
+static int accelerate_fluid(mps_stage *s)
+{
+    double *gradient = mps_stage_scratch(s, s->n * s->dim);
+    if (!gradient) return 1;
+    if (mps_op_gradient_conservative(s->near, s->data[PRESSURE], gradient) != MPS_OK)
+        return mps_stage_fail(s, "the gradient of the pressure cannot be summed");
+    fields f = {s->data[DENSITY], gradient, s->data[ACCELERATION]};
+    mps_stage_rows(s, accelerate_rows, &f);
     return 0;
 }
 
+static const mps_verb verbs[] = {
+    {.moment = MPS_GRADIENT, .use_count = USES, .uses = uses, .run = accelerate_fluid}};
+
 const mps_model_ops mps__gradient_conservative = {
-    .struct_size = sizeof(mps_model_ops), .api = MPS_MODEL_API, .name = "gradient.conservative", .order = 600, .gradient = gradient};
+    .struct_size = sizeof(mps_model_ops),
+    .api = MPS_MODEL_API,
+    .name = "gradient.conservative",
+    .help = "Pressure gradient that conserves momentum",
+    .verb_count = 1,
+    .verbs = verbs};

@@ -1,30 +1,51 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Pressure gradient with B_i: G_i = D/n0 B_i sum w [(P_j - P_i)/rho_ij - b_ij.r_ij] r_ij over fluid and wet walls, b_ij.r_ij that of a fluid
- * that moves with the tank, rho_ij as in the pressure equation; a_i = -b - G_i with b = g - a_tank
- * (gravity is in u* already). Surface particles see one side only: a second pass with 2 (P_j - P_i) - G_j.r_ij makes them second order. */
+/* Pressure gradient with moment matrices, over fluid and wetted walls:
+ *   G_i = D/n0 B_i sum w [(P_j - P_i + jump_ij)/rho_ij - b_ij.r_ij] r_ij,  a_i = -b - G_i,
+ * w = W/r^2. b = g - a_tank, so that b_ij.r_ij is the pressure difference of a fluid that moves
+ * with the tank; -b only adds the acceleration of the tank, as gravity is in u* already. jump_ij
+ * and rho_ij are those of the pressure equation (mps/flux.h).
+ * Surface particles have neighbours on one side only. `second_order` adds a second pass for them,
+ * with 2 (P_j - P_i) - G_j.r_ij instead of P_j - P_i. */
 #include "builtin.h"
-#include <stdbool.h>
 
-enum { SECOND };
-static const mps_setting settings[] = {{"second_order", 0.0, 0.0, 1.0}};
+enum { SECOND, SETTINGS };
+static const mps_setting settings[SETTINGS] = {
+    [SECOND] = {"second_order", "-", "1: surface particles are of second order", MPS_TYPE_FLAG, 0.0,
+                0.0, 1.0}};
 
-/* G_i; with `first` not NULL the second pass. */
-MPS__ROW void corrected(const int dim, const mps_stage *stage, int64_t i, const double *first, double *g)
+enum { PRESSURE, REGION, TANK_ACCELERATION, CORRECTION, ACCELERATION, USES };
+static const mps_use uses[USES] = {[PRESSURE] = {"pressure", MPS_USE_NEIGHBOURS},
+                                   [REGION] = {"region", MPS_USE_NEIGHBOURS},
+                                   [TANK_ACCELERATION] = {"tank_acceleration", MPS_USE_NEIGHBOURS},
+                                   [CORRECTION] = {"correction", MPS_USE_READ},
+                                   [ACCELERATION] = {"acceleration", MPS_USE_CHANGE}};
+
+typedef struct fields {
+    const double *pressure, *tank_acceleration, *correction;
+    const int32_t *region;
+    double *acceleration;
+    double *first; /* [n*dim] G of the first pass */
+} fields;
+
+/* G_i; if `first` is not NULL the second pass. */
+MPS_ROW void gradient(const int dim, const mps_stage *stage, const fields *given, int64_t i,
+                      const double *first, double *g)
 {
     const mps_stage copy = *stage, *s = &copy;
+    const fields local = *given, *f = &local;
+    const mps_flux pairs = *s->flux, *flux = &pairs;
     const mps_stencil near = *s->near, *t = &near;
-    const double *b = s->correction + i * dim * dim, pi = s->p[i];
+    const double *b = f->correction + i * dim * dim, *tank = f->tank_acceleration;
+    const double pi = f->pressure[i];
     double sum[3] = {0}, own[3];
-    for (int d = 0; d < dim; d++) own[d] = 2.0 * s->g[d] - s->tank_accel[i * dim + d];
+    for (int d = 0; d < dim; d++) own[d] = 2.0 * s->g[d] - tank[i * dim + d];
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        if (s->region[t->col[p]] >= MPS_REGION_SPRAY) continue;
+        if (f->region[t->col[p]] >= MPS_REGION_SPRAY) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         double body = 0, slope = 0;
-        for (int d = 0; d < dim; d++) body += 0.5 * (own[d] - s->tank_accel[q.j * dim + d]) * q.d[d];
-        const double rho = mps_stage_pair_density(s, i, q.j);
-        const bool across = s->phase[q.j] != s->phase[i] && s->kind[q.j] == MPS_FLUID;
-        const double jump = across ? 0.5 * (s->capillary[i] - s->capillary[q.j]) : 0.0;
-        double difference = (s->p[q.j] - pi + jump) / rho - body;
+        for (int d = 0; d < dim; d++) body += 0.5 * (own[d] - tank[q.j * dim + d]) * q.d[d];
+        const double rho = mps_flux_density(flux, i, q.j), jump = mps_flux_jump(flux, i, q.j);
+        double difference = (f->pressure[q.j] - pi + jump) / rho - body;
         if (first && s->kind[q.j] == MPS_FLUID) {
             for (int d = 0; d < dim; d++) slope += first[q.j * dim + d] * q.d[d];
             difference = 2.0 * difference - slope;
@@ -37,30 +58,48 @@ MPS__ROW void corrected(const int dim, const mps_stage *stage, int64_t i, const 
     }
 }
 
-static int gradient(void *self, const double *k, mps_stage *s, double *a)
+MPS_ROW void find_first(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
-    (void)self;
-    const int dim = s->dim;
-    double *g = mps_stage_scratch(s, s->n * dim);
-    if (!g) return 1;
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID && s->region[i] != MPS_REGION_SPRAY) MPS__ROW_CALL(s, corrected, s, i, NULL, g + i * dim);
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_FLUID || s->region[i] == MPS_REGION_SPRAY) continue;
-        double own[3];
-        for (int d = 0; d < dim; d++) own[d] = g[i * dim + d];
-        if (k[SECOND] > 0 && s->region[i] == MPS_REGION_SURFACE) MPS__ROW_CALL(s, corrected, s, i, g, own);
-        for (int d = 0; d < dim; d++) a[i * dim + d] -= s->g[d] - s->tank_accel[i * dim + d] + own[d];
-    }
+    if (s->kind[i] != MPS_FLUID || f->region[i] == MPS_REGION_SPRAY) return;
+    gradient(dim, s, f, i, NULL, f->first + i * dim);
+}
+MPS_ROWS(find_first_rows, find_first, fields)
+
+MPS_ROW void accelerate(const int dim, const mps_stage *s, const fields *f, int64_t i)
+{
+    if (s->kind[i] != MPS_FLUID || f->region[i] == MPS_REGION_SPRAY) return;
+    const double *tank = f->tank_acceleration + i * dim;
+    double own[3];
+    for (int d = 0; d < dim; d++) own[d] = f->first[i * dim + d];
+    if (s->setting[SECOND] > 0 && f->region[i] == MPS_REGION_SURFACE)
+        gradient(dim, s, f, i, f->first, own);
+    for (int d = 0; d < dim; d++) f->acceleration[i * dim + d] -= s->g[d] - tank[d] + own[d];
+}
+MPS_ROWS(accelerate_rows, accelerate, fields)
+
+static int accelerate_fluid(mps_stage *s)
+{
+    fields f = {.pressure = s->data[PRESSURE],
+                .tank_acceleration = s->data[TANK_ACCELERATION],
+                .correction = s->data[CORRECTION],
+                .region = s->data[REGION],
+                .acceleration = s->data[ACCELERATION],
+                .first = mps_stage_scratch(s, s->n * s->dim)};
+    if (!f.first) return 1;
+    mps_stage_rows(s, find_first_rows, &f);
+    mps_stage_rows(s, accelerate_rows, &f);
     return 0;
 }
 
-const mps_model_ops mps__gradient_corrected = {.struct_size = sizeof(mps_model_ops),
-                                               .api = MPS_MODEL_API,
-                                               .name = "gradient.corrected",
-                                               .order = 600,
-                                               .setting_count = 1,
-                                               .settings = settings,
-                                               .gradient = gradient};
+static const mps_verb verbs[] = {
+    {.moment = MPS_GRADIENT, .use_count = USES, .uses = uses, .run = accelerate_fluid}};
+
+const mps_model_ops mps__gradient_corrected = {
+    .struct_size = sizeof(mps_model_ops),
+    .api = MPS_MODEL_API,
+    .name = "gradient.corrected",
+    .help = "Pressure gradient that is exact for linear pressures",
+    .setting_count = SETTINGS,
+    .settings = settings,
+    .verb_count = 1,
+    .verbs = verbs};

@@ -1,44 +1,65 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Pressure gradient for high ratios of density, W22 (18):
+/* Pressure gradient for high ratios of density, W22 (18), W22: Wen, Zhao & Wan 2022:
  *   a_i = -D/n0 sum [2 (P_j - P_i)/(rho_i + rho_j) + (P_i - P'_i)/rho_i] r_ij/|r_ij|^2 W,
- * P'_i the smallest pressure of i and its neighbours of the same phase; the second term keeps particles apart. Densities are the
- * smoothed ones; solids have that of the fluid beside them: with the gas's own a wall below the contact line would
- * throw the gas off. Dummies need pressures and densities: `wall.extrapolate`. */
+ * P'_i the smallest pressure of i and its neighbours of the same phase; the second term keeps
+ * particles apart. Densities are the smoothed ones. Solids have the density of the fluid beside
+ * them: with the density of the gas a wall below the contact line would throw the gas off. Dummies
+ * need pressures and densities: `wall.extrapolate`. */
 #include "builtin.h"
 
+enum { PRESSURE, DENSITY, ACCELERATION, USES };
+static const mps_use uses[USES] = {[PRESSURE] = {"pressure", MPS_USE_NEIGHBOURS},
+                                   [DENSITY] = {"pressure_density", MPS_USE_NEIGHBOURS},
+                                   [ACCELERATION] = {"acceleration", MPS_USE_CHANGE}};
+
+typedef struct fields {
+    const double *pressure, *density;
+    double *acceleration;
+} fields;
+
 /* P'_i */
-static double least_pressure(const mps_stage *s, int64_t i)
+static double least_pressure(const mps_stage *s, const double *pressure, int64_t i)
 {
     const mps_stencil *t = s->near;
-    double least = s->p[i];
+    double least = pressure[i];
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         const int64_t j = t->col[p];
-        if (s->kind[j] == MPS_FLUID && s->phase[j] == s->phase[i] && s->p[j] < least) least = s->p[j];
+        if (s->kind[j] != MPS_FLUID || s->phase[j] != s->phase[i]) continue;
+        if (pressure[j] < least) least = pressure[j];
     }
     return least;
 }
 
-MPS__ROW void accelerate(const int dim, const mps_stage *s, int64_t i, double *a)
+MPS_ROW void accelerate(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
+    if (s->kind[i] != MPS_FLUID) return;
     const mps_stencil *t = s->near;
-    const double rho = s->density_smooth[i], apart = (s->p[i] - least_pressure(s, i)) / rho;
+    const double *all = f->pressure, rho = f->density[i];
+    const double apart = (all[i] - least_pressure(s, all, i)) / rho;
     double sum[3] = {0};
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        const double share = q.w_r2 * (2.0 * (s->p[q.j] - s->p[i]) / (rho + s->density_smooth[q.j]) + apart);
+        const double difference = 2.0 * (all[q.j] - all[i]) / (rho + f->density[q.j]);
+        const double share = q.w_r2 * (difference + apart);
         for (int d = 0; d < dim; d++) sum[d] += share * q.d[d];
     }
-    for (int d = 0; d < dim; d++) a[i * dim + d] -= dim / t->n0 * sum[d];
+    for (int d = 0; d < dim; d++) f->acceleration[i * dim + d] -= dim / t->n0 * sum[d];
 }
+MPS_ROWS(accelerate_rows, accelerate, fields)
 
-static int gradient(void *self, const double *k, mps_stage *s, double *a)
+static int accelerate_fluid(mps_stage *s)
 {
-    (void)self, (void)k;
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID) MPS__ROW_CALL(s, accelerate, s, i, a);
+    fields f = {s->data[PRESSURE], s->data[DENSITY], s->data[ACCELERATION]};
+    mps_stage_rows(s, accelerate_rows, &f);
     return 0;
 }
 
-const mps_model_ops mps__gradient_density = {
-    .struct_size = sizeof(mps_model_ops), .api = MPS_MODEL_API, .name = "gradient.density", .order = 600, .gradient = gradient};
+static const mps_verb verbs[] = {
+    {.moment = MPS_GRADIENT, .use_count = USES, .uses = uses, .run = accelerate_fluid}};
+
+const mps_model_ops mps__gradient_density = {.struct_size = sizeof(mps_model_ops),
+                                             .api = MPS_MODEL_API,
+                                             .name = "gradient.density",
+                                             .help = "Pressure gradient for high ratios of density",
+                                             .verb_count = 1,
+                                             .verbs = verbs};

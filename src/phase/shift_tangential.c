@@ -1,21 +1,55 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Particle shifting toward an even lattice: s_i = -c dt (U_g + max_j |u_j - u_i|) l D/n0 sum w r_ij over all kinds, at most
- * `limit` l. In the first two rows of a free surface the part along its normal is taken away: it would expand the fluid.
- * In calm water the sum w r_ij would push the fluid toward walls and corners for ever, against the volume term: a disordered lattice
- * presses on an ordered one. So the U_g part keeps what varies from particle to particle and loses the share `filter` of its kernel
- * mean. The part of the strain rate stays whole: it repairs what a violent flow tears.
- * With `transport` the velocity goes along: u += s.grad u over fluid of the same phase, within the range of its neighbours'
- * velocities (over all neighbours, or unbounded, a lone drop would accelerate itself). */
+/* Particle shifting toward an even lattice:
+ *   s_i = -c dt (U_g + max_j |u_j - u_i|) l D/n0 sum w r_ij  over all kinds,  w = W/r^2,
+ * at most `limit` l, l the spacing. In the first two rows of a free surface the part along the
+ * normal of the surface is removed: it would expand the fluid.
+ * Near walls and in corners of calm water, sum w r_ij would push the fluid without end, against the
+ * volume term: a disordered lattice presses on an ordered one. So the part with U_g loses the share
+ * `filter` of its kernel mean and keeps what varies from particle to particle. The part with the
+ * strain rate stays whole: it repairs what a violent flow tears.
+ * With `transport` the velocity is moved along: u += s.grad u over fluid of the same phase, within
+ * the range of the velocities of its neighbours. Over all neighbours, or without bounds, a lone
+ * drop would accelerate itself. */
 #include "walls.h"
 
-enum { STRENGTH, LIMIT, TRANSPORT, FILTER };
-static const mps_setting settings[] = {
-    {"strength", 1.0, 0.0, 10.0}, {"limit", 0.05, 0.0, 0.5}, {"transport", 1.0, 0.0, 1.0}, {"filter", 0.8, 0.0, 1.0}};
+enum { STRENGTH, LIMIT, TRANSPORT, FILTER, SETTINGS };
+static const mps_setting settings[SETTINGS] = {
+    [STRENGTH] = {"strength", "-", "c, strength of the shifting", MPS_TYPE_REAL, 1.0, 0.0, 10.0},
+    [LIMIT] = {"limit", "dp", "Largest shift of a step", MPS_TYPE_REAL, 0.05, 0.0, 0.5},
+    [TRANSPORT] = {"transport", "-", "1: shifts move the velocity along", MPS_TYPE_FLAG, 1.0, 0.0,
+                   1.0},
+    [FILTER] = {"filter", "-", "Share of the mean over neighbours that is removed in calm water",
+                MPS_TYPE_REAL, 0.8, 0.0, 1.0}};
 
-/* Nearer to a wall [dp] it does not carry anybody on towards it, and out of the nearer half it brings all, spray as well. */
+enum { VELOCITY, REGION, ASYMMETRY, DISPLACEMENT, USES };
+static const mps_use uses[USES] = {[VELOCITY] = {"velocity", MPS_USE_NEIGHBOURS | MPS_USE_CHANGE},
+                                   [REGION] = {"region", MPS_USE_NEIGHBOURS},
+                                   [ASYMMETRY] = {"asymmetry", MPS_USE_NEIGHBOURS},
+                                   [DISPLACEMENT] = {"displacement", MPS_USE_CHANGE}};
+
+/* Distance from a wall [dp] below which no shift leads towards it. Particles in the nearer half,
+ * spray too, are moved out of it. */
 static const double wall_distance = 0.5;
 
-/* fmax() and fmin() as one instruction: `b` may be NaN and does not count then. */
+typedef struct fields {
+    double *velocity, *displacement;
+    const double *asymmetry;
+    const int32_t *region;
+    double *even; /* [n*dim] sum w r_ij over all kinds */
+    double *du;   /* [n*dim] change of the velocity */
+} fields;
+
+/* Results of one pass over the pairs of a particle. */
+typedef struct pair_sums {
+    double mean[3], weight; /* kernel sums over inner fluid: of `even`, of 1 */
+    double most;            /* largest |u_j - u_i|^2 of the fluid */
+    double m[9], g[9];      /* sums of w r_ij (x) r_ij and w (u_j - u_i) (x) r_ij, same phase */
+    double low[3], high[3]; /* range of u_j - u_i, same phase */
+    double even[3];         /* of i itself */
+    bool solids;            /* among the pairs */
+} pair_sums;
+
+/* fmax() and fmin() as one instruction; `b` may be NaN and does not count then. */
 static inline double larger(double a, double b)
 {
     return b > a ? b : a;
@@ -25,47 +59,45 @@ static inline double smaller(double a, double b)
     return b < a ? b : a;
 }
 
-/* Normal of the free surface near i: its own asymmetry, or the mean of its surface neighbours'. Not unit. */
-static void surface_normal(const mps_stage *s, int64_t i, double n[3])
+/* Normal of the free surface near i: its own asymmetry, or the mean of its surface neighbours'. Not
+ * a unit vector. */
+MPS_ROW void surface_normal(const int dim, const mps_stage *s, const fields *f, int64_t i,
+                            double n[3])
 {
     const mps_stencil *t = s->near;
-    for (int d = 0; d < s->dim; d++) n[d] = s->region[i] == MPS_REGION_SURFACE ? s->asymmetry[i * s->dim + d] : 0.0;
-    if (s->region[i] != MPS_REGION_NEAR) return;
+    const double *a = f->asymmetry;
+    const int32_t *region = f->region;
+    for (int d = 0; d < dim; d++) n[d] = region[i] == MPS_REGION_SURFACE ? a[i * dim + d] : 0.0;
+    if (region[i] != MPS_REGION_NEAR) return;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         const int64_t j = t->col[p];
-        if (s->region[j] != MPS_REGION_SURFACE) continue;
-        const double w = mps_stencil_pair(t, i, p).w;
-        for (int d = 0; d < s->dim; d++) n[d] += w * s->asymmetry[j * s->dim + d];
+        if (region[j] != MPS_REGION_SURFACE) continue;
+        const double w = mps_stencil_pair_dim(dim, t, i, p).w;
+        for (int d = 0; d < dim; d++) n[d] += w * a[j * dim + d];
     }
 }
 
-/* What one pass over the pairs of a particle collects. */
-typedef struct pair_sums {
-    double mean[3], weight; /* kernel sums over inner fluid: of the unevenness, and of 1 */
-    double most;            /* largest |u_j - u_i|^2 of the fluid */
-    double m[9], g[9];      /* sum w r_ij (x) r_ij and (u_j - u_i) (x) r_ij over fluid of the same phase */
-    double low[3], high[3]; /* range of u_j - u_i there */
-    double even[3];         /* own unevenness */
-    bool solids;            /* among the pairs */
-} pair_sums;
-
-/* sum w r_ij over all kinds */
-MPS__ROW void unevenness(const int dim, const mps_stage *s, int64_t i, double *even)
+/* Fills `even`. */
+MPS_ROW void add_even(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
+    if (s->kind[i] != MPS_FLUID || f->region[i] == MPS_REGION_SPRAY) return;
     const mps_stencil near = *s->near, *t = &near;
     double sum[3] = {0};
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         for (int d = 0; d < dim; d++) sum[d] += q.w_r2 * q.d[d];
     }
-    for (int d = 0; d < dim; d++) even[i * dim + d] = sum[d];
+    for (int d = 0; d < dim; d++) f->even[i * dim + d] = sum[d];
 }
+MPS_ROWS(add_even_rows, add_even, fields)
 
-MPS__ROW void collect(const int dim, const mps_stage *stage, const double *even, int64_t i, pair_sums *c)
+MPS_ROW void collect(const int dim, const mps_stage *stage, const fields *given, int64_t i,
+                     pair_sums *c)
 {
     const mps_stage copy = *stage, *s = &copy;
+    const fields local = *given, *f = &local;
     const mps_stencil near = *s->near, *t = &near;
-    const double *u = s->u + i * dim;
+    const double *all = f->velocity, *u = all + i * dim, *even = f->even;
     *c = (pair_sums){0};
     for (int d = 0; d < dim; d++) c->even[d] = even[i * dim + d];
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
@@ -76,15 +108,15 @@ MPS__ROW void collect(const int dim, const mps_stage *stage, const double *even,
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         double v[3], v2 = 0;
         for (int d = 0; d < dim; d++) {
-            v[d] = s->u[q.j * dim + d] - u[d];
+            v[d] = all[q.j * dim + d] - u[d];
             v2 += v[d] * v[d];
         }
         c->most = larger(c->most, v2);
-        if (s->region[q.j] < MPS_REGION_SURFACE) {
+        if (f->region[q.j] < MPS_REGION_SURFACE) {
             c->weight += q.w;
             for (int d = 0; d < dim; d++) c->mean[d] += q.w * even[q.j * dim + d];
         }
-        if (s->phase[q.j] != s->phase[i] || s->region[q.j] == MPS_REGION_SPRAY) continue;
+        if (s->phase[q.j] != s->phase[i] || f->region[q.j] == MPS_REGION_SPRAY) continue;
         for (int d = 0; d < dim; d++) {
             c->low[d] = smaller(c->low[d], v[d]);
             c->high[d] = larger(c->high[d], v[d]);
@@ -94,13 +126,17 @@ MPS__ROW void collect(const int dim, const mps_stage *stage, const double *even,
     }
 }
 
-MPS__ROW void shift_of(const int dim, const double *k, const mps_stage *s, int64_t i, const pair_sums *sums, double v[3])
+/* v: out, shift of i without walls */
+MPS_ROW void shift_of(const int dim, const mps_stage *s, const fields *f, int64_t i,
+                      const pair_sums *sums, double v[3])
 {
-    double n[3] = {0}, n2 = 0, vn = 0, v2 = 0;
-    const double c = -k[STRENGTH] * s->dt * s->dp * dim / s->near->n0, calm = c * s->velocity_scale, torn = c * sqrt(sums->most);
+    const double *k = s->setting;
+    const double c = -k[STRENGTH] * s->dt * s->dp * dim / s->near->n0;
+    const double calm = c * s->velocity_scale, torn = c * sqrt(sums->most);
     const double smooth = sums->weight > 0 ? k[FILTER] * calm / sums->weight : 0;
+    double n[3] = {0}, n2 = 0, vn = 0, v2 = 0;
     for (int d = 0; d < dim; d++) v[d] = (calm + torn) * sums->even[d] - smooth * sums->mean[d];
-    surface_normal(s, i, n);
+    surface_normal(dim, s, f, i, n);
     for (int d = 0; d < dim; d++) {
         n2 += n[d] * n[d];
         vn += n[d] * v[d];
@@ -114,8 +150,9 @@ MPS__ROW void shift_of(const int dim, const double *k, const mps_stage *s, int64
         for (int d = 0; d < dim; d++) v[d] *= limit / sqrt(v2);
 }
 
-/* du = s.grad u at i, between the least and the greatest difference its neighbours have. */
-MPS__ROW void transport(const int dim, const mps_stage *s, const pair_sums *sums, const double *shift, double *du)
+/* du = s.grad u at i, between the smallest and the largest difference of its neighbours. */
+MPS_ROW void transport(const int dim, const mps_stage *s, const pair_sums *sums,
+                       const double *shift, double *du)
 {
     const double c = dim / s->near->n0;
     double m[9], b[9];
@@ -130,42 +167,56 @@ MPS__ROW void transport(const int dim, const mps_stage *s, const pair_sums *sums
     }
 }
 
-/* Displacement of a particle, and with k[TRANSPORT] the change of its velocity. All is one function, so that the sums stay in registers. */
-MPS__ROW void move(const int dim, const double *k, const mps_stage *s, int64_t i, const double *even, double *const out[2])
+/* Displacement of a particle, and with `transport` the change of its velocity. All is inlined into
+ * one function, so that the sums stay in registers. */
+MPS_ROW void move(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
-    const bool spray = s->region[i] == MPS_REGION_SPRAY;
+    if (s->kind[i] != MPS_FLUID) return;
+    const double *k = s->setting;
+    const bool spray = f->region[i] == MPS_REGION_SPRAY;
     pair_sums sums = {.solids = true};
     double v[3] = {0};
     if (!spray) {
-        collect(dim, s, even, i, &sums);
-        shift_of(dim, k, s, i, &sums, v);
+        collect(dim, s, f, i, &sums);
+        shift_of(dim, s, f, i, &sums, v);
     }
     if (sums.solids) mps__walls_keep_off(s, wall_distance * s->dp, k[LIMIT] * s->dp, NULL, i, v);
-    if (k[TRANSPORT] > 0 && !spray) transport(dim, s, &sums, v, out[1] + i * dim);
-    for (int d = 0; d < dim; d++) out[0][i * dim + d] += v[d];
+    if (k[TRANSPORT] > 0 && !spray) transport(dim, s, &sums, v, f->du + i * dim);
+    for (int d = 0; d < dim; d++) f->displacement[i * dim + d] += v[d];
 }
+MPS_ROWS(move_rows, move, fields)
 
-static int shift(void *self, const double *k, mps_stage *s, double *dx)
+MPS_ROW void add_change(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
-    (void)self;
-    const int dim = s->dim;
-    double *du = mps_stage_scratch(s, s->n * dim), *even = mps_stage_scratch(s, s->n * dim);
-    if (!du || !even) return 1;
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID && s->region[i] != MPS_REGION_SPRAY) MPS__ROW_CALL(s, unevenness, s, i, even);
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID) MPS__ROW_CALL(s, move, k, s, i, even, (double *[]){dx, du});
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n * dim; i++) s->u[i] += du[i];
+    (void)s;
+    for (int d = 0; d < dim; d++) f->velocity[i * dim + d] += f->du[i * dim + d];
+}
+MPS_ROWS(add_change_rows, add_change, fields)
+
+static int shift_fluid(mps_stage *s)
+{
+    fields f = {.velocity = s->data[VELOCITY],
+                .displacement = s->data[DISPLACEMENT],
+                .asymmetry = s->data[ASYMMETRY],
+                .region = s->data[REGION],
+                .even = mps_stage_scratch(s, s->n * s->dim),
+                .du = mps_stage_scratch(s, s->n * s->dim)};
+    if (!f.even || !f.du) return 1;
+    mps_stage_rows(s, add_even_rows, &f);
+    mps_stage_rows(s, move_rows, &f);
+    mps_stage_rows(s, add_change_rows, &f);
     return 0;
 }
 
-const mps_model_ops mps__shift_tangential = {.struct_size = sizeof(mps_model_ops),
-                                             .api = MPS_MODEL_API,
-                                             .name = "shift.tangential",
-                                             .order = 800,
-                                             .setting_count = 4,
-                                             .settings = settings,
-                                             .shift = shift};
+static const mps_verb verbs[] = {
+    {.moment = MPS_SHIFT, .use_count = USES, .uses = uses, .run = shift_fluid}};
+
+const mps_model_ops mps__shift_tangential = {
+    .struct_size = sizeof(mps_model_ops),
+    .api = MPS_MODEL_API,
+    .name = "shift.tangential",
+    .help = "Shifts particles toward an even lattice, along free surfaces only",
+    .setting_count = SETTINGS,
+    .settings = settings,
+    .verb_count = 1,
+    .verbs = verbs};

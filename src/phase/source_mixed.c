@@ -1,27 +1,62 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mixed source, W22 (10): (1 - gamma) (div u*) / dt - gamma (n - n0)/(n0 dt^2), to the letter. */
+/* Mixed source, W22 (10) to the letter, W22: Wen, Zhao & Wan 2022:
+ *   (1 - gamma) (div u*)/dt - gamma (n - n0)/(n0 dt^2).
+ * Rows of the pressure equation are -<lap p>/rho, so the signs are turned. */
 #include "builtin.h"
 
-enum { GAMMA };
-static const mps_setting settings[] = {{"gamma", 0.01, 0.0, 1.0}};
+enum { GAMMA, SETTINGS };
+static const mps_setting settings[SETTINGS] = {
+    [GAMMA] = {"gamma", "-", "Weight of the number density against the divergence", MPS_TYPE_REAL,
+               0.01, 0.0, 1.0}};
 
-static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *terms)
+enum { VELOCITY, NUMBER_DENSITY, SOURCE, USES };
+static const mps_use uses[USES] = {[VELOCITY] = {"velocity", MPS_USE_NEIGHBOURS},
+                                   [NUMBER_DENSITY] = {"number_density", MPS_USE_READ},
+                                   [SOURCE] = {"pressure_source", MPS_USE_CHANGE}};
+
+typedef struct fields {
+    const double *divergence, *number_density;
+    double *source;
+    double rate; /* 1/dt */
+} fields;
+
+/* Pairs of walls count whole. */
+static int set_equation(mps_stage *s)
 {
-    (void)self;
-    double *div = mps_stage_scratch(s, s->n);
-    if (!div || mps_op_divergence(s->near, s->u, div) != MPS_OK) return 1;
-    const double n0 = s->near->n0, rate = 1.0 / s->dt;
-    /* rows are -<lap p>/rho: signs are turned */
-    for (int64_t i = 0; i < s->n; i++)
-        terms->rhs[i] += -(1.0 - k[GAMMA]) * rate * div[i] + k[GAMMA] * rate * rate * (s->number_density[i] - n0) / n0;
-    terms->wall_factor = 1;
+    s->equation->wall_factor = 1;
     return 0;
 }
 
-const mps_model_ops mps__source_mixed = {.struct_size = sizeof(mps_model_ops),
-                                         .api = MPS_MODEL_API,
-                                         .name = "source.mixed",
-                                         .order = 500,
-                                         .setting_count = 1,
-                                         .settings = settings,
-                                         .source = source};
+MPS_ROW void add_source(const int dim, const mps_stage *s, const fields *f, int64_t i)
+{
+    (void)dim;
+    const double n0 = s->near->n0, rate = f->rate, gamma = s->setting[GAMMA];
+    f->source[i] += -(1.0 - gamma) * rate * f->divergence[i] +
+                    gamma * rate * rate * (f->number_density[i] - n0) / n0;
+}
+MPS_ROWS(add_source_rows, add_source, fields)
+
+static int add_sources(mps_stage *s)
+{
+    double *divergence = mps_stage_scratch(s, s->n);
+    if (!divergence) return 1;
+    if (mps_op_divergence(s->near, s->data[VELOCITY], divergence) != MPS_OK)
+        return mps_stage_fail(s, "the divergence of the velocity cannot be summed");
+    fields f = {divergence, s->data[NUMBER_DENSITY], s->data[SOURCE], 1.0 / s->dt};
+    mps_stage_rows(s, add_source_rows, &f);
+    return 0;
+}
+
+static const mps_verb verbs[] = {
+    {.moment = MPS_CLASSIFY, .after = "wall", .run = set_equation},
+    {.moment = MPS_SOURCE, .use_count = USES, .uses = uses, .run = add_sources}};
+
+const mps_model_ops mps__source_mixed = {
+    .struct_size = sizeof(mps_model_ops),
+    .api = MPS_MODEL_API,
+    .name = "source.mixed",
+    .help = "Source of the pressure equation by divergence and number density",
+    .setting_count = SETTINGS,
+    .settings = settings,
+    .verb_count = 2,
+    .verbs = verbs};

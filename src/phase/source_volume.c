@@ -1,36 +1,105 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Source of the pressure equation for the scheme "imps":
- *   gain (delta/tau - Div(v))/dt,  Div_i = D/n0 sum w (v_j - v_i).B_i r_ij,
- * v the velocities relative to the reference motion: gravity and the tank's acceleration are in the body field b = g - a_tank, so
- * that hydrostatic and rigidly accelerated fluid is exact on any arrangement. Walls are free-slip: no-slip walls double the noise.
+ *   gain (delta/tau - Div(v))/dt,  Div_i = D/n0 sum w (v_j - v_i).B_i r_ij,  w = W/r^2,
+ * v the velocities relative to the reference motion. Gravity and the acceleration of the tank are
+ * in the body field b = g - a_tank, so that fluid at rest or rigidly accelerated is exact on any
+ * arrangement of particles. Walls are free-slip: no-slip walls double the noise.
  *
- * The gradient and this divergence are not made to undo each other exactly. In films of one or two particles on a wall, where B is
- * large in both, a full step overshoots more than twice and the error grows from step to step with changing sign: hence the gain below 1.
- * A steady pressure does not feel it, a change arrives 1/gain steps later. But the strain of the flow adds -dt T to Div(v) in every step,
- * T = tr((grad v)^2): if that waits too, every strained particle is compressed at the rate (1/gain - 1) dt T, and delta blows it up
- * again against the pressure of another time and place. It is known beforehand, so the share `forward` of it is asked for whole.
+ * gain: gradient and divergence are not exact inverses. In films of one or two particles on a wall,
+ * where B is large in both, a full step overshoots more than twice, and the error grows from step
+ * to step with alternating sign; hence the gain below 1. A steady pressure does not depend on the
+ * gain; a change arrives 1/gain steps later.
  *
- * delta is the volume deviation of mps_op_volume_deviation(), clipped and averaged. Its error follows the waves, so tau is long (20 tau_g):
- * a short one feeds them. What an impact compressed by per cents has to come back before the next: beyond `firm` the time falls to tau_g.
- * Gas that is torn or piled up by tens of per cents (`torn`) comes back in dt/`rapid`. The set-up itself has a delta beside walls that are not on
- * the lattice, 10 % where they slope by 45 degrees. Asked for at once it took twice the hydrostatic pressure in the first step; it comes on
- * over the first `start` tau_g instead.
+ * strain, forward: the strain of the flow adds -dt T to Div(v) in every step, T = tr((grad v)^2).
+ * If that is delayed by the gain too, strained particles are compressed at the rate
+ * (1/gain - 1) dt T, and delta expands them again against the pressure of another time and place.
+ * T is known beforehand, so the source asks for the share `forward` of it in full.
  *
- * Beside another density velocities of neighbours count by mass: the face between water and air moves with the water.
+ * delta is the volume deviation of mps_op_volume_deviation(), clipped and averaged.
+ *  - tau: the error of delta follows the waves, and a short tau feeds them; so it is 20 tau_g.
+ *  - firm: compression by per cents, after an impact, must be gone before the next impact. Beyond
+ *    `firm` the time falls to tau_g.
+ *  - torn, rapid: gas that is expanded or compressed by tens of per cents recovers in dt/`rapid`.
+ *  - start: the set-up has a delta beside walls that are not on the lattice, 10 % at slopes of 45
+ *    degrees. Corrected at once, it took twice the hydrostatic pressure in the first step. The
+ *    correction grows over the first `start` tau_g instead.
  *
- * A velocity that must go within a step takes a pressure ~ 1/dt. Gas squeezed out of a closing gap is ten times as fast as the water that
- * drives it, and makes the steps as short; so `pace` lets the denser fluids ask, in each step, for the share only that the step is of the
- * one their own speed would allow. Their pressures are then those of steps of that length. */
+ * Beside another density the velocities of neighbours count by mass: the face between water and air
+ * moves with the water.
+ *
+ * pace: a velocity that must vanish within a step takes a pressure ~ 1/dt. Gas squeezed out of a
+ * closing gap is ten times as fast as the water that drives it, and makes the steps as short. So
+ * the source of the dense fluid is scaled by dt over the dt that its own speed would allow. Its
+ * pressures are then those of steps of that length. */
 #include "builtin.h"
-#include <stdbool.h>
 
-enum { TAU, CLIP, STRAIN, GAIN, FIRM, RAPID, TORN, FORWARD, PACE, ASIDE, START };
-static const mps_setting settings[] = {{"tau", 20.0, 0.1, 1e6},    {"clip", 0.1, 0.0, 1.0},    {"strain", 1.0, 0.0, 1.0},
-                                       {"gain", 0.7, 0.05, 1.0},   {"firm", 0.03, 1e-3, 1.0},  {"rapid", 0.0, 0.0, 1.0},
-                                       {"torn", 0.15, 1e-3, 10.0}, {"forward", 0.0, 0.0, 1.0}, {"pace", 1.0, 0.0, 1.0},
-                                       {"aside", 1.0, 0.0, 1.0},   {"start", 5.0, 0.0, 1e6}};
+enum { TAU, CLIP, STRAIN, GAIN, FIRM, RAPID, TORN, FORWARD, PACE, ASIDE, START, SETTINGS };
+static const mps_setting settings[SETTINGS] = {
+    [TAU] = {"tau", "tau_g", "Relaxation time of small volume deviations", MPS_TYPE_REAL, 20.0, 0.1,
+             1e6},
+    [CLIP] = {"clip", "-", "Largest volume deviation that counts", MPS_TYPE_REAL, 0.1, 0.0, 1.0},
+    [STRAIN] = {"strain", "-", "Share of the strain of the flow that the source corrects",
+                MPS_TYPE_REAL, 1.0, 0.0, 1.0},
+    [GAIN] = {"gain", "-", "Share of the divergence that a step removes", MPS_TYPE_REAL, 0.7, 0.05,
+              1.0},
+    [FIRM] = {"firm", "-", "Volume deviation beyond which the relaxation time falls to tau_g",
+              MPS_TYPE_REAL, 0.03, 1e-3, 1.0},
+    [RAPID] = {"rapid", "-", "Share of a volume deviation beyond torn that a step removes",
+               MPS_TYPE_REAL, 0.0, 0.0, 1.0},
+    [TORN] = {"torn", "-", "Volume deviation beyond which rapid acts", MPS_TYPE_REAL, 0.15, 1e-3,
+              10.0},
+    [FORWARD] = {"forward", "-", "Share of the strain that is corrected in full despite the gain",
+                 MPS_TYPE_REAL, 0.0, 0.0, 1.0},
+    [PACE] = {"pace", "-", "1: the dense fluid's source is that of steps by its own speed; 0: not",
+              MPS_TYPE_REAL, 1.0, 0.0, 1.0},
+    [ASIDE] = {"aside", "-", "1: no slow relaxation where half a volume is solid; 0: no change",
+               MPS_TYPE_REAL, 1.0, 0.0, 1.0},
+    [START] = {"start", "tau_g", "Time over which the relaxation grows at the start", MPS_TYPE_REAL,
+               5.0, 0.0, 1e6}};
 
-/* fmax() and fmin() as one instruction: `b` may be NaN and does not count then. */
+enum {
+    VELOCITY,
+    DENSITY,
+    REGION,
+    TANK_ACCELERATION,
+    VOLUME_DEVIATION,
+    PRESSURE_DENSITY,
+    CORRECTION,
+    SOURCE,
+    USES
+};
+static const mps_use uses[USES] = {[VELOCITY] = {"velocity", MPS_USE_READ},
+                                   [DENSITY] = {"density", MPS_USE_NEIGHBOURS},
+                                   [REGION] = {"region", MPS_USE_NEIGHBOURS},
+                                   [TANK_ACCELERATION] = {"tank_acceleration", MPS_USE_READ},
+                                   [VOLUME_DEVIATION] = {"volume_deviation", MPS_USE_READ},
+                                   [PRESSURE_DENSITY] = {"pressure_density", MPS_USE_READ},
+                                   [CORRECTION] = {"correction", MPS_USE_READ},
+                                   [SOURCE] = {"pressure_source", MPS_USE_CHANGE}};
+
+/* Share of the source that a step asks for, by density: 1 for the lightest fluid, `heavy` for the
+ * heaviest. span: difference of their densities. */
+typedef struct pacing {
+    double lightest, span, heavy;
+} pacing;
+
+typedef struct fields {
+    const double *velocity, *density, *tank_acceleration, *volume_deviation, *pressure_density;
+    const double *correction;
+    const int32_t *region;
+    double *source;
+    double *is_solid, *solid; /* [n] 1 for solids, their share in the volume about a particle */
+    double *delta;            /* [n] clipped volume deviation */
+    double *relative;         /* [n*dim] relative velocity */
+    double *v;                /* [n*dim] the same with walls that slip */
+    int32_t whole;            /* last region with a whole far kernel */
+    double strain;            /* share of dt T */
+    double own;               /* weight of a particle's own delta in the kernel mean */
+    double rate, over, on;    /* 1/tau_g, 1/dt, share of the relaxation at the start */
+    pacing pace;
+} fields;
+
+/* fmax() and fmin() as one instruction; `b` may be NaN and does not count then. */
 static inline double larger(double a, double b)
 {
     return b > a ? b : a;
@@ -40,107 +109,124 @@ static inline double smaller(double a, double b)
     return b < a ? b : a;
 }
 
-/* delta of each fluid particle, never negative near the surface, where the kernel is cut. The second band has no surface particle within the near
- * radius: a kernel that reaches half a spacing farther at most is whole there. */
-static void volume_deviation(const double *k, const mps_stage *s, double *delta)
+/* delta of a fluid particle; not negative near the surface, where the kernel is cut off. The region
+ * SECOND has no surface particle within the near radius: there a kernel that reaches at most half a
+ * spacing farther is whole. */
+MPS_ROW double clipped_deviation(const mps_stage *s, const fields *f, int64_t i)
 {
-    const int32_t whole = s->far->re <= s->near->re + 0.5 * s->dp ? MPS_REGION_SECOND : MPS_REGION_INNER;
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_FLUID || s->region[i] >= MPS_REGION_SURFACE) continue;
-        double v = s->volume[i];
-        if (s->region[i] > whole && v < 0) v = 0;
-        delta[i] = smaller(k[CLIP], larger(-k[CLIP], v));
+    const double clip = s->setting[CLIP];
+    double v = f->volume_deviation[i];
+    if (f->region[i] > f->whole && v < 0) v = 0;
+    return smaller(clip, larger(-clip, v));
+}
+
+/* Fills is_solid, delta, and v: of fluid as if it moved with the tank during this step, without
+ * gravity and pressure; of walls their velocity in this step. */
+MPS_ROW void prepare(const int dim, const mps_stage *s, const fields *f, int64_t i)
+{
+    const bool fluid = s->kind[i] == MPS_FLUID;
+    f->is_solid[i] = !fluid;
+    if (fluid && f->region[i] < MPS_REGION_SURFACE) f->delta[i] = clipped_deviation(s, f, i);
+    for (int d = 0; d < dim; d++) {
+        const int64_t k = i * dim + d;
+        const double body = s->g[d] - f->tank_acceleration[k];
+        f->relative[k] = f->velocity[k] - (fluid ? s->dt * body : 0.0);
     }
 }
+MPS_ROWS(prepare_rows, prepare, fields)
 
-/* v: fluid as if it moved with the tank during this step, without gravity and pressure; walls with the velocity of this step. */
-static void relative_velocity(const mps_stage *s, double *v)
-{
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++)
-        for (int d = 0; d < s->dim; d++) {
-            const int64_t k = i * s->dim + d;
-            v[k] = s->u[k] - (s->kind[i] == MPS_FLUID ? s->dt * (s->g[d] - s->tank_accel[k]) : 0.0);
-        }
-}
-
-/* Share of a neighbour's velocity in that of the face between: by mass, so that water does not see what the air beside it does. With it
- * the divergence is the adjoint of a pressure gradient over rho_ij. */
-static inline double face_share(const mps_stage *s, int64_t i, int64_t j)
+/* Share of a neighbour's velocity in that of the face between both: by mass, so that water does not
+ * respond to the air beside it. With it the divergence is the adjoint of a pressure gradient over
+ * rho_ij. */
+static inline double face_share(const mps_stage *s, const double *rho, int64_t i, int64_t j)
 {
     if (s->phase[i] == s->phase[j] || s->kind[j] != MPS_FLUID) return 1.0;
-    return 2.0 * s->density[j] / (s->density[i] + s->density[j]);
+    return 2.0 * rho[j] / (rho[i] + rho[j]);
 }
 
-/* Free slip: a wall particle keeps its velocity along its normal and takes that of the fluid about it along the face. */
-MPS__ROW void slip_row(const int dim, const mps_stage *s, const double *v, int64_t i, double *slipped)
+/* Free slip: a wall particle keeps its velocity along its normal and takes that of the fluid about
+ * it along the face. */
+MPS_ROW void slip_wall(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
     const mps_stencil *t = s->near;
-    double sum[3] = {0}, weight = 0, size = 0, largest = 0;
+    const double *v = f->relative, *area = s->area + i * dim;
+    double sum[3] = {0}, weight = 0, size = 0, largest = 0, normal = 0;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         if (s->kind[t->col[p]] != MPS_FLUID) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        const double mass = q.w * s->density[q.j];
+        const double mass = q.w * f->density[q.j];
         weight += mass;
         for (int d = 0; d < dim; d++) sum[d] += mass * (v[q.j * dim + d] - v[i * dim + d]);
     }
-    const double *area = s->area + i * dim;
     for (int d = 0; d < dim; d++) size += area[d] * area[d];
     for (int d = 0; d < dim; d++) largest = fmax(largest, fabs(area[d]));
     if (weight == 0 || size == 0) return;
-    double normal = 0;
     for (int d = 0; d < dim; d++) normal += sum[d] / weight * area[d] / sqrt(size);
-    /* where faces of the lattice meet (half a cell of each) there is no free direction in 2-D, and only the edge in 3-D */
+    /* where faces of the lattice meet (half a cell of each) no direction is free in 2-D, and only
+     * the edge in 3-D */
     if (dim == 2 && size > 1.5 * largest * largest && size < 0.6 * s->dp * s->dp) return;
-    for (int d = 0; d < dim; d++) slipped[i * dim + d] += sum[d] / weight - normal * area[d] / sqrt(size);
+    for (int d = 0; d < dim; d++)
+        f->v[i * dim + d] += sum[d] / weight - normal * area[d] / sqrt(size);
 }
 
-static void slip(const mps_stage *s, const double *v, double *slipped)
+MPS_ROW void slip(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
-    const int dim = s->dim;
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) {
-        for (int d = 0; d < dim; d++) slipped[i * dim + d] = v[i * dim + d];
-        if (s->kind[i] == MPS_WALL && s->region[i] != MPS_REGION_DRY) MPS__ROW_CALL(s, slip_row, s, v, i, slipped);
-    }
+    for (int d = 0; d < dim; d++) f->v[i * dim + d] = f->relative[i * dim + d];
+    if (s->kind[i] == MPS_WALL && f->region[i] != MPS_REGION_DRY) slip_wall(dim, s, f, i);
 }
+MPS_ROWS(slip_rows, slip, fields)
 
 /* B_i with the shares of faces, for a particle beside another density. */
-MPS__ROW void face_correction(const int dim, const mps_stage *s, int64_t i, double *b)
+MPS_ROW void face_correction(const int dim, const mps_stage *s, const fields *f, int64_t i,
+                             double *b)
 {
     const mps_stencil *t = s->near;
     double m[9] = {0};
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        if (s->region[t->col[p]] >= MPS_REGION_SPRAY) continue;
+        if (f->region[t->col[p]] >= MPS_REGION_SPRAY) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        const double share = dim / t->n0 * face_share(s, i, q.j) * q.w_r2;
+        const double share = dim / t->n0 * face_share(s, f->density, i, q.j) * q.w_r2;
         for (int d = 0; d < dim; d++)
             for (int e = 0; e < dim; e++) m[d * dim + e] += share * q.d[d] * q.d[e];
     }
     mps_matrix_inverse_bounded(dim, m, 0.5, b);
 }
 
-/* What the source of a fluid particle is made of. */
-typedef struct fields {
-    const double *v, *delta; /* [n*dim], [n] */
-    double strain, own;      /* own: weight of a particle's own delta in the kernel mean */
-} fields;
+/* Divergence less `strain` dt T, from g = sum w (v_j - v_i) (x) r_ij and B_i. */
+MPS_ROW double strained_divergence(const int dim, const mps_stencil *t, const double *g,
+                                   const double *b, double strain)
+{
+    double a[9] = {0}, sum = 0, square = 0; /* a = grad v */
+    for (int d = 0; d < dim; d++)
+        for (int e = 0; e < dim; e++)
+            for (int f = 0; f < dim; f++)
+                a[d * dim + e] += dim / t->n0 * g[d * dim + f] * b[f * dim + e];
+    for (int d = 0; d < dim; d++) {
+        sum += a[d * dim + d];
+        for (int e = 0; e < dim; e++) square += a[d * dim + e] * a[e * dim + d];
+    }
+    return sum - strain * square;
+}
 
-/* Divergence of a fluid particle, with B_i, less `strain` dt T: the move x + dt v changes volumes by dt div v - dt^2 T/2 + ..., so
- * div v = dt T/2 is wanted after the step; before it strain = 1/gain - 1/2 asks for T beyond the gain as well. With zero instead every
- * strained particle is compressed at the rate (1/gain - 1/2) dt T and blown up again by delta against the pressure. Also the kernel mean of delta over
- * the fluid: its noise at the grid scale must not reach the pressure. */
-MPS__ROW double fluid_divergence(const int dim, const mps_stage *stage, const fields *of, int64_t i, double *deviation)
+/* Divergence of a fluid particle less `strain` dt T. Moving particles from x to x + dt v changes
+ * volumes by dt div v - dt^2 T/2 + ..., so div v = dt T/2 is wanted after the step; before the step
+ * strain = 1/gain - 1/2 asks for T beyond the gain as well. With strain 0 strained particles are
+ * compressed at the rate (1/gain - 1/2) dt T, and delta expands them again against the pressure.
+ * deviation: out, kernel mean of delta over the fluid: noise of delta at the scale of the lattice
+ * must not reach the pressure. */
+MPS_ROW double fluid_divergence(const int dim, const mps_stage *stage, const fields *given,
+                                int64_t i, double *deviation)
 {
     const mps_stage copy = *stage, *s = &copy;
+    const fields local = *given, *f = &local;
     const mps_stencil near = *s->near, *t = &near;
-    const double *v = of->v, *delta = of->delta, self = of->own;
-    double g[9] = {0}, sum = 0, own[9]; /* g = sum w (v_j - v_i) (x) r_ij */
+    const double *v = f->v, *delta = f->delta, self = f->own;
+    double g[9] = {0}, own[9];
     double deltas = self * delta[i], weight = self;
     bool mixed = false;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const bool fluid = s->kind[t->col[p]] == MPS_FLUID, apart = s->region[t->col[p]] >= MPS_REGION_SPRAY;
+        const bool fluid = s->kind[t->col[p]] == MPS_FLUID;
+        const bool apart = f->region[t->col[p]] >= MPS_REGION_SPRAY;
         if (apart && !fluid) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         if (fluid) {
@@ -148,7 +234,7 @@ MPS__ROW double fluid_divergence(const int dim, const mps_stage *stage, const fi
             weight += q.w;
         }
         if (apart) continue;
-        const double share = face_share(s, i, q.j), w = share * q.w_r2;
+        const double share = face_share(s, f->density, i, q.j), w = share * q.w_r2;
         mixed = mixed || share != 1.0;
         for (int d = 0; d < dim; d++) {
             const double rate = w * (v[q.j * dim + d] - v[i * dim + d]);
@@ -156,51 +242,57 @@ MPS__ROW double fluid_divergence(const int dim, const mps_stage *stage, const fi
         }
     }
     *deviation = deltas / weight;
-    const double *b = s->correction + i * dim * dim;
+    const double *b = f->correction + i * dim * dim;
     if (mixed) {
-        face_correction(dim, stage, i, own);
+        face_correction(dim, stage, given, i, own);
         b = own;
     }
-    double a[9] = {0}, square = 0; /* a = grad v */
-    for (int d = 0; d < dim; d++)
-        for (int e = 0; e < dim; e++)
-            for (int f = 0; f < dim; f++) a[d * dim + e] += dim / t->n0 * g[d * dim + f] * b[f * dim + e];
-    for (int d = 0; d < dim; d++) {
-        sum += a[d * dim + d];
-        for (int e = 0; e < dim; e++) square += a[d * dim + e] * a[e * dim + d];
-    }
-    return sum - of->strain * s->dt * square;
+    return strained_divergence(dim, t, g, b, f->strain * s->dt);
 }
 
-/* Speed below which a step is 0.06 tau_g; beyond it 0.3 dp/u. */
+/* Speed below which a step is 0.06 tau_g; above it a step is 0.3 dp/u. */
 static inline double calm_speed(const mps_stage *s)
 {
     return 0.3 / 0.06 * s->velocity_scale;
 }
 
-/* Largest speed against a wall particle of the fluid about it that is as dense as the wall's row, calm water's at least. */
-MPS__ROW double wall_speed(const int dim, const mps_stage *s, const double *v, int64_t i)
+/* True for fluid that is much lighter than the row of wall particle i. */
+static inline bool lighter(const mps_stage *s, const fields *f, int64_t i, int64_t j)
+{
+    return s->kind[j] == MPS_FLUID && f->density[j] < 0.5 * f->pressure_density[i];
+}
+
+/* Largest speed relative to wall particle i of the fluid about it that is as dense as its row; at
+ * least that of calm water. */
+MPS_ROW double wall_speed(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
     const mps_stencil *t = s->near;
+    const double *v = f->v;
     double most = calm_speed(s) * calm_speed(s);
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         const int64_t j = t->col[p];
-        if (s->kind[j] != MPS_FLUID || s->density[j] < 0.5 * s->density_smooth[i] || s->region[j] >= MPS_REGION_SPRAY) continue;
+        if (s->kind[j] != MPS_FLUID || lighter(s, f, i, j)) continue;
+        if (f->region[j] >= MPS_REGION_SPRAY) continue;
         double square = 0;
-        for (int d = 0; d < dim; d++) square += (v[j * dim + d] - v[i * dim + d]) * (v[j * dim + d] - v[i * dim + d]);
+        for (int d = 0; d < dim; d++) {
+            const double rate = v[j * dim + d] - v[i * dim + d];
+            square += rate * rate;
+        }
         most = fmax(most, square);
     }
     return sqrt(most);
 }
 
-/* Divergence of the half cell of a wall particle; weights as in its row of the pressure equation. Where gas and water share the cell, gas
- * counts with the speed of the water at most: one that shoots along the wall would set the pressure of the water there. */
-MPS__ROW double wall_divergence(const int dim, const mps_stage *s, const double *v, int64_t i, double wall_factor)
+/* Divergence of the half cell of a wall particle, with the weights of its row of the pressure
+ * equation. Where gas and water share the cell, the speed of the gas is limited to that of the
+ * water: otherwise gas that shoots along the wall would set the pressure of the water there. */
+MPS_ROW double wall_divergence(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
     const mps_stencil *t = s->near;
+    const double *v = f->v;
     double sum = 0, limit = 0;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        if (s->region[t->col[p]] >= MPS_REGION_SPRAY) continue;
+        if (f->region[t->col[p]] >= MPS_REGION_SPRAY) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         double flux = 0, square = 0, share = 1.0;
         for (int d = 0; d < dim; d++) {
@@ -208,96 +300,137 @@ MPS__ROW double wall_divergence(const int dim, const mps_stage *s, const double 
             flux += rate * q.d[d];
             square += rate * rate;
         }
-        if (s->kind[q.j] == MPS_FLUID && s->density[q.j] < 0.5 * s->density_smooth[i]) {
-            if (limit == 0) limit = wall_speed(dim, s, v, i);
+        if (lighter(s, f, i, q.j)) {
+            if (limit == 0) limit = wall_speed(dim, s, f, i);
             if (square > limit * limit) share = limit / sqrt(square);
         }
-        sum += q.w_r2 * flux * (s->kind[q.j] == MPS_WALL ? wall_factor * fmin(s->wet[i], s->wet[q.j]) : share);
+        if (s->kind[q.j] == MPS_WALL) share = mps_flux_wall_share(s->flux, i, q.j);
+        sum += q.w_r2 * flux * share;
     }
     return dim / t->n0 * sum;
 }
 
-/* 1/tau, up to 1/tau_g where delta is beyond `firm`, and up to `most` more where it is beyond `torn`. */
+/* tau_g over the relaxation time of delta: tau_g/tau (times `open`), up to 1 where delta is beyond
+ * `firm`, and up to `most` more where it is beyond `torn`. */
 static inline double relaxation(const double *k, double delta, double open, double most)
 {
-    const double square = delta * delta / (k[FIRM] * k[FIRM]), torn = delta * delta / (k[TORN] * k[TORN]);
-    return smaller(1.0, (open + square * square) / k[TAU]) + smaller(1.0, torn * torn) * most;
+    const double firm = delta * delta / (k[FIRM] * k[FIRM]);
+    const double torn = delta * delta / (k[TORN] * k[TORN]);
+    return smaller(1.0, (open + firm * firm) / k[TAU]) + smaller(1.0, torn * torn) * most;
 }
 
-/* Share of the source that a step asks for, by density: 1 for the lightest fluid, `heavy` for the heaviest. */
-typedef struct pacing {
-    double lightest, span, heavy;
-} pacing;
-
-static pacing set_pace(const mps_stage *s, double on)
+/* Maxima over the fluid: of the negative of the density, of the density. */
+MPS_ROW void raise_density(const int dim, const mps_stage *s, const fields *f, int64_t i,
+                           double *most)
 {
-    double lightest = INFINITY, heaviest = 0, dense = 0, any = 0;
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_FLUID) continue;
-        lightest = smaller(lightest, s->density[i]);
-        heaviest = larger(heaviest, s->density[i]);
-    }
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_FLUID || s->region[i] >= MPS_REGION_SURFACE) continue;
-        double square = 0;
-        for (int d = 0; d < s->dim; d++) square += s->u[i * s->dim + d] * s->u[i * s->dim + d];
-        any = larger(any, square);
-        if (s->density[i] > lightest) dense = larger(dense, square);
-    }
-    const double share = fmax(sqrt(dense), calm_speed(s)) / fmax(sqrt(any), calm_speed(s));
-    return (pacing){lightest, heaviest - lightest, heaviest > lightest ? 1.0 - on * (1.0 - share) : 1.0};
+    (void)dim;
+    if (s->kind[i] != MPS_FLUID) return;
+    most[0] = larger(most[0], -f->density[i]);
+    most[1] = larger(most[1], f->density[i]);
+}
+MPS_SUMS(raise_density_rows, raise_density, fields)
+
+/* Maxima of |u|^2: of fluid denser than the lightest, of all fluid. */
+MPS_ROW void raise_speed(const int dim, const mps_stage *s, const fields *f, int64_t i,
+                         double *most)
+{
+    if (s->kind[i] != MPS_FLUID || f->region[i] >= MPS_REGION_SURFACE) return;
+    double square = 0;
+    for (int d = 0; d < dim; d++) square += f->velocity[i * dim + d] * f->velocity[i * dim + d];
+    most[1] = larger(most[1], square);
+    if (f->density[i] > f->pace.lightest) most[0] = larger(most[0], square);
+}
+MPS_SUMS(raise_speed_rows, raise_speed, fields)
+
+static void set_pace(const mps_stage *s, fields *f)
+{
+    double rho[2], fastest[2];
+    mps_stage_max(s, 2, raise_density_rows, f, rho);
+    f->pace = (pacing){-rho[0], rho[1] + rho[0], 1.0};
+    if (!(rho[1] > -rho[0])) return;
+    mps_stage_max(s, 2, raise_speed_rows, f, fastest);
+    const double dense = sqrt(larger(0, fastest[0])), any = sqrt(larger(0, fastest[1]));
+    const double share = fmax(dense, calm_speed(s)) / fmax(any, calm_speed(s));
+    f->pace.heavy = 1.0 - s->setting[PACE] * (1.0 - share);
 }
 
-static inline double row_pace(const pacing *p, const mps_stage *s, int64_t i)
+static inline double row_pace(const mps_stage *s, const fields *f, int64_t i)
 {
-    if (p->heavy == 1.0) return 1.0;
-    const double rho = s->kind[i] == MPS_FLUID ? s->density[i] : s->density_smooth[i];
-    return 1.0 - (1.0 - p->heavy) * (rho - p->lightest) / p->span;
+    if (f->pace.heavy == 1.0) return 1.0;
+    const double rho = s->kind[i] == MPS_FLUID ? f->density[i] : f->pressure_density[i];
+    return 1.0 - (1.0 - f->pace.heavy) * (rho - f->pace.lightest) / f->pace.span;
 }
 
-static int source(void *self, const double *k, mps_stage *s, mps_ppe_terms *terms)
+MPS_ROW void add_source(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
-    (void)self;
-    double *delta = mps_stage_scratch(s, s->n), *v = mps_stage_scratch(s, s->n * s->dim), *w = mps_stage_scratch(s, s->n * s->dim);
-    double *is = mps_stage_scratch(s, s->n), *solid = mps_stage_scratch(s, s->n);
-    if (!delta || !v || !w || !is || !solid) return 1;
-    for (int64_t i = 0; i < s->n; i++) is[i] = s->kind[i] != MPS_FLUID;
-    mps_op_volume_sum(s->far, is, solid);
-    const double rate = s->velocity_scale / s->dp, over = 1.0 / s->dt;
-    const mps_stencil *t = s->near;
-    const fields f = {.v = w,
-                      .delta = delta,
-                      .strain = k[STRAIN] * (0.5 + k[FORWARD] * (1.0 / k[GAIN] - 1.0)),
-                      .own = 0.5 * mps_kernel_weight(&t->kernel, t->kernel.id == MPS_KERNEL_IMPROVED ? 0.0 : 0.5 * s->dp, t->re)};
-    terms->gain = k[GAIN];
-    terms->radius = MPS_NEAR;
-    const pacing pace = set_pace(s, k[PACE]);
-    const double on = k[START] > 0 ? smaller(1.0, s->t * rate / k[START]) : 1.0;
-    volume_deviation(k, s, delta);
-    relative_velocity(s, v);
-    slip(s, v, w);
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) {
-        for (int d = 0; d < s->dim; d++) terms->body[i * s->dim + d] += s->g[d] - s->tank_accel[i * s->dim + d];
-        if (s->region[i] >= MPS_REGION_SURFACE) continue;
-        const double share = row_pace(&pace, s, i);
-        if (s->kind[i] == MPS_FLUID) {
-            double mean;
-            const double divergence = MPS__ROW_CALL(s, fluid_divergence, s, &f, i, &mean);
-            const double back = on * rate *
-                                relaxation(k, mean, larger(0.0, 1.0 - 2.0 * k[ASIDE] * solid[i]), share * k[RAPID] / (s->dt * rate)) * mean;
-            terms->rhs[i] += share * over * (back - divergence);
-        } else {
-            terms->rhs[i] -= share * over * MPS__ROW_CALL(s, wall_divergence, s, w, i, terms->wall_factor);
-        }
+    if (f->region[i] >= MPS_REGION_SURFACE) return;
+    const double *k = s->setting, share = row_pace(s, f, i);
+    if (s->kind[i] == MPS_FLUID) {
+        double mean;
+        const double divergence = fluid_divergence(dim, s, f, i, &mean);
+        const double open = larger(0.0, 1.0 - 2.0 * k[ASIDE] * f->solid[i]);
+        const double most = share * k[RAPID] / (s->dt * f->rate);
+        const double back = f->on * f->rate * relaxation(k, mean, open, most) * mean;
+        f->source[i] += share * f->over * (back - divergence);
+    } else {
+        f->source[i] -= share * f->over * wall_divergence(dim, s, f, i);
     }
+}
+MPS_ROWS(add_source_rows, add_source, fields)
+
+static int set_equation(mps_stage *s)
+{
+    s->equation->gain = s->setting[GAIN];
+    s->equation->radius = MPS_NEAR;
+    s->equation->body = 1;
     return 0;
 }
 
-const mps_model_ops mps__source_volume = {.struct_size = sizeof(mps_model_ops),
-                                          .api = MPS_MODEL_API,
-                                          .name = "source.volume",
-                                          .order = 500,
-                                          .setting_count = 11,
-                                          .settings = settings,
-                                          .source = source};
+static int add_sources(mps_stage *s)
+{
+    const double *k = s->setting, rate = s->velocity_scale / s->dp;
+    const mps_stencil *t = s->near;
+    const double r = t->kernel.id == MPS_KERNEL_IMPROVED ? 0.0 : 0.5 * s->dp;
+    const bool far = s->far->re > t->re + 0.5 * s->dp;
+    fields f = {.velocity = s->data[VELOCITY],
+                .density = s->data[DENSITY],
+                .tank_acceleration = s->data[TANK_ACCELERATION],
+                .volume_deviation = s->data[VOLUME_DEVIATION],
+                .pressure_density = s->data[PRESSURE_DENSITY],
+                .correction = s->data[CORRECTION],
+                .region = s->data[REGION],
+                .source = s->data[SOURCE],
+                .is_solid = mps_stage_scratch(s, s->n),
+                .solid = mps_stage_scratch(s, s->n),
+                .delta = mps_stage_scratch(s, s->n),
+                .relative = mps_stage_scratch(s, s->n * s->dim),
+                .v = mps_stage_scratch(s, s->n * s->dim),
+                .whole = far ? MPS_REGION_INNER : MPS_REGION_SECOND,
+                .strain = k[STRAIN] * (0.5 + k[FORWARD] * (1.0 / k[GAIN] - 1.0)),
+                .own = 0.5 * mps_kernel_weight(&t->kernel, r, t->re),
+                .rate = rate,
+                .over = 1.0 / s->dt,
+                .on = k[START] > 0 ? smaller(1.0, s->t * rate / k[START]) : 1.0};
+    if (!f.is_solid || !f.solid || !f.delta || !f.relative || !f.v) return 1;
+    set_pace(s, &f);
+    mps_stage_rows(s, prepare_rows, &f);
+    if (mps_op_volume_sum(s->far, f.is_solid, f.solid) != MPS_OK)
+        return mps_stage_fail(s, "the volumes of the solids cannot be summed");
+    mps_stage_rows(s, slip_rows, &f);
+    mps_stage_rows(s, add_source_rows, &f);
+    return 0;
+}
+
+static const mps_verb verbs[] = {
+    {.moment = MPS_CLASSIFY, .run = set_equation},
+    {.moment = MPS_SOURCE, .use_count = USES, .uses = uses, .run = add_sources}};
+
+const mps_model_ops mps__source_volume = {
+    .struct_size = sizeof(mps_model_ops),
+    .api = MPS_MODEL_API,
+    .name = "source.volume",
+    .help = "Source of the pressure equation by divergence and volume deviation",
+    .setting_count = SETTINGS,
+    .settings = settings,
+    .verb_count = 2,
+    .verbs = verbs};

@@ -1,21 +1,28 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What models of surface tension share: the curvature of contours, W22 (21)-(23), by the first and second derivatives at i of
- *   f(x) = sum C_j G / sum G,  G = exp(-9 r^2/rs^2),  kappa = div(grad f/|grad f|).
- * Here C_j = 0 for the phase of i and 1 for all others: between two phases the factor of (20) cancels in kappa. kappa is positive
- * where the interface bends around i's own phase, so that the pressure is higher inside of a drop; W22 (22) has the other sign,
- * with which drops would swell. Where three phases meet each one sees the contour between itself and all others.
- * Solids belong to no phase: fluid alone makes f, which is a contact angle of 90 degrees. f sees through thin plates.
+/* Curvature of interfaces by contours, W22 (21)-(23), W22: Wen, Zhao & Wan 2022: from the first and
+ * second derivatives at i of
+ *   f(x) = sum C_j G / sum G,  G = exp(-9 r^2/r_s^2),  kappa = div(grad f/|grad f|).
+ * C_j = 0 for the phase of i and 1 for all others: between two phases the factor of (20) cancels in
+ * kappa. kappa is positive if the interface bends around i's own phase, so that the pressure is
+ * higher inside a drop; with the sign of W22 (22) drops would swell. Where three phases meet, each
+ * one sees the contour between itself and all others. Solids have no phase: fluid alone makes f,
+ * which is a contact angle of 90 degrees. Thin plates do not cut f off.
  *
- * rs decides the noise: kappa is a second derivative of steps. Circle of radius 10.5 dp cut from a
- * lattice, mean of kappa weighted by |grad C| and its scatter from particle to particle: rs = 4.1: +0.9 %, 150 %; 6.1: +0.4 %, 57 %;
- * 8.1: +0.2 %, 28 %; 10.1: 0, 16 %; 12.1: -0.1 %, 9 %; the same on a disordered lattice. Sphere of 6.3 dp: 4.1: +0.4 %, 40 %; 6.1: -0.2 %,
- * 12 %; 8.1: -0.5 %, 5 %. Films and drops thinner than about rs/2 are smeared.
- * rs is larger than the radii of the simulation: neighbours are found by a grid of cells of side rs. */
+ * r_s decides the noise, as kappa is a second derivative of steps. Circle of radius 10.5 dp cut
+ * from a lattice: error of the mean of kappa weighted by |grad C|, and scatter between particles.
+ * A disordered lattice gives the same. Films and drops thinner than about r_s/2 are smeared.
+ *   r_s/dp              4.1     6.1     8.1    10.1    12.1
+ *   circle, mean     +0.9 %  +0.4 %  +0.2 %    0     -0.1 %
+ *   circle, scatter   150 %    57 %    28 %   16 %      9 %
+ *   sphere of 6.3 dp, mean      +0.4 %  -0.2 %  -0.5 %
+ *   sphere of 6.3 dp, scatter     40 %    12 %     5 %
+ *
+ * r_s is larger than the radii of the simulation: a grid of cells of side r_s finds neighbours. */
 #include "tension.h"
 
-/* Fluid by cells, the cells by a hash: chains of particles. Indices are kept as doubles, which scratch is made of. */
+/* Fluid particles by cells, the cells by a hash: chains of particles in ascending order. */
 typedef struct cell_grid {
-    double *first, *next; /* [buckets], [n]: index + 1; 0: none */
+    int32_t *first, *next; /* [buckets], [n]: row + 1; 0: none */
     int64_t buckets;
     double side;
 } cell_grid;
@@ -25,38 +32,49 @@ typedef struct contour_sums {
     double g, g1[3], g2[9], c, c1[3], c2[9];
 } contour_sums;
 
-static void cell_of(const mps_stage *s, const cell_grid *grid, int64_t i, int64_t cell[3])
+typedef struct fields {
+    cell_grid grid;
+    const mps_stencil *pairs;
+    double threshold;
+    double *kappa;
+} fields;
+
+static inline void cell_of(const int dim, const mps_stage *s, const cell_grid *grid, int64_t i,
+                           int64_t cell[3])
 {
     cell[2] = 0;
-    for (int d = 0; d < s->dim; d++) cell[d] = (int64_t)floor(s->x[i * s->dim + d] / grid->side);
+    for (int d = 0; d < dim; d++) cell[d] = (int64_t)floor(s->x[i * dim + d] / grid->side);
 }
 
-static int64_t bucket_of(const cell_grid *grid, const int64_t cell[3])
+static inline int64_t bucket_of(const cell_grid *grid, const int64_t cell[3])
 {
-    const uint64_t h = (uint64_t)cell[0] * UINT64_C(73856093) ^ (uint64_t)cell[1] * UINT64_C(19349663) ^
+    const uint64_t h = (uint64_t)cell[0] * UINT64_C(73856093) ^
+                       (uint64_t)cell[1] * UINT64_C(19349663) ^
                        (uint64_t)cell[2] * UINT64_C(83492791);
     return (int64_t)(h % (uint64_t)grid->buckets);
 }
 
-/* False when memory is out. */
-static bool build_grid(mps_stage *s, cell_grid *grid)
+/* Returns non-zero without memory. The one serial loop over particles here: each row may change the
+ * chain of any bucket. */
+static int build_grid(mps_stage *s, cell_grid *grid)
 {
     grid->buckets = s->n;
-    grid->first = mps_stage_scratch(s, grid->buckets);
-    grid->next = mps_stage_scratch(s, s->n);
-    if (!grid->first || !grid->next) return false;
+    grid->first = mps_stage_scratch_integers(s, grid->buckets);
+    grid->next = mps_stage_scratch_integers(s, s->n);
+    if (!grid->first || !grid->next) return 1;
     for (int64_t i = s->n - 1; i >= 0; i--) {
         int64_t cell[3];
         if (s->kind[i] != MPS_FLUID) continue;
-        cell_of(s, grid, i, cell);
+        cell_of(s->dim, s, grid, i, cell);
         const int64_t b = bucket_of(grid, cell);
         grid->next[i] = grid->first[b];
-        grid->first[b] = (double)(i + 1);
+        grid->first[b] = (int32_t)(i + 1);
     }
-    return true;
+    return 0;
 }
 
-MPS__ROW void add_neighbour(const int dim, const mps_stage *s, double decay, int64_t i, int64_t j, contour_sums *m)
+MPS_ROW void add_neighbour(const int dim, const mps_stage *s, double decay, int64_t i, int64_t j,
+                           contour_sums *m)
 {
     double r[3], r2 = 0;
     for (int d = 0; d < dim; d++) {
@@ -79,28 +97,30 @@ MPS__ROW void add_neighbour(const int dim, const mps_stage *s, double decay, int
     }
 }
 
-static void collect(const mps_stage *s, const cell_grid *grid, int64_t i, contour_sums *m)
+MPS_ROW void collect(const int dim, const mps_stage *s, const cell_grid *grid, int64_t i,
+                     contour_sums *m)
 {
     const double decay = 9.0 / (grid->side * grid->side);
-    const int cells = s->dim == 2 ? 9 : 27;
+    const int cells = dim == 2 ? 9 : 27;
     int64_t home[3];
     *m = (contour_sums){0};
-    cell_of(s, grid, i, home);
+    cell_of(dim, s, grid, i, home);
     for (int k = 0; k < cells; k++) {
-        const int64_t cell[3] = {home[0] + k % 3 - 1, home[1] + k / 3 % 3 - 1, s->dim == 3 ? home[2] + k / 9 - 1 : 0};
-        for (int64_t j = (int64_t)grid->first[bucket_of(grid, cell)] - 1; j >= 0; j = (int64_t)grid->next[j] - 1) {
+        const int64_t cell[3] = {home[0] + k % 3 - 1, home[1] + k / 3 % 3 - 1,
+                                 dim == 3 ? home[2] + k / 9 - 1 : 0};
+        for (int64_t j = grid->first[bucket_of(grid, cell)] - 1; j >= 0; j = grid->next[j] - 1) {
             int64_t of[3];
-            cell_of(s, grid, j, of); /* other cells may share the bucket */
-            if (of[0] == cell[0] && of[1] == cell[1] && of[2] == cell[2]) MPS__ROW_CALL(s, add_neighbour, s, decay, i, j, m);
+            cell_of(dim, s, grid, j, of); /* other cells may share the bucket */
+            if (of[0] != cell[0] || of[1] != cell[1] || of[2] != cell[2]) continue;
+            add_neighbour(dim, s, decay, i, j, m);
         }
     }
 }
 
-/* kappa from f = c/g: f' = (c' - f g')/g, f'' = (c'' - f g'' - f' g' - g' f')/g; 0 away from interfaces. A contour bends at most
- * once about a particle: |kappa| <= (D-1)/dp. */
-static double curvature(const mps_stage *s, const contour_sums *m, double threshold)
+/* kappa from f = c/g: f' = (c' - f g')/g, f'' = (c'' - f g'' - f' g' - g' f')/g; 0 away from
+ * interfaces. The lattice resolves no smaller radius than dp: |kappa| <= (D-1)/dp. */
+MPS_ROW double curvature(const int dim, const mps_stage *s, const contour_sums *m, double threshold)
 {
-    const int dim = s->dim;
     const double f = m->c / m->g, most = (dim - 1) / s->dp;
     double f1[3], size2 = 0, sum = 0;
     for (int d = 0; d < dim; d++) {
@@ -110,14 +130,16 @@ static double curvature(const mps_stage *s, const contour_sums *m, double thresh
     if (!(sqrt(size2) * s->dp > threshold)) return 0;
     for (int d = 0; d < dim; d++)
         for (int e = 0; e < dim; e++) {
-            const double f2 = (m->c2[d * dim + e] - f * m->g2[d * dim + e] - f1[d] * m->g1[e] - m->g1[d] * f1[e]) / m->g;
+            const int k = d * dim + e;
+            const double f2 = (m->c2[k] - f * m->g2[k] - f1[d] * m->g1[e] - m->g1[d] * f1[e]) /
+                              m->g;
             sum += f2 * ((d == e ? size2 : 0.0) - f1[d] * f1[e]);
         }
     return fmin(fmax(sum / (size2 * sqrt(size2)), -most), most);
 }
 
-/* Has a particle of another phase in its row. */
-static bool at_interface(const mps_stage *s, const mps_stencil *t, int64_t i)
+/* True for fluid with fluid of another phase among its pairs. */
+MPS_ROW bool at_interface(const mps_stage *s, const mps_stencil *t, int64_t i)
 {
     if (s->kind[i] != MPS_FLUID) return false;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
@@ -127,30 +149,36 @@ static bool at_interface(const mps_stage *s, const mps_stencil *t, int64_t i)
     return false;
 }
 
-static bool one_phase(const mps_stage *s)
+MPS_ROW void find_curvature(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
-    int32_t phase = -1;
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_FLUID) continue;
-        if (phase >= 0 && s->phase[i] != phase) return false;
-        phase = s->phase[i];
-    }
-    return true;
+    if (!at_interface(s, f->pairs, i)) return;
+    contour_sums m;
+    collect(dim, s, &f->grid, i, &m);
+    f->kappa[i] = curvature(dim, s, &m, f->threshold);
 }
+MPS_ROWS(find_curvature_rows, find_curvature, fields)
 
-bool mps__curvatures(mps_stage *s, const mps_stencil *pairs, double radius, double threshold, double *kappa)
+/* Maxima over the fluid: of the phase, of its negative. */
+MPS_ROW void raise_phase(const int dim, const mps_stage *s, const void *none, int64_t i,
+                         double *most)
 {
-    cell_grid grid = {.side = radius * s->dp};
-    if (one_phase(s)) return true;
-    if (!build_grid(s, &grid)) return false;
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) {
-        contour_sums m;
-        if (!at_interface(s, pairs, i)) continue;
-        collect(s, &grid, i, &m);
-        kappa[i] = curvature(s, &m, threshold);
-    }
-    return true;
+    (void)dim, (void)none;
+    if (s->kind[i] != MPS_FLUID) return;
+    most[0] = fmax(most[0], s->phase[i]);
+    most[1] = fmax(most[1], -s->phase[i]);
+}
+MPS_SUMS(raise_phase_rows, raise_phase, void)
+
+int mps__curvatures(mps_stage *s, const mps_stencil *pairs, double radius, double threshold,
+                    double *kappa)
+{
+    fields f = {{.side = radius * s->dp}, pairs, threshold, kappa};
+    double phase[2];
+    mps_stage_max(s, 2, raise_phase_rows, NULL, phase);
+    if (!(phase[0] > -phase[1])) return 0; /* one phase or none */
+    if (build_grid(s, &f.grid)) return 1;
+    mps_stage_rows(s, find_curvature_rows, &f);
+    return 0;
 }
 
 double mps__pair_sigma(const mps_stage *s, int32_t a, int32_t b, double other)
@@ -159,16 +187,17 @@ double mps__pair_sigma(const mps_stage *s, int32_t a, int32_t b, double other)
     return own >= 0 ? own : other;
 }
 
-double mps__tension_dt(const mps_stage *s, double other)
+void mps__tension_limit(mps_stage *s, const double *density, double other)
 {
     const double pi = 3.14159265358979323846;
-    double rho[MPS__PHASE_LIMIT], limit = INFINITY;
-    mps__phase_densities(s, rho);
+    double rho[MPS__PHASE_LIMIT];
+    mps__phase_densities(s, density, rho);
     for (int a = 0; a < MPS__PHASE_LIMIT; a++)
         for (int b = 0; b < a; b++) {
             const double sigma = mps__pair_sigma(s, a, b, other);
             if (rho[a] == 0 || rho[b] == 0 || sigma == 0) continue;
-            limit = fmin(limit, 0.5 * sqrt(0.5 * (rho[a] + rho[b]) * pow(s->dp, 3) / (2.0 * pi * sigma)));
+            const double mean = 0.5 * (rho[a] + rho[b]);
+            const double limit = 0.5 * sqrt(mean * pow(s->dp, 3) / (2.0 * pi * sigma));
+            if (limit < s->dt_limit) s->dt_limit = limit;
         }
-    return limit;
 }

@@ -4,16 +4,18 @@
 #define MPS_PHASE_TENSION_H
 
 #include "builtin.h"
-#include <stdbool.h>
 
-/* kappa [n] of fluid with another phase among its `pairs` [1/m]; others are left. False when memory is out.
- * `radius` is rs [dp], `threshold` the least |grad f| dp. */
-bool mps__curvatures(mps_stage *s, const mps_stencil *pairs, double radius, double threshold, double *kappa);
+/* Curvature of the interface at fluid with another phase among its `pairs` [1/m].
+ * radius: r_s [dp]. threshold: smallest |grad f| dp of an interface. kappa: [n] in: 0; out: of the
+ * rows above. Returns non-zero after a failure (no memory). */
+int mps__curvatures(mps_stage *s, const mps_stencil *pairs, double radius, double threshold,
+                    double *kappa);
 
-/* sigma of two phases [N/m]; `other` where the pair has none of its own. */
+/* sigma of two phases by mps_sim_set_tension() [N/m]; `other` if it is not set. */
 double mps__pair_sigma(const mps_stage *s, int32_t a, int32_t b, double other);
 
-/* Half the time in which the shortest capillary wave runs over a spacing, of the quickest pair of phases [s]. */
-double mps__tension_dt(const mps_stage *s, double other);
+/* Lowers s->dt_limit to half the time in which the shortest capillary wave travels a spacing, for
+ * the fastest pair of phases. density: [n] the channel. */
+void mps__tension_limit(mps_stage *s, const double *density, double other);
 
 #endif

@@ -1,55 +1,87 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Surface tension, contoured continuum surface force, W22 (19)-(23): F_S = -sigma kappa <grad C>, per volume, with
- *   <grad C>_i = D/n0 sum C_ij r_ij/|r_ij|^2 W,  C_ij = 2 rho_i/(rho_i + rho_j) for another phase, else 0  (near radius),
- * kappa as in tension.c. sigma is that of mps_sim_set_tension() for a pair of phases, else the setting; <grad C> is summed with the sigma
- * of each pair. `radius` is rs in dp, `threshold` the least |grad f| dp. */
+/* Surface tension, contoured continuum surface force, W22 (19)-(23), W22: Wen, Zhao & Wan 2022:
+ * force per volume F_S = -sigma kappa <grad C>,
+ *   <grad C>_i = D/n0 sum C_ij r_ij/|r_ij|^2 W  (near radius),
+ *   C_ij = 2 rho_i/(rho_i + rho_j) for another phase, else 0,
+ * kappa as in tension.c. <grad C> is summed with the sigma of each pair: that of
+ * mps_sim_set_tension() for two phases, else the setting. */
 #include "tension.h"
 
-enum { SIGMA, RADIUS, THRESHOLD };
-static const mps_setting settings[] = {{"sigma", 7.27e-2, 0.0, 100.0}, {"radius", 8.1, 2.1, 20.0}, {"threshold", 0.02, 1e-6, 1.0}};
+enum { SIGMA, RADIUS, THRESHOLD, SETTINGS };
+static const mps_setting settings[SETTINGS] = {
+    [SIGMA] = {"sigma", "N/m", "Surface tension of phases without mps_sim_set_tension()",
+               MPS_TYPE_REAL, 7.27e-2, 0.0, 100.0},
+    [RADIUS] = {"radius", "dp", "Radius r_s of the curvature: larger is smoother", MPS_TYPE_REAL,
+                8.1, 2.1, 20.0},
+    [THRESHOLD] = {"threshold", "1/dp", "Smallest |grad f| of an interface", MPS_TYPE_REAL, 0.02,
+                   1e-6, 1.0}};
 
-/* sigma <grad C>_i / rho_i */
-MPS__ROW void colour_gradient(const int dim, const mps_stage *s, double sigma, int64_t i, double grad[3])
+enum { DENSITY, ACCELERATION, USES };
+static const mps_use uses[USES] = {
+    [DENSITY] = {"density", MPS_USE_NEIGHBOURS}, [ACCELERATION] = {"acceleration", MPS_USE_CHANGE}};
+
+enum { LIMIT_DENSITY, LIMIT_USES };
+static const mps_use limit_uses[LIMIT_USES] = {[LIMIT_DENSITY] = {"density", MPS_USE_READ}};
+
+typedef struct fields {
+    const double *density;
+    double *acceleration;
+    double *kappa; /* [n] curvatures */
+} fields;
+
+/* grad: out, sigma <grad C>_i / rho_i */
+MPS_ROW void colour_gradient(const int dim, const mps_stage *s, const fields *f, int64_t i,
+                             double grad[3])
 {
     const mps_stencil *t = s->near;
     for (int d = 0; d < dim; d++) grad[d] = 0;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         const int64_t j = t->col[p];
         if (s->kind[j] != MPS_FLUID || s->phase[j] == s->phase[i]) continue;
-        const double own = mps__pair_sigma(s, s->phase[i], s->phase[j], sigma);
+        const double own = mps__pair_sigma(s, s->phase[i], s->phase[j], s->setting[SIGMA]);
         if (own == 0) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        const double share = own * dim / t->n0 * q.w_r2 * 2.0 / (s->density[i] + s->density[j]);
+        const double sum = f->density[i] + f->density[j];
+        const double share = own * dim / t->n0 * q.w_r2 * 2.0 / sum;
         for (int d = 0; d < dim; d++) grad[d] += share * q.d[d];
     }
 }
 
-static int force(void *self, const double *k, mps_stage *s, double *a)
+MPS_ROW void pull(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
-    (void)self;
-    double *kappa = mps_stage_scratch(s, s->n);
-    if (!kappa || !mps__curvatures(s, s->near, k[RADIUS], k[THRESHOLD], kappa)) return 1;
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) {
-        double grad[3];
-        if (kappa[i] == 0) continue;
-        MPS__ROW_CALL(s, colour_gradient, s, k[SIGMA], i, grad);
-        for (int d = 0; d < s->dim; d++) a[i * s->dim + d] -= kappa[i] * grad[d];
-    }
+    double grad[3];
+    if (f->kappa[i] == 0) return;
+    colour_gradient(dim, s, f, i, grad);
+    for (int d = 0; d < dim; d++) f->acceleration[i * dim + d] -= f->kappa[i] * grad[d];
+}
+MPS_ROWS(pull_rows, pull, fields)
+
+static int pull_interfaces(mps_stage *s)
+{
+    const double *k = s->setting;
+    fields f = {.density = s->data[DENSITY],
+                .acceleration = s->data[ACCELERATION],
+                .kappa = mps_stage_scratch(s, s->n)};
+    if (!f.kappa || mps__curvatures(s, s->near, k[RADIUS], k[THRESHOLD], f.kappa)) return 1;
+    mps_stage_rows(s, pull_rows, &f);
     return 0;
 }
 
-static double dt_limit(void *self, const double *k, const mps_stage *s)
+static int limit_step(mps_stage *s)
 {
-    (void)self;
-    return mps__tension_dt(s, k[SIGMA]);
+    mps__tension_limit(s, s->data[LIMIT_DENSITY], s->setting[SIGMA]);
+    return 0;
 }
+
+static const mps_verb verbs[] = {
+    {.moment = MPS_LIMIT, .use_count = LIMIT_USES, .uses = limit_uses, .run = limit_step},
+    {.moment = MPS_FORCE, .use_count = USES, .uses = uses, .run = pull_interfaces}};
 
 const mps_model_ops mps__tension_csf = {.struct_size = sizeof(mps_model_ops),
                                         .api = MPS_MODEL_API,
                                         .name = "tension.csf",
-                                        .order = 320,
-                                        .setting_count = 3,
+                                        .help = "Surface tension as a force at interfaces",
+                                        .setting_count = SETTINGS,
                                         .settings = settings,
-                                        .force = force,
-                                        .dt_limit = dt_limit};
+                                        .verb_count = 2,
+                                        .verbs = verbs};

@@ -1,17 +1,47 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Surface tension as a jump of the pressure: across an interface p_i - p_j = (sigma kappa_i - sigma kappa_j)/2, kappa as in tension.c, each
- * positive where the interface bends around its own phase. The jump stands in the pairs of the pressure equation and of its gradient
- * (mps_stage.capillary), so that a drop at rest is at rest to the noise of kappa: a force such as tension.csf is balanced by gradients of
- * other pairs only, and drives currents. That allows a smaller rs, which feels single particles that leave their phase.
- * sigma is that of mps_sim_set_tension() for a pair of phases, else the setting; where a particle has several other phases about it, their
- * mean. Needs a gradient that knows the jump: gradient.corrected. */
+/* Surface tension as a jump of the pressure across an interface,
+ *   p_i - p_j = (sigma kappa_i - sigma kappa_j)/2,
+ * kappa as in tension.c: positive if the interface bends around the particle's own phase. The jump
+ * is in the pairs of the pressure equation and of its gradient (mps/flux.h), so that a drop at rest
+ * stays at rest, up to the noise of kappa. A force such as tension.csf is balanced by gradients of
+ * other pairs and drives currents. Therefore r_s can be smaller here; a smaller r_s responds to
+ * single particles that leave their phase.
+ * sigma is that of mps_sim_set_tension() for two phases, else the setting; a particle with several
+ * other phases about it takes the mean. Needs a gradient that reads the jump:
+ * gradient.corrected. */
 #include "tension.h"
 
-enum { SIGMA, RADIUS, THRESHOLD };
-static const mps_setting settings[] = {{"sigma", 7.27e-2, 0.0, 100.0}, {"radius", 5.1, 2.1, 20.0}, {"threshold", 0.02, 1e-6, 1.0}};
+enum { SIGMA, RADIUS, THRESHOLD, SETTINGS };
+static const mps_setting settings[SETTINGS] = {
+    [SIGMA] = {"sigma", "N/m", "Surface tension of phases without mps_sim_set_tension()",
+               MPS_TYPE_REAL, 7.27e-2, 0.0, 100.0},
+    [RADIUS] = {"radius", "dp", "Radius r_s of the curvature: larger is smoother", MPS_TYPE_REAL,
+                5.1, 2.1, 20.0},
+    [THRESHOLD] = {"threshold", "1/dp", "Smallest |grad f| of an interface", MPS_TYPE_REAL, 0.02,
+                   1e-6, 1.0}};
+
+static const mps_channel channels[] = {
+    {.name = "pressure_jump",
+     .unit = "Pa",
+     .help = "sigma kappa: pressure that the own phase has more than the other at an interface",
+     .components = 1,
+     .type = MPS_TYPE_REAL,
+     .life = MPS_LIFE_STEP,
+     .initial = 0.0}};
+
+enum { JUMP, USES };
+static const mps_use uses[USES] = {[JUMP] = {"pressure_jump", MPS_USE_CHANGE}};
+
+enum { LIMIT_DENSITY, LIMIT_USES };
+static const mps_use limit_uses[LIMIT_USES] = {[LIMIT_DENSITY] = {"density", MPS_USE_READ}};
+
+typedef struct fields {
+    double *jump;
+    double *kappa; /* [n] curvatures */
+} fields;
 
 /* Mean of sigma over the neighbours of other phases. */
-MPS__ROW double mean_sigma(const int dim, const mps_stage *s, double other, int64_t i)
+MPS_ROW double mean_sigma(const int dim, const mps_stage *s, int64_t i)
 {
     const mps_stencil *t = s->far;
     double sum = 0, weight = 0;
@@ -19,34 +49,45 @@ MPS__ROW double mean_sigma(const int dim, const mps_stage *s, double other, int6
         const int64_t j = t->col[p];
         if (s->kind[j] != MPS_FLUID || s->phase[j] == s->phase[i]) continue;
         const double w = mps_stencil_pair_dim(dim, t, i, p).w;
-        sum += w * mps__pair_sigma(s, s->phase[i], s->phase[j], other);
+        sum += w * mps__pair_sigma(s, s->phase[i], s->phase[j], s->setting[SIGMA]);
         weight += w;
     }
     return weight > 0 ? sum / weight : 0;
 }
 
-static int classify(void *self, const double *k, mps_stage *s)
+MPS_ROW void find_jump(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
-    (void)self;
-    double *kappa = mps_stage_scratch(s, s->n);
-    if (!kappa || !mps__curvatures(s, s->far, k[RADIUS], k[THRESHOLD], kappa)) return 1;
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++)
-        if (kappa[i] != 0) s->capillary[i] = kappa[i] * MPS__ROW_CALL(s, mean_sigma, s, k[SIGMA], i);
+    if (f->kappa[i] != 0) f->jump[i] = f->kappa[i] * mean_sigma(dim, s, i);
+}
+MPS_ROWS(find_jump_rows, find_jump, fields)
+
+static int find_jumps(mps_stage *s)
+{
+    const double *k = s->setting;
+    fields f = {.jump = s->data[JUMP], .kappa = mps_stage_scratch(s, s->n)};
+    if (!f.kappa || mps__curvatures(s, s->far, k[RADIUS], k[THRESHOLD], f.kappa)) return 1;
+    mps_stage_rows(s, find_jump_rows, &f);
     return 0;
 }
 
-static double dt_limit(void *self, const double *k, const mps_stage *s)
+static int limit_step(mps_stage *s)
 {
-    (void)self;
-    return mps__tension_dt(s, k[SIGMA]);
+    mps__tension_limit(s, s->data[LIMIT_DENSITY], s->setting[SIGMA]);
+    return 0;
 }
 
-const mps_model_ops mps__tension_jump = {.struct_size = sizeof(mps_model_ops),
-                                         .api = MPS_MODEL_API,
-                                         .name = "tension.jump",
-                                         .order = 320,
-                                         .setting_count = 3,
-                                         .settings = settings,
-                                         .classify = classify,
-                                         .dt_limit = dt_limit};
+static const mps_verb verbs[] = {
+    {.moment = MPS_LIMIT, .use_count = LIMIT_USES, .uses = limit_uses, .run = limit_step},
+    {.moment = MPS_PREPARE, .use_count = USES, .uses = uses, .run = find_jumps}};
+
+const mps_model_ops mps__tension_jump = {
+    .struct_size = sizeof(mps_model_ops),
+    .api = MPS_MODEL_API,
+    .name = "tension.jump",
+    .help = "Surface tension as a jump of the pressure across interfaces",
+    .setting_count = SETTINGS,
+    .settings = settings,
+    .channel_count = 1,
+    .channels = channels,
+    .verb_count = 2,
+    .verbs = verbs};

@@ -1,15 +1,35 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Viscous acceleration a = nu <lap u>, W22 (2)(6), over all pairs. Walls do not slip: they have the tank's velocity, and with `mirror` 1
- * (default) dummies are seen mirrored (friction.h). `mirror` 0, W22: dummies have the tank's velocity too. */
+/* Viscous acceleration a = nu <lap u>, W22 (2)(6), over all pairs; W22: Wen, Zhao & Wan 2022.
+ * Walls do not slip: they have the velocity of the tank.
+ *   mirror 1 (default): dummies are seen mirrored (friction.h)
+ *   mirror 0, W22: dummies have the velocity of the tank too
+ * If a model brings the channel "viscosity" [Pa s], a particle has the value of that channel
+ * instead of the viscosity of its phase. */
 #include "friction.h"
 
-enum { MIRROR };
-static const mps_setting settings[] = {{"mirror", 1.0, 0.0, 1.0}};
+enum { MIRROR, SETTINGS };
+static const mps_setting settings[SETTINGS] = {
+    [MIRROR] = {"mirror", "-", "1: no slip at the face of walls; 0: behind it, as in W22",
+                MPS_TYPE_FLAG, 1.0, 0.0, 1.0}};
+
+enum { VELOCITY, DENSITY, VISCOSITY, ACCELERATION, USES };
+static const mps_use uses[USES] = {[VELOCITY] = {"velocity", MPS_USE_NEIGHBOURS},
+                                   [DENSITY] = {"density", MPS_USE_READ},
+                                   [VISCOSITY] = {"viscosity", MPS_USE_READ | MPS_USE_OPTIONAL},
+                                   [ACCELERATION] = {"acceleration", MPS_USE_CHANGE}};
 
 enum { PAIRS = 64 };
 
-/* W of the pairs from..from+count-1 of row i, roots and divisions several at a time. */
-MPS__ROW void weights(const int dim, const mps_stencil *t, int64_t i, int64_t from, int count, double *w)
+typedef struct fields {
+    const double *velocity, *density;
+    const double *viscosity; /* NULL: of the phases */
+    double *acceleration;
+    bool mirror;
+} fields;
+
+/* W of the pairs from..from+count-1 of row i: roots and divisions run several at a time. */
+MPS_ROW void weights(const int dim, const mps_stencil *t, int64_t i, int64_t from, int count,
+                     double *w)
 {
     for (int k = 0; k < count; k++) {
         const double *a = t->x + i * dim, *b = t->x + (int64_t)t->col[from + k] * dim;
@@ -20,10 +40,15 @@ MPS__ROW void weights(const int dim, const mps_stencil *t, int64_t i, int64_t fr
     mps_kernel_weights(&t->kernel, t->re, count, w, w);
 }
 
-MPS__ROW void diffuse(const int dim, const mps_stage *s, int64_t i, double nu, bool mirror, double *a)
+MPS_ROW void diffuse(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
+    if (s->kind[i] != MPS_FLUID) return;
+    const double mu = f->viscosity ? f->viscosity[i] : s->viscosity[s->phase[i]];
+    const double nu = mu / f->density[i];
+    if (nu == 0) return;
     const mps_stencil far = *s->far, *t = &far;
-    const double *all = s->u, *u = all + i * dim, c = 2.0 * dim / (t->n0 * t->lambda);
+    const double *all = f->velocity, *u = all + i * dim, c = 2.0 * dim / (t->n0 * t->lambda);
+    const bool mirror = f->mirror;
     double sum[3] = {0}, w[PAIRS];
     for (int64_t from = t->begin[i]; from < t->end[i]; from += PAIRS) {
         const int count = t->end[i] - from < PAIRS ? (int)(t->end[i] - from) : PAIRS;
@@ -32,32 +57,36 @@ MPS__ROW void diffuse(const int dim, const mps_stage *s, int64_t i, double nu, b
             const int64_t j = t->col[from + k];
             double du[3];
             if (mirror && s->kind[j] == MPS_DUMMY)
-                mps__mirror_velocity(dim, s, i, j, du);
+                mps__mirror_velocity(dim, s, all, i, j, du);
             else
                 for (int d = 0; d < dim; d++) du[d] = all[j * dim + d] - u[d];
             for (int d = 0; d < dim; d++) sum[d] += du[d] * w[k];
         }
     }
-    for (int d = 0; d < dim; d++) a[i * dim + d] += c * nu * sum[d];
+    for (int d = 0; d < dim; d++) f->acceleration[i * dim + d] += c * nu * sum[d];
 }
+MPS_ROWS(diffuse_rows, diffuse, fields)
 
-static int force(void *self, const double *k, mps_stage *s, double *a)
+static int diffuse_velocity(mps_stage *s)
 {
-    (void)self;
-    const bool mirror = k[MIRROR] >= 0.5;
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_FLUID) continue;
-        const double nu = s->viscosity[s->phase[i]] / s->density[i];
-        if (nu != 0) MPS__ROW_CALL(s, diffuse, s, i, nu, mirror, a);
-    }
+    fields f = {.velocity = s->data[VELOCITY],
+                .density = s->data[DENSITY],
+                .viscosity = s->data[VISCOSITY],
+                .acceleration = s->data[ACCELERATION],
+                .mirror = s->setting[MIRROR] >= 0.5};
+    mps_stage_rows(s, diffuse_rows, &f);
     return 0;
 }
 
-const mps_model_ops mps__viscosity_laplacian = {.struct_size = sizeof(mps_model_ops),
-                                                .api = MPS_MODEL_API,
-                                                .name = "viscosity.laplacian",
-                                                .order = 300,
-                                                .setting_count = 1,
-                                                .settings = settings,
-                                                .force = force};
+static const mps_verb verbs[] = {
+    {.moment = MPS_FORCE, .use_count = USES, .uses = uses, .run = diffuse_velocity}};
+
+const mps_model_ops mps__viscosity_laplacian = {
+    .struct_size = sizeof(mps_model_ops),
+    .api = MPS_MODEL_API,
+    .name = "viscosity.laplacian",
+    .help = "Viscous acceleration of one fluid, nu lap u",
+    .setting_count = SETTINGS,
+    .settings = settings,
+    .verb_count = 1,
+    .verbs = verbs};
