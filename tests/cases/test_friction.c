@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Friction at walls against exact solutions of unsteady viscous flow:
- *   channel  a slug of liquid between two plates, both ends free, driven by gravity along them: plane Poiseuille flow from rest;
+ *   channel  a slug of liquid between two plates, both ends free, driven by gravity along them:
+ *            plane Poiseuille flow from rest;
  *   jump     the plates jump to a velocity: Stokes' first problem between two plates;
  *   swing    the plates swing: Stokes' second problem between two plates, from rest;
  *   round    a full round tank jumps to a rate of rotation: spin-up.
- * Velocities are compared in the middle of the slug, a gap long. The walls' half cells are no particles, so the friction of the force models is the
- * stress half a spacing inside the wall; it is compared with the exact one there, as its integral over the time. */
+ * Velocities are compared in the middle of the slug, a gap long. The walls' half cells are no
+ * particles, so the friction of the force models is the stress half a spacing inside the wall; it
+ * is compared with the exact one there, as its integral over the time. */
 #include <math.h>
 #include <mps/model.h>
 #include <mps/mps.h>
@@ -18,20 +20,24 @@
 
 static const double GAP = 1, NU = 1, SLUG = 4, PI = 3.14159265358979;
 
-#define OK(sim, call)                                                                                                             \
-    do {                                                                                                                          \
-        mps_status status_ = (call);                                                                                              \
-        if (status_ != MPS_OK) fail_msg("%s: %s: %s", #call, mps_status_name(status_), (sim) ? mps_sim_error(sim) : "no handle"); \
+#define OK(sim, call)                                               \
+    do {                                                            \
+        mps_status status_ = (call);                                \
+        if (status_ != MPS_OK)                                      \
+            fail_msg("%s: %s: %s", #call, mps_status_name(status_), \
+                     (sim) ? mps_sim_error(sim) : "no handle");     \
     } while (0)
 
 typedef enum flow_kind { CHANNEL, JUMP, SWING, ROUND } flow_kind;
 
-/* What drives the flow: gravity [m/s2], speed of the plates [m/s], rate [rad/s] of the swing or the rotation; until t_end. */
+/* What drives the flow: gravity [m/s2], speed of the plates [m/s], rate [rad/s] of the swing or the
+ * rotation; until t_end. */
 typedef struct flow {
     const char *name;
     flow_kind kind;
     double gravity, speed, rate, t_end;
-    double dt_max; /* [s]; 0: what viscosity allows. Walls have their mean velocity over a step, so one that swings lags by half of it */
+    double dt_max; /* [s]; 0: what viscosity allows. Walls have their mean velocity over a step, so
+                      one that swings lags by half of it */
 } flow;
 
 static const flow channel_flow = {"channel", CHANNEL, 5, 0, 0, 0.2, 0};
@@ -39,7 +45,7 @@ static const flow jump_flow = {"jump", JUMP, 0, 1, 0, 0.1, 0};
 static const flow swing_flow = {"swing", SWING, 0, 1, 10, 0.25, 5e-4};
 static const flow round_flow = {"round", ROUND, 0, 0, 1, 0.04, 0};
 
-/* ---- exact solutions -------------------------------------------------------------------------------------------------------- */
+/* ---- exact solutions ------------------------------------------------------------------------- */
 
 /* Bessel function of the first kind, by its integral; z below 100. */
 static double bessel(int n, double z)
@@ -53,7 +59,8 @@ static double bessel(int n, double z)
     return sum;
 }
 
-/* Velocity at the time t and the height y between the plates, or along the circle of radius y, in the lab's frame. */
+/* Velocity at the time t and the height y between the plates, or along the circle of radius y, in
+ * the lab's frame. */
 static double exact(const flow *f, double y, double t)
 {
     double u = 0, z = 3.8317;
@@ -61,31 +68,37 @@ static double exact(const flow *f, double y, double t)
     if (f->kind == JUMP) u = f->speed;
     if (f->kind == SWING) u = f->speed * sin(f->rate * t);
     for (int n = 1; n < 200 && f->kind != ROUND; n += 2) {
-        const double k = n * PI / GAP, l = NU * k * k, w = f->rate, mode = 4 / (n * PI) * sin(k * y), decay = exp(-l * t);
+        const double k = n * PI / GAP, l = NU * k * k, w = f->rate,
+                     mode = 4 / (n * PI) * sin(k * y), decay = exp(-l * t);
         if (f->kind == CHANNEL) u -= f->gravity / l * mode * decay;
         if (f->kind == JUMP) u -= f->speed * mode * decay;
-        if (f->kind == SWING) u -= f->speed * mode * w * (l * cos(w * t) + w * sin(w * t) - l * decay) / (l * l + w * w);
+        if (f->kind == SWING)
+            u -= f->speed * mode * w * (l * cos(w * t) + w * sin(w * t) - l * decay) /
+                 (l * l + w * w);
     }
     if (f->kind != ROUND) return u;
     u = f->rate * y;
     for (int n = 1; n < 24; n++, z += PI) { /* zeros of J1 */
         for (int k = 0; k < 6; k++) z -= bessel(1, z) / (bessel(0, z) - bessel(1, z) / z);
-        u += f->rate * GAP * bessel(1, 2 * z * y / GAP) / (z * bessel(0, z)) * exp(-4 * z * z * NU * t / (GAP * GAP));
+        u += f->rate * GAP * bessel(1, 2 * z * y / GAP) / (z * bessel(0, z)) *
+             exp(-4 * z * z * NU * t / (GAP * GAP));
     }
     return u;
 }
 
-/* Momentum that friction has given by the time t to what particles stand for, per mass: the mean velocity from half a spacing inside one plate
- * to the same inside the other, less the share of gravity. */
+/* Momentum that friction has given by the time t to what particles stand for, per mass: the mean
+ * velocity from half a spacing inside one plate to the same inside the other, less the share of
+ * gravity. */
 static double exact_friction(const flow *f, double dp, double t)
 {
     enum { STRIPS = 400 };
     double sum = 0;
-    for (int k = 0; k < STRIPS; k++) sum += exact(f, 0.5 * dp + (k + 0.5) / STRIPS * (GAP - dp), t) / STRIPS;
+    for (int k = 0; k < STRIPS; k++)
+        sum += exact(f, 0.5 * dp + (k + 0.5) / STRIPS * (GAP - dp), t) / STRIPS;
     return sum - f->gravity * t;
 }
 
-/* ---- simulation --------------------------------------------------------------------------------------------------------------- */
+/* ---- simulation ------------------------------------------------------------------------------ */
 
 static int drive(void *user, double t, mps_motion_state *s)
 {
@@ -146,11 +159,8 @@ static int watch(mps_stage *s)
 }
 
 static const mps_use watch_uses[] = {{"acceleration", MPS_USE_READ}};
-static const mps_verb watch_verbs[] = {{.moment = MPS_FORCE,
-                                        .use_count = 1,
-                                        .uses = watch_uses,
-                                        .after = "*",
-                                        .run = watch}};
+static const mps_verb watch_verbs[] = {
+    {.moment = MPS_FORCE, .use_count = 1, .uses = watch_uses, .after = "*", .run = watch}};
 static const mps_model_ops watcher = {.struct_size = sizeof(mps_model_ops),
                                       .api = MPS_MODEL_API,
                                       .name = "watch.test",
@@ -230,7 +240,8 @@ static measured compare(mps_sim *sim, const flow *f, double dp)
     const double centre = middle(x.data, kind, x.count);
     for (int64_t i = 0; i < x.count; i++) {
         const double *at = x.data + 2 * i, *v = u.data + 2 * i, r = hypot(at[0], at[1]);
-        if (kind[i] != MPS_FLUID || (f->kind != ROUND && fabs(at[0] - centre) > 0.5 * GAP)) continue;
+        if (kind[i] != MPS_FLUID || (f->kind != ROUND && fabs(at[0] - centre) > 0.5 * GAP))
+            continue;
         const double is = f->kind == ROUND ? (at[0] * v[1] - at[1] * v[0]) / fmax(r, 1e-9) : v[0];
         const double wanted = exact(f, f->kind == ROUND ? r : at[1], f->t_end);
         uu += is * wanted;
@@ -241,7 +252,8 @@ static measured compare(mps_sim *sim, const flow *f, double dp)
     }
     OK(sim, mps_lease_end(sim, &u));
     OK(sim, mps_lease_end(sim, &x));
-    return (measured){uu / ue - 1, sqrt(square / count) / most, friction / exact_friction(f, dp, f->t_end) - 1};
+    return (measured){uu / ue - 1, sqrt(square / count) / most,
+                      friction / exact_friction(f, dp, f->t_end) - 1};
 }
 
 static measured run(const flow *given, int across, const char *model, double radius)
@@ -250,14 +262,14 @@ static measured run(const flow *given, int across, const char *model, double rad
     mps_sim *sim = begin(&f, across, model, radius);
     OK(sim, mps_run(sim, f.t_end, NULL, NULL));
     const measured m = compare(sim, &f, GAP / across);
-    print_message("    %s, %d across, far radius %.1f%s: profile %+.2f %%, scatter %.2f %%", f.name, across, radius,
-                  model ? ", whole stress" : "", 100 * m.size, 100 * m.scatter);
+    print_message("    %s, %d across, far radius %.1f%s: profile %+.2f %%, scatter %.2f %%", f.name,
+                  across, radius, model ? ", whole stress" : "", 100 * m.size, 100 * m.scatter);
     print_message(f.kind == ROUND ? "\n" : ", friction %+.2f %%\n", 100 * m.friction);
     mps_sim_destroy(sim);
     return m;
 }
 
-/* ---- tests -------------------------------------------------------------------------------------------------------------------- */
+/* ---- tests ----------------------------------------------------------------------------------- */
 
 /* Within 2 % at 20 across, and nearer to the exact solution the finer. */
 static void converges(const flow *f)
@@ -288,8 +300,9 @@ static void plates_that_swing(void **state)
     converges(&swing_flow);
 }
 
-/* The profile does not depend on the reach of the operator, nor on how pairs act, once the flow has disturbed the square lattice. (On the lattice itself
- * the whole stress is 1.2 % too weak along its rows with a far radius of 3.1 dp, 6 % with 2.1 dp, which is left out here.) */
+/* The profile does not depend on the reach of the operator, nor on how pairs act, once the flow has
+ * disturbed the square lattice. (On the lattice itself the whole stress is 1.2 % too weak along its
+ * rows with a far radius of 3.1 dp, 6 % with 2.1 dp, which is left out here.) */
 static void radii_and_stress(void **state)
 {
     (void)state;
@@ -298,14 +311,16 @@ static void radii_and_stress(void **state)
     f.gravity = 20;
     for (int k = 0; k < 3; k++) {
         const measured plain = run(&f, 20, NULL, radius[k]);
-        assert_true(fabs(plain.size) < 0.015 && plain.scatter < 0.015 && fabs(plain.friction) < 0.01);
+        assert_true(fabs(plain.size) < 0.015 && plain.scatter < 0.015 &&
+                    fabs(plain.friction) < 0.01);
         if (k == 0) continue;
         const measured whole = run(&f, 20, "viscosity.pair", radius[k]);
         assert_true(fabs(whole.size) < 0.02 && whole.scatter < 0.02 && fabs(whole.friction) < 0.01);
     }
 }
 
-/* With radius 2.1 dp the whole stress asks for shorter steps than the time control alone would take: it is stable. */
+/* With radius 2.1 dp the whole stress asks for shorter steps than the time control alone would
+ * take: it is stable. */
 static void whole_stress_is_stable(void **state)
 {
     (void)state;
@@ -324,7 +339,8 @@ static void spin_up(void **state)
     assert_true(fabs(whole.size) < 0.01 && whole.scatter < 0.01);
 }
 
-/* In a tank that has turned long enough nothing is left to rub: a liquid that turns with its tank goes on doing so. */
+/* In a tank that has turned long enough nothing is left to rub: a liquid that turns with its tank
+ * goes on doing so. */
 static void turning_together(void **state)
 {
     (void)state;
@@ -334,7 +350,8 @@ static void turning_together(void **state)
     assert_true(fabs(m.size) < 1e-3 && m.scatter < 4e-3);
 }
 
-/* Dissipation that calms the lattice leaves a viscous liquid its own viscosity: a hundred times the default would double it. */
+/* Dissipation that calms the lattice leaves a viscous liquid its own viscosity: a hundred times the
+ * default would double it. */
 static void dissipation_yields(void **state)
 {
     (void)state;
@@ -348,15 +365,21 @@ static void dissipation_yields(void **state)
         size[yields] = compare(sim, &f, GAP / 14).size;
         mps_sim_destroy(sim);
     }
-    print_message("    alpha 10: profile %+.2f %%, with the fluid's own viscosity taken off %+.2f %%\n", 100 * size[0], 100 * size[1]);
+    print_message(
+        "    alpha 10: profile %+.2f %%, with the fluid's own viscosity taken off %+.2f %%\n",
+        100 * size[0], 100 * size[1]);
     assert_true(size[0] < -0.03 && fabs(size[1]) < 0.02);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(poiseuille),       cmocka_unit_test(plates_that_jump),       cmocka_unit_test(plates_that_swing),
-        cmocka_unit_test(radii_and_stress), cmocka_unit_test(whole_stress_is_stable), cmocka_unit_test(spin_up),
-        cmocka_unit_test(turning_together), cmocka_unit_test(dissipation_yields)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(poiseuille),
+                                       cmocka_unit_test(plates_that_jump),
+                                       cmocka_unit_test(plates_that_swing),
+                                       cmocka_unit_test(radii_and_stress),
+                                       cmocka_unit_test(whole_stress_is_stable),
+                                       cmocka_unit_test(spin_up),
+                                       cmocka_unit_test(turning_together),
+                                       cmocka_unit_test(dissipation_yields)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compressible gas with the scheme imps: a column settles under its own weight, a swirl in a closed tank keeps its mean pressure,
- * half cells of walls give way. */
+/* Compressible gas with the scheme imps: a column settles under its own weight, a swirl in a closed
+ * tank keeps its mean pressure, half cells of walls give way. */
 #include "../unit/tank_fixture.h"
 #include <mps/model.h>
 #include <mps/ppe.h>
@@ -8,7 +8,8 @@
 
 static const double dp = 0.05, width = 0.4, height = 1, rho = 1000, ambient = 2e4;
 
-/* Heavy and soft, so that it is compressed by per cents. exponent 0: linear, with the speed of sound of 1.4. */
+/* Heavy and soft, so that it is compressed by per cents. exponent 0: linear, with the speed of
+ * sound of 1.4. */
 static mps_sim *column(double exponent)
 {
     mps_sim *sim = new_sim(2, dp);
@@ -66,12 +67,15 @@ static place *sorted(mps_sim *sim, int64_t *count)
     return all;
 }
 
-/* Height of the lowest `rows` rows of `columns` particles, less the half cell of the floor, and what the law gives for it. */
-static double share_height(const place *all, int64_t columns, int64_t rows, double exponent, double *law)
+/* Height of the lowest `rows` rows of `columns` particles, less the half cell of the floor, and
+ * what the law gives for it. */
+static double share_height(const place *all, int64_t columns, int64_t rows, double exponent,
+                           double *law)
 {
     double below = 0, above = 0;
     *law = 0;
-    for (int64_t k = 0; k < rows * columns; k++) *law += volume_by_law(exponent, all[k].p) * dp / (double)columns;
+    for (int64_t k = 0; k < rows * columns; k++)
+        *law += volume_by_law(exponent, all[k].p) * dp / (double)columns;
     for (int64_t k = 0; k < columns; k++) {
         below += all[(rows - 1) * columns + k].y / (double)columns;
         above += all[rows * columns + k].y / (double)columns;
@@ -79,7 +83,8 @@ static double share_height(const place *all, int64_t columns, int64_t rows, doub
     return 0.5 * (below + above) - 0.5 * dp;
 }
 
-/* The volume of each quarter of the column is that of its pressures by the gas law, and the weight is carried. */
+/* The volume of each quarter of the column is that of its pressures by the gas law, and the weight
+ * is carried. */
 static void settled(void **state)
 {
     (void)state;
@@ -95,8 +100,10 @@ static void settled(void **state)
         for (int64_t part = 1; part < 4; part++) {
             const int64_t lower = rows * part / 4;
             const double got = share_height(all, columns, lower, exponents[e], &law);
-            print_message("exponent %g, lowest %lld rows: compressed %.1f %%, volume %+.2f %% of the law's\n", exponents[e],
-                          (long long)lower, 100 * (1 - law / ((double)lower * dp)), 100 * (got / law - 1));
+            print_message(
+                "exponent %g, lowest %lld rows: compressed %.1f %%, volume %+.2f %% of the law's\n",
+                exponents[e], (long long)lower, 100 * (1 - law / ((double)lower * dp)),
+                100 * (got / law - 1));
             ASSERT_NEAR(got / law, 1, 0.01);
             if (part < 3) assert_true(law < 0.93 * (double)lower * dp);
         }
@@ -106,8 +113,10 @@ static void settled(void **state)
             high += all[count - 1 - k].p / (double)columns;
         }
         const double weight = rho * 9.81 * (all[count - 1].y - all[0].y);
-        print_message("exponent %g: weight %+.2f %%\n", exponents[e], 100 * ((low - high) / weight - 1));
-        ASSERT_NEAR((low - high) / weight, 1, 0.02); /* inertia and weight of a particle are rho0's, compressed or not */
+        print_message("exponent %g: weight %+.2f %%\n", exponents[e],
+                      100 * ((low - high) / weight - 1));
+        ASSERT_NEAR((low - high) / weight, 1,
+                    0.02); /* inertia and weight of a particle are rho0's, compressed or not */
         free(all);
         mps_sim_destroy(sim);
     }
@@ -155,7 +164,8 @@ static double swirl(double conserve)
     return sum / count;
 }
 
-/* The tank is rigid: the mean cannot change. Left to the sums of divergences it runs away by many times rho u^2 = 30 Pa. */
+/* The tank is rigid: the mean cannot change. Left to the sums of divergences it runs away by many
+ * times rho u^2 = 30 Pa. */
 static void mean_pressure(void **state)
 {
     (void)state;
@@ -165,7 +175,7 @@ static void mean_pressure(void **state)
     assert_true(fabs(left) > 100);
 }
 
-/* ---- the gas of a full tank, counted by what its rows give way ----------------------------------------------------------- */
+/* ---- the gas of a full tank, counted by what its rows give way ------------------------------- */
 
 static double give; /* sum over all rows, for 1 Pa, in cells of the lattice */
 
@@ -179,11 +189,8 @@ static int count_cells(mps_stage *s)
 }
 
 static const mps_use counter_uses[] = {{"gas_shift", MPS_USE_READ}};
-static const mps_verb counter_verbs[] = {{.moment = MPS_SOURCE,
-                                          .use_count = 1,
-                                          .uses = counter_uses,
-                                          .after = "*",
-                                          .run = count_cells}};
+static const mps_verb counter_verbs[] = {
+    {.moment = MPS_SOURCE, .use_count = 1, .uses = counter_uses, .after = "*", .run = count_cells}};
 static const mps_model_ops counter = {.struct_size = sizeof(mps_model_ops),
                                       .api = MPS_MODEL_API,
                                       .name = "counter.gas",
@@ -191,7 +198,8 @@ static const mps_model_ops counter = {.struct_size = sizeof(mps_model_ops),
                                       .verb_count = 1,
                                       .verbs = counter_verbs};
 
-/* Walls stand for half cells, edges for quarters, corners for eighths: the whole tank gives way, whatever its size. */
+/* Walls stand for half cells, edges for quarters, corners for eighths: the whole tank gives way,
+ * whatever its size. */
 static void walls_give_way(void **state)
 {
     (void)state;
@@ -215,13 +223,15 @@ static void walls_give_way(void **state)
         ASSERT_OK(sim, mps_model_register(sim, &counter));
         ASSERT_OK(sim, mps_model_use(sim, "counter.gas"));
         ASSERT_OK(sim, mps_step(sim, 1e-5, NULL));
-        ASSERT_NEAR(give, n[0] * n[1] * n[2], 0.15 * (dim == 3 ? 8 : 4)); /* at corners pairs around the edge are missing */
+        ASSERT_NEAR(give, n[0] * n[1] * n[2],
+                    0.15 * (dim == 3 ? 8 : 4)); /* at corners pairs around the edge are missing */
         mps_sim_destroy(sim);
     }
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(walls_give_way), cmocka_unit_test(settled), cmocka_unit_test(mean_pressure)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(walls_give_way), cmocka_unit_test(settled),
+                                       cmocka_unit_test(mean_pressure)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Models one at a time: a simulation without any, free clouds of fluid, and a spy that keeps what the verbs before it left. */
+/* Models one at a time: a simulation without any, free clouds of fluid, and a spy that keeps what
+ * the verbs before it left. */
 #ifndef PHASE_FIXTURE_H
 #define PHASE_FIXTURE_H
 
@@ -10,11 +11,13 @@
 
 enum { SPY_ROOM = 40000 };
 
-/* By id, of the last step. `pressure`, `rhs` and `deviation`, where given, are laid into the stage before the models under test. */
+/* By id, of the last step. `pressure`, `rhs` and `deviation`, where given, are laid into the stage
+ * before the models under test. */
 static struct {
-    double a[3 * SPY_ROOM], dp_a[3 * SPY_ROOM], density[SPY_ROOM], shift[SPY_ROOM], rhs[SPY_ROOM], gas[SPY_ROOM], law[SPY_ROOM],
-        p[SPY_ROOM];
-    double volume[SPY_ROOM], number[SPY_ROOM], wide_sum[SPY_ROOM], near_sum[SPY_ROOM]; /* numbers over n0 */
+    double a[3 * SPY_ROOM], dp_a[3 * SPY_ROOM], density[SPY_ROOM], shift[SPY_ROOM], rhs[SPY_ROOM],
+        gas[SPY_ROOM], law[SPY_ROOM], p[SPY_ROOM];
+    double volume[SPY_ROOM], wide_sum[SPY_ROOM];
+    double number[SPY_ROOM], near_sum[SPY_ROOM]; /* over n0 */
     int32_t level_free, region[SPY_ROOM];
     double (*pressure)(const double *x, int dim);
     double given_rhs, given_deviation;
@@ -67,26 +70,23 @@ static const mps_use spy_deviation_uses[] = {{"volume_deviation", MPS_USE_CHANGE
 static const mps_use spy_rhs_uses[] = {{"pressure_source", MPS_USE_CHANGE}};
 static const mps_use spy_pressure_uses[] = {{"pressure", MPS_USE_CHANGE}};
 
-static const mps_verb spy_before_verbs[] = {{.moment = MPS_CLASSIFY,
-                                             .use_count = 1,
-                                             .uses = spy_number_uses,
-                                             .before = "*",
-                                             .run = spy_lay_number},
-                                            {.moment = MPS_PREPARE,
-                                             .use_count = 1,
-                                             .uses = spy_deviation_uses,
-                                             .before = "*",
-                                             .run = spy_lay_deviation},
-                                            {.moment = MPS_SOURCE,
-                                             .use_count = 1,
-                                             .uses = spy_rhs_uses,
-                                             .before = "*",
-                                             .run = spy_lay_rhs},
-                                            {.moment = MPS_LEVEL,
-                                             .use_count = 1,
-                                             .uses = spy_pressure_uses,
-                                             .before = "*",
-                                             .run = spy_lay_pressure}};
+static const mps_verb spy_before_verbs[] = {
+    {.moment = MPS_CLASSIFY,
+     .use_count = 1,
+     .uses = spy_number_uses,
+     .before = "*",
+     .run = spy_lay_number},
+    {.moment = MPS_PREPARE,
+     .use_count = 1,
+     .uses = spy_deviation_uses,
+     .before = "*",
+     .run = spy_lay_deviation},
+    {.moment = MPS_SOURCE, .use_count = 1, .uses = spy_rhs_uses, .before = "*", .run = spy_lay_rhs},
+    {.moment = MPS_LEVEL,
+     .use_count = 1,
+     .uses = spy_pressure_uses,
+     .before = "*",
+     .run = spy_lay_pressure}};
 static const mps_model_ops spy_before = {.struct_size = sizeof(mps_model_ops),
                                          .api = MPS_MODEL_API,
                                          .name = "before.spy",
@@ -238,7 +238,8 @@ static inline double *field_by_id(mps_sim *sim, const char *name)
     ASSERT_OK(sim, mps_particles_tags(sim, &ids, NULL, NULL, NULL));
     ASSERT_OK(sim, mps_lease_begin(sim, name, MPS_READ, &l));
     double *v = cloud_doubles(l.count * l.stride);
-    for (int64_t i = 0; i < l.count; i++) memcpy(v + ids[i] * l.stride, l.data + i * l.stride, (size_t)l.stride * sizeof *v);
+    for (int64_t i = 0; i < l.count; i++)
+        memcpy(v + ids[i] * l.stride, l.data + i * l.stride, (size_t)l.stride * sizeof *v);
     ASSERT_OK(sim, mps_lease_end(sim, &l));
     return v;
 }

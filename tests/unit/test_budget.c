@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The budgets of energy and momentum: what counts as work of the walls, what comes from outside, and that both close. */
+/* The budgets of energy and momentum: what counts as work of the walls, what comes from outside,
+ * and that both close. */
 #include "budget.h"
 #include "probe_fixture.h"
 #include "sim.h"
@@ -30,16 +31,20 @@ static void assert_closed(mps_sim *sim, const mps_energy *start, const mps_momen
 {
     const mps_energy e = energy_of(sim);
     const mps_momentum m = momentum_of(sim);
-    const double size = fabs(e.potential) + fabs(start->potential) + e.kinetic + fabs(e.added) + fabs(e.wall_work);
+    const double size = fabs(e.potential) + fabs(start->potential) + e.kinetic + fabs(e.added) +
+                        fabs(e.wall_work);
     const double change = e.kinetic + e.potential - start->kinetic - start->potential;
-    ASSERT_NEAR(e.wall_work + e.added - e.viscous - e.collision - e.shift - e.numerical, change, rounding * size);
+    ASSERT_NEAR(e.wall_work + e.added - e.viscous - e.collision - e.shift - e.numerical, change,
+                rounding * size);
     double most = 0;
     for (int d = 0; d < 2; d++) {
-        const double parts[] = {before->total[d], m.gravity[d], m.pressure[d], m.collision[d], m.added[d]};
+        const double parts[] = {before->total[d], m.gravity[d], m.pressure[d], m.collision[d],
+                                m.added[d]};
         for (int k = 0; k < 5; k++) most = fmax(most, fabs(parts[k]));
     }
     for (int d = 0; d < 2; d++) {
-        const double sum = m.gravity[d] + m.force[d] + m.pressure[d] + m.collision[d] + m.shift[d] + m.added[d];
+        const double sum = m.gravity[d] + m.force[d] + m.pressure[d] + m.collision[d] + m.shift[d] +
+                           m.added[d];
         ASSERT_NEAR(m.total[d] - before->total[d], sum, rounding * most);
     }
 }
@@ -86,7 +91,8 @@ static int steady(void *user, double t, mps_motion_state *state)
     return 0;
 }
 
-/* A drop in the middle of a steadily moving tank, that touches nothing, is driven by a force model: walls do nothing. */
+/* A drop in the middle of a steadily moving tank, that touches nothing, is driven by a force model:
+ * walls do nothing. */
 static void force_models_are_no_walls(void **state)
 {
     (void)state;
@@ -108,8 +114,10 @@ static void force_models_are_no_walls(void **state)
     const mps_momentum before = momentum_of(sim);
     take_steps(sim, 20);
     const mps_energy e = energy_of(sim);
-    const double t = sim->world.info.t, work = 0.5 * e.mass * (pow(speed + pull * t, 2) - speed * speed);
-    /* m v a t, what was booked here, is of the size of `work`; the solver's tolerance leaves 1e-6 of it */
+    const double t = sim->world.info.t,
+                 work = 0.5 * e.mass * (pow(speed + pull * t, 2) - speed * speed);
+    /* m v a t, what was booked here, is of the size of `work`; the solver's tolerance leaves 1e-6
+     * of it */
     assert_true(work > 0.01);
     ASSERT_NEAR(e.wall_work, 0, 1e-6 * work);
     ASSERT_NEAR(e.viscous, -work, 1e-6 * work);
@@ -118,7 +126,8 @@ static void force_models_are_no_walls(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A full tank jumps from rest to its speed: its walls give the liquid m V^2/2, and it moves as a rigid body from then on. */
+/* A full tank jumps from rest to its speed: its walls give the liquid m V^2/2, and it moves as a
+ * rigid body from then on. */
 static void impulsive_start(void **state)
 {
     (void)state;
@@ -129,7 +138,8 @@ static void impulsive_start(void **state)
     const mps_momentum before = momentum_of(sim);
     take_steps(sim, 1);
     mps_energy e = energy_of(sim);
-    const double speed = 0.02 * sin(6 * sim->world.info.t) / sim->world.info.t, given = 0.5 * e.mass * speed * speed;
+    const double speed = 0.02 * sin(6 * sim->world.info.t) / sim->world.info.t,
+                 given = 0.5 * e.mass * speed * speed;
     /* pressures are exact to the tolerance of the solver, 1e-6 */
     ASSERT_NEAR(e.wall_work, given, 1e-5 * given);
     ASSERT_NEAR(e.numerical, 0, 1e-5 * given);
@@ -188,16 +198,19 @@ static void work_of_a_turn(void **state)
         const double *x = w->particles.x + 2 * i, r[2] = {x[0] - centre[0], x[1] - centre[1]};
         a[2 * i] = -3 * r[1];
         a[2 * i + 1] = 3 * r[0];
-        if (w->particles.kind[i] == MPS_FLUID) inertia += 1000 * dp * dp * (r[0] * r[0] + r[1] * r[1]);
+        if (w->particles.kind[i] == MPS_FLUID)
+            inertia += 1000 * dp * dp * (r[0] * r[0] + r[1] * r[1]);
     }
     const double first = 0.3 * sin(2 * dt), impulse = 3 * dt * inertia;
     /* from rest: half the speed of this step, that of its chord without the strain */
-    ASSERT_NEAR(mps__budget_wall_work(w, &end, a, dt), impulse * 0.5 * sin(first) / dt, rounding * impulse);
+    ASSERT_NEAR(mps__budget_wall_work(w, &end, a, dt), impulse * 0.5 * sin(first) / dt,
+                rounding * impulse);
     w->before = w->motion.now;
     w->dt_before = dt;
     w->motion.now = end;
     ASSERT_OK(sim, mps__motion_pose(&w->motion, 3 * dt, &end));
-    const double second = 0.3 * sin(6 * dt) - first, rate = 0.5 * (sin(first) / dt + sin(second) / (2 * dt));
+    const double second = 0.3 * sin(6 * dt) - first,
+                 rate = 0.5 * (sin(first) / dt + sin(second) / (2 * dt));
     ASSERT_NEAR(mps__budget_wall_work(w, &end, a, 2 * dt), 2 * impulse * rate, rounding * impulse);
     free(a);
     mps_sim_destroy(sim);
@@ -205,7 +218,8 @@ static void work_of_a_turn(void **state)
 
 /* ---- what comes from outside ---- */
 
-/* A sloshing tank in the middle of its run, so that what comes and goes has energies of both kinds. */
+/* A sloshing tank in the middle of its run, so that what comes and goes has energies of both
+ * kinds. */
 static mps_sim *sloshing(mps_energy *start, mps_momentum *before)
 {
     mps_sim *sim = filled(2, 0.1);
@@ -227,7 +241,8 @@ static void assert_added(mps_sim *sim, const mps_energy *e, const mps_momentum *
     assert_true(fabs(change) > 1e-3);
     ASSERT_NEAR(now.added - e->added, change, rounding * (e->potential + now.potential));
     ASSERT_NEAR(now.numerical, e->numerical, rounding * (e->potential + now.potential));
-    for (int d = 0; d < 2; d++) ASSERT_NEAR(p.added[d] - m->added[d], p.total[d] - m->total[d], rounding * e->mass);
+    for (int d = 0; d < 2; d++)
+        ASSERT_NEAR(p.added[d] - m->added[d], p.total[d] - m->total[d], rounding * e->mass);
 }
 
 /* Do something between two steps, and go on. */
@@ -272,8 +287,10 @@ static void added_between_steps(void **state)
     oil.density = 800;
     BETWEEN(ASSERT_OK(sim, mps_sim_set_phase(sim, 0, &oil)););
     mps_lease lease;
-    BETWEEN(ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &lease)); lease.data[0] += 0.5; lease.data[1] -= 1;
-            for (int64_t i = 2; i < lease.count; i++) lease.data[2 * i] *= 0.9; ASSERT_OK(sim, mps_lease_end(sim, &lease)););
+    BETWEEN(ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &lease));
+            lease.data[0] += 0.5; lease.data[1] -= 1;
+            for (int64_t i = 2; i < lease.count; i++) lease.data[2 * i] *= 0.9;
+            ASSERT_OK(sim, mps_lease_end(sim, &lease)););
     const mps_harmonic elsewhere = {.dof = MPS_HEAVE, .form = 1, .amplitude = 0.05, .omega = 10};
     BETWEEN(ASSERT_OK(sim, mps_motion_set_harmonics(sim, 1, &elsewhere)););
     mps_sim_destroy(sim);
@@ -292,7 +309,8 @@ static void lost_particles(void **state)
     block.count = 1;
     block.position = x;
     block.velocity = u;
-    const double mass = 1000 * dp * dp, brought = mass * (5 + 9.81 * 100), numerical = energy_of(sim).numerical;
+    const double mass = 1000 * dp * dp, brought = mass * (5 + 9.81 * 100),
+                 numerical = energy_of(sim).numerical;
     ASSERT_OK(sim, mps_particles_add(sim, &block, NULL));
     ASSERT_NEAR(energy_of(sim).added, brought, rounding * brought);
     ASSERT_NEAR(momentum_of(sim).added[0], 3 * mass, rounding * mass);

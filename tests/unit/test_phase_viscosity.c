@@ -12,7 +12,9 @@ static void means(void **state)
         const double two[4] = {0, 0, CLOUD_DP, 0}, u[4] = {0, 0, 0, 1};
         const int32_t phase[2] = {0, 1};
         const cloud c = {2, 2, (double *)two};
-        const double mu = theta[t] == 0 ? sqrt(a * b) : pow((pow(a, theta[t]) + pow(b, theta[t])) / 2, 1 / theta[t]);
+        const double mu = theta[t] == 0
+                              ? sqrt(a * b)
+                              : pow((pow(a, theta[t]) + pow(b, theta[t])) / 2, 1 / theta[t]);
         double n0, lambda;
         mps_kernel kernel;
         mps_sim *sim = bare_sim(2, CLOUD_DP, 3.1, 1e-9);
@@ -23,15 +25,18 @@ static void means(void **state)
         ASSERT_OK(sim, mps_model_set(sim, "viscosity", "theta", theta[t]));
         ASSERT_OK(sim, mps_step(sim, 1, NULL));
         assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
-        assert_int_equal(mps_lattice_constants(&kernel, 2, CLOUD_DP, 3.1 * CLOUD_DP, &n0, &lambda), MPS_OK);
-        const double wanted = 4 / (n0 * lambda) * mu * mps_kernel_value(&kernel, CLOUD_DP, 3.1 * CLOUD_DP);
+        assert_int_equal(mps_lattice_constants(&kernel, 2, CLOUD_DP, 3.1 * CLOUD_DP, &n0, &lambda),
+                         MPS_OK);
+        const double wanted = 4 / (n0 * lambda) * mu *
+                              mps_kernel_value(&kernel, CLOUD_DP, 3.1 * CLOUD_DP);
         ASSERT_NEAR(spy.a[1] * 1000 / wanted, 1, 1e-12);
         ASSERT_NEAR(spy.a[3] * 10 / wanted, -1, 1e-12);
         mps_sim_destroy(sim);
     }
 }
 
-/* Pairs lose no momentum, whatever the densities and the mean, and no moment of momentum if they act along their line. */
+/* Pairs lose no momentum, whatever the densities and the mean, and no moment of momentum if they
+ * act along their line. */
 static void momentum(void **state)
 {
     (void)state;
@@ -39,7 +44,8 @@ static void momentum(void **state)
         for (double theta = -1; theta <= 1; theta += 0.25) {
             const bool whole = theta > -0.3;
             static const double rho[3] = {1000, 1.2, 800};
-            cloud c = dim == 2 ? cloud_lattice(2, 20, 18, 1, 0.3, 1) : cloud_lattice(3, 8, 8, 7, 0.3, 1);
+            cloud c = dim == 2 ? cloud_lattice(2, 20, 18, 1, 0.3, 1)
+                               : cloud_lattice(3, 8, 8, 7, 0.3, 1);
             double *u = cloud_field(c.n * dim, 2);
             int32_t *phase = cloud_phases(c.n);
             for (int64_t i = 0; i < c.n; i++) phase[i] = (int32_t)(i / 7 % 3);
@@ -52,7 +58,8 @@ static void momentum(void **state)
             ASSERT_OK(sim, mps_step(sim, 1, NULL));
             double moment = 0, arm = 0;
             for (int64_t i = 0; whole && i < c.n; i++) {
-                const double *x = c.x + i * dim, *a = spy.a + i * dim, about_z = x[0] * a[1] - x[1] * a[0];
+                const double *x = c.x + i * dim, *a = spy.a + i * dim,
+                             about_z = x[0] * a[1] - x[1] * a[0];
                 moment += rho[phase[i]] * about_z;
                 arm += rho[phase[i]] * fabs(about_z);
             }
@@ -72,7 +79,8 @@ static void momentum(void **state)
         }
 }
 
-/* u = A x of two fluids, phase 1 beyond the middle of the cloud: accelerations by the model; dim 2, row major A. */
+/* u = A x of two fluids, phase 1 beyond the middle of the cloud: accelerations by the model; dim 2,
+ * row major A. */
 static mps_sim *linear_flow(const cloud *c, const double *A, const double *mu, double stress)
 {
     double *u = cloud_doubles(c->n * c->dim), middle = 0;
@@ -81,7 +89,8 @@ static mps_sim *linear_flow(const cloud *c, const double *A, const double *mu, d
     for (int64_t i = 0; i < c->n; i++) {
         phase[i] = c->x[i * c->dim] > middle;
         for (int d = 0; d < c->dim; d++)
-            for (int e = 0; e < c->dim; e++) u[i * c->dim + d] += A[d * c->dim + e] * c->x[i * c->dim + e];
+            for (int e = 0; e < c->dim; e++)
+                u[i * c->dim + d] += A[d * c->dim + e] * c->x[i * c->dim + e];
     }
     mps_sim *sim = bare_sim(c->dim, CLOUD_DP, 3.1, 1e-9);
     for (int p = 0; p < 2; p++) set_phase(sim, p, 1000, mu[p]);
@@ -94,26 +103,31 @@ static mps_sim *linear_flow(const cloud *c, const double *A, const double *mu, d
     return sim;
 }
 
-/* Fluids that turn as one body feel nothing with the whole stress; div(mu grad u) pushes at their interface. */
+/* Fluids that turn as one body feel nothing with the whole stress; div(mu grad u) pushes at their
+ * interface. */
 static void rigid_rotation(void **state)
 {
     (void)state;
-    static const double turn2[4] = {0, -1, 1, 0}, turn3[9] = {0, -1, 0.5, 1, 0, -2, -0.5, 2, 0}, mu[2] = {1, 10};
+    static const double turn2[4] = {0, -1, 1, 0}, turn3[9] = {0, -1, 0.5, 1, 0, -2, -0.5, 2, 0},
+                        mu[2] = {1, 10};
     for (int dim = 2; dim <= 3; dim++) {
-        cloud c = dim == 2 ? cloud_lattice(2, 20, 18, 1, 0.3, 1) : cloud_lattice(3, 8, 8, 7, 0.3, 1);
+        cloud c = dim == 2 ? cloud_lattice(2, 20, 18, 1, 0.3, 1)
+                           : cloud_lattice(3, 8, 8, 7, 0.3, 1);
         double most[2] = {0};
         for (int whole = 0; whole < 2; whole++) {
             mps_sim *sim = linear_flow(&c, dim == 2 ? turn2 : turn3, mu, whole);
             for (int64_t k = 0; k < c.n * dim; k++) most[whole] = fmax(most[whole], fabs(spy.a[k]));
             mps_sim_destroy(sim);
         }
-        print_message("%d-D: largest acceleration of rigid rotation %.3g, whole stress %.3g m/s2\n", dim, most[0], most[1]);
+        print_message("%d-D: largest acceleration of rigid rotation %.3g, whole stress %.3g m/s2\n",
+                      dim, most[0], most[1]);
         assert_true(most[0] > 0.1 && most[1] < 1e-11 * most[0]);
         cloud_free(&c);
     }
 }
 
-/* Stretched at the rate `rate`, the interface bears the jump of the normal stress, 2 (mu_1 - mu_0) rate on its area; div(mu grad u) has half of it. */
+/* Stretched at the rate `rate`, the interface bears the jump of the normal stress, 2 (mu_1 - mu_0)
+ * rate on its area; div(mu grad u) has half of it. */
 static void jump_of_stress(void **state)
 {
     (void)state;
@@ -123,7 +137,8 @@ static void jump_of_stress(void **state)
         cloud c = cloud_lattice(2, ACROSS, ALONG, 1, 0, 1);
         mps_sim *sim = linear_flow(&c, A, mu, whole);
         double force = 0; /* on a row, away from its ends and from other sides of the cloud */
-        for (int64_t i = 4; i < ACROSS - 4; i++) force += 1000 * CLOUD_DP * CLOUD_DP * spy.a[2 * (i + ACROSS * (ALONG / 2))];
+        for (int64_t i = 4; i < ACROSS - 4; i++)
+            force += 1000 * CLOUD_DP * CLOUD_DP * spy.a[2 * (i + ACROSS * (ALONG / 2))];
         const double jump = force / CLOUD_DP / ((mu[1] - mu[0]) * rate);
         print_message("jump of the normal stress %.4f, of (mu_1 - mu_0) du/dx\n", jump);
         ASSERT_NEAR(jump, whole ? 2 : 1, 0.03);
@@ -132,7 +147,8 @@ static void jump_of_stress(void **state)
     }
 }
 
-/* One phase in a tank: viscosity.laplacian, though phase 0, which the walls carry, is something else. */
+/* One phase in a tank: viscosity.laplacian, though phase 0, which the walls carry, is something
+ * else. */
 static void walls_take_the_fluid(void **state)
 {
     (void)state;
@@ -188,9 +204,12 @@ static void slippery_walls(void **state)
         ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &x));
         for (int64_t i = 0; i < x.count; i++) {
             const double *at = x.data + 2 * i, a = spy.a[2 * ids[i]];
-            const bool beside_x = fmin(at[0], 0.5 - at[0]) < 0.06, beside_y = fmin(at[1], 0.5 - at[1]) < 0.06;
+            const bool beside_x = fmin(at[0], 0.5 - at[0]) < 0.06,
+                       beside_y = fmin(at[1], 0.5 - at[1]) < 0.06;
             if (kind[i] != MPS_FLUID || beside_x == beside_y) continue;
-            if (fmax(fabs(at[0] - 0.25), fabs(at[1] - 0.25)) > 0.21 || fmin(fabs(at[0] - 0.25), fabs(at[1] - 0.25)) > 0.06) continue;
+            if (fmax(fabs(at[0] - 0.25), fabs(at[1] - 0.25)) > 0.21 ||
+                fmin(fabs(at[0] - 0.25), fabs(at[1] - 0.25)) > 0.06)
+                continue;
             assert_true((slip & (beside_x ? 1 : 2)) ? a == 0 : a < -1e-6);
         }
         ASSERT_OK(sim, mps_lease_end(sim, &x));
@@ -198,8 +217,8 @@ static void slippery_walls(void **state)
     }
 }
 
-/* Shear along the floor, u = y from 0 on its face: no force in the rows next to it, since dummies are seen mirrored. With their own velocity the
- * first row is pulled along. */
+/* Shear along the floor, u = y from 0 on its face: no force in the rows next to it, since dummies
+ * are seen mirrored. With their own velocity the first row is pulled along. */
 static void shear_along_the_floor(void **state)
 {
     (void)state;
@@ -220,7 +239,8 @@ static void shear_along_the_floor(void **state)
         ASSERT_OK(sim, mps_particles_tags(sim, &ids, &kind, NULL, NULL));
         ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &x));
         ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &u));
-        for (int64_t i = 0; i < x.count; i++) u.data[i * dim] = kind[i] == MPS_FLUID ? x.data[i * dim + 1] : 0;
+        for (int64_t i = 0; i < x.count; i++)
+            u.data[i * dim] = kind[i] == MPS_FLUID ? x.data[i * dim + 1] : 0;
         ASSERT_OK(sim, mps_lease_end(sim, &u));
         ASSERT_OK(sim, mps_lease_end(sim, &x));
         ASSERT_OK(sim, mps_step(sim, 1, NULL));
@@ -230,7 +250,8 @@ static void shear_along_the_floor(void **state)
         for (int64_t i = 0; i < x.count; i++) {
             const double *at = x.data + i * dim;
             const bool aside = fabs(at[0] - 0.35) > 0.16 || (dim == 3 && fabs(at[2] - 0.35) > 0.16);
-            if (kind[i] == MPS_FLUID && at[1] < 0.31 && !aside) most = fmax(most, fabs(spy.a[ids[i] * dim]));
+            if (kind[i] == MPS_FLUID && at[1] < 0.31 && !aside)
+                most = fmax(most, fabs(spy.a[ids[i] * dim]));
         }
         ASSERT_OK(sim, mps_lease_end(sim, &x));
         assert_true(mirror ? most * dp < 1e-7 : most * dp > 0.05); /* of nu du/dy */
@@ -238,7 +259,7 @@ static void shear_along_the_floor(void **state)
     }
 }
 
-/* ---- Couette ------------------------------------------------------------------------------------------------------------ */
+/* ---- Couette --------------------------------------------------------------------------------- */
 
 enum { ROWS = 24, COLUMNS = 5, BELT = 3 };
 static const double belt_speed = 1e-9; /* so slow that nobody gets anywhere */
@@ -255,11 +276,8 @@ static int belts(mps_stage *s)
 }
 
 static const mps_use belt_uses[] = {{"velocity", MPS_USE_CHANGE}};
-static const mps_verb belt_verbs[] = {{.moment = MPS_VELOCITY,
-                                       .use_count = 1,
-                                       .uses = belt_uses,
-                                       .after = "*",
-                                       .run = belts}};
+static const mps_verb belt_verbs[] = {
+    {.moment = MPS_VELOCITY, .use_count = 1, .uses = belt_uses, .after = "*", .run = belts}};
 static const mps_model_ops belt = {.struct_size = sizeof(mps_model_ops),
                                    .api = MPS_MODEL_API,
                                    .name = "belt.test",
@@ -267,7 +285,8 @@ static const mps_model_ops belt = {.struct_size = sizeof(mps_model_ops),
                                    .verb_count = 1,
                                    .verbs = belt_verbs};
 
-/* Steady: mu du/dy is the same in both layers, and with the harmonic mean the velocity of the interface is that of sharp layers. */
+/* Steady: mu du/dy is the same in both layers, and with the harmonic mean the velocity of the
+ * interface is that of sharp layers. */
 static void couette(void **state)
 {
     (void)state;
@@ -288,9 +307,10 @@ static void couette(void **state)
         double *u = field_by_id(sim, "velocity");
 #define ROW(r) u[2 * ((r)*COLUMNS + COLUMNS / 2)]
         const double low = ROW(8) - ROW(5), high = ROW(18) - ROW(15);
-        const double below = ROW(8) + 3.5 / 3 * low, above = ROW(15) - 3.5 / 3 * high; /* both carried on to the interface */
-        print_message("theta %g: slopes %.4f to 1, jump at the interface %.4f of the speed\n", theta[t], low / high,
-                      (above - below) / belt_speed);
+        const double below = ROW(8) + 3.5 / 3 * low,
+                     above = ROW(15) - 3.5 / 3 * high; /* both carried on to the interface */
+        print_message("theta %g: slopes %.4f to 1, jump at the interface %.4f of the speed\n",
+                      theta[t], low / high, (above - below) / belt_speed);
         ASSERT_NEAR(low / high, mu[1] / mu[0], 0.02 * mu[1] / mu[0]);
         assert_true(theta[t] > 0 || fabs(above - below) < 0.03 * belt_speed);
         free(u);

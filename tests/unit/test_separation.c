@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* separation.void and the solution with least pressures (bounds.c): walls beside void do not pull, what needs suction keeps it. */
+/* separation.void and the solution with least pressures (bounds.c): walls beside void do not pull,
+ * what needs suction keeps it. */
 #define _POSIX_C_SOURCE 200809L
 #include "tank_fixture.h"
 #include <mps/model.h>
@@ -11,7 +12,8 @@ static const double GRAVITY = 9.81, RHO = 1000;
 
 /* Of the steps so far. */
 static struct {
-    double least;      /* lowest pressure of walls beside void, over that of a static liquid as deep as the near radius */
+    double least;      /* lowest pressure of walls beside void, over that of a static liquid as
+                          deep as the near radius */
     double suction;    /* sum of -p dt over all walls that count, where p < 0 [Pa s] */
     const bool *among; /* by id: walls that count; NULL: all */
     int64_t seen;      /* pressures of walls beside void */
@@ -67,11 +69,13 @@ typedef enum scene { PULLED, EDGE, PLATE } scene;
 static int pull(void *user, double t, mps_motion_state *state)
 {
     (void)user;
-    const double a = 4 * GRAVITY, rise = 0.1, w = 3.14159265358979 / rise, q = fmin(t, rise), after = t - q;
+    const double a = 4 * GRAVITY, rise = 0.1, w = 3.14159265358979 / rise, q = fmin(t, rise),
+                 after = t - q;
     const double rate = 0.5 * a * (q - sin(w * q) / w);
     state->accel[MPS_SURGE] = -0.5 * a * (1 - cos(w * q));
     state->rate[MPS_SURGE] = -(rate + a * after);
-    state->value[MPS_SURGE] = -(0.5 * a * (0.5 * q * q - (1 - cos(w * q)) / (w * w)) + rate * after + 0.5 * a * after * after);
+    state->value[MPS_SURGE] = -(0.5 * a * (0.5 * q * q - (1 - cos(w * q)) / (w * w)) +
+                                rate * after + 0.5 * a * after * after);
     return 0;
 }
 
@@ -89,13 +93,15 @@ static void stream(mps_sim *sim)
 
 static mps_sim *build(scene what, int32_t dim)
 {
-    const double dp = 0.04, across = dim == 3 ? 0.24 : 0, lo[3] = {0, 0, 0}, hi[3] = {what == EDGE ? 0.48 : 0.8, 0.32, across};
-    const double box_lo[3] = {0.5, 0, 0}, box_hi[3] = {0.7, 0.2, across}, foot[3] = {0.4, 0, 0}, up[3] = {0, 0.24, 0},
-                 along[3] = {0, 0, across};
+    const double dp = 0.04, across = dim == 3 ? 0.24 : 0, lo[3] = {0, 0, 0},
+                 hi[3] = {what == EDGE ? 0.48 : 0.8, 0.32, across};
+    const double box_lo[3] = {0.5, 0, 0}, box_hi[3] = {0.7, 0.2, across}, foot[3] = {0.4, 0, 0},
+                 up[3] = {0, 0.24, 0}, along[3] = {0, 0, across};
     mps_sim *sim = new_sim(dim, dp);
     add_tank(sim, what == EDGE ? 1.2 : 0.8, 0.64, across);
     if (what == EDGE) ASSERT_OK(sim, mps_geometry_baffle(sim, "box", box_lo, box_hi, NULL));
-    if (what == PLATE) ASSERT_OK(sim, mps_geometry_plate(sim, "plate", foot, up, dim == 3 ? along : NULL));
+    if (what == PLATE)
+        ASSERT_OK(sim, mps_geometry_plate(sim, "plate", foot, up, dim == 3 ? along : NULL));
     ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL));
     if (what == EDGE)
         stream(sim);
@@ -141,7 +147,8 @@ static bool *walls_between(mps_sim *sim, const double *lo, const double *hi)
     assert_non_null(among);
     for (int64_t i = 0; i < x.count; i++) {
         bool in = kind[i] == MPS_WALL;
-        for (int d = 0; d < 2; d++) in = in && x.data[i * x.stride + d] >= lo[d] && x.data[i * x.stride + d] <= hi[d];
+        for (int d = 0; d < 2; d++)
+            in = in && x.data[i * x.stride + d] >= lo[d] && x.data[i * x.stride + d] <= hi[d];
         among[id[i]] = in;
         count += in;
     }
@@ -151,7 +158,8 @@ static bool *walls_between(mps_sim *sim, const double *lo, const double *hi)
 }
 
 /* With the model the walls between lo and hi do not pull; without it they do. */
-static void pulls_only_without(scene what, int32_t dim, double t, const double *lo, const double *hi)
+static void pulls_only_without(scene what, int32_t dim, double t, const double *lo,
+                               const double *hi)
 {
     for (int with = 0; with < 2; with++) {
         mps_sim *sim = build(what, dim);
@@ -160,8 +168,10 @@ static void pulls_only_without(scene what, int32_t dim, double t, const double *
         if (!with) ASSERT_OK(sim, mps_model_remove(sim, "separation"));
         const int32_t separated = run_to(sim, t);
         assert_true(spy.seen > 0);
-        if (with && !(spy.least > -1.01 && separated > 0)) fail_msg("walls pull: %g, %d have let go", spy.least, separated);
-        if (!with && !(spy.least < -1.5 && separated == 0)) fail_msg("nothing to let go of: %g", spy.least);
+        if (with && !(spy.least > -1.01 && separated > 0))
+            fail_msg("walls pull: %g, %d have let go", spy.least, separated);
+        if (!with && !(spy.least < -1.5 && separated == 0))
+            fail_msg("nothing to let go of: %g", spy.least);
         mps_sim_destroy(sim);
         free(among);
     }
@@ -205,7 +215,8 @@ static mps_sim *jumping(int32_t dim, double depth)
     return sim;
 }
 
-/* Sum of p dt over the wall that leaves the liquid, where p < 0, in the first steps of a jump; hold < 0: without the model. */
+/* Sum of p dt over the wall that leaves the liquid, where p < 0, in the first steps of a jump; hold
+ * < 0: without the model. */
 static double suction_of_jump(int32_t dim, double hold)
 {
     const double lo[2] = {0.79, 0.02}, hi[2] = {0.81, 0.4};
@@ -226,7 +237,8 @@ static void jump_keeps_its_suction(void **state)
 {
     (void)state;
     for (int32_t dim = 2; dim <= 3; dim++) {
-        const double without = suction_of_jump(dim, -1), held = suction_of_jump(dim, 5), at_once = suction_of_jump(dim, 0);
+        const double without = suction_of_jump(dim, -1), held = suction_of_jump(dim, 5),
+                     at_once = suction_of_jump(dim, 0);
         assert_true(without > 0 && held == without);
         assert_true(at_once < 0.95 * without); /* so `hold` is what keeps it */
     }
@@ -250,7 +262,8 @@ static void full_tank_pulls(void **state)
     }
 }
 
-/* A step cut short by its caller is no jump: walls beside void have let go before it, in it and after it. */
+/* A step cut short by its caller is no jump: walls beside void have let go before it, in it and
+ * after it. */
 static void short_step_is_no_jump(void **state)
 {
     (void)state;
@@ -330,9 +343,10 @@ static void threads_do_not_matter(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(wall_that_leaves),       cmocka_unit_test(edge_of_a_box),         cmocka_unit_test(plate_that_leaves),
-        cmocka_unit_test(jump_keeps_its_suction), cmocka_unit_test(full_tank_pulls),       cmocka_unit_test(short_step_is_no_jump),
-        cmocka_unit_test(checkpoint_goes_on),     cmocka_unit_test(threads_do_not_matter),
+        cmocka_unit_test(wall_that_leaves),   cmocka_unit_test(edge_of_a_box),
+        cmocka_unit_test(plate_that_leaves),  cmocka_unit_test(jump_keeps_its_suction),
+        cmocka_unit_test(full_tank_pulls),    cmocka_unit_test(short_step_is_no_jump),
+        cmocka_unit_test(checkpoint_goes_on), cmocka_unit_test(threads_do_not_matter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The handle without stepping: configuration, versioned structs, names and their suggestions, settings, phases, models. */
+/* The handle without stepping: configuration, versioned structs, names and their suggestions,
+ * settings, phases, models. */
 #include "tank_fixture.h"
 #include <mps/model.h>
 #include <mps/ppe.h>
@@ -16,7 +17,7 @@ static mps_config good_config(char *error, size_t size)
     return c;
 }
 
-/* ---- configuration ------------------------------------------------------------------------------------------------- */
+/* ---- configuration --------------------------------------------------------------------------- */
 
 static void refuse(const mps_config *c, mps_status wanted, const char *word)
 {
@@ -24,7 +25,8 @@ static void refuse(const mps_config *c, mps_status wanted, const char *word)
     c->error[0] = 0;
     const mps_status got = mps_sim_create(c, &sim);
     if (got != wanted || !strstr(c->error, word))
-        fail_msg("%s instead of %s, \"%s\"; \"%s\" missing", mps_status_name(got), mps_status_name(wanted), c->error, word);
+        fail_msg("%s instead of %s, \"%s\"; \"%s\" missing", mps_status_name(got),
+                 mps_status_name(wanted), c->error, word);
     assert_null(sim);
 }
 
@@ -107,9 +109,11 @@ static void versions(void **state)
     char text[300] = "";
     mps_sim *sim = NULL;
     assert_int_equal(mps_config_init(&newer.known, sizeof newer), MPS_OK);
-    assert_true(newer.later[0] == 0 && newer.later[1] == 0 && newer.known.struct_size == sizeof newer);
+    assert_true(newer.later[0] == 0 && newer.later[1] == 0 &&
+                newer.known.struct_size == sizeof newer);
     newer.known.dp = 0.1;
-    assert_int_equal(mps_sim_create(&newer.known, &sim), MPS_OK); /* entries of the future at their default */
+    assert_int_equal(mps_sim_create(&newer.known, &sim),
+                     MPS_OK); /* entries of the future at their default */
     mps_sim_destroy(sim);
     newer.later[1] = 1;
     newer.known.error = text;
@@ -213,41 +217,56 @@ static void empty_phase(void **state)
     const double lo[2] = {0, 0}, hi[2] = {0.5, 0.3};
     ASSERT_OK(sim, mps_geometry_fill_box(sim, 2, lo, hi, NULL, NULL));
     for (int k = 0; k < 3; k++) ASSERT_OK(sim, mps_step(sim, 1e-4, NULL));
-    assert_string_equal(warnings, "phase 1 is defined, but no fluid particle is of it;phase 3 is defined, but no fluid particle is of it;");
+    assert_string_equal(warnings, "phase 1 is defined, but no fluid particle is of it;phase 3 is "
+                                  "defined, but no fluid particle is of it;");
     mps_sim_destroy(sim);
 }
 
-/* ---- names and settings ------------------------------------------------------------------------------------------------ */
+/* ---- names and settings ---------------------------------------------------------------------- */
 
 static void suggestions(void **state)
 {
     (void)state;
     mps_sim *sim = new_sim(2, 0.05);
     double v = 0;
-    ASSERT_REFUSED(sim, mps_model_use(sim, "tension"), MPS_E_NAME, "no model \"tension\"; there are \"tension.csf\", \"tension.jump\"");
-    ASSERT_REFUSED(sim, mps_model_use(sim, "tension.cfs"), MPS_E_NAME, "did you mean \"tension.csf\"?");
-    ASSERT_REFUSED(sim, mps_model_use(sim, "surface."), MPS_E_NAME, "there are \"surface.asymmetry\", \"surface.detached\", ");
-    ASSERT_REFUSED(sim, mps_model_use(sim, "surfce.asymmetry"), MPS_E_NAME, "did you mean \"surface.asymmetry\"?");
-    ASSERT_REFUSED(sim, mps_model_use(sim, "foo"), MPS_E_NAME, "no model \"foo\"; the slots are \"");
+    ASSERT_REFUSED(sim, mps_model_use(sim, "tension"), MPS_E_NAME,
+                   "no model \"tension\"; there are \"tension.csf\", \"tension.jump\"");
+    ASSERT_REFUSED(sim, mps_model_use(sim, "tension.cfs"), MPS_E_NAME,
+                   "did you mean \"tension.csf\"?");
+    ASSERT_REFUSED(sim, mps_model_use(sim, "surface."), MPS_E_NAME,
+                   "there are \"surface.asymmetry\", \"surface.detached\", ");
+    ASSERT_REFUSED(sim, mps_model_use(sim, "surfce.asymmetry"), MPS_E_NAME,
+                   "did you mean \"surface.asymmetry\"?");
+    ASSERT_REFUSED(sim, mps_model_use(sim, "foo"), MPS_E_NAME,
+                   "no model \"foo\"; the slots are \"");
     assert_non_null(strstr(mps_sim_error(sim), "\"surface\", "));
-    assert_null(strstr(strstr(mps_sim_error(sim), "\"surface\"") + 1, "\"surface\"")); /* each once */
+    assert_null(
+        strstr(strstr(mps_sim_error(sim), "\"surface\"") + 1, "\"surface\"")); /* each once */
     assert_null(strstr(mps_sim_error(sim), "wall.half"));
-    ASSERT_REFUSED(sim, mps_sim_use_preset(sim, "no such thing"), MPS_E_NAME, "there are \"imps\", ");
-    ASSERT_REFUSED(sim, mps_solver_use(sim, "petsc", NULL), MPS_E_NAME, "there are 'sundials.pcg', ");
-    ASSERT_REFUSED(sim, mps_model_set(sim, "surface", "xyz", 1), MPS_E_NAME, "has no setting \"xyz\"; there are \"");
+    ASSERT_REFUSED(sim, mps_sim_use_preset(sim, "no such thing"), MPS_E_NAME,
+                   "there are \"imps\", ");
+    ASSERT_REFUSED(sim, mps_solver_use(sim, "petsc", NULL), MPS_E_NAME,
+                   "there are 'sundials.pcg', ");
+    ASSERT_REFUSED(sim, mps_model_set(sim, "surface", "xyz", 1), MPS_E_NAME,
+                   "has no setting \"xyz\"; there are \"");
     ASSERT_OK(sim, mps_model_use(sim, "gradient.conservative"));
-    ASSERT_REFUSED(sim, mps_model_set(sim, "gradient", "x", 1), MPS_E_NAME, "model \"gradient.conservative\" has no setting");
-    ASSERT_REFUSED(sim, mps_sim_use_preset(sim, "ims"), MPS_E_NAME, "\"ims\"; did you mean \"imps\"");
+    ASSERT_REFUSED(sim, mps_model_set(sim, "gradient", "x", 1), MPS_E_NAME,
+                   "model \"gradient.conservative\" has no setting");
+    ASSERT_REFUSED(sim, mps_sim_use_preset(sim, "ims"), MPS_E_NAME,
+                   "\"ims\"; did you mean \"imps\"");
     ASSERT_REFUSED(sim, mps_sim_use_preset(sim, "imps.papr"), MPS_E_NAME, "\"imps.paper\"");
     ASSERT_REFUSED(sim, mps_sim_use_preset(sim, NULL), MPS_E_ARG, "NULL");
-    ASSERT_REFUSED(sim, mps_model_use(sim, "surface.asymetry"), MPS_E_NAME, "\"surface.asymmetry\"");
+    ASSERT_REFUSED(sim, mps_model_use(sim, "surface.asymetry"), MPS_E_NAME,
+                   "\"surface.asymmetry\"");
     ASSERT_REFUSED(sim, mps_model_use(sim, NULL), MPS_E_ARG, "NULL");
     ASSERT_REFUSED(sim, mps_model_set(sim, "surface", "lov", 0.8), MPS_E_NAME, "\"low\"");
     ASSERT_REFUSED(sim, mps_model_get(sim, "surface", "hihg", &v), MPS_E_NAME, "\"high\"");
     ASSERT_REFUSED(sim, mps_model_set(sim, "surfac", "low", 0.8), MPS_E_NAME, "\"surfac\"");
     ASSERT_REFUSED(sim, mps_model_set(sim, NULL, "low", 0.8), MPS_E_NAME, "NULL");
-    ASSERT_REFUSED(sim, mps_model_set(sim, "surface", NULL, 0.8), MPS_E_NAME, "key of a setting of model \"surface.asymmetry\" is NULL");
-    ASSERT_REFUSED(sim, mps_model_get(sim, "surface", NULL, &v), MPS_E_NAME, "is NULL; there are \"");
+    ASSERT_REFUSED(sim, mps_model_set(sim, "surface", NULL, 0.8), MPS_E_NAME,
+                   "key of a setting of model \"surface.asymmetry\" is NULL");
+    ASSERT_REFUSED(sim, mps_model_get(sim, "surface", NULL, &v), MPS_E_NAME,
+                   "is NULL; there are \"");
     ASSERT_REFUSED(sim, mps_model_get(sim, "surface", "low", NULL), MPS_E_ARG, "value is NULL");
     ASSERT_REFUSED(sim, mps_model_remove(sim, "colision"), MPS_E_NAME, "colision");
     ASSERT_REFUSED(sim, mps_model_remove(sim, NULL), MPS_E_ARG, "NULL");
@@ -263,7 +282,8 @@ static void suggestions(void **state)
 static int active(const mps_sim *sim, const char *name)
 {
     int found = 0;
-    for (int32_t k = 0; mps_model_name(sim, k); k++) found += strcmp(mps_model_name(sim, k), name) == 0;
+    for (int32_t k = 0; mps_model_name(sim, k); k++)
+        found += strcmp(mps_model_name(sim, k), name) == 0;
     return found;
 }
 
@@ -275,8 +295,10 @@ static void settings(void **state)
     ASSERT_OK(sim, mps_sim_use_preset(sim, "imps.paper"));
     ASSERT_OK(sim, mps_model_get(sim, "source", "gamma", &initial));
     ASSERT_OK(sim, mps_model_set(sim, "source", "gamma", 0.25));
-    ASSERT_REFUSED(sim, mps_model_set(sim, "source", "gamma", 1.5), MPS_E_ARG, "gamma is 1.5: allowed 0..1");
-    ASSERT_REFUSED(sim, mps_model_set(sim, "source", "gamma", -0.1), MPS_E_ARG, "gamma is -0.1: allowed 0..1");
+    ASSERT_REFUSED(sim, mps_model_set(sim, "source", "gamma", 1.5), MPS_E_ARG,
+                   "gamma is 1.5: allowed 0..1");
+    ASSERT_REFUSED(sim, mps_model_set(sim, "source", "gamma", -0.1), MPS_E_ARG,
+                   "gamma is -0.1: allowed 0..1");
     ASSERT_REFUSED(sim, mps_model_set(sim, "source", "gamma", NAN), MPS_E_ARG, "gamma");
     ASSERT_OK(sim, mps_model_get(sim, "source.mixed", "gamma", &v)); /* by the full name too */
     assert_true(v == 0.25 && initial == 0.01);
@@ -288,7 +310,8 @@ static void settings(void **state)
     ASSERT_OK(sim, mps_model_use(sim, "surface.original")); /* a slot holds one */
     assert_true(!active(sim, "surface.asymmetry") && active(sim, "surface.original"));
     double high;
-    ASSERT_STATUS(sim, mps_model_get(sim, "surface.asymmetry", "high", &high), MPS_E_NAME); /* a full name is not its neighbour's */
+    ASSERT_STATUS(sim, mps_model_get(sim, "surface.asymmetry", "high", &high),
+                  MPS_E_NAME); /* a full name is not its neighbour's */
     ASSERT_STATUS(sim, mps_model_remove(sim, "surface.asymmetry"), MPS_E_NAME);
     ASSERT_OK(sim, mps_model_remove(sim, "surface"));
     assert_false(active(sim, "surface.original"));
@@ -334,7 +357,7 @@ static void phases(void **state)
     mps_sim_destroy(sim);
 }
 
-/* ---- registration ----------------------------------------------------------------------------------------------------------- */
+/* ---- registration ---------------------------------------------------------------------------- */
 
 static int force(mps_stage *s)
 {
@@ -370,7 +393,8 @@ static void model_registration(void **state)
     REFUSE_MODEL(name, "force", MPS_E_ARG, "slot.variant");
     REFUSE_MODEL(name, ".force", MPS_E_ARG, "slot.variant");
     REFUSE_MODEL(name, "mine.", MPS_E_ARG, "slot.variant");
-    REFUSE_MODEL(name, "mine.a_name_that_is_longer_than_forty_seven_characters", MPS_E_ARG, "slot.variant");
+    REFUSE_MODEL(name, "mine.a_name_that_is_longer_than_forty_seven_characters", MPS_E_ARG,
+                 "slot.variant");
     REFUSE_MODEL(name, "surface.asymmetry", MPS_E_ARG, "taken");
     REFUSE_MODEL(api, 2, MPS_E_VERSION, "interface 2");
     REFUSE_MODEL(verb_count, 0, MPS_E_ARG, "verb");
@@ -444,7 +468,8 @@ static void user_kernel(void **state)
     fill_depth(sim, 0.5, 0.3, 0);
     ASSERT_REFUSED(sim, mps_sim_set_kernel(sim, NULL), MPS_E_ARG, "NULL");
     assert_int_equal(mps_kernel_custom(negative, NULL, &k), MPS_OK);
-    ASSERT_REFUSED(sim, mps_sim_set_kernel(sim, &k), MPS_E_ARG, "the kernel is -0.055 at r = 0.05 m of re = 0.105 m");
+    ASSERT_REFUSED(sim, mps_sim_set_kernel(sim, &k), MPS_E_ARG,
+                   "the kernel is -0.055 at r = 0.05 m of re = 0.105 m");
     assert_int_equal(mps_kernel_custom(zero, NULL, &k), MPS_OK);
     ASSERT_REFUSED(sim, mps_sim_set_kernel(sim, &k), MPS_E_ARG, "is 0 at all distances");
     k.id = 0;
@@ -474,10 +499,18 @@ static void status_texts(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bad_configuration),  cmocka_unit_test(error_text),      cmocka_unit_test(versions),
-        cmocka_unit_test(defaults),           cmocka_unit_test(log_callback),    cmocka_unit_test(empty_phase),
-        cmocka_unit_test(suggestions),        cmocka_unit_test(settings),        cmocka_unit_test(phases),
-        cmocka_unit_test(model_registration), cmocka_unit_test(too_many_models), cmocka_unit_test(user_kernel),
+        cmocka_unit_test(bad_configuration),
+        cmocka_unit_test(error_text),
+        cmocka_unit_test(versions),
+        cmocka_unit_test(defaults),
+        cmocka_unit_test(log_callback),
+        cmocka_unit_test(empty_phase),
+        cmocka_unit_test(suggestions),
+        cmocka_unit_test(settings),
+        cmocka_unit_test(phases),
+        cmocka_unit_test(model_registration),
+        cmocka_unit_test(too_many_models),
+        cmocka_unit_test(user_kernel),
         cmocka_unit_test(status_texts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Stepping: time control, a user's model, and steps that fail - with the state as before, bit for bit. */
+/* Stepping: time control, a user's model, and steps that fail - with the state as before, bit for
+ * bit. */
 #include "tank_fixture.h"
 #include <mps/model.h>
 #include <stdbool.h>
@@ -28,7 +29,11 @@ static struct {
 
 /* All verbs change velocities and pressures; some a third channel. */
 enum { U, P, THIRD };
-#define MESS {"velocity", MPS_USE_CHANGE}, {"pressure", MPS_USE_CHANGE}
+#define MESS                       \
+    {"velocity", MPS_USE_CHANGE},  \
+    {                              \
+        "pressure", MPS_USE_CHANGE \
+    }
 static const mps_use mess_uses[] = {MESS};
 static const mps_use classify_uses[] = {MESS, {"region", MPS_USE_CHANGE}};
 static const mps_use force_uses[] = {MESS, {"acceleration", MPS_USE_CHANGE}};
@@ -163,7 +168,7 @@ static void use_push(mps_sim *sim)
     ASSERT_OK(sim, mps_model_use(sim, "test.push"));
 }
 
-/* ---- scenes ------------------------------------------------------------------------------------------------------------- */
+/* ---- scenes ---------------------------------------------------------------------------------- */
 
 static void fill_pool(mps_sim *sim)
 {
@@ -233,7 +238,8 @@ static picture take_picture(mps_sim *sim)
         ASSERT_OK(sim, mps_lease_begin(sim, fields[f], MPS_READ, &l));
         for (int64_t i = 0; i < l.count; i++) {
             assert_true(ids[i] < 1000);
-            memcpy(c.value + at + ids[i] * l.stride, l.data + i * l.stride, (size_t)l.stride * sizeof(double));
+            memcpy(c.value + at + ids[i] * l.stride, l.data + i * l.stride,
+                   (size_t)l.stride * sizeof(double));
         }
         at += 1000 * l.stride;
         ASSERT_OK(sim, mps_lease_end(sim, &l));
@@ -249,7 +255,7 @@ static void assert_same(const picture *a, const picture *b)
     assert_memory_equal(a->value, b->value, sizeof a->value);
 }
 
-/* ---- a user's model --------------------------------------------------------------------------------------------------------- */
+/* ---- a user's model -------------------------------------------------------------------------- */
 
 /* Nothing else acts on the drops: du = a dt, dx = u dt. */
 static void acceleration(void **state)
@@ -274,7 +280,8 @@ static void acceleration(void **state)
     assert_true(test.created == 1 && test.destroyed == 1);
 }
 
-/* Whatever verb fails, the step did not happen - also not in what one cannot see: the run goes on as its twin does. */
+/* Whatever verb fails, the step did not happen - also not in what one cannot see: the run goes on
+ * as its twin does. */
 static void failing_model(void **state)
 {
     (void)state;
@@ -290,7 +297,8 @@ static void failing_model(void **state)
             test.fail = v % VERBS;
             test.silent = v / VERBS;
             snprintf(word, sizeof word, "the %s is out of order", verb_name[test.fail]);
-            ASSERT_REFUSED(sim, mps_step(sim, 0.01, NULL), MPS_E_PLUGIN, test.silent ? "\"test.push\" failed" : word);
+            ASSERT_REFUSED(sim, mps_step(sim, 0.01, NULL), MPS_E_PLUGIN,
+                           test.silent ? "\"test.push\" failed" : word);
             assert_non_null(strstr(mps_sim_error(sim), "test.push"));
             const picture after = take_picture(sim);
             assert_same(&before, &after);
@@ -329,12 +337,14 @@ static void values_out_of_range(void **state)
         test.region = region[k];
         snprintf(word, sizeof word, "left region %d at particle 10, (", (int)region[k]);
         ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_PLUGIN, word);
-        ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_PLUGIN, "model \"test.push\" at t = 0.001 s");
+        ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_PLUGIN,
+                       "model \"test.push\" at t = 0.001 s");
         test.region = MPS_REGION_INNER;
         test.dt_limit = limit[k];
         snprintf(word, sizeof word, "its dt_limit is %g s", limit[k]);
         ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_PLUGIN, word);
-        ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_PLUGIN, "model \"test.push\" at t = 0.001 s");
+        ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_PLUGIN,
+                       "model \"test.push\" at t = 0.001 s");
         test.dt_limit = INFINITY;
         const picture after = take_picture(sim);
         assert_same(&before, &after);
@@ -377,8 +387,8 @@ static void diverged(void **state)
         test.victim++;
     const picture before = take_picture(sim);
     for (test.spoil = 1; test.spoil <= 4; test.spoil++) {
-        snprintf(particle, sizeof particle, "particle %lld at (%g, %g", (long long)test.victim, before.value[2 * test.victim],
-                 before.value[2 * test.victim + 1]);
+        snprintf(particle, sizeof particle, "particle %lld at (%g, %g", (long long)test.victim,
+                 before.value[2 * test.victim], before.value[2 * test.victim + 1]);
         ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_DIVERGED, particle);
         const picture after = take_picture(sim);
         assert_same(&before, &after);
@@ -388,7 +398,7 @@ static void diverged(void **state)
     mps_sim_destroy(sim);
 }
 
-/* ---- time control --------------------------------------------------------------------------------------------------------------- */
+/* ---- time control ---------------------------------------------------------------------------- */
 
 static mps_time_control control(void)
 {
@@ -460,7 +470,8 @@ static void limits(void **state)
     test.dt_limit = INFINITY;
     ASSERT_NEAR(step_taken(sim, 1), 2.2e-4, 1e-15); /* which growth is measured against */
     ASSERT_NEAR(step_taken(sim, 1e-5), 1e-5, 1e-18);
-    ASSERT_NEAR(step_taken(sim, 1), 1.1 * 2.2e-4, 1e-15); /* a step cut by the caller does not count */
+    ASSERT_NEAR(step_taken(sim, 1), 1.1 * 2.2e-4,
+                1e-15); /* a step cut by the caller does not count */
     c.dt = 5e-4;
     ASSERT_OK(sim, mps_sim_set_time_control(sim, &c));
     ASSERT_NEAR(step_taken(sim, 1), 5e-4, 1e-18);
@@ -478,14 +489,22 @@ static void limits(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Walls jump to their speed in the first step: it is as short as the speed asks for, and nothing is lost. */
+/* Walls jump to their speed in the first step: it is as short as the speed asks for, and nothing is
+ * lost. */
 static void fast_walls(void **state)
 {
     (void)state;
     for (int k = 0; k < 3; k++) {
-        const bool turn = k == 2, against = k == 1; /* against: the liquid comes towards the walls, the speeds add up */
-        const mps_harmonic shock = {.dof = turn ? MPS_YAW : MPS_SURGE, .amplitude = turn ? 1 : 1000, .omega = turn ? 200 : 0.2};
-        const double speed = against ? 320 : turn ? 200 * 0.6 * sqrt(2) : 200, allowed = 0.3 * dp / speed;
+        const bool turn = k == 2,
+                   against = k ==
+                             1; /* against: the liquid comes towards the walls, the speeds add up */
+        const mps_harmonic shock = {.dof = turn ? MPS_YAW : MPS_SURGE,
+                                    .amplitude = turn ? 1 : 1000,
+                                    .omega = turn ? 200 : 0.2};
+        const double speed = against ? 320
+                             : turn  ? 200 * 0.6 * sqrt(2)
+                                     : 200,
+                     allowed = 0.3 * dp / speed;
         mps_step_info info;
         mps_sim *sim = pool();
         const picture before = take_picture(sim);
@@ -501,7 +520,8 @@ static void fast_walls(void **state)
     }
 }
 
-/* A sliver that the caller asked for, by an argument or by the control, does not make the next step fail. */
+/* A sliver that the caller asked for, by an argument or by the control, does not make the next step
+ * fail. */
 static void slivers(void **state)
 {
     (void)state;
@@ -528,7 +548,8 @@ static void bad_steps(void **state)
     const picture before = take_picture(sim);
     const double bad[] = {0, -1, NAN, INFINITY};
     mps_step_info info = {.struct_size = 0};
-    for (int k = 0; k < 4; k++) ASSERT_REFUSED(sim, mps_step(sim, bad[k], NULL), MPS_E_ARG, "dt_max is");
+    for (int k = 0; k < 4; k++)
+        ASSERT_REFUSED(sim, mps_step(sim, bad[k], NULL), MPS_E_ARG, "dt_max is");
     ASSERT_REFUSED(sim, mps_step(sim, 1e-3, &info), MPS_E_ARG, "struct_size");
     ASSERT_REFUSED(sim, mps_run(sim, NAN, NULL, NULL), MPS_E_ARG, "t_end");
     ASSERT_REFUSED(sim, mps_run(sim, INFINITY, NULL, NULL), MPS_E_ARG, "t_end");
@@ -557,7 +578,8 @@ static void older_step_info(void **state)
     info.struct_size = offsetof(mps_step_info, cfl);
     info.cfl = -5;
     ASSERT_OK(sim, mps_step(sim, 1e-3, &info));
-    assert_true(info.struct_size == offsetof(mps_step_info, cfl) && info.dt == 1e-3 && info.cfl == -5);
+    assert_true(info.struct_size == offsetof(mps_step_info, cfl) && info.dt == 1e-3 &&
+                info.cfl == -5);
     mps_sim_destroy(sim);
 }
 
@@ -575,10 +597,18 @@ static void run_fails(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(acceleration),  cmocka_unit_test(failing_model), cmocka_unit_test(values_out_of_range),
-        cmocka_unit_test(failing_start), cmocka_unit_test(diverged),      cmocka_unit_test(bad_time_control),
-        cmocka_unit_test(limits),        cmocka_unit_test(bad_steps),     cmocka_unit_test(older_step_info),
-        cmocka_unit_test(run_fails),     cmocka_unit_test(fast_walls),    cmocka_unit_test(slivers),
+        cmocka_unit_test(acceleration),
+        cmocka_unit_test(failing_model),
+        cmocka_unit_test(values_out_of_range),
+        cmocka_unit_test(failing_start),
+        cmocka_unit_test(diverged),
+        cmocka_unit_test(bad_time_control),
+        cmocka_unit_test(limits),
+        cmocka_unit_test(bad_steps),
+        cmocka_unit_test(older_step_info),
+        cmocka_unit_test(run_fails),
+        cmocka_unit_test(fast_walls),
+        cmocka_unit_test(slivers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* surface.asymmetry: what is surface, and what is left amid spray; the volume error of liquid a few rows deep. */
+/* surface.asymmetry: what is surface, and what is left amid spray; the volume error of liquid a few
+ * rows deep. */
 #include "tank_fixture.h"
 #include <mps/model.h>
 
@@ -15,11 +16,8 @@ static int keep_regions(mps_stage *s)
 }
 
 static const mps_use keeper_uses[] = {{"region", MPS_USE_READ}};
-static const mps_verb keeper_verbs[] = {{.moment = MPS_SOURCE,
-                                         .use_count = 1,
-                                         .uses = keeper_uses,
-                                         .after = "*",
-                                         .run = keep_regions}};
+static const mps_verb keeper_verbs[] = {
+    {.moment = MPS_SOURCE, .use_count = 1, .uses = keeper_uses, .after = "*", .run = keep_regions}};
 static const mps_model_ops keeper = {.struct_size = sizeof(mps_model_ops),
                                      .api = MPS_MODEL_API,
                                      .name = "keeper.regions",
@@ -27,7 +25,8 @@ static const mps_model_ops keeper = {.struct_size = sizeof(mps_model_ops),
                                      .verb_count = 1,
                                      .verbs = keeper_verbs};
 
-/* Id of the first of `count` particles at x [count*2], in dp, in the lower left corner of a tank, after a step. */
+/* Id of the first of `count` particles at x [count*2], in dp, in the lower left corner of a tank,
+ * after a step. */
 static int64_t classified(int64_t count, const double *x)
 {
     double at[42];
@@ -47,7 +46,8 @@ static int64_t classified(int64_t count, const double *x)
     return ids[0];
 }
 
-/* Its two neighbours have too little fluid about them and are spray. The one in the corner has enough, but all of it is spray. */
+/* Its two neighbours have too little fluid about them and are spray. The one in the corner has
+ * enough, but all of it is spray. */
 static void island_in_a_corner(void **state)
 {
     (void)state;
@@ -60,8 +60,8 @@ static void island_in_a_corner(void **state)
     assert_true(region[id] < MPS_REGION_SURFACE);
 }
 
-/* A row of seven half a spacing above the floor, the middle one of which has more about it than in a full lattice, is a film with p = 0.
- * Under two more rows it is not. */
+/* A row of seven half a spacing above the floor, the middle one of which has more about it than in
+ * a full lattice, is a film with p = 0. Under two more rows it is not. */
 static void film_on_the_floor(void **state)
 {
     (void)state;
@@ -75,7 +75,8 @@ static void film_on_the_floor(void **state)
     assert_true(region[classified(21, x)] < MPS_REGION_SURFACE);
 }
 
-/* Five rows: none of them is further from the surface than the second band, and still a squeeze of 2 % is seen. */
+/* Five rows: none of them is further from the surface than the second band, and still a squeeze of
+ * 2 % is seen. */
 static void volume_of_shallow_liquid(void **state)
 {
     (void)state;
@@ -94,13 +95,15 @@ static void volume_of_shallow_liquid(void **state)
     ASSERT_OK(sim, mps_step(sim, 1e-6, NULL));
     assert_int_equal(mps_energy_init(&e, sizeof e), MPS_OK);
     ASSERT_OK(sim, mps_energy_get(sim, &e));
-    assert_true(e.volume_error < -0.008 && e.volume_error > -0.02); /* the walls are where they were */
+    assert_true(e.volume_error < -0.008 &&
+                e.volume_error > -0.02); /* the walls are where they were */
     mps_sim_destroy(sim);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(island_in_a_corner), cmocka_unit_test(film_on_the_floor),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(island_in_a_corner),
+                                       cmocka_unit_test(film_on_the_floor),
                                        cmocka_unit_test(volume_of_shallow_liquid)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
