@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Artificial dissipation: damps pairs of fluid particles along their line,
  *   a_i = 2(D+2)/n0 sum (alpha l U_g + beta l max(0, -u_n)) w u_n/r r_ij,
- * l the spacing, u_n the rate of separation, w = W/r^2. The force of a pair conserves momentum.
- * alpha calms the lattice; beta takes the energy of violent impacts.
+ * l the spacing, U_g the mps_stage.velocity_scale, u_n the rate of separation, w = W/r^2. The force
+ * of a pair conserves momentum. alpha calms the lattice; beta takes the energy of violent impacts.
  * On a shear flow alpha acts as a kinematic viscosity alpha l U_g/D. The viscosity nu of the fluid
  * calms the lattice too. So `viscous` D nu (mean of the pair) is subtracted from alpha l U_g, down
  * to 0: both together are the larger of the two, and a viscous liquid keeps its own viscosity. */

@@ -6,7 +6,7 @@
  * Let v be its velocity relative to the mean velocity of the denser fluid about it. The part of v
  * above `times` U is removed, times its lone share max(0, 1 - c_i/company), c_i = sum W/n0 over its
  * own phase. U is the largest velocity, relative to the same mean, of the denser fluid and of the
- * walls about it, and at least U_g.
+ * walls about it, and at least U_g (mps_stage.velocity_scale).
  * Pairs with the denser fluid exchange the momentum. Their weights are such that no particle loses
  * more than its relative velocity: momentum is conserved and kinetic energy falls (it is booked
  * with the collisions). */

@@ -37,9 +37,10 @@ static double drag_rate(double nu, double width, double omega)
     const double s = 0.5 * width * sqrt(0.5 * omega / nu); /* z = (1 + i) s */
     const double most = fmin(s, 300.0);                    /* cosh() ends at 710 */
     if (s < 0.05) return 12.0 * nu / (width * width);
-    const double below = cosh(2 * most) + cos(2 * s);                         /* tanh z = a + i b */
-    const double a = sinh(2 * most) / below, b = sin(2 * s) / below;          /* of above */
-    const double real = 1 - (a + b) / (2 * s), imaginary = (a - b) / (2 * s); /* 1 - tanh(z)/z */
+    /* tanh(z) = a + i b, 1 - tanh(z)/z = real + i imaginary */
+    const double below = cosh(2 * most) + cos(2 * s);
+    const double a = sinh(2 * most) / below, b = sin(2 * s) / below;
+    const double real = 1 - (a + b) / (2 * s), imaginary = (a - b) / (2 * s);
     return omega * imaginary / (real * real + imaginary * imaginary);
 }
 

@@ -46,7 +46,7 @@ static const mps_use uses[USES] = {
     [REGION] = {"region", MPS_USE_NEIGHBOURS},   [CONDITION] = {"pressure_condition", MPS_USE_READ},
     [GAS_SHIFT] = {"gas_shift", MPS_USE_CHANGE}, [SOURCE] = {"pressure_source", MPS_USE_CHANGE}};
 
-/* (n - n0)/n0 at which a linear law would leave no gas at all. */
+/* Smallest (n - n0)/n0: at -1 the linear law would leave no gas. */
 static const double LEAST = -0.9;
 
 typedef struct fields {

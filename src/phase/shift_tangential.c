@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Particle shifting toward an even lattice:
  *   s_i = -c dt (U_g + max_j |u_j - u_i|) l D/n0 sum w r_ij  over all kinds,  w = W/r^2,
- * at most `limit` l, l the spacing. In the first two rows of a free surface the part along the
- * normal of the surface is removed: it would expand the fluid.
+ * at most `limit` l, l the spacing, U_g the mps_stage.velocity_scale. In the first two rows of a
+ * free surface the part along the normal of the surface is removed: it would expand the fluid.
  * Near walls and in corners of calm water, sum w r_ij would push the fluid without end, against the
  * volume term: a disordered lattice presses on an ordered one. So the part with U_g loses the share
  * `filter` of its kernel mean and keeps what varies from particle to particle. The part with the

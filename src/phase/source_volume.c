@@ -4,6 +4,7 @@
  * v the velocities relative to the reference motion. Gravity and the acceleration of the tank are
  * in the body field b = g - a_tank, so that fluid at rest or rigidly accelerated is exact on any
  * arrangement of particles. Walls are free-slip: no-slip walls double the noise.
+ * tau_g = dp/U_g, U_g the mps_stage.velocity_scale.
  *
  * gain: gradient and divergence are not exact inverses. In films of one or two particles on a wall,
  * where B is large in both, a full step overshoots more than twice, and the error grows from step

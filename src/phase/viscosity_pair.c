@@ -24,7 +24,8 @@ enum { THETA, SLIP, STRESS, MIRROR, SETTINGS };
 static const mps_setting settings[SETTINGS] = {
     [THETA] = {"theta", "-", "Mean viscosity of a pair; -1: harmonic, 0: geometric, 1: arithmetic",
                MPS_TYPE_REAL, -1.0, -1.0, 1.0},
-    [SLIP] = {"slip", "-", "Sum of walls without friction, by their normal: 1 x, 2 y, 4 z",
+    [SLIP] = {"slip", "-",
+              "Walls without friction, by the axis of their normal: sum of 1 x, 2 y, 4 z",
               MPS_TYPE_INTEGER, 0.0, 0.0, 7.0},
     [STRESS] = {"stress", "-", "1: the whole viscous stress; 0: div(mu grad u), as in W22",
                 MPS_TYPE_FLAG, 0.0, 0.0, 1.0},

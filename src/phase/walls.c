@@ -47,9 +47,9 @@ MPS_ROW bool rises(const int dim, const mps_stage *s, const mps_pair *wall, cons
     return other->r2 < 2.5 * s->dp * s->dp && rise > 0.25 * s->dp && along > 0;
 }
 
-/* In a concave corner a face extends to the face that rises from it. The wall particles of the
- * corner do not tell: they have one normal for all faces, or the normal of the solid that was added
- * first, or a plate that starts between them hides them. */
+/* In a concave corner a face extends to the face that rises from it. The wall particles in
+ * the corner do not show that: they have one normal for all faces, or the normal of the solid that
+ * was added first, or a plate that starts between them hides them. */
 MPS_ROW bool goes_on(const int dim, const mps_stage *s, int64_t i, const mps_pair *wall,
                      const double n[3], double height)
 {
