@@ -7,7 +7,7 @@
  * 0.6-0.95 g, and a tank carried along drops that it did not touch. So in a free body a_tank is g
  * and b = 0. In large bodies few particles are bounded: a body of more than LARGE particles counts
  * as held. A body without a particle on the surface is left as it is. */
-#include "builtin.h"
+#include "helpers.h"
 
 enum { LARGE = 1000 };
 

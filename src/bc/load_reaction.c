@@ -20,7 +20,7 @@
  *
  * A wall shows no more suction than it has in the equation: one from which the liquid separates
  * (separation.void) shows none. The flow does not change. */
-#include "builtin.h"
+#include "helpers.h"
 
 enum { PRESSURE, ACCELERATION, TANK_ACCELERATION, REGION, CORRECTION, WALL_PRESSURE, USES };
 static const mps_use uses[USES] = {[PRESSURE] = {"pressure", MPS_USE_NEIGHBOURS},

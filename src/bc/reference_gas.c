@@ -2,7 +2,7 @@
 /* Level of the pressures in a closed tank, as W22 has it: p = 0 in the uppermost layer of the gas,
  * `layer` dp thick, against gravity. These particles are Dirichlet rows: the equation does not hold
  * there, and gas may leave through them in a long run. */
-#include "builtin.h"
+#include "helpers.h"
 
 enum { PHASE, LAYER, SETTINGS };
 static const mps_setting settings[SETTINGS] = {

@@ -6,7 +6,7 @@
  *
  * Weights fall with the depth below the highest place as exp(-depth/(layer dp)), times the wetted
  * share: in a rolling tank the level passes smoothly from one corner to the other. */
-#include "builtin.h"
+#include "helpers.h"
 
 enum { LAYER, SETTINGS };
 static const mps_setting settings[SETTINGS] = {

@@ -12,7 +12,7 @@
  *
  * A velocity jump of the tank is an impulse with its own suction, and a gain below 1 spreads it
  * over several steps: there is no least pressure in the first `hold` steps. */
-#include "builtin.h"
+#include "helpers.h"
 
 enum { HOLD, SETTINGS };
 static const mps_setting settings[SETTINGS] = {

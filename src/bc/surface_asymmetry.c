@@ -25,7 +25,7 @@
  *
  * The row below the surface reaches past it, where there are no particles: its pairs with the
  * surface carry that flux too (complete = 1). */
-#include "builtin.h"
+#include "helpers.h"
 
 enum {
     LOW,

@@ -5,7 +5,7 @@
  * Such a drop flies through the gas and does not feel its pressure. In the pressure equation a
  * single drop before a wall gets a pressure above the wall's, which draws it into the wall.
  * Particles of the lightest phase are never spray. */
-#include "builtin.h"
+#include "helpers.h"
 
 enum { SPRAY, SETTINGS };
 static const mps_setting settings[SETTINGS] = {

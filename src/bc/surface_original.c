@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Free surface by number density alone, Z14 (15): n < beta n0, fluid and wall particles alike. Dry
  * walls are on the surface too and have p = 0. */
-#include "builtin.h"
+#include "helpers.h"
 
 enum { BETA, SETTINGS };
 static const mps_setting settings[SETTINGS] = {

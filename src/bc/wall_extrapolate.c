@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Walls of the papers: wall particles take part in the pressure equation as fluid does. Dummies
  * have no equation; they get the kernel mean of the fluid and wall pressures about them. */
-#include "builtin.h"
+#include "helpers.h"
 
 /* ---- density of solids ----------------------------------------------------------------------- */
 

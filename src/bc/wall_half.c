@@ -6,7 +6,7 @@
  * A wall particle takes part as far as there is fluid about it:
  *   wetted_share = sum W over the fluid / sum W over a half space full of fluid, at most 1.
  * A wall particle without fluid is DRY. */
-#include "builtin.h"
+#include "helpers.h"
 
 /* Limit of W/r^2 over that of the nearest fluid particle, see density_beside(). */
 static const double NEARLY = 0.7;

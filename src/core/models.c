@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Registry of models, the active list and its settings. */
 #include "models.h"
-#include "../bc/builtin.h"
-#include "../phase/builtin.h"
 #include <math.h>
 #include <string.h>
 
@@ -13,6 +11,16 @@ typedef struct preset_line {
 } preset_line;
 
 #include "presets.inc"
+
+#define MODEL(name) extern const mps_model_ops mps__##name;
+#include "models.inc"
+#undef MODEL
+
+static const mps_model_ops *const built_in[] = {
+#define MODEL(name) &mps__##name,
+#include "models.inc"
+#undef MODEL
+};
 
 static size_t slot_length(const char *name)
 {
@@ -125,9 +133,7 @@ mps_status mps__models_register(mps__models *m, const mps_model_ops *ops)
 mps_status mps__models_init(mps__models *m, mps__context *context, mps__channels *channels, mps__particles *particles)
 {
     *m = (mps__models){.context = context, .channels = channels, .particles = particles};
-    const mps_model_ops *const *lists[] = {mps__builtin_bc(), mps__builtin_phase()};
-    for (size_t l = 0; l < 2; l++)
-        for (const mps_model_ops *const *ops = lists[l]; *ops; ops++) MPS__TRY(mps__models_register(m, *ops));
+    for (size_t k = 0; k < sizeof built_in / sizeof built_in[0]; k++) MPS__TRY(mps__models_register(m, built_in[k]));
     m->built_in = m->known;
     return MPS_OK;
 }

@@ -266,6 +266,8 @@ mps_status mps_model_set(mps_sim *sim, const char *slot, const char *key, double
     double *place = mps__models_value(&sim->world.models, slot, key, &s);
     if (!place) return MPS_E_NAME;
     MPS__CHECK(&sim->context, value >= s->min && value <= s->max, "%s.%s is %g: allowed %g..%g", slot, key, value, s->min, s->max);
+    MPS__CHECK(&sim->context, s->type == MPS_TYPE_REAL || value == floor(value), "%s.%s is %g: must be a whole number, %g..%g", slot, key,
+               value, s->min, s->max);
     *place = value;
     return MPS_OK;
 }

@@ -267,6 +267,7 @@ static mps_status reserve_work(mps__world *w)
 {
     mps__work *k = &w->work;
     const int64_t n = w->particles.n, dim = w->dim;
+    MPS__TRY(mps__channels_reserve(&w->channels, n));
     if (n <= k->capacity) return MPS_OK;
     const int64_t wanted = mps__room(n, k->capacity);
     struct {

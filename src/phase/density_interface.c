@@ -14,7 +14,7 @@
  *    `flat`): all distances are half a spacing, which gives (rho_i + rho_j)/2, W22 (17).
  *  - A solid particle takes the density of the side of the plane on which it is.
  * W22: Wen, Zhao & Wan 2022. */
-#include "builtin.h"
+#include "helpers.h"
 
 enum { LEAST, FLAT, SETTINGS };
 static const mps_setting settings[SETTINGS] = {

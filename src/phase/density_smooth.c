@@ -4,7 +4,7 @@
  * It changes fluid that has another density within that radius: a band two radii wide at an
  * interface. W22 does not give W_self. Here it is `self` times W(0): the larger `self`, the weaker
  * the smoothing. Only "pressure_density" changes: a particle keeps the mass of its phase. */
-#include "builtin.h"
+#include "helpers.h"
 
 enum { SELF, SETTINGS };
 static const mps_setting settings[SETTINGS] = {

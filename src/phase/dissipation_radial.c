@@ -6,7 +6,7 @@
  * On a shear flow alpha acts as a kinematic viscosity alpha l U_g/D. The viscosity nu of the fluid
  * calms the lattice too. So `viscous` D nu (mean of the pair) is subtracted from alpha l U_g, down
  * to 0: both together are the larger of the two, and a viscous liquid keeps its own viscosity. */
-#include "builtin.h"
+#include "helpers.h"
 
 enum { PAIRS = 32 };
 

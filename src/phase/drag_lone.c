@@ -10,7 +10,7 @@
  * Pairs with the denser fluid exchange the momentum. Their weights are such that no particle loses
  * more than its relative velocity: momentum is conserved and kinetic energy falls (it is booked
  * with the collisions). */
-#include "builtin.h"
+#include "helpers.h"
 
 enum { COMPANY, TIMES, SETTINGS };
 static const mps_setting settings[SETTINGS] = {

@@ -5,7 +5,7 @@
 #ifndef MPS_PHASE_FRICTION_H
 #define MPS_PHASE_FRICTION_H
 
-#include "builtin.h"
+#include "helpers.h"
 
 /* Distance from the face [dp] below which the mirror acts less and less on a particle: there the
  * wall particles themselves hold it. */

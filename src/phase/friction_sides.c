@@ -7,7 +7,7 @@
  * `rate` is the real part of drag. Limits: 12 nu/b^2 (slow: plane Poiseuille flow across the width)
  * and sqrt(2 w nu)/b (fast: two Stokes layers). The imaginary part, the inertia that the layers
  * add, is left out. No preset has this model; without `width` there is no friction. */
-#include "builtin.h"
+#include "helpers.h"
 
 enum { WIDTH, OMEGA, SETTINGS };
 static const mps_setting settings[SETTINGS] = {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What the models of a compressible phase share. */
-#include "builtin.h"
+#include "helpers.h"
 
 typedef struct speeds {
     const double *velocity;

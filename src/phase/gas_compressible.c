@@ -13,7 +13,7 @@
  *     the gas is compressed without end: at rest the source holds p = gamma rho Cs^2 (n - n0)/n0,
  *     a gas 1/gamma times as soft.
  * W22: Wen, Zhao & Wan 2022. */
-#include "builtin.h"
+#include "helpers.h"
 
 enum { PHASE, SOUND, PRINTED, CONSERVE, SETTINGS };
 static const mps_setting settings[SETTINGS] = {

@@ -5,7 +5,7 @@
  *   [ln(1 + p^{k+1}/P) - ln(1 + p^k/P)]/(e dt^2).
  * This is nonlinear: the solver must handle it (sundials.kinsol). Sources that correct the density
  * see its deviation from the law. `conserve` as in gas.compressible. */
-#include "builtin.h"
+#include "helpers.h"
 
 #include <mps/ppe.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Pressure gradient that conserves momentum, W22 (9), W22: Wen, Zhao & Wan 2022:
  *   a_i = -D/(n0 rho) sum (P_j + P_i) r_ij/|r_ij|^2 W. */
-#include "builtin.h"
+#include "helpers.h"
 
 enum { PRESSURE, DENSITY, ACCELERATION, USES };
 static const mps_use uses[USES] = {[PRESSURE] = {"pressure", MPS_USE_NEIGHBOURS},

@@ -6,7 +6,7 @@
  * and rho_ij are those of the pressure equation (mps/flux.h).
  * Surface particles have neighbours on one side only. `second_order` adds a second pass for them,
  * with 2 (P_j - P_i) - G_j.r_ij instead of P_j - P_i. */
-#include "builtin.h"
+#include "helpers.h"
 
 enum { SECOND, SETTINGS };
 static const mps_setting settings[SETTINGS] = {

@@ -5,7 +5,7 @@
  * particles apart. Densities are the smoothed ones. Solids have the density of the fluid beside
  * them: with the density of the gas a wall below the contact line would throw the gas off. Dummies
  * need pressures and densities: `wall.extrapolate`. */
-#include "builtin.h"
+#include "helpers.h"
 
 enum { PRESSURE, DENSITY, ACCELERATION, USES };
 static const mps_use uses[USES] = {[PRESSURE] = {"pressure", MPS_USE_NEIGHBOURS},

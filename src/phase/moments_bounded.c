@@ -7,7 +7,7 @@
  * disordered or stretched row. A floor of 0.5 takes 4-11 % of the gradient from most surface
  * particles. The row then lags behind its pressure, and waves grow by 2-3 % a period. Inside the
  * fluid, lower floors make calm water noisy. */
-#include "builtin.h"
+#include "helpers.h"
 
 enum { FLOOR, SURFACE, SETTINGS };
 static const mps_setting settings[SETTINGS] = {

@@ -2,7 +2,7 @@
 /* Mixed source, W22 (10) to the letter, W22: Wen, Zhao & Wan 2022:
  *   (1 - gamma) (div u*)/dt - gamma (n - n0)/(n0 dt^2).
  * Rows of the pressure equation are -<lap p>/rho, so the signs are turned. */
-#include "builtin.h"
+#include "helpers.h"
 
 enum { GAMMA, SETTINGS };
 static const mps_setting settings[SETTINGS] = {

@@ -32,7 +32,7 @@
  * closing gap is ten times as fast as the water that drives it, and makes the steps as short. So
  * the source of the dense fluid is scaled by dt over the dt that its own speed would allow. Its
  * pressures are then those of steps of that length. */
-#include "builtin.h"
+#include "helpers.h"
 
 enum { TAU, CLIP, STRAIN, GAIN, FIRM, RAPID, TORN, FORWARD, PACE, ASIDE, START, SETTINGS };
 static const mps_setting settings[SETTINGS] = {

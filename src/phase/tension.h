@@ -3,7 +3,7 @@
 #ifndef MPS_PHASE_TENSION_H
 #define MPS_PHASE_TENSION_H
 
-#include "builtin.h"
+#include "helpers.h"
 
 /* Curvature of the interface at fluid with another phase among its `pairs` [1/m].
  * radius: r_s [dp]. threshold: smallest |grad f| dp of an interface. kappa: [n] in: 0; out: of the

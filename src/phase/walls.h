@@ -3,7 +3,7 @@
 #ifndef MPS_PHASE_WALLS_H
 #define MPS_PHASE_WALLS_H
 
-#include "builtin.h"
+#include "helpers.h"
 
 /* Removes from v [dim] the part that carries fluid particle i into walls nearer than `reach` [m].
  * v is a velocity and u [n*dim] holds the velocities of the walls; or v is a displacement and u is

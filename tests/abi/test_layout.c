@@ -2,6 +2,7 @@
 /* Layout of the public structs on x86-64, written by make_layout. Sizes may grow, offsets never change within a major version. */
 #include <mps/flux.h>
 #include <mps/geometry.h>
+#include <mps/list.h>
 #include <mps/model.h>
 #include <mps/motion.h>
 #include <mps/operators.h>
@@ -56,6 +57,52 @@ AT(mps_stl, name, 8);
 AT(mps_stl, scale, 16);
 AT(mps_stl, shift, 24);
 AT(mps_stl, container, 48);
+
+SIZE(mps_model_info, 40);
+AT(mps_model_info, struct_size, 0);
+AT(mps_model_info, active, 4);
+AT(mps_model_info, name, 8);
+AT(mps_model_info, help, 16);
+AT(mps_model_info, settings, 24);
+AT(mps_model_info, channels, 28);
+AT(mps_model_info, verbs, 32);
+AT(mps_model_info, built_in, 36);
+
+SIZE(mps_setting_info, 64);
+AT(mps_setting_info, struct_size, 0);
+AT(mps_setting_info, type, 4);
+AT(mps_setting_info, key, 8);
+AT(mps_setting_info, unit, 16);
+AT(mps_setting_info, help, 24);
+AT(mps_setting_info, initial, 32);
+AT(mps_setting_info, min, 40);
+AT(mps_setting_info, max, 48);
+AT(mps_setting_info, value, 56);
+
+SIZE(mps_channel_info, 56);
+AT(mps_channel_info, struct_size, 0);
+AT(mps_channel_info, components, 4);
+AT(mps_channel_info, type, 8);
+AT(mps_channel_info, life, 12);
+AT(mps_channel_info, name, 16);
+AT(mps_channel_info, unit, 24);
+AT(mps_channel_info, help, 32);
+AT(mps_channel_info, reads, 40);
+AT(mps_channel_info, writes, 44);
+AT(mps_channel_info, own, 48);
+
+SIZE(mps_verb_info, 32);
+AT(mps_verb_info, struct_size, 0);
+AT(mps_verb_info, moment, 4);
+AT(mps_verb_info, moment_name, 8);
+AT(mps_verb_info, model, 16);
+AT(mps_verb_info, uses, 24);
+
+SIZE(mps_name_info, 24);
+AT(mps_name_info, struct_size, 0);
+AT(mps_name_info, active, 4);
+AT(mps_name_info, name, 8);
+AT(mps_name_info, help, 16);
 
 SIZE(mps_use, 16);
 AT(mps_use, channel, 0);
@@ -230,7 +277,7 @@ AT(mps_ppe_result, residual, 8);
 AT(mps_ppe_result, divergence, 16);
 AT(mps_ppe_result, setup_seconds, 24);
 
-SIZE(mps_preconditioner_ops, 64);
+SIZE(mps_preconditioner_ops, 72);
 AT(mps_preconditioner_ops, struct_size, 0);
 AT(mps_preconditioner_ops, api, 4);
 AT(mps_preconditioner_ops, name, 8);
@@ -240,8 +287,9 @@ AT(mps_preconditioner_ops, setup, 32);
 AT(mps_preconditioner_ops, apply, 40);
 AT(mps_preconditioner_ops, destroy, 48);
 AT(mps_preconditioner_ops, user, 56);
+AT(mps_preconditioner_ops, help, 64);
 
-SIZE(mps_solver_ops, 72);
+SIZE(mps_solver_ops, 80);
 AT(mps_solver_ops, struct_size, 0);
 AT(mps_solver_ops, api, 4);
 AT(mps_solver_ops, name, 8);
@@ -252,6 +300,7 @@ AT(mps_solver_ops, solve, 40);
 AT(mps_solver_ops, destroy, 48);
 AT(mps_solver_ops, nonlinear, 56);
 AT(mps_solver_ops, user, 64);
+AT(mps_solver_ops, help, 72);
 
 SIZE(mps_probe, 112);
 AT(mps_probe, struct_size, 0);

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The presets: which models they switch on, and every setting that is not the model's own default. */
-#include "../bc/builtin.h"
-#include "../phase/builtin.h"
 #include "tank_fixture.h"
 #include <mps/model.h>
 
@@ -46,12 +44,19 @@ static const changed paper_settings[] = {
 static const wanted list[] = {
     {"imps", imps_models, imps_settings}, {"mmps", mmps_models, mmps_settings}, {"mmps.paper", paper_models, paper_settings}};
 
+#define MODEL(name) extern const mps_model_ops mps__##name;
+#include "models.inc"
+#undef MODEL
+static const mps_model_ops *const all[] = {
+#define MODEL(name) &mps__##name,
+#include "models.inc"
+#undef MODEL
+};
+
 static const mps_model_ops *built_in(const char *name)
 {
-    const mps_model_ops *const *lists[] = {mps__builtin_bc(), mps__builtin_phase()};
-    for (int l = 0; l < 2; l++)
-        for (const mps_model_ops *const *ops = lists[l]; *ops; ops++)
-            if (strcmp((*ops)->name, name) == 0) return *ops;
+    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
+        if (strcmp(all[k]->name, name) == 0) return all[k];
     return NULL;
 }
 

@@ -1,26 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tables of the built-in models of the fluid, and helpers that several of these models share. */
-#ifndef MPS_PHASE_BUILTIN_H
-#define MPS_PHASE_BUILTIN_H
+/* Helpers that several models of the fluid share. */
+#ifndef MPS_PHASE_HELPERS_H
+#define MPS_PHASE_HELPERS_H
 
 #include <mps/model.h>
 #include <stdbool.h>
-
-extern const mps_model_ops mps__moments_bounded;
-extern const mps_model_ops mps__density_smooth, mps__density_interface;
-extern const mps_model_ops mps__viscosity_laplacian, mps__viscosity_pair;
-extern const mps_model_ops mps__dissipation_radial;
-extern const mps_model_ops mps__tension_csf, mps__tension_jump;
-extern const mps_model_ops mps__friction_sides;
-extern const mps_model_ops mps__source_mixed, mps__source_volume;
-extern const mps_model_ops mps__gas_compressible, mps__gas_isentropic;
-extern const mps_model_ops mps__gradient_conservative, mps__gradient_corrected;
-extern const mps_model_ops mps__gradient_density;
-extern const mps_model_ops mps__drag_lone, mps__collision_pair;
-extern const mps_model_ops mps__shift_tangential;
-
-/* All of them, in the order of registration; the last entry is NULL. */
-const mps_model_ops *const *mps__builtin_phase(void);
 
 /* Length of mps_stage.viscosity, and of a side of mps_stage.tension. */
 enum { MPS__PHASE_LIMIT = 16 };

@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Helpers that several models of boundaries share. */
+#ifndef MPS_BC_HELPERS_H
+#define MPS_BC_HELPERS_H
+
+#include <mps/model.h>
+#include <stdbool.h>
+
+/* Unit vector against gravity; false without gravity. */
+bool mps__upward(const mps_stage *s, double up[3]);
+
+/* Height of particle i along it [m]. */
+double mps__height(const mps_stage *s, const double up[3], int64_t i);
+
+#endif

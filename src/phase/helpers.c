@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Helpers that several models of the fluid share. */
+#include "helpers.h"
+
+typedef struct fields {
+    const double *density;
+} fields;
+
+/* Raises most[phase] to the negative of the density. */
+MPS_ROW void raise_lightest(const int dim, const mps_stage *s, const fields *f, int64_t i,
+                            double *most)
+{
+    (void)dim;
+    if (s->kind[i] != MPS_FLUID) return;
+    double *own = &most[s->phase[i]];
+    if (-f->density[i] > *own) *own = -f->density[i];
+}
+MPS_SUMS(raise_lightest_rows, raise_lightest, fields)
+
+void mps__phase_densities(const mps_stage *s, const double *density, double rho[MPS__PHASE_LIMIT])
+{
+    fields f = {density};
+    mps_stage_max(s, MPS__PHASE_LIMIT, raise_lightest_rows, &f, rho);
+    for (int p = 0; p < MPS__PHASE_LIMIT; p++) rho[p] = isinf(rho[p]) ? 0 : -rho[p];
+}
