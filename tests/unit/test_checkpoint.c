@@ -379,7 +379,7 @@ static void came_to_rest(void **state)
 static int write_on_the_way(void *user, mps_sim *sim, const mps_step_info *info)
 {
     ASSERT_OK(sim, mps_checkpoint_write(sim, user));
-    ASSERT_REFUSED(sim, mps_checkpoint_read(sim, user), MPS_E_STATE, "monitor");
+    ASSERT_REFUSED(sim, mps_checkpoint_read(sim, user), MPS_E_BUSY, "monitor");
     return info->step == 10;
 }
 

@@ -132,11 +132,11 @@ static int meddle(void *user, mps_sim *sim, const mps_step_info *info)
     b.count = 1;
     b.position = x;
     ++*calls;
-    ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_STATE, "monitor");
-    ASSERT_REFUSED(sim, mps_run(sim, info->t + 1e-3, NULL, NULL), MPS_E_STATE, "monitor");
-    ASSERT_REFUSED(sim, mps_particles_add(sim, &b, NULL), MPS_E_STATE, "monitor");
-    ASSERT_REFUSED(sim, mps_particles_remove(sim, 1, &id), MPS_E_STATE, "monitor");
-    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, x, x, NULL, NULL), MPS_E_STATE, "monitor");
+    ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_BUSY, "monitor");
+    ASSERT_REFUSED(sim, mps_run(sim, info->t + 1e-3, NULL, NULL), MPS_E_BUSY, "monitor");
+    ASSERT_REFUSED(sim, mps_particles_add(sim, &b, NULL), MPS_E_BUSY, "monitor");
+    ASSERT_REFUSED(sim, mps_particles_remove(sim, 1, &id), MPS_E_BUSY, "monitor");
+    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, x, x, NULL, NULL), MPS_E_BUSY, "monitor");
     ASSERT_OK(sim, mps_lease_begin(sim, "pressure", MPS_READ, &lease));
     ASSERT_OK(sim, mps_lease_end(sim, &lease));
     return *calls == 2;

@@ -407,7 +407,7 @@ static void model_registration(void **state)
     mps_model_ops m = good_model;
     m.setting_count = 1;
     m.settings = outside;
-    ASSERT_REFUSED(sim, mps_model_register(sim, &m), MPS_E_ARG, "setting 0");
+    ASSERT_REFUSED(sim, mps_model_register(sim, &m), MPS_E_ARG, "setting 'a' is 5");
     m.settings = nameless;
     ASSERT_REFUSED(sim, mps_model_register(sim, &m), MPS_E_ARG, "setting 0");
     ASSERT_REFUSED(sim, mps_model_register(sim, NULL), MPS_E_ARG, "NULL");

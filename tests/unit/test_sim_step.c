@@ -27,25 +27,20 @@ static struct {
     int created, destroyed, calls[VERBS];
 } test;
 
-/* All verbs change velocities and pressures; some a third channel. */
-enum { U, P, THIRD };
-#define MESS                       \
-    {"velocity", MPS_USE_CHANGE},  \
-    {                              \
-        "pressure", MPS_USE_CHANGE \
-    }
-static const mps_use mess_uses[] = {MESS};
-static const mps_use classify_uses[] = {MESS, {"region", MPS_USE_CHANGE}};
-static const mps_use force_uses[] = {MESS, {"acceleration", MPS_USE_CHANGE}};
-static const mps_use shift_uses[] = {MESS, {"displacement", MPS_USE_CHANGE}};
+/* Each verb changes all that it may, so that a failure leaves a mess. */
+static const mps_use region_uses[] = {{"region", MPS_USE_CHANGE}};
+static const mps_use push_uses[] = {{"acceleration", MPS_USE_CHANGE}};
+static const mps_use level_uses[] = {{"pressure", MPS_USE_CHANGE}};
+static const mps_use load_uses[] = {{"wall_pressure", MPS_USE_CHANGE}};
+static const mps_use velocity_uses[] = {{"velocity", MPS_USE_CHANGE}};
+static const mps_use shift_uses[] = {{"displacement", MPS_USE_CHANGE}, {"velocity", MPS_USE_CHANGE}};
 
-static int verb(mps_stage *s, int which)
+/* `mess` [count]: NULL or numbers that must not be seen after a failure. */
+static int verb(mps_stage *s, int which, double *mess, int64_t count)
 {
-    double *u = s->data[U], *p = s->data[P];
     test.calls[which]++;
     if (test.fail != which) return 0;
-    for (int64_t i = 0; i < s->n; i++) p[i] = 1e9; /* a mess that must not be seen afterwards */
-    for (int64_t i = 0; i < s->n * s->dim; i++) u[i] = -77;
+    for (int64_t i = 0; i < count; i++) mess[i] = -77;
     return test.silent ? 1 : mps_stage_fail(s, "the %s is out of order", verb_name[which]);
 }
 
@@ -77,73 +72,73 @@ static int limit(mps_stage *s)
 
 static int classify(mps_stage *s)
 {
-    int32_t *region = s->data[THIRD];
+    int32_t *region = s->data[0];
     if (test.region != MPS_REGION_INNER) region[place_of(s, test.victim)] = test.region;
-    return verb(s, CLASSIFY);
+    return verb(s, CLASSIFY, NULL, 0);
 }
 
 static int prepare(mps_stage *s)
 {
-    return verb(s, PREPARE);
+    return verb(s, PREPARE, NULL, 0);
 }
 
 static int force(mps_stage *s)
 {
-    double *a = s->data[THIRD];
+    double *a = s->data[0];
     assert_non_null(s->self);
     for (int64_t i = 0; i < s->n; i++) a[i * s->dim] += s->setting[0];
     if (test.spoil == 2) a[place_of(s, test.victim) * s->dim] = NAN;
-    return verb(s, FORCE);
+    return verb(s, FORCE, a, s->n * s->dim);
 }
 
 static int source(mps_stage *s)
 {
-    return verb(s, SOURCE);
+    return verb(s, SOURCE, NULL, 0);
 }
 
 static int level(mps_stage *s)
 {
-    return verb(s, LEVEL);
+    return verb(s, LEVEL, s->data[0], s->n);
 }
 
 static int gradient(mps_stage *s)
 {
-    return verb(s, GRADIENT);
+    return verb(s, GRADIENT, s->data[0], s->n * s->dim);
 }
 
 static int load(mps_stage *s)
 {
-    return verb(s, LOAD);
+    return verb(s, LOAD, s->data[0], s->n);
 }
 
 static int velocity(mps_stage *s)
 {
-    double *u = s->data[U];
+    double *u = s->data[0];
     if (test.spoil == 1) u[place_of(s, test.victim) * s->dim + 1] = NAN;
     if (test.spoil == 3) u[place_of(s, test.victim) * s->dim + 1] = 1e4;
-    return verb(s, VELOCITY);
+    return verb(s, VELOCITY, u, s->n * s->dim);
 }
 
 static int shift(mps_stage *s)
 {
-    double *dx = s->data[THIRD];
+    double *dx = s->data[0];
     if (test.spoil == 4) dx[place_of(s, test.victim) * s->dim] += 4 * s->dp;
-    return verb(s, SHIFT);
+    return verb(s, SHIFT, s->data[1], s->n * s->dim);
 }
 
 static const mps_setting push_settings[] = {
     {"acceleration", "m/s2", "along the first axis", MPS_TYPE_REAL, 0, -100, 100}};
 static const mps_verb push_verbs[] = {
     {.moment = MPS_LIMIT, .run = limit},
-    {.moment = MPS_CLASSIFY, .use_count = 3, .uses = classify_uses, .after = "*", .run = classify},
-    {.moment = MPS_PREPARE, .use_count = 2, .uses = mess_uses, .run = prepare},
-    {.moment = MPS_FORCE, .use_count = 3, .uses = force_uses, .run = force},
-    {.moment = MPS_SOURCE, .use_count = 2, .uses = mess_uses, .run = source},
-    {.moment = MPS_LEVEL, .use_count = 2, .uses = mess_uses, .run = level},
-    {.moment = MPS_GRADIENT, .use_count = 2, .uses = mess_uses, .run = gradient},
-    {.moment = MPS_LOAD, .use_count = 2, .uses = mess_uses, .run = load},
-    {.moment = MPS_VELOCITY, .use_count = 2, .uses = mess_uses, .run = velocity},
-    {.moment = MPS_SHIFT, .use_count = 3, .uses = shift_uses, .run = shift}};
+    {.moment = MPS_CLASSIFY, .use_count = 1, .uses = region_uses, .after = "*", .run = classify},
+    {.moment = MPS_PREPARE, .run = prepare},
+    {.moment = MPS_FORCE, .use_count = 1, .uses = push_uses, .run = force},
+    {.moment = MPS_SOURCE, .run = source},
+    {.moment = MPS_LEVEL, .use_count = 1, .uses = level_uses, .run = level},
+    {.moment = MPS_GRADIENT, .use_count = 1, .uses = push_uses, .run = gradient},
+    {.moment = MPS_LOAD, .use_count = 1, .uses = load_uses, .run = load},
+    {.moment = MPS_VELOCITY, .use_count = 1, .uses = velocity_uses, .run = velocity},
+    {.moment = MPS_SHIFT, .use_count = 2, .uses = shift_uses, .run = shift}};
 static const mps_model_ops push = {.struct_size = sizeof(mps_model_ops),
                                    .api = MPS_MODEL_API,
                                    .name = "test.push",
@@ -298,7 +293,7 @@ static void failing_model(void **state)
             test.silent = v / VERBS;
             snprintf(word, sizeof word, "the %s is out of order", verb_name[test.fail]);
             ASSERT_REFUSED(sim, mps_step(sim, 0.01, NULL), MPS_E_PLUGIN,
-                           test.silent ? "\"test.push\" failed" : word);
+                           test.silent ? "'test.push' failed" : word);
             assert_non_null(strstr(mps_sim_error(sim), "test.push"));
             const picture after = take_picture(sim);
             assert_same(&before, &after);
@@ -338,13 +333,13 @@ static void values_out_of_range(void **state)
         snprintf(word, sizeof word, "left region %d at particle 10, (", (int)region[k]);
         ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_PLUGIN, word);
         ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_PLUGIN,
-                       "model \"test.push\" at t = 0.001 s");
+                       "model 'test.push' at t = 0.001 s");
         test.region = MPS_REGION_INNER;
         test.dt_limit = limit[k];
-        snprintf(word, sizeof word, "its dt_limit is %g s", limit[k]);
+        snprintf(word, sizeof word, "allows a step of %g s", limit[k]);
         ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_PLUGIN, word);
         ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_PLUGIN,
-                       "model \"test.push\" at t = 0.001 s");
+                       "model 'test.push' at t = 0.001 s");
         test.dt_limit = INFINITY;
         const picture after = take_picture(sim);
         assert_same(&before, &after);
