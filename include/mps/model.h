@@ -9,9 +9,13 @@
  *  Notation: n particles, dim = 2 or 3; rows are particles in their present order.
  *
  *  Order: moments run in the order of MPS_LIMIT .. MPS_SHIFT. Within a moment a verb that writes a
- *  channel runs before verbs that change it, and these run before verbs that only read it. `after`
- *  and `before` add to this; where nothing decides, the order of the list of models holds, which
- *  is that of registration. mps_verb_info_get() tells the order that results. */
+ *  channel runs before verbs that change it, and these run before verbs that only read it. Where
+ *  `after` or `before` names an order of two models, it holds instead. Where nothing decides, the
+ *  order of registration holds. mps_verb_info_get() tells the order that results; verbs that wait
+ *  for each other fail the step with MPS_E_STATE and the names of their models.
+ *
+ *  Channels are looked up when the first step after a change of models begins: a channel that no
+ *  active model brings, or that cannot be used so in this moment, fails it with MPS_E_STATE. */
 #ifndef MPS_MODEL_H
 #define MPS_MODEL_H
 
@@ -73,7 +77,8 @@ enum {
     MPS_USE_READ = 1,
     /** Reads values of neighbours within the far radius too. Implies MPS_USE_READ. */
     MPS_USE_NEIGHBOURS = 2,
-    /** Writes values of its own row. Alone: the values before are not read. */
+    /** Writes values of its own row. Alone: the values before are not read. Rows that are not
+     *  written keep their values. */
     MPS_USE_WRITE = 4,
     /** Reads and writes its own row. */
     MPS_USE_CHANGE = 5,
@@ -232,7 +237,8 @@ typedef struct mps_stage {
     const double *viscosity;
     /** [16*16] sigma of two phases by mps_sim_set_tension() [N/m], symmetric; < 0: not set */
     const double *tension;
-    /** From MPS_FORCE on: fluxes of pairs of the pressure equation. NULL before. */
+    /** From MPS_FORCE on: fluxes of pairs of the pressure equation, NULL before. `body` is final from
+     *  MPS_LEVEL on. Its channels need not be among the uses. */
     const mps_flux *flux;
     /** From MPS_CLASSIFY to MPS_SOURCE: scalars of the pressure equation. NULL otherwise. */
     mps_equation *equation;
@@ -312,7 +318,8 @@ typedef void (*mps_rows_fn)(const mps_stage *s, void *arguments, int64_t begin, 
 /** Run a function over all rows, in parts at the same time. Returns when all are done. */
 MPS_API void mps_stage_rows(const mps_stage *s, mps_rows_fn rows, void *arguments);
 
-/** Add what rows begin .. end-1 contribute to sums[count], or raise maxima[count]. */
+/** Add what rows begin .. end-1 contribute to sums[count], which begin at 0, or raise
+ *  maxima[count], which begin at -INFINITY. */
 typedef void (*mps_sums_fn)(const mps_stage *s, void *arguments, int64_t begin, int64_t end,
                             double *sums);
 
@@ -347,7 +354,11 @@ enum {
  *  @return 0, or non-zero after a failure (no memory; the error is set) */
 MPS_API int mps_stage_bodies(mps_stage *s, int32_t most, const int32_t *role, int32_t *body);
 
-/** Scratch of `count` doubles, zeroed, valid until the verb returns. At most 16 of a verb.
+/** Make values that rows wrote into scratch [n*components] visible in the rows of neighbours. Call it
+ *  between a loop that writes scratch and one that reads it at neighbours. Channels need no call. */
+MPS_API int mps_stage_refresh(mps_stage *s, double *scratch, int32_t components);
+
+/** Scratch of `count` doubles, zeroed, valid until the verb returns. At most 16, of both types.
  *  @return NULL: no memory, or too many (the error is set; let the verb return non-zero) */
 MPS_API double *mps_stage_scratch(mps_stage *s, int64_t count);
 

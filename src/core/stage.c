@@ -115,6 +115,13 @@ int mps_stage_bodies(mps_stage *s, int32_t most, const int32_t *role, int32_t *b
     return 0;
 }
 
+/* All rows are in one memory, where they are visible at once. */
+int mps_stage_refresh(mps_stage *s, double *scratch, int32_t components)
+{
+    if (scratch && components >= 1) return 0;
+    return mps_stage_fail(s, "refresh: scratch is NULL, or components is %d: must be >= 1", (int)components);
+}
+
 /* ---- scratch and errors ---- */
 
 static void *scratch(mps_stage *s, int64_t count, size_t size)
