@@ -76,11 +76,9 @@ MPS_API mps_status mps_step_info_init(mps_step_info *info, size_t size);
  *          before the call, and particles that were lost in it are back */
 MPS_API mps_status mps_step(mps_sim *sim, double dt_max, mps_step_info *info);
 
-/** Called after every step of mps_run(); non-zero stops the run. Refused there with MPS_E_STATE: mps_step(), mps_run(),
- *  mps_particles_add(), mps_particles_remove(), mps_field_add() and all of mps/geometry.h that adds particles. All else of this handle may
- *  be called as between two steps and holds from the next one on: probes, frames, leases (a lease that is still open when the
- *  monitor returns ends the run with MPS_E_BUSY), phases, models and their settings, motion, solver, threads, time control.
- *  mps_sim_destroy() must not be called. */
+/** Called after every step of mps_run(); non-zero stops the run. It may read: getters, lists, leases for reading, stencils, probes,
+ *  energies, frames, mps_checkpoint_write(), and mps_probe_series_clear(). A lease that is still open when the monitor returns ends the
+ *  run with MPS_E_BUSY. Each function that changes the simulation is refused there with MPS_E_BUSY; mps_sim_destroy() does nothing. */
 typedef int (*mps_monitor_fn)(void *user, mps_sim *sim, const mps_step_info *info);
 
 /** Step until t_end, the last step cut so that t_end is met exactly.

@@ -189,6 +189,7 @@ mps_status mps_field_add(mps_sim *sim, const char *name, int32_t components)
     MPS__CHECK(&sim->context, name && name[0] && strnlen(name, 32) < 32, "a field's name has 1..31 characters");
     MPS__CHECK(&sim->context, components >= 1 && components <= 9, "field \"%s\": components is %d: 1..9", name, components);
     MPS__CHECK(&sim->context, !mps__particles_field(&sim->world.particles, name), "field \"%s\" exists already", name);
+    MPS__CHECK(&sim->context, mps__channels_find(&sim->world.channels, name) < 0, "field '%s': a channel of the models has this name", name);
     return mps__particles_field_add(&sim->world.particles, name, components, sizeof(double), true, NULL);
 }
 

@@ -125,6 +125,8 @@ mps_status mps__channel_check(mps__context *c, const char *model, const mps_chan
     MPS__CHECK(c, s->life == MPS_LIFE_STEP || s->life == MPS_LIFE_PARTICLE,
                "model '%s': channel '%s' has life %d: MPS_LIFE_STEP or MPS_LIFE_PARTICLE", model, s->name, (int)s->life);
     MPS__CHECK(c, isfinite(s->initial), "model '%s': channel '%s' begins with %g: must be finite", model, s->name, s->initial);
+    MPS__CHECK(c, s->type == MPS_TYPE_REAL || (fabs(s->initial) <= INT32_MAX && s->initial == floor(s->initial)),
+               "model '%s': channel '%s' of integers begins with %g: must be a whole number of 32 bits", model, s->name, s->initial);
     for (int32_t k = 0; k < MPS__OWN_CHANNELS; k++)
         MPS__CHECK(c, strcmp(own[k].name, s->name) != 0, "model '%s' brings channel '%s', which is the library's own", model,
                    s->name);
@@ -153,10 +155,18 @@ static mps_status bring_field(mps__channels *c, mps__particles *s, const char *m
     return MPS_OK;
 }
 
-static mps_status bring(mps__channels *c, mps__particles *s, const char *model, const mps_channel *spec)
+static bool brings(const mps_model_ops *ops, const char *name)
+{
+    for (int32_t k = 0; ops && k < ops->channel_count; k++)
+        if (strcmp(ops->channels[k].name, name) == 0) return true;
+    return false;
+}
+
+/* `leaving`: NULL, or the model that is about to leave. What it alone brings, and describes differently, stands beside the new one. */
+static mps_status bring(mps__channels *c, mps__particles *s, const char *model, const mps_channel *spec, const mps_model_ops *leaving)
 {
     const int32_t k = mps__channels_find(c, spec->name);
-    if (k >= 0) {
+    if (k >= 0 && !(!same_spec(&c->list[k].spec, spec) && c->list[k].users == 1 && brings(leaving, spec->name))) {
         MPS__CHECK(c->context, same_spec(&c->list[k].spec, spec),
                    "model '%s' and another active one bring channel '%s', and describe it differently", model, spec->name);
         c->list[k].users++;
@@ -178,31 +188,40 @@ static mps_status bring(mps__channels *c, mps__particles *s, const char *model, 
     return MPS_OK;
 }
 
-static void drop(mps__channels *c, const char *name)
+static void drop(mps__channels *c, int32_t k)
 {
-    const int32_t k = mps__channels_find(c, name);
     if (k < MPS__OWN_CHANNELS || --c->list[k].users > 0) return;
     mps__free(c->context, c->list[k].array);
     memmove(&c->list[k], &c->list[k + 1], (size_t)(c->count - k - 1) * sizeof c->list[0]);
     c->count--;
 }
 
-mps_status mps__channels_bring(mps__channels *c, mps__particles *s, const mps_model_ops *ops)
+/* The last channel of a name: the one that was brought last. */
+static int32_t find_last(const mps__channels *c, const char *name)
+{
+    int32_t k = c->count - 1;
+    while (k >= 0 && strcmp(c->list[k].spec.name, name) != 0) k--;
+    return k;
+}
+
+mps_status mps__channels_bring(mps__channels *c, mps__particles *s, const mps_model_ops *ops, const mps_model_ops *leaving)
 {
     const int32_t fields = s->fields;
     for (int32_t k = 0; k < ops->channel_count; k++) {
-        const mps_status status = bring(c, s, ops->name, &ops->channels[k]);
+        const mps_status status = bring(c, s, ops->name, &ops->channels[k], leaving);
         if (status == MPS_OK) continue;
-        while (k-- > 0) drop(c, ops->channels[k].name);
+        while (k-- > 0) drop(c, find_last(c, ops->channels[k].name));
         while (s->fields > fields) mps__particles_field_drop(s);
         return status;
     }
+    for (int32_t k = 0; k < ops->channel_count; k++) /* particles to come, in fields that were there before, too */
+        if (ops->channels[k].life == MPS_LIFE_PARTICLE) mps__particles_field(s, ops->channels[k].name)->begin = ops->channels[k].initial;
     return MPS_OK;
 }
 
 void mps__channels_drop(mps__channels *c, const mps_model_ops *ops)
 {
-    for (int32_t k = 0; k < ops->channel_count; k++) drop(c, ops->channels[k].name);
+    for (int32_t k = 0; k < ops->channel_count; k++) drop(c, mps__channels_find(c, ops->channels[k].name));
 }
 
 mps_status mps__channels_reserve(mps__channels *c, int64_t n)

@@ -52,8 +52,10 @@ void mps__channels_free(mps__channels *c);
 
 /* Check the description of a channel of model `model`, whatever is active. */
 mps_status mps__channel_check(mps__context *c, const char *model, const mps_channel *spec);
-/* A model that is switched on brings channels, or shares those that are there: all or none. */
-mps_status mps__channels_bring(mps__channels *c, mps__particles *s, const mps_model_ops *ops);
+/* A model that is switched on brings channels, or shares those that are there: all or none. The
+ * model that it replaces, `leaving` or NULL, may have described them otherwise. */
+mps_status mps__channels_bring(mps__channels *c, mps__particles *s, const mps_model_ops *ops,
+                               const mps_model_ops *leaving);
 /* A model that is switched off takes back what no other brings. Fields of particles stay. */
 void mps__channels_drop(mps__channels *c, const mps_model_ops *ops);
 /* Place in the list, or -1. */

@@ -57,6 +57,8 @@ static mps_status check_settings(mps__context *c, const mps_model_ops *ops)
                    ops->name, s->key, s->initial, s->min, s->max);
         MPS__CHECK(c, s->type >= MPS_TYPE_REAL && s->type <= MPS_TYPE_FLAG, "model '%s': setting '%s' has type %d: MPS_TYPE_...",
                    ops->name, s->key, (int)s->type);
+        MPS__CHECK(c, s->type == MPS_TYPE_REAL || s->initial == floor(s->initial),
+                   "model '%s': setting '%s' is %g: must be a whole number", ops->name, s->key, s->initial);
         MPS__CHECK(c, s->type != MPS_TYPE_FLAG || (s->min == 0 && s->max == 1), "model '%s': flag '%s' allows %g..%g: must be 0..1",
                    ops->name, s->key, s->min, s->max);
     }
@@ -190,8 +192,8 @@ static mps_status unknown_model(mps__models *m, const char *name)
                      mps__list(hint, '"', names, list_slots(m, slot, names)));
 }
 
-/* A model that is ready to be switched on: its state is made, its channels are there. */
-static mps_status make(mps__models *m, int32_t which, mps__model *fresh)
+/* A model that is ready to be switched on: its state is made, its channels are there. `leaving`: NULL, or the one it replaces. */
+static mps_status make(mps__models *m, int32_t which, const mps_model_ops *leaving, mps__model *fresh)
 {
     const mps_model_ops *ops = &m->registry[which];
     *fresh = (mps__model){.ops = ops, .self = ops->user};
@@ -201,7 +203,7 @@ static mps_status make(mps__models *m, int32_t which, mps__model *fresh)
     m->context->lock = before;
     if (failed)
         return mps__fail(m->context, MPS_E_NOMEM, "no memory for model '%s'", ops->name);
-    const mps_status status = mps__channels_bring(m->channels, m->particles, ops);
+    const mps_status status = mps__channels_bring(m->channels, m->particles, ops, leaving);
     if (status < 0 && ops->destroy) ops->destroy(&m->context->allocator, fresh->self);
     return status;
 }
@@ -216,7 +218,7 @@ mps_status mps__models_use(mps__models *m, const char *name)
     MPS__CHECK(m->context, old >= 0 || m->active < MPS__MODELS_ACTIVE, "model \"%s\" is one too many: at most %d are active", name,
                MPS__MODELS_ACTIVE);
     mps__model fresh;
-    MPS__TRY(make(m, which, &fresh));
+    MPS__TRY(make(m, which, old >= 0 ? m->on[old].ops : NULL, &fresh));
     if (old >= 0) drop(m, old);
     int32_t place = m->active;
     while (place > 0 && m->on[place - 1].ops > fresh.ops) place--;

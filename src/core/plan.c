@@ -73,17 +73,27 @@ static int what_it_does(const mps__call *call, int32_t channel)
     return does;
 }
 
-static bool names(const char *slot, const mps__call *other)
+/* How strongly an entry of `after` or `before` names the model of another verb. */
+enum { NOT_NAMED, BY_STAR, BY_NAME };
+
+static int names(const char *slot, const mps__call *other)
 {
-    return slot && (strcmp(slot, "*") == 0 || mps__same_slot(other->model->ops->name, slot));
+    if (!slot) return NOT_NAMED;
+    if (strcmp(slot, "*") == 0) return BY_STAR;
+    return mps__same_slot(other->model->ops->name, slot) ? BY_NAME : NOT_NAMED;
+}
+
+static int stronger(int a, int b)
+{
+    return a > b ? a : b;
 }
 
 /* -1: a runs before b by what they say, 1: after it, 0: they say nothing. A name says more than "*". */
 static int said(const mps__call *a, const mps__call *b)
 {
-    const bool before = names(a->verb->before, b) || names(b->verb->after, a);
-    const bool after = names(a->verb->after, b) || names(b->verb->before, a);
-    return before == after ? 0 : before ? -1 : 1;
+    const int before = stronger(names(a->verb->before, b), names(b->verb->after, a));
+    const int after = stronger(names(a->verb->after, b), names(b->verb->before, a));
+    return before == after ? 0 : before > after ? -1 : 1;
 }
 
 /* Whether a must run before b. */
@@ -101,26 +111,38 @@ static bool precedes(const mps__call *a, const mps__call *b)
     return by_word < 0 || by_data;
 }
 
+/* The first of the calls from..to-1 that must run before call a, or -1. */
+static int32_t first_awaited(const mps__plan *p, int32_t a, int32_t from, int32_t to)
+{
+    for (int32_t b = from; b < to; b++)
+        if (b != a && precedes(&p->call[b], &p->call[a])) return b;
+    return -1;
+}
+
 /* The first of the calls from..to-1 that no other of them must precede, or -1. */
 static int32_t first_free(const mps__plan *p, int32_t from, int32_t to)
 {
-    for (int32_t a = from; a < to; a++) {
-        bool waits = false;
-        for (int32_t b = from; b < to && !waits; b++) waits = b != a && precedes(&p->call[b], &p->call[a]);
-        if (!waits) return a;
-    }
+    for (int32_t a = from; a < to; a++)
+        if (first_awaited(p, a, from, to) < 0) return a;
     return -1;
+}
+
+/* Each of the calls from..to-1 waits for another one. Going from one to the one that it waits for ends in a ring. */
+static mps_status ring(const mps__plan *p, const mps__models *m, int32_t from, int32_t to)
+{
+    int32_t a = from;
+    for (int32_t k = from; k < to; k++) a = first_awaited(p, a, from, to);
+    const int32_t b = first_awaited(p, a, from, to);
+    return mps__fail(m->context, MPS_E_STATE,
+                     "models '%s' and '%s' wait for each other in moment '%s': name the order in 'after' or 'before' of one",
+                     p->call[a].model->ops->name, p->call[b].model->ops->name, mps__moment_name(p->call[a].verb->moment));
 }
 
 static mps_status sort_moment(mps__plan *p, const mps__models *m, int32_t from, int32_t to)
 {
     for (; from < to; from++) {
         const int32_t next = first_free(p, from, to);
-        if (next < 0)
-            return mps__fail(m->context, MPS_E_STATE,
-                             "models '%s' and '%s' wait for each other in moment '%s': name the order in 'after' or 'before' of one",
-                             p->call[from].model->ops->name, p->call[to - 1].model->ops->name,
-                             mps__moment_name(p->call[from].verb->moment));
+        if (next < 0) return ring(p, m, from, to);
         const mps__call moved = p->call[next];
         memmove(&p->call[from + 1], &p->call[from], (size_t)(next - from) * sizeof moved);
         p->call[from] = moved;

@@ -102,4 +102,5 @@ const mps_preconditioner_ops mps__preconditioner_auxgrid = {
     .setup = setup,
     .apply = apply,
     .destroy = destroy,
+    .help = "Multigrid cycle on auxiliary grids; the fastest for large systems",
 };

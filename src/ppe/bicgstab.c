@@ -33,4 +33,5 @@ const mps_solver_ops mps__solver_bicgstab = {
     .create = create,
     .solve = mps__krylov_solve,
     .destroy = mps__krylov_destroy,
+    .help = "Stabilised bi-conjugate gradients (BiCGSTAB), for any matrix",
 };

@@ -40,4 +40,5 @@ const mps_solver_ops mps__solver_gmres = {
     .create = create,
     .solve = mps__krylov_solve,
     .destroy = mps__krylov_destroy,
+    .help = "Generalised minimal residual (GMRES), for any matrix",
 };

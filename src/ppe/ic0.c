@@ -200,4 +200,5 @@ const mps_preconditioner_ops mps__preconditioner_ic0 = {
     .setup = setup,
     .apply = apply,
     .destroy = destroy,
+    .help = "Incomplete Cholesky factorisation without fill-in",
 };

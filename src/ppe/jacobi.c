@@ -71,4 +71,5 @@ const mps_preconditioner_ops mps__preconditioner_jacobi = {
     .setup = setup,
     .apply = apply,
     .destroy = destroy,
+    .help = "Diagonal scaling",
 };

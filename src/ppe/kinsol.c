@@ -310,4 +310,5 @@ const mps_solver_ops mps__solver_kinsol = {
     .solve = solve,
     .destroy = destroy,
     .nonlinear = 1,
+    .help = "Newton's method with conjugate gradients, for nonlinear rows (gas.isentropic) too",
 };

@@ -192,4 +192,5 @@ const mps_solver_ops mps__solver_klu = {
     .create = create,
     .solve = solve,
     .destroy = destroy,
+    .help = "Sparse LU factorisation (direct), for small systems and checks",
 };

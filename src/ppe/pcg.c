@@ -32,4 +32,5 @@ const mps_solver_ops mps__solver_pcg = {
     .create = create,
     .solve = mps__krylov_solve,
     .destroy = mps__krylov_destroy,
+    .help = "Preconditioned conjugate gradients, for symmetric matrices",
 };
