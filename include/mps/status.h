@@ -16,7 +16,7 @@ typedef int32_t mps_status;
     X(MPS_W_STOPPED, 2, "the monitor asked to stop")                                            \
     X(MPS_E_ARG, -1, "an argument is out of its range")                                         \
     X(MPS_E_NOMEM, -2, "an allocation failed")                                                  \
-    X(MPS_E_BUSY, -3, "a lease is open, or the call came from a callback")                     \
+    X(MPS_E_BUSY, -3, "a lease is open, or the call came from a callback")                      \
     X(MPS_E_NAME, -4, "no model, solver, field or part has this name")                          \
     X(MPS_E_STATE, -5, "the call is not allowed now")                                           \
     X(MPS_E_DIVERGED, -6, "a value became NaN or left every physical range")                    \

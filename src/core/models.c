@@ -77,10 +77,14 @@ static mps_status check_verbs(mps__context *c, const mps_model_ops *ops)
                    "model '%s': verb %d has %d uses: 0..%d, with a table", ops->name, (int)v, (int)verb->use_count, MPS__USES);
         for (int32_t u = 0; u < verb->use_count; u++)
             MPS__CHECK(c,
-                       verb->uses[u].channel && !(verb->uses[u].access & ~known) &&
+                       verb->uses[u].channel && verb->uses[u].channel[0] && !(verb->uses[u].access & ~known) &&
                            verb->uses[u].access & (MPS_USE_READ | MPS_USE_NEIGHBOURS | MPS_USE_WRITE),
                        "model '%s': use %d of verb %d has no channel, or access %d, which is no sum of MPS_USE_...", ops->name, (int)u,
                        (int)v, (int)verb->uses[u].access);
+        for (int32_t u = 0; u < verb->use_count; u++)
+            for (int32_t w = 0; w < u; w++)
+                MPS__CHECK(c, strcmp(verb->uses[w].channel, verb->uses[u].channel) != 0,
+                           "model '%s': verb %d uses channel '%s' twice: add the accesses", ops->name, (int)v, verb->uses[u].channel);
     }
     return MPS_OK;
 }
