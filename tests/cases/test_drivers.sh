@@ -3,6 +3,7 @@
 # Command line and outputs of the drivers: wrong values are refused by name, outputs are complete, exit codes are kept.
 # usage: tests/cases/test_drivers.sh FOLDER_OF_DRIVERS
 set -uo pipefail
+sources=$(realpath "$(dirname "$0")/../..")
 . "$(dirname "$0")/drivers.sh"
 
 refused() { # text that must be in the message, driver, options...
@@ -75,6 +76,15 @@ refused '--out /dev/null/x: Not a directory' static_tank --out /dev/null/x
 "$drivers/static_tank" --help | grep -q -- '--probe-dt S' || fail "--help does not list --probe-dt"
 "$drivers/droplet" --help | grep -q -- '--mode rest|oscillation .* (rest)' || fail "--help does not list --mode with its default"
 "$drivers/static_tank" --version | grep -q 'libmps [0-9]' || fail "--version"
+
+# --list-models: all models of the library with their settings, and all else that has a name
+"$drivers/static_tank" --list-models >list || fail "--list-models: exit $?"
+models=$(sed -nE 's/^MODEL\(([a-z]+)_([a-z_]+)\)$/\1.\2/p' "$sources/src/core/models.inc")
+[ "$(wc -w <<<"$models")" -ge 29 ] || fail "models.inc has too few models: $models"
+for name in $models imps.paper mmps.paper sundials.kinsol auxgrid improved restitution acceleration interface_distance; do
+    grep -qF "\`$name\`" list || fail "--list-models does not name $name"
+done
+"$drivers/droplet" --list-models | cmp -s - list || fail "--list-models of two drivers differ"
 
 # a short run of each: header, number and spacing of rows, every key of the summary, frames
 columns() { # driver, dp, fluid particles, header wanted, options...

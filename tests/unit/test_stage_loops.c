@@ -1,0 +1,353 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Loops, sums, bodies and scratch that the library runs for verbs. */
+#include "model_fixture.h"
+#include "cloud.h"
+#include <stdio.h>
+
+/* A model with one verb, which does what the test in progress says. */
+static int (*play)(mps_stage *s);
+
+static int run_play(mps_stage *s)
+{
+    return play ? play(s) : 0;
+}
+
+static const mps_verb verbs[] = {{.moment = MPS_PREPARE, .run = run_play}};
+static const mps_model_ops player = {TOY("player.toy", 1, verbs)};
+
+/* `count` particles of a distorted lattice, `threads` threads. */
+static mps_sim *cloud_sim(int64_t count, int32_t threads)
+{
+    cloud c = cloud_lattice(2, 40, 40, 1, 0.2, 7);
+    mps_particle_block b;
+    mps_sim *sim = empty_sim(2, CLOUD_DP, NULL);
+    assert_true(count <= c.n);
+    assert_int_equal(mps_particle_block_init(&b, sizeof b), MPS_OK);
+    b.count = count;
+    b.position = c.x;
+    ASSERT_OK(sim, mps_particles_add(sim, &b, NULL));
+    ASSERT_OK(sim, mps_sim_set_threads(sim, threads));
+    use_model(sim, &player);
+    cloud_free(&c);
+    return sim;
+}
+
+static void play_once(int64_t count, int32_t threads, int (*what)(mps_stage *s))
+{
+    mps_sim *sim = cloud_sim(count, threads);
+    play = what;
+    ASSERT_OK(sim, mps_step(sim, 1, NULL));
+    play = NULL;
+    mps_sim_destroy(sim);
+}
+
+/* ---- rows ------------------------------------------------------------------------------------ */
+
+typedef struct counted {
+    int32_t *times;
+    int dim;
+} counted;
+
+MPS_ROW void count_row(const int dim, const mps_stage *s, const counted *c, int64_t i)
+{
+    c->times[i] += dim == c->dim && i < s->n ? 1 : 100;
+}
+MPS_ROWS(count_rows, count_row, counted)
+
+static int count_all(mps_stage *s)
+{
+    counted c = {mps_stage_scratch_integers(s, s->n), s->dim};
+    assert_non_null(c.times);
+    mps_stage_rows(s, count_rows, &c);
+    for (int64_t i = 0; i < s->n; i++) assert_int_equal(c.times[i], 1);
+    return 0;
+}
+
+/* Each once, also where there are fewer rows than threads. */
+static void each_row_once(void **state)
+{
+    (void)state;
+    const int64_t count[] = {1, 2, 3, 63, 64, 65, 1600};
+    for (size_t k = 0; k < sizeof count / sizeof count[0]; k++)
+        for (int32_t threads = 1; threads <= 4; threads++) play_once(count[k], threads, count_all);
+}
+
+/* ---- sums and maxima ------------------------------------------------------------------------- */
+
+enum { SUMS = 16 };
+static double total[SUMS], maxima[SUMS], sum_before[SUMS], max_before[SUMS];
+static double exact[3]; /* number of rows, sum and maximum of the ids */
+
+/* Numbers of all sizes, so that the order of a sum is seen in its last bits. */
+static double number(const mps_stage *s, int64_t i, int k)
+{
+    return sin((double)(s->id[i] * 16 + k)) * pow(10.0, (double)((s->id[i] * 7 + k) % 19));
+}
+
+MPS_ROW void add_row_of(const int dim, const mps_stage *s, void *none, int64_t i, double *sum)
+{
+    (void)dim, (void)none;
+    for (int k = 2; k < SUMS; k++) sum[k] += number(s, i, k);
+    sum[0] += 1;
+    sum[1] += (double)s->id[i];
+}
+MPS_SUMS(add_rows, add_row_of, void)
+
+MPS_ROW void raise_row(const int dim, const mps_stage *s, void *none, int64_t i, double *most)
+{
+    (void)dim, (void)none;
+    for (int k = 1; k < SUMS; k++)
+        if (number(s, i, k) > most[k]) most[k] = number(s, i, k);
+    if ((double)s->id[i] > most[0]) most[0] = (double)s->id[i];
+}
+MPS_SUMS(raise_rows, raise_row, void)
+
+static void raise_nothing(const mps_stage *s, void *none, int64_t begin, int64_t end, double *most)
+{
+    (void)s, (void)none, (void)begin, (void)end, (void)most;
+}
+
+static int sum_all(mps_stage *s)
+{
+    double one[2] = {-1, -1}, none;
+    mps_stage_sum(s, SUMS, add_rows, NULL, total);
+    mps_stage_max(s, SUMS, raise_rows, NULL, maxima);
+    mps_stage_sum(s, 1, add_rows, NULL, one); /* no more than `count` numbers are written */
+    assert_true(one[0] == (double)s->n && one[1] == -1);
+    mps_stage_max(s, 1, raise_nothing, NULL, &none);
+    assert_true(none == -INFINITY);
+    exact[0] = (double)s->n;
+    exact[1] = 0.5 * (double)(s->n * (s->n - 1));
+    exact[2] = (double)(s->n - 1);
+    return 0;
+}
+
+static void sums_do_not_depend_on_threads(void **state)
+{
+    (void)state;
+    const int64_t count[] = {1, 3, 64, 1000, 1600};
+    for (size_t k = 0; k < sizeof count / sizeof count[0]; k++)
+        for (int32_t threads = 1; threads <= 4; threads++) {
+            play_once(count[k], threads, sum_all);
+            assert_true(total[0] == exact[0] && total[1] == exact[1] && maxima[0] == exact[2]);
+            if (threads > 1) {
+                assert_memory_equal(total, sum_before, sizeof total);
+                assert_memory_equal(maxima, max_before, sizeof maxima);
+            }
+            memcpy(sum_before, total, sizeof total);
+            memcpy(max_before, maxima, sizeof maxima);
+        }
+}
+
+/* ---- neighbours ------------------------------------------------------------------------------ */
+
+static int check_beside(mps_stage *s)
+{
+    int32_t *member = mps_stage_scratch_integers(s, s->n);
+    int32_t *beside = mps_stage_scratch_integers(s, s->n);
+    int64_t found = 0;
+    assert_true(member && beside);
+    for (int64_t i = 0; i < s->n; i++) {
+        member[i] = s->id[i] % 50 == 0 ? 3 : 0; /* anything but 0 */
+        beside[i] = 77;
+    }
+    mps_stage_beside(s, member, beside);
+    for (int64_t i = 0; i < s->n; i++) {
+        int32_t wanted = 0;
+        for (int64_t j = 0; j < s->n; j++) {
+            const double x = s->x[2 * j] - s->x[2 * i], y = s->x[2 * j + 1] - s->x[2 * i + 1];
+            if (j != i && member[j] && x * x + y * y < s->near->re * s->near->re) wanted = 1;
+        }
+        assert_int_equal(beside[i], wanted);
+        found += wanted;
+    }
+    assert_true(found > s->n / 10 && found < s->n);
+    return 0;
+}
+
+static void beside(void **state)
+{
+    (void)state;
+    play_once(1600, 2, check_beside);
+}
+
+/* ---- bodies ---------------------------------------------------------------------------------- */
+
+/* Rows of particles far from each other, each `length` long; roles by letter. */
+typedef struct chain {
+    const char *roles; /* '.' none, 'm' member, 's' seed, 'a' anchor */
+    const char *free;  /* 'x' where it belongs to a free body */
+} chain;
+
+static const chain chains[] = {
+    {"smmm", "xxxx"},         /* free */
+    {"mmsm", "xxxx"},         /* wherever the seed is */
+    {"ssms", "xxxx"},         /* seeds are members */
+    {"smma", "----"},         /* held by an anchor */
+    {"ammms", "-----"},       /* also from the other end */
+    {"smam", "----"},         /* an anchor between */
+    {"mmm", "---"},           /* without a seed */
+    {"smmmmm", "------"},     /* larger than allowed */
+    {"smmmm", "xxxxx"},       /* just as large as allowed */
+    {"s", "x"},               /* alone */
+    {"sm...ms", "xx---xx"},   /* apart: two bodies */
+    {"sm...mma", "xx------"}, /* one of them held */
+    {"....", "----"}};
+enum { CHAINS = sizeof chains / sizeof chains[0], LONGEST = 8, MOST_IN_A_BODY = 5 };
+
+static int32_t role_of(char letter)
+{
+    return letter == 's'   ? MPS_BODY_SEED
+           : letter == 'm' ? MPS_BODY_MEMBER
+           : letter == 'a' ? MPS_BODY_ANCHOR
+                           : MPS_BODY_NONE;
+}
+
+/* Ids are numbered by chain: chain k has LONGEST of them, the last of which are far away. */
+static int check_bodies(mps_stage *s)
+{
+    int32_t *role = mps_stage_scratch_integers(s, s->n), *body = mps_stage_scratch_integers(s, s->n);
+    int32_t at[CHAINS * LONGEST], seen[64] = {0}, bodies = 0;
+    assert_true(role && body);
+    for (int64_t i = 0; i < s->n; i++) {
+        const chain *c = &chains[s->id[i] / LONGEST];
+        const size_t place = (size_t)(s->id[i] % LONGEST);
+        role[i] = place < strlen(c->roles) ? role_of(c->roles[place]) : MPS_BODY_NONE;
+        body[i] = 55;
+        at[s->id[i]] = (int32_t)i;
+    }
+    assert_int_equal(mps_stage_bodies(s, MOST_IN_A_BODY, role, body), 0);
+    for (int k = 0; k < CHAINS; k++)
+        for (int place = 0; place < LONGEST; place++) {
+            const char *free = chains[k].free;
+            const int wanted = place < (int)strlen(free) && free[place] == 'x';
+            const int32_t number = body[at[k * LONGEST + place]];
+            if (wanted != (number >= 0) || number < -1)
+                fail_msg("chain %d, particle %d: body %d", k, place, (int)number);
+            if (!wanted) continue;
+            const int same = place > 0 && free[place - 1] == 'x';
+            if (same) assert_int_equal(number, body[at[k * LONGEST + place - 1]]);
+            if (!same) assert_int_equal(seen[number]++, 0); /* a number of its own */
+            bodies = number + 1 > bodies ? number + 1 : bodies;
+        }
+    for (int32_t k = 0; k < bodies; k++) assert_int_equal(seen[k], 1); /* 0, 1, ... */
+    return 0;
+}
+
+static void bodies(void **state)
+{
+    (void)state;
+    mps_sim *sim = empty_sim(2, 0.1, NULL);
+    double x[2 * CHAINS * LONGEST];
+    mps_particle_block b;
+    for (int k = 0; k < CHAINS; k++)
+        for (int place = 0; place < LONGEST; place++) {
+            const int in = place < (int)strlen(chains[k].roles);
+            double *to = x + 2 * (k * LONGEST + place);
+            to[0] = 0.15 * (in ? place : place + 20); /* two are no neighbours: re_near is 0.21 */
+            to[1] = 1.0 * k;
+        }
+    assert_int_equal(mps_particle_block_init(&b, sizeof b), MPS_OK);
+    b.count = (int64_t)CHAINS * LONGEST;
+    b.position = x;
+    ASSERT_OK(sim, mps_particles_add(sim, &b, NULL));
+    use_model(sim, &player);
+    play = check_bodies;
+    ASSERT_OK(sim, mps_step(sim, 1, NULL));
+    play = NULL;
+    mps_sim_destroy(sim);
+}
+
+/* ---- scratch --------------------------------------------------------------------------------- */
+
+static int blocks_wanted;
+
+/* Of both types, zeroed, none on top of another; given back when the verb returns. */
+static int take_blocks(mps_stage *s)
+{
+    void *block[20] = {NULL};
+    for (int k = 0; k < blocks_wanted; k++) {
+        if (k % 2) {
+            int32_t *b = mps_stage_scratch_integers(s, s->n);
+            for (int64_t i = 0; b && i < s->n; i++) assert_int_equal(b[i], 0);
+            for (int64_t i = 0; b && i < s->n; i++) b[i] = k;
+            block[k] = b;
+        } else {
+            double *b = mps_stage_scratch(s, s->n);
+            for (int64_t i = 0; b && i < s->n; i++) assert_true(b[i] == 0);
+            for (int64_t i = 0; b && i < s->n; i++) b[i] = k;
+            block[k] = b;
+        }
+        if (!block[k]) return 1;
+    }
+    for (int k = 0; k < blocks_wanted; k++)
+        for (int64_t i = 0; i < s->n; i++)
+            assert_true((k % 2 ? ((int32_t *)block[k])[i] : ((double *)block[k])[i]) == k);
+    return 0;
+}
+
+static int take_negative(mps_stage *s)
+{
+    return mps_stage_scratch(s, -1) == NULL;
+}
+
+static int take_too_much(mps_stage *s)
+{
+    return mps_stage_scratch(s, INT64_MAX / 16) == NULL;
+}
+
+/* The search of bodies gives back what it borrowed. */
+static int bodies_and_blocks(mps_stage *s)
+{
+    int32_t *role = mps_stage_scratch_integers(s, s->n), *body = mps_stage_scratch_integers(s, s->n);
+    for (int k = 0; k < 20; k++) assert_int_equal(mps_stage_bodies(s, 3, role, body), 0);
+    for (int k = 2; k < 16; k++) assert_non_null(mps_stage_scratch(s, 1));
+    return mps_stage_bodies(s, 3, role, body); /* it needs one itself */
+}
+
+static int refresh_all(mps_stage *s)
+{
+    double *b = mps_stage_scratch(s, 2 * s->n);
+    assert_int_equal(mps_stage_refresh(s, b, 2), 0);
+    return mps_stage_refresh(s, b, 0);
+}
+
+static int refresh_nothing(mps_stage *s)
+{
+    return mps_stage_refresh(s, NULL, 1);
+}
+
+static void scratch(void **state)
+{
+    (void)state;
+    mps_sim *sim = cloud_sim(100, 2);
+    play = take_blocks;
+    for (blocks_wanted = 0; blocks_wanted <= 16; blocks_wanted += 4)
+        for (int twice = 0; twice < 2; twice++) ASSERT_OK(sim, mps_step(sim, 1, NULL));
+    blocks_wanted = 17;
+    ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_PLUGIN, "at most 16 blocks");
+    ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_PLUGIN, "player.toy");
+    play = take_negative;
+    ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_PLUGIN, "negative");
+    play = take_too_much;
+    ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_NOMEM, "player.toy");
+    play = bodies_and_blocks;
+    ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_PLUGIN, "at most 16 blocks");
+    play = refresh_all;
+    ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_PLUGIN, "components is 0");
+    play = refresh_nothing;
+    ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_PLUGIN, "scratch is NULL");
+    play = take_blocks;
+    blocks_wanted = 16;
+    ASSERT_OK(sim, mps_step(sim, 1, NULL));
+    play = NULL;
+    mps_sim_destroy(sim);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_row_once), cmocka_unit_test(sums_do_not_depend_on_threads),
+        cmocka_unit_test(beside), cmocka_unit_test(bodies), cmocka_unit_test(scratch)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
