@@ -81,7 +81,10 @@ refused '--out /dev/null/x: Not a directory' static_tank --out /dev/null/x
 "$drivers/static_tank" --list-models >list || fail "--list-models: exit $?"
 models=$(sed -nE 's/^MODEL\(([a-z]+)_([a-z_]+)\)$/\1.\2/p' "$sources/src/core/models.inc")
 [ "$(wc -w <<<"$models")" -ge 29 ] || fail "models.inc has too few models: $models"
-for name in $models imps.paper mmps.paper sundials.kinsol auxgrid improved restitution acceleration interface_distance; do
+for name in $models; do
+    grep -qx "### $name" list || fail "--list-models has no section $name"
+done
+for name in imps.paper mmps.paper sundials.kinsol auxgrid improved restitution acceleration interface_distance; do
     grep -qF "\`$name\`" list || fail "--list-models does not name $name"
 done
 "$drivers/droplet" --list-models | cmp -s - list || fail "--list-models of two drivers differ"

@@ -348,13 +348,39 @@ static void stopped_by_a_plate(void **state)
     mps_sim_destroy(sim);
 }
 
+/* What two particles lose that run into each other is lost in a collision: more than nothing, all of
+ * their kinetic energy that is gone. */
+static void collision_of_two(void **state)
+{
+    (void)state;
+    const double x[4] = {0.1, 0.1, 0.1 + 0.6 * dp, 0.1}, u[4] = {1, 0, -1, 0.5};
+    mps_particle_block b;
+    mps_sim *sim = weightless(0);
+    while (mps_model_name(sim, 0)) ASSERT_OK(sim, mps_model_remove(sim, mps_model_name(sim, 0)));
+    ASSERT_OK(sim, mps_model_use(sim, "collision.pair"));
+    ASSERT_OK(sim, mps_model_set(sim, "collision", "distance", 0.8));
+    ASSERT_OK(sim, mps_model_set(sim, "collision", "restitution", 0.5));
+    assert_int_equal(mps_particle_block_init(&b, sizeof b), MPS_OK);
+    b.count = 2;
+    b.position = x;
+    b.velocity = u;
+    ASSERT_OK(sim, mps_particles_add(sim, &b, NULL));
+    const double before = energy_of(sim).kinetic;
+    assert_true(mps_step(sim, 1e-6, NULL) >= 0);
+    const mps_energy e = energy_of(sim);
+    assert_true(e.collision > 0.1 * before);
+    ASSERT_NEAR(e.collision, before - e.kinetic, rounding * before);
+    ASSERT_NEAR(e.numerical, 0, rounding * before);
+    mps_sim_destroy(sim);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(force_models_are_no_walls), cmocka_unit_test(impulsive_start),
         cmocka_unit_test(start_with_the_tank),       cmocka_unit_test(work_of_a_turn),
         cmocka_unit_test(added_between_steps),       cmocka_unit_test(lost_particles),
-        cmocka_unit_test(stopped_by_a_plate),
+        cmocka_unit_test(stopped_by_a_plate),        cmocka_unit_test(collision_of_two),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -329,11 +329,65 @@ static void gas_refused(void **state)
     mps_sim_destroy(sim);
 }
 
+/* ---- density.interface ----------------------------------------------------------------------- */
+
+static double heavy_distance; /* "interface_distance" of id 0 */
+
+static int keep_distance(mps_stage *s)
+{
+    const double *distance = s->data[0];
+    for (int64_t i = 0; i < s->n; i++)
+        if (s->id[i] == 0) heavy_distance = distance[i] / s->dp;
+    return 0;
+}
+
+/* Distance [dp] of a heavy particle from the interface, with two light ones at an angle whose cosine
+ * is `alignment` from the x axis, 1.2 dp away. */
+static double distance_between_two(double alignment)
+{
+    static const mps_use uses[] = {{"interface_distance", MPS_USE_READ}};
+    static const mps_verb verb = {
+        .moment = MPS_FORCE, .use_count = 1, .uses = uses, .run = keep_distance};
+    static const mps_model_ops keeper = {.struct_size = sizeof keeper,
+                                         .api = MPS_MODEL_API,
+                                         .name = "keeper.distance",
+                                         .help = "keeps a distance",
+                                         .verb_count = 1,
+                                         .verbs = &verb};
+    const double r = 1.2 * CLOUD_DP, up = r * sqrt(1 - alignment * alignment);
+    double x[6] = {0, 0, r * alignment, up, r * alignment, -up};
+    const int32_t phase[3] = {0, 1, 1};
+    const cloud c = {2, 3, x};
+    mps_sim *sim = bare_sim(2, CLOUD_DP, 3.1, 1e-9);
+    set_phase(sim, 0, 1000, 0);
+    set_phase(sim, 1, 1, 0);
+    add_cloud(sim, &c, phase, NULL);
+    ASSERT_OK(sim, mps_model_use(sim, "density.interface"));
+    ASSERT_OK(sim, mps_model_register(sim, &keeper));
+    ASSERT_OK(sim, mps_model_use(sim, "keeper.distance"));
+    heavy_distance = NAN;
+    ASSERT_OK(sim, mps_step(sim, 1, NULL));
+    mps_sim_destroy(sim);
+    return heavy_distance;
+}
+
+/* Up to an alignment of 0.5 the interface has no plane: half a spacing. From 0.7 on it is the plane
+ * through the middles. Between them the one passes into the other evenly. */
+static void plane_takes_over(void **state)
+{
+    (void)state;
+    for (double alignment = 0.45; alignment < 1.0; alignment += 0.02) {
+        const double plane = 0.6 * alignment;
+        const double trust = fmin(1, fmax(0, (alignment - 0.5) / 0.2));
+        ASSERT_NEAR(distance_between_two(alignment), trust * plane + (1 - trust) * 0.5, 1e-12);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(smoothing),          cmocka_unit_test(gradient_to_the_letter),
                                        cmocka_unit_test(gradient_of_linear), cmocka_unit_test(gas_terms),
                                        cmocka_unit_test(equation_of_state),  cmocka_unit_test(gas_refused),
-                                       cmocka_unit_test(conserved)};
+                                       cmocka_unit_test(conserved),          cmocka_unit_test(plane_takes_over)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

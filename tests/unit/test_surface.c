@@ -75,6 +75,42 @@ static void film_on_the_floor(void **state)
     assert_true(region[classified(21, x)] < MPS_REGION_SURFACE);
 }
 
+/* Region of the particle below the tip of liquid that climbs a wall: four rows, in the column at the
+ * wall the top one lifted, in the next the upper two lower. contact < 0: as the model begins. */
+static int32_t below_the_tip(double contact)
+{
+    double at[72];
+    int64_t ids[36], count = 0;
+    mps_particle_block b;
+    mps_sim *sim = new_sim(2, dp);
+    ASSERT_OK(sim, mps_model_register(sim, &keeper));
+    ASSERT_OK(sim, mps_model_use(sim, "keeper.regions"));
+    if (contact >= 0) ASSERT_OK(sim, mps_model_set(sim, "surface", "contact", contact));
+    add_tank(sim, 0.5, 0.5, 0);
+    for (int column = 1; column <= 9; column++)
+        for (int row = 1; row <= 4; row++, count++) {
+            const double lift = column == 1 && row == 4 ? 0.7 : column == 2 && row >= 3 ? -0.2 : 0;
+            at[2 * count] = column * dp;
+            at[2 * count + 1] = (row + lift) * dp;
+        }
+    assert_int_equal(mps_particle_block_init(&b, sizeof b), MPS_OK);
+    b.count = count;
+    b.position = at;
+    ASSERT_OK(sim, mps_particles_add(sim, &b, ids));
+    ASSERT_OK(sim, mps_step(sim, 1e-5, NULL));
+    mps_sim_destroy(sim);
+    return region[ids[2]];
+}
+
+/* Beside a wall that goes on above the surface n is too large and the asymmetry too small. */
+static void surface_meets_a_wall(void **state)
+{
+    (void)state;
+    assert_int_equal(below_the_tip(-1), MPS_REGION_SURFACE);
+    assert_int_equal(below_the_tip(1), MPS_REGION_SURFACE);
+    assert_int_equal(below_the_tip(0), MPS_REGION_NEAR);
+}
+
 /* Five rows: none of them is further from the surface than the second band, and still a squeeze of
  * 2 % is seen. */
 static void volume_of_shallow_liquid(void **state)
@@ -104,6 +140,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(island_in_a_corner),
                                        cmocka_unit_test(film_on_the_floor),
+                                       cmocka_unit_test(surface_meets_a_wall),
                                        cmocka_unit_test(volume_of_shallow_liquid)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
