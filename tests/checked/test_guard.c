@@ -14,13 +14,11 @@ static const mps_channel heat[] = {
     {"age", "s", "a quantity of a particle", 1, MPS_TYPE_REAL, MPS_LIFE_PARTICLE, 0}};
 
 enum { HEAT, AGE, REGION, VELOCITY, PRESSURE, DEVIATION, MINE, ARRAYS };
-static const mps_use sees[ARRAYS] = {[HEAT] = {"heat", MPS_USE_CHANGE},
-                                     [AGE] = {"age", MPS_USE_READ},
-                                     [REGION] = {"region", MPS_USE_READ},
-                                     [VELOCITY] = {"velocity", MPS_USE_READ},
-                                     [PRESSURE] = {"pressure", MPS_USE_READ},
-                                     [DEVIATION] = {"volume_deviation", MPS_USE_READ},
-                                     [MINE] = {"mine", MPS_USE_READ}};
+static const mps_use sees[ARRAYS] = {
+    [HEAT] = {"heat", MPS_USE_CHANGE},       [AGE] = {"age", MPS_USE_READ},
+    [REGION] = {"region", MPS_USE_READ},     [VELOCITY] = {"velocity", MPS_USE_READ},
+    [PRESSURE] = {"pressure", MPS_USE_READ}, [DEVIATION] = {"volume_deviation", MPS_USE_READ},
+    [MINE] = {"mine", MPS_USE_READ}};
 /* Pointers that an earlier verb has kept. */
 static void *seen[ARRAYS];
 
@@ -60,8 +58,8 @@ static const mps_verb steal_verbs[] = {
 static const mps_use writes_heat[] = {{"heat", MPS_USE_WRITE}};
 static const mps_verb take_verbs[] = {
     {.moment = MPS_SOURCE, .use_count = 1, .uses = writes_heat, .run = take}};
-static const mps_model_ops looker = {
-    TOY("looker.toy", 1, look_verbs), .channel_count = 2, .channels = heat};
+static const mps_model_ops looker = {TOY("looker.toy", 1, look_verbs), .channel_count = 2,
+                                     .channels = heat};
 static const mps_model_ops thief = {TOY("thief.toy", 1, steal_verbs)};
 static const mps_model_ops taker = {TOY("taker.toy", 1, take_verbs)};
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Every public function that takes a simulation, as a call with sensible arguments. A new function
- * gets a line in each half of this file: the test of the lock compares the table with the headers. */
+ * gets a line in each half of this file: test_lock.c compares the table with the headers. */
 #ifndef LOCK_CALLS_H
 #define LOCK_CALLS_H
 
@@ -38,14 +38,14 @@ static void lock_open(const char *folder, mps_frames *frames)
 }
 
 /* CALL(function, statements that return its status) */
-#define CALL(name, ...)                                                                            \
-    static mps_status call_##name(mps_sim *sim)                                                    \
-    {                                                                                              \
-        __VA_ARGS__                                                                                \
+#define CALL(name, ...)                         \
+    static mps_status call_##name(mps_sim *sim) \
+    {                                           \
+        __VA_ARGS__                             \
     }
 /* A struct with its first values. */
-#define STRUCT(type)                                                                               \
-    type a;                                                                                        \
+#define STRUCT(type) \
+    type a;          \
     type##_init(&a, sizeof a)
 
 static const double low[2] = {0.05, 0.35}, high[2] = {0.2, 0.45}, edge[2] = {0.2, 0.05};
@@ -133,22 +133,31 @@ CALL(mps_sim_use_preset, return mps_sim_use_preset(sim, "imps.paper");)
 CALL(mps_model_use, return mps_model_use(sim, "wall.extrapolate");)
 CALL(mps_model_remove, return mps_model_remove(sim, "shift");)
 CALL(mps_model_set, return mps_model_set(sim, "collision", "distance", 0.7);)
-CALL(mps_model_register,
-     const mps_verb v = {.moment = MPS_FORCE, .run = no_verb};
-     const mps_model_ops ops = {.struct_size = sizeof ops, .api = MPS_MODEL_API, .name = "new.toy",
-                                .help = "h", .verb_count = 1, .verbs = &v};
+CALL(mps_model_register, const mps_verb v = {.moment = MPS_FORCE, .run = no_verb};
+     const mps_model_ops ops = {.struct_size = sizeof ops,
+                                .api = MPS_MODEL_API,
+                                .name = "new.toy",
+                                .help = "h",
+                                .verb_count = 1,
+                                .verbs = &v};
      return mps_model_register(sim, &ops);)
 CALL(mps_solver_use, return mps_solver_use(sim, "sundials.gmres", "none");)
 CALL(mps_solver_set_limits, STRUCT(mps_solver_limits); a.tolerance = 1e-2;
      return mps_solver_set_limits(sim, &a);)
-CALL(mps_solver_register,
-     const mps_solver_ops ops = {.struct_size = sizeof ops, .api = MPS_PPE_API, .name = "new",
-                                 .create = create, .solve = solve, .destroy = destroy};
+CALL(mps_solver_register, const mps_solver_ops ops = {.struct_size = sizeof ops,
+                                                      .api = MPS_PPE_API,
+                                                      .name = "new",
+                                                      .create = create,
+                                                      .solve = solve,
+                                                      .destroy = destroy};
      return mps_solver_register(sim, &ops);)
-CALL(mps_preconditioner_register,
-     const mps_preconditioner_ops ops = {.struct_size = sizeof ops, .api = MPS_PPE_API,
-                                         .name = "new", .create = create, .setup = set_up,
-                                         .apply = apply, .destroy = destroy};
+CALL(mps_preconditioner_register, const mps_preconditioner_ops ops = {.struct_size = sizeof ops,
+                                                                      .api = MPS_PPE_API,
+                                                                      .name = "new",
+                                                                      .create = create,
+                                                                      .setup = set_up,
+                                                                      .apply = apply,
+                                                                      .destroy = destroy};
      return mps_preconditioner_register(sim, &ops);)
 CALL(mps_probe_add, STRUCT(mps_probe); int32_t id; a.type = MPS_PROBE_FORCE;
      return mps_probe_add(sim, &a, &id);)
@@ -198,7 +207,8 @@ CALL(mps_motion_state_get, mps_motion_state s; return mps_motion_state_get(sim, 
 CALL(mps_motion_to_lab, double x[2]; return mps_motion_to_lab(sim, low, x, NULL);)
 CALL(mps_particles_count, return mps_particles_count(sim, -1) > 0 ? MPS_OK : MPS_E_BUSY;)
 CALL(mps_particle_index, return mps_particle_index(sim, 1) >= 0 ? MPS_OK : MPS_E_BUSY;)
-CALL(mps_particles_tags, const int64_t *ids; return mps_particles_tags(sim, &ids, NULL, NULL, NULL);)
+CALL(mps_particles_tags, const int64_t *ids;
+     return mps_particles_tags(sim, &ids, NULL, NULL, NULL);)
 CALL(mps_particles_plates, const int32_t *p; return mps_particles_plates(sim, &p);)
 CALL(mps_part_find, return mps_part_find(sim, "tank.y0") >= 0 ? MPS_OK : MPS_E_BUSY;)
 CALL(mps_probe_size, return mps_probe_size(sim, 0) == 3 ? MPS_OK : MPS_E_BUSY;)
@@ -212,9 +222,18 @@ CALL(mps_model_name, return mps_model_name(sim, 0) ? MPS_OK : MPS_E_BUSY;)
 CALL(mps_solver_name, const char *s; return mps_solver_name(sim, &s, NULL);)
 CALL(mps_sim_destroy, mps_sim_destroy(sim); return MPS_OK;) /* does nothing */
 
-#define CHANGES(name) {#name, LOCK_CHANGES, call_##name}
-#define READS(name) {#name, LOCK_READS, call_##name}
-#define PLAIN(name) {#name, LOCK_PLAIN, call_##name}
+#define CHANGES(name)                    \
+    {                                    \
+#name, LOCK_CHANGES, call_##name \
+    }
+#define READS(name)                    \
+    {                                  \
+#name, LOCK_READS, call_##name \
+    }
+#define PLAIN(name)                    \
+    {                                  \
+#name, LOCK_PLAIN, call_##name \
+    }
 
 static const lock_call lock_calls[] = {
     CHANGES(mps_geometry_tank),

@@ -71,7 +71,8 @@ static void value_of_a_setting(void **state)
     ASSERT_OK(sim, mps_model_remove(sim, "collision"));
     ASSERT_OK(sim, mps_setting_info_get(sim, "collision.pair", 0, &s));
     assert_true(s.value == initial);
-    ASSERT_REFUSED(sim, mps_setting_info_get(sim, "collision.pai", 0, &s), MPS_E_NAME, "collision.pai");
+    ASSERT_REFUSED(sim, mps_setting_info_get(sim, "collision.pai", 0, &s), MPS_E_NAME,
+                   "collision.pai");
     ASSERT_REFUSED(sim, mps_setting_info_get(sim, NULL, 0, &s), MPS_E_ARG, "NULL");
     mps_sim_destroy(sim);
 }
@@ -93,7 +94,7 @@ static int32_t count_channels(mps_sim *sim, int own)
     return count;
 }
 
-/* Every model alone: what it brings is in the list, and nothing else is beside the library's own. */
+/* Every model alone: what it brings is in the list, and nothing else but the library's own. */
 static void channels(void **state)
 {
     (void)state;
@@ -260,10 +261,10 @@ static mps_status get_verb(mps_sim *sim, int32_t k, void *i)
     return mps_verb_info_get(sim, k, i);
 }
 
-#define NAMES(what)                                                                                \
-    static mps_status get_##what(mps_sim *sim, int32_t k, void *i)                                 \
-    {                                                                                              \
-        return mps_##what##_info_get(sim, k, i);                                                   \
+#define NAMES(what)                                                \
+    static mps_status get_##what(mps_sim *sim, int32_t k, void *i) \
+    {                                                              \
+        return mps_##what##_info_get(sim, k, i);                   \
     }
 NAMES(preset)
 NAMES(solver)
@@ -356,7 +357,8 @@ static void other_sizes(void **state)
             memset(&other, 0x5a, sizeof other);
             assert_int_equal(gets[g].init(&other, sizes[k]), MPS_OK);
             assert_int_equal(other.struct_size, sizes[k]);
-            for (size_t b = 4; b < ROOM; b++) assert_int_equal(other.byte[b], b < sizes[k] ? 0 : 0x5a);
+            for (size_t b = 4; b < ROOM; b++)
+                assert_int_equal(other.byte[b], b < sizes[k] ? 0 : 0x5a);
             ASSERT_OK(sim, gets[g].get(sim, 0, &other));
             assert_int_equal(other.struct_size, sizes[k]);
             const size_t filled = same - (same == gets[g].size ? gets[g].padding : 0);
@@ -376,9 +378,9 @@ static void other_sizes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(models), cmocka_unit_test(value_of_a_setting),
-        cmocka_unit_test(channels), cmocka_unit_test(verbs_of_the_presets),
-        cmocka_unit_test(names), cmocka_unit_test(beyond_the_end),
+        cmocka_unit_test(models),     cmocka_unit_test(value_of_a_setting),
+        cmocka_unit_test(channels),   cmocka_unit_test(verbs_of_the_presets),
+        cmocka_unit_test(names),      cmocka_unit_test(beyond_the_end),
         cmocka_unit_test(other_sizes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

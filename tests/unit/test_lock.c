@@ -158,7 +158,8 @@ static void refused_without_a_trace(void **state)
     assert_non_null(mkdtemp(folder));
     play(0, folder, "alone");
     play(1, folder, "meddled");
-    char *alone = contents(folder, "alone", &size[0]), *meddled = contents(folder, "meddled", &size[1]);
+    char *alone = contents(folder, "alone", &size[0]),
+         *meddled = contents(folder, "meddled", &size[1]);
     assert_int_equal(size[0], size[1]);
     assert_memory_equal(alone, meddled, size[0]);
     free(alone);
@@ -189,7 +190,8 @@ static int count_functions(char *text)
         char *name = open;
         while (name[-1] != ' ' && name[-1] != '*') name--;
         if (!in_table(name, (size_t)(open - name)))
-            fail_msg("%.*s is not in the table of tests/unit/lock_calls.h", (int)(open - name), name);
+            fail_msg("%.*s is not in the table of tests/unit/lock_calls.h", (int)(open - name),
+                     name);
         found++;
     }
     return found;
@@ -198,8 +200,9 @@ static int count_functions(char *text)
 static void every_function_is_in_the_table(void **state)
 {
     (void)state;
-    static const char *const header[] = {"geometry", "list", "model",  "motion", "operators", "output",
-                                         "particles", "ppe", "probe", "sim",    "step"};
+    static const char *const header[] = {"geometry",  "list",   "model",     "motion",
+                                         "operators", "output", "particles", "ppe",
+                                         "probe",     "sim",    "step"};
     int found = 0;
     for (size_t k = 0; k < sizeof header / sizeof header[0]; k++) {
         char path[512];

@@ -6,7 +6,7 @@
 
 /* ---- names and descriptions ------------------------------------------------------------------ */
 
-static const mps_channel heat = {"heat", "J", "heat of a particle", 1, MPS_TYPE_REAL,
+static const mps_channel heat = {"heat",        "J", "heat of a particle", 1, MPS_TYPE_REAL,
                                  MPS_LIFE_STEP, 0};
 
 static mps_model_ops bringing(const char *name, int32_t count, const mps_channel *channels)
@@ -174,8 +174,7 @@ static void missing_channel(void **state)
     (void)state;
     static const mps_use wants[] = {{"heat", MPS_USE_READ}};
     static const mps_use may[] = {{"heat", MPS_USE_NEIGHBOURS | MPS_USE_OPTIONAL}};
-    static const mps_verb verb = {
-        .moment = MPS_FORCE, .use_count = 1, .uses = wants, .run = look};
+    static const mps_verb verb = {.moment = MPS_FORCE, .use_count = 1, .uses = wants, .run = look};
     static const mps_verb optional = {
         .moment = MPS_FORCE, .use_count = 1, .uses = may, .run = look};
     static const mps_model_ops user = {TOY("user.toy", 1, &verb)};
@@ -244,7 +243,8 @@ static void wrong_moment(void **state)
     use = (mps_use){"heat", MPS_USE_READ};
     verb.moment = MPS_LIMIT;
     ASSERT_OK(sim, mps_model_use(sim, "user.toy"));
-    ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_STATE, "'heat' cannot be read in moment 'limit'");
+    ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_STATE,
+                   "'heat' cannot be read in moment 'limit'");
     mps_sim_destroy(sim);
 }
 
@@ -310,8 +310,8 @@ static void first_values(void **state)
     static const mps_verb verbs[] = {
         {.moment = MPS_CLASSIFY, .use_count = KINDS, .uses = reads, .run = check_first},
         {.moment = MPS_SHIFT, .use_count = KINDS, .uses = writes, .run = spoil}};
-    static const mps_model_ops ops = {
-        TOY("kinds.toy", 2, verbs), .channel_count = KINDS, .channels = all_kinds};
+    static const mps_model_ops ops = {TOY("kinds.toy", 2, verbs), .channel_count = KINDS,
+                                      .channels = all_kinds};
     for (int dim = 2; dim <= 3; dim++) {
         mps_sim *sim = row_sim(dim);
         rows_checked = 0;

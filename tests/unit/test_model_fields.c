@@ -31,8 +31,8 @@ static const mps_channel lives[] = {
 static const mps_use life_uses[] = {{"age", MPS_USE_CHANGE}, {"mark", MPS_USE_CHANGE}};
 static const mps_verb life_verbs[] = {
     {.moment = MPS_VELOCITY, .use_count = 2, .uses = life_uses, .run = grow_old}};
-static const mps_model_ops life = {
-    TOY("life.toy", 1, life_verbs), .channel_count = 2, .channels = lives};
+static const mps_model_ops life = {TOY("life.toy", 1, life_verbs), .channel_count = 2,
+                                   .channels = lives};
 
 static void reset(void)
 {
@@ -130,7 +130,8 @@ static void lease(void **state)
     }
 }
 
-/* A field that the user made before is taken with its values; new particles begin as the model says. */
+/* A field that the user made before is taken with its values; new particles begin as the model
+ * says. */
 static void takes_a_field(void **state)
 {
     (void)state;
@@ -158,10 +159,10 @@ static void takes_no_other_field(void **state)
         {"kind", "-", "h", 1, MPS_TYPE_REAL, MPS_LIFE_PARTICLE, 0}};
     static const mps_channel own[] = {
         {"position", "m", "h", MPS_VECTOR, MPS_TYPE_REAL, MPS_LIFE_PARTICLE, 0}};
-    static const mps_model_ops a = {
-        TOY("a.toy", 1, idle_verbs), .channel_count = 2, .channels = hidden};
-    static const mps_model_ops b = {
-        TOY("b.toy", 1, idle_verbs), .channel_count = 1, .channels = own};
+    static const mps_model_ops a = {TOY("a.toy", 1, idle_verbs), .channel_count = 2,
+                                    .channels = hidden};
+    static const mps_model_ops b = {TOY("b.toy", 1, idle_verbs), .channel_count = 1,
+                                    .channels = own};
     mps_sim *sim = row_sim(2);
     mps_lease l;
     reset();
@@ -222,7 +223,8 @@ static void comes_back_after_a_failure(void **state)
         steps(sim, 1);
         steps(twin, 1);
         for (int64_t id = 0; id < n; id += 7)
-            assert_true(field_value(sim, "velocity", id, 1) == field_value(twin, "velocity", id, 1));
+            assert_true(field_value(sim, "velocity", id, 1) ==
+                        field_value(twin, "velocity", id, 1));
     }
     mps_sim_destroy(sim);
     mps_sim_destroy(twin);
@@ -325,10 +327,13 @@ static void field_by_name(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lease),   cmocka_unit_test(takes_a_field),
-        cmocka_unit_test(takes_no_other_field), cmocka_unit_test(follows),
-        cmocka_unit_test(comes_back_after_a_failure), cmocka_unit_test(checkpoint),
-        cmocka_unit_test(stays),   cmocka_unit_test(field_by_name)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lease),
+                                       cmocka_unit_test(takes_a_field),
+                                       cmocka_unit_test(takes_no_other_field),
+                                       cmocka_unit_test(follows),
+                                       cmocka_unit_test(comes_back_after_a_failure),
+                                       cmocka_unit_test(checkpoint),
+                                       cmocka_unit_test(stays),
+                                       cmocka_unit_test(field_by_name)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -20,10 +20,22 @@ typedef struct scene {
     toy toys[MOST];
 } scene;
 
-#define READS(channel) {(channel), MPS_USE_READ}
-#define SEES(channel) {(channel), MPS_USE_NEIGHBOURS}
-#define WRITES(channel) {(channel), MPS_USE_WRITE}
-#define ALTERS(channel) {(channel), MPS_USE_CHANGE}
+#define READS(channel)          \
+    {                           \
+        (channel), MPS_USE_READ \
+    }
+#define SEES(channel)                 \
+    {                                 \
+        (channel), MPS_USE_NEIGHBOURS \
+    }
+#define WRITES(channel)          \
+    {                            \
+        (channel), MPS_USE_WRITE \
+    }
+#define ALTERS(channel)           \
+    {                             \
+        (channel), MPS_USE_CHANGE \
+    }
 
 static const scene scenes[] = {
     /* by registration */
@@ -43,7 +55,9 @@ static const scene scenes[] = {
     /* through two channels */
     {"a b c",
      {0},
-     {{"c", 0, 0, {READS("r")}}, {"b", 0, 0, {READS("q"), WRITES("r")}}, {"a", 0, 0, {WRITES("q")}}}},
+     {{"c", 0, 0, {READS("r")}},
+      {"b", 0, 0, {READS("q"), WRITES("r")}},
+      {"a", 0, 0, {WRITES("q")}}}},
     /* a name holds instead of the channels */
     {"r w", {0}, {{"w", "r", 0, {WRITES("q")}}, {"r", 0, 0, {READS("q")}}}},
     {"r w", {0}, {{"w", 0, 0, {WRITES("q")}}, {"r", 0, "w", {READS("q")}}}},
@@ -92,12 +106,10 @@ static int note(mps_stage *s)
     return 0;
 }
 
-static const mps_channel brought[] = {
-    {"q", "-", "a quantity", 1, MPS_TYPE_REAL, MPS_LIFE_STEP, 0},
-    {"r", "-", "another", 1, MPS_TYPE_REAL, MPS_LIFE_STEP, 0},
-    {"s", "-", "a third", 1, MPS_TYPE_REAL, MPS_LIFE_STEP, 0}};
-static const mps_model_ops bring = {TOY("bring.toy", 1, idle_verbs),
-                                    .channel_count = 3,
+static const mps_channel brought[] = {{"q", "-", "a quantity", 1, MPS_TYPE_REAL, MPS_LIFE_STEP, 0},
+                                      {"r", "-", "another", 1, MPS_TYPE_REAL, MPS_LIFE_STEP, 0},
+                                      {"s", "-", "a third", 1, MPS_TYPE_REAL, MPS_LIFE_STEP, 0}};
+static const mps_model_ops bring = {TOY("bring.toy", 1, idle_verbs), .channel_count = 3,
                                     .channels = brought};
 
 /* Tables that must outlive the handle. */
@@ -112,8 +124,11 @@ static int register_scene(mps_sim *sim, const scene *c)
     use_model(sim, &bring);
     for (; count < MOST && c->toys[count].name; count++) {
         const toy *t = &c->toys[count];
-        table.verb[count] = (mps_verb){
-            .moment = MPS_FORCE, .uses = t->uses, .after = t->after, .before = t->before, .run = note};
+        table.verb[count] = (mps_verb){.moment = MPS_FORCE,
+                                       .uses = t->uses,
+                                       .after = t->after,
+                                       .before = t->before,
+                                       .run = note};
         while (table.verb[count].use_count < USES && t->uses[table.verb[count].use_count].channel)
             table.verb[count].use_count++;
         snprintf(table.name[count], sizeof table.name[count], "%s.toy", t->name);

@@ -9,10 +9,8 @@ static const mps_verb one_verb = {
     .moment = MPS_FORCE, .use_count = 1, .uses = one_use, .run = do_nothing};
 static const mps_setting one_setting = {"size", "m", "a size", MPS_TYPE_REAL, 1, 0, 2};
 static const mps_channel one_channel = {"heat", "J", "heat", 1, MPS_TYPE_REAL, MPS_LIFE_STEP, 0};
-static const mps_model_ops good = {TOY("good.toy", 1, &one_verb),
-                                   .setting_count = 1,
-                                   .channel_count = 1,
-                                   .settings = &one_setting,
+static const mps_model_ops good = {TOY("good.toy", 1, &one_verb), .setting_count = 1,
+                                   .channel_count = 1, .settings = &one_setting,
                                    .channels = &one_channel};
 
 static void refused(mps_sim *sim, const mps_model_ops *ops, const char *word)
@@ -27,21 +25,21 @@ static void refused(mps_sim *sim, const mps_model_ops *ops, const char *word)
 }
 
 /* Refused with one entry of a good table changed. */
-#define BAD(entry, value, word)                                                                    \
-    do {                                                                                           \
-        mps_model_ops bad_ = good;                                                                 \
-        bad_.entry = (value);                                                                      \
-        refused(sim, &bad_, (word));                                                               \
+#define BAD(entry, value, word)      \
+    do {                             \
+        mps_model_ops bad_ = good;   \
+        bad_.entry = (value);        \
+        refused(sim, &bad_, (word)); \
     } while (0)
-#define BAD_IN(member, first, entry, value, word)                                                  \
-    do {                                                                                           \
-        mps_model_ops bad_ = good;                                                                 \
-        __typeof__(first) changed_ = (first);                                                      \
-        changed_.entry = (value);                                                                  \
-        bad_.member = &changed_;                                                                   \
-        refused(sim, &bad_, (word));                                                               \
+#define BAD_IN(member, first, entry, value, word) \
+    do {                                          \
+        mps_model_ops bad_ = good;                \
+        __typeof__(first) changed_ = (first);     \
+        changed_.entry = (value);                 \
+        bad_.member = &changed_;                  \
+        refused(sim, &bad_, (word));              \
     } while (0)
-#define BAD_VERB(entry, value, word) BAD_IN(verbs, verb, entry, value, word)
+#define BAD_VERB(entry, value, word)    BAD_IN(verbs, verb, entry, value, word)
 #define BAD_SETTING(entry, value, word) BAD_IN(settings, setting, entry, value, word)
 #define BAD_CHANNEL(entry, value, word) BAD_IN(channels, channel, entry, value, word)
 
@@ -110,8 +108,8 @@ static void bad_verbs(void **state)
     full.uses = twice;
     full.use_count = 2;
     refused(sim, &ops, "'velocity'");
-    const mps_use uses[] = {{NULL, MPS_USE_READ}, {"velocity", 0}, {"velocity", MPS_USE_OPTIONAL},
-                            {"velocity", 16}, {"velocity", -1}, {"", MPS_USE_READ}};
+    const mps_use uses[] = {{NULL, MPS_USE_READ}, {"velocity", 0},  {"velocity", MPS_USE_OPTIONAL},
+                            {"velocity", 16},     {"velocity", -1}, {"", MPS_USE_READ}};
     full.use_count = 1;
     for (size_t k = 0; k < sizeof uses / sizeof uses[0]; k++) {
         full.uses = &uses[k];
@@ -178,14 +176,15 @@ static void full_tables(void **state)
     static mps_verb verbs[16];
     static mps_use uses[24];
     static char key[16][4], name[8][4];
-    static const char *const own[] = {"velocity", "pressure",   "density",          "number_density",
-                                      "region",   "asymmetry",  "volume_deviation", "pressure_density",
-                                      "heat",     "acceleration"};
+    static const char *const own[] = {
+        "velocity",  "pressure",         "density",          "number_density", "region",
+        "asymmetry", "volume_deviation", "pressure_density", "heat",           "acceleration"};
     for (int k = 0; k < 16; k++) {
         settings[k] = one_setting;
         settings[k].key = key[k];
         key[k][0] = 'k', key[k][1] = (char)('a' + k);
-        verbs[k] = (mps_verb){.moment = MPS_FORCE, .use_count = 24, .uses = uses, .run = do_nothing};
+        verbs[k] = (mps_verb){
+            .moment = MPS_FORCE, .use_count = 24, .uses = uses, .run = do_nothing};
     }
     for (int k = 0; k < 8; k++) {
         channels[k] = one_channel;
@@ -195,14 +194,13 @@ static void full_tables(void **state)
     for (int k = 0; k < 24; k++) {
         static char missing[24][4];
         missing[k][0] = 'm', missing[k][1] = (char)('a' + k);
-        uses[k] = (mps_use){k < 8 ? name[k] : k < 18 ? own[k - 8] : missing[k],
+        uses[k] = (mps_use){k < 8    ? name[k]
+                            : k < 18 ? own[k - 8]
+                                     : missing[k],
                             MPS_USE_READ | MPS_USE_OPTIONAL};
     }
-    const mps_model_ops ops = {TOY("full.toy", 16, verbs),
-                               .setting_count = 16,
-                               .channel_count = 8,
-                               .settings = settings,
-                               .channels = channels};
+    const mps_model_ops ops = {TOY("full.toy", 16, verbs), .setting_count = 16, .channel_count = 8,
+                               .settings = settings, .channels = channels};
     mps_sim *sim = row_sim(2);
     use_model(sim, &ops);
     ASSERT_OK(sim, mps_step(sim, 1, NULL));
@@ -214,20 +212,25 @@ static void full_tables(void **state)
 static void values(void **state)
 {
     (void)state;
-    static const mps_setting settings[] = {
-        {"real", "m", "h", MPS_TYPE_REAL, 1, 0, 2},
-        {"whole", "-", "h", MPS_TYPE_INTEGER, 3, -5, 5},
-        {"flag", "-", "h", MPS_TYPE_FLAG, 1, 0, 1}};
+    static const mps_setting settings[] = {{"real", "m", "h", MPS_TYPE_REAL, 1, 0, 2},
+                                           {"whole", "-", "h", MPS_TYPE_INTEGER, 3, -5, 5},
+                                           {"flag", "-", "h", MPS_TYPE_FLAG, 1, 0, 1}};
     static const struct {
         const char *key;
         double value;
         const char *word; /* NULL: allowed */
-    } set[] = {{"real", 0.5, NULL},          {"real", 2, NULL},
-               {"real", 2.001, "0..2"},      {"real", NAN, "0..2"},
-               {"real", -INFINITY, "0..2"},  {"whole", -5, NULL},
-               {"whole", 2.5, "whole number"}, {"whole", 6, "-5..5"},
-               {"flag", 0, NULL},            {"flag", 0.5, "whole number"},
-               {"flag", 2, "0..1"},          {"flag", -1, "0..1"}};
+    } set[] = {{"real", 0.5, NULL},
+               {"real", 2, NULL},
+               {"real", 2.001, "0..2"},
+               {"real", NAN, "0..2"},
+               {"real", -INFINITY, "0..2"},
+               {"whole", -5, NULL},
+               {"whole", 2.5, "whole number"},
+               {"whole", 6, "-5..5"},
+               {"flag", 0, NULL},
+               {"flag", 0.5, "whole number"},
+               {"flag", 2, "0..1"},
+               {"flag", -1, "0..1"}};
     mps_model_ops ops = good;
     double value, before;
     ops.setting_count = 3;
@@ -326,8 +329,7 @@ static void create_fails(void **state)
     const mps_allocator allocator = {take, give, &test};
     static const mps_verb verb = {.moment = MPS_FORCE, .run = do_nothing};
     static const mps_model_ops first = {TOY("state.first", 1, &verb)};
-    const mps_model_ops ops = {
-        TOY("state.toy", 1, &verb), .create = create, .destroy = destroy};
+    const mps_model_ops ops = {TOY("state.toy", 1, &verb), .create = create, .destroy = destroy};
     memset(&test, 0, sizeof test);
     mps_sim *sim = empty_sim(2, 0.1, &allocator);
     use_model(sim, &first);
@@ -343,8 +345,9 @@ static void create_fails(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bad_tables),   cmocka_unit_test(bad_verbs),  cmocka_unit_test(bad_settings),
-        cmocka_unit_test(bad_channels), cmocka_unit_test(full_tables), cmocka_unit_test(values),
+        cmocka_unit_test(bad_tables),      cmocka_unit_test(bad_verbs),
+        cmocka_unit_test(bad_settings),    cmocka_unit_test(bad_channels),
+        cmocka_unit_test(full_tables),     cmocka_unit_test(values),
         cmocka_unit_test(user_and_create), cmocka_unit_test(create_fails)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

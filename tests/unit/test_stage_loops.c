@@ -179,20 +179,19 @@ typedef struct chain {
     const char *free;  /* 'x' where it belongs to a free body */
 } chain;
 
-static const chain chains[] = {
-    {"smmm", "xxxx"},         /* free */
-    {"mmsm", "xxxx"},         /* wherever the seed is */
-    {"ssms", "xxxx"},         /* seeds are members */
-    {"smma", "----"},         /* held by an anchor */
-    {"ammms", "-----"},       /* also from the other end */
-    {"smam", "----"},         /* an anchor between */
-    {"mmm", "---"},           /* without a seed */
-    {"smmmmm", "------"},     /* larger than allowed */
-    {"smmmm", "xxxxx"},       /* just as large as allowed */
-    {"s", "x"},               /* alone */
-    {"sm...ms", "xx---xx"},   /* apart: two bodies */
-    {"sm...mma", "xx------"}, /* one of them held */
-    {"....", "----"}};
+static const chain chains[] = {{"smmm", "xxxx"},         /* free */
+                               {"mmsm", "xxxx"},         /* wherever the seed is */
+                               {"ssms", "xxxx"},         /* seeds are members */
+                               {"smma", "----"},         /* held by an anchor */
+                               {"ammms", "-----"},       /* also from the other end */
+                               {"smam", "----"},         /* an anchor between */
+                               {"mmm", "---"},           /* without a seed */
+                               {"smmmmm", "------"},     /* larger than allowed */
+                               {"smmmm", "xxxxx"},       /* just as large as allowed */
+                               {"s", "x"},               /* alone */
+                               {"sm...ms", "xx---xx"},   /* apart: two bodies */
+                               {"sm...mma", "xx------"}, /* one of them held */
+                               {"....", "----"}};
 enum { CHAINS = sizeof chains / sizeof chains[0], LONGEST = 8, MOST_IN_A_BODY = 5 };
 
 static int32_t role_of(char letter)
@@ -206,7 +205,8 @@ static int32_t role_of(char letter)
 /* Ids are numbered by chain: chain k has LONGEST of them, the last of which are far away. */
 static int check_bodies(mps_stage *s)
 {
-    int32_t *role = mps_stage_scratch_integers(s, s->n), *body = mps_stage_scratch_integers(s, s->n);
+    int32_t *role = mps_stage_scratch_integers(s, s->n),
+            *body = mps_stage_scratch_integers(s, s->n);
     int32_t at[CHAINS * LONGEST], seen[64] = {0}, bodies = 0;
     assert_true(role && body);
     for (int64_t i = 0; i < s->n; i++) {
@@ -299,7 +299,8 @@ static int take_too_much(mps_stage *s)
 /* The search of bodies gives back what it borrowed. */
 static int bodies_and_blocks(mps_stage *s)
 {
-    int32_t *role = mps_stage_scratch_integers(s, s->n), *body = mps_stage_scratch_integers(s, s->n);
+    int32_t *role = mps_stage_scratch_integers(s, s->n),
+            *body = mps_stage_scratch_integers(s, s->n);
     for (int k = 0; k < 20; k++) assert_int_equal(mps_stage_bodies(s, 3, role, body), 0);
     for (int k = 2; k < 16; k++) assert_non_null(mps_stage_scratch(s, 1));
     return mps_stage_bodies(s, 3, role, body); /* it needs one itself */
