@@ -115,6 +115,24 @@ int mps_stage_bodies(mps_stage *s, int32_t most, const int32_t *role, int32_t *b
     return 0;
 }
 
+/* Chains of rows: serial, as each row may change the chain of any bucket. */
+int mps_stage_grid(mps_stage *s, double side, mps_grid *grid)
+{
+    int32_t *first = mps_stage_scratch_integers(s, s->n), *next = mps_stage_scratch_integers(s, s->n);
+    if (!(side > 0)) return mps_stage_fail(s, "the side of a grid is %g m: must be > 0", side);
+    if (!first || !next) return 1;
+    *grid = (mps_grid){.struct_size = sizeof *grid, .dim = s->dim, .side = side, .buckets = s->n, .first = first, .next = next};
+    for (int64_t i = s->n - 1; i >= 0; i--) {
+        int64_t cell[3];
+        if (s->kind[i] != MPS_FLUID) continue;
+        mps_grid_cell(grid, s->x + i * s->dim, cell);
+        const int64_t b = mps_grid_bucket(grid, cell);
+        next[i] = first[b];
+        first[b] = (int32_t)(i + 1);
+    }
+    return 0;
+}
+
 /* All rows are in one memory, where they are visible at once. */
 int mps_stage_refresh(mps_stage *s, double *scratch, int32_t components)
 {

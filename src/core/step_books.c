@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The books of a step: who gave and took energy and momentum. Nothing here changes the flow but plates, which stop drops. */
+/* Layer 6: The books of a step: who gave and took energy and momentum. Nothing here changes the flow but plates, which stop drops. */
 #include "plates.h"
 #include "step.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The stage of a step: what verbs see, the arrays of the library's channels, and their first values. */
+/* Layer 6: The stage of a step: what verbs see, the arrays of the library's channels, and their first values. */
 #include "operators.h"
 #include "step.h"
 

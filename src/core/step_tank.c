@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The tank in a step: velocities of its solids, accelerations of the rigid tank, jumps of its velocity. */
+/* Layer 6: The tank in a step: velocities of its solids, accelerations of the rigid tank, jumps of its velocity. */
 #include "step.h"
 #include <string.h>
 
