@@ -386,7 +386,7 @@ static inline int64_t mps_grid_bucket(const mps_grid *grid, const int64_t cell[3
     return (int64_t)(h % (uint64_t)grid->buckets);
 }
 
-/** Sort the fluid rows into cells of a side. The grid lives as long as scratch and takes two blocks.
+/** Sort the fluid rows into cells of a side. The grid lives as long as scratch, and takes 2 blocks.
  *  @return 0, or non-zero after a failure (no memory, side not > 0) */
 MPS_API int mps_stage_grid(mps_stage *s, double side, mps_grid *grid);
 
