@@ -78,7 +78,7 @@ bool mps__name_copy(char *out, size_t capacity, const char *name);
 
 bool mps__finite(const double *values, int64_t count);
 double mps__clock(void); /* monotonic [s] */
-/* Set numbers to zero with so many threads. */
+/* Set numbers to zero; `threads` is not used: see mps__parallel_zero(). */
 void mps__zero(double *values, int64_t count, int threads);
 
 /* |b - a|^2 */
