@@ -67,7 +67,9 @@ typedef struct mps_parallel_rows_job {
     int64_t n;
     /** Number of parts. */
     int32_t parts;
+    /** What to call. */
     mps_rows_fn body;
+    /** Its first argument. */
     void *argument;
 } mps_parallel_rows_job;
 
@@ -99,10 +101,15 @@ static inline void mps_parallel_rows(const mps_parallel *p, int64_t n, mps_rows_
 
 /** Argument of mps_parallel_values_part(). */
 typedef struct mps_parallel_values_job {
+    /** Rows of all parts. */
     int64_t n;
-    /** Number of sums, and of values in all. */
-    int32_t sums, count;
+    /** Number of sums. */
+    int32_t sums;
+    /** Number of sums and maxima. */
+    int32_t count;
+    /** What to call. */
     mps_sums_fn body;
+    /** Its first argument. */
     void *argument;
     /** What values are before the first row. */
     const double *start;
