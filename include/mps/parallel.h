@@ -99,71 +99,76 @@ static inline void mps_parallel_rows(const mps_parallel *p, int64_t n, mps_rows_
     mps_parallel_rows_least(p, n, MPS_PARALLEL_LEAST, body, argument);
 }
 
-/** Argument of mps_parallel_values_part(). */
-typedef struct mps_parallel_values_job {
+/** Sums and maxima of mps_parallel_reduce(). */
+typedef struct mps_parallel_values {
+    /** value[0..sums-1] are sums: 0 plus the rows, whatever they hold before. */
+    int32_t sums;
+    /** value[sums..sums+maxima-1] are maxima: not below what they hold before. A NaN does not count. */
+    int32_t maxima;
+    /** [sums + maxima], MPS_PARALLEL_VALUES of them at most. */
+    double *value;
+} mps_parallel_values;
+
+/** Argument of mps_parallel_reduce_part(). */
+typedef struct mps_parallel_reduce_job {
     /** Rows of all parts. */
     int64_t n;
-    /** Number of sums. */
-    int32_t sums;
-    /** Number of sums and maxima. */
-    int32_t count;
+    /** What is wanted, and maxima before the first row. */
+    const mps_parallel_values *values;
     /** What to call. */
     mps_sums_fn body;
     /** Its first argument. */
     void *argument;
-    /** What values are before the first row. */
-    const double *start;
     /** Values of each part. */
     double part[MPS_PARALLEL_PARTS][MPS_PARALLEL_VALUES];
-} mps_parallel_values_job;
+} mps_parallel_reduce_job;
 
-/** One part of mps_parallel_values(). */
-static inline void mps_parallel_values_part(void *argument, int32_t part)
+/** One part of mps_parallel_reduce(). */
+static inline void mps_parallel_reduce_part(void *argument, int32_t part)
 {
-    mps_parallel_values_job *job = (mps_parallel_values_job *)argument;
-    double values[MPS_PARALLEL_VALUES]; /* of its own: threads do not write to one cache line while they sum */
-    for (int32_t k = 0; k < job->count; k++) values[k] = k < job->sums ? 0.0 : job->start[k];
-    job->body(job->argument, job->n * part / MPS_PARALLEL_PARTS, job->n * (part + 1) / MPS_PARALLEL_PARTS, values);
-    for (int32_t k = 0; k < job->count; k++) job->part[part][k] = values[k];
+    mps_parallel_reduce_job *job = (mps_parallel_reduce_job *)argument;
+    const int32_t sums = job->values->sums, count = sums + job->values->maxima;
+    double own[MPS_PARALLEL_VALUES]; /* threads do not write to one cache line while they sum */
+    for (int32_t k = 0; k < count; k++) own[k] = k < sums ? 0.0 : job->values->value[k];
+    job->body(job->argument, job->n * part / MPS_PARALLEL_PARTS, job->n * (part + 1) / MPS_PARALLEL_PARTS, own);
+    for (int32_t k = 0; k < count; k++) job->part[part][k] = own[k];
 }
 
 /** Sums and maxima over rows 0..n-1 in one loop. Rows are added up in MPS_PARALLEL_PARTS parts of fixed ranges and the parts in their
  *  order: the result has the same bytes for any number of threads.
- *  @param sums    values[0..sums-1] are sums: 0 plus the rows
- *  @param maxima  values[sums..sums+maxima-1] are maxima: not below what they hold on entry. A NaN does not count.
- *                 sums + maxima is MPS_PARALLEL_VALUES at most
- *  @param body    adds rows to the sums, raises the maxima; may be called with begin = end */
-static inline void mps_parallel_values(const mps_parallel *p, int64_t n, int32_t sums, int32_t maxima, mps_sums_fn body, void *argument,
-                                       double *values)
+ *  @param body  adds rows to the sums, raises the maxima; may be called with begin = end */
+static inline void mps_parallel_reduce(const mps_parallel *p, int64_t n, mps_sums_fn body, void *argument,
+                                       const mps_parallel_values *values)
 {
-    mps_parallel_values_job job;
+    mps_parallel_reduce_job job;
+    const int32_t sums = values->sums, count = sums + values->maxima;
     job.n = n;
-    job.sums = sums;
-    job.count = sums + maxima;
+    job.values = values;
     job.body = body;
     job.argument = argument;
-    job.start = values;
-    mps_parallel_run(n < 2 * MPS_PARALLEL_LEAST ? NULL : p, MPS_PARALLEL_PARTS, mps_parallel_values_part, &job);
-    for (int32_t k = 0; k < sums; k++) values[k] = 0.0;
+    mps_parallel_run(n < 2 * MPS_PARALLEL_LEAST ? NULL : p, MPS_PARALLEL_PARTS, mps_parallel_reduce_part, &job);
+    for (int32_t k = 0; k < sums; k++) values->value[k] = 0.0;
     for (int32_t part = 0; part < MPS_PARALLEL_PARTS; part++)
-        for (int32_t k = 0; k < job.count; k++) {
+        for (int32_t k = 0; k < count; k++) {
             if (k < sums)
-                values[k] += job.part[part][k];
-            else if (job.part[part][k] > values[k])
-                values[k] = job.part[part][k];
+                values->value[k] += job.part[part][k];
+            else if (job.part[part][k] > values->value[k])
+                values->value[k] = job.part[part][k];
         }
 }
 
-/** `count` sums over rows 0..n-1, as mps_parallel_values(). @param sums [count] out */
+/** `count` sums over rows 0..n-1, as mps_parallel_reduce(). @param sums [count] out */
 static inline void mps_parallel_sum(const mps_parallel *p, int64_t n, int32_t count, mps_sums_fn body, void *argument, double *sums)
 {
-    mps_parallel_values(p, n, count, 0, body, argument, sums);
+    const mps_parallel_values values = {count, 0, sums};
+    mps_parallel_reduce(p, n, body, argument, &values);
 }
 
 /** `count` maxima over rows 0..n-1. @param maxima [count] in: lower bounds, e.g. -INFINITY; out */
 static inline void mps_parallel_max(const mps_parallel *p, int64_t n, int32_t count, mps_sums_fn body, void *argument, double *maxima)
 {
-    mps_parallel_values(p, n, 0, count, body, argument, maxima);
+    const mps_parallel_values values = {0, count, maxima};
+    mps_parallel_reduce(p, n, body, argument, &values);
 }
 
 MPS_END_DECLS

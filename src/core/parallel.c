@@ -1,21 +1,27 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A pool of threads. A loop is a round: the caller opens it, works on its parts and takes over those nobody has begun, closes it, and waits
  * only for parts that others have begun. So a thread that gets no core costs nothing, and a round needs no thread at all to end. */
+#ifdef __linux__
+#define _GNU_SOURCE /* sched_getcpu() */
+#endif
 #include "parallel.h"
 #include <math.h>
 #include <pthread.h>
+#include <sched.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <string.h>
+#include <time.h>
 
 enum { CACHE_LINE = 64, LOOKS = 32 };
 
 /* Waiting threads spin for so long, then sleep [s]. Serial code between two loops of a step takes 1 to 30 microseconds, waking about 10. */
 static const double SPIN = 50e-6;
 
-/* Where threads make loops slower than one would be, because others have the cores, loops run in the calling thread for a while: so many
- * times as long as was lost, the double at each time, at most so long [s]. */
-static const double REST_PER_LOSS = 8, REST_MOST = 0.25;
+/* Where others have the cores, threads make loops slower than one would be. Time gained and lost is booked, measured at every so many rounds.
+ * After so much loss [s] loops run in the calling thread for so many times as long, and for longer each time, at most so long [s]. */
+enum { MEASURED = 8 };
+static const double MOST_GAIN = 0.5e-3, MOST_LOSS = 0.3e-3, REST_PER_LOSS = 4, REST_MOST = 0.25;
 
 /* What a crew is at, in one number: how many workers are inside a round, whether it is open to more, and which round it is. */
 #define INSIDE      UINT64_C(0xffff)
@@ -27,9 +33,10 @@ static const double REST_PER_LOSS = 8, REST_MOST = 0.25;
 typedef struct seat {
     _Atomic int32_t next;
     int32_t end;
+    atomic_int core; /* where the thread was at the beginning of the round */
     struct mps__crew *crew;
     pthread_t thread;
-    char apart[2 * CACHE_LINE - 24]; /* no two threads write to one line, or to a pair of them */
+    char apart[2 * CACHE_LINE - 32]; /* no two threads write to one line, or to a pair of them */
 } seat;
 
 struct mps__crew {
@@ -44,8 +51,8 @@ struct mps__crew {
     /* of the round, written while nobody is inside */
     mps_part_fn body;
     void *argument;
-    /* the caller's */
-    double rest, rest_until; /* [s] */
+    /* the caller's [s]: gains less losses, the last rest and its end (0: none goes on) */
+    double balance, rest, rest_until;
     int32_t seats;
     seat seat[]; /* the first one is the caller's */
 };
@@ -74,23 +81,46 @@ static inline bool is_empty(struct mps__crew *c, uint64_t unused)
     return !(atomic_load(&c->state) & INSIDE);
 }
 
-/* Look for SPIN seconds at most. */
-static inline __attribute__((always_inline)) bool spin(struct mps__crew *c, bool (*done)(struct mps__crew *, uint64_t), uint64_t seen)
+/* Number of the core that the calling thread is on, -1: not known. */
+static int core_now(void)
 {
+#ifdef __linux__
+    return sched_getcpu();
+#else
+    return -1;
+#endif
+}
+
+/* Whether the calling thread is where another one was in this round, so that it would keep that one from working if it spun. */
+static bool is_in_the_way(struct mps__crew *c, const seat *own)
+{
+    const int core = core_now();
+    const int32_t first = own == c->seat, end = own == c->seat ? c->seats : 1; /* the caller looks at all others, they look at it */
+    for (int32_t k = first; k < end && core >= 0; k++)
+        if (atomic_load_explicit(&c->seat[k].core, memory_order_relaxed) == core) return true;
+    return false;
+}
+
+/* Look for SPIN seconds at most. */
+static inline __attribute__((always_inline)) bool spin(seat *own, bool (*done)(struct mps__crew *, uint64_t), uint64_t seen)
+{
+    struct mps__crew *c = own->crew;
     double end = 0;
     do {
         for (int k = 0; k < LOOKS; k++) {
             if (done(c, seen)) return true;
             relax();
         }
+        if (is_in_the_way(c, own)) return false;
         if (end == 0) end = mps__clock() + SPIN;
     } while (mps__clock() < end);
     return false;
 }
 
-static void await_news(struct mps__crew *c, uint64_t seen)
+static void await_news(seat *own, uint64_t seen)
 {
-    if (spin(c, has_news, seen)) return;
+    struct mps__crew *c = own->crew;
+    if (spin(own, has_news, seen)) return;
     pthread_mutex_lock(&c->lock);
     atomic_fetch_add(&c->sleepers, 1); /* before the last look: the caller looks for sleepers after it opened a round */
     while (!has_news(c, seen)) pthread_cond_wait(&c->opened, &c->lock);
@@ -98,14 +128,17 @@ static void await_news(struct mps__crew *c, uint64_t seen)
     pthread_mutex_unlock(&c->lock);
 }
 
-static void await_empty(struct mps__crew *c)
+/* @return how long it took, but for what is spun [s] */
+static double await_empty(struct mps__crew *c)
 {
-    if (spin(c, is_empty, 0)) return;
+    if (spin(&c->seat[0], is_empty, 0)) return 0;
+    const double begin = mps__clock();
     pthread_mutex_lock(&c->lock);
     atomic_store(&c->waiting, true);
     while (!is_empty(c, 0)) pthread_cond_wait(&c->empty, &c->lock);
     atomic_store(&c->waiting, false);
     pthread_mutex_unlock(&c->lock);
+    return mps__clock() - begin;
 }
 
 static void wake(struct mps__crew *c, pthread_cond_t *condition)
@@ -117,9 +150,10 @@ static void wake(struct mps__crew *c, pthread_cond_t *condition)
 
 /* ---- a round ----------------------------------------------------------------------------------------------------- */
 
-/* The parts of one's own seat, then what is left of the others'. */
-static void take_parts(struct mps__crew *c, int32_t own)
+/* The parts of one's own seat, then what is left of the others'. Returns their number. */
+static int32_t take_parts(struct mps__crew *c, int32_t own)
 {
+    int32_t taken = 0;
     for (int32_t k = 0; k < c->seats; k++) {
         seat *s = &c->seat[(own + k) % c->seats];
         for (;;) {
@@ -127,8 +161,10 @@ static void take_parts(struct mps__crew *c, int32_t own)
             const int32_t part = atomic_fetch_add_explicit(&s->next, 1, memory_order_relaxed);
             if (part >= s->end) break;
             c->body(c->argument, part);
+            taken++;
         }
     }
+    return taken;
 }
 
 /* Go into the open round unless it is the one seen last. What was written before it opened is seen inside. */
@@ -155,49 +191,64 @@ static void *work(void *argument)
     struct mps__crew *c = own->crew;
     uint64_t seen = 0;
     for (;;) {
-        await_news(c, seen);
+        await_news(own, seen);
         if (atomic_load(&c->state) & QUIT) return NULL;
         if (!enter(c, &seen)) continue;
+        atomic_store_explicit(&own->core, core_now(), memory_order_relaxed);
         take_parts(c, (int32_t)(own - c->seat));
         leave(c);
     }
 }
 
-/* A thread that lost its core in the middle of a part holds up the others. Alone the caller would have needed at most `worked` for each of
- * the seats: more than that is lost. */
-static void judge(struct mps__crew *c, double now, double worked, double waited)
+static void book(struct mps__crew *c, double gain)
 {
-    const double lost = waited - SPIN - worked * (c->seats - 1);
-    if (lost > 0) {
-        c->rest = fmin(2 * c->rest + REST_PER_LOSS * waited, REST_MOST);
-        c->rest_until = now + c->rest;
-    } else {
-        c->rest = fmax(c->rest - worked, 0);
-    }
+    c->balance = fmin(c->balance + gain, MOST_GAIN);
+    c->rest = fmax(c->rest - fmax(gain, 0), 0);
+    if (c->balance > -MOST_LOSS) return;
+    c->rest = fmin(2 * c->rest - REST_PER_LOSS * c->balance, REST_MOST);
+    c->rest_until = mps__clock() + c->rest;
+    c->balance = 0;
 }
 
-static void run_round(struct mps__crew *c, int32_t parts, mps_part_fn body, void *argument)
+static bool is_resting(struct mps__crew *c)
 {
-    const double begin = mps__clock();
-    if (begin < c->rest_until) {
-        for (int32_t part = 0; part < parts; part++) body(argument, part);
-        return;
-    }
-    c->body = body;
-    c->argument = argument;
+    if (c->rest_until > 0 && mps__clock() >= c->rest_until) c->rest_until = 0;
+    return c->rest_until > 0;
+}
+
+/* Processor time of the calling thread [s]: without what others took away from it. */
+static double processor_time(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void open_round(struct mps__crew *c, uint64_t round, int32_t parts)
+{
     for (int32_t k = 0; k < c->seats; k++) {
         atomic_store_explicit(&c->seat[k].next, (int32_t)((int64_t)parts * k / c->seats), memory_order_relaxed);
         c->seat[k].end = (int32_t)((int64_t)parts * (k + 1) / c->seats);
     }
-    const uint64_t round = (atomic_load(&c->state) >> ROUND_SHIFT) + 1;
+    atomic_store_explicit(&c->seat[0].core, core_now(), memory_order_relaxed);
     atomic_store(&c->state, round << ROUND_SHIFT | OPEN);
     if (atomic_load(&c->sleepers) > 0) wake(c, &c->opened);
-    take_parts(c, 0);
+}
+
+static void run_round(struct mps__crew *c, int32_t parts, mps_part_fn body, void *argument)
+{
+    const uint64_t round = (atomic_load(&c->state) >> ROUND_SHIFT) + 1;
+    const bool measured = round % MEASURED == 0;
+    const double begin = measured ? mps__clock() : 0, before = measured ? processor_time() : 0;
+    c->body = body;
+    c->argument = argument;
+    open_round(c, round, parts);
+    const int32_t taken = take_parts(c, 0);
+    const double worked = measured ? processor_time() - before : 0;
     atomic_fetch_and(&c->state, ~OPEN);
-    const double closed = mps__clock();
-    await_empty(c);
-    const double end = mps__clock();
-    judge(c, end, closed - begin, end - closed);
+    const double held_up = await_empty(c); /* by threads that lost their cores in the middle of a part */
+    if (held_up > 0) book(c, -held_up);
+    if (measured && taken > 0) book(c, MEASURED * (worked * parts / taken - (mps__clock() - begin - held_up)));
 }
 
 /* ---- a crew ------------------------------------------------------------------------------------------------------ */
@@ -223,6 +274,7 @@ static void start_threads(struct mps__crew *c, int32_t seats)
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
+    c->seat[0].crew = c;
     for (c->seats = 1; c->seats < seats; c->seats++) {
         seat *s = &c->seat[c->seats];
         s->crew = c;
@@ -260,9 +312,10 @@ static void run_pool(void *user, int32_t parts, mps_part_fn body, void *argument
         c = p->crew;
     }
     if (c && c->seats > 1 && !atomic_exchange(&c->busy, true)) {
-        run_round(c, parts, body, argument);
+        const bool alone = is_resting(c);
+        if (!alone) run_round(c, parts, body, argument);
         atomic_store(&c->busy, false);
-        return;
+        if (!alone) return;
     }
     for (int32_t part = 0; part < parts; part++) body(argument, part);
 }

@@ -344,7 +344,8 @@ static void check_rows(void *argument, int64_t begin, int64_t end, double *value
 void mps_ppe_check(const mps_ppe_problem *problem, const double *p, double *work, mps_ppe_result *result)
 {
     double values[VALUES] = {0};
-    mps_parallel_values(problem->parallel, problem->n, LARGEST, VALUES - LARGEST, check_rows, &(check){problem, p, work}, values);
+    mps_parallel_reduce(problem->parallel, problem->n, check_rows, &(check){problem, p, work},
+                        &(mps_parallel_values){LARGEST, VALUES - LARGEST, values});
     result->residual = sqrt(values[SQUARES]) / (values[RHS_SQUARES] > 0 ? sqrt(values[RHS_SQUARES]) : 1);
     result->divergence = values[LARGEST] + values[POISON];
 }

@@ -175,14 +175,17 @@ AT(mps_parallel_rows_job, parts, 8);
 AT(mps_parallel_rows_job, body, 16);
 AT(mps_parallel_rows_job, argument, 24);
 
-SIZE(mps_parallel_values_job, 4136);
-AT(mps_parallel_values_job, n, 0);
-AT(mps_parallel_values_job, sums, 8);
-AT(mps_parallel_values_job, count, 12);
-AT(mps_parallel_values_job, body, 16);
-AT(mps_parallel_values_job, argument, 24);
-AT(mps_parallel_values_job, start, 32);
-AT(mps_parallel_values_job, part, 40);
+SIZE(mps_parallel_values, 16);
+AT(mps_parallel_values, sums, 0);
+AT(mps_parallel_values, maxima, 4);
+AT(mps_parallel_values, value, 8);
+
+SIZE(mps_parallel_reduce_job, 4128);
+AT(mps_parallel_reduce_job, n, 0);
+AT(mps_parallel_reduce_job, values, 8);
+AT(mps_parallel_reduce_job, body, 16);
+AT(mps_parallel_reduce_job, argument, 24);
+AT(mps_parallel_reduce_job, part, 32);
 
 SIZE(mps_particle_block, 56);
 AT(mps_particle_block, struct_size, 0);

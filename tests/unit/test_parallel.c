@@ -213,7 +213,7 @@ static void rows_and_sums(void **state)
             memset(marks, 0, ROWS + 1);
             mps_parallel_rows(&pool.parallel, n, mark_rows, marks);
             for (int64_t i = 0; i <= ROWS; i++) assert_int_equal(marks[i], i < n);
-            mps_parallel_values(&pool.parallel, n, 2, 2, sum_rows, x, values);
+            mps_parallel_reduce(&pool.parallel, n, sum_rows, x, &(mps_parallel_values){2, 2, values});
             if (threads == 1) {
                 memcpy(one, values, sizeof one);
                 first = mps__parallel_first(NULL, n, is_large, x);
