@@ -200,6 +200,7 @@ static void *work(void *argument)
     }
 }
 
+/* Book a gain, or a loss (negative) [s]. */
 static void book(struct mps__crew *c, double gain)
 {
     c->balance = fmin(c->balance + gain, MOST_GAIN);
@@ -239,16 +240,19 @@ static void run_round(struct mps__crew *c, int32_t parts, mps_part_fn body, void
 {
     const uint64_t round = (atomic_load(&c->state) >> ROUND_SHIFT) + 1;
     const bool measured = round % MEASURED == 0;
-    const double begin = measured ? mps__clock() : 0, before = measured ? processor_time() : 0;
+    const double begin = mps__clock();
     c->body = body;
     c->argument = argument;
     open_round(c, round, parts);
+    const double before = measured ? processor_time() : 0;
     const int32_t taken = take_parts(c, 0);
     const double worked = measured ? processor_time() - before : 0;
     atomic_fetch_and(&c->state, ~OPEN);
-    const double held_up = await_empty(c); /* by threads that lost their cores in the middle of a part */
-    if (held_up > 0) book(c, -held_up);
-    if (measured && taken > 0) book(c, MEASURED * (worked * parts / taken - (mps__clock() - begin - held_up)));
+    /* Held up by threads that lost their cores in the middle of a part. Less than what the caller would have needed for their parts is no loss. */
+    const double held_up = await_empty(c), all = held_up > 0 || measured ? mps__clock() - begin : 0;
+    const double lost = fmax(held_up - (all - held_up) * (c->seats - 1), 0);
+    if (lost > 0) book(c, -lost);
+    if (measured && taken > 0) book(c, MEASURED * (worked * parts / taken - (all - lost)));
 }
 
 /* ---- a crew ------------------------------------------------------------------------------------------------------ */
