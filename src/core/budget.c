@@ -3,39 +3,25 @@
 #include "budget.h"
 #include <string.h>
 
-enum { PARTS = 64, SUMS = 8 };
+/* What terms are made of. */
+typedef struct terms {
+    const mps__world *w;
+    const void *data;
+} terms;
 
-/* What a particle adds to up to eight sums. */
-typedef struct sums {
-    double of[SUMS];
-} sums;
-typedef void (*term_fn)(const mps__world *w, const void *data, int64_t i, double *sum);
+/* Define `name`, which adds the terms of one kind of particles; each has its own loop, in which its function is inlined. */
+#define ADD_TERMS(name, kind_of_particles, term)                                           \
+    static void name(void *argument, int64_t begin, int64_t end, double *sum)              \
+    {                                                                                      \
+        const terms *k = argument;                                                         \
+        for (int64_t i = begin; i < end; i++)                                              \
+            if (k->w->particles.kind[i] == (kind_of_particles)) term(k->w, k->data, i, sum); \
+    }
 
-/* Particles from..to-1. */
-typedef struct range {
-    int64_t from, to;
-} range;
-typedef void (*part_fn)(const mps__world *w, const void *data, range r, sums *part);
-
-/* The terms of one kind of particles. Each kind of term has its own loop, in which its function is inlined. */
-static inline __attribute__((always_inline)) void add_terms(const mps__world *w, int32_t kind, term_fn term, const void *data, range r,
-                                                            sums *part)
+static void sum_terms(const mps__world *w, mps_reduce_fn add, const void *data, int32_t count, double *sums)
 {
-    sums sum = *part; /* a local one stays in registers */
-    for (int64_t i = r.from; i < r.to; i++)
-        if (w->particles.kind[i] == kind) term(w, data, i, sum.of);
-    *part = sum;
-}
-
-static sums sum_parts(const mps__world *w, part_fn add, const void *data)
-{
-    const int64_t n = w->particles.n;
-    sums part[PARTS] = {{{0}}}, all = {{0}};
-#pragma omp parallel for num_threads(w->threads) schedule(static)
-    for (int p = 0; p < PARTS; p++) add(w, data, (range){n * p / PARTS, n * (p + 1) / PARTS}, &part[p]);
-    for (int p = 0; p < PARTS; p++)
-        for (int k = 0; k < SUMS; k++) all.of[k] += part[p].of[k];
-    return all;
+    terms k = {w, data};
+    mps_parallel_sum(&w->pool.parallel, w->particles.n, count, add, &k, sums);
 }
 
 static double mass(const mps__world *w, int64_t i)
@@ -52,15 +38,13 @@ static void energy_term(const mps__world *w, const void *data, int64_t i, double
     for (int d = 0; d < w->dim; d++) sum[2 + d] += mass(w, i) * u[d];
 }
 
-static void add_energy(const mps__world *w, const void *data, range r, sums *part)
-{
-    add_terms(w, MPS_FLUID, energy_term, data, r, part);
-}
+ADD_TERMS(add_energy, MPS_FLUID, energy_term)
 
 void mps__budget_sum(const mps__world *w, mps__bulk *bulk)
 {
-    const sums s = sum_parts(w, add_energy, NULL);
-    *bulk = (mps__bulk){s.of[0], s.of[1], {s.of[2], s.of[3], s.of[4]}};
+    double s[5];
+    sum_terms(w, add_energy, NULL, 5, s);
+    *bulk = (mps__bulk){s[0], s[1], {s[2], s[3], s[4]}};
 }
 
 typedef struct acceleration {
@@ -80,15 +64,13 @@ static void push_term(const mps__world *w, const void *data, int64_t i, double *
     }
 }
 
-static void add_push(const mps__world *w, const void *data, range r, sums *part)
-{
-    add_terms(w, MPS_FLUID, push_term, data, r, part);
-}
+ADD_TERMS(add_push, MPS_FLUID, push_term)
 
 void mps__budget_push(const mps__world *w, const double *a, double dt, mps__push *push)
 {
-    const sums s = sum_parts(w, add_push, &(acceleration){a, dt});
-    *push = (mps__push){s.of[0], s.of[1], {s.of[2], s.of[3], s.of[4]}, {s.of[5], s.of[6], s.of[7]}};
+    double s[8];
+    sum_terms(w, add_push, &(acceleration){a, dt}, 8, s);
+    *push = (mps__push){s[0], s[1], {s[2], s[3], s[4]}, {s[5], s[6], s[7]}};
 }
 
 static void wall_term(const mps__world *w, const void *data, int64_t i, double *sum)
@@ -97,15 +79,11 @@ static void wall_term(const mps__world *w, const void *data, int64_t i, double *
     for (int d = 0; d < w->dim; d++) sum[d] += ((const double *)data)[i] * area[d];
 }
 
-static void add_wall(const mps__world *w, const void *data, range r, sums *part)
-{
-    add_terms(w, MPS_WALL, wall_term, data, r, part);
-}
+ADD_TERMS(add_wall, MPS_WALL, wall_term)
 
 void mps__budget_wall_force(const mps__world *w, const double *pressure, double force[3])
 {
-    const sums s = sum_parts(w, add_wall, pressure);
-    memcpy(force, s.of, 3 * sizeof *force);
+    sum_terms(w, add_wall, pressure, 3, force);
 }
 
 /* A rigid velocity, about `centre`, and the impulses it works on. */
@@ -155,16 +133,15 @@ static void wall_work_term(const mps__world *w, const void *data, int64_t i, dou
     for (int d = 0; d < w->dim; d++) sum[0] += mass(w, i) * k->dt * a[d] * (k->v[d] + spin[d]);
 }
 
-static void add_wall_work(const mps__world *w, const void *data, range r, sums *part)
-{
-    add_terms(w, MPS_FLUID, wall_work_term, data, r, part);
-}
+ADD_TERMS(add_wall_work, MPS_FLUID, wall_work_term)
 
 double mps__budget_wall_work(const mps__world *w, const mps__pose *end, const double *a, double dt)
 {
     tank_move k = mean_move(w, end, dt);
     k.a = a;
-    return sum_parts(w, add_wall_work, &k).of[0];
+    double work;
+    sum_terms(w, add_wall_work, &k, 1, &work);
+    return work;
 }
 
 static void lift_term(const mps__world *w, const void *data, int64_t i, double *sum)
@@ -172,14 +149,13 @@ static void lift_term(const mps__world *w, const void *data, int64_t i, double *
     sum[0] += mass(w, i) * mps__dot(w->g, (const double *)data + i * w->dim, w->dim);
 }
 
-static void add_lift(const mps__world *w, const void *data, range r, sums *part)
-{
-    add_terms(w, MPS_FLUID, lift_term, data, r, part);
-}
+ADD_TERMS(add_lift, MPS_FLUID, lift_term)
 
 double mps__budget_lift(const mps__world *w, const double *dx)
 {
-    return sum_parts(w, add_lift, dx).of[0];
+    double lift;
+    sum_terms(w, add_lift, dx, 1, &lift);
+    return lift;
 }
 
 void mps__budget_book_added(const mps__world *w, mps__budget *b)
@@ -210,13 +186,11 @@ static void deviation_term(const mps__world *w, const void *data, int64_t i, dou
     sum[1] += 1;
 }
 
-static void add_deviation(const mps__world *w, const void *data, range r, sums *part)
-{
-    add_terms(w, MPS_FLUID, deviation_term, data, r, part);
-}
+ADD_TERMS(add_deviation, MPS_FLUID, deviation_term)
 
 double mps__budget_mean_deviation(const mps__world *w)
 {
-    const sums s = sum_parts(w, add_deviation, NULL);
-    return s.of[1] > 0 ? s.of[0] / s.of[1] : 0;
+    double s[2];
+    sum_terms(w, add_deviation, NULL, 2, s);
+    return s[1] > 0 ? s[0] / s[1] : 0;
 }

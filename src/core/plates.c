@@ -76,16 +76,21 @@ mps_status mps__plates_find(mps__world *w)
     return MPS_OK;
 }
 
-void mps__plates_look(mps__world *w)
+static void look_rows(void *argument, int64_t begin, int64_t end)
 {
+    mps__world *w = argument;
     mps__screens *p = &w->screens;
-#pragma omp parallel for num_threads(w->threads) schedule(static)
-    for (int64_t k = 0; k < p->seers; k++) {
+    for (int64_t k = begin; k < end; k++) {
         mps__seer *seer = &p->seer[k];
         if (w->particles.kind[seer->particle] != MPS_FLUID) continue;
         sight(w, seer->particle, seer->at);
         mps__screens_sides(p, seer);
     }
+}
+
+void mps__plates_look(mps__world *w)
+{
+    mps_parallel_rows(&w->pool.parallel, w->screens.seers, look_rows, w);
 }
 
 /* Back to the height it had, with the velocity along the plate. */

@@ -48,7 +48,7 @@ static mps_status check_config(mps__context *c, mps_config *f)
     MPS__CHECK(c, f->re_far >= f->re_near && f->re_far <= 10, "config.re_far is %g dp: re_near (%g) <= re_far <= 10", f->re_far,
                f->re_near);
     if (f->threads == 0) f->threads = 1;
-    MPS__CHECK(c, f->threads >= 1 && f->threads <= 1024, "config.threads is %d: 1..1024", f->threads);
+    MPS__CHECK(c, f->threads >= 1 && f->threads <= MPS__THREADS_MOST, "config.threads is %d: 1..%d", f->threads, MPS__THREADS_MOST);
     MPS__CHECK(c, f->lost_policy == MPS_LOST_REMOVE || f->lost_policy == MPS_LOST_ERROR,
                "config.lost_policy is %d: MPS_LOST_REMOVE or MPS_LOST_ERROR", f->lost_policy);
     MPS__CHECK(c, mps__finite(f->gravity, 3), "config.gravity is (%g, %g, %g): must be finite", f->gravity[0], f->gravity[1],
@@ -80,7 +80,9 @@ static mps_status set_up(mps_sim *sim, const mps_config *f)
     w->velocity_scale = f->velocity_scale > 0 ? f->velocity_scale : sqrt((g > 0 ? g : 9.81) * f->dp);
     w->re_near = f->re_near * f->dp;
     w->re_far = f->re_far * f->dp;
-    w->threads = f->threads;
+    mps__pool_resize(&w->pool, f->threads);
+    MPS__TRY(mps__pool_set(&w->pool, &f->parallel, "config.parallel"));
+    w->threads = w->pool.parallel.threads;
     w->lost_policy = f->lost_policy;
     w->speed_limit = f->speed_limit;
     MPS__TRY(check_domain(&sim->context, f, &w->domain_given));
@@ -164,7 +166,8 @@ mps_status mps_sim_time(const mps_sim *sim, double *t, int64_t *steps)
 mps_status mps_sim_set_threads(mps_sim *sim, int32_t threads)
 {
     MPS__CHANGES(sim);
-    MPS__CHECK(&sim->context, threads >= 1 && threads <= 1024, "threads is %d: 1..1024", threads);
+    MPS__CHECK(&sim->context, threads >= 1 && threads <= MPS__THREADS_MOST, "threads is %d: 1..%d", threads, MPS__THREADS_MOST);
+    mps__pool_resize(&sim->world.pool, threads);
     sim->world.threads = threads;
     return MPS_OK;
 }

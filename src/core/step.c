@@ -31,37 +31,45 @@ static void end_stage(mps__step *q, int stage)
     q->clock = now;
 }
 
+static bool on_surface(const void *particles, int64_t i)
+{
+    const mps__particles *s = particles;
+    return s->kind[i] == MPS_FLUID && s->region[i] == MPS_REGION_SURFACE;
+}
+
 /* Neighbours, number density, regions and all else at r^k that later moments read. */
 static mps_status look_around(mps__step *q)
 {
-    const mps__world *w = q->w;
-    MPS__TRY(mps__neighbours_near(&q->w->neighbours));
+    mps__world *w = q->w;
+    MPS__TRY(mps__neighbours_near(&w->neighbours));
     end_stage(q, MPS_STAGE_NEIGHBOURS);
     mps__step_move_tank(q);
     MPS__TRY(mps__step_begin(q));
     MPS__TRY(mps__step_run(q, MPS_CLASSIFY));
     MPS__TRY(mps__step_run(q, MPS_PREPARE));
-    int64_t surface = 0;
-#pragma omp parallel for num_threads(w->threads) reduction(+ : surface) schedule(static)
-    for (int64_t i = 0; i < w->particles.n; i++)
-        surface += w->particles.kind[i] == MPS_FLUID && w->particles.region[i] == MPS_REGION_SURFACE;
-    q->info.surface = surface;
+    q->info.surface = mps__parallel_count(&w->pool.parallel, w->particles.n, on_surface, &w->particles);
     return MPS_OK;
+}
+
+static void predict_rows(void *step, int64_t begin, int64_t end)
+{
+    const mps__step *q = step;
+    const mps_stage *s = &q->stage;
+    const double *a = q->w->work.motion;
+    double *u = q->w->particles.u;
+    for (int64_t i = begin; i < end; i++)
+        if (s->kind[i] == MPS_FLUID)
+            for (int d = 0; d < s->dim; d++) u[i * s->dim + d] += s->dt * (a[i * s->dim + d] + s->g[d]);
 }
 
 /* u* = u + dt (a + g). Z14 (9). */
 static mps_status predict(mps__step *q)
 {
-    const mps__world *w = q->w;
-    const mps_stage *s = &q->stage;
-    const double *a = w->work.motion;
-    mps__zero(w->work.motion, s->n * s->dim, w->threads);
+    mps__world *w = q->w;
+    mps__parallel_zero(&w->pool.parallel, &(mps__block){w->work.motion, q->stage.n * w->dim}, 1);
     MPS__TRY(mps__step_run(q, MPS_FORCE));
     mps__step_book_forces(q);
-#pragma omp parallel for num_threads(w->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID)
-            for (int d = 0; d < s->dim; d++) w->particles.u[i * s->dim + d] += s->dt * (a[i * s->dim + d] + s->g[d]);
+    mps_parallel_rows(&w->pool.parallel, q->stage.n, predict_rows, q);
     return MPS_OK;
 }
 
@@ -139,17 +147,27 @@ static mps_status project(mps__step *q)
     return MPS_OK;
 }
 
-/* r = r + dt u + shift; solids go where the tank will be. */
-static void move(mps__step *q)
+/* u = u* + dt a(p) */
+static void push_rows(void *step, int64_t begin, int64_t end)
 {
-    mps__world *w = q->w;
+    const mps__step *q = step;
     const mps_stage *s = &q->stage;
+    const double *a = q->w->work.motion;
+    double *u = q->w->particles.u;
+    for (int64_t i = begin; i < end; i++)
+        for (int64_t k = i * s->dim; k < (i + 1) * s->dim; k++) u[k] += s->kind[i] == MPS_FLUID ? s->dt * a[k] : 0;
+}
+
+/* r = r + dt u + shift; solids go where the tank will be. The old positions are kept. */
+static void move_rows(void *step, int64_t begin, int64_t end)
+{
+    const mps__step *q = step;
+    const mps_stage *s = &q->stage;
+    const mps__world *w = q->w;
     const double *dx = w->work.motion, *u = w->particles.u;
-    mps__copy(w->work.x0, w->particles.x, s->n * s->dim, w->threads);
-    q->moved = true;
-#pragma omp parallel for num_threads(w->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) {
+    for (int64_t i = begin; i < end; i++) {
         double *x = w->particles.x + i * s->dim;
+        for (int d = 0; d < s->dim; d++) w->work.x0[i * s->dim + d] = x[d];
         if (s->kind[i] == MPS_FLUID)
             for (int d = 0; d < s->dim; d++) x[d] += s->dt * u[i * s->dim + d] + dx[i * s->dim + d];
         else
@@ -161,23 +179,23 @@ static void move(mps__step *q)
 static mps_status correct(mps__step *q)
 {
     mps__world *w = q->w;
-    const mps_stage *s = &q->stage;
-    mps__work *k = &w->work;
+    const mps_parallel *threads = &w->pool.parallel;
+    const int64_t n = q->stage.n;
+    const mps__block motion = {w->work.motion, n * w->dim};
     MPS__TRY(mps__step_run(q, MPS_LEVEL));
-    mps__zero(k->motion, s->n * s->dim, w->threads);
+    mps__parallel_zero(threads, &motion, 1);
     MPS__TRY(mps__step_run(q, MPS_GRADIENT));
-    mps__copy(k->load, w->particles.p, s->n, w->threads);
+    mps__parallel_copy(threads, w->work.load, w->particles.p, n);
     MPS__TRY(mps__step_run(q, MPS_LOAD));
-#pragma omp parallel for num_threads(w->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++)
-        for (int64_t a = i * s->dim; a < (i + 1) * s->dim; a++) w->particles.u[a] += s->kind[i] == MPS_FLUID ? s->dt * k->motion[a] : 0;
+    mps_parallel_rows(threads, n, push_rows, q);
     mps__step_book_pressure(q);
     MPS__TRY(mps__step_run(q, MPS_VELOCITY));
     mps__step_book_collisions(q);
-    mps__zero(k->motion, s->n * s->dim, w->threads);
+    mps__parallel_zero(threads, &motion, 1);
     MPS__TRY(mps__step_run(q, MPS_SHIFT));
     mps__step_book_shift(q);
-    move(q);
+    q->moved = true;
+    mps_parallel_rows(threads, n, move_rows, q);
     mps__step_stop_at_plates(q);
     return MPS_OK;
 }
@@ -196,7 +214,7 @@ static void commit(mps__step *q)
     w->before = w->motion.now;
     w->dt_before = q->stage.dt;
     w->motion.now = q->pose;
-    mps__copy(w->particles.load, w->work.load, w->particles.n, w->threads);
+    mps__parallel_copy(&w->pool.parallel, w->particles.load, w->work.load, w->particles.n);
     w->info.separated = 0;
     for (int64_t i = 0; i < w->particles.n; i++) w->info.separated += w->particles.held[i] = q->terms.condition[i] == MPS__ROW_HELD;
     w->jump = q->jump;
@@ -251,7 +269,6 @@ mps_status mps__world_step(mps__world *w, double dt_max)
 {
     mps__step q = {.w = w, .clock = mps__clock()};
     if (!any_fluid(w)) return mps__fail(w->context, MPS_E_STATE, "there is no fluid particle to step");
-    w->host.threads = w->threads;
     MPS__TRY(mps__plan_make(&w->host.plan, &w->models));
     mps__budget_update(w, &w->budget); /* what has come, changed or gone since the last step, whatever becomes of this one */
     MPS__TRY(mps__world_neighbours(w));

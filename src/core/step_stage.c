@@ -67,8 +67,7 @@ static void set_terms(mps__step *q)
                                 .value = k->value,
                                 .gas = k->gas,
                                 .law = k->law,
-                                .condition = k->condition,
-                                .threads = w->threads};
+                                .condition = k->condition};
 }
 
 void mps__step_open(mps__step *q)
@@ -130,28 +129,36 @@ static void weigh_pairs(mps__step *q)
     q->near.w_r2 = l->w_r2;
 }
 
-mps_status mps__step_begin(mps__step *q)
+static void begin_rows(void *world, int64_t begin, int64_t end)
 {
-    mps__world *w = q->w;
+    mps__world *w = world;
     mps__particles *s = &w->particles;
-    weigh_pairs(q);
-    MPS__TRY(mps_op_volume_deviation(&q->far, w->work.volume_deviation));
-#pragma omp parallel for num_threads(w->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) {
+    for (int64_t i = begin; i < end; i++) {
         s->region[i] = s->kind[i] == MPS_DUMMY ? MPS_REGION_DRY : MPS_REGION_INNER;
         w->work.pressure_density[i] = s->rho[i];
     }
-    mps__channels_begin(&w->channels, s->n, w->threads);
+    mps__channels_begin(&w->channels, begin, end);
+}
+
+mps_status mps__step_begin(mps__step *q)
+{
+    mps__world *w = q->w;
+    weigh_pairs(q);
+    MPS__TRY(mps_op_volume_deviation(&q->far, w->work.volume_deviation));
+    mps_parallel_rows(&w->pool.parallel, w->particles.n, begin_rows, w);
     return MPS_OK;
+}
+
+static void begin_equation_rows(void *terms, int64_t begin, int64_t end)
+{
+    const mps__ppe_terms *t = terms;
+    for (int64_t i = begin; i < end; i++) {
+        t->source[i] = t->shift[i] = t->value[i] = t->gas[i] = t->law[i] = 0;
+        t->condition[i] = t->region[i] == MPS_REGION_SURFACE ? MPS_ROW_FIXED : MPS_ROW_FREE;
+    }
 }
 
 void mps__step_begin_equation(mps__step *q)
 {
-    mps__world *w = q->w;
-    const mps__ppe_terms *t = &q->terms;
-#pragma omp parallel for num_threads(w->threads) schedule(static)
-    for (int64_t i = 0; i < w->particles.n; i++) {
-        t->source[i] = t->shift[i] = t->value[i] = t->gas[i] = t->law[i] = 0;
-        t->condition[i] = t->region[i] == MPS_REGION_SURFACE ? MPS_ROW_FIXED : MPS_ROW_FREE;
-    }
+    mps_parallel_rows(&q->w->pool.parallel, q->w->particles.n, begin_equation_rows, &q->terms);
 }

@@ -37,7 +37,7 @@ mps_status mps__undo_keep(mps__world *w)
         if (!f->undone) continue;
         const int64_t room = s->n > f->kept_capacity ? mps__room(s->n, f->kept_capacity) : 0;
         MPS__TRY(mps__grow(w->context, &f->kept, &f->kept_capacity, 0, room, (size_t)f->components * f->size));
-        mps__copy(f->kept, *f->data, (int64_t)(bytes_of(w, f) / sizeof(double)), w->threads);
+        mps__parallel_copy(&w->pool.parallel, f->kept, *f->data, (int64_t)(bytes_of(w, f) / sizeof(double)));
     }
     return MPS_OK;
 }

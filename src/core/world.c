@@ -9,6 +9,7 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
     w->dim = dim;
     w->dp = dp;
     w->threads = 1;
+    mps__pool_init(&w->pool, context);
     w->linked = -1;
     for (int k = 0; k < MPS__PHASES * MPS__PHASES; k++) w->tension[k] = -1.0;
     mps__neighbours_init(&w->neighbours, context, dim, dp);
@@ -21,6 +22,7 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
     w->jump.since = INT32_MAX;
     mps__motion_init(&w->motion, context, dim);
     MPS__TRY(mps__particles_init(&w->particles, context, dim));
+    w->neighbours.parallel = w->complete.parallel = w->particles.parallel = &w->pool.parallel;
     w->neighbours.shared = w->complete.shared = w->ppe.scratch = w->particles.scratch = &w->scratch;
     mps__channels_init(&w->channels, context, dim);
     w->host = (mps__host){.context = context,
@@ -28,7 +30,7 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
                           .channels = &w->channels,
                           .particles = &w->particles,
                           .scratch = &w->scratch,
-                          .threads = 1};
+                          .parallel = &w->pool.parallel};
     mps__plan_init(&w->host.plan);
     MPS__TRY(mps__models_init(&w->models, context, &w->channels, &w->particles));
     return mps__solvers_init(&w->solvers, context);
@@ -52,17 +54,24 @@ void mps__world_free(mps__world *w)
     for (size_t a = 0; a < sizeof all / sizeof all[0]; a++) mps__free(w->context, all[a]);
     mps__free(w->context, w->listed_at);
     mps__scratch_free(w->context, &w->scratch);
+    mps__pool_free(&w->pool);
+}
+
+static void speed_rows(void *argument, int64_t begin, int64_t end, double *values)
+{
+    const mps__world *w = argument;
+    double most = values[0];
+    for (int64_t i = begin; i < end; i++) {
+        const double *u = w->particles.u + i * w->dim, square = mps__dot(u, u, w->dim);
+        most = square > most ? square : most; /* a NaN does not count */
+    }
+    values[0] = most;
 }
 
 double mps__world_speed(const mps__world *w)
 {
-    const mps__particles *s = &w->particles;
     double most = 0;
-#pragma omp parallel for num_threads(w->threads) reduction(max : most) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) {
-        const double *u = s->u + i * w->dim, square = mps__dot(u, u, w->dim);
-        most = square > most ? square : most; /* a NaN does not count */
-    }
+    mps_parallel_max(&w->pool.parallel, w->particles.n, 1, speed_rows, (mps__world *)w, &most);
     return sqrt(most);
 }
 
@@ -162,14 +171,23 @@ static mps_status handle_lost(mps__world *w, const bool *gone, const char *where
     return status;
 }
 
+typedef struct box {
+    const mps__world *w;
+    double lo[3], hi[3];
+} box;
+
+static void outside_rows(void *argument, int64_t begin, int64_t end)
+{
+    const box *b = argument;
+    for (int64_t i = begin; i < end; i++) b->w->work.gone[i] = outside(b->w, i, b->lo, b->hi);
+}
+
 static mps_status leave_domain(mps__world *w)
 {
-    double lo[3], hi[3];
-    if (!mps__world_domain(w, lo, hi)) return MPS_OK;
-    bool *gone = w->work.gone;
-#pragma omp parallel for num_threads(w->threads) schedule(static)
-    for (int64_t i = 0; i < w->particles.n; i++) gone[i] = outside(w, i, lo, hi);
-    return handle_lost(w, gone, "left the domain");
+    box b = {.w = w};
+    if (!mps__world_domain(w, b.lo, b.hi)) return MPS_OK;
+    mps_parallel_rows(&w->pool.parallel, w->particles.n, outside_rows, &b);
+    return handle_lost(w, w->work.gone, "left the domain");
 }
 
 static double distance2(const mps__world *w, int64_t i, int64_t j)
@@ -358,7 +376,6 @@ static mps_status list_again(mps__world *w)
 static mps_status renew(mps__world *w)
 {
     mps__particles *s = &w->particles;
-    w->neighbours.threads = s->threads = w->threads;
     MPS__TRY(list_again(w));
     if (w->linked != s->generation || !mps__neighbours_fresh(&w->neighbours, s->n, s->x, w->re_far)) {
         MPS__TRY(mps__neighbours_order(&w->neighbours, s->n, s->x, w->re_far));
@@ -389,7 +406,6 @@ mps_status mps__world_neighbours_kept(mps__world *w)
     mps__particles *s = &w->particles;
     MPS__CHECK(w->context, s->n > 0, "there are no particles");
     MPS__TRY(reserve_work(w));
-    w->neighbours.threads = s->threads = w->threads;
     MPS__TRY(list_again(w));
     const bool fresh = w->linked == s->generation && mps__neighbours_fresh(&w->neighbours, s->n, s->x, w->re_far);
     if (!fresh) MPS__TRY(search(w, false));
@@ -409,7 +425,6 @@ mps_status mps__world_stencil_all(mps__world *w, int32_t which, mps_stencil *ste
     mps__particles *s = &w->particles;
     mps_neighbours *l = &w->complete;
     if (!w->neighbours.partial) return mps__world_stencil(w, which, stencil);
-    l->threads = w->threads;
     MPS__TRY(mps__neighbours_search(l, s->n, s->x, w->re_near, w->re_far));
     mps__neighbours_rows(l, s->x);
     return mps_neighbours_stencil(l, which, &w->kernel, stencil);

@@ -52,7 +52,8 @@ typedef struct mps__jump {
 
 typedef struct mps__world {
     mps__context *context;
-    int32_t dim, threads, lost_policy, start_pending;
+    mps__pool pool;
+    int32_t dim, threads, lost_policy, start_pending; /* threads: of the pool */
     double dp, g[3], velocity_scale, re_near, re_far, speed_limit;
     double domain_min[3], domain_max[3]; /* tank's frame */
     bool domain_given;
