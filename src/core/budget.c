@@ -26,16 +26,16 @@ static void sum_terms(const mps__world *w, mps_reduce_fn add, const void *data, 
 
 static double mass(const mps__world *w, int64_t i)
 {
-    return w->particles.rho[i] * (w->dim == 2 ? w->dp * w->dp : w->dp * w->dp * w->dp);
+    return w->particles.rho[i] * (w->setup.dim == 2 ? w->setup.dp * w->setup.dp : w->setup.dp * w->setup.dp * w->setup.dp);
 }
 
 static void energy_term(const mps__world *w, const void *data, int64_t i, double *sum)
 {
     (void)data;
-    const double *u = w->particles.u + i * w->dim;
-    sum[0] += 0.5 * mass(w, i) * mps__dot(u, u, w->dim);
-    sum[1] -= mass(w, i) * mps__dot(w->g, w->particles.x + i * w->dim, w->dim);
-    for (int d = 0; d < w->dim; d++) sum[2 + d] += mass(w, i) * u[d];
+    const double *u = w->particles.u + i * w->setup.dim;
+    sum[0] += 0.5 * mass(w, i) * mps__dot(u, u, w->setup.dim);
+    sum[1] -= mass(w, i) * mps__dot(w->setup.g, w->particles.x + i * w->setup.dim, w->setup.dim);
+    for (int d = 0; d < w->setup.dim; d++) sum[2 + d] += mass(w, i) * u[d];
 }
 
 ADD_TERMS(add_energy, MPS_FLUID, energy_term)
@@ -55,10 +55,10 @@ typedef struct acceleration {
 static void push_term(const mps__world *w, const void *data, int64_t i, double *sum)
 {
     const acceleration *k = data;
-    const double *b = k->a + i * w->dim, *u = w->particles.u + i * w->dim, m = mass(w, i);
-    sum[0] += m * k->dt * (mps__dot(b, u, w->dim) + 0.5 * k->dt * mps__dot(b, b, w->dim));
+    const double *b = k->a + i * w->setup.dim, *u = w->particles.u + i * w->setup.dim, m = mass(w, i);
+    sum[0] += m * k->dt * (mps__dot(b, u, w->setup.dim) + 0.5 * k->dt * mps__dot(b, b, w->setup.dim));
     sum[1] += m;
-    for (int d = 0; d < w->dim; d++) {
+    for (int d = 0; d < w->setup.dim; d++) {
         sum[2 + d] += m * u[d];
         sum[5 + d] += m * k->dt * b[d];
     }
@@ -75,8 +75,8 @@ void mps__budget_push(const mps__world *w, const double *a, double dt, mps__push
 
 static void wall_term(const mps__world *w, const void *data, int64_t i, double *sum)
 {
-    const double *area = w->work.area + i * w->dim;
-    for (int d = 0; d < w->dim; d++) sum[d] += ((const double *)data)[i] * area[d];
+    const double *area = w->work.area + i * w->setup.dim;
+    for (int d = 0; d < w->setup.dim; d++) sum[d] += ((const double *)data)[i] * area[d];
 }
 
 ADD_TERMS(add_wall, MPS_WALL, wall_term)
@@ -113,11 +113,11 @@ static tank_move mean_move(const mps__world *w, const mps__pose *end, double dt)
     tank_move k = {.dt = dt};
     mps__motion_point(m, &m->now, m->centre, k.centre, NULL, NULL);
     add_half_move(m, &m->now, end, dt, &k);
-    if (w->dt_before > 0)
-        add_half_move(m, &w->before, &m->now, w->dt_before, &k);
+    if (w->state.dt_before > 0)
+        add_half_move(m, &w->state.before, &m->now, w->state.dt_before, &k);
     else if (m->start == MPS_START_WITH_TANK)
         for (int d = 0; d < 3; d++) {
-            k.v[d] += d < w->dim ? 0.5 * m->now.state.rate[d] : 0;
+            k.v[d] += d < w->setup.dim ? 0.5 * m->now.state.rate[d] : 0;
             k.omega[d] += 0.5 * m->now.omega[d];
         }
     return k;
@@ -126,11 +126,11 @@ static tank_move mean_move(const mps__world *w, const mps__pose *end, double dt)
 static void wall_work_term(const mps__world *w, const void *data, int64_t i, double *sum)
 {
     const tank_move *k = data;
-    const double *o = k->omega, *a = k->a + i * w->dim;
+    const double *o = k->omega, *a = k->a + i * w->setup.dim;
     double r[3] = {0};
-    for (int d = 0; d < w->dim; d++) r[d] = w->particles.x[i * w->dim + d] - k->centre[d];
+    for (int d = 0; d < w->setup.dim; d++) r[d] = w->particles.x[i * w->setup.dim + d] - k->centre[d];
     const double spin[3] = {o[1] * r[2] - o[2] * r[1], o[2] * r[0] - o[0] * r[2], o[0] * r[1] - o[1] * r[0]};
-    for (int d = 0; d < w->dim; d++) sum[0] += mass(w, i) * k->dt * a[d] * (k->v[d] + spin[d]);
+    for (int d = 0; d < w->setup.dim; d++) sum[0] += mass(w, i) * k->dt * a[d] * (k->v[d] + spin[d]);
 }
 
 ADD_TERMS(add_wall_work, MPS_FLUID, wall_work_term)
@@ -146,7 +146,7 @@ double mps__budget_wall_work(const mps__world *w, const mps__pose *end, const do
 
 static void lift_term(const mps__world *w, const void *data, int64_t i, double *sum)
 {
-    sum[0] += mass(w, i) * mps__dot(w->g, (const double *)data + i * w->dim, w->dim);
+    sum[0] += mass(w, i) * mps__dot(w->setup.g, (const double *)data + i * w->setup.dim, w->setup.dim);
 }
 
 ADD_TERMS(add_lift, MPS_FLUID, lift_term)
@@ -163,7 +163,7 @@ void mps__budget_book_added(const mps__world *w, mps__budget *b)
     mps__bulk now;
     mps__budget_sum(w, &now);
     b->added += now.kinetic + now.potential - (b->last.kinetic + b->last.potential);
-    for (int d = 0; d < w->dim; d++) b->momentum.added[d] += now.momentum[d] - b->last.momentum[d];
+    for (int d = 0; d < w->setup.dim; d++) b->momentum.added[d] += now.momentum[d] - b->last.momentum[d];
     b->last = now;
 }
 

@@ -8,33 +8,33 @@ static const int32_t layers_unknown = 2;
 
 static double limit_of(const mps__world *w)
 {
-    return (1 + (w->layers > 0 ? w->layers : layers_unknown)) * w->dp;
+    return (1 + (w->setup.layers > 0 ? w->setup.layers : layers_unknown)) * w->setup.dp;
 }
 
 /* How far a fluid particle went with respect to the tank. */
 static double moved(const mps__world *w, const mps__pose *next, int64_t i)
 {
     double from[3], to[3], square = 0;
-    mps__motion_to_tank(&w->motion, &w->motion.now, w->work.x0 + i * w->dim, from);
-    mps__motion_to_tank(&w->motion, next, w->particles.x + i * w->dim, to);
-    for (int d = 0; d < w->dim; d++) square += (to[d] - from[d]) * (to[d] - from[d]);
+    mps__motion_to_tank(&w->motion, &w->motion.now, w->work.x0 + i * w->setup.dim, from);
+    mps__motion_to_tank(&w->motion, next, w->particles.x + i * w->setup.dim, to);
+    for (int d = 0; d < w->setup.dim; d++) square += (to[d] - from[d]) * (to[d] - from[d]);
     return sqrt(square);
 }
 
 static mps_status jumped(const mps__world *w, const mps__pose *next, double dt, int64_t i)
 {
-    const double *x = w->work.x0 + i * w->dim, distance = moved(w, next, i);
+    const double *x = w->work.x0 + i * w->setup.dim, distance = moved(w, next, i);
     return mps__fail(w->context, MPS_E_DIVERGED,
                      "t = %.9g s: fluid particle %lld at (%g, %g, %g) m would move %g m in a step of %g s, at %g m/s; allowed: at most "
                      "%g m, as deep as walls and their dummies are. Take a shorter step, or an adaptive one",
-                     w->info.t, (long long)w->particles.id[i], x[0], x[1], w->dim == 3 ? x[2] : 0, distance, dt, distance / dt,
+                     w->state.t, (long long)w->particles.id[i], x[0], x[1], w->setup.dim == 3 ? x[2] : 0, distance, dt, distance / dt,
                      limit_of(w));
 }
 
 /* Steps that follow the speed never get there, unless a stranger's model pushes. */
 static bool may_jump(const mps__world *w)
 {
-    const mps_time_control *c = &w->control;
+    const mps_time_control *c = &w->setup.control;
     bool foreign = false;
     for (int32_t m = 0; m < w->models.active; m++) foreign = foreign || mps__models_foreign(&w->models, &w->models.on[m]);
     return c->dt > 0 || c->cfl <= 0 || c->cfl > 1 || foreign;
@@ -68,12 +68,12 @@ mps_status mps__world_check_moves(mps__world *w, const mps__pose *next, double d
     if (!may_jump(w)) return MPS_OK;
     mps_parallel_reduce(&w->pool.parallel, w->particles.n, way_rows, &k, &(mps_parallel_values){1, 2, v});
     if (v[0] > 0 && !isinf(v[2])) return jumped(w, next, dt, (int64_t)-v[2]);
-    if (w->control.dt > 0 && v[1] > w->dp && !w->moves_told) {
-        w->moves_told = true;
+    if (w->setup.control.dt > 0 && v[1] > w->setup.dp && !w->state.moves_told) {
+        w->state.moves_told = true;
         mps__log(
             w->context, MPS_LOG_WARNING,
             "t = %.9g s: in a fixed step of %g s fluid moves up to %g m, more than a spacing of %g m: the step is too long for its speed",
-            w->info.t, dt, v[1], w->dp);
+            w->state.t, dt, v[1], w->setup.dp);
     }
     return MPS_OK;
 }
@@ -88,13 +88,13 @@ static void wall_way_rows(void *argument, int64_t begin, int64_t end, double *mo
         double X[3], here[3], next[3], square = 0;
         const bool fluid = s->kind[i] == MPS_FLUID;
         if (fluid)
-            mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * w->dim, X);
+            mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * w->setup.dim, X);
         else
-            memcpy(X, s->ref + i * w->dim, (size_t)w->dim * sizeof *X);
+            memcpy(X, s->ref + i * w->setup.dim, (size_t)w->setup.dim * sizeof *X);
         mps__motion_point(&w->motion, &w->motion.now, X, here, NULL, NULL);
         mps__motion_point(&w->motion, k->next, X, next, NULL, NULL);
-        for (int d = 0; d < w->dim; d++) {
-            const double way = next[d] - here[d] - (fluid ? k->dt * s->u[i * w->dim + d] : 0);
+        for (int d = 0; d < w->setup.dim; d++) {
+            const double way = next[d] - here[d] - (fluid ? k->dt * s->u[i * w->setup.dim + d] : 0);
             square += way * way;
         }
         *most = square > *most ? square : *most;
@@ -122,9 +122,9 @@ static void result_rows(void *argument, int64_t begin, int64_t end, double *v)
     const mps__world *w = k->w;
     const mps__particles *s = &w->particles;
     for (int64_t i = begin; i < end; i++) {
-        const double *u = s->u + i * w->dim;
-        const double speed = sqrt(mps__dot(u, u, w->dim));
-        if (!(isfinite(speed) && speed <= w->speed_limit && mps__finite(s->x + i * w->dim, w->dim) && isfinite(s->p[i]))) {
+        const double *u = s->u + i * w->setup.dim;
+        const double speed = sqrt(mps__dot(u, u, w->setup.dim));
+        if (!(isfinite(speed) && speed <= w->setup.speed_limit && mps__finite(s->x + i * w->setup.dim, w->setup.dim) && isfinite(s->p[i]))) {
             if (v[2] < -(double)i) v[2] = -(double)i;
         } else if (s->kind[i] == MPS_FLUID) {
             v[0] = speed > v[0] ? speed : v[0];
@@ -139,7 +139,7 @@ mps_status mps__world_check_result(const mps__world *w, const mps_stage *s, bool
     result k = {w, 0};
     double v[3] = {0, 0, -INFINITY};
     for (int p = 0; p < MPS__PHASES; p++)
-        if (w->phase_defined[p]) k.dense = fmax(k.dense, 0.5 * w->phase_density[p]);
+        if (w->setup.phase_defined[p]) k.dense = fmax(k.dense, 0.5 * w->setup.phase_density[p]);
     mps_parallel_max(&w->pool.parallel, s->n, 3, result_rows, &k, v);
     info->crossing_time = mps__crossing_time(w, v[1], s->dt);
     info->max_speed = v[0];
@@ -151,5 +151,5 @@ mps_status mps__world_check_result(const mps__world *w, const mps_stage *s, bool
         w->context, MPS_E_DIVERGED,
         "t = %.9g s: particle %lld at (%g, %g, %g) m got velocity (%g, %g, %g) m/s and pressure %g Pa; allowed: finite, at most %g m/s",
         s->t, (long long)s->id[worst], x[0], x[1], s->dim == 3 ? x[2] : 0, u[0], u[1], s->dim == 3 ? u[2] : 0, w->particles.p[worst],
-        w->speed_limit);
+        w->setup.speed_limit);
 }

@@ -41,7 +41,7 @@ static bool on_surface(const void *particles, int64_t i)
 static mps_status look_around(mps__step *q)
 {
     mps__world *w = q->w;
-    MPS__TRY(mps__neighbours_near(&w->neighbours));
+    MPS__TRY(mps__neighbours_near(&w->lists.neighbours));
     end_stage(q, MPS_STAGE_NEIGHBOURS);
     mps__step_move_tank(q);
     MPS__TRY(mps__step_begin(q));
@@ -66,7 +66,7 @@ static void predict_rows(void *step, int64_t begin, int64_t end)
 static mps_status predict(mps__step *q)
 {
     mps__world *w = q->w;
-    mps__parallel_zero(&w->pool.parallel, &(mps__block){w->work.motion, q->stage.n * w->dim}, 1);
+    mps__parallel_zero(&w->pool.parallel, &(mps__block){w->work.motion, q->stage.n * w->setup.dim}, 1);
     MPS__TRY(mps__step_run(q, MPS_FORCE));
     mps__step_book_forces(q);
     mps_parallel_rows(&w->pool.parallel, q->stage.n, predict_rows, q);
@@ -79,7 +79,7 @@ static void spread_gain(mps__step *q)
 {
     double *gain = &q->terms.equation.gain;
     const double dt = q->stage.dt, wanted = dt * (1 - *gain) / *gain;
-    q->spread = q->w->spread > 0 ? q->w->spread + SPREAD_SHARE * (wanted - q->w->spread) : wanted;
+    q->spread = q->w->state.spread > 0 ? q->w->state.spread + SPREAD_SHARE * (wanted - q->w->state.spread) : wanted;
     *gain = dt / (dt + q->spread);
 }
 
@@ -100,8 +100,8 @@ static void note_level(mps__step *q)
 {
     mps__world *w = q->w;
     q->stage.level_free = w->ppe.level_free;
-    if (!w->ppe.level_free || w->level_told) return;
-    w->level_told = true;
+    if (!w->ppe.level_free || w->state.level_told) return;
+    w->state.level_told = true;
     mps__log(w->context, MPS_LOG_INFO,
              "t = %.9g s: no surface, fixed pressure or compressible phase gives the pressures a level; their mean is zero", q->stage.t);
 }
@@ -181,7 +181,7 @@ static mps_status correct(mps__step *q)
     mps__world *w = q->w;
     const mps_parallel *threads = &w->pool.parallel;
     const int64_t n = q->stage.n;
-    const mps__block motion = {w->work.motion, n * w->dim};
+    const mps__block motion = {w->work.motion, n * w->setup.dim};
     MPS__TRY(mps__step_run(q, MPS_LEVEL));
     mps__parallel_zero(threads, &motion, 1);
     MPS__TRY(mps__step_run(q, MPS_GRADIENT));
@@ -205,26 +205,29 @@ static mps_status correct(mps__step *q)
 static void commit(mps__step *q)
 {
     mps__world *w = q->w;
+    w->state.t = q->pose.t;
+    w->state.step++;
+    w->state.crossing_time = q->info.crossing_time;
     q->info.struct_size = sizeof q->info;
-    q->info.step = w->info.step + 1;
+    q->info.step = w->state.step;
     q->info.dt = q->stage.dt;
-    q->info.t = q->pose.t;
-    q->info.lost = w->info.lost;
+    q->info.t = w->state.t;
+    q->info.lost = w->state.lost;
     w->info = q->info;
-    w->before = w->motion.now;
-    w->dt_before = q->stage.dt;
+    w->state.before = w->motion.now;
+    w->state.dt_before = q->stage.dt;
     w->motion.now = q->pose;
     mps__parallel_copy(&w->pool.parallel, w->particles.load, w->work.load, w->particles.n);
     w->info.separated = 0;
     for (int64_t i = 0; i < w->particles.n; i++) w->info.separated += w->particles.held[i] = q->terms.condition[i] == MPS__ROW_HELD;
-    w->jump = q->jump;
-    w->spread = q->spread;
-    w->budget = q->budget;
-    mps__budget_sum(w, &w->budget.last);
-    w->budget.deviation = mps__budget_mean_deviation(w);
-    if (!w->budget.started) {
-        w->budget.started = true;
-        w->budget.deviation_start = w->budget.deviation;
+    w->state.jump = q->jump;
+    w->state.spread = q->spread;
+    w->state.budget = q->budget;
+    mps__budget_sum(w, &w->state.budget.last);
+    w->state.budget.deviation = mps__budget_mean_deviation(w);
+    if (!w->state.budget.started) {
+        w->state.budget.started = true;
+        w->state.budget.deviation_start = w->state.budget.deviation;
     }
 }
 
@@ -232,12 +235,12 @@ static void commit(mps__step *q)
 static void start(mps__world *w, mps__budget *budget)
 {
     mps__particles *s = &w->particles;
-    if (!w->start_pending) return;
-    w->start_pending = 0;
+    if (!w->state.start_pending) return;
+    w->state.start_pending = 0;
     for (int64_t i = 0; i < s->n; i++) {
         double X[3];
-        mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * w->dim, X);
-        mps__motion_point(&w->motion, &w->motion.now, X, NULL, s->u + i * w->dim, NULL);
+        mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * w->setup.dim, X);
+        mps__motion_point(&w->motion, &w->motion.now, X, NULL, s->u + i * w->setup.dim, NULL);
     }
     mps__budget_book_added(w, budget);
 }
@@ -246,15 +249,15 @@ static void start(mps__world *w, mps__budget *budget)
 static mps_status try_step(mps__step *q, double dt_max, double *planned)
 {
     mps__world *w = q->w;
-    q->budget = w->budget;
-    if (w->aside > 0) mps__budget_book_added(w, &q->budget);
+    q->budget = w->state.budget;
+    if (w->lists.aside > 0) mps__budget_book_added(w, &q->budget);
     start(w, &q->budget);
     MPS__TRY(mps__step_turn_areas(w));
     mps__step_open(q);
     MPS__TRY(mps__world_stencil(w, MPS_NEAR, &q->near));
     MPS__TRY(mps__world_stencil(w, MPS_FAR, &q->far));
     MPS__TRY(mps__world_limit_step(w, &q->stage, dt_max, planned));
-    MPS__TRY(mps__motion_pose(&w->motion, w->info.t + q->stage.dt, &q->pose));
+    MPS__TRY(mps__motion_pose(&w->motion, w->state.t + q->stage.dt, &q->pose));
     return run_stages(q);
 }
 
@@ -270,9 +273,9 @@ mps_status mps__world_step(mps__world *w, double dt_max)
     mps__step q = {.w = w, .clock = mps__clock()};
     if (!any_fluid(w)) return mps__fail(w->context, MPS_E_STATE, "there is no fluid particle to step");
     MPS__TRY(mps__plan_make(&w->host.plan, &w->models));
-    mps__budget_update(w, &w->budget); /* what has come, changed or gone since the last step, whatever becomes of this one */
+    mps__budget_update(w, &w->state.budget); /* what has come, changed or gone since the last step, whatever becomes of this one */
     MPS__TRY(mps__world_neighbours(w));
-    const int32_t start_pending = w->start_pending;
+    const int32_t start_pending = w->state.start_pending;
     double planned = 0;
     mps_status status = mps__undo_keep(w);
     if (status >= 0) {
@@ -281,15 +284,15 @@ mps_status mps__world_step(mps__world *w, double dt_max)
     }
     if (status < 0) {
         mps__world_take_back(w);
-        w->start_pending = start_pending;
+        w->state.start_pending = start_pending;
         return status;
     }
-    if (w->info.step == 0) mps__world_note_phases(w);
+    if (w->state.step == 0) mps__world_note_phases(w);
     commit(&q);
 #ifdef MPS_CHECKED
     mps__guard_poison(&w->host);
 #endif
-    if (planned > 0) w->dt_previous = planned; /* a step cut short says nothing about the next */
+    if (planned > 0) w->state.dt_previous = planned; /* a step cut short says nothing about the next */
     end_stage(&q, MPS_STAGE_CORRECT);
     w->info.seconds[MPS_STAGE_CORRECT] = q.info.seconds[MPS_STAGE_CORRECT];
     return q.not_converged ? MPS_W_NOT_CONVERGED : MPS_OK;

@@ -50,7 +50,7 @@ static void set_flux(mps__step *q)
                          .jump = brought(w, "pressure_jump"),
                          .wetted = brought(w, "wetted_share"),
                          .tank_acceleration = w->work.tank_acceleration,
-                         .g = {w->g[0], w->g[1], w->g[2]}};
+                         .g = {w->setup.g[0], w->setup.g[1], w->setup.g[2]}};
 }
 
 static void set_terms(mps__step *q)
@@ -75,13 +75,13 @@ void mps__step_open(mps__step *q)
     mps__world *w = q->w;
     const mps__particles *s = &w->particles;
     q->stage = (mps_stage){.struct_size = sizeof q->stage,
-                           .dim = w->dim,
+                           .dim = w->setup.dim,
                            .n = s->n,
-                           .step = w->info.step + 1,
-                           .t = w->info.t,
-                           .dp = w->dp,
-                           .velocity_scale = w->velocity_scale,
-                           .g = {w->g[0], w->g[1], w->g[2]},
+                           .step = w->state.step + 1,
+                           .t = w->state.t,
+                           .dp = w->setup.dp,
+                           .velocity_scale = w->setup.velocity_scale,
+                           .g = {w->setup.g[0], w->setup.g[1], w->setup.g[2]},
                            .kind = s->kind,
                            .phase = s->phase,
                            .id = s->id,
@@ -90,9 +90,9 @@ void mps__step_open(mps__step *q)
                            .wall_of = s->wall_of,
                            .near = &q->near,
                            .far = &q->far,
-                           .viscosity = w->phase_viscosity,
-                           .tension = w->tension};
-    for (int p = 0; p < MPS__PHASES; p++) q->stage.phases += w->phase_defined[p];
+                           .viscosity = w->setup.phase_viscosity,
+                           .tension = w->setup.tension};
+    for (int p = 0; p < MPS__PHASES; p++) q->stage.phases += w->setup.phase_defined[p];
     set_arrays(w);
     set_flux(q);
     set_terms(q);
@@ -115,7 +115,7 @@ mps_status mps__step_run(mps__step *q, int32_t moment)
 static void weigh_pairs(mps__step *q)
 {
     const mps__world *w = q->w;
-    const mps_neighbours *l = &w->neighbours;
+    const mps_neighbours *l = &w->lists.neighbours;
     mps__op_weigh(&q->near, &(mps__weighed){.begin = l->near_begin,
                                             .col = l->near_col,
                                             .w_r2 = l->w_r2,

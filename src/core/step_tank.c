@@ -7,14 +7,14 @@
 static void tank_velocity(const mps__world *w, const double *X, double *u)
 {
     double from[3], to[3];
-    if (w->dt_before > 0) {
-        mps__motion_point(&w->motion, &w->before, X, from, NULL, NULL);
+    if (w->state.dt_before > 0) {
+        mps__motion_point(&w->motion, &w->state.before, X, from, NULL, NULL);
         mps__motion_point(&w->motion, &w->motion.now, X, to, NULL, NULL);
-        for (int d = 0; d < w->dim; d++) u[d] = (to[d] - from[d]) / w->dt_before;
+        for (int d = 0; d < w->setup.dim; d++) u[d] = (to[d] - from[d]) / w->state.dt_before;
     } else if (w->motion.start == MPS_START_WITH_TANK) {
         mps__motion_point(&w->motion, &w->motion.now, X, NULL, u, NULL);
     } else {
-        for (int d = 0; d < w->dim; d++) u[d] = 0;
+        for (int d = 0; d < w->setup.dim; d++) u[d] = 0;
     }
 }
 
@@ -31,7 +31,7 @@ static bool same_place(const mps__pose *a, const mps__pose *b)
 static bool at_rest(const mps__step *q)
 {
     const mps__world *w = q->w;
-    const bool was = w->dt_before > 0 ? same_place(&w->before, &w->motion.now) : w->motion.start != MPS_START_WITH_TANK;
+    const bool was = w->state.dt_before > 0 ? same_place(&w->state.before, &w->motion.now) : w->motion.start != MPS_START_WITH_TANK;
     return was && same_place(&w->motion.now, &q->pose);
 }
 
@@ -40,8 +40,8 @@ static void solid_acceleration_rows(void *world, int64_t begin, int64_t end, dou
 {
     const mps__world *w = world;
     for (int64_t i = begin; i < end; i++) {
-        const double *a = w->work.tank_acceleration + i * w->dim;
-        if (w->particles.kind[i] != MPS_FLUID) *most = fmax(*most, mps__dot(a, a, w->dim));
+        const double *a = w->work.tank_acceleration + i * w->setup.dim;
+        if (w->particles.kind[i] != MPS_FLUID) *most = fmax(*most, mps__dot(a, a, w->setup.dim));
     }
 }
 
@@ -52,9 +52,9 @@ static void note_jump(mps__step *q)
     mps__world *w = q->w;
     double most = 0;
     mps_parallel_max(&w->pool.parallel, w->particles.n, 1, solid_acceleration_rows, w, &most);
-    const double dt = q->stage.dt, change = w->dt_before > 0 ? 2 * dt / (dt + w->dt_before) : 1;
-    q->jump = (mps__jump){change * sqrt(most), w->jump.since < INT32_MAX ? w->jump.since + 1 : INT32_MAX};
-    if (q->jump.accel > 2 * w->velocity_scale * w->velocity_scale / w->dp && q->jump.accel > 2 * w->jump.accel) q->jump.since = 0;
+    const double dt = q->stage.dt, change = w->state.dt_before > 0 ? 2 * dt / (dt + w->state.dt_before) : 1;
+    q->jump = (mps__jump){change * sqrt(most), w->state.jump.since < INT32_MAX ? w->state.jump.since + 1 : INT32_MAX};
+    if (q->jump.accel > 2 * w->setup.velocity_scale * w->setup.velocity_scale / w->setup.dp && q->jump.accel > 2 * w->state.jump.accel) q->jump.since = 0;
     q->stage.since_jump = q->jump.since;
 }
 
@@ -72,7 +72,7 @@ static void move_row(const mps__step *q, int64_t i)
 {
     mps__world *w = q->w;
     const mps__particles *s = &w->particles;
-    const int dim = w->dim;
+    const int dim = w->setup.dim;
     double X[3], here[3], next[3], old[3];
     if (s->kind[i] == MPS_FLUID)
         mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * dim, X);
@@ -97,7 +97,7 @@ static void turn_rows(void *world, int64_t begin, int64_t end)
 {
     const mps__world *w = world;
     for (int64_t i = begin; i < end; i++)
-        mps__motion_rotate(&w->motion, &w->motion.now, w->particles.area + i * w->dim, w->work.turned + i * w->dim);
+        mps__motion_rotate(&w->motion, &w->motion.now, w->particles.area + i * w->setup.dim, w->work.turned + i * w->setup.dim);
 }
 
 /* Area vectors turn with the tank. */
@@ -107,7 +107,7 @@ mps_status mps__step_turn_areas(mps__world *w)
     mps__work *k = &w->work;
     k->area = s->area;
     if (!mps__motion_turned(&w->motion.now)) return MPS_OK;
-    MPS__TRY(mps__grow(w->context, (void **)&k->turned, &k->turned_capacity, 0, s->n * w->dim, sizeof *k->turned));
+    MPS__TRY(mps__grow(w->context, (void **)&k->turned, &k->turned_capacity, 0, s->n * w->setup.dim, sizeof *k->turned));
     mps_parallel_rows(&w->pool.parallel, s->n, turn_rows, w);
     k->area = k->turned;
     return MPS_OK;

@@ -47,5 +47,5 @@ void mps__undo_restore(const mps__world *w, bool moved)
     const mps__particles *s = &w->particles;
     for (int32_t k = 0; k < s->fields; k++)
         if (s->field[k].undone) memcpy(*s->field[k].data, s->field[k].kept, bytes_of(w, &s->field[k]));
-    if (moved) memcpy(s->x, w->work.x0, (size_t)(s->n * w->dim) * sizeof *s->x);
+    if (moved) memcpy(s->x, w->work.x0, (size_t)(s->n * w->setup.dim) * sizeof *s->x);
 }
