@@ -165,7 +165,8 @@ counts() { # fluid, walls and dummies, driver, options...
     for key in fluid wall dummy; do declare $key="$(sed -n "s/.*\"n_$key\": \([0-9]*\),.*/\1/p" counts/summary.json)"; done
     [ "$fluid $((wall + dummy))" = "$1 $2" ] || fail "${*:3}: $fluid + $wall + $dummy particles instead of $1 + $2"
 }
-counts 12338 1974 sloshing_surge --dp 0.004
+counts 12338 1974 sloshing_surge --whole-rows --dp 0.004
+counts 12437 1974 sloshing_surge --dp 0.004 # 62.5 rows: 0.25 m
 counts 1440 14766 dam_break --dim 3 --dp 0.025
 counts 3945 8676 sloshing_baffle_3d --paper-baffle --dp 0.02 # at the paper's dp 0.005: 274195 111360
 
