@@ -27,8 +27,8 @@ int main(int argc, char **argv)
     o.dp_min = 0.0005;
     o.dp_max = 0.05;
     o.t_end = 5.4;
-    cli_own(&o, (cli_option){"--whole-rows", NULL, "water up to the last whole row below its depth, as the paper's particle numbers say", TYPE_FLAG,
-                             &c.whole_rows, 0, 0, true});
+    cli_own(&o, (cli_option){"--whole-rows", NULL, "water up to the last whole row below its depth, as the paper's particle numbers say",
+                             TYPE_FLAG, &c.whole_rows, 0, 0, true});
     tank_parse(&o, &c, argc, argv);
     return tank_run(&o, &c, add_columns);
 }

@@ -57,7 +57,7 @@ typedef struct run {
     run_mark mark[RUN_MARKS];
     run_figure figure[RUN_FIGURES];
     table probes, steps, momentum;
-    double level;         /* still level as filled in [m]; 0: that of the highest particle */
+    double level;        /* still level as filled in [m]; 0: that of the highest particle */
     struct trace *trace; /* NULL, or every step of the driver's own columns: trace.h */
     mps_frames *frames;
     int64_t frame; /* next frame */

@@ -98,7 +98,7 @@ columns() { # driver, dp, fluid particles, header wanted, options...
 columns sloshing_surge 0.025 310 't[s],P1[Pa],P2[Pa],P3[Pa],P4[Pa],P5[Pa],eta_left[m],eta_right[m],ke[J/m],x_tank[m],pe[J/m]'
 columns sloshing_high_fill 0.025 276 't[s],P1[Pa],eta_right[m],ke[J/m],x_tank[m]'
 columns sloshing_low_fill 0.015 78 't[s],P1[Pa],eta_right[m],ke[J/m],x_tank[m]'
-columns sloshing_breaking 0.025 357 't[s],P1[Pa],P2[Pa],P3[Pa],eta_left[m],eta_right[m],air_volume[m2],ke[J/m],x_tank[m]'
+columns sloshing_breaking 0.025 366 't[s],P1[Pa],P2[Pa],P3[Pa],eta_left[m],eta_right[m],air_volume[m2],ke[J/m],x_tank[m]'
 columns sloshing_roll 0.031 84 't[s],P_left[Pa],P_right[Pa],eta_left[m],eta_quarter[m],eta_right[m],angle[deg],ke[J/m],x_tank[m]'
 columns sloshing_baffle_2d 0.01 978 't[s],eta_a[m],eta_b[m],eta_c[m],ke[J/m],x_tank[m]'
 columns sloshing_baffle_3d 0.025 1859 't[s],eta_a[m],eta_b[m],eta_c[m],ke[J],x_tank[m]'
