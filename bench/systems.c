@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Pressure equations of real steps: written by a plug-in solver, solved again from the file by any pair of solver and preconditioner. */
+#include "../src/core/parallel.h"
 #include "../src/ppe/builtin.h"
 #include "bench.h"
 #include <math.h>
@@ -179,7 +180,11 @@ int bench_replay(const char *file, const char *pair, int32_t threads, double tol
     double *guess = read_system(file, &problem), *p = malloc((size_t)problem.n * sizeof *p), least = INFINITY, setup = INFINITY,
            cpu = INFINITY;
     void *self = ops->user, *pc_self = pc ? pc->user : NULL;
-    problem.threads = threads;
+    mps__context context = {.allocator = allocator};
+    mps__pool pool;
+    mps__pool_init(&pool, &context);
+    mps__pool_resize(&pool, threads);
+    problem.parallel = &pool.parallel;
     problem.tolerance = tolerance;
     problem.max_iterations = 2000;
     if (!p || ops->create(&allocator, &self) || (pc && pc->create(&allocator, &pc_self))) bench_fail(file, "no memory");
@@ -198,6 +203,7 @@ int bench_replay(const char *file, const char *pair, int32_t threads, double tol
            (double)memory.peak / (double)problem.n, result.reason);
     ops->destroy(self);
     if (pc) pc->destroy(pc_self);
+    mps__pool_free(&pool);
     free(p);
     free_system(&problem, guess);
     return result.reason;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What the library stands on: SUNDIALS (Krylov and sparse direct solvers), OpenMP where there is one.
+# What the library stands on: SUNDIALS (Krylov and sparse direct solvers) and the system's threads.
 
 # 6.4 and 7.x both serve; the package's own version file would refuse the one that was not asked for.
 set(components kinsol nvecserial sunlinsolpcg sunlinsolspbcgs sunlinsolspgmr sunlinsolklu sunmatrixsparse)
@@ -12,10 +12,5 @@ if(TARGET SUNDIALS::core) # from 7.0 on
   list(APPEND MPS_SUNDIALS SUNDIALS::core)
 endif()
 
-find_package(OpenMP COMPONENTS C)
-if(OpenMP_C_FOUND)
-  set(MPS_OPENMP_FLAGS ${OpenMP_C_FLAGS})
-else()
-  message(WARNING "No OpenMP: the library will run on one thread")
-  set(MPS_OPENMP_FLAGS -Wno-unknown-pragmas)
-endif()
+set(THREADS_PREFER_PTHREAD_FLAG ON)
+find_package(Threads REQUIRED)

@@ -21,7 +21,7 @@ foreach(target ${MPS_SUNDIALS})
   string(REPLACE "SUNDIALS::" "-lsundials_" flag ${target})
   string(APPEND MPS_PC_PRIVATE "${flag} ")
 endforeach()
-string(APPEND MPS_PC_PRIVATE "-lklu -lm ${MPS_OPENMP_FLAGS}")
+string(APPEND MPS_PC_PRIVATE "-lklu -pthread -lm")
 # from the folder of mps.pc up to the prefix, so that an installed tree may be moved
 file(RELATIVE_PATH MPS_PC_PREFIX_UP /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 configure_file(pkgconfig/mps.pc.in mps.pc @ONLY)

@@ -46,10 +46,10 @@ static double angle(void *user, mps_sim *sim)
 
 static void build(run *r, int32_t liquid, roll *m)
 {
-    const double lo[3] = {0}, level[3] = {SIZE[0], DEPTH, SIZE[2]}, middle[3] = {0.5 * SIZE[0], 0, 0.5 * SIZE[2]};
+    const double lo[3] = {0}, middle[3] = {0.5 * SIZE[0], 0, 0.5 * SIZE[2]};
     tank_walls(r, SIZE);
     run_phase(r, 0, LIQUID[liquid].density, LIQUID[liquid].viscosity);
-    run_check(r, mps_geometry_fill_box(r->sim, 0, lo, level, NULL, NULL), "liquid");
+    tank_fill(r, SIZE, DEPTH, false);
     if (run_has_gas(r)) {
         run_phase(r, 1, TANK_AIR_DENSITY, TANK_AIR_VISCOSITY);
         run_check(r, mps_geometry_fill_box(r->sim, 1, lo, SIZE, NULL, NULL), "air");

@@ -21,10 +21,14 @@ static void add_columns(run *r, const tank_case *c)
 int main(int argc, char **argv)
 {
     cli_options o;
+    tank_case c = tank;
     cli_defaults(&o, "sloshing_surge", "surge tank of Zhang, Wan & Hino 2014, section 2.1: x = 0.02 m sin(6.469/s t)");
     o.dp = 0.008;
     o.dp_min = 0.0005;
     o.dp_max = 0.05;
     o.t_end = 5.4;
-    return tank_main(&o, &tank, add_columns, argc, argv);
+    cli_own(&o, (cli_option){"--whole-rows", NULL, "water up to the last whole row below its depth, as the paper's particle numbers say",
+                             TYPE_FLAG, &c.whole_rows, 0, 0, true});
+    tank_parse(&o, &c, argc, argv);
+    return tank_run(&o, &c, add_columns);
 }

@@ -27,7 +27,7 @@ static int cli_table(cli_options *o, cli_option *table)
     table[n++] = (cli_option){"--calm", "C",  "adaptive step: largest dt sqrt(g / dp); without it the preset's", TYPE_REAL, &o->calm, 0,
                               1,        false};
     table[n++] = (cli_option){"--t-end", "S", "time simulated [s]", TYPE_REAL, &o->t_end, 0, o->t_max, false};
-    table[n++] = (cli_option){"--threads", "N", "OpenMP threads", TYPE_INT, &o->threads, 1, CLI_THREADS_MAX, false};
+    table[n++] = (cli_option){"--threads", "N", "threads of the simulation", TYPE_INT, &o->threads, 1, CLI_THREADS_MAX, false};
     table[n++] = (cli_option){"--solver", "NAME", "pressure solver, also solver/preconditioner", TYPE_TEXT, &o->solver, 0, 0, false};
     table[n++] = (cli_option){"--out", "DIR", "folder for all outputs", TYPE_TEXT, &o->out, 0, 0, false};
     table[n++] = (cli_option){"--frames",     "N",  "frames for ParaView besides the first; 0: none", TYPE_INT, &o->frames, 0,

@@ -47,7 +47,7 @@ typedef struct cli_options {
     double t_end, t_max;         /* [s]; t_end 0: the driver sets it after parsing */
     double probe_dt;             /* rows of probes.csv [s] */
     double sensor_average;       /* wall pressures and forces are means over this [s]; MPS_AVERAGE_AUTO: over mps_step_info.crossing_time */
-    int32_t threads;             /* OpenMP threads */
+    int32_t threads;             /* of the simulation */
     int32_t frames;              /* frames besides the first */
     int pictures;                /* 0: at quarters of the time */
     double picture_t[CLI_TIMES]; /* [s], ascending */

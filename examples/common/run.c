@@ -197,6 +197,7 @@ double run_level(run *r)
     const int32_t *kind, *phase;
     mps_lease x = {0};
     double level = -INFINITY;
+    if (r->level > 0) return r->level;
     run_check(r, mps_particles_tags(r->sim, NULL, &kind, &phase, NULL), "still level");
     run_check(r, mps_lease_begin(r->sim, "position", MPS_READ, &x), "still level");
     for (int64_t i = 0; i < x.count; i++)

@@ -57,6 +57,7 @@ typedef struct run {
     run_mark mark[RUN_MARKS];
     run_figure figure[RUN_FIGURES];
     table probes, steps, momentum;
+    double level;        /* still level as filled in [m]; 0: that of the highest particle */
     struct trace *trace; /* NULL, or every step of the driver's own columns: trace.h */
     mps_frames *frames;
     int64_t frame; /* next frame */
@@ -80,7 +81,7 @@ void run_check(run *r, mps_status status, const char *what);
 bool run_has_gas(const run *r);
 /* Define a phase: 0 is the liquid, 1 what is around it [kg/m3], [Pa s]. */
 void run_phase(run *r, int32_t index, double density, double viscosity);
-/* Height of the highest particle of phase 0 above the lab's origin: the still level as placed, layers * dp [m]. */
+/* Still level above the lab's origin: `level`, or the height of the highest particle of phase 0, which is layers * dp [m]. */
 double run_level(run *r);
 
 /* Columns, in the order of the file. Places are in the tank's frame. */

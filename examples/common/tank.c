@@ -27,14 +27,32 @@ void tank_walls_about(run *r, const double *size, double middle, double *lo, dou
     run_check(r, mps_geometry_tank(r->sim, &tank, NULL), "tank");
 }
 
+static double still_level(void *user, mps_sim *sim)
+{
+    (void)sim;
+    return *(const double *)user;
+}
+
+void tank_fill(run *r, const double *size, double depth, bool whole_rows)
+{
+    const double lo[3] = {0}, level[3] = {size[0], depth, size[2]};
+    double built[6];
+    if (whole_rows || run_has_gas(r) || strstr(r->options.model, ".paper"))
+        run_check(r, mps_geometry_fill_box(r->sim, 0, lo, level, NULL, built), "liquid");
+    else
+        run_check(r, mps_geometry_fill_level(r->sim, 0, lo, level, NULL, built), "liquid");
+    r->level = built[r->options.dim + 1];
+    run_figure_add(r, "still_level", still_level, &r->level);
+}
+
 void tank_build(run *r, const tank_case *c)
 {
-    const double lo[3] = {0}, level[3] = {c->size[0], c->depth, c->size[2]};
+    const double lo[3] = {0};
     mps_harmonic motion = c->motion;
     motion.amplitude = r->options.amplitude;
     tank_walls(r, c->size);
     if (c->plate.top > 0) baffle_add(r, &c->plate, c->size[2]);
-    run_check(r, mps_geometry_fill_box(r->sim, 0, lo, level, NULL, NULL), "water");
+    tank_fill(r, c->size, c->depth, c->whole_rows);
     if (run_has_gas(r)) {
         run_phase(r, 1, TANK_AIR_DENSITY, TANK_AIR_VISCOSITY);
         run_check(r, mps_geometry_fill_box(r->sim, 1, lo, c->size, NULL, NULL), "air");

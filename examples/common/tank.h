@@ -16,6 +16,7 @@ typedef struct tank_case {
     double depth;        /* of the water [m] */
     mps_harmonic motion; /* what --amplitude gives replaces its amplitude */
     baffle plate;        /* a baffle across it; top 0: none. With one the case is for one liquid */
+    bool whole_rows;     /* no more water than the whole rows below the depth hold */
 } tank_case;
 
 /* Name and add the columns of probes.csv that are the driver's own. */
@@ -28,6 +29,9 @@ void tank_walls(run *r, const double *size);
 void tank_walls_about(run *r, const double *size, double middle, double *lo, double *hi);
 /* Walls, baffle, water up to the depth, air above it where the model has a gas, and the motion. */
 void tank_build(run *r, const tank_case *c);
+/* Liquid up to a depth, which need not be a multiple of the spacing; sets the still level and writes it to summary.json. With `whole_rows`, with a
+ * model to the letter of the papers and below gas it ends with the last whole row: in a row of both the one would have to pass through the other. */
+void tank_fill(run *r, const double *size, double depth, bool whole_rows);
 /* Command line of a driver of such a tank, and run and outputs; the case may be changed in between. */
 void tank_parse(cli_options *o, const tank_case *c, int argc, char **argv);
 int tank_run(const cli_options *o, const tank_case *c, tank_columns_fn columns);

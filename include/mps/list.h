@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/** @file list.h  What there is: presets, models, settings, channels, verbs, solvers, preconditioners,
- *  kernels; built in or registered on the handle.
+/** @file list.h  What there is: presets, models, settings, channels, verbs, solvers,
+ *  preconditioners, kernels; built in or registered on the handle.
  *
- *  All functions named ..._info_get() take an index from 0 and return MPS_E_ARG beyond the last one,
+ *  All functions named ..._info_get() take an index from 0 and return MPS_E_ARG beyond the last,
  *  without an error text: loop until they fail. Texts are valid until models or solvers change. */
 #ifndef MPS_LIST_H
 #define MPS_LIST_H

@@ -237,8 +237,8 @@ typedef struct mps_stage {
     const double *viscosity;
     /** [16*16] sigma of two phases by mps_sim_set_tension() [N/m], symmetric; < 0: not set */
     const double *tension;
-    /** From MPS_FORCE on: fluxes of pairs of the pressure equation, NULL before. `body` is final from
-     *  MPS_LEVEL on. Its channels need not be among the uses. */
+    /** From MPS_FORCE on: fluxes of pairs of the pressure equation, NULL before. `body` is final
+     *  from MPS_LEVEL on. Its channels need not be among the uses. */
     const mps_flux *flux;
     /** From MPS_CLASSIFY to MPS_SOURCE: scalars of the pressure equation. NULL otherwise. */
     mps_equation *equation;
@@ -354,8 +354,44 @@ enum {
  *  @return 0, or non-zero after a failure (no memory; the error is set) */
 MPS_API int mps_stage_bodies(mps_stage *s, int32_t most, const int32_t *role, int32_t *body);
 
-/** Make values that rows wrote into scratch [n*components] visible in the rows of neighbours. Call it
- *  between a loop that writes scratch and one that reads it at neighbours. Channels need no call. */
+/** Rows by square cells, for searches beyond the far radius: bucket b holds the rows first[b] - 1,
+ *  next[of that] - 1, ... until 0, ascending, of all cells with that bucket. */
+typedef struct mps_grid {
+    /** sizeof(mps_grid) */
+    uint32_t struct_size;
+    /** 2 or 3 */
+    int32_t dim;
+    /** Side of a cell [m]. */
+    double side;
+    /** Number of buckets. */
+    int64_t buckets;
+    /** [buckets] */
+    const int32_t *first;
+    /** [n] */
+    const int32_t *next;
+} mps_grid;
+
+/** Cell of a place x [dim]. */
+static inline void mps_grid_cell(const mps_grid *grid, const double *x, int64_t cell[3])
+{
+    cell[2] = 0;
+    for (int d = 0; d < grid->dim; d++) cell[d] = (int64_t)floor(x[d] / grid->side);
+}
+
+/** Bucket of a cell. */
+static inline int64_t mps_grid_bucket(const mps_grid *grid, const int64_t cell[3])
+{
+    const uint64_t h = (uint64_t)cell[0] * 73856093u ^ (uint64_t)cell[1] * 19349663u ^
+                       (uint64_t)cell[2] * 83492791u;
+    return (int64_t)(h % (uint64_t)grid->buckets);
+}
+
+/** Sort the fluid rows into cells of a side. The grid lives as long as scratch, and takes 2 blocks.
+ *  @return 0, or non-zero after a failure (no memory, side not > 0) */
+MPS_API int mps_stage_grid(mps_stage *s, double side, mps_grid *grid);
+
+/** Make values that rows wrote into scratch [n*components] visible at neighbours. Call it between a
+ *  loop that writes scratch and one that reads it at neighbours. Channels need no call. */
 MPS_API int mps_stage_refresh(mps_stage *s, double *scratch, int32_t components);
 
 /** Scratch of `count` doubles, zeroed, valid until the verb returns. At most 16, of both types.

@@ -8,6 +8,7 @@
 #include <mps/motion.h>
 #include <mps/operators.h>
 #include <mps/output.h>
+#include <mps/parallel.h>
 #include <mps/particles.h>
 #include <mps/probe.h>
 #include <mps/sim.h>

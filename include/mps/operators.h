@@ -7,6 +7,7 @@
 #ifndef MPS_OPERATORS_H
 #define MPS_OPERATORS_H
 
+#include <mps/parallel.h>
 #include <mps/types.h>
 
 #include <math.h>
@@ -72,7 +73,8 @@ typedef struct mps_stencil {
     double n0;            /**< lattice number density */
     double lambda;        /**< lattice lambda [m2] */
     mps_kernel kernel;    /**< weight function */
-    int32_t threads;      /**< OpenMP threads of operators */
+    /** Threads of operators; NULL: the calling thread. Belongs to the list or the simulation. */
+    const mps_parallel *parallel;
     const double *x;      /**< [n*dim] positions [m] */
     const int64_t *begin; /**< [n] first pair of a row */
     const int64_t *end;   /**< [n] one past the last pair of a row */
@@ -127,6 +129,11 @@ MPS_API mps_status mps_neighbours_create(int32_t dim, double dp, const mps_alloc
 
 /** Destroy a list; NULL is allowed. */
 MPS_API void mps_neighbours_destroy(mps_neighbours *list);
+
+/** Threads that build the list, and those of its stencils. Without this call: the calling thread.
+ *  @param parallel  copied. `run` NULL: threads of the list's own, parallel->threads of them
+ *  @return MPS_E_ARG, MPS_E_VERSION */
+MPS_API mps_status mps_neighbours_set_parallel(mps_neighbours *list, const mps_parallel *parallel);
 
 /** Find all pairs of two radii; positions are borrowed until the next build. Particles nearer than 1e-6 dp to each other are no pair: what
  *  has no distance has no direction (so are the two faces of a thin plate). They do not add to each other's sums.

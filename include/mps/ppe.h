@@ -7,6 +7,7 @@
 #ifndef MPS_PPE_H
 #define MPS_PPE_H
 
+#include <mps/parallel.h>
 #include <mps/types.h>
 
 MPS_BEGIN_DECLS
@@ -31,11 +32,12 @@ typedef struct mps_ppe_problem {
     double tolerance;         /**< relative 2-norm of the residual wanted */
     double divergence;        /**< largest |residual * weight| wanted; 0: not asked */
     int32_t max_iterations;   /**< at most */
-    int32_t threads;          /**< OpenMP threads */
     int32_t components;       /**< singular components (no Dirichlet row, no shift) */
     const int32_t *component; /**< [n] 0..components-1 of a singular one, else -1; NULL if there is none */
     const double *gas;        /**< [n] >= 0, coefficient of a nonlinear row; NULL if there is no nonlinear row */
     const double *law;        /**< [n] P_i > 0 of a nonlinear row [Pa], 0 of a linear one; NULL with gas */
+    /** Threads to use; NULL: the calling thread. Valid as long as the matrix. */
+    const mps_parallel *parallel;
 } mps_ppe_problem;
 
 /** Why a solver stopped. */

@@ -3,6 +3,7 @@
 #ifndef MPS_SIM_H
 #define MPS_SIM_H
 
+#include <mps/parallel.h>
 #include <mps/types.h>
 
 MPS_BEGIN_DECLS
@@ -24,7 +25,7 @@ typedef struct mps_config {
     double re_near;          /**< radius of n, gradient, divergence [dp]; default 2.1 */
     double re_far;           /**< radius of the Laplacians [dp]; default 3.1 in 2-D, 2.1 in 3-D; >= re_near */
     double velocity_scale;   /**< U_g [m/s] that scales models where |g| = 0; default sqrt(|g| dp), or sqrt(9.81 dp) without gravity */
-    int32_t threads;         /**< OpenMP threads; default 1 */
+    int32_t threads;         /**< threads that loops run on; default 1 */
     int32_t lost_policy;     /**< MPS_LOST_REMOVE or MPS_LOST_ERROR */
     double domain_min[3];    /**< lower corner in the tank's frame [m]; with domain_max all zero: bounding box of all solids, */
     double domain_max[3];    /**< enlarged by its longest side on every side */
@@ -34,6 +35,9 @@ typedef struct mps_config {
     void *log_user;          /**< first argument of log */
     char *error;             /**< NULL, or where mps_sim_create() writes why it failed */
     size_t error_size;       /**< bytes at `error` */
+    /** The host's parallel-for, with which the library makes no threads; all zero (default): threads of the library. parallel.threads above 1
+     *  takes the place of `threads`. `run` is called in the thread that calls the library, and must work as long as the handle lives. */
+    mps_parallel parallel;
 } mps_config;
 
 /** Set every entry to its default. @param size sizeof(mps_config) of the caller's headers */
@@ -59,7 +63,8 @@ MPS_API mps_status mps_sim_shape(const mps_sim *sim, int32_t *dim, double *dp);
 /** Time [s] and number of steps taken. Outputs may be NULL. */
 MPS_API mps_status mps_sim_time(const mps_sim *sim, double *t, int64_t *steps);
 
-/** Number of OpenMP threads. @param threads 1..1024 */
+/** Number of threads. Those of the library are joined and made anew by the next step. With a parallel-for of the host it is the number of
+ *  parts that loops are split into. @param threads 1..1024 */
 MPS_API mps_status mps_sim_set_threads(mps_sim *sim, int32_t threads);
 
 /** Properties of one phase. Its number has no meaning to the handle, but models have one for it: phase 1 is the gas of "mmps". */

@@ -140,8 +140,8 @@ class Outcome:
         return float(np.interp(t, self.t, self[name])) if self.t[-1] > t - 1e-9 else np.nan
 
     def level(self, depth):
-        """Still level as placed: whole layers."""
-        return np.floor(depth / self.dp + 1e-6) * self.dp
+        """Still level as placed: whole layers where the driver does not say."""
+        return self.summary.get("still_level") or np.floor(depth / self.dp + 1e-6) * self.dp
 
     @property
     def complete(self):

@@ -3,7 +3,6 @@
 import fcntl
 import hashlib
 import json
-import os
 import shutil
 import subprocess
 import sys
@@ -77,9 +76,8 @@ class Runner:
             say(f"[{self.done}/{count}] {run.name}: about {run.minutes:g} CPU minutes ...")
         folder = self.folder(run)
         begin, command = time.monotonic(), self.command(run) + self.begin(run)
-        environment = {"OMP_WAIT_POLICY": "passive", **os.environ}
         with open(folder / "run.log", "w", encoding="utf-8") as log:
-            code = subprocess.call([str(self.examples / command[0]), *command[1:], "--out", str(folder)], stdout=log, stderr=log, env=environment)
+            code = subprocess.call([str(self.examples / command[0]), *command[1:], "--out", str(folder)], stdout=log, stderr=log)
         seconds = time.monotonic() - begin
         self.finish(run, code, seconds)
 

@@ -22,16 +22,15 @@
  * (separation.void) shows none. The flow does not change. */
 #include "helpers.h"
 
-enum { PRESSURE, ACCELERATION, TANK_ACCELERATION, REGION, CORRECTION, WALL_PRESSURE, USES };
+enum { PRESSURE, ACCELERATION, REGION, CORRECTION, WALL_PRESSURE, USES };
 static const mps_use uses[USES] = {[PRESSURE] = {"pressure", MPS_USE_NEIGHBOURS},
                                    [ACCELERATION] = {"acceleration", MPS_USE_NEIGHBOURS},
-                                   [TANK_ACCELERATION] = {"tank_acceleration", MPS_USE_NEIGHBOURS},
                                    [REGION] = {"region", MPS_USE_NEIGHBOURS},
                                    [CORRECTION] = {"correction", MPS_USE_NEIGHBOURS},
                                    [WALL_PRESSURE] = {"wall_pressure", MPS_USE_WRITE}};
 
 typedef struct fields {
-    const double *p, *a, *tank_acceleration, *correction;
+    const double *p, *a, *correction;
     const int32_t *region;
     double *wall_pressure;
 } fields;
@@ -56,7 +55,6 @@ MPS_ROW contact sum_contact(const int dim, const mps_stage *s, const fields *f, 
                             const double n[3])
 {
     const mps_stencil *t = s->near;
-    const double *tank = f->tank_acceleration;
     const double cell = (dim == 2 ? s->dp * s->dp : s->dp * s->dp * s->dp) * dim / t->n0;
     contact c = {0};
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
@@ -64,9 +62,9 @@ MPS_ROW contact sum_contact(const int dim, const mps_stage *s, const fields *f, 
         if (s->kind[j] != MPS_FLUID || f->region[j] >= MPS_REGION_SPRAY) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         const double *b = f->correction + j * dim * dim, rho = mps_flux_density(s->flux, i, j);
-        double body = 0, slope = 0, push = 0;
+        const double body = mps_flux_body(s->flux, dim, i, j, q.d);
+        double slope = 0, push = 0;
         for (int d = 0; d < dim; d++) {
-            body += (s->g[d] - 0.5 * (tank[i * dim + d] + tank[j * dim + d])) * q.d[d];
             slope += f->a[j * dim + d] * q.d[d];
             for (int e = 0; e < dim; e++) push += n[d] * b[d * dim + e] * q.d[e];
         }
@@ -99,7 +97,6 @@ static int load_walls(mps_stage *s)
 {
     fields f = {.p = s->data[PRESSURE],
                 .a = s->data[ACCELERATION],
-                .tank_acceleration = s->data[TANK_ACCELERATION],
                 .correction = s->data[CORRECTION],
                 .region = s->data[REGION],
                 .wall_pressure = s->data[WALL_PRESSURE]};

@@ -173,5 +173,5 @@ mps_status mps_kernel_info_get(const mps_sim *sim, int32_t index, mps_name_info 
     static const char *const name[] = {"improved", "original"};
     static const char *const help[] = {"re/(0.85 r + 0.15 re) - 1, W22 (3): finite at r = 0", "re/r - 1, Z14 (3)"};
     if (!sim || index < 0 || index > 1) return MPS_E_ARG;
-    return tell_name(sim, info, name[index], help[index], sim->world.kernel.id == MPS_KERNEL_IMPROVED + index);
+    return tell_name(sim, info, name[index], help[index], sim->world.setup.kernel.id == MPS_KERNEL_IMPROVED + index);
 }

@@ -22,7 +22,7 @@ static mps_status check_dof(mps_sim *sim, const char *what, int64_t index, int32
     MPS__CHECK(&sim->context, dof >= 0 && dof < MPS_DOF_COUNT, "%s %lld: degree of freedom %d is not one of 0..%d", what, (long long)index,
                (int)dof, MPS_DOF_COUNT - 1);
     bool flat = dof == MPS_SURGE || dof == MPS_HEAVE || dof == MPS_YAW;
-    MPS__CHECK(&sim->context, flat || sim->world.dim == 3, "%s %lld: degree of freedom %d needs 3-D; 2-D has surge 0, heave 1 and yaw 4",
+    MPS__CHECK(&sim->context, flat || sim->world.setup.dim == 3, "%s %lld: degree of freedom %d needs 3-D; 2-D has surge 0, heave 1 and yaw 4",
                what, (long long)index, (int)dof);
     return MPS_OK;
 }
@@ -49,14 +49,14 @@ static void carry_particles(mps_sim *sim, const mps__motion *old)
         mps__motion_point(m, &m->now, X, x, NULL, NULL);
     }
     /* the way from the old pose to the new one is no motion: the tank begins anew */
-    sim->world.dt_before = 0;
+    sim->world.state.dt_before = 0;
 }
 
 /* Replace the motion; on failure the old one stays and `next` is released. */
 static mps_status install(mps_sim *sim, mps__motion *next)
 {
     mps__world *w = &sim->world;
-    mps_status status = mps__motion_pose(next, w->info.t, &next->now);
+    mps_status status = mps__motion_pose(next, w->state.t, &next->now);
     if (status < 0) {
         mps__motion_free(next);
         return status;
@@ -65,7 +65,7 @@ static mps_status install(mps_sim *sim, mps__motion *next)
     w->motion = *next;
     carry_particles(sim, &old);
     if (old.user != next->user) mps__motion_free(&old);
-    w->start_pending = next->fn && next->start == MPS_START_WITH_TANK;
+    w->state.start_pending = next->fn && next->start == MPS_START_WITH_TANK;
     return MPS_OK;
 }
 
@@ -103,7 +103,7 @@ static mps_status check_table_times(mps_sim *sim, int64_t rows, const double *t)
         MPS__CHECK(c, k == 0 || t[k] > t[k - 1], "motion table: t = %.10g in row %lld does not increase, the row before has %.10g", t[k],
                    (long long)k, t[k > 0 ? k - 1 : 0]);
     }
-    MPS__CHECK(c, t[0] <= sim->world.info.t, "motion table: t = %.10g in row 0 is after the present time %.10g", t[0], sim->world.info.t);
+    MPS__CHECK(c, t[0] <= sim->world.state.t, "motion table: t = %.10g in row 0 is after the present time %.10g", t[0], sim->world.state.t);
     return MPS_OK;
 }
 
@@ -123,14 +123,14 @@ mps_status mps_motion_set_centre(mps_sim *sim, const double *centre, int32_t sta
     MPS__CHANGES(sim);
     mps__world *w = &sim->world;
     MPS__TRY(changeable(sim));
-    if (w->info.step > 0)
+    if (w->state.step > 0)
         return mps__fail(&sim->context, MPS_E_STATE, "the centre is set before the first step; %lld steps were taken",
-                         (long long)w->info.step);
+                         (long long)w->state.step);
     MPS__CHECK(&sim->context, centre, "centre is NULL");
     MPS__CHECK(&sim->context, start == MPS_START_AT_REST || start == MPS_START_WITH_TANK,
                "start is %d: must be MPS_START_AT_REST (0) or MPS_START_WITH_TANK (1)", (int)start);
     mps__motion next = w->motion;
-    for (int32_t d = 0; d < w->dim; d++) {
+    for (int32_t d = 0; d < w->setup.dim; d++) {
         MPS__CHECK(&sim->context, isfinite(centre[d]), "centre[%d] is %g: must be finite", (int)d, centre[d]);
         next.centre[d] = centre[d];
     }
@@ -139,7 +139,7 @@ mps_status mps_motion_set_centre(mps_sim *sim, const double *centre, int32_t sta
     next.start = start;
     w->motion = next;
     carry_particles(sim, &old);
-    w->start_pending = next.fn && start == MPS_START_WITH_TANK;
+    w->state.start_pending = next.fn && start == MPS_START_WITH_TANK;
     return MPS_OK;
 }
 

@@ -26,9 +26,9 @@ static mps_status not_leased(mps_sim *sim)
 static mps_status check_block(mps_sim *sim, const mps_particle_block *b)
 {
     mps__context *c = &sim->context;
-    const int dim = sim->world.dim;
+    const int dim = sim->world.setup.dim;
     MPS__CHECK(c, b->kind >= MPS_FLUID && b->kind <= MPS_DUMMY, "block.kind is %d: MPS_FLUID, MPS_WALL or MPS_DUMMY", b->kind);
-    MPS__CHECK(c, b->phase >= 0 && b->phase < MPS__PHASES && sim->world.phase_defined[b->phase],
+    MPS__CHECK(c, b->phase >= 0 && b->phase < MPS__PHASES && sim->world.setup.phase_defined[b->phase],
                "block.phase is %d: not defined, call mps_sim_set_phase() first", b->phase);
     MPS__CHECK(c, b->count >= 1 && b->count <= INT32_MAX, "block.count is %lld: 1..%d", (long long)b->count, INT32_MAX);
     MPS__CHECK(c, b->position, "block.position is NULL");
@@ -47,12 +47,12 @@ static mps_status check_block(mps_sim *sim, const mps_particle_block *b)
 static mps_status check_overlap(mps_sim *sim, const mps_particle_block *b)
 {
     mps__particles *s = &sim->world.particles;
-    const int dim = sim->world.dim;
+    const int dim = sim->world.setup.dim;
     const int64_t n = s->n + b->count;
-    const double reach = overlap * sim->world.dp;
+    const double reach = overlap * sim->world.setup.dp;
     double *x = mps__alloc(&sim->context, n * dim, sizeof *x);
     mps_neighbours *list = NULL;
-    mps_status status = x ? mps_neighbours_create(dim, sim->world.dp, &sim->context.allocator, &list) : MPS_E_NOMEM;
+    mps_status status = x ? mps_neighbours_create(dim, sim->world.setup.dp, &sim->context.allocator, &list) : MPS_E_NOMEM;
     if (status == MPS_OK) {
         memcpy(x, s->x, (size_t)(s->n * dim) * sizeof *x);
         memcpy(x + s->n * dim, b->position, (size_t)(b->count * dim) * sizeof *x);
@@ -78,17 +78,17 @@ static void store_block(mps_sim *sim, const mps_particle_block *b, int32_t part,
 {
     mps__world *w = &sim->world;
     mps__particles *s = &w->particles;
-    const int dim = w->dim;
+    const int dim = w->setup.dim;
     for (int64_t k = 0; k < b->count; k++) {
         const int64_t i = first + k;
         memcpy(s->x + i * dim, b->position + k * dim, (size_t)dim * sizeof(double));
         s->kind[i] = b->kind;
         s->phase[i] = b->phase;
         s->part[i] = part;
-        s->rho[i] = w->phase_density[b->phase];
+        s->rho[i] = w->setup.phase_density[b->phase];
         mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * dim, s->ref + i * dim);
         if (b->kind != MPS_FLUID)
-            mps__motion_point(&w->motion, &w->motion.now, s->ref + i * dim, NULL, w->info.step > 0 ? s->u + i * dim : NULL, NULL);
+            mps__motion_point(&w->motion, &w->motion.now, s->ref + i * dim, NULL, w->state.step > 0 ? s->u + i * dim : NULL, NULL);
         else if (b->velocity)
             memcpy(s->u + i * dim, b->velocity + k * dim, (size_t)dim * sizeof(double));
         if (b->area && b->kind == MPS_WALL) {
@@ -118,7 +118,7 @@ mps_status mps_particles_add(mps_sim *sim, const mps_particle_block *block, int6
     }
     const int64_t first = mps__particles_append(s, b.count);
     store_block(sim, &b, part, first);
-    sim->world.neighbours.valid = false;
+    sim->world.lists.neighbours.valid = false;
     for (int64_t k = 0; ids && k < b.count; k++) ids[k] = s->id[first + k];
     return MPS_OK;
 }
@@ -159,7 +159,7 @@ mps_status mps_particles_remove(mps_sim *sim, int64_t count, const int64_t *ids)
             if (!gone[i]) keep[left++] = (int32_t)i;
         if (gone) status = mps__particles_permute(s, left, keep);
         mps__free(&sim->context, gone);
-        if (status == MPS_OK) sim->world.neighbours.valid = false;
+        if (status == MPS_OK) sim->world.lists.neighbours.valid = false;
         if (status == MPS_OK) mps__plates_set_active(&sim->world);
     }
     mps__free(&sim->context, place);

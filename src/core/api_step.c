@@ -38,9 +38,9 @@ mps_status mps_sim_set_time_control(mps_sim *sim, const mps_time_control *contro
     MPS__TRY(check_limits(c, &t));
     MPS__CHECK(c, t.growth < 0 || t.growth > 1, "time_control.growth is %g: > 1, or < 0 for none", t.growth);
     MPS__CHECK(c, t.dt_min >= 0 && isfinite(t.dt_min), "time_control.dt_min is %g s: >= 0", t.dt_min);
-    if (t.dt_min == 0) t.dt_min = 1e-9 * sqrt(sim->world.dp / 9.81);
-    sim->world.control = t;
-    sim->world.dt_previous = 0;
+    if (t.dt_min == 0) t.dt_min = 1e-9 * sqrt(sim->world.setup.dp / 9.81);
+    sim->world.setup.control = t;
+    sim->world.state.dt_previous = 0;
     return MPS_OK;
 }
 
@@ -70,17 +70,17 @@ mps_status mps_run(mps_sim *sim, double t_end, mps_monitor_fn monitor, void *use
 {
     MPS__CHANGES(sim);
     mps__world *w = &sim->world;
-    MPS__CHECK(&sim->context, isfinite(t_end) && t_end >= w->info.t, "t_end is %g s: must be finite and not before the present time %g s",
-               t_end, w->info.t);
+    MPS__CHECK(&sim->context, isfinite(t_end) && t_end >= w->state.t, "t_end is %g s: must be finite and not before the present time %g s",
+               t_end, w->state.t);
     mps_status result = MPS_OK;
     const double small = 1e-12 * fmax(1.0, fabs(t_end));
-    while (t_end - w->info.t > small) {
+    while (t_end - w->state.t > small) {
         w->ending = true;
-        const mps_status status = mps_step(sim, t_end - w->info.t, NULL);
+        const mps_status status = mps_step(sim, t_end - w->state.t, NULL);
         w->ending = false;
         if (status < 0) return status;
         if (status > 0) result = status;
-        if (fabs(t_end - w->info.t) <= fmax(small, 1e-6 * w->info.dt)) w->info.t = t_end;
+        if (fabs(t_end - w->state.t) <= fmax(small, 1e-6 * w->info.dt)) w->state.t = w->info.t = t_end;
         const mps__lock before = mps__lock_set(&sim->context, MPS__READ_ONLY, "a monitor");
         const int stop = monitor && monitor(user, sim, &w->info);
         sim->context.lock = before;
@@ -104,27 +104,27 @@ mps_status mps_sim_stencil(mps_sim *sim, int32_t which, mps_stencil *stencil)
 static mps_status bad_kernel(mps_sim *sim, const mps_kernel *kernel)
 {
     const mps__world *w = &sim->world;
-    const int reach = (int)(w->re_near / w->dp) + 1;
-    const int most = w->dim * reach * reach;
+    const int reach = (int)(w->setup.re_near / w->setup.dp) + 1;
+    const int most = w->setup.dim * reach * reach;
     MPS__CHECK(&sim->context, kernel->id >= MPS_KERNEL_IMPROVED && kernel->id <= MPS_KERNEL_CUSTOM,
                "kernel.id is %d: fill it with mps_kernel_find() or mps_kernel_custom()", kernel->id);
     MPS__CHECK(&sim->context, kernel->id != MPS_KERNEL_CUSTOM || kernel->fn, "kernel.fn is NULL: fill it with mps_kernel_custom()");
     for (int square = 1; square <= most; square++) { /* more than the distances of a lattice: the first bad one is named */
-        const double r = w->dp * sqrt(square), value = mps_kernel_value(kernel, r, w->re_near);
+        const double r = w->setup.dp * sqrt(square), value = mps_kernel_value(kernel, r, w->setup.re_near);
         MPS__CHECK(&sim->context, value >= 0 && isfinite(value), "the kernel is %g at r = %g m of re = %g m: must be >= 0 and finite",
-                   value, r, w->re_near);
+                   value, r, w->setup.re_near);
     }
-    return mps__fail(&sim->context, MPS_E_ARG, "the kernel is 0 at all distances of a lattice of %g m within re = %g m", w->dp, w->re_near);
+    return mps__fail(&sim->context, MPS_E_ARG, "the kernel is 0 at all distances of a lattice of %g m within re = %g m", w->setup.dp, w->setup.re_near);
 }
 
 mps_status mps_sim_set_kernel(mps_sim *sim, const mps_kernel *kernel)
 {
     MPS__CHANGES(sim);
     MPS__CHECK(&sim->context, kernel, "kernel is NULL");
-    if (sim->world.info.step > 0) return mps__fail(&sim->context, MPS_E_STATE, "the kernel cannot change after the first step");
+    if (sim->world.state.step > 0) return mps__fail(&sim->context, MPS_E_STATE, "the kernel cannot change after the first step");
     double n0;
-    mps_status status = mps_lattice_constants(kernel, sim->world.dim, sim->world.dp, sim->world.re_near, &n0, NULL);
+    mps_status status = mps_lattice_constants(kernel, sim->world.setup.dim, sim->world.setup.dp, sim->world.setup.re_near, &n0, NULL);
     if (status != MPS_OK) return bad_kernel(sim, kernel);
-    sim->world.kernel = *kernel;
+    sim->world.setup.kernel = *kernel;
     return MPS_OK;
 }

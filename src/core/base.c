@@ -232,17 +232,3 @@ double mps__clock(void)
     clock_gettime(CLOCK_MONOTONIC, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
-
-void mps__zero(double *values, int64_t count, int threads)
-{
-    (void)threads; /* unused without OpenMP */
-#pragma omp parallel for num_threads(threads) schedule(static) if (count > 8192)
-    for (int64_t k = 0; k < count; k++) values[k] = 0;
-}
-
-void mps__copy(double *to, const double *from, int64_t count, int threads)
-{
-    (void)threads; /* unused without OpenMP */
-#pragma omp parallel for num_threads(threads) schedule(static)
-    for (int64_t k = 0; k < count; k++) to[k] = from[k];
-}

@@ -95,10 +95,6 @@ bool mps__name_copy(char *out, size_t capacity, const char *name);
 
 bool mps__finite(const double *values, int64_t count);
 double mps__clock(void); /* monotonic [s] */
-/* Set numbers to zero with so many threads. */
-void mps__zero(double *values, int64_t count, int threads);
-/* Copy numbers with so many threads. */
-void mps__copy(double *to, const double *from, int64_t count, int threads);
 
 /* |b - a|^2 */
 static inline double mps__square_between(const double *a, const double *b, int dim)

@@ -3,64 +3,48 @@
 #include "budget.h"
 #include <string.h>
 
-enum { PARTS = 64, SUMS = 8 };
+/* What terms are made of. */
+typedef struct terms {
+    const mps__world *w;
+    const void *data;
+} terms;
 
-/* What a particle adds to up to eight sums. */
-typedef struct sums {
-    double of[SUMS];
-} sums;
-typedef void (*term_fn)(const mps__world *w, const void *data, int64_t i, double *sum);
+/* Define `name`, which adds the terms of one kind of particles; each has its own loop, in which its function is inlined. */
+#define ADD_TERMS(name, kind_of_particles, term)                                           \
+    static void name(void *argument, int64_t begin, int64_t end, double *sum)              \
+    {                                                                                      \
+        const terms *k = argument;                                                         \
+        for (int64_t i = begin; i < end; i++)                                              \
+            if (k->w->particles.kind[i] == (kind_of_particles)) term(k->w, k->data, i, sum); \
+    }
 
-/* Particles from..to-1. */
-typedef struct range {
-    int64_t from, to;
-} range;
-typedef void (*part_fn)(const mps__world *w, const void *data, range r, sums *part);
-
-/* The terms of one kind of particles. Each kind of term has its own loop, in which its function is inlined. */
-static inline __attribute__((always_inline)) void add_terms(const mps__world *w, int32_t kind, term_fn term, const void *data, range r,
-                                                            sums *part)
+static void sum_terms(const mps__world *w, mps_reduce_fn add, const void *data, int32_t count, double *sums)
 {
-    sums sum = *part; /* a local one stays in registers */
-    for (int64_t i = r.from; i < r.to; i++)
-        if (w->particles.kind[i] == kind) term(w, data, i, sum.of);
-    *part = sum;
-}
-
-static sums sum_parts(const mps__world *w, part_fn add, const void *data)
-{
-    const int64_t n = w->particles.n;
-    sums part[PARTS] = {{{0}}}, all = {{0}};
-#pragma omp parallel for num_threads(w->threads) schedule(static)
-    for (int p = 0; p < PARTS; p++) add(w, data, (range){n * p / PARTS, n * (p + 1) / PARTS}, &part[p]);
-    for (int p = 0; p < PARTS; p++)
-        for (int k = 0; k < SUMS; k++) all.of[k] += part[p].of[k];
-    return all;
+    terms k = {w, data};
+    mps_parallel_sum(&w->pool.parallel, w->particles.n, count, add, &k, sums);
 }
 
 static double mass(const mps__world *w, int64_t i)
 {
-    return w->particles.rho[i] * (w->dim == 2 ? w->dp * w->dp : w->dp * w->dp * w->dp);
+    return w->particles.rho[i] * (w->setup.dim == 2 ? w->setup.dp * w->setup.dp : w->setup.dp * w->setup.dp * w->setup.dp);
 }
 
 static void energy_term(const mps__world *w, const void *data, int64_t i, double *sum)
 {
     (void)data;
-    const double *u = w->particles.u + i * w->dim;
-    sum[0] += 0.5 * mass(w, i) * mps__dot(u, u, w->dim);
-    sum[1] -= mass(w, i) * mps__dot(w->g, w->particles.x + i * w->dim, w->dim);
-    for (int d = 0; d < w->dim; d++) sum[2 + d] += mass(w, i) * u[d];
+    const double *u = w->particles.u + i * w->setup.dim;
+    sum[0] += 0.5 * mass(w, i) * mps__dot(u, u, w->setup.dim);
+    sum[1] -= mass(w, i) * mps__dot(w->setup.g, w->particles.x + i * w->setup.dim, w->setup.dim);
+    for (int d = 0; d < w->setup.dim; d++) sum[2 + d] += mass(w, i) * u[d];
 }
 
-static void add_energy(const mps__world *w, const void *data, range r, sums *part)
-{
-    add_terms(w, MPS_FLUID, energy_term, data, r, part);
-}
+ADD_TERMS(add_energy, MPS_FLUID, energy_term)
 
 void mps__budget_sum(const mps__world *w, mps__bulk *bulk)
 {
-    const sums s = sum_parts(w, add_energy, NULL);
-    *bulk = (mps__bulk){s.of[0], s.of[1], {s.of[2], s.of[3], s.of[4]}};
+    double s[5];
+    sum_terms(w, add_energy, NULL, 5, s);
+    *bulk = (mps__bulk){s[0], s[1], {s[2], s[3], s[4]}};
 }
 
 typedef struct acceleration {
@@ -71,41 +55,35 @@ typedef struct acceleration {
 static void push_term(const mps__world *w, const void *data, int64_t i, double *sum)
 {
     const acceleration *k = data;
-    const double *b = k->a + i * w->dim, *u = w->particles.u + i * w->dim, m = mass(w, i);
-    sum[0] += m * k->dt * (mps__dot(b, u, w->dim) + 0.5 * k->dt * mps__dot(b, b, w->dim));
+    const double *b = k->a + i * w->setup.dim, *u = w->particles.u + i * w->setup.dim, m = mass(w, i);
+    sum[0] += m * k->dt * (mps__dot(b, u, w->setup.dim) + 0.5 * k->dt * mps__dot(b, b, w->setup.dim));
     sum[1] += m;
-    for (int d = 0; d < w->dim; d++) {
+    for (int d = 0; d < w->setup.dim; d++) {
         sum[2 + d] += m * u[d];
         sum[5 + d] += m * k->dt * b[d];
     }
 }
 
-static void add_push(const mps__world *w, const void *data, range r, sums *part)
-{
-    add_terms(w, MPS_FLUID, push_term, data, r, part);
-}
+ADD_TERMS(add_push, MPS_FLUID, push_term)
 
 void mps__budget_push(const mps__world *w, const double *a, double dt, mps__push *push)
 {
-    const sums s = sum_parts(w, add_push, &(acceleration){a, dt});
-    *push = (mps__push){s.of[0], s.of[1], {s.of[2], s.of[3], s.of[4]}, {s.of[5], s.of[6], s.of[7]}};
+    double s[8];
+    sum_terms(w, add_push, &(acceleration){a, dt}, 8, s);
+    *push = (mps__push){s[0], s[1], {s[2], s[3], s[4]}, {s[5], s[6], s[7]}};
 }
 
 static void wall_term(const mps__world *w, const void *data, int64_t i, double *sum)
 {
-    const double *area = w->work.area + i * w->dim;
-    for (int d = 0; d < w->dim; d++) sum[d] += ((const double *)data)[i] * area[d];
+    const double *area = w->work.area + i * w->setup.dim;
+    for (int d = 0; d < w->setup.dim; d++) sum[d] += ((const double *)data)[i] * area[d];
 }
 
-static void add_wall(const mps__world *w, const void *data, range r, sums *part)
-{
-    add_terms(w, MPS_WALL, wall_term, data, r, part);
-}
+ADD_TERMS(add_wall, MPS_WALL, wall_term)
 
 void mps__budget_wall_force(const mps__world *w, const double *pressure, double force[3])
 {
-    const sums s = sum_parts(w, add_wall, pressure);
-    memcpy(force, s.of, 3 * sizeof *force);
+    sum_terms(w, add_wall, pressure, 3, force);
 }
 
 /* A rigid velocity, about `centre`, and the impulses it works on. */
@@ -135,11 +113,11 @@ static tank_move mean_move(const mps__world *w, const mps__pose *end, double dt)
     tank_move k = {.dt = dt};
     mps__motion_point(m, &m->now, m->centre, k.centre, NULL, NULL);
     add_half_move(m, &m->now, end, dt, &k);
-    if (w->dt_before > 0)
-        add_half_move(m, &w->before, &m->now, w->dt_before, &k);
+    if (w->state.dt_before > 0)
+        add_half_move(m, &w->state.before, &m->now, w->state.dt_before, &k);
     else if (m->start == MPS_START_WITH_TANK)
         for (int d = 0; d < 3; d++) {
-            k.v[d] += d < w->dim ? 0.5 * m->now.state.rate[d] : 0;
+            k.v[d] += d < w->setup.dim ? 0.5 * m->now.state.rate[d] : 0;
             k.omega[d] += 0.5 * m->now.omega[d];
         }
     return k;
@@ -148,38 +126,36 @@ static tank_move mean_move(const mps__world *w, const mps__pose *end, double dt)
 static void wall_work_term(const mps__world *w, const void *data, int64_t i, double *sum)
 {
     const tank_move *k = data;
-    const double *o = k->omega, *a = k->a + i * w->dim;
+    const double *o = k->omega, *a = k->a + i * w->setup.dim;
     double r[3] = {0};
-    for (int d = 0; d < w->dim; d++) r[d] = w->particles.x[i * w->dim + d] - k->centre[d];
+    for (int d = 0; d < w->setup.dim; d++) r[d] = w->particles.x[i * w->setup.dim + d] - k->centre[d];
     const double spin[3] = {o[1] * r[2] - o[2] * r[1], o[2] * r[0] - o[0] * r[2], o[0] * r[1] - o[1] * r[0]};
-    for (int d = 0; d < w->dim; d++) sum[0] += mass(w, i) * k->dt * a[d] * (k->v[d] + spin[d]);
+    for (int d = 0; d < w->setup.dim; d++) sum[0] += mass(w, i) * k->dt * a[d] * (k->v[d] + spin[d]);
 }
 
-static void add_wall_work(const mps__world *w, const void *data, range r, sums *part)
-{
-    add_terms(w, MPS_FLUID, wall_work_term, data, r, part);
-}
+ADD_TERMS(add_wall_work, MPS_FLUID, wall_work_term)
 
 double mps__budget_wall_work(const mps__world *w, const mps__pose *end, const double *a, double dt)
 {
     tank_move k = mean_move(w, end, dt);
     k.a = a;
-    return sum_parts(w, add_wall_work, &k).of[0];
+    double work;
+    sum_terms(w, add_wall_work, &k, 1, &work);
+    return work;
 }
 
 static void lift_term(const mps__world *w, const void *data, int64_t i, double *sum)
 {
-    sum[0] += mass(w, i) * mps__dot(w->g, (const double *)data + i * w->dim, w->dim);
+    sum[0] += mass(w, i) * mps__dot(w->setup.g, (const double *)data + i * w->setup.dim, w->setup.dim);
 }
 
-static void add_lift(const mps__world *w, const void *data, range r, sums *part)
-{
-    add_terms(w, MPS_FLUID, lift_term, data, r, part);
-}
+ADD_TERMS(add_lift, MPS_FLUID, lift_term)
 
 double mps__budget_lift(const mps__world *w, const double *dx)
 {
-    return sum_parts(w, add_lift, dx).of[0];
+    double lift;
+    sum_terms(w, add_lift, dx, 1, &lift);
+    return lift;
 }
 
 void mps__budget_book_added(const mps__world *w, mps__budget *b)
@@ -187,7 +163,7 @@ void mps__budget_book_added(const mps__world *w, mps__budget *b)
     mps__bulk now;
     mps__budget_sum(w, &now);
     b->added += now.kinetic + now.potential - (b->last.kinetic + b->last.potential);
-    for (int d = 0; d < w->dim; d++) b->momentum.added[d] += now.momentum[d] - b->last.momentum[d];
+    for (int d = 0; d < w->setup.dim; d++) b->momentum.added[d] += now.momentum[d] - b->last.momentum[d];
     b->last = now;
 }
 
@@ -210,13 +186,11 @@ static void deviation_term(const mps__world *w, const void *data, int64_t i, dou
     sum[1] += 1;
 }
 
-static void add_deviation(const mps__world *w, const void *data, range r, sums *part)
-{
-    add_terms(w, MPS_FLUID, deviation_term, data, r, part);
-}
+ADD_TERMS(add_deviation, MPS_FLUID, deviation_term)
 
 double mps__budget_mean_deviation(const mps__world *w)
 {
-    const sums s = sum_parts(w, add_deviation, NULL);
-    return s.of[1] > 0 ? s.of[0] / s.of[1] : 0;
+    double s[2];
+    sum_terms(w, add_deviation, NULL, 2, s);
+    return s[1] > 0 ? s[0] / s[1] : 0;
 }

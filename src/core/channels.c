@@ -240,13 +240,10 @@ mps_status mps__channels_reserve(mps__channels *c, int64_t n)
     return MPS_OK;
 }
 
-/* Rows of a channel that begin anew. */
-static void begin_rows(const mps__channel *k, int32_t dim, int64_t n, int32_t threads)
+static void begin_rows(const mps__channel *k, int32_t dim, int64_t begin, int64_t end)
 {
     const int32_t width = k->components, diagonal = k->spec.components == MPS_MATRIX ? dim + 1 : 1;
-    (void)threads; /* unused without OpenMP */
-#pragma omp parallel for num_threads(threads) schedule(static)
-    for (int64_t i = 0; i < n; i++)
+    for (int64_t i = begin; i < end; i++)
         for (int32_t d = 0; d < width; d++) {
             const double value = d % diagonal == 0 ? k->spec.initial : 0;
             if (k->spec.type == MPS_TYPE_INTEGER)
@@ -256,10 +253,10 @@ static void begin_rows(const mps__channel *k, int32_t dim, int64_t n, int32_t th
         }
 }
 
-void mps__channels_begin(mps__channels *c, int64_t n, int32_t threads)
+void mps__channels_begin(const mps__channels *c, int64_t begin, int64_t end)
 {
     for (int32_t k = MPS__OWN_CHANNELS; k < c->count; k++)
-        if (c->list[k].spec.life == MPS_LIFE_STEP) begin_rows(&c->list[k], c->dim, n, threads);
+        if (c->list[k].spec.life == MPS_LIFE_STEP) begin_rows(&c->list[k], c->dim, begin, end);
 }
 
 void *mps__channels_array(const mps__channels *c, mps__particles *s, int32_t k)

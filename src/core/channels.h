@@ -63,8 +63,8 @@ int32_t mps__channels_find(const mps__channels *c, const char *name);
 
 /* Room for the arrays of models. */
 mps_status mps__channels_reserve(mps__channels *c, int64_t n);
-/* Set the arrays of models that live for a step to their first values. */
-void mps__channels_begin(mps__channels *c, int64_t n, int32_t threads);
+/* Set rows begin .. end-1 of the arrays of models that live for a step to their first values. */
+void mps__channels_begin(const mps__channels *c, int64_t begin, int64_t end);
 /* The array of channel k. */
 void *mps__channels_array(const mps__channels *c, mps__particles *s, int32_t k);
 

@@ -31,26 +31,26 @@ static void vector(mps__text *t, const char *name, const double *v)
 static void put_config(const mps_sim *sim, mps__text *t)
 {
     const mps__world *w = &sim->world;
-    line(t, "dimensions %d", (int)w->dim);
-    line(t, "dp %.17g", w->dp);
-    line(t, "near radius %.17g", w->re_near);
-    line(t, "far radius %.17g", w->re_far);
-    vector(t, "gravity", w->g);
-    line(t, "velocity scale %.17g", w->velocity_scale);
-    line(t, "kernel %s", w->kernel.id == MPS_KERNEL_IMPROVED ? "improved" : w->kernel.id == MPS_KERNEL_ORIGINAL ? "original" : "custom");
-    if (!w->domain_given) return;
-    vector(t, "domain from", w->domain_min);
-    vector(t, "domain to", w->domain_max);
+    line(t, "dimensions %d", (int)w->setup.dim);
+    line(t, "dp %.17g", w->setup.dp);
+    line(t, "near radius %.17g", w->setup.re_near);
+    line(t, "far radius %.17g", w->setup.re_far);
+    vector(t, "gravity", w->setup.g);
+    line(t, "velocity scale %.17g", w->setup.velocity_scale);
+    line(t, "kernel %s", w->setup.kernel.id == MPS_KERNEL_IMPROVED ? "improved" : w->setup.kernel.id == MPS_KERNEL_ORIGINAL ? "original" : "custom");
+    if (!w->setup.domain_given) return;
+    vector(t, "domain from", w->setup.domain_min);
+    vector(t, "domain to", w->setup.domain_max);
 }
 
 static void put_phases(const mps__world *w, mps__text *t)
 {
     for (int a = 0; a < MPS__PHASES; a++) {
-        if (!w->phase_defined[a]) continue;
-        line(t, "phase %d density %.17g", a, w->phase_density[a]);
-        line(t, "phase %d viscosity %.17g", a, w->phase_viscosity[a]);
+        if (!w->setup.phase_defined[a]) continue;
+        line(t, "phase %d density %.17g", a, w->setup.phase_density[a]);
+        line(t, "phase %d viscosity %.17g", a, w->setup.phase_viscosity[a]);
         for (int b = 0; b < a; b++)
-            if (w->tension[a * MPS__PHASES + b] >= 0) line(t, "tension of %d and %d %.17g", b, a, w->tension[a * MPS__PHASES + b]);
+            if (w->setup.tension[a * MPS__PHASES + b] >= 0) line(t, "tension of %d and %d %.17g", b, a, w->setup.tension[a * MPS__PHASES + b]);
     }
 }
 
@@ -84,9 +84,9 @@ static void put_solids(const mps_sim *sim, mps__text *t)
     for (int32_t k = 0; k < s->parts; k++) line(t, "part %s", s->part_name[k]);
     line(t, "solid particles %lld", (long long)count);
     line(t, "checksum of their places %llu", (unsigned long long)sum);
-    line(t, "layers of dummies %d", (int)sim->world.layers);
-    for (int32_t k = 0; k < sim->world.screens.count; k++) {
-        const mps__screen *p = &sim->world.screens.list[k];
+    line(t, "layers of dummies %d", (int)sim->world.setup.layers);
+    for (int32_t k = 0; k < sim->world.lists.screens.count; k++) {
+        const mps__screen *p = &sim->world.lists.screens.list[k];
         vector(t, "plate at", p->corner);
         vector(t, "plate facing", p->normal);
         line(t, "plate of %.17g x %.17g", p->length[0], p->length[1]);

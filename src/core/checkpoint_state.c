@@ -16,24 +16,13 @@ typedef struct slot {
 
 static int list_slots(mps__world *w, slot out[SLOTS])
 {
-#define SLOT(member)                          \
-    {                                         \
-#member, &w->member, sizeof w->member \
+#define SLOT(place)                        \
+    {                                      \
+#place, &w->place, sizeof w->place \
     }
-    const slot all[] = {SLOT(info.t),           SLOT(info.step),
-                        SLOT(info.lost),        SLOT(info.crossing_time),
-                        SLOT(window_told),      SLOT(dt_previous),
-                        SLOT(dt_before),        SLOT(start_pending),
-                        SLOT(level_told),       SLOT(moves_told),
-                        SLOT(motion.now),       SLOT(motion.hold),
-                        SLOT(before),           SLOT(jump),
-                        SLOT(spread),           SLOT(particles.next_id),
-                        SLOT(budget.wall_work), SLOT(budget.viscous),
-                        SLOT(budget.collision), SLOT(budget.shift),
-                        SLOT(budget.added),     SLOT(budget.start),
-                        SLOT(budget.momentum),  SLOT(budget.last),
-                        SLOT(budget.deviation), SLOT(budget.deviation_start),
-                        SLOT(budget.started)};
+#define STATE(member) SLOT(state.member),
+    const slot all[] = {MPS__STATE(STATE) SLOT(motion.now), SLOT(motion.hold), SLOT(particles.next_id)};
+#undef STATE
 #undef SLOT
     memcpy(out, all, sizeof all);
     return (int)(sizeof all / sizeof all[0]);
@@ -80,14 +69,14 @@ static void put_particles(const mps__world *w, mps__archive *a)
     char name[MPS__PART_TITLE];
     for (int32_t k = 0; k < s->fields; k++)
         mps__archive_put(a, title(name, "field", s->field[k].name), *s->field[k].data, element(&s->field[k]), s->n);
-    const bool linked = w->linked == s->generation;
-    const lists have = {linked, linked && (w->neighbours.valid || w->listed_at)};
+    const bool linked = w->lists.linked == s->generation;
+    const lists have = {linked, linked && (w->lists.neighbours.valid || w->lists.listed_at)};
     mps__archive_put(a, "lists", &have, sizeof have, 1);
     /* the order of the particles and the time of the next search are those of the last one */
-    if (have.listed && w->listed_at)
-        mps__archive_put(a, "searched", w->listed_at, sizeof(double), s->n * s->dim);
+    if (have.listed && w->lists.listed_at)
+        mps__archive_put(a, "searched", w->lists.listed_at, sizeof(double), s->n * s->dim);
     else if (have.listed)
-        mps__archive_put(a, "searched", w->neighbours.searched, sizeof(double), s->n * s->dim);
+        mps__archive_put(a, "searched", w->lists.neighbours.searched, sizeof(double), s->n * s->dim);
 }
 
 static void put_series(const mps__probes *probes, mps__archive *a)
@@ -182,7 +171,7 @@ static mps_status check_particles(const arrival *v)
     MPS__TRY(check_tags(v, "phase", 0, MPS__PHASES - 1));
     MPS__TRY(check_tags(v, "part", -1, w->particles.parts - 1));
     MPS__TRY(check_tags(v, "wall_of", -1, v->n - 1));
-    return check_tags(v, "plate", 0, w->screens.count);
+    return check_tags(v, "plate", 0, w->lists.screens.count);
 }
 
 static mps_status find_particles(arrival *v)
@@ -279,12 +268,12 @@ static mps_status move_in(arrival *v)
     mps__probes *p = &v->sim->probes;
     MPS__TRY(mps__particles_replace(&w->particles, v->n, v->field));
     for (int k = 0; k < v->count; k++) memcpy(v->slots[k].at, v->value[k], v->slots[k].size);
-    w->linked = v->have.linked ? w->particles.generation : -1;
+    w->lists.linked = v->have.linked ? w->particles.generation : -1;
     mps__plates_set_active(w);
-    w->neighbours.valid = false;
-    w->aside = 0;
-    mps__free(w->context, w->listed_at);
-    w->listed_at = v->listed_at;
+    w->lists.neighbours.valid = false;
+    w->lists.aside = 0;
+    mps__free(w->context, w->lists.listed_at);
+    w->lists.listed_at = v->listed_at;
     v->listed_at = NULL;
     for (int64_t k = 0; k < p->count; k++) {
         if (p->list[k].removed) continue;

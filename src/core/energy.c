@@ -7,23 +7,23 @@
 static void bulk_sums(const mps__world *w, mps_energy *e)
 {
     const mps__particles *s = &w->particles;
-    const double volume = w->dim == 2 ? w->dp * w->dp : w->dp * w->dp * w->dp;
+    const double volume = w->setup.dim == 2 ? w->setup.dp * w->setup.dp : w->setup.dp * w->setup.dp * w->setup.dp;
     int64_t count = 0;
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_FLUID) continue;
         double mass = s->rho[i] * volume;
         e->mass += mass;
-        for (int32_t d = 0; d < w->dim; d++) e->centre[d] += mass * s->x[i * w->dim + d];
+        for (int32_t d = 0; d < w->setup.dim; d++) e->centre[d] += mass * s->x[i * w->setup.dim + d];
         count++;
     }
     e->volume = volume * (double)count;
-    for (int32_t d = 0; d < w->dim; d++)
+    for (int32_t d = 0; d < w->setup.dim; d++)
         if (e->mass > 0) e->centre[d] /= e->mass;
 }
 
 mps_status mps__energy_measure(mps__world *w, mps_energy *e)
 {
-    mps__budget b = w->budget;
+    mps__budget b = w->state.budget;
     mps__budget_update(w, &b);
     *e = (mps_energy){.struct_size = sizeof *e,
                       .kinetic = b.last.kinetic,
@@ -43,10 +43,10 @@ mps_status mps__energy_measure(mps__world *w, mps_energy *e)
 
 void mps__momentum_measure(const mps__world *w, mps_momentum *m)
 {
-    mps__budget b = w->budget;
+    mps__budget b = w->state.budget;
     mps__budget_update(w, &b);
     *m = b.momentum;
     m->struct_size = sizeof *m;
     memcpy(m->total, b.last.momentum, sizeof m->total);
-    for (int d = 0; d < w->dim; d++) m->numerical[d] = m->pressure[d] - m->walls[d];
+    for (int d = 0; d < w->setup.dim; d++) m->numerical[d] = m->pressure[d] - m->walls[d];
 }

@@ -159,7 +159,7 @@ static void print_xml(frame *f)
             byte_order());
     fprintf(f->file,
             "<FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">%s</DataArray></FieldData>\n",
-            number(t, f->series->world->info.t));
+            number(t, f->series->world->state.t));
     fprintf(f->file,
             "<Piece NumberOfPoints=\"%lld\" NumberOfVerts=\"%d\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n",
             (long long)f->points, f->points > 0);
@@ -333,7 +333,7 @@ static mps_status remove_old(const mps_frames *f)
 /* Rounding of a time, as at the end of mps_run(). */
 static double time_slack(const mps_frames *f)
 {
-    return 1e-12 * fmax(1.0, fabs(f->world->info.t));
+    return 1e-12 * fmax(1.0, fabs(f->world->state.t));
 }
 
 static bool read_text(FILE *file, const char *wanted)
@@ -348,7 +348,7 @@ static mps_status read_times(mps_frames *f, FILE *file, bool *good)
 {
     char head[LINE_SIZE], line[LINE_SIZE] = "", wanted[LINE_SIZE];
     const size_t before = strlen(series_time);
-    const double last = f->world->info.t + time_slack(f);
+    const double last = f->world->state.t + time_slack(f);
     bool later = false;
     snprintf(head, sizeof head, series_head, byte_order());
     *good = read_text(file, head);
@@ -435,7 +435,7 @@ mps_status mps__frames_open(mps__world *w, const char *folder, const char *name,
 /* A run that goes on where another was interrupted may write its state again: the frame with the same time is written anew. */
 static bool repeats_last(const mps_frames *f)
 {
-    return f->continues && f->count > 0 && fabs(f->world->info.t - f->times[f->count - 1]) <= time_slack(f);
+    return f->continues && f->count > 0 && fabs(f->world->state.t - f->times[f->count - 1]) <= time_slack(f);
 }
 
 mps_status mps_frames_write(mps_frames *frames)
@@ -450,7 +450,7 @@ mps_status mps_frames_write(mps_frames *frames)
     snprintf(f->path, f->path_size, "%s/%s/%s_%06lld.vtp", f->folder, f->name, f->name, (long long)place);
     MPS__TRY(write_file(f, write_frame));
     if (place < f->count) return MPS_OK;
-    f->times[f->count++] = f->world->info.t;
+    f->times[f->count++] = f->world->state.t;
     mps_status status = update_series(f);
     if (status < 0) f->count--;
     return status;

@@ -3,6 +3,7 @@
 #ifndef MPS_CORE_HOST_H
 #define MPS_CORE_HOST_H
 
+#include "parallel.h"
 #include "plan.h"
 
 typedef struct mps__host {
@@ -12,7 +13,7 @@ typedef struct mps__host {
     mps__particles *particles;
     mps__scratch *scratch; /* lent to the verb in progress: */
     int32_t scratch_used;  /* so many blocks */
-    int32_t threads;
+    const mps_parallel *parallel;
     bool no_memory; /* a verb got no scratch */
     mps__plan plan;
 } mps__host;

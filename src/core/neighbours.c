@@ -19,9 +19,6 @@ enum { MPS__PARTS = 64 };
 /* Functions compiled for each constant `dim`. */
 #define MPS__DIM_INLINE static inline __attribute__((always_inline))
 
-/* Skin [dp]: a search is good until some particle moved half of it. At the default CFL of 0.3 that is every other step at least. */
-static const double skin_of_dp = 0.62;
-
 /* Pairs nearer than this [dp] have no direction and are left out: they are the two faces of a thin plate. */
 static const double coincident = 1e-6;
 
@@ -30,36 +27,53 @@ typedef struct cell_map {
     int bits, dim;
 } cell_map;
 
-mps_status mps__neighbours_init(mps_neighbours *l, mps__context *context, int32_t dim, double dp)
-{
-    *l = (mps_neighbours){.context = context, .dim = dim, .dp = dp, .threads = 1, .skin = skin_of_dp * dp, .shared = &l->own_scratch};
-    return MPS_OK;
-}
+/* A list and positions that are not, or not yet, its own. */
+typedef struct cloud {
+    const mps_neighbours *l;
+    const double *x;
+} cloud;
 
-void mps__neighbours_free(mps_neighbours *l)
+/* Largest square of a way since the last search. */
+static void moved_rows(void *argument, int64_t begin, int64_t end, double *values)
 {
-    void *all[] = {l->near_begin, l->near_col, l->begin, l->middle, l->far_end, l->col, l->w_r2, l->searched, l->idle, l->scratch};
-    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) mps__free(l->context, all[k]);
-    mps__scratch_free(l->context, &l->own_scratch);
-    mps__neighbours_init(l, l->context, l->dim, l->dp);
-}
-
-bool mps__neighbours_fresh(const mps_neighbours *l, int64_t n, const double *x, double re_far)
-{
-    if (!l->valid || n != l->n || re_far != l->re_far) return false;
-    const double limit = 0.25 * l->skin * l->skin;
-    double worst = 0;
-    const int dim = l->dim;
-#pragma omp parallel for num_threads(l->threads) reduction(max : worst) schedule(static)
-    for (int64_t i = 0; i < n; i++) {
+    const cloud *c = argument;
+    const int dim = c->l->dim;
+    const double *x = c->x, *searched = c->l->searched;
+    double worst = values[0];
+    for (int64_t i = begin; i < end; i++) {
         double s = 0;
         for (int d = 0; d < dim; d++) {
-            double m = x[i * dim + d] - l->searched[i * dim + d];
+            double m = x[i * dim + d] - searched[i * dim + d];
             s += m * m;
         }
         if (s > worst) worst = s;
     }
-    return worst < limit;
+    values[0] = worst;
+}
+
+bool mps__neighbours_fresh(const mps_neighbours *l, int64_t n, const double *x, double re_far)
+{
+    double worst = 0;
+    if (!l->valid || n != l->n || re_far != l->re_far) return false;
+    mps_parallel_max(l->parallel, n, 1, moved_rows, &(cloud){l, x}, &worst);
+    return worst < 0.25 * l->skin * l->skin;
+}
+
+/* Upper corner of the particles' box, and the negative of the lower one. */
+static void corner_rows(void *argument, int64_t begin, int64_t end, double *values)
+{
+    const cloud *c = argument;
+    const int dim = c->l->dim;
+    for (int d = 0; d < dim; d++) {
+        double hi = values[d], lo = values[dim + d];
+        for (int64_t i = begin; i < end; i++) {
+            const double v = c->x[i * dim + d];
+            if (v > hi) hi = v;
+            if (-v > lo) lo = -v;
+        }
+        values[d] = hi;
+        values[dim + d] = lo;
+    }
 }
 
 /* Box of the particles and the packing of cell numbers into keys. */
@@ -67,14 +81,10 @@ static mps_status map_cells(mps_neighbours *l, int64_t n, const double *x, doubl
 {
     *m = (cell_map){.size = size, .dim = l->dim, .bits = l->dim == 2 ? MPS__BITS_2D : MPS__BITS_3D};
     const double limit = (double)(INT64_C(1) << m->bits) - 4.0;
+    double corner[6] = {-INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY};
+    mps_parallel_max(l->parallel, n, 2 * l->dim, corner_rows, &(cloud){l, x}, corner);
     for (int d = 0; d < l->dim; d++) {
-        double lo = x[d], hi = x[d];
-#pragma omp parallel for num_threads(l->threads) reduction(min : lo) reduction(max : hi) schedule(static)
-        for (int64_t i = 1; i < n; i++) {
-            const double v = x[i * l->dim + d];
-            if (v < lo) lo = v;
-            if (v > hi) hi = v;
-        }
+        const double lo = -corner[l->dim + d], hi = corner[d];
         int64_t far = 0;
         while ((hi - lo) / size >= limit && x[far * l->dim + d] != hi) far++;
         MPS__CHECK(l->context, (hi - lo) / size < limit, "particles lie %g m apart along axis %d (particle %lld at %g): at most %g m",
@@ -89,34 +99,6 @@ static uint64_t cell_key(const cell_map *m, const double *x)
     uint64_t key = 0;
     for (int d = m->dim - 1; d >= 0; d--) key = (key << m->bits) | (uint64_t)((x[d] - m->lo[d]) / m->size);
     return key;
-}
-
-/* Stable least-significant-digit radix sort of (key, order); only digits that differ are passed over. */
-static void sort_keys(uint64_t *key, int32_t *order, int64_t n)
-{
-    uint64_t *k0 = key, *k1 = key + n;
-    int32_t *o0 = order, *o1 = order + n;
-    uint64_t differ = 0;
-    for (int64_t i = 1; i < n; i++) differ |= k0[i] ^ k0[0];
-    for (int shift = 0; shift < 64; shift += 8) {
-        if (!((differ >> shift) & 255)) continue;
-        int64_t count[257] = {0};
-        for (int64_t i = 0; i < n; i++) count[((k0[i] >> shift) & 255) + 1]++;
-        for (int b = 0; b < 256; b++) count[b + 1] += count[b];
-        for (int64_t i = 0; i < n; i++) {
-            int64_t to = count[(k0[i] >> shift) & 255]++;
-            k1[to] = k0[i];
-            o1[to] = o0[i];
-        }
-        uint64_t *k = k0;
-        int32_t *o = o0;
-        k0 = k1, k1 = k;
-        o0 = o1, o1 = o;
-    }
-    if (k0 != key) {
-        memcpy(key, k0, (size_t)n * sizeof *key);
-        memcpy(order, o0, (size_t)n * sizeof *order);
-    }
 }
 
 static mps_status reserve(mps_neighbours *l, int64_t n)
@@ -163,6 +145,21 @@ static mps_status check_crowds(const mps_neighbours *l, int64_t n, const double 
     return MPS_OK;
 }
 
+typedef struct keying {
+    mps_neighbours *l;
+    const cell_map *m;
+    const double *x;
+} keying;
+
+static void key_rows(void *argument, int64_t begin, int64_t end)
+{
+    const keying *k = argument;
+    for (int64_t i = begin; i < end; i++) {
+        k->l->key[i] = cell_key(k->m, k->x + i * k->l->dim);
+        k->l->order[i] = (int32_t)i;
+    }
+}
+
 static mps_status sort_cells(mps_neighbours *l, int64_t n, const double *x, double re_far, cell_map *m)
 {
     l->valid = l->sorted = false;
@@ -171,12 +168,8 @@ static mps_status sort_cells(mps_neighbours *l, int64_t n, const double *x, doub
     l->order = mps__scratch_take(l->context, l->shared, 1, 2 * n, sizeof *l->order);
     if (!l->key || !l->order) return MPS_E_NOMEM;
     MPS__TRY(map_cells(l, n, x, re_far + l->skin, m));
-#pragma omp parallel for num_threads(l->threads) schedule(static)
-    for (int64_t i = 0; i < n; i++) {
-        l->key[i] = cell_key(m, x + i * l->dim);
-        l->order[i] = (int32_t)i;
-    }
-    sort_keys(l->key, l->order, n);
+    mps_parallel_rows(l->parallel, n, key_rows, &(keying){l, m, x});
+    mps__sort_keys(l->key, l->order, n);
     return check_crowds(l, n, x, m->size);
 }
 
@@ -242,10 +235,10 @@ static void sort_row(int32_t *row, int64_t n)
 
 /* Positions of the sorted places, one axis after the other, so that loops over places run along memory. They borrow
  * l->searched, which takes its own values after the search. */
-static void gather_places(mps_neighbours *l)
+static void gather_places(void *argument, int64_t begin, int64_t end)
 {
-#pragma omp parallel for num_threads(l->threads) schedule(static)
-    for (int64_t a = 0; a < l->n; a++)
+    mps_neighbours *l = argument;
+    for (int64_t a = begin; a < end; a++)
         for (int d = 0; d < l->dim; d++) l->searched[d * l->n + a] = l->x[(int64_t)l->order[a] * l->dim + d];
 }
 
@@ -335,15 +328,24 @@ MPS__DIM_INLINE void search_cell(mps_neighbours *l, const cell_map *m, int64_t f
     }
 }
 
-static void search_cells(mps_neighbours *l, const cell_map *m, double reach, bool fill)
+typedef struct searching {
+    mps_neighbours *l;
+    const cell_map *m;
+    double reach;
+    bool fill;
+} searching;
+
+/* The cells that begin in one of MPS__PARTS parts of the sorted places. */
+static void search_part(void *argument, int32_t part)
 {
-#pragma omp parallel for num_threads(l->threads) schedule(dynamic, 256)
-    for (int64_t a = 0; a < l->n; a++) {
+    const searching *s = argument;
+    mps_neighbours *l = s->l;
+    for (int64_t a = l->n * part / MPS__PARTS; a < l->n * (part + 1) / MPS__PARTS; a++) {
         if (a > 0 && l->key[a] == l->key[a - 1]) continue;
         if (l->dim == 2)
-            search_cell(l, m, a, reach * reach, fill, 2);
+            search_cell(l, s->m, a, s->reach * s->reach, s->fill, 2);
         else
-            search_cell(l, m, a, reach * reach, fill, 3);
+            search_cell(l, s->m, a, s->reach * s->reach, s->fill, 3);
     }
 }
 
@@ -369,10 +371,10 @@ mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x,
     l->x = x;
     l->re_near = re_near;
     l->re_far = re_far;
-    const double reach = re_far + l->skin;
+    searching s = {.l = l, .m = &m, .reach = re_far + l->skin};
     l->begin[0] = 0;
-    gather_places(l);
-    search_cells(l, &m, reach, false);
+    mps_parallel_rows(l->parallel, n, gather_places, l);
+    mps_parallel_run(l->parallel, MPS__PARTS, search_part, &s);
     l->longest = 0;
     for (int64_t i = 0; i < n; i++) {
         if (l->begin[i + 1] > l->longest) l->longest = l->begin[i + 1];
@@ -382,7 +384,8 @@ mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x,
     l->end = re_near < re_far ? l->far_end : l->middle;
     MPS__TRY(fit(l, (void **)&l->scratch, &l->scratch_capacity, MPS__PARTS * 2 * l->longest, sizeof *l->scratch));
     MPS__TRY(fit(l, (void **)&l->col, &l->pair_capacity, l->begin[n], sizeof *l->col));
-    search_cells(l, &m, reach, true);
+    s.fill = true;
+    mps_parallel_run(l->parallel, MPS__PARTS, search_part, &s);
     for (int64_t i = 0; i < n; i++) l->middle[i] = l->end[i] = l->begin[i]; /* not parted yet */
     memcpy(l->searched, x, (size_t)(n * l->dim) * sizeof *x);
     l->kind = NULL;
@@ -456,32 +459,35 @@ static int64_t keep_visible(mps_neighbours *l, const mps__seer *a, int64_t from,
 }
 
 /* What screens hide goes behind the others. */
-static void screen_rows(mps_neighbours *l)
+static void screen_rows(void *argument, int64_t begin, int64_t end)
 {
-#pragma omp parallel for num_threads(l->threads) schedule(static)
-    for (int64_t k = 0; k < l->screens->seers; k++) {
+    mps_neighbours *l = argument;
+    for (int64_t k = begin; k < end; k++) {
         const mps__seer *a = &l->screens->seer[k];
-        const int64_t i = a->particle, middle = l->middle[i], end = l->end[i];
+        const int64_t i = a->particle, middle = l->middle[i], last = l->end[i];
         l->middle[i] = keep_visible(l, a, l->begin[i], middle, l->begin[i]);
-        l->end[i] = keep_visible(l, a, middle, end, l->middle[i]);
+        l->end[i] = keep_visible(l, a, middle, last, l->middle[i]);
+    }
+}
+
+static void exact_part(void *argument, int32_t part)
+{
+    mps_neighbours *l = argument;
+    const rings g = {coincident * coincident * l->dp * l->dp, l->re_near * l->re_near, l->re_far * l->re_far};
+    int32_t *scratch = l->scratch + 2 * l->longest * part;
+    for (int64_t i = l->n * part / MPS__PARTS; i < l->n * (part + 1) / MPS__PARTS; i++) {
+        if (l->dim == 2)
+            exact_row(l, i, &g, scratch, 2);
+        else
+            exact_row(l, i, &g, scratch, 3);
     }
 }
 
 void mps__neighbours_rows(mps_neighbours *l, const double *x)
 {
-    const rings g = {coincident * coincident * l->dp * l->dp, l->re_near * l->re_near, l->re_far * l->re_far};
     l->x = x;
-#pragma omp parallel for num_threads(l->threads) schedule(static)
-    for (int part = 0; part < MPS__PARTS; part++) {
-        int32_t *scratch = l->scratch + 2 * l->longest * part;
-        for (int64_t i = l->n * part / MPS__PARTS; i < l->n * (part + 1) / MPS__PARTS; i++) {
-            if (l->dim == 2)
-                exact_row(l, i, &g, scratch, 2);
-            else
-                exact_row(l, i, &g, scratch, 3);
-        }
-    }
-    if (l->screens && l->screens->count > 0) screen_rows(l);
+    mps_parallel_run(l->parallel, MPS__PARTS, exact_part, l);
+    if (l->screens && l->screens->count > 0) mps_parallel_rows(l->parallel, l->screens->seers, screen_rows, l);
 }
 
 mps_status mps__neighbours_near(mps_neighbours *l)
@@ -490,67 +496,4 @@ mps_status mps__neighbours_near(mps_neighbours *l)
     for (int64_t i = 0; i < l->n; i++) l->near_begin[i + 1] = l->near_begin[i] + l->middle[i] - l->begin[i];
     MPS__TRY(fit(l, (void **)&l->near_col, &l->near_capacity, l->near_begin[l->n], sizeof *l->near_col));
     return fit(l, (void **)&l->w_r2, &l->weight_capacity, l->near_begin[l->n], sizeof *l->w_r2);
-}
-
-/* ---- a list that stands alone ---------------------------------------------------------------------------------- */
-
-mps_status mps_neighbours_create(int32_t dim, double dp, const mps_allocator *allocator, mps_neighbours **list)
-{
-    if (!list) return MPS_E_ARG;
-    *list = NULL;
-    if ((dim != 2 && dim != 3) || !(dp > 0) || !isfinite(dp)) return MPS_E_ARG;
-    if (allocator && (!allocator->alloc || !allocator->release)) return MPS_E_ARG;
-    mps__context c = {.allocator = allocator ? *allocator : mps__allocator_default()};
-    mps_neighbours *l = mps__alloc(&c, 1, sizeof *l);
-    if (!l) return MPS_E_NOMEM;
-    mps__neighbours_init(l, NULL, dim, dp);
-    l->own = c;
-    l->context = &l->own;
-    *list = l;
-    return MPS_OK;
-}
-
-void mps_neighbours_destroy(mps_neighbours *list)
-{
-    if (!list) return;
-    mps__context c = list->own;
-    mps__neighbours_free(list);
-    mps__free(&c, list);
-}
-
-mps_status mps_neighbours_build(mps_neighbours *list, int64_t n, const double *x, double re_near, double re_far)
-{
-    if (!list) return MPS_E_ARG;
-    list->valid = false;
-    list->n = 0;
-    if (!x || n < 1 || n > INT32_MAX || !(re_near > 0) || !(re_far >= re_near) || !isfinite(re_far)) return MPS_E_ARG;
-    if (!mps__finite(x, n * list->dim)) return MPS_E_ARG;
-    list->skin = 0; /* every build searches anew */
-    mps_status status = mps__neighbours_search(list, n, x, re_near, re_far);
-    if (status == MPS_OK)
-        mps__neighbours_rows(list, x);
-    else
-        list->n = 0;
-    return status;
-}
-
-mps_status mps_neighbours_stencil(const mps_neighbours *list, int32_t which, const mps_kernel *kernel, mps_stencil *stencil)
-{
-    if (!list || !kernel || !stencil || list->n == 0 || (which != MPS_NEAR && which != MPS_FAR)) return MPS_E_ARG;
-    double re = which == MPS_NEAR ? list->re_near : list->re_far, n0, lambda;
-    MPS__TRY(mps_lattice_constants(kernel, list->dim, list->dp, re, &n0, &lambda));
-    *stencil = (mps_stencil){.struct_size = sizeof *stencil,
-                             .dim = list->dim,
-                             .n = list->n,
-                             .dp = list->dp,
-                             .re = re,
-                             .n0 = n0,
-                             .lambda = lambda,
-                             .kernel = *kernel,
-                             .threads = list->threads,
-                             .x = list->x,
-                             .begin = list->begin,
-                             .end = which == MPS_NEAR ? list->middle : list->end,
-                             .col = list->col};
-    return MPS_OK;
 }

@@ -3,7 +3,7 @@
 #ifndef MPS_CORE_NEIGHBOURS_H
 #define MPS_CORE_NEIGHBOURS_H
 
-#include "base.h"
+#include "parallel.h"
 #include "screens.h"
 #include <mps/operators.h>
 
@@ -11,8 +11,10 @@
  * do not depend on how the list was found. Up to begin[i+1] follow those that may come within reach before the next search. */
 struct mps_neighbours {
     mps__context *context;
-    mps__context own; /* context of a list that stands alone */
-    int32_t dim, threads;
+    mps__context own;             /* context of a list that stands alone */
+    const mps_parallel *parallel; /* NULL: the calling thread */
+    mps__pool pool;               /* of a list that stands alone */
+    int32_t dim;
     double dp, skin, re_near, re_far;
     int64_t n, capacity, pair_capacity, near_capacity, weight_capacity, scratch_capacity, far_capacity;
     const double *x;
@@ -51,5 +53,7 @@ mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x,
 void mps__neighbours_rows(mps_neighbours *l, const double *x);
 /* Set l->near_begin and make room for what stands in its rows. */
 mps_status mps__neighbours_near(mps_neighbours *l);
+/* Sort cell keys and the particles' numbers with them; both have room for 2 n. neighbours_sort.c */
+void mps__sort_keys(uint64_t *key, int32_t *order, int64_t n);
 
 #endif

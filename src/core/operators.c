@@ -73,6 +73,15 @@ static void inverse_bounded(const double *m, int dim, double least, double *inve
         }
 }
 
+/* What the rows of an operator look at; each uses its own. */
+typedef struct loop {
+    const mps_stencil *s;
+    const double *b, *f; /* correction, field */
+    double *out;
+    double sign, least;
+    const mps__weighed *weighed;
+} loop;
+
 /* Pairs worked on at a time: the longest usual row, for buffers on the stack. */
 enum { MPS__PAIRS = 64 };
 
@@ -88,13 +97,10 @@ enum { MPS__PAIRS = 64 };
 #undef MPS__DIM
 #undef MPS__NAME
 
-#define DISPATCH(s, f, ...)           \
-    do {                              \
-        if ((s)->dim == 2)            \
-            f##_2d((s), __VA_ARGS__); \
-        else                          \
-            f##_3d((s), __VA_ARGS__); \
-    } while (0)
+/* All rows of an operator, on the threads of the stencil. */
+#define RUN(s, operator, ...)                                                                         \
+    mps_parallel_rows((s)->parallel, (s)->n, (s)->dim == 2 ? operator##_rows_2d : operator##_rows_3d, \
+                      &(loop){.s = (s), __VA_ARGS__})
 
 static bool usable(const mps_stencil *s)
 {
@@ -104,76 +110,76 @@ static bool usable(const mps_stencil *s)
 
 void mps__op_weigh(const mps_stencil *s, const mps__weighed *out)
 {
-    DISPATCH(s, weigh, out);
+    RUN(s, weigh, .weighed = out);
 }
 
 mps_status mps_op_number_density(const mps_stencil *s, double *n)
 {
     if (!usable(s) || !n) return MPS_E_ARG;
-    DISPATCH(s, number_density, n);
+    RUN(s, number_density, .out = n);
     return MPS_OK;
 }
 
 mps_status mps_op_gradient(const mps_stencil *s, const double *f, double *grad)
 {
     if (!usable(s) || !f || !grad) return MPS_E_ARG;
-    DISPATCH(s, gradient, -1.0, f, grad);
+    RUN(s, gradient, .sign = -1.0, .f = f, .out = grad);
     return MPS_OK;
 }
 
 mps_status mps_op_gradient_conservative(const mps_stencil *s, const double *f, double *grad)
 {
     if (!usable(s) || !f || !grad) return MPS_E_ARG;
-    DISPATCH(s, gradient, 1.0, f, grad);
+    RUN(s, gradient, .sign = 1.0, .f = f, .out = grad);
     return MPS_OK;
 }
 
 mps_status mps_op_gradient_corrected(const mps_stencil *s, const double *b, const double *f, double *grad)
 {
     if (!usable(s) || !b || !f || !grad) return MPS_E_ARG;
-    DISPATCH(s, gradient_corrected, b, f, grad);
+    RUN(s, gradient_corrected, .b = b, .f = f, .out = grad);
     return MPS_OK;
 }
 
 mps_status mps_op_divergence(const mps_stencil *s, const double *u, double *div)
 {
     if (!usable(s) || !u || !div) return MPS_E_ARG;
-    DISPATCH(s, divergence, NULL, u, div);
+    RUN(s, divergence, .f = u, .out = div);
     return MPS_OK;
 }
 
 mps_status mps_op_divergence_corrected(const mps_stencil *s, const double *b, const double *u, double *div)
 {
     if (!usable(s) || !b || !u || !div) return MPS_E_ARG;
-    DISPATCH(s, divergence, b, u, div);
+    RUN(s, divergence, .b = b, .f = u, .out = div);
     return MPS_OK;
 }
 
 mps_status mps_op_laplacian(const mps_stencil *s, const double *f, double *lap)
 {
     if (!usable(s) || !f || !lap) return MPS_E_ARG;
-    DISPATCH(s, laplacian, f, lap);
+    RUN(s, laplacian, .f = f, .out = lap);
     return MPS_OK;
 }
 
 mps_status mps_op_laplacian_vector(const mps_stencil *s, const double *u, double *lap)
 {
     if (!usable(s) || !u || !lap) return MPS_E_ARG;
-    DISPATCH(s, laplacian_vector, u, lap);
+    RUN(s, laplacian_vector, .f = u, .out = lap);
     return MPS_OK;
 }
 
 mps_status mps_op_asymmetry(const mps_stencil *s, double *a)
 {
     if (!usable(s) || !a) return MPS_E_ARG;
-    DISPATCH(s, asymmetry, a);
+    RUN(s, asymmetry, .out = a);
     return MPS_OK;
 }
 
 mps_status mps_op_correction(const mps_stencil *s, double floor, double *b)
 {
     if (!usable(s) || !b || !(floor > 0) || !isfinite(floor)) return MPS_E_ARG;
-    DISPATCH(s, correction, floor, b);
+    RUN(s, correction, .least = floor, .out = b);
     return MPS_OK;
 }
 

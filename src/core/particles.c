@@ -171,22 +171,30 @@ static void gather(char *to, const char *from, const int32_t *order, int64_t fir
 #undef GATHER
 }
 
+typedef struct move {
+    char *data, *scratch;
+    const int32_t *order;
+    size_t bytes; /* of an element */
+} move;
+
+static void gather_rows(void *argument, int64_t begin, int64_t end)
+{
+    const move *m = argument;
+    gather(m->scratch, m->data, m->order, begin, end, m->bytes);
+}
+
+static void store_rows(void *argument, int64_t begin, int64_t end)
+{
+    const move *m = argument;
+    memcpy(m->data + (size_t)begin * m->bytes, m->scratch + (size_t)begin * m->bytes, (size_t)(end - begin) * m->bytes);
+}
+
 /* One array through `scratch`, as large as the array. */
 static void permute_field(mps__particles *s, const mps__field *f, int64_t count, const int32_t *order, char *scratch)
 {
-    enum { PARTS = 64 };
-    const size_t bytes = stride(f);
-    char *data = *f->data;
-#pragma omp parallel num_threads(s->threads > 1 ? s->threads : 1)
-    {
-#pragma omp for schedule(static)
-        for (int p = 0; p < PARTS; p++) gather(scratch, data, order, count * p / PARTS, count * (p + 1) / PARTS, bytes);
-#pragma omp for schedule(static)
-        for (int p = 0; p < PARTS; p++) {
-            const size_t from = (size_t)(count * p / PARTS) * bytes, to = (size_t)(count * (p + 1) / PARTS) * bytes;
-            memcpy(data + from, scratch + from, to - from);
-        }
-    }
+    move m = {.data = *f->data, .scratch = scratch, .order = order, .bytes = stride(f)};
+    mps_parallel_rows_least(s->parallel, count, MPS__ROWS_CHEAP, gather_rows, &m);
+    mps_parallel_rows_least(s->parallel, count, MPS__ROWS_CHEAP, store_rows, &m);
 }
 
 mps_status mps__particles_permute(mps__particles *s, int64_t count, const int32_t *order)

@@ -3,7 +3,7 @@
 #ifndef MPS_CORE_PARTICLES_H
 #define MPS_CORE_PARTICLES_H
 
-#include "base.h"
+#include "parallel.h"
 
 enum { MPS__FIELDS_MAX = 32, MPS__PHASES = 16, MPS__PARTS_MAX = 64, MPS__PART_NAME = 32 };
 
@@ -25,7 +25,8 @@ typedef struct mps__field {
 
 typedef struct mps__particles {
     mps__context *context;
-    int32_t dim, threads; /* threads: to move particles with, 0: one */
+    int32_t dim;
+    const mps_parallel *parallel; /* to move particles with; NULL: the calling thread */
     int64_t n, capacity, next_id;
     double *x, *u;        /* [n*dim] */
     double *p, *nd, *rho; /* [n] pressure, number density, density */

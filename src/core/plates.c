@@ -8,19 +8,19 @@ static const double above_face = 1e-5, off_plane = 1e-2;
 
 static void wall_sight(const mps__world *w, int64_t i, double at[3])
 {
-    const double *area = w->particles.area + i * w->dim, size = sqrt(mps__dot(area, area, w->dim));
-    for (int d = 0; d < w->dim; d++) at[d] = w->particles.ref[i * w->dim + d] + (size > 0 ? above_face * w->dp * area[d] / size : 0);
+    const double *area = w->particles.area + i * w->setup.dim, size = sqrt(mps__dot(area, area, w->setup.dim));
+    for (int d = 0; d < w->setup.dim; d++) at[d] = w->particles.ref[i * w->setup.dim + d] + (size > 0 ? above_face * w->setup.dp * area[d] / size : 0);
 }
 
 /* Fluid in the very plane of a plate, beyond its edge, would see both of its faces: it is put on one side. */
 static void fluid_sight(const mps__world *w, const double *x, double at[3])
 {
     mps__motion_to_tank(&w->motion, &w->motion.now, x, at);
-    for (int32_t k = 0; k < w->screens.count; k++) {
-        const mps__screen *s = &w->screens.list[k];
-        const double height = mps__screen_height(s, at), least = height < 0 ? -off_plane * w->dp : off_plane * w->dp;
+    for (int32_t k = 0; k < w->lists.screens.count; k++) {
+        const mps__screen *s = &w->lists.screens.list[k];
+        const double height = mps__screen_height(s, at), least = height < 0 ? -off_plane * w->setup.dp : off_plane * w->setup.dp;
         if (fabs(height) >= fabs(least)) continue;
-        for (int d = 0; d < w->dim; d++) at[d] += (least - height) * s->normal[d];
+        for (int d = 0; d < w->setup.dim; d++) at[d] += (least - height) * s->normal[d];
     }
 }
 
@@ -29,26 +29,26 @@ static void sight(const mps__world *w, int64_t i, double at[3])
     const mps__particles *s = &w->particles;
     at[2] = 0;
     if (s->kind[i] == MPS_FLUID)
-        fluid_sight(w, s->x + i * w->dim, at);
+        fluid_sight(w, s->x + i * w->setup.dim, at);
     else if (s->kind[i] == MPS_WALL)
         wall_sight(w, i, at);
     else
-        memcpy(at, s->ref + i * w->dim, (size_t)w->dim * sizeof *at);
+        memcpy(at, s->ref + i * w->setup.dim, (size_t)w->setup.dim * sizeof *at);
 }
 
 /* Near enough to be, until the next search, the partner of a particle or of a shadow beyond some screen. */
 static bool near_screen(const mps__world *w, const double *X)
 {
-    const double depth = fmax(3 * w->dp, w->re_far), reach = w->re_far + depth + w->neighbours.skin;
-    for (int32_t k = 0; k < w->screens.count; k++)
-        if (mps__screen_distance(&w->screens.list[k], X) < reach) return true;
+    const double depth = fmax(3 * w->setup.dp, w->setup.re_far), reach = w->setup.re_far + depth + w->lists.neighbours.skin;
+    for (int32_t k = 0; k < w->lists.screens.count; k++)
+        if (mps__screen_distance(&w->lists.screens.list[k], X) < reach) return true;
     return false;
 }
 
 void mps__plates_set_active(mps__world *w)
 {
     const mps__particles *s = &w->particles;
-    mps__screens *p = &w->screens;
+    mps__screens *p = &w->lists.screens;
     for (int32_t k = 0; k < p->count; k++) p->list[k].active = false;
     for (int64_t i = 0; i < s->n; i++)
         if (s->plate[i] > 0 && s->kind[i] == MPS_WALL && s->part[i] == p->list[s->plate[i] - 1].part)
@@ -58,7 +58,7 @@ void mps__plates_set_active(mps__world *w)
 mps_status mps__plates_find(mps__world *w)
 {
     const mps__particles *s = &w->particles;
-    mps__screens *p = &w->screens;
+    mps__screens *p = &w->lists.screens;
     if (p->count == 0) return MPS_OK;
     mps__plates_set_active(w);
     MPS__TRY(mps__grow(w->context, (void **)&p->slot, &p->slot_capacity, 0, s->n, sizeof *p->slot));
@@ -76,11 +76,11 @@ mps_status mps__plates_find(mps__world *w)
     return MPS_OK;
 }
 
-void mps__plates_look(mps__world *w)
+static void look_rows(void *argument, int64_t begin, int64_t end)
 {
-    mps__screens *p = &w->screens;
-#pragma omp parallel for num_threads(w->threads) schedule(static)
-    for (int64_t k = 0; k < p->seers; k++) {
+    mps__world *w = argument;
+    mps__screens *p = &w->lists.screens;
+    for (int64_t k = begin; k < end; k++) {
         mps__seer *seer = &p->seer[k];
         if (w->particles.kind[seer->particle] != MPS_FLUID) continue;
         sight(w, seer->particle, seer->at);
@@ -88,28 +88,33 @@ void mps__plates_look(mps__world *w)
     }
 }
 
+void mps__plates_look(mps__world *w)
+{
+    mps_parallel_rows(&w->pool.parallel, w->lists.screens.seers, look_rows, w);
+}
+
 /* Back to the height it had, with the velocity along the plate. */
 static void stop(mps__world *w, const mps__pose *end, int64_t i, const mps__screen *s, double height, double X[3])
 {
-    double *x = w->particles.x + i * w->dim, *u = w->particles.u + i * w->dim, n[3], v[3], approach = 0;
+    double *x = w->particles.x + i * w->setup.dim, *u = w->particles.u + i * w->setup.dim, n[3], v[3], approach = 0;
     const double back = height - mps__screen_height(s, X);
-    for (int d = 0; d < w->dim; d++) X[d] += back * s->normal[d];
+    for (int d = 0; d < w->setup.dim; d++) X[d] += back * s->normal[d];
     mps__motion_point(&w->motion, end, X, x, v, NULL);
     mps__motion_rotate(&w->motion, end, s->normal, n);
-    for (int d = 0; d < w->dim; d++) approach += (u[d] - v[d]) * n[d];
-    for (int d = 0; d < w->dim; d++) u[d] -= approach * height < 0 ? approach * n[d] : 0;
+    for (int d = 0; d < w->setup.dim; d++) approach += (u[d] - v[d]) * n[d];
+    for (int d = 0; d < w->setup.dim; d++) u[d] -= approach * height < 0 ? approach * n[d] : 0;
 }
 
 void mps__plates_stop(mps__world *w, const mps__pose *end)
 {
-    const mps__screens *p = &w->screens;
+    const mps__screens *p = &w->lists.screens;
     if (p->count == 0) return;
     for (int64_t k = 0; k < p->seers; k++) {
         const mps__seer *seer = &p->seer[k];
         const int64_t i = seer->particle;
         double X[3] = {0};
         if (w->particles.kind[i] != MPS_FLUID) continue;
-        mps__motion_to_tank(&w->motion, end, w->particles.x + i * w->dim, X);
+        mps__motion_to_tank(&w->motion, end, w->particles.x + i * w->setup.dim, X);
         for (int32_t m = 0; m < p->count; m++)
             if (p->list[m].active && mps__screen_crossed(&p->list[m], seer->at, X))
                 stop(w, end, i, &p->list[m], mps__screen_height(&p->list[m], seer->at), X);
@@ -118,26 +123,26 @@ void mps__plates_stop(mps__world *w, const mps__pose *end)
 
 bool mps__plates_hide(const mps__world *w, const double *X, int64_t i)
 {
-    if (w->screens.count == 0) return false;
+    if (w->lists.screens.count == 0) return false;
     mps__seer from = {0}, to = {0};
     if (mps__is_shadow(&w->particles, i)) return true;
-    memcpy(from.at, X, (size_t)w->dim * sizeof *X);
+    memcpy(from.at, X, (size_t)w->setup.dim * sizeof *X);
     sight(w, i, to.at);
-    mps__screens_sides(&w->screens, &from);
-    mps__screens_sides(&w->screens, &to);
-    return mps__screens_hidden(&w->screens, &from, &to);
+    mps__screens_sides(&w->lists.screens, &from);
+    mps__screens_sides(&w->lists.screens, &to);
+    return mps__screens_hidden(&w->lists.screens, &from, &to);
 }
 
 int32_t mps__plates_part(const mps__world *w, int64_t i, int d)
 {
     const int32_t plate = w->particles.plate[i];
-    if (plate == 0 || w->screens.list[plate - 1].axis != d || w->particles.area[i * w->dim + d] == 0) return -1;
-    return w->screens.list[plate - 1].part;
+    if (plate == 0 || w->lists.screens.list[plate - 1].axis != d || w->particles.area[i * w->setup.dim + d] == 0) return -1;
+    return w->lists.screens.list[plate - 1].part;
 }
 
 double mps__plates_share(const mps__world *w, int64_t i)
 {
     const mps__particles *s = &w->particles;
-    if (s->plate[i] == 0 || s->kind[i] != MPS_WALL || w->screens.list[s->plate[i] - 1].columns > 1) return 1;
-    return mps__dot(s->area + i * w->dim, w->screens.list[s->plate[i] - 1].normal, w->dim) != 0 ? 0.5 : 1;
+    if (s->plate[i] == 0 || s->kind[i] != MPS_WALL || w->lists.screens.list[s->plate[i] - 1].columns > 1) return 1;
+    return mps__dot(s->area + i * w->setup.dim, w->lists.screens.list[s->plate[i] - 1].normal, w->setup.dim) != 0 ? 0.5 : 1;
 }

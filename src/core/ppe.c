@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Assembly of the pressure equation, W22 (10)(16)(17): a row for every unknown, Dirichlet neighbours moved to the right side. */
 #include "ppe.h"
+#include "parallel.h"
 #include <math.h>
 #include <mps/model.h>
 #include <mps/operators.h>
@@ -111,16 +112,18 @@ static mps_status reserve_laws(const assembly *a)
     return MPS_OK;
 }
 
+static bool is_unknown_row(const void *argument, int64_t i)
+{
+    return is_unknown(argument, i);
+}
+
 /* Unknowns in the order of the particles. */
 static mps_status number_rows(const assembly *a)
 {
     mps__ppe *e = a->e;
     int64_t rows = 0;
-#pragma omp parallel for num_threads(a->t->threads) reduction(+ : rows) schedule(static)
-    for (int64_t i = 0; i < a->s->n; i++) rows += is_unknown(a, i);
-    e->n = rows;
+    e->n = mps__parallel_count(a->pairs->parallel, a->s->n, is_unknown_row, a);
     MPS__TRY(reserve_rows(a));
-    rows = 0;
     for (int64_t i = 0; i < a->s->n; i++) {
         const bool solved = is_unknown(a, i);
         e->unknown[i] = solved ? (int32_t)rows : -1;
@@ -142,13 +145,18 @@ static int64_t count_row(const assembly *a, int64_t r)
     return count;
 }
 
+static void count_rows(void *argument, int64_t begin, int64_t end)
+{
+    const assembly *a = argument;
+    for (int64_t r = begin; r < end; r++) a->e->row[r + 1] = count_row(a, r);
+}
+
 /* Row starts. Returns the entries of all. */
-static int64_t start_rows(const assembly *a)
+static int64_t start_rows(assembly *a)
 {
     mps__ppe *e = a->e;
     e->row[0] = 0;
-#pragma omp parallel for num_threads(a->t->threads) schedule(static)
-    for (int64_t r = 0; r < e->n; r++) e->row[r + 1] = count_row(a, r);
+    mps_parallel_rows(a->pairs->parallel, e->n, count_rows, a);
     for (int64_t r = 0; r < e->n; r++) e->row[r + 1] += e->row[r];
     return e->row[e->n];
 }
@@ -230,6 +238,22 @@ static void note_unknown(const assembly *a, int64_t r)
     for (int d = 0; d < s->dim; d++) e->x[r * s->dim + d] = s->x[i * s->dim + d];
 }
 
+static void fill_rows(void *argument, int64_t begin, int64_t end)
+{
+    const assembly *a = argument;
+    for (int64_t r = begin; r < end; r++) {
+        if (a->s->dim == 2)
+            fill_row(2, a, r);
+        else
+            fill_row(3, a, r);
+    }
+}
+
+static void note_rows(void *argument, int64_t begin, int64_t end)
+{
+    for (int64_t r = begin; r < end; r++) note_unknown(argument, r);
+}
+
 /* Visit the component of row `seed`, breadth first; its rows stand in `queue`. Returns their number. */
 static int64_t flood(mps__ppe *e, int64_t seed, int32_t *queue, bool *level)
 {
@@ -296,15 +320,8 @@ mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps__ppe_ter
     MPS__TRY(number_rows(&a));
     a.unknown = e->unknown;
     MPS__TRY(reserve_entries(e, start_rows(&a)));
-#pragma omp parallel for num_threads(t->threads) schedule(static)
-    for (int64_t r = 0; r < e->n; r++) {
-        if (s->dim == 2)
-            fill_row(2, &a, r);
-        else
-            fill_row(3, &a, r);
-    }
-#pragma omp parallel for num_threads(t->threads) schedule(static)
-    for (int64_t r = 0; r < e->n; r++) note_unknown(&a, r);
+    mps_parallel_rows(pairs->parallel, e->n, fill_rows, &a);
+    mps_parallel_rows(pairs->parallel, e->n, note_rows, &a); /* after all rows: it may overwrite terms that they look at */
     const int32_t singular = find_singular(e, e->queue);
     e->problem = (mps_ppe_problem){.struct_size = sizeof e->problem,
                                    .dim = s->dim,
@@ -318,21 +335,32 @@ mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps__ppe_ter
                                    .weight = e->weight,
                                    .x = e->x,
                                    .dp = s->dp,
-                                   .threads = t->threads,
                                    .components = singular,
                                    .component = singular ? e->component : NULL,
                                    .gas = e->gas,
-                                   .law = e->law};
+                                   .law = e->law,
+                                   .parallel = pairs->parallel};
     return MPS_OK;
+}
+
+typedef struct scatter {
+    const mps__ppe *e;
+    const mps__ppe_terms *t;
+    double *p;
+} scatter;
+
+static void scatter_rows(void *argument, int64_t begin, int64_t end)
+{
+    const scatter *c = argument;
+    for (int64_t i = begin; i < end; i++) {
+        if (c->e->unknown[i] >= 0)
+            c->p[i] = c->e->p[c->e->unknown[i]];
+        else
+            c->p[i] = c->t->condition[i] == MPS_ROW_FIXED ? c->t->value[i] : 0;
+    }
 }
 
 void mps__ppe_scatter(const mps__ppe *e, const mps_stage *s, const mps__ppe_terms *t, double *p)
 {
-#pragma omp parallel for num_threads(t->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) {
-        if (e->unknown[i] >= 0)
-            p[i] = e->p[e->unknown[i]];
-        else
-            p[i] = t->condition[i] == MPS_ROW_FIXED ? t->value[i] : 0;
-    }
+    mps_parallel_rows(s->far->parallel, s->n, scatter_rows, &(scatter){e, t, p});
 }

@@ -14,7 +14,6 @@ typedef struct mps__ppe_terms {
     const double *density, *pressure; /* [n] those before the solution */
     double *source, *shift, *value, *gas, *law;
     int32_t *condition;
-    int32_t threads;
 } mps__ppe_terms;
 
 typedef struct mps__ppe {

@@ -26,7 +26,7 @@ double mps__sensor_distance(const mps__world *w, const double *at)
     const mps__particles *s = &w->particles;
     double least = INFINITY;
     for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_WALL) least = fmin(least, distance2(&s->ref[i * w->dim], at, w->dim));
+        if (s->kind[i] == MPS_WALL) least = fmin(least, distance2(&s->ref[i * w->setup.dim], at, w->setup.dim));
     return sqrt(least);
 }
 static int compare_solid(const void *a, const void *b)
@@ -39,13 +39,13 @@ static int compare_solid(const void *a, const void *b)
 static mps_status collect_solids(mps__face *f, mps__world *w, const double *at)
 {
     const mps__particles *s = &w->particles;
-    const double reach = mps__sensor_distance(w, at) + 1.5 * (f->radius + 4 * w->dp);
+    const double reach = mps__sensor_distance(w, at) + 1.5 * (f->radius + 4 * w->setup.dp);
     for (int64_t i = 0; i < s->n; i++) {
         solid e = {.id = s->id[i], .place = i, .wall = s->kind[i] == MPS_WALL};
-        if (s->kind[i] == MPS_FLUID || mps__is_shadow(s, i) || distance2(&s->ref[i * w->dim], at, w->dim) > reach * reach) continue;
-        const double *area = &s->area[i * w->dim], size = e.wall ? sqrt(mps__dot(area, area, w->dim)) : 0;
-        for (int32_t d = 0; d < w->dim; d++) {
-            e.r[d] = s->ref[i * w->dim + d] - at[d];
+        if (s->kind[i] == MPS_FLUID || mps__is_shadow(s, i) || distance2(&s->ref[i * w->setup.dim], at, w->setup.dim) > reach * reach) continue;
+        const double *area = &s->area[i * w->setup.dim], size = e.wall ? sqrt(mps__dot(area, area, w->setup.dim)) : 0;
+        for (int32_t d = 0; d < w->setup.dim; d++) {
+            e.r[d] = s->ref[i * w->setup.dim + d] - at[d];
             e.n[d] = size > 0 ? area[d] / size : 0;
         }
         MPS__TRY(mps__grow(w->context, (void **)&f->solid, &f->solid_capacity, f->solids, f->solids + 1, sizeof e));
@@ -126,12 +126,12 @@ static void flat_axis(const mps__world *w, int64_t base, double normal[3])
     const mps__particles *s = &w->particles;
     double spread[3] = {0, 0, 0};
     for (int64_t i = 0; i < s->n; i++) {
-        const double *here = &s->ref[i * w->dim], *there = &s->ref[base * w->dim];
-        if (s->kind[i] != MPS_WALL || s->part[i] != s->part[base] || distance2(here, there, w->dim) > 4.41 * w->dp * w->dp) continue;
-        for (int32_t d = 0; d < w->dim; d++) spread[d] += fabs(here[d] - there[d]);
+        const double *here = &s->ref[i * w->setup.dim], *there = &s->ref[base * w->setup.dim];
+        if (s->kind[i] != MPS_WALL || s->part[i] != s->part[base] || distance2(here, there, w->setup.dim) > 4.41 * w->setup.dp * w->setup.dp) continue;
+        for (int32_t d = 0; d < w->setup.dim; d++) spread[d] += fabs(here[d] - there[d]);
     }
     int32_t least = 0;
-    for (int32_t d = 1; d < w->dim; d++)
+    for (int32_t d = 1; d < w->setup.dim; d++)
         if (spread[d] < spread[least]) least = d;
     normal[least] = 1;
 }
@@ -163,8 +163,8 @@ static void face_normal(mps__face *f, const mps__world *w)
 
 static mps_status find_base(mps__face *f, mps__world *w, const mps_probe *c)
 {
-    *f = (mps__face){.dim = w->dim, .sides = w->dim - 1, .dp = w->dp, .width = w->dp};
-    f->radius = fmax(0.5 * c->diameter, 1e-6 * w->dp);
+    *f = (mps__face){.dim = w->setup.dim, .sides = w->setup.dim - 1, .dp = w->setup.dp, .width = w->setup.dp};
+    f->radius = fmax(0.5 * c->diameter, 1e-6 * w->setup.dp);
     MPS__TRY(collect_solids(f, w, c->at));
     f->base = least_remote(f, on_face);
     if (!f->base) f->base = least_remote(f, any_with_normal);
@@ -172,7 +172,7 @@ static mps_status find_base(mps__face *f, mps__world *w, const mps_probe *c)
     if (!f->base) return mps__fail(w->context, MPS_E_STATE, "wall pressure: there is no wall particle");
     face_normal(f, w);
     f->off = -mps__dot(f->base->r, f->normal, 3);
-    mps__probe_across(w->dim, f->normal, f->tangent);
+    mps__probe_across(w->setup.dim, f->normal, f->tangent);
     return MPS_OK;
 }
 

@@ -60,23 +60,23 @@ static uint32_t liquid_phases(const mps__world *w, const mps_probe *c)
         if (s->kind[i] == MPS_FLUID) present |= UINT32_C(1) << s->phase[i];
     for (int p = 0; p < MPS__PHASES; p++) {
         if (!(present >> p & 1)) continue;
-        low = fmin(low, w->phase_density[p]);
-        high = fmax(high, w->phase_density[p]);
+        low = fmin(low, w->setup.phase_density[p]);
+        high = fmax(high, w->setup.phase_density[p]);
     }
     for (int p = 0; p < MPS__PHASES; p++)
-        if (w->phase_density[p] >= 0.5 * (low + high)) liquid |= UINT32_C(1) << p;
+        if (w->setup.phase_density[p] >= 0.5 * (low + high)) liquid |= UINT32_C(1) << p;
     return liquid;
 }
 
 static void line_init(line *l, const mps__world *w, const mps_probe *c)
 {
     const mps__motion *m = &w->motion;
-    *l = (line){.sides = w->dim - 1, .dp = w->dp, .length = c->length};
+    *l = (line){.sides = w->setup.dim - 1, .dp = w->setup.dp, .length = c->length};
     /* narrower bands would see single columns */
-    l->width = fmax(c->diameter, 2 * w->dp) / 2;
+    l->width = fmax(c->diameter, 2 * w->setup.dp) / 2;
     mps__motion_point(m, &m->now, c->at, l->foot, NULL, NULL);
     mps__motion_rotate(m, &m->now, c->direction, l->along);
-    mps__probe_across(w->dim, c->direction, l->tank_across);
+    mps__probe_across(w->setup.dim, c->direction, l->tank_across);
     for (int32_t e = 0; e < l->sides; e++) mps__motion_rotate(m, &m->now, l->tank_across[e], l->across[e]);
 }
 

@@ -186,7 +186,7 @@ mps_status mps__sensor_build(mps__world *w, const mps_probe *config, mps__sensor
     mps__face_free(&f, w->context);
     if (status < 0) return status;
     sensor->generation = w->particles.generation;
-    sensor->linked = w->linked;
+    sensor->linked = w->lists.linked;
     return MPS_OK;
 }
 
@@ -221,7 +221,7 @@ static void locate(const mps__particles *s, mps__sensor *sensor)
 mps_status mps__sensor_read(mps__world *w, const mps_probe *config, mps__sensor *sensor, double *value)
 {
     const mps__particles *s = &w->particles;
-    if (sensor->generation != s->generation || sensor->linked != w->linked) {
+    if (sensor->generation != s->generation || sensor->linked != w->lists.linked) {
         if (!isfinite(mps__sensor_distance(w, config->at)))
             return mps__fail(w->context, MPS_E_STATE, "wall pressure: there is no wall particle any more");
         MPS__TRY(mps__sensor_build(w, config, sensor));

@@ -84,7 +84,7 @@ static mps_status reserve(mps__context *c, mps__series *s, int64_t samples)
     return mps__grow(c, (void **)&s->value, &s->value_capacity, s->count * s->size, total * s->size, sizeof *s->value);
 }
 
-mps_status mps__series_take(mps__context *c, mps__series *s, const mps__window *window, const mps_step_info *now, const double *values)
+mps_status mps__series_take(mps__context *c, mps__series *s, const mps__window *window, const mps__instant *now, const double *values)
 {
     const double start = s->waits ? s->start : now->t;
     const int64_t next = s->step < 0 ? sample_number(start, window->rate, true) : s->next;

@@ -81,8 +81,8 @@ static double moments_value(const mps__world *w, moments *m)
         g[i] = m->px[i] / m->weight - mean * m->x[i] / m->weight;
         for (int j = 0; j < 3; j++) a[3 * i + j] = m->xx[3 * i + j] / m->weight - m->x[i] * m->x[j] / (m->weight * m->weight);
     }
-    if (!solve_small(w->dim, a, g, w->dp * w->dp)) return mean;
-    for (int32_t d = 0; d < w->dim; d++) value -= g[d] * m->x[d] / m->weight;
+    if (!solve_small(w->setup.dim, a, g, w->setup.dp * w->setup.dp)) return mean;
+    for (int32_t d = 0; d < w->setup.dim; d++) value -= g[d] * m->x[d] / m->weight;
     return fmin(fmax(value, m->low), m->high);
 }
 
@@ -95,14 +95,14 @@ static void measure_fluid(const mps__world *w, const mps_probe *c, double *value
     mps__motion_point(&w->motion, &w->motion.now, c->at, at, NULL, NULL);
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] == MPS_DUMMY || (s->kind[i] == MPS_WALL && s->load[i] == 0)) continue;
-        double r[3] = {0, 0, 0}, d2 = distance2(&s->x[i * w->dim], at, w->dim);
-        if (d2 >= w->re_near * w->re_near || mps__plates_hide(w, c->at, i)) continue;
-        for (int32_t d = 0; d < w->dim; d++) r[d] = s->x[i * w->dim + d] - at[d];
-        add_moment(&m, r, mps_kernel_value(&w->kernel, fmax(sqrt(d2), 1e-3 * w->dp), w->re_near),
+        double r[3] = {0, 0, 0}, d2 = distance2(&s->x[i * w->setup.dim], at, w->setup.dim);
+        if (d2 >= w->setup.re_near * w->setup.re_near || mps__plates_hide(w, c->at, i)) continue;
+        for (int32_t d = 0; d < w->setup.dim; d++) r[d] = s->x[i * w->setup.dim + d] - at[d];
+        add_moment(&m, r, mps_kernel_value(&w->setup.kernel, fmax(sqrt(d2), 1e-3 * w->setup.dp), w->setup.re_near),
                    s->kind[i] == MPS_WALL ? s->load[i] : s->p[i]);
         m.nearest2 = fmin(m.nearest2, d2);
     }
-    *value = m.nearest2 < 0.25 * w->re_near * w->re_near ? moments_value(w, &m) : 0;
+    *value = m.nearest2 < 0.25 * w->setup.re_near * w->setup.re_near ? moments_value(w, &m) : 0;
 }
 
 /* ---- forces ---- */
@@ -145,17 +145,17 @@ static void measure_force(const mps__world *w, const mps__probe *probe, double *
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_WALL || s->load[i] == 0) continue;
         double f[3] = {0, 0, 0}, r[3] = {0, 0, 0}, area[3] = {0, 0, 0};
-        for (int32_t d = 0; d < w->dim; d++) area[d] = face_wanted(w, probe, i, d) ? s->area[i * w->dim + d] : 0;
+        for (int32_t d = 0; d < w->setup.dim; d++) area[d] = face_wanted(w, probe, i, d) ? s->area[i * w->setup.dim + d] : 0;
         mps__motion_rotate(&w->motion, &w->motion.now, area, f);
-        for (int32_t d = 0; d < w->dim; d++) {
+        for (int32_t d = 0; d < w->setup.dim; d++) {
             f[d] *= -s->load[i];
             force[d] += f[d];
-            r[d] = s->x[i * w->dim + d] - at[d];
+            r[d] = s->x[i * w->setup.dim + d] - at[d];
         }
         for (int d = 0; d < 3; d++) moment[d] += r[(d + 1) % 3] * f[(d + 2) % 3] - r[(d + 2) % 3] * f[(d + 1) % 3];
     }
-    memcpy(values, force, (size_t)w->dim * sizeof(double));
-    if (w->dim == 2)
+    memcpy(values, force, (size_t)w->setup.dim * sizeof(double));
+    if (w->setup.dim == 2)
         values[2] = moment[2];
     else
         memcpy(values + 3, moment, sizeof moment);
@@ -174,9 +174,9 @@ static bool solids_box(const mps__world *w, double lo[3], double hi[3])
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] == MPS_FLUID) continue;
         any = true;
-        for (int32_t d = 0; d < w->dim; d++) {
-            lo[d] = fmin(lo[d], s->ref[i * w->dim + d]);
-            hi[d] = fmax(hi[d], s->ref[i * w->dim + d]);
+        for (int32_t d = 0; d < w->setup.dim; d++) {
+            lo[d] = fmin(lo[d], s->ref[i * w->setup.dim + d]);
+            hi[d] = fmax(hi[d], s->ref[i * w->setup.dim + d]);
         }
     }
     return any;
@@ -184,10 +184,10 @@ static bool solids_box(const mps__world *w, double lo[3], double hi[3])
 
 static mps_status check_place(const mps__world *w, const mps_probe *c)
 {
-    const double slack = (c->type == MPS_PROBE_WALL_PRESSURE ? 2 : 1e-6) * w->dp; /* sensors have limits of their own, see check_wall() */
+    const double slack = (c->type == MPS_PROBE_WALL_PRESSURE ? 2 : 1e-6) * w->setup.dp; /* sensors have limits of their own, see check_wall() */
     double lo[3], hi[3];
     if (!solids_box(w, lo, hi)) return mps__fail(w->context, MPS_E_STATE, "a probe needs solids around it: add the tank first");
-    for (int32_t d = 0; d < w->dim; d++)
+    for (int32_t d = 0; d < w->setup.dim; d++)
         MPS__CHECK(w->context, c->at[d] >= lo[d] - slack && c->at[d] <= hi[d] + slack,
                    "probe.at[%d] is %g: outside the solids, which reach from %g to %g", (int)d, c->at[d], lo[d], hi[d]);
     return MPS_OK;
@@ -196,11 +196,11 @@ static mps_status check_place(const mps__world *w, const mps_probe *c)
 /* A sensor belongs on its wall: rounding of a tank to its lattice puts it up to half a spacing behind a face or beyond its end. */
 static mps_status check_wall(mps__world *w, const mps_probe *c)
 {
-    const double distance = mps__sensor_distance(w, c->at), half = 0.5 * w->dp, slack = 1e-6 * w->dp;
+    const double distance = mps__sensor_distance(w, c->at), half = 0.5 * w->setup.dp, slack = 1e-6 * w->setup.dp;
     double off, beyond;
     MPS__CHECK(w->context, isfinite(distance), "wall pressure: there is no wall particle");
-    MPS__CHECK(w->context, distance <= 2 * w->dp, "wall pressure: the nearest wall particle is %g m away, at most 2 dp = %g m are allowed",
-               distance, 2 * w->dp);
+    MPS__CHECK(w->context, distance <= 2 * w->setup.dp, "wall pressure: the nearest wall particle is %g m away, at most 2 dp = %g m are allowed",
+               distance, 2 * w->setup.dp);
     MPS__TRY(mps__sensor_place(w, c, &off, &beyond));
     MPS__CHECK(
         w->context, off >= -half - slack,
@@ -216,7 +216,7 @@ static double line_length(const mps__world *w, const mps_probe *c)
 {
     double lo[3], hi[3], length = INFINITY;
     if (!mps__world_domain(w, lo, hi)) return 0;
-    for (int32_t d = 0; d < w->dim; d++)
+    for (int32_t d = 0; d < w->setup.dim; d++)
         if (c->direction[d] != 0) length = fmin(length, ((c->direction[d] > 0 ? hi[d] : lo[d]) - c->at[d]) / c->direction[d]);
     return length;
 }
@@ -224,12 +224,12 @@ static double line_length(const mps__world *w, const mps_probe *c)
 static mps_status check_gauge(const mps__world *w, mps_probe *c)
 {
     for (int32_t k = 0; k < MPS__PHASES; k++)
-        MPS__CHECK(w->context, !(c->phases >> k & 1) || w->phase_defined[k],
+        MPS__CHECK(w->context, !(c->phases >> k & 1) || w->setup.phase_defined[k],
                    "probe.phases is 0x%x: phase %d is not defined, call mps_sim_set_phase() first", (unsigned)c->phases, (int)k);
-    const double *a = c->direction, norm = sqrt(mps__dot(a, a, w->dim));
+    const double *a = c->direction, norm = sqrt(mps__dot(a, a, w->setup.dim));
     MPS__CHECK(w->context, norm > 0 && isfinite(norm), "probe.direction is (%g, %g, %g): must be finite and not zero", a[0], a[1],
-               w->dim == 3 ? a[2] : 0);
-    for (int d = 0; d < 3; d++) c->direction[d] = d < w->dim ? c->direction[d] / norm : 0;
+               w->setup.dim == 3 ? a[2] : 0);
+    for (int d = 0; d < 3; d++) c->direction[d] = d < w->setup.dim ? c->direction[d] / norm : 0;
     if (c->length == 0) c->length = line_length(w, c);
     MPS__CHECK(w->context, isfinite(c->length) && c->length > 0, "probe.length is %g m: must be > 0, or 0 for the whole domain", c->length);
     return MPS_OK;
@@ -251,7 +251,7 @@ static mps_status check_numbers(const mps__world *w, const mps_probe *c)
 {
     MPS__CHECK(w->context, c->type >= MPS_PROBE_WALL_PRESSURE && c->type <= MPS_PROBE_FORCE, "probe.type is %d: must be %d..%d",
                (int)c->type, MPS_PROBE_WALL_PRESSURE, MPS_PROBE_FORCE);
-    for (int32_t d = 0; d < w->dim; d++) MPS__CHECK(w->context, isfinite(c->at[d]), "probe.at[%d] is %g: must be finite", (int)d, c->at[d]);
+    for (int32_t d = 0; d < w->setup.dim; d++) MPS__CHECK(w->context, isfinite(c->at[d]), "probe.at[%d] is %g: must be finite", (int)d, c->at[d]);
     MPS__CHECK(w->context, isfinite(c->diameter) && c->diameter >= 0, "probe.diameter is %g m: must be finite and >= 0", c->diameter);
     MPS__CHECK(w->context, isfinite(c->length) && c->length >= 0, "probe.length is %g m: must be finite and >= 0", c->length);
     MPS__CHECK(w->context, isfinite(c->average) && (c->average >= 0 || c->average == MPS_AVERAGE_AUTO),
@@ -268,7 +268,7 @@ static mps_status check_probe(mps__world *w, mps_probe *c)
 {
     MPS__TRY(check_numbers(w, c));
     if (c->type == MPS_PROBE_GAUGE && c->average == MPS_AVERAGE_AUTO) c->average = 0;
-    if (c->diameter == 0) c->diameter = c->type == MPS_PROBE_GAUGE ? 3 * w->dp : w->dp;
+    if (c->diameter == 0) c->diameter = c->type == MPS_PROBE_GAUGE ? 3 * w->setup.dp : w->setup.dp;
     if (c->type == MPS_PROBE_FORCE) return c->part ? check_part(w, c->part) : MPS_OK;
     MPS__TRY(check_place(w, c));
     if (c->type == MPS_PROBE_WALL_PRESSURE) return check_wall(w, c);
@@ -326,7 +326,7 @@ void mps__probe_remove(mps__context *c, mps__probe *p)
 int32_t mps__probe_values(const mps__world *w, const mps__probe *p)
 {
     if (p->config.type != MPS_PROBE_FORCE) return 1;
-    return w->dim == 2 ? 3 : 6;
+    return w->setup.dim == 2 ? 3 : 6;
 }
 
 /* ---- reading ---- */
@@ -350,36 +350,36 @@ mps_status mps__probe_measure(mps__world *w, mps__probe *p, double *values)
 /* What a probe averages over at present [s]. */
 static double window(const mps__world *w, const mps_probe *c)
 {
-    return c->average == MPS_AVERAGE_AUTO ? w->info.crossing_time : c->average;
+    return c->average == MPS_AVERAGE_AUTO ? w->state.crossing_time : c->average;
 }
 
 /* Say once that a pressure is averaged over less than the resolution can tell. */
 static void note_window(mps__world *w, const mps__probes *p, int64_t k)
 {
     const mps_probe *c = &p->list[k].config;
-    if (w->window_told || c->type == MPS_PROBE_GAUGE || window(w, c) >= w->info.crossing_time) return;
-    w->window_told = true;
+    if (w->state.window_told || c->type == MPS_PROBE_GAUGE || window(w, c) >= w->state.crossing_time) return;
+    w->state.window_told = true;
     mps__log(
         w->context, MPS_LOG_WARNING,
         "t = %.6g s: probe %d averages over %g s; liquid crosses a spacing in %g s, and pressures of impacts over less than that depend "
         "on the time step (average = MPS_AVERAGE_AUTO follows it)",
-        w->info.t, (int)k, c->average, w->info.crossing_time);
+        w->state.t, (int)k, c->average, w->state.crossing_time);
 }
 
 mps_status mps__probe_take(mps__world *w, mps__probe *p)
 {
     double values[MPS__PROBE_VALUES];
-    if ((p->config.average == 0 && p->config.rate == 0) || p->series.step == w->info.step) return MPS_OK;
-    if (w->info.step == 0 && p->config.type != MPS_PROBE_GAUGE) {
+    if ((p->config.average == 0 && p->config.rate == 0) || p->series.step == w->state.step) return MPS_OK;
+    if (w->state.step == 0 && p->config.type != MPS_PROBE_GAUGE) {
         /* there is no pressure before the first step: what it brings holds from the beginning */
         p->series.waits = true;
-        p->series.start = w->info.t;
+        p->series.start = w->state.t;
         return MPS_OK;
     }
     MPS__TRY(mps__probe_measure(w, p, values));
     const mps__window now = {window(w, &p->config), p->config.average == MPS_AVERAGE_AUTO ? mps__crossing_limit(w) : p->config.average,
                              p->config.rate};
-    return mps__series_take(w->context, &p->series, &now, &w->info, values);
+    return mps__series_take(w->context, &p->series, &now, &(mps__instant){w->state.t, w->state.step}, values);
 }
 
 mps_status mps__probes_take(mps__world *w, mps__probes *p)
@@ -398,6 +398,6 @@ mps_status mps__probe_read(mps__world *w, mps__probe *p, double *values)
     if (p->config.average == 0) return mps__probe_measure(w, p, values);
     MPS__TRY(mps__probe_take(w, p));
     if (p->series.rows == 0) return mps__probe_measure(w, p, values);
-    mps__series_mean(&p->series, w->info.t - window(w, &p->config), w->info.t, values);
+    mps__series_mean(&p->series, w->state.t - window(w, &p->config), w->state.t, values);
     return MPS_OK;
 }

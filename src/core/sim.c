@@ -48,7 +48,7 @@ static mps_status check_config(mps__context *c, mps_config *f)
     MPS__CHECK(c, f->re_far >= f->re_near && f->re_far <= 10, "config.re_far is %g dp: re_near (%g) <= re_far <= 10", f->re_far,
                f->re_near);
     if (f->threads == 0) f->threads = 1;
-    MPS__CHECK(c, f->threads >= 1 && f->threads <= 1024, "config.threads is %d: 1..1024", f->threads);
+    MPS__CHECK(c, f->threads >= 1 && f->threads <= MPS__THREADS_MOST, "config.threads is %d: 1..%d", f->threads, MPS__THREADS_MOST);
     MPS__CHECK(c, f->lost_policy == MPS_LOST_REMOVE || f->lost_policy == MPS_LOST_ERROR,
                "config.lost_policy is %d: MPS_LOST_REMOVE or MPS_LOST_ERROR", f->lost_policy);
     MPS__CHECK(c, mps__finite(f->gravity, 3), "config.gravity is (%g, %g, %g): must be finite", f->gravity[0], f->gravity[1],
@@ -70,27 +70,29 @@ static mps_status set_up(mps_sim *sim, const mps_config *f)
     mps__world *w = &sim->world;
     MPS__TRY(mps__world_init(w, &sim->context, f->dim, f->dp));
     const char *kernel = f->kernel ? f->kernel : config_default.kernel;
-    if (mps_kernel_find(kernel, &w->kernel) != MPS_OK) {
+    if (mps_kernel_find(kernel, &w->setup.kernel) != MPS_OK) {
         const char *names[] = {"improved", "original"};
         char hint[MPS__HINT_SIZE];
         return mps__fail(&sim->context, MPS_E_NAME, "config.kernel is \"%.60s\"; %s", kernel, mps__hint(hint, '"', kernel, names, 2));
     }
-    for (int d = 0; d < f->dim; d++) w->g[d] = f->gravity[d];
-    const double g = sqrt(mps__dot(w->g, w->g, f->dim));
-    w->velocity_scale = f->velocity_scale > 0 ? f->velocity_scale : sqrt((g > 0 ? g : 9.81) * f->dp);
-    w->re_near = f->re_near * f->dp;
-    w->re_far = f->re_far * f->dp;
-    w->threads = f->threads;
-    w->lost_policy = f->lost_policy;
-    w->speed_limit = f->speed_limit;
-    MPS__TRY(check_domain(&sim->context, f, &w->domain_given));
-    memcpy(w->domain_min, f->domain_min, sizeof w->domain_min);
-    memcpy(w->domain_max, f->domain_max, sizeof w->domain_max);
-    mps_time_control_init(&w->control, sizeof w->control);
-    w->control.dt_min = 1e-9 * sqrt(f->dp / 9.81);
-    w->phase_defined[0] = true;
-    w->phase_density[0] = water.density;
-    w->phase_viscosity[0] = water.viscosity;
+    for (int d = 0; d < f->dim; d++) w->setup.g[d] = f->gravity[d];
+    const double g = sqrt(mps__dot(w->setup.g, w->setup.g, f->dim));
+    w->setup.velocity_scale = f->velocity_scale > 0 ? f->velocity_scale : sqrt((g > 0 ? g : 9.81) * f->dp);
+    w->setup.re_near = f->re_near * f->dp;
+    w->setup.re_far = f->re_far * f->dp;
+    mps__pool_resize(&w->pool, f->threads);
+    MPS__TRY(mps__pool_set(&w->pool, &f->parallel, "config.parallel"));
+    w->threads = w->pool.parallel.threads;
+    w->setup.lost_policy = f->lost_policy;
+    w->setup.speed_limit = f->speed_limit;
+    MPS__TRY(check_domain(&sim->context, f, &w->setup.domain_given));
+    memcpy(w->setup.domain_min, f->domain_min, sizeof w->setup.domain_min);
+    memcpy(w->setup.domain_max, f->domain_max, sizeof w->setup.domain_max);
+    mps_time_control_init(&w->setup.control, sizeof w->setup.control);
+    w->setup.control.dt_min = 1e-9 * sqrt(f->dp / 9.81);
+    w->setup.phase_defined[0] = true;
+    w->setup.phase_density[0] = water.density;
+    w->setup.phase_viscosity[0] = water.viscosity;
     return mps__models_preset(&w->models, "imps");
 }
 
@@ -148,23 +150,24 @@ const char *mps_sim_error(const mps_sim *sim)
 mps_status mps_sim_shape(const mps_sim *sim, int32_t *dim, double *dp)
 {
     if (!sim) return MPS_E_ARG;
-    if (dim) *dim = sim->world.dim;
-    if (dp) *dp = sim->world.dp;
+    if (dim) *dim = sim->world.setup.dim;
+    if (dp) *dp = sim->world.setup.dp;
     return MPS_OK;
 }
 
 mps_status mps_sim_time(const mps_sim *sim, double *t, int64_t *steps)
 {
     if (!sim) return MPS_E_ARG;
-    if (t) *t = sim->world.info.t;
-    if (steps) *steps = sim->world.info.step;
+    if (t) *t = sim->world.state.t;
+    if (steps) *steps = sim->world.state.step;
     return MPS_OK;
 }
 
 mps_status mps_sim_set_threads(mps_sim *sim, int32_t threads)
 {
     MPS__CHANGES(sim);
-    MPS__CHECK(&sim->context, threads >= 1 && threads <= 1024, "threads is %d: 1..1024", threads);
+    MPS__CHECK(&sim->context, threads >= 1 && threads <= MPS__THREADS_MOST, "threads is %d: 1..%d", threads, MPS__THREADS_MOST);
+    mps__pool_resize(&sim->world.pool, threads);
     sim->world.threads = threads;
     return MPS_OK;
 }
@@ -180,9 +183,9 @@ mps_status mps_sim_set_phase(mps_sim *sim, int32_t index, const mps_phase *phase
                p.viscosity);
     mps__world *w = &sim->world;
     if (mps__particles_leases(&w->particles)) return mps__fail(&sim->context, MPS_E_BUSY, "a lease is open");
-    w->phase_defined[index] = true;
-    w->phase_density[index] = p.density;
-    w->phase_viscosity[index] = p.viscosity;
+    w->setup.phase_defined[index] = true;
+    w->setup.phase_density[index] = p.density;
+    w->setup.phase_viscosity[index] = p.viscosity;
     for (int64_t i = 0; i < w->particles.n; i++)
         if (w->particles.phase[i] == index) w->particles.rho[i] = p.density;
     return MPS_OK;
@@ -192,11 +195,11 @@ mps_status mps_sim_get_phase(const mps_sim *sim, int32_t index, mps_phase *phase
 {
     if (!sim) return MPS_E_ARG;
     mps__context *c = mps__sim_context(sim);
-    MPS__CHECK(c, index >= 0 && index < MPS__PHASES && sim->world.phase_defined[index],
+    MPS__CHECK(c, index >= 0 && index < MPS__PHASES && sim->world.setup.phase_defined[index],
                "phase %d is not defined: call mps_sim_set_phase() first", index);
     mps_phase p = water;
-    p.density = sim->world.phase_density[index];
-    p.viscosity = sim->world.phase_viscosity[index];
+    p.density = sim->world.setup.phase_density[index];
+    p.viscosity = sim->world.setup.phase_viscosity[index];
     return mps__struct_out(c, "mps_phase", phase, &p, sizeof p);
 }
 
@@ -204,7 +207,7 @@ static mps_status check_pair(mps__context *c, const mps__world *w, int32_t a, in
 {
     const int32_t both[2] = {a, b};
     for (int k = 0; k < 2; k++)
-        MPS__CHECK(c, both[k] >= 0 && both[k] < MPS__PHASES && w->phase_defined[both[k]],
+        MPS__CHECK(c, both[k] >= 0 && both[k] < MPS__PHASES && w->setup.phase_defined[both[k]],
                    "phase %d is not defined: call mps_sim_set_phase() first", both[k]);
     MPS__CHECK(c, a != b, "surface tension of phase %d with itself: the phases must differ", a);
     return MPS_OK;
@@ -217,7 +220,7 @@ mps_status mps_sim_set_tension(mps_sim *sim, int32_t a, int32_t b, double sigma)
     MPS__TRY(check_pair(&sim->context, w, a, b));
     MPS__CHECK(&sim->context, sigma >= 0 && isfinite(sigma), "surface tension of phases %d and %d is %g: must be >= 0 N/m, finite", a, b,
                sigma);
-    w->tension[a * MPS__PHASES + b] = w->tension[b * MPS__PHASES + a] = sigma;
+    w->setup.tension[a * MPS__PHASES + b] = w->setup.tension[b * MPS__PHASES + a] = sigma;
     return MPS_OK;
 }
 
@@ -227,7 +230,7 @@ mps_status mps_sim_get_tension(const mps_sim *sim, int32_t a, int32_t b, double 
     mps__context *c = mps__sim_context(sim);
     MPS__TRY(check_pair(c, &sim->world, a, b));
     MPS__CHECK(c, sigma, "sigma is NULL");
-    const double value = sim->world.tension[a * MPS__PHASES + b];
+    const double value = sim->world.setup.tension[a * MPS__PHASES + b];
     MPS__CHECK(c, value >= 0, "surface tension of phases %d and %d was never set", a, b);
     *sigma = value;
     return MPS_OK;

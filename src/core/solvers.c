@@ -310,42 +310,42 @@ static bool has_law(const mps_ppe_problem *problem)
     return problem->struct_size >= sizeof *problem && problem->law;
 }
 
-/* Rows are summed in a fixed number of parts, each by one thread: the same bytes for any number of threads. */
-enum { PARTS = 64 };
+typedef struct check {
+    const mps_ppe_problem *problem;
+    const double *p;
+    double *r;
+} check;
 
-typedef struct check_sums {
-    double squares, rhs_squares, largest, poison; /* a NaN is larger than nothing, so it is carried apart */
-} check_sums;
+enum { SQUARES, RHS_SQUARES, POISON, LARGEST, VALUES }; /* a NaN is larger than nothing, so it is carried apart */
 
-static check_sums check_rows(const mps_ppe_problem *problem, const double *p, double *r, int64_t from, int64_t to)
+static void check_rows(void *argument, int64_t begin, int64_t end, double *values)
 {
-    const double *law = has_law(problem) ? problem->law : NULL;
-    check_sums c = {0};
-    for (int64_t i = from; i < to; i++) {
+    const check *c = argument;
+    const mps_ppe_problem *problem = c->problem;
+    const double *p = c->p, *law = has_law(problem) ? problem->law : NULL;
+    double *r = c->r, squares = 0, rhs_squares = 0, poison = 0, largest = values[LARGEST];
+    for (int64_t i = begin; i < end; i++) {
         double s = problem->diagonal[i] * p[i];
         for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) s += (double)problem->val[k] * p[problem->col[k]];
         if (law && law[i] > 0) s += problem->gas[i] * (mps_ppe_law(law[i], p[i], NULL) - p[i]);
         r[i] = problem->rhs[i] - s;
         const double d = problem->weight ? fabs(r[i] * problem->weight[i]) : 0;
-        c.squares += r[i] * r[i];
-        c.rhs_squares += problem->rhs[i] * problem->rhs[i];
-        if (d > c.largest) c.largest = d;
-        c.poison += 0 * d;
+        squares += r[i] * r[i];
+        rhs_squares += problem->rhs[i] * problem->rhs[i];
+        if (d > largest) largest = d;
+        poison += 0 * d;
     }
-    return c;
+    values[SQUARES] += squares;
+    values[RHS_SQUARES] += rhs_squares;
+    values[POISON] += poison;
+    values[LARGEST] = largest;
 }
 
 void mps_ppe_check(const mps_ppe_problem *problem, const double *p, double *work, mps_ppe_result *result)
 {
-    check_sums part[PARTS], c = {0};
-#pragma omp parallel for schedule(static) num_threads(problem->threads > 1 ? problem->threads : 1) if (problem->n > 8192)
-    for (int k = 0; k < PARTS; k++) part[k] = check_rows(problem, p, work, problem->n * k / PARTS, problem->n * (k + 1) / PARTS);
-    for (int k = 0; k < PARTS; k++) {
-        c.squares += part[k].squares;
-        c.rhs_squares += part[k].rhs_squares;
-        c.poison += part[k].poison;
-        if (part[k].largest > c.largest) c.largest = part[k].largest;
-    }
-    result->residual = sqrt(c.squares) / (c.rhs_squares > 0 ? sqrt(c.rhs_squares) : 1);
-    result->divergence = c.largest + c.poison;
+    double values[VALUES] = {0};
+    mps_parallel_reduce(problem->parallel, problem->n, check_rows, &(check){problem, p, work},
+                        &(mps_parallel_values){LARGEST, VALUES - LARGEST, values});
+    result->residual = sqrt(values[SQUARES]) / (values[RHS_SQUARES] > 0 ? sqrt(values[RHS_SQUARES]) : 1);
+    result->divergence = values[LARGEST] + values[POISON];
 }

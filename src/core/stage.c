@@ -6,9 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Sums are taken in so many parts of the rows, each by one thread: the same bytes for any number of threads. */
-enum { PARTS = 64, SUMS = 16 };
-
 static mps__host *host_of(const mps_stage *s)
 {
     return s->host;
@@ -16,43 +13,43 @@ static mps__host *host_of(const mps_stage *s)
 
 /* ---- loops ---- */
 
+/* A loop or a sum over rows, as the parallel-for of the handle wants it. */
+typedef struct job {
+    const mps_stage *s;
+    mps_rows_fn rows;
+    mps_sums_fn sums;
+    void *arguments;
+} job;
+
+static void run_rows(void *argument, int64_t begin, int64_t end)
+{
+    const job *k = argument;
+    k->rows(k->s, k->arguments, begin, end);
+}
+
+static void run_sums(void *argument, int64_t begin, int64_t end, double *values)
+{
+    const job *k = argument;
+    k->sums(k->s, k->arguments, begin, end, values);
+}
+
 void mps_stage_rows(const mps_stage *s, mps_rows_fn rows, void *arguments)
 {
-    const int parts = host_of(s)->threads;
-#pragma omp parallel for num_threads(parts) schedule(static)
-    for (int p = 0; p < parts; p++) rows(s, arguments, s->n * p / parts, s->n * (p + 1) / parts);
+    job k = {.s = s, .rows = rows, .arguments = arguments};
+    mps_parallel_rows(host_of(s)->parallel, s->n, run_rows, &k);
 }
 
-typedef struct sums {
-    double of[SUMS];
-} sums;
-
-static void collect(const mps_stage *s, mps_sums_fn add, void *arguments, double first, sums part[PARTS])
+void mps_stage_sum(const mps_stage *s, int32_t count, mps_sums_fn add, void *arguments, double *sums)
 {
-    for (int p = 0; p < PARTS; p++)
-        for (int k = 0; k < SUMS; k++) part[p].of[k] = first;
-#pragma omp parallel for num_threads(host_of(s)->threads) schedule(static)
-    for (int p = 0; p < PARTS; p++) add(s, arguments, s->n * p / PARTS, s->n * (p + 1) / PARTS, part[p].of);
+    job k = {.s = s, .sums = add, .arguments = arguments};
+    mps_parallel_sum(host_of(s)->parallel, s->n, count, run_sums, &k, sums);
 }
 
-void mps_stage_sum(const mps_stage *s, int32_t count, mps_sums_fn add, void *arguments, double *out)
+void mps_stage_max(const mps_stage *s, int32_t count, mps_sums_fn raise, void *arguments, double *maxima)
 {
-    sums part[PARTS];
-    collect(s, add, arguments, 0.0, part);
-    for (int32_t k = 0; k < count && k < SUMS; k++) {
-        out[k] = 0;
-        for (int p = 0; p < PARTS; p++) out[k] += part[p].of[k];
-    }
-}
-
-void mps_stage_max(const mps_stage *s, int32_t count, mps_sums_fn raise, void *arguments, double *out)
-{
-    sums part[PARTS];
-    collect(s, raise, arguments, -INFINITY, part);
-    for (int32_t k = 0; k < count && k < SUMS; k++) {
-        out[k] = -INFINITY;
-        for (int p = 0; p < PARTS; p++) out[k] = part[p].of[k] > out[k] ? part[p].of[k] : out[k];
-    }
+    job k = {.s = s, .sums = raise, .arguments = arguments};
+    for (int32_t m = 0; m < count; m++) maxima[m] = -INFINITY;
+    mps_parallel_max(host_of(s)->parallel, s->n, count, run_sums, &k, maxima);
 }
 
 /* These rows are few as a rule, and pairs are symmetric: one thread looks about each of them sooner than all threads about all rows. */
@@ -115,6 +112,24 @@ int mps_stage_bodies(mps_stage *s, int32_t most, const int32_t *role, int32_t *b
     return 0;
 }
 
+/* Chains of rows: serial, as each row may change the chain of any bucket. */
+int mps_stage_grid(mps_stage *s, double side, mps_grid *grid)
+{
+    int32_t *first = mps_stage_scratch_integers(s, s->n), *next = mps_stage_scratch_integers(s, s->n);
+    if (!(side > 0)) return mps_stage_fail(s, "the side of a grid is %g m: must be > 0", side);
+    if (!first || !next) return 1;
+    *grid = (mps_grid){.struct_size = sizeof *grid, .dim = s->dim, .side = side, .buckets = s->n, .first = first, .next = next};
+    for (int64_t i = s->n - 1; i >= 0; i--) {
+        int64_t cell[3];
+        if (s->kind[i] != MPS_FLUID) continue;
+        mps_grid_cell(grid, s->x + i * s->dim, cell);
+        const int64_t b = mps_grid_bucket(grid, cell);
+        next[i] = first[b];
+        first[b] = (int32_t)(i + 1);
+    }
+    return 0;
+}
+
 /* All rows are in one memory, where they are visible at once. */
 int mps_stage_refresh(mps_stage *s, double *scratch, int32_t components)
 {
@@ -143,7 +158,7 @@ static void *scratch(mps_stage *s, int64_t count, size_t size)
 double *mps_stage_scratch(mps_stage *s, int64_t count)
 {
     double *block = scratch(s, count, sizeof *block);
-    if (block) mps__zero(block, count, host_of(s)->threads);
+    if (block) mps__parallel_zero(host_of(s)->parallel, &(mps__block){block, count}, 1);
     return block;
 }
 

@@ -31,37 +31,45 @@ static void end_stage(mps__step *q, int stage)
     q->clock = now;
 }
 
+static bool on_surface(const void *particles, int64_t i)
+{
+    const mps__particles *s = particles;
+    return s->kind[i] == MPS_FLUID && s->region[i] == MPS_REGION_SURFACE;
+}
+
 /* Neighbours, number density, regions and all else at r^k that later moments read. */
 static mps_status look_around(mps__step *q)
 {
-    const mps__world *w = q->w;
-    MPS__TRY(mps__neighbours_near(&q->w->neighbours));
+    mps__world *w = q->w;
+    MPS__TRY(mps__neighbours_near(&w->lists.neighbours));
     end_stage(q, MPS_STAGE_NEIGHBOURS);
     mps__step_move_tank(q);
     MPS__TRY(mps__step_begin(q));
     MPS__TRY(mps__step_run(q, MPS_CLASSIFY));
     MPS__TRY(mps__step_run(q, MPS_PREPARE));
-    int64_t surface = 0;
-#pragma omp parallel for num_threads(w->threads) reduction(+ : surface) schedule(static)
-    for (int64_t i = 0; i < w->particles.n; i++)
-        surface += w->particles.kind[i] == MPS_FLUID && w->particles.region[i] == MPS_REGION_SURFACE;
-    q->info.surface = surface;
+    q->info.surface = mps__parallel_count(&w->pool.parallel, w->particles.n, on_surface, &w->particles);
     return MPS_OK;
+}
+
+static void predict_rows(void *step, int64_t begin, int64_t end)
+{
+    const mps__step *q = step;
+    const mps_stage *s = &q->stage;
+    const double *a = q->w->work.motion;
+    double *u = q->w->particles.u;
+    for (int64_t i = begin; i < end; i++)
+        if (s->kind[i] == MPS_FLUID)
+            for (int d = 0; d < s->dim; d++) u[i * s->dim + d] += s->dt * (a[i * s->dim + d] + s->g[d]);
 }
 
 /* u* = u + dt (a + g). Z14 (9). */
 static mps_status predict(mps__step *q)
 {
-    const mps__world *w = q->w;
-    const mps_stage *s = &q->stage;
-    const double *a = w->work.motion;
-    mps__zero(w->work.motion, s->n * s->dim, w->threads);
+    mps__world *w = q->w;
+    mps__parallel_zero(&w->pool.parallel, &(mps__block){w->work.motion, q->stage.n * w->setup.dim}, 1);
     MPS__TRY(mps__step_run(q, MPS_FORCE));
     mps__step_book_forces(q);
-#pragma omp parallel for num_threads(w->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID)
-            for (int d = 0; d < s->dim; d++) w->particles.u[i * s->dim + d] += s->dt * (a[i * s->dim + d] + s->g[d]);
+    mps_parallel_rows(&w->pool.parallel, q->stage.n, predict_rows, q);
     return MPS_OK;
 }
 
@@ -71,7 +79,7 @@ static void spread_gain(mps__step *q)
 {
     double *gain = &q->terms.equation.gain;
     const double dt = q->stage.dt, wanted = dt * (1 - *gain) / *gain;
-    q->spread = q->w->spread > 0 ? q->w->spread + SPREAD_SHARE * (wanted - q->w->spread) : wanted;
+    q->spread = q->w->state.spread > 0 ? q->w->state.spread + SPREAD_SHARE * (wanted - q->w->state.spread) : wanted;
     *gain = dt / (dt + q->spread);
 }
 
@@ -92,8 +100,8 @@ static void note_level(mps__step *q)
 {
     mps__world *w = q->w;
     q->stage.level_free = w->ppe.level_free;
-    if (!w->ppe.level_free || w->level_told) return;
-    w->level_told = true;
+    if (!w->ppe.level_free || w->state.level_told) return;
+    w->state.level_told = true;
     mps__log(w->context, MPS_LOG_INFO,
              "t = %.9g s: no surface, fixed pressure or compressible phase gives the pressures a level; their mean is zero", q->stage.t);
 }
@@ -139,17 +147,27 @@ static mps_status project(mps__step *q)
     return MPS_OK;
 }
 
-/* r = r + dt u + shift; solids go where the tank will be. */
-static void move(mps__step *q)
+/* u = u* + dt a(p) */
+static void push_rows(void *step, int64_t begin, int64_t end)
 {
-    mps__world *w = q->w;
+    const mps__step *q = step;
     const mps_stage *s = &q->stage;
+    const double *a = q->w->work.motion;
+    double *u = q->w->particles.u;
+    for (int64_t i = begin; i < end; i++)
+        for (int64_t k = i * s->dim; k < (i + 1) * s->dim; k++) u[k] += s->kind[i] == MPS_FLUID ? s->dt * a[k] : 0;
+}
+
+/* r = r + dt u + shift; solids go where the tank will be. The old positions are kept. */
+static void move_rows(void *step, int64_t begin, int64_t end)
+{
+    const mps__step *q = step;
+    const mps_stage *s = &q->stage;
+    const mps__world *w = q->w;
     const double *dx = w->work.motion, *u = w->particles.u;
-    mps__copy(w->work.x0, w->particles.x, s->n * s->dim, w->threads);
-    q->moved = true;
-#pragma omp parallel for num_threads(w->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) {
+    for (int64_t i = begin; i < end; i++) {
         double *x = w->particles.x + i * s->dim;
+        for (int d = 0; d < s->dim; d++) w->work.x0[i * s->dim + d] = x[d];
         if (s->kind[i] == MPS_FLUID)
             for (int d = 0; d < s->dim; d++) x[d] += s->dt * u[i * s->dim + d] + dx[i * s->dim + d];
         else
@@ -161,23 +179,23 @@ static void move(mps__step *q)
 static mps_status correct(mps__step *q)
 {
     mps__world *w = q->w;
-    const mps_stage *s = &q->stage;
-    mps__work *k = &w->work;
+    const mps_parallel *threads = &w->pool.parallel;
+    const int64_t n = q->stage.n;
+    const mps__block motion = {w->work.motion, n * w->setup.dim};
     MPS__TRY(mps__step_run(q, MPS_LEVEL));
-    mps__zero(k->motion, s->n * s->dim, w->threads);
+    mps__parallel_zero(threads, &motion, 1);
     MPS__TRY(mps__step_run(q, MPS_GRADIENT));
-    mps__copy(k->load, w->particles.p, s->n, w->threads);
+    mps__parallel_copy(threads, w->work.load, w->particles.p, n);
     MPS__TRY(mps__step_run(q, MPS_LOAD));
-#pragma omp parallel for num_threads(w->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++)
-        for (int64_t a = i * s->dim; a < (i + 1) * s->dim; a++) w->particles.u[a] += s->kind[i] == MPS_FLUID ? s->dt * k->motion[a] : 0;
+    mps_parallel_rows(threads, n, push_rows, q);
     mps__step_book_pressure(q);
     MPS__TRY(mps__step_run(q, MPS_VELOCITY));
     mps__step_book_collisions(q);
-    mps__zero(k->motion, s->n * s->dim, w->threads);
+    mps__parallel_zero(threads, &motion, 1);
     MPS__TRY(mps__step_run(q, MPS_SHIFT));
     mps__step_book_shift(q);
-    move(q);
+    q->moved = true;
+    mps_parallel_rows(threads, n, move_rows, q);
     mps__step_stop_at_plates(q);
     return MPS_OK;
 }
@@ -187,26 +205,29 @@ static mps_status correct(mps__step *q)
 static void commit(mps__step *q)
 {
     mps__world *w = q->w;
+    w->state.t = q->pose.t;
+    w->state.step++;
+    w->state.crossing_time = q->info.crossing_time;
     q->info.struct_size = sizeof q->info;
-    q->info.step = w->info.step + 1;
+    q->info.step = w->state.step;
     q->info.dt = q->stage.dt;
-    q->info.t = q->pose.t;
-    q->info.lost = w->info.lost;
+    q->info.t = w->state.t;
+    q->info.lost = w->state.lost;
     w->info = q->info;
-    w->before = w->motion.now;
-    w->dt_before = q->stage.dt;
+    w->state.before = w->motion.now;
+    w->state.dt_before = q->stage.dt;
     w->motion.now = q->pose;
-    mps__copy(w->particles.load, w->work.load, w->particles.n, w->threads);
+    mps__parallel_copy(&w->pool.parallel, w->particles.load, w->work.load, w->particles.n);
     w->info.separated = 0;
     for (int64_t i = 0; i < w->particles.n; i++) w->info.separated += w->particles.held[i] = q->terms.condition[i] == MPS__ROW_HELD;
-    w->jump = q->jump;
-    w->spread = q->spread;
-    w->budget = q->budget;
-    mps__budget_sum(w, &w->budget.last);
-    w->budget.deviation = mps__budget_mean_deviation(w);
-    if (!w->budget.started) {
-        w->budget.started = true;
-        w->budget.deviation_start = w->budget.deviation;
+    w->state.jump = q->jump;
+    w->state.spread = q->spread;
+    w->state.budget = q->budget;
+    mps__budget_sum(w, &w->state.budget.last);
+    w->state.budget.deviation = mps__budget_mean_deviation(w);
+    if (!w->state.budget.started) {
+        w->state.budget.started = true;
+        w->state.budget.deviation_start = w->state.budget.deviation;
     }
 }
 
@@ -214,12 +235,12 @@ static void commit(mps__step *q)
 static void start(mps__world *w, mps__budget *budget)
 {
     mps__particles *s = &w->particles;
-    if (!w->start_pending) return;
-    w->start_pending = 0;
+    if (!w->state.start_pending) return;
+    w->state.start_pending = 0;
     for (int64_t i = 0; i < s->n; i++) {
         double X[3];
-        mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * w->dim, X);
-        mps__motion_point(&w->motion, &w->motion.now, X, NULL, s->u + i * w->dim, NULL);
+        mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * w->setup.dim, X);
+        mps__motion_point(&w->motion, &w->motion.now, X, NULL, s->u + i * w->setup.dim, NULL);
     }
     mps__budget_book_added(w, budget);
 }
@@ -228,15 +249,15 @@ static void start(mps__world *w, mps__budget *budget)
 static mps_status try_step(mps__step *q, double dt_max, double *planned)
 {
     mps__world *w = q->w;
-    q->budget = w->budget;
-    if (w->aside > 0) mps__budget_book_added(w, &q->budget);
+    q->budget = w->state.budget;
+    if (w->lists.aside > 0) mps__budget_book_added(w, &q->budget);
     start(w, &q->budget);
     MPS__TRY(mps__step_turn_areas(w));
     mps__step_open(q);
     MPS__TRY(mps__world_stencil(w, MPS_NEAR, &q->near));
     MPS__TRY(mps__world_stencil(w, MPS_FAR, &q->far));
     MPS__TRY(mps__world_limit_step(w, &q->stage, dt_max, planned));
-    MPS__TRY(mps__motion_pose(&w->motion, w->info.t + q->stage.dt, &q->pose));
+    MPS__TRY(mps__motion_pose(&w->motion, w->state.t + q->stage.dt, &q->pose));
     return run_stages(q);
 }
 
@@ -251,11 +272,10 @@ mps_status mps__world_step(mps__world *w, double dt_max)
 {
     mps__step q = {.w = w, .clock = mps__clock()};
     if (!any_fluid(w)) return mps__fail(w->context, MPS_E_STATE, "there is no fluid particle to step");
-    w->host.threads = w->threads;
     MPS__TRY(mps__plan_make(&w->host.plan, &w->models));
-    mps__budget_update(w, &w->budget); /* what has come, changed or gone since the last step, whatever becomes of this one */
+    mps__budget_update(w, &w->state.budget); /* what has come, changed or gone since the last step, whatever becomes of this one */
     MPS__TRY(mps__world_neighbours(w));
-    const int32_t start_pending = w->start_pending;
+    const int32_t start_pending = w->state.start_pending;
     double planned = 0;
     mps_status status = mps__undo_keep(w);
     if (status >= 0) {
@@ -264,15 +284,15 @@ mps_status mps__world_step(mps__world *w, double dt_max)
     }
     if (status < 0) {
         mps__world_take_back(w);
-        w->start_pending = start_pending;
+        w->state.start_pending = start_pending;
         return status;
     }
-    if (w->info.step == 0) mps__world_note_phases(w);
+    if (w->state.step == 0) mps__world_note_phases(w);
     commit(&q);
 #ifdef MPS_CHECKED
     mps__guard_poison(&w->host);
 #endif
-    if (planned > 0) w->dt_previous = planned; /* a step cut short says nothing about the next */
+    if (planned > 0) w->state.dt_previous = planned; /* a step cut short says nothing about the next */
     end_stage(&q, MPS_STAGE_CORRECT);
     w->info.seconds[MPS_STAGE_CORRECT] = q.info.seconds[MPS_STAGE_CORRECT];
     return q.not_converged ? MPS_W_NOT_CONVERGED : MPS_OK;

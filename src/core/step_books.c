@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The books of a step: who gave and took energy and momentum. Nothing here changes the flow but plates, which stop drops. */
+/* Layer 6: The books of a step: who gave and took energy and momentum. Nothing here changes the flow but plates, which stop drops. */
 #include "plates.h"
 #include "step.h"
 
@@ -26,7 +26,7 @@ void mps__step_book_pressure(mps__step *q)
     q->budget.wall_work += mps__budget_wall_work(w, &q->pose, w->work.motion, q->stage.dt);
     mps__budget_sum(w, &q->bulk);
     mps__budget_wall_force(w, w->work.load, force);
-    for (int d = 0; d < w->dim; d++) {
+    for (int d = 0; d < w->setup.dim; d++) {
         m->pressure[d] += q->bulk.momentum[d] - q->momentum[d];
         m->walls[d] += q->stage.dt * force[d];
     }
@@ -37,7 +37,7 @@ void mps__step_book_collisions(mps__step *q)
     mps__bulk after;
     mps__budget_sum(q->w, &after);
     q->budget.collision += q->bulk.kinetic - after.kinetic;
-    for (int d = 0; d < q->w->dim; d++) q->budget.momentum.collision[d] += after.momentum[d] - q->bulk.momentum[d];
+    for (int d = 0; d < q->w->setup.dim; d++) q->budget.momentum.collision[d] += after.momentum[d] - q->bulk.momentum[d];
     q->bulk = after;
 }
 
@@ -46,17 +46,17 @@ void mps__step_book_shift(mps__step *q)
     mps__bulk after;
     mps__budget_sum(q->w, &after);
     q->budget.shift += q->bulk.kinetic - after.kinetic + mps__budget_lift(q->w, q->w->work.motion);
-    for (int d = 0; d < q->w->dim; d++) q->budget.momentum.shift[d] += after.momentum[d] - q->bulk.momentum[d];
+    for (int d = 0; d < q->w->setup.dim; d++) q->budget.momentum.shift[d] += after.momentum[d] - q->bulk.momentum[d];
 }
 
 void mps__step_stop_at_plates(mps__step *q)
 {
     mps__world *w = q->w;
     mps__bulk moved, stopped;
-    if (w->screens.count == 0) return;
+    if (w->lists.screens.count == 0) return;
     mps__budget_sum(w, &moved);
     mps__plates_stop(w, &q->pose);
     mps__budget_sum(w, &stopped);
     q->budget.collision += (moved.kinetic - stopped.kinetic) + (moved.potential - stopped.potential);
-    for (int d = 0; d < w->dim; d++) q->budget.momentum.collision[d] += stopped.momentum[d] - moved.momentum[d];
+    for (int d = 0; d < w->setup.dim; d++) q->budget.momentum.collision[d] += stopped.momentum[d] - moved.momentum[d];
 }

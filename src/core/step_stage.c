@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The stage of a step: what verbs see, the arrays of the library's channels, and their first values. */
+/* Layer 6: The stage of a step: what verbs see, the arrays of the library's channels, and their first values. */
 #include "operators.h"
 #include "step.h"
 
@@ -50,7 +50,7 @@ static void set_flux(mps__step *q)
                          .jump = brought(w, "pressure_jump"),
                          .wetted = brought(w, "wetted_share"),
                          .tank_acceleration = w->work.tank_acceleration,
-                         .g = {w->g[0], w->g[1], w->g[2]}};
+                         .g = {w->setup.g[0], w->setup.g[1], w->setup.g[2]}};
 }
 
 static void set_terms(mps__step *q)
@@ -67,8 +67,7 @@ static void set_terms(mps__step *q)
                                 .value = k->value,
                                 .gas = k->gas,
                                 .law = k->law,
-                                .condition = k->condition,
-                                .threads = w->threads};
+                                .condition = k->condition};
 }
 
 void mps__step_open(mps__step *q)
@@ -76,13 +75,13 @@ void mps__step_open(mps__step *q)
     mps__world *w = q->w;
     const mps__particles *s = &w->particles;
     q->stage = (mps_stage){.struct_size = sizeof q->stage,
-                           .dim = w->dim,
+                           .dim = w->setup.dim,
                            .n = s->n,
-                           .step = w->info.step + 1,
-                           .t = w->info.t,
-                           .dp = w->dp,
-                           .velocity_scale = w->velocity_scale,
-                           .g = {w->g[0], w->g[1], w->g[2]},
+                           .step = w->state.step + 1,
+                           .t = w->state.t,
+                           .dp = w->setup.dp,
+                           .velocity_scale = w->setup.velocity_scale,
+                           .g = {w->setup.g[0], w->setup.g[1], w->setup.g[2]},
                            .kind = s->kind,
                            .phase = s->phase,
                            .id = s->id,
@@ -91,9 +90,9 @@ void mps__step_open(mps__step *q)
                            .wall_of = s->wall_of,
                            .near = &q->near,
                            .far = &q->far,
-                           .viscosity = w->phase_viscosity,
-                           .tension = w->tension};
-    for (int p = 0; p < MPS__PHASES; p++) q->stage.phases += w->phase_defined[p];
+                           .viscosity = w->setup.phase_viscosity,
+                           .tension = w->setup.tension};
+    for (int p = 0; p < MPS__PHASES; p++) q->stage.phases += w->setup.phase_defined[p];
     set_arrays(w);
     set_flux(q);
     set_terms(q);
@@ -116,7 +115,7 @@ mps_status mps__step_run(mps__step *q, int32_t moment)
 static void weigh_pairs(mps__step *q)
 {
     const mps__world *w = q->w;
-    const mps_neighbours *l = &w->neighbours;
+    const mps_neighbours *l = &w->lists.neighbours;
     mps__op_weigh(&q->near, &(mps__weighed){.begin = l->near_begin,
                                             .col = l->near_col,
                                             .w_r2 = l->w_r2,
@@ -130,28 +129,36 @@ static void weigh_pairs(mps__step *q)
     q->near.w_r2 = l->w_r2;
 }
 
-mps_status mps__step_begin(mps__step *q)
+static void begin_rows(void *world, int64_t begin, int64_t end)
 {
-    mps__world *w = q->w;
+    mps__world *w = world;
     mps__particles *s = &w->particles;
-    weigh_pairs(q);
-    MPS__TRY(mps_op_volume_deviation(&q->far, w->work.volume_deviation));
-#pragma omp parallel for num_threads(w->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) {
+    for (int64_t i = begin; i < end; i++) {
         s->region[i] = s->kind[i] == MPS_DUMMY ? MPS_REGION_DRY : MPS_REGION_INNER;
         w->work.pressure_density[i] = s->rho[i];
     }
-    mps__channels_begin(&w->channels, s->n, w->threads);
+    mps__channels_begin(&w->channels, begin, end);
+}
+
+mps_status mps__step_begin(mps__step *q)
+{
+    mps__world *w = q->w;
+    weigh_pairs(q);
+    MPS__TRY(mps_op_volume_deviation(&q->far, w->work.volume_deviation));
+    mps_parallel_rows(&w->pool.parallel, w->particles.n, begin_rows, w);
     return MPS_OK;
+}
+
+static void begin_equation_rows(void *terms, int64_t begin, int64_t end)
+{
+    const mps__ppe_terms *t = terms;
+    for (int64_t i = begin; i < end; i++) {
+        t->source[i] = t->shift[i] = t->value[i] = t->gas[i] = t->law[i] = 0;
+        t->condition[i] = t->region[i] == MPS_REGION_SURFACE ? MPS_ROW_FIXED : MPS_ROW_FREE;
+    }
 }
 
 void mps__step_begin_equation(mps__step *q)
 {
-    mps__world *w = q->w;
-    const mps__ppe_terms *t = &q->terms;
-#pragma omp parallel for num_threads(w->threads) schedule(static)
-    for (int64_t i = 0; i < w->particles.n; i++) {
-        t->source[i] = t->shift[i] = t->value[i] = t->gas[i] = t->law[i] = 0;
-        t->condition[i] = t->region[i] == MPS_REGION_SURFACE ? MPS_ROW_FIXED : MPS_ROW_FREE;
-    }
+    mps_parallel_rows(&q->w->pool.parallel, q->w->particles.n, begin_equation_rows, &q->terms);
 }

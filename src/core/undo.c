@@ -37,7 +37,7 @@ mps_status mps__undo_keep(mps__world *w)
         if (!f->undone) continue;
         const int64_t room = s->n > f->kept_capacity ? mps__room(s->n, f->kept_capacity) : 0;
         MPS__TRY(mps__grow(w->context, &f->kept, &f->kept_capacity, 0, room, (size_t)f->components * f->size));
-        mps__copy(f->kept, *f->data, (int64_t)(bytes_of(w, f) / sizeof(double)), w->threads);
+        mps__parallel_copy(&w->pool.parallel, f->kept, *f->data, (int64_t)(bytes_of(w, f) / sizeof(double)));
     }
     return MPS_OK;
 }
@@ -47,5 +47,5 @@ void mps__undo_restore(const mps__world *w, bool moved)
     const mps__particles *s = &w->particles;
     for (int32_t k = 0; k < s->fields; k++)
         if (s->field[k].undone) memcpy(*s->field[k].data, s->field[k].kept, bytes_of(w, &s->field[k]));
-    if (moved) memcpy(s->x, w->work.x0, (size_t)(s->n * w->dim) * sizeof *s->x);
+    if (moved) memcpy(s->x, w->work.x0, (size_t)(s->n * w->setup.dim) * sizeof *s->x);
 }

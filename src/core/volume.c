@@ -49,14 +49,26 @@ static inline __attribute__((always_inline)) double wide_sum(const int dim, cons
     return sum;
 }
 
+typedef struct volume_sums {
+    const mps_stencil *s;
+    const double *f;
+    double *out, full;
+} volume_sums;
+
+static void deviation_rows(void *argument, int64_t begin, int64_t end)
+{
+    const volume_sums *v = argument;
+    const mps_stencil *s = v->s;
+    for (int64_t i = begin; i < end; i++) v->out[i] = (s->dim == 2 ? wide_sum(2, s, i) : wide_sum(3, s, i)) / v->full - 1.0;
+}
+
 mps_status mps_op_volume_deviation(const mps_stencil *s, double *delta)
 {
     if (!s || !delta || s->struct_size != sizeof *s || (s->dim != 2 && s->dim != 3) || s->n <= 0 || !s->x || !s->begin || !s->end ||
         !s->col)
         return MPS_E_ARG;
-    const double full = wide_lattice(s);
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) delta[i] = (s->dim == 2 ? wide_sum(2, s, i) : wide_sum(3, s, i)) / full - 1.0;
+    volume_sums v = {.s = s, .out = delta, .full = wide_lattice(s)};
+    mps_parallel_rows(s->parallel, s->n, deviation_rows, &v);
     return MPS_OK;
 }
 
@@ -76,13 +88,19 @@ static inline __attribute__((always_inline)) double wide_sum_of(const int dim, c
     return sum;
 }
 
+static void sum_rows(void *argument, int64_t begin, int64_t end)
+{
+    const volume_sums *v = argument;
+    const mps_stencil *s = v->s;
+    for (int64_t i = begin; i < end; i++) v->out[i] = (s->dim == 2 ? wide_sum_of(2, s, v->f, i) : wide_sum_of(3, s, v->f, i)) / v->full;
+}
+
 mps_status mps_op_volume_sum(const mps_stencil *s, const double *f, double *sum)
 {
     if (!s || !f || !sum || f == sum || s->struct_size != sizeof *s || (s->dim != 2 && s->dim != 3) || s->n <= 0 || !s->x || !s->begin ||
         !s->end || !s->col)
         return MPS_E_ARG;
-    const double full = wide_lattice(s);
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) sum[i] = (s->dim == 2 ? wide_sum_of(2, s, f, i) : wide_sum_of(3, s, f, i)) / full;
+    volume_sums v = {.s = s, .f = f, .out = sum, .full = wide_lattice(s)};
+    mps_parallel_rows(s->parallel, s->n, sum_rows, &v);
     return MPS_OK;
 }

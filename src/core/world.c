@@ -6,29 +6,31 @@
 mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, double dp)
 {
     w->context = context;
-    w->dim = dim;
-    w->dp = dp;
+    w->setup.dim = dim;
+    w->setup.dp = dp;
     w->threads = 1;
-    w->linked = -1;
-    for (int k = 0; k < MPS__PHASES * MPS__PHASES; k++) w->tension[k] = -1.0;
-    mps__neighbours_init(&w->neighbours, context, dim, dp);
-    mps__neighbours_init(&w->complete, context, dim, dp);
-    w->complete.skin = 0; /* searched whenever somebody asks */
-    mps__screens_init(&w->screens, context, dim);
-    w->neighbours.screens = w->complete.screens = &w->screens;
+    mps__pool_init(&w->pool, context);
+    w->lists.linked = -1;
+    for (int k = 0; k < MPS__PHASES * MPS__PHASES; k++) w->setup.tension[k] = -1.0;
+    mps__neighbours_init(&w->lists.neighbours, context, dim, dp);
+    mps__neighbours_init(&w->lists.complete, context, dim, dp);
+    w->lists.complete.skin = 0; /* searched whenever somebody asks */
+    mps__screens_init(&w->lists.screens, context, dim);
+    w->lists.neighbours.screens = w->lists.complete.screens = &w->lists.screens;
     mps__ppe_init(&w->ppe, context);
     mps__bounds_init(&w->bounds, context);
-    w->jump.since = INT32_MAX;
+    w->state.jump.since = INT32_MAX;
     mps__motion_init(&w->motion, context, dim);
     MPS__TRY(mps__particles_init(&w->particles, context, dim));
-    w->neighbours.shared = w->complete.shared = w->ppe.scratch = w->particles.scratch = &w->scratch;
+    w->lists.neighbours.parallel = w->lists.complete.parallel = w->particles.parallel = &w->pool.parallel;
+    w->lists.neighbours.shared = w->lists.complete.shared = w->ppe.scratch = w->particles.scratch = &w->scratch;
     mps__channels_init(&w->channels, context, dim);
     w->host = (mps__host){.context = context,
                           .models = &w->models,
                           .channels = &w->channels,
                           .particles = &w->particles,
                           .scratch = &w->scratch,
-                          .threads = 1};
+                          .parallel = &w->pool.parallel};
     mps__plan_init(&w->host.plan);
     MPS__TRY(mps__models_init(&w->models, context, &w->channels, &w->particles));
     return mps__solvers_init(&w->solvers, context);
@@ -37,9 +39,9 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
 void mps__world_free(mps__world *w)
 {
     mps__particles_free(&w->particles);
-    mps__neighbours_free(&w->neighbours);
-    mps__neighbours_free(&w->complete);
-    mps__screens_free(&w->screens);
+    mps__neighbours_free(&w->lists.neighbours);
+    mps__neighbours_free(&w->lists.complete);
+    mps__screens_free(&w->lists.screens);
     mps__models_free(&w->models);
     mps__solvers_free(&w->solvers);
     mps__ppe_free(&w->ppe);
@@ -50,25 +52,32 @@ void mps__world_free(mps__world *w)
     void *all[] = {k->gone,   k->tank_acceleration, k->volume_deviation, k->asymmetry, k->pressure_density,
                    k->turned, k->motion,            k->value,            k->condition};
     for (size_t a = 0; a < sizeof all / sizeof all[0]; a++) mps__free(w->context, all[a]);
-    mps__free(w->context, w->listed_at);
+    mps__free(w->context, w->lists.listed_at);
     mps__scratch_free(w->context, &w->scratch);
+    mps__pool_free(&w->pool);
+}
+
+static void speed_rows(void *argument, int64_t begin, int64_t end, double *values)
+{
+    const mps__world *w = argument;
+    double most = values[0];
+    for (int64_t i = begin; i < end; i++) {
+        const double *u = w->particles.u + i * w->setup.dim, square = mps__dot(u, u, w->setup.dim);
+        most = square > most ? square : most; /* a NaN does not count */
+    }
+    values[0] = most;
 }
 
 double mps__world_speed(const mps__world *w)
 {
-    const mps__particles *s = &w->particles;
     double most = 0;
-#pragma omp parallel for num_threads(w->threads) reduction(max : most) schedule(static)
-    for (int64_t i = 0; i < s->n; i++) {
-        const double *u = s->u + i * w->dim, square = mps__dot(u, u, w->dim);
-        most = square > most ? square : most; /* a NaN does not count */
-    }
+    mps_parallel_max(&w->pool.parallel, w->particles.n, 1, speed_rows, (mps__world *)w, &most);
     return sqrt(most);
 }
 
 void mps__world_note_layers(mps__world *w, int32_t layers)
 {
-    if (w->layers == 0 || layers < w->layers) w->layers = layers;
+    if (w->setup.layers == 0 || layers < w->setup.layers) w->setup.layers = layers;
 }
 
 void mps__world_note_phases(const mps__world *w)
@@ -77,14 +86,14 @@ void mps__world_note_phases(const mps__world *w)
     for (int64_t i = 0; i < w->particles.n; i++)
         if (w->particles.kind[i] == MPS_FLUID) any[w->particles.phase[i]] = true;
     for (int p = 1; p < MPS__PHASES; p++) /* phase 0 is there without anybody's doing */
-        if (w->phase_defined[p] && !any[p]) mps__log(w->context, MPS_LOG_WARNING, "phase %d is defined, but no fluid particle is of it", p);
+        if (w->setup.phase_defined[p] && !any[p]) mps__log(w->context, MPS_LOG_WARNING, "phase %d is defined, but no fluid particle is of it", p);
 }
 
 bool mps__world_domain(const mps__world *w, double lo[3], double hi[3])
 {
-    if (w->domain_given) {
-        memcpy(lo, w->domain_min, 3 * sizeof *lo);
-        memcpy(hi, w->domain_max, 3 * sizeof *hi);
+    if (w->setup.domain_given) {
+        memcpy(lo, w->setup.domain_min, 3 * sizeof *lo);
+        memcpy(hi, w->setup.domain_max, 3 * sizeof *hi);
         return true;
     }
     const mps__particles *s = &w->particles;
@@ -92,15 +101,15 @@ bool mps__world_domain(const mps__world *w, double lo[3], double hi[3])
     double margin = 0;
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] == MPS_FLUID) continue;
-        for (int d = 0; d < w->dim; d++) {
-            const double v = s->ref[i * w->dim + d];
+        for (int d = 0; d < w->setup.dim; d++) {
+            const double v = s->ref[i * w->setup.dim + d];
             lo[d] = any ? fmin(lo[d], v) : v;
             hi[d] = any ? fmax(hi[d], v) : v;
         }
         any = true;
     }
-    for (int d = 0; any && d < w->dim; d++) margin = fmax(margin, hi[d] - lo[d]);
-    for (int d = 0; any && d < w->dim; d++) {
+    for (int d = 0; any && d < w->setup.dim; d++) margin = fmax(margin, hi[d] - lo[d]);
+    for (int d = 0; any && d < w->setup.dim; d++) {
         lo[d] -= margin;
         hi[d] += margin;
     }
@@ -111,8 +120,8 @@ static bool outside(const mps__world *w, int64_t i, const double *lo, const doub
 {
     double X[3];
     if (w->particles.kind[i] != MPS_FLUID) return false;
-    mps__motion_to_tank(&w->motion, &w->motion.now, w->particles.x + i * w->dim, X);
-    for (int d = 0; d < w->dim; d++)
+    mps__motion_to_tank(&w->motion, &w->motion.now, w->particles.x + i * w->setup.dim, X);
+    for (int d = 0; d < w->setup.dim; d++)
         if (!(X[d] >= lo[d] && X[d] <= hi[d])) return true;
     return false;
 }
@@ -122,14 +131,14 @@ static void set_aside(mps__world *w, int64_t count)
 {
     w->particles.n -= count;
     w->particles.generation++;
-    w->info.lost += count;
-    w->aside += count;
-    w->neighbours.valid = false;
+    w->state.lost += count;
+    w->lists.aside += count;
+    w->lists.neighbours.valid = false;
 }
 
 void mps__world_take_back(mps__world *w)
 {
-    if (w->aside > 0) set_aside(w, -w->aside);
+    if (w->lists.aside > 0) set_aside(w, -w->lists.aside);
 }
 
 /* Apply the policy to the particles with `gone`, if any; the text says where they are. */
@@ -143,12 +152,12 @@ static mps_status handle_lost(mps__world *w, const bool *gone, const char *where
             first = i;
         }
     if (!lost) return MPS_OK;
-    const double *x = s->x + first * w->dim;
-    const double z = w->dim == 3 ? x[2] : 0;
-    if (w->lost_policy == MPS_LOST_ERROR)
+    const double *x = s->x + first * w->setup.dim;
+    const double z = w->setup.dim == 3 ? x[2] : 0;
+    if (w->setup.lost_policy == MPS_LOST_ERROR)
         return mps__fail(w->context, MPS_E_LOST, "%lld particles %s at t = %.6g s; particle %lld is at (%g, %g, %g) m", (long long)lost,
-                         where, w->info.t, (long long)s->id[first], x[0], x[1], z);
-    mps__log(w->context, MPS_LOG_WARNING, "t = %.6g s: %lld particles %s and were removed; particle %lld was at (%g, %g, %g) m", w->info.t,
+                         where, w->state.t, (long long)s->id[first], x[0], x[1], z);
+    mps__log(w->context, MPS_LOG_WARNING, "t = %.6g s: %lld particles %s and were removed; particle %lld was at (%g, %g, %g) m", w->state.t,
              (long long)lost, where, (long long)s->id[first], x[0], x[1], z);
     int32_t *order = mps__alloc(w->context, s->n, sizeof *order);
     if (!order) return MPS_E_NOMEM;
@@ -162,20 +171,29 @@ static mps_status handle_lost(mps__world *w, const bool *gone, const char *where
     return status;
 }
 
+typedef struct box {
+    const mps__world *w;
+    double lo[3], hi[3];
+} box;
+
+static void outside_rows(void *argument, int64_t begin, int64_t end)
+{
+    const box *b = argument;
+    for (int64_t i = begin; i < end; i++) b->w->work.gone[i] = outside(b->w, i, b->lo, b->hi);
+}
+
 static mps_status leave_domain(mps__world *w)
 {
-    double lo[3], hi[3];
-    if (!mps__world_domain(w, lo, hi)) return MPS_OK;
-    bool *gone = w->work.gone;
-#pragma omp parallel for num_threads(w->threads) schedule(static)
-    for (int64_t i = 0; i < w->particles.n; i++) gone[i] = outside(w, i, lo, hi);
-    return handle_lost(w, gone, "left the domain");
+    box b = {.w = w};
+    if (!mps__world_domain(w, b.lo, b.hi)) return MPS_OK;
+    mps_parallel_rows(&w->pool.parallel, w->particles.n, outside_rows, &b);
+    return handle_lost(w, w->work.gone, "left the domain");
 }
 
 static double distance2(const mps__world *w, int64_t i, int64_t j)
 {
     double sum = 0;
-    for (int d = 0; d < w->dim; d++) sum += pow(w->particles.x[j * w->dim + d] - w->particles.x[i * w->dim + d], 2);
+    for (int d = 0; d < w->setup.dim; d++) sum += pow(w->particles.x[j * w->setup.dim + d] - w->particles.x[i * w->setup.dim + d], 2);
     return sum;
 }
 
@@ -183,12 +201,12 @@ static double distance2(const mps__world *w, int64_t i, int64_t j)
 static bool behind(const mps__world *w, int64_t i, int64_t dummy, double r2)
 {
     const mps__particles *s = &w->particles;
-    const mps_neighbours *l = &w->neighbours;
+    const mps_neighbours *l = &w->lists.neighbours;
     const int64_t wall = s->wall_of[dummy];
     double X[3], height = 0;
     if (wall < 0) return false;
-    mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * w->dim, X);
-    for (int d = 0; d < w->dim; d++) height += (X[d] - s->ref[wall * w->dim + d]) * s->area[wall * w->dim + d];
+    mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * w->setup.dim, X);
+    for (int d = 0; d < w->setup.dim; d++) height += (X[d] - s->ref[wall * w->setup.dim + d]) * s->area[wall * w->setup.dim + d];
     for (int64_t p = l->begin[i]; height < 0 && p < l->middle[i]; p++)
         if (s->kind[l->col[p]] == MPS_WALL && distance2(w, i, l->col[p]) <= r2) return false;
     return height < 0;
@@ -198,7 +216,7 @@ static bool behind(const mps__world *w, int64_t i, int64_t dummy, double r2)
 static mps_status leave_tank(mps__world *w)
 {
     const mps__particles *s = &w->particles;
-    const mps_neighbours *l = &w->neighbours;
+    const mps_neighbours *l = &w->lists.neighbours;
     bool *gone = w->work.gone;
     memset(gone, 0, (size_t)s->n * sizeof *gone);
     for (int64_t i = 0; i < s->n; i++) {
@@ -207,7 +225,7 @@ static mps_status leave_tank(mps__world *w)
             const int64_t j = l->col[p];
             if (s->kind[j] != MPS_FLUID || gone[j]) continue;
             const double r2 = distance2(w, i, j);
-            gone[j] = r2 < w->dp * w->dp && behind(w, j, i, r2);
+            gone[j] = r2 < w->setup.dp * w->setup.dp && behind(w, j, i, r2);
         }
     }
     return handle_lost(w, gone, "are behind a wall");
@@ -218,7 +236,7 @@ static bool may_belong(const mps__world *w, int64_t dummy, int64_t wall)
 {
     const mps__particles *s = &w->particles;
     if (!mps__is_shadow(s, dummy)) return true;
-    const mps__screen *screen = &w->screens.list[s->plate[dummy] - 1];
+    const mps__screen *screen = &w->lists.screens.list[s->plate[dummy] - 1];
     return s->plate[wall] == s->plate[dummy] &&
            mps__dot(s->area + wall * s->dim, screen->normal, s->dim) * mps__screen_height(screen, s->ref + dummy * s->dim) < 0;
 }
@@ -227,7 +245,7 @@ static bool may_belong(const mps__world *w, int64_t dummy, int64_t wall)
 static void link_dummies(mps__world *w)
 {
     mps__particles *s = &w->particles;
-    const mps_neighbours *l = &w->neighbours;
+    const mps_neighbours *l = &w->lists.neighbours;
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_DUMMY) continue;
         double best = INFINITY;
@@ -236,8 +254,8 @@ static void link_dummies(mps__world *w)
             const int32_t j = l->col[k];
             if (s->kind[j] != MPS_WALL || !may_belong(w, i, j)) continue;
             double r2 = 0;
-            for (int d = 0; d < w->dim; d++) r2 += pow(s->ref[(int64_t)j * w->dim + d] - s->ref[i * w->dim + d], 2);
-            const double margin = 1e-9 * w->dp * w->dp;
+            for (int d = 0; d < w->setup.dim; d++) r2 += pow(s->ref[(int64_t)j * w->setup.dim + d] - s->ref[i * w->setup.dim + d], 2);
+            const double margin = 1e-9 * w->setup.dp * w->setup.dp;
             if (r2 > best + margin || (r2 > best - margin && s->id[j] > s->id[s->wall_of[i]])) continue;
             best = r2;
             s->wall_of[i] = j;
@@ -249,7 +267,7 @@ static void link_dummies(mps__world *w)
 static void estimate_areas(mps__world *w)
 {
     mps__particles *s = &w->particles;
-    const int dim = w->dim;
+    const int dim = w->setup.dim;
     double *sum = w->work.motion; /* free between steps */
     memset(sum, 0, (size_t)(s->n * dim) * sizeof *sum);
     for (int64_t i = 0; i < s->n; i++)
@@ -258,15 +276,15 @@ static void estimate_areas(mps__world *w)
     for (int64_t i = 0; i < s->n; i++) {
         double *area = s->area + i * dim, *v = sum + i * dim;
         const double length = sqrt(mps__dot(v, v, dim));
-        if (s->kind[i] != MPS_WALL || mps__dot(area, area, dim) > 0 || length < 1e-6 * w->dp) continue;
-        for (int d = 0; d < dim; d++) area[d] = v[d] / length * pow(w->dp, dim - 1);
+        if (s->kind[i] != MPS_WALL || mps__dot(area, area, dim) > 0 || length < 1e-6 * w->setup.dp) continue;
+        for (int d = 0; d < dim; d++) area[d] = v[d] / length * pow(w->setup.dp, dim - 1);
     }
 }
 
 static mps_status reserve_work(mps__world *w)
 {
     mps__work *k = &w->work;
-    const int64_t n = w->particles.n, dim = w->dim;
+    const int64_t n = w->particles.n, dim = w->setup.dim;
     MPS__TRY(mps__channels_reserve(&w->channels, n));
     if (n <= k->capacity) return MPS_OK;
     const int64_t wanted = mps__room(n, k->capacity);
@@ -309,7 +327,7 @@ static mps_status link_solids(mps__world *w)
     mps__world_rows(w);
     MPS__TRY(mps__world_stencil(w, MPS_NEAR, &near));
     MPS__TRY(mps_op_number_density(&near, w->particles.nd));
-    w->linked = w->particles.generation;
+    w->lists.linked = w->particles.generation;
     return MPS_OK;
 }
 
@@ -317,21 +335,21 @@ static mps_status link_solids(mps__world *w)
 static mps_status search_lists(mps__world *w, bool sorted, bool all)
 {
     mps__particles *s = &w->particles;
-    if (sorted) mps__neighbours_sorted(&w->neighbours, s->n);
-    w->neighbours.kind = all ? NULL : s->kind;
-    return mps__neighbours_search(&w->neighbours, s->n, s->x, w->re_near, w->re_far);
+    if (sorted) mps__neighbours_sorted(&w->lists.neighbours, s->n);
+    w->lists.neighbours.kind = all ? NULL : s->kind;
+    return mps__neighbours_search(&w->lists.neighbours, s->n, s->x, w->setup.re_near, w->setup.re_far);
 }
 
 static mps_status search(mps__world *w, bool sorted)
 {
     mps_status status = MPS_OK;
-    if (w->linked != w->particles.generation) {
+    if (w->lists.linked != w->particles.generation) {
         MPS__TRY(search_lists(w, sorted, true));
         status = link_solids(w);
     }
     if (status == MPS_OK) status = search_lists(w, sorted, false);
     if (status == MPS_OK) status = mps__plates_find(w);
-    if (status < 0) w->neighbours.valid = false;
+    if (status < 0) w->lists.neighbours.valid = false;
     return status;
 }
 
@@ -340,17 +358,17 @@ static mps_status list_again(mps__world *w)
 {
     mps__particles *s = &w->particles;
     double *const now = s->x;
-    if (!w->listed_at) return MPS_OK;
-    if (w->linked == s->generation) {
-        s->x = w->listed_at;
+    if (!w->lists.listed_at) return MPS_OK;
+    if (w->lists.linked == s->generation) {
+        s->x = w->lists.listed_at;
         mps_status status = search_lists(w, false, false);
         if (status == MPS_OK) status = mps__plates_find(w);
         s->x = now;
-        w->neighbours.valid = status == MPS_OK;
+        w->lists.neighbours.valid = status == MPS_OK;
         MPS__TRY(status);
     }
-    mps__free(w->context, w->listed_at);
-    w->listed_at = NULL;
+    mps__free(w->context, w->lists.listed_at);
+    w->lists.listed_at = NULL;
     return MPS_OK;
 }
 
@@ -358,11 +376,10 @@ static mps_status list_again(mps__world *w)
 static mps_status renew(mps__world *w)
 {
     mps__particles *s = &w->particles;
-    w->neighbours.threads = s->threads = w->threads;
     MPS__TRY(list_again(w));
-    if (w->linked != s->generation || !mps__neighbours_fresh(&w->neighbours, s->n, s->x, w->re_far)) {
-        MPS__TRY(mps__neighbours_order(&w->neighbours, s->n, s->x, w->re_far));
-        MPS__TRY(mps__particles_permute(s, s->n, w->neighbours.order));
+    if (w->lists.linked != s->generation || !mps__neighbours_fresh(&w->lists.neighbours, s->n, s->x, w->setup.re_far)) {
+        MPS__TRY(mps__neighbours_order(&w->lists.neighbours, s->n, s->x, w->setup.re_far));
+        MPS__TRY(mps__particles_permute(s, s->n, w->lists.neighbours.order));
         MPS__TRY(search(w, true));
     }
     mps__world_rows(w);
@@ -372,14 +389,14 @@ static mps_status renew(mps__world *w)
 mps_status mps__world_neighbours(mps__world *w)
 {
     MPS__CHECK(w->context, w->particles.n > 0, "there are no particles");
-    w->aside = 0;
+    w->lists.aside = 0;
     MPS__TRY(reserve_work(w));
     mps_status status = leave_domain(w);
-    if (w->particles.n == 0) status = mps__fail(w->context, MPS_E_STATE, "t = %.6g s: all particles left the domain", w->info.t);
+    if (w->particles.n == 0) status = mps__fail(w->context, MPS_E_STATE, "t = %.6g s: all particles left the domain", w->state.t);
     if (status == MPS_OK) status = renew(w);
-    const int64_t aside = w->aside;
+    const int64_t aside = w->lists.aside;
     if (status == MPS_OK) status = leave_tank(w);
-    if (status == MPS_OK && w->aside > aside) status = renew(w);
+    if (status == MPS_OK && w->lists.aside > aside) status = renew(w);
     if (status < 0) mps__world_take_back(w);
     return status;
 }
@@ -389,36 +406,34 @@ mps_status mps__world_neighbours_kept(mps__world *w)
     mps__particles *s = &w->particles;
     MPS__CHECK(w->context, s->n > 0, "there are no particles");
     MPS__TRY(reserve_work(w));
-    w->neighbours.threads = s->threads = w->threads;
     MPS__TRY(list_again(w));
-    const bool fresh = w->linked == s->generation && mps__neighbours_fresh(&w->neighbours, s->n, s->x, w->re_far);
+    const bool fresh = w->lists.linked == s->generation && mps__neighbours_fresh(&w->lists.neighbours, s->n, s->x, w->setup.re_far);
     if (!fresh) MPS__TRY(search(w, false));
     mps__world_rows(w);
-    if (!fresh) w->neighbours.valid = false; /* the next step sorts, as it would have done */
+    if (!fresh) w->lists.neighbours.valid = false; /* the next step sorts, as it would have done */
     return MPS_OK;
 }
 
 void mps__world_rows(mps__world *w)
 {
     mps__plates_look(w);
-    mps__neighbours_rows(&w->neighbours, w->particles.x);
+    mps__neighbours_rows(&w->lists.neighbours, w->particles.x);
 }
 
 mps_status mps__world_stencil_all(mps__world *w, int32_t which, mps_stencil *stencil)
 {
     mps__particles *s = &w->particles;
-    mps_neighbours *l = &w->complete;
-    if (!w->neighbours.partial) return mps__world_stencil(w, which, stencil);
-    l->threads = w->threads;
-    MPS__TRY(mps__neighbours_search(l, s->n, s->x, w->re_near, w->re_far));
+    mps_neighbours *l = &w->lists.complete;
+    if (!w->lists.neighbours.partial) return mps__world_stencil(w, which, stencil);
+    MPS__TRY(mps__neighbours_search(l, s->n, s->x, w->setup.re_near, w->setup.re_far));
     mps__neighbours_rows(l, s->x);
-    return mps_neighbours_stencil(l, which, &w->kernel, stencil);
+    return mps_neighbours_stencil(l, which, &w->setup.kernel, stencil);
 }
 
 mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *stencil)
 {
-    mps_status status = mps_neighbours_stencil(&w->neighbours, which, &w->kernel, stencil);
+    mps_status status = mps_neighbours_stencil(&w->lists.neighbours, which, &w->setup.kernel, stencil);
     return status == MPS_OK ? status
                             : mps__fail(w->context, status, "the kernel has no lattice constants for radius %g dp",
-                                        (which ? w->re_far : w->re_near) / w->dp);
+                                        (which ? w->setup.re_far : w->setup.re_near) / w->setup.dp);
 }

@@ -27,7 +27,7 @@ typedef struct mps__budget {
     mps_momentum momentum;             /* but for its `total` and `numerical` */
     mps__bulk last;                    /* up to here all is booked: what the last step left */
     double deviation, deviation_start; /* mean volume deviation of regions INNER and SECOND in the last step and the first */
-    bool started;
+    int64_t started;                   /* 1: the first step has been made */
 } mps__budget;
 
 /* Arrays [n] or [n*dim] that live through one step. Those that verbs of models use are channels. */
@@ -50,9 +50,9 @@ typedef struct mps__jump {
     int64_t since; /* steps */
 } mps__jump;
 
-typedef struct mps__world {
-    mps__context *context;
-    int32_t dim, threads, lost_policy, start_pending;
+/* What the user chose. The text of a checkpoint says it. */
+typedef struct mps__setup {
+    int32_t dim, lost_policy;
     double dp, g[3], velocity_scale, re_near, re_far, speed_limit;
     double domain_min[3], domain_max[3]; /* tank's frame */
     bool domain_given;
@@ -60,10 +60,56 @@ typedef struct mps__world {
     bool phase_defined[MPS__PHASES];
     double phase_density[MPS__PHASES], phase_viscosity[MPS__PHASES];
     double tension[MPS__PHASES * MPS__PHASES]; /* < 0: not set */
-    mps__particles particles;
+    mps_time_control control;
+    int32_t layers; /* of dummies behind the walls, the fewest of all tanks and solids; 0: there is none */
+} mps__setup;
+
+/* What the next step depends on, beside the fields of the particles, the motion and the probes. MPS__STATE lists all members: they
+ * are stored in checkpoints. */
+typedef struct mps__state {
+    double t;     /* [s] */
+    int64_t step; /* steps taken */
+    int64_t lost; /* particles removed */
+    double crossing_time;
+    double dt_previous;    /* of the last step that the limits chose, not the caller; 0: none yet [s] */
+    double dt_before;      /* length of the last step [s] */
+    mps__pose before;      /* of the tank at its beginning */
+    mps__jump jump;        /* of the tank's velocity */
+    double spread;         /* time that a gain below 1 spreads pressures over, 0 before the first step [s] */
+    mps__budget budget;
+    int32_t start_pending; /* 1: the liquid gets its first velocity in the next step */
+    int32_t level_told;    /* 1: the log was told that nothing fixes the level of the pressures */
+    int32_t moves_told;    /* 1: that a fixed step is long for its speeds */
+    int32_t window_told;   /* 1: that a probe averages over less than the resolution can tell */
+} mps__state;
+
+#define MPS__STATE(MEMBER)                                                                                                         \
+    MEMBER(t) MEMBER(step) MEMBER(lost) MEMBER(crossing_time) MEMBER(dt_previous) MEMBER(dt_before) MEMBER(before) MEMBER(jump)    \
+    MEMBER(spread) MEMBER(budget) MEMBER(start_pending) MEMBER(level_told) MEMBER(moves_told) MEMBER(window_told)
+
+#define MPS__STATE_SIZE(member) +sizeof(((mps__state *)0)->member)
+_Static_assert(sizeof(mps__state) == 0 MPS__STATE(MPS__STATE_SIZE), "MPS__STATE lists all members of mps__state");
+
+/* Who is near whom; found again when particles have moved. */
+typedef struct mps__lists {
     mps_neighbours neighbours;
-    mps_neighbours complete; /* the same with the rows of solids without fluid about them, for those who ask; else empty */
+    mps_neighbours complete; /* the same with the rows of solids without fluid about them, on demand; else empty */
     mps__screens screens;    /* thin plates, in the tank's frame */
+    double *listed_at; /* NULL, or positions [n*dim] of the search whose candidates still hold, but are to be found again */
+    int64_t aside;     /* lost particles that lie behind the others, until the next are looked for */
+    int64_t linked;    /* generation of the particles whose dummies know their walls */
+} mps__lists;
+
+typedef struct mps__world {
+    mps__context *context;
+    mps__setup setup;
+    mps__state state;
+    mps__lists lists;
+    mps__work work;
+    mps__particles particles; /* the state of each particle */
+    mps__motion motion;       /* of the tank: chosen by the user, and its present pose */
+    mps__pool pool;
+    int32_t threads; /* of the pool */
     mps__models models;
     mps__channels channels;
     mps__host host;
@@ -71,24 +117,8 @@ typedef struct mps__world {
     mps__ppe ppe;
     mps__bounds bounds;
     mps__scratch scratch; /* of searches, verbs and the equation */
-    mps__motion motion;
-    mps_time_control control;
-    mps__budget budget;
-    mps_step_info info; /* of the last step; t, step, lost go on */
-    double dt_previous; /* of the last step that the limits chose, not the caller; 0: none yet */
-    bool ending;        /* dt_max of a step is what is left of a run */
-    mps__pose before;   /* of the tank at the beginning of the last step, */
-    double dt_before;   /* which was this long */
-    mps__jump jump;     /* of the tank's velocity */
-    double spread;      /* time that a gain below 1 spreads pressures over, 0 before the first step [s] */
-    mps__work work;
-    double *listed_at; /* NULL, or positions [n*dim] of the search whose candidates still hold, but are to be found again */
-    int64_t aside;     /* lost particles that lie behind the others, until the next are looked for */
-    int64_t linked;    /* generation of the particles whose dummies know their walls */
-    int32_t layers;    /* of dummies behind the walls, the fewest of all tanks and solids; 0: there is none */
-    bool level_told;   /* that nothing fixes the level of the pressures */
-    bool moves_told;   /* that a fixed step is long for its speeds */
-    bool window_told;  /* that a probe averages over less than the resolution can tell */
+    mps_step_info info;   /* of the last step */
+    bool ending;          /* dt_max of a step is what is left of a run */
 } mps__world;
 
 mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, double dp);
@@ -112,14 +142,14 @@ void mps__world_note_phases(const mps__world *w);
 /* Largest mps_step_info.crossing_time [s]: below 5 U_g steps do not depend on the speed. */
 static inline double mps__crossing_limit(const mps__world *w)
 {
-    return w->dp / (5 * w->velocity_scale);
+    return w->setup.dp / (5 * w->setup.velocity_scale);
 }
 /* mps_step_info.crossing_time after a step dt that ends with this speed. In calm liquid there are no impacts to be averaged, and a mean lags.
  * It changes slowly: a mean over a time that shrinks does not count all of an impulse. */
 static inline double mps__crossing_time(const mps__world *w, double speed, double dt)
 {
-    const double last = w->info.crossing_time, wanted = fmin(1, speed / w->velocity_scale) * fmin(w->dp / speed, mps__crossing_limit(w));
-    return w->info.step > 0 ? fmin(fmax(wanted, last - 0.1 * dt), last + 0.1 * dt) : wanted;
+    const double last = w->state.crossing_time, wanted = fmin(1, speed / w->setup.velocity_scale) * fmin(w->setup.dp / speed, mps__crossing_limit(w));
+    return w->state.step > 0 ? fmin(fmax(wanted, last - 0.1 * dt), last + 0.1 * dt) : wanted;
 }
 /* Largest speed of all particles [m/s]. */
 double mps__world_speed(const mps__world *w);

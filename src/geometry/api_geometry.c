@@ -16,8 +16,8 @@ static mps_status has_tank(mps_sim *sim)
 /* Whole spacings of every side. The lattice with its dummies must stay countable. */
 static mps_status tank_cells(mps_sim *sim, const mps_tank *tank, int64_t cells[3])
 {
-    double dp = sim->world.dp, points = 1;
-    for (int d = 0; d < sim->world.dim; d++) {
+    double dp = sim->world.setup.dp, points = 1;
+    for (int d = 0; d < sim->world.setup.dim; d++) {
         double n = round(tank->size[d] / dp);
         MPS__CHECK(&sim->context, isfinite(tank->lo[d]), "tank.lo[%d] is %g: must be finite", d, tank->lo[d]);
         MPS__CHECK(&sim->context, isfinite(n) && tank->size[d] >= (3 - 1e-6) * dp, "tank.size[%d] is %g m: at least 3 spacings of %g m", d,
@@ -36,9 +36,9 @@ static void report_size(mps_sim *sim, const mps_tank *tank, const int64_t cells[
 {
     static const char axis[3] = {'x', 'y', 'z'};
     for (int d = 0; d < 3; d++) {
-        double size = (double)cells[d] * sim->world.dp;
+        double size = (double)cells[d] * sim->world.setup.dp;
         if (built) built[d] = size;
-        if (d < sim->world.dim && fabs(size - tank->size[d]) > 1e-6 * sim->world.dp)
+        if (d < sim->world.setup.dim && fabs(size - tank->size[d]) > 1e-6 * sim->world.setup.dp)
             mps__log(&sim->context, MPS_LOG_INFO, "tank \"%s\": size %g m in %c rounded to %g m, %lld spacings", tank->name, tank->size[d],
                      axis[d], size, (long long)cells[d]);
     }
@@ -48,7 +48,7 @@ static mps_status corners(mps_sim *sim, const double *lo, const double *hi)
 {
     mps__context *c = &sim->context;
     MPS__CHECK(c, lo && hi, "a corner of the box is NULL");
-    for (int d = 0; d < sim->world.dim; d++) {
+    for (int d = 0; d < sim->world.setup.dim; d++) {
         MPS__CHECK(c, isfinite(lo[d]) && isfinite(hi[d]), "box corner [%d] is %g .. %g: must be finite", d, lo[d], hi[d]);
         MPS__CHECK(c, lo[d] <= hi[d], "box corners [%d] are inverted: lo %g > hi %g", d, lo[d], hi[d]);
     }
@@ -60,8 +60,8 @@ static mps_status box_points(mps_sim *sim, const double *lo, const double *hi, m
     MPS__TRY(has_tank(sim));
     MPS__TRY(corners(sim, lo, hi));
     MPS__CHECK(&sim->context, mps__lattice_clip(sim, lo, hi, box),
-               "the box contains no lattice point of the tank: spacing is %g m, the first point (%g, %g%s)", sim->world.dp,
-               sim->lattice_lo[0], sim->lattice_lo[1], sim->world.dim == 3 ? ", ..." : "");
+               "the box contains no lattice point of the tank: spacing is %g m, the first point (%g, %g%s)", sim->world.setup.dp,
+               sim->lattice_lo[0], sim->lattice_lo[1], sim->world.setup.dim == 3 ? ", ..." : "");
     return MPS_OK;
 }
 
@@ -69,8 +69,8 @@ static mps_status box_points(mps_sim *sim, const double *lo, const double *hi, m
 static void report_box(mps_sim *sim, const char *what, const double *lo, const double *hi, const mps__lattice_box *box, double *built)
 {
     static const char axis[3] = {'x', 'y', 'z'};
-    const int dim = sim->world.dim;
-    const double dp = sim->world.dp;
+    const int dim = sim->world.setup.dim;
+    const double dp = sim->world.setup.dp;
     for (int d = 0; d < dim; d++) {
         const double first = box->lo[d] + (double)box->first[d] * dp;
         const double last = box->lo[d] + ((double)box->last[d] - (d == 1 && box->top > 0 ? 1 - box->top : 0)) * dp;
@@ -87,7 +87,7 @@ static void report_box(mps_sim *sim, const char *what, const double *lo, const d
 static mps_status phase_ok(mps_sim *sim, int32_t phase)
 {
     MPS__CHECK(&sim->context, phase >= 0 && phase < MPS__PHASES, "phase %d: must be 0..%d", (int)phase, MPS__PHASES - 1);
-    MPS__CHECK(&sim->context, sim->world.phase_defined[phase], "phase %d is not defined: call mps_sim_set_phase() first", (int)phase);
+    MPS__CHECK(&sim->context, sim->world.setup.phase_defined[phase], "phase %d is not defined: call mps_sim_set_phase() first", (int)phase);
     return MPS_OK;
 }
 
@@ -134,8 +134,8 @@ mps_status mps_geometry_baffle(mps_sim *sim, const char *name, const double *lo,
 /* Of one edge of a plate. */
 static mps_status plate_edge(mps_sim *sim, mps__plate_shape *s, int e, const double *edge)
 {
-    const int dim = sim->world.dim;
-    const double dp = sim->world.dp;
+    const int dim = sim->world.setup.dim;
+    const double dp = sim->world.setup.dp;
     MPS__CHECK(&sim->context, edge, "edge%s of the plate is NULL", e ? "2" : "");
     MPS__CHECK(&sim->context, mps__finite(edge, dim), "edge%s of the plate is not finite", e ? "2" : "");
     const double length = sqrt(mps__dot(edge, edge, dim)), cells = round(length / dp);
@@ -158,16 +158,16 @@ static void plate_normal(mps__plate_shape *s, int dim)
 /* Axis of the normal of a plate whose nodes are lattice points, else -1. */
 static int32_t plate_axis(const mps_sim *sim, const mps__plate_shape *s)
 {
-    const double dp = sim->world.dp, small = 1e-6;
+    const double dp = sim->world.setup.dp, small = 1e-6;
     int32_t axis = -1;
-    for (int d = 0; d < sim->world.dim; d++) {
+    for (int d = 0; d < sim->world.setup.dim; d++) {
         const double q = (s->corner[d] - sim->lattice_lo[d]) / dp;
         if (fabs(q - round(q)) > small) return -1;
         if (fabs(s->normal[d]) > 1 - small) axis = d;
     }
-    for (int e = 0; e < sim->world.dim - 1; e++) {
+    for (int e = 0; e < sim->world.setup.dim - 1; e++) {
         double largest = 0;
-        for (int d = 0; d < sim->world.dim; d++) largest = fmax(largest, fabs(s->along[e][d]));
+        for (int d = 0; d < sim->world.setup.dim; d++) largest = fmax(largest, fabs(s->along[e][d]));
         if (largest < 1 - small || fabs(s->spacing[e] - dp) > small * dp) return -1;
     }
     return axis;
@@ -176,11 +176,11 @@ static int32_t plate_axis(const mps_sim *sim, const mps__plate_shape *s)
 /* All four corners lie in the tank. */
 static mps_status plate_inside(mps_sim *sim, const mps__plate_shape *s)
 {
-    for (int corner = 0; corner < 2 * (sim->world.dim - 1); corner++)
-        for (int d = 0; d < sim->world.dim; d++) {
+    for (int corner = 0; corner < 2 * (sim->world.setup.dim - 1); corner++)
+        for (int d = 0; d < sim->world.setup.dim; d++) {
             double at = s->corner[d];
             for (int e = 0; e < 2; e++) at += (corner >> e & 1) * (double)(s->nodes[e] - 1) * s->spacing[e] * s->along[e][d];
-            const double lo = sim->lattice_lo[d], hi = lo + (double)sim->lattice_cells[d] * sim->world.dp, slack = 1e-6 * sim->world.dp;
+            const double lo = sim->lattice_lo[d], hi = lo + (double)sim->lattice_cells[d] * sim->world.setup.dp, slack = 1e-6 * sim->world.setup.dp;
             MPS__CHECK(&sim->context, at >= lo - slack && at <= hi + slack,
                        "the plate leaves the tank: coordinate [%d] of a corner is %g, allowed %g..%g", d, at, lo, hi);
         }
@@ -190,8 +190,8 @@ static mps_status plate_inside(mps_sim *sim, const mps__plate_shape *s)
 mps_status mps_geometry_plate(mps_sim *sim, const char *name, const double *corner, const double *edge, const double *edge2)
 {
     MPS__CHANGES(sim);
-    const int dim = sim->world.dim;
-    mps__plate_shape s = {.nodes = {1, 1}, .spacing = {sim->world.dp, sim->world.dp}, .columns = 1};
+    const int dim = sim->world.setup.dim;
+    mps__plate_shape s = {.nodes = {1, 1}, .spacing = {sim->world.setup.dp, sim->world.setup.dp}, .columns = 1};
     char copy[MPS__PART_NAME];
     MPS__TRY(mps__solids_allowed(sim));
     MPS__CHECK(&sim->context, mps__name_copy(copy, sizeof copy, name), "the plate's name must have 1..%d characters", MPS__PART_NAME - 1);
@@ -234,11 +234,11 @@ mps_status mps_geometry_fill_level(mps_sim *sim, int32_t phase, const double *lo
     mps__lattice_box box;
     MPS__TRY(has_tank(sim));
     MPS__TRY(corners(sim, lo, hi));
-    const int dim = sim->world.dim;
-    const double rows = (hi[1] - sim->lattice_lo[1]) / sim->world.dp, part = rows - floor(rows + 1e-6);
+    const int dim = sim->world.setup.dim;
+    const double rows = (hi[1] - sim->lattice_lo[1]) / sim->world.setup.dp, part = rows - floor(rows + 1e-6);
     double top[3] = {0, 0, 0};
     memcpy(top, hi, (size_t)dim * sizeof *top);
-    if (part > 1e-6) top[1] = sim->lattice_lo[1] + (floor(rows) + 1) * sim->world.dp;
+    if (part > 1e-6) top[1] = sim->lattice_lo[1] + (floor(rows) + 1) * sim->world.setup.dp;
     MPS__TRY(fill_points(sim, phase, lo, top, &box));
     if (part > 1e-6 && (double)box.last[1] > rows) box.top = part;
     MPS__TRY(mps__geometry_fill(sim, phase, &box, NULL, NULL, added));
@@ -254,7 +254,7 @@ mps_status mps_geometry_fill(mps_sim *sim, int32_t phase, mps_inside_fn inside, 
     MPS__TRY(has_tank(sim));
     MPS__CHECK(&sim->context, inside, "inside is NULL: use mps_geometry_fill_box() to fill a box");
     mps__lattice_box box = {.lo = {0}};
-    for (int d = 0; d < sim->world.dim; d++) {
+    for (int d = 0; d < sim->world.setup.dim; d++) {
         box.lo[d] = sim->lattice_lo[d];
         box.last[d] = sim->lattice_cells[d];
     }

@@ -13,7 +13,7 @@ static const mps_stl stl_defaults = {.name = "solid", .dummy_layers = 2, .scale 
 static mps_status check_corner(mps_sim *sim, const char *what, const double *lo)
 {
     if (sim->has_tank && !sim->lattice_of_solids) return MPS_OK;
-    for (int d = 0; d < sim->world.dim; d++) MPS__TRY(mps__place_resolved(sim, what, d, lo[d]));
+    for (int d = 0; d < sim->world.setup.dim; d++) MPS__TRY(mps__place_resolved(sim, what, d, lo[d]));
     return MPS_OK;
 }
 
@@ -31,10 +31,10 @@ static mps_status check_solid(mps_sim *sim, const mps_solid *s)
     MPS__CHECK(c, s->distance || s->inside, "solid \"%s\" has neither a distance nor an inside", s->name);
     MPS__CHECK(c, !s->distance || !s->inside, "solid \"%s\" has both a distance and an inside: must be one of them", s->name);
     MPS__CHECK(c, s->invert == 0 || s->invert == 1, "solid.invert is %d: must be 0 or 1", (int)s->invert);
-    for (int d = 0; d < sim->world.dim; d++) {
+    for (int d = 0; d < sim->world.setup.dim; d++) {
         MPS__CHECK(c, isfinite(s->lo[d]) && isfinite(s->hi[d]), "the solid's box [%d] is %g .. %g: must be finite", d, s->lo[d], s->hi[d]);
-        MPS__CHECK(c, s->hi[d] - s->lo[d] >= (1 - 1e-6) * sim->world.dp,
-                   "the solid's box [%d] is %g .. %g: must be at least dp = %g m long", d, s->lo[d], s->hi[d], sim->world.dp);
+        MPS__CHECK(c, s->hi[d] - s->lo[d] >= (1 - 1e-6) * sim->world.setup.dp,
+                   "the solid's box [%d] is %g .. %g: must be at least dp = %g m long", d, s->lo[d], s->hi[d], sim->world.setup.dp);
     }
     return check_corner(sim, "solid.lo", s->lo);
 }
@@ -57,9 +57,9 @@ mps_status mps_geometry_solid(mps_sim *sim, const mps_solid *solid)
     MPS__TRY(check_solid(sim, &s));
     mps__solid add = {.name = name, .layers = s.dummy_layers};
     add.shape = (mps__shape){
-        .dim = sim->world.dim, .dp = sim->world.dp, .sign = s.invert ? -1 : 1, .distance = s.distance, .inside = s.inside, .user = s.user};
-    memcpy(add.lo, s.lo, (size_t)sim->world.dim * sizeof(double));
-    memcpy(add.hi, s.hi, (size_t)sim->world.dim * sizeof(double));
+        .dim = sim->world.setup.dim, .dp = sim->world.setup.dp, .sign = s.invert ? -1 : 1, .distance = s.distance, .inside = s.inside, .user = s.user};
+    memcpy(add.lo, s.lo, (size_t)sim->world.setup.dim * sizeof(double));
+    memcpy(add.hi, s.hi, (size_t)sim->world.setup.dim * sizeof(double));
     const mps__lock before = mps__lock_set(&sim->context, MPS__LOCKED, "a callback of a solid");
     const mps_status status = mps__solid_add(sim, &add);
     sim->context.lock = before;
@@ -76,7 +76,7 @@ mps_status mps_stl_init(mps_stl *stl, size_t size)
 static mps_status check_stl(mps_sim *sim, const char *path, const mps_stl *s)
 {
     mps__context *c = &sim->context;
-    MPS__CHECK(c, sim->world.dim == 3, "an STL file needs 3-D: this simulation is 2-D");
+    MPS__CHECK(c, sim->world.setup.dim == 3, "an STL file needs 3-D: this simulation is 2-D");
     MPS__CHECK(c, path && path[0], "the path of the STL file is %s", path ? "empty" : "NULL");
     MPS__CHECK(c, isfinite(s->scale) && s->scale > 0, "stl.scale is %g: must be > 0", s->scale);
     MPS__CHECK(c, mps__finite(s->shift, 3), "stl.shift is (%g, %g, %g) m: must be finite", s->shift[0], s->shift[1], s->shift[2]);
@@ -125,7 +125,7 @@ static mps_status add_mesh(mps_sim *sim, const char *path, const mps_stl *s, mps
                "\"%.200s\": a coordinate is not finite after scaling by %g", path, s->scale);
     MPS__TRY(check_corner(sim, "the STL file's lower corner ", add.lo));
     MPS__TRY(prepare_mesh(sim, m, path, s->container != 0));
-    add.shape = (mps__shape){.dim = 3, .dp = sim->world.dp, .sign = 1, .mesh = m};
+    add.shape = (mps__shape){.dim = 3, .dp = sim->world.setup.dp, .sign = 1, .mesh = m};
     memcpy(built, add.lo, sizeof add.lo);
     memcpy(built + 3, add.hi, sizeof add.hi);
     return mps__solid_add(sim, &add);

@@ -24,17 +24,17 @@ mps_status mps__fill_allowed(mps_sim *sim)
 mps_status mps__solids_allowed(mps_sim *sim)
 {
     MPS__TRY(mps__fill_allowed(sim));
-    if (sim->world.info.step > 0)
+    if (sim->world.state.step > 0)
         return mps__fail(&sim->context, MPS_E_STATE, "solids are added before the first step; %lld steps were taken",
-                         (long long)sim->world.info.step);
+                         (long long)sim->world.state.step);
     return MPS_OK;
 }
 
 mps_status mps__place_resolved(mps_sim *sim, const char *what, int d, double place)
 {
     static const double most = 1e9; /* [dp]: rounding is then below the millionth of a spacing that lattice points are told apart by */
-    MPS__CHECK(&sim->context, fabs(place) <= most * sim->world.dp,
-               "%s[%d] puts solids at %g m: places must be within %g m, %g spacings, of the origin", what, d, place, most * sim->world.dp,
+    MPS__CHECK(&sim->context, fabs(place) <= most * sim->world.setup.dp,
+               "%s[%d] puts solids at %g m: places must be within %g m, %g spacings, of the origin", what, d, place, most * sim->world.setup.dp,
                most);
     return MPS_OK;
 }
@@ -44,7 +44,7 @@ mps_status mps__in_the_way(mps_sim *sim, int64_t i, const double *X, const char 
     return mps__fail(&sim->context, MPS_E_ARG,
                      "fluid particle %lld at (%g, %g, %g) m is in the way of %s \"%s\": add solids before the fill, or keep fluid half a "
                      "spacing, %g m, away from their particles",
-                     (long long)sim->world.particles.id[i], X[0], X[1], sim->world.dim == 3 ? X[2] : 0, what, name, 0.5 * sim->world.dp);
+                     (long long)sim->world.particles.id[i], X[0], X[1], sim->world.setup.dim == 3 ? X[2] : 0, what, name, 0.5 * sim->world.setup.dp);
 }
 
 /* One call's work: which points, what they become, and what was there before. */
@@ -69,7 +69,7 @@ typedef struct plan {
 
 static void plan_init(plan *p, mps_sim *sim, const mps__lattice_box *box)
 {
-    *p = (plan){.sim = sim, .box = *box, .dim = sim->world.dim};
+    *p = (plan){.sim = sim, .box = *box, .dim = sim->world.setup.dim};
 }
 
 static int64_t plan_points(const plan *p)
@@ -90,7 +90,7 @@ static bool plan_next(const plan *p, int64_t k[3])
 
 static void lattice_point(const plan *p, const int64_t k[3], double X[3])
 {
-    for (int d = 0; d < p->dim; d++) X[d] = p->box.lo[d] + (double)k[d] * p->sim->world.dp;
+    for (int d = 0; d < p->dim; d++) X[d] = p->box.lo[d] + (double)k[d] * p->sim->world.setup.dp;
 }
 
 /* Place in `state` of the lattice point that a particle at X occupies, i.e. nearer than dp/2; -1: none. */
@@ -99,7 +99,7 @@ static int64_t occupied(const plan *p, const double *X)
     int64_t place = 0, stride = 1;
     double distance2 = 0;
     for (int d = 0; d < p->dim; d++) {
-        double q = (X[d] - p->box.lo[d]) / p->sim->world.dp, nearest = round(q);
+        double q = (X[d] - p->box.lo[d]) / p->sim->world.setup.dp, nearest = round(q);
         if (nearest < (double)p->box.first[d] || nearest > (double)p->box.last[d]) return -1;
         distance2 += (q - nearest) * (q - nearest);
         place += ((int64_t)nearest - p->box.first[d]) * stride;
@@ -125,7 +125,7 @@ static void mark_taken(plan *p)
 static void mark_plates(plan *p)
 {
     static const double least = 0.7; /* [dp] */
-    const mps__screens *s = &p->sim->world.screens;
+    const mps__screens *s = &p->sim->world.lists.screens;
     int64_t k[3] = {p->box.first[0], p->box.first[1], p->box.first[2]}, place = 0;
     bool any = false;
     for (int32_t m = 0; m < s->count; m++) any = any || s->list[m].axis < 0;
@@ -134,7 +134,7 @@ static void mark_plates(plan *p)
         double X[3] = {0, 0, 0};
         lattice_point(p, k, X);
         for (int32_t m = 0; m < s->count; m++)
-            if (s->list[m].axis < 0 && mps__screen_distance(&s->list[m], X) < least * p->sim->world.dp) p->state[place] = POINT_TAKEN;
+            if (s->list[m].axis < 0 && mps__screen_distance(&s->list[m], X) < least * p->sim->world.setup.dp) p->state[place] = POINT_TAKEN;
         place++;
     } while (plan_next(p, k));
 }
@@ -186,7 +186,7 @@ static void place_particle(const plan *p, const int64_t k[3], int64_t i)
     s->kind[i] = here.kind;
     s->phase[i] = here.phase;
     s->part[i] = here.part;
-    s->rho[i] = w->phase_density[here.phase];
+    s->rho[i] = w->setup.phase_density[here.phase];
 }
 
 /* Decide for every lattice point of the box; the store is not touched. plan_free() afterwards in any case. */
@@ -211,7 +211,7 @@ static mps_status plan_build(plan *p)
     do
         if (p->state[place++] == POINT_CHOSEN) place_particle(p, k, i++);
     while (plan_next(p, k));
-    p->sim->world.neighbours.valid = false;
+    p->sim->world.lists.neighbours.valid = false;
     return MPS_OK;
 }
 
@@ -229,7 +229,7 @@ static bool in_solid(const plan *p, const double *X)
     const double half = 0.5 - 1e-6;
     bool inside = p->of_tank;
     for (int d = 0; d < p->dim; d++) {
-        const double q = (X[d] - p->box.lo[d]) / p->sim->world.dp;
+        const double q = (X[d] - p->box.lo[d]) / p->sim->world.setup.dp;
         if (q <= (double)p->box.first[d] - half || q >= (double)p->box.last[d] + half) return false;
         inside = inside && q >= (double)p->first[d] + half && (q <= (double)p->last[d] - half || (d == 1 && p->open_top));
     }
@@ -256,7 +256,7 @@ static double face_weight(const plan *p, const int64_t k[3], int a)
     for (int d = 0; d < p->dim; d++)
         if (d != a) {
             bool end = k[d] == p->first[d] || k[d] == p->last[d];
-            weight *= p->sim->world.dp * (end && p->first[d] < p->last[d] ? 0.5 : 1.0);
+            weight *= p->sim->world.setup.dp * (end && p->first[d] < p->last[d] ? 0.5 : 1.0);
         }
     return weight;
 }
@@ -339,7 +339,7 @@ mps_status mps__geometry_tank(mps_sim *sim, const mps_tank *tank, const int64_t 
 {
     plan p;
     mps__lattice_box box = {.lo = {0}};
-    for (int d = 0; d < sim->world.dim; d++) {
+    for (int d = 0; d < sim->world.setup.dim; d++) {
         box.lo[d] = tank->lo[d];
         box.first[d] = -tank->dummy_layers;
         box.last[d] = cells[d] + (d == 1 && tank->open_top ? 0 : tank->dummy_layers);
@@ -464,10 +464,10 @@ mps_status mps__geometry_fill(mps_sim *sim, int32_t phase, mps__lattice_box *box
 bool mps__lattice_clip(const mps_sim *sim, const double *lo, const double *hi, mps__lattice_box *box)
 {
     memset(box, 0, sizeof *box);
-    for (int d = 0; d < sim->world.dim; d++) {
+    for (int d = 0; d < sim->world.setup.dim; d++) {
         /* a point counts as inside when it is outside by rounding only */
-        double first = ceil((lo[d] - sim->lattice_lo[d]) / sim->world.dp - 1e-6),
-               last = floor((hi[d] - sim->lattice_lo[d]) / sim->world.dp + 1e-6);
+        double first = ceil((lo[d] - sim->lattice_lo[d]) / sim->world.setup.dp - 1e-6),
+               last = floor((hi[d] - sim->lattice_lo[d]) / sim->world.setup.dp + 1e-6);
         double end = (double)sim->lattice_cells[d];
         if (first > end || last < 0 || first > last) return false;
         box->lo[d] = sim->lattice_lo[d];

@@ -32,7 +32,7 @@ static double clearance(const mps_sim *sim, const double X[3])
 static mps_status collect_solids(work *w)
 {
     const mps__particles *s = &w->sim->world.particles;
-    MPS__TRY(mps__buckets_init(&w->solids, &w->sim->context, s->dim, w->lo, w->hi, w->sim->world.dp));
+    MPS__TRY(mps__buckets_init(&w->solids, &w->sim->context, s->dim, w->lo, w->hi, w->sim->world.setup.dp));
     for (int64_t i = 0; i < s->n; i++) {
         double X[3] = {0, 0, 0};
         if (s->kind[i] == MPS_FLUID || mps__is_shadow(s, i)) continue;
@@ -61,12 +61,12 @@ static mps_status add_point(work *w, int64_t place, const double X[3], bool may_
 static mps_status collect_points(work *w)
 {
     const mps_sim *sim = w->sim;
-    const double dp = sim->world.dp;
+    const double dp = sim->world.setup.dp;
     const int64_t *n = w->out->n;
     for (int64_t place = 0; place < n[0] * n[1] * n[2]; place++) {
         const int64_t k[3] = {place % n[0], place / n[0] % n[1], place / n[0] / n[1]};
         double X[3] = {0, 0, 0};
-        for (int d = 0; d < sim->world.dim; d++) X[d] = sim->lattice_lo[d] + (double)k[d] * dp;
+        for (int d = 0; d < sim->world.setup.dim; d++) X[d] = sim->lattice_lo[d] + (double)k[d] * dp;
         const double r = clearance(sim, X);
         if (r > taking_part * dp || mps__solid_covers(sim, X)) continue;
         if (mps__buckets_nearest(&w->solids, X, occupied * (1 - 1e-9) * dp, NULL) >= 0) continue;
@@ -91,9 +91,9 @@ static void add_push(void *user, int64_t point, const double d[3], double r2)
 static mps_status sweep(work *w)
 {
     mps__packing *p = w->out;
-    const double dp = w->sim->world.dp;
+    const double dp = w->sim->world.setup.dp;
     mps__buckets now;
-    mps_status status = mps__buckets_init(&now, p->context, w->sim->world.dim, w->lo, w->hi, dp);
+    mps_status status = mps__buckets_init(&now, p->context, w->sim->world.setup.dim, w->lo, w->hi, dp);
     if (status == MPS_OK) status = mps__buckets_reserve(&now, p->count);
     for (int64_t i = 0; i < p->count && status == MPS_OK; i++) status = mps__buckets_add(&now, p->x + 3 * i);
     for (int64_t i = 0; i < p->count && status == MPS_OK; i++) {
@@ -117,10 +117,10 @@ static mps_status make(work *w)
 {
     mps_sim *sim = w->sim;
     mps__packing *p = w->out;
-    for (int d = 0; d < sim->world.dim; d++) {
+    for (int d = 0; d < sim->world.setup.dim; d++) {
         p->n[d] = sim->lattice_cells[d] + 1;
         w->lo[d] = sim->lattice_lo[d];
-        w->hi[d] = w->lo[d] + (double)sim->lattice_cells[d] * sim->world.dp;
+        w->hi[d] = w->lo[d] + (double)sim->lattice_cells[d] * sim->world.setup.dp;
     }
     p->number = mps__alloc(&sim->context, p->n[0] * p->n[1] * p->n[2], sizeof *p->number);
     if (!p->number) return MPS_E_NOMEM;

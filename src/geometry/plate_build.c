@@ -316,7 +316,7 @@ static int64_t rows_beyond(const builder *b, int e, int end)
 
 static mps_status cast_shadows(builder *b)
 {
-    const int64_t layers = (int64_t)fmax(2, floor(b->sim->world.re_far / b->dp - 1 + 1e-6));
+    const int64_t layers = (int64_t)fmax(2, floor(b->sim->world.setup.re_far / b->dp - 1 + 1e-6));
     place p = {.kind = MPS_DUMMY, .part = b->part, .plate = b->number, .resident = -1};
     int64_t node[2];
     for (node[1] = -rows_beyond(b, 1, 0); node[1] < b->shape.nodes[1] + rows_beyond(b, 1, 1); node[1]++)
@@ -359,7 +359,7 @@ static void put(builder *b, const place *p, int64_t i)
     s->plate[i] = p->plate;
     if (!fresh) return;
     memcpy(s->ref + i * b->dim, p->X, (size_t)b->dim * sizeof *p->X);
-    s->rho[i] = w->phase_density[0];
+    s->rho[i] = w->setup.phase_density[0];
     mps__motion_point(&w->motion, &w->motion.now, p->X, s->x + i * b->dim, NULL, NULL);
 }
 
@@ -398,21 +398,21 @@ static mps_status build(builder *b, const char *name)
     restore_area(b);
     MPS__TRY(cast_shadows(b));
     for (int64_t k = 0; k < b->place_count; k++) fresh += b->places[k].resident < 0;
-    MPS__TRY(mps__screens_reserve(&w->screens));
+    MPS__TRY(mps__screens_reserve(&w->lists.screens));
     MPS__TRY(mps__particles_reserve(&w->particles, fresh));
     int64_t next = mps__particles_append(&w->particles, fresh);
     for (int64_t k = 0; k < b->place_count; k++) put(b, &b->places[k], b->places[k].resident < 0 ? next++ : b->places[k].resident);
     mps__screen screen;
     set_screen(b, &screen);
-    mps__screens_add(&w->screens, &screen);
-    w->neighbours.valid = false;
+    mps__screens_add(&w->lists.screens, &screen);
+    w->lists.neighbours.valid = false;
     return MPS_OK;
 }
 
 mps_status mps__geometry_plate(mps_sim *sim, const char *name, const mps__plate_shape *shape)
 {
     const int32_t parts = sim->world.particles.parts;
-    builder b = {.sim = sim, .shape = *shape, .dim = sim->world.dim, .dp = sim->world.dp, .number = sim->world.screens.count + 1};
+    builder b = {.sim = sim, .shape = *shape, .dim = sim->world.setup.dim, .dp = sim->world.setup.dp, .number = sim->world.lists.screens.count + 1};
     const mps_status status = build(&b, name);
     mps__free(&sim->context, b.residents);
     mps__free(&sim->context, b.places);
@@ -431,7 +431,7 @@ static double covered(mps_sim *sim, const mps__lattice_box *box, int axis, int64
     for (int64_t i = 0; i < s->n; i++) {
         bool there = s->kind[i] == MPS_WALL;
         for (int d = 0; there && d < s->dim; d++) {
-            const double q = (s->ref[i * s->dim + d] - box->lo[d]) / sim->world.dp;
+            const double q = (s->ref[i * s->dim + d] - box->lo[d]) / sim->world.setup.dp;
             there = d == axis ? fabs(q - (double)at) < same : q > (double)box->first[d] - same && q < (double)box->last[d] + same;
         }
         walls += there;
@@ -458,15 +458,15 @@ static int thinnest(const mps__lattice_box *box, int dim)
 
 bool mps__plate_of_box(mps_sim *sim, const mps__lattice_box *box, mps__plate_shape *shape)
 {
-    const int dim = sim->world.dim, axis = thinnest(box, dim);
+    const int dim = sim->world.setup.dim, axis = thinnest(box, dim);
     int e = 0;
-    *shape = (mps__plate_shape){.axis = axis, .nodes = {1, 1}, .spacing = {sim->world.dp, sim->world.dp}};
+    *shape = (mps__plate_shape){.axis = axis, .nodes = {1, 1}, .spacing = {sim->world.setup.dp, sim->world.setup.dp}};
     if (box->last[axis] - box->first[axis] > 2 || lies_on_wall(sim, box, axis)) return false;
     shape->columns = (int32_t)(box->last[axis] - box->first[axis]) + 1;
     shape->normal[axis] = 1;
     for (int d = 0; d < dim; d++) {
         const double middle = d == axis ? 0.5 * (double)(box->first[d] + box->last[d]) : (double)box->first[d];
-        shape->corner[d] = box->lo[d] + middle * sim->world.dp;
+        shape->corner[d] = box->lo[d] + middle * sim->world.setup.dp;
         if (d == axis) continue;
         shape->along[e][d] = 1;
         shape->nodes[e++] = box->last[d] - box->first[d] + 1;

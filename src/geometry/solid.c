@@ -40,7 +40,7 @@ bool mps__solid_covers(const mps_sim *sim, const double *X)
     for (int32_t k = 0; k < sim->solids; k++) {
         double r;
         if (!mps__distances_at(&sim->solid[k], X, &r)) continue;
-        if (r < (half_cell + 1e-6) * sim->world.dp) return true;
+        if (r < (half_cell + 1e-6) * sim->world.setup.dp) return true;
         within = true;
     }
     return !within;
@@ -52,11 +52,11 @@ bool mps__solid_covers(const mps_sim *sim, const double *X)
 static void make_box(work *w)
 {
     mps_sim *sim = w->sim;
-    const double dp = sim->world.dp, margin = (w->solid->layers + 2) * dp;
+    const double dp = sim->world.setup.dp, margin = (w->solid->layers + 2) * dp;
     mps__contour_box *b = &w->box;
     memcpy(b->lo, w->solid->lo, sizeof b->lo);
     memcpy(b->hi, w->solid->hi, sizeof b->hi);
-    for (int d = 0; d < sim->world.dim; d++) {
+    for (int d = 0; d < sim->world.setup.dim; d++) {
         const double origin = sim->has_tank ? sim->lattice_lo[d] : b->lo[d];
         const bool tank = sim->has_tank && !sim->lattice_of_solids;
         b->anchor[d] = origin + dp * floor((b->lo[d] - origin) / dp + 1e-6);
@@ -72,8 +72,8 @@ static void make_box(work *w)
 static mps_status collect_others(work *w)
 {
     const mps__particles *s = &w->sim->world.particles;
-    const int dim = w->sim->world.dim;
-    MPS__TRY(mps__buckets_init(&w->others, &w->sim->context, dim, w->around_lo, w->around_hi, w->sim->world.dp));
+    const int dim = w->sim->world.setup.dim;
+    MPS__TRY(mps__buckets_init(&w->others, &w->sim->context, dim, w->around_lo, w->around_hi, w->sim->world.setup.dp));
     for (int64_t i = 0; i < s->n; i++) {
         double x[3] = {0, 0, 0};
         bool near = s->kind[i] != MPS_FLUID && !mps__is_shadow(s, i);
@@ -111,7 +111,7 @@ static mps_status no_surface(const work *w)
     for (int d = 0; d < w->shape.dim; d++) centre[d] = 0.5 * (s->lo[d] + s->hi[d]);
     return mps__fail(&w->sim->context, MPS_E_ARG,
                      "solid \"%s\" has no surface in its box (%g, %g, %g) .. (%g, %g, %g) m that could be seen with a spacing of %g m: %s",
-                     s->name, s->lo[0], s->lo[1], s->lo[2], s->hi[0], s->hi[1], s->hi[2], w->sim->world.dp,
+                     s->name, s->lo[0], s->lo[1], s->lo[2], s->hi[0], s->hi[1], s->hi[2], w->sim->world.setup.dp,
                      mps__shape_at(&s->shape, centre) > 0 ? "nothing is solid" : "everything is solid");
 }
 
@@ -139,8 +139,8 @@ static mps_status check_fluid(const work *w)
     for (int64_t i = 0; i < s->n; i++) {
         double X[3] = {0, 0, 0}, r;
         if (s->kind[i] != MPS_FLUID) continue;
-        mps__motion_to_tank(&world->motion, &world->motion.now, s->x + i * world->dim, X);
-        if (mps__distances_at(&w->distances, X, &r) && r < 0.3 * world->dp) return mps__in_the_way(w->sim, i, X, "solid", w->solid->name);
+        mps__motion_to_tank(&world->motion, &world->motion.now, s->x + i * world->setup.dim, X);
+        if (mps__distances_at(&w->distances, X, &r) && r < 0.3 * world->setup.dp) return mps__in_the_way(w->sim, i, X, "solid", w->solid->name);
     }
     return MPS_OK;
 }
@@ -165,7 +165,7 @@ static void cover_walls(const work *w)
         double X[3] = {0, 0, 0}, r;
         if (s->kind[i] != MPS_WALL) continue;
         memcpy(X, s->ref + i * s->dim, (size_t)s->dim * sizeof *X);
-        if (mps__distances_at(&w->distances, X, &r) && r < -half_cell * w->sim->world.dp) s->kind[i] = MPS_DUMMY;
+        if (mps__distances_at(&w->distances, X, &r) && r < -half_cell * w->sim->world.setup.dp) s->kind[i] = MPS_DUMMY;
     }
 }
 
@@ -182,7 +182,7 @@ static void append(const work *w, const mps__buckets *from, int32_t kind, int32_
         if (kind == MPS_WALL) memcpy(s->area + i * s->dim, w->samples.area + 3 * k, bytes);
         s->kind[i] = kind;
         s->part[i] = part;
-        s->rho[i] = world->phase_density[0];
+        s->rho[i] = world->setup.phase_density[0];
     }
 }
 
@@ -190,9 +190,9 @@ static void append(const work *w, const mps__buckets *from, int32_t kind, int32_
 static void extend_lattice(work *w)
 {
     mps_sim *sim = w->sim;
-    const double dp = sim->world.dp;
+    const double dp = sim->world.setup.dp;
     if (sim->has_tank && !sim->lattice_of_solids) return;
-    for (int d = 0; d < sim->world.dim; d++) {
+    for (int d = 0; d < sim->world.setup.dim; d++) {
         const double hi = sim->lattice_lo[d] + (double)sim->lattice_cells[d] * dp, end = w->box.hi[d];
         if (w->new_lattice || w->box.anchor[d] < sim->lattice_lo[d]) sim->lattice_lo[d] = w->box.anchor[d];
         sim->lattice_cells[d] = (int64_t)floor(((w->new_lattice ? end : fmax(end, hi)) - sim->lattice_lo[d]) / dp + 1e-6);
@@ -233,7 +233,7 @@ static mps_status build(work *w)
     extend_lattice(w);
     sim->solid[sim->solids++] = w->distances;
     w->distances.value = NULL;
-    sim->world.neighbours.valid = false;
+    sim->world.lists.neighbours.valid = false;
     mps__world_note_layers(&sim->world, w->solid->layers);
     report(w);
     return MPS_OK;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Pressure gradient with moment matrices, over fluid and wetted walls:
  *   G_i = D/n0 B_i sum w [(P_j - P_i + jump_ij)/rho_ij - b_ij.r_ij] r_ij,  a_i = -b - G_i,
- * w = W/r^2. b = g - a_tank, so that b_ij.r_ij is the pressure difference of a fluid that moves
- * with the tank; -b only adds the acceleration of the tank, as gravity is in u* already. jump_ij
- * and rho_ij are those of the pressure equation (mps/flux.h).
+ * w = W/r^2. b, jump_ij and rho_ij are those of the pressure equation (mps/flux.h): with
+ * b = g - a_tank, b_ij.r_ij is the pressure difference of a fluid that moves with the tank, and -b
+ * only adds the acceleration of the tank, as gravity is in u* already.
  * Surface particles have neighbours on one side only. `second_order` adds a second pass for them,
  * with 2 (P_j - P_i) - G_j.r_ij instead of P_j - P_i. */
 #include "helpers.h"
@@ -16,7 +16,7 @@ static const mps_setting settings[SETTINGS] = {
 enum { PRESSURE, REGION, TANK_ACCELERATION, CORRECTION, ACCELERATION, USES };
 static const mps_use uses[USES] = {[PRESSURE] = {"pressure", MPS_USE_NEIGHBOURS},
                                    [REGION] = {"region", MPS_USE_NEIGHBOURS},
-                                   [TANK_ACCELERATION] = {"tank_acceleration", MPS_USE_NEIGHBOURS},
+                                   [TANK_ACCELERATION] = {"tank_acceleration", MPS_USE_READ},
                                    [CORRECTION] = {"correction", MPS_USE_READ},
                                    [ACCELERATION] = {"acceleration", MPS_USE_CHANGE}};
 
@@ -35,18 +35,16 @@ MPS_ROW void gradient(const int dim, const mps_stage *stage, const fields *given
     const fields local = *given, *f = &local;
     const mps_flux pairs = *s->flux, *flux = &pairs;
     const mps_stencil near = *s->near, *t = &near;
-    const double *b = f->correction + i * dim * dim, *tank = f->tank_acceleration;
-    const double pi = f->pressure[i];
-    double sum[3] = {0}, own[3];
-    for (int d = 0; d < dim; d++) own[d] = 2.0 * s->g[d] - tank[i * dim + d];
+    const double *b = f->correction + i * dim * dim, pi = f->pressure[i];
+    double sum[3] = {0};
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         if (f->region[t->col[p]] >= MPS_REGION_SPRAY) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        double body = 0, slope = 0;
-        for (int d = 0; d < dim; d++) body += 0.5 * (own[d] - tank[q.j * dim + d]) * q.d[d];
+        const double body = mps_flux_body(flux, dim, i, q.j, q.d);
         const double rho = mps_flux_density(flux, i, q.j), jump = mps_flux_jump(flux, i, q.j);
         double difference = (f->pressure[q.j] - pi + jump) / rho - body;
         if (first && s->kind[q.j] == MPS_FLUID) {
+            double slope = 0;
             for (int d = 0; d < dim; d++) slope += first[q.j * dim + d] * q.d[d];
             difference = 2.0 * difference - slope;
         }
@@ -73,7 +71,8 @@ MPS_ROW void accelerate(const int dim, const mps_stage *s, const fields *f, int6
     for (int d = 0; d < dim; d++) own[d] = f->first[i * dim + d];
     if (s->setting[SECOND] > 0 && f->region[i] == MPS_REGION_SURFACE)
         gradient(dim, s, f, i, f->first, own);
-    for (int d = 0; d < dim; d++) f->acceleration[i * dim + d] -= s->g[d] - tank[d] + own[d];
+    for (int d = 0; d < dim; d++)
+        f->acceleration[i * dim + d] -= (s->flux->body ? s->g[d] - tank[d] : 0) + own[d];
 }
 MPS_ROWS(accelerate_rows, accelerate, fields)
 

@@ -6,15 +6,27 @@
  * Why `surface` is smaller: the eigenvalue along the normal of a flat surface is 0.5, and less in a
  * disordered or stretched row. A floor of 0.5 takes 4-11 % of the gradient from most surface
  * particles. The row then lags behind its pressure, and waves grow by 2-3 % a period. Inside the
- * fluid, lower floors make calm water noisy. */
+ * fluid, lower floors make calm water noisy.
+ *
+ * Torn gas has few neighbours, here and there. Gradient and divergence both carry B, the Laplacian
+ * does not: along a direction in which M has the eigenvalue m, a pressure takes away
+ * m/max(m, floor)^2 <= 1/floor times the divergence that asked for it. With a floor of 0.5 and a
+ * gain of 0.7 that is 1.4 times, and voids grow. For the lightest of several fluids the floor goes
+ * to `torn`, which should be the gain, where its volume is too large by more than 15 %
+ * (source.volume): then no step takes away more than was asked for. */
 #include "helpers.h"
 
-enum { FLOOR, SURFACE, SETTINGS };
+enum { FLOOR, SURFACE, TORN, SETTINGS };
 static const mps_setting settings[SETTINGS] = {
     [FLOOR] = {"floor", "-", "Smallest eigenvalue of M inside the fluid", MPS_TYPE_REAL, 0.5, 0.01,
                1.0},
     [SURFACE] = {"surface", "-", "Smallest eigenvalue of M on the free surface", MPS_TYPE_REAL, 0.4,
-                 0.01, 1.0}};
+                 0.01, 1.0},
+    [TORN] = {"torn", "-", "Smallest eigenvalue of M in torn gas, if larger than floor",
+              MPS_TYPE_REAL, 0.0, 0.0, 1.0}};
+
+/* Volume deviation from which gas counts as torn. */
+static const double TORN_FROM = 0.15;
 
 static const mps_channel channels[] = {
     {.name = "correction",
@@ -25,14 +37,39 @@ static const mps_channel channels[] = {
      .life = MPS_LIFE_STEP,
      .initial = 1.0}};
 
-enum { REGION, CORRECTION, USES };
-static const mps_use uses[USES] = {
-    [REGION] = {"region", MPS_USE_NEIGHBOURS}, [CORRECTION] = {"correction", MPS_USE_CHANGE}};
+enum { REGION, DENSITY, VOLUME_DEVIATION, CORRECTION, USES };
+static const mps_use uses[USES] = {[REGION] = {"region", MPS_USE_NEIGHBOURS},
+                                   [DENSITY] = {"density", MPS_USE_READ},
+                                   [VOLUME_DEVIATION] = {"volume_deviation", MPS_USE_READ},
+                                   [CORRECTION] = {"correction", MPS_USE_CHANGE}};
 
 typedef struct fields {
     const int32_t *region;
+    const double *density, *volume_deviation;
     double *correction;
+    double light; /* density of the gas that may be torn; 0: none */
 } fields;
+
+/* Maxima over the fluid: of the negative of the density, of the density. */
+MPS_ROW void raise_density(const int dim, const mps_stage *s, const fields *f, int64_t i,
+                           double *most)
+{
+    (void)dim;
+    if (s->kind[i] != MPS_FLUID) return;
+    most[0] = -f->density[i] > most[0] ? -f->density[i] : most[0];
+    most[1] = f->density[i] > most[1] ? f->density[i] : most[1];
+}
+MPS_SUMS(raise_density_rows, raise_density, fields)
+
+/* Smallest eigenvalue allowed for particle i. */
+static inline double floor_of(const mps_stage *s, const fields *f, int64_t i)
+{
+    const double plain = s->setting[f->region[i] == MPS_REGION_SURFACE ? SURFACE : FLOOR];
+    const double v = f->volume_deviation[i];
+    if (f->density[i] != f->light || v >= 0) return plain;
+    const double square = v * v / (TORN_FROM * TORN_FROM);
+    return plain + fmin(1.0, square * square) * fmax(0.0, s->setting[TORN] - plain);
+}
 
 /* M_i */
 MPS_ROW void moments(const int dim, const mps_stage *s, const int32_t *region, int64_t i,
@@ -53,7 +90,7 @@ MPS_ROW void moments(const int dim, const mps_stage *s, const int32_t *region, i
 MPS_ROW void invert(const int dim, const mps_stage *s, const fields *f, int64_t i)
 {
     if (s->kind[i] != MPS_FLUID || f->region[i] == MPS_REGION_SPRAY) return;
-    const double least = s->setting[f->region[i] == MPS_REGION_SURFACE ? SURFACE : FLOOR];
+    const double least = floor_of(s, f, i);
     double m[9];
     moments(dim, s, f->region, i, m);
     mps_matrix_inverse_bounded(dim, m, least, f->correction + i * dim * dim);
@@ -62,13 +99,25 @@ MPS_ROWS(invert_rows, invert, fields)
 
 static int invert_moments(mps_stage *s)
 {
-    fields f = {.region = s->data[REGION], .correction = s->data[CORRECTION]};
+    fields f = {.region = s->data[REGION],
+                .density = s->data[DENSITY],
+                .volume_deviation = s->data[VOLUME_DEVIATION],
+                .correction = s->data[CORRECTION]};
+    if (s->setting[TORN] > 0) {
+        double rho[2];
+        mps_stage_max(s, 2, raise_density_rows, &f, rho);
+        f.light = rho[1] > -rho[0] ? -rho[0] : 0;
+    }
     mps_stage_rows(s, invert_rows, &f);
     return 0;
 }
 
-static const mps_verb verbs[] = {
-    {.moment = MPS_PREPARE, .use_count = USES, .uses = uses, .run = invert_moments}};
+/* Before the gas takes what its law wants from the volume deviation. */
+static const mps_verb verbs[] = {{.moment = MPS_PREPARE,
+                                  .use_count = USES,
+                                  .uses = uses,
+                                  .before = "gas",
+                                  .run = invert_moments}};
 
 const mps_model_ops mps__moments_bounded = {
     .struct_size = sizeof(mps_model_ops),

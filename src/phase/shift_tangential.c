@@ -7,6 +7,9 @@
  * volume term: a disordered lattice presses on an ordered one. So the part with U_g loses the share
  * `filter` of its kernel mean and keeps what varies from particle to particle. The part with the
  * strain rate stays whole: it repairs what a violent flow tears.
+ * Beside another density the U_g part also loses its part normal to the interface: the lattices of
+ * both fluids would press on each other there, lift the heavy one, and work against the waves of the
+ * interface.
  * With `transport` the velocity is moved along: u += s.grad u over fluid of the same phase, within
  * the range of the velocities of its neighbours. Over all neighbours, or without bounds, a lone
  * drop would accelerate itself. */
@@ -21,8 +24,9 @@ static const mps_setting settings[SETTINGS] = {
     [FILTER] = {"filter", "-", "Share of the mean over neighbours that is removed in calm water",
                 MPS_TYPE_REAL, 0.8, 0.0, 1.0}};
 
-enum { VELOCITY, REGION, ASYMMETRY, DISPLACEMENT, USES };
+enum { VELOCITY, DENSITY, REGION, ASYMMETRY, DISPLACEMENT, USES };
 static const mps_use uses[USES] = {[VELOCITY] = {"velocity", MPS_USE_NEIGHBOURS | MPS_USE_CHANGE},
+                                   [DENSITY] = {"density", MPS_USE_NEIGHBOURS},
                                    [REGION] = {"region", MPS_USE_NEIGHBOURS},
                                    [ASYMMETRY] = {"asymmetry", MPS_USE_NEIGHBOURS},
                                    [DISPLACEMENT] = {"displacement", MPS_USE_CHANGE}};
@@ -33,7 +37,7 @@ static const double wall_distance = 0.5;
 
 typedef struct fields {
     double *velocity, *displacement;
-    const double *asymmetry;
+    const double *asymmetry, *density;
     const int32_t *region;
     double *even; /* [n*dim] sum w r_ij over all kinds */
     double *du;   /* [n*dim] change of the velocity */
@@ -75,6 +79,28 @@ MPS_ROW void surface_normal(const int dim, const mps_stage *s, const fields *f, 
         const double w = mps_stencil_pair_dim(dim, t, i, p).w;
         for (int d = 0; d < dim; d++) n[d] += w * a[j * dim + d];
     }
+}
+
+/* Unit normal of the interface between two densities beside i. @return 0: there is none, 1: as good
+ * as a plane */
+MPS_ROW double interface_normal(const int dim, const mps_stage *s, const fields *f, int64_t i,
+                                double n[3])
+{
+    const mps_stencil *t = s->near;
+    double size = 0, length = 0;
+    for (int d = 0; d < dim; d++) n[d] = 0;
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        const int64_t j = t->col[p];
+        if (s->kind[j] != MPS_FLUID || f->density[j] == f->density[i]) continue;
+        if (f->region[j] == MPS_REGION_SPRAY) continue;
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
+        length += q.w * q.r;
+        for (int d = 0; d < dim; d++) n[d] += q.w * q.d[d];
+    }
+    for (int d = 0; d < dim; d++) size += n[d] * n[d];
+    if (!(size > 0)) return 0;
+    for (int d = 0; d < dim; d++) n[d] /= sqrt(size);
+    return smaller(1.0, 2.0 * sqrt(size) / length);
 }
 
 /* Fills `even`. */
@@ -126,6 +152,17 @@ MPS_ROW void collect(const int dim, const mps_stage *stage, const fields *given,
     }
 }
 
+/* Takes from v its part normal to the interface, except that of the strain rate, torn * even. */
+MPS_ROW void along_interface(const int dim, const mps_stage *s, const fields *f, int64_t i,
+                             double torn, const double *even, double v[3])
+{
+    double n[3], across = 0;
+    const double share = interface_normal(dim, s, f, i, n);
+    if (share == 0) return;
+    for (int d = 0; d < dim; d++) across += n[d] * (v[d] - torn * even[d]);
+    for (int d = 0; d < dim; d++) v[d] -= share * across * n[d];
+}
+
 /* v: out, shift of i without walls */
 MPS_ROW void shift_of(const int dim, const mps_stage *s, const fields *f, int64_t i,
                       const pair_sums *sums, double v[3])
@@ -136,6 +173,7 @@ MPS_ROW void shift_of(const int dim, const mps_stage *s, const fields *f, int64_
     const double smooth = sums->weight > 0 ? k[FILTER] * calm / sums->weight : 0;
     double n[3] = {0}, n2 = 0, vn = 0, v2 = 0;
     for (int d = 0; d < dim; d++) v[d] = (calm + torn) * sums->even[d] - smooth * sums->mean[d];
+    if (s->phases > 1) along_interface(dim, s, f, i, torn, sums->even, v);
     surface_normal(dim, s, f, i, n);
     for (int d = 0; d < dim; d++) {
         n2 += n[d] * n[d];
@@ -198,6 +236,7 @@ static int shift_fluid(mps_stage *s)
     fields f = {.velocity = s->data[VELOCITY],
                 .displacement = s->data[DISPLACEMENT],
                 .asymmetry = s->data[ASYMMETRY],
+                .density = s->data[DENSITY],
                 .region = s->data[REGION],
                 .even = mps_stage_scratch(s, s->n * s->dim),
                 .du = mps_stage_scratch(s, s->n * s->dim)};

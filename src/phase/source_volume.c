@@ -20,7 +20,9 @@
  *  - tau: the error of delta follows the waves, and a short tau feeds them; so it is 20 tau_g.
  *  - firm: compression by per cents, after an impact, must be gone before the next impact. Beyond
  *    `firm` the time falls to tau_g.
- *  - torn, rapid: gas that is expanded or compressed by tens of per cents recovers in dt/`rapid`.
+ *  - torn, rapid: gas that is expanded or compressed by tens of per cents recovers in dp/(U rapid),
+ *    U the largest speed of the denser fluid, which drives it, and at least U_g. In a share of the
+ *    step it would be a kick that feeds itself: fast gas makes short steps.
  *  - start: the set-up has a delta beside walls that are not on the lattice, 10 % at slopes of 45
  *    degrees. Corrected at once, it took twice the hydrostatic pressure in the first step. The
  *    correction grows over the first `start` tau_g instead.
@@ -45,8 +47,8 @@ static const mps_setting settings[SETTINGS] = {
               1.0},
     [FIRM] = {"firm", "-", "Volume deviation beyond which the relaxation time falls to tau_g",
               MPS_TYPE_REAL, 0.03, 1e-3, 1.0},
-    [RAPID] = {"rapid", "-", "Share of a volume deviation beyond torn that a step removes",
-               MPS_TYPE_REAL, 0.0, 0.0, 1.0},
+    [RAPID] = {"rapid", "-", "Rate of recovery beyond torn, over U/dp of the denser fluid",
+               MPS_TYPE_REAL, 0.0, 0.0, 3.0},
     [TORN] = {"torn", "-", "Volume deviation beyond which rapid acts", MPS_TYPE_REAL, 0.15, 1e-3,
               10.0},
     [FORWARD] = {"forward", "-", "Share of the strain that is corrected in full despite the gain",
@@ -79,9 +81,10 @@ static const mps_use uses[USES] = {[VELOCITY] = {"velocity", MPS_USE_READ},
                                    [SOURCE] = {"pressure_source", MPS_USE_CHANGE}};
 
 /* Share of the source that a step asks for, by density: 1 for the lightest fluid, `heavy` for the
- * heaviest. span: difference of their densities. */
+ * heaviest. span: difference of their densities. drive: largest speed of all fluid but the
+ * lightest, at least U_g [m/s]. */
 typedef struct pacing {
-    double lightest, span, heavy;
+    double lightest, span, heavy, drive;
 } pacing;
 
 typedef struct fields {
@@ -347,10 +350,13 @@ static void set_pace(const mps_stage *s, fields *f)
 {
     double rho[2], fastest[2];
     mps_stage_max(s, 2, raise_density_rows, f, rho);
-    f->pace = (pacing){-rho[0], rho[1] + rho[0], 1.0};
-    if (!(rho[1] > -rho[0])) return;
+    const bool several = rho[1] > -rho[0];
+    f->pace = (pacing){-rho[0], rho[1] + rho[0], 1.0, s->velocity_scale};
+    if (!several && s->setting[RAPID] == 0) return;
     mps_stage_max(s, 2, raise_speed_rows, f, fastest);
     const double dense = sqrt(larger(0, fastest[0])), any = sqrt(larger(0, fastest[1]));
+    f->pace.drive = fmax(several ? dense : any, s->velocity_scale);
+    if (!several) return;
     const double share = fmax(dense, calm_speed(s)) / fmax(any, calm_speed(s));
     f->pace.heavy = 1.0 - s->setting[PACE] * (1.0 - share);
 }
@@ -370,8 +376,8 @@ MPS_ROW void add_source(const int dim, const mps_stage *s, const fields *f, int6
         double mean;
         const double divergence = fluid_divergence(dim, s, f, i, &mean);
         const double open = larger(0.0, 1.0 - 2.0 * k[ASIDE] * f->solid[i]);
-        const double most = share * k[RAPID] / (s->dt * f->rate);
-        const double back = f->on * f->rate * relaxation(k, mean, open, most) * mean;
+        const double rapid = k[RAPID] * f->pace.drive / s->velocity_scale;
+        const double back = f->on * f->rate * relaxation(k, mean, open, rapid) * mean;
         f->source[i] += share * f->over * (back - divergence);
     } else {
         f->source[i] -= share * f->over * wall_divergence(dim, s, f, i);

@@ -20,58 +20,17 @@
  * r_s is larger than the radii of the simulation: a grid of cells of side r_s finds neighbours. */
 #include "tension.h"
 
-/* Fluid particles by cells, the cells by a hash: chains of particles in ascending order. */
-typedef struct cell_grid {
-    int32_t *first, *next; /* [buckets], [n]: row + 1; 0: none */
-    int64_t buckets;
-    double side;
-} cell_grid;
-
 /* Sums of G, of G (C_j - C_i), and of their first and second derivatives by x_i. */
 typedef struct contour_sums {
     double g, g1[3], g2[9], c, c1[3], c2[9];
 } contour_sums;
 
 typedef struct fields {
-    cell_grid grid;
+    mps_grid grid;
     const mps_stencil *pairs;
     double threshold;
     double *kappa;
 } fields;
-
-static inline void cell_of(const int dim, const mps_stage *s, const cell_grid *grid, int64_t i,
-                           int64_t cell[3])
-{
-    cell[2] = 0;
-    for (int d = 0; d < dim; d++) cell[d] = (int64_t)floor(s->x[i * dim + d] / grid->side);
-}
-
-static inline int64_t bucket_of(const cell_grid *grid, const int64_t cell[3])
-{
-    const uint64_t h = (uint64_t)cell[0] * UINT64_C(73856093) ^
-                       (uint64_t)cell[1] * UINT64_C(19349663) ^
-                       (uint64_t)cell[2] * UINT64_C(83492791);
-    return (int64_t)(h % (uint64_t)grid->buckets);
-}
-
-/* Returns non-zero without memory. The one serial loop over particles here: each row may change the
- * chain of any bucket. */
-static int build_grid(mps_stage *s, cell_grid *grid)
-{
-    grid->buckets = s->n;
-    grid->first = mps_stage_scratch_integers(s, grid->buckets);
-    grid->next = mps_stage_scratch_integers(s, s->n);
-    if (!grid->first || !grid->next) return 1;
-    for (int64_t i = s->n - 1; i >= 0; i--) {
-        int64_t cell[3];
-        if (s->kind[i] != MPS_FLUID) continue;
-        cell_of(s->dim, s, grid, i, cell);
-        const int64_t b = bucket_of(grid, cell);
-        grid->next[i] = grid->first[b];
-        grid->first[b] = (int32_t)(i + 1);
-    }
-    return 0;
-}
 
 MPS_ROW void add_neighbour(const int dim, const mps_stage *s, double decay, int64_t i, int64_t j,
                            contour_sums *m)
@@ -97,20 +56,20 @@ MPS_ROW void add_neighbour(const int dim, const mps_stage *s, double decay, int6
     }
 }
 
-MPS_ROW void collect(const int dim, const mps_stage *s, const cell_grid *grid, int64_t i,
+MPS_ROW void collect(const int dim, const mps_stage *s, const mps_grid *grid, int64_t i,
                      contour_sums *m)
 {
     const double decay = 9.0 / (grid->side * grid->side);
     const int cells = dim == 2 ? 9 : 27;
     int64_t home[3];
     *m = (contour_sums){0};
-    cell_of(dim, s, grid, i, home);
+    mps_grid_cell(grid, s->x + i * dim, home);
     for (int k = 0; k < cells; k++) {
         const int64_t cell[3] = {home[0] + k % 3 - 1, home[1] + k / 3 % 3 - 1,
                                  dim == 3 ? home[2] + k / 9 - 1 : 0};
-        for (int64_t j = grid->first[bucket_of(grid, cell)] - 1; j >= 0; j = grid->next[j] - 1) {
+        for (int64_t j = grid->first[mps_grid_bucket(grid, cell)] - 1; j >= 0; j = grid->next[j] - 1) {
             int64_t of[3];
-            cell_of(dim, s, grid, j, of); /* other cells may share the bucket */
+            mps_grid_cell(grid, s->x + j * dim, of); /* other cells may share the bucket */
             if (of[0] != cell[0] || of[1] != cell[1] || of[2] != cell[2]) continue;
             add_neighbour(dim, s, decay, i, j, m);
         }
@@ -172,11 +131,11 @@ MPS_SUMS(raise_phase_rows, raise_phase, void)
 int mps__curvatures(mps_stage *s, const mps_stencil *pairs, double radius, double threshold,
                     double *kappa)
 {
-    fields f = {{.side = radius * s->dp}, pairs, threshold, kappa};
+    fields f = {{0}, pairs, threshold, kappa};
     double phase[2];
     mps_stage_max(s, 2, raise_phase_rows, NULL, phase);
     if (!(phase[0] > -phase[1])) return 0; /* one phase or none */
-    if (build_grid(s, &f.grid)) return 1;
+    if (mps_stage_grid(s, radius * s->dp, &f.grid)) return 1;
     mps_stage_rows(s, find_curvature_rows, &f);
     return 0;
 }

@@ -21,26 +21,49 @@ static int create(const mps_allocator *allocator, void **self)
     return 0;
 }
 
-static int check_diagonal(const mps_ppe_problem *problem)
+/* Whether there is a diagonal entry that is not finite, and one that is negative. */
+static void check_rows(void *argument, int64_t begin, int64_t end, double *values)
 {
+    const mps_ppe_problem *problem = argument;
     int bad = 0, negative = 0;
-#pragma omp parallel for schedule(static) num_threads(mps__team(problem->n, problem->threads)) reduction(| : bad, negative)
-    for (int64_t i = 0; i < problem->n; i++) {
+    for (int64_t i = begin; i < end; i++) {
         double d = problem->diagonal[i];
         bad |= !isfinite(d);
         negative |= d < 0;
     }
-    return bad ? MPS_PPE_NAN : negative ? MPS_PPE_INDEFINITE : 0;
+    if (bad) values[0] = 1;
+    if (negative) values[1] = 1;
+}
+
+static int check_diagonal(const mps_ppe_problem *problem)
+{
+    double found[2] = {0};
+    mps_parallel_max(mps__team(problem->parallel, problem->n), problem->n, 2, check_rows, (mps_ppe_problem *)problem, found);
+    return found[0] > 0 ? MPS_PPE_NAN : found[1] > 0 ? MPS_PPE_INDEFINITE : 0;
+}
+
+/* What a loop over the unknowns works on; each uses its own. */
+typedef struct operands {
+    const mps_ppe_problem *problem;
+    const auxgrid *a;
+    const double *r;
+    double *z;
+} operands;
+
+static void invert_rows(void *argument, int64_t begin, int64_t end)
+{
+    const operands *o = argument;
+    for (int64_t i = begin; i < end; i++) {
+        const double d = o->problem->diagonal[i];
+        o->z[i] = d > 0 ? 1 / d : 1; /* an empty row is a particle without neighbours, its residual is 0 */
+    }
 }
 
 static void invert_diagonal(auxgrid *a, const mps_ppe_problem *problem)
 {
     a->inverse = a->grid.point_kappa;
-#pragma omp parallel for schedule(static) num_threads(mps__team(problem->n, problem->threads))
-    for (int64_t i = 0; i < problem->n; i++) {
-        const double d = problem->diagonal[i];
-        a->inverse[i] = d > 0 ? 1 / d : 1; /* an empty row is a particle without neighbours, its residual is 0 */
-    }
+    mps_parallel_rows_least(problem->parallel, problem->n, MPS__TEAM_LEAST / 2, invert_rows,
+                            &(operands){.problem = problem, .z = a->inverse});
 }
 
 static int build_grids(mps__grid *g, const mps_ppe_problem *problem)
@@ -62,7 +85,7 @@ static int setup(void *self, const mps_ppe_problem *problem)
     if (g->dim != problem->dim) mps__grid_release(g); /* its arrays are sized by the dimension */
     a->n = problem->n;
     g->dim = problem->dim;
-    g->threads = problem->threads;
+    g->parallel = problem->parallel;
     g->levels = 0;
     if (!mps__grid_reserve(g, problem->n)) return MPS_PPE_NOMEM;
     int reason = check_diagonal(problem);
@@ -71,16 +94,25 @@ static int setup(void *self, const mps_ppe_problem *problem)
     return reason;
 }
 
+static void apply_rows(void *argument, int64_t begin, int64_t end)
+{
+    const operands *o = argument;
+    const mps__grid *g = &o->a->grid;
+    const mps__grid_level first = g->level[0]; /* its pointers stay in registers */
+    const double *inverse = o->a->inverse, *r = o->r;
+    double *z = o->z;
+    const int dim = g->dim;
+    for (int64_t i = begin; i < end; i++) z[i] = inverse[i] * r[i] + mps__grid_value(&first, dim, i);
+}
+
 static int apply(void *self, const double *r, double *z)
 {
     auxgrid *a = self;
     mps__grid *g = &a->grid;
     if (a->n == 0) return 0;
-    mps__grid_level *first = &g->level[0];
     mps__grid_restrict(g, r, g->unit);
     mps__grid_cycle(g);
-#pragma omp parallel for schedule(static) num_threads(mps__team(a->n, g->threads))
-    for (int64_t i = 0; i < a->n; i++) z[i] = a->inverse[i] * r[i] + mps__grid_value(first, g->dim, i);
+    mps_parallel_rows_least(g->parallel, a->n, MPS__TEAM_LEAST / 2, apply_rows, &(operands){.a = a, .r = r, .z = z});
     return 0;
 }
 

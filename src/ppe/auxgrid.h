@@ -34,7 +34,8 @@ typedef struct mps__grid_level {
 
 typedef struct mps__grid {
     mps_allocator allocator;
-    int dim, threads;
+    const mps_parallel *parallel;
+    int dim;
     bool one;                     /* one density everywhere */
     double lo[3], size, per_size; /* corner, edge and 1 / edge of the first grid's cells [m] */
     double unit;                  /* matrix entries times this are of order one */

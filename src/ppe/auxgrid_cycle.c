@@ -94,19 +94,47 @@ static inline double pull(const mps__grid_level *l, int sides, int64_t c)
     return sides == 4 ? pull_from(l, 4, c) : pull_from(l, 6, c);
 }
 
+/* What a loop of the cycle works on; each uses its own. */
+typedef struct cycle {
+    mps__grid *g;
+    mps__grid_level *l;
+    const mps__grid_level *coarse;
+    int sides;
+    int64_t from; /* first cell */
+    const double *values;
+    double scale;
+} cycle;
+
+/* A loop over cells, which do next to nothing each. */
+static void run(const mps__grid *g, int64_t cells, mps_range_fn rows, cycle *c)
+{
+    mps_parallel_rows_least(g->parallel, cells, MPS__TEAM_LEAST / 2, rows, c);
+}
+
+static void relax_rows(void *argument, int64_t begin, int64_t end)
+{
+    const cycle *y = argument;
+    const mps__grid_level level = *y->l, *l = &level; /* its pointers stay in registers */
+    const int sides = y->sides;
+    for (int64_t c = y->from + begin; c < y->from + end; c++) l->x[c] = (l->b[c] + pull(l, sides, c)) * l->inverse[c];
+}
+
 /* One colour: each cell solved for itself. */
 static void relax(const mps__grid *g, mps__grid_level *l, int64_t from, int64_t to)
 {
-    int sides = 2 * g->dim;
-#pragma omp parallel for schedule(static) num_threads(mps__team(to - from, g->threads))
-    for (int64_t c = from; c < to; c++) l->x[c] = (l->b[c] + pull(l, sides, c)) * l->inverse[c];
+    run(g, to - from, relax_rows, &(cycle){.l = l, .sides = 2 * g->dim, .from = from});
+}
+
+static void begin_rows(void *argument, int64_t begin, int64_t end)
+{
+    const mps__grid_level *l = ((const cycle *)argument)->l;
+    for (int64_t c = begin; c < end; c++)
+        l->x[c] = c < l->red ? l->b[c] * l->inverse[c] : 0; /* black ones: read at missing neighbours, times zero */
 }
 
 static void sweep_down(const mps__grid *g, mps__grid_level *l)
 {
-#pragma omp parallel for schedule(static) num_threads(mps__team(l->cells, g->threads))
-    for (int64_t c = 0; c < l->cells; c++)
-        l->x[c] = c < l->red ? l->b[c] * l->inverse[c] : 0; /* black ones: read at missing neighbours, times zero */
+    run(g, l->cells, begin_rows, &(cycle){.l = l});
     relax(g, l, l->red, l->cells);
     for (int s = 1; s < SWEEPS; s++) {
         relax(g, l, 0, l->red);
@@ -139,19 +167,22 @@ static inline void spread(const mps__grid_level *l, int dim, int64_t point, doub
 }
 
 /* What chunk c of the particles adds to the cells. */
-static void restrict_chunk(mps__grid *g, int c, const double *values, double scale)
+static void restrict_chunk(void *argument, int32_t c)
 {
+    const cycle *y = argument;
+    const mps__grid *g = y->g;
     const mps__grid_level *l = &g->level[0];
     double *b = (double *)g->parts + c * l->cells;
     for (int colour = 0; colour < 2; colour++)
         for (int32_t k = g->range[c][colour][0]; k < g->range[c][colour][1]; k++) b[k] = 0;
-    for (int64_t i = mps__grid_chunk(l->points, c); i < mps__grid_chunk(l->points, c + 1); i++) spread(l, g->dim, i, scale * values[i], b);
+    for (int64_t i = mps__grid_chunk(l->points, c); i < mps__grid_chunk(l->points, c + 1); i++)
+        spread(l, g->dim, i, y->scale * y->values[i], b);
 }
 
 /* Right sides of cells from..to-1 of one colour. */
-static void sum_chunks(mps__grid *g, int colour, int64_t from, int64_t to)
+static void sum_chunks(const mps__grid *g, int colour, int64_t from, int64_t to)
 {
-    mps__grid_level *l = &g->level[0];
+    const mps__grid_level *l = &g->level[0];
     for (int64_t k = from; k < to; k++) l->b[k] = 0;
     for (int c = 0; c < MPS__GRID_CHUNKS; c++) {
         const double *b = (const double *)g->parts + c * l->cells;
@@ -161,20 +192,25 @@ static void sum_chunks(mps__grid *g, int colour, int64_t from, int64_t to)
     }
 }
 
+/* Blocks of red cells, then blocks of black ones. */
+static void sum_blocks(void *argument, int64_t begin, int64_t end)
+{
+    const mps__grid *g = ((const cycle *)argument)->g;
+    const mps__grid_level *l = &g->level[0];
+    const int64_t red = mps__blocks(l->red);
+    for (int64_t k = begin; k < end; k++) {
+        const int64_t from = k < red ? k * MPS__BLOCK : l->red + (k - red) * MPS__BLOCK, last = k < red ? l->red : l->cells;
+        sum_chunks(g, k >= red, from, from + MPS__BLOCK < last ? from + MPS__BLOCK : last);
+    }
+}
+
 void mps__grid_restrict(mps__grid *g, const double *values, double scale)
 {
     const mps__grid_level *l = &g->level[0];
-    const int64_t red = mps__blocks(l->red), blocks = red + mps__blocks(l->cells - l->red);
-#pragma omp parallel num_threads(mps__team(l->points, g->threads))
-    {
-#pragma omp for schedule(static, 1)
-        for (int c = 0; c < MPS__GRID_CHUNKS; c++) restrict_chunk(g, c, values, scale);
-#pragma omp for schedule(static)
-        for (int64_t k = 0; k < blocks; k++) {
-            const int64_t from = k < red ? k * MPS__BLOCK : l->red + (k - red) * MPS__BLOCK, end = k < red ? l->red : l->cells;
-            sum_chunks(g, k >= red, from, from + MPS__BLOCK < end ? from + MPS__BLOCK : end);
-        }
-    }
+    const mps_parallel *team = mps__team(g->parallel, l->points);
+    cycle y = {.g = g, .values = values, .scale = scale};
+    mps_parallel_run(team, MPS__GRID_CHUNKS, restrict_chunk, &y);
+    mps_parallel_rows_least(team, mps__blocks(l->red) + mps__blocks(l->cells - l->red), 2, sum_blocks, &y);
 }
 
 /* What is left of the right side, to the next grid. The black cells were solved last: only red ones have a residual. */
@@ -187,11 +223,16 @@ static void restrict_residual(const mps__grid *g, const mps__grid_level *fine, m
     }
 }
 
+static void correct_rows(void *argument, int64_t begin, int64_t end)
+{
+    const cycle *y = argument;
+    for (int64_t c = begin; c < end; c++)
+        if (y->coarse->home[c] >= 0) y->l->x[c] += mps__grid_value(y->coarse, y->sides / 2, c);
+}
+
 static void correct(const mps__grid *g, mps__grid_level *fine, const mps__grid_level *l)
 {
-#pragma omp parallel for schedule(static) num_threads(mps__team(fine->cells, g->threads))
-    for (int64_t c = 0; c < fine->cells; c++)
-        if (l->home[c] >= 0) fine->x[c] += mps__grid_value(l, g->dim, c);
+    run(g, fine->cells, correct_rows, &(cycle){.l = fine, .coarse = l, .sides = 2 * g->dim});
 }
 
 void mps__grid_cycle(mps__grid *g)

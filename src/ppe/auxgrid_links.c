@@ -66,6 +66,23 @@ static double position(const mps__grid *g, const mps_ppe_problem *problem, int64
     return u < most ? u : most;
 }
 
+/* A grid and what it is made from. */
+typedef struct making {
+    mps__grid *g;
+    mps__grid_level *l;
+    const mps_ppe_problem *problem;
+} making;
+
+static void place_rows(void *argument, int64_t begin, int64_t end)
+{
+    const making *m = argument;
+    for (int64_t i = begin; i < end; i++) {
+        int64_t key = 0;
+        for (int a = 0; a < m->problem->dim; a++) key |= (int64_t)position(m->g, m->problem, i, a) << (a * MPS__GRID_BITS);
+        m->g->point_key[i] = key;
+    }
+}
+
 void mps__grid_place(mps__grid *g, const mps_ppe_problem *problem)
 {
     for (int a = 0; a < problem->dim; a++) {
@@ -73,11 +90,7 @@ void mps__grid_place(mps__grid *g, const mps_ppe_problem *problem)
         for (int64_t i = 0; i < problem->n; i++) lo = fmin(lo, problem->x[i * problem->dim + a]);
         g->lo[a] = lo - 0.5 * g->size;
     }
-#pragma omp parallel for schedule(static) num_threads(mps__team(problem->n, problem->threads))
-    for (int64_t i = 0; i < problem->n; i++) {
-        g->point_key[i] = 0;
-        for (int a = 0; a < problem->dim; a++) g->point_key[i] |= (int64_t)position(g, problem, i, a) << (a * MPS__GRID_BITS);
-    }
+    mps_parallel_rows_least(problem->parallel, problem->n, MPS__TEAM_LEAST / 2, place_rows, &(making){.g = g, .problem = problem});
 }
 
 /* ---- conductances ---- */
@@ -232,23 +245,31 @@ static void share_shift(const mps__grid *g, mps__grid_level *l, int64_t i, doubl
     for (int k = 0; k < 1 << g->dim; k++) l->shift[at[k]] += (double)share[k] * shift;
 }
 
-/* Links of the first grid: each chunk of the rows has its own, their sums have a fixed order. */
-static void add_rows(mps__grid *g, mps__grid_level *l, const mps_ppe_problem *problem)
+/* Links of one chunk of the rows. */
+static void add_chunk(void *argument, int32_t chunk)
 {
-    const int64_t links = l->cells * 2 * g->dim;
-    float *parts = g->parts;
-#pragma omp parallel num_threads(mps__team(problem->n, problem->threads))
-    {
-#pragma omp for schedule(static, 1)
-        for (int c = 0; c < MPS__GRID_CHUNKS; c++) {
-            float *part = parts + c * links;
-            memset(part, 0, (size_t)links * sizeof *part);
-            for (int64_t i = mps__grid_chunk(problem->n, c); i < mps__grid_chunk(problem->n, c + 1); i++) add_row(g, l, problem, i, part);
-        }
-#pragma omp for schedule(static)
-        for (int64_t k = 0; k < links; k++)
-            for (int c = 0; c < MPS__GRID_CHUNKS; c++) l->link[k] += parts[c * links + k];
-    }
+    const making *m = argument;
+    const int64_t n = m->problem->n, links = m->l->cells * 2 * m->g->dim;
+    float *part = (float *)m->g->parts + chunk * links;
+    memset(part, 0, (size_t)links * sizeof *part);
+    for (int64_t i = mps__grid_chunk(n, chunk); i < mps__grid_chunk(n, chunk + 1); i++) add_row(m->g, m->l, m->problem, i, part);
+}
+
+static void sum_links(void *argument, int64_t begin, int64_t end)
+{
+    const making *m = argument;
+    const int64_t links = m->l->cells * 2 * m->g->dim;
+    const float *parts = m->g->parts;
+    for (int64_t k = begin; k < end; k++)
+        for (int c = 0; c < MPS__GRID_CHUNKS; c++) m->l->link[k] += parts[c * links + k];
+}
+
+/* Links of the first grid: each chunk of the rows has its own, their sums have a fixed order. */
+static void add_rows(making *m)
+{
+    const mps_parallel *team = mps__team(m->problem->parallel, m->problem->n);
+    mps_parallel_run(team, MPS__GRID_CHUNKS, add_chunk, m);
+    mps_parallel_rows(team, m->l->cells * 2 * m->g->dim, sum_links, m);
 }
 
 /* Links where there is one density, without a walk over the pairs: a cell conducts as much as its particles, sum k_ij r_ij^2 /
@@ -269,8 +290,12 @@ static void link_cells(const mps__grid *g, mps__grid_level *l, const mps_ppe_pro
 }
 
 /* Shares of the particles, and which cells of each colour a chunk of them reaches. */
-static void share_chunk(mps__grid *g, mps__grid_level *l, const mps_ppe_problem *problem, int chunk)
+static void share_chunk(void *argument, int32_t chunk)
 {
+    const making *m = argument;
+    mps__grid *g = m->g;
+    mps__grid_level *l = m->l;
+    const mps_ppe_problem *problem = m->problem;
     int32_t range[2][2] = {{INT32_MAX, 0}, {INT32_MAX, 0}};
     for (int64_t i = mps__grid_chunk(problem->n, chunk); i < mps__grid_chunk(problem->n, chunk + 1); i++) {
         share_particle(g, l, problem, i);
@@ -286,6 +311,7 @@ static void share_chunk(mps__grid *g, mps__grid_level *l, const mps_ppe_problem 
 bool mps__grid_from_matrix(mps__grid *g, const mps_ppe_problem *problem)
 {
     mps__grid_level *l = &g->level[0];
+    making m = {g, l, problem};
     if (!mps__grid_reserve_parts(g)) return false;
     for (int64_t i = 0; i < problem->n; i++) {
         int32_t c = l->home[i];
@@ -296,9 +322,8 @@ bool mps__grid_from_matrix(mps__grid *g, const mps_ppe_problem *problem)
     if (g->one)
         link_cells(g, l, problem);
     else
-        add_rows(g, l, problem);
-#pragma omp parallel for schedule(static, 1) num_threads(mps__team(problem->n, problem->threads))
-    for (int c = 0; c < MPS__GRID_CHUNKS; c++) share_chunk(g, l, problem, c);
+        add_rows(&m);
+    mps_parallel_run(mps__team(problem->parallel, problem->n), MPS__GRID_CHUNKS, share_chunk, &m);
     for (int64_t i = 0; i < problem->n; i++)
         if (problem->shift[i] > 0) share_shift(g, l, i, problem->shift[i] * g->unit);
     return true;

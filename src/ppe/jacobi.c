@@ -8,7 +8,7 @@ typedef struct jacobi {
     mps_allocator allocator;
     double *inverse; /* [capacity] */
     int64_t n, capacity;
-    int threads;
+    const mps_parallel *parallel;
 } jacobi;
 
 static int create(const mps_allocator *allocator, void **self)
@@ -35,7 +35,7 @@ static int setup(void *self, const mps_ppe_problem *problem)
     jacobi *j = self;
     if (!reserve(j, problem->n)) return MPS_PPE_NOMEM;
     j->n = problem->n;
-    j->threads = problem->threads;
+    j->parallel = problem->parallel;
     for (int64_t i = 0; i < problem->n; i++) {
         double d = problem->diagonal[i];
         if (!isfinite(d)) return MPS_PPE_NAN;
@@ -45,11 +45,24 @@ static int setup(void *self, const mps_ppe_problem *problem)
     return 0;
 }
 
+typedef struct operands {
+    const double *inverse, *r;
+    double *z;
+} operands;
+
+static void apply_rows(void *argument, int64_t begin, int64_t end)
+{
+    const operands *o = argument;
+    const double *inverse = o->inverse, *r = o->r;
+    double *z = o->z;
+    MPS__INDEPENDENT
+    for (int64_t i = begin; i < end; i++) z[i] = inverse[i] * r[i];
+}
+
 static int apply(void *self, const double *r, double *z)
 {
     const jacobi *j = self;
-#pragma omp parallel for simd schedule(static) num_threads(mps__team(j->n, j->threads))
-    for (int64_t i = 0; i < j->n; i++) z[i] = j->inverse[i] * r[i];
+    mps_parallel_rows_least(j->parallel, j->n, MPS__TEAM_LEAST / 2, apply_rows, &(operands){j->inverse, r, z});
     return 0;
 }
 

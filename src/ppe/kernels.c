@@ -29,29 +29,32 @@ double mps__block_dot(const double *x, const double *y, int64_t count)
     return ((s[0] + s[4]) + (s[1] + s[5])) + ((s[2] + s[6]) + (s[3] + s[7]));
 }
 
-static double sum_in_order(const double *partial, int64_t count)
+double mps__sum_blocks(const double *partial, int64_t count)
 {
     double s = 0;
     for (int64_t b = 0; b < count; b++) s += partial[b];
     return s;
 }
 
-static int64_t block_end(int64_t block, int64_t n)
+typedef struct dot {
+    const double *x, *y;
+    int64_t n;
+    double *partial;
+} dot;
+
+static void dot_blocks(void *argument, int64_t begin, int64_t end)
 {
-    int64_t end = (block + 1) * MPS__BLOCK;
-    return end < n ? end : n;
+    const dot *d = argument;
+    for (int64_t b = begin; b < end; b++) {
+        const int64_t lo = b * MPS__BLOCK;
+        d->partial[b] = mps__block_dot(d->x + lo, d->y + lo, mps__block_end(b, d->n) - lo);
+    }
 }
 
-double mps__blocked_dot(const double *x, const double *y, int64_t n, int threads, double *partial)
+double mps__blocked_dot(const mps_parallel *p, const double *x, const double *y, int64_t n, double *partial)
 {
-    (void)threads; /* unused without OpenMP */
-    int64_t blocks = mps__blocks(n);
-#pragma omp parallel for schedule(static) num_threads(mps__team(n, threads))
-    for (int64_t b = 0; b < blocks; b++) {
-        int64_t lo = b * MPS__BLOCK;
-        partial[b] = mps__block_dot(x + lo, y + lo, block_end(b, n) - lo);
-    }
-    return sum_in_order(partial, blocks);
+    mps_parallel_rows_least(mps__team(p, n), mps__blocks(n), 1, dot_blocks, &(dot){x, y, n, partial});
+    return mps__sum_blocks(partial, mps__blocks(n));
 }
 
 /* Four sums: one would wait for each addition. */
@@ -65,29 +68,51 @@ static double row_dot(const float *val, const int32_t *col, int64_t count, const
     return (s[0] + s[2]) + (s[1] + s[3]);
 }
 
-double mps__rows_multiply(const mps_ppe_problem *problem, const double *x, double *y, double *partial)
+typedef struct multiply {
+    const mps_ppe_problem *problem;
+    const double *x;
+    double *y, *partial;
+} multiply;
+
+static void multiply_blocks(void *argument, int64_t begin, int64_t end)
 {
-    int64_t n = problem->n, blocks = mps__blocks(n);
+    const multiply *m = argument;
+    const mps_ppe_problem *problem = m->problem;
     const int64_t *row = problem->row;
     const int32_t *col = problem->col;
     const float *val = problem->val;
-#pragma omp parallel for schedule(static) num_threads(mps__team(n, problem->threads))
-    for (int64_t b = 0; b < blocks; b++) {
-        int64_t lo = b * MPS__BLOCK, hi = block_end(b, n);
+    const double *x = m->x, *diagonal = problem->diagonal;
+    double *y = m->y;
+    for (int64_t b = begin; b < end; b++) {
+        const int64_t lo = b * MPS__BLOCK, hi = mps__block_end(b, problem->n);
         for (int64_t i = lo; i < hi; i++) {
-            y[i] = problem->diagonal[i] * x[i] + row_dot(val + row[i], col + row[i], row[i + 1] - row[i], x);
+            y[i] = diagonal[i] * x[i] + row_dot(val + row[i], col + row[i], row[i + 1] - row[i], x);
         }
-        partial[b] = mps__block_dot(x + lo, y + lo, hi - lo);
+        m->partial[b] = mps__block_dot(x + lo, y + lo, hi - lo);
     }
-    return sum_in_order(partial, blocks);
+}
+
+double mps__rows_multiply(const mps_ppe_problem *problem, const double *x, double *y, double *partial)
+{
+    const int64_t n = problem->n, blocks = mps__blocks(n);
+    mps_parallel_rows_least(mps__team(problem->parallel, n), blocks, 1, multiply_blocks, &(multiply){problem, x, y, partial});
+    return mps__sum_blocks(partial, blocks);
+}
+
+/* Largest negative of a diagonal entry. */
+static void negative_rows(void *argument, int64_t begin, int64_t end, double *values)
+{
+    const mps_ppe_problem *problem = argument;
+    double most = values[0];
+    for (int64_t i = begin; i < end; i++) most = -problem->diagonal[i] > most ? -problem->diagonal[i] : most;
+    values[0] = most;
 }
 
 bool mps__rows_nonnegative(const mps_ppe_problem *problem)
 {
-    int negative = 0;
-#pragma omp parallel for schedule(static) num_threads(mps__team(problem->n, problem->threads)) reduction(| : negative)
-    for (int64_t i = 0; i < problem->n; i++) negative |= problem->diagonal[i] < 0;
-    return !negative;
+    double most = 0;
+    mps_parallel_max(mps__team(problem->parallel, problem->n), problem->n, 1, negative_rows, (mps_ppe_problem *)problem, &most);
+    return !(most > 0);
 }
 
 void mps__guess_clean(double *p, int64_t n)

@@ -7,27 +7,46 @@
 #include <mps/ppe.h>
 #include <stdbool.h>
 
+/* Elements of a block; elements that are worth a second thread in loops of next to nothing each. */
 enum { MPS__BLOCK = 1024, MPS__TEAM_LEAST = 8192 };
+
+/* The next loop has rounds that do not depend on each other: arrays in it are the same or apart. */
+#if defined(__clang__)
+#define MPS__INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
+#elif defined(__GNUC__)
+#define MPS__INDEPENDENT _Pragma("GCC ivdep")
+#else
+#define MPS__INDEPENDENT
+#endif
 
 static inline int64_t mps__blocks(int64_t n)
 {
     return (n + MPS__BLOCK - 1) / MPS__BLOCK;
 }
 
-/* Threads worth waking for n elements. */
-static inline int mps__team(int64_t n, int threads)
+/* One past the last element of a block. */
+static inline int64_t mps__block_end(int64_t block, int64_t n)
 {
-    return n < MPS__TEAM_LEAST || threads < 1 ? 1 : threads;
+    const int64_t end = (block + 1) * MPS__BLOCK;
+    return end < n ? end : n;
+}
+
+/* Who works on n elements: the calling thread (NULL) where others are not worth waking. */
+static inline const mps_parallel *mps__team(const mps_parallel *p, int64_t n)
+{
+    return n < MPS__TEAM_LEAST ? NULL : p;
 }
 
 /* `count` elements (at least one) or NULL; not zeroed. */
 void *mps__take(const mps_allocator *allocator, int64_t count, size_t size);
 void mps__give(const mps_allocator *allocator, void *block);
 
+/* The sum of the blocks' sums in their order. */
+double mps__sum_blocks(const double *partial, int64_t count);
 /* x'y over at most one block. */
 double mps__block_dot(const double *x, const double *y, int64_t count);
 /* x'y; partial [blocks] is scratch. */
-double mps__blocked_dot(const double *x, const double *y, int64_t n, int threads, double *partial);
+double mps__blocked_dot(const mps_parallel *p, const double *x, const double *y, int64_t n, double *partial);
 
 /* y = A x. @return x'y; partial [blocks] is scratch */
 double mps__rows_multiply(const mps_ppe_problem *problem, const double *x, double *y, double *partial);

@@ -69,7 +69,7 @@ static int times(N_Vector vx, N_Vector vy, N_Vector vp, sunbooleantype *changed,
     mps__vector_written(vy);
     if (k->problem->law) {
         for (int64_t i = 0; i < k->space.n; i++) y[i] += k->slope[i] * x[i];
-        curvature = mps__blocked_dot(x, y, k->space.n, k->space.threads, k->space.partial);
+        curvature = mps__blocked_dot(k->space.parallel, x, y, k->space.n, k->space.partial);
     }
     mps__space_remember(&k->space, x, y, curvature);
     if (!isfinite(curvature))
@@ -107,7 +107,7 @@ static int precondition(N_Vector vp, N_Vector scale, N_Vector f, N_Vector f_scal
     mps__vector_written(vr);
     k->failure = k->pc->apply(k->pc_self, k->inner, z);
     if (k->failure) return -1;
-    const double dot = mps__blocked_dot(k->inner, z, k->space.n, k->space.threads, k->space.partial);
+    const double dot = mps__blocked_dot(k->space.parallel, k->inner, z, k->space.n, k->space.partial);
     if (!isfinite(dot))
         k->failure = MPS_PPE_NAN;
     else if (dot <= 0)
@@ -141,7 +141,7 @@ static bool make_arrays(newton *k, int64_t capacity)
 {
     const mps_allocator *a = &k->space.allocator;
     k->space.capacity = capacity;
-    k->space.partial = mps__take(a, mps__blocks(capacity), sizeof(double));
+    k->space.partial = mps__take(a, 2 * mps__blocks(capacity), sizeof(double));
     if (!k->space.partial) return false;
     double **all[] = {&k->start, &k->residual, &k->inner, &k->slope, &k->ones, &k->diagonal, &k->shift};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
@@ -183,7 +183,7 @@ static bool grow(const newton *k, double **array, int64_t *capacity, int64_t cou
 static bool prepare(newton *k, const mps_ppe_problem *problem)
 {
     k->space.n = problem->n;
-    k->space.threads = problem->threads;
+    k->space.parallel = problem->parallel;
     k->space.weight = problem->divergence > 0 ? problem->weight : NULL;
     if (problem->component && !grow(k, &k->sums, &k->sum_capacity, 2 * (int64_t)problem->components)) return false;
     if (problem->n <= k->space.capacity) return true;
@@ -242,7 +242,7 @@ static int attempt(newton *k, double *p, mps_ppe_result *result)
 {
     const mps_ppe_problem *problem = k->problem;
     const size_t bytes = (size_t)problem->n * sizeof *p;
-    const double norm = sqrt(mps__blocked_dot(problem->rhs, problem->rhs, problem->n, problem->threads, k->space.partial));
+    const double norm = sqrt(mps__blocked_dot(problem->parallel, problem->rhs, problem->rhs, problem->n, k->space.partial));
     if (norm == 0) memset(p, 0, bytes);
     if (!mps__guess_begin(k->problem, p, k->residual, k->sums, result)) return MPS_PPE_NAN;
     const double excess = mps__result_excess(problem, result);

@@ -59,7 +59,7 @@ static int precondition(void *data, N_Vector vr, N_Vector vz, sunrealtype tolera
     const double *r = mps__vector_data(vr);
     double *z = mps__vector_data(vz);
     if (apply(k, r, z)) return -1;
-    double dot = mps__blocked_dot(r, z, k->space.n, k->space.threads, k->space.partial);
+    double dot = mps__blocked_dot(k->space.parallel, r, z, k->space.n, k->space.partial);
     mps__space_remember(&k->space, r, z, dot);
     if (!isfinite(dot))
         k->failure = MPS_PPE_NAN;
@@ -97,7 +97,7 @@ static bool make_arrays(krylov *k, int64_t capacity)
     k->residual = mps__take(a, capacity, sizeof *k->residual);
     k->correction = mps__take(a, capacity, sizeof *k->correction);
     if (!k->kind->symmetric) k->inner = mps__take(a, capacity, sizeof *k->inner);
-    k->space.partial = mps__take(a, mps__blocks(capacity), sizeof *k->space.partial);
+    k->space.partial = mps__take(a, 2 * mps__blocks(capacity), sizeof *k->space.partial);
     return k->start && k->residual && k->correction && (k->inner || k->kind->symmetric) && k->space.partial;
 }
 
@@ -130,7 +130,7 @@ static bool make_sums(krylov *k, int64_t components)
 static bool prepare(krylov *k, const mps_ppe_problem *problem)
 {
     k->space.n = problem->n;
-    k->space.threads = problem->threads;
+    k->space.parallel = problem->parallel;
     k->space.weight = problem->divergence > 0 ? problem->weight : NULL;
     if (problem->component && !make_sums(k, problem->components)) return false;
     if (problem->n <= k->space.capacity) return true;
@@ -207,7 +207,7 @@ static int attempt(krylov *k, double *p, mps_ppe_result *result)
 {
     const mps_ppe_problem *problem = k->problem;
     size_t bytes = (size_t)problem->n * sizeof *p;
-    double norm = sqrt(mps__blocked_dot(problem->rhs, problem->rhs, problem->n, problem->threads, k->space.partial));
+    double norm = sqrt(mps__blocked_dot(problem->parallel, problem->rhs, problem->rhs, problem->n, k->space.partial));
     if (norm == 0) memset(p, 0, bytes);
     if (!mps__guess_begin(k->problem, p, k->residual, k->sums, result)) return MPS_PPE_NAN;
     double excess = mps__result_excess(problem, result);

@@ -68,49 +68,99 @@ static N_Vector clone(N_Vector v)
     return w;
 }
 
+/* What an operation of a vector works on; each uses its own. */
+typedef struct operands {
+    mps__space *space;
+    double a, b;
+    const double *x, *y;
+    double *z;
+} operands;
+
+/* Run an operation over all elements. */
+static void run(const mps__space *space, mps_range_fn rows, operands *o)
+{
+    mps_parallel_rows_least(space->parallel, space->n, MPS__TEAM_LEAST / 2, rows, o);
+}
+
+static void linear_sum_rows(void *argument, int64_t begin, int64_t end)
+{
+    const operands *o = argument;
+    const double *x = o->x, *y = o->y, a = o->a, b = o->b;
+    double *z = o->z;
+    MPS__INDEPENDENT
+    for (int64_t i = begin; i < end; i++) z[i] = a * x[i] + b * y[i];
+}
+
 static void linear_sum(sunrealtype a, N_Vector vx, sunrealtype b, N_Vector vy, N_Vector vz)
 {
     mps__space *space = written(vz);
-    const double *x = mps__vector_data(vx), *y = mps__vector_data(vy);
-    double *z = mps__vector_data(vz);
-#pragma omp parallel for simd schedule(static) num_threads(mps__team(space->n, space->threads))
-    for (int64_t i = 0; i < space->n; i++) z[i] = a * x[i] + b * y[i];
+    run(space, linear_sum_rows,
+        &(operands){.a = a, .b = b, .x = mps__vector_data(vx), .y = mps__vector_data(vy), .z = mps__vector_data(vz)});
+}
+
+static void fill_rows(void *argument, int64_t begin, int64_t end)
+{
+    const operands *o = argument;
+    for (int64_t i = begin; i < end; i++) o->z[i] = o->a;
 }
 
 static void fill(sunrealtype a, N_Vector vz)
 {
     mps__space *space = written(vz);
-    double *z = mps__vector_data(vz);
-#pragma omp parallel for simd schedule(static) num_threads(mps__team(space->n, space->threads))
-    for (int64_t i = 0; i < space->n; i++) z[i] = a;
+    run(space, fill_rows, &(operands){.a = a, .z = mps__vector_data(vz)});
+}
+
+static void scale_rows(void *argument, int64_t begin, int64_t end)
+{
+    const operands *o = argument;
+    const double *x = o->x, a = o->a;
+    double *z = o->z;
+    MPS__INDEPENDENT
+    for (int64_t i = begin; i < end; i++) z[i] = a * x[i];
 }
 
 static void scale(sunrealtype a, N_Vector vx, N_Vector vz)
 {
     mps__space *space = written(vz);
-    const double *x = mps__vector_data(vx);
-    double *z = mps__vector_data(vz);
-#pragma omp parallel for simd schedule(static) num_threads(mps__team(space->n, space->threads))
-    for (int64_t i = 0; i < space->n; i++) z[i] = a * x[i];
+    run(space, scale_rows, &(operands){.a = a, .x = mps__vector_data(vx), .z = mps__vector_data(vz)});
+}
+
+/* Squares of blocks of x, and the largest |x weight| of each. */
+static void excess_blocks(void *argument, int64_t begin, int64_t end)
+{
+    const operands *o = argument;
+    const mps__space *space = o->space;
+    const double *r = o->x, *weight = space->weight;
+    double *partial = space->partial, *most = partial + mps__blocks(space->n);
+    for (int64_t b = begin; b < end; b++) {
+        const int64_t lo = b * MPS__BLOCK, hi = mps__block_end(b, space->n);
+        double largest = 0;
+        partial[b] = mps__block_dot(r + lo, r + lo, hi - lo);
+        for (int64_t i = lo; weight && i < hi; i++) largest = fmax(largest, fabs(r[i] * weight[i]));
+        most[b] = largest;
+    }
 }
 
 /* How far r is above the limits of both norms, in one pass. */
 static double excess(mps__space *space, const double *r)
 {
-    int64_t n = space->n, blocks = mps__blocks(n);
-    const double *weight = space->weight;
-    double largest = 0, squares = 0;
-    /* a maximum does not depend on the order */
-#pragma omp parallel for schedule(static) num_threads(mps__team(n, space->threads)) reduction(max : largest)
-    for (int64_t b = 0; b < blocks; b++) {
-        int64_t lo = b * MPS__BLOCK, hi = lo + MPS__BLOCK < n ? lo + MPS__BLOCK : n;
-        space->partial[b] = mps__block_dot(r + lo, r + lo, hi - lo);
-        for (int64_t i = lo; weight && i < hi; i++) largest = fmax(largest, fabs(r[i] * weight[i]));
-    }
-    for (int64_t b = 0; b < blocks; b++) squares += space->partial[b];
-    double norm = sqrt(squares) / space->norm_limit;
-    double divergence = weight ? largest / space->divergence_limit : 0;
+    const int64_t blocks = mps__blocks(space->n);
+    const double *most = space->partial + blocks;
+    double largest = 0;
+    mps_parallel_rows_least(mps__team(space->parallel, space->n), blocks, 1, excess_blocks, &(operands){.space = space, .x = r});
+    for (int64_t b = 0; b < blocks; b++) largest = fmax(largest, most[b]);
+    double norm = sqrt(mps__sum_blocks(space->partial, blocks)) / space->norm_limit;
+    double divergence = space->weight ? largest / space->divergence_limit : 0;
     return norm < divergence ? divergence : norm;
+}
+
+static void product_rows(void *argument, int64_t begin, int64_t end)
+{
+    const operands *o = argument;
+    const double *x = o->x, *y = o->y;
+    double *z = o->z;
+    MPS__INDEPENDENT
+    for (int64_t i = begin; i < end; i++) z[i] = x[i] * y[i];
 }
 
 static void product(N_Vector vx, N_Vector vy, N_Vector vz)
@@ -124,17 +174,22 @@ static void product(N_Vector vx, N_Vector vy, N_Vector vz)
         mps__space_remember(space, z, z, e * e);
         return;
     }
-#pragma omp parallel for simd schedule(static) num_threads(mps__team(space->n, space->threads))
-    for (int64_t i = 0; i < space->n; i++) z[i] = x[i] * y[i];
+    run(space, product_rows, &(operands){.x = x, .y = y, .z = z});
+}
+
+static void quotient_rows(void *argument, int64_t begin, int64_t end)
+{
+    const operands *o = argument;
+    const double *x = o->x, *y = o->y;
+    double *z = o->z;
+    MPS__INDEPENDENT
+    for (int64_t i = begin; i < end; i++) z[i] = x[i] / y[i];
 }
 
 static void quotient(N_Vector vx, N_Vector vy, N_Vector vz)
 {
     mps__space *space = written(vz);
-    const double *x = mps__vector_data(vx), *y = mps__vector_data(vy);
-    double *z = mps__vector_data(vz);
-#pragma omp parallel for simd schedule(static) num_threads(mps__team(space->n, space->threads))
-    for (int64_t i = 0; i < space->n; i++) z[i] = x[i] / y[i];
+    run(space, quotient_rows, &(operands){.x = mps__vector_data(vx), .y = mps__vector_data(vy), .z = mps__vector_data(vz)});
 }
 
 static sunrealtype dot_product(N_Vector vx, N_Vector vy)
@@ -142,25 +197,37 @@ static sunrealtype dot_product(N_Vector vx, N_Vector vy)
     const mps__space *space = content_of(vx)->space;
     const double *x = mps__vector_data(vx), *y = mps__vector_data(vy);
     bool known = (x == space->dot_x && y == space->dot_y) || (x == space->dot_y && y == space->dot_x);
-    return known ? space->dot : mps__blocked_dot(x, y, space->n, space->threads, space->partial);
+    return known ? space->dot : mps__blocked_dot(space->parallel, x, y, space->n, space->partial);
+}
+
+static void absolute_rows(void *argument, int64_t begin, int64_t end)
+{
+    const operands *o = argument;
+    const double *x = o->x;
+    double *z = o->z;
+    MPS__INDEPENDENT
+    for (int64_t i = begin; i < end; i++) z[i] = fabs(x[i]);
 }
 
 static void absolute(N_Vector vx, N_Vector vz)
 {
     mps__space *space = written(vz);
-    const double *x = mps__vector_data(vx);
-    double *z = mps__vector_data(vz);
-#pragma omp parallel for simd schedule(static) num_threads(mps__team(space->n, space->threads))
-    for (int64_t i = 0; i < space->n; i++) z[i] = fabs(x[i]);
+    run(space, absolute_rows, &(operands){.x = mps__vector_data(vx), .z = mps__vector_data(vz)});
+}
+
+static void inverse_rows(void *argument, int64_t begin, int64_t end)
+{
+    const operands *o = argument;
+    const double *x = o->x;
+    double *z = o->z;
+    MPS__INDEPENDENT
+    for (int64_t i = begin; i < end; i++) z[i] = 1.0 / x[i];
 }
 
 static void inverse(N_Vector vx, N_Vector vz)
 {
     mps__space *space = written(vz);
-    const double *x = mps__vector_data(vx);
-    double *z = mps__vector_data(vz);
-#pragma omp parallel for simd schedule(static) num_threads(mps__team(space->n, space->threads))
-    for (int64_t i = 0; i < space->n; i++) z[i] = 1.0 / x[i];
+    run(space, inverse_rows, &(operands){.x = mps__vector_data(vx), .z = mps__vector_data(vz)});
 }
 
 static sunrealtype largest_norm(N_Vector vx)

@@ -12,8 +12,8 @@ typedef struct mps__space {
     mps_allocator allocator;
     SUNContext context;
     int64_t n, capacity;
-    int threads;
-    double *partial; /* [blocks of capacity] */
+    const mps_parallel *parallel;
+    double *partial; /* [2 blocks of capacity] */
     N_Vector spare;  /* list of vectors made ahead for N_VClone, which dereferences NULL when a clone fails */
     /* One dot product computed by the kernel that wrote its vectors, while they were in cache. Any other write forgets it. */
     const double *dot_x, *dot_y;

@@ -6,6 +6,7 @@
 #include <mps/model.h>
 #include <mps/motion.h>
 #include <mps/operators.h>
+#include <mps/parallel.h>
 #include <mps/particles.h>
 #include <mps/ppe.h>
 #include <mps/probe.h>
@@ -191,6 +192,14 @@ AT(mps_model_ops, create, 64);
 AT(mps_model_ops, destroy, 72);
 AT(mps_model_ops, user, 80);
 
+SIZE(mps_grid, 40);
+AT(mps_grid, struct_size, 0);
+AT(mps_grid, dim, 4);
+AT(mps_grid, side, 8);
+AT(mps_grid, buckets, 16);
+AT(mps_grid, first, 24);
+AT(mps_grid, next, 32);
+
 SIZE(mps_motion_state, 144);
 AT(mps_motion_state, value, 0);
 AT(mps_motion_state, rate, 48);
@@ -217,7 +226,7 @@ AT(mps_stencil, re, 24);
 AT(mps_stencil, n0, 32);
 AT(mps_stencil, lambda, 40);
 AT(mps_stencil, kernel, 48);
-AT(mps_stencil, threads, 72);
+AT(mps_stencil, parallel, 72);
 AT(mps_stencil, x, 80);
 AT(mps_stencil, begin, 88);
 AT(mps_stencil, end, 96);
@@ -231,6 +240,30 @@ AT(mps_pair, r, 32);
 AT(mps_pair, w, 40);
 AT(mps_pair, j, 48);
 AT(mps_pair, w_r2, 56);
+
+SIZE(mps_parallel, 24);
+AT(mps_parallel, struct_size, 0);
+AT(mps_parallel, threads, 4);
+AT(mps_parallel, run, 8);
+AT(mps_parallel, user, 16);
+
+SIZE(mps_parallel_rows_job, 32);
+AT(mps_parallel_rows_job, n, 0);
+AT(mps_parallel_rows_job, parts, 8);
+AT(mps_parallel_rows_job, body, 16);
+AT(mps_parallel_rows_job, argument, 24);
+
+SIZE(mps_parallel_values, 16);
+AT(mps_parallel_values, sums, 0);
+AT(mps_parallel_values, maxima, 4);
+AT(mps_parallel_values, value, 8);
+
+SIZE(mps_parallel_reduce_job, 8224);
+AT(mps_parallel_reduce_job, n, 0);
+AT(mps_parallel_reduce_job, values, 8);
+AT(mps_parallel_reduce_job, body, 16);
+AT(mps_parallel_reduce_job, argument, 24);
+AT(mps_parallel_reduce_job, part, 32);
 
 SIZE(mps_particle_block, 56);
 AT(mps_particle_block, struct_size, 0);
@@ -264,11 +297,11 @@ AT(mps_ppe_problem, dp, 80);
 AT(mps_ppe_problem, tolerance, 88);
 AT(mps_ppe_problem, divergence, 96);
 AT(mps_ppe_problem, max_iterations, 104);
-AT(mps_ppe_problem, threads, 108);
-AT(mps_ppe_problem, components, 112);
-AT(mps_ppe_problem, component, 120);
-AT(mps_ppe_problem, gas, 128);
-AT(mps_ppe_problem, law, 136);
+AT(mps_ppe_problem, components, 108);
+AT(mps_ppe_problem, component, 112);
+AT(mps_ppe_problem, gas, 120);
+AT(mps_ppe_problem, law, 128);
+AT(mps_ppe_problem, parallel, 136);
 
 SIZE(mps_ppe_result, 32);
 AT(mps_ppe_result, reason, 0);
@@ -343,7 +376,7 @@ AT(mps_momentum, collision, 152);
 AT(mps_momentum, shift, 176);
 AT(mps_momentum, added, 200);
 
-SIZE(mps_config, 192);
+SIZE(mps_config, 216);
 AT(mps_config, struct_size, 0);
 AT(mps_config, dim, 4);
 AT(mps_config, dp, 8);
@@ -362,6 +395,7 @@ AT(mps_config, log, 160);
 AT(mps_config, log_user, 168);
 AT(mps_config, error, 176);
 AT(mps_config, error_size, 184);
+AT(mps_config, parallel, 192);
 
 SIZE(mps_phase, 24);
 AT(mps_phase, struct_size, 0);

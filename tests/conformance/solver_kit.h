@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Conformance kit of pressure solvers. Give it your tables; it builds systems like those of MPS, runs the solver over
- * them and tells what it did wrong. Needs <mps/ppe.h>, the C library and nothing else; tables are tested unregistered. */
+ * them and tells what it did wrong. Needs <mps/ppe.h>, the C library with POSIX threads and nothing else; tables are tested unregistered. */
 #ifndef SOLVER_KIT_H
 #define SOLVER_KIT_H
 
@@ -44,6 +44,9 @@ void kit_memory_init(kit_memory *memory);
 /* One solution from p with fresh states. @return the solver's reason */
 int kit_solve(const mps_solver_ops *solver, const mps_preconditioner_ops *pc, kit_memory *memory, const mps_ppe_problem *problem, double *p,
               mps_ppe_result *result);
+
+/* A parallel-for that makes its threads anew at each call, for mps_ppe_problem.parallel. */
+mps_parallel kit_parallel(int threads);
 
 /* |a - b| / |b| */
 double kit_difference(const double *a, const double *b, int64_t n);

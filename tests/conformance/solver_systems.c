@@ -83,8 +83,7 @@ static kit_system *new_system(int dim, int64_t n, int64_t entries)
                                    .x = s->x,
                                    .dp = 0.01,
                                    .tolerance = 1e-10,
-                                   .max_iterations = 5000,
-                                   .threads = 1};
+                                   .max_iterations = 5000};
     if (s->row && s->col && s->component && s->val && s->diagonal && s->rhs && s->shift && s->weight && s->x && s->exact) return s;
     kit_system_free(s);
     return NULL;

@@ -280,12 +280,13 @@ static void test_gas_lattice(void **state)
             kit_memory_init(&memory);
             assert_int_equal(kit_solve(&mps__solver_kinsol, mps__builtin_preconditioners[pc], &memory, &s->problem, p, &result), 0);
             assert_true(kit_difference(p, s->exact, s->problem.n) < 1e-6 && result.residual <= 1e-10);
-            s->problem.threads = 3;
+            const mps_parallel three = kit_parallel(3);
+            s->problem.parallel = &three;
             assert_int_equal(kit_solve(&mps__solver_kinsol, mps__builtin_preconditioners[pc], &memory, &s->problem, more, &again), 0);
             assert_memory_equal(p, more, n * sizeof *p);
             assert_int_equal(memory.live, 0);
             s->problem.gas = s->problem.law = NULL;
-            s->problem.threads = 1;
+            s->problem.parallel = NULL;
             memset(p, 0, n * sizeof *p);
             assert_int_equal(kit_solve(&mps__solver_kinsol, mps__builtin_preconditioners[pc], &memory, &s->problem, p, &again), 0);
             print_message("lattice %zu, %s: %d iterations, linear %d\n", k, mps__builtin_preconditioners[pc]->name, result.iterations,

@@ -114,7 +114,7 @@ static void force_models_are_no_walls(void **state)
     const mps_momentum before = momentum_of(sim);
     take_steps(sim, 20);
     const mps_energy e = energy_of(sim);
-    const double t = sim->world.info.t,
+    const double t = sim->world.state.t,
                  work = 0.5 * e.mass * (pow(speed + pull * t, 2) - speed * speed);
     /* m v a t, what was booked here, is of the size of `work`; the solver's tolerance leaves 1e-6
      * of it */
@@ -138,7 +138,7 @@ static void impulsive_start(void **state)
     const mps_momentum before = momentum_of(sim);
     take_steps(sim, 1);
     mps_energy e = energy_of(sim);
-    const double speed = 0.02 * sin(6 * sim->world.info.t) / sim->world.info.t,
+    const double speed = 0.02 * sin(6 * sim->world.state.t) / sim->world.state.t,
                  given = 0.5 * e.mass * speed * speed;
     /* pressures are exact to the tolerance of the solver, 1e-6 */
     ASSERT_NEAR(e.wall_work, given, 1e-5 * given);
@@ -205,8 +205,8 @@ static void work_of_a_turn(void **state)
     /* from rest: half the speed of this step, that of its chord without the strain */
     ASSERT_NEAR(mps__budget_wall_work(w, &end, a, dt), impulse * 0.5 * sin(first) / dt,
                 rounding * impulse);
-    w->before = w->motion.now;
-    w->dt_before = dt;
+    w->state.before = w->motion.now;
+    w->state.dt_before = dt;
     w->motion.now = end;
     ASSERT_OK(sim, mps__motion_pose(&w->motion, 3 * dt, &end));
     const double second = 0.3 * sin(6 * dt) - first,
@@ -315,7 +315,7 @@ static void lost_particles(void **state)
     ASSERT_NEAR(energy_of(sim).added, brought, rounding * brought);
     ASSERT_NEAR(momentum_of(sim).added[0], 3 * mass, rounding * mass);
     take_steps(sim, 1);
-    assert_int_equal(sim->world.info.lost, 1);
+    assert_int_equal(sim->world.state.lost, 1);
     ASSERT_NEAR(energy_of(sim).added, 0, rounding * brought);
     ASSERT_NEAR(momentum_of(sim).added[0], 0, rounding * mass);
     /* the step itself loses next to nothing of that */

@@ -156,7 +156,7 @@ static void series_names_all_frames(void **state)
         snprintf(wanted, sizeof wanted, "series_%06d.vtp", k);
         assert_null(strstr(text, wanted));
         free(text);
-        sim->world.info.t = 0.1 * k;
+        sim->world.state.t = 0.1 * k;
         ASSERT_OK(sim, mps_frames_write(frames));
         text = slurp("series.pvd", &size);
         snprintf(wanted, sizeof wanted, "<DataSet timestep=\"%.17g\" part=\"0\" file=\"series/series_%06d.vtp\"/>", 0.1 * k, k);
@@ -222,7 +222,7 @@ static mps_sim *four_frames(const char *name)
     mps_frames *frames;
     ASSERT_OK(sim, mps_frames_open(sim, folder, name, 0, &frames));
     for (int k = 0; k < 4; k++) {
-        sim->world.info.t = 0.1 * k;
+        sim->world.state.t = 0.1 * k;
         ASSERT_OK(sim, mps_frames_write(frames));
     }
     mps_frames_close(frames);
@@ -260,10 +260,10 @@ static void series_goes_on(void **state)
     mps_frames *frames;
     for (int at = 0; at < 2; at++) { /* between two frames, and, but for rounding, at one */
         mps_sim *sim = four_frames("on");
-        sim->world.info.t = at ? 0.2 * (1 - 1e-15) : 0.25;
+        sim->world.state.t = at ? 0.2 * (1 - 1e-15) : 0.25;
         ASSERT_OK(sim, mps_frames_open(sim, folder, "on", MPS_FRAMES_CONTINUE | MPS_FRAMES_WALL, &frames));
         check_series("on", 3, (const double[]){0, 0.1, 0.2});
-        sim->world.info.t = 0.26;
+        sim->world.state.t = 0.26;
         ASSERT_OK(sim, mps_frames_write(frames));
         check_series("on", 4, (const double[]){0, 0.1, 0.2, 0.26});
         check_frame(sim, "on/on_000000.vtp", 3);
@@ -284,7 +284,7 @@ static void no_time_twice(void **state)
     check_series("twice", 4, (const double[]){0, 0.1, 0.2, 0.1 * 3});
     check_frame(sim, "twice/twice_000003.vtp", MPS_FRAMES_DUMMY);
     check_frame(sim, "twice/twice_000002.vtp", 3);
-    sim->world.info.t = 0.4;
+    sim->world.state.t = 0.4;
     for (int k = 0; k < 2; k++) ASSERT_OK(sim, mps_frames_write(frames));
     check_series("twice", 5, (const double[]){0, 0.1, 0.2, 0.1 * 3, 0.4});
     mps_frames_close(frames);
@@ -303,7 +303,7 @@ static void nothing_to_go_on_with(void **state)
     check_series("fresh", 1, (const double[]){0});
     check_frame(sim, "fresh/fresh_000000.vtp", 3);
     mps_frames_close(frames);
-    sim->world.info.t = -1; /* before all there are */
+    sim->world.state.t = -1; /* before all there are */
     ASSERT_OK(sim, mps_frames_open(sim, folder, "fresh", MPS_FRAMES_CONTINUE, &frames));
     check_series("fresh", 0, NULL);
     mps_frames_close(frames);
@@ -328,7 +328,7 @@ static void foreign_series_stays(void **state)
     mps_sim *sim = four_frames("alien");
     size_t size;
     char *text = slurp("alien.pvd", &size);
-    sim->world.info.t = 0.15;
+    sim->world.state.t = 0.15;
     for (size_t k = 0; k < size; k++)
         for (int how = 0; how < 2; how++) {
             const char was = text[k];
@@ -359,7 +359,7 @@ static void series_goes_on_with_a_comma(void **state)
     if (!comma) skip();
     mps_frames *frames;
     mps_sim *sim = four_frames("comma");
-    sim->world.info.t = 0.25;
+    sim->world.state.t = 0.25;
     mps_status status = mps_frames_open(sim, folder, "comma", MPS_FRAMES_CONTINUE, &frames);
     setlocale(LC_NUMERIC, "C");
     ASSERT_OK(sim, status);

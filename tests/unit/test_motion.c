@@ -209,13 +209,13 @@ static void start_with_tank(void **state)
     const mps_harmonic h = {MPS_SURGE, 0, 0.2, 3, 0};
     const double centre[2] = {0, 0};
     ASSERT_OK(sim, mps_motion_set_harmonics(sim, 1, &h));
-    assert_int_equal(sim->world.start_pending, 0);
+    assert_int_equal(sim->world.state.start_pending, 0);
     ASSERT_OK(sim, mps_motion_set_centre(sim, centre, MPS_START_WITH_TANK));
-    assert_int_equal(sim->world.start_pending, 1);
+    assert_int_equal(sim->world.state.start_pending, 1);
     ASSERT_OK(sim, mps_motion_clear(sim));
-    assert_int_equal(sim->world.start_pending, 0);
+    assert_int_equal(sim->world.state.start_pending, 0);
     ASSERT_OK(sim, mps_motion_set_harmonics(sim, 1, &h));
-    assert_int_equal(sim->world.start_pending, 1);
+    assert_int_equal(sim->world.state.start_pending, 1);
     double x[2], v[2];
     ASSERT_OK(sim, mps_motion_to_lab(sim, centre, x, v));
     ASSERT_NEAR(v[0], 0.6, 1e-15);
@@ -336,7 +336,7 @@ static void other_refusals(void **state)
     ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &lease));
     ASSERT_REFUSED(sim, mps_motion_clear(sim), MPS_E_BUSY, "leases");
     ASSERT_OK(sim, mps_lease_end(sim, &lease));
-    sim->world.info.step = 3;
+    sim->world.state.step = 3;
     ASSERT_REFUSED(sim, mps_motion_set_centre(sim, zero, 0), MPS_E_STATE, "before the first step");
     mps_sim_destroy(sim);
 }

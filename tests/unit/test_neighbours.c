@@ -211,7 +211,8 @@ static void rebuild(void **state)
     const int side[] = {5, 20, 3, 21, 20};
     for (int k = 0; k < 5; k++) {
         cloud c = cloud_lattice(2, side[k], side[k], 1, 0.3, 50 + (uint64_t)k);
-        list->threads = 1 + k % 2;
+        const mps_parallel threads = {.struct_size = sizeof threads, .threads = 1 + k % 2};
+        assert_int_equal(mps_neighbours_set_parallel(list, &threads), MPS_OK);
         assert_int_equal(mps_neighbours_build(list, c.n, c.x, CLOUD_DP, 1.5 * CLOUD_DP), MPS_OK);
         assert_int_equal(mps_neighbours_build(list, c.n, c.x, near_radius, far_radius), MPS_OK);
         check_list(&c, list);
@@ -233,6 +234,16 @@ static void bad_arguments(void **state)
     assert_int_equal(mps_neighbours_create(2, INFINITY, NULL, &list), MPS_E_ARG);
     assert_int_equal(mps_neighbours_create(2, 1, &half, &list), MPS_E_ARG);
     assert_int_equal(mps_neighbours_create(2, 1, NULL, NULL), MPS_E_ARG);
+    mps_parallel threads = {.struct_size = sizeof threads, .threads = -1};
+    assert_int_equal(mps_neighbours_set_parallel(NULL, &threads), MPS_E_ARG);
+    list = new_list(2);
+    assert_int_equal(mps_neighbours_set_parallel(list, NULL), MPS_E_ARG);
+    assert_int_equal(mps_neighbours_set_parallel(list, &threads), MPS_E_ARG);
+    threads.threads = 0;
+    assert_int_equal(mps_neighbours_set_parallel(list, &threads), MPS_OK);
+    threads.struct_size = 0;
+    assert_int_equal(mps_neighbours_set_parallel(list, &threads), MPS_E_ARG);
+    mps_neighbours_destroy(list);
     assert_int_equal(mps_neighbours_create(2, 1, NULL, &list), MPS_OK);
     assert_int_equal(mps_neighbours_build(NULL, 2, x, 1, 2), MPS_E_ARG);
     assert_int_equal(mps_neighbours_build(list, 2, NULL, 1, 2), MPS_E_ARG);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Every operator against a double loop over all particles that shares no code with the library. */
 #include "cloud.h"
+#include "parallel.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -201,7 +202,11 @@ static void check_kernel(bench *s, const mps_kernel *kernel, weight_fn weight)
 {
     const double re[2] = {2.1 * CLOUD_DP, 3.1 * CLOUD_DP};
     mps_neighbours *list = NULL;
+    mps__context context = {.allocator = mps__allocator_default()};
+    mps__pool pool;
     bench two = bench_make(cloud_empty(s->c.dim, s->c.n));
+    mps__pool_init(&pool, &context);
+    mps__pool_resize(&pool, 2);
     assert_int_equal(mps_neighbours_create(s->c.dim, CLOUD_DP, NULL, &list), MPS_OK);
     assert_int_equal(mps_neighbours_build(list, s->c.n, s->c.x, re[0], re[1]), MPS_OK);
     for (int which = 0; which < 2; which++) {
@@ -209,12 +214,13 @@ static void check_kernel(bench *s, const mps_kernel *kernel, weight_fn weight)
         assert_int_equal(mps_neighbours_stencil(list, which, kernel, &t), MPS_OK);
         bench_run(s, &t);
         compare(s, re[which], weight);
-        t.threads = 2;
+        t.parallel = &pool.parallel;
         bench_run(&two, &t);
         for (int op = 0; op < OPS; op++)
             assert_memory_equal(two.result[op], s->result[op], (size_t)(s->c.n * components(s, op)) * sizeof(double));
     }
     mps_neighbours_destroy(list);
+    mps__pool_free(&pool);
     bench_free(&two);
 }
 

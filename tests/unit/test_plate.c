@@ -138,7 +138,7 @@ static void passing_the_edge(void **state)
             if (s->kind[i] == MPS_FLUID && hypot(s->x[2 * i] - 0.5, s->x[2 * i + 1] - 0.55) < 0.4 * dp) moved = i;
         assert_true(moved >= 0);
         s->x[2 * moved] = 0.5 + 0.01 * k * dp;
-        sim->world.neighbours.valid = false;
+        sim->world.lists.neighbours.valid = false;
         const int64_t id = s->id[moved];
         ASSERT_OK(sim, mps_sim_stencil(sim, MPS_FAR, &t));
         const int64_t i = mps_particle_index(sim, id);
@@ -187,11 +187,11 @@ static void what_is_a_plate(void **state)
     const double lo[2] = {0.2, 0}, hi[2] = {0.6, dp}, thick[2] = {0.8, 0.3}, end[2] = {0.8 + 3 * dp, 0.5};
     add_tank(sim, 1, 0.6, 0);
     add_plate(sim, 1, 0.4, 0.6 - dp);
-    assert_int_equal(sim->world.screens.count, 1);
-    ASSERT_NEAR(sim->world.screens.list[0].length[0], 0.2, 1e-12);
+    assert_int_equal(sim->world.lists.screens.count, 1);
+    ASSERT_NEAR(sim->world.lists.screens.list[0].length[0], 0.2, 1e-12);
     ASSERT_OK(sim, mps_geometry_baffle(sim, "step", lo, hi, NULL));
     ASSERT_OK(sim, mps_geometry_baffle(sim, "box", thick, end, NULL));
-    assert_int_equal(sim->world.screens.count, 1);
+    assert_int_equal(sim->world.lists.screens.count, 1);
     mps_sim_destroy(sim);
 }
 
@@ -475,7 +475,7 @@ static void refusals(void **state)
     ASSERT_OK(sim, mps_geometry_plate(sim, "p", at, up, along));
     ASSERT_REFUSED(sim, mps_geometry_plate(sim, "again", at, up, along), MPS_E_ARG, "taken");
     assert_int_equal(mps_part_find(sim, "again"), -1);
-    assert_int_equal(sim->world.screens.count, 1);
+    assert_int_equal(sim->world.lists.screens.count, 1);
     mps_sim_destroy(flat);
     mps_sim_destroy(sim);
 }

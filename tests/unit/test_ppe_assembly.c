@@ -67,8 +67,7 @@ static void tank_init(tank *k, cloud c)
                                 .value = k->value,
                                 .gas = k->gas,
                                 .law = k->law,
-                                .condition = k->fixed,
-                                .threads = 1};
+                                .condition = k->fixed};
 }
 
 static void tank_free(tank *k)
@@ -264,7 +263,8 @@ static void threads_agree(void **state)
     tank_init(&one, cloud_lattice(3, 8, 7, 8, 0.2, 3));
     tank_init(&two, cloud_lattice(3, 8, 7, 8, 0.2, 3));
     for (int64_t i = 0; i < one.c.n; i++) one.fixed[i] = two.fixed[i] = i % 11 == 0;
-    two.terms.threads = 2;
+    const mps_parallel threads = {.struct_size = sizeof threads, .threads = 2};
+    assert_int_equal(mps_neighbours_set_parallel(two.list, &threads), MPS_OK);
     assemble(&one);
     assemble(&two);
     check_matrix(&one.e);

@@ -32,11 +32,9 @@ static const char *const mmps_models[] = {"surface.detached",  "reference.lid", 
                                           "density.interface", "viscosity.pair",   "dissipation.radial", "tension.jump",
                                           "source.volume",     "gas.compressible", "gradient.corrected", "load.reaction",
                                           "drag.lone",         "collision.pair",   "shift.tangential",   NULL};
-static const changed mmps_settings[] = {{"viscosity.pair", "stress", 1},
-                                        {"source.volume", "clip", 0.5},
-                                        {"source.volume", "rapid", 0.1},
-                                        {"collision.pair", "restitution", 0},
-                                        {NULL, NULL, 0}};
+static const changed mmps_settings[] = {{"moments.bounded", "torn", 0.7},     {"viscosity.pair", "stress", 1},
+                                        {"source.volume", "clip", 0.5},       {"source.volume", "rapid", 3},
+                                        {"collision.pair", "restitution", 0}, {NULL, NULL, 0}};
 static const char *const paper_models[] = {"wall.extrapolate", "density.smooth",   "viscosity.pair",   "tension.csf",    "reference.gas",
                                            "source.mixed",     "gas.compressible", "gradient.density", "collision.pair", NULL};
 static const changed paper_settings[] = {

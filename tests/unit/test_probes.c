@@ -118,7 +118,7 @@ static void energy_budget(void **state)
     mps__world *w = &sim->world;
     mps_energy e;
     mps_energy_init(&e, sizeof e);
-    w->budget = (mps__budget){.wall_work = 5,
+    w->state.budget = (mps__budget){.wall_work = 5,
                               .viscous = 1,
                               .collision = 0.5,
                               .shift = 0.25,

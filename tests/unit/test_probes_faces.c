@@ -19,7 +19,7 @@ static void write_linear(mps_sim *sim)
 /* The sensor reads the pressure at its own place up to `off` spacings. */
 static void assert_linear(mps_sim *sim, double x, double y, double z, double diameter, double off)
 {
-    const int dim = sim->world.dim;
+    const int dim = sim->world.setup.dim;
     const double at[3] = {x, y, dim == 3 ? z : 0}, wanted = linear(at, dim), most = sqrt(mps__dot(slope, slope, dim)) * off * dp + 1e-8;
     mps_probe p = probe_of(MPS_PROBE_WALL_PRESSURE, x, y, at[2]);
     p.diameter = diameter;

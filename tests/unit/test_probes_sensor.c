@@ -227,7 +227,7 @@ static void turn_round(mps_sim *sim)
     mps__particles *s = &sim->world.particles;
     for (int64_t i = 0; i < s->n; i++) order[i] = (int32_t)(s->n - 1 - i);
     ASSERT_OK(sim, mps__particles_permute(s, s->n, order));
-    sim->world.neighbours.valid = false;
+    sim->world.lists.neighbours.valid = false;
 }
 
 /* Ids of the wall particles whose coordinates are within `reach` of the sensor's; returns how many. */

@@ -30,6 +30,11 @@ static void refuse(const mps_config *c, mps_status wanted, const char *word)
     assert_null(sim);
 }
 
+static void no_loop(void *user, int32_t parts, mps_part_fn body, void *argument)
+{
+    (void)user, (void)parts, (void)body, (void)argument;
+}
+
 /* One entry of a good configuration made bad. */
 #define REFUSE(entry, value, status, word)              \
     do {                                                \
@@ -65,6 +70,8 @@ static void bad_configuration(void **state)
     REFUSE(velocity_scale, -1, MPS_E_ARG, "velocity_scale is -1");
     REFUSE(threads, -1, MPS_E_ARG, "threads is -1");
     REFUSE(threads, 2000, MPS_E_ARG, "threads is 2000");
+    REFUSE(parallel.threads, 2000, MPS_E_ARG, "config.parallel.threads is 2000");
+    REFUSE(parallel.run, no_loop, MPS_E_ARG, "config.parallel.struct_size is 0");
     REFUSE(lost_policy, 2, MPS_E_ARG, "lost_policy is 2");
     REFUSE(kernel, "wendland", MPS_E_NAME, "\"wendland\"; there are \"improved\", \"original\"");
     REFUSE(domain_max[0], NAN, MPS_E_ARG, "domain_max[0] is ");

@@ -98,7 +98,7 @@ static sums sum_walls(const mps_sim *sim)
     sums out = {.closest = INFINITY};
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_WALL) continue;
-        const double *a = &s->area[i * s->dim], *x = &s->ref[i * s->dim], r = nearest_other(s, i) / sim->world.dp;
+        const double *a = &s->area[i * s->dim], *x = &s->ref[i * s->dim], r = nearest_other(s, i) / sim->world.setup.dp;
         out.walls++;
         out.area += sqrt(mps__dot(a, a, s->dim));
         out.volume -= mps__dot(a, x, s->dim) / s->dim;
@@ -378,7 +378,7 @@ static int64_t through_the_wall(const mps_sim *sim)
     const mps__particles *s = &sim->world.particles;
     int dim = s->dim;
     int64_t count = 0;
-    for (int64_t i = 0; i < s->n; i++) count += s->kind[i] == MPS_FLUID && ball(&dim, &s->x[i * dim]) < 0.2 * sim->world.dp;
+    for (int64_t i = 0; i < s->n; i++) count += s->kind[i] == MPS_FLUID && ball(&dim, &s->x[i * dim]) < 0.2 * sim->world.setup.dp;
     return count;
 }
 

@@ -293,8 +293,7 @@ static mps_ppe_problem tiny(void)
                              .shift = shift,
                              .weight = weight,
                              .x = x,
-                             .dp = 0.01,
-                             .threads = 1};
+                             .dp = 0.01};
 }
 
 static void test_solve_policy(void **state)
