@@ -293,7 +293,7 @@ static int take_negative(mps_stage *s)
 
 static int take_too_much(mps_stage *s)
 {
-    return mps_stage_scratch(s, INT64_MAX / 16) == NULL;
+    return mps_stage_scratch(s, INT64_MAX / 4) == NULL;
 }
 
 /* The search of bodies gives back what it borrowed. */
