@@ -354,6 +354,13 @@ enum {
  *  @return 0, or non-zero after a failure (no memory; the error is set) */
 MPS_API int mps_stage_bodies(mps_stage *s, int32_t most, const int32_t *role, int32_t *body);
 
+/** Point of the lab in the frame of the tank, and velocity of the rigid tank there over this step: the
+ *  velocity that "velocity" has for a solid at this point. In MPS_LIMIT it is the velocity now. Rows of a
+ *  loop may call it.
+ *  @param x  [dim] point, e.g. s->x + i * s->dim [m] @param place  NULL, or [dim] out [m]
+ *  @param velocity  NULL, or [dim] out, in the lab [m/s] */
+MPS_API void mps_stage_tank(const mps_stage *s, const double *x, double *place, double *velocity);
+
 /** Make values that rows wrote into scratch [n*components] visible in the rows of neighbours. Call it
  *  between a loop that writes scratch and one that reads it at neighbours. Channels need no call. */
 MPS_API int mps_stage_refresh(mps_stage *s, double *scratch, int32_t components);
