@@ -68,9 +68,11 @@ static void check_words(kit *k)
         if (!is_text(s->key) || !is_text(s->unit) || !is_text(s->help))
             FAIL(k, KIT_TABLE, "setting %d has no key, unit or help", (int)i);
         if (!(isfinite(s->initial) && s->min <= s->initial && s->initial <= s->max))
-            FAIL(k, KIT_TABLE, "setting %d: default %g, range %g..%g", (int)i, s->initial, s->min, s->max);
+            FAIL(k, KIT_TABLE, "setting %d: default %g, range %g..%g", (int)i, s->initial, s->min,
+                 s->max);
         for (int32_t j = 0; j < i; j++)
-            if (is_text(s->key) && is_text(o->settings[j].key) && !strcmp(s->key, o->settings[j].key))
+            if (is_text(s->key) && is_text(o->settings[j].key) &&
+                !strcmp(s->key, o->settings[j].key))
                 FAIL(k, KIT_TABLE, "two settings have the key '%s'", s->key);
     }
     for (int32_t i = 0; i < o->channel_count; i++)
@@ -150,8 +152,8 @@ static void check_threads(kit *k)
             c.threads = threads;
             run_scene(&c, STEPS, &more, NULL);
             if (!kit_state_same(&one, &more))
-                FAIL(k, KIT_THREADS, "preset %s, %d-D: %d threads give other bytes than one", c.preset,
-                     (int)c.dim, (int)threads);
+                FAIL(k, KIT_THREADS, "preset %s, %d-D: %d threads give other bytes than one",
+                     c.preset, (int)c.dim, (int)threads);
             kit_state_free(&one);
             kit_state_free(&more);
         }
@@ -165,7 +167,8 @@ static double apart(const kit_state *a, const kit_state *b, int32_t dim)
     if (a->n != b->n || a->stride != b->stride) return INFINITY;
     for (int32_t d = 0; d < a->stride; d++) {
         double largest = 1e-9, most = 0;
-        for (int64_t i = 0; i < a->n; i++) largest = fmax(largest, fabs(a->data[i * a->stride + d]));
+        for (int64_t i = 0; i < a->n; i++)
+            largest = fmax(largest, fabs(a->data[i * a->stride + d]));
         for (int64_t i = 0; i < a->n; i++) {
             const double *p = a->data + i * a->stride;
             int64_t best = 0;
@@ -192,7 +195,8 @@ static void check_order(kit *k)
     run_scene(&c, 3, &b, NULL);
     const double difference = apart(&a, &b, c.dim);
     if (!(difference < 1e-6))
-        FAIL(k, KIT_ORDER, "particles added in another order: results differ by %g of the largest", difference);
+        FAIL(k, KIT_ORDER, "particles added in another order: results differ by %g of the largest",
+             difference);
     kit_state_free(&a);
     kit_state_free(&b);
 }
@@ -221,7 +225,8 @@ static void check_handles(kit *k)
     for (int n = 0; n < 2; n++) thrd_join(thread[n], NULL);
     for (int n = 0; n < 2; n++) {
         if (!kit_state_same(&alone, &w[n].state))
-            FAIL(k, KIT_HANDLES, "two handles in two threads: handle %d has other bytes %s", n, w[n].text);
+            FAIL(k, KIT_HANDLES, "two handles in two threads: handle %d has other bytes %s", n,
+                 w[n].text);
         kit_state_free(&w[n].state);
     }
     kit_state_free(&alone);
@@ -257,8 +262,8 @@ static void starve(kit *k, memory *m, const kit_case *c, mps_sim *sim, bool step
     }
     m->fail_at = 0;
     if (status < 0)
-        FAIL(k, KIT_MEMORY, "an allocation fails in %s: %s: %s", step ? "a step" : "mps_model_use()",
-             mps_status_name(status), text_of(sim));
+        FAIL(k, KIT_MEMORY, "an allocation fails in %s: %s: %s",
+             step ? "a step" : "mps_model_use()", mps_status_name(status), text_of(sim));
 }
 
 static void check_memory(kit *k)
@@ -297,8 +302,9 @@ static void check_checkpoint(kit *k)
         FAIL(k, KIT_CHECKPOINT, "checkpoint: %s: %s%s", mps_status_name(status), text_of(whole),
              rest ? mps_sim_error(rest) : "");
     else if (!kit_state_get(whole, &a) || !kit_state_get(rest, &b) || !kit_state_same(&a, &b))
-        FAIL(k, KIT_CHECKPOINT, "a run that goes on from a checkpoint has other bytes: what the next "
-                                "steps need must be in channels of MPS_LIFE_PARTICLE");
+        FAIL(k, KIT_CHECKPOINT,
+             "a run that goes on from a checkpoint has other bytes: what the next "
+             "steps need must be in channels of MPS_LIFE_PARTICLE");
     kit_state_free(&a);
     kit_state_free(&b);
     mps_sim_destroy(whole);
@@ -316,10 +322,11 @@ static const char *rival(const kit *k, const mps_sim *sim)
     return NULL;
 }
 
-/* Switch the model off, or back to the one that was there. A preset may need a model in its slot. */
+/* Switch the model off, or back to the one before. A preset may need a model in its slot. */
 static mps_status switch_off(const kit *k, mps_sim *sim, const char *before)
 {
-    mps_status status = before[0] ? mps_model_use(sim, before) : mps_model_remove(sim, k->ops->name);
+    mps_status status = before[0] ? mps_model_use(sim, before)
+                                  : mps_model_remove(sim, k->ops->name);
     if (status >= 0) status = kit_steps(sim, 3);
     return refused(status) ? MPS_OK : status;
 }
@@ -340,7 +347,8 @@ static void check_midrun(kit *k)
         if (status >= 0) status = switch_off(k, sim, before);
     }
     if (status < 0)
-        FAIL(k, KIT_MIDRUN, "on and off between steps: %s: %s", mps_status_name(status), text_of(sim));
+        FAIL(k, KIT_MIDRUN, "on and off between steps: %s: %s", mps_status_name(status),
+             text_of(sim));
     mps_sim_destroy(sim);
 }
 
@@ -360,7 +368,8 @@ static void check_budget(kit *k)
     if (status < 0 || !isfinite(e.numerical) || !isfinite(e.viscous))
         FAIL(k, KIT_BUDGET, "energy %g J, %s", e.numerical, text_of(sim));
     for (int d = 0; d < k->scene[0].dim; d++) {
-        const double gained = m.gravity[d] + m.force[d] + m.pressure[d] + m.collision[d] + m.shift[d];
+        const double gained = m.gravity[d] + m.force[d] + m.pressure[d] + m.collision[d] +
+                              m.shift[d];
         const double rest = m.total[d] - first.total[d] - gained - m.added[d];
         if (!(fabs(rest) <= 1e-9 * (fabs(m.total[d]) + fabs(m.pressure[d]) + fabs(m.gravity[d]))))
             FAIL(k, KIT_BUDGET, "momentum does not close along axis %d: %g kg m/s", d, rest);
@@ -376,9 +385,9 @@ static void check_verbs(kit *k)
 
 int kit_check_model(const mps_model_ops *ops, kit_prepare_fn prepare, void *user)
 {
-    static void (*const checks[])(kit *) = {
-        check_verbs,   check_settings,   check_threads, check_order, check_handles,
-        check_memory,  check_checkpoint, check_midrun,  check_budget};
+    static void (*const checks[])(kit *) = {check_verbs,      check_settings, check_threads,
+                                            check_order,      check_handles,  check_memory,
+                                            check_checkpoint, check_midrun,   check_budget};
     kit k = {.ops = ops, .prepare = prepare, .user = user};
     check_table(&k);
     if (!k.failed) check_run(&k);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Conformance kit of models. Give it your table; it runs the model in small tanks and reports which
- * rules of <mps/model.h> it breaks. Needs libmps and the C library. It writes small checkpoint files
- * in the working folder and removes them. One check at a time: it is not thread-safe.
+ * rules of <mps/model.h> it breaks. Needs libmps and the C library. It writes small checkpoint
+ * files in the working folder and removes them. One check at a time: it is not thread-safe.
  *
  * A verb runs more than once per step here, on copies of its arrays: it may depend on its stage and
  * its channels only. A model whose result depends on a counter in `self` fails. */

@@ -8,7 +8,7 @@
 static const struct {
     const char *preset;
     int32_t dim;
-} scenes[KIT_SCENES] = {{"imps", 2},      {"imps", 3}, {"mmps", 2},
+} scenes[KIT_SCENES] = {{"imps", 2},       {"imps", 3}, {"mmps", 2},
                         {"imps.paper", 2}, {"mmps", 3}, {"mmps.paper", 2}};
 
 /* Inner size of the tanks and depth of the water, in spacings. */

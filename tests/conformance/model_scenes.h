@@ -15,11 +15,11 @@ typedef struct kit_case {
     const char *preset;
     int32_t dim;
     int32_t threads;
-    bool reverse;     /* add the fluid in the reverse order */
-    bool without;     /* do not switch the model on */
-    bool nonlinear;   /* use the solver of nonlinear rows */
-    const char *key;  /* NULL, or a setting */
-    double value;     /* of it */
+    bool reverse;                   /* add the fluid in the reverse order */
+    bool without;                   /* do not switch the model on */
+    bool nonlinear;                 /* use the solver of nonlinear rows */
+    const char *key;                /* NULL, or a setting */
+    double value;                   /* of it */
     const mps_allocator *allocator; /* NULL: malloc */
 } kit_case;
 
@@ -57,7 +57,7 @@ __attribute__((format(printf, 3, 4)))
 #endif
 int kit_say(const mps_model_ops *ops, int bit, const char *format, ...);
 
-/* Run the model in a scene and look at each call of each verb. @return sum of KIT_... that failed */
+/* Run the model in a scene and check each call of each verb. @return sum of KIT_... that failed */
 int kit_watch(const kit_case *scene);
 
 #endif

@@ -150,7 +150,8 @@ static int32_t own_use(const mps_verb *verb, const arrays *a, int64_t number)
 static int64_t choose_row(const mps_stage *s, int64_t call)
 {
     int64_t i = (call * 7919 + 101) % s->n;
-    for (int64_t k = 0; k < s->n && call % 4 != 3 && s->kind[i] != MPS_FLUID; k++) i = (i + 1) % s->n;
+    for (int64_t k = 0; k < s->n && call % 4 != 3 && s->kind[i] != MPS_FLUID; k++)
+        i = (i + 1) % s->n;
     return i;
 }
 
@@ -167,8 +168,8 @@ static double distance(const mps_stage *s, int64_t i, int64_t j)
     return sqrt(sum);
 }
 
-/* Other rows that changed beside the row: a neighbour read it. If rows changed that are farther away
- * than neighbours too, a sum over all rows went through them, which is allowed. */
+/* Other rows that changed beside the row: a neighbour read it. If rows farther away than neighbours
+ * changed too, a sum over all rows went through them, which is allowed. */
 static void compare_rows(const mps_stage *s, const mps_verb *verb, const arrays *a, int64_t row,
                          const char *channel)
 {
@@ -178,7 +179,8 @@ static void compare_rows(const mps_stage *s, const mps_verb *verb, const arrays 
         const size_t size = shape_of(&verb->uses[u])->element;
         for (int64_t j = 0; j < s->n; j++) {
             const size_t at = (size_t)j * size;
-            if (j == row || memcmp((char *)a->of[u] + at, (char *)s->data[u] + at, size) == 0) continue;
+            if (j == row || memcmp((char *)a->of[u] + at, (char *)s->data[u] + at, size) == 0)
+                continue;
             if (distance(s, row, j) > s->far->re * 1.001) return;
             near = j;
         }
@@ -200,8 +202,9 @@ static void compare_read(const mps_stage *s, const mps_verb *verb, const arrays 
         const size_t size = (size_t)s->n * k->element;
         if (memcmp(before->of[u], s->data[u], size) == 0) continue;
         memcpy(s->data[u], before->of[u], size);
-        watch.failed |= kit_say(watch.ops, KIT_WRITES, "moment %d: '%s' is written without MPS_USE_WRITE",
-                                (int)s->moment, k->name);
+        watch.failed |= kit_say(watch.ops, KIT_WRITES,
+                                "moment %d: '%s' is written without MPS_USE_WRITE", (int)s->moment,
+                                k->name);
     }
 }
 
@@ -254,10 +257,10 @@ static int observe(mps_stage *s, int number)
     return failed;
 }
 
-#define OBSERVE(k)                                                                                 \
-    static int observe_##k(mps_stage *s)                                                           \
-    {                                                                                              \
-        return observe(s, k);                                                                      \
+#define OBSERVE(k)                       \
+    static int observe_##k(mps_stage *s) \
+    {                                    \
+        return observe(s, k);            \
     }
 OBSERVE(0)
 OBSERVE(1)
@@ -283,7 +286,8 @@ static void learn_shapes(const mps_sim *sim)
     mps_channel_info info;
     mps_channel_info_init(&info, sizeof info);
     watch.count = 0;
-    for (int32_t k = 0; watch.count < SHAPES && mps_channel_info_get(sim, k, &info) == MPS_OK; k++) {
+    for (int32_t k = 0; watch.count < SHAPES && mps_channel_info_get(sim, k, &info) == MPS_OK;
+         k++) {
         shape *to = &watch.shapes[watch.count++];
         const size_t number = info.type == MPS_TYPE_INTEGER ? sizeof(int32_t) : sizeof(double);
         snprintf(to->name, sizeof to->name, "%s", info.name);
@@ -296,9 +300,10 @@ static void learn_shapes(const mps_sim *sim)
 static void disguise(const mps_model_ops *ops, mps_model_ops *copied, mps_verb verbs[VERBS],
                      char name[64])
 {
-    static int (*const run[VERBS])(mps_stage *) = {
-        observe_0, observe_1, observe_2,  observe_3,  observe_4,  observe_5,  observe_6,  observe_7,
-        observe_8, observe_9, observe_10, observe_11, observe_12, observe_13, observe_14, observe_15};
+    static int (*const run[VERBS])(mps_stage *) = {observe_0,  observe_1,  observe_2,  observe_3,
+                                                   observe_4,  observe_5,  observe_6,  observe_7,
+                                                   observe_8,  observe_9,  observe_10, observe_11,
+                                                   observe_12, observe_13, observe_14, observe_15};
     *copied = *ops;
     snprintf(name, 64, "%.*s.watched", (int)strcspn(ops->name, "."), ops->name);
     for (int32_t v = 0; v < ops->verb_count; v++) {

@@ -151,7 +151,8 @@ static int add_to_own(mps_stage *s)
 static void test_reads_what_it_writes(void **state)
 {
     static const mps_use write[] = {{"mark", MPS_USE_WRITE}};
-    static const mps_channel mark = {.name = "mark", .unit = "-", .help = "a mark", .components = 1};
+    static const mps_channel mark = {
+        .name = "mark", .unit = "-", .help = "a mark", .components = 1};
     mps_verb verb;
     mps_model_ops ops = model_of(&verb, add_to_own);
     (void)state;

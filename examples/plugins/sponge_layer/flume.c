@@ -3,12 +3,14 @@
  * layer there. A gauge sees the wave pass and what comes back. Prints the reflection, the height of
  * the wave that comes back over the height of the wave that passed.
  *
- * usage: flume [dp]    dp: spacing [m], default 0.02 */
+ * usage: flume [dp]       dp: spacing [m], default 0.02
+ *        flume --order    print the order of the verbs of a step instead */
 #include "sponge.h"
 #include <math.h>
 #include <mps/mps.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const double LENGTH = 5, HEIGHT = 0.4, DEPTH = 0.2; /* of the flume and the water [m] */
 static const double HUMP = 0.04, WIDTH = 0.5;              /* height and half length [m] */
@@ -49,10 +51,20 @@ static int build(mps_sim *sim, int32_t *gauge)
 static int add_sponge(mps_sim *sim, double rate)
 {
     if (mps_model_register(sim, &sponge_layer) < 0) return failed(sim, "register");
-    if (mps_model_use(sim, "sponge.layer") < 0 || mps_model_set(sim, "sponge", "from", SPONGE) < 0 ||
-        mps_model_set(sim, "sponge", "to", LENGTH) < 0 || mps_model_set(sim, "sponge", "rate", rate) < 0)
+    if (mps_model_use(sim, "sponge.layer") < 0 ||
+        mps_model_set(sim, "sponge", "from", SPONGE) < 0 ||
+        mps_model_set(sim, "sponge", "to", LENGTH) < 0 ||
+        mps_model_set(sim, "sponge", "rate", rate) < 0)
         return failed(sim, "sponge");
     return 0;
+}
+
+static void print_order(mps_sim *sim)
+{
+    mps_verb_info verb;
+    mps_verb_info_init(&verb, sizeof verb);
+    for (int32_t k = 0; mps_verb_info_get(sim, k, &verb) == MPS_OK; k++)
+        printf("%-9s %-22s %s\n", verb.moment_name, verb.model, verb.uses);
 }
 
 /* Highest surface at the gauge between two times [m]. */
@@ -93,8 +105,22 @@ static int measure(double dp, double rate, double *reflection)
     return 0;
 }
 
+static int show_order(void)
+{
+    mps_sim *sim;
+    mps_config config;
+    mps_config_init(&config, sizeof config);
+    config.dp = 0.05;
+    if (mps_sim_create(&config, &sim) < 0) return 1;
+    const int bad = add_sponge(sim, 1);
+    if (!bad) print_order(sim);
+    mps_sim_destroy(sim);
+    return bad;
+}
+
 int main(int argc, char **argv)
 {
+    if (argc > 1 && strcmp(argv[1], "--order") == 0) return show_order();
     const double dp = argc > 1 ? atof(argv[1]) : 0.02;
     double wall, sponge;
     if (measure(dp, 0, &wall) || measure(dp, 6, &sponge)) return 1;

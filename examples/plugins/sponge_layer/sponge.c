@@ -13,8 +13,8 @@ static const mps_setting settings[SETTINGS] = {
     [RATE] = {"rate", "1/s", "Damping at the end of the layer", MPS_TYPE_REAL, 0.0, 0.0, 1e6}};
 
 enum { VELOCITY, ACCELERATION, USES };
-static const mps_use uses[USES] = {[VELOCITY] = {"velocity", MPS_USE_READ},
-                                   [ACCELERATION] = {"acceleration", MPS_USE_CHANGE}};
+static const mps_use uses[USES] = {
+    [VELOCITY] = {"velocity", MPS_USE_READ}, [ACCELERATION] = {"acceleration", MPS_USE_CHANGE}};
 
 /* What the row function needs. */
 typedef struct fields {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Two tanks with the model "temperature.conduction".
- *   mixing: a sloshing tank, warm at the left and cold at the right, adiabatic walls. The sum of the
- *     temperatures must stay; the viscosity of cold water is higher.
- *   decay: a full tank at rest, T = wall + A sin(pi x/L) sin(pi y/H), walls of constant temperature.
- *     A must decay as exp(-kappa k^2 t), k^2 = (pi/L)^2 + (pi/H)^2, within 2 %. */
+ *   mixing: a sloshing tank, warm at the left and cold at the right, adiabatic walls. The sum of
+ *     the temperatures must stay; the viscosity of cold water is higher.
+ *   decay: a full tank at rest, T = wall + A sin(pi x/L) sin(pi y/H), walls at a constant
+ *     temperature. A must decay as exp(-kappa k^2 t), k^2 = (pi/L)^2 + (pi/H)^2, within 2 %. */
 #include "temperature.h"
 #include <math.h>
 #include <mps/mps.h>
@@ -56,7 +56,8 @@ static int warm(mps_sim *sim, profile at)
 {
     mps_lease x, temperature;
     if (mps_lease_begin(sim, "position", MPS_READ, &x) < 0) return failed(sim, "lease");
-    if (mps_lease_begin(sim, "temperature", MPS_WRITE, &temperature) < 0) return failed(sim, "lease");
+    if (mps_lease_begin(sim, "temperature", MPS_WRITE, &temperature) < 0)
+        return failed(sim, "lease");
     for (int64_t i = 0; i < x.count; i++) temperature.data[i] = at(x.data + i * x.stride);
     mps_lease_end(sim, &x);
     return mps_lease_end(sim, &temperature) < 0 ? failed(sim, "lease") : 0;

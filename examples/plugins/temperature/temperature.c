@@ -49,8 +49,8 @@ static double viscosity_ratio(const mps_stage *s, double temperature)
 /* ---- MPS_LIMIT: the longest stable step ------------------------------------------------------ */
 
 enum { LIMIT_TEMPERATURE, LIMIT_DENSITY, LIMIT_USES };
-static const mps_use limit_uses[LIMIT_USES] = {
-    [LIMIT_TEMPERATURE] = {"temperature", MPS_USE_READ}, [LIMIT_DENSITY] = {"density", MPS_USE_READ}};
+static const mps_use limit_uses[LIMIT_USES] = {[LIMIT_TEMPERATURE] = {"temperature", MPS_USE_READ},
+                                               [LIMIT_DENSITY] = {"density", MPS_USE_READ}};
 
 /* Raise most[0] to the kinematic viscosity. */
 MPS_ROW void raise(const int dim, const mps_stage *s, void *none, int64_t i, double *most)
