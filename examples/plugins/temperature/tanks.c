@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Two tanks with the model "temperature.conduction".
+/* Three tanks with the model "temperature.conduction".
  *   mixing: a sloshing tank, warm at the left and cold at the right, adiabatic walls. The sum of
- *     the temperatures must stay; the viscosity of cold water is higher.
+ *     the temperatures must stay.
  *   decay: a full tank at rest, T = wall + A sin(pi x/L) sin(pi y/H), walls at a constant
- *     temperature. A must decay as exp(-kappa k^2 t), k^2 = (pi/L)^2 + (pi/H)^2, within 2 %. */
+ *     temperature. A must decay as exp(-kappa k^2 t), k^2 = (pi/L)^2 + (pi/H)^2, within 2 %.
+ *   friction: the sloshing tank, cold. With the law of viscosity friction must take more energy. */
 #include "temperature.h"
 #include <math.h>
 #include <mps/mps.h>
@@ -110,22 +111,62 @@ static int decay(mps_sim *sim)
     return !(fabs(left / exact - 1) < 0.02);
 }
 
-static int run(int (*test)(mps_sim *), double gravity)
+static double cold(const double *x)
 {
-    mps_sim *sim;
+    (void)x;
+    return 280;
+}
+
+/* Energy that friction takes from a cold sloshing tank [J/m]. */
+static int lost(mps_sim *sim, double arrhenius, double *energy)
+{
+    const mps_harmonic surge = {.dof = MPS_SURGE, .amplitude = 0.01, .omega = 7.0};
+    mps_energy e;
+    mps_energy_init(&e, sizeof e);
+    if (build(sim, HEIGHT / 2) || warm(sim, cold)) return 1;
+    if (mps_model_remove(sim, "dissipation") < 0) return failed(sim, "dissipation");
+    if (mps_model_set(sim, "temperature", "arrhenius", arrhenius) < 0 ||
+        mps_model_set(sim, "temperature", "reference", 400) < 0)
+        return failed(sim, "law");
+    if (mps_motion_set_harmonics(sim, 1, &surge) < 0) return failed(sim, "motion");
+    if (mps_run(sim, 0.5, NULL, NULL) < 0) return failed(sim, "run");
+    if (mps_energy_get(sim, &e) < 0) return failed(sim, "energy");
+    *energy = e.viscous;
+    return 0;
+}
+
+static mps_sim *new_sim(double gravity)
+{
+    mps_sim *sim = NULL;
     mps_config config;
     mps_config_init(&config, sizeof config);
     config.dp = 0.01;
     config.gravity[1] = -gravity;
-    if (mps_sim_create(&config, &sim) < 0) return 1;
-    const int bad = test(sim);
+    return mps_sim_create(&config, &sim) < 0 ? NULL : sim;
+}
+
+static int friction(mps_sim *sim)
+{
+    double thin, thick;
+    mps_sim *other = new_sim(9.81);
+    const int bad = !other || lost(sim, 0, &thin) || lost(other, 4000, &thick);
+    mps_sim_destroy(other);
+    if (bad) return 1;
+    printf("friction: %.2e J/m with the viscosity of the phase, %.2e J/m cold\n", thin, thick);
+    return !(thick > 3 * thin);
+}
+
+static int run(int (*test)(mps_sim *), double gravity)
+{
+    mps_sim *sim = new_sim(gravity);
+    const int bad = sim ? test(sim) : 1;
     mps_sim_destroy(sim);
     return bad;
 }
 
 int main(void)
 {
-    const int bad = run(mixing, 9.81) | run(decay, 0);
-    printf("%s\n", bad ? "FAILED" : "both hold");
+    const int bad = run(mixing, 9.81) | run(decay, 0) | run(friction, 9.81);
+    printf("%s\n", bad ? "FAILED" : "all hold");
     return bad;
 }
