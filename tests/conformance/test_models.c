@@ -140,6 +140,23 @@ static void test_reads_neighbours(void **state)
     assert_int_equal(check_verb(read_neighbours), KIT_OWN_ROW);
 }
 
+/* Each row writes rows of neighbours: they depend on the order of rows and on the threads. */
+static int write_neighbours(mps_stage *s)
+{
+    push f = arrays(s);
+    const mps_stencil *t = s->near;
+    for (int64_t i = 0; i < s->n; i++)
+        for (int64_t p = t->begin[i]; p < t->end[i]; p++)
+            f.a[t->col[p] * s->dim] -= 0.1 * f.u[i * s->dim];
+    return 0;
+}
+
+static void test_writes_rows_of_neighbours(void **state)
+{
+    (void)state;
+    assert_true(check_verb(write_neighbours) & KIT_OWN_ROW);
+}
+
 /* A channel of its own that it says it writes only, and adds to. */
 static int add_to_own(mps_stage *s)
 {
@@ -360,6 +377,7 @@ int main(void)
         cmocka_unit_test(test_good),
         cmocka_unit_test(test_writes_what_it_reads),
         cmocka_unit_test(test_reads_neighbours),
+        cmocka_unit_test(test_writes_rows_of_neighbours),
         cmocka_unit_test(test_reads_what_it_writes),
         cmocka_unit_test(test_order_of_particles),
         cmocka_unit_test(test_threads),
