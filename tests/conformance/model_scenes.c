@@ -12,7 +12,7 @@ static const struct {
                         {"imps.paper", 2}, {"mmps", 3}, {"mmps.paper", 2}};
 
 /* Inner size of the tanks and depth of the water, in spacings. */
-enum { SIDE_2D = 16, SIDE_3D = 7 };
+enum { SIDE_2D = 16, SIDE_3D = 6 };
 static const double DP = 0.02;
 
 kit_case kit_scene(const mps_model_ops *ops, kit_prepare_fn prepare, void *user, int k)
