@@ -4,6 +4,7 @@
 #include "model_scenes.h"
 #include <math.h>
 #include <stdarg.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -239,21 +240,37 @@ static void check_handles(kit *k)
 
 /* ---- memory ---------------------------------------------------------------------------------- */
 
+/* Before each block: the blocks that are out form a ring. */
+typedef union kit_link {
+    struct {
+        union kit_link *next, *before;
+    } ring;
+    max_align_t align;
+} kit_link;
+
 typedef struct memory {
     int64_t live, count, fail_at;
+    kit_link out; /* of the ring */
 } memory;
 
 static void *take(void *user, size_t size)
 {
     memory *m = user;
-    if (++m->count == m->fail_at) return NULL;
+    kit_link *block = ++m->count == m->fail_at ? NULL : malloc(sizeof *block + size);
+    if (!block) return NULL;
     m->live++;
-    return malloc(size);
+    block->ring.next = m->out.ring.next;
+    block->ring.before = &m->out;
+    block->ring.next->ring.before = m->out.ring.next = block;
+    return block + 1;
 }
 
-static void give(void *user, void *block)
+static void give(void *user, void *given)
 {
+    kit_link *block = (kit_link *)given - 1;
     ((memory *)user)->live--;
+    block->ring.next->ring.before = block->ring.before;
+    block->ring.before->ring.next = block->ring.next;
     free(block);
 }
 
@@ -274,6 +291,7 @@ static void starve(kit *k, memory *m, const kit_case *c, mps_sim *sim, bool step
 static void check_memory(kit *k)
 {
     memory m = {0};
+    m.out.ring.next = m.out.ring.before = &m.out;
     const mps_allocator allocator = {take, give, &m};
     kit_case c = k->scene[0];
     mps_sim *sim = NULL;
@@ -285,6 +303,7 @@ static void check_memory(kit *k)
     }
     mps_sim_destroy(sim);
     if (m.live != 0) FAIL(k, KIT_MEMORY, "%lld blocks leaked", (long long)m.live);
+    while (m.live > 0) give(&m, m.out.ring.next + 1);
 }
 
 /* ---- in the middle of a run ------------------------------------------------------------------ */

@@ -115,7 +115,8 @@ static int write_density(mps_stage *s)
 static void test_writes_what_it_reads(void **state)
 {
     (void)state;
-    assert_true(check_verb(write_density) & KIT_WRITES);
+    /* a checked library refuses the step before the kit looks */
+    assert_true(check_verb(write_density) & (KIT_WRITES | KIT_RUN));
 }
 
 MPS_ROW void mean_row(const int dim, const mps_stage *s, const push *f, int64_t i)
