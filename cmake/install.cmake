@@ -11,7 +11,13 @@ install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(EXPORT mpsTargets NAMESPACE mps:: DESTINATION ${package})
 install(EXPORT mpsStaticTargets NAMESPACE mps:: DESTINATION ${package})
 
-configure_package_config_file(cmake/mpsConfig.cmake.in mpsConfig.cmake INSTALL_DESTINATION ${package})
+# Conformance kits of models and of solvers, as sources: mps::model_kit and mps::solver_kit.
+set(MPS_KIT_DIR ${CMAKE_INSTALL_DATADIR}/mps/conformance)
+foreach(kit model_kit.h model_kit.c model_scenes.h model_scenes.c model_watch.c solver_kit.h solver_kit.c solver_systems.c)
+  install(FILES tests/conformance/${kit} DESTINATION ${MPS_KIT_DIR})
+endforeach()
+
+configure_package_config_file(cmake/mpsConfig.cmake.in mpsConfig.cmake INSTALL_DESTINATION ${package} PATH_VARS MPS_KIT_DIR)
 write_basic_package_version_file(mpsConfigVersion.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/mpsConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/mpsConfigVersion.cmake DESTINATION ${package})
 

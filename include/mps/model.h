@@ -15,7 +15,15 @@
  *  for each other fail the step with MPS_E_STATE and the names of their models.
  *
  *  Channels are looked up when the first step after a change of models begins: a channel that no
- *  active model brings, or that cannot be used so in this moment, fails it with MPS_E_STATE. */
+ *  active model brings, or that cannot be used so in this moment, fails it with MPS_E_STATE.
+ *
+ *  Channels that built-in models use if a model brings them:
+ *    "viscosity" [Pa s], 1 number, for a step: used by "viscosity.laplacian" and "viscosity.pair"
+ *      instead of the viscosity of the phase. Write it in MPS_PREPARE. The time control knows the
+ *      viscosities of the phases only: limit the step in MPS_LIMIT.
+ *
+ *  docs/tutorials/your_own_model.md writes a model step by step. The package has a conformance kit,
+ *  model_kit.h, which runs a model and reports the rules that it breaks. */
 #ifndef MPS_MODEL_H
 #define MPS_MODEL_H
 
@@ -75,7 +83,9 @@ enum {
 enum {
     /** Reads the value of its own row. */
     MPS_USE_READ = 1,
-    /** Reads values of neighbours within the far radius too. Implies MPS_USE_READ. */
+    /** Reads values of neighbours within the far radius too. Implies MPS_USE_READ. A loop that
+     *  reads a channel at neighbours must not write it: write scratch first, and the channel in a
+     *  second loop. */
     MPS_USE_NEIGHBOURS = 2,
     /** Writes values of its own row. Alone: the values before are not read. Rows that are not
      *  written keep their values. */
@@ -99,7 +109,9 @@ enum {
     /** From the beginning of MPS_CLASSIFY to the end of the step; not kept. */
     MPS_LIFE_STEP = 0,
     /** As long as its particle: it travels with it, is saved by checkpoints, comes back after a
-     *  failed step, and is a field for mps_lease_begin(). Real numbers only. */
+     *  failed step, and is a field for mps_lease_begin(), e.g. to write first values after
+     *  mps_model_use(). Verbs of all moments may read and write it. When its model is switched off
+     *  the field stays with its values. Real numbers only. */
     MPS_LIFE_PARTICLE = 1
 };
 
@@ -223,7 +235,8 @@ typedef struct mps_stage {
     const int32_t *phase;
     /** [n] */
     const int64_t *id;
-    /** [n*dim] positions at the beginning of the step [m] */
+    /** [n*dim] positions at the beginning of the step, in the lab [m]; in the frame of the tank:
+     *  mps_stage_tank() */
     const double *x;
     /** [n*dim] wetted area vector of wall particles, into the fluid [m^(dim-1)] */
     const double *area;
@@ -250,7 +263,7 @@ typedef struct mps_stage {
     double dt_limit;
     /** Arrays of the verb's uses, in their order; double or int32_t. */
     void *const *data;
-    /** Values of the model's settings, in their order. */
+    /** Values of the model's settings, in their order; also those of integers and flags. */
     const double *setting;
     /** State of the model: what mps_model_ops.create made, else mps_model_ops.user. */
     void *self;
@@ -298,7 +311,9 @@ typedef struct mps_model_ops {
     const mps_channel *channels;
     /** What it does. */
     const mps_verb *verbs;
-    /** NULL, or make a state in *self, which holds `user` before. Non-zero: no memory. */
+    /** NULL, or make a state in *self, which holds `user` before. Non-zero: no memory.
+     *  Checkpoints do not save the state: what later steps depend on must be in channels of
+     *  MPS_LIFE_PARTICLE. */
     int (*create)(const mps_allocator *allocator, void **self);
     /** Gives back what create made; needed with create. */
     void (*destroy)(const mps_allocator *allocator, void *self);
@@ -389,6 +404,13 @@ static inline int64_t mps_grid_bucket(const mps_grid *grid, const int64_t cell[3
 /** Sort the fluid rows into cells of a side. The grid lives as long as scratch, and takes 2 blocks.
  *  @return 0, or non-zero after a failure (no memory, side not > 0) */
 MPS_API int mps_stage_grid(mps_stage *s, double side, mps_grid *grid);
+
+/** Place of a point of the lab in the frame of the tank, and the velocity of the rigid tank there
+ *  over this step, as "velocity" has it for a solid at this point. In MPS_LIMIT it is the velocity
+ *  at the beginning of the step. Row functions may call it.
+ *  @param x  [dim] point, e.g. s->x + i * s->dim [m] @param place  NULL, or [dim] out [m]
+ *  @param velocity  NULL, or [dim] out, in the lab [m/s] */
+MPS_API void mps_stage_tank(const mps_stage *s, const double *x, double *place, double *velocity);
 
 /** Make values that rows wrote into scratch [n*components] visible at neighbours. Call it between a
  *  loop that writes scratch and one that reads it at neighbours. Channels need no call. */

@@ -3,6 +3,7 @@
 #ifndef MPS_CORE_HOST_H
 #define MPS_CORE_HOST_H
 
+#include "motion.h"
 #include "parallel.h"
 #include "plan.h"
 
@@ -14,6 +15,8 @@ typedef struct mps__host {
     mps__scratch *scratch; /* lent to the verb in progress: */
     int32_t scratch_used;  /* so many blocks */
     const mps_parallel *parallel;
+    const mps__motion *motion; /* of the tank */
+    const mps__pose *next;     /* pose at the end of the step; NULL: not known yet */
     bool no_memory; /* a verb got no scratch */
     mps__plan plan;
 } mps__host;

@@ -130,6 +130,21 @@ int mps_stage_grid(mps_stage *s, double side, mps_grid *grid)
     return 0;
 }
 
+void mps_stage_tank(const mps_stage *s, const double *x, double *place, double *velocity)
+{
+    const mps__host *h = host_of(s);
+    double X[3] = {0}, next[3] = {0};
+    mps__motion_to_tank(h->motion, &h->motion->now, x, X);
+    for (int d = 0; d < s->dim && place; d++) place[d] = X[d];
+    if (!velocity) return;
+    if (!h->next) {
+        mps__motion_point(h->motion, &h->motion->now, X, NULL, velocity, NULL);
+        return;
+    }
+    mps__motion_point(h->motion, h->next, X, next, NULL, NULL);
+    for (int d = 0; d < s->dim; d++) velocity[d] = (next[d] - x[d]) / s->dt;
+}
+
 /* All rows are in one memory, where they are visible at once. */
 int mps_stage_refresh(mps_stage *s, double *scratch, int32_t components)
 {

@@ -258,7 +258,10 @@ static mps_status try_step(mps__step *q, double dt_max, double *planned)
     MPS__TRY(mps__world_stencil(w, MPS_FAR, &q->far));
     MPS__TRY(mps__world_limit_step(w, &q->stage, dt_max, planned));
     MPS__TRY(mps__motion_pose(&w->motion, w->state.t + q->stage.dt, &q->pose));
-    return run_stages(q);
+    w->host.next = &q->pose;
+    const mps_status status = run_stages(q);
+    w->host.next = NULL;
+    return status;
 }
 
 static bool any_fluid(const mps__world *w)
@@ -272,6 +275,8 @@ mps_status mps__world_step(mps__world *w, double dt_max)
 {
     mps__step q = {.w = w, .clock = mps__clock()};
     if (!any_fluid(w)) return mps__fail(w->context, MPS_E_STATE, "there is no fluid particle to step");
+    w->host.motion = &w->motion;
+    w->host.next = NULL;
     MPS__TRY(mps__plan_make(&w->host.plan, &w->models));
     mps__budget_update(w, &w->state.budget); /* what has come, changed or gone since the last step, whatever becomes of this one */
     MPS__TRY(mps__world_neighbours(w));

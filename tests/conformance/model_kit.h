@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Conformance kit of models. Give it your table; it runs the model in small tanks and reports which
+ * rules of <mps/model.h> it breaks. Needs libmps and the C library. It writes small checkpoint
+ * files in the working folder and removes them. One check at a time: it is not thread-safe.
+ *
+ * A verb runs more than once per step here, on copies of its arrays: it may depend on its stage and
+ * its channels only. A model whose result depends on a counter in `self` fails. */
+#ifndef MODEL_KIT_H
+#define MODEL_KIT_H
+
+#include <mps/model.h>
+
+MPS_BEGIN_DECLS
+
+/* Checks; the result of kit_check_model() is the sum of those that failed. */
+enum {
+    /* Registers; help, units and keys are there; mps_model_info_get() lists it. */
+    KIT_TABLE = 1,
+    /* Runs in at least one scene, and with finite fields in all scenes that accept it. A scene does
+     * not accept it if the step returns MPS_E_STATE (a channel is missing) or MPS_E_PLUGIN. */
+    KIT_RUN = 2,
+    /* Runs with each setting at its smallest and its largest value, or reports why not. */
+    KIT_SETTINGS = 4,
+    /* Same bytes with 1, 2 and 4 threads. */
+    KIT_THREADS = 8,
+    /* Same result within rounding if the particles are added in another order. */
+    KIT_ORDER = 16,
+    /* A verb writes no channel that it only reads. */
+    KIT_WRITES = 32,
+    /* A channel used with MPS_USE_READ alone acts on its own row, not on neighbours. Verbs that
+     * borrow scratch are left out: scratch may carry values to neighbours. */
+    KIT_OWN_ROW = 64,
+    /* Values before a pure MPS_USE_WRITE do not matter. */
+    KIT_WRITE_ONLY = 128,
+    /* Each failure of an allocation is reported, and no memory leaks. */
+    KIT_MEMORY = 256,
+    /* Two handles in two threads give the same bytes as one. */
+    KIT_HANDLES = 512,
+    /* Checkpoint and resume give the same bytes as a run that did not stop. */
+    KIT_CHECKPOINT = 1024,
+    /* It can be switched on and off between steps. */
+    KIT_MIDRUN = 2048,
+    /* Energy is finite and momentum closes over what the budget says. */
+    KIT_BUDGET = 4096
+};
+
+/* Called in each scene after the model was switched on: set settings, write first values of fields,
+ * switch on other models. Values must follow from positions: ids differ between scenes.
+ * MPS_E_STATE leaves the scene out; any other negative status fails the check. */
+typedef mps_status (*kit_prepare_fn)(void *user, mps_sim *sim);
+
+/* Run all checks. @param prepare  NULL, or the callback
+ * @return 0, or the sum of KIT_... of failed checks; each failure is printed on stderr */
+int kit_check_model(const mps_model_ops *ops, kit_prepare_fn prepare, void *user);
+
+MPS_END_DECLS
+
+#endif

@@ -1,0 +1,395 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* All built-in models through the kit of models, and models that break one rule each: the kit says
+ * which. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+/* cmocka.h needs those four before it */
+#include <cmocka.h>
+#include <math.h>
+#include <mps/mps.h>
+#include <stdbool.h>
+#include <string.h>
+
+#include "model_kit.h"
+
+#define MODEL(model) extern const mps_model_ops mps__##model;
+#include "models.inc"
+#undef MODEL
+
+static const mps_model_ops *const built_in[] = {
+#define MODEL(model) &mps__##model,
+#include "models.inc"
+#undef MODEL
+};
+
+/* The gradient of one liquid is unstable at the densities of water and air. */
+static mps_status one_phase(void *user, mps_sim *sim)
+{
+    mps_phase air;
+    (void)user;
+    mps_phase_init(&air, sizeof air);
+    return mps_sim_get_phase(sim, 1, &air) == MPS_OK ? MPS_E_STATE : MPS_OK;
+}
+
+static kit_prepare_fn prepare_of(const mps_model_ops *ops)
+{
+    return strcmp(ops->name, "gradient.conservative") == 0 ? one_phase : NULL;
+}
+
+static void test_built_in(void **state)
+{
+    int bad = 0;
+    (void)state;
+    for (size_t k = 0; k < sizeof built_in / sizeof built_in[0]; k++) {
+        const int failed = kit_check_model(built_in[k], prepare_of(built_in[k]), NULL);
+        if (failed) print_error("%s: %d\n", built_in[k]->name, failed);
+        bad += failed != 0;
+    }
+    assert_int_equal(bad, 0);
+}
+
+/* ---- models that break a rule: forces that push the fluid a little --------------------------- */
+
+enum { VELOCITY, DENSITY, ACCELERATION, USES };
+static const mps_use uses[USES] = {[VELOCITY] = {"velocity", MPS_USE_READ},
+                                   [DENSITY] = {"density", MPS_USE_READ},
+                                   [ACCELERATION] = {"acceleration", MPS_USE_CHANGE}};
+
+typedef struct push {
+    const double *u;
+    double *rho, *a;
+} push;
+
+static push arrays(const mps_stage *s)
+{
+    return (push){s->data[VELOCITY], s->data[DENSITY], s->data[ACCELERATION]};
+}
+
+/* A model with one verb of MPS_FORCE. */
+static mps_model_ops model_of(mps_verb *verb, int (*run)(mps_stage *))
+{
+    *verb = (mps_verb){.moment = MPS_FORCE, .use_count = USES, .uses = uses, .run = run};
+    return (mps_model_ops){.struct_size = sizeof(mps_model_ops),
+                           .api = MPS_MODEL_API,
+                           .name = "bad.model",
+                           .help = "breaks a rule",
+                           .verb_count = 1,
+                           .verbs = verb};
+}
+
+static int check_verb(int (*run)(mps_stage *))
+{
+    mps_verb verb;
+    const mps_model_ops ops = model_of(&verb, run);
+    return kit_check_model(&ops, NULL, NULL);
+}
+
+MPS_ROW void damp_row(const int dim, const mps_stage *s, const push *f, int64_t i)
+{
+    if (s->kind[i] != MPS_FLUID) return;
+    for (int d = 0; d < dim; d++) f->a[i * dim + d] -= 2 * f->u[i * dim + d];
+}
+MPS_ROWS(damp_rows, damp_row, const push)
+
+static int damp(mps_stage *s)
+{
+    push f = arrays(s);
+    mps_stage_rows(s, damp_rows, &f);
+    return 0;
+}
+
+static void test_good(void **state)
+{
+    (void)state;
+    assert_int_equal(check_verb(damp), 0);
+}
+
+static int write_density(mps_stage *s)
+{
+    arrays(s).rho[s->n / 2] *= 1.0001;
+    return 0;
+}
+
+static void test_writes_what_it_reads(void **state)
+{
+    (void)state;
+    /* a checked library refuses the step before the kit looks */
+    assert_true(check_verb(write_density) & (KIT_WRITES | KIT_RUN));
+}
+
+MPS_ROW void mean_row(const int dim, const mps_stage *s, const push *f, int64_t i)
+{
+    const mps_stencil *t = s->near;
+    if (s->kind[i] != MPS_FLUID) return;
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++)
+        for (int d = 0; d < dim; d++) f->a[i * dim + d] -= 0.1 * f->u[t->col[p] * dim + d];
+}
+MPS_ROWS(mean_rows, mean_row, const push)
+
+static int read_neighbours(mps_stage *s)
+{
+    push f = arrays(s);
+    mps_stage_rows(s, mean_rows, &f);
+    return 0;
+}
+
+static void test_reads_neighbours(void **state)
+{
+    (void)state;
+    assert_int_equal(check_verb(read_neighbours), KIT_OWN_ROW);
+}
+
+/* Each row writes rows of neighbours: they depend on the order of rows and on the threads. */
+static int write_neighbours(mps_stage *s)
+{
+    push f = arrays(s);
+    const mps_stencil *t = s->near;
+    for (int64_t i = 0; i < s->n; i++)
+        for (int64_t p = t->begin[i]; p < t->end[i]; p++)
+            f.a[t->col[p] * s->dim] -= 0.1 * f.u[i * s->dim];
+    return 0;
+}
+
+static void test_writes_rows_of_neighbours(void **state)
+{
+    (void)state;
+    assert_true(check_verb(write_neighbours) & KIT_OWN_ROW);
+}
+
+/* A channel of its own that it says it writes only, and adds to. */
+static int add_to_own(mps_stage *s)
+{
+    double *own = s->data[0];
+    for (int64_t i = 0; i < s->n; i++) own[i] += 1;
+    return 0;
+}
+
+static void test_reads_what_it_writes(void **state)
+{
+    static const mps_use write[] = {{"mark", MPS_USE_WRITE}};
+    static const mps_channel mark = {
+        .name = "mark", .unit = "-", .help = "a mark", .components = 1};
+    mps_verb verb;
+    mps_model_ops ops = model_of(&verb, add_to_own);
+    (void)state;
+    verb.uses = write;
+    verb.use_count = 1;
+    ops.channels = &mark;
+    ops.channel_count = 1;
+    assert_int_equal(kit_check_model(&ops, NULL, NULL), KIT_WRITE_ONLY);
+}
+
+/* The id decides: ids follow the order in which particles were added. */
+static int push_by_id(mps_stage *s)
+{
+    push f = arrays(s);
+    for (int64_t i = 0; i < s->n; i++)
+        if (s->kind[i] == MPS_FLUID) f.a[i * s->dim] += 0.01 * (double)s->id[i];
+    return 0;
+}
+
+static void test_order_of_particles(void **state)
+{
+    (void)state;
+    assert_int_equal(check_verb(push_by_id), KIT_ORDER);
+}
+
+/* The part of the rows that a thread has decides. */
+static void push_first(const mps_stage *s, void *arguments, int64_t begin, int64_t end)
+{
+    const push *f = arguments;
+    bool first = true;
+    for (int64_t i = begin; i < end; i++)
+        if (s->kind[i] == MPS_FLUID) {
+            f->a[i * s->dim] += first ? 0.5 : 0;
+            first = false;
+        }
+}
+
+static int push_by_thread(mps_stage *s)
+{
+    push f = arrays(s);
+    mps_stage_rows(s, push_first, &f);
+    return 0;
+}
+
+static void test_threads(void **state)
+{
+    (void)state;
+    assert_true(check_verb(push_by_thread) & KIT_THREADS);
+}
+
+/* Depends on the number of its calls, kept in a state per handle. */
+static int push_by_count(mps_stage *s)
+{
+    push f = arrays(s);
+    int64_t *calls = s->self;
+    for (int64_t i = 0; i < s->n; i++)
+        if (s->kind[i] == MPS_FLUID) f.a[i * s->dim] += 0.1 * (double)*calls;
+    ++*calls;
+    return 0;
+}
+
+static int make_count(const mps_allocator *allocator, void **self)
+{
+    *self = allocator->alloc(allocator->user, sizeof(int64_t));
+    if (*self) *(int64_t *)*self = 0;
+    return *self == NULL;
+}
+
+static void drop_count(const mps_allocator *allocator, void *self)
+{
+    allocator->release(allocator->user, self);
+}
+
+static void test_state_outside_of_channels(void **state)
+{
+    mps_verb verb;
+    mps_model_ops ops = model_of(&verb, push_by_count);
+    (void)state;
+    ops.create = make_count;
+    ops.destroy = drop_count;
+    assert_true(kit_check_model(&ops, NULL, NULL) & KIT_CHECKPOINT);
+}
+
+/* Must be there from the first step on. */
+static int miss_steps(mps_stage *s)
+{
+    int64_t *calls = s->self;
+    return s->step == ++*calls ? 0 : mps_stage_fail(s, "steps are missing");
+}
+
+static void test_switched_on_later(void **state)
+{
+    mps_verb verb;
+    mps_model_ops ops = model_of(&verb, miss_steps);
+    (void)state;
+    ops.create = make_count;
+    ops.destroy = drop_count;
+    assert_true(kit_check_model(&ops, NULL, NULL) & KIT_MIDRUN);
+}
+
+/* One state for all handles. */
+static int push_by_user(mps_stage *s)
+{
+    push f = arrays(s);
+    double *user = s->self;
+    *user = *user < 1 ? *user + 0.01 : 0;
+    for (int64_t i = 0; i < s->n; i++)
+        if (s->kind[i] == MPS_FLUID) f.a[i * s->dim] += *user;
+    return 0;
+}
+
+static void test_state_of_all_handles(void **state)
+{
+    double user = 0;
+    mps_verb verb;
+    mps_model_ops ops = model_of(&verb, push_by_user);
+    (void)state;
+    ops.user = &user;
+    assert_true(kit_check_model(&ops, NULL, NULL) & KIT_HANDLES);
+}
+
+/* Two blocks; the first is lost if the second is not there. */
+static int make_leak(const mps_allocator *allocator, void **self)
+{
+    void **first = allocator->alloc(allocator->user, sizeof(void *));
+    if (!first) return 1;
+    first[0] = allocator->alloc(allocator->user, 64);
+    *self = first;
+    return first[0] == NULL;
+}
+
+static void drop_leak(const mps_allocator *allocator, void *self)
+{
+    void **first = self;
+    allocator->release(allocator->user, first[0]);
+    allocator->release(allocator->user, first);
+}
+
+static void test_leak(void **state)
+{
+    mps_verb verb;
+    mps_model_ops ops = model_of(&verb, damp);
+    (void)state;
+    ops.create = make_leak;
+    ops.destroy = drop_leak;
+    assert_int_equal(kit_check_model(&ops, NULL, NULL), KIT_MEMORY);
+}
+
+/* A setting whose largest value breaks it. */
+static int push_by_setting(mps_stage *s)
+{
+    push f = arrays(s);
+    for (int64_t i = 0; i < s->n; i++)
+        if (s->kind[i] == MPS_FLUID) f.a[i * s->dim] += 1 / (2 - s->setting[0]);
+    return 0;
+}
+
+static void test_setting(void **state)
+{
+    static const mps_setting ratio = {"ratio", "-", "A ratio", MPS_TYPE_REAL, 1, 0, 2};
+    mps_verb verb;
+    mps_model_ops ops = model_of(&verb, push_by_setting);
+    (void)state;
+    ops.settings = &ratio;
+    ops.setting_count = 1;
+    assert_int_equal(kit_check_model(&ops, NULL, NULL), KIT_SETTINGS);
+}
+
+static void test_table(void **state)
+{
+    static const mps_setting same[] = {{"ratio", "-", "A ratio", MPS_TYPE_REAL, 1, 0, 2},
+                                       {"ratio", "", "A ratio", MPS_TYPE_REAL, 1, 0, 2}};
+    mps_verb verb;
+    mps_model_ops ops = model_of(&verb, damp);
+    (void)state;
+    ops.api = MPS_MODEL_API + 1;
+    assert_int_equal(kit_check_model(&ops, NULL, NULL), KIT_TABLE);
+    ops = model_of(&verb, damp);
+    ops.settings = same;
+    ops.setting_count = 2;
+    assert_int_equal(kit_check_model(&ops, NULL, NULL), KIT_TABLE);
+}
+
+static int push_nan(mps_stage *s)
+{
+    arrays(s).a[s->n / 2 * s->dim] = NAN;
+    return 0;
+}
+
+static int refuse(mps_stage *s)
+{
+    return mps_stage_fail(s, "no such fluid");
+}
+
+static void test_run(void **state)
+{
+    (void)state;
+    assert_true(check_verb(push_nan) & KIT_RUN);
+    assert_int_equal(check_verb(refuse), KIT_RUN);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_good),
+        cmocka_unit_test(test_writes_what_it_reads),
+        cmocka_unit_test(test_reads_neighbours),
+        cmocka_unit_test(test_writes_rows_of_neighbours),
+        cmocka_unit_test(test_reads_what_it_writes),
+        cmocka_unit_test(test_order_of_particles),
+        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_state_outside_of_channels),
+        cmocka_unit_test(test_switched_on_later),
+        cmocka_unit_test(test_state_of_all_handles),
+        cmocka_unit_test(test_leak),
+        cmocka_unit_test(test_setting),
+        cmocka_unit_test(test_table),
+        cmocka_unit_test(test_run),
+        cmocka_unit_test(test_built_in),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
