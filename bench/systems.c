@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Pressure equations of real steps: written by a plug-in solver, solved again from the file by any pair of solver and preconditioner. */
-#include "../src/core/parallel.h"
+#include "../src/core/base/parallel.h"
 #include "../src/ppe/builtin.h"
 #include "bench.h"
 #include <math.h>

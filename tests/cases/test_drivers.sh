@@ -79,7 +79,7 @@ refused '--out /dev/null/x: Not a directory' static_tank --out /dev/null/x
 
 # --list-models: all models of the library with their settings, and all else that has a name
 "$drivers/static_tank" --list-models >list || fail "--list-models: exit $?"
-models=$(sed -nE 's/^MODEL\(([a-z]+)_([a-z_]+)\)$/\1.\2/p' "$sources/src/core/models.inc")
+models=$(sed -nE 's/^MODEL\(([a-z]+)_([a-z_]+)\)$/\1.\2/p' "$sources/src/core/models/models.inc")
 [ "$(wc -w <<<"$models")" -ge 29 ] || fail "models.inc has too few models: $models"
 for name in $models; do
     grep -qx "### $name" list || fail "--list-models has no section $name"

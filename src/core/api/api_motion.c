@@ -1,0 +1,215 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The public functions of mps/motion.h. A new motion carries the tank and what is in it to its pose at the present time. */
+#include "bc/builtin_motion.h"
+#include "sim.h"
+#include <math.h>
+#include <string.h>
+
+static void release_block(mps__context *c, void *user)
+{
+    mps__free(c, user);
+}
+
+static mps_status changeable(mps_sim *sim)
+{
+    int32_t open = mps__particles_leases(&sim->world.particles);
+    if (open > 0) return mps__fail(&sim->context, MPS_E_BUSY, "%d leases are open: give them back before changing the motion", (int)open);
+    return MPS_OK;
+}
+
+static mps_status check_dof(mps_sim *sim, const char *what, int64_t index, int32_t dof)
+{
+    MPS__CHECK(&sim->context, dof >= 0 && dof < MPS_DOF_COUNT, "%s %lld: degree of freedom %d is not one of 0..%d", what, (long long)index,
+               (int)dof, MPS_DOF_COUNT - 1);
+    bool flat = dof == MPS_SURGE || dof == MPS_HEAVE || dof == MPS_YAW;
+    MPS__CHECK(&sim->context, flat || sim->world.setup.dim == 3, "%s %lld: degree of freedom %d needs 3-D; 2-D has surge 0, heave 1 and yaw 4",
+               what, (long long)index, (int)dof);
+    return MPS_OK;
+}
+
+static bool same(const double *a, const double *b, int count)
+{
+    for (int k = 0; k < count; k++)
+        if (a[k] != b[k]) return false;
+    return true;
+}
+
+/* Particles keep their place in the tank's frame. Velocities stay: a step sees the jump of the walls'. */
+static void carry_particles(mps_sim *sim, const mps__motion *old)
+{
+    const mps__motion *m = &sim->world.motion;
+    mps__particles *s = &sim->world.particles;
+    if (same(old->now.state.value, m->now.state.value, MPS_DOF_COUNT) && same(old->centre, m->centre, 3)) return;
+    for (int64_t i = 0; i < s->n; i++) {
+        double X[3], *x = &s->x[i * s->dim];
+        if (s->kind[i] == MPS_FLUID)
+            mps__motion_to_tank(old, &old->now, x, X);
+        else
+            memcpy(X, &s->ref[i * s->dim], (size_t)s->dim * sizeof(double));
+        mps__motion_point(m, &m->now, X, x, NULL, NULL);
+    }
+    /* the way from the old pose to the new one is no motion: the tank begins anew */
+    sim->world.state.dt_before = 0;
+}
+
+/* Replace the motion; on failure the old one stays and `next` is released. */
+static mps_status install(mps_sim *sim, mps__motion *next)
+{
+    mps__world *w = &sim->world;
+    mps_status status = mps__motion_pose(next, w->state.t, &next->now);
+    if (status < 0) {
+        mps__motion_free(next);
+        return status;
+    }
+    mps__motion old = w->motion;
+    w->motion = *next;
+    carry_particles(sim, &old);
+    if (old.user != next->user) mps__motion_free(&old);
+    w->state.start_pending = next->fn && next->start == MPS_START_WITH_TANK;
+    return MPS_OK;
+}
+
+static mps_status install_function(mps_sim *sim, mps_motion_fn fn, void *user, bool owned, double t_end)
+{
+    mps__motion next = sim->world.motion;
+    next.fn = fn;
+    next.user = user;
+    next.release = owned ? release_block : NULL;
+    next.t_end = t_end;
+    return install(sim, &next);
+}
+
+static mps_status no_memory(mps_sim *sim, int64_t rows)
+{
+    return mps__fail(&sim->context, MPS_E_NOMEM, "no memory for a motion of %lld rows", (long long)rows);
+}
+
+static mps_status check_harmonic(mps_sim *sim, int32_t k, const mps_harmonic *h)
+{
+    mps__context *c = &sim->context;
+    MPS__TRY(check_dof(sim, "harmonic", k, h->dof));
+    MPS__CHECK(c, h->form == 0 || h->form == 1, "harmonic %d: form is %d, must be 0 or 1", (int)k, (int)h->form);
+    MPS__CHECK(c, isfinite(h->amplitude), "harmonic %d: amplitude is %g, must be finite", (int)k, h->amplitude);
+    MPS__CHECK(c, isfinite(h->omega) && h->omega >= 0, "harmonic %d: omega is %g rad/s, must be finite and >= 0", (int)k, h->omega);
+    MPS__CHECK(c, isfinite(h->phase), "harmonic %d: phase is %g, must be finite", (int)k, h->phase);
+    return MPS_OK;
+}
+
+static mps_status check_table_times(mps_sim *sim, int64_t rows, const double *t)
+{
+    mps__context *c = &sim->context;
+    for (int64_t k = 0; k < rows; k++) {
+        MPS__CHECK(c, isfinite(t[k]), "motion table: t is %g in row %lld, must be finite", t[k], (long long)k);
+        MPS__CHECK(c, k == 0 || t[k] > t[k - 1], "motion table: t = %.10g in row %lld does not increase, the row before has %.10g", t[k],
+                   (long long)k, t[k > 0 ? k - 1 : 0]);
+    }
+    MPS__CHECK(c, t[0] <= sim->world.state.t, "motion table: t = %.10g in row 0 is after the present time %.10g", t[0], sim->world.state.t);
+    return MPS_OK;
+}
+
+static mps_status check_table_columns(mps_sim *sim, int32_t dofs, const int32_t *dof)
+{
+    for (int32_t c = 0; c < dofs; c++) {
+        MPS__TRY(check_dof(sim, "motion table: column", c, dof[c]));
+        for (int32_t b = 0; b < c; b++)
+            MPS__CHECK(&sim->context, dof[b] != dof[c], "motion table: columns %d and %d are both degree of freedom %d", (int)b, (int)c,
+                       (int)dof[c]);
+    }
+    return MPS_OK;
+}
+
+mps_status mps_motion_set_centre(mps_sim *sim, const double *centre, int32_t start)
+{
+    MPS__CHANGES(sim);
+    mps__world *w = &sim->world;
+    MPS__TRY(changeable(sim));
+    if (w->state.step > 0)
+        return mps__fail(&sim->context, MPS_E_STATE, "the centre is set before the first step; %lld steps were taken",
+                         (long long)w->state.step);
+    MPS__CHECK(&sim->context, centre, "centre is NULL");
+    MPS__CHECK(&sim->context, start == MPS_START_AT_REST || start == MPS_START_WITH_TANK,
+               "start is %d: must be MPS_START_AT_REST (0) or MPS_START_WITH_TANK (1)", (int)start);
+    mps__motion next = w->motion;
+    for (int32_t d = 0; d < w->setup.dim; d++) {
+        MPS__CHECK(&sim->context, isfinite(centre[d]), "centre[%d] is %g: must be finite", (int)d, centre[d]);
+        next.centre[d] = centre[d];
+    }
+    /* the pose in force does not depend on the centre */
+    mps__motion old = w->motion;
+    next.start = start;
+    w->motion = next;
+    carry_particles(sim, &old);
+    w->state.start_pending = next.fn && start == MPS_START_WITH_TANK;
+    return MPS_OK;
+}
+
+mps_status mps_motion_set_harmonics(mps_sim *sim, int32_t count, const mps_harmonic *harmonics)
+{
+    MPS__CHANGES(sim);
+    MPS__TRY(changeable(sim));
+    MPS__CHECK(&sim->context, count >= 1, "harmonics: count is %d, must be at least 1", (int)count);
+    MPS__CHECK(&sim->context, harmonics, "harmonics is NULL");
+    for (int32_t k = 0; k < count; k++) MPS__TRY(check_harmonic(sim, k, &harmonics[k]));
+    void *data = mps__motion_harmonic_create(&sim->context.allocator, count, harmonics);
+    if (!data) return no_memory(sim, count);
+    return install_function(sim, mps__motion_harmonic, data, true, INFINITY);
+}
+
+mps_status mps_motion_set_table(mps_sim *sim, int64_t rows, const double *t, int32_t dofs, const int32_t *dof, const double *values)
+{
+    MPS__CHANGES(sim);
+    mps__context *c = &sim->context;
+    MPS__TRY(changeable(sim));
+    MPS__CHECK(c, rows >= 2 && rows <= INT32_MAX, "motion table: %lld rows, must be 2..%d", (long long)rows, INT32_MAX);
+    MPS__CHECK(c, dofs >= 1 && dofs <= MPS_DOF_COUNT, "motion table: %d columns, must be 1..%d", (int)dofs, MPS_DOF_COUNT);
+    MPS__CHECK(c, t && dof && values, "motion table: %s is NULL", !t ? "t" : !dof ? "dof" : "values");
+    MPS__TRY(check_table_columns(sim, dofs, dof));
+    MPS__TRY(check_table_times(sim, rows, t));
+    for (int64_t k = 0; k < rows * dofs; k++)
+        MPS__CHECK(c, isfinite(values[k]), "motion table: value %g in row %lld, column %d is not finite", values[k], (long long)(k / dofs),
+                   (int)(k % dofs));
+    void *data = mps__motion_table_create(&c->allocator, rows, t, dofs, dof, values);
+    if (!data) return no_memory(sim, rows);
+    return install_function(sim, mps__motion_table, data, true, t[rows - 1]);
+}
+
+mps_status mps_motion_set_callback(mps_sim *sim, mps_motion_fn fn, void *user)
+{
+    MPS__CHANGES(sim);
+    MPS__TRY(changeable(sim));
+    MPS__CHECK(&sim->context, fn, "the motion callback is NULL: use mps_motion_clear() for no motion");
+    return install_function(sim, fn, user, false, INFINITY);
+}
+
+mps_status mps_motion_clear(mps_sim *sim)
+{
+    MPS__CHANGES(sim);
+    MPS__TRY(changeable(sim));
+    mps__motion next = sim->world.motion;
+    memset(&next.hold, 0, sizeof next.hold);
+    memcpy(next.hold.value, next.now.state.value, sizeof next.hold.value);
+    next.fn = NULL;
+    next.user = NULL;
+    next.release = NULL;
+    next.t_end = INFINITY;
+    return install(sim, &next);
+}
+
+mps_status mps_motion_state_get(const mps_sim *sim, mps_motion_state *state)
+{
+    if (!sim) return MPS_E_ARG;
+    MPS__CHECK(mps__sim_context(sim), state, "state is NULL");
+    *state = sim->world.motion.now.state;
+    return MPS_OK;
+}
+
+mps_status mps_motion_to_lab(const mps_sim *sim, const double *tank, double *lab, double *velocity)
+{
+    if (!sim) return MPS_E_ARG;
+    const mps__motion *m = &sim->world.motion;
+    MPS__CHECK(mps__sim_context(sim), tank && lab, "%s is NULL", tank ? "lab" : "tank");
+    MPS__CHECK(mps__sim_context(sim), mps__finite(tank, m->dim), "the point (%g, %g%s) is not finite", tank[0], tank[1],
+               m->dim == 3 ? ", ..." : "");
+    mps__motion_point(m, &m->now, tank, lab, velocity, NULL);
+    return MPS_OK;
+}

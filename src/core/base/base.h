@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Memory, errors, log, versioned structs, small vectors. Everything else stands on this. */
+#ifndef MPS_CORE_BASE_H
+#define MPS_CORE_BASE_H
+
+#include <mps/types.h>
+#include <stdbool.h>
+
+enum { MPS__ERROR_SIZE = 512, MPS__HINT_SIZE = 384, MPS__NAME_SIZE = 48 };
+
+/* What code of the host program may do while the library calls it. */
+enum {
+    MPS__UNLOCKED = 0,
+    MPS__READ_ONLY = 1, /* in a monitor: all that changes nothing */
+    MPS__LOCKED = 2     /* in a verb or a callback: next to nothing */
+};
+
+/* Set while the library calls code of the host program. */
+typedef struct mps__lock {
+    int32_t level;
+    const char *what; /* e.g. "a monitor" */
+} mps__lock;
+
+/* What every layer needs of its handle: where memory comes from and where errors go. */
+typedef struct mps__context {
+    mps_allocator allocator;
+    mps_log_fn log;
+    void *log_user;
+    mps__lock lock;
+    char error[MPS__ERROR_SIZE];
+} mps__context;
+
+/* The default allocator: malloc and free. */
+mps_allocator mps__allocator_default(void);
+
+/* `count` zeroed elements, or NULL with the error text set; count * size may not overflow. count = 0 gives one element. */
+void *mps__alloc(mps__context *c, int64_t count, size_t size);
+void mps__free(mps__context *c, void *block);
+
+/* Grow *block to hold `count` elements (of which `used` are kept); the new part is zeroed. Never shrinks. */
+mps_status mps__grow(mps__context *c, void **block, int64_t *capacity, int64_t used, int64_t count, size_t size);
+
+/* Elements to ask for when an array of `capacity` must hold n: a first time just these, later some to grow into. */
+static inline int64_t mps__room(int64_t n, int64_t capacity)
+{
+    return capacity > 0 ? n + n / 8 : n;
+}
+
+/* Blocks for what lives no longer than a verb, a search or the solution of an equation: one after the other they take the same memory. */
+enum { MPS__SCRATCH = 16 };
+typedef struct mps__scratch {
+    void *block[MPS__SCRATCH];
+    size_t bytes[MPS__SCRATCH];
+} mps__scratch;
+
+/* Block number `block` for `count` elements, or NULL with the error text set. It holds anything: who took it before is done with it. */
+void *mps__scratch_take(mps__context *c, mps__scratch *s, int32_t block, int64_t count, size_t size);
+void mps__scratch_free(mps__context *c, mps__scratch *s);
+
+/* Set the error text and return `status`. */
+mps_status mps__fail(mps__context *c, mps_status status, const char *format, ...) __attribute__((format(printf, 3, 4)));
+void mps__log(mps__context *c, int level, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+/* Lock the handle, at least as much as it is already; put back what this returns afterwards. */
+mps__lock mps__lock_set(mps__context *c, int32_t level, const char *what);
+
+/* Propagate a failure. */
+#define MPS__TRY(call)                   \
+    do {                                 \
+        mps_status status_ = (call);     \
+        if (status_ < 0) return status_; \
+    } while (0)
+
+/* Refuse an argument; kept in release builds. */
+#define MPS__CHECK(context, condition, ...)                                    \
+    do {                                                                       \
+        if (!(condition)) return mps__fail((context), MPS_E_ARG, __VA_ARGS__); \
+    } while (0)
+
+/* Copy a caller's versioned struct into ours: a shorter one is completed from `defaults`, an unknown non-zero tail refused. */
+mps_status mps__struct_in(mps__context *c, const char *type, void *out, size_t size, const void *in);
+/* Fill a caller's struct (his size, maybe older) from ours. struct_size in `out` stays his. */
+mps_status mps__struct_out(mps__context *c, const char *type, void *out, const void *in, size_t size);
+/* Body of every ..._init(): copy `defaults` into the caller's struct of `size` bytes and set struct_size. */
+mps_status mps__struct_init(void *out, size_t size, const void *defaults, size_t full);
+
+/* The nearest of `count` names to `name` by edit distance, NULL if none is near. */
+const char *mps__near(const char *name, const char *const *names, int count);
+/* For error texts: all names in quotes, with a comma between two of them. Returns `out`. */
+const char *mps__list(char out[MPS__HINT_SIZE], char quote, const char *const *names, int count);
+/* For error texts: whether the nearest name was meant, or which there are. Returns `out`. */
+const char *mps__hint(char out[MPS__HINT_SIZE], char quote, const char *name, const char *const *names, int count);
+/* Copy a name of at most capacity-1 characters; false if it is NULL, empty or too long. */
+bool mps__name_copy(char *out, size_t capacity, const char *name);
+
+bool mps__finite(const double *values, int64_t count);
+double mps__clock(void); /* monotonic [s] */
+
+/* |b - a|^2 */
+static inline double mps__square_between(const double *a, const double *b, int dim)
+{
+    const double x = b[0] - a[0], y = b[1] - a[1], z = dim == 3 ? b[2] - a[2] : 0;
+    return dim == 3 ? x * x + y * y + z * z : x * x + y * y;
+}
+
+static inline double mps__dot(const double *a, const double *b, int dim)
+{
+    double s = a[0] * b[0] + a[1] * b[1];
+    if (dim == 3) s += a[2] * b[2];
+    return s;
+}
+
+#endif

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The handle. */
+#ifndef MPS_CORE_SIM_H
+#define MPS_CORE_SIM_H
+
+#include "contour.h"
+#include "probes.h"
+#include "world.h"
+#include <mps/sim.h>
+
+/* Room for the uses of a verb as a text. */
+enum { MPS__USES_SIZE = 1024 };
+
+struct mps_sim {
+    mps__context context;
+    mps__world world;
+    mps__probes probes;
+    /* the lattice of the last tank, or of all solids */
+    bool has_tank;
+    bool lattice_of_solids;
+    double lattice_lo[3];
+    int64_t lattice_cells[3];
+    /* where the solids are */
+    int32_t solids;
+    int64_t solid_capacity;
+    mps__distances *solid;
+    char uses[MPS__USES_SIZE]; /* of the verb that was told last */
+};
+
+/* The handle's context is part of its private state: error text may change through a const handle. */
+static inline mps__context *mps__sim_context(const mps_sim *sim)
+{
+    return (mps__context *)&sim->context;
+}
+
+/* Refuse a call from code that the library calls itself, if it is locked more than `allowed`. */
+static inline mps_status mps__sim_free(const mps_sim *sim, int32_t allowed, const char *call)
+{
+    mps__context *c = mps__sim_context(sim);
+    if (c->lock.level <= allowed) return MPS_OK;
+    return mps__fail(c, MPS_E_BUSY, "%s() was called from %s: call it when mps_step() or mps_run() has returned", call, c->lock.what);
+}
+
+/* Begin a public function that changes a simulation, or one that reads more than single values of it. */
+#define MPS__CHANGES(sim)                                              \
+    do {                                                               \
+        if (!(sim)) return MPS_E_ARG;                                  \
+        MPS__TRY(mps__sim_free((sim), MPS__UNLOCKED, __func__));       \
+    } while (0)
+#define MPS__READS(sim)                                                \
+    do {                                                               \
+        if (!(sim)) return MPS_E_ARG;                                  \
+        MPS__TRY(mps__sim_free((sim), MPS__READ_ONLY, __func__));      \
+    } while (0)
+
+#endif

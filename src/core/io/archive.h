@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Named arrays in one block of memory that goes to a file and comes back, or is refused.
+ *
+ * File: "mpsstate", version, byte order; then parts: name, bytes of an element, checksum, number of elements, the elements, zeros up to a
+ * multiple of eight; the last part is called "end". Numbers are as they are in memory. */
+#ifndef MPS_CORE_ARCHIVE_H
+#define MPS_CORE_ARCHIVE_H
+
+#include "base.h"
+
+enum { MPS__PART_TITLE = 40 }; /* bytes of a part's name, with the 0 */
+
+typedef struct mps__archive {
+    mps__context *context;
+    unsigned char *data; /* NULL: nothing is written, only `size` grows */
+    int64_t size;
+} mps__archive;
+
+/* Add a part. Call all of them twice: without `data` to learn the size, then with mps__archive_room(). */
+void mps__archive_put(mps__archive *a, const char *name, const void *elements, size_t bytes, int64_t count);
+/* Memory for what was put, and back to the beginning. */
+mps_status mps__archive_room(mps__archive *a);
+/* Close the archive and write it beside `path`, then in its place. */
+mps_status mps__archive_save(mps__archive *a, const char *path);
+/* Read a file and check all of it. */
+mps_status mps__archive_load(mps__archive *a, const char *path);
+/* The elements of a part, and how many there are; NULL with the error set if it is not there or its elements have another size. */
+const void *mps__archive_get(const mps__archive *a, const char *name, size_t bytes, int64_t *count);
+void mps__archive_free(mps__archive *a);
+
+/* CRC-32 (as in zlib) of a block, going on from that of what came before it; 0 at first. */
+uint32_t mps__checksum(uint32_t before, const void *data, size_t bytes);
+
+#endif

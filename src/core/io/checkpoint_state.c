@@ -1,0 +1,299 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The state of a simulation, what the next step depends on and what has been booked so far. */
+#include "checkpoint.h"
+#include "plates.h"
+#include <stdio.h>
+#include <string.h>
+
+enum { SLOTS = 32 };
+
+/* One thing that is stored as it is in memory. */
+typedef struct slot {
+    const char *name;
+    void *at;
+    size_t size;
+} slot;
+
+static int list_slots(mps__world *w, slot out[SLOTS])
+{
+#define SLOT(place)                        \
+    {                                      \
+#place, &w->place, sizeof w->place \
+    }
+#define STATE(member) SLOT(state.member),
+    const slot all[] = {MPS__STATE(STATE) SLOT(motion.now), SLOT(motion.hold), SLOT(particles.next_id)};
+#undef STATE
+#undef SLOT
+    memcpy(out, all, sizeof all);
+    return (int)(sizeof all / sizeof all[0]);
+}
+
+/* Whether dummies know their walls, and whether the candidates of the last search still hold. */
+typedef struct lists {
+    int32_t linked, listed;
+} lists;
+
+/* What a series is beside its arrays. */
+typedef struct series_state {
+    int64_t step, waits, next;
+    double start;
+} series_state;
+
+static const char *title(char out[MPS__PART_TITLE], const char *kind, const char *name)
+{
+    snprintf(out, MPS__PART_TITLE, "%s %s", kind, name);
+    return out;
+}
+
+static const char *probe_title(char out[MPS__PART_TITLE], int64_t probe, const char *name)
+{
+    snprintf(out, MPS__PART_TITLE, "probe %lld %s", (long long)probe, name);
+    return out;
+}
+
+static bool has_series(const mps__probe *p)
+{
+    return !p->removed && (p->config.average != 0 || p->config.rate > 0);
+}
+
+static size_t element(const mps__field *f)
+{
+    return (size_t)f->components * f->size;
+}
+
+/* ---- out ---- */
+
+static void put_particles(const mps__world *w, mps__archive *a)
+{
+    const mps__particles *s = &w->particles;
+    char name[MPS__PART_TITLE];
+    for (int32_t k = 0; k < s->fields; k++)
+        mps__archive_put(a, title(name, "field", s->field[k].name), *s->field[k].data, element(&s->field[k]), s->n);
+    const bool linked = w->lists.linked == s->generation;
+    const lists have = {linked, linked && (w->lists.neighbours.valid || w->lists.listed_at)};
+    mps__archive_put(a, "lists", &have, sizeof have, 1);
+    /* the order of the particles and the time of the next search are those of the last one */
+    if (have.listed && w->lists.listed_at)
+        mps__archive_put(a, "searched", w->lists.listed_at, sizeof(double), s->n * s->dim);
+    else if (have.listed)
+        mps__archive_put(a, "searched", w->lists.neighbours.searched, sizeof(double), s->n * s->dim);
+}
+
+static void put_series(const mps__probes *probes, mps__archive *a)
+{
+    char name[MPS__PART_TITLE];
+    for (int64_t k = 0; k < probes->count; k++) {
+        const mps__series *s = &probes->list[k].series;
+        if (!has_series(&probes->list[k])) continue;
+        const series_state state = {s->step, s->waits, s->next, s->start};
+        mps__archive_put(a, probe_title(name, k, "series"), &state, sizeof state, 1);
+        mps__archive_put(a, probe_title(name, k, "signal"), s->row ? s->row + s->first * (1 + s->size) : NULL,
+                         (size_t)(1 + s->size) * sizeof(double), s->rows - s->first);
+        mps__archive_put(a, probe_title(name, k, "times"), s->t, sizeof(double), s->count);
+        mps__archive_put(a, probe_title(name, k, "samples"), s->value, (size_t)s->size * sizeof(double), s->count);
+    }
+}
+
+void mps__state_put(mps_sim *sim, mps__archive *a)
+{
+    slot slots[SLOTS];
+    const int count = list_slots(&sim->world, slots);
+    for (int k = 0; k < count; k++) mps__archive_put(a, slots[k].name, slots[k].at, slots[k].size, 1);
+    put_particles(&sim->world, a);
+    put_series(&sim->probes, a);
+}
+
+/* ---- in ---- */
+
+/* A state on its way in: arrays of the archive, and new ones that wait to take their places. */
+typedef struct arrival {
+    mps_sim *sim;
+    const mps__archive *a;
+    int64_t n; /* particles */
+    slot slots[SLOTS];
+    int count; /* of the slots */
+    const void *value[SLOTS], *field[MPS__FIELDS_MAX];
+    lists have;
+    double *listed_at;
+    mps__series *series; /* one for each probe */
+} arrival;
+
+/* A part of so many elements. */
+static const void *part(const arrival *v, const char *name, size_t bytes, int64_t wanted)
+{
+    int64_t count;
+    const void *elements = mps__archive_get(v->a, name, bytes, &count);
+    if (!elements || count == wanted) return elements;
+    mps__fail(v->a->context, MPS_E_VERSION, "\"%s\" of the checkpoint has %lld elements; must be %lld", name, (long long)count,
+              (long long)wanted);
+    return NULL;
+}
+
+static mps_status find_slots(arrival *v)
+{
+    v->count = list_slots(&v->sim->world, v->slots);
+    for (int k = 0; k < v->count; k++)
+        if (!(v->value[k] = part(v, v->slots[k].name, v->slots[k].size, 1))) return MPS_E_VERSION;
+    return MPS_OK;
+}
+
+/* What a slot will be. */
+static void slot_value(const arrival *v, const void *at, void *value)
+{
+    for (int k = 0; k < v->count; k++)
+        if (v->slots[k].at == at) memcpy(value, v->value[k], v->slots[k].size);
+}
+
+/* A checksum tells damage, not what another program wrote: numbers that places in memory are reckoned from are looked at. */
+static mps_status check_tags(const arrival *v, const char *name, int64_t least, int64_t most)
+{
+    mps__particles *s = &v->sim->world.particles;
+    const mps__field *f = mps__particles_field(s, name);
+    const void *values = v->field[f - s->field];
+    for (int64_t i = 0; i < v->n; i++) {
+        const int64_t value = f->size == sizeof(int64_t) ? ((const int64_t *)values)[i] : ((const int32_t *)values)[i];
+        if (value < least || value > most)
+            return mps__fail(v->a->context, MPS_E_IO, "the checkpoint is damaged: \"%s\" of particle %lld is %lld; must be %lld..%lld",
+                             name, (long long)i, (long long)value, (long long)least, (long long)most);
+    }
+    return MPS_OK;
+}
+
+static mps_status check_particles(const arrival *v)
+{
+    const mps__world *w = &v->sim->world;
+    int64_t next_id = 0;
+    slot_value(v, &w->particles.next_id, &next_id);
+    if (v->n > INT32_MAX)
+        return mps__fail(v->a->context, MPS_E_IO, "the checkpoint has %lld particles: at most %d", (long long)v->n, INT32_MAX);
+    MPS__TRY(check_tags(v, "id", 0, next_id - 1));
+    MPS__TRY(check_tags(v, "kind", MPS_FLUID, MPS_DUMMY));
+    MPS__TRY(check_tags(v, "phase", 0, MPS__PHASES - 1));
+    MPS__TRY(check_tags(v, "part", -1, w->particles.parts - 1));
+    MPS__TRY(check_tags(v, "wall_of", -1, v->n - 1));
+    return check_tags(v, "plate", 0, w->lists.screens.count);
+}
+
+static mps_status find_particles(arrival *v)
+{
+    const mps__particles *s = &v->sim->world.particles;
+    char name[MPS__PART_TITLE];
+    if (!mps__archive_get(v->a, "field id", sizeof *s->id, &v->n)) return MPS_E_VERSION;
+    for (int32_t k = 0; k < s->fields; k++)
+        if (!(v->field[k] = part(v, title(name, "field", s->field[k].name), element(&s->field[k]), v->n))) return MPS_E_VERSION;
+    MPS__TRY(check_particles(v));
+    const void *have = part(v, "lists", sizeof v->have, 1);
+    if (!have) return MPS_E_VERSION;
+    memcpy(&v->have, have, sizeof v->have);
+    if (!v->have.listed) return MPS_OK;
+    const void *searched = part(v, "searched", sizeof(double), v->n * s->dim);
+    if (!searched) return MPS_E_VERSION;
+    v->listed_at = mps__alloc(v->a->context, v->n * s->dim, sizeof *v->listed_at);
+    if (!v->listed_at) return MPS_E_NOMEM;
+    memcpy(v->listed_at, searched, (size_t)(v->n * s->dim) * sizeof *v->listed_at);
+    return MPS_OK;
+}
+
+/* A copy of a part of an array that grows. */
+static mps_status copy_part(const arrival *v, const char *name, size_t bytes, double **copy, int64_t *count)
+{
+    const void *from = mps__archive_get(v->a, name, bytes, count);
+    if (!from) return MPS_E_VERSION;
+    *copy = mps__alloc(v->a->context, *count, bytes);
+    if (!*copy) return MPS_E_NOMEM;
+    memcpy(*copy, from, (size_t)*count * bytes);
+    return MPS_OK;
+}
+
+static mps_status find_series(const arrival *v, int64_t k, mps__series *s)
+{
+    char name[MPS__PART_TITLE];
+    const size_t values = (size_t)s->size * sizeof(double);
+    series_state state;
+    int64_t samples;
+    const void *from = part(v, probe_title(name, k, "series"), sizeof state, 1);
+    if (!from) return MPS_E_VERSION;
+    memcpy(&state, from, sizeof state);
+    if (state.next < 0)
+        return mps__fail(v->a->context, MPS_E_IO, "the checkpoint is damaged: the next sample of probe %lld is number %lld", (long long)k,
+                         (long long)state.next);
+    s->step = state.step;
+    s->waits = state.waits != 0;
+    s->next = state.next;
+    s->start = state.start;
+    MPS__TRY(copy_part(v, probe_title(name, k, "signal"), sizeof(double) + values, &s->row, &s->rows));
+    MPS__TRY(copy_part(v, probe_title(name, k, "times"), sizeof(double), &s->t, &s->count));
+    MPS__TRY(copy_part(v, probe_title(name, k, "samples"), values, &s->value, &samples));
+    s->row_capacity = s->rows * (1 + s->size);
+    s->t_capacity = s->count;
+    s->value_capacity = s->count * s->size;
+    return samples == s->count ? MPS_OK
+                               : mps__fail(v->a->context, MPS_E_VERSION, "probe %lld has %lld samples at %lld times", (long long)k,
+                                           (long long)samples, (long long)s->count);
+}
+
+static mps_status find_all_series(arrival *v)
+{
+    const mps__probes *p = &v->sim->probes;
+    v->series = mps__alloc(v->a->context, p->count, sizeof *v->series);
+    if (!v->series) return MPS_E_NOMEM;
+    for (int64_t k = 0; k < p->count; k++) {
+        v->series[k].size = p->list[k].series.size;
+        v->series[k].step = -1;
+        if (has_series(&p->list[k])) MPS__TRY(find_series(v, k, &v->series[k]));
+    }
+    return MPS_OK;
+}
+
+/* The tank must be where it was, if a motion moves it. */
+static mps_status check_motion(const arrival *v)
+{
+    static const char *const name[MPS_DOF_COUNT] = {"surge", "heave", "sway", "roll", "yaw", "pitch"};
+    mps__world *w = &v->sim->world;
+    mps__pose saved = {0}, here;
+    slot_value(v, &w->motion.now, &saved);
+    if (!w->motion.fn) return MPS_OK;
+    MPS__TRY(mps__motion_pose(&w->motion, saved.t, &here));
+    for (int d = 0; d < MPS_DOF_COUNT; d++)
+        MPS__CHECK(w->context, saved.state.value[d] == here.state.value[d],
+                   "the motion is another one: at t = %.9g s %s is %.17g, in the checkpoint %.17g", saved.t, name[d], here.state.value[d],
+                   saved.state.value[d]);
+    return MPS_OK;
+}
+
+/* Nothing here can fail but the first call, which changes nothing then. */
+static mps_status move_in(arrival *v)
+{
+    mps__world *w = &v->sim->world;
+    mps__probes *p = &v->sim->probes;
+    MPS__TRY(mps__particles_replace(&w->particles, v->n, v->field));
+    for (int k = 0; k < v->count; k++) memcpy(v->slots[k].at, v->value[k], v->slots[k].size);
+    w->lists.linked = v->have.linked ? w->particles.generation : -1;
+    mps__plates_set_active(w);
+    w->lists.neighbours.valid = false;
+    w->lists.aside = 0;
+    mps__free(w->context, w->lists.listed_at);
+    w->lists.listed_at = v->listed_at;
+    v->listed_at = NULL;
+    for (int64_t k = 0; k < p->count; k++) {
+        if (p->list[k].removed) continue;
+        mps__series old = p->list[k].series;
+        p->list[k].series = v->series[k];
+        v->series[k] = old;
+    }
+    return MPS_OK;
+}
+
+mps_status mps__state_get(mps_sim *sim, const mps__archive *a)
+{
+    arrival v = {.sim = sim, .a = a};
+    mps_status status = find_slots(&v);
+    if (status == MPS_OK) status = check_motion(&v);
+    if (status == MPS_OK) status = find_particles(&v);
+    if (status == MPS_OK) status = find_all_series(&v);
+    if (status == MPS_OK) status = move_in(&v);
+    mps__free(a->context, v.listed_at);
+    for (int64_t k = 0; v.series && k < sim->probes.count; k++) mps__series_free(a->context, &v.series[k]);
+    mps__free(a->context, v.series);
+    return status;
+}

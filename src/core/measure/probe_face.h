@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The face of a wall that a sensor lies on. */
+#ifndef MPS_CORE_PROBE_FACE_H
+#define MPS_CORE_PROBE_FACE_H
+
+#include "world.h"
+#include <mps/probe.h>
+
+/* A solid particle near the sensor. */
+typedef struct mps__face_solid {
+    int64_t id, place;
+    double r[3], n[3]; /* from the sensor; normal into the liquid, 0 without an area */
+    bool wall, member;
+} mps__face_solid;
+
+/* A wall particle of the face. */
+typedef struct mps__face_point {
+    int64_t id, place;
+    double at[2], weight; /* along the tangents, from the sensor */
+} mps__face_point;
+
+/* The plane of a face at the sensor. */
+typedef struct mps__face {
+    int32_t dim, sides;            /* directions along the face: 1 or 2 */
+    mps__face_solid *base;         /* a particle of the face */
+    double dp, width, radius, off; /* off: of the sensor's place before the plane, < 0: behind it */
+    double normal[3], tangent[2][3];
+    double lo[2], hi[2], target[2]; /* ends of the face beside the sensor and centroid of what the sensor covers, from the sensor */
+    int64_t count, capacity, solids, solid_capacity;
+    mps__face_point *list; /* by id */
+    mps__face_solid *solid;
+} mps__face;
+
+/* Find the face of a sensor and its particles; there must be a wall. mps__face_free() afterwards in any case. */
+mps_status mps__face_find(mps__face *f, mps__world *w, const mps_probe *c);
+void mps__face_free(mps__face *f, mps__context *c);
+/* Whether it looks to one side: it has a normal. */
+bool mps__face_has_sides(const mps__face *f);
+/* Distance from a place of the tank's frame to the nearest wall particle; infinite without walls. */
+double mps__sensor_distance(const mps__world *w, const double *at);
+
+#endif

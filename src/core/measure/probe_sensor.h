@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Wall pressure over the area of a sensor. */
+#ifndef MPS_CORE_PROBE_SENSOR_H
+#define MPS_CORE_PROBE_SENSOR_H
+
+#include "probe_face.h"
+#include <mps/probe.h>
+
+/* A wall particle under the sensor and its share of the area; < 0 where pressure is extrapolated from others. */
+typedef struct mps__sensor_weight {
+    int64_t id;
+    int64_t place; /* where it was last seen: sorting moves it */
+    double weight;
+} mps__sensor_weight;
+
+typedef struct mps__sensor {
+    int64_t count, capacity;
+    mps__sensor_weight *list;   /* by ascending id; the weights' sum is 1 */
+    int64_t generation, linked; /* of the particles it was made for */
+} mps__sensor;
+
+void mps__sensor_free(mps__context *c, mps__sensor *sensor);
+/* Distance of the sensor's place before the plane of its face, < 0: behind it, 0: the face has no sides; and along it beyond the face's
+ * ends, <= 0: on it [m]. There must be a wall. */
+mps_status mps__sensor_place(mps__world *w, const mps_probe *config, double *off, double *beyond);
+/* Find the particles under the sensor and their weights; on failure the old ones stay. There must be a wall. */
+mps_status mps__sensor_build(mps__world *w, const mps_probe *config, mps__sensor *sensor);
+/* Mean pressure now; anew only if particles came or went. */
+mps_status mps__sensor_read(mps__world *w, const mps_probe *config, mps__sensor *sensor, double *value);
+
+#endif

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Probes look at the world and change nothing. */
+#ifndef MPS_CORE_PROBES_H
+#define MPS_CORE_PROBES_H
+
+#include "probe_sensor.h"
+#include "probe_series.h"
+#include "world.h"
+#include <mps/probe.h>
+
+typedef struct mps__probe {
+    mps_probe config; /* part points to part_name */
+    char part_name[MPS__PART_NAME];
+    mps__sensor sensor; /* of a wall pressure */
+    mps__series series; /* of an average or a rate */
+    bool removed;       /* its place in the list stays: numbers are not used again */
+} mps__probe;
+
+typedef struct mps__probes {
+    int64_t count, capacity;
+    mps__probe *list;
+} mps__probes;
+
+void mps__probes_free(mps__context *c, mps__probes *p);
+mps_status mps__probes_add(mps__world *w, mps__probes *p, const mps_probe *probe, int32_t *id);
+void mps__probe_remove(mps__context *c, mps__probe *p);
+int32_t mps__probe_values(const mps__world *w, const mps__probe *p);
+/* The present value. */
+mps_status mps__probe_measure(mps__world *w, mps__probe *p, double *values);
+/* The present value, or the mean of the last `average` seconds. */
+mps_status mps__probe_read(mps__world *w, mps__probe *p, double *values);
+/* Take the present value into the series, once for each step; all that can fail of a series happens here. */
+mps_status mps__probe_take(mps__world *w, mps__probe *p);
+mps_status mps__probes_take(mps__world *w, mps__probes *p);
+/* Unit vectors across a direction of unit length: along lattice axes if that is. */
+void mps__probe_across(int32_t dim, const double direction[3], double out[2][3]);
+mps_status mps__energy_measure(mps__world *w, mps_energy *e);
+void mps__momentum_measure(const mps__world *w, mps_momentum *m);
+
+#endif

@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Which models there are, which are on, and their settings. */
+#ifndef MPS_CORE_MODELS_H
+#define MPS_CORE_MODELS_H
+
+#include "channels.h"
+#include <mps/model.h>
+
+enum { MPS__MODELS_KNOWN = 64, MPS__MODELS_ACTIVE = 32, MPS__SETTINGS = 16, MPS__BROUGHT = 8, MPS__VERBS = 16, MPS__USES = 24 };
+
+typedef struct mps__model {
+    const mps_model_ops *ops; /* in the registry */
+    void *self;
+    double k[MPS__SETTINGS];
+} mps__model;
+
+typedef struct mps__models {
+    mps__context *context;
+    mps__particles *particles; /* whose fields models bring */
+    mps__channels *channels;
+    int32_t known, active, built_in; /* the first of those known are the library's own */
+    int64_t changes;                 /* grows when models come or go */
+    mps_model_ops registry[MPS__MODELS_KNOWN];
+    char name[MPS__MODELS_KNOWN][MPS__NAME_SIZE];
+    mps__model on[MPS__MODELS_ACTIVE]; /* in the order of the registry */
+} mps__models;
+
+/* Registers the built-in models, none active. Channels and particles are those of the handle. */
+mps_status mps__models_init(mps__models *m, mps__context *context, mps__channels *channels, mps__particles *particles);
+void mps__models_free(mps__models *m);
+mps_status mps__models_register(mps__models *m, const mps_model_ops *ops);
+mps_status mps__models_use(mps__models *m, const char *name);
+mps_status mps__models_preset(mps__models *m, const char *name);
+mps_status mps__models_remove(mps__models *m, const char *slot);
+/* Whether an active model is not one of the library's. */
+bool mps__models_foreign(const mps__models *m, const mps__model *model);
+/* The setting `key` of the model in a slot; NULL with the error set. `setting` may be NULL. */
+double *mps__models_value(mps__models *m, const char *slot, const char *key, const mps_setting **setting);
+/* Preset number k; false beyond the last. */
+bool mps__models_preset_info(int32_t k, const char **name, const char **help);
+/* Whether the slot of a model's name is `slot`, which may be a full name too. */
+bool mps__same_slot(const char *name, const char *slot);
+
+#endif

@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Pairs of particles. Cells hold sorted keys, not a grid array, so that the size of the domain costs nothing. */
+#ifndef MPS_CORE_NEIGHBOURS_H
+#define MPS_CORE_NEIGHBOURS_H
+
+#include "parallel.h"
+#include "screens.h"
+#include <mps/operators.h>
+
+/* Rows: near pairs in begin[i]..middle[i], the others up to end[i]; ascending columns in each part, so that sums
+ * do not depend on how the list was found. Up to begin[i+1] follow those that may come within reach before the next search. */
+struct mps_neighbours {
+    mps__context *context;
+    mps__context own;             /* context of a list that stands alone */
+    const mps_parallel *parallel; /* NULL: the calling thread */
+    mps__pool pool;               /* of a list that stands alone */
+    int32_t dim;
+    double dp, skin, re_near, re_far;
+    int64_t n, capacity, pair_capacity, near_capacity, weight_capacity, scratch_capacity, far_capacity;
+    const double *x;
+    int64_t *begin, *middle, *end;     /* [n+1], [n], [n]; the last are the same where the radii are */
+    int64_t *far_end;                  /* [n] where they are not */
+    int32_t *col;                      /* [begin[n]] pairs within re_far + skin at the last search */
+    int64_t *near_begin;               /* [n+1] near rows once more, without gaps: what most loops of a step run along */
+    int32_t *near_col;                 /* [near_begin[n]] */
+    double *w_r2;                      /* [near_begin[n]] room for a weight beside each entry of near_col */
+    double *searched;                  /* [n*dim] positions at the last search */
+    uint64_t *key;                     /* [2 n] cell keys and scratch of the sort; from the order to the end of the search */
+    int32_t *order;                    /* [2 n] likewise */
+    mps__scratch own_scratch, *shared; /* where these two are: its own, or one shared with others */
+    bool valid;                        /* candidates belong to the present order */
+    bool sorted;                       /* the store was just sorted along the keys: the next search needs no order */
+    int64_t longest;                   /* candidates of one row, at most */
+    int32_t *scratch;                  /* two rows of them for each part of the particles */
+    const int32_t *kind;         /* of the next search: NULL, or kinds of the particles, and solids without fluid about them get no pairs */
+    bool partial;                /* the last search left such solids out: */
+    uint8_t *idle;               /* [n] 1 for each of them */
+    const mps__screens *screens; /* NULL, or what hides particles from each other; its seers are up to date */
+};
+
+mps_status mps__neighbours_init(mps_neighbours *l, mps__context *context, int32_t dim, double dp);
+void mps__neighbours_free(mps_neighbours *l);
+
+/* True if no particle moved by more than half the skin since the last search. */
+bool mps__neighbours_fresh(const mps_neighbours *l, int64_t n, const double *x, double re_far);
+/* Order of particles by cell, [n] in l->order; for sorting the store before a search. */
+mps_status mps__neighbours_order(mps_neighbours *l, int64_t n, const double *x, double re_far);
+/* The particles were put into l->order. */
+void mps__neighbours_sorted(mps_neighbours *l, int64_t n);
+/* Search candidates; positions must be finite and are borrowed. l->kind is forgotten. */
+mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x, double re_near, double re_far);
+/* Exact rows at the present positions from the candidates. */
+void mps__neighbours_rows(mps_neighbours *l, const double *x);
+/* Set l->near_begin and make room for what stands in its rows. */
+mps_status mps__neighbours_near(mps_neighbours *l);
+/* Sort cell keys and the particles' numbers with them; both have room for 2 n. neighbours_sort.c */
+void mps__sort_keys(uint64_t *key, int32_t *order, int64_t n);
+
+#endif

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Solution of the pressure equation with least pressures: p_i >= least_i where terms say so. */
+#ifndef MPS_CORE_BOUNDS_H
+#define MPS_CORE_BOUNDS_H
+
+#include "ppe.h"
+
+/* Rows with a least pressure, and what pinning changed in the matrix. */
+typedef struct mps__bounds {
+    mps__context *context;
+    int64_t count, capacity;
+    struct mps__bound *list;
+    const int32_t *held; /* [particles] 1: at its least in the last step; borrowed for a solution */
+    int32_t solves;      /* of the last call */
+    int64_t changes, changes_capacity;
+    struct mps__change *change;
+} mps__bounds;
+
+/* For the condition of a row, from the solution on: a row with a least pressure is at it. */
+enum { MPS__ROW_HELD = 3 };
+
+void mps__bounds_init(mps__bounds *b, mps__context *context);
+void mps__bounds_free(mps__bounds *b);
+/* Solve the assembled equation for e->p, with p_i >= value_i in rows of MPS_ROW_LEAST, beginning with those of b->held; its condition becomes
+ * MPS__ROW_HELD where they are at it now. Iterations and times of `result` are those of all solutions. */
+mps_status mps__bounds_solve(mps__bounds *b, mps__solvers *solvers, mps__ppe *e, const mps_stage *s, mps__ppe_terms *t,
+                             mps_ppe_result *result);
+
+#endif

@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Assembly of the pressure equation from pairs and terms. */
+#ifndef MPS_CORE_PPE_H
+#define MPS_CORE_PPE_H
+
+#include "solvers.h"
+#include <mps/model.h>
+
+/* What models say of the equation: mps_equation, the fluxes of its pairs, and its channels. */
+typedef struct mps__ppe_terms {
+    mps_equation equation;
+    const mps_flux *flux;
+    const int32_t *region;
+    const double *density, *pressure; /* [n] those before the solution */
+    double *source, *shift, *value, *gas, *law;
+    int32_t *condition;
+} mps__ppe_terms;
+
+typedef struct mps__ppe {
+    mps__context *context;
+    mps__scratch own, *scratch; /* where all arrays are: its own, or one shared with others. They last until these take it again */
+    double *spare, *spare_x;    /* NULL, or room [3 particles], [particles*dim] that is free when rows are filled: terms but `value` */
+    int64_t n;                  /* unknowns of the last assembly */
+    int32_t *unknown;           /* [particles] row of a particle, -1: none */
+    int32_t *particle;          /* [n] particle of a row */
+    int64_t *row;               /* [n+1] CSR beside the diagonal */
+    int32_t *col;
+    float *val;
+    double *diagonal, *rhs, *shift, *weight, *x, *p;
+    double *gas, *law; /* NULL: all rows are linear */
+    int32_t *component;
+    bool level_free; /* the largest component has no level */
+    int32_t *queue;  /* [n] scratch */
+    mps_ppe_problem problem;
+} mps__ppe;
+
+void mps__ppe_init(mps__ppe *e, mps__context *context);
+void mps__ppe_free(mps__ppe *e);
+/* Build a row for every unknown, with the old pressures as the first guess. Of the terms `value` and `condition` are left where e->spare is theirs. */
+mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps__ppe_terms *t);
+/* Pressures of all particles from the solution e->p. */
+void mps__ppe_scatter(const mps__ppe *e, const mps_stage *s, const mps__ppe_terms *t, double *p);
+
+#endif

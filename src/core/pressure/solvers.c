@@ -1,0 +1,351 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Registry of pressure solvers and preconditioners, and the solution with the pair in use. */
+#include "solvers.h"
+#include "ppe/builtin.h"
+#include <math.h>
+#include <string.h>
+
+static const mps_solver_limits default_limits = {
+    .struct_size = sizeof(mps_solver_limits),
+    .max_iterations = 2000,
+    .tolerance = 1e-6,
+    .divergence = 1e-4,
+};
+
+/* ---- names ---- */
+
+static int find(char (*names)[MPS__NAME_SIZE], int count, const char *name)
+{
+    for (int k = 0; k < count; k++)
+        if (strcmp(names[k], name) == 0) return k;
+    return -1;
+}
+
+/* MPS_E_NAME with the nearest of the known names; `extra` is one that is in no table, or NULL. */
+static mps_status unknown(mps__context *c, const char *what, char (*names)[MPS__NAME_SIZE], int count, const char *extra, const char *name)
+{
+    const char *list[MPS__SOLVERS_KNOWN + 1];
+    char hint[MPS__HINT_SIZE];
+    for (int k = 0; k < count; k++) list[k] = names[k];
+    if (extra) list[count++] = extra;
+    return mps__fail(c, MPS_E_NAME, "no %s is called '%.60s'; %s", what, name, mps__hint(hint, '\'', name, list, count));
+}
+
+static mps_status check_new_name(mps__context *c, const char *what, char (*names)[MPS__NAME_SIZE], int count, const char *name)
+{
+    MPS__CHECK(c, name && name[0], "a %s needs a name", what);
+    MPS__CHECK(c, strnlen(name, MPS__NAME_SIZE) < MPS__NAME_SIZE, "the name '%.60s...' of a %s is too long; at most %d characters", name,
+               what, MPS__NAME_SIZE - 1);
+    MPS__CHECK(c, find(names, count, name) < 0, "a %s called '%s' is registered already", what, name);
+    MPS__CHECK(c, count < MPS__SOLVERS_KNOWN, "no room for %s '%s': all %d places are taken", what, name, MPS__SOLVERS_KNOWN);
+    return MPS_OK;
+}
+
+static mps_status check_api(mps__context *c, const char *what, uint32_t api)
+{
+    if (api == MPS_PPE_API) return MPS_OK;
+    return mps__fail(c, MPS_E_VERSION, "the %s table has api %u; this library knows %u", what, api, MPS_PPE_API);
+}
+
+/* ---- registration ---- */
+
+mps_status mps__solvers_register(mps__solvers *s, const mps_solver_ops *ops)
+{
+    mps__context *c = s->context;
+    mps_solver_ops copy = {0};
+    MPS__TRY(mps__struct_in(c, "mps_solver_ops", &copy, sizeof copy, ops));
+    MPS__TRY(check_api(c, "solver", copy.api));
+    MPS__TRY(check_new_name(c, "solver", s->solver_name, s->solvers, copy.name));
+    MPS__CHECK(c, copy.create && copy.solve && copy.destroy, "solver '%s' lacks create, solve or destroy", copy.name);
+    int k = s->solvers;
+    if (copy.preconditioner && !mps__name_copy(s->default_name[k], MPS__NAME_SIZE, copy.preconditioner))
+        return mps__fail(c, MPS_E_ARG, "the default preconditioner of solver '%s' has an empty or too long name", copy.name);
+    mps__name_copy(s->solver_name[k], MPS__NAME_SIZE, copy.name);
+    copy.struct_size = sizeof copy;
+    copy.name = s->solver_name[k];
+    if (copy.preconditioner) copy.preconditioner = s->default_name[k];
+    s->solver[k] = copy;
+    s->solvers++;
+    return MPS_OK;
+}
+
+mps_status mps__solvers_register_preconditioner(mps__solvers *s, const mps_preconditioner_ops *ops)
+{
+    mps__context *c = s->context;
+    mps_preconditioner_ops copy = {0};
+    MPS__TRY(mps__struct_in(c, "mps_preconditioner_ops", &copy, sizeof copy, ops));
+    MPS__TRY(check_api(c, "preconditioner", copy.api));
+    MPS__TRY(check_new_name(c, "preconditioner", s->preconditioner_name, s->preconditioners, copy.name));
+    MPS__CHECK(c, strcmp(copy.name, "none") != 0, "a preconditioner cannot be called 'none'");
+    MPS__CHECK(c, copy.create && copy.setup && copy.apply && copy.destroy, "preconditioner '%s' lacks create, setup, apply or destroy",
+               copy.name);
+    int k = s->preconditioners;
+    mps__name_copy(s->preconditioner_name[k], MPS__NAME_SIZE, copy.name);
+    copy.struct_size = sizeof copy;
+    copy.name = s->preconditioner_name[k];
+    s->preconditioner[k] = copy;
+    s->preconditioners++;
+    return MPS_OK;
+}
+
+/* ---- choice ---- */
+
+static mps_status choose(mps__solvers *s, const char *solver, const char *preconditioner, const mps_solver_ops **ops,
+                         const mps_preconditioner_ops **pc)
+{
+    mps__context *c = s->context;
+    MPS__CHECK(c, solver, "solver is NULL; give a name");
+    int k = find(s->solver_name, s->solvers, solver);
+    if (k < 0) return unknown(c, "solver", s->solver_name, s->solvers, NULL, solver);
+    *ops = &s->solver[k];
+    *pc = NULL;
+    const char *name = preconditioner ? preconditioner : (*ops)->preconditioner;
+    if (!name || strcmp(name, "none") == 0) return MPS_OK;
+    k = find(s->preconditioner_name, s->preconditioners, name);
+    if (k < 0) return unknown(c, "preconditioner", s->preconditioner_name, s->preconditioners, "none", name);
+    *pc = &s->preconditioner[k];
+    MPS__CHECK(c, (*ops)->preconditioner, "solver '%s' uses no preconditioner; give NULL or \"none\" instead of '%s'", solver, name);
+    MPS__CHECK(c, !(*ops)->symmetric || (*pc)->symmetric, "solver '%s' needs a symmetric preconditioner; '%s' is not", solver, name);
+    return MPS_OK;
+}
+
+static void discard(mps__solvers *s)
+{
+    if (s->spare_self) mps__preconditioner_jacobi.destroy(s->spare_self);
+    s->spare_self = NULL;
+    if (s->use) s->use->destroy(s->use_self);
+    if (s->pc) s->pc->destroy(s->pc_self);
+    s->use = NULL;
+    s->pc = NULL;
+    s->use_self = s->pc_self = NULL;
+}
+
+mps_status mps__solvers_use(mps__solvers *s, const char *solver, const char *preconditioner)
+{
+    const mps_solver_ops *ops = NULL;
+    const mps_preconditioner_ops *pc = NULL;
+    const mps_status status = choose(s, solver, preconditioner, &ops, &pc);
+    if (status < 0 || !ops) return status;
+    void *self = ops->user, *pc_self = pc ? pc->user : NULL;
+    if (ops->create(&s->context->allocator, &self)) return mps__fail(s->context, MPS_E_NOMEM, "no memory for solver '%s'", ops->name);
+    if (pc && pc->create(&s->context->allocator, &pc_self)) {
+        ops->destroy(self);
+        return mps__fail(s->context, MPS_E_NOMEM, "no memory for preconditioner '%s'", pc->name);
+    }
+    discard(s);
+    s->use = ops;
+    s->pc = pc;
+    s->use_self = self;
+    s->pc_self = pc_self;
+    return MPS_OK;
+}
+
+mps_status mps__solvers_init(mps__solvers *s, mps__context *context)
+{
+    *s = (mps__solvers){.context = context, .limits = default_limits};
+    for (int k = 0; mps__builtin_solvers[k]; k++) MPS__TRY(mps__solvers_register(s, mps__builtin_solvers[k]));
+    s->built_in = s->solvers;
+    for (int k = 0; mps__builtin_preconditioners[k]; k++)
+        MPS__TRY(mps__solvers_register_preconditioner(s, mps__builtin_preconditioners[k]));
+    return mps__solvers_use(s, "sundials.pcg", NULL);
+}
+
+void mps__solvers_free(mps__solvers *s)
+{
+    discard(s);
+}
+
+/* ---- limits ---- */
+
+mps_status mps_solver_limits_init(mps_solver_limits *limits, size_t size)
+{
+    return mps__struct_init(limits, size, &default_limits, sizeof default_limits);
+}
+
+mps_status mps__solvers_set_limits(mps__solvers *s, const mps_solver_limits *limits)
+{
+    mps__context *c = s->context;
+    mps_solver_limits copy = default_limits;
+    MPS__TRY(mps__struct_in(c, "mps_solver_limits", &copy, sizeof copy, limits));
+    if (copy.max_iterations == 0) copy.max_iterations = default_limits.max_iterations;
+    if (copy.tolerance == 0) copy.tolerance = default_limits.tolerance;
+    MPS__CHECK(c, copy.max_iterations > 0, "max_iterations is %d; allowed: at least 1, or 0 for the default", copy.max_iterations);
+    MPS__CHECK(c, copy.tolerance > 0 && copy.tolerance < 1, "tolerance is %g; allowed: between 0 and 1, or 0 for the default",
+               copy.tolerance);
+    MPS__CHECK(c, copy.divergence >= 0 && isfinite(copy.divergence), "divergence is %g; allowed: at least 0, finite", copy.divergence);
+    copy.struct_size = sizeof copy;
+    s->limits = copy;
+    return MPS_OK;
+}
+
+/* ---- solution ---- */
+
+static const char *reason_text(int32_t reason)
+{
+    static const char *const texts[] = {
+        "converged",
+        "did not converge",
+        "met a direction of negative curvature (matrix or preconditioner is not positive definite)",
+        "met NaN or infinity",
+        "broke down",
+        "ran out of memory",
+    };
+    bool known = reason >= 0 && reason < (int32_t)(sizeof texts / sizeof texts[0]);
+    return known ? texts[reason] : "gave an unknown reason";
+}
+
+static mps_status status_of(int32_t reason)
+{
+    switch (reason) {
+    case MPS_PPE_CONVERGED:
+        return MPS_OK;
+    case MPS_PPE_MAX_ITERATIONS:
+        return MPS_W_NOT_CONVERGED;
+    case MPS_PPE_NOMEM:
+        return MPS_E_NOMEM;
+    default:
+        return MPS_E_SOLVER;
+    }
+}
+
+/* A plug-in's word is not taken for its residual. */
+static mps_status verify(mps__solvers *s, const mps_ppe_problem *problem, const double *p, mps_ppe_result *result)
+{
+    double *work = mps__alloc(s->context, problem->n, sizeof *work);
+    if (!work) return MPS_E_NOMEM;
+    mps_ppe_check(problem, p, work, result);
+    mps__free(s->context, work);
+    if (result->residual <= 10 * problem->tolerance) return MPS_OK;
+    result->reason = MPS_PPE_MAX_ITERATIONS;
+    return MPS_W_NOT_CONVERGED;
+}
+
+/* The preconditioner in use behind another table: its set-up is left out where that of a matrix nearly the same is there. */
+static int setup_unless_ready(void *self, const mps_ppe_problem *problem)
+{
+    mps__solvers *s = self;
+    const int reason = s->again && s->ready ? MPS_PPE_CONVERGED : s->pc->setup(s->pc_self, problem);
+    s->ready = reason == MPS_PPE_CONVERGED;
+    return reason;
+}
+
+static int apply_in_use(void *self, const double *r, double *z)
+{
+    const mps__solvers *s = self;
+    return s->pc->apply(s->pc_self, r, z);
+}
+
+/* auxgrid is the default for its speed, and not proved for every matrix of a plug-in: where it fails jacobi solves again. */
+static void solve(mps__solvers *s, const mps_ppe_problem *problem, double *p, mps_ppe_result *result)
+{
+    const mps_preconditioner_ops *spare = &mps__preconditioner_jacobi;
+    mps_ppe_result second = {0};
+    mps_preconditioner_ops pc;
+    if (s->pc) {
+        pc = *s->pc;
+        pc.setup = setup_unless_ready;
+        pc.apply = apply_in_use;
+    }
+    s->use->solve(s->use_self, problem, s->pc ? &pc : NULL, s->pc ? s : NULL, p, result);
+    const bool failed = result->reason == MPS_PPE_INDEFINITE || result->reason == MPS_PPE_BREAKDOWN;
+    if (!failed || !s->pc || strcmp(s->pc->name, mps__preconditioner_auxgrid.name) != 0) return;
+    if (!s->spare_self && spare->create(&s->context->allocator, &s->spare_self)) return;
+    s->use->solve(s->use_self, problem, spare, s->spare_self, p, &second);
+    mps__log(s->context, MPS_LOG_WARNING, "preconditioner '%s' %s after %d iterations; with '%s' the solver %s", s->pc->name,
+             reason_text(result->reason), result->iterations, spare->name, reason_text(second.reason));
+    second.iterations += result->iterations;
+    second.setup_seconds += result->setup_seconds;
+    *result = second;
+}
+
+mps_status mps__solvers_solve(mps__solvers *s, const mps_ppe_problem *problem, double *p, mps_ppe_result *result)
+{
+    return mps__solvers_solve_series(s, problem, &(mps__effort){.looser = 1}, p, result);
+}
+
+mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *problem, const mps__effort *effort, double *p,
+                                     mps_ppe_result *result)
+{
+    mps_ppe_problem limited = *problem;
+    limited.tolerance = effort->looser * s->limits.tolerance;
+    limited.divergence = effort->looser * s->limits.divergence;
+    s->again = effort->again;
+    s->ready = s->ready && effort->again;
+    limited.max_iterations = s->limits.max_iterations;
+    *result = (mps_ppe_result){0};
+    if (problem->n == 0) return MPS_OK;
+    solve(s, &limited, p, result);
+    mps_status status = status_of(result->reason);
+    if (status >= 0 && !mps__finite(p, problem->n)) {
+        result->reason = MPS_PPE_NAN;
+        status = MPS_E_SOLVER;
+    }
+    if (status == MPS_OK && s->use >= &s->solver[s->built_in]) {
+        status = verify(s, &limited, p, result);
+        if (status != MPS_W_NOT_CONVERGED) return status;
+    }
+    return mps__fail(s->context, status,
+                     "solver '%s' with preconditioner '%s' %s: %d iterations of at most %d, residual %.3g (wanted %.3g), "
+                     "divergence %.3g (wanted %.3g), %lld unknowns",
+                     s->use->name, s->pc ? s->pc->name : "none", reason_text(result->reason), result->iterations, limited.max_iterations,
+                     result->residual, limited.tolerance, result->divergence, limited.divergence, (long long)problem->n);
+}
+
+/* ---- check for plug-ins ---- */
+
+double mps_ppe_law(double law, double p, double *slope)
+{
+    static const double least = 0.01; /* of 1 + p/P that the logarithm is used for */
+    if (!(law > 0)) {
+        if (slope) *slope = 1;
+        return p;
+    }
+    const double share = 1 + p / law, used = share < least ? least : share;
+    if (slope) *slope = 1 / used;
+    return law * (log(used) + (share - used) / used);
+}
+
+static bool has_law(const mps_ppe_problem *problem)
+{
+    return problem->struct_size >= sizeof *problem && problem->law;
+}
+
+typedef struct check {
+    const mps_ppe_problem *problem;
+    const double *p;
+    double *r;
+} check;
+
+enum { SQUARES, RHS_SQUARES, POISON, LARGEST, VALUES }; /* a NaN is larger than nothing, so it is carried apart */
+
+static void check_rows(void *argument, int64_t begin, int64_t end, double *values)
+{
+    const check *c = argument;
+    const mps_ppe_problem *problem = c->problem;
+    const double *p = c->p, *law = has_law(problem) ? problem->law : NULL;
+    double *r = c->r, squares = 0, rhs_squares = 0, poison = 0, largest = values[LARGEST];
+    for (int64_t i = begin; i < end; i++) {
+        double s = problem->diagonal[i] * p[i];
+        for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) s += (double)problem->val[k] * p[problem->col[k]];
+        if (law && law[i] > 0) s += problem->gas[i] * (mps_ppe_law(law[i], p[i], NULL) - p[i]);
+        r[i] = problem->rhs[i] - s;
+        const double d = problem->weight ? fabs(r[i] * problem->weight[i]) : 0;
+        squares += r[i] * r[i];
+        rhs_squares += problem->rhs[i] * problem->rhs[i];
+        if (d > largest) largest = d;
+        poison += 0 * d;
+    }
+    values[SQUARES] += squares;
+    values[RHS_SQUARES] += rhs_squares;
+    values[POISON] += poison;
+    values[LARGEST] = largest;
+}
+
+void mps_ppe_check(const mps_ppe_problem *problem, const double *p, double *work, mps_ppe_result *result)
+{
+    double values[VALUES] = {0};
+    mps_parallel_reduce(problem->parallel, problem->n, check_rows, &(check){problem, p, work},
+                        &(mps_parallel_values){LARGEST, VALUES - LARGEST, values});
+    result->residual = sqrt(values[SQUARES]) / (values[RHS_SQUARES] > 0 ? sqrt(values[RHS_SQUARES]) : 1);
+    result->divergence = values[LARGEST] + values[POISON];
+}

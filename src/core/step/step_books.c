@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The books of a step: who gave and took energy and momentum. Nothing here changes the flow but plates, which stop drops. */
+#include "plates.h"
+#include "step.h"
+
+void mps__step_book_forces(mps__step *q)
+{
+    const mps_stage *s = &q->stage;
+    mps_momentum *m = &q->budget.momentum;
+    mps__push push;
+    mps__budget_push(q->w, q->w->work.motion, s->dt, &push);
+    q->budget.viscous -= push.energy;
+    for (int d = 0; d < s->dim; d++) {
+        const double weight = push.mass * s->dt * s->g[d];
+        m->force[d] += push.impulse[d];
+        m->gravity[d] += weight;
+        q->momentum[d] = push.momentum[d] + push.impulse[d] + weight;
+    }
+}
+
+void mps__step_book_pressure(mps__step *q)
+{
+    mps__world *w = q->w;
+    mps_momentum *m = &q->budget.momentum;
+    double force[3];
+    q->budget.wall_work += mps__budget_wall_work(w, &q->pose, w->work.motion, q->stage.dt);
+    mps__budget_sum(w, &q->bulk);
+    mps__budget_wall_force(w, w->work.load, force);
+    for (int d = 0; d < w->setup.dim; d++) {
+        m->pressure[d] += q->bulk.momentum[d] - q->momentum[d];
+        m->walls[d] += q->stage.dt * force[d];
+    }
+}
+
+void mps__step_book_collisions(mps__step *q)
+{
+    mps__bulk after;
+    mps__budget_sum(q->w, &after);
+    q->budget.collision += q->bulk.kinetic - after.kinetic;
+    for (int d = 0; d < q->w->setup.dim; d++) q->budget.momentum.collision[d] += after.momentum[d] - q->bulk.momentum[d];
+    q->bulk = after;
+}
+
+void mps__step_book_shift(mps__step *q)
+{
+    mps__bulk after;
+    mps__budget_sum(q->w, &after);
+    q->budget.shift += q->bulk.kinetic - after.kinetic + mps__budget_lift(q->w, q->w->work.motion);
+    for (int d = 0; d < q->w->setup.dim; d++) q->budget.momentum.shift[d] += after.momentum[d] - q->bulk.momentum[d];
+}
+
+void mps__step_stop_at_plates(mps__step *q)
+{
+    mps__world *w = q->w;
+    mps__bulk moved, stopped;
+    if (w->lists.screens.count == 0) return;
+    mps__budget_sum(w, &moved);
+    mps__plates_stop(w, &q->pose);
+    mps__budget_sum(w, &stopped);
+    q->budget.collision += (moved.kinetic - stopped.kinetic) + (moved.potential - stopped.potential);
+    for (int d = 0; d < w->setup.dim; d++) q->budget.momentum.collision[d] += stopped.momentum[d] - moved.momentum[d];
+}

@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Signed distances of solids, and their zero surface as points and small patches. */
+#ifndef MPS_CORE_CONTOUR_H
+#define MPS_CORE_CONTOUR_H
+
+#include "base.h"
+#include "mesh.h"
+#include <mps/geometry.h>
+
+/* Distances on a lattice lo + k dp, k < n. */
+typedef struct mps__distances {
+    double lo[3], dp;
+    int32_t dim;
+    int64_t n[3];
+    double *value;
+} mps__distances;
+
+/* What says where the liquid may be. All distances are > 0 there. */
+typedef struct mps__shape {
+    int32_t dim;
+    double dp, sign;          /* sign: -1 if what the caller gave is to be turned around */
+    mps_distance_fn distance; /* or */
+    mps_inside_fn inside;     /* which is non-zero in the solid, or */
+    const mps__mesh *mesh;    /* a welded mesh whose normals look to the liquid; with `inside` the side is asked of it */
+    void *user;
+    const mps__distances *known; /* NULL, or distances of a mesh, to save asking for more of them far from it */
+} mps__shape;
+
+/* Distance as given; may be NaN. With `inside` alone: +-dp. */
+double mps__shape_at(const mps__shape *s, const double x[3]);
+/* Distance over its slope, good near the surface even if what was given is no true distance. n: unit normal into the liquid, NULL
+ * allowed. */
+double mps__shape_true(const mps__shape *s, const double x[3], double n[3]);
+/* Move x onto the surface. False if it does not get there within `reach`. */
+bool mps__shape_project(const mps__shape *s, double x[3], double reach);
+/* Move x onto the nearest edge or corner of the surface, if there is one within about a third of dp; else onto the surface. */
+bool mps__shape_project_feature(const mps__shape *s, double x[3]);
+
+/* Distances of a box lo..hi about lattice points lo + k dp; divided by their slope near the surface. NaN is refused. */
+mps_status mps__distances_make(mps__distances *f, mps__context *context, const mps__shape *s, const double *lo, const double *hi);
+void mps__distances_free(mps__distances *f, mps__context *context);
+/* Linear between the lattice points. False outside of them. */
+bool mps__distances_at(const mps__distances *f, const double x[3], double *value);
+void mps__distances_place(const mps__distances *f, int64_t point, double x[3]);
+
+/* What a vertex of a contour lies on. */
+enum { MPS__CORNER = 0, MPS__EDGE = 1, MPS__FACE = 2 };
+
+typedef struct mps__vertex {
+    double x[3];
+    int32_t feature; /* MPS__CORNER, ... */
+    int32_t odd;     /* axes along which its cell is none of the lattice's */
+} mps__vertex;
+
+typedef struct mps__patch {
+    double x[3], area[3]; /* centre, area vector into the liquid */
+} mps__patch;
+
+/* The surface within a box, found on cells of dp/2 whose centres are the lattice's points and those half-way between. */
+typedef struct mps__contour {
+    int64_t vertices, patches, vertex_capacity, patch_capacity;
+    mps__vertex *vertex;
+    mps__patch *patch;
+    bool open;         /* the surface goes on beyond the box */
+    double open_at[3]; /* first of the places where it does, by the order of the cells */
+} mps__contour;
+
+/* Where to look: a lattice point `anchor` at or below lo. Outside keep_lo..keep_hi the surface may leave the box: nobody looks there. */
+typedef struct mps__contour_box {
+    double anchor[3], lo[3], hi[3], keep_lo[3], keep_hi[3];
+} mps__contour_box;
+
+mps_status mps__contour_find(mps__contour *c, mps__context *context, const mps__shape *shape, const mps__contour_box *box);
+void mps__contour_free(mps__contour *c, mps__context *context);
+/* The patches' segments (2-D) or triangles (3-D) as a mesh, for the distance of shapes that have none. */
+mps_status mps__contour_mesh(const mps__shape *shape, const mps__contour_box *box, mps__mesh *mesh);
+
+#endif

@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Solids of any shape in a simulation. Arguments are checked by the public functions, see api_solid.c. */
+#ifndef MPS_CORE_SOLID_H
+#define MPS_CORE_SOLID_H
+
+#include "sim.h"
+
+/* One solid to add: its shape and the box to look in. */
+typedef struct mps__solid {
+    const char *name;
+    int32_t layers; /* of dummies */
+    mps__shape shape;
+    double lo[3], hi[3];
+} mps__solid;
+
+mps_status mps__solid_add(mps_sim *sim, const mps__solid *solid);
+/* Does a place of the tank's frame lie in a solid or nearer than dp/2 to one? Where solids alone make the lattice, places outside of
+ * their boxes count as well. */
+bool mps__solid_covers(const mps_sim *sim, const double *X);
+
+#endif
