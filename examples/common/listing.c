@@ -82,6 +82,38 @@ static void print_order(mps_sim *sim, const char *preset)
     printf("\n");
 }
 
+/* Settings of one model that a preset changes. */
+static void print_changes(const mps_sim *sim, const char *preset, const char *model)
+{
+    mps_setting_info k;
+    mps_setting_info_init(&k, sizeof k);
+    for (int32_t i = 0; mps_setting_info_get(sim, model, i, &k) == MPS_OK; i++) {
+        double value;
+        if (mps_model_get(sim, model, k.key, &value) != MPS_OK || value == k.initial) continue;
+        printf("| `%s` | `%s %s` | ", preset, model, k.key);
+        print_number(k.initial);
+        printf(" | ");
+        print_number(value);
+        printf(" |\n");
+    }
+}
+
+static void print_preset_settings(mps_sim *sim)
+{
+    mps_name_info n;
+    mps_model_info m;
+    mps_name_info_init(&n, sizeof n);
+    mps_model_info_init(&m, sizeof m);
+    printf("Settings that a preset changes:\n\n| preset | setting | default | in the preset |\n|---|---|---|---|\n");
+    for (int32_t k = 0; mps_preset_info_get(sim, k, &n) == MPS_OK; k++) {
+        if (mps_sim_use_preset(sim, n.name) != MPS_OK) continue;
+        for (int32_t i = 0; mps_model_info_get(sim, i, &m) == MPS_OK; i++)
+            if (m.active) print_changes(sim, n.name, m.name);
+    }
+    printf("\n");
+    mps_sim_use_preset(sim, "imps");
+}
+
 typedef mps_status (*name_fn)(const mps_sim *sim, int32_t index, mps_name_info *info);
 
 static void print_names(const mps_sim *sim, const char *title, name_fn get)
@@ -104,6 +136,7 @@ int listing_print(void)
            "W22: Wen, Zhao & Wan 2022; Z14: Zhang, Wan & Hino 2014. dp: particle spacing. n: number density, n0: that of\n"
            "the full lattice. U_g = sqrt(g dp), tau_g = sqrt(dp/g). M: moment matrix. A flag is 0 (off) or 1 (on).\n\n");
     print_names(sim, "Presets", mps_preset_info_get);
+    print_preset_settings(sim);
     print_models(sim);
     print_channels(sim);
     mps_sim_use_preset(sim, "mmps"); /* brings all channels */
@@ -111,6 +144,8 @@ int listing_print(void)
     printf("\n");
     print_order(sim, "imps");
     print_order(sim, "mmps");
+    print_order(sim, "imps.paper");
+    print_order(sim, "mmps.paper");
     mps_sim_use_preset(sim, "imps");
     print_names(sim, "Pressure solvers", mps_solver_info_get);
     print_names(sim, "Preconditioners", mps_preconditioner_info_get);
