@@ -176,7 +176,7 @@ def checks_list(checks):
     lines = []
     for number, check in enumerate(checks, 1):
         verdict, _, because = check.verdict().partition(", because ")
-        lines.append(f"{number}. **{verdict.capitalize()}**: {check.says}.\n   Computed: {check.found or "-"}." + (f"\n   Reason: {because}." if because else ""))
+        lines.append(f"{number}. **{verdict.capitalize()}**: {check.says}.\n   Computed: {check.found or '-'}." + (f"\n   Reason: {because}." if because else ""))
     return "\n".join(lines)
 
 
