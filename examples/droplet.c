@@ -89,7 +89,7 @@ int main(int argc, char **argv)
     run r;
     int32_t mode = REST;
     cli_defaults(&o, "droplet", "drop of water in air without gravity: pressure jump sigma/R, or oscillation");
-    cli_own(&o, (cli_option){"--mode", "rest|oscillation", "what the drop does", TYPE_CHOICE, &mode, 0, 0, false});
+    cli_own(&o, (cli_option){"--mode", "rest|oscillation", "state of the drop at the start", TYPE_CHOICE, &mode, 0, 0, false});
     o.model = "mmps";
     o.need = "tension.csf";
     o.dp = 4e-4;

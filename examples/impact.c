@@ -21,7 +21,7 @@ int main(int argc, char **argv)
     cli_options o;
     int32_t number = 0;
     cli_defaults(&o, "impact", "liquid meets a wall: impulses, forces and pressures of exact solutions");
-    cli_own(&o, (cli_option){"--case", "flat|film|wedge|jet|column|floor|box", "what happens", TYPE_CHOICE, &number, 0, 0, false});
+    cli_own(&o, (cli_option){"--case", "flat|film|wedge|jet|column|floor|box", "kind of impact", TYPE_CHOICE, &number, 0, 0, false});
     cli_own(&o, (cli_option){"--rows", "N", "film: rows of particles", TYPE_INT, &c.layers, 1, 100, false});
     cli_own(&o, (cli_option){"--deadrise", "DEG", "wedge: angle between its side and the liquid's surface", TYPE_REAL, &c.deadrise, 10, 60,
                              false});

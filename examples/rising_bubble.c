@@ -68,7 +68,7 @@ int main(int argc, char **argv)
     raster g;
     int32_t number = 0;
     cli_defaults(&o, "rising_bubble", "rising bubble of Hysing et al. 2009, case 1 or 2");
-    cli_own(&o, (cli_option){"--case", "1|2", "liquids of the benchmark", TYPE_CHOICE, &number, 0, 0, false});
+    cli_own(&o, (cli_option){"--case", "1|2", "case of the benchmark", TYPE_CHOICE, &number, 0, 0, false});
     o.model = "mmps";
     o.need = "tension.csf";
     o.dp = 0.02;

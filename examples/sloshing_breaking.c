@@ -35,7 +35,7 @@ int main(int argc, char **argv)
     o.dp_max = 0.03;
     o.t_end = 4.5;
     o.has_dim = true;
-    cli_own(&o, (cli_option){"--width", "M", "of the tank in 3-D [m]", TYPE_REAL, &tank.size[2], 0.01, 2, false});
+    cli_own(&o, (cli_option){"--width", "M", "width of the tank in 3-D [m]", TYPE_REAL, &tank.size[2], 0.01, 2, false});
     tank.motion.omega = 2 * acos(-1.0) * FREQUENCY;
     return tank_main(&o, &tank, add_columns, argc, argv);
 }

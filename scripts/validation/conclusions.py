@@ -101,7 +101,7 @@ def static(book):
     paper, imps, mmps, literal = (book.get("static_two_fluid", model) for model in ("imps.paper", "imps", None, "mmps.paper"))
     if paper:
         yield Check(f"`imps.paper`: {throws}", how_it_ended(paper), not paper.complete and paper.t[-1] < 0.3)
-        yield Check(f"`imps.paper`: {when}", f"the light fluid flies at {paper.t[-1]:.2g} s and the run is over", bool(0.03 < paper.t[-1] < 0.3),
+        yield Check(f"`imps.paper`: {when}", f"the light fluid is thrown up at {paper.t[-1]:.2g} s and the run is over", bool(0.03 < paper.t[-1] < 0.3),
                     "it happens within a few steps, whatever their length")
     else:
         yield from missing(f"`imps.paper`: {throws}", f"`imps.paper`: {when}")
@@ -111,7 +111,7 @@ def static(book):
     if mmps:
         yield still_check(mmps, f"`mmps`: {holds}", "")
     if literal:
-        yield still_check(literal, f"`mmps.paper`: {holds}", "the stabilising term of (18) rearranges the lattice at rest, and nothing calms it")
+        yield still_check(literal, f"`mmps.paper`: {holds}", "the stabilising term of (18) rearranges the lattice at rest, and nothing damps the motion")
 
 
 # ---- Rayleigh-Taylor ---------------------------------------------------------------------------------------------------
@@ -347,7 +347,7 @@ def breaking_pressures(book):
             continue
         o, (imps, mmps) = found
         yield Check(f"{says} ({what}, dp {dp:g})", f"{imps / 1e3:.1f} / {mmps / 1e3:.1f} kPa = {imps / mmps:.2f}", bool(imps > CUSHIONED * mmps),
-                    "single particles decide about peaks, and the gas that is closed in deals blows of its own, of either sign")
+                    "single particles determine the peaks, and trapped gas causes additional pressure peaks of either sign")
 
 
 def breaking(book):

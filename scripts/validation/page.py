@@ -18,6 +18,11 @@ def table(head, rows):
     return "\n".join(lines + ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows])
 
 
+def items(rows):
+    """What is too long for a cell: a list of (name, text)."""
+    return "\n".join(f"* {name}: {text}" for name, text in rows)
+
+
 def cell(figure):
     if figure is None:
         return "-"
@@ -69,25 +74,28 @@ def command_lines(outcomes):
 
 
 def overview(results):
-    """How many figures of each case reached which limit at its finest spacing, and which did not."""
-    rows = []
+    """How many figures of each case reached which limit at its finest spacing; below the table those that did not."""
+    rows, missed = [], []
     for name, found in results.items():
         if found:
             outcome, figures = found[-1]
             count = {verdict: sum(f.verdict == verdict for f in figures) for verdict in (GOOD, PASS, MISSED)}
-            missed = "; ".join(f.name.split(" [")[0] for f in figures if f.verdict == MISSED)
-            rows.append([name, f"{outcome.dp:g}", *count.values(), missed])
-    return table(["case", "finest dp", *(GOOD, PASS, MISSED), "what is not reached"], rows)
+            rows.append([name, f"{outcome.dp:g}", *count.values()])
+            if count[MISSED]:
+                missed.append((name, "; ".join(f.name.split(" [")[0] for f in figures if f.verdict == MISSED)))
+    return table(["case", "finest dp", *(GOOD, PASS, MISSED)], rows) + "\n\nNot reached:\n\n" + items(missed)
 
 
 def others_table(outcomes):
-    rows = []
+    rows, messages = [], []
     for o in outcomes:
         s = o.summary
         message = re.sub(r"\s+", " ", s["error"] or "").replace("|", "/")
         name = f"`{o.run.driver}`" + (" (3-D)" if s.get("dim") == 3 else "")
-        rows.append([name, o.run.other_model, f"{o.dp:g}", f"{s['t_end']:.2f} s", "end" if o.complete else s["status"], message])
-    return table(["driver", "model", "dp", "ran to", "", "message"], rows) if rows else "Not run."
+        rows.append([name, o.run.other_model, f"{o.dp:g}", f"{s['t_end']:.2f} s", "end" if o.complete else s["status"]])
+        if message:
+            messages.append((f"{name} with {o.run.other_model}", message))
+    return table(["driver", "model", "dp", "ran to", "status"], rows) + "\n\nMessages:\n\n" + items(messages) if rows else "Not run."
 
 
 class Page:
@@ -130,7 +138,8 @@ class Page:
         folder = docs / "plots"
         folder.mkdir(parents=True, exist_ok=True)
         text = (HERE / "validation.md.in").read_text(encoding="utf-8")
-        text = text.replace("@trust@", table(trust.HEAD, trust.rows(self.results)))
+        rows = list(trust.rows(self.results))
+        text = text.replace("@first@", table(trust.FIRST, trust.first(rows))).replace("@trust@", table(trust.HEAD, rows))
         text = text.replace("@overview@", overview({name: found for name, found in self.results.items() if name not in self.paper}))
         text = text.replace("@others@", others_table([o for o in self.others if o.run.case not in self.paper]))
         text = re.sub(r"@case (\w+)@", lambda match: self.section(match.group(1), folder), text)

@@ -12,7 +12,7 @@ import measures as m
 import phases as ph
 import plots
 import theory
-from page import table
+from page import items, table
 from plots import Panel
 
 HERE = Path(__file__).resolve().parent
@@ -60,8 +60,8 @@ def failures_table(book):
             for o in book.all(cases[model], None if OWN[cases[model]] == model else model):
                 if not o.complete:
                     message = re.sub(r"\s+", " ", o.summary["error"] or "").replace("|", "/")
-                    rows.append([name, f"`{model}`", f"{o.dp:g}", message])
-    return table(["case", "model", "dp", "message"], rows) if rows else "None."
+                    rows.append((f"{name}, `{model}`, dp {o.dp:g}", message))
+    return items(rows) if rows else "None."
 
 
 # ---- pictures --------------------------------------------------------------------------------------------------------
@@ -171,8 +171,13 @@ TITLES = {"static": "Two fluids at rest", "rayleigh_taylor": "Rayleigh-Taylor in
           "breaking": "Breaking wave"}
 
 
-def checks_table(checks):
-    return table(["the paper says", "computed", "verdict"], [[check.says, check.found, check.verdict()] for check in checks])
+def checks_list(checks):
+    """Numbered: the verdict, what the paper says, what is computed, why it differs."""
+    lines = []
+    for number, check in enumerate(checks, 1):
+        verdict, _, because = check.verdict().partition(", because ")
+        lines.append(f"{number}. **{verdict.capitalize()}**: {check.says}.\n   Computed: {check.found or '-'}." + (f"\n   Reason: {because}." if because else ""))
+    return "\n".join(lines)
 
 
 def overview(found):
@@ -191,7 +196,7 @@ def write(page, docs):
     def section(match):
         name = match.group(1)
         images = [f"![{name.replace('_', ' ')}](plots/{file})" for file in SECTIONS[name][1](book, folder)]
-        return "\n\n".join([checks_table(found[name]), *images])
+        return "\n\n".join([checks_list(found[name]), *images])
 
     text = (HERE / "paper-cases.md.in").read_text(encoding="utf-8")
     here = {case for rows in CASES.values() for case in rows.values()} | page.paper

@@ -60,6 +60,6 @@ static const mps_verb verbs[] = {
 const mps_model_ops mps__body_free = {.struct_size = sizeof(mps_model_ops),
                                       .api = MPS_MODEL_API,
                                       .name = "body.free",
-                                      .help = "bodies of fluid that no wall holds fall with g",
+                                      .help = "Bodies of fluid that touch no wall fall with g",
                                       .verb_count = 1,
                                       .verbs = verbs};

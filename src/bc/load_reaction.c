@@ -111,6 +111,6 @@ const mps_model_ops mps__load_reaction = {
     .struct_size = sizeof(mps_model_ops),
     .api = MPS_MODEL_API,
     .name = "load.reaction",
-    .help = "pressure on walls as the reaction to what the fluid beside them received",
+    .help = "Pressure on walls as the reaction to what the fluid beside them received",
     .verb_count = 1,
     .verbs = verbs};

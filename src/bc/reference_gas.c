@@ -6,8 +6,9 @@
 
 enum { PHASE, LAYER, SETTINGS };
 static const mps_setting settings[SETTINGS] = {
-    [PHASE] = {"phase", "-", "number of the phase of the gas", MPS_TYPE_INTEGER, 1.0, 0.0, 15.0},
-    [LAYER] = {"layer", "dp", "thickness of the layer at p = 0", MPS_TYPE_REAL, 0.75, 0.1, 100.0}};
+    [PHASE] = {"phase", "-", "Number of the phase that is the gas", MPS_TYPE_INTEGER, 1.0, 0.0,
+               15.0},
+    [LAYER] = {"layer", "dp", "Thickness of the layer at p = 0", MPS_TYPE_REAL, 0.75, 0.1, 100.0}};
 
 enum { PRESSURE_CONDITION, PRESSURE_VALUE, USES };
 static const mps_use uses[USES] = {[PRESSURE_CONDITION] = {"pressure_condition", MPS_USE_WRITE},
@@ -64,7 +65,7 @@ const mps_model_ops mps__reference_gas = {
     .struct_size = sizeof(mps_model_ops),
     .api = MPS_MODEL_API,
     .name = "reference.gas",
-    .help = "level of the pressures in a closed tank: p = 0 in the uppermost gas, W22",
+    .help = "Level of the pressures in a closed tank: p = 0 in the uppermost gas, W22",
     .setting_count = SETTINGS,
     .settings = settings,
     .verb_count = 1,

@@ -10,8 +10,8 @@
 
 enum { LAYER, SETTINGS };
 static const mps_setting settings[SETTINGS] = {
-    [LAYER] = {"layer", "dp", "depth over which the weight of the walls falls by e", MPS_TYPE_REAL,
-               0.5, 0.05, 100.0}};
+    [LAYER] = {"layer", "dp", "Depth over which the weight of the walls falls to 1/e",
+               MPS_TYPE_REAL, 0.5, 0.05, 100.0}};
 
 enum { REGION, WETTED_SHARE, PRESSURE, USES };
 static const mps_use uses[USES] = {
@@ -83,7 +83,7 @@ const mps_model_ops mps__reference_lid = {
     .struct_size = sizeof(mps_model_ops),
     .api = MPS_MODEL_API,
     .name = "reference.lid",
-    .help = "level of the pressures in a full tank: mean 0 at the highest walls",
+    .help = "Level of the pressures in a full tank: mean 0 at the highest walls",
     .setting_count = SETTINGS,
     .settings = settings,
     .verb_count = 1,

@@ -16,7 +16,7 @@
 
 enum { HOLD, SETTINGS };
 static const mps_setting settings[SETTINGS] = {
-    [HOLD] = {"hold", "steps", "steps after a jump of the tank's velocity without separation",
+    [HOLD] = {"hold", "steps", "Steps without separation after a jump of the tank's velocity",
               MPS_TYPE_INTEGER, 5.0, 0.0, 1000.0}};
 
 enum { DENSITY, TANK_ACCELERATION, REGION, PRESSURE_CONDITION, PRESSURE_VALUE, USES };
@@ -84,7 +84,7 @@ const mps_model_ops mps__separation_void = {
     .struct_size = sizeof(mps_model_ops),
     .api = MPS_MODEL_API,
     .name = "separation.void",
-    .help = "liquid leaves walls that would pull where void is beside them",
+    .help = "Liquid leaves a wall that would have to pull, if void is beside it",
     .setting_count = SETTINGS,
     .settings = settings,
     .verb_count = 1,

@@ -9,7 +9,7 @@
 
 enum { SPRAY, SETTINGS };
 static const mps_setting settings[SETTINGS] = {
-    [SPRAY] = {"spray", "n0", "spray if the kernel sum over fluid of its density is below",
+    [SPRAY] = {"spray", "n0", "Spray: kernel sum over fluid of its own density below this",
                MPS_TYPE_REAL, 0.25, 0.0, 1.0}};
 
 enum { DENSITY, REGION, USES };
@@ -68,7 +68,7 @@ const mps_model_ops mps__surface_detached = {
     .struct_size = sizeof(mps_model_ops),
     .api = MPS_MODEL_API,
     .name = "surface.detached",
-    .help = "spray of the heavier phases in a tank without a free surface",
+    .help = "Spray of the denser phases in a tank without a free surface",
     .setting_count = SETTINGS,
     .settings = settings,
     .verb_count = 1,

@@ -5,8 +5,8 @@
 
 enum { BETA, SETTINGS };
 static const mps_setting settings[SETTINGS] = {
-    [BETA] = {"beta", "n0", "on the surface if the number density is below", MPS_TYPE_REAL, 0.97,
-              0.5, 1.0}};
+    [BETA] = {"beta", "n0", "On the surface: number density below this", MPS_TYPE_REAL, 0.97, 0.5,
+              1.0}};
 
 enum { NUMBER_DENSITY, REGION, USES };
 static const mps_use uses[USES] = {
@@ -39,7 +39,7 @@ const mps_model_ops mps__surface_original = {
     .struct_size = sizeof(mps_model_ops),
     .api = MPS_MODEL_API,
     .name = "surface.original",
-    .help = "free surface by number density alone, Z14 (15)",
+    .help = "Free surface by number density alone, Z14 (15)",
     .setting_count = SETTINGS,
     .settings = settings,
     .verb_count = 1,

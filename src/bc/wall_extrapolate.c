@@ -93,6 +93,6 @@ const mps_model_ops mps__wall_extrapolate = {
     .struct_size = sizeof(mps_model_ops),
     .api = MPS_MODEL_API,
     .name = "wall.extrapolate",
-    .help = "walls of the papers: dummies get the mean pressure about them",
+    .help = "Walls of the papers: dummies take the mean pressure of their neighbours",
     .verb_count = 2,
     .verbs = verbs};

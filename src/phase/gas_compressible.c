@@ -20,7 +20,7 @@ static const mps_setting settings[SETTINGS] = {
     [PHASE] = {"phase", "-", "Number of the phase that is a gas", MPS_TYPE_INTEGER, 1.0, 0.0,
                MPS__PHASE_LIMIT - 1},
     [SOUND] = {"sound", "m/s", "Speed of sound", MPS_TYPE_REAL, 340.0, 1.0, 1e4},
-    [PRINTED] = {"printed", "-", "1: W22 (26) to the letter, which loses the old pressure",
+    [PRINTED] = {"printed", "-", "1: W22 (26) as published, which loses the old pressure",
                  MPS_TYPE_FLAG, 0.0, 0.0, 1.0},
     [CONSERVE] = {"conserve", "-", "1: the gas in a closed tank keeps its volume", MPS_TYPE_FLAG,
                   1.0, 0.0, 1.0}};

@@ -14,7 +14,8 @@ static const mps_setting settings[SETTINGS] = {
     [PHASE] = {"phase", "-", "Number of the phase that is a gas", MPS_TYPE_INTEGER, 1.0, 0.0,
                MPS__PHASE_LIMIT - 1},
     [AMBIENT] = {"ambient", "Pa", "Pressure of the ambient air", MPS_TYPE_REAL, 101325.0, 1.0, 1e9},
-    [EXPONENT] = {"exponent", "-", "1.4: air; 1: isothermal", MPS_TYPE_REAL, 1.4, 1.0, 10.0},
+    [EXPONENT] = {"exponent", "-", "Exponent of the gas law; 1.4: air, 1: isothermal",
+                  MPS_TYPE_REAL, 1.4, 1.0, 10.0},
     [CONSERVE] = {"conserve", "-", "1: the gas in a closed tank keeps its volume", MPS_TYPE_FLAG,
                   1.0, 0.0, 1.0}};
 

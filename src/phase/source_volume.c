@@ -47,18 +47,18 @@ static const mps_setting settings[SETTINGS] = {
               1.0},
     [FIRM] = {"firm", "-", "Volume deviation beyond which the relaxation time falls to tau_g",
               MPS_TYPE_REAL, 0.03, 1e-3, 1.0},
-    [RAPID] = {"rapid", "-", "Rate of recovery beyond torn, over U/dp of the denser fluid",
+    [RAPID] = {"rapid", "-", "Rate of recovery beyond torn, in U/dp of the denser fluid",
                MPS_TYPE_REAL, 0.0, 0.0, 3.0},
     [TORN] = {"torn", "-", "Volume deviation beyond which rapid acts", MPS_TYPE_REAL, 0.15, 1e-3,
               10.0},
     [FORWARD] = {"forward", "-", "Share of the strain that is corrected in full despite the gain",
                  MPS_TYPE_REAL, 0.0, 0.0, 1.0},
-    [PACE] = {"pace", "-", "1: the dense fluid's source is that of steps by its own speed; 0: not",
+    [PACE] = {"pace", "-", "1: scale the dense fluid's source by dt over the dt of its own speed",
               MPS_TYPE_REAL, 1.0, 0.0, 1.0},
-    [ASIDE] = {"aside", "-", "1: no slow relaxation where half a volume is solid; 0: no change",
+    [ASIDE] = {"aside", "-", "1: no slow relaxation where half of the volume about is solid",
                MPS_TYPE_REAL, 1.0, 0.0, 1.0},
-    [START] = {"start", "tau_g", "Time over which the relaxation grows at the start", MPS_TYPE_REAL,
-               5.0, 0.0, 1e6}};
+    [START] = {"start", "tau_g", "Time over which the relaxation sets in after the start",
+               MPS_TYPE_REAL, 5.0, 0.0, 1e6}};
 
 enum {
     VELOCITY,

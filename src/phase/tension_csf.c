@@ -13,8 +13,8 @@ static const mps_setting settings[SETTINGS] = {
                MPS_TYPE_REAL, 7.27e-2, 0.0, 100.0},
     [RADIUS] = {"radius", "dp", "Radius r_s of the curvature: larger is smoother", MPS_TYPE_REAL,
                 8.1, 2.1, 20.0},
-    [THRESHOLD] = {"threshold", "1/dp", "Smallest |grad f| of an interface", MPS_TYPE_REAL, 0.02,
-                   1e-6, 1.0}};
+    [THRESHOLD] = {"threshold", "1/dp", "Smallest magnitude of grad f at an interface",
+                   MPS_TYPE_REAL, 0.02, 1e-6, 1.0}};
 
 enum { DENSITY, ACCELERATION, USES };
 static const mps_use uses[USES] = {

@@ -17,13 +17,13 @@ static const mps_setting settings[SETTINGS] = {
                MPS_TYPE_REAL, 7.27e-2, 0.0, 100.0},
     [RADIUS] = {"radius", "dp", "Radius r_s of the curvature: larger is smoother", MPS_TYPE_REAL,
                 5.1, 2.1, 20.0},
-    [THRESHOLD] = {"threshold", "1/dp", "Smallest |grad f| of an interface", MPS_TYPE_REAL, 0.02,
-                   1e-6, 1.0}};
+    [THRESHOLD] = {"threshold", "1/dp", "Smallest magnitude of grad f at an interface",
+                   MPS_TYPE_REAL, 0.02, 1e-6, 1.0}};
 
 static const mps_channel channels[] = {
     {.name = "pressure_jump",
      .unit = "Pa",
-     .help = "sigma kappa: pressure that the own phase has more than the other at an interface",
+     .help = "Pressure jump sigma kappa at an interface; > 0: higher in the own phase",
      .components = 1,
      .type = MPS_TYPE_REAL,
      .life = MPS_LIFE_STEP,
