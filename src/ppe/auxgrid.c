@@ -129,7 +129,6 @@ const mps_preconditioner_ops mps__preconditioner_auxgrid = {
     .struct_size = sizeof(mps_preconditioner_ops),
     .api = MPS_PPE_API,
     .name = "auxgrid",
-    .help = "Multigrid on an auxiliary grid of cells; iterations hardly grow with the size",
     .symmetric = 1,
     .create = create,
     .setup = setup,

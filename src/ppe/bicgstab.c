@@ -28,7 +28,6 @@ const mps_solver_ops mps__solver_bicgstab = {
     .struct_size = sizeof(mps_solver_ops),
     .api = MPS_PPE_API,
     .name = "sundials.bicgstab",
-    .help = "Stabilised bi-conjugate gradients; for any matrix, linear rows",
     .preconditioner = "jacobi",
     .symmetric = 0,
     .create = create,

@@ -35,7 +35,6 @@ const mps_solver_ops mps__solver_gmres = {
     .struct_size = sizeof(mps_solver_ops),
     .api = MPS_PPE_API,
     .name = "sundials.gmres",
-    .help = "Generalised minimal residuals; for any matrix, linear rows",
     .preconditioner = "jacobi",
     .symmetric = 0,
     .create = create,

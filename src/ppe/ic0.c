@@ -195,7 +195,6 @@ const mps_preconditioner_ops mps__preconditioner_ic0 = {
     .struct_size = sizeof(mps_preconditioner_ops),
     .api = MPS_PPE_API,
     .name = "ic0",
-    .help = "Incomplete Cholesky factors without fill-in",
     .symmetric = 1,
     .create = create,
     .setup = setup,

@@ -79,7 +79,6 @@ const mps_preconditioner_ops mps__preconditioner_jacobi = {
     .struct_size = sizeof(mps_preconditioner_ops),
     .api = MPS_PPE_API,
     .name = "jacobi",
-    .help = "Division by the diagonal",
     .symmetric = 1,
     .create = create,
     .setup = setup,

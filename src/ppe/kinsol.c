@@ -304,7 +304,6 @@ const mps_solver_ops mps__solver_kinsol = {
     .struct_size = sizeof(mps_solver_ops),
     .api = MPS_PPE_API,
     .name = "sundials.kinsol",
-    .help = "Newton's method about conjugate gradients; needed by gas.isentropic",
     .preconditioner = "auxgrid",
     .symmetric = 1,
     .create = create,

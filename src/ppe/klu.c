@@ -187,7 +187,6 @@ const mps_solver_ops mps__solver_klu = {
     .struct_size = sizeof(mps_solver_ops),
     .api = MPS_PPE_API,
     .name = "sundials.klu",
-    .help = "Direct solution by sparse LU factors; for small systems and checks",
     .preconditioner = NULL,
     .symmetric = 0,
     .create = create,

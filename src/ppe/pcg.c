@@ -27,7 +27,6 @@ const mps_solver_ops mps__solver_pcg = {
     .struct_size = sizeof(mps_solver_ops),
     .api = MPS_PPE_API,
     .name = "sundials.pcg",
-    .help = "Conjugate gradients; for symmetric matrices, linear rows",
     .preconditioner = "auxgrid",
     .symmetric = 1,
     .create = create,
