@@ -83,7 +83,10 @@ enum {
     /** Reads and writes its own row. */
     MPS_USE_CHANGE = 5,
     /** The channel may be missing: no active model brings it. Its array is NULL then. */
-    MPS_USE_OPTIONAL = 8
+    MPS_USE_OPTIONAL = 8,
+    /** Reads values of the neighbours of dummies too. Implies MPS_USE_NEIGHBOURS. Without an active
+     *  model that does, dummies have no rows in mps_stage.near and .far. */
+    MPS_USE_DUMMIES = 16
 };
 
 /** A channel that a verb uses. Its array is s->data[k], k the place in mps_verb.uses. */
@@ -229,7 +232,10 @@ typedef struct mps_stage {
     const double *area;
     /** [n] nearest wall particle of a dummy; -1: none near */
     const int32_t *wall_of;
-    /** Pairs within re_near. Rows of solids without fluid within the radii may be empty. */
+    /** Pairs within re_near. Rows of solids without fluid within the radii may be empty, and those
+     *  of dummies are, unless an active model has MPS_USE_DUMMIES. Dummies are in the rows of
+     *  others. A particle without a row keeps its "number_density"; other sums are those of no
+     *  pairs. */
     const mps_stencil *near;
     /** Pairs within re_far, likewise. Row i of one need not begin where row i of the other does. */
     const mps_stencil *far;
