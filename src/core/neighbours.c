@@ -2,10 +2,11 @@
 /* Search of pairs: cells as sorted 64-bit keys (x fastest), candidates with a skin, all in one pass. */
 #include "neighbours_rows.h"
 #include <math.h>
+#include <stdatomic.h>
 #include <string.h>
 
-/* Places looked at between two copies of what was found. */
-enum { MPS__CHUNK = 256 };
+/* Places looked at between two copies of what was found; entries of rows that a thread collects. */
+enum { MPS__CHUNK = 256, MPS__SHELF = 4096 };
 
 /* A list and positions that are not, or not yet, its own. */
 typedef struct cloud {
@@ -84,44 +85,6 @@ mps_status mps__neighbours_fit(mps_neighbours *l, void **block, int64_t *capacit
     if (!*block) return MPS_E_NOMEM;
     *capacity = count + count / 32;
     return MPS_OK;
-}
-
-/* Room in col for the rows of each part: what they took last, and a share of what is left. As much again stays for parts that outgrow
- * theirs. */
-static mps_status lay_out(mps_neighbours *l)
-{
-    int64_t total = 0, at = 0;
-    for (int p = 0; p < MPS__PARTS; p++) total += l->span[p].used;
-    MPS__TRY(mps__neighbours_fit(l, (void **)&l->col, &l->pair_capacity, total + total / 64, sizeof *l->col));
-    const int64_t more = (l->pair_capacity - total) / (2 * MPS__PARTS);
-    for (int p = 0; p < MPS__PARTS; p++) {
-        mps__span *s = &l->span[p];
-        s->begin = at;
-        s->room = s->used + more;
-        at += s->room;
-    }
-    l->laid = at;
-    return MPS_OK;
-}
-
-/* Whether some part found more than it had room for. */
-static bool outgrown(const mps_neighbours *l)
-{
-    bool any = false;
-    for (int p = 0; p < MPS__PARTS; p++) any = any || l->span[p].used > l->span[p].room;
-    return any;
-}
-
-/* Parts that outgrew their room get another behind all. False if there is not enough. */
-static bool move_out(mps_neighbours *l)
-{
-    for (int p = 0; p < MPS__PARTS; p++) {
-        mps__span *s = &l->span[p];
-        if (s->used <= s->room) continue;
-        s->begin = l->laid;
-        l->laid += s->used;
-    }
-    return l->laid <= l->pair_capacity;
 }
 
 /* ---- places around a cell -------------------------------------------------------------------------------------- */
@@ -217,8 +180,9 @@ typedef struct searching {
     mps_neighbours *l;
     mps__rings rings;
     double reach2;
-    bool sorted; /* place a is particle a */
-    bool again;  /* only parts that have outgrown their room */
+    bool sorted;                  /* place a is particle a */
+    atomic_int_least64_t taken;   /* entries of col that rows have, or would have if it were longer */
+    int64_t longest[MPS__PARTS];  /* of the rows of each part that are too long for the stack; else 0 */
 } searching;
 
 /* What was found about a place. */
@@ -249,8 +213,8 @@ MPS__DIM_INLINE void find_row(const searching *s, int64_t a, int64_t range[9][2]
     f->count = n;
 }
 
-/* The same for rows of any length, which are not parted. They are stored if there is room; returns how many. */
-static int64_t long_row(const searching *s, int64_t a, int64_t range[9][2], int ranges, int64_t room, int32_t *row)
+/* The same for rows of any length, which are not parted. They are stored if `row` is not NULL; returns how many. */
+static int64_t long_row(const searching *s, int64_t a, int64_t range[9][2], int ranges, int32_t *row)
 {
     const mps_neighbours *l = s->l;
     int64_t n = 0;
@@ -262,10 +226,10 @@ static int64_t long_row(const searching *s, int64_t a, int64_t range[9][2], int 
             else
                 measure_places(l, a, b, b + 1, 3, &r2);
             if (r2 >= s->reach2) continue;
-            if (n < room) row[n] = l->order[b];
+            if (row) row[n] = l->order[b];
             n++;
         }
-    if (n <= room) mps__sort_row(row, n);
+    if (row) mps__sort_row(row, n);
     return n;
 }
 
@@ -276,52 +240,82 @@ static bool meets_fluid(const mps_neighbours *l, const finding *f)
     return any;
 }
 
-/* Row i from what was found, behind those that its part has. Without room it is only counted. */
-MPS__DIM_INLINE void keep_row(const searching *s, int64_t i, const finding *f, mps__span *p, const bool sorted)
+/* Rows of a thread on their way to col. Those of places from.. on have begins within it. */
+typedef struct shelf {
+    int64_t from, used;
+    int32_t entry[MPS__SHELF];
+} shelf;
+
+/* Whether `count` entries of col can be had, and where. All threads take theirs one behind the other. */
+static bool take(searching *s, int64_t count, int64_t *at)
 {
-    mps_neighbours *l = s->l;
-    const int64_t at = p->begin + p->used;
-    p->used += f->count;
-    if (p->used > p->room) return;
-    int32_t far[MPS__ROW], out[MPS__ROW];
-    l->begin[i] = at;
-    l->count[i] = (int32_t)f->count;
-    mps__part_row(l, i, &s->rings, f->j, f->r2, far, out);
-    if (sorted) return;
-    mps__sort_row(l->col + at, l->middle[i] - at);
-    mps__sort_row(l->col + l->middle[i], l->end[i] - l->middle[i]);
+    *at = atomic_fetch_add(&s->taken, count);
+    return *at + count <= s->l->pair_capacity;
 }
 
-/* A row without pairs. */
-static void empty_row(mps_neighbours *l, int64_t i)
-{
-    l->begin[i] = l->middle[i] = l->end[i] = 0;
-    l->count[i] = 0;
-}
-
-/* A row longer than the stack has room for. */
-static void keep_long_row(const searching *s, int64_t a, int64_t range[9][2], int ranges, mps__span *p)
+/* Rows of the places up to `to` move from the shelf to col. Without room they are only counted. */
+static void unload(searching *s, shelf *h, int64_t to)
 {
     mps_neighbours *l = s->l;
-    const int32_t i = l->order[a];
-    const int64_t at = p->begin + p->used, room = p->room > p->used ? p->room - p->used : 0;
-    const int64_t count = long_row(s, a, range, ranges, room, room > 0 ? l->col + at : NULL);
-    p->used += count;
-    p->longest = count > p->longest ? count : p->longest;
-    l->begin[i] = l->middle[i] = l->end[i] = at; /* not parted yet */
+    int64_t at;
+    if (h->used > 0 && take(s, h->used, &at)) {
+        memcpy(l->col + at, h->entry, (size_t)h->used * sizeof *l->col);
+        for (int64_t a = h->from; a < to; a++) {
+            const int32_t i = l->order[a];
+            l->begin[i] += at;
+            l->middle[i] += at;
+            if (l->end != l->middle) l->end[i] += at;
+        }
+    }
+    h->from = to;
+    h->used = 0;
+}
+
+static void set_row(mps_neighbours *l, int64_t i, int64_t begin, mps__parted row, int64_t count)
+{
+    l->begin[i] = begin;
+    l->middle[i] = begin + row.near;
+    l->end[i] = begin + row.near + row.far;
     l->count[i] = (int32_t)count;
 }
 
-/* All rows of the cell that starts at sorted place `first`. */
-MPS__DIM_INLINE void search_cell(const searching *s, int64_t first, mps__span *p, const int dim, const bool sorted)
+/* Row of place a from what was found. */
+MPS__DIM_INLINE void keep_row(searching *s, int64_t a, const finding *f, shelf *h, const bool sorted)
+{
+    int32_t far[MPS__ROW], out[MPS__ROW];
+    if (h->used + f->count > MPS__SHELF) unload(s, h, a);
+    int32_t *row = h->entry + h->used;
+    const mps__parted parted = mps__part_row(&s->rings, f->j, f->r2, f->count, row, far, out);
+    set_row(s->l, sorted ? a : s->l->order[a], h->used, parted, f->count);
+    h->used += f->count;
+    if (sorted) return;
+    mps__sort_row(row, parted.near);
+    mps__sort_row(row + parted.near, parted.far);
+}
+
+/* A row longer than the stack has room for: not parted yet. */
+static void keep_long_row(searching *s, int64_t a, int64_t range[9][2], int ranges, shelf *h, int64_t *longest)
 {
     mps_neighbours *l = s->l;
-    int64_t range[9][2];
+    int64_t at;
+    const int64_t count = long_row(s, a, range, ranges, NULL);
+    unload(s, h, a);
+    if (take(s, count, &at)) long_row(s, a, range, ranges, l->col + at);
+    set_row(l, l->order[a], at, (mps__parted){0, 0}, count);
+    *longest = count > *longest ? count : *longest;
+    h->from = a + 1;
+}
+
+/* All rows of the cell that starts at sorted place `first`. Returns the end of its places. */
+MPS__DIM_INLINE int64_t search_cell(searching *s, int64_t first, shelf *h, int64_t *longest, const int dim, const bool sorted)
+{
+    mps_neighbours *l = s->l;
+    int64_t range[9][2], a = first;
     const int ranges = ranges_around(l, l->key[first], range);
     const bool fluid = !l->kind || any_within(fluid_until(l), range, ranges);
     const bool dummies = l->kind && any_within(dummies_until(l), range, ranges);
     finding f;
-    for (int64_t a = first; a < l->n && l->key[a] == l->key[first]; a++) {
+    for (; a < l->n && l->key[a] == l->key[first]; a++) {
         const int32_t i = sorted ? (int32_t)a : l->order[a];
         const bool solid = l->kind && l->kind[i] != MPS_FLUID;
         l->rim[i] = dummies && !solid;
@@ -329,50 +323,50 @@ MPS__DIM_INLINE void search_cell(const searching *s, int64_t first, mps__span *p
         if (!l->idle[i]) find_row(s, a, range, ranges, &f, dim, sorted);
         if (!l->idle[i] && solid) l->idle[i] = !meets_fluid(l, &f);
         if (l->idle[i])
-            empty_row(l, i);
+            set_row(l, i, h->used, (mps__parted){0, 0}, 0);
         else if (f.count > MPS__ROW)
-            keep_long_row(s, a, range, ranges, p);
+            keep_long_row(s, a, range, ranges, h, longest);
         else
-            keep_row(s, i, &f, p, sorted);
+            keep_row(s, a, &f, h, sorted);
     }
+    return a;
 }
 
 /* The cells that begin in one of MPS__PARTS parts of the sorted places. */
 static void search_part(void *argument, int32_t part)
 {
-    const searching *s = argument;
-    mps_neighbours *l = s->l;
-    mps__span *p = &l->span[part];
-    if (s->again && p->used <= p->room) return;
-    if (s->again) p->room = p->used;
-    p->used = p->longest = 0;
-    for (int64_t a = l->n * part / MPS__PARTS; a < l->n * (part + 1) / MPS__PARTS; a++) {
-        if (a > 0 && l->key[a] == l->key[a - 1]) continue;
+    searching *s = argument;
+    const mps_neighbours *l = s->l;
+    const int64_t end = l->n * (part + 1) / MPS__PARTS;
+    int64_t a = l->n * part / MPS__PARTS, longest = 0;
+    while (a > 0 && a < end && l->key[a] == l->key[a - 1]) a++;
+    shelf h;
+    h.from = a;
+    h.used = 0;
+    while (a < end) {
         if (l->dim == 2)
-            s->sorted ? search_cell(s, a, p, 2, true) : search_cell(s, a, p, 2, false);
+            a = s->sorted ? search_cell(s, a, &h, &longest, 2, true) : search_cell(s, a, &h, &longest, 2, false);
         else
-            s->sorted ? search_cell(s, a, p, 3, true) : search_cell(s, a, p, 3, false);
+            a = s->sorted ? search_cell(s, a, &h, &longest, 3, true) : search_cell(s, a, &h, &longest, 3, false);
     }
+    unload(s, &h, a);
+    s->longest[part] = longest;
 }
 
-/* All rows. A part of the particles finds about as many pairs as last time; where it finds more than it has room for, it counts them, and
- * the second pass stores them. */
+/* All rows. There are about as many pairs as last time; where there is no room for them all, this pass counts them, and a second one stores
+ * them. */
 static mps_status search_rows(mps_neighbours *l, searching *s)
 {
-    MPS__TRY(lay_out(l));
-    mps_parallel_run(l->parallel, MPS__PARTS, search_part, s);
-    if (!outgrown(l)) return MPS_OK;
-    s->again = move_out(l);
-    if (!s->again) MPS__TRY(lay_out(l));
-    mps_parallel_run(l->parallel, MPS__PARTS, search_part, s);
-    return MPS_OK;
-}
-
-/* Forget how many pairs there were if this search is of another kind than the last. */
-static void expect(mps_neighbours *l, int64_t n, double re_far)
-{
-    const bool alike = n == l->n && re_far == l->re_far && l->partial == (l->kind != NULL) && l->dummy_rows == l->had_dummy_rows;
-    for (int p = 0; p < MPS__PARTS && !alike; p++) l->span[p].used = 0;
+    int64_t expected = l->pairs + l->pairs / 64;
+    do {
+        MPS__TRY(mps__neighbours_fit(l, (void **)&l->col, &l->pair_capacity, expected, sizeof *l->col));
+        atomic_store(&s->taken, 0);
+        mps_parallel_run(l->parallel, MPS__PARTS, search_part, s);
+        l->pairs = expected = atomic_load(&s->taken);
+    } while (expected > l->pair_capacity);
+    l->longest = 0;
+    for (int p = 0; p < MPS__PARTS; p++) l->longest = s->longest[p] > l->longest ? s->longest[p] : l->longest;
+    return l->longest > 0 ? mps__neighbours_part_long(l) : MPS_OK;
 }
 
 mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x, double re_near, double re_far)
@@ -382,7 +376,8 @@ mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x,
     l->sorted = l->valid = false;
     MPS__TRY(reserve(l, n));
     if (re_near < re_far) MPS__TRY(mps__neighbours_fit(l, (void **)&l->far_end, &l->far_capacity, n, sizeof *l->far_end));
-    expect(l, n, re_far);
+    const bool alike = n == l->n && re_far == l->re_far && l->partial == (l->kind != NULL) && l->dummy_rows == l->had_dummy_rows;
+    if (!alike) l->pairs = 0; /* nobody knows how many there are */
     l->end = re_near < re_far ? l->far_end : l->middle;
     l->partial = l->kind != NULL;
     l->had_dummy_rows = l->dummy_rows;
@@ -394,7 +389,6 @@ mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x,
     if (l->kind) count_kinds(l);
     searching s = {.l = l, .rings = mps__rings_of(l), .reach2 = (re_far + l->skin) * (re_far + l->skin), .sorted = sorted};
     MPS__TRY(search_rows(l, &s));
-    MPS__TRY(mps__neighbours_part_long(l));
     memcpy(l->searched, x, (size_t)(n * l->dim) * sizeof *x);
     l->kind = NULL;
     l->valid = true;

@@ -10,12 +10,6 @@
 /* Parts of the particles whose rows are made by one thread each. */
 enum { MPS__PARTS = 64 };
 
-/* Where in `col` the rows of a part of the particles stand. */
-typedef struct mps__span {
-    int64_t begin, room, used; /* more used than room: the rest was only counted */
-    int64_t longest;           /* of its rows that are too long for the stack */
-} mps__span;
-
 /* Rows: near pairs in begin[i]..middle[i], the others up to end[i]; ascending columns in each part, so that sums
  * do not depend on how the list was found. Up to begin[i] + count[i] follow those that may come within reach before the next search. */
 struct mps_neighbours {
@@ -30,9 +24,8 @@ struct mps_neighbours {
     int64_t *begin, *middle, *end;     /* [n]; the last are the same where the radii are */
     int64_t *far_end;                  /* [n] where they are not */
     int32_t *count;                    /* [n] candidates of each row */
-    int32_t *col;                      /* rows, with gaps: pairs within re_far + skin at the last search */
-    mps__span span[MPS__PARTS];        /* of it */
-    int64_t laid;                      /* entries of it that belong to a part */
+    int32_t *col;                      /* [pairs] within re_far + skin at the last search; rows in any order */
+    int64_t pairs;                     /* entries of it at the last search */
     int64_t *near_begin;               /* [n+1] near rows once more, without gaps: what most loops of a step run along */
     int32_t *near_col;                 /* [near_begin[n]] */
     double *w_r2;                      /* [near_begin[n]] room for a weight beside each entry of near_col */

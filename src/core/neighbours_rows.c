@@ -60,9 +60,11 @@ MPS__DIM_INLINE void exact_row(mps_neighbours *l, int64_t i, const mps__rings *g
 {
     if (l->count[i] == 0 || row_stands(l, i, g, r->r2, dim)) return;
     int32_t *const row = l->col + l->begin[i];
-    mps__part_row(l, i, g, row, r->r2, r->far, r->out);
-    mps__sort_row(row, l->middle[i] - l->begin[i]);
-    mps__sort_row(l->col + l->middle[i], l->end[i] - l->middle[i]);
+    const mps__parted parted = mps__part_row(g, row, r->r2, l->count[i], row, r->far, r->out);
+    mps__sort_row(row, parted.near);
+    mps__sort_row(row + parted.near, parted.far);
+    l->middle[i] = l->begin[i] + parted.near;
+    l->end[i] = l->middle[i] + parted.far;
 }
 
 static void exact_part(void *argument, int32_t part)
@@ -72,7 +74,7 @@ static void exact_part(void *argument, int32_t part)
     double r2[MPS__ROW];
     int32_t far[MPS__ROW], out[MPS__ROW];
     room r = {r2, far, out};
-    if (l->longest > MPS__ROW) {
+    if (l->longest > 0) {
         r.r2 = l->scratch + 2 * l->longest * part;
         r.far = (int32_t *)(void *)(r.r2 + l->longest);
         r.out = r.far + l->longest;
@@ -87,10 +89,6 @@ static void exact_part(void *argument, int32_t part)
 
 mps_status mps__neighbours_part_long(mps_neighbours *l)
 {
-    l->longest = 0;
-    for (int p = 0; p < MPS__PARTS; p++)
-        if (l->span[p].longest > l->longest) l->longest = l->span[p].longest;
-    if (l->longest <= MPS__ROW) return MPS_OK;
     MPS__TRY(mps__neighbours_fit(l, (void **)&l->scratch, &l->scratch_capacity, MPS__PARTS * 2 * l->longest, sizeof *l->scratch));
     mps_parallel_run(l->parallel, MPS__PARTS, exact_part, l);
     return MPS_OK;

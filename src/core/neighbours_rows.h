@@ -22,18 +22,21 @@ mps__rings mps__rings_of(const mps_neighbours *l);
 /* Ascending columns. */
 void mps__sort_row(int32_t *row, int64_t n);
 
-/* Part the candidates `from` of row i, whose squared distances are r2, into near pairs, the others within reach, and what is out of it,
- * the last two by way of `far` and `out`. `from` may be the row itself. Each candidate is written to all three and counted at one: no
- * branches. */
-MPS__DIM_INLINE void mps__part_row(mps_neighbours *l, int64_t i, const mps__rings *g, const int32_t *from, const double *r2, int32_t *far,
-                                   int32_t *out)
+/* Near pairs of a row, and the others within reach. */
+typedef struct mps__parted {
+    int64_t near, far;
+} mps__parted;
+
+/* Put candidates, whose squared distances are r2, into `row`: near pairs, then the others within reach, then what is out of it, the last two
+ * by way of `far` and `out`. `from` may be `row`. Each candidate is written to all three and counted at one: no branches. */
+MPS__DIM_INLINE mps__parted mps__part_row(const mps__rings *g, const int32_t *from, const double *r2, int64_t count, int32_t *row, int32_t *far,
+                                          int32_t *out)
 {
-    const int64_t count = l->count[i];
-    int32_t *const row = l->col + l->begin[i];
+    const double least = g->least, near2 = g->near2, far2 = g->far2;
     int64_t nears = 0, fars = 0, outs = 0;
     for (int64_t k = 0; k < count; k++) {
         const int32_t j = from[k];
-        const bool within = (r2[k] < g->far2) & (r2[k] >= g->least), close = within & (r2[k] < g->near2);
+        const bool within = (r2[k] < far2) & (r2[k] >= least), close = within & (r2[k] < near2);
         row[nears] = far[fars] = out[outs] = j;
         nears += close;
         fars += within & !close;
@@ -41,8 +44,7 @@ MPS__DIM_INLINE void mps__part_row(mps_neighbours *l, int64_t i, const mps__ring
     }
     memcpy(row + nears, far, (size_t)fars * sizeof *row);
     memcpy(row + nears + fars, out, (size_t)outs * sizeof *row);
-    l->middle[i] = l->begin[i] + nears;
-    l->end[i] = l->middle[i] + fars;
+    return (mps__parted){nears, fars};
 }
 
 /* Part rows that the search found too long for the stack. */
