@@ -354,7 +354,7 @@ enum {
     MPS_BODY_ANCHOR = 3
 };
 
-/** Find bodies, sets of rows linked by near pairs, that no anchor holds.
+/** Find bodies, sets of rows linked by near pairs, that no anchor holds. Dummies link no others.
  *  @param most  larger bodies are taken for held @param role  [n] MPS_BODY_...
  *  @param body  [n] out: 0.. for rows of bodies that are free, else -1
  *  @return 0, or non-zero after a failure (no memory; the error is set) */

@@ -40,7 +40,6 @@ bool mps__neighbours_fresh(const mps_neighbours *l, int64_t n, const double *x, 
     return worst < 0.25 * l->skin * l->skin;
 }
 
-
 /* ---- memory ---------------------------------------------------------------------------------------------------- */
 
 static mps_status reserve(mps_neighbours *l, int64_t n)
@@ -123,7 +122,6 @@ static int ranges_around(const mps_neighbours *l, uint64_t key, int64_t range[9]
     return count;
 }
 
-
 /* Positions of the sorted places, one axis after the other, so that loops over places run along memory. They borrow
  * l->searched, which takes its own values after the search. */
 static void gather_places(void *argument, int64_t begin, int64_t end)
@@ -180,9 +178,9 @@ typedef struct searching {
     mps_neighbours *l;
     mps__rings rings;
     double reach2;
-    bool sorted;                  /* place a is particle a */
-    atomic_int_least64_t taken;   /* entries of col that rows have, or would have if it were longer */
-    int64_t longest[MPS__PARTS];  /* of the rows of each part that are too long for the stack; else 0 */
+    bool sorted;                 /* place a is particle a */
+    atomic_int_least64_t taken;  /* entries of col that rows have, or would have if it were longer */
+    int64_t longest[MPS__PARTS]; /* of the rows of each part that are too long for the stack; else 0 */
 } searching;
 
 /* What was found about a place. */

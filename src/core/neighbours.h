@@ -37,12 +37,12 @@ struct mps_neighbours {
     bool sorted;                       /* the store was just sorted along the keys: the next search needs no order */
     int64_t longest;                   /* candidates of one row that is too long for the stack, at most; else 0 */
     double *scratch;                   /* room to work on such rows, for each part of the particles */
-    const int32_t *kind;         /* of the next search: NULL, or kinds of the particles, and solids without fluid about them get no pairs, */
-    bool dummy_rows;             /* nor do dummies, unless this is set */
-    bool partial;                /* the last search left such solids out: */
-    bool had_dummy_rows;         /* but not dummies */
-    uint8_t *idle;               /* [n] 1 for each of them */
-    uint8_t *rim;                /* [n] 1: fluid with dummies not far away; 0 where kinds were not given */
+    const int32_t *kind; /* of the next search: NULL, or kinds of the particles, and solids without fluid about them get no pairs, */
+    bool dummy_rows;     /* nor do dummies, unless this is set */
+    bool partial;        /* the last search left such solids out: */
+    bool had_dummy_rows; /* but not dummies */
+    uint8_t *idle;       /* [n] 1 for each of them */
+    uint8_t *rim;        /* [n] 1: fluid with dummies not far away; 0 where kinds were not given */
     const mps__screens *screens; /* NULL, or what hides particles from each other; its seers are up to date */
 };
 

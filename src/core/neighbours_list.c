@@ -14,8 +14,8 @@ mps_status mps__neighbours_init(mps_neighbours *l, mps__context *context, int32_
 
 void mps__neighbours_free(mps_neighbours *l)
 {
-    void *all[] = {l->near_begin, l->near_col, l->begin, l->middle, l->far_end, l->count,
-                   l->col, l->w_r2, l->searched, l->idle, l->rim, l->scratch};
+    void *all[] = {l->near_begin, l->near_col, l->begin,    l->middle, l->far_end, l->count,
+                   l->col,        l->w_r2,     l->searched, l->idle,   l->rim,     l->scratch};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) mps__free(l->context, all[k]);
     mps__scratch_free(l->context, &l->own_scratch);
     if (l->parallel == &l->pool.parallel) mps__pool_free(&l->pool);

@@ -29,8 +29,8 @@ typedef struct mps__parted {
 
 /* Put candidates, whose squared distances are r2, into `row`: near pairs, then the others within reach, then what is out of it, the last two
  * by way of `far` and `out`. `from` may be `row`. Each candidate is written to all three and counted at one: no branches. */
-MPS__DIM_INLINE mps__parted mps__part_row(const mps__rings *g, const int32_t *from, const double *r2, int64_t count, int32_t *row, int32_t *far,
-                                          int32_t *out)
+MPS__DIM_INLINE mps__parted mps__part_row(const mps__rings *g, const int32_t *from, const double *r2, int64_t count, int32_t *row,
+                                          int32_t *far, int32_t *out)
 {
     const double least = g->least, near2 = g->near2, far2 = g->far2;
     int64_t nears = 0, fars = 0, outs = 0;
