@@ -93,7 +93,10 @@ enum {
     /** Reads and writes its own row. */
     MPS_USE_CHANGE = 5,
     /** The channel may be missing: no active model brings it. Its array is NULL then. */
-    MPS_USE_OPTIONAL = 8
+    MPS_USE_OPTIONAL = 8,
+    /** Reads values of the neighbours of dummies too. Implies MPS_USE_NEIGHBOURS. Without an active
+     *  model that does, dummies have no rows in mps_stage.near and .far. */
+    MPS_USE_DUMMIES = 16
 };
 
 /** A channel that a verb uses. Its array is s->data[k], k the place in mps_verb.uses. */
@@ -242,7 +245,10 @@ typedef struct mps_stage {
     const double *area;
     /** [n] nearest wall particle of a dummy; -1: none near */
     const int32_t *wall_of;
-    /** Pairs within re_near. Rows of solids without fluid within the radii may be empty. */
+    /** Pairs within re_near. Rows of solids without fluid within the radii may be empty, and those
+     *  of dummies are, unless an active model has MPS_USE_DUMMIES. Dummies are in the rows of
+     *  others. A particle without a row keeps its "number_density"; other sums are those of no
+     *  pairs. */
     const mps_stencil *near;
     /** Pairs within re_far, likewise. Row i of one need not begin where row i of the other does. */
     const mps_stencil *far;
@@ -363,7 +369,7 @@ enum {
     MPS_BODY_ANCHOR = 3
 };
 
-/** Find bodies, sets of rows linked by near pairs, that no anchor holds.
+/** Find bodies, sets of rows linked by near pairs, that no anchor holds. Dummies link no others.
  *  @param most  larger bodies are taken for held @param role  [n] MPS_BODY_...
  *  @param body  [n] out: 0.. for rows of bodies that are free, else -1
  *  @return 0, or non-zero after a failure (no memory; the error is set) */

@@ -7,8 +7,8 @@
 
 enum { DENSITY, REGION, PRESSURE_DENSITY, DENSITY_USES };
 static const mps_use density_uses[DENSITY_USES] = {
-    [DENSITY] = {"density", MPS_USE_NEIGHBOURS},
-    [REGION] = {"region", MPS_USE_NEIGHBOURS},
+    [DENSITY] = {"density", MPS_USE_NEIGHBOURS | MPS_USE_DUMMIES},
+    [REGION] = {"region", MPS_USE_NEIGHBOURS | MPS_USE_DUMMIES},
     [PRESSURE_DENSITY] = {"pressure_density", MPS_USE_WRITE}};
 
 typedef struct densities {
@@ -53,7 +53,7 @@ static int take_densities(mps_stage *s)
 
 enum { PRESSURE, PRESSURE_USES };
 static const mps_use pressure_uses[PRESSURE_USES] = {
-    [PRESSURE] = {"pressure", MPS_USE_NEIGHBOURS | MPS_USE_CHANGE}};
+    [PRESSURE] = {"pressure", MPS_USE_NEIGHBOURS | MPS_USE_DUMMIES | MPS_USE_CHANGE}};
 
 typedef struct pressures {
     double *pressure; /* written of dummies, read of the others */

@@ -221,6 +221,95 @@ static void rebuild(void **state)
     mps_neighbours_destroy(list);
 }
 
+/* As many particles as before, but more pairs than there was room for, or fewer. */
+static void pairs_come_and_go(void **state)
+{
+    (void)state;
+    const double scale[] = {1, 0.97, 0.9, 0.6, 0.61, 1.3, 1.2};
+    mps_neighbours *list = new_list(3);
+    for (size_t k = 0; k < sizeof scale / sizeof *scale; k++) {
+        cloud c = cloud_lattice(3, 9, 9, 9, 0.3, 55);
+        const mps_parallel threads = {.struct_size = sizeof threads, .threads = 1 + (int32_t)k % 3};
+        for (int64_t i = 0; i < 3 * c.n; i++) c.x[i] *= scale[k];
+        assert_int_equal(mps_neighbours_set_parallel(list, &threads), MPS_OK);
+        assert_int_equal(mps_neighbours_build(list, c.n, c.x, near_radius, far_radius), MPS_OK);
+        check_list(&c, list);
+        cloud_free(&c);
+    }
+    mps_neighbours_destroy(list);
+}
+
+/* Rows of more than a thousand neighbours beside short ones. */
+static void long_rows(void **state)
+{
+    (void)state;
+    cloud c = cloud_lattice(3, 18, 11, 11, 0.3, 56);
+    for (int64_t i = 0; i < c.n; i++)
+        for (int d = 0; d < 3 && c.x[3 * i] < 12 * CLOUD_DP; d++) c.x[3 * i + d] *= 0.3;
+    mps_neighbours *list = new_list(3);
+    mps_kernel kernel;
+    mps_stencil t[2];
+    int64_t longest = 0, shortest = c.n;
+    assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
+    assert_int_equal(mps_neighbours_build(list, c.n, c.x, near_radius, far_radius), MPS_OK);
+    for (int which = 0; which < 2; which++) assert_int_equal(mps_neighbours_stencil(list, which, &kernel, &t[which]), MPS_OK);
+    for (int64_t i = 0; i < c.n; i += 13) {
+        const int64_t length = t[1].end[i] - t[1].begin[i];
+        check_row(&c, &t[0], i, near_radius);
+        check_row(&c, &t[1], i, far_radius);
+        longest = length > longest ? length : longest;
+        shortest = length < shortest ? length : shortest;
+        for (int64_t k = t[1].begin[i] + 1; k < t[1].end[i]; k++) assert_true(k == t[0].end[i] || t[1].col[k - 1] < t[1].col[k]);
+    }
+    assert_true(longest > 1024 && shortest < 200);
+    mps_neighbours_destroy(list);
+    cloud_free(&c);
+}
+
+/* ---- kinds ------------------------------------------------------------------------------------------------------ */
+
+/* Fluid over a wall over dummies, row by row of a lattice. */
+static int32_t kind_at(double y)
+{
+    return y > 6.5 * CLOUD_DP ? MPS_FLUID : y > 5.5 * CLOUD_DP ? MPS_WALL : MPS_DUMMY;
+}
+
+/* Without kinds all rows; with them none of solids that see no fluid, and of dummies only on demand. */
+static void rows_of_kinds(void **state)
+{
+    (void)state;
+    mps__context context = {.allocator = mps__allocator_default()};
+    mps_neighbours l;
+    cloud c = cloud_lattice(2, 20, 14, 1, 0, 64);
+    int32_t *kind = calloc((size_t)c.n, sizeof *kind);
+    mps_stencil t = {.x = c.x};
+    for (int64_t i = 0; i < c.n; i++) kind[i] = kind_at(c.x[2 * i + 1]);
+    assert_int_equal(mps__neighbours_init(&l, &context, 2, CLOUD_DP), MPS_OK);
+    for (int k = 0; k < 6; k++) {
+        const bool kinds = k % 3 > 0, dummy_rows = k % 3 == 2;
+        l.kind = kinds ? kind : NULL;
+        l.dummy_rows = dummy_rows;
+        assert_int_equal(mps__neighbours_search(&l, c.n, c.x, near_radius, far_radius), MPS_OK);
+        assert_true(l.partial == kinds);
+        t.begin = l.begin, t.end = l.end, t.col = l.col;
+        for (int64_t i = 0; i < c.n; i++) {
+            const double depth = 7 * CLOUD_DP - c.x[2 * i + 1], reach = far_radius + l.skin;
+            const bool empty = kinds && (kind[i] == MPS_DUMMY && (!dummy_rows || depth >= reach));
+            assert_int_equal(l.idle[i], empty);
+            if (empty)
+                assert_int_equal(l.count[i], 0);
+            else
+                check_row(&c, &t, i, far_radius);
+            if (kinds && kind[i] == MPS_FLUID && depth > 2 * CLOUD_DP - far_radius) assert_int_equal(l.rim[i], 1);
+            if (!kinds || kind[i] != MPS_FLUID) assert_int_equal(l.rim[i], 0);
+        }
+        assert_int_equal(l.rim[c.n - 1], 0); /* fluid far above the wall */
+    }
+    mps__neighbours_free(&l);
+    free(kind);
+    cloud_free(&c);
+}
+
 static void bad_arguments(void **state)
 {
     (void)state;
@@ -337,6 +426,9 @@ int main(void)
         cmocka_unit_test(crowd),
         cmocka_unit_test(symmetric_pairs),
         cmocka_unit_test(rebuild),
+        cmocka_unit_test(pairs_come_and_go),
+        cmocka_unit_test(long_rows),
+        cmocka_unit_test(rows_of_kinds),
         cmocka_unit_test(bad_arguments),
         cmocka_unit_test(skin_rows),
         cmocka_unit_test(skin_limit),

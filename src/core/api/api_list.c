@@ -114,7 +114,7 @@ static void tell_uses(const mps_verb *verb, char out[MPS__USES_SIZE])
     out[0] = 0;
     for (int32_t u = 0; u < verb->use_count; u++) {
         const int32_t a = verb->uses[u].access;
-        const char *read = a & MPS_USE_NEIGHBOURS ? "n" : a & MPS_USE_READ ? "r" : "";
+        const char *read = a & MPS_USE_DUMMIES ? "d" : a & MPS_USE_NEIGHBOURS ? "n" : a & MPS_USE_READ ? "r" : "";
         const int length = snprintf(out + used, MPS__USES_SIZE - used, "%s%s:%s%s%s", u ? " " : "", verb->uses[u].channel, read,
                                     a & MPS_USE_WRITE ? "w" : "", a & MPS_USE_OPTIONAL ? "?" : "");
         if (length < 0 || used + (size_t)length >= MPS__USES_SIZE) break;

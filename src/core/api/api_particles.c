@@ -59,8 +59,8 @@ static mps_status check_overlap(mps_sim *sim, const mps_particle_block *b)
         status = mps_neighbours_build(list, n, x, reach, reach);
     }
     if (status < 0) mps__fail(&sim->context, status, "%s", list ? list->context->error : "no memory to look for overlapping particles");
-    for (int64_t i = s->n; status == MPS_OK && i < n; i++)
-        for (int64_t k = list->begin[i]; k < list->begin[i + 1] && status == MPS_OK; k++) {
+    for (int64_t i = s->n; status == MPS_OK && i < n; i++) /* candidates: coincident particles are no pairs */
+        for (int64_t k = list->begin[i]; k < list->begin[i] + list->count[i] && status == MPS_OK; k++) {
             const int64_t j = list->col[k];
             const int32_t other = j < s->n ? s->kind[j] : b->kind;
             if ((b->kind != MPS_FLUID && other != MPS_FLUID) || (j < s->n && mps__is_shadow(s, j))) continue;

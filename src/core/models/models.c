@@ -67,7 +67,7 @@ static mps_status check_settings(mps__context *c, const mps_model_ops *ops)
 
 static mps_status check_verbs(mps__context *c, const mps_model_ops *ops)
 {
-    const int32_t known = MPS_USE_READ | MPS_USE_NEIGHBOURS | MPS_USE_WRITE | MPS_USE_OPTIONAL;
+    const int32_t known = MPS_USE_READ | MPS_USE_NEIGHBOURS | MPS_USE_WRITE | MPS_USE_OPTIONAL | MPS_USE_DUMMIES;
     for (int32_t v = 0; v < ops->verb_count; v++) {
         const mps_verb *verb = &ops->verbs[v];
         MPS__CHECK(c, verb->run, "model '%s': verb %d has no function", ops->name, (int)v);
@@ -78,7 +78,7 @@ static mps_status check_verbs(mps__context *c, const mps_model_ops *ops)
         for (int32_t u = 0; u < verb->use_count; u++)
             MPS__CHECK(c,
                        verb->uses[u].channel && verb->uses[u].channel[0] && !(verb->uses[u].access & ~known) &&
-                           verb->uses[u].access & (MPS_USE_READ | MPS_USE_NEIGHBOURS | MPS_USE_WRITE),
+                           verb->uses[u].access & (MPS_USE_READ | MPS_USE_NEIGHBOURS | MPS_USE_WRITE | MPS_USE_DUMMIES),
                        "model '%s': use %d of verb %d has no channel, or access %d, which is no sum of MPS_USE_...", ops->name, (int)u,
                        (int)v, (int)verb->uses[u].access);
         for (int32_t u = 0; u < verb->use_count; u++)
@@ -147,6 +147,22 @@ mps_status mps__models_init(mps__models *m, mps__context *context, mps__channels
 bool mps__models_foreign(const mps__models *m, const mps__model *model)
 {
     return model->ops >= &m->registry[m->built_in];
+}
+
+/* Whether a verb does. */
+static bool reads_dummy_rows(const mps_verb *verb)
+{
+    int32_t all = 0;
+    for (int32_t u = 0; u < verb->use_count; u++) all |= verb->uses[u].access;
+    return all & MPS_USE_DUMMIES;
+}
+
+bool mps__models_dummy_rows(const mps__models *m)
+{
+    bool any = false;
+    for (int32_t k = 0; k < m->active; k++)
+        for (int32_t v = 0; v < m->on[k].ops->verb_count; v++) any = any || reads_dummy_rows(&m->on[k].ops->verbs[v]);
+    return any;
 }
 
 static void drop(mps__models *m, int32_t k)

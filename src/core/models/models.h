@@ -34,6 +34,8 @@ mps_status mps__models_preset(mps__models *m, const char *name);
 mps_status mps__models_remove(mps__models *m, const char *slot);
 /* Whether an active model is not one of the library's. */
 bool mps__models_foreign(const mps__models *m, const mps__model *model);
+/* Whether an active model reads rows of dummies. */
+bool mps__models_dummy_rows(const mps__models *m);
 /* The setting `key` of the model in a slot; NULL with the error set. `setting` may be NULL. */
 double *mps__models_value(mps__models *m, const char *slot, const char *key, const mps_setting **setting);
 /* Preset number k; false beyond the last. */

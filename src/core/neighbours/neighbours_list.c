@@ -14,7 +14,8 @@ mps_status mps__neighbours_init(mps_neighbours *l, mps__context *context, int32_
 
 void mps__neighbours_free(mps_neighbours *l)
 {
-    void *all[] = {l->near_begin, l->near_col, l->begin, l->middle, l->far_end, l->col, l->w_r2, l->searched, l->idle, l->scratch};
+    void *all[] = {l->near_begin, l->near_col, l->begin,    l->middle, l->far_end, l->count,
+                   l->col,        l->w_r2,     l->searched, l->idle,   l->rim,     l->scratch};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) mps__free(l->context, all[k]);
     mps__scratch_free(l->context, &l->own_scratch);
     if (l->parallel == &l->pool.parallel) mps__pool_free(&l->pool);
@@ -68,11 +69,8 @@ mps_status mps_neighbours_build(mps_neighbours *list, int64_t n, const double *x
     if (!x || n < 1 || n > INT32_MAX || !(re_near > 0) || !(re_far >= re_near) || !isfinite(re_far)) return MPS_E_ARG;
     if (!mps__finite(x, n * list->dim)) return MPS_E_ARG;
     list->skin = 0; /* every build searches anew */
-    mps_status status = mps__neighbours_search(list, n, x, re_near, re_far);
-    if (status == MPS_OK)
-        mps__neighbours_rows(list, x);
-    else
-        list->n = 0;
+    const mps_status status = mps__neighbours_search(list, n, x, re_near, re_far);
+    if (status < 0) list->n = 0;
     return status;
 }
 

@@ -1,7 +1,28 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The order of particles by their cells. */
 #include "neighbours.h"
+#include <math.h>
 #include <string.h>
+
+enum { MPS__BITS_2D = 31, MPS__BITS_3D = 21 };
+
+/* More particles in one cell are no cloud but an array nobody filled: n^2 pairs would take all memory. */
+enum { MPS__CROWD = 4096 };
+
+typedef struct cell_map {
+    double lo[3], size;
+    int bits, dim;
+} cell_map;
+
+int mps__cell_bits(int32_t dim)
+{
+    return dim == 2 ? MPS__BITS_2D : MPS__BITS_3D;
+}
+
+typedef struct corners {
+    int dim;
+    const double *x;
+} corners;
 
 /* Stable least-significant-digit radix sort of (key, order); only digits that differ are passed over. */
 void mps__sort_keys(uint64_t *key, int32_t *order, int64_t n)
@@ -29,4 +50,93 @@ void mps__sort_keys(uint64_t *key, int32_t *order, int64_t n)
         memcpy(key, k0, (size_t)n * sizeof *key);
         memcpy(order, o0, (size_t)n * sizeof *order);
     }
+}
+
+/* Upper corner of the particles' box, and the negative of the lower one. */
+static void corner_rows(void *argument, int64_t begin, int64_t end, double *values)
+{
+    const corners *c = argument;
+    const int dim = c->dim;
+    for (int d = 0; d < dim; d++) {
+        double hi = values[d], lo = values[dim + d];
+        for (int64_t i = begin; i < end; i++) {
+            const double v = c->x[i * dim + d];
+            if (v > hi) hi = v;
+            if (-v > lo) lo = -v;
+        }
+        values[d] = hi;
+        values[dim + d] = lo;
+    }
+}
+
+/* Box of the particles and the packing of cell numbers into keys. */
+static mps_status map_cells(mps_neighbours *l, int64_t n, const double *x, double size, cell_map *m)
+{
+    *m = (cell_map){.size = size, .dim = l->dim, .bits = mps__cell_bits(l->dim)};
+    const double limit = (double)(INT64_C(1) << m->bits) - 4.0;
+    double corner[6] = {-INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY};
+    mps_parallel_max(l->parallel, n, 2 * l->dim, corner_rows, &(corners){l->dim, x}, corner);
+    for (int d = 0; d < l->dim; d++) {
+        const double lo = -corner[l->dim + d], hi = corner[d];
+        int64_t far = 0;
+        while ((hi - lo) / size >= limit && x[far * l->dim + d] != hi) far++;
+        MPS__CHECK(l->context, (hi - lo) / size < limit, "particles lie %g m apart along axis %d (particle %lld at %g): at most %g m",
+                   hi - lo, d, (long long)far, hi, limit * size);
+        m->lo[d] = lo - 2 * size; /* cell 0 stays empty, also when far from the origin lo - size rounds: neighbours never wrap */
+    }
+    return MPS_OK;
+}
+
+static uint64_t cell_key(const cell_map *m, const double *x)
+{
+    uint64_t key = 0;
+    for (int d = m->dim - 1; d >= 0; d--) key = (key << m->bits) | (uint64_t)((x[d] - m->lo[d]) / m->size);
+    return key;
+}
+
+/* Refuse cells with too many particles; keys are sorted. */
+static mps_status check_crowds(const mps_neighbours *l, int64_t n, const double *x, double size)
+{
+    for (int64_t from = 0, to = 0; from < n; from = to) {
+        while (to < n && l->key[to] == l->key[from]) to++;
+        const double *at = x + (int64_t)l->order[from] * l->dim;
+        MPS__CHECK(l->context, to - from <= MPS__CROWD,
+                   "%lld particles lie within %g m of each other, particle %d at (%g, %g) m is one: at most %d", (long long)(to - from),
+                   size, l->order[from], at[0], at[1], MPS__CROWD);
+    }
+    return MPS_OK;
+}
+
+typedef struct keying {
+    mps_neighbours *l;
+    const cell_map *m;
+    const double *x;
+} keying;
+
+static void key_rows(void *argument, int64_t begin, int64_t end)
+{
+    const keying *k = argument;
+    for (int64_t i = begin; i < end; i++) {
+        k->l->key[i] = cell_key(k->m, k->x + i * k->l->dim);
+        k->l->order[i] = (int32_t)i;
+    }
+}
+
+mps_status mps__neighbours_order(mps_neighbours *l, int64_t n, const double *x, double re_far)
+{
+    cell_map m;
+    l->valid = l->sorted = false;
+    l->key = mps__scratch_take(l->context, l->shared, 0, 2 * n, sizeof *l->key);
+    l->order = mps__scratch_take(l->context, l->shared, 1, 2 * n, sizeof *l->order);
+    if (!l->key || !l->order) return MPS_E_NOMEM;
+    MPS__TRY(map_cells(l, n, x, re_far + l->skin, &m));
+    mps_parallel_rows(l->parallel, n, key_rows, &(keying){l, &m, x});
+    mps__sort_keys(l->key, l->order, n);
+    return check_crowds(l, n, x, m.size);
+}
+
+void mps__neighbours_sorted(mps_neighbours *l, int64_t n)
+{
+    for (int64_t i = 0; i < n; i++) l->order[i] = (int32_t)i;
+    l->sorted = true;
 }

@@ -212,23 +212,31 @@ static bool behind(const mps__world *w, int64_t i, int64_t dummy, double r2)
     return height < 0;
 }
 
-/* Liquid that ran over the rim of an open tank touches its walls from behind. There they would press it as if it stood before them. */
-static mps_status leave_tank(mps__world *w)
+/* Whether particle i touches a wall from behind. */
+static bool spilled(const mps__world *w, int64_t i)
 {
     const mps__particles *s = &w->particles;
     const mps_neighbours *l = &w->lists.neighbours;
-    bool *gone = w->work.gone;
-    memset(gone, 0, (size_t)s->n * sizeof *gone);
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_DUMMY || mps__is_shadow(s, i)) continue;
-        for (int64_t p = l->begin[i]; p < l->middle[i]; p++) {
-            const int64_t j = l->col[p];
-            if (s->kind[j] != MPS_FLUID || gone[j]) continue;
-            const double r2 = distance2(w, i, j);
-            gone[j] = r2 < w->setup.dp * w->setup.dp && behind(w, j, i, r2);
-        }
+    for (int64_t p = l->begin[i]; p < l->middle[i]; p++) {
+        const int64_t j = l->col[p];
+        if (s->kind[j] != MPS_DUMMY || mps__is_shadow(s, j)) continue;
+        const double r2 = distance2(w, i, j);
+        if (r2 < w->setup.dp * w->setup.dp && behind(w, i, j, r2)) return true;
     }
-    return handle_lost(w, gone, "are behind a wall");
+    return false;
+}
+
+static void spilled_rows(void *argument, int64_t begin, int64_t end)
+{
+    const mps__world *w = argument;
+    for (int64_t i = begin; i < end; i++) w->work.gone[i] = w->lists.neighbours.rim[i] && spilled(w, i);
+}
+
+/* Liquid that ran over the rim of an open tank touches its walls from behind. There they would press it as if it stood before them. */
+static mps_status leave_tank(mps__world *w)
+{
+    mps_parallel_rows(&w->pool.parallel, w->particles.n, spilled_rows, w);
+    return handle_lost(w, w->work.gone, "are behind a wall");
 }
 
 /* The shadows of a plate belong to the face before them. */
@@ -250,7 +258,7 @@ static void link_dummies(mps__world *w)
         if (s->kind[i] != MPS_DUMMY) continue;
         double best = INFINITY;
         s->wall_of[i] = -1;
-        for (int64_t k = l->begin[i]; k < l->begin[i + 1]; k++) {
+        for (int64_t k = l->begin[i]; k < l->begin[i] + l->count[i]; k++) {
             const int32_t j = l->col[k];
             if (s->kind[j] != MPS_WALL || !may_belong(w, i, j)) continue;
             double r2 = 0;
@@ -324,7 +332,7 @@ static mps_status link_solids(mps__world *w)
     link_dummies(w);
     estimate_areas(w);
     MPS__TRY(mps__plates_find(w));
-    mps__world_rows(w);
+    mps__neighbours_hide(&w->lists.neighbours);
     MPS__TRY(mps__world_stencil(w, MPS_NEAR, &near));
     MPS__TRY(mps_op_number_density(&near, w->particles.nd));
     w->lists.linked = w->particles.generation;
@@ -337,9 +345,11 @@ static mps_status search_lists(mps__world *w, bool sorted, bool all)
     mps__particles *s = &w->particles;
     if (sorted) mps__neighbours_sorted(&w->lists.neighbours, s->n);
     w->lists.neighbours.kind = all ? NULL : s->kind;
+    w->lists.neighbours.dummy_rows = mps__models_dummy_rows(&w->models);
     return mps__neighbours_search(&w->lists.neighbours, s->n, s->x, w->setup.re_near, w->setup.re_far);
 }
 
+/* New lists, with exact rows. */
 static mps_status search(mps__world *w, bool sorted)
 {
     mps_status status = MPS_OK;
@@ -349,15 +359,30 @@ static mps_status search(mps__world *w, bool sorted)
     }
     if (status == MPS_OK) status = search_lists(w, sorted, false);
     if (status == MPS_OK) status = mps__plates_find(w);
+    if (status == MPS_OK) mps__neighbours_hide(&w->lists.neighbours);
     if (status < 0) w->lists.neighbours.valid = false;
     return status;
 }
 
-/* The candidates of a search that was done before a checkpoint, unless particles came or went since: the store has its order already. */
+/* Candidates for models that want rows of dummies and did not when the last search was done, or the reverse. */
+static mps_status note_models(mps__world *w)
+{
+    const mps__particles *s = &w->particles;
+    const mps_neighbours *l = &w->lists.neighbours;
+    if (!l->valid || w->lists.linked != s->generation || l->dummy_rows == mps__models_dummy_rows(&w->models)) return MPS_OK;
+    w->lists.listed_at = mps__alloc(w->context, s->n * s->dim, sizeof(double));
+    if (!w->lists.listed_at) return MPS_E_NOMEM;
+    mps__parallel_copy(&w->pool.parallel, w->lists.listed_at, l->searched, s->n * s->dim);
+    return MPS_OK;
+}
+
+/* The candidates of a search that was done before a checkpoint or for other models, unless particles came or went since: the store has
+ * its order already. */
 static mps_status list_again(mps__world *w)
 {
     mps__particles *s = &w->particles;
     double *const now = s->x;
+    if (!w->lists.listed_at) MPS__TRY(note_models(w));
     if (!w->lists.listed_at) return MPS_OK;
     if (w->lists.linked == s->generation) {
         s->x = w->lists.listed_at;
@@ -380,7 +405,7 @@ static mps_status renew(mps__world *w)
     if (w->lists.linked != s->generation || !mps__neighbours_fresh(&w->lists.neighbours, s->n, s->x, w->setup.re_far)) {
         MPS__TRY(mps__neighbours_order(&w->lists.neighbours, s->n, s->x, w->setup.re_far));
         MPS__TRY(mps__particles_permute(s, s->n, w->lists.neighbours.order));
-        MPS__TRY(search(w, true));
+        return search(w, true);
     }
     mps__world_rows(w);
     return MPS_OK;
@@ -408,10 +433,13 @@ mps_status mps__world_neighbours_kept(mps__world *w)
     MPS__TRY(reserve_work(w));
     MPS__TRY(list_again(w));
     const bool fresh = w->lists.linked == s->generation && mps__neighbours_fresh(&w->lists.neighbours, s->n, s->x, w->setup.re_far);
-    if (!fresh) MPS__TRY(search(w, false));
-    mps__world_rows(w);
-    if (!fresh) w->lists.neighbours.valid = false; /* the next step sorts, as it would have done */
-    return MPS_OK;
+    if (fresh) {
+        mps__world_rows(w);
+        return MPS_OK;
+    }
+    const mps_status status = search(w, false);
+    w->lists.neighbours.valid = false; /* the next step sorts, as it would have done */
+    return status;
 }
 
 void mps__world_rows(mps__world *w)
@@ -426,7 +454,7 @@ mps_status mps__world_stencil_all(mps__world *w, int32_t which, mps_stencil *ste
     mps_neighbours *l = &w->lists.complete;
     if (!w->lists.neighbours.partial) return mps__world_stencil(w, which, stencil);
     MPS__TRY(mps__neighbours_search(l, s->n, s->x, w->setup.re_near, w->setup.re_far));
-    mps__neighbours_rows(l, s->x);
+    mps__neighbours_hide(l);
     return mps_neighbours_stencil(l, which, &w->setup.kernel, stencil);
 }
 
