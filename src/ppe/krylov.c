@@ -153,7 +153,7 @@ static void run(krylov *k, double *p, double delta, mps_ppe_result *result)
     SUNLinSolSetZeroGuess(k->solver, SUNTRUE);
     int flag = k->kind->run(k->solver, k->pc != NULL, problem->max_iterations - result->iterations, k->x, k->b, delta);
     result->iterations += SUNLinSolNumIters(k->solver);
-    bool stopped = flag == SUNLS_SUCCESS || flag == SUNLS_RES_REDUCED || flag == SUNLS_CONV_FAIL;
+    bool stopped = flag == MPS__SUNDIALS_SUCCESS || flag == SUNLS_RES_REDUCED || flag == SUNLS_CONV_FAIL;
     if (!stopped && !k->failure) k->failure = MPS_PPE_BREAKDOWN;
     if (k->pc && !k->kind->symmetric) {
         int reason = k->pc->apply(k->pc_self, d, k->inner);

@@ -4,6 +4,7 @@
 #define MPS_PPE_SUNDIALS_COMPAT_H
 
 #include <kinsol/kinsol.h>
+#include <stddef.h>
 #include <sundials/sundials_config.h>
 #include <sundials/sundials_context.h>
 #include <sundials/sundials_linearsolver.h>
@@ -15,6 +16,13 @@
 #endif
 #ifndef SUNDIALS_DOUBLE_PRECISION
 #error "libmps needs SUNDIALS in double precision"
+#endif
+
+/* What a linear solver returns when it has converged: SUNLS_SUCCESS until 6.x. */
+#if SUNDIALS_VERSION_MAJOR >= 7
+enum { MPS__SUNDIALS_SUCCESS = SUN_SUCCESS };
+#else
+enum { MPS__SUNDIALS_SUCCESS = SUNLS_SUCCESS };
 #endif
 
 /* A context without MPI that never prints, or NULL. */
