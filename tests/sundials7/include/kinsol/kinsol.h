@@ -3,7 +3,15 @@
 #define STUB_KINSOL_H
 #include <sundials/sundials_linearsolver.h>
 /* KINSetErrFile and KINSetErrHandlerFn are gone: errors go to the handlers of the context */
-enum { KIN_NONE = 0, KIN_ETACHOICE1 = 1, KIN_ETACHOICE2 = 2, KIN_ETACONSTANT = 3, KIN_MEM_FAIL = -4 };
+enum { KIN_NONE = 0, KIN_ETACHOICE1 = 1, KIN_ETACHOICE2 = 2, KIN_ETACONSTANT = 3 };
+enum {
+    KIN_MEM_FAIL = -4,
+    KIN_MAXITER_REACHED = -6,
+    KIN_MXNEWT_5X_EXCEEDED = -7,
+    KIN_LINSOLV_NO_RECOVERY = -9,
+    KIN_LSETUP_FAIL = -11,
+    KIN_LSOLVE_FAIL = -12
+};
 typedef int (*KINSysFn)(N_Vector u, N_Vector f, void *user);
 typedef int (*KINLsJacTimesVecFn)(N_Vector v, N_Vector jv, N_Vector u, sunbooleantype *changed, void *user);
 typedef int (*KINLsPrecSetupFn)(N_Vector u, N_Vector u_scale, N_Vector f, N_Vector f_scale, void *user);
