@@ -22,7 +22,8 @@ enum { MPS_FRAMES_FLUID = 1, MPS_FRAMES_WALL = 2, MPS_FRAMES_DUMMY = 4, MPS_FRAM
  *  @param frames  out; close with mps_frames_close(). The simulation must outlive it. */
 MPS_API mps_status mps_frames_open(mps_sim *sim, const char *folder, const char *name, int32_t kinds, mps_frames **frames);
 
-/** Write the present state: position, velocity, pressure, number density, density, kind, phase, id and all user fields.
+/** Write the present state: position, velocity, pressure, number density, density, kind, phase, id and all user fields;
+ *  each particle is a vertex cell, so that filters of cells (Threshold, Clip) keep single particles.
  *  The .pvd is rewritten atomically. @return MPS_E_IO with the path and the system's reason */
 MPS_API mps_status mps_frames_write(mps_frames *frames);
 
