@@ -303,7 +303,7 @@ static void run_open_tables(run *r)
         resume_forget(r);
     if (!run_open_probes(r) || !run_open_momentum(r) || !run_open_table(r, &r->steps, "steps.csv", STEP_HEADER, STEP_COLUMNS, 0) ||
         !trace_open(r))
-        exit(r->options.resume ? CLI_USAGE : CLI_FAILED);
+        exit(CLI_USAGE);
     if (r->options.resume) resume_tables(r);
 }
 
