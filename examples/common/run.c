@@ -3,6 +3,7 @@
 #include "run.h"
 #include "folder.h"
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -126,6 +127,7 @@ void run_open(run *r, const cli_options *o)
     char error[RUN_ERROR] = "";
     mps_config config;
     *r = (run){.options = *o};
+    signal(SIGPIPE, SIG_IGN); /* a reader of stderr that goes away does not end the run */
     folder_open(o);
     mps_config_init(&config, sizeof config);
     config.dim = o->dim;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Stepping a run to its end: rows, frames, pictures and checkpoints after each step, Ctrl-C, and what to say when it fails. */
+#include "folder.h"
 #include "outputs.h"
 #include "picture.h"
 #include "resume.h"
@@ -15,7 +16,7 @@ enum { RUN_QUARTERS = 4 };
 
 static volatile sig_atomic_t interrupted;
 
-/* The handler is there for one signal of each kind only: a second Ctrl-C ends the program at once. */
+/* The handler is there for one SIGINT and one SIGTERM: a second Ctrl-C ends the program at once. */
 static void on_interrupt(int signal)
 {
     (void)signal;
@@ -24,10 +25,14 @@ static void on_interrupt(int signal)
 
 static void catch_interrupt(void)
 {
-    struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
+    struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND}, before;
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+    /* a terminal that closes may say so several times; nohup ignores it */
+    action.sa_flags = 0;
+    sigaction(SIGHUP, NULL, &before);
+    if (before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, NULL);
 }
 
 bool run_note(run *r, mps_status status, const char *what)
@@ -282,7 +287,7 @@ static void run_say(const run *r, int code, mps_status status)
         fprintf(stderr, "%s: %s at t = %.6g s, step %lld: %s\n", program, mps_status_name(status), s->t, (long long)s->steps + 1, s->error);
     else if (code != CLI_OK)
         fprintf(stderr, "%s: %s\n", program, s->error[0] ? s->error : "an output could not be written");
-    if (r->options.quiet) return;
+    if (r->options.quiet || code == CLI_USAGE) return;
     fprintf(stderr, "%s: t = %.6g s, %lld steps in %.1f s (%.2f ms a step, %.1f pressure iterations), %lld particles lost, outputs in %s\n",
             program, s->t, (long long)s->steps_here, s->wall_s, s->steps_here ? 1e3 * s->step_s / (double)s->steps_here : 0,
             s->steps ? s->ppe_iterations / (double)s->steps : 0, (long long)s->lost, r->options.out);
@@ -354,6 +359,8 @@ int run_finish(run *r)
     r->totals.status = code == CLI_OK ? "ok" : status != MPS_OK ? mps_status_name(status) : mps_status_name(MPS_E_IO);
     if (!summary_save(r) || !report_save(r)) code = code == CLI_OK ? CLI_FAILED : code;
     run_say(r, code, status);
+    if (code == CLI_USAGE)
+        folder_clear(r); /* refused before its first step: what it wrote is no run that another one would have to spare */
     table_free(&r->probes);
     table_free(&r->momentum);
     table_free(&r->steps);

@@ -42,6 +42,9 @@ done
 runs 2 "${tank[@]}" --out mine --overwrite --use bogus.model # refused for another reason: nothing is removed
 [ -e mine/probes.csv ] || fail "a wrong option removes an earlier run"
 
+runs 2 "${tank[@]}" --out mine2 --use gas.compressible # refused when the first step begins: no run is there
+[ ! -e mine2/probes.csv ] || fail "a run that is refused leaves files that the next one is refused for"
+
 # ---- two runs at a time
 "$drivers/static_tank" --dp 0.04 --t-end 1000 --frames 0 --out busy --threads 1 >busy.log 2>&1 &
 pid=$!
