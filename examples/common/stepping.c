@@ -215,6 +215,15 @@ static void run_add_up(run *r, const mps_step_info *info, const double *row)
     for (int k = 0; k < MPS_STAGE_COUNT; k++) s->seconds[k] += info->seconds[k];
 }
 
+/* The first table that could not be written, or NULL. */
+static const table *run_failed_table(const run *r)
+{
+    const table *const all[] = {&r->probes, &r->momentum, &r->steps, r->trace ? &r->trace->file : &r->steps};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+        if (all[k]->failed) return all[k];
+    return NULL;
+}
+
 static int run_monitor(void *user, mps_sim *sim, const mps_step_info *info)
 {
     run *r = user;
@@ -237,6 +246,7 @@ static int run_monitor(void *user, mps_sim *sim, const mps_step_info *info)
         table_flush(&r->steps);
         if (r->trace) table_flush(&r->trace->file);
     }
+    if (run_failed_table(r)) r->output_failed = true;
     r->step_end = progress_clock();
     r->totals.output_s += r->step_end - begin;
     return interrupted || r->output_failed;
@@ -278,6 +288,7 @@ static void run_say(const run *r, int code, mps_status status)
 {
     const run_totals *s = &r->totals;
     const char *program = r->options.program;
+    const table *failed = run_failed_table(r);
     if (code == CLI_INTERRUPTED)
         fprintf(
             stderr,
@@ -285,6 +296,9 @@ static void run_say(const run *r, int code, mps_status status)
             program, s->t, (long long)s->steps);
     else if (status < 0)
         fprintf(stderr, "%s: %s at t = %.6g s, step %lld: %s\n", program, mps_status_name(status), s->t, (long long)s->steps + 1, s->error);
+    else if (code != CLI_OK && failed)
+        fprintf(stderr, "%s: stopped at t = %.6g s, outputs cannot be written: %s; %s%s\n", program, s->t, strerror(failed->error),
+                folder_advice(failed->error), r->checkpoint_t > 0 ? "; --resume goes on from the last checkpoint" : "");
     else if (code != CLI_OK)
         fprintf(stderr, "%s: %s\n", program, s->error[0] ? s->error : "an output could not be written");
     if (r->options.quiet || code == CLI_USAGE) return;

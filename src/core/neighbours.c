@@ -184,12 +184,6 @@ mps_status mps__neighbours_order(mps_neighbours *l, int64_t n, const double *x, 
     return sort_cells(l, n, x, re_far, &m);
 }
 
-void mps__neighbours_sorted(mps_neighbours *l, int64_t n)
-{
-    for (int64_t i = 0; i < n; i++) l->order[i] = (int32_t)i;
-    l->sorted = true;
-}
-
 static int64_t first_at_least(const uint64_t *key, int64_t n, uint64_t value)
 {
     int64_t lo = 0;

@@ -83,6 +83,7 @@ disk() { # options of mount, text, exit code, options of the driver...
 }
 if unshare -m mount -t tmpfs none /mnt 2>/dev/null; then
     disk size=32k 'No space left on device; the disk is full; make room on it' 2
+    disk size=256k 'outputs cannot be written: No space left on device; the disk is full' 1 --t-end 1000 --probe-dt 1e-4 --frames 0 # in mid-run
     disk ro 'Read-only file system; the disk can only be read; choose a folder on another one' 2
 else
     echo "skipped: full and read-only disks (mount is not allowed)"
