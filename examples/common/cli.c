@@ -10,7 +10,7 @@
 
 enum { CLI_THREADS_MAX = 1024, CLI_FRAMES_MAX = 100000 };
 
-enum { CLI_OPTIONS = 40 };
+enum { CLI_OPTIONS = 48 };
 
 static int cli_table(cli_options *o, cli_option *table)
 {
@@ -41,6 +41,7 @@ static int cli_table(cli_options *o, cli_option *table)
                               o->t_max,
                               false};
     table[n++] = (cli_option){"--resume", NULL, "go on from the checkpoint in the folder of --out", TYPE_FLAG, &o->resume, 0, 0, true};
+    table[n++] = (cli_option){"--overwrite", NULL, "remove an earlier run from the folder of --out", TYPE_FLAG, &o->overwrite, 0, 0, true};
     table[n++] = (cli_option){"--probe-dt", "S", "interval of rows in probes.csv [s]", TYPE_REAL, &o->probe_dt, 0, 10, false};
     table[n++] = (cli_option){"--sensor-average",
                               "S",
@@ -111,9 +112,15 @@ static void cli_help(const cli_options *o, const cli_option *table, int n)
     }
     printf(
         "\nWrites probes.csv, summary.json, frames.pvd with frames/, plots, pictures and report.html into the folder of --out.\n"
-        "Ctrl-C (or SIGTERM) ends the run after its step with checkpoint.mps there as well; --resume and the same options go on from it,\n"
-        "also to a later --t-end. What the files hold beyond the checkpoint is computed again.\n"
-        "Exit: 0 done, 1 failed, 2 wrong value, 3 diverged or beyond a model (outputs stay readable), 130 interrupted by Ctrl-C.\n");
+        "A folder with an earlier run is refused unless --resume or --overwrite is given, and so is one that another run is writing to.\n"
+        "Ctrl-C (or SIGTERM, SIGHUP) ends the run after its step with checkpoint.mps there as well; --resume and the same options go on "
+        "from\n"
+        "it, also to a later --t-end. What the files hold beyond the checkpoint is computed again.\n"
+        "Progress is shown on stderr: a line that is kept up to date on a terminal, else every 10 s a line\n"
+        "  t=0.1234 step=567 dt=1.2e-04 wall=10.0 eta=34.5\n"
+        "with time [s], number and length [s] of the step, seconds by the clock since the start and expected until the end.\n"
+        "Exit: 0 done, 1 failed, 2 wrong value or folder, 3 diverged or beyond a model (outputs stay readable), 130 interrupted by "
+        "Ctrl-C.\n");
     exit(CLI_OK);
 }
 

@@ -12,7 +12,18 @@ enum { CLI_OK = 0, CLI_FAILED = 1, CLI_USAGE = 2, CLI_DIVERGED = 3, CLI_INTERRUP
 enum { CLI_LIST = 32, CLI_TIMES = 24, CLI_OWN = 8 };
 
 /* How the text of an option is read. TYPE_CHOICE: one of the words of `argument`, "one|two", into an int32_t from 0. */
-typedef enum cli_type { TYPE_TEXT, TYPE_REAL, TYPE_INT, TYPE_CHOICE, TYPE_LIST, TYPE_TIMES, TYPE_FLAG, TYPE_HELP, TYPE_LISTING, TYPE_VERSION } cli_type;
+typedef enum cli_type {
+    TYPE_TEXT,
+    TYPE_REAL,
+    TYPE_INT,
+    TYPE_CHOICE,
+    TYPE_LIST,
+    TYPE_TIMES,
+    TYPE_FLAG,
+    TYPE_HELP,
+    TYPE_LISTING,
+    TYPE_VERSION
+} cli_type;
 
 /* One option. Reals are checked against min <= value <= max, with min = 0 against 0 < value; min < 0 stands for 0 <= value. */
 typedef struct cli_option {
@@ -40,6 +51,7 @@ typedef struct cli_options {
     const char *out;             /* folder of all outputs */
     double checkpoint;           /* interval of checkpoints [s]; 0: only when interrupted */
     bool resume;                 /* go on from the checkpoint in `out` */
+    bool overwrite;              /* remove an earlier run from `out` */
     double dp, dp_min, dp_max;   /* spacing [m] and what makes sense for this case */
     double dt;                   /* fixed step [s]; 0: adaptive */
     double cfl;                  /* adaptive: dt u / dp */

@@ -42,8 +42,8 @@ static void progress_time(char *text, size_t size, double seconds)
 
 bool progress_step(progress *p, const mps_step_info *info)
 {
-    double now = progress_clock(), interval = p->terminal ? 0.1 : 5;
-    if (p->quiet || now - p->shown < interval) return false;
+    double now = progress_clock(), interval = p->terminal ? 0.1 : 10;
+    if (now - p->shown < interval) return false;
     double rate = (double)(info->step - p->steps_shown) * (double)p->particles / (now - p->shown);
     p->rate = p->rate > 0 ? 0.8 * p->rate + 0.2 * rate : rate; /* a tenth of a second is only a few steps */
     double done = info->t - p->t_begin;
@@ -51,6 +51,7 @@ bool progress_step(progress *p, const mps_step_info *info)
     double percent = 100 * info->t / p->t_end;
     p->shown = now;
     p->steps_shown = info->step;
+    if (p->quiet) return true;
     if (p->terminal) {
         char left[32];
         progress_time(left, sizeof left, eta);
@@ -59,8 +60,7 @@ bool progress_step(progress *p, const mps_step_info *info)
                 info->dt, info->cfl, (int)info->ppe_iterations, p->rate / 1000, left);
         p->line = true;
     } else {
-        fprintf(stderr, "percent=%.1f t=%.4f dt=%.3e cfl=%.3f ppe_iterations=%d particles_per_s=%.3e eta_s=%.0f\n", percent, info->t,
-                info->dt, info->cfl, (int)info->ppe_iterations, p->rate, eta);
+        fprintf(stderr, "t=%.6g step=%lld dt=%.3e wall=%.1f eta=%.1f\n", info->t, (long long)info->step, info->dt, now - p->start, eta);
     }
     fflush(stderr);
     return true;

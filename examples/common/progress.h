@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Progress on stderr: one line kept up to date on a terminal, else a key=value line every few seconds. */
+/* Progress on stderr: one line kept up to date on a terminal, else a line of key=value every 10 s for batch logs:
+ * t [s], step, dt [s], wall [s] since the start, eta [s] until the end. */
 #ifndef MPS_EXAMPLES_PROGRESS_H
 #define MPS_EXAMPLES_PROGRESS_H
 
@@ -21,7 +22,7 @@ double progress_clock(void);
 void progress_begin(progress *p, double t_end, int64_t particles, bool quiet);
 /* The run goes on from here: what was computed before took no time. */
 void progress_from(progress *p, double t, int64_t steps);
-/* Show a step if it is time to. @return true if something was shown (about ten times a second, or every few seconds) */
+/* Show a step if it is time to, unless it is to be quiet. @return true if it was time (about ten times a second, or every 10 s) */
 bool progress_step(progress *p, const mps_step_info *info);
 /* Free the line for a message on stderr. */
 void progress_clear(progress *p);

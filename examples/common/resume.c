@@ -2,12 +2,11 @@
 /* A checkpoint holds the simulation; what the run itself has summed up and drawn comes back from its files of rows. They are on the disk
  * before each checkpoint, so that also after a kill they reach at least up to it. */
 #include "resume.h"
+#include "folder.h"
 #include "outputs.h"
 #include "trace.h"
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { RESUME_PATH = 560 };
 
@@ -54,13 +53,8 @@ bool resume_due(run *r, double t)
 
 void resume_forget(run *r)
 {
-    char path[RESUME_PATH];
-    resume_path(r, path);
     r->checkpoint = 1;
-    if (remove(path) == 0 || errno == ENOENT) return;
-    fprintf(stderr, "%s: %s: %s\n", r->options.program, path, strerror(errno));
-    mps_sim_destroy(r->sim);
-    exit(CLI_FAILED);
+    folder_clear(r);
 }
 
 void resume_load(run *r)

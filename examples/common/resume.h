@@ -9,7 +9,7 @@
 void resume_save(run *r);
 /* True once for each interval of checkpoints. */
 bool resume_due(run *r, double t);
-/* Remove what an earlier run left: it does not belong to the files that begin now. Exits with a message if that fails. */
+/* Begin anew: what an earlier run left does not belong to the files that begin now. Exits with a message if it cannot be removed. */
 void resume_forget(run *r);
 /* Put the simulation where the checkpoint is; exits with a message if that cannot be. */
 void resume_load(run *r);

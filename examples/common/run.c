@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Opening a run, naming its columns. Stepping is in stepping.c, what comes after the last step in summary.c and report.c. */
 #include "run.h"
-#include <errno.h>
+#include "folder.h"
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 enum { RUN_MESSAGES = 20 }; /* of the library, before it is cut short */
 
@@ -19,26 +19,6 @@ static void run_log(void *user, int level, const char *text)
         fprintf(stderr, "%s: further messages are not shown\n", r->options.program);
     else
         fprintf(stderr, "%s: %s%s\n", r->options.program, level >= MPS_LOG_WARNING ? "warning: " : "", text);
-}
-
-/* mkdir -p */
-static bool run_make_folder(const char *path)
-{
-    char part[512];
-    if (snprintf(part, sizeof part, "%s", path) >= (int)sizeof part) {
-        errno = ENAMETOOLONG;
-        return false;
-    }
-    for (char *slash = part + 1; (slash = strchr(slash, '/')) != NULL; slash++) {
-        *slash = '\0';
-        if (mkdir(part, 0777) != 0 && errno != EEXIST) return false;
-        *slash = '/';
-    }
-    struct stat s;
-    if (mkdir(part, 0777) != 0 && errno != EEXIST) return false;
-    if (stat(part, &s) == 0 && S_ISDIR(s.st_mode)) return true;
-    errno = ENOTDIR;
-    return false;
 }
 
 static void run_refuse(run *r, const char *option, const char *value, const char *why, const char *allowed)
@@ -147,7 +127,8 @@ void run_open(run *r, const cli_options *o)
     char error[RUN_ERROR] = "";
     mps_config config;
     *r = (run){.options = *o};
-    if (!run_make_folder(o->out)) run_refuse(r, "--out", o->out, strerror(errno), "; must be a folder that can be written");
+    signal(SIGPIPE, SIG_IGN); /* a reader of stderr that goes away does not end the run */
+    folder_open(o);
     mps_config_init(&config, sizeof config);
     config.dim = o->dim;
     config.dp = o->dp;

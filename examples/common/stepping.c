@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Stepping a run to its end: rows, frames, pictures and checkpoints after each step, Ctrl-C, and what to say when it fails. */
+#include "folder.h"
 #include "outputs.h"
 #include "picture.h"
 #include "resume.h"
@@ -15,7 +16,7 @@ enum { RUN_QUARTERS = 4 };
 
 static volatile sig_atomic_t interrupted;
 
-/* The handler is there for one signal of each kind only: a second Ctrl-C ends the program at once. */
+/* The handler is there for one SIGINT and one SIGTERM: a second Ctrl-C ends the program at once. */
 static void on_interrupt(int signal)
 {
     (void)signal;
@@ -24,10 +25,14 @@ static void on_interrupt(int signal)
 
 static void catch_interrupt(void)
 {
-    struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
+    struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND}, before;
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+    /* a terminal that closes may say so several times; nohup ignores it */
+    action.sa_flags = 0;
+    sigaction(SIGHUP, NULL, &before);
+    if (before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, NULL);
 }
 
 bool run_note(run *r, mps_status status, const char *what)
@@ -210,6 +215,15 @@ static void run_add_up(run *r, const mps_step_info *info, const double *row)
     for (int k = 0; k < MPS_STAGE_COUNT; k++) s->seconds[k] += info->seconds[k];
 }
 
+/* The first table that could not be written, or NULL. */
+static const table *run_failed_table(const run *r)
+{
+    const table *const all[] = {&r->probes, &r->momentum, &r->steps, r->trace ? &r->trace->file : &r->steps};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+        if (all[k]->failed) return all[k];
+    return NULL;
+}
+
 static int run_monitor(void *user, mps_sim *sim, const mps_step_info *info)
 {
     run *r = user;
@@ -232,6 +246,7 @@ static int run_monitor(void *user, mps_sim *sim, const mps_step_info *info)
         table_flush(&r->steps);
         if (r->trace) table_flush(&r->trace->file);
     }
+    if (run_failed_table(r)) r->output_failed = true;
     r->step_end = progress_clock();
     r->totals.output_s += r->step_end - begin;
     return interrupted || r->output_failed;
@@ -273,6 +288,7 @@ static void run_say(const run *r, int code, mps_status status)
 {
     const run_totals *s = &r->totals;
     const char *program = r->options.program;
+    const table *failed = run_failed_table(r);
     if (code == CLI_INTERRUPTED)
         fprintf(
             stderr,
@@ -280,9 +296,12 @@ static void run_say(const run *r, int code, mps_status status)
             program, s->t, (long long)s->steps);
     else if (status < 0)
         fprintf(stderr, "%s: %s at t = %.6g s, step %lld: %s\n", program, mps_status_name(status), s->t, (long long)s->steps + 1, s->error);
+    else if (code != CLI_OK && failed)
+        fprintf(stderr, "%s: stopped at t = %.6g s, outputs cannot be written: %s; %s%s\n", program, s->t, strerror(failed->error),
+                folder_advice(failed->error), r->checkpoint_t > 0 ? "; --resume goes on from the last checkpoint" : "");
     else if (code != CLI_OK)
         fprintf(stderr, "%s: %s\n", program, s->error[0] ? s->error : "an output could not be written");
-    if (r->options.quiet) return;
+    if (r->options.quiet || code == CLI_USAGE) return;
     fprintf(stderr, "%s: t = %.6g s, %lld steps in %.1f s (%.2f ms a step, %.1f pressure iterations), %lld particles lost, outputs in %s\n",
             program, s->t, (long long)s->steps_here, s->wall_s, s->steps_here ? 1e3 * s->step_s / (double)s->steps_here : 0,
             s->steps ? s->ppe_iterations / (double)s->steps : 0, (long long)s->lost, r->options.out);
@@ -303,7 +322,7 @@ static void run_open_tables(run *r)
         resume_forget(r);
     if (!run_open_probes(r) || !run_open_momentum(r) || !run_open_table(r, &r->steps, "steps.csv", STEP_HEADER, STEP_COLUMNS, 0) ||
         !trace_open(r))
-        exit(r->options.resume ? CLI_USAGE : CLI_FAILED);
+        exit(CLI_USAGE);
     if (r->options.resume) resume_tables(r);
 }
 
@@ -354,6 +373,8 @@ int run_finish(run *r)
     r->totals.status = code == CLI_OK ? "ok" : status != MPS_OK ? mps_status_name(status) : mps_status_name(MPS_E_IO);
     if (!summary_save(r) || !report_save(r)) code = code == CLI_OK ? CLI_FAILED : code;
     run_say(r, code, status);
+    if (code == CLI_USAGE)
+        folder_clear(r); /* refused before its first step: what it wrote is no run that another one would have to spare */
     table_free(&r->probes);
     table_free(&r->momentum);
     table_free(&r->steps);

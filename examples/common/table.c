@@ -8,6 +8,12 @@
 
 enum { TABLE_ROWS = 8192 }; /* kept in memory; more than a plot has pixels */
 
+static void table_fail(table *t)
+{
+    if (!t->failed) t->error = errno;
+    t->failed = true;
+}
+
 /* Forget every second kept row: a run of any length needs the same memory. */
 static void table_thin(table *t)
 {
@@ -56,9 +62,9 @@ bool table_begin(table *t, const char *header)
 void table_append(table *t, const double *row)
 {
     for (int i = 0; i < t->columns; i++) {
-        if (fprintf(t->file, i ? ",%.17g" : "%.17g", row[i]) < 0) t->failed = true;
+        if (fprintf(t->file, i ? ",%.17g" : "%.17g", row[i]) < 0) table_fail(t);
     }
-    if (fputc('\n', t->file) == EOF) t->failed = true;
+    if (fputc('\n', t->file) == EOF) table_fail(t);
     table_keep(t, row);
 }
 
@@ -152,20 +158,20 @@ bool table_cut(table *t)
 
 void table_flush(table *t)
 {
-    if (fflush(t->file) != 0) t->failed = true;
+    if (fflush(t->file) != 0) table_fail(t);
 }
 
 void table_sync(table *t)
 {
     table_flush(t);
-    if (fsync(fileno(t->file)) != 0) t->failed = true;
+    if (fsync(fileno(t->file)) != 0) table_fail(t);
 }
 
 bool table_close(table *t)
 {
-    if (t->file && fclose(t->file) != 0) t->failed = true;
+    if (t->file && fclose(t->file) != 0) table_fail(t);
     t->file = NULL;
-    if (t->failed) fprintf(stderr, "%s: could not be written completely\n", t->path);
+    if (t->failed) fprintf(stderr, "%s: could not be written completely: %s\n", t->path, strerror(t->error));
     return !t->failed;
 }
 

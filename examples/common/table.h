@@ -20,6 +20,7 @@ typedef struct table {
     double *kept;   /* [count*columns] every stride-th row */
     int64_t count, seen, stride;
     bool failed; /* out of memory or disk */
+    int error;   /* errno of the first failure */
 } table;
 
 /* What is done with each row of a file that is there. */

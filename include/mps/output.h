@@ -22,7 +22,8 @@ enum { MPS_FRAMES_FLUID = 1, MPS_FRAMES_WALL = 2, MPS_FRAMES_DUMMY = 4, MPS_FRAM
  *  @param frames  out; close with mps_frames_close(). The simulation must outlive it. */
 MPS_API mps_status mps_frames_open(mps_sim *sim, const char *folder, const char *name, int32_t kinds, mps_frames **frames);
 
-/** Write the present state: position, velocity, pressure, number density, density, kind, phase, id and all user fields.
+/** Write the present state: position, velocity, pressure, number density, density, kind, phase, id and all user fields;
+ *  each particle is a vertex cell, so that filters of cells (Threshold, Clip) keep single particles.
  *  The .pvd is rewritten atomically. @return MPS_E_IO with the path and the system's reason */
 MPS_API mps_status mps_frames_write(mps_frames *frames);
 
@@ -30,8 +31,8 @@ MPS_API mps_status mps_frames_write(mps_frames *frames);
 MPS_API void mps_frames_close(mps_frames *frames);
 
 /** Write all that the next steps depend on to a file: particles with their fields and order, time, budgets, what probes keep for averages
- *  and samples. It is written beside its place ("<path>.tmp") and renamed, so that there is always a whole one; a
- *  link is replaced, not followed. In the byte order of the machine, with a checksum for each part; about 150 bytes a particle. May be
+ *  and samples. It is written beside its place ("<path>.tmp") and renamed, and both the file and its folder are
+ *  flushed to the disk, so that there is always a whole one, also after a loss of power; a link is replaced, not followed. In the byte order of the machine, with a checksum for each part; about 150 bytes a particle. May be
  *  called by a monitor. What a plug-in, a motion callback or a solver of the user keeps outside of fields is not in it.
  *  @return MPS_E_IO with the path and the system's reason, also where there is something that is no regular file; MPS_E_BUSY while a lease
  *          for writing is open; MPS_E_NOMEM */

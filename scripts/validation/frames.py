@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-TYPES = {"Float32": "<f4", "Float64": "<f8", "UInt8": "u1", "Int64": "<i8"}
+TYPES = {"Float32": "<f4", "Float64": "<f8", "UInt8": "u1", "Int32": "<i4", "Int64": "<i8"}
 FLUID, WALL, DUMMY = 0, 1, 2
 WIDTH = 1.0  # of the kernel that smooths the liquid, in spacings
 ARRAY = re.compile(r'<DataArray type="(\w+)" Name="(\w+)" NumberOfComponents="(\d+)" format="appended" offset="(\d+)"')

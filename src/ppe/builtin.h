@@ -5,6 +5,12 @@
 
 #include <mps/ppe.h>
 
+/* Where a solver hands the errors of its library: `user` of its table, which is in *self when create() is called. NULL: nowhere. */
+typedef struct mps__solver_log {
+    void (*warn)(void *user, const char *text);
+    void *user;
+} mps__solver_log;
+
 extern const mps_solver_ops mps__solver_pcg;
 extern const mps_solver_ops mps__solver_bicgstab;
 extern const mps_solver_ops mps__solver_gmres;

@@ -2,13 +2,29 @@
 /* sundials.gmres: restarted GMRES, for matrices that a model made unsymmetric. */
 #include "builtin.h"
 #include "krylov.h"
+#include <stdlib.h>
 #include <sunlinsol/sunlinsol_spgmr.h>
 
 enum { CYCLE = 30 }; /* iterations between restarts = vectors kept */
 
+/* The rows of the Hessenberg matrix, which SUNLinSolInitialize() makes where they are not there. Where memory runs out among them it leaves
+ * pointers of no value, at which SUNLinSolFree() crashes (SUNDIALS 6.4.1 to 7.5). SUNDIALS gives them back by free(). */
+static bool make_rows(SUNLinearSolverContent_SPGMR content)
+{
+    content->Hes = calloc(CYCLE + 1, sizeof *content->Hes);
+    for (int k = 0; content->Hes && k <= CYCLE; k++) {
+        content->Hes[k] = malloc(CYCLE * sizeof **content->Hes);
+        if (!content->Hes[k]) return false;
+    }
+    return content->Hes != NULL;
+}
+
 static SUNLinearSolver make(N_Vector like, SUNContext context)
 {
-    return SUNLinSol_SPGMR(like, SUN_PREC_NONE, CYCLE, context);
+    SUNLinearSolver solver = SUNLinSol_SPGMR(like, SUN_PREC_NONE, CYCLE, context);
+    if (solver && make_rows(solver->content)) return solver;
+    if (solver) SUNLinSolFree(solver);
+    return NULL;
 }
 
 static int run(SUNLinearSolver solver, bool preconditioned, int iterations, N_Vector x, N_Vector b, double delta)

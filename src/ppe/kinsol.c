@@ -18,6 +18,7 @@ enum { CLONES = 9, MOST_STEPS = 60 }; /* KINSOL asks for 5 vectors, conjugate gr
 static const double DEEPEST = 1e-10;  /* residual reduction of one linear solution */
 
 typedef struct newton {
+    const mps__solver_log *log;
     mps__space space;
     void *kinsol;
     SUNLinearSolver solver;
@@ -117,30 +118,21 @@ static int precondition(N_Vector vp, N_Vector scale, N_Vector f, N_Vector f_scal
 
 /* ---- memory ---- */
 
-static void drop(newton *k)
+static void drop_arrays(newton *k)
 {
-    const mps_allocator *a = &k->space.allocator;
-    if (k->kinsol) KINFree(&k->kinsol);
-    if (k->solver) SUNLinSolFree(k->solver);
-    mps__space_release(&k->space);
-    if (k->p) N_VDestroy(k->p);
-    if (k->one) N_VDestroy(k->one);
-    if (k->stop) N_VDestroy(k->stop);
     double **all[] = {&k->start, &k->residual, &k->inner, &k->slope, &k->ones, &k->diagonal, &k->shift, &k->space.partial};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
-        mps__give(a, *all[i]);
+        mps__give(&k->space.allocator, *all[i]);
         *all[i] = NULL;
     }
-    k->kinsol = NULL;
-    k->solver = NULL;
-    k->p = k->one = k->stop = NULL;
     k->space.capacity = 0;
 }
 
+/* Arrays of this length, here and in all vectors. */
 static bool make_arrays(newton *k, int64_t capacity)
 {
     const mps_allocator *a = &k->space.allocator;
-    k->space.capacity = capacity;
+    drop_arrays(k);
     k->space.partial = mps__take(a, 2 * mps__blocks(capacity), sizeof(double));
     if (!k->space.partial) return false;
     double **all[] = {&k->start, &k->residual, &k->inner, &k->slope, &k->ones, &k->diagonal, &k->shift};
@@ -149,17 +141,21 @@ static bool make_arrays(newton *k, int64_t capacity)
         if (!*all[i]) return false;
     }
     for (int64_t i = 0; i < capacity; i++) k->ones[i] = 1;
-    return true;
+    mps__vector_point(k->one, k->ones);
+    return mps__space_grow(&k->space, capacity);
 }
 
+/* All that SUNDIALS allocates, made once and before the first step. */
 static bool make_solver(newton *k)
 {
-    k->p = mps__vector_wrap(&k->space, k->start);
-    k->one = mps__vector_wrap(&k->space, k->ones);
+    k->space.context = mps__sundials_context(k->log);
+    if (!k->space.context) return false;
+    k->p = mps__vector_wrap(&k->space, NULL);
+    k->one = mps__vector_wrap(&k->space, NULL);
     k->stop = mps__vector_stop(&k->space);
     if (!k->p || !k->one || !k->stop || !mps__space_reserve(&k->space, CLONES)) return false;
     k->solver = SUNLinSol_PCG(k->p, SUN_PREC_LEFT, 0, k->space.context);
-    k->kinsol = mps__kinsol_create(k->space.context);
+    k->kinsol = mps__kinsol_create(k->space.context, k->log);
     return k->solver && k->kinsol && !KINInit(k->kinsol, residual, k->p) && !KINSetUserData(k->kinsol, k) &&
            !KINSetLinearSolver(k->kinsol, k->solver, NULL) && !KINSetJacTimesVecFn(k->kinsol, times) &&
            !KINSetPreconditioner(k->kinsol, begin_step, precondition) && !KINSetMaxSetupCalls(k->kinsol, 1) &&
@@ -186,11 +182,7 @@ static bool prepare(newton *k, const mps_ppe_problem *problem)
     k->space.parallel = problem->parallel;
     k->space.weight = problem->divergence > 0 ? problem->weight : NULL;
     if (problem->component && !grow(k, &k->sums, &k->sum_capacity, 2 * (int64_t)problem->components)) return false;
-    if (problem->n <= k->space.capacity) return true;
-    drop(k);
-    if (make_arrays(k, problem->n + problem->n / 8) && make_solver(k)) return true;
-    drop(k);
-    return false;
+    return problem->n <= k->space.capacity || make_arrays(k, problem->n + problem->n / 8);
 }
 
 /* ---- solution ---- */
@@ -268,8 +260,14 @@ static void destroy(void *self)
 {
     newton *k = self;
     if (!k) return;
-    drop(k);
     const mps_allocator allocator = k->space.allocator;
+    if (k->kinsol) KINFree(&k->kinsol);
+    if (k->solver) SUNLinSolFree(k->solver);
+    mps__space_release(&k->space);
+    if (k->p) N_VDestroy(k->p);
+    if (k->one) N_VDestroy(k->one);
+    if (k->stop) N_VDestroy(k->stop);
+    drop_arrays(k);
     mps__give(&allocator, k->sums);
     if (k->space.context) SUNContext_Free(&k->space.context);
     mps__give(&allocator, k);
@@ -279,11 +277,12 @@ static int create(const mps_allocator *allocator, void **self)
 {
     newton *k = mps__take(allocator, 1, sizeof *k);
     if (!k) return MPS_PPE_NOMEM;
-    *k = (newton){.space = {.allocator = *allocator, .context = mps__sundials_context()}};
-    *self = k;
-    if (k->space.context) return 0;
+    *k = (newton){.log = *self, .space = {.allocator = *allocator}};
+    if (make_solver(k)) {
+        *self = k;
+        return 0;
+    }
     destroy(k);
-    *self = NULL;
     return MPS_PPE_NOMEM;
 }
 

@@ -31,7 +31,7 @@ static int create(const mps_allocator *allocator, void **self)
     klu *k = mps__take(allocator, 1, sizeof *k);
     if (!k) return MPS_PPE_NOMEM;
     k->allocator = *allocator;
-    k->context = mps__sundials_context();
+    k->context = mps__sundials_context(*self);
     if (!k->context) {
         mps__give(allocator, k);
         return MPS_PPE_NOMEM;

@@ -11,6 +11,7 @@ static const double DEEPEST = 1e-10; /* residual reduction of one pass */
 
 typedef struct krylov {
     const mps__krylov_kind *kind;
+    const mps__solver_log *log;
     mps__space space;
     SUNLinearSolver solver;
     N_Vector x, b, stop;
@@ -70,41 +71,39 @@ static int precondition(void *data, N_Vector vr, N_Vector vz, sunrealtype tolera
 
 /* ---- memory ---- */
 
-static void drop(krylov *k)
+static void drop_arrays(krylov *k)
 {
-    const mps_allocator *a = &k->space.allocator;
-    if (k->solver) SUNLinSolFree(k->solver);
-    mps__space_release(&k->space);
-    if (k->x) N_VDestroy(k->x);
-    if (k->b) N_VDestroy(k->b);
-    if (k->stop) N_VDestroy(k->stop);
-    mps__give(a, k->start);
-    mps__give(a, k->residual);
-    mps__give(a, k->correction);
-    mps__give(a, k->inner);
-    mps__give(a, k->space.partial);
-    k->solver = NULL;
-    k->x = k->b = k->stop = NULL;
-    k->start = k->residual = k->correction = k->inner = k->space.partial = NULL;
+    double **all[] = {&k->start, &k->residual, &k->correction, &k->inner, &k->space.partial};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        mps__give(&k->space.allocator, *all[i]);
+        *all[i] = NULL;
+    }
     k->space.capacity = 0;
 }
 
+/* Arrays of this length, here and in all vectors. */
 static bool make_arrays(krylov *k, int64_t capacity)
 {
     const mps_allocator *a = &k->space.allocator;
-    k->space.capacity = capacity;
+    drop_arrays(k);
     k->start = mps__take(a, capacity, sizeof *k->start);
     k->residual = mps__take(a, capacity, sizeof *k->residual);
     k->correction = mps__take(a, capacity, sizeof *k->correction);
     if (!k->kind->symmetric) k->inner = mps__take(a, capacity, sizeof *k->inner);
     k->space.partial = mps__take(a, 2 * mps__blocks(capacity), sizeof *k->space.partial);
-    return k->start && k->residual && k->correction && (k->inner || k->kind->symmetric) && k->space.partial;
+    mps__vector_point(k->x, k->correction);
+    mps__vector_point(k->b, k->residual);
+    if (!k->start || !k->residual || !k->correction || (!k->inner && !k->kind->symmetric) || !k->space.partial) return false;
+    return mps__space_grow(&k->space, capacity);
 }
 
+/* All that SUNDIALS allocates, made once and before the first step. */
 static bool make_solver(krylov *k)
 {
-    k->x = mps__vector_wrap(&k->space, k->correction);
-    k->b = mps__vector_wrap(&k->space, k->residual);
+    k->space.context = mps__sundials_context(k->log);
+    if (!k->space.context) return false;
+    k->x = mps__vector_wrap(&k->space, NULL);
+    k->b = mps__vector_wrap(&k->space, NULL);
     k->stop = mps__vector_stop(&k->space);
     if (!k->x || !k->b || !k->stop) return false;
     if (!mps__space_reserve(&k->space, k->kind->vectors)) return false;
@@ -133,11 +132,7 @@ static bool prepare(krylov *k, const mps_ppe_problem *problem)
     k->space.parallel = problem->parallel;
     k->space.weight = problem->divergence > 0 ? problem->weight : NULL;
     if (problem->component && !make_sums(k, problem->components)) return false;
-    if (problem->n <= k->space.capacity) return true;
-    drop(k);
-    if (make_arrays(k, problem->n + problem->n / 32) && make_solver(k)) return true;
-    drop(k);
-    return false;
+    return problem->n <= k->space.capacity || make_arrays(k, problem->n + problem->n / 32);
 }
 
 /* ---- solution ---- */
@@ -153,7 +148,7 @@ static void run(krylov *k, double *p, double delta, mps_ppe_result *result)
     SUNLinSolSetZeroGuess(k->solver, SUNTRUE);
     int flag = k->kind->run(k->solver, k->pc != NULL, problem->max_iterations - result->iterations, k->x, k->b, delta);
     result->iterations += SUNLinSolNumIters(k->solver);
-    bool stopped = flag == SUNLS_SUCCESS || flag == SUNLS_RES_REDUCED || flag == SUNLS_CONV_FAIL;
+    bool stopped = flag == MPS__SUNDIALS_SUCCESS || flag == SUNLS_RES_REDUCED || flag == SUNLS_CONV_FAIL;
     if (!stopped && !k->failure) k->failure = MPS_PPE_BREAKDOWN;
     if (k->pc && !k->kind->symmetric) {
         int reason = k->pc->apply(k->pc_self, d, k->inner);
@@ -230,13 +225,12 @@ int mps__krylov_create(const mps__krylov_kind *kind, const mps_allocator *alloca
 {
     krylov *k = mps__take(allocator, 1, sizeof *k);
     if (!k) return MPS_PPE_NOMEM;
-    *k = (krylov){.kind = kind};
-    k->space.allocator = *allocator;
-    k->space.context = mps__sundials_context();
-    *self = k;
-    if (k->space.context) return 0;
+    *k = (krylov){.kind = kind, .log = *self, .space = {.allocator = *allocator}};
+    if (make_solver(k)) {
+        *self = k;
+        return 0;
+    }
     mps__krylov_destroy(k);
-    *self = NULL;
     return MPS_PPE_NOMEM;
 }
 
@@ -257,8 +251,13 @@ void mps__krylov_destroy(void *self)
 {
     krylov *k = self;
     if (!k) return;
-    drop(k);
-    mps_allocator allocator = k->space.allocator;
+    const mps_allocator allocator = k->space.allocator;
+    if (k->solver) SUNLinSolFree(k->solver);
+    mps__space_release(&k->space);
+    if (k->x) N_VDestroy(k->x);
+    if (k->b) N_VDestroy(k->b);
+    if (k->stop) N_VDestroy(k->stop);
+    drop_arrays(k);
     mps__give(&allocator, k->sums);
     if (k->space.context) SUNContext_Free(&k->space.context);
     mps__give(&allocator, k);

@@ -7,7 +7,8 @@
 typedef struct content {
     mps__space *space;
     double *data;
-    N_Vector next; /* in the list of spare ones */
+    N_Vector next;       /* in the list of spare ones */
+    N_Vector next_owned; /* in the list of those with an array of their own */
     bool owned, stop;
 } content;
 
@@ -34,12 +35,21 @@ static sunindextype get_length(N_Vector v)
     return (sunindextype)content_of(v)->space->n;
 }
 
+/* Take a vector off the list of those with an array of their own. */
+static void forget(mps__space *space, N_Vector v)
+{
+    N_Vector *at = &space->owned;
+    while (*at && *at != v) at = &content_of(*at)->next_owned;
+    if (*at) *at = content_of(v)->next_owned;
+}
+
 static void destroy(N_Vector v)
 {
     if (!v) return;
     content *c = v->content;
     if (c) {
         mps_allocator allocator = c->space->allocator;
+        if (c->owned) forget(c->space, v);
         if (c->owned) mps__give(&allocator, c->data);
         mps__give(&allocator, c);
     }
@@ -52,10 +62,13 @@ static N_Vector new_owned(mps__space *space)
     double *data = mps__take(&space->allocator, space->capacity, sizeof *data);
     if (!data) return NULL;
     N_Vector v = mps__vector_wrap(space, data);
-    if (v)
-        content_of(v)->owned = true;
-    else
+    if (!v) {
         mps__give(&space->allocator, data);
+        return NULL;
+    }
+    content_of(v)->owned = true;
+    content_of(v)->next_owned = space->owned;
+    space->owned = v;
     return v;
 }
 
@@ -311,6 +324,22 @@ bool mps__space_reserve(mps__space *space, int count)
         space->spare = v;
     }
     return true;
+}
+
+bool mps__space_grow(mps__space *space, int64_t capacity)
+{
+    bool good = true;
+    space->capacity = 0;
+    for (N_Vector v = space->owned; v; v = content_of(v)->next_owned) {
+        mps__give(&space->allocator, content_of(v)->data);
+        content_of(v)->data = NULL;
+    }
+    for (N_Vector v = space->owned; v && good; v = content_of(v)->next_owned) {
+        content_of(v)->data = mps__take(&space->allocator, capacity, sizeof(double));
+        good = content_of(v)->data != NULL;
+    }
+    if (good) space->capacity = capacity;
+    return good;
 }
 
 void mps__space_release(mps__space *space)

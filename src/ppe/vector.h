@@ -7,7 +7,8 @@
 #include <mps/ppe.h>
 #include <stdbool.h>
 
-/* What all vectors of one solver share. They are made for `capacity` elements and use the first n. */
+/* What all vectors of one solver share. They have room for `capacity` elements and use the first n. They are made with the solver, before the
+ * size of a problem is known, and mps__space_grow() gives them their arrays. */
 typedef struct mps__space {
     mps_allocator allocator;
     SUNContext context;
@@ -15,6 +16,7 @@ typedef struct mps__space {
     const mps_parallel *parallel;
     double *partial; /* [2 blocks of capacity] */
     N_Vector spare;  /* list of vectors made ahead for N_VClone, which dereferences NULL when a clone fails */
+    N_Vector owned;  /* list of all vectors with an array of their own */
     /* One dot product computed by the kernel that wrote its vectors, while they were in cache. Any other write forgets it. */
     const double *dot_x, *dot_y;
     double dot;
@@ -30,6 +32,8 @@ N_Vector mps__vector_wrap(mps__space *space, double *data);
 N_Vector mps__vector_stop(mps__space *space);
 /* Make `count` vectors ahead of N_VClone. False when out of memory. */
 bool mps__space_reserve(mps__space *space, int count);
+/* Room for `capacity` elements in all vectors that own their array; what was in them is lost. False when out of memory: the capacity is 0. */
+bool mps__space_grow(mps__space *space, int64_t capacity);
 void mps__space_release(mps__space *space);
 double *mps__vector_data(N_Vector v);
 void mps__vector_point(N_Vector v, double *data);

@@ -173,7 +173,7 @@ grep -q 'air_volume\[m3\]' air3/probes.csv || fail "no air_volume[m3] in 3-D"
 
 # particle numbers: Z14's surge tank, the dam break in 3-D
 counts() { # fluid, walls and dummies, driver, options...
-    runs 0 "${@:3}" --t-end 1e-5 --frames 0 --no-report --quiet --out counts
+    runs 0 "${@:3}" --t-end 1e-5 --frames 0 --no-report --quiet --out counts --overwrite
     local fluid wall dummy
     for key in fluid wall dummy; do declare $key="$(sed -n "s/.*\"n_$key\": \([0-9]*\),.*/\1/p" counts/summary.json)"; done
     [ "$fluid $((wall + dummy))" = "$1 $2" ] || fail "${*:3}: $fluid + $wall + $dummy particles instead of $1 + $2"

@@ -111,7 +111,7 @@ runs 1 "${tank[@]}" --t-end 0.2 --resume --out damaged
 grep -q 'frames.pvd' log || fail "a series that is not ours: $(cat log)"
 
 # a run that begins anew leaves no checkpoint of an older one
-runs 0 "${tank[@]}" --t-end 0.01 --frames 0 --out longer
+runs 0 "${tank[@]}" --t-end 0.01 --frames 0 --out longer --overwrite
 [ ! -e longer/checkpoint.mps ] || fail "a checkpoint stays behind"
 
 # without --checkpoint there is one at SIGTERM

@@ -312,6 +312,8 @@ static void tank_refusals(void **state)
     REFUSE(bad.size[0] = NAN, "size[0]");
     REFUSE(bad.size[0] = INFINITY, "size[0]");
     REFUSE(bad.size[0] = 1e30, "size[0]");
+    REFUSE(bad.size[0] = 4e7, "tank.size[0] is 4e+07 m: too many lattice points");
+    REFUSE(bad.size[1] = 4e7, "tank.size[1] is 4e+07 m: too many lattice points");
     REFUSE(bad.lo[0] = NAN, "lo[0]");
     REFUSE(bad.lo[0] = 1e15, "lo[0] puts solids at 1e+15 m: places must be within 1e+08 m");
     REFUSE(bad.lo[1] = -1.1e8, "lo[1] puts solids at -1.1e+08 m");

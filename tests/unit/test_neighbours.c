@@ -4,6 +4,7 @@
 #include "neighbours.h"
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdio.h>
 #include <cmocka.h>
 
 static const double near_radius = 2.1 * CLOUD_DP, far_radius = 3.1 * CLOUD_DP;
@@ -416,6 +417,28 @@ static void order_is_permutation(void **state)
     cloud_free(&c);
 }
 
+/* The library's own lists take positions as they are: what is no number is refused, not cast. */
+static void position_not_finite(void **state)
+{
+    (void)state;
+    const double bad[] = {NAN, INFINITY, -INFINITY, 1e308};
+    for (int dim = 2; dim <= 3; dim++)
+        for (int d = 0; d < dim; d++)
+            for (int k = 0; k < 4; k++) {
+                mps__context context = {.allocator = mps__allocator_default()};
+                mps_neighbours l;
+                char axis[16];
+                cloud c = cloud_lattice(dim, 6, 6, dim == 3 ? 6 : 1, 0.3, 20);
+                snprintf(axis, sizeof axis, "axis %d", d);
+                assert_int_equal(mps__neighbours_init(&l, &context, dim, CLOUD_DP), MPS_OK);
+                c.x[5 * dim + d] = bad[k];
+                assert_int_equal(mps__neighbours_order(&l, c.n, c.x, far_radius), MPS_E_ARG);
+                assert_non_null(strstr(context.error, axis));
+                mps__neighbours_free(&l);
+                cloud_free(&c);
+            }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -433,6 +456,7 @@ int main(void)
         cmocka_unit_test(skin_rows),
         cmocka_unit_test(skin_limit),
         cmocka_unit_test(order_is_permutation),
+        cmocka_unit_test(position_not_finite),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

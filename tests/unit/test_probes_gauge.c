@@ -316,6 +316,8 @@ static void gauge_of_dry_and_full_tanks(void **state)
     ASSERT_NEAR(read_one(sim, &p), 0, 0);
     fill_depth(sim, 0.4, 0.3, 0);
     ASSERT_NEAR(read_one(sim, &p), 0.29, 0.01 * dp);
+    p.length = 1e300; /* also where the line is longer than steps can be counted */
+    ASSERT_NEAR(read_one(sim, &p), 0.29, 0.01 * dp);
     mps_sim_destroy(sim);
 }
 

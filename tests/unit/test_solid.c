@@ -325,6 +325,16 @@ static void refusals(void **state)
     refused(sim, bad, "must be finite");
     bad.hi[1] = 1e9;
     refused(sim, bad, "too many");
+    for (int d = 0; d < 2; d++) { /* at once, without cells by the thousand million, and of the right axis */
+        char word[64];
+        mps_solid box = good;
+        snprintf(word, sizeof word, "1e+11 m long along axis %d: too many", d);
+        box.hi[d] = 1e11;
+        refused(sim, box, word);
+        box.distance = NULL;
+        box.inside = everywhere;
+        refused(sim, box, word);
+    }
     bad.lo[1] = 1e9 - 1;
     refused(sim, bad, "solid.lo[1] puts solids at 1e+09 m");
     bad = good;

@@ -103,6 +103,15 @@ static inline double mps__square_between(const double *a, const double *b, int d
     return dim == 3 ? x * x + y * y + z * z : x * x + y * y;
 }
 
+/* The axis along which a box has the most points, for messages about boxes that have too many. */
+static inline int mps__longest(const double *points, int dim)
+{
+    int axis = 0;
+    for (int d = 1; d < dim; d++)
+        if (points[d] > points[axis]) axis = d;
+    return axis;
+}
+
 static inline double mps__dot(const double *a, const double *b, int dim)
 {
     double s = a[0] * b[0] + a[1] * b[1];

@@ -138,9 +138,9 @@ static uint64_t column_bytes(const frame *f, const column *c)
     return (uint64_t)f->points * (uint64_t)c->width * stored_type[c->type].size;
 }
 
-static void print_array(frame *f, const char *name, stored type, int32_t width, uint64_t bytes)
+static void print_array(frame *f, const char *name, const char *type, int32_t width, uint64_t bytes)
 {
-    fprintf(f->file, "<DataArray type=\"%s\" Name=\"", stored_type[type].name);
+    fprintf(f->file, "<DataArray type=\"%s\" Name=\"", type);
     print_escaped(f->file, name);
     fprintf(f->file, "\" NumberOfComponents=\"%d\" format=\"appended\" offset=\"%llu\"/>\n", (int)width, (unsigned long long)f->offset);
     f->offset += sizeof(uint64_t) + bytes;
@@ -148,7 +148,7 @@ static void print_array(frame *f, const char *name, stored type, int32_t width, 
 
 static void print_column(frame *f, const column *c)
 {
-    print_array(f, c->name, c->type, c->width, column_bytes(f, c));
+    print_array(f, c->name, stored_type[c->type].name, c->width, column_bytes(f, c));
 }
 
 static void print_xml(frame *f)
@@ -160,15 +160,16 @@ static void print_xml(frame *f)
     fprintf(f->file,
             "<FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">%s</DataArray></FieldData>\n",
             number(t, f->series->world->state.t));
-    fprintf(f->file,
-            "<Piece NumberOfPoints=\"%lld\" NumberOfVerts=\"%d\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n",
-            (long long)f->points, f->points > 0);
+    fprintf(
+        f->file,
+        "<Piece NumberOfPoints=\"%lld\" NumberOfVerts=\"%lld\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n",
+        (long long)f->points, (long long)f->points);
     print_column(f, &f->column[0]);
     fprintf(f->file, "</Points>\n<PointData>\n");
     for (int32_t k = 1; k < f->columns; k++) print_column(f, &f->column[k]);
     fprintf(f->file, "</PointData>\n<Verts>\n");
-    print_array(f, "connectivity", AS_INT64, 1, (uint64_t)f->points * sizeof(int64_t));
-    print_array(f, "offsets", AS_INT64, 1, f->points > 0 ? sizeof(int64_t) : 0);
+    print_array(f, "connectivity", "Int32", 1, (uint64_t)f->points * sizeof(int32_t));
+    print_array(f, "offsets", "Int32", 1, (uint64_t)f->points * sizeof(int32_t));
     fprintf(f->file, "</Verts>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_");
 }
 
@@ -218,18 +219,23 @@ static void write_column(frame *f, const column *c)
     fwrite(block, 1, used, f->file);
 }
 
-/* One cell that holds all points. */
-static void write_cell(frame *f)
+/* first, first + 1, ...: one number for each point. */
+static void write_numbers(frame *f, int32_t first)
 {
-    int64_t block[CHUNK];
-    write_size(f, (uint64_t)f->points * sizeof(int64_t));
-    for (int64_t first = 0; first < f->points; first += CHUNK) {
+    int32_t block[CHUNK];
+    write_size(f, (uint64_t)f->points * sizeof block[0]);
+    for (int64_t k = 0; k < f->points;) {
         size_t count = 0;
-        for (int64_t k = first; k < f->points && count < CHUNK; k++) block[count++] = k;
+        for (; k < f->points && count < CHUNK; k++) block[count++] = first + (int32_t)k;
         fwrite(block, sizeof block[0], count, f->file);
     }
-    write_size(f, f->points > 0 ? sizeof(int64_t) : 0);
-    if (f->points > 0) fwrite(&f->points, sizeof f->points, 1, f->file);
+}
+
+/* One cell for each point, so that filters that choose cells choose particles. */
+static void write_cells(frame *f)
+{
+    write_numbers(f, 0); /* points of the cells */
+    write_numbers(f, 1); /* ends of the cells in that list */
 }
 
 static void write_frame(const mps_frames *series, FILE *file)
@@ -239,7 +245,7 @@ static void write_frame(const mps_frames *series, FILE *file)
     list_columns(&f);
     print_xml(&f);
     for (int32_t k = 0; k < f.columns; k++) write_column(&f, &f.column[k]);
-    write_cell(&f);
+    write_cells(&f);
     fprintf(file, "\n</AppendedData>\n</VTKFile>\n");
 }
 

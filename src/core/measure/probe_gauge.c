@@ -274,12 +274,17 @@ static double row_below(const line *l, double surface)
     return fabs(depth - 0.5 * l->dp) < 0.3 * l->dp ? depth : 0.5 * l->dp;
 }
 
+/* Places looked at along a line, at most. */
+static const double most_samples = 1e15;
+
 /* March from the foot to the place where the filling ends. */
 static double find_surface(line *l)
 {
     double step = 0.5 * l->dp, wet = -1; /* the last place seen full */
     bool solid = false;                  /* the last sample was */
-    int64_t last = (int64_t)ceil(l->length / step);
+    /* beyond the last particle there is nothing to march through, however long the line is */
+    const double top = l->count > 0 ? l->list[l->count - 1].s : 0;
+    const int64_t last = (int64_t)ceil(fmin(fmin(l->length, fmax(top, 0) + 10 * l->dp) / step, most_samples));
     for (int64_t k = 0; k <= last; k++) {
         double s = (double)k * step;
         sample here = line_sample(l, s);

@@ -27,19 +27,39 @@ static mps_status check_regions(const mps__host *h, const mps_stage *s, const mp
         if (region[i] < MPS_REGION_INNER || region[i] > MPS_REGION_DRY) first = i;
     if (first == s->n) return MPS_OK;
     const double *x = s->x + first * s->dim;
+    return mps__fail(h->context, MPS_E_PLUGIN, "model '%s' at t = %.9g s left region %d at particle %lld, (%g, %g, %g) m; must be %d..%d",
+                     call->model->ops->name, s->t, (int)region[first], (long long)s->id[first], x[0], x[1], s->dim == 3 ? x[2] : 0,
+                     MPS_REGION_INNER, MPS_REGION_DRY);
+}
+
+static bool writes(const mps__call *call, int32_t channel)
+{
+    for (int32_t u = 0; u < call->verb->use_count; u++)
+        if (call->channel[u] == channel && call->verb->uses[u].access & MPS_USE_WRITE) return true;
+    return false;
+}
+
+/* No comparison with a number density that is not finite is true: the free surface would be lost without an error. */
+static mps_status check_number_density(const mps__host *h, const mps_stage *s, const mps__call *call)
+{
+    const double *nd = array_of(h, MPS__NUMBER_DENSITY);
+    int64_t first = 0;
+    while (first < s->n && isfinite(nd[first])) first++;
+    if (first == s->n) return MPS_OK;
+    const double *x = s->x + first * s->dim;
     return mps__fail(h->context, MPS_E_PLUGIN,
-                     "model '%s' at t = %.9g s left region %d at particle %lld, (%g, %g, %g) m; must be %d..%d", call->model->ops->name,
-                     s->t, (int)region[first], (long long)s->id[first], x[0], x[1], s->dim == 3 ? x[2] : 0, MPS_REGION_INNER,
-                     MPS_REGION_DRY);
+                     "model '%s' at t = %.9g s left the number density %g at particle %lld, (%g, %g, %g) m; must be finite",
+                     call->model->ops->name, s->t, nd[first], (long long)s->id[first], x[0], x[1], s->dim == 3 ? x[2] : 0);
 }
 
 static mps_status check_after(const mps__host *h, const mps_stage *s, const mps__call *call)
 {
     if (s->moment == MPS_LIMIT && !(s->dt_limit > 0))
-        return mps__fail(h->context, MPS_E_PLUGIN,
-                         "model '%s' at t = %.9g s allows a step of %g s; must be > 0, INFINITY for no limit", call->model->ops->name,
-                         s->t, s->dt_limit);
-    return s->moment == MPS_CLASSIFY && mps__models_foreign(h->models, call->model) ? check_regions(h, s, call) : MPS_OK;
+        return mps__fail(h->context, MPS_E_PLUGIN, "model '%s' at t = %.9g s allows a step of %g s; must be > 0, INFINITY for no limit",
+                         call->model->ops->name, s->t, s->dt_limit);
+    if (!mps__models_foreign(h->models, call->model)) return MPS_OK;
+    if (writes(call, MPS__NUMBER_DENSITY)) MPS__TRY(check_number_density(h, s, call));
+    return s->moment == MPS_CLASSIFY ? check_regions(h, s, call) : MPS_OK;
 }
 
 static mps_status run_call(mps__host *h, mps_stage *s, const mps__call *call)
@@ -85,8 +105,6 @@ mps_status mps__host_run(mps__host *h, mps_stage *s, int32_t moment)
 const char *mps__host_writer(const mps__host *h, int32_t channel)
 {
     for (int32_t k = 0; k < h->plan.begin[MPS_MOMENT_COUNT]; k++)
-        for (int32_t u = 0; u < h->plan.call[k].verb->use_count; u++)
-            if (h->plan.call[k].channel[u] == channel && h->plan.call[k].verb->uses[u].access & MPS_USE_WRITE)
-                return h->plan.call[k].model->ops->name;
+        if (writes(&h->plan.call[k], channel)) return h->plan.call[k].model->ops->name;
     return NULL;
 }

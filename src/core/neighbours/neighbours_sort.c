@@ -52,19 +52,21 @@ void mps__sort_keys(uint64_t *key, int32_t *order, int64_t n)
     }
 }
 
-/* Upper corner of the particles' box, and the negative of the lower one. */
+/* Upper corner of the particles' box, and the negative of the lower one; infinity where a position is no number. */
 static void corner_rows(void *argument, int64_t begin, int64_t end, double *values)
 {
     const corners *c = argument;
     const int dim = c->dim;
     for (int d = 0; d < dim; d++) {
         double hi = values[d], lo = values[dim + d];
+        bool unknown = false;
         for (int64_t i = begin; i < end; i++) {
             const double v = c->x[i * dim + d];
             if (v > hi) hi = v;
             if (-v > lo) lo = -v;
+            unknown |= v != v;
         }
-        values[d] = hi;
+        values[d] = unknown ? INFINITY : hi;
         values[dim + d] = lo;
     }
 }
@@ -78,19 +80,22 @@ static mps_status map_cells(mps_neighbours *l, int64_t n, const double *x, doubl
     mps_parallel_max(l->parallel, n, 2 * l->dim, corner_rows, &(corners){l->dim, x}, corner);
     for (int d = 0; d < l->dim; d++) {
         const double lo = -corner[l->dim + d], hi = corner[d];
+        const bool fits = (hi - lo) / size < limit;
         int64_t far = 0;
-        while ((hi - lo) / size >= limit && x[far * l->dim + d] != hi) far++;
-        MPS__CHECK(l->context, (hi - lo) / size < limit, "particles lie %g m apart along axis %d (particle %lld at %g): at most %g m",
-                   hi - lo, d, (long long)far, hi, limit * size);
+        while (!fits && far < n - 1 && x[far * l->dim + d] < hi) far++;
+        MPS__CHECK(l->context, fits, "particles lie %g m apart along axis %d (particle %lld at %g): at most %g m", hi - lo, d,
+                   (long long)far, x[far * l->dim + d], limit * size);
         m->lo[d] = lo - 2 * size; /* cell 0 stays empty, also when far from the origin lo - size rounds: neighbours never wrap */
     }
     return MPS_OK;
 }
 
+/* Positions lie in the box of map_cells(). The number of a cell is bounded all the same, so that no position can be cast out of range. */
 static uint64_t cell_key(const cell_map *m, const double *x)
 {
+    const double last = (double)((INT64_C(1) << m->bits) - 2);
     uint64_t key = 0;
-    for (int d = m->dim - 1; d >= 0; d--) key = (key << m->bits) | (uint64_t)((x[d] - m->lo[d]) / m->size);
+    for (int d = m->dim - 1; d >= 0; d--) key = (key << m->bits) | (uint64_t)fmin(fmax((x[d] - m->lo[d]) / m->size, 0), last);
     return key;
 }
 

@@ -140,10 +140,19 @@ mps_status mps__solvers_use(mps__solvers *s, const char *solver, const char *pre
     return MPS_OK;
 }
 
+static void warn(void *user, const char *text)
+{
+    mps__log(user, MPS_LOG_WARNING, "%s", text);
+}
+
 mps_status mps__solvers_init(mps__solvers *s, mps__context *context)
 {
-    *s = (mps__solvers){.context = context, .limits = default_limits};
-    for (int k = 0; mps__builtin_solvers[k]; k++) MPS__TRY(mps__solvers_register(s, mps__builtin_solvers[k]));
+    *s = (mps__solvers){.context = context, .log = {warn, context}, .limits = default_limits};
+    for (int k = 0; mps__builtin_solvers[k]; k++) {
+        mps_solver_ops ops = *mps__builtin_solvers[k];
+        ops.user = &s->log;
+        MPS__TRY(mps__solvers_register(s, &ops));
+    }
     s->built_in = s->solvers;
     for (int k = 0; mps__builtin_preconditioners[k]; k++)
         MPS__TRY(mps__solvers_register_preconditioner(s, mps__builtin_preconditioners[k]));

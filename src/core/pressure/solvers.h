@@ -3,6 +3,7 @@
 #ifndef MPS_CORE_SOLVERS_H
 #define MPS_CORE_SOLVERS_H
 
+#include "ppe/builtin.h"
 #include "base.h"
 #include <mps/ppe.h>
 #include <mps/sim.h>
@@ -11,6 +12,7 @@ enum { MPS__SOLVERS_KNOWN = 16 };
 
 typedef struct mps__solvers {
     mps__context *context;
+    mps__solver_log log; /* of the built-in solvers */
     int32_t solvers, preconditioners;
     int32_t built_in; /* the first ones, which check their own results */
     mps_solver_ops solver[MPS__SOLVERS_KNOWN];

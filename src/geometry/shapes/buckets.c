@@ -19,16 +19,26 @@ static int64_t cell_of(const mps__buckets *b, const int64_t k[3])
     return k[0] + b->cells[0] * (k[1] + b->cells[1] * k[2]);
 }
 
+/* Cells of a box; a side of it that is shorter than a cell counts as one. */
+static double cells_of(int32_t dim, const double *lo, const double *hi, double side)
+{
+    double cells = 1;
+    for (int d = 0; d < dim; d++) cells *= fmax((hi[d] - lo[d]) / side, 1.0);
+    return cells;
+}
+
 mps_status mps__buckets_init(mps__buckets *b, mps__context *context, int32_t dim, const double *lo, const double *hi, double side)
 {
     *b = (mps__buckets){.context = context, .dim = dim, .cells = {1, 1, 1}};
-    double volume = 1;
-    for (int d = 0; d < dim; d++) volume *= fmax((hi[d] - lo[d]) / side, 1.0);
-    if (volume > most_cells) side *= pow(volume / most_cells, 1.0 / dim);
+    for (int d = 0; d < dim; d++)
+        MPS__CHECK(context, isfinite(hi[d] - lo[d]), "a box of %g .. %g m along axis %d: must be finite", lo[d], hi[d], d);
+    const double cells = cells_of(dim, lo, hi, side);
+    if (cells > most_cells) side *= pow(cells / most_cells, 1.0 / dim);
+    while (cells_of(dim, lo, hi, side) > 2 * most_cells) side *= 2; /* a long and thin box, whose short sides have one cell already */
     b->over = 1.0 / side;
     for (int d = 0; d < dim; d++) {
         b->lo[d] = lo[d];
-        b->cells[d] = 1 + (int64_t)fmax((hi[d] - lo[d]) * b->over, 0.0);
+        b->cells[d] = 1 + (int64_t)fmin(fmax((hi[d] - lo[d]) * b->over, 0.0), 2 * most_cells);
     }
     b->head = mps__alloc(context, b->cells[0] * b->cells[1] * b->cells[2], sizeof *b->head);
     return b->head ? MPS_OK : MPS_E_NOMEM;

@@ -88,13 +88,16 @@ static mps_status grid_values(grid *g)
 static mps_status grid_init(grid *g, mps__context *context, const mps__shape *shape, const mps__contour_box *box)
 {
     *g = (grid){.context = context, .shape = shape, .box = box, .dim = shape->dim, .h = 0.5 * shape->dp, .n = {1, 1, 1}};
-    double nodes = 1;
+    double cells[3], nodes = 1;
     for (int d = 0; d < g->dim; d++) {
-        const double cells = ceil((box->hi[d] - box->anchor[d]) / g->h - 1e-6) + 2 * MARGIN + 2;
-        nodes *= cells;
-        MPS__CHECK(context, nodes < most_nodes, "the solid's box is %g m long along axis %d: too many cells of %g m",
-                   box->hi[d] - box->lo[d], d, g->h);
-        g->n[d] = (int64_t)cells;
+        cells[d] = ceil((box->hi[d] - box->anchor[d]) / g->h - 1e-6) + 2 * MARGIN + 2;
+        nodes *= cells[d];
+    }
+    const int most = mps__longest(cells, g->dim);
+    MPS__CHECK(context, nodes < most_nodes, "the solid's box is %g m long along axis %d: too many cells of %g m",
+               box->hi[most] - box->lo[most], most, g->h);
+    for (int d = 0; d < g->dim; d++) {
+        g->n[d] = (int64_t)cells[d];
         g->lo[d] = box->anchor[d] - (MARGIN + 0.5) * g->h;
     }
     g->nodes = g->n[0] * g->n[1] * g->n[2];

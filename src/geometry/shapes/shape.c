@@ -99,15 +99,18 @@ static double off_ridges(const mps__shape *s, const double x[3], double raw)
 
 mps_status mps__distances_make(mps__distances *f, mps__context *context, const mps__shape *s, const double *lo, const double *hi)
 {
-    double points = 1;
+    double along[3], points = 1;
     *f = (mps__distances){.dp = s->dp, .dim = s->dim, .n = {1, 1, 1}};
     for (int d = 0; d < s->dim; d++) {
-        const double n = ceil((hi[d] - lo[d]) / s->dp - 1e-6) + 1;
-        points *= n;
-        MPS__CHECK(context, points < most_points, "the solid's box is %g m long along axis %d: too many lattice points of spacing %g m",
-                   hi[d] - lo[d], d, s->dp);
+        along[d] = ceil((hi[d] - lo[d]) / s->dp - 1e-6) + 1;
+        points *= along[d];
+    }
+    const int most = mps__longest(along, s->dim);
+    MPS__CHECK(context, points < most_points, "the solid's box is %g m long along axis %d: too many lattice points of spacing %g m",
+               hi[most] - lo[most], most, s->dp);
+    for (int d = 0; d < s->dim; d++) {
         f->lo[d] = lo[d];
-        f->n[d] = (int64_t)n;
+        f->n[d] = (int64_t)along[d];
     }
     f->value = mps__alloc(context, (int64_t)points, sizeof *f->value);
     if (!f->value) return MPS_E_NOMEM;

@@ -16,19 +16,23 @@ static mps_status has_tank(mps_sim *sim)
 /* Whole spacings of every side. The lattice with its dummies must stay countable. */
 static mps_status tank_cells(mps_sim *sim, const mps_tank *tank, int64_t cells[3])
 {
-    double dp = sim->world.setup.dp, points = 1;
-    for (int d = 0; d < sim->world.setup.dim; d++) {
-        double n = round(tank->size[d] / dp);
+    const double dp = sim->world.setup.dp;
+    const int dim = sim->world.setup.dim;
+    double along[3], points = 1;
+    for (int d = 0; d < dim; d++) {
+        const double n = round(tank->size[d] / dp);
         MPS__CHECK(&sim->context, isfinite(tank->lo[d]), "tank.lo[%d] is %g: must be finite", d, tank->lo[d]);
         MPS__CHECK(&sim->context, isfinite(n) && tank->size[d] >= (3 - 1e-6) * dp, "tank.size[%d] is %g m: at least 3 spacings of %g m", d,
                    tank->size[d], dp);
         MPS__TRY(mps__place_resolved(sim, "tank.lo", d, tank->lo[d]));
         MPS__TRY(mps__place_resolved(sim, "tank.size", d, tank->lo[d] + tank->size[d]));
+        along[d] = n;
         points *= n + 1 + 2 * tank->dummy_layers;
-        MPS__CHECK(&sim->context, points < INT32_MAX, "tank.size[%d] is %g m: too many lattice points of spacing %g m", d, tank->size[d],
-                   dp);
-        cells[d] = (int64_t)n;
     }
+    const int most = mps__longest(along, dim);
+    MPS__CHECK(&sim->context, points < INT32_MAX, "tank.size[%d] is %g m: too many lattice points of spacing %g m", most, tank->size[most],
+               dp);
+    for (int d = 0; d < dim; d++) cells[d] = (int64_t)along[d];
     return MPS_OK;
 }
 
@@ -180,7 +184,8 @@ static mps_status plate_inside(mps_sim *sim, const mps__plate_shape *s)
         for (int d = 0; d < sim->world.setup.dim; d++) {
             double at = s->corner[d];
             for (int e = 0; e < 2; e++) at += (corner >> e & 1) * (double)(s->nodes[e] - 1) * s->spacing[e] * s->along[e][d];
-            const double lo = sim->lattice_lo[d], hi = lo + (double)sim->lattice_cells[d] * sim->world.setup.dp, slack = 1e-6 * sim->world.setup.dp;
+            const double lo = sim->lattice_lo[d], hi = lo + (double)sim->lattice_cells[d] * sim->world.setup.dp,
+                         slack = 1e-6 * sim->world.setup.dp;
             MPS__CHECK(&sim->context, at >= lo - slack && at <= hi + slack,
                        "the plate leaves the tank: coordinate [%d] of a corner is %g, allowed %g..%g", d, at, lo, hi);
         }

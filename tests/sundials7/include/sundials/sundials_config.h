@@ -1,0 +1,6 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STUB_SUNDIALS_CONFIG_H
+#define STUB_SUNDIALS_CONFIG_H
+#define SUNDIALS_VERSION_MAJOR    7
+#define SUNDIALS_DOUBLE_PRECISION 1
+#endif
