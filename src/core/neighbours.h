@@ -53,6 +53,8 @@ mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x,
 void mps__neighbours_rows(mps_neighbours *l, const double *x);
 /* Set l->near_begin and make room for what stands in its rows. */
 mps_status mps__neighbours_near(mps_neighbours *l);
+/* Pairs of one radius; the list is not empty. */
+mps_status mps__neighbours_view(const mps_neighbours *l, int32_t which, const mps_kernel *kernel, mps_stencil *view);
 /* Sort cell keys and the particles' numbers with them; both have room for 2 n. neighbours_sort.c */
 void mps__sort_keys(uint64_t *key, int32_t *order, int64_t n);
 

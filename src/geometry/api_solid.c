@@ -41,7 +41,7 @@ static mps_status check_solid(mps_sim *sim, const mps_solid *s)
 
 mps_status mps_solid_init(mps_solid *solid, size_t size)
 {
-    return mps__struct_init(solid, size, &solid_defaults, sizeof solid_defaults);
+    return mps__struct_init("mps_solid", solid, size, &solid_defaults, sizeof solid_defaults);
 }
 
 mps_status mps_geometry_solid(mps_sim *sim, const mps_solid *solid)
@@ -70,7 +70,7 @@ mps_status mps_geometry_solid(mps_sim *sim, const mps_solid *solid)
 
 mps_status mps_stl_init(mps_stl *stl, size_t size)
 {
-    return mps__struct_init(stl, size, &stl_defaults, sizeof stl_defaults);
+    return mps__struct_init("mps_stl", stl, size, &stl_defaults, sizeof stl_defaults);
 }
 
 static mps_status check_stl(mps_sim *sim, const char *path, const mps_stl *s)

@@ -57,7 +57,7 @@ static void force_turns_with_the_tank(void **state)
     add_tank(sim, 0.2, 0.1, 0.15);
     const mps_harmonic h[3] = {{MPS_ROLL, 0, 0.3, 1, 1}, {MPS_YAW, 0, 0.5, 1, 1.5}, {MPS_PITCH, 0, 0.4, 1, 2}};
     ASSERT_OK(sim, mps_motion_set_harmonics(sim, 3, h));
-    mps_lease lease;
+    mps_lease lease = {.struct_size = sizeof lease};
     ASSERT_OK(sim, mps_lease_begin(sim, "wall_pressure", MPS_WRITE, &lease));
     for (int64_t i = 0; i < lease.count; i++) lease.data[i] = 500;
     ASSERT_OK(sim, mps_lease_end(sim, &lease));
@@ -85,7 +85,7 @@ static void energies_of_a_block(void **state)
     (void)state;
     mps_sim *sim = filled(2, 0.1);
     const int64_t n = 39 * 10;
-    mps_lease u;
+    mps_lease u = {.struct_size = sizeof u};
     ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &u));
     for (int64_t i = 0; i < u.count; i++) {
         u.data[2 * i] = 3;
