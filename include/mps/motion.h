@@ -3,13 +3,13 @@
  *
  *    x(t) = c + d(t) + R(t) (X - c),   R = Rz(yaw) Ry(pitch) Rx(roll) in 3-D.
  *
- *  2-D has surge, heave and one rotation, that of the plane, positive from x to y. It has two names:
- *  MPS_ROLL, as for the cross-section of a ship, and MPS_YAW, about the axis z. The tank turns by
- *  the sum of both, R = Rz(roll + yaw). Sway and pitch are refused.
+ *  2-D has surge, heave and one rotation, that of the plane, positive from x to y. It has two
+ *  names: MPS_ROLL, as for the cross-section of a ship, and MPS_YAW, about the axis z. The tank
+ *  turns by the sum of both, R = Rz(roll + yaw). Sway and pitch are refused.
  *
- *  All walls, probes and gauges move with the tank. Setting a motion carries the tank and its liquid
- *  to the pose of the motion at the present time. Between steps a new motion should begin at the
- *  present pose. */
+ *  All walls, probes and gauges move with the tank. Setting a motion carries the tank and its
+ *  liquid to the pose of the motion at the present time. Between steps a new motion should begin at
+ *  the present pose. */
 #ifndef MPS_MOTION_H
 #define MPS_MOTION_H
 
@@ -54,7 +54,8 @@ MPS_API mps_status mps_motion_state_init(mps_motion_state *state, size_t size);
 
 /** How the motion begins. */
 enum {
-    /** Walls jump to their velocity, the liquid is at rest in the lab (as in the papers; default). */
+    /** Walls jump to their velocity, the liquid is at rest in the lab (as in the papers;
+     *  default). */
     MPS_START_AT_REST = 0,
     /** The liquid takes the velocity of the tank when the first step with this motion begins. */
     MPS_START_WITH_TANK = 1
@@ -96,8 +97,9 @@ MPS_API mps_status mps_motion_set_harmonics(mps_sim *sim, int32_t count,
  *
  *  A step that would end more than 1e-9 s beyond the last row fails with MPS_E_STATE, and the
  *  simulation can continue with another motion. mps_run() to the time of the last row meets it
- *  exactly. mps_step() does not cut its step to the table, but takes at most the given dt_max. After
- *  the table mps_motion_clear() holds the tank where it is; its velocity becomes zero at once.
+ *  exactly. mps_step() does not cut its step to the table, but takes at most the given dt_max.
+ *  After the table mps_motion_clear() holds the tank where it is; its velocity becomes zero at
+ *  once.
  *  @param rows    >= 2
  *  @param t       [rows] [s], strictly increasing, t[0] <= present time
  *  @param dofs    number of columns, 1..6
@@ -111,8 +113,8 @@ MPS_API mps_status mps_motion_set_table(mps_sim *sim, int64_t rows, const double
  *  struct_size and zeros. @return 0; non-zero: the step fails with MPS_E_PLUGIN */
 typedef int (*mps_motion_fn)(void *user, double t, mps_motion_state *state);
 
-/** Motion by callback. @return MPS_E_ARG, MPS_E_BUSY, MPS_E_PLUGIN (the callback fails at the present
- *  time) */
+/** Motion by callback. @return MPS_E_ARG, MPS_E_BUSY, MPS_E_PLUGIN (the callback fails at the
+ *  present time) */
 MPS_API mps_status mps_motion_set_callback(mps_sim *sim, mps_motion_fn fn, void *user);
 
 /** No motion from now on; the tank stays where it is. @return MPS_E_BUSY */

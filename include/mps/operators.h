@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/** @file operators.h  Kernels and MPS operators on any cloud of particles, with no simulation and no
- *  time step.
+/** @file operators.h  Kernels and MPS operators on any cloud of particles, with no simulation and
+ *  no time step.
  *
  *  An mps_neighbours object holds the neighbour list of a cloud. An mps_stencil is a read-only view
  *  of it for one radius, with the constants of the kernel. Operators take a stencil and plain
@@ -93,8 +93,8 @@ static inline void mps_kernel_weights(const mps_kernel *kernel, double re, int32
  *  @param dp         spacing [m], > 0
  *  @param re         radius [m], dp < re < 100 dp
  *  @param n0,lambda  out [-], [m2]; either may be NULL
- *  @return MPS_E_ARG: an argument is out of its range, or the kernel is negative, not finite, or 0 at
- *          all distances of the lattice */
+ *  @return MPS_E_ARG: an argument is out of its range, or the kernel is negative, not finite, or 0
+ *          at all distances of the lattice */
 MPS_API mps_status mps_lattice_constants(const mps_kernel *kernel, int32_t dim, double dp,
                                          double re, double *n0, double *lambda);
 
@@ -263,9 +263,9 @@ MPS_API mps_status mps_sim_stencil(mps_sim *sim, int32_t which, mps_stencil *ste
 MPS_API mps_status mps_op_number_density(const mps_stencil *s, double *n);
 
 /** delta_i = S_i/S0 - 1: relative excess of the density of particles; > 0: compressed. S_i is the
- *  sum over j and i itself of a smooth kernel of support s->re: Wendland C2 in 2-D, (1 - q^2)^3 with
- *  q = r/re in 3-D. S0 is the sum of the lattice. Unlike n_i it hardly depends on the shape of the
- *  lattice.
+ *  sum over j and i itself of a smooth kernel of support s->re: Wendland C2 in 2-D, (1 - q^2)^3
+ *  with q = r/re in 3-D. S0 is the sum of the lattice. Unlike n_i it hardly depends on the shape of
+ *  the lattice.
  *  @param delta  [s->n] out [-] */
 MPS_API mps_status mps_op_volume_deviation(const mps_stencil *s, double *delta);
 
@@ -299,15 +299,16 @@ MPS_API mps_status mps_op_divergence_corrected(const mps_stencil *s, const doubl
 /** \<lap f\>_i = 2D/(n0 lambda) sum_j (f_j - f_i) W. W22 (6). @param f  [n] @param lap  [n] out */
 MPS_API mps_status mps_op_laplacian(const mps_stencil *s, const double *f, double *lap);
 
-/** Laplacian of a vector field, component by component. @param u  [n*dim] @param lap  [n*dim] out */
+/** Laplacian of a vector field, component by component. @param u  [n*dim] @param lap  [n*dim]
+ *  out */
 MPS_API mps_status mps_op_laplacian_vector(const mps_stencil *s, const double *u, double *lap);
 
 /** A_i = D/n0 sum_j (x_i - x_j)/|r_ij| W: points out of the fluid. W22 (11).
  *  @param a  [n*dim] out [-] */
 MPS_API mps_status mps_op_asymmetry(const mps_stencil *s, double *a);
 
-/** B_i = M_i^-1, M_i = D/n0 sum_j r_ij (x) r_ij/|r_ij|^2 W; eigenvalues of M below `floor` are raised
- *  to it.
+/** B_i = M_i^-1, M_i = D/n0 sum_j r_ij (x) r_ij/|r_ij|^2 W; eigenvalues of M below `floor` are
+ *  raised to it.
  *  @param floor  > 0, e.g. 0.2
  *  @param b      [n*dim*dim] out, symmetric; unit matrix for a particle without neighbours */
 MPS_API mps_status mps_op_correction(const mps_stencil *s, double floor, double *b);

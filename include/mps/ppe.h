@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file ppe.h  Plug-in interface of pressure solvers and preconditioners.
  *
- *  The system is A p = b: row i is sum_j k_ij (p_i - p_j) + s_i p_i = b_i with k_ij = k_ji, s_i >= 0.
- *  A is symmetric positive (semi-)definite for the default models. Rows of a gas may be nonlinear:
- *  A p + gas (f(p) - p) = b, f by mps_ppe_law(). A holds their linear part, so gas_i <= s_i.
- *  Built-in solvers use this interface and no other. */
+ *  The system is A p = b: row i is sum_j k_ij (p_i - p_j) + s_i p_i = b_i with k_ij = k_ji, s_i >=
+ *  0. A is symmetric positive (semi-)definite for the default models. Rows of a gas may be
+ *  nonlinear: A p + gas (f(p) - p) = b, f by mps_ppe_law(). A holds their linear part, so gas_i <=
+ *  s_i. Built-in solvers use this interface and no other. */
 #ifndef MPS_PPE_H
 #define MPS_PPE_H
 
@@ -77,8 +77,8 @@ enum {
     MPS_PPE_NOMEM = 5
 };
 
-/** What a solver reports. It belongs to the caller of the solver, which initialises it: a solver sets
- *  members, one by one, and leaves struct_size alone. */
+/** What a solver reports. It belongs to the caller of the solver, which initialises it: a solver
+ *  sets members, one by one, and leaves struct_size alone. */
 typedef struct mps_ppe_result {
     /** Set by mps_ppe_result_init(), or sizeof(mps_ppe_result). */
     uint32_t struct_size;
@@ -109,8 +109,8 @@ typedef struct mps_preconditioner_ops {
     const char *name;
     /** 1: M is symmetric positive definite (conjugate gradients need it) */
     int32_t symmetric;
-    /** New state in *self, which holds `user` before and may keep it. Memory comes from `allocator`.
-     *  Non-zero: out of memory. */
+    /** New state in *self, which holds `user` before and may keep it. Memory comes from
+     *  `allocator`. Non-zero: out of memory. */
     int (*create)(const mps_allocator *allocator, void **self);
     /** Prepare for a matrix, which stays valid until the last apply.
      *  @return MPS_PPE_CONVERGED, or a reason of failure */
@@ -182,9 +182,9 @@ MPS_API mps_status mps_solver_register(mps_sim *sim, const mps_solver_ops *ops);
 /** Register a preconditioner on a handle. @return as mps_solver_register() */
 MPS_API mps_status mps_preconditioner_register(mps_sim *sim, const mps_preconditioner_ops *ops);
 
-/** Law of a nonlinear row: f(p) = P ln(1 + p/P), with f(0) = 0 and slope 1 there; rising and concave.
- *  Below p = -0.99 P, where hardly any gas is left, f continues along its tangent, so that it is
- *  finite for every p.
+/** Law of a nonlinear row: f(p) = P ln(1 + p/P), with f(0) = 0 and slope 1 there; rising and
+ *  concave. Below p = -0.99 P, where hardly any gas is left, f continues along its tangent, so that
+ *  it is finite for every p.
  *  @param law    P [Pa]; 0: f(p) = p
  *  @param slope  NULL, or out: f'(p) > 0
  *  @return f(p) [Pa] */

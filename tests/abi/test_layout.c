@@ -51,13 +51,15 @@ AT(mps_solid, inside, 72);
 AT(mps_solid, user, 80);
 AT(mps_solid, invert, 88);
 
-SIZE(mps_stl, 56);
+SIZE(mps_stl, 80);
 AT(mps_stl, struct_size, 0);
 AT(mps_stl, dummy_layers, 4);
 AT(mps_stl, name, 8);
 AT(mps_stl, scale, 16);
-AT(mps_stl, shift, 24);
-AT(mps_stl, container, 48);
+AT(mps_stl, rotation, 24);
+AT(mps_stl, shift, 48);
+AT(mps_stl, container, 72);
+AT(mps_stl, open_side, 76);
 
 SIZE(mps_model_info, 40);
 AT(mps_model_info, struct_size, 0);
@@ -358,7 +360,7 @@ AT(mps_probe, average, 88);
 AT(mps_probe, rate, 96);
 AT(mps_probe, phases, 104);
 
-SIZE(mps_energy, 144);
+SIZE(mps_energy, 160);
 AT(mps_energy, struct_size, 0);
 AT(mps_energy, kinetic, 8);
 AT(mps_energy, potential, 16);
@@ -373,6 +375,8 @@ AT(mps_energy, volume_error, 80);
 AT(mps_energy, centre, 88);
 AT(mps_energy, momentum, 112);
 AT(mps_energy, added, 136);
+AT(mps_energy, volume_filled, 144);
+AT(mps_energy, mass_filled, 152);
 
 SIZE(mps_momentum, 224);
 AT(mps_momentum, struct_size, 0);
