@@ -159,7 +159,7 @@ static outcome run(const options *o, const char *name, const char *solver, int32
     outcome r = {.threads = threads};
     bench_case c;
     bench_memory memory;
-    mps_lease x;
+    mps_lease x = {.struct_size = sizeof x};
     const char *why = bench_case_find(name, &c), *used[2];
     if (why) bench_fail(name, why);
     mps_sim *sim = bench_case_make(&c, threads, o->re_far, &memory);

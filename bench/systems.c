@@ -76,10 +76,10 @@ static void solve(void *self, const mps_ppe_problem *problem, const mps_precondi
     mps__solver_pcg.solve(r->solver, problem, pc, pc_self, p, result);
 }
 
-static void destroy(void *self)
+static void destroy(const mps_allocator *allocator, void *self)
 {
     recorder *r = self;
-    mps__solver_pcg.destroy(r->solver);
+    mps__solver_pcg.destroy(allocator, r->solver);
     free(r);
 }
 
@@ -176,7 +176,7 @@ int bench_replay(const char *file, const char *pair, int32_t threads, double tol
     bench_memory memory;
     mps_allocator allocator = bench_allocator(&memory);
     mps_ppe_problem problem;
-    mps_ppe_result result = {0};
+    mps_ppe_result result = {.struct_size = sizeof result};
     double *guess = read_system(file, &problem), *p = malloc((size_t)problem.n * sizeof *p), least = INFINITY, setup = INFINITY,
            cpu = INFINITY;
     void *self = ops->user, *pc_self = pc ? pc->user : NULL;
@@ -201,8 +201,8 @@ int bench_replay(const char *file, const char *pair, int32_t threads, double tol
            file, pair, threads, (long long)problem.n, result.iterations, 1e6 * setup / (double)problem.n,
            1e6 * (least - setup) / (double)problem.n, 1e3 * least, 1e6 * cpu / (double)problem.n, result.residual,
            (double)memory.peak / (double)problem.n, result.reason);
-    ops->destroy(self);
-    if (pc) pc->destroy(pc_self);
+    ops->destroy(&allocator, self);
+    if (pc) pc->destroy(&allocator, pc_self);
     mps__pool_free(&pool);
     free(p);
     free_system(&problem, guess);

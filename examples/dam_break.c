@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Dam break of Lobovsky et al. 2014: a column of water 0.6 m long and 0.3 m high in a tank 1.61 x 0.6 m, in 3-D 0.15 m wide. */
 #include "common/run.h"
+#include "common/view.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,17 +32,15 @@ static void build(run *r, double *built)
 
 static bool bins_collect(const bins *b, mps_sim *sim)
 {
-    const int32_t *kind;
-    mps_lease x = {0};
+    view v;
     memset(b->furthest, 0, (size_t)b->count * sizeof *b->furthest);
-    if (mps_particles_tags(sim, NULL, &kind, NULL, NULL) != MPS_OK || mps_lease_begin(sim, "position", MPS_READ, &x) != MPS_OK)
-        return false;
-    for (int64_t i = 0; i < x.count; i++) {
-        double at = x.data[i * x.stride];
+    if (!view_open(sim, &v)) return false;
+    for (int64_t i = 0; i < v.x.count; i++) {
+        double at = v.x.data[i * v.x.stride];
         int64_t k = (int64_t)(at / b->size);
-        if (kind[i] == MPS_FLUID && at > 0 && k < b->count) b->furthest[k] = fmax(b->furthest[k], at);
+        if (v.kind.integers[i] == MPS_FLUID && at > 0 && k < b->count) b->furthest[k] = fmax(b->furthest[k], at);
     }
-    return mps_lease_end(sim, &x) == MPS_OK;
+    return view_close(sim, &v);
 }
 
 /* The front: how far liquid reaches from the left wall without a gap. */

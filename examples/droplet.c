@@ -3,6 +3,7 @@
  * w^2 = 6 sigma/((rho_i + rho_o) R^3), started by the velocities of that mode. */
 #include "common/phases.h"
 #include "common/tank.h"
+#include "common/view.h"
 #include <math.h>
 
 static const double RADIUS = 5e-3, BOX = 20e-3, WATER = 1000, WATER_VISCOSITY = 1e-3;
@@ -29,13 +30,12 @@ static void build(run *r)
 static void set_moving(run *r)
 {
     double rate = STRETCH * sqrt(6 * r->options.sigma / ((WATER + TANK_AIR_DENSITY) * pow(RADIUS, 3)));
-    const int32_t *kind;
-    mps_lease x = {0}, u = {0};
-    run_check(r, mps_particles_tags(r->sim, NULL, &kind, NULL, NULL), "velocities");
+    mps_lease kind = {.struct_size = sizeof kind}, x = {.struct_size = sizeof x}, u = {.struct_size = sizeof u};
+    run_check(r, mps_lease_begin(r->sim, "kind", MPS_READ, &kind), "velocities");
     run_check(r, mps_lease_begin(r->sim, "position", MPS_READ, &x), "velocities");
     run_check(r, mps_lease_begin(r->sim, "velocity", MPS_WRITE, &u), "velocities");
     for (int64_t i = 0; i < x.count; i++) {
-        if (kind[i] != MPS_FLUID) continue;
+        if (kind.integers[i] != MPS_FLUID) continue;
         const double a = x.data[2 * i] - BOX / 2, b = x.data[2 * i + 1] - BOX / 2, r2 = a * a + b * b, inside = RADIUS * RADIUS;
         const double outer = rate * pow(inside / r2, 2) / r2;
         u.data[2 * i] = r2 <= inside ? rate * a : outer * a * (a * a - 3 * b * b);
@@ -43,27 +43,28 @@ static void set_moving(run *r)
     }
     run_check(r, mps_lease_end(r->sim, &u), "velocities");
     run_check(r, mps_lease_end(r->sim, &x), "velocities");
+    run_check(r, mps_lease_end(r->sim, &kind), "velocities");
 }
 
 /* Mean pressure of the inner half of the drop less that of the air beyond 1.5 R. */
 static double jump(void *user, mps_sim *sim)
 {
-    const int32_t *kind;
-    mps_lease x = {0}, p = {0};
+    view v;
+    mps_lease p = {.struct_size = sizeof p};
     double sum[2] = {0};
     int64_t count[2] = {0};
     (void)user;
-    if (mps_particles_tags(sim, NULL, &kind, NULL, NULL) != MPS_OK || mps_lease_begin(sim, "position", MPS_READ, &x) != MPS_OK) return NAN;
+    if (!view_open(sim, &v)) return NAN;
     if (mps_lease_begin(sim, "pressure", MPS_READ, &p) == MPS_OK) {
-        for (int64_t i = 0; i < x.count; i++) {
-            const double r = hypot(x.data[2 * i] - BOX / 2, x.data[2 * i + 1] - BOX / 2) / RADIUS;
-            if (kind[i] != MPS_FLUID || (r > 0.5 && r < 1.5)) continue;
+        for (int64_t i = 0; i < v.x.count; i++) {
+            const double r = hypot(v.x.data[2 * i] - BOX / 2, v.x.data[2 * i + 1] - BOX / 2) / RADIUS;
+            if (v.kind.integers[i] != MPS_FLUID || (r > 0.5 && r < 1.5)) continue;
             sum[r > 1] += p.data[i];
             count[r > 1]++;
         }
         mps_lease_end(sim, &p);
     }
-    mps_lease_end(sim, &x);
+    view_close(sim, &v);
     return count[0] && count[1] ? sum[0] / (double)count[0] - sum[1] / (double)count[1] : NAN;
 }
 

@@ -39,7 +39,7 @@ static int turn(void *user, double t, mps_motion_state *s)
 
 static double angle(void *user, mps_sim *sim)
 {
-    mps_motion_state s;
+    mps_motion_state s = {.struct_size = sizeof s};
     (void)user;
     return mps_motion_state_get(sim, &s) == MPS_OK ? s.value[MPS_YAW] * 180 / PI : NAN;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Two fluids at rest, Wen, Zhao & Wan 2022 section 4.1: 0.75 m of 1000 kg/m3 below 0.75 m of 1 kg/m3 in a closed tank 1 m wide. */
 #include "common/tank.h"
+#include "common/view.h"
 #include <math.h>
 
 static const double SIZE[] = {1, 1.5, 0}, LAYER = 0.75, HEAVY = 1000, LIGHT = 1, VISCOSITY = 1e-3;
@@ -18,17 +19,15 @@ static void build(run *r)
 /* How far a fluid reaches beyond the interface [m]. */
 static double trespass(void *user, mps_sim *sim)
 {
-    const int32_t *kind, *phase;
-    mps_lease x = {0};
+    view v;
     double most = -INFINITY;
     (void)user;
-    if (mps_particles_tags(sim, NULL, &kind, &phase, NULL) != MPS_OK || mps_lease_begin(sim, "position", MPS_READ, &x) != MPS_OK)
-        return NAN;
-    for (int64_t i = 0; i < x.count; i++) {
-        const double above = x.data[i * x.stride + 1] - LAYER;
-        if (kind[i] == MPS_FLUID) most = fmax(most, phase[i] == 0 ? above : -above);
+    if (!view_open(sim, &v)) return NAN;
+    for (int64_t i = 0; i < v.x.count; i++) {
+        const double above = v.x.data[i * v.x.stride + 1] - LAYER;
+        if (v.kind.integers[i] == MPS_FLUID) most = fmax(most, v.phase.integers[i] == 0 ? above : -above);
     }
-    return mps_lease_end(sim, &x) == MPS_OK ? most : NAN;
+    return view_close(sim, &v) ? most : NAN;
 }
 
 static void add_columns(run *r)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Sums over the particles of a phase, and neighbours of the same phase by a grid of cells. */
 #include "phases.h"
+#include "view.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,29 +15,29 @@ typedef struct cells {
 
 bool phase_means_get(mps_sim *sim, int32_t phase, phase_means *m)
 {
-    const int32_t *kind, *of;
-    mps_lease x = {0}, u = {0};
+    view v;
+    mps_lease u = {.struct_size = sizeof u};
     memset(m, 0, sizeof *m);
-    if (mps_particles_tags(sim, NULL, &kind, &of, NULL) != MPS_OK) return false;
-    if (mps_lease_begin(sim, "position", MPS_READ, &x) != MPS_OK) return false;
+    if (!view_open(sim, &v)) return false;
+    const int32_t dim = v.x.stride;
     bool done = mps_lease_begin(sim, "velocity", MPS_READ, &u) == MPS_OK;
-    for (int64_t i = 0; done && i < x.count; i++) {
-        if (kind[i] != MPS_FLUID || of[i] != phase) continue;
+    for (int64_t i = 0; done && i < v.x.count; i++) {
+        if (v.kind.integers[i] != MPS_FLUID || v.phase.integers[i] != phase) continue;
         m->count++;
-        for (int d = 0; d < x.stride; d++) {
-            const double at = x.data[i * x.stride + d];
+        for (int d = 0; d < dim; d++) {
+            const double at = v.x.data[i * dim + d];
             m->x[d] += at;
             m->x2[d] += at * at;
-            m->u[d] += u.data[i * u.stride + d];
+            m->u[d] += u.data[i * dim + d];
         }
     }
-    for (int d = 0; m->count > 0 && d < x.stride; d++) {
+    for (int d = 0; m->count > 0 && d < dim; d++) {
         m->x[d] /= (double)m->count;
         m->x2[d] /= (double)m->count;
         m->u[d] /= (double)m->count;
     }
     if (done) mps_lease_end(sim, &u);
-    mps_lease_end(sim, &x);
+    view_close(sim, &v);
     return done && m->count > 0;
 }
 
@@ -99,22 +100,21 @@ static void company(const cells *c, const mps_lease *x, const int32_t *phase, in
 
 int64_t phase_strays(mps_sim *sim)
 {
-    const int32_t *kind, *phase;
-    mps_lease x = {0};
+    view v;
     cells c = {0};
     int64_t strays = 0;
     mps_sim_shape(sim, NULL, &c.side);
     c.side *= 2;
-    if (mps_particles_tags(sim, NULL, &kind, &phase, NULL) != MPS_OK || mps_lease_begin(sim, "position", MPS_READ, &x) != MPS_OK) return -1;
-    bool done = cells_build(&c, &x, kind);
-    for (int64_t i = 0; done && i < x.count; i++) {
+    if (!view_open(sim, &v)) return -1;
+    bool done = cells_build(&c, &v.x, v.kind.integers);
+    for (int64_t i = 0; done && i < v.x.count; i++) {
         int64_t same, other;
-        if (kind[i] != MPS_FLUID) continue;
-        company(&c, &x, phase, i, &same, &other);
+        if (v.kind.integers[i] != MPS_FLUID) continue;
+        company(&c, &v.x, v.phase.integers, i, &same, &other);
         if (same < 2 && other > 0) strays++;
     }
     free(c.first);
     free(c.next);
-    mps_lease_end(sim, &x);
+    view_close(sim, &v);
     return done ? strays : -1;
 }

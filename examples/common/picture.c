@@ -2,6 +2,7 @@
 /* Pictures of the flow, drawn in memory and written with libpng. */
 #include "picture.h"
 #include "font.h"
+#include "view.h"
 #include <math.h>
 #include <png.h>
 #include <stdio.h>
@@ -242,22 +243,27 @@ static bool picture_draw(scene *s, const char *path)
 
 bool picture_save(mps_sim *sim, const char *path)
 {
-    mps_lease x = {0}, p = {0};
+    view v;
+    mps_lease p = {.struct_size = sizeof p}, plate = {.struct_size = sizeof plate};
     scene s = {0};
     bool done = false;
     mps_sim_shape(sim, &s.dim, &s.dp);
     mps_sim_time(sim, &s.t, NULL);
-    if (mps_lease_begin(sim, "position", MPS_READ, &x) != MPS_OK) goto fail;
-    if (mps_lease_begin(sim, "pressure", MPS_READ, &p) != MPS_OK) goto fail_x;
-    s.n = x.count;
-    s.x = x.data;
+    if (!view_open(sim, &v)) goto fail;
+    if (mps_lease_begin(sim, "pressure", MPS_READ, &p) != MPS_OK) goto fail_view;
+    if (mps_lease_begin(sim, "plate", MPS_READ, &plate) != MPS_OK) goto fail_pressure;
+    s.n = v.x.count;
+    s.x = v.x.data;
     s.p = p.data;
-    mps_particles_tags(sim, NULL, &s.kind, &s.phase, NULL);
-    mps_particles_plates(sim, &s.plate);
+    s.kind = v.kind.integers;
+    s.phase = v.phase.integers;
+    s.plate = plate.integers;
     done = picture_draw(&s, path);
+    mps_lease_end(sim, &plate);
+fail_pressure:
     mps_lease_end(sim, &p);
-fail_x:
-    mps_lease_end(sim, &x);
+fail_view:
+    view_close(sim, &v);
 fail:
     if (!done) fprintf(stderr, "%s: no picture: %s\n", path, mps_sim_error(sim));
     return done;

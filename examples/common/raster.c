@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Cubic B-splines on a grid: on a full lattice their sum is 1 everywhere, whatever the lattice's place on the grid. */
 #include "raster.h"
+#include "view.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -69,20 +70,17 @@ static void spread(const raster *g, const double *x, const double *tank, double 
 
 bool raster_fill(raster *g, mps_sim *sim)
 {
-    mps_lease x = {0};
-    mps_motion_state tank;
+    view v;
+    mps_motion_state tank = {.struct_size = sizeof tank};
     int64_t step = 0;
-    const int32_t *kind, *phase;
     mps_sim_time(sim, NULL, &step);
     if (step == g->step) return true;
-    if (mps_particles_tags(sim, NULL, &kind, &phase, NULL) != MPS_OK || mps_motion_state_get(sim, &tank) != MPS_OK ||
-        mps_lease_begin(sim, "position", MPS_READ, &x) != MPS_OK)
-        return false;
+    if (mps_motion_state_get(sim, &tank) != MPS_OK || !view_open(sim, &v)) return false;
     for (int k = 0; k < RASTER_LAYERS; k++) memset(g->share[k], 0, (size_t)g->count * sizeof **g->share);
-    for (int64_t i = 0; i < x.count; i++) {
-        const int layer = kind[i] != MPS_FLUID ? RASTER_SOLID : phase[i] == 0 ? RASTER_LIQUID : RASTER_OTHER;
-        spread(g, x.data + i * x.stride, tank.value + MPS_SURGE, g->share[layer]);
+    for (int64_t i = 0; i < v.x.count; i++) {
+        const int layer = v.kind.integers[i] != MPS_FLUID ? RASTER_SOLID : v.phase.integers[i] == 0 ? RASTER_LIQUID : RASTER_OTHER;
+        spread(g, v.x.data + i * v.x.stride, tank.value + MPS_SURGE, g->share[layer]);
     }
     g->step = step;
-    return mps_lease_end(sim, &x) == MPS_OK;
+    return view_close(sim, &v);
 }

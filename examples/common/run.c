@@ -2,6 +2,7 @@
 /* Opening a run, naming its columns. Stepping is in stepping.c, what comes after the last step in summary.c and report.c. */
 #include "run.h"
 #include "folder.h"
+#include "view.h"
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -175,15 +176,13 @@ void run_phase(run *r, int32_t index, double density, double viscosity)
 
 double run_level(run *r)
 {
-    const int32_t *kind, *phase;
-    mps_lease x = {0};
+    view v;
     double level = -INFINITY;
     if (r->level > 0) return r->level;
-    run_check(r, mps_particles_tags(r->sim, NULL, &kind, &phase, NULL), "still level");
-    run_check(r, mps_lease_begin(r->sim, "position", MPS_READ, &x), "still level");
-    for (int64_t i = 0; i < x.count; i++)
-        if (kind[i] == MPS_FLUID && phase[i] == 0) level = fmax(level, x.data[i * x.stride + 1]);
-    run_check(r, mps_lease_end(r->sim, &x), "still level");
+    run_check(r, view_open(r->sim, &v) ? MPS_OK : MPS_E_BUSY, "still level");
+    for (int64_t i = 0; i < v.x.count; i++)
+        if (v.kind.integers[i] == MPS_FLUID && v.phase.integers[i] == 0) level = fmax(level, v.x.data[i * v.x.stride + 1]);
+    run_check(r, view_close(r->sim, &v) ? MPS_OK : MPS_E_BUSY, "still level");
     return level;
 }
 

@@ -110,7 +110,7 @@ static void run_momentum(run *r, double t)
 static void run_energies(run *r, double *out)
 {
     mps_energy e;
-    mps_motion_state tank;
+    mps_motion_state tank = {.struct_size = sizeof tank};
     mps_energy_init(&e, sizeof e);
     run_note(r, mps_energy_get(r->sim, &e), "energies");
     run_note(r, mps_motion_state_get(r->sim, &tank), "motion");

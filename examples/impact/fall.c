@@ -4,6 +4,7 @@
  * gap of g t^2/2; it reaches the rim first. The middle is shut off from it: no air can get in there, so the floor takes its liquid along and
  * pulls until the void has come in from the rims. So the rim has an exact answer, the middle and its gap have none. */
 #include "impact.h"
+#include "common/view.h"
 #include <math.h>
 
 static const double HEIGHT = 0.5, DROP = 0.1, BREADTH = 0.4, GRAVITY = 9.81;
@@ -64,15 +65,13 @@ static int leave(void *user, double t, mps_motion_state *s)
 /* Lowest liquid above its place on the floor. */
 static double gap(void *user, mps_sim *sim)
 {
-    const int32_t *kind;
     const double floor[3] = {0};
     double at[3] = {0}, lowest = INFINITY;
-    mps_lease x = {0};
-    if (mps_motion_to_lab(sim, floor, at, NULL) != MPS_OK || mps_particles_tags(sim, NULL, &kind, NULL, NULL) != MPS_OK) return NAN;
-    if (mps_lease_begin(sim, "position", MPS_READ, &x) != MPS_OK) return NAN;
-    for (int64_t i = 0; i < x.count; i++)
-        if (kind[i] == MPS_FLUID) lowest = fmin(lowest, x.data[i * x.stride + 1]);
-    mps_lease_end(sim, &x);
+    view v;
+    if (mps_motion_to_lab(sim, floor, at, NULL) != MPS_OK || !view_open(sim, &v)) return NAN;
+    for (int64_t i = 0; i < v.x.count; i++)
+        if (v.kind.integers[i] == MPS_FLUID) lowest = fmin(lowest, v.x.data[i * v.x.stride + 1]);
+    view_close(sim, &v);
     return lowest - at[1] - ((const impact *)user)->run.options.dp;
 }
 

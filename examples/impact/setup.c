@@ -35,16 +35,16 @@ void impact_fill(impact *c, const int *columns, const int *rows)
 void impact_start(impact *c, double u, double v)
 {
     run *r = &c->run;
-    const int32_t *kind;
-    mps_lease lease = {0};
-    run_check(r, mps_particles_tags(r->sim, NULL, &kind, NULL, NULL), "velocities");
+    mps_lease kind = {.struct_size = sizeof kind}, lease = {.struct_size = sizeof lease};
+    run_check(r, mps_lease_begin(r->sim, "kind", MPS_READ, &kind), "velocities");
     run_check(r, mps_lease_begin(r->sim, "velocity", MPS_WRITE, &lease), "velocities");
     for (int64_t i = 0; i < lease.count; i++) {
-        if (kind[i] != MPS_FLUID) continue;
+        if (kind.integers[i] != MPS_FLUID) continue;
         lease.data[i * lease.stride] = u;
         lease.data[i * lease.stride + 1] = v;
     }
     run_check(r, mps_lease_end(r->sim, &lease), "velocities");
+    run_check(r, mps_lease_end(r->sim, &kind), "velocities");
 }
 
 double impact_width(const impact *c)

@@ -180,6 +180,8 @@ typedef struct mps_setting {
  *    FREE elsewhere.
  *  Unknowns are particles of regions INNER, SECOND and NEAR that are not fixed. */
 typedef struct mps_equation {
+    /** sizeof(mps_equation) of the library */
+    uint32_t struct_size;
     /** The pairs of the Laplacian: MPS_NEAR or MPS_FAR (default). */
     int32_t radius;
     /** 1: pairs with one particle on the surface also carry the flux of the pairs that the surface
@@ -188,8 +190,6 @@ typedef struct mps_equation {
     /** 1: pressures are those beyond a fluid that moves with the tank, b = g - a_tank in
      *  mps/flux.h; default 0. */
     int32_t body;
-    /** Kept 0. */
-    int32_t reserved;
     /** Weight of wall-wall pairs, times the smaller "wetted_share" of both; default 0. */
     double wall_factor;
     /** Share of the divergence that a step takes away, 0 < gain <= 1; default 1. */
@@ -378,7 +378,7 @@ MPS_API int mps_stage_bodies(mps_stage *s, int32_t most, const int32_t *role, in
 /** Rows by square cells, for searches beyond the far radius: bucket b holds the rows first[b] - 1,
  *  next[of that] - 1, ... until 0, ascending, of all cells with that bucket. */
 typedef struct mps_grid {
-    /** sizeof(mps_grid) */
+    /** Set by mps_grid_init(), or sizeof(mps_grid). */
     uint32_t struct_size;
     /** 2 or 3 */
     int32_t dim;
@@ -391,6 +391,9 @@ typedef struct mps_grid {
     /** [n] */
     const int32_t *next;
 } mps_grid;
+
+/** Set struct_size and zero. @param size  sizeof(mps_grid) @return MPS_E_ARG: bad size */
+MPS_API mps_status mps_grid_init(mps_grid *grid, size_t size);
 
 /** Cell of a place x [dim]. */
 static inline void mps_grid_cell(const mps_grid *grid, const double *x, int64_t cell[3])
@@ -408,7 +411,8 @@ static inline int64_t mps_grid_bucket(const mps_grid *grid, const int64_t cell[3
 }
 
 /** Sort the fluid rows into cells of a side. The grid lives as long as scratch, and takes 2 blocks.
- *  @return 0, or non-zero after a failure (no memory, side not > 0) */
+ *  @param grid  initialised by mps_grid_init(); out
+ *  @return 0, or non-zero after a failure (no memory, side not > 0, grid not initialised) */
 MPS_API int mps_stage_grid(mps_stage *s, double side, mps_grid *grid);
 
 /** Place of a point of the lab in the frame of the tank, and the velocity of the rigid tank there

@@ -38,6 +38,6 @@ extern const mps_hypre_settings mps__hypre_defaults;
 int mps__hypre_create(const mps_allocator *allocator, void **self);
 void mps__hypre_solve(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc, void *pc_self, double *p,
                       mps_ppe_result *result);
-void mps__hypre_destroy(void *self);
+void mps__hypre_destroy(const mps_allocator *allocator, void *self);
 
 #endif

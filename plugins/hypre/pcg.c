@@ -260,20 +260,22 @@ void mps__hypre_solve(void *self, const mps_ppe_problem *problem, const mps_prec
 {
     (void)pc, (void)pc_self;
     pcg *s = self;
-    *result = (mps_ppe_result){MPS_PPE_NOMEM, 0, INFINITY, INFINITY, 0};
+    result->reason = MPS_PPE_NOMEM;
+    result->iterations = 0;
+    result->residual = result->divergence = INFINITY;
+    result->setup_seconds = 0;
     clean(p, problem->n);
     if (!reserve(s, problem)) return;
     s->problem = problem;
     result->reason = attempt(s, p, result);
 }
 
-void mps__hypre_destroy(void *self)
+void mps__hypre_destroy(const mps_allocator *allocator, void *self)
 {
     pcg *s = self;
     if (!s) return;
-    const mps_allocator allocator = s->amg.allocator;
     mps__amg_release(&s->amg);
-    mps__hypre_give(&allocator, s->block);
-    mps__hypre_give(&allocator, s->sums);
-    mps__hypre_give(&allocator, s);
+    mps__hypre_give(allocator, s->block);
+    mps__hypre_give(allocator, s->sums);
+    mps__hypre_give(allocator, s);
 }

@@ -131,7 +131,7 @@ MPS_SUMS(raise_phase_rows, raise_phase, void)
 int mps__curvatures(mps_stage *s, const mps_stencil *pairs, double radius, double threshold,
                     double *kappa)
 {
-    fields f = {{0}, pairs, threshold, kappa};
+    fields f = {{.struct_size = sizeof f.grid}, pairs, threshold, kappa};
     double phase[2];
     mps_stage_max(s, 2, raise_phase_rows, NULL, phase);
     if (!(phase[0] > -phase[1])) return 0; /* one phase or none */

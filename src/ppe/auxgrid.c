@@ -116,13 +116,12 @@ static int apply(void *self, const double *r, double *z)
     return 0;
 }
 
-static void destroy(void *self)
+static void destroy(const mps_allocator *allocator, void *self)
 {
     auxgrid *a = self;
     if (!a) return;
-    mps_allocator allocator = a->grid.allocator;
     mps__grid_release(&a->grid);
-    mps__give(&allocator, a);
+    mps__give(allocator, a);
 }
 
 const mps_preconditioner_ops mps__preconditioner_auxgrid = {

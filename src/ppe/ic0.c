@@ -181,14 +181,13 @@ static int apply(void *self, const double *r, double *z)
     return 0;
 }
 
-static void destroy(void *self)
+static void destroy(const mps_allocator *allocator, void *self)
 {
     ic0 *f = self;
     if (!f) return;
     drop_rows(f);
     drop_entries(f);
-    mps_allocator allocator = f->allocator;
-    mps__give(&allocator, f);
+    mps__give(allocator, f);
 }
 
 const mps_preconditioner_ops mps__preconditioner_ic0 = {

@@ -66,13 +66,12 @@ static int apply(void *self, const double *r, double *z)
     return 0;
 }
 
-static void destroy(void *self)
+static void destroy(const mps_allocator *allocator, void *self)
 {
     jacobi *j = self;
     if (!j) return;
-    mps_allocator allocator = j->allocator;
-    mps__give(&allocator, j->inverse);
-    mps__give(&allocator, j);
+    mps__give(allocator, j->inverse);
+    mps__give(allocator, j);
 }
 
 const mps_preconditioner_ops mps__preconditioner_jacobi = {

@@ -157,6 +157,14 @@ bool mps__curvature_negative(const mps_ppe_problem *problem, const double *x, do
     return -curvature > 1e-12 * scale;
 }
 
+void mps__result_begin(mps_ppe_result *result)
+{
+    result->reason = MPS_PPE_NOMEM;
+    result->iterations = 0;
+    result->residual = result->divergence = INFINITY;
+    result->setup_seconds = 0;
+}
+
 double mps__result_excess(const mps_ppe_problem *problem, const mps_ppe_result *result)
 {
     double norm = result->residual == 0 ? 0 : result->residual / problem->tolerance;

@@ -62,6 +62,8 @@ bool mps__curvature_negative(const mps_ppe_problem *problem, const double *x, do
 /* Subtract the mean of p over each singular component, whose null vector is 1; sums [2 components] is scratch. */
 void mps__components_center(const mps_ppe_problem *problem, double *p, double *sums);
 
+/* What a solver reports before it has done anything: no memory. */
+void mps__result_begin(mps_ppe_result *result);
 /* How far a result is above the wanted limits; at most 1: both are met. */
 double mps__result_excess(const mps_ppe_problem *problem, const mps_ppe_result *result);
 

@@ -43,7 +43,7 @@ static int residual(N_Vector vp, N_Vector vf, void *data)
 {
     newton *k = data;
     double *f = mps__vector_data(vf);
-    mps_ppe_result unused;
+    mps_ppe_result unused = {.struct_size = sizeof unused};
     mps__vector_written(vf);
     mps_ppe_check(k->problem, mps__vector_data(vp), f, &unused);
     for (int64_t i = 0; i < k->space.n; i++) f[i] = -f[i];
@@ -256,11 +256,10 @@ static int attempt(newton *k, double *p, mps_ppe_result *result)
     return reason;
 }
 
-static void destroy(void *self)
+static void destroy(const mps_allocator *allocator, void *self)
 {
     newton *k = self;
     if (!k) return;
-    const mps_allocator allocator = k->space.allocator;
     if (k->kinsol) KINFree(&k->kinsol);
     if (k->solver) SUNLinSolFree(k->solver);
     mps__space_release(&k->space);
@@ -268,9 +267,9 @@ static void destroy(void *self)
     if (k->one) N_VDestroy(k->one);
     if (k->stop) N_VDestroy(k->stop);
     drop_arrays(k);
-    mps__give(&allocator, k->sums);
+    mps__give(allocator, k->sums);
     if (k->space.context) SUNContext_Free(&k->space.context);
-    mps__give(&allocator, k);
+    mps__give(allocator, k);
 }
 
 static int create(const mps_allocator *allocator, void **self)
@@ -282,7 +281,7 @@ static int create(const mps_allocator *allocator, void **self)
         *self = k;
         return 0;
     }
-    destroy(k);
+    destroy(allocator, k);
     return MPS_PPE_NOMEM;
 }
 
@@ -290,7 +289,7 @@ static void solve(void *self, const mps_ppe_problem *problem, const mps_precondi
                   mps_ppe_result *result)
 {
     newton *k = self;
-    *result = (mps_ppe_result){MPS_PPE_NOMEM, 0, INFINITY, INFINITY, 0};
+    mps__result_begin(result);
     mps__guess_clean(p, problem->n);
     if (!prepare(k, problem)) return;
     k->problem = problem;

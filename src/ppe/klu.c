@@ -40,13 +40,12 @@ static int create(const mps_allocator *allocator, void **self)
     return 0;
 }
 
-static void destroy(void *self)
+static void destroy(const mps_allocator *allocator, void *self)
 {
     klu *k = self;
     if (!k) return;
-    mps_allocator allocator = k->allocator;
     SUNContext_Free(&k->context);
-    mps__give(&allocator, k);
+    mps__give(allocator, k);
 }
 
 static void close_job(const klu *k, job *j)
@@ -177,7 +176,7 @@ static void solve(void *self, const mps_ppe_problem *problem, const mps_precondi
     (void)pc, (void)pc_self;
     const klu *k = self;
     job j = {0};
-    *result = (mps_ppe_result){MPS_PPE_NOMEM, 0, INFINITY, INFINITY, 0};
+    mps__result_begin(result);
     mps__guess_clean(p, problem->n);
     if (open_job(k, &j, problem)) result->reason = attempt(k, &j, p, result);
     close_job(k, &j);

@@ -230,7 +230,7 @@ int mps__krylov_create(const mps__krylov_kind *kind, const mps_allocator *alloca
         *self = k;
         return 0;
     }
-    mps__krylov_destroy(k);
+    mps__krylov_destroy(allocator, k);
     return MPS_PPE_NOMEM;
 }
 
@@ -238,7 +238,7 @@ void mps__krylov_solve(void *self, const mps_ppe_problem *problem, const mps_pre
                        mps_ppe_result *result)
 {
     krylov *k = self;
-    *result = (mps_ppe_result){MPS_PPE_NOMEM, 0, INFINITY, INFINITY, 0};
+    mps__result_begin(result);
     mps__guess_clean(p, problem->n);
     if (!prepare(k, problem)) return;
     k->problem = problem;
@@ -247,18 +247,17 @@ void mps__krylov_solve(void *self, const mps_ppe_problem *problem, const mps_pre
     result->reason = attempt(k, p, result);
 }
 
-void mps__krylov_destroy(void *self)
+void mps__krylov_destroy(const mps_allocator *allocator, void *self)
 {
     krylov *k = self;
     if (!k) return;
-    const mps_allocator allocator = k->space.allocator;
     if (k->solver) SUNLinSolFree(k->solver);
     mps__space_release(&k->space);
     if (k->x) N_VDestroy(k->x);
     if (k->b) N_VDestroy(k->b);
     if (k->stop) N_VDestroy(k->stop);
     drop_arrays(k);
-    mps__give(&allocator, k->sums);
+    mps__give(allocator, k->sums);
     if (k->space.context) SUNContext_Free(&k->space.context);
-    mps__give(&allocator, k);
+    mps__give(allocator, k);
 }

@@ -51,13 +51,15 @@ AT(mps_solid, inside, 72);
 AT(mps_solid, user, 80);
 AT(mps_solid, invert, 88);
 
-SIZE(mps_stl, 56);
+SIZE(mps_stl, 80);
 AT(mps_stl, struct_size, 0);
 AT(mps_stl, dummy_layers, 4);
 AT(mps_stl, name, 8);
 AT(mps_stl, scale, 16);
-AT(mps_stl, shift, 24);
-AT(mps_stl, container, 48);
+AT(mps_stl, rotation, 24);
+AT(mps_stl, shift, 48);
+AT(mps_stl, container, 72);
+AT(mps_stl, open_side, 76);
 
 SIZE(mps_model_info, 40);
 AT(mps_model_info, struct_size, 0);
@@ -128,10 +130,10 @@ AT(mps_setting, min, 40);
 AT(mps_setting, max, 48);
 
 SIZE(mps_equation, 32);
-AT(mps_equation, radius, 0);
-AT(mps_equation, complete_surface, 4);
-AT(mps_equation, body, 8);
-AT(mps_equation, reserved, 12);
+AT(mps_equation, struct_size, 0);
+AT(mps_equation, radius, 4);
+AT(mps_equation, complete_surface, 8);
+AT(mps_equation, body, 12);
 AT(mps_equation, wall_factor, 16);
 AT(mps_equation, gain, 24);
 
@@ -200,10 +202,12 @@ AT(mps_grid, buckets, 16);
 AT(mps_grid, first, 24);
 AT(mps_grid, next, 32);
 
-SIZE(mps_motion_state, 144);
-AT(mps_motion_state, value, 0);
-AT(mps_motion_state, rate, 48);
-AT(mps_motion_state, accel, 96);
+SIZE(mps_motion_state, 152);
+AT(mps_motion_state, struct_size, 0);
+AT(mps_motion_state, reserved, 4);
+AT(mps_motion_state, value, 8);
+AT(mps_motion_state, rate, 56);
+AT(mps_motion_state, accel, 104);
 
 SIZE(mps_harmonic, 32);
 AT(mps_harmonic, dof, 0);
@@ -213,25 +217,27 @@ AT(mps_harmonic, omega, 16);
 AT(mps_harmonic, phase, 24);
 
 SIZE(mps_kernel, 24);
-AT(mps_kernel, id, 0);
+AT(mps_kernel, struct_size, 0);
+AT(mps_kernel, id, 4);
 AT(mps_kernel, fn, 8);
 AT(mps_kernel, user, 16);
 
-SIZE(mps_stencil, 120);
+SIZE(mps_stencil, 128);
 AT(mps_stencil, struct_size, 0);
 AT(mps_stencil, dim, 4);
-AT(mps_stencil, n, 8);
-AT(mps_stencil, dp, 16);
-AT(mps_stencil, re, 24);
-AT(mps_stencil, n0, 32);
-AT(mps_stencil, lambda, 40);
-AT(mps_stencil, kernel, 48);
-AT(mps_stencil, parallel, 72);
-AT(mps_stencil, x, 80);
-AT(mps_stencil, begin, 88);
-AT(mps_stencil, end, 96);
-AT(mps_stencil, col, 104);
-AT(mps_stencil, w_r2, 112);
+AT(mps_stencil, host, 8);
+AT(mps_stencil, n, 16);
+AT(mps_stencil, dp, 24);
+AT(mps_stencil, re, 32);
+AT(mps_stencil, n0, 40);
+AT(mps_stencil, lambda, 48);
+AT(mps_stencil, kernel, 56);
+AT(mps_stencil, parallel, 80);
+AT(mps_stencil, x, 88);
+AT(mps_stencil, begin, 96);
+AT(mps_stencil, end, 104);
+AT(mps_stencil, col, 112);
+AT(mps_stencil, w_r2, 120);
 
 SIZE(mps_pair, 64);
 AT(mps_pair, d, 0);
@@ -275,11 +281,15 @@ AT(mps_particle_block, position, 32);
 AT(mps_particle_block, velocity, 40);
 AT(mps_particle_block, area, 48);
 
-SIZE(mps_lease, 24);
-AT(mps_lease, data, 0);
-AT(mps_lease, count, 8);
-AT(mps_lease, stride, 16);
-AT(mps_lease, slot, 20);
+SIZE(mps_lease, 48);
+AT(mps_lease, struct_size, 0);
+AT(mps_lease, type, 4);
+AT(mps_lease, stride, 8);
+AT(mps_lease, slot, 12);
+AT(mps_lease, count, 16);
+AT(mps_lease, data, 24);
+AT(mps_lease, integers, 32);
+AT(mps_lease, ids, 40);
 
 SIZE(mps_ppe_problem, 144);
 AT(mps_ppe_problem, struct_size, 0);
@@ -303,12 +313,14 @@ AT(mps_ppe_problem, gas, 120);
 AT(mps_ppe_problem, law, 128);
 AT(mps_ppe_problem, parallel, 136);
 
-SIZE(mps_ppe_result, 32);
-AT(mps_ppe_result, reason, 0);
-AT(mps_ppe_result, iterations, 4);
-AT(mps_ppe_result, residual, 8);
-AT(mps_ppe_result, divergence, 16);
-AT(mps_ppe_result, setup_seconds, 24);
+SIZE(mps_ppe_result, 40);
+AT(mps_ppe_result, struct_size, 0);
+AT(mps_ppe_result, reason, 4);
+AT(mps_ppe_result, iterations, 8);
+AT(mps_ppe_result, reserved, 12);
+AT(mps_ppe_result, residual, 16);
+AT(mps_ppe_result, divergence, 24);
+AT(mps_ppe_result, setup_seconds, 32);
 
 SIZE(mps_preconditioner_ops, 72);
 AT(mps_preconditioner_ops, struct_size, 0);
@@ -348,7 +360,7 @@ AT(mps_probe, average, 88);
 AT(mps_probe, rate, 96);
 AT(mps_probe, phases, 104);
 
-SIZE(mps_energy, 144);
+SIZE(mps_energy, 160);
 AT(mps_energy, struct_size, 0);
 AT(mps_energy, kinetic, 8);
 AT(mps_energy, potential, 16);
@@ -363,6 +375,8 @@ AT(mps_energy, volume_error, 80);
 AT(mps_energy, centre, 88);
 AT(mps_energy, momentum, 112);
 AT(mps_energy, added, 136);
+AT(mps_energy, volume_filled, 144);
+AT(mps_energy, mass_filled, 152);
 
 SIZE(mps_momentum, 224);
 AT(mps_momentum, struct_size, 0);

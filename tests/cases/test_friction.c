@@ -8,6 +8,7 @@
  * Velocities are compared in the middle of the slug, a gap long. The walls' half cells are no
  * particles, so the friction of the force models is the stress half a spacing inside the wall; it
  * is compared with the exact one there, as its integral over the time. */
+#include "../tags.h"
 #include <math.h>
 #include <mps/model.h>
 #include <mps/mps.h>
@@ -232,9 +233,9 @@ typedef struct measured {
 static measured compare(mps_sim *sim, const flow *f, double dp)
 {
     const int32_t *kind;
-    mps_lease x, u;
+    mps_lease x = {.struct_size = sizeof x}, u = {.struct_size = sizeof u};
     double uu = 0, ue = 0, square = 0, most = 0, count = 0;
-    OK(sim, mps_particles_tags(sim, NULL, &kind, NULL, NULL));
+    OK(sim, tags_peek(sim, NULL, &kind, NULL, NULL));
     OK(sim, mps_lease_begin(sim, "position", MPS_READ, &x));
     OK(sim, mps_lease_begin(sim, "velocity", MPS_READ, &u));
     const double centre = middle(x.data, kind, x.count);

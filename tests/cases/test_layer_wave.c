@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Standing wave of the interface between two liquids that fill a closed tank, from flat with the velocities of linear theory, against
  *   omega^2 = (rho1 - rho2) g k/(rho1 coth(k h1) + rho2 coth(k h2)). */
+#include "../tags.h"
 #include <math.h>
 #include <mps/mps.h>
 #include <setjmp.h>
@@ -51,8 +52,8 @@ static mps_sim *two_liquids(double dp, const double *rho, double level)
 static void set_moving(mps_sim *sim, double level, double speed)
 {
     const int32_t *kind, *phase;
-    mps_lease x, u;
-    OK(sim, mps_particles_tags(sim, NULL, &kind, &phase, NULL));
+    mps_lease x = {.struct_size = sizeof x}, u = {.struct_size = sizeof u};
+    OK(sim, tags_peek(sim, NULL, &kind, &phase, NULL));
     OK(sim, mps_lease_begin(sim, "position", MPS_READ, &x));
     OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &u));
     for (int64_t i = 0; i < x.count; i++) {
@@ -71,9 +72,9 @@ static void set_moving(mps_sim *sim, double level, double speed)
 static double wave_height(mps_sim *sim, double dp)
 {
     const int32_t *kind, *phase;
-    mps_lease x;
+    mps_lease x = {.struct_size = sizeof x};
     double sum = 0;
-    OK(sim, mps_particles_tags(sim, NULL, &kind, &phase, NULL));
+    OK(sim, tags_peek(sim, NULL, &kind, &phase, NULL));
     OK(sim, mps_lease_begin(sim, "position", MPS_READ, &x));
     for (int64_t i = 0; i < x.count; i++)
         if (kind[i] == MPS_FLUID && phase[i] == 0) sum += cos(wave_number * x.data[2 * i]);

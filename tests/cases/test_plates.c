@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Thin plates in the liquid: rest with different levels on both sides, sloshing over and rolling with a baffle of one column. */
+#include "../tags.h"
 #include <math.h>
 #include <mps/mps.h>
 #include <setjmp.h>
@@ -47,9 +48,9 @@ static mps_sim *open_tank(int32_t dim, double length, double height, double widt
 static void jitter(mps_sim *sim, double amount)
 {
     const int32_t *kind;
-    mps_lease x;
+    mps_lease x = {.struct_size = sizeof x};
     uint32_t seed = 1;
-    OK(sim, mps_particles_tags(sim, NULL, &kind, NULL, NULL));
+    OK(sim, tags_peek(sim, NULL, &kind, NULL, NULL));
     OK(sim, mps_lease_begin(sim, "position", MPS_WRITE, &x));
     for (int64_t i = 0; i < x.count * x.stride; i++) {
         seed = seed * 1664525u + 1013904223u;
@@ -121,9 +122,9 @@ static void check_divided(int32_t dim, int columns, double right, double t_end)
     NEAR("right face [Pa]", r.sum[RIGHT] / r.steps, right > 0 ? rho0 * g * (right - 0.04) : 0, 0.02 * unit);
     NEAR("force [N]", r.sum[FORCE] / r.steps, force, 0.03 * force);
     NEAR("mean speed at the end [m/s]", sqrt(2 * r.kinetic / r.steps / (rho0 * 0.04 * face)), 0, 0.02 * sqrt(g * dp));
-    mps_lease place;
+    mps_lease place = {.struct_size = sizeof place};
     const int32_t *kind;
-    OK(sim, mps_particles_tags(sim, NULL, &kind, NULL, NULL));
+    OK(sim, tags_peek(sim, NULL, &kind, NULL, NULL));
     OK(sim, mps_lease_begin(sim, "position", MPS_READ, &place));
     for (int64_t i = 0; i < place.count; i++) counted += kind[i] == MPS_FLUID && place.data[i * dim] < x;
     assert_int_equal(counted, left);
@@ -160,7 +161,7 @@ typedef struct paths {
 
 static void tank_frame(mps_sim *sim, const double *x, double X[2])
 {
-    mps_motion_state m;
+    mps_motion_state m = {.struct_size = sizeof m};
     OK(sim, mps_motion_state_get(sim, &m));
     /* the centre is the foot of the baffle */
     const double c = cos(m.value[MPS_YAW]), s = sin(m.value[MPS_YAW]), dx = x[0] - 0.28 - m.value[MPS_SURGE], dy = x[1];
@@ -173,9 +174,9 @@ static int follow(void *user, mps_sim *sim, const mps_step_info *info)
     paths *p = user;
     const int64_t *id;
     const int32_t *kind;
-    mps_lease x;
+    mps_lease x = {.struct_size = sizeof x};
     mps_energy energy;
-    OK(sim, mps_particles_tags(sim, &id, &kind, NULL, NULL));
+    OK(sim, tags_peek(sim, &id, &kind, NULL, NULL));
     OK(sim, mps_lease_begin(sim, "position", MPS_READ, &x));
     for (int64_t i = 0; i < x.count; i++) {
         double X[2], *old = p->before + 2 * id[i];

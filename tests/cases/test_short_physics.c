@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Short runs with known answers, coarse and on one thread: rest, a standing wave, a surging and a rolling tank, 3-D.
  * The still level is layers * dp, where the centres of the top layer lie. */
+#include "../tags.h"
 #include <math.h>
 #include <mps/mps.h>
 #include <setjmp.h>
@@ -137,9 +138,9 @@ static double mean_kinetic(const record *r, double from, double to)
 static void jitter(mps_sim *sim, double amount)
 {
     const int32_t *kind;
-    mps_lease x;
+    mps_lease x = {.struct_size = sizeof x};
     uint32_t seed = 12345;
-    OK(sim, mps_particles_tags(sim, NULL, &kind, NULL, NULL));
+    OK(sim, tags_peek(sim, NULL, &kind, NULL, NULL));
     OK(sim, mps_lease_begin(sim, "position", MPS_WRITE, &x));
     for (int64_t i = 0; i < x.count * x.stride; i++) {
         seed = seed * 1664525u + 1013904223u;
@@ -383,7 +384,7 @@ static void full_tank(void **state)
     }
     for (int k = 1; k <= 100; k++) {
         double left, right;
-        mps_motion_state m;
+        mps_motion_state m = {.struct_size = sizeof m};
         OK(r.sim, mps_run(r.sim, 0.01 * k, NULL, NULL));
         OK(r.sim, mps_motion_state_get(r.sim, &m));
         OK(r.sim, mps_probe_read(r.sim, id[0], &left));

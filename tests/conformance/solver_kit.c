@@ -51,13 +51,13 @@ int kit_solve(const mps_solver_ops *solver, const mps_preconditioner_ops *pc, ki
               mps_ppe_result *result)
 {
     void *self = solver->user, *pc_self = pc ? pc->user : NULL;
-    *result = (mps_ppe_result){.reason = MPS_PPE_NOMEM};
+    *result = (mps_ppe_result){.struct_size = sizeof *result, .reason = MPS_PPE_NOMEM};
     if (solver->create(&memory->allocator, &self)) return MPS_PPE_NOMEM;
     if (!pc || !pc->create(&memory->allocator, &pc_self)) {
         solver->solve(self, problem, pc, pc_self, p, result);
-        if (pc) pc->destroy(pc_self);
+        if (pc) pc->destroy(&memory->allocator, pc_self);
     }
-    solver->destroy(self);
+    solver->destroy(&memory->allocator, self);
     return result->reason;
 }
 
@@ -96,7 +96,8 @@ static double drift(const mps_ppe_problem *problem, const double *p)
 /* What holds for every answer, good or bad. */
 static void check_honest(pair *k, const mps_ppe_problem *problem, const double *p, const mps_ppe_result *result, const char *name)
 {
-    mps_ppe_result truth;
+    EXPECT(k, result->struct_size == sizeof *result, "%s: the solver changed result.struct_size to %u", name, result->struct_size);
+    mps_ppe_result truth = {.struct_size = sizeof truth};
     if (!EXPECT(k, all_finite(p, problem->n), "%s: p is not finite, reason %d", name, result->reason)) return;
     measure(problem, p, &truth);
     EXPECT(k, result->iterations >= 0 && result->iterations <= problem->max_iterations, "%s: %d iterations", name, result->iterations);
@@ -128,7 +129,7 @@ static double *solve(pair *k, const mps_ppe_problem *problem, const double *gues
 
 static void check_solution(pair *k, kit_system *s, double error, const char *name)
 {
-    mps_ppe_result result;
+    mps_ppe_result result = {.struct_size = sizeof result};
     double *p = solve(k, &s->problem, NULL, &result, name);
     double d = kit_difference(p, s->exact, s->problem.n);
     EXPECT(k, result.reason == MPS_PPE_CONVERGED, "%s: reason %d, residual %g", name, result.reason, result.residual);
@@ -186,7 +187,7 @@ static void check_divergence(pair *k)
 {
     if (too_hard(k, &lattices[1].lattice)) return;
     kit_system *s = kit_lattice_system(&lattices[1].lattice);
-    mps_ppe_result result;
+    mps_ppe_result result = {.struct_size = sizeof result};
     s->problem.tolerance = 0.1;
     s->problem.divergence = 1e-10;
     double *p = solve(k, &s->problem, NULL, &result, "divergence limit");
@@ -200,7 +201,7 @@ static void check_zero_rhs(pair *k)
 {
     for (int i = 0; i < 5; i += 4) { /* open and closed */
         kit_system *s = kit_lattice_system(&lattices[i].lattice);
-        mps_ppe_result result;
+        mps_ppe_result result = {.struct_size = sizeof result};
         memset(s->rhs, 0, (size_t)s->problem.n * sizeof *s->rhs);
         double *p = solve(k, &s->problem, s->exact, &result, "zero right side"), largest = 0;
         for (int64_t n = 0; n < s->problem.n; n++) largest = fmax(largest, fabs(p[n]));
@@ -214,7 +215,7 @@ static void check_warm_start(pair *k)
 {
     for (int i = 0; i < 5; i += 4) {
         kit_system *s = kit_lattice_system(&lattices[i].lattice);
-        mps_ppe_result result;
+        mps_ppe_result result = {.struct_size = sizeof result};
         /* the level of a closed tank is arbitrary: it must not cost anything */
         for (int64_t n = 0; i && n < s->problem.n; n++) s->exact[n] += 5000;
         double *p = solve(k, &s->problem, s->exact, &result, "warm start");
@@ -232,7 +233,7 @@ static void check_nan(pair *k)
     static const char *const name[] = {"guess", "matrix", "diagonal", "rhs"};
     for (int which = 0; which < 8; which++) {
         kit_system *s = kit_lattice_system(&lattices[0].lattice);
-        mps_ppe_result result;
+        mps_ppe_result result = {.struct_size = sizeof result};
         double *where[] = {&s->exact[7], NULL, &s->diagonal[100], &s->rhs[50]};
         if (where[which % 4])
             *where[which % 4] = (double)bad[which / 4];
@@ -251,7 +252,7 @@ static void check_indefinite(pair *k)
     bool strict = k->solver->symmetric;
     for (int which = 0; which < 2; which++) {
         kit_system *s = kit_lattice_system(&lattices[0].lattice);
-        mps_ppe_result result;
+        mps_ppe_result result = {.struct_size = sizeof result};
         for (int64_t i = 0; i < s->problem.n; i++) {
             if (which == 0)
                 s->diagonal[i] *= 0.6; /* negative curvature, positive diagonal */
@@ -269,7 +270,7 @@ static void check_indefinite(pair *k)
 static void check_max_iterations(pair *k)
 {
     kit_system *s = kit_lattice_system(&lattices[1].lattice);
-    mps_ppe_result result;
+    mps_ppe_result result = {.struct_size = sizeof result};
     for (int limit = 1; limit < 40; limit += 12) {
         s->problem.max_iterations = limit;
         double *p = solve(k, &s->problem, NULL, &result, "few iterations");
@@ -286,7 +287,7 @@ static void check_unreachable(pair *k)
 {
     static const kit_lattice lattice = {2, 40, 30, 1, 1, 0, 3.1, 1, 0};
     kit_system *s = kit_lattice_system(&lattice);
-    mps_ppe_result result;
+    mps_ppe_result result = {.struct_size = sizeof result};
     s->problem.tolerance = 1e-18;
     double *p = solve(k, &s->problem, NULL, &result, "tolerance below rounding");
     EXPECT(k, result.reason == MPS_PPE_MAX_ITERATIONS && result.residual < 1e-10, "reason %d, residual %g", result.reason, result.residual);
@@ -344,7 +345,7 @@ static void check_threads(pair *k)
 {
     static const kit_lattice lattice = {2, 110, 90, 1, 1, 1, 2.1, 10, 0};
     kit_system *s = kit_lattice_system(&lattice);
-    mps_ppe_result one, two;
+    mps_ppe_result one = {.struct_size = sizeof one}, two = {.struct_size = sizeof two};
     s->problem.tolerance = 1e-4;
     double *p = solve(k, &s->problem, NULL, &one, "one thread");
     for (int threads = 2; threads <= 3; threads++) {
@@ -371,7 +372,7 @@ static void check_reuse(pair *k)
     bool made = !k->solver->create(&memory.allocator, &self) && (!k->pc || !k->pc->create(&memory.allocator, &pc_self));
     for (size_t i = 0; made && i < sizeof order / sizeof order[0]; i++) {
         kit_system *s = kit_lattice_system(&lattices[order[i]].lattice);
-        mps_ppe_result result;
+        mps_ppe_result result = {.struct_size = sizeof result};
         double *p = calloc((size_t)s->problem.n, sizeof *p), *fresh = solve(k, &s->problem, NULL, &result, "fresh");
         k->solver->solve(self, &s->problem, k->pc, pc_self, p, &result);
         EXPECT(k, memcmp(p, fresh, (size_t)s->problem.n * sizeof *p) == 0, "a used state differs by %g",
@@ -380,8 +381,8 @@ static void check_reuse(pair *k)
         free(fresh);
         kit_system_free(s);
     }
-    if (self) k->solver->destroy(self);
-    if (pc_self) k->pc->destroy(pc_self);
+    if (self) k->solver->destroy(&memory.allocator, self);
+    if (pc_self) k->pc->destroy(&memory.allocator, pc_self);
     EXPECT(k, made && memory.live == 0, "%lld blocks leaked", (long long)memory.live);
 }
 
@@ -392,7 +393,7 @@ static void check_memory(pair *k)
     int reason = MPS_PPE_NOMEM;
     for (int64_t fail_at = 1; reason == MPS_PPE_NOMEM && fail_at < 1000; fail_at++) {
         kit_memory memory;
-        mps_ppe_result result;
+        mps_ppe_result result = {.struct_size = sizeof result};
         kit_memory_init(&memory);
         memory.fail_at = fail_at;
         reason = kit_solve(k->solver, k->pc, &memory, &s->problem, p, &result);
@@ -477,7 +478,7 @@ int kit_check_preconditioner(const mps_preconditioner_ops *pc)
         if (EXPECT(&k, reason == 0, "%s: setup gave %d", lattices[i].name, reason)) check_apply(&k, self, s, lattices[i].name);
         kit_system_free(s);
     }
-    pc->destroy(self);
+    pc->destroy(&memory.allocator, self);
     EXPECT(&k, memory.live == 0, "%lld blocks leaked", (long long)memory.live);
     return k.failures;
 }

@@ -60,7 +60,7 @@ static void test_preconditioners(void **state)
 static double *solved(const mps_solver_ops *solver, const mps_preconditioner_ops *pc, const mps_ppe_problem *problem)
 {
     kit_memory memory;
-    mps_ppe_result result;
+    mps_ppe_result result = {.struct_size = sizeof result};
     kit_memory_init(&memory);
     double *p = calloc((size_t)problem->n, sizeof *p);
     assert_int_equal(kit_solve(solver, pc, &memory, problem, p, &result), MPS_PPE_CONVERGED);
@@ -109,7 +109,7 @@ static int32_t iterations_of(const mps_preconditioner_ops *pc, const kit_lattice
 {
     kit_system *s = kit_lattice_system(lattice);
     kit_memory memory;
-    mps_ppe_result result;
+    mps_ppe_result result = {.struct_size = sizeof result};
     double *p = calloc((size_t)s->problem.n, sizeof *p);
     kit_memory_init(&memory);
     s->problem.tolerance = 1e-6;
@@ -177,7 +177,7 @@ static void test_auxgrid_far_drop(void **state)
     const size_t first = bytes_taken;
     assert_int_equal(mps__preconditioner_auxgrid.setup(self, &s->problem), MPS_PPE_CONVERGED);
     assert_int_equal(bytes_taken, first); /* kept for the next time */
-    mps__preconditioner_auxgrid.destroy(self);
+    mps__preconditioner_auxgrid.destroy(&allocator, self);
     kit_system_free(s);
 }
 
@@ -201,7 +201,7 @@ static void test_auxgrid_nan(void **state)
     assert_int_equal(mps__preconditioner_auxgrid.setup(self, &s->problem), MPS_PPE_CONVERGED);
     assert_int_equal(mps__preconditioner_auxgrid.apply(self, s->rhs, z), MPS_PPE_CONVERGED);
     for (int64_t i = 0; i < s->problem.n; i++) assert_true(isfinite(z[i]));
-    mps__preconditioner_auxgrid.destroy(self);
+    mps__preconditioner_auxgrid.destroy(&memory.allocator, self);
     assert_int_equal(memory.live, 0);
     free(z);
     kit_system_free(s);
@@ -243,7 +243,7 @@ static void test_gas_scalar(void **state)
         for (size_t g = 0; g < sizeof guesses / sizeof guesses[0]; g++) {
             kit_system *s = kit_dense_system(1, a, &wanted);
             kit_memory memory;
-            mps_ppe_result result;
+            mps_ppe_result result = {.struct_size = sizeof result};
             double p = guesses[g], low = -99.9999, high = 1e5;
             kit_memory_init(&memory);
             s->problem.gas = gas;
@@ -272,7 +272,7 @@ static void test_gas_lattice(void **state)
             kit_system *s = kit_lattice_system(&lattices[k]);
             const size_t n = (size_t)s->problem.n;
             double *gas = calloc(5 * n, sizeof *gas), *p = gas + 2 * n, *more = gas + 3 * n, deepest = 0;
-            mps_ppe_result result, again;
+            mps_ppe_result result = {.struct_size = sizeof result}, again = {.struct_size = sizeof again};
             kit_memory memory;
             for (size_t i = 0; i < n; i++) deepest = fmax(deepest, -s->exact[i]);
             make_gas(s, deepest / 0.95, gas, gas + n); /* down to a twentieth of the ambient pressure */
@@ -309,7 +309,7 @@ static void test_gas_memory(void **state)
     make_gas(s, 1e6, gas, laws);
     for (int64_t fail_at = 1; reason == MPS_PPE_NOMEM; fail_at++) {
         kit_memory memory;
-        mps_ppe_result result;
+        mps_ppe_result result = {.struct_size = sizeof result};
         kit_memory_init(&memory);
         memory.fail_at = fail_at;
         reason = kit_solve(&mps__solver_kinsol, &mps__preconditioner_ic0, &memory, &s->problem, p, &result);
@@ -344,7 +344,7 @@ static void test_check(void **state)
     static const double a[4] = {2, -1, -1, 2}, exact[2] = {3, 4};
     double work[2], wrong[2] = {3, 5};
     kit_system *s = kit_dense_system(2, a, exact);
-    mps_ppe_result result = {0};
+    mps_ppe_result result = {.struct_size = sizeof result};
     mps_ppe_check(&s->problem, exact, work, &result);
     assert_true(result.residual == 0 && result.divergence == 0);
     mps_ppe_check(&s->problem, wrong, work, &result);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What the drivers measure on particles: interfaces, cavities, strays, on shapes cut from a lattice. */
+#include "../tags.h"
 #include "cloud.h"
 #include "common/cavity.h"
 #include "common/contour.h"
@@ -159,9 +160,9 @@ static void gaps_are_no_cavities(void **state)
     const disc none = {0, 0, 0};
     mps_sim *sim = box_with(2, in_water, none, 0, -1);
     const int32_t *kind;
-    mps_lease x;
+    mps_lease x = {.struct_size = sizeof x};
     uint64_t seed = 11;
-    ASSERT_OK(sim, mps_particles_tags(sim, NULL, &kind, NULL, NULL));
+    ASSERT_OK(sim, tags_peek(sim, NULL, &kind, NULL, NULL));
     ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_WRITE, &x));
     for (int64_t i = 0; i < x.count * x.stride; i++)
         if (kind[i / x.stride] == MPS_FLUID) x.data[i] += 0.25 * dp * cloud_random(&seed);

@@ -54,7 +54,7 @@ static int32_t iterations(const mps_hypre_settings *settings)
     static const kit_lattice lattice = {2, 80, 60, 1, 1, 1, 3.1, 1, 0};
     kit_system *s = kit_lattice_system(&lattice);
     mps_solver_ops ops;
-    mps_ppe_result result;
+    mps_ppe_result result = {.struct_size = sizeof result};
     kit_memory memory;
     double *p = calloc((size_t)s->problem.n, sizeof *p);
     kit_memory_init(&memory);
@@ -148,9 +148,9 @@ static int create_nothing(const mps_allocator *allocator, void **self)
     return 0;
 }
 
-static void destroy_nothing(void *self)
+static void destroy_nothing(const mps_allocator *allocator, void *self)
 {
-    (void)self;
+    (void)allocator, (void)self;
 }
 
 static mps_sim *make_tank(int32_t dim, bool air)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Memory that runs out: the k-th allocation fails, for k = 1, 2, ... until a call runs through. Every failure is
  * MPS_E_NOMEM with a text, leaves a handle that works, and at the end all memory is back. */
+#include "../tags.h"
 #include <math.h>
 #include <mps/mps.h>
 #include <setjmp.h>
@@ -326,7 +327,7 @@ static mps_status step(mps_sim *sim)
 
 static mps_status stencil(mps_sim *sim)
 {
-    mps_stencil s;
+    mps_stencil s = {.struct_size = sizeof s};
     return mps_sim_stencil(sim, MPS_FAR, &s);
 }
 
@@ -339,9 +340,9 @@ static double *snapshot(mps_sim *sim, int64_t *count)
     const int64_t *ids = NULL, n = mps_particles_count(sim, -1);
     double *out = calloc((size_t)(5 * (n + 200)), sizeof *out);
     int64_t at = 0;
-    assert_int_equal(mps_particles_tags(sim, &ids, NULL, NULL, NULL), MPS_OK);
+    assert_int_equal(tags_peek(sim, &ids, NULL, NULL, NULL), MPS_OK);
     for (int f = 0; f < 3; f++) {
-        mps_lease lease;
+        mps_lease lease = {.struct_size = sizeof lease};
         assert_int_equal(mps_lease_begin(sim, fields[f], MPS_READ, &lease), MPS_OK);
         for (int64_t i = 0; i < n; i++)
             for (int c = 0; c < lease.stride; c++) out[at + ids[i] * lease.stride + c] = lease.data[i * lease.stride + c];
@@ -474,8 +475,8 @@ static void neighbours(void **state)
 {
     (void)state;
     double x[200];
-    mps_kernel kernel;
-    mps_stencil s;
+    mps_kernel kernel = {.struct_size = sizeof kernel};
+    mps_stencil s = {.struct_size = sizeof s};
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
     for (int k = 0; k < 200; k++) x[k] = k % 2 ? k / 20 : k / 2 % 10;
     for (int64_t k = 1;; k++) {

@@ -15,8 +15,8 @@ typedef struct scene {
 
 static scene scene_make(cloud c, double re)
 {
-    scene s = {.c = c};
-    mps_kernel kernel;
+    scene s = {.c = c, .t = {.struct_size = sizeof s.t}};
+    mps_kernel kernel = {.struct_size = sizeof kernel};
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
     assert_int_equal(mps_neighbours_create(c.dim, CLOUD_DP, NULL, &s.list), MPS_OK);
     assert_int_equal(mps_neighbours_build(s.list, c.n, c.x, re * CLOUD_DP, re * CLOUD_DP), MPS_OK);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* One run of the sweep: draw a tank from a seed, step it to the end, say in one line whether all went well.
  * scripts/sweep runs many of them. Exit code 0: ok, 1: something is wrong, 2: bad command line. */
+#include "../tags.h"
 #include "common/picture.h"
 #include "scenario.h"
 #include <errno.h>
@@ -93,7 +94,7 @@ static int64_t count_bad(const mps_lease *v, const int32_t *kind)
 
 static void check_field(mps_sim *sim, findings *f, const char *name, const int32_t *kind)
 {
-    mps_lease v;
+    mps_lease v = {.struct_size = sizeof v};
     if (mps_lease_begin(sim, name, MPS_READ, &v) != MPS_OK) return;
     f->bad += count_bad(&v, kind);
     mps_lease_end(sim, &v);
@@ -102,7 +103,7 @@ static void check_field(mps_sim *sim, findings *f, const char *name, const int32
 static void check_places(const options *o, mps_sim *sim, findings *f, const int32_t *kind)
 {
     double origin[3], axes[3][3];
-    mps_lease x;
+    mps_lease x = {.struct_size = sizeof x};
     tank_frame(sim, f, o->what.dim, origin, axes);
     if (mps_lease_begin(sim, "position", MPS_READ, &x) != MPS_OK) return;
     for (int64_t i = 0; i < x.count; i++)
@@ -115,7 +116,7 @@ static void check(const options *o, mps_sim *sim, findings *f)
     const int32_t *kind;
     mps_energy energy;
     mps_energy_init(&energy, sizeof energy);
-    if (mps_particles_tags(sim, NULL, &kind, NULL, NULL) != MPS_OK || mps_energy_get(sim, &energy) != MPS_OK) return;
+    if (tags_peek(sim, NULL, &kind, NULL, NULL) != MPS_OK || mps_energy_get(sim, &energy) != MPS_OK) return;
     check_field(sim, f, "position", kind);
     check_field(sim, f, "velocity", kind);
     check_field(sim, f, "pressure", kind);

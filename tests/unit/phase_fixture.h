@@ -234,8 +234,8 @@ static inline void add_cloud(mps_sim *sim, const cloud *c, const int32_t *phase,
 static inline double *field_by_id(mps_sim *sim, const char *name)
 {
     const int64_t *ids;
-    mps_lease l;
-    ASSERT_OK(sim, mps_particles_tags(sim, &ids, NULL, NULL, NULL));
+    mps_lease l = {.struct_size = sizeof l};
+    ASSERT_OK(sim, tags_peek(sim, &ids, NULL, NULL, NULL));
     ASSERT_OK(sim, mps_lease_begin(sim, name, MPS_READ, &l));
     double *v = cloud_doubles(l.count * l.stride);
     for (int64_t i = 0; i < l.count; i++)

@@ -35,7 +35,7 @@ static inline void write_hydrostatic(mps_sim *sim, double level)
     static const char *const fields[] = {"pressure", "wall_pressure"};
     const mps__particles *s = &sim->world.particles;
     for (int f = 0; f < 2; f++) {
-        mps_lease lease;
+        mps_lease lease = {.struct_size = sizeof lease};
         ASSERT_OK(sim, mps_lease_begin(sim, fields[f], MPS_WRITE, &lease));
         for (int64_t i = 0; i < lease.count; i++) {
             double X[3];

@@ -4,6 +4,7 @@
 #define TANK_FIXTURE_H
 
 #include <math.h>
+#include "../tags.h"
 #include <mps/mps.h>
 #include <setjmp.h>
 #include <stdarg.h>

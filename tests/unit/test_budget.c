@@ -286,7 +286,7 @@ static void added_between_steps(void **state)
     assert_int_equal(mps_phase_init(&oil, sizeof oil), MPS_OK);
     oil.density = 800;
     BETWEEN(ASSERT_OK(sim, mps_sim_set_phase(sim, 0, &oil)););
-    mps_lease lease;
+    mps_lease lease = {.struct_size = sizeof lease};
     BETWEEN(ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &lease));
             lease.data[0] += 0.5; lease.data[1] -= 1;
             for (int64_t i = 2; i < lease.count; i++) lease.data[2 * i] *= 0.9;

@@ -150,7 +150,7 @@ static void take_out(mps_sim *sim, const char *name)
     const int32_t *parts, part = mps_part_find(sim, name);
     int64_t *own = malloc((size_t)n * sizeof *own), count = 0;
     assert_non_null(own);
-    ASSERT_OK(sim, mps_particles_tags(sim, &ids, NULL, NULL, &parts));
+    ASSERT_OK(sim, tags_peek(sim, &ids, NULL, NULL, &parts));
     for (int64_t i = 0; i < n; i++)
         if (parts[i] == part) own[count++] = ids[i];
     ASSERT_OK(sim, mps_particles_remove(sim, count, own));
@@ -166,7 +166,7 @@ static void go(mps_sim *sim, int64_t steps)
 {
     int64_t done;
     for (int64_t k = 0; k < steps; k++) {
-        mps_lease mark;
+        mps_lease mark = {.struct_size = sizeof mark};
         ASSERT_OK(sim, mps_sim_time(sim, NULL, &done));
         if (done == 20 && mps_lease_begin(sim, "mark", MPS_WRITE, &mark) == MPS_OK) {
             for (int64_t i = 0; i < mark.count * mark.stride; i++) mark.data[i] = (double)i;
@@ -180,7 +180,7 @@ static void go(mps_sim *sim, int64_t steps)
 
 static void same_field(mps_sim *a, mps_sim *b, const char *name)
 {
-    mps_lease x, y;
+    mps_lease x = {.struct_size = sizeof x}, y = {.struct_size = sizeof y};
     if (mps_lease_begin(a, name, MPS_READ, &x) != MPS_OK) return; /* not in this scene */
     ASSERT_OK(b, mps_lease_begin(b, name, MPS_READ, &y));
     assert_int_equal(x.count, y.count);
@@ -193,8 +193,8 @@ static void same_tags(mps_sim *a, mps_sim *b)
 {
     const int64_t *ids[2], n = mps_particles_count(a, -1);
     const int32_t *tag[2][3];
-    ASSERT_OK(a, mps_particles_tags(a, &ids[0], &tag[0][0], &tag[0][1], &tag[0][2]));
-    ASSERT_OK(b, mps_particles_tags(b, &ids[1], &tag[1][0], &tag[1][1], &tag[1][2]));
+    ASSERT_OK(a, tags_peek(a, &ids[0], &tag[0][0], &tag[0][1], &tag[0][2]));
+    ASSERT_OK(b, tags_peek(b, &ids[1], &tag[1][0], &tag[1][1], &tag[1][2]));
     assert_memory_equal(ids[0], ids[1], (size_t)n * sizeof(int64_t));
     for (int k = 0; k < 3; k++) assert_memory_equal(tag[0][k], tag[1][k], (size_t)n * sizeof(int32_t));
 }
@@ -484,7 +484,7 @@ static void calls_at_the_wrong_time(void **state)
 {
     char path[PATH];
     mps_sim *sim = shaken();
-    mps_lease x;
+    mps_lease x = {.struct_size = sizeof x};
     (void)state;
     ASSERT_OK(sim, mps_checkpoint_write(sim, path_of(path, "lease")));
     ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_READ, &x));

@@ -66,7 +66,7 @@ static void fill_fields(mps_sim *sim)
 {
     const char *const names[5] = {"velocity", "pressure", "density", "my \"<&>\"", "arm"};
     for (int f = 0; f < 5; f++) {
-        mps_lease lease;
+        mps_lease lease = {.struct_size = sizeof lease};
         ASSERT_OK(sim, mps_lease_begin(sim, names[f], MPS_WRITE, &lease));
         for (int64_t k = 0; k < lease.count * lease.stride; k++) lease.data[k] = 0.1 * (f + 1) + (double)k;
         ASSERT_OK(sim, mps_lease_end(sim, &lease));

@@ -370,7 +370,7 @@ static void fill_refusals(void **state)
     ASSERT_REFUSED(sim, mps_geometry_baffle(sim, "b", between, below, NULL), MPS_E_ARG, "no lattice point");
     ASSERT_REFUSED(sim, mps_geometry_baffle(sim, "b", lo, lo, NULL), MPS_E_ARG, "taken");
     assert_int_equal(mps_part_find(sim, "b"), -1);
-    mps_lease lease;
+    mps_lease lease = {.struct_size = sizeof lease};
     ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &lease));
     ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL), MPS_E_BUSY, "leases");
     ASSERT_STATUS(sim, mps_geometry_baffle(sim, "b", lo, hi, NULL), MPS_E_BUSY);

@@ -42,7 +42,7 @@ static int64_t some_fluid(mps_sim *sim)
 {
     const int64_t *ids;
     const int32_t *kinds;
-    ASSERT_OK(sim, mps_particles_tags(sim, &ids, &kinds, NULL, NULL));
+    ASSERT_OK(sim, tags_peek(sim, &ids, &kinds, NULL, NULL));
     for (int64_t i = mps_particles_count(sim, -1) - 1; i >= 0; i--)
         if (kinds[i] == MPS_FLUID) return ids[i];
     fail_msg("there is no fluid");
@@ -51,7 +51,7 @@ static int64_t some_fluid(mps_sim *sim)
 
 static void put(mps_sim *sim, int64_t id, double x, double y)
 {
-    mps_lease p;
+    mps_lease p = {.struct_size = sizeof p};
     const int64_t at = mps_particle_index(sim, id);
     ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_WRITE, &p));
     p.data[2 * at] = x;
@@ -106,7 +106,7 @@ static void refused_by_policy(void **state)
     ASSERT_OK(sim, mps_sim_time(sim, &t, &steps));
     assert_true(t == 1e-4 && steps == 1 && m.count == 0);
     assert_int_equal(mps_particles_count(sim, -1), n);
-    mps_lease p;
+    mps_lease p = {.struct_size = sizeof p};
     ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &p));
     assert_true(p.data[2 * mps_particle_index(sim, id) + 1] == 1e9);
     ASSERT_OK(sim, mps_lease_end(sim, &p));
@@ -291,7 +291,7 @@ static void too_long_steps(void **state)
     mps_time_control control = fixed_step(5e-3);
     const double place[3] = {0.5, 0.5, 0};
     mps_sim *sim = bullet(2, &m, &control);
-    mps_lease x;
+    mps_lease x = {.struct_size = sizeof x};
     double t;
     ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_DIVERGED,
                    "at (0.5, 0.5, 0) m would move 0.155 m in a step of 0.005 s, at 31 m/s; allowed: at most 0.15 m");
@@ -334,7 +334,7 @@ static void failed_step_loses_nobody(void **state)
     mps_particle_block block;
     mps_step_info info;
     mps_energy energy;
-    mps_lease u;
+    mps_lease u = {.struct_size = sizeof u};
     const double far[2] = {0.5, 1e3};
     int64_t id;
     assert_int_equal(mps_particle_block_init(&block, sizeof block), MPS_OK);

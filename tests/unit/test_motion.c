@@ -21,7 +21,7 @@ static void harmonics_are_exact(void **state)
         ASSERT_NEAR(pose.omega[2], 0.2 * cos(2 * t), 1e-15);
         ASSERT_NEAR(pose.alpha[2], -0.4 * sin(2 * t), 1e-15);
     }
-    mps_motion_state now;
+    mps_motion_state now = {.struct_size = sizeof now};
     ASSERT_OK(sim, mps_motion_state_get(sim, &now));
     ASSERT_NEAR(now.value[MPS_SURGE], 0.02 * sin(0.3), 1e-16);
     mps_sim_destroy(sim);
@@ -191,7 +191,7 @@ static void contents_are_carried(void **state)
     memcpy(before, s->x, (size_t)s->n * 2 * sizeof(double));
     ASSERT_OK(sim, mps_motion_clear(sim));
     assert_memory_equal(before, s->x, (size_t)s->n * 2 * sizeof(double));
-    mps_motion_state now;
+    mps_motion_state now = {.struct_size = sizeof now};
     ASSERT_OK(sim, mps_motion_state_get(sim, &now));
     ASSERT_NEAR(now.value[MPS_SURGE], 0.2, 1e-15);
     ASSERT_NEAR(now.rate[MPS_SURGE], 0, 0);
@@ -257,7 +257,7 @@ static void table_refusals(void **state)
     y[5] = 0;
     dof[1] = MPS_SURGE;
     REFUSE("columns 0 and 1", 4, 2);
-    dof[1] = MPS_ROLL;
+    dof[1] = MPS_PITCH;
     REFUSE("needs 3-D", 4, 2);
     dof[1] = 6;
     REFUSE("0..5", 4, 2);
@@ -326,7 +326,7 @@ static void other_refusals(void **state)
     mps_sim *sim = new_sim(2, 0.1);
     const double nan[2] = {0, NAN}, zero[2] = {0, 0};
     double x[2];
-    mps_lease lease;
+    mps_lease lease = {.struct_size = sizeof lease};
     ASSERT_REFUSED(sim, mps_motion_set_centre(sim, nan, 0), MPS_E_ARG, "centre[1]");
     ASSERT_REFUSED(sim, mps_motion_set_centre(sim, NULL, 0), MPS_E_ARG, "NULL");
     ASSERT_REFUSED(sim, mps_motion_set_centre(sim, zero, 2), MPS_E_ARG, "start is 2");
@@ -341,9 +341,42 @@ static void other_refusals(void **state)
     mps_sim_destroy(sim);
 }
 
+/* In 2-D roll and yaw are names of the same rotation, of the plane; a tank turns by their sum. */
+static void roll_turns_the_plane(void **state)
+{
+    (void)state;
+    const double corner[2] = {1, 0}, centre[2] = {0.25, 0.5};
+    const mps_harmonic yaw = {MPS_YAW, 0, 0.3, 2, 0.7}, roll = {MPS_ROLL, 0, 0.3, 2, 0.7};
+    const mps_harmonic both[2] = {{MPS_ROLL, 0, 0.1, 2, 0.7}, {MPS_YAW, 0, 0.2, 2, 0.7}};
+    double at[3][2], speed[3][2];
+    for (int k = 0; k < 3; k++) {
+        mps_sim *sim = new_sim(2, 0.1);
+        mps_motion_state now = {.struct_size = sizeof now};
+        ASSERT_OK(sim, mps_motion_set_centre(sim, centre, MPS_START_AT_REST));
+        ASSERT_OK(sim, mps_motion_set_harmonics(sim, k == 2 ? 2 : 1, k == 0 ? &yaw : k == 1 ? &roll : both));
+        ASSERT_OK(sim, mps_motion_to_lab(sim, corner, at[k], speed[k]));
+        ASSERT_OK(sim, mps_motion_state_get(sim, &now));
+        ASSERT_NEAR(now.value[MPS_ROLL] + now.value[MPS_YAW], 0.3 * sin(0.7), 1e-15);
+        assert_true((now.value[MPS_ROLL] == 0) == (k == 0));
+        ASSERT_OK(sim, mps_motion_clear(sim));
+        ASSERT_REFUSED(sim, mps_motion_set_harmonics(sim, 1, &(mps_harmonic){MPS_PITCH, 0, 0.1, 1, 0}), MPS_E_ARG, "needs 3-D");
+        mps_sim_destroy(sim);
+    }
+    const double a = 0.3 * sin(0.7), rate = 0.6 * cos(0.7);
+    ASSERT_NEAR(at[0][0], 0.25 + 0.75 * cos(a) + 0.5 * sin(a), 1e-14);
+    ASSERT_NEAR(at[0][1], 0.5 + 0.75 * sin(a) - 0.5 * cos(a), 1e-14);
+    ASSERT_NEAR(speed[0][0], -rate * (at[0][1] - 0.5), 1e-14);
+    for (int k = 1; k < 3; k++)
+        for (int d = 0; d < 2; d++) {
+            ASSERT_NEAR(at[k][d], at[0][d], 1e-14);
+            ASSERT_NEAR(speed[k][d], speed[0][d], 1e-14);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(roll_turns_the_plane),
         cmocka_unit_test(harmonics_are_exact),    cmocka_unit_test(spline_converges),   cmocka_unit_test(spline_is_c2),
         cmocka_unit_test(point_follows_its_path), cmocka_unit_test(order_of_rotations), cmocka_unit_test(contents_are_carried),
         cmocka_unit_test(start_with_tank),        cmocka_unit_test(beyond_the_table),   cmocka_unit_test(table_refusals),

@@ -59,8 +59,8 @@ static void check_row(const cloud *c, const mps_stencil *t, int64_t i, double re
 /* Both radii of a list that was built; columns ascend, in the near part and behind it. */
 static void check_list(const cloud *c, const mps_neighbours *list)
 {
-    mps_kernel kernel;
-    mps_stencil t[2];
+    mps_kernel kernel = {.struct_size = sizeof kernel};
+    mps_stencil t[2] = {{.struct_size = sizeof t[0]}, {.struct_size = sizeof t[0]}};
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
     for (int which = 0; which < 2; which++) {
         assert_int_equal(mps_neighbours_stencil(list, which, &kernel, &t[which]), MPS_OK);
@@ -148,8 +148,8 @@ static void far_particle(void **state)
             c.x[5 * dim] = beyond[k];
             assert_int_equal(mps_neighbours_build(list, c.n, c.x, near_radius, far_radius), MPS_E_ARG);
             assert_non_null(strstr(list->context->error, "axis 0"));
-            mps_kernel kernel;
-            mps_stencil t;
+            mps_kernel kernel = {.struct_size = sizeof kernel};
+            mps_stencil t = {.struct_size = sizeof t};
             assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
             assert_int_equal(mps_neighbours_stencil(list, MPS_NEAR, &kernel, &t), MPS_E_ARG); /* empty, not half built */
         }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Every operator against a double loop over all particles that shares no code with the library. */
 #include "cloud.h"
+#include <string.h>
 #include "parallel.h"
 #include <setjmp.h>
 #include <stdarg.h>
@@ -210,7 +211,7 @@ static void check_kernel(bench *s, const mps_kernel *kernel, weight_fn weight)
     assert_int_equal(mps_neighbours_create(s->c.dim, CLOUD_DP, NULL, &list), MPS_OK);
     assert_int_equal(mps_neighbours_build(list, s->c.n, s->c.x, re[0], re[1]), MPS_OK);
     for (int which = 0; which < 2; which++) {
-        mps_stencil t;
+        mps_stencil t = {.struct_size = sizeof t};
         assert_int_equal(mps_neighbours_stencil(list, which, kernel, &t), MPS_OK);
         bench_run(s, &t);
         compare(s, re[which], weight);
@@ -228,7 +229,7 @@ static void check_cloud(cloud c)
 {
     double three = 3;
     bench s = bench_make(c);
-    mps_kernel kernel;
+    mps_kernel kernel = {.struct_size = sizeof kernel};
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
     check_kernel(&s, &kernel, improved);
     assert_int_equal(mps_kernel_find("original", &kernel), MPS_OK);
@@ -283,8 +284,8 @@ static void check_correction(cloud c)
 {
     const double re = 2.1 * CLOUD_DP;
     double n0, lambda, m[9], *b = cloud_doubles(c.n * c.dim * c.dim);
-    mps_kernel kernel;
-    mps_stencil t;
+    mps_kernel kernel = {.struct_size = sizeof kernel};
+    mps_stencil t = {.struct_size = sizeof t};
     mps_neighbours *list = NULL;
     lattice(c.dim, re, improved, &n0, &lambda);
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
@@ -316,8 +317,8 @@ static void correction_floor(void **state)
     for (int dim = 2; dim <= 3; dim++) {
         cloud c = cloud_lattice(dim, 20, 1, 1, 0, 5);
         double n0, lambda, m[9], b[20 * 9];
-        mps_kernel kernel;
-        mps_stencil t;
+        mps_kernel kernel = {.struct_size = sizeof kernel};
+        mps_stencil t = {.struct_size = sizeof t};
         mps_neighbours *list = NULL;
         lattice(dim, re, improved, &n0, &lambda);
         moment(&c, 10, re, n0, m);
@@ -353,7 +354,7 @@ static void kernel_rows(void **state)
 {
     (void)state;
     double r[7], w[7];
-    mps_kernel k[3];
+    mps_kernel k[3] = {{.struct_size = sizeof k[0]}, {.struct_size = sizeof k[0]}, {.struct_size = sizeof k[0]}};
     assert_int_equal(mps_kernel_find("improved", &k[0]), MPS_OK);
     assert_int_equal(mps_kernel_find("original", &k[1]), MPS_OK);
     assert_int_equal(mps_kernel_custom(negative_kernel, NULL, &k[2]), MPS_OK);
@@ -370,7 +371,7 @@ static void kernel_rows(void **state)
 static void kernels(void **state)
 {
     (void)state;
-    mps_kernel k = {0};
+    mps_kernel k = {.struct_size = sizeof k};
     double n0 = 0, lambda = 0, n0_oracle, lambda_oracle;
     assert_int_equal(mps_kernel_find("improved", &k), MPS_OK);
     assert_true(fabs(mps_kernel_value(&k, 0, 1) - (1 / 0.15 - 1)) < 1e-14); /* W22 (3) */
@@ -416,12 +417,48 @@ static void refuse_all(const mps_stencil *t, const double *in, double *out)
     assert_int_equal(mps_op_volume_sum(t, in, out), MPS_E_ARG);
 }
 
+#define TOLD(list, call, word)                                                                                            \
+    do {                                                                                                                  \
+        assert_int_equal(call, MPS_E_ARG);                                                                                \
+        if (!strstr(mps_neighbours_error(list), (word)))                                                                  \
+            fail_msg("\"%s\" does not mention \"%s\"", mps_neighbours_error(list), (word));                               \
+    } while (0)
+
+/* The list tells which argument of an operator is wrong, and what is allowed. */
+static void refuse_told(mps_neighbours *list, const mps_stencil *t, const double *in, double *out)
+{
+    mps_stencil bad;
+    TOLD(list, mps_op_gradient(t, NULL, out), "mps_op_gradient(): f is NULL");
+    TOLD(list, mps_op_gradient(t, in, NULL), "grad is NULL");
+    TOLD(list, mps_op_divergence_corrected(t, NULL, in, out), "mps_op_divergence_corrected(): b is NULL");
+    TOLD(list, mps_op_volume_sum(t, out, out), "f and sum are the same array");
+    TOLD(list, mps_op_correction(t, NAN, out), "mps_op_correction(): floor is nan: must be > 0");
+    bad = *t, bad.dim = 4;
+    TOLD(list, mps_op_asymmetry(&bad, out), "stencil.dim is 4: must be 2 or 3");
+    bad = *t, bad.re = NAN;
+    TOLD(list, mps_op_volume_deviation(&bad, out), "stencil.re is nan: must be > 0 and finite");
+    bad = *t, bad.n0 = INFINITY;
+    TOLD(list, mps_op_laplacian(&bad, in, out), "stencil.n0 is inf");
+    bad = *t, bad.col = NULL;
+    TOLD(list, mps_op_number_density(&bad, out), "stencil.col is NULL");
+    bad = *t, bad.struct_size = 24;
+    TOLD(list, mps_op_number_density(&bad, out), "mps_stencil.struct_size is 24");
+    bad = *t, bad.kernel.id = 9;
+    TOLD(list, mps_op_number_density(&bad, out), "stencil.kernel.id is 9");
+    TOLD(list, mps_neighbours_build(list, 4, NULL, 2.1, 2.1), "x is NULL");
+    TOLD(list, mps_neighbours_build(list, 4, (const double[]){0, 0, 1, NAN, 0, 0, 0, 0}, 2.1, 2.1), "x of particle 1, axis 1 is nan");
+    TOLD(list, mps_neighbours_build(list, 4, in, 2.1, 1), "re_far is 1 m: must be finite and at least re_near = 2.1 m");
+    TOLD(list, mps_neighbours_stencil(list, MPS_NEAR, &t->kernel, &bad), "the list is empty");
+    assert_int_equal(mps_neighbours_build(list, 4, (const double[]){0, 0, 1, 0, 0, 1, 1, 1}, 2.1, 2.1), MPS_OK);
+    TOLD(list, mps_neighbours_stencil(list, 7, &t->kernel, &bad), "which is 7");
+}
+
 static void bad_arguments(void **state)
 {
     (void)state;
     double in[64] = {0}, out[64], x[8] = {0, 0, 1, 0, 0, 1, 1, 1};
-    mps_kernel kernel;
-    mps_stencil t, bad;
+    mps_kernel kernel = {.struct_size = sizeof kernel};
+    mps_stencil t = {.struct_size = sizeof t}, bad = {.struct_size = sizeof bad};
     mps_neighbours *list = NULL;
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
     assert_int_equal(mps_neighbours_create(2, 1, NULL, &list), MPS_OK);
@@ -430,6 +467,10 @@ static void bad_arguments(void **state)
     assert_int_equal(mps_neighbours_stencil(list, 2, &kernel, &t), MPS_E_ARG);
     assert_int_equal(mps_neighbours_stencil(list, MPS_NEAR, NULL, &t), MPS_E_ARG);
     assert_int_equal(mps_neighbours_stencil(list, MPS_NEAR, &kernel, NULL), MPS_E_ARG);
+    assert_int_equal(mps_neighbours_stencil(list, MPS_NEAR, &kernel, &t), MPS_OK);
+    assert_non_null(strstr(mps_neighbours_error(NULL), "NULL"));
+    refuse_told(list, &t, in, out);
+    assert_int_equal(mps_neighbours_build(list, 4, x, 2.1, 2.1), MPS_OK);
     assert_int_equal(mps_neighbours_stencil(list, MPS_NEAR, &kernel, &t), MPS_OK);
     refuse_all(NULL, in, out);
     refuse_all(&t, NULL, NULL);
@@ -457,8 +498,8 @@ static void lone_particles(void **state)
 {
     (void)state;
     const double x[4] = {0, 0, 1, 0}, f[2] = {1, 2};
-    mps_kernel kernel;
-    mps_stencil t;
+    mps_kernel kernel = {.struct_size = sizeof kernel};
+    mps_stencil t = {.struct_size = sizeof t};
     mps_neighbours *list = NULL;
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
     assert_int_equal(mps_neighbours_create(2, CLOUD_DP, NULL, &list), MPS_OK);
@@ -484,8 +525,8 @@ static void stretched_lattice(void **state)
     cloud c = cloud_lattice(2, 21, 21, 1, 0, 1);
     const int64_t middle = 10 * 21 + 10;
     double *n = cloud_doubles(c.n), *delta = cloud_doubles(c.n), n0;
-    mps_kernel kernel;
-    mps_stencil t;
+    mps_kernel kernel = {.struct_size = sizeof kernel};
+    mps_stencil t = {.struct_size = sizeof t};
     mps_neighbours *list = NULL;
     for (int64_t i = 0; i < c.n; i++) {
         c.x[2 * i] *= 1.1;

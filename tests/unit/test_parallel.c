@@ -266,7 +266,7 @@ static void assert_same_state(mps_sim *a, mps_sim *b)
 {
     static const char *const names[] = {"position", "velocity", "pressure"};
     for (int k = 0; k < 3; k++) {
-        mps_lease x, y;
+        mps_lease x = {.struct_size = sizeof x}, y = {.struct_size = sizeof y};
         ASSERT_OK(a, mps_lease_begin(a, names[k], MPS_READ, &x));
         ASSERT_OK(b, mps_lease_begin(b, names[k], MPS_READ, &y));
         assert_int_equal(x.count, y.count);

@@ -30,9 +30,9 @@ static mps_particle_block block_of(int64_t count, const double *x)
 static void by_id(mps_sim *sim, const char *field, int component, double out[1000])
 {
     const int64_t *ids = NULL;
-    mps_lease lease;
+    mps_lease lease = {.struct_size = sizeof lease};
     for (int k = 0; k < 1000; k++) out[k] = NAN;
-    ASSERT_OK(sim, mps_particles_tags(sim, &ids, NULL, NULL, NULL));
+    ASSERT_OK(sim, tags_peek(sim, &ids, NULL, NULL, NULL));
     ASSERT_OK(sim, mps_lease_begin(sim, field, MPS_READ, &lease));
     for (int64_t i = 0; i < lease.count; i++) {
         assert_in_range(ids[i], 0, 999);
@@ -70,7 +70,7 @@ static void add_and_read(void **state)
     b.area = area;
     ASSERT_OK(sim, mps_particles_add(sim, &b, NULL));
     assert_int_equal(mps_particles_count(sim, MPS_WALL), 1);
-    ASSERT_OK(sim, mps_particles_tags(sim, NULL, &kinds, &phases, &parts));
+    ASSERT_OK(sim, tags_peek(sim, NULL, &kinds, &phases, &parts));
     const int64_t at = mps_particle_index(sim, 3);
     assert_true(kinds[at] == MPS_WALL && phases[at] == 0 && parts[at] == mps_part_find(sim, "floor"));
     assert_true(parts[mps_particle_index(sim, 0)] == -1 && mps_part_find(sim, "ceiling") == -1);
@@ -234,7 +234,7 @@ static void queries(void **state)
     assert_int_equal(mps_particles_count(NULL, -1), -1);
     assert_int_equal(mps_particle_index(sim, 0), -1);
     assert_int_equal(mps_particle_index(NULL, 0), -1);
-    assert_int_equal(mps_particles_tags(NULL, NULL, NULL, NULL, NULL), MPS_E_ARG);
+    assert_int_equal(tags_peek(NULL, NULL, NULL, NULL, NULL), MPS_E_ARG);
     assert_int_equal(mps_part_find(NULL, "a"), -1);
     assert_int_equal(mps_part_find(sim, NULL), -1);
     mps_sim_destroy(sim);
@@ -246,7 +246,7 @@ static void lease_conflicts(void **state)
 {
     (void)state;
     mps_sim *sim = pool();
-    mps_lease a, b, c;
+    mps_lease a = {.struct_size = sizeof a}, b = {.struct_size = sizeof b}, c = {.struct_size = sizeof c};
     ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_READ, &a));
     ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_READ, &b));
     assert_ptr_equal(a.data, b.data);
@@ -254,7 +254,7 @@ static void lease_conflicts(void **state)
     assert_int_equal(a.count, mps_particles_count(sim, -1));
     ASSERT_REFUSED(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &c), MPS_E_BUSY, "velocity");
     ASSERT_OK(sim, mps_lease_begin(sim, "pressure", MPS_WRITE, &c)); /* another field is free */
-    mps_lease d;
+    mps_lease d = {.struct_size = sizeof d};
     ASSERT_REFUSED(sim, mps_lease_begin(sim, "pressure", MPS_READ, &d), MPS_E_BUSY, "writing");
     ASSERT_REFUSED(sim, mps_lease_begin(sim, "pressure", MPS_WRITE, &d), MPS_E_BUSY, "writing");
     ASSERT_OK(sim, mps_lease_end(sim, &a));
@@ -273,13 +273,13 @@ static void lease_refused(void **state)
 {
     (void)state;
     mps_sim *sim = pool();
-    mps_lease a = {0};
-    ASSERT_REFUSED(sim, mps_lease_begin(sim, "presure", MPS_READ, &a), MPS_E_NAME, "\"pressure\"");
-    ASSERT_REFUSED(sim, mps_lease_begin(sim, "id", MPS_READ, &a), MPS_E_NAME, "id"); /* private */
+    mps_lease a = {.struct_size = sizeof a};
+    ASSERT_REFUSED(sim, mps_lease_begin(sim, "presure", MPS_READ, &a), MPS_E_NAME, "'pressure'");
+    ASSERT_REFUSED(sim, mps_lease_begin(sim, "held", MPS_READ, &a), MPS_E_NAME, "held"); /* private */
     ASSERT_REFUSED(sim, mps_lease_begin(sim, "pressure", 2, &a), MPS_E_ARG, "mode is 2");
     ASSERT_REFUSED(sim, mps_lease_begin(sim, NULL, MPS_READ, &a), MPS_E_ARG, "NULL");
     ASSERT_REFUSED(sim, mps_lease_begin(sim, "pressure", MPS_READ, NULL), MPS_E_ARG, "NULL");
-    ASSERT_REFUSED(sim, mps_lease_end(sim, NULL), MPS_E_ARG, "not open");
+    ASSERT_REFUSED(sim, mps_lease_end(sim, NULL), MPS_E_ARG, "mps_lease is NULL");
     ASSERT_REFUSED(sim, mps_lease_end(sim, &a), MPS_E_ARG, "not open");
     a.slot = 12345;
     ASSERT_REFUSED(sim, mps_lease_end(sim, &a), MPS_E_ARG, "not open");
@@ -297,9 +297,9 @@ static void lease_blocks(void **state)
     const int64_t id = 0, n = mps_particles_count(sim, -1);
     double t = -1, before[1000], after[1000];
     int64_t steps = -1;
-    mps_lease lease;
+    mps_lease lease = {.struct_size = sizeof lease};
     mps_phase phase;
-    mps_stencil s;
+    mps_stencil s = {.struct_size = sizeof s};
     const mps_particle_block b = block_of(1, x);
     by_id(sim, "position", 1, before);
     for (int32_t mode = MPS_READ; mode <= MPS_WRITE; mode++) {
@@ -330,13 +330,13 @@ static void written_values(void **state)
 {
     (void)state;
     mps_sim *sim = pool();
-    mps_lease lease;
+    mps_lease lease = {.struct_size = sizeof lease};
     const int64_t *ids;
     char word[64];
     ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &lease));
-    ASSERT_OK(sim, mps_particles_tags(sim, &ids, NULL, NULL, NULL));
+    ASSERT_OK(sim, tags_peek(sim, &ids, NULL, NULL, NULL));
     lease.data[2 * 7 + 1] = NAN;
-    snprintf(word, sizeof word, "\"velocity\" of particle %lld", (long long)ids[7]);
+    snprintf(word, sizeof word, "'velocity' of particle %lld", (long long)ids[7]);
     ASSERT_REFUSED(sim, mps_lease_end(sim, &lease), MPS_E_ARG, word);
     ASSERT_STATUS(sim, mps_step(sim, 1e-3, NULL), MPS_E_BUSY); /* still open */
     lease.data[2 * 7 + 1] = INFINITY;
@@ -381,8 +381,8 @@ static void links_follow(void **state)
 static void stencil_of_moved(double shift, bool look, double *after)
 {
     mps_sim *sim = pool();
-    mps_lease lease;
-    mps_stencil s;
+    mps_lease lease = {.struct_size = sizeof lease};
+    mps_stencil s = {.struct_size = sizeof s};
     const int64_t *ids;
     int64_t before[1000];
     ASSERT_OK(sim, mps_step(sim, 1e-3, NULL));
@@ -390,7 +390,7 @@ static void stencil_of_moved(double shift, bool look, double *after)
     for (int64_t i = 0; i < lease.count; i++) lease.data[2 * i] += (i % 3 - 1) * shift * dp;
     ASSERT_OK(sim, mps_lease_end(sim, &lease));
     ASSERT_OK(sim, mps_lease_begin(sim, "pressure", MPS_READ, &lease));
-    ASSERT_OK(sim, mps_particles_tags(sim, &ids, NULL, NULL, NULL));
+    ASSERT_OK(sim, tags_peek(sim, &ids, NULL, NULL, NULL));
     memcpy(before, ids, (size_t)lease.count * sizeof *ids);
     for (int again = 0; look && again < 2; again++) {
         ASSERT_OK(sim, mps_sim_stencil(sim, MPS_NEAR, &s));
@@ -448,10 +448,10 @@ static void field_refused(void **state)
 /* Write to a field what tells its particle: its place at the start, and its id. */
 static void mark(mps_sim *sim)
 {
-    mps_lease mine, x;
+    mps_lease mine = {.struct_size = sizeof mine}, x = {.struct_size = sizeof x};
     const int64_t *ids;
     ASSERT_OK(sim, mps_field_add(sim, "mine", 3));
-    ASSERT_OK(sim, mps_particles_tags(sim, &ids, NULL, NULL, NULL));
+    ASSERT_OK(sim, tags_peek(sim, &ids, NULL, NULL, NULL));
     ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &x));
     ASSERT_OK(sim, mps_lease_begin(sim, "mine", MPS_WRITE, &mine));
     assert_int_equal(mine.stride, 3);
@@ -495,9 +495,40 @@ static void field_travels(void **state)
     mps_sim_destroy(sim);
 }
 
+/* Integers of particles are leased by name, for reading only, and pin the order as all leases do. */
+static void leases_of_tags(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"id", "kind", "phase", "part", "region", "plate"};
+    mps_sim *sim = pool();
+    const int64_t n = mps_particles_count(sim, -1);
+    mps_lease l[6];
+    for (int k = 0; k < 6; k++) {
+        assert_int_equal(mps_lease_init(&l[k], sizeof l[k]), MPS_OK);
+        ASSERT_REFUSED(sim, mps_lease_begin(sim, names[k], MPS_WRITE, &l[k]), MPS_E_ARG, "cannot be written");
+        ASSERT_OK(sim, mps_lease_begin(sim, names[k], MPS_READ, &l[k]));
+        assert_true(l[k].count == n && l[k].stride == 1 && !l[k].data);
+        assert_int_equal(l[k].type, k == 0 ? MPS_DATA_INT64 : MPS_DATA_INT32);
+        assert_true(!l[k].ids == (k > 0) && !l[k].integers == (k == 0));
+    }
+    for (int64_t i = 0; i < n; i++) {
+        assert_int_equal(mps_particle_index(sim, l[0].ids[i]), i);
+        assert_true(l[1].integers[i] >= MPS_FLUID && l[1].integers[i] <= MPS_DUMMY && l[5].integers[i] == 0);
+    }
+    ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_BUSY, "6 lease(s) are open");
+    for (int k = 0; k < 6; k++) {
+        ASSERT_OK(sim, mps_lease_end(sim, &l[k]));
+        assert_true(l[k].struct_size == sizeof l[k] && l[k].count == 0 && !l[k].integers && !l[k].ids);
+        ASSERT_REFUSED(sim, mps_lease_end(sim, &l[k]), MPS_E_ARG, "not open");
+    }
+    ASSERT_REFUSED(sim, mps_lease_begin(sim, "wall_of", MPS_READ, &l[0]), MPS_E_NAME, "no field 'wall_of'");
+    mps_sim_destroy(sim);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(leases_of_tags),
         cmocka_unit_test(add_and_read),        cmocka_unit_test(add_refused),      cmocka_unit_test(overlap_refused),
         cmocka_unit_test(crowd_refused),       cmocka_unit_test(coincident_walls), cmocka_unit_test(remove_by_id),
         cmocka_unit_test(remove_refused),      cmocka_unit_test(remove_all),       cmocka_unit_test(queries),

@@ -176,7 +176,7 @@ static double thrown(mps_sim *sim, const corner *c, const double *x, const doubl
     b.velocity = go;
     ASSERT_OK(sim, mps_particles_add(sim, &b, &id));
     for (int k = 0; k < THROW_STEPS && mps_particle_index(sim, id) >= 0; k++) {
-        mps_lease p;
+        mps_lease p = {.struct_size = sizeof p};
         ASSERT_OK(sim, mps_step(sim, 1, NULL));
         ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &p));
         for (int d = 0; d < c->dim; d++) at[d] = p.data[mps_particle_index(sim, id) * c->dim + d] / dp;

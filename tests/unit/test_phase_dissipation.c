@@ -37,7 +37,7 @@ static double left_over(int dim, double distance, double speed, const int32_t ph
 static double wanted(int dim, double distance, double speed)
 {
     const double r = distance * CLOUD_DP, re = 2.1 * CLOUD_DP;
-    mps_kernel kernel;
+    mps_kernel kernel = {.struct_size = sizeof kernel};
     double n0;
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
     assert_int_equal(mps_lattice_constants(&kernel, dim, CLOUD_DP, re, &n0, NULL), MPS_OK);

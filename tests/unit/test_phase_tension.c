@@ -194,7 +194,7 @@ static void derivatives(void **state)
         int checked = 0;
         for (int64_t i = 0; i < s.c.n && checked < 60; i++) {
             double grad[3] = {0}, grad2 = 0, a = 0, n0;
-            mps_kernel kernel;
+            mps_kernel kernel = {.struct_size = sizeof kernel};
             assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
             assert_int_equal(mps_lattice_constants(&kernel, dim, CLOUD_DP, 2.1 * CLOUD_DP, &n0, NULL), MPS_OK);
             for (int64_t j = 0; j < s.c.n; j++) {

@@ -27,8 +27,8 @@ static double head(mps_sim *sim, int dim, double *depth)
 {
     const int32_t *kinds, *phases;
     double sum[2] = {0}, count[2] = {0}, y[2] = {0};
-    mps_lease p, x;
-    ASSERT_OK(sim, mps_particles_tags(sim, NULL, &kinds, &phases, NULL));
+    mps_lease p = {.struct_size = sizeof p}, x = {.struct_size = sizeof x};
+    ASSERT_OK(sim, tags_peek(sim, NULL, &kinds, &phases, NULL));
     ASSERT_OK(sim, mps_lease_begin(sim, "pressure", MPS_READ, &p));
     ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &x));
     for (int64_t i = 0; i < p.count; i++) {

@@ -16,7 +16,7 @@ static void means(void **state)
                               ? sqrt(a * b)
                               : pow((pow(a, theta[t]) + pow(b, theta[t])) / 2, 1 / theta[t]);
         double n0, lambda;
-        mps_kernel kernel;
+        mps_kernel kernel = {.struct_size = sizeof kernel};
         mps_sim *sim = bare_sim(2, CLOUD_DP, 3.1, 1e-9);
         set_phase(sim, 0, 1000, a);
         set_phase(sim, 1, 10, b);
@@ -161,7 +161,7 @@ static void walls_take_the_fluid(void **state)
         set_phase(sim, 1, 900, 1e-3);
         add_tank(sim, 0.5, 0.5, 0);
         ASSERT_OK(sim, mps_geometry_fill_box(sim, 1, lo, hi, NULL, NULL));
-        mps_lease u;
+        mps_lease u = {.struct_size = sizeof u};
         ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &u));
         for (int64_t k = 0; k < u.count * u.stride; k++) u.data[k] = 1.0;
         ASSERT_OK(sim, mps_lease_end(sim, &u));
@@ -190,7 +190,7 @@ static void slippery_walls(void **state)
         mps_sim *sim = bare_sim(2, 0.05, 3.1, 1e-6);
         add_tank(sim, 0.5, 0.5, 0);
         ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL));
-        mps_lease u;
+        mps_lease u = {.struct_size = sizeof u};
         ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &u));
         for (int64_t k = 0; k < u.count * u.stride; k++) u.data[k] = 1.0;
         ASSERT_OK(sim, mps_lease_end(sim, &u));
@@ -199,8 +199,8 @@ static void slippery_walls(void **state)
         ASSERT_OK(sim, mps_step(sim, 1, NULL));
         const int64_t *ids;
         const int32_t *kind;
-        mps_lease x;
-        ASSERT_OK(sim, mps_particles_tags(sim, &ids, &kind, NULL, NULL));
+        mps_lease x = {.struct_size = sizeof x};
+        ASSERT_OK(sim, tags_peek(sim, &ids, &kind, NULL, NULL));
         ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &x));
         for (int64_t i = 0; i < x.count; i++) {
             const double *at = x.data + 2 * i, a = spy.a[2 * ids[i]];
@@ -235,8 +235,8 @@ static void shear_along_the_floor(void **state)
         if (kind_of == 2) ASSERT_OK(sim, mps_model_set(sim, "viscosity", "stress", 1));
         const int64_t *ids;
         const int32_t *kind;
-        mps_lease x, u;
-        ASSERT_OK(sim, mps_particles_tags(sim, &ids, &kind, NULL, NULL));
+        mps_lease x = {.struct_size = sizeof x}, u = {.struct_size = sizeof u};
+        ASSERT_OK(sim, tags_peek(sim, &ids, &kind, NULL, NULL));
         ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &x));
         ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &u));
         for (int64_t i = 0; i < x.count; i++)
@@ -245,7 +245,7 @@ static void shear_along_the_floor(void **state)
         ASSERT_OK(sim, mps_lease_end(sim, &x));
         ASSERT_OK(sim, mps_step(sim, 1, NULL));
         double most = 0;
-        ASSERT_OK(sim, mps_particles_tags(sim, &ids, &kind, NULL, NULL));
+        ASSERT_OK(sim, tags_peek(sim, &ids, &kind, NULL, NULL));
         ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &x));
         for (int64_t i = 0; i < x.count; i++) {
             const double *at = x.data + i * dim;

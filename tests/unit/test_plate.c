@@ -58,7 +58,7 @@ static void compare_with_tank(int dim, int columns, int right)
 {
     mps_sim *one = divided(dim, 0), *two = divided(dim, columns);
     const double offset = right ? 0.5 + (columns - 1) * dp : 0;
-    mps_stencil a[2], b[2];
+    mps_stencil a[2] = {{.struct_size = sizeof a[0]}, {.struct_size = sizeof a[0]}}, b[2] = {{.struct_size = sizeof b[0]}, {.struct_size = sizeof b[0]}};
     for (int which = MPS_NEAR; which <= MPS_FAR; which++) {
         ASSERT_OK(one, mps_sim_stencil(one, which, &a[which]));
         ASSERT_OK(two, mps_sim_stencil(two, which, &b[which]));
@@ -103,7 +103,7 @@ static void edges_are_seen_once(void **state)
         ASSERT_OK(sim, mps_geometry_baffle(sim, "plate", lo, hi, NULL));
         fill_depth(sim, 1, 1, 1);
         for (int which = MPS_NEAR; which <= MPS_FAR; which++) {
-            mps_stencil t;
+            mps_stencil t = {.struct_size = sizeof t};
             int64_t checked = 0;
             ASSERT_OK(sim, mps_sim_stencil(sim, which, &t));
             const mps__particles *s = &sim->world.particles;
@@ -125,7 +125,7 @@ static void passing_the_edge(void **state)
 {
     (void)state;
     mps_sim *sim = new_sim(2, dp);
-    mps_stencil t;
+    mps_stencil t = {.struct_size = sizeof t};
     add_tank(sim, 1, 1, 0);
     add_plate(sim, 1, 0, 0.5);
     fill_depth(sim, 1, 0.9, 0);
@@ -202,7 +202,8 @@ static void shadows_are_not_in_the_way(void **state)
     mps_sim *sim = new_sim(2, dp);
     mps_particle_block block;
     const double beside[2] = {0.55, 0.3}, on[2] = {0.5, 0.3};
-    const int32_t *plates, *kinds;
+    mps_lease plates = {.struct_size = sizeof plates};
+    const int32_t *kinds;
     int64_t shadows = 0;
     add_tank(sim, 1, 0.6, 0);
     add_plate(sim, 1, 0, 0.6);
@@ -213,12 +214,12 @@ static void shadows_are_not_in_the_way(void **state)
     ASSERT_OK(sim, mps_particles_add(sim, &block, NULL));
     block.position = on;
     ASSERT_REFUSED(sim, mps_particles_add(sim, &block, NULL), MPS_E_ARG, "apart");
-    ASSERT_OK(sim, mps_particles_plates(sim, &plates));
-    ASSERT_OK(sim, mps_particles_tags(sim, NULL, &kinds, NULL, NULL));
-    for (int64_t i = 0; i < mps_particles_count(sim, -1); i++) shadows += plates[i] && kinds[i] == MPS_DUMMY;
+    ASSERT_OK(sim, tags_peek(sim, NULL, &kinds, NULL, NULL));
+    ASSERT_OK(sim, mps_lease_begin(sim, "plate", MPS_READ, &plates));
+    assert_int_equal(plates.count, mps_particles_count(sim, -1));
+    for (int64_t i = 0; i < plates.count; i++) shadows += plates.integers[i] && kinds[i] == MPS_DUMMY;
     assert_int_equal(shadows, 2 * 2 * (13 + 2 * 2));
-    ASSERT_REFUSED(sim, mps_particles_plates(sim, NULL), MPS_E_ARG, "plates");
-    assert_int_equal(mps_particles_plates(NULL, &plates), MPS_E_ARG);
+    ASSERT_OK(sim, mps_lease_end(sim, &plates));
     mps_sim_destroy(sim);
 }
 
@@ -227,7 +228,7 @@ static void shadows_know_their_wall(void **state)
 {
     (void)state;
     mps_sim *sim = divided(2, 1);
-    mps_stencil t;
+    mps_stencil t = {.struct_size = sizeof t};
     int64_t linked = 0;
     ASSERT_OK(sim, mps_sim_stencil(sim, MPS_NEAR, &t));
     const mps__particles *s = &sim->world.particles;
@@ -367,7 +368,7 @@ static void removed_plate(void **state)
 {
     (void)state;
     mps_sim *sim = divided(2, 1);
-    mps_stencil t;
+    mps_stencil t = {.struct_size = sizeof t};
     int64_t ids[2 * 13], count = 0, across = 0;
     const mps__particles *s = &sim->world.particles;
     const int32_t part = mps_part_find(sim, "plate");
@@ -392,7 +393,7 @@ static void plate_on_plate(void **state)
     (void)state;
     mps_sim *sim = new_sim(2, dp), *tank = new_sim(2, dp);
     const double lo[2] = {0.5, 0.3}, hi[2] = {0.8, 0.3};
-    mps_stencil t, u;
+    mps_stencil t = {.struct_size = sizeof t}, u = {.struct_size = sizeof u};
     double corner[3], flat[3], sum[3];
     add_tank(tank, 1, 0.6, 0);
     fill_depth(tank, 1, 0.6, 0);
@@ -429,7 +430,7 @@ static void inclined_plate(void **state)
     mps_sim *sim = new_sim(2, dp);
     const double corner[2] = {0.3, 0.5 * dp}, edge[2] = {0.3, 0.4}, normal[2] = {-0.8, 0.6}, top = 0.4;
     double area = 0;
-    mps_stencil t;
+    mps_stencil t = {.struct_size = sizeof t};
     add_tank(sim, 1, 0.6, 0);
     ASSERT_OK(sim, mps_geometry_plate(sim, "leaning", corner, edge, NULL));
     fill_depth(sim, 1, 0.5, 0);

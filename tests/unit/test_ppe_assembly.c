@@ -25,8 +25,9 @@ typedef struct tank {
 
 static void tank_init(tank *k, cloud c)
 {
-    mps_kernel kernel;
+    mps_kernel kernel = {.struct_size = sizeof kernel};
     memset(k, 0, sizeof *k);
+    k->near.struct_size = k->far.struct_size = sizeof k->near;
     assert_true(c.n <= MOST);
     k->c = c;
     k->context.allocator = mps__allocator_default();
@@ -57,7 +58,7 @@ static void tank_init(tank *k, cloud c)
                          .distance = k->depth,
                          .wetted = k->wet,
                          .tank_acceleration = k->accel};
-    k->terms = (mps__ppe_terms){.equation = {.radius = MPS_FAR, .gain = 1},
+    k->terms = (mps__ppe_terms){.equation = {.struct_size = sizeof(mps_equation), .radius = MPS_FAR, .gain = 1},
                                 .flux = &k->flux,
                                 .region = k->region,
                                 .density = k->density,

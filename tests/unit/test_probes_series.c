@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Moving averages and samples: pressures written after each step are a known signal at known times. */
+#include "../tags.h"
 #include "probe_fixture.h"
 
 static const double lengths[] = {1e-3, 0.4e-3, 0.7e-3, 0.9e-3, 0.3e-3, 1.1e-3, 0.2e-3};
@@ -286,7 +287,7 @@ static void removed_probes(void **state)
     ASSERT_OK(sim, mps_probe_add(sim, &wall, &id[1]));
     ASSERT_OK(sim, mps_probe_add(sim, &gauge, &id[2]));
     ASSERT_OK(sim, mps_run(sim, 2e-3, NULL, NULL));
-    ASSERT_OK(sim, mps_particles_tags(sim, &ids, &kinds, NULL, NULL));
+    ASSERT_OK(sim, tags_peek(sim, &ids, &kinds, NULL, NULL));
     for (int64_t i = 0; i < mps_particles_count(sim, -1); i++)
         if (kinds[i] == MPS_WALL) walls[count++] = ids[i];
     ASSERT_OK(sim, mps_particles_remove(sim, count, walls));

@@ -43,8 +43,8 @@ static double mean_pressure(mps_sim *sim, int dim, double *level)
 {
     const int32_t *kinds;
     double sum = 0, count = 0, low = INFINITY, high = -INFINITY;
-    mps_lease p, x;
-    ASSERT_OK(sim, mps_particles_tags(sim, NULL, &kinds, NULL, NULL));
+    mps_lease p = {.struct_size = sizeof p}, x = {.struct_size = sizeof x};
+    ASSERT_OK(sim, tags_peek(sim, NULL, &kinds, NULL, NULL));
     ASSERT_OK(sim, mps_lease_begin(sim, "pressure", MPS_READ, &p));
     ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &x));
     for (int64_t i = 0; i < p.count; i++) {
@@ -104,11 +104,11 @@ static void gauge_of_turned_tanks(void **state)
     for (int degrees = -40; degrees <= 40; degrees += 2) {
         const double angle = degrees * 3.14159265358979323846 / 180;
         const int32_t *kinds;
-        mps_lease p, x;
+        mps_lease p = {.struct_size = sizeof p}, x = {.struct_size = sizeof x};
         mps_sim *sim = full_tank(2, angle);
         ASSERT_OK(sim, mps_model_use(sim, "reference.lid"));
         ASSERT_OK(sim, mps_step(sim, 1e-4, NULL));
-        ASSERT_OK(sim, mps_particles_tags(sim, NULL, &kinds, NULL, NULL));
+        ASSERT_OK(sim, tags_peek(sim, NULL, &kinds, NULL, NULL));
         ASSERT_OK(sim, mps_lease_begin(sim, "pressure", MPS_READ, &p));
         ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &x));
         double top = -INFINITY, head = 0, count = 0;
@@ -179,8 +179,8 @@ static void layer_of_gas(void **state)
         assert_int_equal(spy.level_free, 0);
         const int32_t *kinds;
         int zero = 0;
-        mps_lease p, x;
-        ASSERT_OK(sim, mps_particles_tags(sim, NULL, &kinds, NULL, NULL));
+        mps_lease p = {.struct_size = sizeof p}, x = {.struct_size = sizeof x};
+        ASSERT_OK(sim, tags_peek(sim, NULL, &kinds, NULL, NULL));
         ASSERT_OK(sim, mps_lease_begin(sim, "pressure", MPS_READ, &p));
         ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &x));
         for (int64_t i = 0; i < p.count; i++) {

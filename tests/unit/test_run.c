@@ -127,7 +127,7 @@ static int meddle(void *user, mps_sim *sim, const mps_step_info *info)
     const double x[2] = {0.2, 0.45};
     const int64_t id = 0;
     mps_particle_block b;
-    mps_lease lease;
+    mps_lease lease = {.struct_size = sizeof lease};
     ASSERT_OK(sim, mps_particle_block_init(&b, sizeof b));
     b.count = 1;
     b.position = x;
@@ -170,7 +170,7 @@ static void threads_agree(void **state)
     }
     for (int k = 1; k < 3; k++)
         for (int f = 0; f < 3; f++) {
-            mps_lease a, b;
+            mps_lease a = {.struct_size = sizeof a}, b = {.struct_size = sizeof b};
             ASSERT_OK(sim[0], mps_lease_begin(sim[0], fields[f], MPS_READ, &a));
             ASSERT_OK(sim[k], mps_lease_begin(sim[k], fields[f], MPS_READ, &b));
             assert_int_equal(a.count, b.count);

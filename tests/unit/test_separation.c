@@ -83,8 +83,8 @@ static int pull(void *user, double t, mps_motion_state *state)
 static void stream(mps_sim *sim)
 {
     const int32_t *kind;
-    mps_lease u;
-    ASSERT_OK(sim, mps_particles_tags(sim, NULL, &kind, NULL, NULL));
+    mps_lease u = {.struct_size = sizeof u};
+    ASSERT_OK(sim, tags_peek(sim, NULL, &kind, NULL, NULL));
     ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &u));
     for (int64_t i = 0; i < u.count; i++)
         if (kind[i] == MPS_FLUID) u.data[i * u.stride] = 3;
@@ -139,9 +139,9 @@ static bool *walls_between(mps_sim *sim, const double *lo, const double *hi)
 {
     const int64_t *id;
     const int32_t *kind;
-    mps_lease x;
+    mps_lease x = {.struct_size = sizeof x};
     int64_t count = 0;
-    ASSERT_OK(sim, mps_particles_tags(sim, &id, &kind, NULL, NULL));
+    ASSERT_OK(sim, tags_peek(sim, &id, &kind, NULL, NULL));
     ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &x));
     bool *among = calloc((size_t)x.count, sizeof *among);
     assert_non_null(among);
@@ -285,7 +285,7 @@ static void assert_same(mps_sim *a, mps_sim *b)
 {
     static const char *const fields[] = {"position", "velocity", "pressure"};
     for (int k = 0; k < 3; k++) {
-        mps_lease x, y;
+        mps_lease x = {.struct_size = sizeof x}, y = {.struct_size = sizeof y};
         ASSERT_OK(a, mps_lease_begin(a, fields[k], MPS_READ, &x));
         ASSERT_OK(b, mps_lease_begin(b, fields[k], MPS_READ, &y));
         assert_int_equal(x.count, y.count);

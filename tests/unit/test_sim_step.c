@@ -201,7 +201,7 @@ static mps_sim *drops(void)
 
 static void set_velocity(mps_sim *sim, int64_t id, double ux, double uy)
 {
-    mps_lease u;
+    mps_lease u = {.struct_size = sizeof u};
     const int64_t at = mps_particle_index(sim, id);
     ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &u));
     u.data[u.stride * at] = ux;
@@ -224,9 +224,9 @@ static picture take_picture(mps_sim *sim)
     memset(&c, 0, sizeof c);
     c.n = mps_particles_count(sim, -1);
     ASSERT_OK(sim, mps_sim_time(sim, &c.t, &c.steps));
-    ASSERT_OK(sim, mps_particles_tags(sim, &ids, NULL, NULL, NULL));
+    ASSERT_OK(sim, tags_peek(sim, &ids, NULL, NULL, NULL));
     for (int f = 0; f < 3; f++) {
-        mps_lease l;
+        mps_lease l = {.struct_size = sizeof l};
         ASSERT_OK(sim, mps_lease_begin(sim, fields[f], MPS_READ, &l));
         for (int64_t i = 0; i < l.count; i++) {
             assert_true(ids[i] < 1000);
@@ -589,8 +589,8 @@ static void bad_steps(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A shorter step info of an older program is filled up to its end and no further. */
-static void older_step_info(void **state)
+/* A step info of a size that no version had is not written, and no step is done; a newer program's is filled up to what is known. */
+static void other_step_info(void **state)
 {
     (void)state;
     mps_sim *sim = pool();
@@ -598,8 +598,15 @@ static void older_step_info(void **state)
     assert_int_equal(mps_step_info_init(&info, sizeof info), MPS_OK);
     info.struct_size = offsetof(mps_step_info, cfl);
     info.cfl = -5;
-    ASSERT_OK(sim, mps_step(sim, 1e-3, &info));
-    assert_true(info.struct_size == offsetof(mps_step_info, cfl) && info.dt == 1e-3 && info.cfl == -5);
+    ASSERT_REFUSED(sim, mps_step(sim, 1e-3, &info), MPS_E_ARG, "mps_step_info.struct_size is 32");
+    assert_true(info.struct_size == offsetof(mps_step_info, cfl) && info.dt == 0 && info.cfl == -5);
+    struct {
+        mps_step_info known;
+        double later;
+    } newer;
+    assert_int_equal(mps_step_info_init(&newer.known, sizeof newer), MPS_OK);
+    ASSERT_OK(sim, mps_step(sim, 1e-3, &newer.known));
+    assert_true(newer.known.struct_size == sizeof newer && newer.known.step == 1 && newer.known.dt == 1e-3 && newer.later == 0);
     mps_sim_destroy(sim);
 }
 
@@ -626,7 +633,7 @@ int main(void)
         cmocka_unit_test(bad_time_control),
         cmocka_unit_test(limits),
         cmocka_unit_test(bad_steps),
-        cmocka_unit_test(older_step_info),
+        cmocka_unit_test(other_step_info),
         cmocka_unit_test(run_fails),
         cmocka_unit_test(fast_walls),
         cmocka_unit_test(slivers),

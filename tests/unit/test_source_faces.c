@@ -37,7 +37,7 @@ static bool regular(const cloud *c, const int32_t *phase, double ratio, int64_t 
     const int dim = c->dim;
     const double re = 2.1 * CLOUD_DP, rho[2] = {water, water / ratio};
     double m[3][3] = {{0}}, n0;
-    mps_kernel kernel;
+    mps_kernel kernel = {.struct_size = sizeof kernel};
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
     assert_int_equal(mps_lattice_constants(&kernel, dim, CLOUD_DP, re, &n0, NULL), MPS_OK);
     for (int64_t j = 0; j < c->n; j++) {

@@ -117,13 +117,13 @@ static void volume_of_shallow_liquid(void **state)
 {
     (void)state;
     mps_energy e;
-    mps_lease x;
+    mps_lease x = {.struct_size = sizeof x};
     const int32_t *kind;
     mps_sim *sim = new_sim(2, dp);
     add_tank(sim, 1, 0.5, 0);
     assert_true(fill_depth(sim, 1, 5.5 * dp, 0) > 0);
     ASSERT_OK(sim, mps_step(sim, 1e-6, NULL));
-    ASSERT_OK(sim, mps_particles_tags(sim, NULL, &kind, NULL, NULL));
+    ASSERT_OK(sim, tags_peek(sim, NULL, &kind, NULL, NULL));
     ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_WRITE, &x));
     for (int64_t i = 0; i < x.count; i++)
         if (kind[i] == MPS_FLUID) x.data[2 * i] *= 0.98;

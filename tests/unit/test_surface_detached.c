@@ -109,7 +109,7 @@ static void in_a_void(void **state)
 static double company(const cloud *c, const int32_t *phase, double ratio, int64_t i)
 {
     const double re = 2.1 * CLOUD_DP;
-    mps_kernel kernel;
+    mps_kernel kernel = {.struct_size = sizeof kernel};
     double n0, sum = 0;
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
     assert_int_equal(mps_lattice_constants(&kernel, c->dim, CLOUD_DP, re, &n0, NULL), MPS_OK);

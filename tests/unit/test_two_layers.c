@@ -21,8 +21,8 @@ static void jitter_fluid(mps_sim *sim, int dim, double jitter)
 {
     const int32_t *kinds;
     uint64_t seed = 17;
-    mps_lease x;
-    ASSERT_OK(sim, mps_particles_tags(sim, NULL, &kinds, NULL, NULL));
+    mps_lease x = {.struct_size = sizeof x};
+    ASSERT_OK(sim, tags_peek(sim, NULL, &kinds, NULL, NULL));
     ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_WRITE, &x));
     for (int64_t k = 0; k < x.count * dim; k++)
         if (kinds[k / dim] == MPS_FLUID) x.data[k] += jitter * dp * cloud_random(&seed);
@@ -35,7 +35,7 @@ static double density_beside(const double *x, const double *rho, const int32_t *
 {
     const double re = 2.1 * dp;
     double most = 0, sum = 0, weight = 0, found = rho[i], *near = cloud_doubles(n);
-    mps_kernel kernel;
+    mps_kernel kernel = {.struct_size = sizeof kernel};
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
     for (int64_t j = 0; j < n; j++) {
         double r2 = 0;
@@ -60,7 +60,7 @@ static int32_t *kinds_by_id(mps_sim *sim)
     const int32_t *kinds;
     const int64_t n = mps_particles_count(sim, -1);
     int32_t *kind = cloud_phases(n);
-    ASSERT_OK(sim, mps_particles_tags(sim, &ids, &kinds, NULL, NULL));
+    ASSERT_OK(sim, tags_peek(sim, &ids, &kinds, NULL, NULL));
     for (int64_t i = 0; i < n; i++) kind[ids[i]] = kinds[i];
     return kind;
 }
@@ -119,8 +119,8 @@ static void spray_before_wall(void **state)
         }
         assert_true(drop >= 0 && wall >= 0);
         const int64_t *ids;
-        mps_lease rho;
-        ASSERT_OK(sim, mps_particles_tags(sim, &ids, NULL, NULL, NULL));
+        mps_lease rho = {.struct_size = sizeof rho};
+        ASSERT_OK(sim, tags_peek(sim, &ids, NULL, NULL, NULL));
         ASSERT_OK(sim, mps_lease_begin(sim, "density", MPS_WRITE, &rho));
         for (int64_t i = 0; i < rho.count; i++)
             if (ids[i] == drop) rho.data[i] = water;
@@ -138,14 +138,14 @@ static void spray_before_wall(void **state)
 static double *wall_sources(double speed, int64_t *n)
 {
     const int32_t *kinds, *phases;
-    mps_lease u;
+    mps_lease u = {.struct_size = sizeof u};
     mps_sim *sim = bare_sim(2, dp, 3.1, 1e-4);
     fill(sim);
     ASSERT_OK(sim, mps_model_use(sim, "wall.half"));
     ASSERT_OK(sim, mps_model_use(sim, "moments.bounded"));
     ASSERT_OK(sim, mps_model_use(sim, "source.volume"));
     ASSERT_OK(sim, mps_model_set(sim, "source", "pace", 0));
-    ASSERT_OK(sim, mps_particles_tags(sim, NULL, &kinds, &phases, NULL));
+    ASSERT_OK(sim, tags_peek(sim, NULL, &kinds, &phases, NULL));
     ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &u));
     for (int64_t i = 0; i < u.count; i++)
         if (kinds[i] == MPS_FLUID && phases[i] == 1) u.data[2 * i] = speed;
@@ -189,8 +189,8 @@ static double head_error(mps_sim *sim, int dim)
 {
     const int32_t *kinds;
     double low = INFINITY, high = -INFINITY;
-    mps_lease p, x;
-    ASSERT_OK(sim, mps_particles_tags(sim, NULL, &kinds, NULL, NULL));
+    mps_lease p = {.struct_size = sizeof p}, x = {.struct_size = sizeof x};
+    ASSERT_OK(sim, tags_peek(sim, NULL, &kinds, NULL, NULL));
     ASSERT_OK(sim, mps_lease_begin(sim, "pressure", MPS_READ, &p));
     ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &x));
     for (int64_t i = 0; i < p.count; i++) {

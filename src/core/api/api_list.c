@@ -13,27 +13,27 @@ static const mps_name_info name_default = {.struct_size = sizeof(mps_name_info)}
 
 mps_status mps_model_info_init(mps_model_info *info, size_t size)
 {
-    return mps__struct_init(info, size, &model_default, sizeof model_default);
+    return mps__struct_init("mps_model_info", info, size, &model_default, sizeof model_default);
 }
 
 mps_status mps_setting_info_init(mps_setting_info *info, size_t size)
 {
-    return mps__struct_init(info, size, &setting_default, sizeof setting_default);
+    return mps__struct_init("mps_setting_info", info, size, &setting_default, sizeof setting_default);
 }
 
 mps_status mps_channel_info_init(mps_channel_info *info, size_t size)
 {
-    return mps__struct_init(info, size, &channel_default, sizeof channel_default);
+    return mps__struct_init("mps_channel_info", info, size, &channel_default, sizeof channel_default);
 }
 
 mps_status mps_verb_info_init(mps_verb_info *info, size_t size)
 {
-    return mps__struct_init(info, size, &verb_default, sizeof verb_default);
+    return mps__struct_init("mps_verb_info", info, size, &verb_default, sizeof verb_default);
 }
 
 mps_status mps_name_info_init(mps_name_info *info, size_t size)
 {
-    return mps__struct_init(info, size, &name_default, sizeof name_default);
+    return mps__struct_init("mps_name_info", info, size, &name_default, sizeof name_default);
 }
 
 /* ---- models ---- */

@@ -21,9 +21,8 @@ static mps_status check_dof(mps_sim *sim, const char *what, int64_t index, int32
 {
     MPS__CHECK(&sim->context, dof >= 0 && dof < MPS_DOF_COUNT, "%s %lld: degree of freedom %d is not one of 0..%d", what, (long long)index,
                (int)dof, MPS_DOF_COUNT - 1);
-    bool flat = dof == MPS_SURGE || dof == MPS_HEAVE || dof == MPS_YAW;
-    MPS__CHECK(&sim->context, flat || sim->world.setup.dim == 3, "%s %lld: degree of freedom %d needs 3-D; 2-D has surge 0, heave 1 and yaw 4",
-               what, (long long)index, (int)dof);
+    MPS__CHECK(&sim->context, (dof != MPS_SWAY && dof != MPS_PITCH) || sim->world.setup.dim == 3,
+               "%s %lld: degree of freedom %d needs 3-D; 2-D has surge 0, heave 1, and roll 3 or yaw 4", what, (long long)index, (int)dof);
     return MPS_OK;
 }
 
@@ -118,6 +117,12 @@ static mps_status check_table_columns(mps_sim *sim, int32_t dofs, const int32_t 
     return MPS_OK;
 }
 
+mps_status mps_motion_state_init(mps_motion_state *state, size_t size)
+{
+    static const mps_motion_state rest = {.struct_size = sizeof rest};
+    return mps__struct_init("mps_motion_state", state, size, &rest, sizeof rest);
+}
+
 mps_status mps_motion_set_centre(mps_sim *sim, const double *centre, int32_t start)
 {
     MPS__CHANGES(sim);
@@ -186,7 +191,7 @@ mps_status mps_motion_clear(mps_sim *sim)
     MPS__CHANGES(sim);
     MPS__TRY(changeable(sim));
     mps__motion next = sim->world.motion;
-    memset(&next.hold, 0, sizeof next.hold);
+    next.hold = (mps_motion_state){.struct_size = sizeof next.hold};
     memcpy(next.hold.value, next.now.state.value, sizeof next.hold.value);
     next.fn = NULL;
     next.user = NULL;
@@ -198,9 +203,8 @@ mps_status mps_motion_clear(mps_sim *sim)
 mps_status mps_motion_state_get(const mps_sim *sim, mps_motion_state *state)
 {
     if (!sim) return MPS_E_ARG;
-    MPS__CHECK(mps__sim_context(sim), state, "state is NULL");
-    *state = sim->world.motion.now.state;
-    return MPS_OK;
+    const mps_motion_state *now = &sim->world.motion.now.state;
+    return mps__struct_out(mps__sim_context(sim), "mps_motion_state", state, now, sizeof *now);
 }
 
 mps_status mps_motion_to_lab(const mps_sim *sim, const double *tank, double *lab, double *velocity)

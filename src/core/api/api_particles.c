@@ -14,7 +14,7 @@ static const mps_particle_block block_default = {.struct_size = sizeof(mps_parti
 
 mps_status mps_particle_block_init(mps_particle_block *block, size_t size)
 {
-    return mps__struct_init(block, size, &block_default, sizeof block_default);
+    return mps__struct_init("mps_particle_block", block, size, &block_default, sizeof block_default);
 }
 
 static mps_status not_leased(mps_sim *sim)
@@ -193,68 +193,79 @@ mps_status mps_field_add(mps_sim *sim, const char *name, int32_t components)
     return mps__particles_field_add(&sim->world.particles, name, components, sizeof(double), true, NULL);
 }
 
-mps_status mps_lease_begin(mps_sim *sim, const char *field, int32_t mode, mps_lease *lease)
+static const mps_lease closed = {.struct_size = sizeof closed};
+
+mps_status mps_lease_init(mps_lease *lease, size_t size)
 {
-    MPS__READS(sim);
+    return mps__struct_init("mps_lease", lease, size, &closed, sizeof closed);
+}
+
+/* A field that can be leased, or a text about those that can. */
+static mps_status find_leasable(mps_sim *sim, const char *name, mps__field **found)
+{
     mps__particles *s = &sim->world.particles;
-    MPS__CHECK(&sim->context, field && lease, "field or lease is NULL");
-    MPS__CHECK(&sim->context, mode == MPS_READ || mode == MPS_WRITE, "mode is %d: MPS_READ or MPS_WRITE", mode);
-    if (mode == MPS_WRITE) MPS__CHANGES(sim);
     const char *names[MPS__FIELDS_MAX];
     char hint[MPS__HINT_SIZE];
     int count = 0;
+    *found = mps__particles_field(s, name);
+    if (*found && ((*found)->is_public || (*found)->is_tag)) return MPS_OK;
     for (int32_t k = 0; k < s->fields; k++)
-        if (s->field[k].is_public) names[count++] = s->field[k].name;
-    mps__field *f = mps__particles_field(s, field);
-    if (!f || !f->is_public)
-        return mps__fail(&sim->context, MPS_E_NAME, "no field \"%.60s\"; %s", field, mps__hint(hint, '"', field, names, count));
+        if (s->field[k].is_public || s->field[k].is_tag) names[count++] = s->field[k].name;
+    return mps__fail(&sim->context, MPS_E_NAME, "no field '%.60s'; %s", name, mps__hint(hint, '\'', name, names, count));
+}
+
+static mps_lease lease_of(const mps__particles *s, const mps__field *f, int32_t mode)
+{
+    mps_lease l = {.count = s->n, .stride = f->components, .slot = ((int32_t)(f - s->field) + 1) * 2 + mode};
+    l.type = !f->is_tag ? MPS_DATA_DOUBLE : f->size == sizeof(int32_t) ? MPS_DATA_INT32 : MPS_DATA_INT64;
+    if (l.type == MPS_DATA_DOUBLE) l.data = *f->data;
+    if (l.type == MPS_DATA_INT32) l.integers = *f->data;
+    if (l.type == MPS_DATA_INT64) l.ids = *f->data;
+    return l;
+}
+
+mps_status mps_lease_begin(mps_sim *sim, const char *field, int32_t mode, mps_lease *lease)
+{
+    MPS__READS(sim);
+    mps__context *c = &sim->context;
+    mps__field *f;
+    MPS__CHECK(c, field, "the name of the field is NULL");
+    MPS__TRY(mps__struct_check(c, "mps_lease", lease));
+    MPS__CHECK(c, mode == MPS_READ || mode == MPS_WRITE, "mode is %d: MPS_READ or MPS_WRITE", mode);
+    if (mode == MPS_WRITE) MPS__CHANGES(sim);
+    MPS__TRY(find_leasable(sim, field, &f));
+    MPS__CHECK(c, mode == MPS_READ || !f->is_tag, "field '%s' cannot be written: lease it with MPS_READ", field);
     if (f->writer || (mode == MPS_WRITE && f->readers > 0))
-        return mps__fail(&sim->context, MPS_E_BUSY, "field \"%s\" is leased already, for %s", field, f->writer ? "writing" : "reading");
+        return mps__fail(c, MPS_E_BUSY, "field '%s' is leased already, for %s", field, f->writer ? "writing" : "reading");
+    const mps_lease open = lease_of(&sim->world.particles, f, mode);
+    MPS__TRY(mps__struct_out(c, "mps_lease", lease, &open, sizeof open));
     if (mode == MPS_WRITE)
         f->writer = true;
     else
         f->readers++;
-    *lease = (mps_lease){.data = *f->data, .count = s->n, .stride = f->components, .slot = ((int32_t)(f - s->field) + 1) * 2 + mode};
     return MPS_OK;
 }
 
 mps_status mps_lease_end(mps_sim *sim, mps_lease *lease)
 {
     MPS__READS(sim);
+    mps__context *c = &sim->context;
     mps__particles *s = &sim->world.particles;
-    MPS__CHECK(&sim->context, lease && lease->slot >= 2 && lease->slot / 2 <= s->fields, "this lease is not open");
+    MPS__TRY(mps__struct_check(c, "mps_lease", lease));
+    MPS__CHECK(c, lease->slot >= 2 && lease->slot / 2 <= s->fields, "this lease is not open");
     mps__field *f = &s->field[lease->slot / 2 - 1];
     const bool write = lease->slot % 2;
-    MPS__CHECK(&sim->context, write ? f->writer : f->readers > 0, "this lease of \"%s\" is not open", f->name);
+    MPS__CHECK(c, write ? f->writer : f->readers > 0, "this lease of '%s' is not open", f->name);
     const double *data = *f->data;
     for (int64_t k = 0; write && k < s->n * f->components; k++)
-        MPS__CHECK(&sim->context, isfinite(data[k]) && (data != s->rho || data[k] > 0),
-                   "field \"%s\" of particle %lld was written as %g: must be finite%s; the lease stays open", f->name,
+        MPS__CHECK(c, isfinite(data[k]) && (data != s->rho || data[k] > 0),
+                   "field '%s' of particle %lld was written as %g: must be finite%s; the lease stays open", f->name,
                    (long long)s->id[k / f->components], data[k], data == s->rho ? " and > 0" : "");
     if (write)
         f->writer = false;
     else
         f->readers--;
-    *lease = (mps_lease){0};
-    return MPS_OK;
-}
-
-mps_status mps_particles_tags(const mps_sim *sim, const int64_t **ids, const int32_t **kinds, const int32_t **phases, const int32_t **parts)
-{
-    if (!sim) return MPS_E_ARG;
-    if (ids) *ids = sim->world.particles.id;
-    if (kinds) *kinds = sim->world.particles.kind;
-    if (phases) *phases = sim->world.particles.phase;
-    if (parts) *parts = sim->world.particles.part;
-    return MPS_OK;
-}
-
-mps_status mps_particles_plates(const mps_sim *sim, const int32_t **plates)
-{
-    if (!sim) return MPS_E_ARG;
-    MPS__CHECK(mps__sim_context(sim), plates, "plates is NULL");
-    *plates = sim->world.particles.plate;
-    return MPS_OK;
+    return mps__struct_out(c, "mps_lease", lease, &closed, sizeof closed);
 }
 
 int32_t mps_part_find(const mps_sim *sim, const char *name)

@@ -17,7 +17,7 @@ static mps_status find_probe(const mps_sim *sim, int32_t id, mps__probe **probe)
 
 mps_status mps_probe_init(mps_probe *probe, size_t size)
 {
-    return mps__struct_init(probe, size, &probe_defaults, sizeof probe_defaults);
+    return mps__struct_init("mps_probe", probe, size, &probe_defaults, sizeof probe_defaults);
 }
 
 mps_status mps_probe_add(mps_sim *sim, const mps_probe *probe, int32_t *id)
@@ -90,7 +90,7 @@ mps_status mps_probe_series_clear(mps_sim *sim, int32_t id)
 
 mps_status mps_energy_init(mps_energy *energy, size_t size)
 {
-    return mps__struct_init(energy, size, &energy_defaults, sizeof energy_defaults);
+    return mps__struct_init("mps_energy", energy, size, &energy_defaults, sizeof energy_defaults);
 }
 
 mps_status mps_energy_get(mps_sim *sim, mps_energy *energy)
@@ -103,7 +103,7 @@ mps_status mps_energy_get(mps_sim *sim, mps_energy *energy)
 
 mps_status mps_momentum_init(mps_momentum *momentum, size_t size)
 {
-    return mps__struct_init(momentum, size, &momentum_defaults, sizeof momentum_defaults);
+    return mps__struct_init("mps_momentum", momentum, size, &momentum_defaults, sizeof momentum_defaults);
 }
 
 mps_status mps_momentum_get(mps_sim *sim, mps_momentum *momentum)

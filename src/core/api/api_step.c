@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Stepping of the public interface, and the stencil of a simulation. */
+#include "kernel.h"
 #include "sim.h"
 #include <math.h>
 
@@ -9,12 +10,12 @@ static const mps_step_info info_default = {.struct_size = sizeof(mps_step_info)}
 
 mps_status mps_time_control_init(mps_time_control *control, size_t size)
 {
-    return mps__struct_init(control, size, &control_default, sizeof control_default);
+    return mps__struct_init("mps_time_control", control, size, &control_default, sizeof control_default);
 }
 
 mps_status mps_step_info_init(mps_step_info *info, size_t size)
 {
-    return mps__struct_init(info, size, &info_default, sizeof info_default);
+    return mps__struct_init("mps_step_info", info, size, &info_default, sizeof info_default);
 }
 
 static mps_status check_limits(mps__context *c, const mps_time_control *t)
@@ -91,40 +92,28 @@ mps_status mps_run(mps_sim *sim, double t_end, mps_monitor_fn monitor, void *use
 
 mps_status mps_sim_stencil(mps_sim *sim, int32_t which, mps_stencil *stencil)
 {
+    mps_stencil view;
     MPS__READS(sim);
-    MPS__CHECK(&sim->context, stencil && (which == MPS_NEAR || which == MPS_FAR), "stencil is NULL, or which is %d: MPS_NEAR or MPS_FAR",
-               which);
+    MPS__TRY(mps__struct_check(&sim->context, "mps_stencil", stencil));
+    MPS__CHECK(&sim->context, which == MPS_NEAR || which == MPS_FAR, "which is %d: must be MPS_NEAR (0) or MPS_FAR (1)", which);
     const mps__field *x = mps__particles_field(&sim->world.particles, "position");
     if (x->writer) return mps__fail(&sim->context, MPS_E_BUSY, "positions are leased for writing");
     MPS__TRY(mps__particles_leases(&sim->world.particles) ? mps__world_neighbours_kept(&sim->world) : mps__world_neighbours(&sim->world));
-    return mps__world_stencil_all(&sim->world, which, stencil);
-}
-
-/* Why the kernel has no lattice constants. */
-static mps_status bad_kernel(mps_sim *sim, const mps_kernel *kernel)
-{
-    const mps__world *w = &sim->world;
-    const int reach = (int)(w->setup.re_near / w->setup.dp) + 1;
-    const int most = w->setup.dim * reach * reach;
-    MPS__CHECK(&sim->context, kernel->id >= MPS_KERNEL_IMPROVED && kernel->id <= MPS_KERNEL_CUSTOM,
-               "kernel.id is %d: fill it with mps_kernel_find() or mps_kernel_custom()", kernel->id);
-    MPS__CHECK(&sim->context, kernel->id != MPS_KERNEL_CUSTOM || kernel->fn, "kernel.fn is NULL: fill it with mps_kernel_custom()");
-    for (int square = 1; square <= most; square++) { /* more than the distances of a lattice: the first bad one is named */
-        const double r = w->setup.dp * sqrt(square), value = mps_kernel_value(kernel, r, w->setup.re_near);
-        MPS__CHECK(&sim->context, value >= 0 && isfinite(value), "the kernel is %g at r = %g m of re = %g m: must be >= 0 and finite",
-                   value, r, w->setup.re_near);
-    }
-    return mps__fail(&sim->context, MPS_E_ARG, "the kernel is 0 at all distances of a lattice of %g m within re = %g m", w->setup.dp, w->setup.re_near);
+    MPS__TRY(mps__world_stencil_all(&sim->world, which, &view));
+    return mps__struct_out(&sim->context, "mps_stencil", stencil, &view, sizeof view);
 }
 
 mps_status mps_sim_set_kernel(mps_sim *sim, const mps_kernel *kernel)
 {
     MPS__CHANGES(sim);
-    MPS__CHECK(&sim->context, kernel, "kernel is NULL");
-    if (sim->world.state.step > 0) return mps__fail(&sim->context, MPS_E_STATE, "the kernel cannot change after the first step");
+    mps__context *c = &sim->context;
+    const mps__setup *setup = &sim->world.setup;
+    mps_kernel k = {0};
     double n0;
-    mps_status status = mps_lattice_constants(kernel, sim->world.setup.dim, sim->world.setup.dp, sim->world.setup.re_near, &n0, NULL);
-    if (status != MPS_OK) return bad_kernel(sim, kernel);
-    sim->world.setup.kernel = *kernel;
+    MPS__TRY(mps__struct_in(c, "mps_kernel", &k, sizeof k, kernel));
+    if (sim->world.state.step > 0) return mps__fail(c, MPS_E_STATE, "the kernel cannot change after the first step");
+    MPS__TRY(mps__kernel_lattice(c, &k, setup->dim, setup->dp, setup->re_near, &n0, NULL));
+    k.struct_size = sizeof k;
+    sim->world.setup.kernel = k;
     return MPS_OK;
 }

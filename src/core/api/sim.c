@@ -19,12 +19,12 @@ static const double DP_MIN = 1e-12, DP_MAX = 1e12;
 
 mps_status mps_config_init(mps_config *config, size_t size)
 {
-    return mps__struct_init(config, size, &config_default, sizeof config_default);
+    return mps__struct_init("mps_config", config, size, &config_default, sizeof config_default);
 }
 
 mps_status mps_phase_init(mps_phase *phase, size_t size)
 {
-    return mps__struct_init(phase, size, &water, sizeof water);
+    return mps__struct_init("mps_phase", phase, size, &water, sizeof water);
 }
 
 static mps_status check_domain(mps__context *c, const mps_config *f, bool *given)
@@ -70,6 +70,7 @@ static mps_status set_up(mps_sim *sim, const mps_config *f)
     mps__world *w = &sim->world;
     MPS__TRY(mps__world_init(w, &sim->context, f->dim, f->dp));
     const char *kernel = f->kernel ? f->kernel : config_default.kernel;
+    w->setup.kernel.struct_size = sizeof w->setup.kernel;
     if (mps_kernel_find(kernel, &w->setup.kernel) != MPS_OK) {
         const char *names[] = {"improved", "original"};
         char hint[MPS__HINT_SIZE];
@@ -103,7 +104,7 @@ mps_status mps_sim_create(const mps_config *config, mps_sim **sim)
     mps__context c = {.allocator = mps__allocator_default()};
     mps_config f = config_default;
     mps_status status = mps__struct_in(&c, "mps_config", &f, sizeof f, config);
-    if (status == MPS_E_VERSION) { /* nothing was copied, but there is a place for the text */
+    if (status < 0 && config && config->struct_size >= offsetof(mps_config, parallel)) { /* not copied, but there is a place for the text */
         f.error = config->error;
         f.error_size = config->error_size;
     }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Memory, errors, log and versioned structs. */
+/* Memory, errors, log, names. */
 #define _POSIX_C_SOURCE 200809L
 #include "base.h"
 #include <math.h>
@@ -78,6 +78,7 @@ mps_status mps__fail(mps__context *c, mps_status status, const char *format, ...
     /* a text may quote the previous one */
     char text[MPS__ERROR_SIZE];
     va_list list;
+    if (!c) return status;
     va_start(list, format);
     vsnprintf(text, sizeof text, format, list);
     va_end(list);
@@ -103,49 +104,6 @@ void mps__log(mps__context *c, int level, const char *format, ...)
     const mps__lock before = mps__lock_set(c, MPS__LOCKED, "a log callback");
     c->log(c->log_user, level, text);
     c->lock = before;
-}
-
-/* Tables of plug-ins have no _init function. */
-static mps_status no_size(mps__context *c, const char *type, uint32_t given)
-{
-    if (strstr(type, "_ops")) return mps__fail(c, MPS_E_ARG, "%s.struct_size is %u: set it to sizeof(%s)", type, given, type);
-    return mps__fail(c, MPS_E_ARG, "%s.struct_size is %u: call its _init function first", type, given);
-}
-
-mps_status mps__struct_in(mps__context *c, const char *type, void *out, size_t size, const void *in)
-{
-    uint32_t given;
-    MPS__CHECK(c, in, "%s is NULL", type);
-    memcpy(&given, in, sizeof given);
-    if (given < 2 * sizeof(uint32_t)) return no_size(c, type, given);
-    const unsigned char *bytes = in;
-    for (size_t k = size; k < given; k++)
-        if (bytes[k])
-            return mps__fail(c, MPS_E_VERSION, "%s of %u bytes comes from a newer version and uses its entries; this one knows %zu", type,
-                             given, size);
-    memcpy(out, in, given < size ? given : size);
-    return MPS_OK;
-}
-
-mps_status mps__struct_out(mps__context *c, const char *type, void *out, const void *in, size_t size)
-{
-    uint32_t given;
-    MPS__CHECK(c, out, "%s is NULL", type);
-    memcpy(&given, out, sizeof given);
-    if (given < 2 * sizeof(uint32_t)) return no_size(c, type, given);
-    memcpy(out, in, given < size ? given : size);
-    memcpy(out, &given, sizeof given);
-    return MPS_OK;
-}
-
-mps_status mps__struct_init(void *out, size_t size, const void *defaults, size_t full)
-{
-    if (!out || size < 2 * sizeof(uint32_t) || size > UINT32_MAX) return MPS_E_ARG;
-    uint32_t given = (uint32_t)size;
-    memset(out, 0, size);
-    memcpy(out, defaults, size < full ? size : full);
-    memcpy(out, &given, sizeof given);
-    return MPS_OK;
 }
 
 /* Levenshtein distance; names are short. */

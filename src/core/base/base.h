@@ -57,7 +57,7 @@ typedef struct mps__scratch {
 void *mps__scratch_take(mps__context *c, mps__scratch *s, int32_t block, int64_t count, size_t size);
 void mps__scratch_free(mps__context *c, mps__scratch *s);
 
-/* Set the error text and return `status`. */
+/* Set the error text and return `status`; without a context only the latter. */
 mps_status mps__fail(mps__context *c, mps_status status, const char *format, ...) __attribute__((format(printf, 3, 4)));
 void mps__log(mps__context *c, int level, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
@@ -77,12 +77,16 @@ mps__lock mps__lock_set(mps__context *c, int32_t level, const char *what);
         if (!(condition)) return mps__fail((context), MPS_E_ARG, __VA_ARGS__); \
     } while (0)
 
-/* Copy a caller's versioned struct into ours: a shorter one is completed from `defaults`, an unknown non-zero tail refused. */
+/* Structs of the public interface, by the name of their type; structs.c knows the size they had in each version, and refuses others. The
+ * context may be NULL: no text. */
+/* Refuse a caller's struct that is NULL or has no size of a version. */
+mps_status mps__struct_check(mps__context *c, const char *type, const void *given);
+/* Copy a caller's struct into ours: a shorter one is completed from what `out` holds, an unknown non-zero tail refused. */
 mps_status mps__struct_in(mps__context *c, const char *type, void *out, size_t size, const void *in);
 /* Fill a caller's struct (his size, maybe older) from ours. struct_size in `out` stays his. */
 mps_status mps__struct_out(mps__context *c, const char *type, void *out, const void *in, size_t size);
 /* Body of every ..._init(): copy `defaults` into the caller's struct of `size` bytes and set struct_size. */
-mps_status mps__struct_init(void *out, size_t size, const void *defaults, size_t full);
+mps_status mps__struct_init(const char *type, void *out, size_t size, const void *defaults, size_t full);
 
 /* The nearest of `count` names to `name` by edit distance, NULL if none is near. */
 const char *mps__near(const char *name, const char *const *names, int count);

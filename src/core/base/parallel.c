@@ -329,7 +329,7 @@ static void run_pool(void *user, int32_t parts, mps_part_fn body, void *argument
 mps_status mps_parallel_init(mps_parallel *parallel, size_t size)
 {
     static const mps_parallel one = {.struct_size = sizeof one, .threads = 1};
-    return mps__struct_init(parallel, size, &one, sizeof one);
+    return mps__struct_init("mps_parallel", parallel, size, &one, sizeof one);
 }
 
 void mps__pool_init(mps__pool *p, mps__context *context)
@@ -341,8 +341,8 @@ void mps__pool_init(mps__pool *p, mps__context *context)
 mps_status mps__pool_set(mps__pool *p, const mps_parallel *host, const char *what)
 {
     if (host->run) {
-        MPS__CHECK(p->context, host->struct_size == sizeof *host, "%s.struct_size is %u: call mps_parallel_init() first", what,
-                   host->struct_size);
+        MPS__CHECK(p->context, mps__struct_check(NULL, "mps_parallel", host) == MPS_OK,
+                   "%s.struct_size is %u: call mps_parallel_init() first", what, host->struct_size);
     }
     MPS__CHECK(p->context, host->threads >= 0 && host->threads <= MPS__THREADS_MOST, "%s.threads is %d: 0..%d", what, host->threads,
                MPS__THREADS_MOST);

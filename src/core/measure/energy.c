@@ -2,6 +2,8 @@
 /* Energies, mass, volume and momentum of the fluid, and the budgets of energy and momentum. */
 #include "budget.h"
 #include "probes.h"
+#include <math.h>
+#include <mps/model.h>
 #include <string.h>
 
 static void bulk_sums(const mps__world *w, mps_energy *e)
@@ -21,8 +23,36 @@ static void bulk_sums(const mps__world *w, mps_energy *e)
         if (e->mass > 0) e->centre[d] /= e->mass;
 }
 
+/* Is there fluid beside a wall particle? Asked of the last step, before the first one of the list. */
+static bool is_wet(const mps__world *w, int64_t i)
+{
+    const mps__particles *s = &w->particles;
+    const mps_neighbours *l = &w->lists.neighbours;
+    if (w->state.step > 0) return s->region[i] != MPS_REGION_DRY;
+    for (int64_t k = l->begin[i]; k < l->middle[i]; k++)
+        if (s->kind[l->col[k]] == MPS_FLUID) return true;
+    return false;
+}
+
+/* Volume of the half cells that wetted walls stand for, less that of the half cells above the free surface. Areas of a closed surface
+ * have the sum zero, so what the wetted walls leave open is the surface's. */
+static double half_cells(const mps__world *w)
+{
+    const mps__particles *s = &w->particles;
+    const int dim = w->setup.dim;
+    double sum[3] = {0}, walls = 0;
+    for (int64_t i = 0; i < s->n; i++) {
+        if (s->kind[i] != MPS_WALL || !is_wet(w, i)) continue;
+        const double *a = s->area + i * dim;
+        walls += sqrt(mps__dot(a, a, dim));
+        for (int d = 0; d < dim; d++) sum[d] += a[d];
+    }
+    return 0.5 * w->setup.dp * (walls - sqrt(mps__dot(sum, sum, dim)));
+}
+
 mps_status mps__energy_measure(mps__world *w, mps_energy *e)
 {
+    if (w->state.step == 0 && w->particles.n > 0) MPS__TRY(mps__world_neighbours_kept(w));
     mps__budget b = w->state.budget;
     mps__budget_update(w, &b);
     *e = (mps_energy){.struct_size = sizeof *e,
@@ -37,6 +67,8 @@ mps_status mps__energy_measure(mps__world *w, mps_energy *e)
     bulk_sums(w, e);
     e->numerical = e->wall_work + e->added - e->viscous - e->collision - e->shift - (e->kinetic + e->potential - b.start);
     e->volume /= 1.0 + b.deviation;
+    e->volume_filled = e->volume + (w->particles.n > 0 ? half_cells(w) : 0);
+    e->mass_filled = e->volume > 0 ? e->mass * e->volume_filled / e->volume : 0;
     e->volume_error = b.deviation_start - b.deviation;
     return MPS_OK;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Kinematics of the rigid tank: x = c + d + R (X - c), R = Rz(yaw) Ry(pitch) Rx(roll). */
+/* Kinematics of the rigid tank: x = c + d + R (X - c), R = Rz(yaw) Ry(pitch) Rx(roll); in 2-D R = Rz(roll + yaw). */
 #include "motion.h"
 #include <math.h>
 #include <string.h>
@@ -44,12 +44,25 @@ static void angular_rates(const mps_motion_state *s, double omega[3], double alp
     alpha[2] += s->accel[MPS_YAW];
 }
 
-static void pose_from_state(mps__pose *pose, double t, const mps_motion_state *state)
+/* In 2-D roll is another name of the one rotation there is. */
+static void flatten(double q[MPS_DOF_COUNT])
 {
+    q[MPS_YAW] += q[MPS_ROLL];
+    q[MPS_ROLL] = 0;
+}
+
+static void pose_from_state(mps__pose *pose, int32_t dim, double t, const mps_motion_state *state)
+{
+    mps_motion_state turn = *state;
     pose->t = t;
     pose->state = *state;
-    rotation_matrix(state->value, pose->rotation);
-    angular_rates(state, pose->omega, pose->alpha);
+    if (dim == 2) {
+        flatten(turn.value);
+        flatten(turn.rate);
+        flatten(turn.accel);
+    }
+    rotation_matrix(turn.value, pose->rotation);
+    angular_rates(&turn, pose->omega, pose->alpha);
 }
 
 /* What 2-D does not have, and what is not a number. */
@@ -61,9 +74,8 @@ static mps_status check_state(const mps__motion *m, double t, const mps_motion_s
         for (int v = 0; v < 3; v++) {
             if (!isfinite(set[v][k]))
                 return mps__fail(m->context, MPS_E_PLUGIN, "motion: %s %s is %g at t = %g s", dof_name[k], what[v], set[v][k], t);
-            bool flat = k == MPS_SURGE || k == MPS_HEAVE || k == MPS_YAW;
-            MPS__CHECK(m->context, m->dim == 3 || flat || set[v][k] == 0,
-                       "motion: %s %s is %g at t = %g s, but 2-D has surge, heave and yaw only", dof_name[k], what[v], set[v][k], t);
+            MPS__CHECK(m->context, m->dim == 3 || (k != MPS_SWAY && k != MPS_PITCH) || set[v][k] == 0,
+                       "motion: %s %s is %g at t = %g s, but 2-D has surge, heave, and roll or yaw only", dof_name[k], what[v], set[v][k], t);
         }
     return MPS_OK;
 }
@@ -89,7 +101,8 @@ static void add_linear(const mps__motion *m, const double *linear, const double 
 void mps__motion_init(mps__motion *m, mps__context *context, int32_t dim)
 {
     *m = (mps__motion){.context = context, .dim = dim, .t_end = INFINITY};
-    pose_from_state(&m->now, 0, &m->hold);
+    m->hold.struct_size = sizeof m->hold;
+    pose_from_state(&m->now, dim, 0, &m->hold);
 }
 
 void mps__motion_free(mps__motion *m)
@@ -104,19 +117,20 @@ void mps__motion_free(mps__motion *m)
 mps_status mps__motion_pose(mps__motion *m, double t, mps__pose *pose)
 {
     if (!m->fn) {
-        pose_from_state(pose, t, &m->hold);
+        pose_from_state(pose, m->dim, t, &m->hold);
         return MPS_OK;
     }
     if (t > m->t_end + end_slack)
         return mps__fail(m->context, MPS_E_STATE, "the motion is not defined at t = %.10g s: the last row of its table is at %.10g s", t,
                          m->t_end);
-    mps_motion_state state = {0};
+    mps_motion_state state = {.struct_size = sizeof state};
     const mps__lock before = mps__lock_set(m->context, MPS__LOCKED, "a motion");
     int failed = m->fn(m->user, t, &state);
     m->context->lock = before;
     if (failed) return mps__fail(m->context, MPS_E_PLUGIN, "the motion callback failed with %d at t = %g s", failed, t);
+    state.struct_size = sizeof state;
     MPS__TRY(check_state(m, t, &state));
-    pose_from_state(pose, t, &state);
+    pose_from_state(pose, m->dim, t, &state);
     return MPS_OK;
 }
 

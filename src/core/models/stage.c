@@ -131,17 +131,27 @@ int mps_stage_bodies(mps_stage *s, int32_t most, const int32_t *role, int32_t *b
 }
 
 /* Chains of rows: serial, as each row may change the chain of any bucket. */
+mps_status mps_grid_init(mps_grid *grid, size_t size)
+{
+    static const mps_grid none = {.struct_size = sizeof none};
+    return mps__struct_init("mps_grid", grid, size, &none, sizeof none);
+}
+
 int mps_stage_grid(mps_stage *s, double side, mps_grid *grid)
 {
+    mps_grid made = {.dim = s->dim, .side = side, .buckets = s->n};
     int32_t *first = mps_stage_scratch_integers(s, s->n), *next = mps_stage_scratch_integers(s, s->n);
     if (!(side > 0)) return mps_stage_fail(s, "the side of a grid is %g m: must be > 0", side);
     if (!first || !next) return 1;
-    *grid = (mps_grid){.struct_size = sizeof *grid, .dim = s->dim, .side = side, .buckets = s->n, .first = first, .next = next};
+    made.first = first;
+    made.next = next;
+    if (mps__struct_out(NULL, "mps_grid", grid, &made, sizeof made) < 0)
+        return mps_stage_fail(s, "the grid is NULL or not initialised: call mps_grid_init() first");
     for (int64_t i = s->n - 1; i >= 0; i--) {
         int64_t cell[3];
         if (s->kind[i] != MPS_FLUID) continue;
-        mps_grid_cell(grid, s->x + i * s->dim, cell);
-        const int64_t b = mps_grid_bucket(grid, cell);
+        mps_grid_cell(&made, s->x + i * s->dim, cell);
+        const int64_t b = mps_grid_bucket(&made, cell);
         next[i] = first[b];
         first[b] = (int32_t)(i + 1);
     }

@@ -65,6 +65,8 @@ void mps__neighbours_hide(mps_neighbours *l);
 mps_status mps__neighbours_near(mps_neighbours *l);
 /* Bits of a cell number along one axis in a key. */
 int mps__cell_bits(int32_t dim);
+/* Pairs of one radius; the list is not empty. */
+mps_status mps__neighbours_view(const mps_neighbours *l, int32_t which, const mps_kernel *kernel, mps_stencil *view);
 /* Sort cell keys and the particles' numbers with them; both have room for 2 n. neighbours_sort.c */
 void mps__sort_keys(uint64_t *key, int32_t *order, int64_t n);
 

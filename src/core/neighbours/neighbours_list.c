@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Lists are made and freed; a list that stands alone, with memory and threads of its own. */
+#include "kernel.h"
 #include "neighbours.h"
 #include <math.h>
 
@@ -50,6 +51,11 @@ void mps_neighbours_destroy(mps_neighbours *list)
     mps__free(&c, list);
 }
 
+const char *mps_neighbours_error(const mps_neighbours *list)
+{
+    return list ? list->context->error : "the list is NULL";
+}
+
 mps_status mps_neighbours_set_parallel(mps_neighbours *list, const mps_parallel *parallel)
 {
     mps_parallel p = {0};
@@ -61,36 +67,72 @@ mps_status mps_neighbours_set_parallel(mps_neighbours *list, const mps_parallel 
     return MPS_OK;
 }
 
+static mps_status check_cloud(const mps_neighbours *l, int64_t n, const double *x, double re_near, double re_far)
+{
+    mps__context *c = l->context;
+    MPS__CHECK(c, x, "x is NULL: must be an array of positions");
+    MPS__CHECK(c, n >= 1 && n <= INT32_MAX, "n is %lld: must be 1..%d", (long long)n, INT32_MAX);
+    MPS__CHECK(c, re_near > 0, "re_near is %g m: must be > 0", re_near);
+    MPS__CHECK(c, re_far >= re_near && isfinite(re_far), "re_far is %g m: must be finite and at least re_near = %g m", re_far, re_near);
+    if (mps__finite(x, n * l->dim)) return MPS_OK;
+    int64_t k = 0;
+    while (isfinite(x[k])) k++;
+    return mps__fail(c, MPS_E_ARG, "x of particle %lld, axis %lld is %g: must be finite", (long long)(k / l->dim), (long long)(k % l->dim),
+                     x[k]);
+}
+
 mps_status mps_neighbours_build(mps_neighbours *list, int64_t n, const double *x, double re_near, double re_far)
 {
     if (!list) return MPS_E_ARG;
     list->valid = false;
     list->n = 0;
-    if (!x || n < 1 || n > INT32_MAX || !(re_near > 0) || !(re_far >= re_near) || !isfinite(re_far)) return MPS_E_ARG;
-    if (!mps__finite(x, n * list->dim)) return MPS_E_ARG;
+    MPS__TRY(check_cloud(list, n, x, re_near, re_far));
     list->skin = 0; /* every build searches anew */
     const mps_status status = mps__neighbours_search(list, n, x, re_near, re_far);
     if (status < 0) list->n = 0;
     return status;
 }
 
+/* ---- stencils ---------------------------------------------------------------------------------------------------- */
+
+static const mps_stencil no_stencil = {.struct_size = sizeof no_stencil};
+
+mps_status mps_stencil_init(mps_stencil *stencil, size_t size)
+{
+    return mps__struct_init("mps_stencil", stencil, size, &no_stencil, sizeof no_stencil);
+}
+
+mps_status mps__neighbours_view(const mps_neighbours *l, int32_t which, const mps_kernel *kernel, mps_stencil *view)
+{
+    mps_kernel k = {0};
+    double re = which == MPS_NEAR ? l->re_near : l->re_far, n0, lambda;
+    MPS__TRY(mps__struct_in(l->context, "mps_kernel", &k, sizeof k, kernel));
+    MPS__TRY(mps__kernel_lattice(l->context, kernel, l->dim, l->dp, re, &n0, &lambda));
+    k.struct_size = sizeof k;
+    *view = (mps_stencil){.struct_size = sizeof *view,
+                          .dim = l->dim,
+                          .host = l->context,
+                          .n = l->n,
+                          .dp = l->dp,
+                          .re = re,
+                          .n0 = n0,
+                          .lambda = lambda,
+                          .kernel = k,
+                          .parallel = l->parallel,
+                          .x = l->x,
+                          .begin = l->begin,
+                          .end = which == MPS_NEAR ? l->middle : l->end,
+                          .col = l->col};
+    return MPS_OK;
+}
+
 mps_status mps_neighbours_stencil(const mps_neighbours *list, int32_t which, const mps_kernel *kernel, mps_stencil *stencil)
 {
-    if (!list || !kernel || !stencil || list->n == 0 || (which != MPS_NEAR && which != MPS_FAR)) return MPS_E_ARG;
-    double re = which == MPS_NEAR ? list->re_near : list->re_far, n0, lambda;
-    MPS__TRY(mps_lattice_constants(kernel, list->dim, list->dp, re, &n0, &lambda));
-    *stencil = (mps_stencil){.struct_size = sizeof *stencil,
-                             .dim = list->dim,
-                             .n = list->n,
-                             .dp = list->dp,
-                             .re = re,
-                             .n0 = n0,
-                             .lambda = lambda,
-                             .kernel = *kernel,
-                             .parallel = list->parallel,
-                             .x = list->x,
-                             .begin = list->begin,
-                             .end = which == MPS_NEAR ? list->middle : list->end,
-                             .col = list->col};
-    return MPS_OK;
+    mps_stencil view;
+    if (!list) return MPS_E_ARG;
+    MPS__TRY(mps__struct_check(list->context, "mps_stencil", stencil));
+    MPS__CHECK(list->context, which == MPS_NEAR || which == MPS_FAR, "which is %d: must be MPS_NEAR (0) or MPS_FAR (1)", which);
+    MPS__CHECK(list->context, list->n > 0, "the list is empty: call mps_neighbours_build() first");
+    MPS__TRY(mps__neighbours_view(list, which, kernel, &view));
+    return mps__struct_out(list->context, "mps_stencil", stencil, &view, sizeof view);
 }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The public operators: argument checks, then the loop compiled for the dimension. */
 #include "operators.h"
-#include "base.h"
 #include <math.h>
 
 /* Jacobi rotation of a symmetric matrix in the plane (p, q); columns of v take the eigenvectors. */
@@ -97,16 +96,56 @@ enum { MPS__PAIRS = 64 };
 #undef MPS__DIM
 #undef MPS__NAME
 
-/* All rows of an operator, on the threads of the stencil. */
-#define RUN(s, operator, ...)                                                                         \
-    mps_parallel_rows((s)->parallel, (s)->n, (s)->dim == 2 ? operator##_rows_2d : operator##_rows_3d, \
-                      &(loop){.s = (s), __VA_ARGS__})
+/* ---- arguments ------------------------------------------------------------------------------------------------- */
 
-static bool usable(const mps_stencil *s)
+/* Where the text of an error goes. The host lies in front, so that a struct cut short still has it. */
+static mps__context *told_to(const mps_stencil *s)
 {
-    return s && s->struct_size == sizeof *s && (s->dim == 2 || s->dim == 3) && s->n > 0 && s->x && s->begin && s->end && s->col &&
-           s->n0 > 0;
+    return s && s->struct_size >= offsetof(mps_stencil, host) + sizeof s->host ? s->host : NULL;
 }
+
+static mps_status check_stencil(mps__context *c, const char *call, const mps_stencil *s)
+{
+    const struct {
+        const char *name;
+        double value;
+    } number[] = {{"dp", s->dp}, {"re", s->re}, {"n0", s->n0}, {"lambda", s->lambda}};
+    const struct {
+        const char *name;
+        const void *data;
+    } array[] = {{"x", s->x}, {"begin", s->begin}, {"end", s->end}, {"col", s->col}};
+    MPS__CHECK(c, s->dim == 2 || s->dim == 3, "%s(): stencil.dim is %d: must be 2 or 3", call, s->dim);
+    MPS__CHECK(c, s->n > 0, "%s(): stencil.n is %lld: must be > 0", call, (long long)s->n);
+    for (int k = 0; k < 4; k++)
+        MPS__CHECK(c, number[k].value > 0 && isfinite(number[k].value), "%s(): stencil.%s is %g: must be > 0 and finite", call,
+                   number[k].name, number[k].value);
+    for (int k = 0; k < 4; k++) MPS__CHECK(c, array[k].data, "%s(): stencil.%s is NULL: must be an array", call, array[k].name);
+    MPS__CHECK(c, s->kernel.id >= MPS_KERNEL_IMPROVED && s->kernel.id <= MPS_KERNEL_CUSTOM,
+               "%s(): stencil.kernel.id is %d: must be MPS_KERNEL_...", call, s->kernel.id);
+    MPS__CHECK(c, s->kernel.id != MPS_KERNEL_CUSTOM || s->kernel.fn, "%s(): stencil.kernel.fn is NULL: must be a function", call);
+    return MPS_OK;
+}
+
+mps_status mps__op_begin(const char *call, const mps_stencil *given, mps_stencil *s, const mps__array *arrays)
+{
+    mps__context *c = told_to(given);
+    MPS__TRY(mps__struct_in(c, "mps_stencil", s, sizeof *s, given));
+    MPS__TRY(check_stencil(c, call, s));
+    for (; arrays->name; arrays++) MPS__CHECK(c, arrays->data, "%s(): %s is NULL: must be an array", call, arrays->name);
+    return MPS_OK;
+}
+
+/* ---- operators ------------------------------------------------------------------------------------------------- */
+
+/* All rows of an operator, on the threads of the stencil. */
+#define RUN(from, operator, ...)                                                                               \
+    mps_parallel_rows((from)->parallel, (from)->n, (from)->dim == 2 ? operator##_rows_2d : operator##_rows_3d, \
+                      &(loop){.s = (from), __VA_ARGS__})
+
+/* Begin an operator with a copy `own` of its stencil. */
+#define BEGIN(...)         \
+    mps_stencil own = {0}; \
+    MPS__TRY(mps__op_begin(__func__, s, &own, (const mps__array[]){__VA_ARGS__, {NULL, NULL}}))
 
 void mps__op_weigh(const mps_stencil *s, const mps__weighed *out)
 {
@@ -115,71 +154,72 @@ void mps__op_weigh(const mps_stencil *s, const mps__weighed *out)
 
 mps_status mps_op_number_density(const mps_stencil *s, double *n)
 {
-    if (!usable(s) || !n) return MPS_E_ARG;
-    RUN(s, number_density, .out = n);
+    BEGIN({"n", n});
+    RUN(&own, number_density, .out = n);
     return MPS_OK;
 }
 
 mps_status mps_op_gradient(const mps_stencil *s, const double *f, double *grad)
 {
-    if (!usable(s) || !f || !grad) return MPS_E_ARG;
-    RUN(s, gradient, .sign = -1.0, .f = f, .out = grad);
+    BEGIN({"f", f}, {"grad", grad});
+    RUN(&own, gradient, .sign = -1.0, .f = f, .out = grad);
     return MPS_OK;
 }
 
 mps_status mps_op_gradient_conservative(const mps_stencil *s, const double *f, double *grad)
 {
-    if (!usable(s) || !f || !grad) return MPS_E_ARG;
-    RUN(s, gradient, .sign = 1.0, .f = f, .out = grad);
+    BEGIN({"f", f}, {"grad", grad});
+    RUN(&own, gradient, .sign = 1.0, .f = f, .out = grad);
     return MPS_OK;
 }
 
 mps_status mps_op_gradient_corrected(const mps_stencil *s, const double *b, const double *f, double *grad)
 {
-    if (!usable(s) || !b || !f || !grad) return MPS_E_ARG;
-    RUN(s, gradient_corrected, .b = b, .f = f, .out = grad);
+    BEGIN({"b", b}, {"f", f}, {"grad", grad});
+    RUN(&own, gradient_corrected, .b = b, .f = f, .out = grad);
     return MPS_OK;
 }
 
 mps_status mps_op_divergence(const mps_stencil *s, const double *u, double *div)
 {
-    if (!usable(s) || !u || !div) return MPS_E_ARG;
-    RUN(s, divergence, .f = u, .out = div);
+    BEGIN({"u", u}, {"div", div});
+    RUN(&own, divergence, .f = u, .out = div);
     return MPS_OK;
 }
 
 mps_status mps_op_divergence_corrected(const mps_stencil *s, const double *b, const double *u, double *div)
 {
-    if (!usable(s) || !b || !u || !div) return MPS_E_ARG;
-    RUN(s, divergence, .b = b, .f = u, .out = div);
+    BEGIN({"b", b}, {"u", u}, {"div", div});
+    RUN(&own, divergence, .b = b, .f = u, .out = div);
     return MPS_OK;
 }
 
 mps_status mps_op_laplacian(const mps_stencil *s, const double *f, double *lap)
 {
-    if (!usable(s) || !f || !lap) return MPS_E_ARG;
-    RUN(s, laplacian, .f = f, .out = lap);
+    BEGIN({"f", f}, {"lap", lap});
+    RUN(&own, laplacian, .f = f, .out = lap);
     return MPS_OK;
 }
 
 mps_status mps_op_laplacian_vector(const mps_stencil *s, const double *u, double *lap)
 {
-    if (!usable(s) || !u || !lap) return MPS_E_ARG;
-    RUN(s, laplacian_vector, .f = u, .out = lap);
+    BEGIN({"u", u}, {"lap", lap});
+    RUN(&own, laplacian_vector, .f = u, .out = lap);
     return MPS_OK;
 }
 
 mps_status mps_op_asymmetry(const mps_stencil *s, double *a)
 {
-    if (!usable(s) || !a) return MPS_E_ARG;
-    RUN(s, asymmetry, .out = a);
+    BEGIN({"a", a});
+    RUN(&own, asymmetry, .out = a);
     return MPS_OK;
 }
 
 mps_status mps_op_correction(const mps_stencil *s, double floor, double *b)
 {
-    if (!usable(s) || !b || !(floor > 0) || !isfinite(floor)) return MPS_E_ARG;
-    RUN(s, correction, .least = floor, .out = b);
+    BEGIN({"b", b});
+    MPS__CHECK(told_to(s), floor > 0 && isfinite(floor), "%s(): floor is %g: must be > 0 and finite", __func__, floor);
+    RUN(&own, correction, .least = floor, .out = b);
     return MPS_OK;
 }
 

@@ -3,6 +3,7 @@
 #ifndef MPS_CORE_OPERATORS_H
 #define MPS_CORE_OPERATORS_H
 
+#include "base.h"
 #include <mps/operators.h>
 
 /* What a step computes of its pairs once, so that its models need neither roots nor divisions. */
@@ -13,6 +14,15 @@ typedef struct mps__weighed {
     const uint8_t *idle; /* [n] number densities of rows where it is not 0 stay */
     double *n, *a;       /* [n] number densities, [n*dim] asymmetries */
 } mps__weighed;
+
+/* An array that an operator was given, with its name in the header. */
+typedef struct mps__array {
+    const char *name;
+    const void *data;
+} mps__array;
+
+/* What every operator checks: the stencil, of which `s` becomes a copy, and the arrays up to one without a name. */
+mps_status mps__op_begin(const char *call, const mps_stencil *given, mps_stencil *s, const mps__array *arrays);
 
 /* All of it in one pass. */
 void mps__op_weigh(const mps_stencil *s, const mps__weighed *out);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Volume per particle from a wide, smooth kernel. n/n0 would not do: its kernel is so peaked that an area-preserving
  * stretch of the lattice changes n by several per cent. */
-#include "base.h"
+#include "operators.h"
 #include <math.h>
 #include <mps/operators.h>
 
@@ -64,10 +64,9 @@ static void deviation_rows(void *argument, int64_t begin, int64_t end)
 
 mps_status mps_op_volume_deviation(const mps_stencil *s, double *delta)
 {
-    if (!s || !delta || s->struct_size != sizeof *s || (s->dim != 2 && s->dim != 3) || s->n <= 0 || !s->x || !s->begin || !s->end ||
-        !s->col)
-        return MPS_E_ARG;
-    volume_sums v = {.s = s, .out = delta, .full = wide_lattice(s)};
+    mps_stencil own = {0};
+    MPS__TRY(mps__op_begin(__func__, s, &own, (const mps__array[]){{"delta", delta}, {NULL, NULL}}));
+    volume_sums v = {.s = &own, .out = delta, .full = wide_lattice(&own)};
     mps_parallel_rows(s->parallel, s->n, deviation_rows, &v);
     return MPS_OK;
 }
@@ -97,10 +96,10 @@ static void sum_rows(void *argument, int64_t begin, int64_t end)
 
 mps_status mps_op_volume_sum(const mps_stencil *s, const double *f, double *sum)
 {
-    if (!s || !f || !sum || f == sum || s->struct_size != sizeof *s || (s->dim != 2 && s->dim != 3) || s->n <= 0 || !s->x || !s->begin ||
-        !s->end || !s->col)
-        return MPS_E_ARG;
-    volume_sums v = {.s = s, .f = f, .out = sum, .full = wide_lattice(s)};
+    mps_stencil own = {0};
+    MPS__TRY(mps__op_begin(__func__, s, &own, (const mps__array[]){{"f", f}, {"sum", sum}, {NULL, NULL}}));
+    MPS__CHECK(own.host, f != sum, "%s(): f and sum are the same array: must be two", __func__);
+    volume_sums v = {.s = &own, .f = f, .out = sum, .full = wide_lattice(&own)};
     mps_parallel_rows(s->parallel, s->n, sum_rows, &v);
     return MPS_OK;
 }

@@ -41,6 +41,8 @@ mps_status mps__particles_init(mps__particles *s, mps__context *context, int32_t
     for (size_t k = 0; k < sizeof built_in / sizeof built_in[0]; k++)
         MPS__TRY(mps__particles_field_add(s, built_in[k].name, built_in[k].components, built_in[k].size, built_in[k].is_public,
                                           built_in[k].data));
+    static const char *const tags[] = {"id", "kind", "phase", "part", "region", "plate"};
+    for (size_t k = 0; k < sizeof tags / sizeof tags[0]; k++) mps__particles_field(s, tags[k])->is_tag = true;
     return MPS_OK;
 }
 

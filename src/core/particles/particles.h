@@ -12,7 +12,8 @@ typedef struct mps__field {
     char name[MPS__NAME_SIZE];
     int32_t components; /* per particle */
     size_t size;        /* bytes of a component */
-    bool is_public;     /* may be leased by name */
+    bool is_public;     /* doubles that may be leased for reading and writing by name */
+    bool is_tag;        /* integers that may be leased for reading by name */
     void **data;        /* where the pointer to the array lives */
     void *own;          /* that place for user fields */
     int32_t readers;    /* open leases */

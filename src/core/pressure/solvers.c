@@ -111,10 +111,11 @@ static mps_status choose(mps__solvers *s, const char *solver, const char *precon
 
 static void discard(mps__solvers *s)
 {
-    if (s->spare_self) mps__preconditioner_jacobi.destroy(s->spare_self);
+    const mps_allocator *allocator = &s->context->allocator;
+    if (s->spare_self) mps__preconditioner_jacobi.destroy(allocator, s->spare_self);
     s->spare_self = NULL;
-    if (s->use) s->use->destroy(s->use_self);
-    if (s->pc) s->pc->destroy(s->pc_self);
+    if (s->use) s->use->destroy(allocator, s->use_self);
+    if (s->pc) s->pc->destroy(allocator, s->pc_self);
     s->use = NULL;
     s->pc = NULL;
     s->use_self = s->pc_self = NULL;
@@ -129,7 +130,7 @@ mps_status mps__solvers_use(mps__solvers *s, const char *solver, const char *pre
     void *self = ops->user, *pc_self = pc ? pc->user : NULL;
     if (ops->create(&s->context->allocator, &self)) return mps__fail(s->context, MPS_E_NOMEM, "no memory for solver '%s'", ops->name);
     if (pc && pc->create(&s->context->allocator, &pc_self)) {
-        ops->destroy(self);
+        ops->destroy(&s->context->allocator, self);
         return mps__fail(s->context, MPS_E_NOMEM, "no memory for preconditioner '%s'", pc->name);
     }
     discard(s);
@@ -168,7 +169,7 @@ void mps__solvers_free(mps__solvers *s)
 
 mps_status mps_solver_limits_init(mps_solver_limits *limits, size_t size)
 {
-    return mps__struct_init(limits, size, &default_limits, sizeof default_limits);
+    return mps__struct_init("mps_solver_limits", limits, size, &default_limits, sizeof default_limits);
 }
 
 mps_status mps__solvers_set_limits(mps__solvers *s, const mps_solver_limits *limits)
@@ -248,7 +249,7 @@ static int apply_in_use(void *self, const double *r, double *z)
 static void solve(mps__solvers *s, const mps_ppe_problem *problem, double *p, mps_ppe_result *result)
 {
     const mps_preconditioner_ops *spare = &mps__preconditioner_jacobi;
-    mps_ppe_result second = {0};
+    mps_ppe_result second = {.struct_size = sizeof second};
     mps_preconditioner_ops pc;
     if (s->pc) {
         pc = *s->pc;
@@ -256,10 +257,12 @@ static void solve(mps__solvers *s, const mps_ppe_problem *problem, double *p, mp
         pc.apply = apply_in_use;
     }
     s->use->solve(s->use_self, problem, s->pc ? &pc : NULL, s->pc ? s : NULL, p, result);
+    result->struct_size = sizeof *result;
     const bool failed = result->reason == MPS_PPE_INDEFINITE || result->reason == MPS_PPE_BREAKDOWN;
     if (!failed || !s->pc || strcmp(s->pc->name, mps__preconditioner_auxgrid.name) != 0) return;
     if (!s->spare_self && spare->create(&s->context->allocator, &s->spare_self)) return;
     s->use->solve(s->use_self, problem, spare, s->spare_self, p, &second);
+    second.struct_size = sizeof second;
     mps__log(s->context, MPS_LOG_WARNING, "preconditioner '%s' %s after %d iterations; with '%s' the solver %s", s->pc->name,
              reason_text(result->reason), result->iterations, spare->name, reason_text(second.reason));
     second.iterations += result->iterations;
@@ -281,7 +284,7 @@ mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *pro
     s->again = effort->again;
     s->ready = s->ready && effort->again;
     limited.max_iterations = s->limits.max_iterations;
-    *result = (mps_ppe_result){0};
+    *result = (mps_ppe_result){.struct_size = sizeof *result};
     if (problem->n == 0) return MPS_OK;
     solve(s, &limited, p, result);
     mps_status status = status_of(result->reason);
@@ -300,7 +303,13 @@ mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *pro
                      result->residual, limited.tolerance, result->divergence, limited.divergence, (long long)problem->n);
 }
 
-/* ---- check for plug-ins ---- */
+/* ---- for plug-ins ---- */
+
+mps_status mps_ppe_result_init(mps_ppe_result *result, size_t size)
+{
+    static const mps_ppe_result zero = {.struct_size = sizeof zero};
+    return mps__struct_init("mps_ppe_result", result, size, &zero, sizeof zero);
+}
 
 double mps_ppe_law(double law, double p, double *slope)
 {
@@ -350,11 +359,13 @@ static void check_rows(void *argument, int64_t begin, int64_t end, double *value
     values[LARGEST] = largest;
 }
 
-void mps_ppe_check(const mps_ppe_problem *problem, const double *p, double *work, mps_ppe_result *result)
+mps_status mps_ppe_check(const mps_ppe_problem *problem, const double *p, double *work, mps_ppe_result *result)
 {
+    MPS__TRY(mps__struct_check(NULL, "mps_ppe_result", result));
     double values[VALUES] = {0};
     mps_parallel_reduce(problem->parallel, problem->n, check_rows, &(check){problem, p, work},
                         &(mps_parallel_values){LARGEST, VALUES - LARGEST, values});
     result->residual = sqrt(values[SQUARES]) / (values[RHS_SQUARES] > 0 ? sqrt(values[RHS_SQUARES]) : 1);
     result->divergence = values[LARGEST] + values[POISON];
+    return MPS_OK;
 }

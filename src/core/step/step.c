@@ -125,7 +125,7 @@ static mps_status solve(mps__step *q, mps_ppe_result *result)
 static mps_status project(mps__step *q)
 {
     mps__world *w = q->w;
-    mps_ppe_result result = {0};
+    mps_ppe_result result = {.struct_size = sizeof result};
     mps__step_begin_equation(q);
     MPS__TRY(mps__step_run(q, MPS_SOURCE));
     MPS__TRY(check_laws(q));

@@ -57,7 +57,7 @@ static void set_terms(mps__step *q)
 {
     const mps__world *w = q->w;
     const mps__work *k = &w->work;
-    q->terms = (mps__ppe_terms){.equation = {.radius = MPS_FAR, .gain = 1.0},
+    q->terms = (mps__ppe_terms){.equation = {.struct_size = sizeof(mps_equation), .radius = MPS_FAR, .gain = 1.0},
                                 .flux = &q->flux,
                                 .region = w->particles.region,
                                 .density = w->particles.rho,

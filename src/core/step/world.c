@@ -455,13 +455,10 @@ mps_status mps__world_stencil_all(mps__world *w, int32_t which, mps_stencil *ste
     if (!w->lists.neighbours.partial) return mps__world_stencil(w, which, stencil);
     MPS__TRY(mps__neighbours_search(l, s->n, s->x, w->setup.re_near, w->setup.re_far));
     mps__neighbours_hide(l);
-    return mps_neighbours_stencil(l, which, &w->setup.kernel, stencil);
+    return mps__neighbours_view(l, which, &w->setup.kernel, stencil);
 }
 
 mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *stencil)
 {
-    mps_status status = mps_neighbours_stencil(&w->lists.neighbours, which, &w->setup.kernel, stencil);
-    return status == MPS_OK ? status
-                            : mps__fail(w->context, status, "the kernel has no lattice constants for radius %g dp",
-                                        (which ? w->setup.re_far : w->setup.re_near) / w->setup.dp);
+    return mps__neighbours_view(&w->lists.neighbours, which, &w->setup.kernel, stencil);
 }

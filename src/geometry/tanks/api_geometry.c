@@ -97,7 +97,7 @@ static mps_status phase_ok(mps_sim *sim, int32_t phase)
 
 mps_status mps_tank_init(mps_tank *tank, size_t size)
 {
-    return mps__struct_init(tank, size, &tank_defaults, sizeof tank_defaults);
+    return mps__struct_init("mps_tank", tank, size, &tank_defaults, sizeof tank_defaults);
 }
 
 mps_status mps_geometry_tank(mps_sim *sim, const mps_tank *tank, double *built)

@@ -41,7 +41,7 @@ static mps_status check_solid(mps_sim *sim, const mps_solid *s)
 
 mps_status mps_solid_init(mps_solid *solid, size_t size)
 {
-    return mps__struct_init(solid, size, &solid_defaults, sizeof solid_defaults);
+    return mps__struct_init("mps_solid", solid, size, &solid_defaults, sizeof solid_defaults);
 }
 
 mps_status mps_geometry_solid(mps_sim *sim, const mps_solid *solid)
@@ -56,8 +56,12 @@ mps_status mps_geometry_solid(mps_sim *sim, const mps_solid *solid)
     MPS__TRY(check_name(sim, "solid", s.name, s.dummy_layers, name));
     MPS__TRY(check_solid(sim, &s));
     mps__solid add = {.name = name, .layers = s.dummy_layers};
-    add.shape = (mps__shape){
-        .dim = sim->world.setup.dim, .dp = sim->world.setup.dp, .sign = s.invert ? -1 : 1, .distance = s.distance, .inside = s.inside, .user = s.user};
+    add.shape = (mps__shape){.dim = sim->world.setup.dim,
+                             .dp = sim->world.setup.dp,
+                             .sign = s.invert ? -1 : 1,
+                             .distance = s.distance,
+                             .inside = s.inside,
+                             .user = s.user};
     memcpy(add.lo, s.lo, (size_t)sim->world.setup.dim * sizeof(double));
     memcpy(add.hi, s.hi, (size_t)sim->world.setup.dim * sizeof(double));
     const mps__lock before = mps__lock_set(&sim->context, MPS__LOCKED, "a callback of a solid");
@@ -70,7 +74,7 @@ mps_status mps_geometry_solid(mps_sim *sim, const mps_solid *solid)
 
 mps_status mps_stl_init(mps_stl *stl, size_t size)
 {
-    return mps__struct_init(stl, size, &stl_defaults, sizeof stl_defaults);
+    return mps__struct_init("mps_stl", stl, size, &stl_defaults, sizeof stl_defaults);
 }
 
 static mps_status check_stl(mps_sim *sim, const char *path, const mps_stl *s)
@@ -80,13 +84,47 @@ static mps_status check_stl(mps_sim *sim, const char *path, const mps_stl *s)
     MPS__CHECK(c, path && path[0], "the path of the STL file is %s", path ? "empty" : "NULL");
     MPS__CHECK(c, isfinite(s->scale) && s->scale > 0, "stl.scale is %g: must be > 0", s->scale);
     MPS__CHECK(c, mps__finite(s->shift, 3), "stl.shift is (%g, %g, %g) m: must be finite", s->shift[0], s->shift[1], s->shift[2]);
+    MPS__CHECK(c, mps__finite(s->rotation, 3), "stl.rotation is (%g, %g, %g) rad: must be finite", s->rotation[0], s->rotation[1],
+               s->rotation[2]);
     MPS__CHECK(c, s->container == 0 || s->container == 1, "stl.container is %d: must be 0 or 1", (int)s->container);
+    MPS__CHECK(c, s->open_side >= MPS_SIDE_NONE && s->open_side <= MPS_SIDE_Z1,
+               "stl.open_side is %d: must be MPS_SIDE_NONE (0) .. MPS_SIDE_Z1 (%d)", (int)s->open_side, MPS_SIDE_Z1);
+    MPS__CHECK(c, s->container || s->open_side == MPS_SIDE_NONE,
+               "stl.open_side is %d: a body has none, set container to 1 or open_side to 0", (int)s->open_side);
     return MPS_OK;
 }
 
-/* Scale and shift; lo and hi become the bounding box. */
+/* A quarter turn gives exact zeros. */
+static void cosine_sine(double angle, double *cosine, double *sine)
+{
+    const double quarters = angle / (0.5 * 3.14159265358979323846), whole = round(quarters);
+    static const double table[] = {1, 0, -1, 0};
+    *cosine = cos(angle);
+    *sine = sin(angle);
+    if (fabs(quarters - whole) > 1e-12 || fabs(whole) > 1e6) return;
+    const int k = (int)((int64_t)whole & 3);
+    *cosine = table[k];
+    *sine = table[(k + 3) % 4];
+}
+
+/* Turn a point about the axes x, y and z, one after the other. */
+static void turn_point(const double rotation[3], double *x)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+        const double first = x[a], second = x[b];
+        double cosine, sine;
+        if (rotation[axis] == 0) continue;
+        cosine_sine(rotation[axis], &cosine, &sine);
+        x[a] = cosine * first - sine * second;
+        x[b] = sine * first + cosine * second;
+    }
+}
+
+/* Scale, turn and shift; lo and hi become the bounding box. */
 static void place_mesh(mps__mesh *m, const mps_stl *s, double *lo, double *hi)
 {
+    for (int64_t k = 0; k < m->points; k++) turn_point(s->rotation, m->x + 3 * k);
     for (int d = 0; d < 3; d++) {
         lo[d] = INFINITY;
         hi[d] = -INFINITY;
@@ -119,7 +157,7 @@ static mps_status prepare_mesh(mps_sim *sim, mps__mesh *m, const char *path, boo
 
 static mps_status add_mesh(mps_sim *sim, const char *path, const mps_stl *s, mps__mesh *m, double built[6])
 {
-    mps__solid add = {.name = s->name, .layers = s->dummy_layers};
+    mps__solid add = {.name = s->name, .layers = s->dummy_layers, .open = s->open_side};
     place_mesh(m, s, add.lo, add.hi);
     MPS__CHECK(&sim->context, mps__finite(add.lo, 3) && mps__finite(add.hi, 3),
                "\"%.200s\": a coordinate is not finite after scaling by %g", path, s->scale);

@@ -48,6 +48,17 @@ bool mps__solid_covers(const mps_sim *sim, const double *X)
 
 /* ---- the box and what is there already ---- */
 
+/* Nothing is kept in the plane of an open side and beyond. */
+static void leave_open(mps__contour_box *b, int32_t side, double dp)
+{
+    const int d = (side - MPS_SIDE_X0) / 2;
+    if (side == MPS_SIDE_NONE) return;
+    if ((side - MPS_SIDE_X0) % 2)
+        b->keep_hi[d] = fmin(b->keep_hi[d], b->hi[d] - half_cell * dp);
+    else
+        b->keep_lo[d] = fmax(b->keep_lo[d], b->lo[d] + half_cell * dp);
+}
+
 /* The lattice point at or below lo, and what has to be kept: with a tank what lies between its walls. */
 static void make_box(work *w)
 {
@@ -66,6 +77,7 @@ static void make_box(work *w)
         w->around_hi[d] = b->hi[d] + margin;
     }
     w->new_lattice = !sim->has_tank;
+    leave_open(b, w->solid->open, dp);
 }
 
 /* Solid particles near the new one, in the tank's frame. */
@@ -140,7 +152,8 @@ static mps_status check_fluid(const work *w)
         double X[3] = {0, 0, 0}, r;
         if (s->kind[i] != MPS_FLUID) continue;
         mps__motion_to_tank(&world->motion, &world->motion.now, s->x + i * world->setup.dim, X);
-        if (mps__distances_at(&w->distances, X, &r) && r < 0.3 * world->setup.dp) return mps__in_the_way(w->sim, i, X, "solid", w->solid->name);
+        if (mps__distances_at(&w->distances, X, &r) && r < 0.3 * world->setup.dp)
+            return mps__in_the_way(w->sim, i, X, "solid", w->solid->name);
     }
     return MPS_OK;
 }

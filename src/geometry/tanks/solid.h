@@ -4,6 +4,7 @@
 #define MPS_CORE_SOLID_H
 
 #include "sim.h"
+#include <mps/geometry.h>
 
 /* One solid to add: its shape and the box to look in. */
 typedef struct mps__solid {
@@ -11,6 +12,7 @@ typedef struct mps__solid {
     int32_t layers; /* of dummies */
     mps__shape shape;
     double lo[3], hi[3];
+    int32_t open; /* MPS_SIDE_...: the side of that box where it has no walls */
 } mps__solid;
 
 mps_status mps__solid_add(mps_sim *sim, const mps__solid *solid);

@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Constants of kernels, with a text where there are none. */
+#ifndef MPS_CORE_KERNEL_H
+#define MPS_CORE_KERNEL_H
+
+#include "base.h"
+#include <mps/operators.h>
+
+/* As mps_lattice_constants(). */
+mps_status mps__kernel_lattice(mps__context *c, const mps_kernel *kernel, int32_t dim, double dp, double re, double *n0, double *lambda);
+
+#endif
