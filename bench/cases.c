@@ -53,8 +53,8 @@ static void fill_rest(mps_sim *sim, const struct bench_kind *k)
     mps_phase_init(&light, sizeof light);
     light.density = k->rest == AIR ? 1.29 : 1;
     light.viscosity = k->rest == AIR ? 1.8e-5 : 1e-3;
-    check(sim, mps_sim_set_phase(sim, 1, &light), "light fluid");
-    check(sim, mps_geometry_fill_box(sim, 1, lo, k->tank, NULL, NULL), "light fluid");
+    check(sim, mps_phase_set(sim, 1, &light), "light fluid");
+    check(sim, mps_fill_box_add(sim, 1, lo, k->tank, NULL, NULL), "light fluid");
     if (k->rest == LIGHT_LIQUID) check(sim, mps_model_remove(sim, "gas"), "gas");
 }
 
@@ -76,16 +76,16 @@ mps_sim *bench_case_make(const bench_case *c, int32_t threads, double re_far, be
     config.error = error;
     config.error_size = sizeof error;
     if (mps_sim_create(&config, &sim) != MPS_OK) bench_fail("simulation", error);
-    if (k->rest != EMPTY) check(sim, mps_sim_use_preset(sim, "mmps"), "preset");
+    if (k->rest != EMPTY) check(sim, mps_preset_use(sim, "mmps"), "preset");
     mps_phase_init(&liquid, sizeof liquid);
     liquid.density = k->density;
     liquid.viscosity = k->viscosity;
-    check(sim, mps_sim_set_phase(sim, 0, &liquid), "liquid");
+    check(sim, mps_phase_set(sim, 0, &liquid), "liquid");
     mps_tank_init(&tank, sizeof tank);
     memcpy(tank.size, k->tank, sizeof tank.size);
-    check(sim, mps_geometry_tank(sim, &tank, NULL), "tank");
-    check(sim, mps_geometry_fill_box(sim, 0, lo, k->fill, NULL, NULL), "fill");
+    check(sim, mps_tank_add(sim, &tank, NULL), "tank");
+    check(sim, mps_fill_box_add(sim, 0, lo, k->fill, NULL, NULL), "fill");
     if (k->rest != EMPTY) fill_rest(sim, k);
-    if (k->motion.amplitude > 0) check(sim, mps_motion_set_harmonics(sim, 1, &k->motion), "motion");
+    if (k->motion.amplitude > 0) check(sim, mps_motion_harmonics_set(sim, 1, &k->motion), "motion");
     return sim;
 }

@@ -118,7 +118,7 @@ static void set_tolerance(mps_sim *sim, double tolerance)
     mps_solver_limits limits;
     mps_solver_limits_init(&limits, sizeof limits);
     limits.tolerance = tolerance;
-    if (mps_solver_set_limits(sim, &limits) < 0) bench_fail("--tolerance", mps_sim_error(sim));
+    if (mps_solver_limits_set(sim, &limits) < 0) bench_fail("--tolerance", mps_sim_error(sim));
 }
 
 static void step(mps_sim *sim, double dt_max, mps_step_info *info)

@@ -24,9 +24,9 @@ static void build(run *r)
     tank.size[1] = hi[1];
     run_phase(r, 0, WATER, TOUGH);
     run_phase(r, 1, TANK_AIR_DENSITY, TANK_AIR_VISCOSITY);
-    run_check(r, mps_geometry_tank(r->sim, &tank, NULL), "tube");
-    run_check(r, mps_geometry_fill_box(r->sim, 0, slug_lo, slug_hi, NULL, NULL), "slug");
-    run_check(r, mps_geometry_fill_box(r->sim, 1, lo, hi, NULL, NULL), "air");
+    run_check(r, mps_tank_add(r->sim, &tank, NULL), "tube");
+    run_check(r, mps_fill_box_add(r->sim, 0, slug_lo, slug_hi, NULL, NULL), "slug");
+    run_check(r, mps_fill_box_add(r->sim, 1, lo, hi, NULL, NULL), "air");
 }
 
 /* How far the slug is above where it was let go. */

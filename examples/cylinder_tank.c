@@ -46,7 +46,7 @@ static void add_shell(run *r, cylinder_case *c)
     memcpy(solid.hi, hi, sizeof hi);
     memcpy(c->lo, lo, sizeof lo);
     memcpy(c->hi, hi, sizeof hi);
-    run_check(r, mps_geometry_solid(r->sim, &solid), "tank");
+    run_check(r, mps_solid_add(r->sim, &solid), "tank");
 }
 
 static void add_file(run *r, cylinder_case *c)
@@ -57,7 +57,7 @@ static void add_file(run *r, cylinder_case *c)
     stl.name = "tank";
     stl.container = 1;
     stl.scale = r->options.stl_scale;
-    run_check(r, mps_geometry_stl(r->sim, r->options.stl, &stl, box), "tank");
+    run_check(r, mps_stl_add(r->sim, r->options.stl, &stl, box), "tank");
     memcpy(c->lo, box, sizeof c->lo);
     memcpy(c->hi, box + 3, sizeof c->hi);
 }
@@ -70,8 +70,8 @@ static void build(run *r, cylinder_case *c)
     else
         add_shell(r, c);
     c->level = c->lo[1] + FILL * (c->hi[1] - c->lo[1]) + 0.01 * r->options.dp;
-    run_check(r, mps_geometry_fill(r->sim, 0, under_water, c, NULL), "water");
-    run_check(r, mps_motion_set_harmonics(r->sim, 1, &motion), "motion");
+    run_check(r, mps_fill_add(r->sim, 0, under_water, c, NULL), "water");
+    run_check(r, mps_motion_harmonics_set(r->sim, 1, &motion), "motion");
 }
 
 static double force_value(void *user, mps_sim *sim)

@@ -26,8 +26,8 @@ static void build(run *r, double *built)
     tank.size[1] = HEIGHT;
     tank.size[2] = BREADTH;
     run_phase(r, 0, DENSITY, DENSITY * KINEMATIC_VISCOSITY);
-    run_check(r, mps_geometry_tank(r->sim, &tank, built), "tank");
-    run_check(r, mps_geometry_fill_box(r->sim, 0, lo, hi, NULL, NULL), "water");
+    run_check(r, mps_tank_add(r->sim, &tank, built), "tank");
+    run_check(r, mps_fill_box_add(r->sim, 0, lo, hi, NULL, NULL), "water");
 }
 
 static bool bins_collect(const bins *b, mps_sim *sim)

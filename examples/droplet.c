@@ -22,8 +22,8 @@ static void build(run *r)
     run_phase(r, 0, WATER, WATER_VISCOSITY);
     run_phase(r, 1, TANK_AIR_DENSITY, TANK_AIR_VISCOSITY);
     tank_walls(r, size);
-    run_check(r, mps_geometry_fill(r->sim, 0, in_drop, NULL, NULL), "water");
-    run_check(r, mps_geometry_fill_box(r->sim, 1, lo, size, NULL, NULL), "air");
+    run_check(r, mps_fill_add(r->sim, 0, in_drop, NULL, NULL), "water");
+    run_check(r, mps_fill_box_add(r->sim, 1, lo, size, NULL, NULL), "air");
 }
 
 /* Potential flow of r = R (1 + STRETCH sin(w t) cos(2 phi)) at t = 0: rate (x, -y) inside, the same at the surface and falling off outside. */

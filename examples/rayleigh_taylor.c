@@ -25,8 +25,8 @@ static void build(run *r)
     run_phase(r, 0, HEAVY, VISCOSITY);
     run_phase(r, 1, LIGHT, VISCOSITY);
     tank_walls_about(r, SIZE, 1, lo, hi);
-    run_check(r, mps_geometry_fill(r->sim, 1, below, NULL, NULL), "light fluid");
-    run_check(r, mps_geometry_fill_box(r->sim, 0, lo, hi, NULL, NULL), "heavy fluid");
+    run_check(r, mps_fill_add(r->sim, 1, below, NULL, NULL), "light fluid");
+    run_check(r, mps_fill_box_add(r->sim, 0, lo, hi, NULL, NULL), "heavy fluid");
 }
 
 /* Highest and lowest point of the interface. */

@@ -26,8 +26,8 @@ static void build(run *r, const fluids *f)
     const double lo[] = {0, 0};
     for (int p = 0; p < 2; p++) run_phase(r, p, f->density[p], f->viscosity[p]);
     tank_walls(r, SIZE);
-    run_check(r, mps_geometry_fill(r->sim, 1, in_bubble, NULL, NULL), "bubble");
-    run_check(r, mps_geometry_fill_box(r->sim, 0, lo, SIZE, NULL, NULL), "liquid");
+    run_check(r, mps_fill_add(r->sim, 1, in_bubble, NULL, NULL), "bubble");
+    run_check(r, mps_fill_box_add(r->sim, 0, lo, SIZE, NULL, NULL), "liquid");
 }
 
 static double height(void *user, mps_sim *sim)

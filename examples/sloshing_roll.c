@@ -52,10 +52,10 @@ static void build(run *r, int32_t liquid, roll *m)
     tank_fill(r, SIZE, DEPTH, false);
     if (run_has_gas(r)) {
         run_phase(r, 1, TANK_AIR_DENSITY, TANK_AIR_VISCOSITY);
-        run_check(r, mps_geometry_fill_box(r->sim, 1, lo, SIZE, NULL, NULL), "air");
+        run_check(r, mps_fill_box_add(r->sim, 1, lo, SIZE, NULL, NULL), "air");
     }
-    run_check(r, mps_motion_set_centre(r->sim, middle, MPS_START_AT_REST), "centre");
-    run_check(r, mps_motion_set_callback(r->sim, turn, m), "motion");
+    run_check(r, mps_motion_centre_set(r->sim, middle, MPS_START_AT_REST), "centre");
+    run_check(r, mps_motion_callback_set(r->sim, turn, m), "motion");
 }
 
 /* Pressures at the still level on both sides, heights at both walls and at a quarter of the length. */

@@ -41,7 +41,7 @@ static void build(run *r)
     mps_tank_init(&tank, sizeof tank);
     tank.size[0] = LENGTH;
     tank.size[1] = HEIGHT;
-    run_check(r, mps_geometry_tank(r->sim, &tank, built), "tank");
+    run_check(r, mps_tank_add(r->sim, &tank, built), "tank");
     add_water(r, built[0]);
 }
 

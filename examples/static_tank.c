@@ -11,7 +11,7 @@ static void build(run *r)
     int k = r->options.dim - 2;
     const double lo[] = {0, 0, 0}, hi[] = {SIZE[k][0], DEPTH[k], SIZE[k][2]};
     tank_walls(r, SIZE[k]);
-    run_check(r, mps_geometry_fill_box(r->sim, 0, lo, hi, NULL, NULL), "water");
+    run_check(r, mps_fill_box_add(r->sim, 0, lo, hi, NULL, NULL), "water");
 }
 
 static void add_columns(run *r)

@@ -12,8 +12,8 @@ static void build(run *r)
     run_phase(r, 0, HEAVY, VISCOSITY);
     run_phase(r, 1, LIGHT, VISCOSITY);
     tank_walls_about(r, SIZE, LAYER, lo, hi);
-    run_check(r, mps_geometry_fill_box(r->sim, 0, lo, (const double[]){hi[0], LAYER}, NULL, NULL), "heavy fluid");
-    run_check(r, mps_geometry_fill_box(r->sim, 1, lo, hi, NULL, NULL), "light fluid");
+    run_check(r, mps_fill_box_add(r->sim, 0, lo, (const double[]){hi[0], LAYER}, NULL, NULL), "heavy fluid");
+    run_check(r, mps_fill_box_add(r->sim, 1, lo, hi, NULL, NULL), "light fluid");
 }
 
 /* How far a fluid reaches beyond the interface [m]. */

@@ -9,5 +9,5 @@ void baffle_add(run *r, const baffle *b, double width)
     if (columns < 1) columns = round(b->thickness / dp) + 1;
     double first = round(b->middle / dp - 0.5 * (columns - 1)) * dp;
     const double lo[] = {first, b->bottom, 0}, hi[] = {first + (columns - 1) * dp, b->top, width};
-    run_check(r, mps_geometry_baffle(r->sim, "baffle", lo, hi, NULL), "baffle");
+    run_check(r, mps_baffle_add(r->sim, "baffle", lo, hi, NULL), "baffle");
 }

@@ -74,7 +74,7 @@ static void print_order(mps_sim *sim, const char *preset)
 {
     mps_verb_info v;
     mps_verb_info_init(&v, sizeof v);
-    if (mps_sim_use_preset(sim, preset) != MPS_OK) return;
+    if (mps_preset_use(sim, preset) != MPS_OK) return;
     printf("## Order of a step: %s\n\nChannels: `r` reads its own row, `n` neighbours too, `w` writes, `?` may be missing.\n\n"
            "| moment | model | channels |\n|---|---|---|\n",
            preset);
@@ -106,12 +106,12 @@ static void print_preset_settings(mps_sim *sim)
     mps_model_info_init(&m, sizeof m);
     printf("Settings that a preset changes:\n\n| preset | setting | default | in the preset |\n|---|---|---|---|\n");
     for (int32_t k = 0; mps_preset_info_get(sim, k, &n) == MPS_OK; k++) {
-        if (mps_sim_use_preset(sim, n.name) != MPS_OK) continue;
+        if (mps_preset_use(sim, n.name) != MPS_OK) continue;
         for (int32_t i = 0; mps_model_info_get(sim, i, &m) == MPS_OK; i++)
             if (m.active) print_changes(sim, n.name, m.name);
     }
     printf("\n");
-    mps_sim_use_preset(sim, "imps");
+    mps_preset_use(sim, "imps");
 }
 
 typedef mps_status (*name_fn)(const mps_sim *sim, int32_t index, mps_name_info *info);
@@ -139,14 +139,14 @@ int listing_print(void)
     print_preset_settings(sim);
     print_models(sim);
     print_channels(sim);
-    mps_sim_use_preset(sim, "mmps"); /* brings all channels */
+    mps_preset_use(sim, "mmps"); /* brings all channels */
     print_brought(sim);
     printf("\n");
     print_order(sim, "imps");
     print_order(sim, "mmps");
     print_order(sim, "imps.paper");
     print_order(sim, "mmps.paper");
-    mps_sim_use_preset(sim, "imps");
+    mps_preset_use(sim, "imps");
     print_names(sim, "Pressure solvers", mps_solver_info_get);
     print_names(sim, "Preconditioners", mps_preconditioner_info_get);
     print_names(sim, "Kernels", mps_kernel_info_get);

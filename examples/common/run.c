@@ -78,7 +78,7 @@ static void run_set_tension(run *r)
 static void run_use_models(run *r)
 {
     const cli_options *o = &r->options;
-    if (mps_sim_use_preset(r->sim, o->model) != MPS_OK)
+    if (mps_preset_use(r->sim, o->model) != MPS_OK)
         run_refuse(r, "--model", o->model, mps_sim_error(r->sim), "; there are imps, mmps, imps.paper, mmps.paper");
     if (run_has_gas(r) && !o->two_phases)
         run_refuse(r, "--model", o->model, "is for two phases, this case has one", "; there are imps, imps.paper");
@@ -120,7 +120,7 @@ static void run_set_time(run *r)
     control.cfl = r->options.cfl;
     if (run_is_paper(&r->options)) control.gravity = 0.03; /* W22's steps are 0.01; at 0.06 it fails even sooner */
     if (r->options.calm > 0) control.gravity = r->options.calm;
-    run_check(r, mps_sim_set_time_control(r->sim, &control), "time step");
+    run_check(r, mps_time_control_set(r->sim, &control), "time step");
 }
 
 void run_open(run *r, const cli_options *o)
@@ -171,7 +171,7 @@ void run_phase(run *r, int32_t index, double density, double viscosity)
     mps_phase_init(&phase, sizeof phase);
     phase.density = density;
     phase.viscosity = viscosity;
-    run_check(r, mps_sim_set_phase(r->sim, index, &phase), "phase");
+    run_check(r, mps_phase_set(r->sim, index, &phase), "phase");
 }
 
 double run_level(run *r)

@@ -9,7 +9,7 @@ void tank_walls(run *r, const double *size)
     mps_tank tank;
     mps_tank_init(&tank, sizeof tank);
     memcpy(tank.size, size, sizeof tank.size);
-    run_check(r, mps_geometry_tank(r->sim, &tank, NULL), "tank");
+    run_check(r, mps_tank_add(r->sim, &tank, NULL), "tank");
 }
 
 void tank_walls_about(run *r, const double *size, double middle, double *lo, double *hi)
@@ -24,7 +24,7 @@ void tank_walls_about(run *r, const double *size, double middle, double *lo, dou
         lo[d] = tank.lo[d];
         hi[d] = tank.lo[d] + tank.size[d];
     }
-    run_check(r, mps_geometry_tank(r->sim, &tank, NULL), "tank");
+    run_check(r, mps_tank_add(r->sim, &tank, NULL), "tank");
 }
 
 static double still_level(void *user, mps_sim *sim)
@@ -38,9 +38,9 @@ void tank_fill(run *r, const double *size, double depth, bool whole_rows)
     const double lo[3] = {0}, level[3] = {size[0], depth, size[2]};
     double built[6];
     if (whole_rows || run_has_gas(r) || strstr(r->options.model, ".paper"))
-        run_check(r, mps_geometry_fill_box(r->sim, 0, lo, level, NULL, built), "liquid");
+        run_check(r, mps_fill_box_add(r->sim, 0, lo, level, NULL, built), "liquid");
     else
-        run_check(r, mps_geometry_fill_level(r->sim, 0, lo, level, NULL, built), "liquid");
+        run_check(r, mps_fill_level_add(r->sim, 0, lo, level, NULL, built), "liquid");
     r->level = built[r->options.dim + 1];
     run_figure_add(r, "still_level", still_level, &r->level);
 }
@@ -55,9 +55,9 @@ void tank_build(run *r, const tank_case *c)
     tank_fill(r, c->size, c->depth, c->whole_rows);
     if (run_has_gas(r)) {
         run_phase(r, 1, TANK_AIR_DENSITY, TANK_AIR_VISCOSITY);
-        run_check(r, mps_geometry_fill_box(r->sim, 1, lo, c->size, NULL, NULL), "air");
+        run_check(r, mps_fill_box_add(r->sim, 1, lo, c->size, NULL, NULL), "air");
     }
-    run_check(r, mps_motion_set_harmonics(r->sim, 1, &motion), "motion");
+    run_check(r, mps_motion_harmonics_set(r->sim, 1, &motion), "motion");
 }
 
 void tank_parse(cli_options *o, const tank_case *c, int argc, char **argv)

@@ -25,8 +25,8 @@ static void build_walls(impact *c)
     const double column[] = {COLUMN_LENGTH, COLUMN_HEIGHT, HALF_BREADTH};
     impact_water(c);
     impact_walls(c, size, false);
-    run_check(r, mps_geometry_baffle(r->sim, "box", lo, hi, NULL), "box");
-    run_check(r, mps_geometry_fill_box(r->sim, 0, zero, column, NULL, NULL), "water");
+    run_check(r, mps_baffle_add(r->sim, "box", lo, hi, NULL), "box");
+    run_check(r, mps_fill_box_add(r->sim, 0, zero, column, NULL, NULL), "water");
 }
 
 static void build(impact *c)

@@ -97,7 +97,7 @@ static void build_floor(impact *c)
     impact_water(c);
     impact_walls(c, size, false);
     impact_fill(c, across, up);
-    run_check(r, mps_motion_set_callback(r->sim, leave, NULL), "motion");
+    run_check(r, mps_motion_callback_set(r->sim, leave, NULL), "motion");
     for (int i = 0; i < 2; i++) {
         run_wall_sensor(r, name[i], i == 0 ? middle : (wide + 1) * dp, 0, depth, 2 * dp);
         impact_figure(c, least[i], TRACE_LEAST, impact_last(c), raw, rho * GRAVITY * h);

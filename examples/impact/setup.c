@@ -22,14 +22,14 @@ void impact_walls(impact *c, const double *size, bool open)
     mps_tank_init(&tank, sizeof tank);
     for (int d = 0; d < 3; d++) tank.size[d] = size[d];
     tank.open_top = open;
-    run_check(&c->run, mps_geometry_tank(c->run.sim, &tank, NULL), "walls");
+    run_check(&c->run, mps_tank_add(c->run.sim, &tank, NULL), "walls");
 }
 
 void impact_fill(impact *c, const int *columns, const int *rows)
 {
     const double dp = c->run.options.dp, lo[] = {(columns[0] - 0.1) * dp, (rows[0] - 0.1) * dp, 0};
     const double hi[] = {(columns[1] + 0.1) * dp, (rows[1] + 0.1) * dp, 1e3};
-    run_check(&c->run, mps_geometry_fill_box(c->run.sim, 0, lo, hi, NULL, NULL), "water");
+    run_check(&c->run, mps_fill_box_add(c->run.sim, 0, lo, hi, NULL, NULL), "water");
 }
 
 void impact_start(impact *c, double u, double v)

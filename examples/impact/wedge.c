@@ -118,7 +118,7 @@ static void build_walls(impact *c, wedge *w)
     solid.hi[1] = w->top + edge;
     impact_water(c);
     impact_walls(c, size, false);
-    run_check(&c->run, mps_geometry_solid(c->run.sim, &solid), "wedge");
+    run_check(&c->run, mps_solid_add(c->run.sim, &solid), "wedge");
     impact_fill(c, across, up);
     impact_start(c, 0, -c->speed);
 }

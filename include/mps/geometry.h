@@ -48,7 +48,7 @@ MPS_API mps_status mps_tank_init(mps_tank *tank, size_t size);
 /** Add the walls of a tank. Fills use its lattice from now on.
  *  @param built  NULL, or [3] out: size after rounding to the lattice [m] (a rounding is logged)
  *  @return see the table of this file */
-MPS_API mps_status mps_geometry_tank(mps_sim *sim, const mps_tank *tank, double *built);
+MPS_API mps_status mps_tank_add(mps_sim *sim, const mps_tank *tank, double *built);
 
 /** Add a solid box (a baffle): points of the lattice in the closed box lo..hi, walls in its outer
  *  layer, dummies inside. It follows the tank and comes before the fluid: fluid nearer than dp/2 to
@@ -67,7 +67,7 @@ MPS_API mps_status mps_geometry_tank(mps_sim *sim, const mps_tank *tank, double 
  *  @param built  NULL, or [2*dim] out: corners of the box of its lattice points [m] (a difference
  *                to lo and hi is logged)
  *  @return see the table of this file; MPS_E_ARG also if no free lattice point lies inside */
-MPS_API mps_status mps_geometry_baffle(mps_sim *sim, const char *name, const double *lo,
+MPS_API mps_status mps_baffle_add(mps_sim *sim, const char *name, const double *lo,
                                        const double *hi, double *built);
 
 /** Add a plate without thickness anywhere in the tank, e.g. an inclined baffle; otherwise as a
@@ -80,25 +80,25 @@ MPS_API mps_status mps_geometry_baffle(mps_sim *sim, const char *name, const dou
  *  @param edge2   [3] along the other side [m], at right angles to `edge`, at least 2 dp long; NULL
  *                 in 2-D
  *  @return see the table of this file; MPS_E_ARG also if the plate leaves the tank */
-MPS_API mps_status mps_geometry_plate(mps_sim *sim, const char *name, const double *corner,
+MPS_API mps_status mps_plate_add(mps_sim *sim, const char *name, const double *corner,
                                       const double *edge, const double *edge2);
 
 /** Fill a box with fluid of a phase: free points of the lattice in the closed box. The level of n
  *  rows is n dp above the floor: a depth that is not a multiple of dp becomes the next smaller one.
- *  mps_geometry_fill_level() keeps the depth.
+ *  mps_fill_level_add() keeps the depth.
  *  @param added  NULL, or out: particles added
  *  @param built  NULL, or [2*dim] out: corners of the box of lattice points [m] (a difference to lo
  *                and hi is logged)
  *  @return see the table of this file; MPS_E_ARG also if no free lattice point lies inside */
-MPS_API mps_status mps_geometry_fill_box(mps_sim *sim, int32_t phase, const double *lo,
+MPS_API mps_status mps_fill_box_add(mps_sim *sim, int32_t phase, const double *lo,
                                          const double *hi, int64_t *added, double *built);
 
 /** Fill a box up to the level hi[1] [m]. If the level lies between two rows of the lattice, the
  *  upper row gets the share of its points that the mass below the level needs, evenly spread; the
- *  liquid at rest settles to the level. Otherwise as mps_geometry_fill_box().
+ *  liquid at rest settles to the level. Otherwise as mps_fill_box_add().
  *  @param built  NULL, or [2*dim] out: built[dim+1] is the level of the mass that was filled in
  *  [m] */
-MPS_API mps_status mps_geometry_fill_level(mps_sim *sim, int32_t phase, const double *lo,
+MPS_API mps_status mps_fill_level_add(mps_sim *sim, int32_t phase, const double *lo,
                                            const double *hi, int64_t *added, double *built);
 
 /** Non-zero if a point [dim] [m] is inside. */
@@ -106,7 +106,7 @@ typedef int (*mps_inside_fn)(void *user, const double *x);
 
 /** Fill the free lattice points of the tank for which `inside` returns non-zero.
  *  @return see the table of this file */
-MPS_API mps_status mps_geometry_fill(mps_sim *sim, int32_t phase, mps_inside_fn inside, void *user,
+MPS_API mps_status mps_fill_add(mps_sim *sim, int32_t phase, mps_inside_fn inside, void *user,
                                      int64_t *added);
 
 /* ---- solids of any shape --------------------------------------------------------------------- */
@@ -156,10 +156,10 @@ MPS_API mps_status mps_solid_init(mps_solid *solid, size_t size);
  *  lies beyond them, or nearer than 0.7 dp to a wall particle, is left out, and walls inside of the
  *  body become dummies. Add bodies before the fluid: fluid inside of a solid is refused. Parts
  *  thinner than 3 dp are logged as a warning, because liquid on one side feels the other; thin
- *  screens are made by mps_geometry_baffle() and mps_geometry_plate().
+ *  screens are made by mps_baffle_add() and mps_plate_add().
  *  @return see the table of this file; MPS_E_ARG also for a distance that is not finite (with its
  *          place), no surface in the box, a surface that leaves the box */
-MPS_API mps_status mps_geometry_solid(mps_sim *sim, const mps_solid *solid);
+MPS_API mps_status mps_solid_add(mps_sim *sim, const mps_solid *solid);
 
 /** Sides of a box, in the frame of the tank. */
 enum {
@@ -208,7 +208,7 @@ typedef struct mps_stl {
 /** Set every entry to its default. @param size  sizeof(mps_stl) @return MPS_E_ARG: bad size */
 MPS_API mps_status mps_stl_init(mps_stl *stl, size_t size);
 
-/** Add a solid from an STL file as mps_geometry_solid() does; the lattice begins at the lower
+/** Add a solid from an STL file as mps_solid_add() does; the lattice begins at the lower
  *  corner of its bounding box. Triangles without area are skipped, a surface that is inside out is
  *  turned over; both are logged.
  *  @param built  NULL, or [6] out: lower and upper corner of the surface [m]
@@ -218,7 +218,7 @@ MPS_API mps_status mps_stl_init(mps_stl *stl, size_t size);
  *  | MPS_E_IO | the file cannot be read, is cut short, or is not an STL file |
  *  | MPS_E_ARG | 2-D; no triangles; a coordinate not finite; an open surface, or one not |
  *  | | oriented: how many edges, and where the first is | */
-MPS_API mps_status mps_geometry_stl(mps_sim *sim, const char *path, const mps_stl *stl,
+MPS_API mps_status mps_stl_add(mps_sim *sim, const char *path, const mps_stl *stl,
                                     double *built);
 
 MPS_END_DECLS

@@ -116,7 +116,7 @@ MPS_API mps_status mps_channel_info_get(const mps_sim *sim, int32_t index, mps_c
  *  @return MPS_E_STATE: the active models have no order, with text */
 MPS_API mps_status mps_verb_info_get(mps_sim *sim, int32_t index, mps_verb_info *info);
 
-/** Preset number `index`, for mps_sim_use_preset(). */
+/** Preset number `index`, for mps_preset_use(). */
 MPS_API mps_status mps_preset_info_get(const mps_sim *sim, int32_t index, mps_name_info *info);
 
 /** Pressure solver number `index`, for mps_solver_use(). */

@@ -254,7 +254,7 @@ typedef struct mps_stage {
     const mps_stencil *far;
     /** [16] mu of the phases [Pa s] */
     const double *viscosity;
-    /** [16*16] sigma of two phases by mps_sim_set_tension() [N/m], symmetric; < 0: not set */
+    /** [16*16] sigma of two phases by mps_tension_set() [N/m], symmetric; < 0: not set */
     const double *tension;
     /** From MPS_FORCE on: fluxes of pairs of the pressure equation, NULL before. `body` is final
      *  from MPS_LEVEL on. Its channels need not be among the uses. */

@@ -70,7 +70,7 @@ enum {
  *  | MPS_E_ARG | centre is not finite; start |
  *  | MPS_E_STATE | a step was done |
  *  | MPS_E_BUSY | a lease is open; called from a monitor, a verb or a callback | */
-MPS_API mps_status mps_motion_set_centre(mps_sim *sim, const double *centre, int32_t start);
+MPS_API mps_status mps_motion_centre_set(mps_sim *sim, const double *centre, int32_t start);
 
 /** One harmonic. Its layout does not change within a major version. */
 typedef struct mps_harmonic {
@@ -88,7 +88,7 @@ typedef struct mps_harmonic {
 
 /** Motion as a sum of harmonics. @param count  >= 1 @param harmonics  [count], copied
  *  @return MPS_E_ARG (which harmonic), MPS_E_BUSY, MPS_E_NOMEM */
-MPS_API mps_status mps_motion_set_harmonics(mps_sim *sim, int32_t count,
+MPS_API mps_status mps_motion_harmonics_set(mps_sim *sim, int32_t count,
                                             const mps_harmonic *harmonics);
 
 /** Motion from a table, interpolated by a natural cubic spline (C2). Accelerations at the first and
@@ -106,7 +106,7 @@ MPS_API mps_status mps_motion_set_harmonics(mps_sim *sim, int32_t count,
  *  @param dof     [dofs] degree of freedom of each column, each once
  *  @param values  [rows*dofs] row by row [m, rad]; copied
  *  @return MPS_E_ARG (the first bad row), MPS_E_BUSY, MPS_E_NOMEM */
-MPS_API mps_status mps_motion_set_table(mps_sim *sim, int64_t rows, const double *t, int32_t dofs,
+MPS_API mps_status mps_motion_table_set(mps_sim *sim, int64_t rows, const double *t, int32_t dofs,
                                         const int32_t *dof, const double *values);
 
 /** Pose, rates and accelerations at a time; a smooth function of t alone. `state` arrives with its
@@ -115,7 +115,7 @@ typedef int (*mps_motion_fn)(void *user, double t, mps_motion_state *state);
 
 /** Motion by callback. @return MPS_E_ARG, MPS_E_BUSY, MPS_E_PLUGIN (the callback fails at the
  *  present time) */
-MPS_API mps_status mps_motion_set_callback(mps_sim *sim, mps_motion_fn fn, void *user);
+MPS_API mps_status mps_motion_callback_set(mps_sim *sim, mps_motion_fn fn, void *user);
 
 /** No motion from now on; the tank stays where it is. @return MPS_E_BUSY */
 MPS_API mps_status mps_motion_clear(mps_sim *sim);

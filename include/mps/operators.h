@@ -106,7 +106,7 @@ MPS_API mps_status mps_lattice_constants(const mps_kernel *kernel, int32_t dim, 
  *  | MPS_E_ARG | the kernel is not valid; the text tells where |
  *  | MPS_E_STATE | a step was done |
  *  | MPS_E_BUSY | called from a monitor, a verb or a callback | */
-MPS_API mps_status mps_sim_set_kernel(mps_sim *sim, const mps_kernel *kernel);
+MPS_API mps_status mps_kernel_use(mps_sim *sim, const mps_kernel *kernel);
 
 /* ---- stencils -------------------------------------------------------------------------------- */
 
@@ -217,7 +217,7 @@ MPS_API const char *mps_neighbours_error(const mps_neighbours *list);
 /** Threads that build the list, and threads of its stencils. Without this call: the calling thread.
  *  @param parallel  copied. `run` NULL: parallel->threads threads of the list
  *  @return MPS_E_ARG, MPS_E_VERSION */
-MPS_API mps_status mps_neighbours_set_parallel(mps_neighbours *list, const mps_parallel *parallel);
+MPS_API mps_status mps_neighbours_parallel_set(mps_neighbours *list, const mps_parallel *parallel);
 
 /** Find all pairs of two radii. Particles nearer than 1e-6 dp to each other are not a pair, because
  *  their direction is not defined (the two faces of a thin plate).
@@ -241,7 +241,7 @@ enum {
  *  @param kernel   copied; n0 and lambda are those of its lattice
  *  @param stencil  initialised by mps_stencil_init(); out
  *  @return MPS_E_ARG: also if the list is empty; MPS_E_VERSION */
-MPS_API mps_status mps_neighbours_stencil(const mps_neighbours *list, int32_t which,
+MPS_API mps_status mps_neighbours_stencil_get(const mps_neighbours *list, int32_t which,
                                           const mps_kernel *kernel, mps_stencil *stencil);
 
 /** The stencil of the particles of a simulation at their present positions (all kinds). The list is
@@ -255,7 +255,7 @@ MPS_API mps_status mps_neighbours_stencil(const mps_neighbours *list, int32_t wh
  *  | MPS_E_BUSY | positions are leased for writing; called from a verb or a callback |
  *  | MPS_E_LOST, MPS_E_STATE | a particle left the domain, or all did |
  *  | MPS_E_NOMEM | no memory | */
-MPS_API mps_status mps_sim_stencil(mps_sim *sim, int32_t which, mps_stencil *stencil);
+MPS_API mps_status mps_stencil_get(mps_sim *sim, int32_t which, mps_stencil *stencil);
 
 /* ---- operators ------------------------------------------------------------------------------- */
 

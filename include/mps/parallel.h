@@ -40,7 +40,7 @@ typedef struct mps_parallel {
      *  same time. Return when all have ended. Memory written before the call is seen by all
      *  parts, memory written by a part after the call. A call from inside a body must work too,
      *  e.g. by calling all parts one after the other. NULL: the library's own threads where it
-     *  asks for a parallel-for (mps_config, mps_neighbours_set_parallel()); elsewhere loops run
+     *  asks for a parallel-for (mps_config, mps_neighbours_parallel_set()); elsewhere loops run
      *  in the calling thread. */
     void (*run)(void *user, int32_t parts, mps_part_fn body, void *argument);
     /** First argument of `run`. */

@@ -34,7 +34,7 @@ typedef struct mps_config {
     /** Gravity [m/s2]; all zero: none. mps_config_init() sets (0, -9.81, 0). */
     double gravity[3];
     /** "improved" (default, W22 (3)) or "original" (Z14 (3)); a kernel of the user:
-     *  mps_sim_set_kernel(). */
+     *  mps_kernel_use(). */
     const char *kernel;
     /** Radius of number density, gradient and divergence [dp]; default 2.1. */
     double re_near;
@@ -97,7 +97,7 @@ MPS_API mps_status mps_sim_time(const mps_sim *sim, double *t, int64_t *steps);
  *  parallel-for of the host it is the number of parts into which loops are split.
  *  @param threads  1..1024
  *  @return MPS_E_ARG, MPS_E_BUSY (called from a monitor, a verb or a callback) */
-MPS_API mps_status mps_sim_set_threads(mps_sim *sim, int32_t threads);
+MPS_API mps_status mps_threads_set(mps_sim *sim, int32_t threads);
 
 /* ---- phases ---------------------------------------------------------------------------------- */
 
@@ -117,21 +117,21 @@ MPS_API mps_status mps_phase_init(mps_phase *phase, size_t size);
 /** Define or change phase `index` (0..15), before its particles are added. Particles that are there
  *  take its density at once.
  *  @return MPS_E_ARG (which value, and what is allowed), MPS_E_BUSY */
-MPS_API mps_status mps_sim_set_phase(mps_sim *sim, int32_t index, const mps_phase *phase);
+MPS_API mps_status mps_phase_set(mps_sim *sim, int32_t index, const mps_phase *phase);
 
 /** Read phase `index`. @param phase  initialised by mps_phase_init(); out
  *  @return MPS_E_ARG: not defined */
-MPS_API mps_status mps_sim_get_phase(const mps_sim *sim, int32_t index, mps_phase *phase);
+MPS_API mps_status mps_phase_get(const mps_sim *sim, int32_t index, mps_phase *phase);
 
 /** Set the surface tension between two phases, for the models of the slot "tension". They have a
  *  value for pairs that are not set here.
  *  @param a,b    two different defined phases, in any order
  *  @param sigma  [N/m], >= 0
  *  @return MPS_E_ARG, MPS_E_BUSY */
-MPS_API mps_status mps_sim_set_tension(mps_sim *sim, int32_t a, int32_t b, double sigma);
+MPS_API mps_status mps_tension_set(mps_sim *sim, int32_t a, int32_t b, double sigma);
 
 /** Read the surface tension between two phases [N/m]. @return MPS_E_ARG: never set */
-MPS_API mps_status mps_sim_get_tension(const mps_sim *sim, int32_t a, int32_t b, double *sigma);
+MPS_API mps_status mps_tension_get(const mps_sim *sim, int32_t a, int32_t b, double *sigma);
 
 /* ---- models ---------------------------------------------------------------------------------- */
 
@@ -149,7 +149,7 @@ MPS_API mps_status mps_sim_get_tension(const mps_sim *sim, int32_t a, int32_t b,
  *  comparison, less stable, and want mps_config.re_far 4.1 in 2-D and mps_time_control.gravity
  *  0.03, which a preset cannot set.
  *  @return MPS_E_NAME with the nearest known name, MPS_E_NOMEM, MPS_E_BUSY */
-MPS_API mps_status mps_sim_use_preset(mps_sim *sim, const char *name);
+MPS_API mps_status mps_preset_use(mps_sim *sim, const char *name);
 
 /** Switch a model on. Names are "slot.variant"; a slot holds one model, its present one is
  *  replaced.
@@ -211,7 +211,7 @@ MPS_API mps_status mps_solver_use(mps_sim *sim, const char *solver, const char *
 
 /** Change the limits of the solver. @return MPS_E_ARG (which value, and what is allowed),
  *  MPS_E_BUSY */
-MPS_API mps_status mps_solver_set_limits(mps_sim *sim, const mps_solver_limits *limits);
+MPS_API mps_status mps_solver_limits_set(mps_sim *sim, const mps_solver_limits *limits);
 
 /** Names in use. Outputs may be NULL; valid until mps_solver_use(). @return MPS_E_ARG */
 MPS_API mps_status mps_solver_name(const mps_sim *sim, const char **solver,

@@ -43,7 +43,7 @@ MPS_API mps_status mps_time_control_init(mps_time_control *control, size_t size)
  *  after this call.
  *  @return MPS_E_ARG (which value, and what is allowed), MPS_E_BUSY (called from a monitor, a verb
  *          or a callback) */
-MPS_API mps_status mps_sim_set_time_control(mps_sim *sim, const mps_time_control *control);
+MPS_API mps_status mps_time_control_set(mps_sim *sim, const mps_time_control *control);
 
 /** Stages of a step, for timings. */
 enum {

@@ -11,7 +11,7 @@
 int mps__curvatures(mps_stage *s, const mps_stencil *pairs, double radius, double threshold,
                     double *kappa);
 
-/* sigma of two phases by mps_sim_set_tension() [N/m]; `other` if it is not set. */
+/* sigma of two phases by mps_tension_set() [N/m]; `other` if it is not set. */
 double mps__pair_sigma(const mps_stage *s, int32_t a, int32_t b, double other);
 
 /* Lowers s->dt_limit to half the time in which the shortest capillary wave travels a spacing, for

@@ -4,12 +4,12 @@
  *   <grad C>_i = D/n0 sum C_ij r_ij/|r_ij|^2 W  (near radius),
  *   C_ij = 2 rho_i/(rho_i + rho_j) for another phase, else 0,
  * kappa as in tension.c. <grad C> is summed with the sigma of each pair: that of
- * mps_sim_set_tension() for two phases, else the setting. */
+ * mps_tension_set() for two phases, else the setting. */
 #include "tension.h"
 
 enum { SIGMA, RADIUS, THRESHOLD, SETTINGS };
 static const mps_setting settings[SETTINGS] = {
-    [SIGMA] = {"sigma", "N/m", "Surface tension of phases without mps_sim_set_tension()",
+    [SIGMA] = {"sigma", "N/m", "Surface tension of phases without mps_tension_set()",
                MPS_TYPE_REAL, 7.27e-2, 0.0, 100.0},
     [RADIUS] = {"radius", "dp", "Radius r_s of the curvature: larger is smoother", MPS_TYPE_REAL,
                 8.1, 2.1, 20.0},

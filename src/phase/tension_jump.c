@@ -6,14 +6,14 @@
  * stays at rest, up to the noise of kappa. A force such as tension.csf is balanced by gradients of
  * other pairs and drives currents. Therefore r_s can be smaller here; a smaller r_s responds to
  * single particles that leave their phase.
- * sigma is that of mps_sim_set_tension() for two phases, else the setting; a particle with several
+ * sigma is that of mps_tension_set() for two phases, else the setting; a particle with several
  * other phases about it takes the mean. Needs a gradient that reads the jump:
  * gradient.corrected. */
 #include "tension.h"
 
 enum { SIGMA, RADIUS, THRESHOLD, SETTINGS };
 static const mps_setting settings[SETTINGS] = {
-    [SIGMA] = {"sigma", "N/m", "Surface tension of phases without mps_sim_set_tension()",
+    [SIGMA] = {"sigma", "N/m", "Surface tension of phases without mps_tension_set()",
                MPS_TYPE_REAL, 7.27e-2, 0.0, 100.0},
     [RADIUS] = {"radius", "dp", "Radius r_s of the curvature: larger is smoother", MPS_TYPE_REAL,
                 5.1, 2.1, 20.0},

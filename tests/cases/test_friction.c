@@ -177,8 +177,8 @@ static void build(mps_sim *sim, const flow *f)
         OK(sim, mps_solid_init(&solid, sizeof solid));
         solid.distance = circle;
         for (int d = 0; d < 2; d++) solid.lo[d] = -(solid.hi[d] = 0.5 * GAP);
-        OK(sim, mps_geometry_solid(sim, &solid));
-        OK(sim, mps_geometry_fill(sim, 0, anywhere, NULL, NULL));
+        OK(sim, mps_solid_add(sim, &solid));
+        OK(sim, mps_fill_add(sim, 0, anywhere, NULL, NULL));
         return;
     }
     mps_tank tank;
@@ -186,8 +186,8 @@ static void build(mps_sim *sim, const flow *f)
     tank.lo[0] = -GAP;
     tank.size[0] = SLUG + 2 * GAP;
     tank.size[1] = GAP;
-    OK(sim, mps_geometry_tank(sim, &tank, NULL));
-    OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL));
+    OK(sim, mps_tank_add(sim, &tank, NULL));
+    OK(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, NULL));
 }
 
 /* @param model NULL, or the viscosity to use with the whole stress @param radius far radius [dp] */
@@ -204,14 +204,14 @@ static mps_sim *begin(flow *f, int across, const char *model, double radius)
     config.gravity[0] = f->gravity;
     config.gravity[1] = 0;
     OK(sim, mps_sim_create(&config, &sim));
-    OK(sim, mps_sim_set_threads(sim, 1));
+    OK(sim, mps_threads_set(sim, 1));
     OK(sim, mps_time_control_init(&control, sizeof control));
     control.dt_max = f->dt_max;
-    OK(sim, mps_sim_set_time_control(sim, &control));
+    OK(sim, mps_time_control_set(sim, &control));
     OK(sim, mps_phase_init(&liquid, sizeof liquid));
     liquid.density = 1;
     liquid.viscosity = NU;
-    OK(sim, mps_sim_set_phase(sim, 0, &liquid));
+    OK(sim, mps_phase_set(sim, 0, &liquid));
     if (model) {
         OK(sim, mps_model_use(sim, model));
         OK(sim, mps_model_set(sim, model, "stress", 1));
@@ -219,7 +219,7 @@ static mps_sim *begin(flow *f, int across, const char *model, double radius)
     OK(sim, mps_model_register(sim, &watcher));
     OK(sim, mps_model_use(sim, "watch.test"));
     build(sim, f);
-    if (f->kind != CHANNEL) OK(sim, mps_motion_set_callback(sim, drive, f));
+    if (f->kind != CHANNEL) OK(sim, mps_motion_callback_set(sim, drive, f));
     return sim;
 }
 

@@ -18,7 +18,7 @@ static mps_sim *column(double exponent)
     assert_int_equal(mps_phase_init(&gas, sizeof gas), MPS_OK);
     gas.density = rho;
     gas.viscosity = 100; /* to come to rest */
-    ASSERT_OK(sim, mps_sim_set_phase(sim, 0, &gas));
+    ASSERT_OK(sim, mps_phase_set(sim, 0, &gas));
     add_tank(sim, width, height, 0);
     fill_depth(sim, width, height, 0);
     ASSERT_OK(sim, mps_model_remove(sim, "surface"));
@@ -135,7 +135,7 @@ static double swirl(double conserve)
     assert_int_equal(mps_phase_init(&air, sizeof air), MPS_OK);
     air.density = 1.2;
     air.viscosity = 1.8e-5;
-    ASSERT_OK(sim, mps_sim_set_phase(sim, 0, &air));
+    ASSERT_OK(sim, mps_phase_set(sim, 0, &air));
     add_tank(sim, 1, 1, 0);
     fill_depth(sim, 1, 1, 0);
     ASSERT_OK(sim, mps_model_remove(sim, "surface"));
@@ -212,7 +212,7 @@ static void walls_give_way(void **state)
         mps_phase gas;
         assert_int_equal(mps_phase_init(&gas, sizeof gas), MPS_OK);
         gas.density = rho;
-        ASSERT_OK(sim, mps_sim_set_phase(sim, 0, &gas));
+        ASSERT_OK(sim, mps_phase_set(sim, 0, &gas));
         add_tank(sim, n[0] * dp, n[1] * dp, n[2] * dp);
         fill_depth(sim, n[0] * dp, n[1] * dp, n[2] * dp);
         ASSERT_OK(sim, mps_model_remove(sim, "surface"));

@@ -29,21 +29,21 @@ static mps_sim *two_liquids(double dp, const double *rho, double level)
     OK(sim, mps_config_init(&config, sizeof config));
     config.dp = dp;
     OK(sim, mps_sim_create(&config, &sim));
-    OK(sim, mps_sim_set_threads(sim, 1));
-    OK(sim, mps_sim_use_preset(sim, "mmps"));
+    OK(sim, mps_threads_set(sim, 1));
+    OK(sim, mps_preset_use(sim, "mmps"));
     OK(sim, mps_model_remove(sim, "gas"));
     OK(sim, mps_model_remove(sim, "tension"));
     OK(sim, mps_tank_init(&tank, sizeof tank));
     tank.size[0] = length;
     tank.size[1] = height;
-    OK(sim, mps_geometry_tank(sim, &tank, NULL));
+    OK(sim, mps_tank_add(sim, &tank, NULL));
     for (int p = 0; p < 2; p++) {
         mps_phase phase;
         OK(sim, mps_phase_init(&phase, sizeof phase));
         phase.density = rho[p];
         phase.viscosity = 0;
-        OK(sim, mps_sim_set_phase(sim, p, &phase));
-        OK(sim, mps_geometry_fill_box(sim, p, lo, p == 0 ? top : lid, NULL, NULL));
+        OK(sim, mps_phase_set(sim, p, &phase));
+        OK(sim, mps_fill_box_add(sim, p, lo, p == 0 ? top : lid, NULL, NULL));
     }
     return sim;
 }

@@ -40,7 +40,7 @@ static mps_sim *open_tank(int32_t dim, double length, double height, double widt
     tank.size[0] = length;
     tank.size[1] = height;
     tank.size[2] = width;
-    OK(sim, mps_geometry_tank(sim, &tank, NULL));
+    OK(sim, mps_tank_add(sim, &tank, NULL));
     return sim;
 }
 
@@ -106,9 +106,9 @@ static void check_divided(int32_t dim, int columns, double right, double t_end)
     mps_sim *sim = open_tank(dim, 0.4 + thick, 0.3, width);
     int64_t left = 0, other = 0, counted = 0;
     print_message("  %d columns in %d-D, %g m on the right\n", columns, (int)dim, right);
-    OK(sim, mps_geometry_baffle(sim, "plate", lo, hi, NULL));
-    OK(sim, mps_geometry_fill_box(sim, 0, a, b, &left, NULL));
-    if (right > 0) OK(sim, mps_geometry_fill_box(sim, 0, c, d, &other, NULL));
+    OK(sim, mps_baffle_add(sim, "plate", lo, hi, NULL));
+    OK(sim, mps_fill_box_add(sim, 0, a, b, &left, NULL));
+    if (right > 0) OK(sim, mps_fill_box_add(sim, 0, c, d, &other, NULL));
     jitter(sim, 0.05 * dp);
     rest r = {.from = 0.5 * t_end};
     r.probe[FORCE] = add_probe(sim, MPS_PROBE_FORCE, x, 0);
@@ -198,10 +198,10 @@ static void check_motion(const mps_harmonic *motion, double t_end)
 {
     mps_sim *sim = open_tank(2, 0.56, 0.4, 0);
     const double lo[2] = {0.28, 0}, hi[2] = {0.28, 0.14}, a[2] = {0, 0}, b[2] = {0.56, 0.18};
-    OK(sim, mps_geometry_baffle(sim, "plate", lo, hi, NULL));
-    OK(sim, mps_geometry_fill_box(sim, 0, a, b, NULL, NULL));
-    OK(sim, mps_motion_set_centre(sim, lo, MPS_START_AT_REST));
-    OK(sim, mps_motion_set_harmonics(sim, 1, motion));
+    OK(sim, mps_baffle_add(sim, "plate", lo, hi, NULL));
+    OK(sim, mps_fill_box_add(sim, 0, a, b, NULL, NULL));
+    OK(sim, mps_motion_centre_set(sim, lo, MPS_START_AT_REST));
+    OK(sim, mps_motion_harmonics_set(sim, 1, motion));
     paths p = {.x = 0.28, .top = 0.14, .before = calloc(2 * (size_t)mps_particles_count(sim, -1), sizeof *p.before)};
     assert_non_null(p.before);
     OK(sim, mps_run(sim, t_end, follow, &p));

@@ -61,8 +61,8 @@ static void record_open(record *r, int32_t dim, double dp, const double *size, d
     OK(r->sim, mps_sim_create(&config, &r->sim));
     OK(r->sim, mps_tank_init(&tank, sizeof tank));
     for (int d = 0; d < 3; d++) tank.size[d] = size[d];
-    OK(r->sim, mps_geometry_tank(r->sim, &tank, NULL));
-    if (depth > 0) OK(r->sim, mps_geometry_fill_box(r->sim, 0, lo, hi, NULL, NULL));
+    OK(r->sim, mps_tank_add(r->sim, &tank, NULL));
+    if (depth > 0) OK(r->sim, mps_fill_box_add(r->sim, 0, lo, hi, NULL, NULL));
 }
 
 static void record_close(record *r)
@@ -260,8 +260,8 @@ static void surge(mps_sim *sim, int32_t start)
 {
     const mps_harmonic motion = {.dof = MPS_SURGE, .amplitude = 0.02, .omega = 6.469};
     const double centre[3] = {0, 0, 0};
-    OK(sim, mps_motion_set_centre(sim, centre, start));
-    OK(sim, mps_motion_set_harmonics(sim, 1, &motion));
+    OK(sim, mps_motion_centre_set(sim, centre, start));
+    OK(sim, mps_motion_harmonics_set(sim, 1, &motion));
 }
 
 /* Largest value of the first probe up to t_end, its time by a parabola through the largest row and its neighbours at +-span. */
@@ -350,8 +350,8 @@ static void rolling_tank(void **state)
     const mps_harmonic motion = {.dof = MPS_YAW, .amplitude = 0.1, .omega = 3};
     record r;
     record_open(&r, 2, dp, size, 0.2);
-    OK(r.sim, mps_motion_set_centre(r.sim, centre, MPS_START_AT_REST));
-    OK(r.sim, mps_motion_set_harmonics(r.sim, 1, &motion));
+    OK(r.sim, mps_motion_centre_set(r.sim, centre, MPS_START_AT_REST));
+    OK(r.sim, mps_motion_harmonics_set(r.sim, 1, &motion));
     record_probe(&r, MPS_PROBE_FORCE, 0.2, 0.2, 0);
     record_run(&r, 1);
     double fastest = 0, volume = 0;
@@ -375,7 +375,7 @@ static void full_tank(void **state)
     double errors = 0, squares = 0;
     int32_t id[2];
     record_open(&r, 2, 0.02, size, 0.3);
-    OK(r.sim, mps_motion_set_harmonics(r.sim, 1, &surge));
+    OK(r.sim, mps_motion_harmonics_set(r.sim, 1, &surge));
     for (int k = 0; k < 2; k++) {
         mps_probe p;
         mps_probe_init(&p, sizeof p);
@@ -407,7 +407,7 @@ static void paper_preset(void **state)
     int32_t id;
     mps_probe bottom;
     record_open(&r, 2, 0.02, size, 0.2);
-    OK(r.sim, mps_sim_use_preset(r.sim, "imps.paper"));
+    OK(r.sim, mps_preset_use(r.sim, "imps.paper"));
     mps_probe_init(&bottom, sizeof bottom);
     bottom.at[0] = 0.2;
     OK(r.sim, mps_probe_add(r.sim, &bottom, &id));

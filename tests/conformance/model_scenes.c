@@ -91,8 +91,8 @@ static mps_status fill(const kit_case *c, mps_sim *sim)
     mps_status status = mps_phase_init(&air, sizeof air);
     air.density = 1.29;
     air.viscosity = 1.8e-5;
-    if (status >= 0 && two_phases(c)) status = mps_sim_set_phase(sim, 1, &air);
-    if (status >= 0 && two_phases(c)) status = mps_sim_set_tension(sim, 0, 1, 0.0727);
+    if (status >= 0 && two_phases(c)) status = mps_phase_set(sim, 1, &air);
+    if (status >= 0 && two_phases(c)) status = mps_tension_set(sim, 0, 1, 0.0727);
     if (status >= 0) status = add_fluid(c, sim, 0, 1, middle);
     if (status >= 0 && two_phases(c)) status = add_fluid(c, sim, 1, middle, side);
     return status;
@@ -104,16 +104,16 @@ static mps_status build(const kit_case *c, mps_sim *sim)
     const double side = DP * (c->dim == 2 ? SIDE_2D : SIDE_3D);
     mps_solver_limits limits;
     mps_tank tank;
-    mps_status status = mps_sim_use_preset(sim, c->preset);
+    mps_status status = mps_preset_use(sim, c->preset);
     mps_tank_init(&tank, sizeof tank);
     for (int d = 0; d < c->dim; d++) tank.size[d] = side;
     mps_solver_limits_init(&limits, sizeof limits);
     limits.tolerance = 1e-10; /* results differ by rounding only */
-    if (status >= 0) status = mps_geometry_tank(sim, &tank, NULL);
+    if (status >= 0) status = mps_tank_add(sim, &tank, NULL);
     if (status >= 0) status = fill(c, sim);
-    if (status >= 0) status = mps_solver_set_limits(sim, &limits);
+    if (status >= 0) status = mps_solver_limits_set(sim, &limits);
     if (status >= 0 && c->nonlinear) status = mps_solver_use(sim, "sundials.kinsol", NULL);
-    if (status >= 0) status = mps_motion_set_harmonics(sim, 1, &surge);
+    if (status >= 0) status = mps_motion_harmonics_set(sim, 1, &surge);
     return status;
 }
 

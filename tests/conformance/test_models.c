@@ -30,7 +30,7 @@ static mps_status one_phase(void *user, mps_sim *sim)
     mps_phase air;
     (void)user;
     mps_phase_init(&air, sizeof air);
-    return mps_sim_get_phase(sim, 1, &air) == MPS_OK ? MPS_E_STATE : MPS_OK;
+    return mps_phase_get(sim, 1, &air) == MPS_OK ? MPS_E_STATE : MPS_OK;
 }
 
 static kit_prepare_fn prepare_of(const mps_model_ops *ops)

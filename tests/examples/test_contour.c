@@ -32,10 +32,10 @@ static mps_sim *box_with(int32_t dim, mps_inside_fn inside, disc d, int32_t phas
     mps_phase other;
     mps_sim *sim = new_sim(dim, dp);
     assert_int_equal(mps_phase_init(&other, sizeof other), MPS_OK);
-    ASSERT_OK(sim, mps_sim_set_phase(sim, 1, &other));
+    ASSERT_OK(sim, mps_phase_set(sim, 1, &other));
     add_tank(sim, size[0], size[1], size[2]);
-    ASSERT_OK(sim, mps_geometry_fill(sim, phase, inside, &d, NULL));
-    if (rest >= 0) ASSERT_OK(sim, mps_geometry_fill_box(sim, rest, lo, size, NULL, NULL));
+    ASSERT_OK(sim, mps_fill_add(sim, phase, inside, &d, NULL));
+    if (rest >= 0) ASSERT_OK(sim, mps_fill_box_add(sim, rest, lo, size, NULL, NULL));
     return sim;
 }
 

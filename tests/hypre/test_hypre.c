@@ -167,13 +167,13 @@ static mps_sim *make_tank(int32_t dim, bool air)
     mps_phase_init(&gas, sizeof gas);
     gas.density = 1.29;
     gas.viscosity = 1.8e-5;
-    if (air) assert_int_equal(mps_sim_use_preset(sim, "mmps"), MPS_OK);
-    if (air) assert_int_equal(mps_sim_set_phase(sim, 1, &gas), MPS_OK);
+    if (air) assert_int_equal(mps_preset_use(sim, "mmps"), MPS_OK);
+    if (air) assert_int_equal(mps_phase_set(sim, 1, &gas), MPS_OK);
     mps_tank_init(&tank, sizeof tank);
     memcpy(tank.size, rest, sizeof rest);
-    assert_int_equal(mps_geometry_tank(sim, &tank, NULL), MPS_OK);
-    assert_int_equal(mps_geometry_fill_box(sim, 0, lo, water, NULL, NULL), MPS_OK);
-    if (air) assert_int_equal(mps_geometry_fill_box(sim, 1, lo, rest, NULL, NULL), MPS_OK);
+    assert_int_equal(mps_tank_add(sim, &tank, NULL), MPS_OK);
+    assert_int_equal(mps_fill_box_add(sim, 0, lo, water, NULL, NULL), MPS_OK);
+    if (air) assert_int_equal(mps_fill_box_add(sim, 1, lo, rest, NULL, NULL), MPS_OK);
     return sim;
 }
 

@@ -18,8 +18,8 @@ static int fill(mps_sim *sim)
     mps_tank_init(&tank, sizeof tank);
     tank.size[0] = 0.4;
     tank.size[1] = 0.4;
-    if (report(sim, mps_geometry_tank(sim, &tank, NULL), "tank")) return 1;
-    return report(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL), "water");
+    if (report(sim, mps_tank_add(sim, &tank, NULL), "tank")) return 1;
+    return report(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, NULL), "water");
 }
 
 int main(void)

@@ -100,8 +100,8 @@ static mps_sim *tank(const char *solver, const char *preconditioner)
     assert_int_equal(mps_sim_create(&config, &sim), MPS_OK);
     assert_int_equal(mps_tank_init(&box, sizeof box), MPS_OK);
     box.size[0] = box.size[1] = 0.5;
-    assert_int_equal(mps_geometry_tank(sim, &box, NULL), MPS_OK);
-    assert_int_equal(mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL), MPS_OK);
+    assert_int_equal(mps_tank_add(sim, &box, NULL), MPS_OK);
+    assert_int_equal(mps_fill_box_add(sim, 0, lo, hi, NULL, NULL), MPS_OK);
     if (solver) assert_int_equal(mps_solver_use(sim, solver, preconditioner), MPS_OK);
     return sim;
 }

@@ -57,13 +57,13 @@ static mps_status add_tank(mps_sim *sim)
     assert_int_equal(mps_tank_init(&tank, sizeof tank), MPS_OK);
     tank.size[0] = tank.size[1] = 0.5;
     tank.open_top = 1;
-    return mps_geometry_tank(sim, &tank, NULL);
+    return mps_tank_add(sim, &tank, NULL);
 }
 
 static mps_status fill(mps_sim *sim)
 {
     const double lo[2] = {0, 0}, hi[2] = {0.5, 0.3};
-    return mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL);
+    return mps_fill_box_add(sim, 0, lo, hi, NULL, NULL);
 }
 
 static void nothing(mps_sim *sim)
@@ -135,7 +135,7 @@ static void with_plate(mps_sim *sim)
 {
     const double lo[2] = {0.25, 0}, hi[2] = {0.25, 0.2};
     tank_only(sim);
-    assert_int_equal(mps_geometry_baffle(sim, "plate", lo, hi, NULL), MPS_OK);
+    assert_int_equal(mps_baffle_add(sim, "plate", lo, hi, NULL), MPS_OK);
     assert_int_equal(fill(sim), MPS_OK);
 }
 
@@ -149,7 +149,7 @@ static void filled_for_gmres(mps_sim *sim)
 {
     filled(sim);
     assert_int_equal(mps_solver_use(sim, "sundials.gmres", "jacobi"), MPS_OK);
-    assert_int_equal(mps_sim_use_preset(sim, "imps.paper"), MPS_OK);
+    assert_int_equal(mps_preset_use(sim, "imps.paper"), MPS_OK);
 }
 
 static void filled_for_auxgrid(mps_sim *sim)
@@ -165,8 +165,8 @@ static void gas_for_kinsol(mps_sim *sim)
     const double lo[2] = {0, 0}, hi[2] = {0.5, 0.5};
     assert_int_equal(mps_tank_init(&tank, sizeof tank), MPS_OK);
     tank.size[0] = tank.size[1] = 0.5;
-    assert_int_equal(mps_geometry_tank(sim, &tank, NULL), MPS_OK);
-    assert_int_equal(mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL), MPS_OK);
+    assert_int_equal(mps_tank_add(sim, &tank, NULL), MPS_OK);
+    assert_int_equal(mps_fill_box_add(sim, 0, lo, hi, NULL, NULL), MPS_OK);
     assert_int_equal(mps_model_use(sim, "gas.isentropic"), MPS_OK);
     assert_int_equal(mps_model_set(sim, "gas", "phase", 0), MPS_OK);
     assert_int_equal(mps_solver_use(sim, "sundials.kinsol", NULL), MPS_OK);
@@ -205,13 +205,13 @@ static void grown(mps_sim *sim)
 static mps_status baffle(mps_sim *sim)
 {
     const double lo[2] = {0.25, 0.05}, hi[2] = {0.25, 0.2};
-    return mps_geometry_baffle(sim, "baffle", lo, hi, NULL);
+    return mps_baffle_add(sim, "baffle", lo, hi, NULL);
 }
 
 static mps_status plate(mps_sim *sim)
 {
     const double corner[2] = {0.2, 0.05}, edge[2] = {0.1, 0.15};
-    return mps_geometry_plate(sim, "plate", corner, edge, NULL);
+    return mps_plate_add(sim, "plate", corner, edge, NULL);
 }
 
 static int anywhere(void *user, const double *x)
@@ -220,7 +220,7 @@ static int anywhere(void *user, const double *x)
 }
 static mps_status fill_inside(mps_sim *sim)
 {
-    return mps_geometry_fill(sim, 0, anywhere, NULL, NULL);
+    return mps_fill_add(sim, 0, anywhere, NULL, NULL);
 }
 
 static double round_shell(void *user, const double *x)
@@ -240,7 +240,7 @@ static mps_status add_solid(mps_sim *sim, mps_distance_fn distance, mps_inside_f
     solid.distance = distance;
     solid.inside = inside;
     solid.hi[0] = solid.hi[1] = 0.6;
-    return mps_geometry_solid(sim, &solid);
+    return mps_solid_add(sim, &solid);
 }
 
 static mps_status solid(mps_sim *sim)
@@ -277,14 +277,14 @@ static mps_status field_add(mps_sim *sim)
 static mps_status harmonics(mps_sim *sim)
 {
     const mps_harmonic h = {.dof = MPS_SURGE, .amplitude = 0.01, .omega = 3};
-    return mps_motion_set_harmonics(sim, 1, &h);
+    return mps_motion_harmonics_set(sim, 1, &h);
 }
 
 static mps_status motion_table(mps_sim *sim)
 {
     const double t[4] = {0, 1, 2, 3}, x[4] = {0, 0.01, 0, -0.01};
     const int32_t dof = MPS_SURGE;
-    return mps_motion_set_table(sim, 4, t, 1, &dof, x);
+    return mps_motion_table_set(sim, 4, t, 1, &dof, x);
 }
 
 static mps_status probe(mps_sim *sim)
@@ -318,7 +318,7 @@ static mps_status solver(mps_sim *sim)
 }
 static mps_status preset(mps_sim *sim)
 {
-    return mps_sim_use_preset(sim, "imps.paper");
+    return mps_preset_use(sim, "imps.paper");
 }
 static mps_status step(mps_sim *sim)
 {
@@ -328,7 +328,7 @@ static mps_status step(mps_sim *sim)
 static mps_status stencil(mps_sim *sim)
 {
     mps_stencil s = {.struct_size = sizeof s};
-    return mps_sim_stencil(sim, MPS_FAR, &s);
+    return mps_stencil_get(sim, MPS_FAR, &s);
 }
 
 /* ---- the loop -------------------------------------------------------------------------------------------------------- */
@@ -494,10 +494,10 @@ static void neighbours(void **state)
         const bool failed = status != MPS_OK;
         if (failed) {
             assert_int_equal(status, MPS_E_NOMEM);
-            assert_int_equal(mps_neighbours_stencil(list, MPS_NEAR, &kernel, &s), MPS_E_ARG); /* empty */
+            assert_int_equal(mps_neighbours_stencil_get(list, MPS_NEAR, &kernel, &s), MPS_E_ARG); /* empty */
             assert_int_equal(mps_neighbours_build(list, 100, x, 2.1, 3.1), MPS_OK);
         }
-        assert_int_equal(mps_neighbours_stencil(list, MPS_NEAR, &kernel, &s), MPS_OK);
+        assert_int_equal(mps_neighbours_stencil_get(list, MPS_NEAR, &kernel, &s), MPS_OK);
         assert_int_equal(s.end[55] - s.begin[55], 12);
         mps_neighbours_destroy(list);
         assert_int_equal(m.live, 0);

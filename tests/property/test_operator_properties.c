@@ -20,7 +20,7 @@ static scene scene_make(cloud c, double re)
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
     assert_int_equal(mps_neighbours_create(c.dim, CLOUD_DP, NULL, &s.list), MPS_OK);
     assert_int_equal(mps_neighbours_build(s.list, c.n, c.x, re * CLOUD_DP, re * CLOUD_DP), MPS_OK);
-    assert_int_equal(mps_neighbours_stencil(s.list, MPS_NEAR, &kernel, &s.t), MPS_OK);
+    assert_int_equal(mps_neighbours_stencil_get(s.list, MPS_NEAR, &kernel, &s.t), MPS_OK);
     return s;
 }
 

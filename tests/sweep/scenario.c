@@ -159,8 +159,8 @@ static void draw_motion(scenario *s, uint64_t *state)
 static mps_status build_obstacle(const scenario *s, mps_sim *sim, const double *built)
 {
     const double edge2[3] = {0, 0, built[2]};
-    if (s->obstacle == OBSTACLE_BAFFLE) return mps_geometry_baffle(sim, "baffle", s->lo, s->hi, NULL);
-    if (s->obstacle == OBSTACLE_PLATE) return mps_geometry_plate(sim, "plate", s->lo, s->hi, s->dim == 3 ? edge2 : NULL);
+    if (s->obstacle == OBSTACLE_BAFFLE) return mps_baffle_add(sim, "baffle", s->lo, s->hi, NULL);
+    if (s->obstacle == OBSTACLE_PLATE) return mps_plate_add(sim, "plate", s->lo, s->hi, s->dim == 3 ? edge2 : NULL);
     return MPS_OK;
 }
 
@@ -170,7 +170,7 @@ static mps_status build_solids(const scenario *s, mps_sim *sim, double *built)
     mps_tank_init(&tank, sizeof tank);
     for (int d = 0; d < s->dim; d++) tank.size[d] = s->size[d];
     tank.open_top = s->open_top;
-    mps_status status = mps_geometry_tank(sim, &tank, built);
+    mps_status status = mps_tank_add(sim, &tank, built);
     return status ? status : build_obstacle(s, sim, built);
 }
 
@@ -195,12 +195,12 @@ mps_status scenario_build(const scenario *s, const char *model, mps_sim **sim, d
     config.dp = s->dp;
     for (int d = 0; d < 3; d++) config.gravity[d] = s->gravity[d];
     mps_status status = mps_sim_create(&config, sim);
-    if (!status) status = mps_sim_use_preset(*sim, model);
+    if (!status) status = mps_preset_use(*sim, model);
     if (!status) status = build_solids(s, *sim, built);
     const double hi[3] = {built[0], s->depth, built[2]};
-    if (!status) status = mps_geometry_fill_box(*sim, 0, lo, hi, NULL, NULL);
-    if (!status) status = mps_motion_set_centre(*sim, s->centre, s->start);
-    if (!status) status = mps_motion_set_harmonics(*sim, s->harmonics, s->harmonic);
+    if (!status) status = mps_fill_box_add(*sim, 0, lo, hi, NULL, NULL);
+    if (!status) status = mps_motion_centre_set(*sim, s->centre, s->start);
+    if (!status) status = mps_motion_harmonics_set(*sim, s->harmonics, s->harmonic);
     return status;
 }
 

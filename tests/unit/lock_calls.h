@@ -105,31 +105,31 @@ static void destroy(void *self)
 
 /* ---- set-up ---------------------------------------------------------------------------------- */
 
-CALL(mps_geometry_tank, STRUCT(mps_tank); a.size[0] = a.size[1] = 1;
-     return mps_geometry_tank(sim, &a, NULL);)
-CALL(mps_geometry_baffle, return mps_geometry_baffle(sim, "new", low, high, NULL);)
-CALL(mps_geometry_plate, return mps_geometry_plate(sim, "new", low, edge, NULL);)
-CALL(mps_geometry_fill_box, return mps_geometry_fill_box(sim, 0, low, high, NULL, NULL);)
-CALL(mps_geometry_fill_level, return mps_geometry_fill_level(sim, 0, low, high, NULL, NULL);)
-CALL(mps_geometry_fill, return mps_geometry_fill(sim, 0, all_inside, NULL, NULL);)
-CALL(mps_geometry_solid, STRUCT(mps_solid); a.hi[0] = a.hi[1] = 0.5; a.inside = all_inside;
-     return mps_geometry_solid(sim, &a);)
-CALL(mps_geometry_stl, STRUCT(mps_stl); return mps_geometry_stl(sim, given.path, &a, NULL);)
-CALL(mps_motion_set_centre, return mps_motion_set_centre(sim, high, MPS_START_WITH_TANK);)
-CALL(mps_motion_set_harmonics, const mps_harmonic h = {.amplitude = 0.1, .omega = 1};
-     return mps_motion_set_harmonics(sim, 1, &h);)
-CALL(mps_motion_set_table, const double t[] = {-1, 9}, v[] = {0, 1}; const int32_t dof = 0;
-     return mps_motion_set_table(sim, 2, t, 1, &dof, v);)
-CALL(mps_motion_set_callback, return mps_motion_set_callback(sim, no_motion, NULL);)
+CALL(mps_tank_add, STRUCT(mps_tank); a.size[0] = a.size[1] = 1;
+     return mps_tank_add(sim, &a, NULL);)
+CALL(mps_baffle_add, return mps_baffle_add(sim, "new", low, high, NULL);)
+CALL(mps_plate_add, return mps_plate_add(sim, "new", low, edge, NULL);)
+CALL(mps_fill_box_add, return mps_fill_box_add(sim, 0, low, high, NULL, NULL);)
+CALL(mps_fill_level_add, return mps_fill_level_add(sim, 0, low, high, NULL, NULL);)
+CALL(mps_fill_add, return mps_fill_add(sim, 0, all_inside, NULL, NULL);)
+CALL(mps_solid_add, STRUCT(mps_solid); a.hi[0] = a.hi[1] = 0.5; a.inside = all_inside;
+     return mps_solid_add(sim, &a);)
+CALL(mps_stl_add, STRUCT(mps_stl); return mps_stl_add(sim, given.path, &a, NULL);)
+CALL(mps_motion_centre_set, return mps_motion_centre_set(sim, high, MPS_START_WITH_TANK);)
+CALL(mps_motion_harmonics_set, const mps_harmonic h = {.amplitude = 0.1, .omega = 1};
+     return mps_motion_harmonics_set(sim, 1, &h);)
+CALL(mps_motion_table_set, const double t[] = {-1, 9}, v[] = {0, 1}; const int32_t dof = 0;
+     return mps_motion_table_set(sim, 2, t, 1, &dof, v);)
+CALL(mps_motion_callback_set, return mps_motion_callback_set(sim, no_motion, NULL);)
 CALL(mps_motion_clear, return mps_motion_clear(sim);)
-CALL(mps_sim_set_kernel, mps_kernel k; mps_kernel_custom(kernel, NULL, &k);
-     return mps_sim_set_kernel(sim, &k);)
-CALL(mps_sim_set_threads, return mps_sim_set_threads(sim, 2);)
-CALL(mps_sim_set_phase, STRUCT(mps_phase); a.density = 900; return mps_sim_set_phase(sim, 0, &a);)
-CALL(mps_sim_set_tension, return mps_sim_set_tension(sim, 0, 1, 0.07);)
-CALL(mps_sim_set_time_control, STRUCT(mps_time_control); a.dt = 1e-4;
-     return mps_sim_set_time_control(sim, &a);)
-CALL(mps_sim_use_preset, return mps_sim_use_preset(sim, "imps.paper");)
+CALL(mps_kernel_use, mps_kernel k; mps_kernel_custom(kernel, NULL, &k);
+     return mps_kernel_use(sim, &k);)
+CALL(mps_threads_set, return mps_threads_set(sim, 2);)
+CALL(mps_phase_set, STRUCT(mps_phase); a.density = 900; return mps_phase_set(sim, 0, &a);)
+CALL(mps_tension_set, return mps_tension_set(sim, 0, 1, 0.07);)
+CALL(mps_time_control_set, STRUCT(mps_time_control); a.dt = 1e-4;
+     return mps_time_control_set(sim, &a);)
+CALL(mps_preset_use, return mps_preset_use(sim, "imps.paper");)
 CALL(mps_model_use, return mps_model_use(sim, "wall.extrapolate");)
 CALL(mps_model_remove, return mps_model_remove(sim, "shift");)
 CALL(mps_model_set, return mps_model_set(sim, "collision", "distance", 0.7);)
@@ -142,8 +142,8 @@ CALL(mps_model_register, const mps_verb v = {.moment = MPS_FORCE, .run = no_verb
                                 .verbs = &v};
      return mps_model_register(sim, &ops);)
 CALL(mps_solver_use, return mps_solver_use(sim, "sundials.gmres", "none");)
-CALL(mps_solver_set_limits, STRUCT(mps_solver_limits); a.tolerance = 1e-2;
-     return mps_solver_set_limits(sim, &a);)
+CALL(mps_solver_limits_set, STRUCT(mps_solver_limits); a.tolerance = 1e-2;
+     return mps_solver_limits_set(sim, &a);)
 CALL(mps_solver_register, const mps_solver_ops ops = {.struct_size = sizeof ops,
                                                       .api = MPS_PPE_API,
                                                       .name = "new",
@@ -179,7 +179,7 @@ CALL(mps_checkpoint_read, return mps_checkpoint_read(sim, given.path);)
 
 /* ---- reading --------------------------------------------------------------------------------- */
 
-CALL(mps_sim_stencil, mps_stencil s; return mps_sim_stencil(sim, MPS_NEAR, &s);)
+CALL(mps_stencil_get, mps_stencil s; return mps_stencil_get(sim, MPS_NEAR, &s);)
 CALL(mps_checkpoint_write, return mps_checkpoint_write(sim, given.path);)
 CALL(mps_frames_open, mps_frames *f = NULL;
      const mps_status status = mps_frames_open(sim, given.folder, "lock", 0, &f);
@@ -215,8 +215,8 @@ CALL(mps_probe_size, return mps_probe_size(sim, 0) == 3 ? MPS_OK : MPS_E_BUSY;)
 CALL(mps_sim_error, return mps_sim_error(sim) ? MPS_OK : MPS_E_BUSY;)
 CALL(mps_sim_shape, double dp; return mps_sim_shape(sim, NULL, &dp);)
 CALL(mps_sim_time, double t; return mps_sim_time(sim, &t, NULL);)
-CALL(mps_sim_get_phase, STRUCT(mps_phase); return mps_sim_get_phase(sim, 0, &a);)
-CALL(mps_sim_get_tension, double s; return mps_sim_get_tension(sim, 0, 1, &s);)
+CALL(mps_phase_get, STRUCT(mps_phase); return mps_phase_get(sim, 0, &a);)
+CALL(mps_tension_get, double s; return mps_tension_get(sim, 0, 1, &s);)
 CALL(mps_model_get, double d; return mps_model_get(sim, "collision", "distance", &d);)
 CALL(mps_model_name, return mps_model_name(sim, 0) ? MPS_OK : MPS_E_BUSY;)
 CALL(mps_solver_name, const char *s; return mps_solver_name(sim, &s, NULL);)
@@ -236,31 +236,31 @@ CALL(mps_sim_destroy, mps_sim_destroy(sim); return MPS_OK;) /* does nothing */
     }
 
 static const lock_call lock_calls[] = {
-    CHANGES(mps_geometry_tank),
-    CHANGES(mps_geometry_baffle),
-    CHANGES(mps_geometry_plate),
-    CHANGES(mps_geometry_fill_box),
-    CHANGES(mps_geometry_fill_level),
-    CHANGES(mps_geometry_fill),
-    CHANGES(mps_geometry_solid),
-    CHANGES(mps_geometry_stl),
-    CHANGES(mps_motion_set_centre),
-    CHANGES(mps_motion_set_harmonics),
-    CHANGES(mps_motion_set_table),
-    CHANGES(mps_motion_set_callback),
+    CHANGES(mps_tank_add),
+    CHANGES(mps_baffle_add),
+    CHANGES(mps_plate_add),
+    CHANGES(mps_fill_box_add),
+    CHANGES(mps_fill_level_add),
+    CHANGES(mps_fill_add),
+    CHANGES(mps_solid_add),
+    CHANGES(mps_stl_add),
+    CHANGES(mps_motion_centre_set),
+    CHANGES(mps_motion_harmonics_set),
+    CHANGES(mps_motion_table_set),
+    CHANGES(mps_motion_callback_set),
     CHANGES(mps_motion_clear),
-    CHANGES(mps_sim_set_kernel),
-    CHANGES(mps_sim_set_threads),
-    CHANGES(mps_sim_set_phase),
-    CHANGES(mps_sim_set_tension),
-    CHANGES(mps_sim_set_time_control),
-    CHANGES(mps_sim_use_preset),
+    CHANGES(mps_kernel_use),
+    CHANGES(mps_threads_set),
+    CHANGES(mps_phase_set),
+    CHANGES(mps_tension_set),
+    CHANGES(mps_time_control_set),
+    CHANGES(mps_preset_use),
     CHANGES(mps_model_use),
     CHANGES(mps_model_remove),
     CHANGES(mps_model_set),
     CHANGES(mps_model_register),
     CHANGES(mps_solver_use),
-    CHANGES(mps_solver_set_limits),
+    CHANGES(mps_solver_limits_set),
     CHANGES(mps_solver_register),
     CHANGES(mps_preconditioner_register),
     CHANGES(mps_probe_add),
@@ -273,7 +273,7 @@ static const lock_call lock_calls[] = {
     CHANGES(mps_run),
     CHANGES(mps_checkpoint_read),
     READS(mps_lease_end),
-    READS(mps_sim_stencil),
+    READS(mps_stencil_get),
     READS(mps_checkpoint_write),
     READS(mps_frames_open),
     READS(mps_frames_write),
@@ -301,8 +301,8 @@ static const lock_call lock_calls[] = {
     PLAIN(mps_sim_error),
     PLAIN(mps_sim_shape),
     PLAIN(mps_sim_time),
-    PLAIN(mps_sim_get_phase),
-    PLAIN(mps_sim_get_tension),
+    PLAIN(mps_phase_get),
+    PLAIN(mps_tension_get),
     PLAIN(mps_model_get),
     PLAIN(mps_model_name),
     PLAIN(mps_solver_name),

@@ -37,7 +37,7 @@ static inline mps_sim *empty_sim(int32_t dim, double dp, const mps_allocator *al
     while (mps_model_name(sim, 0)) ASSERT_OK(sim, mps_model_remove(sim, mps_model_name(sim, 0)));
     assert_int_equal(mps_time_control_init(&control, sizeof control), MPS_OK);
     control.dt = 1e-3;
-    ASSERT_OK(sim, mps_sim_set_time_control(sim, &control));
+    ASSERT_OK(sim, mps_time_control_set(sim, &control));
     return sim;
 }
 

@@ -194,7 +194,7 @@ static inline mps_sim *bare_sim(int32_t dim, double dp, double re_far, double dt
     ASSERT_OK(sim, mps_model_use(sim, "after.spy"));
     assert_int_equal(mps_time_control_init(&control, sizeof control), MPS_OK);
     control.dt = dt;
-    ASSERT_OK(sim, mps_sim_set_time_control(sim, &control));
+    ASSERT_OK(sim, mps_time_control_set(sim, &control));
     return sim;
 }
 
@@ -204,7 +204,7 @@ static inline void set_phase(mps_sim *sim, int32_t index, double density, double
     assert_int_equal(mps_phase_init(&phase, sizeof phase), MPS_OK);
     phase.density = density;
     phase.viscosity = viscosity;
-    ASSERT_OK(sim, mps_sim_set_phase(sim, index, &phase));
+    ASSERT_OK(sim, mps_phase_set(sim, index, &phase));
 }
 
 /* `count` zeros; free() them. */

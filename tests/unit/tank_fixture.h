@@ -51,7 +51,7 @@ static inline void add_tank(mps_sim *sim, double sx, double sy, double sz)
     tank.size[0] = sx;
     tank.size[1] = sy;
     tank.size[2] = sz;
-    ASSERT_OK(sim, mps_geometry_tank(sim, &tank, NULL));
+    ASSERT_OK(sim, mps_tank_add(sim, &tank, NULL));
 }
 
 /* Fill from the lower corner of the tank up to `depth`; returns the particles added. */
@@ -59,7 +59,7 @@ static inline int64_t fill_depth(mps_sim *sim, double sx, double depth, double s
 {
     const double lo[3] = {0, 0, 0}, hi[3] = {sx, depth, sz};
     int64_t added = 0;
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, &added, NULL));
+    ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, hi, &added, NULL));
     return added;
 }
 

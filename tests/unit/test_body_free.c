@@ -59,7 +59,7 @@ static void is_left_behind(void **state)
     const mps_harmonic h = {.dof = MPS_SURGE, .amplitude = 0.05, .omega = 20};
     for (int k = 0; k < 2; k++) {
         mps_sim *sim = drop(2, 4, k ? "body" : NULL);
-        ASSERT_OK(sim, mps_motion_set_harmonics(sim, 1, &h));
+        ASSERT_OK(sim, mps_motion_harmonics_set(sim, 1, &h));
         ASSERT_OK(sim, mps_run(sim, 0.03, NULL, NULL));
         const double u = mean_velocity(sim, 0);
         print_message("%s body.free: %.3g m/s\n", k ? "without" : "with", u);
@@ -79,7 +79,7 @@ static void pools_are_held(void **state)
             const double lo[3] = {0}, hi[3] = {0.4, rows * 0.02, 0};
             mps_sim *sim = new_sim(2, 0.02);
             add_tank(sim, 0.4, 0.4, 0);
-            ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL));
+            ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, NULL));
             if (k) ASSERT_OK(sim, mps_model_remove(sim, "body"));
             ASSERT_OK(sim, mps_run(sim, 0.05, NULL, NULL));
             n = mps_particles_count(sim, -1);

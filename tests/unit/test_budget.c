@@ -105,11 +105,11 @@ static void force_models_are_no_walls(void **state)
                                .help = "accelerates the fluid",
                                .verb_count = 1,
                                .verbs = pull_verbs};
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL));
+    ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, NULL));
     ASSERT_OK(sim, mps_model_register(sim, &ops));
     ASSERT_OK(sim, mps_model_use(sim, "test.pull"));
-    ASSERT_OK(sim, mps_motion_set_callback(sim, steady, &speed));
-    ASSERT_OK(sim, mps_motion_set_centre(sim, centre, MPS_START_WITH_TANK));
+    ASSERT_OK(sim, mps_motion_callback_set(sim, steady, &speed));
+    ASSERT_OK(sim, mps_motion_centre_set(sim, centre, MPS_START_WITH_TANK));
     const mps_energy start = energy_of(sim);
     const mps_momentum before = momentum_of(sim);
     take_steps(sim, 20);
@@ -133,7 +133,7 @@ static void impulsive_start(void **state)
     (void)state;
     mps_sim *sim = filled(2, 0.3);
     const mps_harmonic surge = {.dof = MPS_SURGE, .amplitude = 0.02, .omega = 6};
-    ASSERT_OK(sim, mps_motion_set_harmonics(sim, 1, &surge));
+    ASSERT_OK(sim, mps_motion_harmonics_set(sim, 1, &surge));
     const mps_energy start = energy_of(sim);
     const mps_momentum before = momentum_of(sim);
     take_steps(sim, 1);
@@ -161,8 +161,8 @@ static void start_with_the_tank(void **state)
     mps_sim *sim = filled(2, 0.3);
     const mps_harmonic surge = {.dof = MPS_SURGE, .amplitude = 0.02, .omega = 6};
     const double centre[2] = {0, 0}, speed = 0.12;
-    ASSERT_OK(sim, mps_motion_set_centre(sim, centre, MPS_START_WITH_TANK));
-    ASSERT_OK(sim, mps_motion_set_harmonics(sim, 1, &surge));
+    ASSERT_OK(sim, mps_motion_centre_set(sim, centre, MPS_START_WITH_TANK));
+    ASSERT_OK(sim, mps_motion_harmonics_set(sim, 1, &surge));
     const mps_energy start = energy_of(sim);
     const mps_momentum before = momentum_of(sim);
     ASSERT_NEAR(before.total[0], 0, 0);
@@ -188,8 +188,8 @@ static void work_of_a_turn(void **state)
     mps__world *w = &sim->world;
     const double centre[2] = {0.1, 0.05}, dt = STEP_MS * 1e-3;
     const mps_harmonic yaw = {.dof = MPS_YAW, .amplitude = 0.3, .omega = 2};
-    ASSERT_OK(sim, mps_motion_set_centre(sim, centre, MPS_START_AT_REST));
-    ASSERT_OK(sim, mps_motion_set_harmonics(sim, 1, &yaw));
+    ASSERT_OK(sim, mps_motion_centre_set(sim, centre, MPS_START_AT_REST));
+    ASSERT_OK(sim, mps_motion_harmonics_set(sim, 1, &yaw));
     mps__pose end;
     double *a = calloc((size_t)(2 * w->particles.n), sizeof *a), inertia = 0;
     assert_non_null(a);
@@ -224,7 +224,7 @@ static mps_sim *sloshing(mps_energy *start, mps_momentum *before)
 {
     mps_sim *sim = filled(2, 0.1);
     const mps_harmonic surge = {.dof = MPS_SURGE, .amplitude = 0.02, .omega = 10};
-    ASSERT_OK(sim, mps_motion_set_harmonics(sim, 1, &surge));
+    ASSERT_OK(sim, mps_motion_harmonics_set(sim, 1, &surge));
     *start = energy_of(sim);
     *before = momentum_of(sim);
     take_steps(sim, 30);
@@ -280,19 +280,19 @@ static void added_between_steps(void **state)
     block.velocity = u;
     BETWEEN(ASSERT_OK(sim, mps_particles_add(sim, &block, NULL)););
     const double lo[2] = {0.05, 0.2}, hi[2] = {0.1, 0.25};
-    BETWEEN(ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL)););
+    BETWEEN(ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, NULL)););
     BETWEEN(remove_fluid(sim, 40););
     mps_phase oil;
     assert_int_equal(mps_phase_init(&oil, sizeof oil), MPS_OK);
     oil.density = 800;
-    BETWEEN(ASSERT_OK(sim, mps_sim_set_phase(sim, 0, &oil)););
+    BETWEEN(ASSERT_OK(sim, mps_phase_set(sim, 0, &oil)););
     mps_lease lease = {.struct_size = sizeof lease};
     BETWEEN(ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &lease));
             lease.data[0] += 0.5; lease.data[1] -= 1;
             for (int64_t i = 2; i < lease.count; i++) lease.data[2 * i] *= 0.9;
             ASSERT_OK(sim, mps_lease_end(sim, &lease)););
     const mps_harmonic elsewhere = {.dof = MPS_HEAVE, .form = 1, .amplitude = 0.05, .omega = 10};
-    BETWEEN(ASSERT_OK(sim, mps_motion_set_harmonics(sim, 1, &elsewhere)););
+    BETWEEN(ASSERT_OK(sim, mps_motion_harmonics_set(sim, 1, &elsewhere)););
     mps_sim_destroy(sim);
 }
 
@@ -335,7 +335,7 @@ static void stopped_by_a_plate(void **state)
     block.count = 1;
     block.position = x;
     block.velocity = u;
-    ASSERT_OK(sim, mps_geometry_plate(sim, "plate", corner, edge, NULL));
+    ASSERT_OK(sim, mps_plate_add(sim, "plate", corner, edge, NULL));
     ASSERT_OK(sim, mps_model_remove(sim, "collision"));
     ASSERT_OK(sim, mps_particles_add(sim, &block, NULL));
     const mps_energy start = energy_of(sim);

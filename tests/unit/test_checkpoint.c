@@ -38,7 +38,7 @@ static void shake(mps_sim *sim, double amplitude)
 {
     const mps_harmonic motion[2] = {{.dof = MPS_SURGE, .amplitude = amplitude, .omega = 12},
                                     {.dof = MPS_YAW, .amplitude = 0.2, .omega = 9}};
-    ASSERT_OK(sim, mps_motion_set_harmonics(sim, 2, motion));
+    ASSERT_OK(sim, mps_motion_harmonics_set(sim, 2, motion));
 }
 
 static void add_probes(mps_sim *sim)
@@ -81,11 +81,11 @@ static mps_sim *with_air(void)
     assert_int_equal(mps_phase_init(&air, sizeof air), MPS_OK);
     air.density = 1.2;
     air.viscosity = 1.8e-5;
-    ASSERT_OK(sim, mps_sim_use_preset(sim, "mmps"));
-    ASSERT_OK(sim, mps_sim_set_phase(sim, 1, &air));
+    ASSERT_OK(sim, mps_preset_use(sim, "mmps"));
+    ASSERT_OK(sim, mps_phase_set(sim, 1, &air));
     add_tank(sim, 0.6, 0.6, 0);
     fill_depth(sim, 0.6, 0.3, 0);
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 1, lo, hi, NULL, NULL));
+    ASSERT_OK(sim, mps_fill_box_add(sim, 1, lo, hi, NULL, NULL));
     add_probes(sim);
     shake(sim, 0.05);
     return sim;
@@ -106,7 +106,7 @@ static mps_sim *plate(void)
     mps_sim *sim = new_sim(2, 0.04);
     mps_particle_block block;
     add_tank(sim, 1, 0.6, 0);
-    ASSERT_OK(sim, mps_geometry_plate(sim, "plate", foot, edge, NULL));
+    ASSERT_OK(sim, mps_plate_add(sim, "plate", foot, edge, NULL));
     fill_depth(sim, 0.4, 0.4, 0);
     assert_int_equal(mps_particle_block_init(&block, sizeof block), MPS_OK);
     block.count = 2;
@@ -120,7 +120,7 @@ static mps_sim *dam_3d(void)
     mps_sim *sim = new_sim(3, 0.1);
     add_tank(sim, 1, 0.6, 0.4);
     fill_depth(sim, 0.5, 0.4, 0.4);
-    ASSERT_OK(sim, mps_sim_set_threads(sim, 2));
+    ASSERT_OK(sim, mps_threads_set(sim, 2));
     return sim;
 }
 
@@ -132,9 +132,9 @@ static mps_sim *gate(void)
     mps_probe probe;
     int32_t id;
     add_tank(sim, 1, 0.6, 0);
-    ASSERT_OK(sim, mps_geometry_plate(sim, "gate", foot, edge, NULL));
+    ASSERT_OK(sim, mps_plate_add(sim, "gate", foot, edge, NULL));
     fill_depth(sim, 0.4, 0.36, 0);
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL));
+    ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, NULL));
     assert_int_equal(mps_probe_init(&probe, sizeof probe), MPS_OK);
     probe.type = MPS_PROBE_FLUID_PRESSURE;
     probe.at[0] = 0.38;
@@ -349,7 +349,7 @@ static void came_to_rest(void **state)
     block.count = 3;
     block.position = drops;
     block.velocity = speeds;
-    for (int k = 0; k < 2; k++) ASSERT_OK(sim[k], mps_motion_set_centre(sim[k], centre, MPS_START_WITH_TANK));
+    for (int k = 0; k < 2; k++) ASSERT_OK(sim[k], mps_motion_centre_set(sim[k], centre, MPS_START_WITH_TANK));
     ASSERT_OK(sim[0], mps_step(sim[0], 1e-5, NULL));
     for (int part = 0; part < 2; part++) {
         ASSERT_OK(sim[0], mps_checkpoint_write(sim[0], path_of(path, "rest")));
@@ -364,7 +364,7 @@ static void came_to_rest(void **state)
             go(sim[0], 1);
             mps_sim_destroy(sim[1]);
             sim[1] = shaken();
-            ASSERT_OK(sim[1], mps_motion_set_centre(sim[1], centre, MPS_START_WITH_TANK));
+            ASSERT_OK(sim[1], mps_motion_centre_set(sim[1], centre, MPS_START_WITH_TANK));
             ASSERT_OK(sim[1], mps_motion_clear(sim[1]));
         }
     }
@@ -417,7 +417,7 @@ typedef struct difference {
 static void thicker(mps_sim *sim)
 {
     const mps_phase p = {.struct_size = sizeof p, .density = 1001, .viscosity = 1e-3};
-    ASSERT_OK(sim, mps_sim_set_phase(sim, 0, &p));
+    ASSERT_OK(sim, mps_phase_set(sim, 0, &p));
 }
 static void other_setting(mps_sim *sim)
 {
@@ -437,7 +437,7 @@ static void one_more_probe(mps_sim *sim)
 }
 static void moved_otherwise(mps_sim *sim)
 {
-    ASSERT_OK(sim, mps_motion_set_callback(sim, other_motion, NULL));
+    ASSERT_OK(sim, mps_motion_callback_set(sim, other_motion, NULL));
 }
 static void not_moved(mps_sim *sim)
 {

@@ -110,7 +110,7 @@ static void stencil_is_complete(void **state)
     step_with(sim, "look.plain");
     for (int which = 0; which < 2; which++) {
         mps_stencil t = {.struct_size = sizeof t};
-        ASSERT_OK(sim, mps_sim_stencil(sim, which, &t));
+        ASSERT_OK(sim, mps_stencil_get(sim, which, &t));
         ASSERT_OK(sim, mps_particles_tags(sim, NULL, &kinds, NULL, NULL));
         for (int64_t i = 0; i < t.n; i++) assert_true(kinds[i] != MPS_DUMMY || t.end[i] - t.begin[i] >= 3);
     }

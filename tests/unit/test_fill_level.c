@@ -34,17 +34,17 @@ static void rounding_is_told(void **state)
         const double lo[3] = {0, 0, 0}, hi[3] = {0.4, 0.093, 0.1}, from[3] = {0.1987, 0, 0}, to[3] = {0.2413, 0.0874, 0.1};
         double built[6];
         mps_sim *sim = logging(dim, 0.01);
-        ASSERT_OK(sim, mps_geometry_baffle(sim, "wall", from, to, built));
+        ASSERT_OK(sim, mps_baffle_add(sim, "wall", from, to, built));
         if (!strstr(told, "baffle \"wall\": 0 .. 0.0874 m in y became 0 .. 0.08 m")) fail_msg("\"%s\"", told);
         const double wanted[2][6] = {{0.2, 0, 0.24, 0.08}, {0.2, 0, 0, 0.24, 0.08, 0.1}};
         for (int d = 0; d < 2 * dim; d++) ASSERT_NEAR(built[d], wanted[dim - 2][d], 1e-12);
-        ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, built));
+        ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, built));
         if (!strstr(told, "fill: 0 .. 0.093 m in y became 0 .. 0.09 m")) fail_msg("\"%s\"", told);
         ASSERT_NEAR(built[dim + 1], 0.09, 1e-12);
         mps_sim_destroy(sim);
         sim = logging(dim, 0.01);
         const double even[3] = {0.4, 0.09, 0.1};
-        ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, even, NULL, built));
+        ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, even, NULL, built));
         assert_int_equal(told[0], 0);
         mps_sim_destroy(sim);
     }
@@ -61,11 +61,11 @@ static void share_of_a_row(void **state)
             double built[6];
             int64_t added, rest;
             mps_sim *sim = logging(dim, dp);
-            ASSERT_OK(sim, mps_geometry_fill_level(sim, 0, lo, hi, &added, built));
+            ASSERT_OK(sim, mps_fill_level_add(sim, 0, lo, hi, &added, built));
             ASSERT_NEAR((double)added, (18 + share) * row, 3 + 0.02 * row);
             ASSERT_NEAR(built[dim + 1], (double)added / row * dp, 1e-12);
             const double up[3] = {0.4, 19 * dp, 0.1};
-            ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, up, &rest, NULL));
+            ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, up, &rest, NULL));
             assert_int_equal(added + rest, (int64_t)(19 * row));
             mps_sim_destroy(sim);
         }
@@ -86,10 +86,10 @@ static void whole_rows(void **state)
         int64_t added;
         mps_sim *sim = logging(2, 0.01);
         if (list[k].rows == 0) { /* the points of the row are the tank's lid */
-            ASSERT_OK(sim, mps_geometry_fill_level(sim, 0, lo, hi, &added, built));
+            ASSERT_OK(sim, mps_fill_level_add(sim, 0, lo, hi, &added, built));
             assert_int_equal(added, 39 * 29);
         } else {
-            ASSERT_OK(sim, mps_geometry_fill_level(sim, 0, lo, hi, &added, built));
+            ASSERT_OK(sim, mps_fill_level_add(sim, 0, lo, hi, &added, built));
             assert_int_equal(added, 39 * list[k].rows);
             ASSERT_NEAR(built[3], list[k].built, 1e-12);
         }
@@ -102,13 +102,13 @@ static void refusals(void **state)
     (void)state;
     mps_sim *sim = new_sim(2, 0.01);
     const double lo[2] = {0, 0}, hi[2] = {0.4, 0.093}, nan[2] = {0.4, NAN}, below[2] = {0.4, -0.1};
-    ASSERT_REFUSED(sim, mps_geometry_fill_level(sim, 0, lo, hi, NULL, NULL), MPS_E_STATE, "no lattice");
+    ASSERT_REFUSED(sim, mps_fill_level_add(sim, 0, lo, hi, NULL, NULL), MPS_E_STATE, "no lattice");
     add_tank(sim, 0.4, 0.3, 0);
-    ASSERT_REFUSED(sim, mps_geometry_fill_level(sim, 0, lo, nan, NULL, NULL), MPS_E_ARG, "finite");
-    ASSERT_REFUSED(sim, mps_geometry_fill_level(sim, 0, lo, below, NULL, NULL), MPS_E_ARG, "inverted");
-    ASSERT_REFUSED(sim, mps_geometry_fill_level(sim, 0, NULL, hi, NULL, NULL), MPS_E_ARG, "NULL");
-    ASSERT_REFUSED(sim, mps_geometry_fill_level(sim, 1, lo, hi, NULL, NULL), MPS_E_ARG, "phase 1 is not defined");
-    assert_int_equal(mps_geometry_fill_level(NULL, 0, lo, hi, NULL, NULL), MPS_E_ARG);
+    ASSERT_REFUSED(sim, mps_fill_level_add(sim, 0, lo, nan, NULL, NULL), MPS_E_ARG, "finite");
+    ASSERT_REFUSED(sim, mps_fill_level_add(sim, 0, lo, below, NULL, NULL), MPS_E_ARG, "inverted");
+    ASSERT_REFUSED(sim, mps_fill_level_add(sim, 0, NULL, hi, NULL, NULL), MPS_E_ARG, "NULL");
+    ASSERT_REFUSED(sim, mps_fill_level_add(sim, 1, lo, hi, NULL, NULL), MPS_E_ARG, "phase 1 is not defined");
+    assert_int_equal(mps_fill_level_add(NULL, 0, lo, hi, NULL, NULL), MPS_E_ARG);
     assert_int_equal(mps_particles_count(sim, MPS_FLUID), 0);
     mps_sim_destroy(sim);
 }
@@ -146,7 +146,7 @@ static void level_at_rest(void **state)
         means m = {.time = 0};
         mps_sim *sim = new_sim(2, spacing[s]);
         add_tank(sim, 0.6, 0.2, 0);
-        ASSERT_OK(sim, mps_geometry_fill_level(sim, 0, lo, hi, NULL, NULL));
+        ASSERT_OK(sim, mps_fill_level_add(sim, 0, lo, hi, NULL, NULL));
         for (int k = 0; k < PROBES; k++) {
             mps_probe p;
             assert_int_equal(mps_probe_init(&p, sizeof p), MPS_OK);

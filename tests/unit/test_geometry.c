@@ -43,7 +43,7 @@ static void rounding(void **state)
         mps_tank_init(&tank, sizeof tank);
         tank.size[0] = list[k].size;
         tank.size[1] = 10 * list[k].dp;
-        ASSERT_OK(sim, mps_geometry_tank(sim, &tank, built));
+        ASSERT_OK(sim, mps_tank_add(sim, &tank, built));
         ASSERT_NEAR(built[0], (double)list[k].cells * list[k].dp, 1e-12);
         assert_int_equal(mps_particles_count(sim, MPS_WALL), 2 * (list[k].cells + 10));
         /* up to the whole size of the tank: walls are taken, everything else is filled */
@@ -60,10 +60,10 @@ static void fill_includes_its_ends(void **state)
     add_tank(sim, 0.57, 0.3, 0);
     const double lo[2] = {0.1, 0.1}, hi[2] = {0.1 + 7 * 0.002, 0.1 + 3 * 0.002};
     int64_t added = 0;
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, &added, NULL));
+    ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, hi, &added, NULL));
     assert_int_equal(added, 8 * 4);
     /* twice the same: nothing is free */
-    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, lo, hi, &added, NULL), MPS_E_ARG, "32 are taken");
+    ASSERT_REFUSED(sim, mps_fill_box_add(sim, 0, lo, hi, &added, NULL), MPS_E_ARG, "32 are taken");
     mps_sim_destroy(sim);
 }
 
@@ -87,7 +87,7 @@ static void areas_2d(void **state)
         tank.size[0] = 0.4;
         tank.size[1] = 0.3;
         tank.open_top = open;
-        ASSERT_OK(sim, mps_geometry_tank(sim, &tank, NULL));
+        ASSERT_OK(sim, mps_tank_add(sim, &tank, NULL));
         ASSERT_NEAR(face_sum(sim, 0, 1), 0.3, 1e-14);
         ASSERT_NEAR(face_sum(sim, 0, -1), 0.3, 1e-14);
         ASSERT_NEAR(face_sum(sim, 1, 1), 0.4, 1e-14);
@@ -120,7 +120,7 @@ static void open_top(void **state)
     tank.size[0] = 1;
     tank.size[1] = 0.5;
     tank.open_top = 1;
-    ASSERT_OK(sim, mps_geometry_tank(sim, &tank, NULL));
+    ASSERT_OK(sim, mps_tank_add(sim, &tank, NULL));
     const mps__particles *s = &sim->world.particles;
     double top = 0;
     for (int64_t i = 0; i < s->n; i++) top = fmax(top, s->x[2 * i + 1]);
@@ -153,7 +153,7 @@ static void baffle_on_floor(void **state)
     add_tank(sim, 0.57, 0.5, 0);
     const int64_t tank = mps_particles_count(sim, -1);
     const double lo[2] = {0.282, 0}, hi[2] = {0.288, 0.15};
-    ASSERT_OK(sim, mps_geometry_baffle(sim, "baffle", lo, hi, NULL));
+    ASSERT_OK(sim, mps_baffle_add(sim, "baffle", lo, hi, NULL));
     assert_int_equal(mps_particles_count(sim, -1) - tank, 4 * 75);
     const mps__particles *s = &sim->world.particles;
     const int32_t part = mps_part_find(sim, "baffle");
@@ -180,7 +180,7 @@ static void baffle_free_standing_3d(void **state)
     add_tank(sim, 1, 0.6, 0.4);
     const int64_t tank = mps_particles_count(sim, -1);
     const double lo[3] = {0.4, 0.1, 0.1}, hi[3] = {0.55, 0.3, 0.3};
-    ASSERT_OK(sim, mps_geometry_baffle(sim, "box", lo, hi, NULL));
+    ASSERT_OK(sim, mps_baffle_add(sim, "box", lo, hi, NULL));
     assert_int_equal(mps_particles_count(sim, -1) - tank, 4 * 5 * 5);
     assert_int_equal(mps_particles_count(sim, MPS_DUMMY), 2 * 3 * 3 + 25 * 17 * 13 - 21 * 13 * 9);
     const mps__particles *s = &sim->world.particles;
@@ -203,7 +203,7 @@ static void thin_baffle(void **state)
     add_tank(sim, 0.4, 0.3, 0);
     const int64_t walls = mps_particles_count(sim, MPS_WALL);
     const double lo[2] = {0.197, 0}, hi[2] = {0.203, 0.1};
-    ASSERT_OK(sim, mps_geometry_baffle(sim, "plate", lo, hi, NULL));
+    ASSERT_OK(sim, mps_baffle_add(sim, "plate", lo, hi, NULL));
     assert_int_equal(mps_particles_count(sim, MPS_WALL) - walls, 1 + 2 * 9 + 1);
     const mps__particles *s = &sim->world.particles;
     double sum[2] = {0, 0}, size = 0;
@@ -230,7 +230,7 @@ static void fill_by_callback(void **state)
     mps_sim *sim = new_sim(2, 0.05);
     add_tank(sim, 1, 1, 0);
     int64_t calls = 0, added = 0, wanted = 0, ignored = 0;
-    ASSERT_OK(sim, mps_geometry_fill(sim, 0, under_wave, &calls, &added));
+    ASSERT_OK(sim, mps_fill_add(sim, 0, under_wave, &calls, &added));
     for (int i = 1; i < 20; i++)
         for (int j = 1; j < 20; j++) {
             const double x[2] = {0.05 * i, 0.05 * j};
@@ -271,8 +271,8 @@ static void moved_tank(void **state)
     mps_sim *sim = new_sim(2, 0.1);
     const double centre[2] = {0.5, 0};
     const mps_harmonic h[2] = {{MPS_SURGE, 0, 0.3, 1, 1.0}, {MPS_YAW, 0, 0.2, 2, 0.5}};
-    ASSERT_OK(sim, mps_motion_set_centre(sim, centre, MPS_START_AT_REST));
-    ASSERT_OK(sim, mps_motion_set_harmonics(sim, 2, h));
+    ASSERT_OK(sim, mps_motion_centre_set(sim, centre, MPS_START_AT_REST));
+    ASSERT_OK(sim, mps_motion_harmonics_set(sim, 2, h));
     add_tank(sim, 1, 1, 0);
     assert_int_equal(fill_depth(sim, 1, 0.5, 0), 9 * 5);
     const mps__particles *s = &sim->world.particles;
@@ -300,12 +300,12 @@ static void tank_refusals(void **state)
     mps_tank tank, bad;
     mps_tank_init(&tank, sizeof tank);
     tank.size[0] = tank.size[1] = 1;
-    assert_int_equal(mps_geometry_tank(NULL, &tank, NULL), MPS_E_ARG);
-    ASSERT_REFUSED(sim, mps_geometry_tank(sim, NULL, NULL), MPS_E_ARG, "NULL");
+    assert_int_equal(mps_tank_add(NULL, &tank, NULL), MPS_E_ARG);
+    ASSERT_REFUSED(sim, mps_tank_add(sim, NULL, NULL), MPS_E_ARG, "NULL");
 #define REFUSE(change, word)                                                  \
     bad = tank;                                                               \
     change;                                                                   \
-    ASSERT_REFUSED(sim, mps_geometry_tank(sim, &bad, NULL), MPS_E_ARG, word); \
+    ASSERT_REFUSED(sim, mps_tank_add(sim, &bad, NULL), MPS_E_ARG, word); \
     assert_int_equal(mps_particles_count(sim, -1), 0)
     REFUSE(bad.size[1] = 0.2, "size[1] is 0.2");
     REFUSE(bad.size[1] = 0.29, "size[1] is 0.29"); /* not rounded up */
@@ -325,15 +325,15 @@ static void tank_refusals(void **state)
 #undef REFUSE
     /* dummy_layers 0 is the default */
     tank.dummy_layers = 0;
-    ASSERT_OK(sim, mps_geometry_tank(sim, &tank, NULL));
+    ASSERT_OK(sim, mps_tank_add(sim, &tank, NULL));
     assert_int_equal(mps_particles_count(sim, -1), 15 * 15 - 9 * 9);
-    ASSERT_REFUSED(sim, mps_geometry_tank(sim, &tank, NULL), MPS_E_ARG, "particles that are there already");
+    ASSERT_REFUSED(sim, mps_tank_add(sim, &tank, NULL), MPS_E_ARG, "particles that are there already");
     /* a failed tank leaves no part names behind */
     tank.name = "second";
-    ASSERT_REFUSED(sim, mps_geometry_tank(sim, &tank, NULL), MPS_E_ARG, "second");
+    ASSERT_REFUSED(sim, mps_tank_add(sim, &tank, NULL), MPS_E_ARG, "second");
     assert_int_equal(mps_part_find(sim, "second.x0"), -1);
     tank.lo[0] = 2;
-    ASSERT_OK(sim, mps_geometry_tank(sim, &tank, NULL));
+    ASSERT_OK(sim, mps_tank_add(sim, &tank, NULL));
     assert_true(mps_part_find(sim, "second.x0") >= 0);
     mps_sim_destroy(sim);
 }
@@ -351,29 +351,29 @@ static void fill_refusals(void **state)
     mps_sim *sim = new_sim(2, 0.1);
     const double lo[2] = {0, 0}, hi[2] = {1, 1}, nan[2] = {0, NAN}, far[2] = {5, 5}, farther[2] = {6, 6}, between[2] = {0.42, 0.42},
                  below[2] = {0.48, 0.48};
-    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL), MPS_E_STATE, "mps_geometry_tank");
-    ASSERT_REFUSED(sim, mps_geometry_fill(sim, 0, everywhere, NULL, NULL), MPS_E_STATE, "mps_geometry_tank");
-    ASSERT_REFUSED(sim, mps_geometry_baffle(sim, "b", lo, hi, NULL), MPS_E_STATE, "mps_geometry_tank");
+    ASSERT_REFUSED(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, NULL), MPS_E_STATE, "mps_tank_add");
+    ASSERT_REFUSED(sim, mps_fill_add(sim, 0, everywhere, NULL, NULL), MPS_E_STATE, "mps_tank_add");
+    ASSERT_REFUSED(sim, mps_baffle_add(sim, "b", lo, hi, NULL), MPS_E_STATE, "mps_tank_add");
     add_tank(sim, 1, 1, 0);
     const int64_t before = mps_particles_count(sim, -1);
-    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 1, lo, hi, NULL, NULL), MPS_E_ARG, "phase 1 is not defined");
-    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 16, lo, hi, NULL, NULL), MPS_E_ARG, "0..15");
-    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, -1, lo, hi, NULL, NULL), MPS_E_ARG, "phase -1");
-    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, lo, nan, NULL, NULL), MPS_E_ARG, "finite");
-    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, hi, lo, NULL, NULL), MPS_E_ARG, "inverted");
-    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, NULL, hi, NULL, NULL), MPS_E_ARG, "NULL");
-    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, far, farther, NULL, NULL), MPS_E_ARG, "no lattice point");
-    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, between, below, NULL, NULL), MPS_E_ARG, "no lattice point");
-    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, lo, lo, NULL, NULL), MPS_E_ARG, "nothing to fill");
-    ASSERT_REFUSED(sim, mps_geometry_fill(sim, 0, NULL, NULL, NULL), MPS_E_ARG, "inside is NULL");
-    ASSERT_REFUSED(sim, mps_geometry_baffle(sim, "", between, hi, NULL), MPS_E_ARG, "name");
-    ASSERT_REFUSED(sim, mps_geometry_baffle(sim, "b", between, below, NULL), MPS_E_ARG, "no lattice point");
-    ASSERT_REFUSED(sim, mps_geometry_baffle(sim, "b", lo, lo, NULL), MPS_E_ARG, "taken");
+    ASSERT_REFUSED(sim, mps_fill_box_add(sim, 1, lo, hi, NULL, NULL), MPS_E_ARG, "phase 1 is not defined");
+    ASSERT_REFUSED(sim, mps_fill_box_add(sim, 16, lo, hi, NULL, NULL), MPS_E_ARG, "0..15");
+    ASSERT_REFUSED(sim, mps_fill_box_add(sim, -1, lo, hi, NULL, NULL), MPS_E_ARG, "phase -1");
+    ASSERT_REFUSED(sim, mps_fill_box_add(sim, 0, lo, nan, NULL, NULL), MPS_E_ARG, "finite");
+    ASSERT_REFUSED(sim, mps_fill_box_add(sim, 0, hi, lo, NULL, NULL), MPS_E_ARG, "inverted");
+    ASSERT_REFUSED(sim, mps_fill_box_add(sim, 0, NULL, hi, NULL, NULL), MPS_E_ARG, "NULL");
+    ASSERT_REFUSED(sim, mps_fill_box_add(sim, 0, far, farther, NULL, NULL), MPS_E_ARG, "no lattice point");
+    ASSERT_REFUSED(sim, mps_fill_box_add(sim, 0, between, below, NULL, NULL), MPS_E_ARG, "no lattice point");
+    ASSERT_REFUSED(sim, mps_fill_box_add(sim, 0, lo, lo, NULL, NULL), MPS_E_ARG, "nothing to fill");
+    ASSERT_REFUSED(sim, mps_fill_add(sim, 0, NULL, NULL, NULL), MPS_E_ARG, "inside is NULL");
+    ASSERT_REFUSED(sim, mps_baffle_add(sim, "", between, hi, NULL), MPS_E_ARG, "name");
+    ASSERT_REFUSED(sim, mps_baffle_add(sim, "b", between, below, NULL), MPS_E_ARG, "no lattice point");
+    ASSERT_REFUSED(sim, mps_baffle_add(sim, "b", lo, lo, NULL), MPS_E_ARG, "taken");
     assert_int_equal(mps_part_find(sim, "b"), -1);
     mps_lease lease = {.struct_size = sizeof lease};
     ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &lease));
-    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL), MPS_E_BUSY, "leases");
-    ASSERT_STATUS(sim, mps_geometry_baffle(sim, "b", lo, hi, NULL), MPS_E_BUSY);
+    ASSERT_REFUSED(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, NULL), MPS_E_BUSY, "leases");
+    ASSERT_STATUS(sim, mps_baffle_add(sim, "b", lo, hi, NULL), MPS_E_BUSY);
     ASSERT_OK(sim, mps_lease_end(sim, &lease));
     assert_int_equal(mps_particles_count(sim, -1), before);
     mps_sim_destroy(sim);
@@ -392,9 +392,9 @@ static void fluid_in_the_way(void **state)
         fill_depth(sim, 1, 0.5, 0);
         if (late) ASSERT_OK(sim, mps_step(sim, 1, NULL));
         const int64_t before = mps_particles_count(sim, -1);
-        ASSERT_REFUSED(sim, mps_geometry_baffle(sim, "b", lo, hi, NULL), wanted, word);
-        ASSERT_REFUSED(sim, mps_geometry_baffle(sim, "b", lo, thin, NULL), wanted, word);
-        ASSERT_REFUSED(sim, mps_geometry_plate(sim, "b", corner, edge, NULL), wanted, late ? word : "half a spacing, 0.05 m");
+        ASSERT_REFUSED(sim, mps_baffle_add(sim, "b", lo, hi, NULL), wanted, word);
+        ASSERT_REFUSED(sim, mps_baffle_add(sim, "b", lo, thin, NULL), wanted, word);
+        ASSERT_REFUSED(sim, mps_plate_add(sim, "b", corner, edge, NULL), wanted, late ? word : "half a spacing, 0.05 m");
         assert_int_equal(mps_particles_count(sim, -1), before);
         assert_int_equal(mps_part_find(sim, "b"), -1);
         mps_tank second;
@@ -402,7 +402,7 @@ static void fluid_in_the_way(void **state)
         second.name = "second";
         second.lo[0] = 3;
         second.size[0] = second.size[1] = 1;
-        ASSERT_STATUS(sim, mps_geometry_tank(sim, &second, NULL), late ? MPS_E_STATE : MPS_OK);
+        ASSERT_STATUS(sim, mps_tank_add(sim, &second, NULL), late ? MPS_E_STATE : MPS_OK);
         mps_sim_destroy(sim);
     }
 }
@@ -425,14 +425,14 @@ static void fluid_between_the_points(void **state)
         block.position = at[k];
         ASSERT_OK(sim, mps_particles_add(sim, &block, NULL));
         if (way[k] && way[k][0] == 't') {
-            ASSERT_REFUSED(sim, mps_geometry_tank(sim, &tank, NULL), MPS_E_ARG, "at (-0.15, 0.5, 0) m is in the way of tank \"tank\"");
+            ASSERT_REFUSED(sim, mps_tank_add(sim, &tank, NULL), MPS_E_ARG, "at (-0.15, 0.5, 0) m is in the way of tank \"tank\"");
             assert_int_equal(mps_part_find(sim, "tank.x0"), -1);
         } else {
-            ASSERT_OK(sim, mps_geometry_tank(sim, &tank, NULL));
+            ASSERT_OK(sim, mps_tank_add(sim, &tank, NULL));
             if (way[k])
-                ASSERT_REFUSED(sim, mps_geometry_baffle(sim, "b", lo, hi, NULL), MPS_E_ARG, way[k]);
+                ASSERT_REFUSED(sim, mps_baffle_add(sim, "b", lo, hi, NULL), MPS_E_ARG, way[k]);
             else
-                ASSERT_OK(sim, mps_geometry_baffle(sim, "b", lo, hi, NULL));
+                ASSERT_OK(sim, mps_baffle_add(sim, "b", lo, hi, NULL));
         }
         mps_sim_destroy(sim);
     }

@@ -145,7 +145,7 @@ static void verbs_of_the_presets(void **state)
         mps_model_info m;
         mps_status status;
         int32_t verbs = 0, wanted = 0, moment = 0;
-        ASSERT_OK(sim, mps_sim_use_preset(sim, preset.name));
+        ASSERT_OK(sim, mps_preset_use(sim, preset.name));
         assert_int_equal(mps_verb_info_init(&v, sizeof v), MPS_OK);
         for (; (status = mps_verb_info_get(sim, verbs, &v)) == MPS_OK; verbs++) {
             assert_true(v.moment >= moment && v.moment < MPS_MOMENT_COUNT);
@@ -188,7 +188,7 @@ static mps_status use_kernel(mps_sim *sim, const char *name)
         assert_int_equal(active, 1);
     }
     mps_sim_destroy(other);
-    if (status < 0) mps_sim_use_preset(sim, error); /* so that mps_sim_error() holds the text */
+    if (status < 0) mps_preset_use(sim, error); /* so that mps_sim_error() holds the text */
     return status;
 }
 
@@ -208,7 +208,7 @@ static const struct {
     mps_status (*use)(mps_sim *sim, const char *name);
     int32_t count;
     int marks; /* the list says which is in use */
-} all_names[] = {{"presets", mps_preset_info_get, mps_sim_use_preset, 4, 0},
+} all_names[] = {{"presets", mps_preset_info_get, mps_preset_use, 4, 0},
                  {"solvers", mps_solver_info_get, use_solver, 5, 1},
                  {"preconditioners", mps_preconditioner_info_get, use_preconditioner, 3, 1},
                  {"kernels", mps_kernel_info_get, use_kernel, 2, 0}};

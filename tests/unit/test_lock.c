@@ -122,10 +122,10 @@ static void play(int meddles, const char *folder, const char *file)
     ASSERT_OK(sim, mps_frames_open(sim, folder, file, 0, &frames));
     lock_open(folder, frames);
     test.sim = meddles ? sim : NULL;
-    ASSERT_OK(sim, mps_motion_set_callback(sim, meddling_motion, NULL));
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL)); /* logs what it built */
+    ASSERT_OK(sim, mps_motion_callback_set(sim, meddling_motion, NULL));
+    ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, NULL)); /* logs what it built */
     ASSERT_OK(sim, mps_particles_remove(sim, 1, &(int64_t){20}));
-    ASSERT_OK(sim, mps_geometry_fill(sim, 0, meddling_inside, NULL, NULL));
+    ASSERT_OK(sim, mps_fill_add(sim, 0, meddling_inside, NULL, NULL));
     ASSERT_OK(sim, mps_run(sim, 0.02, meddling_monitor, NULL));
     ASSERT_OK(sim, mps_run(sim, 0.04, NULL, NULL));
     for (int w = 0; w < WHERE; w++)

@@ -164,7 +164,7 @@ static void beside_a_plate(void **state)
         mps_sim *sim = new_sim(2, dp);
         const double lo[2] = {0.25, 0}, hi[2] = {0.25 + (columns - 1) * dp, 0.45};
         add_tank(sim, 0.5, 0.6, 0);
-        ASSERT_OK(sim, mps_geometry_baffle(sim, "plate", lo, hi, NULL));
+        ASSERT_OK(sim, mps_baffle_add(sim, "plate", lo, hi, NULL));
         fill_depth(sim, 0.5, 0.3, 0);
         const int64_t id = some_fluid(sim);
         put(sim, id, 0.25 - 0.2 * dp, 0.42);
@@ -194,7 +194,7 @@ static void moved_tank(void **state)
     message m;
     mps_sim *sim = pool(MPS_LOST_REMOVE, &m, NULL, NULL);
     const int64_t n = mps_particles_count(sim, -1), id = some_fluid(sim);
-    ASSERT_OK(sim, mps_motion_set_callback(sim, quarter_turn, NULL));
+    ASSERT_OK(sim, mps_motion_callback_set(sim, quarter_turn, NULL));
     assert_int_equal(lost_in_step(sim), 0); /* far from where the tank was */
     assert_int_equal(mps_particles_count(sim, -1), n);
     put(sim, id, 5 - 1.25, 2 + 0.25); /* over the open end of the tank, which lies on its side now */
@@ -264,13 +264,13 @@ static mps_sim *bullet(int32_t layers, message *m, const mps_time_control *contr
     assert_int_equal(mps_tank_init(&tank, sizeof tank), MPS_OK);
     tank.size[0] = tank.size[1] = 1;
     tank.dummy_layers = layers;
-    ASSERT_OK(sim, mps_geometry_tank(sim, &tank, NULL));
+    ASSERT_OK(sim, mps_tank_add(sim, &tank, NULL));
     assert_int_equal(mps_particle_block_init(&block, sizeof block), MPS_OK);
     block.count = 1;
     block.position = x;
     block.velocity = u;
     ASSERT_OK(sim, mps_particles_add(sim, &block, NULL));
-    ASSERT_OK(sim, mps_sim_set_time_control(sim, control));
+    ASSERT_OK(sim, mps_time_control_set(sim, control));
     *m = (message){0};
     return sim;
 }
@@ -312,7 +312,7 @@ static void too_long_steps(void **state)
     const double times[2] = {0, 1}, way[2] = {0, 31};
     const int32_t surge = MPS_SURGE;
     sim = bullet(2, &m, &control);
-    ASSERT_OK(sim, mps_motion_set_table(sim, 2, times, 1, &surge, way));
+    ASSERT_OK(sim, mps_motion_table_set(sim, 2, times, 1, &surge, way));
     ASSERT_OK(sim, mps_step(sim, 1, NULL));
     assert_int_equal(m.count, 0);
     mps_sim_destroy(sim);
@@ -357,7 +357,7 @@ static void failed_step_loses_nobody(void **state)
     assert_true(u.data[mps_particle_index(sim, id)] == 7);
     ASSERT_OK(sim, mps_lease_end(sim, &u));
     control.dt = 1e-4;
-    ASSERT_OK(sim, mps_sim_set_time_control(sim, &control));
+    ASSERT_OK(sim, mps_time_control_set(sim, &control));
     assert_int_equal(mps_step_info_init(&info, sizeof info), MPS_OK);
     ASSERT_OK(sim, mps_step(sim, 1, &info));
     assert_int_equal(info.lost, 1);

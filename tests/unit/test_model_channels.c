@@ -319,7 +319,7 @@ static void first_values(void **state)
         ASSERT_OK(sim, mps_step(sim, 1, NULL));
         ASSERT_OK(sim, mps_step(sim, 1, NULL));
         add_row(sim, 5, 40, NULL);
-        ASSERT_OK(sim, mps_sim_set_threads(sim, 2));
+        ASSERT_OK(sim, mps_threads_set(sim, 2));
         ASSERT_OK(sim, mps_step(sim, 1, NULL));
         assert_int_equal(rows_checked, 8 + 8 + 48);
         mps_sim_destroy(sim);

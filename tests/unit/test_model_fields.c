@@ -280,7 +280,7 @@ static void stays(void **state)
     steps(sim, 1);
     check_marks(sim, n);
     assert_true(field_value(sim, "age", 9, 0) == 8);
-    ASSERT_OK(sim, mps_sim_use_preset(sim, "imps"));
+    ASSERT_OK(sim, mps_preset_use(sim, "imps"));
     steps(sim, 1);
     assert_true(field_value(sim, "age", 9, 0) == 8);
     mps_sim_destroy(sim);
@@ -310,7 +310,7 @@ static void field_by_name(void **state)
     ASSERT_OK(sim, mps_field_add(sim, "mine", 2));
     mps_time_control control;
     assert_int_equal(mps_time_control_init(&control, sizeof control), MPS_OK);
-    ASSERT_OK(sim, mps_sim_set_time_control(sim, &control)); /* MPS_LIMIT is not skipped */
+    ASSERT_OK(sim, mps_time_control_set(sim, &control)); /* MPS_LIMIT is not skipped */
     for (int32_t moment = 0; moment < MPS_MOMENT_COUNT; moment++) {
         verb.moment = moment;
         ASSERT_OK(sim, mps_model_use(sim, "user.toy"));

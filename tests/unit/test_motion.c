@@ -10,7 +10,7 @@ static void harmonics_are_exact(void **state)
     (void)state;
     mps_sim *sim = new_sim(2, 0.1);
     const mps_harmonic h[3] = {{MPS_SURGE, 0, 0.02, 6.469, 0.3}, {MPS_SURGE, 1, 0.005, 6.85, 7}, {MPS_YAW, 0, 0.1, 2, 0}};
-    ASSERT_OK(sim, mps_motion_set_harmonics(sim, 3, h));
+    ASSERT_OK(sim, mps_motion_harmonics_set(sim, 3, h));
     mps__pose pose;
     for (double t = 0; t < 3; t += 0.37) {
         ASSERT_OK(sim, mps__motion_pose(&sim->world.motion, t, &pose));
@@ -38,7 +38,7 @@ static void sine_table(int64_t rows, double error[3])
         t[k] = (double)k / (double)(rows - 1);
         y[k] = sin(2 * pi * t[k]);
     }
-    ASSERT_OK(sim, mps_motion_set_table(sim, rows, t, 1, &dof, y));
+    ASSERT_OK(sim, mps_motion_table_set(sim, rows, t, 1, &dof, y));
     error[0] = error[1] = error[2] = 0;
     for (int k = 0; k <= 1000; k++) {
         double s = 0.001 * k, w = 2 * pi;
@@ -73,7 +73,7 @@ static void spline_is_c2(void **state)
     const double t[6] = {-0.5, 0, 0.3, 0.4, 1.2, 2}, y[12] = {0, 3, 1, 3, -2, 2, 0.5, 2, 0.7, 2, 0, 1};
     const int32_t dof[2] = {MPS_YAW, MPS_SURGE};
     mps_sim *sim = new_sim(2, 0.1);
-    ASSERT_OK(sim, mps_motion_set_table(sim, 6, t, 2, dof, y));
+    ASSERT_OK(sim, mps_motion_table_set(sim, 6, t, 2, dof, y));
     mps__motion *m = &sim->world.motion;
     mps__pose a, b, here;
     const double e = 1e-5;
@@ -114,8 +114,8 @@ static void point_follows_its_path(void **state)
     for (int dim = 2; dim <= 3; dim++) {
         mps_sim *sim = new_sim(dim, 0.1);
         const double centre[3] = {0.3, -0.2, 0.5}, X[3] = {1.1, 0.4, -0.6}, e = 1e-4;
-        ASSERT_OK(sim, mps_motion_set_centre(sim, centre, MPS_START_AT_REST));
-        ASSERT_OK(sim, mps_motion_set_callback(sim, tumble, &dim));
+        ASSERT_OK(sim, mps_motion_centre_set(sim, centre, MPS_START_AT_REST));
+        ASSERT_OK(sim, mps_motion_callback_set(sim, tumble, &dim));
         const mps__motion *m = &sim->world.motion;
         for (double t = 0; t < 4; t += 0.31) {
             double x[5][3], v[3], a[3], back[3];
@@ -162,7 +162,7 @@ static void order_of_rotations(void **state)
         mps_sim *sim = new_sim(3, 0.1);
         double x[3], angle[3];
         memcpy(angle, list[k].angle, sizeof angle);
-        ASSERT_OK(sim, mps_motion_set_callback(sim, turned, angle));
+        ASSERT_OK(sim, mps_motion_callback_set(sim, turned, angle));
         ASSERT_OK(sim, mps_motion_to_lab(sim, list[k].from, x, NULL));
         for (int d = 0; d < 3; d++) ASSERT_NEAR(x[d], list[k].to[d], 1e-15);
         mps_sim_destroy(sim);
@@ -180,7 +180,7 @@ static void contents_are_carried(void **state)
     double before[2 * 400];
     memcpy(before, s->x, (size_t)s->n * 2 * sizeof(double));
     const mps_harmonic h[2] = {{MPS_SURGE, 0, 0.2, 1, pi / 2}, {MPS_YAW, 0, 0.1, 1, pi / 2}};
-    ASSERT_OK(sim, mps_motion_set_harmonics(sim, 2, h));
+    ASSERT_OK(sim, mps_motion_harmonics_set(sim, 2, h));
     for (int64_t i = 0; i < s->n; i++) {
         double x[2];
         ASSERT_OK(sim, mps_motion_to_lab(sim, &before[2 * i], x, NULL));
@@ -208,13 +208,13 @@ static void start_with_tank(void **state)
     mps_sim *sim = new_sim(2, 0.1);
     const mps_harmonic h = {MPS_SURGE, 0, 0.2, 3, 0};
     const double centre[2] = {0, 0};
-    ASSERT_OK(sim, mps_motion_set_harmonics(sim, 1, &h));
+    ASSERT_OK(sim, mps_motion_harmonics_set(sim, 1, &h));
     assert_int_equal(sim->world.state.start_pending, 0);
-    ASSERT_OK(sim, mps_motion_set_centre(sim, centre, MPS_START_WITH_TANK));
+    ASSERT_OK(sim, mps_motion_centre_set(sim, centre, MPS_START_WITH_TANK));
     assert_int_equal(sim->world.state.start_pending, 1);
     ASSERT_OK(sim, mps_motion_clear(sim));
     assert_int_equal(sim->world.state.start_pending, 0);
-    ASSERT_OK(sim, mps_motion_set_harmonics(sim, 1, &h));
+    ASSERT_OK(sim, mps_motion_harmonics_set(sim, 1, &h));
     assert_int_equal(sim->world.state.start_pending, 1);
     double x[2], v[2];
     ASSERT_OK(sim, mps_motion_to_lab(sim, centre, x, v));
@@ -229,7 +229,7 @@ static void beyond_the_table(void **state)
     const double t[3] = {0, 1, 2.5}, y[3] = {0, 0.1, 0.3};
     const int32_t dof = MPS_SURGE;
     mps__pose pose;
-    ASSERT_OK(sim, mps_motion_set_table(sim, 3, t, 1, &dof, y));
+    ASSERT_OK(sim, mps_motion_table_set(sim, 3, t, 1, &dof, y));
     ASSERT_OK(sim, mps__motion_pose(&sim->world.motion, 2.5 + 5e-10, &pose));
     ASSERT_NEAR(pose.state.value[dof], 0.3, 0);
     ASSERT_REFUSED(sim, mps__motion_pose(&sim->world.motion, 2.501, &pose), MPS_E_STATE, "2.501");
@@ -243,7 +243,7 @@ static void table_refusals(void **state)
     mps_sim *sim = new_sim(2, 0.1);
     double t[4] = {0, 1, 2, 3}, y[8] = {0};
     int32_t dof[2] = {MPS_SURGE, MPS_YAW};
-#define REFUSE(word, rows, dofs) ASSERT_REFUSED(sim, mps_motion_set_table(sim, rows, t, dofs, dof, y), MPS_E_ARG, word)
+#define REFUSE(word, rows, dofs) ASSERT_REFUSED(sim, mps_motion_table_set(sim, rows, t, dofs, dof, y), MPS_E_ARG, word)
     REFUSE("1 rows", 1, 2);
     REFUSE("0 columns", 4, 0);
     REFUSE("7 columns", 4, 7);
@@ -266,9 +266,9 @@ static void table_refusals(void **state)
     REFUSE("after the present time", 4, 2);
     t[0] = 0;
 #undef REFUSE
-    ASSERT_REFUSED(sim, mps_motion_set_table(sim, 4, t, 2, dof, NULL), MPS_E_ARG, "values is NULL");
+    ASSERT_REFUSED(sim, mps_motion_table_set(sim, 4, t, 2, dof, NULL), MPS_E_ARG, "values is NULL");
     t[0] = -2, t[1] = -1.5, t[2] = -1, t[3] = -0.5;
-    ASSERT_REFUSED(sim, mps_motion_set_table(sim, 4, t, 2, dof, y), MPS_E_STATE, "not defined at t = 0");
+    ASSERT_REFUSED(sim, mps_motion_table_set(sim, 4, t, 2, dof, y), MPS_E_STATE, "not defined at t = 0");
     assert_null(sim->world.motion.fn);
     mps_sim_destroy(sim);
 }
@@ -282,7 +282,7 @@ static void harmonic_refusals(void **state)
 #define REFUSE(change, word) \
     h = good;                \
     change;                  \
-    ASSERT_REFUSED(sim, mps_motion_set_harmonics(sim, 1, &h), MPS_E_ARG, word)
+    ASSERT_REFUSED(sim, mps_motion_harmonics_set(sim, 1, &h), MPS_E_ARG, word)
     REFUSE(h.dof = MPS_SWAY, "needs 3-D");
     REFUSE(h.dof = MPS_PITCH, "needs 3-D");
     REFUSE(h.dof = -1, "-1");
@@ -291,8 +291,8 @@ static void harmonic_refusals(void **state)
     REFUSE(h.omega = -1, "omega is -1");
     REFUSE(h.phase = INFINITY, "phase is inf");
 #undef REFUSE
-    ASSERT_REFUSED(sim, mps_motion_set_harmonics(sim, 0, &good), MPS_E_ARG, "count is 0");
-    ASSERT_REFUSED(sim, mps_motion_set_harmonics(sim, 1, NULL), MPS_E_ARG, "NULL");
+    ASSERT_REFUSED(sim, mps_motion_harmonics_set(sim, 0, &good), MPS_E_ARG, "count is 0");
+    ASSERT_REFUSED(sim, mps_motion_harmonics_set(sim, 1, NULL), MPS_E_ARG, "NULL");
     mps_sim_destroy(sim);
 }
 
@@ -310,13 +310,13 @@ static void callback_refusals(void **state)
     (void)state;
     mps_sim *sim = new_sim(2, 0.1);
     int how = 1;
-    ASSERT_REFUSED(sim, mps_motion_set_callback(sim, broken, &how), MPS_E_PLUGIN, "surge rate is nan");
+    ASSERT_REFUSED(sim, mps_motion_callback_set(sim, broken, &how), MPS_E_PLUGIN, "surge rate is nan");
     how = 2;
-    ASSERT_REFUSED(sim, mps_motion_set_callback(sim, broken, &how), MPS_E_ARG, "sway value is 0.1");
+    ASSERT_REFUSED(sim, mps_motion_callback_set(sim, broken, &how), MPS_E_ARG, "sway value is 0.1");
     how = 3;
-    ASSERT_REFUSED(sim, mps_motion_set_callback(sim, broken, &how), MPS_E_PLUGIN, "failed with 7");
+    ASSERT_REFUSED(sim, mps_motion_callback_set(sim, broken, &how), MPS_E_PLUGIN, "failed with 7");
     assert_null(sim->world.motion.fn);
-    ASSERT_REFUSED(sim, mps_motion_set_callback(sim, NULL, NULL), MPS_E_ARG, "mps_motion_clear");
+    ASSERT_REFUSED(sim, mps_motion_callback_set(sim, NULL, NULL), MPS_E_ARG, "mps_motion_clear");
     mps_sim_destroy(sim);
 }
 
@@ -327,9 +327,9 @@ static void other_refusals(void **state)
     const double nan[2] = {0, NAN}, zero[2] = {0, 0};
     double x[2];
     mps_lease lease = {.struct_size = sizeof lease};
-    ASSERT_REFUSED(sim, mps_motion_set_centre(sim, nan, 0), MPS_E_ARG, "centre[1]");
-    ASSERT_REFUSED(sim, mps_motion_set_centre(sim, NULL, 0), MPS_E_ARG, "NULL");
-    ASSERT_REFUSED(sim, mps_motion_set_centre(sim, zero, 2), MPS_E_ARG, "start is 2");
+    ASSERT_REFUSED(sim, mps_motion_centre_set(sim, nan, 0), MPS_E_ARG, "centre[1]");
+    ASSERT_REFUSED(sim, mps_motion_centre_set(sim, NULL, 0), MPS_E_ARG, "NULL");
+    ASSERT_REFUSED(sim, mps_motion_centre_set(sim, zero, 2), MPS_E_ARG, "start is 2");
     ASSERT_REFUSED(sim, mps_motion_to_lab(sim, nan, x, NULL), MPS_E_ARG, "finite");
     ASSERT_REFUSED(sim, mps_motion_to_lab(sim, zero, NULL, NULL), MPS_E_ARG, "lab");
     ASSERT_REFUSED(sim, mps_motion_state_get(sim, NULL), MPS_E_ARG, "NULL");
@@ -337,7 +337,7 @@ static void other_refusals(void **state)
     ASSERT_REFUSED(sim, mps_motion_clear(sim), MPS_E_BUSY, "leases");
     ASSERT_OK(sim, mps_lease_end(sim, &lease));
     sim->world.state.step = 3;
-    ASSERT_REFUSED(sim, mps_motion_set_centre(sim, zero, 0), MPS_E_STATE, "before the first step");
+    ASSERT_REFUSED(sim, mps_motion_centre_set(sim, zero, 0), MPS_E_STATE, "before the first step");
     mps_sim_destroy(sim);
 }
 
@@ -352,14 +352,14 @@ static void roll_turns_the_plane(void **state)
     for (int k = 0; k < 3; k++) {
         mps_sim *sim = new_sim(2, 0.1);
         mps_motion_state now = {.struct_size = sizeof now};
-        ASSERT_OK(sim, mps_motion_set_centre(sim, centre, MPS_START_AT_REST));
-        ASSERT_OK(sim, mps_motion_set_harmonics(sim, k == 2 ? 2 : 1, k == 0 ? &yaw : k == 1 ? &roll : both));
+        ASSERT_OK(sim, mps_motion_centre_set(sim, centre, MPS_START_AT_REST));
+        ASSERT_OK(sim, mps_motion_harmonics_set(sim, k == 2 ? 2 : 1, k == 0 ? &yaw : k == 1 ? &roll : both));
         ASSERT_OK(sim, mps_motion_to_lab(sim, corner, at[k], speed[k]));
         ASSERT_OK(sim, mps_motion_state_get(sim, &now));
         ASSERT_NEAR(now.value[MPS_ROLL] + now.value[MPS_YAW], 0.3 * sin(0.7), 1e-15);
         assert_true((now.value[MPS_ROLL] == 0) == (k == 0));
         ASSERT_OK(sim, mps_motion_clear(sim));
-        ASSERT_REFUSED(sim, mps_motion_set_harmonics(sim, 1, &(mps_harmonic){MPS_PITCH, 0, 0.1, 1, 0}), MPS_E_ARG, "needs 3-D");
+        ASSERT_REFUSED(sim, mps_motion_harmonics_set(sim, 1, &(mps_harmonic){MPS_PITCH, 0, 0.1, 1, 0}), MPS_E_ARG, "needs 3-D");
         mps_sim_destroy(sim);
     }
     const double a = 0.3 * sin(0.7), rate = 0.6 * cos(0.7);

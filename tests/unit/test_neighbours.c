@@ -63,7 +63,7 @@ static void check_list(const cloud *c, const mps_neighbours *list)
     mps_stencil t[2] = {{.struct_size = sizeof t[0]}, {.struct_size = sizeof t[0]}};
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
     for (int which = 0; which < 2; which++) {
-        assert_int_equal(mps_neighbours_stencil(list, which, &kernel, &t[which]), MPS_OK);
+        assert_int_equal(mps_neighbours_stencil_get(list, which, &kernel, &t[which]), MPS_OK);
         assert_int_equal(t[which].n, c->n);
         for (int64_t i = 0; i < c->n; i++) check_row(c, &t[which], i, which ? far_radius : near_radius);
     }
@@ -151,7 +151,7 @@ static void far_particle(void **state)
             mps_kernel kernel = {.struct_size = sizeof kernel};
             mps_stencil t = {.struct_size = sizeof t};
             assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
-            assert_int_equal(mps_neighbours_stencil(list, MPS_NEAR, &kernel, &t), MPS_E_ARG); /* empty, not half built */
+            assert_int_equal(mps_neighbours_stencil_get(list, MPS_NEAR, &kernel, &t), MPS_E_ARG); /* empty, not half built */
         }
         mps_neighbours_destroy(list);
         assert_int_equal(m.live, 0);
@@ -213,7 +213,7 @@ static void rebuild(void **state)
     for (int k = 0; k < 5; k++) {
         cloud c = cloud_lattice(2, side[k], side[k], 1, 0.3, 50 + (uint64_t)k);
         const mps_parallel threads = {.struct_size = sizeof threads, .threads = 1 + k % 2};
-        assert_int_equal(mps_neighbours_set_parallel(list, &threads), MPS_OK);
+        assert_int_equal(mps_neighbours_parallel_set(list, &threads), MPS_OK);
         assert_int_equal(mps_neighbours_build(list, c.n, c.x, CLOUD_DP, 1.5 * CLOUD_DP), MPS_OK);
         assert_int_equal(mps_neighbours_build(list, c.n, c.x, near_radius, far_radius), MPS_OK);
         check_list(&c, list);
@@ -232,7 +232,7 @@ static void pairs_come_and_go(void **state)
         cloud c = cloud_lattice(3, 9, 9, 9, 0.3, 55);
         const mps_parallel threads = {.struct_size = sizeof threads, .threads = 1 + (int32_t)k % 3};
         for (int64_t i = 0; i < 3 * c.n; i++) c.x[i] *= scale[k];
-        assert_int_equal(mps_neighbours_set_parallel(list, &threads), MPS_OK);
+        assert_int_equal(mps_neighbours_parallel_set(list, &threads), MPS_OK);
         assert_int_equal(mps_neighbours_build(list, c.n, c.x, near_radius, far_radius), MPS_OK);
         check_list(&c, list);
         cloud_free(&c);
@@ -253,7 +253,7 @@ static void long_rows(void **state)
     int64_t longest = 0, shortest = c.n;
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
     assert_int_equal(mps_neighbours_build(list, c.n, c.x, near_radius, far_radius), MPS_OK);
-    for (int which = 0; which < 2; which++) assert_int_equal(mps_neighbours_stencil(list, which, &kernel, &t[which]), MPS_OK);
+    for (int which = 0; which < 2; which++) assert_int_equal(mps_neighbours_stencil_get(list, which, &kernel, &t[which]), MPS_OK);
     for (int64_t i = 0; i < c.n; i += 13) {
         const int64_t length = t[1].end[i] - t[1].begin[i];
         check_row(&c, &t[0], i, near_radius);
@@ -325,14 +325,14 @@ static void bad_arguments(void **state)
     assert_int_equal(mps_neighbours_create(2, 1, &half, &list), MPS_E_ARG);
     assert_int_equal(mps_neighbours_create(2, 1, NULL, NULL), MPS_E_ARG);
     mps_parallel threads = {.struct_size = sizeof threads, .threads = -1};
-    assert_int_equal(mps_neighbours_set_parallel(NULL, &threads), MPS_E_ARG);
+    assert_int_equal(mps_neighbours_parallel_set(NULL, &threads), MPS_E_ARG);
     list = new_list(2);
-    assert_int_equal(mps_neighbours_set_parallel(list, NULL), MPS_E_ARG);
-    assert_int_equal(mps_neighbours_set_parallel(list, &threads), MPS_E_ARG);
+    assert_int_equal(mps_neighbours_parallel_set(list, NULL), MPS_E_ARG);
+    assert_int_equal(mps_neighbours_parallel_set(list, &threads), MPS_E_ARG);
     threads.threads = 0;
-    assert_int_equal(mps_neighbours_set_parallel(list, &threads), MPS_OK);
+    assert_int_equal(mps_neighbours_parallel_set(list, &threads), MPS_OK);
     threads.struct_size = 0;
-    assert_int_equal(mps_neighbours_set_parallel(list, &threads), MPS_E_ARG);
+    assert_int_equal(mps_neighbours_parallel_set(list, &threads), MPS_E_ARG);
     mps_neighbours_destroy(list);
     assert_int_equal(mps_neighbours_create(2, 1, NULL, &list), MPS_OK);
     assert_int_equal(mps_neighbours_build(NULL, 2, x, 1, 2), MPS_E_ARG);

@@ -212,7 +212,7 @@ static void check_kernel(bench *s, const mps_kernel *kernel, weight_fn weight)
     assert_int_equal(mps_neighbours_build(list, s->c.n, s->c.x, re[0], re[1]), MPS_OK);
     for (int which = 0; which < 2; which++) {
         mps_stencil t = {.struct_size = sizeof t};
-        assert_int_equal(mps_neighbours_stencil(list, which, kernel, &t), MPS_OK);
+        assert_int_equal(mps_neighbours_stencil_get(list, which, kernel, &t), MPS_OK);
         bench_run(s, &t);
         compare(s, re[which], weight);
         t.parallel = &pool.parallel;
@@ -291,7 +291,7 @@ static void check_correction(cloud c)
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
     assert_int_equal(mps_neighbours_create(c.dim, CLOUD_DP, NULL, &list), MPS_OK);
     assert_int_equal(mps_neighbours_build(list, c.n, c.x, re, re), MPS_OK);
-    assert_int_equal(mps_neighbours_stencil(list, MPS_NEAR, &kernel, &t), MPS_OK);
+    assert_int_equal(mps_neighbours_stencil_get(list, MPS_NEAR, &kernel, &t), MPS_OK);
     assert_int_equal(mps_op_correction(&t, 1e-6, b), MPS_OK);
     for (int64_t i = 0; i < c.n; i++) {
         moment(&c, i, re, n0, m);
@@ -326,7 +326,7 @@ static void correction_floor(void **state)
         assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
         assert_int_equal(mps_neighbours_create(dim, CLOUD_DP, NULL, &list), MPS_OK);
         assert_int_equal(mps_neighbours_build(list, c.n, c.x, re, re), MPS_OK);
-        assert_int_equal(mps_neighbours_stencil(list, MPS_NEAR, &kernel, &t), MPS_OK);
+        assert_int_equal(mps_neighbours_stencil_get(list, MPS_NEAR, &kernel, &t), MPS_OK);
         assert_int_equal(mps_op_correction(&t, floor, b), MPS_OK);
         for (int i = 0; i < dim; i++)
             for (int j = 0; j < dim; j++) {
@@ -448,9 +448,9 @@ static void refuse_told(mps_neighbours *list, const mps_stencil *t, const double
     TOLD(list, mps_neighbours_build(list, 4, NULL, 2.1, 2.1), "x is NULL");
     TOLD(list, mps_neighbours_build(list, 4, (const double[]){0, 0, 1, NAN, 0, 0, 0, 0}, 2.1, 2.1), "x of particle 1, axis 1 is nan");
     TOLD(list, mps_neighbours_build(list, 4, in, 2.1, 1), "re_far is 1 m: must be finite and at least re_near = 2.1 m");
-    TOLD(list, mps_neighbours_stencil(list, MPS_NEAR, &t->kernel, &bad), "the list is empty");
+    TOLD(list, mps_neighbours_stencil_get(list, MPS_NEAR, &t->kernel, &bad), "the list is empty");
     assert_int_equal(mps_neighbours_build(list, 4, (const double[]){0, 0, 1, 0, 0, 1, 1, 1}, 2.1, 2.1), MPS_OK);
-    TOLD(list, mps_neighbours_stencil(list, 7, &t->kernel, &bad), "which is 7");
+    TOLD(list, mps_neighbours_stencil_get(list, 7, &t->kernel, &bad), "which is 7");
 }
 
 static void bad_arguments(void **state)
@@ -462,16 +462,16 @@ static void bad_arguments(void **state)
     mps_neighbours *list = NULL;
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
     assert_int_equal(mps_neighbours_create(2, 1, NULL, &list), MPS_OK);
-    assert_int_equal(mps_neighbours_stencil(list, MPS_NEAR, &kernel, &t), MPS_E_ARG); /* nothing built yet */
+    assert_int_equal(mps_neighbours_stencil_get(list, MPS_NEAR, &kernel, &t), MPS_E_ARG); /* nothing built yet */
     assert_int_equal(mps_neighbours_build(list, 4, x, 2.1, 2.1), MPS_OK);
-    assert_int_equal(mps_neighbours_stencil(list, 2, &kernel, &t), MPS_E_ARG);
-    assert_int_equal(mps_neighbours_stencil(list, MPS_NEAR, NULL, &t), MPS_E_ARG);
-    assert_int_equal(mps_neighbours_stencil(list, MPS_NEAR, &kernel, NULL), MPS_E_ARG);
-    assert_int_equal(mps_neighbours_stencil(list, MPS_NEAR, &kernel, &t), MPS_OK);
+    assert_int_equal(mps_neighbours_stencil_get(list, 2, &kernel, &t), MPS_E_ARG);
+    assert_int_equal(mps_neighbours_stencil_get(list, MPS_NEAR, NULL, &t), MPS_E_ARG);
+    assert_int_equal(mps_neighbours_stencil_get(list, MPS_NEAR, &kernel, NULL), MPS_E_ARG);
+    assert_int_equal(mps_neighbours_stencil_get(list, MPS_NEAR, &kernel, &t), MPS_OK);
     assert_non_null(strstr(mps_neighbours_error(NULL), "NULL"));
     refuse_told(list, &t, in, out);
     assert_int_equal(mps_neighbours_build(list, 4, x, 2.1, 2.1), MPS_OK);
-    assert_int_equal(mps_neighbours_stencil(list, MPS_NEAR, &kernel, &t), MPS_OK);
+    assert_int_equal(mps_neighbours_stencil_get(list, MPS_NEAR, &kernel, &t), MPS_OK);
     refuse_all(NULL, in, out);
     refuse_all(&t, NULL, NULL);
     refuse_all(&t, in, NULL);
@@ -506,7 +506,7 @@ static void lone_particles(void **state)
     for (int64_t n = 1; n <= 2; n++) {
         double out[8] = {7, 7, 7, 7, 7, 7, 7, 7};
         assert_int_equal(mps_neighbours_build(list, n, x, 0.04, 0.05), MPS_OK);
-        assert_int_equal(mps_neighbours_stencil(list, MPS_FAR, &kernel, &t), MPS_OK);
+        assert_int_equal(mps_neighbours_stencil_get(list, MPS_FAR, &kernel, &t), MPS_OK);
         assert_int_equal(mps_op_number_density(&t, out), MPS_OK);
         assert_true(out[0] == 0);
         assert_int_equal(mps_op_gradient(&t, f, out), MPS_OK);
@@ -535,10 +535,10 @@ static void stretched_lattice(void **state)
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
     assert_int_equal(mps_neighbours_create(2, CLOUD_DP, NULL, &list), MPS_OK);
     assert_int_equal(mps_neighbours_build(list, c.n, c.x, 2.1 * CLOUD_DP, 3.1 * CLOUD_DP), MPS_OK);
-    assert_int_equal(mps_neighbours_stencil(list, MPS_NEAR, &kernel, &t), MPS_OK);
+    assert_int_equal(mps_neighbours_stencil_get(list, MPS_NEAR, &kernel, &t), MPS_OK);
     n0 = t.n0;
     assert_int_equal(mps_op_number_density(&t, n), MPS_OK);
-    assert_int_equal(mps_neighbours_stencil(list, MPS_FAR, &kernel, &t), MPS_OK);
+    assert_int_equal(mps_neighbours_stencil_get(list, MPS_FAR, &kernel, &t), MPS_OK);
     assert_int_equal(mps_op_volume_deviation(&t, delta), MPS_OK);
     assert_true(n[middle] / n0 - 1 > 0.01);
     assert_true(fabs(delta[middle]) < 0.001);

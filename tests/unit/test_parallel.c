@@ -258,7 +258,7 @@ static mps_sim *shaken_pool(int32_t threads, const mps_parallel *host)
     assert_int_equal(mps_sim_create(&config, &sim), MPS_OK);
     add_tank(sim, 0.5, 0.4, 0);
     fill_depth(sim, 0.5, 0.2, 0);
-    ASSERT_OK(sim, mps_motion_set_harmonics(sim, 1, &surge));
+    ASSERT_OK(sim, mps_motion_harmonics_set(sim, 1, &surge));
     return sim;
 }
 
@@ -299,7 +299,7 @@ static void host_and_pool_agree(void **state)
     assert_same_state(one, four);
     assert_same_state(one, hosted);
     const int64_t before = calls;
-    ASSERT_OK(hosted, mps_sim_set_threads(hosted, 1)); /* one part: nothing to ask the host for */
+    ASSERT_OK(hosted, mps_threads_set(hosted, 1)); /* one part: nothing to ask the host for */
     ASSERT_OK(hosted, mps_step(hosted, 1e-3, NULL));
     assert_int_equal(calls, before);
     ASSERT_OK(one, mps_step(one, 1e-3, NULL));
@@ -327,7 +327,7 @@ static void two_handles(void **state)
     assert_non_null(run_shortly(one));
     for (int k = 0; k < 2; k++) {
         assert_same_state(one, sim[k]);
-        ASSERT_OK(sim[k], mps_sim_set_threads(sim[k], 3 - k));
+        ASSERT_OK(sim[k], mps_threads_set(sim[k], 3 - k));
         ASSERT_OK(sim[k], mps_step(sim[k], 1e-3, NULL));
     }
     assert_same_state(sim[0], sim[1]);

@@ -311,8 +311,8 @@ static void lease_blocks(void **state)
         ASSERT_STATUS(sim, mps_field_add(sim, "mine", 1), MPS_E_BUSY);
         ASSERT_STATUS(sim, mps_motion_clear(sim), MPS_E_BUSY);
         assert_int_equal(mps_phase_init(&phase, sizeof phase), MPS_OK);
-        ASSERT_STATUS(sim, mps_sim_set_phase(sim, 1, &phase), MPS_E_BUSY);
-        ASSERT_STATUS(sim, mps_sim_stencil(sim, MPS_NEAR, &s), mode == MPS_READ ? MPS_OK : MPS_E_BUSY);
+        ASSERT_STATUS(sim, mps_phase_set(sim, 1, &phase), MPS_E_BUSY);
+        ASSERT_STATUS(sim, mps_stencil_get(sim, MPS_NEAR, &s), mode == MPS_READ ? MPS_OK : MPS_E_BUSY);
         assert_true(mode == MPS_WRITE || (s.n == n && s.x == lease.data));
         ASSERT_OK(sim, mps_lease_end(sim, &lease));
     }
@@ -393,7 +393,7 @@ static void stencil_of_moved(double shift, bool look, double *after)
     ASSERT_OK(sim, tags_peek(sim, &ids, NULL, NULL, NULL));
     memcpy(before, ids, (size_t)lease.count * sizeof *ids);
     for (int again = 0; look && again < 2; again++) {
-        ASSERT_OK(sim, mps_sim_stencil(sim, MPS_NEAR, &s));
+        ASSERT_OK(sim, mps_stencil_get(sim, MPS_NEAR, &s));
         for (int64_t i = 0; i < s.n; i++) {
             int64_t pairs = 0;
             for (int64_t j = 0; j < s.n; j++) pairs += j != i && hypot(s.x[2 * j] - s.x[2 * i], s.x[2 * j + 1] - s.x[2 * i + 1]) < s.re;

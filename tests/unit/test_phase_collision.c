@@ -80,7 +80,7 @@ static void after_edge(int dim, const double *x, const double *u, double *v)
     double at[3];
     int64_t id;
     add_tank(sim, 20 * dp, 16 * dp, 8 * dp);
-    ASSERT_OK(sim, mps_geometry_baffle(sim, "plate", lo, hi, NULL));
+    ASSERT_OK(sim, mps_baffle_add(sim, "plate", lo, hi, NULL));
     ASSERT_OK(sim, mps_model_use(sim, "collision.pair"));
     for (int d = 0; d < dim; d++) at[d] = (d == 0 ? hi[0] : d == 1 ? hi[1] : 4 * dp) + x[d] * dp;
     assert_int_equal(mps_particle_block_init(&b, sizeof b), MPS_OK);
@@ -152,9 +152,9 @@ static mps_sim *corner_sim(const corner *c)
     }
     add_tank(sim, room[0] * dp, room[1] * dp, room[2] * dp);
     if (c->plate[1] > 0)
-        ASSERT_OK(sim, mps_geometry_plate(sim, "plate", lo, up, c->dim == 3 ? across : NULL));
+        ASSERT_OK(sim, mps_plate_add(sim, "plate", lo, up, c->dim == 3 ? across : NULL));
     else if (c->hi[1] > 0)
-        ASSERT_OK(sim, mps_geometry_baffle(sim, "solid", lo, hi, NULL));
+        ASSERT_OK(sim, mps_baffle_add(sim, "solid", lo, hi, NULL));
     ASSERT_OK(sim, mps_model_use(sim, "collision.pair"));
     return sim;
 }

@@ -139,7 +139,7 @@ static void gradient_of_linear(void **state)
         set_phase(sim, 0, 1.2, 0); /* of the solids: no model of walls gives them that of the fluid */
         set_phase(sim, 1, 1.2, 0);
         add_tank(sim, 0.4, 0.4, 0.4);
-        ASSERT_OK(sim, mps_geometry_fill_box(sim, 1, lo, hi, NULL, NULL));
+        ASSERT_OK(sim, mps_fill_box_add(sim, 1, lo, hi, NULL, NULL));
         ASSERT_OK(sim, mps_model_use(sim, "gradient.density"));
         double *x = field_by_id(sim, "position");
         const int64_t *ids;
@@ -239,7 +239,7 @@ static void equation_of_state(void **state)
         mps_solver_limits limits;
         assert_int_equal(mps_solver_limits_init(&limits, sizeof limits), MPS_OK);
         limits.tolerance = 1e-10; /* the right side is mostly the old pressure: its last changes are small against it */
-        ASSERT_OK(sim, mps_solver_set_limits(sim, &limits));
+        ASSERT_OK(sim, mps_solver_limits_set(sim, &limits));
         ASSERT_OK(sim, mps_model_use(sim, mixed ? "source.mixed" : "source.volume"));
         ASSERT_OK(sim, mps_model_set(sim, "source", mixed ? "gamma" : "tau", 0.1));
         if (!mixed) ASSERT_OK(sim, mps_model_use(sim, "moments.bounded")); /* brings "correction" */

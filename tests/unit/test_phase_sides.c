@@ -12,7 +12,7 @@ static mps_sim *stirred(double width, double omega, double rate, double dt)
     mps_sim *sim = bare_sim(2, CLOUD_DP, 3.1, dt);
     set_phase(sim, 0, 900, 900 * NU);
     add_tank(sim, 10 * CLOUD_DP, 10 * CLOUD_DP, 0);
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL));
+    ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, NULL));
     mps_lease x = {.struct_size = sizeof x}, u = {.struct_size = sizeof u};
     ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &x));
     ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &u));
@@ -95,7 +95,7 @@ static void moves_with_the_tank(void **state)
     (void)state;
     double rate = 2;
     mps_sim *sim = stirred(0.01, 0, rate, 1e-6);
-    ASSERT_OK(sim, mps_motion_set_callback(sim, turn, &rate));
+    ASSERT_OK(sim, mps_motion_callback_set(sim, turn, &rate));
     ASSERT_OK(sim, mps_step(sim, 1, NULL));
     const int64_t *ids;
     const int32_t *kind;
@@ -111,7 +111,7 @@ static void not_in_3d(void **state)
     const double lo[3] = {0}, hi[3] = {0.3, 0.2, 0.3};
     mps_sim *sim = new_sim(3, 0.05);
     add_tank(sim, 0.3, 0.3, 0.3);
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL));
+    ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, NULL));
     ASSERT_OK(sim, mps_model_use(sim, "friction.sides"));
     assert_int_equal(mps_step(sim, 1, NULL), MPS_E_PLUGIN);
     assert_non_null(strstr(mps_sim_error(sim), "in 2-D"));

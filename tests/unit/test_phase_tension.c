@@ -302,7 +302,7 @@ static void three_phases(void **state)
         set_phase(sim, 3, 1, 0);
         set_phase(sim, 7, 800, 0);
         add_cloud(sim, &c, phase, NULL);
-        ASSERT_OK(sim, mps_sim_set_threads(sim, threads));
+        ASSERT_OK(sim, mps_threads_set(sim, threads));
         ASSERT_OK(sim, mps_model_use(sim, "tension.csf"));
         ASSERT_OK(sim, mps_step(sim, 1, NULL));
         if (!first) {
@@ -348,8 +348,8 @@ static void pairs(void **state)
         add_cloud(sim, &c, phase, NULL);
         ASSERT_OK(sim, mps_model_use(sim, "tension.csf"));
         ASSERT_OK(sim, mps_model_set(sim, "tension", "sigma", cases[n][2] * sigma));
-        if (cases[n][0] >= 0) ASSERT_OK(sim, mps_sim_set_tension(sim, 0, 1, cases[n][0] * sigma));
-        if (cases[n][1] >= 0) ASSERT_OK(sim, mps_sim_set_tension(sim, 2, 0, cases[n][1] * sigma));
+        if (cases[n][0] >= 0) ASSERT_OK(sim, mps_tension_set(sim, 0, 1, cases[n][0] * sigma));
+        if (cases[n][1] >= 0) ASSERT_OK(sim, mps_tension_set(sim, 2, 0, cases[n][1] * sigma));
         ASSERT_OK(sim, mps_step(sim, 1, NULL));
         for (int k = 0; k < 2; k++) {
             const double wanted = cases[n][k] >= 0 ? cases[n][k] : cases[n][2];
@@ -367,24 +367,24 @@ static void pairs_refused(void **state)
     mps_sim *sim = bare_sim(2, CLOUD_DP, 3.1, 1e-6);
     double value = -7;
     set_phase(sim, 1, 1.2, 0);
-    ASSERT_REFUSED(sim, mps_sim_get_tension(sim, 0, 1, &value), MPS_E_ARG, "never set");
-    ASSERT_OK(sim, mps_sim_set_tension(sim, 1, 0, 0.05));
-    ASSERT_OK(sim, mps_sim_get_tension(sim, 0, 1, &value));
+    ASSERT_REFUSED(sim, mps_tension_get(sim, 0, 1, &value), MPS_E_ARG, "never set");
+    ASSERT_OK(sim, mps_tension_set(sim, 1, 0, 0.05));
+    ASSERT_OK(sim, mps_tension_get(sim, 0, 1, &value));
     assert_true(value == 0.05);
-    ASSERT_REFUSED(sim, mps_sim_set_tension(sim, 0, 1, -0.07), MPS_E_ARG, "is -0.07: must be >= 0");
-    ASSERT_REFUSED(sim, mps_sim_set_tension(sim, 0, 1, NAN), MPS_E_ARG, "phases 0 and 1");
-    ASSERT_REFUSED(sim, mps_sim_set_tension(sim, 0, 1, INFINITY), MPS_E_ARG, "finite");
-    ASSERT_REFUSED(sim, mps_sim_set_tension(sim, 0, 2, 0.07), MPS_E_ARG, "phase 2 is not defined");
-    ASSERT_REFUSED(sim, mps_sim_set_tension(sim, -1, 1, 0.07), MPS_E_ARG, "phase -1 is not defined");
-    ASSERT_REFUSED(sim, mps_sim_set_tension(sim, 0, 16, 0.07), MPS_E_ARG, "phase 16 is not defined");
-    ASSERT_REFUSED(sim, mps_sim_set_tension(sim, 1, 1, 0.07), MPS_E_ARG, "phase 1 with itself");
-    ASSERT_REFUSED(sim, mps_sim_get_tension(sim, 0, 1, NULL), MPS_E_ARG, "NULL");
-    assert_int_equal(mps_sim_set_tension(NULL, 0, 1, 0.07), MPS_E_ARG);
-    assert_int_equal(mps_sim_get_tension(NULL, 0, 1, &value), MPS_E_ARG);
-    ASSERT_OK(sim, mps_sim_get_tension(sim, 1, 0, &value));
+    ASSERT_REFUSED(sim, mps_tension_set(sim, 0, 1, -0.07), MPS_E_ARG, "is -0.07: must be >= 0");
+    ASSERT_REFUSED(sim, mps_tension_set(sim, 0, 1, NAN), MPS_E_ARG, "phases 0 and 1");
+    ASSERT_REFUSED(sim, mps_tension_set(sim, 0, 1, INFINITY), MPS_E_ARG, "finite");
+    ASSERT_REFUSED(sim, mps_tension_set(sim, 0, 2, 0.07), MPS_E_ARG, "phase 2 is not defined");
+    ASSERT_REFUSED(sim, mps_tension_set(sim, -1, 1, 0.07), MPS_E_ARG, "phase -1 is not defined");
+    ASSERT_REFUSED(sim, mps_tension_set(sim, 0, 16, 0.07), MPS_E_ARG, "phase 16 is not defined");
+    ASSERT_REFUSED(sim, mps_tension_set(sim, 1, 1, 0.07), MPS_E_ARG, "phase 1 with itself");
+    ASSERT_REFUSED(sim, mps_tension_get(sim, 0, 1, NULL), MPS_E_ARG, "NULL");
+    assert_int_equal(mps_tension_set(NULL, 0, 1, 0.07), MPS_E_ARG);
+    assert_int_equal(mps_tension_get(NULL, 0, 1, &value), MPS_E_ARG);
+    ASSERT_OK(sim, mps_tension_get(sim, 1, 0, &value));
     assert_true(value == 0.05);
-    ASSERT_OK(sim, mps_sim_set_tension(sim, 0, 1, 0)); /* none is a value */
-    ASSERT_OK(sim, mps_sim_get_tension(sim, 1, 0, &value));
+    ASSERT_OK(sim, mps_tension_set(sim, 0, 1, 0)); /* none is a value */
+    ASSERT_OK(sim, mps_tension_get(sim, 1, 0, &value));
     assert_true(value == 0);
     ASSERT_OK(sim, mps_model_use(sim, "tension.csf"));
     ASSERT_REFUSED(sim, mps_model_set(sim, "tension", "sigma", -0.07), MPS_E_ARG, "sigma is -0.07");
@@ -403,7 +403,7 @@ static void time_step(void **state)
     mps_sim *sim = bare_sim(2, CLOUD_DP, 3.1, 0);
     assert_int_equal(mps_time_control_init(&control, sizeof control), MPS_OK);
     control.gravity = control.viscous = -1;
-    ASSERT_OK(sim, mps_sim_set_time_control(sim, &control));
+    ASSERT_OK(sim, mps_time_control_set(sim, &control));
     set_phase(sim, 1, 500, 0);
     add_cloud(sim, &c, phase, NULL);
     ASSERT_OK(sim, mps_model_use(sim, "tension.csf"));
@@ -411,8 +411,8 @@ static void time_step(void **state)
     assert_int_equal(mps_step_info_init(&info, sizeof info), MPS_OK);
     ASSERT_OK(sim, mps_step(sim, 1, &info));
     ASSERT_NEAR(info.dt, 0.5 * sqrt(750 * pow(CLOUD_DP, 3) / (2 * 3.14159265358979323846 * sigma)), 1e-12);
-    ASSERT_OK(sim, mps_sim_set_tension(sim, 0, 1, 4 * sigma));
-    ASSERT_OK(sim, mps_sim_set_time_control(sim, &control));
+    ASSERT_OK(sim, mps_tension_set(sim, 0, 1, 4 * sigma));
+    ASSERT_OK(sim, mps_time_control_set(sim, &control));
     ASSERT_OK(sim, mps_step(sim, 1, &info));
     ASSERT_NEAR(info.dt, 0.25 * sqrt(750 * pow(CLOUD_DP, 3) / (2 * 3.14159265358979323846 * sigma)), 1e-12);
     mps_sim_destroy(sim);

@@ -14,11 +14,11 @@ static mps_sim *closed_tank(int dim, int threads)
     set_phase(sim, 0, 1000, 1e-3);
     set_phase(sim, 1, 1, 1.8e-5);
     add_tank(sim, 0.4, 0.4, 0.3);
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, middle, NULL, NULL));
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 1, low, hi, NULL, NULL));
+    ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, middle, NULL, NULL));
+    ASSERT_OK(sim, mps_fill_box_add(sim, 1, low, hi, NULL, NULL));
     for (size_t m = 0; m < sizeof models / sizeof models[0]; m++) ASSERT_OK(sim, mps_model_use(sim, models[m]));
     ASSERT_OK(sim, mps_model_set(sim, "collision", "distance", 0.8));
-    ASSERT_OK(sim, mps_sim_set_threads(sim, threads));
+    ASSERT_OK(sim, mps_threads_set(sim, threads));
     return sim;
 }
 

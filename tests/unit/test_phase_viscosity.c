@@ -160,7 +160,7 @@ static void walls_take_the_fluid(void **state)
         set_phase(sim, 0, 1000, 5.0);
         set_phase(sim, 1, 900, 1e-3);
         add_tank(sim, 0.5, 0.5, 0);
-        ASSERT_OK(sim, mps_geometry_fill_box(sim, 1, lo, hi, NULL, NULL));
+        ASSERT_OK(sim, mps_fill_box_add(sim, 1, lo, hi, NULL, NULL));
         mps_lease u = {.struct_size = sizeof u};
         ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &u));
         for (int64_t k = 0; k < u.count * u.stride; k++) u.data[k] = 1.0;
@@ -189,7 +189,7 @@ static void slippery_walls(void **state)
         const double lo[2] = {0}, hi[2] = {0.5, 0.5};
         mps_sim *sim = bare_sim(2, 0.05, 3.1, 1e-6);
         add_tank(sim, 0.5, 0.5, 0);
-        ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL));
+        ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, NULL));
         mps_lease u = {.struct_size = sizeof u};
         ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &u));
         for (int64_t k = 0; k < u.count * u.stride; k++) u.data[k] = 1.0;
@@ -229,7 +229,7 @@ static void shear_along_the_floor(void **state)
         mps_sim *sim = bare_sim(dim, dp, 3.1, 1e-9);
         set_phase(sim, 0, 1, 1);
         add_tank(sim, 0.7, 0.7, 0.7);
-        ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL));
+        ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, NULL));
         ASSERT_OK(sim, mps_model_use(sim, model[kind_of > 0]));
         ASSERT_OK(sim, mps_model_set(sim, "viscosity", "mirror", mirror));
         if (kind_of == 2) ASSERT_OK(sim, mps_model_set(sim, "viscosity", "stress", 1));
@@ -331,7 +331,7 @@ static void time_step(void **state)
     mps_time_control control;
     assert_int_equal(mps_time_control_init(&control, sizeof control), MPS_OK);
     control.gravity = control.viscous = -1;
-    ASSERT_OK(sim, mps_sim_set_time_control(sim, &control));
+    ASSERT_OK(sim, mps_time_control_set(sim, &control));
     set_phase(sim, 0, 1000, 10);
     set_phase(sim, 1, 1, 0.1);
     add_cloud(sim, &c, phase, NULL);

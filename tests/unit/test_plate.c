@@ -9,7 +9,7 @@ static const double dp = 0.05;
 static void add_plate(mps_sim *sim, int columns, double bottom, double top)
 {
     const double lo[3] = {0.5, bottom, 0}, hi[3] = {0.5 + (columns - 1) * dp, top, 0.3};
-    ASSERT_OK(sim, mps_geometry_baffle(sim, "plate", lo, hi, NULL));
+    ASSERT_OK(sim, mps_baffle_add(sim, "plate", lo, hi, NULL));
 }
 
 /* Tank 0.5 m long a side of the plate, 0.6 high, water up to 0.4. */
@@ -60,8 +60,8 @@ static void compare_with_tank(int dim, int columns, int right)
     const double offset = right ? 0.5 + (columns - 1) * dp : 0;
     mps_stencil a[2] = {{.struct_size = sizeof a[0]}, {.struct_size = sizeof a[0]}}, b[2] = {{.struct_size = sizeof b[0]}, {.struct_size = sizeof b[0]}};
     for (int which = MPS_NEAR; which <= MPS_FAR; which++) {
-        ASSERT_OK(one, mps_sim_stencil(one, which, &a[which]));
-        ASSERT_OK(two, mps_sim_stencil(two, which, &b[which]));
+        ASSERT_OK(one, mps_stencil_get(one, which, &a[which]));
+        ASSERT_OK(two, mps_stencil_get(two, which, &b[which]));
     }
     const mps__particles *s = &one->world.particles, *t = &two->world.particles;
     keep_places(one);
@@ -100,12 +100,12 @@ static void edges_are_seen_once(void **state)
         mps_sim *sim = new_sim(dim, dp);
         const double lo[3] = {0.5, 0.3, 0.4}, hi[3] = {0.5, 0.6, 0.6};
         add_tank(sim, 1, 1, 1);
-        ASSERT_OK(sim, mps_geometry_baffle(sim, "plate", lo, hi, NULL));
+        ASSERT_OK(sim, mps_baffle_add(sim, "plate", lo, hi, NULL));
         fill_depth(sim, 1, 1, 1);
         for (int which = MPS_NEAR; which <= MPS_FAR; which++) {
             mps_stencil t = {.struct_size = sizeof t};
             int64_t checked = 0;
-            ASSERT_OK(sim, mps_sim_stencil(sim, which, &t));
+            ASSERT_OK(sim, mps_stencil_get(sim, which, &t));
             const mps__particles *s = &sim->world.particles;
             for (int64_t i = 0; i < s->n; i++) {
                 double sum[3];
@@ -140,7 +140,7 @@ static void passing_the_edge(void **state)
         s->x[2 * moved] = 0.5 + 0.01 * k * dp;
         sim->world.lists.neighbours.valid = false;
         const int64_t id = s->id[moved];
-        ASSERT_OK(sim, mps_sim_stencil(sim, MPS_FAR, &t));
+        ASSERT_OK(sim, mps_stencil_get(sim, MPS_FAR, &t));
         const int64_t i = mps_particle_index(sim, id);
         row_sums(&t, s->kind, i, sum);
         least = fmin(least, sum[0] + sum[1] + sum[2]);
@@ -189,8 +189,8 @@ static void what_is_a_plate(void **state)
     add_plate(sim, 1, 0.4, 0.6 - dp);
     assert_int_equal(sim->world.lists.screens.count, 1);
     ASSERT_NEAR(sim->world.lists.screens.list[0].length[0], 0.2, 1e-12);
-    ASSERT_OK(sim, mps_geometry_baffle(sim, "step", lo, hi, NULL));
-    ASSERT_OK(sim, mps_geometry_baffle(sim, "box", thick, end, NULL));
+    ASSERT_OK(sim, mps_baffle_add(sim, "step", lo, hi, NULL));
+    ASSERT_OK(sim, mps_baffle_add(sim, "box", thick, end, NULL));
     assert_int_equal(sim->world.lists.screens.count, 1);
     mps_sim_destroy(sim);
 }
@@ -230,7 +230,7 @@ static void shadows_know_their_wall(void **state)
     mps_sim *sim = divided(2, 1);
     mps_stencil t = {.struct_size = sizeof t};
     int64_t linked = 0;
-    ASSERT_OK(sim, mps_sim_stencil(sim, MPS_NEAR, &t));
+    ASSERT_OK(sim, mps_stencil_get(sim, MPS_NEAR, &t));
     const mps__particles *s = &sim->world.particles;
     for (int64_t i = 0; i < s->n; i++) {
         if (!mps__is_shadow(s, i) || s->wall_of[i] < 0) continue;
@@ -250,12 +250,12 @@ static int64_t pressures_left(double right, double *p)
     int64_t count = 0;
     add_tank(sim, 1, 0.6, 0);
     add_plate(sim, 1, 0, 0.6);
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL));
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo2, hi2, NULL, NULL));
+    ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, NULL));
+    ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo2, hi2, NULL, NULL));
     ASSERT_OK(sim, mps_solver_use(sim, "sundials.klu", NULL));
     ASSERT_OK(sim, mps_time_control_init(&control, sizeof control));
     control.dt = 1e-3;
-    ASSERT_OK(sim, mps_sim_set_time_control(sim, &control));
+    ASSERT_OK(sim, mps_time_control_set(sim, &control));
     ASSERT_OK(sim, mps_run(sim, 0.01, NULL, NULL));
     const mps__particles *s = &sim->world.particles;
     for (int64_t id = 0; id < s->next_id; id++) {
@@ -291,16 +291,16 @@ static void nobody_passes(void **state)
         const mps_harmonic turn = {.dof = MPS_YAW, .amplitude = 0.5, .omega = 5};
         double x[12], u[12] = {0};
         int64_t ids[4];
-        ASSERT_OK(sim, mps_motion_set_centre(sim, centre, MPS_START_AT_REST));
-        ASSERT_OK(sim, mps_motion_set_harmonics(sim, 1, &turn));
+        ASSERT_OK(sim, mps_motion_centre_set(sim, centre, MPS_START_AT_REST));
+        ASSERT_OK(sim, mps_motion_harmonics_set(sim, 1, &turn));
         mps_tank_init(&tank, sizeof tank);
         tank.size[0] = 1;
         tank.size[1] = 0.6;
         tank.size[2] = 0.4;
         tank.dummy_layers = 3; /* 4 dp deep */
-        ASSERT_OK(sim, mps_geometry_tank(sim, &tank, NULL));
+        ASSERT_OK(sim, mps_tank_add(sim, &tank, NULL));
         const double lo[3] = {0.5, 0, 0}, hi[3] = {0.5, 0.6, 0.4};
-        ASSERT_OK(sim, mps_geometry_baffle(sim, "plate", lo, hi, NULL));
+        ASSERT_OK(sim, mps_baffle_add(sim, "plate", lo, hi, NULL));
         mps_particle_block_init(&block, sizeof block);
         block.count = 4;
         block.position = x;
@@ -312,7 +312,7 @@ static void nobody_passes(void **state)
         ASSERT_OK(sim, mps_particles_add(sim, &block, ids));
         mps_time_control_init(&control, sizeof control);
         control.dt = 4e-3; /* 3 dp a step */
-        ASSERT_OK(sim, mps_sim_set_time_control(sim, &control));
+        ASSERT_OK(sim, mps_time_control_set(sim, &control));
         for (int k = 0; k < 10; k++) ASSERT_OK(sim, mps_step(sim, 1, NULL));
         for (int k = 0; k < 4; k++) {
             const mps__particles *s = &sim->world.particles;
@@ -337,7 +337,7 @@ static void probes_tell_the_sides(void **state)
     double p, f[3];
     add_tank(sim, 1, 0.6, 0);
     add_plate(sim, 1, 0, 0.6);
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL));
+    ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, NULL));
     mps_probe_init(&probe, sizeof probe);
     probe.at[0] = 0.5 - 1e-3 * dp;
     probe.at[1] = 0.2;
@@ -377,7 +377,7 @@ static void removed_plate(void **state)
     assert_int_equal(count, 2 * 11);
     for (int pass = 0; pass < 2; pass++) {
         across = 0;
-        ASSERT_OK(sim, mps_sim_stencil(sim, MPS_NEAR, &t));
+        ASSERT_OK(sim, mps_stencil_get(sim, MPS_NEAR, &t));
         for (int64_t i = 0; i < s->n; i++)
             for (int64_t k = t.begin[i]; k < t.end[i]; k++)
                 across += s->kind[i] == MPS_FLUID && s->kind[t.col[k]] == MPS_FLUID && (s->x[2 * i] - 0.5) * (s->x[2 * t.col[k]] - 0.5) < 0;
@@ -399,10 +399,10 @@ static void plate_on_plate(void **state)
     fill_depth(tank, 1, 0.6, 0);
     add_tank(sim, 1, 0.6, 0);
     add_plate(sim, 1, 0, 0.6);
-    ASSERT_OK(sim, mps_geometry_baffle(sim, "shelf", lo, hi, NULL));
+    ASSERT_OK(sim, mps_baffle_add(sim, "shelf", lo, hi, NULL));
     fill_depth(sim, 1, 0.6, 0);
-    ASSERT_OK(tank, mps_sim_stencil(tank, MPS_NEAR, &u));
-    ASSERT_OK(sim, mps_sim_stencil(sim, MPS_NEAR, &t));
+    ASSERT_OK(tank, mps_stencil_get(tank, MPS_NEAR, &u));
+    ASSERT_OK(sim, mps_stencil_get(sim, MPS_NEAR, &t));
     const mps__particles *a = &tank->world.particles, *b = &sim->world.particles;
     for (int64_t i = 0; i < a->n; i++) {
         if (hypot(a->x[2 * i] - dp, a->x[2 * i + 1] - dp) < 1e-9) row_sums(&u, a->kind, i, corner);
@@ -432,9 +432,9 @@ static void inclined_plate(void **state)
     double area = 0;
     mps_stencil t = {.struct_size = sizeof t};
     add_tank(sim, 1, 0.6, 0);
-    ASSERT_OK(sim, mps_geometry_plate(sim, "leaning", corner, edge, NULL));
+    ASSERT_OK(sim, mps_plate_add(sim, "leaning", corner, edge, NULL));
     fill_depth(sim, 1, 0.5, 0);
-    ASSERT_OK(sim, mps_sim_stencil(sim, MPS_FAR, &t));
+    ASSERT_OK(sim, mps_stencil_get(sim, MPS_FAR, &t));
     const mps__particles *s = &sim->world.particles;
     for (int64_t i = 0; i < s->n; i++) {
         const double *x = s->x + 2 * i, height = (x[0] - corner[0]) * normal[0] + (x[1] - corner[1]) * normal[1];
@@ -458,23 +458,23 @@ static void refusals(void **state)
     mps_sim *flat = new_sim(2, dp), *sim = new_sim(3, dp);
     const double at[3] = {0.3, 0.1, 0.1}, up[3] = {0, 0.3, 0}, slant[3] = {0.2, 0.3, 0}, along[3] = {0, 0, 0.2}, none[3] = {0, 0, 0},
                  far[3] = {0, 2, 0}, nan[3] = {NAN, 0, 0};
-    ASSERT_REFUSED(flat, mps_geometry_plate(flat, "p", at, up, NULL), MPS_E_STATE, "mps_geometry_tank");
+    ASSERT_REFUSED(flat, mps_plate_add(flat, "p", at, up, NULL), MPS_E_STATE, "mps_tank_add");
     add_tank(flat, 1, 0.6, 0);
     add_tank(sim, 1, 0.6, 0.4);
     const int64_t before = mps_particles_count(sim, -1);
-    assert_int_equal(mps_geometry_plate(NULL, "p", at, up, along), MPS_E_ARG);
-    ASSERT_REFUSED(flat, mps_geometry_plate(flat, "p", at, up, along), MPS_E_ARG, "edge2");
-    ASSERT_REFUSED(sim, mps_geometry_plate(sim, "p", at, up, NULL), MPS_E_ARG, "edge2");
-    ASSERT_REFUSED(sim, mps_geometry_plate(sim, "p", at, up, slant), MPS_E_ARG, "right angles");
-    ASSERT_REFUSED(sim, mps_geometry_plate(sim, "p", at, none, along), MPS_E_ARG, "at least 2 spacings");
-    ASSERT_REFUSED(sim, mps_geometry_plate(sim, "p", at, far, along), MPS_E_ARG, "leaves the tank");
-    ASSERT_REFUSED(sim, mps_geometry_plate(sim, "p", nan, up, along), MPS_E_ARG, "finite");
-    ASSERT_REFUSED(sim, mps_geometry_plate(sim, "p", at, nan, along), MPS_E_ARG, "finite");
-    ASSERT_REFUSED(sim, mps_geometry_plate(sim, "", at, up, along), MPS_E_ARG, "name");
+    assert_int_equal(mps_plate_add(NULL, "p", at, up, along), MPS_E_ARG);
+    ASSERT_REFUSED(flat, mps_plate_add(flat, "p", at, up, along), MPS_E_ARG, "edge2");
+    ASSERT_REFUSED(sim, mps_plate_add(sim, "p", at, up, NULL), MPS_E_ARG, "edge2");
+    ASSERT_REFUSED(sim, mps_plate_add(sim, "p", at, up, slant), MPS_E_ARG, "right angles");
+    ASSERT_REFUSED(sim, mps_plate_add(sim, "p", at, none, along), MPS_E_ARG, "at least 2 spacings");
+    ASSERT_REFUSED(sim, mps_plate_add(sim, "p", at, far, along), MPS_E_ARG, "leaves the tank");
+    ASSERT_REFUSED(sim, mps_plate_add(sim, "p", nan, up, along), MPS_E_ARG, "finite");
+    ASSERT_REFUSED(sim, mps_plate_add(sim, "p", at, nan, along), MPS_E_ARG, "finite");
+    ASSERT_REFUSED(sim, mps_plate_add(sim, "", at, up, along), MPS_E_ARG, "name");
     assert_int_equal(mps_particles_count(sim, -1), before);
     assert_int_equal(mps_part_find(sim, "p"), -1);
-    ASSERT_OK(sim, mps_geometry_plate(sim, "p", at, up, along));
-    ASSERT_REFUSED(sim, mps_geometry_plate(sim, "again", at, up, along), MPS_E_ARG, "taken");
+    ASSERT_OK(sim, mps_plate_add(sim, "p", at, up, along));
+    ASSERT_REFUSED(sim, mps_plate_add(sim, "again", at, up, along), MPS_E_ARG, "taken");
     assert_int_equal(mps_part_find(sim, "again"), -1);
     assert_int_equal(sim->world.lists.screens.count, 1);
     mps_sim_destroy(flat);

@@ -35,8 +35,8 @@ static void tank_init(tank *k, cloud c)
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
     assert_int_equal(mps_neighbours_create(c.dim, CLOUD_DP, NULL, &k->list), MPS_OK);
     assert_int_equal(mps_neighbours_build(k->list, c.n, c.x, re_near, re_far), MPS_OK);
-    assert_int_equal(mps_neighbours_stencil(k->list, MPS_NEAR, &kernel, &k->near), MPS_OK);
-    assert_int_equal(mps_neighbours_stencil(k->list, MPS_FAR, &kernel, &k->far), MPS_OK);
+    assert_int_equal(mps_neighbours_stencil_get(k->list, MPS_NEAR, &kernel, &k->near), MPS_OK);
+    assert_int_equal(mps_neighbours_stencil_get(k->list, MPS_FAR, &kernel, &k->far), MPS_OK);
     for (int64_t i = 0; i < c.n; i++) {
         k->density[i] = rho0;
         k->wet[i] = 1;
@@ -265,7 +265,7 @@ static void threads_agree(void **state)
     tank_init(&two, cloud_lattice(3, 8, 7, 8, 0.2, 3));
     for (int64_t i = 0; i < one.c.n; i++) one.fixed[i] = two.fixed[i] = i % 11 == 0;
     const mps_parallel threads = {.struct_size = sizeof threads, .threads = 2};
-    assert_int_equal(mps_neighbours_set_parallel(two.list, &threads), MPS_OK);
+    assert_int_equal(mps_neighbours_parallel_set(two.list, &threads), MPS_OK);
     assemble(&one);
     assemble(&two);
     check_matrix(&one.e);

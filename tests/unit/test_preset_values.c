@@ -84,7 +84,7 @@ static void every_value(void **state)
     for (; mps_preset_info_get(sim, count, &info) == MPS_OK; count++) {
         assert_true(count < (int32_t)(sizeof presets / sizeof presets[0]));
         assert_string_equal(info.name, presets[count].name);
-        ASSERT_OK(sim, mps_sim_use_preset(sim, info.name));
+        ASSERT_OK(sim, mps_preset_use(sim, info.name));
         describe(sim, text, sizeof text);
         assert_string_equal(text, presets[count].models);
     }

@@ -78,7 +78,7 @@ static void models_and_settings(void **state)
         mps_sim *sim = new_sim(2, 0.05);
         ASSERT_OK(sim, mps_model_set(sim, "source", "clip", 0.3)); /* of the preset before: gone with it */
         ASSERT_OK(sim, mps_model_set(sim, "collision", "distance", 0.55));
-        ASSERT_OK(sim, mps_sim_use_preset(sim, list[k].preset));
+        ASSERT_OK(sim, mps_preset_use(sim, list[k].preset));
         for (int32_t m = 0; list[k].models[m] || mps_model_name(sim, m); m++) {
             const char *name = mps_model_name(sim, m);
             if (!name || !list[k].models[m] || strcmp(name, list[k].models[m]) != 0)
@@ -108,9 +108,9 @@ static void misspelt(void **state)
                                            {"mmps.papr", "\"mmps.papr\"; did you mean \"mmps.paper\""},
                                            {"mmps-paper", "\"mmps-paper\"; did you mean \"mmps.paper\""}};
     mps_sim *sim = new_sim(2, 0.05);
-    ASSERT_OK(sim, mps_sim_use_preset(sim, "mmps"));
+    ASSERT_OK(sim, mps_preset_use(sim, "mmps"));
     for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)
-        ASSERT_REFUSED(sim, mps_sim_use_preset(sim, names[k][0]), MPS_E_NAME, names[k][1]);
+        ASSERT_REFUSED(sim, mps_preset_use(sim, names[k][0]), MPS_E_NAME, names[k][1]);
     for (int32_t m = 0; mmps_models[m]; m++) assert_string_equal(mps_model_name(sim, m), mmps_models[m]);
     mps_sim_destroy(sim);
 }

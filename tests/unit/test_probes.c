@@ -56,7 +56,7 @@ static void force_turns_with_the_tank(void **state)
     mps_sim *sim = new_sim(3, dp);
     add_tank(sim, 0.2, 0.1, 0.15);
     const mps_harmonic h[3] = {{MPS_ROLL, 0, 0.3, 1, 1}, {MPS_YAW, 0, 0.5, 1, 1.5}, {MPS_PITCH, 0, 0.4, 1, 2}};
-    ASSERT_OK(sim, mps_motion_set_harmonics(sim, 3, h));
+    ASSERT_OK(sim, mps_motion_harmonics_set(sim, 3, h));
     mps_lease lease = {.struct_size = sizeof lease};
     ASSERT_OK(sim, mps_lease_begin(sim, "wall_pressure", MPS_WRITE, &lease));
     for (int64_t i = 0; i < lease.count; i++) lease.data[i] = 500;
@@ -149,7 +149,7 @@ static void momentum_budget(void **state)
     mps_sim *sim = filled(2, 0.1);
     const mps_harmonic surge = {.dof = MPS_SURGE, .amplitude = 0.02, .omega = 20};
     mps_momentum start, m;
-    ASSERT_OK(sim, mps_motion_set_harmonics(sim, 1, &surge));
+    ASSERT_OK(sim, mps_motion_harmonics_set(sim, 1, &surge));
     momentum(sim, &start);
     for (int k = 0; k < 60; k++) assert_true(mps_step(sim, 1, NULL) >= 0);
     momentum(sim, &m);

@@ -65,7 +65,7 @@ static void baffles(void **state)
             const double left = 0.2, right = left + (layers - 1) * dp, lo[3] = {left, 0, 0}, hi[3] = {right, 0.1, 0.1}, z = 0.043;
             const double side = layers == 1 ? 1e-6 : 0;
             mps_sim *sim = filled(dim, 0);
-            ASSERT_OK(sim, mps_geometry_baffle(sim, "baffle", lo, hi, NULL));
+            ASSERT_OK(sim, mps_baffle_add(sim, "baffle", lo, hi, NULL));
             write_linear(sim);
             for (double y = 0.03 * dp; y < 9.6 * dp; y += 0.31 * dp)
                 for (int large = 0; large < 2; large++) {
@@ -89,7 +89,7 @@ static void sides_of_baffles(void **state)
     for (int layers = 1; layers <= 6; layers++) {
         const double left = 0.2, right = left + (layers - 1) * dp, lo[2] = {left, 0}, hi[2] = {right, 0.3};
         mps_sim *sim = filled(2, 0);
-        ASSERT_OK(sim, mps_geometry_baffle(sim, "baffle", lo, hi, NULL));
+        ASSERT_OK(sim, mps_baffle_add(sim, "baffle", lo, hi, NULL));
         const mps__particles *s = &sim->world.particles;
         for (int64_t i = 0; i < s->n; i++) {
             const double *X = &s->ref[2 * i], *area = &s->area[2 * i];
@@ -115,7 +115,7 @@ static void inclined_plates(void **state)
         for (double angle = 0.2; angle < 1.5; angle += 0.3) {
             const double corner[3] = {0.2, 0, 0.02}, edge[3] = {0.12 * cos(angle), 0.12 * sin(angle), 0}, edge2[3] = {0, 0, 0.06};
             mps_sim *sim = filled(dim, 0);
-            ASSERT_OK(sim, mps_geometry_plate(sim, "plate", corner, edge, dim == 3 ? edge2 : NULL));
+            ASSERT_OK(sim, mps_plate_add(sim, "plate", corner, edge, dim == 3 ? edge2 : NULL));
             write_linear(sim);
             for (double t = 0.02; t < 0.95; t += 0.0371)
                 for (int side = -1; side <= 1 && t * edge[1] > 0.6 * dp; side += 2) {
@@ -155,7 +155,7 @@ static void add_solid(mps_sim *sim, mps_distance_fn distance, void *user, const 
     solid.user = user;
     memcpy(solid.lo, lo, sizeof solid.lo);
     memcpy(solid.hi, hi, sizeof solid.hi);
-    ASSERT_OK(sim, mps_geometry_solid(sim, &solid));
+    ASSERT_OK(sim, mps_solid_add(sim, &solid));
 }
 
 /* A body on the floor of a tank, its sides upright (steep = 0) or inclined: its particles are not those of the lattice. */
@@ -197,7 +197,7 @@ static void sloping_tanks(void **state)
             tank.size[0] = 0.9;
             tank.size[1] = 0.2;
             tank.size[2] = 0.1;
-            ASSERT_OK(sim, mps_geometry_tank(sim, &tank, NULL));
+            ASSERT_OK(sim, mps_tank_add(sim, &tank, NULL));
             add_solid(sim, from_planes, &p, box_lo, box_hi);
             write_linear(sim);
             for (double t = 0.05 * dp; t < 0.12; t += 0.37 * dp)
@@ -271,9 +271,9 @@ static void beyond_the_end(void **state)
     tank.size[0] = 0.3;
     tank.size[1] = 0.2;
     tank.open_top = 1;
-    ASSERT_OK(sim, mps_geometry_tank(sim, &tank, NULL));
+    ASSERT_OK(sim, mps_tank_add(sim, &tank, NULL));
     const double lo[2] = {0.1, 0.08}, hi[2] = {0.1, 0.15};
-    ASSERT_OK(sim, mps_geometry_baffle(sim, "plate", lo, hi, NULL));
+    ASSERT_OK(sim, mps_baffle_add(sim, "plate", lo, hi, NULL));
     mps_probe p = probe_of(MPS_PROBE_WALL_PRESSURE, 0.1 + 1e-6, 0.15 + 0.8 * dp, 0);
     ASSERT_REFUSED(sim, mps_probe_add(sim, &p, &id), MPS_E_ARG, "0.008 m beyond the end of the face");
     p.at[1] = 0.15 + 0.4 * dp;

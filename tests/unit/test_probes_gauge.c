@@ -103,7 +103,7 @@ static void gauge_in_a_turned_tank(void **state)
     (void)state;
     mps_sim *sim = filled(2, 0.2);
     const mps_harmonic h[2] = {{MPS_YAW, 0, 0.4, 1, 1}, {MPS_SURGE, 0, 3, 1, 1}};
-    ASSERT_OK(sim, mps_motion_set_harmonics(sim, 2, h));
+    ASSERT_OK(sim, mps_motion_harmonics_set(sim, 2, h));
     const mps_probe p = probe_of(MPS_PROBE_GAUGE, 0.123, 0, 0);
     ASSERT_NEAR(read_one(sim, &p), 0.2, 0.01 * dp);
     mps_sim_destroy(sim);
@@ -229,7 +229,7 @@ static void gauge_above_a_baffle(void **state)
     mps_sim *sim = new_sim(2, dp);
     add_tank(sim, 0.4, 0.3, 0);
     const double lo[2] = {0.18, 0}, hi[2] = {0.22, 0.1};
-    ASSERT_OK(sim, mps_geometry_baffle(sim, "baffle", lo, hi, NULL));
+    ASSERT_OK(sim, mps_baffle_add(sim, "baffle", lo, hi, NULL));
     fill_depth(sim, 0.4, 0.15, 0);
     for (double x = 0.15; x < 0.26; x += 0.01) {
         const mps_probe p = probe_of(MPS_PROBE_GAUGE, x, 0, 0);
@@ -265,8 +265,8 @@ static void gauge_beside_a_thin_baffle(void **state)
         mps_sim *sim = filled(2, 0);
         const double left = 0.2, right = left + thick * dp;
         const double lo[6] = {left, 0, 0, 0, right, 0}, hi[6] = {right, 0.28, left - 0.5 * dp, 0.1, 0.4, 0.2};
-        ASSERT_OK(sim, mps_geometry_baffle(sim, "baffle", lo, hi, NULL));
-        for (int k = 1; k < 3; k++) ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo + 2 * k, hi + 2 * k, NULL, NULL));
+        ASSERT_OK(sim, mps_baffle_add(sim, "baffle", lo, hi, NULL));
+        for (int k = 1; k < 3; k++) ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo + 2 * k, hi + 2 * k, NULL, NULL));
         for (double off = 0.8 * dp; off < 0.05; off += 0.0041) {
             const mps_probe a = probe_of(MPS_PROBE_GAUGE, left - off, 0, 0), b = probe_of(MPS_PROBE_GAUGE, right + off, 0, 0);
             ASSERT_NEAR(read_one(sim, &a), 0.1, 0.1 * dp);
@@ -283,8 +283,8 @@ static void gauge_in_a_channel(void **state)
     mps_sim *sim = filled(2, 0);
     const double lo[10] = {0.2, 0, 0.25, 0, 0, 0, 0.215, 0, 0.265, 0},
                  hi[10] = {0.21, 0.28, 0.26, 0.28, 0.195, 0.11, 0.245, 0.1, 0.4, 0.11};
-    for (int k = 0; k < 2; k++) ASSERT_OK(sim, mps_geometry_baffle(sim, k ? "right" : "left", lo + 2 * k, hi + 2 * k, NULL));
-    for (int k = 2; k < 5; k++) ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo + 2 * k, hi + 2 * k, NULL, NULL));
+    for (int k = 0; k < 2; k++) ASSERT_OK(sim, mps_baffle_add(sim, k ? "right" : "left", lo + 2 * k, hi + 2 * k, NULL));
+    for (int k = 2; k < 5; k++) ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo + 2 * k, hi + 2 * k, NULL, NULL));
     for (double x = 0.211; x < 0.25; x += 0.0031) {
         const mps_probe p = probe_of(MPS_PROBE_GAUGE, x, 0, 0);
         ASSERT_NEAR(read_one(sim, &p), 0.1, 0.15 * dp);
@@ -299,8 +299,8 @@ static void gauge_through_a_dry_baffle(void **state)
     mps_sim *sim = new_sim(2, dp);
     add_tank(sim, 0.4, 0.3, 0);
     const double lo[4] = {0.08, 0, 0.25, 0.1}, hi[4] = {0.12, 0.2, 0.35, 0.15};
-    ASSERT_OK(sim, mps_geometry_baffle(sim, "baffle", lo, hi, NULL));
-    ASSERT_OK(sim, mps_geometry_baffle(sim, "roof", lo + 2, hi + 2, NULL));
+    ASSERT_OK(sim, mps_baffle_add(sim, "baffle", lo, hi, NULL));
+    ASSERT_OK(sim, mps_baffle_add(sim, "roof", lo + 2, hi + 2, NULL));
     fill_depth(sim, 0.4, 0.09, 0);
     const mps_probe inside = probe_of(MPS_PROBE_GAUGE, 0.1, 0, 0), under = probe_of(MPS_PROBE_GAUGE, 0.3, 0, 0);
     ASSERT_NEAR(read_one(sim, &inside), 0, 0);
@@ -326,7 +326,7 @@ static void define_phase(mps_sim *sim, int32_t index, double density)
     mps_phase phase;
     assert_int_equal(mps_phase_init(&phase, sizeof phase), MPS_OK);
     phase.density = density;
-    ASSERT_OK(sim, mps_sim_set_phase(sim, index, &phase));
+    ASSERT_OK(sim, mps_phase_set(sim, index, &phase));
 }
 
 /* The heavier of two fluids is the liquid, whatever its number. */
@@ -338,8 +338,8 @@ static void gauge_of_two_fluids(void **state)
         mps_sim *sim = filled(2, 0);
         define_phase(sim, liquid, 1000);
         define_phase(sim, 1 - liquid, 1.29);
-        ASSERT_OK(sim, mps_geometry_fill_box(sim, liquid, lo, (const double[]){0.4, 0.1}, NULL, NULL));
-        ASSERT_OK(sim, mps_geometry_fill_box(sim, 1 - liquid, lo, hi, NULL, NULL));
+        ASSERT_OK(sim, mps_fill_box_add(sim, liquid, lo, (const double[]){0.4, 0.1}, NULL, NULL));
+        ASSERT_OK(sim, mps_fill_box_add(sim, 1 - liquid, lo, hi, NULL, NULL));
         for (double x = 0; x < 0.4; x += 0.0137) {
             const mps_probe p = probe_of(MPS_PROBE_GAUGE, x, 0, 0);
             ASSERT_NEAR(read_one(sim, &p), 0.1, 0.015 * dp);
@@ -393,7 +393,7 @@ static void gauge_of_chosen_phases(void **state)
     mps_sim *sim = filled(2, 0);
     for (int32_t k = 2; k >= 0; k--) {
         define_phase(sim, k, density[k]);
-        ASSERT_OK(sim, mps_geometry_fill_box(sim, k, lo, (const double[]){0.4, height[k]}, NULL, NULL));
+        ASSERT_OK(sim, mps_fill_box_add(sim, k, lo, (const double[]){0.4, height[k]}, NULL, NULL));
     }
     mps_probe p = probe_of(MPS_PROBE_GAUGE, 0.123, 0, 0);
     ASSERT_NEAR(read_one(sim, &p), 0.2, 0.015 * dp);

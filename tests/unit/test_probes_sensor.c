@@ -105,7 +105,7 @@ static void plate(void **state)
     (void)state;
     const double lo[2] = {0.2, 0}, hi[2] = {0.2, 0.15}, b[3] = {300, -9810, 0};
     mps_sim *sim = filled(2, 0);
-    ASSERT_OK(sim, mps_geometry_baffle(sim, "plate", lo, hi, NULL));
+    ASSERT_OK(sim, mps_baffle_add(sim, "plate", lo, hi, NULL));
     write_linear(sim, 5000, b);
     for (double y = 0.03; y < 0.12; y += 0.0031) ASSERT_NEAR(read_sensor(sim, 0.2, y, 0, 0.03), 5060 - 9810 * y, 1e-9);
     mps_sim_destroy(sim);

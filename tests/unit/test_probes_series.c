@@ -16,7 +16,7 @@ static mps_sim *still(void)
     mps_time_control control;
     mps_time_control_init(&control, sizeof control);
     control.dt = 1;
-    ASSERT_OK(sim, mps_sim_set_time_control(sim, &control));
+    ASSERT_OK(sim, mps_time_control_set(sim, &control));
     return sim;
 }
 

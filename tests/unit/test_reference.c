@@ -32,7 +32,7 @@ static mps_sim *full_tank(int dim, double angle)
     config.gravity[1] = -9.81 * cos(angle);
     assert_int_equal(mps_sim_create(&config, &sim), MPS_OK);
     add_tank(sim, side, side, side);
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL));
+    ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, NULL));
     ASSERT_OK(sim, mps_model_register(sim, &spy_after));
     ASSERT_OK(sim, mps_model_use(sim, "after.spy"));
     return sim;
@@ -204,9 +204,9 @@ static void weightless(void **state)
     for (int m = 0; m < 2; m++) {
         const double lo[2] = {0}, hi[2] = {side, side};
         mps_sim *sim = bare_sim(2, dp, 3.1, 1e-3);
-        ASSERT_OK(sim, mps_sim_use_preset(sim, "imps"));
+        ASSERT_OK(sim, mps_preset_use(sim, "imps"));
         add_tank(sim, side, side, 0);
-        ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL));
+        ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, NULL));
         ASSERT_OK(sim, mps_model_use(sim, models[m]));
         ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_PLUGIN, "without gravity");
         mps_sim_destroy(sim);

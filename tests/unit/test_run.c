@@ -30,7 +30,7 @@ static void set_fixed_step(mps_sim *sim, double dt)
     mps_time_control c;
     assert_int_equal(mps_time_control_init(&c, sizeof c), MPS_OK);
     c.dt = dt;
-    ASSERT_OK(sim, mps_sim_set_time_control(sim, &c));
+    ASSERT_OK(sim, mps_time_control_set(sim, &c));
 }
 
 typedef struct watch {
@@ -136,7 +136,7 @@ static int meddle(void *user, mps_sim *sim, const mps_step_info *info)
     ASSERT_REFUSED(sim, mps_run(sim, info->t + 1e-3, NULL, NULL), MPS_E_BUSY, "monitor");
     ASSERT_REFUSED(sim, mps_particles_add(sim, &b, NULL), MPS_E_BUSY, "monitor");
     ASSERT_REFUSED(sim, mps_particles_remove(sim, 1, &id), MPS_E_BUSY, "monitor");
-    ASSERT_REFUSED(sim, mps_geometry_fill_box(sim, 0, x, x, NULL, NULL), MPS_E_BUSY, "monitor");
+    ASSERT_REFUSED(sim, mps_fill_box_add(sim, 0, x, x, NULL, NULL), MPS_E_BUSY, "monitor");
     ASSERT_OK(sim, mps_lease_begin(sim, "pressure", MPS_READ, &lease));
     ASSERT_OK(sim, mps_lease_end(sim, &lease));
     return *calls == 2;
@@ -164,8 +164,8 @@ static void threads_agree(void **state)
     mps_sim *sim[3];
     for (int k = 0; k < 3; k++) {
         sim[k] = pool();
-        ASSERT_OK(sim[k], mps_sim_set_threads(sim[k], k + 1));
-        ASSERT_OK(sim[k], mps_motion_set_harmonics(sim[k], 1, &h));
+        ASSERT_OK(sim[k], mps_threads_set(sim[k], k + 1));
+        ASSERT_OK(sim[k], mps_motion_harmonics_set(sim[k], 1, &h));
         ASSERT_OK(sim[k], mps_run(sim[k], 0.1, NULL, NULL));
     }
     for (int k = 1; k < 3; k++)

@@ -99,14 +99,14 @@ static mps_sim *build(scene what, int32_t dim)
                  up[3] = {0, 0.24, 0}, along[3] = {0, 0, across};
     mps_sim *sim = new_sim(dim, dp);
     add_tank(sim, what == EDGE ? 1.2 : 0.8, 0.64, across);
-    if (what == EDGE) ASSERT_OK(sim, mps_geometry_baffle(sim, "box", box_lo, box_hi, NULL));
+    if (what == EDGE) ASSERT_OK(sim, mps_baffle_add(sim, "box", box_lo, box_hi, NULL));
     if (what == PLATE)
-        ASSERT_OK(sim, mps_geometry_plate(sim, "plate", foot, up, dim == 3 ? along : NULL));
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL));
+        ASSERT_OK(sim, mps_plate_add(sim, "plate", foot, up, dim == 3 ? along : NULL));
+    ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, NULL));
     if (what == EDGE)
         stream(sim);
     else
-        ASSERT_OK(sim, mps_motion_set_callback(sim, pull, NULL));
+        ASSERT_OK(sim, mps_motion_callback_set(sim, pull, NULL));
     return sim;
 }
 
@@ -211,7 +211,7 @@ static mps_sim *jumping(int32_t dim, double depth)
     mps_sim *sim = new_sim(dim, 0.04);
     add_tank(sim, 0.8, 0.48, across);
     fill_depth(sim, 0.8, depth, across);
-    ASSERT_OK(sim, mps_motion_set_harmonics(sim, 1, &surge));
+    ASSERT_OK(sim, mps_motion_harmonics_set(sim, 1, &surge));
     return sim;
 }
 
@@ -331,7 +331,7 @@ static void threads_do_not_matter(void **state)
     (void)state;
     for (int32_t dim = 2; dim <= 3; dim++) {
         mps_sim *one = build(EDGE, dim), *two = build(EDGE, dim);
-        ASSERT_OK(two, mps_sim_set_threads(two, 2));
+        ASSERT_OK(two, mps_threads_set(two, 2));
         assert_true(run_to(one, 0.1) > 0);
         assert_true(run_to(two, 0.1) > 0);
         assert_same(one, two);

@@ -136,8 +136,8 @@ static void versions(void **state)
     c = good_config(text, sizeof text);
     assert_int_equal(mps_sim_create(&c, &sim), MPS_OK);
     mps_phase phase = {.struct_size = 16, .density = 800, .viscosity = NAN};
-    ASSERT_REFUSED(sim, mps_sim_set_phase(sim, 0, &phase), MPS_E_ARG, "mps_phase.struct_size is 16: call mps_phase_init() first");
-    ASSERT_REFUSED(sim, mps_sim_get_phase(sim, 0, &phase), MPS_E_ARG, "version 1.0.0 has 24");
+    ASSERT_REFUSED(sim, mps_phase_set(sim, 0, &phase), MPS_E_ARG, "mps_phase.struct_size is 16: call mps_phase_init() first");
+    ASSERT_REFUSED(sim, mps_phase_get(sim, 0, &phase), MPS_E_ARG, "version 1.0.0 has 24");
     assert_true(phase.density == 800 && isnan(phase.viscosity));
     mps_sim_destroy(sim);
     assert_int_equal(mps_config_init(NULL, sizeof c), MPS_E_ARG);
@@ -162,9 +162,9 @@ static void defaults(void **state)
     ASSERT_OK(sim, mps_solver_name(sim, &solver, &pc));
     assert_string_equal(solver, "sundials.pcg");
     assert_string_equal(mps_sim_error(sim), "");
-    ASSERT_OK(sim, mps_sim_set_threads(sim, 2));
-    ASSERT_REFUSED(sim, mps_sim_set_threads(sim, 0), MPS_E_ARG, "threads is 0");
-    ASSERT_REFUSED(sim, mps_sim_set_threads(sim, 1025), MPS_E_ARG, "threads is 1025");
+    ASSERT_OK(sim, mps_threads_set(sim, 2));
+    ASSERT_REFUSED(sim, mps_threads_set(sim, 0), MPS_E_ARG, "threads is 0");
+    ASSERT_REFUSED(sim, mps_threads_set(sim, 1025), MPS_E_ARG, "threads is 1025");
     assert_int_equal(mps_sim_shape(NULL, &dim, &dp), MPS_E_ARG);
     assert_int_equal(mps_sim_time(NULL, &t, &steps), MPS_E_ARG);
     mps_sim_destroy(sim);
@@ -195,7 +195,7 @@ static void log_callback(void **state)
     assert_int_equal(mps_sim_create(&c, &sim), MPS_OK);
     assert_int_equal(mps_tank_init(&tank, sizeof tank), MPS_OK);
     tank.size[0] = tank.size[1] = 0.51; /* not a whole number of spacings */
-    ASSERT_OK(sim, mps_geometry_tank(sim, &tank, NULL));
+    ASSERT_OK(sim, mps_tank_add(sim, &tank, NULL));
     assert_int_equal(m.level, MPS_LOG_INFO);
     assert_non_null(strstr(m.text, "0.51"));
     mps_sim_destroy(sim);
@@ -219,10 +219,10 @@ static void empty_phase(void **state)
     c.log_user = warnings;
     assert_int_equal(mps_sim_create(&c, &sim), MPS_OK);
     assert_int_equal(mps_phase_init(&p, sizeof p), MPS_OK);
-    for (int k = 1; k < 4; k++) ASSERT_OK(sim, mps_sim_set_phase(sim, k, &p));
+    for (int k = 1; k < 4; k++) ASSERT_OK(sim, mps_phase_set(sim, k, &p));
     add_tank(sim, 0.5, 0.5, 0);
     const double lo[2] = {0, 0}, hi[2] = {0.5, 0.3};
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 2, lo, hi, NULL, NULL));
+    ASSERT_OK(sim, mps_fill_box_add(sim, 2, lo, hi, NULL, NULL));
     for (int k = 0; k < 3; k++) ASSERT_OK(sim, mps_step(sim, 1e-4, NULL));
     assert_string_equal(warnings, "phase 1 is defined, but no fluid particle is of it;phase 3 is "
                                   "defined, but no fluid particle is of it;");
@@ -250,7 +250,7 @@ static void suggestions(void **state)
     assert_null(
         strstr(strstr(mps_sim_error(sim), "\"surface\"") + 1, "\"surface\"")); /* each once */
     assert_null(strstr(mps_sim_error(sim), "wall.half"));
-    ASSERT_REFUSED(sim, mps_sim_use_preset(sim, "no such thing"), MPS_E_NAME,
+    ASSERT_REFUSED(sim, mps_preset_use(sim, "no such thing"), MPS_E_NAME,
                    "there are \"imps\", ");
     ASSERT_REFUSED(sim, mps_solver_use(sim, "petsc", NULL), MPS_E_NAME,
                    "there are 'sundials.pcg', ");
@@ -259,10 +259,10 @@ static void suggestions(void **state)
     ASSERT_OK(sim, mps_model_use(sim, "gradient.conservative"));
     ASSERT_REFUSED(sim, mps_model_set(sim, "gradient", "x", 1), MPS_E_NAME,
                    "model \"gradient.conservative\" has no setting");
-    ASSERT_REFUSED(sim, mps_sim_use_preset(sim, "ims"), MPS_E_NAME,
+    ASSERT_REFUSED(sim, mps_preset_use(sim, "ims"), MPS_E_NAME,
                    "\"ims\"; did you mean \"imps\"");
-    ASSERT_REFUSED(sim, mps_sim_use_preset(sim, "imps.papr"), MPS_E_NAME, "\"imps.paper\"");
-    ASSERT_REFUSED(sim, mps_sim_use_preset(sim, NULL), MPS_E_ARG, "NULL");
+    ASSERT_REFUSED(sim, mps_preset_use(sim, "imps.papr"), MPS_E_NAME, "\"imps.paper\"");
+    ASSERT_REFUSED(sim, mps_preset_use(sim, NULL), MPS_E_ARG, "NULL");
     ASSERT_REFUSED(sim, mps_model_use(sim, "surface.asymetry"), MPS_E_NAME,
                    "\"surface.asymmetry\"");
     ASSERT_REFUSED(sim, mps_model_use(sim, NULL), MPS_E_ARG, "NULL");
@@ -299,7 +299,7 @@ static void settings(void **state)
     (void)state;
     mps_sim *sim = new_sim(2, 0.05);
     double v = -1, initial = -1;
-    ASSERT_OK(sim, mps_sim_use_preset(sim, "imps.paper"));
+    ASSERT_OK(sim, mps_preset_use(sim, "imps.paper"));
     ASSERT_OK(sim, mps_model_get(sim, "source", "gamma", &initial));
     ASSERT_OK(sim, mps_model_set(sim, "source", "gamma", 0.25));
     ASSERT_REFUSED(sim, mps_model_set(sim, "source", "gamma", 1.5), MPS_E_ARG,
@@ -310,7 +310,7 @@ static void settings(void **state)
     ASSERT_OK(sim, mps_model_get(sim, "source.mixed", "gamma", &v)); /* by the full name too */
     assert_true(v == 0.25 && initial == 0.01);
     assert_int_equal(mps_model_get(sim, "source", "gamma", NULL), MPS_E_ARG);
-    ASSERT_OK(sim, mps_sim_use_preset(sim, "imps.paper")); /* settings made before are gone */
+    ASSERT_OK(sim, mps_preset_use(sim, "imps.paper")); /* settings made before are gone */
     ASSERT_OK(sim, mps_model_get(sim, "source", "gamma", &v));
     assert_true(v == initial);
     assert_true(active(sim, "surface.asymmetry") && !active(sim, "surface.original"));
@@ -341,22 +341,22 @@ static void phases(void **state)
     got = p;
     for (int k = 0; k < 4; k++) {
         p.density = bad[k];
-        ASSERT_REFUSED(sim, mps_sim_set_phase(sim, 0, &p), MPS_E_ARG, "density is");
+        ASSERT_REFUSED(sim, mps_phase_set(sim, 0, &p), MPS_E_ARG, "density is");
         p.density = 1000;
         p.viscosity = bad[k];
-        if (k > 0) ASSERT_REFUSED(sim, mps_sim_set_phase(sim, 0, &p), MPS_E_ARG, "viscosity is");
+        if (k > 0) ASSERT_REFUSED(sim, mps_phase_set(sim, 0, &p), MPS_E_ARG, "viscosity is");
         p.viscosity = 1e-3;
     }
-    ASSERT_REFUSED(sim, mps_sim_set_phase(sim, 16, &p), MPS_E_ARG, "16: 0..15");
-    ASSERT_REFUSED(sim, mps_sim_set_phase(sim, -1, &p), MPS_E_ARG, "-1: 0..15");
-    ASSERT_REFUSED(sim, mps_sim_get_phase(sim, 1, &got), MPS_E_ARG, "phase 1 is not defined");
-    ASSERT_REFUSED(sim, mps_sim_set_phase(sim, 0, NULL), MPS_E_ARG, "NULL");
-    ASSERT_REFUSED(sim, mps_sim_get_phase(sim, 0, NULL), MPS_E_ARG, "NULL");
+    ASSERT_REFUSED(sim, mps_phase_set(sim, 16, &p), MPS_E_ARG, "16: 0..15");
+    ASSERT_REFUSED(sim, mps_phase_set(sim, -1, &p), MPS_E_ARG, "-1: 0..15");
+    ASSERT_REFUSED(sim, mps_phase_get(sim, 1, &got), MPS_E_ARG, "phase 1 is not defined");
+    ASSERT_REFUSED(sim, mps_phase_set(sim, 0, NULL), MPS_E_ARG, "NULL");
+    ASSERT_REFUSED(sim, mps_phase_get(sim, 0, NULL), MPS_E_ARG, "NULL");
     add_tank(sim, 0.5, 0.5, 0);
     fill_depth(sim, 0.5, 0.3, 0);
     p.density = 1.2;
-    ASSERT_OK(sim, mps_sim_set_phase(sim, 0, &p)); /* particles take it at once */
-    ASSERT_OK(sim, mps_sim_get_phase(sim, 0, &got));
+    ASSERT_OK(sim, mps_phase_set(sim, 0, &p)); /* particles take it at once */
+    ASSERT_OK(sim, mps_phase_get(sim, 0, &got));
     assert_true(got.density == 1.2);
     ASSERT_OK(sim, mps_lease_begin(sim, "density", MPS_READ, &rho));
     for (int64_t i = 0; i < rho.count; i++) assert_true(rho.data[i] == 1.2);
@@ -447,7 +447,7 @@ static void too_many_models(void **state)
         status = mps_model_use(sim, name);
     }
     ASSERT_REFUSED(sim, status, MPS_E_ARG, "too many");
-    ASSERT_OK(sim, mps_sim_use_preset(sim, "imps"));
+    ASSERT_OK(sim, mps_preset_use(sim, "imps"));
     mps_sim_destroy(sim);
 }
 
@@ -473,23 +473,23 @@ static void user_kernel(void **state)
     double n0 = 0;
     add_tank(sim, 0.5, 0.5, 0);
     fill_depth(sim, 0.5, 0.3, 0);
-    ASSERT_REFUSED(sim, mps_sim_set_kernel(sim, NULL), MPS_E_ARG, "NULL");
+    ASSERT_REFUSED(sim, mps_kernel_use(sim, NULL), MPS_E_ARG, "NULL");
     assert_int_equal(mps_kernel_custom(negative, NULL, &k), MPS_OK);
-    ASSERT_REFUSED(sim, mps_sim_set_kernel(sim, &k), MPS_E_ARG,
+    ASSERT_REFUSED(sim, mps_kernel_use(sim, &k), MPS_E_ARG,
                    "the kernel is -0.055 at r = 0.05 m of re = 0.105 m");
     assert_int_equal(mps_kernel_custom(zero, NULL, &k), MPS_OK);
-    ASSERT_REFUSED(sim, mps_sim_set_kernel(sim, &k), MPS_E_ARG, "is 0 at all distances");
+    ASSERT_REFUSED(sim, mps_kernel_use(sim, &k), MPS_E_ARG, "is 0 at all distances");
     k.id = 0;
-    ASSERT_REFUSED(sim, mps_sim_set_kernel(sim, &k), MPS_E_ARG, "kernel.id is 0");
+    ASSERT_REFUSED(sim, mps_kernel_use(sim, &k), MPS_E_ARG, "kernel.id is 0");
     assert_int_equal(mps_kernel_custom(flat, NULL, &k), MPS_OK);
-    ASSERT_OK(sim, mps_sim_set_kernel(sim, &k));
-    ASSERT_OK(sim, mps_sim_stencil(sim, MPS_NEAR, &s));
+    ASSERT_OK(sim, mps_kernel_use(sim, &k));
+    ASSERT_OK(sim, mps_stencil_get(sim, MPS_NEAR, &s));
     assert_int_equal(mps_lattice_constants(&k, 2, 0.05, 2.1 * 0.05, &n0, NULL), MPS_OK);
     assert_true(s.n0 == n0 && s.kernel.fn == flat);
-    ASSERT_REFUSED(sim, mps_sim_stencil(sim, 2, &s), MPS_E_ARG, "which is 2");
-    ASSERT_REFUSED(sim, mps_sim_stencil(sim, MPS_NEAR, NULL), MPS_E_ARG, "NULL");
+    ASSERT_REFUSED(sim, mps_stencil_get(sim, 2, &s), MPS_E_ARG, "which is 2");
+    ASSERT_REFUSED(sim, mps_stencil_get(sim, MPS_NEAR, NULL), MPS_E_ARG, "NULL");
     ASSERT_OK(sim, mps_step(sim, 1e-4, NULL));
-    ASSERT_REFUSED(sim, mps_sim_set_kernel(sim, &k), MPS_E_STATE, "first step");
+    ASSERT_REFUSED(sim, mps_kernel_use(sim, &k), MPS_E_STATE, "first step");
     mps_sim_destroy(sim);
 }
 

@@ -167,7 +167,7 @@ static void fill_pool(mps_sim *sim)
     mps_tank tank;
     assert_int_equal(mps_tank_init(&tank, sizeof tank), MPS_OK);
     tank.size[0] = tank.size[1] = 0.5;
-    ASSERT_OK(sim, mps_geometry_tank(sim, &tank, NULL));
+    ASSERT_OK(sim, mps_tank_add(sim, &tank, NULL));
     fill_depth(sim, 0.5, 0.3, 0);
 }
 
@@ -390,8 +390,8 @@ static void failing_start(void **state)
     const double centre[3] = {0, 0, 0};
     mps_sim *sim = pool();
     use_push(sim);
-    ASSERT_OK(sim, mps_motion_set_centre(sim, centre, MPS_START_WITH_TANK));
-    ASSERT_OK(sim, mps_motion_set_callback(sim, surge, NULL));
+    ASSERT_OK(sim, mps_motion_centre_set(sim, centre, MPS_START_WITH_TANK));
+    ASSERT_OK(sim, mps_motion_callback_set(sim, surge, NULL));
     const picture before = take_picture(sim);
     test.fail = SHIFT;
     ASSERT_STATUS(sim, mps_step(sim, 1e-3, NULL), MPS_E_PLUGIN);
@@ -441,7 +441,7 @@ static mps_time_control control(void)
     do {                                                                          \
         mps_time_control c_ = control();                                          \
         c_.entry = (value);                                                       \
-        ASSERT_REFUSED(sim, mps_sim_set_time_control(sim, &c_), MPS_E_ARG, word); \
+        ASSERT_REFUSED(sim, mps_time_control_set(sim, &c_), MPS_E_ARG, word); \
     } while (0)
 
 static void bad_time_control(void **state)
@@ -463,13 +463,13 @@ static void bad_time_control(void **state)
     REFUSE(dt_min, -1, "dt_min is -1");
     REFUSE(struct_size, 0, "struct_size");
     c.cfl = c.gravity = c.dt_max = -1;
-    ASSERT_REFUSED(sim, mps_sim_set_time_control(sim, &c), MPS_E_ARG, "off");
+    ASSERT_REFUSED(sim, mps_time_control_set(sim, &c), MPS_E_ARG, "off");
     c.cfl = c.gravity = c.dt_max = 0; /* as off as -1 */
-    ASSERT_REFUSED(sim, mps_sim_set_time_control(sim, &c), MPS_E_ARG, "off");
+    ASSERT_REFUSED(sim, mps_time_control_set(sim, &c), MPS_E_ARG, "off");
     c.dt = 1e-3; /* a fixed step needs no limit */
-    ASSERT_OK(sim, mps_sim_set_time_control(sim, &c));
-    ASSERT_REFUSED(sim, mps_sim_set_time_control(sim, NULL), MPS_E_ARG, "NULL");
-    assert_int_equal(mps_sim_set_time_control(NULL, &c), MPS_E_ARG);
+    ASSERT_OK(sim, mps_time_control_set(sim, &c));
+    ASSERT_REFUSED(sim, mps_time_control_set(sim, NULL), MPS_E_ARG, "NULL");
+    assert_int_equal(mps_time_control_set(NULL, &c), MPS_E_ARG);
     mps_sim_destroy(sim);
 }
 
@@ -491,10 +491,10 @@ static void limits(void **state)
     ASSERT_NEAR(step_taken(sim, 1), 0.06 * dp / g, 1e-15);
     mps_time_control c = control();
     c.dt_max = 1e-4;
-    ASSERT_OK(sim, mps_sim_set_time_control(sim, &c));
+    ASSERT_OK(sim, mps_time_control_set(sim, &c));
     ASSERT_NEAR(step_taken(sim, 1), 1e-4, 1e-18);
     c.dt_max = -1;
-    ASSERT_OK(sim, mps_sim_set_time_control(sim, &c)); /* forgets the previous step, */
+    ASSERT_OK(sim, mps_time_control_set(sim, &c)); /* forgets the previous step, */
     test.dt_limit = 2e-4;
     ASSERT_NEAR(step_taken(sim, 1), 2e-4, 1e-18);
     test.dt_limit = INFINITY;
@@ -502,18 +502,18 @@ static void limits(void **state)
     ASSERT_NEAR(step_taken(sim, 1e-5), 1e-5, 1e-18);
     ASSERT_NEAR(step_taken(sim, 1), 1.1 * 2.2e-4, 1e-15); /* a step cut by the caller does not count */
     c.dt = 5e-4;
-    ASSERT_OK(sim, mps_sim_set_time_control(sim, &c));
+    ASSERT_OK(sim, mps_time_control_set(sim, &c));
     ASSERT_NEAR(step_taken(sim, 1), 5e-4, 1e-18);
     c.dt = 0;
     c.growth = -1;
-    ASSERT_OK(sim, mps_sim_set_time_control(sim, &c));
+    ASSERT_OK(sim, mps_time_control_set(sim, &c));
     mps_phase honey;
     assert_int_equal(mps_phase_init(&honey, sizeof honey), MPS_OK);
     honey.viscosity = 1000;
-    ASSERT_OK(sim, mps_sim_set_phase(sim, 0, &honey));
+    ASSERT_OK(sim, mps_phase_set(sim, 0, &honey));
     ASSERT_NEAR(step_taken(sim, 1), 0.2 * dp * dp, 1e-15);
     c.dt_min = 1e-2;
-    ASSERT_OK(sim, mps_sim_set_time_control(sim, &c));
+    ASSERT_OK(sim, mps_time_control_set(sim, &c));
     ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_DIVERGED, "below dt_min = 0.01");
     mps_sim_destroy(sim);
 }
@@ -530,7 +530,7 @@ static void fast_walls(void **state)
         mps_step_info info;
         mps_sim *sim = pool();
         const picture before = take_picture(sim);
-        ASSERT_OK(sim, mps_motion_set_harmonics(sim, 1, &shock));
+        ASSERT_OK(sim, mps_motion_harmonics_set(sim, 1, &shock));
         for (int64_t id = 0; against && id < before.n; id++)
             if (mps_particle_index(sim, id) >= 0) set_velocity(sim, id, -120, 0);
         assert_int_equal(mps_step_info_init(&info, sizeof info), MPS_OK);
@@ -555,10 +555,10 @@ static void slivers(void **state)
     sim = pool();
     mps_time_control c = control();
     c.dt_max = 1e-12;
-    ASSERT_OK(sim, mps_sim_set_time_control(sim, &c));
+    ASSERT_OK(sim, mps_time_control_set(sim, &c));
     for (int k = 0; k < 3; k++) ASSERT_NEAR(step_taken(sim, 1), 1e-12, 1e-27);
     c.dt_max = 0;
-    ASSERT_OK(sim, mps_sim_set_time_control(sim, &c));
+    ASSERT_OK(sim, mps_time_control_set(sim, &c));
     ASSERT_NEAR(step_taken(sim, 1), 0.06 * dp / g, 1e-15);
     mps_sim_destroy(sim);
 }

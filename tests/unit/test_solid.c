@@ -138,7 +138,7 @@ static void surfaces(void **state)
         mps_sim *sim = new_sim(c->dim, 0.1);
         mps_solid solid = solid_of(c->distance, c->inside, c->dim == 3 ? &three : &two, c->size);
         solid.invert = c->invert;
-        ASSERT_OK(sim, mps_geometry_solid(sim, &solid));
+        ASSERT_OK(sim, mps_solid_add(sim, &solid));
         const sums s = sum_walls(sim);
         if (fabs(s.area / c->area - 1) > c->area_error || fabs(s.volume / c->volume - 1) > 0.01 || s.closest < c->closest ||
             s.widest > c->widest)
@@ -160,11 +160,11 @@ static void a_box_is_a_tank(void **state)
     mps_solid solid = solid_of(box, NULL, &two, 1);
     solid.lo[1] = -0.6;
     solid.hi[1] = 0.6;
-    ASSERT_OK(a, mps_geometry_solid(a, &solid));
+    ASSERT_OK(a, mps_solid_add(a, &solid));
     assert_int_equal(mps_particles_count(a, MPS_WALL), mps_particles_count(b, MPS_WALL));
     const double lo[2] = {-1, -0.6}, hi[2] = {1, 0};
     int64_t added = 0;
-    ASSERT_OK(a, mps_geometry_fill_box(a, 0, lo, hi, &added, NULL));
+    ASSERT_OK(a, mps_fill_box_add(a, 0, lo, hi, &added, NULL));
     assert_int_equal(added, fill_depth(b, 2, 0.6, 0));
     const mps__particles *s = &a->world.particles, *t = &b->world.particles;
     for (int64_t i = 0; i < s->n; i++) {
@@ -194,8 +194,8 @@ static void fills_keep_out(void **state)
     mps_sim *sim = new_sim(2, dp);
     mps_solid solid = solid_of(ball, NULL, &two, 1);
     int64_t added = 0;
-    ASSERT_OK(sim, mps_geometry_solid(sim, &solid));
-    ASSERT_OK(sim, mps_geometry_fill(sim, 0, everywhere, NULL, &added));
+    ASSERT_OK(sim, mps_solid_add(sim, &solid));
+    ASSERT_OK(sim, mps_fill_add(sim, 0, everywhere, NULL, &added));
     const mps__particles *s = &sim->world.particles;
     for (int64_t i = 0; i < s->n; i++)
         if (s->kind[i] == MPS_FLUID) assert_true(ball(&two, &s->x[2 * i]) > 0.49 * dp);
@@ -216,16 +216,16 @@ static void two_tanks(void **state)
     mps_sim *sim = new_sim(2, 0.1);
     mps_solid solid = solid_of(ball, NULL, &two, 1);
     int64_t one = 0, both = 0;
-    ASSERT_OK(sim, mps_geometry_solid(sim, &solid));
-    ASSERT_OK(sim, mps_geometry_fill(sim, 0, everywhere, NULL, &one));
+    ASSERT_OK(sim, mps_solid_add(sim, &solid));
+    ASSERT_OK(sim, mps_fill_add(sim, 0, everywhere, NULL, &one));
     solid.distance = second_ball;
     solid.name = "other";
     solid.lo[0] = 2;
     solid.hi[0] = 4;
     solid.lo[1] = 0;
     solid.hi[1] = 2;
-    ASSERT_OK(sim, mps_geometry_solid(sim, &solid));
-    ASSERT_OK(sim, mps_geometry_fill(sim, 0, everywhere, NULL, &both));
+    ASSERT_OK(sim, mps_solid_add(sim, &solid));
+    ASSERT_OK(sim, mps_fill_add(sim, 0, everywhere, NULL, &both));
     assert_int_equal(both, one);
     assert_true(mps_part_find(sim, "solid") >= 0 && mps_part_find(sim, "other") >= 0);
     mps_sim_destroy(sim);
@@ -239,7 +239,7 @@ static void column_in_a_tank(void **state)
     add_tank(sim, 1, 0.6, 1);
     const int64_t before = mps_particles_count(sim, MPS_WALL);
     mps_solid solid = solid_of(column, NULL, NULL, 1.5);
-    ASSERT_OK(sim, mps_geometry_solid(sim, &solid));
+    ASSERT_OK(sim, mps_solid_add(sim, &solid));
     const mps__particles *s = &sim->world.particles;
     const int32_t part = mps_part_find(sim, "solid");
     double area = 0;
@@ -278,7 +278,7 @@ static void thin_plates_are_told(void **state)
         assert_int_equal(mps_sim_create(&config, &sim), MPS_OK);
         add_tank(sim, 1, 1, 0);
         mps_solid solid = solid_of(NULL, in_slab, NULL, 2);
-        ASSERT_OK(sim, mps_geometry_solid(sim, &solid));
+        ASSERT_OK(sim, mps_solid_add(sim, &solid));
         assert_int_equal(strstr(text, "thinner than 3 dp") != NULL, !thick);
         mps_sim_destroy(sim);
     }
@@ -299,11 +299,11 @@ static double constant(void *user, const double *x)
 
 static void refused(mps_sim *sim, mps_solid solid, const char *word)
 {
-    ASSERT_REFUSED(sim, mps_geometry_solid(sim, &solid), MPS_E_ARG, word);
+    ASSERT_REFUSED(sim, mps_solid_add(sim, &solid), MPS_E_ARG, word);
     assert_int_equal(mps_particles_count(sim, -1), 0);
     assert_int_equal(mps_part_find(sim, "solid"), -1);
     const double lo[2] = {0, 0}, hi[2] = {1, 1};
-    ASSERT_STATUS(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL), MPS_E_STATE);
+    ASSERT_STATUS(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, NULL), MPS_E_STATE);
 }
 
 static void refusals(void **state)
@@ -346,15 +346,15 @@ static void refusals(void **state)
     bad = good;
     bad.name = "a name that is much too long for a part";
     refused(sim, bad, "solid.name");
-    ASSERT_OK(sim, mps_geometry_solid(sim, &good));
-    ASSERT_OK(sim, mps_geometry_fill(sim, 0, everywhere, NULL, NULL));
+    ASSERT_OK(sim, mps_solid_add(sim, &good));
+    ASSERT_OK(sim, mps_fill_add(sim, 0, everywhere, NULL, NULL));
     /* into the fluid */
     mps_solid body = solid_of(ball, NULL, &two, 1.2);
     body.invert = 1;
-    ASSERT_REFUSED(sim, mps_geometry_solid(sim, &body), MPS_E_ARG, "in the way");
+    ASSERT_REFUSED(sim, mps_solid_add(sim, &body), MPS_E_ARG, "in the way");
     ASSERT_OK(sim, mps_step(sim, 1e-3, NULL));
-    ASSERT_STATUS(sim, mps_geometry_solid(sim, &body), MPS_E_STATE);
-    assert_int_equal(mps_geometry_solid(NULL, &body), MPS_E_ARG);
+    ASSERT_STATUS(sim, mps_solid_add(sim, &body), MPS_E_STATE);
+    assert_int_equal(mps_solid_add(NULL, &body), MPS_E_ARG);
     mps_sim_destroy(sim);
 }
 
@@ -370,8 +370,8 @@ static mps_sim *half_full(int dim, double dp)
 {
     mps_sim *sim = new_sim(dim, dp);
     mps_solid solid = solid_of(ball, NULL, dim == 3 ? &three : &two, 1);
-    ASSERT_OK(sim, mps_geometry_solid(sim, &solid));
-    ASSERT_OK(sim, mps_geometry_fill(sim, 0, lower_half, NULL, NULL));
+    ASSERT_OK(sim, mps_solid_add(sim, &solid));
+    ASSERT_OK(sim, mps_fill_add(sim, 0, lower_half, NULL, NULL));
     return sim;
 }
 
@@ -437,8 +437,8 @@ static void start_beside_sloping_walls(void **state)
         int32_t id[3];
         solid.lo[1] = 0;
         solid.hi[1] = 0.4;
-        ASSERT_OK(sim, mps_geometry_solid(sim, &solid));
-        ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL));
+        ASSERT_OK(sim, mps_solid_add(sim, &solid));
+        ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, NULL));
         for (int k = 0; k < 3; k++) {
             mps_probe p;
             assert_int_equal(mps_probe_init(&p, sizeof p), MPS_OK);
@@ -477,7 +477,7 @@ static void rolling_circle(void **state)
     (void)state;
     mps_sim *sim = half_full(2, 0.1);
     const mps_harmonic h = {.dof = MPS_YAW, .amplitude = 0.3, .omega = 3};
-    ASSERT_OK(sim, mps_motion_set_harmonics(sim, 1, &h));
+    ASSERT_OK(sim, mps_motion_harmonics_set(sim, 1, &h));
     assert_true(mps_run(sim, 1.5, NULL, NULL) >= 0);
     assert_true(kinetic(sim) < 1e-3 * 1000 * pi / 8 * 0.81);
     assert_int_equal(through_the_wall(sim), 0);

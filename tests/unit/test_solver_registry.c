@@ -134,7 +134,7 @@ static void test_no_sim(void **state)
     (void)state;
     assert_int_equal(mps_solver_use(NULL, "sundials.pcg", NULL), MPS_E_ARG);
     assert_int_equal(mps_solver_name(NULL, NULL, NULL), MPS_E_ARG);
-    assert_int_equal(mps_solver_set_limits(NULL, NULL), MPS_E_ARG);
+    assert_int_equal(mps_solver_limits_set(NULL, NULL), MPS_E_ARG);
     assert_int_equal(mps_solver_register(NULL, NULL), MPS_E_ARG);
     assert_int_equal(mps_preconditioner_register(NULL, NULL), MPS_E_ARG);
     assert_int_equal(mps_solver_limits_init(NULL, sizeof(mps_solver_limits)), MPS_E_ARG);
@@ -150,22 +150,22 @@ static void test_limits(void **state)
     limits.tolerance = 1e-8;
     limits.max_iterations = 0;
     limits.divergence = 0;
-    assert_int_equal(mps_solver_set_limits(sim, &limits), MPS_OK);
+    assert_int_equal(mps_solver_limits_set(sim, &limits), MPS_OK);
     assert_true(s->limits.tolerance == 1e-8 && s->limits.max_iterations == 2000 && s->limits.divergence == 0);
     static const double bad[] = {-1e-6, 1, NAN, INFINITY};
     for (int k = 0; k < 4; k++) {
         limits.tolerance = bad[k];
-        expect_error(sim, mps_solver_set_limits(sim, &limits), MPS_E_ARG, "tolerance is");
+        expect_error(sim, mps_solver_limits_set(sim, &limits), MPS_E_ARG, "tolerance is");
     }
     limits.tolerance = 1e-6;
     limits.max_iterations = -1;
-    expect_error(sim, mps_solver_set_limits(sim, &limits), MPS_E_ARG, "max_iterations is -1");
+    expect_error(sim, mps_solver_limits_set(sim, &limits), MPS_E_ARG, "max_iterations is -1");
     limits.max_iterations = 1;
     limits.divergence = NAN;
-    expect_error(sim, mps_solver_set_limits(sim, &limits), MPS_E_ARG, "divergence is nan");
+    expect_error(sim, mps_solver_limits_set(sim, &limits), MPS_E_ARG, "divergence is nan");
     limits.struct_size = 0;
-    expect_error(sim, mps_solver_set_limits(sim, &limits), MPS_E_ARG, "struct_size");
-    expect_error(sim, mps_solver_set_limits(sim, NULL), MPS_E_ARG, "NULL");
+    expect_error(sim, mps_solver_limits_set(sim, &limits), MPS_E_ARG, "struct_size");
+    expect_error(sim, mps_solver_limits_set(sim, NULL), MPS_E_ARG, "NULL");
     assert_true(s->limits.tolerance == 1e-8 && s->limits.max_iterations == 2000);
 }
 

@@ -26,7 +26,7 @@ static mps_sim *cloud_sim(int64_t count, int32_t threads)
     b.count = count;
     b.position = c.x;
     ASSERT_OK(sim, mps_particles_add(sim, &b, NULL));
-    ASSERT_OK(sim, mps_sim_set_threads(sim, threads));
+    ASSERT_OK(sim, mps_threads_set(sim, threads));
     use_model(sim, &player);
     cloud_free(&c);
     return sim;

@@ -54,7 +54,7 @@ static void test_tank_that_surges_and_turns(void **state)
     (void)state;
     add_tank(sim, 0.6, 0.6, 0);
     fill_depth(sim, 0.6, 0.3, 0);
-    ASSERT_OK(sim, mps_motion_set_harmonics(sim, 2, motion));
+    ASSERT_OK(sim, mps_motion_harmonics_set(sim, 2, motion));
     ASSERT_OK(sim, mps_model_register(sim, &ops));
     ASSERT_OK(sim, mps_model_use(sim, "look.tank"));
     for (int k = 0; k < 20; k++) ASSERT_OK(sim, mps_step(sim, 1, NULL));

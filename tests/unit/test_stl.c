@@ -133,7 +133,7 @@ static mps_status read_file(mps_sim *sim, int container, double scale)
     assert_int_equal(mps_stl_init(&stl, sizeof stl), MPS_OK);
     stl.container = container;
     stl.scale = scale;
-    return mps_geometry_stl(sim, path, &stl, built);
+    return mps_stl_add(sim, path, &stl, built);
 }
 
 /* ---- tests ---- */
@@ -176,7 +176,7 @@ static void both_forms(void **state)
         walls[ascii] = mps_particles_count(sim, MPS_WALL);
         const double lo[3] = {0, 0, 0}, hi[3] = {2, 0.6, 1.6};
         int64_t added;
-        ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, hi, &added, NULL));
+        ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, hi, &added, NULL));
         assert_int_equal(added, 9 * 3 * 7);
         mps_sim_destroy(sim);
     }
@@ -271,7 +271,7 @@ static void bad_files(void **state)
     mps_sim_destroy(sim);
     sim = new_sim(3, 0.1);
     ASSERT_REFUSED(sim, read_file(sim, 1, -1), MPS_E_ARG, "stl.scale");
-    ASSERT_REFUSED(sim, mps_geometry_stl(sim, "", &(mps_stl){.struct_size = sizeof(mps_stl)}, NULL), MPS_E_ARG, "empty");
+    ASSERT_REFUSED(sim, mps_stl_add(sim, "", &(mps_stl){.struct_size = sizeof(mps_stl)}, NULL), MPS_E_ARG, "empty");
     mps_sim_destroy(sim);
 }
 
@@ -415,7 +415,7 @@ static void rotation(void **state)
         stl.container = 1;
         memcpy(stl.rotation, c[k].angle, sizeof stl.rotation);
         stl.shift[2] = 3;
-        ASSERT_OK(sim, mps_geometry_stl(sim, path, &stl, built));
+        ASSERT_OK(sim, mps_stl_add(sim, path, &stl, built));
         for (int d = 0; d < 3; d++) {
             ASSERT_NEAR(built[d], c[k].lo[d] + (d == 2 ? 3 : 0), 1e-6);
             ASSERT_NEAR(built[3 + d], c[k].hi[d] + (d == 2 ? 3 : 0), 1e-6);
@@ -427,13 +427,13 @@ static void rotation(void **state)
     mps_stl stl;
     assert_int_equal(mps_stl_init(&stl, sizeof stl), MPS_OK);
     stl.rotation[1] = NAN;
-    ASSERT_REFUSED(sim, mps_geometry_stl(sim, path, &stl, NULL), MPS_E_ARG, "stl.rotation is (0, nan, 0) rad");
+    ASSERT_REFUSED(sim, mps_stl_add(sim, path, &stl, NULL), MPS_E_ARG, "stl.rotation is (0, nan, 0) rad");
     stl.rotation[1] = 0;
     stl.open_side = MPS_SIDE_Y1;
-    ASSERT_REFUSED(sim, mps_geometry_stl(sim, path, &stl, NULL), MPS_E_ARG, "a body has none");
+    ASSERT_REFUSED(sim, mps_stl_add(sim, path, &stl, NULL), MPS_E_ARG, "a body has none");
     stl.container = 1;
     stl.open_side = 7;
-    ASSERT_REFUSED(sim, mps_geometry_stl(sim, path, &stl, NULL), MPS_E_ARG, "stl.open_side is 7");
+    ASSERT_REFUSED(sim, mps_stl_add(sim, path, &stl, NULL), MPS_E_ARG, "stl.open_side is 7");
     mps_sim_destroy(sim);
 }
 
@@ -454,7 +454,7 @@ static void open_sides(void **state)
         assert_int_equal(mps_stl_init(&stl, sizeof stl), MPS_OK);
         stl.container = 1;
         stl.open_side = side;
-        ASSERT_OK(sim, mps_geometry_stl(sim, path, &stl, NULL));
+        ASSERT_OK(sim, mps_stl_add(sim, path, &stl, NULL));
         for (int64_t i = 0; i < s->n; i++) {
             if (s->kind[i] == MPS_WALL) area += sqrt(mps__dot(&s->area[3 * i], &s->area[3 * i], 3));
             nearest = fmin(nearest, sign * (plane - s->ref[3 * i + d]));

@@ -10,8 +10,8 @@ static void fill(mps_sim *sim)
     set_phase(sim, 0, water, 1e-3);
     set_phase(sim, 1, air, 1.8e-5);
     add_tank(sim, size[0], size[1], size[2]);
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 0, lo, water_top, NULL, NULL));
-    ASSERT_OK(sim, mps_geometry_fill_box(sim, 1, air_floor, size, NULL, NULL));
+    ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, water_top, NULL, NULL));
+    ASSERT_OK(sim, mps_fill_box_add(sim, 1, air_floor, size, NULL, NULL));
 }
 
 /* ---- walls ----------------------------------------------------------------------------------------------------------------- */
@@ -215,8 +215,8 @@ static void at_rest(void **state)
             mps_step_info info;
             mps_sim *sim = new_sim(dim, dp);
             fill(sim);
-            ASSERT_OK(sim, mps_sim_use_preset(sim, "mmps"));
-            ASSERT_OK(sim, mps_sim_set_threads(sim, threads));
+            ASSERT_OK(sim, mps_preset_use(sim, "mmps"));
+            ASSERT_OK(sim, mps_threads_set(sim, threads));
             assert_int_equal(mps_step_info_init(&info, sizeof info), MPS_OK);
             for (int step = 0; step < 20; step++) ASSERT_OK(sim, mps_step(sim, 1, &info));
             print_message("%d-D: largest speed %.3g m/s, pressures to %.2g of rho g h\n", dim, info.max_speed, head_error(sim, dim));

@@ -17,8 +17,8 @@ static mps_status build(mps_sim *sim)
     tank.size[0] = 0.6;
     tank.size[1] = 0.5;
     tank.size[2] = 0.4;
-    const mps_status status = mps_geometry_tank(sim, &tank, NULL);
-    return status < 0 ? status : mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL);
+    const mps_status status = mps_tank_add(sim, &tank, NULL);
+    return status < 0 ? status : mps_fill_box_add(sim, 0, lo, hi, NULL, NULL);
 }
 
 int main(int argc, char **argv)

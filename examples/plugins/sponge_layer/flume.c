@@ -39,8 +39,8 @@ static int build(mps_sim *sim, int32_t *gauge)
     tank.size[0] = LENGTH;
     tank.size[1] = HEIGHT;
     tank.open_top = 1;
-    if (mps_geometry_tank(sim, &tank, NULL) < 0) return failed(sim, "tank");
-    if (mps_geometry_fill(sim, 0, is_water, NULL, NULL) < 0) return failed(sim, "water");
+    if (mps_tank_add(sim, &tank, NULL) < 0) return failed(sim, "tank");
+    if (mps_fill_add(sim, 0, is_water, NULL, NULL) < 0) return failed(sim, "water");
     mps_probe_init(&probe, sizeof probe);
     probe.type = MPS_PROBE_GAUGE;
     probe.at[0] = GAUGE;

@@ -43,8 +43,8 @@ static int build(mps_sim *sim, double depth)
     mps_tank_init(&tank, sizeof tank);
     tank.size[0] = LENGTH;
     tank.size[1] = HEIGHT;
-    if (mps_geometry_tank(sim, &tank, NULL) < 0) return failed(sim, "tank");
-    if (mps_geometry_fill_box(sim, 0, lo, hi, NULL, NULL) < 0) return failed(sim, "water");
+    if (mps_tank_add(sim, &tank, NULL) < 0) return failed(sim, "tank");
+    if (mps_fill_box_add(sim, 0, lo, hi, NULL, NULL) < 0) return failed(sim, "water");
     if (mps_model_register(sim, &temperature_conduction) < 0 ||
         mps_model_use(sim, "temperature.conduction") < 0 ||
         mps_model_set(sim, "temperature", "kappa", KAPPA) < 0)
@@ -87,7 +87,7 @@ static int mixing(mps_sim *sim)
     const mps_harmonic surge = {.dof = MPS_SURGE, .amplitude = 0.01, .omega = 7.0};
     if (build(sim, HEIGHT / 2) || warm(sim, halves)) return 1;
     if (mps_model_set(sim, "temperature", "arrhenius", 2000) < 0) return failed(sim, "arrhenius");
-    if (mps_motion_set_harmonics(sim, 1, &surge) < 0) return failed(sim, "motion");
+    if (mps_motion_harmonics_set(sim, 1, &surge) < 0) return failed(sim, "motion");
     const double before = heat(sim, NULL);
     if (mps_run(sim, 2.0, NULL, NULL) < 0) return failed(sim, "run");
     const double change = heat(sim, NULL) / before - 1;
@@ -128,7 +128,7 @@ static int lost(mps_sim *sim, double arrhenius, double *energy)
     if (mps_model_set(sim, "temperature", "arrhenius", arrhenius) < 0 ||
         mps_model_set(sim, "temperature", "reference", 400) < 0)
         return failed(sim, "law");
-    if (mps_motion_set_harmonics(sim, 1, &surge) < 0) return failed(sim, "motion");
+    if (mps_motion_harmonics_set(sim, 1, &surge) < 0) return failed(sim, "motion");
     if (mps_run(sim, 0.5, NULL, NULL) < 0) return failed(sim, "run");
     if (mps_energy_get(sim, &e) < 0) return failed(sim, "energy");
     *energy = e.viscous;

@@ -123,7 +123,7 @@ mps_status mps_motion_state_init(mps_motion_state *state, size_t size)
     return mps__struct_init("mps_motion_state", state, size, &rest, sizeof rest);
 }
 
-mps_status mps_motion_set_centre(mps_sim *sim, const double *centre, int32_t start)
+mps_status mps_motion_centre_set(mps_sim *sim, const double *centre, int32_t start)
 {
     MPS__CHANGES(sim);
     mps__world *w = &sim->world;
@@ -148,7 +148,7 @@ mps_status mps_motion_set_centre(mps_sim *sim, const double *centre, int32_t sta
     return MPS_OK;
 }
 
-mps_status mps_motion_set_harmonics(mps_sim *sim, int32_t count, const mps_harmonic *harmonics)
+mps_status mps_motion_harmonics_set(mps_sim *sim, int32_t count, const mps_harmonic *harmonics)
 {
     MPS__CHANGES(sim);
     MPS__TRY(changeable(sim));
@@ -160,7 +160,7 @@ mps_status mps_motion_set_harmonics(mps_sim *sim, int32_t count, const mps_harmo
     return install_function(sim, mps__motion_harmonic, data, true, INFINITY);
 }
 
-mps_status mps_motion_set_table(mps_sim *sim, int64_t rows, const double *t, int32_t dofs, const int32_t *dof, const double *values)
+mps_status mps_motion_table_set(mps_sim *sim, int64_t rows, const double *t, int32_t dofs, const int32_t *dof, const double *values)
 {
     MPS__CHANGES(sim);
     mps__context *c = &sim->context;
@@ -178,7 +178,7 @@ mps_status mps_motion_set_table(mps_sim *sim, int64_t rows, const double *t, int
     return install_function(sim, mps__motion_table, data, true, t[rows - 1]);
 }
 
-mps_status mps_motion_set_callback(mps_sim *sim, mps_motion_fn fn, void *user)
+mps_status mps_motion_callback_set(mps_sim *sim, mps_motion_fn fn, void *user)
 {
     MPS__CHANGES(sim);
     MPS__TRY(changeable(sim));

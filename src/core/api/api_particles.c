@@ -29,7 +29,7 @@ static mps_status check_block(mps_sim *sim, const mps_particle_block *b)
     const int dim = sim->world.setup.dim;
     MPS__CHECK(c, b->kind >= MPS_FLUID && b->kind <= MPS_DUMMY, "block.kind is %d: MPS_FLUID, MPS_WALL or MPS_DUMMY", b->kind);
     MPS__CHECK(c, b->phase >= 0 && b->phase < MPS__PHASES && sim->world.setup.phase_defined[b->phase],
-               "block.phase is %d: not defined, call mps_sim_set_phase() first", b->phase);
+               "block.phase is %d: not defined, call mps_phase_set() first", b->phase);
     MPS__CHECK(c, b->count >= 1 && b->count <= INT32_MAX, "block.count is %lld: 1..%d", (long long)b->count, INT32_MAX);
     MPS__CHECK(c, b->position, "block.position is NULL");
     MPS__CHECK(c, !b->part || strnlen(b->part, MPS__PART_NAME) < MPS__PART_NAME, "block.part is longer than %d characters",

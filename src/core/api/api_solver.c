@@ -8,7 +8,7 @@ mps_status mps_solver_use(mps_sim *sim, const char *solver, const char *precondi
     return mps__solvers_use(&sim->world.solvers, solver, preconditioner);
 }
 
-mps_status mps_solver_set_limits(mps_sim *sim, const mps_solver_limits *limits)
+mps_status mps_solver_limits_set(mps_sim *sim, const mps_solver_limits *limits)
 {
     MPS__CHANGES(sim);
     return mps__solvers_set_limits(&sim->world.solvers, limits);

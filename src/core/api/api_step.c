@@ -29,7 +29,7 @@ static mps_status check_limits(mps__context *c, const mps_time_control *t)
     return MPS_OK;
 }
 
-mps_status mps_sim_set_time_control(mps_sim *sim, const mps_time_control *control)
+mps_status mps_time_control_set(mps_sim *sim, const mps_time_control *control)
 {
     MPS__CHANGES(sim);
     mps__context *c = &sim->context;
@@ -90,7 +90,7 @@ mps_status mps_run(mps_sim *sim, double t_end, mps_monitor_fn monitor, void *use
     return result;
 }
 
-mps_status mps_sim_stencil(mps_sim *sim, int32_t which, mps_stencil *stencil)
+mps_status mps_stencil_get(mps_sim *sim, int32_t which, mps_stencil *stencil)
 {
     mps_stencil view;
     MPS__READS(sim);
@@ -103,7 +103,7 @@ mps_status mps_sim_stencil(mps_sim *sim, int32_t which, mps_stencil *stencil)
     return mps__struct_out(&sim->context, "mps_stencil", stencil, &view, sizeof view);
 }
 
-mps_status mps_sim_set_kernel(mps_sim *sim, const mps_kernel *kernel)
+mps_status mps_kernel_use(mps_sim *sim, const mps_kernel *kernel)
 {
     MPS__CHANGES(sim);
     mps__context *c = &sim->context;

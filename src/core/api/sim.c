@@ -164,7 +164,7 @@ mps_status mps_sim_time(const mps_sim *sim, double *t, int64_t *steps)
     return MPS_OK;
 }
 
-mps_status mps_sim_set_threads(mps_sim *sim, int32_t threads)
+mps_status mps_threads_set(mps_sim *sim, int32_t threads)
 {
     MPS__CHANGES(sim);
     MPS__CHECK(&sim->context, threads >= 1 && threads <= MPS__THREADS_MOST, "threads is %d: 1..%d", threads, MPS__THREADS_MOST);
@@ -173,7 +173,7 @@ mps_status mps_sim_set_threads(mps_sim *sim, int32_t threads)
     return MPS_OK;
 }
 
-mps_status mps_sim_set_phase(mps_sim *sim, int32_t index, const mps_phase *phase)
+mps_status mps_phase_set(mps_sim *sim, int32_t index, const mps_phase *phase)
 {
     MPS__CHANGES(sim);
     mps_phase p = water;
@@ -192,12 +192,12 @@ mps_status mps_sim_set_phase(mps_sim *sim, int32_t index, const mps_phase *phase
     return MPS_OK;
 }
 
-mps_status mps_sim_get_phase(const mps_sim *sim, int32_t index, mps_phase *phase)
+mps_status mps_phase_get(const mps_sim *sim, int32_t index, mps_phase *phase)
 {
     if (!sim) return MPS_E_ARG;
     mps__context *c = mps__sim_context(sim);
     MPS__CHECK(c, index >= 0 && index < MPS__PHASES && sim->world.setup.phase_defined[index],
-               "phase %d is not defined: call mps_sim_set_phase() first", index);
+               "phase %d is not defined: call mps_phase_set() first", index);
     mps_phase p = water;
     p.density = sim->world.setup.phase_density[index];
     p.viscosity = sim->world.setup.phase_viscosity[index];
@@ -209,12 +209,12 @@ static mps_status check_pair(mps__context *c, const mps__world *w, int32_t a, in
     const int32_t both[2] = {a, b};
     for (int k = 0; k < 2; k++)
         MPS__CHECK(c, both[k] >= 0 && both[k] < MPS__PHASES && w->setup.phase_defined[both[k]],
-                   "phase %d is not defined: call mps_sim_set_phase() first", both[k]);
+                   "phase %d is not defined: call mps_phase_set() first", both[k]);
     MPS__CHECK(c, a != b, "surface tension of phase %d with itself: the phases must differ", a);
     return MPS_OK;
 }
 
-mps_status mps_sim_set_tension(mps_sim *sim, int32_t a, int32_t b, double sigma)
+mps_status mps_tension_set(mps_sim *sim, int32_t a, int32_t b, double sigma)
 {
     MPS__CHANGES(sim);
     mps__world *w = &sim->world;
@@ -225,7 +225,7 @@ mps_status mps_sim_set_tension(mps_sim *sim, int32_t a, int32_t b, double sigma)
     return MPS_OK;
 }
 
-mps_status mps_sim_get_tension(const mps_sim *sim, int32_t a, int32_t b, double *sigma)
+mps_status mps_tension_get(const mps_sim *sim, int32_t a, int32_t b, double *sigma)
 {
     if (!sim) return MPS_E_ARG;
     mps__context *c = mps__sim_context(sim);
@@ -245,7 +245,7 @@ mps_status mps_model_register(mps_sim *sim, const mps_model_ops *ops)
     return mps__models_register(&sim->world.models, ops);
 }
 
-mps_status mps_sim_use_preset(mps_sim *sim, const char *name)
+mps_status mps_preset_use(mps_sim *sim, const char *name)
 {
     MPS__CHANGES(sim);
     return mps__models_preset(&sim->world.models, name);

@@ -225,7 +225,7 @@ static mps_status check_gauge(const mps__world *w, mps_probe *c)
 {
     for (int32_t k = 0; k < MPS__PHASES; k++)
         MPS__CHECK(w->context, !(c->phases >> k & 1) || w->setup.phase_defined[k],
-                   "probe.phases is 0x%x: phase %d is not defined, call mps_sim_set_phase() first", (unsigned)c->phases, (int)k);
+                   "probe.phases is 0x%x: phase %d is not defined, call mps_phase_set() first", (unsigned)c->phases, (int)k);
     const double *a = c->direction, norm = sqrt(mps__dot(a, a, w->setup.dim));
     MPS__CHECK(w->context, norm > 0 && isfinite(norm), "probe.direction is (%g, %g, %g): must be finite and not zero", a[0], a[1],
                w->setup.dim == 3 ? a[2] : 0);

@@ -56,7 +56,7 @@ const char *mps_neighbours_error(const mps_neighbours *list)
     return list ? list->context->error : "the list is NULL";
 }
 
-mps_status mps_neighbours_set_parallel(mps_neighbours *list, const mps_parallel *parallel)
+mps_status mps_neighbours_parallel_set(mps_neighbours *list, const mps_parallel *parallel)
 {
     mps_parallel p = {0};
     if (!list) return MPS_E_ARG;
@@ -126,7 +126,7 @@ mps_status mps__neighbours_view(const mps_neighbours *l, int32_t which, const mp
     return MPS_OK;
 }
 
-mps_status mps_neighbours_stencil(const mps_neighbours *list, int32_t which, const mps_kernel *kernel, mps_stencil *stencil)
+mps_status mps_neighbours_stencil_get(const mps_neighbours *list, int32_t which, const mps_kernel *kernel, mps_stencil *stencil)
 {
     mps_stencil view;
     if (!list) return MPS_E_ARG;

@@ -9,7 +9,7 @@ static const mps_tank tank_defaults = {.name = "tank", .dummy_layers = 2};
 
 static mps_status has_tank(mps_sim *sim)
 {
-    if (!sim->has_tank) return mps__fail(&sim->context, MPS_E_STATE, "there is no lattice yet: call mps_geometry_tank() first");
+    if (!sim->has_tank) return mps__fail(&sim->context, MPS_E_STATE, "there is no lattice yet: call mps_tank_add() first");
     return MPS_OK;
 }
 
@@ -91,7 +91,7 @@ static void report_box(mps_sim *sim, const char *what, const double *lo, const d
 static mps_status phase_ok(mps_sim *sim, int32_t phase)
 {
     MPS__CHECK(&sim->context, phase >= 0 && phase < MPS__PHASES, "phase %d: must be 0..%d", (int)phase, MPS__PHASES - 1);
-    MPS__CHECK(&sim->context, sim->world.setup.phase_defined[phase], "phase %d is not defined: call mps_sim_set_phase() first", (int)phase);
+    MPS__CHECK(&sim->context, sim->world.setup.phase_defined[phase], "phase %d is not defined: call mps_phase_set() first", (int)phase);
     return MPS_OK;
 }
 
@@ -100,7 +100,7 @@ mps_status mps_tank_init(mps_tank *tank, size_t size)
     return mps__struct_init("mps_tank", tank, size, &tank_defaults, sizeof tank_defaults);
 }
 
-mps_status mps_geometry_tank(mps_sim *sim, const mps_tank *tank, double *built)
+mps_status mps_tank_add(mps_sim *sim, const mps_tank *tank, double *built)
 {
     MPS__CHANGES(sim);
     mps_tank t = tank_defaults;
@@ -120,7 +120,7 @@ mps_status mps_geometry_tank(mps_sim *sim, const mps_tank *tank, double *built)
     return MPS_OK;
 }
 
-mps_status mps_geometry_baffle(mps_sim *sim, const char *name, const double *lo, const double *hi, double *built)
+mps_status mps_baffle_add(mps_sim *sim, const char *name, const double *lo, const double *hi, double *built)
 {
     MPS__CHANGES(sim);
     mps__lattice_box box;
@@ -192,7 +192,7 @@ static mps_status plate_inside(mps_sim *sim, const mps__plate_shape *s)
     return MPS_OK;
 }
 
-mps_status mps_geometry_plate(mps_sim *sim, const char *name, const double *corner, const double *edge, const double *edge2)
+mps_status mps_plate_add(mps_sim *sim, const char *name, const double *corner, const double *edge, const double *edge2)
 {
     MPS__CHANGES(sim);
     const int dim = sim->world.setup.dim;
@@ -223,7 +223,7 @@ static mps_status fill_points(mps_sim *sim, int32_t phase, const double *lo, con
     return box_points(sim, lo, hi, box);
 }
 
-mps_status mps_geometry_fill_box(mps_sim *sim, int32_t phase, const double *lo, const double *hi, int64_t *added, double *built)
+mps_status mps_fill_box_add(mps_sim *sim, int32_t phase, const double *lo, const double *hi, int64_t *added, double *built)
 {
     MPS__CHANGES(sim);
     mps__lattice_box box;
@@ -233,7 +233,7 @@ mps_status mps_geometry_fill_box(mps_sim *sim, int32_t phase, const double *lo, 
     return MPS_OK;
 }
 
-mps_status mps_geometry_fill_level(mps_sim *sim, int32_t phase, const double *lo, const double *hi, int64_t *added, double *built)
+mps_status mps_fill_level_add(mps_sim *sim, int32_t phase, const double *lo, const double *hi, int64_t *added, double *built)
 {
     MPS__CHANGES(sim);
     mps__lattice_box box;
@@ -251,13 +251,13 @@ mps_status mps_geometry_fill_level(mps_sim *sim, int32_t phase, const double *lo
     return MPS_OK;
 }
 
-mps_status mps_geometry_fill(mps_sim *sim, int32_t phase, mps_inside_fn inside, void *user, int64_t *added)
+mps_status mps_fill_add(mps_sim *sim, int32_t phase, mps_inside_fn inside, void *user, int64_t *added)
 {
     MPS__CHANGES(sim);
     MPS__TRY(mps__fill_allowed(sim));
     MPS__TRY(phase_ok(sim, phase));
     MPS__TRY(has_tank(sim));
-    MPS__CHECK(&sim->context, inside, "inside is NULL: use mps_geometry_fill_box() to fill a box");
+    MPS__CHECK(&sim->context, inside, "inside is NULL: use mps_fill_box_add() to fill a box");
     mps__lattice_box box = {.lo = {0}};
     for (int d = 0; d < sim->world.setup.dim; d++) {
         box.lo[d] = sim->lattice_lo[d];

@@ -44,7 +44,7 @@ mps_status mps_solid_init(mps_solid *solid, size_t size)
     return mps__struct_init("mps_solid", solid, size, &solid_defaults, sizeof solid_defaults);
 }
 
-mps_status mps_geometry_solid(mps_sim *sim, const mps_solid *solid)
+mps_status mps_solid_add(mps_sim *sim, const mps_solid *solid)
 {
     MPS__CHANGES(sim);
     mps_solid s = solid_defaults;
@@ -169,7 +169,7 @@ static mps_status add_mesh(mps_sim *sim, const char *path, const mps_stl *s, mps
     return mps__solid_add(sim, &add);
 }
 
-mps_status mps_geometry_stl(mps_sim *sim, const char *path, const mps_stl *stl, double *built)
+mps_status mps_stl_add(mps_sim *sim, const char *path, const mps_stl *stl, double *built)
 {
     MPS__CHANGES(sim);
     mps_stl s = stl_defaults;
