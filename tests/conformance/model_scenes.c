@@ -180,7 +180,7 @@ static int32_t field_name(const mps_sim *sim, int32_t index, const char **name)
 /* Copy one field beside those copied before. */
 static bool append(mps_sim *sim, const char *name, const int64_t *place, kit_state *s)
 {
-    mps_lease lease;
+    mps_lease lease = {.struct_size = sizeof lease};
     if (mps_lease_begin(sim, name, MPS_READ, &lease) < 0) return false;
     const int32_t wide = s->stride + lease.stride;
     double *data = malloc((size_t)s->n * (size_t)wide * sizeof *data);
@@ -206,14 +206,15 @@ static int by_id(const void *a, const void *b)
 /* place: pairs of id and row, sorted by id; then rows only. */
 static bool append_all(mps_sim *sim, int64_t *place, kit_state *s)
 {
-    const int64_t *id;
+    mps_lease id = {.struct_size = sizeof id};
     const char *name;
     bool good = true;
-    mps_particles_tags(sim, &id, NULL, NULL, NULL);
+    if (mps_lease_begin(sim, "id", MPS_READ, &id) < 0) return false;
     for (int64_t i = 0; i < s->n; i++) {
-        place[2 * i] = id[i];
+        place[2 * i] = id.ids[i];
         place[2 * i + 1] = i;
     }
+    mps_lease_end(sim, &id);
     qsort(place, (size_t)s->n, 2 * sizeof *place, by_id);
     for (int64_t i = 0; i < s->n; i++) {
         s->id[i] = place[2 * i];

@@ -98,9 +98,9 @@ static int create(const mps_allocator *allocator, void **self)
     return 0;
 }
 
-static void destroy(void *self)
+static void destroy(const mps_allocator *allocator, void *self)
 {
-    (void)self;
+    (void)allocator, (void)self;
 }
 
 /* ---- set-up ---------------------------------------------------------------------------------- */
@@ -122,7 +122,7 @@ CALL(mps_motion_table_set, const double t[] = {-1, 9}, v[] = {0, 1}; const int32
      return mps_motion_table_set(sim, 2, t, 1, &dof, v);)
 CALL(mps_motion_callback_set, return mps_motion_callback_set(sim, no_motion, NULL);)
 CALL(mps_motion_clear, return mps_motion_clear(sim);)
-CALL(mps_kernel_use, mps_kernel k; mps_kernel_custom(kernel, NULL, &k);
+CALL(mps_kernel_use, mps_kernel k = {.struct_size = sizeof k}; mps_kernel_custom(kernel, NULL, &k);
      return mps_kernel_use(sim, &k);)
 CALL(mps_threads_set, return mps_threads_set(sim, 2);)
 CALL(mps_phase_set, STRUCT(mps_phase); a.density = 900; return mps_phase_set(sim, 0, &a);)
@@ -169,7 +169,7 @@ CALL(mps_particles_add, STRUCT(mps_particle_block); a.count = 1; a.position = hi
      return mps_particles_add(sim, &a, NULL);)
 CALL(mps_particles_remove, const int64_t id = 3; return mps_particles_remove(sim, 1, &id);)
 CALL(mps_field_add, return mps_field_add(sim, "new", 1);)
-CALL(mps_lease_begin, mps_lease l; return mps_lease_begin(sim, "velocity", MPS_WRITE, &l);)
+CALL(mps_lease_begin, mps_lease l = {.struct_size = sizeof l}; return mps_lease_begin(sim, "velocity", MPS_WRITE, &l);)
 CALL(mps_lease_end, mps_lease l = {0};
      const mps_status status = mps_lease_begin(sim, "velocity", MPS_READ, &l);
      const mps_status end = mps_lease_end(sim, &l); return status == MPS_OK ? end : MPS_E_BUSY;)
@@ -179,7 +179,7 @@ CALL(mps_checkpoint_read, return mps_checkpoint_read(sim, given.path);)
 
 /* ---- reading --------------------------------------------------------------------------------- */
 
-CALL(mps_stencil_get, mps_stencil s; return mps_stencil_get(sim, MPS_NEAR, &s);)
+CALL(mps_stencil_get, mps_stencil s = {.struct_size = sizeof s}; return mps_stencil_get(sim, MPS_NEAR, &s);)
 CALL(mps_checkpoint_write, return mps_checkpoint_write(sim, given.path);)
 CALL(mps_frames_open, mps_frames *f = NULL;
      const mps_status status = mps_frames_open(sim, given.folder, "lock", 0, &f);
@@ -203,13 +203,10 @@ CALL(mps_solver_info_get, STRUCT(mps_name_info); return mps_solver_info_get(sim,
 CALL(mps_preconditioner_info_get, STRUCT(mps_name_info);
      return mps_preconditioner_info_get(sim, 0, &a);)
 CALL(mps_kernel_info_get, STRUCT(mps_name_info); return mps_kernel_info_get(sim, 0, &a);)
-CALL(mps_motion_state_get, mps_motion_state s; return mps_motion_state_get(sim, &s);)
+CALL(mps_motion_state_get, mps_motion_state s = {.struct_size = sizeof s}; return mps_motion_state_get(sim, &s);)
 CALL(mps_motion_to_lab, double x[2]; return mps_motion_to_lab(sim, low, x, NULL);)
 CALL(mps_particles_count, return mps_particles_count(sim, -1) > 0 ? MPS_OK : MPS_E_BUSY;)
 CALL(mps_particle_index, return mps_particle_index(sim, 1) >= 0 ? MPS_OK : MPS_E_BUSY;)
-CALL(mps_particles_tags, const int64_t *ids;
-     return mps_particles_tags(sim, &ids, NULL, NULL, NULL);)
-CALL(mps_particles_plates, const int32_t *p; return mps_particles_plates(sim, &p);)
 CALL(mps_part_find, return mps_part_find(sim, "tank.y0") >= 0 ? MPS_OK : MPS_E_BUSY;)
 CALL(mps_probe_size, return mps_probe_size(sim, 0) == 3 ? MPS_OK : MPS_E_BUSY;)
 CALL(mps_sim_error, return mps_sim_error(sim) ? MPS_OK : MPS_E_BUSY;)
@@ -294,8 +291,6 @@ static const lock_call lock_calls[] = {
     PLAIN(mps_motion_to_lab),
     PLAIN(mps_particles_count),
     PLAIN(mps_particle_index),
-    PLAIN(mps_particles_tags),
-    PLAIN(mps_particles_plates),
     PLAIN(mps_part_find),
     PLAIN(mps_probe_size),
     PLAIN(mps_sim_error),

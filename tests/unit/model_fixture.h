@@ -86,7 +86,7 @@ static inline int find_channel(mps_sim *sim, const char *name, mps_channel_info 
 /* Value of component d of a field of the particle with an id. */
 static inline double field_value(mps_sim *sim, const char *field, int64_t id, int d)
 {
-    mps_lease l;
+    mps_lease l = {.struct_size = sizeof l};
     const int64_t at = mps_particle_index(sim, id);
     ASSERT_OK(sim, mps_lease_begin(sim, field, MPS_READ, &l));
     assert_true(at >= 0 && d < l.stride);
@@ -97,7 +97,7 @@ static inline double field_value(mps_sim *sim, const char *field, int64_t id, in
 
 static inline void set_field_value(mps_sim *sim, const char *field, int64_t id, int d, double value)
 {
-    mps_lease l;
+    mps_lease l = {.struct_size = sizeof l};
     const int64_t at = mps_particle_index(sim, id);
     ASSERT_OK(sim, mps_lease_begin(sim, field, MPS_WRITE, &l));
     assert_true(at >= 0 && d < l.stride);

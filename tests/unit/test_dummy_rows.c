@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Who has neighbours of dummies: models that say so, and programs that ask for a stencil. */
 #include "tank_fixture.h"
+#include "../tags.h"
 #include <mps/model.h>
 #include <stdbool.h>
 
@@ -111,7 +112,7 @@ static void stencil_is_complete(void **state)
     for (int which = 0; which < 2; which++) {
         mps_stencil t = {.struct_size = sizeof t};
         ASSERT_OK(sim, mps_stencil_get(sim, which, &t));
-        ASSERT_OK(sim, mps_particles_tags(sim, NULL, &kinds, NULL, NULL));
+        ASSERT_OK(sim, tags_peek(sim, NULL, &kinds, NULL, NULL));
         for (int64_t i = 0; i < t.n; i++) assert_true(kinds[i] != MPS_DUMMY || t.end[i] - t.begin[i] >= 3);
     }
     assert_int_equal(step_with(sim, "look.plain").with_row, 0);
@@ -123,10 +124,10 @@ static void number_density_stays(void **state)
 {
     (void)state;
     const int32_t *kinds;
-    mps_lease n;
+    mps_lease n = {.struct_size = sizeof n};
     mps_sim *sim = pool();
     for (int k = 0; k < 3; k++) step_with(sim, "look.plain");
-    ASSERT_OK(sim, mps_particles_tags(sim, NULL, &kinds, NULL, NULL));
+    ASSERT_OK(sim, tags_peek(sim, NULL, &kinds, NULL, NULL));
     ASSERT_OK(sim, mps_lease_begin(sim, "number_density", MPS_READ, &n));
     for (int64_t i = 0; i < n.count; i++) assert_true(n.data[i] > 0);
     ASSERT_OK(sim, mps_lease_end(sim, &n));

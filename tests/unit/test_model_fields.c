@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Channels that live as long as their particle, and fields of the user that verbs use. */
 #include "model_fixture.h"
+#include "../tags.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -42,7 +43,7 @@ static void reset(void)
 /* A pool with a swirl that mixes its particles. */
 static mps_sim *pool(int taken)
 {
-    mps_lease u, x;
+    mps_lease u = {.struct_size = sizeof u}, x = {.struct_size = sizeof x};
     mps_sim *sim = new_sim(2, dp);
     reset();
     add_tank(sim, 0.5, 0.5, 0);
@@ -64,9 +65,9 @@ static mps_sim *pool(int taken)
 static void mark_all(mps_sim *sim)
 {
     const int64_t *ids;
-    mps_lease l;
+    mps_lease l = {.struct_size = sizeof l};
     ASSERT_OK(sim, mps_lease_begin(sim, "mark", MPS_WRITE, &l));
-    ASSERT_OK(sim, mps_particles_tags(sim, &ids, NULL, NULL, NULL));
+    ASSERT_OK(sim, tags_peek(sim, &ids, NULL, NULL, NULL));
     assert_int_equal(l.stride, 2);
     for (int64_t i = 0; i < l.count; i++) {
         l.data[2 * i] = (double)ids[i] + 0.25;
@@ -80,10 +81,10 @@ static void mark_all(mps_sim *sim)
 static int64_t check_marks(mps_sim *sim, int64_t marked)
 {
     const int64_t *ids;
-    mps_lease l;
+    mps_lease l = {.struct_size = sizeof l};
     int64_t mixed = 0;
     ASSERT_OK(sim, mps_lease_begin(sim, "mark", MPS_READ, &l));
-    ASSERT_OK(sim, mps_particles_tags(sim, &ids, NULL, NULL, NULL));
+    ASSERT_OK(sim, tags_peek(sim, &ids, NULL, NULL, NULL));
     for (int64_t i = 0; i < l.count; i++) {
         const int has = ids[i] < marked;
         assert_true(l.data[2 * i] == (has ? (double)ids[i] + 0.25 : 0));
@@ -106,7 +107,7 @@ static void lease(void **state)
     (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         mps_sim *sim = row_sim(dim);
-        mps_lease l;
+        mps_lease l = {.struct_size = sizeof l};
         mps_channel_info c = {0};
         reset();
         ASSERT_REFUSED(sim, mps_lease_begin(sim, "age", MPS_READ, &l), MPS_E_NAME, "age");
@@ -164,7 +165,7 @@ static void takes_no_other_field(void **state)
     static const mps_model_ops b = {TOY("b.toy", 1, idle_verbs), .channel_count = 1,
                                     .channels = own};
     mps_sim *sim = row_sim(2);
-    mps_lease l;
+    mps_lease l = {.struct_size = sizeof l};
     reset();
     ASSERT_OK(sim, mps_field_add(sim, "mark", 3));
     ASSERT_OK(sim, mps_model_register(sim, &life));

@@ -8,7 +8,7 @@
 /* Temperatures that differ, a law of viscosity and warm walls: all parts of the model act. */
 static mps_status prepare(void *user, mps_sim *sim)
 {
-    mps_lease x, temperature;
+    mps_lease x = {.struct_size = sizeof x}, temperature = {.struct_size = sizeof temperature};
     (void)user;
     if (mps_model_set(sim, "temperature", "kappa", 1e-3) < 0 ||
         mps_model_set(sim, "temperature", "arrhenius", 500) < 0 ||

@@ -55,7 +55,7 @@ static int build(mps_sim *sim, double depth)
 /* Write the first temperatures: the channel is a field while the model is on. */
 static int warm(mps_sim *sim, profile at)
 {
-    mps_lease x, temperature;
+    mps_lease x = {.struct_size = sizeof x}, temperature = {.struct_size = sizeof temperature};
     if (mps_lease_begin(sim, "position", MPS_READ, &x) < 0) return failed(sim, "lease");
     if (mps_lease_begin(sim, "temperature", MPS_WRITE, &temperature) < 0)
         return failed(sim, "lease");
@@ -67,17 +67,18 @@ static int warm(mps_sim *sim, profile at)
 /* sum T f(x) over the fluid; f = 1 for NULL. */
 static double heat(mps_sim *sim, profile weight)
 {
-    const int32_t *kind;
-    mps_lease x, temperature;
+    mps_lease x = {.struct_size = sizeof x}, kind = {.struct_size = sizeof kind};
+    mps_lease temperature = {.struct_size = sizeof temperature};
     double sum = 0;
-    mps_particles_tags(sim, NULL, &kind, NULL, NULL);
     if (mps_lease_begin(sim, "position", MPS_READ, &x) < 0) return NAN;
+    if (mps_lease_begin(sim, "kind", MPS_READ, &kind) < 0) return NAN;
     if (mps_lease_begin(sim, "temperature", MPS_READ, &temperature) < 0) return NAN;
     for (int64_t i = 0; i < x.count; i++)
-        if (kind[i] == MPS_FLUID)
+        if (kind.integers[i] == MPS_FLUID)
             sum += weight ? (temperature.data[i] - WALL) * (weight(x.data + i * x.stride) - WALL)
                           : temperature.data[i];
     mps_lease_end(sim, &temperature);
+    mps_lease_end(sim, &kind);
     mps_lease_end(sim, &x);
     return sum;
 }
