@@ -44,7 +44,7 @@ static void angular_rates(const mps_motion_state *s, double omega[3], double alp
     alpha[2] += s->accel[MPS_YAW];
 }
 
-static void pose_from_state(mps__pose *pose, double t, const mps_motion_state *state)
+void mps__motion_pose_of(const mps_motion_state *state, double t, mps__pose *pose)
 {
     pose->t = t;
     pose->state = *state;
@@ -89,7 +89,7 @@ static void add_linear(const mps__motion *m, const double *linear, const double 
 void mps__motion_init(mps__motion *m, mps__context *context, int32_t dim)
 {
     *m = (mps__motion){.context = context, .dim = dim, .t_end = INFINITY};
-    pose_from_state(&m->now, 0, &m->hold);
+    mps__motion_pose_of(&m->hold, 0, &m->now);
 }
 
 void mps__motion_free(mps__motion *m)
@@ -104,7 +104,7 @@ void mps__motion_free(mps__motion *m)
 mps_status mps__motion_pose(mps__motion *m, double t, mps__pose *pose)
 {
     if (!m->fn) {
-        pose_from_state(pose, t, &m->hold);
+        mps__motion_pose_of(&m->hold, t, pose);
         return MPS_OK;
     }
     if (t > m->t_end + end_slack)
@@ -116,7 +116,7 @@ mps_status mps__motion_pose(mps__motion *m, double t, mps__pose *pose)
     m->context->lock = before;
     if (failed) return mps__fail(m->context, MPS_E_PLUGIN, "the motion callback failed with %d at t = %g s", failed, t);
     MPS__TRY(check_state(m, t, &state));
-    pose_from_state(pose, t, &state);
+    mps__motion_pose_of(&state, t, pose);
     return MPS_OK;
 }
 

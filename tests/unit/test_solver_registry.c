@@ -58,13 +58,13 @@ static int dummy_apply(void *self, const double *r, double *z)
 
 static mps_solver_ops dummy_solver(const char *name, const char *pc)
 {
-    return (mps_solver_ops){sizeof(mps_solver_ops), MPS_PPE_API, name, pc, 1, dummy_create, dummy_solve, dummy_destroy, 0, NULL};
+    return (mps_solver_ops){sizeof(mps_solver_ops), MPS_PPE_API, name, pc, 1, dummy_create, dummy_solve, dummy_destroy, 0, NULL, NULL};
 }
 
 static mps_preconditioner_ops dummy_preconditioner(const char *name)
 {
     return (mps_preconditioner_ops){
-        sizeof(mps_preconditioner_ops), MPS_PPE_API, name, 1, dummy_create, dummy_setup, dummy_apply, dummy_destroy, NULL};
+        sizeof(mps_preconditioner_ops), MPS_PPE_API, name, 1, dummy_create, dummy_setup, dummy_apply, dummy_destroy, NULL, NULL};
 }
 
 /* ---- fixture ---- */
