@@ -267,6 +267,7 @@ mps_status mps__check_series(mps__context *c, const mps__arrived *a, int64_t pro
 {
     const double rate = a->sim->probes.list[probe].config.rate, slack = 1e-9 * (1 + a->state.t);
     if (waits < 0 || waits > 1) DAMAGED("\"waits\" of probe %lld is %lld; must be 0 or 1", (long long)probe, (long long)waits);
+    if (waits && s->rows > 0) DAMAGED("probe %lld waits for its first row and has %lld", (long long)probe, (long long)s->rows);
     if (s->step < -1 || s->step > a->state.step)
         DAMAGED("the last step of probe %lld is %lld; must be -1..%lld", (long long)probe, (long long)s->step, (long long)a->state.step);
     if ((s->step >= 0) != (s->rows > 0))

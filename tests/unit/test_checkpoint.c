@@ -617,6 +617,7 @@ static const forgery forgeries[] = {
     WIDE("probe 0 series", 0, 1000, "the last step of probe 0 is 1000"),
     WIDE("probe 0 series", 0, -1, "rows after step -1"),
     WIDE("probe 0 series", 8, 2, "\"waits\" of probe 0 is 2"),
+    WIDE("probe 0 series", 8, 1, "probe 0 waits for its first row and has"),
     WIDE("probe 0 series", 16, INT64_MIN, "the next sample of probe 0"),
     WIDE("probe 0 series", 16, INT64_C(1) << 40, "the next sample of probe 0"),
     REAL("probe 0 series", 24, NAN, "probe 0 begins at nan"),
