@@ -119,6 +119,7 @@ mps_status mps__check_scalars(mps__context *c, const mps__arrived *a)
     MPS__TRY(check_budget(c, &s->budget));
     MPS__TRY(check_pose(c, a, "state.before", &s->before, s->step > 0));
     MPS__TRY(check_pose(c, a, "motion.now", &a->now, true));
+    if (!(fabs(a->now.t - s->t) <= 1e-9 * (1 + s->t))) DAMAGED("\"motion.now\" is at %.9g s, \"state.t\" is %.9g s", a->now.t, s->t);
     return check_pose_state(c, a, "motion.hold", &a->hold);
 }
 

@@ -274,12 +274,15 @@ static double row_below(const line *l, double surface)
     return fabs(depth - 0.5 * l->dp) < 0.3 * l->dp ? depth : 0.5 * l->dp;
 }
 
+/* No domain has so many half spacings; a length may be any number. */
+static const double most_samples = 1e9;
+
 /* March from the foot to the place where the filling ends. */
 static double find_surface(line *l)
 {
     double step = 0.5 * l->dp, wet = -1; /* the last place seen full */
     bool solid = false;                  /* the last sample was */
-    int64_t last = (int64_t)ceil(l->length / step);
+    const int64_t last = (int64_t)fmin(ceil(l->length / step), most_samples);
     for (int64_t k = 0; k <= last; k++) {
         double s = (double)k * step;
         sample here = line_sample(l, s);

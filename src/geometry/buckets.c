@@ -22,9 +22,11 @@ static int64_t cell_of(const mps__buckets *b, const int64_t k[3])
 mps_status mps__buckets_init(mps__buckets *b, mps__context *context, int32_t dim, const double *lo, const double *hi, double side)
 {
     *b = (mps__buckets){.context = context, .dim = dim, .cells = {1, 1, 1}};
-    double volume = 1;
-    for (int d = 0; d < dim; d++) volume *= fmax((hi[d] - lo[d]) / side, 1.0);
-    if (volume > most_cells) side *= pow(volume / most_cells, 1.0 / dim);
+    for (double volume = INFINITY; volume > 2 * most_cells;) { /* more than once for a box that is long and thin */
+        volume = 1;
+        for (int d = 0; d < dim; d++) volume *= fmax((hi[d] - lo[d]) / side, 1.0);
+        if (volume > most_cells) side *= pow(volume / most_cells, 1.0 / dim);
+    }
     b->over = 1.0 / side;
     for (int d = 0; d < dim; d++) {
         b->lo[d] = lo[d];

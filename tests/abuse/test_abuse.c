@@ -297,6 +297,36 @@ static void same_place(mps_sim *sim)
     if (!strstr(mps_sim_error(sim), "dp")) fail_msg("%s", mps_sim_error(sim));
 }
 
+/* A gauge of any length, and samples faster than a step. */
+static void absurd_probes(mps_sim *sim)
+{
+    mps_probe p;
+    int32_t id;
+    double value;
+    assert_int_equal(mps_probe_init(&p, sizeof p), MPS_OK);
+    p.type = MPS_PROBE_GAUGE;
+    p.at[0] = 0.2;
+    p.length = 1e300;
+    p.rate = 1e6;
+    assert_int_equal(mps_probe_add(sim, &p, &id), MPS_OK);
+    assert_int_equal(mps_probe_read(sim, id, &value), MPS_OK);
+    assert_true(value > 0.1 && value < 0.3);
+    p.rate = 1e10;
+    assert_int_equal(mps_probe_add(sim, &p, &id), MPS_E_ARG);
+}
+
+/* Time cannot advance by so little. */
+static void no_time(mps_sim *sim, int k)
+{
+    double t[2];
+    if (k != 3) return;
+    assert_int_equal(mps_sim_time(sim, &t[0], NULL), MPS_OK);
+    assert_int_equal(mps_step(sim, 5e-324, NULL), MPS_E_ARG);
+    assert_non_null(strstr(mps_sim_error(sim), "too short"));
+    assert_int_equal(mps_sim_time(sim, &t[1], NULL), MPS_OK);
+    assert_true(t[0] == t[1]);
+}
+
 /* ---- the list -------------------------------------------------------------------------------------------------------- */
 
 #define DOWN {0, -9.81, 0}
@@ -339,6 +369,8 @@ static const setup setups[] = {
     {.name = "fluid at 1e300 m/s", .g = DOWN, .velocity = 1e300, .status = MPS_E_DIVERGED},
     {.name = "a step of 10 s", .g = DOWN, .dt = 10, .status = MPS_E_DIVERGED},
     {.name = "a step of 1e-12 s", .g = DOWN, .dt = 1e-12},
+    {.name = "a step of 5e-324 s", .g = DOWN, .between = no_time},
+    {.name = "absurd probes", .g = DOWN, .before = absurd_probes},
     {.name = "a tank of three cells", .g = DOWN, .size = {3, 8, 3}},
     {.name = "a tank of three cells, 3-D", .dim = 3, .g = DOWN, .size = {8, 8, 3}, .steps = 20},
     {.name = "a tank of two cells", .g = DOWN, .size = {2, 8, 3}, .status = MPS_E_ARG, .text = "at least 3 spacings"},

@@ -585,6 +585,7 @@ static const forgery forgeries[] = {
     NARROW("lists", 0, 0, "\"lists\" are 0, 1"),
     NARROW("lists", 1, 7, "\"lists\" are 1, 7"),
     REAL("state.t", 0, NAN, "\"state.t\" is nan"),
+    REAL("state.t", 0, 1e299, "\"motion.now\" is at 0.0"),
     REAL("state.t", 0, -1, "\"state.t\" is -1"),
     WIDE("state.step", 0, -1, "\"state.step\" is -1"),
     WIDE("state.lost", 0, -1, "\"state.lost\" is -1"),
