@@ -54,8 +54,6 @@ mps_status mps_step(mps_sim *sim, double dt_max, mps_step_info *info)
 {
     MPS__CHANGES(sim);
     MPS__CHECK(&sim->context, dt_max > 0 && isfinite(dt_max), "dt_max is %g s: must be > 0 and finite", dt_max);
-    MPS__CHECK(&sim->context, sim->world.state.t + dt_max > sim->world.state.t, "dt_max is %g s: too short to change the time, %g s", dt_max,
-               sim->world.state.t);
     mps_step_info probe = info_default;
     if (info) MPS__TRY(mps__struct_in(&sim->context, "mps_step_info", &probe, sizeof probe, info));
     MPS__TRY(ready(sim));

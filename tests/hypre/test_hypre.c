@@ -191,7 +191,7 @@ static void take_steps(mps_sim *sim, int count)
 static void test_against_pcg(void **state)
 {
     (void)state;
-    const mps_solver_ops both = {sizeof both, MPS_PPE_API, "test.both", NULL, 1, create_nothing, solve_both, destroy_nothing, 0, NULL};
+    const mps_solver_ops both = {sizeof both, MPS_PPE_API, "test.both", NULL, 1, create_nothing, solve_both, destroy_nothing, 0, NULL, NULL};
     for (int k = 0; k < 4; k++) {
         mps_sim *sim = make_tank(2 + k / 2, k % 2);
         assert_int_equal(mps_solver_register(sim, &both), MPS_OK);
