@@ -329,8 +329,14 @@ static void no_time(mps_sim *sim, int k)
 
 /* ---- the list -------------------------------------------------------------------------------------------------------- */
 
-#define DOWN {0, -9.81, 0}
-#define NONE {0, 0, 0}
+#define DOWN        \
+    {               \
+        0, -9.81, 0 \
+    }
+#define NONE    \
+    {           \
+        0, 0, 0 \
+    }
 
 static const setup setups[] = {
     {.name = "spacing 1e-6 m", .dp = 1e-6, .g = DOWN},

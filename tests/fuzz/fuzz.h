@@ -50,7 +50,8 @@ static inline double fuzz_between(fuzz_input *in, double low, double high)
 /* Mostly ordinary numbers of a scale, now and then numbers that programs forget. */
 static inline double fuzz_real(fuzz_input *in, double scale)
 {
-    static const double odd[] = {0, -0.0, NAN, INFINITY, -INFINITY, 1e308, -1e308, 5e-324, 1e-300, 1e18, -1e18, 9.3e18, 2147483648.0, -1, 1, 1e9};
+    static const double odd[] = {0,      -0.0, NAN,   INFINITY, -INFINITY,    1e308, -1e308, 5e-324,
+                                 1e-300, 1e18, -1e18, 9.3e18,   2147483648.0, -1,    1,      1e9};
     const unsigned kind = fuzz_byte(in);
     if (kind < 200) return scale * (fuzz_byte(in) / 127.5 - 1);
     if (kind < 250) return odd[kind % 16];
@@ -62,18 +63,19 @@ static inline double fuzz_real(fuzz_input *in, double scale)
 
 static inline int64_t fuzz_whole(fuzz_input *in)
 {
-    static const int64_t odd[] = {0, 1, -1, 2, 3, INT32_MAX, INT32_MIN, INT64_MAX, INT64_MIN, 1 << 20, 255, -2, INT64_C(1) << 40, 16, 31, 64};
+    static const int64_t odd[] = {0,  1,  -1, 2, 3, INT32_MAX, INT32_MIN, INT64_MAX, INT64_MIN, 1 << 20, 255, -2, INT64_C(1) << 40,
+                                  16, 31, 64};
     const unsigned kind = fuzz_byte(in);
     return kind < 100 ? (int64_t)fuzz_byte(in) : kind < 250 ? odd[kind % 16] : (int64_t)fuzz_bits(in);
 }
 
 /* What must hold; a failure ends the program, which libFuzzer and ctest notice. */
-#define FUZZ_MUST(condition)                                                                                  \
-    do {                                                                                                      \
-        if (!(condition)) {                                                                                   \
-            fprintf(stderr, "%s:%d: does not hold: %s\n", __FILE__, __LINE__, #condition);                     \
-            abort();                                                                                          \
-        }                                                                                                     \
+#define FUZZ_MUST(condition)                                                               \
+    do {                                                                                   \
+        if (!(condition)) {                                                                \
+            fprintf(stderr, "%s:%d: does not hold: %s\n", __FILE__, __LINE__, #condition); \
+            abort();                                                                       \
+        }                                                                                  \
     } while (0)
 
 /* A status that exists, with a text if it is a failure. */

@@ -15,11 +15,26 @@ static const struct {
     const char *name;
     int components; /* 0: dim */
     int whole;
-} channels[] = {{"velocity", 0, 0},         {"pressure", 1, 0},         {"region", 1, 1},           {"number_density", 1, 0},
-                {"volume_deviation", 1, 0}, {"pressure_density", 1, 0}, {"acceleration", 0, 0},     {"displacement", 0, 0},
-                {"pressure_source", 1, 0},  {"pressure_shift", 1, 0},   {"pressure_condition", 1, 1}, {"pressure_value", 1, 0},
-                {"gas_shift", 1, 0},        {"gas_law", 1, 0},          {"wall_pressure", 1, 0},    {"tank_acceleration", 0, 0},
-                {"wetted_share", 1, 0},     {"mine", 2, 0},             {"ours", 1, 1},             {"asymmetry", 0, 0}};
+} channels[] = {{"velocity", 0, 0},
+                {"pressure", 1, 0},
+                {"region", 1, 1},
+                {"number_density", 1, 0},
+                {"volume_deviation", 1, 0},
+                {"pressure_density", 1, 0},
+                {"acceleration", 0, 0},
+                {"displacement", 0, 0},
+                {"pressure_source", 1, 0},
+                {"pressure_shift", 1, 0},
+                {"pressure_condition", 1, 1},
+                {"pressure_value", 1, 0},
+                {"gas_shift", 1, 0},
+                {"gas_law", 1, 0},
+                {"wall_pressure", 1, 0},
+                {"tank_acceleration", 0, 0},
+                {"wetted_share", 1, 0},
+                {"mine", 2, 0},
+                {"ours", 1, 1},
+                {"asymmetry", 0, 0}};
 
 enum { CHANNELS = sizeof channels / sizeof channels[0] };
 
@@ -112,8 +127,8 @@ static void solve_garbage(void *self, const mps_ppe_problem *problem, const mps_
     (void)self;
     if (pc && fuzz_byte(input) > 128 && pc->setup(pc_self, problem) == MPS_PPE_CONVERGED) pc->apply(pc_self, problem->rhs, p);
     for (int tries = fuzz_pick(input, 4); tries > 0; tries--) p[fuzz_byte(input) * 37 % problem->n] = fuzz_real(input, 1000);
-    *result = (mps_ppe_result){(int32_t)(fuzz_byte(input) % 8) - 1, (int32_t)fuzz_whole(input), fuzz_real(input, 1e-6), fuzz_real(input, 1e-4),
-                               fuzz_real(input, 1)};
+    *result = (mps_ppe_result){(int32_t)(fuzz_byte(input) % 8) - 1, (int32_t)fuzz_whole(input), fuzz_real(input, 1e-6),
+                               fuzz_real(input, 1e-4), fuzz_real(input, 1)};
     if (fuzz_byte(input) < 128) result->reason = MPS_PPE_CONVERGED;
 }
 
@@ -133,7 +148,8 @@ static int apply_garbage(void *self, const double *r, double *z)
 
 static void use_solver(fuzz_input *in, mps_sim *sim)
 {
-    static const char *const solvers[] = {"sundials.pcg", "sundials.bicgstab", "sundials.gmres", "sundials.klu", "sundials.kinsol", "garbage"};
+    static const char *const solvers[] = {"sundials.pcg", "sundials.bicgstab", "sundials.gmres",
+                                          "sundials.klu", "sundials.kinsol",   "garbage"};
     static const char *const pcs[] = {NULL, "none", "jacobi", "ic0", "auxgrid", "garbage"};
     const mps_solver_ops solver = {.struct_size = sizeof solver,
                                    .api = MPS_PPE_API,
@@ -181,8 +197,12 @@ static void use_models(fuzz_input *in, mps_sim *sim)
     mps_model_info info;
     mps_model_info_init(&info, sizeof info);
     switch (fuzz_pick(in, 5)) {
-    case 0: fuzz_status(sim, mps_sim_use_preset(sim, presets[fuzz_pick(in, 5)])); break;
-    case 1: register_model(in, sim, fuzz_pick(in, MODELS)); break;
+    case 0:
+        fuzz_status(sim, mps_sim_use_preset(sim, presets[fuzz_pick(in, 5)]));
+        break;
+    case 1:
+        register_model(in, sim, fuzz_pick(in, MODELS));
+        break;
     case 2:
         if (mps_model_info_get(sim, fuzz_pick(in, 40), &info) == MPS_OK) fuzz_status(sim, mps_model_use(sim, info.name));
         break;
@@ -213,9 +233,14 @@ static void add_solid(fuzz_input *in, mps_sim *sim)
         tank.lo[0] = fuzz_real(in, 0.1);
         fuzz_status(sim, mps_geometry_tank(sim, &tank, NULL));
         break;
-    case 1: fuzz_status(sim, mps_geometry_baffle(sim, "baffle", a, b, NULL)); break;
-    case 2: fuzz_status(sim, mps_geometry_plate(sim, "plate", a, b, NULL)); break;
-    default: fuzz_status(sim, mps_geometry_fill_box(sim, fuzz_byte(in) % 3, a, b, NULL, NULL));
+    case 1:
+        fuzz_status(sim, mps_geometry_baffle(sim, "baffle", a, b, NULL));
+        break;
+    case 2:
+        fuzz_status(sim, mps_geometry_plate(sim, "plate", a, b, NULL));
+        break;
+    default:
+        fuzz_status(sim, mps_geometry_fill_box(sim, fuzz_byte(in) % 3, a, b, NULL, NULL));
     }
 }
 
@@ -284,8 +309,12 @@ static void use_probes(fuzz_input *in, mps_sim *sim)
         probe.phases = fuzz_byte(in) > 200 ? fuzz_byte(in) : 0;
         fuzz_status(sim, mps_probe_add(sim, &probe, &id));
         break;
-    case 1: fuzz_status(sim, mps_probe_remove(sim, id)); break;
-    case 2: fuzz_status(sim, mps_probe_series_clear(sim, id)); break;
+    case 1:
+        fuzz_status(sim, mps_probe_remove(sim, id));
+        break;
+    case 2:
+        fuzz_status(sim, mps_probe_series_clear(sim, id));
+        break;
     default:
         fuzz_status(sim, mps_probe_read(sim, id, values));
         fuzz_status(sim, mps_probe_series(sim, id, NULL, NULL, NULL));
@@ -314,16 +343,23 @@ static void use_controls(fuzz_input *in, mps_sim *sim)
         phase.viscosity = fuzz_real(in, 1);
         fuzz_status(sim, mps_sim_set_phase(sim, fuzz_byte(in) % 18, &phase));
         break;
-    case 2: fuzz_status(sim, mps_sim_set_tension(sim, fuzz_byte(in) % 4, fuzz_byte(in) % 4, fuzz_real(in, 0.1))); break;
-    case 3: fuzz_status(sim, mps_sim_set_threads(sim, fuzz_byte(in) % 4)); break;
+    case 2:
+        fuzz_status(sim, mps_sim_set_tension(sim, fuzz_byte(in) % 4, fuzz_byte(in) % 4, fuzz_real(in, 0.1)));
+        break;
+    case 3:
+        fuzz_status(sim, mps_sim_set_threads(sim, fuzz_byte(in) % 4));
+        break;
     case 4:
         mps_energy_init(&energy, sizeof energy);
         mps_momentum_init(&momentum, sizeof momentum);
         fuzz_status(sim, mps_energy_get(sim, &energy));
         fuzz_status(sim, mps_momentum_get(sim, &momentum));
         break;
-    case 5: fuzz_status(sim, mps_sim_stencil(sim, fuzz_byte(in) % 3, &stencil)); break;
-    default: fuzz_status(sim, mps_field_add(sim, fuzz_byte(in) % 2 ? "mine" : "mark", (int32_t)fuzz_byte(in) % 11));
+    case 5:
+        fuzz_status(sim, mps_sim_stencil(sim, fuzz_byte(in) % 3, &stencil));
+        break;
+    default:
+        fuzz_status(sim, mps_field_add(sim, fuzz_byte(in) % 2 ? "mine" : "mark", (int32_t)fuzz_byte(in) % 11));
     }
 }
 
@@ -331,9 +367,14 @@ static void use_motion(fuzz_input *in, mps_sim *sim)
 {
     const mps_harmonic h = {fuzz_byte(in) % 7, fuzz_byte(in) % 2, fuzz_real(in, 0.02), fuzz_real(in, 10), 0};
     switch (fuzz_pick(in, 3)) {
-    case 0: fuzz_status(sim, mps_motion_set_harmonics(sim, 1, &h)); break;
-    case 1: fuzz_status(sim, mps_motion_set_callback(sim, move_garbage, NULL)); break;
-    default: fuzz_status(sim, mps_motion_clear(sim));
+    case 0:
+        fuzz_status(sim, mps_motion_set_harmonics(sim, 1, &h));
+        break;
+    case 1:
+        fuzz_status(sim, mps_motion_set_callback(sim, move_garbage, NULL));
+        break;
+    default:
+        fuzz_status(sim, mps_motion_clear(sim));
     }
 }
 
@@ -351,22 +392,43 @@ static void call(fuzz_input *in, mps_sim *sim)
 {
     double t;
     switch (fuzz_pick(in, 16)) {
-    case 0: add_solid(in, sim); break;
-    case 1: add_particles(in, sim); break;
-    case 2: remove_particles(in, sim); break;
-    case 3: write_field(in, sim); break;
-    case 4: use_probes(in, sim); break;
-    case 5: use_controls(in, sim); break;
-    case 6: use_motion(in, sim); break;
-    case 7: use_models(in, sim); break;
-    case 8: use_models(in, sim); break;
-    case 9: use_solver(in, sim); break;
+    case 0:
+        add_solid(in, sim);
+        break;
+    case 1:
+        add_particles(in, sim);
+        break;
+    case 2:
+        remove_particles(in, sim);
+        break;
+    case 3:
+        write_field(in, sim);
+        break;
+    case 4:
+        use_probes(in, sim);
+        break;
+    case 5:
+        use_controls(in, sim);
+        break;
+    case 6:
+        use_motion(in, sim);
+        break;
+    case 7:
+        use_models(in, sim);
+        break;
+    case 8:
+        use_models(in, sim);
+        break;
+    case 9:
+        use_solver(in, sim);
+        break;
     case 10:
         mps_sim_time(sim, &t, NULL);
         fuzz_status(sim, mps_run(sim, t + 2e-3, monitor, NULL));
         fuzz_check_finite(sim);
         break;
-    default: fuzz_step(sim, fuzz_byte(in) < 245 ? 2e-3 : fuzz_real(in, 1));
+    default:
+        fuzz_step(sim, fuzz_byte(in) < 245 ? 2e-3 : fuzz_real(in, 1));
     }
 }
 

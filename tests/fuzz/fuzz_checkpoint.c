@@ -48,7 +48,8 @@ static void add_probes(mps_sim *sim)
 
 static mps_sim *build(int k)
 {
-    const double lo[3] = {0, 0, 0}, hi[3] = {0.4, k == 1 ? 0.4 : 0.2, 0.4}, half[3] = {0.4, 0.2, 0.4}, foot[2] = {0.2, 0}, edge[2] = {0, 0.2};
+    const double lo[3] = {0, 0, 0}, hi[3] = {0.4, k == 1 ? 0.4 : 0.2, 0.4}, half[3] = {0.4, 0.2, 0.4}, foot[2] = {0.2, 0},
+                 edge[2] = {0, 0.2};
     const mps_harmonic surge = {.dof = MPS_SURGE, .amplitude = 0.02, .omega = 8};
     mps_config config;
     mps_tank tank;
@@ -103,10 +104,17 @@ static void edit(fuzz_input *in, unsigned char *file, size_t size)
     const int64_t whole = fuzz_whole(in);
     const int32_t narrow = (int32_t)whole;
     switch (fuzz_pick(in, 4)) {
-    case 0: memcpy(p.elements + where % (p.used / 8) * 8, &real, 8); break;
-    case 1: memcpy(p.elements + where % (p.used / 8) * 8, &whole, 8); break;
-    case 2: memcpy(p.elements + where % (p.used / 4) * 4, &narrow, 4); break;
-    default: p.elements[where] = (unsigned char)narrow;
+    case 0:
+        memcpy(p.elements + where % (p.used / 8) * 8, &real, 8);
+        break;
+    case 1:
+        memcpy(p.elements + where % (p.used / 8) * 8, &whole, 8);
+        break;
+    case 2:
+        memcpy(p.elements + where % (p.used / 4) * 4, &narrow, 4);
+        break;
+    default:
+        p.elements[where] = (unsigned char)narrow;
     }
 }
 

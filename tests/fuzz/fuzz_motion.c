@@ -47,12 +47,23 @@ static void act(fuzz_input *in, mps_sim *sim)
     double lab[3], velocity[3];
     switch (fuzz_pick(in, 8)) {
     case 0:
-    case 1: set_table(in, sim); break;
-    case 2: set_harmonics(in, sim); break;
-    case 3: fuzz_status(sim, mps_motion_set_callback(sim, garbage, in)); break;
-    case 4: fuzz_status(sim, mps_motion_clear(sim)); break;
-    case 5: fuzz_status(sim, mps_motion_set_centre(sim, centre, fuzz_byte(in) % 3)); break;
-    default: fuzz_step(sim, fuzz_byte(in) < 240 ? 2e-3 : fuzz_real(in, 1));
+    case 1:
+        set_table(in, sim);
+        break;
+    case 2:
+        set_harmonics(in, sim);
+        break;
+    case 3:
+        fuzz_status(sim, mps_motion_set_callback(sim, garbage, in));
+        break;
+    case 4:
+        fuzz_status(sim, mps_motion_clear(sim));
+        break;
+    case 5:
+        fuzz_status(sim, mps_motion_set_centre(sim, centre, fuzz_byte(in) % 3));
+        break;
+    default:
+        fuzz_step(sim, fuzz_byte(in) < 240 ? 2e-3 : fuzz_real(in, 1));
     }
     fuzz_status(sim, mps_motion_state_get(sim, &state));
     for (int d = 0; d < MPS_DOF_COUNT; d++) FUZZ_MUST(isfinite(state.value[d]) && isfinite(state.rate[d]) && isfinite(state.accel[d]));

@@ -122,7 +122,8 @@ static void check(void **state)
     found[k] = run(k, 1);
     for (int32_t threads = 2; threads <= 4; threads *= 2) {
         const uint64_t other = run(k, threads);
-        if (other != found[k]) fail_msg("%s: %016" PRIx64 " with 1 thread, %016" PRIx64 " with %d", name_of(k, name), found[k], other, (int)threads);
+        if (other != found[k])
+            fail_msg("%s: %016" PRIx64 " with 1 thread, %016" PRIx64 " with %d", name_of(k, name), found[k], other, (int)threads);
     }
     if (getenv("MPS_GOLDEN_ACCEPT")) return;
     if (!kept_hash(name_of(k, name), &kept) || kept != found[k])

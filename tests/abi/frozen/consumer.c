@@ -12,13 +12,13 @@ extern const mps_model_ops frozen_model;
 extern const mps_solver_ops frozen_solver;
 extern int frozen_model_calls, frozen_solver_calls;
 
-#define CHECK(condition)                                             \
-    do {                                                             \
-        if (!(condition)) {                                          \
-            printf("%s:%d: %s\n", __FILE__, __LINE__, #condition);   \
-            if (sim) printf("  %s\n", mps_sim_error(sim));           \
-            return 1;                                                \
-        }                                                            \
+#define CHECK(condition)                                           \
+    do {                                                           \
+        if (!(condition)) {                                        \
+            printf("%s:%d: %s\n", __FILE__, __LINE__, #condition); \
+            if (sim) printf("  %s\n", mps_sim_error(sim));         \
+            return 1;                                              \
+        }                                                          \
     } while (0)
 
 static int steps_seen;

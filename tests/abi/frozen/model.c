@@ -27,7 +27,8 @@ static int run(mps_stage *s)
     double fluid = 0;
     if (s->struct_size < sizeof *s || s->dim != 2 || s->moment != MPS_FORCE || s->n < 1 || s->dp != 0.05 || s->setting[0] != 0.25)
         return mps_stage_fail(s, "a field of the stage is at another place");
-    if (!(s->dt > 0) || s->g[1] != -9.81 || !s->near || !s->far || s->near->dim != 2 || s->near->n != s->n || s->self != &frozen_model_calls)
+    if (!(s->dt > 0) || s->g[1] != -9.81 || !s->near || !s->far || s->near->dim != 2 || s->near->n != s->n ||
+        s->self != &frozen_model_calls)
         return mps_stage_fail(s, "a field of the stage is at another place");
     mps_stage_rows(s, pull_rows, NULL);
     mps_stage_sum(s, 1, count_rows, NULL, &fluid);

@@ -48,9 +48,5 @@ static void destroy(void *self)
     (void)self;
 }
 
-const mps_solver_ops frozen_solver = {.struct_size = sizeof frozen_solver,
-                                      .api = MPS_PPE_API,
-                                      .name = "frozen.jacobi",
-                                      .create = create,
-                                      .solve = solve,
-                                      .destroy = destroy};
+const mps_solver_ops frozen_solver = {
+    .struct_size = sizeof frozen_solver, .api = MPS_PPE_API, .name = "frozen.jacobi", .create = create, .solve = solve, .destroy = destroy};
