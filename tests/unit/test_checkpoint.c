@@ -216,8 +216,9 @@ static void same_budgets(mps_sim *a, mps_sim *b)
         ASSERT_OK(sim, mps_momentum_get(sim, &m[k]));
         ASSERT_OK(sim, mps_sim_time(sim, &t[k], &steps[k]));
     }
-    assert_memory_equal(&e[0], &e[1], sizeof e[0]);
-    assert_memory_equal(&m[0], &m[1], sizeof m[0]);
+    /* without struct_size and the bytes behind it, which hold anything */
+    assert_memory_equal(&e[0].kinetic, &e[1].kinetic, sizeof e[0] - offsetof(mps_energy, kinetic));
+    assert_memory_equal(&m[0].total, &m[1].total, sizeof m[0] - offsetof(mps_momentum, total));
     assert_memory_equal(&t[0], &t[1], sizeof t[0]);
     assert_int_equal(steps[0], steps[1]);
 }
