@@ -3,6 +3,8 @@
  * MPS_E_NOMEM with a text, leaves a handle that works, and at the end all memory is back. */
 #include "../tags.h"
 #include <math.h>
+#include <math.h>
+#include <mps/model.h>
 #include <mps/mps.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -38,11 +40,15 @@ static mps_allocator allocator_of(memory *m)
     return (mps_allocator){memory_alloc, memory_release, m};
 }
 
+/* Of the next simulation. */
+static int32_t dimension = 2;
+
 static mps_status create(memory *m, mps_sim **sim, char *error, size_t error_size)
 {
     mps_config config;
     assert_int_equal(mps_config_init(&config, sizeof config), MPS_OK);
-    config.dp = 0.05;
+    config.dim = dimension;
+    config.dp = dimension == 3 ? 0.1 : 0.05;
     config.allocator = allocator_of(m);
     config.error = error;
     config.error_size = error_size;
@@ -55,14 +61,14 @@ static mps_status add_tank(mps_sim *sim)
 {
     mps_tank tank;
     assert_int_equal(mps_tank_init(&tank, sizeof tank), MPS_OK);
-    tank.size[0] = tank.size[1] = 0.5;
+    tank.size[0] = tank.size[1] = tank.size[2] = 0.5;
     tank.open_top = 1;
     return mps_tank_add(sim, &tank, NULL);
 }
 
 static mps_status fill(mps_sim *sim)
 {
-    const double lo[2] = {0, 0}, hi[2] = {0.5, 0.3};
+    const double lo[3] = {0, 0, 0}, hi[3] = {0.5, 0.3, 0.5};
     return mps_fill_box_add(sim, 0, lo, hi, NULL, NULL);
 }
 
@@ -331,6 +337,198 @@ static mps_status stencil(mps_sim *sim)
     return mps_stencil_get(sim, MPS_FAR, &s);
 }
 
+/* ---- presets and all else that takes memory --- */
+
+static void use_preset(mps_sim *sim, const char *name)
+{
+    assert_int_equal(mps_preset_use(sim, name), MPS_OK);
+}
+
+static void with_gas(mps_sim *sim, const char *preset_name)
+{
+    const mps_phase gas = {.struct_size = sizeof gas, .density = 1.2, .viscosity = 1.8e-5};
+    const double lo[3] = {0, 0, 0}, hi[3] = {0.5, 0.5, 0.5};
+    mps_tank tank;
+    assert_int_equal(mps_tank_init(&tank, sizeof tank), MPS_OK);
+    tank.size[0] = tank.size[1] = tank.size[2] = 0.5;
+    use_preset(sim, preset_name);
+    assert_int_equal(mps_phase_set(sim, 1, &gas), MPS_OK);
+    assert_int_equal(mps_tank_add(sim, &tank, NULL), MPS_OK);
+    assert_int_equal(fill(sim), MPS_OK);
+    assert_int_equal(mps_fill_box_add(sim, 1, lo, hi, NULL, NULL), MPS_OK);
+}
+
+static void filled_paper(mps_sim *sim)
+{
+    use_preset(sim, "imps.paper");
+    filled(sim);
+}
+
+static void filled_mmps(mps_sim *sim)
+{
+    with_gas(sim, "mmps");
+}
+
+static void filled_mmps_paper(mps_sim *sim)
+{
+    with_gas(sim, "mmps.paper");
+}
+
+static void filled_threads(mps_sim *sim)
+{
+    filled(sim);
+    assert_int_equal(mps_threads_set(sim, 3), MPS_OK);
+}
+
+static mps_status fill_level(mps_sim *sim)
+{
+    const double lo[2] = {0, 0}, hi[2] = {0.5, 0.28};
+    return mps_fill_level_add(sim, 0, lo, hi, NULL, NULL);
+}
+
+static const char stl_path[] = "oom.stl";
+
+static mps_status stl_solid(mps_sim *sim)
+{
+    mps_stl stl;
+    assert_int_equal(mps_stl_init(&stl, sizeof stl), MPS_OK);
+    return mps_stl_add(sim, stl_path, &stl, NULL);
+}
+
+/* A tetrahedron. */
+static void write_stl(void)
+{
+    static const double corner[4][3] = {{0, 0, 0}, {0.8, 0, 0}, {0, 0.8, 0}, {0, 0, 0.8}};
+    static const int face[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    FILE *file = fopen(stl_path, "w");
+    assert_non_null(file);
+    fprintf(file, "solid a\n");
+    for (int f = 0; f < 4; f++) {
+        fprintf(file, "facet normal 0 0 0\nouter loop\n");
+        for (int k = 0; k < 3; k++) fprintf(file, "vertex %g %g %g\n", corner[face[f][k]][0], corner[face[f][k]][1], corner[face[f][k]][2]);
+        fprintf(file, "endloop\nendfacet\n");
+    }
+    fprintf(file, "endsolid a\n");
+    assert_int_equal(fclose(file), 0);
+}
+
+static mps_status model(mps_sim *sim)
+{
+    return mps_model_use(sim, "tension.csf");
+}
+
+static int run_nothing(mps_stage *s)
+{
+    return mps_stage_scratch(s, s->n) == NULL;
+}
+
+static int create_state(const mps_allocator *allocator, void **self)
+{
+    *self = allocator->alloc(allocator->user, 100);
+    return *self == NULL;
+}
+
+static void destroy_state(const mps_allocator *allocator, void *self)
+{
+    allocator->release(allocator->user, self);
+}
+
+static mps_status register_model(mps_sim *sim)
+{
+    static const mps_use uses[] = {{"oom_mark", MPS_USE_CHANGE}};
+    static const mps_verb verbs[] = {{.moment = MPS_FORCE, .use_count = 1, .uses = uses, .run = run_nothing}};
+    static const mps_channel channels[] = {{"oom_mark", "-", "any", 2, MPS_TYPE_REAL, MPS_LIFE_PARTICLE, 1}};
+    const mps_model_ops ops = {.struct_size = sizeof ops,
+                               .api = MPS_MODEL_API,
+                               .name = "oom.any",
+                               .help = "any",
+                               .channel_count = 1,
+                               .verb_count = 1,
+                               .channels = channels,
+                               .verbs = verbs,
+                               .create = create_state,
+                               .destroy = destroy_state};
+    return mps_model_register(sim, &ops);
+}
+
+static void with_own_model(mps_sim *sim)
+{
+    filled(sim);
+    assert_int_equal(register_model(sim), MPS_OK);
+}
+
+static mps_status use_own_model(mps_sim *sim)
+{
+    return mps_model_use(sim, "oom.any");
+}
+
+static void using_own_model(mps_sim *sim)
+{
+    with_own_model(sim);
+    assert_int_equal(use_own_model(sim), MPS_OK);
+}
+
+static mps_status energy(mps_sim *sim)
+{
+    mps_energy e;
+    assert_int_equal(mps_energy_init(&e, sizeof e), MPS_OK);
+    return mps_energy_get(sim, &e);
+}
+
+static mps_status verb_info(mps_sim *sim)
+{
+    mps_verb_info v;
+    assert_int_equal(mps_verb_info_init(&v, sizeof v), MPS_OK);
+    return mps_verb_info_get(sim, 0, &v);
+}
+
+static mps_status frames(mps_sim *sim)
+{
+    mps_frames *f = NULL;
+    mps_status status = mps_frames_open(sim, ".", "oom_frames", 0, &f);
+    if (status == MPS_OK) status = mps_frames_write(f);
+    if (status == MPS_OK) status = mps_frames_write(f);
+    mps_frames_close(f);
+    return status;
+}
+
+static mps_status frames_continued(mps_sim *sim)
+{
+    mps_frames *f = NULL;
+    const mps_status status = mps_frames_open(sim, ".", "oom_frames", MPS_FRAMES_CONTINUE, &f);
+    mps_frames_close(f);
+    return status;
+}
+
+static void with_frames(mps_sim *sim)
+{
+    stepped(sim);
+    assert_int_equal(frames(sim), MPS_OK);
+}
+
+static mps_status custom_kernel(mps_sim *sim)
+{
+    mps_kernel kernel;
+    assert_int_equal(mps_kernel_find("original", &kernel), MPS_OK);
+    return mps_kernel_use(sim, &kernel);
+}
+
+static mps_status remove_probe(mps_sim *sim)
+{
+    return mps_probe_remove(sim, 0);
+}
+
+static mps_status read_force(mps_sim *sim)
+{
+    double values[6];
+    return mps_probe_read(sim, 3, values);
+}
+
+static mps_status callback(mps_sim *sim)
+{
+    return mps_motion_clear(sim);
+}
+
 /* ---- the loop -------------------------------------------------------------------------------------------------------- */
 
 /* Positions, velocities and pressures by id, so that the order does not matter. */
@@ -338,7 +536,7 @@ static double *snapshot(mps_sim *sim, int64_t *count)
 {
     static const char *const fields[3] = {"position", "velocity", "pressure"};
     const int64_t *ids = NULL, n = mps_particles_count(sim, -1);
-    double *out = calloc((size_t)(5 * (n + 200)), sizeof *out);
+    double *out = calloc((size_t)(7 * (n + 300)), sizeof *out);
     int64_t at = 0;
     assert_int_equal(tags_peek(sim, &ids, NULL, NULL, NULL), MPS_OK);
     for (int f = 0; f < 3; f++) {
@@ -349,7 +547,7 @@ static double *snapshot(mps_sim *sim, int64_t *count)
         at += (n + 64) * lease.stride;
         assert_int_equal(mps_lease_end(sim, &lease), MPS_OK);
     }
-    *count = 5 * n;
+    *count = 7 * n;
     return out;
 }
 
@@ -370,43 +568,72 @@ typedef struct scene {
     void (*prepare)(mps_sim *sim);
     mps_status (*call)(mps_sim *sim);
     int64_t least; /* allocations the call makes at least, so that the loop is known to test something */
+    int32_t dim;   /* 0: 2 */
 } scene;
 
 static const scene scenes[] = {
-    {"geometry_tank", nothing, add_tank, 2},
-    {"geometry_baffle", tank_only, baffle, 2},
-    {"geometry_plate", tank_only, plate, 2},
-    {"step with a plate", with_plate, step, 20},
-    {"geometry_fill_box", tank_only, fill, 2},
-    {"geometry_fill", tank_only, fill_inside, 2},
-    {"geometry_solid", nothing, solid, 50},
-    {"geometry_solid by inside", nothing, solid_by_inside, 60},
-    {"geometry_fill beside a solid", solid_only, fill_inside, 30},
-    {"particles_add", filled, add_block, 5},
-    {"particles_remove", filled, remove_some, 3},
-    {"field_add", filled, field_add, 1},
-    {"motion_set_harmonics", filled, harmonics, 1},
-    {"motion_set_table", filled, motion_table, 1},
-    {"probe_add", filled, probe, 1},
-    {"solver_use", filled, solver, 1},
-    {"use_preset", filled, preset, 0},
-    {"first step", filled, step, 20},
-    {"later step", stepped, step, 0}, /* has all it needs */
-    {"step of more", grown, step, 20},
-    {"step with samples", sampled, step, 8},
-    {"probe_series", sampled, series, 2},
-    {"probe_read", sampled, read_gauge, 3},
-    {"first step, bicgstab", filled_for_bicgstab, step, 20},
-    {"first step, gmres", filled_for_gmres, step, 20},
-    {"first step, auxgrid", filled_for_auxgrid, step, 20},
-    {"first step, klu", filled_for_klu, step, 20},
-    {"first step, kinsol", gas_for_kinsol, step, 20},
-    {"stencil", filled, stencil, 10},
-    {"stencil of more", grown, stencil, 10},
-    {"checkpoint_write", sampled, write_checkpoint, 3},
-    {"checkpoint_read", beyond, read_checkpoint, 20},
-    {"step after checkpoint_read", restored, step, 8},
+    {"geometry_tank", nothing, add_tank, 2, 0},
+    {"geometry_baffle", tank_only, baffle, 2, 0},
+    {"geometry_plate", tank_only, plate, 2, 0},
+    {"step with a plate", with_plate, step, 20, 0},
+    {"geometry_fill_box", tank_only, fill, 2, 0},
+    {"geometry_fill", tank_only, fill_inside, 2, 0},
+    {"geometry_solid", nothing, solid, 50, 0},
+    {"geometry_solid by inside", nothing, solid_by_inside, 60, 0},
+    {"geometry_fill beside a solid", solid_only, fill_inside, 30, 0},
+    {"particles_add", filled, add_block, 5, 0},
+    {"particles_remove", filled, remove_some, 3, 0},
+    {"field_add", filled, field_add, 1, 0},
+    {"motion_set_harmonics", filled, harmonics, 1, 0},
+    {"motion_set_table", filled, motion_table, 1, 0},
+    {"probe_add", filled, probe, 1, 0},
+    {"solver_use", filled, solver, 1, 0},
+    {"use_preset", filled, preset, 0, 0},
+    {"first step", filled, step, 20, 0},
+    {"later step", stepped, step, 0, 0}, /* has all it needs */
+    {"step of more", grown, step, 20, 0},
+    {"step with samples", sampled, step, 8, 0},
+    {"probe_series", sampled, series, 2, 0},
+    {"probe_read", sampled, read_gauge, 3, 0},
+    {"first step, bicgstab", filled_for_bicgstab, step, 20, 0},
+    {"first step, gmres", filled_for_gmres, step, 20, 0},
+    {"first step, auxgrid", filled_for_auxgrid, step, 20, 0},
+    {"first step, klu", filled_for_klu, step, 20, 0},
+    {"first step, kinsol", gas_for_kinsol, step, 20, 0},
+    {"stencil", filled, stencil, 10, 0},
+    {"stencil of more", grown, stencil, 10, 0},
+    {"checkpoint_write", sampled, write_checkpoint, 3, 0},
+    {"checkpoint_read", beyond, read_checkpoint, 20, 0},
+    {"step after checkpoint_read", restored, step, 8, 0},
+    {"first step, imps, 3-D", filled, step, 20, 3},
+    {"first step, imps.paper", filled_paper, step, 20, 0},
+    {"first step, imps.paper, 3-D", filled_paper, step, 20, 3},
+    {"first step, mmps", filled_mmps, step, 20, 0},
+    {"first step, mmps, 3-D", filled_mmps, step, 20, 3},
+    {"first step, mmps.paper", filled_mmps_paper, step, 20, 0},
+    {"first step, mmps.paper, 3-D", filled_mmps_paper, step, 20, 3},
+    {"first step, threads", filled_threads, step, 20, 0},
+    {"first step, own model", using_own_model, step, 20, 0},
+    {"geometry_fill_level", tank_only, fill_level, 2, 0},
+    {"geometry_stl", nothing, stl_solid, 20, 3},
+    {"geometry_stl in a tank", tank_only, stl_solid, 20, 3},
+    {"model_use", filled, model, 0, 0},
+    {"model_register", filled, register_model, 0, 0},
+    {"model_use of an own model", with_own_model, use_own_model, 1, 0},
+    {"energy_get", filled, energy, 0, 0},
+    {"verb_info_get", filled, verb_info, 0, 0},
+    {"frames", stepped, frames, 1, 0},
+    {"frames continued", with_frames, frames_continued, 1, 0},
+    {"sim_set_kernel", tank_only, custom_kernel, 0, 0},
+    {"probe_remove", sampled, remove_probe, 0, 0},
+    {"probe_read of a force", sampled, read_force, 0, 0},
+    {"motion_clear", filled, callback, 0, 0},
 };
+
+static void check_step_after(mps_sim *sim, const scene *s)
+{
+    if (s->call(sim) != MPS_OK) fail_msg("%s, again: %s", s->name, mps_sim_error(sim));
+}
 
 /* Fail allocation k of one call. Returns false when the call had fewer than k. */
 static bool fail_once(const scene *s, int64_t k)
@@ -425,6 +652,13 @@ static bool fail_once(const scene *s, int64_t k)
     const bool failed = m.count >= k;
     m.fail_at = 0;
     if (failed) {
+        if (status == MPS_OK && s->prepare == filled_threads) { /* the memory of the threads: loops run in the calling thread then */
+            check_step_after(sim, s);
+            mps_sim_destroy(sim);
+            free(before);
+            assert_int_equal(m.live, 0);
+            return true;
+        }
         if (status != MPS_E_NOMEM)
             fail_msg("%s, allocation %lld: %s: %s", s->name, (long long)k, mps_status_name(status), mps_sim_error(sim));
         if (!strstr(mps_sim_error(sim), "memory"))
@@ -445,12 +679,14 @@ static bool fail_once(const scene *s, int64_t k)
 static void run_scene(void **state)
 {
     const scene *s = *state;
+    dimension = s->dim ? s->dim : 2;
     for (int64_t k = 1; fail_once(s, k); k++) assert_true(k < 1000);
 }
 
 static void sim_create(void **state)
 {
     (void)state;
+    dimension = 2;
     mps_status status = MPS_E_NOMEM;
     int64_t k = 0;
     while (status != MPS_OK) {
@@ -513,7 +749,10 @@ int main(void)
     enum { SCENES = sizeof scenes / sizeof scenes[0] };
     struct CMUnitTest tests[SCENES + 2] = {cmocka_unit_test(sim_create), cmocka_unit_test(neighbours)};
     for (int k = 0; k < SCENES; k++) tests[k + 2] = (struct CMUnitTest){scenes[k].name, run_scene, NULL, NULL, (void *)&scenes[k]};
+    write_stl();
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     remove(checkpoint);
+    remove(stl_path);
+    remove("oom_frames.pvd");
     return failed;
 }

@@ -170,7 +170,7 @@ CALL(mps_particles_add, STRUCT(mps_particle_block); a.count = 1; a.position = hi
 CALL(mps_particles_remove, const int64_t id = 3; return mps_particles_remove(sim, 1, &id);)
 CALL(mps_field_add, return mps_field_add(sim, "new", 1);)
 CALL(mps_lease_begin, mps_lease l = {.struct_size = sizeof l}; return mps_lease_begin(sim, "velocity", MPS_WRITE, &l);)
-CALL(mps_lease_end, mps_lease l = {0};
+CALL(mps_lease_end, mps_lease l = {.struct_size = sizeof l};
      const mps_status status = mps_lease_begin(sim, "velocity", MPS_READ, &l);
      const mps_status end = mps_lease_end(sim, &l); return status == MPS_OK ? end : MPS_E_BUSY;)
 CALL(mps_step, return mps_step(sim, 1e-3, NULL);)

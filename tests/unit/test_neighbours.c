@@ -248,8 +248,8 @@ static void long_rows(void **state)
     for (int64_t i = 0; i < c.n; i++)
         for (int d = 0; d < 3 && c.x[3 * i] < 12 * CLOUD_DP; d++) c.x[3 * i + d] *= 0.3;
     mps_neighbours *list = new_list(3);
-    mps_kernel kernel;
-    mps_stencil t[2];
+    mps_kernel kernel = {.struct_size = sizeof kernel};
+    mps_stencil t[2] = {{.struct_size = sizeof t[0]}, {.struct_size = sizeof t[0]}};
     int64_t longest = 0, shortest = c.n;
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
     assert_int_equal(mps_neighbours_build(list, c.n, c.x, near_radius, far_radius), MPS_OK);

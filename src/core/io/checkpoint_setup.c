@@ -37,7 +37,10 @@ static void put_config(const mps_sim *sim, mps__text *t)
     line(t, "far radius %.17g", w->setup.re_far);
     vector(t, "gravity", w->setup.g);
     line(t, "velocity scale %.17g", w->setup.velocity_scale);
-    line(t, "kernel %s", w->setup.kernel.id == MPS_KERNEL_IMPROVED ? "improved" : w->setup.kernel.id == MPS_KERNEL_ORIGINAL ? "original" : "custom");
+    line(t, "kernel %s",
+         w->setup.kernel.id == MPS_KERNEL_IMPROVED   ? "improved"
+         : w->setup.kernel.id == MPS_KERNEL_ORIGINAL ? "original"
+                                                     : "custom");
     if (!w->setup.domain_given) return;
     vector(t, "domain from", w->setup.domain_min);
     vector(t, "domain to", w->setup.domain_max);
@@ -50,7 +53,8 @@ static void put_phases(const mps__world *w, mps__text *t)
         line(t, "phase %d density %.17g", a, w->setup.phase_density[a]);
         line(t, "phase %d viscosity %.17g", a, w->setup.phase_viscosity[a]);
         for (int b = 0; b < a; b++)
-            if (w->setup.tension[a * MPS__PHASES + b] >= 0) line(t, "tension of %d and %d %.17g", b, a, w->setup.tension[a * MPS__PHASES + b]);
+            if (w->setup.tension[a * MPS__PHASES + b] >= 0)
+                line(t, "tension of %d and %d %.17g", b, a, w->setup.tension[a * MPS__PHASES + b]);
     }
 }
 
@@ -69,21 +73,25 @@ static void put_fields(const mps__particles *s, mps__text *t)
         if (s->field[k].data == &s->field[k].own) line(t, "field %s of %d", s->field[k].name, (int)s->field[k].components);
 }
 
-/* Places of the solids, whatever order they are in. */
+mps__solids mps__solids_of(int64_t n, int32_t dim, const int32_t *kind, const int32_t *part, const double *ref)
+{
+    mps__solids solids = {0, 0};
+    for (int64_t i = 0; i < n; i++) {
+        if (kind[i] == MPS_FLUID) continue;
+        const int32_t what[2] = {kind[i], part[i]};
+        solids.checksum += mps__checksum(mps__checksum(0, what, sizeof what), ref + i * dim, (size_t)dim * sizeof *ref);
+        solids.count++;
+    }
+    return solids;
+}
+
 static void put_solids(const mps_sim *sim, mps__text *t)
 {
     const mps__particles *s = &sim->world.particles;
-    uint64_t sum = 0;
-    int64_t count = 0;
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] == MPS_FLUID) continue;
-        const int32_t what[2] = {s->kind[i], s->part[i]};
-        sum += mps__checksum(mps__checksum(0, what, sizeof what), s->ref + i * s->dim, (size_t)s->dim * sizeof *s->ref);
-        count++;
-    }
+    const mps__solids solids = mps__solids_of(s->n, s->dim, s->kind, s->part, s->ref);
     for (int32_t k = 0; k < s->parts; k++) line(t, "part %s", s->part_name[k]);
-    line(t, "solid particles %lld", (long long)count);
-    line(t, "checksum of their places %llu", (unsigned long long)sum);
+    line(t, "solid particles %lld", (long long)solids.count);
+    line(t, "checksum of their places %llu", (unsigned long long)solids.checksum);
     line(t, "layers of dummies %d", (int)sim->world.setup.layers);
     for (int32_t k = 0; k < sim->world.lists.screens.count; k++) {
         const mps__screen *p = &sim->world.lists.screens.list[k];

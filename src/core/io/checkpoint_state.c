@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The state of a simulation, what the next step depends on and what has been booked so far. */
-#include "checkpoint.h"
+#include "checkpoint_check.h"
 #include "plates.h"
 #include <stdio.h>
 #include <string.h>
@@ -112,7 +112,8 @@ typedef struct arrival {
     int64_t n; /* particles */
     slot slots[SLOTS];
     int count; /* of the slots */
-    const void *value[SLOTS], *field[MPS__FIELDS_MAX];
+    const void *value[SLOTS];
+    mps__arrived arrived;
     lists have;
     double *listed_at;
     mps__series *series; /* one for each probe */
@@ -144,34 +145,20 @@ static void slot_value(const arrival *v, const void *at, void *value)
         if (v->slots[k].at == at) memcpy(value, v->value[k], v->slots[k].size);
 }
 
-/* A checksum tells damage, not what another program wrote: numbers that places in memory are reckoned from are looked at. */
-static mps_status check_tags(const arrival *v, const char *name, int64_t least, int64_t most)
+/* The scalars of the file, in place of those of the simulation. */
+static mps_status find_scalars(arrival *v)
 {
-    mps__particles *s = &v->sim->world.particles;
-    const mps__field *f = mps__particles_field(s, name);
-    const void *values = v->field[f - s->field];
-    for (int64_t i = 0; i < v->n; i++) {
-        const int64_t value = f->size == sizeof(int64_t) ? ((const int64_t *)values)[i] : ((const int32_t *)values)[i];
-        if (value < least || value > most)
-            return mps__fail(v->a->context, MPS_E_IO, "the checkpoint is damaged: \"%s\" of particle %lld is %lld; must be %lld..%lld",
-                             name, (long long)i, (long long)value, (long long)least, (long long)most);
-    }
-    return MPS_OK;
-}
-
-static mps_status check_particles(const arrival *v)
-{
-    const mps__world *w = &v->sim->world;
-    int64_t next_id = 0;
-    slot_value(v, &w->particles.next_id, &next_id);
-    if (v->n > INT32_MAX)
-        return mps__fail(v->a->context, MPS_E_IO, "the checkpoint has %lld particles: at most %d", (long long)v->n, INT32_MAX);
-    MPS__TRY(check_tags(v, "id", 0, next_id - 1));
-    MPS__TRY(check_tags(v, "kind", MPS_FLUID, MPS_DUMMY));
-    MPS__TRY(check_tags(v, "phase", 0, MPS__PHASES - 1));
-    MPS__TRY(check_tags(v, "part", -1, w->particles.parts - 1));
-    MPS__TRY(check_tags(v, "wall_of", -1, v->n - 1));
-    return check_tags(v, "plate", 0, w->lists.screens.count);
+    mps__world *w = &v->sim->world;
+    mps__arrived *a = &v->arrived;
+    MPS__TRY(find_slots(v));
+    a->sim = v->sim;
+#define ARRIVED(member) slot_value(v, &w->state.member, &a->state.member);
+    MPS__STATE(ARRIVED)
+#undef ARRIVED
+    slot_value(v, &w->motion.now, &a->now);
+    slot_value(v, &w->motion.hold, &a->hold);
+    slot_value(v, &w->particles.next_id, &a->next_id);
+    return mps__check_scalars(v->a->context, a);
 }
 
 static mps_status find_particles(arrival *v)
@@ -180,17 +167,20 @@ static mps_status find_particles(arrival *v)
     char name[MPS__PART_TITLE];
     if (!mps__archive_get(v->a, "field id", sizeof *s->id, &v->n)) return MPS_E_VERSION;
     for (int32_t k = 0; k < s->fields; k++)
-        if (!(v->field[k] = part(v, title(name, "field", s->field[k].name), element(&s->field[k]), v->n))) return MPS_E_VERSION;
-    MPS__TRY(check_particles(v));
+        if (!(v->arrived.field[k] = part(v, title(name, "field", s->field[k].name), element(&s->field[k]), v->n))) return MPS_E_VERSION;
     const void *have = part(v, "lists", sizeof v->have, 1);
     if (!have) return MPS_E_VERSION;
     memcpy(&v->have, have, sizeof v->have);
-    if (!v->have.listed) return MPS_OK;
-    const void *searched = part(v, "searched", sizeof(double), v->n * s->dim);
-    if (!searched) return MPS_E_VERSION;
+    mps__arrived *a = &v->arrived;
+    a->n = v->n;
+    a->linked = v->have.linked;
+    a->listed = v->have.listed;
+    if (a->listed && !(a->searched = part(v, "searched", sizeof(double), v->n * s->dim))) return MPS_E_VERSION;
+    MPS__TRY(mps__check_particles(v->a->context, a));
+    if (!a->listed) return MPS_OK;
     v->listed_at = mps__alloc(v->a->context, v->n * s->dim, sizeof *v->listed_at);
     if (!v->listed_at) return MPS_E_NOMEM;
-    memcpy(v->listed_at, searched, (size_t)(v->n * s->dim) * sizeof *v->listed_at);
+    memcpy(v->listed_at, a->searched, (size_t)(v->n * s->dim) * sizeof *v->listed_at);
     return MPS_OK;
 }
 
@@ -214,9 +204,6 @@ static mps_status find_series(const arrival *v, int64_t k, mps__series *s)
     const void *from = part(v, probe_title(name, k, "series"), sizeof state, 1);
     if (!from) return MPS_E_VERSION;
     memcpy(&state, from, sizeof state);
-    if (state.next < 0)
-        return mps__fail(v->a->context, MPS_E_IO, "the checkpoint is damaged: the next sample of probe %lld is number %lld", (long long)k,
-                         (long long)state.next);
     s->step = state.step;
     s->waits = state.waits != 0;
     s->next = state.next;
@@ -227,9 +214,10 @@ static mps_status find_series(const arrival *v, int64_t k, mps__series *s)
     s->row_capacity = s->rows * (1 + s->size);
     s->t_capacity = s->count;
     s->value_capacity = s->count * s->size;
-    return samples == s->count ? MPS_OK
-                               : mps__fail(v->a->context, MPS_E_VERSION, "probe %lld has %lld samples at %lld times", (long long)k,
-                                           (long long)samples, (long long)s->count);
+    if (samples != s->count)
+        return mps__fail(v->a->context, MPS_E_VERSION, "probe %lld has %lld samples at %lld times", (long long)k, (long long)samples,
+                         (long long)s->count);
+    return mps__check_series(v->a->context, &v->arrived, k, s, state.waits);
 }
 
 static mps_status find_all_series(arrival *v)
@@ -250,8 +238,8 @@ static mps_status check_motion(const arrival *v)
 {
     static const char *const name[MPS_DOF_COUNT] = {"surge", "heave", "sway", "roll", "yaw", "pitch"};
     mps__world *w = &v->sim->world;
-    mps__pose saved = {0}, here;
-    slot_value(v, &w->motion.now, &saved);
+    const mps__pose saved = v->arrived.now;
+    mps__pose here;
     if (!w->motion.fn) return MPS_OK;
     MPS__TRY(mps__motion_pose(&w->motion, saved.t, &here));
     for (int d = 0; d < MPS_DOF_COUNT; d++)
@@ -266,7 +254,7 @@ static mps_status move_in(arrival *v)
 {
     mps__world *w = &v->sim->world;
     mps__probes *p = &v->sim->probes;
-    MPS__TRY(mps__particles_replace(&w->particles, v->n, v->field));
+    MPS__TRY(mps__particles_replace(&w->particles, v->n, v->arrived.field));
     for (int k = 0; k < v->count; k++) memcpy(v->slots[k].at, v->value[k], v->slots[k].size);
     w->lists.linked = v->have.linked ? w->particles.generation : -1;
     mps__plates_set_active(w);
@@ -287,7 +275,7 @@ static mps_status move_in(arrival *v)
 mps_status mps__state_get(mps_sim *sim, const mps__archive *a)
 {
     arrival v = {.sim = sim, .a = a};
-    mps_status status = find_slots(&v);
+    mps_status status = find_scalars(&v);
     if (status == MPS_OK) status = check_motion(&v);
     if (status == MPS_OK) status = find_particles(&v);
     if (status == MPS_OK) status = find_all_series(&v);

@@ -7,6 +7,9 @@
 /* A sample is due when it is late by rounding only, in its own intervals. */
 static const double rounding = 1e-9;
 
+/* Sample numbers beyond this are not exact; memory ends long before. */
+static const double most_samples = 9e15;
+
 static double *row_at(const mps__series *s, int64_t k)
 {
     return s->row + k * (1 + s->size);
@@ -72,7 +75,7 @@ static void push(mps__series *s, double t, const double *values)
 /* Number of the first sample after t, or at t if `inclusive`. */
 static int64_t sample_number(double t, double rate, bool inclusive)
 {
-    return (int64_t)(inclusive ? ceil(t * rate - rounding) : floor(t * rate + rounding) + 1);
+    return (int64_t)fmin(inclusive ? ceil(t * rate - rounding) : floor(t * rate + rounding) + 1, most_samples);
 }
 
 /* Room for two rows and `samples` samples. */

@@ -51,7 +51,7 @@ static void flatten(double q[MPS_DOF_COUNT])
     q[MPS_ROLL] = 0;
 }
 
-static void pose_from_state(mps__pose *pose, int32_t dim, double t, const mps_motion_state *state)
+void mps__motion_pose_of(const mps_motion_state *state, int32_t dim, double t, mps__pose *pose)
 {
     mps_motion_state turn = *state;
     pose->t = t;
@@ -102,7 +102,7 @@ void mps__motion_init(mps__motion *m, mps__context *context, int32_t dim)
 {
     *m = (mps__motion){.context = context, .dim = dim, .t_end = INFINITY};
     m->hold.struct_size = sizeof m->hold;
-    pose_from_state(&m->now, dim, 0, &m->hold);
+    mps__motion_pose_of(&m->hold, dim, 0, &m->now);
 }
 
 void mps__motion_free(mps__motion *m)
@@ -117,7 +117,7 @@ void mps__motion_free(mps__motion *m)
 mps_status mps__motion_pose(mps__motion *m, double t, mps__pose *pose)
 {
     if (!m->fn) {
-        pose_from_state(pose, m->dim, t, &m->hold);
+        mps__motion_pose_of(&m->hold, m->dim, t, pose);
         return MPS_OK;
     }
     if (t > m->t_end + end_slack)
@@ -130,7 +130,7 @@ mps_status mps__motion_pose(mps__motion *m, double t, mps__pose *pose)
     if (failed) return mps__fail(m->context, MPS_E_PLUGIN, "the motion callback failed with %d at t = %g s", failed, t);
     state.struct_size = sizeof state;
     MPS__TRY(check_state(m, t, &state));
-    pose_from_state(pose, m->dim, t, &state);
+    mps__motion_pose_of(&state, m->dim, t, pose);
     return MPS_OK;
 }
 

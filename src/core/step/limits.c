@@ -69,5 +69,7 @@ mps_status mps__world_limit_step(mps__world *w, mps_stage *s, double dt_max, dou
     *planned = dt <= longest ? dt : 0;
     const double steps = ceil(dt_max / step * (1 - 1e-6));
     s->dt = w->ending && steps <= SHARED_STEPS ? dt_max / steps : step;
+    if (!(w->state.t + s->dt > w->state.t))
+        return mps__fail(w->context, MPS_E_DIVERGED, "the time step is %g s, too short to change the time, %g s", s->dt, w->state.t);
     return MPS_OK;
 }

@@ -80,6 +80,17 @@ static void make_box(work *w)
     leave_open(b, w->solid->open, dp);
 }
 
+/* Places so far away that their lattice points overflow, or that numbers cannot tell them apart. */
+static mps_status check_box(const work *w)
+{
+    const double dp = w->sim->world.setup.dp;
+    for (int d = 0; d < w->sim->world.setup.dim; d++)
+        MPS__CHECK(&w->sim->context, w->box.hi[d] >= w->box.anchor[d] && isfinite((w->around_hi[d] - w->around_lo[d]) / dp),
+                   "the solid's box is %g .. %g m along axis %d: too far away for lattice points of spacing %g m", w->box.lo[d], w->box.hi[d], d,
+                   dp);
+    return MPS_OK;
+}
+
 /* Solid particles near the new one, in the tank's frame. */
 static mps_status collect_others(work *w)
 {
@@ -231,6 +242,7 @@ static mps_status build(work *w)
     mps_sim *sim = w->sim;
     mps__particles *s = &sim->world.particles;
     make_box(w);
+    MPS__TRY(check_box(w));
     MPS__TRY(collect_others(w));
     MPS__TRY(find_surface(w));
     MPS__TRY(check_fluid(w));

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Checks of the numbers in a checkpoint. A checksum detects damage; it does not detect wrong numbers from another program. All
+ * checks run before anything changes. */
+#ifndef MPS_CORE_CHECKPOINT_CHECK_H
+#define MPS_CORE_CHECKPOINT_CHECK_H
+
+#include "checkpoint.h"
+
+/* The state in a checkpoint. Arrays are borrowed. */
+typedef struct mps__arrived {
+    const mps_sim *sim;
+    mps__state state;
+    mps__pose now;
+    mps_motion_state hold;
+    int64_t next_id, n;
+    const void *field[MPS__FIELDS_MAX]; /* in the order of the particles' fields */
+    int32_t linked, listed;
+    const double *searched; /* [n*dim], NULL unless listed */
+} mps__arrived;
+
+/* Time, steps, poses, budget, flags. */
+mps_status mps__check_scalars(mps__context *c, const mps__arrived *a);
+/* Fields, tags, ids, links, and the solids, which must be those of the simulation. */
+mps_status mps__check_particles(mps__context *c, const mps__arrived *a);
+/* What probe number `probe` keeps. `waits` is the flag as it stands in the file. */
+mps_status mps__check_series(mps__context *c, const mps__arrived *a, int64_t probe, const mps__series *s, int64_t waits);
+
+#endif

@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/** @file mps.h  Everything a user of libmps needs. Plug-in authors add model.h or ppe.h. */
+#ifndef MPS_MPS_H
+#define MPS_MPS_H
+
+#include <mps/geometry.h>
+#include <mps/list.h>
+#include <mps/motion.h>
+#include <mps/operators.h>
+#include <mps/output.h>
+#include <mps/parallel.h>
+#include <mps/particles.h>
+#include <mps/probe.h>
+#include <mps/sim.h>
+#include <mps/status.h>
+#include <mps/step.h>
+#include <mps/types.h>
+#include <mps/version.h>
+
+#endif
