@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Set-ups of extreme values. Each must end in a given status, with a given text if it is refused, and within physical bounds: finite
  * fields, no fluid particle lost without notice, and no fluid faster than a multiple of the speed of the set-up. */
+#include "../tags.h"
 #include <math.h>
 #include <mps/mps.h>
 #include <setjmp.h>
@@ -96,9 +97,9 @@ static mps_status fill(const setup *s, mps_sim *sim, double dp)
 
 static void push_fluid(mps_sim *sim, double velocity)
 {
-    mps_lease u;
+    mps_lease u = {.struct_size = sizeof u};
     const int32_t *kinds;
-    assert_int_equal(mps_particles_tags(sim, NULL, &kinds, NULL, NULL), MPS_OK);
+    assert_int_equal(tags_peek(sim, NULL, &kinds, NULL, NULL), MPS_OK);
     assert_int_equal(mps_lease_begin(sim, "velocity", MPS_WRITE, &u), MPS_OK);
     for (int64_t i = 0; i < u.count; i++)
         if (kinds[i] == MPS_FLUID) u.data[i * u.stride] = velocity;
@@ -132,7 +133,7 @@ static void check_finite(mps_sim *sim)
 {
     static const char *const fields[] = {"position", "velocity", "pressure", "number_density", "density"};
     for (size_t f = 0; f < sizeof fields / sizeof fields[0]; f++) {
-        mps_lease lease;
+        mps_lease lease = {.struct_size = sizeof lease};
         assert_int_equal(mps_lease_begin(sim, fields[f], MPS_READ, &lease), MPS_OK);
         for (int64_t i = 0; i < lease.count * lease.stride; i++)
             if (!isfinite(lease.data[i])) fail_msg("%s: number %lld is %g", fields[f], (long long)i, lease.data[i]);
@@ -198,7 +199,7 @@ static void remove_all(mps_sim *sim, int k)
     const int32_t *kinds;
     int64_t fluid[64], count = 0;
     if (k != 9) return;
-    assert_int_equal(mps_particles_tags(sim, &ids, &kinds, NULL, NULL), MPS_OK);
+    assert_int_equal(tags_peek(sim, &ids, &kinds, NULL, NULL), MPS_OK);
     for (int64_t i = 0; i < n; i++)
         if (kinds[i] == MPS_FLUID && count < 64) fluid[count++] = ids[i];
     assert_int_equal(mps_particles_remove(sim, count, fluid), MPS_OK);
@@ -409,7 +410,7 @@ static void threads_agree(void **state)
     (void)state;
     for (int32_t threads = 1; threads <= 8; threads++) {
         setup with = s;
-        mps_lease x;
+        mps_lease x = {.struct_size = sizeof x};
         with.threads = threads;
         assert_int_equal(build(&with), MPS_OK);
         for (int k = 0; k < s.steps; k++) assert_true(mps_step(created, 1, NULL) >= 0);

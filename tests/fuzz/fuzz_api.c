@@ -116,9 +116,9 @@ static int create_nothing(const mps_allocator *allocator, void **self)
     return fuzz_byte(input) == 255;
 }
 
-static void destroy_nothing(void *self)
+static void destroy_nothing(const mps_allocator *allocator, void *self)
 {
-    (void)self;
+    (void)allocator, (void)self;
 }
 
 static void solve_garbage(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc, void *pc_self, double *p,
@@ -127,7 +127,7 @@ static void solve_garbage(void *self, const mps_ppe_problem *problem, const mps_
     (void)self;
     if (pc && fuzz_byte(input) > 128 && pc->setup(pc_self, problem) == MPS_PPE_CONVERGED) pc->apply(pc_self, problem->rhs, p);
     for (int tries = fuzz_pick(input, 4); tries > 0; tries--) p[fuzz_byte(input) * 37 % problem->n] = fuzz_real(input, 1000);
-    *result = (mps_ppe_result){(int32_t)(fuzz_byte(input) % 8) - 1, (int32_t)fuzz_whole(input), fuzz_real(input, 1e-6),
+    *result = (mps_ppe_result){result->struct_size, (int32_t)(fuzz_byte(input) % 8) - 1, (int32_t)fuzz_whole(input), 0, fuzz_real(input, 1e-6),
                                fuzz_real(input, 1e-4), fuzz_real(input, 1)};
     if (fuzz_byte(input) < 128) result->reason = MPS_PPE_CONVERGED;
 }
@@ -276,7 +276,7 @@ static void remove_particles(fuzz_input *in, mps_sim *sim)
 static void write_field(fuzz_input *in, mps_sim *sim)
 {
     static const char *const fields[] = {"position", "velocity", "pressure", "density", "number_density", "mine", "mark", "wall_pressure"};
-    mps_lease lease;
+    mps_lease lease = {.struct_size = sizeof lease};
     if (mps_lease_begin(sim, fields[fuzz_pick(in, 8)], fuzz_byte(in) % 2, &lease) != MPS_OK) return;
     const int64_t size = lease.count * lease.stride;
     if (size > 0 && fuzz_byte(in) < 200) {
@@ -327,7 +327,7 @@ static void use_controls(fuzz_input *in, mps_sim *sim)
     mps_phase phase;
     mps_energy energy;
     mps_momentum momentum;
-    mps_stencil stencil;
+    mps_stencil stencil = {.struct_size = sizeof stencil};
     switch (fuzz_pick(in, 7)) {
     case 0:
         mps_time_control_init(&control, sizeof control);

@@ -43,7 +43,7 @@ static void set_harmonics(fuzz_input *in, mps_sim *sim)
 static void act(fuzz_input *in, mps_sim *sim)
 {
     const double centre[3] = {fuzz_real(in, 0.5), fuzz_real(in, 0.5), 0};
-    mps_motion_state state;
+    mps_motion_state state = {.struct_size = sizeof state};
     double lab[3], velocity[3];
     switch (fuzz_pick(in, 8)) {
     case 0:

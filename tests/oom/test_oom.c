@@ -508,7 +508,7 @@ static void with_frames(mps_sim *sim)
 
 static mps_status custom_kernel(mps_sim *sim)
 {
-    mps_kernel kernel;
+    mps_kernel kernel = {.struct_size = sizeof kernel};
     assert_int_equal(mps_kernel_find("original", &kernel), MPS_OK);
     return mps_kernel_use(sim, &kernel);
 }

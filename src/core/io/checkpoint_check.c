@@ -37,7 +37,7 @@ static mps_status check_pose_state(mps__context *c, const mps__arrived *a, const
     MPS__TRY(check_finite(c, name, s->rate, MPS_DOF_COUNT));
     MPS__TRY(check_finite(c, name, s->accel, MPS_DOF_COUNT));
     for (int d = 0; d < MPS_DOF_COUNT; d++) {
-        const bool flat = d == MPS_SURGE || d == MPS_HEAVE || d == MPS_YAW;
+        const bool flat = d == MPS_SURGE || d == MPS_HEAVE || d == MPS_YAW || d == MPS_ROLL;
         if (a->sim->world.setup.dim == 2 && !flat && (s->value[d] != 0 || s->rate[d] != 0 || s->accel[d] != 0))
             DAMAGED("\"%s\" moves in direction %d, which 2-D does not have", name, d);
     }
@@ -53,7 +53,7 @@ static mps_status check_pose(mps__context *c, const mps__arrived *a, const char 
     MPS__TRY(check_finite(c, name, p->rotation, 9));
     MPS__TRY(check_finite(c, name, p->omega, 3));
     MPS__TRY(check_finite(c, name, p->alpha, 3));
-    mps__motion_pose_of(&p->state, p->t, &exact);
+    mps__motion_pose_of(&p->state, a->sim->world.setup.dim, p->t, &exact);
     for (int k = 0; set && k < 9; k++)
         if (fabs(p->rotation[k] - exact.rotation[k]) > ROTATION) DAMAGED("the rotation of \"%s\" is not that of its angles", name);
     return MPS_OK;

@@ -29,7 +29,7 @@ typedef struct mps__motion {
 void mps__motion_init(mps__motion *m, mps__context *context, int32_t dim);
 void mps__motion_free(mps__motion *m);
 /* The pose of given displacements, angles and rates. */
-void mps__motion_pose_of(const mps_motion_state *state, double t, mps__pose *pose);
+void mps__motion_pose_of(const mps_motion_state *state, int32_t dim, double t, mps__pose *pose);
 /* Pose at time t. Fails for a callback's failure, NaN, a direction 2-D does not have, or t beyond a table. */
 mps_status mps__motion_pose(mps__motion *m, double t, mps__pose *pose);
 /* Lab position, velocity and acceleration of a point X of the tank; x, v, a are [dim], any may be NULL. */

@@ -62,7 +62,7 @@ static int particles(mps_sim *sim)
 {
     const double x[2] = {0.2, 0.35};
     mps_particle_block b;
-    mps_lease u;
+    mps_lease u = {.struct_size = sizeof u};
     int64_t id = -1;
     CHECK(mps_particle_block_init(&b, sizeof b) == MPS_OK);
     b.count = 1;
