@@ -7,7 +7,7 @@ int frozen_solver_calls;
 
 static int create(const mps_allocator *allocator, void **self)
 {
-    (void)self;
+    (void)allocator, (void)self;
     return !allocator->alloc || !allocator->release;
 }
 
@@ -22,11 +22,11 @@ static void sweep(const mps_ppe_problem *a, double *p)
 
 static void solve(void *self, const mps_ppe_problem *a, const mps_preconditioner_ops *pc, void *pc_self, double *p, mps_ppe_result *result)
 {
-    (void)self;
+    (void)allocator, (void)self;
     (void)pc;
     (void)pc_self;
     double *work = calloc((size_t)a->n, sizeof *work);
-    *result = (mps_ppe_result){.reason = MPS_PPE_MAX_ITERATIONS};
+    *result = (mps_ppe_result){.struct_size = sizeof *result, .reason = MPS_PPE_MAX_ITERATIONS};
     if (!work || a->struct_size < sizeof *a || a->dim != 2 || a->dp != 0.05 || a->max_iterations != 2000 || a->tolerance < 1e-7) {
         result->reason = work ? MPS_PPE_BREAKDOWN : MPS_PPE_NOMEM;
         free(work);
@@ -43,9 +43,9 @@ static void solve(void *self, const mps_ppe_problem *a, const mps_preconditioner
     free(work);
 }
 
-static void destroy(void *self)
+static void destroy(const mps_allocator *allocator, void *self)
 {
-    (void)self;
+    (void)allocator, (void)self;
 }
 
 const mps_solver_ops frozen_solver = {

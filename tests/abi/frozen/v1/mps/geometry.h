@@ -1,9 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/** @file geometry.h  Tanks, baffles and fluid fills on the papers' lattice.
+/** @file geometry.h  Tanks, baffles, plates, solids and fluid on a lattice.
  *
- *  Lattice points are lo + k dp. The wall layer lies ON the tank's wall, the first fluid particle one dp inside, dummy
- *  layers one and two dp behind the wall. 2-D: 199 x 62 fluid and 1974 boundary particles for Z14's surge tank.
- *  Places are in the tank's frame; particles go where its pose at present puts them. */
+ *  Points of the lattice are lo + k dp. The wall particles lie ON the wall of the tank, the first
+ *  fluid particles one dp inside, dummies one and two dp behind the wall. Places are in the frame
+ *  of the tank; particles go where its present pose puts them. "Up" is y in 2-D and 3-D.
+ *
+ *  Z14: Zhang, Wan & Hino (2014); its surge tank in 2-D has 199 x 62 fluid particles and 1974 of
+ *  walls and dummies.
+ *
+ *  Errors. All functions that add particles return these, and then nothing was added:
+ *
+ *  | error | reason |
+ *  |---|---|
+ *  | MPS_E_ARG | an argument is out of its range; something is in the way, the text tells where |
+ *  | MPS_E_STATE | a step was done (walls and solids); no tank or solid is there (fluid, baffles) |
+ *  | MPS_E_BUSY | a lease is open; called from a monitor, a verb or a callback |
+ *  | MPS_E_NOMEM | no memory | */
 #ifndef MPS_GEOMETRY_H
 #define MPS_GEOMETRY_H
 
@@ -11,125 +23,203 @@
 
 MPS_BEGIN_DECLS
 
-/** A rectangular tank. Faces are parts named "<name>.x0", ".x1", ".y0", ".y1", ".z0", ".z1" (edges belong to the
- *  first face in the order y0, y1, x0, x1, z0, z1; a force probe counts them with each face they touch). "Up" is y in 2-D and 3-D. */
+/** A rectangular tank. Faces are parts named "<name>.x0", ".x1", ".y0", ".y1", ".z0", ".z1". Edges
+ *  belong to the first face in the order y0, y1, x0, x1, z0, z1; a force probe counts them with
+ *  each face they touch. */
 typedef struct mps_tank {
-    uint32_t struct_size; /**< set by mps_tank_init() */
-    const char *name;     /**< default "tank" */
-    double lo[3];         /**< lower corner [m]; the whole tank within 1e9 dp of the origin, where its lattice points still differ */
-    double size[3];       /**< inner size [m]; rounded to whole spacings, at least 3 dp */
-    int32_t open_top;     /**< 1: no wall at the upper y end; the side walls end there */
-    int32_t dummy_layers; /**< default 2 */
+    /** Set by mps_tank_init(). */
+    uint32_t struct_size;
+    /** Default "tank". */
+    const char *name;
+    /** Lower corner [m]. The whole tank lies within 1e9 dp of the origin, where the points of its
+     *  lattice still differ. */
+    double lo[3];
+    /** Inner size [m], at least 3 dp; it is rounded to whole spacings. */
+    double size[3];
+    /** 1: no wall at the upper y end; the side walls end there. */
+    int32_t open_top;
+    /** Default 2. */
+    int32_t dummy_layers;
 } mps_tank;
 
-/** Defaults. */
+/** Set every entry to its default. @param size  sizeof(mps_tank) @return MPS_E_ARG: bad size */
 MPS_API mps_status mps_tank_init(mps_tank *tank, size_t size);
 
-/** Add the walls of a tank; its lattice is the one fills use from now on.
- *  @param built  NULL, or [3] out: the size built [m] after rounding to the lattice (a rounding is logged)
- *  @return MPS_E_ARG (also for fluid in the way, with its place), MPS_E_STATE after the first step, MPS_E_BUSY, MPS_E_NOMEM; nothing is
- *          added then */
+/** Add the walls of a tank. Fills use its lattice from now on.
+ *  @param built  NULL, or [3] out: size after rounding to the lattice [m] (a rounding is logged)
+ *  @return see the table of this file */
 MPS_API mps_status mps_tank_add(mps_sim *sim, const mps_tank *tank, double *built);
 
-/** Add a solid box (a baffle): lattice points of the closed box lo..hi, its outer layer walls, what lies inside dummies.
- *  Must follow mps_tank_add() and come before the fill: fluid nearer than dp/2 to its points is refused. Points taken by other
- *  solids are left out, so that the walls a baffle stands on stay.
+/** Add a solid box (a baffle): points of the lattice in the closed box lo..hi, walls in its outer
+ *  layer, dummies inside. It follows the tank and comes before the fluid: fluid nearer than dp/2 to
+ *  its points is refused. Points of other solids are left out, so that walls on which a baffle
+ *  stands stay.
  *
- *  A box of one to three layers across one axis, open to the liquid on both sides, is a plate: the liquid on one side does not feel
- *  the other, and walls the plate stands on are divided between the sides. It reaches a wall that is next to it on the lattice. One layer
- *  has no thickness: each lattice point carries two walls, one a side, with opposite areas, a point of a free edge one wall without area to
- *  speak of. So forces are those on both faces, and a wall probe looks at the side its place lies on; at the very plane it is the older one.
- *  Dummies of a plate: see mps_particles_plates().
- *  @param name   part name @param lo,hi [dim] corners [m]
- *  @param built  NULL, or [2*dim] out: corners of the box of its lattice points [m] (what differs from lo and hi is logged)
- *  @return MPS_E_ARG if no lattice point lies inside, all are taken, or fluid is in the way (with its place); MPS_E_STATE without a tank
- *          and after the first step; MPS_E_BUSY, MPS_E_NOMEM; nothing is added then */
-MPS_API mps_status mps_baffle_add(mps_sim *sim, const char *name, const double *lo, const double *hi, double *built);
+ *  A box of one to three layers across one axis, with liquid on both sides, is a plate: the liquid
+ *  on one side does not feel the other, and walls on which the plate stands are divided between the
+ *  sides. The plate reaches a wall that is next to it on the lattice. One layer has no thickness:
+ *  each point of the lattice carries two walls, one a side, with opposite areas; a point of a free
+ *  edge carries one wall, almost without area. Forces are those on both faces. A wall probe reads
+ *  the side on which its place lies; in the plane itself the older one. Dummies of a plate: field
+ *  "plate" in mps/particles.h.
+ *  @param name   name of the part
+ *  @param lo,hi  [dim] corners [m]
+ *  @param built  NULL, or [2*dim] out: corners of the box of its lattice points [m] (a difference
+ *                to lo and hi is logged)
+ *  @return see the table of this file; MPS_E_ARG also if no free lattice point lies inside */
+MPS_API mps_status mps_baffle_add(mps_sim *sim, const char *name, const double *lo,
+                                       const double *hi, double *built);
 
-/** Add a plate without thickness anywhere in the tank, e.g. an inclined baffle; otherwise as a baffle of one layer. Its particles have a
- *  lattice of their own, about dp wide; fills leave out points nearer than 0.7 dp. An edge stands on a wall if it lies within 0.75 dp
- *  of wall particles along its whole length: let it end on the wall. Plates may stand on plates.
- *  @param name    part name
+/** Add a plate without thickness anywhere in the tank, e.g. an inclined baffle; otherwise as a
+ *  baffle of one layer. Its particles have their own lattice, about dp wide. Fills leave out points
+ *  nearer than 0.7 dp. An edge stands on a wall if it lies within 0.75 dp of wall particles along
+ *  its whole length: let it end on the wall. Plates may stand on plates.
+ *  @param name    name of the part
  *  @param corner  [dim] an end (2-D), a corner (3-D) [m]
  *  @param edge    [dim] from there to the other end, or along one side [m], at least 2 dp long
- *  @param edge2   [3] along the other side [m], at right angles to `edge`, at least 2 dp long; NULL in 2-D
- *  @return MPS_E_ARG, also if the plate leaves the tank, all its points are taken or fluid is nearer than dp/2 (with its place);
- *          MPS_E_STATE without a tank and after the first step; MPS_E_BUSY, MPS_E_NOMEM; nothing is added then */
-MPS_API mps_status mps_plate_add(mps_sim *sim, const char *name, const double *corner, const double *edge, const double *edge2);
+ *  @param edge2   [3] along the other side [m], at right angles to `edge`, at least 2 dp long; NULL
+ *                 in 2-D
+ *  @return see the table of this file; MPS_E_ARG also if the plate leaves the tank */
+MPS_API mps_status mps_plate_add(mps_sim *sim, const char *name, const double *corner,
+                                      const double *edge, const double *edge2);
 
-/** Fill a box with fluid of a phase: free lattice points of the closed box. The level of n rows is n dp above the floor, so that a depth
- *  which is no multiple of dp becomes the next smaller one: mps_fill_level_add() keeps it.
+/** Fill a box with fluid of a phase: free points of the lattice in the closed box. The level of n
+ *  rows is n dp above the floor: a depth that is not a multiple of dp becomes the next smaller one.
+ *  mps_fill_level_add() keeps the depth.
  *  @param added  NULL, or out: particles added
- *  @param built  NULL, or [2*dim] out: corners of the box of lattice points [m] (what differs from lo and hi is logged)
- *  @return MPS_E_ARG (no lattice point, none is free), MPS_E_STATE without a tank, MPS_E_BUSY, MPS_E_NOMEM; nothing is added then */
-MPS_API mps_status mps_fill_box_add(mps_sim *sim, int32_t phase, const double *lo, const double *hi, int64_t *added, double *built);
+ *  @param built  NULL, or [2*dim] out: corners of the box of lattice points [m] (a difference to lo
+ *                and hi is logged)
+ *  @return see the table of this file; MPS_E_ARG also if no free lattice point lies inside */
+MPS_API mps_status mps_fill_box_add(mps_sim *sim, int32_t phase, const double *lo,
+                                         const double *hi, int64_t *added, double *built);
 
-/** Fill a box up to the level hi[1] [m]. If this lies between two rows of the lattice, the upper row gets the share of its points that the
- *  mass below the level needs, evenly spread; the liquid at rest settles to the level. All else as mps_fill_box_add().
- *  @param built  NULL, or [2*dim] out: built[dim+1] is the level of the mass that was filled in [m] */
-MPS_API mps_status mps_fill_level_add(mps_sim *sim, int32_t phase, const double *lo, const double *hi, int64_t *added, double *built);
+/** Fill a box up to the level hi[1] [m]. If the level lies between two rows of the lattice, the
+ *  upper row gets the share of its points that the mass below the level needs, evenly spread; the
+ *  liquid at rest settles to the level. Otherwise as mps_fill_box_add().
+ *  @param built  NULL, or [2*dim] out: built[dim+1] is the level of the mass that was filled in
+ *  [m] */
+MPS_API mps_status mps_fill_level_add(mps_sim *sim, int32_t phase, const double *lo,
+                                           const double *hi, int64_t *added, double *built);
 
 /** Non-zero if a point [dim] [m] is inside. */
 typedef int (*mps_inside_fn)(void *user, const double *x);
 
-/** Fill the free lattice points of the tank for which `inside` answers non-zero. */
-MPS_API mps_status mps_fill_add(mps_sim *sim, int32_t phase, mps_inside_fn inside, void *user, int64_t *added);
+/** Fill the free lattice points of the tank for which `inside` returns non-zero.
+ *  @return see the table of this file */
+MPS_API mps_status mps_fill_add(mps_sim *sim, int32_t phase, mps_inside_fn inside, void *user,
+                                     int64_t *added);
 
-/* ---- solids of any shape -------------------------------------------------------------------------------------- */
+/* ---- solids of any shape --------------------------------------------------------------------- */
 
-/** Signed distance of a point [dim] from the surface of a solid [m]: > 0 where liquid may be, < 0 inside the solid. It need not be exact
- *  but must be near the surface, up to a factor that varies slowly. */
+/** Signed distance of a point [dim] from the surface of a solid [m]: > 0 where liquid may be, < 0
+ *  inside the solid. It need not be exact, but near the surface it must be right up to a factor
+ *  that varies slowly. */
 typedef double (*mps_distance_fn)(void *user, const double *x);
 
-/** A solid of any shape: a tank (everything outside of it is solid) or a body in one. Give `distance`, or `inside`. */
+/** A solid of any shape: a tank (everything outside of it is solid) or a body in one. Set
+ *  `distance` or `inside`. */
 typedef struct mps_solid {
-    uint32_t struct_size;     /**< set by mps_solid_init() */
-    int32_t dummy_layers;     /**< default 2 */
-    const char *name;         /**< name of its part; default "solid" */
-    double lo[3];             /**< box to look in [m]; must contain the whole surface, but for what lies beyond a tank's walls */
-    double hi[3];             /**< its upper corner [m] */
-    mps_distance_fn distance; /**< signed distance, or */
-    mps_inside_fn inside;     /**< non-zero inside the solid; edges come out rounded by about dp/4 */
-    void *user;               /**< first argument of either; neither is called after the call returns */
-    int32_t invert;           /**< 1: solid and liquid change places */
+    /** Set by mps_solid_init(). */
+    uint32_t struct_size;
+    /** Default 2. */
+    int32_t dummy_layers;
+    /** Name of its part; default "solid". */
+    const char *name;
+    /** Lower corner of the box in which the surface is searched [m]. The box must contain the whole
+     *  surface, except what lies beyond the walls of a tank. */
+    double lo[3];
+    /** Upper corner of the box [m]. */
+    double hi[3];
+    /** Signed distance, or NULL. */
+    mps_distance_fn distance;
+    /** Non-zero inside the solid, or NULL. Edges are rounded by about dp/4. */
+    mps_inside_fn inside;
+    /** First argument of both; neither is called after the call returns. */
+    void *user;
+    /** 1: solid and liquid change places. */
+    int32_t invert;
 } mps_solid;
 
-/** Defaults. */
+/** Set every entry to its default. @param size  sizeof(mps_solid) @return MPS_E_ARG: bad size */
 MPS_API mps_status mps_solid_init(mps_solid *solid, size_t size);
 
-/** Add a solid with walls that follow its surface: wall particles lie on it about dp apart, at edges and corners too, each with its
- *  share of the area; behind them dummies. Fills leave out the inside and what is nearer than dp/2 to the surface, because wall particles
- *  are half cells: the liquid reaches to the surface, the volume of the fluid particles to dp/2 from it. The first rows beside a
- *  solid are moved by up to 0.45 dp, so that their density is even; `inside` of a fill is asked for the lattice point.
+/** Add a solid with walls that follow its surface: wall particles lie on it about dp apart, at
+ *  edges and corners too, each with its share of the area; dummies lie behind them. Wall particles
+ *  are half cells, so fills leave out the inside and what is nearer than dp/2 to the surface: the
+ *  liquid reaches the surface, the volume of the fluid particles ends dp/2 before it. The first
+ *  rows beside a solid are moved by up to 0.45 dp, so that their density is even; `inside` of a
+ *  fill is asked for the point of the lattice.
  *
- *  The first tank or solid lays the lattice of the fills, a solid's from its corner `lo`: put `lo` on a lattice plane of flat walls. Without
- *  a tank each further solid extends it; then fills keep to the boxes of the solids. A body in a tank may end in its walls: what
- *  lies beyond them, or nearer than 0.7 dp to a wall particle that is there, is left out, and walls inside of the body become dummies.
- *  Add bodies before the fill: fluid inside of a solid is refused. Parts thinner than 3 dp are logged as a warning, since liquid on one side
- *  feels the other; screens of no thickness are made by mps_baffle_add().
- *  @return MPS_E_ARG (a distance that is not finite, with its place; no surface in the box; a surface that leaves the box; fluid in the
- *          way), MPS_E_STATE after the first step, MPS_E_BUSY, MPS_E_NOMEM; nothing is added then */
+ *  The first tank or solid makes the lattice of the fills, that of a solid begins at its corner
+ *  `lo`: put `lo` on a lattice plane of flat walls. Without a tank each further solid extends the
+ *  lattice, and fills keep to the boxes of the solids. A body in a tank may end in its walls: what
+ *  lies beyond them, or nearer than 0.7 dp to a wall particle, is left out, and walls inside of the
+ *  body become dummies. Add bodies before the fluid: fluid inside of a solid is refused. Parts
+ *  thinner than 3 dp are logged as a warning, because liquid on one side feels the other; thin
+ *  screens are made by mps_baffle_add() and mps_plate_add().
+ *  @return see the table of this file; MPS_E_ARG also for a distance that is not finite (with its
+ *          place), no surface in the box, a surface that leaves the box */
 MPS_API mps_status mps_solid_add(mps_sim *sim, const mps_solid *solid);
 
-/** A solid from a file: binary or ASCII STL, a closed surface of triangles, 3-D only. */
+/** Sides of a box, in the frame of the tank. */
+enum {
+    /** No side. */
+    MPS_SIDE_NONE = 0,
+    /** Smallest x. */
+    MPS_SIDE_X0 = 1,
+    /** Largest x. */
+    MPS_SIDE_X1 = 2,
+    /** Smallest y: the bottom. */
+    MPS_SIDE_Y0 = 3,
+    /** Largest y: the top. */
+    MPS_SIDE_Y1 = 4,
+    /** Smallest z. */
+    MPS_SIDE_Z0 = 5,
+    /** Largest z. */
+    MPS_SIDE_Z1 = 6
+};
+
+/** A solid from a file: binary or ASCII STL, a closed surface of triangles, 3-D only. A point X of
+ *  the file comes to
+ *    x = shift + Rz(rotation[2]) Ry(rotation[1]) Rx(rotation[0]) scale X,
+ *  that is, the surface is scaled, turned about the axes x, y and z in this order, and shifted. A
+ *  file with z up gets y up with rotation[0] = -pi/2. */
 typedef struct mps_stl {
-    uint32_t struct_size; /**< set by mps_stl_init() */
-    int32_t dummy_layers; /**< default 2 */
-    const char *name;     /**< name of its part; default "solid" */
-    double scale;         /**< [m] a unit of the file; default 1; 0.001 for millimetres */
-    double shift[3];      /**< added to all coordinates after scaling [m] */
-    int32_t container;    /**< 1: the liquid is inside of the surface; 0 (default): the surface encloses a body */
+    /** Set by mps_stl_init(). */
+    uint32_t struct_size;
+    /** Default 2. */
+    int32_t dummy_layers;
+    /** Name of its part; default "solid". */
+    const char *name;
+    /** A unit of the file [m]; default 1; 0.001 for millimetres. */
+    double scale;
+    /** Angles about the axes x, y and z through the origin, in this order [rad]; default 0. */
+    double rotation[3];
+    /** Added to all coordinates after scaling and rotation [m]. */
+    double shift[3];
+    /** 1: the liquid is inside of the surface; 0 (default): the surface encloses a body. */
+    int32_t container;
+    /** Container only: side of the bounding box, after the rotation, that has no wall; default
+     *  MPS_SIDE_NONE. The file still has a closed surface, with a lid. The lid and what lies within
+     *  dp/2 of its plane get no particles: the other walls end at most 1 dp below the plane. */
+    int32_t open_side;
 } mps_stl;
 
-/** Defaults. */
+/** Set every entry to its default. @param size  sizeof(mps_stl) @return MPS_E_ARG: bad size */
 MPS_API mps_status mps_stl_init(mps_stl *stl, size_t size);
 
-/** Add a solid from an STL file as mps_solid_add() does; the lattice begins at the lower corner of its bounding box. Triangles
- *  without area are skipped, a surface that is inside out is turned over, both are logged.
+/** Add a solid from an STL file as mps_solid_add() does; the lattice begins at the lower
+ *  corner of its bounding box. Triangles without area are skipped, a surface that is inside out is
+ *  turned over; both are logged.
  *  @param built  NULL, or [6] out: lower and upper corner of the surface [m]
- *  @return MPS_E_IO (the file cannot be read, is cut short, is no STL file), MPS_E_ARG (no triangles, a coordinate that is not finite, open
- *          or inconsistently oriented: how many edges and where the first is), and what mps_solid_add() returns */
-MPS_API mps_status mps_stl_add(mps_sim *sim, const char *path, const mps_stl *stl, double *built);
+ *
+ *  | error (and those of the table of this file) | reason |
+ *  |---|---|
+ *  | MPS_E_IO | the file cannot be read, is cut short, or is not an STL file |
+ *  | MPS_E_ARG | 2-D; no triangles; a coordinate not finite; an open surface, or one not |
+ *  | | oriented: how many edges, and where the first is | */
+MPS_API mps_status mps_stl_add(mps_sim *sim, const char *path, const mps_stl *stl,
+                                    double *built);
 
 MPS_END_DECLS
 

@@ -15,7 +15,15 @@
  *  for each other fail the step with MPS_E_STATE and the names of their models.
  *
  *  Channels are looked up when the first step after a change of models begins: a channel that no
- *  active model brings, or that cannot be used so in this moment, fails it with MPS_E_STATE. */
+ *  active model brings, or that cannot be used so in this moment, fails it with MPS_E_STATE.
+ *
+ *  Channels that built-in models use if a model brings them:
+ *    "viscosity" [Pa s], 1 number, for a step: used by "viscosity.laplacian" and "viscosity.pair"
+ *      instead of the viscosity of the phase. Write it in MPS_PREPARE. The time control knows the
+ *      viscosities of the phases only: limit the step in MPS_LIMIT.
+ *
+ *  docs/tutorials/your_own_model.md writes a model step by step. The package has a conformance kit,
+ *  model_kit.h, which runs a model and reports the rules that it breaks. */
 #ifndef MPS_MODEL_H
 #define MPS_MODEL_H
 
@@ -75,7 +83,9 @@ enum {
 enum {
     /** Reads the value of its own row. */
     MPS_USE_READ = 1,
-    /** Reads values of neighbours within the far radius too. Implies MPS_USE_READ. */
+    /** Reads values of neighbours within the far radius too. Implies MPS_USE_READ. A loop that
+     *  reads a channel at neighbours must not write it: write scratch first, and the channel in a
+     *  second loop. */
     MPS_USE_NEIGHBOURS = 2,
     /** Writes values of its own row. Alone: the values before are not read. Rows that are not
      *  written keep their values. */
@@ -83,7 +93,10 @@ enum {
     /** Reads and writes its own row. */
     MPS_USE_CHANGE = 5,
     /** The channel may be missing: no active model brings it. Its array is NULL then. */
-    MPS_USE_OPTIONAL = 8
+    MPS_USE_OPTIONAL = 8,
+    /** Reads values of the neighbours of dummies too. Implies MPS_USE_NEIGHBOURS. Without an active
+     *  model that does, dummies have no rows in mps_stage.near and .far. */
+    MPS_USE_DUMMIES = 16
 };
 
 /** A channel that a verb uses. Its array is s->data[k], k the place in mps_verb.uses. */
@@ -99,7 +112,9 @@ enum {
     /** From the beginning of MPS_CLASSIFY to the end of the step; not kept. */
     MPS_LIFE_STEP = 0,
     /** As long as its particle: it travels with it, is saved by checkpoints, comes back after a
-     *  failed step, and is a field for mps_lease_begin(). Real numbers only. */
+     *  failed step, and is a field for mps_lease_begin(), e.g. to write first values after
+     *  mps_model_use(). Verbs of all moments may read and write it. When its model is switched off
+     *  the field stays with its values. Real numbers only. */
     MPS_LIFE_PARTICLE = 1
 };
 
@@ -165,6 +180,8 @@ typedef struct mps_setting {
  *    FREE elsewhere.
  *  Unknowns are particles of regions INNER, SECOND and NEAR that are not fixed. */
 typedef struct mps_equation {
+    /** sizeof(mps_equation) of the library */
+    uint32_t struct_size;
     /** The pairs of the Laplacian: MPS_NEAR or MPS_FAR (default). */
     int32_t radius;
     /** 1: pairs with one particle on the surface also carry the flux of the pairs that the surface
@@ -173,8 +190,6 @@ typedef struct mps_equation {
     /** 1: pressures are those beyond a fluid that moves with the tank, b = g - a_tank in
      *  mps/flux.h; default 0. */
     int32_t body;
-    /** Kept 0. */
-    int32_t reserved;
     /** Weight of wall-wall pairs, times the smaller "wetted_share" of both; default 0. */
     double wall_factor;
     /** Share of the divergence that a step takes away, 0 < gain <= 1; default 1. */
@@ -223,13 +238,17 @@ typedef struct mps_stage {
     const int32_t *phase;
     /** [n] */
     const int64_t *id;
-    /** [n*dim] positions at the beginning of the step [m] */
+    /** [n*dim] positions at the beginning of the step, in the lab [m]; in the frame of the tank:
+     *  mps_stage_tank() */
     const double *x;
     /** [n*dim] wetted area vector of wall particles, into the fluid [m^(dim-1)] */
     const double *area;
     /** [n] nearest wall particle of a dummy; -1: none near */
     const int32_t *wall_of;
-    /** Pairs within re_near. Rows of solids without fluid within the radii may be empty. */
+    /** Pairs within re_near. Rows of solids without fluid within the radii may be empty, and those
+     *  of dummies are, unless an active model has MPS_USE_DUMMIES. Dummies are in the rows of
+     *  others. A particle without a row keeps its "number_density"; other sums are those of no
+     *  pairs. */
     const mps_stencil *near;
     /** Pairs within re_far, likewise. Row i of one need not begin where row i of the other does. */
     const mps_stencil *far;
@@ -250,7 +269,7 @@ typedef struct mps_stage {
     double dt_limit;
     /** Arrays of the verb's uses, in their order; double or int32_t. */
     void *const *data;
-    /** Values of the model's settings, in their order. */
+    /** Values of the model's settings, in their order; also those of integers and flags. */
     const double *setting;
     /** State of the model: what mps_model_ops.create made, else mps_model_ops.user. */
     void *self;
@@ -298,7 +317,9 @@ typedef struct mps_model_ops {
     const mps_channel *channels;
     /** What it does. */
     const mps_verb *verbs;
-    /** NULL, or make a state in *self, which holds `user` before. Non-zero: no memory. */
+    /** NULL, or make a state in *self, which holds `user` before. Non-zero: no memory.
+     *  Checkpoints do not save the state: what later steps depend on must be in channels of
+     *  MPS_LIFE_PARTICLE. */
     int (*create)(const mps_allocator *allocator, void **self);
     /** Gives back what create made; needed with create. */
     void (*destroy)(const mps_allocator *allocator, void *self);
@@ -348,7 +369,7 @@ enum {
     MPS_BODY_ANCHOR = 3
 };
 
-/** Find bodies, sets of rows linked by near pairs, that no anchor holds.
+/** Find bodies, sets of rows linked by near pairs, that no anchor holds. Dummies link no others.
  *  @param most  larger bodies are taken for held @param role  [n] MPS_BODY_...
  *  @param body  [n] out: 0.. for rows of bodies that are free, else -1
  *  @return 0, or non-zero after a failure (no memory; the error is set) */
@@ -357,7 +378,7 @@ MPS_API int mps_stage_bodies(mps_stage *s, int32_t most, const int32_t *role, in
 /** Rows by square cells, for searches beyond the far radius: bucket b holds the rows first[b] - 1,
  *  next[of that] - 1, ... until 0, ascending, of all cells with that bucket. */
 typedef struct mps_grid {
-    /** sizeof(mps_grid) */
+    /** Set by mps_grid_init(), or sizeof(mps_grid). */
     uint32_t struct_size;
     /** 2 or 3 */
     int32_t dim;
@@ -370,6 +391,9 @@ typedef struct mps_grid {
     /** [n] */
     const int32_t *next;
 } mps_grid;
+
+/** Set struct_size and zero. @param size  sizeof(mps_grid) @return MPS_E_ARG: bad size */
+MPS_API mps_status mps_grid_init(mps_grid *grid, size_t size);
 
 /** Cell of a place x [dim]. */
 static inline void mps_grid_cell(const mps_grid *grid, const double *x, int64_t cell[3])
@@ -387,8 +411,16 @@ static inline int64_t mps_grid_bucket(const mps_grid *grid, const int64_t cell[3
 }
 
 /** Sort the fluid rows into cells of a side. The grid lives as long as scratch, and takes 2 blocks.
- *  @return 0, or non-zero after a failure (no memory, side not > 0) */
+ *  @param grid  initialised by mps_grid_init(); out
+ *  @return 0, or non-zero after a failure (no memory, side not > 0, grid not initialised) */
 MPS_API int mps_stage_grid(mps_stage *s, double side, mps_grid *grid);
+
+/** Place of a point of the lab in the frame of the tank, and the velocity of the rigid tank there
+ *  over this step, as "velocity" has it for a solid at this point. In MPS_LIMIT it is the velocity
+ *  at the beginning of the step. Row functions may call it.
+ *  @param x  [dim] point, e.g. s->x + i * s->dim [m] @param place  NULL, or [dim] out [m]
+ *  @param velocity  NULL, or [dim] out, in the lab [m/s] */
+MPS_API void mps_stage_tank(const mps_stage *s, const double *x, double *place, double *velocity);
 
 /** Make values that rows wrote into scratch [n*components] visible at neighbours. Call it between a
  *  loop that writes scratch and one that reads it at neighbours. Channels need no call. */

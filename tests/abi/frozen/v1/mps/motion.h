@@ -1,9 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file motion.h  Rigid motion of the tank: six degrees of freedom about a given centre.
  *
- *  x(t) = c + d(t) + R(t) (X - c), R = Rz(yaw) Ry(pitch) Rx(roll). In 2-D only d[0], d[1] and yaw (about z) exist; a
- *  motion in another direction is refused. All walls, probes and gauges move with the tank. Setting a motion carries the
- *  tank and its liquid to the motion's pose at the present time; between steps it should go on from the pose there is. */
+ *    x(t) = c + d(t) + R(t) (X - c),   R = Rz(yaw) Ry(pitch) Rx(roll) in 3-D.
+ *
+ *  2-D has surge, heave and one rotation, that of the plane, positive from x to y. It has two
+ *  names: MPS_ROLL, as for the cross-section of a ship, and MPS_YAW, about the axis z. The tank
+ *  turns by the sum of both, R = Rz(roll + yaw). Sway and pitch are refused.
+ *
+ *  All walls, probes and gauges move with the tank. Setting a motion carries the tank and its
+ *  liquid to the pose of the motion at the present time. Between steps a new motion should begin at
+ *  the present pose. */
 #ifndef MPS_MOTION_H
 #define MPS_MOTION_H
 
@@ -12,67 +18,119 @@
 MPS_BEGIN_DECLS
 
 /** Degrees of freedom in tables and harmonics. */
-enum { MPS_SURGE = 0, MPS_HEAVE = 1, MPS_SWAY = 2, MPS_ROLL = 3, MPS_YAW = 4, MPS_PITCH = 5, MPS_DOF_COUNT = 6 };
-/* along x, y (up), z; about x, z, y. */
+enum {
+    /** Along x [m]. */
+    MPS_SURGE = 0,
+    /** Along y, up [m]. */
+    MPS_HEAVE = 1,
+    /** Along z [m]; 3-D only. */
+    MPS_SWAY = 2,
+    /** About x [rad]; in 2-D the rotation of the plane. */
+    MPS_ROLL = 3,
+    /** About z [rad]; in 2-D the rotation of the plane. */
+    MPS_YAW = 4,
+    /** About y [rad]; 3-D only. */
+    MPS_PITCH = 5,
+    /** Number of degrees of freedom. */
+    MPS_DOF_COUNT = 6
+};
 
-/** Pose and its first two derivatives, one entry for each degree of freedom [m, rad; per s; per s2]. */
+/** Pose of the tank with its first two derivatives, one entry for each degree of freedom. */
 typedef struct mps_motion_state {
-    double value[MPS_DOF_COUNT]; /**< displacement and angles */
-    double rate[MPS_DOF_COUNT];  /**< first derivative */
-    double accel[MPS_DOF_COUNT]; /**< second derivative */
+    /** Set by mps_motion_state_init(), or sizeof(mps_motion_state). */
+    uint32_t struct_size;
+    /** Kept 0. */
+    int32_t reserved;
+    /** Displacements and angles [m, rad]. */
+    double value[MPS_DOF_COUNT];
+    /** First derivative [m/s, rad/s]. */
+    double rate[MPS_DOF_COUNT];
+    /** Second derivative [m/s2, rad/s2]. */
+    double accel[MPS_DOF_COUNT];
 } mps_motion_state;
+
+/** Set struct_size and zero. @param size  sizeof(mps_motion_state) @return MPS_E_ARG: bad size */
+MPS_API mps_status mps_motion_state_init(mps_motion_state *state, size_t size);
 
 /** How the motion begins. */
 enum {
-    MPS_START_AT_REST = 0,  /**< walls jump to their velocity, the liquid is at rest in the lab (the papers, default) */
-    MPS_START_WITH_TANK = 1 /**< the liquid takes the tank's velocity when the first step with this motion begins */
+    /** Walls jump to their velocity, the liquid is at rest in the lab (as in the papers;
+     *  default). */
+    MPS_START_AT_REST = 0,
+    /** The liquid takes the velocity of the tank when the first step with this motion begins. */
+    MPS_START_WITH_TANK = 1
 };
 
-/** Centre of rotation [m], in the tank's frame, and the start convention; before the first step. Default: origin, at rest. */
+/** Set the centre of rotation and how the motion begins. Default: origin, MPS_START_AT_REST.
+ *  @param centre  [dim] [m], in the frame of the tank
+ *  @param start   MPS_START_...
+ *
+ *  | error | reason |
+ *  |---|---|
+ *  | MPS_E_ARG | centre is not finite; start |
+ *  | MPS_E_STATE | a step was done |
+ *  | MPS_E_BUSY | a lease is open; called from a monitor, a verb or a callback | */
 MPS_API mps_status mps_motion_centre_set(mps_sim *sim, const double *centre, int32_t start);
 
-/** One harmonic: A sin(w t + phi) or -A (1 - cos w t). */
+/** One harmonic. Its layout does not change within a major version. */
 typedef struct mps_harmonic {
-    int32_t dof;      /**< MPS_SURGE ... */
-    int32_t form;     /**< 0: A sin(w t + phase); 1: -A (1 - cos(w t)), phase unused */
-    double amplitude; /**< A [m or rad] */
-    double omega;     /**< w [rad/s], >= 0 */
-    double phase;     /**< [rad] */
+    /** MPS_SURGE .. MPS_PITCH */
+    int32_t dof;
+    /** 0: A sin(w t + phase); 1: -A (1 - cos(w t)), phase is not used. */
+    int32_t form;
+    /** A [m or rad] */
+    double amplitude;
+    /** w [rad/s], >= 0 */
+    double omega;
+    /** [rad] */
+    double phase;
 } mps_harmonic;
 
-/** Sum of harmonics; copied. @param count >= 1 */
-MPS_API mps_status mps_motion_harmonics_set(mps_sim *sim, int32_t count, const mps_harmonic *harmonics);
+/** Motion as a sum of harmonics. @param count  >= 1 @param harmonics  [count], copied
+ *  @return MPS_E_ARG (which harmonic), MPS_E_BUSY, MPS_E_NOMEM */
+MPS_API mps_status mps_motion_harmonics_set(mps_sim *sim, int32_t count,
+                                            const mps_harmonic *harmonics);
 
-/** Motion from a table, interpolated by a natural cubic spline (C2); copied. Its accelerations at the first and last row are zero, its
- *  velocities there are not: a tank that is to stop needs some rows of equal values at the end.
+/** Motion from a table, interpolated by a natural cubic spline (C2). Accelerations at the first and
+ *  the last row are zero, velocities there are not: a tank that is to stop needs some rows of equal
+ *  values at the end.
  *
- *  A step that would end beyond the last row by more than 1e-9 s is not done: MPS_E_STATE, and the simulation can go on with another
- *  motion. mps_run() to the time of the last row meets it exactly; mps_step() does not cut its step to it, but takes at most the dt_max it
- *  is given. mps_motion_clear() then leaves the tank where it is, at once without velocity.
+ *  A step that would end more than 1e-9 s beyond the last row fails with MPS_E_STATE, and the
+ *  simulation can continue with another motion. mps_run() to the time of the last row meets it
+ *  exactly. mps_step() does not cut its step to the table, but takes at most the given dt_max.
+ *  After the table mps_motion_clear() holds the tank where it is; its velocity becomes zero at
+ *  once.
  *  @param rows    >= 2
- *  @param t       [rows] strictly increasing, t[0] <= present time [s]
+ *  @param t       [rows] [s], strictly increasing, t[0] <= present time
  *  @param dofs    number of columns, 1..6
- *  @param dof     [dofs] which degree of freedom each column is
- *  @param values  [rows*dofs] row by row [m, rad]
- *  @return MPS_E_ARG naming the first bad row */
-MPS_API mps_status mps_motion_table_set(mps_sim *sim, int64_t rows, const double *t, int32_t dofs, const int32_t *dof,
-                                        const double *values);
+ *  @param dof     [dofs] degree of freedom of each column, each once
+ *  @param values  [rows*dofs] row by row [m, rad]; copied
+ *  @return MPS_E_ARG (the first bad row), MPS_E_BUSY, MPS_E_NOMEM */
+MPS_API mps_status mps_motion_table_set(mps_sim *sim, int64_t rows, const double *t, int32_t dofs,
+                                        const int32_t *dof, const double *values);
 
-/** Pose, rates and accelerations at a time; must be smooth and a function of t alone. Non-zero: failed (MPS_E_PLUGIN). */
+/** Pose, rates and accelerations at a time; a smooth function of t alone. `state` arrives with its
+ *  struct_size and zeros. @return 0; non-zero: the step fails with MPS_E_PLUGIN */
 typedef int (*mps_motion_fn)(void *user, double t, mps_motion_state *state);
 
-/** Motion by callback; `state` arrives zeroed. */
+/** Motion by callback. @return MPS_E_ARG, MPS_E_BUSY, MPS_E_PLUGIN (the callback fails at the
+ *  present time) */
 MPS_API mps_status mps_motion_callback_set(mps_sim *sim, mps_motion_fn fn, void *user);
 
-/** No motion from now on; the tank stays where it is. */
+/** No motion from now on; the tank stays where it is. @return MPS_E_BUSY */
 MPS_API mps_status mps_motion_clear(mps_sim *sim);
 
-/** Pose at the present time. */
+/** Pose at the present time. @param state  initialised by mps_motion_state_init(); out
+ *  @return MPS_E_ARG */
 MPS_API mps_status mps_motion_state_get(const mps_sim *sim, mps_motion_state *state);
 
-/** Map a point of the tank's frame to the lab at the present time, with the velocity of the tank there.
- *  @param tank [dim] @param lab [dim] out @param velocity NULL or [dim] out */
-MPS_API mps_status mps_motion_to_lab(const mps_sim *sim, const double *tank, double *lab, double *velocity);
+/** Map a point from the frame of the tank to the lab at the present time.
+ *  @param tank      [dim] [m], finite
+ *  @param lab       [dim] out [m]
+ *  @param velocity  NULL, or [dim] out: velocity of the tank there [m/s]
+ *  @return MPS_E_ARG */
+MPS_API mps_status mps_motion_to_lab(const mps_sim *sim, const double *tank, double *lab,
+                                     double *velocity);
 
 MPS_END_DECLS
 

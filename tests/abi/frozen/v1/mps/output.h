@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/** @file output.h  Frames for ParaView: one .vtp file a frame and a .pvd series that is valid after every frame; and checkpoints. */
+/** @file output.h  Frames for ParaView (a .vtp file per frame, and a .pvd series that is valid
+ *  after every frame), and checkpoints. */
 #ifndef MPS_OUTPUT_H
 #define MPS_OUTPUT_H
 
@@ -10,41 +11,81 @@ MPS_BEGIN_DECLS
 /** A series of frames. */
 typedef struct mps_frames mps_frames;
 
-/** Which particles go into a frame; and whether a series goes on. */
-enum { MPS_FRAMES_FLUID = 1, MPS_FRAMES_WALL = 2, MPS_FRAMES_DUMMY = 4, MPS_FRAMES_CONTINUE = 8 };
+/** Options of a series: a sum of these. */
+enum {
+    /** Fluid particles. */
+    MPS_FRAMES_FLUID = 1,
+    /** Wall particles. */
+    MPS_FRAMES_WALL = 2,
+    /** Dummies. */
+    MPS_FRAMES_DUMMY = 4,
+    /** Continue a series. */
+    MPS_FRAMES_CONTINUE = 8
+};
 
-/** Open a series: writes `<folder>/<name>.pvd` and `<folder>/<name>/<name>_000000.vtp` ...; the folder must exist.
- *  Frames of an earlier series of the same folder and name are removed, other files are left alone. With MPS_FRAMES_CONTINUE those up to
- *  the present time stay, later ones are removed, and the series goes on behind them: a run that was interrupted, after
- *  mps_checkpoint_read(). A state at the time of the last frame then takes its place, so that no time is there twice. Without a .pvd a
- *  series begins; MPS_E_IO, and nothing is removed, if that which is there is not as mps_frames_write() left it.
- *  @param kinds   sum of MPS_FRAMES_..., without any kind fluid and wall
- *  @param frames  out; close with mps_frames_close(). The simulation must outlive it. */
-MPS_API mps_status mps_frames_open(mps_sim *sim, const char *folder, const char *name, int32_t kinds, mps_frames **frames);
+/** Open a series: writes <folder>/<name>.pvd and <folder>/<name>/<name>_000000.vtp ...; the folder
+ *  must exist. Frames of an earlier series of the same folder and name are removed, other files are
+ *  not touched.
+ *
+ *  With MPS_FRAMES_CONTINUE frames up to the present time stay, later ones are removed, and the
+ *  series continues: for an interrupted run, after mps_checkpoint_read(). A state at the time of
+ *  the last frame replaces that frame, so that no time occurs twice. Without a .pvd a new series
+ *  begins.
+ *  @param kinds   sum of MPS_FRAMES_...; without any kind: fluid and wall
+ *  @param frames  out; close it with mps_frames_close(). The simulation must outlive it.
+ *
+ *  | error | reason |
+ *  |---|---|
+ *  | MPS_E_ARG | folder or name is empty; kinds |
+ *  | MPS_E_IO | a file cannot be written; with MPS_FRAMES_CONTINUE: the files are not as |
+ *  | | mps_frames_write() left them, nothing is removed then |
+ *  | MPS_E_NOMEM | no memory | */
+MPS_API mps_status mps_frames_open(mps_sim *sim, const char *folder, const char *name,
+                                   int32_t kinds, mps_frames **frames);
 
-/** Write the present state: position, velocity, pressure, number density, density, kind, phase, id and all user fields.
- *  The .pvd is rewritten atomically. @return MPS_E_IO with the path and the system's reason */
+/** Write the present state: position, velocity, pressure, number density, density, kind, phase, id
+ *  and all user fields. Each particle is a vertex cell, so that filters of cells (Threshold, Clip)
+ *  keep single particles. The .pvd is replaced as a whole.
+ *  @return MPS_E_IO with the path and the reason of the system; MPS_E_NOMEM */
 MPS_API mps_status mps_frames_write(mps_frames *frames);
 
 /** Close a series; NULL is allowed. */
 MPS_API void mps_frames_close(mps_frames *frames);
 
-/** Write all that the next steps depend on to a file: particles with their fields and order, time, budgets, what probes keep for averages
- *  and samples. It is written beside its place ("<path>.tmp") and renamed, so that there is always a whole one; a
- *  link is replaced, not followed. In the byte order of the machine, with a checksum for each part; about 150 bytes a particle. May be
- *  called by a monitor. What a plug-in, a motion callback or a solver of the user keeps outside of fields is not in it.
- *  @return MPS_E_IO with the path and the system's reason, also where there is something that is no regular file; MPS_E_BUSY while a lease
- *          for writing is open; MPS_E_NOMEM */
+/** Write all that the next steps depend on to a file: particles with their fields and order, time,
+ *  budgets, data of probes for averages and samples. The file is written as "<path>.tmp" and
+ *  renamed, and file and folder are flushed to the disk: an interrupted write never leaves a
+ *  partial file, also after a loss of power. A link is replaced, not followed.
+ *  Byte order of the machine, a checksum for each part, about 150 bytes per particle. May be called
+ *  by a monitor. Data that a plug-in, a motion callback or a solver of the user keeps outside of
+ *  fields is not in it.
+ *
+ *  | error | reason |
+ *  |---|---|
+ *  | MPS_E_ARG | path is NULL or empty |
+ *  | MPS_E_IO | the path with the reason of the system; also if it is not a regular file |
+ *  | MPS_E_BUSY | a lease for writing is open; called from a verb or a callback |
+ *  | MPS_E_NOMEM | no memory | */
 MPS_API mps_status mps_checkpoint_write(mps_sim *sim, const char *path);
 
-/** Go on where mps_checkpoint_write() was called, in a simulation that was set up by the same calls: configuration, phases, models with
- *  their settings, solids, fields, motion, probes. This is compared, and a difference refused; of the motion where the tank is at the time
- *  of the file; not the code of callbacks, lost_policy, speed_limit and threads. With the same time control (set before this call: setting
- *  it lets the growth of steps begin anew), solver and limits, too, the steps that follow are those of the run that did not stop, bit for
- *  bit, with any number of threads. The particles that are there are replaced, ids are those of the file; pointers that were given out
- *  before (tags, stencils, samples of probes) are no longer valid.
- *  @return MPS_E_IO (cannot be read, is cut short, damaged or no checkpoint), MPS_E_VERSION (of a newer library, or another byte order),
- *          MPS_E_ARG (which setting differs, and both values), MPS_E_BUSY (lease), MPS_E_STATE (in a monitor), MPS_E_NOMEM */
+/** Continue where mps_checkpoint_write() was called, in a simulation that was set up by the same
+ *  calls: configuration, phases, models with their settings, solids, fields, motion, probes. The
+ *  set-up is compared, and a difference is refused; of the motion the pose at the time of the file
+ *  is compared. Not compared: the code of callbacks, lost_policy, speed_limit and threads.
+ *
+ *  With the same time control (set before this call, because setting it restarts the growth of
+ *  steps), solver and limits, the steps that follow are those of the uninterrupted run, bit for
+ *  bit, with any number of threads. The particles in the simulation are replaced, ids are those of
+ *  the file; pointers that the library gave out before (stencils, samples of probes) are no longer
+ *  valid.
+ *
+ *  | error | reason |
+ *  |---|---|
+ *  | MPS_E_ARG | a setting differs: which one, and both values |
+ *  | MPS_E_IO | the file cannot be read, is cut short, damaged or not a checkpoint |
+ *  | MPS_E_VERSION | written by a newer library, or with another byte order |
+ *  | MPS_E_BUSY | a lease is open; called from a monitor, a verb or a callback |
+ *  | MPS_E_NOMEM | no memory | */
 MPS_API mps_status mps_checkpoint_read(mps_sim *sim, const char *path);
 
 MPS_END_DECLS

@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/** @file parallel.h  Loops on several threads: the parallel-for of the library or of its host, and sums that do not depend on threads.
+/** @file parallel.h  Loops on several threads: the parallel-for of the library or of its host, and
+ *  sums that do not depend on the number of threads.
  *
- *  A handle runs all its loops through one mps_parallel. By default it belongs to the library: threads of the handle's own, made by the first
- *  loop that needs them and joined by mps_sim_destroy(). A host that has threads of its own sets mps_config.parallel, and the library then
- *  starts none. Plug-ins get the mps_parallel of the handle with a stencil or a pressure equation and loop with the functions below.
+ *  A handle runs all its loops through one mps_parallel. By default it belongs to the library: the
+ *  handle has threads, made by the first loop that needs them and joined by mps_sim_destroy(). A
+ *  host with threads sets mps_config.parallel, and the library starts none. Plug-ins get the
+ *  mps_parallel of the handle with a stencil or a pressure equation, and loop with the functions
+ *  below.
  *
- *  The threads of the library block all signals. A thread without work spins for 50 microseconds at most and then sleeps. After fork()
- *  only the parent may use or destroy a handle of more than one thread: the child has none of its threads. */
+ *  The threads of the library block all signals. A thread without work spins for at most 50
+ *  microseconds and then sleeps. After fork() only the parent may use or destroy a handle of more
+ *  than one thread: the child has none of its threads. */
 #ifndef MPS_PARALLEL_H
 #define MPS_PARALLEL_H
 
@@ -29,18 +33,22 @@ typedef void (*mps_reduce_fn)(void *argument, int64_t begin, int64_t end, double
 typedef struct mps_parallel {
     /** Set by mps_parallel_init(). */
     uint32_t struct_size;
-    /** Threads that `run` uses: the number of parts that loops over rows are split into. Below 2: loops run in the calling thread. */
+    /** Threads that `run` uses: the number of parts that loops over rows are split into. Below
+     *  2: loops run in the calling thread. */
     int32_t threads;
-    /** Call body(argument, part) for part = 0..parts-1, each once, in any order, perhaps at the same time. Return when all have ended.
-     *  Memory written before the call is seen by all parts, memory written by a part after the call. A call from inside a body must work
-     *  too, e.g. by calling all parts one after the other. NULL: the library's own threads where it asks for a parallel-for
-     *  (mps_config, mps_neighbours_parallel_set()); elsewhere loops run in the calling thread. */
+    /** Call body(argument, part) for part = 0..parts-1, each once, in any order, perhaps at the
+     *  same time. Return when all have ended. Memory written before the call is seen by all
+     *  parts, memory written by a part after the call. A call from inside a body must work too,
+     *  e.g. by calling all parts one after the other. NULL: the library's own threads where it
+     *  asks for a parallel-for (mps_config, mps_neighbours_parallel_set()); elsewhere loops run
+     *  in the calling thread. */
     void (*run)(void *user, int32_t parts, mps_part_fn body, void *argument);
     /** First argument of `run`. */
     void *user;
 } mps_parallel;
 
-/** Set every entry to its default: one thread, no `run`. @param size sizeof(mps_parallel) of the caller's headers */
+/** Set every entry to its default: one thread, no `run`.
+ *  @param size sizeof(mps_parallel) of the caller's headers */
 MPS_API mps_status mps_parallel_init(mps_parallel *parallel, size_t size);
 
 enum {
@@ -52,8 +60,10 @@ enum {
     MPS_PARALLEL_LEAST = 128
 };
 
-/** Call body(argument, part) for part = 0..parts-1, on the threads of `p`. @param p NULL: in the calling thread */
-static inline void mps_parallel_run(const mps_parallel *p, int32_t parts, mps_part_fn body, void *argument)
+/** Call body(argument, part) for part = 0..parts-1, on the threads of `p`.
+ *  @param p NULL: in the calling thread */
+static inline void mps_parallel_run(const mps_parallel *p, int32_t parts, mps_part_fn body,
+                                    void *argument)
 {
     if (p && p->run && p->threads > 1 && parts > 1)
         p->run(p->user, parts, body, argument);
@@ -80,11 +90,15 @@ static inline void mps_parallel_rows_part(void *argument, int32_t part)
     job->body(job->argument, job->n * part / job->parts, job->n * (part + 1) / job->parts);
 }
 
-/** Split rows 0..n-1 into p->threads equal ranges, fewer where a range would have less than `least` rows. The body must give each row the
- *  same result in any range. @param p NULL: one range, in the calling thread @param least > 0 */
-static inline void mps_parallel_rows_least(const mps_parallel *p, int64_t n, int64_t least, mps_range_fn body, void *argument)
+/** Split rows 0..n-1 into p->threads equal ranges, fewer where a range would have less than
+ *  `least` rows. The body must give each row the same result in any range.
+ *  @param p NULL: one range, in the calling thread
+ *  @param least > 0 */
+static inline void mps_parallel_rows_least(const mps_parallel *p, int64_t n, int64_t least,
+                                           mps_range_fn body, void *argument)
 {
-    const int64_t threads = p && p->run ? p->threads : 1, parts = n / least < threads ? n / least : threads;
+    const int64_t threads = p && p->run ? p->threads : 1,
+                  parts = n / least < threads ? n / least : threads;
     if (parts > 1) {
         mps_parallel_rows_job job = {n, (int32_t)parts, body, argument};
         mps_parallel_run(p, job.parts, mps_parallel_rows_part, &job);
@@ -94,7 +108,8 @@ static inline void mps_parallel_rows_least(const mps_parallel *p, int64_t n, int
 }
 
 /** mps_parallel_rows_least() with at least MPS_PARALLEL_LEAST rows a range. */
-static inline void mps_parallel_rows(const mps_parallel *p, int64_t n, mps_range_fn body, void *argument)
+static inline void mps_parallel_rows(const mps_parallel *p, int64_t n, mps_range_fn body,
+                                     void *argument)
 {
     mps_parallel_rows_least(p, n, MPS_PARALLEL_LEAST, body, argument);
 }
@@ -103,7 +118,8 @@ static inline void mps_parallel_rows(const mps_parallel *p, int64_t n, mps_range
 typedef struct mps_parallel_values {
     /** value[0..sums-1] are sums: 0 plus the rows, whatever they hold before. */
     int32_t sums;
-    /** value[sums..sums+maxima-1] are maxima: not below what they hold before. A NaN does not count. */
+    /** value[sums..sums+maxima-1] are maxima: not below what they hold before. A NaN does not
+     *  count. */
     int32_t maxima;
     /** [sums + maxima], MPS_PARALLEL_VALUES of them at most. */
     double *value;
@@ -130,15 +146,17 @@ static inline void mps_parallel_reduce_part(void *argument, int32_t part)
     const int32_t sums = job->values->sums, count = sums + job->values->maxima;
     double own[MPS_PARALLEL_VALUES]; /* threads do not write to one cache line while they sum */
     for (int32_t k = 0; k < count; k++) own[k] = k < sums ? 0.0 : job->values->value[k];
-    job->body(job->argument, job->n * part / MPS_PARALLEL_PARTS, job->n * (part + 1) / MPS_PARALLEL_PARTS, own);
+    job->body(job->argument, job->n * part / MPS_PARALLEL_PARTS,
+              job->n * (part + 1) / MPS_PARALLEL_PARTS, own);
     for (int32_t k = 0; k < count; k++) job->part[part][k] = own[k];
 }
 
-/** Sums and maxima over rows 0..n-1 in one loop. Rows are added up in MPS_PARALLEL_PARTS parts of fixed ranges and the parts in their
- *  order: the result has the same bytes for any number of threads.
- *  @param body  adds rows to the sums, raises the maxima; may be called with begin = end */
-static inline void mps_parallel_reduce(const mps_parallel *p, int64_t n, mps_reduce_fn body, void *argument,
-                                       const mps_parallel_values *values)
+/** Sums and maxima over rows 0..n-1 in one loop. Rows are added up in MPS_PARALLEL_PARTS parts
+ *  of fixed ranges and the parts in their order: the result has the same bytes for any number of
+ *  threads.
+ *  @param body adds rows to the sums, raises the maxima; may be called with begin = end */
+static inline void mps_parallel_reduce(const mps_parallel *p, int64_t n, mps_reduce_fn body,
+                                       void *argument, const mps_parallel_values *values)
 {
     mps_parallel_reduce_job job;
     const int32_t sums = values->sums, count = sums + values->maxima;
@@ -146,7 +164,8 @@ static inline void mps_parallel_reduce(const mps_parallel *p, int64_t n, mps_red
     job.values = values;
     job.body = body;
     job.argument = argument;
-    mps_parallel_run(n < 2 * MPS_PARALLEL_LEAST ? NULL : p, MPS_PARALLEL_PARTS, mps_parallel_reduce_part, &job);
+    mps_parallel_run(n < 2 * MPS_PARALLEL_LEAST ? NULL : p, MPS_PARALLEL_PARTS,
+                     mps_parallel_reduce_part, &job);
     for (int32_t k = 0; k < sums; k++) values->value[k] = 0.0;
     for (int32_t part = 0; part < MPS_PARALLEL_PARTS; part++)
         for (int32_t k = 0; k < count; k++) {
@@ -158,14 +177,16 @@ static inline void mps_parallel_reduce(const mps_parallel *p, int64_t n, mps_red
 }
 
 /** `count` sums over rows 0..n-1, as mps_parallel_reduce(). @param sums [count] out */
-static inline void mps_parallel_sum(const mps_parallel *p, int64_t n, int32_t count, mps_reduce_fn body, void *argument, double *sums)
+static inline void mps_parallel_sum(const mps_parallel *p, int64_t n, int32_t count,
+                                    mps_reduce_fn body, void *argument, double *sums)
 {
     const mps_parallel_values values = {count, 0, sums};
     mps_parallel_reduce(p, n, body, argument, &values);
 }
 
 /** `count` maxima over rows 0..n-1. @param maxima [count] in: lower bounds, e.g. -INFINITY; out */
-static inline void mps_parallel_max(const mps_parallel *p, int64_t n, int32_t count, mps_reduce_fn body, void *argument, double *maxima)
+static inline void mps_parallel_max(const mps_parallel *p, int64_t n, int32_t count,
+                                    mps_reduce_fn body, void *argument, double *maxima)
 {
     const mps_parallel_values values = {0, count, maxima};
     mps_parallel_reduce(p, n, body, argument, &values);

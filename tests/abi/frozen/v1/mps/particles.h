@@ -1,9 +1,28 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file particles.h  Particles: add, remove, stable ids, fields and leases.
  *
- *  Built-in fields (components): "position" (dim) [m], "velocity" (dim) [m/s], "pressure" (1) [Pa],
- *  "number_density" (1) [-], "density" (1) [kg/m3]. Further fields are registered with mps_field_add() and travel
- *  with their particles. The order in memory may change at every step; ids never do. */
+ *  Fields are named arrays with a value per particle. The library has:
+ *
+ *  | field | numbers per particle | type | may be written |
+ *  |---|---|---|---|
+ *  | "position" [m] | dim | double | yes |
+ *  | "velocity" [m/s] | dim | double | yes |
+ *  | "pressure" [Pa] | 1 | double | yes |
+ *  | "wall_pressure" [Pa], as probes of walls read it | 1 | double | yes |
+ *  | "number_density" [-] | 1 | double | yes |
+ *  | "density" [kg/m3] | 1 | double | yes |
+ *  | "id": number of the particle for its whole life | 1 | int64_t | no |
+ *  | "kind": MPS_FLUID, MPS_WALL, MPS_DUMMY | 1 | int32_t | no |
+ *  | "phase": number of the phase of fluid | 1 | int32_t | no |
+ *  | "part": number of the part, see mps_part_find(); -1: none | 1 | int32_t | no |
+ *  | "region": MPS_REGION_... of mps/model.h in the last step | 1 | int32_t | no |
+ *  | "plate": number of the thin plate, from 1; 0: none | 1 | int32_t | no |
+ *
+ *  "plate" is set for walls of a plate, for walls on which it stands, and for dummies behind them.
+ *  Such dummies lie in the liquid of the other side: leave them out of pictures.
+ *
+ *  Fields of the user (mps_field_add()) and of models travel with their particles. The order in
+ *  memory may change in every step; ids do not change. */
 #ifndef MPS_PARTICLES_H
 #define MPS_PARTICLES_H
 
@@ -11,71 +30,124 @@
 
 MPS_BEGIN_DECLS
 
-/** A block of particles to add; arrays are read, never kept. */
+/** A block of particles to add; arrays are read and not kept. */
 typedef struct mps_particle_block {
-    uint32_t struct_size;   /**< set by mps_particle_block_init() */
-    int32_t kind;           /**< MPS_FLUID, MPS_WALL or MPS_DUMMY */
-    int32_t phase;          /**< phase of fluid particles, 0..15, defined before */
-    const char *part;       /**< NULL, or the name of the solid part (walls and dummies), at most 31 characters */
-    int64_t count;          /**< number of particles, >= 1 */
-    const double *position; /**< [count*dim] [m], in the lab's frame at the present tank position; finite */
-    const double *velocity; /**< NULL (at rest), or [count*dim] [m/s]; walls take the tank's instead */
-    const double *area;     /**< NULL (estimated), or [count*dim] wetted area vector of wall particles [m^(dim-1)], into the fluid */
+    /** Set by mps_particle_block_init(). */
+    uint32_t struct_size;
+    /** MPS_FLUID, MPS_WALL or MPS_DUMMY */
+    int32_t kind;
+    /** Phase of fluid particles, 0..15; it must be defined. */
+    int32_t phase;
+    /** NULL, or the name of the solid part (walls and dummies), at most 31 characters. */
+    const char *part;
+    /** Number of particles, >= 1. */
+    int64_t count;
+    /** [count*dim] [m], finite, in the frame of the lab at the present position of the tank. */
+    const double *position;
+    /** NULL (at rest), or [count*dim] [m/s]. Walls take the velocity of the tank instead. */
+    const double *velocity;
+    /** NULL (estimated), or [count*dim] wetted area vector of wall particles, into the fluid
+     *  [m^(dim-1)]. */
+    const double *area;
 } mps_particle_block;
 
-/** Set every entry to zero (kind MPS_FLUID, phase 0). */
+/** Set struct_size and zero (kind MPS_FLUID, phase 0).
+ *  @param size  sizeof(mps_particle_block) @return MPS_E_ARG: bad size */
 MPS_API mps_status mps_particle_block_init(mps_particle_block *block, size_t size);
 
 /** Add particles between steps.
  *  @param ids  NULL, or [count] out: their ids, never used before on this handle
- *  @return MPS_OK, MPS_E_ARG (no particle, NaN, two particles nearer than 0.1 dp - of the block or to those
- *          there; the state is as before), MPS_E_BUSY, MPS_E_NOMEM */
+ *
+ *  | error (the state is as before) | reason |
+ *  |---|---|
+ *  | MPS_E_ARG | no particle, a value that is not finite, or two particles nearer than 0.1 dp |
+ *  | MPS_E_BUSY | a lease is open; called from a monitor, a verb or a callback |
+ *  | MPS_E_NOMEM | no memory | */
 MPS_API mps_status mps_particles_add(mps_sim *sim, const mps_particle_block *block, int64_t *ids);
 
-/** Remove particles by id, all or none. @return MPS_E_ARG if an id is unknown or given twice */
+/** Remove particles by id, all or none.
+ *
+ *  | error | reason |
+ *  |---|---|
+ *  | MPS_E_ARG | an id is unknown or given twice |
+ *  | MPS_E_BUSY | a lease is open; called from a monitor, a verb or a callback |
+ *  | MPS_E_NOMEM | no memory | */
 MPS_API mps_status mps_particles_remove(mps_sim *sim, int64_t count, const int64_t *ids);
 
-/** Count particles of a kind. @param kind a kind, or -1 for all @return the number, or -1 for a bad argument */
+/** Count particles. @param kind  a kind, or -1 for all @return the number; -1: bad argument */
 MPS_API int64_t mps_particles_count(const mps_sim *sim, int32_t kind);
 
 /** Place of a particle in the present order, or -1. Valid until the next step, add or remove. */
 MPS_API int64_t mps_particle_index(const mps_sim *sim, int64_t id);
 
-/** Register a field of doubles that travels with the particles, zero at first.
+/** Add a field of doubles that travels with the particles; it begins with zeros.
  *  @param name        1..31 characters, new
- *  @param components  1..9 */
+ *  @param components  1..9
+ *  @return MPS_E_ARG, MPS_E_BUSY (as mps_particles_add()), MPS_E_NOMEM */
 MPS_API mps_status mps_field_add(mps_sim *sim, const char *name, int32_t components);
 
-/** Access to one array of all particles (all kinds), held between mps_lease_begin() and mps_lease_end(). */
+/** Type of the numbers of a lease. */
+enum {
+    /** mps_lease.data */
+    MPS_DATA_DOUBLE = 0,
+    /** mps_lease.integers */
+    MPS_DATA_INT32 = 1,
+    /** mps_lease.ids */
+    MPS_DATA_INT64 = 2
+};
+
+/** Access to the array of one field, all particles of all kinds, from mps_lease_begin() to
+ *  mps_lease_end(). One of the three pointers is set, the others are NULL. */
 typedef struct mps_lease {
-    double *data;   /**< [count*stride]; write only through a write lease */
-    int64_t count;  /**< particles */
-    int32_t stride; /**< doubles per particle */
-    int32_t slot;   /**< private */
+    /** Set by mps_lease_init(), or sizeof(mps_lease) with all else 0. */
+    uint32_t struct_size;
+    /** MPS_DATA_... */
+    int32_t type;
+    /** Numbers per particle. */
+    int32_t stride;
+    /** Private. */
+    int32_t slot;
+    /** Particles. */
+    int64_t count;
+    /** [count*stride] numbers of a field of doubles; write only through a lease for writing. */
+    double *data;
+    /** [count*stride] numbers of a field of int32_t. */
+    const int32_t *integers;
+    /** [count] the field "id". */
+    const int64_t *ids;
 } mps_lease;
 
-/** How a field is leased: any number of readers or one writer. */
-enum { MPS_READ = 0, MPS_WRITE = 1 };
+/** Make a lease that is not open. @param size  sizeof(mps_lease) @return MPS_E_ARG: bad size */
+MPS_API mps_status mps_lease_init(mps_lease *lease, size_t size);
 
-/** Lease a field. While a lease is open the handle refuses to step, add or remove (MPS_E_BUSY).
- *  @param lease  out: the arrays
- *  @return MPS_E_NAME, MPS_E_BUSY (write against read) */
-MPS_API mps_status mps_lease_begin(mps_sim *sim, const char *field, int32_t mode, mps_lease *lease);
+/** How a field is leased. */
+enum {
+    /** For reading; any number of such leases of a field may be open. */
+    MPS_READ = 0,
+    /** For reading and writing; it must be the only lease of the field. */
+    MPS_WRITE = 1
+};
 
-/** Give a lease back; it becomes empty. Written values must be finite, densities > 0 (else MPS_E_ARG, and the lease stays open). */
+/** Lease a field. While a lease is open particles are not reordered, and calls that would step, add
+ *  or remove particles return MPS_E_BUSY.
+ *  @param field  its name
+ *  @param mode   MPS_READ or MPS_WRITE
+ *  @param lease  initialised by mps_lease_init(), or closed by mps_lease_end(); out
+ *
+ *  | error | reason |
+ *  |---|---|
+ *  | MPS_E_ARG | mode; a lease that is not initialised; a field that must not be written |
+ *  | MPS_E_NAME | no field has this name; the text has the nearest one |
+ *  | MPS_E_BUSY | writing against another lease; called from a verb or a callback | */
+MPS_API mps_status mps_lease_begin(mps_sim *sim, const char *field, int32_t mode,
+                                   mps_lease *lease);
+
+/** End a lease; it can be used for another mps_lease_begin().
+ *  @return MPS_E_ARG: the lease is not open, or a written value is not finite, or a density not > 0
+ *          (the lease stays open then) */
 MPS_API mps_status mps_lease_end(mps_sim *sim, mps_lease *lease);
 
-/** Read-only views of the integer properties, [mps_particles_count(sim, -1)] each; NULL outputs are skipped.
- *  Valid until the next step, add or remove. */
-MPS_API mps_status mps_particles_tags(const mps_sim *sim, const int64_t **ids, const int32_t **kinds, const int32_t **phases,
-                                      const int32_t **parts);
-
-/** Thin plates: view [mps_particles_count(sim, -1)] of the number, from 1, of the plate a particle belongs to, else 0: its walls, walls it
- *  stands on, and dummies. These dummies stand behind one side of the plate, that is in the liquid of the other, where nobody sees them:
- *  leave them out of pictures. Valid as those of mps_particles_tags(). */
-MPS_API mps_status mps_particles_plates(const mps_sim *sim, const int32_t **plates);
-
-/** Number of a named part, as in the `parts` array, or -1. */
+/** Number of a named part, as in the field "part"; -1: no such part. */
 MPS_API int32_t mps_part_find(const mps_sim *sim, const char *name);
 
 MPS_END_DECLS

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/** @file status.h  What a call answers: 0 done, positive done with a remark, negative failed and the state is as before. */
+/** @file status.h  Status codes: 0 done; positive: succeeded with a warning; negative: failed, and
+ *  the state is as before. */
 #ifndef MPS_STATUS_H
 #define MPS_STATUS_H
 
@@ -16,7 +17,7 @@ typedef int32_t mps_status;
     X(MPS_W_STOPPED, 2, "the monitor asked to stop")                                            \
     X(MPS_E_ARG, -1, "an argument is out of its range")                                         \
     X(MPS_E_NOMEM, -2, "an allocation failed")                                                  \
-    X(MPS_E_BUSY, -3, "a lease is open")                                                        \
+    X(MPS_E_BUSY, -3, "a lease is open, or the call is not allowed now")                        \
     X(MPS_E_NAME, -4, "no model, solver, field or part has this name")                          \
     X(MPS_E_STATE, -5, "the call is not allowed now")                                           \
     X(MPS_E_DIVERGED, -6, "a value became NaN or left every physical range")                    \
