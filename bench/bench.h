@@ -11,9 +11,10 @@ enum { BENCH_LIST = 16, BENCH_NAME = 64 };
 
 /* ---- measures (measures.c) ---- */
 
-double bench_wall(void);  /* monotonic [s] */
-double bench_cpu(void);   /* of all threads of the process [s] */
-double bench_triad(void); /* a = b + s c on one thread, the best of several runs over 3 x 64 MiB [GB/s] */
+double bench_wall(void); /* monotonic [s] */
+double bench_cpu(void);  /* of all threads of the process [s] */
+double
+bench_triad(void); /* a = b + s c on one thread, the best of several runs over 3 x 64 MiB [GB/s] */
 
 /* An allocator that counts what is held. */
 typedef struct bench_memory {
@@ -43,7 +44,8 @@ void bench_record(mps_sim *sim, const char *file);
 /* Register what a plug-in library brings, if the name of the solver asks for one. */
 void bench_plugin(mps_sim *sim, const char *pair);
 /* Solve the equation of a file by "solver/preconditioner" `repeats` times and print the least times. */
-int bench_replay(const char *file, const char *pair, int32_t threads, double tolerance, int repeats);
+int bench_replay(const char *file, const char *pair, int32_t threads, double tolerance,
+                 int repeats);
 
 _Noreturn void bench_fail(const char *what, const char *why);
 

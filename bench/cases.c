@@ -21,8 +21,22 @@ static const struct bench_kind kinds[] = {
     {"air2d", 2, {1.61, 0.6, 0}, {0.6, 0.3, 0}, 997, 997 * 8.9e-7, {0}, AIR},
     {"air3d", 3, {1.61, 0.6, 0.15}, {0.6, 0.3, 0.15}, 997, 997 * 8.9e-7, {0}, AIR},
     {"static2d", 2, {1, 1.5, 0}, {1, 0.75, 0}, 1000, 1e-3, {0}, LIGHT_LIQUID},
-    {"breaking", 2, {1.3, 0.9, 0}, {1.3, 0.18, 0}, 1000, 1e-3, {.dof = MPS_SURGE, .amplitude = 0.1, .omega = 3.1164599471}, EMPTY},
-    {"breaking_air", 2, {1.3, 0.9, 0}, {1.3, 0.18, 0}, 1000, 1e-3, {.dof = MPS_SURGE, .amplitude = 0.1, .omega = 3.1164599471}, AIR},
+    {"breaking",
+     2,
+     {1.3, 0.9, 0},
+     {1.3, 0.18, 0},
+     1000,
+     1e-3,
+     {.dof = MPS_SURGE, .amplitude = 0.1, .omega = 3.1164599471},
+     EMPTY},
+    {"breaking_air",
+     2,
+     {1.3, 0.9, 0},
+     {1.3, 0.18, 0},
+     1000,
+     1e-3,
+     {.dof = MPS_SURGE, .amplitude = 0.1, .omega = 3.1164599471},
+     AIR},
 };
 
 const char *bench_case_find(const char *name, bench_case *c)
@@ -30,9 +44,11 @@ const char *bench_case_find(const char *name, bench_case *c)
     const char *slash = strchr(name, '/');
     char *end;
     *c = (bench_case){0};
-    if (!slash || strlen(name) >= sizeof c->name) return "must be kind/dp, as in dam2d/2.5, dp in mm";
+    if (!slash || strlen(name) >= sizeof c->name)
+        return "must be kind/dp, as in dam2d/2.5, dp in mm";
     for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++)
-        if (strlen(kinds[k].name) == (size_t)(slash - name) && strncmp(name, kinds[k].name, (size_t)(slash - name)) == 0)
+        if (strlen(kinds[k].name) == (size_t)(slash - name) &&
+            strncmp(name, kinds[k].name, (size_t)(slash - name)) == 0)
             c->kind = &kinds[k];
     if (!c->kind) return "kinds are dam2d, dam3d, air2d, air3d, static2d, breaking, breaking_air";
     c->dp = 1e-3 * strtod(slash + 1, &end);

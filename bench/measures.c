@@ -24,7 +24,8 @@ double bench_cpu(void)
 double bench_triad(void)
 {
     const size_t n = 8u << 20;
-    double *a = malloc(n * sizeof *a), *b = malloc(n * sizeof *b), *c = malloc(n * sizeof *c), best = 0;
+    double *a = malloc(n * sizeof *a), *b = malloc(n * sizeof *b), *c = malloc(n * sizeof *c),
+           best = 0;
     if (!a || !b || !c) bench_fail("triad", "no memory");
     for (size_t i = 0; i < n; i++) a[i] = b[i] = c[i] = (double)i;
     for (int run = 0; run < 5; run++) {

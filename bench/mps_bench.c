@@ -30,11 +30,14 @@ typedef struct outcome {
 
 static const char usage[] =
     "usage: mps_bench [options]\n"
-    "  --case kind/dp     dam2d, dam3d, air2d, air3d, static2d, breaking or breaking_air, dp in mm; may be given\n"
-    "                     several times (default dam2d/5 dam2d/2.5 dam2d/1.25 dam3d/10 dam3d/5 breaking/10\n"
+    "  --case kind/dp     dam2d, dam3d, air2d, air3d, static2d, breaking or breaking_air, dp in "
+    "mm; may be given\n"
+    "                     several times (default dam2d/5 dam2d/2.5 dam2d/1.25 dam3d/10 dam3d/5 "
+    "breaking/10\n"
     "                     static2d/10 breaking_air/10)\n"
     "  --threads n        may be given several times (default 1)\n"
-    "  --solver s/p       solver and preconditioner, may be given several times (default: the library's;\n"
+    "  --solver s/p       solver and preconditioner, may be given several times (default: the "
+    "library's;\n"
     "                     also hypre.boomeramg, if built with hypre)\n"
     "  --steps n          steps measured (default 40)\n"
     "  --warm n           steps before them (default 10)\n"
@@ -45,7 +48,8 @@ static const char usage[] =
     "  --tolerance x      relative residual (default 1e-6)\n"
     "  --json file        all figures\n"
     "  --record file      write the pressure equation of the last step\n"
-    "  --replay file      solve a recorded equation with every solver and number of threads; may be given several times\n";
+    "  --replay file      solve a recorded equation with every solver and number of threads; may "
+    "be given several times\n";
 
 static void list_add(list *l, const char *text)
 {
@@ -67,9 +71,10 @@ static void parse(options *o, int argc, char **argv)
         const char *name;
         list *texts;
         double *value;
-    } number_or_list[] = {{"--case", &o->cases, NULL},    {"--threads", &o->threads, NULL},    {"--solver", &o->solvers, NULL},
-                          {"--replay", &o->replay, NULL}, {"--skip", NULL, &o->skip},          {"--t-end", NULL, &o->t_end},
-                          {"--re-far", NULL, &o->re_far}, {"--tolerance", NULL, &o->tolerance}};
+    } number_or_list[] = {{"--case", &o->cases, NULL},     {"--threads", &o->threads, NULL},
+                          {"--solver", &o->solvers, NULL}, {"--replay", &o->replay, NULL},
+                          {"--skip", NULL, &o->skip},      {"--t-end", NULL, &o->t_end},
+                          {"--re-far", NULL, &o->re_far},  {"--tolerance", NULL, &o->tolerance}};
     for (int k = 1; k < argc; k += 2) {
         const char *name = argv[k], *text = k + 1 < argc ? argv[k + 1] : NULL;
         bool known = false;
@@ -110,7 +115,8 @@ static void use_solver(mps_sim *sim, const char *pair)
     if (!pair[0]) return;
     bench_plugin(sim, pair);
     snprintf(solver, sizeof solver, "%.*s", slash ? (int)(slash - pair) : (int)strlen(pair), pair);
-    if (mps_solver_use(sim, solver, slash ? slash + 1 : NULL) < 0) bench_fail(pair, mps_sim_error(sim));
+    if (mps_solver_use(sim, solver, slash ? slash + 1 : NULL) < 0)
+        bench_fail(pair, mps_sim_error(sim));
 }
 
 static void set_tolerance(mps_sim *sim, double tolerance)
@@ -136,7 +142,8 @@ static void measure(const options *o, mps_sim *sim, outcome *r)
 {
     double t;
     mps_step_info info = {0};
-    for (mps_sim_time(sim, &t, NULL); t < o->skip - 1e-12; t = info.t) step(sim, o->skip - t, &info);
+    for (mps_sim_time(sim, &t, NULL); t < o->skip - 1e-12; t = info.t)
+        step(sim, o->skip - t, &info);
     for (int64_t k = 0; k < o->warm; k++) step(sim, 1.0, &info);
     mps_sim_time(sim, &t, NULL);
     const double wall = bench_wall(), cpu = bench_cpu(), begin = t;
@@ -186,29 +193,38 @@ static outcome run(const options *o, const char *name, const char *solver, int32
 static void print(const outcome *r)
 {
     const double steps = (double)r->steps, rows = r->unknowns * 1e-6, total = r->wall;
-    printf("%-13s %-20s %d thr %8lld particles %8.2f ms/step %6.3f M/s(cpu) %6.3f M/s(wall) | it %5.1f most %3d | PPE %.3f + %.3f s/M |",
-           r->name, r->solver, r->threads, (long long)r->particles, 1e3 * r->wall / steps, 1e-6 * (double)r->particles * steps / r->cpu,
-           1e-6 * (double)r->particles * steps / r->wall, r->iterations / steps, r->most_iterations, r->seconds[MPS_STAGE_PPE_SETUP] / rows,
-           r->seconds[MPS_STAGE_PPE_SOLVE] / rows);
+    printf("%-13s %-20s %d thr %8lld particles %8.2f ms/step %6.3f M/s(cpu) %6.3f M/s(wall) | it "
+           "%5.1f most %3d | PPE %.3f + %.3f s/M |",
+           r->name, r->solver, r->threads, (long long)r->particles, 1e3 * r->wall / steps,
+           1e-6 * (double)r->particles * steps / r->cpu,
+           1e-6 * (double)r->particles * steps / r->wall, r->iterations / steps, r->most_iterations,
+           r->seconds[MPS_STAGE_PPE_SETUP] / rows, r->seconds[MPS_STAGE_PPE_SOLVE] / rows);
     for (int k = 0; k < MPS_STAGE_COUNT; k++) printf(" %.0f", 100 * r->seconds[k] / total);
-    printf(" %% | %.0f peak %.0f B | triad %.1f GB/s | %.0f cpu s/s\n", r->bytes, r->peak, r->triad, r->cpu / r->t);
+    printf(" %% | %.0f peak %.0f B | triad %.1f GB/s | %.0f cpu s/s\n", r->bytes, r->peak, r->triad,
+           r->cpu / r->t);
     fflush(stdout);
 }
 
 static void print_json(FILE *f, const outcome *r, bool last)
 {
-    static const char *const stage[MPS_STAGE_COUNT] = {"neighbours", "operators", "ppe_setup", "ppe_solve", "correct"};
+    static const char *const stage[MPS_STAGE_COUNT] = {"neighbours", "operators", "ppe_setup",
+                                                       "ppe_solve", "correct"};
     const double steps = (double)r->steps;
     fprintf(f,
-            "  {\"case\": \"%s\", \"solver\": \"%s\", \"threads\": %d, \"dim\": %d, \"dp\": %g, \"particles\": %lld, \"steps\": %lld,\n"
-            "   \"physical_s\": %.9g, \"wall_s\": %.6g, \"cpu_s\": %.6g, \"particle_steps_per_cpu_s\": %.6g, "
+            "  {\"case\": \"%s\", \"solver\": \"%s\", \"threads\": %d, \"dim\": %d, \"dp\": %g, "
+            "\"particles\": %lld, \"steps\": %lld,\n"
+            "   \"physical_s\": %.9g, \"wall_s\": %.6g, \"cpu_s\": %.6g, "
+            "\"particle_steps_per_cpu_s\": %.6g, "
             "\"particle_steps_per_wall_s\": %.6g,\n"
-            "   \"ppe_iterations\": %.4g, \"ppe_iterations_most\": %d, \"ppe_unknowns\": %.0f, \"bytes_per_particle\": %.1f,\n"
+            "   \"ppe_iterations\": %.4g, \"ppe_iterations_most\": %d, \"ppe_unknowns\": %.0f, "
+            "\"bytes_per_particle\": %.1f,\n"
             "   \"peak_bytes_per_particle\": %.1f, \"triad_GB_per_s\": %.4g, \"stage_s\": {",
-            r->name, r->solver, r->threads, r->dim, r->dp, (long long)r->particles, (long long)r->steps, r->t, r->wall, r->cpu,
-            (double)r->particles * steps / r->cpu, (double)r->particles * steps / r->wall, r->iterations / steps, r->most_iterations,
+            r->name, r->solver, r->threads, r->dim, r->dp, (long long)r->particles,
+            (long long)r->steps, r->t, r->wall, r->cpu, (double)r->particles * steps / r->cpu,
+            (double)r->particles * steps / r->wall, r->iterations / steps, r->most_iterations,
             r->unknowns / steps, r->bytes, r->peak, r->triad);
-    for (int k = 0; k < MPS_STAGE_COUNT; k++) fprintf(f, "%s\"%s\": %.6g", k ? ", " : "", stage[k], r->seconds[k]);
+    for (int k = 0; k < MPS_STAGE_COUNT; k++)
+        fprintf(f, "%s\"%s\": %.6g", k ? ", " : "", stage[k], r->seconds[k]);
     fprintf(f, "}}%s\n", last ? "" : ",");
 }
 
@@ -219,9 +235,11 @@ static void run_all(const options *o)
     const int runs = o->cases.count * o->threads.count * o->solvers.count * o->repeats;
     if (json) fputs("[\n", json);
     for (int k = 0; k < runs; k++) { /* neighbours in time are those that are compared */
-        const int solver = k % o->solvers.count, rest = k / o->solvers.count, threads = rest % o->threads.count;
+        const int solver = k % o->solvers.count, rest = k / o->solvers.count,
+                  threads = rest % o->threads.count;
         const char *name = o->cases.text[rest / o->threads.count % o->cases.count];
-        const outcome r = run(o, name, o->solvers.text[solver], (int32_t)number("--threads", o->threads.text[threads]));
+        const outcome r = run(o, name, o->solvers.text[solver],
+                              (int32_t)number("--threads", o->threads.text[threads]));
         print(&r);
         if (json) print_json(json, &r, k == runs - 1);
     }
@@ -235,7 +253,9 @@ static void replay_all(const options *o)
         for (int s = 0; s < o->solvers.count; s++)
             for (int t = 0; t < o->threads.count; t++) {
                 const char *pair = o->solvers.text[s][0] ? o->solvers.text[s] : "sundials.pcg";
-                bench_replay(o->replay.text[f], pair, (int32_t)number("--threads", o->threads.text[t]), o->tolerance, o->repeats);
+                bench_replay(o->replay.text[f], pair,
+                             (int32_t)number("--threads", o->threads.text[t]), o->tolerance,
+                             o->repeats);
             }
 }
 
@@ -246,7 +266,8 @@ int main(int argc, char **argv)
     options o = {.steps = 40, .warm = 10, .repeats = 1, .tolerance = 1e-6};
     parse(&o, argc, argv);
     const bool chosen = o.cases.count > 0;
-    for (size_t k = 0; !chosen && k < sizeof usual / sizeof usual[0]; k++) list_add(&o.cases, usual[k]);
+    for (size_t k = 0; !chosen && k < sizeof usual / sizeof usual[0]; k++)
+        list_add(&o.cases, usual[k]);
     if (o.threads.count == 0) list_add(&o.threads, "1");
     if (o.solvers.count == 0) list_add(&o.solvers, "");
     if (o.replay.count > 0)

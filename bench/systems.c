@@ -45,14 +45,19 @@ static int create(const mps_allocator *allocator, void **self)
 
 static void put(FILE *f, const void *data, size_t size, int64_t count)
 {
-    if (fwrite(data, size, (size_t)count, f) != (size_t)count) bench_fail(record_file, "cannot be written");
+    if (fwrite(data, size, (size_t)count, f) != (size_t)count)
+        bench_fail(record_file, "cannot be written");
 }
 
 static void write_system(const mps_ppe_problem *p, const double *guess)
 {
     FILE *f = fopen(record_file, "wb");
     if (!f) bench_fail(record_file, "cannot be written");
-    header h = {.dim = p->dim, .components = p->component ? p->components : 0, .n = p->n, .entries = p->row[p->n], .dp = p->dp};
+    header h = {.dim = p->dim,
+                .components = p->component ? p->components : 0,
+                .n = p->n,
+                .entries = p->row[p->n],
+                .dp = p->dp};
     memcpy(h.magic, magic, sizeof magic);
     put(f, &h, sizeof h, 1);
     put(f, p->row, sizeof *p->row, p->n + 1);
@@ -68,8 +73,8 @@ static void write_system(const mps_ppe_problem *p, const double *guess)
     fclose(f);
 }
 
-static void solve(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc, void *pc_self, double *p,
-                  mps_ppe_result *result)
+static void solve(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc,
+                  void *pc_self, double *p, mps_ppe_result *result)
 {
     recorder *r = self;
     write_system(problem, p);
@@ -91,7 +96,8 @@ void bench_record(mps_sim *sim, const char *file)
     ops.solve = solve;
     ops.destroy = destroy;
     record_file = file;
-    if (mps_solver_register(sim, &ops) < 0 || mps_solver_use(sim, ops.name, NULL) < 0) bench_fail("recorder", mps_sim_error(sim));
+    if (mps_solver_register(sim, &ops) < 0 || mps_solver_use(sim, ops.name, NULL) < 0)
+        bench_fail("recorder", mps_sim_error(sim));
 }
 
 /* ---- solving again ---- */
@@ -109,8 +115,10 @@ static double *read_system(const char *file, mps_ppe_problem *p)
     FILE *f = fopen(file, "rb");
     header h;
     if (!f) bench_fail(file, "cannot be read");
-    if (fread(&h, sizeof h, 1, f) != 1 || memcmp(h.magic, magic, sizeof magic) != 0) bench_fail(file, "is no recorded equation");
-    *p = (mps_ppe_problem){.struct_size = sizeof *p, .dim = h.dim, .n = h.n, .dp = h.dp, .components = h.components};
+    if (fread(&h, sizeof h, 1, f) != 1 || memcmp(h.magic, magic, sizeof magic) != 0)
+        bench_fail(file, "is no recorded equation");
+    *p = (mps_ppe_problem){
+        .struct_size = sizeof *p, .dim = h.dim, .n = h.n, .dp = h.dp, .components = h.components};
     p->row = get(f, file, sizeof *p->row, h.n + 1);
     p->col = get(f, file, sizeof *p->col, h.entries);
     p->val = get(f, file, sizeof *p->val, h.entries);
@@ -127,7 +135,8 @@ static double *read_system(const char *file, mps_ppe_problem *p)
 
 static void free_system(mps_ppe_problem *p, double *guess)
 {
-    const void *all[] = {p->row, p->col, p->val, p->diagonal, p->rhs, p->shift, p->weight, p->x, p->component, guess};
+    const void *all[] = {p->row,   p->col,    p->val, p->diagonal,  p->rhs,
+                         p->shift, p->weight, p->x,   p->component, guess};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) free((void *)(uintptr_t)all[k]);
 }
 
@@ -153,9 +162,11 @@ void bench_plugin(mps_sim *sim, const char *pair)
 static const mps_solver_ops *find_solver(const char *name, size_t length)
 {
     const mps_solver_ops *plugin = hypre_solver(name);
-    if (plugin && strlen(plugin->name) == length && strncmp(plugin->name, name, length) == 0) return plugin;
+    if (plugin && strlen(plugin->name) == length && strncmp(plugin->name, name, length) == 0)
+        return plugin;
     for (int k = 0; mps__builtin_solvers[k]; k++)
-        if (strlen(mps__builtin_solvers[k]->name) == length && strncmp(mps__builtin_solvers[k]->name, name, length) == 0)
+        if (strlen(mps__builtin_solvers[k]->name) == length &&
+            strncmp(mps__builtin_solvers[k]->name, name, length) == 0)
             return mps__builtin_solvers[k];
     bench_fail(name, "no such solver");
 }
@@ -164,7 +175,8 @@ static const mps_preconditioner_ops *find_preconditioner(const char *name)
 {
     if (!name || strcmp(name, "none") == 0) return NULL;
     for (int k = 0; mps__builtin_preconditioners[k]; k++)
-        if (strcmp(mps__builtin_preconditioners[k]->name, name) == 0) return mps__builtin_preconditioners[k];
+        if (strcmp(mps__builtin_preconditioners[k]->name, name) == 0)
+            return mps__builtin_preconditioners[k];
     bench_fail(name, "no such preconditioner");
 }
 
@@ -177,8 +189,8 @@ int bench_replay(const char *file, const char *pair, int32_t threads, double tol
     mps_allocator allocator = bench_allocator(&memory);
     mps_ppe_problem problem;
     mps_ppe_result result = {.struct_size = sizeof result};
-    double *guess = read_system(file, &problem), *p = malloc((size_t)problem.n * sizeof *p), least = INFINITY, setup = INFINITY,
-           cpu = INFINITY;
+    double *guess = read_system(file, &problem), *p = malloc((size_t)problem.n * sizeof *p),
+           least = INFINITY, setup = INFINITY, cpu = INFINITY;
     void *self = ops->user, *pc_self = pc ? pc->user : NULL;
     mps__context context = {.allocator = allocator};
     mps__pool pool;
@@ -187,7 +199,8 @@ int bench_replay(const char *file, const char *pair, int32_t threads, double tol
     problem.parallel = &pool.parallel;
     problem.tolerance = tolerance;
     problem.max_iterations = 2000;
-    if (!p || ops->create(&allocator, &self) || (pc && pc->create(&allocator, &pc_self))) bench_fail(file, "no memory");
+    if (!p || ops->create(&allocator, &self) || (pc && pc->create(&allocator, &pc_self)))
+        bench_fail(file, "no memory");
     for (int k = 0; k < repeats; k++) {
         memcpy(p, guess, (size_t)problem.n * sizeof *p);
         const double t = bench_wall(), before = bench_cpu();
@@ -196,11 +209,13 @@ int bench_replay(const char *file, const char *pair, int32_t threads, double tol
         cpu = fmin(cpu, bench_cpu() - before);
         setup = fmin(setup, result.setup_seconds);
     }
-    printf("%-24s %-24s %d thr %8lld unknowns %4d it  setup %.3f solve %.3f s/M  total %.3f ms  cpu %.3f s/M  residual %.1e  %4.0f "
+    printf("%-24s %-24s %d thr %8lld unknowns %4d it  setup %.3f solve %.3f s/M  total %.3f ms  "
+           "cpu %.3f s/M  residual %.1e  %4.0f "
            "B/unknown  reason %d\n",
-           file, pair, threads, (long long)problem.n, result.iterations, 1e6 * setup / (double)problem.n,
-           1e6 * (least - setup) / (double)problem.n, 1e3 * least, 1e6 * cpu / (double)problem.n, result.residual,
-           (double)memory.peak / (double)problem.n, result.reason);
+           file, pair, threads, (long long)problem.n, result.iterations,
+           1e6 * setup / (double)problem.n, 1e6 * (least - setup) / (double)problem.n, 1e3 * least,
+           1e6 * cpu / (double)problem.n, result.residual, (double)memory.peak / (double)problem.n,
+           result.reason);
     ops->destroy(&allocator, self);
     if (pc) pc->destroy(&allocator, pc_self);
     mps__pool_free(&pool);

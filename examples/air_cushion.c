@@ -15,8 +15,10 @@ static const double SPACINGS = 20; /* width of the tube */
 /* The slug is half a spacing below the middle: the rows at its ends lie half a spacing inside it, those at the ends of the tube a whole one. */
 static void build(run *r)
 {
-    const double dp = r->options.dp, column = dp * (double)lround(2 * CUSHION / dp), length = dp * (double)lround(SLUG / dp);
-    const double bottom = column - 0.5 * dp, lo[] = {0, 0}, hi[] = {SPACINGS * dp, 2 * column + length};
+    const double dp = r->options.dp, column = dp * (double)lround(2 * CUSHION / dp),
+                 length = dp * (double)lround(SLUG / dp);
+    const double bottom = column - 0.5 * dp, lo[] = {0, 0},
+                 hi[] = {SPACINGS * dp, 2 * column + length};
     const double slug_lo[] = {0, bottom}, slug_hi[] = {SPACINGS * dp, bottom + length};
     mps_tank tank;
     mps_tank_init(&tank, sizeof tank);
@@ -50,7 +52,8 @@ int main(int argc, char **argv)
     cli_options o;
     run r;
     double start;
-    cli_defaults(&o, "air_cushion", "slug of water, 0.2 m long, on a cushion of air: 9.718 Hz, 2.63 mm");
+    cli_defaults(&o, "air_cushion",
+                 "slug of water, 0.2 m long, on a cushion of air: 9.718 Hz, 2.63 mm");
     o.model = "mmps";
     o.need = "gas.compressible";
     o.prefer = "viscosity.slip=1";

@@ -25,7 +25,8 @@ static double shell(void *user, const double *x)
     (void)user;
     if (out <= 0) return RADIUS - r;
     /* value over slope of the ellipsoid */
-    const double value = hypot(out / END, r / RADIUS), slope = hypot(out / (END * END), r / (RADIUS * RADIUS));
+    const double value = hypot(out / END, r / RADIUS),
+                 slope = hypot(out / (END * END), r / (RADIUS * RADIUS));
     return value * (1 - value) / slope;
 }
 
@@ -64,7 +65,8 @@ static void add_file(run *r, cylinder_case *c)
 
 static void build(run *r, cylinder_case *c)
 {
-    const mps_harmonic motion = {.dof = MPS_SURGE, .amplitude = r->options.amplitude, .omega = OMEGA};
+    const mps_harmonic motion = {
+        .dof = MPS_SURGE, .amplitude = r->options.amplitude, .omega = OMEGA};
     if (r->options.stl)
         add_file(r, c);
     else
@@ -84,7 +86,8 @@ static double force_value(void *user, mps_sim *sim)
 static void add_columns(run *r, const cylinder_case *c)
 {
     static force_column force[2] = {{.component = 0}, {.component = 1}};
-    const double x = 0.5 * (c->lo[0] + c->hi[0]), z = 0.5 * (c->lo[2] + c->hi[2]), quarter = 0.25 * (c->hi[0] - c->lo[0]);
+    const double x = 0.5 * (c->lo[0] + c->hi[0]), z = 0.5 * (c->lo[2] + c->hi[2]),
+                 quarter = 0.25 * (c->hi[0] - c->lo[0]);
     const double foot[] = {x, c->lo[1] + r->options.dp, z}, left[] = {x - quarter, foot[1], z};
     const double level = run_level(r);
     mps_probe probe;
@@ -105,7 +108,9 @@ int main(int argc, char **argv)
     cli_options o;
     run r;
     cylinder_case c = {{0}, {0}, 0};
-    cli_defaults(&o, "cylinder_tank", "lying cylinder 0.85 m long, radius 0.25 m, half full: x = a sin(4.8/s t), a = 0.02 m");
+    cli_defaults(
+        &o, "cylinder_tank",
+        "lying cylinder 0.85 m long, radius 0.25 m, half full: x = a sin(4.8/s t), a = 0.02 m");
     o.dim = 3;
     o.dp = 0.025;
     o.dp_min = 0.002;

@@ -6,9 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double LENGTH = 1.61, HEIGHT = 0.6, BREADTH = 0.15, COLUMN_LENGTH = 0.6, COLUMN_HEIGHT = 0.3;
+static const double LENGTH = 1.61, HEIGHT = 0.6, BREADTH = 0.15, COLUMN_LENGTH = 0.6,
+                    COLUMN_HEIGHT = 0.3;
 static const double DENSITY = 997, KINEMATIC_VISCOSITY = 8.9e-7; /* 25 degrees */
-static const double SENSOR = 0.0042;                             /* diameter of the pressure sensors */
+static const double SENSOR = 0.0042; /* diameter of the pressure sensors */
 
 /* Bins along the tank, two spacings long, that tell the main body of liquid from drops ahead of it. */
 typedef struct bins {
@@ -38,7 +39,8 @@ static bool bins_collect(const bins *b, mps_sim *sim)
     for (int64_t i = 0; i < v.x.count; i++) {
         double at = v.x.data[i * v.x.stride];
         int64_t k = (int64_t)(at / b->size);
-        if (v.kind.integers[i] == MPS_FLUID && at > 0 && k < b->count) b->furthest[k] = fmax(b->furthest[k], at);
+        if (v.kind.integers[i] == MPS_FLUID && at > 0 && k < b->count)
+            b->furthest[k] = fmax(b->furthest[k], at);
     }
     return view_close(sim, &v);
 }
@@ -72,7 +74,9 @@ int main(int argc, char **argv)
     run r;
     bins b = {0};
     double built[3];
-    cli_defaults(&o, "dam_break", "dam break of Lobovsky et al. 2014, 0.3 m high; dp 0.01 in 2-D, 0.02 in 3-D unless given");
+    cli_defaults(
+        &o, "dam_break",
+        "dam break of Lobovsky et al. 2014, 0.3 m high; dp 0.01 in 2-D, 0.02 in 3-D unless given");
     o.has_dim = true;
     o.dp_min = 0.0005;
     o.dp_max = 0.05;

@@ -13,7 +13,8 @@ enum { REST, OSCILLATION };
 static int in_drop(void *user, const double *x)
 {
     (void)user;
-    return hypot(x[0] - BOX / 2, x[1] - BOX / 2) < (1 + 1e-9) * RADIUS; /* with the points on the circle its area is right within 3 % */
+    return hypot(x[0] - BOX / 2, x[1] - BOX / 2) <
+           (1 + 1e-9) * RADIUS; /* with the points on the circle its area is right within 3 % */
 }
 
 static void build(run *r)
@@ -29,14 +30,17 @@ static void build(run *r)
 /* Potential flow of r = R (1 + STRETCH sin(w t) cos(2 phi)) at t = 0: rate (x, -y) inside, the same at the surface and falling off outside. */
 static void set_moving(run *r)
 {
-    double rate = STRETCH * sqrt(6 * r->options.sigma / ((WATER + TANK_AIR_DENSITY) * pow(RADIUS, 3)));
-    mps_lease kind = {.struct_size = sizeof kind}, x = {.struct_size = sizeof x}, u = {.struct_size = sizeof u};
+    double rate = STRETCH *
+                  sqrt(6 * r->options.sigma / ((WATER + TANK_AIR_DENSITY) * pow(RADIUS, 3)));
+    mps_lease kind = {.struct_size = sizeof kind}, x = {.struct_size = sizeof x},
+              u = {.struct_size = sizeof u};
     run_check(r, mps_lease_begin(r->sim, "kind", MPS_READ, &kind), "velocities");
     run_check(r, mps_lease_begin(r->sim, "position", MPS_READ, &x), "velocities");
     run_check(r, mps_lease_begin(r->sim, "velocity", MPS_WRITE, &u), "velocities");
     for (int64_t i = 0; i < x.count; i++) {
         if (kind.integers[i] != MPS_FLUID) continue;
-        const double a = x.data[2 * i] - BOX / 2, b = x.data[2 * i + 1] - BOX / 2, r2 = a * a + b * b, inside = RADIUS * RADIUS;
+        const double a = x.data[2 * i] - BOX / 2, b = x.data[2 * i + 1] - BOX / 2,
+                     r2 = a * a + b * b, inside = RADIUS * RADIUS;
         const double outer = rate * pow(inside / r2, 2) / r2;
         u.data[2 * i] = r2 <= inside ? rate * a : outer * a * (a * a - 3 * b * b);
         u.data[2 * i + 1] = r2 <= inside ? -rate * b : outer * b * (3 * a * a - b * b);
@@ -57,7 +61,8 @@ static double jump(void *user, mps_sim *sim)
     if (!view_open(sim, &v)) return NAN;
     if (mps_lease_begin(sim, "pressure", MPS_READ, &p) == MPS_OK) {
         for (int64_t i = 0; i < v.x.count; i++) {
-            const double r = hypot(v.x.data[2 * i] - BOX / 2, v.x.data[2 * i + 1] - BOX / 2) / RADIUS;
+            const double r = hypot(v.x.data[2 * i] - BOX / 2, v.x.data[2 * i + 1] - BOX / 2) /
+                             RADIUS;
             if (v.kind.integers[i] != MPS_FLUID || (r > 0.5 && r < 1.5)) continue;
             sum[r > 1] += p.data[i];
             count[r > 1]++;
@@ -89,8 +94,10 @@ int main(int argc, char **argv)
     cli_options o;
     run r;
     int32_t mode = REST;
-    cli_defaults(&o, "droplet", "drop of water in air without gravity: pressure jump sigma/R, or oscillation");
-    cli_own(&o, (cli_option){"--mode", "rest|oscillation", "state of the drop at the start", TYPE_CHOICE, &mode, 0, 0, false});
+    cli_defaults(&o, "droplet",
+                 "drop of water in air without gravity: pressure jump sigma/R, or oscillation");
+    cli_own(&o, (cli_option){"--mode", "rest|oscillation", "state of the drop at the start",
+                             TYPE_CHOICE, &mode, 0, 0, false});
     o.model = "mmps";
     o.need = "tension.csf";
     o.dp = 4e-4;

@@ -61,7 +61,9 @@ int main(int argc, char **argv)
     cli_options o;
     run r;
     raster g;
-    cli_defaults(&o, "rayleigh_taylor", "Rayleigh-Taylor instability, Wen, Zhao & Wan 2022, section 4.2: 1.8 kg/m3 above 1 kg/m3");
+    cli_defaults(
+        &o, "rayleigh_taylor",
+        "Rayleigh-Taylor instability, Wen, Zhao & Wan 2022, section 4.2: 1.8 kg/m3 above 1 kg/m3");
     o.model = "mmps";
     o.dp = 0.0125;
     o.dp_min = 0.001;

@@ -18,7 +18,8 @@ static const double SMOOTHING = 2; /* of the interface, in spacings */
 static int in_bubble(void *user, const double *x)
 {
     (void)user;
-    return hypot(x[0] - CENTRE[0], x[1] - CENTRE[1]) < (1 + 1e-9) * RADIUS; /* with the points on the circle */
+    return hypot(x[0] - CENTRE[0], x[1] - CENTRE[1]) <
+           (1 + 1e-9) * RADIUS; /* with the points on the circle */
 }
 
 static void build(run *r, const fluids *f)
@@ -68,7 +69,8 @@ int main(int argc, char **argv)
     raster g;
     int32_t number = 0;
     cli_defaults(&o, "rising_bubble", "rising bubble of Hysing et al. 2009, case 1 or 2");
-    cli_own(&o, (cli_option){"--case", "1|2", "case of the benchmark", TYPE_CHOICE, &number, 0, 0, false});
+    cli_own(&o, (cli_option){"--case", "1|2", "case of the benchmark", TYPE_CHOICE, &number, 0, 0,
+                             false});
     o.model = "mmps";
     o.need = "tension.csf";
     o.dp = 0.02;

@@ -4,14 +4,16 @@
 #include "common/tank.h"
 #include <math.h>
 
-static const tank_case tank = {.size = {0.57, 0.5},
-                               .depth = 0.18,
-                               .motion = {.dof = MPS_SURGE, .amplitude = 0.1, .omega = 3.53},
-                               .plate = {.middle = 0.285, .thickness = 0.006, .bottom = 0, .top = 0.15}};
+static const tank_case tank = {
+    .size = {0.57, 0.5},
+    .depth = 0.18,
+    .motion = {.dof = MPS_SURGE, .amplitude = 0.1, .omega = 3.53},
+    .plate = {.middle = 0.285, .thickness = 0.006, .bottom = 0, .top = 0.15}};
 
 static void add_columns(run *r, const tank_case *c)
 {
-    double level = run_level(r), dp = r->options.dp, top = floor(c->plate.top / dp + 1e-6) * dp, middle = c->size[0] / 2;
+    double level = run_level(r), dp = r->options.dp, top = floor(c->plate.top / dp + 1e-6) * dp,
+           middle = c->size[0] / 2;
     const double on_baffle[] = {middle, top, 0};
     run_gauge(r, "eta_a", middle - 0.275, 0, level);
     run_gauge_from(r, "eta_b", on_baffle, level);
@@ -21,7 +23,8 @@ static void add_columns(run *r, const tank_case *c)
 int main(int argc, char **argv)
 {
     cli_options o;
-    cli_defaults(&o, "sloshing_baffle_2d", "baffled tank of Zhang, Wan & Hino 2014, section 2.2: x = 0.1 m sin(3.53/s t)");
+    cli_defaults(&o, "sloshing_baffle_2d",
+                 "baffled tank of Zhang, Wan & Hino 2014, section 2.2: x = 0.1 m sin(3.53/s t)");
     o.dp = 0.006;
     o.dp_min = 0.0005;
     o.dp_max = 0.02;

@@ -3,10 +3,11 @@
  * moved by x = a sin wt at the first natural frequency of the tank without it. */
 #include "common/tank.h"
 
-static const tank_case tank = {.size = {0.57, 0.5, 0.31},
-                               .depth = 0.2,
-                               .motion = {.dof = MPS_SURGE, .amplitude = 0.03, .omega = 6.582},
-                               .plate = {.middle = 0.278, .thickness = 0.006, .bottom = 0.05, .top = 0.2}};
+static const tank_case tank = {
+    .size = {0.57, 0.5, 0.31},
+    .depth = 0.2,
+    .motion = {.dof = MPS_SURGE, .amplitude = 0.03, .omega = 6.582},
+    .plate = {.middle = 0.278, .thickness = 0.006, .bottom = 0.05, .top = 0.2}};
 
 /* The paper prints a width of 0.6 m. Its particle numbers at dp 0.005, 274195 of liquid and 102500 of solids, are those of a lattice
  * 0.31 m wide, closed 0.25 m above the floor, with a baffle of one column, 26 points high and 67 (walls and dummies too) wide, 25 of
@@ -34,14 +35,19 @@ int main(int argc, char **argv)
     cli_options o;
     tank_case c = tank;
     bool paper = false;
-    cli_defaults(&o, "sloshing_baffle_3d", "baffled tank of Zhang, Wan & Hino 2014, section 2.3: x = 0.03 m sin(6.582/s t)");
+    cli_defaults(&o, "sloshing_baffle_3d",
+                 "baffled tank of Zhang, Wan & Hino 2014, section 2.3: x = 0.03 m sin(6.582/s t)");
     o.dim = 3;
     o.dp = 0.02;
     o.dp_min = 0.002;
     o.dp_max = 0.025;
     o.t_end = 2;
-    cli_own(&o, (cli_option){"--paper-baffle", NULL, "one column, as high as the paper's particle numbers say; lid 0.25 m above the floor",
-                             TYPE_FLAG, &paper, 0, 0, true});
+    cli_own(
+        &o,
+        (cli_option){
+            "--paper-baffle", NULL,
+            "one column, as high as the paper's particle numbers say; lid 0.25 m above the floor",
+            TYPE_FLAG, &paper, 0, 0, true});
     tank_parse(&o, &c, argc, argv);
     if (paper) use_paper_lattice(&c, &o);
     return tank_run(&o, &c, add_columns);

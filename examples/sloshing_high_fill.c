@@ -3,7 +3,9 @@
 #include "common/tank.h"
 
 static const tank_case tank = {
-    .size = {0.6, 0.6}, .depth = 0.3, .motion = {.dof = MPS_SURGE, .form = 1, .amplitude = 0.005, .omega = 6.85}};
+    .size = {0.6, 0.6},
+    .depth = 0.3,
+    .motion = {.dof = MPS_SURGE, .form = 1, .amplitude = 0.005, .omega = 6.85}};
 
 /* Fully nonlinear potential flow: crests of the gauge above still level, and peaks of P1, two from each hump after 3 s. */
 static const double CREST_T[] = {1.16, 2.08, 2.99, 3.91, 4.85};
@@ -23,7 +25,9 @@ static void add_columns(run *r, const tank_case *c)
 int main(int argc, char **argv)
 {
     cli_options o;
-    cli_defaults(&o, "sloshing_high_fill", "half-full tank of Wen, Zhao & Wan 2022, section 5.1: x = -0.005 m (1 - cos(6.85/s t))");
+    cli_defaults(
+        &o, "sloshing_high_fill",
+        "half-full tank of Wen, Zhao & Wan 2022, section 5.1: x = -0.005 m (1 - cos(6.85/s t))");
     o.dp = 0.01;
     o.dp_min = 0.0005;
     o.dp_max = 0.05;

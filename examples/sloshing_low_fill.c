@@ -3,7 +3,9 @@
 #include "common/tank.h"
 
 static const tank_case tank = {
-    .size = {0.6, 0.6}, .depth = 0.03, .motion = {.dof = MPS_SURGE, .form = 1, .amplitude = 0.01, .omega = 2.825}};
+    .size = {0.6, 0.6},
+    .depth = 0.03,
+    .motion = {.dof = MPS_SURGE, .form = 1, .amplitude = 0.01, .omega = 2.825}};
 
 static void add_columns(run *r, const tank_case *c)
 {
@@ -14,7 +16,9 @@ static void add_columns(run *r, const tank_case *c)
 int main(int argc, char **argv)
 {
     cli_options o;
-    cli_defaults(&o, "sloshing_low_fill", "shallow tank of Wen, Zhao & Wan 2022, section 5.2: x = -0.01 m (1 - cos(2.825/s t))");
+    cli_defaults(
+        &o, "sloshing_low_fill",
+        "shallow tank of Wen, Zhao & Wan 2022, section 5.2: x = -0.01 m (1 - cos(2.825/s t))");
     o.dp = 0.00375;
     o.dp_min = 0.0005;
     o.dp_max = 0.015;

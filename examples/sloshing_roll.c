@@ -10,7 +10,8 @@ static const struct {
     double density, viscosity;
 } LIQUID[] = {{998, 8.94e-4}, {900, 0.045}};
 
-static const double SIZE[] = {0.9, 0.508, 0.062}, DEPTH = 0.093, CYCLES = 0.85, DEGREES = 4, PI = 3.14159265358979;
+static const double SIZE[] = {0.9, 0.508, 0.062}, DEPTH = 0.093, CYCLES = 0.85, DEGREES = 4,
+                    PI = 3.14159265358979;
 
 /* The roll: a(t) = amplitude sin(w t), with an amplitude that grows over the first `ramp` periods. */
 typedef struct roll {
@@ -27,10 +28,13 @@ static double natural_period(double gravity)
 static int turn(void *user, double t, mps_motion_state *s)
 {
     const roll *m = user;
-    const double x = m->ramp > 0 ? fmin(1, t * m->omega / (2 * PI * m->ramp)) : 1, over = m->ramp > 0 ? m->omega / (2 * PI * m->ramp) : 0;
+    const double x = m->ramp > 0 ? fmin(1, t * m->omega / (2 * PI * m->ramp)) : 1,
+                 over = m->ramp > 0 ? m->omega / (2 * PI * m->ramp) : 0;
     /* 10 x^3 - 15 x^4 + 6 x^5: velocity and acceleration are continuous */
-    const double a = m->amplitude, f = a * x * x * x * (10 - 15 * x + 6 * x * x), df = a * over * 30 * x * x * (1 - x) * (1 - x),
-                 ddf = a * over * over * 60 * x * (1 - x) * (1 - 2 * x), w = m->omega, sine = sin(w * t), cosine = cos(w * t);
+    const double a = m->amplitude, f = a * x * x * x * (10 - 15 * x + 6 * x * x),
+                 df = a * over * 30 * x * x * (1 - x) * (1 - x),
+                 ddf = a * over * over * 60 * x * (1 - x) * (1 - 2 * x), w = m->omega,
+                 sine = sin(w * t), cosine = cos(w * t);
     s->value[MPS_YAW] = f * sine;
     s->rate[MPS_YAW] = df * sine + f * w * cosine;
     s->accel[MPS_YAW] = ddf * sine + 2 * df * w * cosine - f * w * w * sine;
@@ -78,18 +82,24 @@ int main(int argc, char **argv)
     double degrees = DEGREES, cycles = CYCLES;
     roll m = {.ramp = 0.5};
     cli_defaults(&o, "sloshing_roll",
-                 "lateral impact of a shallow liquid in a tank that rolls about the middle of its floor, by 4 degrees");
+                 "lateral impact of a shallow liquid in a tank that rolls about the middle of its "
+                 "floor, by 4 degrees");
     o.dp = 0.00775;
     o.dp_min = 0.001;
     o.dp_max = 0.031;
     o.t_end = 5;
     o.has_dim = o.has_sigma = true;
-    o.need = "reference.lid"; /* in a closed tank full of liquid and gas something must set the level of the pressures */
-    cli_own(&o, (cli_option){"--liquid", "water|oil", "998 kg/m3 and 0.894 mPa s, or 900 kg/m3 and 45 mPa s", TYPE_CHOICE, &liquid, 0, 0,
-                             false});
-    cli_own(&o, (cli_option){"--angle", "DEG", "amplitude of the roll [deg]", TYPE_REAL, &degrees, 0.01, 20, false});
-    cli_own(&o, (cli_option){"--cycles", "R", "period over the first natural period", TYPE_REAL, &cycles, 0.2, 5, false});
-    cli_own(&o, (cli_option){"--ramp", "N", "periods in which the amplitude grows", TYPE_REAL, &m.ramp, -1, 10, false});
+    o.need =
+        "reference.lid"; /* in a closed tank full of liquid and gas something must set the level of the pressures */
+    cli_own(&o, (cli_option){"--liquid", "water|oil",
+                             "998 kg/m3 and 0.894 mPa s, or 900 kg/m3 and 45 mPa s", TYPE_CHOICE,
+                             &liquid, 0, 0, false});
+    cli_own(&o, (cli_option){"--angle", "DEG", "amplitude of the roll [deg]", TYPE_REAL, &degrees,
+                             0.01, 20, false});
+    cli_own(&o, (cli_option){"--cycles", "R", "period over the first natural period", TYPE_REAL,
+                             &cycles, 0.2, 5, false});
+    cli_own(&o, (cli_option){"--ramp", "N", "periods in which the amplitude grows", TYPE_REAL,
+                             &m.ramp, -1, 10, false});
     cli_parse(&o, argc, argv);
     m.amplitude = degrees * PI / 180;
     m.omega = 2 * PI / (cycles * natural_period(o.gravity));

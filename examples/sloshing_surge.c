@@ -2,7 +2,9 @@
 /* Surge tank of Zhang, Wan & Hino 2014 section 2.1: a tank 0.8 x 0.5 m, 0.25 m of water, moved by x = a sin wt. */
 #include "common/tank.h"
 
-static const tank_case tank = {.size = {0.8, 0.5}, .depth = 0.25, .motion = {.dof = MPS_SURGE, .amplitude = 0.02, .omega = 6.469}};
+static const tank_case tank = {.size = {0.8, 0.5},
+                               .depth = 0.25,
+                               .motion = {.dof = MPS_SURGE, .amplitude = 0.02, .omega = 6.469}};
 
 /* Crests at the left wall in fully nonlinear potential flow started by the same velocity jump. */
 static const double CREST_T[] = {1.11, 2.12, 3.19, 4.26, 5.19};
@@ -15,20 +17,26 @@ static void add_columns(run *r, const tank_case *c)
     for (int i = 0; i < 5; i++) run_wall_pressure(r, name[i], 0, 0.05 * (i + 1), 0);
     run_gauge(r, "eta_left", dp, 0, level);
     run_gauge(r, "eta_right", c->size[0] - dp, 0, level);
-    if (r->options.amplitude == c->motion.amplitude) run_mark_add(r, "crests, FNPF", "m", 5, CREST_T, CREST);
+    if (r->options.amplitude == c->motion.amplitude)
+        run_mark_add(r, "crests, FNPF", "m", 5, CREST_T, CREST);
 }
 
 int main(int argc, char **argv)
 {
     cli_options o;
     tank_case c = tank;
-    cli_defaults(&o, "sloshing_surge", "surge tank of Zhang, Wan & Hino 2014, section 2.1: x = 0.02 m sin(6.469/s t)");
+    cli_defaults(&o, "sloshing_surge",
+                 "surge tank of Zhang, Wan & Hino 2014, section 2.1: x = 0.02 m sin(6.469/s t)");
     o.dp = 0.008;
     o.dp_min = 0.0005;
     o.dp_max = 0.05;
     o.t_end = 5.4;
-    cli_own(&o, (cli_option){"--whole-rows", NULL, "water up to the last whole row below its depth, as the paper's particle numbers say",
-                             TYPE_FLAG, &c.whole_rows, 0, 0, true});
+    cli_own(
+        &o,
+        (cli_option){
+            "--whole-rows", NULL,
+            "water up to the last whole row below its depth, as the paper's particle numbers say",
+            TYPE_FLAG, &c.whole_rows, 0, 0, true});
     tank_parse(&o, &c, argc, argv);
     return tank_run(&o, &c, add_columns);
 }

@@ -27,7 +27,8 @@ static void add_water(run *r, double length)
     double *x = malloc((size_t)block.count * 2 * sizeof *x);
     if (!x) run_check(r, MPS_E_NOMEM, "water");
     for (int i = 0; x && i < columns; i++)
-        for (int j = 0; j < rows; j++) displace((i + 1) * dp, (j + 1) * dp, k, rows * dp, x + 2 * ((int64_t)i * rows + j));
+        for (int j = 0; j < rows; j++)
+            displace((i + 1) * dp, (j + 1) * dp, k, rows * dp, x + 2 * ((int64_t)i * rows + j));
     block.position = x;
     mps_status status = mps_particles_add(r->sim, &block, NULL);
     free(x);

@@ -12,7 +12,8 @@ static void build(run *r)
     run_phase(r, 0, HEAVY, VISCOSITY);
     run_phase(r, 1, LIGHT, VISCOSITY);
     tank_walls_about(r, SIZE, LAYER, lo, hi);
-    run_check(r, mps_fill_box_add(r->sim, 0, lo, (const double[]){hi[0], LAYER}, NULL, NULL), "heavy fluid");
+    run_check(r, mps_fill_box_add(r->sim, 0, lo, (const double[]){hi[0], LAYER}, NULL, NULL),
+              "heavy fluid");
     run_check(r, mps_fill_box_add(r->sim, 1, lo, hi, NULL, NULL), "light fluid");
 }
 
@@ -25,7 +26,8 @@ static double trespass(void *user, mps_sim *sim)
     if (!view_open(sim, &v)) return NAN;
     for (int64_t i = 0; i < v.x.count; i++) {
         const double above = v.x.data[i * v.x.stride + 1] - LAYER;
-        if (v.kind.integers[i] == MPS_FLUID) most = fmax(most, v.phase.integers[i] == 0 ? above : -above);
+        if (v.kind.integers[i] == MPS_FLUID)
+            most = fmax(most, v.phase.integers[i] == 0 ? above : -above);
     }
     return view_close(sim, &v) ? most : NAN;
 }
@@ -41,7 +43,8 @@ int main(int argc, char **argv)
 {
     cli_options o;
     run r;
-    cli_defaults(&o, "static_two_fluid", "two fluids at rest, Wen, Zhao & Wan 2022, section 4.1: 1000 kg/m3 below 1 kg/m3");
+    cli_defaults(&o, "static_two_fluid",
+                 "two fluids at rest, Wen, Zhao & Wan 2022, section 4.1: 1000 kg/m3 below 1 kg/m3");
     o.model = "mmps";
     o.need = "reference.lid";
     o.dp = 0.02;

@@ -7,7 +7,8 @@
 
 typedef struct cavities {
     raster grid;
-    int32_t *body; /* [nodes] number of the connected body of space without liquid, from 1; 0: none; -1: liquid not looked at yet */
+    int32_t *
+        body; /* [nodes] number of the connected body of space without liquid, from 1; 0: none; -1: liquid not looked at yet */
     int64_t *queue;
 } cavities;
 

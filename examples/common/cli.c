@@ -12,67 +12,139 @@ enum { CLI_THREADS_MAX = 1024, CLI_FRAMES_MAX = 100000 };
 
 enum { CLI_OPTIONS = 48 };
 
+/* clang-format off: a line for each option */
 static int cli_table(cli_options *o, cli_option *table)
 {
-    const char *models = o->two_phases ? "imps, mmps (several phases), imps.paper or mmps.paper" : "imps or imps.paper";
+    const char *models = o->two_phases ? "imps, mmps (several phases), imps.paper or mmps.paper"
+                                       : "imps or imps.paper";
     int n = 0;
     table[n++] = (cli_option){"--model", "NAME", models, TYPE_TEXT, &o->model, 0, 0, false};
-    table[n++] = (cli_option){"--use", "SLOT.VARIANT", "replace the model of a slot; may be repeated", TYPE_LIST, &o->use, 0, 0, false};
-    table[n++] = (cli_option){"--remove", "SLOT", "switch off the model of a slot; may be repeated", TYPE_LIST, &o->remove, 0, 0, false};
-    table[n++] = (cli_option){"--set", "SLOT.KEY=X", "change a setting of a model; may be repeated", TYPE_LIST, &o->set, 0, 0, false};
-    table[n++] = (cli_option){"--re-far", "X", "far radius [dp]; default: that of the preset", TYPE_REAL, &o->re_far, 2.1, 10, false};
-    table[n++] = (cli_option){"--dp", "M", "particle spacing [m]", TYPE_REAL, &o->dp, o->dp_min, o->dp_max, false};
-    table[n++] = (cli_option){"--dt", "S", "fixed time step [s]; default: adaptive", TYPE_REAL, &o->dt, 0, 0.1, false};
-    table[n++] = (cli_option){"--cfl", "C", "adaptive step: largest dt u / dp", TYPE_REAL, &o->cfl, 0, 1, false};
-    table[n++] = (cli_option){"--calm", "C",  "adaptive step: largest dt sqrt(g / dp); default: that of the preset", TYPE_REAL, &o->calm, 0,
-                              1,        false};
-    table[n++] = (cli_option){"--t-end", "S", "time simulated [s]", TYPE_REAL, &o->t_end, 0, o->t_max, false};
-    table[n++] = (cli_option){"--threads", "N", "threads of the simulation", TYPE_INT, &o->threads, 1, CLI_THREADS_MAX, false};
-    table[n++] = (cli_option){"--solver", "NAME", "pressure solver, or solver/preconditioner", TYPE_TEXT, &o->solver, 0, 0, false};
-    table[n++] = (cli_option){"--out", "DIR", "folder for all outputs", TYPE_TEXT, &o->out, 0, 0, false};
-    table[n++] = (cli_option){"--frames",     "N",  "frames for ParaView besides the first; 0: none", TYPE_INT, &o->frames, 0,
-                              CLI_FRAMES_MAX, false};
-    table[n++] = (cli_option){"--checkpoint",
-                              "S",
-                              "a checkpoint every S simulated seconds and at the end; default: only at Ctrl-C",
-                              TYPE_REAL,
-                              &o->checkpoint,
-                              1e-6,
-                              o->t_max,
+    table[n++] = (cli_option){
+        "--use",   "SLOT.VARIANT", "replace the model of a slot; may be repeated",
+        TYPE_LIST, &o->use,        0,
+        0,         false};
+    table[n++] = (cli_option){
+        "--remove", "SLOT",     "switch off the model of a slot; may be repeated",
+        TYPE_LIST,  &o->remove, 0,
+        0,          false};
+    table[n++] = (cli_option){
+        "--set",   "SLOT.KEY=X", "change a setting of a model; may be repeated",
+        TYPE_LIST, &o->set,      0,
+        0,         false};
+    table[n++] = (cli_option){
+        "--re-far", "X",        "far radius [dp]; default: that of the preset",
+        TYPE_REAL,  &o->re_far, 2.1,
+        10,         false};
+    table[n++] = (cli_option){"--dp",    "M",  "particle spacing [m]", TYPE_REAL, &o->dp, o->dp_min,
+                              o->dp_max, false};
+    table[n++] = (cli_option){
+        "--dt", "S", "fixed time step [s]; default: adaptive", TYPE_REAL, &o->dt, 0, 0.1, false};
+    table[n++] = (cli_option){
+        "--cfl", "C", "adaptive step: largest dt u / dp", TYPE_REAL, &o->cfl, 0, 1, false};
+    table[n++] = (cli_option){
+        "--calm",  "C",      "adaptive step: largest dt sqrt(g / dp); default: that of the preset",
+        TYPE_REAL, &o->calm, 0,
+        1,         false};
+    table[n++] = (cli_option){"--t-end", "S",  "time simulated [s]", TYPE_REAL, &o->t_end, 0,
+                              o->t_max,  false};
+    table[n++] = (cli_option){"--threads",     "N",         "threads of the simulation",
+                              TYPE_INT,        &o->threads, 1,
+                              CLI_THREADS_MAX, false};
+    table[n++] = (cli_option){"--solver", "NAME",     "pressure solver, or solver/preconditioner",
+                              TYPE_TEXT,  &o->solver, 0,
+                              0,          false};
+    table[n++] = (cli_option){"--out", "DIR", "folder for all outputs", TYPE_TEXT, &o->out, 0,
+                              0,       false};
+    table[n++] = (cli_option){
+        "--frames",     "N",        "frames for ParaView besides the first; 0: none",
+        TYPE_INT,       &o->frames, 0,
+        CLI_FRAMES_MAX, false};
+    table[n++] = (cli_option){
+        "--checkpoint",
+        "S",
+        "a checkpoint every S simulated seconds and at the end; default: only at Ctrl-C",
+        TYPE_REAL,
+        &o->checkpoint,
+        1e-6,
+        o->t_max,
+        false};
+    table[n++] = (cli_option){
+        "--resume", NULL,       "go on from the checkpoint in the folder of --out",
+        TYPE_FLAG,  &o->resume, 0,
+        0,          true};
+    table[n++] = (cli_option){"--overwrite",
+                              NULL,
+                              "remove an earlier run from the folder of --out",
+                              TYPE_FLAG,
+                              &o->overwrite,
+                              0,
+                              0,
+                              true};
+    table[n++] = (cli_option){"--probe-dt", "S",          "interval of rows in probes.csv [s]",
+                              TYPE_REAL,    &o->probe_dt, 0,
+                              10,           false};
+    table[n++] = (cli_option){
+        "--sensor-average",
+        "S",
+        "wall pressures and forces: mean of the last S seconds; 0: no mean; default: dp/u",
+        TYPE_REAL,
+        &o->sensor_average,
+        -1,
+        10,
+        false};
+    table[n++] = (cli_option){"--pictures",
+                              "T,T,..",
+                              "times of the pictures [s]; default: quarters of the run",
+                              TYPE_TIMES,
+                              o,
+                              0,
+                              0,
                               false};
-    table[n++] = (cli_option){"--resume", NULL, "go on from the checkpoint in the folder of --out", TYPE_FLAG, &o->resume, 0, 0, true};
-    table[n++] = (cli_option){"--overwrite", NULL, "remove an earlier run from the folder of --out", TYPE_FLAG, &o->overwrite, 0, 0, true};
-    table[n++] = (cli_option){"--probe-dt", "S", "interval of rows in probes.csv [s]", TYPE_REAL, &o->probe_dt, 0, 10, false};
-    table[n++] = (cli_option){"--sensor-average",
-                              "S",
-                              "wall pressures and forces: mean of the last S seconds; 0: no mean; default: dp/u",
-                              TYPE_REAL,
-                              &o->sensor_average,
-                              -1,
-                              10,
-                              false};
-    table[n++] = (cli_option){"--pictures", "T,T,..", "times of the pictures [s]; default: quarters of the run", TYPE_TIMES, o, 0, 0,
-                              false};
-    if (o->has_dim) table[n++] = (cli_option){"--dim", "D", "2 or 3 dimensions", TYPE_INT, &o->dim, 2, 3, false};
+    if (o->has_dim)
+        table[n++] = (cli_option){"--dim", "D",  "2 or 3 dimensions", TYPE_INT, &o->dim, 2,
+                                  3,       false};
     if (o->amplitude > 0)
-        table[n++] = (cli_option){"--amplitude", "M", "amplitude of the motion [m]", TYPE_REAL, &o->amplitude, 0, 10, false};
+        table[n++] = (cli_option){
+            "--amplitude", "M", "amplitude of the motion [m]", TYPE_REAL, &o->amplitude, 0, 10,
+            false};
     if (o->has_layers)
-        table[n++] = (cli_option){"--layers", "N",  "columns of particles of the baffle; 0: by its thickness", TYPE_INT, &o->layers, 0,
-                                  100,        false};
+        table[n++] = (cli_option){
+            "--layers", "N",        "columns of particles of the baffle; 0: by its thickness",
+            TYPE_INT,   &o->layers, 0,
+            100,        false};
     if (o->has_stl)
-        table[n++] = (cli_option){"--stl", "FILE", "STL file of a closed tank, in place of the cylinder", TYPE_TEXT, &o->stl, 0, 0, false};
+        table[n++] = (cli_option){
+            "--stl",   "FILE",  "STL file of a closed tank, in place of the cylinder",
+            TYPE_TEXT, &o->stl, 0,
+            0,         false};
     if (o->has_stl)
-        table[n++] = (cli_option){"--stl-scale", "M", "length of a unit of the STL file [m]", TYPE_REAL, &o->stl_scale, 0, 1e6, false};
+        table[n++] = (cli_option){
+            "--stl-scale", "M",           "length of a unit of the STL file [m]",
+            TYPE_REAL,     &o->stl_scale, 0,
+            1e6,           false};
     if (o->has_sigma)
-        table[n++] = (cli_option){"--sigma", "N/M", "surface tension [N/m], for models that have it", TYPE_REAL, &o->sigma, -1, 100, false};
+        table[n++] = (cli_option){
+            "--sigma", "N/M",     "surface tension [N/m], for models that have it",
+            TYPE_REAL, &o->sigma, -1,
+            100,       false};
     for (int i = 0; i < o->owns; i++) table[n++] = o->own[i];
-    table[n++] = (cli_option){"--no-report", NULL, "no report.html", TYPE_FLAG, &o->report, 0, 0, false};
+    table[n++] = (cli_option){"--no-report", NULL, "no report.html", TYPE_FLAG, &o->report, 0, 0,
+                              false};
     table[n++] = (cli_option){"--quiet", NULL, "no progress", TYPE_FLAG, &o->quiet, 0, 0, true};
-    table[n++] = (cli_option){"--list-models", NULL, "all models with settings, channels and solvers", TYPE_LISTING, NULL, 0, 0, false};
-    table[n++] = (cli_option){"--version", NULL, "version of the library", TYPE_VERSION, NULL, 0, 0, false};
+    table[n++] = (cli_option){"--list-models",
+                              NULL,
+                              "all models with settings, channels and solvers",
+                              TYPE_LISTING,
+                              NULL,
+                              0,
+                              0,
+                              false};
+    table[n++] = (cli_option){"--version", NULL, "version of the library", TYPE_VERSION, NULL, 0,
+                              0,           false};
     table[n++] = (cli_option){"--help", NULL, "this text", TYPE_HELP, NULL, 0, 0, false};
     return n;
 }
+/* clang-format on */
 
 /* Word `index` of "one|two"; its length, or 0 behind the last. */
 static int cli_word(const char *words, int32_t index, const char **word)
@@ -90,9 +162,11 @@ static int cli_word(const char *words, int32_t index, const char **word)
 static void cli_default_text(const cli_option *e, char *text, size_t size)
 {
     text[0] = '\0';
-    if (e->type == TYPE_TEXT && *(const char **)e->value) snprintf(text, size, " (%s)", *(const char **)e->value);
+    if (e->type == TYPE_TEXT && *(const char **)e->value)
+        snprintf(text, size, " (%s)", *(const char **)e->value);
     if (e->type == TYPE_INT) snprintf(text, size, " (%d)", *(int32_t *)e->value);
-    if (e->type == TYPE_REAL && (*(double *)e->value > 0 || (e->min < 0 && *(double *)e->value == 0)))
+    if (e->type == TYPE_REAL &&
+        (*(double *)e->value > 0 || (e->min < 0 && *(double *)e->value == 0)))
         snprintf(text, size, " (%g)", *(double *)e->value);
     if (e->type == TYPE_CHOICE) {
         const char *word;
@@ -106,21 +180,28 @@ static void cli_help(const cli_options *o, const cli_option *table, int n)
     printf("%s - %s\n\nusage: %s [options]\n\n", o->program, o->about, o->program);
     for (int i = 0; i < n; i++) {
         char left[64], initial[128];
-        snprintf(left, sizeof left, "%s %s", table[i].name, table[i].argument ? table[i].argument : "");
+        snprintf(left, sizeof left, "%s %s", table[i].name,
+                 table[i].argument ? table[i].argument : "");
         cli_default_text(&table[i], initial, sizeof initial);
         printf("  %-18s %s%s\n", left, table[i].help, initial);
     }
-    printf(
-        "\nWrites probes.csv, summary.json, frames.pvd with frames/, plots, pictures and report.html into the folder of --out.\n"
-        "A folder with an earlier run is refused unless --resume or --overwrite is given, and so is one that another run is writing to.\n"
-        "Ctrl-C (or SIGTERM, SIGHUP) ends the run after its step with checkpoint.mps there as well; --resume and the same options go on "
-        "from\n"
-        "it, also to a later --t-end. What the files hold beyond the checkpoint is computed again.\n"
-        "Progress is shown on stderr: a line that is kept up to date on a terminal, else every 10 s a line\n"
-        "  t=0.1234 step=567 dt=1.2e-04 wall=10.0 eta=34.5\n"
-        "with time [s], number and length [s] of the step, seconds by the clock since the start and expected until the end.\n"
-        "Exit: 0 done, 1 failed, 2 wrong value or folder, 3 diverged or beyond a model (outputs stay readable), 130 interrupted by "
-        "Ctrl-C.\n");
+    printf("\nWrites probes.csv, summary.json, frames.pvd with frames/, plots, pictures and "
+           "report.html into the folder of --out.\n"
+           "A folder with an earlier run is refused unless --resume or --overwrite is given, and "
+           "so is one that another run is writing to.\n"
+           "Ctrl-C (or SIGTERM, SIGHUP) ends the run after its step with checkpoint.mps there as "
+           "well; --resume and the same options go on "
+           "from\n"
+           "it, also to a later --t-end. What the files hold beyond the checkpoint is computed "
+           "again.\n"
+           "Progress is shown on stderr: a line that is kept up to date on a terminal, else every "
+           "10 s a line\n"
+           "  t=0.1234 step=567 dt=1.2e-04 wall=10.0 eta=34.5\n"
+           "with time [s], number and length [s] of the step, seconds by the clock since the start "
+           "and expected until the end.\n"
+           "Exit: 0 done, 1 failed, 2 wrong value or folder, 3 diverged or beyond a model (outputs "
+           "stay readable), 130 interrupted by "
+           "Ctrl-C.\n");
     exit(CLI_OK);
 }
 
@@ -140,7 +221,8 @@ static void cli_refuse_value(const cli_options *o, const cli_option *e, const ch
     else if (e->min > 0)
         snprintf(allowed, sizeof allowed, "a number, %g to %g", e->min, e->max);
     else
-        snprintf(allowed, sizeof allowed, "a number %s 0, at most %g", e->min < 0 ? "not less than" : "greater than", e->max);
+        snprintf(allowed, sizeof allowed, "a number %s 0, at most %g",
+                 e->min < 0 ? "not less than" : "greater than", e->max);
     fprintf(stderr, "%s: %s %s: must be %s\n", o->program, e->name, text, allowed);
     exit(CLI_USAGE);
 }
@@ -149,9 +231,12 @@ static void cli_set_number(cli_options *o, const cli_option *e, const char *text
 {
     char *end;
     double value = strtod(text, &end);
-    bool lower = e->type == TYPE_INT || e->min > 0 ? value >= e->min : e->min < 0 ? value >= 0 : value > 0;
+    bool lower = e->type == TYPE_INT || e->min > 0 ? value >= e->min
+                 : e->min < 0                      ? value >= 0
+                                                   : value > 0;
     bool whole = e->type != TYPE_INT || value == floor(value);
-    if (end == text || *end != '\0' || !isfinite(value) || !lower || value > e->max || !whole) cli_refuse_value(o, e, text);
+    if (end == text || *end != '\0' || !isfinite(value) || !lower || value > e->max || !whole)
+        cli_refuse_value(o, e, text);
     if (e->type == TYPE_INT)
         *(int32_t *)e->value = (int32_t)value;
     else
@@ -182,7 +267,8 @@ static void cli_set_times(cli_options *o, const cli_option *e, const char *text)
         double t = strtod(at, &end), before = o->pictures > 0 ? o->picture_t[o->pictures - 1] : 0;
         more = *end == ',';
         if (end == at || (*end && !more) || !isfinite(t) || t <= before || o->pictures == CLI_TIMES)
-            cli_refuse(o, "%s %s: must be increasing times greater than 0, at most 24 of them", e->name, text);
+            cli_refuse(o, "%s %s: must be increasing times greater than 0, at most 24 of them",
+                       e->name, text);
         o->picture_t[o->pictures++] = t;
         at = end;
     }
@@ -198,7 +284,8 @@ static void cli_add_text(const cli_options *o, const cli_option *e, const char *
 static cli_option *cli_find(cli_option *table, int n, const char *name, size_t length)
 {
     for (int i = 0; i < n; i++)
-        if (strlen(table[i].name) == length && strncmp(table[i].name, name, length) == 0) return &table[i];
+        if (strlen(table[i].name) == length && strncmp(table[i].name, name, length) == 0)
+            return &table[i];
     return NULL;
 }
 

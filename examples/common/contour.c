@@ -42,7 +42,8 @@ static polygon cell_polygon(const raster *g, int64_t i, int64_t j)
     }
     for (int k = 0; k < CORNERS; k++) {
         if (f[k] >= 0) polygon_add(&p, x[k], x[k + 1], 0, false);
-        if ((f[k] >= 0) != (f[k + 1] >= 0)) polygon_add(&p, x[k], x[k + 1], f[k] / (f[k] - f[k + 1]), true);
+        if ((f[k] >= 0) != (f[k + 1] >= 0))
+            polygon_add(&p, x[k], x[k + 1], f[k] / (f[k] - f[k + 1]), true);
     }
     return p;
 }

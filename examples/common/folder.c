@@ -15,11 +15,12 @@ enum { FOLDER_PATH = 512, FOLDER_ROOM = 65536 /* bytes that must fit on the disk
 static const char LOCK[] = "run.lock";
 
 /* What every driver writes, beside frames/ and plots of its own columns. The first ones tell that there is a run. */
-static const char *const FILES[] = {"checkpoint.mps",      "probes.csv",         "steps.csv",          "frames.pvd",
-                                    "summary.json",        "checkpoint.mps.tmp", "momentum.csv",       "trace.csv",
-                                    "report.html",         "frames.pvd.tmp",     "picture_end.png",    "plot_pressure.svg",
-                                    "plot_dt.svg",         "plot_ppe.svg",       "plot_elevation.svg", "plot_momentum_x.svg",
-                                    "plot_momentum_y.svg", "plot_speed.svg",     "plot_energy.svg",    "plot_momentum_z.svg"};
+static const char *const FILES[] = {
+    "checkpoint.mps",      "probes.csv",         "steps.csv",          "frames.pvd",
+    "summary.json",        "checkpoint.mps.tmp", "momentum.csv",       "trace.csv",
+    "report.html",         "frames.pvd.tmp",     "picture_end.png",    "plot_pressure.svg",
+    "plot_dt.svg",         "plot_ppe.svg",       "plot_elevation.svg", "plot_momentum_x.svg",
+    "plot_momentum_y.svg", "plot_speed.svg",     "plot_energy.svg",    "plot_momentum_z.svg"};
 enum { FOLDER_FILES = sizeof FILES / sizeof *FILES, FOLDER_SIGNS = 5 };
 
 static char lock_path[FOLDER_PATH + sizeof LOCK]; /* of the lock that this program holds */
@@ -42,7 +43,8 @@ const char *folder_advice(int error)
 
 static void folder_refuse(const cli_options *o, int error)
 {
-    fprintf(stderr, "%s: --out %s: %s; %s\n", o->program, o->out, strerror(error), folder_advice(error));
+    fprintf(stderr, "%s: --out %s: %s; %s\n", o->program, o->out, strerror(error),
+            folder_advice(error));
     exit(CLI_USAGE);
 }
 
@@ -79,7 +81,8 @@ static void folder_unlock(void)
 static bool folder_is_current(int fd)
 {
     struct stat mine, there;
-    return fstat(fd, &mine) == 0 && stat(lock_path, &there) == 0 && mine.st_ino == there.st_ino && mine.st_dev == there.st_dev;
+    return fstat(fd, &mine) == 0 && stat(lock_path, &there) == 0 && mine.st_ino == there.st_ino &&
+           mine.st_dev == there.st_dev;
 }
 
 static void folder_refuse_locked(const cli_options *o, int fd)
@@ -87,10 +90,12 @@ static void folder_refuse_locked(const cli_options *o, int fd)
     struct flock held = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
     if (fcntl(fd, F_GETLK, &held) == 0 && held.l_type != F_UNLCK)
         fprintf(stderr,
-                "%s: --out %s: another run is writing there, process %ld; wait until it ends, or choose another folder with --out\n",
+                "%s: --out %s: another run is writing there, process %ld; wait until it ends, or "
+                "choose another folder with --out\n",
                 o->program, o->out, (long)held.l_pid);
     else
-        fprintf(stderr, "%s: --out %s: another run was writing there; try again\n", o->program, o->out);
+        fprintf(stderr, "%s: --out %s: another run was writing there; try again\n", o->program,
+                o->out);
     exit(CLI_USAGE);
 }
 
@@ -146,18 +151,23 @@ static void folder_check(const cli_options *o)
     char there[128] = "";
     for (int i = 0; i < FOLDER_SIGNS; i++) {
         if (!folder_has(o, FILES[i])) continue;
-        snprintf(there + strlen(there), sizeof there - strlen(there), "%s%s", there[0] ? ", " : "", FILES[i]);
+        snprintf(there + strlen(there), sizeof there - strlen(there), "%s%s", there[0] ? ", " : "",
+                 FILES[i]);
     }
     if (!there[0] || o->resume || o->overwrite) return;
-    fprintf(stderr, "%s: --out %s: there is an earlier run (%s); %s, --overwrite removes it, or choose another folder with --out\n",
+    fprintf(stderr,
+            "%s: --out %s: there is an earlier run (%s); %s, --overwrite removes it, or choose "
+            "another folder with --out\n",
             o->program, o->out, there,
-            folder_has(o, FILES[0]) ? "--resume goes on from its checkpoint" : "it has no checkpoint to go on from with --resume");
+            folder_has(o, FILES[0]) ? "--resume goes on from its checkpoint"
+                                    : "it has no checkpoint to go on from with --resume");
     exit(CLI_USAGE);
 }
 
 void folder_open(const cli_options *o)
 {
-    if (o->resume && o->overwrite) cli_refuse(o, "--resume and --overwrite exclude each other%s%s", "", "");
+    if (o->resume && o->overwrite)
+        cli_refuse(o, "--resume and --overwrite exclude each other%s%s", "", "");
     if (!folder_make(o->out)) folder_refuse(o, errno);
     folder_lock(o);
     folder_check(o);
@@ -170,13 +180,15 @@ static void folder_remove(run *r, const char *name)
     char path[FOLDER_PATH + 300];
     snprintf(path, sizeof path, "%s/%s", r->options.out, name);
     if (unlink(path) == 0 || errno == ENOENT) return;
-    fprintf(stderr, "%s: --overwrite: cannot remove %s: %s; %s\n", r->options.program, path, strerror(errno), folder_advice(errno));
+    fprintf(stderr, "%s: --overwrite: cannot remove %s: %s; %s\n", r->options.program, path,
+            strerror(errno), folder_advice(errno));
     mps_sim_destroy(r->sim);
     exit(CLI_USAGE);
 }
 
 /* `name` is `before`, at least so many digits, `after`. */
-static bool folder_is_numbered(const char *name, const char *before, size_t digits, const char *after)
+static bool folder_is_numbered(const char *name, const char *before, size_t digits,
+                               const char *after)
 {
     const size_t length = strlen(before);
     if (strncmp(name, before, length) != 0) return false;
@@ -185,7 +197,8 @@ static bool folder_is_numbered(const char *name, const char *before, size_t digi
 }
 
 /* Numbered files of the folder or of one in it; `inside` is "" or ends in '/'. */
-static void folder_remove_numbered(run *r, const char *inside, const char *before, size_t digits, const char *after)
+static void folder_remove_numbered(run *r, const char *inside, const char *before, size_t digits,
+                                   const char *after)
 {
     char path[FOLDER_PATH + 64], name[288];
     snprintf(path, sizeof path, "%s/%s", r->options.out, inside);

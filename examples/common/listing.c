@@ -21,7 +21,8 @@ static void print_settings(const mps_sim *sim, const char *model)
     mps_setting_info k;
     mps_setting_info_init(&k, sizeof k);
     for (int32_t i = 0; mps_setting_info_get(sim, model, i, &k) == MPS_OK; i++) {
-        if (i == 0) printf("| setting | default | range | unit | meaning |\n|---|---|---|---|---|\n");
+        if (i == 0)
+            printf("| setting | default | range | unit | meaning |\n|---|---|---|---|---|\n");
         printf("| `%s` | ", k.key);
         print_number(k.initial);
         if (k.type == MPS_TYPE_FLAG)
@@ -41,8 +42,10 @@ static void print_models(const mps_sim *sim)
 {
     mps_model_info m;
     mps_model_info_init(&m, sizeof m);
-    printf("## Models\n\nA name is `slot.variant`; a slot holds one model.\n\n| to | in a program | in a driver |\n|---|---|---|\n"
-           "| switch a model on | `mps_model_use()` | `--use NAME` |\n| switch a slot off | `mps_model_remove()` | `--remove SLOT` |\n"
+    printf("## Models\n\nA name is `slot.variant`; a slot holds one model.\n\n| to | in a program "
+           "| in a driver |\n|---|---|---|\n"
+           "| switch a model on | `mps_model_use()` | `--use NAME` |\n| switch a slot off | "
+           "`mps_model_remove()` | `--remove SLOT` |\n"
            "| change a setting | `mps_model_set()` | `--set SLOT.KEY=VALUE` |\n\n");
     for (int32_t i = 0; mps_model_info_get(sim, i, &m) == MPS_OK; i++) {
         printf("### %s\n\n%s.\n\n", m.name, m.help);
@@ -54,11 +57,15 @@ static void print_channels(const mps_sim *sim)
 {
     mps_channel_info c;
     mps_channel_info_init(&c, sizeof c);
-    printf("## Channels of the library\n\nArrays with values per particle that verbs of models may use.\n\n"
+    printf("## Channels of the library\n\nArrays with values per particle that verbs of models may "
+           "use.\n\n"
            "| channel | numbers in 2-D | type | unit | meaning |\n|---|---|---|---|---|\n");
     for (int32_t i = 0; mps_channel_info_get(sim, i, &c) == MPS_OK; i++)
-        if (c.own) printf("| `%s` | %d | %s | %s | %s |\n", c.name, (int)c.components, type_name[c.type], c.unit, c.help);
-    printf("\n## Channels of models\n\n| channel | numbers in 2-D | type | unit | meaning |\n|---|---|---|---|---|\n");
+        if (c.own)
+            printf("| `%s` | %d | %s | %s | %s |\n", c.name, (int)c.components, type_name[c.type],
+                   c.unit, c.help);
+    printf("\n## Channels of models\n\n| channel | numbers in 2-D | type | unit | meaning "
+           "|\n|---|---|---|---|---|\n");
 }
 
 /* Channels that the models of a preset bring, unless an earlier one did. */
@@ -67,7 +74,9 @@ static void print_brought(const mps_sim *sim)
     mps_channel_info c;
     mps_channel_info_init(&c, sizeof c);
     for (int32_t i = 0; mps_channel_info_get(sim, i, &c) == MPS_OK; i++)
-        if (!c.own) printf("| `%s` | %d | %s | %s | %s |\n", c.name, (int)c.components, type_name[c.type], c.unit, c.help);
+        if (!c.own)
+            printf("| `%s` | %d | %s | %s | %s |\n", c.name, (int)c.components, type_name[c.type],
+                   c.unit, c.help);
 }
 
 static void print_order(mps_sim *sim, const char *preset)
@@ -75,10 +84,12 @@ static void print_order(mps_sim *sim, const char *preset)
     mps_verb_info v;
     mps_verb_info_init(&v, sizeof v);
     if (mps_preset_use(sim, preset) != MPS_OK) return;
-    printf("## Order of a step: %s\n\nChannels: `r` reads its own row, `n` neighbours too, `w` writes, `?` may be missing.\n\n"
+    printf("## Order of a step: %s\n\nChannels: `r` reads its own row, `n` neighbours too, `w` "
+           "writes, `?` may be missing.\n\n"
            "| moment | model | channels |\n|---|---|---|\n",
            preset);
-    for (int32_t i = 0; mps_verb_info_get(sim, i, &v) == MPS_OK; i++) printf("| %s | `%s` | %s |\n", v.moment_name, v.model, v.uses);
+    for (int32_t i = 0; mps_verb_info_get(sim, i, &v) == MPS_OK; i++)
+        printf("| %s | `%s` | %s |\n", v.moment_name, v.model, v.uses);
     printf("\n");
 }
 
@@ -104,7 +115,8 @@ static void print_preset_settings(mps_sim *sim)
     mps_model_info m;
     mps_name_info_init(&n, sizeof n);
     mps_model_info_init(&m, sizeof m);
-    printf("Settings that a preset changes:\n\n| preset | setting | default | in the preset |\n|---|---|---|---|\n");
+    printf("Settings that a preset changes:\n\n| preset | setting | default | in the preset "
+           "|\n|---|---|---|---|\n");
     for (int32_t k = 0; mps_preset_info_get(sim, k, &n) == MPS_OK; k++) {
         if (mps_preset_use(sim, n.name) != MPS_OK) continue;
         for (int32_t i = 0; mps_model_info_get(sim, i, &m) == MPS_OK; i++)
@@ -121,7 +133,8 @@ static void print_names(const mps_sim *sim, const char *title, name_fn get)
     mps_name_info n;
     mps_name_info_init(&n, sizeof n);
     printf("## %s\n\n| name | meaning |\n|---|---|\n", title);
-    for (int32_t i = 0; get(sim, i, &n) == MPS_OK; i++) printf("| `%s` | %s%s |\n", n.name, n.help, n.active ? " (default)" : "");
+    for (int32_t i = 0; get(sim, i, &n) == MPS_OK; i++)
+        printf("| `%s` | %s%s |\n", n.name, n.help, n.active ? " (default)" : "");
     printf("\n");
 }
 
@@ -133,8 +146,10 @@ int listing_print(void)
     config.dp = 1;
     if (mps_sim_create(&config, &sim) != MPS_OK) return 1;
     printf("# Models, channels and solvers\n\nPrinted by any driver with `--list-models`.\n\n"
-           "W22: Wen, Zhao & Wan 2022; Z14: Zhang, Wan & Hino 2014. dp: particle spacing. n: number density, n0: that of\n"
-           "the full lattice. U_g = sqrt(g dp), tau_g = sqrt(dp/g). M: moment matrix. A flag is 0 (off) or 1 (on).\n\n");
+           "W22: Wen, Zhao & Wan 2022; Z14: Zhang, Wan & Hino 2014. dp: particle spacing. n: "
+           "number density, n0: that of\n"
+           "the full lattice. U_g = sqrt(g dp), tau_g = sqrt(dp/g). M: moment matrix. A flag is 0 "
+           "(off) or 1 (on).\n\n");
     print_names(sim, "Presets", mps_preset_info_get);
     print_preset_settings(sim);
     print_models(sim);

@@ -19,7 +19,9 @@ enum {
     STEP_SOLVES,
     STEP_COLUMNS
 };
-#define STEP_HEADER "t[s],dt[s],cfl,ppe_iterations,ppe_residual,ppe_divergence,max_speed[m/s],lost,crossing_time[s],ppe_solves"
+#define STEP_HEADER                                                          \
+    "t[s],dt[s],cfl,ppe_iterations,ppe_residual,ppe_divergence,max_speed[m/" \
+    "s],lost,crossing_time[s],ppe_solves"
 
 /* Places of the common columns in probes.csv, behind the driver's own. */
 enum {

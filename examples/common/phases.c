@@ -82,7 +82,8 @@ static bool cells_build(cells *c, const mps_lease *x, const int32_t *kind)
 }
 
 /* Fluid of the same and of other phases within the side of a cell. */
-static void company(const cells *c, const mps_lease *x, const int32_t *phase, int64_t i, int64_t *same, int64_t *other)
+static void company(const cells *c, const mps_lease *x, const int32_t *phase, int64_t i,
+                    int64_t *same, int64_t *other)
 {
     const double *a = x->data + i * x->stride;
     *same = *other = 0;

@@ -9,7 +9,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PICTURE_WIDTH = 1100, PICTURE_TALLEST = 1400, HEAD = 34, BAR = 110, FONT_SCALE = 2, MAPS = 3 };
+enum {
+    PICTURE_WIDTH = 1100,
+    PICTURE_TALLEST = 1400,
+    HEAD = 34,
+    BAR = 110,
+    FONT_SCALE = 2,
+    MAPS = 3
+};
 
 typedef struct colour {
     double r, g, b;
@@ -33,9 +40,21 @@ typedef struct scene {
 /* Five colours of equal steps a phase: dark to light, so that the maps read in grey too. Phase 1, mostly the gas about the liquid, is the
  * other way round: pale where the liquid beside it is dark. */
 static const colour MAP[MAPS][5] = {
-    {{0.07, 0.13, 0.42}, {0.10, 0.40, 0.68}, {0.22, 0.69, 0.66}, {0.68, 0.86, 0.38}, {0.99, 0.93, 0.25}},
-    {{0.90, 0.87, 0.82}, {0.92, 0.80, 0.64}, {0.90, 0.66, 0.44}, {0.82, 0.46, 0.27}, {0.62, 0.25, 0.14}},
-    {{0.25, 0.05, 0.40}, {0.50, 0.15, 0.58}, {0.74, 0.33, 0.66}, {0.90, 0.56, 0.76}, {0.99, 0.82, 0.90}},
+    {{0.07, 0.13, 0.42},
+     {0.10, 0.40, 0.68},
+     {0.22, 0.69, 0.66},
+     {0.68, 0.86, 0.38},
+     {0.99, 0.93, 0.25}},
+    {{0.90, 0.87, 0.82},
+     {0.92, 0.80, 0.64},
+     {0.90, 0.66, 0.44},
+     {0.82, 0.46, 0.27},
+     {0.62, 0.25, 0.14}},
+    {{0.25, 0.05, 0.40},
+     {0.50, 0.15, 0.58},
+     {0.74, 0.33, 0.66},
+     {0.90, 0.56, 0.76},
+     {0.99, 0.82, 0.90}},
 };
 
 static colour map_colour(int32_t phase, double f)
@@ -44,7 +63,8 @@ static colour map_colour(int32_t phase, double f)
     f = f > 0 ? fmin(f, 1) * 4 : 0;
     int k = f < 4 ? (int)f : 3;
     double w = f - k;
-    return (colour){map[k].r + w * (map[k + 1].r - map[k].r), map[k].g + w * (map[k + 1].g - map[k].g),
+    return (colour){map[k].r + w * (map[k + 1].r - map[k].r),
+                    map[k].g + w * (map[k + 1].g - map[k].g),
                     map[k].b + w * (map[k + 1].b - map[k].b)};
 }
 
@@ -68,7 +88,8 @@ static void image_disc(image *m, double x, double y, double radius, colour c)
 {
     int reach = (int)ceil(radius + 1), cx = (int)floor(x), cy = (int)floor(y);
     for (int j = cy - reach; j <= cy + reach; j++)
-        for (int i = cx - reach; i <= cx + reach; i++) image_dot(m, i, j, c, radius + 0.5 - hypot(i + 0.5 - x, j + 0.5 - y));
+        for (int i = cx - reach; i <= cx + reach; i++)
+            image_dot(m, i, j, c, radius + 0.5 - hypot(i + 0.5 - x, j + 0.5 - y));
 }
 
 static void image_box(image *m, int x, int y, int width, int height, colour c)
@@ -84,7 +105,8 @@ static void image_text(image *m, int x, int y, const char *text)
         for (int j = 0; rows && j < FONT_HEIGHT; j++)
             for (int i = 0; i < FONT_WIDTH; i++)
                 if (rows[j] >> (FONT_WIDTH - 1 - i) & 1)
-                    image_box(m, x + i * FONT_SCALE, y + j * FONT_SCALE, FONT_SCALE, FONT_SCALE, (colour){0.1, 0.1, 0.1});
+                    image_box(m, x + i * FONT_SCALE, y + j * FONT_SCALE, FONT_SCALE, FONT_SCALE,
+                              (colour){0.1, 0.1, 0.1});
     }
 }
 
@@ -155,8 +177,10 @@ static void draw_particle(image *m, const scene *s, int64_t i)
 {
     colour c = {0.55, 0.55, 0.58};
     if (s->kind[i] == MPS_DUMMY) c = (colour){0.84, 0.84, 0.86};
-    if (s->kind[i] == MPS_FLUID) c = map_colour(s->phase[i], (s->p[i] - s->p_min) / (s->p_max - s->p_min));
-    double x = (s->x[i * s->dim] - s->lo[0]) * s->scale, y = (s->hi[1] - s->x[i * s->dim + 1]) * s->scale + HEAD;
+    if (s->kind[i] == MPS_FLUID)
+        c = map_colour(s->phase[i], (s->p[i] - s->p_min) / (s->p_max - s->p_min));
+    double x = (s->x[i * s->dim] - s->lo[0]) * s->scale,
+           y = (s->hi[1] - s->x[i * s->dim + 1]) * s->scale + HEAD;
     image_disc(m, x, y, 0.5 * s->dp * s->scale, c);
 }
 
@@ -184,7 +208,8 @@ static bool draw_particles(image *m, const scene *s)
     int64_t n = 0;
     if (!order) return false;
     for (int64_t i = 0; i < s->n; i++)
-        if (in_slice(s, i) && !(s->kind[i] == MPS_DUMMY && s->plate[i])) order[n++] = (depth){s->dim == 3 ? s->x[i * 3 + 2] : 0, i};
+        if (in_slice(s, i) && !(s->kind[i] == MPS_DUMMY && s->plate[i]))
+            order[n++] = (depth){s->dim == 3 ? s->x[i * 3 + 2] : 0, i};
     qsort(order, (size_t)n, sizeof *order, compare_depths);
     for (int64_t k = 0; k < n; k++) draw_particle(m, s, order[k].i);
     free(order);
@@ -194,10 +219,12 @@ static bool draw_particles(image *m, const scene *s)
 /* Of each phase one, with its number below if there are several. */
 static void draw_bars(image *m, const scene *s, int x, int top, int height)
 {
-    int count = s->phases > 1 ? s->phases < MAPS ? s->phases : MAPS : 1, width = count > 1 ? FONT_SCALE * FONT_WIDTH + 2 : 20;
+    int count = s->phases > 1 ? s->phases < MAPS ? s->phases : MAPS : 1,
+        width = count > 1 ? FONT_SCALE * FONT_WIDTH + 2 : 20;
     char text[16];
     for (int b = 0; b < count; b++) {
-        for (int j = 0; j < height; j++) image_box(m, x + b * width, top + j, width, 1, map_colour(b, 1 - (double)j / height));
+        for (int j = 0; j < height; j++)
+            image_box(m, x + b * width, top + j, width, 1, map_colour(b, 1 - (double)j / height));
         snprintf(text, sizeof text, "%d", b);
         if (count > 1) image_text(m, x + b * width + 1, top + height + 6, text);
     }
@@ -205,7 +232,8 @@ static void draw_bars(image *m, const scene *s, int x, int top, int height)
 
 static void draw_scale(image *m, const scene *s)
 {
-    int x = m->width - BAR + 12, top = HEAD + 12, height = m->height - HEAD - (s->phases > 1 ? 40 : 24);
+    int x = m->width - BAR + 12, top = HEAD + 12,
+        height = m->height - HEAD - (s->phases > 1 ? 40 : 24);
     int right = x + (s->phases > MAPS - 1 ? 42 : s->phases > 1 ? 30 : 26);
     char text[64];
     draw_bars(m, s, x, top, height);
@@ -214,15 +242,17 @@ static void draw_scale(image *m, const scene *s)
         snprintf(text, sizeof text, fmax(s->p_max, -s->p_min) < 10 ? "%.2f" : "%.0f", p);
         image_text(m, right, top + height * k / 4 - FONT_HEIGHT, text);
     }
-    snprintf(text, sizeof text, "t = %.3f s   pressure [Pa]%s%s", s->t, s->phases > 1 ? " by phase" : "",
-             s->dim == 3 ? "   middle slice" : "");
+    snprintf(text, sizeof text, "t = %.3f s   pressure [Pa]%s%s", s->t,
+             s->phases > 1 ? " by phase" : "", s->dim == 3 ? "   middle slice" : "");
     image_text(m, 12, 10, text);
 }
 
 static bool image_save(const image *m, const char *path)
 {
-    png_image png = {
-        .version = PNG_IMAGE_VERSION, .width = (png_uint_32)m->width, .height = (png_uint_32)m->height, .format = PNG_FORMAT_RGB};
+    png_image png = {.version = PNG_IMAGE_VERSION,
+                     .width = (png_uint_32)m->width,
+                     .height = (png_uint_32)m->height,
+                     .format = PNG_FORMAT_RGB};
     bool done = png_image_write_to_file(&png, path, 0, m->pixel, 0, NULL) != 0;
     if (!done) fprintf(stderr, "%s: %s\n", path, png.message);
     return done;

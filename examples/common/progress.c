@@ -18,7 +18,8 @@ void progress_begin(progress *p, double t_end, int64_t particles, bool quiet)
 {
     const char *no_colour = getenv("NO_COLOR"), *term = getenv("TERM");
     bool dumb = !term || strcmp(term, "dumb") == 0;
-    *p = (progress){.quiet = quiet, .terminal = isatty(2) && !dumb, .t_end = t_end, .particles = particles};
+    *p = (progress){
+        .quiet = quiet, .terminal = isatty(2) && !dumb, .t_end = t_end, .particles = particles};
     p->colour = p->terminal && !(no_colour && no_colour[0]);
     p->start = p->shown = progress_clock();
 }
@@ -45,7 +46,8 @@ bool progress_step(progress *p, const mps_step_info *info)
     double now = progress_clock(), interval = p->terminal ? 0.1 : 10;
     if (now - p->shown < interval) return false;
     double rate = (double)(info->step - p->steps_shown) * (double)p->particles / (now - p->shown);
-    p->rate = p->rate > 0 ? 0.8 * p->rate + 0.2 * rate : rate; /* a tenth of a second is only a few steps */
+    p->rate = p->rate > 0 ? 0.8 * p->rate + 0.2 * rate
+                          : rate; /* a tenth of a second is only a few steps */
     double done = info->t - p->t_begin;
     double eta = done > 0 ? (now - p->start) * (p->t_end - info->t) / done : 0;
     double percent = 100 * info->t / p->t_end;
@@ -56,11 +58,14 @@ bool progress_step(progress *p, const mps_step_info *info)
         char left[32];
         progress_time(left, sizeof left, eta);
         const char *on = p->colour ? "\033[1m" : "", *off = p->colour ? "\033[0m" : "";
-        fprintf(stderr, "\r%s%5.1f %%%s  t %.3f s  dt %.1e  CFL %.2f  PPE %3d  %.0f kp/s  left %s\033[K", on, percent, off, info->t,
-                info->dt, info->cfl, (int)info->ppe_iterations, p->rate / 1000, left);
+        fprintf(stderr,
+                "\r%s%5.1f %%%s  t %.3f s  dt %.1e  CFL %.2f  PPE %3d  %.0f kp/s  left %s\033[K",
+                on, percent, off, info->t, info->dt, info->cfl, (int)info->ppe_iterations,
+                p->rate / 1000, left);
         p->line = true;
     } else {
-        fprintf(stderr, "t=%.6g step=%lld dt=%.3e wall=%.1f eta=%.1f\n", info->t, (long long)info->step, info->dt, now - p->start, eta);
+        fprintf(stderr, "t=%.6g step=%lld dt=%.3e wall=%.1f eta=%.1f\n", info->t,
+                (long long)info->step, info->dt, now - p->start, eta);
     }
     fflush(stderr);
     return true;

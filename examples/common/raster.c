@@ -53,18 +53,22 @@ static axis axis_of(double x, int64_t size, double width)
     int64_t last = (int64_t)floor(x + 2 * width);
     if (a.first < 0) a.first = 0;
     if (last >= size) last = size - 1;
-    for (int64_t k = a.first; k <= last && a.count < REACH; k++) a.weight[a.count++] = spline(((double)k - x) / width) / width;
+    for (int64_t k = a.first; k <= last && a.count < REACH; k++)
+        a.weight[a.count++] = spline(((double)k - x) / width) / width;
     return a;
 }
 
 static void spread(const raster *g, const double *x, const double *tank, double *share)
 {
     axis a[3] = {{0}, {0}, {.count = 1, .weight = {1}}};
-    for (int d = 0; d < g->dim; d++) a[d] = axis_of((x[d] - tank[d] - g->lo[d]) / g->dp, g->size[d], g->width);
+    for (int d = 0; d < g->dim; d++)
+        a[d] = axis_of((x[d] - tank[d] - g->lo[d]) / g->dp, g->size[d], g->width);
     for (int k = 0; k < a[2].count; k++)
         for (int j = 0; j < a[1].count; j++) {
-            double *row = share + ((a[2].first + k) * g->size[1] + a[1].first + j) * g->size[0] + a[0].first;
-            for (int i = 0; i < a[0].count; i++) row[i] += a[0].weight[i] * a[1].weight[j] * a[2].weight[k];
+            double *row = share + ((a[2].first + k) * g->size[1] + a[1].first + j) * g->size[0] +
+                          a[0].first;
+            for (int i = 0; i < a[0].count; i++)
+                row[i] += a[0].weight[i] * a[1].weight[j] * a[2].weight[k];
         }
 }
 
@@ -76,9 +80,12 @@ bool raster_fill(raster *g, mps_sim *sim)
     mps_sim_time(sim, NULL, &step);
     if (step == g->step) return true;
     if (mps_motion_state_get(sim, &tank) != MPS_OK || !view_open(sim, &v)) return false;
-    for (int k = 0; k < RASTER_LAYERS; k++) memset(g->share[k], 0, (size_t)g->count * sizeof **g->share);
+    for (int k = 0; k < RASTER_LAYERS; k++)
+        memset(g->share[k], 0, (size_t)g->count * sizeof **g->share);
     for (int64_t i = 0; i < v.x.count; i++) {
-        const int layer = v.kind.integers[i] != MPS_FLUID ? RASTER_SOLID : v.phase.integers[i] == 0 ? RASTER_LIQUID : RASTER_OTHER;
+        const int layer = v.kind.integers[i] != MPS_FLUID ? RASTER_SOLID
+                          : v.phase.integers[i] == 0      ? RASTER_LIQUID
+                                                          : RASTER_OTHER;
         spread(g, v.x.data + i * v.x.stride, tank.value + MPS_SURGE, g->share[layer]);
     }
     g->step = step;

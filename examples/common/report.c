@@ -26,7 +26,12 @@ static plot *plots_add(plots *all, const char *file, const char *title, const ch
 
 static plot_series column_of(const table *t, const char *label, int column, double shift)
 {
-    return (plot_series){.label = label, .x = t->kept, .y = t->kept + column, .count = t->count, .stride = t->columns, .shift = shift};
+    return (plot_series){.label = label,
+                         .x = t->kept,
+                         .y = t->kept + column,
+                         .count = t->count,
+                         .stride = t->columns,
+                         .shift = shift};
 }
 
 /* Leave out the first half per cent of a run: the impulse of walls that start at speed would flatten all the rest. */
@@ -44,7 +49,10 @@ static void plots_unit(plots *all, const run *r, const char *unit)
 {
     bool pressure = strcmp(unit, "Pa") == 0, length = strcmp(unit, "m") == 0;
     char file[48];
-    snprintf(file, sizeof file, "plot_%s.svg", pressure ? "pressure" : length ? "elevation" : r->column[0].name);
+    snprintf(file, sizeof file, "plot_%s.svg",
+             pressure ? "pressure"
+             : length ? "elevation"
+                      : r->column[0].name);
     plot *p = plots_add(all, file,
                         pressure ? "Pressure"
                         : length ? "Elevation"
@@ -61,7 +69,12 @@ static void plots_unit(plots *all, const run *r, const char *unit)
     for (int i = 0; i < r->marks; i++) {
         const run_mark *m = &r->mark[i];
         if (strcmp(m->unit, unit) != 0) continue;
-        plot_add(p, (plot_series){.label = m->label, .x = m->t, .y = m->value, .count = m->count, .stride = 1, .marks = true});
+        plot_add(p, (plot_series){.label = m->label,
+                                  .x = m->t,
+                                  .y = m->value,
+                                  .count = m->count,
+                                  .stride = 1,
+                                  .marks = true});
     }
 }
 
@@ -85,7 +98,8 @@ static void plots_energy(plots *all, const run *r)
     const table *t = &r->probes;
     int base = r->own_columns;
     double pe = t->count > 0 ? t->kept[base + COLUMN_PE] : 0;
-    plot *p = plots_add(all, "plot_energy.svg", "Energy budget", r->options.dim == 3 ? "E [J]" : "E [J/m]");
+    plot *p = plots_add(all, "plot_energy.svg", "Energy budget",
+                        r->options.dim == 3 ? "E [J]" : "E [J/m]");
     plot_add(p, column_of(t, "kinetic", base + COLUMN_KE, 0));
     plot_add(p, column_of(t, "potential - start", base + COLUMN_PE, -pe));
     plot_add(p, column_of(t, "work of walls", base + COLUMN_WALL_WORK, 0));
@@ -93,13 +107,15 @@ static void plots_energy(plots *all, const run *r)
     plot_add(p, column_of(t, "lost: collision", base + COLUMN_COLLISION, 0));
     plot_add(p, column_of(t, "lost: shift", base + COLUMN_SHIFT, 0));
     plot_add(p, column_of(t, "lost: numerical", base + COLUMN_NUMERICAL, 0));
-    if (last_of(t, base + COLUMN_ADDED) != 0) plot_add(p, column_of(t, "added", base + COLUMN_ADDED, 0));
+    if (last_of(t, base + COLUMN_ADDED) != 0)
+        plot_add(p, column_of(t, "added", base + COLUMN_ADDED, 0));
 }
 
 /* What acts along one axis; weight and floor, which balance each other, would hide the rest. */
 static void plots_momentum(plots *all, const run *r, int axis)
 {
-    static const char *const file[] = {"plot_momentum_x.svg", "plot_momentum_y.svg", "plot_momentum_z.svg"};
+    static const char *const file[] = {"plot_momentum_x.svg", "plot_momentum_y.svg",
+                                       "plot_momentum_z.svg"};
     static const char *const title[] = {"Momentum along x", "Momentum along y", "Momentum along z"};
     const table *t = &r->momentum;
     const int base = 1 + axis * MOMENTUM_COLUMNS;
@@ -110,7 +126,8 @@ static void plots_momentum(plots *all, const run *r, int axis)
     plot_add(p, column_of(t, "from force models", base + MOMENTUM_FORCE, 0));
     plot_add(p, column_of(t, "from collisions", base + MOMENTUM_COLLISION, 0));
     plot_add(p, column_of(t, "from shifts", base + MOMENTUM_SHIFT, 0));
-    if (last_of(t, base + MOMENTUM_ADDED) != 0) plot_add(p, column_of(t, "added", base + MOMENTUM_ADDED, 0));
+    if (last_of(t, base + MOMENTUM_ADDED) != 0)
+        plot_add(p, column_of(t, "added", base + MOMENTUM_ADDED, 0));
     plot_add(p, column_of(t, "numerical", base + MOMENTUM_NUMERICAL, 0));
 }
 
@@ -120,9 +137,12 @@ static void plots_make(plots *all, const run *r)
     plots_columns(all, r);
     plots_energy(all, r);
     for (int d = 0; d < (r->options.dim == 3 ? 3 : 2); d++) plots_momentum(all, r, d);
-    plot_add(plots_add(all, "plot_dt.svg", "Time step", "dt [s]"), column_of(&r->steps, "dt", STEP_DT, 0));
-    plot_add(plots_add(all, "plot_ppe.svg", "Pressure solver", "iterations"), column_of(&r->steps, "iterations", STEP_ITERATIONS, 0));
-    plot_add(plots_add(all, "plot_speed.svg", "Largest speed", "|u| [m/s]"), column_of(&r->steps, "largest speed", STEP_SPEED, 0));
+    plot_add(plots_add(all, "plot_dt.svg", "Time step", "dt [s]"),
+             column_of(&r->steps, "dt", STEP_DT, 0));
+    plot_add(plots_add(all, "plot_ppe.svg", "Pressure solver", "iterations"),
+             column_of(&r->steps, "iterations", STEP_ITERATIONS, 0));
+    plot_add(plots_add(all, "plot_speed.svg", "Largest speed", "|u| [m/s]"),
+             column_of(&r->steps, "largest speed", STEP_SPEED, 0));
 }
 
 /* ---- the page --------------------------------------------------------------------------------------------------- */
@@ -164,7 +184,8 @@ static void html_settings(FILE *out, const run *r)
 static void html_results(FILE *out, const run *r)
 {
     const run_totals *s = &r->totals;
-    double steps = s->steps > 0 ? (double)s->steps : 1, here = s->steps_here > 0 ? (double)s->steps_here : 1;
+    double steps = s->steps > 0 ? (double)s->steps : 1,
+           here = s->steps_here > 0 ? (double)s->steps_here : 1;
     fputs("<h2>Run</h2>\n<table>\n", out);
     html_row(out, "status", s->status);
     if (s->error[0]) html_row(out, "message", s->error);
@@ -186,10 +207,13 @@ static void html_results(FILE *out, const run *r)
 
 static void base64_write(FILE *out, const unsigned char *data, size_t size)
 {
-    static const char *const digit = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    static const char
+        *const digit = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     for (size_t i = 0; i < size; i += 3) {
         size_t left = size - i;
-        unsigned long v = (unsigned long)data[i] << 16 | (left > 1 ? (unsigned long)data[i + 1] << 8 : 0) | (left > 2 ? data[i + 2] : 0);
+        unsigned long v = (unsigned long)data[i] << 16 |
+                          (left > 1 ? (unsigned long)data[i + 1] << 8 : 0) |
+                          (left > 2 ? data[i + 2] : 0);
         fputc(digit[v >> 18 & 63], out);
         fputc(digit[v >> 12 & 63], out);
         fputc(left > 1 ? digit[v >> 6 & 63] : '=', out);
@@ -226,10 +250,14 @@ static void html_picture(FILE *out, const run *r, const char *name)
 
 static void report_write(FILE *out, const run *r, const plots *all)
 {
-    fprintf(out, "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>%s</title>\n", r->options.program);
-    fputs("<style>body{font:15px sans-serif;color:#222;max-width:1120px;margin:2em auto;padding:0 1em}table{border-collapse:collapse}"
+    fprintf(out,
+            "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>%s</title>\n",
+            r->options.program);
+    fputs("<style>body{font:15px sans-serif;color:#222;max-width:1120px;margin:2em auto;padding:0 "
+          "1em}table{border-collapse:collapse}"
           "td{border-bottom:1px solid #ddd;padding:3px 18px 3px "
-          "0}img,svg{max-width:100%;height:auto}.two{display:flex;flex-wrap:wrap;gap:4em}</style></head><body>\n",
+          "0}img,svg{max-width:100%;height:auto}.two{display:flex;flex-wrap:wrap;gap:4em}</style></"
+          "head><body>\n",
           out);
     fprintf(out, "<h1>%s</h1>\n<p>", r->options.program);
     svg_text(out, r->options.about);
@@ -266,6 +294,7 @@ bool report_save(const run *r)
     plots all;
     bool done = true;
     plots_make(&all, r);
-    for (int i = 0; i < all.count; i++) done = plot_save(r->options.out, all.file[i], &all.plot[i]) && done;
+    for (int i = 0; i < all.count; i++)
+        done = plot_save(r->options.out, all.file[i], &all.plot[i]) && done;
     return (!r->options.report || report_page(r, &all)) && done;
 }

@@ -32,7 +32,8 @@ void resume_save(run *r)
     table_sync(&r->momentum);
     table_sync(&r->steps);
     if (r->trace) table_sync(&r->trace->file);
-    if (r->probes.failed || r->momentum.failed || r->steps.failed || (r->trace && r->trace->file.failed))
+    if (r->probes.failed || r->momentum.failed || r->steps.failed ||
+        (r->trace && r->trace->file.failed))
         r->output_failed = true;
     else if (run_note(r, mps_checkpoint_write(r->sim, path), "checkpoint"))
         r->checkpoint_t = r->totals.t;
@@ -68,7 +69,8 @@ void resume_load(run *r)
         resume_refuse(r, usage ? CLI_USAGE : CLI_FAILED, mps_sim_error(r->sim));
     }
     mps_sim_time(r->sim, &t, NULL);
-    snprintf(why, sizeof why, "the checkpoint is at t = %g s, later than --t-end %g", t, r->options.t_end);
+    snprintf(why, sizeof why, "the checkpoint is at t = %g s, later than --t-end %g", t,
+             r->options.t_end);
     if (t > r->options.t_end) resume_refuse(r, CLI_USAGE, why);
     r->totals.t_before = r->checkpoint_t = t;
     r->checkpoint = resume_next(r, t);
@@ -83,7 +85,8 @@ void resume_add_step(void *user, const double *row)
     s->max_speed = fmax(s->max_speed, row[STEP_SPEED]);
     s->ppe_iterations += row[STEP_ITERATIONS];
     s->ppe_solves += row[STEP_SOLVES];
-    s->crossing_least = s->steps == 1 ? row[STEP_CROSSING] : fmin(s->crossing_least, row[STEP_CROSSING]);
+    s->crossing_least = s->steps == 1 ? row[STEP_CROSSING]
+                                      : fmin(s->crossing_least, row[STEP_CROSSING]);
     s->crossing_most = fmax(s->crossing_most, row[STEP_CROSSING]);
 }
 
@@ -93,6 +96,7 @@ void resume_tables(run *r)
     mps_sim_time(r->sim, NULL, &steps);
     if (r->totals.steps != steps || r->totals.t != r->totals.t_before)
         resume_refuse(r, CLI_USAGE, "steps.csv has not the steps of the checkpoint");
-    if (!table_cut(&r->probes) || !table_cut(&r->momentum) || !table_cut(&r->steps) || (r->trace && !table_cut(&r->trace->file)))
+    if (!table_cut(&r->probes) || !table_cut(&r->momentum) || !table_cut(&r->steps) ||
+        (r->trace && !table_cut(&r->trace->file)))
         resume_refuse(r, CLI_FAILED, "the files of rows cannot be cut at the checkpoint");
 }

@@ -19,10 +19,12 @@ static void run_log(void *user, int level, const char *text)
     if (r->messages++ == RUN_MESSAGES)
         fprintf(stderr, "%s: further messages are not shown\n", r->options.program);
     else
-        fprintf(stderr, "%s: %s%s\n", r->options.program, level >= MPS_LOG_WARNING ? "warning: " : "", text);
+        fprintf(stderr, "%s: %s%s\n", r->options.program,
+                level >= MPS_LOG_WARNING ? "warning: " : "", text);
 }
 
-static void run_refuse(run *r, const char *option, const char *value, const char *why, const char *allowed)
+static void run_refuse(run *r, const char *option, const char *value, const char *why,
+                       const char *allowed)
 {
     fprintf(stderr, "%s: %s %s: %s%s\n", r->options.program, option, value, why, allowed);
     mps_sim_destroy(r->sim);
@@ -37,7 +39,8 @@ static mps_status run_set_model(run *r, const char *text)
     snprintf(slot, sizeof slot, "%.*s", equals ? (int)(equals - text) : (int)strlen(text), text);
     key = strrchr(slot, '.');
     double value = equals ? strtod(equals + 1, &end) : 0;
-    if (!equals || !key || end == equals + 1 || *end) run_refuse(r, "--set", text, "must be slot.key=number", "");
+    if (!equals || !key || end == equals + 1 || *end)
+        run_refuse(r, "--set", text, "must be slot.key=number", "");
     *key++ = '\0';
     return mps_model_set(r->sim, slot, key, value);
 }
@@ -55,11 +58,13 @@ static void run_suit_models(run *r)
 {
     const cli_options *o = &r->options;
     char slot[48];
-    if (o->no_gas && run_has_model(r, "gas")) run_check(r, mps_model_remove(r->sim, "gas"), "models");
+    if (o->no_gas && run_has_model(r, "gas"))
+        run_check(r, mps_model_remove(r->sim, "gas"), "models");
     if (o->gravity == 0 && run_has_model(r, "reference"))
         run_check(r, mps_model_remove(r->sim, "reference"), "models"); /* it asks where up is */
     else if (o->no_gas)
-        run_check(r, mps_model_use(r->sim, "reference.lid"), "models"); /* p = 0 atop the gas, as in the papers, is within the tank */
+        run_check(r, mps_model_use(r->sim, "reference.lid"),
+                  "models"); /* p = 0 atop the gas, as in the papers, is within the tank */
     if (!o->need || !(o->both_phases || run_has_gas(r))) return;
     snprintf(slot, sizeof slot, "%.*s", (int)strcspn(o->need, "."), o->need);
     if (!run_has_model(r, slot)) run_check(r, mps_model_use(r->sim, o->need), "models");
@@ -72,25 +77,31 @@ static void run_set_tension(run *r)
     if (run_has_model(r, "tension"))
         run_check(r, mps_model_set(r->sim, "tension", "sigma", o->sigma), "surface tension");
     else if (o->sigma_given)
-        run_refuse(r, "--sigma with --model", o->model, "has no surface tension", "; --use tension.csf adds it");
+        run_refuse(r, "--sigma with --model", o->model, "has no surface tension",
+                   "; --use tension.csf adds it");
 }
 
 static void run_use_models(run *r)
 {
     const cli_options *o = &r->options;
     if (mps_preset_use(r->sim, o->model) != MPS_OK)
-        run_refuse(r, "--model", o->model, mps_sim_error(r->sim), "; there are imps, mmps, imps.paper, mmps.paper");
+        run_refuse(r, "--model", o->model, mps_sim_error(r->sim),
+                   "; there are imps, mmps, imps.paper, mmps.paper");
     if (run_has_gas(r) && !o->two_phases)
-        run_refuse(r, "--model", o->model, "is for two phases, this case has one", "; there are imps, imps.paper");
+        run_refuse(r, "--model", o->model, "is for two phases, this case has one",
+                   "; there are imps, imps.paper");
     run_suit_models(r);
     for (int i = 0; i < o->use.count; i++)
-        if (mps_model_use(r->sim, o->use.text[i]) != MPS_OK) run_refuse(r, "--use", o->use.text[i], mps_sim_error(r->sim), "");
+        if (mps_model_use(r->sim, o->use.text[i]) != MPS_OK)
+            run_refuse(r, "--use", o->use.text[i], mps_sim_error(r->sim), "");
     for (int i = 0; i < o->remove.count; i++)
-        if (mps_model_remove(r->sim, o->remove.text[i]) != MPS_OK) run_refuse(r, "--remove", o->remove.text[i], mps_sim_error(r->sim), "");
+        if (mps_model_remove(r->sim, o->remove.text[i]) != MPS_OK)
+            run_refuse(r, "--remove", o->remove.text[i], mps_sim_error(r->sim), "");
     run_set_tension(r);
     if (o->prefer) run_set_model(r, o->prefer);
     for (int i = 0; i < o->set.count; i++)
-        if (run_set_model(r, o->set.text[i]) != MPS_OK) run_refuse(r, "--set", o->set.text[i], mps_sim_error(r->sim), "");
+        if (run_set_model(r, o->set.text[i]) != MPS_OK)
+            run_refuse(r, "--set", o->set.text[i], mps_sim_error(r->sim), "");
 }
 
 static void run_use_solver(run *r)
@@ -100,7 +111,8 @@ static void run_use_solver(run *r)
     snprintf(solver, sizeof solver, "%.*s", slash ? (int)(slash - text) : (int)strlen(text), text);
     if (mps_solver_use(r->sim, solver, slash ? slash + 1 : NULL) != MPS_OK) {
         run_refuse(r, "--solver", text, mps_sim_error(r->sim),
-                   "; there are sundials.pcg, sundials.bicgstab, sundials.gmres, sundials.klu, sundials.kinsol, and behind a / the "
+                   "; there are sundials.pcg, sundials.bicgstab, sundials.gmres, sundials.klu, "
+                   "sundials.kinsol, and behind a / the "
                    "preconditioners none, jacobi, ic0, auxgrid");
     }
 }
@@ -118,7 +130,8 @@ static void run_set_time(run *r)
     mps_time_control_init(&control, sizeof control);
     control.dt = r->options.dt;
     control.cfl = r->options.cfl;
-    if (run_is_paper(&r->options)) control.gravity = 0.03; /* W22's steps are 0.01; at 0.06 it fails even sooner */
+    if (run_is_paper(&r->options))
+        control.gravity = 0.03; /* W22's steps are 0.01; at 0.06 it fails even sooner */
     if (r->options.calm > 0) control.gravity = r->options.calm;
     run_check(r, mps_time_control_set(r->sim, &control), "time step");
 }
@@ -155,9 +168,12 @@ void run_open(run *r, const cli_options *o)
 void run_check(run *r, mps_status status, const char *what)
 {
     if (status >= 0) return;
-    fprintf(stderr, "%s: %s: %s: %s\n", r->options.program, what, mps_status_name(status), mps_sim_error(r->sim));
+    fprintf(stderr, "%s: %s: %s: %s\n", r->options.program, what, mps_status_name(status),
+            mps_sim_error(r->sim));
     mps_sim_destroy(r->sim);
-    exit(status == MPS_E_ARG ? CLI_USAGE : CLI_FAILED); /* the geometry is fixed: what does not fit is an option, mostly --dp */
+    exit(status == MPS_E_ARG
+             ? CLI_USAGE
+             : CLI_FAILED); /* the geometry is fixed: what does not fit is an option, mostly --dp */
 }
 
 bool run_has_gas(const run *r)
@@ -181,7 +197,8 @@ double run_level(run *r)
     if (r->level > 0) return r->level;
     run_check(r, view_open(r->sim, &v) ? MPS_OK : MPS_E_BUSY, "still level");
     for (int64_t i = 0; i < v.x.count; i++)
-        if (v.kind.integers[i] == MPS_FLUID && v.phase.integers[i] == 0) level = fmax(level, v.x.data[i * v.x.stride + 1]);
+        if (v.kind.integers[i] == MPS_FLUID && v.phase.integers[i] == 0)
+            level = fmax(level, v.x.data[i * v.x.stride + 1]);
     run_check(r, view_close(r->sim, &v) ? MPS_OK : MPS_E_BUSY, "still level");
     return level;
 }
@@ -199,7 +216,8 @@ static run_column *run_column_add(run *r, const char *name, const char *unit)
     return c;
 }
 
-static void run_probe_add(run *r, const char *name, const char *unit, const mps_probe *probe, double zero)
+static void run_probe_add(run *r, const char *name, const char *unit, const mps_probe *probe,
+                          double zero)
 {
     int32_t id;
     run_check(r, mps_probe_add(r->sim, probe, &id), name);
@@ -263,10 +281,12 @@ void run_value(run *r, const char *name, const char *unit, run_value_fn value, v
 
 void run_figure_add(run *r, const char *name, run_value_fn value, void *user)
 {
-    if (r->figures < RUN_FIGURES) r->figure[r->figures++] = (run_figure){.name = name, .value = value, .user = user};
+    if (r->figures < RUN_FIGURES)
+        r->figure[r->figures++] = (run_figure){.name = name, .value = value, .user = user};
 }
 
-void run_mark_add(run *r, const char *label, const char *unit, int count, const double *t, const double *value)
+void run_mark_add(run *r, const char *label, const char *unit, int count, const double *t,
+                  const double *value)
 {
     if (r->marks == RUN_MARKS || count > RUN_MARK_POINTS) return;
     run_mark *m = &r->mark[r->marks++];

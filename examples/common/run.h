@@ -8,7 +8,14 @@
 #include "table.h"
 #include <mps/mps.h>
 
-enum { RUN_COLUMNS = 32, RUN_COMMON = 10, RUN_MARKS = 4, RUN_FIGURES = 32, RUN_MARK_POINTS = 16, RUN_ERROR = 640 };
+enum {
+    RUN_COLUMNS = 32,
+    RUN_COMMON = 10,
+    RUN_MARKS = 4,
+    RUN_FIGURES = 32,
+    RUN_MARK_POINTS = 16,
+    RUN_ERROR = 640
+};
 
 /* A quantity of a driver's own. */
 typedef double (*run_value_fn)(void *user, mps_sim *sim);
@@ -40,8 +47,9 @@ typedef struct run_figure {
 
 /* Sums over the run, for summary.json and the report. Of one that goes on from a checkpoint: seconds are without what was before it. */
 typedef struct run_totals {
-    int64_t fluid, wall, dummy, steps, steps_here, not_converged, lost; /* steps_here: without those before the checkpoint */
-    double t_before;                                                    /* time of the checkpoint; 0: none */
+    int64_t fluid, wall, dummy, steps, steps_here, not_converged,
+        lost;        /* steps_here: without those before the checkpoint */
+    double t_before; /* time of the checkpoint; 0: none */
     double t, wall_s, cpu_s, step_s, output_s, max_speed, volume_error;
     double crossing_least, crossing_most; /* mps_step_info.crossing_time [s] */
     double ppe_iterations, ppe_solves, seconds[MPS_STAGE_COUNT];
@@ -64,12 +72,13 @@ typedef struct run {
     int pictures;  /* taken so far */
     progress progress;
     run_totals totals;
-    int64_t checkpoint;                         /* next checkpoint */
-    double checkpoint_t;                        /* of the last; 0: none */
-    double frame_t;                             /* of the last frame; -1: none yet */
-    double start[1 + RUN_COLUMNS + RUN_COMMON]; /* row of t = 0, until it is written after the first step */
-    double step_end;                            /* wall clock when the last step's outputs were done */
-    int messages;                               /* of the library, shown so far */
+    int64_t checkpoint;  /* next checkpoint */
+    double checkpoint_t; /* of the last; 0: none */
+    double frame_t;      /* of the last frame; -1: none yet */
+    double start[1 + RUN_COLUMNS +
+                 RUN_COMMON]; /* row of t = 0, until it is written after the first step */
+    double step_end;          /* wall clock when the last step's outputs were done */
+    int messages;             /* of the library, shown so far */
     bool output_failed;
 } run;
 
@@ -96,7 +105,8 @@ void run_force(run *r, const char *name, const char *part, int32_t component);
 void run_value(run *r, const char *name, const char *unit, run_value_fn value, void *user);
 /* A number for summary.json. */
 void run_figure_add(run *r, const char *name, run_value_fn value, void *user);
-void run_mark_add(run *r, const char *label, const char *unit, int count, const double *t, const double *value);
+void run_mark_add(run *r, const char *label, const char *unit, int count, const double *t,
+                  const double *value);
 
 /* Step to the end with all outputs, destroy the simulation. @return exit code of the program */
 int run_finish(run *r);

@@ -39,14 +39,16 @@ bool run_note(run *r, mps_status status, const char *what)
 {
     if (status >= 0) return true;
     r->output_failed = true;
-    if (!r->totals.error[0]) snprintf(r->totals.error, sizeof r->totals.error, "%s: %s", what, mps_sim_error(r->sim));
+    if (!r->totals.error[0])
+        snprintf(r->totals.error, sizeof r->totals.error, "%s: %s", what, mps_sim_error(r->sim));
     return false;
 }
 
 /* ---- rows ------------------------------------------------------------------------------------------------------ */
 
 /* Names of the columns every driver has, in the order of run_energies(); behind those of the energies comes volume_error. */
-static const char *const ENERGIES[] = {"pe", "wall_work", "viscous", "collision", "shift", "numerical", "added"};
+static const char *const ENERGIES[] = {"pe",    "wall_work", "viscous", "collision",
+                                       "shift", "numerical", "added"};
 
 static void header_add(char *header, size_t size, const char *name, const char *unit)
 {
@@ -54,7 +56,8 @@ static void header_add(char *header, size_t size, const char *name, const char *
     snprintf(header + used, size - used, ",%s[%s]", name, unit);
 }
 
-static bool run_open_table(run *r, table *t, const char *name, const char *header, int columns, double interval)
+static bool run_open_table(run *r, table *t, const char *name, const char *header, int columns,
+                           double interval)
 {
     if (!table_create(t, r->options.out, name, columns, interval)) return false;
     if (!r->options.resume) return table_begin(t, header);
@@ -69,17 +72,21 @@ static bool run_open_probes(run *r)
         if (r->column[i].unit[0])
             header_add(header, sizeof header, r->column[i].name, r->column[i].unit);
         else
-            snprintf(header + strlen(header), sizeof header - strlen(header), ",%s", r->column[i].name);
+            snprintf(header + strlen(header), sizeof header - strlen(header), ",%s",
+                     r->column[i].name);
     }
     header_add(header, sizeof header, "ke", joule);
     header_add(header, sizeof header, "x_tank", "m");
-    for (size_t i = 0; i < sizeof ENERGIES / sizeof *ENERGIES; i++) header_add(header, sizeof header, ENERGIES[i], joule);
+    for (size_t i = 0; i < sizeof ENERGIES / sizeof *ENERGIES; i++)
+        header_add(header, sizeof header, ENERGIES[i], joule);
     snprintf(header + strlen(header), sizeof header - strlen(header), ",volume_error");
-    return run_open_table(r, &r->probes, "probes.csv", header, 1 + r->columns + RUN_COMMON, r->options.probe_dt);
+    return run_open_table(r, &r->probes, "probes.csv", header, 1 + r->columns + RUN_COMMON,
+                          r->options.probe_dt);
 }
 
 /* Names of the columns of momentum.csv, in the order of MOMENTUM_TOTAL and on. */
-static const char *const MOMENTA[] = {"momentum", "gravity", "force", "pressure", "walls", "numerical", "collision", "shift", "added"};
+static const char *const MOMENTA[] = {"momentum",  "gravity",   "force", "pressure", "walls",
+                                      "numerical", "collision", "shift", "added"};
 
 static bool run_open_momentum(run *r)
 {
@@ -90,7 +97,8 @@ static bool run_open_momentum(run *r)
             snprintf(name, sizeof name, "%s_%c", MOMENTA[k], "xyz"[d]);
             header_add(header, sizeof header, name, dim == 3 ? "N s" : "N s/m");
         }
-    return run_open_table(r, &r->momentum, "momentum.csv", header, 1 + dim * MOMENTUM_COLUMNS, r->options.probe_dt);
+    return run_open_table(r, &r->momentum, "momentum.csv", header, 1 + dim * MOMENTUM_COLUMNS,
+                          r->options.probe_dt);
 }
 
 static void run_momentum(run *r, double t)
@@ -100,8 +108,9 @@ static void run_momentum(run *r, double t)
     const int dim = r->options.dim == 3 ? 3 : 2;
     mps_momentum_init(&m, sizeof m);
     run_note(r, mps_momentum_get(r->sim, &m), "momentum");
-    const double *const values[MOMENTUM_COLUMNS] = {m.total,     m.gravity,   m.force, m.pressure, m.walls,
-                                                    m.numerical, m.collision, m.shift, m.added};
+    const double *const values[MOMENTUM_COLUMNS] = {m.total,     m.gravity, m.force,
+                                                    m.pressure,  m.walls,   m.numerical,
+                                                    m.collision, m.shift,   m.added};
     for (int d = 0; d < dim; d++)
         for (int k = 0; k < MOMENTUM_COLUMNS; k++) row[1 + d * MOMENTUM_COLUMNS + k] = values[k][d];
     table_sample(&r->momentum, row);
@@ -114,8 +123,9 @@ static void run_energies(run *r, double *out)
     mps_energy_init(&e, sizeof e);
     run_note(r, mps_energy_get(r->sim, &e), "energies");
     run_note(r, mps_motion_state_get(r->sim, &tank), "motion");
-    const double values[RUN_COMMON] = {e.kinetic, tank.value[MPS_SURGE], e.potential, e.wall_work,   e.viscous, e.collision,
-                                       e.shift,   e.numerical,           e.added,     e.volume_error};
+    const double values[RUN_COMMON] = {e.kinetic, tank.value[MPS_SURGE], e.potential, e.wall_work,
+                                       e.viscous, e.collision,           e.shift,     e.numerical,
+                                       e.added,   e.volume_error};
     memcpy(out, values, sizeof values);
     r->totals.volume_error = e.volume_error;
 }
@@ -173,7 +183,10 @@ static void run_frames_open(run *r)
     const bool resume = r->options.resume;
     r->frame_t = -1;
     if (r->options.frames == 0) return;
-    run_note(r, mps_frames_open(r->sim, r->options.out, "frames", resume ? MPS_FRAMES_CONTINUE : 0, &r->frames), "frames");
+    run_note(r,
+             mps_frames_open(r->sim, r->options.out, "frames", resume ? MPS_FRAMES_CONTINUE : 0,
+                             &r->frames),
+             "frames");
     if (!resume) run_frame_write(r, 0);
     r->frame = run_frame_next(r, r->totals.t);
 }
@@ -192,7 +205,8 @@ static bool run_picture_due(const run *r, double t)
     const cli_options *o = &r->options;
     int count = o->pictures > 0 ? o->pictures : RUN_QUARTERS - 1;
     if (r->pictures == count) return false;
-    double next = o->pictures > 0 ? o->picture_t[r->pictures] : o->t_end * (r->pictures + 1) / RUN_QUARTERS;
+    double next = o->pictures > 0 ? o->picture_t[r->pictures]
+                                  : o->t_end * (r->pictures + 1) / RUN_QUARTERS;
     return t >= next - 1e-9 * o->t_end;
 }
 
@@ -218,7 +232,8 @@ static void run_add_up(run *r, const mps_step_info *info, const double *row)
 /* The first table that could not be written, or NULL. */
 static const table *run_failed_table(const run *r)
 {
-    const table *const all[] = {&r->probes, &r->momentum, &r->steps, r->trace ? &r->trace->file : &r->steps};
+    const table *const all[] = {&r->probes, &r->momentum, &r->steps,
+                                r->trace ? &r->trace->file : &r->steps};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         if (all[k]->failed) return all[k];
     return NULL;
@@ -229,14 +244,22 @@ static int run_monitor(void *user, mps_sim *sim, const mps_step_info *info)
     run *r = user;
     (void)sim;
     double begin = progress_clock();
-    const double row[STEP_COLUMNS] = {
-        info->t,         info->dt,           info->cfl,           info->ppe_iterations, info->ppe_residual, info->ppe_divergence,
-        info->max_speed, (double)info->lost, info->crossing_time, info->ppe_solves};
+    const double row[STEP_COLUMNS] = {info->t,
+                                      info->dt,
+                                      info->cfl,
+                                      info->ppe_iterations,
+                                      info->ppe_residual,
+                                      info->ppe_divergence,
+                                      info->max_speed,
+                                      (double)info->lost,
+                                      info->crossing_time,
+                                      info->ppe_solves};
     run_add_up(r, info, row);
     table_append(&r->steps, row);
     if (r->trace) trace_step(r, info->t, info->dt);
     /* interpolation needs the samples on both sides of an output time; the next step is at most a little longer than this one */
-    if (r->totals.steps == 1 || table_wants(&r->probes, info->t, 2 * info->dt)) run_sample(r, info->t);
+    if (r->totals.steps == 1 || table_wants(&r->probes, info->t, 2 * info->dt))
+        run_sample(r, info->t);
     run_frame(r, info->t);
     run_picture(r, info->t);
     if (resume_due(r, info->t)) resume_save(r);
@@ -258,8 +281,11 @@ static int run_exit_code(const run *r, mps_status status)
 {
     if (r->output_failed || status == MPS_E_NOMEM || status == MPS_E_IO) return CLI_FAILED;
     if (status == MPS_W_STOPPED) return interrupted ? CLI_INTERRUPTED : CLI_FAILED;
-    if (status == MPS_E_DIVERGED || status == MPS_E_LOST || status == MPS_E_SOLVER) return CLI_DIVERGED;
-    if (status == MPS_E_PLUGIN || status == MPS_E_STATE) /* models that do not fit together or to the case, or a flow beyond a model */
+    if (status == MPS_E_DIVERGED || status == MPS_E_LOST || status == MPS_E_SOLVER)
+        return CLI_DIVERGED;
+    if (status == MPS_E_PLUGIN ||
+        status ==
+            MPS_E_STATE) /* models that do not fit together or to the case, or a flow beyond a model */
         return r->totals.steps == 0 ? CLI_USAGE : CLI_DIVERGED;
     return status < 0 ? CLI_FAILED : CLI_OK;
 }
@@ -278,10 +304,12 @@ static void run_close(run *r)
     mps_frames_close(r->frames);
     snprintf(path, sizeof path, "%s/picture_end.png", r->options.out);
     if (!picture_save(r->sim, path)) r->output_failed = true;
-    for (int i = 0; i < r->figures; i++) r->figure[i].measured = r->figure[i].value(r->figure[i].user, r->sim);
+    for (int i = 0; i < r->figures; i++)
+        r->figure[i].measured = r->figure[i].value(r->figure[i].user, r->sim);
     if (r->totals.steps == 0) run_write_start(r, NULL);
     if (r->trace && !table_close(&r->trace->file)) r->output_failed = true;
-    if (!table_close(&r->probes) || !table_close(&r->momentum) || !table_close(&r->steps)) r->output_failed = true;
+    if (!table_close(&r->probes) || !table_close(&r->momentum) || !table_close(&r->steps))
+        r->output_failed = true;
 }
 
 static void run_say(const run *r, int code, mps_status status)
@@ -290,21 +318,28 @@ static void run_say(const run *r, int code, mps_status status)
     const char *program = r->options.program;
     const table *failed = run_failed_table(r);
     if (code == CLI_INTERRUPTED)
-        fprintf(
-            stderr,
-            "%s: interrupted at t = %.6g s after %lld steps; outputs are complete up to there; go on with --resume and the same options\n",
-            program, s->t, (long long)s->steps);
+        fprintf(stderr,
+                "%s: interrupted at t = %.6g s after %lld steps; outputs are complete up to there; "
+                "go on with --resume and the same options\n",
+                program, s->t, (long long)s->steps);
     else if (status < 0)
-        fprintf(stderr, "%s: %s at t = %.6g s, step %lld: %s\n", program, mps_status_name(status), s->t, (long long)s->steps + 1, s->error);
+        fprintf(stderr, "%s: %s at t = %.6g s, step %lld: %s\n", program, mps_status_name(status),
+                s->t, (long long)s->steps + 1, s->error);
     else if (code != CLI_OK && failed)
-        fprintf(stderr, "%s: stopped at t = %.6g s, outputs cannot be written: %s; %s%s\n", program, s->t, strerror(failed->error),
-                folder_advice(failed->error), r->checkpoint_t > 0 ? "; --resume goes on from the last checkpoint" : "");
+        fprintf(stderr, "%s: stopped at t = %.6g s, outputs cannot be written: %s; %s%s\n", program,
+                s->t, strerror(failed->error), folder_advice(failed->error),
+                r->checkpoint_t > 0 ? "; --resume goes on from the last checkpoint" : "");
     else if (code != CLI_OK)
-        fprintf(stderr, "%s: %s\n", program, s->error[0] ? s->error : "an output could not be written");
+        fprintf(stderr, "%s: %s\n", program,
+                s->error[0] ? s->error : "an output could not be written");
     if (r->options.quiet || code == CLI_USAGE) return;
-    fprintf(stderr, "%s: t = %.6g s, %lld steps in %.1f s (%.2f ms a step, %.1f pressure iterations), %lld particles lost, outputs in %s\n",
-            program, s->t, (long long)s->steps_here, s->wall_s, s->steps_here ? 1e3 * s->step_s / (double)s->steps_here : 0,
-            s->steps ? s->ppe_iterations / (double)s->steps : 0, (long long)s->lost, r->options.out);
+    fprintf(stderr,
+            "%s: t = %.6g s, %lld steps in %.1f s (%.2f ms a step, %.1f pressure iterations), %lld "
+            "particles lost, outputs in %s\n",
+            program, s->t, (long long)s->steps_here, s->wall_s,
+            s->steps_here ? 1e3 * s->step_s / (double)s->steps_here : 0,
+            s->steps ? s->ppe_iterations / (double)s->steps : 0, (long long)s->lost,
+            r->options.out);
 }
 
 static double cpu_clock(void)
@@ -320,8 +355,8 @@ static void run_open_tables(run *r)
         resume_load(r);
     else
         resume_forget(r);
-    if (!run_open_probes(r) || !run_open_momentum(r) || !run_open_table(r, &r->steps, "steps.csv", STEP_HEADER, STEP_COLUMNS, 0) ||
-        !trace_open(r))
+    if (!run_open_probes(r) || !run_open_momentum(r) ||
+        !run_open_table(r, &r->steps, "steps.csv", STEP_HEADER, STEP_COLUMNS, 0) || !trace_open(r))
         exit(CLI_USAGE);
     if (r->options.resume) resume_tables(r);
 }
@@ -344,14 +379,17 @@ static void run_begin(run *r)
     r->totals.dummy = mps_particles_count(r->sim, MPS_DUMMY);
     run_open_tables(r);
     if (!r->options.quiet) {
-        fprintf(stderr, "%s: %s, dp %g m, %lld fluid, %lld wall, %lld dummy particles, from t = %g to %g s\n", r->options.program,
-                r->options.model, r->options.dp, (long long)r->totals.fluid, (long long)r->totals.wall, (long long)r->totals.dummy,
-                r->totals.t, r->options.t_end);
+        fprintf(
+            stderr,
+            "%s: %s, dp %g m, %lld fluid, %lld wall, %lld dummy particles, from t = %g to %g s\n",
+            r->options.program, r->options.model, r->options.dp, (long long)r->totals.fluid,
+            (long long)r->totals.wall, (long long)r->totals.dummy, r->totals.t, r->options.t_end);
     }
     run_first_rows(r);
     run_frames_open(r);
     while (r->options.resume && run_picture_due(r, r->totals.t)) r->pictures++; /* taken before */
-    progress_begin(&r->progress, r->options.t_end, mps_particles_count(r->sim, -1), r->options.quiet);
+    progress_begin(&r->progress, r->options.t_end, mps_particles_count(r->sim, -1),
+                   r->options.quiet);
     progress_from(&r->progress, r->totals.t, r->totals.steps);
     catch_interrupt();
 }
@@ -370,11 +408,14 @@ int run_finish(run *r)
     r->totals.wall_s = progress_clock() - wall;
     r->totals.cpu_s = cpu_clock() - cpu;
     int code = run_exit_code(r, status);
-    r->totals.status = code == CLI_OK ? "ok" : status != MPS_OK ? mps_status_name(status) : mps_status_name(MPS_E_IO);
+    r->totals.status = code == CLI_OK     ? "ok"
+                       : status != MPS_OK ? mps_status_name(status)
+                                          : mps_status_name(MPS_E_IO);
     if (!summary_save(r) || !report_save(r)) code = code == CLI_OK ? CLI_FAILED : code;
     run_say(r, code, status);
     if (code == CLI_USAGE)
-        folder_clear(r); /* refused before its first step: what it wrote is no run that another one would have to spare */
+        folder_clear(
+            r); /* refused before its first step: what it wrote is no run that another one would have to spare */
     table_free(&r->probes);
     table_free(&r->momentum);
     table_free(&r->steps);

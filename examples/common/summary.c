@@ -62,7 +62,8 @@ static void summary_times(FILE *out, const run *r)
     json_number(out, "ppe_solves_mean", per_step(s->ppe_solves, s->steps));
     json_number(out, "ppe_s", s->seconds[MPS_STAGE_PPE_SETUP] + s->seconds[MPS_STAGE_PPE_SOLVE]);
     json_number(out, "neighbour_s", s->seconds[MPS_STAGE_NEIGHBOURS]);
-    json_number(out, "operators_s", s->seconds[MPS_STAGE_OPERATORS] + s->seconds[MPS_STAGE_CORRECT]);
+    json_number(out, "operators_s",
+                s->seconds[MPS_STAGE_OPERATORS] + s->seconds[MPS_STAGE_CORRECT]);
     json_number(out, "peak_rss_bytes", 1024.0 * (double)usage.ru_maxrss);
 }
 
@@ -71,8 +72,10 @@ static void summary_average(FILE *out, const run *r)
 {
     const bool follows = r->options.sensor_average == MPS_AVERAGE_AUTO;
     json_text(out, "sensor_average", follows ? "dp/u_max" : "given");
-    json_number(out, "sensor_average_least", follows ? r->totals.crossing_least : r->options.sensor_average);
-    json_number(out, "sensor_average_most", follows ? r->totals.crossing_most : r->options.sensor_average);
+    json_number(out, "sensor_average_least",
+                follows ? r->totals.crossing_least : r->options.sensor_average);
+    json_number(out, "sensor_average_most",
+                follows ? r->totals.crossing_most : r->options.sensor_average);
 }
 
 static void summary_write(FILE *out, const run *r)
@@ -80,7 +83,8 @@ static void summary_write(FILE *out, const run *r)
     const char *solver = "", *preconditioner = NULL;
     char both[128];
     mps_solver_name(r->sim, &solver, &preconditioner);
-    snprintf(both, sizeof both, "%s/%s", solver, preconditioner && preconditioner[0] ? preconditioner : "none");
+    snprintf(both, sizeof both, "%s/%s", solver,
+             preconditioner && preconditioner[0] ? preconditioner : "none");
     fprintf(out, "{\n  \"case\": \"%s\"", r->options.program);
     json_text(out, "model", r->options.model);
     json_number(out, "dp", r->options.dp);

@@ -7,8 +7,9 @@
 
 enum { WIDTH = 860, HEIGHT = 330, LEFT = 78, RIGHT = 150, TOP = 34, BOTTOM = 46 };
 
-static const char *const COLOURS[] = {"#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#ff7f0e", "#17becf",
-                                      "#8c564b", "#e377c2", "#7f7f7f", "#bcbd22", "#000000", "#3a5f0b"};
+static const char *const COLOURS[] = {"#1f77b4", "#d62728", "#2ca02c", "#9467bd",
+                                      "#ff7f0e", "#17becf", "#8c564b", "#e377c2",
+                                      "#7f7f7f", "#bcbd22", "#000000", "#3a5f0b"};
 
 /* One axis: data lo..hi onto pixels from..to. */
 typedef struct axis {
@@ -83,7 +84,8 @@ static void svg_ticks(FILE *out, const axis *a, bool horizontal)
 }
 
 /* Write a curve; of the points in one pixel column the first, lowest, highest and last are kept, so peaks survive. */
-static void svg_curve(FILE *out, const plot_series *s, const axis *x, const axis *y, const char *colour)
+static void svg_curve(FILE *out, const plot_series *s, const axis *x, const axis *y,
+                      const char *colour)
 {
     fprintf(out, "<path class=\"c\" stroke=\"%s\" d=\"", colour);
     bool pen = false;
@@ -98,7 +100,8 @@ static void svg_curve(FILE *out, const plot_series *s, const axis *x, const axis
         int64_t pick[4] = {i, low < high ? low : high, low < high ? high : low, end - 1};
         for (int k = 0; k < 4; k++) {
             if (k > 0 && pick[k] == pick[k - 1]) continue;
-            double px = axis_pixel(x, s->x[pick[k] * s->stride]), py = axis_pixel(y, s->y[pick[k] * s->stride] + s->shift);
+            double px = axis_pixel(x, s->x[pick[k] * s->stride]),
+                   py = axis_pixel(y, s->y[pick[k] * s->stride] + s->shift);
             bool good = isfinite(px) && isfinite(py);
             if (good) fprintf(out, "%c%.1f %.1f", pen ? 'L' : 'M', px, py);
             pen = good;
@@ -108,12 +111,15 @@ static void svg_curve(FILE *out, const plot_series *s, const axis *x, const axis
     fputs("\"/>\n", out);
 }
 
-static void svg_marks(FILE *out, const plot_series *s, const axis *x, const axis *y, const char *colour)
+static void svg_marks(FILE *out, const plot_series *s, const axis *x, const axis *y,
+                      const char *colour)
 {
     for (int64_t i = 0; i < s->count; i++) {
-        double px = axis_pixel(x, s->x[i * s->stride]), py = axis_pixel(y, s->y[i * s->stride] + s->shift);
+        double px = axis_pixel(x, s->x[i * s->stride]),
+               py = axis_pixel(y, s->y[i * s->stride] + s->shift);
         if (px < LEFT - 0.5 || px > WIDTH - RIGHT + 0.5) continue;
-        fprintf(out, "<path class=\"m\" stroke=\"%s\" d=\"M%.1f %.1fl8 8m0 -8l-8 8\"/>\n", colour, px - 4, py - 4);
+        fprintf(out, "<path class=\"m\" stroke=\"%s\" d=\"M%.1f %.1fl8 8m0 -8l-8 8\"/>\n", colour,
+                px - 4, py - 4);
     }
 }
 
@@ -123,7 +129,8 @@ static void svg_legend(FILE *out, const plot *p)
         int x = WIDTH - RIGHT + 12, y = TOP + 8 + 18 * i;
         const char *colour = COLOURS[i % PLOT_SERIES];
         if (p->series[i].marks)
-            fprintf(out, "<path class=\"m\" stroke=\"%s\" d=\"M%d %dl8 8m0 -8l-8 8\"/>\n", colour, x + 5, y - 4);
+            fprintf(out, "<path class=\"m\" stroke=\"%s\" d=\"M%d %dl8 8m0 -8l-8 8\"/>\n", colour,
+                    x + 5, y - 4);
         else
             fprintf(out, "<path class=\"c\" stroke=\"%s\" d=\"M%d %dh18\"/>\n", colour, x, y);
         svg_label(out, x + 24, y + 4, "", p->series[i].label);
@@ -134,7 +141,8 @@ static void svg_legend(FILE *out, const plot *p)
 static void plot_ranges(const plot *p, axis *x, axis *y)
 {
     for (int i = 0; i < p->count; i++)
-        for (int64_t k = 0; k < p->series[i].count && !p->series[i].marks; k++) axis_take(x, p->series[i].x[k * p->series[i].stride]);
+        for (int64_t k = 0; k < p->series[i].count && !p->series[i].marks; k++)
+            axis_take(x, p->series[i].x[k * p->series[i].stride]);
     axis_finish(x, 10, false);
     for (int i = 0; i < p->count; i++) {
         const plot_series *s = &p->series[i];
@@ -153,12 +161,17 @@ void plot_add(plot *p, plot_series series)
 
 void plot_svg(FILE *out, const plot *p)
 {
-    axis x = {INFINITY, -INFINITY, LEFT, WIDTH - RIGHT, 0}, y = {INFINITY, -INFINITY, HEIGHT - BOTTOM, TOP, 0};
+    axis x = {INFINITY, -INFINITY, LEFT, WIDTH - RIGHT, 0},
+         y = {INFINITY, -INFINITY, HEIGHT - BOTTOM, TOP, 0};
     plot_ranges(p, &x, &y);
-    fprintf(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" viewBox=\"0 0 %d %d\">\n", WIDTH, HEIGHT, WIDTH,
-            HEIGHT);
-    fputs("<style>text{font:12px sans-serif;fill:#222}.t{font-size:14px;font-weight:bold}.g{stroke:#ddd;fill:none}"
-          ".f{stroke:#555;fill:none}.c{fill:none;stroke-width:1.5}.m{fill:none;stroke-width:2.2}</style>\n<rect width=\"100%\" "
+    fprintf(out,
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" viewBox=\"0 0 %d "
+            "%d\">\n",
+            WIDTH, HEIGHT, WIDTH, HEIGHT);
+    fputs("<style>text{font:12px "
+          "sans-serif;fill:#222}.t{font-size:14px;font-weight:bold}.g{stroke:#ddd;fill:none}"
+          ".f{stroke:#555;fill:none}.c{fill:none;stroke-width:1.5}.m{fill:none;stroke-width:2.2}</"
+          "style>\n<rect width=\"100%\" "
           "height=\"100%\" fill=\"#fff\"/>\n",
           out);
     svg_ticks(out, &x, true);
@@ -169,13 +182,14 @@ void plot_svg(FILE *out, const plot *p)
     for (int i = 0; i < p->count; i++) {
         if (p->series[i].marks) svg_marks(out, &p->series[i], &x, &y, COLOURS[i % PLOT_SERIES]);
     }
-    fprintf(out, "<rect class=\"f\" x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\"/>\n", LEFT, TOP, WIDTH - LEFT - RIGHT,
-            HEIGHT - TOP - BOTTOM);
+    fprintf(out, "<rect class=\"f\" x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\"/>\n", LEFT, TOP,
+            WIDTH - LEFT - RIGHT, HEIGHT - TOP - BOTTOM);
     svg_legend(out, p);
     svg_label(out, LEFT, TOP - 12, "class=\"t\"", p->title);
     svg_label(out, (LEFT + WIDTH - RIGHT) / 2.0, HEIGHT - 10, "text-anchor=\"middle\"", p->x_label);
     char turned[96];
-    snprintf(turned, sizeof turned, "text-anchor=\"middle\" transform=\"rotate(-90 16 %d)\"", (TOP + HEIGHT - BOTTOM) / 2);
+    snprintf(turned, sizeof turned, "text-anchor=\"middle\" transform=\"rotate(-90 16 %d)\"",
+             (TOP + HEIGHT - BOTTOM) / 2);
     svg_label(out, 16, (TOP + HEIGHT - BOTTOM) / 2.0, turned, p->y_label);
     fputs("</svg>\n", out);
 }

@@ -19,7 +19,8 @@ static void table_thin(table *t)
 {
     int64_t half = (t->count + 1) / 2;
     size_t size = (size_t)t->columns * sizeof *t->kept;
-    for (int64_t i = 1; i < half; i++) memmove(t->kept + i * t->columns, t->kept + 2 * i * t->columns, size);
+    for (int64_t i = 1; i < half; i++)
+        memmove(t->kept + i * t->columns, t->kept + 2 * i * t->columns, size);
     t->count = half;
     t->stride *= 2;
 }
@@ -86,7 +87,8 @@ void table_sample(table *t, const double *row)
         double f = t->has_before && span > 0 ? (time - t->before[0]) / span : 1;
         if (f < 0) f = 0;
         if (f > 1) f = 1;
-        for (int i = 1; i < t->columns; i++) t->row[i] = f < 1 ? t->before[i] + f * (row[i] - t->before[i]) : row[i];
+        for (int i = 1; i < t->columns; i++)
+            t->row[i] = f < 1 ? t->before[i] + f * (row[i] - t->before[i]) : row[i];
         t->row[0] = time;
         table_append(t, t->row);
         t->next++;
@@ -132,7 +134,8 @@ static bool table_same_header(table *t, const char *header)
 {
     char *line = NULL;
     size_t size = 0, length = strlen(header);
-    bool same = getline(&line, &size, t->file) > 0 && strncmp(line, header, length) == 0 && strcmp(line + length, "\n") == 0;
+    bool same = getline(&line, &size, t->file) > 0 && strncmp(line, header, length) == 0 &&
+                strcmp(line + length, "\n") == 0;
     free(line);
     t->end = ftell(t->file);
     return same;
@@ -143,14 +146,17 @@ bool table_resume(table *t, const char *header, double time, table_row_fn each, 
     t->file = fopen(t->path, "r+");
     if (!t->file) return table_refuse(t, strerror(errno));
     if (!table_same_header(t, header)) return table_refuse(t, "has not the columns of this run");
-    if (!table_read(t, time, each, user)) return table_refuse(t, "has rows at other times; --probe-dt must be what it was");
-    if (t->interval > 0 && table_wants(t, time, 0)) return table_refuse(t, "ends before the checkpoint");
+    if (!table_read(t, time, each, user))
+        return table_refuse(t, "has rows at other times; --probe-dt must be what it was");
+    if (t->interval > 0 && table_wants(t, time, 0))
+        return table_refuse(t, "ends before the checkpoint");
     return true;
 }
 
 bool table_cut(table *t)
 {
-    if (fseek(t->file, t->end, SEEK_SET) == 0 && ftruncate(fileno(t->file), (off_t)t->end) == 0) return true;
+    if (fseek(t->file, t->end, SEEK_SET) == 0 && ftruncate(fileno(t->file), (off_t)t->end) == 0)
+        return true;
     return table_refuse(t, strerror(errno));
 }
 
@@ -171,7 +177,8 @@ bool table_close(table *t)
 {
     if (t->file && fclose(t->file) != 0) table_fail(t);
     t->file = NULL;
-    if (t->failed) fprintf(stderr, "%s: could not be written completely: %s\n", t->path, strerror(t->error));
+    if (t->failed)
+        fprintf(stderr, "%s: could not be written completely: %s\n", t->path, strerror(t->error));
     return !t->failed;
 }
 

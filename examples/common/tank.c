@@ -66,7 +66,8 @@ void tank_parse(cli_options *o, const tank_case *c, int argc, char **argv)
     o->has_layers = c->plate.top > 0;
     o->has_sigma = !o->has_layers;
     if (!o->has_layers)
-        o->need = "reference.lid"; /* in a closed tank full of liquid and gas something must set the level of the pressures */
+        o->need =
+            "reference.lid"; /* in a closed tank full of liquid and gas something must set the level of the pressures */
     cli_parse(o, argc, argv);
 }
 

@@ -8,7 +8,8 @@
 
 enum { TRACE_ROOM = 1024, TRACE_COLUMNS = TRACE_OWN + RUN_COLUMNS };
 
-static const double SLACK = 1e-9; /* of the end of a measure, relative: a run ends within rounding of its time */
+static const double SLACK =
+    1e-9; /* of the end of a measure, relative: a run ends within rounding of its time */
 
 void trace_add(run *r, trace *t)
 {
@@ -40,9 +41,11 @@ bool trace_open(run *r)
     if (!t) return true;
     const char *unit = r->options.dim == 3 ? "N s" : "N s/m";
     for (int k = 0; k < 6; k++)
-        snprintf(header + strlen(header), sizeof header - strlen(header), ",%s_%c[%s]", k < 3 ? "momentum" : "walls", "xyz"[k % 3], unit);
+        snprintf(header + strlen(header), sizeof header - strlen(header), ",%s_%c[%s]",
+                 k < 3 ? "momentum" : "walls", "xyz"[k % 3], unit);
     for (int i = 0; i < r->columns; i++)
-        snprintf(header + strlen(header), sizeof header - strlen(header), ",%s[%s]", r->column[i].name, r->column[i].unit);
+        snprintf(header + strlen(header), sizeof header - strlen(header), ",%s[%s]",
+                 r->column[i].name, r->column[i].unit);
     t->columns = TRACE_OWN + r->columns;
     if (!table_create(&t->file, r->options.out, "trace.csv", t->columns, 0)) return false;
     if (!r->options.resume) return table_begin(&t->file, header);
@@ -62,8 +65,9 @@ void trace_step(run *r, double t, double dt)
         row[TRACE_WALLS + d] = m.walls[d];
     }
     for (int i = 0; i < r->columns; i++)
-        row[TRACE_OWN + i] = dt > 0 || !r->column[i].pressure ? run_measure_column(r, &r->column[i])
-                                                              : 0; /* no pressure before the first step */
+        row[TRACE_OWN + i] = dt > 0 || !r->column[i].pressure
+                                 ? run_measure_column(r, &r->column[i])
+                                 : 0; /* no pressure before the first step */
     table_append(&r->trace->file, row);
     trace_keep(r->trace, row);
 }
@@ -92,7 +96,8 @@ static double trace_part(const trace *t, int64_t k, double from, double to)
 static double trace_integral(const trace *t, int column, double from, double to)
 {
     double sum = 0;
-    for (int64_t k = 0; k < t->count; k++) sum += trace_part(t, k, from, to) * trace_at(t, k, column);
+    for (int64_t k = 0; k < t->count; k++)
+        sum += trace_part(t, k, from, to) * trace_at(t, k, column);
     return sum;
 }
 
@@ -101,7 +106,8 @@ static double trace_state(const trace *t, int column, double time)
 {
     int64_t k = 1;
     while (k + 1 < t->count && trace_at(t, k, TRACE_T) < time) k++;
-    const double a = trace_at(t, k - 1, TRACE_T), b = trace_at(t, k, TRACE_T), f = fmin(1, fmax(0, (time - a) / (b - a)));
+    const double a = trace_at(t, k - 1, TRACE_T), b = trace_at(t, k, TRACE_T),
+                 f = fmin(1, fmax(0, (time - a) / (b - a)));
     return (1 - f) * trace_at(t, k - 1, column) + f * trace_at(t, k, column);
 }
 
@@ -131,8 +137,12 @@ static double trace_extreme(const trace_measure *m, double sign)
         if (end <= m->from || end > m->to * (1 + SLACK)) continue;
         if (m->window <= 0) most = fmax(most, sign * trace_at(t, k, m->column));
         if (m->window <= 0) continue;
-        if (end - m->window >= m->from) most = fmax(most, sign * trace_integral(t, m->column, end - m->window, end) / m->window);
-        if (end + m->window <= m->to) most = fmax(most, sign * trace_integral(t, m->column, end, end + m->window) / m->window);
+        if (end - m->window >= m->from)
+            most = fmax(most,
+                        sign * trace_integral(t, m->column, end - m->window, end) / m->window);
+        if (end + m->window <= m->to)
+            most = fmax(most,
+                        sign * trace_integral(t, m->column, end, end + m->window) / m->window);
     }
     return sign * most;
 }
@@ -143,7 +153,8 @@ double trace_figure(void *user, mps_sim *sim)
     const trace *t = m->rows;
     (void)sim;
     if (m->kind == TRACE_GIVEN) return m->scale;
-    if (t->failed || t->count < 2 || trace_at(t, t->count - 1, TRACE_T) < m->to * (1 - SLACK)) return NAN;
+    if (t->failed || t->count < 2 || trace_at(t, t->count - 1, TRACE_T) < m->to * (1 - SLACK))
+        return NAN;
     switch (m->kind) {
     case TRACE_INTEGRAL:
         return trace_integral(t, m->column, m->from, m->to) / m->scale;

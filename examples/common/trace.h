@@ -7,13 +7,20 @@
 #include "run.h"
 
 /* Columns. Momentum of the fluid and what the walls gave it have three columns each, in 2-D the third is 0; behind them the driver's own. */
-enum { TRACE_T, TRACE_DT, TRACE_MOMENTUM, TRACE_WALLS = TRACE_MOMENTUM + 3, TRACE_OWN = TRACE_WALLS + 3 };
+enum {
+    TRACE_T,
+    TRACE_DT,
+    TRACE_MOMENTUM,
+    TRACE_WALLS = TRACE_MOMENTUM + 3,
+    TRACE_OWN = TRACE_WALLS + 3
+};
 
 typedef struct trace {
     table file;
     int columns;
     int64_t count, room;
-    double *row; /* [count*columns] all rows; the first is the state before the first step, with dt = 0 */
+    double *
+        row; /* [count*columns] all rows; the first is the state before the first step, with dt = 0 */
     bool failed; /* memory was out */
 } trace;
 

@@ -6,7 +6,8 @@ static const mps_lease closed = {.struct_size = sizeof closed};
 bool view_open(mps_sim *sim, view *v)
 {
     *v = (view){closed, closed, closed};
-    if (mps_lease_begin(sim, "position", MPS_READ, &v->x) == MPS_OK && mps_lease_begin(sim, "kind", MPS_READ, &v->kind) == MPS_OK &&
+    if (mps_lease_begin(sim, "position", MPS_READ, &v->x) == MPS_OK &&
+        mps_lease_begin(sim, "kind", MPS_READ, &v->kind) == MPS_OK &&
         mps_lease_begin(sim, "phase", MPS_READ, &v->phase) == MPS_OK)
         return true;
     view_close(sim, v);

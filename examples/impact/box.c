@@ -4,10 +4,13 @@
 #include "impact.h"
 #include <math.h>
 
-static const double LENGTH = 3.2, HEIGHT = 1, HALF_BREADTH = 0.48, COLUMN_LENGTH = 1.24, COLUMN_HEIGHT = 0.55, GRAVITY = 9.81;
-static const double FRONT = 2.4, BOX = 0.16, BOX_HALF_BREADTH = 0.2; /* near face, length and height [m] */
-static const double PASSED = 0.6, MEANS_END = 0.9;                   /* means of the passing stream [s] */
-static const double END[] = {1.6, 0.9}; /* of the run in 2-D and 3-D: in 2-D liquid falls behind the box from 1.3 s on [s] */
+static const double LENGTH = 3.2, HEIGHT = 1, HALF_BREADTH = 0.48, COLUMN_LENGTH = 1.24,
+                    COLUMN_HEIGHT = 0.55, GRAVITY = 9.81;
+static const double FRONT = 2.4, BOX = 0.16,
+                    BOX_HALF_BREADTH = 0.2;        /* near face, length and height [m] */
+static const double PASSED = 0.6, MEANS_END = 0.9; /* means of the passing stream [s] */
+static const double END[] = {
+    1.6, 0.9}; /* of the run in 2-D and 3-D: in 2-D liquid falls behind the box from 1.3 s on [s] */
 enum { FRONTS = 4, TOPS = 4 };
 
 static void set(impact *c, cli_options *o)
@@ -32,12 +35,14 @@ static void build_walls(impact *c)
 static void build(impact *c)
 {
     static const char *const name[] = {"F1", "F2", "F3", "F4", "T1", "T2", "T3", "T4", "R"};
-    static const char *const mean[] = {"F1_mean", "F2_mean", "F3_mean", "F4_mean", "T1_mean", "T2_mean", "T3_mean", "T4_mean", "R_mean"};
+    static const char *const mean[] = {"F1_mean", "F2_mean", "F3_mean", "F4_mean", "T1_mean",
+                                       "T2_mean", "T3_mean", "T4_mean", "R_mean"};
     static const char *const least[] = {"F1_least", "F2_least", "F3_least", "F4_least", "T1_least",
                                         "T2_least", "T3_least", "T4_least", "R_least"};
     run *r = &c->run;
     const double dp = r->options.dp, pressure = c->density * c->speed * c->speed;
-    const impact_span passing = {PASSED, MEANS_END, 0}, smooth = {PASSED, END[r->options.dim - 2], 2 * dp / c->speed};
+    const impact_span passing = {PASSED, MEANS_END, 0},
+                      smooth = {PASSED, END[r->options.dim - 2], 2 * dp / c->speed};
     build_walls(c);
     for (int i = 0; i <= FRONTS + TOPS; i++) {
         const double part = (2 * (i % FRONTS) + 1) / 8.0 * BOX;

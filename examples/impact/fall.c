@@ -8,9 +8,11 @@
 #include <math.h>
 
 static const double HEIGHT = 0.5, DROP = 0.1, BREADTH = 0.4, GRAVITY = 9.81;
-static const double REST = 1, REST_FROM = 0.5; /* time simulated after contact; statics are measured from then on [s] */
-static const double PULL = 0.2;                /* time simulated [s] */
-static const double BEFORE = 3, AFTER = 4;     /* window about contact [dp/U] */
+static const double
+    REST = 1,
+    REST_FROM = 0.5; /* time simulated after contact; statics are measured from then on [s] */
+static const double PULL = 0.2;            /* time simulated [s] */
+static const double BEFORE = 3, AFTER = 4; /* window about contact [dp/U] */
 
 static void set_column(impact *c, cli_options *o)
 {
@@ -25,13 +27,19 @@ static void build_column(impact *c)
 {
     run *r = &c->run;
     const double dp = r->options.dp, u = c->speed, tick = dp / u, rho = c->density;
-    const int drop = (int)lround(DROP / dp), wide = (int)lround(BREADTH / dp), high = (int)lround(HEIGHT / dp);
+    const int drop = (int)lround(DROP / dp), wide = (int)lround(BREADTH / dp),
+              high = (int)lround(HEIGHT / dp);
     const int across[] = {1, wide - 1}, up[] = {1 + drop, drop + high};
-    const double size[] = {wide * dp, (up[1] + 10) * dp, IMPACT_SLICE * dp}, h = high * dp, middle = 0.5 * size[0];
-    const double wall = rho * h * size[0] * impact_width(c), fluid = rho * h * (wide - 1) * dp * impact_fluid_width(c);
-    const double from = c->contact - BEFORE * tick, to = c->contact + AFTER * tick, exact = GRAVITY * to;
-    const impact_span before = {0, c->contact - BEFORE * tick, 0}, hit = {from, to, 0}, after = {c->contact, c->contact + REST, 0};
-    const impact_span still = {c->contact + REST_FROM, c->contact + REST, 0}, smooth = {0, after.to, tick};
+    const double size[] = {wide * dp, (up[1] + 10) * dp, IMPACT_SLICE * dp}, h = high * dp,
+                 middle = 0.5 * size[0];
+    const double wall = rho * h * size[0] * impact_width(c),
+                 fluid = rho * h * (wide - 1) * dp * impact_fluid_width(c);
+    const double from = c->contact - BEFORE * tick, to = c->contact + AFTER * tick,
+                 exact = GRAVITY * to;
+    const impact_span before = {0, c->contact - BEFORE * tick, 0}, hit = {from, to, 0},
+                      after = {c->contact, c->contact + REST, 0};
+    const impact_span still = {c->contact + REST_FROM, c->contact + REST, 0},
+                      smooth = {0, after.to, tick};
     impact_water(c);
     impact_walls(c, size, false);
     impact_fill(c, across, up);
@@ -41,13 +49,15 @@ static void build_column(impact *c)
     const int force = impact_last(c);
     impact_figure(c, "before", TRACE_LARGEST, pressure, before, rho * GRAVITY * h);
     impact_figure(c, "impulse_walls", TRACE_INTEGRAL, force, hit, -wall * exact);
-    impact_figure(c, "impulse_fluid", TRACE_CHANGE, TRACE_MOMENTUM + 1, hit, fluid * (exact - GRAVITY * (to - from)));
+    impact_figure(c, "impulse_fluid", TRACE_CHANGE, TRACE_MOMENTUM + 1, hit,
+                  fluid * (exact - GRAVITY * (to - from)));
     impact_figure(c, "rebound", TRACE_LARGEST, TRACE_MOMENTUM + 1, after, fluid * u);
     impact_figure(c, "still", TRACE_MEAN, pressure, still, rho * GRAVITY * h);
     impact_figure(c, "still_least", TRACE_LEAST, pressure, still, rho * GRAVITY * h);
     impact_figure(c, "still_largest", TRACE_LARGEST, pressure, still, rho * GRAVITY * h);
     impact_figure(c, "least", TRACE_LEAST, pressure, after, rho * GRAVITY * h);
-    impact_figure(c, "peak_raw", TRACE_LARGEST, pressure, (impact_span){0, after.to, 0}, rho * u * u);
+    impact_figure(c, "peak_raw", TRACE_LARGEST, pressure, (impact_span){0, after.to, 0},
+                  rho * u * u);
     impact_figure(c, "peak_mean", TRACE_LARGEST, pressure, smooth, rho * u * u);
 }
 
@@ -88,12 +98,14 @@ static void build_floor(impact *c)
     const double dp = r->options.dp, rho = c->density;
     const int wide = (int)lround(0.5 * BREADTH / dp), high = (int)lround(HEIGHT / dp);
     const int across[] = {wide, 2 * wide - 1}, up[] = {1, high};
-    const double size[] = {(3 * wide - 1) * dp, 2 * HEIGHT, IMPACT_SLICE * dp}, h = high * dp, middle = 0.5 * size[0],
-                 depth = 0.5 * size[2];
+    const double size[] = {(3 * wide - 1) * dp, 2 * HEIGHT, IMPACT_SLICE * dp}, h = high * dp,
+                 middle = 0.5 * size[0], depth = 0.5 * size[2];
     const double fluid = rho * h * wide * dp * impact_fluid_width(c) * GRAVITY * PULL;
     const impact_span raw = {0, PULL, 0}, smooth = {0, PULL, 0.01}, mean = {0, PULL, 0};
-    static const char *const name[] = {"P_middle", "P_rim"}, *const least[] = {"middle_least", "rim_least"},
-                             *const least_mean[] = {"middle_least_mean", "rim_least_mean"}, *const means[] = {"middle_mean", "rim_mean"};
+    static const char *const name[] = {"P_middle", "P_rim"},
+                             *const least[] = {"middle_least", "rim_least"},
+                             *const least_mean[] = {"middle_least_mean", "rim_least_mean"},
+                             *const means[] = {"middle_mean", "rim_mean"};
     impact_water(c);
     impact_walls(c, size, false);
     impact_fill(c, across, up);

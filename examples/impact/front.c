@@ -7,7 +7,9 @@
 #include "impact.h"
 #include <math.h>
 
-static const double HEIGHT = 1, ROW = 0.01;                     /* of the block; spacing of a film's rows has no meaning to it [m] */
+static const double HEIGHT = 1,
+                    ROW =
+                        0.01; /* of the block; spacing of a film's rows has no meaning to it [m] */
 static const double BEFORE = 3, SHORT = 1, LONG = 4, LATE = 12; /* windows about contact [dp/U] */
 enum { FILM_LENGTH = 40, SERIES = 400 };
 
@@ -80,14 +82,16 @@ static void build_flat(impact *c)
               {1, "P_bottom", "impulse_bottom", "exact_bottom"}};
     const double dp = c->run.options.dp, tick = dp / c->speed;
     const int rows = (int)lround(HEIGHT / dp);
-    const double height = rows * dp, wall = build_front(c, rows, 2 * rows), unit = c->density * c->speed * height;
+    const double height = rows * dp, wall = build_front(c, rows, 2 * rows),
+                 unit = c->density * c->speed * height;
     for (int i = 0; i < 5; i++) {
         add_sensor(c, at[i].column, wall, at[i].depth < 1 ? (1 - at[i].depth) * height : 2 * dp);
         add_impulse(c, at[i].figure, impact_last(c), SHORT, unit);
         impact_given(c, at[i].exact, impulse(at[i].depth, 2));
     }
     const int bottom = impact_last(c);
-    const impact_span whole = {0, c->contact + LONG * tick, 0}, smooth = {0, whole.to, tick}, early = {0, c->contact - BEFORE * tick, 0};
+    const impact_span whole = {0, c->contact + LONG * tick, 0}, smooth = {0, whole.to, tick},
+                      early = {0, c->contact - BEFORE * tick, 0};
     add_impulse(c, "impulse_bottom_late", bottom, LONG, unit);
     run_wall_sensor(&c->run, "P_mean", wall, 0.5 * height, 0.5 * IMPACT_SLICE * dp, height);
     add_impulse(c, "impulse_mean", impact_last(c), SHORT, unit);
@@ -97,18 +101,22 @@ static void build_flat(impact *c)
     add_impulse(c, "impulse_fluid", TRACE_MOMENTUM, SHORT, -unit * height * impact_fluid_width(c));
     impact_given(c, "exact_mean", impulse(-1, 2));
     add_impulse(c, "impulse_force_late", impact_last(c), LONG, unit * height * impact_width(c));
-    add_impulse(c, "impulse_fluid_late", TRACE_MOMENTUM, LONG, -unit * height * impact_fluid_width(c));
+    add_impulse(c, "impulse_fluid_late", TRACE_MOMENTUM, LONG,
+                -unit * height * impact_fluid_width(c));
     impact_figure(c, "peak_raw", TRACE_LARGEST, bottom, whole, c->density * c->speed * c->speed);
     impact_figure(c, "peak_mean", TRACE_LARGEST, bottom, smooth, c->density * c->speed * c->speed);
-    impact_figure(c, "force_before", TRACE_LARGEST, impact_last(c), early, c->density * c->speed * c->speed * height * impact_width(c));
+    impact_figure(c, "force_before", TRACE_LARGEST, impact_last(c), early,
+                  c->density * c->speed * c->speed * height * impact_width(c));
 }
 
 static void build_film(impact *c)
 {
     const double dp = c->run.options.dp, tick = dp / c->speed, height = c->layers * dp;
-    const double wall = build_front(c, c->layers, FILM_LENGTH), unit = c->density * c->speed * dp * height;
+    const double wall = build_front(c, c->layers, FILM_LENGTH),
+                 unit = c->density * c->speed * dp * height;
     const double exact = impulse(-1, (double)FILM_LENGTH / c->layers) * c->layers + LONG;
-    const impact_span late = {c->contact + LONG * tick, c->contact + LATE * tick, 0}, whole = {0, late.to, 0}, smooth = {0, late.to, tick};
+    const impact_span late = {c->contact + LONG * tick, c->contact + LATE * tick, 0},
+                      whole = {0, late.to, 0}, smooth = {0, late.to, tick};
     add_sensor(c, "P_bottom", wall, 2 * dp);
     const int bottom = impact_last(c);
     run_force(&c->run, "F", "tank.x1", 0);
@@ -117,7 +125,8 @@ static void build_film(impact *c)
     impact_given(c, "exact_fluid", exact);
     impact_given(c, "exact_half_cell", exact * (c->layers + 0.5) / c->layers);
     impact_figure(c, "late_walls", TRACE_INTEGRAL, impact_last(c), late, unit * impact_width(c));
-    impact_figure(c, "late_fluid", TRACE_CHANGE, TRACE_MOMENTUM, late, -unit * impact_fluid_width(c));
+    impact_figure(c, "late_fluid", TRACE_CHANGE, TRACE_MOMENTUM, late,
+                  -unit * impact_fluid_width(c));
     impact_given(c, "late_exact", LATE - LONG);
     impact_figure(c, "peak_raw", TRACE_LARGEST, bottom, whole, c->density * c->speed * c->speed);
     impact_figure(c, "peak_mean", TRACE_LARGEST, bottom, smooth, c->density * c->speed * c->speed);

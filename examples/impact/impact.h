@@ -10,10 +10,11 @@ typedef struct impact {
     trace rows;
     trace_measure measure[RUN_FIGURES];
     double density, speed; /* of the liquid [kg/m3], of its approach [m/s] */
-    double contact;        /* time at which the foremost row is one spacing from the wall: half cells of liquid and wall meet [s] */
-    double deadrise;       /* of the wedge [degrees] */
-    double block;          /* half width and depth of the liquid that meets the wedge [m] */
-    int32_t layers;        /* rows of the film */
+    double
+        contact; /* time at which the foremost row is one spacing from the wall: half cells of liquid and wall meet [s] */
+    double deadrise; /* of the wedge [degrees] */
+    double block;    /* half width and depth of the liquid that meets the wedge [m] */
+    int32_t layers;  /* rows of the film */
 } impact;
 
 /* One case. `set` completes the options before the run opens, `build` adds particles, columns and figures. */
@@ -24,9 +25,13 @@ typedef struct impact_case {
     bool in_space; /* also in 3-D */
 } impact_case;
 
-extern const impact_case impact_flat, impact_film, impact_wedge, impact_jet, impact_column, impact_floor, impact_box;
+extern const impact_case impact_flat, impact_film, impact_wedge, impact_jet, impact_column,
+    impact_floor, impact_box;
 
-enum { IMPACT_GAP = 6, IMPACT_SLICE = 6 }; /* in spacings: foremost row to wall at the start; width of a slice in 3-D */
+enum {
+    IMPACT_GAP = 6,
+    IMPACT_SLICE = 6
+}; /* in spacings: foremost row to wall at the start; width of a slice in 3-D */
 
 /* No gravity: the speed of the flow scales what gravity scales elsewhere. */
 void impact_weightless(impact *c, cli_options *o);
@@ -46,7 +51,8 @@ double impact_fluid_width(const impact *c);
 typedef struct impact_span {
     double from, to, window;
 } impact_span;
-void impact_figure(impact *c, const char *name, trace_kind kind, int column, impact_span span, double scale);
+void impact_figure(impact *c, const char *name, trace_kind kind, int column, impact_span span,
+                   double scale);
 /* A known number beside them. */
 void impact_given(impact *c, const char *name, double value);
 /* Column of trace.csv that was added last. */

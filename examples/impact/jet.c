@@ -3,8 +3,13 @@
 #include "impact.h"
 #include <math.h>
 
-static const double WIDTH = 1;                           /* b [m] */
-enum { LENGTH = 6, HALF_WALL = 12, BEGIN = 2, END = 5 }; /* of the jet and the wall, and of the steady phase after contact [b, b/U] */
+static const double WIDTH = 1; /* b [m] */
+enum {
+    LENGTH = 6,
+    HALF_WALL = 12,
+    BEGIN = 2,
+    END = 5
+}; /* of the jet and the wall, and of the steady phase after contact [b, b/U] */
 
 static void set(impact *c, cli_options *o)
 {
@@ -19,11 +24,14 @@ static void build(impact *c)
     run *r = &c->run;
     const double dp = r->options.dp, rho = c->density, u = c->speed;
     const int wide = (int)lround(WIDTH / dp), left = HALF_WALL * wide;
-    const int across[] = {left, left + wide - 1}, up[] = {IMPACT_GAP, IMPACT_GAP + LENGTH * wide - 1};
-    const double size[] = {(2 * left + wide - 1) * dp, (up[1] + IMPACT_GAP) * dp, IMPACT_SLICE * dp};
+    const int across[] = {left, left + wide - 1},
+              up[] = {IMPACT_GAP, IMPACT_GAP + LENGTH * wide - 1};
+    const double size[] = {(2 * left + wide - 1) * dp, (up[1] + IMPACT_GAP) * dp,
+                           IMPACT_SLICE * dp};
     const double b = wide * dp, middle = 0.5 * size[0];
     const impact_span steady = {c->contact + BEGIN * b / u, c->contact + END * b / u, 0};
-    const impact_span start = {0, c->contact + 4 * dp / u, 0}, smooth = {0, start.to, dp / u}, settled = {steady.from, steady.to, dp / u};
+    const impact_span start = {0, c->contact + 4 * dp / u, 0}, smooth = {0, start.to, dp / u},
+                      settled = {steady.from, steady.to, dp / u};
     impact_water(c);
     impact_walls(c, size, false);
     impact_fill(c, across, up);

@@ -8,7 +8,9 @@
 void impact_weightless(impact *c, cli_options *o)
 {
     o->gravity = 0;
-    o->velocity_scale = 0.1 * c->speed; /* that of a flow of Froude number 10 over one spacing; limits dt at cfl 0.6 */
+    o->velocity_scale =
+        0.1 *
+        c->speed; /* that of a flow of Froude number 10 over one spacing; limits dt at cfl 0.6 */
 }
 
 void impact_water(impact *c)
@@ -57,7 +59,8 @@ double impact_fluid_width(const impact *c)
     return c->run.options.dim == 3 ? (IMPACT_SLICE - 1) * c->run.options.dp : 1;
 }
 
-void impact_figure(impact *c, const char *name, trace_kind kind, int column, impact_span span, double scale)
+void impact_figure(impact *c, const char *name, trace_kind kind, int column, impact_span span,
+                   double scale)
 {
     run *r = &c->run;
     if (r->figures == RUN_FIGURES) {
@@ -65,8 +68,13 @@ void impact_figure(impact *c, const char *name, trace_kind kind, int column, imp
         exit(CLI_FAILED);
     }
     trace_measure *m = &c->measure[r->figures];
-    *m = (trace_measure){
-        .rows = &c->rows, .kind = kind, .column = column, .from = span.from, .to = span.to, .window = span.window, .scale = scale};
+    *m = (trace_measure){.rows = &c->rows,
+                         .kind = kind,
+                         .column = column,
+                         .from = span.from,
+                         .to = span.to,
+                         .window = span.window,
+                         .scale = scale};
     run_figure_add(r, name, trace_figure, m);
 }
 

@@ -6,8 +6,9 @@
 #include "impact.h"
 #include <math.h>
 
-static const double SIDE = 0.2, FOOT = 0.6; /* wetted side at the end; half width of the wedge [m] */
-enum { SENSORS = 160, FIRST = 2 };          /* along the side; the first, in spacings from the edge */
+static const double SIDE = 0.2,
+                    FOOT = 0.6;    /* wetted side at the end; half width of the wedge [m] */
+enum { SENSORS = 160, FIRST = 2 }; /* along the side; the first, in spacings from the edge */
 
 /* Sensors one spacing apart along the side; their largest value is a column. */
 typedef struct row {
@@ -80,7 +81,8 @@ static double place(void *user, mps_sim *sim)
 }
 
 /* The jet is not looked at: sensors reach 2.5 times as far as the undisturbed surface. */
-static void add_row(impact *c, const wedge *w, row *s, const char *name, double diameter, double average)
+static void add_row(impact *c, const wedge *w, row *s, const char *name, double diameter,
+                    double average)
 {
     const double dp = c->run.options.dp, sine = w->slope * w->cosine;
     mps_probe probe;
@@ -109,7 +111,8 @@ static void build_walls(impact *c, wedge *w)
     w->top = top(c, dp);
     const int columns = (int)lround(c->block / dp), first = first_row(c, dp);
     const int across[] = {1, columns}, up[] = {first, first + columns - 1};
-    const double size[] = {(columns + 3 * IMPACT_GAP) * dp, (up[1] + IMPACT_GAP) * dp, 0}, edge = 6 * dp;
+    const double size[] = {(columns + 3 * IMPACT_GAP) * dp, (up[1] + IMPACT_GAP) * dp, 0},
+                 edge = 6 * dp;
     solid.name = "wedge";
     solid.distance = side;
     solid.user = w;
@@ -128,13 +131,15 @@ static void build(impact *c)
     static wedge w;
     run *r = &c->run;
     build_walls(c, &w);
-    const double dp = r->options.dp, rho = c->density, v = c->speed, unit = rho * v * v * v, tick = dp / v;
+    const double dp = r->options.dp, rho = c->density, v = c->speed, unit = rho * v * v * v,
+                 tick = dp / v;
     const double end = c->contact + SIDE * sin(angle(c)) / v;
     const impact_span second = {0.5 * (c->contact + end), end, 0}, last = {end - 2 * tick, end, 0},
                       mean = {end - 0.5 * tick, end + 0.5 * tick, 0};
     run_force(r, "F", "wedge", 1);
     impact_figure(c, "force_slope", TRACE_SLOPE, impact_last(c), second, -0.5 * unit);
-    impact_figure(c, "force_mean", TRACE_MEAN, impact_last(c), second, -0.5 * unit * (0.5 * (second.from + end) - c->contact));
+    impact_figure(c, "force_mean", TRACE_MEAN, impact_last(c), second,
+                  -0.5 * unit * (0.5 * (second.from + end) - c->contact));
     impact_figure(c, "force_fluid", TRACE_CHANGE, TRACE_MOMENTUM + 1, second,
                   0.5 * unit * (0.5 * (second.from + end) - c->contact) * (end - second.from));
     add_row(c, &w, &w.raw, "P_raw", 2 * dp, 0);

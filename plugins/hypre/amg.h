@@ -36,8 +36,8 @@ void mps__hypre_give(const mps_allocator *allocator, void *block);
 extern const mps_hypre_settings mps__hypre_defaults;
 /* Verbs of the solver (pcg.c). */
 int mps__hypre_create(const mps_allocator *allocator, void **self);
-void mps__hypre_solve(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc, void *pc_self, double *p,
-                      mps_ppe_result *result);
+void mps__hypre_solve(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc,
+                      void *pc_self, double *p, mps_ppe_result *result);
 void mps__hypre_destroy(const mps_allocator *allocator, void *self);
 
 #endif

@@ -17,7 +17,8 @@ const mps_hypre_settings mps__hypre_defaults = {
     .threshold = 0.5,
 };
 
-__attribute__((format(printf, 3, 4))) static mps_status fail(const mps_hypre_settings *s, mps_status status, const char *format, ...)
+__attribute__((format(printf, 3, 4))) static mps_status
+fail(const mps_hypre_settings *s, mps_status status, const char *format, ...)
 {
     if (!s || !s->error || !s->error_size) return status;
     va_list list;
@@ -37,8 +38,9 @@ static mps_status check(const mps_hypre_settings *s)
     if (!s) return MPS_OK;
     if (s->struct_size < sizeof *s) return MPS_E_ARG; /* `error` may be no part of it */
     if (s->struct_size > sizeof *s)
-        return fail(s, MPS_E_VERSION, "mps_hypre_settings of %u bytes comes from a newer version; this one knows %zu", s->struct_size,
-                    sizeof *s);
+        return fail(s, MPS_E_VERSION,
+                    "mps_hypre_settings of %u bytes comes from a newer version; this one knows %zu",
+                    s->struct_size, sizeof *s);
     const struct {
         const char *name;
         int32_t value, least, most;
@@ -49,9 +51,12 @@ static mps_status check(const mps_hypre_settings *s)
                   {"aggressive_levels", s->aggressive_levels, 0, 25}};
     for (size_t k = 0; k < sizeof ranges / sizeof ranges[0]; k++)
         if (ranges[k].value < ranges[k].least || ranges[k].value > ranges[k].most)
-            return fail(s, MPS_E_ARG, "%s is %d; allowed: %d to %d", ranges[k].name, ranges[k].value, ranges[k].least, ranges[k].most);
-    if (!symmetric(s->relaxation)) return fail(s, MPS_E_ARG, "relaxation is %d; allowed: 6, 7, 8, 16 and 18", s->relaxation);
-    if (!(s->threshold >= 0 && s->threshold < 1)) return fail(s, MPS_E_ARG, "threshold is %g; allowed: at least 0, below 1", s->threshold);
+            return fail(s, MPS_E_ARG, "%s is %d; allowed: %d to %d", ranges[k].name,
+                        ranges[k].value, ranges[k].least, ranges[k].most);
+    if (!symmetric(s->relaxation))
+        return fail(s, MPS_E_ARG, "relaxation is %d; allowed: 6, 7, 8, 16 and 18", s->relaxation);
+    if (!(s->threshold >= 0 && s->threshold < 1))
+        return fail(s, MPS_E_ARG, "threshold is %g; allowed: at least 0, below 1", s->threshold);
     return MPS_OK;
 }
 
@@ -71,7 +76,9 @@ static mps_status start(const mps_hypre_settings *s)
     static bool hypre_runs;
     int running = 0, over = 0;
     MPI_Finalized(&over);
-    if (over) return fail(s, MPS_E_STATE, "MPI has ended already, and cannot be started twice in a program");
+    if (over)
+        return fail(s, MPS_E_STATE,
+                    "MPI has ended already, and cannot be started twice in a program");
     MPI_Initialized(&running);
     if (!running) {
         if (MPI_Init(NULL, NULL) != MPI_SUCCESS) return fail(s, MPS_E_STATE, "MPI does not start");

@@ -12,7 +12,7 @@ static const double DEEPEST = 1e-10; /* residual reduction of one pass */
 typedef struct pcg {
     mps__amg amg;
     mps_hypre_settings settings;
-    double *block;                                               /* [ARRAYS * capacity] all of the next */
+    double *block; /* [ARRAYS * capacity] all of the next */
     double *start, *residual, *d, *z, *direction, *image, *sums; /* sums: [2 sum_capacity] */
     int64_t capacity, sum_capacity;
     /* of the solve in progress */
@@ -71,7 +71,8 @@ static double multiply(const pcg *s)
     double curvature = 0;
     for (int64_t i = 0; i < problem->n; i++) {
         double sum = problem->diagonal[i] * s->direction[i];
-        for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) sum += (double)problem->val[k] * s->direction[problem->col[k]];
+        for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++)
+            sum += (double)problem->val[k] * s->direction[problem->col[k]];
         s->image[i] = sum;
         curvature += sum * s->direction[i];
     }
@@ -82,7 +83,8 @@ static double multiply(const pcg *s)
 static bool negative(const pcg *s, double curvature)
 {
     double scale = 0;
-    for (int64_t i = 0; i < s->problem->n; i++) scale += s->problem->diagonal[i] * s->direction[i] * s->direction[i];
+    for (int64_t i = 0; i < s->problem->n; i++)
+        scale += s->problem->diagonal[i] * s->direction[i] * s->direction[i];
     return -curvature > 1e-12 * scale;
 }
 
@@ -92,7 +94,8 @@ static double excess(const pcg *s, const double *r)
     const mps_ppe_problem *problem = s->problem;
     double largest = 0;
     if (problem->divergence > 0)
-        for (int64_t i = 0; i < problem->n; i++) largest = fmax(largest, fabs(r[i] * problem->weight[i]) / problem->divergence);
+        for (int64_t i = 0; i < problem->n; i++)
+            largest = fmax(largest, fabs(r[i] * problem->weight[i]) / problem->divergence);
     return fmax(largest, sqrt(dot(r, r, problem->n)) / s->norm_limit);
 }
 
@@ -160,7 +163,8 @@ static int descend(pcg *s, double limit, int32_t most, int32_t *iterations)
         int reason = precondition(s, &product);
         if (reason) return reason;
         const double beta = k ? product / before : 0;
-        for (int64_t i = 0; i < n; i++) s->direction[i] = s->z[i] + (k ? beta * s->direction[i] : 0);
+        for (int64_t i = 0; i < n; i++)
+            s->direction[i] = s->z[i] + (k ? beta * s->direction[i] : 0);
         reason = advance(s, product);
         if (reason) return reason;
         ++*iterations;
@@ -173,7 +177,8 @@ static int pass(pcg *s, double *p, double share, mps_ppe_result *result)
     const mps_ppe_problem *problem = s->problem;
     center(s, s->residual); /* rounding must not leave what no p can produce */
     const double limit = fmax(share, DEEPEST * excess(s, s->residual));
-    const int failure = descend(s, limit, problem->max_iterations - result->iterations, &result->iterations);
+    const int failure = descend(s, limit, problem->max_iterations - result->iterations,
+                                &result->iterations);
     clean(s->d, problem->n);
     for (int64_t i = 0; i < problem->n; i++) p[i] += s->d[i];
     center(s, p);
@@ -255,8 +260,8 @@ int mps__hypre_create(const mps_allocator *allocator, void **self)
     return 0;
 }
 
-void mps__hypre_solve(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc, void *pc_self, double *p,
-                      mps_ppe_result *result)
+void mps__hypre_solve(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc,
+                      void *pc_self, double *p, mps_ppe_result *result)
 {
     (void)pc, (void)pc_self;
     pcg *s = self;

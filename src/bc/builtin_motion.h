@@ -6,13 +6,14 @@
 #include <mps/motion.h>
 
 /* Sum of harmonics. Arguments are good; NULL when memory is out. */
-void *mps__motion_harmonic_create(const mps_allocator *allocator, int32_t count, const mps_harmonic *harmonics);
+void *mps__motion_harmonic_create(const mps_allocator *allocator, int32_t count,
+                                  const mps_harmonic *harmonics);
 /* user: what create gave */
 int mps__motion_harmonic(void *user, double t, mps_motion_state *state);
 
 /* Natural cubic splines through a table, arguments as mps_motion_table_set(). */
-void *mps__motion_table_create(const mps_allocator *allocator, int64_t rows, const double *t, int32_t dofs, const int32_t *dof,
-                               const double *values);
+void *mps__motion_table_create(const mps_allocator *allocator, int64_t rows, const double *t,
+                               int32_t dofs, const int32_t *dof, const double *values);
 int mps__motion_table(void *user, double t, mps_motion_state *state);
 
 #endif

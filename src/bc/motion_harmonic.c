@@ -26,7 +26,8 @@ static void add_harmonic(const mps_harmonic *h, double t, mps_motion_state *s)
     }
 }
 
-void *mps__motion_harmonic_create(const mps_allocator *allocator, int32_t count, const mps_harmonic *harmonics)
+void *mps__motion_harmonic_create(const mps_allocator *allocator, int32_t count,
+                                  const mps_harmonic *harmonics)
 {
     size_t bytes = (size_t)count * sizeof *harmonics;
     harmonic_set *set = allocator->alloc(allocator->user, sizeof *set + bytes);

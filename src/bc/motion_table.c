@@ -43,23 +43,27 @@ static int64_t find_interval(const spline_table *s, double t)
 }
 
 /* Both end terms vanish exactly at their knots, so the values there are the table's. */
-static void evaluate(const spline_table *s, int32_t column, int64_t k, double t, mps_motion_state *state)
+static void evaluate(const spline_table *s, int32_t column, int64_t k, double t,
+                     mps_motion_state *state)
 {
     const double *y = &s->value[column * s->rows], *m = &s->second[column * s->rows];
     double h = s->t[k + 1] - s->t[k], b = (t - s->t[k]) / h, a = (s->t[k + 1] - t) / h;
     int32_t dof = s->dof[column];
-    state->value[dof] = a * y[k] + b * y[k + 1] + ((a * a * a - a) * m[k] + (b * b * b - b) * m[k + 1]) * h * h / 6;
-    state->rate[dof] = (y[k + 1] - y[k]) / h + ((1 - 3 * a * a) * m[k] + (3 * b * b - 1) * m[k + 1]) * h / 6;
+    state->value[dof] = a * y[k] + b * y[k + 1] +
+                        ((a * a * a - a) * m[k] + (b * b * b - b) * m[k + 1]) * h * h / 6;
+    state->rate[dof] = (y[k + 1] - y[k]) / h +
+                       ((1 - 3 * a * a) * m[k] + (3 * b * b - 1) * m[k + 1]) * h / 6;
     state->accel[dof] = a * m[k] + b * m[k + 1];
 }
 
-void *mps__motion_table_create(const mps_allocator *allocator, int64_t rows, const double *t, int32_t dofs, const int32_t *dof,
-                               const double *values)
+void *mps__motion_table_create(const mps_allocator *allocator, int64_t rows, const double *t,
+                               int32_t dofs, const int32_t *dof, const double *values)
 {
     /* t, values, second derivatives, scratch */
     uint64_t numbers = (uint64_t)rows * (2u * (uint64_t)dofs + 2u);
     if ((uint64_t)rows > SIZE_MAX / 1024) return NULL;
-    spline_table *s = allocator->alloc(allocator->user, sizeof *s + (size_t)numbers * sizeof(double));
+    spline_table *s = allocator->alloc(allocator->user,
+                                       sizeof *s + (size_t)numbers * sizeof(double));
     if (!s) return NULL;
     double *value = s->data + rows, *second = value + dofs * rows, *scratch = second + dofs * rows;
     s->rows = rows;

@@ -67,7 +67,8 @@ MPS_ROW void collect(const int dim, const mps_stage *s, const mps_grid *grid, in
     for (int k = 0; k < cells; k++) {
         const int64_t cell[3] = {home[0] + k % 3 - 1, home[1] + k / 3 % 3 - 1,
                                  dim == 3 ? home[2] + k / 9 - 1 : 0};
-        for (int64_t j = grid->first[mps_grid_bucket(grid, cell)] - 1; j >= 0; j = grid->next[j] - 1) {
+        for (int64_t j = grid->first[mps_grid_bucket(grid, cell)] - 1; j >= 0;
+             j = grid->next[j] - 1) {
             int64_t of[3];
             mps_grid_cell(grid, s->x + j * dim, of); /* other cells may share the bucket */
             if (of[0] != cell[0] || of[1] != cell[1] || of[2] != cell[2]) continue;

@@ -9,8 +9,8 @@
 
 enum { SIGMA, RADIUS, THRESHOLD, SETTINGS };
 static const mps_setting settings[SETTINGS] = {
-    [SIGMA] = {"sigma", "N/m", "Surface tension of phases without mps_tension_set()",
-               MPS_TYPE_REAL, 7.27e-2, 0.0, 100.0},
+    [SIGMA] = {"sigma", "N/m", "Surface tension of phases without mps_tension_set()", MPS_TYPE_REAL,
+               7.27e-2, 0.0, 100.0},
     [RADIUS] = {"radius", "dp", "Radius r_s of the curvature: larger is smoother", MPS_TYPE_REAL,
                 8.1, 2.1, 20.0},
     [THRESHOLD] = {"threshold", "1/dp", "Smallest magnitude of grad f at an interface",

@@ -38,7 +38,8 @@ static void check_rows(void *argument, int64_t begin, int64_t end, double *value
 static int check_diagonal(const mps_ppe_problem *problem)
 {
     double found[2] = {0};
-    mps_parallel_max(mps__team(problem->parallel, problem->n), problem->n, 2, check_rows, (mps_ppe_problem *)problem, found);
+    mps_parallel_max(mps__team(problem->parallel, problem->n), problem->n, 2, check_rows,
+                     (mps_ppe_problem *)problem, found);
     return found[0] > 0 ? MPS_PPE_NAN : found[1] > 0 ? MPS_PPE_INDEFINITE : 0;
 }
 
@@ -55,7 +56,8 @@ static void invert_rows(void *argument, int64_t begin, int64_t end)
     const operands *o = argument;
     for (int64_t i = begin; i < end; i++) {
         const double d = o->problem->diagonal[i];
-        o->z[i] = d > 0 ? 1 / d : 1; /* an empty row is a particle without neighbours, its residual is 0 */
+        o->z[i] = d > 0 ? 1 / d
+                        : 1; /* an empty row is a particle without neighbours, its residual is 0 */
     }
 }
 
@@ -102,7 +104,8 @@ static void apply_rows(void *argument, int64_t begin, int64_t end)
     const double *inverse = o->a->inverse, *r = o->r;
     double *z = o->z;
     const int dim = g->dim;
-    for (int64_t i = begin; i < end; i++) z[i] = inverse[i] * r[i] + mps__grid_value(&first, dim, i);
+    for (int64_t i = begin; i < end; i++)
+        z[i] = inverse[i] * r[i] + mps__grid_value(&first, dim, i);
 }
 
 static int apply(void *self, const double *r, double *z)
@@ -112,7 +115,8 @@ static int apply(void *self, const double *r, double *z)
     if (a->n == 0) return 0;
     mps__grid_restrict(g, r, g->unit);
     mps__grid_cycle(g);
-    mps_parallel_rows_least(g->parallel, a->n, MPS__TEAM_LEAST / 2, apply_rows, &(operands){.a = a, .r = r, .z = z});
+    mps_parallel_rows_least(g->parallel, a->n, MPS__TEAM_LEAST / 2, apply_rows,
+                            &(operands){.a = a, .r = r, .z = z});
     return 0;
 }
 

@@ -8,10 +8,12 @@
 #include <stdbool.h>
 
 enum {
-    MPS__GRID_BITS = 20,    /* of a cell's coordinate; what lies further out is put into the last cell */
+    MPS__GRID_BITS =
+        20, /* of a cell's coordinate; what lies further out is put into the last cell */
     MPS__GRID_LEVELS = 22,  /* after 20 halvings one cell is left */
     MPS__GRID_DIRECT = 150, /* fewer cells are solved directly */
-    MPS__GRID_CHUNKS = 8 /* parts of the particles, each summed by one thread; a fixed number, so that sums do not depend on the threads */
+    MPS__GRID_CHUNKS =
+        8 /* parts of the particles, each summed by one thread; a fixed number, so that sums do not depend on the threads */
 };
 
 /* One grid, and how the points above it (particles, or the cells of the finer grid) reach its cells. The `red` cells, whose
@@ -19,11 +21,12 @@ enum {
 typedef struct mps__grid_level {
     int64_t points, point_capacity;
     int64_t cells, red, cell_capacity;
-    int32_t *home;   /* [points] cell that holds the point, -1: none */
-    int32_t *at;     /* [points << dim] cells that a point takes its value from */
-    float *share;    /* [points << dim] and how much of each; 0 or a sum of 1 */
-    int64_t *key;    /* [cells] packed coordinates */
-    int32_t *next;   /* [cells * 2 dim] neighbours below and above along each axis, itself where there is none */
+    int32_t *home; /* [points] cell that holds the point, -1: none */
+    int32_t *at;   /* [points << dim] cells that a point takes its value from */
+    float *share;  /* [points << dim] and how much of each; 0 or a sum of 1 */
+    int64_t *key;  /* [cells] packed coordinates */
+    int32_t *
+        next; /* [cells * 2 dim] neighbours below and above along each axis, itself where there is none */
     float *link;     /* [cells * 2 dim] conductances to them, equal from both sides */
     double *shift;   /* [cells] the rest of the diagonal */
     double *inverse; /* [cells] of the diagonal, 0 for a cell with nothing */
@@ -42,18 +45,20 @@ typedef struct mps__grid {
     int levels;
     mps__grid_level level[MPS__GRID_LEVELS];
     int64_t table_size, table_capacity; /* a power of two */
-    int64_t *table_key;                 /* [table_size] hash table from coordinates to cells, -1: free */
-    int32_t *table_cell;                /* [table_size] */
+    int64_t *table_key;  /* [table_size] hash table from coordinates to cells, -1: free */
+    int32_t *table_cell; /* [table_size] */
     int64_t point_capacity;
     int64_t *point_key;  /* [points] coordinates of the cell that holds a point, -1: none */
     double *point_kappa; /* [points]; free when all grids are there */
     int64_t order_capacity;
     int32_t *order;       /* [cells] cells in order of appearance to cells by colour */
     size_t part_capacity; /* bytes */
-    void *parts;          /* [chunks * cells] what each chunk adds to the first grid: floats [2 dim] of links, or a double */
-    int32_t range[MPS__GRID_CHUNKS][2][2]; /* red and black cells that a chunk adds to, first and one past the last */
-    double *factor;                        /* [direct * direct] L of the last grid's L D L' */
-    double *pivot;                         /* [direct] 1/D, 0 where D is */
+    void *
+        parts; /* [chunks * cells] what each chunk adds to the first grid: floats [2 dim] of links, or a double */
+    int32_t range[MPS__GRID_CHUNKS][2]
+                 [2]; /* red and black cells that a chunk adds to, first and one past the last */
+    double *factor;   /* [direct * direct] L of the last grid's L D L' */
+    double *pivot;    /* [direct] 1/D, 0 where D is */
 } mps__grid;
 
 /* ---- cells (auxgrid_cells.c) ---- */

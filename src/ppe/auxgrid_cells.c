@@ -55,7 +55,8 @@ static bool reserve_cells(mps__grid *g, mps__grid_level *l, int64_t cells)
     l->count = mps__take(&g->allocator, capacity, sizeof *l->count);
     l->b = mps__take(&g->allocator, capacity, sizeof *l->b);
     l->x = mps__take(&g->allocator, capacity, sizeof *l->x);
-    if (l->key && l->next && l->link && l->shift && l->inverse && l->kappa && l->count && l->b && l->x)
+    if (l->key && l->next && l->link && l->shift && l->inverse && l->kappa && l->count && l->b &&
+        l->x)
         l->cell_capacity = capacity;
     else
         drop_cells(g, l);
@@ -104,7 +105,9 @@ static bool reserve_order(mps__grid *g, int64_t cells)
 
 bool mps__grid_reserve(mps__grid *g, int64_t points)
 {
-    if (!g->factor) g->factor = mps__take(&g->allocator, MPS__GRID_DIRECT * MPS__GRID_DIRECT, sizeof *g->factor);
+    if (!g->factor)
+        g->factor = mps__take(&g->allocator, MPS__GRID_DIRECT * MPS__GRID_DIRECT,
+                              sizeof *g->factor);
     if (!g->pivot) g->pivot = mps__take(&g->allocator, MPS__GRID_DIRECT, sizeof *g->pivot);
     if (!g->factor || !g->pivot) return false;
     if (points <= g->point_capacity && g->table_capacity > 0) return true;
@@ -122,7 +125,9 @@ bool mps__grid_reserve(mps__grid *g, int64_t points)
 bool mps__grid_reserve_parts(mps__grid *g)
 {
     const size_t cells = (size_t)g->level[0].cells, links = 2 * (size_t)g->dim * sizeof(float);
-    const size_t each = MPS__GRID_CHUNKS * (g->one ? sizeof(double) : links); /* 2 dim floats are no less than a double */
+    const size_t each = MPS__GRID_CHUNKS *
+                        (g->one ? sizeof(double)
+                                : links); /* 2 dim floats are no less than a double */
     if (cells * each < g->part_capacity) return true;
     mps__give(&g->allocator, g->parts);
     g->part_capacity = (cells + cells / 8 + 1) * each;
@@ -156,7 +161,9 @@ static int64_t slot(const mps__grid *g, int64_t key)
 
 static bool is_red(int64_t key)
 {
-    return ((mps__grid_coordinate(key, 0) + mps__grid_coordinate(key, 1) + mps__grid_coordinate(key, 2)) & 1) == 0;
+    return ((mps__grid_coordinate(key, 0) + mps__grid_coordinate(key, 1) +
+             mps__grid_coordinate(key, 2)) &
+            1) == 0;
 }
 
 /* Homes by order of appearance; counts cells and red ones. False: the table is too small. */
@@ -168,7 +175,9 @@ static bool fill_table(mps__grid *g, mps__grid_level *l)
     l->cells = l->red = 0;
     for (int64_t i = 0; i < l->points; i++) {
         int64_t key = g->point_key[i];
-        l->home[i] = i > 0 && key == g->point_key[i - 1] ? l->home[i - 1] : -1; /* particles come sorted along cells */
+        l->home[i] = i > 0 && key == g->point_key[i - 1]
+                         ? l->home[i - 1]
+                         : -1; /* particles come sorted along cells */
         if (key < 0 || l->home[i] >= 0) continue;
         int64_t s = slot(g, key);
         if (g->table_key[s] < 0) {
@@ -228,7 +237,8 @@ bool mps__grid_cells(mps__grid *g, mps__grid_level *l, int64_t points)
 {
     if (!reserve_points(g, l, points)) return false;
     l->points = points;
-    if (!find_cells(g, l) || !reserve_cells(g, l, l->cells) || !reserve_order(g, l->cells)) return false;
+    if (!find_cells(g, l) || !reserve_cells(g, l, l->cells) || !reserve_order(g, l->cells))
+        return false;
     sort_cells(g, l);
     find_neighbours(g, l);
     for (int64_t c = 0; c < l->cells; c++) l->shift[c] = l->kappa[c] = l->count[c] = 0;

@@ -6,7 +6,8 @@
 #include <string.h>
 
 enum { SWEEPS = 2 };
-static const double no_level = 1e-10; /* share of the diagonal below which a pivot belongs to a constant pressure */
+static const double no_level =
+    1e-10; /* share of the diagonal below which a pivot belongs to a constant pressure */
 
 /* ---- direct solution of the last grid ---- */
 
@@ -116,7 +117,8 @@ static void relax_rows(void *argument, int64_t begin, int64_t end)
     const cycle *y = argument;
     const mps__grid_level level = *y->l, *l = &level; /* its pointers stay in registers */
     const int sides = y->sides;
-    for (int64_t c = y->from + begin; c < y->from + end; c++) l->x[c] = (l->b[c] + pull(l, sides, c)) * l->inverse[c];
+    for (int64_t c = y->from + begin; c < y->from + end; c++)
+        l->x[c] = (l->b[c] + pull(l, sides, c)) * l->inverse[c];
 }
 
 /* One colour: each cell solved for itself. */
@@ -129,7 +131,8 @@ static void begin_rows(void *argument, int64_t begin, int64_t end)
 {
     const mps__grid_level *l = ((const cycle *)argument)->l;
     for (int64_t c = begin; c < end; c++)
-        l->x[c] = c < l->red ? l->b[c] * l->inverse[c] : 0; /* black ones: read at missing neighbours, times zero */
+        l->x[c] = c < l->red ? l->b[c] * l->inverse[c]
+                             : 0; /* black ones: read at missing neighbours, times zero */
 }
 
 static void sweep_down(const mps__grid *g, mps__grid_level *l)
@@ -151,7 +154,8 @@ static void sweep_up(const mps__grid *g, mps__grid_level *l)
 }
 
 /* Add a value to the 2^dim corners about a point. */
-static inline void spread_over(const mps__grid_level *l, const int corners, int64_t point, double value, double *b)
+static inline void spread_over(const mps__grid_level *l, const int corners, int64_t point,
+                               double value, double *b)
 {
     const int32_t *at = l->at + point * corners;
     const float *share = l->share + point * corners;
@@ -199,7 +203,8 @@ static void sum_blocks(void *argument, int64_t begin, int64_t end)
     const mps__grid_level *l = &g->level[0];
     const int64_t red = mps__blocks(l->red);
     for (int64_t k = begin; k < end; k++) {
-        const int64_t from = k < red ? k * MPS__BLOCK : l->red + (k - red) * MPS__BLOCK, last = k < red ? l->red : l->cells;
+        const int64_t from = k < red ? k * MPS__BLOCK : l->red + (k - red) * MPS__BLOCK,
+                      last = k < red ? l->red : l->cells;
         sum_chunks(g, k >= red, from, from + MPS__BLOCK < last ? from + MPS__BLOCK : last);
     }
 }
@@ -210,7 +215,8 @@ void mps__grid_restrict(mps__grid *g, const double *values, double scale)
     const mps_parallel *team = mps__team(g->parallel, l->points);
     cycle y = {.g = g, .values = values, .scale = scale};
     mps_parallel_run(team, MPS__GRID_CHUNKS, restrict_chunk, &y);
-    mps_parallel_rows_least(team, mps__blocks(l->red) + mps__blocks(l->cells - l->red), 2, sum_blocks, &y);
+    mps_parallel_rows_least(team, mps__blocks(l->red) + mps__blocks(l->cells - l->red), 2,
+                            sum_blocks, &y);
 }
 
 /* What is left of the right side, to the next grid. The black cells were solved last: only red ones have a residual. */
@@ -219,7 +225,8 @@ static void restrict_residual(const mps__grid *g, const mps__grid_level *fine, m
     memset(l->b, 0, (size_t)l->cells * sizeof *l->b);
     for (int64_t c = 0; c < fine->red; c++) {
         if (l->home[c] < 0) continue;
-        spread(l, g->dim, c, fine->b[c] + pull(fine, 2 * g->dim, c) - fine->x[c] / fine->inverse[c], l->b);
+        spread(l, g->dim, c, fine->b[c] + pull(fine, 2 * g->dim, c) - fine->x[c] / fine->inverse[c],
+               l->b);
     }
 }
 

@@ -9,8 +9,9 @@
 #include <string.h>
 
 enum { FEW_ENTRIES = 4, MAX_STEPS = 12, SAMPLE = 16 };
-static const double one_density = 4; /* arithmetic over harmonic mean of the conductivities, below which there is one */
-static const double stiffer = 1.5;   /* iterations for 1, 1.15, 1.3, 1.5, 1.8: 14, 13.5, 13, 13, 13 */
+static const double one_density =
+    4; /* arithmetic over harmonic mean of the conductivities, below which there is one */
+static const double stiffer = 1.5; /* iterations for 1, 1.15, 1.3, 1.5, 1.8: 14, 13.5, 13, 13, 13 */
 
 static double square_distance(const mps_ppe_problem *problem, int64_t i, int64_t j)
 {
@@ -42,10 +43,12 @@ void mps__grid_measure(mps__grid *g, const mps_ppe_problem *problem)
     double largest = 0, sum = 0, inverses = 0, rows = 0;
     for (int64_t i = 0; i < problem->n; i++) {
         const int64_t entries = problem->row[i + 1] - problem->row[i];
-        const double flux = fmax(problem->diagonal[i] - problem->shift[i], 0) * square, kappa = entries > 0 ? flux / (double)entries : 0;
+        const double flux = fmax(problem->diagonal[i] - problem->shift[i], 0) * square,
+                     kappa = entries > 0 ? flux / (double)entries : 0;
         g->point_kappa[i] = kappa;
         if (kappa > largest) largest = kappa;
-        if (entries < FEW_ENTRIES || !(kappa > 0)) continue; /* a lone pair at the end of the kernel says little */
+        if (entries < FEW_ENTRIES || !(kappa > 0))
+            continue; /* a lone pair at the end of the kernel says little */
         sum += kappa;
         inverses += 1 / kappa;
         rows += 1;
@@ -78,7 +81,8 @@ static void place_rows(void *argument, int64_t begin, int64_t end)
     const making *m = argument;
     for (int64_t i = begin; i < end; i++) {
         int64_t key = 0;
-        for (int a = 0; a < m->problem->dim; a++) key |= (int64_t)position(m->g, m->problem, i, a) << (a * MPS__GRID_BITS);
+        for (int a = 0; a < m->problem->dim; a++)
+            key |= (int64_t)position(m->g, m->problem, i, a) << (a * MPS__GRID_BITS);
         m->g->point_key[i] = key;
     }
 }
@@ -90,7 +94,8 @@ void mps__grid_place(mps__grid *g, const mps_ppe_problem *problem)
         for (int64_t i = 0; i < problem->n; i++) lo = fmin(lo, problem->x[i * problem->dim + a]);
         g->lo[a] = lo - 0.5 * g->size;
     }
-    mps_parallel_rows_least(problem->parallel, problem->n, MPS__TEAM_LEAST / 2, place_rows, &(making){.g = g, .problem = problem});
+    mps_parallel_rows_least(problem->parallel, problem->n, MPS__TEAM_LEAST / 2, place_rows,
+                            &(making){.g = g, .problem = problem});
 }
 
 /* ---- conductances ---- */
@@ -149,26 +154,31 @@ static void join(const mps__grid *g, const mps__grid_level *l, int64_t link, flo
     links[(int64_t)l->next[link] * sides + (side ^ 1)] += c;
 }
 
-static void add_wire(const mps__grid *g, const mps__grid_level *l, wire *w, const int32_t home[2], double k, float *links)
+static void add_wire(const mps__grid *g, const mps__grid_level *l, wire *w, const int32_t home[2],
+                     double k, float *links)
 {
     if (!follow(g, l, w, home[0], home[1])) return;
-    for (int s = 0; s < w->steps; s++) join(g, l, w->link[s], (float)(k * fabs(w->d[w->link[s] % (2 * g->dim) / 2])), links);
+    for (int s = 0; s < w->steps; s++)
+        join(g, l, w->link[s], (float)(k * fabs(w->d[w->link[s] % (2 * g->dim) / 2])), links);
 }
 
 /* The same for cells with a face in common, as most are. False: they have none. */
-static bool add_short_wire(const mps__grid *g, const mps__grid_level *l, const wire *w, const int32_t home[2], double k, float *links)
+static bool add_short_wire(const mps__grid *g, const mps__grid_level *l, const wire *w,
+                           const int32_t home[2], double k, float *links)
 {
     int64_t step = l->key[home[1]] - l->key[home[0]];
     for (int a = 0; a < g->dim; a++) {
         int64_t one = (int64_t)1 << (a * MPS__GRID_BITS);
         if (step != one && step != -one) continue;
-        join(g, l, (int64_t)home[0] * 2 * g->dim + 2 * a + (step > 0), (float)(k * fabs(w->d[a])), links);
+        join(g, l, (int64_t)home[0] * 2 * g->dim + 2 * a + (step > 0), (float)(k * fabs(w->d[a])),
+             links);
         return true;
     }
     return false;
 }
 
-static void add_row(const mps__grid *g, const mps__grid_level *l, const mps_ppe_problem *problem, int64_t i, float *links)
+static void add_row(const mps__grid *g, const mps__grid_level *l, const mps_ppe_problem *problem,
+                    int64_t i, float *links)
 {
     double start[3] = {0};
     for (int a = 0; a < g->dim; a++) start[a] = position(g, problem, i, a);
@@ -181,7 +191,8 @@ static void add_row(const mps__grid *g, const mps__grid_level *l, const mps_ppe_
             w.x[a] = start[a];
             w.d[a] = position(g, problem, j, a) - start[a];
         }
-        if (!add_short_wire(g, l, &w, home, conductance, links)) add_wire(g, l, &w, home, conductance, links);
+        if (!add_short_wire(g, l, &w, home, conductance, links))
+            add_wire(g, l, &w, home, conductance, links);
     }
 }
 
@@ -189,7 +200,8 @@ static void add_row(const mps__grid *g, const mps__grid_level *l, const mps_ppe_
 
 /* Shares of the 2^dim cells around a point. far[a] is the share of the cell beside its own along axis a, below or above as
  * side[a] says; only cells joined to the own one by links count, and a cell that conducts less counts less. */
-static inline __attribute__((always_inline)) void set_shares_of(const int dim, const mps__grid *g, mps__grid_level *l, int64_t point,
+static inline __attribute__((always_inline)) void set_shares_of(const int dim, const mps__grid *g,
+                                                                mps__grid_level *l, int64_t point,
                                                                 const double *far, const int *side)
 {
     const int corners = 1 << dim;
@@ -216,7 +228,8 @@ static inline __attribute__((always_inline)) void set_shares_of(const int dim, c
     }
 }
 
-static void set_shares(const mps__grid *g, mps__grid_level *l, int64_t point, const double *far, const int *side)
+static void set_shares(const mps__grid *g, mps__grid_level *l, int64_t point, const double *far,
+                       const int *side)
 {
     if (g->dim == 2)
         set_shares_of(2, g, l, point, far, side);
@@ -224,7 +237,8 @@ static void set_shares(const mps__grid *g, mps__grid_level *l, int64_t point, co
         set_shares_of(3, g, l, point, far, side);
 }
 
-static void share_particle(const mps__grid *g, mps__grid_level *l, const mps_ppe_problem *problem, int64_t i)
+static void share_particle(const mps__grid *g, mps__grid_level *l, const mps_ppe_problem *problem,
+                           int64_t i)
 {
     double far[3];
     int side[3];
@@ -252,7 +266,8 @@ static void add_chunk(void *argument, int32_t chunk)
     const int64_t n = m->problem->n, links = m->l->cells * 2 * m->g->dim;
     float *part = (float *)m->g->parts + chunk * links;
     memset(part, 0, (size_t)links * sizeof *part);
-    for (int64_t i = mps__grid_chunk(n, chunk); i < mps__grid_chunk(n, chunk + 1); i++) add_row(m->g, m->l, m->problem, i, part);
+    for (int64_t i = mps__grid_chunk(n, chunk); i < mps__grid_chunk(n, chunk + 1); i++)
+        add_row(m->g, m->l, m->problem, i, part);
 }
 
 static void sum_links(void *argument, int64_t begin, int64_t end)
@@ -282,7 +297,8 @@ static void link_cells(const mps__grid *g, mps__grid_level *l, const mps_ppe_pro
     double *conductance = l->x;
     for (int64_t k = 0; k < l->cells; k++) conductance[k] = 0;
     for (int64_t i = 0; i < problem->n; i++)
-        conductance[l->home[i]] += c * g->point_kappa[i] * (double)(problem->row[i + 1] - problem->row[i]);
+        conductance[l->home[i]] += c * g->point_kappa[i] *
+                                   (double)(problem->row[i + 1] - problem->row[i]);
     for (int64_t k = 0; k < l->cells * sides; k++) {
         const int64_t cell = k / sides, other = l->next[k];
         if (other != cell) l->link[k] = (float)sqrt(conductance[cell] * conductance[other]);
@@ -297,7 +313,8 @@ static void share_chunk(void *argument, int32_t chunk)
     mps__grid_level *l = m->l;
     const mps_ppe_problem *problem = m->problem;
     int32_t range[2][2] = {{INT32_MAX, 0}, {INT32_MAX, 0}};
-    for (int64_t i = mps__grid_chunk(problem->n, chunk); i < mps__grid_chunk(problem->n, chunk + 1); i++) {
+    for (int64_t i = mps__grid_chunk(problem->n, chunk); i < mps__grid_chunk(problem->n, chunk + 1);
+         i++) {
         share_particle(g, l, problem, i);
         for (int64_t k = i << g->dim; k < (i + 1) << g->dim; k++) {
             int32_t *r = range[l->at[k] >= l->red];
@@ -359,7 +376,8 @@ static void add_cell(const mps__grid *g, const mps__grid_level *fine, mps__grid_
     for (int a = 0; a < g->dim; a++) {
         int64_t link = c * 2 * g->dim + 2 * a + 1;
         int32_t other = l->home[fine->next[link]];
-        if (fine->link[link] > 0 && other != home) join(g, l, (int64_t)home * 2 * g->dim + 2 * a + 1, 0.5f * fine->link[link], l->link);
+        if (fine->link[link] > 0 && other != home)
+            join(g, l, (int64_t)home * 2 * g->dim + 2 * a + 1, 0.5f * fine->link[link], l->link);
     }
 }
 

@@ -9,7 +9,8 @@ static SUNLinearSolver make(N_Vector like, SUNContext context)
     return SUNLinSol_SPBCGS(like, SUN_PREC_NONE, 0, context);
 }
 
-static int run(SUNLinearSolver solver, bool preconditioned, int iterations, N_Vector x, N_Vector b, double delta)
+static int run(SUNLinearSolver solver, bool preconditioned, int iterations, N_Vector x, N_Vector b,
+               double delta)
 {
     /* the driver preconditions inside the product: with SUN_PREC_RIGHT an interrupted run would return M x instead of x */
     (void)preconditioned;

@@ -4,7 +4,8 @@
 #include <stddef.h>
 
 const mps_solver_ops *const mps__builtin_solvers[] = {
-    &mps__solver_pcg, &mps__solver_bicgstab, &mps__solver_gmres, &mps__solver_klu, &mps__solver_kinsol, NULL,
+    &mps__solver_pcg, &mps__solver_bicgstab, &mps__solver_gmres,
+    &mps__solver_klu, &mps__solver_kinsol,   NULL,
 };
 
 const mps_preconditioner_ops *const mps__builtin_preconditioners[] = {

@@ -27,7 +27,8 @@ static SUNLinearSolver make(N_Vector like, SUNContext context)
     return NULL;
 }
 
-static int run(SUNLinearSolver solver, bool preconditioned, int iterations, N_Vector x, N_Vector b, double delta)
+static int run(SUNLinearSolver solver, bool preconditioned, int iterations, N_Vector x, N_Vector b,
+               double delta)
 {
     /* the driver preconditions inside the product */
     (void)preconditioned;

@@ -129,9 +129,11 @@ static bool factorise(ic0 *f, const mps_ppe_problem *problem, double shift)
         double diagonal = problem->diagonal[i], dropped = 0;
         scatter(f, problem, i);
         f->mark[i] = (int32_t)i;
-        if (diagonal == 0) diagonal = 1; /* an empty row is a particle without neighbours, its residual is 0 */
+        if (diagonal == 0)
+            diagonal = 1; /* an empty row is a particle without neighbours, its residual is 0 */
         f->work[i] = diagonal * (1 + shift);
-        for (int64_t k = problem->row[i]; k < problem->row[i + 1] && problem->col[k] < i; k++) dropped += eliminate(f, i, problem->col[k]);
+        for (int64_t k = problem->row[i]; k < problem->row[i + 1] && problem->col[k] < i; k++)
+            dropped += eliminate(f, i, problem->col[k]);
         double pivot = f->work[i] - kept_fill * dropped;
         if (!(pivot > 1e-4 * diagonal)) return false;
         store(f, problem, i, pivot);
@@ -153,7 +155,9 @@ static int setup(void *self, const mps_ppe_problem *problem)
 {
     ic0 *f = self;
     if (problem->n >= INT32_MAX) return MPS_PPE_BREAKDOWN;
-    if (!reserve_rows(f, problem->n) || !reserve_entries(f, problem->row[problem->n] / 2 + problem->n)) return MPS_PPE_NOMEM;
+    if (!reserve_rows(f, problem->n) ||
+        !reserve_entries(f, problem->row[problem->n] / 2 + problem->n))
+        return MPS_PPE_NOMEM;
     f->n = problem->n;
     int reason = check_diagonal(problem);
     if (reason) return reason;

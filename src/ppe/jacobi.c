@@ -40,7 +40,9 @@ static int setup(void *self, const mps_ppe_problem *problem)
         double d = problem->diagonal[i];
         if (!isfinite(d)) return MPS_PPE_NAN;
         if (d < 0) return MPS_PPE_INDEFINITE;
-        j->inverse[i] = d > 0 ? 1 / d : 1; /* an empty row is a particle without neighbours, its residual is 0 */
+        j->inverse[i] =
+            d > 0 ? 1 / d
+                  : 1; /* an empty row is a particle without neighbours, its residual is 0 */
     }
     return 0;
 }
@@ -62,7 +64,8 @@ static void apply_rows(void *argument, int64_t begin, int64_t end)
 static int apply(void *self, const double *r, double *z)
 {
     const jacobi *j = self;
-    mps_parallel_rows_least(j->parallel, j->n, MPS__TEAM_LEAST / 2, apply_rows, &(operands){j->inverse, r, z});
+    mps_parallel_rows_least(j->parallel, j->n, MPS__TEAM_LEAST / 2, apply_rows,
+                            &(operands){j->inverse, r, z});
     return 0;
 }
 

@@ -51,9 +51,11 @@ static void dot_blocks(void *argument, int64_t begin, int64_t end)
     }
 }
 
-double mps__blocked_dot(const mps_parallel *p, const double *x, const double *y, int64_t n, double *partial)
+double mps__blocked_dot(const mps_parallel *p, const double *x, const double *y, int64_t n,
+                        double *partial)
 {
-    mps_parallel_rows_least(mps__team(p, n), mps__blocks(n), 1, dot_blocks, &(dot){x, y, n, partial});
+    mps_parallel_rows_least(mps__team(p, n), mps__blocks(n), 1, dot_blocks,
+                            &(dot){x, y, n, partial});
     return mps__sum_blocks(partial, mps__blocks(n));
 }
 
@@ -92,10 +94,12 @@ static void multiply_blocks(void *argument, int64_t begin, int64_t end)
     }
 }
 
-double mps__rows_multiply(const mps_ppe_problem *problem, const double *x, double *y, double *partial)
+double mps__rows_multiply(const mps_ppe_problem *problem, const double *x, double *y,
+                          double *partial)
 {
     const int64_t n = problem->n, blocks = mps__blocks(n);
-    mps_parallel_rows_least(mps__team(problem->parallel, n), blocks, 1, multiply_blocks, &(multiply){problem, x, y, partial});
+    mps_parallel_rows_least(mps__team(problem->parallel, n), blocks, 1, multiply_blocks,
+                            &(multiply){problem, x, y, partial});
     return mps__sum_blocks(partial, blocks);
 }
 
@@ -104,14 +108,16 @@ static void negative_rows(void *argument, int64_t begin, int64_t end, double *va
 {
     const mps_ppe_problem *problem = argument;
     double most = values[0];
-    for (int64_t i = begin; i < end; i++) most = -problem->diagonal[i] > most ? -problem->diagonal[i] : most;
+    for (int64_t i = begin; i < end; i++)
+        most = -problem->diagonal[i] > most ? -problem->diagonal[i] : most;
     values[0] = most;
 }
 
 bool mps__rows_nonnegative(const mps_ppe_problem *problem)
 {
     double most = 0;
-    mps_parallel_max(mps__team(problem->parallel, problem->n), problem->n, 1, negative_rows, (mps_ppe_problem *)problem, &most);
+    mps_parallel_max(mps__team(problem->parallel, problem->n), problem->n, 1, negative_rows,
+                     (mps_ppe_problem *)problem, &most);
     return !(most > 0);
 }
 
@@ -140,7 +146,8 @@ void mps__components_center(const mps_ppe_problem *problem, double *p, double *s
     }
 }
 
-bool mps__guess_begin(const mps_ppe_problem *problem, double *p, double *residual, double *sums, mps_ppe_result *result)
+bool mps__guess_begin(const mps_ppe_problem *problem, double *p, double *residual, double *sums,
+                      mps_ppe_result *result)
 {
     mps__components_center(problem, p, sums);
     mps_ppe_check(problem, p, residual, result);

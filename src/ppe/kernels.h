@@ -46,17 +46,20 @@ double mps__sum_blocks(const double *partial, int64_t count);
 /* x'y over at most one block. */
 double mps__block_dot(const double *x, const double *y, int64_t count);
 /* x'y; partial [blocks] is scratch. */
-double mps__blocked_dot(const mps_parallel *p, const double *x, const double *y, int64_t n, double *partial);
+double mps__blocked_dot(const mps_parallel *p, const double *x, const double *y, int64_t n,
+                        double *partial);
 
 /* y = A x. @return x'y; partial [blocks] is scratch */
-double mps__rows_multiply(const mps_ppe_problem *problem, const double *x, double *y, double *partial);
+double mps__rows_multiply(const mps_ppe_problem *problem, const double *x, double *y,
+                          double *partial);
 /* Whether no row has a negative diagonal. */
 bool mps__rows_nonnegative(const mps_ppe_problem *problem);
 
 /* A first guess with NaN or infinity becomes zero. */
 void mps__guess_clean(double *p, int64_t n);
 /* The guess a solver begins with, zero if p leads nowhere, centred, and its residual in `residual` [n]. False: not even that is finite. */
-bool mps__guess_begin(const mps_ppe_problem *problem, double *p, double *residual, double *sums, mps_ppe_result *result);
+bool mps__guess_begin(const mps_ppe_problem *problem, double *p, double *residual, double *sums,
+                      mps_ppe_result *result);
 /* Whether the curvature x'Ax < 0 is more than the rounding of a direction of no curvature. */
 bool mps__curvature_negative(const mps_ppe_problem *problem, const double *x, double curvature);
 /* Subtract the mean of p over each singular component, whose null vector is 1; sums [2 components] is scratch. */

@@ -24,8 +24,9 @@ typedef struct newton {
     SUNLinearSolver solver;
     N_Vector p, one, stop;
     double *start, *residual, *inner, *slope, *ones; /* [capacity] */
-    double *diagonal, *shift;                        /* diagonal and row sums of J at the first guess, for the preconditioner */
-    double *sums;                                    /* [2 sum_capacity] */
+    double *diagonal,
+        *shift;   /* diagonal and row sums of J at the first guess, for the preconditioner */
+    double *sums; /* [2 sum_capacity] */
     int64_t sum_capacity;
     /* of the solve in progress */
     const mps_ppe_problem *problem;
@@ -47,7 +48,8 @@ static int residual(N_Vector vp, N_Vector vf, void *data)
     mps__vector_written(vf);
     mps_ppe_check(k->problem, mps__vector_data(vp), f, &unused);
     for (int64_t i = 0; i < k->space.n; i++) f[i] = -f[i];
-    mps__components_center(k->problem, f, k->sums); /* rounding must not leave what no p can produce */
+    mps__components_center(k->problem, f,
+                           k->sums); /* rounding must not leave what no p can produce */
     return 0;
 }
 
@@ -66,7 +68,8 @@ static int times(N_Vector vx, N_Vector vy, N_Vector vp, sunbooleantype *changed,
     (void)vp, (void)changed;
     newton *k = data;
     const double *x = mps__vector_data(vx);
-    double *y = mps__vector_data(vy), curvature = mps__rows_multiply(k->problem, x, y, k->space.partial);
+    double *y = mps__vector_data(vy),
+           curvature = mps__rows_multiply(k->problem, x, y, k->space.partial);
     mps__vector_written(vy);
     if (k->problem->law) {
         for (int64_t i = 0; i < k->space.n; i++) y[i] += k->slope[i] * x[i];
@@ -76,7 +79,8 @@ static int times(N_Vector vx, N_Vector vy, N_Vector vp, sunbooleantype *changed,
     if (!isfinite(curvature))
         k->failure = MPS_PPE_BREAKDOWN;
     else if (curvature <= 0)
-        k->failure = mps__curvature_negative(k->problem, x, curvature) ? MPS_PPE_INDEFINITE : MPS_PPE_BREAKDOWN;
+        k->failure = mps__curvature_negative(k->problem, x, curvature) ? MPS_PPE_INDEFINITE
+                                                                       : MPS_PPE_BREAKDOWN;
     return k->failure ? -1 : 0;
 }
 
@@ -99,7 +103,8 @@ static int begin_step(N_Vector vp, N_Vector scale, N_Vector f, N_Vector f_scale,
 }
 
 /* z = M^-1 r in the place of r. */
-static int precondition(N_Vector vp, N_Vector scale, N_Vector f, N_Vector f_scale, N_Vector vr, void *data)
+static int precondition(N_Vector vp, N_Vector scale, N_Vector f, N_Vector f_scale, N_Vector vr,
+                        void *data)
 {
     (void)vp, (void)scale, (void)f, (void)f_scale;
     newton *k = data;
@@ -108,7 +113,8 @@ static int precondition(N_Vector vp, N_Vector scale, N_Vector f, N_Vector f_scal
     mps__vector_written(vr);
     k->failure = k->pc->apply(k->pc_self, k->inner, z);
     if (k->failure) return -1;
-    const double dot = mps__blocked_dot(k->space.parallel, k->inner, z, k->space.n, k->space.partial);
+    const double dot = mps__blocked_dot(k->space.parallel, k->inner, z, k->space.n,
+                                        k->space.partial);
     if (!isfinite(dot))
         k->failure = MPS_PPE_NAN;
     else if (dot <= 0)
@@ -120,7 +126,8 @@ static int precondition(N_Vector vp, N_Vector scale, N_Vector f, N_Vector f_scal
 
 static void drop_arrays(newton *k)
 {
-    double **all[] = {&k->start, &k->residual, &k->inner, &k->slope, &k->ones, &k->diagonal, &k->shift, &k->space.partial};
+    double **all[] = {&k->start, &k->residual, &k->inner, &k->slope,
+                      &k->ones,  &k->diagonal, &k->shift, &k->space.partial};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         mps__give(&k->space.allocator, *all[i]);
         *all[i] = NULL;
@@ -135,7 +142,8 @@ static bool make_arrays(newton *k, int64_t capacity)
     drop_arrays(k);
     k->space.partial = mps__take(a, 2 * mps__blocks(capacity), sizeof(double));
     if (!k->space.partial) return false;
-    double **all[] = {&k->start, &k->residual, &k->inner, &k->slope, &k->ones, &k->diagonal, &k->shift};
+    double **all[] = {&k->start, &k->residual, &k->inner, &k->slope,
+                      &k->ones,  &k->diagonal, &k->shift};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         *all[i] = mps__take(a, capacity, sizeof(double));
         if (!*all[i]) return false;
@@ -156,10 +164,12 @@ static bool make_solver(newton *k)
     if (!k->p || !k->one || !k->stop || !mps__space_reserve(&k->space, CLONES)) return false;
     k->solver = SUNLinSol_PCG(k->p, SUN_PREC_LEFT, 0, k->space.context);
     k->kinsol = mps__kinsol_create(k->space.context, k->log);
-    return k->solver && k->kinsol && !KINInit(k->kinsol, residual, k->p) && !KINSetUserData(k->kinsol, k) &&
-           !KINSetLinearSolver(k->kinsol, k->solver, NULL) && !KINSetJacTimesVecFn(k->kinsol, times) &&
-           !KINSetPreconditioner(k->kinsol, begin_step, precondition) && !KINSetMaxSetupCalls(k->kinsol, 1) &&
-           !KINSetMaxNewtonStep(k->kinsol, 1e200) && !KINSetFuncNormTol(k->kinsol, 1.0) && !KINSetScaledStepTol(k->kinsol, 1e-15) &&
+    return k->solver && k->kinsol && !KINInit(k->kinsol, residual, k->p) &&
+           !KINSetUserData(k->kinsol, k) && !KINSetLinearSolver(k->kinsol, k->solver, NULL) &&
+           !KINSetJacTimesVecFn(k->kinsol, times) &&
+           !KINSetPreconditioner(k->kinsol, begin_step, precondition) &&
+           !KINSetMaxSetupCalls(k->kinsol, 1) && !KINSetMaxNewtonStep(k->kinsol, 1e200) &&
+           !KINSetFuncNormTol(k->kinsol, 1.0) && !KINSetScaledStepTol(k->kinsol, 1e-15) &&
            !KINSetNumMaxIters(k->kinsol, MOST_STEPS);
 }
 
@@ -181,7 +191,9 @@ static bool prepare(newton *k, const mps_ppe_problem *problem)
     k->space.n = problem->n;
     k->space.parallel = problem->parallel;
     k->space.weight = problem->divergence > 0 ? problem->weight : NULL;
-    if (problem->component && !grow(k, &k->sums, &k->sum_capacity, 2 * (int64_t)problem->components)) return false;
+    if (problem->component &&
+        !grow(k, &k->sums, &k->sum_capacity, 2 * (int64_t)problem->components))
+        return false;
     return problem->n <= k->space.capacity || make_arrays(k, problem->n + problem->n / 8);
 }
 
@@ -219,7 +231,8 @@ static int run(newton *k, double *p, mps_ppe_result *result)
     SUNLinSol_PCGSetPrecType(k->solver, k->pc ? SUN_PREC_LEFT : SUN_PREC_NONE);
     const int flag = KINSol(k->kinsol, k->p, KIN_NONE, k->one, k->stop);
     KINGetNumLinIters(k->kinsol, &iterations);
-    result->iterations = iterations < k->problem->max_iterations ? (int32_t)iterations : k->problem->max_iterations;
+    result->iterations = iterations < k->problem->max_iterations ? (int32_t)iterations
+                                                                 : k->problem->max_iterations;
     result->setup_seconds = k->setup_seconds;
     mps__guess_clean(p, k->problem->n);
     mps__components_center(k->problem, p, k->sums);
@@ -234,7 +247,8 @@ static int attempt(newton *k, double *p, mps_ppe_result *result)
 {
     const mps_ppe_problem *problem = k->problem;
     const size_t bytes = (size_t)problem->n * sizeof *p;
-    const double norm = sqrt(mps__blocked_dot(problem->parallel, problem->rhs, problem->rhs, problem->n, k->space.partial));
+    const double norm = sqrt(mps__blocked_dot(problem->parallel, problem->rhs, problem->rhs,
+                                              problem->n, k->space.partial));
     if (norm == 0) memset(p, 0, bytes);
     if (!mps__guess_begin(k->problem, p, k->residual, k->sums, result)) return MPS_PPE_NAN;
     const double excess = mps__result_excess(problem, result);
@@ -285,8 +299,8 @@ static int create(const mps_allocator *allocator, void **self)
     return MPS_PPE_NOMEM;
 }
 
-static void solve(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc, void *pc_self, double *p,
-                  mps_ppe_result *result)
+static void solve(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc,
+                  void *pc_self, double *p, mps_ppe_result *result)
 {
     newton *k = self;
     mps__result_begin(result);

@@ -99,7 +99,8 @@ static bool pinned(const job *j, int64_t i)
 static void fill_matrix(const job *j)
 {
     const mps_ppe_problem *problem = j->problem;
-    sunindextype *row = SUNSparseMatrix_IndexPointers(j->matrix), *col = SUNSparseMatrix_IndexValues(j->matrix);
+    sunindextype *row = SUNSparseMatrix_IndexPointers(j->matrix),
+                 *col = SUNSparseMatrix_IndexValues(j->matrix);
     double *val = SUNSparseMatrix_Data(j->matrix);
     sunindextype at = 0;
     for (int64_t i = 0; i < problem->n; i++) {
@@ -120,7 +121,8 @@ static void fill_matrix(const job *j)
 /* Reason behind a failed call of KLU. */
 static int failure(const job *j)
 {
-    return SUNLinSol_KLUGetCommon(j->solver)->status == KLU_OUT_OF_MEMORY ? MPS_PPE_NOMEM : MPS_PPE_BREAKDOWN;
+    return SUNLinSol_KLUGetCommon(j->solver)->status == KLU_OUT_OF_MEMORY ? MPS_PPE_NOMEM
+                                                                          : MPS_PPE_BREAKDOWN;
 }
 
 static int factorise(const klu *k, job *j, mps_ppe_result *result)
@@ -170,8 +172,8 @@ static int attempt(const klu *k, job *j, double *p, mps_ppe_result *result)
     return reason;
 }
 
-static void solve(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc, void *pc_self, double *p,
-                  mps_ppe_result *result)
+static void solve(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc,
+                  void *pc_self, double *p, mps_ppe_result *result)
 {
     (void)pc, (void)pc_self;
     const klu *k = self;

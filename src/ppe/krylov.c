@@ -48,7 +48,8 @@ static int times(void *data, N_Vector v, N_Vector z)
     if (!isfinite(curvature))
         k->failure = MPS_PPE_BREAKDOWN;
     else if (k->kind->symmetric && curvature <= 0)
-        k->failure = mps__curvature_negative(k->problem, x, curvature) ? MPS_PPE_INDEFINITE : MPS_PPE_BREAKDOWN;
+        k->failure = mps__curvature_negative(k->problem, x, curvature) ? MPS_PPE_INDEFINITE
+                                                                       : MPS_PPE_BREAKDOWN;
     return k->failure ? -1 : 0;
 }
 
@@ -93,7 +94,9 @@ static bool make_arrays(krylov *k, int64_t capacity)
     k->space.partial = mps__take(a, 2 * mps__blocks(capacity), sizeof *k->space.partial);
     mps__vector_point(k->x, k->correction);
     mps__vector_point(k->b, k->residual);
-    if (!k->start || !k->residual || !k->correction || (!k->inner && !k->kind->symmetric) || !k->space.partial) return false;
+    if (!k->start || !k->residual || !k->correction || (!k->inner && !k->kind->symmetric) ||
+        !k->space.partial)
+        return false;
     return mps__space_grow(&k->space, capacity);
 }
 
@@ -110,8 +113,8 @@ static bool make_solver(krylov *k)
     k->solver = k->kind->make(k->x, k->space.context);
     if (!k->solver || SUNLinSolSetATimes(k->solver, k, times)) return false;
     if (!k->kind->symmetric) return !SUNLinSolInitialize(k->solver);
-    return !SUNLinSolSetPreconditioner(k->solver, k, NULL, precondition) && !SUNLinSolSetScalingVectors(k->solver, k->stop, NULL) &&
-           !SUNLinSolInitialize(k->solver);
+    return !SUNLinSolSetPreconditioner(k->solver, k, NULL, precondition) &&
+           !SUNLinSolSetScalingVectors(k->solver, k->stop, NULL) && !SUNLinSolInitialize(k->solver);
 }
 
 static bool make_sums(krylov *k, int64_t components)
@@ -143,12 +146,15 @@ static void run(krylov *k, double *p, double delta, mps_ppe_result *result)
     const mps_ppe_problem *problem = k->problem;
     double *d = k->correction;
     memset(d, 0, (size_t)problem->n * sizeof *d);
-    mps__components_center(problem, k->residual, k->sums); /* rounding must not leave what no p can produce */
+    mps__components_center(problem, k->residual,
+                           k->sums); /* rounding must not leave what no p can produce */
     k->failure = 0;
     SUNLinSolSetZeroGuess(k->solver, SUNTRUE);
-    int flag = k->kind->run(k->solver, k->pc != NULL, problem->max_iterations - result->iterations, k->x, k->b, delta);
+    int flag = k->kind->run(k->solver, k->pc != NULL, problem->max_iterations - result->iterations,
+                            k->x, k->b, delta);
     result->iterations += SUNLinSolNumIters(k->solver);
-    bool stopped = flag == MPS__SUNDIALS_SUCCESS || flag == SUNLS_RES_REDUCED || flag == SUNLS_CONV_FAIL;
+    bool stopped = flag == MPS__SUNDIALS_SUCCESS || flag == SUNLS_RES_REDUCED ||
+                   flag == SUNLS_CONV_FAIL;
     if (!stopped && !k->failure) k->failure = MPS_PPE_BREAKDOWN;
     if (k->pc && !k->kind->symmetric) {
         int reason = k->pc->apply(k->pc_self, d, k->inner);
@@ -167,7 +173,8 @@ static double next_limit(const krylov *k, const mps_ppe_result *result, double n
 {
     double excess = mps__result_excess(k->problem, result);
     double now = k->kind->symmetric ? excess : result->residual * norm;
-    double wanted = first && !k->kind->symmetric ? k->space.norm_limit : now / excess * (first ? 1 : 0.5);
+    double wanted = first && !k->kind->symmetric ? k->space.norm_limit
+                                                 : now / excess * (first ? 1 : 0.5);
     return fmax(wanted, DEEPEST * now);
 }
 
@@ -181,7 +188,8 @@ static int passes(krylov *k, double *p, double norm, mps_ppe_result *result)
         if (excess <= 1) return MPS_PPE_CONVERGED;
         bool progress = excess < 0.9 * best;
         /* a recurrence that broke down on its way, or at the floor of rounding, may start afresh from what it reached */
-        if (k->failure && (k->failure != MPS_PPE_BREAKDOWN || (pass == 0 && !progress))) return k->failure;
+        if (k->failure && (k->failure != MPS_PPE_BREAKDOWN || (pass == 0 && !progress)))
+            return k->failure;
         idle = progress ? 0 : idle + 1;
         if (excess < best) best = excess;
     }
@@ -202,7 +210,8 @@ static int attempt(krylov *k, double *p, mps_ppe_result *result)
 {
     const mps_ppe_problem *problem = k->problem;
     size_t bytes = (size_t)problem->n * sizeof *p;
-    double norm = sqrt(mps__blocked_dot(problem->parallel, problem->rhs, problem->rhs, problem->n, k->space.partial));
+    double norm = sqrt(mps__blocked_dot(problem->parallel, problem->rhs, problem->rhs, problem->n,
+                                        k->space.partial));
     if (norm == 0) memset(p, 0, bytes);
     if (!mps__guess_begin(k->problem, p, k->residual, k->sums, result)) return MPS_PPE_NAN;
     double excess = mps__result_excess(problem, result);
@@ -234,8 +243,8 @@ int mps__krylov_create(const mps__krylov_kind *kind, const mps_allocator *alloca
     return MPS_PPE_NOMEM;
 }
 
-void mps__krylov_solve(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc, void *pc_self, double *p,
-                       mps_ppe_result *result)
+void mps__krylov_solve(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc,
+                       void *pc_self, double *p, mps_ppe_result *result)
 {
     krylov *k = self;
     mps__result_begin(result);

@@ -12,12 +12,13 @@ typedef struct mps__krylov_kind {
     int vectors; /* clones `make` and the first run ask for */
     SUNLinearSolver (*make)(N_Vector like, SUNContext context);
     /* Solve for x from zero until the residual is at most delta or `iterations` are used. */
-    int (*run)(SUNLinearSolver solver, bool preconditioned, int iterations, N_Vector x, N_Vector b, double delta);
+    int (*run)(SUNLinearSolver solver, bool preconditioned, int iterations, N_Vector x, N_Vector b,
+               double delta);
 } mps__krylov_kind;
 
 int mps__krylov_create(const mps__krylov_kind *kind, const mps_allocator *allocator, void **self);
-void mps__krylov_solve(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc, void *pc_self, double *p,
-                       mps_ppe_result *result);
+void mps__krylov_solve(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc,
+                       void *pc_self, double *p, mps_ppe_result *result);
 void mps__krylov_destroy(const mps_allocator *allocator, void *self);
 
 #endif

@@ -9,7 +9,8 @@ static SUNLinearSolver make(N_Vector like, SUNContext context)
     return SUNLinSol_PCG(like, SUN_PREC_NONE, 0, context);
 }
 
-static int run(SUNLinearSolver solver, bool preconditioned, int iterations, N_Vector x, N_Vector b, double delta)
+static int run(SUNLinearSolver solver, bool preconditioned, int iterations, N_Vector x, N_Vector b,
+               double delta)
 {
     SUNLinSol_PCGSetPrecType(solver, preconditioned ? SUN_PREC_LEFT : SUN_PREC_NONE);
     SUNLinSol_PCGSetMaxl(solver, iterations);

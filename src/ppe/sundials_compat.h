@@ -28,25 +28,29 @@ enum { MPS__SUNDIALS_SUCCESS = SUNLS_SUCCESS };
 #endif
 
 /* Hand an error to the log. The ends that an iteration may have are no errors: the reason of the result says them. */
-static inline void mps__sundials_report(const mps__solver_log *log, int code, const char *function, const char *text)
+static inline void mps__sundials_report(const mps__solver_log *log, int code, const char *function,
+                                        const char *text)
 {
     char line[256];
-    if (!log || code >= 0 || code == KIN_MAXITER_REACHED || code == KIN_MXNEWT_5X_EXCEEDED || code == KIN_LINSOLV_NO_RECOVERY ||
-        code == KIN_LSETUP_FAIL || code == KIN_LSOLVE_FAIL)
+    if (!log || code >= 0 || code == KIN_MAXITER_REACHED || code == KIN_MXNEWT_5X_EXCEEDED ||
+        code == KIN_LINSOLV_NO_RECOVERY || code == KIN_LSETUP_FAIL || code == KIN_LSOLVE_FAIL)
         return;
-    snprintf(line, sizeof line, "SUNDIALS, %s, error %d: %s", function ? function : "?", code, text ? text : "?");
+    snprintf(line, sizeof line, "SUNDIALS, %s, error %d: %s", function ? function : "?", code,
+             text ? text : "?");
     log->warn(log->user, line);
 }
 
 #if SUNDIALS_VERSION_MAJOR >= 7
-static inline void mps__sundials_error(int line, const char *function, const char *file, const char *text, SUNErrCode code, void *log,
+static inline void mps__sundials_error(int line, const char *function, const char *file,
+                                       const char *text, SUNErrCode code, void *log,
                                        SUNContext context)
 {
     (void)line, (void)file, (void)context;
     mps__sundials_report(log, code, function, text);
 }
 #else
-static inline void mps__sundials_error(int code, const char *module, const char *function, char *text, void *log)
+static inline void mps__sundials_error(int code, const char *module, const char *function,
+                                       char *text, void *log)
 {
     (void)module;
     mps__sundials_report(log, code, function, text);
@@ -60,7 +64,8 @@ static inline SUNContext mps__sundials_context(const mps__solver_log *log)
 #if SUNDIALS_VERSION_MAJOR >= 7
     if (SUNContext_Create(SUN_COMM_NULL, &context)) return NULL;
     SUNContext_ClearErrHandlers(context); /* the default handler writes to stderr */
-    if (SUNContext_PushErrHandler(context, mps__sundials_error, (void *)(uintptr_t)log)) SUNContext_Free(&context);
+    if (SUNContext_PushErrHandler(context, mps__sundials_error, (void *)(uintptr_t)log))
+        SUNContext_Free(&context);
 #else
     (void)log; /* errors are KINSOL's, which has a handler of its own */
     if (SUNContext_Create(NULL, &context)) return NULL;
@@ -73,7 +78,8 @@ static inline void *mps__kinsol_create(SUNContext context, const mps__solver_log
 {
     void *kinsol = KINCreate(context);
 #if SUNDIALS_VERSION_MAJOR < 7
-    if (kinsol && (KINSetErrFile(kinsol, NULL) || KINSetErrHandlerFn(kinsol, mps__sundials_error, (void *)(uintptr_t)log)))
+    if (kinsol && (KINSetErrFile(kinsol, NULL) ||
+                   KINSetErrHandlerFn(kinsol, mps__sundials_error, (void *)(uintptr_t)log)))
         KINFree(&kinsol);
 #else
     (void)log;

@@ -108,7 +108,11 @@ static void linear_sum(sunrealtype a, N_Vector vx, sunrealtype b, N_Vector vy, N
 {
     mps__space *space = written(vz);
     run(space, linear_sum_rows,
-        &(operands){.a = a, .b = b, .x = mps__vector_data(vx), .y = mps__vector_data(vy), .z = mps__vector_data(vz)});
+        &(operands){.a = a,
+                    .b = b,
+                    .x = mps__vector_data(vx),
+                    .y = mps__vector_data(vy),
+                    .z = mps__vector_data(vz)});
 }
 
 static void fill_rows(void *argument, int64_t begin, int64_t end)
@@ -135,7 +139,8 @@ static void scale_rows(void *argument, int64_t begin, int64_t end)
 static void scale(sunrealtype a, N_Vector vx, N_Vector vz)
 {
     mps__space *space = written(vz);
-    run(space, scale_rows, &(operands){.a = a, .x = mps__vector_data(vx), .z = mps__vector_data(vz)});
+    run(space, scale_rows,
+        &(operands){.a = a, .x = mps__vector_data(vx), .z = mps__vector_data(vz)});
 }
 
 /* Squares of blocks of x, and the largest |x weight| of each. */
@@ -160,7 +165,8 @@ static double excess(mps__space *space, const double *r)
     const int64_t blocks = mps__blocks(space->n);
     const double *most = space->partial + blocks;
     double largest = 0;
-    mps_parallel_rows_least(mps__team(space->parallel, space->n), blocks, 1, excess_blocks, &(operands){.space = space, .x = r});
+    mps_parallel_rows_least(mps__team(space->parallel, space->n), blocks, 1, excess_blocks,
+                            &(operands){.space = space, .x = r});
     for (int64_t b = 0; b < blocks; b++) largest = fmax(largest, most[b]);
     double norm = sqrt(mps__sum_blocks(space->partial, blocks)) / space->norm_limit;
     double divergence = space->weight ? largest / space->divergence_limit : 0;
@@ -202,14 +208,17 @@ static void quotient_rows(void *argument, int64_t begin, int64_t end)
 static void quotient(N_Vector vx, N_Vector vy, N_Vector vz)
 {
     mps__space *space = written(vz);
-    run(space, quotient_rows, &(operands){.x = mps__vector_data(vx), .y = mps__vector_data(vy), .z = mps__vector_data(vz)});
+    run(space, quotient_rows,
+        &(operands){
+            .x = mps__vector_data(vx), .y = mps__vector_data(vy), .z = mps__vector_data(vz)});
 }
 
 static sunrealtype dot_product(N_Vector vx, N_Vector vy)
 {
     const mps__space *space = content_of(vx)->space;
     const double *x = mps__vector_data(vx), *y = mps__vector_data(vy);
-    bool known = (x == space->dot_x && y == space->dot_y) || (x == space->dot_y && y == space->dot_x);
+    bool known = (x == space->dot_x && y == space->dot_y) ||
+                 (x == space->dot_y && y == space->dot_x);
     return known ? space->dot : mps__blocked_dot(space->parallel, x, y, space->n, space->partial);
 }
 
@@ -248,7 +257,8 @@ static sunrealtype largest_norm(N_Vector vx)
     const mps__space *space = content_of(vx)->space;
     const double *x = mps__vector_data(vx);
     double largest = 0;
-    if (x == space->dot_x && x == space->dot_y) return sqrt(space->dot); /* a vector that N_VProd made of the stopping vector */
+    if (x == space->dot_x && x == space->dot_y)
+        return sqrt(space->dot); /* a vector that N_VProd made of the stopping vector */
     for (int64_t i = 0; i < space->n; i++) largest = fmax(largest, fabs(x[i]));
     return largest;
 }

@@ -131,12 +131,14 @@ static mps_status build(const setup *s)
 
 static void check_finite(mps_sim *sim)
 {
-    static const char *const fields[] = {"position", "velocity", "pressure", "number_density", "density"};
+    static const char *const fields[] = {"position", "velocity", "pressure", "number_density",
+                                         "density"};
     for (size_t f = 0; f < sizeof fields / sizeof fields[0]; f++) {
         mps_lease lease = {.struct_size = sizeof lease};
         assert_int_equal(mps_lease_begin(sim, fields[f], MPS_READ, &lease), MPS_OK);
         for (int64_t i = 0; i < lease.count * lease.stride; i++)
-            if (!isfinite(lease.data[i])) fail_msg("%s: number %lld is %g", fields[f], (long long)i, lease.data[i]);
+            if (!isfinite(lease.data[i]))
+                fail_msg("%s: number %lld is %g", fields[f], (long long)i, lease.data[i]);
         assert_int_equal(mps_lease_end(sim, &lease), MPS_OK);
     }
 }
@@ -144,8 +146,10 @@ static void check_finite(mps_sim *sim)
 /* A fall through the tank, or what the fluid began with. */
 static double speed_of(const setup *s)
 {
-    const double dp = s->dp ? s->dp : 0.05, g = sqrt(s->g[0] * s->g[0] + s->g[1] * s->g[1] + s->g[2] * s->g[2]);
-    return fmax(fabs(s->velocity), sqrt(2 * (g > 0 ? g : 9.81) * dp * (s->size[1] ? s->size[1] : 8)));
+    const double dp = s->dp ? s->dp : 0.05,
+                 g = sqrt(s->g[0] * s->g[0] + s->g[1] * s->g[1] + s->g[2] * s->g[2]);
+    return fmax(fabs(s->velocity),
+                sqrt(2 * (g > 0 ? g : 9.81) * dp * (s->size[1] ? s->size[1] : 8)));
 }
 
 static void run_setup(void **state)
@@ -162,7 +166,8 @@ static void run_setup(void **state)
     }
     const char *text = created ? mps_sim_error(created) : creation;
     if ((status < 0 || s->status < 0) && status != s->status)
-        fail_msg("%s instead of %s after %lld steps: %s", mps_status_name(status), mps_status_name(s->status), (long long)info.step, text);
+        fail_msg("%s instead of %s after %lld steps: %s", mps_status_name(status),
+                 mps_status_name(s->status), (long long)info.step, text);
     if (s->text && !strstr(text, s->text)) fail_msg("\"%s\" does not say \"%s\"", text, s->text);
     if (created) check_finite(created);
     const double most = (s->speed ? s->speed : 3) * speed_of(s);
@@ -231,7 +236,8 @@ static void shake(mps_sim *sim, double metres, double radians, double omega)
     assert_int_equal(mps_sim_shape(sim, &dim, NULL), MPS_OK);
     for (int32_t dof = 0; dof < MPS_DOF_COUNT; dof++)
         if (dim == 3 || dof == MPS_SURGE || dof == MPS_HEAVE || dof == MPS_YAW)
-            h[count++] = (mps_harmonic){dof, 0, dof < MPS_ROLL ? metres : radians, omega * (1 + 0.1 * dof), dof};
+            h[count++] = (mps_harmonic){dof, 0, dof < MPS_ROLL ? metres : radians,
+                                        omega * (1 + 0.1 * dof), dof};
     assert_int_equal(mps_motion_harmonics_set(sim, count, h), MPS_OK);
 }
 
@@ -343,8 +349,16 @@ static const setup setups[] = {
     {.name = "spacing 1e-6 m", .dp = 1e-6, .g = DOWN},
     {.name = "spacing 1e3 m", .dp = 1e3, .g = DOWN},
     {.name = "spacing 1e-6 m, 3-D", .dp = 1e-6, .dim = 3, .g = DOWN, .steps = 8},
-    {.name = "spacing 1e-13 m", .dp = 1e-13, .g = DOWN, .status = MPS_E_ARG, .text = "config.dp is 1e-13 m"},
-    {.name = "spacing 1e13 m", .dp = 1e13, .g = DOWN, .status = MPS_E_ARG, .text = "config.dp is 1e+13 m"},
+    {.name = "spacing 1e-13 m",
+     .dp = 1e-13,
+     .g = DOWN,
+     .status = MPS_E_ARG,
+     .text = "config.dp is 1e-13 m"},
+    {.name = "spacing 1e13 m",
+     .dp = 1e13,
+     .g = DOWN,
+     .status = MPS_E_ARG,
+     .text = "config.dp is 1e+13 m"},
     {.name = "no gravity at rest", .g = NONE, .speed = 1e-3},
     {.name = "no gravity, violent motion", .g = NONE, .before = violent, .speed = 10},
     {.name = "gravity 1e6", .g = {0, -1e6, 0}},
@@ -354,9 +368,24 @@ static const setup setups[] = {
     {.name = "viscosity 1e6 Pa s", .g = DOWN, .viscosity = 1e6},
     {.name = "density 1e-3", .g = DOWN, .density = 1e-3},
     {.name = "density 1e6", .g = DOWN, .density = 1e6},
-    {.name = "densities 1e6 : 1e-3", .g = DOWN, .preset = "mmps", .density = 1e6, .gas = 1e-3, .speed = 5},
-    {.name = "densities 1e-3 : 1e6", .g = DOWN, .preset = "mmps", .density = 1e-3, .gas = 1e6, .speed = 10},
-    {.name = "tension 1e3 N/m", .g = DOWN, .preset = "mmps", .gas = 1.2, .before = strong_tension, .speed = 10},
+    {.name = "densities 1e6 : 1e-3",
+     .g = DOWN,
+     .preset = "mmps",
+     .density = 1e6,
+     .gas = 1e-3,
+     .speed = 5},
+    {.name = "densities 1e-3 : 1e6",
+     .g = DOWN,
+     .preset = "mmps",
+     .density = 1e-3,
+     .gas = 1e6,
+     .speed = 10},
+    {.name = "tension 1e3 N/m",
+     .g = DOWN,
+     .preset = "mmps",
+     .gas = 1.2,
+     .before = strong_tension,
+     .speed = 10},
     {.name = "one particle", .g = DOWN, .depth = -1, .before = one_particle},
     {.name = "one particle, 3-D", .dim = 3, .g = DOWN, .depth = -1, .before = one_particle},
     {.name = "no fluid", .g = DOWN, .depth = -1, .status = MPS_E_STATE, .text = "fluid"},
@@ -364,15 +393,33 @@ static const setup setups[] = {
     {.name = "a drop 1e5 m away", .g = DOWN, .before = lost_drop, .between = drop_gone},
     {.name = "a drop 1e8 m away", .g = DOWN, .before = drop_too_far},
     {.name = "fluid added and removed", .g = DOWN, .between = add_or_remove},
-    {.name = "all fluid removed", .g = DOWN, .between = remove_all, .status = MPS_E_STATE, .text = "fluid"},
+    {.name = "all fluid removed",
+     .g = DOWN,
+     .between = remove_all,
+     .status = MPS_E_STATE,
+     .text = "fluid"},
     {.name = "geometry in mid-run", .g = DOWN, .between = build_more},
     {.name = "models changed in mid-run", .g = DOWN, .between = use_late_models},
     {.name = "violent motion, 2-D", .g = DOWN, .before = violent, .steps = 400, .speed = 10},
-    {.name = "violent motion, 3-D", .dim = 3, .g = DOWN, .before = violent, .steps = 60, .speed = 10},
+    {.name = "violent motion, 3-D",
+     .dim = 3,
+     .g = DOWN,
+     .before = violent,
+     .steps = 60,
+     .speed = 10},
     {.name = "absurd motion", .g = DOWN, .before = absurd, .status = MPS_E_DIVERGED, .speed = 1e9},
-    {.name = "a tank that jumps 5 m", .g = DOWN, .before = jump, .steps = 300, .status = MPS_E_DIVERGED, .speed = 1e4},
+    {.name = "a tank that jumps 5 m",
+     .g = DOWN,
+     .before = jump,
+     .steps = 300,
+     .status = MPS_E_DIVERGED,
+     .speed = 1e4},
     {.name = "fluid at 300 m/s", .g = DOWN, .velocity = 300},
-    {.name = "fluid at 1e5 m/s", .g = DOWN, .velocity = 1e5, .status = MPS_E_DIVERGED, .text = "m/s"},
+    {.name = "fluid at 1e5 m/s",
+     .g = DOWN,
+     .velocity = 1e5,
+     .status = MPS_E_DIVERGED,
+     .text = "m/s"},
     {.name = "fluid at 1e300 m/s", .g = DOWN, .velocity = 1e300, .status = MPS_E_DIVERGED},
     {.name = "a step of 10 s", .g = DOWN, .dt = 10, .status = MPS_E_DIVERGED},
     {.name = "a step of 1e-12 s", .g = DOWN, .dt = 1e-12},
@@ -380,14 +427,39 @@ static const setup setups[] = {
     {.name = "absurd probes", .g = DOWN, .before = absurd_probes},
     {.name = "a tank of three cells", .g = DOWN, .size = {3, 8, 3}},
     {.name = "a tank of three cells, 3-D", .dim = 3, .g = DOWN, .size = {8, 8, 3}, .steps = 20},
-    {.name = "a tank of two cells", .g = DOWN, .size = {2, 8, 3}, .status = MPS_E_ARG, .text = "at least 3 spacings"},
-    {.name = "a tank of one cell, 3-D", .dim = 3, .g = DOWN, .size = {8, 8, 1}, .status = MPS_E_ARG, .text = "at least 3 spacings"},
-    {.name = "near radius 1 dp", .g = DOWN, .re_near = 1, .status = MPS_E_ARG, .text = "config.re_near is 1 dp"},
-    {.name = "near radius 1.01 dp", .g = DOWN, .re_near = 1.01, .re_far = 1.01, .speed = 1000}, /* sees next to nothing */
+    {.name = "a tank of two cells",
+     .g = DOWN,
+     .size = {2, 8, 3},
+     .status = MPS_E_ARG,
+     .text = "at least 3 spacings"},
+    {.name = "a tank of one cell, 3-D",
+     .dim = 3,
+     .g = DOWN,
+     .size = {8, 8, 1},
+     .status = MPS_E_ARG,
+     .text = "at least 3 spacings"},
+    {.name = "near radius 1 dp",
+     .g = DOWN,
+     .re_near = 1,
+     .status = MPS_E_ARG,
+     .text = "config.re_near is 1 dp"},
+    {.name = "near radius 1.01 dp",
+     .g = DOWN,
+     .re_near = 1.01,
+     .re_far = 1.01,
+     .speed = 1000}, /* sees next to nothing */
     {.name = "radii 1.6 dp", .g = DOWN, .re_near = 1.6, .re_far = 1.6},
     {.name = "radii 10 dp", .g = DOWN, .re_near = 10, .re_far = 10, .steps = 8},
-    {.name = "far radius 10.5 dp", .g = DOWN, .re_far = 10.5, .status = MPS_E_ARG, .text = "config.re_far is 10.5 dp"},
-    {.name = "1025 threads", .g = DOWN, .threads = 1025, .status = MPS_E_ARG, .text = "config.threads is 1025"},
+    {.name = "far radius 10.5 dp",
+     .g = DOWN,
+     .re_far = 10.5,
+     .status = MPS_E_ARG,
+     .text = "config.re_far is 10.5 dp"},
+    {.name = "1025 threads",
+     .g = DOWN,
+     .threads = 1025,
+     .status = MPS_E_ARG,
+     .text = "config.threads is 1025"},
     {.name = "64 threads", .g = DOWN, .threads = 64, .steps = 4},
     {.name = "imps", .g = DOWN, .preset = "imps"},
     {.name = "imps, 3-D", .dim = 3, .g = DOWN, .preset = "imps", .steps = 12},
@@ -396,8 +468,17 @@ static const setup setups[] = {
     {.name = "mmps", .g = DOWN, .preset = "mmps", .gas = 1.2},
     {.name = "mmps, 3-D", .dim = 3, .g = DOWN, .preset = "mmps", .gas = 1.2, .steps = 8},
     {.name = "mmps.paper", .g = DOWN, .preset = "mmps.paper", .gas = 1.2},
-    {.name = "mmps.paper, 3-D", .dim = 3, .g = DOWN, .preset = "mmps.paper", .gas = 1.2, .steps = 8},
-    {.name = "mmps without gas", .g = DOWN, .preset = "mmps", .status = MPS_E_PLUGIN, .text = "phase 1"},
+    {.name = "mmps.paper, 3-D",
+     .dim = 3,
+     .g = DOWN,
+     .preset = "mmps.paper",
+     .gas = 1.2,
+     .steps = 8},
+    {.name = "mmps without gas",
+     .g = DOWN,
+     .preset = "mmps",
+     .status = MPS_E_PLUGIN,
+     .text = "phase 1"},
 };
 
 enum { SETUPS = sizeof setups / sizeof setups[0] };
@@ -406,7 +487,8 @@ enum { SETUPS = sizeof setups / sizeof setups[0] };
 static void threads_agree(void **state)
 {
     static double one[20000];
-    const setup s = {.dim = 3, .dp = 0.05, .g = DOWN, .size = {10, 8, 8}, .steps = 6, .before = violent};
+    const setup s = {
+        .dim = 3, .dp = 0.05, .g = DOWN, .size = {10, 8, 8}, .steps = 6, .before = violent};
     (void)state;
     for (int32_t threads = 1; threads <= 8; threads++) {
         setup with = s;
@@ -427,6 +509,8 @@ static void threads_agree(void **state)
 int main(void)
 {
     struct CMUnitTest tests[SETUPS + 1] = {cmocka_unit_test_teardown(threads_agree, clean)};
-    for (int k = 0; k < SETUPS; k++) tests[k + 1] = (struct CMUnitTest){setups[k].name, run_setup, NULL, clean, (void *)&setups[k]};
+    for (int k = 0; k < SETUPS; k++)
+        tests[k + 1] = (struct CMUnitTest){setups[k].name, run_setup, NULL, clean,
+                                           (void *)&setups[k]};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

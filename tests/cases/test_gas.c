@@ -130,7 +130,8 @@ static double swirl(double conserve)
     const int32_t *kinds;
     double sum = 0, count = 0;
     mps_phase air;
-    mps_lease u = {.struct_size = sizeof u}, x = {.struct_size = sizeof x}, p = {.struct_size = sizeof p};
+    mps_lease u = {.struct_size = sizeof u}, x = {.struct_size = sizeof x},
+              p = {.struct_size = sizeof p};
     mps_sim *sim = new_sim(2, dp);
     assert_int_equal(mps_phase_init(&air, sizeof air), MPS_OK);
     air.density = 1.2;

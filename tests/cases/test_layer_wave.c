@@ -11,12 +11,15 @@
 
 #include <cmocka.h>
 
-static const double length = 1, height = 1, g = 9.81, amplitude = 0.02, wave_number = 3.14159265358979; /* of a half wave */
+static const double length = 1, height = 1, g = 9.81, amplitude = 0.02,
+                    wave_number = 3.14159265358979; /* of a half wave */
 
-#define OK(sim, call)                                                                                                             \
-    do {                                                                                                                          \
-        mps_status status_ = (call);                                                                                              \
-        if (status_ != MPS_OK) fail_msg("%s: %s: %s", #call, mps_status_name(status_), (sim) ? mps_sim_error(sim) : "no handle"); \
+#define OK(sim, call)                                               \
+    do {                                                            \
+        mps_status status_ = (call);                                \
+        if (status_ != MPS_OK)                                      \
+            fail_msg("%s: %s: %s", #call, mps_status_name(status_), \
+                     (sim) ? mps_sim_error(sim) : "no handle");     \
     } while (0)
 
 /* Two inviscid liquids, the lower one up to `level`. */
@@ -59,7 +62,8 @@ static void set_moving(mps_sim *sim, double level, double speed)
     for (int64_t i = 0; i < x.count; i++) {
         if (kind[i] != MPS_FLUID) continue;
         const double kx = wave_number * x.data[2 * i], y = x.data[2 * i + 1];
-        const double from = phase[i] == 0 ? y : height - y, depth = phase[i] == 0 ? level : height - level;
+        const double from = phase[i] == 0 ? y : height - y,
+                     depth = phase[i] == 0 ? level : height - level;
         const double scale = speed / sinh(wave_number * depth), side = phase[i] == 0 ? -1 : 1;
         u.data[2 * i] = side * scale * sin(kx) * cosh(wave_number * from);
         u.data[2 * i + 1] = scale * cos(kx) * sinh(wave_number * from);
@@ -91,8 +95,9 @@ typedef struct measured {
 static measured run(double dp, double heavy, double light)
 {
     const double rho[2] = {heavy, light}, level = (floor(0.5 * height / dp + 1e-9) + 0.5) * dp;
-    const double omega = sqrt((heavy - light) * g * wave_number /
-                              (heavy / tanh(wave_number * level) + light / tanh(wave_number * (height - level))));
+    const double omega = sqrt(
+        (heavy - light) * g * wave_number /
+        (heavy / tanh(wave_number * level) + light / tanh(wave_number * (height - level))));
     double before = 0, t = 0, zero[2] = {0}, most[2] = {0};
     mps_sim *sim = two_liquids(dp, rho, level);
     set_moving(sim, level, amplitude * omega);
@@ -102,13 +107,15 @@ static measured run(double dp, double heavy, double light)
         OK(sim, mps_step(sim, 1, &info));
         const double now = wave_height(sim, dp), side = passed == 0 ? 1 : -1;
         if (side * now > most[passed]) most[passed] = side * now;
-        if (t > 0.6 / omega && before * now < 0) zero[passed++] = t + (info.t - t) * before / (before - now);
+        if (t > 0.6 / omega && before * now < 0)
+            zero[passed++] = t + (info.t - t) * before / (before - now);
         before = now;
         t = info.t;
         if (t > 12 / omega) fail_msg("no wave: dp %g", dp);
     }
     const measured m = {2 * wave_number / zero[1] / omega - 1, most[1] / most[0] - 1};
-    print_message("    %g over %g kg/m3, dp %g: first half wave %.4f s, frequency %+.2f %%, amplitude %.4f of %.4f m, then %+.1f %%\n",
+    print_message("    %g over %g kg/m3, dp %g: first half wave %.4f s, frequency %+.2f %%, "
+                  "amplitude %.4f of %.4f m, then %+.1f %%\n",
                   light, heavy, dp, zero[0], 100 * m.frequency, most[0], amplitude, 100 * m.growth);
     mps_sim_destroy(sim);
     return m;
@@ -137,6 +144,7 @@ static void water_and_air(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(two_to_one), cmocka_unit_test(water_and_air)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(two_to_one),
+                                       cmocka_unit_test(water_and_air)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

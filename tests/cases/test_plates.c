@@ -15,16 +15,19 @@
 enum { FORCE, LEFT, RIGHT, PROBES };
 static const double rho0 = 1000, g = 9.81, dp = 0.02;
 
-#define OK(sim, call)                                                                                                             \
-    do {                                                                                                                          \
-        mps_status status_ = (call);                                                                                              \
-        if (status_ != MPS_OK) fail_msg("%s: %s: %s", #call, mps_status_name(status_), (sim) ? mps_sim_error(sim) : "no handle"); \
+#define OK(sim, call)                                               \
+    do {                                                            \
+        mps_status status_ = (call);                                \
+        if (status_ != MPS_OK)                                      \
+            fail_msg("%s: %s: %s", #call, mps_status_name(status_), \
+                     (sim) ? mps_sim_error(sim) : "no handle");     \
     } while (0)
-#define NEAR(what, got, wanted, tolerance)                                                            \
-    do {                                                                                              \
-        double got_ = (got), wanted_ = (wanted), tolerance_ = (tolerance);                            \
-        print_message("    %s: %.5g, wanted %.5g +- %.2g\n", what, got_, wanted_, tolerance_);        \
-        if (!(fabs(got_ - wanted_) <= tolerance_)) fail_msg("%s is off by %g", what, got_ - wanted_); \
+#define NEAR(what, got, wanted, tolerance)                                                     \
+    do {                                                                                       \
+        double got_ = (got), wanted_ = (wanted), tolerance_ = (tolerance);                     \
+        print_message("    %s: %.5g, wanted %.5g +- %.2g\n", what, got_, wanted_, tolerance_); \
+        if (!(fabs(got_ - wanted_) <= tolerance_))                                             \
+            fail_msg("%s is off by %g", what, got_ - wanted_);                                 \
     } while (0)
 
 static mps_sim *open_tank(int32_t dim, double length, double height, double width)
@@ -101,7 +104,8 @@ static int32_t add_probe(mps_sim *sim, int32_t type, double x, double z)
 static void check_divided(int32_t dim, int columns, double right, double t_end)
 {
     const double width = 0.16, thick = (columns - 1) * dp, x = 0.2, deep = 0.2;
-    const double lo[3] = {x, 0, 0}, hi[3] = {x + thick, 0.3, width}, a[3] = {0, 0, 0}, b[3] = {x, deep, width};
+    const double lo[3] = {x, 0, 0}, hi[3] = {x + thick, 0.3, width}, a[3] = {0, 0, 0},
+                 b[3] = {x, deep, width};
     const double c[3] = {x + thick, 0, 0}, d[3] = {0.4 + thick, right, width};
     mps_sim *sim = open_tank(dim, 0.4 + thick, 0.3, width);
     int64_t left = 0, other = 0, counted = 0;
@@ -117,16 +121,20 @@ static void check_divided(int32_t dim, int columns, double right, double t_end)
     OK(sim, mps_run(sim, t_end, watch, &r));
     const double unit = rho0 * g * deep, face = dim == 3 ? width : 1;
     /* a dry row above the water takes the weight of the surface row */
-    const double force = rho0 * g * (0.5 * (deep * deep - right * right) - (right > 0 ? 0 : dp * dp)) * face;
+    const double force = rho0 * g *
+                         (0.5 * (deep * deep - right * right) - (right > 0 ? 0 : dp * dp)) * face;
     NEAR("left face [Pa]", r.sum[LEFT] / r.steps, rho0 * g * (deep - 0.04), 0.02 * unit);
-    NEAR("right face [Pa]", r.sum[RIGHT] / r.steps, right > 0 ? rho0 * g * (right - 0.04) : 0, 0.02 * unit);
+    NEAR("right face [Pa]", r.sum[RIGHT] / r.steps, right > 0 ? rho0 * g * (right - 0.04) : 0,
+         0.02 * unit);
     NEAR("force [N]", r.sum[FORCE] / r.steps, force, 0.03 * force);
-    NEAR("mean speed at the end [m/s]", sqrt(2 * r.kinetic / r.steps / (rho0 * 0.04 * face)), 0, 0.02 * sqrt(g * dp));
+    NEAR("mean speed at the end [m/s]", sqrt(2 * r.kinetic / r.steps / (rho0 * 0.04 * face)), 0,
+         0.02 * sqrt(g * dp));
     mps_lease place = {.struct_size = sizeof place};
     const int32_t *kind;
     OK(sim, tags_peek(sim, NULL, &kind, NULL, NULL));
     OK(sim, mps_lease_begin(sim, "position", MPS_READ, &place));
-    for (int64_t i = 0; i < place.count; i++) counted += kind[i] == MPS_FLUID && place.data[i * dim] < x;
+    for (int64_t i = 0; i < place.count; i++)
+        counted += kind[i] == MPS_FLUID && place.data[i * dim] < x;
     assert_int_equal(counted, left);
     assert_int_equal(mps_particles_count(sim, MPS_FLUID), left + other);
     OK(sim, mps_lease_end(sim, &place));
@@ -164,7 +172,8 @@ static void tank_frame(mps_sim *sim, const double *x, double X[2])
     mps_motion_state m = {.struct_size = sizeof m};
     OK(sim, mps_motion_state_get(sim, &m));
     /* the centre is the foot of the baffle */
-    const double c = cos(m.value[MPS_YAW]), s = sin(m.value[MPS_YAW]), dx = x[0] - 0.28 - m.value[MPS_SURGE], dy = x[1];
+    const double c = cos(m.value[MPS_YAW]), s = sin(m.value[MPS_YAW]),
+                 dx = x[0] - 0.28 - m.value[MPS_SURGE], dy = x[1];
     X[0] = 0.28 + c * dx + s * dy;
     X[1] = -s * dx + c * dy;
 }
@@ -183,7 +192,8 @@ static int follow(void *user, mps_sim *sim, const mps_step_info *info)
         if (kind[i] != MPS_FLUID) continue;
         tank_frame(sim, x.data + 2 * i, X);
         const double a = old[0] - p->x, b = X[0] - p->x;
-        p->crossed += info->step > 1 && a * b < 0 && old[1] + (X[1] - old[1]) * a / (a - b) < p->top;
+        p->crossed += info->step > 1 && a * b < 0 &&
+                      old[1] + (X[1] - old[1]) * a / (a - b) < p->top;
         memcpy(old, X, sizeof X);
     }
     OK(sim, mps_lease_end(sim, &x));
@@ -202,7 +212,9 @@ static void check_motion(const mps_harmonic *motion, double t_end)
     OK(sim, mps_fill_box_add(sim, 0, a, b, NULL, NULL));
     OK(sim, mps_motion_centre_set(sim, lo, MPS_START_AT_REST));
     OK(sim, mps_motion_harmonics_set(sim, 1, motion));
-    paths p = {.x = 0.28, .top = 0.14, .before = calloc(2 * (size_t)mps_particles_count(sim, -1), sizeof *p.before)};
+    paths p = {.x = 0.28,
+               .top = 0.14,
+               .before = calloc(2 * (size_t)mps_particles_count(sim, -1), sizeof *p.before)};
     assert_non_null(p.before);
     OK(sim, mps_run(sim, t_end, follow, &p));
     NEAR("passed through the plate", (double)p.crossed, 0, 0);
@@ -229,8 +241,9 @@ static void rolling_with_a_baffle(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(divided_tank),           cmocka_unit_test(one_side_empty),        cmocka_unit_test(divided_tank_3d),
-        cmocka_unit_test(sloshing_over_a_baffle), cmocka_unit_test(rolling_with_a_baffle),
+        cmocka_unit_test(divided_tank),          cmocka_unit_test(one_side_empty),
+        cmocka_unit_test(divided_tank_3d),       cmocka_unit_test(sloshing_over_a_baffle),
+        cmocka_unit_test(rolling_with_a_baffle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -16,16 +16,19 @@
 enum { PROBES = 4, VALUES = 6, ROWS = 8192, WIDTH = 1 + PROBES * VALUES };
 static const double rho0 = 1000, g = 9.81;
 
-#define OK(sim, call)                                                                                                             \
-    do {                                                                                                                          \
-        mps_status status_ = (call);                                                                                              \
-        if (status_ != MPS_OK) fail_msg("%s: %s: %s", #call, mps_status_name(status_), (sim) ? mps_sim_error(sim) : "no handle"); \
+#define OK(sim, call)                                               \
+    do {                                                            \
+        mps_status status_ = (call);                                \
+        if (status_ != MPS_OK)                                      \
+            fail_msg("%s: %s: %s", #call, mps_status_name(status_), \
+                     (sim) ? mps_sim_error(sim) : "no handle");     \
     } while (0)
-#define NEAR(what, got, wanted, tolerance)                                                            \
-    do {                                                                                              \
-        double got_ = (got), wanted_ = (wanted), tolerance_ = (tolerance);                            \
-        print_message("    %s: %.5g, wanted %.5g +- %.2g\n", what, got_, wanted_, tolerance_);        \
-        if (!(fabs(got_ - wanted_) <= tolerance_)) fail_msg("%s is off by %g", what, got_ - wanted_); \
+#define NEAR(what, got, wanted, tolerance)                                                     \
+    do {                                                                                       \
+        double got_ = (got), wanted_ = (wanted), tolerance_ = (tolerance);                     \
+        print_message("    %s: %.5g, wanted %.5g +- %.2g\n", what, got_, wanted_, tolerance_); \
+        if (!(fabs(got_ - wanted_) <= tolerance_))                                             \
+            fail_msg("%s is off by %g", what, got_ - wanted_);                                 \
     } while (0)
 #define BELOW(what, got, limit)                                                      \
     do {                                                                             \
@@ -87,7 +90,8 @@ static void measure(record *r, double t)
     assert_true(r->count < ROWS);
     row *now = &r->rows[r->count++];
     now->t = t;
-    for (int32_t k = 0; k < r->probes; k++) OK(r->sim, mps_probe_read(r->sim, r->probe[k], now->value[k]));
+    for (int32_t k = 0; k < r->probes; k++)
+        OK(r->sim, mps_probe_read(r->sim, r->probe[k], now->value[k]));
     OK(r->sim, mps_energy_init(&now->energy, sizeof now->energy));
     OK(r->sim, mps_energy_get(r->sim, &now->energy));
 }
@@ -170,9 +174,11 @@ static void static_tank(void **state)
     record r;
     record_open(&r, 2, dp, size, 0.2);
     jitter(r.sim, 0.1 * dp);
-    for (int k = 0; k < 3; k++) record_probe(&r, MPS_PROBE_WALL_PRESSURE, k == 1 ? size[0] : 0, height[k], 0);
+    for (int k = 0; k < 3; k++)
+        record_probe(&r, MPS_PROBE_WALL_PRESSURE, k == 1 ? size[0] : 0, height[k], 0);
     check_rest(&r, 0.2, height, 0.3, 1);
-    BELOW("kinetic energy at the end [J]", mean_kinetic(&r, 0.8, 1), 0.5 * mean_kinetic(&r, 0, 0.2));
+    BELOW("kinetic energy at the end [J]", mean_kinetic(&r, 0.8, 1),
+          0.5 * mean_kinetic(&r, 0, 0.2));
     record_close(&r);
 }
 
@@ -187,7 +193,8 @@ static void static_tank_3d(void **state)
     record_probe(&r, MPS_PROBE_WALL_PRESSURE, 0.1, height[1], 0.15);
     record_probe(&r, MPS_PROBE_WALL_PRESSURE, 0.2, height[2], 0.075);
     check_rest(&r, 0.15, height, 0.1, 0.3);
-    BELOW("mean speed at the end [m/s]", sqrt(2 * mean_kinetic(&r, 0.25, 0.3) / r.rows[0].energy.mass), 0.05 * sqrt(g * dp));
+    BELOW("mean speed at the end [m/s]",
+          sqrt(2 * mean_kinetic(&r, 0.25, 0.3) / r.rows[0].energy.mass), 0.05 * sqrt(g * dp));
     record_close(&r);
 }
 
@@ -206,7 +213,8 @@ static void add_wave(mps_sim *sim, double dp, double length, double depth, doubl
             const double X = i * dp, Y = j * dp, top = rows * dp, amount = a / sinh(k * top);
             const double surface_x = X - amount * cosh(k * top) * sin(k * X);
             *out++ = X - amount * cosh(k * Y) * sin(k * X);
-            *out++ = (Y + amount * sinh(k * Y) * cos(k * X)) * (top + a * cos(k * surface_x)) / (top + a * cos(k * X));
+            *out++ = (Y + amount * sinh(k * Y) * cos(k * X)) * (top + a * cos(k * surface_x)) /
+                     (top + a * cos(k * X));
         }
     OK(sim, mps_particle_block_init(&block, sizeof block));
     block.count = (int64_t)columns * rows;
@@ -229,7 +237,9 @@ static double fit_cosine(const record *r, double level, double omega, double *am
     }
     *amplitude = (yc - y * c / n) / (cc - c * c / n);
     for (int64_t k = 0; k < r->count; k++)
-        rest += pow(r->rows[k].value[0][0] - level - y / n - *amplitude * (cos(omega * r->rows[k].t) - c / n), 2);
+        rest += pow(r->rows[k].value[0][0] - level - y / n -
+                        *amplitude * (cos(omega * r->rows[k].t) - c / n),
+                    2);
     return rest;
 }
 
@@ -269,11 +279,14 @@ static double crest(const record *r, double from, double *t)
 {
     int64_t top = -1;
     for (int64_t k = 0; k < r->count; k++)
-        if (r->rows[k].t >= from && (top < 0 || r->rows[k].value[0][0] > r->rows[top].value[0][0])) top = k;
+        if (r->rows[k].t >= from && (top < 0 || r->rows[k].value[0][0] > r->rows[top].value[0][0]))
+            top = k;
     const int64_t span = 15;
     assert_true(top >= span && top + span < r->count);
-    const double y0 = r->rows[top - span].value[0][0], y1 = r->rows[top].value[0][0], y2 = r->rows[top + span].value[0][0];
-    *t = r->rows[top].t + 0.5 * (r->rows[top + span].t - r->rows[top].t) * (y0 - y2) / (y0 - 2 * y1 + y2);
+    const double y0 = r->rows[top - span].value[0][0], y1 = r->rows[top].value[0][0],
+                 y2 = r->rows[top + span].value[0][0];
+    *t = r->rows[top].t +
+         0.5 * (r->rows[top + span].t - r->rows[top].t) * (y0 - y2) / (y0 - 2 * y1 + y2);
     return y1;
 }
 
@@ -298,7 +311,8 @@ static void surge_tank(void **state)
 static void start_conventions(void **state)
 {
     (void)state;
-    const double size[3] = {0.4, 0.4, 0}, dp = 0.02, speed = 0.02 * 6.469, still = rho0 * g * (0.2 - 0.1);
+    const double size[3] = {0.4, 0.4, 0}, dp = 0.02, speed = 0.02 * 6.469,
+                 still = rho0 * g * (0.2 - 0.1);
     double first[2], moving[2];
     for (int32_t start = MPS_START_AT_REST; start <= MPS_START_WITH_TANK; start++) {
         record r;
@@ -311,7 +325,8 @@ static void start_conventions(void **state)
         record_close(&r);
     }
     NEAR("first pressure, with the tank [Pa]", first[MPS_START_WITH_TANK], still, 0.1 * still);
-    NEAR("speed of the liquid, with the tank [m/s]", moving[MPS_START_WITH_TANK], speed, 0.01 * speed);
+    NEAR("speed of the liquid, with the tank [m/s]", moving[MPS_START_WITH_TANK], speed,
+         0.01 * speed);
     BELOW("speed of the liquid, from rest [m/s]", moving[MPS_START_AT_REST], 0.9 * speed);
     assert_true(first[MPS_START_AT_REST] > 3 * still);
 }
@@ -334,7 +349,8 @@ static void check_forces(const record *r, int32_t force, double from, double sha
         if (now->t - first->t < 0.1) continue;
         const double span = now->t - first->t, weight = share * now->energy.mass * g;
         const double x = sum[0] + share * (now->energy.momentum[0] - first->energy.momentum[0]);
-        const double y = sum[1] + share * (now->energy.momentum[1] - first->energy.momentum[1]) + weight * span;
+        const double y = sum[1] + share * (now->energy.momentum[1] - first->energy.momentum[1]) +
+                         weight * span;
         scale = weight * span;
         worst = fmax(worst, hypot(x, y) / scale);
         sum[0] = sum[1] = 0;
@@ -413,16 +429,18 @@ static void paper_preset(void **state)
     OK(r.sim, mps_probe_add(r.sim, &bottom, &id));
     for (int k = 0; k < 50; k++) OK(r.sim, mps_step(r.sim, 1e-3, NULL));
     OK(r.sim, mps_probe_read(r.sim, id, &p));
-    NEAR("pressure at the bottom [Pa]", p, rho0 * g * 0.2, 0.12 * rho0 * g * 0.2); /* one-sided rows: up to 11 % too much */
+    NEAR("pressure at the bottom [Pa]", p, rho0 * g * 0.2,
+         0.12 * rho0 * g * 0.2); /* one-sided rows: up to 11 % too much */
     record_close(&r);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(static_tank), cmocka_unit_test(static_tank_3d),    cmocka_unit_test(standing_wave),
-        cmocka_unit_test(surge_tank),  cmocka_unit_test(start_conventions), cmocka_unit_test(rolling_tank),
-        cmocka_unit_test(full_tank),   cmocka_unit_test(paper_preset),
+        cmocka_unit_test(static_tank),       cmocka_unit_test(static_tank_3d),
+        cmocka_unit_test(standing_wave),     cmocka_unit_test(surge_tank),
+        cmocka_unit_test(start_conventions), cmocka_unit_test(rolling_tank),
+        cmocka_unit_test(full_tank),         cmocka_unit_test(paper_preset),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

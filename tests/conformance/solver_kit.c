@@ -16,14 +16,15 @@ typedef struct pair {
 
 #define EXPECT(k, condition, ...) expect((k), (condition), #condition, __LINE__, __VA_ARGS__)
 
-__attribute__((format(printf, 5, 6))) static bool expect(pair *k, bool met, const char *condition, int line, const char *format, ...)
+__attribute__((format(printf, 5, 6))) static bool expect(pair *k, bool met, const char *condition,
+                                                         int line, const char *format, ...)
 {
     if (met) return true;
     k->failures++;
     va_list list;
     va_start(list, format);
-    fprintf(stderr, "solver_kit.c:%d: %s + %s: %s is false: ", line, k->solver ? k->solver->name : "(alone)", k->pc ? k->pc->name : "none",
-            condition);
+    fprintf(stderr, "solver_kit.c:%d: %s + %s: %s is false: ", line,
+            k->solver ? k->solver->name : "(alone)", k->pc ? k->pc->name : "none", condition);
     vfprintf(stderr, format, list);
     fputc('\n', stderr);
     va_end(list);
@@ -47,8 +48,8 @@ double kit_difference(const double *a, const double *b, int64_t n)
     return s > 0 ? sqrt(d / s) : sqrt(d);
 }
 
-int kit_solve(const mps_solver_ops *solver, const mps_preconditioner_ops *pc, kit_memory *memory, const mps_ppe_problem *problem, double *p,
-              mps_ppe_result *result)
+int kit_solve(const mps_solver_ops *solver, const mps_preconditioner_ops *pc, kit_memory *memory,
+              const mps_ppe_problem *problem, double *p, mps_ppe_result *result)
 {
     void *self = solver->user, *pc_self = pc ? pc->user : NULL;
     *result = (mps_ppe_result){.struct_size = sizeof *result, .reason = MPS_PPE_NOMEM};
@@ -68,7 +69,8 @@ static void measure(const mps_ppe_problem *problem, const double *p, mps_ppe_res
     result->divergence = 0;
     for (int64_t i = 0; i < problem->n; i++) {
         double r = problem->rhs[i] - problem->diagonal[i] * p[i];
-        for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) r -= (double)problem->val[k] * p[problem->col[k]];
+        for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++)
+            r -= (double)problem->val[k] * p[problem->col[k]];
         r2 += r * r;
         b2 += problem->rhs[i] * problem->rhs[i];
         result->divergence = fmax(result->divergence, fabs(r * problem->weight[i]));
@@ -94,28 +96,36 @@ static double drift(const mps_ppe_problem *problem, const double *p)
 }
 
 /* What holds for every answer, good or bad. */
-static void check_honest(pair *k, const mps_ppe_problem *problem, const double *p, const mps_ppe_result *result, const char *name)
+static void check_honest(pair *k, const mps_ppe_problem *problem, const double *p,
+                         const mps_ppe_result *result, const char *name)
 {
-    EXPECT(k, result->struct_size == sizeof *result, "%s: the solver changed result.struct_size to %u", name, result->struct_size);
+    EXPECT(k, result->struct_size == sizeof *result,
+           "%s: the solver changed result.struct_size to %u", name, result->struct_size);
     mps_ppe_result truth = {.struct_size = sizeof truth};
-    if (!EXPECT(k, all_finite(p, problem->n), "%s: p is not finite, reason %d", name, result->reason)) return;
+    if (!EXPECT(k, all_finite(p, problem->n), "%s: p is not finite, reason %d", name,
+                result->reason))
+        return;
     measure(problem, p, &truth);
-    EXPECT(k, result->iterations >= 0 && result->iterations <= problem->max_iterations, "%s: %d iterations", name, result->iterations);
+    EXPECT(k, result->iterations >= 0 && result->iterations <= problem->max_iterations,
+           "%s: %d iterations", name, result->iterations);
     if (result->reason != MPS_PPE_CONVERGED && result->reason != MPS_PPE_MAX_ITERATIONS) return;
-    EXPECT(k, fabs(result->residual - truth.residual) <= 0.01 * truth.residual + 1e-14, "%s: residual %g, truly %g", name, result->residual,
-           truth.residual);
-    EXPECT(k, fabs(result->divergence - truth.divergence) <= 0.01 * truth.divergence + 1e-14, "%s: divergence %g, truly %g", name,
-           result->divergence, truth.divergence);
-    EXPECT(k, drift(problem, p) < 1e-12, "%s: a singular component has the mean %g", name, drift(problem, p));
+    EXPECT(k, fabs(result->residual - truth.residual) <= 0.01 * truth.residual + 1e-14,
+           "%s: residual %g, truly %g", name, result->residual, truth.residual);
+    EXPECT(k, fabs(result->divergence - truth.divergence) <= 0.01 * truth.divergence + 1e-14,
+           "%s: divergence %g, truly %g", name, result->divergence, truth.divergence);
+    EXPECT(k, drift(problem, p) < 1e-12, "%s: a singular component has the mean %g", name,
+           drift(problem, p));
     if (result->reason != MPS_PPE_CONVERGED) return;
-    EXPECT(k, truth.residual <= 1.01 * problem->tolerance, "%s: residual %g above %g", name, truth.residual, problem->tolerance);
+    EXPECT(k, truth.residual <= 1.01 * problem->tolerance, "%s: residual %g above %g", name,
+           truth.residual, problem->tolerance);
     if (problem->divergence > 0)
-        EXPECT(k, truth.divergence <= 1.01 * problem->divergence, "%s: divergence %g above %g", name, truth.divergence,
-               problem->divergence);
+        EXPECT(k, truth.divergence <= 1.01 * problem->divergence, "%s: divergence %g above %g",
+               name, truth.divergence, problem->divergence);
 }
 
 /* Solve from `guess` (NULL: zero) and check what always holds. @return p, to be freed */
-static double *solve(pair *k, const mps_ppe_problem *problem, const double *guess, mps_ppe_result *result, const char *name)
+static double *solve(pair *k, const mps_ppe_problem *problem, const double *guess,
+                     mps_ppe_result *result, const char *name)
 {
     kit_memory memory;
     kit_memory_init(&memory);
@@ -132,7 +142,8 @@ static void check_solution(pair *k, kit_system *s, double error, const char *nam
     mps_ppe_result result = {.struct_size = sizeof result};
     double *p = solve(k, &s->problem, NULL, &result, name);
     double d = kit_difference(p, s->exact, s->problem.n);
-    EXPECT(k, result.reason == MPS_PPE_CONVERGED, "%s: reason %d, residual %g", name, result.reason, result.residual);
+    EXPECT(k, result.reason == MPS_PPE_CONVERGED, "%s: reason %d, residual %g", name, result.reason,
+           result.residual);
     EXPECT(k, d < error, "%s: solution off by %g", name, d);
     free(p);
 }
@@ -141,7 +152,8 @@ static void check_solution(pair *k, kit_system *s, double error, const char *nam
 
 static void check_small(pair *k)
 {
-    static const double one[1] = {4}, tridiagonal[9] = {2, -1, 0, -1, 2, -1, 0, -1, 2}, exact[3] = {1, 2, -3};
+    static const double one[1] = {4}, tridiagonal[9] = {2, -1, 0, -1, 2, -1, 0, -1, 2},
+                        exact[3] = {1, 2, -3};
     kit_system *s = kit_dense_system(1, one, exact);
     check_solution(k, s, 1e-12, "1 unknown");
     kit_system_free(s);
@@ -191,7 +203,8 @@ static void check_divergence(pair *k)
     s->problem.tolerance = 0.1;
     s->problem.divergence = 1e-10;
     double *p = solve(k, &s->problem, NULL, &result, "divergence limit");
-    EXPECT(k, result.reason == MPS_PPE_CONVERGED, "reason %d, divergence %g", result.reason, result.divergence);
+    EXPECT(k, result.reason == MPS_PPE_CONVERGED, "reason %d, divergence %g", result.reason,
+           result.divergence);
     EXPECT(k, result.divergence <= s->problem.divergence, "divergence %g", result.divergence);
     free(p);
     kit_system_free(s);
@@ -205,7 +218,8 @@ static void check_zero_rhs(pair *k)
         memset(s->rhs, 0, (size_t)s->problem.n * sizeof *s->rhs);
         double *p = solve(k, &s->problem, s->exact, &result, "zero right side"), largest = 0;
         for (int64_t n = 0; n < s->problem.n; n++) largest = fmax(largest, fabs(p[n]));
-        EXPECT(k, result.reason == MPS_PPE_CONVERGED && largest == 0, "reason %d, largest p %g", result.reason, largest);
+        EXPECT(k, result.reason == MPS_PPE_CONVERGED && largest == 0, "reason %d, largest p %g",
+               result.reason, largest);
         free(p);
         kit_system_free(s);
     }
@@ -219,8 +233,8 @@ static void check_warm_start(pair *k)
         /* the level of a closed tank is arbitrary: it must not cost anything */
         for (int64_t n = 0; i && n < s->problem.n; n++) s->exact[n] += 5000;
         double *p = solve(k, &s->problem, s->exact, &result, "warm start");
-        EXPECT(k, result.reason == MPS_PPE_CONVERGED && result.iterations <= 1, "reason %d, %d iterations", result.reason,
-               result.iterations);
+        EXPECT(k, result.reason == MPS_PPE_CONVERGED && result.iterations <= 1,
+               "reason %d, %d iterations", result.reason, result.iterations);
         free(p);
         kit_system_free(s);
     }
@@ -240,8 +254,10 @@ static void check_nan(pair *k)
         else
             s->val[s->row[100] + 3] = bad[which / 4];
         double *p = solve(k, &s->problem, s->exact, &result, "NaN");
-        int wanted = which % 4 == 0 ? MPS_PPE_CONVERGED : MPS_PPE_NAN; /* a bad guess is simply not used */
-        EXPECT(k, result.reason == wanted, "%g in %s: reason %d", (double)bad[which / 4], name[which % 4], result.reason);
+        int wanted = which % 4 == 0 ? MPS_PPE_CONVERGED
+                                    : MPS_PPE_NAN; /* a bad guess is simply not used */
+        EXPECT(k, result.reason == wanted, "%g in %s: reason %d", (double)bad[which / 4],
+               name[which % 4], result.reason);
         free(p);
         kit_system_free(s);
     }
@@ -261,7 +277,8 @@ static void check_indefinite(pair *k)
         }
         double *p = solve(k, &s->problem, NULL, &result, "indefinite");
         if (strict)
-            EXPECT(k, result.reason == MPS_PPE_INDEFINITE, "%s: reason %d", which ? "negative diagonal" : "small diagonal", result.reason);
+            EXPECT(k, result.reason == MPS_PPE_INDEFINITE, "%s: reason %d",
+                   which ? "negative diagonal" : "small diagonal", result.reason);
         free(p);
         kit_system_free(s);
     }
@@ -275,8 +292,10 @@ static void check_max_iterations(pair *k)
         s->problem.max_iterations = limit;
         double *p = solve(k, &s->problem, NULL, &result, "few iterations");
         bool direct = result.reason == MPS_PPE_CONVERGED && result.iterations == 0;
-        EXPECT(k, direct || result.reason == MPS_PPE_MAX_ITERATIONS || limit > 1, "reason %d", result.reason);
-        EXPECT(k, result.residual <= 1.0000001, "worse than the guess: residual %g", result.residual);
+        EXPECT(k, direct || result.reason == MPS_PPE_MAX_ITERATIONS || limit > 1, "reason %d",
+               result.reason);
+        EXPECT(k, result.residual <= 1.0000001, "worse than the guess: residual %g",
+               result.residual);
         free(p);
     }
     kit_system_free(s);
@@ -290,7 +309,8 @@ static void check_unreachable(pair *k)
     mps_ppe_result result = {.struct_size = sizeof result};
     s->problem.tolerance = 1e-18;
     double *p = solve(k, &s->problem, NULL, &result, "tolerance below rounding");
-    EXPECT(k, result.reason == MPS_PPE_MAX_ITERATIONS && result.residual < 1e-10, "reason %d, residual %g", result.reason, result.residual);
+    EXPECT(k, result.reason == MPS_PPE_MAX_ITERATIONS && result.residual < 1e-10,
+           "reason %d, residual %g", result.reason, result.residual);
     free(p);
     /* a right side with a part in the null space: the rest is solved */
     double push = 0;
@@ -298,7 +318,8 @@ static void check_unreachable(pair *k)
     for (int64_t i = 0; i < s->problem.n; i++) s->rhs[i] += push;
     s->problem.tolerance = 1e-8;
     p = solve(k, &s->problem, NULL, &result, "inconsistent right side");
-    EXPECT(k, result.reason == MPS_PPE_MAX_ITERATIONS && result.residual < 0.9, "reason %d, residual %g", result.reason, result.residual);
+    EXPECT(k, result.reason == MPS_PPE_MAX_ITERATIONS && result.residual < 0.9,
+           "reason %d, residual %g", result.reason, result.residual);
     free(p);
     kit_system_free(s);
 }
@@ -338,7 +359,8 @@ static void run_parts(void *user, int32_t parts, mps_part_fn body, void *argumen
 
 mps_parallel kit_parallel(int threads)
 {
-    return (mps_parallel){.struct_size = sizeof(mps_parallel), .threads = threads, .run = run_parts};
+    return (mps_parallel){
+        .struct_size = sizeof(mps_parallel), .threads = threads, .run = run_parts};
 }
 
 static void check_threads(pair *k)
@@ -352,10 +374,10 @@ static void check_threads(pair *k)
         const mps_parallel parallel = kit_parallel(threads);
         s->problem.parallel = &parallel;
         double *q = solve(k, &s->problem, NULL, &two, "more threads");
-        EXPECT(k, memcmp(p, q, (size_t)s->problem.n * sizeof *p) == 0, "%d threads differ by %g", threads,
-               kit_difference(q, p, s->problem.n));
-        EXPECT(k, one.iterations == two.iterations && one.residual == two.residual, "%d threads: %d iterations, one: %d", threads,
-               two.iterations, one.iterations);
+        EXPECT(k, memcmp(p, q, (size_t)s->problem.n * sizeof *p) == 0, "%d threads differ by %g",
+               threads, kit_difference(q, p, s->problem.n));
+        EXPECT(k, one.iterations == two.iterations && one.residual == two.residual,
+               "%d threads: %d iterations, one: %d", threads, two.iterations, one.iterations);
         free(q);
     }
     free(p);
@@ -369,14 +391,16 @@ static void check_reuse(pair *k)
     kit_memory memory;
     kit_memory_init(&memory);
     void *self = k->solver->user, *pc_self = k->pc ? k->pc->user : NULL;
-    bool made = !k->solver->create(&memory.allocator, &self) && (!k->pc || !k->pc->create(&memory.allocator, &pc_self));
+    bool made = !k->solver->create(&memory.allocator, &self) &&
+                (!k->pc || !k->pc->create(&memory.allocator, &pc_self));
     for (size_t i = 0; made && i < sizeof order / sizeof order[0]; i++) {
         kit_system *s = kit_lattice_system(&lattices[order[i]].lattice);
         mps_ppe_result result = {.struct_size = sizeof result};
-        double *p = calloc((size_t)s->problem.n, sizeof *p), *fresh = solve(k, &s->problem, NULL, &result, "fresh");
+        double *p = calloc((size_t)s->problem.n, sizeof *p),
+               *fresh = solve(k, &s->problem, NULL, &result, "fresh");
         k->solver->solve(self, &s->problem, k->pc, pc_self, p, &result);
-        EXPECT(k, memcmp(p, fresh, (size_t)s->problem.n * sizeof *p) == 0, "a used state differs by %g",
-               kit_difference(p, fresh, s->problem.n));
+        EXPECT(k, memcmp(p, fresh, (size_t)s->problem.n * sizeof *p) == 0,
+               "a used state differs by %g", kit_difference(p, fresh, s->problem.n));
         free(p);
         free(fresh);
         kit_system_free(s);
@@ -397,9 +421,12 @@ static void check_memory(pair *k)
         kit_memory_init(&memory);
         memory.fail_at = fail_at;
         reason = kit_solve(k->solver, k->pc, &memory, &s->problem, p, &result);
-        EXPECT(k, memory.live == 0, "allocation %lld failed: %lld blocks leaked", (long long)fail_at, (long long)memory.live);
-        EXPECT(k, all_finite(p, s->problem.n), "allocation %lld failed: p is not finite", (long long)fail_at);
-        EXPECT(k, reason == MPS_PPE_NOMEM || memory.count < fail_at, "allocation %lld failed: reason %d", (long long)fail_at, reason);
+        EXPECT(k, memory.live == 0, "allocation %lld failed: %lld blocks leaked",
+               (long long)fail_at, (long long)memory.live);
+        EXPECT(k, all_finite(p, s->problem.n), "allocation %lld failed: p is not finite",
+               (long long)fail_at);
+        EXPECT(k, reason == MPS_PPE_NOMEM || memory.count < fail_at,
+               "allocation %lld failed: reason %d", (long long)fail_at, reason);
     }
     EXPECT(k, reason == MPS_PPE_CONVERGED, "reason %d in the end", reason);
     free(p);
@@ -410,18 +437,21 @@ static bool table_complete(pair *k)
 {
     const mps_solver_ops *s = k->solver;
     const mps_preconditioner_ops *pc = k->pc;
-    EXPECT(k, s->struct_size >= sizeof *s && s->api == MPS_PPE_API && s->name, "solver table: struct_size %u, api %u", s->struct_size,
-           s->api);
+    EXPECT(k, s->struct_size >= sizeof *s && s->api == MPS_PPE_API && s->name,
+           "solver table: struct_size %u, api %u", s->struct_size, s->api);
     EXPECT(k, s->create && s->solve && s->destroy, "an entry is NULL");
-    if (pc) EXPECT(k, pc->create && pc->setup && pc->apply && pc->destroy, "an entry of the preconditioner is NULL");
+    if (pc)
+        EXPECT(k, pc->create && pc->setup && pc->apply && pc->destroy,
+               "an entry of the preconditioner is NULL");
     return k->failures == 0;
 }
 
 int kit_check_solver(const mps_solver_ops *solver, const mps_preconditioner_ops *pc)
 {
     static void (*const checks[])(pair *) = {
-        check_small,      check_lattices,       check_divergence,  check_zero_rhs, check_warm_start, check_nan,
-        check_indefinite, check_max_iterations, check_unreachable, check_threads,  check_reuse,      check_memory,
+        check_small,       check_lattices, check_divergence, check_zero_rhs,
+        check_warm_start,  check_nan,      check_indefinite, check_max_iterations,
+        check_unreachable, check_threads,  check_reuse,      check_memory,
     };
     pair k = {solver, pc, 0};
     if (!table_complete(&k)) return k.failures;
@@ -442,7 +472,8 @@ static double dot(const double *a, const double *b, int64_t n)
 static void check_apply(pair *k, void *self, const kit_system *s, const char *name)
 {
     int64_t n = s->problem.n;
-    double *u = calloc(5 * (size_t)n, sizeof *u), *v = u + n, *mu = v + n, *mv = mu + n, *sum = mv + n;
+    double *u = calloc(5 * (size_t)n, sizeof *u), *v = u + n, *mu = v + n, *mv = mu + n,
+           *sum = mv + n;
     for (int64_t i = 0; i < n; i++) {
         u[i] = s->rhs[i];
         v[i] = sin((double)(i * i % 97)) * fabs(s->rhs[(i * 31) % n]);
@@ -455,12 +486,13 @@ static void check_apply(pair *k, void *self, const kit_system *s, const char *na
         sum[i] -= 2 * mu[i];
     }
     EXPECT(k, !bad && all_finite(mu, 4 * n - n), "%s: apply failed or is not finite", name);
-    EXPECT(k, kit_difference(sum, mv, n) < 1e-9, "%s: not linear, off by %g", name, kit_difference(sum, mv, n));
+    EXPECT(k, kit_difference(sum, mv, n) < 1e-9, "%s: not linear, off by %g", name,
+           kit_difference(sum, mv, n));
     if (k->pc->symmetric) {
         double scale = sqrt(fabs(dot(u, mu, n) * dot(v, mv, n)));
         EXPECT(k, dot(u, mu, n) > 0 && dot(v, mv, n) > 0, "%s: not positive", name);
-        EXPECT(k, fabs(dot(u, mv, n) - dot(v, mu, n)) < 1e-9 * scale, "%s: not symmetric: %g against %g", name, dot(u, mv, n),
-               dot(v, mu, n));
+        EXPECT(k, fabs(dot(u, mv, n) - dot(v, mu, n)) < 1e-9 * scale,
+               "%s: not symmetric: %g against %g", name, dot(u, mv, n), dot(v, mu, n));
     }
     free(u);
 }
@@ -475,7 +507,8 @@ int kit_check_preconditioner(const mps_preconditioner_ops *pc)
     for (size_t i = 0; i + 1 < sizeof lattices / sizeof lattices[0]; i++) {
         kit_system *s = kit_lattice_system(&lattices[i].lattice);
         int reason = pc->setup(self, &s->problem);
-        if (EXPECT(&k, reason == 0, "%s: setup gave %d", lattices[i].name, reason)) check_apply(&k, self, s, lattices[i].name);
+        if (EXPECT(&k, reason == 0, "%s: setup gave %d", lattices[i].name, reason))
+            check_apply(&k, self, s, lattices[i].name);
         kit_system_free(s);
     }
     pc->destroy(&memory.allocator, self);

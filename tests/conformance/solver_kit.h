@@ -21,7 +21,7 @@ typedef struct kit_system {
 typedef struct kit_lattice {
     int dim, nx, ny, nz; /* particles along each side of a box; nz = 1 in 2-D */
     int boxes;           /* 1.. */
-    int open;            /* the first `open` boxes have a free surface on top (Dirichlet), the others are singular */
+    int open; /* the first `open` boxes have a free surface on top (Dirichlet), the others are singular */
     double re;           /* kernel radius [dp] */
     double contrast;     /* density of the upper half of a box is 1000 / contrast */
     double compressible; /* share of the mean diagonal added to every row as a shift */
@@ -42,8 +42,8 @@ typedef struct kit_memory {
 void kit_memory_init(kit_memory *memory);
 
 /* One solution from p with fresh states. @return the solver's reason */
-int kit_solve(const mps_solver_ops *solver, const mps_preconditioner_ops *pc, kit_memory *memory, const mps_ppe_problem *problem, double *p,
-              mps_ppe_result *result);
+int kit_solve(const mps_solver_ops *solver, const mps_preconditioner_ops *pc, kit_memory *memory,
+              const mps_ppe_problem *problem, double *p, mps_ppe_result *result);
 
 /* A parallel-for that makes its threads anew at each call, for mps_ppe_problem.parallel. */
 mps_parallel kit_parallel(int threads);

@@ -84,7 +84,9 @@ static kit_system *new_system(int dim, int64_t n, int64_t entries)
                                    .dp = 0.01,
                                    .tolerance = 1e-10,
                                    .max_iterations = 5000};
-    if (s->row && s->col && s->component && s->val && s->diagonal && s->rhs && s->shift && s->weight && s->x && s->exact) return s;
+    if (s->row && s->col && s->component && s->val && s->diagonal && s->rhs && s->shift &&
+        s->weight && s->x && s->exact)
+        return s;
     kit_system_free(s);
     return NULL;
 }
@@ -94,7 +96,8 @@ static void set_rhs(kit_system *s)
 {
     for (int64_t i = 0; i < s->problem.n; i++) {
         s->rhs[i] = s->diagonal[i] * s->exact[i];
-        for (int64_t k = s->row[i]; k < s->row[i + 1]; k++) s->rhs[i] += (double)s->val[k] * s->exact[s->col[k]];
+        for (int64_t k = s->row[i]; k < s->row[i + 1]; k++)
+            s->rhs[i] += (double)s->val[k] * s->exact[s->col[k]];
     }
 }
 
@@ -133,7 +136,8 @@ static void place(const kit_lattice *o, kit_system *s)
     for (int64_t n = 0; n < s->problem.n; n++) {
         int64_t c[3] = {n % o->nx, n / o->nx % o->ny, n / ((int64_t)o->nx * o->ny) % o->nz};
         int64_t box = n / ((int64_t)o->nx * o->ny * o->nz);
-        for (int d = 0; d < o->dim; d++) s->x[n * o->dim + d] = s->problem.dp * ((double)c[d] + 0.15 * noise(&state));
+        for (int d = 0; d < o->dim; d++)
+            s->x[n * o->dim + d] = s->problem.dp * ((double)c[d] + 0.15 * noise(&state));
         s->x[n * o->dim] += (double)box * s->problem.dp * (o->nx + 10);
     }
 }
@@ -161,7 +165,8 @@ static double coupling(const kit_lattice *o, const kit_system *s, int64_t a, int
 static void fill_row(const kit_lattice *o, kit_system *s, int64_t n)
 {
     int reach = (int)o->re + 1, reach_z = o->dim == 3 ? reach : 0;
-    int i = (int)(n % o->nx), j = (int)(n / o->nx % o->ny), k = (int)(n / ((int64_t)o->nx * o->ny) % o->nz);
+    int i = (int)(n % o->nx), j = (int)(n / o->nx % o->ny),
+        k = (int)(n / ((int64_t)o->nx * o->ny) % o->nz);
     int box = (int)(n / ((int64_t)o->nx * o->ny * o->nz));
     int64_t at = s->row[n];
     double sum = 0;
@@ -176,7 +181,8 @@ static void fill_row(const kit_lattice *o, kit_system *s, int64_t n)
                 sum += (double)c;
             }
     int height = o->dim == 2 ? o->ny - 1 - j : o->nz - 1 - k;
-    if (box < o->open && height == 0) s->shift[n] = 0.5 * sum; /* neighbours on the free surface, p = 0 there */
+    if (box < o->open && height == 0)
+        s->shift[n] = 0.5 * sum; /* neighbours on the free surface, p = 0 there */
     s->shift[n] += o->compressible * sum;
     s->diagonal[n] = s->shift[n] + sum;
     s->row[n + 1] = at;
@@ -189,7 +195,8 @@ static void set_exact(const kit_lattice *o, kit_system *s)
     int64_t size = s->problem.n / o->boxes;
     for (int64_t n = 0; n < s->problem.n; n++) {
         const double *x = s->x + n * o->dim;
-        s->exact[n] = 1000 * (cos(9 * x[0]) + sin(11 * x[1]) + (o->dim == 3 ? x[2] : 0) + 0.01 * noise(&state));
+        s->exact[n] = 1000 * (cos(9 * x[0]) + sin(11 * x[1]) + (o->dim == 3 ? x[2] : 0) +
+                              0.01 * noise(&state));
     }
     for (int box = o->compressible > 0 ? o->boxes : o->open; box < o->boxes; box++) {
         double mean = 0;
@@ -201,7 +208,8 @@ static void set_exact(const kit_lattice *o, kit_system *s)
 kit_system *kit_lattice_system(const kit_lattice *o)
 {
     int64_t size = (int64_t)o->nx * o->ny * o->nz, reach = 2 * ((int64_t)o->re + 1) + 1;
-    kit_system *s = new_system(o->dim, size * o->boxes, size * o->boxes * reach * reach * (o->dim == 3 ? reach : 1));
+    kit_system *s = new_system(o->dim, size * o->boxes,
+                               size * o->boxes * reach * reach * (o->dim == 3 ? reach : 1));
     if (!s) return NULL;
     place(o, s);
     for (int64_t n = 0; n < s->problem.n; n++) fill_row(o, s, n);

@@ -54,10 +54,12 @@ static void test_kinsol(void **state)
 static void test_preconditioners(void **state)
 {
     (void)state;
-    for (int k = 0; mps__builtin_preconditioners[k]; k++) assert_int_equal(kit_check_preconditioner(mps__builtin_preconditioners[k]), 0);
+    for (int k = 0; mps__builtin_preconditioners[k]; k++)
+        assert_int_equal(kit_check_preconditioner(mps__builtin_preconditioners[k]), 0);
 }
 
-static double *solved(const mps_solver_ops *solver, const mps_preconditioner_ops *pc, const mps_ppe_problem *problem)
+static double *solved(const mps_solver_ops *solver, const mps_preconditioner_ops *pc,
+                      const mps_ppe_problem *problem)
 {
     kit_memory memory;
     mps_ppe_result result = {.struct_size = sizeof result};
@@ -95,8 +97,10 @@ static void test_against_direct(void **state)
         s->problem.tolerance = 1e-13;
         double *direct = solved(&mps__solver_klu, NULL, &s->problem);
         for (int a = 0; mps__builtin_solvers[a]; a++)
-            for (int b = 0; mps__builtin_solvers[a]->preconditioner && mps__builtin_preconditioners[b]; b++) {
-                double *p = solved(mps__builtin_solvers[a], mps__builtin_preconditioners[b], &s->problem);
+            for (int b = 0;
+                 mps__builtin_solvers[a]->preconditioner && mps__builtin_preconditioners[b]; b++) {
+                double *p = solved(mps__builtin_solvers[a], mps__builtin_preconditioners[b],
+                                   &s->problem);
                 assert_true(kit_difference(p, direct, s->problem.n) < 1e-8);
                 free(p);
             }
@@ -113,7 +117,8 @@ static int32_t iterations_of(const mps_preconditioner_ops *pc, const kit_lattice
     double *p = calloc((size_t)s->problem.n, sizeof *p);
     kit_memory_init(&memory);
     s->problem.tolerance = 1e-6;
-    assert_int_equal(kit_solve(&mps__solver_pcg, pc, &memory, &s->problem, p, &result), MPS_PPE_CONVERGED);
+    assert_int_equal(kit_solve(&mps__solver_pcg, pc, &memory, &s->problem, p, &result),
+                     MPS_PPE_CONVERGED);
     free(p);
     kit_system_free(s);
     return result.iterations;
@@ -134,8 +139,9 @@ static void test_auxgrid_iterations(void **state)
 {
     (void)state;
     static const kit_lattice lattices[] = {
-        {2, 40, 30, 1, 1, 1, 3.1, 1, 0},   {2, 160, 120, 1, 1, 1, 3.1, 1, 0}, {2, 80, 60, 1, 1, 1, 3.1, 1000, 0},
-        {2, 80, 60, 1, 1, 0, 3.1, 1, 0},   {3, 16, 16, 16, 1, 1, 2.1, 1, 0},  {3, 16, 16, 16, 1, 1, 2.1, 1000, 0},
+        {2, 40, 30, 1, 1, 1, 3.1, 1, 0},    {2, 160, 120, 1, 1, 1, 3.1, 1, 0},
+        {2, 80, 60, 1, 1, 1, 3.1, 1000, 0}, {2, 80, 60, 1, 1, 0, 3.1, 1, 0},
+        {3, 16, 16, 16, 1, 1, 2.1, 1, 0},   {3, 16, 16, 16, 1, 1, 2.1, 1000, 0},
         {2, 12, 12, 1, 30, 15, 3.1, 1, 0},
     };
     for (size_t i = 0; i < sizeof lattices / sizeof lattices[0]; i++)
@@ -167,7 +173,8 @@ static void test_auxgrid_far_drop(void **state)
     (void)state;
     static const kit_lattice lattice = {3, 12, 12, 12, 2, 1, 2.1, 1, 0};
     kit_system *s = kit_lattice_system(&lattice);
-    for (int64_t i = s->problem.n / 2; i < s->problem.n; i++) s->x[3 * i] += 10 + 1e3 * s->problem.dp;
+    for (int64_t i = s->problem.n / 2; i < s->problem.n; i++)
+        s->x[3 * i] += 10 + 1e3 * s->problem.dp;
     bytes_taken = 0;
     void *self = NULL;
     const mps_allocator allocator = {take_bytes, give_bytes, NULL};
@@ -195,7 +202,8 @@ static void test_auxgrid_nan(void **state)
     for (int64_t k = 0; k < 40; k++) { /* the diagonal holds the sum of the others */
         const double value = s->diagonal[k];
         s->diagonal[k] = k % 2 ? (double)NAN : -(double)INFINITY;
-        assert_int_not_equal(mps__preconditioner_auxgrid.setup(self, &s->problem), MPS_PPE_CONVERGED);
+        assert_int_not_equal(mps__preconditioner_auxgrid.setup(self, &s->problem),
+                             MPS_PPE_CONVERGED);
         s->diagonal[k] = value;
     }
     assert_int_equal(mps__preconditioner_auxgrid.setup(self, &s->problem), MPS_PPE_CONVERGED);
@@ -212,7 +220,8 @@ static void test_ic0_shift(void **state)
 {
     (void)state;
     /* positive definite (eigenvalues 0.0034 .. 6.8), yet the factorisation without fill has a pivot of -5 (Kershaw 1978) */
-    static const double a[16] = {3, -2, 0, 2, -2, 3, -2, 0, 0, -2, 3, -2, 2, 0, -2, 3}, exact[4] = {1, 2, 3, 4};
+    static const double a[16] = {3, -2, 0, 2, -2, 3, -2, 0, 0, -2, 3, -2, 2, 0, -2, 3},
+                        exact[4] = {1, 2, 3, 4};
     kit_system *s = kit_dense_system(4, a, exact);
     double *p = solved(&mps__solver_pcg, &mps__preconditioner_ic0, &s->problem);
     assert_true(kit_difference(p, exact, 4) < 1e-7);
@@ -238,7 +247,8 @@ static void make_gas(kit_system *s, double law, double *gas, double *laws)
 static void test_gas_scalar(void **state)
 {
     (void)state;
-    static const double a[1] = {3}, law[1] = {100}, gas[1] = {2.5}, guesses[] = {0, -99.9, -1e6, 1e6, NAN};
+    static const double a[1] = {3}, law[1] = {100}, gas[1] = {2.5},
+                        guesses[] = {0, -99.9, -1e6, 1e6, NAN};
     for (double wanted = -98; wanted < 1e4; wanted += wanted < 100 ? 11 : 1500)
         for (size_t g = 0; g < sizeof guesses / sizeof guesses[0]; g++) {
             kit_system *s = kit_dense_system(1, a, &wanted);
@@ -254,8 +264,11 @@ static void test_gas_scalar(void **state)
                 const double middle = 0.5 * (low + high);
                 *(0.5 * middle + 250 * log(1 + middle / 100) < s->rhs[0] ? &low : &high) = middle;
             }
-            assert_int_equal(kit_solve(&mps__solver_kinsol, &mps__preconditioner_jacobi, &memory, &s->problem, &p, &result), 0);
-            assert_true(fabs(p - low) < 1e-8 * (1 + fabs(low)) && result.residual <= 1e-12 && result.iterations > 0);
+            assert_int_equal(kit_solve(&mps__solver_kinsol, &mps__preconditioner_jacobi, &memory,
+                                       &s->problem, &p, &result),
+                             0);
+            assert_true(fabs(p - low) < 1e-8 * (1 + fabs(low)) && result.residual <= 1e-12 &&
+                        result.iterations > 0);
             kit_system_free(s);
         }
 }
@@ -264,32 +277,46 @@ static void test_gas_scalar(void **state)
 static void test_gas_lattice(void **state)
 {
     (void)state;
-    static const kit_lattice lattices[] = {
-        {2, 60, 50, 1, 1, 1, 3.1, 1, 0.01}, {2, 110, 90, 1, 1, 0, 2.1, 1000, 0.001}, {3, 9, 9, 9, 1, 0, 2.1, 1, 1}};
+    static const kit_lattice lattices[] = {{2, 60, 50, 1, 1, 1, 3.1, 1, 0.01},
+                                           {2, 110, 90, 1, 1, 0, 2.1, 1000, 0.001},
+                                           {3, 9, 9, 9, 1, 0, 2.1, 1, 1}};
     for (size_t k = 0; k < sizeof lattices / sizeof lattices[0]; k++)
         for (int pc = 0; mps__builtin_preconditioners[pc]; pc++) {
-            if (lattices[k].contrast > 1 && mps__builtin_preconditioners[pc] == &mps__preconditioner_jacobi) continue; /* slow */
+            if (lattices[k].contrast > 1 &&
+                mps__builtin_preconditioners[pc] == &mps__preconditioner_jacobi)
+                continue; /* slow */
             kit_system *s = kit_lattice_system(&lattices[k]);
             const size_t n = (size_t)s->problem.n;
-            double *gas = calloc(5 * n, sizeof *gas), *p = gas + 2 * n, *more = gas + 3 * n, deepest = 0;
-            mps_ppe_result result = {.struct_size = sizeof result}, again = {.struct_size = sizeof again};
+            double *gas = calloc(5 * n, sizeof *gas), *p = gas + 2 * n, *more = gas + 3 * n,
+                   deepest = 0;
+            mps_ppe_result result = {.struct_size = sizeof result},
+                           again = {.struct_size = sizeof again};
             kit_memory memory;
             for (size_t i = 0; i < n; i++) deepest = fmax(deepest, -s->exact[i]);
-            make_gas(s, deepest / 0.95, gas, gas + n); /* down to a twentieth of the ambient pressure */
+            make_gas(s, deepest / 0.95, gas,
+                     gas + n); /* down to a twentieth of the ambient pressure */
             s->problem.tolerance = 1e-10;
             kit_memory_init(&memory);
-            assert_int_equal(kit_solve(&mps__solver_kinsol, mps__builtin_preconditioners[pc], &memory, &s->problem, p, &result), 0);
-            assert_true(kit_difference(p, s->exact, s->problem.n) < 1e-6 && result.residual <= 1e-10);
+            assert_int_equal(kit_solve(&mps__solver_kinsol, mps__builtin_preconditioners[pc],
+                                       &memory, &s->problem, p, &result),
+                             0);
+            assert_true(kit_difference(p, s->exact, s->problem.n) < 1e-6 &&
+                        result.residual <= 1e-10);
             const mps_parallel three = kit_parallel(3);
             s->problem.parallel = &three;
-            assert_int_equal(kit_solve(&mps__solver_kinsol, mps__builtin_preconditioners[pc], &memory, &s->problem, more, &again), 0);
+            assert_int_equal(kit_solve(&mps__solver_kinsol, mps__builtin_preconditioners[pc],
+                                       &memory, &s->problem, more, &again),
+                             0);
             assert_memory_equal(p, more, n * sizeof *p);
             assert_int_equal(memory.live, 0);
             s->problem.gas = s->problem.law = NULL;
             s->problem.parallel = NULL;
             memset(p, 0, n * sizeof *p);
-            assert_int_equal(kit_solve(&mps__solver_kinsol, mps__builtin_preconditioners[pc], &memory, &s->problem, p, &again), 0);
-            print_message("lattice %zu, %s: %d iterations, linear %d\n", k, mps__builtin_preconditioners[pc]->name, result.iterations,
+            assert_int_equal(kit_solve(&mps__solver_kinsol, mps__builtin_preconditioners[pc],
+                                       &memory, &s->problem, p, &again),
+                             0);
+            print_message("lattice %zu, %s: %d iterations, linear %d\n", k,
+                          mps__builtin_preconditioners[pc]->name, result.iterations,
                           again.iterations);
             assert_true(result.iterations < 4 * again.iterations + 20);
             free(gas);
@@ -312,7 +339,8 @@ static void test_gas_memory(void **state)
         mps_ppe_result result = {.struct_size = sizeof result};
         kit_memory_init(&memory);
         memory.fail_at = fail_at;
-        reason = kit_solve(&mps__solver_kinsol, &mps__preconditioner_ic0, &memory, &s->problem, p, &result);
+        reason = kit_solve(&mps__solver_kinsol, &mps__preconditioner_ic0, &memory, &s->problem, p,
+                           &result);
         assert_int_equal(memory.live, 0);
     }
     assert_int_equal(reason, MPS_PPE_CONVERGED);

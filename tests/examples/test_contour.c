@@ -57,10 +57,12 @@ static void disc_is_round(void **state)
     (void)state;
     uint64_t seed = 3;
     for (int k = 0; k < 24; k++) {
-        const disc d = {0.5 + dp * cloud_random(&seed), 0.4 + dp * cloud_random(&seed), (8.0 + k) * dp};
+        const disc d = {0.5 + dp * cloud_random(&seed), 0.4 + dp * cloud_random(&seed),
+                        (8.0 + k) * dp};
         const contour c = contour_of(box_with(2, in_disc, d, 1, 0), 2);
         ASSERT_NEAR(2 * sqrt(pi * c.area) / c.length, 1, 0.005);
-        ASSERT_NEAR(c.area / (pi * d.radius * d.radius), 1, 0.03); /* 2/3 (width dp/R)^2 and the cut lattice */
+        ASSERT_NEAR(c.area / (pi * d.radius * d.radius), 1,
+                    0.03); /* 2/3 (width dp/R)^2 and the cut lattice */
         ASSERT_NEAR(c.lo[0], d.x - d.radius, 0.5 * dp);
         ASSERT_NEAR(c.hi[0], d.x + d.radius, 0.5 * dp);
         ASSERT_NEAR(c.lo[1], d.y - d.radius, 0.5 * dp);
@@ -80,7 +82,8 @@ static void ellipse_is_as_long(void **state)
     (void)state;
     uint64_t seed = 5;
     for (int k = 0; k < 12; k++) {
-        const disc d = {0.5 + dp * cloud_random(&seed), 0.4 + dp * cloud_random(&seed), (10.0 + k) * dp};
+        const disc d = {0.5 + dp * cloud_random(&seed), 0.4 + dp * cloud_random(&seed),
+                        (10.0 + k) * dp};
         const contour c = contour_of(box_with(2, in_ellipse, d, 1, 0), 2);
         const double circularity = 2 * sqrt(pi * c.area) / c.length;
         print_message("ellipse of %d dp: circularity %+.4f\n", 10 + k, circularity - 0.9169);
@@ -111,7 +114,8 @@ static void no_line_in_one_phase(void **state)
 {
     (void)state;
     const disc whole = {0.5, 0.4, 2};
-    const contour none = contour_of(box_with(2, in_disc, whole, 0, -1), 2), full = contour_of(box_with(2, in_disc, whole, 1, -1), 2);
+    const contour none = contour_of(box_with(2, in_disc, whole, 0, -1), 2),
+                  full = contour_of(box_with(2, in_disc, whole, 1, -1), 2);
     assert_true(none.length == 0 && none.area == 0 && isnan(none.lo[0]) && isnan(none.hi[1]));
     assert_true(full.length == 0 && isnan(full.lo[0]));
     ASSERT_NEAR(full.area, size[0] * size[1], 1e-9);
@@ -145,12 +149,15 @@ static void cavity_is_measured(void **state)
     for (int k = 0; k < 8; k++)
         for (int32_t rest = -1; rest <= 1; rest += 2) {
             const disc d = {0.5 + dp * cloud_random(&seed), 0.25, (3.0 + k) * dp};
-            ASSERT_NEAR(cavity_volume(box_with(2, in_water, d, 0, rest)), cut_out(&d), 0.02 * dp * 2 * pi * d.radius);
+            ASSERT_NEAR(cavity_volume(box_with(2, in_water, d, 0, rest)), cut_out(&d),
+                        0.02 * dp * 2 * pi * d.radius);
         }
     const disc open = {0.5, 0.47, 0.08}, in_wall = {0, 0.25, 0.08}, across = {0.5, 0.25, 0.06};
     assert_true(cavity_volume(box_with(2, in_water, open, 0, -1)) == 0);
-    ASSERT_NEAR(cavity_volume(box_with(2, in_water, in_wall, 0, 1)), 0.5 * pi * 0.0064, 0.1 * pi * 0.0064);
-    ASSERT_NEAR(cavity_volume(box_with(3, in_water, across, 0, -1)), 0.09 * cut_out(&across), 0.005 * cut_out(&across));
+    ASSERT_NEAR(cavity_volume(box_with(2, in_water, in_wall, 0, 1)), 0.5 * pi * 0.0064,
+                0.1 * pi * 0.0064);
+    ASSERT_NEAR(cavity_volume(box_with(3, in_water, across, 0, -1)), 0.09 * cut_out(&across),
+                0.005 * cut_out(&across));
 }
 
 /* The gaps of an uneven lattice are no cavities. */
@@ -202,7 +209,8 @@ static void means_of_a_phase(void **state)
     ASSERT_NEAR(m.x[1], d.y, 1e-12);
     ASSERT_NEAR(2 * sqrt(m.x2[0] - m.x[0] * m.x[0]), d.radius, 0.1 * dp);
     assert_true(m.u[0] == 0 && m.u[1] == 0);
-    ASSERT_NEAR((double)m.count * dp * dp, pi * d.radius * d.radius, 0.02 * pi * d.radius * d.radius);
+    ASSERT_NEAR((double)m.count * dp * dp, pi * d.radius * d.radius,
+                0.02 * pi * d.radius * d.radius);
     assert_false(phase_means_get(sim, 2, &m));
     mps_sim_destroy(sim);
 }
@@ -210,9 +218,10 @@ static void means_of_a_phase(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(disc_is_round),        cmocka_unit_test(ellipse_is_as_long), cmocka_unit_test(line_is_straight),
-        cmocka_unit_test(no_line_in_one_phase), cmocka_unit_test(cavity_is_measured), cmocka_unit_test(gaps_are_no_cavities),
-        cmocka_unit_test(strays_are_counted),   cmocka_unit_test(means_of_a_phase),
+        cmocka_unit_test(disc_is_round),      cmocka_unit_test(ellipse_is_as_long),
+        cmocka_unit_test(line_is_straight),   cmocka_unit_test(no_line_in_one_phase),
+        cmocka_unit_test(cavity_is_measured), cmocka_unit_test(gaps_are_no_cavities),
+        cmocka_unit_test(strays_are_counted), cmocka_unit_test(means_of_a_phase),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -63,10 +63,14 @@ static inline double fuzz_real(fuzz_input *in, double scale)
 
 static inline int64_t fuzz_whole(fuzz_input *in)
 {
-    static const int64_t odd[] = {0,  1,  -1, 2, 3, INT32_MAX, INT32_MIN, INT64_MAX, INT64_MIN, 1 << 20, 255, -2, INT64_C(1) << 40,
-                                  16, 31, 64};
+    static const int64_t odd[] = {
+        0,         1,         -1,      2,   3,  INT32_MAX,        INT32_MIN,
+        INT64_MAX, INT64_MIN, 1 << 20, 255, -2, INT64_C(1) << 40, 16,
+        31,        64};
     const unsigned kind = fuzz_byte(in);
-    return kind < 100 ? (int64_t)fuzz_byte(in) : kind < 250 ? odd[kind % 16] : (int64_t)fuzz_bits(in);
+    return kind < 100   ? (int64_t)fuzz_byte(in)
+           : kind < 250 ? odd[kind % 16]
+                        : (int64_t)fuzz_bits(in);
 }
 
 /* What must hold; a failure ends the program, which libFuzzer and ctest notice. */
@@ -89,7 +93,8 @@ static inline mps_status fuzz_status(mps_sim *sim, mps_status status)
 /* All fields of a simulation are finite. */
 static inline void fuzz_check_finite(mps_sim *sim)
 {
-    static const char *const fields[] = {"position", "velocity", "pressure", "number_density", "density", "wall_pressure"};
+    static const char *const fields[] = {"position",       "velocity", "pressure",
+                                         "number_density", "density",  "wall_pressure"};
     for (size_t f = 0; f < sizeof fields / sizeof fields[0]; f++) {
         mps_lease lease;
         if (mps_lease_begin(sim, fields[f], MPS_READ, &lease) != MPS_OK) continue;

@@ -54,7 +54,8 @@ static int run_garbage(mps_stage *s)
 {
     const garbage_model *m = s->self;
     for (int k = 0; k < m->verb.use_count; k++) {
-        const int per = channels[m->which[k]].components ? channels[m->which[k]].components : s->dim;
+        const int per = channels[m->which[k]].components ? channels[m->which[k]].components
+                                                         : s->dim;
         if (!(m->use[k].access & MPS_USE_WRITE) || !s->data[k]) continue;
         for (int tries = fuzz_pick(input, 4); tries >= 0; tries--) {
             const int64_t at = (int64_t)(fuzz_byte(input) * 37 % (uint64_t)(s->n * per));
@@ -88,7 +89,10 @@ static void register_model(fuzz_input *in, mps_sim *sim, int k)
     snprintf(m->name, sizeof m->name, "garbage%d.any", k);
     m->channel[0] = (mps_channel){"mine", "-", "any", 2, MPS_TYPE_REAL, fuzz_byte(in) % 2, 0};
     m->channel[1] = (mps_channel){"ours", "-", "any", 1, MPS_TYPE_INTEGER, MPS_LIFE_STEP, 0};
-    m->verb = (mps_verb){.moment = fuzz_byte(in) % 11, .use_count = fuzz_pick(in, USES + 1), .uses = m->use, .run = run_garbage};
+    m->verb = (mps_verb){.moment = fuzz_byte(in) % 11,
+                         .use_count = fuzz_pick(in, USES + 1),
+                         .uses = m->use,
+                         .run = run_garbage};
     for (int u = 0; u < m->verb.use_count; u++) {
         m->which[u] = fuzz_pick(in, CHANNELS);
         m->use[u] = (mps_use){channels[m->which[u]].name, fuzz_byte(in) % 16};
@@ -106,7 +110,8 @@ static void register_model(fuzz_input *in, mps_sim *sim, int k)
                                .channels = m->channel,
                                .verbs = &m->verb,
                                .user = m};
-    if (fuzz_status(sim, mps_model_register(sim, &ops)) == MPS_OK) fuzz_status(sim, mps_model_use(sim, m->name));
+    if (fuzz_status(sim, mps_model_register(sim, &ops)) == MPS_OK)
+        fuzz_status(sim, mps_model_use(sim, m->name));
 }
 
 static int create_nothing(const mps_allocator *allocator, void **self)
@@ -121,14 +126,19 @@ static void destroy_nothing(const mps_allocator *allocator, void *self)
     (void)allocator, (void)self;
 }
 
-static void solve_garbage(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc, void *pc_self, double *p,
+static void solve_garbage(void *self, const mps_ppe_problem *problem,
+                          const mps_preconditioner_ops *pc, void *pc_self, double *p,
                           mps_ppe_result *result)
 {
     (void)self;
-    if (pc && fuzz_byte(input) > 128 && pc->setup(pc_self, problem) == MPS_PPE_CONVERGED) pc->apply(pc_self, problem->rhs, p);
-    for (int tries = fuzz_pick(input, 4); tries > 0; tries--) p[fuzz_byte(input) * 37 % problem->n] = fuzz_real(input, 1000);
-    *result = (mps_ppe_result){result->struct_size, (int32_t)(fuzz_byte(input) % 8) - 1, (int32_t)fuzz_whole(input), 0, fuzz_real(input, 1e-6),
-                               fuzz_real(input, 1e-4), fuzz_real(input, 1)};
+    if (pc && fuzz_byte(input) > 128 && pc->setup(pc_self, problem) == MPS_PPE_CONVERGED)
+        pc->apply(pc_self, problem->rhs, p);
+    for (int tries = fuzz_pick(input, 4); tries > 0; tries--)
+        p[fuzz_byte(input) * 37 % problem->n] = fuzz_real(input, 1000);
+    *result = (mps_ppe_result){result->struct_size,        (int32_t)(fuzz_byte(input) % 8) - 1,
+                               (int32_t)fuzz_whole(input), 0,
+                               fuzz_real(input, 1e-6),     fuzz_real(input, 1e-4),
+                               fuzz_real(input, 1)};
     if (fuzz_byte(input) < 128) result->reason = MPS_PPE_CONVERGED;
 }
 
@@ -204,10 +214,12 @@ static void use_models(fuzz_input *in, mps_sim *sim)
         register_model(in, sim, fuzz_pick(in, MODELS));
         break;
     case 2:
-        if (mps_model_info_get(sim, fuzz_pick(in, 40), &info) == MPS_OK) fuzz_status(sim, mps_model_use(sim, info.name));
+        if (mps_model_info_get(sim, fuzz_pick(in, 40), &info) == MPS_OK)
+            fuzz_status(sim, mps_model_use(sim, info.name));
         break;
     case 3:
-        if (mps_model_info_get(sim, fuzz_pick(in, 40), &info) == MPS_OK) fuzz_status(sim, mps_model_remove(sim, info.name));
+        if (mps_model_info_get(sim, fuzz_pick(in, 40), &info) == MPS_OK)
+            fuzz_status(sim, mps_model_remove(sim, info.name));
         break;
     default: {
         mps_setting_info setting;
@@ -222,8 +234,10 @@ static void use_models(fuzz_input *in, mps_sim *sim)
 static void add_solid(fuzz_input *in, mps_sim *sim)
 {
     mps_tank tank;
-    const double a[3] = {fuzz_between(in, -0.1, 0.6), fuzz_between(in, -0.1, 0.6), fuzz_between(in, -0.1, 0.6)};
-    const double b[3] = {fuzz_between(in, -0.1, 0.6), fuzz_between(in, -0.1, 0.6), fuzz_between(in, -0.1, 0.6)};
+    const double a[3] = {fuzz_between(in, -0.1, 0.6), fuzz_between(in, -0.1, 0.6),
+                         fuzz_between(in, -0.1, 0.6)};
+    const double b[3] = {fuzz_between(in, -0.1, 0.6), fuzz_between(in, -0.1, 0.6),
+                         fuzz_between(in, -0.1, 0.6)};
     switch (fuzz_pick(in, 4)) {
     case 0:
         mps_tank_init(&tank, sizeof tank);
@@ -268,14 +282,16 @@ static void remove_particles(fuzz_input *in, mps_sim *sim)
 {
     int64_t ids[4];
     const int count = fuzz_pick(in, 4) + 1;
-    for (int k = 0; k < count; k++) ids[k] = fuzz_byte(in) < 250 ? (int64_t)fuzz_byte(in) : fuzz_whole(in);
+    for (int k = 0; k < count; k++)
+        ids[k] = fuzz_byte(in) < 250 ? (int64_t)fuzz_byte(in) : fuzz_whole(in);
     fuzz_status(sim, mps_particles_remove(sim, count, ids));
 }
 
 /* Numbers through a lease; what is refused is put right, so that the lease can be closed. */
 static void write_field(fuzz_input *in, mps_sim *sim)
 {
-    static const char *const fields[] = {"position", "velocity", "pressure", "density", "number_density", "mine", "mark", "wall_pressure"};
+    static const char *const fields[] = {"position",       "velocity", "pressure", "density",
+                                         "number_density", "mine",     "mark",     "wall_pressure"};
     mps_lease lease = {.struct_size = sizeof lease};
     if (mps_lease_begin(sim, fields[fuzz_pick(in, 8)], fuzz_byte(in) % 2, &lease) != MPS_OK) return;
     const int64_t size = lease.count * lease.stride;
@@ -300,7 +316,8 @@ static void use_probes(fuzz_input *in, mps_sim *sim)
     switch (fuzz_pick(in, 4)) {
     case 0:
         probe.type = fuzz_byte(in) % 5;
-        for (int d = 0; d < 3; d++) probe.at[d] = fuzz_byte(in) < 250 ? fuzz_between(in, 0, 0.5) : fuzz_real(in, 1);
+        for (int d = 0; d < 3; d++)
+            probe.at[d] = fuzz_byte(in) < 250 ? fuzz_between(in, 0, 0.5) : fuzz_real(in, 1);
         if (fuzz_byte(in) > 200) probe.diameter = fuzz_real(in, 0.3);
         if (fuzz_byte(in) > 200) probe.average = fuzz_real(in, 0.1);
         if (fuzz_byte(in) > 128) probe.rate = fabs(fuzz_real(in, 500));
@@ -344,7 +361,8 @@ static void use_controls(fuzz_input *in, mps_sim *sim)
         fuzz_status(sim, mps_phase_set(sim, fuzz_byte(in) % 18, &phase));
         break;
     case 2:
-        fuzz_status(sim, mps_tension_set(sim, fuzz_byte(in) % 4, fuzz_byte(in) % 4, fuzz_real(in, 0.1)));
+        fuzz_status(sim,
+                    mps_tension_set(sim, fuzz_byte(in) % 4, fuzz_byte(in) % 4, fuzz_real(in, 0.1)));
         break;
     case 3:
         fuzz_status(sim, mps_threads_set(sim, fuzz_byte(in) % 4));
@@ -359,13 +377,15 @@ static void use_controls(fuzz_input *in, mps_sim *sim)
         fuzz_status(sim, mps_stencil_get(sim, fuzz_byte(in) % 3, &stencil));
         break;
     default:
-        fuzz_status(sim, mps_field_add(sim, fuzz_byte(in) % 2 ? "mine" : "mark", (int32_t)fuzz_byte(in) % 11));
+        fuzz_status(sim, mps_field_add(sim, fuzz_byte(in) % 2 ? "mine" : "mark",
+                                       (int32_t)fuzz_byte(in) % 11));
     }
 }
 
 static void use_motion(fuzz_input *in, mps_sim *sim)
 {
-    const mps_harmonic h = {fuzz_byte(in) % 7, fuzz_byte(in) % 2, fuzz_real(in, 0.02), fuzz_real(in, 10), 0};
+    const mps_harmonic h = {fuzz_byte(in) % 7, fuzz_byte(in) % 2, fuzz_real(in, 0.02),
+                            fuzz_real(in, 10), 0};
     switch (fuzz_pick(in, 3)) {
     case 0:
         fuzz_status(sim, mps_motion_harmonics_set(sim, 1, &h));

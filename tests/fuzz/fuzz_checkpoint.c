@@ -48,8 +48,8 @@ static void add_probes(mps_sim *sim)
 
 static mps_sim *build(int k)
 {
-    const double lo[3] = {0, 0, 0}, hi[3] = {0.4, k == 1 ? 0.4 : 0.2, 0.4}, half[3] = {0.4, 0.2, 0.4}, foot[2] = {0.2, 0},
-                 edge[2] = {0, 0.2};
+    const double lo[3] = {0, 0, 0}, hi[3] = {0.4, k == 1 ? 0.4 : 0.2, 0.4},
+                 half[3] = {0.4, 0.2, 0.4}, foot[2] = {0.2, 0}, edge[2] = {0, 0.2};
     const mps_harmonic surge = {.dof = MPS_SURGE, .amplitude = 0.02, .omega = 8};
     mps_config config;
     mps_tank tank;
@@ -77,7 +77,8 @@ static mps_sim *build(int k)
 static void prepare(int k)
 {
     if (!path[0]) {
-        snprintf(path, sizeof path, "%s/mps_fuzz_%ld", access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "/tmp", (long)getpid());
+        snprintf(path, sizeof path, "%s/mps_fuzz_%ld",
+                 access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "/tmp", (long)getpid());
         atexit(leave);
     }
     if (scene[k].sim) return;
@@ -147,9 +148,11 @@ static void go_on(mps_sim *sim)
         if (mps_probe_size(sim, id) > 0) fuzz_status(sim, mps_probe_read(sim, id, values));
     for (int k = 0; k < 2; k++) fuzz_step(sim, 4e-3);
     for (int32_t id = 0; id < 4; id++)
-        if (mps_probe_size(sim, id) > 0) fuzz_status(sim, mps_probe_series(sim, id, NULL, NULL, NULL));
+        if (mps_probe_size(sim, id) > 0)
+            fuzz_status(sim, mps_probe_series(sim, id, NULL, NULL, NULL));
     FUZZ_MUST(fuzz_status(sim, mps_checkpoint_write(sim, path)) == MPS_OK);
-    const mps_status again = fuzz_status(sim, mps_checkpoint_read(sim, path)); /* what it writes it takes */
+    const mps_status again = fuzz_status(
+        sim, mps_checkpoint_read(sim, path)); /* what it writes it takes */
     if (again < 0) fprintf(stderr, "%s\n", mps_sim_error(sim));
     FUZZ_MUST(again == MPS_OK);
 }

@@ -20,7 +20,8 @@ static void set_table(fuzz_input *in, mps_sim *sim)
     int32_t dof[MPS_DOF_COUNT];
     const int rows = fuzz_pick(in, ROWS + 1), dofs = fuzz_pick(in, MPS_DOF_COUNT + 1);
     mps_sim_time(sim, &now, NULL);
-    for (int k = 0; k < rows; k++) t[k] = k == 0 ? now - fuzz_between(in, 0, 0.1) : t[k - 1] + fabs(fuzz_real(in, 0.05));
+    for (int k = 0; k < rows; k++)
+        t[k] = k == 0 ? now - fuzz_between(in, 0, 0.1) : t[k - 1] + fabs(fuzz_real(in, 0.05));
     for (int k = 0; k < rows * dofs; k++) values[k] = fuzz_real(in, 0.02);
     for (int k = 0; k < dofs; k++) dof[k] = fuzz_byte(in) % 8;
     fuzz_status(sim, mps_motion_table_set(sim, rows, t, dofs, dof, values));
@@ -66,7 +67,8 @@ static void act(fuzz_input *in, mps_sim *sim)
         fuzz_step(sim, fuzz_byte(in) < 240 ? 2e-3 : fuzz_real(in, 1));
     }
     fuzz_status(sim, mps_motion_state_get(sim, &state));
-    for (int d = 0; d < MPS_DOF_COUNT; d++) FUZZ_MUST(isfinite(state.value[d]) && isfinite(state.rate[d]) && isfinite(state.accel[d]));
+    for (int d = 0; d < MPS_DOF_COUNT; d++)
+        FUZZ_MUST(isfinite(state.value[d]) && isfinite(state.rate[d]) && isfinite(state.accel[d]));
     fuzz_status(sim, mps_motion_to_lab(sim, centre, lab, velocity));
 }
 

@@ -15,7 +15,8 @@ static void leave(void)
 static void write_file(const void *bytes, size_t size)
 {
     if (!path[0]) {
-        snprintf(path, sizeof path, "%s/mps_fuzz_%ld.stl", access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "/tmp", (long)getpid());
+        snprintf(path, sizeof path, "%s/mps_fuzz_%ld.stl",
+                 access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "/tmp", (long)getpid());
         atexit(leave);
     }
     FILE *file = fopen(path, "wb");
@@ -26,8 +27,9 @@ static void write_file(const void *bytes, size_t size)
 /* A box whose corners are moved, with triangles left out, doubled or turned over. */
 static size_t make_binary(fuzz_input *in, unsigned char *out)
 {
-    static const int face[TRIANGLES][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                                           {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    static const int face[TRIANGLES][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
+                                           {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
+                                           {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
     float corner[CORNERS][3];
     uint32_t count = 0;
     for (int k = 0; k < CORNERS; k++)
@@ -43,7 +45,8 @@ static size_t make_binary(fuzz_input *in, unsigned char *out)
         for (int copy = 0; copy < (odd == 2 && t == which ? 2 : 1); copy++) {
             unsigned char *at = out + 84 + 50 * count++;
             memset(at, 0, 50);
-            for (int v = 0; v < 3; v++) memcpy(at + 12 + 12 * v, corner[face[t][odd == 3 && t == which ? 2 - v : v]], 12);
+            for (int v = 0; v < 3; v++)
+                memcpy(at + 12 + 12 * v, corner[face[t][odd == 3 && t == which ? 2 - v : v]], 12);
         }
     }
     if (odd == 4) count = (uint32_t)fuzz_whole(in);

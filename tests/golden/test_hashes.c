@@ -28,7 +28,8 @@ static uint64_t add_bytes(uint64_t hash, const void *data, size_t bytes)
 
 static uint64_t hash_state(mps_sim *sim)
 {
-    static const char *const fields[] = {"position", "velocity", "pressure", "number_density", "density"};
+    static const char *const fields[] = {"position", "velocity", "pressure", "number_density",
+                                         "density"};
     uint64_t hash = UINT64_C(14695981039346656037);
     const int64_t *ids;
     double t;
@@ -124,13 +125,16 @@ static void check(void **state)
     for (int32_t threads = 2; threads <= 4; threads *= 2) {
         const uint64_t other = run(k, threads);
         if (other != found[k])
-            fail_msg("%s: %016" PRIx64 " with 1 thread, %016" PRIx64 " with %d", name_of(k, name), found[k], other, (int)threads);
+            fail_msg("%s: %016" PRIx64 " with 1 thread, %016" PRIx64 " with %d", name_of(k, name),
+                     found[k], other, (int)threads);
     }
     if (getenv("MPS_GOLDEN_ACCEPT")) return;
     if (!kept_hash(name_of(k, name), &kept) || kept != found[k])
-        fail_msg("%s: the hash is %016" PRIx64 ", kept is %016" PRIx64 ". If the rounding was changed on purpose: run\n"
+        fail_msg("%s: the hash is %016" PRIx64 ", kept is %016" PRIx64
+                 ". If the rounding was changed on purpose: run\n"
                  "  MPS_GOLDEN_ACCEPT=1 %s\n"
-                 "and say in CHANGELOG.md under \"Rounding\" what changed and why. Else find the change that did it.",
+                 "and say in CHANGELOG.md under \"Rounding\" what changed and why. Else find the "
+                 "change that did it.",
                  name, found[k], kept, "BUILD/tests/golden_test_hashes");
 }
 
@@ -140,7 +144,9 @@ static int accept_all(void)
     FILE *file = fopen(hashes, "w");
     if (!file) return 1;
     for (int k = 0; k < RUNS; k++) fprintf(file, "%s %016" PRIx64 "\n", name_of(k, name), found[k]);
-    printf("%s is written: commit it together with the change of rounding and its line in CHANGELOG.md\n", hashes);
+    printf("%s is written: commit it together with the change of rounding and its line in "
+           "CHANGELOG.md\n",
+           hashes);
     return fclose(file) != 0;
 }
 
@@ -148,7 +154,9 @@ int main(void)
 {
     struct CMUnitTest tests[RUNS];
     static char names[RUNS][NAME];
-    for (int k = 0; k < RUNS; k++) tests[k] = (struct CMUnitTest){name_of(k, names[k]), check, NULL, NULL, (void *)(intptr_t)k};
+    for (int k = 0; k < RUNS; k++)
+        tests[k] = (struct CMUnitTest){name_of(k, names[k]), check, NULL, NULL,
+                                       (void *)(intptr_t)k};
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     return !failed && getenv("MPS_GOLDEN_ACCEPT") ? accept_all() : failed;
 }

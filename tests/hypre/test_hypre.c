@@ -123,8 +123,8 @@ static void test_settings_refused(void **state)
 static double worst; /* largest difference of the two solutions of a step */
 
 /* Solves by hypre.boomeramg and by sundials.pcg with auxgrid, both from zero, and keeps the latter's solution. */
-static void solve_both(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc, void *pc_self, double *p,
-                       mps_ppe_result *result)
+static void solve_both(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc,
+                       void *pc_self, double *p, mps_ppe_result *result)
 {
     (void)self, (void)pc, (void)pc_self;
     mps_ppe_problem sharp = *problem;
@@ -137,7 +137,9 @@ static void solve_both(void *self, const mps_ppe_problem *problem, const mps_pre
     assert_int_equal(mps_hypre_solver(NULL, &hypre), MPS_OK);
     assert_int_equal(kit_solve(&hypre, NULL, &memory, &sharp, q, result), MPS_PPE_CONVERGED);
     assert_true(result->residual <= 1e-10);
-    assert_int_equal(kit_solve(&mps__solver_pcg, &mps__preconditioner_auxgrid, &memory, &sharp, p, result), MPS_PPE_CONVERGED);
+    assert_int_equal(
+        kit_solve(&mps__solver_pcg, &mps__preconditioner_auxgrid, &memory, &sharp, p, result),
+        MPS_PPE_CONVERGED);
     worst = fmax(worst, kit_difference(q, p, problem->n));
     free(q);
 }
@@ -191,14 +193,17 @@ static void take_steps(mps_sim *sim, int count)
 static void test_against_pcg(void **state)
 {
     (void)state;
-    const mps_solver_ops both = {sizeof both, MPS_PPE_API, "test.both", NULL, 1, create_nothing, solve_both, destroy_nothing, 0, NULL, NULL};
+    const mps_solver_ops both = {sizeof both, MPS_PPE_API,    "test.both", NULL,
+                                 1,           create_nothing, solve_both,  destroy_nothing,
+                                 0,           NULL,           NULL};
     for (int k = 0; k < 4; k++) {
         mps_sim *sim = make_tank(2 + k / 2, k % 2);
         assert_int_equal(mps_solver_register(sim, &both), MPS_OK);
         assert_int_equal(mps_solver_use(sim, "test.both", NULL), MPS_OK);
         worst = 0;
         take_steps(sim, 8);
-        print_message("%d-D, %s: solutions differ by %.1e\n", 2 + k / 2, k % 2 ? "water and air" : "water", worst);
+        print_message("%d-D, %s: solutions differ by %.1e\n", 2 + k / 2,
+                      k % 2 ? "water and air" : "water", worst);
         assert_true(worst < 1e-7);
         mps_sim_destroy(sim);
     }
@@ -241,8 +246,9 @@ static void test_mpi_runs(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_mpi_runs),         cmocka_unit_test(test_kit),         cmocka_unit_test(test_kit_settings),
-        cmocka_unit_test(test_setting_works),    cmocka_unit_test(test_against_pcg), cmocka_unit_test(test_registered),
+        cmocka_unit_test(test_mpi_runs),         cmocka_unit_test(test_kit),
+        cmocka_unit_test(test_kit_settings),     cmocka_unit_test(test_setting_works),
+        cmocka_unit_test(test_against_pcg),      cmocka_unit_test(test_registered),
         cmocka_unit_test(test_settings_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -7,7 +7,8 @@
 static int report(mps_sim *sim, mps_status status, const char *what)
 {
     if (status >= 0) return 0;
-    printf("%s: %s: %s\n", what, mps_status_name(status), sim ? mps_sim_error(sim) : "no simulation");
+    printf("%s: %s: %s\n", what, mps_status_name(status),
+           sim ? mps_sim_error(sim) : "no simulation");
     return 1;
 }
 
@@ -32,7 +33,8 @@ int main(void)
     mps_step_info_init(&info, sizeof info);
     config.dp = 0.02;
     failed = failed || report(NULL, mps_sim_create(&config, &sim), "create") || fill(sim);
-    failed = failed || report(sim, mps_step(sim, 1e-3, &info), "step") || info.step != 1 || !(info.t > 0);
+    failed = failed || report(sim, mps_step(sim, 1e-3, &info), "step") || info.step != 1 ||
+             !(info.t > 0);
     mps_sim_destroy(sim);
     puts(failed ? "failed" : "one step done");
     return failed;

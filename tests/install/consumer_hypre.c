@@ -17,7 +17,8 @@ int main(void)
     settings.threshold = 0.4;
     settings.error = error;
     settings.error_size = sizeof error;
-    int failed = mps_hypre_register(sim, &settings) < 0 || mps_solver_use(sim, "hypre.boomeramg", NULL) < 0;
+    int failed = mps_hypre_register(sim, &settings) < 0 ||
+                 mps_solver_use(sim, "hypre.boomeramg", NULL) < 0;
     if (failed) printf("%s%s\n", error, mps_sim_error(sim));
     mps_sim_destroy(sim);
     return failed;

@@ -106,8 +106,10 @@ static mps_sim *tank(const char *solver, const char *preconditioner)
     return sim;
 }
 
-static const char *const solvers[][2] = {
-    {"sundials.pcg", "auxgrid"}, {"sundials.bicgstab", "jacobi"}, {"sundials.gmres", "jacobi"}, {"sundials.kinsol", "ic0"}};
+static const char *const solvers[][2] = {{"sundials.pcg", "auxgrid"},
+                                         {"sundials.bicgstab", "jacobi"},
+                                         {"sundials.gmres", "jacobi"},
+                                         {"sundials.kinsol", "ic0"}};
 enum { SOLVERS = sizeof solvers / sizeof solvers[0] };
 
 /* How a child ends. */
@@ -116,7 +118,8 @@ enum { QUIET, PRINTS, LOGS, CRASHES };
 /* What SUNDIALS reports is in the log, and the child's exit code is this. */
 enum { LOGGED = 42 };
 
-static int in_child(void (*body)(int64_t k, const char *const *solver), int64_t k, const char *const *solver)
+static int in_child(void (*body)(int64_t k, const char *const *solver), int64_t k,
+                    const char *const *solver)
 {
     int said[2], status = 0;
     char text[200] = "";
@@ -145,12 +148,14 @@ static void steps_allocate_nothing(void **state)
 {
     (void)state;
     if (!CAN_FAIL) skip();
-    for (int s = 0; s < (SUNDIALS_MAJOR < 7 ? SOLVERS : SOLVERS - 1); s++) { /* kinsol is the last */
+    for (int s = 0; s < (SUNDIALS_MAJOR < 7 ? SOLVERS : SOLVERS - 1);
+         s++) { /* kinsol is the last */
         mps_sim *sim = tank(solvers[s][0], solvers[s][1]);
         arm(0);
         for (int k = 0; k < 3; k++) assert_true(mps_step(sim, 1e-3, NULL) >= 0);
         const int64_t count = disarm();
-        if (count != 0) fail_msg("%s: %lld calls of malloc() in steps", solvers[s][0], (long long)count);
+        if (count != 0)
+            fail_msg("%s: %lld calls of malloc() in steps", solvers[s][0], (long long)count);
         mps_sim_destroy(sim);
     }
 }
@@ -198,7 +203,8 @@ static void choice_is_refused(void **state)
         int ends[CRASHES + 1] = {0};
         for (int64_t k = 1; k <= 200; k++) {
             const int end = in_child(choose, k, solvers[s]);
-            if (end == CRASHES && k > 4) fail_msg("%s: crashes at call %lld", solvers[s][0], (long long)k);
+            if (end == CRASHES && k > 4)
+                fail_msg("%s: crashes at call %lld", solvers[s][0], (long long)k);
             ends[end]++;
         }
         assert_in_range(ends[CRASHES], 0, 2);

@@ -405,7 +405,9 @@ static void write_stl(void)
     fprintf(file, "solid a\n");
     for (int f = 0; f < 4; f++) {
         fprintf(file, "facet normal 0 0 0\nouter loop\n");
-        for (int k = 0; k < 3; k++) fprintf(file, "vertex %g %g %g\n", corner[face[f][k]][0], corner[face[f][k]][1], corner[face[f][k]][2]);
+        for (int k = 0; k < 3; k++)
+            fprintf(file, "vertex %g %g %g\n", corner[face[f][k]][0], corner[face[f][k]][1],
+                    corner[face[f][k]][2]);
         fprintf(file, "endloop\nendfacet\n");
     }
     fprintf(file, "endsolid a\n");
@@ -436,8 +438,10 @@ static void destroy_state(const mps_allocator *allocator, void *self)
 static mps_status register_model(mps_sim *sim)
 {
     static const mps_use uses[] = {{"oom_mark", MPS_USE_CHANGE}};
-    static const mps_verb verbs[] = {{.moment = MPS_FORCE, .use_count = 1, .uses = uses, .run = run_nothing}};
-    static const mps_channel channels[] = {{"oom_mark", "-", "any", 2, MPS_TYPE_REAL, MPS_LIFE_PARTICLE, 1}};
+    static const mps_verb verbs[] = {
+        {.moment = MPS_FORCE, .use_count = 1, .uses = uses, .run = run_nothing}};
+    static const mps_channel channels[] = {
+        {"oom_mark", "-", "any", 2, MPS_TYPE_REAL, MPS_LIFE_PARTICLE, 1}};
     const mps_model_ops ops = {.struct_size = sizeof ops,
                                .api = MPS_MODEL_API,
                                .name = "oom.any",
@@ -543,7 +547,8 @@ static double *snapshot(mps_sim *sim, int64_t *count)
         mps_lease lease = {.struct_size = sizeof lease};
         assert_int_equal(mps_lease_begin(sim, fields[f], MPS_READ, &lease), MPS_OK);
         for (int64_t i = 0; i < n; i++)
-            for (int c = 0; c < lease.stride; c++) out[at + ids[i] * lease.stride + c] = lease.data[i * lease.stride + c];
+            for (int c = 0; c < lease.stride; c++)
+                out[at + ids[i] * lease.stride + c] = lease.data[i * lease.stride + c];
         at += (n + 64) * lease.stride;
         assert_int_equal(mps_lease_end(sim, &lease), MPS_OK);
     }
@@ -567,8 +572,9 @@ typedef struct scene {
     const char *name;
     void (*prepare)(mps_sim *sim);
     mps_status (*call)(mps_sim *sim);
-    int64_t least; /* allocations the call makes at least, so that the loop is known to test something */
-    int32_t dim;   /* 0: 2 */
+    int64_t
+        least; /* allocations the call makes at least, so that the loop is known to test something */
+    int32_t dim; /* 0: 2 */
 } scene;
 
 static const scene scenes[] = {
@@ -652,7 +658,9 @@ static bool fail_once(const scene *s, int64_t k)
     const bool failed = m.count >= k;
     m.fail_at = 0;
     if (failed) {
-        if (status == MPS_OK && s->prepare == filled_threads) { /* the memory of the threads: loops run in the calling thread then */
+        if (status == MPS_OK &&
+            s->prepare ==
+                filled_threads) { /* the memory of the threads: loops run in the calling thread then */
             check_step_after(sim, s);
             mps_sim_destroy(sim);
             free(before);
@@ -660,11 +668,15 @@ static bool fail_once(const scene *s, int64_t k)
             return true;
         }
         if (status != MPS_E_NOMEM)
-            fail_msg("%s, allocation %lld: %s: %s", s->name, (long long)k, mps_status_name(status), mps_sim_error(sim));
+            fail_msg("%s, allocation %lld: %s: %s", s->name, (long long)k, mps_status_name(status),
+                     mps_sim_error(sim));
         if (!strstr(mps_sim_error(sim), "memory"))
-            fail_msg("%s, allocation %lld: the text is \"%s\"", s->name, (long long)k, mps_sim_error(sim));
+            fail_msg("%s, allocation %lld: the text is \"%s\"", s->name, (long long)k,
+                     mps_sim_error(sim));
         check_unchanged(sim, before, count, t);
-        if (s->call(sim) != MPS_OK) fail_msg("%s, again after allocation %lld: %s", s->name, (long long)k, mps_sim_error(sim));
+        if (s->call(sim) != MPS_OK)
+            fail_msg("%s, again after allocation %lld: %s", s->name, (long long)k,
+                     mps_sim_error(sim));
     } else {
         assert_int_equal(status, MPS_OK);
         assert_true(m.count >= s->least);
@@ -672,7 +684,9 @@ static bool fail_once(const scene *s, int64_t k)
     if (mps_particles_count(sim, MPS_FLUID) > 0) assert_true(mps_step(sim, 1e-3, NULL) >= 0);
     mps_sim_destroy(sim);
     free(before);
-    if (m.live != 0) fail_msg("%s, allocation %lld: %lld blocks are not given back", s->name, (long long)k, (long long)m.live);
+    if (m.live != 0)
+        fail_msg("%s, allocation %lld: %lld blocks are not given back", s->name, (long long)k,
+                 (long long)m.live);
     return failed;
 }
 
@@ -730,7 +744,8 @@ static void neighbours(void **state)
         const bool failed = status != MPS_OK;
         if (failed) {
             assert_int_equal(status, MPS_E_NOMEM);
-            assert_int_equal(mps_neighbours_stencil_get(list, MPS_NEAR, &kernel, &s), MPS_E_ARG); /* empty */
+            assert_int_equal(mps_neighbours_stencil_get(list, MPS_NEAR, &kernel, &s),
+                             MPS_E_ARG); /* empty */
             assert_int_equal(mps_neighbours_build(list, 100, x, 2.1, 3.1), MPS_OK);
         }
         assert_int_equal(mps_neighbours_stencil_get(list, MPS_NEAR, &kernel, &s), MPS_OK);
@@ -747,8 +762,11 @@ static void neighbours(void **state)
 int main(void)
 {
     enum { SCENES = sizeof scenes / sizeof scenes[0] };
-    struct CMUnitTest tests[SCENES + 2] = {cmocka_unit_test(sim_create), cmocka_unit_test(neighbours)};
-    for (int k = 0; k < SCENES; k++) tests[k + 2] = (struct CMUnitTest){scenes[k].name, run_scene, NULL, NULL, (void *)&scenes[k]};
+    struct CMUnitTest tests[SCENES + 2] = {cmocka_unit_test(sim_create),
+                                           cmocka_unit_test(neighbours)};
+    for (int k = 0; k < SCENES; k++)
+        tests[k + 2] = (struct CMUnitTest){scenes[k].name, run_scene, NULL, NULL,
+                                           (void *)&scenes[k]};
     write_stl();
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     remove(checkpoint);

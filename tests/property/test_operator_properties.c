@@ -36,7 +36,8 @@ static cloud lattice(int dim)
 }
 static cloud jittered(int dim, uint64_t seed)
 {
-    return dim == 2 ? cloud_lattice(2, 24, 20, 1, 0.3, seed) : cloud_lattice(3, 12, 11, 10, 0.3, seed);
+    return dim == 2 ? cloud_lattice(2, 24, 20, 1, 0.3, seed)
+                    : cloud_lattice(3, 12, 11, 10, 0.3, seed);
 }
 static const int *sides(int dim)
 {
@@ -56,7 +57,8 @@ static void assert_close(const double *a, const double *b, int64_t n, double tol
     const double scale = largest(b, n);
     for (int64_t k = 0; k < n; k++)
         if (!(fabs(a[k] - b[k]) <= tolerance * scale))
-            fail_msg("value %lld: %.17g, not %.17g, of at most %g", (long long)k, a[k], b[k], scale);
+            fail_msg("value %lld: %.17g, not %.17g, of at most %g", (long long)k, a[k], b[k],
+                     scale);
 }
 
 /* ---- consistency ------------------------------------------------------------------------------------------------ */
@@ -89,7 +91,8 @@ static void constants_vanish(void **state)
     (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         scene s = scene_make(jittered(dim, 2), 2.1);
-        double *f = cloud_doubles(s.c.n * dim), *b = cloud_doubles(s.c.n * dim * dim), *out = cloud_doubles(s.c.n * dim);
+        double *f = cloud_doubles(s.c.n * dim), *b = cloud_doubles(s.c.n * dim * dim),
+               *out = cloud_doubles(s.c.n * dim);
         for (int64_t k = 0; k < s.c.n * dim; k++) f[k] = 7.7;
         assert_int_equal(mps_op_correction(&s.t, 0.2, b), MPS_OK);
         for (int op = 0; op < 6; op++) {
@@ -114,8 +117,8 @@ static void check_linear(scene *s, const double *b, bool all)
 {
     static const double a[3] = {1.5, -2.25, 0.75}, G[9] = {1, 2, -1, 0.5, -3, 1, 4, -2, 2.5};
     const int dim = s->c.dim;
-    double *f = cloud_doubles(s->c.n), *u = cloud_doubles(s->c.n * dim), *grad = cloud_doubles(s->c.n * dim), *div = cloud_doubles(s->c.n),
-           trace = 0;
+    double *f = cloud_doubles(s->c.n), *u = cloud_doubles(s->c.n * dim),
+           *grad = cloud_doubles(s->c.n * dim), *div = cloud_doubles(s->c.n), trace = 0;
     int64_t checked = 0;
     for (int64_t i = 0; i < s->c.n; i++) {
         f[i] = 3;
@@ -125,11 +128,15 @@ static void check_linear(scene *s, const double *b, bool all)
         }
     }
     for (int d = 0; d < dim; d++) trace += G[4 * d];
-    assert_int_equal(b ? mps_op_gradient_corrected(&s->t, b, f, grad) : mps_op_gradient(&s->t, f, grad), MPS_OK);
-    assert_int_equal(b ? mps_op_divergence_corrected(&s->t, b, u, div) : mps_op_divergence(&s->t, u, div), MPS_OK);
+    assert_int_equal(
+        b ? mps_op_gradient_corrected(&s->t, b, f, grad) : mps_op_gradient(&s->t, f, grad), MPS_OK);
+    assert_int_equal(b ? mps_op_divergence_corrected(&s->t, b, u, div)
+                       : mps_op_divergence(&s->t, u, div),
+                     MPS_OK);
     for (int64_t i = 0; i < s->c.n; i++) {
         if (!all && !cloud_inside(&s->c, i, sides(dim), s->t.re)) continue;
-        for (int d = 0; d < dim; d++) assert_true(fabs(grad[i * dim + d] - a[d]) < 2e-11); /* eps |f| / dp */
+        for (int d = 0; d < dim; d++)
+            assert_true(fabs(grad[i * dim + d] - a[d]) < 2e-11); /* eps |f| / dp */
         assert_true(fabs(div[i] - trace) < 2e-11);
         checked++;
     }
@@ -215,7 +222,8 @@ static void translation_and_rotation(void **state)
     (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         const int64_t n = (int64_t)sides(dim)[0] * sides(dim)[1] * sides(dim)[2];
-        double *f = cloud_field(n, 5), *u = cloud_field(n * dim, 6), *before[RESULTS], *after[RESULTS];
+        double *f = cloud_field(n, 5), *u = cloud_field(n * dim, 6), *before[RESULTS],
+               *after[RESULTS];
         scene s = scene_make(jittered(dim, 4), 2.1);
         run_all(&s, f, u, before);
         scene_free(&s);
@@ -224,7 +232,9 @@ static void translation_and_rotation(void **state)
         s = scene_make(moved, 2.1);
         run_all(&s, f, u, after);
         scene_free(&s);
-        for (int k = 0; k < RESULTS; k++) assert_memory_equal(after[k], before[k], (size_t)(n * (k < SCALARS ? 1 : dim)) * sizeof(double));
+        for (int k = 0; k < RESULTS; k++)
+            assert_memory_equal(after[k], before[k],
+                                (size_t)(n * (k < SCALARS ? 1 : dim)) * sizeof(double));
         free_all(after);
         cloud turned = jittered(dim, 4);
         turn(turned.x, n, dim);
@@ -233,7 +243,8 @@ static void translation_and_rotation(void **state)
         run_all(&s, f, u, after);
         scene_free(&s);
         for (int k = SCALARS; k < RESULTS; k++) turn(before[k], n, dim);
-        for (int k = 0; k < RESULTS; k++) assert_close(after[k], before[k], n * (k < SCALARS ? 1 : dim), 0);
+        for (int k = 0; k < RESULTS; k++)
+            assert_close(after[k], before[k], n * (k < SCALARS ? 1 : dim), 0);
         free_all(before);
         free_all(after);
         free(f);
@@ -248,8 +259,8 @@ static void permutation(void **state)
     for (int dim = 2; dim <= 3; dim++) {
         scene s = scene_make(jittered(dim, 7), 2.1);
         const int64_t n = s.c.n;
-        double *f = cloud_field(n, 8), *u = cloud_field(n * dim, 9), *g = cloud_doubles(n), *v = cloud_doubles(n * dim), *before[RESULTS],
-               *after[RESULTS];
+        double *f = cloud_field(n, 8), *u = cloud_field(n * dim, 9), *g = cloud_doubles(n),
+               *v = cloud_doubles(n * dim), *before[RESULTS], *after[RESULTS];
         run_all(&s, f, u, before);
         cloud mixed = cloud_empty(dim, n);
         for (int64_t i = 0; i < n; i++) {
@@ -263,7 +274,9 @@ static void permutation(void **state)
         for (int k = 0; k < RESULTS; k++) {
             const int c = k < SCALARS ? 1 : dim;
             double *back = cloud_doubles(n * c);
-            for (int64_t i = 0; i < n; i++) memcpy(back + i * c, after[k] + (i * 1009 + 17) % n * c, (size_t)c * sizeof(double));
+            for (int64_t i = 0; i < n; i++)
+                memcpy(back + i * c, after[k] + (i * 1009 + 17) % n * c,
+                       (size_t)c * sizeof(double));
             assert_close(back, before[k], n * c, 1e-13);
             free(back);
         }
@@ -298,7 +311,8 @@ static void momentum_balance(void **state)
     for (int dim = 2; dim <= 3; dim++) {
         scene s = scene_make(jittered(dim, 10), 2.1);
         const int64_t n = s.c.n;
-        double *f = cloud_field(n, 11), *grad = cloud_doubles(n * dim), *lap = cloud_doubles(n), sum = 0, size = 0;
+        double *f = cloud_field(n, 11), *grad = cloud_doubles(n * dim), *lap = cloud_doubles(n),
+               sum = 0, size = 0;
         assert_int_equal(mps_op_gradient_conservative(&s.t, f, grad), MPS_OK);
         assert_int_equal(mps_op_laplacian(&s.t, f, lap), MPS_OK);
         for (int d = 0; d < dim; d++) {
@@ -330,7 +344,8 @@ static void adjoint_pairs(void **state)
         scene s = scene_make(jittered(dim, 12), 2.1);
         const int64_t n = s.c.n;
         double *f = cloud_field(n, 13), *g = cloud_field(n, 14), *u = cloud_field(n * dim, 15);
-        double *lf = cloud_doubles(n), *lg = cloud_doubles(n), *div = cloud_doubles(n), *grad = cloud_doubles(n * dim), size, other;
+        double *lf = cloud_doubles(n), *lg = cloud_doubles(n), *div = cloud_doubles(n),
+               *grad = cloud_doubles(n * dim), size, other;
         assert_int_equal(mps_op_laplacian(&s.t, f, lf), MPS_OK);
         assert_int_equal(mps_op_laplacian(&s.t, g, lg), MPS_OK);
         assert_int_equal(mps_op_divergence(&s.t, u, div), MPS_OK);
@@ -382,7 +397,9 @@ static void asymmetry_of_half_space(void **state)
             const bool inside = cloud_inside(&s.c, i, sides(dim), s.t.re), upper = middle[1] == top;
             middle[1] = top / 2; /* so that only the side faces count */
             if (!inside && !(upper && cloud_inside(&one, 0, sides(dim), s.t.re))) continue;
-            for (int d = 0; d < dim; d++) assert_true(fabs(a[i * dim + d] - (upper && d == 1 ? half_space(&s.t) : 0)) < 1e-13);
+            for (int d = 0; d < dim; d++)
+                assert_true(fabs(a[i * dim + d] - (upper && d == 1 ? half_space(&s.t) : 0)) <
+                            1e-13);
             surface += upper;
         }
         assert_true(surface > 10 && half_space(&s.t) > 0.1);
@@ -402,7 +419,8 @@ static void check_bounded(cloud c, double floor)
     for (int64_t i = 0; i < c.n; i++) {
         const double *m = b + i * dim * dim;
         for (int d = 0; d < dim; d++)
-            for (int e = 0; e < d; e++) assert_true(fabs(m[d * dim + e] - m[e * dim + d]) <= 1e-13 / floor);
+            for (int e = 0; e < d; e++)
+                assert_true(fabs(m[d * dim + e] - m[e * dim + d]) <= 1e-13 / floor);
         for (int k = 0; k < 5; k++) {
             double v[3], v2 = 0, w2 = 0, vw = 0;
             for (int d = 0; d < dim; d++) v[d] = cloud_random(&seed);
@@ -436,9 +454,15 @@ static void correction_bounded(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sum_of_weights),      cmocka_unit_test(constants_vanish), cmocka_unit_test(linear_fields),
-        cmocka_unit_test(laplacian_of_square), cmocka_unit_test(permutation),      cmocka_unit_test(translation_and_rotation),
-        cmocka_unit_test(momentum_balance),    cmocka_unit_test(adjoint_pairs),    cmocka_unit_test(asymmetry_of_half_space),
+        cmocka_unit_test(sum_of_weights),
+        cmocka_unit_test(constants_vanish),
+        cmocka_unit_test(linear_fields),
+        cmocka_unit_test(laplacian_of_square),
+        cmocka_unit_test(permutation),
+        cmocka_unit_test(translation_and_rotation),
+        cmocka_unit_test(momentum_balance),
+        cmocka_unit_test(adjoint_pairs),
+        cmocka_unit_test(asymmetry_of_half_space),
         cmocka_unit_test(correction_bounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

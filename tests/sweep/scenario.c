@@ -53,7 +53,8 @@ static void draw_sizes(scenario *s, uint64_t *state)
     s->size[1] = draw_side(state, s->size[0]);
     s->size[2] = s->dim == 3 ? draw_side(state, s->size[0]) : 0;
     s->depth = uniform(state, 0.05, 0.95) * s->size[1];
-    double particles = chance(state, 0.9) ? log_uniform(state, 500, 2000) : log_uniform(state, 2000, 5000);
+    double particles = chance(state, 0.9) ? log_uniform(state, 500, 2000)
+                                          : log_uniform(state, 2000, 5000);
     double volume = s->size[0] * s->depth * (s->dim == 3 ? s->size[2] : 1);
     s->dp = pow(volume / particles, 1.0 / s->dim);
 }
@@ -64,7 +65,8 @@ static int sizes_fit(const scenario *s)
     double shortest = fmin(s->size[0], s->size[1]), faces = 2 * (s->size[0] + s->size[1]) / s->dp;
     if (s->dim == 3) {
         shortest = fmin(shortest, s->size[2]);
-        faces = 2 * (s->size[0] * s->size[1] + s->size[1] * s->size[2] + s->size[2] * s->size[0]) / (s->dp * s->dp);
+        faces = 2 * (s->size[0] * s->size[1] + s->size[1] * s->size[2] + s->size[2] * s->size[0]) /
+                (s->dp * s->dp);
     }
     return s->depth >= 3 * s->dp && shortest >= 5 * s->dp && faces < 5000;
 }
@@ -79,7 +81,8 @@ static void draw_tank(scenario *s, uint64_t *state)
 /* Mostly straight down, else up to 30 degrees off it. */
 static void draw_gravity(scenario *s, uint64_t *state)
 {
-    double tilt = uniform(state, 0, PI / 6), round = s->dim == 3 ? uniform(state, 0, 2 * PI) : PI * whole(state, 2);
+    double tilt = uniform(state, 0, PI / 6),
+           round = s->dim == 3 ? uniform(state, 0, 2 * PI) : PI * whole(state, 2);
     if (!chance(state, 0.25)) tilt = 0;
     s->gravity[0] = GRAVITY * sin(tilt) * cos(round);
     s->gravity[1] = -GRAVITY * cos(tilt);
@@ -89,7 +92,8 @@ static void draw_gravity(scenario *s, uint64_t *state)
 /* A vertical baffle of one to five columns, on the floor, hanging or in between, from wall to wall across z. */
 static void draw_baffle(scenario *s, uint64_t *state)
 {
-    double bottom = uniform(state, 0, 0.6) * s->size[1], top = bottom + uniform(state, 0.1, 0.5) * s->size[1];
+    double bottom = uniform(state, 0, 0.6) * s->size[1],
+           top = bottom + uniform(state, 0.1, 0.5) * s->size[1];
     double first = floor(uniform(state, 0.2, 0.8) * s->size[0] / s->dp); /* column of the lattice */
     s->lo[0] = (first - 0.1) * s->dp;
     s->hi[0] = (first + whole(state, 5) + 0.1) * s->dp;
@@ -102,7 +106,8 @@ static void draw_baffle(scenario *s, uint64_t *state)
 /* A plate up to 50 degrees off the vertical; lo: lower end, hi: from there to the upper end. */
 static void draw_plate(scenario *s, uint64_t *state)
 {
-    double slope = uniform(state, -50, 50) * PI / 180, length = fmax(3 * s->dp, uniform(state, 0.1, 0.5) * s->size[1]);
+    double slope = uniform(state, -50, 50) * PI / 180,
+           length = fmax(3 * s->dp, uniform(state, 0.1, 0.5) * s->size[1]);
     s->lo[0] = uniform(state, 0.3, 0.7) * s->size[0];
     s->lo[1] = chance(state, 0.5) ? 0 : uniform(state, 0.1, 0.3) * s->size[1];
     length = fmin(length, fmax(3 * s->dp, 0.25 * s->size[0] / fmax(fabs(sin(slope)), 1e-3)));
@@ -133,7 +138,8 @@ static double natural(const scenario *s)
 static void draw_harmonics(scenario *s, uint64_t *state, int32_t dof)
 {
     int32_t count = 1 + whole(state, 3);
-    double amplitude = dof < MPS_ROLL ? log_uniform(state, 0.01, 3) * s->depth : log_uniform(state, 1, 60) * PI / 180;
+    double amplitude = dof < MPS_ROLL ? log_uniform(state, 0.01, 3) * s->depth
+                                      : log_uniform(state, 1, 60) * PI / 180;
     for (int32_t k = 0; k < count; k++) {
         mps_harmonic *h = &s->harmonic[s->harmonics++];
         h->dof = dof;
@@ -160,7 +166,8 @@ static mps_status build_obstacle(const scenario *s, mps_sim *sim, const double *
 {
     const double edge2[3] = {0, 0, built[2]};
     if (s->obstacle == OBSTACLE_BAFFLE) return mps_baffle_add(sim, "baffle", s->lo, s->hi, NULL);
-    if (s->obstacle == OBSTACLE_PLATE) return mps_plate_add(sim, "plate", s->lo, s->hi, s->dim == 3 ? edge2 : NULL);
+    if (s->obstacle == OBSTACLE_PLATE)
+        return mps_plate_add(sim, "plate", s->lo, s->hi, s->dim == 3 ? edge2 : NULL);
     return MPS_OK;
 }
 
@@ -178,7 +185,9 @@ void scenario_draw(scenario *s, uint64_t seed, int32_t dim)
 {
     uint64_t state = seed;
     *s = (scenario){.seed = seed};
-    int32_t drawn = chance(&state, 0.75) ? 2 : 3; /* drawn in any case, so that what follows is the same */
+    int32_t drawn = chance(&state, 0.75)
+                        ? 2
+                        : 3; /* drawn in any case, so that what follows is the same */
     s->dim = dim ? dim : drawn;
     draw_tank(s, &state);
     draw_gravity(s, &state);
@@ -206,16 +215,20 @@ mps_status scenario_build(const scenario *s, const char *model, mps_sim **sim, d
 
 void scenario_print(const scenario *s, FILE *out)
 {
-    static const char *const dof[] = {"surge", "heave", "sway", "roll", "yaw", "pitch"}, *const obstacle[] = {"none", "baffle", "plate"};
-    fprintf(out, "seed=%llu dim=%d size=%.3gx%.3g", (unsigned long long)s->seed, (int)s->dim, s->size[0], s->size[1]);
+    static const char *const dof[] = {"surge", "heave", "sway", "roll", "yaw", "pitch"},
+                             *const obstacle[] = {"none", "baffle", "plate"};
+    fprintf(out, "seed=%llu dim=%d size=%.3gx%.3g", (unsigned long long)s->seed, (int)s->dim,
+            s->size[0], s->size[1]);
     if (s->dim == 3) fprintf(out, "x%.3g", s->size[2]);
-    fprintf(out, " top=%s fill=%.2f dp=%.3g tilt=%.0f obstacle=%s start=%s motion=", s->open_top ? "open" : "closed", s->depth / s->size[1],
-            s->dp, acos(fmin(1, -s->gravity[1] / GRAVITY)) * 180 / PI, obstacle[s->obstacle],
+    fprintf(out, " top=%s fill=%.2f dp=%.3g tilt=%.0f obstacle=%s start=%s motion=",
+            s->open_top ? "open" : "closed", s->depth / s->size[1], s->dp,
+            acos(fmin(1, -s->gravity[1] / GRAVITY)) * 180 / PI, obstacle[s->obstacle],
             s->start == MPS_START_WITH_TANK ? "tank" : "rest");
     for (int32_t k = 0; k < s->harmonics; k++) {
         const mps_harmonic *h = &s->harmonic[k];
         if (k == 0 || h->dof != h[-1].dof) fprintf(out, "%s%s:", k ? "," : "", dof[h->dof]);
-        fprintf(out, "%s%.3g%s@%.3g", k && h->dof == h[-1].dof ? "+" : "", h->dof < MPS_ROLL ? h->amplitude : h->amplitude * 180 / PI,
+        fprintf(out, "%s%.3g%s@%.3g", k && h->dof == h[-1].dof ? "+" : "",
+                h->dof < MPS_ROLL ? h->amplitude : h->amplitude * 180 / PI,
                 h->dof < MPS_ROLL ? "m" : "deg", h->omega);
     }
 }

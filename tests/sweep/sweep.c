@@ -37,10 +37,11 @@ typedef struct findings {
     mps_status status;
     const char *wrong; /* NULL: nothing */
     double built[3];
-    int64_t fluid, missing, bad, not_converged; /* particles at the start, gone without notice, not finite; steps */
-    double outside;                             /* furthest of a fluid particle beyond a wall [dp], < 0: inside */
-    double tank_speed, max_speed, min_dt;       /* [m/s], [s] */
-    double volume_error, volume_worst;          /* at the last check, largest */
+    int64_t fluid, missing, bad,
+        not_converged; /* particles at the start, gone without notice, not finite; steps */
+    double outside;    /* furthest of a fluid particle beyond a wall [dp], < 0: inside */
+    double tank_speed, max_speed, min_dt; /* [m/s], [s] */
+    double volume_error, volume_worst;    /* at the last check, largest */
     mps_step_info info;
 } findings;
 
@@ -73,7 +74,8 @@ static void tank_frame(mps_sim *sim, findings *f, int32_t dim, double origin[3],
 }
 
 /* How far a place of the lab is beyond the nearest wall [m]; the top of an open tank is none. */
-static double beyond(const options *o, const findings *f, const double *x, const double *origin, double axes[3][3])
+static double beyond(const options *o, const findings *f, const double *x, const double *origin,
+                     double axes[3][3])
 {
     double furthest = -INFINITY;
     for (int axis = 0; axis < o->what.dim; axis++) {
@@ -88,7 +90,8 @@ static double beyond(const options *o, const findings *f, const double *x, const
 static int64_t count_bad(const mps_lease *v, const int32_t *kind)
 {
     int64_t bad = 0;
-    for (int64_t i = 0; i < v->count * v->stride; i++) bad += kind[i / v->stride] == MPS_FLUID && !isfinite(v->data[i]);
+    for (int64_t i = 0; i < v->count * v->stride; i++)
+        bad += kind[i / v->stride] == MPS_FLUID && !isfinite(v->data[i]);
     return bad;
 }
 
@@ -107,7 +110,9 @@ static void check_places(const options *o, mps_sim *sim, findings *f, const int3
     tank_frame(sim, f, o->what.dim, origin, axes);
     if (mps_lease_begin(sim, "position", MPS_READ, &x) != MPS_OK) return;
     for (int64_t i = 0; i < x.count; i++)
-        if (kind[i] == MPS_FLUID) f->outside = fmax(f->outside, beyond(o, f, x.data + i * x.stride, origin, axes) / o->what.dp);
+        if (kind[i] == MPS_FLUID)
+            f->outside = fmax(f->outside,
+                              beyond(o, f, x.data + i * x.stride, origin, axes) / o->what.dp);
     mps_lease_end(sim, &x);
 }
 
@@ -116,7 +121,8 @@ static void check(const options *o, mps_sim *sim, findings *f)
     const int32_t *kind;
     mps_energy energy;
     mps_energy_init(&energy, sizeof energy);
-    if (tags_peek(sim, NULL, &kind, NULL, NULL) != MPS_OK || mps_energy_get(sim, &energy) != MPS_OK) return;
+    if (tags_peek(sim, NULL, &kind, NULL, NULL) != MPS_OK || mps_energy_get(sim, &energy) != MPS_OK)
+        return;
     check_field(sim, f, "position", kind);
     check_field(sim, f, "velocity", kind);
     check_field(sim, f, "pressure", kind);
@@ -163,8 +169,11 @@ static mps_status change_models(const options *o, mps_sim *sim)
     mps_status status = MPS_OK;
     for (int k = 0; k < o->changes && status == MPS_OK; k++) {
         const change *c = &o->change[k];
-        status = c->what == 'u' ? mps_model_use(sim, c->text) : c->what == 'r' ? mps_model_remove(sim, c->text) : set_model(sim, c->text);
-        if (status != MPS_OK) fprintf(stderr, "sweep: cannot apply '%s': %s\n", c->text, mps_sim_error(sim));
+        status = c->what == 'u'   ? mps_model_use(sim, c->text)
+                 : c->what == 'r' ? mps_model_remove(sim, c->text)
+                                  : set_model(sim, c->text);
+        if (status != MPS_OK)
+            fprintf(stderr, "sweep: cannot apply '%s': %s\n", c->text, mps_sim_error(sim));
     }
     return status;
 }
@@ -211,11 +220,12 @@ static void run(const options *o, mps_sim *sim, findings *f)
 static void report(const options *o, const findings *f, const char *error)
 {
     scenario_print(&o->what, stdout);
-    printf(" fluid=%lld result=%s t=%.4g steps=%lld lost=%lld outside=%.2f volume=%.4f volume_worst=%.4f max_speed=%.3g tank_speed=%.3g "
+    printf(" fluid=%lld result=%s t=%.4g steps=%lld lost=%lld outside=%.2f volume=%.4f "
+           "volume_worst=%.4f max_speed=%.3g tank_speed=%.3g "
            "min_dt=%.2e loose=%lld cpu=%.1f",
-           (long long)f->fluid, f->wrong ? f->wrong : "ok", f->info.t, (long long)f->info.step, (long long)f->info.lost, f->outside,
-           f->volume_error, f->volume_worst, f->max_speed, f->tank_speed, f->min_dt, (long long)f->not_converged,
-           (double)clock() / CLOCKS_PER_SEC);
+           (long long)f->fluid, f->wrong ? f->wrong : "ok", f->info.t, (long long)f->info.step,
+           (long long)f->info.lost, f->outside, f->volume_error, f->volume_worst, f->max_speed,
+           f->tank_speed, f->min_dt, (long long)f->not_converged, (double)clock() / CLOCKS_PER_SEC);
     if (f->status < 0) printf(" error=%s", error); /* the last: it has blanks */
     printf("\n");
 }
@@ -225,9 +235,11 @@ static void report(const options *o, const findings *f, const char *error)
 static int usage(const char *what)
 {
     fprintf(stderr,
-            "sweep: %s\nusage: sweep --seed N [--dim 2|3] [--refine X] [--t-end S] [--model NAME] [--pictures PATH [--every S]]\n"
+            "sweep: %s\nusage: sweep --seed N [--dim 2|3] [--refine X] [--t-end S] [--model NAME] "
+            "[--pictures PATH [--every S]]\n"
             "  [--use SLOT.VARIANT] [--remove SLOT] [--set SLOT.KEY=X]\n"
-            "--refine: the spacing drawn, over X; --pictures: PATH_end.png, and PATH_000.png ... every S seconds\n",
+            "--refine: the spacing drawn, over X; --pictures: PATH_end.png, and PATH_000.png ... "
+            "every S seconds\n",
             what);
     return 2;
 }

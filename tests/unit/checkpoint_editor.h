@@ -41,7 +41,8 @@ static inline int editor_find(unsigned char *file, size_t size, const char *name
 }
 
 /* Put `bytes` bytes at an offset into the elements of a part; 0 if it is not there. */
-static inline int editor_put(unsigned char *file, size_t size, const char *name, size_t offset, const void *value, size_t bytes)
+static inline int editor_put(unsigned char *file, size_t size, const char *name, size_t offset,
+                             const void *value, size_t bytes)
 {
     editor_part p;
     if (!editor_find(file, size, name, &p) || p.used < bytes || offset > p.used - bytes) return 0;

@@ -41,7 +41,9 @@ static inline cloud cloud_lattice(int32_t dim, int nx, int ny, int nz, double ji
     cloud c = cloud_empty(dim, (int64_t)nx * ny * nz);
     for (int64_t i = 0; i < c.n; i++) {
         const int64_t k[3] = {i % nx, i / nx % ny, i / nx / ny};
-        for (int d = 0; d < dim; d++) c.x[i * dim + d] = CLOUD_DP * ((double)k[d] + round(jitter * cloud_random(&seed) * 65536) / 65536);
+        for (int d = 0; d < dim; d++)
+            c.x[i * dim + d] = CLOUD_DP *
+                               ((double)k[d] + round(jitter * cloud_random(&seed) * 65536) / 65536);
     }
     return c;
 }

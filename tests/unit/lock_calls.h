@@ -105,8 +105,7 @@ static void destroy(const mps_allocator *allocator, void *self)
 
 /* ---- set-up ---------------------------------------------------------------------------------- */
 
-CALL(mps_tank_add, STRUCT(mps_tank); a.size[0] = a.size[1] = 1;
-     return mps_tank_add(sim, &a, NULL);)
+CALL(mps_tank_add, STRUCT(mps_tank); a.size[0] = a.size[1] = 1; return mps_tank_add(sim, &a, NULL);)
 CALL(mps_baffle_add, return mps_baffle_add(sim, "new", low, high, NULL);)
 CALL(mps_plate_add, return mps_plate_add(sim, "new", low, edge, NULL);)
 CALL(mps_fill_box_add, return mps_fill_box_add(sim, 0, low, high, NULL, NULL);)
@@ -169,7 +168,8 @@ CALL(mps_particles_add, STRUCT(mps_particle_block); a.count = 1; a.position = hi
      return mps_particles_add(sim, &a, NULL);)
 CALL(mps_particles_remove, const int64_t id = 3; return mps_particles_remove(sim, 1, &id);)
 CALL(mps_field_add, return mps_field_add(sim, "new", 1);)
-CALL(mps_lease_begin, mps_lease l = {.struct_size = sizeof l}; return mps_lease_begin(sim, "velocity", MPS_WRITE, &l);)
+CALL(mps_lease_begin, mps_lease l = {.struct_size = sizeof l};
+     return mps_lease_begin(sim, "velocity", MPS_WRITE, &l);)
 CALL(mps_lease_end, mps_lease l = {.struct_size = sizeof l};
      const mps_status status = mps_lease_begin(sim, "velocity", MPS_READ, &l);
      const mps_status end = mps_lease_end(sim, &l); return status == MPS_OK ? end : MPS_E_BUSY;)
@@ -179,7 +179,8 @@ CALL(mps_checkpoint_read, return mps_checkpoint_read(sim, given.path);)
 
 /* ---- reading --------------------------------------------------------------------------------- */
 
-CALL(mps_stencil_get, mps_stencil s = {.struct_size = sizeof s}; return mps_stencil_get(sim, MPS_NEAR, &s);)
+CALL(mps_stencil_get, mps_stencil s = {.struct_size = sizeof s};
+     return mps_stencil_get(sim, MPS_NEAR, &s);)
 CALL(mps_checkpoint_write, return mps_checkpoint_write(sim, given.path);)
 CALL(mps_frames_open, mps_frames *f = NULL;
      const mps_status status = mps_frames_open(sim, given.folder, "lock", 0, &f);
@@ -203,7 +204,8 @@ CALL(mps_solver_info_get, STRUCT(mps_name_info); return mps_solver_info_get(sim,
 CALL(mps_preconditioner_info_get, STRUCT(mps_name_info);
      return mps_preconditioner_info_get(sim, 0, &a);)
 CALL(mps_kernel_info_get, STRUCT(mps_name_info); return mps_kernel_info_get(sim, 0, &a);)
-CALL(mps_motion_state_get, mps_motion_state s = {.struct_size = sizeof s}; return mps_motion_state_get(sim, &s);)
+CALL(mps_motion_state_get, mps_motion_state s = {.struct_size = sizeof s};
+     return mps_motion_state_get(sim, &s);)
 CALL(mps_motion_to_lab, double x[2]; return mps_motion_to_lab(sim, low, x, NULL);)
 CALL(mps_particles_count, return mps_particles_count(sim, -1) > 0 ? MPS_OK : MPS_E_BUSY;)
 CALL(mps_particle_index, return mps_particle_index(sim, 1) >= 0 ? MPS_OK : MPS_E_BUSY;)

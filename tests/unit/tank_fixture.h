@@ -15,22 +15,26 @@
 #include <cmocka.h>
 
 #define ASSERT_OK(sim, call) ASSERT_STATUS(sim, call, MPS_OK)
-#define ASSERT_STATUS(sim, call, wanted)                                                                                     \
-    do {                                                                                                                     \
-        mps_status got_ = (call);                                                                                            \
-        if (got_ != (wanted))                                                                                                \
-            fail_msg("%s: %s instead of %s: %s", #call, mps_status_name(got_), mps_status_name(wanted), mps_sim_error(sim)); \
+#define ASSERT_STATUS(sim, call, wanted)                                       \
+    do {                                                                       \
+        mps_status got_ = (call);                                              \
+        if (got_ != (wanted))                                                  \
+            fail_msg("%s: %s instead of %s: %s", #call, mps_status_name(got_), \
+                     mps_status_name(wanted), mps_sim_error(sim));             \
     } while (0)
 /* A refusal whose text contains `word`. */
-#define ASSERT_REFUSED(sim, call, wanted, word)                                                                          \
-    do {                                                                                                                 \
-        ASSERT_STATUS(sim, call, wanted);                                                                                \
-        if (!strstr(mps_sim_error(sim), (word))) fail_msg("\"%s\" does not mention \"%s\"", mps_sim_error(sim), (word)); \
+#define ASSERT_REFUSED(sim, call, wanted, word)                                     \
+    do {                                                                            \
+        ASSERT_STATUS(sim, call, wanted);                                           \
+        if (!strstr(mps_sim_error(sim), (word)))                                    \
+            fail_msg("\"%s\" does not mention \"%s\"", mps_sim_error(sim), (word)); \
     } while (0)
-#define ASSERT_NEAR(a, b, tolerance)                                                                                         \
-    do {                                                                                                                     \
-        double a_ = (a), b_ = (b), t_ = (tolerance);                                                                         \
-        if (!(fabs(a_ - b_) <= t_)) fail_msg("%s = %.17g, %s = %.17g differ by %g > %g", #a, a_, #b, b_, fabs(a_ - b_), t_); \
+#define ASSERT_NEAR(a, b, tolerance)                                                            \
+    do {                                                                                        \
+        double a_ = (a), b_ = (b), t_ = (tolerance);                                            \
+        if (!(fabs(a_ - b_) <= t_))                                                             \
+            fail_msg("%s = %.17g, %s = %.17g differ by %g > %g", #a, a_, #b, b_, fabs(a_ - b_), \
+                     t_);                                                                       \
     } while (0)
 
 static inline mps_sim *new_sim(int32_t dim, double dp)

@@ -45,8 +45,10 @@ static void falls_with_g(void **state)
     static const int rows[2][3] = {{2, 5, 12}, {2, 3, 6}};
     for (int dim = 2; dim <= 3; dim++)
         for (int k = 0; k < 3; k++) {
-            const double with = fall(dim, rows[dim - 2][k], NULL), without = fall(dim, rows[dim - 2][k], "body");
-            print_message("%d-D, %d rows: %.5f g, without body.free %.5f g\n", dim, rows[dim - 2][k], with, without);
+            const double with = fall(dim, rows[dim - 2][k], NULL),
+                         without = fall(dim, rows[dim - 2][k], "body");
+            print_message("%d-D, %d rows: %.5f g, without body.free %.5f g\n", dim,
+                          rows[dim - 2][k], with, without);
             ASSERT_NEAR(with, 1, 1e-3);
             assert_true(without < 0.994);
         }
@@ -94,6 +96,8 @@ static void pools_are_held(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(falls_with_g), cmocka_unit_test(is_left_behind), cmocka_unit_test(pools_are_held)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(falls_with_g),
+                                       cmocka_unit_test(is_left_behind),
+                                       cmocka_unit_test(pools_are_held)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -197,7 +197,8 @@ static void same_tags(mps_sim *a, mps_sim *b)
     ASSERT_OK(a, tags_peek(a, &ids[0], &tag[0][0], &tag[0][1], &tag[0][2]));
     ASSERT_OK(b, tags_peek(b, &ids[1], &tag[1][0], &tag[1][1], &tag[1][2]));
     assert_memory_equal(ids[0], ids[1], (size_t)n * sizeof(int64_t));
-    for (int k = 0; k < 3; k++) assert_memory_equal(tag[0][k], tag[1][k], (size_t)n * sizeof(int32_t));
+    for (int k = 0; k < 3; k++)
+        assert_memory_equal(tag[0][k], tag[1][k], (size_t)n * sizeof(int32_t));
 }
 
 static void same_budgets(mps_sim *a, mps_sim *b)
@@ -246,7 +247,8 @@ static void same_probes(mps_sim *a, mps_sim *b)
 
 static void same(mps_sim *a, mps_sim *b)
 {
-    static const char *const fields[] = {"position", "velocity", "pressure", "number_density", "density", "mark"};
+    static const char *const fields[] = {"position",       "velocity", "pressure",
+                                         "number_density", "density",  "mark"};
     assert_int_equal(mps_particles_count(a, -1), mps_particles_count(b, -1));
     same_tags(a, b);
     for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++) same_field(a, b, fields[k]);
@@ -341,7 +343,8 @@ static void without_a_gate(void **state)
  * a drop that was lost, and two that collided. */
 static void came_to_rest(void **state)
 {
-    const double centre[2] = {0.3, 0.1}, drops[6] = {0.3, 99, 0.3, 0.5, 0.32, 0.5}, speeds[6] = {0, 0, 1, 0, -1, 0};
+    const double centre[2] = {0.3, 0.1}, drops[6] = {0.3, 99, 0.3, 0.5, 0.32, 0.5},
+                 speeds[6] = {0, 0, 1, 0, -1, 0};
     char path[PATH];
     mps_particle_block block;
     mps_step_info info[2];
@@ -351,7 +354,8 @@ static void came_to_rest(void **state)
     block.count = 3;
     block.position = drops;
     block.velocity = speeds;
-    for (int k = 0; k < 2; k++) ASSERT_OK(sim[k], mps_motion_centre_set(sim[k], centre, MPS_START_WITH_TANK));
+    for (int k = 0; k < 2; k++)
+        ASSERT_OK(sim[k], mps_motion_centre_set(sim[k], centre, MPS_START_WITH_TANK));
     ASSERT_OK(sim[0], mps_step(sim[0], 1e-5, NULL));
     for (int part = 0; part < 2; part++) {
         ASSERT_OK(sim[0], mps_checkpoint_write(sim[0], path_of(path, "rest")));
@@ -448,13 +452,14 @@ static void not_moved(mps_sim *sim)
 
 static void other_set_ups(void **state)
 {
-    static const difference all[] = {{thicker, "\"phase 0 density 1000\" where this simulation has \"phase 0 density 1001\""},
-                                     {other_setting, "distance 0.77"},
-                                     {other_model, "\"model shift."},
-                                     {one_more_field, "\"field colour of 1\""},
-                                     {one_more_probe, "\"probe 4 type 0\""},
-                                     {moved_otherwise, "the motion is another one: at t = "},
-                                     {not_moved, "\"motion given\" where this simulation has \"motion none\""}};
+    static const difference all[] = {
+        {thicker, "\"phase 0 density 1000\" where this simulation has \"phase 0 density 1001\""},
+        {other_setting, "distance 0.77"},
+        {other_model, "\"model shift."},
+        {one_more_field, "\"field colour of 1\""},
+        {one_more_probe, "\"probe 4 type 0\""},
+        {moved_otherwise, "the motion is another one: at t = "},
+        {not_moved, "\"motion given\" where this simulation has \"motion none\""}};
     char path[PATH];
     mps_sim *sim = shaken(), *kept = shaken();
     (void)state;
@@ -500,8 +505,10 @@ static void calls_at_the_wrong_time(void **state)
     assert_int_equal(mps_checkpoint_read(NULL, path), MPS_E_ARG);
     ASSERT_REFUSED(sim, mps_checkpoint_write(sim, NULL), MPS_E_ARG, "path");
     ASSERT_REFUSED(sim, mps_checkpoint_read(sim, ""), MPS_E_ARG, "path");
-    ASSERT_REFUSED(sim, mps_checkpoint_write(sim, "/nowhere/there/x"), MPS_E_IO, "cannot create \"/nowhere/there/x.tmp\": No such file");
-    ASSERT_REFUSED(sim, mps_checkpoint_read(sim, path_of(path, "missing")), MPS_E_IO, "No such file");
+    ASSERT_REFUSED(sim, mps_checkpoint_write(sim, "/nowhere/there/x"), MPS_E_IO,
+                   "cannot create \"/nowhere/there/x.tmp\": No such file");
+    ASSERT_REFUSED(sim, mps_checkpoint_read(sim, path_of(path, "missing")), MPS_E_IO,
+                   "No such file");
     ASSERT_REFUSED(sim, mps_checkpoint_read(sim, folder), MPS_E_IO, "cannot read");
     mps_sim_destroy(sim);
 }
@@ -552,8 +559,11 @@ typedef struct forgery {
 static void forge(unsigned char *bytes, size_t size, const forgery *f)
 {
     const int32_t narrow = (int32_t)f->whole;
-    const void *value = f->type == 'd' ? (const void *)&f->real : f->type == 'i' ? (const void *)&narrow : &f->whole;
-    if (!editor_put(bytes, size, f->part, f->offset, value, f->type == 'i' ? 4 : 8)) fail_msg("no \"%s\"", f->part);
+    const void *value = f->type == 'd'   ? (const void *)&f->real
+                        : f->type == 'i' ? (const void *)&narrow
+                                         : &f->whole;
+    if (!editor_put(bytes, size, f->part, f->offset, value, f->type == 'i' ? 4 : 8))
+        fail_msg("no \"%s\"", f->part);
     editor_repair(bytes, size);
 }
 
@@ -601,7 +611,8 @@ static const forgery forgeries[] = {
     REAL("motion.now", offsetof(mps__pose, state.rate) + 8 * MPS_YAW, INFINITY, "\"motion.now\""),
     REAL("motion.now", offsetof(mps__pose, rotation), NAN, "\"motion.now\""),
     REAL("motion.now", offsetof(mps__pose, rotation) + 8, 0.5, "the rotation of \"motion.now\""),
-    REAL("motion.now", offsetof(mps__pose, state.value) + 8 * MPS_ROLL, 0.1, "which 2-D does not have"),
+    REAL("motion.now", offsetof(mps__pose, state.value) + 8 * MPS_ROLL, 0.1,
+         "which 2-D does not have"),
     REAL("motion.now", offsetof(mps__pose, omega), NAN, "\"motion.now\""),
     REAL("motion.now", offsetof(mps__pose, alpha), NAN, "\"motion.now\""),
     REAL("motion.now", offsetof(mps__pose, t), NAN, "\"motion.now\""),
@@ -645,7 +656,8 @@ static void forged_files(void **state)
         memcpy(copy, bytes, size);
         forge(copy, size, &forgeries[k]);
         write_file(path, copy, size);
-        if (mps_checkpoint_read(sim, path) == MPS_OK) fail_msg("forgery %d of \"%s\" was taken", (int)k, forgeries[k].part);
+        if (mps_checkpoint_read(sim, path) == MPS_OK)
+            fail_msg("forgery %d of \"%s\" was taken", (int)k, forgeries[k].part);
         ASSERT_REFUSED(sim, mps_checkpoint_read(sim, path), MPS_E_IO, forgeries[k].word);
     }
     for (int k = 0; k < 2; k++) go(k ? sim : kept, 3);
@@ -665,8 +677,9 @@ static editor_part part_of(unsigned char *bytes, size_t size, const char *name)
 static void forged_relations(void **state)
 {
     static unsigned char bytes[1 << 20], copy[1 << 20];
-    static const char *const words[] = {"two particles have the \"id\"", "which is no wall of a dummy", "which is not defined",
-                                        "are not those of its set-up", "are not those of its set-up"};
+    static const char *const words[] = {
+        "two particles have the \"id\"", "which is no wall of a dummy", "which is not defined",
+        "are not those of its set-up", "are not those of its set-up"};
     char path[PATH];
     mps_sim *sim = shaken();
     (void)state;
@@ -675,8 +688,10 @@ static void forged_relations(void **state)
     const size_t size = read_file(path, bytes, sizeof bytes);
     for (int k = 0; k < 5; k++) {
         memcpy(copy, bytes, size);
-        const editor_part kind = part_of(copy, size, "field kind"), phase = part_of(copy, size, "field phase");
-        const editor_part id = part_of(copy, size, "field id"), wall = part_of(copy, size, "field wall_of");
+        const editor_part kind = part_of(copy, size, "field kind"),
+                          phase = part_of(copy, size, "field phase");
+        const editor_part id = part_of(copy, size, "field id"),
+                          wall = part_of(copy, size, "field wall_of");
         const editor_part ref = part_of(copy, size, "field ref");
         int64_t fluid = 0, dummy = 0;
         int32_t value;
@@ -729,11 +744,13 @@ static void damaged_files(void **state)
         write_file(path, bytes, size);
         const mps_status status = mps_checkpoint_read(sim, path);
         bytes[k] ^= 1 << k % 8;
-        if (status != MPS_E_IO && status != MPS_E_VERSION) fail_msg("byte %zu of %zu turned: %s", k, size, mps_status_name(status));
+        if (status != MPS_E_IO && status != MPS_E_VERSION)
+            fail_msg("byte %zu of %zu turned: %s", k, size, mps_status_name(status));
     }
     for (size_t k = 0; k < size; k += k < 150 ? 1 : 1013) {
         write_file(path, bytes, k);
-        ASSERT_REFUSED(sim, mps_checkpoint_read(sim, path), MPS_E_IO, k < 16 ? "is no checkpoint" : "cut short");
+        ASSERT_REFUSED(sim, mps_checkpoint_read(sim, path), MPS_E_IO,
+                       k < 16 ? "is no checkpoint" : "cut short");
     }
     bytes[size] = 0;
     write_file(path, bytes, size + 1);

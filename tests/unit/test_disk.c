@@ -101,7 +101,8 @@ static void no_new_name(void **state)
 static void folder_not_on_disk(void **state)
 {
     folder_error = EIO;
-    ASSERT_REFUSED(*state, mps_checkpoint_write(*state, path_of("c")), MPS_E_IO, "cannot write the folder \"mps_disk_");
+    ASSERT_REFUSED(*state, mps_checkpoint_write(*state, path_of("c")), MPS_E_IO,
+                   "cannot write the folder \"mps_disk_");
     ASSERT_OK(*state, mps_checkpoint_read(*state, path_of("c")));
     folder_error = EINVAL; /* a file system that has no such thing */
     ASSERT_OK(*state, mps_checkpoint_write(*state, path_of("c")));
@@ -111,15 +112,18 @@ static void full_disk(void **state)
 {
     if (access("/dev/full", W_OK) != 0) skip();
     assert_int_equal(symlink("/dev/full", path_of("full.tmp")), 0);
-    ASSERT_REFUSED(*state, mps_checkpoint_write(*state, path_of("full")), MPS_E_IO, "full.tmp\": No space left on device");
+    ASSERT_REFUSED(*state, mps_checkpoint_write(*state, path_of("full")), MPS_E_IO,
+                   "full.tmp\": No space left on device");
     assert_int_equal(access(path_of("full"), F_OK), -1);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(order_of_calls, reset), cmocka_unit_test_setup(file_not_on_disk, reset),
-        cmocka_unit_test_setup(no_new_name, reset),    cmocka_unit_test_setup(folder_not_on_disk, reset),
+        cmocka_unit_test_setup(order_of_calls, reset),
+        cmocka_unit_test_setup(file_not_on_disk, reset),
+        cmocka_unit_test_setup(no_new_name, reset),
+        cmocka_unit_test_setup(folder_not_on_disk, reset),
         cmocka_unit_test_setup(full_disk, reset),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

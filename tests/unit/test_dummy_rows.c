@@ -9,20 +9,23 @@ static const double dp = 0.05;
 
 /* What a verb saw of near rows. */
 typedef struct sight {
-    int64_t calls, dummies, with_row, in_fluid_rows, beside; /* beside: fluid with a dummy as its neighbour, by mps_stage_beside() */
+    int64_t calls, dummies, with_row, in_fluid_rows,
+        beside; /* beside: fluid with a dummy as its neighbour, by mps_stage_beside() */
 } sight;
 static sight seen;
 
 static int look(mps_stage *s)
 {
-    int32_t *member = mps_stage_scratch_integers(s, s->n), *beside = mps_stage_scratch_integers(s, s->n);
+    int32_t *member = mps_stage_scratch_integers(s, s->n),
+            *beside = mps_stage_scratch_integers(s, s->n);
     if (!member || !beside) return 1;
     seen = (sight){.calls = seen.calls + 1};
     for (int64_t i = 0; i < s->n; i++) {
         const bool dummy = s->kind[i] == MPS_DUMMY, fluid = s->kind[i] == MPS_FLUID;
         bool any = false;
         member[i] = dummy;
-        for (int64_t p = s->near->begin[i]; p < s->near->end[i]; p++) any = any || s->kind[s->near->col[p]] == MPS_DUMMY;
+        for (int64_t p = s->near->begin[i]; p < s->near->end[i]; p++)
+            any = any || s->kind[s->near->col[p]] == MPS_DUMMY;
         seen.dummies += dummy;
         seen.with_row += dummy && s->near->end[i] > s->near->begin[i];
         seen.in_fluid_rows += fluid && any;
@@ -32,9 +35,12 @@ static int look(mps_stage *s)
     return 0;
 }
 
-static const mps_use plain_uses[] = {{"density", MPS_USE_NEIGHBOURS}}, dummy_uses[] = {{"density", MPS_USE_DUMMIES}};
-static const mps_verb plain_verbs[] = {{.moment = MPS_PREPARE, .use_count = 1, .uses = plain_uses, .run = look}};
-static const mps_verb dummy_verbs[] = {{.moment = MPS_PREPARE, .use_count = 1, .uses = dummy_uses, .run = look}};
+static const mps_use plain_uses[] = {{"density", MPS_USE_NEIGHBOURS}},
+                     dummy_uses[] = {{"density", MPS_USE_DUMMIES}};
+static const mps_verb plain_verbs[] = {
+    {.moment = MPS_PREPARE, .use_count = 1, .uses = plain_uses, .run = look}};
+static const mps_verb dummy_verbs[] = {
+    {.moment = MPS_PREPARE, .use_count = 1, .uses = dummy_uses, .run = look}};
 
 static mps_model_ops model(const char *name, const mps_verb *verbs)
 {
@@ -48,7 +54,8 @@ static mps_model_ops model(const char *name, const mps_verb *verbs)
 
 static mps_sim *pool(void)
 {
-    const mps_model_ops plain = model("look.plain", plain_verbs), dummies = model("look.dummies", dummy_verbs);
+    const mps_model_ops plain = model("look.plain", plain_verbs),
+                        dummies = model("look.dummies", dummy_verbs);
     mps_sim *sim = new_sim(2, dp);
     ASSERT_OK(sim, mps_model_register(sim, &plain));
     ASSERT_OK(sim, mps_model_register(sim, &dummies));
@@ -75,7 +82,8 @@ static void models_decide(void **state)
     mps_sim *sim = pool();
     assert_int_equal(step_with(sim, "look.plain").with_row, 0);
     const sight all = step_with(sim, "look.dummies");
-    assert_true(all.with_row > 20 && all.with_row < all.dummies); /* not those far above the water */
+    assert_true(all.with_row > 20 &&
+                all.with_row < all.dummies); /* not those far above the water */
     assert_int_equal(step_with(sim, "look.dummies").with_row, all.with_row);
     assert_int_equal(step_with(sim, "look.plain").with_row, 0);
     ASSERT_OK(sim, mps_model_use(sim, "wall.extrapolate"));
@@ -93,7 +101,8 @@ static void same_flow(void **state)
         step_with(sim[0], "look.plain");
         step_with(sim[1], k % 3 ? "look.dummies" : "look.plain");
     }
-    for (int k = 0; k < 2; k++) ASSERT_OK(sim[k], mps_lease_begin(sim[k], "position", MPS_READ, &x[k]));
+    for (int k = 0; k < 2; k++)
+        ASSERT_OK(sim[k], mps_lease_begin(sim[k], "position", MPS_READ, &x[k]));
     assert_int_equal(x[0].count, x[1].count);
     assert_memory_equal(x[0].data, x[1].data, (size_t)(x[0].count * 2) * sizeof(double));
     for (int k = 0; k < 2; k++) {
@@ -113,7 +122,8 @@ static void stencil_is_complete(void **state)
         mps_stencil t = {.struct_size = sizeof t};
         ASSERT_OK(sim, mps_stencil_get(sim, which, &t));
         ASSERT_OK(sim, tags_peek(sim, NULL, &kinds, NULL, NULL));
-        for (int64_t i = 0; i < t.n; i++) assert_true(kinds[i] != MPS_DUMMY || t.end[i] - t.begin[i] >= 3);
+        for (int64_t i = 0; i < t.n; i++)
+            assert_true(kinds[i] != MPS_DUMMY || t.end[i] - t.begin[i] >= 3);
     }
     assert_int_equal(step_with(sim, "look.plain").with_row, 0);
     mps_sim_destroy(sim);

@@ -31,11 +31,13 @@ static void rounding_is_told(void **state)
 {
     (void)state;
     for (int dim = 2; dim <= 3; dim++) {
-        const double lo[3] = {0, 0, 0}, hi[3] = {0.4, 0.093, 0.1}, from[3] = {0.1987, 0, 0}, to[3] = {0.2413, 0.0874, 0.1};
+        const double lo[3] = {0, 0, 0}, hi[3] = {0.4, 0.093, 0.1}, from[3] = {0.1987, 0, 0},
+                     to[3] = {0.2413, 0.0874, 0.1};
         double built[6];
         mps_sim *sim = logging(dim, 0.01);
         ASSERT_OK(sim, mps_baffle_add(sim, "wall", from, to, built));
-        if (!strstr(told, "baffle \"wall\": 0 .. 0.0874 m in y became 0 .. 0.08 m")) fail_msg("\"%s\"", told);
+        if (!strstr(told, "baffle \"wall\": 0 .. 0.0874 m in y became 0 .. 0.08 m"))
+            fail_msg("\"%s\"", told);
         const double wanted[2][6] = {{0.2, 0, 0.24, 0.08}, {0.2, 0, 0, 0.24, 0.08, 0.1}};
         for (int d = 0; d < 2 * dim; d++) ASSERT_NEAR(built[d], wanted[dim - 2][d], 1e-12);
         ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, built));
@@ -107,7 +109,8 @@ static void refusals(void **state)
     ASSERT_REFUSED(sim, mps_fill_level_add(sim, 0, lo, nan, NULL, NULL), MPS_E_ARG, "finite");
     ASSERT_REFUSED(sim, mps_fill_level_add(sim, 0, lo, below, NULL, NULL), MPS_E_ARG, "inverted");
     ASSERT_REFUSED(sim, mps_fill_level_add(sim, 0, NULL, hi, NULL, NULL), MPS_E_ARG, "NULL");
-    ASSERT_REFUSED(sim, mps_fill_level_add(sim, 1, lo, hi, NULL, NULL), MPS_E_ARG, "phase 1 is not defined");
+    ASSERT_REFUSED(sim, mps_fill_level_add(sim, 1, lo, hi, NULL, NULL), MPS_E_ARG,
+                   "phase 1 is not defined");
     assert_int_equal(mps_fill_level_add(NULL, 0, lo, hi, NULL, NULL), MPS_E_ARG);
     assert_int_equal(mps_particles_count(sim, MPS_FLUID), 0);
     mps_sim_destroy(sim);
@@ -142,7 +145,8 @@ static void level_at_rest(void **state)
     static const double spacing[] = {0.00775, 0.0093, 0.01, 0.0133, 0.02};
     (void)state;
     for (size_t s = 0; s < sizeof spacing / sizeof spacing[0]; s++) {
-        const double depth = 0.093, lo[2] = {0, 0}, hi[2] = {0.6, depth}, place[PROBES][2] = {{0.2, 0}, {0.3, 0}, {0, 0.02}};
+        const double depth = 0.093, lo[2] = {0, 0}, hi[2] = {0.6, depth},
+                     place[PROBES][2] = {{0.2, 0}, {0.3, 0}, {0, 0.02}};
         means m = {.time = 0};
         mps_sim *sim = new_sim(2, spacing[s]);
         add_tank(sim, 0.6, 0.2, 0);
@@ -155,7 +159,8 @@ static void level_at_rest(void **state)
             ASSERT_OK(sim, mps_probe_add(sim, &p, &m.id[k]));
         }
         assert_true(mps_run(sim, 2, measure, &m) >= 0);
-        for (int k = 0; k < PROBES; k++) ASSERT_NEAR(m.sum[k] / m.time + place[k][1], depth, 0.01 * depth);
+        for (int k = 0; k < PROBES; k++)
+            ASSERT_NEAR(m.sum[k] / m.time + place[k][1], depth, 0.01 * depth);
         mps_sim_destroy(sim);
     }
 }
@@ -163,8 +168,9 @@ static void level_at_rest(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rounding_is_told), cmocka_unit_test(share_of_a_row), cmocka_unit_test(whole_rows),
-        cmocka_unit_test(refusals),         cmocka_unit_test(level_at_rest),
+        cmocka_unit_test(rounding_is_told), cmocka_unit_test(share_of_a_row),
+        cmocka_unit_test(whole_rows),       cmocka_unit_test(refusals),
+        cmocka_unit_test(level_at_rest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -44,13 +44,16 @@ static char *slurp(const char *name, size_t *size)
 }
 
 /* Where the data of the array `name` begins; checks type, components and size. */
-static const char *find_array(const char *text, size_t size, const char *name, const char *type, int components, uint64_t bytes)
+static const char *find_array(const char *text, size_t size, const char *name, const char *type,
+                              int components, uint64_t bytes)
 {
     char tag[160];
     uint64_t written;
     unsigned long long offset;
-    snprintf(tag, sizeof tag, "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"appended\" offset=\"", type, name,
-             components);
+    snprintf(tag, sizeof tag,
+             "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"appended\" "
+             "offset=\"",
+             type, name, components);
     const char *at = strstr(text, tag), *data = strstr(text, "<AppendedData encoding=\"raw\">\n_");
     if (!at) fail_msg("no %s", tag);
     assert_non_null(data);
@@ -68,7 +71,8 @@ static void fill_fields(mps_sim *sim)
     for (int f = 0; f < 5; f++) {
         mps_lease lease = {.struct_size = sizeof lease};
         ASSERT_OK(sim, mps_lease_begin(sim, names[f], MPS_WRITE, &lease));
-        for (int64_t k = 0; k < lease.count * lease.stride; k++) lease.data[k] = 0.1 * (f + 1) + (double)k;
+        for (int64_t k = 0; k < lease.count * lease.stride; k++)
+            lease.data[k] = 0.1 * (f + 1) + (double)k;
         ASSERT_OK(sim, mps_lease_end(sim, &lease));
     }
 }
@@ -91,9 +95,12 @@ static void check_frame(const mps_sim *sim, const char *name, int32_t kinds)
     char *text = slurp(name, &size);
     uint64_t n = 0;
     for (int64_t i = 0; i < s->n; i++) n += (uint64_t)(kinds >> s->kind[i] & 1);
-    const char *x = find_array(text, size, "position", "Float32", 3, n * 12), *u = find_array(text, size, "velocity", "Float32", 3, n * 12);
-    const char *p = find_array(text, size, "pressure", "Float32", 1, n * 4), *id = find_array(text, size, "id", "Int64", 1, n * 8);
-    const char *kind = find_array(text, size, "kind", "UInt8", 1, n), *arm = find_array(text, size, "arm", "Float64", 3, n * 24);
+    const char *x = find_array(text, size, "position", "Float32", 3, n * 12),
+               *u = find_array(text, size, "velocity", "Float32", 3, n * 12);
+    const char *p = find_array(text, size, "pressure", "Float32", 1, n * 4),
+               *id = find_array(text, size, "id", "Int64", 1, n * 8);
+    const char *kind = find_array(text, size, "kind", "UInt8", 1, n),
+               *arm = find_array(text, size, "arm", "Float64", 3, n * 24);
     const char *cell = find_array(text, size, "connectivity", "Int32", 1, n * 4),
                *end = find_array(text, size, "offsets", "Int32", 1, n * 4);
     char verts[48];
@@ -129,7 +136,8 @@ static void check_frame(const mps_sim *sim, const char *name, int32_t kinds)
         assert_int_equal(number, k + 1);
         k++;
     }
-    assert_string_equal(text + size - strlen("\n</AppendedData>\n</VTKFile>\n"), "\n</AppendedData>\n</VTKFile>\n");
+    assert_string_equal(text + size - strlen("\n</AppendedData>\n</VTKFile>\n"),
+                        "\n</AppendedData>\n</VTKFile>\n");
     free(text);
 }
 
@@ -142,7 +150,8 @@ static void frames_read_back(void **state)
             mps_frames *frames;
             ASSERT_OK(sim, mps_frames_open(sim, folder, "run", kinds, &frames));
             ASSERT_OK(sim, mps_frames_write(frames));
-            check_frame(sim, "run/run_000000.vtp", kinds ? kinds : MPS_FRAMES_FLUID | MPS_FRAMES_WALL);
+            check_frame(sim, "run/run_000000.vtp",
+                        kinds ? kinds : MPS_FRAMES_FLUID | MPS_FRAMES_WALL);
             mps_frames_close(frames);
             mps_sim_destroy(sim);
         }
@@ -164,9 +173,12 @@ static void series_names_all_frames(void **state)
         sim->world.state.t = 0.1 * k;
         ASSERT_OK(sim, mps_frames_write(frames));
         text = slurp("series.pvd", &size);
-        snprintf(wanted, sizeof wanted, "<DataSet timestep=\"%.17g\" part=\"0\" file=\"series/series_%06d.vtp\"/>", 0.1 * k, k);
+        snprintf(wanted, sizeof wanted,
+                 "<DataSet timestep=\"%.17g\" part=\"0\" file=\"series/series_%06d.vtp\"/>",
+                 0.1 * k, k);
         assert_non_null(strstr(text, wanted));
-        assert_string_equal(text + size - strlen("</Collection>\n</VTKFile>\n"), "</Collection>\n</VTKFile>\n");
+        assert_string_equal(text + size - strlen("</Collection>\n</VTKFile>\n"),
+                            "</Collection>\n</VTKFile>\n");
         free(text);
         snprintf(name, sizeof name, "series/series_%06d.vtp", k);
         text = slurp(name, &size);
@@ -198,8 +210,9 @@ static bool there(const char *name)
 static void old_frames_go(void **state)
 {
     (void)state;
-    static const char *const kept[] = {"again/again_notes.txt",     "again/again_00000.vtp",  "again/again_000001.vtp.gz",
-                                       "again/other_000001.vtp",    "again/again_00000x.vtp", "again/again_1_000001.vtp",
+    static const char *const kept[] = {"again/again_notes.txt",     "again/again_00000.vtp",
+                                       "again/again_000001.vtp.gz", "again/other_000001.vtp",
+                                       "again/again_00000x.vtp",    "again/again_1_000001.vtp",
                                        "again/again-000001.vtp.tmp"};
     mps_sim *sim = prepared(2);
     mps_frames *frames;
@@ -243,7 +256,8 @@ static void check_series(const char *name, int count, const double *t)
     size_t size;
     for (int k = 0; k < count; k++) {
         size = strlen(wanted);
-        snprintf(wanted + size, sizeof wanted - size, "<DataSet timestep=\"%.17g\" part=\"0\" file=\"%s/%s_%06d.vtp\"/>\n", t[k], name,
+        snprintf(wanted + size, sizeof wanted - size,
+                 "<DataSet timestep=\"%.17g\" part=\"0\" file=\"%s/%s_%06d.vtp\"/>\n", t[k], name,
                  name, k);
         snprintf(file, sizeof file, "%s/%s_%06d.vtp", name, name, k);
         assert_true(there(file));
@@ -266,7 +280,8 @@ static void series_goes_on(void **state)
     for (int at = 0; at < 2; at++) { /* between two frames, and, but for rounding, at one */
         mps_sim *sim = four_frames("on");
         sim->world.state.t = at ? 0.2 * (1 - 1e-15) : 0.25;
-        ASSERT_OK(sim, mps_frames_open(sim, folder, "on", MPS_FRAMES_CONTINUE | MPS_FRAMES_WALL, &frames));
+        ASSERT_OK(sim, mps_frames_open(sim, folder, "on", MPS_FRAMES_CONTINUE | MPS_FRAMES_WALL,
+                                       &frames));
         check_series("on", 3, (const double[]){0, 0.1, 0.2});
         sim->world.state.t = 0.26;
         ASSERT_OK(sim, mps_frames_write(frames));
@@ -284,7 +299,8 @@ static void no_time_twice(void **state)
     (void)state;
     mps_frames *frames;
     mps_sim *sim = four_frames("twice");
-    ASSERT_OK(sim, mps_frames_open(sim, folder, "twice", MPS_FRAMES_CONTINUE | MPS_FRAMES_DUMMY, &frames));
+    ASSERT_OK(sim, mps_frames_open(sim, folder, "twice", MPS_FRAMES_CONTINUE | MPS_FRAMES_DUMMY,
+                                   &frames));
     for (int k = 0; k < 2; k++) ASSERT_OK(sim, mps_frames_write(frames));
     check_series("twice", 4, (const double[]){0, 0.1, 0.2, 0.1 * 3});
     check_frame(sim, "twice/twice_000003.vtp", MPS_FRAMES_DUMMY);
@@ -340,11 +356,13 @@ static void foreign_series_stays(void **state)
             text[k] = '~';
             put("alien.pvd", text, how ? size : k);
             text[k] = was;
-            ASSERT_REFUSED(sim, mps_frames_open(sim, folder, "alien", MPS_FRAMES_CONTINUE, &frames), MPS_E_IO, "alien.pvd\": it is not as");
+            ASSERT_REFUSED(sim, mps_frames_open(sim, folder, "alien", MPS_FRAMES_CONTINUE, &frames),
+                           MPS_E_IO, "alien.pvd\": it is not as");
             assert_null(frames);
         }
     put("alien.pvd", text, size + 1); /* something behind it */
-    ASSERT_REFUSED(sim, mps_frames_open(sim, folder, "alien", MPS_FRAMES_CONTINUE, &frames), MPS_E_IO, "it is not as");
+    ASSERT_REFUSED(sim, mps_frames_open(sim, folder, "alien", MPS_FRAMES_CONTINUE, &frames),
+                   MPS_E_IO, "it is not as");
     put("alien.pvd", text, size);
     check_series("alien", 4, (const double[]){0, 0.1, 0.2, 0.1 * 3});
     ASSERT_OK(sim, mps_frames_open(sim, folder, "alien", MPS_FRAMES_CONTINUE, &frames));
@@ -358,9 +376,11 @@ static void foreign_series_stays(void **state)
 static void series_goes_on_with_a_comma(void **state)
 {
     (void)state;
-    static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "de_DE", "fr_FR"};
+    static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "de_DE",
+                                        "fr_FR"};
     bool comma = false;
-    for (int k = 0; k < 5 && !comma; k++) comma = setlocale(LC_NUMERIC, names[k]) && strcmp(localeconv()->decimal_point, ",") == 0;
+    for (int k = 0; k < 5 && !comma; k++)
+        comma = setlocale(LC_NUMERIC, names[k]) && strcmp(localeconv()->decimal_point, ",") == 0;
     if (!comma) skip();
     mps_frames *frames;
     mps_sim *sim = four_frames("comma");
@@ -396,11 +416,13 @@ static void refusals(void **state)
     mps_sim *sim = prepared(2);
     mps_frames *frames;
     char path[160];
-    ASSERT_REFUSED(sim, mps_frames_open(sim, "/nowhere/at/all", "run", 0, &frames), MPS_E_IO, "/nowhere/at/all/run\": No such file");
+    ASSERT_REFUSED(sim, mps_frames_open(sim, "/nowhere/at/all", "run", 0, &frames), MPS_E_IO,
+                   "/nowhere/at/all/run\": No such file");
     assert_null(frames);
     ASSERT_REFUSED(sim, mps_frames_open(sim, folder, "a/b", 0, &frames), MPS_E_ARG, "a/b");
     ASSERT_REFUSED(sim, mps_frames_open(sim, folder, "", 0, &frames), MPS_E_ARG, "1..47");
-    ASSERT_REFUSED(sim, mps_frames_open(sim, folder, "..", 0, &frames), MPS_E_ARG, "begin with a dot");
+    ASSERT_REFUSED(sim, mps_frames_open(sim, folder, "..", 0, &frames), MPS_E_ARG,
+                   "begin with a dot");
     ASSERT_REFUSED(sim, mps_frames_open(sim, folder, NULL, 0, &frames), MPS_E_ARG, "name");
     ASSERT_REFUSED(sim, mps_frames_open(sim, "", "run", 0, &frames), MPS_E_ARG, "folder");
     ASSERT_REFUSED(sim, mps_frames_open(sim, NULL, "run", 0, &frames), MPS_E_ARG, "folder");

@@ -10,7 +10,8 @@ static void papers_counts(void **state)
     add_tank(sim, 0.8, 0.5, 0);
     assert_int_equal(fill_depth(sim, 0.8, 0.25, 0), 12338);
     assert_int_equal(mps_particles_count(sim, MPS_FLUID), 199 * 62);
-    assert_int_equal(mps_particles_count(sim, MPS_WALL) + mps_particles_count(sim, MPS_DUMMY), 1974);
+    assert_int_equal(mps_particles_count(sim, MPS_WALL) + mps_particles_count(sim, MPS_DUMMY),
+                     1974);
     assert_int_equal(mps_particles_count(sim, MPS_WALL), 650);
     mps_sim_destroy(sim);
 }
@@ -138,9 +139,14 @@ static void parts_of_faces(void **state)
     const mps__particles *s = &sim->world.particles;
     for (int64_t i = 0; i < s->n; i++) {
         const double *X = &s->ref[2 * i];
-        const char *wanted = X[1] < 0.05 ? "tank.y0" : X[1] > 0.95 ? "tank.y1" : X[0] < 0.05 ? "tank.x0" : "tank.x1";
+        const char *wanted = X[1] < 0.05   ? "tank.y0"
+                             : X[1] > 0.95 ? "tank.y1"
+                             : X[0] < 0.05 ? "tank.x0"
+                                           : "tank.x1";
         assert_int_equal(s->part[i], mps_part_find(sim, wanted));
-        assert_int_equal(s->kind[i], X[0] > -0.05 && X[0] < 1.05 && X[1] > -0.05 && X[1] < 1.05 ? MPS_WALL : MPS_DUMMY);
+        assert_int_equal(s->kind[i], X[0] > -0.05 && X[0] < 1.05 && X[1] > -0.05 && X[1] < 1.05
+                                         ? MPS_WALL
+                                         : MPS_DUMMY);
     }
     mps_sim_destroy(sim);
 }
@@ -288,7 +294,8 @@ static void moved_tank(void **state)
     for (int64_t i = 0; i < s->n; i++)
         for (int64_t j = 0; j < s->n; j++)
             if (s->kind[i] == MPS_FLUID && i != j)
-                nearest = fmin(nearest, hypot(s->x[2 * i] - s->x[2 * j], s->x[2 * i + 1] - s->x[2 * j + 1]));
+                nearest = fmin(nearest,
+                               hypot(s->x[2 * i] - s->x[2 * j], s->x[2 * i + 1] - s->x[2 * j + 1]));
     ASSERT_NEAR(nearest, 0.1, 1e-12);
     mps_sim_destroy(sim);
 }
@@ -302,9 +309,9 @@ static void tank_refusals(void **state)
     tank.size[0] = tank.size[1] = 1;
     assert_int_equal(mps_tank_add(NULL, &tank, NULL), MPS_E_ARG);
     ASSERT_REFUSED(sim, mps_tank_add(sim, NULL, NULL), MPS_E_ARG, "NULL");
-#define REFUSE(change, word)                                                  \
-    bad = tank;                                                               \
-    change;                                                                   \
+#define REFUSE(change, word)                                             \
+    bad = tank;                                                          \
+    change;                                                              \
     ASSERT_REFUSED(sim, mps_tank_add(sim, &bad, NULL), MPS_E_ARG, word); \
     assert_int_equal(mps_particles_count(sim, -1), 0)
     REFUSE(bad.size[1] = 0.2, "size[1] is 0.2");
@@ -327,7 +334,8 @@ static void tank_refusals(void **state)
     tank.dummy_layers = 0;
     ASSERT_OK(sim, mps_tank_add(sim, &tank, NULL));
     assert_int_equal(mps_particles_count(sim, -1), 15 * 15 - 9 * 9);
-    ASSERT_REFUSED(sim, mps_tank_add(sim, &tank, NULL), MPS_E_ARG, "particles that are there already");
+    ASSERT_REFUSED(sim, mps_tank_add(sim, &tank, NULL), MPS_E_ARG,
+                   "particles that are there already");
     /* a failed tank leaves no part names behind */
     tank.name = "second";
     ASSERT_REFUSED(sim, mps_tank_add(sim, &tank, NULL), MPS_E_ARG, "second");
@@ -349,25 +357,29 @@ static void fill_refusals(void **state)
 {
     (void)state;
     mps_sim *sim = new_sim(2, 0.1);
-    const double lo[2] = {0, 0}, hi[2] = {1, 1}, nan[2] = {0, NAN}, far[2] = {5, 5}, farther[2] = {6, 6}, between[2] = {0.42, 0.42},
-                 below[2] = {0.48, 0.48};
+    const double lo[2] = {0, 0}, hi[2] = {1, 1}, nan[2] = {0, NAN}, far[2] = {5, 5},
+                 farther[2] = {6, 6}, between[2] = {0.42, 0.42}, below[2] = {0.48, 0.48};
     ASSERT_REFUSED(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, NULL), MPS_E_STATE, "mps_tank_add");
     ASSERT_REFUSED(sim, mps_fill_add(sim, 0, everywhere, NULL, NULL), MPS_E_STATE, "mps_tank_add");
     ASSERT_REFUSED(sim, mps_baffle_add(sim, "b", lo, hi, NULL), MPS_E_STATE, "mps_tank_add");
     add_tank(sim, 1, 1, 0);
     const int64_t before = mps_particles_count(sim, -1);
-    ASSERT_REFUSED(sim, mps_fill_box_add(sim, 1, lo, hi, NULL, NULL), MPS_E_ARG, "phase 1 is not defined");
+    ASSERT_REFUSED(sim, mps_fill_box_add(sim, 1, lo, hi, NULL, NULL), MPS_E_ARG,
+                   "phase 1 is not defined");
     ASSERT_REFUSED(sim, mps_fill_box_add(sim, 16, lo, hi, NULL, NULL), MPS_E_ARG, "0..15");
     ASSERT_REFUSED(sim, mps_fill_box_add(sim, -1, lo, hi, NULL, NULL), MPS_E_ARG, "phase -1");
     ASSERT_REFUSED(sim, mps_fill_box_add(sim, 0, lo, nan, NULL, NULL), MPS_E_ARG, "finite");
     ASSERT_REFUSED(sim, mps_fill_box_add(sim, 0, hi, lo, NULL, NULL), MPS_E_ARG, "inverted");
     ASSERT_REFUSED(sim, mps_fill_box_add(sim, 0, NULL, hi, NULL, NULL), MPS_E_ARG, "NULL");
-    ASSERT_REFUSED(sim, mps_fill_box_add(sim, 0, far, farther, NULL, NULL), MPS_E_ARG, "no lattice point");
-    ASSERT_REFUSED(sim, mps_fill_box_add(sim, 0, between, below, NULL, NULL), MPS_E_ARG, "no lattice point");
+    ASSERT_REFUSED(sim, mps_fill_box_add(sim, 0, far, farther, NULL, NULL), MPS_E_ARG,
+                   "no lattice point");
+    ASSERT_REFUSED(sim, mps_fill_box_add(sim, 0, between, below, NULL, NULL), MPS_E_ARG,
+                   "no lattice point");
     ASSERT_REFUSED(sim, mps_fill_box_add(sim, 0, lo, lo, NULL, NULL), MPS_E_ARG, "nothing to fill");
     ASSERT_REFUSED(sim, mps_fill_add(sim, 0, NULL, NULL, NULL), MPS_E_ARG, "inside is NULL");
     ASSERT_REFUSED(sim, mps_baffle_add(sim, "", between, hi, NULL), MPS_E_ARG, "name");
-    ASSERT_REFUSED(sim, mps_baffle_add(sim, "b", between, below, NULL), MPS_E_ARG, "no lattice point");
+    ASSERT_REFUSED(sim, mps_baffle_add(sim, "b", between, below, NULL), MPS_E_ARG,
+                   "no lattice point");
     ASSERT_REFUSED(sim, mps_baffle_add(sim, "b", lo, lo, NULL), MPS_E_ARG, "taken");
     assert_int_equal(mps_part_find(sim, "b"), -1);
     mps_lease lease = {.struct_size = sizeof lease};
@@ -383,7 +395,8 @@ static void fill_refusals(void **state)
 static void fluid_in_the_way(void **state)
 {
     (void)state;
-    const double lo[2] = {0.3, 0.2}, hi[2] = {0.7, 0.5}, thin[2] = {0.3, 0.5}, corner[2] = {0.33, 0.12}, edge[2] = {0.2, 0.21};
+    const double lo[2] = {0.3, 0.2}, hi[2] = {0.7, 0.5}, thin[2] = {0.3, 0.5},
+                 corner[2] = {0.33, 0.12}, edge[2] = {0.2, 0.21};
     for (int late = 0; late < 2; late++) {
         const mps_status wanted = late ? MPS_E_STATE : MPS_E_ARG;
         const char *word = late ? "1 steps were taken" : "at (0.3, 0.2, 0) m is in the way of";
@@ -394,7 +407,8 @@ static void fluid_in_the_way(void **state)
         const int64_t before = mps_particles_count(sim, -1);
         ASSERT_REFUSED(sim, mps_baffle_add(sim, "b", lo, hi, NULL), wanted, word);
         ASSERT_REFUSED(sim, mps_baffle_add(sim, "b", lo, thin, NULL), wanted, word);
-        ASSERT_REFUSED(sim, mps_plate_add(sim, "b", corner, edge, NULL), wanted, late ? word : "half a spacing, 0.05 m");
+        ASSERT_REFUSED(sim, mps_plate_add(sim, "b", corner, edge, NULL), wanted,
+                       late ? word : "half a spacing, 0.05 m");
         assert_int_equal(mps_particles_count(sim, -1), before);
         assert_int_equal(mps_part_find(sim, "b"), -1);
         mps_tank second;
@@ -425,7 +439,8 @@ static void fluid_between_the_points(void **state)
         block.position = at[k];
         ASSERT_OK(sim, mps_particles_add(sim, &block, NULL));
         if (way[k] && way[k][0] == 't') {
-            ASSERT_REFUSED(sim, mps_tank_add(sim, &tank, NULL), MPS_E_ARG, "at (-0.15, 0.5, 0) m is in the way of tank \"tank\"");
+            ASSERT_REFUSED(sim, mps_tank_add(sim, &tank, NULL), MPS_E_ARG,
+                           "at (-0.15, 0.5, 0) m is in the way of tank \"tank\"");
             assert_int_equal(mps_part_find(sim, "tank.x0"), -1);
         } else {
             ASSERT_OK(sim, mps_tank_add(sim, &tank, NULL));

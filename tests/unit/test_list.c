@@ -349,7 +349,8 @@ static void other_sizes(void **state)
     mps_sim *sim = new_sim(2, 0.1);
     for (int g = 0; g < GETS; g++) {
         room full, other;
-        const size_t sizes[] = {gets[g].size, gets[g].size + 8, ROOM}, bad[] = {0, 4, 16, gets[g].size - 8};
+        const size_t sizes[] = {gets[g].size, gets[g].size + 8, ROOM},
+                     bad[] = {0, 4, 16, gets[g].size - 8};
         for (int k = 0; k < 4; k++) assert_int_equal(gets[g].init(&other, bad[k]), MPS_E_ARG);
         assert_int_equal(gets[g].init(&full, gets[g].size), MPS_OK);
         ASSERT_OK(sim, gets[g].get(sim, 0, &full));

@@ -136,8 +136,10 @@ static void behind_a_wall(void **state)
     message m;
     mps_sim *sim = pool(MPS_LOST_REMOVE, &m, NULL, NULL);
     const int64_t id = some_fluid(sim);
-    const double before[][2] = {{0.1 * dp, 0.42}, {-0.4 * dp, 0.42}, {0.1 * dp, 0.1 * dp}, {-5 * dp, 0.25}};
-    for (size_t k = 0; k < sizeof before / sizeof before[0]; k++) { /* at a wall, in its plane, in a corner, a spacing from the dummies */
+    const double before[][2] = {
+        {0.1 * dp, 0.42}, {-0.4 * dp, 0.42}, {0.1 * dp, 0.1 * dp}, {-5 * dp, 0.25}};
+    for (size_t k = 0; k < sizeof before / sizeof before[0];
+         k++) { /* at a wall, in its plane, in a corner, a spacing from the dummies */
         put(sim, id, before[k][0], before[k][1]);
         assert_int_equal(lost_in_step(sim), 0);
     }
@@ -197,7 +199,8 @@ static void moved_tank(void **state)
     ASSERT_OK(sim, mps_motion_callback_set(sim, quarter_turn, NULL));
     assert_int_equal(lost_in_step(sim), 0); /* far from where the tank was */
     assert_int_equal(mps_particles_count(sim, -1), n);
-    put(sim, id, 5 - 1.25, 2 + 0.25); /* over the open end of the tank, which lies on its side now */
+    put(sim, id, 5 - 1.25,
+        2 + 0.25); /* over the open end of the tank, which lies on its side now */
     assert_int_equal(lost_in_step(sim), 0);
     put(sim, id, 5 - 1.35, 2 + 0.25);
     assert_int_equal(lost_in_step(sim), 1);
@@ -294,7 +297,8 @@ static void too_long_steps(void **state)
     mps_lease x = {.struct_size = sizeof x};
     double t;
     ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_DIVERGED,
-                   "at (0.5, 0.5, 0) m would move 0.155 m in a step of 0.005 s, at 31 m/s; allowed: at most 0.15 m");
+                   "at (0.5, 0.5, 0) m would move 0.155 m in a step of 0.005 s, at 31 m/s; "
+                   "allowed: at most 0.15 m");
     ASSERT_OK(sim, mps_sim_time(sim, &t, NULL));
     assert_true(t == 0 && m.count == 0);
     const int64_t i = mps_particles_count(sim, -1) - 1;
@@ -386,7 +390,9 @@ static void everything_lost(void **state)
     block.count = 1;
     block.position = x;
     ASSERT_OK(sim, mps_particles_add(sim, &block, NULL));
-    for (int k = 0; k < 2; k++) ASSERT_REFUSED(sim, mps_step(sim, 1e-4, NULL), MPS_E_STATE, "all particles left the domain");
+    for (int k = 0; k < 2; k++)
+        ASSERT_REFUSED(sim, mps_step(sim, 1e-4, NULL), MPS_E_STATE,
+                       "all particles left the domain");
     assert_int_equal(mps_particles_count(sim, -1), 1);
     mps_sim_destroy(sim);
 }

@@ -103,8 +103,10 @@ static void refused_as_before(mps_sim *sim, const char *name)
     ASSERT_REFUSED(sim, mps_model_use(sim, name), MPS_E_ARG, name);
     picture(sim, after);
     assert_string_equal(before, after);
-    ASSERT_REFUSED(sim, mps_lease_begin(sim, "fresh", MPS_READ, &(mps_lease){.struct_size = sizeof(mps_lease)}), MPS_E_NAME,
-                   "fresh");
+    ASSERT_REFUSED(
+        sim,
+        mps_lease_begin(sim, "fresh", MPS_READ, &(mps_lease){.struct_size = sizeof(mps_lease)}),
+        MPS_E_NAME, "fresh");
     ASSERT_OK(sim, mps_step(sim, 1, NULL));
 }
 

@@ -9,14 +9,20 @@ static void harmonics_are_exact(void **state)
 {
     (void)state;
     mps_sim *sim = new_sim(2, 0.1);
-    const mps_harmonic h[3] = {{MPS_SURGE, 0, 0.02, 6.469, 0.3}, {MPS_SURGE, 1, 0.005, 6.85, 7}, {MPS_YAW, 0, 0.1, 2, 0}};
+    const mps_harmonic h[3] = {
+        {MPS_SURGE, 0, 0.02, 6.469, 0.3}, {MPS_SURGE, 1, 0.005, 6.85, 7}, {MPS_YAW, 0, 0.1, 2, 0}};
     ASSERT_OK(sim, mps_motion_harmonics_set(sim, 3, h));
     mps__pose pose;
     for (double t = 0; t < 3; t += 0.37) {
         ASSERT_OK(sim, mps__motion_pose(&sim->world.motion, t, &pose));
-        ASSERT_NEAR(pose.state.value[MPS_SURGE], 0.02 * sin(6.469 * t + 0.3) - 0.005 * (1 - cos(6.85 * t)), 1e-15);
-        ASSERT_NEAR(pose.state.rate[MPS_SURGE], 0.02 * 6.469 * cos(6.469 * t + 0.3) - 0.005 * 6.85 * sin(6.85 * t), 1e-14);
-        ASSERT_NEAR(pose.state.accel[MPS_SURGE], -0.02 * 6.469 * 6.469 * sin(6.469 * t + 0.3) - 0.005 * 6.85 * 6.85 * cos(6.85 * t), 1e-13);
+        ASSERT_NEAR(pose.state.value[MPS_SURGE],
+                    0.02 * sin(6.469 * t + 0.3) - 0.005 * (1 - cos(6.85 * t)), 1e-15);
+        ASSERT_NEAR(pose.state.rate[MPS_SURGE],
+                    0.02 * 6.469 * cos(6.469 * t + 0.3) - 0.005 * 6.85 * sin(6.85 * t), 1e-14);
+        ASSERT_NEAR(pose.state.accel[MPS_SURGE],
+                    -0.02 * 6.469 * 6.469 * sin(6.469 * t + 0.3) -
+                        0.005 * 6.85 * 6.85 * cos(6.85 * t),
+                    1e-13);
         ASSERT_NEAR(pose.state.value[MPS_YAW], 0.1 * sin(2 * t), 1e-16);
         ASSERT_NEAR(pose.omega[2], 0.2 * cos(2 * t), 1e-15);
         ASSERT_NEAR(pose.alpha[2], -0.4 * sin(2 * t), 1e-15);
@@ -70,7 +76,8 @@ static void spline_converges(void **state)
 static void spline_is_c2(void **state)
 {
     (void)state;
-    const double t[6] = {-0.5, 0, 0.3, 0.4, 1.2, 2}, y[12] = {0, 3, 1, 3, -2, 2, 0.5, 2, 0.7, 2, 0, 1};
+    const double t[6] = {-0.5, 0, 0.3, 0.4, 1.2, 2},
+                 y[12] = {0, 3, 1, 3, -2, 2, 0.5, 2, 0.7, 2, 0, 1};
     const int32_t dof[2] = {MPS_YAW, MPS_SURGE};
     mps_sim *sim = new_sim(2, 0.1);
     ASSERT_OK(sim, mps_motion_table_set(sim, 6, t, 2, dof, y));
@@ -82,8 +89,10 @@ static void spline_is_c2(void **state)
         ASSERT_OK(sim, mps__motion_pose(m, s + e, &b));
         ASSERT_OK(sim, mps__motion_pose(m, s, &here));
         for (int k = 0; k < 2; k++) {
-            ASSERT_NEAR((b.state.value[dof[k]] - a.state.value[dof[k]]) / (2 * e), here.state.rate[dof[k]], 1e-5);
-            ASSERT_NEAR((b.state.rate[dof[k]] - a.state.rate[dof[k]]) / (2 * e), here.state.accel[dof[k]], 2e-2);
+            ASSERT_NEAR((b.state.value[dof[k]] - a.state.value[dof[k]]) / (2 * e),
+                        here.state.rate[dof[k]], 1e-5);
+            ASSERT_NEAR((b.state.rate[dof[k]] - a.state.rate[dof[k]]) / (2 * e),
+                        here.state.accel[dof[k]], 2e-2);
         }
     }
     for (int k = 1; k < 5; k++) {
@@ -97,7 +106,8 @@ static void spline_is_c2(void **state)
 
 static int tumble(void *user, double t, mps_motion_state *s)
 {
-    static const double amplitude[6] = {0.1, 0.2, 0.3, 0.7, 0.5, 0.9}, omega[6] = {1, 1.3, 0.7, 1.7, 0.9, 1.1};
+    static const double amplitude[6] = {0.1, 0.2, 0.3, 0.7, 0.5, 0.9},
+                        omega[6] = {1, 1.3, 0.7, 1.7, 0.9, 1.1};
     for (int k = 0; k < 6; k++) {
         if (*(int *)user == 2 && (k == MPS_SWAY || k == MPS_ROLL || k == MPS_PITCH)) continue;
         s->value[k] = amplitude[k] * sin(omega[k] * t + k);
@@ -130,7 +140,10 @@ static void point_follows_its_path(void **state)
             for (int d = 0; d < dim; d++) {
                 /* fourth order: only rounding is left */
                 ASSERT_NEAR(v[d], (8 * (x[3][d] - x[1][d]) - (x[4][d] - x[0][d])) / (12 * e), 1e-9);
-                ASSERT_NEAR(a[d], (16 * (x[3][d] + x[1][d]) - (x[4][d] + x[0][d]) - 30 * x[2][d]) / (12 * e * e), 1e-6);
+                ASSERT_NEAR(a[d],
+                            (16 * (x[3][d] + x[1][d]) - (x[4][d] + x[0][d]) - 30 * x[2][d]) /
+                                (12 * e * e),
+                            1e-6);
                 ASSERT_NEAR(back[d], X[d], 1e-14);
             }
         }
@@ -155,9 +168,12 @@ static void order_of_rotations(void **state)
     static const double quarter = 1.57079632679489662;
     const struct {
         double angle[3], from[3], to[3];
-    } list[] = {{{quarter, 0, 0}, {0, 1, 0}, {0, 0, 1}},       {{0, quarter, 0}, {0, 0, 1}, {1, 0, 0}},
-                {{0, 0, quarter}, {1, 0, 0}, {0, 1, 0}},       {{quarter, quarter, 0}, {0, 1, 0}, {1, 0, 0}},
-                {{quarter, 0, quarter}, {0, 0, 1}, {1, 0, 0}}, {{0, quarter, quarter}, {0, 0, 1}, {0, 1, 0}}};
+    } list[] = {{{quarter, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                {{0, quarter, 0}, {0, 0, 1}, {1, 0, 0}},
+                {{0, 0, quarter}, {1, 0, 0}, {0, 1, 0}},
+                {{quarter, quarter, 0}, {0, 1, 0}, {1, 0, 0}},
+                {{quarter, 0, quarter}, {0, 0, 1}, {1, 0, 0}},
+                {{0, quarter, quarter}, {0, 0, 1}, {0, 1, 0}}};
     for (size_t k = 0; k < sizeof list / sizeof list[0]; k++) {
         mps_sim *sim = new_sim(3, 0.1);
         double x[3], angle[3];
@@ -233,7 +249,8 @@ static void beyond_the_table(void **state)
     ASSERT_OK(sim, mps__motion_pose(&sim->world.motion, 2.5 + 5e-10, &pose));
     ASSERT_NEAR(pose.state.value[dof], 0.3, 0);
     ASSERT_REFUSED(sim, mps__motion_pose(&sim->world.motion, 2.501, &pose), MPS_E_STATE, "2.501");
-    ASSERT_REFUSED(sim, mps__motion_pose(&sim->world.motion, 2.501, &pose), MPS_E_STATE, "last row of its table is at 2.5 s");
+    ASSERT_REFUSED(sim, mps__motion_pose(&sim->world.motion, 2.501, &pose), MPS_E_STATE,
+                   "last row of its table is at 2.5 s");
     mps_sim_destroy(sim);
 }
 
@@ -243,7 +260,8 @@ static void table_refusals(void **state)
     mps_sim *sim = new_sim(2, 0.1);
     double t[4] = {0, 1, 2, 3}, y[8] = {0};
     int32_t dof[2] = {MPS_SURGE, MPS_YAW};
-#define REFUSE(word, rows, dofs) ASSERT_REFUSED(sim, mps_motion_table_set(sim, rows, t, dofs, dof, y), MPS_E_ARG, word)
+#define REFUSE(word, rows, dofs) \
+    ASSERT_REFUSED(sim, mps_motion_table_set(sim, rows, t, dofs, dof, y), MPS_E_ARG, word)
     REFUSE("1 rows", 1, 2);
     REFUSE("0 columns", 4, 0);
     REFUSE("7 columns", 4, 7);
@@ -268,7 +286,8 @@ static void table_refusals(void **state)
 #undef REFUSE
     ASSERT_REFUSED(sim, mps_motion_table_set(sim, 4, t, 2, dof, NULL), MPS_E_ARG, "values is NULL");
     t[0] = -2, t[1] = -1.5, t[2] = -1, t[3] = -0.5;
-    ASSERT_REFUSED(sim, mps_motion_table_set(sim, 4, t, 2, dof, y), MPS_E_STATE, "not defined at t = 0");
+    ASSERT_REFUSED(sim, mps_motion_table_set(sim, 4, t, 2, dof, y), MPS_E_STATE,
+                   "not defined at t = 0");
     assert_null(sim->world.motion.fn);
     mps_sim_destroy(sim);
 }
@@ -310,7 +329,8 @@ static void callback_refusals(void **state)
     (void)state;
     mps_sim *sim = new_sim(2, 0.1);
     int how = 1;
-    ASSERT_REFUSED(sim, mps_motion_callback_set(sim, broken, &how), MPS_E_PLUGIN, "surge rate is nan");
+    ASSERT_REFUSED(sim, mps_motion_callback_set(sim, broken, &how), MPS_E_PLUGIN,
+                   "surge rate is nan");
     how = 2;
     ASSERT_REFUSED(sim, mps_motion_callback_set(sim, broken, &how), MPS_E_ARG, "sway value is 0.1");
     how = 3;
@@ -353,13 +373,18 @@ static void roll_turns_the_plane(void **state)
         mps_sim *sim = new_sim(2, 0.1);
         mps_motion_state now = {.struct_size = sizeof now};
         ASSERT_OK(sim, mps_motion_centre_set(sim, centre, MPS_START_AT_REST));
-        ASSERT_OK(sim, mps_motion_harmonics_set(sim, k == 2 ? 2 : 1, k == 0 ? &yaw : k == 1 ? &roll : both));
+        ASSERT_OK(sim, mps_motion_harmonics_set(sim, k == 2 ? 2 : 1,
+                                                k == 0   ? &yaw
+                                                : k == 1 ? &roll
+                                                         : both));
         ASSERT_OK(sim, mps_motion_to_lab(sim, corner, at[k], speed[k]));
         ASSERT_OK(sim, mps_motion_state_get(sim, &now));
         ASSERT_NEAR(now.value[MPS_ROLL] + now.value[MPS_YAW], 0.3 * sin(0.7), 1e-15);
         assert_true((now.value[MPS_ROLL] == 0) == (k == 0));
         ASSERT_OK(sim, mps_motion_clear(sim));
-        ASSERT_REFUSED(sim, mps_motion_harmonics_set(sim, 1, &(mps_harmonic){MPS_PITCH, 0, 0.1, 1, 0}), MPS_E_ARG, "needs 3-D");
+        ASSERT_REFUSED(sim,
+                       mps_motion_harmonics_set(sim, 1, &(mps_harmonic){MPS_PITCH, 0, 0.1, 1, 0}),
+                       MPS_E_ARG, "needs 3-D");
         mps_sim_destroy(sim);
     }
     const double a = 0.3 * sin(0.7), rate = 0.6 * cos(0.7);
@@ -376,11 +401,13 @@ static void roll_turns_the_plane(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(roll_turns_the_plane),
-        cmocka_unit_test(harmonics_are_exact),    cmocka_unit_test(spline_converges),   cmocka_unit_test(spline_is_c2),
-        cmocka_unit_test(point_follows_its_path), cmocka_unit_test(order_of_rotations), cmocka_unit_test(contents_are_carried),
-        cmocka_unit_test(start_with_tank),        cmocka_unit_test(beyond_the_table),   cmocka_unit_test(table_refusals),
-        cmocka_unit_test(harmonic_refusals),      cmocka_unit_test(callback_refusals),  cmocka_unit_test(other_refusals),
+        cmocka_unit_test(roll_turns_the_plane),   cmocka_unit_test(harmonics_are_exact),
+        cmocka_unit_test(spline_converges),       cmocka_unit_test(spline_is_c2),
+        cmocka_unit_test(point_follows_its_path), cmocka_unit_test(order_of_rotations),
+        cmocka_unit_test(contents_are_carried),   cmocka_unit_test(start_with_tank),
+        cmocka_unit_test(beyond_the_table),       cmocka_unit_test(table_refusals),
+        cmocka_unit_test(harmonic_refusals),      cmocka_unit_test(callback_refusals),
+        cmocka_unit_test(other_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

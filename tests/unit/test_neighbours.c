@@ -50,7 +50,9 @@ static void check_row(const cloud *c, const mps_stencil *t, int64_t i, double re
         if (j == i || r2 >= re * re || r2 == 0) continue;
         bool found = false;
         for (int64_t m = t->begin[i]; m < t->end[i]; m++) found = found || t->col[m] == j;
-        if (!found) fail_msg("particle %lld lacks neighbour %lld at %g dp", (long long)i, (long long)j, sqrt(r2) / CLOUD_DP);
+        if (!found)
+            fail_msg("particle %lld lacks neighbour %lld at %g dp", (long long)i, (long long)j,
+                     sqrt(r2) / CLOUD_DP);
         k++;
     }
     assert_int_equal(k, t->end[i]);
@@ -65,11 +67,14 @@ static void check_list(const cloud *c, const mps_neighbours *list)
     for (int which = 0; which < 2; which++) {
         assert_int_equal(mps_neighbours_stencil_get(list, which, &kernel, &t[which]), MPS_OK);
         assert_int_equal(t[which].n, c->n);
-        for (int64_t i = 0; i < c->n; i++) check_row(c, &t[which], i, which ? far_radius : near_radius);
+        for (int64_t i = 0; i < c->n; i++)
+            check_row(c, &t[which], i, which ? far_radius : near_radius);
     }
     for (int64_t i = 0; i < c->n; i++) {
-        for (int64_t k = t[0].begin[i] + 1; k < t[0].end[i]; k++) assert_true(t[0].col[k - 1] < t[0].col[k]);
-        for (int64_t k = t[0].end[i] + 1; k < t[1].end[i]; k++) assert_true(t[1].col[k - 1] < t[1].col[k]);
+        for (int64_t k = t[0].begin[i] + 1; k < t[0].end[i]; k++)
+            assert_true(t[0].col[k - 1] < t[0].col[k]);
+        for (int64_t k = t[0].end[i] + 1; k < t[1].end[i]; k++)
+            assert_true(t[1].col[k - 1] < t[1].col[k]);
     }
 }
 
@@ -146,12 +151,14 @@ static void far_particle(void **state)
         const double beyond[] = {1e10 * CLOUD_DP, -1e10 * CLOUD_DP, 1e300, -1e308};
         for (int k = 0; k < 4; k++) {
             c.x[5 * dim] = beyond[k];
-            assert_int_equal(mps_neighbours_build(list, c.n, c.x, near_radius, far_radius), MPS_E_ARG);
+            assert_int_equal(mps_neighbours_build(list, c.n, c.x, near_radius, far_radius),
+                             MPS_E_ARG);
             assert_non_null(strstr(list->context->error, "axis 0"));
             mps_kernel kernel = {.struct_size = sizeof kernel};
             mps_stencil t = {.struct_size = sizeof t};
             assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
-            assert_int_equal(mps_neighbours_stencil_get(list, MPS_NEAR, &kernel, &t), MPS_E_ARG); /* empty, not half built */
+            assert_int_equal(mps_neighbours_stencil_get(list, MPS_NEAR, &kernel, &t),
+                             MPS_E_ARG); /* empty, not half built */
         }
         mps_neighbours_destroy(list);
         assert_int_equal(m.live, 0);
@@ -196,7 +203,8 @@ static void symmetric_pairs(void **state)
             const int32_t j = list->col[k];
             const bool close = k < list->middle[i];
             bool back = false;
-            for (int64_t m = close ? list->begin[j] : list->middle[j]; m < (close ? list->middle[j] : list->end[j]); m++)
+            for (int64_t m = close ? list->begin[j] : list->middle[j];
+                 m < (close ? list->middle[j] : list->end[j]); m++)
                 back = back || list->col[m] == i;
             assert_true(back);
         }
@@ -253,14 +261,16 @@ static void long_rows(void **state)
     int64_t longest = 0, shortest = c.n;
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
     assert_int_equal(mps_neighbours_build(list, c.n, c.x, near_radius, far_radius), MPS_OK);
-    for (int which = 0; which < 2; which++) assert_int_equal(mps_neighbours_stencil_get(list, which, &kernel, &t[which]), MPS_OK);
+    for (int which = 0; which < 2; which++)
+        assert_int_equal(mps_neighbours_stencil_get(list, which, &kernel, &t[which]), MPS_OK);
     for (int64_t i = 0; i < c.n; i += 13) {
         const int64_t length = t[1].end[i] - t[1].begin[i];
         check_row(&c, &t[0], i, near_radius);
         check_row(&c, &t[1], i, far_radius);
         longest = length > longest ? length : longest;
         shortest = length < shortest ? length : shortest;
-        for (int64_t k = t[1].begin[i] + 1; k < t[1].end[i]; k++) assert_true(k == t[0].end[i] || t[1].col[k - 1] < t[1].col[k]);
+        for (int64_t k = t[1].begin[i] + 1; k < t[1].end[i]; k++)
+            assert_true(k == t[0].end[i] || t[1].col[k - 1] < t[1].col[k]);
     }
     assert_true(longest > 1024 && shortest < 200);
     mps_neighbours_destroy(list);
@@ -301,7 +311,8 @@ static void rows_of_kinds(void **state)
                 assert_int_equal(l.count[i], 0);
             else
                 check_row(&c, &t, i, far_radius);
-            if (kinds && kind[i] == MPS_FLUID && depth > 2 * CLOUD_DP - far_radius) assert_int_equal(l.rim[i], 1);
+            if (kinds && kind[i] == MPS_FLUID && depth > 2 * CLOUD_DP - far_radius)
+                assert_int_equal(l.rim[i], 1);
             if (!kinds || kind[i] != MPS_FLUID) assert_int_equal(l.rim[i], 0);
         }
         assert_int_equal(l.rim[c.n - 1], 0); /* fluid far above the wall */
@@ -363,7 +374,8 @@ static void skin_rows(void **state)
     cloud c = cloud_lattice(2, 25, 25, 1, 0.3, 61);
     assert_int_equal(mps__neighbours_init(&l, &context, 2, CLOUD_DP), MPS_OK);
     assert_int_equal(mps__neighbours_search(&l, c.n, c.x, near_radius, far_radius), MPS_OK);
-    for (int64_t i = 0; i < c.n * 2; i++) c.x[i] += 0.35 * l.skin * cloud_random(&seed); /* at most 0.35 sqrt(2) < 0.5 skins */
+    for (int64_t i = 0; i < c.n * 2; i++)
+        c.x[i] += 0.35 * l.skin * cloud_random(&seed); /* at most 0.35 sqrt(2) < 0.5 skins */
     assert_true(mps__neighbours_fresh(&l, c.n, c.x, far_radius));
     mps__neighbours_rows(&l, c.x);
     check_list(&c, &l);
@@ -410,7 +422,8 @@ static void order_is_permutation(void **state)
         assert_in_range(l.order[k], 0, c.n - 1);
         assert_false(seen[l.order[k]]);
         seen[l.order[k]] = true;
-        assert_true(k == 0 || l.key[k - 1] < l.key[k] || (l.key[k - 1] == l.key[k] && l.order[k - 1] < l.order[k]));
+        assert_true(k == 0 || l.key[k - 1] < l.key[k] ||
+                    (l.key[k - 1] == l.key[k] && l.order[k - 1] < l.order[k]));
     }
     mps__neighbours_free(&l);
     free(seen);

@@ -26,9 +26,12 @@ enum {
     VOLUME_SUM,
     OPS
 };
-static const char *const op_name[OPS] = {
-    "density",          "gradient",  "conservative", "corrected gradient", "divergence", "corrected divergence", "laplacian",
-    "vector laplacian", "asymmetry", "volume",       "volume sum"};
+static const char *const op_name[OPS] = {"density",      "gradient",
+                                         "conservative", "corrected gradient",
+                                         "divergence",   "corrected divergence",
+                                         "laplacian",    "vector laplacian",
+                                         "asymmetry",    "volume",
+                                         "volume sum"};
 
 typedef double (*weight_fn)(double r, double re);
 
@@ -70,7 +73,8 @@ typedef struct bench {
 
 static int components(const bench *s, int op)
 {
-    const bool vector = op == GRADIENT || op == CONSERVATIVE || op == GRADIENT_CORRECTED || op == LAPLACIAN_VECTOR || op == ASYMMETRY;
+    const bool vector = op == GRADIENT || op == CONSERVATIVE || op == GRADIENT_CORRECTED ||
+                        op == LAPLACIAN_VECTOR || op == ASYMMETRY;
     return vector ? s->c.dim : 1;
 }
 
@@ -98,9 +102,11 @@ static void bench_run(bench *s, const mps_stencil *t)
     assert_int_equal(mps_op_number_density(t, s->result[DENSITY]), MPS_OK);
     assert_int_equal(mps_op_gradient(t, s->f, s->result[GRADIENT]), MPS_OK);
     assert_int_equal(mps_op_gradient_conservative(t, s->f, s->result[CONSERVATIVE]), MPS_OK);
-    assert_int_equal(mps_op_gradient_corrected(t, s->b, s->f, s->result[GRADIENT_CORRECTED]), MPS_OK);
+    assert_int_equal(mps_op_gradient_corrected(t, s->b, s->f, s->result[GRADIENT_CORRECTED]),
+                     MPS_OK);
     assert_int_equal(mps_op_divergence(t, s->u, s->result[DIVERGENCE]), MPS_OK);
-    assert_int_equal(mps_op_divergence_corrected(t, s->b, s->u, s->result[DIVERGENCE_CORRECTED]), MPS_OK);
+    assert_int_equal(mps_op_divergence_corrected(t, s->b, s->u, s->result[DIVERGENCE_CORRECTED]),
+                     MPS_OK);
     assert_int_equal(mps_op_laplacian(t, s->f, s->result[LAPLACIAN]), MPS_OK);
     assert_int_equal(mps_op_laplacian_vector(t, s->u, s->result[LAPLACIAN_VECTOR]), MPS_OK);
     assert_int_equal(mps_op_asymmetry(t, s->result[ASYMMETRY]), MPS_OK);
@@ -129,7 +135,8 @@ static void add_pair(const bench *s, int64_t i, int64_t j, double r2, double w, 
         const double rd = s->c.x[j * dim + d] - s->c.x[i * dim + d];
         du[d] = s->u[j * dim + d] - s->u[i * dim + d];
         e[d] = 0;
-        for (int c = 0; c < dim; c++) e[d] += s->b[(i * dim + d) * dim + c] * (s->c.x[j * dim + c] - s->c.x[i * dim + c]);
+        for (int c = 0; c < dim; c++)
+            e[d] += s->b[(i * dim + d) * dim + c] * (s->c.x[j * dim + c] - s->c.x[i * dim + c]);
         rdu += rd * du[d];
         edu += e[d] * du[d];
         add(&t[GRADIENT], d, df * rd / r2 * w);
@@ -187,13 +194,16 @@ static void compare(const bench *s, double re, weight_fn weight)
         for (int op = 0; op < OPS; op++)
             for (int d = 0; d < components(s, op); d++) {
                 const double c = factor(op, s->c.dim, n0, lambda, 1 + s0);
-                const double got = s->result[op][i * components(s, op) + d] + (op == VOLUME); /* a deviation from one */
+                const double got = s->result[op][i * components(s, op) + d] +
+                                   (op == VOLUME); /* a deviation from one */
                 assert_true(isfinite(got));
                 worst[op] = fmax(worst[op], fabs(got - c * t[op].sum[d]) / (c * t[op].largest));
             }
     }
     for (int op = 0; op < OPS; op++) {
-        if (worst[op] > tolerance) print_error("%s, %d-D, re %g dp: off by %g\n", op_name[op], s->c.dim, re / CLOUD_DP, worst[op]);
+        if (worst[op] > tolerance)
+            print_error("%s, %d-D, re %g dp: off by %g\n", op_name[op], s->c.dim, re / CLOUD_DP,
+                        worst[op]);
         assert_true(worst[op] <= tolerance);
     }
 }
@@ -218,7 +228,8 @@ static void check_kernel(bench *s, const mps_kernel *kernel, weight_fn weight)
         t.parallel = &pool.parallel;
         bench_run(&two, &t);
         for (int op = 0; op < OPS; op++)
-            assert_memory_equal(two.result[op], s->result[op], (size_t)(s->c.n * components(s, op)) * sizeof(double));
+            assert_memory_equal(two.result[op], s->result[op],
+                                (size_t)(s->c.n * components(s, op)) * sizeof(double));
     }
     mps_neighbours_destroy(list);
     mps__pool_free(&pool);
@@ -263,7 +274,8 @@ static void moment(const cloud *c, int64_t i, double re, double n0, double m[9])
         for (int a = 0; a < c->dim; a++)
             for (int b = 0; b < c->dim; b++)
                 m[a * c->dim + b] += c->dim / n0 * (c->x[j * c->dim + a] - c->x[i * c->dim + a]) *
-                                     (c->x[j * c->dim + b] - c->x[i * c->dim + b]) / r2 * improved(sqrt(r2), re);
+                                     (c->x[j * c->dim + b] - c->x[i * c->dim + b]) / r2 *
+                                     improved(sqrt(r2), re);
     }
 }
 
@@ -354,7 +366,8 @@ static void kernel_rows(void **state)
 {
     (void)state;
     double r[7], w[7];
-    mps_kernel k[3] = {{.struct_size = sizeof k[0]}, {.struct_size = sizeof k[0]}, {.struct_size = sizeof k[0]}};
+    mps_kernel k[3] = {
+        {.struct_size = sizeof k[0]}, {.struct_size = sizeof k[0]}, {.struct_size = sizeof k[0]}};
     assert_int_equal(mps_kernel_find("improved", &k[0]), MPS_OK);
     assert_int_equal(mps_kernel_find("original", &k[1]), MPS_OK);
     assert_int_equal(mps_kernel_custom(negative_kernel, NULL, &k[2]), MPS_OK);
@@ -375,10 +388,12 @@ static void kernels(void **state)
     double n0 = 0, lambda = 0, n0_oracle, lambda_oracle;
     assert_int_equal(mps_kernel_find("improved", &k), MPS_OK);
     assert_true(fabs(mps_kernel_value(&k, 0, 1) - (1 / 0.15 - 1)) < 1e-14); /* W22 (3) */
-    assert_true(mps_kernel_value(&k, 1, 1) == 0 && mps_kernel_value(&k, 2, 1) == 0 && mps_kernel_value(&k, -1, 1) == 0);
+    assert_true(mps_kernel_value(&k, 1, 1) == 0 && mps_kernel_value(&k, 2, 1) == 0 &&
+                mps_kernel_value(&k, -1, 1) == 0);
     for (int dim = 2; dim <= 3; dim++) {
         lattice(dim, 4.1 * CLOUD_DP, improved, &n0_oracle, &lambda_oracle);
-        assert_int_equal(mps_lattice_constants(&k, dim, CLOUD_DP, 4.1 * CLOUD_DP, &n0, &lambda), MPS_OK);
+        assert_int_equal(mps_lattice_constants(&k, dim, CLOUD_DP, 4.1 * CLOUD_DP, &n0, &lambda),
+                         MPS_OK);
         assert_true(fabs(n0 / n0_oracle - (1)) < 1e-13);
         assert_true(fabs(lambda / lambda_oracle - (1)) < 1e-13);
     }
@@ -417,11 +432,11 @@ static void refuse_all(const mps_stencil *t, const double *in, double *out)
     assert_int_equal(mps_op_volume_sum(t, in, out), MPS_E_ARG);
 }
 
-#define TOLD(list, call, word)                                                                                            \
-    do {                                                                                                                  \
-        assert_int_equal(call, MPS_E_ARG);                                                                                \
-        if (!strstr(mps_neighbours_error(list), (word)))                                                                  \
-            fail_msg("\"%s\" does not mention \"%s\"", mps_neighbours_error(list), (word));                               \
+#define TOLD(list, call, word)                                                              \
+    do {                                                                                    \
+        assert_int_equal(call, MPS_E_ARG);                                                  \
+        if (!strstr(mps_neighbours_error(list), (word)))                                    \
+            fail_msg("\"%s\" does not mention \"%s\"", mps_neighbours_error(list), (word)); \
     } while (0)
 
 /* The list tells which argument of an operator is wrong, and what is allowed. */
@@ -430,7 +445,8 @@ static void refuse_told(mps_neighbours *list, const mps_stencil *t, const double
     mps_stencil bad;
     TOLD(list, mps_op_gradient(t, NULL, out), "mps_op_gradient(): f is NULL");
     TOLD(list, mps_op_gradient(t, in, NULL), "grad is NULL");
-    TOLD(list, mps_op_divergence_corrected(t, NULL, in, out), "mps_op_divergence_corrected(): b is NULL");
+    TOLD(list, mps_op_divergence_corrected(t, NULL, in, out),
+         "mps_op_divergence_corrected(): b is NULL");
     TOLD(list, mps_op_volume_sum(t, out, out), "f and sum are the same array");
     TOLD(list, mps_op_correction(t, NAN, out), "mps_op_correction(): floor is nan: must be > 0");
     bad = *t, bad.dim = 4;
@@ -446,10 +462,13 @@ static void refuse_told(mps_neighbours *list, const mps_stencil *t, const double
     bad = *t, bad.kernel.id = 9;
     TOLD(list, mps_op_number_density(&bad, out), "stencil.kernel.id is 9");
     TOLD(list, mps_neighbours_build(list, 4, NULL, 2.1, 2.1), "x is NULL");
-    TOLD(list, mps_neighbours_build(list, 4, (const double[]){0, 0, 1, NAN, 0, 0, 0, 0}, 2.1, 2.1), "x of particle 1, axis 1 is nan");
-    TOLD(list, mps_neighbours_build(list, 4, in, 2.1, 1), "re_far is 1 m: must be finite and at least re_near = 2.1 m");
+    TOLD(list, mps_neighbours_build(list, 4, (const double[]){0, 0, 1, NAN, 0, 0, 0, 0}, 2.1, 2.1),
+         "x of particle 1, axis 1 is nan");
+    TOLD(list, mps_neighbours_build(list, 4, in, 2.1, 1),
+         "re_far is 1 m: must be finite and at least re_near = 2.1 m");
     TOLD(list, mps_neighbours_stencil_get(list, MPS_NEAR, &t->kernel, &bad), "the list is empty");
-    assert_int_equal(mps_neighbours_build(list, 4, (const double[]){0, 0, 1, 0, 0, 1, 1, 1}, 2.1, 2.1), MPS_OK);
+    assert_int_equal(
+        mps_neighbours_build(list, 4, (const double[]){0, 0, 1, 0, 0, 1, 1, 1}, 2.1, 2.1), MPS_OK);
     TOLD(list, mps_neighbours_stencil_get(list, 7, &t->kernel, &bad), "which is 7");
 }
 
@@ -462,7 +481,8 @@ static void bad_arguments(void **state)
     mps_neighbours *list = NULL;
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
     assert_int_equal(mps_neighbours_create(2, 1, NULL, &list), MPS_OK);
-    assert_int_equal(mps_neighbours_stencil_get(list, MPS_NEAR, &kernel, &t), MPS_E_ARG); /* nothing built yet */
+    assert_int_equal(mps_neighbours_stencil_get(list, MPS_NEAR, &kernel, &t),
+                     MPS_E_ARG); /* nothing built yet */
     assert_int_equal(mps_neighbours_build(list, 4, x, 2.1, 2.1), MPS_OK);
     assert_int_equal(mps_neighbours_stencil_get(list, 2, &kernel, &t), MPS_E_ARG);
     assert_int_equal(mps_neighbours_stencil_get(list, MPS_NEAR, NULL, &t), MPS_E_ARG);
@@ -551,9 +571,15 @@ static void stretched_lattice(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(oracle_2d),        cmocka_unit_test(oracle_3d),   cmocka_unit_test(correction_inverts),
-        cmocka_unit_test(correction_floor), cmocka_unit_test(kernels),     cmocka_unit_test(bad_arguments),
-        cmocka_unit_test(lone_particles),   cmocka_unit_test(kernel_rows), cmocka_unit_test(stretched_lattice),
+        cmocka_unit_test(oracle_2d),
+        cmocka_unit_test(oracle_3d),
+        cmocka_unit_test(correction_inverts),
+        cmocka_unit_test(correction_floor),
+        cmocka_unit_test(kernels),
+        cmocka_unit_test(bad_arguments),
+        cmocka_unit_test(lone_particles),
+        cmocka_unit_test(kernel_rows),
+        cmocka_unit_test(stretched_lattice),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -42,7 +42,8 @@ static void count_part(void *argument, int32_t part)
 
 static void check_tally(tally *t, int32_t parts, int times)
 {
-    for (int32_t k = 0; k < MOST_PARTS; k++) assert_int_equal(atomic_exchange(&t->called[k], 0), k < parts ? times : 0);
+    for (int32_t k = 0; k < MOST_PARTS; k++)
+        assert_int_equal(atomic_exchange(&t->called[k], 0), k < parts ? times : 0);
 }
 
 static void each_part_once(void **state)
@@ -213,7 +214,8 @@ static void rows_and_sums(void **state)
             memset(marks, 0, ROWS + 1);
             mps_parallel_rows(&pool.parallel, n, mark_rows, marks);
             for (int64_t i = 0; i <= ROWS; i++) assert_int_equal(marks[i], i < n);
-            mps_parallel_reduce(&pool.parallel, n, sum_rows, x, &(mps_parallel_values){2, 2, values});
+            mps_parallel_reduce(&pool.parallel, n, sum_rows, x,
+                                &(mps_parallel_values){2, 2, values});
             if (threads == 1) {
                 memcpy(one, values, sizeof one);
                 first = mps__parallel_first(NULL, n, is_large, x);
@@ -223,7 +225,8 @@ static void rows_and_sums(void **state)
             assert_int_equal(mps__parallel_first(&pool.parallel, n, is_large, x), first);
             assert_int_equal(mps__parallel_count(&pool.parallel, n, is_large, x), count);
             for (int64_t i = 0; i < ROWS; i++) zeros[i] = 1;
-            const mps__block blocks[] = {{zeros, n / 2}, {zeros + n / 2, 0}, {zeros + n / 2, n - n / 2}};
+            const mps__block blocks[] = {
+                {zeros, n / 2}, {zeros + n / 2, 0}, {zeros + n / 2, n - n / 2}};
             mps__parallel_zero(&pool.parallel, blocks, 3);
             for (int64_t i = 0; i < ROWS; i++) assert_true(zeros[i] == (i < n ? 0 : 1));
             mps__parallel_copy(&pool.parallel, zeros, x, n);
@@ -290,7 +293,8 @@ static void host_and_pool_agree(void **state)
     assert_true(host.threads == 1 && !host.run);
     host.run = run_backwards;
     host.user = &calls;
-    mps_sim *one = shaken_pool(1, NULL), *four = shaken_pool(4, NULL), *hosted = shaken_pool(2, &host);
+    mps_sim *one = shaken_pool(1, NULL), *four = shaken_pool(4, NULL),
+            *hosted = shaken_pool(2, &host);
     assert_non_null(run_shortly(one));
     assert_non_null(run_shortly(four));
     assert_non_null(run_shortly(hosted));
@@ -318,7 +322,8 @@ static void two_handles(void **state)
     (void)state;
     mps_sim *sim[] = {shaken_pool(2, NULL), shaken_pool(3, NULL)}, *one = shaken_pool(1, NULL);
     pthread_t thread[2];
-    for (int k = 0; k < 2; k++) assert_int_equal(pthread_create(&thread[k], NULL, run_shortly, sim[k]), 0);
+    for (int k = 0; k < 2; k++)
+        assert_int_equal(pthread_create(&thread[k], NULL, run_shortly, sim[k]), 0);
     for (int k = 0; k < 2; k++) {
         void *done = NULL;
         assert_int_equal(pthread_join(thread[k], &done), 0);

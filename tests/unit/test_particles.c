@@ -72,7 +72,8 @@ static void add_and_read(void **state)
     assert_int_equal(mps_particles_count(sim, MPS_WALL), 1);
     ASSERT_OK(sim, tags_peek(sim, NULL, &kinds, &phases, &parts));
     const int64_t at = mps_particle_index(sim, 3);
-    assert_true(kinds[at] == MPS_WALL && phases[at] == 0 && parts[at] == mps_part_find(sim, "floor"));
+    assert_true(kinds[at] == MPS_WALL && phases[at] == 0 &&
+                parts[at] == mps_part_find(sim, "floor"));
     assert_true(parts[mps_particle_index(sim, 0)] == -1 && mps_part_find(sim, "ceiling") == -1);
     mps_sim_destroy(sim);
 }
@@ -83,7 +84,8 @@ static void add_refused(void **state)
     (void)state;
     mps_sim *sim = pool();
     const int64_t n = mps_particles_count(sim, -1);
-    const double x[4] = {0.1, 0.4, 0.2, 0.4}, bad[4] = {0.1, 0.4, NAN, 0.4}, infinite[4] = {0.1, -INFINITY, 0.2, 0.4};
+    const double x[4] = {0.1, 0.4, 0.2, 0.4}, bad[4] = {0.1, 0.4, NAN, 0.4},
+                 infinite[4] = {0.1, -INFINITY, 0.2, 0.4};
     mps_particle_block b = block_of(0, x);
     ASSERT_REFUSED(sim, mps_particles_add(sim, &b, NULL), MPS_E_ARG, "count is 0");
     b = block_of(-5, x);
@@ -91,9 +93,11 @@ static void add_refused(void **state)
     b = block_of(2, NULL);
     ASSERT_REFUSED(sim, mps_particles_add(sim, &b, NULL), MPS_E_ARG, "position");
     b = block_of(2, bad);
-    ASSERT_REFUSED(sim, mps_particles_add(sim, &b, NULL), MPS_E_ARG, "position of particle 1, axis 0 is");
+    ASSERT_REFUSED(sim, mps_particles_add(sim, &b, NULL), MPS_E_ARG,
+                   "position of particle 1, axis 0 is");
     b = block_of(2, infinite);
-    ASSERT_REFUSED(sim, mps_particles_add(sim, &b, NULL), MPS_E_ARG, "position of particle 0, axis 1 is -inf");
+    ASSERT_REFUSED(sim, mps_particles_add(sim, &b, NULL), MPS_E_ARG,
+                   "position of particle 0, axis 1 is -inf");
     b = block_of(2, x), b.velocity = bad;
     ASSERT_REFUSED(sim, mps_particles_add(sim, &b, NULL), MPS_E_ARG, "velocity of particle 1");
     b = block_of(2, x), b.phase = 1;
@@ -122,9 +126,11 @@ static void overlap_refused(void **state)
     mps_sim *sim = pool();
     const int64_t n = mps_particles_count(sim, -1);
     int64_t id = -7;
-    const double inside[6] = {0.1, 0.4, 0.2, 0.4, 0.2 + 0.09 * dp, 0.4}, apart[4] = {0.2, 0.4, 0.2 + 0.11 * dp, 0.4};
+    const double inside[6] = {0.1, 0.4, 0.2, 0.4, 0.2 + 0.09 * dp, 0.4},
+                 apart[4] = {0.2, 0.4, 0.2 + 0.11 * dp, 0.4};
     mps_particle_block b = block_of(3, inside);
-    ASSERT_REFUSED(sim, mps_particles_add(sim, &b, &id), MPS_E_ARG, "within 0.1 dp of its particle");
+    ASSERT_REFUSED(sim, mps_particles_add(sim, &b, &id), MPS_E_ARG,
+                   "within 0.1 dp of its particle");
     const double on_fluid[2] = {0.1, 0.1}, on_wall[2] = {0, 0.4};
     b = block_of(1, on_fluid);
     ASSERT_REFUSED(sim, mps_particles_add(sim, &b, &id), MPS_E_ARG, "within 0.1 dp of particle");
@@ -195,7 +201,8 @@ static void remove_refused(void **state)
 {
     (void)state;
     mps_sim *sim = pool();
-    const int64_t n = mps_particles_count(sim, -1), twice[3] = {1, 2, 1}, unknown[2] = {1, 999}, negative[1] = {-1}, one[1] = {5};
+    const int64_t n = mps_particles_count(sim, -1), twice[3] = {1, 2, 1}, unknown[2] = {1, 999},
+                  negative[1] = {-1}, one[1] = {5};
     ASSERT_REFUSED(sim, mps_particles_remove(sim, 3, twice), MPS_E_ARG, "id 1 ");
     ASSERT_REFUSED(sim, mps_particles_remove(sim, 2, unknown), MPS_E_ARG, "id 999 ");
     ASSERT_REFUSED(sim, mps_particles_remove(sim, 1, negative), MPS_E_ARG, "id -1 ");
@@ -246,7 +253,8 @@ static void lease_conflicts(void **state)
 {
     (void)state;
     mps_sim *sim = pool();
-    mps_lease a = {.struct_size = sizeof a}, b = {.struct_size = sizeof b}, c = {.struct_size = sizeof c};
+    mps_lease a = {.struct_size = sizeof a}, b = {.struct_size = sizeof b},
+              c = {.struct_size = sizeof c};
     ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_READ, &a));
     ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_READ, &b));
     assert_ptr_equal(a.data, b.data);
@@ -275,7 +283,8 @@ static void lease_refused(void **state)
     mps_sim *sim = pool();
     mps_lease a = {.struct_size = sizeof a};
     ASSERT_REFUSED(sim, mps_lease_begin(sim, "presure", MPS_READ, &a), MPS_E_NAME, "'pressure'");
-    ASSERT_REFUSED(sim, mps_lease_begin(sim, "held", MPS_READ, &a), MPS_E_NAME, "held"); /* private */
+    ASSERT_REFUSED(sim, mps_lease_begin(sim, "held", MPS_READ, &a), MPS_E_NAME,
+                   "held"); /* private */
     ASSERT_REFUSED(sim, mps_lease_begin(sim, "pressure", 2, &a), MPS_E_ARG, "mode is 2");
     ASSERT_REFUSED(sim, mps_lease_begin(sim, NULL, MPS_READ, &a), MPS_E_ARG, "NULL");
     ASSERT_REFUSED(sim, mps_lease_begin(sim, "pressure", MPS_READ, NULL), MPS_E_ARG, "NULL");
@@ -312,7 +321,8 @@ static void lease_blocks(void **state)
         ASSERT_STATUS(sim, mps_motion_clear(sim), MPS_E_BUSY);
         assert_int_equal(mps_phase_init(&phase, sizeof phase), MPS_OK);
         ASSERT_STATUS(sim, mps_phase_set(sim, 1, &phase), MPS_E_BUSY);
-        ASSERT_STATUS(sim, mps_stencil_get(sim, MPS_NEAR, &s), mode == MPS_READ ? MPS_OK : MPS_E_BUSY);
+        ASSERT_STATUS(sim, mps_stencil_get(sim, MPS_NEAR, &s),
+                      mode == MPS_READ ? MPS_OK : MPS_E_BUSY);
         assert_true(mode == MPS_WRITE || (s.n == n && s.x == lease.data));
         ASSERT_OK(sim, mps_lease_end(sim, &lease));
     }
@@ -396,7 +406,9 @@ static void stencil_of_moved(double shift, bool look, double *after)
         ASSERT_OK(sim, mps_stencil_get(sim, MPS_NEAR, &s));
         for (int64_t i = 0; i < s.n; i++) {
             int64_t pairs = 0;
-            for (int64_t j = 0; j < s.n; j++) pairs += j != i && hypot(s.x[2 * j] - s.x[2 * i], s.x[2 * j + 1] - s.x[2 * i + 1]) < s.re;
+            for (int64_t j = 0; j < s.n; j++)
+                pairs += j != i &&
+                         hypot(s.x[2 * j] - s.x[2 * i], s.x[2 * j + 1] - s.x[2 * i + 1]) < s.re;
             assert_int_equal(s.end[i] - s.begin[i], pairs);
         }
         assert_memory_equal(before, ids, (size_t)lease.count * sizeof *ids);
@@ -411,7 +423,8 @@ static void stencil_under_lease(void **state)
 {
     (void)state;
     double seen[2000], unseen[2000];
-    for (int far = 0; far < 2; far++) { /* within half the skin of 0.25 dp, and beyond: a new search */
+    for (int far = 0; far < 2;
+         far++) { /* within half the skin of 0.25 dp, and beyond: a new search */
         memset(seen, 0, sizeof seen);
         memset(unseen, 0, sizeof unseen);
         stencil_of_moved(far ? 0.3 : 0.1, true, seen);
@@ -433,7 +446,8 @@ static void field_refused(void **state)
     ASSERT_REFUSED(sim, mps_field_add(sim, "mine", 10), MPS_E_ARG, "components is 10");
     ASSERT_REFUSED(sim, mps_field_add(sim, "", 1), MPS_E_ARG, "1..31");
     ASSERT_REFUSED(sim, mps_field_add(sim, NULL, 1), MPS_E_ARG, "1..31");
-    ASSERT_REFUSED(sim, mps_field_add(sim, "a name of more than thirty-one letters", 1), MPS_E_ARG, "1..31");
+    ASSERT_REFUSED(sim, mps_field_add(sim, "a name of more than thirty-one letters", 1), MPS_E_ARG,
+                   "1..31");
     assert_int_equal(mps_field_add(NULL, "mine", 1), MPS_E_ARG);
     mps_status status = MPS_OK;
     for (int k = 0; k < 40 && status == MPS_OK; k++) {
@@ -491,7 +505,8 @@ static void field_travels(void **state)
     for (int64_t id = 0; id < n; id++) assert_true(mine[id] == (double)id);
     assert_true(mine[n] == 0);
     by_id(sim, "position", 0, x);
-    for (int64_t id = 0; id < n; id++) assert_true(fabs(x[id] - x0[id]) < 0.1 * dp); /* ids are still the same particles */
+    for (int64_t id = 0; id < n; id++)
+        assert_true(fabs(x[id] - x0[id]) < 0.1 * dp); /* ids are still the same particles */
     mps_sim_destroy(sim);
 }
 
@@ -505,7 +520,8 @@ static void leases_of_tags(void **state)
     mps_lease l[6];
     for (int k = 0; k < 6; k++) {
         assert_int_equal(mps_lease_init(&l[k], sizeof l[k]), MPS_OK);
-        ASSERT_REFUSED(sim, mps_lease_begin(sim, names[k], MPS_WRITE, &l[k]), MPS_E_ARG, "cannot be written");
+        ASSERT_REFUSED(sim, mps_lease_begin(sim, names[k], MPS_WRITE, &l[k]), MPS_E_ARG,
+                       "cannot be written");
         ASSERT_OK(sim, mps_lease_begin(sim, names[k], MPS_READ, &l[k]));
         assert_true(l[k].count == n && l[k].stride == 1 && !l[k].data);
         assert_int_equal(l[k].type, k == 0 ? MPS_DATA_INT64 : MPS_DATA_INT32);
@@ -513,27 +529,32 @@ static void leases_of_tags(void **state)
     }
     for (int64_t i = 0; i < n; i++) {
         assert_int_equal(mps_particle_index(sim, l[0].ids[i]), i);
-        assert_true(l[1].integers[i] >= MPS_FLUID && l[1].integers[i] <= MPS_DUMMY && l[5].integers[i] == 0);
+        assert_true(l[1].integers[i] >= MPS_FLUID && l[1].integers[i] <= MPS_DUMMY &&
+                    l[5].integers[i] == 0);
     }
     ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_BUSY, "6 lease(s) are open");
     for (int k = 0; k < 6; k++) {
         ASSERT_OK(sim, mps_lease_end(sim, &l[k]));
-        assert_true(l[k].struct_size == sizeof l[k] && l[k].count == 0 && !l[k].integers && !l[k].ids);
+        assert_true(l[k].struct_size == sizeof l[k] && l[k].count == 0 && !l[k].integers &&
+                    !l[k].ids);
         ASSERT_REFUSED(sim, mps_lease_end(sim, &l[k]), MPS_E_ARG, "not open");
     }
-    ASSERT_REFUSED(sim, mps_lease_begin(sim, "wall_of", MPS_READ, &l[0]), MPS_E_NAME, "no field 'wall_of'");
+    ASSERT_REFUSED(sim, mps_lease_begin(sim, "wall_of", MPS_READ, &l[0]), MPS_E_NAME,
+                   "no field 'wall_of'");
     mps_sim_destroy(sim);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(leases_of_tags),
-        cmocka_unit_test(add_and_read),        cmocka_unit_test(add_refused),      cmocka_unit_test(overlap_refused),
-        cmocka_unit_test(crowd_refused),       cmocka_unit_test(coincident_walls), cmocka_unit_test(remove_by_id),
-        cmocka_unit_test(remove_refused),      cmocka_unit_test(remove_all),       cmocka_unit_test(queries),
-        cmocka_unit_test(lease_conflicts),     cmocka_unit_test(lease_refused),    cmocka_unit_test(lease_blocks),
-        cmocka_unit_test(written_values),      cmocka_unit_test(field_refused),    cmocka_unit_test(field_travels),
+        cmocka_unit_test(leases_of_tags),      cmocka_unit_test(add_and_read),
+        cmocka_unit_test(add_refused),         cmocka_unit_test(overlap_refused),
+        cmocka_unit_test(crowd_refused),       cmocka_unit_test(coincident_walls),
+        cmocka_unit_test(remove_by_id),        cmocka_unit_test(remove_refused),
+        cmocka_unit_test(remove_all),          cmocka_unit_test(queries),
+        cmocka_unit_test(lease_conflicts),     cmocka_unit_test(lease_refused),
+        cmocka_unit_test(lease_blocks),        cmocka_unit_test(written_values),
+        cmocka_unit_test(field_refused),       cmocka_unit_test(field_travels),
         cmocka_unit_test(stencil_under_lease), cmocka_unit_test(links_follow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -106,7 +106,8 @@ static void edge_is_a_post(void **state)
         after_edge(dim, above, down, v);
         assert_true(fabs(v[0]) < 1e-12 && fabs(v[1]) < 1e-12);
         after_edge(dim, above, past, v);
-        assert_true(fabs(v[0] - 2) < 1e-12 && fabs(v[1]) < 1e-12 && (dim == 2 || fabs(v[2] - 0.5) < 1e-12));
+        assert_true(fabs(v[0] - 2) < 1e-12 && fabs(v[1]) < 1e-12 &&
+                    (dim == 2 || fabs(v[2] - 0.5) < 1e-12));
         after_edge(dim, aslant, down, v);
         assert_true(fabs(v[0] - 0.5) < 1e-12 && fabs(v[1] + 0.5) < 1e-12);
         after_edge(dim, above, up, v);
@@ -179,7 +180,8 @@ static double thrown(mps_sim *sim, const corner *c, const double *x, const doubl
         mps_lease p = {.struct_size = sizeof p};
         ASSERT_OK(sim, mps_step(sim, 1, NULL));
         ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &p));
-        for (int d = 0; d < c->dim; d++) at[d] = p.data[mps_particle_index(sim, id) * c->dim + d] / dp;
+        for (int d = 0; d < c->dim; d++)
+            at[d] = p.data[mps_particle_index(sim, id) * c->dim + d] / dp;
         deepest = fmax(deepest, depth_in(c, at));
         ASSERT_OK(sim, mps_lease_end(sim, &p));
     }
@@ -194,13 +196,15 @@ static void stays_out(const corner *c, int throws)
     double *random = cloud_field((int64_t)throws * 6, 7), x[3], u[3];
     for (int k = 0; k < throws; k++) {
         for (int d = 0; d < 3; d++) {
-            const double place = 0.5 + 0.5 * random[6 * k + d], speed = random[6 * k + 3 + d]; /* 0..1, -1..1 */
+            const double place = 0.5 + 0.5 * random[6 * k + d],
+                         speed = random[6 * k + 3 + d]; /* 0..1, -1..1 */
             x[d] = c->at[d] + (c->side[d] != 0 ? c->side[d] * (0.1 + 0.45 * place) : place);
             u[d] = 0.2 * (c->side[d] != 0 ? c->side[d] * fmin(speed, 0.1) : speed);
         }
         const double deepest = thrown(sim, c, x, u);
         if (deepest > 0)
-            fail_msg("%d-D: from (%g, %g, %g) by (%g, %g, %g) it got %g dp deep", c->dim, x[0], x[1], x[2], u[0], u[1], u[2], deepest);
+            fail_msg("%d-D: from (%g, %g, %g) by (%g, %g, %g) it got %g dp deep", c->dim, x[0],
+                     x[1], x[2], u[0], u[1], u[2], deepest);
     }
     free(random);
     mps_sim_destroy(sim);
@@ -215,9 +219,16 @@ static void corners_are_closed(void **state)
         {2, {3, 0, 0}, {7, 4, 0}, {7, 0, 0}, {1, 1, 0}, {0}},     /* behind it */
         {2, {6, 2, 0}, {10, 6, 0}, {10, 6, 0}, {-1, 1, 0}, {0}},  /* on a shelf */
         {2, {6, 2, 0}, {10, 6, 0}, {10, 2, 0}, {-1, -1, 0}, {0}}, /* under it */
-        {3, {3, 0, 0}, {7, 4, 6}, {3, 0, 2}, {-1, 1, 0}, {0}},    /* the same, along an edge and in corners of three faces */
-        {3, {3, 0, 0}, {7, 4, 6}, {7, 0, 6}, {1, 1, -1}, {0}},    {3, {3, 0, 0}, {7, 4, 6}, {5, 4, 0}, {0, 1, 1}, {0}},
-        {3, {6, 2, 0}, {10, 6, 6}, {10, 6, 0}, {-1, 1, 1}, {0}},  {3, {6, 2, 0}, {10, 6, 6}, {10, 2, 6}, {-1, -1, -1}, {0}},
+        {3,
+         {3, 0, 0},
+         {7, 4, 6},
+         {3, 0, 2},
+         {-1, 1, 0},
+         {0}}, /* the same, along an edge and in corners of three faces */
+        {3, {3, 0, 0}, {7, 4, 6}, {7, 0, 6}, {1, 1, -1}, {0}},
+        {3, {3, 0, 0}, {7, 4, 6}, {5, 4, 0}, {0, 1, 1}, {0}},
+        {3, {6, 2, 0}, {10, 6, 6}, {10, 6, 0}, {-1, 1, 1}, {0}},
+        {3, {6, 2, 0}, {10, 6, 6}, {10, 2, 6}, {-1, -1, -1}, {0}},
     };
     for (size_t k = 0; k < sizeof c / sizeof c[0]; k++) stays_out(&c[k], c[k].dim == 2 ? 200 : 40);
 }
@@ -226,9 +237,12 @@ static void corners_are_closed(void **state)
 static void edges_are_closed(void **state)
 {
     (void)state;
-    const corner c[] = {{.dim = 2, .at = {0, 0}, .side = {1, 1}},       {.dim = 2, .at = {10, 8}, .side = {-1, -1}},
-                        {.dim = 3, .at = {0, 0, 2}, .side = {1, 1, 0}}, {.dim = 3, .at = {10, 4, 6}, .side = {-1, 0, -1}},
-                        {.dim = 3, .at = {0, 0, 0}, .side = {1, 1, 1}}, {.dim = 3, .at = {10, 8, 0}, .side = {-1, -1, 1}}};
+    const corner c[] = {{.dim = 2, .at = {0, 0}, .side = {1, 1}},
+                        {.dim = 2, .at = {10, 8}, .side = {-1, -1}},
+                        {.dim = 3, .at = {0, 0, 2}, .side = {1, 1, 0}},
+                        {.dim = 3, .at = {10, 4, 6}, .side = {-1, 0, -1}},
+                        {.dim = 3, .at = {0, 0, 0}, .side = {1, 1, 1}},
+                        {.dim = 3, .at = {10, 8, 0}, .side = {-1, -1, 1}}};
     for (size_t k = 0; k < sizeof c / sizeof c[0]; k++) stays_out(&c[k], c[k].dim == 2 ? 200 : 100);
 }
 
@@ -236,14 +250,15 @@ static void edges_are_closed(void **state)
 static void feet_are_closed(void **state)
 {
     (void)state;
-    const corner c[] = {{.dim = 2, .lo = {5.38}, .at = {5.38, 0}, .side = {-1, 1}, .plate = {-2.4, 3.2}},
-                        {.dim = 2, .lo = {4.75}, .at = {4.75, 0}, .side = {-1, 1}, .plate = {2.1, 3.8}},
-                        {.dim = 2, .lo = {5.38}, .at = {5.18, 0}, .side = {-1, 1}, .plate = {-3, 2.6}},
-                        {.dim = 2, .lo = {4.75}, .at = {4.75, 0}, .side = {1, 1}, .plate = {2.1, 3.8}},
-                        {.dim = 3, .lo = {5.38}, .at = {5.38, 0, 3}, .side = {-1, 1, 0}, .plate = {-2.4, 3.2}},
-                        {.dim = 3, .lo = {4.75}, .at = {4.75, 0, 3}, .side = {-1, 1, 0}, .plate = {2.1, 3.8}},
-                        {.dim = 3, .lo = {4.75}, .at = {4.75, 0, 0}, .side = {-1, 1, 1}, .plate = {2.1, 3.8}},
-                        {.dim = 3, .lo = {4.75}, .at = {4.75, 0, 6}, .side = {1, 1, -1}, .plate = {2.1, 3.8}}};
+    const corner c[] = {
+        {.dim = 2, .lo = {5.38}, .at = {5.38, 0}, .side = {-1, 1}, .plate = {-2.4, 3.2}},
+        {.dim = 2, .lo = {4.75}, .at = {4.75, 0}, .side = {-1, 1}, .plate = {2.1, 3.8}},
+        {.dim = 2, .lo = {5.38}, .at = {5.18, 0}, .side = {-1, 1}, .plate = {-3, 2.6}},
+        {.dim = 2, .lo = {4.75}, .at = {4.75, 0}, .side = {1, 1}, .plate = {2.1, 3.8}},
+        {.dim = 3, .lo = {5.38}, .at = {5.38, 0, 3}, .side = {-1, 1, 0}, .plate = {-2.4, 3.2}},
+        {.dim = 3, .lo = {4.75}, .at = {4.75, 0, 3}, .side = {-1, 1, 0}, .plate = {2.1, 3.8}},
+        {.dim = 3, .lo = {4.75}, .at = {4.75, 0, 0}, .side = {-1, 1, 1}, .plate = {2.1, 3.8}},
+        {.dim = 3, .lo = {4.75}, .at = {4.75, 0, 6}, .side = {1, 1, -1}, .plate = {2.1, 3.8}}};
     for (size_t k = 0; k < sizeof c / sizeof c[0]; k++) stays_out(&c[k], c[k].dim == 2 ? 200 : 100);
 }
 
@@ -265,7 +280,8 @@ static void shift_keeps_off(void **state)
             u[i * dim + 1] = 0;
         }
         add_tank(sim, 14 * dp, 8 * dp, 10 * dp);
-        const int64_t first = mps_particles_count(sim, MPS_WALL) + mps_particles_count(sim, MPS_DUMMY);
+        const int64_t first = mps_particles_count(sim, MPS_WALL) +
+                              mps_particles_count(sim, MPS_DUMMY);
         add_cloud(sim, &c, phase, u);
         ASSERT_OK(sim, mps_model_use(sim, "shift.tangential"));
         ASSERT_OK(sim, mps_step(sim, 1, NULL));
@@ -291,7 +307,8 @@ static void shift_keeps_off(void **state)
 static void out_of_the_wall(void **state)
 {
     (void)state;
-    static const double places[][3] = {{-0.3, 5.4, 3.1}, {10.3, 4.9, 3.1}, {4.6, -0.2, 3.1}, {0.02, 5.3, 3.1}};
+    static const double places[][3] = {
+        {-0.3, 5.4, 3.1}, {10.3, 4.9, 3.1}, {4.6, -0.2, 3.1}, {0.02, 5.3, 3.1}};
     for (int dim = 2; dim <= 3; dim++)
         for (size_t k = 0; k < sizeof places / sizeof places[0]; k++) {
             const double dp = CLOUD_DP;
@@ -333,7 +350,8 @@ static void order(void **state)
     for (int dim = 2; dim <= 3; dim++) {
         cloud c = crowd(dim), mixed = cloud_empty(dim, c.n);
         int32_t *phase = two_phases(c.n), *other = cloud_phases(c.n);
-        double *u = cloud_field(c.n * dim, 5), *w = cloud_doubles(c.n * dim), *v = after(&c, phase, u);
+        double *u = cloud_field(c.n * dim, 5), *w = cloud_doubles(c.n * dim),
+               *v = after(&c, phase, u);
         for (int64_t i = 0; i < c.n; i++) {
             const int64_t to = (i * 1009 + 17) % c.n; /* 1009 is prime and divides neither n */
             memcpy(mixed.x + to * dim, c.x + i * dim, (size_t)dim * sizeof(double));
@@ -342,7 +360,8 @@ static void order(void **state)
         }
         double *back = after(&mixed, other, w);
         for (int64_t i = 0; i < c.n; i++)
-            for (int d = 0; d < dim; d++) ASSERT_NEAR(back[(i * 1009 + 17) % c.n * dim + d], v[i * dim + d], 1e-14);
+            for (int d = 0; d < dim; d++)
+                ASSERT_NEAR(back[(i * 1009 + 17) % c.n * dim + d], v[i * dim + d], 1e-14);
         cloud_free(&c);
         cloud_free(&mixed);
         free(phase);
@@ -356,9 +375,14 @@ static void order(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(momentum),           cmocka_unit_test(lone_pair),        cmocka_unit_test(edge_is_a_post),
-        cmocka_unit_test(corners_are_closed), cmocka_unit_test(edges_are_closed), cmocka_unit_test(feet_are_closed),
-        cmocka_unit_test(shift_keeps_off),    cmocka_unit_test(out_of_the_wall),  cmocka_unit_test(order)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(momentum),
+                                       cmocka_unit_test(lone_pair),
+                                       cmocka_unit_test(edge_is_a_post),
+                                       cmocka_unit_test(corners_are_closed),
+                                       cmocka_unit_test(edges_are_closed),
+                                       cmocka_unit_test(feet_are_closed),
+                                       cmocka_unit_test(shift_keeps_off),
+                                       cmocka_unit_test(out_of_the_wall),
+                                       cmocka_unit_test(order)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

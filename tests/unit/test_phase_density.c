@@ -16,9 +16,13 @@ typedef struct block {
 
 static block block_make(int dim, double jitter)
 {
-    block b = {.c = dim == 2 ? cloud_lattice(2, 18, 21, 1, jitter, 6) : cloud_lattice(3, 8, 12, 8, jitter, 6), .kernel = {.struct_size = sizeof b.kernel}, .re = 2.1 * CLOUD_DP};
+    block b = {.c = dim == 2 ? cloud_lattice(2, 18, 21, 1, jitter, 6)
+                             : cloud_lattice(3, 8, 12, 8, jitter, 6),
+               .kernel = {.struct_size = sizeof b.kernel},
+               .re = 2.1 * CLOUD_DP};
     b.phase = cloud_phases(b.c.n);
-    for (int64_t i = 0; i < b.c.n; i++) b.phase[i] = (int32_t)fmin(2, b.c.x[i * dim + 1] / ((dim == 2 ? 7 : 4) * CLOUD_DP));
+    for (int64_t i = 0; i < b.c.n; i++)
+        b.phase[i] = (int32_t)fmin(2, b.c.x[i * dim + 1] / ((dim == 2 ? 7 : 4) * CLOUD_DP));
     b.sim = bare_sim(dim, CLOUD_DP, 3.1, 1e-6);
     for (int p = 0; p < 3; p++) set_phase(b.sim, p, rho[p], 0);
     add_cloud(b.sim, &b.c, b.phase, NULL);
@@ -53,7 +57,8 @@ static void smoothing(void **state)
     static const double self[] = {1, 100, 0};
     for (int dim = 2; dim <= 3; dim++) {
         block b = block_make(dim, 0.2);
-        ASSERT_OK(b.sim, mps_step(b.sim, 1, NULL)); /* without the model: the densities themselves */
+        ASSERT_OK(b.sim,
+                  mps_step(b.sim, 1, NULL)); /* without the model: the densities themselves */
         for (int64_t i = 0; i < b.c.n; i++) assert_true(spy.density[i] == rho[b.phase[i]]);
         ASSERT_OK(b.sim, mps_model_use(b.sim, "density.smooth"));
         for (int k = 0; k < 3; k++) {
@@ -61,14 +66,17 @@ static void smoothing(void **state)
             ASSERT_OK(b.sim, mps_model_set(b.sim, "density", "self", self[k]));
             ASSERT_OK(b.sim, mps_step(b.sim, 1, NULL));
             for (int64_t i = 0; i < b.c.n; i++) {
-                const double own = rho[b.phase[i]], wanted = smoothed(&b, i, self[k] * mps_kernel_value(&b.kernel, 0, b.re));
+                const double own = rho[b.phase[i]],
+                             wanted = smoothed(&b, i,
+                                               self[k] * mps_kernel_value(&b.kernel, 0, b.re));
                 ASSERT_NEAR(spy.density[i] / wanted, 1, 1e-10);
                 same += spy.density[i] == own;
             }
             assert_true(same > b.c.n / 5 && same < b.c.n * 4 / 5); /* only near interfaces */
         }
         double *density = field_by_id(b.sim, "density");
-        for (int64_t i = 0; i < b.c.n; i++) assert_true(density[i] == rho[b.phase[i]]); /* nobody's mass changes */
+        for (int64_t i = 0; i < b.c.n; i++)
+            assert_true(density[i] == rho[b.phase[i]]); /* nobody's mass changes */
         free(density);
         block_free(&b);
     }
@@ -103,7 +111,8 @@ static void literal(const block *b, const double *density, int64_t i, double a[3
                 continue;
             }
             const double w = dim / b->n0 * mps_kernel_value(&b->kernel, sqrt(r2), b->re) / r2;
-            const double share = 2 * (pj - pi) / (density[i] + density[j]) + (pi - least) / density[i];
+            const double share = 2 * (pj - pi) / (density[i] + density[j]) +
+                                 (pi - least) / density[i];
             for (int d = 0; d < dim; d++) a[d] -= w * share * (x[j * dim + d] - x[i * dim + d]);
         }
 }
@@ -122,7 +131,8 @@ static void gradient_to_the_letter(void **state)
                 double a[3] = {0}, size = 0;
                 literal(&b, spy.density, i, a);
                 for (int d = 0; d < dim; d++) size = fmax(size, fabs(a[d]));
-                for (int d = 0; d < dim; d++) ASSERT_NEAR(spy.dp_a[i * dim + d], a[d], 1e-10 * size);
+                for (int d = 0; d < dim; d++)
+                    ASSERT_NEAR(spy.dp_a[i * dim + d], a[d], 1e-10 * size);
             }
             block_free(&b);
         }
@@ -136,7 +146,8 @@ static void gradient_of_linear(void **state)
     for (int dim = 2; dim <= 3; dim++) {
         const double dp = 0.05, lo[3] = {0}, hi[3] = {0.4, 0.4, 0.4};
         mps_sim *sim = bare_sim(dim, dp, 3.1, 1e-6);
-        set_phase(sim, 0, 1.2, 0); /* of the solids: no model of walls gives them that of the fluid */
+        set_phase(sim, 0, 1.2,
+                  0); /* of the solids: no model of walls gives them that of the fluid */
         set_phase(sim, 1, 1.2, 0);
         add_tank(sim, 0.4, 0.4, 0.4);
         ASSERT_OK(sim, mps_fill_box_add(sim, 1, lo, hi, NULL, NULL));
@@ -215,11 +226,13 @@ static void gas_terms(void **state)
             const double p = law ? ambient * log(1 + before[i] / ambient) : before[i];
             assert_true(spy.shift[i] == 0 && spy.law[i] == (own && law ? ambient : 0));
             ASSERT_NEAR(spy.gas[i], own ? stiff : 0, 1e-12 * stiff);
-            ASSERT_NEAR(spy.rhs[i], spy.given_rhs + (own && kind != 1 ? stiff * p : 0), 1e-9 * spy.given_rhs);
+            ASSERT_NEAR(spy.rhs[i], spy.given_rhs + (own && kind != 1 ? stiff * p : 0),
+                        1e-9 * spy.given_rhs);
             const double expected = own && kind != 1 ? wanted_deviation(law, before[i]) : 0;
             ASSERT_NEAR(spy.volume[i], spy.wide_sum[i] * (swollen - expected / (1 + expected)),
                         1e-8); /* neighbours' p is the same to the solver's limit */
-            ASSERT_NEAR(spy.number[i], 1 + spy.near_sum[i] * (swollen - expected / (1 + expected)), 1e-8);
+            ASSERT_NEAR(spy.number[i], 1 + spy.near_sum[i] * (swollen - expected / (1 + expected)),
+                        1e-8);
         }
         free(before);
         mps_sim_destroy(sim);
@@ -235,10 +248,12 @@ static void equation_of_state(void **state)
         const bool mixed = kind % 2, printed = kind >= 4;
         if (printed && !mixed) continue;
         mps_sim *sim = gas(models[kind / 2]);
-        const double strain = kind / 2 == 1 ? 0.05 : swollen; /* beyond what a linear law would give */
+        const double strain = kind / 2 == 1 ? 0.05
+                                            : swollen; /* beyond what a linear law would give */
         mps_solver_limits limits;
         assert_int_equal(mps_solver_limits_init(&limits, sizeof limits), MPS_OK);
-        limits.tolerance = 1e-10; /* the right side is mostly the old pressure: its last changes are small against it */
+        limits.tolerance =
+            1e-10; /* the right side is mostly the old pressure: its last changes are small against it */
         ASSERT_OK(sim, mps_solver_limits_set(sim, &limits));
         ASSERT_OK(sim, mps_model_use(sim, mixed ? "source.mixed" : "source.volume"));
         ASSERT_OK(sim, mps_model_set(sim, "source", mixed ? "gamma" : "tau", 0.1));
@@ -273,19 +288,22 @@ static void conserved(void **state)
         ASSERT_OK(sim, mps_model_set(sim, "gas", "conserve", 1));
         if (open) {
             ASSERT_OK(sim, mps_model_use(sim, "surface.original"));
-            ASSERT_OK(sim, mps_model_set(sim, "surface", "beta", 0.5)); /* the corners of the blocks */
+            ASSERT_OK(sim,
+                      mps_model_set(sim, "surface", "beta", 0.5)); /* the corners of the blocks */
         }
         spy.given_rhs = 1e6;
         ASSERT_OK(sim, mps_step(sim, 1, NULL));
         double sum = 0;
         for (int64_t i = 0; i < 144; i++) sum += spy.rhs[i] / 144;
         ASSERT_NEAR(sum, open ? 1e6 : 0, 1e-6);
-        for (int64_t i = 0; i < 72 && !open; i++) ASSERT_NEAR(spy.rhs[i], 1e6 - 0.005 * 9.81 / CLOUD_DP, 1e-6);
+        for (int64_t i = 0; i < 72 && !open; i++)
+            ASSERT_NEAR(spy.rhs[i], 1e6 - 0.005 * 9.81 / CLOUD_DP, 1e-6);
         if (!open) {
             mps_lease p = {.struct_size = sizeof p};
             spy.given_rhs = 0;
             ASSERT_OK(sim, mps_lease_begin(sim, "pressure", MPS_WRITE, &p));
-            for (int64_t i = 0; i < p.count; i++) p.data[i] = 5000; /* compressed beyond what the tank can hold it to */
+            for (int64_t i = 0; i < p.count; i++)
+                p.data[i] = 5000; /* compressed beyond what the tank can hold it to */
             ASSERT_OK(sim, mps_lease_end(sim, &p));
             for (int k = 0; k < 150; k++) ASSERT_OK(sim, mps_step(sim, 1, NULL));
             for (int64_t i = 72; i < 144; i++) ASSERT_NEAR(spy.p[i], 0, 1);
@@ -317,7 +335,8 @@ static void gas_refused(void **state)
     mps_sim_destroy(sim);
     sim = gas("gas.isentropic");
     ASSERT_REFUSED(sim, mps_model_set(sim, "gas", "ambient", -1), MPS_E_ARG, "ambient is -1");
-    static const char *const linear[] = {"sundials.pcg", "sundials.bicgstab", "sundials.gmres", "sundials.klu"};
+    static const char *const linear[] = {"sundials.pcg", "sundials.bicgstab", "sundials.gmres",
+                                         "sundials.klu"};
     for (int k = 0; k < 4; k++) {
         ASSERT_OK(sim, mps_solver_use(sim, linear[k], NULL));
         ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_STATE, "gas.isentropic");
@@ -385,9 +404,10 @@ static void plane_takes_over(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(smoothing),          cmocka_unit_test(gradient_to_the_letter),
-                                       cmocka_unit_test(gradient_of_linear), cmocka_unit_test(gas_terms),
-                                       cmocka_unit_test(equation_of_state),  cmocka_unit_test(gas_refused),
-                                       cmocka_unit_test(conserved),          cmocka_unit_test(plane_takes_over)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(smoothing),          cmocka_unit_test(gradient_to_the_letter),
+        cmocka_unit_test(gradient_of_linear), cmocka_unit_test(gas_terms),
+        cmocka_unit_test(equation_of_state),  cmocka_unit_test(gas_refused),
+        cmocka_unit_test(conserved),          cmocka_unit_test(plane_takes_over)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

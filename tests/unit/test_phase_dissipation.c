@@ -24,7 +24,8 @@ static double left_over(int dim, double distance, double speed, const int32_t ph
     mps_sim *sim = damped(&c, phase, u);
     ASSERT_OK(sim, mps_step(sim, 1, NULL));
     double *now = field_by_id(sim, "velocity");
-    for (int k = 0; k < 2 * dim; k++) assert_true(k % dim == 0 || now[k] == 0); /* along their line */
+    for (int k = 0; k < 2 * dim; k++)
+        assert_true(k % dim == 0 || now[k] == 0); /* along their line */
     const double left = (now[0] - now[dim]) / speed;
     mps_sim_destroy(sim);
     cloud_free(&c);
@@ -41,8 +42,10 @@ static double wanted(int dim, double distance, double speed)
     double n0;
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
     assert_int_equal(mps_lattice_constants(&kernel, dim, CLOUD_DP, re, &n0, NULL), MPS_OK);
-    const double nu = fmin(0.1 * sqrt(9.81 * CLOUD_DP) + speed, 0.15 * CLOUD_DP / DT * fmin(1, distance * distance * distance));
-    return 1 - DT * 2 * CLOUD_DP * 2 * (dim + 2) / n0 * nu * mps_kernel_value(&kernel, r, re) / (r * r);
+    const double nu = fmin(0.1 * sqrt(9.81 * CLOUD_DP) + speed,
+                           0.15 * CLOUD_DP / DT * fmin(1, distance * distance * distance));
+    return 1 -
+           DT * 2 * CLOUD_DP * 2 * (dim + 2) / n0 * nu * mps_kernel_value(&kernel, r, re) / (r * r);
 }
 
 /* However fast they are, two particles go on approaching, of one density or of two. */
@@ -54,7 +57,8 @@ static void approaching(void **state)
         for (int p = 0; p < 3; p++)
             for (double distance = 0.4; distance < 2; distance += 0.2) {
                 double before = 1;
-                for (double speed = 0.1; speed < 300; speed *= 3) { /* 300 m/s are 19 dp in a step */
+                for (double speed = 0.1; speed < 300;
+                     speed *= 3) { /* 300 m/s are 19 dp in a step */
                     const double left = left_over(dim, distance, speed, phases[p]);
                     ASSERT_NEAR(left, wanted(dim, distance, speed), 1e-12);
                     assert_true(left > 0 && left < 1 && left <= before + 1e-12);
@@ -68,7 +72,8 @@ static void momentum(void **state)
 {
     (void)state;
     for (int dim = 2; dim <= 3; dim++) {
-        cloud c = dim == 2 ? cloud_lattice(2, 14, 14, 1, 0.2, 8) : cloud_lattice(3, 8, 8, 8, 0.2, 8);
+        cloud c = dim == 2 ? cloud_lattice(2, 14, 14, 1, 0.2, 8)
+                           : cloud_lattice(3, 8, 8, 8, 0.2, 8);
         int32_t *phase = cloud_phases(c.n);
         double *u = cloud_field(c.n * dim, 9), sum[3] = {0}, size = 0, energy[2] = {0};
         for (int64_t i = 0; i < c.n; i++) {

@@ -13,7 +13,8 @@ static bool inner(const cloud *c, int64_t i, double reach)
         lo[j % c->dim] = fmin(lo[j % c->dim], c->x[j]);
         hi[j % c->dim] = fmax(hi[j % c->dim], c->x[j]);
     }
-    for (int d = 0; d < c->dim; d++) in = in && c->x[i * c->dim + d] > lo[d] + reach && c->x[i * c->dim + d] < hi[d] - reach;
+    for (int d = 0; d < c->dim; d++)
+        in = in && c->x[i * c->dim + d] > lo[d] + reach && c->x[i * c->dim + d] < hi[d] - reach;
     return in;
 }
 
@@ -40,7 +41,8 @@ static void single_particles(void **state)
 {
     (void)state;
     for (int dim = 2; dim <= 3; dim++) {
-        cloud c = dim == 2 ? cloud_lattice(2, 24, 20, 1, 0.1, 3) : cloud_lattice(3, 10, 9, 8, 0.1, 3);
+        cloud c = dim == 2 ? cloud_lattice(2, 24, 20, 1, 0.1, 3)
+                           : cloud_lattice(3, 10, 9, 8, 0.1, 3);
         int32_t *phase = cloud_phases(c.n);
         double *u = cloud_doubles(c.n * dim), before = 0, left = 0, taken;
         for (int64_t i = 0; i < c.n; i++) {
@@ -49,7 +51,8 @@ static void single_particles(void **state)
             u[i * dim + 1] = phase[i] ? 50 : 0;
         }
         double *v = after(&c, phase, u, &taken);
-        const double most = TIMES * sqrt(9.81 * CLOUD_DP), cell = dim == 2 ? CLOUD_DP * CLOUD_DP : CLOUD_DP * CLOUD_DP * CLOUD_DP;
+        const double most = TIMES * sqrt(9.81 * CLOUD_DP),
+                     cell = dim == 2 ? CLOUD_DP * CLOUD_DP : CLOUD_DP * CLOUD_DP * CLOUD_DP;
         int64_t slowed = 0;
         for (int64_t i = 0; i < c.n; i++)
             if (phase[i]) {
@@ -87,11 +90,13 @@ static void resolved_gas(void **state)
         for (int64_t i = 0; i < c.n; i++) {
             const double y = c.x[2 * i + 1] / CLOUD_DP, single = i % 41 == 20;
             phase[i] = kind == 0 ? fmod(y + 100.25, 5) < 1 : kind == 1 ? single : !single;
-            u[2 * i] = (kind == 1 ? 2.5 * sqrt(9.81 * CLOUD_DP) : 50) * (kind == 2 ? !phase[i] : phase[i]);
+            u[2 * i] = (kind == 1 ? 2.5 * sqrt(9.81 * CLOUD_DP) : 50) *
+                       (kind == 2 ? !phase[i] : phase[i]);
         }
         double *v = after(&c, phase, u, NULL);
         for (int64_t i = 0; i < c.n; i++)
-            if (kind || inner(&c, i, 2.2 * CLOUD_DP)) assert_true(v[2 * i] == u[2 * i] && v[2 * i + 1] == u[2 * i + 1]);
+            if (kind || inner(&c, i, 2.2 * CLOUD_DP))
+                assert_true(v[2 * i] == u[2 * i] && v[2 * i + 1] == u[2 * i + 1]);
         free(v);
     }
     cloud_free(&c);
@@ -101,6 +106,7 @@ static void resolved_gas(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(single_particles), cmocka_unit_test(resolved_gas)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(single_particles),
+                                       cmocka_unit_test(resolved_gas)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -54,7 +54,8 @@ static void rates(void **state)
     for (int w = 0; w < 4; w++)
         for (int o = 0; o < 4; o++) {
             const double complex z = 0.5 * width[w] * csqrt(I * omega[o] / NU);
-            const double exact = creal(I * omega[o] * (1 / (1 - ctanh(z) / z) - 1)), slow = 12 * NU / (width[w] * width[w]);
+            const double exact = creal(I * omega[o] * (1 / (1 - ctanh(z) / z) - 1)),
+                         slow = 12 * NU / (width[w] * width[w]);
             mps_sim *sim = stirred(width[w], omega[o], 0, 1e-9);
             const double rate = rate_of(sim);
             mps_sim_destroy(sim);
@@ -101,7 +102,8 @@ static void moves_with_the_tank(void **state)
     const int32_t *kind;
     ASSERT_OK(sim, tags_peek(sim, &ids, &kind, NULL, NULL));
     for (int64_t i = 0; i < mps_particles_count(sim, -1); i++)
-        for (int d = 0; d < 2; d++) assert_true(kind[i] != MPS_FLUID || fabs(spy.a[2 * ids[i] + d]) < 1e-4 * 6 * 0.3);
+        for (int d = 0; d < 2; d++)
+            assert_true(kind[i] != MPS_FLUID || fabs(spy.a[2 * ids[i] + d]) < 1e-4 * 6 * 0.3);
     mps_sim_destroy(sim);
 }
 
@@ -120,7 +122,8 @@ static void not_in_3d(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(rates), cmocka_unit_test(long_step), cmocka_unit_test(moves_with_the_tank),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(rates), cmocka_unit_test(long_step),
+                                       cmocka_unit_test(moves_with_the_tank),
                                        cmocka_unit_test(not_in_3d)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -71,8 +71,8 @@ static void check_drop(int dim, double radius, double jitter, double ratio, doub
     drop s = drop_make(dim, radius, dim == 2 ? 9 : 6, jitter, density);
     ASSERT_OK(s.sim, mps_step(s.sim, 1, NULL));
     const double work = work_of_swelling(&s, density, &net);
-    print_message("%d-D, radius %g dp, jitter %g, ratio %g: curvature %+.2f %%, net force %.1e\n", dim, radius, jitter, ratio,
-                  100 * (work / wanted - 1), net);
+    print_message("%d-D, radius %g dp, jitter %g, ratio %g: curvature %+.2f %%, net force %.1e\n",
+                  dim, radius, jitter, ratio, 100 * (work / wanted - 1), net);
     ASSERT_NEAR(work / wanted, 1, tolerance);
     assert_true(net < (jitter > 0 ? 0.1 : 0.02));
     drop_free(&s);
@@ -102,11 +102,15 @@ static void heavy_drop(void **state)
     ASSERT_OK(s.sim, mps_step(s.sim, 1, NULL));
     const double work = work_of_swelling(&s, density, &net);
     double heavy = 0, light = 0;
-    for (int64_t i = 0; i < s.c.n; i++) *(s.phase[i] ? &heavy : &light) += hypot(spy.a[2 * i], spy.a[2 * i + 1]) * density[s.phase[i]];
-    print_message("force on the light side %.1e of the heavy one's, curvature %+.2f %%, net force %.1e\n", light / heavy,
-                  100 * (work / (2 * 3.14159265358979323846 * 12 * CLOUD_DP) - 1), net);
+    for (int64_t i = 0; i < s.c.n; i++)
+        *(s.phase[i] ? &heavy : &light) += hypot(spy.a[2 * i], spy.a[2 * i + 1]) *
+                                           density[s.phase[i]];
+    print_message(
+        "force on the light side %.1e of the heavy one's, curvature %+.2f %%, net force %.1e\n",
+        light / heavy, 100 * (work / (2 * 3.14159265358979323846 * 12 * CLOUD_DP) - 1), net);
     assert_true(light > 0 && light < 0.003 * heavy && net < 0.02);
-    ASSERT_NEAR(work, 2 * 3.14159265358979323846 * 12 * CLOUD_DP, 0.03 * work); /* the heavy side is the inner one: r - dp/2 */
+    ASSERT_NEAR(work, 2 * 3.14159265358979323846 * 12 * CLOUD_DP,
+                0.03 * work); /* the heavy side is the inner one: r - dp/2 */
     drop_free(&s);
 }
 
@@ -117,7 +121,8 @@ static void flat(void **state)
     for (int kind = 0; kind < 3; kind++) {
         cloud c = cloud_lattice(2, 30, 30, 1, 0, 1);
         int32_t phase[900];
-        for (int i = 0; i < 900; i++) phase[i] = kind == 0 ? 0 : kind == 1 ? i / 30 >= 15 : i % 30 + i / 30 >= 30;
+        for (int i = 0; i < 900; i++)
+            phase[i] = kind == 0 ? 0 : kind == 1 ? i / 30 >= 15 : i % 30 + i / 30 >= 30;
         mps_sim *sim = bare_sim(2, CLOUD_DP, 3.1, 1e-6);
         set_phase(sim, 1, 800, 0);
         add_cloud(sim, &c, phase, NULL);
@@ -126,8 +131,10 @@ static void flat(void **state)
         double most = 0;
         for (int i = 0; i < 900; i++) {
             const int x = i % 30, y = i / 30;
-            if (x < 11 || x > 18 || y < 11 || y > 18) continue; /* the smoothed colours see the ends */
-            for (int d = 0; d < 2; d++) most = fmax(most, fabs(spy.a[2 * i + d]) * 900 * CLOUD_DP * CLOUD_DP / 7.27e-2);
+            if (x < 11 || x > 18 || y < 11 || y > 18)
+                continue; /* the smoothed colours see the ends */
+            for (int d = 0; d < 2; d++)
+                most = fmax(most, fabs(spy.a[2 * i + d]) * 900 * CLOUD_DP * CLOUD_DP / 7.27e-2);
         }
         print_message("kind %d: largest force %.1e sigma/dp^2\n", kind, most);
         assert_true(kind == 0 ? most == 0 : most < 2e-4);
@@ -165,16 +172,20 @@ static double curvature_by_differences(const drop *s, int64_t i, double reach)
         for (int d = 0; d < dim; d++) x[d] = s->c.x[i * dim + d] + h * (at[d] - 1);
         f[at[0]][at[1]][at[2]] = colour(s, i, x, reach);
     }
-#define F(d, a, e, b) \
-    f[1 + ((d) == 0) * (a) + ((e) == 0) * (b)][1 + ((d) == 1) * (a) + ((e) == 1) * (b)][1 + ((d) == 2) * (a) + ((e) == 2) * (b)]
+#define F(d, a, e, b)                                                                   \
+    f[1 + ((d) == 0) * (a) + ((e) == 0) * (b)][1 + ((d) == 1) * (a) + ((e) == 1) * (b)] \
+     [1 + ((d) == 2) * (a) + ((e) == 2) * (b)]
     for (int d = 0; d < dim; d++) {
         g[d] = (F(d, 1, d, 0) - F(d, -1, d, 0)) / (2 * h);
         size2 += g[d] * g[d];
     }
     for (int d = 0; d < dim; d++)
         for (int e = 0; e < dim; e++) {
-            const double second = d == e ? (F(d, 1, d, 0) + F(d, -1, d, 0) - 2 * f[1][1][1]) / (h * h)
-                                         : (F(d, 1, e, 1) - F(d, 1, e, -1) - F(d, -1, e, 1) + F(d, -1, e, -1)) / (4 * h * h);
+            const double second = d == e
+                                      ? (F(d, 1, d, 0) + F(d, -1, d, 0) - 2 * f[1][1][1]) / (h * h)
+                                      : (F(d, 1, e, 1) - F(d, 1, e, -1) - F(d, -1, e, 1) +
+                                         F(d, -1, e, -1)) /
+                                            (4 * h * h);
             kappa += second * ((d == e ? size2 : 0) - g[d] * g[e]);
         }
 #undef F
@@ -196,9 +207,11 @@ static void derivatives(void **state)
             double grad[3] = {0}, grad2 = 0, a = 0, n0;
             mps_kernel kernel = {.struct_size = sizeof kernel};
             assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
-            assert_int_equal(mps_lattice_constants(&kernel, dim, CLOUD_DP, 2.1 * CLOUD_DP, &n0, NULL), MPS_OK);
+            assert_int_equal(
+                mps_lattice_constants(&kernel, dim, CLOUD_DP, 2.1 * CLOUD_DP, &n0, NULL), MPS_OK);
             for (int64_t j = 0; j < s.c.n; j++) {
-                const double r2 = cloud_distance2(&s.c, i, j), w = mps_kernel_value(&kernel, sqrt(r2), 2.1 * CLOUD_DP);
+                const double r2 = cloud_distance2(&s.c, i, j),
+                             w = mps_kernel_value(&kernel, sqrt(r2), 2.1 * CLOUD_DP);
                 for (int d = 0; d < dim && s.phase[j] != s.phase[i]; d++)
                     grad[d] += dim / n0 * w / r2 * (s.c.x[j * dim + d] - s.c.x[i * dim + d]);
             }
@@ -230,14 +243,16 @@ static void laplace_pressure(void **state)
         ASSERT_OK(s.sim, mps_step(s.sim, 1, NULL));
         double mean[2] = {0}, count[2] = {0};
         for (int64_t i = 0; i < s.c.n; i++) {
-            const double r = hypot(s.c.x[2 * i] - s.centre[0], s.c.x[2 * i + 1] - s.centre[1]) / CLOUD_DP;
+            const double r = hypot(s.c.x[2 * i] - s.centre[0], s.c.x[2 * i + 1] - s.centre[1]) /
+                             CLOUD_DP;
             const int out = r > 14;
             if ((r > 6 && r < 14) || r > 17) continue;
             mean[out] += spy.p[i];
             count[out]++;
         }
         const double jump = mean[0] / count[0] - mean[1] / count[1];
-        print_message("density ratio %g: jump of pressure %.3f sigma/R\n", ratio[k], jump * 10 * CLOUD_DP / sigma);
+        print_message("density ratio %g: jump of pressure %.3f sigma/R\n", ratio[k],
+                      jump * 10 * CLOUD_DP / sigma);
         ASSERT_NEAR(jump * 10 * CLOUD_DP / sigma, 1, k == 0 ? 0.03 : 0.08);
         drop_free(&s);
     }
@@ -282,8 +297,10 @@ static void jump_at_rest(void **state)
     (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         double motion[2];
-        const double force = step_from_rest(dim, "tension.csf", &motion[0]), jump = step_from_rest(dim, "tension.jump", &motion[1]);
-        print_message("%d-D: pressure %.3f by force, %.3f by jump; motion %.2g, %.2g\n", dim, force, jump, motion[0], motion[1]);
+        const double force = step_from_rest(dim, "tension.csf", &motion[0]),
+                     jump = step_from_rest(dim, "tension.jump", &motion[1]);
+        print_message("%d-D: pressure %.3f by force, %.3f by jump; motion %.2g, %.2g\n", dim, force,
+                      jump, motion[0], motion[1]);
         ASSERT_NEAR(jump, 1, dim == 2 ? 0.01 : 0.05); /* the radius is 10 dp, and 6 in 3-D */
         assert_true(motion[1] < 0.5 * motion[0]);
     }
@@ -326,7 +343,8 @@ static double share_of_sigma(const cloud *c, const double centre[2], double radi
     for (int64_t i = 0; i < c->n; i++) {
         const double r[2] = {c->x[2 * i] - centre[0], c->x[2 * i + 1] - centre[1]};
         if (hypot(r[0], r[1]) > 1.9 * radius) continue;
-        for (int d = 0; d < 2; d++) work -= 1000 * CLOUD_DP * CLOUD_DP * spy.a[2 * i + d] * r[d] / sigma;
+        for (int d = 0; d < 2; d++)
+            work -= 1000 * CLOUD_DP * CLOUD_DP * spy.a[2 * i + d] * r[d] / sigma;
     }
     return work / (2 * 3.14159265358979323846 * radius);
 }
@@ -335,13 +353,18 @@ static double share_of_sigma(const cloud *c, const double centre[2], double radi
 static void pairs(void **state)
 {
     (void)state;
-    static const double cases[4][3] = {{1, 3, 0}, {0, 2, 5}, {-1, 2, 0.5}, {-1, -1, 4}}; /* pair 0-1, pair 0-2, setting; < 0: not set */
+    static const double cases[4][3] = {{1, 3, 0},
+                                       {0, 2, 5},
+                                       {-1, 2, 0.5},
+                                       {-1, -1, 4}}; /* pair 0-1, pair 0-2, setting; < 0: not set */
     cloud c = cloud_lattice(2, 80, 40, 1, 0, 9);
     int32_t *phase = cloud_phases(c.n);
-    const double radius = 8 * CLOUD_DP, centre[2][2] = {{20.31 * CLOUD_DP, 20.17 * CLOUD_DP}, {60.31 * CLOUD_DP, 20.17 * CLOUD_DP}};
+    const double radius = 8 * CLOUD_DP, centre[2][2] = {{20.31 * CLOUD_DP, 20.17 * CLOUD_DP},
+                                                        {60.31 * CLOUD_DP, 20.17 * CLOUD_DP}};
     for (int64_t i = 0; i < c.n; i++)
         for (int k = 0; k < 2; k++)
-            if (hypot(c.x[2 * i] - centre[k][0], c.x[2 * i + 1] - centre[k][1]) < radius) phase[i] = k + 1;
+            if (hypot(c.x[2 * i] - centre[k][0], c.x[2 * i + 1] - centre[k][1]) < radius)
+                phase[i] = k + 1;
     for (int n = 0; n < 4; n++) {
         mps_sim *sim = bare_sim(2, CLOUD_DP, 3.1, 1e-6);
         for (int p = 0; p < 3; p++) set_phase(sim, p, 1000, 0);
@@ -410,19 +433,28 @@ static void time_step(void **state)
     ASSERT_OK(sim, mps_model_set(sim, "tension", "sigma", sigma));
     assert_int_equal(mps_step_info_init(&info, sizeof info), MPS_OK);
     ASSERT_OK(sim, mps_step(sim, 1, &info));
-    ASSERT_NEAR(info.dt, 0.5 * sqrt(750 * pow(CLOUD_DP, 3) / (2 * 3.14159265358979323846 * sigma)), 1e-12);
+    ASSERT_NEAR(info.dt, 0.5 * sqrt(750 * pow(CLOUD_DP, 3) / (2 * 3.14159265358979323846 * sigma)),
+                1e-12);
     ASSERT_OK(sim, mps_tension_set(sim, 0, 1, 4 * sigma));
     ASSERT_OK(sim, mps_time_control_set(sim, &control));
     ASSERT_OK(sim, mps_step(sim, 1, &info));
-    ASSERT_NEAR(info.dt, 0.25 * sqrt(750 * pow(CLOUD_DP, 3) / (2 * 3.14159265358979323846 * sigma)), 1e-12);
+    ASSERT_NEAR(info.dt, 0.25 * sqrt(750 * pow(CLOUD_DP, 3) / (2 * 3.14159265358979323846 * sigma)),
+                1e-12);
     mps_sim_destroy(sim);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(circles),     cmocka_unit_test(spheres),       cmocka_unit_test(heavy_drop),       cmocka_unit_test(flat),
-        cmocka_unit_test(derivatives), cmocka_unit_test(three_phases),  cmocka_unit_test(laplace_pressure), cmocka_unit_test(time_step),
-        cmocka_unit_test(pairs),       cmocka_unit_test(pairs_refused), cmocka_unit_test(jump_at_rest)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(circles),
+                                       cmocka_unit_test(spheres),
+                                       cmocka_unit_test(heavy_drop),
+                                       cmocka_unit_test(flat),
+                                       cmocka_unit_test(derivatives),
+                                       cmocka_unit_test(three_phases),
+                                       cmocka_unit_test(laplace_pressure),
+                                       cmocka_unit_test(time_step),
+                                       cmocka_unit_test(pairs),
+                                       cmocka_unit_test(pairs_refused),
+                                       cmocka_unit_test(jump_at_rest)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

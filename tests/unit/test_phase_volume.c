@@ -10,7 +10,8 @@ static void strain(const cloud *c, const double *a, double *u)
 {
     for (int64_t i = 0; i < c->n; i++)
         for (int d = 0; d < c->dim; d++)
-            for (int e = 0; e < c->dim; e++) u[i * c->dim + d] += a[d * c->dim + e] * c->x[i * c->dim + e];
+            for (int e = 0; e < c->dim; e++)
+                u[i * c->dim + d] += a[d * c->dim + e] * c->x[i * c->dim + e];
 }
 
 static double trace_of_square(const double *a, int dim)
@@ -25,7 +26,8 @@ static double trace_of_square(const double *a, int dim)
 static bool inside(const cloud *c, int64_t i, int side)
 {
     for (int d = 0; d < c->dim; d++)
-        if (c->x[i * c->dim + d] < 4.9 * CLOUD_DP || c->x[i * c->dim + d] > (side - 5.9) * CLOUD_DP) return false;
+        if (c->x[i * c->dim + d] < 4.9 * CLOUD_DP || c->x[i * c->dim + d] > (side - 5.9) * CLOUD_DP)
+            return false;
     return true;
 }
 

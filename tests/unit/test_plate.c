@@ -34,11 +34,13 @@ static void row_sums(const mps_stencil *t, const int32_t *kind, int64_t i, doubl
 }
 
 /* The particle of b at the place of particle i of a, moved by `offset` along x, of the same kind, and on the same side. */
-static int64_t same_place(const mps__particles *a, int64_t i, const mps__particles *b, double offset, double side)
+static int64_t same_place(const mps__particles *a, int64_t i, const mps__particles *b,
+                          double offset, double side)
 {
     for (int64_t j = 0; j < b->n; j++) {
         double r2 = 0;
-        for (int d = 0; d < a->dim; d++) r2 += pow(a->ref[i * a->dim + d] + (d == 0 ? offset : 0) - b->ref[j * a->dim + d], 2);
+        for (int d = 0; d < a->dim; d++)
+            r2 += pow(a->ref[i * a->dim + d] + (d == 0 ? offset : 0) - b->ref[j * a->dim + d], 2);
         if (r2 < 1e-6 * dp * dp && b->kind[j] == a->kind[i] && !mps__is_shadow(b, j) &&
             (b->plate[j] == 0 || b->area[j * a->dim] * side > 0))
             return j;
@@ -58,7 +60,8 @@ static void compare_with_tank(int dim, int columns, int right)
 {
     mps_sim *one = divided(dim, 0), *two = divided(dim, columns);
     const double offset = right ? 0.5 + (columns - 1) * dp : 0;
-    mps_stencil a[2] = {{.struct_size = sizeof a[0]}, {.struct_size = sizeof a[0]}}, b[2] = {{.struct_size = sizeof b[0]}, {.struct_size = sizeof b[0]}};
+    mps_stencil a[2] = {{.struct_size = sizeof a[0]}, {.struct_size = sizeof a[0]}},
+                b[2] = {{.struct_size = sizeof b[0]}, {.struct_size = sizeof b[0]}};
     for (int which = MPS_NEAR; which <= MPS_FAR; which++) {
         ASSERT_OK(one, mps_stencil_get(one, which, &a[which]));
         ASSERT_OK(two, mps_stencil_get(two, which, &b[which]));
@@ -70,12 +73,14 @@ static void compare_with_tank(int dim, int columns, int right)
         if (s->kind[i] == MPS_DUMMY) continue;
         const int64_t j = same_place(s, i, t, offset, right ? 1 : -1);
         assert_true(j >= 0);
-        for (int d = 0; d < dim; d++) ASSERT_NEAR(s->area[i * dim + d], t->area[j * dim + d], 1e-14);
+        for (int d = 0; d < dim; d++)
+            ASSERT_NEAR(s->area[i * dim + d], t->area[j * dim + d], 1e-14);
         for (int which = MPS_NEAR; which <= MPS_FAR; which++) {
             double wanted[3], got[3];
             row_sums(&a[which], s->kind, i, wanted);
             row_sums(&b[which], t->kind, j, got);
-            for (int kind = 0; kind < (s->kind[i] == MPS_FLUID ? 3 : 2); kind++) ASSERT_NEAR(got[kind], wanted[kind], 1e-9);
+            for (int kind = 0; kind < (s->kind[i] == MPS_FLUID ? 3 : 2); kind++)
+                ASSERT_NEAR(got[kind], wanted[kind], 1e-9);
         }
     }
     mps_sim_destroy(one);
@@ -135,7 +140,9 @@ static void passing_the_edge(void **state)
         int64_t moved = -1;
         double sum[3];
         for (int64_t i = 0; i < s->n; i++)
-            if (s->kind[i] == MPS_FLUID && hypot(s->x[2 * i] - 0.5, s->x[2 * i + 1] - 0.55) < 0.4 * dp) moved = i;
+            if (s->kind[i] == MPS_FLUID &&
+                hypot(s->x[2 * i] - 0.5, s->x[2 * i + 1] - 0.55) < 0.4 * dp)
+                moved = i;
         assert_true(moved >= 0);
         s->x[2 * moved] = 0.5 + 0.01 * k * dp;
         sim->world.lists.neighbours.valid = false;
@@ -184,7 +191,8 @@ static void what_is_a_plate(void **state)
 {
     (void)state;
     mps_sim *sim = new_sim(2, dp);
-    const double lo[2] = {0.2, 0}, hi[2] = {0.6, dp}, thick[2] = {0.8, 0.3}, end[2] = {0.8 + 3 * dp, 0.5};
+    const double lo[2] = {0.2, 0}, hi[2] = {0.6, dp}, thick[2] = {0.8, 0.3},
+                 end[2] = {0.8 + 3 * dp, 0.5};
     add_tank(sim, 1, 0.6, 0);
     add_plate(sim, 1, 0.4, 0.6 - dp);
     assert_int_equal(sim->world.lists.screens.count, 1);
@@ -217,7 +225,8 @@ static void shadows_are_not_in_the_way(void **state)
     ASSERT_OK(sim, tags_peek(sim, NULL, &kinds, NULL, NULL));
     ASSERT_OK(sim, mps_lease_begin(sim, "plate", MPS_READ, &plates));
     assert_int_equal(plates.count, mps_particles_count(sim, -1));
-    for (int64_t i = 0; i < plates.count; i++) shadows += plates.integers[i] && kinds[i] == MPS_DUMMY;
+    for (int64_t i = 0; i < plates.count; i++)
+        shadows += plates.integers[i] && kinds[i] == MPS_DUMMY;
     assert_int_equal(shadows, 2 * 2 * (13 + 2 * 2));
     ASSERT_OK(sim, mps_lease_end(sim, &plates));
     mps_sim_destroy(sim);
@@ -287,7 +296,9 @@ static void nobody_passes(void **state)
         mps_time_control control;
         mps_particle_block block;
         mps_tank tank;
-        const double centre[3] = {0.3, 0.1, 0}, at[4][3] = {{0.1, 0.1, 0.2}, {0.3, 0.2, 0.2}, {0.4, 0.4, 0.2}, {0.9, 0.3, 0.2}};
+        const double centre[3] = {0.3, 0.1, 0},
+                     at[4][3] = {
+                         {0.1, 0.1, 0.2}, {0.3, 0.2, 0.2}, {0.4, 0.4, 0.2}, {0.9, 0.3, 0.2}};
         const mps_harmonic turn = {.dof = MPS_YAW, .amplitude = 0.5, .omega = 5};
         double x[12], u[12] = {0};
         int64_t ids[4];
@@ -380,7 +391,8 @@ static void removed_plate(void **state)
         ASSERT_OK(sim, mps_stencil_get(sim, MPS_NEAR, &t));
         for (int64_t i = 0; i < s->n; i++)
             for (int64_t k = t.begin[i]; k < t.end[i]; k++)
-                across += s->kind[i] == MPS_FLUID && s->kind[t.col[k]] == MPS_FLUID && (s->x[2 * i] - 0.5) * (s->x[2 * t.col[k]] - 0.5) < 0;
+                across += s->kind[i] == MPS_FLUID && s->kind[t.col[k]] == MPS_FLUID &&
+                          (s->x[2 * i] - 0.5) * (s->x[2 * t.col[k]] - 0.5) < 0;
         assert_true(pass ? across > 0 : across == 0);
         if (!pass) ASSERT_OK(sim, mps_particles_remove(sim, count, ids));
     }
@@ -413,7 +425,8 @@ static void plate_on_plate(void **state)
         for (int where = 0; where < 3; where++) {
             const double *wanted = where < 2 ? corner : flat, x = where < 2 ? 0.5 + dp : 0.5 - dp,
                          y = 0.3 + (where < 2 ? where * 2 - 1 : 0) * dp;
-            if (b->kind[i] != MPS_FLUID || hypot(b->x[2 * i] - x, b->x[2 * i + 1] - y) > 1e-9) continue;
+            if (b->kind[i] != MPS_FLUID || hypot(b->x[2 * i] - x, b->x[2 * i + 1] - y) > 1e-9)
+                continue;
             row_sums(&t, b->kind, i, sum);
             for (int kind = 0; kind < 3; kind++) ASSERT_NEAR(sum[kind], wanted[kind], 1e-9);
             found++;
@@ -428,7 +441,8 @@ static void inclined_plate(void **state)
 {
     (void)state;
     mps_sim *sim = new_sim(2, dp);
-    const double corner[2] = {0.3, 0.5 * dp}, edge[2] = {0.3, 0.4}, normal[2] = {-0.8, 0.6}, top = 0.4;
+    const double corner[2] = {0.3, 0.5 * dp}, edge[2] = {0.3, 0.4}, normal[2] = {-0.8, 0.6},
+                 top = 0.4;
     double area = 0;
     mps_stencil t = {.struct_size = sizeof t};
     add_tank(sim, 1, 0.6, 0);
@@ -437,15 +451,18 @@ static void inclined_plate(void **state)
     ASSERT_OK(sim, mps_stencil_get(sim, MPS_FAR, &t));
     const mps__particles *s = &sim->world.particles;
     for (int64_t i = 0; i < s->n; i++) {
-        const double *x = s->x + 2 * i, height = (x[0] - corner[0]) * normal[0] + (x[1] - corner[1]) * normal[1];
-        if (s->kind[i] == MPS_WALL && s->plate[i]) area += fmax(0, s->area[2 * i] * normal[0] + s->area[2 * i + 1] * normal[1]);
+        const double *x = s->x + 2 * i,
+                     height = (x[0] - corner[0]) * normal[0] + (x[1] - corner[1]) * normal[1];
+        if (s->kind[i] == MPS_WALL && s->plate[i])
+            area += fmax(0, s->area[2 * i] * normal[0] + s->area[2 * i + 1] * normal[1]);
         if (s->kind[i] == MPS_DUMMY || s->plate[i] || x[1] > top) continue;
         assert_true(s->kind[i] == MPS_WALL || fabs(height) > 0.7 * dp - 1e-12);
         for (int64_t k = t.begin[i]; k < t.end[i]; k++) {
             const int32_t j = t.col[k];
             const double *y = s->x + 2 * j;
             if (s->kind[j] == MPS_DUMMY || s->plate[j] || y[1] > top) continue;
-            assert_true(height * ((y[0] - corner[0]) * normal[0] + (y[1] - corner[1]) * normal[1]) > 0);
+            assert_true(height * ((y[0] - corner[0]) * normal[0] + (y[1] - corner[1]) * normal[1]) >
+                        0);
         }
     }
     ASSERT_NEAR(area, 0.5, 1e-12);
@@ -456,8 +473,9 @@ static void refusals(void **state)
 {
     (void)state;
     mps_sim *flat = new_sim(2, dp), *sim = new_sim(3, dp);
-    const double at[3] = {0.3, 0.1, 0.1}, up[3] = {0, 0.3, 0}, slant[3] = {0.2, 0.3, 0}, along[3] = {0, 0, 0.2}, none[3] = {0, 0, 0},
-                 far[3] = {0, 2, 0}, nan[3] = {NAN, 0, 0};
+    const double at[3] = {0.3, 0.1, 0.1}, up[3] = {0, 0.3, 0}, slant[3] = {0.2, 0.3, 0},
+                 along[3] = {0, 0, 0.2}, none[3] = {0, 0, 0}, far[3] = {0, 2, 0},
+                 nan[3] = {NAN, 0, 0};
     ASSERT_REFUSED(flat, mps_plate_add(flat, "p", at, up, NULL), MPS_E_STATE, "mps_tank_add");
     add_tank(flat, 1, 0.6, 0);
     add_tank(sim, 1, 0.6, 0.4);

@@ -17,7 +17,8 @@ typedef struct tank {
     mps__context context;
     mps__ppe e;
     int32_t kind[MOST], phase[MOST], region[MOST], fixed[MOST];
-    double p[MOST], density[MOST], wet[MOST], depth[MOST], rhs[MOST], shift[MOST], value[MOST], accel[3 * MOST], gas[MOST], law[MOST];
+    double p[MOST], density[MOST], wet[MOST], depth[MOST], rhs[MOST], shift[MOST], value[MOST],
+        accel[3 * MOST], gas[MOST], law[MOST];
     mps_stage stage;
     mps_flux flux;
     mps__ppe_terms terms;
@@ -58,17 +59,18 @@ static void tank_init(tank *k, cloud c)
                          .distance = k->depth,
                          .wetted = k->wet,
                          .tank_acceleration = k->accel};
-    k->terms = (mps__ppe_terms){.equation = {.struct_size = sizeof(mps_equation), .radius = MPS_FAR, .gain = 1},
-                                .flux = &k->flux,
-                                .region = k->region,
-                                .density = k->density,
-                                .pressure = k->p,
-                                .source = k->rhs,
-                                .shift = k->shift,
-                                .value = k->value,
-                                .gas = k->gas,
-                                .law = k->law,
-                                .condition = k->fixed};
+    k->terms = (mps__ppe_terms){
+        .equation = {.struct_size = sizeof(mps_equation), .radius = MPS_FAR, .gain = 1},
+        .flux = &k->flux,
+        .region = k->region,
+        .density = k->density,
+        .pressure = k->p,
+        .source = k->rhs,
+        .shift = k->shift,
+        .value = k->value,
+        .gas = k->gas,
+        .law = k->law,
+        .condition = k->fixed};
 }
 
 static void tank_free(tank *k)
@@ -146,7 +148,8 @@ static double coefficient(const tank *k, int64_t i, int64_t j)
         factor = k->flux.wall_factor * fmin(k->wet[i], k->wet[j]);
     else if ((k->region[i] == MPS_REGION_SURFACE) != (k->region[j] == MPS_REGION_SURFACE))
         factor = surface_factor(k, t->re);
-    return (double)(float)(2 * k->c.dim / (t->n0 * t->lambda) * factor * (t->re / (0.85 * r + 0.15 * t->re) - 1) / pair_rho(k, i, j));
+    return (double)(float)(2 * k->c.dim / (t->n0 * t->lambda) * factor *
+                           (t->re / (0.85 * r + 0.15 * t->re) - 1) / pair_rho(k, i, j));
 }
 
 /* sum_j k_ij (p_i - p_j + q_ij) + shift p_i - rhs for a particle, with p of all particles given. */
@@ -156,7 +159,8 @@ static double residual(const tank *k, int64_t i, const double *p)
     for (int64_t j = 0; j < k->c.n; j++) {
         double q = 0;
         for (int d = 0; d < k->c.dim; d++)
-            q -= 0.5 * (k->accel[i * k->c.dim + d] + k->accel[j * k->c.dim + d]) * (k->c.x[j * k->c.dim + d] - k->c.x[i * k->c.dim + d]);
+            q -= 0.5 * (k->accel[i * k->c.dim + d] + k->accel[j * k->c.dim + d]) *
+                 (k->c.x[j * k->c.dim + d] - k->c.x[i * k->c.dim + d]);
         sum += coefficient(k, i, j) * (p[i] - p[j] + pair_rho(k, i, j) * q);
     }
     return sum;
@@ -169,7 +173,8 @@ static void solve(tank *k, double *p)
     double *a = calloc((size_t)(n * (n + 1)), sizeof *a);
     for (int64_t r = 0; r < n; r++) {
         a[r * (n + 1) + r] = k->e.diagonal[r];
-        for (int64_t m = k->e.row[r]; m < k->e.row[r + 1]; m++) a[r * (n + 1) + k->e.col[m]] = (double)k->e.val[m];
+        for (int64_t m = k->e.row[r]; m < k->e.row[r + 1]; m++)
+            a[r * (n + 1) + k->e.col[m]] = (double)k->e.val[m];
         a[r * (n + 1) + n] = k->e.rhs[r];
     }
     for (int64_t c = 0; c < n; c++)
@@ -295,12 +300,14 @@ static void hydrostatic(void **state)
         k.flux.wall_factor = 0.5 * (variant / 2);
         for (int64_t i = 0; i < k.c.n; i++) {
             memcpy(k.accel + 2 * i, accel, sizeof accel);
-            if (k.fixed[i]) k.value[i] = rho0 * (slope[0] * k.c.x[2 * i] - slope[1] * (top - k.c.x[2 * i + 1]));
+            if (k.fixed[i])
+                k.value[i] = rho0 * (slope[0] * k.c.x[2 * i] - slope[1] * (top - k.c.x[2 * i + 1]));
         }
         assemble(&k);
         solve(&k, p);
         for (int64_t i = 24; i < k.c.n; i++) {
-            const double exact = rho0 * (slope[0] * k.c.x[2 * i] - slope[1] * (top - k.c.x[2 * i + 1]));
+            const double exact = rho0 *
+                                 (slope[0] * k.c.x[2 * i] - slope[1] * (top - k.c.x[2 * i + 1]));
             assert_true(fabs(p[i] - exact) < 1e-11 * rho0 * gravity * top);
         }
         tank_free(&k);
@@ -374,7 +381,8 @@ static void separate_pools(void **state)
     (void)state;
     tank k;
     cloud c = cloud_lattice(2, 18, 6, 1, 0.2, 7);
-    for (int64_t i = 0; i < c.n; i++) c.x[2 * i] += 10 * CLOUD_DP * (double)(i % 18 / 6); /* three pools, 6 wide */
+    for (int64_t i = 0; i < c.n; i++)
+        c.x[2 * i] += 10 * CLOUD_DP * (double)(i % 18 / 6); /* three pools, 6 wide */
     tank_init(&k, c);
     for (int64_t i = 0; i < c.n; i++) {
         k.rhs[i] = 1 + (double)(i % 18 / 6) + (double)(i % 5);
@@ -384,7 +392,8 @@ static void separate_pools(void **state)
     check_matrix(&k.e);
     assert_int_equal(k.e.problem.components, 2);
     for (int64_t i = 0; i < c.n; i++)
-        if (k.e.unknown[i] >= 0) assert_int_equal(k.e.problem.component[k.e.unknown[i]], (int)(i % 18 / 6) - 1);
+        if (k.e.unknown[i] >= 0)
+            assert_int_equal(k.e.problem.component[k.e.unknown[i]], (int)(i % 18 / 6) - 1);
     assert_true(fabs(mean_rhs(&k.e, 0)) < 1e-14 && fabs(mean_rhs(&k.e, 1)) < 1e-14);
     tank_free(&k);
 }

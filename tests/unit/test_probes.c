@@ -55,7 +55,8 @@ static void force_turns_with_the_tank(void **state)
     (void)state;
     mps_sim *sim = new_sim(3, dp);
     add_tank(sim, 0.2, 0.1, 0.15);
-    const mps_harmonic h[3] = {{MPS_ROLL, 0, 0.3, 1, 1}, {MPS_YAW, 0, 0.5, 1, 1.5}, {MPS_PITCH, 0, 0.4, 1, 2}};
+    const mps_harmonic h[3] = {
+        {MPS_ROLL, 0, 0.3, 1, 1}, {MPS_YAW, 0, 0.5, 1, 1.5}, {MPS_PITCH, 0, 0.4, 1, 2}};
     ASSERT_OK(sim, mps_motion_harmonics_set(sim, 3, h));
     mps_lease lease = {.struct_size = sizeof lease};
     ASSERT_OK(sim, mps_lease_begin(sim, "wall_pressure", MPS_WRITE, &lease));
@@ -119,14 +120,14 @@ static void energy_budget(void **state)
     mps_energy e;
     mps_energy_init(&e, sizeof e);
     w->state.budget = (mps__budget){.wall_work = 5,
-                              .viscous = 1,
-                              .collision = 0.5,
-                              .shift = 0.25,
-                              .added = 2,
-                              .start = 1,
-                              .last = {.potential = 3},
-                              .deviation = -0.02,
-                              .started = true};
+                                    .viscous = 1,
+                                    .collision = 0.5,
+                                    .shift = 0.25,
+                                    .added = 2,
+                                    .start = 1,
+                                    .last = {.potential = 3},
+                                    .deviation = -0.02,
+                                    .started = true};
     ASSERT_OK(sim, mps_energy_get(sim, &e));
     ASSERT_NEAR(e.added, 2 + e.kinetic + e.potential - 3, 1e-12);
     ASSERT_NEAR(e.numerical, 5 + e.added - 1 - 0.5 - 0.25 - (e.kinetic + e.potential - 1), 1e-12);
@@ -154,7 +155,8 @@ static void momentum_budget(void **state)
     for (int k = 0; k < 60; k++) assert_true(mps_step(sim, 1, NULL) >= 0);
     momentum(sim, &m);
     for (int d = 0; d < 2; d++) {
-        const double sum = start.total[d] + m.gravity[d] + m.force[d] + m.pressure[d] + m.collision[d] + m.shift[d] + m.added[d];
+        const double sum = start.total[d] + m.gravity[d] + m.force[d] + m.pressure[d] +
+                           m.collision[d] + m.shift[d] + m.added[d];
         ASSERT_NEAR(m.total[d], sum, 1e-9 * fabs(m.gravity[1]));
         ASSERT_NEAR(m.numerical[d], m.pressure[d] - m.walls[d], 1e-12);
     }

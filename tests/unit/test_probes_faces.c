@@ -13,22 +13,26 @@ static double linear(const double *X, int dim)
 static void write_linear(mps_sim *sim)
 {
     const mps__particles *s = &sim->world.particles;
-    for (int64_t i = 0; i < s->n; i++) s->load[i] = s->kind[i] == MPS_WALL ? linear(&s->ref[i * s->dim], s->dim) : 0;
+    for (int64_t i = 0; i < s->n; i++)
+        s->load[i] = s->kind[i] == MPS_WALL ? linear(&s->ref[i * s->dim], s->dim) : 0;
 }
 
 /* The sensor reads the pressure at its own place up to `off` spacings. */
 static void assert_linear(mps_sim *sim, double x, double y, double z, double diameter, double off)
 {
     const int dim = sim->world.setup.dim;
-    const double at[3] = {x, y, dim == 3 ? z : 0}, wanted = linear(at, dim), most = sqrt(mps__dot(slope, slope, dim)) * off * dp + 1e-8;
+    const double at[3] = {x, y, dim == 3 ? z : 0}, wanted = linear(at, dim),
+                 most = sqrt(mps__dot(slope, slope, dim)) * off * dp + 1e-8;
     mps_probe p = probe_of(MPS_PROBE_WALL_PRESSURE, x, y, at[2]);
     p.diameter = diameter;
     double got = NAN;
     int32_t id;
-    if (mps_probe_add(sim, &p, &id) < 0) fail_msg("at (%g, %g, %g): %s", x, y, at[2], mps_sim_error(sim));
+    if (mps_probe_add(sim, &p, &id) < 0)
+        fail_msg("at (%g, %g, %g): %s", x, y, at[2], mps_sim_error(sim));
     ASSERT_OK(sim, mps_probe_read(sim, id, &got));
     if (!(fabs(got - wanted) <= most))
-        fail_msg("dim %d, sensor of %g at (%g, %g, %g): %.9g instead of %.9g, %g dp off", dim, diameter, x, y, at[2], got, wanted,
+        fail_msg("dim %d, sensor of %g at (%g, %g, %g): %.9g instead of %.9g, %g dp off", dim,
+                 diameter, x, y, at[2], got, wanted,
                  fabs(got - wanted) / sqrt(mps__dot(slope, slope, dim)) / dp);
 }
 
@@ -62,7 +66,8 @@ static void baffles(void **state)
     (void)state;
     for (int dim = 2; dim <= 3; dim++)
         for (int layers = 1; layers <= 7; layers++) {
-            const double left = 0.2, right = left + (layers - 1) * dp, lo[3] = {left, 0, 0}, hi[3] = {right, 0.1, 0.1}, z = 0.043;
+            const double left = 0.2, right = left + (layers - 1) * dp, lo[3] = {left, 0, 0},
+                         hi[3] = {right, 0.1, 0.1}, z = 0.043;
             const double side = layers == 1 ? 1e-6 : 0;
             mps_sim *sim = filled(dim, 0);
             ASSERT_OK(sim, mps_baffle_add(sim, "baffle", lo, hi, NULL));
@@ -77,7 +82,8 @@ static void baffles(void **state)
                 assert_linear(sim, left - x, 0, z, point, 1e-3);
                 assert_linear(sim, right + x, 0, z, point, 1e-3);
             }
-            for (double x = left + 1.2 * dp; x < right - 1.2 * dp; x += 0.31 * dp) assert_linear(sim, x, 0.1, z, dp, 1e-3);
+            for (double x = left + 1.2 * dp; x < right - 1.2 * dp; x += 0.31 * dp)
+                assert_linear(sim, x, 0.1, z, dp, 1e-3);
             mps_sim_destroy(sim);
         }
 }
@@ -87,7 +93,8 @@ static void sides_of_baffles(void **state)
 {
     (void)state;
     for (int layers = 1; layers <= 6; layers++) {
-        const double left = 0.2, right = left + (layers - 1) * dp, lo[2] = {left, 0}, hi[2] = {right, 0.3};
+        const double left = 0.2, right = left + (layers - 1) * dp, lo[2] = {left, 0},
+                     hi[2] = {right, 0.3};
         mps_sim *sim = filled(2, 0);
         ASSERT_OK(sim, mps_baffle_add(sim, "baffle", lo, hi, NULL));
         const mps__particles *s = &sim->world.particles;
@@ -113,15 +120,17 @@ static void inclined_plates(void **state)
     (void)state;
     for (int dim = 2; dim <= 3; dim++)
         for (double angle = 0.2; angle < 1.5; angle += 0.3) {
-            const double corner[3] = {0.2, 0, 0.02}, edge[3] = {0.12 * cos(angle), 0.12 * sin(angle), 0}, edge2[3] = {0, 0, 0.06};
+            const double corner[3] = {0.2, 0, 0.02},
+                         edge[3] = {0.12 * cos(angle), 0.12 * sin(angle), 0},
+                         edge2[3] = {0, 0, 0.06};
             mps_sim *sim = filled(dim, 0);
             ASSERT_OK(sim, mps_plate_add(sim, "plate", corner, edge, dim == 3 ? edge2 : NULL));
             write_linear(sim);
             for (double t = 0.02; t < 0.95; t += 0.0371)
                 for (int side = -1; side <= 1 && t * edge[1] > 0.6 * dp; side += 2) {
                     const double n[2] = {-side * 1e-6 * sin(angle), side * 1e-6 * cos(angle)};
-                    assert_linear(sim, 0.2 + t * edge[0] + n[0], t * edge[1] + n[1], 0.047, t * edge[1] > 1.2 * dp && t < 0.9 ? dp : point,
-                                  1e-3);
+                    assert_linear(sim, 0.2 + t * edge[0] + n[0], t * edge[1] + n[1], 0.047,
+                                  t * edge[1] > 1.2 * dp && t < 0.9 ? dp : point, 1e-3);
                 }
             mps_sim_destroy(sim);
         }
@@ -147,7 +156,8 @@ static double from_planes(void *user, const double *x)
     return value;
 }
 
-static void add_solid(mps_sim *sim, mps_distance_fn distance, void *user, const double *lo, const double *hi)
+static void add_solid(mps_sim *sim, mps_distance_fn distance, void *user, const double *lo,
+                      const double *hi)
 {
     mps_solid solid;
     assert_int_equal(mps_solid_init(&solid, sizeof solid), MPS_OK);
@@ -165,18 +175,21 @@ static void bodies_on_the_floor(void **state)
     for (int dim = 2; dim <= 3; dim++)
         for (double steep = 0; steep < 0.7; steep += 0.3)
             for (double left = 0.1403; left < 0.15; left += 0.0031) {
-                const double c = cos(steep), s = sin(steep), lo[3] = {0.02, -0.06, -0.06}, hi[3] = {0.38, 0.2, 0.16};
+                const double c = cos(steep), s = sin(steep), lo[3] = {0.02, -0.06, -0.06},
+                             hi[3] = {0.38, 0.2, 0.16};
                 planes p = {3, {{-c, s}, {c, s}, {0, 1}}, {-c * left, c * (left + 0.13), 0.084}, 1};
                 mps_sim *sim = filled(dim, 0);
                 add_solid(sim, from_planes, &p, lo, hi);
                 write_linear(sim);
                 for (double y = 0.05 * dp; y < 7.9 * dp; y += 0.37 * dp)
                     for (int large = 0; large < 2; large++) {
-                        const double diameter = large && y > 0.6 * dp && y < 7 * dp ? dp : point, z = 0.047;
+                        const double diameter = large && y > 0.6 * dp && y < 7 * dp ? dp : point,
+                                     z = 0.047;
                         assert_linear(sim, left + y * s / c, y, z, diameter, 0.03);
                         assert_linear(sim, left + 0.13 - y * s / c, y, z, diameter, 0.03);
                     }
-                for (double x = 0.1 * dp; x < 3 * dp; x += 0.31 * dp) assert_linear(sim, left - x, 0, 0.047, point, 0.03);
+                for (double x = 0.1 * dp; x < 3 * dp; x += 0.31 * dp)
+                    assert_linear(sim, left - x, 0, 0.047, point, 0.03);
                 mps_sim_destroy(sim);
             }
 }
@@ -202,8 +215,10 @@ static void sloping_tanks(void **state)
             write_linear(sim);
             for (double t = 0.05 * dp; t < 0.12; t += 0.37 * dp)
                 for (int large = 0; large < 2; large++) {
-                    const double diameter = large && t > dp && t < 0.1 ? dp : point, z = 0.047, off = t < 1.5 * dp ? 0.08 : 0.03;
-                    if (t * s < 0.15) assert_linear(sim, 0.2 + t * c, 0.04 + t * s, z, diameter, off);
+                    const double diameter = large && t > dp && t < 0.1 ? dp : point, z = 0.047,
+                                 off = t < 1.5 * dp ? 0.08 : 0.03;
+                    if (t * s < 0.15)
+                        assert_linear(sim, 0.2 + t * c, 0.04 + t * s, z, diameter, off);
                     assert_linear(sim, 0.2 - t, 0.04, z, diameter, off);
                     assert_linear(sim, 0, 0.04 + t, z, diameter, 0.03);
                 }
@@ -234,7 +249,8 @@ static void curved_walls(void **state)
                 for (double a = 0; a < 6.28; a += 0.11)
                     for (double b = 0; b < (dim == 3 ? 1 : 0.1); b += 0.4) {
                         const double r = radius[k] * cos(b);
-                        assert_linear(sim, r * cos(a), r * sin(a), radius[k] * sin(b), dp, 0.35 * dp / radius[k]);
+                        assert_linear(sim, r * cos(a), r * sin(a), radius[k] * sin(b), dp,
+                                      0.35 * dp / radius[k]);
                     }
                 mps_sim_destroy(sim);
             }
@@ -249,7 +265,8 @@ static void off_the_wall(void **state)
         mps_sim *sim = filled(dim, 0);
         int32_t id;
         mps_probe p = probe_of(MPS_PROBE_WALL_PRESSURE, -dp, 0.1, 0.05);
-        ASSERT_REFUSED(sim, mps_probe_add(sim, &p, &id), MPS_E_ARG, "0.01 m behind the face of its wall; allowed");
+        ASSERT_REFUSED(sim, mps_probe_add(sim, &p, &id), MPS_E_ARG,
+                       "0.01 m behind the face of its wall; allowed");
         p.at[0] = 0.4 + 0.51 * dp;
         ASSERT_REFUSED(sim, mps_probe_add(sim, &p, &id), MPS_E_ARG, "0.0051 m behind");
         p.at[0] = 0.4 + 0.5 * dp;
@@ -275,7 +292,8 @@ static void beyond_the_end(void **state)
     const double lo[2] = {0.1, 0.08}, hi[2] = {0.1, 0.15};
     ASSERT_OK(sim, mps_baffle_add(sim, "plate", lo, hi, NULL));
     mps_probe p = probe_of(MPS_PROBE_WALL_PRESSURE, 0.1 + 1e-6, 0.15 + 0.8 * dp, 0);
-    ASSERT_REFUSED(sim, mps_probe_add(sim, &p, &id), MPS_E_ARG, "0.008 m beyond the end of the face");
+    ASSERT_REFUSED(sim, mps_probe_add(sim, &p, &id), MPS_E_ARG,
+                   "0.008 m beyond the end of the face");
     p.at[1] = 0.15 + 0.4 * dp;
     ASSERT_OK(sim, mps_probe_add(sim, &p, &id));
     mps_sim_destroy(sim);

@@ -4,7 +4,8 @@
 #include "probe_fixture.h"
 
 /* A lattice whose columns are shifted so that the centres of the top layer lie at `surface`. */
-static void add_columns(mps_sim *sim, int32_t dim, double (*surface)(double x, double z, double c), double c)
+static void add_columns(mps_sim *sim, int32_t dim, double (*surface)(double x, double z, double c),
+                        double c)
 {
     static double x[3 * 60000];
     int64_t n = 0;
@@ -84,7 +85,8 @@ static void gauge_tilted_and_curved(void **state)
         for (double x = 0.0; x < 0.4; x += 0.0137) {
             const mps_probe p = probe_of(MPS_PROBE_GAUGE, x, 0, 0.0512);
             const bool beside_wall = x < 2 * dp || x > 0.4 - 2 * dp;
-            ASSERT_NEAR(read_one(sim, &p), slope(x, dim == 3 ? 0.0512 : 0.01, 0.1), (beside_wall ? 0.03 : 0.01) * dp);
+            ASSERT_NEAR(read_one(sim, &p), slope(x, dim == 3 ? 0.0512 : 0.01, 0.1),
+                        (beside_wall ? 0.03 : 0.01) * dp);
         }
         mps_sim_destroy(sim);
     }
@@ -137,7 +139,8 @@ static void add_jittered(mps_sim *sim, int32_t dim, int layers, double jitter, u
         for (int k = 1; k < (dim == 3 ? 10 : 2); k++)
             for (int j = 1; j <= layers; j++) {
                 const double at[3] = {i * dp, j * dp, k * dp};
-                for (int d = 0; d < dim; d++) x[block.count * dim + d] = at[d] + jitter * dp * cloud_random(seed);
+                for (int d = 0; d < dim; d++)
+                    x[block.count * dim + d] = at[d] + jitter * dp * cloud_random(seed);
                 block.count++;
             }
     block.position = x;
@@ -211,7 +214,8 @@ static void gauge_ignores_drops_and_films(void **state)
     add_points(sim, 9, drop);
     add_points(sim, 12, film);
     add_points(sim, 1, single);
-    mps_probe middle = probe_of(MPS_PROBE_GAUGE, 0.2, 0, 0), wall = probe_of(MPS_PROBE_GAUGE, 0, 0, 0),
+    mps_probe middle = probe_of(MPS_PROBE_GAUGE, 0.2, 0, 0),
+              wall = probe_of(MPS_PROBE_GAUGE, 0, 0, 0),
               side = probe_of(MPS_PROBE_GAUGE, 0.3, 0, 0);
     ASSERT_NEAR(read_one(sim, &middle), 0.1, 0.01 * dp);
     ASSERT_NEAR(read_one(sim, &wall), 0.1, 0.35 * dp); /* the film leans on the surface */
@@ -264,11 +268,14 @@ static void gauge_beside_a_thin_baffle(void **state)
     for (int thick = 0; thick <= 3; thick++) {
         mps_sim *sim = filled(2, 0);
         const double left = 0.2, right = left + thick * dp;
-        const double lo[6] = {left, 0, 0, 0, right, 0}, hi[6] = {right, 0.28, left - 0.5 * dp, 0.1, 0.4, 0.2};
+        const double lo[6] = {left, 0, 0, 0, right, 0},
+                     hi[6] = {right, 0.28, left - 0.5 * dp, 0.1, 0.4, 0.2};
         ASSERT_OK(sim, mps_baffle_add(sim, "baffle", lo, hi, NULL));
-        for (int k = 1; k < 3; k++) ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo + 2 * k, hi + 2 * k, NULL, NULL));
+        for (int k = 1; k < 3; k++)
+            ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo + 2 * k, hi + 2 * k, NULL, NULL));
         for (double off = 0.8 * dp; off < 0.05; off += 0.0041) {
-            const mps_probe a = probe_of(MPS_PROBE_GAUGE, left - off, 0, 0), b = probe_of(MPS_PROBE_GAUGE, right + off, 0, 0);
+            const mps_probe a = probe_of(MPS_PROBE_GAUGE, left - off, 0, 0),
+                            b = probe_of(MPS_PROBE_GAUGE, right + off, 0, 0);
             ASSERT_NEAR(read_one(sim, &a), 0.1, 0.1 * dp);
             ASSERT_NEAR(read_one(sim, &b), 0.2, 0.1 * dp);
         }
@@ -283,8 +290,10 @@ static void gauge_in_a_channel(void **state)
     mps_sim *sim = filled(2, 0);
     const double lo[10] = {0.2, 0, 0.25, 0, 0, 0, 0.215, 0, 0.265, 0},
                  hi[10] = {0.21, 0.28, 0.26, 0.28, 0.195, 0.11, 0.245, 0.1, 0.4, 0.11};
-    for (int k = 0; k < 2; k++) ASSERT_OK(sim, mps_baffle_add(sim, k ? "right" : "left", lo + 2 * k, hi + 2 * k, NULL));
-    for (int k = 2; k < 5; k++) ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo + 2 * k, hi + 2 * k, NULL, NULL));
+    for (int k = 0; k < 2; k++)
+        ASSERT_OK(sim, mps_baffle_add(sim, k ? "right" : "left", lo + 2 * k, hi + 2 * k, NULL));
+    for (int k = 2; k < 5; k++)
+        ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo + 2 * k, hi + 2 * k, NULL, NULL));
     for (double x = 0.211; x < 0.25; x += 0.0031) {
         const mps_probe p = probe_of(MPS_PROBE_GAUGE, x, 0, 0);
         ASSERT_NEAR(read_one(sim, &p), 0.1, 0.15 * dp);
@@ -302,7 +311,8 @@ static void gauge_through_a_dry_baffle(void **state)
     ASSERT_OK(sim, mps_baffle_add(sim, "baffle", lo, hi, NULL));
     ASSERT_OK(sim, mps_baffle_add(sim, "roof", lo + 2, hi + 2, NULL));
     fill_depth(sim, 0.4, 0.09, 0);
-    const mps_probe inside = probe_of(MPS_PROBE_GAUGE, 0.1, 0, 0), under = probe_of(MPS_PROBE_GAUGE, 0.3, 0, 0);
+    const mps_probe inside = probe_of(MPS_PROBE_GAUGE, 0.1, 0, 0),
+                    under = probe_of(MPS_PROBE_GAUGE, 0.3, 0, 0);
     ASSERT_NEAR(read_one(sim, &inside), 0, 0);
     ASSERT_NEAR(read_one(sim, &under), 0.09, 0.01 * dp);
     mps_sim_destroy(sim);
@@ -373,7 +383,8 @@ static void gauge_of_an_interface(void **state)
             mps_sim *sim = filled(2, 0);
             define_phase(sim, 1, 1.29);
             for (double x = dp; x < 0.4 - 0.6 * dp; x += dp / stretch) {
-                const double top = 0.15 + c * (x - 0.2), step = stretch * dp, rows = floor((top - 0.5 * step - 0.6 * dp) / step);
+                const double top = 0.15 + c * (x - 0.2), step = stretch * dp,
+                             rows = floor((top - 0.5 * step - 0.6 * dp) / step);
                 double y = add_rows(sim, 0, x, top - (rows + 0.5) * step, top, step);
                 add_rows(sim, 1, x, y, 0.3 - 0.6 * dp, step);
             }

@@ -7,7 +7,8 @@
 static void write_linear(mps_sim *sim, double a, const double b[3])
 {
     const mps__particles *s = &sim->world.particles;
-    for (int64_t i = 0; i < s->n; i++) s->load[i] = s->kind[i] == MPS_WALL ? a + mps__dot(b, &s->ref[i * s->dim], s->dim) : 0;
+    for (int64_t i = 0; i < s->n; i++)
+        s->load[i] = s->kind[i] == MPS_WALL ? a + mps__dot(b, &s->ref[i * s->dim], s->dim) : 0;
 }
 
 /* The same pressures on the same walls, whatever their order. */
@@ -61,8 +62,10 @@ static void any_diameter_and_place(void **state)
         for (double diameter = 0.001; diameter < 0.07; diameter *= 1.7)
             for (double along = 0.0353; along < 0.06; along += 0.0041) {
                 const double z = dim == 3 ? along : 0;
-                ASSERT_NEAR(read_sensor(sim, 0, 0.1 + along, z, diameter), 5000 - 9810 * (0.1 + along) + 2000 * z, 1e-9);
-                ASSERT_NEAR(read_sensor(sim, 0.1 + along, 0, z, diameter), 5000 + 300 * (0.1 + along) + 2000 * z, 1e-9);
+                ASSERT_NEAR(read_sensor(sim, 0, 0.1 + along, z, diameter),
+                            5000 - 9810 * (0.1 + along) + 2000 * z, 1e-9);
+                ASSERT_NEAR(read_sensor(sim, 0.1 + along, 0, z, diameter),
+                            5000 + 300 * (0.1 + along) + 2000 * z, 1e-9);
             }
         mps_sim_destroy(sim);
     }
@@ -74,7 +77,8 @@ static void inclined_wall(void **state)
     (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         static double x[3 * 900], area[3 * 900];
-        const double c = cos(0.5235987755982988), s = sin(0.5235987755982988), b[3] = {700, -9810, 2000};
+        const double c = cos(0.5235987755982988), s = sin(0.5235987755982988),
+                     b[3] = {700, -9810, 2000};
         int64_t n = 0;
         mps_sim *sim = new_sim(dim, dp);
         for (int i = 0; i < 30; i++)
@@ -93,7 +97,8 @@ static void inclined_wall(void **state)
         write_linear(sim, 100, b);
         for (double t = 0.0512; t < 0.2; t += 0.0133) {
             const double at[3] = {t * c, t * s, dim == 3 ? 0.14 : 0};
-            ASSERT_NEAR(read_sensor(sim, at[0], at[1], at[2], 0.04), 100 + mps__dot(b, at, dim), 1e-9);
+            ASSERT_NEAR(read_sensor(sim, at[0], at[1], at[2], 0.04), 100 + mps__dot(b, at, dim),
+                        1e-9);
         }
         mps_sim_destroy(sim);
     }
@@ -107,7 +112,8 @@ static void plate(void **state)
     mps_sim *sim = filled(2, 0);
     ASSERT_OK(sim, mps_baffle_add(sim, "plate", lo, hi, NULL));
     write_linear(sim, 5000, b);
-    for (double y = 0.03; y < 0.12; y += 0.0031) ASSERT_NEAR(read_sensor(sim, 0.2, y, 0, 0.03), 5060 - 9810 * y, 1e-9);
+    for (double y = 0.03; y < 0.12; y += 0.0031)
+        ASSERT_NEAR(read_sensor(sim, 0.2, y, 0, 0.03), 5060 - 9810 * y, 1e-9);
     mps_sim_destroy(sim);
 }
 
@@ -133,7 +139,8 @@ static void sides_of_a_plate(void **state)
         ASSERT_OK(sim, mps_particles_add(sim, &block, NULL));
     }
     const mps__particles *s = &sim->world.particles;
-    for (int64_t i = 0; i < s->n; i++) s->load[i] = fabs(s->ref[2 * i] - 0.2) > 1e-9 ? 0 : s->area[2 * i] > 0 ? 700 : 300;
+    for (int64_t i = 0; i < s->n; i++)
+        s->load[i] = fabs(s->ref[2 * i] - 0.2) > 1e-9 ? 0 : s->area[2 * i] > 0 ? 700 : 300;
     ASSERT_NEAR(read_sensor(sim, 0.2 - 1e-6, 0.1, 0, 0.03), 300, 1e-9);
     ASSERT_NEAR(read_sensor(sim, 0.2 + 1e-6, 0.1, 0, 0.03), 700, 1e-9);
     ASSERT_NEAR(read_sensor(sim, 0.2, 0.1, 0, 0.03), 300, 1e-9); /* on neither: the older */
@@ -147,7 +154,8 @@ static void half_dry(void **state)
     (void)state;
     mps_sim *sim = filled(2, 0.2);
     ASSERT_NEAR(read_sensor(sim, 0, 0.1, 0, 5 * dp), 981, 1e-9);
-    ASSERT_NEAR(read_sensor(sim, 0, 0.2, 0, 5 * dp), 9810 * 2.5 * dp / 4, 1e-9); /* a triangle over one half */
+    ASSERT_NEAR(read_sensor(sim, 0, 0.2, 0, 5 * dp), 9810 * 2.5 * dp / 4,
+                1e-9); /* a triangle over one half */
     mps_sim_destroy(sim);
 }
 
@@ -158,7 +166,10 @@ static void partly_covered(void **state)
     mps_sim *sim = filled(2, 0);
     const mps__particles *s = &sim->world.particles;
     for (int64_t i = 0; i < s->n; i++)
-        s->load[i] = s->kind[i] == MPS_WALL && fabs(s->ref[2 * i]) < 1e-9 && fabs(s->ref[2 * i + 1] - 0.15) < 1e-9 ? 600 : 0;
+        s->load[i] = s->kind[i] == MPS_WALL && fabs(s->ref[2 * i]) < 1e-9 &&
+                             fabs(s->ref[2 * i + 1] - 0.15) < 1e-9
+                         ? 600
+                         : 0;
     ASSERT_NEAR(read_sensor(sim, 0, 0.15, 0, 4 * dp), 600 / 4.0, 1e-9);
     ASSERT_NEAR(read_sensor(sim, 0, 0.15, 0, dp), 600 * 0.75, 1e-9);
     ASSERT_NEAR(read_sensor(sim, 0, 0.15 + 2 * dp, 0, 4 * dp), 600 * 0.5 / 4, 1e-9);
@@ -264,7 +275,8 @@ static void follows_the_particles(void **state)
         ASSERT_OK(sim, mps_particles_remove(sim, walls_within(sim, dp, ids), ids));
         assert_like_new(sim, id);
         ASSERT_OK(sim, mps_particles_remove(sim, walls_within(sim, 1, ids), ids));
-        ASSERT_REFUSED(sim, mps_probe_read(sim, id, &value), MPS_E_STATE, "no wall particle any more");
+        ASSERT_REFUSED(sim, mps_probe_read(sim, id, &value), MPS_E_STATE,
+                       "no wall particle any more");
         mps_sim_destroy(sim);
     }
 }

@@ -71,8 +71,12 @@ static void average_of_a_line(void **state)
         /* the first pressure holds from 0 to the end of the first step */
         for (int a = 0; a < 3; a++) {
             const double t = now(sim), T = fmin(averages[a], t), early = fmax(0, 1e-3 - (t - T));
-            const double mean = (line(1e-3) * early + line(0.5 * (t + fmax(t - T, 1e-3))) * (T - early)) / T;
-            if (k % 3) ASSERT_NEAR(value_of(sim, id[a]), mean, 1e-8); /* it is taken also when nobody reads it */
+            const double mean = (line(1e-3) * early +
+                                 line(0.5 * (t + fmax(t - T, 1e-3))) * (T - early)) /
+                                T;
+            if (k % 3)
+                ASSERT_NEAR(value_of(sim, id[a]), mean,
+                            1e-8); /* it is taken also when nobody reads it */
         }
     }
     mps_sim_destroy(sim);
@@ -251,7 +255,8 @@ static void refusals(void **state)
     REFUSE(p.rate = 2e9, "rate is 2e+09");
 #undef REFUSE
     id = add(sim, 1e-3, 0);
-    ASSERT_REFUSED(sim, mps_probe_series(sim, id, &count, NULL, NULL), MPS_E_STATE, "its rate is 0");
+    ASSERT_REFUSED(sim, mps_probe_series(sim, id, &count, NULL, NULL), MPS_E_STATE,
+                   "its rate is 0");
     ASSERT_REFUSED(sim, mps_probe_series_clear(sim, id), MPS_E_STATE, "its rate is 0");
     ASSERT_REFUSED(sim, mps_probe_series(sim, 7, &count, NULL, NULL), MPS_E_ARG, "probe 7");
     ASSERT_REFUSED(sim, mps_probe_series_clear(sim, -1), MPS_E_ARG, "probe -1");
@@ -295,7 +300,8 @@ static void removed_probes(void **state)
     ASSERT_OK(sim, mps_probe_remove(sim, id[1]));
     ASSERT_OK(sim, mps_run(sim, 3e-3, NULL, NULL));
     ASSERT_REFUSED(sim, mps_probe_read(sim, id[1], &value), MPS_E_ARG, "probe 1 was removed");
-    ASSERT_REFUSED(sim, mps_probe_series(sim, id[1], NULL, NULL, NULL), MPS_E_ARG, "probe 1 was removed");
+    ASSERT_REFUSED(sim, mps_probe_series(sim, id[1], NULL, NULL, NULL), MPS_E_ARG,
+                   "probe 1 was removed");
     ASSERT_REFUSED(sim, mps_probe_remove(sim, id[1]), MPS_E_ARG, "probe 1 was removed");
     assert_int_equal(mps_probe_size(sim, id[1]), -1);
     for (int k = 0; k < 3; k += 2) {

@@ -119,7 +119,8 @@ static void gauge_of_turned_tanks(void **state)
             head += p.data[i] / 9810 + height;
             count++;
         }
-        const double level = head / count - top; /* height at which p = 0, above the highest wall particle */
+        const double level = head / count -
+                             top; /* height at which p = 0, above the highest wall particle */
         ASSERT_NEAR(level, 0, 0.75 * dp);
         if (degrees > -40) ASSERT_NEAR(level, before, 0.2 * dp);
         before = level;
@@ -144,7 +145,8 @@ static void lid_of_open_tank(void **state)
         for (int k = 0; k < 5; k++) ASSERT_OK(sim, mps_step(sim, 1e-3, NULL));
         assert_int_equal(spy.level_free, 0);
         p[lid] = field_by_id(sim, "pressure");
-        if (lid) assert_memory_equal(p[0], p[1], (size_t)mps_particles_count(sim, -1) * sizeof *p[0]);
+        if (lid)
+            assert_memory_equal(p[0], p[1], (size_t)mps_particles_count(sim, -1) * sizeof *p[0]);
         mps_sim_destroy(sim);
     }
     free(p[0]);
@@ -215,8 +217,9 @@ static void weightless(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(gauge_by_lid),     cmocka_unit_test(gauge_of_turned_tanks),
-                                       cmocka_unit_test(lid_of_open_tank), cmocka_unit_test(lid_beside_gas),
-                                       cmocka_unit_test(layer_of_gas),     cmocka_unit_test(weightless)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(gauge_by_lid),     cmocka_unit_test(gauge_of_turned_tanks),
+        cmocka_unit_test(lid_of_open_tank), cmocka_unit_test(lid_beside_gas),
+        cmocka_unit_test(layer_of_gas),     cmocka_unit_test(weightless)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -61,9 +61,11 @@ static void run_to_the_end(void **state)
         set_fixed_step(sim, dts[k]);
         ASSERT_OK(sim, mps_run(sim, 0.02, monitor, &w));
         ASSERT_OK(sim, mps_sim_time(sim, &t, NULL));
-        assert_true(t == 0.02 && w.t == 0.02);     /* not nearly */
-        if (k == 1) assert_int_equal(w.calls, 20); /* a whole number of fixed steps is that number of steps */
-        assert_true(w.least > 1e-4);               /* no sliver at the end */
+        assert_true(t == 0.02 && w.t == 0.02); /* not nearly */
+        if (k == 1)
+            assert_int_equal(w.calls,
+                             20);    /* a whole number of fixed steps is that number of steps */
+        assert_true(w.least > 1e-4); /* no sliver at the end */
         ASSERT_OK(sim, mps_run(sim, 0.021, monitor, &w));
         assert_true(w.t == 0.021);
         mps_sim_destroy(sim);
@@ -81,7 +83,9 @@ static void whole_steps(void **state)
             mps_sim *sim = drop();
             set_fixed_step(sim, dts[k]);
             ASSERT_OK(sim, mps_run(sim, n * dts[k], monitor, &w));
-            if (w.calls != n) fail_msg("%d steps of %g s took %d, the smallest %g s", n, dts[k], w.calls, w.least);
+            if (w.calls != n)
+                fail_msg("%d steps of %g s took %d, the smallest %g s", n, dts[k], w.calls,
+                         w.least);
             assert_true(w.t == n * dts[k]);
             mps_sim_destroy(sim);
         }
@@ -183,8 +187,9 @@ static void threads_agree(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(run_to_the_end),  cmocka_unit_test(whole_steps),
-                                       cmocka_unit_test(no_sliver),       cmocka_unit_test(monitor_stops),
-                                       cmocka_unit_test(monitor_meddles), cmocka_unit_test(threads_agree)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(run_to_the_end),  cmocka_unit_test(whole_steps),
+        cmocka_unit_test(no_sliver),       cmocka_unit_test(monitor_stops),
+        cmocka_unit_test(monitor_meddles), cmocka_unit_test(threads_agree)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -136,7 +136,8 @@ static void versions(void **state)
     c = good_config(text, sizeof text);
     assert_int_equal(mps_sim_create(&c, &sim), MPS_OK);
     mps_phase phase = {.struct_size = 16, .density = 800, .viscosity = NAN};
-    ASSERT_REFUSED(sim, mps_phase_set(sim, 0, &phase), MPS_E_ARG, "mps_phase.struct_size is 16: call mps_phase_init() first");
+    ASSERT_REFUSED(sim, mps_phase_set(sim, 0, &phase), MPS_E_ARG,
+                   "mps_phase.struct_size is 16: call mps_phase_init() first");
     ASSERT_REFUSED(sim, mps_phase_get(sim, 0, &phase), MPS_E_ARG, "version 1.0.0 has 24");
     assert_true(phase.density == 800 && isnan(phase.viscosity));
     mps_sim_destroy(sim);
@@ -250,8 +251,7 @@ static void suggestions(void **state)
     assert_null(
         strstr(strstr(mps_sim_error(sim), "\"surface\"") + 1, "\"surface\"")); /* each once */
     assert_null(strstr(mps_sim_error(sim), "wall.half"));
-    ASSERT_REFUSED(sim, mps_preset_use(sim, "no such thing"), MPS_E_NAME,
-                   "there are \"imps\", ");
+    ASSERT_REFUSED(sim, mps_preset_use(sim, "no such thing"), MPS_E_NAME, "there are \"imps\", ");
     ASSERT_REFUSED(sim, mps_solver_use(sim, "petsc", NULL), MPS_E_NAME,
                    "there are 'sundials.pcg', ");
     ASSERT_REFUSED(sim, mps_model_set(sim, "surface", "xyz", 1), MPS_E_NAME,
@@ -259,8 +259,7 @@ static void suggestions(void **state)
     ASSERT_OK(sim, mps_model_use(sim, "gradient.conservative"));
     ASSERT_REFUSED(sim, mps_model_set(sim, "gradient", "x", 1), MPS_E_NAME,
                    "model \"gradient.conservative\" has no setting");
-    ASSERT_REFUSED(sim, mps_preset_use(sim, "ims"), MPS_E_NAME,
-                   "\"ims\"; did you mean \"imps\"");
+    ASSERT_REFUSED(sim, mps_preset_use(sim, "ims"), MPS_E_NAME, "\"ims\"; did you mean \"imps\"");
     ASSERT_REFUSED(sim, mps_preset_use(sim, "imps.papr"), MPS_E_NAME, "\"imps.paper\"");
     ASSERT_REFUSED(sim, mps_preset_use(sim, NULL), MPS_E_ARG, "NULL");
     ASSERT_REFUSED(sim, mps_model_use(sim, "surface.asymetry"), MPS_E_NAME,
@@ -499,7 +498,8 @@ static void status_texts(void **state)
     assert_string_equal(mps_status_name(MPS_OK), "MPS_OK");
     assert_string_equal(mps_status_name(MPS_E_LOST), "MPS_E_LOST");
     assert_string_equal(mps_status_name(-99), "MPS_E_UNKNOWN");
-    assert_string_equal(mps_status_text(MPS_E_BUSY), "a lease is open, or the call is not allowed now");
+    assert_string_equal(mps_status_text(MPS_E_BUSY),
+                        "a lease is open, or the call is not allowed now");
     assert_non_null(mps_status_text(99));
 }
 

@@ -12,7 +12,8 @@ static const double dp = 0.05;
 /* ---- a model with a verb in every moment that pushes, fails or spoils on demand -------------- */
 
 enum { CLASSIFY, PREPARE, FORCE, SOURCE, LEVEL, GRADIENT, LOAD, VELOCITY, SHIFT, VERBS };
-static const char *const verb_name[VERBS] = {"classify", "prepare", "force", "source", "level", "gradient", "load", "velocity", "shift"};
+static const char *const verb_name[VERBS] = {"classify", "prepare", "force",    "source", "level",
+                                             "gradient", "load",    "velocity", "shift"};
 
 /* What the model under test does; one for all handles of this program. */
 static struct {
@@ -32,7 +33,8 @@ static const mps_use push_uses[] = {{"acceleration", MPS_USE_CHANGE}};
 static const mps_use level_uses[] = {{"pressure", MPS_USE_CHANGE}};
 static const mps_use load_uses[] = {{"wall_pressure", MPS_USE_CHANGE}};
 static const mps_use velocity_uses[] = {{"velocity", MPS_USE_CHANGE}};
-static const mps_use shift_uses[] = {{"displacement", MPS_USE_CHANGE}, {"velocity", MPS_USE_CHANGE}};
+static const mps_use shift_uses[] = {{"displacement", MPS_USE_CHANGE},
+                                     {"velocity", MPS_USE_CHANGE}};
 
 /* `mess` [count]: NULL or numbers that must not be seen after a failure. */
 static int verb(mps_stage *s, int which, double *mess, int64_t count)
@@ -125,17 +127,19 @@ static int shift(mps_stage *s)
     return verb(s, SHIFT, s->data[1], s->n * s->dim);
 }
 
-static const mps_setting push_settings[] = {{"acceleration", "m/s2", "along the first axis", MPS_TYPE_REAL, 0, -100, 100}};
-static const mps_verb push_verbs[] = {{.moment = MPS_LIMIT, .run = limit},
-                                      {.moment = MPS_CLASSIFY, .use_count = 1, .uses = region_uses, .after = "*", .run = classify},
-                                      {.moment = MPS_PREPARE, .run = prepare},
-                                      {.moment = MPS_FORCE, .use_count = 1, .uses = push_uses, .run = force},
-                                      {.moment = MPS_SOURCE, .run = source},
-                                      {.moment = MPS_LEVEL, .use_count = 1, .uses = level_uses, .run = level},
-                                      {.moment = MPS_GRADIENT, .use_count = 1, .uses = push_uses, .run = gradient},
-                                      {.moment = MPS_LOAD, .use_count = 1, .uses = load_uses, .run = load},
-                                      {.moment = MPS_VELOCITY, .use_count = 1, .uses = velocity_uses, .run = velocity},
-                                      {.moment = MPS_SHIFT, .use_count = 2, .uses = shift_uses, .run = shift}};
+static const mps_setting push_settings[] = {
+    {"acceleration", "m/s2", "along the first axis", MPS_TYPE_REAL, 0, -100, 100}};
+static const mps_verb push_verbs[] = {
+    {.moment = MPS_LIMIT, .run = limit},
+    {.moment = MPS_CLASSIFY, .use_count = 1, .uses = region_uses, .after = "*", .run = classify},
+    {.moment = MPS_PREPARE, .run = prepare},
+    {.moment = MPS_FORCE, .use_count = 1, .uses = push_uses, .run = force},
+    {.moment = MPS_SOURCE, .run = source},
+    {.moment = MPS_LEVEL, .use_count = 1, .uses = level_uses, .run = level},
+    {.moment = MPS_GRADIENT, .use_count = 1, .uses = push_uses, .run = gradient},
+    {.moment = MPS_LOAD, .use_count = 1, .uses = load_uses, .run = load},
+    {.moment = MPS_VELOCITY, .use_count = 1, .uses = velocity_uses, .run = velocity},
+    {.moment = MPS_SHIFT, .use_count = 2, .uses = shift_uses, .run = shift}};
 static const mps_model_ops push = {.struct_size = sizeof(mps_model_ops),
                                    .api = MPS_MODEL_API,
                                    .name = "test.push",
@@ -230,7 +234,8 @@ static picture take_picture(mps_sim *sim)
         ASSERT_OK(sim, mps_lease_begin(sim, fields[f], MPS_READ, &l));
         for (int64_t i = 0; i < l.count; i++) {
             assert_true(ids[i] < 1000);
-            memcpy(c.value + at + ids[i] * l.stride, l.data + i * l.stride, (size_t)l.stride * sizeof(double));
+            memcpy(c.value + at + ids[i] * l.stride, l.data + i * l.stride,
+                   (size_t)l.stride * sizeof(double));
         }
         at += 1000 * l.stride;
         ASSERT_OK(sim, mps_lease_end(sim, &l));
@@ -288,7 +293,8 @@ static void failing_model(void **state)
             test.fail = v % VERBS;
             test.silent = v / VERBS;
             snprintf(word, sizeof word, "the %s is out of order", verb_name[test.fail]);
-            ASSERT_REFUSED(sim, mps_step(sim, 0.01, NULL), MPS_E_PLUGIN, test.silent ? "'test.push' failed" : word);
+            ASSERT_REFUSED(sim, mps_step(sim, 0.01, NULL), MPS_E_PLUGIN,
+                           test.silent ? "'test.push' failed" : word);
             assert_non_null(strstr(mps_sim_error(sim), "test.push"));
             const picture after = take_picture(sim);
             assert_same(&before, &after);
@@ -327,12 +333,14 @@ static void values_out_of_range(void **state)
         test.region = region[k];
         snprintf(word, sizeof word, "left region %d at particle 10, (", (int)region[k]);
         ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_PLUGIN, word);
-        ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_PLUGIN, "model 'test.push' at t = 0.001 s");
+        ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_PLUGIN,
+                       "model 'test.push' at t = 0.001 s");
         test.region = MPS_REGION_INNER;
         test.dt_limit = limit[k];
         snprintf(word, sizeof word, "allows a step of %g s", limit[k]);
         ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_PLUGIN, word);
-        ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_PLUGIN, "model 'test.push' at t = 0.001 s");
+        ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_PLUGIN,
+                       "model 'test.push' at t = 0.001 s");
         test.dt_limit = INFINITY;
         const picture after = take_picture(sim);
         assert_same(&before, &after);
@@ -352,7 +360,8 @@ static int spoil_density(mps_stage *s)
 }
 
 static const mps_use density_uses[] = {{"number_density", MPS_USE_CHANGE}};
-static const mps_verb density_verbs[] = {{.moment = MPS_PREPARE, .use_count = 1, .uses = density_uses, .run = spoil_density}};
+static const mps_verb density_verbs[] = {
+    {.moment = MPS_PREPARE, .use_count = 1, .uses = density_uses, .run = spoil_density}};
 static const mps_model_ops density_model = {.struct_size = sizeof(mps_model_ops),
                                             .api = MPS_MODEL_API,
                                             .name = "test.density",
@@ -417,8 +426,8 @@ static void diverged(void **state)
         test.victim++;
     const picture before = take_picture(sim);
     for (test.spoil = 1; test.spoil <= 4; test.spoil++) {
-        snprintf(particle, sizeof particle, "particle %lld at (%g, %g", (long long)test.victim, before.value[2 * test.victim],
-                 before.value[2 * test.victim + 1]);
+        snprintf(particle, sizeof particle, "particle %lld at (%g, %g", (long long)test.victim,
+                 before.value[2 * test.victim], before.value[2 * test.victim + 1]);
         ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_DIVERGED, particle);
         const picture after = take_picture(sim);
         assert_same(&before, &after);
@@ -437,10 +446,10 @@ static mps_time_control control(void)
     return c;
 }
 
-#define REFUSE(entry, value, word)                                                \
-    do {                                                                          \
-        mps_time_control c_ = control();                                          \
-        c_.entry = (value);                                                       \
+#define REFUSE(entry, value, word)                                            \
+    do {                                                                      \
+        mps_time_control c_ = control();                                      \
+        c_.entry = (value);                                                   \
         ASSERT_REFUSED(sim, mps_time_control_set(sim, &c_), MPS_E_ARG, word); \
     } while (0)
 
@@ -500,7 +509,8 @@ static void limits(void **state)
     test.dt_limit = INFINITY;
     ASSERT_NEAR(step_taken(sim, 1), 2.2e-4, 1e-15); /* which growth is measured against */
     ASSERT_NEAR(step_taken(sim, 1e-5), 1e-5, 1e-18);
-    ASSERT_NEAR(step_taken(sim, 1), 1.1 * 2.2e-4, 1e-15); /* a step cut by the caller does not count */
+    ASSERT_NEAR(step_taken(sim, 1), 1.1 * 2.2e-4,
+                1e-15); /* a step cut by the caller does not count */
     c.dt = 5e-4;
     ASSERT_OK(sim, mps_time_control_set(sim, &c));
     ASSERT_NEAR(step_taken(sim, 1), 5e-4, 1e-18);
@@ -524,9 +534,16 @@ static void fast_walls(void **state)
 {
     (void)state;
     for (int k = 0; k < 3; k++) {
-        const bool turn = k == 2, against = k == 1; /* against: the liquid comes towards the walls, the speeds add up */
-        const mps_harmonic shock = {.dof = turn ? MPS_YAW : MPS_SURGE, .amplitude = turn ? 1 : 1000, .omega = turn ? 200 : 0.2};
-        const double speed = against ? 320 : turn ? 200 * 0.6 * sqrt(2) : 200, allowed = 0.3 * dp / speed;
+        const bool turn = k == 2,
+                   against = k ==
+                             1; /* against: the liquid comes towards the walls, the speeds add up */
+        const mps_harmonic shock = {.dof = turn ? MPS_YAW : MPS_SURGE,
+                                    .amplitude = turn ? 1 : 1000,
+                                    .omega = turn ? 200 : 0.2};
+        const double speed = against ? 320
+                             : turn  ? 200 * 0.6 * sqrt(2)
+                                     : 200,
+                     allowed = 0.3 * dp / speed;
         mps_step_info info;
         mps_sim *sim = pool();
         const picture before = take_picture(sim);
@@ -570,7 +587,8 @@ static void bad_steps(void **state)
     const picture before = take_picture(sim);
     const double bad[] = {0, -1, NAN, INFINITY};
     mps_step_info info = {.struct_size = 0};
-    for (int k = 0; k < 4; k++) ASSERT_REFUSED(sim, mps_step(sim, bad[k], NULL), MPS_E_ARG, "dt_max is");
+    for (int k = 0; k < 4; k++)
+        ASSERT_REFUSED(sim, mps_step(sim, bad[k], NULL), MPS_E_ARG, "dt_max is");
     ASSERT_REFUSED(sim, mps_step(sim, 1e-3, &info), MPS_E_ARG, "struct_size");
     ASSERT_REFUSED(sim, mps_run(sim, NAN, NULL, NULL), MPS_E_ARG, "t_end");
     ASSERT_REFUSED(sim, mps_run(sim, INFINITY, NULL, NULL), MPS_E_ARG, "t_end");
@@ -606,7 +624,8 @@ static void other_step_info(void **state)
     } newer;
     assert_int_equal(mps_step_info_init(&newer.known, sizeof newer), MPS_OK);
     ASSERT_OK(sim, mps_step(sim, 1e-3, &newer.known));
-    assert_true(newer.known.struct_size == sizeof newer && newer.known.step == 1 && newer.known.dt == 1e-3 && newer.later == 0);
+    assert_true(newer.known.struct_size == sizeof newer && newer.known.step == 1 &&
+                newer.known.dt == 1e-3 && newer.later == 0);
     mps_sim_destroy(sim);
 }
 

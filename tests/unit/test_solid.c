@@ -86,7 +86,8 @@ static double nearest_other(const mps__particles *s, int64_t i)
     for (int64_t j = 0; j < s->n; j++) {
         double r2 = 0;
         if (j == i || s->kind[j] != MPS_WALL) continue;
-        for (int d = 0; d < s->dim; d++) r2 += pow(s->ref[j * s->dim + d] - s->ref[i * s->dim + d], 2);
+        for (int d = 0; d < s->dim; d++)
+            r2 += pow(s->ref[j * s->dim + d] - s->ref[i * s->dim + d], 2);
         least = fmin(least, r2);
     }
     return sqrt(least);
@@ -98,7 +99,8 @@ static sums sum_walls(const mps_sim *sim)
     sums out = {.closest = INFINITY};
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_WALL) continue;
-        const double *a = &s->area[i * s->dim], *x = &s->ref[i * s->dim], r = nearest_other(s, i) / sim->world.setup.dp;
+        const double *a = &s->area[i * s->dim], *x = &s->ref[i * s->dim],
+                     r = nearest_other(s, i) / sim->world.setup.dp;
         out.walls++;
         out.area += sqrt(mps__dot(a, a, s->dim));
         out.volume -= mps__dot(a, x, s->dim) / s->dim;
@@ -140,10 +142,10 @@ static void surfaces(void **state)
         solid.invert = c->invert;
         ASSERT_OK(sim, mps_solid_add(sim, &solid));
         const sums s = sum_walls(sim);
-        if (fabs(s.area / c->area - 1) > c->area_error || fabs(s.volume / c->volume - 1) > 0.01 || s.closest < c->closest ||
-            s.widest > c->widest)
-            fail_msg("%s: area %g of %g, volume %g of %g, neighbours %g .. %g dp", c->name, s.area, c->area, s.volume, c->volume, s.closest,
-                     s.widest);
+        if (fabs(s.area / c->area - 1) > c->area_error || fabs(s.volume / c->volume - 1) > 0.01 ||
+            s.closest < c->closest || s.widest > c->widest)
+            fail_msg("%s: area %g of %g, volume %g of %g, neighbours %g .. %g dp", c->name, s.area,
+                     c->area, s.volume, c->volume, s.closest, s.widest);
         for (int d = 0; d < c->dim; d++) ASSERT_NEAR(s.net[d], 0, 1e-12);
         assert_true(fabs((double)s.walls * pow(0.1, c->dim - 1) / c->area - 1) < 0.1);
         assert_true(mps_particles_count(sim, MPS_DUMMY) > s.walls);
@@ -172,8 +174,10 @@ static void a_box_is_a_tank(void **state)
         double best = INFINITY;
         for (int64_t j = 0; j < t->n; j++)
             if (t->kind[j] == MPS_WALL)
-                best = fmin(best, hypot(t->ref[2 * j] - 1 - s->ref[2 * i], t->ref[2 * j + 1] - 0.6 - s->ref[2 * i + 1]) +
-                                      hypot(t->area[2 * j] - s->area[2 * i], t->area[2 * j + 1] - s->area[2 * i + 1]));
+                best = fmin(best, hypot(t->ref[2 * j] - 1 - s->ref[2 * i],
+                                        t->ref[2 * j + 1] - 0.6 - s->ref[2 * i + 1]) +
+                                      hypot(t->area[2 * j] - s->area[2 * i],
+                                            t->area[2 * j + 1] - s->area[2 * i + 1]));
         ASSERT_NEAR(best, 0, 0.02);
     }
     mps_sim_destroy(a);
@@ -325,7 +329,8 @@ static void refusals(void **state)
     refused(sim, bad, "must be finite");
     bad.hi[1] = 1e9;
     refused(sim, bad, "too many");
-    for (int d = 0; d < 2; d++) { /* at once, without cells by the thousand million, and of the right axis */
+    for (int d = 0; d < 2;
+         d++) { /* at once, without cells by the thousand million, and of the right axis */
         char word[64];
         mps_solid box = good;
         snprintf(word, sizeof word, "1e+11 m long along axis %d: too many", d);
@@ -388,7 +393,8 @@ static int64_t through_the_wall(const mps_sim *sim)
     const mps__particles *s = &sim->world.particles;
     int dim = s->dim;
     int64_t count = 0;
-    for (int64_t i = 0; i < s->n; i++) count += s->kind[i] == MPS_FLUID && ball(&dim, &s->x[i * dim]) < 0.2 * sim->world.setup.dp;
+    for (int64_t i = 0; i < s->n; i++)
+        count += s->kind[i] == MPS_FLUID && ball(&dim, &s->x[i * dim]) < 0.2 * sim->world.setup.dp;
     return count;
 }
 
@@ -410,7 +416,9 @@ static void rest(int dim, double dp, double t_end, double volume)
     ASSERT_OK(sim, mps_probe_read(sim, bottom, &pressure));
     ASSERT_OK(sim, mps_probe_read(sim, force, values));
     ASSERT_NEAR(pressure / 9810, 1, 0.02);
-    ASSERT_NEAR(-values[1] / (9810 * volume), 1, 0.03); /* 1.022 at first; the level creeps up by another 0.005 R in the next 1.5 s */
+    ASSERT_NEAR(
+        -values[1] / (9810 * volume), 1,
+        0.03); /* 1.022 at first; the level creeps up by another 0.005 R in the next 1.5 s */
     ASSERT_NEAR(values[0] / (9810 * volume), 0, 0.01);
     /* of a column that falls by dp: 1/1000 of its energy */
     assert_true(kinetic(sim) < 1e-3 * 9810 * volume * dp);

@@ -14,13 +14,13 @@
 
 /* ---- a solver and a preconditioner that do what they are told ---- */
 
-static int live;             /* states alive */
-static int create_result;    /* what create answers */
-static void *got_user;       /* what *self held when create was called last */
+static int live;              /* states alive */
+static int create_result;     /* what create answers */
+static void *got_user;        /* what *self held when create was called last */
 static mps_allocator made_by; /* the allocator that create got */
-static mps_ppe_result told;  /* what solve reports */
-static double told_p;        /* the pressure it gives */
-static mps_ppe_problem seen; /* the problem it got */
+static mps_ppe_result told;   /* what solve reports */
+static double told_p;         /* the pressure it gives */
+static mps_ppe_problem seen;  /* the problem it got */
 
 static int dummy_create(const mps_allocator *allocator, void **self)
 {
@@ -38,7 +38,8 @@ static void dummy_destroy(const mps_allocator *allocator, void *self)
     live--;
 }
 
-static void dummy_solve(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc, void *pc_self, double *p,
+static void dummy_solve(void *self, const mps_ppe_problem *problem,
+                        const mps_preconditioner_ops *pc, void *pc_self, double *p,
                         mps_ppe_result *result)
 {
     (void)self, (void)pc, (void)pc_self;
@@ -61,13 +62,23 @@ static int dummy_apply(void *self, const double *r, double *z)
 
 static mps_solver_ops dummy_solver(const char *name, const char *pc)
 {
-    return (mps_solver_ops){sizeof(mps_solver_ops), MPS_PPE_API, name, pc, 1, dummy_create, dummy_solve, dummy_destroy, 0, NULL, NULL};
+    return (mps_solver_ops){
+        sizeof(mps_solver_ops), MPS_PPE_API, name, pc,  1, dummy_create, dummy_solve,
+        dummy_destroy,          0,           NULL, NULL};
 }
 
 static mps_preconditioner_ops dummy_preconditioner(const char *name)
 {
-    return (mps_preconditioner_ops){
-        sizeof(mps_preconditioner_ops), MPS_PPE_API, name, 1, dummy_create, dummy_setup, dummy_apply, dummy_destroy, NULL, NULL};
+    return (mps_preconditioner_ops){sizeof(mps_preconditioner_ops),
+                                    MPS_PPE_API,
+                                    name,
+                                    1,
+                                    dummy_create,
+                                    dummy_setup,
+                                    dummy_apply,
+                                    dummy_destroy,
+                                    NULL,
+                                    NULL};
 }
 
 /* ---- fixture ---- */
@@ -121,11 +132,15 @@ static void test_choice(void **state)
 static void test_wrong_names(void **state)
 {
     mps_sim *sim = *state;
-    expect_error(sim, mps_solver_use(sim, "sundials.pgc", NULL), MPS_E_NAME, "did you mean 'sundials.pcg'");
-    expect_error(sim, mps_solver_use(sim, "sundials.pcg", "jakobi"), MPS_E_NAME, "did you mean 'jacobi'");
-    expect_error(sim, mps_solver_use(sim, "sundials.pcg", "nome"), MPS_E_NAME, "did you mean 'none'");
+    expect_error(sim, mps_solver_use(sim, "sundials.pgc", NULL), MPS_E_NAME,
+                 "did you mean 'sundials.pcg'");
+    expect_error(sim, mps_solver_use(sim, "sundials.pcg", "jakobi"), MPS_E_NAME,
+                 "did you mean 'jacobi'");
+    expect_error(sim, mps_solver_use(sim, "sundials.pcg", "nome"), MPS_E_NAME,
+                 "did you mean 'none'");
     expect_error(sim, mps_solver_use(sim, NULL, NULL), MPS_E_ARG, "NULL");
-    expect_error(sim, mps_solver_use(sim, "sundials.klu", "jacobi"), MPS_E_ARG, "uses no preconditioner");
+    expect_error(sim, mps_solver_use(sim, "sundials.klu", "jacobi"), MPS_E_ARG,
+                 "uses no preconditioner");
     expect_pair(sim, "sundials.pcg", "auxgrid");
 }
 
@@ -151,7 +166,8 @@ static void test_limits(void **state)
     limits.max_iterations = 0;
     limits.divergence = 0;
     assert_int_equal(mps_solver_limits_set(sim, &limits), MPS_OK);
-    assert_true(s->limits.tolerance == 1e-8 && s->limits.max_iterations == 2000 && s->limits.divergence == 0);
+    assert_true(s->limits.tolerance == 1e-8 && s->limits.max_iterations == 2000 &&
+                s->limits.divergence == 0);
     static const double bad[] = {-1e-6, 1, NAN, INFINITY};
     for (int k = 0; k < 4; k++) {
         limits.tolerance = bad[k];
@@ -272,7 +288,8 @@ static void test_create_fails(void **state)
     assert_int_equal(mps_preconditioner_register(sim, &pc), MPS_OK);
     create_result = 1;
     expect_error(sim, mps_solver_use(sim, "my", NULL), MPS_E_NOMEM, "solver 'my'");
-    expect_error(sim, mps_solver_use(sim, "sundials.pcg", "mine"), MPS_E_NOMEM, "preconditioner 'mine'");
+    expect_error(sim, mps_solver_use(sim, "sundials.pcg", "mine"), MPS_E_NOMEM,
+                 "preconditioner 'mine'");
     expect_pair(sim, "sundials.pcg", "auxgrid");
     create_result = 0;
 }
@@ -283,7 +300,8 @@ static mps_ppe_problem tiny(void)
     static const int64_t row[2] = {0, 0};
     static const int32_t col[1] = {0};
     static const float val[1] = {0};
-    static const double diagonal[1] = {2}, rhs[1] = {4}, shift[1] = {2}, weight[1] = {1}, x[2] = {0};
+    static const double diagonal[1] = {2}, rhs[1] = {4}, shift[1] = {2}, weight[1] = {1},
+                        x[2] = {0};
     return (mps_ppe_problem){.struct_size = sizeof(mps_ppe_problem),
                              .dim = 2,
                              .n = 1,
@@ -313,7 +331,8 @@ static void test_solve_policy(void **state)
     } cases[] = {
         {MPS_PPE_CONVERGED, MPS_OK, ""},
         {MPS_PPE_MAX_ITERATIONS, MPS_W_NOT_CONVERGED,
-         "solver 'my' with preconditioner 'jacobi' did not converge: 17 iterations of at most 2000, "
+         "solver 'my' with preconditioner 'jacobi' did not converge: 17 iterations of at most "
+         "2000, "
          "residual 0.25 (wanted 1e-06), divergence 0.5 (wanted 0.0001)"},
         {MPS_PPE_INDEFINITE, MPS_E_SOLVER, "negative curvature"},
         {MPS_PPE_NAN, MPS_E_SOLVER, "NaN"},
@@ -326,7 +345,8 @@ static void test_solve_policy(void **state)
     told_p = 2; /* the solution */
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         told = (mps_ppe_result){sizeof told, cases[k].reason, 17, 0, 0.25, 0.5, 0};
-        expect_error(sim, mps__solvers_solve(s, &problem, &p, &result), cases[k].status, cases[k].text);
+        expect_error(sim, mps__solvers_solve(s, &problem, &p, &result), cases[k].status,
+                     cases[k].text);
         assert_int_equal(result.iterations, 17);
     }
     assert_true(seen.tolerance == 1e-6 && seen.divergence == 1e-4 && seen.max_iterations == 2000);
@@ -345,7 +365,8 @@ static void test_solve(void **state)
     mps_ppe_problem problem = tiny();
     mps_ppe_result result = {.struct_size = sizeof result};
     double p = 0;
-    static const char *const names[] = {"sundials.pcg", "sundials.bicgstab", "sundials.gmres", "sundials.klu", "sundials.kinsol"};
+    static const char *const names[] = {"sundials.pcg", "sundials.bicgstab", "sundials.gmres",
+                                        "sundials.klu", "sundials.kinsol"};
     for (int k = 0; k < 5; k++, p = 0) {
         assert_int_equal(mps_solver_use(sim, names[k], NULL), MPS_OK);
         assert_int_equal(mps__solvers_solve(&sim->world.solvers, &problem, &p, &result), MPS_OK);
@@ -381,7 +402,8 @@ static void test_fall_back(void **state)
     double p = 0;
     s->context->log = keep_log;
     for (int k = 0; k < s->preconditioners; k++)
-        if (strcmp(s->preconditioner_name[k], "auxgrid") == 0) s->preconditioner[k].setup = failing_setup;
+        if (strcmp(s->preconditioner_name[k], "auxgrid") == 0)
+            s->preconditioner[k].setup = failing_setup;
     for (int again = 0; again < 2; again++, p = 0) {
         logged[0] = 0;
         assert_int_equal(mps__solvers_solve(s, &problem, &p, &result), MPS_OK);
@@ -392,7 +414,8 @@ static void test_fall_back(void **state)
     logged[0] = 0; /* one that was asked for by name has no stand-in */
     assert_int_equal(mps_solver_use(sim, "sundials.pcg", "ic0"), MPS_OK);
     for (int k = 0; k < s->preconditioners; k++)
-        if (strcmp(s->preconditioner_name[k], "ic0") == 0) s->preconditioner[k].setup = failing_setup;
+        if (strcmp(s->preconditioner_name[k], "ic0") == 0)
+            s->preconditioner[k].setup = failing_setup;
     expect_error(sim, mps__solvers_solve(s, &problem, &p, &result), MPS_E_SOLVER, "broke down");
     assert_string_equal(logged, "");
 }

@@ -11,12 +11,14 @@ static cloud two_layers(int dim, double jitter, int32_t **phase)
     const int side = dim == 2 ? 16 : 10;
     const cloud c = cloud_lattice(dim, side, side, dim == 3 ? side : 1, jitter, 21);
     *phase = cloud_phases(c.n);
-    for (int64_t i = 0; i < c.n; i++) (*phase)[i] = c.x[i * dim] + 0.3 * c.x[i * dim + 1] < 0.65 * side * CLOUD_DP;
+    for (int64_t i = 0; i < c.n; i++)
+        (*phase)[i] = c.x[i * dim] + 0.3 * c.x[i * dim + 1] < 0.65 * side * CLOUD_DP;
     return c;
 }
 
 /* spy.rhs of the source alone, nothing relaxed; phase 1 is `ratio` times lighter, `pace` how much of it phase 0 waits for. */
-static void source(const cloud *c, const int32_t *phase, double ratio, const double *u, double strain, double pace)
+static void source(const cloud *c, const int32_t *phase, double ratio, const double *u,
+                   double strain, double pace)
 {
     mps_sim *sim = bare_sim(c->dim, CLOUD_DP, 3.1, DT);
     set_phase(sim, 0, water, 0);
@@ -47,7 +49,8 @@ static bool regular(const cloud *c, const int32_t *phase, double ratio, int64_t 
         *beside = *beside || phase[j] != phase[i];
         for (int d = 0; d < dim; d++)
             for (int e = 0; e < dim; e++)
-                m[d][e] += dim / n0 * share * mps_kernel_value(&kernel, sqrt(r2), re) / r2 * (c->x[j * dim + d] - c->x[i * dim + d]) *
+                m[d][e] += dim / n0 * share * mps_kernel_value(&kernel, sqrt(r2), re) / r2 *
+                           (c->x[j * dim + d] - c->x[i * dim + d]) *
                            (c->x[j * dim + e] - c->x[i * dim + e]);
     }
     for (int d = 0; d < dim; d++) m[d][d] -= 0.501;
@@ -67,7 +70,9 @@ static bool inside(const cloud *c, int64_t i)
 static void linear_flow(void **state)
 {
     (void)state;
-    static const double a[2][9] = {{1.3, 0.4, -2, 0.5}, {1, 0.3, -0.2, 0.5, -2, 0.1, 0.7, 0.2, 1.7}}, ratios[] = {1000, 20, 1.8, 1};
+    static const double a[2][9] = {{1.3, 0.4, -2, 0.5},
+                                   {1, 0.3, -0.2, 0.5, -2, 0.1, 0.7, 0.2, 1.7}},
+                        ratios[] = {1000, 20, 1.8, 1};
     for (int k = 0; k < 16; k++) {
         const int dim = 2 + k / 8;
         const double ratio = ratios[k % 4], *A = a[dim - 2];
@@ -89,7 +94,8 @@ static void linear_flow(void **state)
             water_beside += beside && phase[i] == 0;
             air_beside += beside && phase[i] == 1;
         }
-        assert_true(air_beside > 10 && water_beside > 10); /* of heavy ones some at a bent interface are bounded */
+        assert_true(air_beside > 10 &&
+                    water_beside > 10); /* of heavy ones some at a bent interface are bounded */
         cloud_free(&c);
         free(phase);
         free(u);
@@ -105,7 +111,8 @@ static double influence(int dim, double ratio, int moved, int whose)
     source(&c, phase, ratio, u, 0, 0);
     memcpy(rhs, spy.rhs, (size_t)c.n * sizeof *rhs);
     for (int64_t i = 0; i < c.n; i++)
-        for (int d = 0; d < dim && phase[i] == moved; d++) u[i * dim + d] = 3 * u[i * dim + d] + (d == 0 ? -5 : 2);
+        for (int d = 0; d < dim && phase[i] == moved; d++)
+            u[i * dim + d] = 3 * u[i * dim + d] + (d == 0 ? -5 : 2);
     source(&c, phase, ratio, u, 0, 0);
     for (int64_t i = 0; i < c.n; i++)
         if (inside(&c, i) && phase[i] == whose) most = fmax(most, fabs(spy.rhs[i] - rhs[i]));
@@ -123,8 +130,10 @@ static void water_minds_water(void **state)
     for (int dim = 2; dim <= 3; dim++) {
         const double equal = influence(dim, 1, 1, 0);
         for (double ratio = 100; ratio < 20000; ratio *= 10) {
-            const double seen = influence(dim, ratio, 1, 0) / equal, back = influence(dim, ratio, 0, 1) / equal;
-            print_message("%d-D, %g: water %.3g / ratio, air %.3g\n", dim, ratio, seen * ratio, back);
+            const double seen = influence(dim, ratio, 1, 0) / equal,
+                         back = influence(dim, ratio, 0, 1) / equal;
+            print_message("%d-D, %g: water %.3g / ratio, air %.3g\n", dim, ratio, seen * ratio,
+                          back);
             assert_true(seen > 0 && seen < 5 / ratio);
             assert_true(back > 0.5);
         }
@@ -188,9 +197,11 @@ static void water_keeps_its_pace(void **state)
         source(&c, phase, 1000, u, 0, 0);
         memcpy(full, spy.rhs, (size_t)c.n * sizeof *full);
         source(&c, phase, 1000, u, 0, 1);
-        const double slow = fmax(largest(&c, phase, 0, u), calm), share = slow / fmax(fmax(slow, largest(&c, phase, 1, u)), calm);
+        const double slow = fmax(largest(&c, phase, 0, u), calm),
+                     share = slow / fmax(fmax(slow, largest(&c, phase, 1, u)), calm);
         assert_true(k % 3 == 0 ? share == 1 : share < 0.5);
-        for (int64_t i = 0; i < c.n; i++) ASSERT_NEAR(spy.rhs[i], (phase[i] == 0 ? share : 1) * full[i], 1e-9 * fabs(full[i]));
+        for (int64_t i = 0; i < c.n; i++)
+            ASSERT_NEAR(spy.rhs[i], (phase[i] == 0 ? share : 1) * full[i], 1e-9 * fabs(full[i]));
         cloud_free(&c);
         free(phase);
         free(u);
@@ -215,7 +226,8 @@ static double relaxed(double deviation, double rapid, double start, double dt, d
     ASSERT_OK(sim, mps_model_set(sim, "source", "clip", 0.5));
     ASSERT_OK(sim, mps_model_set(sim, "source", "rapid", rapid));
     ASSERT_OK(sim, mps_model_set(sim, "source", "start", start));
-    assert_true(mps_step(sim, 1, NULL) >= 0); /* whether such a pressure converges is of no interest */
+    assert_true(mps_step(sim, 1, NULL) >=
+                0); /* whether such a pressure converges is of no interest */
     *delta = fmin(fmax(spy.volume[i], -0.5), 0.5);
     mps_sim_destroy(sim);
     cloud_free(&c);
@@ -227,15 +239,19 @@ static double relaxed(double deviation, double rapid, double start, double dt, d
 static void torn_volume(void **state)
 {
     (void)state;
-    static const double deviations[] = {0.01, -0.02, 0.05, 0.1, 0.15, -0.15, 0.2, -0.3, 0.5, 3, -0.9}, rapids[] = {0, 0.3, 1};
+    static const double deviations[] = {0.01, -0.02, 0.05, 0.1, 0.15, -0.15,
+                                        0.2,  -0.3,  0.5,  3,   -0.9},
+                        rapids[] = {0, 0.3, 1};
     const double rate = sqrt(9.81 * CLOUD_DP) / CLOUD_DP, tau = 20, firm = 0.03, torn = 0.15;
     for (int r = 0; r < 3; r++)
         for (double dt = 1e-5; dt < 0.02; dt *= 10)
             for (size_t k = 0; k < sizeof deviations / sizeof deviations[0]; k++) {
                 double delta;
                 const double got = dt * relaxed(deviations[k], rapids[r], 0, dt, &delta);
-                const double slow = fmin((1 + pow(delta / firm, 4)) / tau, 1), fast = rapids[r] * fmin(pow(delta / torn, 4), 1);
-                ASSERT_NEAR(delta, fmin(fmax(deviations[k], -0.5), 0.5), 0.01 * fabs(deviations[k]));
+                const double slow = fmin((1 + pow(delta / firm, 4)) / tau, 1),
+                             fast = rapids[r] * fmin(pow(delta / torn, 4), 1);
+                ASSERT_NEAR(delta, fmin(fmax(deviations[k], -0.5), 0.5),
+                            0.01 * fabs(deviations[k]));
                 ASSERT_NEAR(got / (rate * (slow + fast) * delta), 1, 1e-9);
                 assert_true(fabs(got) <= 0.5 * rate * (1 + rapids[r]) * (1 + 1e-9));
             }
@@ -282,7 +298,8 @@ static void torn_gas(void **state)
 {
     (void)state;
     for (double dt = 1e-6; dt < 2e-3; dt *= 10)
-        for (double speed = 1; speed < 10; speed += 3) ASSERT_NEAR(relaxed_beside_water(speed, dt) * CLOUD_DP / speed, 1, 1e-3);
+        for (double speed = 1; speed < 10; speed += 3)
+            ASSERT_NEAR(relaxed_beside_water(speed, dt) * CLOUD_DP / speed, 1, 1e-3);
 }
 
 /* ---- floor of torn gas ------------------------------------------------------------------------------------------------------- */
@@ -331,7 +348,8 @@ static void floor_of_torn_gas(void **state)
     (void)state;
     const double slight = 1e-3, twice = pushed(slight, 0, true), once = pushed(0.5, 1, true);
     ASSERT_NEAR(twice / once, 2, 1e-9);
-    ASSERT_NEAR(pushed(0.15 * pow(0.5, 0.25), 1, true) * 0.75 / once, 1, 5e-2); /* half the way: a floor of 0.75 */
+    ASSERT_NEAR(pushed(0.15 * pow(0.5, 0.25), 1, true) * 0.75 / once, 1,
+                5e-2); /* half the way: a floor of 0.75 */
     ASSERT_NEAR(pushed(0.5, 0, true) / twice, 1, 1e-9);
     ASSERT_NEAR(pushed(slight, 1, true) / twice, 1, 1e-6);
     ASSERT_NEAR(pushed(0.5, 1, false) / twice, 1, 1e-9);
@@ -356,7 +374,8 @@ static void expansion_below_surface(void **state)
             add_cloud(sim, &c, phase, NULL);
             spy.given_deviation = 0.02 * sign;
             ASSERT_OK(sim, mps_model_use(sim, "surface.asymmetry"));
-            ASSERT_OK(sim, mps_model_set(sim, "surface", "film", 0.9)); /* by the asymmetry alone: the spy sets n as well */
+            ASSERT_OK(sim, mps_model_set(sim, "surface", "film",
+                                         0.9)); /* by the asymmetry alone: the spy sets n as well */
             ASSERT_OK(sim, mps_model_use(sim, "moments.bounded"));
             ASSERT_OK(sim, mps_model_use(sim, "source.volume"));
             ASSERT_OK(sim, mps_model_set(sim, "source", "start", 0));
@@ -374,9 +393,10 @@ static void expansion_below_surface(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(linear_flow),       cmocka_unit_test(water_minds_water),
-                                       cmocka_unit_test(equal_densities),   cmocka_unit_test(water_keeps_its_pace),
-                                       cmocka_unit_test(torn_volume),       cmocka_unit_test(torn_gas),
-                                       cmocka_unit_test(floor_of_torn_gas), cmocka_unit_test(expansion_below_surface)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(linear_flow),       cmocka_unit_test(water_minds_water),
+        cmocka_unit_test(equal_densities),   cmocka_unit_test(water_keeps_its_pace),
+        cmocka_unit_test(torn_volume),       cmocka_unit_test(torn_gas),
+        cmocka_unit_test(floor_of_torn_gas), cmocka_unit_test(expansion_below_surface)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -32,7 +32,8 @@ static void add_triangle(triangles *t, const double *a, const double *b, const d
 /* Box 0..2 x 0..1.2 x 0..1.6, normals outward. */
 static triangles box_mesh(void)
 {
-    static const int face[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    static const int face[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                   {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
     triangles t = {0};
     double p[8][3];
     for (int k = 0; k < 8; k++) {
@@ -119,7 +120,8 @@ static void write_ascii(const triangles *t)
     for (int i = 0; i < t->count; i++) {
         const float *x = t->x[i];
         fprintf(file, " facet normal nan 0 0\n  OUTER loop\n");
-        for (int k = 0; k < 3; k++) fprintf(file, "   vertex %.9e %.9g %+.9E\n", x[3 * k], x[3 * k + 1], x[3 * k + 2]);
+        for (int k = 0; k < 3; k++)
+            fprintf(file, "   vertex %.9e %.9g %+.9E\n", x[3 * k], x[3 * k + 1], x[3 * k + 2]);
         fprintf(file, "  endloop\n endfacet\n");
     }
     fprintf(file, "endsolid a tank\n");
@@ -170,7 +172,8 @@ static void both_forms(void **state)
         for (int64_t i = 0; i < s->n; i++) {
             if (s->kind[i] != MPS_WALL) continue;
             const double *x = &s->ref[3 * i];
-            const double near = fmin(fmin(fmin(x[0], 2 - x[0]), fmin(x[1], 1.2 - x[1])), fmin(x[2], 1.6 - x[2]));
+            const double near = fmin(fmin(fmin(x[0], 2 - x[0]), fmin(x[1], 1.2 - x[1])),
+                                     fmin(x[2], 1.6 - x[2]));
             ASSERT_NEAR(near, 0, 1e-4);
         }
         walls[ascii] = mps_particles_count(sim, MPS_WALL);
@@ -271,7 +274,8 @@ static void bad_files(void **state)
     mps_sim_destroy(sim);
     sim = new_sim(3, 0.1);
     ASSERT_REFUSED(sim, read_file(sim, 1, -1), MPS_E_ARG, "stl.scale");
-    ASSERT_REFUSED(sim, mps_stl_add(sim, "", &(mps_stl){.struct_size = sizeof(mps_stl)}, NULL), MPS_E_ARG, "empty");
+    ASSERT_REFUSED(sim, mps_stl_add(sim, "", &(mps_stl){.struct_size = sizeof(mps_stl)}, NULL),
+                   MPS_E_ARG, "empty");
     mps_sim_destroy(sim);
 }
 
@@ -404,7 +408,9 @@ static void rotation(void **state)
              {{0, quarter, 0}, {0, 0, -2}, {1.6, 1.2, 0}},
              {{0, 0, quarter}, {-1.2, 0, 0}, {0, 2, 1.6}},
              {{quarter, quarter, 0}, {0, -1.6, -2}, {1.2, 0, 0}},
-             {{0.5, 0, 0}, {0, -1.6 * sin(0.5), 0}, {2, 1.2 * cos(0.5), 1.2 * sin(0.5) + 1.6 * cos(0.5)}}};
+             {{0.5, 0, 0},
+              {0, -1.6 * sin(0.5), 0},
+              {2, 1.2 * cos(0.5), 1.2 * sin(0.5) + 1.6 * cos(0.5)}}};
     const triangles box = box_mesh();
     write_binary(&box);
     for (size_t k = 0; k < sizeof c / sizeof c[0]; k++) {
@@ -420,14 +426,16 @@ static void rotation(void **state)
             ASSERT_NEAR(built[d], c[k].lo[d] + (d == 2 ? 3 : 0), 1e-6);
             ASSERT_NEAR(built[3 + d], c[k].hi[d] + (d == 2 ? 3 : 0), 1e-6);
         }
-        ASSERT_NEAR(area_of(sim, &volume), 13.9544, k < 5 ? 1e-3 : 0.1); /* 15.04 less edges, at 6 to 10 dp */
+        ASSERT_NEAR(area_of(sim, &volume), 13.9544,
+                    k < 5 ? 1e-3 : 0.1); /* 15.04 less edges, at 6 to 10 dp */
         mps_sim_destroy(sim);
     }
     mps_sim *sim = new_sim(3, 0.2);
     mps_stl stl;
     assert_int_equal(mps_stl_init(&stl, sizeof stl), MPS_OK);
     stl.rotation[1] = NAN;
-    ASSERT_REFUSED(sim, mps_stl_add(sim, path, &stl, NULL), MPS_E_ARG, "stl.rotation is (0, nan, 0) rad");
+    ASSERT_REFUSED(sim, mps_stl_add(sim, path, &stl, NULL), MPS_E_ARG,
+                   "stl.rotation is (0, nan, 0) rad");
     stl.rotation[1] = 0;
     stl.open_side = MPS_SIDE_Y1;
     ASSERT_REFUSED(sim, mps_stl_add(sim, path, &stl, NULL), MPS_E_ARG, "a body has none");
@@ -449,7 +457,8 @@ static void open_sides(void **state)
         const mps__particles *s = &sim->world.particles;
         const int d = side > 0 ? (side - 1) / 2 : 0, up = (side - 1) % 2;
         const double sign = up ? 1 : -1, plane = up ? size[d] : 0;
-        double nearest = INFINITY, area = 0, lid = size[(d + 1) % 3] * size[(d + 2) % 3], whole = 2 * (2 * 1.2 + 2 * 1.6 + 1.2 * 1.6);
+        double nearest = INFINITY, area = 0, lid = size[(d + 1) % 3] * size[(d + 2) % 3],
+               whole = 2 * (2 * 1.2 + 2 * 1.6 + 1.2 * 1.6);
         mps_stl stl;
         assert_int_equal(mps_stl_init(&stl, sizeof stl), MPS_OK);
         stl.container = 1;
@@ -460,9 +469,11 @@ static void open_sides(void **state)
             nearest = fmin(nearest, sign * (plane - s->ref[3 * i + d]));
         }
         if (side > 0) assert_true(nearest > 0.09 && nearest < 0.21);
-        if (side > 0) assert_true(area < whole - 0.9 * lid && area > whole - lid - 0.2 * 2 * 3.6 - 0.3);
+        if (side > 0)
+            assert_true(area < whole - 0.9 * lid && area > whole - lid - 0.2 * 2 * 3.6 - 0.3);
         fill_depth(sim, 2, 0.6, 1.6);
-        for (int k = 0; side == MPS_SIDE_Y1 && k < 5; k++) ASSERT_OK(sim, mps_step(sim, 1e-3, NULL));
+        for (int k = 0; side == MPS_SIDE_Y1 && k < 5; k++)
+            ASSERT_OK(sim, mps_step(sim, 1e-3, NULL));
         mps_sim_destroy(sim);
     }
 }
@@ -472,8 +483,12 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rotation),
         cmocka_unit_test(open_sides),
-        cmocka_unit_test(both_forms), cmocka_unit_test(scale_and_orientation), cmocka_unit_test(bad_meshes),
-        cmocka_unit_test(bad_files),  cmocka_unit_test(degenerate_triangles),  cmocka_unit_test(damaged_files),
+        cmocka_unit_test(both_forms),
+        cmocka_unit_test(scale_and_orientation),
+        cmocka_unit_test(bad_meshes),
+        cmocka_unit_test(bad_files),
+        cmocka_unit_test(degenerate_triangles),
+        cmocka_unit_test(damaged_files),
         cmocka_unit_test(distances),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

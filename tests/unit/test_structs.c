@@ -7,16 +7,20 @@
 
 typedef mps_status (*init_fn)(void *out, size_t size);
 
-#define INIT(type)                                          \
-    static mps_status init_##type(void *out, size_t size)   \
-    {                                                       \
-        return type##_init((type *)out, size);              \
+#define INIT(type)                                        \
+    static mps_status init_##type(void *out, size_t size) \
+    {                                                     \
+        return type##_init((type *)out, size);            \
     }
-#define ALL(X)                                                                                                             \
-    X(mps_channel_info) X(mps_config) X(mps_energy) X(mps_grid) X(mps_kernel) X(mps_lease) X(mps_model_info) X(mps_momentum) \
-    X(mps_motion_state) X(mps_name_info) X(mps_parallel) X(mps_particle_block) X(mps_phase) X(mps_ppe_result) X(mps_probe) \
-    X(mps_setting_info) X(mps_solid) X(mps_solver_limits) X(mps_stencil) X(mps_step_info) X(mps_stl) X(mps_tank)           \
-    X(mps_time_control) X(mps_verb_info)
+/* clang-format off */
+#define ALL(X)                                                                                     \
+    X(mps_channel_info)                                                                            \
+    X(mps_config) X(mps_energy) X(mps_grid) X(mps_kernel) X(mps_lease) X(mps_model_info)           \
+        X(mps_momentum) X(mps_motion_state) X(mps_name_info) X(mps_parallel) X(mps_particle_block) \
+            X(mps_phase) X(mps_ppe_result) X(mps_probe) X(mps_setting_info) X(mps_solid)           \
+                X(mps_solver_limits) X(mps_stencil) X(mps_step_info) X(mps_stl) X(mps_tank)        \
+                    X(mps_time_control) X(mps_verb_info)
+/* clang-format on */
 ALL(INIT)
 
 #define ENTRY(type) {#type, sizeof(type), init_##type},
@@ -36,7 +40,8 @@ static void init_knows_sizes(void **state)
         } room;
         for (size_t size = 0; size < all[k].size; size++) {
             memset(&room, 7, sizeof room);
-            if (all[k].init(&room, size) != MPS_E_ARG) fail_msg("%s_init() took %zu bytes", all[k].name, size);
+            if (all[k].init(&room, size) != MPS_E_ARG)
+                fail_msg("%s_init() took %zu bytes", all[k].name, size);
             for (size_t b = 0; b < sizeof room.byte; b++) assert_int_equal(room.byte[b], 7);
         }
         const size_t newer = all[k].size + 24;
@@ -45,7 +50,8 @@ static void init_knows_sizes(void **state)
         assert_int_equal(all[k].init(&room, newer), MPS_OK);
         memcpy(&told, &room, sizeof told);
         assert_int_equal(told, newer);
-        for (size_t b = all[k].size; b < sizeof room.byte; b++) assert_int_equal(room.byte[b], b < newer ? 0 : 7);
+        for (size_t b = all[k].size; b < sizeof room.byte; b++)
+            assert_int_equal(room.byte[b], b < newer ? 0 : 7);
     }
 }
 
@@ -64,17 +70,22 @@ static void fillers_refuse_sizes(void **state)
     mps_neighbours *list;
     add_tank(sim, 1, 1, 0);
     fill_depth(sim, 1, 0.5, 0);
-    ASSERT_REFUSED(sim, mps_stencil_get(sim, MPS_NEAR, &stencil), MPS_E_ARG, "mps_stencil.struct_size is");
+    ASSERT_REFUSED(sim, mps_stencil_get(sim, MPS_NEAR, &stencil), MPS_E_ARG,
+                   "mps_stencil.struct_size is");
     ASSERT_REFUSED(sim, mps_stencil_get(sim, MPS_NEAR, NULL), MPS_E_ARG, "mps_stencil is NULL");
     assert_int_equal(stencil.n, -1);
-    ASSERT_REFUSED(sim, mps_lease_begin(sim, "position", MPS_READ, &lease), MPS_E_ARG, "call mps_lease_init() first");
+    ASSERT_REFUSED(sim, mps_lease_begin(sim, "position", MPS_READ, &lease), MPS_E_ARG,
+                   "call mps_lease_init() first");
     ASSERT_REFUSED(sim, mps_lease_end(sim, &lease), MPS_E_ARG, "call mps_lease_init() first");
     assert_int_equal(lease.count, -1);
-    ASSERT_REFUSED(sim, mps_motion_state_get(sim, &motion), MPS_E_ARG, "mps_motion_state.struct_size is 4");
+    ASSERT_REFUSED(sim, mps_motion_state_get(sim, &motion), MPS_E_ARG,
+                   "mps_motion_state.struct_size is 4");
     ASSERT_REFUSED(sim, mps_kernel_use(sim, &kernel), MPS_E_ARG, "mps_kernel.struct_size is 8");
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_E_ARG);
     assert_int_equal(kernel.id, 0);
-    assert_int_equal(mps_ppe_check(&(mps_ppe_problem){.struct_size = sizeof(mps_ppe_problem)}, x, work, &result), MPS_E_ARG);
+    assert_int_equal(
+        mps_ppe_check(&(mps_ppe_problem){.struct_size = sizeof(mps_ppe_problem)}, x, work, &result),
+        MPS_E_ARG);
     assert_int_equal(mps_neighbours_create(2, 0.1, NULL, &list), MPS_OK);
     assert_int_equal(mps_neighbours_build(list, 2, x, 0.21, 0.21), MPS_OK);
     assert_int_equal(mps_neighbours_stencil_get(list, MPS_NEAR, &kernel, &stencil), MPS_E_ARG);
@@ -106,10 +117,13 @@ static void newer_structs_are_filled(void **state)
     newer.later = lease.later = 3;
     ASSERT_OK(sim, mps_stencil_get(sim, MPS_FAR, &newer.known));
     ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_READ, &lease.known));
-    assert_true(newer.known.struct_size == sizeof newer && newer.known.n == mps_particles_count(sim, -1) && newer.later == 3);
-    assert_true(lease.known.struct_size == sizeof lease && lease.known.stride == 2 && lease.later == 3);
+    assert_true(newer.known.struct_size == sizeof newer &&
+                newer.known.n == mps_particles_count(sim, -1) && newer.later == 3);
+    assert_true(lease.known.struct_size == sizeof lease && lease.known.stride == 2 &&
+                lease.later == 3);
     double *n = malloc((size_t)newer.known.n * sizeof *n);
-    ASSERT_STATUS(sim, mps_op_number_density(&newer.known, n), MPS_E_VERSION); /* with an entry that is not known */
+    ASSERT_STATUS(sim, mps_op_number_density(&newer.known, n),
+                  MPS_E_VERSION); /* with an entry that is not known */
     newer.later = 0;
     ASSERT_OK(sim, mps_op_number_density(&newer.known, n));
     free(n);

@@ -138,9 +138,8 @@ static void volume_of_shallow_liquid(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(island_in_a_corner),
-                                       cmocka_unit_test(film_on_the_floor),
-                                       cmocka_unit_test(surface_meets_a_wall),
-                                       cmocka_unit_test(volume_of_shallow_liquid)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(island_in_a_corner), cmocka_unit_test(film_on_the_floor),
+        cmocka_unit_test(surface_meets_a_wall), cmocka_unit_test(volume_of_shallow_liquid)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -68,7 +68,8 @@ static void together(void **state)
         for (int layer = 0; layer < 2; layer++) {
             int32_t *phase;
             cloud c = air_block(dim, layer ? 0.1 : 0, &phase);
-            for (int k = 0; k < (dim == 2 ? 3 : 8) && !layer; k++) phase[at(dim, MIDDLE + k % 2, MIDDLE + k / 2 % 2, MIDDLE + k / 4)] = 0;
+            for (int k = 0; k < (dim == 2 ? 3 : 8) && !layer; k++)
+                phase[at(dim, MIDDLE + k % 2, MIDDLE + k / 2 % 2, MIDDLE + k / 4)] = 0;
             if (dim == 2 && !layer) { /* all sides of the triangle are dp */
                 double *top = c.x + 2 * at(dim, MIDDLE, MIDDLE + 1, 0);
                 top[0] += 0.5 * CLOUD_DP;
@@ -78,7 +79,8 @@ static void together(void **state)
                 if (i / SIDE % SIDE == MIDDLE) phase[i] = 0;
             classify(&c, phase, 1000, -1);
             if (!layer) assert_int_equal(spray_count(&c), 0);
-            for (int64_t i = 0; i < c.n; i++) /* at its ends a layer has neighbours on one side only */
+            for (int64_t i = 0; i < c.n;
+                 i++) /* at its ends a layer has neighbours on one side only */
                 if (cloud_inside(&c, i, (const int[3]){SIDE, SIDE, SIDE}, 2.1 * CLOUD_DP))
                     assert_int_equal(spy.region[i], MPS_REGION_INNER);
             cloud_free(&c);
@@ -91,7 +93,8 @@ static void in_a_void(void **state)
 {
     (void)state;
     for (int dim = 2; dim <= 3; dim++)
-        for (int kind = 0; kind < 3; kind++) { /* water beside air, air beside water, water beside water */
+        for (int kind = 0; kind < 3;
+             kind++) { /* water beside air, air beside water, water beside water */
             int32_t *phase;
             cloud c = air_block(dim, 0.1, &phase);
             for (int64_t i = 0; i < c.n; i++) phase[i] = kind == 0;
@@ -115,7 +118,8 @@ static double company(const cloud *c, const int32_t *phase, double ratio, int64_
     assert_int_equal(mps_lattice_constants(&kernel, c->dim, CLOUD_DP, re, &n0, NULL), MPS_OK);
     for (int64_t j = 0; j < c->n; j++)
         if (j != i && cloud_distance2(c, i, j) < re * re)
-            sum += mps_kernel_value(&kernel, sqrt(cloud_distance2(c, i, j)), re) * (phase[j] == phase[i] ? 1 : fmin(1, 1 / ratio));
+            sum += mps_kernel_value(&kernel, sqrt(cloud_distance2(c, i, j)), re) *
+                   (phase[j] == phase[i] ? 1 : fmin(1, 1 / ratio));
     return sum / n0;
 }
 
@@ -137,7 +141,8 @@ static void to_the_letter(void **state)
                 classify(&c, phase, ratios[r], sprays[k]);
                 for (int64_t i = 0; i < c.n; i++) {
                     if (fabs(sum[i] - sprays[k]) < 1e-9) continue;
-                    assert_int_equal(spy.region[i] == MPS_REGION_SPRAY, phase[i] == 0 && sum[i] < sprays[k]);
+                    assert_int_equal(spy.region[i] == MPS_REGION_SPRAY,
+                                     phase[i] == 0 && sum[i] < sprays[k]);
                 }
                 assert_true(k == 0 ? spray_count(&c) == 0 : spray_count(&c) >= before);
                 before = spray_count(&c);
@@ -151,7 +156,8 @@ static void to_the_letter(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(lone_drop), cmocka_unit_test(together), cmocka_unit_test(in_a_void),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lone_drop), cmocka_unit_test(together),
+                                       cmocka_unit_test(in_a_void),
                                        cmocka_unit_test(to_the_letter)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

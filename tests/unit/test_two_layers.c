@@ -6,7 +6,8 @@ static const double dp = 0.05, water = 1000, air = 1, size[3] = {0.4, 0.5, 0.3},
 
 static void fill(mps_sim *sim)
 {
-    const double lo[3] = {0}, water_top[3] = {size[0], middle, size[2]}, air_floor[3] = {0, middle, 0};
+    const double lo[3] = {0}, water_top[3] = {size[0], middle, size[2]},
+                 air_floor[3] = {0, middle, 0};
     set_phase(sim, 0, water, 1e-3);
     set_phase(sim, 1, air, 1.8e-5);
     add_tank(sim, size[0], size[1], size[2]);
@@ -31,7 +32,8 @@ static void jitter_fluid(mps_sim *sim, int dim, double jitter)
 
 /* Density of the fluid beside: that of the nearest, or with `nearly` the mean of all whose W/r^2 is more than that share
  * of the nearest one's, by the square of the excess; else the wall's own. */
-static double density_beside(const double *x, const double *rho, const int32_t *kind, int64_t n, int dim, int64_t i, double nearly)
+static double density_beside(const double *x, const double *rho, const int32_t *kind, int64_t n,
+                             int dim, int64_t i, double nearly)
 {
     const double re = 2.1 * dp;
     double most = 0, sum = 0, weight = 0, found = rho[i], *near = cloud_doubles(n);
@@ -114,8 +116,12 @@ static void spray_before_wall(void **state)
         int32_t *kind = kinds_by_id(sim);
         int64_t drop = -1, wall = -1;
         for (int64_t i = 0; i < mps_particles_count(sim, -1); i++) {
-            if (kind[i] == MPS_FLUID && x[2 * i] < 1.5 * dp && fabs(x[2 * i + 1] - 8 * dp) < 0.1 * dp) drop = i;
-            if (kind[i] == MPS_WALL && x[2 * i] < 0.1 * dp && fabs(x[2 * i + 1] - 8 * dp) < 0.1 * dp) wall = i;
+            if (kind[i] == MPS_FLUID && x[2 * i] < 1.5 * dp &&
+                fabs(x[2 * i + 1] - 8 * dp) < 0.1 * dp)
+                drop = i;
+            if (kind[i] == MPS_WALL && x[2 * i] < 0.1 * dp &&
+                fabs(x[2 * i + 1] - 8 * dp) < 0.1 * dp)
+                wall = i;
         }
         assert_true(drop >= 0 && wall >= 0);
         const int64_t *ids;
@@ -174,7 +180,8 @@ static void water_walls_mind_water(void **state)
         most[air_wall] = fmax(most[air_wall], fabs(fast[i] - slow[i]));
         if (!air_wall) seen = fmax(seen, fabs(slow[i]));
     }
-    print_message("walls of the water change by %.3g, of the air by %.3g 1/s2; source %.3g\n", most[0], most[1], seen);
+    print_message("walls of the water change by %.3g, of the air by %.3g 1/s2; source %.3g\n",
+                  most[0], most[1], seen);
     assert_true(most[1] > 0 && most[0] < 0.02 * most[1]);
     assert_true(seen > 0);
     free(slow);
@@ -195,7 +202,8 @@ static double head_error(mps_sim *sim, int dim)
     ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &x));
     for (int64_t i = 0; i < p.count; i++) {
         if (kinds[i] != MPS_FLUID) continue;
-        const double above = x.data[i * dim + 1] - middle, head = p.data[i] + 9.81 * (above < 0 ? water : air) * above;
+        const double above = x.data[i * dim + 1] - middle,
+                     head = p.data[i] + 9.81 * (above < 0 ? water : air) * above;
         low = fmin(low, head);
         high = fmax(high, head);
     }
@@ -219,13 +227,16 @@ static void at_rest(void **state)
             ASSERT_OK(sim, mps_threads_set(sim, threads));
             assert_int_equal(mps_step_info_init(&info, sizeof info), MPS_OK);
             for (int step = 0; step < 20; step++) ASSERT_OK(sim, mps_step(sim, 1, &info));
-            print_message("%d-D: largest speed %.3g m/s, pressures to %.2g of rho g h\n", dim, info.max_speed, head_error(sim, dim));
-            assert_true(info.max_speed <
-                        0.005); /* sqrt(g dp) is 0.7; pairs with the mean of two densities: 0.01; walls with their own: above 0.1 */
+            print_message("%d-D: largest speed %.3g m/s, pressures to %.2g of rho g h\n", dim,
+                          info.max_speed, head_error(sim, dim));
+            assert_true(
+                info.max_speed <
+                0.005); /* sqrt(g dp) is 0.7; pairs with the mean of two densities: 0.01; walls with their own: above 0.1 */
             assert_true(head_error(sim, dim) < 2e-3);
             for (int f = 0; f < 3; f++) {
                 double *now = field_by_id(sim, fields[f]);
-                const size_t bytes = (size_t)mps_particles_count(sim, -1) * (f < 2 ? (size_t)dim : 1) * sizeof *now;
+                const size_t bytes = (size_t)mps_particles_count(sim, -1) *
+                                     (f < 2 ? (size_t)dim : 1) * sizeof *now;
                 if (first[f]) assert_memory_equal(now, first[f], bytes);
                 free(first[f]);
                 first[f] = now;
@@ -238,7 +249,8 @@ static void at_rest(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(walls_take_density), cmocka_unit_test(spray_before_wall),
-                                       cmocka_unit_test(water_walls_mind_water), cmocka_unit_test(at_rest)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(walls_take_density), cmocka_unit_test(spray_before_wall),
+        cmocka_unit_test(water_walls_mind_water), cmocka_unit_test(at_rest)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,11 +30,14 @@ int main(int argc, char **argv)
     config.dim = 3;
     config.dp = 0.1;
     if (argc < 2 || mps_sim_create(&config, &sim) != MPS_OK) return 2;
-    if (build(sim) < 0 || mps_frames_open(sim, argv[1], "cells", MPS_FRAMES_FLUID | MPS_FRAMES_WALL, &frames) < 0) return failed(sim);
+    if (build(sim) < 0 ||
+        mps_frames_open(sim, argv[1], "cells", MPS_FRAMES_FLUID | MPS_FRAMES_WALL, &frames) < 0)
+        return failed(sim);
     for (int k = 0; k < 2; k++)
         if (mps_frames_write(frames) < 0 || mps_step(sim, 1e-3, NULL) < 0) return failed(sim);
     mps_frames_close(frames);
-    printf("%lld %lld\n", (long long)mps_particles_count(sim, MPS_FLUID), (long long)mps_particles_count(sim, MPS_WALL));
+    printf("%lld %lld\n", (long long)mps_particles_count(sim, MPS_FLUID),
+           (long long)mps_particles_count(sim, MPS_WALL));
     mps_sim_destroy(sim);
     return 0;
 }

@@ -30,7 +30,8 @@ mps_status mps_checkpoint_write(mps_sim *sim, const char *path)
     MPS__CHECK(c, path && path[0], "the path of the checkpoint is NULL or empty");
     for (int32_t k = 0; k < sim->world.particles.fields; k++)
         if (sim->world.particles.field[k].writer)
-            return mps__fail(c, MPS_E_BUSY, "field \"%s\" is leased for writing", sim->world.particles.field[k].name);
+            return mps__fail(c, MPS_E_BUSY, "field \"%s\" is leased for writing",
+                             sim->world.particles.field[k].name);
     mps__archive a = {.context = c};
     mps__text setup;
     mps_status status = make_setup(sim, &setup);
@@ -53,7 +54,8 @@ static mps_status check_setup(mps_sim *sim, const mps__archive *a)
     int64_t size;
     const char *saved = mps__archive_get(a, setup_part, 1, &size);
     if (!saved) return MPS_E_VERSION;
-    MPS__CHECK(&sim->context, size > 0 && saved[size - 1] == 0, "the checkpoint's \"%s\" does not end", setup_part);
+    MPS__CHECK(&sim->context, size > 0 && saved[size - 1] == 0,
+               "the checkpoint's \"%s\" does not end", setup_part);
     mps_status status = make_setup(sim, &here);
     if (status == MPS_OK) status = mps__setup_compare(&sim->context, saved, here.data);
     mps__free(&sim->context, here.data);
@@ -66,7 +68,9 @@ mps_status mps_checkpoint_read(mps_sim *sim, const char *path)
     mps__context *c = &sim->context;
     MPS__CHECK(c, path && path[0], "the path of the checkpoint is NULL or empty");
     const int32_t open = mps__particles_leases(&sim->world.particles);
-    if (open) return mps__fail(c, MPS_E_BUSY, "%d lease(s) are open; end them before reading a checkpoint", open);
+    if (open)
+        return mps__fail(c, MPS_E_BUSY,
+                         "%d lease(s) are open; end them before reading a checkpoint", open);
     mps__archive a = {.context = c};
     mps_status status = mps__archive_load(&a, path);
     if (status == MPS_OK) status = check_setup(sim, &a);

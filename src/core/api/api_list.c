@@ -18,12 +18,14 @@ mps_status mps_model_info_init(mps_model_info *info, size_t size)
 
 mps_status mps_setting_info_init(mps_setting_info *info, size_t size)
 {
-    return mps__struct_init("mps_setting_info", info, size, &setting_default, sizeof setting_default);
+    return mps__struct_init("mps_setting_info", info, size, &setting_default,
+                            sizeof setting_default);
 }
 
 mps_status mps_channel_info_init(mps_channel_info *info, size_t size)
 {
-    return mps__struct_init("mps_channel_info", info, size, &channel_default, sizeof channel_default);
+    return mps__struct_init("mps_channel_info", info, size, &channel_default,
+                            sizeof channel_default);
 }
 
 mps_status mps_verb_info_init(mps_verb_info *info, size_t size)
@@ -63,7 +65,8 @@ mps_status mps_model_info_get(const mps_sim *sim, int32_t index, mps_model_info 
     return mps__struct_out(mps__sim_context(sim), "mps_model_info", info, &found, sizeof found);
 }
 
-mps_status mps_setting_info_get(const mps_sim *sim, const char *model, int32_t index, mps_setting_info *info)
+mps_status mps_setting_info_get(const mps_sim *sim, const char *model, int32_t index,
+                                mps_setting_info *info)
 {
     if (!sim) return MPS_E_ARG;
     mps__context *c = mps__sim_context(sim);
@@ -114,9 +117,13 @@ static void tell_uses(const mps_verb *verb, char out[MPS__USES_SIZE])
     out[0] = 0;
     for (int32_t u = 0; u < verb->use_count; u++) {
         const int32_t a = verb->uses[u].access;
-        const char *read = a & MPS_USE_DUMMIES ? "d" : a & MPS_USE_NEIGHBOURS ? "n" : a & MPS_USE_READ ? "r" : "";
-        const int length = snprintf(out + used, MPS__USES_SIZE - used, "%s%s:%s%s%s", u ? " " : "", verb->uses[u].channel, read,
-                                    a & MPS_USE_WRITE ? "w" : "", a & MPS_USE_OPTIONAL ? "?" : "");
+        const char *read = a & MPS_USE_DUMMIES      ? "d"
+                           : a & MPS_USE_NEIGHBOURS ? "n"
+                           : a & MPS_USE_READ       ? "r"
+                                                    : "";
+        const int length = snprintf(out + used, MPS__USES_SIZE - used, "%s%s:%s%s%s", u ? " " : "",
+                                    verb->uses[u].channel, read, a & MPS_USE_WRITE ? "w" : "",
+                                    a & MPS_USE_OPTIONAL ? "?" : "");
         if (length < 0 || used + (size_t)length >= MPS__USES_SIZE) break;
         used += (size_t)length;
     }
@@ -141,9 +148,11 @@ mps_status mps_verb_info_get(mps_sim *sim, int32_t index, mps_verb_info *info)
 
 /* ---- names ---- */
 
-static mps_status tell_name(const mps_sim *sim, mps_name_info *info, const char *name, const char *help, bool in_use)
+static mps_status tell_name(const mps_sim *sim, mps_name_info *info, const char *name,
+                            const char *help, bool in_use)
 {
-    const mps_name_info found = {.struct_size = sizeof found, .active = in_use, .name = name, .help = help ? help : ""};
+    const mps_name_info found = {
+        .struct_size = sizeof found, .active = in_use, .name = name, .help = help ? help : ""};
     return mps__struct_out(mps__sim_context(sim), "mps_name_info", info, &found, sizeof found);
 }
 
@@ -171,7 +180,9 @@ mps_status mps_preconditioner_info_get(const mps_sim *sim, int32_t index, mps_na
 mps_status mps_kernel_info_get(const mps_sim *sim, int32_t index, mps_name_info *info)
 {
     static const char *const name[] = {"improved", "original"};
-    static const char *const help[] = {"re/(0.85 r + 0.15 re) - 1, W22 (3): finite at r = 0", "re/r - 1, Z14 (3)"};
+    static const char *const help[] = {"re/(0.85 r + 0.15 re) - 1, W22 (3): finite at r = 0",
+                                       "re/r - 1, Z14 (3)"};
     if (!sim || index < 0 || index > 1) return MPS_E_ARG;
-    return tell_name(sim, info, name[index], help[index], sim->world.setup.kernel.id == MPS_KERNEL_IMPROVED + index);
+    return tell_name(sim, info, name[index], help[index],
+                     sim->world.setup.kernel.id == MPS_KERNEL_IMPROVED + index);
 }

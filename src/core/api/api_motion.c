@@ -13,16 +13,22 @@ static void release_block(mps__context *c, void *user)
 static mps_status changeable(mps_sim *sim)
 {
     int32_t open = mps__particles_leases(&sim->world.particles);
-    if (open > 0) return mps__fail(&sim->context, MPS_E_BUSY, "%d leases are open: give them back before changing the motion", (int)open);
+    if (open > 0)
+        return mps__fail(&sim->context, MPS_E_BUSY,
+                         "%d leases are open: give them back before changing the motion",
+                         (int)open);
     return MPS_OK;
 }
 
 static mps_status check_dof(mps_sim *sim, const char *what, int64_t index, int32_t dof)
 {
-    MPS__CHECK(&sim->context, dof >= 0 && dof < MPS_DOF_COUNT, "%s %lld: degree of freedom %d is not one of 0..%d", what, (long long)index,
+    MPS__CHECK(&sim->context, dof >= 0 && dof < MPS_DOF_COUNT,
+               "%s %lld: degree of freedom %d is not one of 0..%d", what, (long long)index,
                (int)dof, MPS_DOF_COUNT - 1);
-    MPS__CHECK(&sim->context, (dof != MPS_SWAY && dof != MPS_PITCH) || sim->world.setup.dim == 3,
-               "%s %lld: degree of freedom %d needs 3-D; 2-D has surge 0, heave 1, and roll 3 or yaw 4", what, (long long)index, (int)dof);
+    MPS__CHECK(
+        &sim->context, (dof != MPS_SWAY && dof != MPS_PITCH) || sim->world.setup.dim == 3,
+        "%s %lld: degree of freedom %d needs 3-D; 2-D has surge 0, heave 1, and roll 3 or yaw 4",
+        what, (long long)index, (int)dof);
     return MPS_OK;
 }
 
@@ -38,7 +44,9 @@ static void carry_particles(mps_sim *sim, const mps__motion *old)
 {
     const mps__motion *m = &sim->world.motion;
     mps__particles *s = &sim->world.particles;
-    if (same(old->now.state.value, m->now.state.value, MPS_DOF_COUNT) && same(old->centre, m->centre, 3)) return;
+    if (same(old->now.state.value, m->now.state.value, MPS_DOF_COUNT) &&
+        same(old->centre, m->centre, 3))
+        return;
     for (int64_t i = 0; i < s->n; i++) {
         double X[3], *x = &s->x[i * s->dim];
         if (s->kind[i] == MPS_FLUID)
@@ -68,7 +76,8 @@ static mps_status install(mps_sim *sim, mps__motion *next)
     return MPS_OK;
 }
 
-static mps_status install_function(mps_sim *sim, mps_motion_fn fn, void *user, bool owned, double t_end)
+static mps_status install_function(mps_sim *sim, mps_motion_fn fn, void *user, bool owned,
+                                   double t_end)
 {
     mps__motion next = sim->world.motion;
     next.fn = fn;
@@ -80,16 +89,20 @@ static mps_status install_function(mps_sim *sim, mps_motion_fn fn, void *user, b
 
 static mps_status no_memory(mps_sim *sim, int64_t rows)
 {
-    return mps__fail(&sim->context, MPS_E_NOMEM, "no memory for a motion of %lld rows", (long long)rows);
+    return mps__fail(&sim->context, MPS_E_NOMEM, "no memory for a motion of %lld rows",
+                     (long long)rows);
 }
 
 static mps_status check_harmonic(mps_sim *sim, int32_t k, const mps_harmonic *h)
 {
     mps__context *c = &sim->context;
     MPS__TRY(check_dof(sim, "harmonic", k, h->dof));
-    MPS__CHECK(c, h->form == 0 || h->form == 1, "harmonic %d: form is %d, must be 0 or 1", (int)k, (int)h->form);
-    MPS__CHECK(c, isfinite(h->amplitude), "harmonic %d: amplitude is %g, must be finite", (int)k, h->amplitude);
-    MPS__CHECK(c, isfinite(h->omega) && h->omega >= 0, "harmonic %d: omega is %g rad/s, must be finite and >= 0", (int)k, h->omega);
+    MPS__CHECK(c, h->form == 0 || h->form == 1, "harmonic %d: form is %d, must be 0 or 1", (int)k,
+               (int)h->form);
+    MPS__CHECK(c, isfinite(h->amplitude), "harmonic %d: amplitude is %g, must be finite", (int)k,
+               h->amplitude);
+    MPS__CHECK(c, isfinite(h->omega) && h->omega >= 0,
+               "harmonic %d: omega is %g rad/s, must be finite and >= 0", (int)k, h->omega);
     MPS__CHECK(c, isfinite(h->phase), "harmonic %d: phase is %g, must be finite", (int)k, h->phase);
     return MPS_OK;
 }
@@ -98,11 +111,16 @@ static mps_status check_table_times(mps_sim *sim, int64_t rows, const double *t)
 {
     mps__context *c = &sim->context;
     for (int64_t k = 0; k < rows; k++) {
-        MPS__CHECK(c, isfinite(t[k]), "motion table: t is %g in row %lld, must be finite", t[k], (long long)k);
-        MPS__CHECK(c, k == 0 || t[k] > t[k - 1], "motion table: t = %.10g in row %lld does not increase, the row before has %.10g", t[k],
-                   (long long)k, t[k > 0 ? k - 1 : 0]);
+        MPS__CHECK(c, isfinite(t[k]), "motion table: t is %g in row %lld, must be finite", t[k],
+                   (long long)k);
+        MPS__CHECK(
+            c, k == 0 || t[k] > t[k - 1],
+            "motion table: t = %.10g in row %lld does not increase, the row before has %.10g", t[k],
+            (long long)k, t[k > 0 ? k - 1 : 0]);
     }
-    MPS__CHECK(c, t[0] <= sim->world.state.t, "motion table: t = %.10g in row 0 is after the present time %.10g", t[0], sim->world.state.t);
+    MPS__CHECK(c, t[0] <= sim->world.state.t,
+               "motion table: t = %.10g in row 0 is after the present time %.10g", t[0],
+               sim->world.state.t);
     return MPS_OK;
 }
 
@@ -111,8 +129,9 @@ static mps_status check_table_columns(mps_sim *sim, int32_t dofs, const int32_t 
     for (int32_t c = 0; c < dofs; c++) {
         MPS__TRY(check_dof(sim, "motion table: column", c, dof[c]));
         for (int32_t b = 0; b < c; b++)
-            MPS__CHECK(&sim->context, dof[b] != dof[c], "motion table: columns %d and %d are both degree of freedom %d", (int)b, (int)c,
-                       (int)dof[c]);
+            MPS__CHECK(&sim->context, dof[b] != dof[c],
+                       "motion table: columns %d and %d are both degree of freedom %d", (int)b,
+                       (int)c, (int)dof[c]);
     }
     return MPS_OK;
 }
@@ -129,14 +148,16 @@ mps_status mps_motion_centre_set(mps_sim *sim, const double *centre, int32_t sta
     mps__world *w = &sim->world;
     MPS__TRY(changeable(sim));
     if (w->state.step > 0)
-        return mps__fail(&sim->context, MPS_E_STATE, "the centre is set before the first step; %lld steps were taken",
+        return mps__fail(&sim->context, MPS_E_STATE,
+                         "the centre is set before the first step; %lld steps were taken",
                          (long long)w->state.step);
     MPS__CHECK(&sim->context, centre, "centre is NULL");
     MPS__CHECK(&sim->context, start == MPS_START_AT_REST || start == MPS_START_WITH_TANK,
                "start is %d: must be MPS_START_AT_REST (0) or MPS_START_WITH_TANK (1)", (int)start);
     mps__motion next = w->motion;
     for (int32_t d = 0; d < w->setup.dim; d++) {
-        MPS__CHECK(&sim->context, isfinite(centre[d]), "centre[%d] is %g: must be finite", (int)d, centre[d]);
+        MPS__CHECK(&sim->context, isfinite(centre[d]), "centre[%d] is %g: must be finite", (int)d,
+                   centre[d]);
         next.centre[d] = centre[d];
     }
     /* the pose in force does not depend on the centre */
@@ -160,19 +181,26 @@ mps_status mps_motion_harmonics_set(mps_sim *sim, int32_t count, const mps_harmo
     return install_function(sim, mps__motion_harmonic, data, true, INFINITY);
 }
 
-mps_status mps_motion_table_set(mps_sim *sim, int64_t rows, const double *t, int32_t dofs, const int32_t *dof, const double *values)
+mps_status mps_motion_table_set(mps_sim *sim, int64_t rows, const double *t, int32_t dofs,
+                                const int32_t *dof, const double *values)
 {
     MPS__CHANGES(sim);
     mps__context *c = &sim->context;
     MPS__TRY(changeable(sim));
-    MPS__CHECK(c, rows >= 2 && rows <= INT32_MAX, "motion table: %lld rows, must be 2..%d", (long long)rows, INT32_MAX);
-    MPS__CHECK(c, dofs >= 1 && dofs <= MPS_DOF_COUNT, "motion table: %d columns, must be 1..%d", (int)dofs, MPS_DOF_COUNT);
-    MPS__CHECK(c, t && dof && values, "motion table: %s is NULL", !t ? "t" : !dof ? "dof" : "values");
+    MPS__CHECK(c, rows >= 2 && rows <= INT32_MAX, "motion table: %lld rows, must be 2..%d",
+               (long long)rows, INT32_MAX);
+    MPS__CHECK(c, dofs >= 1 && dofs <= MPS_DOF_COUNT, "motion table: %d columns, must be 1..%d",
+               (int)dofs, MPS_DOF_COUNT);
+    MPS__CHECK(c, t && dof && values, "motion table: %s is NULL",
+               !t     ? "t"
+               : !dof ? "dof"
+                      : "values");
     MPS__TRY(check_table_columns(sim, dofs, dof));
     MPS__TRY(check_table_times(sim, rows, t));
     for (int64_t k = 0; k < rows * dofs; k++)
-        MPS__CHECK(c, isfinite(values[k]), "motion table: value %g in row %lld, column %d is not finite", values[k], (long long)(k / dofs),
-                   (int)(k % dofs));
+        MPS__CHECK(c, isfinite(values[k]),
+                   "motion table: value %g in row %lld, column %d is not finite", values[k],
+                   (long long)(k / dofs), (int)(k % dofs));
     void *data = mps__motion_table_create(&c->allocator, rows, t, dofs, dof, values);
     if (!data) return no_memory(sim, rows);
     return install_function(sim, mps__motion_table, data, true, t[rows - 1]);
@@ -182,7 +210,8 @@ mps_status mps_motion_callback_set(mps_sim *sim, mps_motion_fn fn, void *user)
 {
     MPS__CHANGES(sim);
     MPS__TRY(changeable(sim));
-    MPS__CHECK(&sim->context, fn, "the motion callback is NULL: use mps_motion_clear() for no motion");
+    MPS__CHECK(&sim->context, fn,
+               "the motion callback is NULL: use mps_motion_clear() for no motion");
     return install_function(sim, fn, user, false, INFINITY);
 }
 
@@ -212,8 +241,8 @@ mps_status mps_motion_to_lab(const mps_sim *sim, const double *tank, double *lab
     if (!sim) return MPS_E_ARG;
     const mps__motion *m = &sim->world.motion;
     MPS__CHECK(mps__sim_context(sim), tank && lab, "%s is NULL", tank ? "lab" : "tank");
-    MPS__CHECK(mps__sim_context(sim), mps__finite(tank, m->dim), "the point (%g, %g%s) is not finite", tank[0], tank[1],
-               m->dim == 3 ? ", ..." : "");
+    MPS__CHECK(mps__sim_context(sim), mps__finite(tank, m->dim),
+               "the point (%g, %g%s) is not finite", tank[0], tank[1], m->dim == 3 ? ", ..." : "");
     mps__motion_point(m, &m->now, tank, lab, velocity, NULL);
     return MPS_OK;
 }

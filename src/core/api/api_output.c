@@ -3,7 +3,8 @@
 #include "frames.h"
 #include "sim.h"
 
-mps_status mps_frames_open(mps_sim *sim, const char *folder, const char *name, int32_t kinds, mps_frames **frames)
+mps_status mps_frames_open(mps_sim *sim, const char *folder, const char *name, int32_t kinds,
+                           mps_frames **frames)
 {
     MPS__READS(sim);
     MPS__CHECK(&sim->context, frames, "frames is NULL");

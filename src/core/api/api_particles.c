@@ -10,11 +10,13 @@
 /* Particles nearer than this [dp] are one by mistake. */
 static const double overlap = 0.1;
 
-static const mps_particle_block block_default = {.struct_size = sizeof(mps_particle_block), .kind = MPS_FLUID};
+static const mps_particle_block block_default = {.struct_size = sizeof(mps_particle_block),
+                                                 .kind = MPS_FLUID};
 
 mps_status mps_particle_block_init(mps_particle_block *block, size_t size)
 {
-    return mps__struct_init("mps_particle_block", block, size, &block_default, sizeof block_default);
+    return mps__struct_init("mps_particle_block", block, size, &block_default,
+                            sizeof block_default);
 }
 
 static mps_status not_leased(mps_sim *sim)
@@ -27,18 +29,22 @@ static mps_status check_block(mps_sim *sim, const mps_particle_block *b)
 {
     mps__context *c = &sim->context;
     const int dim = sim->world.setup.dim;
-    MPS__CHECK(c, b->kind >= MPS_FLUID && b->kind <= MPS_DUMMY, "block.kind is %d: MPS_FLUID, MPS_WALL or MPS_DUMMY", b->kind);
-    MPS__CHECK(c, b->phase >= 0 && b->phase < MPS__PHASES && sim->world.setup.phase_defined[b->phase],
+    MPS__CHECK(c, b->kind >= MPS_FLUID && b->kind <= MPS_DUMMY,
+               "block.kind is %d: MPS_FLUID, MPS_WALL or MPS_DUMMY", b->kind);
+    MPS__CHECK(c,
+               b->phase >= 0 && b->phase < MPS__PHASES && sim->world.setup.phase_defined[b->phase],
                "block.phase is %d: not defined, call mps_phase_set() first", b->phase);
-    MPS__CHECK(c, b->count >= 1 && b->count <= INT32_MAX, "block.count is %lld: 1..%d", (long long)b->count, INT32_MAX);
+    MPS__CHECK(c, b->count >= 1 && b->count <= INT32_MAX, "block.count is %lld: 1..%d",
+               (long long)b->count, INT32_MAX);
     MPS__CHECK(c, b->position, "block.position is NULL");
-    MPS__CHECK(c, !b->part || strnlen(b->part, MPS__PART_NAME) < MPS__PART_NAME, "block.part is longer than %d characters",
-               MPS__PART_NAME - 1);
+    MPS__CHECK(c, !b->part || strnlen(b->part, MPS__PART_NAME) < MPS__PART_NAME,
+               "block.part is longer than %d characters", MPS__PART_NAME - 1);
     const double *arrays[] = {b->position, b->velocity, b->area};
     const char *names[] = {"position", "velocity", "area"};
     for (int a = 0; a < 3; a++)
         for (int64_t k = 0; arrays[a] && k < b->count * dim; k++)
-            MPS__CHECK(c, isfinite(arrays[a][k]), "block.%s of particle %lld, axis %lld is %g: must be finite", names[a],
+            MPS__CHECK(c, isfinite(arrays[a][k]),
+                       "block.%s of particle %lld, axis %lld is %g: must be finite", names[a],
                        (long long)(k / dim), (long long)(k % dim), arrays[a][k]);
     return MPS_OK;
 }
@@ -52,22 +58,31 @@ static mps_status check_overlap(mps_sim *sim, const mps_particle_block *b)
     const double reach = overlap * sim->world.setup.dp;
     double *x = mps__alloc(&sim->context, n * dim, sizeof *x);
     mps_neighbours *list = NULL;
-    mps_status status = x ? mps_neighbours_create(dim, sim->world.setup.dp, &sim->context.allocator, &list) : MPS_E_NOMEM;
+    mps_status status = x ? mps_neighbours_create(dim, sim->world.setup.dp, &sim->context.allocator,
+                                                  &list)
+                          : MPS_E_NOMEM;
     if (status == MPS_OK) {
         memcpy(x, s->x, (size_t)(s->n * dim) * sizeof *x);
         memcpy(x + s->n * dim, b->position, (size_t)(b->count * dim) * sizeof *x);
         status = mps_neighbours_build(list, n, x, reach, reach);
     }
-    if (status < 0) mps__fail(&sim->context, status, "%s", list ? list->context->error : "no memory to look for overlapping particles");
-    for (int64_t i = s->n; status == MPS_OK && i < n; i++) /* candidates: coincident particles are no pairs */
-        for (int64_t k = list->begin[i]; k < list->begin[i] + list->count[i] && status == MPS_OK; k++) {
+    if (status < 0)
+        mps__fail(&sim->context, status, "%s",
+                  list ? list->context->error : "no memory to look for overlapping particles");
+    for (int64_t i = s->n; status == MPS_OK && i < n;
+         i++) /* candidates: coincident particles are no pairs */
+        for (int64_t k = list->begin[i]; k < list->begin[i] + list->count[i] && status == MPS_OK;
+             k++) {
             const int64_t j = list->col[k];
             const int32_t other = j < s->n ? s->kind[j] : b->kind;
-            if ((b->kind != MPS_FLUID && other != MPS_FLUID) || (j < s->n && mps__is_shadow(s, j))) continue;
-            status = mps__fail(&sim->context, MPS_E_ARG,
-                               "particle %lld of the block lies within %g dp of %s %lld at (%g, %g): at least %g dp apart",
-                               (long long)(i - s->n), overlap, j < s->n ? "particle" : "its particle",
-                               (long long)(j < s->n ? s->id[j] : j - s->n), x[j * dim], x[j * dim + 1], overlap);
+            if ((b->kind != MPS_FLUID && other != MPS_FLUID) || (j < s->n && mps__is_shadow(s, j)))
+                continue;
+            status = mps__fail(
+                &sim->context, MPS_E_ARG,
+                "particle %lld of the block lies within %g dp of %s %lld at (%g, %g): at least %g "
+                "dp apart",
+                (long long)(i - s->n), overlap, j < s->n ? "particle" : "its particle",
+                (long long)(j < s->n ? s->id[j] : j - s->n), x[j * dim], x[j * dim + 1], overlap);
         }
     mps_neighbours_destroy(list);
     mps__free(&sim->context, x);
@@ -88,7 +103,8 @@ static void store_block(mps_sim *sim, const mps_particle_block *b, int32_t part,
         s->rho[i] = w->setup.phase_density[b->phase];
         mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * dim, s->ref + i * dim);
         if (b->kind != MPS_FLUID)
-            mps__motion_point(&w->motion, &w->motion.now, s->ref + i * dim, NULL, w->state.step > 0 ? s->u + i * dim : NULL, NULL);
+            mps__motion_point(&w->motion, &w->motion.now, s->ref + i * dim, NULL,
+                              w->state.step > 0 ? s->u + i * dim : NULL, NULL);
         else if (b->velocity)
             memcpy(s->u + i * dim, b->velocity + k * dim, (size_t)dim * sizeof(double));
         if (b->area && b->kind == MPS_WALL) {
@@ -113,8 +129,9 @@ mps_status mps_particles_add(mps_sim *sim, const mps_particle_block *block, int6
     int32_t part = -1;
     if (b.kind != MPS_FLUID) {
         part = mps__part_number(s, b.part ? b.part : "solid", true);
-        MPS__CHECK(&sim->context, part >= 0, "block.part \"%s\": empty, or one part too many (at most %d)", b.part ? b.part : "solid",
-                   MPS__PARTS_MAX);
+        MPS__CHECK(&sim->context, part >= 0,
+                   "block.part \"%s\": empty, or one part too many (at most %d)",
+                   b.part ? b.part : "solid", MPS__PARTS_MAX);
     }
     const int64_t first = mps__particles_append(s, b.count);
     store_block(sim, &b, part, first);
@@ -139,13 +156,15 @@ mps_status mps_particles_remove(mps_sim *sim, int64_t count, const int64_t *ids)
     MPS__CHANGES(sim);
     mps__particles *s = &sim->world.particles;
     MPS__TRY(not_leased(sim));
-    MPS__CHECK(&sim->context, count >= 1 && ids, "remove: count is %lld with %s ids", (long long)count, ids ? "given" : "no");
+    MPS__CHECK(&sim->context, count >= 1 && ids, "remove: count is %lld with %s ids",
+               (long long)count, ids ? "given" : "no");
     int32_t *place = places(sim);
     if (!place) return MPS_E_NOMEM;
     mps_status status = MPS_OK;
     for (int64_t k = 0; k < count && status == MPS_OK; k++) {
         if (ids[k] < 0 || ids[k] >= s->next_id || place[ids[k]] < 0)
-            status = mps__fail(&sim->context, MPS_E_ARG, "remove: id %lld is unknown, or given twice", (long long)ids[k]);
+            status = mps__fail(&sim->context, MPS_E_ARG,
+                               "remove: id %lld is unknown, or given twice", (long long)ids[k]);
         else
             place[ids[k]] = -1;
     }
@@ -186,11 +205,16 @@ mps_status mps_field_add(mps_sim *sim, const char *name, int32_t components)
 {
     MPS__CHANGES(sim);
     MPS__TRY(not_leased(sim));
-    MPS__CHECK(&sim->context, name && name[0] && strnlen(name, 32) < 32, "a field's name has 1..31 characters");
-    MPS__CHECK(&sim->context, components >= 1 && components <= 9, "field \"%s\": components is %d: 1..9", name, components);
-    MPS__CHECK(&sim->context, !mps__particles_field(&sim->world.particles, name), "field \"%s\" exists already", name);
-    MPS__CHECK(&sim->context, mps__channels_find(&sim->world.channels, name) < 0, "field '%s': a channel of the models has this name", name);
-    return mps__particles_field_add(&sim->world.particles, name, components, sizeof(double), true, NULL);
+    MPS__CHECK(&sim->context, name && name[0] && strnlen(name, 32) < 32,
+               "a field's name has 1..31 characters");
+    MPS__CHECK(&sim->context, components >= 1 && components <= 9,
+               "field \"%s\": components is %d: 1..9", name, components);
+    MPS__CHECK(&sim->context, !mps__particles_field(&sim->world.particles, name),
+               "field \"%s\" exists already", name);
+    MPS__CHECK(&sim->context, mps__channels_find(&sim->world.channels, name) < 0,
+               "field '%s': a channel of the models has this name", name);
+    return mps__particles_field_add(&sim->world.particles, name, components, sizeof(double), true,
+                                    NULL);
 }
 
 static const mps_lease closed = {.struct_size = sizeof closed};
@@ -211,13 +235,17 @@ static mps_status find_leasable(mps_sim *sim, const char *name, mps__field **fou
     if (*found && ((*found)->is_public || (*found)->is_tag)) return MPS_OK;
     for (int32_t k = 0; k < s->fields; k++)
         if (s->field[k].is_public || s->field[k].is_tag) names[count++] = s->field[k].name;
-    return mps__fail(&sim->context, MPS_E_NAME, "no field '%.60s'; %s", name, mps__hint(hint, '\'', name, names, count));
+    return mps__fail(&sim->context, MPS_E_NAME, "no field '%.60s'; %s", name,
+                     mps__hint(hint, '\'', name, names, count));
 }
 
 static mps_lease lease_of(const mps__particles *s, const mps__field *f, int32_t mode)
 {
-    mps_lease l = {.count = s->n, .stride = f->components, .slot = ((int32_t)(f - s->field) + 1) * 2 + mode};
-    l.type = !f->is_tag ? MPS_DATA_DOUBLE : f->size == sizeof(int32_t) ? MPS_DATA_INT32 : MPS_DATA_INT64;
+    mps_lease l = {
+        .count = s->n, .stride = f->components, .slot = ((int32_t)(f - s->field) + 1) * 2 + mode};
+    l.type = !f->is_tag                   ? MPS_DATA_DOUBLE
+             : f->size == sizeof(int32_t) ? MPS_DATA_INT32
+                                          : MPS_DATA_INT64;
     if (l.type == MPS_DATA_DOUBLE) l.data = *f->data;
     if (l.type == MPS_DATA_INT32) l.integers = *f->data;
     if (l.type == MPS_DATA_INT64) l.ids = *f->data;
@@ -234,9 +262,11 @@ mps_status mps_lease_begin(mps_sim *sim, const char *field, int32_t mode, mps_le
     MPS__CHECK(c, mode == MPS_READ || mode == MPS_WRITE, "mode is %d: MPS_READ or MPS_WRITE", mode);
     if (mode == MPS_WRITE) MPS__CHANGES(sim);
     MPS__TRY(find_leasable(sim, field, &f));
-    MPS__CHECK(c, mode == MPS_READ || !f->is_tag, "field '%s' cannot be written: lease it with MPS_READ", field);
+    MPS__CHECK(c, mode == MPS_READ || !f->is_tag,
+               "field '%s' cannot be written: lease it with MPS_READ", field);
     if (f->writer || (mode == MPS_WRITE && f->readers > 0))
-        return mps__fail(c, MPS_E_BUSY, "field '%s' is leased already, for %s", field, f->writer ? "writing" : "reading");
+        return mps__fail(c, MPS_E_BUSY, "field '%s' is leased already, for %s", field,
+                         f->writer ? "writing" : "reading");
     const mps_lease open = lease_of(&sim->world.particles, f, mode);
     MPS__TRY(mps__struct_out(c, "mps_lease", lease, &open, sizeof open));
     if (mode == MPS_WRITE)
@@ -258,9 +288,11 @@ mps_status mps_lease_end(mps_sim *sim, mps_lease *lease)
     MPS__CHECK(c, write ? f->writer : f->readers > 0, "this lease of '%s' is not open", f->name);
     const double *data = *f->data;
     for (int64_t k = 0; write && k < s->n * f->components; k++)
-        MPS__CHECK(c, isfinite(data[k]) && (data != s->rho || data[k] > 0),
-                   "field '%s' of particle %lld was written as %g: must be finite%s; the lease stays open", f->name,
-                   (long long)s->id[k / f->components], data[k], data == s->rho ? " and > 0" : "");
+        MPS__CHECK(
+            c, isfinite(data[k]) && (data != s->rho || data[k] > 0),
+            "field '%s' of particle %lld was written as %g: must be finite%s; the lease stays open",
+            f->name, (long long)s->id[k / f->components], data[k],
+            data == s->rho ? " and > 0" : "");
     if (write)
         f->writer = false;
     else

@@ -8,9 +8,10 @@ static const mps_momentum momentum_defaults = {0};
 
 static mps_status find_probe(const mps_sim *sim, int32_t id, mps__probe **probe)
 {
-    MPS__CHECK(mps__sim_context(sim), id >= 0 && id < sim->probes.count, "probe %d: there are %lld, counted from 0", (int)id,
-               (long long)sim->probes.count);
-    MPS__CHECK(mps__sim_context(sim), !sim->probes.list[id].removed, "probe %d was removed", (int)id);
+    MPS__CHECK(mps__sim_context(sim), id >= 0 && id < sim->probes.count,
+               "probe %d: there are %lld, counted from 0", (int)id, (long long)sim->probes.count);
+    MPS__CHECK(mps__sim_context(sim), !sim->probes.list[id].removed, "probe %d was removed",
+               (int)id);
     *probe = &sim->probes.list[id];
     return MPS_OK;
 }
@@ -61,11 +62,13 @@ static mps__probe *find_series(mps_sim *sim, int32_t id, mps_status *status)
     *status = find_probe(sim, id, &probe);
     if (*status < 0 || !probe) return NULL;
     if (probe->config.rate > 0) return probe;
-    *status = mps__fail(&sim->context, MPS_E_STATE, "probe %d keeps no samples: its rate is 0", (int)id);
+    *status = mps__fail(&sim->context, MPS_E_STATE, "probe %d keeps no samples: its rate is 0",
+                        (int)id);
     return NULL;
 }
 
-mps_status mps_probe_series(mps_sim *sim, int32_t id, int64_t *count, const double **t, const double **values)
+mps_status mps_probe_series(mps_sim *sim, int32_t id, int64_t *count, const double **t,
+                            const double **values)
 {
     MPS__READS(sim);
     mps_status status;
@@ -103,7 +106,8 @@ mps_status mps_energy_get(mps_sim *sim, mps_energy *energy)
 
 mps_status mps_momentum_init(mps_momentum *momentum, size_t size)
 {
-    return mps__struct_init("mps_momentum", momentum, size, &momentum_defaults, sizeof momentum_defaults);
+    return mps__struct_init("mps_momentum", momentum, size, &momentum_defaults,
+                            sizeof momentum_defaults);
 }
 
 mps_status mps_momentum_get(mps_sim *sim, mps_momentum *momentum)

@@ -12,7 +12,8 @@ static const mps_config config_default = {.struct_size = sizeof(mps_config),
                                           .re_near = 2.1,
                                           .threads = 1,
                                           .speed_limit = 1000};
-static const mps_phase water = {.struct_size = sizeof(mps_phase), .density = 1000, .viscosity = 1e-3};
+static const mps_phase water = {
+    .struct_size = sizeof(mps_phase), .density = 1000, .viscosity = 1e-3};
 
 /* Spacings whose powers are numbers [m]. */
 static const double DP_MIN = 1e-12, DP_MAX = 1e12;
@@ -30,9 +31,11 @@ mps_status mps_phase_init(mps_phase *phase, size_t size)
 static mps_status check_domain(mps__context *c, const mps_config *f, bool *given)
 {
     *given = false;
-    for (int d = 0; d < f->dim; d++) *given = *given || f->domain_min[d] != 0 || f->domain_max[d] != 0;
+    for (int d = 0; d < f->dim; d++)
+        *given = *given || f->domain_min[d] != 0 || f->domain_max[d] != 0;
     for (int d = 0; *given && d < f->dim; d++)
-        MPS__CHECK(c, f->domain_max[d] > f->domain_min[d], "config.domain axis %d is %g..%g: max must be greater than min", d,
+        MPS__CHECK(c, f->domain_max[d] > f->domain_min[d],
+                   "config.domain axis %d is %g..%g: max must be greater than min", d,
                    f->domain_min[d], f->domain_max[d]);
     return MPS_OK;
 }
@@ -41,27 +44,33 @@ static mps_status check_config(mps__context *c, mps_config *f)
 {
     if (f->dim == 0) f->dim = 2;
     MPS__CHECK(c, f->dim == 2 || f->dim == 3, "config.dim is %d: 2 or 3", f->dim);
-    MPS__CHECK(c, f->dp >= DP_MIN && f->dp <= DP_MAX, "config.dp is %g m: must be %g..%g m", f->dp, DP_MIN, DP_MAX);
+    MPS__CHECK(c, f->dp >= DP_MIN && f->dp <= DP_MAX, "config.dp is %g m: must be %g..%g m", f->dp,
+               DP_MIN, DP_MAX);
     if (f->re_near == 0) f->re_near = 2.1;
     if (f->re_far == 0) f->re_far = f->dim == 2 ? 3.1 : 2.1;
-    MPS__CHECK(c, f->re_near > 1 && f->re_near <= 10, "config.re_near is %g dp: 1 < re_near <= 10", f->re_near);
-    MPS__CHECK(c, f->re_far >= f->re_near && f->re_far <= 10, "config.re_far is %g dp: re_near (%g) <= re_far <= 10", f->re_far,
+    MPS__CHECK(c, f->re_near > 1 && f->re_near <= 10, "config.re_near is %g dp: 1 < re_near <= 10",
                f->re_near);
+    MPS__CHECK(c, f->re_far >= f->re_near && f->re_far <= 10,
+               "config.re_far is %g dp: re_near (%g) <= re_far <= 10", f->re_far, f->re_near);
     if (f->threads == 0) f->threads = 1;
-    MPS__CHECK(c, f->threads >= 1 && f->threads <= MPS__THREADS_MOST, "config.threads is %d: 1..%d", f->threads, MPS__THREADS_MOST);
+    MPS__CHECK(c, f->threads >= 1 && f->threads <= MPS__THREADS_MOST, "config.threads is %d: 1..%d",
+               f->threads, MPS__THREADS_MOST);
     MPS__CHECK(c, f->lost_policy == MPS_LOST_REMOVE || f->lost_policy == MPS_LOST_ERROR,
                "config.lost_policy is %d: MPS_LOST_REMOVE or MPS_LOST_ERROR", f->lost_policy);
-    MPS__CHECK(c, mps__finite(f->gravity, 3), "config.gravity is (%g, %g, %g): must be finite", f->gravity[0], f->gravity[1],
-               f->gravity[2]);
-    MPS__CHECK(c, f->velocity_scale >= 0 && isfinite(f->velocity_scale), "config.velocity_scale is %g: must be >= 0 m/s",
-               f->velocity_scale);
+    MPS__CHECK(c, mps__finite(f->gravity, 3), "config.gravity is (%g, %g, %g): must be finite",
+               f->gravity[0], f->gravity[1], f->gravity[2]);
+    MPS__CHECK(c, f->velocity_scale >= 0 && isfinite(f->velocity_scale),
+               "config.velocity_scale is %g: must be >= 0 m/s", f->velocity_scale);
     for (int d = 0; d < 3; d++) {
-        MPS__CHECK(c, isfinite(f->domain_min[d]), "config.domain_min[%d] is %g: must be finite", d, f->domain_min[d]);
-        MPS__CHECK(c, isfinite(f->domain_max[d]), "config.domain_max[%d] is %g: must be finite", d, f->domain_max[d]);
+        MPS__CHECK(c, isfinite(f->domain_min[d]), "config.domain_min[%d] is %g: must be finite", d,
+                   f->domain_min[d]);
+        MPS__CHECK(c, isfinite(f->domain_max[d]), "config.domain_max[%d] is %g: must be finite", d,
+                   f->domain_max[d]);
     }
     if (f->speed_limit == 0) f->speed_limit = config_default.speed_limit;
     MPS__CHECK(c, f->speed_limit > 0, "config.speed_limit is %g: must be > 0 m/s", f->speed_limit);
-    MPS__CHECK(c, !f->allocator.alloc == !f->allocator.release, "config.allocator: alloc and release go together");
+    MPS__CHECK(c, !f->allocator.alloc == !f->allocator.release,
+               "config.allocator: alloc and release go together");
     return MPS_OK;
 }
 
@@ -74,11 +83,13 @@ static mps_status set_up(mps_sim *sim, const mps_config *f)
     if (mps_kernel_find(kernel, &w->setup.kernel) != MPS_OK) {
         const char *names[] = {"improved", "original"};
         char hint[MPS__HINT_SIZE];
-        return mps__fail(&sim->context, MPS_E_NAME, "config.kernel is \"%.60s\"; %s", kernel, mps__hint(hint, '"', kernel, names, 2));
+        return mps__fail(&sim->context, MPS_E_NAME, "config.kernel is \"%.60s\"; %s", kernel,
+                         mps__hint(hint, '"', kernel, names, 2));
     }
     for (int d = 0; d < f->dim; d++) w->setup.g[d] = f->gravity[d];
     const double g = sqrt(mps__dot(w->setup.g, w->setup.g, f->dim));
-    w->setup.velocity_scale = f->velocity_scale > 0 ? f->velocity_scale : sqrt((g > 0 ? g : 9.81) * f->dp);
+    w->setup.velocity_scale = f->velocity_scale > 0 ? f->velocity_scale
+                                                    : sqrt((g > 0 ? g : 9.81) * f->dp);
     w->setup.re_near = f->re_near * f->dp;
     w->setup.re_far = f->re_far * f->dp;
     mps__pool_resize(&w->pool, f->threads);
@@ -104,7 +115,9 @@ mps_status mps_sim_create(const mps_config *config, mps_sim **sim)
     mps__context c = {.allocator = mps__allocator_default()};
     mps_config f = config_default;
     mps_status status = mps__struct_in(&c, "mps_config", &f, sizeof f, config);
-    if (status < 0 && config && config->struct_size >= offsetof(mps_config, parallel)) { /* not copied, but there is a place for the text */
+    if (status < 0 && config &&
+        config->struct_size >=
+            offsetof(mps_config, parallel)) { /* not copied, but there is a place for the text */
         f.error = config->error;
         f.error_size = config->error_size;
     }
@@ -132,7 +145,9 @@ void mps_sim_destroy(mps_sim *sim)
 {
     if (!sim) return;
     if (sim->context.lock.level > MPS__UNLOCKED) {
-        mps__log(&sim->context, MPS_LOG_WARNING, "mps_sim_destroy() was called from %s, and does nothing there", sim->context.lock.what);
+        mps__log(&sim->context, MPS_LOG_WARNING,
+                 "mps_sim_destroy() was called from %s, and does nothing there",
+                 sim->context.lock.what);
         return;
     }
     mps__context c = sim->context;
@@ -167,7 +182,8 @@ mps_status mps_sim_time(const mps_sim *sim, double *t, int64_t *steps)
 mps_status mps_threads_set(mps_sim *sim, int32_t threads)
 {
     MPS__CHANGES(sim);
-    MPS__CHECK(&sim->context, threads >= 1 && threads <= MPS__THREADS_MOST, "threads is %d: 1..%d", threads, MPS__THREADS_MOST);
+    MPS__CHECK(&sim->context, threads >= 1 && threads <= MPS__THREADS_MOST, "threads is %d: 1..%d",
+               threads, MPS__THREADS_MOST);
     mps__pool_resize(&sim->world.pool, threads);
     sim->world.threads = threads;
     return MPS_OK;
@@ -177,13 +193,16 @@ mps_status mps_phase_set(mps_sim *sim, int32_t index, const mps_phase *phase)
 {
     MPS__CHANGES(sim);
     mps_phase p = water;
-    MPS__CHECK(&sim->context, index >= 0 && index < MPS__PHASES, "phase index is %d: 0..%d", index, MPS__PHASES - 1);
+    MPS__CHECK(&sim->context, index >= 0 && index < MPS__PHASES, "phase index is %d: 0..%d", index,
+               MPS__PHASES - 1);
     MPS__TRY(mps__struct_in(&sim->context, "mps_phase", &p, sizeof p, phase));
-    MPS__CHECK(&sim->context, p.density > 0 && isfinite(p.density), "phase %d: density is %g: must be > 0 kg/m3, finite", index, p.density);
-    MPS__CHECK(&sim->context, p.viscosity >= 0 && isfinite(p.viscosity), "phase %d: viscosity is %g: must be >= 0 Pa s, finite", index,
-               p.viscosity);
+    MPS__CHECK(&sim->context, p.density > 0 && isfinite(p.density),
+               "phase %d: density is %g: must be > 0 kg/m3, finite", index, p.density);
+    MPS__CHECK(&sim->context, p.viscosity >= 0 && isfinite(p.viscosity),
+               "phase %d: viscosity is %g: must be >= 0 Pa s, finite", index, p.viscosity);
     mps__world *w = &sim->world;
-    if (mps__particles_leases(&w->particles)) return mps__fail(&sim->context, MPS_E_BUSY, "a lease is open");
+    if (mps__particles_leases(&w->particles))
+        return mps__fail(&sim->context, MPS_E_BUSY, "a lease is open");
     w->setup.phase_defined[index] = true;
     w->setup.phase_density[index] = p.density;
     w->setup.phase_viscosity[index] = p.viscosity;
@@ -219,8 +238,8 @@ mps_status mps_tension_set(mps_sim *sim, int32_t a, int32_t b, double sigma)
     MPS__CHANGES(sim);
     mps__world *w = &sim->world;
     MPS__TRY(check_pair(&sim->context, w, a, b));
-    MPS__CHECK(&sim->context, sigma >= 0 && isfinite(sigma), "surface tension of phases %d and %d is %g: must be >= 0 N/m, finite", a, b,
-               sigma);
+    MPS__CHECK(&sim->context, sigma >= 0 && isfinite(sigma),
+               "surface tension of phases %d and %d is %g: must be >= 0 N/m, finite", a, b, sigma);
     w->setup.tension[a * MPS__PHASES + b] = w->setup.tension[b * MPS__PHASES + a] = sigma;
     return MPS_OK;
 }
@@ -269,9 +288,10 @@ mps_status mps_model_set(mps_sim *sim, const char *slot, const char *key, double
     const mps_setting *s = NULL;
     double *place = mps__models_value(&sim->world.models, slot, key, &s);
     if (!place) return MPS_E_NAME;
-    MPS__CHECK(&sim->context, value >= s->min && value <= s->max, "%s.%s is %g: allowed %g..%g", slot, key, value, s->min, s->max);
-    MPS__CHECK(&sim->context, s->type == MPS_TYPE_REAL || value == floor(value), "%s.%s is %g: must be a whole number, %g..%g", slot, key,
-               value, s->min, s->max);
+    MPS__CHECK(&sim->context, value >= s->min && value <= s->max, "%s.%s is %g: allowed %g..%g",
+               slot, key, value, s->min, s->max);
+    MPS__CHECK(&sim->context, s->type == MPS_TYPE_REAL || value == floor(value),
+               "%s.%s is %g: must be a whole number, %g..%g", slot, key, value, s->min, s->max);
     *place = value;
     return MPS_OK;
 }
@@ -288,5 +308,7 @@ mps_status mps_model_get(const mps_sim *sim, const char *slot, const char *key, 
 
 const char *mps_model_name(const mps_sim *sim, int32_t index)
 {
-    return sim && index >= 0 && index < sim->world.models.active ? sim->world.models.on[index].ops->name : NULL;
+    return sim && index >= 0 && index < sim->world.models.active
+               ? sim->world.models.on[index].ops->name
+               : NULL;
 }

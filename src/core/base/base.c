@@ -30,11 +30,13 @@ void *mps__alloc(mps__context *c, int64_t count, size_t size)
 {
     if (count < 1) count = 1;
     void *block = NULL;
-    if ((uint64_t)count <= SIZE_MAX / size) block = c->allocator.alloc(c->allocator.user, (size_t)count * size);
+    if ((uint64_t)count <= SIZE_MAX / size)
+        block = c->allocator.alloc(c->allocator.user, (size_t)count * size);
     if (block)
         memset(block, 0, (size_t)count * size);
     else
-        mps__fail(c, MPS_E_NOMEM, "no memory for %lld elements of %zu bytes", (long long)count, size);
+        mps__fail(c, MPS_E_NOMEM, "no memory for %lld elements of %zu bytes", (long long)count,
+                  size);
     return block;
 }
 
@@ -43,7 +45,8 @@ void mps__free(mps__context *c, void *block)
     if (block) c->allocator.release(c->allocator.user, block);
 }
 
-mps_status mps__grow(mps__context *c, void **block, int64_t *capacity, int64_t used, int64_t count, size_t size)
+mps_status mps__grow(mps__context *c, void **block, int64_t *capacity, int64_t used, int64_t count,
+                     size_t size)
 {
     if (count <= *capacity) return MPS_OK;
     /* half as much again, so that appending stays linear */
@@ -129,7 +132,8 @@ static int edit_distance(const char *a, const char *b)
 const char *mps__near(const char *name, const char *const *names, int count)
 {
     const char *best = NULL;
-    int least = 2 + (int)(strnlen(name, MPS__ERROR_SIZE) / 4); /* one slip, and one more for every four letters, are near */
+    int least = 2 + (int)(strnlen(name, MPS__ERROR_SIZE) /
+                          4); /* one slip, and one more for every four letters, are near */
     for (int k = 0; k < count; k++) {
         int d = edit_distance(name, names[k]);
         if (d < least) {
@@ -146,7 +150,8 @@ const char *mps__list(char out[MPS__HINT_SIZE], char quote, const char *const *n
     out[0] = 0;
     for (int k = 0; k < count; k++) {
         const size_t left = MPS__HINT_SIZE - used;
-        const int length = snprintf(out + used, left, "%s%c%s%c", k ? ", " : "", quote, names[k], quote);
+        const int length = snprintf(out + used, left, "%s%c%s%c", k ? ", " : "", quote, names[k],
+                                    quote);
         if (length < 0 || (size_t)length >= left) {
             out[used] = 0; /* no names by halves */
             break;
@@ -156,7 +161,8 @@ const char *mps__list(char out[MPS__HINT_SIZE], char quote, const char *const *n
     return out;
 }
 
-const char *mps__hint(char out[MPS__HINT_SIZE], char quote, const char *name, const char *const *names, int count)
+const char *mps__hint(char out[MPS__HINT_SIZE], char quote, const char *name,
+                      const char *const *names, int count)
 {
     char list[MPS__HINT_SIZE];
     const char *near = mps__near(name, names, count);

@@ -38,7 +38,8 @@ void *mps__alloc(mps__context *c, int64_t count, size_t size);
 void mps__free(mps__context *c, void *block);
 
 /* Grow *block to hold `count` elements (of which `used` are kept); the new part is zeroed. Never shrinks. */
-mps_status mps__grow(mps__context *c, void **block, int64_t *capacity, int64_t used, int64_t count, size_t size);
+mps_status mps__grow(mps__context *c, void **block, int64_t *capacity, int64_t used, int64_t count,
+                     size_t size);
 
 /* Elements to ask for when an array of `capacity` must hold n: a first time just these, later some to grow into. */
 static inline int64_t mps__room(int64_t n, int64_t capacity)
@@ -54,12 +55,15 @@ typedef struct mps__scratch {
 } mps__scratch;
 
 /* Block number `block` for `count` elements, or NULL with the error text set. It holds anything: who took it before is done with it. */
-void *mps__scratch_take(mps__context *c, mps__scratch *s, int32_t block, int64_t count, size_t size);
+void *mps__scratch_take(mps__context *c, mps__scratch *s, int32_t block, int64_t count,
+                        size_t size);
 void mps__scratch_free(mps__context *c, mps__scratch *s);
 
 /* Set the error text and return `status`; without a context only the latter. */
-mps_status mps__fail(mps__context *c, mps_status status, const char *format, ...) __attribute__((format(printf, 3, 4)));
-void mps__log(mps__context *c, int level, const char *format, ...) __attribute__((format(printf, 3, 4)));
+mps_status mps__fail(mps__context *c, mps_status status, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+void mps__log(mps__context *c, int level, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 
 /* Lock the handle, at least as much as it is already; put back what this returns afterwards. */
 mps__lock mps__lock_set(mps__context *c, int32_t level, const char *what);
@@ -82,18 +86,22 @@ mps__lock mps__lock_set(mps__context *c, int32_t level, const char *what);
 /* Refuse a caller's struct that is NULL or has no size of a version. */
 mps_status mps__struct_check(mps__context *c, const char *type, const void *given);
 /* Copy a caller's struct into ours: a shorter one is completed from what `out` holds, an unknown non-zero tail refused. */
-mps_status mps__struct_in(mps__context *c, const char *type, void *out, size_t size, const void *in);
+mps_status mps__struct_in(mps__context *c, const char *type, void *out, size_t size,
+                          const void *in);
 /* Fill a caller's struct (his size, maybe older) from ours. struct_size in `out` stays his. */
-mps_status mps__struct_out(mps__context *c, const char *type, void *out, const void *in, size_t size);
+mps_status mps__struct_out(mps__context *c, const char *type, void *out, const void *in,
+                           size_t size);
 /* Body of every ..._init(): copy `defaults` into the caller's struct of `size` bytes and set struct_size. */
-mps_status mps__struct_init(const char *type, void *out, size_t size, const void *defaults, size_t full);
+mps_status mps__struct_init(const char *type, void *out, size_t size, const void *defaults,
+                            size_t full);
 
 /* The nearest of `count` names to `name` by edit distance, NULL if none is near. */
 const char *mps__near(const char *name, const char *const *names, int count);
 /* For error texts: all names in quotes, with a comma between two of them. Returns `out`. */
 const char *mps__list(char out[MPS__HINT_SIZE], char quote, const char *const *names, int count);
 /* For error texts: whether the nearest name was meant, or which there are. Returns `out`. */
-const char *mps__hint(char out[MPS__HINT_SIZE], char quote, const char *name, const char *const *names, int count);
+const char *mps__hint(char out[MPS__HINT_SIZE], char quote, const char *name,
+                      const char *const *names, int count);
 /* Copy a name of at most capacity-1 characters; false if it is NULL, empty or too long. */
 bool mps__name_copy(char *out, size_t capacity, const char *name);
 

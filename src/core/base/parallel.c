@@ -95,14 +95,17 @@ static int core_now(void)
 static bool is_in_the_way(struct mps__crew *c, const seat *own)
 {
     const int core = core_now();
-    const int32_t first = own == c->seat, end = own == c->seat ? c->seats : 1; /* the caller looks at all others, they look at it */
+    const int32_t first = own == c->seat,
+                  end = own == c->seat ? c->seats
+                                       : 1; /* the caller looks at all others, they look at it */
     for (int32_t k = first; k < end && core >= 0; k++)
         if (atomic_load_explicit(&c->seat[k].core, memory_order_relaxed) == core) return true;
     return false;
 }
 
 /* Look for SPIN seconds at most. */
-static inline __attribute__((always_inline)) bool spin(seat *own, bool (*done)(struct mps__crew *, uint64_t), uint64_t seen)
+static inline __attribute__((always_inline)) bool
+spin(seat *own, bool (*done)(struct mps__crew *, uint64_t), uint64_t seen)
 {
     struct mps__crew *c = own->crew;
     double end = 0;
@@ -122,7 +125,9 @@ static void await_news(seat *own, uint64_t seen)
     struct mps__crew *c = own->crew;
     if (spin(own, has_news, seen)) return;
     pthread_mutex_lock(&c->lock);
-    atomic_fetch_add(&c->sleepers, 1); /* before the last look: the caller looks for sleepers after it opened a round */
+    atomic_fetch_add(
+        &c->sleepers,
+        1); /* before the last look: the caller looks for sleepers after it opened a round */
     while (!has_news(c, seen)) pthread_cond_wait(&c->opened, &c->lock);
     atomic_fetch_sub(&c->sleepers, 1);
     pthread_mutex_unlock(&c->lock);
@@ -228,7 +233,8 @@ static double processor_time(void)
 static void open_round(struct mps__crew *c, uint64_t round, int32_t parts)
 {
     for (int32_t k = 0; k < c->seats; k++) {
-        atomic_store_explicit(&c->seat[k].next, (int32_t)((int64_t)parts * k / c->seats), memory_order_relaxed);
+        atomic_store_explicit(&c->seat[k].next, (int32_t)((int64_t)parts * k / c->seats),
+                              memory_order_relaxed);
         c->seat[k].end = (int32_t)((int64_t)parts * (k + 1) / c->seats);
     }
     atomic_store_explicit(&c->seat[0].core, core_now(), memory_order_relaxed);
@@ -296,7 +302,8 @@ static void make_crew(mps__pool *p)
     p->tried = true;
     if (!c) return;
     memset(c, 0, bytes);
-    const bool lock = !pthread_mutex_init(&c->lock, NULL), opened = !pthread_cond_init(&c->opened, NULL);
+    const bool lock = !pthread_mutex_init(&c->lock, NULL),
+               opened = !pthread_cond_init(&c->opened, NULL);
     if (lock && opened && !pthread_cond_init(&c->empty, NULL)) {
         start_threads(c, p->parallel.threads);
         p->crew = c;
@@ -335,7 +342,8 @@ mps_status mps_parallel_init(mps_parallel *parallel, size_t size)
 void mps__pool_init(mps__pool *p, mps__context *context)
 {
     *p = (mps__pool){.context = context, .own = true};
-    p->parallel = (mps_parallel){.struct_size = sizeof p->parallel, .threads = 1, .run = run_pool, .user = p};
+    p->parallel = (mps_parallel){
+        .struct_size = sizeof p->parallel, .threads = 1, .run = run_pool, .user = p};
 }
 
 mps_status mps__pool_set(mps__pool *p, const mps_parallel *host, const char *what)
@@ -344,8 +352,8 @@ mps_status mps__pool_set(mps__pool *p, const mps_parallel *host, const char *wha
         MPS__CHECK(p->context, mps__struct_check(NULL, "mps_parallel", host) == MPS_OK,
                    "%s.struct_size is %u: call mps_parallel_init() first", what, host->struct_size);
     }
-    MPS__CHECK(p->context, host->threads >= 0 && host->threads <= MPS__THREADS_MOST, "%s.threads is %d: 0..%d", what, host->threads,
-               MPS__THREADS_MOST);
+    MPS__CHECK(p->context, host->threads >= 0 && host->threads <= MPS__THREADS_MOST,
+               "%s.threads is %d: 0..%d", what, host->threads, MPS__THREADS_MOST);
     drop_crew(p);
     p->own = !host->run;
     p->parallel.run = p->own ? run_pool : host->run;
@@ -379,7 +387,8 @@ static void zero_rows(void *argument, int64_t begin, int64_t end)
     const zeroing *z = argument;
     for (int32_t k = 0; k < z->count && end > 0; k++) {
         const int64_t count = z->blocks[k].count, last = end < count ? end : count;
-        if (begin < last) memset(z->blocks[k].values + begin, 0, (size_t)(last - begin) * sizeof(double));
+        if (begin < last)
+            memset(z->blocks[k].values + begin, 0, (size_t)(last - begin) * sizeof(double));
         begin = begin > count ? begin - count : 0;
         end -= count;
     }
@@ -421,9 +430,12 @@ static void first_rows(void *argument, int64_t begin, int64_t end, double *value
     if (i < end && -(double)i > values[0]) values[0] = -(double)i;
 }
 
-int64_t mps__parallel_first(const mps_parallel *p, int64_t n, mps__row_test is_bad, const void *argument)
+int64_t mps__parallel_first(const mps_parallel *p, int64_t n, mps__row_test is_bad,
+                            const void *argument)
 {
-    double first = -(double)n; /* the lowest row is the largest of their negatives; doubles count exactly to 2^53 */
+    double first =
+        -(double)
+            n; /* the lowest row is the largest of their negatives; doubles count exactly to 2^53 */
     mps_parallel_max(p, n, 1, first_rows, &(testing){is_bad, argument}, &first);
     return (int64_t)-first;
 }
@@ -436,7 +448,8 @@ static void count_rows(void *argument, int64_t begin, int64_t end, double *value
     values[0] += (double)count;
 }
 
-int64_t mps__parallel_count(const mps_parallel *p, int64_t n, mps__row_test counts, const void *argument)
+int64_t mps__parallel_count(const mps_parallel *p, int64_t n, mps__row_test counts,
+                            const void *argument)
 {
     double count;
     mps_parallel_sum(p, n, 1, count_rows, &(testing){counts, argument}, &count);

@@ -11,7 +11,8 @@ enum { MPS__VERSIONS = 4 };
 
 typedef struct known_struct {
     const char *type;
-    size_t size[MPS__VERSIONS]; /* ascending, of the versions that changed it; the last is today's */
+    size_t
+        size[MPS__VERSIONS]; /* ascending, of the versions that changed it; the last is today's */
 } known_struct;
 
 /* 1.0.0 is the first version. A struct that grows gets a second size, e.g.
@@ -83,10 +84,12 @@ mps_status mps__struct_check(mps__context *c, const char *type, const void *give
     memcpy(&bytes, given, sizeof bytes);
     if (size && is_size(size, bytes)) return MPS_OK;
     if (strstr(type, "_ops")) /* tables of plug-ins have no _init function */
-        return mps__fail(c, MPS_E_ARG, "%s.struct_size is %u: set it to sizeof(%s); version 1.0.0 has %zu", type, bytes, type,
-                         size ? size[0] : 0);
-    return mps__fail(c, MPS_E_ARG, "%s.struct_size is %u: call %s_init() first; version 1.0.0 has %zu", type, bytes, type,
-                     size ? size[0] : 0);
+        return mps__fail(c, MPS_E_ARG,
+                         "%s.struct_size is %u: set it to sizeof(%s); version 1.0.0 has %zu", type,
+                         bytes, type, size ? size[0] : 0);
+    return mps__fail(c, MPS_E_ARG,
+                     "%s.struct_size is %u: call %s_init() first; version 1.0.0 has %zu", type,
+                     bytes, type, size ? size[0] : 0);
 }
 
 mps_status mps__struct_in(mps__context *c, const char *type, void *out, size_t size, const void *in)
@@ -97,13 +100,16 @@ mps_status mps__struct_in(mps__context *c, const char *type, void *out, size_t s
     const unsigned char *bytes = in;
     for (size_t k = size; k < given; k++)
         if (bytes[k])
-            return mps__fail(c, MPS_E_VERSION, "%s of %u bytes comes from a newer version and uses its entries; this one knows %zu", type,
-                             given, size);
+            return mps__fail(c, MPS_E_VERSION,
+                             "%s of %u bytes comes from a newer version and uses its entries; this "
+                             "one knows %zu",
+                             type, given, size);
     memcpy(out, in, given < size ? given : size);
     return MPS_OK;
 }
 
-mps_status mps__struct_out(mps__context *c, const char *type, void *out, const void *in, size_t size)
+mps_status mps__struct_out(mps__context *c, const char *type, void *out, const void *in,
+                           size_t size)
 {
     uint32_t given;
     MPS__TRY(mps__struct_check(c, type, out));
@@ -113,7 +119,8 @@ mps_status mps__struct_out(mps__context *c, const char *type, void *out, const v
     return MPS_OK;
 }
 
-mps_status mps__struct_init(const char *type, void *out, size_t size, const void *defaults, size_t full)
+mps_status mps__struct_init(const char *type, void *out, size_t size, const void *defaults,
+                            size_t full)
 {
     const size_t *sizes = sizes_of(type);
     if (!out || !sizes || !is_size(sizes, size) || size > UINT32_MAX) return MPS_E_ARG;

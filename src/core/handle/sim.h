@@ -38,19 +38,21 @@ static inline mps_status mps__sim_free(const mps_sim *sim, int32_t allowed, cons
 {
     mps__context *c = mps__sim_context(sim);
     if (c->lock.level <= allowed) return MPS_OK;
-    return mps__fail(c, MPS_E_BUSY, "%s() was called from %s: call it when mps_step() or mps_run() has returned", call, c->lock.what);
+    return mps__fail(c, MPS_E_BUSY,
+                     "%s() was called from %s: call it when mps_step() or mps_run() has returned",
+                     call, c->lock.what);
 }
 
 /* Begin a public function that changes a simulation, or one that reads more than single values of it. */
-#define MPS__CHANGES(sim)                                              \
-    do {                                                               \
-        if (!(sim)) return MPS_E_ARG;                                  \
-        MPS__TRY(mps__sim_free((sim), MPS__UNLOCKED, __func__));       \
+#define MPS__CHANGES(sim)                                        \
+    do {                                                         \
+        if (!(sim)) return MPS_E_ARG;                            \
+        MPS__TRY(mps__sim_free((sim), MPS__UNLOCKED, __func__)); \
     } while (0)
-#define MPS__READS(sim)                                                \
-    do {                                                               \
-        if (!(sim)) return MPS_E_ARG;                                  \
-        MPS__TRY(mps__sim_free((sim), MPS__READ_ONLY, __func__));      \
+#define MPS__READS(sim)                                           \
+    do {                                                          \
+        if (!(sim)) return MPS_E_ARG;                             \
+        MPS__TRY(mps__sim_free((sim), MPS__READ_ONLY, __func__)); \
     } while (0)
 
 #endif

@@ -26,8 +26,10 @@ typedef struct part {
 
 uint32_t mps__checksum(uint32_t before, const void *data, size_t bytes)
 {
-    static const uint32_t nibble[16] = {0,          0x1db71064, 0x3b6e20c8, 0x26d930ac, 0x76dc4190, 0x6b6b51f4, 0x4db26158, 0x5005713c,
-                                        0xedb88320, 0xf00f9344, 0xd6d6a3e8, 0xcb61b38c, 0x9b64c2b0, 0x86d3d2d4, 0xa00ae278, 0xbdbdf21c};
+    static const uint32_t nibble[16] = {0,          0x1db71064, 0x3b6e20c8, 0x26d930ac,
+                                        0x76dc4190, 0x6b6b51f4, 0x4db26158, 0x5005713c,
+                                        0xedb88320, 0xf00f9344, 0xd6d6a3e8, 0xcb61b38c,
+                                        0x9b64c2b0, 0x86d3d2d4, 0xa00ae278, 0xbdbdf21c};
     const unsigned char *p = data;
     uint32_t c = ~before;
     for (size_t k = 0; k < bytes; k++) {
@@ -64,7 +66,8 @@ static void put_head(mps__archive *a)
     put_bytes(a, &h, sizeof h);
 }
 
-void mps__archive_put(mps__archive *a, const char *name, const void *elements, size_t bytes, int64_t count)
+void mps__archive_put(mps__archive *a, const char *name, const void *elements, size_t bytes,
+                      int64_t count)
 {
     static const char zeros[8] = {0};
     part p = {.bytes = (uint32_t)bytes, .count = count};
@@ -93,7 +96,8 @@ static mps_status io_failed(mps__context *c, const char *what, const char *path)
 /* On the disk before it takes the place of what was there: a machine that stops in between has one or the other. */
 static bool write_all(const mps__archive *a, FILE *file)
 {
-    bool good = fwrite(a->data, 1, (size_t)a->size, file) == (size_t)a->size && fflush(file) == 0 && fsync(fileno(file)) == 0;
+    bool good = fwrite(a->data, 1, (size_t)a->size, file) == (size_t)a->size && fflush(file) == 0 &&
+                fsync(fileno(file)) == 0;
     const int error = errno;
     if (fclose(file) != 0) return false;
     if (!good) errno = error;
@@ -120,7 +124,8 @@ static mps_status check_place(mps__context *c, const char *path)
 {
     struct stat there;
     if (stat(path, &there) == 0 && !S_ISREG(there.st_mode))
-        return mps__fail(c, MPS_E_IO, "cannot replace \"%.300s\": it is there and no regular file", path);
+        return mps__fail(c, MPS_E_IO, "cannot replace \"%.300s\": it is there and no regular file",
+                         path);
     return MPS_OK;
 }
 
@@ -155,13 +160,15 @@ mps_status mps__archive_save(mps__archive *a, const char *path)
 
 static mps_status read_all(mps__archive *a, FILE *file, const char *path)
 {
-    if ((fgetc(file) == EOF && ferror(file)) || fseek(file, 0, SEEK_END) != 0) return io_failed(a->context, "read", path);
+    if ((fgetc(file) == EOF && ferror(file)) || fseek(file, 0, SEEK_END) != 0)
+        return io_failed(a->context, "read", path);
     const long size = ftell(file);
     if (size < 0 || fseek(file, 0, SEEK_SET) != 0) return io_failed(a->context, "read", path);
     a->data = mps__alloc(a->context, size, 1);
     if (!a->data) return MPS_E_NOMEM;
     errno = 0;
-    if (fread(a->data, 1, (size_t)size, file) != (size_t)size) return io_failed(a->context, "read", path);
+    if (fread(a->data, 1, (size_t)size, file) != (size_t)size)
+        return io_failed(a->context, "read", path);
     a->size = size;
     return MPS_OK;
 }
@@ -173,9 +180,12 @@ static mps_status check_head(const mps__archive *a, const char *path)
         return mps__fail(a->context, MPS_E_IO, "\"%.300s\" is no checkpoint", path);
     memcpy(&h, a->data, sizeof h);
     if (h.order != BYTE_ORDER_MARK)
-        return mps__fail(a->context, MPS_E_VERSION, "\"%.300s\" is from a machine with another byte order", path);
+        return mps__fail(a->context, MPS_E_VERSION,
+                         "\"%.300s\" is from a machine with another byte order", path);
     if (h.version != VERSION)
-        return mps__fail(a->context, MPS_E_VERSION, "\"%.300s\" has format %u; this library knows %d", path, (unsigned)h.version, VERSION);
+        return mps__fail(a->context, MPS_E_VERSION,
+                         "\"%.300s\" has format %u; this library knows %d", path,
+                         (unsigned)h.version, VERSION);
     return MPS_OK;
 }
 
@@ -185,7 +195,8 @@ static bool part_at(const mps__archive *a, int64_t at, part *p)
     if (a->size - at < (int64_t)sizeof *p) return false;
     memcpy(p, a->data + at, sizeof *p);
     const int64_t room = a->size - at - (int64_t)sizeof *p;
-    return p->count >= 0 && p->bytes > 0 && p->count <= room / p->bytes && padded(p) <= room && memchr(p->name, 0, sizeof p->name);
+    return p->count >= 0 && p->bytes > 0 && p->count <= room / p->bytes && padded(p) <= room &&
+           memchr(p->name, 0, sizeof p->name);
 }
 
 /* The zeros behind the elements count as well: a file that is not what was written is not trusted. */
@@ -201,11 +212,17 @@ static mps_status check_parts(const mps__archive *a, const char *path)
     part p = {{0}, 0, 0, 0};
     int64_t at = (int64_t)sizeof(head);
     for (; strcmp(p.name, last_part) != 0; at += (int64_t)sizeof p + padded(&p)) {
-        if (!part_at(a, at, &p)) return mps__fail(a->context, MPS_E_IO, "checkpoint \"%.300s\" is cut short or damaged", path);
+        if (!part_at(a, at, &p))
+            return mps__fail(a->context, MPS_E_IO, "checkpoint \"%.300s\" is cut short or damaged",
+                             path);
         if (!part_whole(&p, a->data + at + sizeof p))
-            return mps__fail(a->context, MPS_E_IO, "checkpoint \"%.300s\" is damaged: the checksum of \"%s\" is wrong", path, p.name);
+            return mps__fail(a->context, MPS_E_IO,
+                             "checkpoint \"%.300s\" is damaged: the checksum of \"%s\" is wrong",
+                             path, p.name);
     }
-    if (at != a->size) return mps__fail(a->context, MPS_E_IO, "checkpoint \"%.300s\" is damaged: it goes on behind its end", path);
+    if (at != a->size)
+        return mps__fail(a->context, MPS_E_IO,
+                         "checkpoint \"%.300s\" is damaged: it goes on behind its end", path);
     return MPS_OK;
 }
 
@@ -222,11 +239,13 @@ mps_status mps__archive_load(mps__archive *a, const char *path)
 const void *mps__archive_get(const mps__archive *a, const char *name, size_t bytes, int64_t *count)
 {
     part p = {{0}, 0, 0, 0};
-    for (int64_t at = (int64_t)sizeof(head); part_at(a, at, &p) && strcmp(p.name, last_part) != 0; at += (int64_t)sizeof p + padded(&p)) {
+    for (int64_t at = (int64_t)sizeof(head); part_at(a, at, &p) && strcmp(p.name, last_part) != 0;
+         at += (int64_t)sizeof p + padded(&p)) {
         if (strcmp(p.name, name) != 0) continue;
         *count = p.count;
         if (p.bytes == bytes) return a->data + at + sizeof p;
-        mps__fail(a->context, MPS_E_VERSION, "\"%s\" of the checkpoint has elements of %u bytes; this library has %zu", name,
+        mps__fail(a->context, MPS_E_VERSION,
+                  "\"%s\" of the checkpoint has elements of %u bytes; this library has %zu", name,
                   (unsigned)p.bytes, bytes);
         return NULL;
     }

@@ -17,7 +17,8 @@ typedef struct mps__archive {
 } mps__archive;
 
 /* Add a part. Call all of them twice: without `data` to learn the size, then with mps__archive_room(). */
-void mps__archive_put(mps__archive *a, const char *name, const void *elements, size_t bytes, int64_t count);
+void mps__archive_put(mps__archive *a, const char *name, const void *elements, size_t bytes,
+                      int64_t count);
 /* Memory for what was put, and back to the beginning. */
 mps_status mps__archive_room(mps__archive *a);
 /* Close the archive and write it beside `path`, then in its place. */

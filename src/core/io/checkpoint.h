@@ -19,7 +19,8 @@ typedef struct mps__solids {
     uint64_t checksum;
 } mps__solids;
 
-mps__solids mps__solids_of(int64_t n, int32_t dim, const int32_t *kind, const int32_t *part, const double *ref);
+mps__solids mps__solids_of(int64_t n, int32_t dim, const int32_t *kind, const int32_t *part,
+                           const double *ref);
 /* The set-up of a simulation: as long as it is the same, a state of one fits the other. */
 void mps__setup_text(const mps_sim *sim, mps__text *text);
 /* Refuse another one, naming the first difference. Both texts end with a 0. */

@@ -16,36 +16,43 @@ static const double ROTATION = 1e-9;
 /* Most samples that the number of the next one may differ from its time by rounding. */
 static const double SAMPLES = 2;
 
-static mps_status check_range(mps__context *c, const char *name, double value, double least, double most)
+static mps_status check_range(mps__context *c, const char *name, double value, double least,
+                              double most)
 {
-    if (!(value >= least && value <= most)) DAMAGED("\"%s\" is %.9g; must be %g..%g", name, value, least, most);
+    if (!(value >= least && value <= most))
+        DAMAGED("\"%s\" is %.9g; must be %g..%g", name, value, least, most);
     return MPS_OK;
 }
 
-static mps_status check_finite(mps__context *c, const char *name, const double *values, int64_t count)
+static mps_status check_finite(mps__context *c, const char *name, const double *values,
+                               int64_t count)
 {
     for (int64_t k = 0; k < count; k++)
-        if (!isfinite(values[k])) DAMAGED("number %lld of \"%s\" is %g", (long long)k, name, values[k]);
+        if (!isfinite(values[k]))
+            DAMAGED("number %lld of \"%s\" is %g", (long long)k, name, values[k]);
     return MPS_OK;
 }
 
 /* ---- scalars ---- */
 
-static mps_status check_pose_state(mps__context *c, const mps__arrived *a, const char *name, const mps_motion_state *s)
+static mps_status check_pose_state(mps__context *c, const mps__arrived *a, const char *name,
+                                   const mps_motion_state *s)
 {
     MPS__TRY(check_finite(c, name, s->value, MPS_DOF_COUNT));
     MPS__TRY(check_finite(c, name, s->rate, MPS_DOF_COUNT));
     MPS__TRY(check_finite(c, name, s->accel, MPS_DOF_COUNT));
     for (int d = 0; d < MPS_DOF_COUNT; d++) {
         const bool flat = d == MPS_SURGE || d == MPS_HEAVE || d == MPS_YAW || d == MPS_ROLL;
-        if (a->sim->world.setup.dim == 2 && !flat && (s->value[d] != 0 || s->rate[d] != 0 || s->accel[d] != 0))
+        if (a->sim->world.setup.dim == 2 && !flat &&
+            (s->value[d] != 0 || s->rate[d] != 0 || s->accel[d] != 0))
             DAMAGED("\"%s\" moves in direction %d, which 2-D does not have", name, d);
     }
     return MPS_OK;
 }
 
 /* A pose that was not `set` yet has no rotation. */
-static mps_status check_pose(mps__context *c, const mps__arrived *a, const char *name, const mps__pose *p, bool set)
+static mps_status check_pose(mps__context *c, const mps__arrived *a, const char *name,
+                             const mps__pose *p, bool set)
 {
     mps__pose exact;
     MPS__TRY(check_finite(c, name, &p->t, 1));
@@ -55,22 +62,28 @@ static mps_status check_pose(mps__context *c, const mps__arrived *a, const char 
     MPS__TRY(check_finite(c, name, p->alpha, 3));
     mps__motion_pose_of(&p->state, a->sim->world.setup.dim, p->t, &exact);
     for (int k = 0; set && k < 9; k++)
-        if (fabs(p->rotation[k] - exact.rotation[k]) > ROTATION) DAMAGED("the rotation of \"%s\" is not that of its angles", name);
+        if (fabs(p->rotation[k] - exact.rotation[k]) > ROTATION)
+            DAMAGED("the rotation of \"%s\" is not that of its angles", name);
     return MPS_OK;
 }
 
 static mps_status check_budget(mps__context *c, const mps__budget *b)
 {
-    const double work[] = {b->wall_work, b->viscous, b->collision, b->shift, b->added, b->start, b->deviation, b->deviation_start};
+    const double work[] = {b->wall_work, b->viscous, b->collision, b->shift,
+                           b->added,     b->start,   b->deviation, b->deviation_start};
     const mps__bulk *l = &b->last;
-    const double last[] = {l->kinetic, l->potential, l->momentum[0], l->momentum[1], l->momentum[2]};
-    const double *const change[] = {b->momentum.total,     b->momentum.gravity, b->momentum.force,
-                                    b->momentum.pressure,  b->momentum.walls,   b->momentum.numerical,
-                                    b->momentum.collision, b->momentum.shift,   b->momentum.added};
+    const double last[] = {l->kinetic, l->potential, l->momentum[0], l->momentum[1],
+                           l->momentum[2]};
+    const double *const change[] = {
+        b->momentum.total,     b->momentum.gravity, b->momentum.force,
+        b->momentum.pressure,  b->momentum.walls,   b->momentum.numerical,
+        b->momentum.collision, b->momentum.shift,   b->momentum.added};
     MPS__TRY(check_finite(c, "state.budget", work, sizeof work / sizeof work[0]));
     MPS__TRY(check_finite(c, "state.budget", last, sizeof last / sizeof last[0]));
-    for (size_t k = 0; k < sizeof change / sizeof change[0]; k++) MPS__TRY(check_finite(c, "state.budget", change[k], 3));
-    if (b->started != 0 && b->started != 1) DAMAGED("\"started\" of \"state.budget\" is %lld; must be 0 or 1", (long long)b->started);
+    for (size_t k = 0; k < sizeof change / sizeof change[0]; k++)
+        MPS__TRY(check_finite(c, "state.budget", change[k], 3));
+    if (b->started != 0 && b->started != 1)
+        DAMAGED("\"started\" of \"state.budget\" is %lld; must be 0 or 1", (long long)b->started);
     return MPS_OK;
 }
 
@@ -84,7 +97,8 @@ static mps_status check_flags(mps__context *c, const mps__state *s)
                {"state.moves_told", s->moves_told},
                {"state.window_told", s->window_told}};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
-        if (all[k].value != 0 && all[k].value != 1) DAMAGED("\"%s\" is %d; must be 0 or 1", all[k].name, (int)all[k].value);
+        if (all[k].value != 0 && all[k].value != 1)
+            DAMAGED("\"%s\" is %d; must be 0 or 1", all[k].name, (int)all[k].value);
     return MPS_OK;
 }
 
@@ -99,8 +113,10 @@ static mps_status check_counts(mps__context *c, const mps__arrived *a)
                {"particles.next_id", a->next_id}};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
         if (all[k].value < 0 || all[k].value > MOST_IDS)
-            DAMAGED("\"%s\" is %lld; must be 0..%lld", all[k].name, (long long)all[k].value, (long long)MOST_IDS);
-    if (a->state.lost > a->next_id) DAMAGED("\"state.lost\" is %lld, more than all particles", (long long)a->state.lost);
+            DAMAGED("\"%s\" is %lld; must be 0..%lld", all[k].name, (long long)all[k].value,
+                    (long long)MOST_IDS);
+    if (a->state.lost > a->next_id)
+        DAMAGED("\"state.lost\" is %lld, more than all particles", (long long)a->state.lost);
     return MPS_OK;
 }
 
@@ -119,7 +135,8 @@ mps_status mps__check_scalars(mps__context *c, const mps__arrived *a)
     MPS__TRY(check_budget(c, &s->budget));
     MPS__TRY(check_pose(c, a, "state.before", &s->before, s->step > 0));
     MPS__TRY(check_pose(c, a, "motion.now", &a->now, true));
-    if (!(fabs(a->now.t - s->t) <= 1e-9 * (1 + s->t))) DAMAGED("\"motion.now\" is at %.9g s, \"state.t\" is %.9g s", a->now.t, s->t);
+    if (!(fabs(a->now.t - s->t) <= 1e-9 * (1 + s->t)))
+        DAMAGED("\"motion.now\" is at %.9g s, \"state.t\" is %.9g s", a->now.t, s->t);
     return check_pose_state(c, a, "motion.hold", &a->hold);
 }
 
@@ -133,13 +150,14 @@ static const void *field(const mps__arrived *a, const char *name)
     return NULL; /* not reached: the names are the library's own */
 }
 
-static mps_status check_tags(mps__context *c, const mps__arrived *a, const char *name, int64_t least, int64_t most)
+static mps_status check_tags(mps__context *c, const mps__arrived *a, const char *name,
+                             int64_t least, int64_t most)
 {
     const int32_t *values = field(a, name);
     for (int64_t i = 0; i < a->n; i++)
         if (values[i] < least || values[i] > most)
-            DAMAGED("\"%s\" of particle %lld is %d; must be %lld..%lld", name, (long long)i, (int)values[i], (long long)least,
-                    (long long)most);
+            DAMAGED("\"%s\" of particle %lld is %d; must be %lld..%lld", name, (long long)i,
+                    (int)values[i], (long long)least, (long long)most);
     return MPS_OK;
 }
 
@@ -179,7 +197,8 @@ static mps_status check_ids(mps__context *c, const mps__arrived *a)
     bool sorted = true;
     for (int64_t i = 0; i < a->n; i++) {
         if (id[i] < 0 || id[i] >= a->next_id)
-            DAMAGED("\"id\" of particle %lld is %lld; must be 0..%lld", (long long)i, (long long)id[i], (long long)a->next_id - 1);
+            DAMAGED("\"id\" of particle %lld is %lld; must be 0..%lld", (long long)i,
+                    (long long)id[i], (long long)a->next_id - 1);
         sorted &= i == 0 || id[i] > id[i - 1];
     }
     if (sorted) return MPS_OK;
@@ -199,7 +218,8 @@ static mps_status check_reals(mps__context *c, const mps__arrived *a)
     const mps__particles *s = &a->sim->world.particles;
     for (int32_t k = 0; k < s->fields; k++) {
         const mps__field *f = &s->field[k];
-        if (f->size == sizeof(double) && strcmp(f->name, "id") != 0) MPS__TRY(check_finite(c, f->name, a->field[k], a->n * f->components));
+        if (f->size == sizeof(double) && strcmp(f->name, "id") != 0)
+            MPS__TRY(check_finite(c, f->name, a->field[k], a->n * f->components));
     }
     const double *density = field(a, "density");
     for (int64_t i = 0; i < a->n; i++) {
@@ -217,9 +237,11 @@ static mps_status check_links(mps__context *c, const mps__arrived *a)
     const int32_t *kind = field(a, "kind"), *phase = field(a, "phase"), *wall = field(a, "wall_of");
     for (int64_t i = 0; i < a->n; i++) {
         if (kind[i] == MPS_FLUID && !a->sim->world.setup.phase_defined[phase[i]])
-            DAMAGED("particle %lld is of phase %d, which is not defined", (long long)i, (int)phase[i]);
+            DAMAGED("particle %lld is of phase %d, which is not defined", (long long)i,
+                    (int)phase[i]);
         if (a->linked && wall[i] >= 0 && (kind[i] != MPS_DUMMY || kind[wall[i]] != MPS_WALL))
-            DAMAGED("\"wall_of\" of particle %lld is %d, which is no wall of a dummy", (long long)i, (int)wall[i]);
+            DAMAGED("\"wall_of\" of particle %lld is %d, which is no wall of a dummy", (long long)i,
+                    (int)wall[i]);
     }
     return MPS_OK;
 }
@@ -229,9 +251,11 @@ static mps_status check_solids(mps__context *c, const mps__arrived *a)
 {
     const mps__particles *s = &a->sim->world.particles;
     const mps__solids here = mps__solids_of(s->n, s->dim, s->kind, s->part, s->ref);
-    const mps__solids there = mps__solids_of(a->n, s->dim, field(a, "kind"), field(a, "part"), field(a, "ref"));
+    const mps__solids there = mps__solids_of(a->n, s->dim, field(a, "kind"), field(a, "part"),
+                                             field(a, "ref"));
     if (there.count != here.count || there.checksum != here.checksum)
-        DAMAGED("its solid particles (%lld) are not those of its set-up (%lld)", (long long)there.count, (long long)here.count);
+        DAMAGED("its solid particles (%lld) are not those of its set-up (%lld)",
+                (long long)there.count, (long long)here.count);
     return MPS_OK;
 }
 
@@ -248,7 +272,8 @@ mps_status mps__check_particles(mps__context *c, const mps__arrived *a)
     MPS__TRY(check_tags(c, a, "wall_of", -1, a->n - 1));
     MPS__TRY(check_tags(c, a, "plate", 0, w->lists.screens.count));
     if (a->linked < 0 || a->linked > 1 || a->listed < 0 || a->listed > a->linked)
-        DAMAGED("\"lists\" are %d, %d; must be 0 or 1, the second only with the first", (int)a->linked, (int)a->listed);
+        DAMAGED("\"lists\" are %d, %d; must be 0 or 1, the second only with the first",
+                (int)a->linked, (int)a->listed);
     MPS__TRY(check_reals(c, a));
     MPS__TRY(check_links(c, a));
     return check_solids(c, a);
@@ -256,31 +281,43 @@ mps_status mps__check_particles(mps__context *c, const mps__arrived *a)
 
 /* ---- series ---- */
 
-static mps_status check_times(mps__context *c, int64_t probe, const double *t, int64_t count, int64_t stride, double most)
+static mps_status check_times(mps__context *c, int64_t probe, const double *t, int64_t count,
+                              int64_t stride, double most)
 {
     for (int64_t k = 0; k < count; k++)
         if (!(t[k * stride] <= most) || (k > 0 && !(t[k * stride] >= t[(k - 1) * stride])))
-            DAMAGED("time %lld of probe %lld is %.9g; must ascend up to %.9g", (long long)k, (long long)probe, t[k * stride], most);
+            DAMAGED("time %lld of probe %lld is %.9g; must ascend up to %.9g", (long long)k,
+                    (long long)probe, t[k * stride], most);
     return MPS_OK;
 }
 
-mps_status mps__check_series(mps__context *c, const mps__arrived *a, int64_t probe, const mps__series *s, int64_t waits)
+mps_status mps__check_series(mps__context *c, const mps__arrived *a, int64_t probe,
+                             const mps__series *s, int64_t waits)
 {
     const double rate = a->sim->probes.list[probe].config.rate, slack = 1e-9 * (1 + a->state.t);
-    if (waits < 0 || waits > 1) DAMAGED("\"waits\" of probe %lld is %lld; must be 0 or 1", (long long)probe, (long long)waits);
-    if (waits && s->rows > 0) DAMAGED("probe %lld waits for its first row and has %lld", (long long)probe, (long long)s->rows);
+    if (waits < 0 || waits > 1)
+        DAMAGED("\"waits\" of probe %lld is %lld; must be 0 or 1", (long long)probe,
+                (long long)waits);
+    if (waits && s->rows > 0)
+        DAMAGED("probe %lld waits for its first row and has %lld", (long long)probe,
+                (long long)s->rows);
     if (s->step < -1 || s->step > a->state.step)
-        DAMAGED("the last step of probe %lld is %lld; must be -1..%lld", (long long)probe, (long long)s->step, (long long)a->state.step);
+        DAMAGED("the last step of probe %lld is %lld; must be -1..%lld", (long long)probe,
+                (long long)s->step, (long long)a->state.step);
     if ((s->step >= 0) != (s->rows > 0))
-        DAMAGED("probe %lld has %lld rows after step %lld", (long long)probe, (long long)s->rows, (long long)s->step);
-    if (!(s->start >= 0 && s->start <= a->state.t)) DAMAGED("probe %lld begins at %g s", (long long)probe, s->start);
+        DAMAGED("probe %lld has %lld rows after step %lld", (long long)probe, (long long)s->rows,
+                (long long)s->step);
+    if (!(s->start >= 0 && s->start <= a->state.t))
+        DAMAGED("probe %lld begins at %g s", (long long)probe, s->start);
     MPS__TRY(check_finite(c, "signal", s->row, s->rows * (1 + s->size)));
     MPS__TRY(check_finite(c, "times", s->t, s->count));
     MPS__TRY(check_finite(c, "samples", s->value, s->count * s->size));
     MPS__TRY(check_times(c, probe, s->row, s->rows, 1 + s->size, a->state.t));
     MPS__TRY(check_times(c, probe, s->t, s->count, 1, a->state.t + slack));
     const double due = s->rows > 0 ? s->row[(s->rows - 1) * (1 + s->size)] * rate : 0;
-    if (s->next < 0 || (s->rows > 0 && !(fabs((double)s->next - due) <= SAMPLES)) || s->count > s->next)
-        DAMAGED("the next sample of probe %lld is number %lld, after %lld", (long long)probe, (long long)s->next, (long long)s->count);
+    if (s->next < 0 || (s->rows > 0 && !(fabs((double)s->next - due) <= SAMPLES)) ||
+        s->count > s->next)
+        DAMAGED("the next sample of probe %lld is number %lld, after %lld", (long long)probe,
+                (long long)s->next, (long long)s->count);
     return MPS_OK;
 }

@@ -23,6 +23,7 @@ mps_status mps__check_scalars(mps__context *c, const mps__arrived *a);
 /* Fields, tags, ids, links, and the solids, which must be those of the simulation. */
 mps_status mps__check_particles(mps__context *c, const mps__arrived *a);
 /* What probe number `probe` keeps. `waits` is the flag as it stands in the file. */
-mps_status mps__check_series(mps__context *c, const mps__arrived *a, int64_t probe, const mps__series *s, int64_t waits);
+mps_status mps__check_series(mps__context *c, const mps__arrived *a, int64_t probe,
+                             const mps__series *s, int64_t waits);
 
 #endif

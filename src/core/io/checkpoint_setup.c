@@ -14,7 +14,8 @@ static void line(mps__text *t, const char *format, ...)
     char text[LINE];
     va_list list;
     va_start(list, format);
-    const int wanted = vsnprintf(text, sizeof text - 1, format, list), length = wanted < LINE - 2 ? wanted : LINE - 2;
+    const int wanted = vsnprintf(text, sizeof text - 1, format, list),
+              length = wanted < LINE - 2 ? wanted : LINE - 2;
     va_end(list);
     for (char *c = text; *c; c++)
         if (*c == ',') *c = '.';
@@ -63,23 +64,27 @@ static void put_models(const mps__models *m, mps__text *t)
     for (int32_t k = 0; k < m->active; k++) {
         const mps_model_ops *ops = m->on[k].ops;
         line(t, "model %s", ops->name);
-        for (int32_t s = 0; s < ops->setting_count; s++) line(t, "model %s %s %.17g", ops->name, ops->settings[s].key, m->on[k].k[s]);
+        for (int32_t s = 0; s < ops->setting_count; s++)
+            line(t, "model %s %s %.17g", ops->name, ops->settings[s].key, m->on[k].k[s]);
     }
 }
 
 static void put_fields(const mps__particles *s, mps__text *t)
 {
     for (int32_t k = 0; k < s->fields; k++)
-        if (s->field[k].data == &s->field[k].own) line(t, "field %s of %d", s->field[k].name, (int)s->field[k].components);
+        if (s->field[k].data == &s->field[k].own)
+            line(t, "field %s of %d", s->field[k].name, (int)s->field[k].components);
 }
 
-mps__solids mps__solids_of(int64_t n, int32_t dim, const int32_t *kind, const int32_t *part, const double *ref)
+mps__solids mps__solids_of(int64_t n, int32_t dim, const int32_t *kind, const int32_t *part,
+                           const double *ref)
 {
     mps__solids solids = {0, 0};
     for (int64_t i = 0; i < n; i++) {
         if (kind[i] == MPS_FLUID) continue;
         const int32_t what[2] = {kind[i], part[i]};
-        solids.checksum += mps__checksum(mps__checksum(0, what, sizeof what), ref + i * dim, (size_t)dim * sizeof *ref);
+        solids.checksum += mps__checksum(mps__checksum(0, what, sizeof what), ref + i * dim,
+                                         (size_t)dim * sizeof *ref);
         solids.count++;
     }
     return solids;
@@ -111,7 +116,8 @@ static void put_probes(const mps__probes *p, mps__text *t)
         }
         line(t, "probe %lld type %d", (long long)k, (int)c->type);
         line(t, "probe %lld at %.17g %.17g %.17g", (long long)k, c->at[0], c->at[1], c->at[2]);
-        line(t, "probe %lld along %.17g %.17g %.17g", (long long)k, c->direction[0], c->direction[1], c->direction[2]);
+        line(t, "probe %lld along %.17g %.17g %.17g", (long long)k, c->direction[0],
+             c->direction[1], c->direction[2]);
         line(t, "probe %lld diameter %.17g", (long long)k, c->diameter);
         line(t, "probe %lld length %.17g", (long long)k, c->length);
         line(t, "probe %lld part %s", (long long)k, p->list[k].part_name);
@@ -144,7 +150,8 @@ mps_status mps__setup_compare(mps__context *c, const char *saved, const char *he
         const int a = (int)strcspn(saved, "\n"), b = (int)strcspn(here, "\n");
         if (a != b || memcmp(saved, here, (size_t)a) != 0)
             return mps__fail(c, MPS_E_ARG,
-                             "the checkpoint has \"%.*s\" where this simulation has \"%.*s\": it must be set up by the same calls",
+                             "the checkpoint has \"%.*s\" where this simulation has \"%.*s\": it "
+                             "must be set up by the same calls",
                              a < 150 ? a : 150, saved, b < 150 ? b : 150, here);
         saved += a + (saved[a] == '\n');
         here += b + (here[b] == '\n');

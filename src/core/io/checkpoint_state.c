@@ -21,7 +21,8 @@ static int list_slots(mps__world *w, slot out[SLOTS])
 #place, &w->place, sizeof w->place \
     }
 #define STATE(member) SLOT(state.member),
-    const slot all[] = {MPS__STATE(STATE) SLOT(motion.now), SLOT(motion.hold), SLOT(particles.next_id)};
+    const slot all[] = {MPS__STATE(STATE) SLOT(motion.now), SLOT(motion.hold),
+                        SLOT(particles.next_id)};
 #undef STATE
 #undef SLOT
     memcpy(out, all, sizeof all);
@@ -68,7 +69,8 @@ static void put_particles(const mps__world *w, mps__archive *a)
     const mps__particles *s = &w->particles;
     char name[MPS__PART_TITLE];
     for (int32_t k = 0; k < s->fields; k++)
-        mps__archive_put(a, title(name, "field", s->field[k].name), *s->field[k].data, element(&s->field[k]), s->n);
+        mps__archive_put(a, title(name, "field", s->field[k].name), *s->field[k].data,
+                         element(&s->field[k]), s->n);
     const bool linked = w->lists.linked == s->generation;
     const lists have = {linked, linked && (w->lists.neighbours.valid || w->lists.listed_at)};
     mps__archive_put(a, "lists", &have, sizeof have, 1);
@@ -76,7 +78,8 @@ static void put_particles(const mps__world *w, mps__archive *a)
     if (have.listed && w->lists.listed_at)
         mps__archive_put(a, "searched", w->lists.listed_at, sizeof(double), s->n * s->dim);
     else if (have.listed)
-        mps__archive_put(a, "searched", w->lists.neighbours.searched, sizeof(double), s->n * s->dim);
+        mps__archive_put(a, "searched", w->lists.neighbours.searched, sizeof(double),
+                         s->n * s->dim);
 }
 
 static void put_series(const mps__probes *probes, mps__archive *a)
@@ -87,10 +90,12 @@ static void put_series(const mps__probes *probes, mps__archive *a)
         if (!has_series(&probes->list[k])) continue;
         const series_state state = {s->step, s->waits, s->next, s->start};
         mps__archive_put(a, probe_title(name, k, "series"), &state, sizeof state, 1);
-        mps__archive_put(a, probe_title(name, k, "signal"), s->row ? s->row + s->first * (1 + s->size) : NULL,
+        mps__archive_put(a, probe_title(name, k, "signal"),
+                         s->row ? s->row + s->first * (1 + s->size) : NULL,
                          (size_t)(1 + s->size) * sizeof(double), s->rows - s->first);
         mps__archive_put(a, probe_title(name, k, "times"), s->t, sizeof(double), s->count);
-        mps__archive_put(a, probe_title(name, k, "samples"), s->value, (size_t)s->size * sizeof(double), s->count);
+        mps__archive_put(a, probe_title(name, k, "samples"), s->value,
+                         (size_t)s->size * sizeof(double), s->count);
     }
 }
 
@@ -98,7 +103,8 @@ void mps__state_put(mps_sim *sim, mps__archive *a)
 {
     slot slots[SLOTS];
     const int count = list_slots(&sim->world, slots);
-    for (int k = 0; k < count; k++) mps__archive_put(a, slots[k].name, slots[k].at, slots[k].size, 1);
+    for (int k = 0; k < count; k++)
+        mps__archive_put(a, slots[k].name, slots[k].at, slots[k].size, 1);
     put_particles(&sim->world, a);
     put_series(&sim->probes, a);
 }
@@ -125,7 +131,8 @@ static const void *part(const arrival *v, const char *name, size_t bytes, int64_
     int64_t count;
     const void *elements = mps__archive_get(v->a, name, bytes, &count);
     if (!elements || count == wanted) return elements;
-    mps__fail(v->a->context, MPS_E_VERSION, "\"%s\" of the checkpoint has %lld elements; must be %lld", name, (long long)count,
+    mps__fail(v->a->context, MPS_E_VERSION,
+              "\"%s\" of the checkpoint has %lld elements; must be %lld", name, (long long)count,
               (long long)wanted);
     return NULL;
 }
@@ -167,7 +174,9 @@ static mps_status find_particles(arrival *v)
     char name[MPS__PART_TITLE];
     if (!mps__archive_get(v->a, "field id", sizeof *s->id, &v->n)) return MPS_E_VERSION;
     for (int32_t k = 0; k < s->fields; k++)
-        if (!(v->arrived.field[k] = part(v, title(name, "field", s->field[k].name), element(&s->field[k]), v->n))) return MPS_E_VERSION;
+        if (!(v->arrived.field[k] = part(v, title(name, "field", s->field[k].name),
+                                         element(&s->field[k]), v->n)))
+            return MPS_E_VERSION;
     const void *have = part(v, "lists", sizeof v->have, 1);
     if (!have) return MPS_E_VERSION;
     memcpy(&v->have, have, sizeof v->have);
@@ -175,7 +184,8 @@ static mps_status find_particles(arrival *v)
     a->n = v->n;
     a->linked = v->have.linked;
     a->listed = v->have.listed;
-    if (a->listed && !(a->searched = part(v, "searched", sizeof(double), v->n * s->dim))) return MPS_E_VERSION;
+    if (a->listed && !(a->searched = part(v, "searched", sizeof(double), v->n * s->dim)))
+        return MPS_E_VERSION;
     MPS__TRY(mps__check_particles(v->a->context, a));
     if (!a->listed) return MPS_OK;
     v->listed_at = mps__alloc(v->a->context, v->n * s->dim, sizeof *v->listed_at);
@@ -185,7 +195,8 @@ static mps_status find_particles(arrival *v)
 }
 
 /* A copy of a part of an array that grows. */
-static mps_status copy_part(const arrival *v, const char *name, size_t bytes, double **copy, int64_t *count)
+static mps_status copy_part(const arrival *v, const char *name, size_t bytes, double **copy,
+                            int64_t *count)
 {
     const void *from = mps__archive_get(v->a, name, bytes, count);
     if (!from) return MPS_E_VERSION;
@@ -208,15 +219,16 @@ static mps_status find_series(const arrival *v, int64_t k, mps__series *s)
     s->waits = state.waits != 0;
     s->next = state.next;
     s->start = state.start;
-    MPS__TRY(copy_part(v, probe_title(name, k, "signal"), sizeof(double) + values, &s->row, &s->rows));
+    MPS__TRY(
+        copy_part(v, probe_title(name, k, "signal"), sizeof(double) + values, &s->row, &s->rows));
     MPS__TRY(copy_part(v, probe_title(name, k, "times"), sizeof(double), &s->t, &s->count));
     MPS__TRY(copy_part(v, probe_title(name, k, "samples"), values, &s->value, &samples));
     s->row_capacity = s->rows * (1 + s->size);
     s->t_capacity = s->count;
     s->value_capacity = s->count * s->size;
     if (samples != s->count)
-        return mps__fail(v->a->context, MPS_E_VERSION, "probe %lld has %lld samples at %lld times", (long long)k, (long long)samples,
-                         (long long)s->count);
+        return mps__fail(v->a->context, MPS_E_VERSION, "probe %lld has %lld samples at %lld times",
+                         (long long)k, (long long)samples, (long long)s->count);
     return mps__check_series(v->a->context, &v->arrived, k, s, state.waits);
 }
 
@@ -236,7 +248,8 @@ static mps_status find_all_series(arrival *v)
 /* The tank must be where it was, if a motion moves it. */
 static mps_status check_motion(const arrival *v)
 {
-    static const char *const name[MPS_DOF_COUNT] = {"surge", "heave", "sway", "roll", "yaw", "pitch"};
+    static const char *const name[MPS_DOF_COUNT] = {"surge", "heave", "sway",
+                                                    "roll",  "yaw",   "pitch"};
     mps__world *w = &v->sim->world;
     const mps__pose saved = v->arrived.now;
     mps__pose here;
@@ -244,8 +257,8 @@ static mps_status check_motion(const arrival *v)
     MPS__TRY(mps__motion_pose(&w->motion, saved.t, &here));
     for (int d = 0; d < MPS_DOF_COUNT; d++)
         MPS__CHECK(w->context, saved.state.value[d] == here.state.value[d],
-                   "the motion is another one: at t = %.9g s %s is %.17g, in the checkpoint %.17g", saved.t, name[d], here.state.value[d],
-                   saved.state.value[d]);
+                   "the motion is another one: at t = %.9g s %s is %.17g, in the checkpoint %.17g",
+                   saved.t, name[d], here.state.value[d], saved.state.value[d]);
     return MPS_OK;
 }
 
@@ -281,7 +294,8 @@ mps_status mps__state_get(mps_sim *sim, const mps__archive *a)
     if (status == MPS_OK) status = find_all_series(&v);
     if (status == MPS_OK) status = move_in(&v);
     mps__free(a->context, v.listed_at);
-    for (int64_t k = 0; v.series && k < sim->probes.count; k++) mps__series_free(a->context, &v.series[k]);
+    for (int64_t k = 0; v.series && k < sim->probes.count; k++)
+        mps__series_free(a->context, &v.series[k]);
     mps__free(a->context, v.series);
     return status;
 }

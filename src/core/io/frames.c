@@ -36,7 +36,8 @@ static const struct {
 typedef struct column {
     const char *name;
     stored type;
-    int32_t stride, width; /* numbers per particle in memory and in the file; the file's third of a 2-D vector is zero */
+    int32_t stride,
+        width; /* numbers per particle in memory and in the file; the file's third of a 2-D vector is zero */
     const void *data;
 } column;
 
@@ -52,7 +53,8 @@ typedef struct frame {
 
 static mps_status io_failed(const mps_frames *f, const char *what, const char *path)
 {
-    return mps__fail(f->world->context, MPS_E_IO, "cannot %s \"%.300s\": %s", what, path, strerror(errno));
+    return mps__fail(f->world->context, MPS_E_IO, "cannot %s \"%.300s\": %s", what, path,
+                     strerror(errno));
 }
 
 /* A number as XML wants it, whatever the host program's locale says about the decimal point. */
@@ -142,7 +144,8 @@ static void print_array(frame *f, const char *name, const char *type, int32_t wi
 {
     fprintf(f->file, "<DataArray type=\"%s\" Name=\"", type);
     print_escaped(f->file, name);
-    fprintf(f->file, "\" NumberOfComponents=\"%d\" format=\"appended\" offset=\"%llu\"/>\n", (int)width, (unsigned long long)f->offset);
+    fprintf(f->file, "\" NumberOfComponents=\"%d\" format=\"appended\" offset=\"%llu\"/>\n",
+            (int)width, (unsigned long long)f->offset);
     f->offset += sizeof(uint64_t) + bytes;
 }
 
@@ -155,15 +158,17 @@ static void print_xml(frame *f)
 {
     char t[32];
     fprintf(f->file,
-            "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"%s\" header_type=\"UInt64\">\n<PolyData>\n",
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"%s\" "
+            "header_type=\"UInt64\">\n<PolyData>\n",
             byte_order());
     fprintf(f->file,
-            "<FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">%s</DataArray></FieldData>\n",
+            "<FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
+            "format=\"ascii\">%s</DataArray></FieldData>\n",
             number(t, f->series->world->state.t));
-    fprintf(
-        f->file,
-        "<Piece NumberOfPoints=\"%lld\" NumberOfVerts=\"%lld\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n",
-        (long long)f->points, (long long)f->points);
+    fprintf(f->file,
+            "<Piece NumberOfPoints=\"%lld\" NumberOfVerts=\"%lld\" NumberOfLines=\"0\" "
+            "NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n",
+            (long long)f->points, (long long)f->points);
     print_column(f, &f->column[0]);
     fprintf(f->file, "</Points>\n<PointData>\n");
     for (int32_t k = 1; k < f->columns; k++) print_column(f, &f->column[k]);
@@ -249,8 +254,8 @@ static void write_frame(const mps_frames *series, FILE *file)
     fprintf(file, "\n</AppendedData>\n</VTKFile>\n");
 }
 
-static const char series_head[] =
-    "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"%s\">\n<Collection>\n";
+static const char series_head[] = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" "
+                                  "version=\"0.1\" byte_order=\"%s\">\n<Collection>\n";
 static const char series_time[] = "<DataSet timestep=\"";
 static const char series_end[] = "</Collection>\n</VTKFile>\n";
 
@@ -258,8 +263,8 @@ static const char series_end[] = "</Collection>\n</VTKFile>\n";
 static void series_line(const mps_frames *f, int64_t k, double time, char line[LINE_SIZE])
 {
     char t[32];
-    snprintf(line, LINE_SIZE, "%s%s\" part=\"0\" file=\"%s/%s_%06lld.vtp\"/>\n", series_time, number(t, time), f->name, f->name,
-             (long long)k);
+    snprintf(line, LINE_SIZE, "%s%s\" part=\"0\" file=\"%s/%s_%06lld.vtp\"/>\n", series_time,
+             number(t, time), f->name, f->name, (long long)k);
 }
 
 static void write_series(const mps_frames *f, FILE *file)
@@ -303,7 +308,8 @@ static mps_status update_series(const mps_frames *f)
 static mps_status create_folder(const mps_frames *f)
 {
     snprintf(f->path, f->path_size, "%s/%s", f->folder, f->name);
-    if (mkdir(f->path, 0777) != 0 && errno != EEXIST) return io_failed(f, "create the folder", f->path);
+    if (mkdir(f->path, 0777) != 0 && errno != EEXIST)
+        return io_failed(f, "create the folder", f->path);
     return MPS_OK;
 }
 
@@ -314,7 +320,8 @@ static bool is_old_frame(const mps_frames *f, const char *file)
     if (strncmp(file, f->name, length) != 0 || file[length] != '_') return false;
     const char *digits = file + length + 1;
     size_t count = strspn(digits, "0123456789");
-    return count >= 6 && strcmp(digits + count, ".vtp") == 0 && strtoll(digits, NULL, 10) >= f->count;
+    return count >= 6 && strcmp(digits + count, ".vtp") == 0 &&
+           strtoll(digits, NULL, 10) >= f->count;
 }
 
 /* Frames of an earlier run in the same folder, which the new series may not reach; the .pvd names them no more. */
@@ -358,17 +365,20 @@ static mps_status read_times(mps_frames *f, FILE *file, bool *good)
     bool later = false;
     snprintf(head, sizeof head, series_head, byte_order());
     *good = read_text(file, head);
-    for (int64_t k = 0; *good && fgets(line, sizeof line, file) && strncmp(line, series_time, before) == 0; k++) {
+    for (int64_t k = 0;
+         *good && fgets(line, sizeof line, file) && strncmp(line, series_time, before) == 0; k++) {
         const double time = number_back(line + before);
         series_line(f, k, time, wanted);
         *good = strcmp(line, wanted) == 0;
         later = later || !(time <= last);
         if (later) continue;
-        MPS__TRY(mps__grow(f->world->context, (void **)&f->times, &f->capacity, f->count, f->count + 1, sizeof *f->times));
+        MPS__TRY(mps__grow(f->world->context, (void **)&f->times, &f->capacity, f->count,
+                           f->count + 1, sizeof *f->times));
         f->times[f->count++] = time;
     }
     const char *newline = strchr(series_end, '\n') + 1;
-    *good = *good && strncmp(line, series_end, (size_t)(newline - series_end)) == 0 && read_text(file, newline) && fgetc(file) == EOF;
+    *good = *good && strncmp(line, series_end, (size_t)(newline - series_end)) == 0 &&
+            read_text(file, newline) && fgetc(file) == EOF;
     return MPS_OK;
 }
 
@@ -384,7 +394,9 @@ static mps_status read_series(mps_frames *f)
         status = io_failed(f, "read", f->path);
     else if (status == MPS_OK && !good)
         status = mps__fail(f->world->context, MPS_E_IO,
-                           "cannot go on with \"%.300s\": it is not as mps_frames_write() leaves it; without it a series begins", f->path);
+                           "cannot go on with \"%.300s\": it is not as mps_frames_write() leaves "
+                           "it; without it a series begins",
+                           f->path);
     fclose(file);
     return status;
 }
@@ -396,7 +408,8 @@ static bool good_name(const char *name)
 {
     size_t length = name ? strnlen(name, NAME_SIZE) : 0;
     if (length == 0 || length == NAME_SIZE || name[0] == '.') return false;
-    return strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") == length;
+    return strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") ==
+           length;
 }
 
 static mps_status open_series(mps_frames *f, const char *folder)
@@ -415,15 +428,20 @@ static mps_status open_series(mps_frames *f, const char *folder)
     return remove_old(f);
 }
 
-mps_status mps__frames_open(mps__world *w, const char *folder, const char *name, int32_t kinds, mps_frames **frames)
+mps_status mps__frames_open(mps__world *w, const char *folder, const char *name, int32_t kinds,
+                            mps_frames **frames)
 {
     mps__context *c = w->context;
-    const int32_t some = MPS_FRAMES_FLUID | MPS_FRAMES_WALL | MPS_FRAMES_DUMMY, all = some | MPS_FRAMES_CONTINUE;
+    const int32_t some = MPS_FRAMES_FLUID | MPS_FRAMES_WALL | MPS_FRAMES_DUMMY,
+                  all = some | MPS_FRAMES_CONTINUE;
     *frames = NULL;
     MPS__CHECK(c, folder && folder[0], "the folder of the frames is NULL or empty");
-    MPS__CHECK(c, good_name(name), "frames: name \"%.60s\" must have 1..%d of the characters A-Z a-z 0-9 _ - . and not begin with a dot",
+    MPS__CHECK(c, good_name(name),
+               "frames: name \"%.60s\" must have 1..%d of the characters A-Z a-z 0-9 _ - . and not "
+               "begin with a dot",
                name ? name : "", NAME_SIZE - 1);
-    MPS__CHECK(c, kinds >= 0 && kinds <= all, "frames: kinds is %d, must be a sum of MPS_FRAMES_..., 0..%d", (int)kinds, (int)all);
+    MPS__CHECK(c, kinds >= 0 && kinds <= all,
+               "frames: kinds is %d, must be a sum of MPS_FRAMES_..., 0..%d", (int)kinds, (int)all);
     mps_frames *f = mps__alloc(c, 1, sizeof *f);
     if (!f) return MPS_E_NOMEM;
     f->world = w;
@@ -441,7 +459,8 @@ mps_status mps__frames_open(mps__world *w, const char *folder, const char *name,
 /* A run that goes on where another was interrupted may write its state again: the frame with the same time is written anew. */
 static bool repeats_last(const mps_frames *f)
 {
-    return f->continues && f->count > 0 && fabs(f->world->state.t - f->times[f->count - 1]) <= time_slack(f);
+    return f->continues && f->count > 0 &&
+           fabs(f->world->state.t - f->times[f->count - 1]) <= time_slack(f);
 }
 
 mps_status mps_frames_write(mps_frames *frames)
@@ -449,11 +468,15 @@ mps_status mps_frames_write(mps_frames *frames)
     mps_frames *f = frames;
     if (!f) return MPS_E_ARG;
     if (f->world->context->lock.level > MPS__READ_ONLY)
-        return mps__fail(f->world->context, MPS_E_BUSY, "mps_frames_write() was called from %s: call it when mps_step() has returned",
-                         f->world->context->lock.what);
+        return mps__fail(
+            f->world->context, MPS_E_BUSY,
+            "mps_frames_write() was called from %s: call it when mps_step() has returned",
+            f->world->context->lock.what);
     const int64_t place = f->count - repeats_last(f);
-    MPS__TRY(mps__grow(f->world->context, (void **)&f->times, &f->capacity, f->count, place + 1, sizeof *f->times));
-    snprintf(f->path, f->path_size, "%s/%s/%s_%06lld.vtp", f->folder, f->name, f->name, (long long)place);
+    MPS__TRY(mps__grow(f->world->context, (void **)&f->times, &f->capacity, f->count, place + 1,
+                       sizeof *f->times));
+    snprintf(f->path, f->path_size, "%s/%s/%s_%06lld.vtp", f->folder, f->name, f->name,
+             (long long)place);
     MPS__TRY(write_file(f, write_frame));
     if (place < f->count) return MPS_OK;
     f->times[f->count++] = f->world->state.t;

@@ -7,6 +7,7 @@
 #include <mps/output.h>
 
 /* kinds 0: fluid and wall. *frames is NULL on failure. */
-mps_status mps__frames_open(mps__world *w, const char *folder, const char *name, int32_t kinds, mps_frames **frames);
+mps_status mps__frames_open(mps__world *w, const char *folder, const char *name, int32_t kinds,
+                            mps_frames **frames);
 
 #endif

@@ -9,13 +9,15 @@
 static void bulk_sums(const mps__world *w, mps_energy *e)
 {
     const mps__particles *s = &w->particles;
-    const double volume = w->setup.dim == 2 ? w->setup.dp * w->setup.dp : w->setup.dp * w->setup.dp * w->setup.dp;
+    const double volume = w->setup.dim == 2 ? w->setup.dp * w->setup.dp
+                                            : w->setup.dp * w->setup.dp * w->setup.dp;
     int64_t count = 0;
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_FLUID) continue;
         double mass = s->rho[i] * volume;
         e->mass += mass;
-        for (int32_t d = 0; d < w->setup.dim; d++) e->centre[d] += mass * s->x[i * w->setup.dim + d];
+        for (int32_t d = 0; d < w->setup.dim; d++)
+            e->centre[d] += mass * s->x[i * w->setup.dim + d];
         count++;
     }
     e->volume = volume * (double)count;
@@ -65,7 +67,8 @@ mps_status mps__energy_measure(mps__world *w, mps_energy *e)
                       .added = b.added};
     memcpy(e->momentum, b.last.momentum, sizeof e->momentum);
     bulk_sums(w, e);
-    e->numerical = e->wall_work + e->added - e->viscous - e->collision - e->shift - (e->kinetic + e->potential - b.start);
+    e->numerical = e->wall_work + e->added - e->viscous - e->collision - e->shift -
+                   (e->kinetic + e->potential - b.start);
     e->volume /= 1.0 + b.deviation;
     e->volume_filled = e->volume + (w->particles.n > 0 ? half_cells(w) : 0);
     e->mass_filled = e->volume > 0 ? e->mass * e->volume_filled / e->volume : 0;

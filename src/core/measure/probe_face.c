@@ -26,7 +26,8 @@ double mps__sensor_distance(const mps__world *w, const double *at)
     const mps__particles *s = &w->particles;
     double least = INFINITY;
     for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_WALL) least = fmin(least, distance2(&s->ref[i * w->setup.dim], at, w->setup.dim));
+        if (s->kind[i] == MPS_WALL)
+            least = fmin(least, distance2(&s->ref[i * w->setup.dim], at, w->setup.dim));
     return sqrt(least);
 }
 static int compare_solid(const void *a, const void *b)
@@ -42,13 +43,17 @@ static mps_status collect_solids(mps__face *f, mps__world *w, const double *at)
     const double reach = mps__sensor_distance(w, at) + 1.5 * (f->radius + 4 * w->setup.dp);
     for (int64_t i = 0; i < s->n; i++) {
         solid e = {.id = s->id[i], .place = i, .wall = s->kind[i] == MPS_WALL};
-        if (s->kind[i] == MPS_FLUID || mps__is_shadow(s, i) || distance2(&s->ref[i * w->setup.dim], at, w->setup.dim) > reach * reach) continue;
-        const double *area = &s->area[i * w->setup.dim], size = e.wall ? sqrt(mps__dot(area, area, w->setup.dim)) : 0;
+        if (s->kind[i] == MPS_FLUID || mps__is_shadow(s, i) ||
+            distance2(&s->ref[i * w->setup.dim], at, w->setup.dim) > reach * reach)
+            continue;
+        const double *area = &s->area[i * w->setup.dim],
+                     size = e.wall ? sqrt(mps__dot(area, area, w->setup.dim)) : 0;
         for (int32_t d = 0; d < w->setup.dim; d++) {
             e.r[d] = s->ref[i * w->setup.dim + d] - at[d];
             e.n[d] = size > 0 ? area[d] / size : 0;
         }
-        MPS__TRY(mps__grow(w->context, (void **)&f->solid, &f->solid_capacity, f->solids, f->solids + 1, sizeof e));
+        MPS__TRY(mps__grow(w->context, (void **)&f->solid, &f->solid_capacity, f->solids,
+                           f->solids + 1, sizeof e));
         f->solid[f->solids++] = e;
     }
     qsort(f->solid, (size_t)f->solids, sizeof *f->solid, compare_solid);
@@ -70,21 +75,25 @@ static bool on_face(const mps__face *f, const solid *e)
         const solid *o = &f->solid[k];
         double r[3], t[2];
         for (int d = 0; d < 3; d++) r[d] = (o->r[d] - e->r[d]) / f->dp;
-        if (!o->wall || mps__dot(r, r, 3) > beside * beside || fabs(mps__dot(r, e->n, 3)) > flat || mps__dot(o->n, e->n, 3) <= 0) continue;
+        if (!o->wall || mps__dot(r, r, 3) > beside * beside || fabs(mps__dot(r, e->n, 3)) > flat ||
+            mps__dot(o->n, e->n, 3) <= 0)
+            continue;
         for (int a = 0; a < 2; a++) t[a] = mps__dot(r, tangent[a], 3);
         moment[0] += t[0] * t[0];
         moment[1] += t[0] * t[1];
         moment[2] += t[1] * t[1];
     }
     if (f->dim == 2) return moment[0] > 0.1;
-    const double mean = 0.5 * (moment[0] + moment[2]), root = hypot(0.5 * (moment[0] - moment[2]), moment[1]);
+    const double mean = 0.5 * (moment[0] + moment[2]),
+                 root = hypot(0.5 * (moment[0] - moment[2]), moment[1]);
     return mean - root > 0.3;
 }
 
 /* How far the sensor is from what a wall particle stands for, squared: from its plane, and along it beyond its cell. */
 static double remoteness(const mps__face *f, const solid *e)
 {
-    const double off = mps__dot(e->r, e->n, 3), square = mps__dot(e->r, e->r, 3), along = sqrt(fmax(0, square - off * off));
+    const double off = mps__dot(e->r, e->n, 3), square = mps__dot(e->r, e->r, 3),
+                 along = sqrt(fmax(0, square - off * off));
     if (!has_normal(e)) return square;
     const double beyond = fmax(0, along - cover * f->dp);
     return off * off + beyond * beyond + 1e-4 * along * along;
@@ -100,7 +109,9 @@ static solid *least_remote(const mps__face *f, bool (*may_be)(const mps__face *f
         solid *e = &f->solid[k];
         if (!e->wall) continue;
         const double remote = remoteness(f, e), looks = -mps__dot(e->r, e->n, 3);
-        if (remote > least + margin || (best && remote >= least - margin && looks <= towards) || !may_be(f, e)) continue;
+        if (remote > least + margin || (best && remote >= least - margin && looks <= towards) ||
+            !may_be(f, e))
+            continue;
         least = fmin(least, remote);
         towards = looks;
         best = e;
@@ -127,7 +138,9 @@ static void flat_axis(const mps__world *w, int64_t base, double normal[3])
     double spread[3] = {0, 0, 0};
     for (int64_t i = 0; i < s->n; i++) {
         const double *here = &s->ref[i * w->setup.dim], *there = &s->ref[base * w->setup.dim];
-        if (s->kind[i] != MPS_WALL || s->part[i] != s->part[base] || distance2(here, there, w->setup.dim) > 4.41 * w->setup.dp * w->setup.dp) continue;
+        if (s->kind[i] != MPS_WALL || s->part[i] != s->part[base] ||
+            distance2(here, there, w->setup.dim) > 4.41 * w->setup.dp * w->setup.dp)
+            continue;
         for (int32_t d = 0; d < w->setup.dim; d++) spread[d] += fabs(here[d] - there[d]);
     }
     int32_t least = 0;
@@ -152,7 +165,8 @@ static void face_normal(mps__face *f, const mps__world *w)
             r[d] = (e->r[d] - base->r[d]) / f->dp;
             foot[d] = (e->r[d] - off * base->n[d]) / f->dp;
         }
-        if (!e->wall || fabs(mps__dot(r, base->n, 3)) > flat || mps__dot(e->n, base->n, 3) < 0.9) continue;
+        if (!e->wall || fabs(mps__dot(r, base->n, 3)) > flat || mps__dot(e->n, base->n, 3) < 0.9)
+            continue;
         const double weight = 1 - mps__dot(foot, foot, 3) / (around * around);
         if (e != base && (weight <= 0 || !on_face(f, e))) continue;
         for (int d = 0; d < 3; d++) sum[d] += fmax(weight, 0.1) * e->n[d];
@@ -163,13 +177,15 @@ static void face_normal(mps__face *f, const mps__world *w)
 
 static mps_status find_base(mps__face *f, mps__world *w, const mps_probe *c)
 {
-    *f = (mps__face){.dim = w->setup.dim, .sides = w->setup.dim - 1, .dp = w->setup.dp, .width = w->setup.dp};
+    *f = (mps__face){
+        .dim = w->setup.dim, .sides = w->setup.dim - 1, .dp = w->setup.dp, .width = w->setup.dp};
     f->radius = fmax(0.5 * c->diameter, 1e-6 * w->setup.dp);
     MPS__TRY(collect_solids(f, w, c->at));
     f->base = least_remote(f, on_face);
     if (!f->base) f->base = least_remote(f, any_with_normal);
     if (!f->base) f->base = least_remote(f, any_wall);
-    if (!f->base) return mps__fail(w->context, MPS_E_STATE, "wall pressure: there is no wall particle");
+    if (!f->base)
+        return mps__fail(w->context, MPS_E_STATE, "wall pressure: there is no wall particle");
     face_normal(f, w);
     f->off = -mps__dot(f->base->r, f->normal, 3);
     mps__probe_across(w->setup.dim, f->normal, f->tangent);
@@ -195,7 +211,8 @@ static bool is_covered(const mps__face *f, const solid *e)
         double r[3];
         for (int d = 0; d < 3; d++) r[d] = (o->r[d] - e->r[d]) / f->dp - e->n[d];
         const double square = mps__dot(r, r, 3);
-        if (square < 0.01 ? !o->wall || mps__dot(o->n, e->n, 3) < -0.9 : square < 0.25 && !o->wall) return true;
+        if (square < 0.01 ? !o->wall || mps__dot(o->n, e->n, 3) < -0.9 : square < 0.25 && !o->wall)
+            return true;
     }
     return false;
 }
@@ -231,7 +248,8 @@ static bool face_has(const mps__face *f, const mps__particles *s, const solid *e
     if (!e->wall || fabs(height(f, e)) > flat * f->dp) return false;
     for (int32_t a = 0; a < f->sides; a++)
         if (fabs(mps__dot(e->r, f->tangent[a], 3)) > f->radius + 2.5 * f->dp) return false;
-    return has_normal(e) ? mps__dot(e->n, f->normal, 3) > 1e-9 : s->part[e->place] == s->part[f->base->place];
+    return has_normal(e) ? mps__dot(e->n, f->normal, 3) > 1e-9
+                         : s->part[e->place] == s->part[f->base->place];
 }
 
 /* Where the plane of another wall meets that of the face, along the tangents; false if it does so nowhere near. */
@@ -239,12 +257,14 @@ static bool meets_face(const mps__face *f, const solid *e, double at[2])
 {
     double across = 0, t[2] = {0, 0};
     const double h = height(f, e), up = mps__dot(e->n, f->normal, 3);
-    if (!e->wall || e->member || h < -flat * f->dp || h > 1.1 * f->dp || up < -0.5 || up > 0.9) return false;
+    if (!e->wall || e->member || h < -flat * f->dp || h > 1.1 * f->dp || up < -0.5 || up > 0.9)
+        return false;
     for (int32_t a = 0; a < f->sides; a++) {
         t[a] = mps__dot(e->n, f->tangent[a], 3);
         across += t[a] * t[a];
     }
-    for (int32_t a = 0; a < f->sides; a++) at[a] = mps__dot(e->r, f->tangent[a], 3) + (across > 0 ? up * h * t[a] / across : 0);
+    for (int32_t a = 0; a < f->sides; a++)
+        at[a] = mps__dot(e->r, f->tangent[a], 3) + (across > 0 ? up * h * t[a] / across : 0);
     return across > 0.1;
 }
 
@@ -256,7 +276,8 @@ static mps_status reach_foot(mps__face *f, mps__world *w, const double *at)
         solid *e = &f->solid[k];
         double end[2] = {0, 0}, least = INFINITY;
         if (!meets_face(f, e, end) || !is_open(f, w, at, e)) continue;
-        for (int64_t m = 0; m < members; m++) least = fmin(least, distance2(end, f->list[m].at, f->sides));
+        for (int64_t m = 0; m < members; m++)
+            least = fmin(least, distance2(end, f->list[m].at, f->sides));
         if (least > foot_gap * foot_gap * f->dp * f->dp) continue;
         if (fabs(height(f, e)) < 1e-3 * f->dp) MPS__TRY(add_member(f, w->context, e));
         for (int32_t a = 0; a < f->sides; a++) {
@@ -281,7 +302,8 @@ static mps_status collect_members(mps__face *f, mps__world *w, const double *at)
         f->hi[a] = -INFINITY;
     }
     for (int64_t k = 0; k < f->solids; k++)
-        if (face_has(f, &w->particles, &f->solid[k]) && is_open(f, w, at, &f->solid[k])) MPS__TRY(add_member(f, w->context, &f->solid[k]));
+        if (face_has(f, &w->particles, &f->solid[k]) && is_open(f, w, at, &f->solid[k]))
+            MPS__TRY(add_member(f, w->context, &f->solid[k]));
     MPS__TRY(reach_foot(f, w, at));
     if (f->count > 0) qsort(f->list, (size_t)f->count, sizeof *f->list, compare_under);
     return MPS_OK;

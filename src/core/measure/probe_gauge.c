@@ -77,7 +77,8 @@ static void line_init(line *l, const mps__world *w, const mps_probe *c)
     mps__motion_point(m, &m->now, c->at, l->foot, NULL, NULL);
     mps__motion_rotate(m, &m->now, c->direction, l->along);
     mps__probe_across(w->setup.dim, c->direction, l->tank_across);
-    for (int32_t e = 0; e < l->sides; e++) mps__motion_rotate(m, &m->now, l->tank_across[e], l->across[e]);
+    for (int32_t e = 0; e < l->sides; e++)
+        mps__motion_rotate(m, &m->now, l->tank_across[e], l->across[e]);
 }
 
 /* True if particle i is close enough to be seen from any place of the line. */
@@ -124,7 +125,8 @@ static mps_status line_collect(line *l, mps__world *w, uint32_t phases)
         b.top = fluid && s->region[i] == MPS_REGION_SURFACE;
         b.share = mps__plates_share(w, i);
         if (s->kind[i] == MPS_WALL) wall_facing(l, s, i, &b);
-        MPS__TRY(mps__grow(w->context, (void **)&l->list, &capacity, l->count, l->count + 1, sizeof b));
+        MPS__TRY(
+            mps__grow(w->context, (void **)&l->list, &capacity, l->count, l->count + 1, sizeof b));
         l->list[l->count++] = b;
     }
     if (l->count > 0) qsort(l->list, (size_t)l->count, sizeof *l->list, compare_places);
@@ -156,14 +158,18 @@ static bool near_axis(const line *l, const beside *b)
  * of the diameter away. */
 static void band_shift(const line *l, double s, double shift[2])
 {
-    double low[2] = {-INFINITY, -INFINITY}, high[2] = {INFINITY, INFINITY}, reach = 4.0 / 3.0 * l->width;
-    for (int64_t k = first_from(l, s - 1.01 * l->dp); l->faces && k < l->count && l->list[k].s <= s + 1.01 * l->dp; k++) {
+    double low[2] = {-INFINITY, -INFINITY}, high[2] = {INFINITY, INFINITY},
+           reach = 4.0 / 3.0 * l->width;
+    for (int64_t k = first_from(l, s - 1.01 * l->dp);
+         l->faces && k < l->count && l->list[k].s <= s + 1.01 * l->dp; k++) {
         const beside *b = &l->list[k];
         if (!b->solid || !near_axis(l, b)) continue;
         for (int32_t e = 0; e < l->sides; e++) {
             /* a line well behind a face is inside the solid and stays there */
-            if (b->facing[e] > 0.5 && b->across[e] < 0.75 * l->dp) low[e] = fmax(low[e], b->across[e]);
-            if (b->facing[e] < -0.5 && b->across[e] > -0.75 * l->dp) high[e] = fmin(high[e], b->across[e]);
+            if (b->facing[e] > 0.5 && b->across[e] < 0.75 * l->dp)
+                low[e] = fmax(low[e], b->across[e]);
+            if (b->facing[e] < -0.5 && b->across[e] > -0.75 * l->dp)
+                high[e] = fmin(high[e], b->across[e]);
         }
     }
     for (int32_t e = 0; e < l->sides; e++) {
@@ -179,10 +185,12 @@ static sample line_sample(const line *l, double s)
     sample out = {0};
     double shift[2];
     band_shift(l, s, shift);
-    for (int64_t k = first_from(l, s - 2 * l->dp); k < l->count && l->list[k].s < s + 2 * l->dp; k++) {
+    for (int64_t k = first_from(l, s - 2 * l->dp); k < l->count && l->list[k].s < s + 2 * l->dp;
+         k++) {
         const beside *b = &l->list[k];
         double weight = b->share * spline((b->s - s) / l->dp);
-        for (int32_t e = 0; e < l->sides; e++) weight *= spline((b->across[e] - shift[e] - l->extra[e]) / l->width) * l->dp / l->width;
+        for (int32_t e = 0; e < l->sides; e++)
+            weight *= spline((b->across[e] - shift[e] - l->extra[e]) / l->width) * l->dp / l->width;
         *(b->solid ? &out.solid : &out.fluid) += weight;
     }
     out.fill = out.fluid / fmax(1 - out.solid, 1 - solid_limit);
@@ -215,11 +223,13 @@ static bool gap_closes(const line *l, double s, double step)
 static double room(const line *l, double s, const double shift[2], int32_t e, double sign)
 {
     double least = INFINITY;
-    for (int64_t k = first_from(l, s - 1.01 * l->dp); k < l->count && l->list[k].s <= s + 1.01 * l->dp; k++) {
+    for (int64_t k = first_from(l, s - 1.01 * l->dp);
+         k < l->count && l->list[k].s <= s + 1.01 * l->dp; k++) {
         const beside *b = &l->list[k];
         const double ahead = sign * (b->across[e] - shift[e]);
         if (!b->solid || ahead <= 0) continue;
-        if (l->sides == 2 && fabs(b->across[1 - e] - shift[1 - e]) >= 4.0 / 3.0 * l->width) continue;
+        if (l->sides == 2 && fabs(b->across[1 - e] - shift[1 - e]) >= 4.0 / 3.0 * l->width)
+            continue;
         least = fmin(least, ahead - 4.0 / 3.0 * l->width);
     }
     return least;
@@ -232,7 +242,8 @@ static double slope_ahead(line *l, double surface, int32_t e, double ahead)
     const double low = surface - fabs(ahead), high = surface + fabs(ahead);
     double slope = 0;
     l->extra[e] = ahead;
-    if (line_sample(l, low).fill >= 0.5 && line_sample(l, high).fill < 0.5) slope = (crossing(l, low, high, false) - surface) / ahead;
+    if (line_sample(l, low).fill >= 0.5 && line_sample(l, high).fill < 0.5)
+        slope = (crossing(l, low, high, false) - surface) / ahead;
     l->extra[e] = 0;
     return slope * fmin(fmax(2 - 2 * fabs(slope), 0), 1);
 }
@@ -251,8 +262,10 @@ static double at_line(line *l, double surface)
     const double trust = clear_above(l, surface);
     band_shift(l, surface, shift);
     for (int32_t e = 0; e < l->sides; e++) {
-        const double sign = shift[e] > 0 ? 1 : -1, ahead = fmin(l->width, room(l, surface, shift, e, sign));
-        if (shift[e] != 0 && ahead >= 0.5 * l->width) out -= trust * shift[e] * slope_ahead(l, surface, e, sign * ahead);
+        const double sign = shift[e] > 0 ? 1 : -1,
+                     ahead = fmin(l->width, room(l, surface, shift, e, sign));
+        if (shift[e] != 0 && ahead >= 0.5 * l->width)
+            out -= trust * shift[e] * slope_ahead(l, surface, e, sign * ahead);
     }
     return out;
 }
@@ -263,10 +276,12 @@ static double row_below(const line *l, double surface)
 {
     double sum = 0, weights = 0, shift[2];
     band_shift(l, surface, shift);
-    for (int64_t k = first_from(l, surface - 1.5 * l->dp); k < l->count && l->list[k].s < surface + 0.5 * l->dp; k++) {
+    for (int64_t k = first_from(l, surface - 1.5 * l->dp);
+         k < l->count && l->list[k].s < surface + 0.5 * l->dp; k++) {
         const beside *b = &l->list[k];
         double weight = b->top ? b->share : 0;
-        for (int32_t e = 0; e < l->sides; e++) weight *= spline((b->across[e] - shift[e]) / l->width);
+        for (int32_t e = 0; e < l->sides; e++)
+            weight *= spline((b->across[e] - shift[e]) / l->width);
         sum += weight * (surface - b->s);
         weights += weight;
     }
@@ -284,7 +299,8 @@ static double find_surface(line *l)
     bool solid = false;                  /* the last sample was */
     /* beyond the last particle there is nothing to march through, however long the line is */
     const double top = l->count > 0 ? l->list[l->count - 1].s : 0;
-    const int64_t last = (int64_t)ceil(fmin(fmin(l->length, fmax(top, 0) + 10 * l->dp) / step, most_samples));
+    const int64_t last = (int64_t)ceil(
+        fmin(fmin(l->length, fmax(top, 0) + 10 * l->dp) / step, most_samples));
     for (int64_t k = 0; k <= last; k++) {
         double s = (double)k * step;
         sample here = line_sample(l, s);

@@ -24,7 +24,8 @@ mps_status mps__sensor_place(mps__world *w, const mps_probe *config, double *off
     const mps_status status = mps__face_find(&f, w, config);
     *off = status == MPS_OK && mps__face_has_sides(&f) ? f.off : 0;
     *beyond = 0;
-    for (int32_t a = 0; a < f.sides && status == MPS_OK; a++) *beyond = fmax(*beyond, fmax(f.lo[a], -f.hi[a]));
+    for (int32_t a = 0; a < f.sides && status == MPS_OK; a++)
+        *beyond = fmax(*beyond, fmax(f.lo[a], -f.hi[a]));
     mps__face_free(&f, w->context);
     return status;
 }
@@ -60,7 +61,8 @@ static double along(const mps__face *f, const mps__face_point *u, int e, double 
 /* Call for each chord of a disc: the place across, half its length, its share of the area. */
 static void chord_of_disc(const mps__face *f, int k, double *across, double *half, double *share)
 {
-    const double from = asin(fmin(fmax(f->lo[0] / f->radius, -1), 1)), to = asin(fmin(fmax(f->hi[0] / f->radius, -1), 1));
+    const double from = asin(fmin(fmax(f->lo[0] / f->radius, -1), 1)),
+                 to = asin(fmin(fmax(f->hi[0] / f->radius, -1), 1));
     const double angle = from + (to - from) * (k + 0.5) / CHORDS;
     *across = f->radius * sin(angle);
     *half = f->radius * cos(angle);
@@ -138,7 +140,8 @@ static double weigh(mps__face *f)
 {
     double k[3], sum = 0;
     for (int64_t i = 0; i < f->count; i++)
-        f->list[i].weight = f->sides == 1 ? along(f, &f->list[i], 0, f->radius) : under_disc(f, &f->list[i]);
+        f->list[i].weight = f->sides == 1 ? along(f, &f->list[i], 0, f->radius)
+                                          : under_disc(f, &f->list[i]);
     if (!correction(f, k)) return INFINITY;
     for (int64_t i = 0; i < f->count; i++) {
         mps__face_point *u = &f->list[i];
@@ -167,11 +170,13 @@ static bool weigh_best(mps__face *f)
 
 static mps_status keep_weights(mps__context *c, const mps__face *f, mps__sensor *sensor)
 {
-    MPS__TRY(mps__grow(c, (void **)&sensor->list, &sensor->capacity, 0, f->count > 0 ? f->count : 1, sizeof *sensor->list));
+    MPS__TRY(mps__grow(c, (void **)&sensor->list, &sensor->capacity, 0, f->count > 0 ? f->count : 1,
+                       sizeof *sensor->list));
     sensor->count = 0;
     for (int64_t k = 0; k < f->count; k++)
         if (f->list[k].weight != 0)
-            sensor->list[sensor->count++] = (mps__sensor_weight){f->list[k].id, f->list[k].place, f->list[k].weight};
+            sensor->list[sensor->count++] = (mps__sensor_weight){f->list[k].id, f->list[k].place,
+                                                                 f->list[k].weight};
     return MPS_OK;
 }
 
@@ -181,7 +186,8 @@ mps_status mps__sensor_build(mps__world *w, const mps_probe *config, mps__sensor
     mps_status status = mps__face_find(&f, w, config);
     if (status == MPS_OK && !weigh_best(&f)) f.count = 0;
     if (status == MPS_OK) status = keep_weights(w->context, &f, sensor);
-    if (status == MPS_OK && sensor->count == 0) /* all of it is beside the face, or a single particle */
+    if (status == MPS_OK &&
+        sensor->count == 0) /* all of it is beside the face, or a single particle */
         sensor->list[sensor->count++] = (mps__sensor_weight){f.base->id, f.base->place, 1};
     mps__face_free(&f, w->context);
     if (status < 0) return status;
@@ -213,22 +219,26 @@ static void locate(const mps__particles *s, mps__sensor *sensor)
     const int64_t first = sensor->list[0].id, last = sensor->list[sensor->count - 1].id;
     for (int64_t i = 0; i < s->n; i++) {
         if (s->id[i] < first || s->id[i] > last) continue;
-        mps__sensor_weight *e = bsearch(&s->id[i], sensor->list, (size_t)sensor->count, sizeof *e, compare_id);
+        mps__sensor_weight *e = bsearch(&s->id[i], sensor->list, (size_t)sensor->count, sizeof *e,
+                                        compare_id);
         if (e) e->place = i;
     }
 }
 
-mps_status mps__sensor_read(mps__world *w, const mps_probe *config, mps__sensor *sensor, double *value)
+mps_status mps__sensor_read(mps__world *w, const mps_probe *config, mps__sensor *sensor,
+                            double *value)
 {
     const mps__particles *s = &w->particles;
     if (sensor->generation != s->generation || sensor->linked != w->lists.linked) {
         if (!isfinite(mps__sensor_distance(w, config->at)))
-            return mps__fail(w->context, MPS_E_STATE, "wall pressure: there is no wall particle any more");
+            return mps__fail(w->context, MPS_E_STATE,
+                             "wall pressure: there is no wall particle any more");
         MPS__TRY(mps__sensor_build(w, config, sensor));
     }
     if (!in_place(s, sensor)) locate(s, sensor);
     double sum = 0;
-    for (int64_t k = 0; k < sensor->count; k++) sum += sensor->list[k].weight * s->load[sensor->list[k].place];
+    for (int64_t k = 0; k < sensor->count; k++)
+        sum += sensor->list[k].weight * s->load[sensor->list[k].place];
     *value = sum;
     return MPS_OK;
 }

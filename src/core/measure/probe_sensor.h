@@ -26,6 +26,7 @@ mps_status mps__sensor_place(mps__world *w, const mps_probe *config, double *off
 /* Find the particles under the sensor and their weights; on failure the old ones stay. There must be a wall. */
 mps_status mps__sensor_build(mps__world *w, const mps_probe *config, mps__sensor *sensor);
 /* Mean pressure now; anew only if particles came or went. */
-mps_status mps__sensor_read(mps__world *w, const mps_probe *config, mps__sensor *sensor, double *value);
+mps_status mps__sensor_read(mps__world *w, const mps_probe *config, mps__sensor *sensor,
+                            double *value);
 
 #endif

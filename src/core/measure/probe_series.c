@@ -17,7 +17,8 @@ static double *row_at(const mps__series *s, int64_t k)
 
 static void add_between(const mps__series *s, int64_t k, double t, double weight, double *out)
 {
-    const double *a = row_at(s, k), *b = row_at(s, k + 1), f = fmin(fmax((t - a[0]) / (b[0] - a[0]), 0), 1);
+    const double *a = row_at(s, k), *b = row_at(s, k + 1),
+                 f = fmin(fmax((t - a[0]) / (b[0] - a[0]), 0), 1);
     for (int32_t v = 1; v <= s->size; v++) out[v - 1] += weight * (a[v] + f * (b[v] - a[v]));
 }
 
@@ -60,7 +61,8 @@ static void trim(mps__series *s, double oldest)
 {
     while (s->first + 1 < s->rows && row_at(s, s->first + 1)[0] <= oldest) s->first++;
     if (s->first < s->rows - s->first) return;
-    memmove(s->row, row_at(s, s->first), (size_t)((s->rows - s->first) * (1 + s->size)) * sizeof *s->row);
+    memmove(s->row, row_at(s, s->first),
+            (size_t)((s->rows - s->first) * (1 + s->size)) * sizeof *s->row);
     s->rows -= s->first;
     s->first = 0;
 }
@@ -75,19 +77,23 @@ static void push(mps__series *s, double t, const double *values)
 /* Number of the first sample after t, or at t if `inclusive`. */
 static int64_t sample_number(double t, double rate, bool inclusive)
 {
-    return (int64_t)fmin(inclusive ? ceil(t * rate - rounding) : floor(t * rate + rounding) + 1, most_samples);
+    return (int64_t)fmin(inclusive ? ceil(t * rate - rounding) : floor(t * rate + rounding) + 1,
+                         most_samples);
 }
 
 /* Room for two rows and `samples` samples. */
 static mps_status reserve(mps__context *c, mps__series *s, int64_t samples)
 {
     const int64_t width = 1 + s->size, total = s->count + samples;
-    MPS__TRY(mps__grow(c, (void **)&s->row, &s->row_capacity, s->rows * width, (s->rows + 2) * width, sizeof *s->row));
+    MPS__TRY(mps__grow(c, (void **)&s->row, &s->row_capacity, s->rows * width,
+                       (s->rows + 2) * width, sizeof *s->row));
     MPS__TRY(mps__grow(c, (void **)&s->t, &s->t_capacity, s->count, total, sizeof *s->t));
-    return mps__grow(c, (void **)&s->value, &s->value_capacity, s->count * s->size, total * s->size, sizeof *s->value);
+    return mps__grow(c, (void **)&s->value, &s->value_capacity, s->count * s->size, total * s->size,
+                     sizeof *s->value);
 }
 
-mps_status mps__series_take(mps__context *c, mps__series *s, const mps__window *window, const mps__instant *now, const double *values)
+mps_status mps__series_take(mps__context *c, mps__series *s, const mps__window *window,
+                            const mps__instant *now, const double *values)
 {
     const double start = s->waits ? s->start : now->t;
     const int64_t next = s->step < 0 ? sample_number(start, window->rate, true) : s->next;

@@ -35,7 +35,8 @@ typedef struct mps__instant {
 } mps__instant;
 
 /* A row of the present state, and the samples that are due by now. On failure nothing changed. */
-mps_status mps__series_take(mps__context *c, mps__series *s, const mps__window *window, const mps__instant *now, const double *values);
+mps_status mps__series_take(mps__context *c, mps__series *s, const mps__window *window,
+                            const mps__instant *now, const double *values);
 /* Mean from `from` to `to`, both cut off to what is kept; there must be a row. */
 void mps__series_mean(const mps__series *s, double from, double to, double *out);
 void mps__series_free(mps__context *c, mps__series *s);

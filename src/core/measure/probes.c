@@ -79,7 +79,9 @@ static double moments_value(const mps__world *w, moments *m)
     double mean = m->p / m->weight, a[9], g[3], value = mean;
     for (int i = 0; i < 3; i++) {
         g[i] = m->px[i] / m->weight - mean * m->x[i] / m->weight;
-        for (int j = 0; j < 3; j++) a[3 * i + j] = m->xx[3 * i + j] / m->weight - m->x[i] * m->x[j] / (m->weight * m->weight);
+        for (int j = 0; j < 3; j++)
+            a[3 * i + j] = m->xx[3 * i + j] / m->weight -
+                           m->x[i] * m->x[j] / (m->weight * m->weight);
     }
     if (!solve_small(w->setup.dim, a, g, w->setup.dp * w->setup.dp)) return mean;
     for (int32_t d = 0; d < w->setup.dim; d++) value -= g[d] * m->x[d] / m->weight;
@@ -98,7 +100,9 @@ static void measure_fluid(const mps__world *w, const mps_probe *c, double *value
         double r[3] = {0, 0, 0}, d2 = distance2(&s->x[i * w->setup.dim], at, w->setup.dim);
         if (d2 >= w->setup.re_near * w->setup.re_near || mps__plates_hide(w, c->at, i)) continue;
         for (int32_t d = 0; d < w->setup.dim; d++) r[d] = s->x[i * w->setup.dim + d] - at[d];
-        add_moment(&m, r, mps_kernel_value(&w->setup.kernel, fmax(sqrt(d2), 1e-3 * w->setup.dp), w->setup.re_near),
+        add_moment(&m, r,
+                   mps_kernel_value(&w->setup.kernel, fmax(sqrt(d2), 1e-3 * w->setup.dp),
+                                    w->setup.re_near),
                    s->kind[i] == MPS_WALL ? s->load[i] : s->p[i]);
         m.nearest2 = fmin(m.nearest2, d2);
     }
@@ -127,7 +131,8 @@ static bool face_wanted(const mps__world *w, const mps__probe *probe, int64_t i,
     memcpy(name, s->part_name[s->part[i]], sizeof name);
     const size_t n = strlen(name);
     const double across = s->area[i * s->dim + d];
-    if (across != 0 && n > 3 && name[n - 3] == '.' && strchr("xyz", name[n - 2]) && strchr("01", name[n - 1])) {
+    if (across != 0 && n > 3 && name[n - 3] == '.' && strchr("xyz", name[n - 2]) &&
+        strchr("01", name[n - 1])) {
         const char own[2] = {name[n - 2], name[n - 1]};
         name[n - 2] = "xyz"[d];
         name[n - 1] = across > 0 ? '0' : '1';
@@ -145,14 +150,16 @@ static void measure_force(const mps__world *w, const mps__probe *probe, double *
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_WALL || s->load[i] == 0) continue;
         double f[3] = {0, 0, 0}, r[3] = {0, 0, 0}, area[3] = {0, 0, 0};
-        for (int32_t d = 0; d < w->setup.dim; d++) area[d] = face_wanted(w, probe, i, d) ? s->area[i * w->setup.dim + d] : 0;
+        for (int32_t d = 0; d < w->setup.dim; d++)
+            area[d] = face_wanted(w, probe, i, d) ? s->area[i * w->setup.dim + d] : 0;
         mps__motion_rotate(&w->motion, &w->motion.now, area, f);
         for (int32_t d = 0; d < w->setup.dim; d++) {
             f[d] *= -s->load[i];
             force[d] += f[d];
             r[d] = s->x[i * w->setup.dim + d] - at[d];
         }
-        for (int d = 0; d < 3; d++) moment[d] += r[(d + 1) % 3] * f[(d + 2) % 3] - r[(d + 2) % 3] * f[(d + 1) % 3];
+        for (int d = 0; d < 3; d++)
+            moment[d] += r[(d + 1) % 3] * f[(d + 2) % 3] - r[(d + 2) % 3] * f[(d + 1) % 3];
     }
     memcpy(values, force, (size_t)w->setup.dim * sizeof(double));
     if (w->setup.dim == 2)
@@ -184,30 +191,39 @@ static bool solids_box(const mps__world *w, double lo[3], double hi[3])
 
 static mps_status check_place(const mps__world *w, const mps_probe *c)
 {
-    const double slack = (c->type == MPS_PROBE_WALL_PRESSURE ? 2 : 1e-6) * w->setup.dp; /* sensors have limits of their own, see check_wall() */
+    const double slack = (c->type == MPS_PROBE_WALL_PRESSURE ? 2 : 1e-6) *
+                         w->setup.dp; /* sensors have limits of their own, see check_wall() */
     double lo[3], hi[3];
-    if (!solids_box(w, lo, hi)) return mps__fail(w->context, MPS_E_STATE, "a probe needs solids around it: add the tank first");
+    if (!solids_box(w, lo, hi))
+        return mps__fail(w->context, MPS_E_STATE,
+                         "a probe needs solids around it: add the tank first");
     for (int32_t d = 0; d < w->setup.dim; d++)
         MPS__CHECK(w->context, c->at[d] >= lo[d] - slack && c->at[d] <= hi[d] + slack,
-                   "probe.at[%d] is %g: outside the solids, which reach from %g to %g", (int)d, c->at[d], lo[d], hi[d]);
+                   "probe.at[%d] is %g: outside the solids, which reach from %g to %g", (int)d,
+                   c->at[d], lo[d], hi[d]);
     return MPS_OK;
 }
 
 /* A sensor belongs on its wall: rounding of a tank to its lattice puts it up to half a spacing behind a face or beyond its end. */
 static mps_status check_wall(mps__world *w, const mps_probe *c)
 {
-    const double distance = mps__sensor_distance(w, c->at), half = 0.5 * w->setup.dp, slack = 1e-6 * w->setup.dp;
+    const double distance = mps__sensor_distance(w, c->at), half = 0.5 * w->setup.dp,
+                 slack = 1e-6 * w->setup.dp;
     double off, beyond;
     MPS__CHECK(w->context, isfinite(distance), "wall pressure: there is no wall particle");
-    MPS__CHECK(w->context, distance <= 2 * w->setup.dp, "wall pressure: the nearest wall particle is %g m away, at most 2 dp = %g m are allowed",
-               distance, 2 * w->setup.dp);
-    MPS__TRY(mps__sensor_place(w, c, &off, &beyond));
     MPS__CHECK(
-        w->context, off >= -half - slack,
-        "wall pressure: probe.at lies %g m behind the face of its wall; allowed: on the liquid's side, or at most dp/2 = %g m behind", -off,
-        half);
+        w->context, distance <= 2 * w->setup.dp,
+        "wall pressure: the nearest wall particle is %g m away, at most 2 dp = %g m are allowed",
+        distance, 2 * w->setup.dp);
+    MPS__TRY(mps__sensor_place(w, c, &off, &beyond));
+    MPS__CHECK(w->context, off >= -half - slack,
+               "wall pressure: probe.at lies %g m behind the face of its wall; allowed: on the "
+               "liquid's side, or at most dp/2 = %g m behind",
+               -off, half);
     MPS__CHECK(w->context, beyond <= half + slack,
-               "wall pressure: probe.at lies %g m beyond the end of the face of its wall; allowed: at most dp/2 = %g m", beyond, half);
+               "wall pressure: probe.at lies %g m beyond the end of the face of its wall; allowed: "
+               "at most dp/2 = %g m",
+               beyond, half);
     return MPS_OK;
 }
 
@@ -217,7 +233,9 @@ static double line_length(const mps__world *w, const mps_probe *c)
     double lo[3], hi[3], length = INFINITY;
     if (!mps__world_domain(w, lo, hi)) return 0;
     for (int32_t d = 0; d < w->setup.dim; d++)
-        if (c->direction[d] != 0) length = fmin(length, ((c->direction[d] > 0 ? hi[d] : lo[d]) - c->at[d]) / c->direction[d]);
+        if (c->direction[d] != 0)
+            length = fmin(length,
+                          ((c->direction[d] > 0 ? hi[d] : lo[d]) - c->at[d]) / c->direction[d]);
     return length;
 }
 
@@ -225,13 +243,16 @@ static mps_status check_gauge(const mps__world *w, mps_probe *c)
 {
     for (int32_t k = 0; k < MPS__PHASES; k++)
         MPS__CHECK(w->context, !(c->phases >> k & 1) || w->setup.phase_defined[k],
-                   "probe.phases is 0x%x: phase %d is not defined, call mps_phase_set() first", (unsigned)c->phases, (int)k);
+                   "probe.phases is 0x%x: phase %d is not defined, call mps_phase_set() first",
+                   (unsigned)c->phases, (int)k);
     const double *a = c->direction, norm = sqrt(mps__dot(a, a, w->setup.dim));
-    MPS__CHECK(w->context, norm > 0 && isfinite(norm), "probe.direction is (%g, %g, %g): must be finite and not zero", a[0], a[1],
+    MPS__CHECK(w->context, norm > 0 && isfinite(norm),
+               "probe.direction is (%g, %g, %g): must be finite and not zero", a[0], a[1],
                w->setup.dim == 3 ? a[2] : 0);
     for (int d = 0; d < 3; d++) c->direction[d] = d < w->setup.dim ? c->direction[d] / norm : 0;
     if (c->length == 0) c->length = line_length(w, c);
-    MPS__CHECK(w->context, isfinite(c->length) && c->length > 0, "probe.length is %g m: must be > 0, or 0 for the whole domain", c->length);
+    MPS__CHECK(w->context, isfinite(c->length) && c->length > 0,
+               "probe.length is %g m: must be > 0, or 0 for the whole domain", c->length);
     return MPS_OK;
 }
 
@@ -244,22 +265,32 @@ static mps_status check_part(mps__world *w, const char *part)
         if (part_matches(part, s->part_name[k])) return MPS_OK;
         names[k] = s->part_name[k];
     }
-    return mps__fail(w->context, MPS_E_NAME, "no part is named \"%.40s\"; %s", part, mps__hint(hint, '"', part, names, s->parts));
+    return mps__fail(w->context, MPS_E_NAME, "no part is named \"%.40s\"; %s", part,
+                     mps__hint(hint, '"', part, names, s->parts));
 }
 
 static mps_status check_numbers(const mps__world *w, const mps_probe *c)
 {
-    MPS__CHECK(w->context, c->type >= MPS_PROBE_WALL_PRESSURE && c->type <= MPS_PROBE_FORCE, "probe.type is %d: must be %d..%d",
-               (int)c->type, MPS_PROBE_WALL_PRESSURE, MPS_PROBE_FORCE);
-    for (int32_t d = 0; d < w->setup.dim; d++) MPS__CHECK(w->context, isfinite(c->at[d]), "probe.at[%d] is %g: must be finite", (int)d, c->at[d]);
-    MPS__CHECK(w->context, isfinite(c->diameter) && c->diameter >= 0, "probe.diameter is %g m: must be finite and >= 0", c->diameter);
-    MPS__CHECK(w->context, isfinite(c->length) && c->length >= 0, "probe.length is %g m: must be finite and >= 0", c->length);
-    MPS__CHECK(w->context, isfinite(c->average) && (c->average >= 0 || c->average == MPS_AVERAGE_AUTO),
-               "probe.average is %g s: must be finite and >= 0, or MPS_AVERAGE_AUTO (%g)", c->average, MPS_AVERAGE_AUTO);
-    MPS__CHECK(w->context, c->rate >= 0 && c->rate <= RATE_MAX, "probe.rate is %g Hz: 0..%g", c->rate, RATE_MAX);
-    MPS__CHECK(w->context, c->phases >> MPS__PHASES == 0, "probe.phases is 0x%x: bits 0..%d are phases", (unsigned)c->phases,
-               MPS__PHASES - 1);
-    MPS__CHECK(w->context, c->count_drops == 0 || c->count_drops == 1, "probe.count_drops is %d: must be 0 or 1", (int)c->count_drops);
+    MPS__CHECK(w->context, c->type >= MPS_PROBE_WALL_PRESSURE && c->type <= MPS_PROBE_FORCE,
+               "probe.type is %d: must be %d..%d", (int)c->type, MPS_PROBE_WALL_PRESSURE,
+               MPS_PROBE_FORCE);
+    for (int32_t d = 0; d < w->setup.dim; d++)
+        MPS__CHECK(w->context, isfinite(c->at[d]), "probe.at[%d] is %g: must be finite", (int)d,
+                   c->at[d]);
+    MPS__CHECK(w->context, isfinite(c->diameter) && c->diameter >= 0,
+               "probe.diameter is %g m: must be finite and >= 0", c->diameter);
+    MPS__CHECK(w->context, isfinite(c->length) && c->length >= 0,
+               "probe.length is %g m: must be finite and >= 0", c->length);
+    MPS__CHECK(w->context,
+               isfinite(c->average) && (c->average >= 0 || c->average == MPS_AVERAGE_AUTO),
+               "probe.average is %g s: must be finite and >= 0, or MPS_AVERAGE_AUTO (%g)",
+               c->average, MPS_AVERAGE_AUTO);
+    MPS__CHECK(w->context, c->rate >= 0 && c->rate <= RATE_MAX, "probe.rate is %g Hz: 0..%g",
+               c->rate, RATE_MAX);
+    MPS__CHECK(w->context, c->phases >> MPS__PHASES == 0,
+               "probe.phases is 0x%x: bits 0..%d are phases", (unsigned)c->phases, MPS__PHASES - 1);
+    MPS__CHECK(w->context, c->count_drops == 0 || c->count_drops == 1,
+               "probe.count_drops is %d: must be 0 or 1", (int)c->count_drops);
     return MPS_OK;
 }
 
@@ -292,13 +323,15 @@ void mps__probes_free(mps__context *c, mps__probes *p)
 static mps_status complete(mps__world *w, mps__probe *p, const char *part)
 {
     if (part) {
-        MPS__CHECK(w->context, mps__name_copy(p->part_name, sizeof p->part_name, part), "probe.part must have 1..%d characters",
-                   MPS__PART_NAME - 1);
-        p->config.part = ""; /* only says that there is one: part_name holds it and may move with the list */
+        MPS__CHECK(w->context, mps__name_copy(p->part_name, sizeof p->part_name, part),
+                   "probe.part must have 1..%d characters", MPS__PART_NAME - 1);
+        p->config.part =
+            ""; /* only says that there is one: part_name holds it and may move with the list */
     }
     p->series.step = -1;
     p->series.size = mps__probe_values(w, p);
-    return p->config.type == MPS_PROBE_WALL_PRESSURE ? mps__sensor_build(w, &p->config, &p->sensor) : MPS_OK;
+    return p->config.type == MPS_PROBE_WALL_PRESSURE ? mps__sensor_build(w, &p->config, &p->sensor)
+                                                     : MPS_OK;
 }
 
 mps_status mps__probes_add(mps__world *w, mps__probes *p, const mps_probe *probe, int32_t *id)
@@ -307,7 +340,9 @@ mps_status mps__probes_add(mps__world *w, mps__probes *p, const mps_probe *probe
     MPS__TRY(check_probe(w, &added.config));
     MPS__CHECK(w->context, p->count < INT32_MAX, "too many probes");
     mps_status status = complete(w, &added, probe->part);
-    if (status == MPS_OK) status = mps__grow(w->context, (void **)&p->list, &p->capacity, p->count, p->count + 1, sizeof added);
+    if (status == MPS_OK)
+        status = mps__grow(w->context, (void **)&p->list, &p->capacity, p->count, p->count + 1,
+                           sizeof added);
     if (status < 0) {
         free_probe(w->context, &added);
         return status;
@@ -357,19 +392,22 @@ static double window(const mps__world *w, const mps_probe *c)
 static void note_window(mps__world *w, const mps__probes *p, int64_t k)
 {
     const mps_probe *c = &p->list[k].config;
-    if (w->state.window_told || c->type == MPS_PROBE_GAUGE || window(w, c) >= w->state.crossing_time) return;
+    if (w->state.window_told || c->type == MPS_PROBE_GAUGE ||
+        window(w, c) >= w->state.crossing_time)
+        return;
     w->state.window_told = true;
-    mps__log(
-        w->context, MPS_LOG_WARNING,
-        "t = %.6g s: probe %d averages over %g s; liquid crosses a spacing in %g s, and pressures of impacts over less than that depend "
-        "on the time step (average = MPS_AVERAGE_AUTO follows it)",
-        w->state.t, (int)k, c->average, w->state.crossing_time);
+    mps__log(w->context, MPS_LOG_WARNING,
+             "t = %.6g s: probe %d averages over %g s; liquid crosses a spacing in %g s, and "
+             "pressures of impacts over less than that depend "
+             "on the time step (average = MPS_AVERAGE_AUTO follows it)",
+             w->state.t, (int)k, c->average, w->state.crossing_time);
 }
 
 mps_status mps__probe_take(mps__world *w, mps__probe *p)
 {
     double values[MPS__PROBE_VALUES];
-    if ((p->config.average == 0 && p->config.rate == 0) || p->series.step == w->state.step) return MPS_OK;
+    if ((p->config.average == 0 && p->config.rate == 0) || p->series.step == w->state.step)
+        return MPS_OK;
     if (w->state.step == 0 && p->config.type != MPS_PROBE_GAUGE) {
         /* there is no pressure before the first step: what it brings holds from the beginning */
         p->series.waits = true;
@@ -377,9 +415,12 @@ mps_status mps__probe_take(mps__world *w, mps__probe *p)
         return MPS_OK;
     }
     MPS__TRY(mps__probe_measure(w, p, values));
-    const mps__window now = {window(w, &p->config), p->config.average == MPS_AVERAGE_AUTO ? mps__crossing_limit(w) : p->config.average,
+    const mps__window now = {window(w, &p->config),
+                             p->config.average == MPS_AVERAGE_AUTO ? mps__crossing_limit(w)
+                                                                   : p->config.average,
                              p->config.rate};
-    return mps__series_take(w->context, &p->series, &now, &(mps__instant){w->state.t, w->state.step}, values);
+    return mps__series_take(w->context, &p->series, &now,
+                            &(mps__instant){w->state.t, w->state.step}, values);
 }
 
 mps_status mps__probes_take(mps__world *w, mps__probes *p)
@@ -388,7 +429,9 @@ mps_status mps__probes_take(mps__world *w, mps__probes *p)
         if (p->list[k].removed) continue;
         note_window(w, p, k);
         const mps_status status = mps__probe_take(w, &p->list[k]);
-        if (status < 0) return mps__fail(w->context, status, "no step was done, probe %d: %.400s", (int)k, w->context->error);
+        if (status < 0)
+            return mps__fail(w->context, status, "no step was done, probe %d: %.400s", (int)k,
+                             w->context->error);
     }
     return MPS_OK;
 }

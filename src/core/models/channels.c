@@ -10,7 +10,8 @@ enum {
     STEP = ALL & ~(1 << MPS_LIMIT),
     SORTING = 1 << MPS_CLASSIFY | 1 << MPS_PREPARE,
     EARLY = SORTING | 1 << MPS_FORCE | 1 << MPS_SOURCE,
-    SOLVED = 1 << MPS_LEVEL | 1 << MPS_GRADIENT | 1 << MPS_LOAD | 1 << MPS_VELOCITY | 1 << MPS_SHIFT,
+    SOLVED = 1 << MPS_LEVEL | 1 << MPS_GRADIENT | 1 << MPS_LOAD | 1 << MPS_VELOCITY |
+             1 << MPS_SHIFT,
     FORCE = 1 << MPS_FORCE,
     SOURCE = 1 << MPS_SOURCE,
     LEVEL = 1 << MPS_LEVEL,
@@ -42,9 +43,11 @@ static const own_channel own[MPS__OWN_CHANNELS] = {
     [MPS__TANK_ACCELERATION] = {"tank_acceleration", "m/s2",
                                 "Acceleration of the rigid tank at the particle over this step",
                                 MPS_VECTOR, MPS_TYPE_REAL, STEP, SORTING},
-    [MPS__VOLUME_DEVIATION] = {"volume_deviation", "-", "Volume deviation, mps_op_volume_deviation() over far pairs",
-                               1, MPS_TYPE_REAL, STEP, SORTING},
-    [MPS__ASYMMETRY] = {"asymmetry", "-", "Asymmetry A over near pairs, points out of the fluid, W22 (11)",
+    [MPS__VOLUME_DEVIATION] = {"volume_deviation", "-",
+                               "Volume deviation, mps_op_volume_deviation() over far pairs", 1,
+                               MPS_TYPE_REAL, STEP, SORTING},
+    [MPS__ASYMMETRY] = {"asymmetry", "-",
+                        "Asymmetry A over near pairs, points out of the fluid, W22 (11)",
                         MPS_VECTOR, MPS_TYPE_REAL, STEP, 0},
     [MPS__PRESSURE_DENSITY] = {"pressure_density", "kg/m3",
                                "Density in operators of the pressure; initially as density", 1,
@@ -53,16 +56,17 @@ static const own_channel own[MPS__OWN_CHANNELS] = {
                            "Sum of the accelerations of this moment; initially 0 in MPS_FORCE and "
                            "MPS_GRADIENT",
                            MPS_VECTOR, MPS_TYPE_REAL, PUSH | LOAD, PUSH},
-    [MPS__DISPLACEMENT] = {"displacement", "m", "Displacement in addition to dt u; initially 0", MPS_VECTOR,
-                           MPS_TYPE_REAL, SHIFT, SHIFT},
-    [MPS__PRESSURE_SOURCE] = {"pressure_source", "1/s2", "Right side of the pressure equation; initially 0", 1,
-                              MPS_TYPE_REAL, SOURCE, SOURCE},
+    [MPS__DISPLACEMENT] = {"displacement", "m", "Displacement in addition to dt u; initially 0",
+                           MPS_VECTOR, MPS_TYPE_REAL, SHIFT, SHIFT},
+    [MPS__PRESSURE_SOURCE] = {"pressure_source", "1/s2",
+                              "Right side of the pressure equation; initially 0", 1, MPS_TYPE_REAL,
+                              SOURCE, SOURCE},
     [MPS__PRESSURE_SHIFT] = {"pressure_shift", "1/(Pa s2)", "Compressibility of a row, >= 0", 1,
                              MPS_TYPE_REAL, SOURCE, SOURCE},
     [MPS__PRESSURE_VALUE] = {"pressure_value", "Pa", "Given or least pressure of a row", 1,
                              MPS_TYPE_REAL, SOURCE, SOURCE},
-    [MPS__PRESSURE_CONDITION] = {"pressure_condition", "-", "Condition on a row, MPS_ROW_...", 1, MPS_TYPE_INTEGER,
-                                 SOURCE, SOURCE},
+    [MPS__PRESSURE_CONDITION] = {"pressure_condition", "-", "Condition on a row, MPS_ROW_...", 1,
+                                 MPS_TYPE_INTEGER, SOURCE, SOURCE},
     [MPS__GAS_SHIFT] = {"gas_shift", "1/(Pa s2)", "Compressibility of a row of gas, >= 0", 1,
                         MPS_TYPE_REAL, SOURCE, SOURCE},
     [MPS__GAS_LAW] = {"gas_law", "Pa", "P of a nonlinear law of a gas; 0: linear", 1, MPS_TYPE_REAL,
@@ -80,7 +84,8 @@ static int32_t numbers(const mps__channels *c, int32_t components)
 
 static size_t element(const mps__channel *k)
 {
-    return (size_t)k->components * (k->spec.type == MPS_TYPE_INTEGER ? sizeof(int32_t) : sizeof(double));
+    return (size_t)k->components *
+           (k->spec.type == MPS_TYPE_INTEGER ? sizeof(int32_t) : sizeof(double));
 }
 
 void mps__channels_init(mps__channels *c, mps__context *context, int32_t dim)
@@ -115,39 +120,51 @@ mps_status mps__channel_check(mps__context *c, const char *model, const mps_chan
 {
     MPS__CHECK(c, s->name && s->name[0] && strnlen(s->name, 32) < 32,
                "model '%s': a channel's name has 1..31 characters", model);
-    MPS__CHECK(c, s->unit && s->help, "model '%s': channel '%s' has no unit or no help", model, s->name);
-    MPS__CHECK(c, (s->components >= 1 && s->components <= 9) || s->components == MPS_VECTOR || s->components == MPS_MATRIX,
-               "model '%s': channel '%s' has %d components: 1..9, MPS_VECTOR or MPS_MATRIX", model, s->name,
-               (int)s->components);
-    MPS__CHECK(c, s->type == MPS_TYPE_REAL || (s->type == MPS_TYPE_INTEGER && s->life == MPS_LIFE_STEP),
-               "model '%s': channel '%s' has type %d and life %d: real, or integer for a step", model, s->name,
-               (int)s->type, (int)s->life);
+    MPS__CHECK(c, s->unit && s->help, "model '%s': channel '%s' has no unit or no help", model,
+               s->name);
+    MPS__CHECK(c,
+               (s->components >= 1 && s->components <= 9) || s->components == MPS_VECTOR ||
+                   s->components == MPS_MATRIX,
+               "model '%s': channel '%s' has %d components: 1..9, MPS_VECTOR or MPS_MATRIX", model,
+               s->name, (int)s->components);
+    MPS__CHECK(
+        c, s->type == MPS_TYPE_REAL || (s->type == MPS_TYPE_INTEGER && s->life == MPS_LIFE_STEP),
+        "model '%s': channel '%s' has type %d and life %d: real, or integer for a step", model,
+        s->name, (int)s->type, (int)s->life);
     MPS__CHECK(c, s->life == MPS_LIFE_STEP || s->life == MPS_LIFE_PARTICLE,
-               "model '%s': channel '%s' has life %d: MPS_LIFE_STEP or MPS_LIFE_PARTICLE", model, s->name, (int)s->life);
-    MPS__CHECK(c, isfinite(s->initial), "model '%s': channel '%s' begins with %g: must be finite", model, s->name, s->initial);
-    MPS__CHECK(c, s->type == MPS_TYPE_REAL || (fabs(s->initial) <= INT32_MAX && s->initial == floor(s->initial)),
-               "model '%s': channel '%s' of integers begins with %g: must be a whole number of 32 bits", model, s->name, s->initial);
+               "model '%s': channel '%s' has life %d: MPS_LIFE_STEP or MPS_LIFE_PARTICLE", model,
+               s->name, (int)s->life);
+    MPS__CHECK(c, isfinite(s->initial), "model '%s': channel '%s' begins with %g: must be finite",
+               model, s->name, s->initial);
+    MPS__CHECK(
+        c,
+        s->type == MPS_TYPE_REAL ||
+            (fabs(s->initial) <= INT32_MAX && s->initial == floor(s->initial)),
+        "model '%s': channel '%s' of integers begins with %g: must be a whole number of 32 bits",
+        model, s->name, s->initial);
     for (int32_t k = 0; k < MPS__OWN_CHANNELS; k++)
-        MPS__CHECK(c, strcmp(own[k].name, s->name) != 0, "model '%s' brings channel '%s', which is the library's own", model,
-                   s->name);
+        MPS__CHECK(c, strcmp(own[k].name, s->name) != 0,
+                   "model '%s' brings channel '%s', which is the library's own", model, s->name);
     return MPS_OK;
 }
 
 static bool same_spec(const mps_channel *a, const mps_channel *b)
 {
-    return strcmp(a->unit, b->unit) == 0 && a->components == b->components && a->type == b->type && a->life == b->life &&
-           a->initial == b->initial;
+    return strcmp(a->unit, b->unit) == 0 && a->components == b->components && a->type == b->type &&
+           a->life == b->life && a->initial == b->initial;
 }
 
 /* A channel that lives as long as a particle is a field. A field of this name that the user made is taken. */
-static mps_status bring_field(mps__channels *c, mps__particles *s, const char *model, const mps_channel *spec)
+static mps_status bring_field(mps__channels *c, mps__particles *s, const char *model,
+                              const mps_channel *spec)
 {
     const int32_t components = numbers(c, spec->components);
     mps__field *f = mps__particles_field(s, spec->name);
     if (f) {
-        MPS__CHECK(c->context, f->is_public && f->data == &f->own && f->components == components,
-                   "model '%s' needs field '%s' of %d components, and there is another one of this name", model, spec->name,
-                   (int)components);
+        MPS__CHECK(
+            c->context, f->is_public && f->data == &f->own && f->components == components,
+            "model '%s' needs field '%s' of %d components, and there is another one of this name",
+            model, spec->name, (int)components);
         return MPS_OK;
     }
     MPS__TRY(mps__particles_field_add(s, spec->name, components, sizeof(double), true, NULL));
@@ -163,24 +180,33 @@ static bool brings(const mps_model_ops *ops, const char *name)
 }
 
 /* `leaving`: NULL, or the model that is about to leave. What it alone brings, and describes differently, stands beside the new one. */
-static mps_status bring(mps__channels *c, mps__particles *s, const char *model, const mps_channel *spec, const mps_model_ops *leaving)
+static mps_status bring(mps__channels *c, mps__particles *s, const char *model,
+                        const mps_channel *spec, const mps_model_ops *leaving)
 {
     const int32_t k = mps__channels_find(c, spec->name);
-    if (k >= 0 && !(!same_spec(&c->list[k].spec, spec) && c->list[k].users == 1 && brings(leaving, spec->name))) {
-        MPS__CHECK(c->context, same_spec(&c->list[k].spec, spec),
-                   "model '%s' and another active one bring channel '%s', and describe it differently", model, spec->name);
+    if (k >= 0 && !(!same_spec(&c->list[k].spec, spec) && c->list[k].users == 1 &&
+                    brings(leaving, spec->name))) {
+        MPS__CHECK(
+            c->context, same_spec(&c->list[k].spec, spec),
+            "model '%s' and another active one bring channel '%s', and describe it differently",
+            model, spec->name);
         c->list[k].users++;
         return MPS_OK;
     }
-    MPS__CHECK(c->context, c->count < MPS__CHANNELS, "channel '%s' of model '%s' is one too many: at most %d", spec->name, model,
+    MPS__CHECK(c->context, c->count < MPS__CHANNELS,
+               "channel '%s' of model '%s' is one too many: at most %d", spec->name, model,
                MPS__CHANNELS);
-    mps__channel fresh = {.spec = *spec, .reads = STEP, .writes = STEP, .components = numbers(c, spec->components), .users = 1};
+    mps__channel fresh = {.spec = *spec,
+                          .reads = STEP,
+                          .writes = STEP,
+                          .components = numbers(c, spec->components),
+                          .users = 1};
     if (spec->life == MPS_LIFE_PARTICLE) {
         MPS__TRY(bring_field(c, s, model, spec));
         fresh.reads = fresh.writes = ALL;
     } else {
-        MPS__CHECK(c->context, !mps__particles_field(s, spec->name), "model '%s' brings channel '%s', and a field has this name",
-                   model, spec->name);
+        MPS__CHECK(c->context, !mps__particles_field(s, spec->name),
+                   "model '%s' brings channel '%s', and a field has this name", model, spec->name);
         fresh.array = mps__alloc(c->context, c->capacity, element(&fresh));
         if (!fresh.array) return MPS_E_NOMEM;
     }
@@ -204,7 +230,8 @@ static int32_t find_last(const mps__channels *c, const char *name)
     return k;
 }
 
-mps_status mps__channels_bring(mps__channels *c, mps__particles *s, const mps_model_ops *ops, const mps_model_ops *leaving)
+mps_status mps__channels_bring(mps__channels *c, mps__particles *s, const mps_model_ops *ops,
+                               const mps_model_ops *leaving)
 {
     const int32_t fields = s->fields;
     for (int32_t k = 0; k < ops->channel_count; k++) {
@@ -214,14 +241,17 @@ mps_status mps__channels_bring(mps__channels *c, mps__particles *s, const mps_mo
         while (s->fields > fields) mps__particles_field_drop(s);
         return status;
     }
-    for (int32_t k = 0; k < ops->channel_count; k++) /* particles to come, in fields that were there before, too */
-        if (ops->channels[k].life == MPS_LIFE_PARTICLE) mps__particles_field(s, ops->channels[k].name)->begin = ops->channels[k].initial;
+    for (int32_t k = 0; k < ops->channel_count;
+         k++) /* particles to come, in fields that were there before, too */
+        if (ops->channels[k].life == MPS_LIFE_PARTICLE)
+            mps__particles_field(s, ops->channels[k].name)->begin = ops->channels[k].initial;
     return MPS_OK;
 }
 
 void mps__channels_drop(mps__channels *c, const mps_model_ops *ops)
 {
-    for (int32_t k = 0; k < ops->channel_count; k++) drop(c, mps__channels_find(c, ops->channels[k].name));
+    for (int32_t k = 0; k < ops->channel_count; k++)
+        drop(c, mps__channels_find(c, ops->channels[k].name));
 }
 
 mps_status mps__channels_reserve(mps__channels *c, int64_t n)

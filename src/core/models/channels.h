@@ -37,7 +37,7 @@ typedef struct mps__channel {
     uint32_t reads, writes; /* bits of the moments in which it may be read and written */
     int32_t components;     /* numbers per particle */
     int32_t users;          /* active models that bring it */
-    void *array;            /* where it is in this step; of MPS_LIFE_PARTICLE: NULL, the field has it */
+    void *array; /* where it is in this step; of MPS_LIFE_PARTICLE: NULL, the field has it */
 } mps__channel;
 
 typedef struct mps__channels {

@@ -6,7 +6,8 @@
 
 static size_t channel_element(const mps__channel *k)
 {
-    return (size_t)k->components * (k->spec.type == MPS_TYPE_INTEGER ? sizeof(int32_t) : sizeof(double));
+    return (size_t)k->components *
+           (k->spec.type == MPS_TYPE_INTEGER ? sizeof(int32_t) : sizeof(double));
 }
 
 static const void *array_of(const mps__host *h, int32_t channel)
@@ -19,11 +20,13 @@ static bool may_write(const mps__host *h, const mps__call *call, const void *arr
 {
     bool may = false;
     for (int32_t u = 0; u < call->verb->use_count; u++)
-        may = may || (call->verb->uses[u].access & MPS_USE_WRITE && array_of(h, call->channel[u]) == array);
+        may = may || (call->verb->uses[u].access & MPS_USE_WRITE &&
+                      array_of(h, call->channel[u]) == array);
     return may;
 }
 
-static mps_status protect(mps__guard *g, const mps__host *h, const char *name, const void *array, size_t element)
+static mps_status protect(mps__guard *g, const mps__host *h, const char *name, const void *array,
+                          size_t element)
 {
     for (int32_t k = 0; k < g->count; k++)
         if (g->list[k].array == array) return MPS_OK; /* memory with two names */
@@ -34,7 +37,8 @@ static mps_status protect(mps__guard *g, const mps__host *h, const char *name, c
     return MPS_OK;
 }
 
-mps_status mps__guard_begin(mps__guard *g, const mps__host *h, const mps_stage *s, const mps__call *call)
+mps_status mps__guard_begin(mps__guard *g, const mps__host *h, const mps_stage *s,
+                            const mps__call *call)
 {
     mps_status status = MPS_OK;
     (void)s;
@@ -42,27 +46,33 @@ mps_status mps__guard_begin(mps__guard *g, const mps__host *h, const mps_stage *
     for (int32_t k = 0; k < h->channels->count && status == MPS_OK; k++) {
         const mps__channel *c = &h->channels->list[k];
         const void *array = array_of(h, k);
-        if (!may_write(h, call, array)) status = protect(g, h, c->spec.name, array, channel_element(c));
+        if (!may_write(h, call, array))
+            status = protect(g, h, c->spec.name, array, channel_element(c));
     }
     for (int32_t k = 0; k < h->particles->fields && status == MPS_OK; k++) {
         const mps__field *f = &h->particles->field[k];
-        if (!may_write(h, call, *f->data)) status = protect(g, h, f->name, *f->data, (size_t)f->components * f->size);
+        if (!may_write(h, call, *f->data))
+            status = protect(g, h, f->name, *f->data, (size_t)f->components * f->size);
     }
     return status;
 }
 
-static mps_status compare(const mps__host *h, const mps_stage *s, const mps__call *call, const struct mps__guarded *k)
+static mps_status compare(const mps__host *h, const mps_stage *s, const mps__call *call,
+                          const struct mps__guarded *k)
 {
     const size_t bytes = (size_t)h->particles->n * k->element;
     if (memcmp(k->array, k->copy, bytes) == 0) return MPS_OK;
     size_t at = 0;
     while (((const char *)k->array)[at] == ((const char *)k->copy)[at]) at++;
     return mps__fail(h->context, MPS_E_PLUGIN,
-                     "model '%s' at t = %.9g s wrote '%s' of particle %lld in moment '%s': its verb must declare this with MPS_USE_WRITE",
-                     call->model->ops->name, s->t, k->name, (long long)h->particles->id[at / k->element], mps__moment_name(s->moment));
+                     "model '%s' at t = %.9g s wrote '%s' of particle %lld in moment '%s': its "
+                     "verb must declare this with MPS_USE_WRITE",
+                     call->model->ops->name, s->t, k->name,
+                     (long long)h->particles->id[at / k->element], mps__moment_name(s->moment));
 }
 
-mps_status mps__guard_end(mps__guard *g, const mps__host *h, const mps_stage *s, const mps__call *call)
+mps_status mps__guard_end(mps__guard *g, const mps__host *h, const mps_stage *s,
+                          const mps__call *call)
 {
     mps_status status = MPS_OK;
     for (int32_t k = 0; k < g->count; k++) {

@@ -7,8 +7,11 @@ static mps_status verb_failed(mps__host *h, const mps__call *call, double t)
 {
     char *error = h->context->error;
     const mps_status status = h->no_memory ? MPS_E_NOMEM : MPS_E_PLUGIN;
-    if (!error[0]) return mps__fail(h->context, status, "model '%s' failed at t = %.9g s", call->model->ops->name, t);
-    return mps__fail(h->context, status, "model '%s' at t = %.9g s: %.300s", call->model->ops->name, t, error);
+    if (!error[0])
+        return mps__fail(h->context, status, "model '%s' failed at t = %.9g s",
+                         call->model->ops->name, t);
+    return mps__fail(h->context, status, "model '%s' at t = %.9g s: %.300s", call->model->ops->name,
+                     t, error);
 }
 
 static void *array_of(const mps__host *h, int32_t channel)
@@ -27,9 +30,11 @@ static mps_status check_regions(const mps__host *h, const mps_stage *s, const mp
         if (region[i] < MPS_REGION_INNER || region[i] > MPS_REGION_DRY) first = i;
     if (first == s->n) return MPS_OK;
     const double *x = s->x + first * s->dim;
-    return mps__fail(h->context, MPS_E_PLUGIN, "model '%s' at t = %.9g s left region %d at particle %lld, (%g, %g, %g) m; must be %d..%d",
-                     call->model->ops->name, s->t, (int)region[first], (long long)s->id[first], x[0], x[1], s->dim == 3 ? x[2] : 0,
-                     MPS_REGION_INNER, MPS_REGION_DRY);
+    return mps__fail(
+        h->context, MPS_E_PLUGIN,
+        "model '%s' at t = %.9g s left region %d at particle %lld, (%g, %g, %g) m; must be %d..%d",
+        call->model->ops->name, s->t, (int)region[first], (long long)s->id[first], x[0], x[1],
+        s->dim == 3 ? x[2] : 0, MPS_REGION_INNER, MPS_REGION_DRY);
 }
 
 static bool writes(const mps__call *call, int32_t channel)
@@ -40,7 +45,8 @@ static bool writes(const mps__call *call, int32_t channel)
 }
 
 /* No comparison with a number density that is not finite is true: the free surface would be lost without an error. */
-static mps_status check_number_density(const mps__host *h, const mps_stage *s, const mps__call *call)
+static mps_status check_number_density(const mps__host *h, const mps_stage *s,
+                                       const mps__call *call)
 {
     const double *nd = array_of(h, MPS__NUMBER_DENSITY);
     int64_t first = 0;
@@ -48,15 +54,19 @@ static mps_status check_number_density(const mps__host *h, const mps_stage *s, c
     if (first == s->n) return MPS_OK;
     const double *x = s->x + first * s->dim;
     return mps__fail(h->context, MPS_E_PLUGIN,
-                     "model '%s' at t = %.9g s left the number density %g at particle %lld, (%g, %g, %g) m; must be finite",
-                     call->model->ops->name, s->t, nd[first], (long long)s->id[first], x[0], x[1], s->dim == 3 ? x[2] : 0);
+                     "model '%s' at t = %.9g s left the number density %g at particle %lld, (%g, "
+                     "%g, %g) m; must be finite",
+                     call->model->ops->name, s->t, nd[first], (long long)s->id[first], x[0], x[1],
+                     s->dim == 3 ? x[2] : 0);
 }
 
 static mps_status check_after(const mps__host *h, const mps_stage *s, const mps__call *call)
 {
     if (s->moment == MPS_LIMIT && !(s->dt_limit > 0))
-        return mps__fail(h->context, MPS_E_PLUGIN, "model '%s' at t = %.9g s allows a step of %g s; must be > 0, INFINITY for no limit",
-                         call->model->ops->name, s->t, s->dt_limit);
+        return mps__fail(
+            h->context, MPS_E_PLUGIN,
+            "model '%s' at t = %.9g s allows a step of %g s; must be > 0, INFINITY for no limit",
+            call->model->ops->name, s->t, s->dt_limit);
     if (!mps__models_foreign(h->models, call->model)) return MPS_OK;
     if (writes(call, MPS__NUMBER_DENSITY)) MPS__TRY(check_number_density(h, s, call));
     return s->moment == MPS_CLASSIFY ? check_regions(h, s, call) : MPS_OK;

@@ -17,7 +17,7 @@ typedef struct mps__host {
     const mps_parallel *parallel;
     const mps__motion *motion; /* of the tank */
     const mps__pose *next;     /* pose at the end of the step; NULL: not known yet */
-    bool no_memory; /* a verb got no scratch */
+    bool no_memory;            /* a verb got no scratch */
     mps__plan plan;
 } mps__host;
 

@@ -52,39 +52,53 @@ static mps_status check_settings(mps__context *c, const mps_model_ops *ops)
 {
     for (int32_t k = 0; k < ops->setting_count; k++) {
         const mps_setting *s = &ops->settings[k];
-        MPS__CHECK(c, s->key && s->key[0] && s->unit && s->help, "model '%s': setting %d has no key, unit or help", ops->name, (int)k);
-        MPS__CHECK(c, s->initial >= s->min && s->initial <= s->max, "model '%s': setting '%s' is %g, outside its range %g..%g",
-                   ops->name, s->key, s->initial, s->min, s->max);
-        MPS__CHECK(c, s->type >= MPS_TYPE_REAL && s->type <= MPS_TYPE_FLAG, "model '%s': setting '%s' has type %d: MPS_TYPE_...",
-                   ops->name, s->key, (int)s->type);
+        MPS__CHECK(c, s->key && s->key[0] && s->unit && s->help,
+                   "model '%s': setting %d has no key, unit or help", ops->name, (int)k);
+        MPS__CHECK(c, s->initial >= s->min && s->initial <= s->max,
+                   "model '%s': setting '%s' is %g, outside its range %g..%g", ops->name, s->key,
+                   s->initial, s->min, s->max);
+        MPS__CHECK(c, s->type >= MPS_TYPE_REAL && s->type <= MPS_TYPE_FLAG,
+                   "model '%s': setting '%s' has type %d: MPS_TYPE_...", ops->name, s->key,
+                   (int)s->type);
         MPS__CHECK(c, s->type == MPS_TYPE_REAL || s->initial == floor(s->initial),
-                   "model '%s': setting '%s' is %g: must be a whole number", ops->name, s->key, s->initial);
-        MPS__CHECK(c, s->type != MPS_TYPE_FLAG || (s->min == 0 && s->max == 1), "model '%s': flag '%s' allows %g..%g: must be 0..1",
-                   ops->name, s->key, s->min, s->max);
+                   "model '%s': setting '%s' is %g: must be a whole number", ops->name, s->key,
+                   s->initial);
+        MPS__CHECK(c, s->type != MPS_TYPE_FLAG || (s->min == 0 && s->max == 1),
+                   "model '%s': flag '%s' allows %g..%g: must be 0..1", ops->name, s->key, s->min,
+                   s->max);
     }
     return MPS_OK;
 }
 
 static mps_status check_verbs(mps__context *c, const mps_model_ops *ops)
 {
-    const int32_t known = MPS_USE_READ | MPS_USE_NEIGHBOURS | MPS_USE_WRITE | MPS_USE_OPTIONAL | MPS_USE_DUMMIES;
+    const int32_t known = MPS_USE_READ | MPS_USE_NEIGHBOURS | MPS_USE_WRITE | MPS_USE_OPTIONAL |
+                          MPS_USE_DUMMIES;
     for (int32_t v = 0; v < ops->verb_count; v++) {
         const mps_verb *verb = &ops->verbs[v];
         MPS__CHECK(c, verb->run, "model '%s': verb %d has no function", ops->name, (int)v);
-        MPS__CHECK(c, verb->moment >= 0 && verb->moment < MPS_MOMENT_COUNT, "model '%s': verb %d has moment %d: MPS_LIMIT..MPS_SHIFT",
-                   ops->name, (int)v, (int)verb->moment);
-        MPS__CHECK(c, verb->use_count >= 0 && verb->use_count <= MPS__USES && (verb->use_count == 0 || verb->uses),
-                   "model '%s': verb %d has %d uses: 0..%d, with a table", ops->name, (int)v, (int)verb->use_count, MPS__USES);
+        MPS__CHECK(c, verb->moment >= 0 && verb->moment < MPS_MOMENT_COUNT,
+                   "model '%s': verb %d has moment %d: MPS_LIMIT..MPS_SHIFT", ops->name, (int)v,
+                   (int)verb->moment);
+        MPS__CHECK(c,
+                   verb->use_count >= 0 && verb->use_count <= MPS__USES &&
+                       (verb->use_count == 0 || verb->uses),
+                   "model '%s': verb %d has %d uses: 0..%d, with a table", ops->name, (int)v,
+                   (int)verb->use_count, MPS__USES);
         for (int32_t u = 0; u < verb->use_count; u++)
             MPS__CHECK(c,
-                       verb->uses[u].channel && verb->uses[u].channel[0] && !(verb->uses[u].access & ~known) &&
-                           verb->uses[u].access & (MPS_USE_READ | MPS_USE_NEIGHBOURS | MPS_USE_WRITE | MPS_USE_DUMMIES),
-                       "model '%s': use %d of verb %d has no channel, or access %d, which is no sum of MPS_USE_...", ops->name, (int)u,
-                       (int)v, (int)verb->uses[u].access);
+                       verb->uses[u].channel && verb->uses[u].channel[0] &&
+                           !(verb->uses[u].access & ~known) &&
+                           verb->uses[u].access & (MPS_USE_READ | MPS_USE_NEIGHBOURS |
+                                                   MPS_USE_WRITE | MPS_USE_DUMMIES),
+                       "model '%s': use %d of verb %d has no channel, or access %d, which is no "
+                       "sum of MPS_USE_...",
+                       ops->name, (int)u, (int)v, (int)verb->uses[u].access);
         for (int32_t u = 0; u < verb->use_count; u++)
             for (int32_t w = 0; w < u; w++)
                 MPS__CHECK(c, strcmp(verb->uses[w].channel, verb->uses[u].channel) != 0,
-                           "model '%s': verb %d uses channel '%s' twice: add the accesses", ops->name, (int)v, verb->uses[u].channel);
+                           "model '%s': verb %d uses channel '%s' twice: add the accesses",
+                           ops->name, (int)v, verb->uses[u].channel);
     }
     return MPS_OK;
 }
@@ -100,11 +114,14 @@ static mps_status check_tables(mps__context *c, const mps_model_ops *ops)
                {"channels", ops->channel_count, 0, MPS__BROUGHT, ops->channels},
                {"verbs", ops->verb_count, 1, MPS__VERBS, ops->verbs}};
     for (int k = 0; k < 3; k++)
-        MPS__CHECK(c, all[k].count >= all[k].least && all[k].count <= all[k].most && (all[k].count == 0 || all[k].table),
-                   "model '%s' has %d %s: %d..%d, with a table", ops->name, (int)all[k].count, all[k].what, (int)all[k].least,
-                   (int)all[k].most);
+        MPS__CHECK(c,
+                   all[k].count >= all[k].least && all[k].count <= all[k].most &&
+                       (all[k].count == 0 || all[k].table),
+                   "model '%s' has %d %s: %d..%d, with a table", ops->name, (int)all[k].count,
+                   all[k].what, (int)all[k].least, (int)all[k].most);
     MPS__TRY(check_settings(c, ops));
-    for (int32_t k = 0; k < ops->channel_count; k++) MPS__TRY(mps__channel_check(c, ops->name, &ops->channels[k]));
+    for (int32_t k = 0; k < ops->channel_count; k++)
+        MPS__TRY(mps__channel_check(c, ops->name, &ops->channels[k]));
     return check_verbs(c, ops);
 }
 
@@ -113,12 +130,16 @@ static mps_status check_ops(mps__models *m, const mps_model_ops *ops)
     mps__context *c = m->context;
     const char *dot = strchr(ops->name, '.');
     MPS__CHECK(c, dot && dot != ops->name && dot[1] && strlen(ops->name) < MPS__NAME_SIZE,
-               "model name '%s': must be 'slot.variant' of at most %d characters", ops->name, MPS__NAME_SIZE - 1);
+               "model name '%s': must be 'slot.variant' of at most %d characters", ops->name,
+               MPS__NAME_SIZE - 1);
     MPS__CHECK(c, ops->help && ops->help[0], "model '%s' has no help text", ops->name);
-    MPS__CHECK(c, !ops->create == !ops->destroy, "model '%s': create and destroy go together", ops->name);
+    MPS__CHECK(c, !ops->create == !ops->destroy, "model '%s': create and destroy go together",
+               ops->name);
     MPS__TRY(check_tables(c, ops));
-    for (int32_t k = 0; k < m->known; k++) MPS__CHECK(c, strcmp(m->name[k], ops->name) != 0, "model name '%s' is taken", ops->name);
-    MPS__CHECK(c, m->known < MPS__MODELS_KNOWN, "model '%s' is one too many: at most %d", ops->name, MPS__MODELS_KNOWN);
+    for (int32_t k = 0; k < m->known; k++)
+        MPS__CHECK(c, strcmp(m->name[k], ops->name) != 0, "model name '%s' is taken", ops->name);
+    MPS__CHECK(c, m->known < MPS__MODELS_KNOWN, "model '%s' is one too many: at most %d", ops->name,
+               MPS__MODELS_KNOWN);
     return MPS_OK;
 }
 
@@ -127,7 +148,8 @@ mps_status mps__models_register(mps__models *m, const mps_model_ops *ops)
     mps_model_ops copy = {0};
     MPS__TRY(mps__struct_in(m->context, "mps_model_ops", &copy, sizeof copy, ops));
     if (copy.api != MPS_MODEL_API)
-        return mps__fail(m->context, MPS_E_VERSION, "model interface %u: this library has %u", copy.api, MPS_MODEL_API);
+        return mps__fail(m->context, MPS_E_VERSION, "model interface %u: this library has %u",
+                         copy.api, MPS_MODEL_API);
     MPS__CHECK(m->context, copy.name, "a model needs a name");
     MPS__TRY(check_ops(m, &copy));
     mps__name_copy(m->name[m->known], MPS__NAME_SIZE, copy.name);
@@ -136,10 +158,12 @@ mps_status mps__models_register(mps__models *m, const mps_model_ops *ops)
     return MPS_OK;
 }
 
-mps_status mps__models_init(mps__models *m, mps__context *context, mps__channels *channels, mps__particles *particles)
+mps_status mps__models_init(mps__models *m, mps__context *context, mps__channels *channels,
+                            mps__particles *particles)
 {
     *m = (mps__models){.context = context, .channels = channels, .particles = particles};
-    for (size_t k = 0; k < sizeof built_in / sizeof built_in[0]; k++) MPS__TRY(mps__models_register(m, built_in[k]));
+    for (size_t k = 0; k < sizeof built_in / sizeof built_in[0]; k++)
+        MPS__TRY(mps__models_register(m, built_in[k]));
     m->built_in = m->known;
     return MPS_OK;
 }
@@ -161,7 +185,8 @@ bool mps__models_dummy_rows(const mps__models *m)
 {
     bool any = false;
     for (int32_t k = 0; k < m->active; k++)
-        for (int32_t v = 0; v < m->on[k].ops->verb_count; v++) any = any || reads_dummy_rows(&m->on[k].ops->verbs[v]);
+        for (int32_t v = 0; v < m->on[k].ops->verb_count; v++)
+            any = any || reads_dummy_rows(&m->on[k].ops->verbs[v]);
     return any;
 }
 
@@ -204,16 +229,21 @@ static mps_status unknown_model(mps__models *m, const char *name)
     int32_t count = 0;
     for (int32_t k = 0; k < m->known; k++)
         if (mps__same_slot(m->name[k], name)) names[count++] = m->name[k];
-    if (count > 0) return mps__fail(m->context, MPS_E_NAME, "no model \"%.60s\"; %s", name, mps__hint(hint, '"', name, names, count));
+    if (count > 0)
+        return mps__fail(m->context, MPS_E_NAME, "no model \"%.60s\"; %s", name,
+                         mps__hint(hint, '"', name, names, count));
     for (int32_t k = 0; k < m->known; k++) names[k] = m->name[k];
     const char *near = mps__near(name, names, m->known);
-    if (near) return mps__fail(m->context, MPS_E_NAME, "no model \"%.60s\"; did you mean \"%s\"?", name, near);
+    if (near)
+        return mps__fail(m->context, MPS_E_NAME, "no model \"%.60s\"; did you mean \"%s\"?", name,
+                         near);
     return mps__fail(m->context, MPS_E_NAME, "no model \"%.60s\"; the slots are %s", name,
                      mps__list(hint, '"', names, list_slots(m, slot, names)));
 }
 
 /* A model that is ready to be switched on: its state is made, its channels are there. `leaving`: NULL, or the one it replaces. */
-static mps_status make(mps__models *m, int32_t which, const mps_model_ops *leaving, mps__model *fresh)
+static mps_status make(mps__models *m, int32_t which, const mps_model_ops *leaving,
+                       mps__model *fresh)
 {
     const mps_model_ops *ops = &m->registry[which];
     *fresh = (mps__model){.ops = ops, .self = ops->user};
@@ -221,8 +251,7 @@ static mps_status make(mps__models *m, int32_t which, const mps_model_ops *leavi
     const mps__lock before = mps__lock_set(m->context, MPS__LOCKED, "create of a model");
     const bool failed = ops->create && ops->create(&m->context->allocator, &fresh->self) != 0;
     m->context->lock = before;
-    if (failed)
-        return mps__fail(m->context, MPS_E_NOMEM, "no memory for model '%s'", ops->name);
+    if (failed) return mps__fail(m->context, MPS_E_NOMEM, "no memory for model '%s'", ops->name);
     const mps_status status = mps__channels_bring(m->channels, m->particles, ops, leaving);
     if (status < 0 && ops->destroy) ops->destroy(&m->context->allocator, fresh->self);
     return status;
@@ -235,8 +264,8 @@ mps_status mps__models_use(mps__models *m, const char *name)
     while (which < m->known && strcmp(m->name[which], name) != 0) which++;
     if (which == m->known) return unknown_model(m, name);
     const int32_t old = find_active(m, name);
-    MPS__CHECK(m->context, old >= 0 || m->active < MPS__MODELS_ACTIVE, "model \"%s\" is one too many: at most %d are active", name,
-               MPS__MODELS_ACTIVE);
+    MPS__CHECK(m->context, old >= 0 || m->active < MPS__MODELS_ACTIVE,
+               "model \"%s\" is one too many: at most %d are active", name, MPS__MODELS_ACTIVE);
     mps__model fresh;
     MPS__TRY(make(m, which, old >= 0 ? m->on[old].ops : NULL, &fresh));
     if (old >= 0) drop(m, old);
@@ -258,7 +287,8 @@ mps_status mps__models_remove(mps__models *m, const char *slot)
     return MPS_OK;
 }
 
-double *mps__models_value(mps__models *m, const char *slot, const char *key, const mps_setting **setting)
+double *mps__models_value(mps__models *m, const char *slot, const char *key,
+                          const mps_setting **setting)
 {
     const int32_t which = slot ? find_named(m, slot) : -1;
     if (which < 0) {
@@ -277,11 +307,12 @@ double *mps__models_value(mps__models *m, const char *slot, const char *key, con
     if (ops->setting_count == 0)
         mps__fail(m->context, MPS_E_NAME, "model \"%s\" has no setting", ops->name);
     else if (!key)
-        mps__fail(m->context, MPS_E_NAME, "the key of a setting of model \"%s\" is NULL; there are %s", ops->name,
+        mps__fail(m->context, MPS_E_NAME,
+                  "the key of a setting of model \"%s\" is NULL; there are %s", ops->name,
                   mps__list(hint, '"', keys, ops->setting_count));
     else
-        mps__fail(m->context, MPS_E_NAME, "model \"%s\" has no setting \"%.60s\"; %s", ops->name, key,
-                  mps__hint(hint, '"', key, keys, ops->setting_count));
+        mps__fail(m->context, MPS_E_NAME, "model \"%s\" has no setting \"%.60s\"; %s", ops->name,
+                  key, mps__hint(hint, '"', key, keys, ops->setting_count));
     return NULL;
 }
 
@@ -311,7 +342,8 @@ mps_status mps__models_preset(mps__models *m, const char *name)
         }
         return status;
     }
-    return mps__fail(m->context, MPS_E_NAME, "no preset \"%.60s\"; %s", name, mps__hint(hint, '"', name, names, PRESET_COUNT));
+    return mps__fail(m->context, MPS_E_NAME, "no preset \"%.60s\"; %s", name,
+                     mps__hint(hint, '"', name, names, PRESET_COUNT));
 }
 
 bool mps__models_preset_info(int32_t k, const char **name, const char **help)

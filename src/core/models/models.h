@@ -6,7 +6,14 @@
 #include "channels.h"
 #include <mps/model.h>
 
-enum { MPS__MODELS_KNOWN = 64, MPS__MODELS_ACTIVE = 32, MPS__SETTINGS = 16, MPS__BROUGHT = 8, MPS__VERBS = 16, MPS__USES = 24 };
+enum {
+    MPS__MODELS_KNOWN = 64,
+    MPS__MODELS_ACTIVE = 32,
+    MPS__SETTINGS = 16,
+    MPS__BROUGHT = 8,
+    MPS__VERBS = 16,
+    MPS__USES = 24
+};
 
 typedef struct mps__model {
     const mps_model_ops *ops; /* in the registry */
@@ -26,7 +33,8 @@ typedef struct mps__models {
 } mps__models;
 
 /* Registers the built-in models, none active. Channels and particles are those of the handle. */
-mps_status mps__models_init(mps__models *m, mps__context *context, mps__channels *channels, mps__particles *particles);
+mps_status mps__models_init(mps__models *m, mps__context *context, mps__channels *channels,
+                            mps__particles *particles);
 void mps__models_free(mps__models *m);
 mps_status mps__models_register(mps__models *m, const mps_model_ops *ops);
 mps_status mps__models_use(mps__models *m, const char *name);
@@ -37,7 +45,8 @@ bool mps__models_foreign(const mps__models *m, const mps__model *model);
 /* Whether an active model reads rows of dummies. */
 bool mps__models_dummy_rows(const mps__models *m);
 /* The setting `key` of the model in a slot; NULL with the error set. `setting` may be NULL. */
-double *mps__models_value(mps__models *m, const char *slot, const char *key, const mps_setting **setting);
+double *mps__models_value(mps__models *m, const char *slot, const char *key,
+                          const mps_setting **setting);
 /* Preset number k; false beyond the last. */
 bool mps__models_preset_info(int32_t k, const char **name, const char **help);
 /* Whether the slot of a model's name is `slot`, which may be a full name too. */

@@ -7,7 +7,8 @@
 /* Beyond the table's end by rounding only [s]. */
 static const double end_slack = 1e-9;
 
-static const char *const dof_name[MPS_DOF_COUNT] = {"surge", "heave", "sway", "roll", "yaw", "pitch"};
+static const char *const dof_name[MPS_DOF_COUNT] = {"surge", "heave", "sway",
+                                                    "roll",  "yaw",   "pitch"};
 
 static void cross(const double a[3], const double b[3], double out[3])
 {
@@ -18,11 +19,17 @@ static void cross(const double a[3], const double b[3], double out[3])
 
 static void rotation_matrix(const double q[MPS_DOF_COUNT], double R[9])
 {
-    double cr = cos(q[MPS_ROLL]), sr = sin(q[MPS_ROLL]), cp = cos(q[MPS_PITCH]), sp = sin(q[MPS_PITCH]), cy = cos(q[MPS_YAW]),
-           sy = sin(q[MPS_YAW]);
-    const double rows[9] = {
-        cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr, sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr, -sp, cp * sr,
-        cp * cr};
+    double cr = cos(q[MPS_ROLL]), sr = sin(q[MPS_ROLL]), cp = cos(q[MPS_PITCH]),
+           sp = sin(q[MPS_PITCH]), cy = cos(q[MPS_YAW]), sy = sin(q[MPS_YAW]);
+    const double rows[9] = {cy * cp,
+                            cy * sp * sr - sy * cr,
+                            cy * sp * cr + sy * sr,
+                            sy * cp,
+                            sy * sp * sr + cy * cr,
+                            sy * sp * cr - cy * sr,
+                            -sp,
+                            cp * sr,
+                            cp * cr};
     memcpy(R, rows, sizeof rows);
 }
 
@@ -30,7 +37,8 @@ static void rotation_matrix(const double q[MPS_DOF_COUNT], double R[9])
  * its derivative, e2' = yaw' ez x e2 and e3' = (yaw' ez + pitch' e2) x e3. */
 static void angular_rates(const mps_motion_state *s, double omega[3], double alpha[3])
 {
-    double cy = cos(s->value[MPS_YAW]), sy = sin(s->value[MPS_YAW]), cp = cos(s->value[MPS_PITCH]), sp = sin(s->value[MPS_PITCH]);
+    double cy = cos(s->value[MPS_YAW]), sy = sin(s->value[MPS_YAW]), cp = cos(s->value[MPS_PITCH]),
+           sp = sin(s->value[MPS_PITCH]);
     const double e2[3] = {-sy, cy, 0}, e3[3] = {cy * cp, sy * cp, -sp};
     double roll = s->rate[MPS_ROLL], pitch = s->rate[MPS_PITCH], yaw = s->rate[MPS_YAW];
     double turn[3] = {pitch * e2[0], pitch * e2[1], yaw}, e2_rate[3], e3_rate[3];
@@ -39,7 +47,8 @@ static void angular_rates(const mps_motion_state *s, double omega[3], double alp
     cross(turn, e3, e3_rate);
     for (int d = 0; d < 3; d++) {
         omega[d] = turn[d] + roll * e3[d];
-        alpha[d] = s->accel[MPS_PITCH] * e2[d] + pitch * e2_rate[d] + s->accel[MPS_ROLL] * e3[d] + roll * e3_rate[d];
+        alpha[d] = s->accel[MPS_PITCH] * e2[d] + pitch * e2_rate[d] + s->accel[MPS_ROLL] * e3[d] +
+                   roll * e3_rate[d];
     }
     alpha[2] += s->accel[MPS_YAW];
 }
@@ -73,9 +82,12 @@ static mps_status check_state(const mps__motion *m, double t, const mps_motion_s
     for (int k = 0; k < MPS_DOF_COUNT; k++)
         for (int v = 0; v < 3; v++) {
             if (!isfinite(set[v][k]))
-                return mps__fail(m->context, MPS_E_PLUGIN, "motion: %s %s is %g at t = %g s", dof_name[k], what[v], set[v][k], t);
-            MPS__CHECK(m->context, m->dim == 3 || (k != MPS_SWAY && k != MPS_PITCH) || set[v][k] == 0,
-                       "motion: %s %s is %g at t = %g s, but 2-D has surge, heave, and roll or yaw only", dof_name[k], what[v], set[v][k], t);
+                return mps__fail(m->context, MPS_E_PLUGIN, "motion: %s %s is %g at t = %g s",
+                                 dof_name[k], what[v], set[v][k], t);
+            MPS__CHECK(
+                m->context, m->dim == 3 || (k != MPS_SWAY && k != MPS_PITCH) || set[v][k] == 0,
+                "motion: %s %s is %g at t = %g s, but 2-D has surge, heave, and roll or yaw only",
+                dof_name[k], what[v], set[v][k], t);
         }
     return MPS_OK;
 }
@@ -93,7 +105,8 @@ static void rotate(const mps__pose *pose, const double V[3], double v[3])
 }
 
 /* Displacements in the order x, y, z: dof 0, 1, 2. */
-static void add_linear(const mps__motion *m, const double *linear, const double angular[3], double *out)
+static void add_linear(const mps__motion *m, const double *linear, const double angular[3],
+                       double *out)
 {
     for (int d = 0; d < m->dim; d++) out[d] = linear[d] + angular[d];
 }
@@ -121,20 +134,25 @@ mps_status mps__motion_pose(mps__motion *m, double t, mps__pose *pose)
         return MPS_OK;
     }
     if (t > m->t_end + end_slack)
-        return mps__fail(m->context, MPS_E_STATE, "the motion is not defined at t = %.10g s: the last row of its table is at %.10g s", t,
-                         m->t_end);
+        return mps__fail(
+            m->context, MPS_E_STATE,
+            "the motion is not defined at t = %.10g s: the last row of its table is at %.10g s", t,
+            m->t_end);
     mps_motion_state state = {.struct_size = sizeof state};
     const mps__lock before = mps__lock_set(m->context, MPS__LOCKED, "a motion");
     int failed = m->fn(m->user, t, &state);
     m->context->lock = before;
-    if (failed) return mps__fail(m->context, MPS_E_PLUGIN, "the motion callback failed with %d at t = %g s", failed, t);
+    if (failed)
+        return mps__fail(m->context, MPS_E_PLUGIN, "the motion callback failed with %d at t = %g s",
+                         failed, t);
     state.struct_size = sizeof state;
     MPS__TRY(check_state(m, t, &state));
     mps__motion_pose_of(&state, m->dim, t, pose);
     return MPS_OK;
 }
 
-void mps__motion_point(const mps__motion *m, const mps__pose *pose, const double *X, double *x, double *v, double *a)
+void mps__motion_point(const mps__motion *m, const mps__pose *pose, const double *X, double *x,
+                       double *v, double *a)
 {
     double r[3], s[3], turn[3], spin[3], swing[3];
     arm(m, X, r);
@@ -157,7 +175,8 @@ void mps__motion_to_tank(const mps__motion *m, const mps__pose *pose, const doub
     const double *R = pose->rotation;
     double r[3] = {0, 0, 0};
     for (int d = 0; d < m->dim; d++) r[d] = x[d] - m->centre[d] - pose->state.value[d];
-    for (int d = 0; d < m->dim; d++) X[d] = m->centre[d] + (R[d] * r[0] + R[3 + d] * r[1] + R[6 + d] * r[2]);
+    for (int d = 0; d < m->dim; d++)
+        X[d] = m->centre[d] + (R[d] * r[0] + R[3 + d] * r[1] + R[6 + d] * r[2]);
 }
 
 bool mps__motion_turned(const mps__pose *pose)

@@ -33,7 +33,8 @@ void mps__motion_pose_of(const mps_motion_state *state, int32_t dim, double t, m
 /* Pose at time t. Fails for a callback's failure, NaN, a direction 2-D does not have, or t beyond a table. */
 mps_status mps__motion_pose(mps__motion *m, double t, mps__pose *pose);
 /* Lab position, velocity and acceleration of a point X of the tank; x, v, a are [dim], any may be NULL. */
-void mps__motion_point(const mps__motion *m, const mps__pose *pose, const double *X, double *x, double *v, double *a);
+void mps__motion_point(const mps__motion *m, const mps__pose *pose, const double *X, double *x,
+                       double *v, double *a);
 /* Back from the lab to the tank's frame. */
 void mps__motion_to_tank(const mps__motion *m, const mps__pose *pose, const double *x, double *X);
 /* Whether vectors of the tank's frame are others in the lab. */

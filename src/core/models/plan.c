@@ -9,8 +9,9 @@ enum { PRODUCES, CHANGES, READS, NOTHING };
 
 const char *mps__moment_name(int32_t moment)
 {
-    static const char *const name[MPS_MOMENT_COUNT] = {"limit", "classify", "prepare",  "force",    "source",
-                                                       "level", "gradient", "load",     "velocity", "shift"};
+    static const char *const name[MPS_MOMENT_COUNT] = {"limit",    "classify", "prepare",  "force",
+                                                       "source",   "level",    "gradient", "load",
+                                                       "velocity", "shift"};
     return moment >= 0 && moment < MPS_MOMENT_COUNT ? name[moment] : NULL;
 }
 
@@ -27,10 +28,13 @@ static mps_status check_access(const mps__models *m, const mps__call *call, int3
     const mps_use *use = &call->verb->uses[u];
     const uint32_t moment = 1u << call->verb->moment;
     const char *what = NULL;
-    if ((use->access & (MPS_USE_READ | MPS_USE_NEIGHBOURS | MPS_USE_DUMMIES)) && !(k->reads & moment)) what = "read";
+    if ((use->access & (MPS_USE_READ | MPS_USE_NEIGHBOURS | MPS_USE_DUMMIES)) &&
+        !(k->reads & moment))
+        what = "read";
     if ((use->access & MPS_USE_WRITE) && !(k->writes & moment)) what = "written";
     if (!what) return MPS_OK;
-    return mps__fail(m->context, MPS_E_STATE, "model '%s': channel '%s' cannot be %s in moment '%s'", call->model->ops->name,
+    return mps__fail(m->context, MPS_E_STATE,
+                     "model '%s': channel '%s' cannot be %s in moment '%s'", call->model->ops->name,
                      use->channel, what, mps__moment_name(call->verb->moment));
 }
 
@@ -38,7 +42,9 @@ static mps_status check_access(const mps__models *m, const mps__call *call, int3
 static int32_t find_field(const mps__models *m, const char *name)
 {
     const mps__field *f = mps__particles_field(m->particles, name);
-    return f && f->is_public && f->data == &f->own ? MPS__CHANNELS + (int32_t)(f - m->particles->field) : -1;
+    return f && f->is_public && f->data == &f->own
+               ? MPS__CHANNELS + (int32_t)(f - m->particles->field)
+               : -1;
 }
 
 static mps_status find_channels(const mps__models *m, mps__call *call)
@@ -52,7 +58,8 @@ static mps_status find_channels(const mps__models *m, mps__call *call)
             call->channel[u] = find_field(m, use->channel);
         if (call->channel[u] < 0 && !(use->access & MPS_USE_OPTIONAL))
             return mps__fail(m->context, MPS_E_STATE,
-                             "model '%s' uses channel '%s', which no active model brings: switch on a model that brings it, or "
+                             "model '%s' uses channel '%s', which no active model brings: switch "
+                             "on a model that brings it, or "
                              "remove '%s'",
                              call->model->ops->name, use->channel, call->model->ops->name);
     }
@@ -134,8 +141,10 @@ static mps_status ring(const mps__plan *p, const mps__models *m, int32_t from, i
     for (int32_t k = from; k < to; k++) a = first_awaited(p, a, from, to);
     const int32_t b = first_awaited(p, a, from, to);
     return mps__fail(m->context, MPS_E_STATE,
-                     "models '%s' and '%s' wait for each other in moment '%s': name the order in 'after' or 'before' of one",
-                     p->call[a].model->ops->name, p->call[b].model->ops->name, mps__moment_name(p->call[a].verb->moment));
+                     "models '%s' and '%s' wait for each other in moment '%s': name the order in "
+                     "'after' or 'before' of one",
+                     p->call[a].model->ops->name, p->call[b].model->ops->name,
+                     mps__moment_name(p->call[a].verb->moment));
 }
 
 static mps_status sort_moment(mps__plan *p, const mps__models *m, int32_t from, int32_t to)
@@ -157,7 +166,9 @@ static mps_status collect(mps__plan *p, const mps__models *m, int32_t moment, in
         const mps_model_ops *ops = m->on[k].ops;
         for (int32_t v = 0; v < ops->verb_count; v++) {
             if (ops->verbs[v].moment != moment) continue;
-            if (*count == MPS__CALLS) return mps__fail(m->context, MPS_E_STATE, "the active models have more than %d verbs", MPS__CALLS);
+            if (*count == MPS__CALLS)
+                return mps__fail(m->context, MPS_E_STATE,
+                                 "the active models have more than %d verbs", MPS__CALLS);
             mps__call *call = &p->call[(*count)++];
             *call = (mps__call){.model = &m->on[k], .verb = &ops->verbs[v]};
             MPS__TRY(find_channels(m, call));
@@ -184,6 +195,7 @@ mps_status mps__plan_make(mps__plan *p, const mps__models *m)
 bool mps__plan_uses(const mps__plan *p, int32_t channel)
 {
     bool found = false;
-    for (int32_t k = 0; k < p->begin[MPS_MOMENT_COUNT]; k++) found = found || what_it_does(&p->call[k], channel) != NOTHING;
+    for (int32_t k = 0; k < p->begin[MPS_MOMENT_COUNT]; k++)
+        found = found || what_it_does(&p->call[k], channel) != NOTHING;
     return found;
 }

@@ -39,13 +39,15 @@ void mps_stage_rows(const mps_stage *s, mps_rows_fn rows, void *arguments)
     mps_parallel_rows(host_of(s)->parallel, s->n, run_rows, &k);
 }
 
-void mps_stage_sum(const mps_stage *s, int32_t count, mps_sums_fn add, void *arguments, double *sums)
+void mps_stage_sum(const mps_stage *s, int32_t count, mps_sums_fn add, void *arguments,
+                   double *sums)
 {
     job k = {.s = s, .sums = add, .arguments = arguments};
     mps_parallel_sum(host_of(s)->parallel, s->n, count, run_sums, &k, sums);
 }
 
-void mps_stage_max(const mps_stage *s, int32_t count, mps_sums_fn raise, void *arguments, double *maxima)
+void mps_stage_max(const mps_stage *s, int32_t count, mps_sums_fn raise, void *arguments,
+                   double *maxima)
 {
     job k = {.s = s, .sums = raise, .arguments = arguments};
     for (int32_t m = 0; m < count; m++) maxima[m] = -INFINITY;
@@ -121,7 +123,8 @@ int mps_stage_bodies(mps_stage *s, int32_t most, const int32_t *role, int32_t *b
         bool held = false;
         k.found = 0;
         join(&k, seed, count);
-        for (int64_t next = 0; next < k.found && !held; next++) held = is_held(s, &k, k.queue[next]) || k.found > most;
+        for (int64_t next = 0; next < k.found && !held; next++)
+            held = is_held(s, &k, k.queue[next]) || k.found > most;
         for (int64_t m = 0; m < k.found && held; m++) body[k.queue[m]] = HELD;
         count += !held;
     }
@@ -140,7 +143,8 @@ mps_status mps_grid_init(mps_grid *grid, size_t size)
 int mps_stage_grid(mps_stage *s, double side, mps_grid *grid)
 {
     mps_grid made = {.dim = s->dim, .side = side, .buckets = s->n};
-    int32_t *first = mps_stage_scratch_integers(s, s->n), *next = mps_stage_scratch_integers(s, s->n);
+    int32_t *first = mps_stage_scratch_integers(s, s->n),
+            *next = mps_stage_scratch_integers(s, s->n);
     if (!(side > 0)) return mps_stage_fail(s, "the side of a grid is %g m: must be > 0", side);
     if (!first || !next) return 1;
     made.first = first;
@@ -177,7 +181,8 @@ void mps_stage_tank(const mps_stage *s, const double *x, double *place, double *
 int mps_stage_refresh(mps_stage *s, double *scratch, int32_t components)
 {
     if (scratch && components >= 1) return 0;
-    return mps_stage_fail(s, "refresh: scratch is NULL, or components is %d: must be >= 1", (int)components);
+    return mps_stage_fail(s, "refresh: scratch is NULL, or components is %d: must be >= 1",
+                          (int)components);
 }
 
 /* ---- scratch and errors ---- */
@@ -186,7 +191,8 @@ static void *scratch(mps_stage *s, int64_t count, size_t size)
 {
     mps__host *h = host_of(s);
     if (h->scratch_used == MPS__SCRATCH || count < 0) {
-        mps_stage_fail(s, "a verb may borrow at most %d blocks of scratch, of no negative size", MPS__SCRATCH);
+        mps_stage_fail(s, "a verb may borrow at most %d blocks of scratch, of no negative size",
+                       MPS__SCRATCH);
         return NULL;
     }
     void *block = mps__scratch_take(h->context, h->scratch, h->scratch_used, count, size);

@@ -75,7 +75,8 @@ static mps_status reserve(mps_neighbours *l, int64_t n)
     return MPS_OK;
 }
 
-mps_status mps__neighbours_fit(mps_neighbours *l, void **block, int64_t *capacity, int64_t count, size_t size)
+mps_status mps__neighbours_fit(mps_neighbours *l, void **block, int64_t *capacity, int64_t count,
+                               size_t size)
 {
     if (*block && *capacity >= count && *capacity < count + count / 4 + 1024) return MPS_OK;
     mps__free(l->context, *block);
@@ -110,7 +111,8 @@ static int ranges_around(const mps_neighbours *l, uint64_t key, int64_t range[9]
     int count = 0;
     for (int dz = -high; dz <= high; dz++)
         for (int dy = -1; dy <= 1; dy++) {
-            int64_t step = (int64_t)dy * (INT64_C(1) << bits) + (high ? (int64_t)dz * (INT64_C(1) << (2 * bits)) : 0);
+            int64_t step = (int64_t)dy * (INT64_C(1) << bits) +
+                           (high ? (int64_t)dz * (INT64_C(1) << (2 * bits)) : 0);
             uint64_t middle = key + (uint64_t)step;
             int64_t first = first_at_least(l->key, l->n, middle - 1), last = first;
             while (last < l->n && l->key[last] <= middle + 1) last++;
@@ -128,7 +130,8 @@ static void gather_places(void *argument, int64_t begin, int64_t end)
 {
     mps_neighbours *l = argument;
     for (int64_t a = begin; a < end; a++)
-        for (int d = 0; d < l->dim; d++) l->searched[d * l->n + a] = l->x[(int64_t)l->order[a] * l->dim + d];
+        for (int d = 0; d < l->dim; d++)
+            l->searched[d * l->n + a] = l->x[(int64_t)l->order[a] * l->dim + d];
 }
 
 /* Fluid and dummies up to each place, itself included. They borrow the second half of the keys, which was scratch of their sort. */
@@ -156,12 +159,14 @@ static void count_kinds(mps_neighbours *l)
 static bool any_within(const int32_t *until, int64_t range[9][2], int ranges)
 {
     bool any = false;
-    for (int k = 0; k < ranges; k++) any = any || until[range[k][1] - 1] > (range[k][0] > 0 ? until[range[k][0] - 1] : 0);
+    for (int k = 0; k < ranges; k++)
+        any = any || until[range[k][1] - 1] > (range[k][0] > 0 ? until[range[k][0] - 1] : 0);
     return any;
 }
 
 /* Squared distances of place a to from..to-1, at most MPS__CHUNK: a loop of its own, so that the compiler takes several at a time. */
-MPS__DIM_INLINE void measure_places(const mps_neighbours *l, int64_t a, int64_t from, int64_t to, const int dim, double *r2)
+MPS__DIM_INLINE void measure_places(const mps_neighbours *l, int64_t a, int64_t from, int64_t to,
+                                    const int dim, double *r2)
 {
     const double *const x = l->searched, *const y = x + l->n, *const z = x + (dim - 1) * l->n;
     const double xa = x[a], ya = y[a], za = z[a];
@@ -178,9 +183,10 @@ typedef struct searching {
     mps_neighbours *l;
     mps__rings rings;
     double reach2;
-    bool sorted;                 /* place a is particle a */
-    atomic_int_least64_t taken;  /* entries of col that rows have, or would have if it were longer */
-    int64_t longest[MPS__PARTS]; /* of the rows of each part that are too long for the stack; else 0 */
+    bool sorted;                /* place a is particle a */
+    atomic_int_least64_t taken; /* entries of col that rows have, or would have if it were longer */
+    int64_t
+        longest[MPS__PARTS]; /* of the rows of each part that are too long for the stack; else 0 */
 } searching;
 
 /* What was found about a place. */
@@ -192,7 +198,8 @@ typedef struct finding {
 
 /* Particles nearer to place a than the reach. Compaction without branches: every third or sixth place is near, and no processor
  * guesses which. */
-MPS__DIM_INLINE void find_row(const searching *s, int64_t a, int64_t range[9][2], int ranges, finding *f, const int dim, const bool sorted)
+MPS__DIM_INLINE void find_row(const searching *s, int64_t a, int64_t range[9][2], int ranges,
+                              finding *f, const int dim, const bool sorted)
 {
     const mps_neighbours *l = s->l;
     const double reach2 = s->reach2;
@@ -212,7 +219,8 @@ MPS__DIM_INLINE void find_row(const searching *s, int64_t a, int64_t range[9][2]
 }
 
 /* The same for rows of any length, which are not parted. They are stored if `row` is not NULL; returns how many. */
-static int64_t long_row(const searching *s, int64_t a, int64_t range[9][2], int ranges, int32_t *row)
+static int64_t long_row(const searching *s, int64_t a, int64_t range[9][2], int ranges,
+                        int32_t *row)
 {
     const mps_neighbours *l = s->l;
     int64_t n = 0;
@@ -278,7 +286,8 @@ static void set_row(mps_neighbours *l, int64_t i, int64_t begin, mps__parted row
 }
 
 /* Row of place a from what was found. */
-MPS__DIM_INLINE void keep_row(searching *s, int64_t a, const finding *f, shelf *h, const bool sorted)
+MPS__DIM_INLINE void keep_row(searching *s, int64_t a, const finding *f, shelf *h,
+                              const bool sorted)
 {
     int32_t far[MPS__ROW], out[MPS__ROW];
     if (h->used + f->count > MPS__SHELF) unload(s, h, a);
@@ -292,7 +301,8 @@ MPS__DIM_INLINE void keep_row(searching *s, int64_t a, const finding *f, shelf *
 }
 
 /* A row longer than the stack has room for: not parted yet. */
-static void keep_long_row(searching *s, int64_t a, int64_t range[9][2], int ranges, shelf *h, int64_t *longest)
+static void keep_long_row(searching *s, int64_t a, int64_t range[9][2], int ranges, shelf *h,
+                          int64_t *longest)
 {
     mps_neighbours *l = s->l;
     int64_t at;
@@ -305,7 +315,8 @@ static void keep_long_row(searching *s, int64_t a, int64_t range[9][2], int rang
 }
 
 /* All rows of the cell that starts at sorted place `first`. Returns the end of its places. */
-MPS__DIM_INLINE int64_t search_cell(searching *s, int64_t first, shelf *h, int64_t *longest, const int dim, const bool sorted)
+MPS__DIM_INLINE int64_t search_cell(searching *s, int64_t first, shelf *h, int64_t *longest,
+                                    const int dim, const bool sorted)
 {
     mps_neighbours *l = s->l;
     int64_t range[9][2], a = first;
@@ -343,9 +354,11 @@ static void search_part(void *argument, int32_t part)
     h.used = 0;
     while (a < end) {
         if (l->dim == 2)
-            a = s->sorted ? search_cell(s, a, &h, &longest, 2, true) : search_cell(s, a, &h, &longest, 2, false);
+            a = s->sorted ? search_cell(s, a, &h, &longest, 2, true)
+                          : search_cell(s, a, &h, &longest, 2, false);
         else
-            a = s->sorted ? search_cell(s, a, &h, &longest, 3, true) : search_cell(s, a, &h, &longest, 3, false);
+            a = s->sorted ? search_cell(s, a, &h, &longest, 3, true)
+                          : search_cell(s, a, &h, &longest, 3, false);
     }
     unload(s, &h, a);
     s->longest[part] = longest;
@@ -357,24 +370,30 @@ static mps_status search_rows(mps_neighbours *l, searching *s)
 {
     int64_t expected = l->pairs + l->pairs / 64;
     do {
-        MPS__TRY(mps__neighbours_fit(l, (void **)&l->col, &l->pair_capacity, expected, sizeof *l->col));
+        MPS__TRY(
+            mps__neighbours_fit(l, (void **)&l->col, &l->pair_capacity, expected, sizeof *l->col));
         atomic_store(&s->taken, 0);
         mps_parallel_run(l->parallel, MPS__PARTS, search_part, s);
         l->pairs = expected = atomic_load(&s->taken);
     } while (expected > l->pair_capacity);
     l->longest = 0;
-    for (int p = 0; p < MPS__PARTS; p++) l->longest = s->longest[p] > l->longest ? s->longest[p] : l->longest;
+    for (int p = 0; p < MPS__PARTS; p++)
+        l->longest = s->longest[p] > l->longest ? s->longest[p] : l->longest;
     return l->longest > 0 ? mps__neighbours_part_long(l) : MPS_OK;
 }
 
-mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x, double re_near, double re_far)
+mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x, double re_near,
+                                  double re_far)
 {
     const bool sorted = l->sorted;
     if (!sorted) MPS__TRY(mps__neighbours_order(l, n, x, re_far));
     l->sorted = l->valid = false;
     MPS__TRY(reserve(l, n));
-    if (re_near < re_far) MPS__TRY(mps__neighbours_fit(l, (void **)&l->far_end, &l->far_capacity, n, sizeof *l->far_end));
-    const bool alike = n == l->n && re_far == l->re_far && l->partial == (l->kind != NULL) && l->dummy_rows == l->had_dummy_rows;
+    if (re_near < re_far)
+        MPS__TRY(
+            mps__neighbours_fit(l, (void **)&l->far_end, &l->far_capacity, n, sizeof *l->far_end));
+    const bool alike = n == l->n && re_far == l->re_far && l->partial == (l->kind != NULL) &&
+                       l->dummy_rows == l->had_dummy_rows;
     if (!alike) l->pairs = 0; /* nobody knows how many there are */
     l->end = re_near < re_far ? l->far_end : l->middle;
     l->partial = l->kind != NULL;
@@ -385,7 +404,10 @@ mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x,
     l->re_far = re_far;
     mps_parallel_rows(l->parallel, n, gather_places, l);
     if (l->kind) count_kinds(l);
-    searching s = {.l = l, .rings = mps__rings_of(l), .reach2 = (re_far + l->skin) * (re_far + l->skin), .sorted = sorted};
+    searching s = {.l = l,
+                   .rings = mps__rings_of(l),
+                   .reach2 = (re_far + l->skin) * (re_far + l->skin),
+                   .sorted = sorted};
     MPS__TRY(search_rows(l, &s));
     memcpy(l->searched, x, (size_t)(n * l->dim) * sizeof *x);
     l->kind = NULL;

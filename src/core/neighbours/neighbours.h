@@ -19,31 +19,36 @@ struct mps_neighbours {
     mps__pool pool;               /* of a list that stands alone */
     int32_t dim;
     double dp, skin, re_near, re_far;
-    int64_t n, capacity, pair_capacity, near_capacity, weight_capacity, scratch_capacity, far_capacity;
+    int64_t n, capacity, pair_capacity, near_capacity, weight_capacity, scratch_capacity,
+        far_capacity;
     const double *x;
-    int64_t *begin, *middle, *end;     /* [n]; the last are the same where the radii are */
-    int64_t *far_end;                  /* [n] where they are not */
-    int32_t *count;                    /* [n] candidates of each row */
-    int32_t *col;                      /* [pairs] within re_far + skin at the last search; rows in any order */
-    int64_t pairs;                     /* entries of it at the last search */
-    int64_t *near_begin;               /* [n+1] near rows once more, without gaps: what most loops of a step run along */
-    int32_t *near_col;                 /* [near_begin[n]] */
-    double *w_r2;                      /* [near_begin[n]] room for a weight beside each entry of near_col */
-    double *searched;                  /* [n*dim] positions at the last search */
-    uint64_t *key;                     /* [2 n] cell keys and scratch of the sort; from the order to the end of the search */
+    int64_t *begin, *middle, *end; /* [n]; the last are the same where the radii are */
+    int64_t *far_end;              /* [n] where they are not */
+    int32_t *count;                /* [n] candidates of each row */
+    int32_t *col;  /* [pairs] within re_far + skin at the last search; rows in any order */
+    int64_t pairs; /* entries of it at the last search */
+    int64_t *
+        near_begin; /* [n+1] near rows once more, without gaps: what most loops of a step run along */
+    int32_t *near_col; /* [near_begin[n]] */
+    double *w_r2;      /* [near_begin[n]] room for a weight beside each entry of near_col */
+    double *searched;  /* [n*dim] positions at the last search */
+    uint64_t
+        *key; /* [2 n] cell keys and scratch of the sort; from the order to the end of the search */
     int32_t *order;                    /* [2 n] likewise */
     mps__scratch own_scratch, *shared; /* where these two are: its own, or one shared with others */
     bool valid;                        /* candidates belong to the present order */
-    bool sorted;                       /* the store was just sorted along the keys: the next search needs no order */
-    int64_t longest;                   /* candidates of one row that is too long for the stack, at most; else 0 */
-    double *scratch;                   /* room to work on such rows, for each part of the particles */
-    const int32_t *kind; /* of the next search: NULL, or kinds of the particles, and solids without fluid about them get no pairs, */
+    bool sorted;     /* the store was just sorted along the keys: the next search needs no order */
+    int64_t longest; /* candidates of one row that is too long for the stack, at most; else 0 */
+    double *scratch; /* room to work on such rows, for each part of the particles */
+    const int32_t *
+        kind; /* of the next search: NULL, or kinds of the particles, and solids without fluid about them get no pairs, */
     bool dummy_rows;     /* nor do dummies, unless this is set */
     bool partial;        /* the last search left such solids out: */
     bool had_dummy_rows; /* but not dummies */
     uint8_t *idle;       /* [n] 1 for each of them */
     uint8_t *rim;        /* [n] 1: fluid with dummies not far away; 0 where kinds were not given */
-    const mps__screens *screens; /* NULL, or what hides particles from each other; its seers are up to date */
+    const mps__screens
+        *screens; /* NULL, or what hides particles from each other; its seers are up to date */
 };
 
 mps_status mps__neighbours_init(mps_neighbours *l, mps__context *context, int32_t dim, double dp);
@@ -56,7 +61,8 @@ mps_status mps__neighbours_order(mps_neighbours *l, int64_t n, const double *x, 
 /* The particles were put into l->order. */
 void mps__neighbours_sorted(mps_neighbours *l, int64_t n);
 /* Search candidates; positions must be finite and are borrowed. Rows are exact, but screens hide nothing yet. l->kind is forgotten. */
-mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x, double re_near, double re_far);
+mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x, double re_near,
+                                  double re_far);
 /* Exact rows at other positions from the candidates, without what screens hide. */
 void mps__neighbours_rows(mps_neighbours *l, const double *x);
 /* Take what screens hide out of rows that are exact. */
@@ -66,7 +72,8 @@ mps_status mps__neighbours_near(mps_neighbours *l);
 /* Bits of a cell number along one axis in a key. */
 int mps__cell_bits(int32_t dim);
 /* Pairs of one radius; the list is not empty. */
-mps_status mps__neighbours_view(const mps_neighbours *l, int32_t which, const mps_kernel *kernel, mps_stencil *view);
+mps_status mps__neighbours_view(const mps_neighbours *l, int32_t which, const mps_kernel *kernel,
+                                mps_stencil *view);
 /* Sort cell keys and the particles' numbers with them; both have room for 2 n. neighbours_sort.c */
 void mps__sort_keys(uint64_t *key, int32_t *order, int64_t n);
 

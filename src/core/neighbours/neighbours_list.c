@@ -9,7 +9,11 @@ static const double skin_of_dp = 0.62;
 
 mps_status mps__neighbours_init(mps_neighbours *l, mps__context *context, int32_t dim, double dp)
 {
-    *l = (mps_neighbours){.context = context, .dim = dim, .dp = dp, .skin = skin_of_dp * dp, .shared = &l->own_scratch};
+    *l = (mps_neighbours){.context = context,
+                          .dim = dim,
+                          .dp = dp,
+                          .skin = skin_of_dp * dp,
+                          .shared = &l->own_scratch};
     return MPS_OK;
 }
 
@@ -25,7 +29,8 @@ void mps__neighbours_free(mps_neighbours *l)
 
 /* ---- a list that stands alone ---------------------------------------------------------------------------------- */
 
-mps_status mps_neighbours_create(int32_t dim, double dp, const mps_allocator *allocator, mps_neighbours **list)
+mps_status mps_neighbours_create(int32_t dim, double dp, const mps_allocator *allocator,
+                                 mps_neighbours **list)
 {
     if (!list) return MPS_E_ARG;
     *list = NULL;
@@ -67,21 +72,24 @@ mps_status mps_neighbours_parallel_set(mps_neighbours *list, const mps_parallel 
     return MPS_OK;
 }
 
-static mps_status check_cloud(const mps_neighbours *l, int64_t n, const double *x, double re_near, double re_far)
+static mps_status check_cloud(const mps_neighbours *l, int64_t n, const double *x, double re_near,
+                              double re_far)
 {
     mps__context *c = l->context;
     MPS__CHECK(c, x, "x is NULL: must be an array of positions");
     MPS__CHECK(c, n >= 1 && n <= INT32_MAX, "n is %lld: must be 1..%d", (long long)n, INT32_MAX);
     MPS__CHECK(c, re_near > 0, "re_near is %g m: must be > 0", re_near);
-    MPS__CHECK(c, re_far >= re_near && isfinite(re_far), "re_far is %g m: must be finite and at least re_near = %g m", re_far, re_near);
+    MPS__CHECK(c, re_far >= re_near && isfinite(re_far),
+               "re_far is %g m: must be finite and at least re_near = %g m", re_far, re_near);
     if (mps__finite(x, n * l->dim)) return MPS_OK;
     int64_t k = 0;
     while (isfinite(x[k])) k++;
-    return mps__fail(c, MPS_E_ARG, "x of particle %lld, axis %lld is %g: must be finite", (long long)(k / l->dim), (long long)(k % l->dim),
-                     x[k]);
+    return mps__fail(c, MPS_E_ARG, "x of particle %lld, axis %lld is %g: must be finite",
+                     (long long)(k / l->dim), (long long)(k % l->dim), x[k]);
 }
 
-mps_status mps_neighbours_build(mps_neighbours *list, int64_t n, const double *x, double re_near, double re_far)
+mps_status mps_neighbours_build(mps_neighbours *list, int64_t n, const double *x, double re_near,
+                                double re_far)
 {
     if (!list) return MPS_E_ARG;
     list->valid = false;
@@ -102,7 +110,8 @@ mps_status mps_stencil_init(mps_stencil *stencil, size_t size)
     return mps__struct_init("mps_stencil", stencil, size, &no_stencil, sizeof no_stencil);
 }
 
-mps_status mps__neighbours_view(const mps_neighbours *l, int32_t which, const mps_kernel *kernel, mps_stencil *view)
+mps_status mps__neighbours_view(const mps_neighbours *l, int32_t which, const mps_kernel *kernel,
+                                mps_stencil *view)
 {
     mps_kernel k = {0};
     double re = which == MPS_NEAR ? l->re_near : l->re_far, n0, lambda;
@@ -126,12 +135,14 @@ mps_status mps__neighbours_view(const mps_neighbours *l, int32_t which, const mp
     return MPS_OK;
 }
 
-mps_status mps_neighbours_stencil_get(const mps_neighbours *list, int32_t which, const mps_kernel *kernel, mps_stencil *stencil)
+mps_status mps_neighbours_stencil_get(const mps_neighbours *list, int32_t which,
+                                      const mps_kernel *kernel, mps_stencil *stencil)
 {
     mps_stencil view;
     if (!list) return MPS_E_ARG;
     MPS__TRY(mps__struct_check(list->context, "mps_stencil", stencil));
-    MPS__CHECK(list->context, which == MPS_NEAR || which == MPS_FAR, "which is %d: must be MPS_NEAR (0) or MPS_FAR (1)", which);
+    MPS__CHECK(list->context, which == MPS_NEAR || which == MPS_FAR,
+               "which is %d: must be MPS_NEAR (0) or MPS_FAR (1)", which);
     MPS__CHECK(list->context, list->n > 0, "the list is empty: call mps_neighbours_build() first");
     MPS__TRY(mps__neighbours_view(list, which, kernel, &view));
     return mps__struct_out(list->context, "mps_stencil", stencil, &view, sizeof view);

@@ -8,7 +8,8 @@ static const double coincident = 1e-6;
 
 mps__rings mps__rings_of(const mps_neighbours *l)
 {
-    return (mps__rings){coincident * coincident * l->dp * l->dp, l->re_near * l->re_near, l->re_far * l->re_far};
+    return (mps__rings){coincident * coincident * l->dp * l->dp, l->re_near * l->re_near,
+                        l->re_far * l->re_far};
 }
 
 void mps__sort_row(int32_t *row, int64_t n)
@@ -22,8 +23,8 @@ void mps__sort_row(int32_t *row, int64_t n)
 }
 
 /* Squared distances of i to some of its candidates. Returns whether they are all in [least, most). */
-MPS__DIM_INLINE bool measure(const mps_neighbours *l, int64_t i, const int32_t *row, int64_t count, const double ring[2], double *r2,
-                             const int dim)
+MPS__DIM_INLINE bool measure(const mps_neighbours *l, int64_t i, const int32_t *row, int64_t count,
+                             const double ring[2], double *r2, const int dim)
 {
     const double *const x = l->x, *const at = x + i * dim;
     double nearest = INFINITY, farthest = 0;
@@ -38,11 +39,13 @@ MPS__DIM_INLINE bool measure(const mps_neighbours *l, int64_t i, const int32_t *
 
 /* Squared distances of i to all candidates. Returns whether each is still in the part where the last step put it: then the row is what it
  * should be. */
-MPS__DIM_INLINE bool row_stands(const mps_neighbours *l, int64_t i, const mps__rings *g, double *r2, const int dim)
+MPS__DIM_INLINE bool row_stands(const mps_neighbours *l, int64_t i, const mps__rings *g, double *r2,
+                                const int dim)
 {
     const int32_t *row = l->col + l->begin[i];
     const int64_t nears = l->middle[i] - l->begin[i], within = l->end[i] - l->begin[i];
-    const double near[2] = {g->least, g->near2}, far[2] = {g->near2, g->far2}, out[2] = {g->far2, INFINITY};
+    const double near[2] = {g->least, g->near2}, far[2] = {g->near2, g->far2},
+                 out[2] = {g->far2, INFINITY};
     const bool near_stand = measure(l, i, row, nears, near, r2, dim);
     const bool far_stand = measure(l, i, row + nears, within - nears, far, r2 + nears, dim);
     const bool out_stand = measure(l, i, row + within, l->count[i] - within, out, r2 + within, dim);
@@ -56,7 +59,8 @@ typedef struct room {
 } room;
 
 /* Few have changed their part since the last step, so that sorting is short work. */
-MPS__DIM_INLINE void exact_row(mps_neighbours *l, int64_t i, const mps__rings *g, const room *r, const int dim)
+MPS__DIM_INLINE void exact_row(mps_neighbours *l, int64_t i, const mps__rings *g, const room *r,
+                               const int dim)
 {
     if (l->count[i] == 0 || row_stands(l, i, g, r->r2, dim)) return;
     int32_t *const row = l->col + l->begin[i];
@@ -89,13 +93,15 @@ static void exact_part(void *argument, int32_t part)
 
 mps_status mps__neighbours_part_long(mps_neighbours *l)
 {
-    MPS__TRY(mps__neighbours_fit(l, (void **)&l->scratch, &l->scratch_capacity, MPS__PARTS * 2 * l->longest, sizeof *l->scratch));
+    MPS__TRY(mps__neighbours_fit(l, (void **)&l->scratch, &l->scratch_capacity,
+                                 MPS__PARTS * 2 * l->longest, sizeof *l->scratch));
     mps_parallel_run(l->parallel, MPS__PARTS, exact_part, l);
     return MPS_OK;
 }
 
 /* Pairs from..to-1 that see each other change places with those from `out` on; they stay in order. Returns the end. */
-static int64_t keep_visible(mps_neighbours *l, const mps__seer *a, int64_t from, int64_t to, int64_t out)
+static int64_t keep_visible(mps_neighbours *l, const mps__seer *a, int64_t from, int64_t to,
+                            int64_t out)
 {
     const mps__screens *s = l->screens;
     for (int64_t k = from; k < to; k++) {
@@ -121,7 +127,8 @@ static void screen_rows(void *argument, int64_t begin, int64_t end)
 
 void mps__neighbours_hide(mps_neighbours *l)
 {
-    if (l->screens && l->screens->count > 0) mps_parallel_rows(l->parallel, l->screens->seers, screen_rows, l);
+    if (l->screens && l->screens->count > 0)
+        mps_parallel_rows(l->parallel, l->screens->seers, screen_rows, l);
 }
 
 void mps__neighbours_rows(mps_neighbours *l, const double *x)
@@ -134,7 +141,10 @@ void mps__neighbours_rows(mps_neighbours *l, const double *x)
 mps_status mps__neighbours_near(mps_neighbours *l)
 {
     l->near_begin[0] = 0;
-    for (int64_t i = 0; i < l->n; i++) l->near_begin[i + 1] = l->near_begin[i] + l->middle[i] - l->begin[i];
-    MPS__TRY(mps__neighbours_fit(l, (void **)&l->near_col, &l->near_capacity, l->near_begin[l->n], sizeof *l->near_col));
-    return mps__neighbours_fit(l, (void **)&l->w_r2, &l->weight_capacity, l->near_begin[l->n], sizeof *l->w_r2);
+    for (int64_t i = 0; i < l->n; i++)
+        l->near_begin[i + 1] = l->near_begin[i] + l->middle[i] - l->begin[i];
+    MPS__TRY(mps__neighbours_fit(l, (void **)&l->near_col, &l->near_capacity, l->near_begin[l->n],
+                                 sizeof *l->near_col));
+    return mps__neighbours_fit(l, (void **)&l->w_r2, &l->weight_capacity, l->near_begin[l->n],
+                               sizeof *l->w_r2);
 }

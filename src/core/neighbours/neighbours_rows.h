@@ -29,7 +29,8 @@ typedef struct mps__parted {
 
 /* Put candidates, whose squared distances are r2, into `row`: near pairs, then the others within reach, then what is out of it, the last two
  * by way of `far` and `out`. `from` may be `row`. Each candidate is written to all three and counted at one: no branches. */
-MPS__DIM_INLINE mps__parted mps__part_row(const mps__rings *g, const int32_t *from, const double *r2, int64_t count, int32_t *row,
+MPS__DIM_INLINE mps__parted mps__part_row(const mps__rings *g, const int32_t *from,
+                                          const double *r2, int64_t count, int32_t *row,
                                           int32_t *far, int32_t *out)
 {
     const double least = g->least, near2 = g->near2, far2 = g->far2;
@@ -50,6 +51,7 @@ MPS__DIM_INLINE mps__parted mps__part_row(const mps__rings *g, const int32_t *fr
 /* Part rows that the search found too long for the stack. */
 mps_status mps__neighbours_part_long(mps_neighbours *l);
 /* Room for `count` entries, not kept and not zeroed in what was there. Too much is given back: the first search has rows of all solids. */
-mps_status mps__neighbours_fit(mps_neighbours *l, void **block, int64_t *capacity, int64_t count, size_t size);
+mps_status mps__neighbours_fit(mps_neighbours *l, void **block, int64_t *capacity, int64_t count,
+                               size_t size);
 
 #endif

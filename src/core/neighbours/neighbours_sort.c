@@ -83,9 +83,12 @@ static mps_status map_cells(mps_neighbours *l, int64_t n, const double *x, doubl
         const bool fits = (hi - lo) / size < limit;
         int64_t far = 0;
         while (!fits && far < n - 1 && x[far * l->dim + d] < hi) far++;
-        MPS__CHECK(l->context, fits, "particles lie %g m apart along axis %d (particle %lld at %g): at most %g m", hi - lo, d,
-                   (long long)far, x[far * l->dim + d], limit * size);
-        m->lo[d] = lo - 2 * size; /* cell 0 stays empty, also when far from the origin lo - size rounds: neighbours never wrap */
+        MPS__CHECK(l->context, fits,
+                   "particles lie %g m apart along axis %d (particle %lld at %g): at most %g m",
+                   hi - lo, d, (long long)far, x[far * l->dim + d], limit * size);
+        m->lo[d] =
+            lo -
+            2 * size; /* cell 0 stays empty, also when far from the origin lo - size rounds: neighbours never wrap */
     }
     return MPS_OK;
 }
@@ -95,7 +98,8 @@ static uint64_t cell_key(const cell_map *m, const double *x)
 {
     const double last = (double)((INT64_C(1) << m->bits) - 2);
     uint64_t key = 0;
-    for (int d = m->dim - 1; d >= 0; d--) key = (key << m->bits) | (uint64_t)fmin(fmax((x[d] - m->lo[d]) / m->size, 0), last);
+    for (int d = m->dim - 1; d >= 0; d--)
+        key = (key << m->bits) | (uint64_t)fmin(fmax((x[d] - m->lo[d]) / m->size, 0), last);
     return key;
 }
 
@@ -106,8 +110,9 @@ static mps_status check_crowds(const mps_neighbours *l, int64_t n, const double 
         while (to < n && l->key[to] == l->key[from]) to++;
         const double *at = x + (int64_t)l->order[from] * l->dim;
         MPS__CHECK(l->context, to - from <= MPS__CROWD,
-                   "%lld particles lie within %g m of each other, particle %d at (%g, %g) m is one: at most %d", (long long)(to - from),
-                   size, l->order[from], at[0], at[1], MPS__CROWD);
+                   "%lld particles lie within %g m of each other, particle %d at (%g, %g) m is "
+                   "one: at most %d",
+                   (long long)(to - from), size, l->order[from], at[0], at[1], MPS__CROWD);
     }
     return MPS_OK;
 }

@@ -21,7 +21,8 @@ void mps__screens_free(mps__screens *s)
 
 mps_status mps__screens_reserve(mps__screens *s)
 {
-    return mps__grow(s->context, (void **)&s->list, &s->capacity, s->count, s->count + 1, sizeof *s->list);
+    return mps__grow(s->context, (void **)&s->list, &s->capacity, s->count, s->count + 1,
+                     sizeof *s->list);
 }
 
 void mps__screens_add(mps__screens *s, const mps__screen *screen)
@@ -46,7 +47,8 @@ double mps__screen_distance(const mps__screen *s, const double *X)
 {
     double square = pow(mps__screen_height(s, X), 2);
     for (int e = 0; e < 2; e++) {
-        const double at = component(s, s->along[e], X), off = at < 0 ? at : fmax(0, at - s->length[e]);
+        const double at = component(s, s->along[e], X),
+                     off = at < 0 ? at : fmax(0, at - s->length[e]);
         square += off * off;
     }
     return sqrt(square);
@@ -58,7 +60,8 @@ bool mps__screen_crossed(const mps__screen *s, const double *a, const double *b)
     if (!(ha * hb < 0)) return false;
     const double share = ha / (ha - hb);
     for (int e = 0; e < 2; e++) {
-        const double from = component(s, s->along[e], a), at = from + share * (component(s, s->along[e], b) - from);
+        const double from = component(s, s->along[e], a),
+                     at = from + share * (component(s, s->along[e], b) - from);
         if (at < s->from[e] || at > s->to[e]) return false;
     }
     return true;
@@ -67,7 +70,8 @@ bool mps__screen_crossed(const mps__screen *s, const double *a, const double *b)
 void mps__screens_sides(const mps__screens *s, mps__seer *a)
 {
     a->above = 0;
-    for (int32_t k = 0; k < s->count && k < MPS__SCREEN_BITS; k++) a->above |= (uint64_t)(mps__screen_height(&s->list[k], a->at) > 0) << k;
+    for (int32_t k = 0; k < s->count && k < MPS__SCREEN_BITS; k++)
+        a->above |= (uint64_t)(mps__screen_height(&s->list[k], a->at) > 0) << k;
 }
 
 /* Where plates meet, a line may cross several screens: what is seen there is the shadow of the first of them. Most pairs stand on the same
@@ -80,7 +84,8 @@ bool mps__screens_hidden(const mps__screens *s, const mps__seer *a, const mps__s
     if (!apart && s->count <= MPS__SCREEN_BITS) return shadow != 0;
     for (int32_t k = 0; k < s->count; k++) {
         if (k < MPS__SCREEN_BITS && !(apart >> k & 1)) continue;
-        if (s->list[k].active && mps__screen_crossed(&s->list[k], a->at, b->at)) return shadow != k + 1;
+        if (s->list[k].active && mps__screen_crossed(&s->list[k], a->at, b->at))
+            return shadow != k + 1;
     }
     return shadow != 0;
 }

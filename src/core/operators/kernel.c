@@ -15,7 +15,9 @@ mps_status mps_kernel_find(const char *name, mps_kernel *kernel)
 {
     if (!name) return MPS_E_ARG;
     MPS__TRY(mps__struct_check(NULL, "mps_kernel", kernel));
-    const int32_t id = strcmp(name, "improved") == 0 ? MPS_KERNEL_IMPROVED : strcmp(name, "original") == 0 ? MPS_KERNEL_ORIGINAL : 0;
+    const int32_t id = strcmp(name, "improved") == 0   ? MPS_KERNEL_IMPROVED
+                       : strcmp(name, "original") == 0 ? MPS_KERNEL_ORIGINAL
+                                                       : 0;
     if (!id) return MPS_E_NAME;
     return mps__struct_out(NULL, "mps_kernel", kernel, &(mps_kernel){.id = id}, sizeof *kernel);
 }
@@ -31,8 +33,10 @@ static mps_status check(mps__context *c, const mps_kernel *kernel)
 {
     MPS__TRY(mps__struct_check(c, "mps_kernel", kernel));
     MPS__CHECK(c, kernel->id >= MPS_KERNEL_IMPROVED && kernel->id <= MPS_KERNEL_CUSTOM,
-               "kernel.id is %d: fill it with mps_kernel_find() or mps_kernel_custom()", kernel->id);
-    MPS__CHECK(c, kernel->id != MPS_KERNEL_CUSTOM || kernel->fn, "kernel.fn is NULL: fill it with mps_kernel_custom()");
+               "kernel.id is %d: fill it with mps_kernel_find() or mps_kernel_custom()",
+               kernel->id);
+    MPS__CHECK(c, kernel->id != MPS_KERNEL_CUSTOM || kernel->fn,
+               "kernel.fn is NULL: fill it with mps_kernel_custom()");
     return MPS_OK;
 }
 
@@ -44,12 +48,15 @@ double mps_kernel_value(const mps_kernel *kernel, double r, double re)
     return mps_kernel_weight(kernel, r, re);
 }
 
-mps_status mps__kernel_lattice(mps__context *c, const mps_kernel *kernel, int32_t dim, double dp, double re, double *n0, double *lambda)
+mps_status mps__kernel_lattice(mps__context *c, const mps_kernel *kernel, int32_t dim, double dp,
+                               double re, double *n0, double *lambda)
 {
     MPS__TRY(check(c, kernel));
     MPS__CHECK(c, dim == 2 || dim == 3, "dim is %d: must be 2 or 3", dim);
     MPS__CHECK(c, dp > 0 && re > dp && re < 100 * dp,
-               "the kernel has no lattice constants for the radius %g m: must be above dp = %g m, and below 100 dp", re, dp);
+               "the kernel has no lattice constants for the radius %g m: must be above dp = %g m, "
+               "and below 100 dp",
+               re, dp);
     const int reach = (int)(re / dp) + 1, depth = dim == 3 ? reach : 0;
     double n = 0, moment = 0, nearest = INFINITY;
     for (int k = -depth; k <= depth; k++)
@@ -62,15 +69,18 @@ mps_status mps__kernel_lattice(mps__context *c, const mps_kernel *kernel, int32_
                 n += w;
                 moment += w * r * r;
             }
-    MPS__CHECK(c, nearest == INFINITY, "the kernel is %g at r = %g m of re = %g m: must be >= 0 and finite",
+    MPS__CHECK(c, nearest == INFINITY,
+               "the kernel is %g at r = %g m of re = %g m: must be >= 0 and finite",
                mps_kernel_weight(kernel, nearest, re), nearest, re);
-    MPS__CHECK(c, n > 0, "the kernel is 0 at all distances of a lattice of %g m within re = %g m", dp, re);
+    MPS__CHECK(c, n > 0, "the kernel is 0 at all distances of a lattice of %g m within re = %g m",
+               dp, re);
     if (n0) *n0 = n;
     if (lambda) *lambda = moment / n;
     return MPS_OK;
 }
 
-mps_status mps_lattice_constants(const mps_kernel *kernel, int32_t dim, double dp, double re, double *n0, double *lambda)
+mps_status mps_lattice_constants(const mps_kernel *kernel, int32_t dim, double dp, double re,
+                                 double *n0, double *lambda)
 {
     return mps__kernel_lattice(NULL, kernel, dim, dp, re, n0, lambda);
 }

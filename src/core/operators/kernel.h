@@ -7,6 +7,7 @@
 #include <mps/operators.h>
 
 /* As mps_lattice_constants(). */
-mps_status mps__kernel_lattice(mps__context *c, const mps_kernel *kernel, int32_t dim, double dp, double re, double *n0, double *lambda);
+mps_status mps__kernel_lattice(mps__context *c, const mps_kernel *kernel, int32_t dim, double dp,
+                               double re, double *n0, double *lambda);
 
 #endif

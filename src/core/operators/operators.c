@@ -41,7 +41,8 @@ static bool inverse_regular_2d(const double *m, double least, double *inverse)
 static bool inverse_regular_3d(const double *m, double least, double *inverse)
 {
     const double a = m[0] - least, b = m[4] - least, c = m[8] - least, f = m[5], g = m[2], h = m[1];
-    const double minor = a * b - h * h, determinant = a * (b * c - f * f) - h * (h * c - f * g) + g * (h * f - b * g);
+    const double minor = a * b - h * h,
+                 determinant = a * (b * c - f * f) - h * (h * c - f * g) + g * (h * f - b * g);
     if (!(a > 0 && minor > 0 && determinant > 0)) return false;
     const double xx = m[4] * m[8] - f * f, xy = f * g - h * m[8], xz = h * f - m[4] * g;
     const double over = 1.0 / (m[0] * xx + h * xy + g * xz);
@@ -57,7 +58,8 @@ static bool inverse_regular_3d(const double *m, double least, double *inverse)
 /* Inverse of a symmetric matrix whose eigenvalues are raised to `least`: bounded where neighbours are too few. */
 static void inverse_bounded(const double *m, int dim, double least, double *inverse)
 {
-    if (dim == 2 ? inverse_regular_2d(m, least, inverse) : inverse_regular_3d(m, least, inverse)) return;
+    if (dim == 2 ? inverse_regular_2d(m, least, inverse) : inverse_regular_3d(m, least, inverse))
+        return;
     double a[9], v[9] = {0};
     for (int k = 0; k < dim * dim; k++) a[k] = m[k];
     for (int k = 0; k < dim; k++) v[k * dim + k] = 1.0;
@@ -67,7 +69,8 @@ static void inverse_bounded(const double *m, int dim, double least, double *inve
     for (int d = 0; d < dim; d++)
         for (int e = 0; e < dim; e++) {
             double sum = 0;
-            for (int k = 0; k < dim; k++) sum += v[d * dim + k] * v[e * dim + k] / fmax(a[k * dim + k], least);
+            for (int k = 0; k < dim; k++)
+                sum += v[d * dim + k] * v[e * dim + k] / fmax(a[k * dim + k], least);
             inverse[d * dim + e] = sum;
         }
 }
@@ -114,24 +117,31 @@ static mps_status check_stencil(mps__context *c, const char *call, const mps_ste
         const char *name;
         const void *data;
     } array[] = {{"x", s->x}, {"begin", s->begin}, {"end", s->end}, {"col", s->col}};
-    MPS__CHECK(c, s->dim == 2 || s->dim == 3, "%s(): stencil.dim is %d: must be 2 or 3", call, s->dim);
+    MPS__CHECK(c, s->dim == 2 || s->dim == 3, "%s(): stencil.dim is %d: must be 2 or 3", call,
+               s->dim);
     MPS__CHECK(c, s->n > 0, "%s(): stencil.n is %lld: must be > 0", call, (long long)s->n);
     for (int k = 0; k < 4; k++)
-        MPS__CHECK(c, number[k].value > 0 && isfinite(number[k].value), "%s(): stencil.%s is %g: must be > 0 and finite", call,
-                   number[k].name, number[k].value);
-    for (int k = 0; k < 4; k++) MPS__CHECK(c, array[k].data, "%s(): stencil.%s is NULL: must be an array", call, array[k].name);
+        MPS__CHECK(c, number[k].value > 0 && isfinite(number[k].value),
+                   "%s(): stencil.%s is %g: must be > 0 and finite", call, number[k].name,
+                   number[k].value);
+    for (int k = 0; k < 4; k++)
+        MPS__CHECK(c, array[k].data, "%s(): stencil.%s is NULL: must be an array", call,
+                   array[k].name);
     MPS__CHECK(c, s->kernel.id >= MPS_KERNEL_IMPROVED && s->kernel.id <= MPS_KERNEL_CUSTOM,
                "%s(): stencil.kernel.id is %d: must be MPS_KERNEL_...", call, s->kernel.id);
-    MPS__CHECK(c, s->kernel.id != MPS_KERNEL_CUSTOM || s->kernel.fn, "%s(): stencil.kernel.fn is NULL: must be a function", call);
+    MPS__CHECK(c, s->kernel.id != MPS_KERNEL_CUSTOM || s->kernel.fn,
+               "%s(): stencil.kernel.fn is NULL: must be a function", call);
     return MPS_OK;
 }
 
-mps_status mps__op_begin(const char *call, const mps_stencil *given, mps_stencil *s, const mps__array *arrays)
+mps_status mps__op_begin(const char *call, const mps_stencil *given, mps_stencil *s,
+                         const mps__array *arrays)
 {
     mps__context *c = told_to(given);
     MPS__TRY(mps__struct_in(c, "mps_stencil", s, sizeof *s, given));
     MPS__TRY(check_stencil(c, call, s));
-    for (; arrays->name; arrays++) MPS__CHECK(c, arrays->data, "%s(): %s is NULL: must be an array", call, arrays->name);
+    for (; arrays->name; arrays++)
+        MPS__CHECK(c, arrays->data, "%s(): %s is NULL: must be an array", call, arrays->name);
     return MPS_OK;
 }
 
@@ -173,7 +183,8 @@ mps_status mps_op_gradient_conservative(const mps_stencil *s, const double *f, d
     return MPS_OK;
 }
 
-mps_status mps_op_gradient_corrected(const mps_stencil *s, const double *b, const double *f, double *grad)
+mps_status mps_op_gradient_corrected(const mps_stencil *s, const double *b, const double *f,
+                                     double *grad)
 {
     BEGIN({"b", b}, {"f", f}, {"grad", grad});
     RUN(&own, gradient_corrected, .b = b, .f = f, .out = grad);
@@ -187,7 +198,8 @@ mps_status mps_op_divergence(const mps_stencil *s, const double *u, double *div)
     return MPS_OK;
 }
 
-mps_status mps_op_divergence_corrected(const mps_stencil *s, const double *b, const double *u, double *div)
+mps_status mps_op_divergence_corrected(const mps_stencil *s, const double *b, const double *u,
+                                       double *div)
 {
     BEGIN({"b", b}, {"u", u}, {"div", div});
     RUN(&own, divergence, .b = b, .f = u, .out = div);
@@ -218,14 +230,16 @@ mps_status mps_op_asymmetry(const mps_stencil *s, double *a)
 mps_status mps_op_correction(const mps_stencil *s, double floor, double *b)
 {
     BEGIN({"b", b});
-    MPS__CHECK(told_to(s), floor > 0 && isfinite(floor), "%s(): floor is %g: must be > 0 and finite", __func__, floor);
+    MPS__CHECK(told_to(s), floor > 0 && isfinite(floor),
+               "%s(): floor is %g: must be > 0 and finite", __func__, floor);
     RUN(&own, correction, .least = floor, .out = b);
     return MPS_OK;
 }
 
 mps_status mps_matrix_inverse_bounded(int32_t dim, const double *m, double floor, double *inverse)
 {
-    if ((dim != 2 && dim != 3) || !m || !inverse || !(floor > 0) || !isfinite(floor)) return MPS_E_ARG;
+    if ((dim != 2 && dim != 3) || !m || !inverse || !(floor > 0) || !isfinite(floor))
+        return MPS_E_ARG;
     if (!mps__finite(m, dim * dim)) return MPS_E_ARG;
     inverse_bounded(m, dim, floor, inverse);
     return MPS_OK;

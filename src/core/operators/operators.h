@@ -22,7 +22,8 @@ typedef struct mps__array {
 } mps__array;
 
 /* What every operator checks: the stencil, of which `s` becomes a copy, and the arrays up to one without a name. */
-mps_status mps__op_begin(const char *call, const mps_stencil *given, mps_stencil *s, const mps__array *arrays);
+mps_status mps__op_begin(const char *call, const mps_stencil *given, mps_stencil *s,
+                         const mps__array *arrays);
 
 /* All of it in one pass. */
 void mps__op_weigh(const mps_stencil *s, const mps__weighed *out);

@@ -35,14 +35,16 @@ static double wide_lattice(const mps_stencil *t)
 }
 
 /* Kernel sum over all pairs and the particle itself. Short loops, one thing each: the compiler takes several roots at a time. */
-static inline __attribute__((always_inline)) double wide_sum(const int dim, const mps_stencil *stencil, int64_t i)
+static inline __attribute__((always_inline)) double wide_sum(const int dim,
+                                                             const mps_stencil *stencil, int64_t i)
 {
     const mps_stencil copy = *stencil, *t = &copy; /* its pointers stay in registers */
     const double *a = t->x + i * dim, over = 1.0 / t->re;
     double sum = 1.0, r[PAIRS]; /* wide(0) */
     for (int64_t from = t->begin[i]; from < t->end[i]; from += PAIRS) {
         const int count = t->end[i] - from < PAIRS ? (int)(t->end[i] - from) : PAIRS;
-        for (int k = 0; k < count; k++) r[k] = mps__square_between(a, t->x + (int64_t)t->col[from + k] * dim, dim);
+        for (int k = 0; k < count; k++)
+            r[k] = mps__square_between(a, t->x + (int64_t)t->col[from + k] * dim, dim);
         for (int k = 0; k < count; k++) r[k] = wide(dim, r[k], over);
         for (int k = 0; k < count; k++) sum += r[k];
     }
@@ -59,20 +61,23 @@ static void deviation_rows(void *argument, int64_t begin, int64_t end)
 {
     const volume_sums *v = argument;
     const mps_stencil *s = v->s;
-    for (int64_t i = begin; i < end; i++) v->out[i] = (s->dim == 2 ? wide_sum(2, s, i) : wide_sum(3, s, i)) / v->full - 1.0;
+    for (int64_t i = begin; i < end; i++)
+        v->out[i] = (s->dim == 2 ? wide_sum(2, s, i) : wide_sum(3, s, i)) / v->full - 1.0;
 }
 
 mps_status mps_op_volume_deviation(const mps_stencil *s, double *delta)
 {
     mps_stencil own = {0};
-    MPS__TRY(mps__op_begin(__func__, s, &own, (const mps__array[]){{"delta", delta}, {NULL, NULL}}));
+    MPS__TRY(
+        mps__op_begin(__func__, s, &own, (const mps__array[]){{"delta", delta}, {NULL, NULL}}));
     volume_sums v = {.s = &own, .out = delta, .full = wide_lattice(&own)};
     mps_parallel_rows(s->parallel, s->n, deviation_rows, &v);
     return MPS_OK;
 }
 
 /* Kernel sum of f over all pairs and the particle itself. */
-static inline __attribute__((always_inline)) double wide_sum_of(const int dim, const mps_stencil *t, const double *f, int64_t i)
+static inline __attribute__((always_inline)) double wide_sum_of(const int dim, const mps_stencil *t,
+                                                                const double *f, int64_t i)
 {
     const double *a = t->x + i * dim, over = 1.0 / t->re;
     double sum = f[i]; /* wide(0) = 1 */
@@ -91,13 +96,16 @@ static void sum_rows(void *argument, int64_t begin, int64_t end)
 {
     const volume_sums *v = argument;
     const mps_stencil *s = v->s;
-    for (int64_t i = begin; i < end; i++) v->out[i] = (s->dim == 2 ? wide_sum_of(2, s, v->f, i) : wide_sum_of(3, s, v->f, i)) / v->full;
+    for (int64_t i = begin; i < end; i++)
+        v->out[i] = (s->dim == 2 ? wide_sum_of(2, s, v->f, i) : wide_sum_of(3, s, v->f, i)) /
+                    v->full;
 }
 
 mps_status mps_op_volume_sum(const mps_stencil *s, const double *f, double *sum)
 {
     mps_stencil own = {0};
-    MPS__TRY(mps__op_begin(__func__, s, &own, (const mps__array[]){{"f", f}, {"sum", sum}, {NULL, NULL}}));
+    MPS__TRY(mps__op_begin(__func__, s, &own,
+                           (const mps__array[]){{"f", f}, {"sum", sum}, {NULL, NULL}}));
     MPS__CHECK(own.host, f != sum, "%s(): f and sum are the same array: must be two", __func__);
     volume_sums v = {.s = &own, .f = f, .out = sum, .full = wide_lattice(&own)};
     mps_parallel_rows(s->parallel, s->n, sum_rows, &v);

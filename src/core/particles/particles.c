@@ -3,12 +3,15 @@
 #include "particles.h"
 #include <string.h>
 
-mps_status mps__particles_field_add(mps__particles *s, const char *name, int32_t components, size_t size, bool is_public, void **data)
+mps_status mps__particles_field_add(mps__particles *s, const char *name, int32_t components,
+                                    size_t size, bool is_public, void **data)
 {
-    MPS__CHECK(s->context, s->fields < MPS__FIELDS_MAX, "field \"%s\" is one too many: at most %d", name, MPS__FIELDS_MAX);
+    MPS__CHECK(s->context, s->fields < MPS__FIELDS_MAX, "field \"%s\" is one too many: at most %d",
+               name, MPS__FIELDS_MAX);
     mps__field *f = &s->field[s->fields];
     memset(f, 0, sizeof *f);
-    MPS__CHECK(s->context, mps__name_copy(f->name, 32, name), "a field needs a name of 1..31 characters");
+    MPS__CHECK(s->context, mps__name_copy(f->name, 32, name),
+               "a field needs a name of 1..31 characters");
     f->components = components;
     f->size = size;
     f->is_public = is_public;
@@ -29,20 +32,30 @@ mps_status mps__particles_init(mps__particles *s, mps__context *context, int32_t
         bool is_public;
         void **data;
     } built_in[] = {
-        {"position", dim, sizeof(double), true, (void **)&s->x},       {"velocity", dim, sizeof(double), true, (void **)&s->u},
-        {"pressure", 1, sizeof(double), true, (void **)&s->p},         {"number_density", 1, sizeof(double), true, (void **)&s->nd},
-        {"density", 1, sizeof(double), true, (void **)&s->rho},        {"ref", dim, sizeof(double), false, (void **)&s->ref},
-        {"area", dim, sizeof(double), false, (void **)&s->area},       {"id", 1, sizeof(int64_t), false, (void **)&s->id},
-        {"kind", 1, sizeof(int32_t), false, (void **)&s->kind},        {"phase", 1, sizeof(int32_t), false, (void **)&s->phase},
-        {"part", 1, sizeof(int32_t), false, (void **)&s->part},        {"region", 1, sizeof(int32_t), false, (void **)&s->region},
-        {"wall_of", 1, sizeof(int32_t), false, (void **)&s->wall_of},  {"plate", 1, sizeof(int32_t), false, (void **)&s->plate},
-        {"wall_pressure", 1, sizeof(double), true, (void **)&s->load}, {"held", 1, sizeof(int32_t), false, (void **)&s->held},
+        {"position", dim, sizeof(double), true, (void **)&s->x},
+        {"velocity", dim, sizeof(double), true, (void **)&s->u},
+        {"pressure", 1, sizeof(double), true, (void **)&s->p},
+        {"number_density", 1, sizeof(double), true, (void **)&s->nd},
+        {"density", 1, sizeof(double), true, (void **)&s->rho},
+        {"ref", dim, sizeof(double), false, (void **)&s->ref},
+        {"area", dim, sizeof(double), false, (void **)&s->area},
+        {"id", 1, sizeof(int64_t), false, (void **)&s->id},
+        {"kind", 1, sizeof(int32_t), false, (void **)&s->kind},
+        {"phase", 1, sizeof(int32_t), false, (void **)&s->phase},
+        {"part", 1, sizeof(int32_t), false, (void **)&s->part},
+        {"region", 1, sizeof(int32_t), false, (void **)&s->region},
+        {"wall_of", 1, sizeof(int32_t), false, (void **)&s->wall_of},
+        {"plate", 1, sizeof(int32_t), false, (void **)&s->plate},
+        {"wall_pressure", 1, sizeof(double), true, (void **)&s->load},
+        {"held", 1, sizeof(int32_t), false, (void **)&s->held},
     };
     for (size_t k = 0; k < sizeof built_in / sizeof built_in[0]; k++)
-        MPS__TRY(mps__particles_field_add(s, built_in[k].name, built_in[k].components, built_in[k].size, built_in[k].is_public,
+        MPS__TRY(mps__particles_field_add(s, built_in[k].name, built_in[k].components,
+                                          built_in[k].size, built_in[k].is_public,
                                           built_in[k].data));
     static const char *const tags[] = {"id", "kind", "phase", "part", "region", "plate"};
-    for (size_t k = 0; k < sizeof tags / sizeof tags[0]; k++) mps__particles_field(s, tags[k])->is_tag = true;
+    for (size_t k = 0; k < sizeof tags / sizeof tags[0]; k++)
+        mps__particles_field(s, tags[k])->is_tag = true;
     return MPS_OK;
 }
 
@@ -88,7 +101,8 @@ static void swap_arrays(mps__particles *s, int64_t capacity, void *array[MPS__FI
 mps_status mps__particles_reserve(mps__particles *s, int64_t extra)
 {
     int64_t wanted = s->n + extra;
-    MPS__CHECK(s->context, wanted <= INT32_MAX, "%lld particles: at most %d", (long long)wanted, INT32_MAX);
+    MPS__CHECK(s->context, wanted <= INT32_MAX, "%lld particles: at most %d", (long long)wanted,
+               INT32_MAX);
     if (wanted <= s->capacity) return MPS_OK;
     const int64_t least = s->n + s->n / 4, capacity = wanted > least ? wanted : least;
     void *array[MPS__FIELDS_MAX];
@@ -104,7 +118,8 @@ mps_status mps__particles_replace(mps__particles *s, int64_t n, const void *cons
     const int64_t capacity = n > 0 ? n : 1;
     void *array[MPS__FIELDS_MAX];
     MPS__TRY(new_arrays(s, capacity, array));
-    for (int32_t k = 0; k < s->fields; k++) memcpy(array[k], from[k], (size_t)n * stride(&s->field[k]));
+    for (int32_t k = 0; k < s->fields; k++)
+        memcpy(array[k], from[k], (size_t)n * stride(&s->field[k]));
     swap_arrays(s, capacity, array);
     s->n = n;
     s->generation++;
@@ -115,7 +130,9 @@ static void begin_field(const mps__field *f, int64_t first, int64_t count)
 {
     double *values = *f->data;
     memset((char *)*f->data + (size_t)first * stride(f), 0, (size_t)count * stride(f));
-    for (int64_t k = first * f->components; f->begin != 0 && k < (first + count) * f->components; k++) values[k] = f->begin;
+    for (int64_t k = first * f->components; f->begin != 0 && k < (first + count) * f->components;
+         k++)
+        values[k] = f->begin;
 }
 
 void mps__particles_field_begin(mps__particles *s, const char *name, double value)
@@ -156,10 +173,12 @@ static bool in_order(const mps__particles *s, int64_t count, const int32_t *orde
 }
 
 /* Elements from..to-1 of the new order. A copy of a constant size is an instruction or two, of any other a call. */
-static void gather(char *to, const char *from, const int32_t *order, int64_t first, int64_t last, size_t bytes)
+static void gather(char *to, const char *from, const int32_t *order, int64_t first, int64_t last,
+                   size_t bytes)
 {
-#define GATHER(size) \
-    for (int64_t i = first; i < last; i++) memcpy(to + (size_t)i * (size), from + (size_t)order[i] * (size), (size))
+#define GATHER(size)                       \
+    for (int64_t i = first; i < last; i++) \
+    memcpy(to + (size_t)i * (size), from + (size_t)order[i] * (size), (size))
     if (bytes == 4)
         GATHER(4);
     else if (bytes == 8)
@@ -188,11 +207,13 @@ static void gather_rows(void *argument, int64_t begin, int64_t end)
 static void store_rows(void *argument, int64_t begin, int64_t end)
 {
     const move *m = argument;
-    memcpy(m->data + (size_t)begin * m->bytes, m->scratch + (size_t)begin * m->bytes, (size_t)(end - begin) * m->bytes);
+    memcpy(m->data + (size_t)begin * m->bytes, m->scratch + (size_t)begin * m->bytes,
+           (size_t)(end - begin) * m->bytes);
 }
 
 /* One array through `scratch`, as large as the array. */
-static void permute_field(mps__particles *s, const mps__field *f, int64_t count, const int32_t *order, char *scratch)
+static void permute_field(mps__particles *s, const mps__field *f, int64_t count,
+                          const int32_t *order, char *scratch)
 {
     move m = {.data = *f->data, .scratch = scratch, .order = order, .bytes = stride(f)};
     mps_parallel_rows_least(s->parallel, count, MPS__ROWS_CHEAP, gather_rows, &m);
@@ -205,7 +226,8 @@ mps_status mps__particles_permute(mps__particles *s, int64_t count, const int32_
     if (in_order(s, count, order)) return MPS_OK;
     for (int32_t k = 0; k < s->fields; k++)
         if (stride(&s->field[k]) > largest) largest = stride(&s->field[k]);
-    char *scratch = mps__scratch_take(s->context, s->scratch, 2, s->n, largest); /* 0 and 1 may hold the order */
+    char *scratch = mps__scratch_take(s->context, s->scratch, 2, s->n,
+                                      largest); /* 0 and 1 may hold the order */
     if (!scratch) return MPS_E_NOMEM;
     for (int32_t k = 0; k < s->fields; k++) permute_field(s, &s->field[k], count, order, scratch);
     int32_t *place = (int32_t *)(void *)scratch; /* new place of an old one */
@@ -229,7 +251,9 @@ int32_t mps__part_number(mps__particles *s, const char *name, bool add)
 {
     for (int32_t k = 0; name && k < s->parts; k++)
         if (strcmp(s->part_name[k], name) == 0) return k;
-    if (!add || s->parts == MPS__PARTS_MAX || !mps__name_copy(s->part_name[s->parts], MPS__PART_NAME, name)) return -1;
+    if (!add || s->parts == MPS__PARTS_MAX ||
+        !mps__name_copy(s->part_name[s->parts], MPS__PART_NAME, name))
+        return -1;
     return s->parts++;
 }
 

@@ -36,10 +36,12 @@ typedef struct mps__particles {
     double *area;         /* [n*dim] wetted area vector (walls), in the tank's frame */
     int64_t *id;          /* [n] stable, ascending at creation */
     int32_t *kind, *phase, *part;
-    int32_t *region;  /* [n] MPS_REGION_... of the last step */
-    int32_t *held;    /* [n] 1: its pressure was the least allowed in the last step */
-    int32_t *wall_of; /* [n] place of a dummy's wall particle, -1: none; follows when particles move */
-    int32_t *plate;   /* [n] number of the screen + 1 of walls of thin plates, of walls they stand on, and of dummies: their shadows */
+    int32_t *region; /* [n] MPS_REGION_... of the last step */
+    int32_t *held;   /* [n] 1: its pressure was the least allowed in the last step */
+    int32_t
+        *wall_of; /* [n] place of a dummy's wall particle, -1: none; follows when particles move */
+    int32_t *
+        plate; /* [n] number of the screen + 1 of walls of thin plates, of walls they stand on, and of dummies: their shadows */
     int32_t fields;
     mps__field field[MPS__FIELDS_MAX];
     int32_t parts;
@@ -60,7 +62,8 @@ int64_t mps__particles_append(mps__particles *s, int64_t count);
 /* Keep particle order[k] at place k for k < count; what is not listed is gone. */
 mps_status mps__particles_permute(mps__particles *s, int64_t count, const int32_t *order);
 mps__field *mps__particles_field(mps__particles *s, const char *name);
-mps_status mps__particles_field_add(mps__particles *s, const char *name, int32_t components, size_t size, bool is_public, void **data);
+mps_status mps__particles_field_add(mps__particles *s, const char *name, int32_t components,
+                                    size_t size, bool is_public, void **data);
 /* Values of a field of doubles, of the particles there are and of those to come. */
 void mps__particles_field_begin(mps__particles *s, const char *name, double value);
 /* The last field is gone. */

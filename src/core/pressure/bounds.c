@@ -45,13 +45,16 @@ void mps__bounds_free(mps__bounds *b)
 }
 
 /* Rows of components whose level is free are left out: their pressures are known but for a constant. */
-static mps_status collect(mps__bounds *b, const mps__ppe *e, const mps_stage *s, const mps__ppe_terms *t)
+static mps_status collect(mps__bounds *b, const mps__ppe *e, const mps_stage *s,
+                          const mps__ppe_terms *t)
 {
     b->count = 0;
     for (int64_t r = 0; r < e->n; r++) {
         const int64_t i = e->particle[r];
-        if (t->condition[i] != MPS_ROW_LEAST || e->component[r] >= 0 || (e->law && e->law[r] > 0)) continue;
-        MPS__TRY(mps__grow(b->context, (void **)&b->list, &b->capacity, b->count, b->count + 1, sizeof *b->list));
+        if (t->condition[i] != MPS_ROW_LEAST || e->component[r] >= 0 || (e->law && e->law[r] > 0))
+            continue;
+        MPS__TRY(mps__grow(b->context, (void **)&b->list, &b->capacity, b->count, b->count + 1,
+                           sizeof *b->list));
         const double margin = NEARLY * t->flux->density[i] * s->velocity_scale * s->velocity_scale;
         b->list[b->count++] = (struct mps__bound){r, t->value[i], margin, b->held[i] != 0};
     }
@@ -74,14 +77,16 @@ static int64_t entry(const mps__ppe *e, int64_t r, int32_t c)
 
 static void note(mps__bounds *b, const mps__ppe *e, int64_t row, int64_t place)
 {
-    b->change[b->changes++] = (struct mps__change){place, row, e->rhs[row], e->shift[row], place < 0 ? 0 : e->val[place]};
+    b->change[b->changes++] = (struct mps__change){place, row, e->rhs[row], e->shift[row],
+                                                   place < 0 ? 0 : e->val[place]};
 }
 
 /* Row k of the list becomes p = least. */
 static mps_status pin(mps__bounds *b, mps__ppe *e, const struct mps__bound *k)
 {
     const int64_t r = k->row, wanted = b->changes + 2 * (e->row[r + 1] - e->row[r]) + 1;
-    MPS__TRY(mps__grow(b->context, (void **)&b->change, &b->changes_capacity, b->changes, wanted, sizeof *b->change));
+    MPS__TRY(mps__grow(b->context, (void **)&b->change, &b->changes_capacity, b->changes, wanted,
+                       sizeof *b->change));
     for (int64_t p = e->row[r]; p < e->row[r + 1]; p++) {
         const int32_t c = e->col[p];
         const double kij = -(double)e->val[p];
@@ -132,18 +137,20 @@ static bool choose(mps__bounds *b, const mps__ppe *e)
     return changed;
 }
 
-static mps_status solve_held(mps__bounds *b, mps__solvers *solvers, mps__ppe *e, const mps__effort *effort, mps_ppe_result *result)
+static mps_status solve_held(mps__bounds *b, mps__solvers *solvers, mps__ppe *e,
+                             const mps__effort *effort, mps_ppe_result *result)
 {
     mps_status status = MPS_OK;
     for (int64_t k = 0; k < b->count && status == MPS_OK; k++)
         if (b->list[k].held) status = pin(b, e, &b->list[k]);
-    if (status == MPS_OK) status = mps__solvers_solve_series(solvers, &e->problem, effort, e->p, result);
+    if (status == MPS_OK)
+        status = mps__solvers_solve_series(solvers, &e->problem, effort, e->p, result);
     let_go(b, e);
     return status;
 }
 
-mps_status mps__bounds_solve(mps__bounds *b, mps__solvers *solvers, mps__ppe *e, const mps_stage *s, mps__ppe_terms *t,
-                             mps_ppe_result *result)
+mps_status mps__bounds_solve(mps__bounds *b, mps__solvers *solvers, mps__ppe *e, const mps_stage *s,
+                             mps__ppe_terms *t, mps_ppe_result *result)
 {
     mps_status status = MPS_OK;
     int32_t iterations = 0;

@@ -53,13 +53,15 @@ static inline double pair_factor(const assembly *a, int64_t i, int64_t j)
 {
     const mps_stage *s = a->s;
     if (a->unknown[j] < 0 && a->t->condition[j] != MPS_ROW_FIXED) return 0.0;
-    if (s->kind[i] == MPS_WALL && s->kind[j] == MPS_WALL) return mps_flux_wall_share(a->t->flux, i, j);
+    if (s->kind[i] == MPS_WALL && s->kind[j] == MPS_WALL)
+        return mps_flux_wall_share(a->t->flux, i, j);
     return a->t->region[j] == MPS_REGION_SURFACE ? a->surface : 1.0;
 }
 
 static inline bool is_unknown(const assembly *a, int64_t i)
 {
-    return a->s->kind[i] != MPS_DUMMY && a->t->region[i] < MPS_REGION_SURFACE && a->t->condition[i] != MPS_ROW_FIXED;
+    return a->s->kind[i] != MPS_DUMMY && a->t->region[i] < MPS_REGION_SURFACE &&
+           a->t->condition[i] != MPS_ROW_FIXED;
 }
 
 static double *carve(char **room, int64_t count)
@@ -81,7 +83,8 @@ static mps_status reserve_rows(const assembly *a)
 {
     mps__ppe *e = a->e;
     const int64_t n = e->n, late = e->spare ? 0 : 3 + a->s->dim;
-    char *room = mps__scratch_take(e->context, e->scratch, ROWS, 2 * ((4 + late) * n + 1) + n + a->s->n, sizeof(int32_t));
+    char *room = mps__scratch_take(e->context, e->scratch, ROWS,
+                                   2 * ((4 + late) * n + 1) + n + a->s->n, sizeof(int32_t));
     if (!room) return MPS_E_NOMEM;
     e->diagonal = carve(&room, n);
     e->rhs = carve(&room, n);
@@ -104,7 +107,8 @@ static mps_status reserve_laws(const assembly *a)
     mps__ppe *e = a->e;
     bool any = false;
     e->gas = e->law = NULL;
-    for (int64_t i = 0; i < a->s->n && !any; i++) any = a->t->law[i] > 0 && a->t->equation.gain * a->t->gas[i] > 0 && is_unknown(a, i);
+    for (int64_t i = 0; i < a->s->n && !any; i++)
+        any = a->t->law[i] > 0 && a->t->equation.gain * a->t->gas[i] > 0 && is_unknown(a, i);
     if (!any) return MPS_OK;
     e->gas = mps__scratch_take(e->context, e->scratch, LAWS, 2 * e->n, sizeof *e->gas);
     if (!e->gas) return MPS_E_NOMEM;
@@ -177,10 +181,12 @@ static void sort_row(int32_t *col, float *val, int64_t n)
     }
 }
 
-static inline __attribute__((always_inline)) void fill_row(const int dim, const assembly *all, int64_t r)
+static inline __attribute__((always_inline)) void fill_row(const int dim, const assembly *all,
+                                                           int64_t r)
 {
     mps__ppe *e = all->e;
-    const mps_stage stage = *all->s, *s = &stage; /* copies, so that the pointers in them stay in registers */
+    const mps_stage stage = *all->s,
+                    *s = &stage; /* copies, so that the pointers in them stay in registers */
     const mps_stencil stencil = *all->pairs, *pairs = &stencil;
     const mps_flux flux = *all->t->flux;
     mps__ppe_terms terms = *all->t;
@@ -199,7 +205,8 @@ static inline __attribute__((always_inline)) void fill_row(const int dim, const 
         if (factor == 0) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, pairs, i, k);
         const double rho = mps_flux_density(&flux, i, q.j);
-        const float entry = (float)(a->c * factor * q.w / rho); /* the same from both sides, and in the diagonal */
+        const float entry = (float)(a->c * factor * q.w /
+                                    rho); /* the same from both sides, and in the diagonal */
         const double kij = (double)entry;
         rhs -= kij * (rho * mps_flux_body(&flux, dim, i, q.j, q.d) - mps_flux_jump(&flux, i, q.j));
         const int32_t column = a->unknown[q.j];
@@ -321,7 +328,8 @@ mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps__ppe_ter
     a.unknown = e->unknown;
     MPS__TRY(reserve_entries(e, start_rows(&a)));
     mps_parallel_rows(pairs->parallel, e->n, fill_rows, &a);
-    mps_parallel_rows(pairs->parallel, e->n, note_rows, &a); /* after all rows: it may overwrite terms that they look at */
+    mps_parallel_rows(pairs->parallel, e->n, note_rows,
+                      &a); /* after all rows: it may overwrite terms that they look at */
     const int32_t singular = find_singular(e, e->queue);
     e->problem = (mps_ppe_problem){.struct_size = sizeof e->problem,
                                    .dim = s->dim,

@@ -18,12 +18,14 @@ typedef struct mps__ppe_terms {
 
 typedef struct mps__ppe {
     mps__context *context;
-    mps__scratch own, *scratch; /* where all arrays are: its own, or one shared with others. They last until these take it again */
-    double *spare, *spare_x;    /* NULL, or room [3 particles], [particles*dim] that is free when rows are filled: terms but `value` */
-    int64_t n;                  /* unknowns of the last assembly */
-    int32_t *unknown;           /* [particles] row of a particle, -1: none */
-    int32_t *particle;          /* [n] particle of a row */
-    int64_t *row;               /* [n+1] CSR beside the diagonal */
+    mps__scratch own,
+        *scratch; /* where all arrays are: its own, or one shared with others. They last until these take it again */
+    double *spare,
+        *spare_x; /* NULL, or room [3 particles], [particles*dim] that is free when rows are filled: terms but `value` */
+    int64_t n;    /* unknowns of the last assembly */
+    int32_t *unknown;  /* [particles] row of a particle, -1: none */
+    int32_t *particle; /* [n] particle of a row */
+    int64_t *row;      /* [n+1] CSR beside the diagonal */
     int32_t *col;
     float *val;
     double *diagonal, *rhs, *shift, *weight, *x, *p;

@@ -22,29 +22,36 @@ static int find(char (*names)[MPS__NAME_SIZE], int count, const char *name)
 }
 
 /* MPS_E_NAME with the nearest of the known names; `extra` is one that is in no table, or NULL. */
-static mps_status unknown(mps__context *c, const char *what, char (*names)[MPS__NAME_SIZE], int count, const char *extra, const char *name)
+static mps_status unknown(mps__context *c, const char *what, char (*names)[MPS__NAME_SIZE],
+                          int count, const char *extra, const char *name)
 {
     const char *list[MPS__SOLVERS_KNOWN + 1];
     char hint[MPS__HINT_SIZE];
     for (int k = 0; k < count; k++) list[k] = names[k];
     if (extra) list[count++] = extra;
-    return mps__fail(c, MPS_E_NAME, "no %s is called '%.60s'; %s", what, name, mps__hint(hint, '\'', name, list, count));
+    return mps__fail(c, MPS_E_NAME, "no %s is called '%.60s'; %s", what, name,
+                     mps__hint(hint, '\'', name, list, count));
 }
 
-static mps_status check_new_name(mps__context *c, const char *what, char (*names)[MPS__NAME_SIZE], int count, const char *name)
+static mps_status check_new_name(mps__context *c, const char *what, char (*names)[MPS__NAME_SIZE],
+                                 int count, const char *name)
 {
     MPS__CHECK(c, name && name[0], "a %s needs a name", what);
-    MPS__CHECK(c, strnlen(name, MPS__NAME_SIZE) < MPS__NAME_SIZE, "the name '%.60s...' of a %s is too long; at most %d characters", name,
-               what, MPS__NAME_SIZE - 1);
-    MPS__CHECK(c, find(names, count, name) < 0, "a %s called '%s' is registered already", what, name);
-    MPS__CHECK(c, count < MPS__SOLVERS_KNOWN, "no room for %s '%s': all %d places are taken", what, name, MPS__SOLVERS_KNOWN);
+    MPS__CHECK(c, strnlen(name, MPS__NAME_SIZE) < MPS__NAME_SIZE,
+               "the name '%.60s...' of a %s is too long; at most %d characters", name, what,
+               MPS__NAME_SIZE - 1);
+    MPS__CHECK(c, find(names, count, name) < 0, "a %s called '%s' is registered already", what,
+               name);
+    MPS__CHECK(c, count < MPS__SOLVERS_KNOWN, "no room for %s '%s': all %d places are taken", what,
+               name, MPS__SOLVERS_KNOWN);
     return MPS_OK;
 }
 
 static mps_status check_api(mps__context *c, const char *what, uint32_t api)
 {
     if (api == MPS_PPE_API) return MPS_OK;
-    return mps__fail(c, MPS_E_VERSION, "the %s table has api %u; this library knows %u", what, api, MPS_PPE_API);
+    return mps__fail(c, MPS_E_VERSION, "the %s table has api %u; this library knows %u", what, api,
+                     MPS_PPE_API);
 }
 
 /* ---- registration ---- */
@@ -56,10 +63,14 @@ mps_status mps__solvers_register(mps__solvers *s, const mps_solver_ops *ops)
     MPS__TRY(mps__struct_in(c, "mps_solver_ops", &copy, sizeof copy, ops));
     MPS__TRY(check_api(c, "solver", copy.api));
     MPS__TRY(check_new_name(c, "solver", s->solver_name, s->solvers, copy.name));
-    MPS__CHECK(c, copy.create && copy.solve && copy.destroy, "solver '%s' lacks create, solve or destroy", copy.name);
+    MPS__CHECK(c, copy.create && copy.solve && copy.destroy,
+               "solver '%s' lacks create, solve or destroy", copy.name);
     int k = s->solvers;
-    if (copy.preconditioner && !mps__name_copy(s->default_name[k], MPS__NAME_SIZE, copy.preconditioner))
-        return mps__fail(c, MPS_E_ARG, "the default preconditioner of solver '%s' has an empty or too long name", copy.name);
+    if (copy.preconditioner &&
+        !mps__name_copy(s->default_name[k], MPS__NAME_SIZE, copy.preconditioner))
+        return mps__fail(c, MPS_E_ARG,
+                         "the default preconditioner of solver '%s' has an empty or too long name",
+                         copy.name);
     mps__name_copy(s->solver_name[k], MPS__NAME_SIZE, copy.name);
     copy.struct_size = sizeof copy;
     copy.name = s->solver_name[k];
@@ -75,10 +86,11 @@ mps_status mps__solvers_register_preconditioner(mps__solvers *s, const mps_preco
     mps_preconditioner_ops copy = {0};
     MPS__TRY(mps__struct_in(c, "mps_preconditioner_ops", &copy, sizeof copy, ops));
     MPS__TRY(check_api(c, "preconditioner", copy.api));
-    MPS__TRY(check_new_name(c, "preconditioner", s->preconditioner_name, s->preconditioners, copy.name));
+    MPS__TRY(
+        check_new_name(c, "preconditioner", s->preconditioner_name, s->preconditioners, copy.name));
     MPS__CHECK(c, strcmp(copy.name, "none") != 0, "a preconditioner cannot be called 'none'");
-    MPS__CHECK(c, copy.create && copy.setup && copy.apply && copy.destroy, "preconditioner '%s' lacks create, setup, apply or destroy",
-               copy.name);
+    MPS__CHECK(c, copy.create && copy.setup && copy.apply && copy.destroy,
+               "preconditioner '%s' lacks create, setup, apply or destroy", copy.name);
     int k = s->preconditioners;
     mps__name_copy(s->preconditioner_name[k], MPS__NAME_SIZE, copy.name);
     copy.struct_size = sizeof copy;
@@ -90,8 +102,8 @@ mps_status mps__solvers_register_preconditioner(mps__solvers *s, const mps_preco
 
 /* ---- choice ---- */
 
-static mps_status choose(mps__solvers *s, const char *solver, const char *preconditioner, const mps_solver_ops **ops,
-                         const mps_preconditioner_ops **pc)
+static mps_status choose(mps__solvers *s, const char *solver, const char *preconditioner,
+                         const mps_solver_ops **ops, const mps_preconditioner_ops **pc)
 {
     mps__context *c = s->context;
     MPS__CHECK(c, solver, "solver is NULL; give a name");
@@ -102,10 +114,15 @@ static mps_status choose(mps__solvers *s, const char *solver, const char *precon
     const char *name = preconditioner ? preconditioner : (*ops)->preconditioner;
     if (!name || strcmp(name, "none") == 0) return MPS_OK;
     k = find(s->preconditioner_name, s->preconditioners, name);
-    if (k < 0) return unknown(c, "preconditioner", s->preconditioner_name, s->preconditioners, "none", name);
+    if (k < 0)
+        return unknown(c, "preconditioner", s->preconditioner_name, s->preconditioners, "none",
+                       name);
     *pc = &s->preconditioner[k];
-    MPS__CHECK(c, (*ops)->preconditioner, "solver '%s' uses no preconditioner; give NULL or \"none\" instead of '%s'", solver, name);
-    MPS__CHECK(c, !(*ops)->symmetric || (*pc)->symmetric, "solver '%s' needs a symmetric preconditioner; '%s' is not", solver, name);
+    MPS__CHECK(c, (*ops)->preconditioner,
+               "solver '%s' uses no preconditioner; give NULL or \"none\" instead of '%s'", solver,
+               name);
+    MPS__CHECK(c, !(*ops)->symmetric || (*pc)->symmetric,
+               "solver '%s' needs a symmetric preconditioner; '%s' is not", solver, name);
     return MPS_OK;
 }
 
@@ -128,7 +145,8 @@ mps_status mps__solvers_use(mps__solvers *s, const char *solver, const char *pre
     const mps_status status = choose(s, solver, preconditioner, &ops, &pc);
     if (status < 0 || !ops) return status;
     void *self = ops->user, *pc_self = pc ? pc->user : NULL;
-    if (ops->create(&s->context->allocator, &self)) return mps__fail(s->context, MPS_E_NOMEM, "no memory for solver '%s'", ops->name);
+    if (ops->create(&s->context->allocator, &self))
+        return mps__fail(s->context, MPS_E_NOMEM, "no memory for solver '%s'", ops->name);
     if (pc && pc->create(&s->context->allocator, &pc_self)) {
         ops->destroy(&s->context->allocator, self);
         return mps__fail(s->context, MPS_E_NOMEM, "no memory for preconditioner '%s'", pc->name);
@@ -169,7 +187,8 @@ void mps__solvers_free(mps__solvers *s)
 
 mps_status mps_solver_limits_init(mps_solver_limits *limits, size_t size)
 {
-    return mps__struct_init("mps_solver_limits", limits, size, &default_limits, sizeof default_limits);
+    return mps__struct_init("mps_solver_limits", limits, size, &default_limits,
+                            sizeof default_limits);
 }
 
 mps_status mps__solvers_set_limits(mps__solvers *s, const mps_solver_limits *limits)
@@ -179,10 +198,13 @@ mps_status mps__solvers_set_limits(mps__solvers *s, const mps_solver_limits *lim
     MPS__TRY(mps__struct_in(c, "mps_solver_limits", &copy, sizeof copy, limits));
     if (copy.max_iterations == 0) copy.max_iterations = default_limits.max_iterations;
     if (copy.tolerance == 0) copy.tolerance = default_limits.tolerance;
-    MPS__CHECK(c, copy.max_iterations > 0, "max_iterations is %d; allowed: at least 1, or 0 for the default", copy.max_iterations);
-    MPS__CHECK(c, copy.tolerance > 0 && copy.tolerance < 1, "tolerance is %g; allowed: between 0 and 1, or 0 for the default",
-               copy.tolerance);
-    MPS__CHECK(c, copy.divergence >= 0 && isfinite(copy.divergence), "divergence is %g; allowed: at least 0, finite", copy.divergence);
+    MPS__CHECK(c, copy.max_iterations > 0,
+               "max_iterations is %d; allowed: at least 1, or 0 for the default",
+               copy.max_iterations);
+    MPS__CHECK(c, copy.tolerance > 0 && copy.tolerance < 1,
+               "tolerance is %g; allowed: between 0 and 1, or 0 for the default", copy.tolerance);
+    MPS__CHECK(c, copy.divergence >= 0 && isfinite(copy.divergence),
+               "divergence is %g; allowed: at least 0, finite", copy.divergence);
     copy.struct_size = sizeof copy;
     s->limits = copy;
     return MPS_OK;
@@ -219,7 +241,8 @@ static mps_status status_of(int32_t reason)
 }
 
 /* A plug-in's word is not taken for its residual. */
-static mps_status verify(mps__solvers *s, const mps_ppe_problem *problem, const double *p, mps_ppe_result *result)
+static mps_status verify(mps__solvers *s, const mps_ppe_problem *problem, const double *p,
+                         mps_ppe_result *result)
 {
     double *work = mps__alloc(s->context, problem->n, sizeof *work);
     if (!work) return MPS_E_NOMEM;
@@ -246,7 +269,8 @@ static int apply_in_use(void *self, const double *r, double *z)
 }
 
 /* auxgrid is the default for its speed, and not proved for every matrix of a plug-in: where it fails jacobi solves again. */
-static void solve(mps__solvers *s, const mps_ppe_problem *problem, double *p, mps_ppe_result *result)
+static void solve(mps__solvers *s, const mps_ppe_problem *problem, double *p,
+                  mps_ppe_result *result)
 {
     const mps_preconditioner_ops *spare = &mps__preconditioner_jacobi;
     mps_ppe_result second = {.struct_size = sizeof second};
@@ -263,20 +287,23 @@ static void solve(mps__solvers *s, const mps_ppe_problem *problem, double *p, mp
     if (!s->spare_self && spare->create(&s->context->allocator, &s->spare_self)) return;
     s->use->solve(s->use_self, problem, spare, s->spare_self, p, &second);
     second.struct_size = sizeof second;
-    mps__log(s->context, MPS_LOG_WARNING, "preconditioner '%s' %s after %d iterations; with '%s' the solver %s", s->pc->name,
-             reason_text(result->reason), result->iterations, spare->name, reason_text(second.reason));
+    mps__log(s->context, MPS_LOG_WARNING,
+             "preconditioner '%s' %s after %d iterations; with '%s' the solver %s", s->pc->name,
+             reason_text(result->reason), result->iterations, spare->name,
+             reason_text(second.reason));
     second.iterations += result->iterations;
     second.setup_seconds += result->setup_seconds;
     *result = second;
 }
 
-mps_status mps__solvers_solve(mps__solvers *s, const mps_ppe_problem *problem, double *p, mps_ppe_result *result)
+mps_status mps__solvers_solve(mps__solvers *s, const mps_ppe_problem *problem, double *p,
+                              mps_ppe_result *result)
 {
     return mps__solvers_solve_series(s, problem, &(mps__effort){.looser = 1}, p, result);
 }
 
-mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *problem, const mps__effort *effort, double *p,
-                                     mps_ppe_result *result)
+mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *problem,
+                                     const mps__effort *effort, double *p, mps_ppe_result *result)
 {
     mps_ppe_problem limited = *problem;
     limited.tolerance = effort->looser * s->limits.tolerance;
@@ -297,10 +324,13 @@ mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *pro
         if (status != MPS_W_NOT_CONVERGED) return status;
     }
     return mps__fail(s->context, status,
-                     "solver '%s' with preconditioner '%s' %s: %d iterations of at most %d, residual %.3g (wanted %.3g), "
+                     "solver '%s' with preconditioner '%s' %s: %d iterations of at most %d, "
+                     "residual %.3g (wanted %.3g), "
                      "divergence %.3g (wanted %.3g), %lld unknowns",
-                     s->use->name, s->pc ? s->pc->name : "none", reason_text(result->reason), result->iterations, limited.max_iterations,
-                     result->residual, limited.tolerance, result->divergence, limited.divergence, (long long)problem->n);
+                     s->use->name, s->pc ? s->pc->name : "none", reason_text(result->reason),
+                     result->iterations, limited.max_iterations, result->residual,
+                     limited.tolerance, result->divergence, limited.divergence,
+                     (long long)problem->n);
 }
 
 /* ---- for plug-ins ---- */
@@ -334,7 +364,13 @@ typedef struct check {
     double *r;
 } check;
 
-enum { SQUARES, RHS_SQUARES, POISON, LARGEST, VALUES }; /* a NaN is larger than nothing, so it is carried apart */
+enum {
+    SQUARES,
+    RHS_SQUARES,
+    POISON,
+    LARGEST,
+    VALUES
+}; /* a NaN is larger than nothing, so it is carried apart */
 
 static void check_rows(void *argument, int64_t begin, int64_t end, double *values)
 {
@@ -344,7 +380,8 @@ static void check_rows(void *argument, int64_t begin, int64_t end, double *value
     double *r = c->r, squares = 0, rhs_squares = 0, poison = 0, largest = values[LARGEST];
     for (int64_t i = begin; i < end; i++) {
         double s = problem->diagonal[i] * p[i];
-        for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) s += (double)problem->val[k] * p[problem->col[k]];
+        for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++)
+            s += (double)problem->val[k] * p[problem->col[k]];
         if (law && law[i] > 0) s += problem->gas[i] * (mps_ppe_law(law[i], p[i], NULL) - p[i]);
         r[i] = problem->rhs[i] - s;
         const double d = problem->weight ? fabs(r[i] * problem->weight[i]) : 0;
@@ -359,13 +396,15 @@ static void check_rows(void *argument, int64_t begin, int64_t end, double *value
     values[LARGEST] = largest;
 }
 
-mps_status mps_ppe_check(const mps_ppe_problem *problem, const double *p, double *work, mps_ppe_result *result)
+mps_status mps_ppe_check(const mps_ppe_problem *problem, const double *p, double *work,
+                         mps_ppe_result *result)
 {
     MPS__TRY(mps__struct_check(NULL, "mps_ppe_result", result));
     double values[VALUES] = {0};
     mps_parallel_reduce(problem->parallel, problem->n, check_rows, &(check){problem, p, work},
                         &(mps_parallel_values){LARGEST, VALUES - LARGEST, values});
-    result->residual = sqrt(values[SQUARES]) / (values[RHS_SQUARES] > 0 ? sqrt(values[RHS_SQUARES]) : 1);
+    result->residual = sqrt(values[SQUARES]) /
+                       (values[RHS_SQUARES] > 0 ? sqrt(values[RHS_SQUARES]) : 1);
     result->divergence = values[LARGEST] + values[POISON];
     return MPS_OK;
 }

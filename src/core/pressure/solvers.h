@@ -19,11 +19,13 @@ typedef struct mps__solvers {
     mps_preconditioner_ops preconditioner[MPS__SOLVERS_KNOWN];
     char solver_name[MPS__SOLVERS_KNOWN][MPS__NAME_SIZE];
     char preconditioner_name[MPS__SOLVERS_KNOWN][MPS__NAME_SIZE];
-    char default_name[MPS__SOLVERS_KNOWN][MPS__NAME_SIZE]; /* default preconditioner of each solver */
-    const mps_solver_ops *use;                             /* in use */
-    const mps_preconditioner_ops *pc;                      /* in use, or NULL */
+    char default_name[MPS__SOLVERS_KNOWN]
+                     [MPS__NAME_SIZE]; /* default preconditioner of each solver */
+    const mps_solver_ops *use;         /* in use */
+    const mps_preconditioner_ops *pc;  /* in use, or NULL */
     void *use_self, *pc_self;
-    void *spare_self; /* of the preconditioner that steps in for one that fails, made when it is needed; NULL before */
+    void *
+        spare_self; /* of the preconditioner that steps in for one that fails, made when it is needed; NULL before */
     mps_solver_limits limits;
     bool again; /* of the present call's effort */
     bool ready; /* the preconditioner is set up for the present series */
@@ -32,10 +34,13 @@ typedef struct mps__solvers {
 /* How one matrix of a series is solved. */
 typedef struct mps__effort {
     double looser; /* factor of the tolerances, >= 1 */
-    bool again;    /* not the first: it has the rows and the diagonal of the one before, whose preconditioner is kept */
+    bool
+        again; /* not the first: it has the rows and the diagonal of the one before, whose preconditioner is kept */
 } mps__effort;
 
-mps_status mps__solvers_init(mps__solvers *s, mps__context *context); /* registers the built-ins, uses sundials.pcg */
+mps_status
+mps__solvers_init(mps__solvers *s,
+                  mps__context *context); /* registers the built-ins, uses sundials.pcg */
 void mps__solvers_free(mps__solvers *s);
 mps_status mps__solvers_register(mps__solvers *s, const mps_solver_ops *ops);
 mps_status mps__solvers_register_preconditioner(mps__solvers *s, const mps_preconditioner_ops *ops);
@@ -43,8 +48,9 @@ mps_status mps__solvers_use(mps__solvers *s, const char *solver, const char *pre
 mps_status mps__solvers_set_limits(mps__solvers *s, const mps_solver_limits *limits);
 /* Solve with the pair in use, to the limits of `s` whatever `problem` says about them. MPS_OK, MPS_W_NOT_CONVERGED, or
  * MPS_E_SOLVER / MPS_E_NOMEM with the numbers in the text. */
-mps_status mps__solvers_solve(mps__solvers *s, const mps_ppe_problem *problem, double *p, mps_ppe_result *result);
-mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *problem, const mps__effort *effort, double *p,
-                                     mps_ppe_result *result);
+mps_status mps__solvers_solve(mps__solvers *s, const mps_ppe_problem *problem, double *p,
+                              mps_ppe_result *result);
+mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *problem,
+                                     const mps__effort *effort, double *p, mps_ppe_result *result);
 
 #endif

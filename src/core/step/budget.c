@@ -10,15 +10,16 @@ typedef struct terms {
 } terms;
 
 /* Define `name`, which adds the terms of one kind of particles; each has its own loop, in which its function is inlined. */
-#define ADD_TERMS(name, kind_of_particles, term)                                           \
-    static void name(void *argument, int64_t begin, int64_t end, double *sum)              \
-    {                                                                                      \
-        const terms *k = argument;                                                         \
-        for (int64_t i = begin; i < end; i++)                                              \
+#define ADD_TERMS(name, kind_of_particles, term)                                             \
+    static void name(void *argument, int64_t begin, int64_t end, double *sum)                \
+    {                                                                                        \
+        const terms *k = argument;                                                           \
+        for (int64_t i = begin; i < end; i++)                                                \
             if (k->w->particles.kind[i] == (kind_of_particles)) term(k->w, k->data, i, sum); \
     }
 
-static void sum_terms(const mps__world *w, mps_reduce_fn add, const void *data, int32_t count, double *sums)
+static void sum_terms(const mps__world *w, mps_reduce_fn add, const void *data, int32_t count,
+                      double *sums)
 {
     terms k = {w, data};
     mps_parallel_sum(&w->pool.parallel, w->particles.n, count, add, &k, sums);
@@ -26,7 +27,8 @@ static void sum_terms(const mps__world *w, mps_reduce_fn add, const void *data, 
 
 static double mass(const mps__world *w, int64_t i)
 {
-    return w->particles.rho[i] * (w->setup.dim == 2 ? w->setup.dp * w->setup.dp : w->setup.dp * w->setup.dp * w->setup.dp);
+    return w->particles.rho[i] * (w->setup.dim == 2 ? w->setup.dp * w->setup.dp
+                                                    : w->setup.dp * w->setup.dp * w->setup.dp);
 }
 
 static void energy_term(const mps__world *w, const void *data, int64_t i, double *sum)
@@ -55,8 +57,10 @@ typedef struct acceleration {
 static void push_term(const mps__world *w, const void *data, int64_t i, double *sum)
 {
     const acceleration *k = data;
-    const double *b = k->a + i * w->setup.dim, *u = w->particles.u + i * w->setup.dim, m = mass(w, i);
-    sum[0] += m * k->dt * (mps__dot(b, u, w->setup.dim) + 0.5 * k->dt * mps__dot(b, b, w->setup.dim));
+    const double *b = k->a + i * w->setup.dim, *u = w->particles.u + i * w->setup.dim,
+                 m = mass(w, i);
+    sum[0] += m * k->dt *
+              (mps__dot(b, u, w->setup.dim) + 0.5 * k->dt * mps__dot(b, b, w->setup.dim));
     sum[1] += m;
     for (int d = 0; d < w->setup.dim; d++) {
         sum[2 + d] += m * u[d];
@@ -93,12 +97,14 @@ typedef struct tank_move {
 } tank_move;
 
 /* Add half the velocity from one pose to another. Its turn is the part of (R1 R0^T - 1)/dt without strain, of what the walls really do. */
-static void add_half_move(const mps__motion *m, const mps__pose *from, const mps__pose *to, double dt, tank_move *k)
+static void add_half_move(const mps__motion *m, const mps__pose *from, const mps__pose *to,
+                          double dt, tank_move *k)
 {
     double c0[3] = {0}, c1[3] = {0}, turn[9] = {0};
     mps__motion_point(m, from, m->centre, c0, NULL, NULL);
     mps__motion_point(m, to, m->centre, c1, NULL, NULL);
-    for (int r = 0; r < 9; r++) turn[r] = mps__dot(to->rotation + r / 3 * 3, from->rotation + r % 3 * 3, 3);
+    for (int r = 0; r < 9; r++)
+        turn[r] = mps__dot(to->rotation + r / 3 * 3, from->rotation + r % 3 * 3, 3);
     for (int d = 0; d < 3; d++) {
         const int e = (d + 1) % 3, f = (d + 2) % 3;
         k->v[d] += 0.5 * (c1[d] - c0[d]) / dt;
@@ -128,9 +134,12 @@ static void wall_work_term(const mps__world *w, const void *data, int64_t i, dou
     const tank_move *k = data;
     const double *o = k->omega, *a = k->a + i * w->setup.dim;
     double r[3] = {0};
-    for (int d = 0; d < w->setup.dim; d++) r[d] = w->particles.x[i * w->setup.dim + d] - k->centre[d];
-    const double spin[3] = {o[1] * r[2] - o[2] * r[1], o[2] * r[0] - o[0] * r[2], o[0] * r[1] - o[1] * r[0]};
-    for (int d = 0; d < w->setup.dim; d++) sum[0] += mass(w, i) * k->dt * a[d] * (k->v[d] + spin[d]);
+    for (int d = 0; d < w->setup.dim; d++)
+        r[d] = w->particles.x[i * w->setup.dim + d] - k->centre[d];
+    const double spin[3] = {o[1] * r[2] - o[2] * r[1], o[2] * r[0] - o[0] * r[2],
+                            o[0] * r[1] - o[1] * r[0]};
+    for (int d = 0; d < w->setup.dim; d++)
+        sum[0] += mass(w, i) * k->dt * a[d] * (k->v[d] + spin[d]);
 }
 
 ADD_TERMS(add_wall_work, MPS_FLUID, wall_work_term)
@@ -146,7 +155,8 @@ double mps__budget_wall_work(const mps__world *w, const mps__pose *end, const do
 
 static void lift_term(const mps__world *w, const void *data, int64_t i, double *sum)
 {
-    sum[0] += mass(w, i) * mps__dot(w->setup.g, (const double *)data + i * w->setup.dim, w->setup.dim);
+    sum[0] += mass(w, i) *
+              mps__dot(w->setup.g, (const double *)data + i * w->setup.dim, w->setup.dim);
 }
 
 ADD_TERMS(add_lift, MPS_FLUID, lift_term)
@@ -163,7 +173,8 @@ void mps__budget_book_added(const mps__world *w, mps__budget *b)
     mps__bulk now;
     mps__budget_sum(w, &now);
     b->added += now.kinetic + now.potential - (b->last.kinetic + b->last.potential);
-    for (int d = 0; d < w->setup.dim; d++) b->momentum.added[d] += now.momentum[d] - b->last.momentum[d];
+    for (int d = 0; d < w->setup.dim; d++)
+        b->momentum.added[d] += now.momentum[d] - b->last.momentum[d];
     b->last = now;
 }
 

@@ -17,7 +17,8 @@ static mps_status choose_dt(mps__world *w, mps_stage *s, double *chosen)
     double dt = INFINITY, nu = 0;
     const double speed = mps__world_speed(w);
     for (int k = 0; k < MPS__PHASES; k++)
-        if (w->setup.phase_defined[k]) nu = fmax(nu, w->setup.phase_viscosity[k] / w->setup.phase_density[k]);
+        if (w->setup.phase_defined[k])
+            nu = fmax(nu, w->setup.phase_viscosity[k] / w->setup.phase_density[k]);
     if (speed > 0) dt = least(dt, c->cfl * w->setup.dp / speed);
     dt = least(dt, c->gravity * w->setup.dp / w->setup.velocity_scale);
     if (nu > 0) dt = least(dt, c->viscous * w->setup.dp * w->setup.dp / nu);
@@ -62,14 +63,19 @@ mps_status mps__world_limit_step(mps__world *w, mps_stage *s, double dt_max, dou
         MPS__TRY(follow_walls(w, longest, &dt));
         if (!(dt >= c->dt_min))
             return mps__fail(w->context, MPS_E_DIVERGED,
-                             "the time step fell to %g s at t = %.9g s, below dt_min = %g s; the largest speed is %g m/s%s", dt, w->state.t,
-                             c->dt_min, mps__world_speed(w), w->motion.fn ? ", or that of the walls in this step is too large" : "");
+                             "the time step fell to %g s at t = %.9g s, below dt_min = %g s; the "
+                             "largest speed is %g m/s%s",
+                             dt, w->state.t, c->dt_min, mps__world_speed(w),
+                             w->motion.fn ? ", or that of the walls in this step is too large"
+                                          : "");
     }
     const double step = fmin(dt, longest);
     *planned = dt <= longest ? dt : 0;
     const double steps = ceil(dt_max / step * (1 - 1e-6));
     s->dt = w->ending && steps <= SHARED_STEPS ? dt_max / steps : step;
     if (!(w->state.t + s->dt > w->state.t))
-        return mps__fail(w->context, MPS_E_DIVERGED, "the time step is %g s, too short to change the time, %g s", s->dt, w->state.t);
+        return mps__fail(w->context, MPS_E_DIVERGED,
+                         "the time step is %g s, too short to change the time, %g s", s->dt,
+                         w->state.t);
     return MPS_OK;
 }

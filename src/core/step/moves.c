@@ -24,11 +24,13 @@ static double moved(const mps__world *w, const mps__pose *next, int64_t i)
 static mps_status jumped(const mps__world *w, const mps__pose *next, double dt, int64_t i)
 {
     const double *x = w->work.x0 + i * w->setup.dim, distance = moved(w, next, i);
-    return mps__fail(w->context, MPS_E_DIVERGED,
-                     "t = %.9g s: fluid particle %lld at (%g, %g, %g) m would move %g m in a step of %g s, at %g m/s; allowed: at most "
-                     "%g m, as deep as walls and their dummies are. Take a shorter step, or an adaptive one",
-                     w->state.t, (long long)w->particles.id[i], x[0], x[1], w->setup.dim == 3 ? x[2] : 0, distance, dt, distance / dt,
-                     limit_of(w));
+    return mps__fail(
+        w->context, MPS_E_DIVERGED,
+        "t = %.9g s: fluid particle %lld at (%g, %g, %g) m would move %g m in a step of %g s, at "
+        "%g m/s; allowed: at most "
+        "%g m, as deep as walls and their dummies are. Take a shorter step, or an adaptive one",
+        w->state.t, (long long)w->particles.id[i], x[0], x[1], w->setup.dim == 3 ? x[2] : 0,
+        distance, dt, distance / dt, limit_of(w));
 }
 
 /* Steps that follow the speed never get there, unless a stranger's model pushes. */
@@ -36,7 +38,8 @@ static bool may_jump(const mps__world *w)
 {
     const mps_time_control *c = &w->setup.control;
     bool foreign = false;
-    for (int32_t m = 0; m < w->models.active; m++) foreign = foreign || mps__models_foreign(&w->models, &w->models.on[m]);
+    for (int32_t m = 0; m < w->models.active; m++)
+        foreign = foreign || mps__models_foreign(&w->models, &w->models.on[m]);
     return c->dt > 0 || c->cfl <= 0 || c->cfl > 1 || foreign;
 }
 
@@ -66,14 +69,15 @@ mps_status mps__world_check_moves(mps__world *w, const mps__pose *next, double d
     ways k = {w, next, dt, limit_of(w)};
     double v[3] = {0, 0, -INFINITY};
     if (!may_jump(w)) return MPS_OK;
-    mps_parallel_reduce(&w->pool.parallel, w->particles.n, way_rows, &k, &(mps_parallel_values){1, 2, v});
+    mps_parallel_reduce(&w->pool.parallel, w->particles.n, way_rows, &k,
+                        &(mps_parallel_values){1, 2, v});
     if (v[0] > 0 && !isinf(v[2])) return jumped(w, next, dt, (int64_t)-v[2]);
     if (w->setup.control.dt > 0 && v[1] > w->setup.dp && !w->state.moves_told) {
         w->state.moves_told = true;
-        mps__log(
-            w->context, MPS_LOG_WARNING,
-            "t = %.9g s: in a fixed step of %g s fluid moves up to %g m, more than a spacing of %g m: the step is too long for its speed",
-            w->state.t, dt, v[1], w->setup.dp);
+        mps__log(w->context, MPS_LOG_WARNING,
+                 "t = %.9g s: in a fixed step of %g s fluid moves up to %g m, more than a spacing "
+                 "of %g m: the step is too long for its speed",
+                 w->state.t, dt, v[1], w->setup.dp);
     }
     return MPS_OK;
 }
@@ -124,7 +128,8 @@ static void result_rows(void *argument, int64_t begin, int64_t end, double *v)
     for (int64_t i = begin; i < end; i++) {
         const double *u = s->u + i * w->setup.dim;
         const double speed = sqrt(mps__dot(u, u, w->setup.dim));
-        if (!(isfinite(speed) && speed <= w->setup.speed_limit && mps__finite(s->x + i * w->setup.dim, w->setup.dim) && isfinite(s->p[i]))) {
+        if (!(isfinite(speed) && speed <= w->setup.speed_limit &&
+              mps__finite(s->x + i * w->setup.dim, w->setup.dim) && isfinite(s->p[i]))) {
             if (v[2] < -(double)i) v[2] = -(double)i;
         } else if (s->kind[i] == MPS_FLUID) {
             v[0] = speed > v[0] ? speed : v[0];
@@ -134,7 +139,8 @@ static void result_rows(void *argument, int64_t begin, int64_t end, double *v)
 }
 
 /* NaN and speeds beyond every physical range stop the run, with the particle and its place. */
-mps_status mps__world_check_result(const mps__world *w, const mps_stage *s, bool arrived, mps_step_info *info)
+mps_status mps__world_check_result(const mps__world *w, const mps_stage *s, bool arrived,
+                                   mps_step_info *info)
 {
     result k = {w, 0};
     double v[3] = {0, 0, -INFINITY};
@@ -146,10 +152,11 @@ mps_status mps__world_check_result(const mps__world *w, const mps_stage *s, bool
     info->cfl = v[0] * s->dt / s->dp;
     if (isinf(v[2])) return MPS_OK;
     const int64_t worst = (int64_t)-v[2];
-    const double *u = w->particles.u + worst * s->dim, *x = (arrived ? w->work.x0 : w->particles.x) + worst * s->dim;
-    return mps__fail(
-        w->context, MPS_E_DIVERGED,
-        "t = %.9g s: particle %lld at (%g, %g, %g) m got velocity (%g, %g, %g) m/s and pressure %g Pa; allowed: finite, at most %g m/s",
-        s->t, (long long)s->id[worst], x[0], x[1], s->dim == 3 ? x[2] : 0, u[0], u[1], s->dim == 3 ? u[2] : 0, w->particles.p[worst],
-        w->setup.speed_limit);
+    const double *u = w->particles.u + worst * s->dim,
+                 *x = (arrived ? w->work.x0 : w->particles.x) + worst * s->dim;
+    return mps__fail(w->context, MPS_E_DIVERGED,
+                     "t = %.9g s: particle %lld at (%g, %g, %g) m got velocity (%g, %g, %g) m/s "
+                     "and pressure %g Pa; allowed: finite, at most %g m/s",
+                     s->t, (long long)s->id[worst], x[0], x[1], s->dim == 3 ? x[2] : 0, u[0], u[1],
+                     s->dim == 3 ? u[2] : 0, w->particles.p[worst], w->setup.speed_limit);
 }

@@ -8,8 +8,11 @@ static const double above_face = 1e-5, off_plane = 1e-2;
 
 static void wall_sight(const mps__world *w, int64_t i, double at[3])
 {
-    const double *area = w->particles.area + i * w->setup.dim, size = sqrt(mps__dot(area, area, w->setup.dim));
-    for (int d = 0; d < w->setup.dim; d++) at[d] = w->particles.ref[i * w->setup.dim + d] + (size > 0 ? above_face * w->setup.dp * area[d] / size : 0);
+    const double *area = w->particles.area + i * w->setup.dim,
+                 size = sqrt(mps__dot(area, area, w->setup.dim));
+    for (int d = 0; d < w->setup.dim; d++)
+        at[d] = w->particles.ref[i * w->setup.dim + d] +
+                (size > 0 ? above_face * w->setup.dp * area[d] / size : 0);
 }
 
 /* Fluid in the very plane of a plate, beyond its edge, would see both of its faces: it is put on one side. */
@@ -18,7 +21,8 @@ static void fluid_sight(const mps__world *w, const double *x, double at[3])
     mps__motion_to_tank(&w->motion, &w->motion.now, x, at);
     for (int32_t k = 0; k < w->lists.screens.count; k++) {
         const mps__screen *s = &w->lists.screens.list[k];
-        const double height = mps__screen_height(s, at), least = height < 0 ? -off_plane * w->setup.dp : off_plane * w->setup.dp;
+        const double height = mps__screen_height(s, at),
+                     least = height < 0 ? -off_plane * w->setup.dp : off_plane * w->setup.dp;
         if (fabs(height) >= fabs(least)) continue;
         for (int d = 0; d < w->setup.dim; d++) at[d] += (least - height) * s->normal[d];
     }
@@ -39,7 +43,8 @@ static void sight(const mps__world *w, int64_t i, double at[3])
 /* Near enough to be, until the next search, the partner of a particle or of a shadow beyond some screen. */
 static bool near_screen(const mps__world *w, const double *X)
 {
-    const double depth = fmax(3 * w->setup.dp, w->setup.re_far), reach = w->setup.re_far + depth + w->lists.neighbours.skin;
+    const double depth = fmax(3 * w->setup.dp, w->setup.re_far),
+                 reach = w->setup.re_far + depth + w->lists.neighbours.skin;
     for (int32_t k = 0; k < w->lists.screens.count; k++)
         if (mps__screen_distance(&w->lists.screens.list[k], X) < reach) return true;
     return false;
@@ -51,7 +56,8 @@ void mps__plates_set_active(mps__world *w)
     mps__screens *p = &w->lists.screens;
     for (int32_t k = 0; k < p->count; k++) p->list[k].active = false;
     for (int64_t i = 0; i < s->n; i++)
-        if (s->plate[i] > 0 && s->kind[i] == MPS_WALL && s->part[i] == p->list[s->plate[i] - 1].part)
+        if (s->plate[i] > 0 && s->kind[i] == MPS_WALL &&
+            s->part[i] == p->list[s->plate[i] - 1].part)
             p->list[s->plate[i] - 1].active = true;
 }
 
@@ -69,7 +75,8 @@ mps_status mps__plates_find(mps__world *w)
         mps__screens_sides(p, &seer);
         p->slot[i] = -1;
         if (!near_screen(w, seer.at)) continue;
-        MPS__TRY(mps__grow(w->context, (void **)&p->seer, &p->seer_capacity, p->seers, p->seers + 1, sizeof seer));
+        MPS__TRY(mps__grow(w->context, (void **)&p->seer, &p->seer_capacity, p->seers, p->seers + 1,
+                           sizeof seer));
         p->slot[i] = (int32_t)p->seers;
         p->seer[p->seers++] = seer;
     }
@@ -94,9 +101,11 @@ void mps__plates_look(mps__world *w)
 }
 
 /* Back to the height it had, with the velocity along the plate. */
-static void stop(mps__world *w, const mps__pose *end, int64_t i, const mps__screen *s, double height, double X[3])
+static void stop(mps__world *w, const mps__pose *end, int64_t i, const mps__screen *s,
+                 double height, double X[3])
 {
-    double *x = w->particles.x + i * w->setup.dim, *u = w->particles.u + i * w->setup.dim, n[3], v[3], approach = 0;
+    double *x = w->particles.x + i * w->setup.dim, *u = w->particles.u + i * w->setup.dim, n[3],
+           v[3], approach = 0;
     const double back = height - mps__screen_height(s, X);
     for (int d = 0; d < w->setup.dim; d++) X[d] += back * s->normal[d];
     mps__motion_point(&w->motion, end, X, x, v, NULL);
@@ -136,13 +145,20 @@ bool mps__plates_hide(const mps__world *w, const double *X, int64_t i)
 int32_t mps__plates_part(const mps__world *w, int64_t i, int d)
 {
     const int32_t plate = w->particles.plate[i];
-    if (plate == 0 || w->lists.screens.list[plate - 1].axis != d || w->particles.area[i * w->setup.dim + d] == 0) return -1;
+    if (plate == 0 || w->lists.screens.list[plate - 1].axis != d ||
+        w->particles.area[i * w->setup.dim + d] == 0)
+        return -1;
     return w->lists.screens.list[plate - 1].part;
 }
 
 double mps__plates_share(const mps__world *w, int64_t i)
 {
     const mps__particles *s = &w->particles;
-    if (s->plate[i] == 0 || s->kind[i] != MPS_WALL || w->lists.screens.list[s->plate[i] - 1].columns > 1) return 1;
-    return mps__dot(s->area + i * w->setup.dim, w->lists.screens.list[s->plate[i] - 1].normal, w->setup.dim) != 0 ? 0.5 : 1;
+    if (s->plate[i] == 0 || s->kind[i] != MPS_WALL ||
+        w->lists.screens.list[s->plate[i] - 1].columns > 1)
+        return 1;
+    return mps__dot(s->area + i * w->setup.dim, w->lists.screens.list[s->plate[i] - 1].normal,
+                    w->setup.dim) != 0
+               ? 0.5
+               : 1;
 }

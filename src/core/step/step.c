@@ -47,7 +47,8 @@ static mps_status look_around(mps__step *q)
     MPS__TRY(mps__step_begin(q));
     MPS__TRY(mps__step_run(q, MPS_CLASSIFY));
     MPS__TRY(mps__step_run(q, MPS_PREPARE));
-    q->info.surface = mps__parallel_count(&w->pool.parallel, w->particles.n, on_surface, &w->particles);
+    q->info.surface = mps__parallel_count(&w->pool.parallel, w->particles.n, on_surface,
+                                          &w->particles);
     return MPS_OK;
 }
 
@@ -59,14 +60,16 @@ static void predict_rows(void *step, int64_t begin, int64_t end)
     double *u = q->w->particles.u;
     for (int64_t i = begin; i < end; i++)
         if (s->kind[i] == MPS_FLUID)
-            for (int d = 0; d < s->dim; d++) u[i * s->dim + d] += s->dt * (a[i * s->dim + d] + s->g[d]);
+            for (int d = 0; d < s->dim; d++)
+                u[i * s->dim + d] += s->dt * (a[i * s->dim + d] + s->g[d]);
 }
 
 /* u* = u + dt (a + g). Z14 (9). */
 static mps_status predict(mps__step *q)
 {
     mps__world *w = q->w;
-    mps__parallel_zero(&w->pool.parallel, &(mps__block){w->work.motion, q->stage.n * w->setup.dim}, 1);
+    mps__parallel_zero(&w->pool.parallel, &(mps__block){w->work.motion, q->stage.n * w->setup.dim},
+                       1);
     MPS__TRY(mps__step_run(q, MPS_FORCE));
     mps__step_book_forces(q);
     mps_parallel_rows(&w->pool.parallel, q->stage.n, predict_rows, q);
@@ -79,7 +82,9 @@ static void spread_gain(mps__step *q)
 {
     double *gain = &q->terms.equation.gain;
     const double dt = q->stage.dt, wanted = dt * (1 - *gain) / *gain;
-    q->spread = q->w->state.spread > 0 ? q->w->state.spread + SPREAD_SHARE * (wanted - q->w->state.spread) : wanted;
+    q->spread = q->w->state.spread > 0
+                    ? q->w->state.spread + SPREAD_SHARE * (wanted - q->w->state.spread)
+                    : wanted;
     *gain = dt / (dt + q->spread);
 }
 
@@ -90,7 +95,8 @@ static mps_status check_laws(const mps__step *q)
     for (int64_t i = 0; i < q->stage.n && !w->solvers.use->nonlinear; i++)
         if (q->terms.law[i] > 0)
             return mps__fail(w->context, MPS_E_STATE,
-                             "model '%s' makes the pressure equation nonlinear, and solver '%s' is for linear ones: choose "
+                             "model '%s' makes the pressure equation nonlinear, and solver '%s' is "
+                             "for linear ones: choose "
                              "'sundials.kinsol'",
                              mps__host_writer(&w->host, MPS__GAS_LAW), w->solvers.use->name);
     return MPS_OK;
@@ -103,7 +109,9 @@ static void note_level(mps__step *q)
     if (!w->ppe.level_free || w->state.level_told) return;
     w->state.level_told = true;
     mps__log(w->context, MPS_LOG_INFO,
-             "t = %.9g s: no surface, fixed pressure or compressible phase gives the pressures a level; their mean is zero", q->stage.t);
+             "t = %.9g s: no surface, fixed pressure or compressible phase gives the pressures a "
+             "level; their mean is zero",
+             q->stage.t);
 }
 
 static mps_status solve(mps__step *q, mps_ppe_result *result)
@@ -112,12 +120,15 @@ static mps_status solve(mps__step *q, mps_ppe_result *result)
     w->bounds.held = w->particles.held;
     w->bounds.solves = 0;
     if (w->ppe.n == 0) return MPS_OK;
-    const mps_status status = mps__bounds_solve(&w->bounds, &w->solvers, &w->ppe, &q->stage, &q->terms, result);
+    const mps_status status = mps__bounds_solve(&w->bounds, &w->solvers, &w->ppe, &q->stage,
+                                                &q->terms, result);
     /* a NaN of the prediction has a particle and a place */
     if (status == MPS_E_SOLVER) MPS__TRY(mps__world_check_result(w, &q->stage, q->moved, &q->info));
-    if (status < 0) return mps__fail(w->context, status, "t = %.9g s: %.400s", q->stage.t, w->context->error);
+    if (status < 0)
+        return mps__fail(w->context, status, "t = %.9g s: %.400s", q->stage.t, w->context->error);
     q->not_converged = status == MPS_W_NOT_CONVERGED;
-    if (q->not_converged) mps__log(w->context, MPS_LOG_WARNING, "t = %.9g s: %.400s", q->stage.t, w->context->error);
+    if (q->not_converged)
+        mps__log(w->context, MPS_LOG_WARNING, "t = %.9g s: %.400s", q->stage.t, w->context->error);
     return MPS_OK;
 }
 
@@ -155,7 +166,8 @@ static void push_rows(void *step, int64_t begin, int64_t end)
     const double *a = q->w->work.motion;
     double *u = q->w->particles.u;
     for (int64_t i = begin; i < end; i++)
-        for (int64_t k = i * s->dim; k < (i + 1) * s->dim; k++) u[k] += s->kind[i] == MPS_FLUID ? s->dt * a[k] : 0;
+        for (int64_t k = i * s->dim; k < (i + 1) * s->dim; k++)
+            u[k] += s->kind[i] == MPS_FLUID ? s->dt * a[k] : 0;
 }
 
 /* r = r + dt u + shift; solids go where the tank will be. The old positions are kept. */
@@ -219,7 +231,8 @@ static void commit(mps__step *q)
     w->motion.now = q->pose;
     mps__parallel_copy(&w->pool.parallel, w->particles.load, w->work.load, w->particles.n);
     w->info.separated = 0;
-    for (int64_t i = 0; i < w->particles.n; i++) w->info.separated += w->particles.held[i] = q->terms.condition[i] == MPS__ROW_HELD;
+    for (int64_t i = 0; i < w->particles.n; i++)
+        w->info.separated += w->particles.held[i] = q->terms.condition[i] == MPS__ROW_HELD;
     w->state.jump = q->jump;
     w->state.spread = q->spread;
     w->state.budget = q->budget;
@@ -274,11 +287,15 @@ static bool any_fluid(const mps__world *w)
 mps_status mps__world_step(mps__world *w, double dt_max)
 {
     mps__step q = {.w = w, .clock = mps__clock()};
-    if (!any_fluid(w)) return mps__fail(w->context, MPS_E_STATE, "there is no fluid particle to step");
+    if (!any_fluid(w))
+        return mps__fail(w->context, MPS_E_STATE, "there is no fluid particle to step");
     w->host.motion = &w->motion;
     w->host.next = NULL;
     MPS__TRY(mps__plan_make(&w->host.plan, &w->models));
-    mps__budget_update(w, &w->state.budget); /* what has come, changed or gone since the last step, whatever becomes of this one */
+    mps__budget_update(
+        w,
+        &w->state
+             .budget); /* what has come, changed or gone since the last step, whatever becomes of this one */
     MPS__TRY(mps__world_neighbours(w));
     const int32_t start_pending = w->state.start_pending;
     double planned = 0;
@@ -297,7 +314,8 @@ mps_status mps__world_step(mps__world *w, double dt_max)
 #ifdef MPS_CHECKED
     mps__guard_poison(&w->host);
 #endif
-    if (planned > 0) w->state.dt_previous = planned; /* a step cut short says nothing about the next */
+    if (planned > 0)
+        w->state.dt_previous = planned; /* a step cut short says nothing about the next */
     end_stage(&q, MPS_STAGE_CORRECT);
     w->info.seconds[MPS_STAGE_CORRECT] = q.info.seconds[MPS_STAGE_CORRECT];
     return q.not_converged ? MPS_W_NOT_CONVERGED : MPS_OK;

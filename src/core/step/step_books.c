@@ -37,7 +37,8 @@ void mps__step_book_collisions(mps__step *q)
     mps__bulk after;
     mps__budget_sum(q->w, &after);
     q->budget.collision += q->bulk.kinetic - after.kinetic;
-    for (int d = 0; d < q->w->setup.dim; d++) q->budget.momentum.collision[d] += after.momentum[d] - q->bulk.momentum[d];
+    for (int d = 0; d < q->w->setup.dim; d++)
+        q->budget.momentum.collision[d] += after.momentum[d] - q->bulk.momentum[d];
     q->bulk = after;
 }
 
@@ -46,7 +47,8 @@ void mps__step_book_shift(mps__step *q)
     mps__bulk after;
     mps__budget_sum(q->w, &after);
     q->budget.shift += q->bulk.kinetic - after.kinetic + mps__budget_lift(q->w, q->w->work.motion);
-    for (int d = 0; d < q->w->setup.dim; d++) q->budget.momentum.shift[d] += after.momentum[d] - q->bulk.momentum[d];
+    for (int d = 0; d < q->w->setup.dim; d++)
+        q->budget.momentum.shift[d] += after.momentum[d] - q->bulk.momentum[d];
 }
 
 void mps__step_stop_at_plates(mps__step *q)
@@ -57,6 +59,8 @@ void mps__step_stop_at_plates(mps__step *q)
     mps__budget_sum(w, &moved);
     mps__plates_stop(w, &q->pose);
     mps__budget_sum(w, &stopped);
-    q->budget.collision += (moved.kinetic - stopped.kinetic) + (moved.potential - stopped.potential);
-    for (int d = 0; d < w->setup.dim; d++) q->budget.momentum.collision[d] += stopped.momentum[d] - moved.momentum[d];
+    q->budget.collision += (moved.kinetic - stopped.kinetic) +
+                           (moved.potential - stopped.potential);
+    for (int d = 0; d < w->setup.dim; d++)
+        q->budget.momentum.collision[d] += stopped.momentum[d] - moved.momentum[d];
 }

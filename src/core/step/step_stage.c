@@ -57,17 +57,18 @@ static void set_terms(mps__step *q)
 {
     const mps__world *w = q->w;
     const mps__work *k = &w->work;
-    q->terms = (mps__ppe_terms){.equation = {.struct_size = sizeof(mps_equation), .radius = MPS_FAR, .gain = 1.0},
-                                .flux = &q->flux,
-                                .region = w->particles.region,
-                                .density = w->particles.rho,
-                                .pressure = w->particles.p,
-                                .source = k->source,
-                                .shift = k->shift,
-                                .value = k->value,
-                                .gas = k->gas,
-                                .law = k->law,
-                                .condition = k->condition};
+    q->terms = (mps__ppe_terms){
+        .equation = {.struct_size = sizeof(mps_equation), .radius = MPS_FAR, .gain = 1.0},
+        .flux = &q->flux,
+        .region = w->particles.region,
+        .density = w->particles.rho,
+        .pressure = w->particles.p,
+        .source = k->source,
+        .shift = k->shift,
+        .value = k->value,
+        .gas = k->gas,
+        .law = k->law,
+        .condition = k->condition};
 }
 
 void mps__step_open(mps__step *q)

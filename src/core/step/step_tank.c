@@ -31,7 +31,8 @@ static bool same_place(const mps__pose *a, const mps__pose *b)
 static bool at_rest(const mps__step *q)
 {
     const mps__world *w = q->w;
-    const bool was = w->state.dt_before > 0 ? same_place(&w->state.before, &w->motion.now) : w->motion.start != MPS_START_WITH_TANK;
+    const bool was = w->state.dt_before > 0 ? same_place(&w->state.before, &w->motion.now)
+                                            : w->motion.start != MPS_START_WITH_TANK;
     return was && same_place(&w->motion.now, &q->pose);
 }
 
@@ -52,9 +53,13 @@ static void note_jump(mps__step *q)
     mps__world *w = q->w;
     double most = 0;
     mps_parallel_max(&w->pool.parallel, w->particles.n, 1, solid_acceleration_rows, w, &most);
-    const double dt = q->stage.dt, change = w->state.dt_before > 0 ? 2 * dt / (dt + w->state.dt_before) : 1;
-    q->jump = (mps__jump){change * sqrt(most), w->state.jump.since < INT32_MAX ? w->state.jump.since + 1 : INT32_MAX};
-    if (q->jump.accel > 2 * w->setup.velocity_scale * w->setup.velocity_scale / w->setup.dp && q->jump.accel > 2 * w->state.jump.accel) q->jump.since = 0;
+    const double dt = q->stage.dt,
+                 change = w->state.dt_before > 0 ? 2 * dt / (dt + w->state.dt_before) : 1;
+    q->jump = (mps__jump){change * sqrt(most),
+                          w->state.jump.since < INT32_MAX ? w->state.jump.since + 1 : INT32_MAX};
+    if (q->jump.accel > 2 * w->setup.velocity_scale * w->setup.velocity_scale / w->setup.dp &&
+        q->jump.accel > 2 * w->state.jump.accel)
+        q->jump.since = 0;
     q->stage.since_jump = q->jump.since;
 }
 
@@ -65,7 +70,8 @@ static void rest_rows(void *step, int64_t begin, int64_t end)
     const int dim = s->dim;
     for (int64_t k = begin * dim; k < end * dim; k++) q->w->work.tank_acceleration[k] = 0;
     for (int64_t i = begin; i < end; i++)
-        for (int d = 0; d < dim; d++) s->u[i * dim + d] = s->kind[i] == MPS_FLUID ? s->u[i * dim + d] : 0;
+        for (int d = 0; d < dim; d++)
+            s->u[i * dim + d] = s->kind[i] == MPS_FLUID ? s->u[i * dim + d] : 0;
 }
 
 static void move_row(const mps__step *q, int64_t i)
@@ -97,7 +103,8 @@ static void turn_rows(void *world, int64_t begin, int64_t end)
 {
     const mps__world *w = world;
     for (int64_t i = begin; i < end; i++)
-        mps__motion_rotate(&w->motion, &w->motion.now, w->particles.area + i * w->setup.dim, w->work.turned + i * w->setup.dim);
+        mps__motion_rotate(&w->motion, &w->motion.now, w->particles.area + i * w->setup.dim,
+                           w->work.turned + i * w->setup.dim);
 }
 
 /* Area vectors turn with the tank. */
@@ -107,7 +114,8 @@ mps_status mps__step_turn_areas(mps__world *w)
     mps__work *k = &w->work;
     k->area = s->area;
     if (!mps__motion_turned(&w->motion.now)) return MPS_OK;
-    MPS__TRY(mps__grow(w->context, (void **)&k->turned, &k->turned_capacity, 0, s->n * w->setup.dim, sizeof *k->turned));
+    MPS__TRY(mps__grow(w->context, (void **)&k->turned, &k->turned_capacity, 0, s->n * w->setup.dim,
+                       sizeof *k->turned));
     mps_parallel_rows(&w->pool.parallel, s->n, turn_rows, w);
     k->area = k->turned;
     return MPS_OK;
@@ -116,6 +124,7 @@ mps_status mps__step_turn_areas(mps__world *w)
 /* Solids get the velocity that carries them to their next place; every particle the acceleration a rigid tank has there. */
 void mps__step_move_tank(mps__step *q)
 {
-    mps_parallel_rows(&q->w->pool.parallel, q->w->particles.n, at_rest(q) ? rest_rows : move_rows, q);
+    mps_parallel_rows(&q->w->pool.parallel, q->w->particles.n, at_rest(q) ? rest_rows : move_rows,
+                      q);
     note_jump(q);
 }

@@ -11,7 +11,8 @@ static bool is_written(const mps__world *w, int32_t field)
     for (int32_t k = 0; k < p->begin[MPS_MOMENT_COUNT] && !found; k++) {
         const mps__call *call = &p->call[k];
         for (int32_t u = 0; u < call->verb->use_count && !found; u++)
-            found = call->verb->uses[u].access & MPS_USE_WRITE && strcmp(call->verb->uses[u].channel, w->particles.field[field].name) == 0;
+            found = call->verb->uses[u].access & MPS_USE_WRITE &&
+                    strcmp(call->verb->uses[u].channel, w->particles.field[field].name) == 0;
     }
     return found;
 }
@@ -36,8 +37,10 @@ mps_status mps__undo_keep(mps__world *w)
         f->undone = is_kept(w, k);
         if (!f->undone) continue;
         const int64_t room = s->n > f->kept_capacity ? mps__room(s->n, f->kept_capacity) : 0;
-        MPS__TRY(mps__grow(w->context, &f->kept, &f->kept_capacity, 0, room, (size_t)f->components * f->size));
-        mps__parallel_copy(&w->pool.parallel, f->kept, *f->data, (int64_t)(bytes_of(w, f) / sizeof(double)));
+        MPS__TRY(mps__grow(w->context, &f->kept, &f->kept_capacity, 0, room,
+                           (size_t)f->components * f->size));
+        mps__parallel_copy(&w->pool.parallel, f->kept, *f->data,
+                           (int64_t)(bytes_of(w, f) / sizeof(double)));
     }
     return MPS_OK;
 }
@@ -46,6 +49,7 @@ void mps__undo_restore(const mps__world *w, bool moved)
 {
     const mps__particles *s = &w->particles;
     for (int32_t k = 0; k < s->fields; k++)
-        if (s->field[k].undone) memcpy(*s->field[k].data, s->field[k].kept, bytes_of(w, &s->field[k]));
+        if (s->field[k].undone)
+            memcpy(*s->field[k].data, s->field[k].kept, bytes_of(w, &s->field[k]));
     if (moved) memcpy(s->x, w->work.x0, (size_t)(s->n * w->setup.dim) * sizeof *s->x);
 }

@@ -22,8 +22,10 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
     w->state.jump.since = INT32_MAX;
     mps__motion_init(&w->motion, context, dim);
     MPS__TRY(mps__particles_init(&w->particles, context, dim));
-    w->lists.neighbours.parallel = w->lists.complete.parallel = w->particles.parallel = &w->pool.parallel;
-    w->lists.neighbours.shared = w->lists.complete.shared = w->ppe.scratch = w->particles.scratch = &w->scratch;
+    w->lists.neighbours.parallel = w->lists.complete.parallel = w->particles
+                                                                    .parallel = &w->pool.parallel;
+    w->lists.neighbours.shared = w->lists.complete
+                                     .shared = w->ppe.scratch = w->particles.scratch = &w->scratch;
     mps__channels_init(&w->channels, context, dim);
     w->host = (mps__host){.context = context,
                           .models = &w->models,
@@ -49,8 +51,15 @@ void mps__world_free(mps__world *w)
     mps__motion_free(&w->motion);
     mps__channels_free(&w->channels);
     mps__work *k = &w->work;
-    void *all[] = {k->gone,   k->tank_acceleration, k->volume_deviation, k->asymmetry, k->pressure_density,
-                   k->turned, k->motion,            k->value,            k->condition};
+    void *all[] = {k->gone,
+                   k->tank_acceleration,
+                   k->volume_deviation,
+                   k->asymmetry,
+                   k->pressure_density,
+                   k->turned,
+                   k->motion,
+                   k->value,
+                   k->condition};
     for (size_t a = 0; a < sizeof all / sizeof all[0]; a++) mps__free(w->context, all[a]);
     mps__free(w->context, w->lists.listed_at);
     mps__scratch_free(w->context, &w->scratch);
@@ -86,7 +95,9 @@ void mps__world_note_phases(const mps__world *w)
     for (int64_t i = 0; i < w->particles.n; i++)
         if (w->particles.kind[i] == MPS_FLUID) any[w->particles.phase[i]] = true;
     for (int p = 1; p < MPS__PHASES; p++) /* phase 0 is there without anybody's doing */
-        if (w->setup.phase_defined[p] && !any[p]) mps__log(w->context, MPS_LOG_WARNING, "phase %d is defined, but no fluid particle is of it", p);
+        if (w->setup.phase_defined[p] && !any[p])
+            mps__log(w->context, MPS_LOG_WARNING,
+                     "phase %d is defined, but no fluid particle is of it", p);
 }
 
 bool mps__world_domain(const mps__world *w, double lo[3], double hi[3])
@@ -155,10 +166,13 @@ static mps_status handle_lost(mps__world *w, const bool *gone, const char *where
     const double *x = s->x + first * w->setup.dim;
     const double z = w->setup.dim == 3 ? x[2] : 0;
     if (w->setup.lost_policy == MPS_LOST_ERROR)
-        return mps__fail(w->context, MPS_E_LOST, "%lld particles %s at t = %.6g s; particle %lld is at (%g, %g, %g) m", (long long)lost,
-                         where, w->state.t, (long long)s->id[first], x[0], x[1], z);
-    mps__log(w->context, MPS_LOG_WARNING, "t = %.6g s: %lld particles %s and were removed; particle %lld was at (%g, %g, %g) m", w->state.t,
-             (long long)lost, where, (long long)s->id[first], x[0], x[1], z);
+        return mps__fail(w->context, MPS_E_LOST,
+                         "%lld particles %s at t = %.6g s; particle %lld is at (%g, %g, %g) m",
+                         (long long)lost, where, w->state.t, (long long)s->id[first], x[0], x[1],
+                         z);
+    mps__log(w->context, MPS_LOG_WARNING,
+             "t = %.6g s: %lld particles %s and were removed; particle %lld was at (%g, %g, %g) m",
+             w->state.t, (long long)lost, where, (long long)s->id[first], x[0], x[1], z);
     int32_t *order = mps__alloc(w->context, s->n, sizeof *order);
     if (!order) return MPS_E_NOMEM;
     for (int64_t i = 0; i < s->n; i++)
@@ -193,7 +207,8 @@ static mps_status leave_domain(mps__world *w)
 static double distance2(const mps__world *w, int64_t i, int64_t j)
 {
     double sum = 0;
-    for (int d = 0; d < w->setup.dim; d++) sum += pow(w->particles.x[j * w->setup.dim + d] - w->particles.x[i * w->setup.dim + d], 2);
+    for (int d = 0; d < w->setup.dim; d++)
+        sum += pow(w->particles.x[j * w->setup.dim + d] - w->particles.x[i * w->setup.dim + d], 2);
     return sum;
 }
 
@@ -206,7 +221,8 @@ static bool behind(const mps__world *w, int64_t i, int64_t dummy, double r2)
     double X[3], height = 0;
     if (wall < 0) return false;
     mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * w->setup.dim, X);
-    for (int d = 0; d < w->setup.dim; d++) height += (X[d] - s->ref[wall * w->setup.dim + d]) * s->area[wall * w->setup.dim + d];
+    for (int d = 0; d < w->setup.dim; d++)
+        height += (X[d] - s->ref[wall * w->setup.dim + d]) * s->area[wall * w->setup.dim + d];
     for (int64_t p = l->begin[i]; height < 0 && p < l->middle[i]; p++)
         if (s->kind[l->col[p]] == MPS_WALL && distance2(w, i, l->col[p]) <= r2) return false;
     return height < 0;
@@ -229,7 +245,8 @@ static bool spilled(const mps__world *w, int64_t i)
 static void spilled_rows(void *argument, int64_t begin, int64_t end)
 {
     const mps__world *w = argument;
-    for (int64_t i = begin; i < end; i++) w->work.gone[i] = w->lists.neighbours.rim[i] && spilled(w, i);
+    for (int64_t i = begin; i < end; i++)
+        w->work.gone[i] = w->lists.neighbours.rim[i] && spilled(w, i);
 }
 
 /* Liquid that ran over the rim of an open tank touches its walls from behind. There they would press it as if it stood before them. */
@@ -246,7 +263,9 @@ static bool may_belong(const mps__world *w, int64_t dummy, int64_t wall)
     if (!mps__is_shadow(s, dummy)) return true;
     const mps__screen *screen = &w->lists.screens.list[s->plate[dummy] - 1];
     return s->plate[wall] == s->plate[dummy] &&
-           mps__dot(s->area + wall * s->dim, screen->normal, s->dim) * mps__screen_height(screen, s->ref + dummy * s->dim) < 0;
+           mps__dot(s->area + wall * s->dim, screen->normal, s->dim) *
+                   mps__screen_height(screen, s->ref + dummy * s->dim) <
+               0;
 }
 
 /* Each dummy belongs to its nearest wall particle (of two as near: the older). Beyond the far radius no fluid sees it either. */
@@ -262,9 +281,11 @@ static void link_dummies(mps__world *w)
             const int32_t j = l->col[k];
             if (s->kind[j] != MPS_WALL || !may_belong(w, i, j)) continue;
             double r2 = 0;
-            for (int d = 0; d < w->setup.dim; d++) r2 += pow(s->ref[(int64_t)j * w->setup.dim + d] - s->ref[i * w->setup.dim + d], 2);
+            for (int d = 0; d < w->setup.dim; d++)
+                r2 += pow(s->ref[(int64_t)j * w->setup.dim + d] - s->ref[i * w->setup.dim + d], 2);
             const double margin = 1e-9 * w->setup.dp * w->setup.dp;
-            if (r2 > best + margin || (r2 > best - margin && s->id[j] > s->id[s->wall_of[i]])) continue;
+            if (r2 > best + margin || (r2 > best - margin && s->id[j] > s->id[s->wall_of[i]]))
+                continue;
             best = r2;
             s->wall_of[i] = j;
         }
@@ -280,11 +301,14 @@ static void estimate_areas(mps__world *w)
     memset(sum, 0, (size_t)(s->n * dim) * sizeof *sum);
     for (int64_t i = 0; i < s->n; i++)
         if (s->wall_of[i] >= 0)
-            for (int d = 0; d < dim; d++) sum[s->wall_of[i] * dim + d] += s->ref[s->wall_of[i] * dim + d] - s->ref[i * dim + d];
+            for (int d = 0; d < dim; d++)
+                sum[s->wall_of[i] * dim + d] += s->ref[s->wall_of[i] * dim + d] -
+                                                s->ref[i * dim + d];
     for (int64_t i = 0; i < s->n; i++) {
         double *area = s->area + i * dim, *v = sum + i * dim;
         const double length = sqrt(mps__dot(v, v, dim));
-        if (s->kind[i] != MPS_WALL || mps__dot(area, area, dim) > 0 || length < 1e-6 * w->setup.dp) continue;
+        if (s->kind[i] != MPS_WALL || mps__dot(area, area, dim) > 0 || length < 1e-6 * w->setup.dp)
+            continue;
         for (int d = 0; d < dim; d++) area[d] = v[d] / length * pow(w->setup.dp, dim - 1);
     }
 }
@@ -346,7 +370,8 @@ static mps_status search_lists(mps__world *w, bool sorted, bool all)
     if (sorted) mps__neighbours_sorted(&w->lists.neighbours, s->n);
     w->lists.neighbours.kind = all ? NULL : s->kind;
     w->lists.neighbours.dummy_rows = mps__models_dummy_rows(&w->models);
-    return mps__neighbours_search(&w->lists.neighbours, s->n, s->x, w->setup.re_near, w->setup.re_far);
+    return mps__neighbours_search(&w->lists.neighbours, s->n, s->x, w->setup.re_near,
+                                  w->setup.re_far);
 }
 
 /* New lists, with exact rows. */
@@ -369,7 +394,9 @@ static mps_status note_models(mps__world *w)
 {
     const mps__particles *s = &w->particles;
     const mps_neighbours *l = &w->lists.neighbours;
-    if (!l->valid || w->lists.linked != s->generation || l->dummy_rows == mps__models_dummy_rows(&w->models)) return MPS_OK;
+    if (!l->valid || w->lists.linked != s->generation ||
+        l->dummy_rows == mps__models_dummy_rows(&w->models))
+        return MPS_OK;
     w->lists.listed_at = mps__alloc(w->context, s->n * s->dim, sizeof(double));
     if (!w->lists.listed_at) return MPS_E_NOMEM;
     mps__parallel_copy(&w->pool.parallel, w->lists.listed_at, l->searched, s->n * s->dim);
@@ -402,7 +429,8 @@ static mps_status renew(mps__world *w)
 {
     mps__particles *s = &w->particles;
     MPS__TRY(list_again(w));
-    if (w->lists.linked != s->generation || !mps__neighbours_fresh(&w->lists.neighbours, s->n, s->x, w->setup.re_far)) {
+    if (w->lists.linked != s->generation ||
+        !mps__neighbours_fresh(&w->lists.neighbours, s->n, s->x, w->setup.re_far)) {
         MPS__TRY(mps__neighbours_order(&w->lists.neighbours, s->n, s->x, w->setup.re_far));
         MPS__TRY(mps__particles_permute(s, s->n, w->lists.neighbours.order));
         return search(w, true);
@@ -417,7 +445,9 @@ mps_status mps__world_neighbours(mps__world *w)
     w->lists.aside = 0;
     MPS__TRY(reserve_work(w));
     mps_status status = leave_domain(w);
-    if (w->particles.n == 0) status = mps__fail(w->context, MPS_E_STATE, "t = %.6g s: all particles left the domain", w->state.t);
+    if (w->particles.n == 0)
+        status = mps__fail(w->context, MPS_E_STATE, "t = %.6g s: all particles left the domain",
+                           w->state.t);
     if (status == MPS_OK) status = renew(w);
     const int64_t aside = w->lists.aside;
     if (status == MPS_OK) status = leave_tank(w);
@@ -432,7 +462,8 @@ mps_status mps__world_neighbours_kept(mps__world *w)
     MPS__CHECK(w->context, s->n > 0, "there are no particles");
     MPS__TRY(reserve_work(w));
     MPS__TRY(list_again(w));
-    const bool fresh = w->lists.linked == s->generation && mps__neighbours_fresh(&w->lists.neighbours, s->n, s->x, w->setup.re_far);
+    const bool fresh = w->lists.linked == s->generation &&
+                       mps__neighbours_fresh(&w->lists.neighbours, s->n, s->x, w->setup.re_far);
     if (fresh) {
         mps__world_rows(w);
         return MPS_OK;

@@ -23,11 +23,12 @@ typedef struct mps__bulk {
 /* Energies [J] and impulses since creation; see mps_energy and mps_momentum. */
 typedef struct mps__budget {
     double wall_work, viscous, collision, shift, added;
-    double start;                      /* kinetic + potential before the first step */
-    mps_momentum momentum;             /* but for its `total` and `numerical` */
-    mps__bulk last;                    /* up to here all is booked: what the last step left */
-    double deviation, deviation_start; /* mean volume deviation of regions INNER and SECOND in the last step and the first */
-    int64_t started;                   /* 1: the first step has been made */
+    double start;          /* kinetic + potential before the first step */
+    mps_momentum momentum; /* but for its `total` and `numerical` */
+    mps__bulk last;        /* up to here all is booked: what the last step left */
+    double deviation,
+        deviation_start; /* mean volume deviation of regions INNER and SECOND in the last step and the first */
+    int64_t started; /* 1: the first step has been made */
 } mps__budget;
 
 /* Arrays [n] or [n*dim] that live through one step. Those that verbs of models use are channels. */
@@ -36,12 +37,12 @@ typedef struct mps__work {
     bool *gone; /* particles to be removed */
     double *tank_acceleration, *volume_deviation, *asymmetry, *pressure_density;
     double *turned;
-    const double *area;                        /* wetted area vectors in the lab: in turned, or those of the particles */
-    double *motion;                            /* accelerations, then displacements */
+    const double *area; /* wetted area vectors in the lab: in turned, or those of the particles */
+    double *motion;     /* accelerations, then displacements */
     double *value, *source, *shift, *gas, *law; /* of the pressure equation; one block */
-    int32_t *condition;                        /* of its rows */
-    double *load;                              /* source: pressure on walls, from the load on */
-    double *x0;                                /* shift: positions before particles move, from then on */
+    int32_t *condition;                         /* of its rows */
+    double *load;                               /* source: pressure on walls, from the load on */
+    double *x0; /* shift: positions before particles move, from then on */
 } mps__work;
 
 /* When the velocity of the tank jumped last. */
@@ -61,7 +62,8 @@ typedef struct mps__setup {
     double phase_density[MPS__PHASES], phase_viscosity[MPS__PHASES];
     double tension[MPS__PHASES * MPS__PHASES]; /* < 0: not set */
     mps_time_control control;
-    int32_t layers; /* of dummies behind the walls, the fewest of all tanks and solids; 0: there is none */
+    int32_t
+        layers; /* of dummies behind the walls, the fewest of all tanks and solids; 0: there is none */
 } mps__setup;
 
 /* What the next step depends on, beside the fields of the particles, the motion and the probes. MPS__STATE lists all members: they
@@ -71,11 +73,13 @@ typedef struct mps__state {
     int64_t step; /* steps taken */
     int64_t lost; /* particles removed */
     double crossing_time;
-    double dt_previous;    /* of the last step that the limits chose, not the caller; 0: none yet [s] */
-    double dt_before;      /* length of the last step [s] */
-    mps__pose before;      /* of the tank at its beginning */
-    mps__jump jump;        /* of the tank's velocity */
-    double spread;         /* time that a gain below 1 spreads pressures over, 0 before the first step [s] */
+    double
+        dt_previous;  /* of the last step that the limits chose, not the caller; 0: none yet [s] */
+    double dt_before; /* length of the last step [s] */
+    mps__pose before; /* of the tank at its beginning */
+    mps__jump jump;   /* of the tank's velocity */
+    double
+        spread; /* time that a gain below 1 spreads pressures over, 0 before the first step [s] */
     mps__budget budget;
     int32_t start_pending; /* 1: the liquid gets its first velocity in the next step */
     int32_t level_told;    /* 1: the log was told that nothing fixes the level of the pressures */
@@ -83,21 +87,28 @@ typedef struct mps__state {
     int32_t window_told;   /* 1: that a probe averages over less than the resolution can tell */
 } mps__state;
 
-#define MPS__STATE(MEMBER)                                                                                                         \
-    MEMBER(t) MEMBER(step) MEMBER(lost) MEMBER(crossing_time) MEMBER(dt_previous) MEMBER(dt_before) MEMBER(before) MEMBER(jump)    \
-    MEMBER(spread) MEMBER(budget) MEMBER(start_pending) MEMBER(level_told) MEMBER(moves_told) MEMBER(window_told)
+/* clang-format off */
+#define MPS__STATE(MEMBER)                                                                \
+    MEMBER(t)                                                                             \
+    MEMBER(step) MEMBER(lost) MEMBER(crossing_time) MEMBER(dt_previous) MEMBER(dt_before) \
+        MEMBER(before) MEMBER(jump) MEMBER(spread) MEMBER(budget) MEMBER(start_pending)   \
+            MEMBER(level_told) MEMBER(moves_told) MEMBER(window_told)
+/* clang-format on */
 
 #define MPS__STATE_SIZE(member) +sizeof(((mps__state *)0)->member)
-_Static_assert(sizeof(mps__state) == 0 MPS__STATE(MPS__STATE_SIZE), "MPS__STATE lists all members of mps__state");
+_Static_assert(sizeof(mps__state) == 0 MPS__STATE(MPS__STATE_SIZE),
+               "MPS__STATE lists all members of mps__state");
 
 /* Who is near whom; found again when particles have moved. */
 typedef struct mps__lists {
     mps_neighbours neighbours;
-    mps_neighbours complete; /* the same with the rows of solids without fluid about them, on demand; else empty */
-    mps__screens screens;    /* thin plates, in the tank's frame */
-    double *listed_at; /* NULL, or positions [n*dim] of the search whose candidates still hold, but are to be found again */
-    int64_t aside;     /* lost particles that lie behind the others, until the next are looked for */
-    int64_t linked;    /* generation of the particles whose dummies know their walls */
+    mps_neighbours
+        complete; /* the same with the rows of solids without fluid about them, on demand; else empty */
+    mps__screens screens; /* thin plates, in the tank's frame */
+    double *
+        listed_at; /* NULL, or positions [n*dim] of the search whose candidates still hold, but are to be found again */
+    int64_t aside; /* lost particles that lie behind the others, until the next are looked for */
+    int64_t linked; /* generation of the particles whose dummies know their walls */
 } mps__lists;
 
 typedef struct mps__world {
@@ -148,7 +159,9 @@ static inline double mps__crossing_limit(const mps__world *w)
  * It changes slowly: a mean over a time that shrinks does not count all of an impulse. */
 static inline double mps__crossing_time(const mps__world *w, double speed, double dt)
 {
-    const double last = w->state.crossing_time, wanted = fmin(1, speed / w->setup.velocity_scale) * fmin(w->setup.dp / speed, mps__crossing_limit(w));
+    const double last = w->state.crossing_time,
+                 wanted = fmin(1, speed / w->setup.velocity_scale) *
+                          fmin(w->setup.dp / speed, mps__crossing_limit(w));
     return w->state.step > 0 ? fmin(fmax(wanted, last - 0.1 * dt), last + 0.1 * dt) : wanted;
 }
 /* Largest speed of all particles [m/s]. */
@@ -157,7 +170,8 @@ double mps__world_speed(const mps__world *w);
 mps_status mps__world_step(mps__world *w, double dt_max);
 /* Fail for what is not finite or too fast, with the particle and its place, which is in work.x0 if particles arrived at new ones. Sets the
  * speeds of `info`. moves.c */
-mps_status mps__world_check_result(const mps__world *w, const mps_stage *s, bool arrived, mps_step_info *info);
+mps_status mps__world_check_result(const mps__world *w, const mps_stage *s, bool arrived,
+                                   mps_step_info *info);
 /* Fluid that passes a wall in a step of dt that ends at a pose; the places before it are work.x0. moves.c */
 mps_status mps__world_check_moves(mps__world *w, const mps__pose *next, double dt);
 /* The step to take, in s->dt; `planned` is the one the limits chose, 0 if the caller cut it. They also differ where the last steps of a run

@@ -27,14 +27,17 @@ static double cells_of(int32_t dim, const double *lo, const double *hi, double s
     return cells;
 }
 
-mps_status mps__buckets_init(mps__buckets *b, mps__context *context, int32_t dim, const double *lo, const double *hi, double side)
+mps_status mps__buckets_init(mps__buckets *b, mps__context *context, int32_t dim, const double *lo,
+                             const double *hi, double side)
 {
     *b = (mps__buckets){.context = context, .dim = dim, .cells = {1, 1, 1}};
     for (int d = 0; d < dim; d++)
-        MPS__CHECK(context, isfinite(hi[d] - lo[d]), "a box of %g .. %g m along axis %d: must be finite", lo[d], hi[d], d);
+        MPS__CHECK(context, isfinite(hi[d] - lo[d]),
+                   "a box of %g .. %g m along axis %d: must be finite", lo[d], hi[d], d);
     const double cells = cells_of(dim, lo, hi, side);
     if (cells > most_cells) side *= pow(cells / most_cells, 1.0 / dim);
-    while (cells_of(dim, lo, hi, side) > 2 * most_cells) side *= 2; /* a long and thin box, whose short sides have one cell already */
+    while (cells_of(dim, lo, hi, side) > 2 * most_cells)
+        side *= 2; /* a long and thin box, whose short sides have one cell already */
     b->over = 1.0 / side;
     for (int d = 0; d < dim; d++) {
         b->lo[d] = lo[d];
@@ -55,9 +58,12 @@ void mps__buckets_free(mps__buckets *b)
 
 mps_status mps__buckets_reserve(mps__buckets *b, int64_t count)
 {
-    MPS__CHECK(b->context, count < INT32_MAX, "%lld points: at most %d", (long long)count, INT32_MAX - 1);
-    MPS__TRY(mps__grow(b->context, (void **)&b->next, &b->capacity, b->count, count, sizeof *b->next));
-    return mps__grow(b->context, (void **)&b->x, &b->x_capacity, 3 * b->count, 3 * count, sizeof *b->x);
+    MPS__CHECK(b->context, count < INT32_MAX, "%lld points: at most %d", (long long)count,
+               INT32_MAX - 1);
+    MPS__TRY(
+        mps__grow(b->context, (void **)&b->next, &b->capacity, b->count, count, sizeof *b->next));
+    return mps__grow(b->context, (void **)&b->x, &b->x_capacity, 3 * b->count, 3 * count,
+                     sizeof *b->x);
 }
 
 mps_status mps__buckets_add(mps__buckets *b, const double x[3])
@@ -74,7 +80,8 @@ mps_status mps__buckets_add(mps__buckets *b, const double x[3])
     return MPS_OK;
 }
 
-static void visit_cell(const mps__buckets *b, const double x[3], double reach2, int64_t cell, mps__buckets_fn fn, void *user)
+static void visit_cell(const mps__buckets *b, const double x[3], double reach2, int64_t cell,
+                       mps__buckets_fn fn, void *user)
 {
     for (int32_t p = b->head[cell]; p > 0; p = b->next[p - 1]) {
         double d[3], r2 = 0;
@@ -86,7 +93,8 @@ static void visit_cell(const mps__buckets *b, const double x[3], double reach2, 
     }
 }
 
-void mps__buckets_visit(const mps__buckets *b, const double x[3], double reach, mps__buckets_fn fn, void *user)
+void mps__buckets_visit(const mps__buckets *b, const double x[3], double reach, mps__buckets_fn fn,
+                        void *user)
 {
     int64_t first[3] = {0, 0, 0}, last[3] = {0, 0, 0}, k[3];
     for (int d = 0; d < b->dim; d++) {
@@ -95,7 +103,8 @@ void mps__buckets_visit(const mps__buckets *b, const double x[3], double reach, 
     }
     for (k[2] = first[2]; k[2] <= last[2]; k[2]++)
         for (k[1] = first[1]; k[1] <= last[1]; k[1]++)
-            for (k[0] = first[0]; k[0] <= last[0]; k[0]++) visit_cell(b, x, reach * reach, cell_of(b, k), fn, user);
+            for (k[0] = first[0]; k[0] <= last[0]; k[0]++)
+                visit_cell(b, x, reach * reach, cell_of(b, k), fn, user);
 }
 
 /* The best point so far. */

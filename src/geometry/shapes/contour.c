@@ -79,22 +79,30 @@ static mps_status grid_values(grid *g)
         node_place(g, i, x);
         if (is_far(g, x, &g->value[i])) continue;
         g->value[i] = mps__shape_at(g->shape, x);
-        MPS__CHECK(g->context, isfinite(g->value[i]), "the solid's distance is %g at (%g, %g, %g) m: must be finite", g->value[i], x[0],
-                   x[1], x[2]);
+        MPS__CHECK(g->context, isfinite(g->value[i]),
+                   "the solid's distance is %g at (%g, %g, %g) m: must be finite", g->value[i],
+                   x[0], x[1], x[2]);
     }
     return MPS_OK;
 }
 
-static mps_status grid_init(grid *g, mps__context *context, const mps__shape *shape, const mps__contour_box *box)
+static mps_status grid_init(grid *g, mps__context *context, const mps__shape *shape,
+                            const mps__contour_box *box)
 {
-    *g = (grid){.context = context, .shape = shape, .box = box, .dim = shape->dim, .h = 0.5 * shape->dp, .n = {1, 1, 1}};
+    *g = (grid){.context = context,
+                .shape = shape,
+                .box = box,
+                .dim = shape->dim,
+                .h = 0.5 * shape->dp,
+                .n = {1, 1, 1}};
     double cells[3], nodes = 1;
     for (int d = 0; d < g->dim; d++) {
         cells[d] = ceil((box->hi[d] - box->anchor[d]) / g->h - 1e-6) + 2 * MARGIN + 2;
         nodes *= cells[d];
     }
     const int most = mps__longest(cells, g->dim);
-    MPS__CHECK(context, nodes < most_nodes, "the solid's box is %g m long along axis %d: too many cells of %g m",
+    MPS__CHECK(context, nodes < most_nodes,
+               "the solid's box is %g m long along axis %d: too many cells of %g m",
                box->hi[most] - box->lo[most], most, g->h);
     for (int d = 0; d < g->dim; d++) {
         g->n[d] = (int64_t)cells[d];
@@ -140,7 +148,8 @@ static bool in_box(const grid *g, int64_t cell)
 /* Where the surface cuts an edge: bisection with secants, so that jumps are found as well. */
 static void cut_place(const grid *g, const cut *c, double x[3])
 {
-    double from = 0, to = 1, at = 0.5, low = g->value[c->node], high = g->value[c->node + step_along(g, c->axis)];
+    double from = 0, to = 1, at = 0.5, low = g->value[c->node],
+           high = g->value[c->node + step_along(g, c->axis)];
     node_place(g, c->node, x);
     const double start = x[c->axis];
     for (int k = 0; k < 40 && to - from > 1e-9; k++) {
@@ -162,7 +171,8 @@ static void cut_place(const grid *g, const cut *c, double x[3])
 static mps_status sum_of(grid *g, int64_t cell, cell_sum **out)
 {
     if (g->number[cell] == 0) {
-        MPS__TRY(mps__grow(g->context, (void **)&g->sums, &g->sum_capacity, g->sum_count, g->sum_count + 1, sizeof *g->sums));
+        MPS__TRY(mps__grow(g->context, (void **)&g->sums, &g->sum_capacity, g->sum_count,
+                           g->sum_count + 1, sizeof *g->sums));
         g->sums[g->sum_count] = (cell_sum){.cell = cell};
         g->number[cell] = (int32_t)++g->sum_count;
     }
@@ -200,7 +210,8 @@ static mps_status add_cut(grid *g, mps__contour *out, const cut *c)
     double x[3], n[3] = {0, 0, 0};
     cut_place(g, c, x);
     bool kept = true;
-    for (int d = 0; d < g->dim; d++) kept = kept && x[d] > g->box->keep_lo[d] && x[d] < g->box->keep_hi[d];
+    for (int d = 0; d < g->dim; d++)
+        kept = kept && x[d] > g->box->keep_lo[d] && x[d] < g->box->keep_hi[d];
     if (within < around) {
         if (kept && !out->open) memcpy(out->open_at, x, sizeof x);
         out->open = out->open || kept;
@@ -208,7 +219,8 @@ static mps_status add_cut(grid *g, mps__contour *out, const cut *c)
     }
     if (g->shape->distance || g->shape->mesh) mps__shape_true(g->shape, x, n);
     for (int k = 0; k < around; k++) MPS__TRY(add_to_cell(g, cell[k], x, n));
-    MPS__TRY(mps__grow(g->context, (void **)&g->cuts, &g->cut_capacity, g->cut_count, g->cut_count + 1, sizeof *g->cuts));
+    MPS__TRY(mps__grow(g->context, (void **)&g->cuts, &g->cut_capacity, g->cut_count,
+                       g->cut_count + 1, sizeof *g->cuts));
     g->cuts[g->cut_count++] = *c;
     return MPS_OK;
 }
@@ -222,7 +234,8 @@ static mps_status find_cuts(grid *g, mps__contour *out)
             if (k[d] + 1 >= g->n[d]) continue;
             const bool here = g->value[i] > 0, there = g->value[i + step_along(g, d)] > 0;
             bool rim = false; /* no four cells about it */
-            for (int e = 0; e < g->dim; e++) rim = rim || (e != d && (k[e] == 0 || k[e] + 1 >= g->n[e]));
+            for (int e = 0; e < g->dim; e++)
+                rim = rim || (e != d && (k[e] == 0 || k[e] + 1 >= g->n[e]));
             if (here == there || rim) continue;
             const cut c = {i, d, there ? 1 : -1};
             MPS__TRY(add_cut(g, out, &c));
@@ -234,10 +247,12 @@ static mps_status find_cuts(grid *g, mps__contour *out)
 /* How sharp the surface is within a cell: normals of a face are alike, those about an edge lie in a plane. */
 static int32_t feature_of(const grid *g, const cell_sum *s)
 {
-    const double mean = sqrt(mps__dot(s->n, s->n, g->dim)) / s->count, c3 = s->count * s->count * s->count, *m = s->m;
+    const double mean = sqrt(mps__dot(s->n, s->n, g->dim)) / s->count,
+                 c3 = s->count * s->count * s->count, *m = s->m;
     if (mean > flat || mean == 0) return MPS__FACE;
     if (g->dim == 2) return MPS__CORNER;
-    const double volume = m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) + m[2] * (m[3] * m[7] - m[4] * m[6]);
+    const double volume = m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) +
+                          m[2] * (m[3] * m[7] - m[4] * m[6]);
     return volume > corner_volume * c3 ? MPS__CORNER : MPS__EDGE;
 }
 
@@ -265,7 +280,8 @@ static void vertex_place(const grid *g, const cell_sum *s, double r[3])
 static mps_status make_vertices(grid *g, mps__contour *out)
 {
     const bool true_surface = g->shape->distance || g->shape->mesh;
-    MPS__TRY(mps__grow(g->context, (void **)&out->vertex, &out->vertex_capacity, 0, g->sum_count, sizeof *out->vertex));
+    MPS__TRY(mps__grow(g->context, (void **)&out->vertex, &out->vertex_capacity, 0, g->sum_count,
+                       sizeof *out->vertex));
     out->vertices = g->sum_count;
     for (int64_t v = 0; v < g->sum_count; v++) {
         const cell_sum *s = &g->sums[v];
@@ -281,7 +297,8 @@ static mps_status make_vertices(grid *g, mps__contour *out)
             to->odd += (int32_t)((k[d] - MARGIN) & 1);
         }
         memcpy(at, to->x, sizeof at);
-        if (true_surface && to->feature == MPS__FACE && mps__shape_project(g->shape, at, g->h)) memcpy(to->x, at, sizeof at);
+        if (true_surface && to->feature == MPS__FACE && mps__shape_project(g->shape, at, g->h))
+            memcpy(to->x, at, sizeof at);
     }
     return MPS_OK;
 }
@@ -290,10 +307,12 @@ static mps_status make_vertices(grid *g, mps__contour *out)
 
 static void bilinear(const double *const v[4], double s, double t, double x[3])
 {
-    for (int d = 0; d < 3; d++) x[d] = (1 - t) * ((1 - s) * v[0][d] + s * v[1][d]) + t * ((1 - s) * v[3][d] + s * v[2][d]);
+    for (int d = 0; d < 3; d++)
+        x[d] = (1 - t) * ((1 - s) * v[0][d] + s * v[1][d]) + t * ((1 - s) * v[3][d] + s * v[2][d]);
 }
 
-static void segment_patch(const grid *g, const cut *c, const double *const v[4], int part, mps__patch *out)
+static void segment_patch(const grid *g, const cut *c, const double *const v[4], int part,
+                          mps__patch *out)
 {
     *out = (mps__patch){.x = {0}};
     const double t = (part + 0.5) / SPLIT_2D, sign = c->axis == 0 ? c->up : -c->up;
@@ -317,13 +336,16 @@ static void quad_patch(const cut *c, const double *const v[4], int part, mps__pa
         p[d] = a[2][d] - a[0][d];
         q[d] = a[3][d] - a[1][d];
     }
-    for (int d = 0; d < 3; d++) out->area[d] = 0.5 * c->up * (p[(d + 1) % 3] * q[(d + 2) % 3] - p[(d + 2) % 3] * q[(d + 1) % 3]);
+    for (int d = 0; d < 3; d++)
+        out->area[d] = 0.5 * c->up *
+                       (p[(d + 1) % 3] * q[(d + 2) % 3] - p[(d + 2) % 3] * q[(d + 1) % 3]);
 }
 
 static mps_status make_patches(grid *g, mps__contour *out)
 {
     const int split = g->dim == 2 ? SPLIT_2D : SPLIT_3D * SPLIT_3D;
-    MPS__TRY(mps__grow(g->context, (void **)&out->patch, &out->patch_capacity, 0, g->cut_count * split, sizeof *out->patch));
+    MPS__TRY(mps__grow(g->context, (void **)&out->patch, &out->patch_capacity, 0,
+                       g->cut_count * split, sizeof *out->patch));
     for (int64_t k = 0; k < g->cut_count; k++) {
         int64_t cell[4];
         const double *v[4] = {NULL, NULL, NULL, NULL};
@@ -344,14 +366,16 @@ static mps_status make_patches(grid *g, mps__contour *out)
 static mps_status fill_mesh(const grid *g, const mps__contour *c, mps__mesh *mesh)
 {
     MPS__TRY(mps__mesh_reserve(mesh, c->vertices, 2 * g->cut_count));
-    for (int64_t v = 0; v < c->vertices; v++) memcpy(mesh->x + 3 * v, c->vertex[v].x, sizeof c->vertex[v].x);
+    for (int64_t v = 0; v < c->vertices; v++)
+        memcpy(mesh->x + 3 * v, c->vertex[v].x, sizeof c->vertex[v].x);
     mesh->points = c->vertices;
     for (int64_t k = 0; k < g->cut_count; k++) {
         int64_t cell[4];
         const int around = cells_around(g, &g->cuts[k], cell);
         for (int second = 0; second < around / 2; second++) {
             int32_t *corner = mesh->corner + 3 * mesh->elements++;
-            for (int a = 0; a < around - 1; a++) corner[a] = g->number[cell[a == 0 ? 0 : a + second]] - 1;
+            for (int a = 0; a < around - 1; a++)
+                corner[a] = g->number[cell[a == 0 ? 0 : a + second]] - 1;
             if (around == 2) corner[1] = g->number[cell[1]] - 1;
             const bool turned = (around == 2 && g->cuts[k].axis == 1) != (g->cuts[k].up < 0);
             const int32_t first = corner[0];
@@ -362,14 +386,16 @@ static mps_status fill_mesh(const grid *g, const mps__contour *c, mps__mesh *mes
     return MPS_OK;
 }
 
-static mps_status find_vertices(grid *g, mps__contour *c, mps__context *context, const mps__shape *shape, const mps__contour_box *box)
+static mps_status find_vertices(grid *g, mps__contour *c, mps__context *context,
+                                const mps__shape *shape, const mps__contour_box *box)
 {
     MPS__TRY(grid_init(g, context, shape, box));
     MPS__TRY(find_cuts(g, c));
     return make_vertices(g, c);
 }
 
-mps_status mps__contour_find(mps__contour *c, mps__context *context, const mps__shape *shape, const mps__contour_box *box)
+mps_status mps__contour_find(mps__contour *c, mps__context *context, const mps__shape *shape,
+                             const mps__contour_box *box)
 {
     grid g = {.context = context};
     *c = (mps__contour){0};

@@ -21,9 +21,11 @@ typedef struct mps__shape {
     double dp, sign;          /* sign: -1 if what the caller gave is to be turned around */
     mps_distance_fn distance; /* or */
     mps_inside_fn inside;     /* which is non-zero in the solid, or */
-    const mps__mesh *mesh;    /* a welded mesh whose normals look to the liquid; with `inside` the side is asked of it */
+    const mps__mesh *
+        mesh; /* a welded mesh whose normals look to the liquid; with `inside` the side is asked of it */
     void *user;
-    const mps__distances *known; /* NULL, or distances of a mesh, to save asking for more of them far from it */
+    const mps__distances
+        *known; /* NULL, or distances of a mesh, to save asking for more of them far from it */
 } mps__shape;
 
 /* Distance as given; may be NaN. With `inside` alone: +-dp. */
@@ -37,7 +39,8 @@ bool mps__shape_project(const mps__shape *s, double x[3], double reach);
 bool mps__shape_project_feature(const mps__shape *s, double x[3]);
 
 /* Distances of a box lo..hi about lattice points lo + k dp; divided by their slope near the surface. NaN is refused. */
-mps_status mps__distances_make(mps__distances *f, mps__context *context, const mps__shape *s, const double *lo, const double *hi);
+mps_status mps__distances_make(mps__distances *f, mps__context *context, const mps__shape *s,
+                               const double *lo, const double *hi);
 void mps__distances_free(mps__distances *f, mps__context *context);
 /* Linear between the lattice points. False outside of them. */
 bool mps__distances_at(const mps__distances *f, const double x[3], double *value);
@@ -70,7 +73,8 @@ typedef struct mps__contour_box {
     double anchor[3], lo[3], hi[3], keep_lo[3], keep_hi[3];
 } mps__contour_box;
 
-mps_status mps__contour_find(mps__contour *c, mps__context *context, const mps__shape *shape, const mps__contour_box *box);
+mps_status mps__contour_find(mps__contour *c, mps__context *context, const mps__shape *shape,
+                             const mps__contour_box *box);
 void mps__contour_free(mps__contour *c, mps__context *context);
 /* The patches' segments (2-D) or triangles (3-D) as a mesh, for the distance of shapes that have none. */
 mps_status mps__contour_mesh(const mps__shape *shape, const mps__contour_box *box, mps__mesh *mesh);

@@ -63,17 +63,21 @@ void mps__mesh_init(mps__mesh *m, mps__context *context, int32_t dim)
 void mps__mesh_free(mps__mesh *m)
 {
     void *all[] = {m->x, m->corner, m->point_normal, m->edge_normal, m->node, m->order};
-    for (size_t k = 0; m->context && k < sizeof all / sizeof all[0]; k++) mps__free(m->context, all[k]);
+    for (size_t k = 0; m->context && k < sizeof all / sizeof all[0]; k++)
+        mps__free(m->context, all[k]);
     *m = (mps__mesh){0};
 }
 
 mps_status mps__mesh_reserve(mps__mesh *m, int64_t points, int64_t elements)
 {
-    MPS__CHECK(m->context, m->points + points < INT32_MAX / 3 && m->elements + elements < INT32_MAX / 3,
-               "a surface of %lld elements: at most %d", (long long)(m->elements + elements), INT32_MAX / 3);
-    MPS__TRY(mps__grow(m->context, (void **)&m->x, &m->point_capacity, 3 * m->points, 3 * (m->points + points), sizeof *m->x));
-    return mps__grow(m->context, (void **)&m->corner, &m->element_capacity, 3 * m->elements, 3 * (m->elements + elements),
-                     sizeof *m->corner);
+    MPS__CHECK(m->context,
+               m->points + points < INT32_MAX / 3 && m->elements + elements < INT32_MAX / 3,
+               "a surface of %lld elements: at most %d", (long long)(m->elements + elements),
+               INT32_MAX / 3);
+    MPS__TRY(mps__grow(m->context, (void **)&m->x, &m->point_capacity, 3 * m->points,
+                       3 * (m->points + points), sizeof *m->x));
+    return mps__grow(m->context, (void **)&m->corner, &m->element_capacity, 3 * m->elements,
+                     3 * (m->elements + elements), sizeof *m->corner);
 }
 
 /* ---- welding ---- */
@@ -111,11 +115,13 @@ static mps_status weld_points(mps__mesh *m)
         qsort(p, (size_t)m->points, sizeof *p, compare_places);
         int64_t kept = 0;
         for (int64_t i = 0; i < m->points; i++) {
-            if (i == 0 || compare_coordinates(p[i].x, p[i - 1].x) != 0) memcpy(m->x + 3 * kept++, p[i].x, sizeof p[i].x);
+            if (i == 0 || compare_coordinates(p[i].x, p[i - 1].x) != 0)
+                memcpy(m->x + 3 * kept++, p[i].x, sizeof p[i].x);
             number[p[i].index] = (int32_t)(kept - 1);
         }
         m->points = kept;
-        for (int64_t k = 0; k < 3 * m->elements; k++) m->corner[k] = number[m->corner[k]]; /* in 2-D the third is 0 */
+        for (int64_t k = 0; k < 3 * m->elements; k++)
+            m->corner[k] = number[m->corner[k]]; /* in 2-D the third is 0 */
     }
     mps__free(m->context, p);
     mps__free(m->context, number);
@@ -180,7 +186,8 @@ static side *collect_sides(const mps__mesh *m)
 
 static void middle_of(const mps__mesh *m, const side *s, double out[3])
 {
-    for (int d = 0; d < 3; d++) out[d] = 0.5 * (m->x[3 * (int64_t)s->low + d] + m->x[3 * (int64_t)s->high + d]);
+    for (int d = 0; d < 3; d++)
+        out[d] = 0.5 * (m->x[3 * (int64_t)s->low + d] + m->x[3 * (int64_t)s->high + d]);
 }
 
 /* Edge normals, and what is wrong with the `count` triangles at one edge. */
@@ -195,7 +202,8 @@ static void look_at_edge(mps__mesh *m, const side *s, int64_t count, mps__mesh_f
         for (int d = 0; d < 3; d++) sum[d] += n[d];
         balance += s[k].direction;
     }
-    for (int64_t k = 0; k < count; k++) memcpy(m->edge_normal + 3 * (int64_t)s[k].place, sum, sizeof sum);
+    for (int64_t k = 0; k < count; k++)
+        memcpy(m->edge_normal + 3 * (int64_t)s[k].place, sum, sizeof sum);
     if (balance == 0) return;
     if (count % 2 == 1 && faults->open++ == 0) middle_of(m, s, faults->open_at);
     if (count % 2 == 0 && faults->turned++ == 0) middle_of(m, s, faults->turned_at);
@@ -228,7 +236,9 @@ static mps_status look_at_edges(mps__mesh *m, mps__mesh_faults *faults)
     side *s = m->edge_normal ? collect_sides(m) : NULL;
     if (!s) return MPS_E_NOMEM;
     for (int64_t k = 0, next; k < 3 * m->elements; k = next) {
-        for (next = k + 1; next < 3 * m->elements && s[next].low == s[k].low && s[next].high == s[k].high; next++) {
+        for (next = k + 1;
+             next < 3 * m->elements && s[next].low == s[k].low && s[next].high == s[k].high;
+             next++) {
         }
         look_at_edge(m, s + k, next - k, faults);
     }
@@ -342,7 +352,8 @@ mps_status mps__mesh_finish(mps__mesh *m)
         if (m->elements > 0) build(m, l, 0, (int32_t)m->elements);
         for (int64_t e = 0; e < m->elements; e++) m->order[e] = l[e].element;
     }
-    for (int d = 0; d < 3 && m->node && m->nodes > 0; d++) m->size = fmax(m->size, m->node[0].hi[d] - m->node[0].lo[d]);
+    for (int d = 0; d < 3 && m->node && m->nodes > 0; d++)
+        m->size = fmax(m->size, m->node[0].hi[d] - m->node[0].lo[d]);
     mps__free(m->context, l);
     return l && m->order && m->node ? MPS_OK : MPS_E_NOMEM;
 }
@@ -369,7 +380,8 @@ static double along_edge(const mps__mesh *m, int64_t e, int from, int to, const 
 static void try_edge(const mps__mesh *m, int64_t e, int k, const double x[3], hit *best)
 {
     const int next = (k + 1) % m->dim;
-    const double t = along_edge(m, e, k, next, x), *a = corner_of(m, e, k), *b = corner_of(m, e, next);
+    const double t = along_edge(m, e, k, next, x), *a = corner_of(m, e, k),
+                 *b = corner_of(m, e, next);
     double r[3], r2 = 0;
     for (int d = 0; d < 3; d++) {
         r[d] = x[d] - (a[d] + t * (b[d] - a[d]));
@@ -395,7 +407,8 @@ static bool try_face(const mps__mesh *m, int64_t e, const double x[3], hit *best
     }
     difference(x, corner_of(m, e, 0), r);
     const double height = dot(r, n) / n2;
-    if (height * height * n2 < best->r2) *best = (hit){height * height * n2, {height * n[0], height * n[1], height * n[2]}, e, 0};
+    if (height * height * n2 < best->r2)
+        *best = (hit){height * height * n2, {height * n[0], height * n[1], height * n[2]}, e, 0};
     return true;
 }
 
@@ -422,7 +435,8 @@ static void pseudonormal(const mps__mesh *m, const hit *h, double n[3])
     else if (h->feature < 4)
         memcpy(n, m->edge_normal + 9 * h->element + 3 * (h->feature - 1), 3 * sizeof *n);
     else
-        memcpy(n, m->point_normal + 3 * (int64_t)m->corner[3 * h->element + h->feature - 4], 3 * sizeof *n);
+        memcpy(n, m->point_normal + 3 * (int64_t)m->corner[3 * h->element + h->feature - 4],
+               3 * sizeof *n);
 }
 
 double mps__mesh_distance(const mps__mesh *m, const double x[3], double foot[3], double n[3])
@@ -432,10 +446,12 @@ double mps__mesh_distance(const mps__mesh *m, const double x[3], double foot[3],
     for (int depth = m->nodes > 0; depth > 0;) {
         const mps__mesh_node *node = &m->node[stack[--depth]];
         if (box_distance2(node, x) >= best.r2) continue;
-        for (int32_t k = 0; k < node->count; k++) try_element(m, m->order[node->first + k], x, &best);
+        for (int32_t k = 0; k < node->count; k++)
+            try_element(m, m->order[node->first + k], x, &best);
         if (node->count > 0) continue;
         const int32_t left = (int32_t)(node - m->node) + 1;
-        const bool left_first = box_distance2(&m->node[left], x) < box_distance2(&m->node[node->right], x);
+        const bool left_first = box_distance2(&m->node[left], x) <
+                                box_distance2(&m->node[node->right], x);
         stack[depth++] = left_first ? node->right : left;
         stack[depth++] = left_first ? left : node->right;
     }

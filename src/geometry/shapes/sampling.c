@@ -28,7 +28,8 @@ static double length_of(const double v[3])
 
 static mps_status add_wall(mps__samples *s, const mps__vertex *v)
 {
-    MPS__TRY(mps__grow(s->context, (void **)&s->feature, &s->feature_capacity, s->wall.count, s->wall.count + 1, sizeof *s->feature));
+    MPS__TRY(mps__grow(s->context, (void **)&s->feature, &s->feature_capacity, s->wall.count,
+                       s->wall.count + 1, sizeof *s->feature));
     s->feature[s->wall.count] = v->feature;
     return mps__buckets_add(&s->wall, v->x);
 }
@@ -53,7 +54,8 @@ static mps_status take_patches(mps__samples *s, double distance)
     for (int64_t k = 0; k < s->contour->patches; k++) {
         mps__vertex v = {.feature = MPS__FACE};
         memcpy(v.x, s->contour->patch[k].x, sizeof v.x);
-        if (!is_kept(s, v.x) || mps__buckets_nearest(&s->wall, v.x, distance * dp, NULL) >= 0) continue;
+        if (!is_kept(s, v.x) || mps__buckets_nearest(&s->wall, v.x, distance * dp, NULL) >= 0)
+            continue;
         if (s->others && mps__buckets_nearest(s->others, v.x, room * dp, NULL) >= 0) continue;
         if (mps__shape_project(s->shape, v.x, dp)) MPS__TRY(add_wall(s, &v));
     }
@@ -77,7 +79,8 @@ static mps_status thin_out(mps__samples *s, const double *lo, const double *hi)
         mps__buckets_free(&s->wall);
         MPS__TRY(mps__buckets_init(&s->wall, s->context, s->shape->dim, lo, hi, dp));
         for (int32_t feature = MPS__CORNER; feature <= MPS__FACE; feature++)
-            for (int32_t odd = 0; odd < (s->shape->dim == 3 || feature < MPS__FACE ? ODD : 1); odd++)
+            for (int32_t odd = 0; odd < (s->shape->dim == 3 || feature < MPS__FACE ? ODD : 1);
+                 odd++)
                 MPS__TRY(take_vertices(s, feature, odd, distance));
         if (s->shape->dim == 2) MPS__TRY(take_patches(s, distance));
         if ((double)s->wall.count > 0.98 * wanted) break;
@@ -113,7 +116,8 @@ static bool move_apart(const mps__samples *s, int64_t i, double x[3])
     if (s->others) mps__buckets_visit(s->others, x, p.range, add_push, &p);
     double moved[3];
     for (int d = 0; d < 3; d++) moved[d] = x[d] + push * dp * p.sum[d];
-    const bool found = s->feature[i] == MPS__EDGE ? mps__shape_project_feature(s->shape, moved) : mps__shape_project(s->shape, moved, dp);
+    const bool found = s->feature[i] == MPS__EDGE ? mps__shape_project_feature(s->shape, moved)
+                                                  : mps__shape_project(s->shape, moved, dp);
     double way[3];
     for (int d = 0; d < 3; d++) way[d] = moved[d] - x[d];
     if (!found || !(length_of(way) < 0.5 * dp) || !is_kept(s, moved)) return false;
@@ -189,7 +193,8 @@ static mps_status offer_dummy(mps__samples *s, const double x[3], double spacing
 {
     const double dp = s->shape->dp;
     if (s->others && mps__buckets_nearest(s->others, x, room * dp, NULL) >= 0) return MPS_OK;
-    if (!is_kept(s, x) || mps__buckets_nearest(&s->wall, x, wall_room * dp, NULL) >= 0) return MPS_OK;
+    if (!is_kept(s, x) || mps__buckets_nearest(&s->wall, x, wall_room * dp, NULL) >= 0)
+        return MPS_OK;
     if (mps__buckets_nearest(&s->dummy, x, spacing * dp, NULL) >= 0) return MPS_OK;
     return mps__buckets_add(&s->dummy, x);
 }
@@ -218,7 +223,8 @@ static mps_status fill_gaps(mps__samples *s, int32_t layers, const mps__distance
         double x[3];
         if (lattice->value[k] > -0.5 * dp || lattice->value[k] < -(layers + 0.5) * dp) continue;
         mps__distances_place(lattice, k, x);
-        if (mps__buckets_nearest(&s->wall, x, reach, NULL) >= 0) MPS__TRY(offer_dummy(s, x, gap_room));
+        if (mps__buckets_nearest(&s->wall, x, reach, NULL) >= 0)
+            MPS__TRY(offer_dummy(s, x, gap_room));
     }
     return MPS_OK;
 }

@@ -91,13 +91,16 @@ bool mps__shape_project_feature(const mps__shape *s, double x[3])
 /* On a ridge, e.g. on the diagonal of a corner, central differences see too small a slope: the steeper of two places counts. */
 static double off_ridges(const mps__shape *s, const double x[3], double raw)
 {
-    const double aside[3] = {x[0] + 0.13 * s->dp, x[1] + 0.05 * s->dp, s->dim == 3 ? x[2] - 0.09 * s->dp : 0};
-    const double here = mps__shape_true(s, x, NULL), given = mps__shape_at(s, aside), there = mps__shape_true(s, aside, NULL);
+    const double aside[3] = {x[0] + 0.13 * s->dp, x[1] + 0.05 * s->dp,
+                             s->dim == 3 ? x[2] - 0.09 * s->dp : 0};
+    const double here = mps__shape_true(s, x, NULL), given = mps__shape_at(s, aside),
+                 there = mps__shape_true(s, aside, NULL);
     if (given == 0 || s->mesh) return here;
     return fabs(raw * there / given) < fabs(here) ? raw * there / given : here;
 }
 
-mps_status mps__distances_make(mps__distances *f, mps__context *context, const mps__shape *s, const double *lo, const double *hi)
+mps_status mps__distances_make(mps__distances *f, mps__context *context, const mps__shape *s,
+                               const double *lo, const double *hi)
 {
     double along[3], points = 1;
     *f = (mps__distances){.dp = s->dp, .dim = s->dim, .n = {1, 1, 1}};
@@ -106,8 +109,10 @@ mps_status mps__distances_make(mps__distances *f, mps__context *context, const m
         points *= along[d];
     }
     const int most = mps__longest(along, s->dim);
-    MPS__CHECK(context, points < most_points, "the solid's box is %g m long along axis %d: too many lattice points of spacing %g m",
-               hi[most] - lo[most], most, s->dp);
+    MPS__CHECK(
+        context, points < most_points,
+        "the solid's box is %g m long along axis %d: too many lattice points of spacing %g m",
+        hi[most] - lo[most], most, s->dp);
     for (int d = 0; d < s->dim; d++) {
         f->lo[d] = lo[d];
         f->n[d] = (int64_t)along[d];
@@ -119,8 +124,11 @@ mps_status mps__distances_make(mps__distances *f, mps__context *context, const m
         mps__distances_place(f, k, x);
         const double raw = mps__shape_at(s, x);
         f->value[k] = fabs(raw) < band * s->dp ? off_ridges(s, x, raw) : raw;
-        MPS__CHECK(context, isfinite(raw), "the solid's distance is %g at (%g, %g, %g) m: must be finite", raw, x[0], x[1], x[2]);
-        MPS__CHECK(context, isfinite(f->value[k]), "the solid's distance is not finite near (%g, %g, %g) m", x[0], x[1], x[2]);
+        MPS__CHECK(context, isfinite(raw),
+                   "the solid's distance is %g at (%g, %g, %g) m: must be finite", raw, x[0], x[1],
+                   x[2]);
+        MPS__CHECK(context, isfinite(f->value[k]),
+                   "the solid's distance is not finite near (%g, %g, %g) m", x[0], x[1], x[2]);
     }
     return MPS_OK;
 }

@@ -24,7 +24,8 @@ static mps_status read_all(mps__context *c, FILE *in, file *f)
         f->size += (int64_t)got;
         if (got < BLOCK) break;
     }
-    if (ferror(in)) return mps__fail(c, MPS_E_IO, "cannot read \"%.200s\": %s", f->path, strerror(errno));
+    if (ferror(in))
+        return mps__fail(c, MPS_E_IO, "cannot read \"%.200s\": %s", f->path, strerror(errno));
     return MPS_OK;
 }
 
@@ -71,8 +72,9 @@ static mps_status parse_binary(mps__mesh *m, const file *f)
         MPS__TRY(next_triangle(m, &x));
         for (int k = 0; k < 9; k++) {
             x[k] = float_at(f->bytes + HEADER + RECORD * t + 12 + 4 * k);
-            MPS__CHECK(m->context, isfinite(x[k]), "\"%.200s\": coordinate %d of triangle %lld is %g: must be finite", f->path, k,
-                       (long long)t, x[k]);
+            MPS__CHECK(m->context, isfinite(x[k]),
+                       "\"%.200s\": coordinate %d of triangle %lld is %g: must be finite", f->path,
+                       k, (long long)t, x[k]);
         }
     }
     return MPS_OK;
@@ -89,7 +91,8 @@ static bool is_blank(unsigned char c)
 static bool next_word(file *f, char word[WORD])
 {
     int length = 0;
-    for (; f->at < f->size && is_blank(f->bytes[f->at]); f->at++) f->line += f->bytes[f->at] == '\n';
+    for (; f->at < f->size && is_blank(f->bytes[f->at]); f->at++)
+        f->line += f->bytes[f->at] == '\n';
     for (; f->at < f->size && !is_blank(f->bytes[f->at]); f->at++)
         if (length < WORD - 1) word[length++] = (char)f->bytes[f->at];
     word[length] = '\0';
@@ -139,8 +142,10 @@ static bool number(const char *p, double *value)
 static mps_status bad_word(const mps__mesh *m, const file *f, const char *word, const char *wanted)
 {
     if (!word[0])
-        return mps__fail(m->context, MPS_E_IO, "\"%.200s\" ends in line %lld: \"%s\" is missing", f->path, (long long)f->line, wanted);
-    return mps__fail(m->context, MPS_E_IO, "\"%.200s\", line %lld: \"%s\" instead of \"%s\"", f->path, (long long)f->line, word, wanted);
+        return mps__fail(m->context, MPS_E_IO, "\"%.200s\" ends in line %lld: \"%s\" is missing",
+                         f->path, (long long)f->line, wanted);
+    return mps__fail(m->context, MPS_E_IO, "\"%.200s\", line %lld: \"%s\" instead of \"%s\"",
+                     f->path, (long long)f->line, word, wanted);
 }
 
 static mps_status expect(mps__mesh *m, file *f, const char *wanted)
@@ -210,11 +215,15 @@ static mps_status parse(mps__mesh *m, file *f)
     if (!fits && f->size >= 5 && memcmp(f->bytes, "solid", 5) == 0)
         MPS__TRY(parse_ascii(m, f));
     else if (f->size < HEADER)
-        return mps__fail(c, MPS_E_IO, "\"%.200s\" has %lld bytes: a binary STL file has at least %d, an ASCII one begins with \"solid\"",
+        return mps__fail(c, MPS_E_IO,
+                         "\"%.200s\" has %lld bytes: a binary STL file has at least %d, an ASCII "
+                         "one begins with \"solid\"",
                          f->path, (long long)f->size, HEADER);
     else if (!fits)
-        return mps__fail(c, MPS_E_IO, "\"%.200s\" has %lld bytes: as a binary STL file of %lld triangles it would have %lld", f->path,
-                         (long long)f->size, (long long)count, HEADER + RECORD * (long long)count);
+        return mps__fail(
+            c, MPS_E_IO,
+            "\"%.200s\" has %lld bytes: as a binary STL file of %lld triangles it would have %lld",
+            f->path, (long long)f->size, (long long)count, HEADER + RECORD * (long long)count);
     else
         MPS__TRY(parse_binary(m, f));
     MPS__CHECK(c, m->elements > 0, "\"%.200s\" has no triangles", f->path);

@@ -13,28 +13,36 @@ static const mps_stl stl_defaults = {.name = "solid", .dummy_layers = 2, .scale 
 static mps_status check_corner(mps_sim *sim, const char *what, const double *lo)
 {
     if (sim->has_tank && !sim->lattice_of_solids) return MPS_OK;
-    for (int d = 0; d < sim->world.setup.dim; d++) MPS__TRY(mps__place_resolved(sim, what, d, lo[d]));
+    for (int d = 0; d < sim->world.setup.dim; d++)
+        MPS__TRY(mps__place_resolved(sim, what, d, lo[d]));
     return MPS_OK;
 }
 
-static mps_status check_name(mps_sim *sim, const char *type, const char *name, int32_t layers, char *copy)
+static mps_status check_name(mps_sim *sim, const char *type, const char *name, int32_t layers,
+                             char *copy)
 {
-    MPS__CHECK(&sim->context, mps__name_copy(copy, MPS__PART_NAME, name), "%s.name \"%.40s\": must have 1..%d characters", type, name,
-               MPS__PART_NAME - 1);
-    MPS__CHECK(&sim->context, layers >= 1 && layers <= 8, "%s.dummy_layers is %d: must be 1..8", type, (int)layers);
+    MPS__CHECK(&sim->context, mps__name_copy(copy, MPS__PART_NAME, name),
+               "%s.name \"%.40s\": must have 1..%d characters", type, name, MPS__PART_NAME - 1);
+    MPS__CHECK(&sim->context, layers >= 1 && layers <= 8, "%s.dummy_layers is %d: must be 1..8",
+               type, (int)layers);
     return MPS_OK;
 }
 
 static mps_status check_solid(mps_sim *sim, const mps_solid *s)
 {
     mps__context *c = &sim->context;
-    MPS__CHECK(c, s->distance || s->inside, "solid \"%s\" has neither a distance nor an inside", s->name);
-    MPS__CHECK(c, !s->distance || !s->inside, "solid \"%s\" has both a distance and an inside: must be one of them", s->name);
-    MPS__CHECK(c, s->invert == 0 || s->invert == 1, "solid.invert is %d: must be 0 or 1", (int)s->invert);
+    MPS__CHECK(c, s->distance || s->inside, "solid \"%s\" has neither a distance nor an inside",
+               s->name);
+    MPS__CHECK(c, !s->distance || !s->inside,
+               "solid \"%s\" has both a distance and an inside: must be one of them", s->name);
+    MPS__CHECK(c, s->invert == 0 || s->invert == 1, "solid.invert is %d: must be 0 or 1",
+               (int)s->invert);
     for (int d = 0; d < sim->world.setup.dim; d++) {
-        MPS__CHECK(c, isfinite(s->lo[d]) && isfinite(s->hi[d]), "the solid's box [%d] is %g .. %g: must be finite", d, s->lo[d], s->hi[d]);
+        MPS__CHECK(c, isfinite(s->lo[d]) && isfinite(s->hi[d]),
+                   "the solid's box [%d] is %g .. %g: must be finite", d, s->lo[d], s->hi[d]);
         MPS__CHECK(c, s->hi[d] - s->lo[d] >= (1 - 1e-6) * sim->world.setup.dp,
-                   "the solid's box [%d] is %g .. %g: must be at least dp = %g m long", d, s->lo[d], s->hi[d], sim->world.setup.dp);
+                   "the solid's box [%d] is %g .. %g: must be at least dp = %g m long", d, s->lo[d],
+                   s->hi[d], sim->world.setup.dp);
     }
     return check_corner(sim, "solid.lo", s->lo);
 }
@@ -83,14 +91,18 @@ static mps_status check_stl(mps_sim *sim, const char *path, const mps_stl *s)
     MPS__CHECK(c, sim->world.setup.dim == 3, "an STL file needs 3-D: this simulation is 2-D");
     MPS__CHECK(c, path && path[0], "the path of the STL file is %s", path ? "empty" : "NULL");
     MPS__CHECK(c, isfinite(s->scale) && s->scale > 0, "stl.scale is %g: must be > 0", s->scale);
-    MPS__CHECK(c, mps__finite(s->shift, 3), "stl.shift is (%g, %g, %g) m: must be finite", s->shift[0], s->shift[1], s->shift[2]);
-    MPS__CHECK(c, mps__finite(s->rotation, 3), "stl.rotation is (%g, %g, %g) rad: must be finite", s->rotation[0], s->rotation[1],
-               s->rotation[2]);
-    MPS__CHECK(c, s->container == 0 || s->container == 1, "stl.container is %d: must be 0 or 1", (int)s->container);
+    MPS__CHECK(c, mps__finite(s->shift, 3), "stl.shift is (%g, %g, %g) m: must be finite",
+               s->shift[0], s->shift[1], s->shift[2]);
+    MPS__CHECK(c, mps__finite(s->rotation, 3), "stl.rotation is (%g, %g, %g) rad: must be finite",
+               s->rotation[0], s->rotation[1], s->rotation[2]);
+    MPS__CHECK(c, s->container == 0 || s->container == 1, "stl.container is %d: must be 0 or 1",
+               (int)s->container);
     MPS__CHECK(c, s->open_side >= MPS_SIDE_NONE && s->open_side <= MPS_SIDE_Z1,
-               "stl.open_side is %d: must be MPS_SIDE_NONE (0) .. MPS_SIDE_Z1 (%d)", (int)s->open_side, MPS_SIDE_Z1);
+               "stl.open_side is %d: must be MPS_SIDE_NONE (0) .. MPS_SIDE_Z1 (%d)",
+               (int)s->open_side, MPS_SIDE_Z1);
     MPS__CHECK(c, s->container || s->open_side == MPS_SIDE_NONE,
-               "stl.open_side is %d: a body has none, set container to 1 or open_side to 0", (int)s->open_side);
+               "stl.open_side is %d: a body has none, set container to 1 or open_side to 0",
+               (int)s->open_side);
     return MPS_OK;
 }
 
@@ -144,18 +156,25 @@ static mps_status prepare_mesh(mps_sim *sim, mps__mesh *m, const char *path, boo
     mps__mesh_faults f;
     MPS__TRY(mps__mesh_weld(m, &f));
     MPS__CHECK(c, m->elements > 0, "\"%.200s\" has no triangle with an area", path);
-    MPS__CHECK(c, f.open == 0, "\"%.200s\" is not closed: %lld edges have no second triangle, the first is at (%g, %g, %g) m", path,
-               (long long)f.open, f.open_at[0], f.open_at[1], f.open_at[2]);
-    MPS__CHECK(c, f.turned == 0, "\"%.200s\" is not oriented: at %lld edges a triangle is turned over, the first is at (%g, %g, %g) m",
+    MPS__CHECK(c, f.open == 0,
+               "\"%.200s\" is not closed: %lld edges have no second triangle, the first is at (%g, "
+               "%g, %g) m",
+               path, (long long)f.open, f.open_at[0], f.open_at[1], f.open_at[2]);
+    MPS__CHECK(c, f.turned == 0,
+               "\"%.200s\" is not oriented: at %lld edges a triangle is turned over, the first is "
+               "at (%g, %g, %g) m",
                path, (long long)f.turned, f.turned_at[0], f.turned_at[1], f.turned_at[2]);
     const double volume = mps__mesh_volume(m);
-    if (f.degenerate > 0) mps__log(c, MPS_LOG_INFO, "\"%.200s\": %lld triangles have no area", path, (long long)f.degenerate);
+    if (f.degenerate > 0)
+        mps__log(c, MPS_LOG_INFO, "\"%.200s\": %lld triangles have no area", path,
+                 (long long)f.degenerate);
     if (volume < 0) mps__log(c, MPS_LOG_INFO, "\"%.200s\" is inside out: turned over", path);
     if ((volume < 0) != container) mps__mesh_turn(m);
     return mps__mesh_finish(m);
 }
 
-static mps_status add_mesh(mps_sim *sim, const char *path, const mps_stl *s, mps__mesh *m, double built[6])
+static mps_status add_mesh(mps_sim *sim, const char *path, const mps_stl *s, mps__mesh *m,
+                           double built[6])
 {
     mps__solid add = {.name = s->name, .layers = s->dummy_layers, .open = s->open_side};
     place_mesh(m, s, add.lo, add.hi);

@@ -17,7 +17,9 @@ typedef struct site {
 mps_status mps__fill_allowed(mps_sim *sim)
 {
     const int32_t open = mps__particles_leases(&sim->world.particles);
-    if (open > 0) return mps__fail(&sim->context, MPS_E_BUSY, "%d leases are open: give them back before adding particles", (int)open);
+    if (open > 0)
+        return mps__fail(&sim->context, MPS_E_BUSY,
+                         "%d leases are open: give them back before adding particles", (int)open);
     return MPS_OK;
 }
 
@@ -25,26 +27,31 @@ mps_status mps__solids_allowed(mps_sim *sim)
 {
     MPS__TRY(mps__fill_allowed(sim));
     if (sim->world.state.step > 0)
-        return mps__fail(&sim->context, MPS_E_STATE, "solids are added before the first step; %lld steps were taken",
+        return mps__fail(&sim->context, MPS_E_STATE,
+                         "solids are added before the first step; %lld steps were taken",
                          (long long)sim->world.state.step);
     return MPS_OK;
 }
 
 mps_status mps__place_resolved(mps_sim *sim, const char *what, int d, double place)
 {
-    static const double most = 1e9; /* [dp]: rounding is then below the millionth of a spacing that lattice points are told apart by */
+    static const double most =
+        1e9; /* [dp]: rounding is then below the millionth of a spacing that lattice points are told apart by */
     MPS__CHECK(&sim->context, fabs(place) <= most * sim->world.setup.dp,
-               "%s[%d] puts solids at %g m: places must be within %g m, %g spacings, of the origin", what, d, place, most * sim->world.setup.dp,
-               most);
+               "%s[%d] puts solids at %g m: places must be within %g m, %g spacings, of the origin",
+               what, d, place, most * sim->world.setup.dp, most);
     return MPS_OK;
 }
 
-mps_status mps__in_the_way(mps_sim *sim, int64_t i, const double *X, const char *what, const char *name)
+mps_status mps__in_the_way(mps_sim *sim, int64_t i, const double *X, const char *what,
+                           const char *name)
 {
     return mps__fail(&sim->context, MPS_E_ARG,
-                     "fluid particle %lld at (%g, %g, %g) m is in the way of %s \"%s\": add solids before the fill, or keep fluid half a "
+                     "fluid particle %lld at (%g, %g, %g) m is in the way of %s \"%s\": add solids "
+                     "before the fill, or keep fluid half a "
                      "spacing, %g m, away from their particles",
-                     (long long)sim->world.particles.id[i], X[0], X[1], sim->world.setup.dim == 3 ? X[2] : 0, what, name, 0.5 * sim->world.setup.dp);
+                     (long long)sim->world.particles.id[i], X[0], X[1],
+                     sim->world.setup.dim == 3 ? X[2] : 0, what, name, 0.5 * sim->world.setup.dp);
 }
 
 /* One call's work: which points, what they become, and what was there before. */
@@ -134,7 +141,9 @@ static void mark_plates(plan *p)
         double X[3] = {0, 0, 0};
         lattice_point(p, k, X);
         for (int32_t m = 0; m < s->count; m++)
-            if (s->list[m].axis < 0 && mps__screen_distance(&s->list[m], X) < least * p->sim->world.setup.dp) p->state[place] = POINT_TAKEN;
+            if (s->list[m].axis < 0 &&
+                mps__screen_distance(&s->list[m], X) < least * p->sim->world.setup.dp)
+                p->state[place] = POINT_TAKEN;
         place++;
     } while (plan_next(p, k));
 }
@@ -231,7 +240,8 @@ static bool in_solid(const plan *p, const double *X)
     for (int d = 0; d < p->dim; d++) {
         const double q = (X[d] - p->box.lo[d]) / p->sim->world.setup.dp;
         if (q <= (double)p->box.first[d] - half || q >= (double)p->box.last[d] + half) return false;
-        inside = inside && q >= (double)p->first[d] + half && (q <= (double)p->last[d] - half || (d == 1 && p->open_top));
+        inside = inside && q >= (double)p->first[d] + half &&
+                 (q <= (double)p->last[d] - half || (d == 1 && p->open_top));
     }
     return !inside;
 }
@@ -320,7 +330,8 @@ static mps_status face_parts(plan *p, const char *name)
         if (f == 3 && p->open_top) continue;
         snprintf(full, sizeof full, "%s.%s", name, face[f]);
         p->part[f] = mps__part_number(&p->sim->world.particles, full, true);
-        MPS__CHECK(&p->sim->context, p->part[f] >= 0, "part \"%s\" is one too many: at most %d", full, MPS__PARTS_MAX);
+        MPS__CHECK(&p->sim->context, p->part[f] >= 0, "part \"%s\" is one too many: at most %d",
+                   full, MPS__PARTS_MAX);
     }
     return MPS_OK;
 }
@@ -330,7 +341,8 @@ static mps_status tank_run(plan *p, const char *name)
     MPS__TRY(check_fluid(p, "tank", name));
     MPS__TRY(face_parts(p, name));
     MPS__TRY(plan_choose(p));
-    MPS__CHECK(&p->sim->context, p->taken == 0, "tank \"%s\" would stand on %lld particles that are there already", name,
+    MPS__CHECK(&p->sim->context, p->taken == 0,
+               "tank \"%s\" would stand on %lld particles that are there already", name,
                (long long)p->taken);
     return plan_build(p);
 }
@@ -372,7 +384,9 @@ static mps_status baffle_run(plan *p, const char *name)
     p->part[0] = mps__part_number(&p->sim->world.particles, name, true);
     MPS__CHECK(c, p->part[0] >= 0, "part \"%s\" is one too many: at most %d", name, MPS__PARTS_MAX);
     MPS__TRY(plan_choose(p));
-    MPS__CHECK(c, p->chosen > 0, "all %lld lattice points of baffle \"%s\" are taken by other particles", (long long)p->taken, name);
+    MPS__CHECK(c, p->chosen > 0,
+               "all %lld lattice points of baffle \"%s\" are taken by other particles",
+               (long long)p->taken, name);
     return plan_build(p);
 }
 
@@ -427,14 +441,17 @@ static mps_status fluid_run(plan *p)
 {
     MPS__TRY(mps__packing_make(&p->packing, p->sim));
     MPS__TRY(plan_choose(p));
-    MPS__CHECK(&p->sim->context, p->chosen > 0, "nothing to fill: no free lattice point lies inside (%lld are taken)", (long long)p->taken);
+    MPS__CHECK(&p->sim->context, p->chosen > 0,
+               "nothing to fill: no free lattice point lies inside (%lld are taken)",
+               (long long)p->taken);
     return plan_build(p);
 }
 
 /* Share of the free points of the last row that were chosen. */
 static double top_share(const plan *p)
 {
-    int64_t k[3] = {p->box.first[0], p->box.first[1], p->box.first[2]}, place = 0, chosen = 0, left = 0;
+    int64_t k[3] = {p->box.first[0], p->box.first[1], p->box.first[2]}, place = 0, chosen = 0,
+            left = 0;
     do {
         const int state = k[1] == p->box.last[1] ? p->state[place] : POINT_TAKEN;
         chosen += state == POINT_CHOSEN;
@@ -444,7 +461,8 @@ static double top_share(const plan *p)
     return chosen > 0 ? (double)chosen / (double)(chosen + left) : 0;
 }
 
-mps_status mps__geometry_fill(mps_sim *sim, int32_t phase, mps__lattice_box *box, mps_inside_fn inside, void *user, int64_t *added)
+mps_status mps__geometry_fill(mps_sim *sim, int32_t phase, mps__lattice_box *box,
+                              mps_inside_fn inside, void *user, int64_t *added)
 {
     plan p;
     plan_init(&p, sim, box);
@@ -461,7 +479,8 @@ mps_status mps__geometry_fill(mps_sim *sim, int32_t phase, mps__lattice_box *box
     return status;
 }
 
-bool mps__lattice_clip(const mps_sim *sim, const double *lo, const double *hi, mps__lattice_box *box)
+bool mps__lattice_clip(const mps_sim *sim, const double *lo, const double *hi,
+                       mps__lattice_box *box)
 {
     memset(box, 0, sizeof *box);
     for (int d = 0; d < sim->world.setup.dim; d++) {

@@ -10,7 +10,8 @@
 typedef struct mps__lattice_box {
     double lo[3];
     int64_t first[3], last[3];
-    double top; /* > 0: of the last row along y a fill takes this share of the points, evenly spread; 0: all of them */
+    double
+        top; /* > 0: of the last row along y a fill takes this share of the points, evenly spread; 0: all of them */
 } mps__lattice_box;
 
 /* A thin plate: nodes on a rectangle (in 2-D a line), one to three columns of them side by side. */
@@ -28,15 +29,18 @@ mps_status mps__solids_allowed(mps_sim *sim);
 /* Lattice points must differ in their coordinates; `what` is what is at fault in the refusal, e.g. "tank.lo". */
 mps_status mps__place_resolved(mps_sim *sim, const char *what, int d, double place);
 /* The refusal of a solid that would stand on fluid particle i, which is at X in the tank's frame; `what` is e.g. "baffle". */
-mps_status mps__in_the_way(mps_sim *sim, int64_t i, const double *X, const char *what, const char *name);
+mps_status mps__in_the_way(mps_sim *sim, int64_t i, const double *X, const char *what,
+                           const char *name);
 /* Lattice points of the closed box lo..hi that lie in the last tank; false if there is none. */
-bool mps__lattice_clip(const mps_sim *sim, const double *lo, const double *hi, mps__lattice_box *box);
+bool mps__lattice_clip(const mps_sim *sim, const double *lo, const double *hi,
+                       mps__lattice_box *box);
 mps_status mps__geometry_tank(mps_sim *sim, const mps_tank *tank, const int64_t cells[3]);
 mps_status mps__geometry_baffle(mps_sim *sim, const char *name, const mps__lattice_box *box);
 /* True if a box is thin and has liquid on both sides, or may have; then its shape. */
 bool mps__plate_of_box(mps_sim *sim, const mps__lattice_box *box, mps__plate_shape *shape);
 mps_status mps__geometry_plate(mps_sim *sim, const char *name, const mps__plate_shape *shape);
 /* `inside` may be NULL: all points. box->top becomes the share that was taken. */
-mps_status mps__geometry_fill(mps_sim *sim, int32_t phase, mps__lattice_box *box, mps_inside_fn inside, void *user, int64_t *added);
+mps_status mps__geometry_fill(mps_sim *sim, int32_t phase, mps__lattice_box *box,
+                              mps_inside_fn inside, void *user, int64_t *added);
 
 #endif

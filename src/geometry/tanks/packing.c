@@ -8,7 +8,8 @@
 
 enum { SWEEPS = 30 };
 /* In spacings: points that move and that take part; reach and length of a push; longest way in all. */
-static const double moving = 2.6, taking_part = 4.3, range = 1.6, push = 0.12, longest = 0.45, occupied = 0.5;
+static const double moving = 2.6, taking_part = 4.3, range = 1.6, push = 0.12, longest = 0.45,
+                    occupied = 0.5;
 
 /* What is worked on. */
 typedef struct work {
@@ -32,7 +33,8 @@ static double clearance(const mps_sim *sim, const double X[3])
 static mps_status collect_solids(work *w)
 {
     const mps__particles *s = &w->sim->world.particles;
-    MPS__TRY(mps__buckets_init(&w->solids, &w->sim->context, s->dim, w->lo, w->hi, w->sim->world.setup.dp));
+    MPS__TRY(mps__buckets_init(&w->solids, &w->sim->context, s->dim, w->lo, w->hi,
+                               w->sim->world.setup.dp));
     for (int64_t i = 0; i < s->n; i++) {
         double X[3] = {0, 0, 0};
         if (s->kind[i] == MPS_FLUID || mps__is_shadow(s, i)) continue;
@@ -48,7 +50,8 @@ static mps_status add_point(work *w, int64_t place, const double X[3], bool may_
     mps__context *c = &w->sim->context;
     const int64_t i = p->count;
     MPS__TRY(mps__grow(c, (void **)&p->x, &p->capacity, 3 * i, 3 * (i + 1), sizeof *p->x));
-    MPS__TRY(mps__grow(c, (void **)&w->home, &w->home_capacity, 3 * i, 3 * (i + 1), sizeof *w->home));
+    MPS__TRY(
+        mps__grow(c, (void **)&w->home, &w->home_capacity, 3 * i, 3 * (i + 1), sizeof *w->home));
     MPS__TRY(mps__grow(c, (void **)&w->free, &w->free_capacity, i, i + 1, sizeof *w->free));
     memcpy(p->x + 3 * i, X, 3 * sizeof *X);
     memcpy(w->home + 3 * i, X, 3 * sizeof *X);
@@ -66,7 +69,8 @@ static mps_status collect_points(work *w)
     for (int64_t place = 0; place < n[0] * n[1] * n[2]; place++) {
         const int64_t k[3] = {place % n[0], place / n[0] % n[1], place / n[0] / n[1]};
         double X[3] = {0, 0, 0};
-        for (int d = 0; d < sim->world.setup.dim; d++) X[d] = sim->lattice_lo[d] + (double)k[d] * dp;
+        for (int d = 0; d < sim->world.setup.dim; d++)
+            X[d] = sim->lattice_lo[d] + (double)k[d] * dp;
         const double r = clearance(sim, X);
         if (r > taking_part * dp || mps__solid_covers(sim, X)) continue;
         if (mps__buckets_nearest(&w->solids, X, occupied * (1 - 1e-9) * dp, NULL) >= 0) continue;
@@ -93,9 +97,11 @@ static mps_status sweep(work *w)
     mps__packing *p = w->out;
     const double dp = w->sim->world.setup.dp;
     mps__buckets now;
-    mps_status status = mps__buckets_init(&now, p->context, w->sim->world.setup.dim, w->lo, w->hi, dp);
+    mps_status status = mps__buckets_init(&now, p->context, w->sim->world.setup.dim, w->lo, w->hi,
+                                          dp);
     if (status == MPS_OK) status = mps__buckets_reserve(&now, p->count);
-    for (int64_t i = 0; i < p->count && status == MPS_OK; i++) status = mps__buckets_add(&now, p->x + 3 * i);
+    for (int64_t i = 0; i < p->count && status == MPS_OK; i++)
+        status = mps__buckets_add(&now, p->x + 3 * i);
     for (int64_t i = 0; i < p->count && status == MPS_OK; i++) {
         pushes sum = {range * dp, {0, 0, 0}};
         double way[3], length2 = 0, *x = p->x + 3 * i;

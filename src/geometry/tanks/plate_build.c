@@ -64,7 +64,8 @@ static bool locate(const builder *b, int64_t i, resident *out)
     if (fabs(out->height) > reach) return false;
     for (int e = 0; e < 2; e++) {
         out->at[e] = component(s->along[e], X, s->corner, b->dim);
-        if (out->at[e] < -reach || out->at[e] > (double)s->nodes[e] * s->spacing[e] + reach) return false;
+        if (out->at[e] < -reach || out->at[e] > (double)s->nodes[e] * s->spacing[e] + reach)
+            return false;
     }
     return true;
 }
@@ -75,17 +76,19 @@ static mps_status find_residents(builder *b)
     for (int64_t i = 0; i < s->n; i++) {
         resident r;
         if (mps__is_shadow(s, i) || !locate(b, i, &r)) continue;
-        MPS__TRY(
-            mps__grow(&b->sim->context, (void **)&b->residents, &b->resident_capacity, b->resident_count, b->resident_count + 1, sizeof r));
+        MPS__TRY(mps__grow(&b->sim->context, (void **)&b->residents, &b->resident_capacity,
+                           b->resident_count, b->resident_count + 1, sizeof r));
         b->residents[b->resident_count++] = r;
     }
     return MPS_OK;
 }
 
 /* Distance along the plate, and above it, of a resident from a node of a column at `height` [m]. */
-static void distances(const builder *b, const resident *r, const int64_t node[2], double height, double *along, double *above)
+static void distances(const builder *b, const resident *r, const int64_t node[2], double height,
+                      double *along, double *above)
 {
-    *along = hypot(r->at[0] - (double)node[0] * b->shape.spacing[0], r->at[1] - (double)node[1] * b->shape.spacing[1]);
+    *along = hypot(r->at[0] - (double)node[0] * b->shape.spacing[0],
+                   r->at[1] - (double)node[1] * b->shape.spacing[1]);
     *above = fabs(r->height - height);
 }
 
@@ -111,7 +114,8 @@ static int32_t node_stands_on(const builder *b, const int64_t node[2], double he
         double along, above;
         if (s->kind[r->i] != MPS_WALL) continue;
         distances(b, r, node, height, &along, &above);
-        if (at_node(b, r, node, height) || hypot(along, above) < touching * b->dp) return s->plate[r->i] ? EDGE_PLATE : EDGE_WALL;
+        if (at_node(b, r, node, height) || hypot(along, above) < touching * b->dp)
+            return s->plate[r->i] ? EDGE_PLATE : EDGE_WALL;
     }
     return EDGE_FREE;
 }
@@ -135,7 +139,9 @@ static int32_t edge_stands_on(const builder *b, int e, int end, int64_t beyond)
 /* A plate of the lattice whose last node is next to a wall stands on it. */
 static void reach_wall(builder *b, int e, int end)
 {
-    if (b->shape.axis < 0 || edge_stands_on(b, e, end, 0) != EDGE_FREE || edge_stands_on(b, e, end, 1) == EDGE_FREE) return;
+    if (b->shape.axis < 0 || edge_stands_on(b, e, end, 0) != EDGE_FREE ||
+        edge_stands_on(b, e, end, 1) == EDGE_FREE)
+        return;
     b->shape.nodes[e]++;
     if (end) return;
     for (int d = 0; d < b->dim; d++) b->shape.corner[d] -= b->dp * b->shape.along[e][d];
@@ -154,7 +160,8 @@ static void find_edges(builder *b)
 
 static mps_status add_place(builder *b, const place *p)
 {
-    MPS__TRY(mps__grow(&b->sim->context, (void **)&b->places, &b->place_capacity, b->place_count, b->place_count + 1, sizeof *p));
+    MPS__TRY(mps__grow(&b->sim->context, (void **)&b->places, &b->place_capacity, b->place_count,
+                       b->place_count + 1, sizeof *p));
     b->places[b->place_count++] = *p;
     return MPS_OK;
 }
@@ -162,7 +169,8 @@ static mps_status add_place(builder *b, const place *p)
 static void node_place(const builder *b, const int64_t node[2], double height, double X[3])
 {
     for (int d = 0; d < b->dim; d++)
-        X[d] = b->shape.corner[d] + height * b->shape.normal[d] + (double)node[0] * b->shape.spacing[0] * b->shape.along[0][d] +
+        X[d] = b->shape.corner[d] + height * b->shape.normal[d] +
+               (double)node[0] * b->shape.spacing[0] * b->shape.along[0][d] +
                (double)node[1] * b->shape.spacing[1] * b->shape.along[1][d];
 }
 
@@ -175,20 +183,26 @@ static bool on_edge(const builder *b, const int64_t node[2], int e, int end)
 static double share_along(const builder *b, const int64_t node[2], int e)
 {
     if (e == 1 && b->dim == 2) return 1;
-    return b->shape.spacing[e] * (b->shape.nodes[e] > 1 && (on_edge(b, node, e, 0) || on_edge(b, node, e, 1)) ? 0.5 : 1.0);
+    return b->shape.spacing[e] *
+           (b->shape.nodes[e] > 1 && (on_edge(b, node, e, 0) || on_edge(b, node, e, 1)) ? 0.5
+                                                                                        : 1.0);
 }
 
 /* Area vector of the edges of the plate in the liquid; a plate of one column has none to speak of. */
 static bool free_edges(const builder *b, const int64_t node[2], int32_t c, double area[3])
 {
-    const double thickness = b->shape.columns == 1 ? edge_area * b->dp : b->dp * (c == 0 || c == b->shape.columns - 1 ? 0.5 : 1.0);
+    const double thickness = b->shape.columns == 1
+                                 ? edge_area * b->dp
+                                 : b->dp * (c == 0 || c == b->shape.columns - 1 ? 0.5 : 1.0);
     bool any = false;
     for (int d = 0; d < 3; d++) area[d] = 0;
     for (int e = 0; e < b->dim - 1; e++)
         for (int end = 0; end < 2; end++) {
             if (b->edge[e][end] != EDGE_FREE || !on_edge(b, node, e, end)) continue;
             any = true;
-            for (int d = 0; d < b->dim; d++) area[d] += (end ? 1 : -1) * thickness * share_along(b, node, 1 - e) * b->shape.along[e][d];
+            for (int d = 0; d < b->dim; d++)
+                area[d] += (end ? 1 : -1) * thickness * share_along(b, node, 1 - e) *
+                           b->shape.along[e][d];
         }
     return any;
 }
@@ -214,7 +228,8 @@ static bool looks_along(const builder *b, const int64_t node[2], const double *a
         for (int end = 0; end < 2; end++) {
             if (b->edge[e][end] == EDGE_FREE || !on_edge(b, node, e, end)) continue;
             foot = true;
-            for (int d = 0; d < b->dim; d++) inward += (end ? -1 : 1) * b->shape.along[e][d] * area[d];
+            for (int d = 0; d < b->dim; d++)
+                inward += (end ? -1 : 1) * b->shape.along[e][d] * area[d];
         }
     return !foot || inward > 0;
 }
@@ -226,11 +241,17 @@ static mps_status divide(builder *b, const int64_t node[2], int32_t c, int64_t i
     const bool single = b->shape.columns == 1;
     double edges[3];
     const bool tip = free_edges(b, node, c, edges);
-    place p = {.kind = MPS_WALL, .part = s->part[i], .plate = s->plate[i] ? s->plate[i] : b->number, .resident = i};
+    place p = {.kind = MPS_WALL,
+               .part = s->part[i],
+               .plate = s->plate[i] ? s->plate[i] : b->number,
+               .resident = i};
     if (!looks_along(b, node, s->area + i * b->dim) || (single && tip)) return MPS_OK;
     memcpy(p.X, s->ref + i * b->dim, (size_t)b->dim * sizeof *p.X);
-    for (int side = single ? -1 : column_side(b, c); side <= (single ? 1 : column_side(b, c)); side += single ? 2 : 1) {
-        for (int d = 0; d < b->dim; d++) p.area[d] = (tip && side != 0 ? 0.75 : 0.5) * s->area[i * b->dim + d] + (tip ? edges[d] : 0);
+    for (int side = single ? -1 : column_side(b, c); side <= (single ? 1 : column_side(b, c));
+         side += single ? 2 : 1) {
+        for (int d = 0; d < b->dim; d++)
+            p.area[d] = (tip && side != 0 ? 0.75 : 0.5) * s->area[i * b->dim + d] +
+                        (tip ? edges[d] : 0);
         add_face(b, node, side, p.area);
         if (side == 0 && !tip) {
             p.kind = MPS_DUMMY;
@@ -278,8 +299,10 @@ static mps_status fill_node(builder *b, const int64_t node[2], int32_t c)
         const resident *r = &b->residents[k];
         double along, above;
         distances(b, r, node, height, &along, &above);
-        taken = taken || hypot(along, above) < (b->shape.axis < 0 ? apart : 0.5 * (1 - 1e-9)) * b->dp;
-        if (s->kind[r->i] == MPS_WALL && at_node(b, r, node, height)) MPS__TRY(divide(b, node, c, r->i));
+        taken = taken ||
+                hypot(along, above) < (b->shape.axis < 0 ? apart : 0.5 * (1 - 1e-9)) * b->dp;
+        if (s->kind[r->i] == MPS_WALL && at_node(b, r, node, height))
+            MPS__TRY(divide(b, node, c, r->i));
     }
     b->taken += taken;
     return taken ? MPS_OK : stand_free(b, node, c);
@@ -299,11 +322,14 @@ static void restore_area(builder *b)
 {
     double sum = 0, wanted = 1;
     if (b->shape.axis >= 0) return;
-    for (int e = 0; e < b->dim - 1; e++) wanted *= (double)(b->shape.nodes[e] - 1) * b->shape.spacing[e];
-    for (int64_t k = 0; k < b->place_count; k++) sum += fmax(0, mps__dot(b->places[k].area, b->shape.normal, b->dim));
+    for (int e = 0; e < b->dim - 1; e++)
+        wanted *= (double)(b->shape.nodes[e] - 1) * b->shape.spacing[e];
+    for (int64_t k = 0; k < b->place_count; k++)
+        sum += fmax(0, mps__dot(b->places[k].area, b->shape.normal, b->dim));
     for (int64_t k = 0; sum > 0 && k < b->place_count; k++) {
         const double across = mps__dot(b->places[k].area, b->shape.normal, b->dim);
-        for (int d = 0; d < b->dim; d++) b->places[k].area[d] += across * (wanted / sum - 1) * b->shape.normal[d];
+        for (int d = 0; d < b->dim; d++)
+            b->places[k].area[d] += across * (wanted / sum - 1) * b->shape.normal[d];
     }
 }
 
@@ -319,8 +345,10 @@ static mps_status cast_shadows(builder *b)
     const int64_t layers = (int64_t)fmax(2, floor(b->sim->world.setup.re_far / b->dp - 1 + 1e-6));
     place p = {.kind = MPS_DUMMY, .part = b->part, .plate = b->number, .resident = -1};
     int64_t node[2];
-    for (node[1] = -rows_beyond(b, 1, 0); node[1] < b->shape.nodes[1] + rows_beyond(b, 1, 1); node[1]++)
-        for (node[0] = -rows_beyond(b, 0, 0); node[0] < b->shape.nodes[0] + rows_beyond(b, 0, 1); node[0]++)
+    for (node[1] = -rows_beyond(b, 1, 0); node[1] < b->shape.nodes[1] + rows_beyond(b, 1, 1);
+         node[1]++)
+        for (node[0] = -rows_beyond(b, 0, 0); node[0] < b->shape.nodes[0] + rows_beyond(b, 0, 1);
+             node[0]++)
             for (int64_t k = 1; k <= layers; k++) {
                 const double depth = (double)k * b->dp - column_height(b, b->shape.columns - 1);
                 if (depth < 0.5 * in_plane * b->dp) continue; /* between the columns */
@@ -336,7 +364,8 @@ static mps_status cast_shadows(builder *b)
 
 static void set_screen(const builder *b, mps__screen *s)
 {
-    *s = (mps__screen){.axis = b->shape.axis, .part = b->part, .columns = b->shape.columns, .active = true};
+    *s = (mps__screen){
+        .axis = b->shape.axis, .part = b->part, .columns = b->shape.columns, .active = true};
     memcpy(s->corner, b->shape.corner, sizeof s->corner);
     memcpy(s->normal, b->shape.normal, sizeof s->normal);
     memcpy(s->along, b->shape.along, sizeof s->along);
@@ -378,7 +407,8 @@ static mps_status check_fluid(const builder *b, const char *name)
                          length = (double)(b->shape.nodes[e] - 1) * b->shape.spacing[e];
             square += pow(at < 0 ? at : fmax(0, at - length), 2);
         }
-        if (square < 0.25 * (1 - 1e-6) * b->dp * b->dp) return mps__in_the_way(b->sim, i, X, "plate", name);
+        if (square < 0.25 * (1 - 1e-6) * b->dp * b->dp)
+            return mps__in_the_way(b->sim, i, X, "plate", name);
     }
     return MPS_OK;
 }
@@ -394,14 +424,16 @@ static mps_status build(builder *b, const char *name)
     MPS__TRY(find_residents(b));
     find_edges(b);
     MPS__TRY(fill_nodes(b));
-    MPS__CHECK(c, b->fresh > 0, "all %lld points of plate \"%s\" are taken by other particles", (long long)b->taken, name);
+    MPS__CHECK(c, b->fresh > 0, "all %lld points of plate \"%s\" are taken by other particles",
+               (long long)b->taken, name);
     restore_area(b);
     MPS__TRY(cast_shadows(b));
     for (int64_t k = 0; k < b->place_count; k++) fresh += b->places[k].resident < 0;
     MPS__TRY(mps__screens_reserve(&w->lists.screens));
     MPS__TRY(mps__particles_reserve(&w->particles, fresh));
     int64_t next = mps__particles_append(&w->particles, fresh);
-    for (int64_t k = 0; k < b->place_count; k++) put(b, &b->places[k], b->places[k].resident < 0 ? next++ : b->places[k].resident);
+    for (int64_t k = 0; k < b->place_count; k++)
+        put(b, &b->places[k], b->places[k].resident < 0 ? next++ : b->places[k].resident);
     mps__screen screen;
     set_screen(b, &screen);
     mps__screens_add(&w->lists.screens, &screen);
@@ -412,64 +444,14 @@ static mps_status build(builder *b, const char *name)
 mps_status mps__geometry_plate(mps_sim *sim, const char *name, const mps__plate_shape *shape)
 {
     const int32_t parts = sim->world.particles.parts;
-    builder b = {.sim = sim, .shape = *shape, .dim = sim->world.setup.dim, .dp = sim->world.setup.dp, .number = sim->world.lists.screens.count + 1};
+    builder b = {.sim = sim,
+                 .shape = *shape,
+                 .dim = sim->world.setup.dim,
+                 .dp = sim->world.setup.dp,
+                 .number = sim->world.lists.screens.count + 1};
     const mps_status status = build(&b, name);
     mps__free(&sim->context, b.residents);
     mps__free(&sim->context, b.places);
     if (status < 0) sim->world.particles.parts = parts;
     return status;
-}
-
-/* ---- boxes ---- */
-
-/* Share of the points of a box's face, or of those `beyond` it, that are walls. */
-static double covered(mps_sim *sim, const mps__lattice_box *box, int axis, int64_t at)
-{
-    const mps__particles *s = &sim->world.particles;
-    double points = 1, walls = 0;
-    for (int d = 0; d < s->dim; d++) points *= d == axis ? 1 : (double)(box->last[d] - box->first[d] + 1);
-    for (int64_t i = 0; i < s->n; i++) {
-        bool there = s->kind[i] == MPS_WALL;
-        for (int d = 0; there && d < s->dim; d++) {
-            const double q = (s->ref[i * s->dim + d] - box->lo[d]) / sim->world.setup.dp;
-            there = d == axis ? fabs(q - (double)at) < same : q > (double)box->first[d] - same && q < (double)box->last[d] + same;
-        }
-        walls += there;
-    }
-    return walls / points;
-}
-
-/* A box that lies on a wall is a step of it, not a plate. */
-static bool lies_on_wall(mps_sim *sim, const mps__lattice_box *box, int axis)
-{
-    for (int64_t beyond = 0; beyond < 2; beyond++)
-        if (covered(sim, box, axis, box->first[axis] - beyond) > 0.5 || covered(sim, box, axis, box->last[axis] + beyond) > 0.5)
-            return true;
-    return false;
-}
-
-static int thinnest(const mps__lattice_box *box, int dim)
-{
-    int axis = 0;
-    for (int d = 1; d < dim; d++)
-        if (box->last[d] - box->first[d] < box->last[axis] - box->first[axis]) axis = d;
-    return axis;
-}
-
-bool mps__plate_of_box(mps_sim *sim, const mps__lattice_box *box, mps__plate_shape *shape)
-{
-    const int dim = sim->world.setup.dim, axis = thinnest(box, dim);
-    int e = 0;
-    *shape = (mps__plate_shape){.axis = axis, .nodes = {1, 1}, .spacing = {sim->world.setup.dp, sim->world.setup.dp}};
-    if (box->last[axis] - box->first[axis] > 2 || lies_on_wall(sim, box, axis)) return false;
-    shape->columns = (int32_t)(box->last[axis] - box->first[axis]) + 1;
-    shape->normal[axis] = 1;
-    for (int d = 0; d < dim; d++) {
-        const double middle = d == axis ? 0.5 * (double)(box->first[d] + box->last[d]) : (double)box->first[d];
-        shape->corner[d] = box->lo[d] + middle * sim->world.setup.dp;
-        if (d == axis) continue;
-        shape->along[e][d] = 1;
-        shape->nodes[e++] = box->last[d] - box->first[d] + 1;
-    }
-    return true;
 }

@@ -85,9 +85,12 @@ static mps_status check_box(const work *w)
 {
     const double dp = w->sim->world.setup.dp;
     for (int d = 0; d < w->sim->world.setup.dim; d++)
-        MPS__CHECK(&w->sim->context, w->box.hi[d] >= w->box.anchor[d] && isfinite((w->around_hi[d] - w->around_lo[d]) / dp),
-                   "the solid's box is %g .. %g m along axis %d: too far away for lattice points of spacing %g m", w->box.lo[d], w->box.hi[d], d,
-                   dp);
+        MPS__CHECK(&w->sim->context,
+                   w->box.hi[d] >= w->box.anchor[d] &&
+                       isfinite((w->around_hi[d] - w->around_lo[d]) / dp),
+                   "the solid's box is %g .. %g m along axis %d: too far away for lattice points "
+                   "of spacing %g m",
+                   w->box.lo[d], w->box.hi[d], d, dp);
     return MPS_OK;
 }
 
@@ -96,12 +99,14 @@ static mps_status collect_others(work *w)
 {
     const mps__particles *s = &w->sim->world.particles;
     const int dim = w->sim->world.setup.dim;
-    MPS__TRY(mps__buckets_init(&w->others, &w->sim->context, dim, w->around_lo, w->around_hi, w->sim->world.setup.dp));
+    MPS__TRY(mps__buckets_init(&w->others, &w->sim->context, dim, w->around_lo, w->around_hi,
+                               w->sim->world.setup.dp));
     for (int64_t i = 0; i < s->n; i++) {
         double x[3] = {0, 0, 0};
         bool near = s->kind[i] != MPS_FLUID && !mps__is_shadow(s, i);
         memcpy(x, s->ref + i * dim, (size_t)dim * sizeof *x);
-        for (int d = 0; d < dim; d++) near = near && x[d] > w->around_lo[d] && x[d] < w->around_hi[d];
+        for (int d = 0; d < dim; d++)
+            near = near && x[d] > w->around_lo[d] && x[d] < w->around_hi[d];
         if (near) MPS__TRY(mps__buckets_add(&w->others, x));
     }
     return MPS_OK;
@@ -132,10 +137,12 @@ static mps_status no_surface(const work *w)
     const mps__solid *s = w->solid;
     double centre[3] = {0, 0, 0};
     for (int d = 0; d < w->shape.dim; d++) centre[d] = 0.5 * (s->lo[d] + s->hi[d]);
-    return mps__fail(&w->sim->context, MPS_E_ARG,
-                     "solid \"%s\" has no surface in its box (%g, %g, %g) .. (%g, %g, %g) m that could be seen with a spacing of %g m: %s",
-                     s->name, s->lo[0], s->lo[1], s->lo[2], s->hi[0], s->hi[1], s->hi[2], w->sim->world.setup.dp,
-                     mps__shape_at(&s->shape, centre) > 0 ? "nothing is solid" : "everything is solid");
+    return mps__fail(
+        &w->sim->context, MPS_E_ARG,
+        "solid \"%s\" has no surface in its box (%g, %g, %g) .. (%g, %g, %g) m that could be seen "
+        "with a spacing of %g m: %s",
+        s->name, s->lo[0], s->lo[1], s->lo[2], s->hi[0], s->hi[1], s->hi[2], w->sim->world.setup.dp,
+        mps__shape_at(&s->shape, centre) > 0 ? "nothing is solid" : "everything is solid");
 }
 
 static mps_status find_surface(work *w)
@@ -147,8 +154,10 @@ static mps_status find_surface(work *w)
     if (w->shape.mesh) w->shape.known = &w->distances;
     MPS__TRY(mps__contour_find(&w->contour, c, &w->shape, &w->box));
     const double *at = w->contour.open_at;
-    MPS__CHECK(c, !w->contour.open, "the surface of solid \"%s\" leaves its box at (%g, %g, %g) m: the box must contain it", w->solid->name,
-               at[0], at[1], at[2]);
+    MPS__CHECK(
+        c, !w->contour.open,
+        "the surface of solid \"%s\" leaves its box at (%g, %g, %g) m: the box must contain it",
+        w->solid->name, at[0], at[1], at[2]);
     return w->contour.patches == 0 ? no_surface(w) : MPS_OK;
 }
 
@@ -172,11 +181,15 @@ static mps_status check_fluid(const work *w)
 static mps_status sample(work *w)
 {
     mps__samples *s = &w->samples;
-    *s = (mps__samples){.context = &w->sim->context, .shape = &w->shape, .contour = &w->contour, .others = &w->others};
+    *s = (mps__samples){.context = &w->sim->context,
+                        .shape = &w->shape,
+                        .contour = &w->contour,
+                        .others = &w->others};
     memcpy(s->keep_lo, w->box.keep_lo, sizeof s->keep_lo);
     memcpy(s->keep_hi, w->box.keep_hi, sizeof s->keep_hi);
     MPS__TRY(mps__samples_walls(s, w->around_lo, w->around_hi));
-    MPS__CHECK(&w->sim->context, s->wall.count > 0, "all of the surface of solid \"%s\" lies at or behind walls that are there already",
+    MPS__CHECK(&w->sim->context, s->wall.count > 0,
+               "all of the surface of solid \"%s\" lies at or behind walls that are there already",
                w->solid->name);
     return mps__samples_dummies(s, w->solid->layers, &w->distances);
 }
@@ -189,7 +202,8 @@ static void cover_walls(const work *w)
         double X[3] = {0, 0, 0}, r;
         if (s->kind[i] != MPS_WALL) continue;
         memcpy(X, s->ref + i * s->dim, (size_t)s->dim * sizeof *X);
-        if (mps__distances_at(&w->distances, X, &r) && r < -half_cell * w->sim->world.setup.dp) s->kind[i] = MPS_DUMMY;
+        if (mps__distances_at(&w->distances, X, &r) && r < -half_cell * w->sim->world.setup.dp)
+            s->kind[i] = MPS_DUMMY;
     }
 }
 
@@ -217,9 +231,12 @@ static void extend_lattice(work *w)
     const double dp = sim->world.setup.dp;
     if (sim->has_tank && !sim->lattice_of_solids) return;
     for (int d = 0; d < sim->world.setup.dim; d++) {
-        const double hi = sim->lattice_lo[d] + (double)sim->lattice_cells[d] * dp, end = w->box.hi[d];
-        if (w->new_lattice || w->box.anchor[d] < sim->lattice_lo[d]) sim->lattice_lo[d] = w->box.anchor[d];
-        sim->lattice_cells[d] = (int64_t)floor(((w->new_lattice ? end : fmax(end, hi)) - sim->lattice_lo[d]) / dp + 1e-6);
+        const double hi = sim->lattice_lo[d] + (double)sim->lattice_cells[d] * dp,
+                     end = w->box.hi[d];
+        if (w->new_lattice || w->box.anchor[d] < sim->lattice_lo[d])
+            sim->lattice_lo[d] = w->box.anchor[d];
+        sim->lattice_cells[d] = (int64_t)floor(
+            ((w->new_lattice ? end : fmax(end, hi)) - sim->lattice_lo[d]) / dp + 1e-6);
     }
     sim->has_tank = sim->lattice_of_solids = true;
 }
@@ -228,13 +245,15 @@ static void report(const work *w)
 {
     const mps__samples *s = &w->samples;
     mps__context *c = &w->sim->context;
-    mps__log(c, MPS_LOG_INFO, "solid \"%s\": surface %g m%s, %lld wall particles, %lld dummies", w->solid->name, s->surface,
-             w->shape.dim == 3 ? "2" : "", (long long)s->wall.count, (long long)s->dummy.count);
+    mps__log(c, MPS_LOG_INFO, "solid \"%s\": surface %g m%s, %lld wall particles, %lld dummies",
+             w->solid->name, s->surface, w->shape.dim == 3 ? "2" : "", (long long)s->wall.count,
+             (long long)s->dummy.count);
     if (s->thin > 0)
-        mps__log(
-            c, MPS_LOG_WARNING,
-            "solid \"%s\" is thinner than 3 dp = %g m at %lld wall particles, first at (%g, %g, %g) m: liquid on one side feels the other",
-            w->solid->name, 3 * w->shape.dp, (long long)s->thin, s->thin_at[0], s->thin_at[1], s->thin_at[2]);
+        mps__log(c, MPS_LOG_WARNING,
+                 "solid \"%s\" is thinner than 3 dp = %g m at %lld wall particles, first at (%g, "
+                 "%g, %g) m: liquid on one side feels the other",
+                 w->solid->name, 3 * w->shape.dp, (long long)s->thin, s->thin_at[0], s->thin_at[1],
+                 s->thin_at[2]);
 }
 
 static mps_status build(work *w)
@@ -247,10 +266,12 @@ static mps_status build(work *w)
     MPS__TRY(find_surface(w));
     MPS__TRY(check_fluid(w));
     MPS__TRY(sample(w));
-    MPS__TRY(mps__grow(&sim->context, (void **)&sim->solid, &sim->solid_capacity, sim->solids, sim->solids + 1, sizeof *sim->solid));
+    MPS__TRY(mps__grow(&sim->context, (void **)&sim->solid, &sim->solid_capacity, sim->solids,
+                       sim->solids + 1, sizeof *sim->solid));
     MPS__TRY(mps__particles_reserve(s, w->samples.wall.count + w->samples.dummy.count));
     const int32_t part = mps__part_number(s, w->solid->name, true);
-    MPS__CHECK(&sim->context, part >= 0, "part \"%s\" is one too many: at most %d", w->solid->name, MPS__PARTS_MAX);
+    MPS__CHECK(&sim->context, part >= 0, "part \"%s\" is one too many: at most %d", w->solid->name,
+               MPS__PARTS_MAX);
     /* nothing fails from here on */
     cover_walls(w);
     append(w, &w->samples.wall, MPS_WALL, part);

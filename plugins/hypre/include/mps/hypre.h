@@ -15,16 +15,17 @@ MPS_BEGIN_DECLS
 
 /** Settings of BoomerAMG; numbers of methods are those of hypre's manual. Fill with mps_hypre_settings_init(). */
 typedef struct mps_hypre_settings {
-    uint32_t struct_size;      /**< set by mps_hypre_settings_init() */
-    int32_t coarsening;        /**< 0..22; default 8: PMIS */
-    int32_t interpolation;     /**< 0..18; default 6: extended+i */
-    int32_t row_entries;       /**< most entries in a row of the interpolation, 0..100, 0: any number; default 4 */
-    int32_t relaxation;        /**< a symmetric one: 6, 7, 8, 16 or 18; default 18: l1-Jacobi */
-    int32_t sweeps;            /**< relaxations before and after each coarse grid, 1..16; default 1 */
+    uint32_t struct_size;  /**< set by mps_hypre_settings_init() */
+    int32_t coarsening;    /**< 0..22; default 8: PMIS */
+    int32_t interpolation; /**< 0..18; default 6: extended+i */
+    int32_t
+        row_entries; /**< most entries in a row of the interpolation, 0..100, 0: any number; default 4 */
+    int32_t relaxation; /**< a symmetric one: 6, 7, 8, 16 or 18; default 18: l1-Jacobi */
+    int32_t sweeps;     /**< relaxations before and after each coarse grid, 1..16; default 1 */
     int32_t aggressive_levels; /**< finest levels that are coarsened twice, 0..25; default 1 */
-    double threshold;          /**< least strength of a strong connection, 0 <= threshold < 1; default 0.5 */
-    char *error;               /**< NULL, or where a failed call of this library writes why */
-    size_t error_size;         /**< bytes at `error` */
+    double threshold; /**< least strength of a strong connection, 0 <= threshold < 1; default 0.5 */
+    char *error;      /**< NULL, or where a failed call of this library writes why */
+    size_t error_size; /**< bytes at `error` */
 } mps_hypre_settings;
 
 /** Set every entry to its default. @param size sizeof(mps_hypre_settings) of the caller's headers */

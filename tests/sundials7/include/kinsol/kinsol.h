@@ -13,9 +13,12 @@ enum {
     KIN_LSOLVE_FAIL = -12
 };
 typedef int (*KINSysFn)(N_Vector u, N_Vector f, void *user);
-typedef int (*KINLsJacTimesVecFn)(N_Vector v, N_Vector jv, N_Vector u, sunbooleantype *changed, void *user);
-typedef int (*KINLsPrecSetupFn)(N_Vector u, N_Vector u_scale, N_Vector f, N_Vector f_scale, void *user);
-typedef int (*KINLsPrecSolveFn)(N_Vector u, N_Vector u_scale, N_Vector f, N_Vector f_scale, N_Vector v, void *user);
+typedef int (*KINLsJacTimesVecFn)(N_Vector v, N_Vector jv, N_Vector u, sunbooleantype *changed,
+                                  void *user);
+typedef int (*KINLsPrecSetupFn)(N_Vector u, N_Vector u_scale, N_Vector f, N_Vector f_scale,
+                                void *user);
+typedef int (*KINLsPrecSolveFn)(N_Vector u, N_Vector u_scale, N_Vector f, N_Vector f_scale,
+                                N_Vector v, void *user);
 void *KINCreate(SUNContext context);
 int KINInit(void *kinsol, KINSysFn fn, N_Vector like);
 int KINSol(void *kinsol, N_Vector u, int strategy, N_Vector u_scale, N_Vector f_scale);

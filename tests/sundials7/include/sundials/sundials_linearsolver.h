@@ -13,7 +13,8 @@ typedef int (*SUNATimesFn)(void *data, N_Vector v, N_Vector z);
 typedef int (*SUNPSetupFn)(void *data);
 typedef int (*SUNPSolveFn)(void *data, N_Vector r, N_Vector z, sunrealtype tolerance, int side);
 SUNErrCode SUNLinSolSetATimes(SUNLinearSolver s, void *data, SUNATimesFn fn);
-SUNErrCode SUNLinSolSetPreconditioner(SUNLinearSolver s, void *data, SUNPSetupFn setup, SUNPSolveFn solve);
+SUNErrCode SUNLinSolSetPreconditioner(SUNLinearSolver s, void *data, SUNPSetupFn setup,
+                                      SUNPSolveFn solve);
 SUNErrCode SUNLinSolSetScalingVectors(SUNLinearSolver s, N_Vector s1, N_Vector s2);
 SUNErrCode SUNLinSolSetZeroGuess(SUNLinearSolver s, sunbooleantype on);
 SUNErrCode SUNLinSolInitialize(SUNLinearSolver s);

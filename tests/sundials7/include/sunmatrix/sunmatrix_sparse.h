@@ -4,7 +4,8 @@
 #include <sundials/sundials_matrix.h>
 #define CSC_MAT 0
 #define CSR_MAT 1
-SUNMatrix SUNSparseMatrix(sunindextype m, sunindextype n, sunindextype entries, int type, SUNContext context);
+SUNMatrix SUNSparseMatrix(sunindextype m, sunindextype n, sunindextype entries, int type,
+                          SUNContext context);
 sunrealtype *SUNSparseMatrix_Data(SUNMatrix a);
 sunindextype *SUNSparseMatrix_IndexValues(SUNMatrix a);
 sunindextype *SUNSparseMatrix_IndexPointers(SUNMatrix a);
