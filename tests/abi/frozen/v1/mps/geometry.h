@@ -68,7 +68,7 @@ MPS_API mps_status mps_tank_add(mps_sim *sim, const mps_tank *tank, double *buil
  *                to lo and hi is logged)
  *  @return see the table of this file; MPS_E_ARG also if no free lattice point lies inside */
 MPS_API mps_status mps_baffle_add(mps_sim *sim, const char *name, const double *lo,
-                                       const double *hi, double *built);
+                                  const double *hi, double *built);
 
 /** Add a plate without thickness anywhere in the tank, e.g. an inclined baffle; otherwise as a
  *  baffle of one layer. Its particles have their own lattice, about dp wide. Fills leave out points
@@ -81,7 +81,7 @@ MPS_API mps_status mps_baffle_add(mps_sim *sim, const char *name, const double *
  *                 in 2-D
  *  @return see the table of this file; MPS_E_ARG also if the plate leaves the tank */
 MPS_API mps_status mps_plate_add(mps_sim *sim, const char *name, const double *corner,
-                                      const double *edge, const double *edge2);
+                                 const double *edge, const double *edge2);
 
 /** Fill a box with fluid of a phase: free points of the lattice in the closed box. The level of n
  *  rows is n dp above the floor: a depth that is not a multiple of dp becomes the next smaller one.
@@ -90,8 +90,8 @@ MPS_API mps_status mps_plate_add(mps_sim *sim, const char *name, const double *c
  *  @param built  NULL, or [2*dim] out: corners of the box of lattice points [m] (a difference to lo
  *                and hi is logged)
  *  @return see the table of this file; MPS_E_ARG also if no free lattice point lies inside */
-MPS_API mps_status mps_fill_box_add(mps_sim *sim, int32_t phase, const double *lo,
-                                         const double *hi, int64_t *added, double *built);
+MPS_API mps_status mps_fill_box_add(mps_sim *sim, int32_t phase, const double *lo, const double *hi,
+                                    int64_t *added, double *built);
 
 /** Fill a box up to the level hi[1] [m]. If the level lies between two rows of the lattice, the
  *  upper row gets the share of its points that the mass below the level needs, evenly spread; the
@@ -99,7 +99,7 @@ MPS_API mps_status mps_fill_box_add(mps_sim *sim, int32_t phase, const double *l
  *  @param built  NULL, or [2*dim] out: built[dim+1] is the level of the mass that was filled in
  *  [m] */
 MPS_API mps_status mps_fill_level_add(mps_sim *sim, int32_t phase, const double *lo,
-                                           const double *hi, int64_t *added, double *built);
+                                      const double *hi, int64_t *added, double *built);
 
 /** Non-zero if a point [dim] [m] is inside. */
 typedef int (*mps_inside_fn)(void *user, const double *x);
@@ -107,7 +107,7 @@ typedef int (*mps_inside_fn)(void *user, const double *x);
 /** Fill the free lattice points of the tank for which `inside` returns non-zero.
  *  @return see the table of this file */
 MPS_API mps_status mps_fill_add(mps_sim *sim, int32_t phase, mps_inside_fn inside, void *user,
-                                     int64_t *added);
+                                int64_t *added);
 
 /* ---- solids of any shape --------------------------------------------------------------------- */
 
@@ -218,8 +218,7 @@ MPS_API mps_status mps_stl_init(mps_stl *stl, size_t size);
  *  | MPS_E_IO | the file cannot be read, is cut short, or is not an STL file |
  *  | MPS_E_ARG | 2-D; no triangles; a coordinate not finite; an open surface, or one not |
  *  | | oriented: how many edges, and where the first is | */
-MPS_API mps_status mps_stl_add(mps_sim *sim, const char *path, const mps_stl *stl,
-                                    double *built);
+MPS_API mps_status mps_stl_add(mps_sim *sim, const char *path, const mps_stl *stl, double *built);
 
 MPS_END_DECLS
 

@@ -446,28 +446,28 @@ MPS_API int mps_stage_fail(mps_stage *s, const char *format, ...);
 /** Define the mps_rows_fn `name` from a row function
  *    MPS_ROW void row(const int dim, const mps_stage *s, type *arguments, int64_t i);
  *  compiled for dim = 2 and 3, so that loops over dim unroll. */
-#define MPS_ROWS(name, row, type)                                                                  \
-    static void name(const mps_stage *s, void *arguments, int64_t begin, int64_t end)              \
-    {                                                                                              \
-        type *const given = (type *)arguments;                                                     \
-        if (s->dim == 2)                                                                           \
-            for (int64_t i = begin; i < end; i++) row(2, s, given, i);                             \
-        else                                                                                       \
-            for (int64_t i = begin; i < end; i++) row(3, s, given, i);                             \
+#define MPS_ROWS(name, row, type)                                                     \
+    static void name(const mps_stage *s, void *arguments, int64_t begin, int64_t end) \
+    {                                                                                 \
+        type *const given = (type *)arguments;                                        \
+        if (s->dim == 2)                                                              \
+            for (int64_t i = begin; i < end; i++) row(2, s, given, i);                \
+        else                                                                          \
+            for (int64_t i = begin; i < end; i++) row(3, s, given, i);                \
     }
 
 /** Define the mps_sums_fn `name` from a row function
  *    MPS_ROW void row(const int dim, const mps_stage *s, type *arguments, int64_t i, double *sums);
  *  For mps_stage_max() it raises sums[k]. */
-#define MPS_SUMS(name, row, type)                                                                  \
-    static void name(const mps_stage *s, void *arguments, int64_t begin, int64_t end,              \
-                     double *sums)                                                                 \
-    {                                                                                              \
-        type *const given = (type *)arguments;                                                     \
-        if (s->dim == 2)                                                                           \
-            for (int64_t i = begin; i < end; i++) row(2, s, given, i, sums);                       \
-        else                                                                                       \
-            for (int64_t i = begin; i < end; i++) row(3, s, given, i, sums);                       \
+#define MPS_SUMS(name, row, type)                                                     \
+    static void name(const mps_stage *s, void *arguments, int64_t begin, int64_t end, \
+                     double *sums)                                                    \
+    {                                                                                 \
+        type *const given = (type *)arguments;                                        \
+        if (s->dim == 2)                                                              \
+            for (int64_t i = begin; i < end; i++) row(2, s, given, i, sums);          \
+        else                                                                          \
+            for (int64_t i = begin; i < end; i++) row(3, s, given, i, sums);          \
     }
 
 MPS_END_DECLS

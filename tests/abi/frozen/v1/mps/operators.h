@@ -242,7 +242,7 @@ enum {
  *  @param stencil  initialised by mps_stencil_init(); out
  *  @return MPS_E_ARG: also if the list is empty; MPS_E_VERSION */
 MPS_API mps_status mps_neighbours_stencil_get(const mps_neighbours *list, int32_t which,
-                                          const mps_kernel *kernel, mps_stencil *stencil);
+                                              const mps_kernel *kernel, mps_stencil *stencil);
 
 /** The stencil of the particles of a simulation at their present positions (all kinds). The list is
  *  built again if needed. Particles are not reordered while a lease is open.

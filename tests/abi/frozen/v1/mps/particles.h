@@ -139,8 +139,7 @@ enum {
  *  | MPS_E_ARG | mode; a lease that is not initialised; a field that must not be written |
  *  | MPS_E_NAME | no field has this name; the text has the nearest one |
  *  | MPS_E_BUSY | writing against another lease; called from a verb or a callback | */
-MPS_API mps_status mps_lease_begin(mps_sim *sim, const char *field, int32_t mode,
-                                   mps_lease *lease);
+MPS_API mps_status mps_lease_begin(mps_sim *sim, const char *field, int32_t mode, mps_lease *lease);
 
 /** End a lease; it can be used for another mps_lease_begin().
  *  @return MPS_E_ARG: the lease is not open, or a written value is not finite, or a density not > 0
