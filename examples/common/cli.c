@@ -12,135 +12,66 @@ enum { CLI_THREADS_MAX = 1024, CLI_FRAMES_MAX = 100000 };
 
 enum { CLI_OPTIONS = 48 };
 
-/* clang-format off: a line for each option */
+/* A line for each option. */
+/* clang-format off */
 static int cli_table(cli_options *o, cli_option *table)
 {
-    const char *models = o->two_phases ? "imps, mmps (several phases), imps.paper or mmps.paper"
-                                       : "imps or imps.paper";
+    const char *models = o->two_phases ? "imps, mmps (several phases), imps.paper or mmps.paper" : "imps or imps.paper";
     int n = 0;
     table[n++] = (cli_option){"--model", "NAME", models, TYPE_TEXT, &o->model, 0, 0, false};
-    table[n++] = (cli_option){
-        "--use",   "SLOT.VARIANT", "replace the model of a slot; may be repeated",
-        TYPE_LIST, &o->use,        0,
-        0,         false};
-    table[n++] = (cli_option){
-        "--remove", "SLOT",     "switch off the model of a slot; may be repeated",
-        TYPE_LIST,  &o->remove, 0,
-        0,          false};
-    table[n++] = (cli_option){
-        "--set",   "SLOT.KEY=X", "change a setting of a model; may be repeated",
-        TYPE_LIST, &o->set,      0,
-        0,         false};
-    table[n++] = (cli_option){
-        "--re-far", "X",        "far radius [dp]; default: that of the preset",
-        TYPE_REAL,  &o->re_far, 2.1,
-        10,         false};
-    table[n++] = (cli_option){"--dp",    "M",  "particle spacing [m]", TYPE_REAL, &o->dp, o->dp_min,
-                              o->dp_max, false};
-    table[n++] = (cli_option){
-        "--dt", "S", "fixed time step [s]; default: adaptive", TYPE_REAL, &o->dt, 0, 0.1, false};
-    table[n++] = (cli_option){
-        "--cfl", "C", "adaptive step: largest dt u / dp", TYPE_REAL, &o->cfl, 0, 1, false};
-    table[n++] = (cli_option){
-        "--calm",  "C",      "adaptive step: largest dt sqrt(g / dp); default: that of the preset",
-        TYPE_REAL, &o->calm, 0,
-        1,         false};
-    table[n++] = (cli_option){"--t-end", "S",  "time simulated [s]", TYPE_REAL, &o->t_end, 0,
-                              o->t_max,  false};
-    table[n++] = (cli_option){"--threads",     "N",         "threads of the simulation",
-                              TYPE_INT,        &o->threads, 1,
-                              CLI_THREADS_MAX, false};
-    table[n++] = (cli_option){"--solver", "NAME",     "pressure solver, or solver/preconditioner",
-                              TYPE_TEXT,  &o->solver, 0,
-                              0,          false};
-    table[n++] = (cli_option){"--out", "DIR", "folder for all outputs", TYPE_TEXT, &o->out, 0,
-                              0,       false};
-    table[n++] = (cli_option){
-        "--frames",     "N",        "frames for ParaView besides the first; 0: none",
-        TYPE_INT,       &o->frames, 0,
-        CLI_FRAMES_MAX, false};
-    table[n++] = (cli_option){
-        "--checkpoint",
-        "S",
-        "a checkpoint every S simulated seconds and at the end; default: only at Ctrl-C",
-        TYPE_REAL,
-        &o->checkpoint,
-        1e-6,
-        o->t_max,
-        false};
-    table[n++] = (cli_option){
-        "--resume", NULL,       "go on from the checkpoint in the folder of --out",
-        TYPE_FLAG,  &o->resume, 0,
-        0,          true};
-    table[n++] = (cli_option){"--overwrite",
-                              NULL,
-                              "remove an earlier run from the folder of --out",
-                              TYPE_FLAG,
-                              &o->overwrite,
-                              0,
-                              0,
-                              true};
-    table[n++] = (cli_option){"--probe-dt", "S",          "interval of rows in probes.csv [s]",
-                              TYPE_REAL,    &o->probe_dt, 0,
-                              10,           false};
-    table[n++] = (cli_option){
-        "--sensor-average",
-        "S",
-        "wall pressures and forces: mean of the last S seconds; 0: no mean; default: dp/u",
-        TYPE_REAL,
-        &o->sensor_average,
-        -1,
-        10,
-        false};
-    table[n++] = (cli_option){"--pictures",
-                              "T,T,..",
-                              "times of the pictures [s]; default: quarters of the run",
-                              TYPE_TIMES,
-                              o,
-                              0,
-                              0,
+    table[n++] = (cli_option){"--use", "SLOT.VARIANT", "replace the model of a slot; may be repeated", TYPE_LIST, &o->use, 0, 0, false};
+    table[n++] = (cli_option){"--remove", "SLOT", "switch off the model of a slot; may be repeated", TYPE_LIST, &o->remove, 0, 0, false};
+    table[n++] = (cli_option){"--set", "SLOT.KEY=X", "change a setting of a model; may be repeated", TYPE_LIST, &o->set, 0, 0, false};
+    table[n++] = (cli_option){"--re-far", "X", "far radius [dp]; default: that of the preset", TYPE_REAL, &o->re_far, 2.1, 10, false};
+    table[n++] = (cli_option){"--dp", "M", "particle spacing [m]", TYPE_REAL, &o->dp, o->dp_min, o->dp_max, false};
+    table[n++] = (cli_option){"--dt", "S", "fixed time step [s]; default: adaptive", TYPE_REAL, &o->dt, 0, 0.1, false};
+    table[n++] = (cli_option){"--cfl", "C", "adaptive step: largest dt u / dp", TYPE_REAL, &o->cfl, 0, 1, false};
+    table[n++] = (cli_option){"--calm", "C",  "adaptive step: largest dt sqrt(g / dp); default: that of the preset", TYPE_REAL, &o->calm, 0,
+                              1,        false};
+    table[n++] = (cli_option){"--t-end", "S", "time simulated [s]", TYPE_REAL, &o->t_end, 0, o->t_max, false};
+    table[n++] = (cli_option){"--threads", "N", "threads of the simulation", TYPE_INT, &o->threads, 1, CLI_THREADS_MAX, false};
+    table[n++] = (cli_option){"--solver", "NAME", "pressure solver, or solver/preconditioner", TYPE_TEXT, &o->solver, 0, 0, false};
+    table[n++] = (cli_option){"--out", "DIR", "folder for all outputs", TYPE_TEXT, &o->out, 0, 0, false};
+    table[n++] = (cli_option){"--frames",     "N",  "frames for ParaView besides the first; 0: none", TYPE_INT, &o->frames, 0,
+                              CLI_FRAMES_MAX, false};
+    table[n++] = (cli_option){"--checkpoint",
+                              "S",
+                              "a checkpoint every S simulated seconds and at the end; default: only at Ctrl-C",
+                              TYPE_REAL,
+                              &o->checkpoint,
+                              1e-6,
+                              o->t_max,
                               false};
-    if (o->has_dim)
-        table[n++] = (cli_option){"--dim", "D",  "2 or 3 dimensions", TYPE_INT, &o->dim, 2,
-                                  3,       false};
+    table[n++] = (cli_option){"--resume", NULL, "go on from the checkpoint in the folder of --out", TYPE_FLAG, &o->resume, 0, 0, true};
+    table[n++] = (cli_option){"--overwrite", NULL, "remove an earlier run from the folder of --out", TYPE_FLAG, &o->overwrite, 0, 0, true};
+    table[n++] = (cli_option){"--probe-dt", "S", "interval of rows in probes.csv [s]", TYPE_REAL, &o->probe_dt, 0, 10, false};
+    table[n++] = (cli_option){"--sensor-average",
+                              "S",
+                              "wall pressures and forces: mean of the last S seconds; 0: no mean; default: dp/u",
+                              TYPE_REAL,
+                              &o->sensor_average,
+                              -1,
+                              10,
+                              false};
+    table[n++] = (cli_option){"--pictures", "T,T,..", "times of the pictures [s]; default: quarters of the run", TYPE_TIMES, o, 0, 0,
+                              false};
+    if (o->has_dim) table[n++] = (cli_option){"--dim", "D", "2 or 3 dimensions", TYPE_INT, &o->dim, 2, 3, false};
     if (o->amplitude > 0)
-        table[n++] = (cli_option){
-            "--amplitude", "M", "amplitude of the motion [m]", TYPE_REAL, &o->amplitude, 0, 10,
-            false};
+        table[n++] = (cli_option){"--amplitude", "M", "amplitude of the motion [m]", TYPE_REAL, &o->amplitude, 0, 10, false};
     if (o->has_layers)
-        table[n++] = (cli_option){
-            "--layers", "N",        "columns of particles of the baffle; 0: by its thickness",
-            TYPE_INT,   &o->layers, 0,
-            100,        false};
+        table[n++] = (cli_option){"--layers", "N",  "columns of particles of the baffle; 0: by its thickness", TYPE_INT, &o->layers, 0,
+                                  100,        false};
     if (o->has_stl)
-        table[n++] = (cli_option){
-            "--stl",   "FILE",  "STL file of a closed tank, in place of the cylinder",
-            TYPE_TEXT, &o->stl, 0,
-            0,         false};
+        table[n++] = (cli_option){"--stl", "FILE", "STL file of a closed tank, in place of the cylinder", TYPE_TEXT, &o->stl, 0, 0, false};
     if (o->has_stl)
-        table[n++] = (cli_option){
-            "--stl-scale", "M",           "length of a unit of the STL file [m]",
-            TYPE_REAL,     &o->stl_scale, 0,
-            1e6,           false};
+        table[n++] = (cli_option){"--stl-scale", "M", "length of a unit of the STL file [m]", TYPE_REAL, &o->stl_scale, 0, 1e6, false};
     if (o->has_sigma)
-        table[n++] = (cli_option){
-            "--sigma", "N/M",     "surface tension [N/m], for models that have it",
-            TYPE_REAL, &o->sigma, -1,
-            100,       false};
+        table[n++] = (cli_option){"--sigma", "N/M", "surface tension [N/m], for models that have it", TYPE_REAL, &o->sigma, -1, 100, false};
     for (int i = 0; i < o->owns; i++) table[n++] = o->own[i];
-    table[n++] = (cli_option){"--no-report", NULL, "no report.html", TYPE_FLAG, &o->report, 0, 0,
-                              false};
+    table[n++] = (cli_option){"--no-report", NULL, "no report.html", TYPE_FLAG, &o->report, 0, 0, false};
     table[n++] = (cli_option){"--quiet", NULL, "no progress", TYPE_FLAG, &o->quiet, 0, 0, true};
-    table[n++] = (cli_option){"--list-models",
-                              NULL,
-                              "all models with settings, channels and solvers",
-                              TYPE_LISTING,
-                              NULL,
-                              0,
-                              0,
-                              false};
-    table[n++] = (cli_option){"--version", NULL, "version of the library", TYPE_VERSION, NULL, 0,
-                              0,           false};
+    table[n++] = (cli_option){"--list-models", NULL, "all models with settings, channels and solvers", TYPE_LISTING, NULL, 0, 0, false};
+    table[n++] = (cli_option){"--version", NULL, "version of the library", TYPE_VERSION, NULL, 0, 0, false};
     table[n++] = (cli_option){"--help", NULL, "this text", TYPE_HELP, NULL, 0, 0, false};
     return n;
 }
