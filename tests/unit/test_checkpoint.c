@@ -611,7 +611,7 @@ static const forgery forgeries[] = {
     REAL("motion.now", offsetof(mps__pose, state.rate) + 8 * MPS_YAW, INFINITY, "\"motion.now\""),
     REAL("motion.now", offsetof(mps__pose, rotation), NAN, "\"motion.now\""),
     REAL("motion.now", offsetof(mps__pose, rotation) + 8, 0.5, "the rotation of \"motion.now\""),
-    REAL("motion.now", offsetof(mps__pose, state.value) + 8 * MPS_ROLL, 0.1,
+    REAL("motion.now", offsetof(mps__pose, state.value) + 8 * MPS_PITCH, 0.1,
          "which 2-D does not have"),
     REAL("motion.now", offsetof(mps__pose, omega), NAN, "\"motion.now\""),
     REAL("motion.now", offsetof(mps__pose, alpha), NAN, "\"motion.now\""),

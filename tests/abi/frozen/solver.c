@@ -7,7 +7,7 @@ int frozen_solver_calls;
 
 static int create(const mps_allocator *allocator, void **self)
 {
-    (void)allocator, (void)self;
+    (void)self;
     return !allocator->alloc || !allocator->release;
 }
 
@@ -22,7 +22,7 @@ static void sweep(const mps_ppe_problem *a, double *p)
 
 static void solve(void *self, const mps_ppe_problem *a, const mps_preconditioner_ops *pc, void *pc_self, double *p, mps_ppe_result *result)
 {
-    (void)allocator, (void)self;
+    (void)self;
     (void)pc;
     (void)pc_self;
     double *work = calloc((size_t)a->n, sizeof *work);
