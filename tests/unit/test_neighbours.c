@@ -440,7 +440,7 @@ static void position_not_finite(void **state)
             for (int k = 0; k < 4; k++) {
                 mps__context context = {.allocator = mps__allocator_default()};
                 mps_neighbours l;
-                char axis[16];
+                char axis[24];
                 cloud c = cloud_lattice(dim, 6, 6, dim == 3 ? 6 : 1, 0.3, 20);
                 snprintf(axis, sizeof axis, "axis %d", d);
                 assert_int_equal(mps__neighbours_init(&l, &context, dim, CLOUD_DP), MPS_OK);
