@@ -180,7 +180,7 @@ mps_status mps__solvers_init(mps__solvers *s, mps__context *context)
 
 void mps__solvers_free(mps__solvers *s)
 {
-    discard(s);
+    if (s->context) discard(s); /* else nothing was made yet */
 }
 
 /* ---- limits ---- */
