@@ -234,7 +234,7 @@ static const table *run_failed_table(const run *r)
 {
     const table *const all[] = {&r->probes, &r->momentum, &r->steps,
                                 r->trace ? &r->trace->file : &r->steps};
-    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
         if (all[k]->failed) return all[k];
     return NULL;
 }
