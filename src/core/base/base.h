@@ -126,7 +126,8 @@ static inline int mps__longest(const double *points, int dim)
 
 static inline double mps__dot(const double *a, const double *b, int dim)
 {
-    double s = a[0] * b[0] + a[1] * b[1]; /* NOLINT(clang-analyzer-core.NullDereference): see mps__op_begin() */
+    /* NOLINTNEXTLINE(clang-analyzer-core.NullDereference): see mps__op_begin() */
+    double s = a[0] * b[0] + a[1] * b[1];
     if (dim == 3) s += a[2] * b[2];
     return s;
 }
