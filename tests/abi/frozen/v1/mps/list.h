@@ -21,8 +21,12 @@ typedef struct mps_model_info {
     const char *name;
     /** One line. */
     const char *help;
-    /** Numbers of settings, of channels that it brings, and of verbs. */
-    int32_t settings, channels, verbs;
+    /** Number of settings. */
+    int32_t settings;
+    /** Number of channels that it brings. */
+    int32_t channels;
+    /** Number of verbs. */
+    int32_t verbs;
     /** 1: built in, 0: registered by the user. */
     int32_t built_in;
 } mps_model_info;
@@ -39,8 +43,12 @@ typedef struct mps_setting_info {
     const char *unit;
     /** One line. */
     const char *help;
-    /** Default, smallest and largest value. */
-    double initial, min, max;
+    /** Default. */
+    double initial;
+    /** Smallest allowed value. */
+    double min;
+    /** Largest allowed value. */
+    double max;
     /** Present value; the default if the model is not active. */
     double value;
 } mps_setting_info;
@@ -55,10 +63,16 @@ typedef struct mps_channel_info {
     int32_t type;
     /** MPS_LIFE_STEP or MPS_LIFE_PARTICLE of mps/model.h */
     int32_t life;
-    /** Name, unit and one line of help. */
-    const char *name, *unit, *help;
-    /** Moments in which verbs may read and write it: bits 1 << MPS_LIMIT .. 1 << MPS_SHIFT. */
-    uint32_t reads, writes;
+    /** e.g. "density" */
+    const char *name;
+    /** e.g. "kg/m3"; "-" for none */
+    const char *unit;
+    /** One line. */
+    const char *help;
+    /** Moments in which verbs may read it: bits 1 << MPS_LIMIT .. 1 << MPS_SHIFT. */
+    uint32_t reads;
+    /** Moments in which verbs may write it. */
+    uint32_t writes;
     /** 1: the library's own. */
     int32_t own;
 } mps_channel_info;

@@ -23,7 +23,7 @@ enum {
     MPS_FRAMES_CONTINUE = 8
 };
 
-/** Open a series: writes <folder>/<name>.pvd and <folder>/<name>/<name>_000000.vtp ...; the folder
+/** Open a series: writes FOLDER/NAME.pvd and FOLDER/NAME/NAME_000000.vtp ...; the folder
  *  must exist. Frames of an earlier series of the same folder and name are removed, other files are
  *  not touched.
  *
