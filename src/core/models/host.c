@@ -2,6 +2,7 @@
 /* Calls of verbs: what they get, and what is checked after them. */
 #include "guard.h"
 #include <math.h>
+#include <stdio.h>
 
 static mps_status verb_failed(mps__host *h, const mps__call *call, double t)
 {
@@ -14,27 +15,34 @@ static mps_status verb_failed(mps__host *h, const mps__call *call, double t)
                      t, error);
 }
 
-static void *array_of(const mps__host *h, int32_t channel)
+/* The text of a failure at particle i: what the model left there, and what is allowed. */
+static mps_status left(const mps__host *h, const mps_stage *s, const mps__call *call, int64_t i,
+                       const char *what, const char *allowed)
 {
-    if (channel < 0) return NULL;
-    if (channel >= MPS__CHANNELS) return *h->particles->field[channel - MPS__CHANNELS].data;
-    return mps__channels_array(h->channels, h->particles, channel);
+    const double *x = s->x + i * s->dim;
+    return mps__fail(
+        h->context, MPS_E_PLUGIN,
+        "model '%s' at t = %.9g s left %s at particle %lld, (%g, %g, %g) m; must be %s",
+        call->model->ops->name, s->t, what, (long long)s->id[i], x[0], x[1], s->dim == 3 ? x[2] : 0,
+        allowed);
+}
+
+static bool is_no_region(const void *regions, int64_t i)
+{
+    const int32_t *region = regions;
+    return region[i] < MPS_REGION_INNER || region[i] > MPS_REGION_DRY;
 }
 
 /* Regions decide which rows later moments work on. */
 static mps_status check_regions(const mps__host *h, const mps_stage *s, const mps__call *call)
 {
-    const int32_t *region = h->channels->list[MPS__REGION].array;
-    int64_t first = s->n;
-    for (int64_t i = 0; i < s->n && first == s->n; i++)
-        if (region[i] < MPS_REGION_INNER || region[i] > MPS_REGION_DRY) first = i;
+    char what[32], allowed[32];
+    const int32_t *region = mps__channels_array(h->channels, h->particles, MPS__REGION);
+    const int64_t first = mps__parallel_first(h->parallel, s->n, is_no_region, region);
     if (first == s->n) return MPS_OK;
-    const double *x = s->x + first * s->dim;
-    return mps__fail(
-        h->context, MPS_E_PLUGIN,
-        "model '%s' at t = %.9g s left region %d at particle %lld, (%g, %g, %g) m; must be %d..%d",
-        call->model->ops->name, s->t, (int)region[first], (long long)s->id[first], x[0], x[1],
-        s->dim == 3 ? x[2] : 0, MPS_REGION_INNER, MPS_REGION_DRY);
+    snprintf(what, sizeof what, "region %d", (int)region[first]);
+    snprintf(allowed, sizeof allowed, "%d..%d", MPS_REGION_INNER, MPS_REGION_DRY);
+    return left(h, s, call, first, what, allowed);
 }
 
 static bool writes(const mps__call *call, int32_t channel)
@@ -44,20 +52,22 @@ static bool writes(const mps__call *call, int32_t channel)
     return false;
 }
 
-/* No comparison with a number density that is not finite is true: the free surface would be lost without an error. */
+static bool is_not_finite(const void *values, int64_t i)
+{
+    return !isfinite(((const double *)values)[i]);
+}
+
+/* No comparison with a number density that is not finite is true: the free surface would be lost
+ * without an error. */
 static mps_status check_number_density(const mps__host *h, const mps_stage *s,
                                        const mps__call *call)
 {
-    const double *nd = array_of(h, MPS__NUMBER_DENSITY);
-    int64_t first = 0;
-    while (first < s->n && isfinite(nd[first])) first++;
+    char what[64];
+    const double *nd = mps__channels_array(h->channels, h->particles, MPS__NUMBER_DENSITY);
+    const int64_t first = mps__parallel_first(h->parallel, s->n, is_not_finite, nd);
     if (first == s->n) return MPS_OK;
-    const double *x = s->x + first * s->dim;
-    return mps__fail(h->context, MPS_E_PLUGIN,
-                     "model '%s' at t = %.9g s left the number density %g at particle %lld, (%g, "
-                     "%g, %g) m; must be finite",
-                     call->model->ops->name, s->t, nd[first], (long long)s->id[first], x[0], x[1],
-                     s->dim == 3 ? x[2] : 0);
+    snprintf(what, sizeof what, "the number density %g", nd[first]);
+    return left(h, s, call, first, what, "finite");
 }
 
 static mps_status check_after(const mps__host *h, const mps_stage *s, const mps__call *call)
@@ -75,7 +85,8 @@ static mps_status check_after(const mps__host *h, const mps_stage *s, const mps_
 static mps_status run_call(mps__host *h, mps_stage *s, const mps__call *call)
 {
     void *data[MPS__USES];
-    for (int32_t u = 0; u < call->verb->use_count; u++) data[u] = array_of(h, call->channel[u]);
+    for (int32_t u = 0; u < call->verb->use_count; u++)
+        data[u] = mps__channels_array(h->channels, h->particles, call->channel[u]);
     s->data = data;
     s->setting = call->model->k;
     s->self = call->model->self;
