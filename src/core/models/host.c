@@ -92,7 +92,8 @@ static mps_status run_call(mps__host *h, mps_stage *s, const mps__call *call)
     s->self = call->model->self;
     h->context->error[0] = 0;
     h->no_memory = false;
-    const int failed = call->verb->run(s);
+    h->misused = false;
+    const int failed = call->verb->run(s) || h->misused;
     h->scratch_used = 0;
     s->data = NULL;
     return failed ? verb_failed(h, call, s->t) : check_after(h, s, call);
