@@ -70,6 +70,27 @@ static mps_status check_number_density(const mps__host *h, const mps_stage *s,
     return left(h, s, call, first, what, "finite");
 }
 
+static mps_status left_equation(const mps__host *h, const mps_stage *s, const mps__call *call,
+                                const char *what, double value, const char *allowed)
+{
+    return mps__fail(h->context, MPS_E_PLUGIN,
+                     "model '%s' at t = %.9g s left %s = %g in the pressure equation; must be %s",
+                     call->model->ops->name, s->t, what, value, allowed);
+}
+
+/* The step divides by the gain, and a NaN here would be that of all pressures. */
+static mps_status check_equation(const mps__host *h, const mps_stage *s, const mps__call *call)
+{
+    const mps_equation *e = s->equation;
+    if (e->radius != MPS_NEAR && e->radius != MPS_FAR)
+        return left_equation(h, s, call, "radius", e->radius, "MPS_NEAR or MPS_FAR");
+    if (!(e->gain > 0 && e->gain <= 1))
+        return left_equation(h, s, call, "gain", e->gain, "> 0 and <= 1");
+    if (!(e->wall_factor >= 0 && isfinite(e->wall_factor)))
+        return left_equation(h, s, call, "wall_factor", e->wall_factor, "finite and >= 0");
+    return MPS_OK;
+}
+
 static mps_status check_after(const mps__host *h, const mps_stage *s, const mps__call *call)
 {
     if (s->moment == MPS_LIMIT && !(s->dt_limit > 0))
@@ -78,6 +99,7 @@ static mps_status check_after(const mps__host *h, const mps_stage *s, const mps_
             "model '%s' at t = %.9g s allows a step of %g s; must be > 0, INFINITY for no limit",
             call->model->ops->name, s->t, s->dt_limit);
     if (!mps__models_foreign(h->models, call->model)) return MPS_OK;
+    if (s->equation) MPS__TRY(check_equation(h, s, call));
     if (writes(call, MPS__NUMBER_DENSITY)) MPS__TRY(check_number_density(h, s, call));
     return s->moment == MPS_CLASSIFY ? check_regions(h, s, call) : MPS_OK;
 }
