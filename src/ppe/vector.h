@@ -15,8 +15,8 @@ typedef struct mps__space {
     int64_t n, capacity;
     const mps_parallel *parallel;
     double *partial; /* [2 blocks of capacity] */
-    N_Vector
-        spare; /* list of vectors made ahead for N_VClone, which dereferences NULL when a clone fails */
+    /* list of vectors made ahead for N_VClone, which dereferences NULL when a clone fails */
+    N_Vector spare;
     N_Vector owned; /* list of all vectors with an array of their own */
     /* One dot product computed by the kernel that wrote its vectors, while they were in cache. Any other write forgets it. */
     const double *dot_x, *dot_y;

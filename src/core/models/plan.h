@@ -11,8 +11,8 @@ enum { MPS__CALLS = 128 };
 typedef struct mps__call {
     const mps__model *model;
     const mps_verb *verb;
-    int32_t channel
-        [MPS__USES]; /* of each use; from MPS__CHANNELS on fields of the user; -1: missing, as it may be */
+    /* of each use; from MPS__CHANNELS on fields of the user; -1: missing, as it may be */
+    int32_t channel[MPS__USES];
 } mps__call;
 
 typedef struct mps__plan {

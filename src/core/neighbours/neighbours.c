@@ -185,8 +185,8 @@ typedef struct searching {
     double reach2;
     bool sorted;                /* place a is particle a */
     atomic_int_least64_t taken; /* entries of col that rows have, or would have if it were longer */
-    int64_t
-        longest[MPS__PARTS]; /* of the rows of each part that are too long for the stack; else 0 */
+    /* of the rows of each part that are too long for the stack; else 0 */
+    int64_t longest[MPS__PARTS];
 } searching;
 
 /* What was found about a place. */
