@@ -38,7 +38,7 @@ bool mps__space_grow(mps__space *space, int64_t capacity);
 void mps__space_release(mps__space *space);
 double *mps__vector_data(N_Vector v);
 void mps__vector_point(N_Vector v, double *data);
-/* To be called by who writes through mps__vector_data(): what was remembered of dot products is void. */
+/* Call it after writing through mps__vector_data(): stored dot products are not valid any more. */
 void mps__vector_written(N_Vector v);
 
 /* The next N_VDotProd of x and y, in either order, answers `dot`. */

@@ -6,7 +6,8 @@
 
 enum { MPS__BITS_2D = 31, MPS__BITS_3D = 21 };
 
-/* More particles in one cell are no cloud but an array nobody filled: n^2 pairs would take all memory. */
+/* More particles in one cell are an array whose positions were never set: n^2 pairs would take all
+ * memory. */
 enum { MPS__CROWD = 4096 };
 
 typedef struct cell_map {

@@ -27,8 +27,8 @@ typedef struct mps__seer {
     int32_t particle;
     int32_t shadow; /* number of its screen + 1 if it is a shadow, else 0 */
     uint64_t above; /* bit k: it is above screen k */
-    /* where it sees from: walls a hair above their face, so that the two faces of a plate tell
-     * their sides */
+    /* the place that lines of sight start at: for walls a little above their face, so that the two
+     * faces of a plate are on different sides of it */
     double at[3];
 } mps__seer;
 

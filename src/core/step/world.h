@@ -99,7 +99,7 @@ typedef struct mps__state {
 _Static_assert(sizeof(mps__state) == 0 MPS__STATE(MPS__STATE_SIZE),
                "MPS__STATE lists all members of mps__state");
 
-/* Who is near whom; found again when particles have moved. */
+/* Lists of neighbours; made again when particles have moved. */
 typedef struct mps__lists {
     mps_neighbours neighbours;
     /* the same with the rows of solids without fluid about them, on demand; else empty */
@@ -139,7 +139,7 @@ void mps__world_free(mps__world *w);
 mps_status mps__world_neighbours(mps__world *w);
 /* Those that were removed last come back, as long as nothing was added since. */
 void mps__world_take_back(mps__world *w);
-/* The same for a reader who holds arrays: nobody is removed or put elsewhere. */
+/* The same while the caller holds arrays: no particle is removed or moved to another place. */
 mps_status mps__world_neighbours_kept(mps__world *w);
 /* Exact rows at the present positions from lists that are fresh. */
 void mps__world_rows(mps__world *w);

@@ -68,7 +68,8 @@ typedef struct mps__contour {
     double open_at[3]; /* first of the places where it does, by the order of the cells */
 } mps__contour;
 
-/* Where to look: a lattice point `anchor` at or below lo. Outside keep_lo..keep_hi the surface may leave the box: nobody looks there. */
+/* The box of a search: `anchor` is a lattice point at or below lo. Outside keep_lo..keep_hi the
+ * surface may leave the box: that part is not used. */
 typedef struct mps__contour_box {
     double anchor[3], lo[3], hi[3], keep_lo[3], keep_hi[3];
 } mps__contour_box;
