@@ -3,8 +3,8 @@
 #include "plates.h"
 #include <string.h>
 
-/* Lines of sight of walls start this far [dp] above their face; fluid is never nearer than this [dp]
- * to the plane of a plate. */
+/* In spacings: how far above their face the lines of sight of walls start, and the least distance
+ * of fluid to the plane of a plate. */
 static const double above_face = 1e-5, off_plane = 1e-2;
 
 static void wall_sight(const mps__world *w, int64_t i, double at[3])
