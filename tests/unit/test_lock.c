@@ -153,7 +153,7 @@ static char *contents(const char *folder, const char *file, size_t *size)
 static void refused_without_a_trace(void **state)
 {
     (void)state;
-    char folder[] = "/tmp/mps_lock_XXXXXX", command[64];
+    char folder[] = "mps_lock_XXXXXX", command[64];
     size_t size[2];
     assert_non_null(mkdtemp(folder));
     play(0, folder, "alone");
