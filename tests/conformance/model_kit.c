@@ -235,8 +235,8 @@ static void check_handles(kit *k)
     for (int n = 0; n < 2; n++) thrd_join(thread[n], NULL);
     for (int n = 0; n < 2; n++) {
         if (!kit_state_same(&alone, &w[n].state))
-            FAIL(k, KIT_HANDLES, "two handles in two threads: handle %d has other bytes %s", n,
-                 w[n].text);
+            FAIL(k, KIT_HANDLES, "two handles in two threads: handle %d has other bytes%s%s", n,
+                 w[n].text[0] ? ": " : "", w[n].text);
         kit_state_free(&w[n].state);
     }
     kit_state_free(&alone);
@@ -278,7 +278,7 @@ static void give(void *user, void *given)
     free(block);
 }
 
-/* Repeat an action, its 1st, 2nd, ... allocation failing, until it is done. */
+/* Repeat an action until it succeeds; the k-th allocation fails in repetition k. */
 static void starve(kit *k, memory *m, const kit_case *c, mps_sim *sim, bool step)
 {
     mps_status status = MPS_E_NOMEM;
@@ -405,13 +405,24 @@ static void check_budget(kit *k)
     mps_sim_destroy(sim);
 }
 
+/* Whether a verb changed something. */
+static bool acts(const kit *k)
+{
+    for (int32_t v = 0; v < k->ops->verb_count; v++)
+        if (k->acted[v]) return true;
+    return false;
+}
+
+/* In the first scene and in 2-D; in the others, which are slow, if the model has done nothing. */
 static void check_verbs(kit *k)
 {
-    bool any = false;
-    for (int n = 0; n < k->scenes && !k->failed; n++)
-        if (n == 0 || k->scene[n].dim == 2) k->failed |= kit_watch(&k->scene[n], k->acted);
-    for (int32_t v = 0; v < k->ops->verb_count; v++) any = any || k->acted[v];
-    if (!any && !k->failed)
+    int failed = 0;
+    for (int n = 0; n < k->scenes && !failed; n++)
+        if (n == 0 || k->scene[n].dim == 2) failed = kit_watch(&k->scene[n], k->acted);
+    for (int n = 1; n < k->scenes && !failed && !acts(k); n++)
+        if (k->scene[n].dim == 3) failed = kit_watch(&k->scene[n], k->acted);
+    k->failed |= failed;
+    if (!failed && !acts(k))
         FAIL(k, KIT_ACTS,
              "it changes nothing in any scene, so that the other checks find nothing: in the "
              "callback, set numbers and fields with which it acts");

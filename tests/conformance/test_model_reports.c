@@ -103,6 +103,18 @@ static void limit_is_an_effect(void **state)
     NOT_TOLD("note");
 }
 
+static int damp_3d(mps_stage *s)
+{
+    return s->dim == 3 ? damp(s) : 0;
+}
+
+static void effect_in_3d(void **state)
+{
+    (void)state;
+    assert_int_equal(verb_told(damp_3d), 0);
+    NOT_TOLD("note");
+}
+
 /* ---- no effect ------------------------------------------------------------------------------- */
 
 static void without_effect(void **state)
@@ -321,6 +333,7 @@ int main(void)
         cmocka_unit_test(passes),
         cmocka_unit_test(notes_a_verb_without_effect),
         cmocka_unit_test(limit_is_an_effect),
+        cmocka_unit_test(effect_in_3d),
         cmocka_unit_test(without_effect),
         cmocka_unit_test(overwrites),
         cmocka_unit_test(depends_on_the_sum),
