@@ -307,7 +307,7 @@ static const setup setups[] = {
      .g = DOWN,
      .re_near = 1.01,
      .re_far = 1.01,
-     .speed = 1000}, /* sees next to nothing */
+     .speed = 1000}, /* almost no neighbours */
     {.name = "radii 1.6 dp", .g = DOWN, .re_near = 1.6, .re_far = 1.6},
     {.name = "radii 10 dp", .g = DOWN, .re_near = 10, .re_far = 10, .steps = 8},
     {.name = "far radius 10.5 dp",

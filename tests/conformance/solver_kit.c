@@ -176,7 +176,7 @@ static const struct {
     {"lone particles (empty rows)", {2, 1, 1, 1, 3, 0, 2.1, 1, 0}},
 };
 
-/* Densities of 1000:1 are beyond an iterative solver that is denied its preconditioner. */
+/* Densities of 1000:1 are beyond an iterative solver without its preconditioner. */
 static bool too_hard(const pair *k, const kit_lattice *lattice)
 {
     return lattice->contrast > 1 && k->solver->preconditioner && !k->pc;

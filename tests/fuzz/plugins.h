@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Plug-ins that return garbage, taken from the bytes of the input; for fuzz_api.c. */
+/* Plug-ins that return random numbers, taken from the bytes of the input; for fuzz_api.c. */
 #ifndef PLUGINS_H
 #define PLUGINS_H
 

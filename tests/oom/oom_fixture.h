@@ -214,7 +214,7 @@ static inline double *snapshot(mps_sim *sim, int64_t *count)
     return out;
 }
 
-/* A failed call changed nothing one can see. */
+/* A failed call changed no particle and no time. */
 static inline void check_unchanged(mps_sim *sim, const double *before, int64_t count, double t)
 {
     int64_t now = 0;

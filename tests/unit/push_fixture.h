@@ -29,7 +29,7 @@ static struct {
     int created, destroyed, calls[VERBS];
 } test;
 
-/* Each verb changes all that it may, so that a failure leaves a mess. */
+/* Each verb changes all that it may, so that a failure leaves wrong values. */
 static const mps_use region_uses[] = {{"region", MPS_USE_CHANGE}};
 static const mps_use push_uses[] = {{"acceleration", MPS_USE_CHANGE}};
 static const mps_use level_uses[] = {{"pressure", MPS_USE_CHANGE}};

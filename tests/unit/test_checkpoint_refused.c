@@ -72,7 +72,7 @@ static void other_set_ups(void **state)
         all[k].make(sim);
         ASSERT_REFUSED(sim, mps_checkpoint_read(sim, path), MPS_E_ARG, all[k].word);
         same_field(sim, kept, "position");
-        go(sim, 1); /* it is none the worse */
+        go(sim, 1); /* the refusal does it no harm */
         mps_sim_destroy(sim);
     }
     sim = with_air();

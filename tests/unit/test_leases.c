@@ -142,7 +142,8 @@ static void links_follow(void **state)
     mps__particles_free(&s);
 }
 
-/* The stencil has the pairs of now, also while somebody reads, and nobody is put elsewhere; what comes after is as without it. */
+/* The stencil has the pairs of the present positions, also while a lease reads; no particle changes its row, and later steps
+ * are as without the call. */
 static void stencil_of_moved(double shift, bool look, double *after)
 {
     mps_sim *sim = pool();

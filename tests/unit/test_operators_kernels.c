@@ -55,7 +55,7 @@ static void kernels(void **state)
     assert_int_equal(mps_lattice_constants(&k, 2, 1, 0.9, &n0, &lambda), MPS_E_ARG);
     assert_int_equal(mps_lattice_constants(&k, 2, 1, NAN, &n0, &lambda), MPS_E_ARG);
     assert_int_equal(mps_lattice_constants(NULL, 2, 1, 2.1, &n0, &lambda), MPS_E_ARG);
-    const mps_kernel nobody = {.id = MPS_KERNEL_CUSTOM}; /* filled by hand, without its function */
+    const mps_kernel nobody = {.id = MPS_KERNEL_CUSTOM}; /* a custom kernel without its function */
     assert_int_equal(mps_lattice_constants(&nobody, 2, 1, 2.1, &n0, &lambda), MPS_E_ARG);
     assert_true(mps_kernel_value(&nobody, 0.5, 1) == 0);
     assert_int_equal(mps_kernel_find("improvd", &k), MPS_E_NAME);

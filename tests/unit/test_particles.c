@@ -104,7 +104,7 @@ static void overlap_refused(void **state)
     mps_sim_destroy(sim);
 }
 
-/* An array nobody filled: all particles at the origin. A clear error, in no time and memory. */
+/* An array that was not filled: all particles at the origin. A clear error, without much time or memory. */
 static void crowd_refused(void **state)
 {
     (void)state;

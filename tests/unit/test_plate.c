@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Thin plates: what is built, and that each particle sees the liquid of its own side, all of it, and once. */
+/* Thin plates: what is built, and that the neighbours of each particle are the liquid of its own side, all of it, each once. */
 #include "plate_fixture.h"
 
 /* Kernel sums of row i over fluid, walls and dummies. */
@@ -182,7 +182,7 @@ static void what_is_a_plate(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Shadows take nobody's place. */
+/* Fluid may stand where a shadow is. */
 static void shadows_are_not_in_the_way(void **state)
 {
     (void)state;
@@ -266,7 +266,8 @@ static void plate_on_plate(void **state)
     mps_sim_destroy(tank);
 }
 
-/* An inclined plate that ends half a spacing above the floor: true area, no fluid too near, nobody sees through it or under it. */
+/* An inclined plate that ends half a spacing above the floor: true area, no fluid too near, no particle has
+ * neighbours through it or under it. */
 static void inclined_plate(void **state)
 {
     (void)state;

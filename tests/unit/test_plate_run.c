@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Thin plates in steps: pressures, particles and probes of one side know nothing of the other. */
+/* Thin plates in steps: pressures, particles and probes of one side do not depend on the other. */
 #include "plate_fixture.h"
 
 /* Pressures on the left of a plate; on the right the water stands `right` deep. */

@@ -456,7 +456,8 @@ static void detached_fluid(void **state)
     assert_true(p[60] == 42 && p[61] == 0 && p[20] == 0);
     assert_true(fabs(p[62] - 4) < 1e-12);
     for (int64_t i = 1; i < 60; i++)
-        if (i != 20) assert_true(fabs(p[i]) < 1e-9); /* nobody saw the spray's source */
+        if (i != 20)
+            assert_true(fabs(p[i]) < 1e-9); /* the spray's source has no effect on others */
     tank_free(&k);
 }
 

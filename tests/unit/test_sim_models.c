@@ -60,7 +60,7 @@ static void model_registration(void **state)
     ASSERT_REFUSED(sim, mps_model_register(sim, &m), MPS_E_ARG, "setting 0");
     ASSERT_REFUSED(sim, mps_model_register(sim, NULL), MPS_E_ARG, "NULL");
     assert_int_equal(mps_model_register(NULL, &good_model), MPS_E_ARG);
-    ASSERT_STATUS(sim, mps_model_use(sim, "mine.force"), MPS_E_NAME); /* nothing slipped in */
+    ASSERT_STATUS(sim, mps_model_use(sim, "mine.force"), MPS_E_NAME); /* nothing was registered */
     ASSERT_OK(sim, mps_model_register(sim, &good_model));
     ASSERT_REFUSED(sim, mps_model_register(sim, &good_model), MPS_E_ARG, "taken");
     ASSERT_OK(sim, mps_model_use(sim, "mine.force"));

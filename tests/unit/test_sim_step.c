@@ -49,8 +49,8 @@ static void acceleration(void **state)
     assert_true(test.created == 1 && test.destroyed == 1);
 }
 
-/* Whatever verb fails, the step did not happen - also not in what one cannot see: the run goes on
- * as its twin does. */
+/* Whatever verb fails, the step did not happen - also not in what no call returns: the run goes on
+ * as one without a failure. */
 static void failing_model(void **state)
 {
     (void)state;

@@ -124,7 +124,7 @@ static void fast_walls(void **state)
     }
 }
 
-/* A sliver that the caller asked for, by an argument or by the control, does not make the next step
+/* A very short step that the caller asked for, by an argument or by the control, does not make the next step
  * fail. */
 static void slivers(void **state)
 {
