@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* load.reaction: the pressure that walls show, against a loop over all particles. */
+#include "cloud.h"
+#include "tank_fixture.h"
+#include <mps/model.h>
+#include <stdbool.h>
+
+enum { PRESSURE, ACCELERATION, REGION, CORRECTION, DENSITY, TANK, LOAD, USES };
+static const mps_use uses[USES] = {[PRESSURE] = {"pressure", MPS_USE_NEIGHBOURS},
+                                   [ACCELERATION] = {"acceleration", MPS_USE_NEIGHBOURS},
+                                   [REGION] = {"region", MPS_USE_NEIGHBOURS},
+                                   [CORRECTION] = {"correction", MPS_USE_NEIGHBOURS},
+                                   [DENSITY] = {"pressure_density", MPS_USE_NEIGHBOURS},
+                                   [TANK] = {"tank_acceleration", MPS_USE_NEIGHBOURS},
+                                   [LOAD] = {"wall_pressure", MPS_USE_READ}};
+
+/* Walls so far: by what they show, and those with a particle of the surface or spray about them. */
+static struct {
+    int64_t pressed, held, surface, spray;
+    double worst; /* largest |wall_pressure - expected| over the largest pressure */
+} seen;
+
+/* One pair of a wall and the fluid beside it. */
+typedef struct pair {
+    double d[3], w, w_r2, r2;
+} pair;
+
+static bool pair_of(const mps_stage *s, const mps_kernel *kernel, int64_t i, int64_t j, pair *q)
+{
+    const int dim = s->dim;
+    *q = (pair){0};
+    for (int d = 0; d < dim; d++) {
+        q->d[d] = s->x[j * dim + d] - s->x[i * dim + d];
+        q->r2 += q->d[d] * q->d[d];
+    }
+    if (q->r2 >= s->near->re * s->near->re) return false;
+    q->w = mps_kernel_value(kernel, sqrt(q->r2), s->near->re);
+    q->w_r2 = q->w / q->r2;
+    return true;
+}
+
+/* e_j and p'_j of the head of src/bc/load_reaction.c; the product s_j e_j. */
+static double rise(const mps_stage *s, int64_t i, int64_t j, const double *r, double *carried)
+{
+    const double *p = s->data[PRESSURE], *a = s->data[ACCELERATION], *rho = s->data[DENSITY];
+    const double *tank = s->data[TANK];
+    const int32_t *region = s->data[REGION];
+    const double mean = (rho[i] + rho[j]) / 2;
+    double fall = 0, moved = 0;
+    for (int d = 0; d < s->dim; d++) {
+        const double b = s->g[d] - (tank[i * s->dim + d] + tank[j * s->dim + d]) / 2;
+        fall += b * r[d];
+        moved += (a[j * s->dim + d] + b) * r[d];
+    }
+    *carried = p[j] - mean * fall;
+    return region[j] == MPS_REGION_SURFACE ? p[i] - *carried : 2 * mean * moved;
+}
+
+/* P_i */
+static double expected(const mps_stage *s, const mps_kernel *kernel, int64_t i)
+{
+    const int dim = s->dim;
+    const int32_t *region = s->data[REGION];
+    const double *p = s->data[PRESSURE], *area = s->area + i * dim;
+    double size2 = 0, weight = 0, mean = 0, sum = 0;
+    for (int d = 0; d < dim; d++) size2 += area[d] * area[d];
+    for (int64_t j = 0; j < s->n; j++) {
+        const double *b = (const double *)s->data[CORRECTION] + j * dim * dim;
+        double carried, push = 0;
+        pair q;
+        if (s->kind[j] != MPS_FLUID || !pair_of(s, kernel, i, j, &q)) continue;
+        seen.spray += region[j] == MPS_REGION_SPRAY;
+        seen.surface += region[j] == MPS_REGION_SURFACE;
+        if (region[j] == MPS_REGION_SPRAY) continue;
+        for (int d = 0; d < dim; d++)
+            for (int e = 0; e < dim; e++) push += area[d] * b[d * dim + e] * q.d[e];
+        const double own = rise(s, i, j, q.d, &carried);
+        sum += pow(s->dp, dim) * dim / s->near->n0 * q.w_r2 * push * own;
+        mean += q.w * carried;
+        weight += q.w;
+    }
+    if (weight == 0) return p[i];
+    const double shown = mean / weight + (size2 > 0 ? sum / size2 : 0), least = fmin(p[i], 0);
+    seen.pressed += shown > least;
+    seen.held += shown < least;
+    return fmax(shown, least);
+}
+
+static int compare(mps_stage *s)
+{
+    const double *load = s->data[LOAD], *p = s->data[PRESSURE];
+    const int32_t *region = s->data[REGION];
+    double most = 0;
+    mps_kernel kernel = {.struct_size = sizeof kernel};
+    assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
+    for (int64_t i = 0; i < s->n; i++) most = fmax(most, fabs(p[i]));
+    assert_true(most > 0);
+    for (int64_t i = 0; i < s->n; i++) {
+        if (s->kind[i] != MPS_WALL || region[i] == MPS_REGION_DRY) continue;
+        seen.worst = fmax(seen.worst, fabs(load[i] - expected(s, &kernel, i)) / most);
+    }
+    return 0;
+}
+
+static const mps_verb verbs[] = {
+    {.moment = MPS_LOAD, .use_count = USES, .uses = uses, .after = "*", .run = compare}};
+static const mps_model_ops spy = {.struct_size = sizeof(mps_model_ops),
+                                  .api = MPS_MODEL_API,
+                                  .name = "after.spy",
+                                  .help = "compares the pressures of walls",
+                                  .verb_count = 1,
+                                  .verbs = verbs};
+
+/* Liquid off its lattice in a part of a tank that is pulled away from it, and a drop at a wall. */
+static mps_sim *splash(int32_t dim)
+{
+    const double dp = 0.05, lo[3] = {0}, hi[3] = {0.6, 0.3, 0.3}, drop[3] = {0.69, 0.04, 0.15};
+    const mps_harmonic surge = {.dof = MPS_SURGE, .amplitude = 0.1, .omega = 12, .phase = 0.9};
+    uint64_t seed = 3;
+    mps_particle_block b;
+    mps_lease x = {.struct_size = sizeof x};
+    const int32_t *kind;
+    mps_sim *sim = new_sim(dim, dp);
+    add_tank(sim, 0.9, 0.5, 0.3);
+    ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, NULL));
+    assert_int_equal(mps_particle_block_init(&b, sizeof b), MPS_OK);
+    b.count = 1;
+    b.position = drop;
+    ASSERT_OK(sim, mps_particles_add(sim, &b, NULL));
+    ASSERT_OK(sim, tags_peek(sim, NULL, &kind, NULL, NULL));
+    ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_WRITE, &x));
+    for (int64_t k = 0; k < x.count * dim; k++)
+        if (kind[k / dim] == MPS_FLUID) x.data[k] += 0.1 * dp * cloud_random(&seed);
+    ASSERT_OK(sim, mps_lease_end(sim, &x));
+    ASSERT_OK(sim, mps_motion_harmonics_set(sim, 1, &surge));
+    ASSERT_OK(sim, mps_model_register(sim, &spy));
+    ASSERT_OK(sim, mps_model_use(sim, "after.spy"));
+    return sim;
+}
+
+/* Walls that press, walls whose suction is held back, walls beside the surface and beside spray. */
+static void sum_over_the_fluid(void **state)
+{
+    (void)state;
+    for (int32_t dim = 2; dim <= 3; dim++) {
+        mps_sim *sim = splash(dim);
+        memset(&seen, 0, sizeof seen);
+        for (int step = 0; step < 4; step++) ASSERT_OK(sim, mps_step(sim, 1, NULL));
+        print_message("%d-D: %lld press, %lld held back; pairs with %lld of the surface, %lld "
+                      "spray; off by %.2g\n",
+                      dim, (long long)seen.pressed, (long long)seen.held, (long long)seen.surface,
+                      (long long)seen.spray, seen.worst);
+        assert_true(seen.pressed > 20 && seen.held > 0 && seen.surface > 20 && seen.spray > 0);
+        assert_true(seen.worst < 1e-9);
+        mps_sim_destroy(sim);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(sum_over_the_fluid)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
