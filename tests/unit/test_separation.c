@@ -201,6 +201,85 @@ static void plate_that_leaves(void **state)
     pulls_only_without(PLATE, 3, 0.2, lo, hi);
 }
 
+/* ---- the least pressure ---- */
+
+enum { DENSITY, NEAR_REGION, TANK, CONDITION, VALUE, LEAST_USES };
+static const mps_use least_uses[LEAST_USES] = {[DENSITY] = {"density", MPS_USE_NEIGHBOURS},
+                                               [NEAR_REGION] = {"region", MPS_USE_NEIGHBOURS},
+                                               [TANK] = {"tank_acceleration", MPS_USE_READ},
+                                               [CONDITION] = {"pressure_condition", MPS_USE_READ},
+                                               [VALUE] = {"pressure_value", MPS_USE_READ}};
+
+/* Walls so far with a least pressure of 0, with a lower one, without any. */
+static struct {
+    int64_t zero, below, none;
+} limits;
+
+/* Of wall i by all particles within the near radius; INFINITY: no void there. */
+static double least_pressure(const mps_stage *s, int64_t i)
+{
+    const double *rho = s->data[DENSITY], *tank = (const double *)s->data[TANK] + i * s->dim;
+    const int32_t *region = s->data[NEAR_REGION];
+    double least = INFINITY;
+    for (int64_t j = 0; j < s->n; j++) {
+        double r2 = 0, head = 0;
+        for (int d = 0; d < s->dim; d++) {
+            const double r = s->x[j * s->dim + d] - s->x[i * s->dim + d];
+            r2 += r * r;
+            head -= rho[j] * (s->g[d] - tank[d]) * r;
+        }
+        if (i == j || r2 >= s->near->re * s->near->re) continue;
+        if (s->kind[j] == MPS_FLUID && region[j] == MPS_REGION_SURFACE)
+            least = fmin(least, fmin(0, head));
+        else if (s->kind[j] != MPS_DUMMY && region[j] >= MPS_REGION_SPRAY)
+            least = fmin(least, 0);
+    }
+    return least;
+}
+
+static int compare(mps_stage *s)
+{
+    const double *value = s->data[VALUE];
+    const int32_t *region = s->data[NEAR_REGION], *condition = s->data[CONDITION];
+    for (int64_t i = 0; i < s->n; i++) {
+        if (s->kind[i] != MPS_WALL || region[i] != MPS_REGION_INNER) continue;
+        const double least = least_pressure(s, i);
+        assert_int_equal(condition[i], least <= 0 ? MPS_ROW_LEAST : MPS_ROW_FREE);
+        if (least <= 0) ASSERT_NEAR(value[i], least, 1e-9 * RHO * GRAVITY * s->dp);
+        limits.zero += least == 0;
+        limits.below += least < 0;
+        limits.none += least > 0;
+    }
+    return 0;
+}
+
+static const mps_verb least_verbs[] = {{.moment = MPS_SOURCE,
+                                        .use_count = LEAST_USES,
+                                        .uses = least_uses,
+                                        .after = "*",
+                                        .run = compare}};
+static const mps_model_ops least_model = {.struct_size = sizeof(mps_model_ops),
+                                          .api = MPS_MODEL_API,
+                                          .name = "after.least",
+                                          .help = "compares the least pressures of walls",
+                                          .verb_count = 1,
+                                          .verbs = least_verbs};
+
+/* In a tank that is pulled and in a stream over an edge. */
+static void least_by_all_particles(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        mps_sim *sim = build(k % 2 ? EDGE : PULLED, 2 + k / 2);
+        ASSERT_OK(sim, mps_model_register(sim, &least_model));
+        ASSERT_OK(sim, mps_model_use(sim, "after.least"));
+        memset(&limits, 0, sizeof limits);
+        run_to(sim, 0.06);
+        assert_true(limits.zero > 0 && limits.below > 0 && limits.none > 0);
+        mps_sim_destroy(sim);
+    }
+}
+
 /* ---- suction that must stay ---- */
 
 /* A tank filled to `depth` that starts with a velocity, its liquid at rest. */
@@ -343,10 +422,11 @@ static void threads_do_not_matter(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(wall_that_leaves),   cmocka_unit_test(edge_of_a_box),
-        cmocka_unit_test(plate_that_leaves),  cmocka_unit_test(jump_keeps_its_suction),
-        cmocka_unit_test(full_tank_pulls),    cmocka_unit_test(short_step_is_no_jump),
-        cmocka_unit_test(checkpoint_goes_on), cmocka_unit_test(threads_do_not_matter),
+        cmocka_unit_test(wall_that_leaves),       cmocka_unit_test(edge_of_a_box),
+        cmocka_unit_test(plate_that_leaves),      cmocka_unit_test(least_by_all_particles),
+        cmocka_unit_test(jump_keeps_its_suction), cmocka_unit_test(full_tank_pulls),
+        cmocka_unit_test(short_step_is_no_jump),  cmocka_unit_test(checkpoint_goes_on),
+        cmocka_unit_test(threads_do_not_matter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
