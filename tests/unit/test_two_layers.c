@@ -140,6 +140,58 @@ static void spray_before_wall(void **state)
     }
 }
 
+/* Share of a wall particle's cell that holds air: the part of the cell that it stands for, times that
+ * of the air in the fluid beside it. */
+static double air_share(const double *x, const int32_t *kind, int64_t n, int dim, int64_t i)
+{
+    const double re = 2.1 * dp;
+    double n0, fluid = 0, gas = 0, walls = 0;
+    mps_kernel kernel = {.struct_size = sizeof kernel};
+    assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
+    assert_int_equal(mps_lattice_constants(&kernel, dim, dp, re, &n0, NULL), MPS_OK);
+    for (int64_t j = 0; j < n; j++) {
+        double r2 = 0;
+        for (int d = 0; d < dim; d++) r2 += pow(x[j * dim + d] - x[i * dim + d], 2);
+        if (j == i || r2 >= re * re || spy.region[j] >= MPS_REGION_SPRAY) continue;
+        const double w = mps_kernel_value(&kernel, sqrt(r2), re);
+        if (kind[j] == MPS_WALL) walls += 0.5 * w;
+        if (kind[j] == MPS_FLUID) fluid += w;
+        if (kind[j] == MPS_FLUID && spy.density[j] < 2 * air) gas += w;
+    }
+    return fluid > 0 ? gas / fluid * (fluid + walls) / n0 : 0;
+}
+
+/* The air in the cells of walls can be compressed as the air before them, that of dry ones not. */
+static void walls_hold_gas(void **state)
+{
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++) {
+        const double dt = 1e-6, sound = 300, whole = 1 / (air * sound * sound * dt * dt);
+        int64_t mixed = 0;
+        mps_sim *sim = bare_sim(dim, dp, 3.1, dt);
+        fill(sim);
+        jitter_fluid(sim, dim, 0.2);
+        ASSERT_OK(sim, mps_model_use(sim, "wall.half"));
+        ASSERT_OK(sim, mps_model_use(sim, "gas.compressible"));
+        ASSERT_OK(sim, mps_model_set(sim, "gas", "sound", sound));
+        double *x = field_by_id(sim, "position");
+        int32_t *kind = kinds_by_id(sim);
+        const int64_t n = mps_particles_count(sim, -1);
+        ASSERT_OK(sim, mps_step(sim, 1, NULL));
+        for (int64_t i = 0; i < n; i++) {
+            double share = kind[i] == MPS_FLUID && spy.density[i] < 2 * air;
+            if (kind[i] == MPS_WALL && spy.region[i] < MPS_REGION_SPRAY)
+                share = air_share(x, kind, n, dim, i);
+            ASSERT_NEAR(spy.gas[i] / whole, share, 1e-9);
+            mixed += kind[i] == MPS_WALL && share > 0.01 && share < 0.4;
+        }
+        assert_true(mixed > 3);
+        free(x);
+        free(kind);
+        mps_sim_destroy(sim);
+    }
+}
+
 /* Sources of the walls, by id, with the air at `speed` away from the left wall and the water at rest; free() them. */
 static double *wall_sources(double speed, int64_t *n)
 {
@@ -251,7 +303,8 @@ static void at_rest(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(walls_take_density), cmocka_unit_test(spray_before_wall),
-        cmocka_unit_test(water_walls_mind_water), cmocka_unit_test(at_rest)};
+        cmocka_unit_test(walls_take_density), cmocka_unit_test(walls_hold_gas),
+        cmocka_unit_test(spray_before_wall), cmocka_unit_test(water_walls_mind_water),
+        cmocka_unit_test(at_rest)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
