@@ -251,8 +251,8 @@ static void use_source(mps_sim *sim)
     ASSERT_OK(sim, mps_model_use(sim, "after.rows"));
 }
 
-/* A light fluid that is fast below a heavy one, both squeezed, in a tank that is moved, both off their lattice, with a
- * free surface and drops above it. */
+/* A light fluid that is fast below a heavy one, both squeezed and off their lattice, in a tank that
+ * is moved, with a free surface and drops above it. */
 static void move_layers(int dim)
 {
     const int nx = dim == 2 ? 15 : 7, ny = dim == 2 ? 12 : 8, nz = dim == 3 ? 4 : 1;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* surface.asymmetry and wall.half against loops over all particles: regions of a torn liquid between
- * walls, and the share of walls that is wet. */
+/* surface.asymmetry and wall.half against loops over all particles: regions of a torn liquid
+ * between walls, and the share of walls that is wet. */
 #include "phase_fixture.h"
 #include <stdbool.h>
 
