@@ -238,8 +238,41 @@ static void by_all_particles(void **state)
     for (int k = 0; k < ALL; k++) assert_true(found[k] > 0);
 }
 
+/* Liquid beside a box, its upper row `lift` dp above the box; how many walls see all of it behind
+ * their face. */
+static int64_t beside_a_box(double lift)
+{
+    const double dp = CLOUD_DP, lo[3] = {8 * dp, 0, 0}, hi[3] = {12 * dp, 4 * dp, 0};
+    cloud c = cloud_lattice(2, 7, 4, 1, 0, 1);
+    int32_t *phase = cloud_phases(c.n);
+    mps_sim *sim = bare_sim(2, dp, 2.1, 1e-6);
+    for (int64_t k = 0; k < 2 * c.n; k++) c.x[k] += dp * (k % 2 ? 1 + lift : 1);
+    add_tank(sim, 16 * dp, 8 * dp, 0);
+    ASSERT_OK(sim, mps_baffle_add(sim, "box", lo, hi, NULL));
+    add_cloud(sim, &c, phase, NULL);
+    ASSERT_OK(sim, mps_model_register(sim, &regions));
+    ASSERT_OK(sim, mps_model_use(sim, "after.regions"));
+    ASSERT_OK(sim, mps_model_use(sim, "surface.asymmetry"));
+    ASSERT_OK(sim, mps_model_use(sim, "wall.half"));
+    memset(found, 0, sizeof found);
+    ASSERT_OK(sim, mps_step(sim, 1, NULL));
+    mps_sim_destroy(sim);
+    cloud_free(&c);
+    free(phase);
+    return found[BEHIND];
+}
+
+/* From 0.1 dp above its plane on liquid is before a face. */
+static void before_a_face(void **state)
+{
+    (void)state;
+    assert_int_equal(beside_a_box(0.12), 0);
+    assert_true(beside_a_box(0.08) > 0);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(by_all_particles)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(by_all_particles),
+                                       cmocka_unit_test(before_a_face)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
