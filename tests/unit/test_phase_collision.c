@@ -71,6 +71,28 @@ static void lone_pair(void **state)
     free(v);
 }
 
+/* Pairs up to 0.6 dp collide, others do not, in millimetres as in dozens of metres. */
+static void any_spacing(void **state)
+{
+    (void)state;
+    static const double spacings[] = {1e-3, 1, 64}, distances[] = {0.3, 0.599, 0.601, 1};
+    for (int k = 0; k < 12; k++) {
+        const double dp = spacings[k % 3], x[4] = {0, 0, distances[k / 3] * dp, 0},
+                     u[4] = {0, 0, -2, 0};
+        const int32_t phase[2] = {0, 0};
+        const cloud c = {2, 2, (double *)x};
+        mps_sim *sim = bare_sim(2, dp, 2.1, 1e-9);
+        set_phase(sim, 0, rho[0], 0);
+        add_cloud(sim, &c, phase, u);
+        ASSERT_OK(sim, mps_model_use(sim, "collision.pair"));
+        ASSERT_OK(sim, mps_step(sim, 1, NULL));
+        double *v = field_by_id(sim, "velocity");
+        ASSERT_NEAR(v[0], distances[k / 3] < 0.6 ? -1.5 : 0, 1e-14);
+        free(v);
+        mps_sim_destroy(sim);
+    }
+}
+
 /* Velocity after a step with collisions alone of a drop at `x` [dp] from the upper edge of a plate of one column. */
 static void after_edge(int dim, const double *x, const double *u, double *v)
 {
@@ -375,14 +397,11 @@ static void order(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(momentum),
-                                       cmocka_unit_test(lone_pair),
-                                       cmocka_unit_test(edge_is_a_post),
-                                       cmocka_unit_test(corners_are_closed),
-                                       cmocka_unit_test(edges_are_closed),
-                                       cmocka_unit_test(feet_are_closed),
-                                       cmocka_unit_test(shift_keeps_off),
-                                       cmocka_unit_test(out_of_the_wall),
-                                       cmocka_unit_test(order)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(momentum),           cmocka_unit_test(lone_pair),
+        cmocka_unit_test(any_spacing),        cmocka_unit_test(edge_is_a_post),
+        cmocka_unit_test(corners_are_closed), cmocka_unit_test(edges_are_closed),
+        cmocka_unit_test(feet_are_closed),    cmocka_unit_test(shift_keeps_off),
+        cmocka_unit_test(out_of_the_wall),    cmocka_unit_test(order)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
