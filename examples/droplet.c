@@ -13,8 +13,8 @@ enum { REST, OSCILLATION };
 static int in_drop(void *user, const double *x)
 {
     (void)user;
-    return hypot(x[0] - BOX / 2, x[1] - BOX / 2) <
-           (1 + 1e-9) * RADIUS; /* with the points on the circle its area is right within 3 % */
+    /* with the points on the circle its area is right within 3 % */
+    return hypot(x[0] - BOX / 2, x[1] - BOX / 2) < (1 + 1e-9) * RADIUS;
 }
 
 static void build(run *r)

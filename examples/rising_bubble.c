@@ -18,8 +18,8 @@ static const double SMOOTHING = 2; /* of the interface, in spacings */
 static int in_bubble(void *user, const double *x)
 {
     (void)user;
-    return hypot(x[0] - CENTRE[0], x[1] - CENTRE[1]) <
-           (1 + 1e-9) * RADIUS; /* with the points on the circle */
+    /* with the points on the circle */
+    return hypot(x[0] - CENTRE[0], x[1] - CENTRE[1]) < (1 + 1e-9) * RADIUS;
 }
 
 static void build(run *r, const fluids *f)

@@ -7,8 +7,9 @@
 
 typedef struct cavities {
     raster grid;
-    int32_t *
-        body; /* [nodes] number of the connected body of space without liquid, from 1; 0: none; -1: liquid not looked at yet */
+    /* [nodes] number of the connected body of space without liquid, from 1; 0: none; -1: liquid
+     * not looked at yet */
+    int32_t *body;
     int64_t *queue;
 } cavities;
 

@@ -26,41 +26,30 @@ static int cli_table(cli_options *o, cli_option *table)
     table[n++] = (cli_option){"--dp", "M", "particle spacing [m]", TYPE_REAL, &o->dp, o->dp_min, o->dp_max, false};
     table[n++] = (cli_option){"--dt", "S", "fixed time step [s]; default: adaptive", TYPE_REAL, &o->dt, 0, 0.1, false};
     table[n++] = (cli_option){"--cfl", "C", "adaptive step: largest dt u / dp", TYPE_REAL, &o->cfl, 0, 1, false};
-    table[n++] = (cli_option){"--calm", "C",  "adaptive step: largest dt sqrt(g / dp); default: that of the preset", TYPE_REAL, &o->calm, 0,
-                              1,        false};
+    table[n++] = (cli_option){"--calm", "C", "adaptive step: largest dt sqrt(g / dp); default: that of the preset",
+                              TYPE_REAL, &o->calm, 0, 1, false};
     table[n++] = (cli_option){"--t-end", "S", "time simulated [s]", TYPE_REAL, &o->t_end, 0, o->t_max, false};
     table[n++] = (cli_option){"--threads", "N", "threads of the simulation", TYPE_INT, &o->threads, 1, CLI_THREADS_MAX, false};
     table[n++] = (cli_option){"--solver", "NAME", "pressure solver, or solver/preconditioner", TYPE_TEXT, &o->solver, 0, 0, false};
     table[n++] = (cli_option){"--out", "DIR", "folder for all outputs", TYPE_TEXT, &o->out, 0, 0, false};
-    table[n++] = (cli_option){"--frames",     "N",  "frames for ParaView besides the first; 0: none", TYPE_INT, &o->frames, 0,
-                              CLI_FRAMES_MAX, false};
-    table[n++] = (cli_option){"--checkpoint",
-                              "S",
-                              "a checkpoint every S simulated seconds and at the end; default: only at Ctrl-C",
-                              TYPE_REAL,
-                              &o->checkpoint,
-                              1e-6,
-                              o->t_max,
-                              false};
+    table[n++] = (cli_option){"--frames", "N", "frames for ParaView besides the first; 0: none",
+                              TYPE_INT, &o->frames, 0, CLI_FRAMES_MAX, false};
+    table[n++] = (cli_option){"--checkpoint", "S", "a checkpoint every S simulated seconds and at the end; default: only at Ctrl-C",
+                              TYPE_REAL, &o->checkpoint, 1e-6, o->t_max, false};
     table[n++] = (cli_option){"--resume", NULL, "go on from the checkpoint in the folder of --out", TYPE_FLAG, &o->resume, 0, 0, true};
     table[n++] = (cli_option){"--overwrite", NULL, "remove an earlier run from the folder of --out", TYPE_FLAG, &o->overwrite, 0, 0, true};
     table[n++] = (cli_option){"--probe-dt", "S", "interval of rows in probes.csv [s]", TYPE_REAL, &o->probe_dt, 0, 10, false};
-    table[n++] = (cli_option){"--sensor-average",
-                              "S",
+    table[n++] = (cli_option){"--sensor-average", "S",
                               "wall pressures and forces: mean of the last S seconds; 0: no mean; default: dp/u",
-                              TYPE_REAL,
-                              &o->sensor_average,
-                              -1,
-                              10,
-                              false};
-    table[n++] = (cli_option){"--pictures", "T,T,..", "times of the pictures [s]; default: quarters of the run", TYPE_TIMES, o, 0, 0,
-                              false};
+                              TYPE_REAL, &o->sensor_average, -1, 10, false};
+    table[n++] = (cli_option){"--pictures", "T,T,..", "times of the pictures [s]; default: quarters of the run",
+                              TYPE_TIMES, o, 0, 0, false};
     if (o->has_dim) table[n++] = (cli_option){"--dim", "D", "2 or 3 dimensions", TYPE_INT, &o->dim, 2, 3, false};
     if (o->amplitude > 0)
         table[n++] = (cli_option){"--amplitude", "M", "amplitude of the motion [m]", TYPE_REAL, &o->amplitude, 0, 10, false};
     if (o->has_layers)
-        table[n++] = (cli_option){"--layers", "N",  "columns of particles of the baffle; 0: by its thickness", TYPE_INT, &o->layers, 0,
-                                  100,        false};
+        table[n++] = (cli_option){"--layers", "N", "columns of particles of the baffle; 0: by its thickness",
+                              TYPE_INT, &o->layers, 0, 100, false};
     if (o->has_stl)
         table[n++] = (cli_option){"--stl", "FILE", "STL file of a closed tank, in place of the cylinder", TYPE_TEXT, &o->stl, 0, 0, false};
     if (o->has_stl)

@@ -59,11 +59,12 @@ typedef struct cli_options {
     double calm;               /* adaptive: dt sqrt(g / dp); 0: as the model has it */
     double t_end, t_max;       /* [s]; t_end 0: the driver sets it after parsing */
     double probe_dt;           /* rows of probes.csv [s] */
-    double
-        sensor_average; /* wall pressures and forces are means over this [s]; MPS_AVERAGE_AUTO: over mps_step_info.crossing_time */
-    int32_t threads;    /* of the simulation */
-    int32_t frames;     /* frames besides the first */
-    int pictures;       /* 0: at quarters of the time */
+    /* wall pressures and forces are means over this [s]; MPS_AVERAGE_AUTO: over
+     * mps_step_info.crossing_time */
+    double sensor_average;
+    int32_t threads;             /* of the simulation */
+    int32_t frames;              /* frames besides the first */
+    int pictures;                /* 0: at quarters of the time */
     double picture_t[CLI_TIMES]; /* [s], ascending */
     int32_t dim;                 /* 2 or 3 */
     double amplitude;            /* of the motion [m]; offered by drivers that set it */
@@ -77,13 +78,16 @@ typedef struct cli_options {
     double sigma;          /* surface tension [N/m], for models that have it */
     bool has_sigma;        /* the driver offers --sigma */
     bool sigma_given;      /* by the user */
-    bool
-        two_phases; /* models of several phases suit the case; set by cli_parse(): they are its default, or it has a `need` */
-    bool
-        both_phases; /* the case has two phases whatever the model; set by cli_parse(): a model of several phases is its default */
-    bool no_gas;     /* both phases are liquids: the model of the gas is switched off */
-    const char *
-        need; /* NULL, or "slot.variant" that every model gets where there are two phases and its slot is empty */
+    /* models of several phases suit the case; set by cli_parse(): they are its default, or it
+     * has a `need` */
+    bool two_phases;
+    /* the case has two phases whatever the model; set by cli_parse(): a model of several phases
+     * is its default */
+    bool both_phases;
+    bool no_gas; /* both phases are liquids: the model of the gas is switched off */
+    /* NULL, or "slot.variant" that every model gets where there are two phases and its slot is
+     * empty */
+    const char *need;
     const char *prefer; /* NULL, or "slot.key=value", set before --set where the model has it */
     int owns;           /* options of this driver alone */
     cli_option own[CLI_OWN];

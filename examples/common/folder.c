@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Folders are locked by fcntl() on a file in them: the system gives the lock back however the program ends, and knows who has it. */
+/* Folders are locked by fcntl() on a file in them: the system removes the lock however the program
+ * ends, and tells which process holds it. */
 #include "folder.h"
 #include <dirent.h>
 #include <errno.h>
@@ -71,7 +72,7 @@ static bool folder_make(const char *path)
 
 /* ---- the lock ---- */
 
-/* The file is removed before the lock goes, so that nobody removes one that another run has locked since. */
+/* The file is removed while it is locked, so that it cannot be one that another run has locked. */
 static void folder_unlock(void)
 {
     if (lock_path[0]) unlink(lock_path);

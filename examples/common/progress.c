@@ -46,8 +46,8 @@ bool progress_step(progress *p, const mps_step_info *info)
     double now = progress_clock(), interval = p->terminal ? 0.1 : 10;
     if (now - p->shown < interval) return false;
     double rate = (double)(info->step - p->steps_shown) * (double)p->particles / (now - p->shown);
-    p->rate = p->rate > 0 ? 0.8 * p->rate + 0.2 * rate
-                          : rate; /* a tenth of a second is only a few steps */
+    /* a tenth of a second is only a few steps */
+    p->rate = p->rate > 0 ? 0.8 * p->rate + 0.2 * rate : rate;
     double done = info->t - p->t_begin;
     double eta = done > 0 ? (now - p->start) * (p->t_end - info->t) / done : 0;
     double percent = 100 * info->t / p->t_end;

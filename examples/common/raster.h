@@ -12,8 +12,8 @@ enum { RASTER_LIQUID, RASTER_OTHER, RASTER_SOLID, RASTER_LAYERS };
 typedef struct raster {
     int32_t dim;
     double lo[3], dp; /* first node in the tank's frame; nodes are one spacing apart [m] */
-    double
-        width; /* of the cubic B-splines the particles are spread with, in spacings: they reach twice as far */
+    /* of the cubic B-splines the particles are spread with, in spacings: they reach twice as far */
+    double width;
     int64_t size[3];     /* nodes along each axis; 1 for z in 2-D */
     int64_t count, step; /* nodes; step at which it was filled last, -1: never */
     double *share[RASTER_LAYERS];

@@ -171,9 +171,8 @@ void run_check(run *r, mps_status status, const char *what)
     fprintf(stderr, "%s: %s: %s: %s\n", r->options.program, what, mps_status_name(status),
             mps_sim_error(r->sim));
     mps_sim_destroy(r->sim);
-    exit(status == MPS_E_ARG
-             ? CLI_USAGE
-             : CLI_FAILED); /* the geometry is fixed: what does not fit is an option, mostly --dp */
+    /* the geometry is fixed: what does not fit is an option, mostly --dp */
+    exit(status == MPS_E_ARG ? CLI_USAGE : CLI_FAILED);
 }
 
 bool run_has_gas(const run *r)

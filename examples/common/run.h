@@ -75,10 +75,10 @@ typedef struct run {
     int64_t checkpoint;  /* next checkpoint */
     double checkpoint_t; /* of the last; 0: none */
     double frame_t;      /* of the last frame; -1: none yet */
-    double start[1 + RUN_COLUMNS +
-                 RUN_COMMON]; /* row of t = 0, until it is written after the first step */
-    double step_end;          /* wall clock when the last step's outputs were done */
-    int messages;             /* of the library, shown so far */
+    /* row of t = 0, until it is written after the first step */
+    double start[1 + RUN_COLUMNS + RUN_COMMON];
+    double step_end; /* wall clock when the last step's outputs were done */
+    int messages;    /* of the library, shown so far */
     bool output_failed;
 } run;
 

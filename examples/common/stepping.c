@@ -283,9 +283,8 @@ static int run_exit_code(const run *r, mps_status status)
     if (status == MPS_W_STOPPED) return interrupted ? CLI_INTERRUPTED : CLI_FAILED;
     if (status == MPS_E_DIVERGED || status == MPS_E_LOST || status == MPS_E_SOLVER)
         return CLI_DIVERGED;
-    if (status == MPS_E_PLUGIN ||
-        status ==
-            MPS_E_STATE) /* models that do not fit together or to the case, or a flow beyond a model */
+    /* models that do not fit together or to the case, or a flow beyond a model */
+    if (status == MPS_E_PLUGIN || status == MPS_E_STATE)
         return r->totals.steps == 0 ? CLI_USAGE : CLI_DIVERGED;
     return status < 0 ? CLI_FAILED : CLI_OK;
 }
@@ -413,9 +412,8 @@ int run_finish(run *r)
                                           : mps_status_name(MPS_E_IO);
     if (!summary_save(r) || !report_save(r)) code = code == CLI_OK ? CLI_FAILED : code;
     run_say(r, code, status);
-    if (code == CLI_USAGE)
-        folder_clear(
-            r); /* refused before its first step: what it wrote is no run that another one would have to spare */
+    /* refused before its first step: what it wrote is no run that another one must keep */
+    if (code == CLI_USAGE) folder_clear(r);
     table_free(&r->probes);
     table_free(&r->momentum);
     table_free(&r->steps);

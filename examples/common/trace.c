@@ -8,8 +8,8 @@
 
 enum { TRACE_ROOM = 1024, TRACE_COLUMNS = TRACE_OWN + RUN_COLUMNS };
 
-static const double SLACK =
-    1e-9; /* of the end of a measure, relative: a run ends within rounding of its time */
+/* Of the end of a measure, relative: a run ends within rounding of its time. */
+static const double SLACK = 1e-9;
 
 void trace_add(run *r, trace *t)
 {

@@ -19,8 +19,8 @@ typedef struct trace {
     table file;
     int columns;
     int64_t count, room;
-    double *
-        row; /* [count*columns] all rows; the first is the state before the first step, with dt = 0 */
+    /* [count*columns] all rows; the first is the state before the first step, with dt = 0 */
+    double *row;
     bool failed; /* memory was out */
 } trace;
 

@@ -6,11 +6,11 @@
 
 static const double LENGTH = 3.2, HEIGHT = 1, HALF_BREADTH = 0.48, COLUMN_LENGTH = 1.24,
                     COLUMN_HEIGHT = 0.55, GRAVITY = 9.81;
-static const double FRONT = 2.4, BOX = 0.16,
-                    BOX_HALF_BREADTH = 0.2;        /* near face, length and height [m] */
+/* The box: near face; length and height; half breadth [m]. */
+static const double FRONT = 2.4, BOX = 0.16, BOX_HALF_BREADTH = 0.2;
 static const double PASSED = 0.6, MEANS_END = 0.9; /* means of the passing stream [s] */
-static const double END[] = {
-    1.6, 0.9}; /* of the run in 2-D and 3-D: in 2-D liquid falls behind the box from 1.3 s on [s] */
+/* Of the run in 2-D and 3-D: in 2-D liquid falls behind the box from 1.3 s on [s]. */
+static const double END[] = {1.6, 0.9};
 enum { FRONTS = 4, TOPS = 4 };
 
 static void set(impact *c, cli_options *o)

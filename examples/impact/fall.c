@@ -8,9 +8,8 @@
 #include <math.h>
 
 static const double HEIGHT = 0.5, DROP = 0.1, BREADTH = 0.4, GRAVITY = 9.81;
-static const double
-    REST = 1,
-    REST_FROM = 0.5; /* time simulated after contact; statics are measured from then on [s] */
+/* Time simulated after contact; statics are measured from REST_FROM on [s]. */
+static const double REST = 1, REST_FROM = 0.5;
 static const double PULL = 0.2;            /* time simulated [s] */
 static const double BEFORE = 3, AFTER = 4; /* window about contact [dp/U] */
 

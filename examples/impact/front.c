@@ -7,9 +7,8 @@
 #include "impact.h"
 #include <math.h>
 
-static const double HEIGHT = 1,
-                    ROW =
-                        0.01; /* of the block; spacing of a film's rows has no meaning to it [m] */
+/* Height of the block; spacing of rows, which means nothing to a film [m]. */
+static const double HEIGHT = 1, ROW = 0.01;
 static const double BEFORE = 3, SHORT = 1, LONG = 4, LATE = 12; /* windows about contact [dp/U] */
 enum { FILM_LENGTH = 40, SERIES = 400 };
 

@@ -10,8 +10,9 @@ typedef struct impact {
     trace rows;
     trace_measure measure[RUN_FIGURES];
     double density, speed; /* of the liquid [kg/m3], of its approach [m/s] */
-    double
-        contact; /* time at which the foremost row is one spacing from the wall: half cells of liquid and wall meet [s] */
+    /* time at which the foremost row is one spacing from the wall: half cells of liquid and wall
+     * meet [s] */
+    double contact;
     double deadrise; /* of the wedge [degrees] */
     double block;    /* half width and depth of the liquid that meets the wedge [m] */
     int32_t layers;  /* rows of the film */
@@ -28,10 +29,8 @@ typedef struct impact_case {
 extern const impact_case impact_flat, impact_film, impact_wedge, impact_jet, impact_column,
     impact_floor, impact_box;
 
-enum {
-    IMPACT_GAP = 6,
-    IMPACT_SLICE = 6
-}; /* in spacings: foremost row to wall at the start; width of a slice in 3-D */
+/* In spacings: foremost row to wall at the start; width of a slice in 3-D. */
+enum { IMPACT_GAP = 6, IMPACT_SLICE = 6 };
 
 /* No gravity: the speed of the flow scales what gravity scales elsewhere. */
 void impact_weightless(impact *c, cli_options *o);

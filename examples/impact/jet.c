@@ -4,12 +4,8 @@
 #include <math.h>
 
 static const double WIDTH = 1; /* b [m] */
-enum {
-    LENGTH = 6,
-    HALF_WALL = 12,
-    BEGIN = 2,
-    END = 5
-}; /* of the jet and the wall, and of the steady phase after contact [b, b/U] */
+/* Of the jet and the wall [b]; of the steady phase after contact [b/U]. */
+enum { LENGTH = 6, HALF_WALL = 12, BEGIN = 2, END = 5 };
 
 static void set(impact *c, cli_options *o)
 {

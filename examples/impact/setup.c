@@ -8,9 +8,8 @@
 void impact_weightless(impact *c, cli_options *o)
 {
     o->gravity = 0;
-    o->velocity_scale =
-        0.1 *
-        c->speed; /* that of a flow of Froude number 10 over one spacing; limits dt at cfl 0.6 */
+    /* that of a flow of Froude number 10 over one spacing; limits dt at cfl 0.6 */
+    o->velocity_scale = 0.1 * c->speed;
 }
 
 void impact_water(impact *c)

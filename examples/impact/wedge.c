@@ -6,8 +6,8 @@
 #include "impact.h"
 #include <math.h>
 
-static const double SIDE = 0.2,
-                    FOOT = 0.6;    /* wetted side at the end; half width of the wedge [m] */
+/* Wetted side at the end; half width of the wedge [m]. */
+static const double SIDE = 0.2, FOOT = 0.6;
 enum { SENSORS = 160, FIRST = 2 }; /* along the side; the first, in spacings from the edge */
 
 /* Sensors one spacing apart along the side; their largest value is a column. */

@@ -122,8 +122,8 @@ static void make_cycle(mps__amg *a, const mps_hypre_settings *settings)
     HYPRE_BoomerAMGSetPMaxElmts(a->cycle, settings->row_entries);
     HYPRE_BoomerAMGSetStrongThreshold(a->cycle, settings->threshold);
     HYPRE_BoomerAMGSetAggNumLevels(a->cycle, settings->aggressive_levels);
-    HYPRE_BoomerAMGSetRelaxType(
-        a->cycle, settings->relaxation); /* but a direct solution on the coarsest grid */
+    /* but a direct solution on the coarsest grid */
+    HYPRE_BoomerAMGSetRelaxType(a->cycle, settings->relaxation);
     HYPRE_BoomerAMGSetRelaxOrder(a->cycle, 0);
     HYPRE_BoomerAMGSetNumSweeps(a->cycle, settings->sweeps);
     HYPRE_BoomerAMGSetCycleNumSweeps(a->cycle, 1, coarsest);

@@ -50,17 +50,6 @@ typedef struct fields {
     double light; /* density of the gas that may be torn; 0: none */
 } fields;
 
-/* Maxima over the fluid: of the negative of the density, of the density. */
-MPS_ROW void raise_density(const int dim, const mps_stage *s, const fields *f, int64_t i,
-                           double *most)
-{
-    (void)dim;
-    if (s->kind[i] != MPS_FLUID) return;
-    most[0] = -f->density[i] > most[0] ? -f->density[i] : most[0];
-    most[1] = f->density[i] > most[1] ? f->density[i] : most[1];
-}
-MPS_SUMS(raise_density_rows, raise_density, fields)
-
 /* Smallest eigenvalue allowed for particle i. */
 static inline double floor_of(const mps_stage *s, const fields *f, int64_t i)
 {
@@ -105,8 +94,8 @@ static int invert_moments(mps_stage *s)
                 .correction = s->data[CORRECTION]};
     if (s->setting[TORN] > 0) {
         double rho[2];
-        mps_stage_max(s, 2, raise_density_rows, &f, rho);
-        f.light = rho[1] > -rho[0] ? -rho[0] : 0;
+        mps__density_range(s, f.density, rho);
+        f.light = rho[1] > rho[0] ? rho[0] : 0;
     }
     mps_stage_rows(s, invert_rows, &f);
     return 0;

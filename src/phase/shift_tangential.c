@@ -13,6 +13,7 @@
  * With `transport` the velocity is moved along: u += s.grad u over fluid of the same phase, within
  * the range of the velocities of its neighbours. Over all neighbours, or without bounds, a lone
  * drop would accelerate itself. */
+#include "helpers.h"
 #include "walls.h"
 
 enum { STRENGTH, LIMIT, TRANSPORT, FILTER, SETTINGS };
@@ -53,16 +54,6 @@ typedef struct pair_sums {
     bool solids;            /* among the pairs */
 } pair_sums;
 
-/* fmax() and fmin() as one instruction; `b` may be NaN and does not count then. */
-static inline double larger(double a, double b)
-{
-    return b > a ? b : a;
-}
-static inline double smaller(double a, double b)
-{
-    return b < a ? b : a;
-}
-
 /* Normal of the free surface near i: its own asymmetry, or the mean of its surface neighbours'. Not
  * a unit vector. */
 MPS_ROW void surface_normal(const int dim, const mps_stage *s, const fields *f, int64_t i,
@@ -100,7 +91,7 @@ MPS_ROW double interface_normal(const int dim, const mps_stage *s, const fields 
     for (int d = 0; d < dim; d++) size += n[d] * n[d];
     if (!(size > 0)) return 0;
     for (int d = 0; d < dim; d++) n[d] /= sqrt(size);
-    return smaller(1.0, 2.0 * sqrt(size) / length);
+    return mps__smaller(1.0, 2.0 * sqrt(size) / length);
 }
 
 /* Fills `even`. */
@@ -137,15 +128,15 @@ MPS_ROW void collect(const int dim, const mps_stage *stage, const fields *given,
             v[d] = all[q.j * dim + d] - u[d];
             v2 += v[d] * v[d];
         }
-        c->most = larger(c->most, v2);
+        c->most = mps__larger(c->most, v2);
         if (f->region[q.j] < MPS_REGION_SURFACE) {
             c->weight += q.w;
             for (int d = 0; d < dim; d++) c->mean[d] += q.w * even[q.j * dim + d];
         }
         if (s->phase[q.j] != s->phase[i] || f->region[q.j] == MPS_REGION_SPRAY) continue;
         for (int d = 0; d < dim; d++) {
-            c->low[d] = smaller(c->low[d], v[d]);
-            c->high[d] = larger(c->high[d], v[d]);
+            c->low[d] = mps__smaller(c->low[d], v[d]);
+            c->high[d] = mps__larger(c->high[d], v[d]);
             for (int e = 0; e < dim; e++) c->g[d * dim + e] += q.w_r2 * v[d] * q.d[e];
             for (int e = d; e < dim; e++) c->m[d * dim + e] += q.w_r2 * q.d[d] * q.d[e];
         }
@@ -201,7 +192,7 @@ MPS_ROW void transport(const int dim, const mps_stage *s, const pair_sums *sums,
         double v = 0;
         for (int e = 0; e < dim; e++)
             for (int f = 0; f < dim; f++) v += c * sums->g[d * dim + e] * b[e * dim + f] * shift[f];
-        du[d] = smaller(sums->high[d], larger(sums->low[d], v));
+        du[d] = mps__smaller(sums->high[d], mps__larger(sums->low[d], v));
     }
 }
 

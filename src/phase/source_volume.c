@@ -103,16 +103,6 @@ typedef struct fields {
     pacing pace;
 } fields;
 
-/* fmax() and fmin() as one instruction; `b` may be NaN and does not count then. */
-static inline double larger(double a, double b)
-{
-    return b > a ? b : a;
-}
-static inline double smaller(double a, double b)
-{
-    return b < a ? b : a;
-}
-
 /* delta of a fluid particle; not negative near the surface, where the kernel is cut off. The region
  * SECOND has no surface particle within the near radius: there a kernel that reaches at most half a
  * spacing farther is whole. */
@@ -121,7 +111,7 @@ MPS_ROW double clipped_deviation(const mps_stage *s, const fields *f, int64_t i)
     const double clip = s->setting[CLIP];
     double v = f->volume_deviation[i];
     if (f->region[i] > f->whole && v < 0) v = 0;
-    return smaller(clip, larger(-clip, v));
+    return mps__smaller(clip, mps__larger(-clip, v));
 }
 
 /* Fills is_solid, delta, and v: of fluid as if it moved with the tank during this step, without
@@ -320,19 +310,8 @@ static inline double relaxation(const double *k, double delta, double open, doub
 {
     const double firm = delta * delta / (k[FIRM] * k[FIRM]);
     const double torn = delta * delta / (k[TORN] * k[TORN]);
-    return smaller(1.0, (open + firm * firm) / k[TAU]) + smaller(1.0, torn * torn) * most;
+    return mps__smaller(1.0, (open + firm * firm) / k[TAU]) + mps__smaller(1.0, torn * torn) * most;
 }
-
-/* Maxima over the fluid: of the negative of the density, of the density. */
-MPS_ROW void raise_density(const int dim, const mps_stage *s, const fields *f, int64_t i,
-                           double *most)
-{
-    (void)dim;
-    if (s->kind[i] != MPS_FLUID) return;
-    most[0] = larger(most[0], -f->density[i]);
-    most[1] = larger(most[1], f->density[i]);
-}
-MPS_SUMS(raise_density_rows, raise_density, fields)
 
 /* Maxima of |u|^2: of fluid denser than the lightest, of all fluid. */
 MPS_ROW void raise_speed(const int dim, const mps_stage *s, const fields *f, int64_t i,
@@ -341,20 +320,20 @@ MPS_ROW void raise_speed(const int dim, const mps_stage *s, const fields *f, int
     if (s->kind[i] != MPS_FLUID || f->region[i] >= MPS_REGION_SURFACE) return;
     double square = 0;
     for (int d = 0; d < dim; d++) square += f->velocity[i * dim + d] * f->velocity[i * dim + d];
-    most[1] = larger(most[1], square);
-    if (f->density[i] > f->pace.lightest) most[0] = larger(most[0], square);
+    most[1] = mps__larger(most[1], square);
+    if (f->density[i] > f->pace.lightest) most[0] = mps__larger(most[0], square);
 }
 MPS_SUMS(raise_speed_rows, raise_speed, fields)
 
 static void set_pace(const mps_stage *s, fields *f)
 {
     double rho[2], fastest[2];
-    mps_stage_max(s, 2, raise_density_rows, f, rho);
-    const bool several = rho[1] > -rho[0];
-    f->pace = (pacing){-rho[0], rho[1] + rho[0], 1.0, s->velocity_scale};
+    mps__density_range(s, f->density, rho);
+    const bool several = rho[1] > rho[0];
+    f->pace = (pacing){rho[0], rho[1] - rho[0], 1.0, s->velocity_scale};
     if (!several && s->setting[RAPID] == 0) return;
     mps_stage_max(s, 2, raise_speed_rows, f, fastest);
-    const double dense = sqrt(larger(0, fastest[0])), any = sqrt(larger(0, fastest[1]));
+    const double dense = sqrt(mps__larger(0, fastest[0])), any = sqrt(mps__larger(0, fastest[1]));
     f->pace.drive = fmax(several ? dense : any, s->velocity_scale);
     if (!several) return;
     const double share = fmax(dense, calm_speed(s)) / fmax(any, calm_speed(s));
@@ -375,7 +354,7 @@ MPS_ROW void add_source(const int dim, const mps_stage *s, const fields *f, int6
     if (s->kind[i] == MPS_FLUID) {
         double mean;
         const double divergence = fluid_divergence(dim, s, f, i, &mean);
-        const double open = larger(0.0, 1.0 - 2.0 * k[ASIDE] * f->solid[i]);
+        const double open = mps__larger(0.0, 1.0 - 2.0 * k[ASIDE] * f->solid[i]);
         const double rapid = k[RAPID] * f->pace.drive / s->velocity_scale;
         const double back = f->on * f->rate * relaxation(k, mean, open, rapid) * mean;
         f->source[i] += share * f->over * (back - divergence);
@@ -417,7 +396,7 @@ static int add_sources(mps_stage *s)
                 .own = 0.5 * mps_kernel_weight(&t->kernel, r, t->re),
                 .rate = rate,
                 .over = 1.0 / s->dt,
-                .on = k[START] > 0 ? smaller(1.0, s->t * rate / k[START]) : 1.0};
+                .on = k[START] > 0 ? mps__smaller(1.0, s->t * rate / k[START]) : 1.0};
     if (!f.is_solid || !f.solid || !f.delta || !f.relative || !f.v) return 1;
     set_pace(s, &f);
     mps_stage_rows(s, prepare_rows, &f);

@@ -36,26 +36,44 @@ static double mean_square(const mps_ppe_problem *problem)
     return sum > 0 ? squares / sum : 0;
 }
 
+/* A grid and what it is made from. */
+typedef struct making {
+    mps__grid *g;
+    mps__grid_level *l;
+    const mps_ppe_problem *problem;
+    double square; /* mean of r_ij^2 */
+} making;
+
+/* values: sums of kappa, of its inverse and of rows, then the largest kappa. */
+static void measure_rows(void *argument, int64_t begin, int64_t end, double *values)
+{
+    const making *m = argument;
+    const mps_ppe_problem *problem = m->problem;
+    for (int64_t i = begin; i < end; i++) {
+        const int64_t entries = problem->row[i + 1] - problem->row[i];
+        const double flux = fmax(problem->diagonal[i] - problem->shift[i], 0) * m->square,
+                     kappa = entries > 0 ? flux / (double)entries : 0;
+        m->g->point_kappa[i] = kappa;
+        if (kappa > values[3]) values[3] = kappa;
+        /* a lone pair at the end of the kernel says little */
+        if (entries < FEW_ENTRIES || !(kappa > 0)) continue;
+        values[0] += kappa;
+        values[1] += 1 / kappa;
+        values[2] += 1;
+    }
+}
+
 /* Sums of k_ij r_ij^2 of all rows, the inverse density but for a factor that full rows share, and whether it is the same everywhere. */
 void mps__grid_measure(mps__grid *g, const mps_ppe_problem *problem)
 {
-    const double square = mean_square(problem);
-    double largest = 0, sum = 0, inverses = 0, rows = 0;
-    for (int64_t i = 0; i < problem->n; i++) {
-        const int64_t entries = problem->row[i + 1] - problem->row[i];
-        const double flux = fmax(problem->diagonal[i] - problem->shift[i], 0) * square,
-                     kappa = entries > 0 ? flux / (double)entries : 0;
-        g->point_kappa[i] = kappa;
-        if (kappa > largest) largest = kappa;
-        if (entries < FEW_ENTRIES || !(kappa > 0))
-            continue; /* a lone pair at the end of the kernel says little */
-        sum += kappa;
-        inverses += 1 / kappa;
-        rows += 1;
-    }
-    g->one = !(sum * inverses > one_density * rows * rows);
+    making m = {.g = g, .problem = problem, .square = mean_square(problem)};
+    double v[4] = {0};
+    const mps_parallel_values values = {3, 1, v};
+    mps_parallel_reduce(mps__team(problem->parallel, problem->n), problem->n, measure_rows, &m,
+                        &values);
+    g->one = !(v[0] * v[1] > one_density * v[2] * v[2]);
     g->dim = problem->dim;
-    g->unit = largest > 0 ? problem->dp * problem->dp / largest : 1;
+    g->unit = v[3] > 0 ? problem->dp * problem->dp / v[3] : 1;
     g->size = problem->dp * (!g->one ? 2 : problem->dim == 2 ? 3 : 2.5);
     g->per_size = 1 / g->size;
 }
@@ -69,13 +87,6 @@ static double position(const mps__grid *g, const mps_ppe_problem *problem, int64
     return u < most ? u : most;
 }
 
-/* A grid and what it is made from. */
-typedef struct making {
-    mps__grid *g;
-    mps__grid_level *l;
-    const mps_ppe_problem *problem;
-} making;
-
 static void place_rows(void *argument, int64_t begin, int64_t end)
 {
     const making *m = argument;
@@ -87,13 +98,21 @@ static void place_rows(void *argument, int64_t begin, int64_t end)
     }
 }
 
+/* values: the largest of -x along each axis. */
+static void corner_rows(void *argument, int64_t begin, int64_t end, double *values)
+{
+    const mps_ppe_problem *problem = argument;
+    for (int64_t i = begin; i < end; i++)
+        for (int a = 0; a < problem->dim; a++)
+            values[a] = fmax(values[a], -problem->x[i * problem->dim + a]);
+}
+
 void mps__grid_place(mps__grid *g, const mps_ppe_problem *problem)
 {
-    for (int a = 0; a < problem->dim; a++) {
-        double lo = INFINITY;
-        for (int64_t i = 0; i < problem->n; i++) lo = fmin(lo, problem->x[i * problem->dim + a]);
-        g->lo[a] = lo - 0.5 * g->size;
-    }
+    double most[3] = {-INFINITY, -INFINITY, -INFINITY};
+    mps_parallel_max(mps__team(problem->parallel, problem->n), problem->n, problem->dim,
+                     corner_rows, (void *)problem, most);
+    for (int a = 0; a < problem->dim; a++) g->lo[a] = -most[a] - 0.5 * g->size;
     mps_parallel_rows_least(problem->parallel, problem->n, MPS__TEAM_LEAST / 2, place_rows,
                             &(making){.g = g, .problem = problem});
 }
@@ -328,7 +347,7 @@ static void share_chunk(void *argument, int32_t chunk)
 bool mps__grid_from_matrix(mps__grid *g, const mps_ppe_problem *problem)
 {
     mps__grid_level *l = &g->level[0];
-    making m = {g, l, problem};
+    making m = {.g = g, .l = l, .problem = problem};
     if (!mps__grid_reserve_parts(g)) return false;
     for (int64_t i = 0; i < problem->n; i++) {
         int32_t c = l->home[i];

@@ -40,9 +40,8 @@ static int setup(void *self, const mps_ppe_problem *problem)
         double d = problem->diagonal[i];
         if (!isfinite(d)) return MPS_PPE_NAN;
         if (d < 0) return MPS_PPE_INDEFINITE;
-        j->inverse[i] =
-            d > 0 ? 1 / d
-                  : 1; /* an empty row is a particle without neighbours, its residual is 0 */
+        /* an empty row is a particle without neighbours, its residual is 0 */
+        j->inverse[i] = d > 0 ? 1 / d : 1;
     }
     return 0;
 }

@@ -31,7 +31,8 @@ static inline int64_t mps__block_end(int64_t block, int64_t n)
     return end < n ? end : n;
 }
 
-/* Who works on n elements: the calling thread (NULL) where others are not worth waking. */
+/* The parallel-for of a loop over n elements: NULL, the calling thread alone, if there are so few
+ * that the start of other threads takes longer than the loop. */
 static inline const mps_parallel *mps__team(const mps_parallel *p, int64_t n)
 {
     return n < MPS__TEAM_LEAST ? NULL : p;

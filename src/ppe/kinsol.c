@@ -48,8 +48,8 @@ static int residual(N_Vector vp, N_Vector vf, void *data)
     mps__vector_written(vf);
     mps_ppe_check(k->problem, mps__vector_data(vp), f, &unused);
     for (int64_t i = 0; i < k->space.n; i++) f[i] = -f[i];
-    mps__components_center(k->problem, f,
-                           k->sums); /* rounding must not leave what no p can produce */
+    /* rounding must not leave what no p can produce */
+    mps__components_center(k->problem, f, k->sums);
     return 0;
 }
 

@@ -146,8 +146,8 @@ static void run(krylov *k, double *p, double delta, mps_ppe_result *result)
     const mps_ppe_problem *problem = k->problem;
     double *d = k->correction;
     memset(d, 0, (size_t)problem->n * sizeof *d);
-    mps__components_center(problem, k->residual,
-                           k->sums); /* rounding must not leave what no p can produce */
+    /* rounding must not leave what no p can produce */
+    mps__components_center(problem, k->residual, k->sums);
     k->failure = 0;
     SUNLinSolSetZeroGuess(k->solver, SUNTRUE);
     int flag = k->kind->run(k->solver, k->pc != NULL, problem->max_iterations - result->iterations,

@@ -15,8 +15,8 @@ typedef struct mps__space {
     int64_t n, capacity;
     const mps_parallel *parallel;
     double *partial; /* [2 blocks of capacity] */
-    N_Vector
-        spare; /* list of vectors made ahead for N_VClone, which dereferences NULL when a clone fails */
+    /* list of vectors made ahead for N_VClone, which dereferences NULL when a clone fails */
+    N_Vector spare;
     N_Vector owned; /* list of all vectors with an array of their own */
     /* One dot product computed by the kernel that wrote its vectors, while they were in cache. Any other write forgets it. */
     const double *dot_x, *dot_y;
@@ -38,7 +38,7 @@ bool mps__space_grow(mps__space *space, int64_t capacity);
 void mps__space_release(mps__space *space);
 double *mps__vector_data(N_Vector v);
 void mps__vector_point(N_Vector v, double *data);
-/* To be called by who writes through mps__vector_data(): what was remembered of dot products is void. */
+/* Call it after writing through mps__vector_data(): stored dot products are not valid any more. */
 void mps__vector_written(N_Vector v);
 
 /* The next N_VDotProd of x and y, in either order, answers `dot`. */

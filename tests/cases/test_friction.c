@@ -340,7 +340,7 @@ static void spin_up(void **state)
     assert_true(fabs(whole.size) < 0.01 && whole.scatter < 0.01);
 }
 
-/* In a tank that has turned long enough nothing is left to rub: a liquid that turns with its tank
+/* In a tank that has turned long enough there is no friction: a liquid that turns with its tank
  * goes on doing so. */
 static void turning_together(void **state)
 {

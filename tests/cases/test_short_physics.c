@@ -307,7 +307,7 @@ static void surge_tank(void **state)
     record_close(&r);
 }
 
-/* The liquid has the tank's speed when the first step begins and feels only its weight, or is pushed by the walls in one step. */
+/* The liquid has the tank's speed when the first step begins and only its weight acts on it, or the walls push it in one step. */
 static void start_conventions(void **state)
 {
     (void)state;

@@ -6,7 +6,7 @@
 
 static struct {
     double *heat; /* the array, kept beyond the step */
-    int thief;    /* index of the array that the thief writes; -1: none */
+    int thief;    /* index of the array that the verb writes without leave; -1: none */
 } test;
 
 static const mps_channel heat[] = {

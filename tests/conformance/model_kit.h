@@ -4,7 +4,10 @@
  * files in the working folder and removes them. One check at a time: it is not thread-safe.
  *
  * A verb runs more than once per step here, on copies of its arrays: it may depend on its stage and
- * its channels only. A model whose result depends on a counter in `self` fails. */
+ * its channels only. A model whose result depends on a counter in `self` fails.
+ *
+ * Without a failure the kit prints on stdout in which scenes the model ran, and which of its verbs
+ * changed nothing there and so were not tested. */
 #ifndef MODEL_KIT_H
 #define MODEL_KIT_H
 
@@ -41,7 +44,21 @@ enum {
     /* It can be switched on and off between steps. */
     KIT_MIDRUN = 2048,
     /* Energy is finite and momentum closes over what the budget says. */
-    KIT_BUDGET = 4096
+    KIT_BUDGET = 4096,
+    /* A verb adds to sums of several models and keeps what is in them: "acceleration" in MPS_FORCE
+     * and MPS_GRADIENT, "displacement" in MPS_SHIFT, "pressure_source", "pressure_shift" and
+     * "gas_shift" in MPS_SOURCE. A verb that has an entry `after` may depend on what is in them, but
+     * may not overwrite it. */
+    KIT_ADDS = 8192,
+    /* A verb does not change "acceleration", "velocity" or "displacement" of walls and dummies. */
+    KIT_SOLIDS = 16384,
+    /* The same values give the same result: in two runs of a verb, and in two runs of a scene. If
+     * two runs of a scene differ, KIT_THREADS, KIT_ORDER and KIT_CHECKPOINT are left out. */
+    KIT_REPEAT = 32768,
+    /* At least one verb changes something in at least one scene: a channel, the limit of the time
+     * step or a scalar of the pressure equation. Else nothing was tested. For a model that acts only
+     * in states that the callback cannot make, take this bit out of the result. */
+    KIT_ACTS = 65536
 };
 
 /* Called in each scene after the model was switched on: set settings, write first values of fields,
@@ -50,7 +67,8 @@ enum {
 typedef mps_status (*kit_prepare_fn)(void *user, mps_sim *sim);
 
 /* Run all checks. @param prepare  NULL, or the callback
- * @return 0, or the sum of KIT_... of failed checks; each failure is printed on stderr */
+ * @return 0, or the sum of KIT_... of failed checks. Each failure is printed on stderr, with its
+ * reason; the last line names the checks that failed */
 int kit_check_model(const mps_model_ops *ops, kit_prepare_fn prepare, void *user);
 
 MPS_END_DECLS

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Scenes of the kit of models: a tank that surges, half full of water; with air in "mmps". */
+/* Scenes of the kit of models: a tank that surges, half full of water; with air in "mmps", and in
+ * 2-D without air with a drop that falls. */
 #include "model_scenes.h"
 #include <math.h>
 #include <stdlib.h>
@@ -36,13 +37,23 @@ static double jitter(int a, int b, int c, int d)
     return 0.05 * DP * sin(1.0 + 12.9898 * a + 78.233 * b + 37.719 * c + 4.7 * d);
 }
 
-/* Positions of rows from..to-1 of the tank. @return their number */
-static int64_t rows_of(const kit_case *c, int from, int to, double *x)
+static int side_of(const kit_case *c)
 {
-    const int side = c->dim == 2 ? SIDE_2D : SIDE_3D, deep = c->dim == 3 ? side : 2;
+    return c->dim == 2 ? SIDE_2D : SIDE_3D;
+}
+
+/* Part of the lattice: columns left..right-1 of rows from..to-1. */
+typedef struct part {
+    int left, right, from, to;
+} part;
+
+/* Positions of a part. @return their number */
+static int64_t places_of(const kit_case *c, part p, double *x)
+{
+    const int deep = c->dim == 3 ? side_of(c) : 2;
     int64_t count = 0;
-    for (int b = from; b < to; b++)
-        for (int a = 1; a < side; a++)
+    for (int b = p.from; b < p.to; b++)
+        for (int a = p.left; a < p.right; a++)
             for (int e = 1; e < deep; e++) {
                 const int place[3] = {a, b, e};
                 for (int d = 0; d < c->dim; d++)
@@ -62,8 +73,8 @@ static void turn_round(double *x, int64_t count, int dim)
         }
 }
 
-/* Fluid of a phase between two rows, with a velocity that turns. */
-static mps_status add_fluid(const kit_case *c, mps_sim *sim, int32_t phase, int from, int to)
+/* Fluid of a phase, with a velocity that turns. */
+static mps_status add_fluid(const kit_case *c, mps_sim *sim, int32_t phase, part p)
 {
     const size_t most = (size_t)SIDE_2D * SIDE_2D * SIDE_3D;
     double *x = malloc(6 * most * sizeof *x);
@@ -71,7 +82,7 @@ static mps_status add_fluid(const kit_case *c, mps_sim *sim, int32_t phase, int 
     if (!x) return MPS_E_NOMEM;
     double *u = x + 3 * most;
     mps_particle_block_init(&block, sizeof block);
-    block.count = rows_of(c, from, to, x);
+    block.count = places_of(c, p, x);
     if (c->reverse) turn_round(x, block.count, c->dim);
     for (int64_t i = 0; i < block.count; i++)
         for (int d = 0; d < c->dim; d++)
@@ -86,22 +97,24 @@ static mps_status add_fluid(const kit_case *c, mps_sim *sim, int32_t phase, int 
 
 static mps_status fill(const kit_case *c, mps_sim *sim)
 {
-    const int side = c->dim == 2 ? SIDE_2D : SIDE_3D, middle = side / 2 + 1;
+    const int side = side_of(c), middle = side / 2 + 1;
+    const part water = {1, side, 1, middle}, rest = {1, side, middle, side}, drop = {7, 10, 12, 15};
     mps_phase air;
     mps_status status = mps_phase_init(&air, sizeof air);
     air.density = 1.29;
     air.viscosity = 1.8e-5;
     if (status >= 0 && two_phases(c)) status = mps_phase_set(sim, 1, &air);
     if (status >= 0 && two_phases(c)) status = mps_tension_set(sim, 0, 1, 0.0727);
-    if (status >= 0) status = add_fluid(c, sim, 0, 1, middle);
-    if (status >= 0 && two_phases(c)) status = add_fluid(c, sim, 1, middle, side);
+    if (status >= 0) status = add_fluid(c, sim, 0, water);
+    if (status >= 0 && two_phases(c)) status = add_fluid(c, sim, 1, rest);
+    if (status >= 0 && !two_phases(c) && c->dim == 2) status = add_fluid(c, sim, 0, drop);
     return status;
 }
 
 static mps_status build(const kit_case *c, mps_sim *sim)
 {
     const mps_harmonic surge = {.dof = MPS_SURGE, .amplitude = 0.01, .omega = 8};
-    const double side = DP * (c->dim == 2 ? SIDE_2D : SIDE_3D);
+    const double side = DP * side_of(c);
     mps_solver_limits limits;
     mps_tank tank;
     mps_status status = mps_preset_use(sim, c->preset);

@@ -57,7 +57,18 @@ __attribute__((format(printf, 3, 4)))
 #endif
 int kit_say(const mps_model_ops *ops, int bit, const char *format, ...);
 
-/* Run the model in a scene and check each call of each verb. @return sum of KIT_... that failed */
-int kit_watch(const kit_case *scene);
+/* Name of a moment, e.g. "MPS_FORCE". */
+const char *kit_moment(int32_t moment);
+
+/* Print the result of all checks: on stdout if none failed, else their names on stderr.
+ * @param scene  [count] scenes that accept the model
+ * @param acted  [verbs of the model] whether the verb changed something in one of them */
+void kit_summary(const mps_model_ops *ops, int failed, int count, const kit_case *scene,
+                 const bool acted[]);
+
+/* Run the model in a scene and check each call of each verb.
+ * @param acted  [verbs of the model] true is written for verbs that change something
+ * @return sum of KIT_... that failed */
+int kit_watch(const kit_case *scene, bool acted[]);
 
 #endif

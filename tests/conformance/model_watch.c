@@ -1,43 +1,25 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Looks at each call of each verb of a model. The table of the model is copied under another name,
  * with verbs that run the model's own: once on copies of its arrays in which something was changed,
- * and once on the real arrays. What differs between both tells what the verb reads and writes. */
-#include "model_scenes.h"
+ * and once on the real arrays. What differs between both tells what the verb reads and writes. A
+ * difference that also two runs on the same values have comes from elsewhere, e.g. a counter. */
+#include "model_copies.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { VERBS = 16, USES = 24, SHAPES = 128, SCRATCH = 16, STEPS = 24 };
-
-/* A channel as its model describes it. */
-typedef struct shape {
-    char name[32];
-    int32_t type;
-    size_t element; /* bytes per particle */
-} shape;
+enum { VERBS = 16, SCRATCH = 16, STEPS = 24 };
 
 /* One for all verbs: their functions have no other way to it. */
 static struct {
     const mps_model_ops *ops;
     int failed;
     int64_t calls[VERBS];
-    bool scratch[VERBS]; /* borrows scratch: neighbours may read it */
-    shape shapes[SHAPES];
-    int32_t count;
+    bool scratch[VERBS];             /* borrows scratch: neighbours may read it */
+    bool acted[VERBS];               /* changed something */
+    double largest[VERBS][KIT_USES]; /* value that it left */
 } watch;
-
-/* Arrays of a verb's uses. */
-typedef struct arrays {
-    void *of[USES];
-} arrays;
-
-static const shape *shape_of(const mps_use *use)
-{
-    for (int32_t k = 0; k < watch.count; k++)
-        if (strcmp(watch.shapes[k].name, use->channel) == 0) return &watch.shapes[k];
-    return NULL;
-}
 
 static bool writes(const mps_use *use)
 {
@@ -49,39 +31,27 @@ static bool reads(const mps_use *use)
     return use->access & (MPS_USE_READ | MPS_USE_NEIGHBOURS);
 }
 
-/* ---- copies ---------------------------------------------------------------------------------- */
+/* ---- two runs on the same values ------------------------------------------------------------- */
 
-static void release(arrays *a)
+static void say_repeat(const mps_stage *s)
 {
-    for (int u = 0; u < USES; u++) free(a->of[u]);
+    watch.failed |= kit_say(watch.ops, KIT_REPEAT,
+                            "%s: two runs of the verb on the same values give different results: "
+                            "it depends on something that is neither in its stage nor in its "
+                            "channels, e.g. a static variable or a counter in s->self",
+                            kit_moment(s->moment));
 }
 
-static bool copy(const mps_stage *s, const mps_verb *verb, arrays *a)
+/* Whether a run on the values before gives what the run on the real arrays gave. */
+static bool repeats(const mps_stage *s, const mps_verb *verb, const kit_arrays *before)
 {
-    *a = (arrays){{NULL}};
-    for (int32_t u = 0; u < verb->use_count; u++) {
-        const shape *k = shape_of(&verb->uses[u]);
-        if (!s->data[u] || !k) continue;
-        a->of[u] = malloc((size_t)s->n * k->element + 1);
-        if (!a->of[u]) return false;
-        memcpy(a->of[u], s->data[u], (size_t)s->n * k->element);
-    }
-    return true;
-}
-
-/* Run the model's verb on other arrays; nothing of the stage changes. */
-static void run_on(const mps_stage *s, const mps_verb *verb, const arrays *a)
-{
-    mps_stage t = *s;
-    mps_equation equation = {0};
-    void *data[USES];
-    for (int32_t u = 0; u < verb->use_count; u++) data[u] = a->of[u] ? a->of[u] : s->data[u];
-    if (s->equation) {
-        equation = *s->equation;
-        t.equation = &equation;
-    }
-    t.data = data;
-    verb->run(&t);
+    kit_arrays again;
+    bool equal = true;
+    if (kit_copy(s, verb, before, &again) && kit_run_on(s, verb, &again) == 0)
+        equal = kit_same(s, verb, &again);
+    kit_release(&again);
+    if (!equal) say_repeat(s);
+    return equal;
 }
 
 /* ---- MPS_USE_WRITE alone --------------------------------------------------------------------- */
@@ -90,10 +60,10 @@ static void run_on(const mps_stage *s, const mps_verb *verb, const arrays *a)
 static const double POISON_REAL = -12345.678;
 static const int32_t POISON_INTEGER = -12345678;
 
-static void poison(const mps_stage *s, const mps_verb *verb, arrays *a)
+static void poison(const mps_stage *s, const mps_verb *verb, kit_arrays *a)
 {
     for (int32_t u = 0; u < verb->use_count; u++) {
-        const shape *k = shape_of(&verb->uses[u]);
+        const kit_shape *k = kit_shape_of(&verb->uses[u]);
         if (!a->of[u] || !writes(&verb->uses[u]) || reads(&verb->uses[u])) continue;
         if (k->type == MPS_TYPE_INTEGER)
             for (int64_t v = 0; v < s->n * (int64_t)(k->element / sizeof(int32_t)); v++)
@@ -111,19 +81,21 @@ static bool is_poison(const unsigned char *value, int32_t type)
 }
 
 /* Rows that were written have the same values as in the real run. */
-static void compare_written(const mps_stage *s, const mps_verb *verb, const arrays *a)
+static void compare_written(const mps_stage *s, const mps_verb *verb, const kit_arrays *before,
+                            const kit_arrays *a)
 {
     for (int32_t u = 0; u < verb->use_count; u++) {
-        const shape *k = shape_of(&verb->uses[u]);
+        const kit_shape *k = kit_shape_of(&verb->uses[u]);
         if (!a->of[u] || !writes(&verb->uses[u])) continue;
         const size_t size = k->type == MPS_TYPE_INTEGER ? sizeof(int32_t) : sizeof(double);
         const unsigned char *fake = a->of[u], *real = s->data[u];
         for (size_t b = 0; b < (size_t)s->n * k->element; b += size) {
             const bool kept = !reads(&verb->uses[u]) && is_poison(fake + b, k->type);
             if (kept || memcmp(fake + b, real + b, size) == 0) continue;
-            watch.failed |= kit_say(watch.ops, KIT_WRITE_ONLY,
-                                    "moment %d: '%s' depends on values before a pure MPS_USE_WRITE",
-                                    (int)s->moment, k->name);
+            if (repeats(s, verb, before))
+                watch.failed |= kit_say(watch.ops, KIT_WRITE_ONLY,
+                                        "%s: '%s' depends on values before a pure MPS_USE_WRITE",
+                                        kit_moment(s->moment), k->name);
             return;
         }
     }
@@ -131,18 +103,18 @@ static void compare_written(const mps_stage *s, const mps_verb *verb, const arra
 
 /* ---- MPS_USE_READ alone ---------------------------------------------------------------------- */
 
-static bool own_only(const mps_use *use, const shape *k)
+static bool own_only(const mps_use *use, const kit_shape *k)
 {
     return k && k->type == MPS_TYPE_REAL && use->access & MPS_USE_READ &&
            !(use->access & MPS_USE_NEIGHBOURS);
 }
 
 /* The number-th use that reads its own row only, or -1. */
-static int32_t own_use(const mps_verb *verb, const arrays *a, int64_t number)
+static int32_t own_use(const mps_verb *verb, const kit_arrays *a, int64_t number)
 {
-    int32_t found[USES], count = 0;
+    int32_t found[KIT_USES], count = 0;
     for (int32_t u = 0; u < verb->use_count; u++)
-        if (a->of[u] && own_only(&verb->uses[u], shape_of(&verb->uses[u]))) found[count++] = u;
+        if (a->of[u] && own_only(&verb->uses[u], kit_shape_of(&verb->uses[u]))) found[count++] = u;
     return count > 0 ? found[number % count] : -1;
 }
 
@@ -155,7 +127,7 @@ static int64_t choose_row(const mps_stage *s, int64_t call)
     return i;
 }
 
-static void disturb(const shape *k, void *array, int64_t row)
+static void disturb(const kit_shape *k, void *array, int64_t row)
 {
     double *value = (double *)array + row * (int64_t)(k->element / sizeof *value);
     for (size_t d = 0; d < k->element / sizeof *value; d++) value[d] = 1.01 * value[d] + 1e-3;
@@ -170,13 +142,13 @@ static double distance(const mps_stage *s, int64_t i, int64_t j)
 
 /* Other rows that changed beside the row: a neighbour read it. If rows farther away than neighbours
  * changed too, a sum over all rows went through them, which is allowed. */
-static void compare_rows(const mps_stage *s, const mps_verb *verb, const arrays *a, int64_t row,
-                         const char *channel)
+static void compare_rows(const mps_stage *s, const mps_verb *verb, const kit_arrays *before,
+                         const kit_arrays *a, int64_t row, const char *channel)
 {
     int64_t near = -1;
     for (int32_t u = 0; u < verb->use_count; u++) {
         if (!a->of[u] || !writes(&verb->uses[u])) continue;
-        const size_t size = shape_of(&verb->uses[u])->element;
+        const size_t size = kit_shape_of(&verb->uses[u])->element;
         for (int64_t j = 0; j < s->n; j++) {
             const size_t at = (size_t)j * size;
             if (j == row || memcmp((char *)a->of[u] + at, (char *)s->data[u] + at, size) == 0)
@@ -185,26 +157,119 @@ static void compare_rows(const mps_stage *s, const mps_verb *verb, const arrays 
             near = j;
         }
     }
-    if (near >= 0)
+    if (near >= 0 && repeats(s, verb, before))
         watch.failed |= kit_say(watch.ops, KIT_OWN_ROW,
-                                "moment %d: '%s' is used with MPS_USE_READ, and its value at a "
-                                "particle changes what a neighbour gets: MPS_USE_NEIGHBOURS",
-                                (int)s->moment, channel);
+                                "%s: '%s' is used with MPS_USE_READ, and its value at a particle "
+                                "changes what a neighbour gets: MPS_USE_NEIGHBOURS",
+                                kit_moment(s->moment), channel);
+}
+
+/* ---- sums of several models ------------------------------------------------------------------ */
+
+/* Whether a verb has to add to this channel, because other models add to it too. */
+static bool is_sum(const mps_stage *s, const mps_use *use)
+{
+    static const struct {
+        int32_t moment;
+        const char *channel;
+    } sums[] = {{MPS_FORCE, "acceleration"},    {MPS_GRADIENT, "acceleration"},
+                {MPS_SHIFT, "displacement"},    {MPS_SOURCE, "pressure_source"},
+                {MPS_SOURCE, "pressure_shift"}, {MPS_SOURCE, "gas_shift"}};
+    for (size_t k = 0; writes(use) && k < sizeof sums / sizeof sums[0]; k++)
+        if (sums[k].moment == s->moment && strcmp(sums[k].channel, use->channel) == 0) return true;
+    return false;
+}
+
+static bool has_sum(const mps_stage *s, const mps_verb *verb)
+{
+    for (int32_t u = 0; u < verb->use_count; u++)
+        if (is_sum(s, &verb->uses[u])) return true;
+    return false;
+}
+
+/* Numbers of a channel per particle. */
+static int64_t width(const kit_shape *k)
+{
+    return (int64_t)(k->element / sizeof(double));
+}
+
+/* What another model added before, as large as what the verb leaves. */
+static double share(int number, int32_t use, int64_t v)
+{
+    const double largest = watch.largest[number][use];
+    return (largest > 0 ? largest : 1) * (0.5 + 0.125 * (double)(v % 5));
+}
+
+static void add_share(const mps_stage *s, const mps_verb *verb, int number, kit_arrays *a)
+{
+    for (int32_t u = 0; u < verb->use_count; u++) {
+        if (!a->of[u] || !is_sum(s, &verb->uses[u])) continue;
+        const int64_t count = s->n * width(kit_shape_of(&verb->uses[u]));
+        for (int64_t v = 0; v < count; v++) ((double *)a->of[u])[v] += share(number, u, v);
+    }
+}
+
+/* The verb leaves the share of the other model as it was. If it says after whom it runs, it may
+ * depend on what is there, e.g. a limit of the sum; then the share must not be lost. */
+static void compare_sums(const mps_stage *s, const mps_verb *verb, int number,
+                         const kit_arrays *before, const kit_arrays *a)
+{
+    for (int32_t u = 0; u < verb->use_count; u++) {
+        if (!a->of[u] || !is_sum(s, &verb->uses[u])) continue;
+        const int64_t count = s->n * width(kit_shape_of(&verb->uses[u]));
+        const double *fake = a->of[u], *real = s->data[u];
+        double largest = 0;
+        for (int64_t v = 0; v < count; v++) largest = fmax(largest, fabs(fake[v]));
+        for (int64_t v = 0; v < count; v++) {
+            const double wanted = share(number, u, v), kept = fake[v] - real[v];
+            if (verb->after ? kept != 0 : fabs(kept - wanted) <= 1e-6 * (largest + wanted))
+                continue;
+            if (repeats(s, verb, before))
+                watch.failed |= kit_say(watch.ops, KIT_ADDS,
+                                        "%s: of %g that another model added to '%s', %g is left: "
+                                        "add with +=, do not overwrite",
+                                        kit_moment(s->moment), wanted, verb->uses[u].channel, kept);
+            return;
+        }
+    }
+}
+
+/* ---- solids ---------------------------------------------------------------------------------- */
+
+/* Solids move with the tank: their rows of these channels are not for models. */
+static void compare_solids(const mps_stage *s, const mps_verb *verb, const kit_arrays *before)
+{
+    static const char *const names[] = {"acceleration", "velocity", "displacement"};
+    for (int32_t u = 0; u < verb->use_count; u++) {
+        bool moves = false;
+        for (int k = 0; k < 3; k++) moves = moves || strcmp(verb->uses[u].channel, names[k]) == 0;
+        if (!moves || !before->of[u] || !writes(&verb->uses[u])) continue;
+        const double *was = before->of[u], *is = s->data[u];
+        for (int64_t v = 0; v < s->n * s->dim; v++) {
+            const int32_t kind = s->kind[v / s->dim];
+            if (kind == MPS_FLUID || memcmp(&was[v], &is[v], sizeof *is) == 0) continue;
+            watch.failed |= kit_say(watch.ops, KIT_SOLIDS,
+                                    "%s: '%s' of a %s is changed: solids move with the tank, a "
+                                    "model moves rows with s->kind[i] == MPS_FLUID only",
+                                    kit_moment(s->moment), verb->uses[u].channel,
+                                    kind == MPS_WALL ? "wall particle" : "dummy");
+            return;
+        }
+    }
 }
 
 /* ---- a call ---------------------------------------------------------------------------------- */
 
-static void compare_read(const mps_stage *s, const mps_verb *verb, const arrays *before)
+static void compare_read(const mps_stage *s, const mps_verb *verb, const kit_arrays *before)
 {
     for (int32_t u = 0; u < verb->use_count; u++) {
-        const shape *k = shape_of(&verb->uses[u]);
+        const kit_shape *k = kit_shape_of(&verb->uses[u]);
         if (!before->of[u] || writes(&verb->uses[u])) continue;
         const size_t size = (size_t)s->n * k->element;
         if (memcmp(before->of[u], s->data[u], size) == 0) continue;
         memcpy(s->data[u], before->of[u], size);
-        watch.failed |= kit_say(watch.ops, KIT_WRITES,
-                                "moment %d: '%s' is written without MPS_USE_WRITE", (int)s->moment,
-                                k->name);
+        watch.failed |= kit_say(watch.ops, KIT_WRITES, "%s: '%s' is written without MPS_USE_WRITE",
+                                kit_moment(s->moment), k->name);
     }
 }
 
@@ -216,44 +281,69 @@ static bool borrowed(mps_stage *s)
     return left < SCRATCH;
 }
 
-/* Run the verb on copies with one change, then on the real arrays, and compare.
- * @param use  the use of the own row that is changed, or -1: pure writes */
-static int compare(mps_stage *s, const mps_verb *verb, int32_t use, int64_t row, arrays *before,
-                   arrays *fake)
+/* What the first run of a call changes. */
+enum { NOTHING, OWN_ROW, WRITES, SUMS };
+
+/* Every second call tests a use of the own row, the others pure writes and sums. */
+static int choose(const mps_stage *s, const mps_verb *verb, int number, int64_t call)
 {
-    if (use >= 0)
-        disturb(shape_of(&verb->uses[use]), fake->of[use], row);
-    else
-        poison(s, verb, fake);
-    run_on(s, verb, fake);
-    const int failed = verb->run(s);
+    if (call == 1) return NOTHING;
+    if (call % 2 && !watch.scratch[number]) return OWN_ROW;
+    return call % 4 == 2 && has_sum(s, verb) ? SUMS : WRITES;
+}
+
+/* Run the verb on copies with one change, then on the real arrays, and compare. */
+static int compare(mps_stage *s, int number, int64_t call, kit_arrays *before, kit_arrays *fake)
+{
+    const mps_verb *verb = &watch.ops->verbs[number];
+    const int64_t row = choose_row(s, call);
+    int test = choose(s, verb, number, call);
+    const int32_t use = test == OWN_ROW ? own_use(verb, fake, call / 2) : -1;
+    if (test == OWN_ROW && use < 0) test = WRITES;
+    if (test == OWN_ROW) disturb(kit_shape_of(&verb->uses[use]), fake->of[use], row);
+    if (test == WRITES) poison(s, verb, fake);
+    if (test == SUMS) add_share(s, verb, number, fake);
+    const int other = kit_run_on(s, verb, fake), failed = verb->run(s);
+    if (test == NOTHING && (other != failed || (!failed && !kit_same(s, verb, fake))))
+        say_repeat(s);
     compare_read(s, verb, before);
-    if (!failed && use >= 0) compare_rows(s, verb, fake, row, verb->uses[use].channel);
-    if (!failed && use < 0) compare_written(s, verb, fake);
+    if (failed || watch.failed) return failed;
+    compare_solids(s, verb, before);
+    if (test == OWN_ROW) compare_rows(s, verb, before, fake, row, verb->uses[use].channel);
+    if (test == WRITES) compare_written(s, verb, before, fake);
+    if (test == SUMS) compare_sums(s, verb, number, before, fake);
     return failed;
 }
 
-/* The first call looks for scratch. Of the others every second one tests pure writes, and the rest
- * the uses of the own row in turns. */
+/* Whether the verb changed something, and how large its sums are. */
+static void remember(const mps_stage *s, int number, const kit_arrays *before)
+{
+    const mps_verb *verb = &watch.ops->verbs[number];
+    watch.acted[number] = watch.acted[number] || !kit_same(s, verb, before);
+    for (int32_t u = 0; u < verb->use_count; u++) {
+        if (!before->of[u] || !is_sum(s, &verb->uses[u])) continue;
+        const double *left = s->data[u];
+        double *largest = &watch.largest[number][u];
+        for (int64_t v = 0; v < s->n * width(kit_shape_of(&verb->uses[u])); v++)
+            *largest = fmax(*largest, fabs(left[v]));
+    }
+}
+
+/* The first call looks for scratch. */
 static int observe(mps_stage *s, int number)
 {
     const mps_verb *verb = &watch.ops->verbs[number];
     const int64_t call = watch.calls[number]++;
-    arrays before, fake = {{NULL}};
+    kit_arrays before, fake = {.dt_limit = 0};
     int failed = 1;
     if (watch.failed) return verb->run(s);
-    if (call == 0) {
-        failed = verb->run(s);
-        if (!failed) watch.scratch[number] = borrowed(s);
-        return failed;
+    if (kit_copy(s, verb, NULL, &before) && kit_copy(s, verb, NULL, &fake)) {
+        failed = call == 0 ? verb->run(s) : compare(s, number, call, &before, &fake);
+        if (call == 0 && !failed) watch.scratch[number] = borrowed(s);
+        if (!failed) remember(s, number, &before);
     }
-    if (copy(s, verb, &before) && copy(s, verb, &fake)) {
-        const bool row = call % 2 && !watch.scratch[number];
-        const int32_t use = row ? own_use(verb, &fake, call / 2) : -1;
-        failed = compare(s, verb, use, choose_row(s, call), &before, &fake);
-    }
-    release(&before);
-    release(&fake);
+    kit_release(&before);
+    kit_release(&fake);
     return failed;
 }
 
@@ -281,21 +371,6 @@ OBSERVE(15)
 
 /* ---- the scene ------------------------------------------------------------------------------- */
 
-static void learn_shapes(const mps_sim *sim)
-{
-    mps_channel_info info;
-    mps_channel_info_init(&info, sizeof info);
-    watch.count = 0;
-    for (int32_t k = 0; watch.count < SHAPES && mps_channel_info_get(sim, k, &info) == MPS_OK;
-         k++) {
-        shape *to = &watch.shapes[watch.count++];
-        const size_t number = info.type == MPS_TYPE_INTEGER ? sizeof(int32_t) : sizeof(double);
-        snprintf(to->name, sizeof to->name, "%s", info.name);
-        to->type = info.type;
-        to->element = (size_t)info.components * number;
-    }
-}
-
 /* The table of the model as "slot.watched". */
 static void disguise(const mps_model_ops *ops, mps_model_ops *copied, mps_verb verbs[VERBS],
                      char name[64])
@@ -310,13 +385,14 @@ static void disguise(const mps_model_ops *ops, mps_model_ops *copied, mps_verb v
         verbs[v] = ops->verbs[v];
         verbs[v].run = run[v];
         watch.calls[v] = 0;
-        watch.scratch[v] = false;
+        watch.scratch[v] = watch.acted[v] = false;
+        memset(watch.largest[v], 0, sizeof watch.largest[v]);
     }
     copied->name = name;
     copied->verbs = verbs;
 }
 
-int kit_watch(const kit_case *scene)
+int kit_watch(const kit_case *scene, bool acted[])
 {
     mps_model_ops copied;
     mps_verb verbs[VERBS];
@@ -328,11 +404,12 @@ int kit_watch(const kit_case *scene)
     watch.failed = 0;
     c.ops = &copied;
     mps_status status = kit_open(&c, &sim);
-    if (status >= 0) learn_shapes(sim);
+    if (status >= 0) kit_learn_shapes(sim);
     if (status >= 0) status = kit_steps(sim, STEPS);
     if (status < 0)
         watch.failed |= kit_say(scene->ops, KIT_RUN, "preset %s, %d-D, verbs run twice: %s",
                                 c.preset, (int)c.dim, sim ? mps_sim_error(sim) : "no handle");
     mps_sim_destroy(sim);
+    for (int32_t v = 0; v < scene->ops->verb_count; v++) acted[v] = acted[v] || watch.acted[v];
     return watch.failed;
 }

@@ -2,7 +2,6 @@
 /* The checks of the solver kit; each builds its system, runs the pair and says what is wrong. */
 #include "solver_kit.h"
 #include <math.h>
-#include <pthread.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -177,7 +176,7 @@ static const struct {
     {"lone particles (empty rows)", {2, 1, 1, 1, 3, 0, 2.1, 1, 0}},
 };
 
-/* Densities of 1000:1 are beyond an iterative solver that is denied its preconditioner. */
+/* Densities of 1000:1 are beyond an iterative solver without its preconditioner. */
 static bool too_hard(const pair *k, const kit_lattice *lattice)
 {
     return lattice->contrast > 1 && k->solver->preconditioner && !k->pc;
@@ -322,45 +321,6 @@ static void check_unreachable(pair *k)
            "reason %d, residual %g", result.reason, result.residual);
     free(p);
     kit_system_free(s);
-}
-
-typedef struct kit_part {
-    mps_part_fn body;
-    void *argument;
-    int32_t part;
-} kit_part;
-
-static void *run_part(void *argument)
-{
-    const kit_part *p = argument;
-    p->body(p->argument, p->part);
-    return NULL;
-}
-
-static void run_parts(void *user, int32_t parts, mps_part_fn body, void *argument)
-{
-    enum { MOST = 64 };
-    pthread_t thread[MOST];
-    kit_part part[MOST];
-    bool started[MOST];
-    (void)user;
-    for (int32_t k = 0; k < parts; k++) {
-        if (k >= MOST) {
-            body(argument, k);
-            continue;
-        }
-        part[k] = (kit_part){body, argument, k};
-        started[k] = !pthread_create(&thread[k], NULL, run_part, &part[k]);
-        if (!started[k]) body(argument, k);
-    }
-    for (int32_t k = 0; k < parts && k < MOST; k++)
-        if (started[k]) pthread_join(thread[k], NULL);
-}
-
-mps_parallel kit_parallel(int threads)
-{
-    return (mps_parallel){
-        .struct_size = sizeof(mps_parallel), .threads = threads, .run = run_parts};
 }
 
 static void check_threads(pair *k)

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Test systems and the counting allocator of the solver kit. */
+/* Test systems, the counting allocator and the threads of the solver kit. */
 #include "solver_kit.h"
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -224,4 +225,45 @@ kit_system *kit_lattice_system(const kit_lattice *o)
     s->problem.components = singular ? o->boxes - o->open : 0;
     s->problem.component = singular ? s->component : NULL;
     return s;
+}
+
+/* ---- threads ---- */
+
+typedef struct kit_part {
+    mps_part_fn body;
+    void *argument;
+    int32_t part;
+} kit_part;
+
+static void *run_part(void *argument)
+{
+    const kit_part *p = argument;
+    p->body(p->argument, p->part);
+    return NULL;
+}
+
+static void run_parts(void *user, int32_t parts, mps_part_fn body, void *argument)
+{
+    enum { MOST = 64 };
+    pthread_t thread[MOST];
+    kit_part part[MOST];
+    bool started[MOST];
+    (void)user;
+    for (int32_t k = 0; k < parts; k++) {
+        if (k >= MOST) {
+            body(argument, k);
+            continue;
+        }
+        part[k] = (kit_part){body, argument, k};
+        started[k] = !pthread_create(&thread[k], NULL, run_part, &part[k]);
+        if (!started[k]) body(argument, k);
+    }
+    for (int32_t k = 0; k < parts && k < MOST; k++)
+        if (started[k]) pthread_join(thread[k], NULL);
+}
+
+mps_parallel kit_parallel(int threads)
+{
+    return (mps_parallel){
+        .struct_size = sizeof(mps_parallel), .threads = threads, .run = run_parts};
 }

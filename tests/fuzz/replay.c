@@ -19,7 +19,7 @@ static int replay_file(const char *path)
     fclose(file);
     printf("%s\n", path);
     fflush(stdout);
-    uint8_t *exact = malloc(size ? size : 1); /* so that a sanitizer sees reads behind its end */
+    uint8_t *exact = malloc(size ? size : 1); /* so that a sanitizer reports reads behind its end */
     if (exact) {
         memcpy(exact, data, size);
         LLVMFuzzerTestOneInput(exact, size);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A stranger's program that takes the solver of the plug-in library libmps_hypre into use. */
+/* A program outside of the library that uses the solver of the plug-in library libmps_hypre. */
 #include <mps/hypre.h>
 #include <mps/mps.h>
 #include <stdio.h>

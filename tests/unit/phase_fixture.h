@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Models one at a time: a simulation without any, free clouds of fluid, and a spy that keeps what
+/* Models one at a time: a simulation without any, free clouds of fluid, and a model `spy` that keeps what
  * the verbs before it left. */
 #ifndef PHASE_FIXTURE_H
 #define PHASE_FIXTURE_H

@@ -67,4 +67,13 @@ static inline int64_t fill_depth(mps_sim *sim, double sx, double depth, double s
     return added;
 }
 
+/* Number of active models of that name: 0 or 1. */
+static inline int model_active(const mps_sim *sim, const char *name)
+{
+    int found = 0;
+    for (int32_t k = 0; mps_model_name(sim, k); k++)
+        found += strcmp(mps_model_name(sim, k), name) == 0;
+    return found;
+}
+
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* body.free: drops fall with g and do not feel a tank that they do not touch; liquid that a wall holds is as without it. */
+/* body.free: drops fall with g, and a tank that they do not touch has no effect on them; liquid that a wall holds is as without it. */
 #include "phase_fixture.h"
 
 /* A disordered drop of n rows, far from the walls of a tank of 80 x 80 (x 30) spacings. */

@@ -154,7 +154,7 @@ static void impulsive_start(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A liquid that starts with the tank's velocity has it from nobody; the walls slow it down. */
+/* A liquid that starts with the tank's velocity got it from no force; the walls slow it down. */
 static void start_with_the_tank(void **state)
 {
     (void)state;

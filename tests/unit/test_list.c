@@ -342,7 +342,7 @@ static void beyond_the_end(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A struct of a newer header gets what the library knows, no byte more; one that is too short is refused. */
+/* A struct of a newer header gets the entries of the library, no byte more; one that is too short is refused. */
 static void other_sizes(void **state)
 {
     (void)state;

@@ -13,7 +13,7 @@ enum { VERB, MOTION, LOG, INSIDE, MONITOR, WHERE };
 static const char *const where_name[WHERE] = {"a verb", "a motion", "a log callback",
                                               "an inside callback", "a monitor"};
 
-/* The simulation that is meddled with, NULL: none; one for all callbacks of this program. */
+/* The simulation that the callbacks call, NULL: none; one for all callbacks of this program. */
 static struct {
     mps_sim *sim;
     int busy, done[WHERE], destroy_told;
@@ -149,11 +149,11 @@ static char *contents(const char *folder, const char *file, size_t *size)
     return bytes;
 }
 
-/* The run that was meddled with is the run that was not, to the byte. */
+/* A run whose callbacks make calls that are refused has the bytes of one without such calls. */
 static void refused_without_a_trace(void **state)
 {
     (void)state;
-    char folder[] = "/tmp/mps_lock_XXXXXX", command[64];
+    char folder[] = "mps_lock_XXXXXX", command[64];
     size_t size[2];
     assert_non_null(mkdtemp(folder));
     play(0, folder, "alone");

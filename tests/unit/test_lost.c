@@ -158,7 +158,7 @@ static void behind_a_wall(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Nobody is behind a plate: its shadows stand in the liquid of the other side, dummies between its columns behind both faces. */
+/* No particle is lost behind a plate: its shadows are in the liquid of the other side, dummies between its columns behind both faces. */
 static void beside_a_plate(void **state)
 {
     (void)state;
@@ -231,7 +231,7 @@ static void no_domain(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Nobody left: the step that lost the last fluid says so. */
+/* No fluid is left: the step that lost the last particle says so. */
 static void all_lost(void **state)
 {
     (void)state;
@@ -328,7 +328,7 @@ static void too_long_steps(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A step that fails loses nobody, whatever it removed before: not from the store, the count or the budget. */
+/* A step that fails loses no particle, whatever it removed before: not from the store, the count or the budget. */
 static void failed_step_loses_nobody(void **state)
 {
     (void)state;

@@ -9,7 +9,7 @@
 
 static const double near_radius = 2.1 * CLOUD_DP, far_radius = 3.1 * CLOUD_DP;
 
-/* ---- an allocator that knows how much it gave ------------------------------------------------------------------ */
+/* ---- an allocator that counts the bytes it gave ------------------------------------------------------------------ */
 
 typedef struct meter {
     size_t live, most;
@@ -85,7 +85,7 @@ static mps_neighbours *new_list(int32_t dim)
     return list;
 }
 
-/* Build, compare, throw away. */
+/* Build, compare, destroy. */
 static void check_cloud(cloud c)
 {
     mps_neighbours *list = new_list(c.dim);
@@ -176,7 +176,7 @@ static void coincident(void **state)
     check_cloud(c);
 }
 
-/* A block of particles all at the origin (an array nobody filled) is an error, not n^2 pairs. */
+/* A block of particles all at the origin (an array that was not filled) is an error, not n^2 pairs. */
 static void crowd(void **state)
 {
     (void)state;
@@ -285,7 +285,7 @@ static int32_t kind_at(double y)
     return y > 6.5 * CLOUD_DP ? MPS_FLUID : y > 5.5 * CLOUD_DP ? MPS_WALL : MPS_DUMMY;
 }
 
-/* Without kinds all rows; with them none of solids that see no fluid, and of dummies only on demand. */
+/* Without kinds all rows; with them none of solids without fluid in reach, and of dummies only on demand. */
 static void rows_of_kinds(void **state)
 {
     (void)state;

@@ -76,7 +76,7 @@ static void smoothing(void **state)
         }
         double *density = field_by_id(b.sim, "density");
         for (int64_t i = 0; i < b.c.n; i++)
-            assert_true(density[i] == rho[b.phase[i]]); /* nobody's mass changes */
+            assert_true(density[i] == rho[b.phase[i]]); /* the mass of no particle changes */
         free(density);
         block_free(&b);
     }

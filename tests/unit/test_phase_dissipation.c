@@ -67,7 +67,7 @@ static void approaching(void **state)
             }
 }
 
-/* Two blocks run into each other, faster than the limit, amid noise: momentum stays and nobody's energy comes from nowhere. */
+/* Two blocks run into each other, faster than the limit, with noise: momentum stays and the energy does not grow. */
 static void momentum(void **state)
 {
     (void)state;

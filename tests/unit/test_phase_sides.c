@@ -90,7 +90,7 @@ static int turn(void *user, double t, mps_motion_state *s)
     return 0;
 }
 
-/* Liquid that moves with its tank feels nothing. */
+/* Liquid that moves with its tank has no friction. */
 static void moves_with_the_tank(void **state)
 {
     (void)state;

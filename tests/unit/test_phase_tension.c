@@ -132,7 +132,7 @@ static void flat(void **state)
         for (int i = 0; i < 900; i++) {
             const int x = i % 30, y = i / 30;
             if (x < 11 || x > 18 || y < 11 || y > 18)
-                continue; /* the smoothed colours see the ends */
+                continue; /* the smoothed colours depend on the ends */
             for (int d = 0; d < 2; d++)
                 most = fmax(most, fabs(spy.a[2 * i + d]) * 900 * CLOUD_DP * CLOUD_DP / 7.27e-2);
         }

@@ -103,7 +103,7 @@ static mps_sim *linear_flow(const cloud *c, const double *A, const double *mu, d
     return sim;
 }
 
-/* Fluids that turn as one body feel nothing with the whole stress; div(mu grad u) pushes at their
+/* Fluids that turn as one body have no viscous force with the whole stress; div(mu grad u) pushes at their
  * interface. */
 static void rigid_rotation(void **state)
 {
@@ -262,7 +262,7 @@ static void shear_along_the_floor(void **state)
 /* ---- Couette --------------------------------------------------------------------------------- */
 
 enum { ROWS = 24, COLUMNS = 5, BELT = 3 };
-static const double belt_speed = 1e-9; /* so slow that nobody gets anywhere */
+static const double belt_speed = 1e-9; /* so slow that no particle moves a spacing */
 
 /* The outermost rows are plates. */
 static int belts(mps_stage *s)

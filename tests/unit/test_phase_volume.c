@@ -5,7 +5,7 @@
 
 static const double DT = 0.02; /* long, so that the little that is relaxed counts for nothing */
 
-/* u = A x with the columns of A one after the other; nobody's volume changes. */
+/* u = A x with the columns of A one after the other; the volume of no particle changes. */
 static void strain(const cloud *c, const double *a, double *u)
 {
     for (int64_t i = 0; i < c->n; i++)

@@ -398,6 +398,38 @@ static void separate_pools(void **state)
     tank_free(&k);
 }
 
+/* Rows in any order, so that a pool begins as many trees of rows that meet late: 1 and 3 threads find the one without a level. */
+static void pools_in_any_order(void **state)
+{
+    (void)state;
+    for (int32_t many = 1; many <= 3; many += 2) {
+        tank k;
+        int pool[MOST];
+        cloud c = cloud_lattice(2, 24, 20, 1, 0, 11);
+        const mps_parallel threads = {.struct_size = sizeof threads, .threads = many};
+        for (int64_t i = 0; i < c.n; i++) {
+            const int64_t at = i * 151 % c.n;
+            pool[i] = (int)(at % 24 / 8);
+            c.x[2 * i] = CLOUD_DP * (double)(at % 24 + 10 * pool[i]);
+            c.x[2 * i + 1] = CLOUD_DP * (double)(at / 24);
+        }
+        tank_init(&k, c);
+        assert_int_equal(mps_neighbours_parallel_set(k.list, &threads), MPS_OK);
+        assert_int_equal(mps_neighbours_stencil_get(k.list, MPS_FAR, &k.far.kernel, &k.far),
+                         MPS_OK);
+        for (int64_t i = c.n - 9; i < c.n; i++) k.shift[i] = pool[i] != 1 ? 1e-6 : 0;
+        assemble(&k);
+        assert_int_equal(k.e.problem.components, 1);
+        for (int64_t r = 0; r < k.e.n; r++)
+            assert_int_equal(k.e.problem.component[r], pool[k.e.particle[r]] == 1 ? 0 : -1);
+        k.shift[2] = 1e-6; /* in the second pool */
+        assert_int_equal(pool[2], 1);
+        assemble(&k);
+        assert_int_equal(k.e.problem.components, 0);
+        tank_free(&k);
+    }
+}
+
 /* Drops that nothing touches: fixed, they have their value; spray is in no equation; never a zero row. */
 static void detached_fluid(void **state)
 {
@@ -424,7 +456,8 @@ static void detached_fluid(void **state)
     assert_true(p[60] == 42 && p[61] == 0 && p[20] == 0);
     assert_true(fabs(p[62] - 4) < 1e-12);
     for (int64_t i = 1; i < 60; i++)
-        if (i != 20) assert_true(fabs(p[i]) < 1e-9); /* nobody saw the spray's source */
+        if (i != 20)
+            assert_true(fabs(p[i]) < 1e-9); /* the spray's source has no effect on others */
     tank_free(&k);
 }
 
@@ -456,6 +489,7 @@ int main(void)
         cmocka_unit_test(fixed_rows),
         cmocka_unit_test(closed_tank),
         cmocka_unit_test(separate_pools),
+        cmocka_unit_test(pools_in_any_order),
         cmocka_unit_test(detached_fluid),
         cmocka_unit_test(no_unknowns),
     };

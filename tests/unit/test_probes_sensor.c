@@ -267,7 +267,8 @@ static void follows_the_particles(void **state)
         ASSERT_OK(sim, mps_probe_add(sim, &p, &id));
         assert_like_new(sim, id);
         for (int k = 0; k < 3; k++) {
-            assert_true(mps_step(sim, 1e-3, NULL) >= 0); /* the first sorts, and knows the areas */
+            assert_true(mps_step(sim, 1e-3, NULL) >=
+                        0); /* the first sorts, and computes the areas */
             assert_like_new(sim, id);
             turn_round(sim);
             assert_like_new(sim, id);

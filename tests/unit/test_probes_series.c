@@ -76,7 +76,7 @@ static void average_of_a_line(void **state)
                                 T;
             if (k % 3)
                 ASSERT_NEAR(value_of(sim, id[a]), mean,
-                            1e-8); /* it is taken also when nobody reads it */
+                            1e-8); /* a sample is taken also when no call reads it */
         }
     }
     mps_sim_destroy(sim);

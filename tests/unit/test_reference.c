@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Level of the pressures of a closed tank: none, by a layer of gas, by the lid; and who is told. */
+/* Level of the pressures of a closed tank: none, by a layer of gas, by the lid; and the messages. */
 #include "phase_fixture.h"
 #include <stdio.h>
 
@@ -130,7 +130,7 @@ static void gauge_of_turned_tanks(void **state)
     }
 }
 
-/* An open tank has its level: the lid does nothing, byte for byte, and nobody is told. */
+/* An open tank has a free surface: the model of the lid changes no byte, and no message is logged. */
 static void lid_of_open_tank(void **state)
 {
     (void)state;

@@ -65,7 +65,7 @@ static void run_to_the_end(void **state)
         if (k == 1)
             assert_int_equal(w.calls,
                              20);    /* a whole number of fixed steps is that number of steps */
-        assert_true(w.least > 1e-4); /* no sliver at the end */
+        assert_true(w.least > 1e-4); /* no very short step at the end */
         ASSERT_OK(sim, mps_run(sim, 0.021, monitor, &w));
         assert_true(w.t == 0.021);
         mps_sim_destroy(sim);

@@ -411,7 +411,7 @@ static void test_fall_back(void **state)
         assert_non_null(strstr(logged, "'auxgrid' broke down"));
         assert_non_null(strstr(logged, "with 'jacobi' the solver converged"));
     }
-    logged[0] = 0; /* one that was asked for by name has no stand-in */
+    logged[0] = 0; /* one that was asked for by name is not replaced */
     assert_int_equal(mps_solver_use(sim, "sundials.pcg", "ic0"), MPS_OK);
     for (int k = 0; k < s->preconditioners; k++)
         if (strcmp(s->preconditioner_name[k], "ic0") == 0)

@@ -66,7 +66,7 @@ static bool inside(const cloud *c, int64_t i)
     return cloud_inside(c, i, (const int[3]){side, side, side}, 2.3 * CLOUD_DP);
 }
 
-/* u = A x: the source is -(tr A - dt tr(A A)/2)/dt whoever is beside whom, on a lattice and on a jittered one. */
+/* u = A x: the source is -(tr A - dt tr(A A)/2)/dt whichever phases are side by side, on a lattice and on a jittered one. */
 static void linear_flow(void **state)
 {
     (void)state;
@@ -123,7 +123,7 @@ static double influence(int dim, double ratio, int moved, int whose)
     return most;
 }
 
-/* Water sees of the air beside it what the ratio of densities lets through; air sees all of the water. */
+/* The source of water takes of the air beside it the share of the ratio of densities; that of air takes all of the water. */
 static void water_minds_water(void **state)
 {
     (void)state;
@@ -211,7 +211,7 @@ static void water_keeps_its_pace(void **state)
 
 /* ---- relaxation of the volume ---------------------------------------------------------------------------------------------- */
 
-/* Source of a particle amid a lattice at rest that is off by about `deviation`, which it returns clipped, in the first step. */
+/* Source of a particle in a lattice at rest that is off by about `deviation`, which it returns clipped, in the first step. */
 static double relaxed(double deviation, double rapid, double start, double dt, double *delta)
 {
     cloud c = cloud_lattice(2, 16, 16, 1, 0, 1);
@@ -257,7 +257,7 @@ static void torn_volume(void **state)
             }
 }
 
-/* Source, times dt and over the rate of torn gas, amid gas at rest beside water that moves at `speed`. */
+/* Source, times dt and over the rate of torn gas, in gas at rest beside water that moves at `speed`. */
 static double relaxed_beside_water(double speed, double dt)
 {
     cloud gas = cloud_lattice(2, 16, 16, 1, 0, 1), liquid = cloud_lattice(2, 4, 4, 1, 0, 1);
@@ -374,8 +374,9 @@ static void expansion_below_surface(void **state)
             add_cloud(sim, &c, phase, NULL);
             spy.given_deviation = 0.02 * sign;
             ASSERT_OK(sim, mps_model_use(sim, "surface.asymmetry"));
-            ASSERT_OK(sim, mps_model_set(sim, "surface", "film",
-                                         0.9)); /* by the asymmetry alone: the spy sets n as well */
+            ASSERT_OK(sim, mps_model_set(
+                               sim, "surface", "film",
+                               0.9)); /* by the asymmetry alone: the model `spy` sets n as well */
             ASSERT_OK(sim, mps_model_use(sim, "moments.bounded"));
             ASSERT_OK(sim, mps_model_use(sim, "source.volume"));
             ASSERT_OK(sim, mps_model_set(sim, "source", "start", 0));

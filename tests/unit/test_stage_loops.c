@@ -139,6 +139,47 @@ static void sums_do_not_depend_on_threads(void **state)
         }
 }
 
+static int32_t wanted_count;
+
+static int sum_many(mps_stage *s)
+{
+    double many[32];
+    for (int k = 0; k < 32; k++) many[k] = 7;
+    mps_stage_sum(s, wanted_count, add_rows, NULL, many);
+    for (int k = 0; k < 32; k++) assert_true(many[k] == (k < wanted_count && k < 16 ? 0 : 7));
+    return 0;
+}
+
+static int raise_many(mps_stage *s)
+{
+    double many[32];
+    mps_stage_max(s, wanted_count, raise_rows, NULL, many);
+    return 0;
+}
+
+/* A verb that asks for more than there is room for fails, even if it says that all went well. */
+static void wrong_counts(void **state)
+{
+    (void)state;
+    const int32_t counts[] = {0, -1, 17, 32, INT32_MIN};
+    char sums[64], most[64];
+    mps_sim *sim = cloud_sim(100, 2);
+    for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++) {
+        wanted_count = counts[k];
+        snprintf(sums, sizeof sums, "asked for %d sums: must be 1..16", (int)counts[k]);
+        snprintf(most, sizeof most, "asked for %d maxima: must be 1..16", (int)counts[k]);
+        play = sum_many;
+        ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_PLUGIN, sums);
+        ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_PLUGIN, "player.toy");
+        play = raise_many;
+        ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_PLUGIN, most);
+    }
+    play = sum_all;
+    ASSERT_OK(sim, mps_step(sim, 1, NULL));
+    play = NULL;
+    mps_sim_destroy(sim);
+}
+
 /* ---- neighbours ------------------------------------------------------------------------------ */
 
 static int check_beside(mps_stage *s)
@@ -349,6 +390,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_row_once), cmocka_unit_test(sums_do_not_depend_on_threads),
-        cmocka_unit_test(beside), cmocka_unit_test(bodies), cmocka_unit_test(scratch)};
+        cmocka_unit_test(wrong_counts),  cmocka_unit_test(beside),
+        cmocka_unit_test(bodies),        cmocka_unit_test(scratch)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -97,7 +97,7 @@ static void fillers_refuse_sizes(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Structs of a newer program are filled up to what this library knows. */
+/* Structs of a newer program are filled up to the entries of this library. */
 static void newer_structs_are_filled(void **state)
 {
     (void)state;

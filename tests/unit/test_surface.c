@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* surface.asymmetry: what is surface, and what is left amid spray; the volume error of liquid a few
+/* surface.asymmetry: what is surface, and what is left among spray; the volume error of liquid a few
  * rows deep. */
 #include "tank_fixture.h"
 #include <mps/model.h>

@@ -41,7 +41,7 @@ static cloud air_block(int dim, double jitter, int32_t **phase)
     return c;
 }
 
-/* A drop of one particle is spray at 1000 : 1, and nobody at 1.8 : 1 or where both weigh the same. */
+/* A drop of one particle is spray at 1000 : 1, and no particle is at 1.8 : 1 or where both weigh the same. */
 static void lone_drop(void **state)
 {
     (void)state;
@@ -60,7 +60,7 @@ static void lone_drop(void **state)
         }
 }
 
-/* A triangle of three in 2-D, a cube of eight in 3-D, a layer one particle thick: all of them feel the pressure. */
+/* A triangle of three in 2-D, a cube of eight in 3-D, a layer one particle thick: all of them are in the pressure equation. */
 static void together(void **state)
 {
     (void)state;
@@ -123,7 +123,7 @@ static double company(const cloud *c, const int32_t *phase, double ratio, int64_
     return sum / n0;
 }
 
-/* Scattered water: spray is who has company below the setting, for any setting and ratio. */
+/* Scattered water: spray is what has less fluid about it than the setting, for any setting and ratio. */
 static void to_the_letter(void **state)
 {
     (void)state;
@@ -147,7 +147,7 @@ static void to_the_letter(void **state)
                 assert_true(k == 0 ? spray_count(&c) == 0 : spray_count(&c) >= before);
                 before = spray_count(&c);
             }
-            assert_true(before > c.n / 5); /* at 1 everyone with air about him */
+            assert_true(before > c.n / 5); /* at 1 each particle with air about it */
             cloud_free(&c);
             free(phase);
             free(sum);

@@ -164,7 +164,8 @@ static double *wall_sources(double speed, int64_t *n)
     return rhs;
 }
 
-/* Beyond the speed of calm water the air beside a wall of the water changes nothing there, however fast; walls of the air see all of it. */
+/* Beyond the speed of calm water the air beside a wall of the water changes nothing there,
+ * however fast; walls of the air take all of it. */
 static void water_walls_mind_water(void **state)
 {
     (void)state;

@@ -115,9 +115,8 @@ mps_status mps_sim_create(const mps_config *config, mps_sim **sim)
     mps__context c = {.allocator = mps__allocator_default()};
     mps_config f = config_default;
     mps_status status = mps__struct_in(&c, "mps_config", &f, sizeof f, config);
-    if (status < 0 && config &&
-        config->struct_size >=
-            offsetof(mps_config, parallel)) { /* not copied, but there is a place for the text */
+    /* not copied, but there is a place for the text */
+    if (status < 0 && config && config->struct_size >= offsetof(mps_config, parallel)) {
         f.error = config->error;
         f.error_size = config->error_size;
     }

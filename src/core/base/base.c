@@ -132,8 +132,8 @@ static int edit_distance(const char *a, const char *b)
 const char *mps__near(const char *name, const char *const *names, int count)
 {
     const char *best = NULL;
-    int least = 2 + (int)(strnlen(name, MPS__ERROR_SIZE) /
-                          4); /* one slip, and one more for every four letters, are near */
+    /* one slip, and one more for every four letters, are near */
+    int least = 2 + (int)(strnlen(name, MPS__ERROR_SIZE) / 4);
     for (int k = 0; k < count; k++) {
         int d = edit_distance(name, names[k]);
         if (d < least) {

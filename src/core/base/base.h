@@ -54,7 +54,8 @@ typedef struct mps__scratch {
     size_t bytes[MPS__SCRATCH];
 } mps__scratch;
 
-/* Block number `block` for `count` elements, or NULL with the error text set. It holds anything: who took it before is done with it. */
+/* Block number `block` for `count` elements, or NULL with the error text set. Its contents are not
+ * defined. The pointer of an earlier call for this block is not valid any more. */
 void *mps__scratch_take(mps__context *c, mps__scratch *s, int32_t block, int64_t count,
                         size_t size);
 void mps__scratch_free(mps__context *c, mps__scratch *s);

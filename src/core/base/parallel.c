@@ -19,9 +19,10 @@ enum { CACHE_LINE = 64, LOOKS = 32 };
 static const double SPIN = 50e-6;
 
 /* Where others have the cores, threads make loops slower than one would be. Time gained and lost is booked, measured at every so many rounds.
- * After so much loss [s] loops run in the calling thread for so many times as long, and for longer each time, at most so long [s]. */
+ * After so much loss [s] loops run in the calling thread for so many times as long, and for longer each time, at most so long [s]. Gains pay
+ * for later losses up to a few time slices of the system: a core that is taken away now and then is no reason to rest. */
 enum { MEASURED = 8 };
-static const double MOST_GAIN = 0.5e-3, MOST_LOSS = 0.3e-3, REST_PER_LOSS = 4, REST_MOST = 0.25;
+static const double MOST_GAIN = 20e-3, MOST_LOSS = 0.3e-3, REST_PER_LOSS = 4, REST_MOST = 0.25;
 
 /* What a crew is at, in one number: how many workers are inside a round, whether it is open to more, and which round it is. */
 #define INSIDE      UINT64_C(0xffff)
@@ -95,9 +96,8 @@ static int core_now(void)
 static bool is_in_the_way(struct mps__crew *c, const seat *own)
 {
     const int core = core_now();
-    const int32_t first = own == c->seat,
-                  end = own == c->seat ? c->seats
-                                       : 1; /* the caller looks at all others, they look at it */
+    /* the caller looks at all others, they look at it */
+    const int32_t first = own == c->seat, end = own == c->seat ? c->seats : 1;
     for (int32_t k = first; k < end && core >= 0; k++)
         if (atomic_load_explicit(&c->seat[k].core, memory_order_relaxed) == core) return true;
     return false;
@@ -125,9 +125,8 @@ static void await_news(seat *own, uint64_t seen)
     struct mps__crew *c = own->crew;
     if (spin(own, has_news, seen)) return;
     pthread_mutex_lock(&c->lock);
-    atomic_fetch_add(
-        &c->sleepers,
-        1); /* before the last look: the caller looks for sleepers after it opened a round */
+    /* before the last look: the caller looks for sleepers after it opened a round */
+    atomic_fetch_add(&c->sleepers, 1);
     while (!has_news(c, seen)) pthread_cond_wait(&c->opened, &c->lock);
     atomic_fetch_sub(&c->sleepers, 1);
     pthread_mutex_unlock(&c->lock);
@@ -433,9 +432,8 @@ static void first_rows(void *argument, int64_t begin, int64_t end, double *value
 int64_t mps__parallel_first(const mps_parallel *p, int64_t n, mps__row_test is_bad,
                             const void *argument)
 {
-    double first =
-        -(double)
-            n; /* the lowest row is the largest of their negatives; doubles count exactly to 2^53 */
+    /* the lowest row is the largest of their negatives; doubles count exactly to 2^53 */
+    double first = -(double)n;
     mps_parallel_max(p, n, 1, first_rows, &(testing){is_bad, argument}, &first);
     return (int64_t)-first;
 }

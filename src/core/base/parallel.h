@@ -8,7 +8,8 @@
 
 enum { MPS__THREADS_MOST = 1024 };
 
-/* Which parallel-for a handle uses. Its address must stay: `parallel.user` is the pool itself, and `parallel` is lent to all who loop. */
+/* The parallel-for that a handle uses. Its address must stay the same: `parallel.user` is the pool
+ * itself, and all loops have a pointer to `parallel`. */
 typedef struct mps__pool {
     mps_parallel parallel; /* what loops are given */
     mps__context *context;

@@ -11,19 +11,15 @@ enum { MPS__VERSIONS = 4 };
 
 typedef struct known_struct {
     const char *type;
-    size_t
-        size[MPS__VERSIONS]; /* ascending, of the versions that changed it; the last is today's */
+    /* ascending, of the versions that changed it; the last is today's */
+    size_t size[MPS__VERSIONS];
 } known_struct;
 
 /* 1.0.0 is the first version. A struct that grows gets a second size, e.g.
  *     {"mps_tank", {offsetof(mps_tank, first_new_member), sizeof(mps_tank)}}. */
-#define V1(type)         \
-    {                    \
-#type,           \
-        {                \
-            sizeof(type) \
-        }                \
-    }
+/* clang-format off */
+#define V1(type) {#type, {sizeof(type)}}
+/* clang-format on */
 static const known_struct structs[] = {
     V1(mps_channel_info),
     V1(mps_config),

@@ -36,8 +36,8 @@ static const struct {
 typedef struct column {
     const char *name;
     stored type;
-    int32_t stride,
-        width; /* numbers per particle in memory and in the file; the file's third of a 2-D vector is zero */
+    /* numbers per particle in memory and in the file; the file's third of a 2-D vector is zero */
+    int32_t stride, width;
     const void *data;
 } column;
 

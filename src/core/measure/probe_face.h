@@ -25,9 +25,8 @@ typedef struct mps__face {
     mps__face_solid *base;         /* a particle of the face */
     double dp, width, radius, off; /* off: of the sensor's place before the plane, < 0: behind it */
     double normal[3], tangent[2][3];
-    double lo[2], hi[2],
-        target
-            [2]; /* ends of the face beside the sensor and centroid of what the sensor covers, from the sensor */
+    /* ends of the face beside the sensor and centroid of what the sensor covers, from the sensor */
+    double lo[2], hi[2], target[2];
     int64_t count, capacity, solids, solid_capacity;
     mps__face_point *list; /* by id */
     mps__face_solid *solid;

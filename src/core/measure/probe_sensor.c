@@ -186,8 +186,8 @@ mps_status mps__sensor_build(mps__world *w, const mps_probe *config, mps__sensor
     mps_status status = mps__face_find(&f, w, config);
     if (status == MPS_OK && !weigh_best(&f)) f.count = 0;
     if (status == MPS_OK) status = keep_weights(w->context, &f, sensor);
-    if (status == MPS_OK &&
-        sensor->count == 0) /* all of it is beside the face, or a single particle */
+    /* all of it is beside the face, or a single particle */
+    if (status == MPS_OK && sensor->count == 0)
         sensor->list[sensor->count++] = (mps__sensor_weight){f.base->id, f.base->place, 1};
     mps__face_free(&f, w->context);
     if (status < 0) return status;

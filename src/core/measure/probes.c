@@ -191,8 +191,8 @@ static bool solids_box(const mps__world *w, double lo[3], double hi[3])
 
 static mps_status check_place(const mps__world *w, const mps_probe *c)
 {
-    const double slack = (c->type == MPS_PROBE_WALL_PRESSURE ? 2 : 1e-6) *
-                         w->setup.dp; /* sensors have limits of their own, see check_wall() */
+    /* sensors have limits of their own, see check_wall() */
+    const double slack = (c->type == MPS_PROBE_WALL_PRESSURE ? 2 : 1e-6) * w->setup.dp;
     double lo[3], hi[3];
     if (!solids_box(w, lo, hi))
         return mps__fail(w->context, MPS_E_STATE,

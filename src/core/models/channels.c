@@ -9,10 +9,6 @@ enum {
     ALL = (1 << MPS_MOMENT_COUNT) - 1,
     STEP = ALL & ~(1 << MPS_LIMIT),
     SORTING = 1 << MPS_CLASSIFY | 1 << MPS_PREPARE,
-    EARLY = SORTING | 1 << MPS_FORCE | 1 << MPS_SOURCE,
-    SOLVED = 1 << MPS_LEVEL | 1 << MPS_GRADIENT | 1 << MPS_LOAD | 1 << MPS_VELOCITY |
-             1 << MPS_SHIFT,
-    FORCE = 1 << MPS_FORCE,
     SOURCE = 1 << MPS_SOURCE,
     LEVEL = 1 << MPS_LEVEL,
     PUSH = 1 << MPS_FORCE | 1 << MPS_GRADIENT,
@@ -82,7 +78,7 @@ static int32_t numbers(const mps__channels *c, int32_t components)
     return components == MPS_MATRIX ? c->dim * c->dim : components;
 }
 
-static size_t element(const mps__channel *k)
+size_t mps__channel_element(const mps__channel *k)
 {
     return (size_t)k->components *
            (k->spec.type == MPS_TYPE_INTEGER ? sizeof(int32_t) : sizeof(double));
@@ -102,7 +98,7 @@ void mps__channels_init(mps__channels *c, mps__context *context, int32_t dim)
                                     .components = numbers(c, own[k].components)};
 }
 
-/* Channels of the library belong to others. */
+/* The arrays of the library's channels are not owned here. */
 void mps__channels_free(mps__channels *c)
 {
     for (int32_t k = MPS__OWN_CHANNELS; k < c->count; k++) mps__free(c->context, c->list[k].array);
@@ -207,7 +203,7 @@ static mps_status bring(mps__channels *c, mps__particles *s, const char *model,
     } else {
         MPS__CHECK(c->context, !mps__particles_field(s, spec->name),
                    "model '%s' brings channel '%s', and a field has this name", model, spec->name);
-        fresh.array = mps__alloc(c->context, c->capacity, element(&fresh));
+        fresh.array = mps__alloc(c->context, c->capacity, mps__channel_element(&fresh));
         if (!fresh.array) return MPS_E_NOMEM;
     }
     c->list[c->count++] = fresh;
@@ -241,8 +237,8 @@ mps_status mps__channels_bring(mps__channels *c, mps__particles *s, const mps_mo
         while (s->fields > fields) mps__particles_field_drop(s);
         return status;
     }
-    for (int32_t k = 0; k < ops->channel_count;
-         k++) /* particles to come, in fields that were there before, too */
+    /* particles to come get the first value, also in fields that were there before */
+    for (int32_t k = 0; k < ops->channel_count; k++)
         if (ops->channels[k].life == MPS_LIFE_PARTICLE)
             mps__particles_field(s, ops->channels[k].name)->begin = ops->channels[k].initial;
     return MPS_OK;
@@ -263,7 +259,7 @@ mps_status mps__channels_reserve(mps__channels *c, int64_t n)
         mps__channel *own_array = &c->list[k];
         if (own_array->spec.life != MPS_LIFE_STEP) continue;
         mps__free(c->context, own_array->array);
-        own_array->array = mps__alloc(c->context, wanted, element(own_array));
+        own_array->array = mps__alloc(c->context, wanted, mps__channel_element(own_array));
         if (!own_array->array) return MPS_E_NOMEM;
     }
     c->capacity = wanted;
@@ -291,6 +287,8 @@ void mps__channels_begin(const mps__channels *c, int64_t begin, int64_t end)
 
 void *mps__channels_array(const mps__channels *c, mps__particles *s, int32_t k)
 {
+    if (k < 0) return NULL;
+    if (k >= MPS__CHANNELS) return *s->field[k - MPS__CHANNELS].data;
     if (c->list[k].spec.life == MPS_LIFE_STEP) return c->list[k].array;
     mps__field *f = mps__particles_field(s, c->list[k].spec.name);
     return f ? *f->data : NULL;

@@ -65,7 +65,9 @@ int32_t mps__channels_find(const mps__channels *c, const char *name);
 mps_status mps__channels_reserve(mps__channels *c, int64_t n);
 /* Set rows begin .. end-1 of the arrays of models that live for a step to their first values. */
 void mps__channels_begin(const mps__channels *c, int64_t begin, int64_t end);
-/* The array of channel k. */
+/* Bytes of channel k for each particle. */
+size_t mps__channel_element(const mps__channel *k);
+/* The array of channel k; from MPS__CHANNELS on of a field of the user; NULL for -1. */
 void *mps__channels_array(const mps__channels *c, mps__particles *s, int32_t k);
 
 #endif

@@ -4,24 +4,12 @@
 #include <math.h>
 #include <string.h>
 
-static size_t channel_element(const mps__channel *k)
-{
-    return (size_t)k->components *
-           (k->spec.type == MPS_TYPE_INTEGER ? sizeof(int32_t) : sizeof(double));
-}
-
-static const void *array_of(const mps__host *h, int32_t channel)
-{
-    if (channel >= MPS__CHANNELS) return *h->particles->field[channel - MPS__CHANNELS].data;
-    return channel < 0 ? NULL : mps__channels_array(h->channels, h->particles, channel);
-}
-
 static bool may_write(const mps__host *h, const mps__call *call, const void *array)
 {
     bool may = false;
     for (int32_t u = 0; u < call->verb->use_count; u++)
         may = may || (call->verb->uses[u].access & MPS_USE_WRITE &&
-                      array_of(h, call->channel[u]) == array);
+                      mps__channels_array(h->channels, h->particles, call->channel[u]) == array);
     return may;
 }
 
@@ -45,9 +33,9 @@ mps_status mps__guard_begin(mps__guard *g, const mps__host *h, const mps_stage *
     g->count = 0;
     for (int32_t k = 0; k < h->channels->count && status == MPS_OK; k++) {
         const mps__channel *c = &h->channels->list[k];
-        const void *array = array_of(h, k);
+        const void *array = mps__channels_array(h->channels, h->particles, k);
         if (!may_write(h, call, array))
-            status = protect(g, h, c->spec.name, array, channel_element(c));
+            status = protect(g, h, c->spec.name, array, mps__channel_element(c));
     }
     for (int32_t k = 0; k < h->particles->fields && status == MPS_OK; k++) {
         const mps__field *f = &h->particles->field[k];

@@ -2,6 +2,7 @@
 /* Calls of verbs: what they get, and what is checked after them. */
 #include "guard.h"
 #include <math.h>
+#include <stdio.h>
 
 static mps_status verb_failed(mps__host *h, const mps__call *call, double t)
 {
@@ -14,27 +15,34 @@ static mps_status verb_failed(mps__host *h, const mps__call *call, double t)
                      t, error);
 }
 
-static void *array_of(const mps__host *h, int32_t channel)
+/* The text of a failure at particle i: what the model left there, and what is allowed. */
+static mps_status left(const mps__host *h, const mps_stage *s, const mps__call *call, int64_t i,
+                       const char *what, const char *allowed)
 {
-    if (channel < 0) return NULL;
-    if (channel >= MPS__CHANNELS) return *h->particles->field[channel - MPS__CHANNELS].data;
-    return mps__channels_array(h->channels, h->particles, channel);
+    const double *x = s->x + i * s->dim;
+    return mps__fail(
+        h->context, MPS_E_PLUGIN,
+        "model '%s' at t = %.9g s left %s at particle %lld, (%g, %g, %g) m; must be %s",
+        call->model->ops->name, s->t, what, (long long)s->id[i], x[0], x[1], s->dim == 3 ? x[2] : 0,
+        allowed);
+}
+
+static bool is_no_region(const void *regions, int64_t i)
+{
+    const int32_t *region = regions;
+    return region[i] < MPS_REGION_INNER || region[i] > MPS_REGION_DRY;
 }
 
 /* Regions decide which rows later moments work on. */
 static mps_status check_regions(const mps__host *h, const mps_stage *s, const mps__call *call)
 {
-    const int32_t *region = h->channels->list[MPS__REGION].array;
-    int64_t first = s->n;
-    for (int64_t i = 0; i < s->n && first == s->n; i++)
-        if (region[i] < MPS_REGION_INNER || region[i] > MPS_REGION_DRY) first = i;
+    char what[32], allowed[32];
+    const int32_t *region = mps__channels_array(h->channels, h->particles, MPS__REGION);
+    const int64_t first = mps__parallel_first(h->parallel, s->n, is_no_region, region);
     if (first == s->n) return MPS_OK;
-    const double *x = s->x + first * s->dim;
-    return mps__fail(
-        h->context, MPS_E_PLUGIN,
-        "model '%s' at t = %.9g s left region %d at particle %lld, (%g, %g, %g) m; must be %d..%d",
-        call->model->ops->name, s->t, (int)region[first], (long long)s->id[first], x[0], x[1],
-        s->dim == 3 ? x[2] : 0, MPS_REGION_INNER, MPS_REGION_DRY);
+    snprintf(what, sizeof what, "region %d", (int)region[first]);
+    snprintf(allowed, sizeof allowed, "%d..%d", MPS_REGION_INNER, MPS_REGION_DRY);
+    return left(h, s, call, first, what, allowed);
 }
 
 static bool writes(const mps__call *call, int32_t channel)
@@ -44,20 +52,43 @@ static bool writes(const mps__call *call, int32_t channel)
     return false;
 }
 
-/* No comparison with a number density that is not finite is true: the free surface would be lost without an error. */
+static bool is_not_finite(const void *values, int64_t i)
+{
+    return !isfinite(((const double *)values)[i]);
+}
+
+/* No comparison with a number density that is not finite is true: the free surface would be lost
+ * without an error. */
 static mps_status check_number_density(const mps__host *h, const mps_stage *s,
                                        const mps__call *call)
 {
-    const double *nd = array_of(h, MPS__NUMBER_DENSITY);
-    int64_t first = 0;
-    while (first < s->n && isfinite(nd[first])) first++;
+    char what[64];
+    const double *nd = mps__channels_array(h->channels, h->particles, MPS__NUMBER_DENSITY);
+    const int64_t first = mps__parallel_first(h->parallel, s->n, is_not_finite, nd);
     if (first == s->n) return MPS_OK;
-    const double *x = s->x + first * s->dim;
+    snprintf(what, sizeof what, "the number density %g", nd[first]);
+    return left(h, s, call, first, what, "finite");
+}
+
+static mps_status left_equation(const mps__host *h, const mps_stage *s, const mps__call *call,
+                                const char *what, double value, const char *allowed)
+{
     return mps__fail(h->context, MPS_E_PLUGIN,
-                     "model '%s' at t = %.9g s left the number density %g at particle %lld, (%g, "
-                     "%g, %g) m; must be finite",
-                     call->model->ops->name, s->t, nd[first], (long long)s->id[first], x[0], x[1],
-                     s->dim == 3 ? x[2] : 0);
+                     "model '%s' at t = %.9g s left %s = %g in the pressure equation; must be %s",
+                     call->model->ops->name, s->t, what, value, allowed);
+}
+
+/* The step divides by the gain, and a NaN here would be that of all pressures. */
+static mps_status check_equation(const mps__host *h, const mps_stage *s, const mps__call *call)
+{
+    const mps_equation *e = s->equation;
+    if (e->radius != MPS_NEAR && e->radius != MPS_FAR)
+        return left_equation(h, s, call, "radius", e->radius, "MPS_NEAR or MPS_FAR");
+    if (!(e->gain > 0 && e->gain <= 1))
+        return left_equation(h, s, call, "gain", e->gain, "> 0 and <= 1");
+    if (!(e->wall_factor >= 0 && isfinite(e->wall_factor)))
+        return left_equation(h, s, call, "wall_factor", e->wall_factor, "finite and >= 0");
+    return MPS_OK;
 }
 
 static mps_status check_after(const mps__host *h, const mps_stage *s, const mps__call *call)
@@ -68,6 +99,7 @@ static mps_status check_after(const mps__host *h, const mps_stage *s, const mps_
             "model '%s' at t = %.9g s allows a step of %g s; must be > 0, INFINITY for no limit",
             call->model->ops->name, s->t, s->dt_limit);
     if (!mps__models_foreign(h->models, call->model)) return MPS_OK;
+    if (s->equation) MPS__TRY(check_equation(h, s, call));
     if (writes(call, MPS__NUMBER_DENSITY)) MPS__TRY(check_number_density(h, s, call));
     return s->moment == MPS_CLASSIFY ? check_regions(h, s, call) : MPS_OK;
 }
@@ -75,13 +107,15 @@ static mps_status check_after(const mps__host *h, const mps_stage *s, const mps_
 static mps_status run_call(mps__host *h, mps_stage *s, const mps__call *call)
 {
     void *data[MPS__USES];
-    for (int32_t u = 0; u < call->verb->use_count; u++) data[u] = array_of(h, call->channel[u]);
+    for (int32_t u = 0; u < call->verb->use_count; u++)
+        data[u] = mps__channels_array(h->channels, h->particles, call->channel[u]);
     s->data = data;
     s->setting = call->model->k;
     s->self = call->model->self;
     h->context->error[0] = 0;
     h->no_memory = false;
-    const int failed = call->verb->run(s);
+    h->misused = false;
+    const int failed = call->verb->run(s) || h->misused;
     h->scratch_used = 0;
     s->data = NULL;
     return failed ? verb_failed(h, call, s->t) : check_after(h, s, call);

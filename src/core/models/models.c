@@ -221,7 +221,7 @@ static int32_t list_slots(const mps__models *m, char slot[][MPS__NAME_SIZE], con
     return count;
 }
 
-/* Who means a slot that is there means one of its models. */
+/* The text names the models of a slot that exists, else the nearest name, else all slots. */
 static mps_status unknown_model(mps__models *m, const char *name)
 {
     const char *names[MPS__MODELS_KNOWN];

@@ -191,11 +191,3 @@ mps_status mps__plan_make(mps__plan *p, const mps__models *m)
     p->changes = m->changes;
     return MPS_OK;
 }
-
-bool mps__plan_uses(const mps__plan *p, int32_t channel)
-{
-    bool found = false;
-    for (int32_t k = 0; k < p->begin[MPS_MOMENT_COUNT]; k++)
-        found = found || what_it_does(&p->call[k], channel) != NOTHING;
-    return found;
-}

@@ -11,8 +11,8 @@ enum { MPS__CALLS = 128 };
 typedef struct mps__call {
     const mps__model *model;
     const mps_verb *verb;
-    int32_t channel
-        [MPS__USES]; /* of each use; from MPS__CHANNELS on fields of the user; -1: missing, as it may be */
+    /* of each use; from MPS__CHANNELS on fields of the user; -1: missing, as it may be */
+    int32_t channel[MPS__USES];
 } mps__call;
 
 typedef struct mps__plan {
@@ -25,8 +25,6 @@ void mps__plan_init(mps__plan *p);
 /* Make the plan of the active models, unless it is made. MPS_E_STATE: a channel that no model
  * brings, or verbs that wait for each other. */
 mps_status mps__plan_make(mps__plan *p, const mps__models *m);
-/* Whether a verb of the plan uses a channel of the library. */
-bool mps__plan_uses(const mps__plan *p, int32_t channel);
 /* Name of a moment, e.g. "force". */
 const char *mps__moment_name(int32_t moment);
 

@@ -39,19 +39,34 @@ void mps_stage_rows(const mps_stage *s, mps_rows_fn rows, void *arguments)
     mps_parallel_rows(host_of(s)->parallel, s->n, run_rows, &k);
 }
 
+/* First values of sums or maxima. A count that the loops have no room for makes the verb fail,
+ * whatever it returns. @return whether the loop may run */
+static bool begin_values(const mps_stage *s, int32_t count, const char *what, double first,
+                         double *values)
+{
+    mps__host *h = host_of(s);
+    for (int32_t m = 0; m < count && m < MPS_PARALLEL_VALUES; m++) values[m] = first;
+    if (count >= 1 && count <= MPS_PARALLEL_VALUES) return true;
+    h->misused = true;
+    mps__fail(h->context, MPS_E_PLUGIN, "a loop was asked for %d %s: must be 1..%d", (int)count,
+              what, MPS_PARALLEL_VALUES);
+    return false;
+}
+
 void mps_stage_sum(const mps_stage *s, int32_t count, mps_sums_fn add, void *arguments,
                    double *sums)
 {
     job k = {.s = s, .sums = add, .arguments = arguments};
-    mps_parallel_sum(host_of(s)->parallel, s->n, count, run_sums, &k, sums);
+    if (begin_values(s, count, "sums", 0, sums))
+        mps_parallel_sum(host_of(s)->parallel, s->n, count, run_sums, &k, sums);
 }
 
 void mps_stage_max(const mps_stage *s, int32_t count, mps_sums_fn raise, void *arguments,
                    double *maxima)
 {
     job k = {.s = s, .sums = raise, .arguments = arguments};
-    for (int32_t m = 0; m < count; m++) maxima[m] = -INFINITY;
-    mps_parallel_max(host_of(s)->parallel, s->n, count, run_sums, &k, maxima);
+    if (begin_values(s, count, "maxima", -INFINITY, maxima))
+        mps_parallel_max(host_of(s)->parallel, s->n, count, run_sums, &k, maxima);
 }
 
 typedef struct besides {
@@ -59,7 +74,7 @@ typedef struct besides {
     int32_t *beside;
 } besides;
 
-/* Dummies may have no rows: who is beside one has it in its own. */
+/* Dummies may have no rows: a row beside one has it among its own pairs. */
 static void beside_dummies(const mps_stage *s, void *arguments, int64_t begin, int64_t end)
 {
     const besides *b = arguments;
@@ -133,13 +148,13 @@ int mps_stage_bodies(mps_stage *s, int32_t most, const int32_t *role, int32_t *b
     return 0;
 }
 
-/* Chains of rows: serial, as each row may change the chain of any bucket. */
 mps_status mps_grid_init(mps_grid *grid, size_t size)
 {
     static const mps_grid none = {.struct_size = sizeof none};
     return mps__struct_init("mps_grid", grid, size, &none, sizeof none);
 }
 
+/* Chains of rows: serial, as each row may change the chain of any bucket. */
 int mps_stage_grid(mps_stage *s, double side, mps_grid *grid)
 {
     mps_grid made = {.dim = s->dim, .side = side, .buckets = s->n};

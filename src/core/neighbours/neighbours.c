@@ -185,8 +185,8 @@ typedef struct searching {
     double reach2;
     bool sorted;                /* place a is particle a */
     atomic_int_least64_t taken; /* entries of col that rows have, or would have if it were longer */
-    int64_t
-        longest[MPS__PARTS]; /* of the rows of each part that are too long for the stack; else 0 */
+    /* of the rows of each part that are too long for the stack; else 0 */
+    int64_t longest[MPS__PARTS];
 } searching;
 
 /* What was found about a place. */
@@ -394,7 +394,7 @@ mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x,
             mps__neighbours_fit(l, (void **)&l->far_end, &l->far_capacity, n, sizeof *l->far_end));
     const bool alike = n == l->n && re_far == l->re_far && l->partial == (l->kind != NULL) &&
                        l->dummy_rows == l->had_dummy_rows;
-    if (!alike) l->pairs = 0; /* nobody knows how many there are */
+    if (!alike) l->pairs = 0; /* their number is not known */
     l->end = re_near < re_far ? l->far_end : l->middle;
     l->partial = l->kind != NULL;
     l->had_dummy_rows = l->dummy_rows;

@@ -27,28 +27,29 @@ struct mps_neighbours {
     int32_t *count;                /* [n] candidates of each row */
     int32_t *col;  /* [pairs] within re_far + skin at the last search; rows in any order */
     int64_t pairs; /* entries of it at the last search */
-    int64_t *
-        near_begin; /* [n+1] near rows once more, without gaps: what most loops of a step run along */
+    /* [n+1] near rows once more, without gaps: what most loops of a step run along */
+    int64_t *near_begin;
     int32_t *near_col; /* [near_begin[n]] */
     double *w_r2;      /* [near_begin[n]] room for a weight beside each entry of near_col */
     double *searched;  /* [n*dim] positions at the last search */
-    uint64_t
-        *key; /* [2 n] cell keys and scratch of the sort; from the order to the end of the search */
+    /* [2 n] cell keys and scratch of the sort; from the order to the end of the search */
+    uint64_t *key;
     int32_t *order;                    /* [2 n] likewise */
     mps__scratch own_scratch, *shared; /* where these two are: its own, or one shared with others */
     bool valid;                        /* candidates belong to the present order */
     bool sorted;     /* the store was just sorted along the keys: the next search needs no order */
     int64_t longest; /* candidates of one row that is too long for the stack, at most; else 0 */
     double *scratch; /* room to work on such rows, for each part of the particles */
-    const int32_t *
-        kind; /* of the next search: NULL, or kinds of the particles, and solids without fluid about them get no pairs, */
+    /* of the next search: NULL, or kinds of the particles; then solids without fluid about them
+     * get no pairs, */
+    const int32_t *kind;
     bool dummy_rows;     /* nor do dummies, unless this is set */
     bool partial;        /* the last search left such solids out: */
     bool had_dummy_rows; /* but not dummies */
     uint8_t *idle;       /* [n] 1 for each of them */
     uint8_t *rim;        /* [n] 1: fluid with dummies not far away; 0 where kinds were not given */
-    const mps__screens
-        *screens; /* NULL, or what hides particles from each other; its seers are up to date */
+    /* NULL, or what hides particles from each other; its seers are up to date */
+    const mps__screens *screens;
 };
 
 mps_status mps__neighbours_init(mps_neighbours *l, mps__context *context, int32_t dim, double dp);

@@ -6,7 +6,8 @@
 
 enum { MPS__BITS_2D = 31, MPS__BITS_3D = 21 };
 
-/* More particles in one cell are no cloud but an array nobody filled: n^2 pairs would take all memory. */
+/* More particles in one cell are an array whose positions were never set: n^2 pairs would take all
+ * memory. */
 enum { MPS__CROWD = 4096 };
 
 typedef struct cell_map {
@@ -86,9 +87,9 @@ static mps_status map_cells(mps_neighbours *l, int64_t n, const double *x, doubl
         MPS__CHECK(l->context, fits,
                    "particles lie %g m apart along axis %d (particle %lld at %g): at most %g m",
                    hi - lo, d, (long long)far, x[far * l->dim + d], limit * size);
-        m->lo[d] =
-            lo -
-            2 * size; /* cell 0 stays empty, also when far from the origin lo - size rounds: neighbours never wrap */
+        /* cell 0 stays empty, also when lo - size rounds far from the origin: no neighbour is
+         * beyond it */
+        m->lo[d] = lo - 2 * size;
     }
     return MPS_OK;
 }

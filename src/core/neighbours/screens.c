@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Who is hidden from whom. */
+/* Which particles thin plates hide from which others. */
 #include "screens.h"
 #include <math.h>
 
-/* Screens whose sides a particle remembers. */
+/* Most screens for which a particle keeps on which side it is. */
 enum { MPS__SCREEN_BITS = 64 };
 
 void mps__screens_init(mps__screens *s, mps__context *context, int32_t dim)

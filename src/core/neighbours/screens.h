@@ -14,8 +14,8 @@ typedef struct mps__screen {
     double corner[3], normal[3];
     double along[2][3]; /* unit vectors of its edges from the corner; the second is zero in 2-D */
     double length[2];   /* of the plate [m] */
-    double from[2],
-        to[2]; /* what is hidden along the edges [m]: more than the plate where it stands on a wall */
+    /* what is hidden along the edges [m]: more than the plate where it stands on a wall */
+    double from[2], to[2];
     int32_t axis;    /* of the normal if it is an axis of the tank, else -1 */
     int32_t part;    /* of the plate's particles */
     int32_t columns; /* of them side by side */
@@ -27,8 +27,9 @@ typedef struct mps__seer {
     int32_t particle;
     int32_t shadow; /* number of its screen + 1 if it is a shadow, else 0 */
     uint64_t above; /* bit k: it is above screen k */
-    double at
-        [3]; /* where it sees from: walls a hair above their face, so that the two faces of a plate tell their sides */
+    /* the place that lines of sight start at: for walls a little above their face, so that the two
+     * faces of a plate are on different sides of it */
+    double at[3];
 } mps__seer;
 
 typedef struct mps__screens {

@@ -226,8 +226,8 @@ mps_status mps__particles_permute(mps__particles *s, int64_t count, const int32_
     if (in_order(s, count, order)) return MPS_OK;
     for (int32_t k = 0; k < s->fields; k++)
         if (stride(&s->field[k]) > largest) largest = stride(&s->field[k]);
-    char *scratch = mps__scratch_take(s->context, s->scratch, 2, s->n,
-                                      largest); /* 0 and 1 may hold the order */
+    /* 0 and 1 may hold the order */
+    char *scratch = mps__scratch_take(s->context, s->scratch, 2, s->n, largest);
     if (!scratch) return MPS_E_NOMEM;
     for (int32_t k = 0; k < s->fields; k++) permute_field(s, &s->field[k], count, order, scratch);
     int32_t *place = (int32_t *)(void *)scratch; /* new place of an old one */

@@ -38,10 +38,11 @@ typedef struct mps__particles {
     int32_t *kind, *phase, *part;
     int32_t *region; /* [n] MPS_REGION_... of the last step */
     int32_t *held;   /* [n] 1: its pressure was the least allowed in the last step */
-    int32_t
-        *wall_of; /* [n] place of a dummy's wall particle, -1: none; follows when particles move */
-    int32_t *
-        plate; /* [n] number of the screen + 1 of walls of thin plates, of walls they stand on, and of dummies: their shadows */
+    /* [n] place of a dummy's wall particle, -1: none; follows when particles move */
+    int32_t *wall_of;
+    /* [n] number of the screen + 1 of walls of thin plates, of walls they stand on, and of
+     * dummies: their shadows */
+    int32_t *plate;
     int32_t fields;
     mps__field field[MPS__FIELDS_MAX];
     int32_t parts;

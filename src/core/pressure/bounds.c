@@ -48,10 +48,12 @@ void mps__bounds_free(mps__bounds *b)
 static mps_status collect(mps__bounds *b, const mps__ppe *e, const mps_stage *s,
                           const mps__ppe_terms *t)
 {
+    const int32_t *component = e->problem.component; /* NULL: none without a level */
     b->count = 0;
     for (int64_t r = 0; r < e->n; r++) {
         const int64_t i = e->particle[r];
-        if (t->condition[i] != MPS_ROW_LEAST || e->component[r] >= 0 || (e->law && e->law[r] > 0))
+        if (t->condition[i] != MPS_ROW_LEAST || (component && component[r] >= 0) ||
+            (e->law && e->law[r] > 0))
             continue;
         MPS__TRY(mps__grow(b->context, (void **)&b->list, &b->capacity, b->count, b->count + 1,
                            sizeof *b->list));

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Assembly of the pressure equation, W22 (10)(16)(17): a row for every unknown, Dirichlet neighbours moved to the right side. */
 #include "ppe.h"
+#include "levels.h"
 #include "parallel.h"
 #include <math.h>
 #include <mps/model.h>
@@ -261,53 +262,6 @@ static void note_rows(void *argument, int64_t begin, int64_t end)
     for (int64_t r = begin; r < end; r++) note_unknown(argument, r);
 }
 
-/* Visit the component of row `seed`, breadth first; its rows stand in `queue`. Returns their number. */
-static int64_t flood(mps__ppe *e, int64_t seed, int32_t *queue, bool *level)
-{
-    int64_t count = 0;
-    *level = false;
-    queue[count++] = (int32_t)seed;
-    e->component[seed] = -1;
-    for (int64_t next = 0; next < count; next++) {
-        const int32_t r = queue[next];
-        *level = *level || e->shift[r] > 0;
-        for (int64_t k = e->row[r]; k < e->row[r + 1]; k++)
-            if (e->component[e->col[k]] == -2) {
-                e->component[e->col[k]] = -1;
-                queue[count++] = e->col[k];
-            }
-    }
-    return count;
-}
-
-/* Find components whose pressure has no level, and make the right side solvable there: its mean is volume that cannot go
- * anywhere. Returns their number. */
-static int32_t find_singular(mps__ppe *e, int32_t *queue)
-{
-    int32_t singular = 0;
-    int64_t largest = 0;
-    e->level_free = false;
-    for (int64_t r = 0; r < e->n; r++) e->component[r] = -2;
-    for (int64_t seed = 0; seed < e->n; seed++) {
-        if (e->component[seed] != -2) continue;
-        bool level;
-        const int64_t count = flood(e, seed, queue, &level);
-        if (count > largest) {
-            largest = count;
-            e->level_free = !level;
-        }
-        if (level) continue;
-        double mean = 0;
-        for (int64_t k = 0; k < count; k++) mean += e->rhs[queue[k]] / (double)count;
-        for (int64_t k = 0; k < count; k++) {
-            e->rhs[queue[k]] -= mean;
-            e->component[queue[k]] = singular;
-        }
-        singular++;
-    }
-    return singular;
-}
-
 static mps_status reserve_entries(mps__ppe *e, int64_t entries)
 {
     e->col = mps__scratch_take(e->context, e->scratch, COLUMNS, entries, sizeof *e->col);
@@ -330,7 +284,7 @@ mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps__ppe_ter
     mps_parallel_rows(pairs->parallel, e->n, fill_rows, &a);
     mps_parallel_rows(pairs->parallel, e->n, note_rows,
                       &a); /* after all rows: it may overwrite terms that they look at */
-    const int32_t singular = find_singular(e, e->queue);
+    const int32_t singular = mps__levels_find(e, pairs->parallel);
     e->problem = (mps_ppe_problem){.struct_size = sizeof e->problem,
                                    .dim = s->dim,
                                    .n = e->n,

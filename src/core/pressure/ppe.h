@@ -29,10 +29,10 @@ typedef struct mps__ppe {
     int32_t *col;
     float *val;
     double *diagonal, *rhs, *shift, *weight, *x, *p;
-    double *gas, *law; /* NULL: all rows are linear */
-    int32_t *component;
-    bool level_free; /* the largest component has no level */
-    int32_t *queue;  /* [n] scratch */
+    double *gas, *law;  /* NULL: all rows are linear */
+    int32_t *component; /* scratch unless there is one without a level: problem.component */
+    bool level_free;    /* the largest component has no level */
+    int32_t *queue;     /* [n] scratch */
     mps_ppe_problem problem;
 } mps__ppe;
 

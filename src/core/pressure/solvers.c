@@ -364,13 +364,8 @@ typedef struct check {
     double *r;
 } check;
 
-enum {
-    SQUARES,
-    RHS_SQUARES,
-    POISON,
-    LARGEST,
-    VALUES
-}; /* a NaN is larger than nothing, so it is carried apart */
+/* No comparison finds a NaN the larger one, so it has a number of its own, POISON. */
+enum { SQUARES, RHS_SQUARES, POISON, LARGEST, VALUES };
 
 static void check_rows(void *argument, int64_t begin, int64_t end, double *values)
 {

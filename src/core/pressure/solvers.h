@@ -19,13 +19,14 @@ typedef struct mps__solvers {
     mps_preconditioner_ops preconditioner[MPS__SOLVERS_KNOWN];
     char solver_name[MPS__SOLVERS_KNOWN][MPS__NAME_SIZE];
     char preconditioner_name[MPS__SOLVERS_KNOWN][MPS__NAME_SIZE];
-    char default_name[MPS__SOLVERS_KNOWN]
-                     [MPS__NAME_SIZE]; /* default preconditioner of each solver */
-    const mps_solver_ops *use;         /* in use */
-    const mps_preconditioner_ops *pc;  /* in use, or NULL */
+    /* default preconditioner of each solver */
+    char default_name[MPS__SOLVERS_KNOWN][MPS__NAME_SIZE];
+    const mps_solver_ops *use;        /* in use */
+    const mps_preconditioner_ops *pc; /* in use, or NULL */
     void *use_self, *pc_self;
-    void *
-        spare_self; /* of the preconditioner that steps in for one that fails, made when it is needed; NULL before */
+    /* of the preconditioner that steps in for one that fails, made when it is needed; NULL
+     * before */
+    void *spare_self;
     mps_solver_limits limits;
     bool again; /* of the present call's effort */
     bool ready; /* the preconditioner is set up for the present series */
@@ -34,13 +35,13 @@ typedef struct mps__solvers {
 /* How one matrix of a series is solved. */
 typedef struct mps__effort {
     double looser; /* factor of the tolerances, >= 1 */
-    bool
-        again; /* not the first: it has the rows and the diagonal of the one before, whose preconditioner is kept */
+    /* not the first: it has the rows and the diagonal of the one before, whose preconditioner is
+     * kept */
+    bool again;
 } mps__effort;
 
-mps_status
-mps__solvers_init(mps__solvers *s,
-                  mps__context *context); /* registers the built-ins, uses sundials.pcg */
+/* Registers the built-ins, uses sundials.pcg. */
+mps_status mps__solvers_init(mps__solvers *s, mps__context *context);
 void mps__solvers_free(mps__solvers *s);
 mps_status mps__solvers_register(mps__solvers *s, const mps_solver_ops *ops);
 mps_status mps__solvers_register_preconditioner(mps__solvers *s, const mps_preconditioner_ops *ops);

@@ -33,7 +33,7 @@ static mps_status jumped(const mps__world *w, const mps__pose *next, double dt, 
         distance, dt, distance / dt, limit_of(w));
 }
 
-/* Steps that follow the speed never get there, unless a stranger's model pushes. */
+/* Steps that follow the speed never get there, unless a model of a plug-in pushes. */
 static bool may_jump(const mps__world *w)
 {
     const mps_time_control *c = &w->setup.control;

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Who stands near a thin plate, where it sees from, and that nobody passes. */
+/* Particles near thin plates: where their lines of sight start, and that none passes a plate. */
 #include "plates.h"
 #include <string.h>
 
-/* Walls see from this far [dp] above their face, and fluid is never nearer to the plane of a plate than this. */
+/* In spacings: how far above their face the lines of sight of walls start, and the least distance
+ * of fluid to the plane of a plate. */
 static const double above_face = 1e-5, off_plane = 1e-2;
 
 static void wall_sight(const mps__world *w, int64_t i, double at[3])

@@ -4,12 +4,8 @@
 #include "step.h"
 #include "undo.h"
 
-/* Share of its way to that of the present step that the spread of pressures goes in a step. */
-static const double SPREAD_SHARE = 0.2;
-
 static mps_status look_around(mps__step *q);
 static mps_status predict(mps__step *q);
-static mps_status project(mps__step *q);
 static mps_status correct(mps__step *q);
 
 /* ---- the flow ---- */
@@ -18,13 +14,13 @@ static mps_status run_stages(mps__step *q)
 {
     MPS__TRY(look_around(q));
     MPS__TRY(predict(q));
-    MPS__TRY(project(q));
+    MPS__TRY(mps__step_project(q));
     MPS__TRY(correct(q));
     MPS__TRY(mps__world_check_result(q->w, &q->stage, q->moved, &q->info));
     return mps__world_check_moves(q->w, &q->pose, q->stage.dt);
 }
 
-static void end_stage(mps__step *q, int stage)
+void mps__step_end_stage(mps__step *q, int stage)
 {
     const double now = mps__clock();
     q->info.seconds[stage] += now - q->clock;
@@ -42,7 +38,7 @@ static mps_status look_around(mps__step *q)
 {
     mps__world *w = q->w;
     MPS__TRY(mps__neighbours_near(&w->lists.neighbours));
-    end_stage(q, MPS_STAGE_NEIGHBOURS);
+    mps__step_end_stage(q, MPS_STAGE_NEIGHBOURS);
     mps__step_move_tank(q);
     MPS__TRY(mps__step_begin(q));
     MPS__TRY(mps__step_run(q, MPS_CLASSIFY));
@@ -73,88 +69,6 @@ static mps_status predict(mps__step *q)
     MPS__TRY(mps__step_run(q, MPS_FORCE));
     mps__step_book_forces(q);
     mps_parallel_rows(&w->pool.parallel, q->stage.n, predict_rows, q);
-    return MPS_OK;
-}
-
-/* A gain g below 1 leaves (1 - g) dt/g =: T of a steady demand to later steps. In a shorter step g would ask for what longer ones left at
- * once: pressures would jump by (1 - g)(dt_before/dt - 1). With g = dt/(dt + T) they do not feel dt; T follows the steps slowly. */
-static void spread_gain(mps__step *q)
-{
-    double *gain = &q->terms.equation.gain;
-    const double dt = q->stage.dt, wanted = dt * (1 - *gain) / *gain;
-    q->spread = q->w->state.spread > 0
-                    ? q->w->state.spread + SPREAD_SHARE * (wanted - q->w->state.spread)
-                    : wanted;
-    *gain = dt / (dt + q->spread);
-}
-
-/* The law of a gas needs a solver of nonlinear rows. */
-static mps_status check_laws(const mps__step *q)
-{
-    const mps__world *w = q->w;
-    for (int64_t i = 0; i < q->stage.n && !w->solvers.use->nonlinear; i++)
-        if (q->terms.law[i] > 0)
-            return mps__fail(w->context, MPS_E_STATE,
-                             "model '%s' makes the pressure equation nonlinear, and solver '%s' is "
-                             "for linear ones: choose "
-                             "'sundials.kinsol'",
-                             mps__host_writer(&w->host, MPS__GAS_LAW), w->solvers.use->name);
-    return MPS_OK;
-}
-
-static void note_level(mps__step *q)
-{
-    mps__world *w = q->w;
-    q->stage.level_free = w->ppe.level_free;
-    if (!w->ppe.level_free || w->state.level_told) return;
-    w->state.level_told = true;
-    mps__log(w->context, MPS_LOG_INFO,
-             "t = %.9g s: no surface, fixed pressure or compressible phase gives the pressures a "
-             "level; their mean is zero",
-             q->stage.t);
-}
-
-static mps_status solve(mps__step *q, mps_ppe_result *result)
-{
-    mps__world *w = q->w;
-    w->bounds.held = w->particles.held;
-    w->bounds.solves = 0;
-    if (w->ppe.n == 0) return MPS_OK;
-    const mps_status status = mps__bounds_solve(&w->bounds, &w->solvers, &w->ppe, &q->stage,
-                                                &q->terms, result);
-    /* a NaN of the prediction has a particle and a place */
-    if (status == MPS_E_SOLVER) MPS__TRY(mps__world_check_result(w, &q->stage, q->moved, &q->info));
-    if (status < 0)
-        return mps__fail(w->context, status, "t = %.9g s: %.400s", q->stage.t, w->context->error);
-    q->not_converged = status == MPS_W_NOT_CONVERGED;
-    if (q->not_converged)
-        mps__log(w->context, MPS_LOG_WARNING, "t = %.9g s: %.400s", q->stage.t, w->context->error);
-    return MPS_OK;
-}
-
-/* <lap p> = source. W22 (10). */
-static mps_status project(mps__step *q)
-{
-    mps__world *w = q->w;
-    mps_ppe_result result = {.struct_size = sizeof result};
-    mps__step_begin_equation(q);
-    MPS__TRY(mps__step_run(q, MPS_SOURCE));
-    MPS__TRY(check_laws(q));
-    spread_gain(q);
-    end_stage(q, MPS_STAGE_OPERATORS);
-    MPS__TRY(mps__ppe_assemble(&w->ppe, &q->stage, &q->terms));
-    note_level(q);
-    end_stage(q, MPS_STAGE_PPE_SETUP);
-    MPS__TRY(solve(q, &result));
-    mps__ppe_scatter(&w->ppe, &q->stage, &q->terms, w->particles.p);
-    q->info.ppe_solves = w->bounds.solves;
-    q->info.ppe_iterations = result.iterations;
-    q->info.ppe_residual = result.residual;
-    q->info.ppe_divergence = result.divergence;
-    q->info.ppe_unknowns = w->ppe.n;
-    end_stage(q, MPS_STAGE_PPE_SOLVE);
-    q->info.seconds[MPS_STAGE_PPE_SOLVE] -= result.setup_seconds;
-    q->info.seconds[MPS_STAGE_PPE_SETUP] += result.setup_seconds;
     return MPS_OK;
 }
 
@@ -292,10 +206,8 @@ mps_status mps__world_step(mps__world *w, double dt_max)
     w->host.motion = &w->motion;
     w->host.next = NULL;
     MPS__TRY(mps__plan_make(&w->host.plan, &w->models));
-    mps__budget_update(
-        w,
-        &w->state
-             .budget); /* what has come, changed or gone since the last step, whatever becomes of this one */
+    /* what has come, changed or gone since the last step, whatever becomes of this one */
+    mps__budget_update(w, &w->state.budget);
     MPS__TRY(mps__world_neighbours(w));
     const int32_t start_pending = w->state.start_pending;
     double planned = 0;
@@ -314,9 +226,9 @@ mps_status mps__world_step(mps__world *w, double dt_max)
 #ifdef MPS_CHECKED
     mps__guard_poison(&w->host);
 #endif
-    if (planned > 0)
-        w->state.dt_previous = planned; /* a step cut short says nothing about the next */
-    end_stage(&q, MPS_STAGE_CORRECT);
+    /* a step cut short says nothing about the next */
+    if (planned > 0) w->state.dt_previous = planned;
+    mps__step_end_stage(&q, MPS_STAGE_CORRECT);
     w->info.seconds[MPS_STAGE_CORRECT] = q.info.seconds[MPS_STAGE_CORRECT];
     return q.not_converged ? MPS_W_NOT_CONVERGED : MPS_OK;
 }

@@ -24,6 +24,11 @@ typedef struct mps__step {
     bool moved; /* positions are new, the old ones kept */
 } mps__step;
 
+/* ---- the flow: step.c ---- */
+
+/* Book the time since the last call as that of MPS_STAGE_... */
+void mps__step_end_stage(mps__step *q, int stage);
+
 /* ---- the stage: step_stage.c ---- */
 
 /* What verbs see, and where the channels of the library are. */
@@ -41,6 +46,11 @@ mps_status mps__step_run(mps__step *q, int32_t moment);
 mps_status mps__step_turn_areas(mps__world *w);
 /* Velocities of the solids over this step, accelerations of the tank, and whether its velocity jumped. */
 void mps__step_move_tank(mps__step *q);
+
+/* ---- the pressures: step_pressure.c ---- */
+
+/* <lap p> = source: sources, equation and solution. W22 (10). */
+mps_status mps__step_project(mps__step *q);
 
 /* ---- the books: step_books.c ---- */
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The books of a step: who gave and took energy and momentum. Nothing here changes the flow but plates, which stop drops. */
+/* The budget of a step: what each part of it adds to energy and momentum. Only the plates, which
+ * stop drops, change the flow here. */
 #include "plates.h"
 #include "step.h"
 

@@ -14,7 +14,7 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
     for (int k = 0; k < MPS__PHASES * MPS__PHASES; k++) w->setup.tension[k] = -1.0;
     mps__neighbours_init(&w->lists.neighbours, context, dim, dp);
     mps__neighbours_init(&w->lists.complete, context, dim, dp);
-    w->lists.complete.skin = 0; /* searched whenever somebody asks */
+    w->lists.complete.skin = 0; /* searched at each request */
     mps__screens_init(&w->lists.screens, context, dim);
     w->lists.neighbours.screens = w->lists.complete.screens = &w->lists.screens;
     mps__ppe_init(&w->ppe, context);
@@ -94,7 +94,8 @@ void mps__world_note_phases(const mps__world *w)
     bool any[MPS__PHASES] = {false};
     for (int64_t i = 0; i < w->particles.n; i++)
         if (w->particles.kind[i] == MPS_FLUID) any[w->particles.phase[i]] = true;
-    for (int p = 1; p < MPS__PHASES; p++) /* phase 0 is there without anybody's doing */
+    /* phase 0 always exists, also if the user does not define it */
+    for (int p = 1; p < MPS__PHASES; p++)
         if (w->setup.phase_defined[p] && !any[p])
             mps__log(w->context, MPS_LOG_WARNING,
                      "phase %d is defined, but no fluid particle is of it", p);

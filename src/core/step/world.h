@@ -26,8 +26,8 @@ typedef struct mps__budget {
     double start;          /* kinetic + potential before the first step */
     mps_momentum momentum; /* but for its `total` and `numerical` */
     mps__bulk last;        /* up to here all is booked: what the last step left */
-    double deviation,
-        deviation_start; /* mean volume deviation of regions INNER and SECOND in the last step and the first */
+    /* mean volume deviation of regions INNER and SECOND in the last step and the first */
+    double deviation, deviation_start;
     int64_t started; /* 1: the first step has been made */
 } mps__budget;
 
@@ -62,8 +62,8 @@ typedef struct mps__setup {
     double phase_density[MPS__PHASES], phase_viscosity[MPS__PHASES];
     double tension[MPS__PHASES * MPS__PHASES]; /* < 0: not set */
     mps_time_control control;
-    int32_t
-        layers; /* of dummies behind the walls, the fewest of all tanks and solids; 0: there is none */
+    /* of dummies behind the walls, the fewest of all tanks and solids; 0: there is none */
+    int32_t layers;
 } mps__setup;
 
 /* What the next step depends on, beside the fields of the particles, the motion and the probes. MPS__STATE lists all members: they
@@ -73,13 +73,13 @@ typedef struct mps__state {
     int64_t step; /* steps taken */
     int64_t lost; /* particles removed */
     double crossing_time;
-    double
-        dt_previous;  /* of the last step that the limits chose, not the caller; 0: none yet [s] */
+    /* of the last step that the limits chose, not the caller; 0: none yet [s] */
+    double dt_previous;
     double dt_before; /* length of the last step [s] */
     mps__pose before; /* of the tank at its beginning */
     mps__jump jump;   /* of the tank's velocity */
-    double
-        spread; /* time that a gain below 1 spreads pressures over, 0 before the first step [s] */
+    /* time that a gain below 1 spreads pressures over, 0 before the first step [s] */
+    double spread;
     mps__budget budget;
     int32_t start_pending; /* 1: the liquid gets its first velocity in the next step */
     int32_t level_told;    /* 1: the log was told that nothing fixes the level of the pressures */
@@ -99,15 +99,16 @@ typedef struct mps__state {
 _Static_assert(sizeof(mps__state) == 0 MPS__STATE(MPS__STATE_SIZE),
                "MPS__STATE lists all members of mps__state");
 
-/* Who is near whom; found again when particles have moved. */
+/* Lists of neighbours; made again when particles have moved. */
 typedef struct mps__lists {
     mps_neighbours neighbours;
-    mps_neighbours
-        complete; /* the same with the rows of solids without fluid about them, on demand; else empty */
+    /* the same with the rows of solids without fluid about them, on demand; else empty */
+    mps_neighbours complete;
     mps__screens screens; /* thin plates, in the tank's frame */
-    double *
-        listed_at; /* NULL, or positions [n*dim] of the search whose candidates still hold, but are to be found again */
-    int64_t aside; /* lost particles that lie behind the others, until the next are looked for */
+    /* NULL, or positions [n*dim] of the search whose candidates still hold, but are to be found
+     * again */
+    double *listed_at;
+    int64_t aside;  /* lost particles that lie behind the others, until the next are looked for */
     int64_t linked; /* generation of the particles whose dummies know their walls */
 } mps__lists;
 
@@ -138,7 +139,7 @@ void mps__world_free(mps__world *w);
 mps_status mps__world_neighbours(mps__world *w);
 /* Those that were removed last come back, as long as nothing was added since. */
 void mps__world_take_back(mps__world *w);
-/* The same for a reader who holds arrays: nobody is removed or put elsewhere. */
+/* The same while the caller holds arrays: no particle is removed or moved to another place. */
 mps_status mps__world_neighbours_kept(mps__world *w);
 /* Exact rows at the present positions from lists that are fresh. */
 void mps__world_rows(mps__world *w);

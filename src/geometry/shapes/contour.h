@@ -21,11 +21,11 @@ typedef struct mps__shape {
     double dp, sign;          /* sign: -1 if what the caller gave is to be turned around */
     mps_distance_fn distance; /* or */
     mps_inside_fn inside;     /* which is non-zero in the solid, or */
-    const mps__mesh *
-        mesh; /* a welded mesh whose normals look to the liquid; with `inside` the side is asked of it */
+    /* a welded mesh whose normals look to the liquid; with `inside` the side is asked of it */
+    const mps__mesh *mesh;
     void *user;
-    const mps__distances
-        *known; /* NULL, or distances of a mesh, to save asking for more of them far from it */
+    /* NULL, or distances of a mesh, so that none are computed far from it */
+    const mps__distances *known;
 } mps__shape;
 
 /* Distance as given; may be NaN. With `inside` alone: +-dp. */
@@ -68,7 +68,8 @@ typedef struct mps__contour {
     double open_at[3]; /* first of the places where it does, by the order of the cells */
 } mps__contour;
 
-/* Where to look: a lattice point `anchor` at or below lo. Outside keep_lo..keep_hi the surface may leave the box: nobody looks there. */
+/* The box of a search: `anchor` is a lattice point at or below lo. Outside keep_lo..keep_hi the
+ * surface may leave the box: that part is not used. */
 typedef struct mps__contour_box {
     double anchor[3], lo[3], hi[3], keep_lo[3], keep_hi[3];
 } mps__contour_box;

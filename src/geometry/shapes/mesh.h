@@ -18,8 +18,8 @@ typedef struct mps__mesh {
     double *x;            /* [3*points], z = 0 in 2-D */
     int32_t *corner;      /* [3*elements], in 2-D the third is not used */
     double *point_normal; /* [3*points] angle-weighted, not unit */
-    double *
-        edge_normal; /* [9*elements] 3-D: sum of the normals of the faces at edge corner k .. k+1 */
+    /* [9*elements] 3-D: sum of the normals of the faces at edge corner k .. k+1 */
+    double *edge_normal;
     mps__mesh_node *node;
     int32_t *order;
     double size; /* longest side of the bounding box */

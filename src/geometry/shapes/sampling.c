@@ -90,7 +90,8 @@ static mps_status thin_out(mps__samples *s, const double *lo, const double *hi)
 
 /* ---- moving apart ---- */
 
-/* Sum of the pushes on one particle: corners feel nobody, edges one another. */
+/* Sum of the pushes on one particle: corners stay, edges are pushed by corners and edges, faces by
+ * all. */
 typedef struct pushes {
     const mps__samples *s;
     int64_t self;

@@ -161,7 +161,7 @@ static mps_status parse_numbers(mps__mesh *m, file *f, double *x, bool used)
         char word[WORD];
         next_word(f, word);
         if (!number(word, &x[k])) {
-            if (!used && word[0]) continue; /* normals may be nan, nobody looks at them */
+            if (!used && word[0]) continue; /* a normal may be nan: it is not used */
             return bad_word(m, f, word, "a finite number");
         }
         if (used && !isfinite(x[k])) return bad_word(m, f, word, "a finite number");

@@ -35,8 +35,9 @@ mps_status mps__solids_allowed(mps_sim *sim)
 
 mps_status mps__place_resolved(mps_sim *sim, const char *what, int d, double place)
 {
-    static const double most =
-        1e9; /* [dp]: rounding is then below the millionth of a spacing that lattice points are told apart by */
+    /* [dp]: rounding is then below the millionth of a spacing by which lattice points are told
+     * apart */
+    static const double most = 1e9;
     MPS__CHECK(&sim->context, fabs(place) <= most * sim->world.setup.dp,
                "%s[%d] puts solids at %g m: places must be within %g m, %g spacings, of the origin",
                what, d, place, most * sim->world.setup.dp, most);

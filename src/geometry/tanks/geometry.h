@@ -10,8 +10,9 @@
 typedef struct mps__lattice_box {
     double lo[3];
     int64_t first[3], last[3];
-    double
-        top; /* > 0: of the last row along y a fill takes this share of the points, evenly spread; 0: all of them */
+    /* > 0: of the last row along y a fill takes this share of the points, evenly spread; 0: all
+     * of them */
+    double top;
 } mps__lattice_box;
 
 /* A thin plate: nodes on a rectangle (in 2-D a line), one to three columns of them side by side. */

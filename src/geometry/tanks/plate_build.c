@@ -264,7 +264,7 @@ static mps_status divide(builder *b, const int64_t node[2], int32_t c, int64_t i
     return MPS_OK;
 }
 
-/* A column's node where nobody is. */
+/* A column's node at a place without a particle. */
 static mps_status stand_free(builder *b, const int64_t node[2], int32_t c)
 {
     place p = {.kind = MPS_WALL, .part = b->part, .plate = b->number, .resident = -1};

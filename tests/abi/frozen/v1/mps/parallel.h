@@ -57,7 +57,10 @@ enum {
     /** Sums and maxima of one loop, at most. */
     MPS_PARALLEL_VALUES = 16,
     /** Rows of a part of mps_parallel_rows(), at least. */
-    MPS_PARALLEL_LEAST = 128
+    MPS_PARALLEL_LEAST = 128,
+    /** Ranges for each thread in mps_parallel_rows(): a thread that is held up leaves some of its
+     *  own to the others. */
+    MPS_PARALLEL_RANGES = 8
 };
 
 /** Call body(argument, part) for part = 0..parts-1, on the threads of `p`.
@@ -90,15 +93,16 @@ static inline void mps_parallel_rows_part(void *argument, int32_t part)
     job->body(job->argument, job->n * part / job->parts, job->n * (part + 1) / job->parts);
 }
 
-/** Split rows 0..n-1 into p->threads equal ranges, fewer where a range would have less than
- *  `least` rows. The body must give each row the same result in any range.
+/** Split rows 0..n-1 into MPS_PARALLEL_RANGES equal ranges for each thread, fewer where a range
+ *  would have less than `least` rows. The body must give each row the same result in any range.
  *  @param p NULL: one range, in the calling thread
  *  @param least > 0 */
 static inline void mps_parallel_rows_least(const mps_parallel *p, int64_t n, int64_t least,
                                            mps_range_fn body, void *argument)
 {
     const int64_t threads = p && p->run ? p->threads : 1,
-                  parts = n / least < threads ? n / least : threads;
+                  most = threads > 1 ? threads * MPS_PARALLEL_RANGES : 1,
+                  parts = n / least < most ? n / least : most;
     if (parts > 1) {
         mps_parallel_rows_job job = {n, (int32_t)parts, body, argument};
         mps_parallel_run(p, job.parts, mps_parallel_rows_part, &job);

@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copies of what a verb may write. */
+#include "model_copies.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SHAPES = 128 };
+static kit_shape shapes[SHAPES];
+static int32_t count;
+
+void kit_learn_shapes(const mps_sim *sim)
+{
+    mps_channel_info info;
+    mps_channel_info_init(&info, sizeof info);
+    count = 0;
+    for (int32_t k = 0; count < SHAPES && mps_channel_info_get(sim, k, &info) == MPS_OK; k++) {
+        kit_shape *to = &shapes[count++];
+        const size_t number = info.type == MPS_TYPE_INTEGER ? sizeof(int32_t) : sizeof(double);
+        snprintf(to->name, sizeof to->name, "%s", info.name);
+        to->type = info.type;
+        to->element = (size_t)info.components * number;
+    }
+}
+
+const kit_shape *kit_shape_of(const mps_use *use)
+{
+    for (int32_t k = 0; k < count; k++)
+        if (strcmp(shapes[k].name, use->channel) == 0) return &shapes[k];
+    return NULL;
+}
+
+void kit_release(kit_arrays *a)
+{
+    for (int u = 0; u < KIT_USES; u++) free(a->of[u]);
+}
+
+bool kit_copy(const mps_stage *s, const mps_verb *verb, const kit_arrays *from, kit_arrays *a)
+{
+    *a = (kit_arrays){.dt_limit = from ? from->dt_limit : s->dt_limit};
+    if (from)
+        a->equation = from->equation;
+    else if (s->equation)
+        a->equation = *s->equation;
+    for (int32_t u = 0; u < verb->use_count; u++) {
+        const kit_shape *k = kit_shape_of(&verb->uses[u]);
+        if (!s->data[u] || !k) continue;
+        a->of[u] = malloc((size_t)s->n * k->element + 1);
+        if (!a->of[u]) return false;
+        memcpy(a->of[u], from ? from->of[u] : s->data[u], (size_t)s->n * k->element);
+    }
+    return true;
+}
+
+int kit_run_on(const mps_stage *s, const mps_verb *verb, kit_arrays *a)
+{
+    mps_stage t = *s;
+    void *data[KIT_USES];
+    for (int32_t u = 0; u < verb->use_count; u++) data[u] = a->of[u] ? a->of[u] : s->data[u];
+    if (s->equation) t.equation = &a->equation;
+    t.dt_limit = a->dt_limit;
+    t.data = data;
+    const int failed = verb->run(&t);
+    a->dt_limit = t.dt_limit;
+    return failed;
+}
+
+bool kit_same(const mps_stage *s, const mps_verb *verb, const kit_arrays *a)
+{
+    if (memcmp(&a->dt_limit, &s->dt_limit, sizeof a->dt_limit) != 0) return false;
+    if (s->equation && memcmp(&a->equation, s->equation, sizeof a->equation) != 0) return false;
+    for (int32_t u = 0; u < verb->use_count; u++)
+        if (a->of[u] &&
+            memcmp(a->of[u], s->data[u], (size_t)s->n * kit_shape_of(&verb->uses[u])->element) != 0)
+            return false;
+    return true;
+}

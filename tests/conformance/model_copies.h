@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copies of what a verb may write, and runs of the verb on them; for the kit of models. */
+#ifndef MODEL_COPIES_H
+#define MODEL_COPIES_H
+
+#include "model_scenes.h"
+
+enum { KIT_USES = 24 };
+
+/* A channel as its model describes it. */
+typedef struct kit_shape {
+    char name[32];
+    int32_t type;
+    size_t element; /* bytes per particle */
+} kit_shape;
+
+/* What a verb may write: the arrays of its uses, and two entries of the stage. */
+typedef struct kit_arrays {
+    void *of[KIT_USES];
+    mps_equation equation;
+    double dt_limit;
+} kit_arrays;
+
+/* Take the shapes of all channels from a handle; one list for all. */
+void kit_learn_shapes(const mps_sim *sim);
+
+/* @return NULL: no such channel */
+const kit_shape *kit_shape_of(const mps_use *use);
+
+/* @param from  the copy that is copied, or NULL: the arrays of the stage
+ * @return whether there was memory; kit_release() in any case */
+bool kit_copy(const mps_stage *s, const mps_verb *verb, const kit_arrays *from, kit_arrays *a);
+void kit_release(kit_arrays *a);
+
+/* Run the model's verb on other arrays; nothing of the stage changes. @return of the verb */
+int kit_run_on(const mps_stage *s, const mps_verb *verb, kit_arrays *a);
+
+/* Whether the stage has the values of the copy. */
+bool kit_same(const mps_stage *s, const mps_verb *verb, const kit_arrays *a);
+
+#endif
