@@ -36,9 +36,9 @@ typedef struct mps_config {
     /** "improved" (default, W22 (3)) or "original" (Z14 (3)); a kernel of the user:
      *  mps_kernel_use(). */
     const char *kernel;
-    /** Radius of number density, gradient and divergence [dp]; default 2.1. */
+    /** Radius of number density, gradient and divergence [dp], 1.5..10; default 2.1. */
     double re_near;
-    /** Radius of the Laplacians [dp], >= re_near; default 3.1 in 2-D, 2.1 in 3-D. */
+    /** Radius of the Laplacians [dp], re_near..10; default 3.1 in 2-D, 2.1 in 3-D. */
     double re_far;
     /** U_g [m/s], the velocity that scales limits of models and time steps; default sqrt(|g| dp),
      *  or sqrt(9.81 dp) without gravity. */

@@ -121,13 +121,16 @@ static measured run(double dp, double heavy, double light)
     return m;
 }
 
-/* At dp = L/20 and L/40, for 2 : 1 -1.2 and -1.5 %, for 1000 : 1 -0.9 and -0.6 %. */
+/* At dp = L/20, L/40 (and L/80): frequency -1.2, -1.5 (-1.0) % for 2 : 1 and -0.9, -0.6 (-0.4) % for 1000 : 1; the amplitude after half
+ * a period -13, -2.4 (-1.9) % and -7, -1.1 (-0.1) %. Most of this is alpha of dissipation.radial, a viscosity ~ dp^1.5 on liquids that
+ * slide along each other. */
 static void near_theory(double heavy, double light, double most)
 {
     const measured coarse = run(0.05, heavy, light), fine = run(0.025, heavy, light);
     assert_true(fabs(coarse.frequency) < most && fabs(fine.frequency) < most);
     assert_true(coarse.growth < 0.03 && coarse.growth > -0.15);
-    assert_true(fine.growth < 0.03 && fine.growth > -0.1);
+    assert_true(fine.growth < 0.01 && fine.growth > -0.04);
+    assert_true(fabs(fine.growth) < 0.4 * fabs(coarse.growth));
 }
 
 static void two_to_one(void **state)

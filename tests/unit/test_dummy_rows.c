@@ -96,7 +96,7 @@ static void same_flow(void **state)
 {
     (void)state;
     mps_sim *sim[2] = {pool(), pool()};
-    mps_lease x[2];
+    mps_lease x[2] = {{.struct_size = sizeof x[0]}, {.struct_size = sizeof x[1]}};
     for (int k = 0; k < 30; k++) {
         step_with(sim[0], "look.plain");
         step_with(sim[1], k % 3 ? "look.dummies" : "look.plain");

@@ -62,7 +62,7 @@ static void bad_configuration(void **state)
     REFUSE(dim, 4, MPS_E_ARG, "dim is 4: 2 or 3");
     REFUSE(gravity[1], NAN, MPS_E_ARG, "gravity");
     REFUSE(kernel, "improvd", MPS_E_NAME, "\"improvd\"; did you mean \"improved\"");
-    REFUSE(re_near, 1, MPS_E_ARG, "re_near is 1");
+    REFUSE(re_near, 1.49, MPS_E_ARG, "re_near is 1.49");
     REFUSE(re_near, 11, MPS_E_ARG, "re_near is 11");
     REFUSE(re_near, NAN, MPS_E_ARG, "re_near");
     REFUSE(re_far, 2, MPS_E_ARG, "re_far is 2");

@@ -48,8 +48,9 @@ static mps_status check_config(mps__context *c, mps_config *f)
                DP_MIN, DP_MAX);
     if (f->re_near == 0) f->re_near = 2.1;
     if (f->re_far == 0) f->re_far = f->dim == 2 ? 3.1 : 2.1;
-    MPS__CHECK(c, f->re_near > 1 && f->re_near <= 10, "config.re_near is %g dp: 1 < re_near <= 10",
-               f->re_near);
+    /* diagonal neighbours, at 1.42 dp, must weigh something: with 1.1 a tank gets ten times its energy, with 1.01 it diverges */
+    MPS__CHECK(c, f->re_near >= 1.5 && f->re_near <= 10,
+               "config.re_near is %g dp: 1.5 <= re_near <= 10", f->re_near);
     MPS__CHECK(c, f->re_far >= f->re_near && f->re_far <= 10,
                "config.re_far is %g dp: re_near (%g) <= re_far <= 10", f->re_far, f->re_near);
     if (f->threads == 0) f->threads = 1;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A pool of threads. A loop is a round: the caller opens it, works on its parts and takes over those nobody has begun, closes it, and waits
+/* A pool of threads. A loop is a round: the caller opens it, works on its parts and takes over those that no thread has begun, closes it, and waits
  * only for parts that others have begun. So a thread that gets no core costs nothing, and a round needs no thread at all to end. */
 #ifdef __linux__
 #define _GNU_SOURCE /* sched_getcpu() */
@@ -49,7 +49,7 @@ struct mps__crew {
     atomic_bool busy;    /* a round goes on: a loop inside it runs in its own thread */
     pthread_mutex_t lock;
     pthread_cond_t opened, empty;
-    /* of the round, written while nobody is inside */
+    /* of the round, written while no thread is inside */
     mps_part_fn body;
     void *argument;
     /* the caller's [s]: gains less losses, the last rest and its end (0: none goes on) */

@@ -124,7 +124,10 @@ int main(void)
 {
     mps_sim *sim = NULL;
     int stop = 3, failed = defaults() || build(&sim);
-    failed = failed || mps_run(sim, 1, monitor, &stop) != MPS_W_STOPPED || steps_seen != 3;
+    if (!failed && (mps_run(sim, 1, monitor, &stop) != MPS_W_STOPPED || steps_seen != 3)) {
+        printf("mps_run() ended after %d steps, not 3: an error, or wrong values in mps_step_info\n", steps_seen);
+        failed = 1;
+    }
     failed = failed || particles(sim) || measure(sim);
     if (failed && sim) printf("%s\n", mps_sim_error(sim));
     mps_sim_destroy(sim);
