@@ -71,7 +71,9 @@ static void add_columns(run *r)
     run_gauge(r, "eta_left", dp, z, level);
     run_gauge(r, "eta_quarter", 0.25 * SIZE[0], z, level);
     run_gauge(r, "eta_right", SIZE[0] - dp, z, level);
-    run_value(r, "angle", "deg", angle, NULL);
+    run_value(r, "angle", "deg",
+              "Roll angle of the tank: about the middle of its floor, counterclockwise", angle,
+              NULL);
 }
 
 int main(int argc, char **argv)

@@ -68,6 +68,6 @@ int main(int argc, char **argv)
     run_open(&r, &o);
     build(&r);
     run_gauge(&r, "eta_left", o.dp, 0, lround(DEPTH / o.dp) * o.dp);
-    run_value(&r, "x_centre", "m", centre, NULL);
+    run_value(&r, "x_centre", "m", "Centre of mass along x: of all liquid", centre, NULL);
     return run_finish(&r);
 }

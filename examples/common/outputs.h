@@ -55,6 +55,15 @@ enum {
 bool run_note(run *r, mps_status status, const char *what);
 /* Value of one of the driver's own columns now; NAN if it cannot be measured. */
 double run_measure_column(run *r, const run_column *c);
+/* Columns of probes.csv behind the time, and column k of them: those of the driver, then the common ones. */
+int run_columns_all(const run *r);
+run_column run_column_at(const run *r, int k);
+/* What it is, without where and how. */
+void run_column_title(const run_column *c, char *title, size_t size);
+/* Measure the boxes of walls and liquid, before the first step. */
+void run_boxes(run *r);
+/* Depth of the liquid at the start [m]; NAN if it does not stand on the floor. */
+double run_depth(const run *r);
 /* summary.json. @return false with a message on stderr */
 bool summary_save(const run *r);
 /* plot_*.svg, and report.html unless it was not wanted. @return false with a message on stderr */

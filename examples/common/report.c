@@ -3,16 +3,18 @@
 #include "outputs.h"
 #include "svg_plot.h"
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { REPORT_PLOTS = 13 };
+enum { REPORT_PLOTS = 13, PLOT_TITLE = 200, PLOT_LABEL = 48 };
 
 /* All plots of a run with the file each goes to. */
 typedef struct plots {
     int count;
     plot plot[REPORT_PLOTS];
-    char file[REPORT_PLOTS][48];
+    char file[REPORT_PLOTS][48], title[REPORT_PLOTS][PLOT_TITLE], label[REPORT_PLOTS][PLOT_LABEL];
+    char note[240]; /* below the plot of pressures; "": none */
 } plots;
 
 static plot *plots_add(plots *all, const char *file, const char *title, const char *y_label)
@@ -34,38 +36,22 @@ static plot_series column_of(const table *t, const char *label, int column, doub
                          .shift = shift};
 }
 
-/* Leave out the first half per cent of a run: the impulse of walls that start at speed would flatten all the rest. */
-static void skip_start(plot_series *s, double t_end)
+/* Leave out the first half per cent of a run: the impulse of walls that start at speed would flatten all the rest.
+ * @return true if there was something */
+static bool skip_start(plot_series *s, double t_end)
 {
+    const int64_t before = s->count;
     while (s->count > 2 && s->x[0] < 0.005 * t_end) {
         s->x += s->stride;
         s->y += s->stride;
         s->count--;
     }
+    return s->count < before;
 }
 
-/* One plot for all own columns of a unit, with the known points of that unit. */
-static void plots_unit(plots *all, const run *r, const char *unit)
+/* The known points of a unit. */
+static void plots_marks(plot *p, const run *r, const char *unit)
 {
-    bool pressure = strcmp(unit, "Pa") == 0, length = strcmp(unit, "m") == 0;
-    char file[48];
-    snprintf(file, sizeof file, "plot_%s.svg",
-             pressure ? "pressure"
-             : length ? "elevation"
-                      : r->column[0].name);
-    plot *p = plots_add(all, file,
-                        pressure ? "Pressure"
-                        : length ? "Elevation"
-                                 : "Values",
-                        pressure ? "p [Pa]"
-                        : length ? "height [m]"
-                                 : unit);
-    for (int i = 0; i < r->own_columns; i++) {
-        if (strcmp(r->column[i].unit, unit) != 0) continue;
-        plot_series column = column_of(&r->probes, r->column[i].name, 1 + i, 0);
-        if (pressure) skip_start(&column, r->options.t_end);
-        plot_add(p, column);
-    }
     for (int i = 0; i < r->marks; i++) {
         const run_mark *m = &r->mark[i];
         if (strcmp(m->unit, unit) != 0) continue;
@@ -78,13 +64,69 @@ static void plots_unit(plots *all, const run *r, const char *unit)
     }
 }
 
+/* Put `text` behind what is there, unless it is in it. */
+static void list_add(char *list, size_t size, const char *text)
+{
+    const size_t used = strlen(list);
+    if (strstr(list, text)) return;
+    snprintf(list + used, size - used, "%s%s", used ? "; " : "", text);
+}
+
+/* What the own columns of a unit are, title of their plot. */
+static void plots_title(plots *all, plot *p, const run *r, const char *unit)
+{
+    char *title = all->title[p - all->plot], *label = all->label[p - all->plot], one[96];
+    int kinds = 0;
+    title[0] = '\0';
+    for (int i = 0; i < r->own_columns; i++) {
+        const size_t before = strlen(title);
+        if (strcmp(r->column[i].unit, unit) != 0) continue;
+        run_column_title(&r->column[i], one, sizeof one);
+        list_add(title, PLOT_TITLE, one);
+        kinds += strlen(title) > before;
+    }
+    if (kinds != 1 || strlen(one) > PLOT_LABEL - 12) one[0] = '\0'; /* the unit alone */
+    if (unit[0])
+        snprintf(label, PLOT_LABEL, "%.36s%s[%s]", one, one[0] ? " " : "", unit);
+    else
+        snprintf(label, PLOT_LABEL, "%.36s", one);
+    p->title = title;
+    p->y_label = label;
+}
+
+/* One plot for all own columns of a unit, with the known points of that unit. */
+static void plots_unit(plots *all, const run *r, const char *unit, const char *first)
+{
+    bool pressure = strcmp(unit, "Pa") == 0, length = strcmp(unit, "m") == 0;
+    char file[48];
+    snprintf(file, sizeof file, "plot_%s.svg",
+             pressure ? "pressure"
+             : length ? "elevation"
+                      : first);
+    plot *p = plots_add(all, file, "", "");
+    if (!p) return;
+    plots_title(all, p, r, unit);
+    for (int i = 0; i < r->own_columns; i++) {
+        if (strcmp(r->column[i].unit, unit) != 0) continue;
+        plot_series column = column_of(&r->probes, r->column[i].name, 1 + i, 0);
+        if (pressure && skip_start(&column, r->options.t_end))
+            snprintf(all->note, sizeof all->note,
+                     "Without the first half per cent of the run, t < %.3g s: the impulse of walls "
+                     "that start at speed would flatten the rest; probes.csv has it.",
+                     0.005 * r->options.t_end);
+        plot_add(p, column);
+    }
+    if (pressure && all->note[0]) p->note = all->note;
+    plots_marks(p, r, unit);
+}
+
 static void plots_columns(plots *all, const run *r)
 {
     for (int i = 0; i < r->own_columns; i++) {
         bool first = true;
         for (int k = 0; k < i; k++)
             if (strcmp(r->column[k].unit, r->column[i].unit) == 0) first = false;
-        if (first) plots_unit(all, r, r->column[i].unit);
+        if (first) plots_unit(all, r, r->column[i].unit, r->column[i].name);
     }
 }
 
@@ -134,6 +176,7 @@ static void plots_momentum(plots *all, const run *r, int axis)
 static void plots_make(plots *all, const run *r)
 {
     all->count = 0;
+    all->note[0] = '\0';
     plots_columns(all, r);
     plots_energy(all, r);
     for (int d = 0; d < (r->options.dim == 3 ? 3 : 2); d++) plots_momentum(all, r, d);
@@ -163,6 +206,48 @@ static void html_number(FILE *out, const char *name, double value, const char *u
     html_row(out, name, text);
 }
 
+/* "0 to 1.2, 0 to 0.6" [m] */
+static void html_box(FILE *out, const char *name, const run_box *b, int dim)
+{
+    char text[128] = "";
+    for (int d = 0; b->count > 0 && d < dim; d++)
+        snprintf(text + strlen(text), sizeof text - strlen(text), "%s%c = %.6g to %.6g",
+                 d ? ", " : "", "xyz"[d], b -> lo[d], b -> hi[d]);
+    if (b->count == 0) return;
+    snprintf(text + strlen(text), sizeof text - strlen(text), " m");
+    html_row(out, name, text);
+}
+
+/* Size of the tank, place and depth of the liquid. */
+static void html_boxes(FILE *out, const run *r)
+{
+    const double *lo = r->walls.lo, *hi = r->walls.hi, depth = run_depth(r);
+    char text[96];
+    int used = snprintf(text, sizeof text, "%.6g x %.6g", hi[0] - lo[0], hi[1] - lo[1]);
+    snprintf(text + used, sizeof text - (size_t)used, r->options.dim == 3 ? " x %.6g m" : " m",
+             hi[2] - lo[2]);
+    if (r->walls.count > 0) html_row(out, "inner size of the tank", text);
+    html_box(out, "tank: faces of the walls", &r->walls, r->options.dim);
+    if (isfinite(depth)) html_number(out, "depth of liquid at the start", depth, "m");
+    html_box(out, "liquid at the start: centres of particles", &r->liquid, r->options.dim);
+}
+
+/* What each column of probes.csv is, and where. */
+static void html_columns(FILE *out, const run *r)
+{
+    char name[48];
+    fputs("<h2>Columns of probes.csv</h2>\n<table>\n", out);
+    html_row(out, "t [s]", "Time");
+    for (int k = 0; k < run_columns_all(r); k++) {
+        const run_column c = run_column_at(r, k);
+        snprintf(name, sizeof name, c.unit[0] ? "%s [%s]" : "%s", c.name, c.unit);
+        html_row(out, name, c.about);
+    }
+    fputs("</table>\n<p>Places are in the frame of the tank, which moves with it; y is up.", out);
+    if (r->options.dim == 2) fputs(" Forces and energies are those of 1 m of width.", out);
+    fputs("</p>\n", out);
+}
+
 static void html_settings(FILE *out, const run *r)
 {
     const cli_options *o = &r->options;
@@ -171,6 +256,7 @@ static void html_settings(FILE *out, const run *r)
     html_row(out, "solver", o->solver);
     html_number(out, "dimensions", o->dim, "");
     html_number(out, "spacing dp", o->dp, "m");
+    html_boxes(out, r);
     if (o->dt > 0)
         html_number(out, "time step, fixed", o->dt, "s");
     else
@@ -265,7 +351,9 @@ static void report_write(FILE *out, const run *r, const plots *all)
     html_settings(out, r);
     fputs("</div><div>\n", out);
     html_results(out, r);
-    fputs("</div></div>\n<h2>Curves</h2>\n", out);
+    fputs("</div></div>\n", out);
+    html_columns(out, r);
+    fputs("<h2>Curves</h2>\n", out);
     for (int i = 0; i < all->count; i++) plot_svg(out, &all->plot[i]);
     fputs("<h2>Pictures</h2>\n", out);
     for (int i = 1; i <= r->pictures; i++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Opening a run, naming its columns. Stepping is in stepping.c, what comes after the last step in summary.c and report.c. */
+/* Opening a run. Its columns are in columns.c. Stepping is in stepping.c, what comes after the last step in summary.c and report.c. */
 #include "run.h"
 #include "folder.h"
 #include "view.h"
@@ -200,82 +200,6 @@ double run_level(run *r)
             level = fmax(level, v.x.data[i * v.x.stride + 1]);
     run_check(r, view_close(r->sim, &v) ? MPS_OK : MPS_E_BUSY, "still level");
     return level;
-}
-
-static run_column *run_column_add(run *r, const char *name, const char *unit)
-{
-    if (r->columns == RUN_COLUMNS) {
-        fprintf(stderr, "%s: more than %d columns\n", r->options.program, RUN_COLUMNS);
-        exit(CLI_FAILED);
-    }
-    run_column *c = &r->column[r->columns++];
-    *c = (run_column){.probe = -1};
-    snprintf(c->name, sizeof c->name, "%s", name);
-    snprintf(c->unit, sizeof c->unit, "%s", unit);
-    return c;
-}
-
-static void run_probe_add(run *r, const char *name, const char *unit, const mps_probe *probe,
-                          double zero)
-{
-    int32_t id;
-    run_check(r, mps_probe_add(r->sim, probe, &id), name);
-    run_column *c = run_column_add(r, name, unit);
-    c->probe = id;
-    c->zero = zero;
-}
-
-void run_wall_sensor(run *r, const char *name, double x, double y, double z, double diameter)
-{
-    mps_probe probe;
-    mps_probe_init(&probe, sizeof probe);
-    probe.type = MPS_PROBE_WALL_PRESSURE;
-    probe.at[0] = x;
-    probe.at[1] = y;
-    probe.at[2] = z;
-    probe.diameter = diameter;
-    probe.average = r->options.sensor_average;
-    run_probe_add(r, name, "Pa", &probe, 0);
-    r->column[r->columns - 1].pressure = true;
-}
-
-void run_wall_pressure(run *r, const char *name, double x, double y, double z)
-{
-    run_wall_sensor(r, name, x, y, z, 0);
-}
-
-void run_gauge_from(run *r, const char *name, const double *foot, double level)
-{
-    mps_probe probe;
-    mps_probe_init(&probe, sizeof probe);
-    probe.type = MPS_PROBE_GAUGE;
-    memcpy(probe.at, foot, sizeof probe.at);
-    run_probe_add(r, name, "m", &probe, level - foot[1]);
-}
-
-void run_gauge(run *r, const char *name, double x, double z, double level)
-{
-    run_gauge_from(r, name, (const double[]){x, 0, z}, level);
-}
-
-void run_force(run *r, const char *name, const char *part, int32_t component)
-{
-    mps_probe probe;
-    mps_probe_init(&probe, sizeof probe);
-    probe.type = MPS_PROBE_FORCE;
-    probe.part = part;
-    probe.average = r->options.sensor_average;
-    run_probe_add(r, name, r->options.dim == 3 ? "N" : "N/m", &probe, 0);
-    run_column *c = &r->column[r->columns - 1];
-    c->component = component;
-    c->pressure = true;
-}
-
-void run_value(run *r, const char *name, const char *unit, run_value_fn value, void *user)
-{
-    run_column *c = run_column_add(r, name, unit);
-    c->value = value;
-    c->user = user;
 }
 
 void run_figure_add(run *r, const char *name, run_value_fn value, void *user)

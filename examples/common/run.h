@@ -23,6 +23,10 @@ typedef double (*run_value_fn)(void *user, mps_sim *sim);
 /* One column of probes.csv: a probe's value minus `zero`, or a driver's own quantity. */
 typedef struct run_column {
     char name[32], unit[8];
+    /* what it is, behind a colon where and how: "Wall pressure: sensor at (0, 0.05) m" */
+    char about[240];
+    const char *type;       /* "wall_pressure", "gauge", "force", or "value": a driver's own */
+    double at[3], diameter; /* of a sensor or gauge, in the tank's frame [m] */
     int32_t probe, component;
     double zero;
     bool pressure; /* known after the first step */
@@ -45,6 +49,12 @@ typedef struct run_figure {
     double measured;
 } run_figure;
 
+/* The box about the centres of some particles [m]; count 0: there are none. */
+typedef struct run_box {
+    int64_t count;
+    double lo[3], hi[3];
+} run_box;
+
 /* Sums over the run, for summary.json and the report. Of one that goes on from a checkpoint: seconds are without what was before it. */
 typedef struct run_totals {
     int64_t fluid, wall, dummy, steps, steps_here, not_converged,
@@ -65,8 +75,9 @@ typedef struct run {
     run_mark mark[RUN_MARKS];
     run_figure figure[RUN_FIGURES];
     table probes, steps, momentum;
-    double level;        /* still level as filled in [m]; 0: that of the highest particle */
-    struct trace *trace; /* NULL, or every step of the driver's own columns: trace.h */
+    run_box walls, liquid; /* as built; wall particles are on the inner faces; phase 0 */
+    double level;          /* still level as filled in [m]; 0: that of the highest particle */
+    struct trace *trace;   /* NULL, or every step of the driver's own columns: trace.h */
     mps_frames *frames;
     int64_t frame; /* next frame */
     int pictures;  /* taken so far */
@@ -102,7 +113,9 @@ void run_gauge(run *r, const char *name, double x, double z, double level);
 void run_gauge_from(run *r, const char *name, const double *foot, double level);
 /* A component of the pressure force on a part, or on all solids for NULL. */
 void run_force(run *r, const char *name, const char *part, int32_t component);
-void run_value(run *r, const char *name, const char *unit, run_value_fn value, void *user);
+/* A value of the driver. @param about  what it is, title of its plot; behind a colon where and how */
+void run_value(run *r, const char *name, const char *unit, const char *about, run_value_fn value,
+               void *user);
 /* A number for summary.json. */
 void run_figure_add(run *r, const char *name, run_value_fn value, void *user);
 void run_mark_add(run *r, const char *label, const char *unit, int count, const double *t,

@@ -46,10 +46,6 @@ bool run_note(run *r, mps_status status, const char *what)
 
 /* ---- rows ------------------------------------------------------------------------------------------------------ */
 
-/* Names of the columns every driver has, in the order of run_energies(); behind those of the energies comes volume_error. */
-static const char *const ENERGIES[] = {"pe",    "wall_work", "viscous", "collision",
-                                       "shift", "numerical", "added"};
-
 static void header_add(char *header, size_t size, const char *name, const char *unit)
 {
     size_t used = strlen(header);
@@ -66,21 +62,15 @@ static bool run_open_table(run *r, table *t, const char *name, const char *heade
 
 static bool run_open_probes(run *r)
 {
-    char header[RUN_COLUMNS * 48] = "t[s]";
-    const char *joule = r->options.dim == 3 ? "J" : "J/m";
-    for (int i = 0; i < r->columns; i++) {
-        if (r->column[i].unit[0])
-            header_add(header, sizeof header, r->column[i].name, r->column[i].unit);
+    char header[(RUN_COLUMNS + RUN_COMMON) * 48] = "t[s]";
+    for (int i = 0; i < run_columns_all(r); i++) {
+        const run_column c = run_column_at(r, i);
+        if (c.unit[0])
+            header_add(header, sizeof header, c.name, c.unit);
         else
-            snprintf(header + strlen(header), sizeof header - strlen(header), ",%s",
-                     r->column[i].name);
+            snprintf(header + strlen(header), sizeof header - strlen(header), ",%s", c.name);
     }
-    header_add(header, sizeof header, "ke", joule);
-    header_add(header, sizeof header, "x_tank", "m");
-    for (size_t i = 0; i < sizeof ENERGIES / sizeof *ENERGIES; i++)
-        header_add(header, sizeof header, ENERGIES[i], joule);
-    snprintf(header + strlen(header), sizeof header - strlen(header), ",volume_error");
-    return run_open_table(r, &r->probes, "probes.csv", header, 1 + r->columns + RUN_COMMON,
+    return run_open_table(r, &r->probes, "probes.csv", header, 1 + run_columns_all(r),
                           r->options.probe_dt);
 }
 
@@ -376,6 +366,7 @@ static void run_begin(run *r)
     r->totals.fluid = mps_particles_count(r->sim, MPS_FLUID);
     r->totals.wall = mps_particles_count(r->sim, MPS_WALL);
     r->totals.dummy = mps_particles_count(r->sim, MPS_DUMMY);
+    run_boxes(r);
     run_open_tables(r);
     if (!r->options.quiet) {
         fprintf(

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* summary.json: one flat object for programs. */
+/* summary.json: one object for programs, flat but for the list of the columns of probes.csv. */
 #include "outputs.h"
 #include <errno.h>
 #include <math.h>
 #include <string.h>
 #include <sys/resource.h>
 
-static void json_text(FILE *out, const char *key, const char *text)
+static void json_string(FILE *out, const char *text)
 {
-    fprintf(out, ",\n  \"%s\": \"", key);
+    fputc('"', out);
     for (; *text; text++) {
         if (*text == '"' || *text == '\\')
             fprintf(out, "\\%c", *text);
@@ -18,6 +18,12 @@ static void json_text(FILE *out, const char *key, const char *text)
             fputc(*text, out);
     }
     fputc('"', out);
+}
+
+static void json_text(FILE *out, const char *key, const char *text)
+{
+    fprintf(out, ",\n  \"%s\": ", key);
+    json_string(out, text);
 }
 
 /* JSON has no NaN and no infinity. */
@@ -78,6 +84,37 @@ static void summary_average(FILE *out, const run *r)
                 follows ? r->totals.crossing_most : r->options.sensor_average);
 }
 
+/* Tank and liquid as they are built [m]. */
+static void summary_boxes(FILE *out, const run *r)
+{
+    static const char *const wall[] = {"tank_lo_x", "tank_lo_y", "tank_lo_z"};
+    static const char *const size[] = {"tank_size_x", "tank_size_y", "tank_size_z"};
+    if (r->walls.count > 0)
+        for (int d = 0; d < r->options.dim; d++) {
+            json_number(out, wall[d], r->walls.lo[d]);
+            json_number(out, size[d], r->walls.hi[d] - r->walls.lo[d]);
+        }
+    json_number(out, "liquid_depth", run_depth(r));
+}
+
+/* What each column of probes.csv is, and where. */
+static void summary_columns(FILE *out, const run *r)
+{
+    fputs(",\n  \"columns\": [", out);
+    for (int k = 0; k < run_columns_all(r); k++) {
+        const run_column c = run_column_at(r, k);
+        fprintf(out, "%s\n    {\"name\": \"%s\", \"unit\": \"%s\", \"type\": \"%s\", ",
+                k ? "," : "", c.name, c.unit, c.type);
+        if (strcmp(c.type, "wall_pressure") == 0 || strcmp(c.type, "gauge") == 0)
+            fprintf(out, "\"at\": [%.9g, %.9g, %.9g], ", c.at[0], c.at[1], c.at[2]);
+        if (strcmp(c.type, "wall_pressure") == 0) fprintf(out, "\"diameter\": %.9g, ", c.diameter);
+        fputs("\"about\": ", out);
+        json_string(out, c.about);
+        fputc('}', out);
+    }
+    fputs("\n  ]", out);
+}
+
 static void summary_write(FILE *out, const run *r)
 {
     const char *solver = "", *preconditioner = NULL;
@@ -98,6 +135,8 @@ static void summary_write(FILE *out, const run *r)
     json_text(out, "status", r->totals.status);
     json_text(out, "error", r->totals.error);
     json_text(out, "version", mps_version(NULL, NULL, NULL));
+    summary_boxes(out, r);
+    summary_columns(out, r);
     fputs("\n}\n", out);
 }
 

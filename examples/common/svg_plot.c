@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { WIDTH = 860, HEIGHT = 330, LEFT = 78, RIGHT = 150, TOP = 34, BOTTOM = 46 };
+enum { WIDTH = 860, HEIGHT = 330, LEFT = 78, RIGHT = 150, TOP = 34, BOTTOM = 46, NOTE = 18 };
 
 static const char *const COLOURS[] = {"#1f77b4", "#d62728", "#2ca02c", "#9467bd",
                                       "#ff7f0e", "#17becf", "#8c564b", "#e377c2",
@@ -163,13 +163,15 @@ void plot_svg(FILE *out, const plot *p)
 {
     axis x = {INFINITY, -INFINITY, LEFT, WIDTH - RIGHT, 0},
          y = {INFINITY, -INFINITY, HEIGHT - BOTTOM, TOP, 0};
+    const int height = HEIGHT + (p->note ? NOTE : 0);
     plot_ranges(p, &x, &y);
     fprintf(out,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" viewBox=\"0 0 %d "
             "%d\">\n",
-            WIDTH, HEIGHT, WIDTH, HEIGHT);
+            WIDTH, height, WIDTH, height);
     fputs("<style>text{font:12px "
-          "sans-serif;fill:#222}.t{font-size:14px;font-weight:bold}.g{stroke:#ddd;fill:none}"
+          "sans-serif;fill:#222}.t{font-size:14px;font-weight:bold}.n{font-size:11px;fill:#555}.g{"
+          "stroke:#ddd;fill:none}"
           ".f{stroke:#555;fill:none}.c{fill:none;stroke-width:1.5}.m{fill:none;stroke-width:2.2}</"
           "style>\n<rect width=\"100%\" "
           "height=\"100%\" fill=\"#fff\"/>\n",
@@ -191,6 +193,7 @@ void plot_svg(FILE *out, const plot *p)
     snprintf(turned, sizeof turned, "text-anchor=\"middle\" transform=\"rotate(-90 16 %d)\"",
              (TOP + HEIGHT - BOTTOM) / 2);
     svg_label(out, 16, (TOP + HEIGHT - BOTTOM) / 2.0, turned, p->y_label);
+    if (p->note) svg_label(out, LEFT, HEIGHT + 6, "class=\"n\"", p->note);
     fputs("</svg>\n", out);
 }
 

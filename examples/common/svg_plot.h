@@ -21,6 +21,7 @@ typedef struct plot_series {
 
 typedef struct plot {
     const char *title, *x_label, *y_label;
+    const char *note; /* NULL, or a line below the plot */
     int count;
     plot_series series[PLOT_SERIES];
 } plot;

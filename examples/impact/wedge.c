@@ -85,6 +85,7 @@ static void add_row(impact *c, const wedge *w, row *s, const char *name, double 
                     double average)
 {
     const double dp = c->run.options.dp, sine = w->slope * w->cosine;
+    char about[200];
     mps_probe probe;
     mps_probe_init(&probe, sizeof probe);
     probe.type = MPS_PROBE_WALL_PRESSURE;
@@ -97,7 +98,13 @@ static void add_row(impact *c, const wedge *w, row *s, const char *name, double 
         if (probe.at[1] < 3 * dp) break;
         run_check(&c->run, mps_probe_add(c->run.sim, &probe, &s->probe[s->count++]), name);
     }
-    run_value(&c->run, name, "Pa", largest, s);
+    const int used = snprintf(
+        about, sizeof about,
+        "Largest pressure on the wedge's side: of %d sensors one spacing apart, %g m wide",
+        s->count, diameter);
+    if (average > 0)
+        snprintf(about + used, sizeof about - (size_t)used, ", means of the last %g s", average);
+    run_value(&c->run, name, "Pa", about, largest, s);
     c->run.column[c->run.columns - 1].pressure = true;
 }
 
@@ -151,7 +158,10 @@ static void build(impact *c)
     add_row(c, &w, &w.wide, "P_4dp", 4 * dp, tick);
     impact_figure(c, "cp_4dp", TRACE_MEAN, impact_last(c), mean, 0.5 * rho * v * v);
     impact_figure(c, "cp_4dp_mean", TRACE_MEAN, impact_last(c), second, 0.5 * rho * v * v);
-    run_value(r, "s_4dp", "m", place, &w.wide);
+    run_value(r, "s_4dp", "m",
+              "Place of the largest pressure: distance from the wedge's edge along its side, of "
+              "the sensor with P_4dp",
+              place, &w.wide);
     impact_figure(c, "place", TRACE_MEAN, impact_last(c), mean, SIDE);
     impact_given(c, "wetted_dp", SIDE / dp);
 }
