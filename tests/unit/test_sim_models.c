@@ -4,6 +4,7 @@
 #include <mps/model.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* ---- registration ---------------------------------------------------------------------------- */
 
@@ -92,6 +93,72 @@ static void too_many_models(void **state)
     mps_sim_destroy(sim);
 }
 
+/* ---- what is missing -------------------------------------------------------------------------- */
+
+static char told[2048];
+
+static void keep_warnings(void *user, int level, const char *text)
+{
+    (void)user;
+    if (level < MPS_LOG_WARNING) return;
+    strncat(told, text, sizeof told - strlen(told) - 1);
+}
+
+static int count_of(const char *word)
+{
+    int count = 0;
+    for (const char *at = told; (at = strstr(at, word)) != NULL; at++) count++;
+    return count;
+}
+
+/* Without a gradient or a source the liquid falls together: said in the first step after it, once. */
+static void missing_parts(void **state)
+{
+    (void)state;
+    mps_config c;
+    mps_sim *sim = NULL;
+    assert_int_equal(mps_config_init(&c, sizeof c), MPS_OK);
+    c.dim = 2;
+    c.dp = 0.05;
+    c.log = keep_warnings;
+    told[0] = 0;
+    assert_int_equal(mps_sim_create(&c, &sim), MPS_OK);
+    add_tank(sim, 0.5, 0.5, 0);
+    fill_depth(sim, 0.5, 0.3, 0);
+    ASSERT_OK(sim, mps_run(sim, 1e-3, NULL, NULL));
+    assert_string_equal(told, "");
+    ASSERT_OK(sim, mps_model_remove(sim, "gradient"));
+    assert_string_equal(told, "");
+    ASSERT_OK(sim, mps_run(sim, 2e-3, NULL, NULL));
+    ASSERT_OK(sim, mps_run(sim, 3e-3, NULL, NULL));
+    assert_int_equal(count_of("adds to 'acceleration' in moment 'gradient'"), 1);
+    assert_int_equal(count_of("pressure_source"), 0);
+    ASSERT_OK(sim, mps_model_use(sim, "gradient.corrected"));
+    ASSERT_OK(sim, mps_model_remove(sim, "source"));
+    ASSERT_OK(sim, mps_run(sim, 4e-3, NULL, NULL));
+    ASSERT_OK(sim, mps_run(sim, 5e-3, NULL, NULL));
+    assert_int_equal(count_of("adds to 'acceleration' in moment 'gradient'"), 1);
+    assert_int_equal(count_of("adds to 'pressure_source' in moment 'source'"), 1);
+    mps_sim_destroy(sim);
+}
+
+/* A slot without a model is named with the nearest one, or all that are active. */
+static void inactive_slots(void **state)
+{
+    (void)state;
+    mps_sim *sim = new_sim(2, 0.05);
+    ASSERT_REFUSED(sim, mps_model_set(sim, "foo", "bar", 1), MPS_E_NAME,
+                   "no active model in slot \"foo\"; the active slots are \"");
+    ASSERT_REFUSED(sim, mps_model_remove(sim, "gradeint"), MPS_E_NAME,
+                   "no active model in slot \"gradeint\"; did you mean \"gradient\"?");
+    ASSERT_REFUSED(sim, mps_model_set(sim, "gradient.density", "bar", 1), MPS_E_NAME,
+                   "no active model \"gradient.density\"; its slot has \"gradient.");
+    ASSERT_REFUSED(sim, mps_model_set(sim, NULL, "bar", 1), MPS_E_NAME, "slot \"NULL\"");
+    while (mps_model_name(sim, 0)) ASSERT_OK(sim, mps_model_remove(sim, mps_model_name(sim, 0)));
+    ASSERT_REFUSED(sim, mps_model_remove(sim, "gradient"), MPS_E_NAME, "active slots are none");
+    mps_sim_destroy(sim);
+}
+
 static double negative(void *user, double r, double re)
 {
     return (void)user, r - re;
@@ -148,10 +215,9 @@ static void status_texts(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(model_registration),
-        cmocka_unit_test(too_many_models),
-        cmocka_unit_test(user_kernel),
-        cmocka_unit_test(status_texts),
+        cmocka_unit_test(model_registration), cmocka_unit_test(too_many_models),
+        cmocka_unit_test(missing_parts),      cmocka_unit_test(inactive_slots),
+        cmocka_unit_test(user_kernel),        cmocka_unit_test(status_texts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

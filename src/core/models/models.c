@@ -2,6 +2,7 @@
 /* Registry of models, the active list and its settings. */
 #include "models.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* One line of a preset: switch a model on (key NULL), or change a number of the one switched on last. */
@@ -278,11 +279,34 @@ mps_status mps__models_use(mps__models *m, const char *name)
     return MPS_OK;
 }
 
+/* The text names the model of a slot whose variant is another one, else the nearest slot, else all active slots. */
+static mps_status not_active(mps__models *m, const char *slot)
+{
+    const char *names[MPS__MODELS_ACTIVE];
+    char hint[MPS__HINT_SIZE], slots[MPS__MODELS_ACTIVE][MPS__NAME_SIZE];
+    const int32_t k = find_active(m, slot);
+    if (k >= 0)
+        return mps__fail(m->context, MPS_E_NAME, "no active model \"%.60s\"; its slot has \"%s\"",
+                         slot, m->on[k].ops->name);
+    for (int32_t i = 0; i < m->active; i++) {
+        const char *name = m->on[i].ops->name;
+        snprintf(slots[i], sizeof slots[i], "%.*s", (int)slot_length(name), name);
+        names[i] = slots[i];
+    }
+    const char *near = mps__near(slot, names, m->active);
+    if (near)
+        return mps__fail(m->context, MPS_E_NAME,
+                         "no active model in slot \"%.60s\"; did you mean \"%s\"?", slot, near);
+    return mps__fail(m->context, MPS_E_NAME,
+                     "no active model in slot \"%.60s\"; the active slots are %s", slot,
+                     m->active > 0 ? mps__list(hint, '"', names, m->active) : "none");
+}
+
 mps_status mps__models_remove(mps__models *m, const char *slot)
 {
     MPS__CHECK(m->context, slot, "the slot is NULL");
     const int32_t k = find_named(m, slot);
-    if (k < 0) return mps__fail(m->context, MPS_E_NAME, "no active model in slot \"%s\"", slot);
+    if (k < 0) return not_active(m, slot);
     drop(m, k);
     return MPS_OK;
 }
@@ -292,7 +316,7 @@ double *mps__models_value(mps__models *m, const char *slot, const char *key,
 {
     const int32_t which = slot ? find_named(m, slot) : -1;
     if (which < 0) {
-        mps__fail(m->context, MPS_E_NAME, "no active model in slot \"%s\"", slot ? slot : "NULL");
+        not_active(m, slot ? slot : "NULL");
         return NULL;
     }
     const mps_model_ops *ops = m->on[which].ops;

@@ -17,7 +17,7 @@ const char *mps__moment_name(int32_t moment)
 
 void mps__plan_init(mps__plan *p)
 {
-    *p = (mps__plan){.changes = -1};
+    *p = (mps__plan){.noted = -1, .changes = -1};
 }
 
 /* ---- channels ---- */
@@ -190,4 +190,30 @@ mps_status mps__plan_make(mps__plan *p, const mps__models *m)
     p->begin[MPS_MOMENT_COUNT] = count;
     p->changes = m->changes;
     return MPS_OK;
+}
+
+/* Whether a verb of this moment writes the channel. */
+static bool is_written(const mps__plan *p, const mps__models *m, int32_t moment,
+                       const char *channel)
+{
+    const int32_t which = mps__channels_find(m->channels, channel);
+    for (int32_t k = p->begin[moment]; k < p->begin[moment + 1]; k++)
+        if (what_it_does(&p->call[k], which) < READS) return true;
+    return false;
+}
+
+void mps__plan_note(mps__plan *p, const mps__models *m)
+{
+    if (p->noted == p->changes) return;
+    p->noted = p->changes;
+    if (!is_written(p, m, MPS_SOURCE, "pressure_source"))
+        mps__log(m->context, MPS_LOG_WARNING,
+                 "no active model adds to 'pressure_source' in moment 'source': nothing keeps the "
+                 "fluid's volume, its particles fall through one another; switch on a model of "
+                 "slot \"source\"");
+    if (!is_written(p, m, MPS_GRADIENT, "acceleration"))
+        mps__log(m->context, MPS_LOG_WARNING,
+                 "no active model adds to 'acceleration' in moment 'gradient': pressures do not "
+                 "move the fluid, its particles fall through one another; switch on a model of "
+                 "slot \"gradient\"");
 }

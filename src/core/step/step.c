@@ -206,6 +206,7 @@ mps_status mps__world_step(mps__world *w, double dt_max)
     w->host.motion = &w->motion;
     w->host.next = NULL;
     MPS__TRY(mps__plan_make(&w->host.plan, &w->models));
+    mps__plan_note(&w->host.plan, &w->models);
     /* what has come, changed or gone since the last step, whatever becomes of this one */
     mps__budget_update(w, &w->state.budget);
     MPS__TRY(mps__world_neighbours(w));
