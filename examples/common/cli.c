@@ -161,6 +161,7 @@ static void cli_set_number(cli_options *o, const cli_option *e, const char *text
         *(int32_t *)e->value = (int32_t)value;
     else
         *(double *)e->value = value;
+    o->average_given = o->average_given || e->value == &o->sensor_average;
     o->sigma_given = o->sigma_given || e->value == &o->sigma;
 }
 

@@ -62,6 +62,7 @@ typedef struct cli_options {
     /* wall pressures and forces are means over this [s]; MPS_AVERAGE_AUTO: over
      * mps_step_info.crossing_time */
     double sensor_average;
+    bool average_given;          /* by the user */
     int32_t threads;             /* of the simulation */
     int32_t frames;              /* frames besides the first */
     int pictures;                /* 0: at quarters of the time */

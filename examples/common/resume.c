@@ -5,14 +5,32 @@
 #include "folder.h"
 #include "outputs.h"
 #include "trace.h"
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
 
 enum { RESUME_PATH = 560 };
 
 static void resume_path(const run *r, char path[RESUME_PATH])
 {
     snprintf(path, RESUME_PATH, "%s/checkpoint.mps", r->options.out);
+}
+
+static const char ANEW[] = "start anew with --overwrite, or in another folder with --out";
+
+/* Whether the run in the folder came to its end. */
+static bool resume_is_done(const run *r)
+{
+    char path[RESUME_PATH], line[256];
+    bool done = false;
+    snprintf(path, sizeof path, "%s/summary.json", r->options.out);
+    FILE *in = fopen(path, "r");
+    while (in && fgets(line, sizeof line, in))
+        done = done || strstr(line, "\"status\": \"ok\"") != NULL;
+    if (in) fclose(in);
+    return done;
 }
 
 static void resume_refuse(run *r, int code, const char *why)
@@ -60,18 +78,31 @@ void resume_forget(run *r)
 
 void resume_load(run *r)
 {
-    char path[RESUME_PATH], why[128];
+    char path[RESUME_PATH], why[1024];
     double t = 0;
+    struct stat there;
     resume_path(r, path);
+    const bool missing = stat(path, &there) != 0 && errno == ENOENT;
     mps_status status = mps_checkpoint_read(r->sim, path);
     if (status < 0) {
         const bool usage = status == MPS_E_ARG || status == MPS_E_IO || status == MPS_E_VERSION;
-        resume_refuse(r, usage ? CLI_USAGE : CLI_FAILED, mps_sim_error(r->sim));
+        snprintf(why, sizeof why, "%s%s; %s%s", mps_sim_error(r->sim),
+                 missing && resume_is_done(r) ? "; the run there has come to its end" : "",
+                 missing ? "only an interrupted run or one with --checkpoint leaves a checkpoint; "
+                         : "",
+                 ANEW);
+        resume_refuse(r, usage ? CLI_USAGE : CLI_FAILED, why);
     }
     mps_sim_time(r->sim, &t, NULL);
-    snprintf(why, sizeof why, "the checkpoint is at t = %g s, later than --t-end %g", t,
+    snprintf(why, sizeof why,
+             "the checkpoint is at t = %g s, later than --t-end %g; give a later --t-end", t,
              r->options.t_end);
     if (t > r->options.t_end) resume_refuse(r, CLI_USAGE, why);
+    if (t == r->options.t_end && !r->options.quiet)
+        fprintf(stderr,
+                "%s: --resume: this run has come to its end, t = %g s: no step is left, its last "
+                "picture, plots and report are written again; a later --t-end goes on\n",
+                r->options.program, t);
     r->totals.t_before = r->checkpoint_t = t;
     r->checkpoint = resume_next(r, t);
 }
@@ -95,8 +126,16 @@ void resume_tables(run *r)
     int64_t steps = 0;
     mps_sim_time(r->sim, NULL, &steps);
     if (r->totals.steps != steps || r->totals.t != r->totals.t_before)
-        resume_refuse(r, CLI_USAGE, "steps.csv has not the steps of the checkpoint");
+        resume_refuse(r, CLI_USAGE,
+                      "steps.csv has not the steps of the checkpoint; start anew with --overwrite, "
+                      "or in another folder with --out");
     if (!table_cut(&r->probes) || !table_cut(&r->momentum) || !table_cut(&r->steps) ||
         (r->trace && !table_cut(&r->trace->file)))
         resume_refuse(r, CLI_FAILED, "the files of rows cannot be cut at the checkpoint");
+}
+
+void resume_say_anew(const run *r)
+{
+    fprintf(stderr, "%s: --resume: these files do not go with the options or the checkpoint; %s\n",
+            r->options.program, ANEW);
 }

@@ -17,5 +17,7 @@ void resume_load(run *r);
 void resume_add_step(void *user, const double *row);
 /* All tables are open: drop what is later than the checkpoint; exits with a message unless all steps are there. */
 void resume_tables(run *r);
+/* What to do where a file of rows cannot be gone on with. */
+void resume_say_anew(const run *r);
 
 #endif

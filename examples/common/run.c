@@ -11,10 +11,32 @@
 
 enum { RUN_MESSAGES = 20 }; /* of the library, before it is cut short */
 
+/* The library's warning of a short average, in the words of the command line. Of a driver that chose the average itself it says nothing.
+ * @return false: another message */
+static bool run_log_average(run *r, const char *text)
+{
+    double t, average, crossing;
+    int probe;
+    const char *name = "a sensor";
+    if (sscanf(text, "t = %lf s: probe %d averages over %lf s; liquid crosses a spacing in %lf s",
+               &t, &probe, &average, &crossing) != 4)
+        return false;
+    for (int i = 0; i < r->columns; i++)
+        if (r->column[i].probe == probe) name = r->column[i].name;
+    if (!r->options.average_given) return true;
+    progress_clear(&r->progress);
+    fprintf(stderr,
+            "%s: warning: t = %.6g s: %s is a mean over %g s; liquid crosses a spacing in %g s, "
+            "and pressures of impacts over less than that depend on the time step: "
+            "--sensor-average %.2g, or more\n",
+            r->options.program, t, name, average, crossing, crossing);
+    return true;
+}
+
 static void run_log(void *user, int level, const char *text)
 {
     run *r = user;
-    if (r->options.quiet || r->messages > RUN_MESSAGES) return;
+    if (r->options.quiet || r->messages > RUN_MESSAGES || run_log_average(r, text)) return;
     progress_clear(&r->progress);
     if (r->messages++ == RUN_MESSAGES)
         fprintf(stderr, "%s: further messages are not shown\n", r->options.program);
@@ -85,8 +107,7 @@ static void run_use_models(run *r)
 {
     const cli_options *o = &r->options;
     if (mps_preset_use(r->sim, o->model) != MPS_OK)
-        run_refuse(r, "--model", o->model, mps_sim_error(r->sim),
-                   "; there are imps, mmps, imps.paper, mmps.paper");
+        run_refuse(r, "--model", o->model, mps_sim_error(r->sim), "");
     if (run_has_gas(r) && !o->two_phases)
         run_refuse(r, "--model", o->model, "is for two phases, this case has one",
                    "; there are imps, imps.paper");
@@ -109,12 +130,9 @@ static void run_use_solver(run *r)
     const char *text = r->options.solver, *slash = strchr(text, '/');
     char solver[64];
     snprintf(solver, sizeof solver, "%.*s", slash ? (int)(slash - text) : (int)strlen(text), text);
-    if (mps_solver_use(r->sim, solver, slash ? slash + 1 : NULL) != MPS_OK) {
+    if (mps_solver_use(r->sim, solver, slash ? slash + 1 : NULL) != MPS_OK)
         run_refuse(r, "--solver", text, mps_sim_error(r->sim),
-                   "; there are sundials.pcg, sundials.bicgstab, sundials.gmres, sundials.klu, "
-                   "sundials.kinsol, and behind a / the "
-                   "preconditioners none, jacobi, ic0, auxgrid");
-    }
+                   slash ? "" : "; a preconditioner stands behind a /: sundials.pcg/ic0");
 }
 
 /* To the letter of the papers. */

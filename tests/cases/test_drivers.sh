@@ -45,13 +45,15 @@ refused '--pictures has times later than --t-end' sloshing_breaking --pictures 1
 refused 'did you mean "shift.tangential"' static_tank --use shift.tangentia
 refused 'separatio' static_tank --remove separatio
 refused '--set shift.bogus=1: model "shift.tangential" has no setting "bogus"' static_tank --set shift.bogus=1
-refused '--set bogus.strain=1: ' static_tank --set bogus.strain=1
+refused 'no active model in slot "bogus"; the active slots are "surface", ' static_tank --set bogus.strain=1
+refused 'no active model in slot "sorce"; did you mean "source"?' static_tank --set sorce.strain=1
+refused 'no active model "source.mixed"; its slot has "source.volume"' static_tank --set source.mixed.strain=1
 refused '--set collision.distance=-1: ' static_tank --set collision.distance=-1
 refused '--set collision=1: must be slot.key=number' static_tank --set collision=1
 refused '--set collision.distance: must be slot.key=number' static_tank --set collision.distance
 refused '--set collision.distance=0.5x: must be slot.key=number' static_tank --set=collision.distance=0.5x
 refused '--re-far 1.5: must be a number, 2.1 to 10' static_tank --re-far 1.5
-refused 'there are imps, mmps, imps.paper, mmps.paper' static_tank --model magic
+refused '--model magic: no preset "magic"; there are "imps", "imps.paper", "mmps", "mmps.paper"' static_tank --model magic
 refused '--model mmps: is for two phases, this case has one; there are imps, imps.paper' static_tank --model mmps
 refused '--model mmps.paper: is for two phases' dam_break --model mmps.paper
 refused '--sigma -1: must be a number not less than 0, at most 100' droplet --sigma -1
@@ -66,8 +68,12 @@ refused '--dim 3: this case is for 2 dimensions' impact --case wedge --dim 3
 refused '--liquid honey: must be one of water|oil' sloshing_roll --liquid honey
 refused '--angle 0: must be a number, 0.01 to 20' sloshing_roll --angle 0
 refused '--width 0: must be a number, 0.01 to 2' sloshing_breaking --dim 3 --width 0
-refused 'there are sundials.pcg' static_tank --solver magic
-refused 'sundials.klu, sundials.kinsol, and behind' air_cushion --solver magic
+refused "there are 'sundials.pcg'" static_tank --solver magic
+refused "'sundials.klu', 'sundials.kinsol'; a preconditioner stands behind a /" air_cushion --solver magic
+for option in --model --solver; do # choices are listed once
+    "$drivers/static_tank" $option magic >log 2>&1
+    [ "$(grep -o 'there are' log | wc -l)" = 1 ] || fail "$option magic: $(cat log)"
+done
 refused "choose 'sundials.kinsol'" air_cushion --dp 0.04 --use gas.isentropic --frames 0 --no-report --out nonlinear
 refused 'phase 3 has no fluid particle: add the gas, or set gas.phase' air_cushion --dp 0.04 --set gas.phase=3 --frames 0 --no-report --out no_gas
 refused 'gas.phase is 1.5: must be a whole number' air_cushion --dp 0.04 --set gas.phase=1.5 --frames 0 --no-report --out no_gas
@@ -233,6 +239,26 @@ grep -q 'torn.stl' log || fail "a torn file is not named: $(cat log)"
 # a sensor's average is smoother than the signal
 runs 0 sloshing_high_fill --dp 0.025 --t-end 0.02 --frames 0 --sensor-average 0.005 --out averaged
 if cmp -s averaged/probes.csv sloshing_high_fill/probes.csv; then fail "--sensor-average changes nothing"; fi
+
+# a driver does not warn of an average that it chose itself, and names the column of one that the user chose
+runs 0 impact --case wedge --dp 0.02 --t-end 0.02 --frames 0 --out own_average
+if grep -q 'warning' log; then fail "impact --case wedge warns of its own default: $(cat log)"; fi
+runs 0 impact --case wedge --dp 0.02 --t-end 0.02 --frames 0 --sensor-average 0.001 --out short_average
+grep -q 'warning: t = .*: F is a mean over 0.001 s;.*--sensor-average' log || fail "a short average: $(cat log)"
+
+# what each column of probes.csv is, and where: in summary.json and in the report
+grep -qF '{"name": "P1", "unit": "Pa", "type": "wall_pressure", "at": [0, 0.05, 0], "diameter": 0.025, "about": "Wall pressure: sensor at (0, 0.05) m' sloshing_surge/summary.json ||
+    fail "sloshing_surge/summary.json does not say where P1 is"
+grep -qF '"liquid_depth": 0.25,' sloshing_surge/summary.json || fail "sloshing_surge/summary.json has no depth"
+for text in '<td>P1 \[Pa\]</td><td>Wall pressure: sensor at (0, 0.05) m' '<td>inner size of the tank</td><td>0.8 x 0.5 m' 'Without the first half per cent'; do
+    grep -q "$text" sloshing_surge/report.html || fail "sloshing_surge/report.html has no $text"
+done
+grep -q '>Half axis of the drop along x</text>' droplet/plot_elevation.svg || fail "droplet: the radius has a wrong title"
+for folder in sloshing_surge impact droplet dam_break; do # each column is in the list
+    for name in $(head -1 $folder/probes.csv | tr , '\n' | sed 's/\[.*//' | grep -vx t); do
+        grep -q "{\"name\": \"$name\", .*\"about\": \"..*\"}" $folder/summary.json || fail "$folder/summary.json says nothing about $name"
+    done
+done
 
 # a run without report and frames
 runs 0 static_tank --dp 0.025 --t-end 0.005 --frames 0 --no-report --out bare

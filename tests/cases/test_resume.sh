@@ -84,16 +84,19 @@ grep -q "\"steps\": $(($(wc -l <longer/steps.csv) - 1))," longer/summary.json ||
 series longer
 [ "$(grep -c DataSet longer/frames.pvd)" = 5 ] || fail "an extended run has $(grep -c DataSet longer/frames.pvd) frames instead of 5"
 runs 0 "${tank[@]}" --t-end 0.1 --frames 4 --resume --out longer # nothing is left to do
+grep -q 'come to its end, t = 0.1 s: no step is left' log || fail "a run that is done does not say so: $(cat log)"
 series longer
 
 # what cannot be gone on with
 refused 'checkpoint.mps": No such file' surge sloshing_surge --dp 0.025 --t-end 1
+grep -q 'the run there has come to its end; only an interrupted run' log || fail "a finished run without checkpoint: $(cat log)"
 mkdir empty
 refused 'checkpoint.mps": No such file' empty sloshing_surge --dp 0.025 --t-end 1
 damage() { # text that must be in the message, shell command that damages the copy
     rm -rf damaged && cp -r longer damaged
     (cd damaged && eval "$2") || fail "cannot damage: $2"
     refused "$1" damaged "${tank[@]}" --t-end 0.2
+    grep -q 'start anew with --overwrite, or in another folder' log || fail "$2: does not say what to do: $(cat log)"
 }
 size=$(stat -c %s longer/checkpoint.mps)
 for at in 0 3 $((size / 4)) $((size / 2)) $((size - 1)); do
