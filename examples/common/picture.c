@@ -13,9 +13,10 @@ enum {
     PICTURE_WIDTH = 1100,
     PICTURE_TALLEST = 1400,
     HEAD = 34,
-    BAR = 110,
+    BAR = 132,
     FONT_SCALE = 2,
-    MAPS = 3
+    MAPS = 3,
+    PHASE_BAR = 20 /* from one phase's bar to the next */
 };
 
 typedef struct colour {
@@ -31,9 +32,9 @@ typedef struct image {
 typedef struct scene {
     int32_t dim;
     int64_t n;
-    const double *x, *p;
+    const double *x, *p, *u, *rho;
     const int32_t *kind, *phase, *plate;
-    double dp, lo[3], hi[3], scale, p_min, p_max, t;
+    double dp, lo[3], hi[3], scale, gravity, p_min, p_max, t;
     int32_t phases; /* the highest number among the fluid, plus one */
 } scene;
 
@@ -123,11 +124,25 @@ static double round_up(double value)
     return ceil(value / power) * power;
 }
 
+/* Pressures below this are rounding: a thousandth of rho (g dp + u^2), with the largest density and speed. */
+static double scene_noise(const scene *s)
+{
+    double speed2 = 0, density = 0;
+    for (int64_t i = 0; i < s->n; i++) {
+        double u2 = 0;
+        if (s->kind[i] != MPS_FLUID) continue;
+        for (int d = 0; d < s->dim; d++) u2 += s->u[i * s->dim + d] * s->u[i * s->dim + d];
+        speed2 = fmax(speed2, u2);
+        density = fmax(density, s->rho[i]);
+    }
+    return 1e-3 * density * (s->gravity * s->dp + speed2);
+}
+
 /* The scale: 0 to the 99 % quantile of the fluid's pressures, so that one peak does not flatten the rest. In closed tanks full of fluid the
- * pressure may be negative all over: several phases have a lower end as well. */
+ * pressure may be negative all over: several phases have a lower end as well. Noise alone stays at the dark end. */
 static void scene_scale(scene *s)
 {
-    double *p = malloc((size_t)s->n * sizeof *p), top = 0, bottom = 0;
+    double *p = malloc((size_t)s->n * sizeof *p), top = scene_noise(s), bottom = 0;
     int64_t n = 0;
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_FLUID) continue;
@@ -136,7 +151,7 @@ static void scene_scale(scene *s)
     }
     if (n > 0) {
         qsort(p, (size_t)n, sizeof *p, compare_doubles);
-        top = p[(n - 1) * 99 / 100];
+        top = fmax(top, p[(n - 1) * 99 / 100]);
         if (s->phases > 1) bottom = p[(n - 1) / 100];
     }
     free(p);
@@ -224,9 +239,10 @@ static void draw_bars(image *m, const scene *s, int x, int top, int height)
     char text[16];
     for (int b = 0; b < count; b++) {
         for (int j = 0; j < height; j++)
-            image_box(m, x + b * width, top + j, width, 1, map_colour(b, 1 - (double)j / height));
+            image_box(m, x + b * PHASE_BAR, top + j, width, 1,
+                      map_colour(b, 1 - (double)j / height));
         snprintf(text, sizeof text, "%d", b);
-        if (count > 1) image_text(m, x + b * width + 1, top + height + 6, text);
+        if (count > 1) image_text(m, x + b * PHASE_BAR + 1, top + height + 6, text);
     }
 }
 
@@ -234,16 +250,23 @@ static void draw_scale(image *m, const scene *s)
 {
     int x = m->width - BAR + 12, top = HEAD + 12,
         height = m->height - HEAD - (s->phases > 1 ? 40 : 24);
-    int right = x + (s->phases > MAPS - 1 ? 42 : s->phases > 1 ? 30 : 26);
+    int right = x + 6 + PHASE_BAR * (s->phases < MAPS ? s->phases : MAPS);
+    if (s->phases <= 1) right = x + 26;
+    const double most = fmax(s->p_max, -s->p_min);
     char text[64];
     draw_bars(m, s, x, top, height);
     for (int k = 0; k <= 4; k++) {
         const double p = s->p_max + (s->p_min - s->p_max) * k / 4;
-        snprintf(text, sizeof text, fmax(s->p_max, -s->p_min) < 10 ? "%.2f" : "%.0f", p);
+        snprintf(text, sizeof text,
+                 most >= 10     ? "%.0f"
+                 : most >= 0.1  ? "%.2f"
+                 : most >= 1e-3 ? "%.4f"
+                                : "%.0e",
+                 p);
         image_text(m, right, top + height * k / 4 - FONT_HEIGHT, text);
     }
     snprintf(text, sizeof text, "t = %.3f s   pressure [Pa]%s%s", s->t,
-             s->phases > 1 ? " by phase" : "", s->dim == 3 ? "   middle slice" : "");
+             s->phases > 1 ? ", a bar a phase" : "", s->dim == 3 ? "   middle slice" : "");
     image_text(m, 12, 10, text);
 }
 
@@ -271,28 +294,32 @@ static bool picture_draw(scene *s, const char *path)
     return done;
 }
 
-bool picture_save(mps_sim *sim, const char *path)
+bool picture_save(mps_sim *sim, double gravity, const char *path)
 {
+    static const char *const name[] = {"pressure", "plate", "velocity", "density"};
+    mps_lease lease[] = {{.struct_size = sizeof lease[0]},
+                         {.struct_size = sizeof lease[0]},
+                         {.struct_size = sizeof lease[0]},
+                         {.struct_size = sizeof lease[0]}};
     view v;
-    mps_lease p = {.struct_size = sizeof p}, plate = {.struct_size = sizeof plate};
-    scene s = {0};
+    scene s = {.gravity = gravity};
     bool done = false;
+    int leased = 0;
     mps_sim_shape(sim, &s.dim, &s.dp);
     mps_sim_time(sim, &s.t, NULL);
     if (!view_open(sim, &v)) goto fail;
-    if (mps_lease_begin(sim, "pressure", MPS_READ, &p) != MPS_OK) goto fail_view;
-    if (mps_lease_begin(sim, "plate", MPS_READ, &plate) != MPS_OK) goto fail_pressure;
+    while (leased < 4 && mps_lease_begin(sim, name[leased], MPS_READ, &lease[leased]) == MPS_OK)
+        leased++;
     s.n = v.x.count;
     s.x = v.x.data;
-    s.p = p.data;
+    s.p = lease[0].data;
+    s.u = lease[2].data;
+    s.rho = lease[3].data;
     s.kind = v.kind.integers;
     s.phase = v.phase.integers;
-    s.plate = plate.integers;
-    done = picture_draw(&s, path);
-    mps_lease_end(sim, &plate);
-fail_pressure:
-    mps_lease_end(sim, &p);
-fail_view:
+    s.plate = lease[1].integers;
+    done = leased == 4 && picture_draw(&s, path);
+    while (leased > 0) mps_lease_end(sim, &lease[--leased]);
     view_close(sim, &v);
 fail:
     if (!done) fprintf(stderr, "%s: no picture: %s\n", path, mps_sim_error(sim));

@@ -319,17 +319,31 @@ static unsigned char *file_read(const char *path, size_t *size)
     return data;
 }
 
-/* Embed one picture; a run that broke off early has fewer of them. */
-static void html_picture(FILE *out, const run *r, const char *name)
+/* What is seen in a picture at a time [s]; NAN: it is not known here. */
+static void picture_text(char *text, size_t size, const run *r, double t)
 {
-    char path[560];
+    const bool several = r->options.both_phases || run_has_gas(r);
+    int used = 0;
+    if (isfinite(t)) used = snprintf(text, size, "t = %.4g s: ", t);
+    snprintf(text + used, size - (size_t)used,
+             "%s, coloured by pressure [Pa] as the %s; walls are dark grey balls, the dummies "
+             "behind them light grey ones",
+             r->options.dim == 3 ? "middle slice of the particles of fluid" : "particles of fluid",
+             several ? "bars at the right show, one for each phase" : "bar at the right shows");
+}
+
+/* Embed one picture; a run that broke off early has fewer of them. */
+static void html_picture(FILE *out, const run *r, const char *name, double t)
+{
+    char path[560], text[320];
     size_t size = 0;
     snprintf(path, sizeof path, "%s/%s", r->options.out, name);
     unsigned char *data = file_read(path, &size);
     if (data) {
-        fprintf(out, "<p><img alt=\"%s\" src=\"data:image/png;base64,", name);
+        picture_text(text, sizeof text, r, t);
+        fprintf(out, "<figure><img alt=\"%s\" src=\"data:image/png;base64,", text);
         base64_write(out, data, size);
-        fputs("\"></p>\n", out);
+        fprintf(out, "\">\n<figcaption>%s: %s.</figcaption></figure>\n", name, text);
     }
     free(data);
 }
@@ -342,7 +356,9 @@ static void report_write(FILE *out, const run *r, const plots *all)
     fputs("<style>body{font:15px sans-serif;color:#222;max-width:1120px;margin:2em auto;padding:0 "
           "1em}table{border-collapse:collapse}"
           "td{border-bottom:1px solid #ddd;padding:3px 18px 3px "
-          "0}img,svg{max-width:100%;height:auto}.two{display:flex;flex-wrap:wrap;gap:4em}</style></"
+          "0}figure{margin:1.5em "
+          "0}figcaption{color:#555}img,svg{max-width:100%;height:auto}.two{display:flex;flex-wrap:"
+          "wrap;gap:4em}</style></"
           "head><body>\n",
           out);
     fprintf(out, "<h1>%s</h1>\n<p>", r->options.program);
@@ -359,9 +375,9 @@ static void report_write(FILE *out, const run *r, const plots *all)
     for (int i = 1; i <= r->pictures; i++) {
         char name[32];
         snprintf(name, sizeof name, "picture_%d.png", i);
-        html_picture(out, r, name);
+        html_picture(out, r, name, r->picture_at[i - 1]);
     }
-    html_picture(out, r, "picture_end.png");
+    html_picture(out, r, "picture_end.png", r->totals.t);
     fputs("</body></html>\n", out);
 }
 

@@ -79,8 +79,9 @@ typedef struct run {
     double level;          /* still level as filled in [m]; 0: that of the highest particle */
     struct trace *trace;   /* NULL, or every step of the driver's own columns: trace.h */
     mps_frames *frames;
-    int64_t frame; /* next frame */
-    int pictures;  /* taken so far */
+    int64_t frame;                /* next frame */
+    int pictures;                 /* taken so far */
+    double picture_at[CLI_TIMES]; /* [s]; NAN: before this program went on with the run */
     progress progress;
     run_totals totals;
     int64_t checkpoint;  /* next checkpoint */

@@ -204,8 +204,9 @@ static void run_picture(run *r, double t)
 {
     char path[560];
     if (!run_picture_due(r, t)) return;
+    r->picture_at[r->pictures] = t;
     snprintf(path, sizeof path, "%s/picture_%d.png", r->options.out, ++r->pictures);
-    if (!picture_save(r->sim, path)) r->output_failed = true;
+    if (!picture_save(r->sim, r->options.gravity, path)) r->output_failed = true;
 }
 
 /* ---- steps ------------------------------------------------------------------------------------------------------ */
@@ -292,7 +293,7 @@ static void run_close(run *r)
     run_frame_write(r, r->totals.t); /* the last state, also of a run that broke off */
     mps_frames_close(r->frames);
     snprintf(path, sizeof path, "%s/picture_end.png", r->options.out);
-    if (!picture_save(r->sim, path)) r->output_failed = true;
+    if (!picture_save(r->sim, r->options.gravity, path)) r->output_failed = true;
     for (int i = 0; i < r->figures; i++)
         r->figure[i].measured = r->figure[i].value(r->figure[i].user, r->sim);
     if (r->totals.steps == 0) run_write_start(r, NULL);
@@ -345,8 +346,11 @@ static void run_open_tables(run *r)
     else
         resume_forget(r);
     if (!run_open_probes(r) || !run_open_momentum(r) ||
-        !run_open_table(r, &r->steps, "steps.csv", STEP_HEADER, STEP_COLUMNS, 0) || !trace_open(r))
+        !run_open_table(r, &r->steps, "steps.csv", STEP_HEADER, STEP_COLUMNS, 0) ||
+        !trace_open(r)) {
+        if (r->options.resume) resume_say_anew(r);
         exit(CLI_USAGE);
+    }
     if (r->options.resume) resume_tables(r);
 }
 
@@ -377,7 +381,8 @@ static void run_begin(run *r)
     }
     run_first_rows(r);
     run_frames_open(r);
-    while (r->options.resume && run_picture_due(r, r->totals.t)) r->pictures++; /* taken before */
+    while (r->options.resume && run_picture_due(r, r->totals.t))
+        r->picture_at[r->pictures++] = NAN; /* taken before, maybe with another --t-end */
     progress_begin(&r->progress, r->options.t_end, mps_particles_count(r->sim, -1),
                    r->options.quiet);
     progress_from(&r->progress, r->totals.t, r->totals.steps);

@@ -188,7 +188,7 @@ static void take_picture(const options *o, mps_sim *sim, int number)
         snprintf(path, sizeof path, "%s_%03d.png", o->pictures, number);
     else
         snprintf(path, sizeof path, "%s_end.png", o->pictures);
-    picture_save(sim, path);
+    picture_save(sim, 9.81, path);
 }
 
 static void step(const options *o, mps_sim *sim, findings *f)
