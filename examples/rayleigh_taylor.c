@@ -53,7 +53,8 @@ static void add_columns(run *r, raster *g)
     run_value(r, "ytop", "m", "Highest point of the interface: y", top, g);
     run_value(r, "ybot", "m", "Lowest point of the interface: y", bottom, g);
     run_mark_add(r, "tips, volume of fluid", "m", 10, TIP_T, TIP);
-    run_figure_add(r, "strays", strays, NULL);
+    run_figure_add(r, "strays", "particles that strayed into the other fluid at the end", strays,
+                   NULL);
 }
 
 int main(int argc, char **argv)

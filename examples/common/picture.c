@@ -253,7 +253,7 @@ static void draw_scale(image *m, const scene *s)
     int right = x + 6 + PHASE_BAR * (s->phases < MAPS ? s->phases : MAPS);
     if (s->phases <= 1) right = x + 26;
     const double most = fmax(s->p_max, -s->p_min);
-    char text[64];
+    char text[96];
     draw_bars(m, s, x, top, height);
     for (int k = 0; k <= 4; k++) {
         const double p = s->p_max + (s->p_min - s->p_max) * k / 4;
@@ -265,8 +265,11 @@ static void draw_scale(image *m, const scene *s)
                  p);
         image_text(m, right, top + height * k / 4 - FONT_HEIGHT, text);
     }
-    snprintf(text, sizeof text, "t = %.3f s   pressure [Pa]%s%s", s->t,
-             s->phases > 1 ? ", a bar a phase" : "", s->dim == 3 ? "   middle slice" : "");
+    snprintf(text, sizeof text, "t = %.3f s   pressure [Pa]%.24s%s", s->t,
+             s->phases > 2   ? "   bars: phases 0, 1, 2"
+             : s->phases > 1 ? "   bars: phases 0, 1"
+                             : "",
+             s->dim == 3 ? "   middle slice" : "");
     image_text(m, 12, 10, text);
 }
 

@@ -110,10 +110,11 @@ static void plots_unit(plots *all, const run *r, const char *unit, const char *f
         if (strcmp(r->column[i].unit, unit) != 0) continue;
         plot_series column = column_of(&r->probes, r->column[i].name, 1 + i, 0);
         if (pressure && skip_start(&column, r->options.t_end))
-            snprintf(all->note, sizeof all->note,
-                     "Without the first half per cent of the run, t < %.3g s: the impulse of walls "
-                     "that start at speed would flatten the rest; probes.csv has it.",
-                     0.005 * r->options.t_end);
+            snprintf(
+                all->note, sizeof all->note,
+                "Not drawn: t < %.3g s, the first half per cent of the run, where walls that start "
+                "at speed make an impulse; see probes.csv",
+                0.005 * r->options.t_end);
         plot_add(p, column);
     }
     if (pressure && all->note[0]) p->note = all->note;
@@ -248,6 +249,23 @@ static void html_columns(FILE *out, const run *r)
     fputs("</p>\n", out);
 }
 
+/* The driver's own numbers: value, and what it is. */
+static void html_figures(FILE *out, const run *r)
+{
+    char text[200];
+    if (r->figures == 0) return;
+    fputs("<h2>Numbers of this case, also in summary.json</h2>\n<table>\n", out);
+    for (int i = 0; i < r->figures; i++) {
+        const run_figure *f = &r->figure[i];
+        if (isfinite(f->measured))
+            snprintf(text, sizeof text, "%.6g: %s", f->measured, f->about);
+        else
+            snprintf(text, sizeof text, "not reached: %s", f->about);
+        html_row(out, f->name, text);
+    }
+    fputs("</table>\n", out);
+}
+
 static void html_settings(FILE *out, const run *r)
 {
     const cli_options *o = &r->options;
@@ -369,6 +387,7 @@ static void report_write(FILE *out, const run *r, const plots *all)
     html_results(out, r);
     fputs("</div></div>\n", out);
     html_columns(out, r);
+    html_figures(out, r);
     fputs("<h2>Curves</h2>\n", out);
     for (int i = 0; i < all->count; i++) plot_svg(out, &all->plot[i]);
     fputs("<h2>Pictures</h2>\n", out);

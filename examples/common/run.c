@@ -220,10 +220,12 @@ double run_level(run *r)
     return level;
 }
 
-void run_figure_add(run *r, const char *name, run_value_fn value, void *user)
+void run_figure_add(run *r, const char *name, const char *about, run_value_fn value, void *user)
 {
-    if (r->figures < RUN_FIGURES)
-        r->figure[r->figures++] = (run_figure){.name = name, .value = value, .user = user};
+    if (r->figures == RUN_FIGURES) return;
+    run_figure *f = &r->figure[r->figures++];
+    *f = (run_figure){.name = name, .value = value, .user = user};
+    snprintf(f->about, sizeof f->about, "%s", about);
 }
 
 void run_mark_add(run *r, const char *label, const char *unit, int count, const double *t,

@@ -44,6 +44,7 @@ typedef struct run_mark {
 /* A number of a driver's own for summary.json, measured after the last step. */
 typedef struct run_figure {
     const char *name;
+    char about[160]; /* what it is */
     run_value_fn value;
     void *user;
     double measured;
@@ -117,8 +118,8 @@ void run_force(run *r, const char *name, const char *part, int32_t component);
 /* A value of the driver. @param about  what it is, title of its plot; behind a colon where and how */
 void run_value(run *r, const char *name, const char *unit, const char *about, run_value_fn value,
                void *user);
-/* A number for summary.json. */
-void run_figure_add(run *r, const char *name, run_value_fn value, void *user);
+/* A number for summary.json. @param about  what it is */
+void run_figure_add(run *r, const char *name, const char *about, run_value_fn value, void *user);
 void run_mark_add(run *r, const char *label, const char *unit, int count, const double *t,
                   const double *value);
 

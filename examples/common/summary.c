@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* summary.json: one object for programs, flat but for the list of the columns of probes.csv. */
+/* summary.json: one object for programs, flat but for two lists: what the columns of probes.csv and the driver's own numbers are. */
 #include "outputs.h"
 #include <errno.h>
 #include <math.h>
@@ -115,6 +115,18 @@ static void summary_columns(FILE *out, const run *r)
     fputs("\n  ]", out);
 }
 
+/* What the driver's own numbers are. */
+static void summary_figures(FILE *out, const run *r)
+{
+    fputs(",\n  \"figures\": [", out);
+    for (int i = 0; i < r->figures; i++) {
+        fprintf(out, "%s\n    {\"name\": \"%s\", \"about\": ", i ? "," : "", r->figure[i].name);
+        json_string(out, r->figure[i].about);
+        fputc('}', out);
+    }
+    fputs("\n  ]", out);
+}
+
 static void summary_write(FILE *out, const run *r)
 {
     const char *solver = "", *preconditioner = NULL;
@@ -137,6 +149,7 @@ static void summary_write(FILE *out, const run *r)
     json_text(out, "version", mps_version(NULL, NULL, NULL));
     summary_boxes(out, r);
     summary_columns(out, r);
+    if (r->figures > 0) summary_figures(out, r);
     fputs("\n}\n", out);
 }
 

@@ -42,7 +42,7 @@ void tank_fill(run *r, const double *size, double depth, bool whole_rows)
     else
         run_check(r, mps_fill_level_add(r->sim, 0, lo, level, NULL, built), "liquid");
     r->level = built[r->options.dim + 1];
-    run_figure_add(r, "still_level", still_level, &r->level);
+    run_figure_add(r, "still_level", "y of the still level as filled [m]", still_level, &r->level);
 }
 
 void tank_build(run *r, const tank_case *c)

@@ -58,6 +58,29 @@ double impact_fluid_width(const impact *c)
     return c->run.options.dim == 3 ? (IMPACT_SLICE - 1) * c->run.options.dp : 1;
 }
 
+/* What a measure is, from its own numbers. */
+static void tell_measure(const impact *c, const trace_measure *m, char *out, size_t size)
+{
+    static const char *const kind[] = {
+        [TRACE_GIVEN] = "",          [TRACE_INTEGRAL] = "integral over time of",
+        [TRACE_MEAN] = "mean of",    [TRACE_CHANGE] = "change of",
+        [TRACE_LARGEST] = "largest", [TRACE_LEAST] = "least",
+        [TRACE_SLOPE] = "slope of"};
+    static const char *const flow[] = {"momentum of the fluid along x",
+                                       "momentum of the fluid along y"};
+    const int own = m->column - TRACE_OWN;
+    if (m->kind == TRACE_GIVEN) {
+        snprintf(out, size, "known beforehand, to compare with");
+        return;
+    }
+    int used = snprintf(out, size, "%s %s", kind[m->kind],
+                        own >= 0 ? c->run.column[own].name : flow[m->column - TRACE_MOMENTUM]);
+    if (m->window > 0)
+        used += snprintf(out + used, size - (size_t)used, ", means over %.4g s", m->window);
+    used += snprintf(out + used, size - (size_t)used, ", t = %.4g to %.4g s", m->from, m->to);
+    if (m->scale != 1) snprintf(out + used, size - (size_t)used, ", over %.5g", m->scale);
+}
+
 void impact_figure(impact *c, const char *name, trace_kind kind, int column, impact_span span,
                    double scale)
 {
@@ -74,7 +97,9 @@ void impact_figure(impact *c, const char *name, trace_kind kind, int column, imp
                          .to = span.to,
                          .window = span.window,
                          .scale = scale};
-    run_figure_add(r, name, trace_figure, m);
+    char about[160];
+    tell_measure(c, m, about, sizeof about);
+    run_figure_add(r, name, about, trace_figure, m);
 }
 
 void impact_given(impact *c, const char *name, double value)

@@ -5,6 +5,7 @@
  * 17 % too low with a block of 1 m, 3 % with 2 m, compared with 4 m. */
 #include "impact.h"
 #include <math.h>
+#include <stdio.h>
 
 /* Wetted side at the end; half width of the wedge [m]. */
 static const double SIDE = 0.2, FOOT = 0.6;
@@ -164,6 +165,8 @@ static void build(impact *c)
               place, &w.wide);
     impact_figure(c, "place", TRACE_MEAN, impact_last(c), mean, SIDE);
     impact_given(c, "wetted_dp", SIDE / dp);
+    snprintf(r->figure[r->figures - 1].about, sizeof r->figure[0].about,
+             "wetted side of the wedge at the end, to the undisturbed surface [dp]");
 }
 
 const impact_case impact_wedge = {set, build, 0.005, false};

@@ -249,8 +249,10 @@ grep -q 'warning: t = .*: F is a mean over 0.001 s;.*--sensor-average' log || fa
 # what each column of probes.csv is, and where: in summary.json and in the report
 grep -qF '{"name": "P1", "unit": "Pa", "type": "wall_pressure", "at": [0, 0.05, 0], "diameter": 0.025, "about": "Wall pressure: sensor at (0, 0.05) m' sloshing_surge/summary.json ||
     fail "sloshing_surge/summary.json does not say where P1 is"
+grep -qF '{"name": "still_level", "about": "y of the still level' sloshing_surge/summary.json || fail "sloshing_surge/summary.json does not say what still_level is"
+grep -qF '{"name": "wetted_dp", "about": "wetted side' own_average/summary.json || fail "the summary of a wedge does not say what wetted_dp is"
 grep -qF '"liquid_depth": 0.25,' sloshing_surge/summary.json || fail "sloshing_surge/summary.json has no depth"
-for text in '<td>P1 \[Pa\]</td><td>Wall pressure: sensor at (0, 0.05) m' '<td>inner size of the tank</td><td>0.8 x 0.5 m' 'Without the first half per cent'; do
+for text in '<td>P1 \[Pa\]</td><td>Wall pressure: sensor at (0, 0.05) m' '<td>inner size of the tank</td><td>0.8 x 0.5 m' 'Not drawn: t &lt; 0.0001 s, the first half per cent'; do
     grep -q "$text" sloshing_surge/report.html || fail "sloshing_surge/report.html has no $text"
 done
 grep -q '>Half axis of the drop along x</text>' droplet/plot_elevation.svg || fail "droplet: the radius has a wrong title"
