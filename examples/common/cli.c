@@ -107,6 +107,7 @@ static void cli_help(const cli_options *o, const cli_option *table, int n)
     }
     printf("\nWrites probes.csv, summary.json, frames.pvd with frames/, plots, pictures and "
            "report.html into the folder of --out.\n"
+           "report.html and summary.json say what each column of probes.csv is, and where.\n"
            "A folder with an earlier run is refused unless --resume or --overwrite is given, and "
            "so is one that another run is writing to.\n"
            "Ctrl-C (or SIGTERM, SIGHUP) ends the run after its step with checkpoint.mps there as "

@@ -170,7 +170,7 @@ void plot_svg(FILE *out, const plot *p)
             "%d\">\n",
             WIDTH, height, WIDTH, height);
     fputs("<style>text{font:12px "
-          "sans-serif;fill:#222}.t{font-size:14px;font-weight:bold}.n{font-size:11px;fill:#555}.g{"
+          "sans-serif;fill:#222}.t{font-size:14px;font-weight:bold}.g{"
           "stroke:#ddd;fill:none}"
           ".f{stroke:#555;fill:none}.c{fill:none;stroke-width:1.5}.m{fill:none;stroke-width:2.2}</"
           "style>\n<rect width=\"100%\" "
@@ -193,7 +193,7 @@ void plot_svg(FILE *out, const plot *p)
     snprintf(turned, sizeof turned, "text-anchor=\"middle\" transform=\"rotate(-90 16 %d)\"",
              (TOP + HEIGHT - BOTTOM) / 2);
     svg_label(out, 16, (TOP + HEIGHT - BOTTOM) / 2.0, turned, p->y_label);
-    if (p->note) svg_label(out, LEFT, HEIGHT + 6, "class=\"n\"", p->note);
+    if (p->note) svg_label(out, LEFT, HEIGHT + 6, "style=\"font-size:11px;fill:#555\"", p->note);
     fputs("</svg>\n", out);
 }
 

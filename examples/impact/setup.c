@@ -78,7 +78,7 @@ static void tell_measure(const impact *c, const trace_measure *m, char *out, siz
     if (m->window > 0)
         used += snprintf(out + used, size - (size_t)used, ", means over %.4g s", m->window);
     used += snprintf(out + used, size - (size_t)used, ", t = %.4g to %.4g s", m->from, m->to);
-    if (m->scale != 1) snprintf(out + used, size - (size_t)used, ", over %.5g", m->scale);
+    if (m->scale != 1) snprintf(out + used, size - (size_t)used, ", divided by %.5g", m->scale);
 }
 
 void impact_figure(impact *c, const char *name, trace_kind kind, int column, impact_span span,
