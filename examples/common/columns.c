@@ -75,7 +75,7 @@ void run_wall_sensor(run *r, const char *name, double x, double y, double z, dou
     run_column *c = run_probe_add(r, name, "Pa", &probe, 0);
     c->pressure = true;
     c->type = "wall_pressure";
-    if (c->diameter < r->options.dp) c->diameter = r->options.dp; /* that of the library */
+    if (c->diameter == 0) c->diameter = r->options.dp; /* that of the library */
     about_add(c, "Wall pressure: sensor at ");
     about_place(r, c, c->at);
     about_add(c, ", face %g m wide", c->diameter);

@@ -108,7 +108,7 @@ double run_level(run *r);
 
 /* Columns, in the order of the file. Places are in the tank's frame. */
 void run_wall_pressure(run *r, const char *name, double x, double y, double z);
-/* A sensor with a face of this diameter [m], from one spacing up averaged over it. */
+/* A sensor with a face of this diameter [m]; 0: a spacing. */
 void run_wall_sensor(run *r, const char *name, double x, double y, double z, double diameter);
 void run_gauge(run *r, const char *name, double x, double z, double level);
 /* A gauge that begins above the floor, e.g. on a baffle. @param foot [3] [m] */
