@@ -99,10 +99,14 @@ static void add_columns(run *r, const cylinder_case *c)
     run_wall_sensor(r, "P_bottom", x, c->lo[1], z, 2 * r->options.dp);
     run_gauge_from(r, "eta_middle", foot, level);
     run_gauge_from(r, "eta_left", left, level);
-    run_value(r, "F_x", "N", "Pressure force along x: of the water on the tank", force_value,
-              &force[0]);
-    run_value(r, "F_y", "N", "Pressure force along y: of the water on the tank", force_value,
-              &force[1]);
+    run_value(r, "F_x", "N",
+              "Pressure force along x: of the water on the tank; mean over the time in which "
+              "liquid crosses a spacing",
+              force_value, &force[0]);
+    run_value(r, "F_y", "N",
+              "Pressure force along y: of the water on the tank; mean over the time in which "
+              "liquid crosses a spacing",
+              force_value, &force[1]);
 }
 
 int main(int argc, char **argv)

@@ -178,6 +178,15 @@ void run_column_title(const run_column *c, char *title, size_t size)
 
 /* ---- tank and liquid -------------------------------------------------------------------------------------------- */
 
+/* Rounding of 0 becomes 0. */
+static void box_tidy(run_box *b, double dp)
+{
+    for (int d = 0; d < 3; d++) {
+        if (fabs(b->lo[d]) < 1e-9 * dp) b->lo[d] = 0;
+        if (fabs(b->hi[d]) < 1e-9 * dp) b->hi[d] = 0;
+    }
+}
+
 static void box_take(run_box *b, const double *x, int dim)
 {
     for (int d = 0; d < dim; d++) {
@@ -198,6 +207,8 @@ void run_boxes(run *r)
         if (v.kind.integers[i] == MPS_FLUID && v.phase.integers[i] == 0)
             box_take(&r->liquid, x, r->options.dim);
     }
+    box_tidy(&r->walls, r->options.dp);
+    box_tidy(&r->liquid, r->options.dp);
     view_close(r->sim, &v);
 }
 
