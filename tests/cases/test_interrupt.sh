@@ -59,7 +59,7 @@ has_rows nohup
 kill -HUP $pid 2>/dev/null
 ends 0 "SIGHUP under nohup" nohup
 
-# nobody reads what it says
+# no process reads what it says
 "$drivers/static_tank" --dp 0.04 --t-end 1000 --frames 0 --out pipe --threads 1 2> >(exec true) &
 pid=$!
 has_rows pipe

@@ -329,7 +329,7 @@ static void too_long_steps(void **state)
 }
 
 /* A step that fails loses no particle, whatever it removed before: not from the store, the count or the budget. */
-static void failed_step_loses_nobody(void **state)
+static void failed_step_loses_no_particle(void **state)
 {
     (void)state;
     message m;
@@ -435,7 +435,7 @@ int main(void)
         cmocka_unit_test(all_lost),
         cmocka_unit_test(too_long_steps),
         cmocka_unit_test(long_steps_are_told_once),
-        cmocka_unit_test(failed_step_loses_nobody),
+        cmocka_unit_test(failed_step_loses_no_particle),
         cmocka_unit_test(everything_lost),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -63,7 +63,7 @@ static const scene scenes[] = {
     {"r w", {0}, {{"w", 0, 0, {WRITES("q")}}, {"r", 0, "w", {READS("q")}}}},
     {"b a", {0}, {{"a", "b.toy", 0, {{0}}}, {"b", 0, 0, {{0}}}}},
     /* names of models that are not active say nothing */
-    {"w r", {0}, {{"w", "nobody", 0, {WRITES("q")}}, {"r", 0, "nobody", {READS("q")}}}},
+    {"w r", {0}, {{"w", "absent", 0, {WRITES("q")}}, {"r", 0, "absent", {READS("q")}}}},
     /* first and last of all */
     {"b c a", {0}, {{"a", "*", 0, {{0}}}, {"b", 0, 0, {{0}}}, {"c", 0, 0, {{0}}}}},
     {"c a b", {0}, {{"a", 0, 0, {{0}}}, {"b", 0, 0, {{0}}}, {"c", 0, "*", {{0}}}}},

@@ -40,7 +40,7 @@ static void sides_do_not_feel_each_other(void **state)
 }
 
 /* Drops shot at a plate, several spacings a step, stay on their side and lose their speed toward it, also in a tank that turns. */
-static void nobody_passes(void **state)
+static void no_particle_passes(void **state)
 {
     (void)state;
     for (int dim = 2; dim <= 3; dim++) {
@@ -155,7 +155,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sides_do_not_feel_each_other),
-        cmocka_unit_test(nobody_passes),
+        cmocka_unit_test(no_particle_passes),
         cmocka_unit_test(probes_tell_the_sides),
         cmocka_unit_test(removed_plate),
     };
