@@ -11,6 +11,7 @@
 #include <mps/parallel.h>
 #include <mps/particles.h>
 #include <mps/probe.h>
+#include <mps/ranks.h>
 #include <mps/sim.h>
 #include <mps/status.h>
 #include <mps/step.h>

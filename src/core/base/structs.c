@@ -41,6 +41,7 @@ static const known_struct structs[] = {
     V1(mps_ppe_result),
     V1(mps_preconditioner_ops),
     V1(mps_probe),
+    V1(mps_ranks_ops),
     V1(mps_setting_info),
     V1(mps_solid),
     V1(mps_solver_limits),

@@ -1,0 +1,391 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Particles change ranks, ghosts come, and get the values of their owners. */
+#include "ghosts.h"
+#include <math.h>
+#include <string.h>
+
+/* Particles whose box is compared with the cuts before each of them is: neighbours in memory are neighbours in space. */
+enum { BLOCK = 64 };
+
+/* A particle that goes to a rank. */
+struct mps__parcel {
+    int32_t rank, particle;
+};
+
+void mps__ghosts_init(mps__ghosts *g, mps__context *context, mps__ranks *ranks,
+                      mps__particles *particles)
+{
+    *g = (mps__ghosts){.context = context, .ranks = ranks, .particles = particles};
+}
+
+static void forget_route(mps__ghosts *g)
+{
+    if (g->connected) g->ranks->ops.disconnect(g->ranks->self, &g->route);
+    g->connected = false;
+    g->sends = g->receives = 0;
+}
+
+void mps__ghosts_free(mps__ghosts *g)
+{
+    forget_route(g);
+    void *all[] = {g->ghost, g->run, g->send, g->receive, g->parcel, g->out, g->in};
+    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) mps__free(g->context, all[k]);
+    mps__ghosts_init(g, g->context, g->ranks, g->particles);
+}
+
+/* ---- packets: all fields of a particle, one behind the other ---- */
+
+static size_t bytes_of(const mps__field *f)
+{
+    return (size_t)f->components * f->size;
+}
+
+static size_t packet_bytes(const mps__particles *s)
+{
+    size_t bytes = 0;
+    for (int32_t k = 0; k < s->fields; k++) bytes += bytes_of(&s->field[k]);
+    return bytes;
+}
+
+static void pack(const mps__particles *s, int64_t i, char *to)
+{
+    for (int32_t k = 0; k < s->fields; to += bytes_of(&s->field[k++])) {
+        const size_t bytes = bytes_of(&s->field[k]);
+        memcpy(to, (const char *)*s->field[k].data + (size_t)i * bytes, bytes);
+    }
+}
+
+static void unpack(const mps__particles *s, int64_t i, const char *from)
+{
+    for (int32_t k = 0; k < s->fields; from += bytes_of(&s->field[k++])) {
+        const size_t bytes = bytes_of(&s->field[k]);
+        memcpy((char *)*s->field[k].data + (size_t)i * bytes, from, bytes);
+    }
+}
+
+/* The `aside` particles behind the store move from place `from` to place `to`. */
+static void move_tail(const mps__particles *s, int64_t aside, int64_t from, int64_t to)
+{
+    for (int32_t k = 0; k < s->fields && aside > 0 && from != to; k++) {
+        const size_t bytes = bytes_of(&s->field[k]);
+        char *data = *s->field[k].data;
+        memmove(data + (size_t)to * bytes, data + (size_t)from * bytes, (size_t)aside * bytes);
+    }
+}
+
+/* Append `count` particles from packets in g->in, before those aside. */
+static mps_status append(mps__ghosts *g, int64_t count, int64_t aside)
+{
+    mps__particles *s = g->particles;
+    const size_t bytes = packet_bytes(s);
+    s->n += aside; /* what is copied to larger arrays */
+    const mps_status status = mps__particles_reserve(s, count);
+    s->n -= aside;
+    MPS__TRY(status);
+    move_tail(s, aside, s->n, s->n + count);
+    for (int64_t k = 0; k < count; k++) unpack(s, s->n + k, g->in + (size_t)k * bytes);
+    s->n += count;
+    return mps__grow(g->context, (void **)&g->ghost, &g->capacity, s->n - count,
+                     mps__room(s->n, g->capacity), 1);
+}
+
+/* ---- routes ---- */
+
+static mps_status add_parcel(mps__ghosts *g, int32_t rank, int64_t particle)
+{
+    if (g->parcels == g->parcel_capacity)
+        MPS__TRY(mps__grow(g->context, (void **)&g->parcel, &g->parcel_capacity, g->parcels,
+                           2 * g->parcels + 1024, sizeof *g->parcel));
+    g->parcel[g->parcels++] = (struct mps__parcel){rank, (int32_t)particle};
+    return MPS_OK;
+}
+
+/* Sort the parcels by rank into g->send, and connect the ranks. */
+static mps_status connect_ranks(mps__ghosts *g)
+{
+    mps__ranks *r = g->ranks;
+    int64_t *sent = mps__scratch_take(g->context, g->particles->scratch, 3, 3 * (int64_t)r->count,
+                                      sizeof *sent);
+    MPS__TRY(mps__grow(g->context, (void **)&g->send, &g->send_capacity, 0, g->parcels,
+                       sizeof *g->send));
+    if (!sent) return MPS_E_NOMEM;
+    int64_t *at = sent + r->count, next = 0;
+    int32_t *to = (int32_t *)(void *)(at + r->count), count = 0;
+    memset(sent, 0, (size_t)r->count * sizeof *sent);
+    for (int64_t k = 0; k < g->parcels; k++) sent[g->parcel[k].rank]++;
+    for (int32_t k = 0; k < r->count; next += sent[k++]) at[k] = next;
+    for (int64_t k = 0; k < g->parcels; k++)
+        g->send[at[g->parcel[k].rank]++] = g->parcel[k].particle;
+    for (int32_t k = 0; k < r->count; k++) {
+        if (sent[k] == 0) continue;
+        to[count] = k;
+        sent[count++] = sent[k];
+    }
+    g->sends = g->parcels;
+    r->failed = r->failed || r->ops.connect(r->self, count, to, sent, &g->route);
+    MPS__TRY(mps__ranks_status(r));
+    g->connected = true;
+    for (int32_t k = 0; k < g->route.from_count; k++) g->receives += g->route.received[k];
+    return MPS_OK;
+}
+
+/* Room in the buffers, of which nothing is kept. */
+static mps_status reserve_buffers(mps__ghosts *g, size_t bytes)
+{
+    MPS__TRY(mps__grow(g->context, (void **)&g->out, &g->out_capacity, 0,
+                       g->sends * (int64_t)bytes, 1));
+    return mps__grow(g->context, (void **)&g->in, &g->in_capacity, 0, g->receives * (int64_t)bytes,
+                     1);
+}
+
+/* Packets of all parcels to their ranks; what comes is in g->in. */
+static mps_status send_parcels(mps__ghosts *g)
+{
+    const mps__particles *s = g->particles;
+    const size_t bytes = packet_bytes(s);
+    MPS__TRY(connect_ranks(g));
+    MPS__TRY(reserve_buffers(g, bytes));
+    for (int64_t k = 0; k < g->sends; k++) pack(s, g->send[k], g->out + (size_t)k * bytes);
+    mps__ranks_exchange(g->ranks, &g->route, bytes, g->out, g->in);
+    return mps__ranks_status(g->ranks);
+}
+
+/* ---- owners ---- */
+
+/* Ranks that own particles begin .. n-1. */
+static mps_status find_owners(mps__ghosts *g, const mps__placing *p, int64_t begin, int32_t *owner)
+{
+    mps__ranks *r = g->ranks;
+    const int64_t n = g->particles->n;
+    double X[BLOCK * 3];
+    for (int64_t from = begin; from < n && !r->failed; from += BLOCK) {
+        const int64_t to = from + BLOCK < n ? from + BLOCK : n;
+        for (int64_t i = from; i < to; i++)
+            p->place(p->argument, i, X + (i - from) * g->particles->dim);
+        r->failed = r->ops.owner(r->self, to - from, X, owner + from) != 0;
+    }
+    return mps__ranks_status(r);
+}
+
+/* Divide space by the particles begin .. end-1 of each rank. */
+static mps_status divide(mps__ghosts *g, const mps__placing *p, int64_t begin, int64_t end)
+{
+    mps__ranks *r = g->ranks;
+    const int dim = g->particles->dim;
+    double *X = mps__alloc(g->context, (end - begin) * dim, sizeof *X);
+    float *weight = mps__alloc(g->context, end - begin, sizeof *weight);
+    for (int64_t i = begin; X && weight && i < end; i++) {
+        p->place(p->argument, i, X + (i - begin) * dim);
+        weight[i - begin] = 1;
+    }
+    if (X && weight && !r->failed)
+        r->failed = r->ops.partition(r->self, dim, end - begin, X, weight) != 0;
+    const mps_status status = X && weight ? mps__ranks_status(r) : MPS_E_NOMEM;
+    mps__free(g->context, X);
+    mps__free(g->context, weight);
+    g->cut = status == MPS_OK;
+    return status;
+}
+
+mps_status mps__ghosts_adopt(mps__ghosts *g, const mps__placing *p)
+{
+    mps__particles *s = g->particles;
+    const mps__ranks *r = g->ranks;
+    if (!mps__ranks_many(r) || s->n == g->known) return MPS_OK;
+    const int64_t fresh = s->n - g->known;
+    if (!g->cut)
+        MPS__TRY(divide(g, p, g->known + fresh * r->rank / r->count,
+                        g->known + fresh * (r->rank + 1) / r->count));
+    int32_t *owner = mps__scratch_take(g->context, s->scratch, 1, 2 * s->n, sizeof *owner);
+    if (!owner) return MPS_E_NOMEM;
+    int32_t *order = owner + s->n;
+    int64_t count = 0;
+    MPS__TRY(mps__grow(g->context, (void **)&g->ghost, &g->capacity, g->known, s->n, 1));
+    MPS__TRY(find_owners(g, p, g->known, owner));
+    for (int64_t i = 0; i < s->n; i++)
+        if (i < g->known || owner[i] == r->rank) order[count++] = (int32_t)i;
+    MPS__TRY(mps__particles_permute(s, count, order));
+    memset(g->ghost + g->known, 0, (size_t)(s->n - g->known));
+    g->known = s->n;
+    g->owned += fresh;
+    return MPS_OK;
+}
+
+/* Particles that are on the wrong rank leave, ghosts vanish, and others come. */
+static mps_status migrate(mps__ghosts *g, const mps__placing *p, int64_t aside)
+{
+    mps__particles *s = g->particles;
+    const int64_t n = s->n;
+    int64_t keep = 0;
+    int32_t *owner = mps__scratch_take(g->context, s->scratch, 1, 2 * n, sizeof *owner);
+    if (!owner) return MPS_E_NOMEM;
+    int32_t *order = owner + n;
+    MPS__TRY(find_owners(g, p, 0, owner));
+    g->parcels = 0;
+    for (int64_t i = 0; i < n; i++) {
+        if (g->ghost[i]) continue;
+        if (owner[i] == g->ranks->rank)
+            order[keep++] = (int32_t)i;
+        else
+            MPS__TRY(add_parcel(g, owner[i], i));
+    }
+    MPS__TRY(send_parcels(g));
+    MPS__TRY(mps__particles_permute(s, keep, order));
+    move_tail(s, aside, n, keep);
+    return append(g, g->receives, aside);
+}
+
+/* ---- ghosts ---- */
+
+static void widen(double lo[3], double hi[3], const double *X, double reach, int dim)
+{
+    for (int d = 0; d < dim; d++) {
+        lo[d] = fmin(lo[d], X[d] - reach);
+        hi[d] = fmax(hi[d], X[d] + reach);
+    }
+}
+
+/* Parcels of particle i to all ranks that own a place within its reach. */
+static mps_status add_particle(mps__ghosts *g, int64_t i, const double *X, double reach,
+                               int32_t *rank)
+{
+    double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
+    int32_t count = 0;
+    widen(lo, hi, X, reach, g->particles->dim);
+    g->ranks->failed = g->ranks->ops.overlap(g->ranks->self, lo, hi, rank, &count) != 0;
+    for (int32_t k = 0; k < count; k++)
+        if (rank[k] != g->ranks->rank) MPS__TRY(add_parcel(g, rank[k], i));
+    return mps__ranks_status(g->ranks);
+}
+
+/* Parcels of particles begin .. end-1; mostly no other rank is near any of them. */
+static mps_status add_block(mps__ghosts *g, const mps__placing *p, int64_t begin, int64_t end,
+                            int32_t *rank)
+{
+    const mps__particles *s = g->particles;
+    const int dim = s->dim;
+    double X[BLOCK * 3], lo[3] = {INFINITY, INFINITY, INFINITY},
+                         hi[3] = {-INFINITY, -INFINITY, -INFINITY};
+    int32_t count = 0;
+    for (int64_t i = begin; i < end; i++) {
+        p->place(p->argument, i, X + (i - begin) * dim);
+        widen(lo, hi, X + (i - begin) * dim, s->kind[i] == MPS_WALL ? p->reach_walls : p->reach,
+              dim);
+    }
+    g->ranks->failed = g->ranks->ops.overlap(g->ranks->self, lo, hi, rank, &count) != 0;
+    MPS__TRY(mps__ranks_status(g->ranks));
+    if (count == 1 && rank[0] == g->ranks->rank) return MPS_OK;
+    for (int64_t i = begin; i < end; i++)
+        MPS__TRY(add_particle(g, i, X + (i - begin) * dim,
+                              s->kind[i] == MPS_WALL ? p->reach_walls : p->reach, rank));
+    return MPS_OK;
+}
+
+static mps_status find_ghosts(mps__ghosts *g, const mps__placing *p)
+{
+    const int64_t n = g->particles->n;
+    int32_t *rank = mps__scratch_take(g->context, g->particles->scratch, 4, g->ranks->count,
+                                      sizeof *rank);
+    if (!rank) return MPS_E_NOMEM;
+    g->parcels = 0;
+    for (int64_t from = 0; from < n; from += BLOCK)
+        MPS__TRY(add_block(g, p, from, from + BLOCK < n ? from + BLOCK : n, rank));
+    return MPS_OK;
+}
+
+mps_status mps__ghosts_renew(mps__ghosts *g, const mps__placing *p, int64_t aside)
+{
+    mps__particles *s = g->particles;
+    if (!mps__ranks_many(g->ranks)) return MPS_OK;
+    const int64_t generation = s->generation; /* none comes and none goes, seen from all ranks */
+    forget_route(g);
+    MPS__TRY(migrate(g, p, aside));
+    forget_route(g);
+    const int64_t owned = s->n;
+    MPS__TRY(find_ghosts(g, p));
+    MPS__TRY(send_parcels(g));
+    MPS__TRY(append(g, g->receives, aside));
+    MPS__TRY(mps__grow(g->context, (void **)&g->receive, &g->receive_capacity, 0, g->receives,
+                       sizeof *g->receive));
+    for (int64_t k = 0; k < g->receives; k++) g->receive[k] = (int32_t)(owned + k);
+    memset(g->ghost, 0, (size_t)owned);
+    memset(g->ghost + owned, 1, (size_t)(s->n - owned));
+    g->known = s->n;
+    s->generation = generation;
+    return MPS_OK;
+}
+
+/* ---- order ---- */
+
+/* Ranges of owned particles. */
+static mps_status find_runs(mps__ghosts *g)
+{
+    const int64_t n = g->particles->n;
+    g->runs = 0;
+    for (int64_t i = 0; i < n;) {
+        while (i < n && g->ghost[i]) i++;
+        if (i == n) break;
+        if (2 * g->runs == g->run_capacity)
+            MPS__TRY(mps__grow(g->context, (void **)&g->run, &g->run_capacity, 2 * g->runs,
+                               4 * g->runs + 64, sizeof *g->run));
+        g->run[2 * g->runs] = i;
+        while (i < n && !g->ghost[i]) i++;
+        g->run[2 * g->runs++ + 1] = i;
+    }
+    return MPS_OK;
+}
+
+mps_status mps__ghosts_ordered(mps__ghosts *g, const int32_t *order)
+{
+    const int64_t n = g->particles->n;
+    if (!mps__ranks_many(g->ranks)) return MPS_OK;
+    int32_t *place = mps__scratch_take(g->context, g->particles->scratch, 2, n, sizeof *place);
+    if (!place) return MPS_E_NOMEM;
+    for (int64_t k = 0; k < n; k++) place[order[k]] = (int32_t)k;
+    for (int64_t k = 0; k < g->sends; k++) g->send[k] = place[g->send[k]];
+    for (int64_t k = 0; k < g->receives; k++) g->receive[k] = place[g->receive[k]];
+    memset(g->ghost, 0, (size_t)n);
+    for (int64_t k = 0; k < g->receives; k++) g->ghost[g->receive[k]] = 1;
+    return find_runs(g);
+}
+
+void mps__ghosts_rows(const mps__ghosts *g, mps_range_fn rows, void *argument, int64_t begin,
+                      int64_t end)
+{
+    int64_t lo = 0, hi = g->runs;
+    while (lo < hi) { /* the first range that ends behind `begin` */
+        const int64_t middle = lo + (hi - lo) / 2;
+        if (g->run[2 * middle + 1] > begin)
+            hi = middle;
+        else
+            lo = middle + 1;
+    }
+    for (; lo < g->runs && g->run[2 * lo] < end; lo++) {
+        const int64_t from = g->run[2 * lo] > begin ? g->run[2 * lo] : begin,
+                      to = g->run[2 * lo + 1] < end ? g->run[2 * lo + 1] : end;
+        rows(argument, from, to);
+    }
+}
+
+/* ---- values ---- */
+
+mps_status mps__ghosts_share(mps__ghosts *g, const mps__shared *shared, int32_t count)
+{
+    size_t bytes = 0, at = 0;
+    if (!mps__ranks_many(g->ranks) || count == 0) return MPS_OK;
+    for (int32_t a = 0; a < count; a++) bytes += shared[a].bytes;
+    MPS__TRY(reserve_buffers(g, bytes));
+    for (int32_t a = 0; a < count; at += shared[a++].bytes)
+        for (int64_t k = 0; k < g->sends; k++)
+            memcpy(g->out + (size_t)k * bytes + at,
+                   (const char *)shared[a].values + (size_t)g->send[k] * shared[a].bytes,
+                   shared[a].bytes);
+    mps__ranks_exchange(g->ranks, &g->route, bytes, g->out, g->in);
+    MPS__TRY(mps__ranks_status(g->ranks));
+    at = 0;
+    for (int32_t a = 0; a < count; at += shared[a++].bytes)
+        for (int64_t k = 0; k < g->receives; k++)
+            memcpy((char *)shared[a].values + (size_t)g->receive[k] * shared[a].bytes,
+                   g->in + (size_t)k * bytes + at, shared[a].bytes);
+    return MPS_OK;
+}

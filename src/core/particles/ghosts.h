@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Particles on many ranks: who owns them, and the ghosts, copies of particles of other ranks within reach of the owned ones. Owned particles and
+ * ghosts stand in one store in one order, so that sums over neighbours have the same order on any rank. */
+#ifndef MPS_CORE_GHOSTS_H
+#define MPS_CORE_GHOSTS_H
+
+#include "particles.h"
+#include "ranks.h"
+
+/* Places in the frame of the cuts, which is that of the tank: X [dim] of particle i. */
+typedef struct mps__placing {
+    void (*place)(const void *argument, int64_t i, double *X);
+    const void *argument;
+    double reach;       /* of the owned particles: fluid and dummies within it become ghosts [m] */
+    double reach_walls; /* likewise wall particles: those that dummies within `reach` belong to */
+} mps__placing;
+
+/* Values that neighbours read, of each particle. */
+typedef struct mps__shared {
+    void *values;
+    size_t bytes; /* of a particle */
+} mps__shared;
+
+typedef struct mps__ghosts {
+    mps__context *context;
+    mps__ranks *ranks;
+    mps__particles *particles;
+    uint8_t *ghost; /* [capacity] 1: a ghost; NULL: alone */
+    int64_t *run;   /* [2 runs] ranges of owned particles: begin, end */
+    int64_t capacity, run_capacity, runs;
+    int64_t known;   /* particles that ranks have divided; those behind them all ranks have */
+    int64_t owned;   /* of all ranks */
+    bool cut;        /* space is divided */
+    bool connected;  /* there is a route: */
+    mps_route route; /* owned particles to other ranks, and theirs to the ghosts here */
+    int64_t sends, receives, send_capacity, receive_capacity;
+    int32_t *send, *receive; /* places of these particles, in the order of the route */
+    struct mps__parcel *parcel; /* what goes to which rank, while that is found */
+    int64_t parcels, parcel_capacity, out_capacity, in_capacity;
+    char *out, *in;
+} mps__ghosts;
+
+void mps__ghosts_init(mps__ghosts *g, mps__context *context, mps__ranks *ranks,
+                      mps__particles *particles);
+void mps__ghosts_free(mps__ghosts *g);
+
+static inline bool mps__is_ghost(const mps__ghosts *g, int64_t i)
+{
+    return g->ghost && g->ghost[i];
+}
+
+/* Of the particles that all ranks added alike since the last call, keep the own ones. The first call divides space. All calls below are those
+ * of all ranks together; alone they do nothing. */
+mps_status mps__ghosts_adopt(mps__ghosts *g, const mps__placing *p);
+/* Particles go to the ranks that own their places, and new ghosts come. The last `aside` particles in memory, behind those of the store, stay
+ * there. Owned particles and ghosts are not in order yet: mps__ghosts_ordered() must follow. */
+mps_status mps__ghosts_renew(mps__ghosts *g, const mps__placing *p, int64_t aside);
+/* The store is about to be permuted: particle order[k] comes to place k. */
+mps_status mps__ghosts_ordered(mps__ghosts *g, const int32_t *order);
+/* Ghosts get the values that their owners have. */
+mps_status mps__ghosts_share(mps__ghosts *g, const mps__shared *shared, int32_t count);
+
+/* Call rows(argument, begin, end) for the owned particles in begin..end-1. */
+void mps__ghosts_rows(const mps__ghosts *g, mps_range_fn rows, void *argument, int64_t begin,
+                      int64_t end);
+
+#endif
