@@ -285,6 +285,26 @@ void mps__channels_begin(const mps__channels *c, int64_t begin, int64_t end)
         if (c->list[k].spec.life == MPS_LIFE_STEP) begin_rows(&c->list[k], c->dim, begin, end);
 }
 
+static mps__field *field_of(const mps__channels *c, mps__particles *s, int32_t k)
+{
+    if (k >= MPS__CHANNELS) return &s->field[k - MPS__CHANNELS];
+    return c->list[k].spec.life == MPS_LIFE_PARTICLE
+               ? mps__particles_field(s, c->list[k].spec.name)
+               : NULL;
+}
+
+bool *mps__channels_stale(mps__channels *c, mps__particles *s, int32_t k)
+{
+    mps__field *f = field_of(c, s, k);
+    return f ? &f->stale : &c->list[k].stale;
+}
+
+size_t mps__channels_bytes(const mps__channels *c, const mps__particles *s, int32_t k)
+{
+    if (k < MPS__CHANNELS) return mps__channel_element(&c->list[k]);
+    return (size_t)s->field[k - MPS__CHANNELS].components * s->field[k - MPS__CHANNELS].size;
+}
+
 void *mps__channels_array(const mps__channels *c, mps__particles *s, int32_t k)
 {
     if (k < 0) return NULL;

@@ -37,6 +37,7 @@ typedef struct mps__channel {
     uint32_t reads, writes; /* bits of the moments in which it may be read and written */
     int32_t components;     /* numbers per particle */
     int32_t users;          /* active models that bring it */
+    bool stale;  /* owners have newer values than ghosts; of MPS_LIFE_PARTICLE: the field knows */
     void *array; /* where it is in this step; of MPS_LIFE_PARTICLE: NULL, the field has it */
 } mps__channel;
 
@@ -67,6 +68,10 @@ mps_status mps__channels_reserve(mps__channels *c, int64_t n);
 void mps__channels_begin(const mps__channels *c, int64_t begin, int64_t end);
 /* Bytes of channel k for each particle. */
 size_t mps__channel_element(const mps__channel *k);
+/* The same of channel k of the list, or of a field of the user. */
+size_t mps__channels_bytes(const mps__channels *c, const mps__particles *s, int32_t k);
+/* Whether owners have newer values of channel k than ghosts, likewise. */
+bool *mps__channels_stale(mps__channels *c, mps__particles *s, int32_t k);
 /* The array of channel k; from MPS__CHANNELS on of a field of the user; NULL for -1. */
 void *mps__channels_array(const mps__channels *c, mps__particles *s, int32_t k);
 

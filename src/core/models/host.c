@@ -104,9 +104,76 @@ static mps_status check_after(const mps__host *h, const mps_stage *s, const mps_
     return s->moment == MPS_CLASSIFY ? check_regions(h, s, call) : MPS_OK;
 }
 
+/* ---- ghosts ---- */
+
+void mps__host_flux(const mps__host *h, int32_t channel[MPS__FLUX_CHANNELS])
+{
+    channel[0] = MPS__PRESSURE_DENSITY;
+    channel[1] = MPS__TANK_ACCELERATION;
+    channel[2] = mps__channels_find(h->channels, "interface_distance");
+    channel[3] = mps__channels_find(h->channels, "pressure_jump");
+    channel[4] = mps__channels_find(h->channels, "wetted_share");
+}
+
+mps_status mps__host_share(mps__host *h, const int32_t *channel, int32_t count)
+{
+    mps__shared shared[MPS__USES + MPS__FLUX_CHANNELS];
+    int32_t found = 0;
+    if (!mps__ranks_many(h->ghosts->ranks)) return MPS_OK;
+    for (int32_t k = 0; k < count; k++) {
+        bool *stale = channel[k] < 0 ? NULL
+                                     : mps__channels_stale(h->channels, h->particles, channel[k]);
+        if (!stale || !*stale) continue;
+        *stale = false;
+        shared[found++] = (mps__shared){
+            mps__channels_array(h->channels, h->particles, channel[k]),
+            mps__channels_bytes(h->channels, h->particles, channel[k])};
+    }
+    return mps__ghosts_share(h->ghosts, shared, found);
+}
+
+void mps__host_written(mps__host *h, int32_t channel)
+{
+    *mps__channels_stale(h->channels, h->particles, channel) = true;
+}
+
+void mps__host_alike(mps__host *h, int32_t channel)
+{
+    *mps__channels_stale(h->channels, h->particles, channel) = false;
+}
+
+void mps__host_all_alike(mps__host *h)
+{
+    for (int32_t k = 0; k < h->channels->count; k++) h->channels->list[k].stale = false;
+    for (int32_t k = 0; k < h->particles->fields; k++) h->particles->field[k].stale = false;
+}
+
+/* Channels that the verb reads at neighbours; from MPS_FORCE on also those of the fluxes of pairs, which need no use. */
+static mps_status share_before(mps__host *h, const mps_stage *s, const mps__call *call)
+{
+    int32_t channel[MPS__USES + MPS__FLUX_CHANNELS], count = 0;
+    if (!mps__ranks_many(h->ghosts->ranks)) return MPS_OK;
+    for (int32_t u = 0; u < call->verb->use_count; u++)
+        if (call->verb->uses[u].access & (MPS_USE_NEIGHBOURS | MPS_USE_DUMMIES))
+            channel[count++] = call->channel[u];
+    if (s->moment >= MPS_FORCE) {
+        mps__host_flux(h, channel + count);
+        count += MPS__FLUX_CHANNELS;
+    }
+    return mps__host_share(h, channel, count);
+}
+
+static void note_writes(mps__host *h, const mps__call *call)
+{
+    for (int32_t u = 0; u < call->verb->use_count; u++)
+        if (call->channel[u] >= 0 && call->verb->uses[u].access & MPS_USE_WRITE)
+            mps__host_written(h, call->channel[u]);
+}
+
 static mps_status run_call(mps__host *h, mps_stage *s, const mps__call *call)
 {
     void *data[MPS__USES];
+    MPS__TRY(share_before(h, s, call));
     for (int32_t u = 0; u < call->verb->use_count; u++)
         data[u] = mps__channels_array(h->channels, h->particles, call->channel[u]);
     s->data = data;
@@ -118,6 +185,7 @@ static mps_status run_call(mps__host *h, mps_stage *s, const mps__call *call)
     const int failed = call->verb->run(s) || h->misused;
     h->scratch_used = 0;
     s->data = NULL;
+    note_writes(h, call);
     return failed ? verb_failed(h, call, s->t) : check_after(h, s, call);
 }
 

@@ -19,6 +19,7 @@ typedef struct mps__field {
     int32_t readers;    /* open leases */
     bool writer;
     double begin; /* value of new particles, of fields of doubles */
+    bool stale;   /* owners have newer values than ghosts */
     bool undone;  /* a failed step brings it back from `kept` */
     void *kept;
     int64_t kept_capacity;

@@ -66,9 +66,11 @@ static mps_status predict(mps__step *q)
     mps__world *w = q->w;
     mps__parallel_zero(&w->pool.parallel, &(mps__block){w->work.motion, q->stage.n * w->setup.dim},
                        1);
+    mps__host_alike(&w->host, MPS__ACCELERATION);
     MPS__TRY(mps__step_run(q, MPS_FORCE));
     mps__step_book_forces(q);
     mps_parallel_rows(&w->pool.parallel, q->stage.n, predict_rows, q);
+    mps__host_written(&w->host, MPS__VELOCITY);
     return MPS_OK;
 }
 
@@ -110,14 +112,18 @@ static mps_status correct(mps__step *q)
     const mps__block motion = {w->work.motion, n * w->setup.dim};
     MPS__TRY(mps__step_run(q, MPS_LEVEL));
     mps__parallel_zero(threads, &motion, 1);
+    mps__host_alike(&w->host, MPS__ACCELERATION);
     MPS__TRY(mps__step_run(q, MPS_GRADIENT));
     mps__parallel_copy(threads, w->work.load, w->particles.p, n);
+    mps__host_written(&w->host, MPS__WALL_PRESSURE);
     MPS__TRY(mps__step_run(q, MPS_LOAD));
     mps_parallel_rows(threads, n, push_rows, q);
+    mps__host_written(&w->host, MPS__VELOCITY);
     mps__step_book_pressure(q);
     MPS__TRY(mps__step_run(q, MPS_VELOCITY));
     mps__step_book_collisions(q);
     mps__parallel_zero(threads, &motion, 1);
+    mps__host_alike(&w->host, MPS__DISPLACEMENT);
     MPS__TRY(mps__step_run(q, MPS_SHIFT));
     mps__step_book_shift(q);
     q->moved = true;

@@ -61,6 +61,15 @@ static mps_status solve(mps__step *q, mps_ppe_result *result)
     return MPS_OK;
 }
 
+/* What rows look at in their neighbours. */
+static mps_status share_terms(mps__step *q)
+{
+    int32_t channel[3 + MPS__FLUX_CHANNELS] = {MPS__REGION, MPS__PRESSURE_CONDITION,
+                                               MPS__PRESSURE_VALUE};
+    mps__host_flux(&q->w->host, channel + 3);
+    return mps__host_share(&q->w->host, channel, 3 + MPS__FLUX_CHANNELS);
+}
+
 /* <lap p> = source. W22 (10). */
 mps_status mps__step_project(mps__step *q)
 {
@@ -71,11 +80,13 @@ mps_status mps__step_project(mps__step *q)
     MPS__TRY(check_laws(q));
     spread_gain(q);
     mps__step_end_stage(q, MPS_STAGE_OPERATORS);
+    MPS__TRY(share_terms(q));
     MPS__TRY(mps__ppe_assemble(&w->ppe, &q->stage, &q->terms));
     note_level(q);
     mps__step_end_stage(q, MPS_STAGE_PPE_SETUP);
     MPS__TRY(solve(q, &result));
     mps__ppe_scatter(&w->ppe, &q->stage, &q->terms, w->particles.p);
+    mps__host_written(&w->host, MPS__PRESSURE);
     q->info.ppe_solves = w->bounds.solves;
     q->info.ppe_iterations = result.iterations;
     q->info.ppe_residual = result.residual;

@@ -141,12 +141,26 @@ static void begin_rows(void *world, int64_t begin, int64_t end)
     mps__channels_begin(&w->channels, begin, end);
 }
 
+/* Sums over pairs are those of owners; all else begins alike at ghosts. */
+static void note_ghosts(mps__world *w)
+{
+    static const int32_t alike[] = {MPS__REGION, MPS__TANK_ACCELERATION, MPS__PRESSURE_DENSITY};
+    static const int32_t written[] = {MPS__NUMBER_DENSITY, MPS__ASYMMETRY, MPS__VOLUME_DEVIATION};
+    for (int32_t k = MPS__OWN_CHANNELS; k < w->channels.count; k++)
+        w->channels.list[k].stale = false; /* those that are fields have flags of their own */
+    for (int k = 0; k < 3; k++) {
+        mps__host_alike(&w->host, alike[k]);
+        mps__host_written(&w->host, written[k]);
+    }
+}
+
 mps_status mps__step_begin(mps__step *q)
 {
     mps__world *w = q->w;
     weigh_pairs(q);
     MPS__TRY(mps_op_volume_deviation(&q->far, w->work.volume_deviation));
     mps_parallel_rows(&w->pool.parallel, w->particles.n, begin_rows, w);
+    note_ghosts(w);
     return MPS_OK;
 }
 
@@ -161,5 +175,9 @@ static void begin_equation_rows(void *terms, int64_t begin, int64_t end)
 
 void mps__step_begin_equation(mps__step *q)
 {
-    mps_parallel_rows(&q->w->pool.parallel, q->w->particles.n, begin_equation_rows, &q->terms);
+    mps__world *w = q->w;
+    mps_parallel_rows(&w->pool.parallel, w->particles.n, begin_equation_rows, &q->terms);
+    for (int32_t k = MPS__PRESSURE_SOURCE; k <= MPS__GAS_LAW; k++) mps__host_alike(&w->host, k);
+    if (*mps__channels_stale(&w->channels, &w->particles, MPS__REGION))
+        mps__host_written(&w->host, MPS__PRESSURE_CONDITION);
 }

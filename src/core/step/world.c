@@ -32,8 +32,11 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
                           .channels = &w->channels,
                           .particles = &w->particles,
                           .scratch = &w->scratch,
-                          .parallel = &w->pool.parallel};
+                          .parallel = &w->pool.parallel,
+                          .ghosts = &w->ghosts};
     mps__plan_init(&w->host.plan);
+    mps__ranks_init(&w->ranks, context);
+    mps__ghosts_init(&w->ghosts, context, &w->ranks, &w->particles);
     MPS__TRY(mps__models_init(&w->models, context, &w->channels, &w->particles));
     return mps__solvers_init(&w->solvers, context);
 }
@@ -64,6 +67,8 @@ void mps__world_free(mps__world *w)
     mps__free(w->context, w->lists.listed_at);
     mps__scratch_free(w->context, &w->scratch);
     mps__pool_free(&w->pool);
+    mps__ghosts_free(&w->ghosts);
+    mps__ranks_free(&w->ranks);
 }
 
 static void speed_rows(void *argument, int64_t begin, int64_t end, double *values)

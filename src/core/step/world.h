@@ -4,6 +4,7 @@
 #define MPS_CORE_WORLD_H
 
 #include "bounds.h"
+#include "ghosts.h"
 #include "host.h"
 #include "motion.h"
 #include "neighbours.h"
@@ -122,6 +123,8 @@ typedef struct mps__world {
     mps__motion motion;       /* of the tank: chosen by the user, and its present pose */
     mps__pool pool;
     int32_t threads; /* of the pool */
+    mps__ranks ranks;
+    mps__ghosts ghosts;
     mps__models models;
     mps__channels channels;
     mps__host host;
