@@ -9,12 +9,38 @@
 #define MPS_PPE_H
 
 #include <mps/parallel.h>
+#include <mps/ranks.h>
 #include <mps/types.h>
 
 MPS_BEGIN_DECLS
 
 /** Version of this interface, for mps_solver_ops.api and mps_preconditioner_ops.api. */
 #define MPS_PPE_API 1u
+
+/** An equation whose rows lie on several ranks. Each rank has `n` rows. Columns n..n+ghosts-1 are
+ *  unknowns of other ranks. All ranks make the same calls in the same order. */
+typedef struct mps_ppe_ranks {
+    /** sizeof(mps_ppe_ranks) of the library */
+    uint32_t struct_size;
+    /** Number of this rank. */
+    int32_t rank;
+    /** Number of ranks. */
+    int32_t ranks;
+    /** Kept 0. */
+    int32_t reserved;
+    /** Columns of unknowns of other ranks. */
+    int64_t ghosts;
+    /** Rows of all ranks. */
+    int64_t rows;
+    /** Rows of the ranks before this one: the number of row 0 among all rows. */
+    int64_t first;
+    /** Set x[n..n+ghosts-1] to the values that the owners have in x[0..n-1]. Non-zero: failed. */
+    int (*share)(void *host, double *x);
+    /** Combine values of all ranks, as mps_ranks_ops.reduce. Non-zero: failed. */
+    int (*reduce)(void *host, int32_t count, size_t bytes, void *values, mps_combine_fn combine);
+    /** First argument of both. */
+    void *host;
+} mps_ppe_ranks;
 
 /** One pressure equation, made by the library; all arrays are borrowed for the call. */
 typedef struct mps_ppe_problem {
@@ -26,7 +52,8 @@ typedef struct mps_ppe_problem {
     int64_t n;
     /** [n+1] CSR row starts of the entries beside the diagonal */
     const int64_t *row;
-    /** [row[n]] columns, ascending in a row */
+    /** [row[n]] columns, ascending in a row; on many ranks in the order of the particles, and those
+     *  of other ranks are n and above */
     const int32_t *col;
     /** [row[n]] -k_ij in single precision, for half the memory traffic; entries ij and ji are
      *  equal. */
@@ -59,7 +86,26 @@ typedef struct mps_ppe_problem {
     const double *law;
     /** Threads to use; NULL: the calling thread. Valid as long as the matrix. */
     const mps_parallel *parallel;
+    /** NULL: all rows are here. Otherwise arrays of unknowns that are multiplied by the matrix need
+     *  room for n + ghosts values. */
+    const mps_ppe_ranks *ranks;
 } mps_ppe_problem;
+
+/** Set the values of x at columns of other ranks; does nothing where all rows are here.
+ *  @param x  [n + ghosts] @return 0, or non-zero after a failure */
+static inline int mps_ppe_share(const mps_ppe_problem *problem, double *x)
+{
+    return problem->ranks ? problem->ranks->share(problem->ranks->host, x) : 0;
+}
+
+/** Combine values of all ranks; does nothing where all rows are here. @return as mps_ppe_share() */
+static inline int mps_ppe_reduce(const mps_ppe_problem *problem, int32_t count, size_t bytes,
+                                 void *values, mps_combine_fn combine)
+{
+    return problem->ranks ? problem->ranks->reduce(problem->ranks->host, count, bytes, values,
+                                                   combine)
+                          : 0;
+}
 
 /** Why a solver stopped. */
 enum {

@@ -291,7 +291,7 @@ AT(mps_lease, data, 24);
 AT(mps_lease, integers, 32);
 AT(mps_lease, ids, 40);
 
-SIZE(mps_ppe_problem, 144);
+SIZE(mps_ppe_problem, 152);
 AT(mps_ppe_problem, struct_size, 0);
 AT(mps_ppe_problem, dim, 4);
 AT(mps_ppe_problem, n, 8);

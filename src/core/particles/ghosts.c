@@ -389,3 +389,20 @@ mps_status mps__ghosts_share(mps__ghosts *g, const mps__shared *shared, int32_t 
                    g->in + (size_t)k * bytes + at, shared[a].bytes);
     return MPS_OK;
 }
+
+mps_status mps__ghosts_share_indexed(mps__ghosts *g, const int32_t *index, double *x)
+{
+    MPS__TRY(reserve_buffers(g, sizeof *x));
+    double *out = (double *)(void *)g->out, *in = (double *)(void *)g->in;
+    for (int64_t k = 0; k < g->sends; k++) {
+        const int32_t at = index[g->send[k]];
+        out[k] = at >= 0 ? x[at] : 0;
+    }
+    mps__ranks_exchange(g->ranks, &g->route, sizeof *x, out, in);
+    MPS__TRY(mps__ranks_status(g->ranks));
+    for (int64_t k = 0; k < g->receives; k++) {
+        const int32_t at = index[g->receive[k]];
+        if (at >= 0) x[at] = in[k];
+    }
+    return MPS_OK;
+}

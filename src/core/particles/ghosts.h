@@ -59,6 +59,8 @@ mps_status mps__ghosts_renew(mps__ghosts *g, const mps__placing *p, int64_t asid
 mps_status mps__ghosts_ordered(mps__ghosts *g, const int32_t *order);
 /* Ghosts get the values that their owners have. */
 mps_status mps__ghosts_share(mps__ghosts *g, const mps__shared *shared, int32_t count);
+/* The same of numbers that some particles have: particle i has x[index[i]], none where index[i] < 0. */
+mps_status mps__ghosts_share_indexed(mps__ghosts *g, const int32_t *index, double *x);
 
 /* Call rows(argument, begin, end) for the owned particles in begin..end-1. */
 void mps__ghosts_rows(const mps__ghosts *g, mps_range_fn rows, void *argument, int64_t begin,

@@ -5,7 +5,8 @@
  * at their least; then rows below their least are held and held rows with r_i < 0 are let go, until the set stays. It begins with the set and
  * the pressures of the last step, so that mostly two solutions are enough: a loose one that chooses the set, and that of the chosen set, which
  * begins there. Holding a row leaves its diagonal and those about it as they are, so that all share the preconditioner of the first.
- * Held rows are pinned in place, A being assembled once: their pairs are moved to the right side, and back after the solution. */
+ * Held rows are pinned in place, A being assembled once: their pairs are moved to the right side, and back after the solution.
+ * Each row looks at its own pairs, so that rows may lie on several ranks. */
 #include "bounds.h"
 #include <math.h>
 #include <string.h>
@@ -41,6 +42,8 @@ void mps__bounds_free(mps__bounds *b)
 {
     mps__free(b->context, b->list);
     mps__free(b->context, b->change);
+    mps__free(b->context, b->pinned);
+    mps__free(b->context, b->mark);
     mps__bounds_init(b, b->context);
 }
 
@@ -63,47 +66,62 @@ static mps_status collect(mps__bounds *b, const mps__ppe *e, const mps_stage *s,
     return MPS_OK;
 }
 
-/* Place of the entry of row r in column c; rows are sorted. */
-static int64_t entry(const mps__ppe *e, int64_t r, int32_t c)
-{
-    int64_t lo = e->row[r], hi = e->row[r + 1] - 1;
-    while (lo < hi) {
-        const int64_t mid = lo + (hi - lo) / 2;
-        if (e->col[mid] < c)
-            lo = mid + 1;
-        else
-            hi = mid;
-    }
-    return lo;
-}
-
 static void note(mps__bounds *b, const mps__ppe *e, int64_t row, int64_t place)
 {
     b->change[b->changes++] = (struct mps__change){place, row, e->rhs[row], e->shift[row],
                                                    place < 0 ? 0 : e->val[place]};
 }
 
-/* Row k of the list becomes p = least. */
-static mps_status pin(mps__bounds *b, mps__ppe *e, const struct mps__bound *k)
+/* Row r as the pinned columns leave it: p = least if it is one of them, otherwise their pressures are known. */
+static mps_status pin(mps__bounds *b, mps__ppe *e, int64_t r)
 {
-    const int64_t r = k->row, wanted = b->changes + 2 * (e->row[r + 1] - e->row[r]) + 1;
-    MPS__TRY(mps__grow(b->context, (void **)&b->change, &b->changes_capacity, b->changes, wanted,
-                       sizeof *b->change));
+    const bool own = isfinite(b->pinned[r]);
+    MPS__TRY(mps__grow(b->context, (void **)&b->change, &b->changes_capacity, b->changes,
+                       b->changes + e->row[r + 1] - e->row[r] + 1, sizeof *b->change));
     for (int64_t p = e->row[r]; p < e->row[r + 1]; p++) {
-        const int32_t c = e->col[p];
-        const double kij = -(double)e->val[p];
-        if (kij == 0) continue;
-        const int64_t other = entry(e, c, (int32_t)r);
-        note(b, e, c, other);
-        e->val[other] = 0;
-        e->rhs[c] += kij * k->least;
-        e->shift[c] += kij;
+        const double least = b->pinned[e->col[p]], kij = -(double)e->val[p];
+        if (kij == 0 || !(own || isfinite(least))) continue;
         note(b, e, r, p);
         e->val[p] = 0;
+        if (own) continue;
+        e->rhs[r] += kij * least;
+        e->shift[r] += kij;
     }
+    if (!own) return MPS_OK;
     note(b, e, r, -1);
     e->shift[r] = e->diagonal[r];
-    e->rhs[r] = e->diagonal[r] * k->least;
+    e->rhs[r] = e->diagonal[r] * b->pinned[r];
+    return MPS_OK;
+}
+
+/* Mark the rows that have a pinned column; rows of pinned unknowns tell, and of those of other ranks the rows at the border. */
+static void mark_rows(mps__bounds *b, const mps__ppe *e)
+{
+    memset(b->mark, 0, (size_t)e->n);
+    for (int64_t k = 0; k < b->count; k++) {
+        const int64_t r = b->list[k].row;
+        if (!b->list[k].held) continue;
+        b->mark[r] = 1;
+        for (int64_t p = e->row[r]; p < e->row[r + 1]; p++)
+            if (e->col[p] < e->n) b->mark[e->col[p]] = 1;
+    }
+    for (int64_t r = 0; e->problem.ranks && r < e->n; r++)
+        for (int64_t p = e->row[r]; p < e->row[r + 1] && !b->mark[r]; p++)
+            b->mark[r] = e->col[p] >= e->n && isfinite(b->pinned[e->col[p]]);
+}
+
+static mps_status pin_rows(mps__bounds *b, mps__ppe *e)
+{
+    MPS__TRY(mps__grow(b->context, (void **)&b->pinned, &b->pinned_capacity, 0, e->columns,
+                       sizeof *b->pinned));
+    MPS__TRY(mps__grow(b->context, (void **)&b->mark, &b->mark_capacity, 0, e->n, 1));
+    for (int64_t c = 0; c < e->columns; c++) b->pinned[c] = NAN;
+    for (int64_t k = 0; k < b->count; k++)
+        if (b->list[k].held) b->pinned[b->list[k].row] = b->list[k].least;
+    if (mps_ppe_share(&e->problem, b->pinned)) return mps__ranks_status(e->ghosts->ranks);
+    mark_rows(b, e);
+    for (int64_t r = 0; r < e->n; r++)
+        if (b->mark[r]) MPS__TRY(pin(b, e, r));
     return MPS_OK;
 }
 
@@ -125,6 +143,14 @@ static double residual(const mps__ppe *e, int64_t r)
     return sum;
 }
 
+/* Whether something is so on any rank. */
+static bool on_any_rank(const mps__ppe *e, bool here)
+{
+    double any = here;
+    if (e->problem.ranks) mps__ranks_max(e->ghosts->ranks, 1, &any);
+    return any > 0;
+}
+
 /* @return whether the set has changed */
 static bool choose(mps__bounds *b, const mps__ppe *e)
 {
@@ -136,15 +162,13 @@ static bool choose(mps__bounds *b, const mps__ppe *e)
         changed = changed || held != row->held;
         row->held = held;
     }
-    return changed;
+    return on_any_rank(e, changed);
 }
 
 static mps_status solve_held(mps__bounds *b, mps__solvers *solvers, mps__ppe *e,
                              const mps__effort *effort, mps_ppe_result *result)
 {
-    mps_status status = MPS_OK;
-    for (int64_t k = 0; k < b->count && status == MPS_OK; k++)
-        if (b->list[k].held) status = pin(b, e, &b->list[k]);
+    mps_status status = b->any ? pin_rows(b, e) : MPS_OK;
     if (status == MPS_OK)
         status = mps__solvers_solve_series(solvers, &e->problem, effort, e->p, result);
     let_go(b, e);
@@ -159,13 +183,15 @@ mps_status mps__bounds_solve(mps__bounds *b, mps__solvers *solvers, mps__ppe *e,
     double setup = 0;
     bool again = true;
     MPS__TRY(collect(b, e, s, t));
-    bool last = b->count == 0;
+    b->any = on_any_rank(e, b->count > 0);
+    bool last = !b->any;
     for (b->solves = 0; again; last = true) {
         status = solve_held(b, solvers, e, &(mps__effort){last ? 1 : LOOSE, b->solves > 0}, result);
         if (status < 0) return status;
         b->solves++;
         iterations += result->iterations;
         setup += result->setup_seconds;
+        if (mps_ppe_share(&e->problem, e->p)) return mps__ranks_status(e->ghosts->ranks);
         const bool changed = status == MPS_OK && choose(b, e);
         again = status == MPS_OK && (!last || (changed && b->solves < SOLVES));
     }

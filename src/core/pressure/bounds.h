@@ -12,6 +12,10 @@ typedef struct mps__bounds {
     struct mps__bound *list;
     const int32_t *held; /* [particles] 1: at its least in the last step; borrowed for a solution */
     int32_t solves;      /* of the last call */
+    bool any;            /* on any rank a row has a least pressure */
+    double *pinned;      /* [columns] pressure of a held row, else NaN */
+    uint8_t *mark;       /* [n] 1: the row has a pinned column or is held */
+    int64_t pinned_capacity, mark_capacity;
     int64_t changes, changes_capacity;
     struct mps__change *change;
 } mps__bounds;

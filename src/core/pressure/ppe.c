@@ -9,7 +9,7 @@
 #include <string.h>
 
 /* Blocks of scratch. */
-enum { VALUES, COLUMNS, ROWS, LAWS };
+enum { VALUES, COLUMNS, ROWS, LAWS, NUMBERS };
 
 void mps__ppe_init(mps__ppe *e, mps__context *context)
 {
@@ -83,21 +83,22 @@ static int32_t *carve_numbers(char **room, int64_t count)
 static mps_status reserve_rows(const assembly *a)
 {
     mps__ppe *e = a->e;
-    const int64_t n = e->n, late = e->spare ? 0 : 3 + a->s->dim;
+    const int64_t n = e->n, all = e->columns, late = e->spare ? 0 : 2 + a->s->dim;
     char *room = mps__scratch_take(e->context, e->scratch, ROWS,
-                                   2 * ((4 + late) * n + 1) + n + a->s->n, sizeof(int32_t));
+                                   2 * ((4 + late) * n + (e->spare ? 0 : all) + 1) + all + a->s->n,
+                                   sizeof(int32_t));
     if (!room) return MPS_E_NOMEM;
     e->diagonal = carve(&room, n);
     e->rhs = carve(&room, n);
     e->shift = carve(&room, n);
     e->row = (int64_t *)(void *)carve(&room, n + 1);
     e->x = e->spare ? e->spare_x : carve(&room, n * a->s->dim);
-    char *spare = e->spare ? (char *)e->spare : (char *)carve(&room, 3 * n);
+    char *spare = e->spare ? (char *)e->spare : (char *)carve(&room, 2 * n + all);
     e->weight = carve(&spare, n);
-    e->p = carve(&spare, n);
+    e->p = carve(&spare, all);
     e->component = carve_numbers(&spare, n);
     e->queue = carve_numbers(&spare, n);
-    e->particle = carve_numbers(&room, n);
+    e->particle = carve_numbers(&room, all);
     e->unknown = carve_numbers(&room, a->s->n);
     return MPS_OK;
 }
@@ -119,20 +120,30 @@ static mps_status reserve_laws(const assembly *a)
 
 static bool is_unknown_row(const void *argument, int64_t i)
 {
+    const assembly *a = argument;
+    return is_unknown(a, i) && !(a->e->ghosts && mps__is_ghost(a->e->ghosts, i));
+}
+
+static bool is_unknown_column(const void *argument, int64_t i)
+{
     return is_unknown(argument, i);
 }
 
-/* Unknowns in the order of the particles. */
+/* Unknowns in the order of the particles, behind them those of other ranks. */
 static mps_status number_rows(const assembly *a)
 {
     mps__ppe *e = a->e;
-    int64_t rows = 0;
+    int64_t rows = 0, column;
     e->n = mps__parallel_count(a->pairs->parallel, a->s->n, is_unknown_row, a);
+    e->columns = e->ghosts ? mps__parallel_count(a->pairs->parallel, a->s->n, is_unknown_column, a)
+                           : e->n;
+    column = e->n;
     MPS__TRY(reserve_rows(a));
     for (int64_t i = 0; i < a->s->n; i++) {
-        const bool solved = is_unknown(a, i);
-        e->unknown[i] = solved ? (int32_t)rows : -1;
-        if (solved) e->particle[rows++] = (int32_t)i;
+        const bool solved = is_unknown(a, i), ghost = e->ghosts && mps__is_ghost(e->ghosts, i);
+        int64_t *next = ghost ? &column : &rows;
+        e->unknown[i] = solved ? (int32_t)*next : -1;
+        if (solved) e->particle[(*next)++] = (int32_t)i;
     }
     return reserve_laws(a);
 }
@@ -166,14 +177,14 @@ static int64_t start_rows(assembly *a)
     return e->row[e->n];
 }
 
-/* Ascending columns: far rows are two sorted runs, for which insertion is short work. */
-static void sort_row(int32_t *col, float *val, int64_t n)
+/* Columns in the order of their particles: far rows are two sorted runs, for which insertion is short work. */
+static void sort_row(const int32_t *particle, int32_t *col, float *val, int64_t n)
 {
     for (int64_t k = 1; k < n; k++) {
         const int32_t c = col[k];
         const float v = val[k];
         int64_t j = k;
-        for (; j > 0 && col[j - 1] > c; j--) {
+        for (; j > 0 && particle[col[j - 1]] > particle[c]; j--) {
             col[j] = col[j - 1];
             val[j] = val[j - 1];
         }
@@ -199,7 +210,7 @@ static inline __attribute__((always_inline)) void fill_row(const int dim, const 
     float *val = e->val + e->row[r];
     double coupling = 0, shift = gain * a->t->shift[i] + gas, rhs = gain * a->t->source[i];
     int64_t count = 0;
-    int32_t last = -1;
+    int64_t last = -1;
     bool sorted = true;
     for (int64_t k = pairs->begin[i]; k < pairs->end[i]; k++) {
         const double factor = pair_factor(a, i, pairs->col[k]);
@@ -217,8 +228,9 @@ static inline __attribute__((always_inline)) void fill_row(const int dim, const 
             continue;
         }
         coupling += kij;
-        sorted = sorted & (column > last);
-        col[count] = last = column;
+        sorted = sorted & (q.j > last);
+        last = q.j;
+        col[count] = column;
         val[count++] = -entry;
     }
     if (coupling + shift == 0) { /* no pair: p = 0 */
@@ -226,7 +238,7 @@ static inline __attribute__((always_inline)) void fill_row(const int dim, const 
         rhs = 0;
     }
     e->diagonal[r] = coupling + shift;
-    if (!sorted) sort_row(col, val, count);
+    if (!sorted) sort_row(e->particle, col, val, count);
     e->rhs[r] = rhs;
     e->shift[r] = shift;
     if (e->law) {
@@ -269,6 +281,43 @@ static mps_status reserve_entries(mps__ppe *e, int64_t entries)
     return e->col && e->val ? MPS_OK : MPS_E_NOMEM;
 }
 
+/* ---- many ranks ---- */
+
+static int share_columns(void *host, double *x)
+{
+    const mps__ppe *e = host;
+    return mps__ghosts_share_indexed(e->ghosts, e->unknown, x) < 0;
+}
+
+static int reduce_values(void *host, int32_t count, size_t bytes, void *values,
+                         mps_combine_fn combine)
+{
+    mps__ranks *r = ((const mps__ppe *)host)->ghosts->ranks;
+    mps__ranks_reduce(r, count, bytes, values, combine);
+    return r->failed;
+}
+
+static mps_status set_ranks(mps__ppe *e)
+{
+    if (!e->ghosts || !mps__ranks_many(e->ghosts->ranks)) return MPS_OK;
+    mps__ranks *r = e->ghosts->ranks;
+    int64_t *rows = mps__scratch_take(e->context, e->scratch, NUMBERS, r->count, sizeof *rows);
+    if (!rows) return MPS_E_NOMEM;
+    mps__ranks_gather_number(r, e->n, rows);
+    e->ranks = (mps_ppe_ranks){.struct_size = sizeof e->ranks,
+                               .rank = r->rank,
+                               .ranks = r->count,
+                               .ghosts = e->columns - e->n,
+                               .share = share_columns,
+                               .reduce = reduce_values,
+                               .host = e};
+    for (int32_t k = 0; k < r->count; k++) {
+        e->ranks.first += k < r->rank ? rows[k] : 0;
+        e->ranks.rows += rows[k];
+    }
+    return mps__ranks_status(r);
+}
+
 mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps__ppe_terms *t)
 {
     const mps_stencil *pairs = t->equation.radius == MPS_NEAR ? s->near : s->far;
@@ -284,6 +333,7 @@ mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps__ppe_ter
     mps_parallel_rows(pairs->parallel, e->n, fill_rows, &a);
     mps_parallel_rows(pairs->parallel, e->n, note_rows,
                       &a); /* after all rows: it may overwrite terms that they look at */
+    MPS__TRY(set_ranks(e));
     const int32_t singular = mps__levels_find(e, pairs->parallel);
     e->problem = (mps_ppe_problem){.struct_size = sizeof e->problem,
                                    .dim = s->dim,
@@ -301,7 +351,8 @@ mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps__ppe_ter
                                    .component = singular ? e->component : NULL,
                                    .gas = e->gas,
                                    .law = e->law,
-                                   .parallel = pairs->parallel};
+                                   .parallel = pairs->parallel,
+                                   .ranks = e->ranks.ranks > 1 ? &e->ranks : NULL};
     return MPS_OK;
 }
 

@@ -3,6 +3,7 @@
 #ifndef MPS_CORE_PPE_H
 #define MPS_CORE_PPE_H
 
+#include "ghosts.h"
 #include "solvers.h"
 #include <mps/model.h>
 
@@ -22,18 +23,22 @@ typedef struct mps__ppe {
         *scratch; /* where all arrays are: its own, or one shared with others. They last until these take it again */
     double *spare,
         *spare_x; /* NULL, or room [3 particles], [particles*dim] that is free when rows are filled: terms but `value` */
-    int64_t n;    /* unknowns of the last assembly */
-    int32_t *unknown;  /* [particles] row of a particle, -1: none */
-    int32_t *particle; /* [n] particle of a row */
+    mps__ghosts *ghosts; /* NULL: alone */
+    int64_t n;         /* unknowns of the last assembly */
+    int64_t columns;   /* and those of other ranks that they look at, behind them */
+    int32_t *unknown;  /* [particles] row of a particle, or column of a ghost; -1: none */
+    int32_t *particle; /* [columns] particle of a row or a column */
     int64_t *row;      /* [n+1] CSR beside the diagonal */
     int32_t *col;
     float *val;
-    double *diagonal, *rhs, *shift, *weight, *x, *p;
+    double *diagonal, *rhs, *shift, *weight, *x;
+    double *p;          /* [columns] */
     double *gas, *law;  /* NULL: all rows are linear */
     int32_t *component; /* scratch unless there is one without a level: problem.component */
     bool level_free;    /* the largest component has no level */
     int32_t *queue;     /* [n] scratch */
     mps_ppe_problem problem;
+    mps_ppe_ranks ranks; /* its entry `ranks` */
 } mps__ppe;
 
 void mps__ppe_init(mps__ppe *e, mps__context *context);
