@@ -401,7 +401,7 @@ static void skin_limit(void **state)
     last[2] = kept + 0.51 * l.skin;
     assert_false(mps__neighbours_fresh(&l, c.n, c.x, far_radius));
     last[2] = kept;
-    assert_int_equal(mps__neighbours_order(&l, c.n, c.x, far_radius), MPS_OK);
+    assert_int_equal(mps__neighbours_order(&l, c.n, c.x, NULL, far_radius), MPS_OK);
     assert_false(mps__neighbours_fresh(&l, c.n, c.x, far_radius)); /* about to be sorted */
     mps__neighbours_free(&l);
     assert_false(mps__neighbours_fresh(&l, 0, c.x, far_radius));
@@ -417,7 +417,7 @@ static void order_is_permutation(void **state)
     cloud c = clustered(2, 3000, 63);
     bool *seen = calloc((size_t)c.n, sizeof *seen);
     assert_int_equal(mps__neighbours_init(&l, &context, 2, CLOUD_DP), MPS_OK);
-    assert_int_equal(mps__neighbours_order(&l, c.n, c.x, far_radius), MPS_OK);
+    assert_int_equal(mps__neighbours_order(&l, c.n, c.x, NULL, far_radius), MPS_OK);
     for (int64_t k = 0; k < c.n; k++) {
         assert_in_range(l.order[k], 0, c.n - 1);
         assert_false(seen[l.order[k]]);
@@ -445,7 +445,7 @@ static void position_not_finite(void **state)
                 snprintf(axis, sizeof axis, "axis %d", d);
                 assert_int_equal(mps__neighbours_init(&l, &context, dim, CLOUD_DP), MPS_OK);
                 c.x[5 * dim + d] = bad[k];
-                assert_int_equal(mps__neighbours_order(&l, c.n, c.x, far_radius), MPS_E_ARG);
+                assert_int_equal(mps__neighbours_order(&l, c.n, c.x, NULL, far_radius), MPS_E_ARG);
                 assert_non_null(strstr(context.error, axis));
                 mps__neighbours_free(&l);
                 cloud_free(&c);

@@ -74,28 +74,20 @@ typedef struct besides {
     int32_t *beside;
 } besides;
 
-/* Dummies may have no rows: a row beside one has it among its own pairs. */
-static void beside_dummies(const mps_stage *s, void *arguments, int64_t begin, int64_t end)
+static void beside_rows(const mps_stage *s, void *arguments, int64_t begin, int64_t end)
 {
     const besides *b = arguments;
     const mps_stencil *t = s->near;
-    for (int64_t i = begin; i < end; i++)
-        for (int64_t p = t->begin[i]; p < t->end[i] && !b->beside[i]; p++)
-            b->beside[i] = s->kind[t->col[p]] == MPS_DUMMY && b->member[t->col[p]];
+    for (int64_t i = begin; i < end; i++) {
+        bool any = false;
+        for (int64_t p = t->begin[i]; p < t->end[i] && !any; p++) any = b->member[t->col[p]] != 0;
+        b->beside[i] = any;
+    }
 }
 
-/* These rows are few as a rule, and pairs are symmetric: one thread looks about each of them sooner than all threads about all rows. */
 void mps_stage_beside(const mps_stage *s, const int32_t *member, int32_t *beside)
 {
-    const mps_stencil *t = s->near;
-    bool dummies = false;
-    memset(beside, 0, (size_t)s->n * sizeof *beside);
-    for (int64_t i = 0; i < s->n; i++) {
-        if (!member[i]) continue;
-        dummies = dummies || s->kind[i] == MPS_DUMMY;
-        for (int64_t p = t->begin[i]; p < t->end[i]; p++) beside[t->col[p]] = 1;
-    }
-    if (dummies) mps_stage_rows(s, beside_dummies, &(besides){member, beside});
+    mps_stage_rows(s, beside_rows, &(besides){member, beside});
 }
 
 /* Rows of a body in the order in which they were found. */

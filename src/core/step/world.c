@@ -432,7 +432,7 @@ static mps_status renew(mps__world *w)
     MPS__TRY(list_again(w));
     if (w->lists.linked != s->generation ||
         !mps__neighbours_fresh(&w->lists.neighbours, s->n, s->x, w->setup.re_far)) {
-        MPS__TRY(mps__neighbours_order(&w->lists.neighbours, s->n, s->x, w->setup.re_far));
+        MPS__TRY(mps__neighbours_order(&w->lists.neighbours, s->n, s->x, s->id, w->setup.re_far));
         MPS__TRY(mps__particles_permute(s, s->n, w->lists.neighbours.order));
         return search(w, true);
     }
