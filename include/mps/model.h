@@ -353,7 +353,8 @@ MPS_API void mps_stage_sum(const mps_stage *s, int32_t count, mps_sums_fn add, v
 MPS_API void mps_stage_max(const mps_stage *s, int32_t count, mps_sums_fn raise, void *arguments,
                            double *maxima);
 
-/** Mark rows that have a near neighbour among some rows.
+/** Mark rows that have a near neighbour among some rows. A row without pairs, which solids away
+ *  from fluid and dummies may be, is not marked.
  *  @param member  [n] not 0 for these rows @param beside  [n] out: 1 or 0 */
 MPS_API void mps_stage_beside(const mps_stage *s, const int32_t *member, int32_t *beside);
 
@@ -369,9 +370,10 @@ enum {
     MPS_BODY_ANCHOR = 3
 };
 
-/** Find bodies, sets of rows linked by near pairs, that no anchor holds. Dummies link no others.
+/** Find bodies, sets of fluid rows linked by near pairs, that no anchor holds. Solids can be anchors
+ *  and belong to no body. Borrows up to 3 blocks of scratch and returns them.
  *  @param most  larger bodies are taken for held @param role  [n] MPS_BODY_...
- *  @param body  [n] out: 0.. for rows of bodies that are free, else -1
+ *  @param body  [n] out: 0.. for rows of bodies that are free, by the least id of each, else -1
  *  @return 0, or non-zero after a failure (no memory; the error is set) */
 MPS_API int mps_stage_bodies(mps_stage *s, int32_t most, const int32_t *role, int32_t *body);
 

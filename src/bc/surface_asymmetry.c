@@ -140,7 +140,7 @@ MPS_ROW void own_row(const int dim, const mps_stage *s, fields *f, int64_t i)
 }
 MPS_ROWS(own_rows, own_row, fields)
 
-/* ---- particles beside others: found first, changed after that -------------------------------- */
+/* ---- particles beside others: each looks about itself ---------------------------------------- */
 
 MPS_ROW void from_row(const int dim, const mps_stage *s, fields *f, int64_t i)
 {
@@ -149,12 +149,14 @@ MPS_ROW void from_row(const int dim, const mps_stage *s, fields *f, int64_t i)
 }
 MPS_ROWS(from_rows, from_row, fields)
 
-/* Mark particles with a near neighbour in the fluid of region `from`. */
-static void mark_beside(const mps_stage *s, fields *f, int32_t from)
+/* Whether an inner fluid particle has a near neighbour in the fluid of region `from`. */
+MPS_ROW bool inner_beside(const mps_stage *s, const fields *f, int64_t i)
 {
-    f->from = from;
-    mps_stage_rows(s, from_rows, f);
-    mps_stage_beside(s, f->member, f->mark);
+    const mps_stencil *t = s->near;
+    bool any = false;
+    if (s->kind[i] != MPS_FLUID || f->region[i] != MPS_REGION_INNER) return false;
+    for (int64_t p = t->begin[i]; p < t->end[i] && !any; p++) any = f->member[t->col[p]] != 0;
+    return any;
 }
 
 MPS_ROW void surface_row(const int dim, const mps_stage *s, fields *f, int64_t i)
@@ -167,16 +169,16 @@ MPS_ROWS(surface_rows, surface_row, fields)
 MPS_ROW void spread_row(const int dim, const mps_stage *s, fields *f, int64_t i)
 {
     (void)dim;
-    if (!f->mark[i] || f->region[i] != MPS_REGION_INNER || s->kind[i] != MPS_FLUID) return;
-    f->region[i] = f->to;
+    if (inner_beside(s, f, i)) f->region[i] = f->to;
 }
 MPS_ROWS(spread_rows, spread_row, fields)
 
 /* Inner fluid particles with a near neighbour of region `from` become `to`. */
 static void spread(const mps_stage *s, fields *f, int32_t from, int32_t to)
 {
-    mark_beside(s, f, from);
+    f->from = from;
     f->to = to;
+    mps_stage_rows(s, from_rows, f);
     mps_stage_rows(s, spread_rows, f);
 }
 
@@ -206,7 +208,7 @@ MPS_ROW bool beside_spray(const int dim, const mps_stage *s, const fields *f, in
 {
     const double *k = s->setting;
     double n, a;
-    if (s->kind[i] != MPS_FLUID || f->region[i] != MPS_REGION_INNER) return false;
+    if (!inner_beside(s, f, i)) return false;
     if (detached(dim, s, f->region, i, false, k[SPRAY] * s->near->n0)) return true;
     without_spray(dim, s, f, i, &n, &a);
     return on_surface(k, n, a);
@@ -214,9 +216,28 @@ MPS_ROW bool beside_spray(const int dim, const mps_stage *s, const fields *f, in
 
 MPS_ROW void beside_spray_row(const int dim, const mps_stage *s, fields *f, int64_t i)
 {
-    if (f->mark[i]) f->mark[i] = beside_spray(dim, s, f, i);
+    f->mark[i] = beside_spray(dim, s, f, i);
 }
 MPS_ROWS(beside_spray_rows, beside_spray_row, fields)
+
+MPS_ROW void any_spray_row(const int dim, const mps_stage *s, fields *f, int64_t i, double *most)
+{
+    (void)dim, (void)s;
+    if (f->region[i] == MPS_REGION_SPRAY) most[0] = 1;
+}
+MPS_SUMS(any_spray_rows, any_spray_row, fields)
+
+/* Inner particles beside spray that are on the surface without it. */
+static void look_beside_spray(const mps_stage *s, fields *f)
+{
+    double any;
+    mps_stage_max(s, 1, any_spray_rows, f, &any);
+    if (!(any > 0)) return;
+    f->from = MPS_REGION_SPRAY;
+    mps_stage_rows(s, from_rows, f);
+    mps_stage_rows(s, beside_spray_rows, f);
+    mps_stage_rows(s, surface_rows, f);
+}
 
 /* Whether a particle has both a wall and the surface within 1.5 dp. */
 MPS_ROW bool at_contact(const int dim, const mps_stage *s, const fields *f, int64_t i)
@@ -254,9 +275,7 @@ static int find_surface(mps_stage *s)
     if (!f.member || !f.mark) return 1;
     s->equation->complete_surface = s->setting[COMPLETE] > 0;
     mps_stage_rows(s, own_rows, &f);
-    mark_beside(s, &f, MPS_REGION_SPRAY);
-    mps_stage_rows(s, beside_spray_rows, &f);
-    mps_stage_rows(s, surface_rows, &f);
+    look_beside_spray(s, &f);
     if (s->setting[CONTACT] > 0) {
         mps_stage_rows(s, contact_rows, &f);
         mps_stage_rows(s, surface_rows, &f);

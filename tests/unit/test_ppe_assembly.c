@@ -16,6 +16,7 @@ typedef struct tank {
     mps_stencil near, far;
     mps__context context;
     mps__ppe e;
+    int64_t id[MOST];
     int32_t kind[MOST], phase[MOST], region[MOST], fixed[MOST];
     double p[MOST], density[MOST], wet[MOST], depth[MOST], rhs[MOST], shift[MOST], value[MOST],
         accel[3 * MOST], gas[MOST], law[MOST];
@@ -39,6 +40,7 @@ static void tank_init(tank *k, cloud c)
     assert_int_equal(mps_neighbours_stencil_get(k->list, MPS_NEAR, &kernel, &k->near), MPS_OK);
     assert_int_equal(mps_neighbours_stencil_get(k->list, MPS_FAR, &kernel, &k->far), MPS_OK);
     for (int64_t i = 0; i < c.n; i++) {
+        k->id[i] = i;
         k->density[i] = rho0;
         k->wet[i] = 1;
     }
@@ -48,6 +50,7 @@ static void tank_init(tank *k, cloud c)
                            .dt = 1e-3,
                            .dp = CLOUD_DP,
                            .kind = k->kind,
+                           .id = k->id,
                            .x = c.x,
                            .near = &k->near,
                            .far = &k->far};
@@ -398,6 +401,30 @@ static void separate_pools(void **state)
     tank_free(&k);
 }
 
+/* Of two pools of the same size the one with the least id says whether the level of the tank is free, wherever its rows are. */
+static void largest_of_equals(void **state)
+{
+    (void)state;
+    for (int open = 0; open < 2; open++)
+        for (int lowest = 0; lowest < 2; lowest++) {
+            tank k;
+            cloud c = cloud_lattice(2, 12, 6, 1, 0.2, 8);
+            for (int64_t i = 0; i < c.n; i++)
+                c.x[2 * i] += 10 * CLOUD_DP * (double)(i % 12 / 6); /* two pools, 6 wide */
+            tank_init(&k, c);
+            for (int64_t i = 0; i < c.n; i++) {
+                k.id[i] = c.n - i;
+                k.rhs[i] = (double)(i % 5);
+            }
+            k.id[40 + 6 * lowest] = 0; /* 40 % 12 / 6 is pool 0 */
+            k.shift[50 + 6 * open] = 1e-6;
+            assemble(&k);
+            assert_int_equal(k.e.problem.components, 1);
+            assert_int_equal(k.e.level_free, open != lowest);
+            tank_free(&k);
+        }
+}
+
 /* Rows in any order, so that a pool begins as many trees of rows that meet late: 1 and 3 threads find the one without a level. */
 static void pools_in_any_order(void **state)
 {
@@ -489,6 +516,7 @@ int main(void)
         cmocka_unit_test(fixed_rows),
         cmocka_unit_test(closed_tank),
         cmocka_unit_test(separate_pools),
+        cmocka_unit_test(largest_of_equals),
         cmocka_unit_test(pools_in_any_order),
         cmocka_unit_test(detached_fluid),
         cmocka_unit_test(no_unknowns),

@@ -19,6 +19,7 @@ static const double solid_limit = 0.9;
 /* A particle beside the line, in the line's own coordinates. */
 typedef struct beside {
     double s, across[2];
+    int64_t id;
     double facing[2]; /* of walls: direction cosines of the wetted side across the line */
     double share;     /* of a particle's size: one half for each face of a thin plate */
     bool solid, top;  /* top: on the free surface */
@@ -30,7 +31,7 @@ typedef struct line {
     double foot[3], along[3], across[2][3]; /* in the lab */
     double tank_across[2][3];
     int64_t count;
-    beside *list;    /* by ascending s */
+    beside *list;    /* by ascending s, of equal ones by id */
     bool faces;      /* some of them are of a wall along the line */
     double extra[2]; /* added to the shift of the band */
 } line;
@@ -107,8 +108,9 @@ static void wall_facing(line *l, const mps__particles *s, int64_t i, beside *b)
 
 static int compare_places(const void *a, const void *b)
 {
-    const double d = ((const beside *)a)->s - ((const beside *)b)->s;
-    return (d > 0) - (d < 0);
+    const beside *i = a, *j = b;
+    if (i->s != j->s) return i->s > j->s ? 1 : -1;
+    return (i->id > j->id) - (i->id < j->id);
 }
 
 /* Particles beside the line; phases that are not below the surface are left out. */
@@ -121,6 +123,7 @@ static mps_status line_collect(line *l, mps__world *w, uint32_t phases)
         if (mps__is_shadow(s, i) || !line_coordinates(l, s, i, &b)) continue;
         const bool fluid = s->kind[i] == MPS_FLUID;
         if (fluid && !(phases >> s->phase[i] & 1)) continue;
+        b.id = s->id[i];
         b.solid = !fluid;
         b.top = fluid && s->region[i] == MPS_REGION_SURFACE;
         b.share = mps__plates_share(w, i);

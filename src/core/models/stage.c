@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Loops, sums, bodies and scratch for verbs of models: the one place where these loops are. */
 #include "host.h"
+#include "neighbours.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -74,28 +75,20 @@ typedef struct besides {
     int32_t *beside;
 } besides;
 
-/* Dummies may have no rows: a row beside one has it among its own pairs. */
-static void beside_dummies(const mps_stage *s, void *arguments, int64_t begin, int64_t end)
+static void beside_rows(const mps_stage *s, void *arguments, int64_t begin, int64_t end)
 {
     const besides *b = arguments;
     const mps_stencil *t = s->near;
-    for (int64_t i = begin; i < end; i++)
-        for (int64_t p = t->begin[i]; p < t->end[i] && !b->beside[i]; p++)
-            b->beside[i] = s->kind[t->col[p]] == MPS_DUMMY && b->member[t->col[p]];
+    for (int64_t i = begin; i < end; i++) {
+        bool any = false;
+        for (int64_t p = t->begin[i]; p < t->end[i] && !any; p++) any = b->member[t->col[p]] != 0;
+        b->beside[i] = any;
+    }
 }
 
-/* These rows are few as a rule, and pairs are symmetric: one thread looks about each of them sooner than all threads about all rows. */
 void mps_stage_beside(const mps_stage *s, const int32_t *member, int32_t *beside)
 {
-    const mps_stencil *t = s->near;
-    bool dummies = false;
-    memset(beside, 0, (size_t)s->n * sizeof *beside);
-    for (int64_t i = 0; i < s->n; i++) {
-        if (!member[i]) continue;
-        dummies = dummies || s->kind[i] == MPS_DUMMY;
-        for (int64_t p = t->begin[i]; p < t->end[i]; p++) beside[t->col[p]] = 1;
-    }
-    if (dummies) mps_stage_rows(s, beside_dummies, &(besides){member, beside});
+    mps_stage_rows(s, beside_rows, &(besides){member, beside});
 }
 
 /* Rows of a body in the order in which they were found. */
@@ -107,6 +100,13 @@ typedef struct search {
 
 /* In `body` until the search of all is over: not looked at; member of a body that is held. */
 enum { NEW = -1, HELD = -2 };
+
+/* Solids may have no rows: a link through one would depend on where the search begins. */
+static bool belongs(const mps_stage *s, const search *k, int64_t i)
+{
+    return s->kind[i] == MPS_FLUID &&
+           (k->role[i] == MPS_BODY_SEED || k->role[i] == MPS_BODY_MEMBER);
+}
 
 static void join(search *k, int64_t i, int32_t number)
 {
@@ -120,30 +120,63 @@ static bool is_held(const mps_stage *s, search *k, int64_t i)
     const mps_stencil *t = s->near;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         const int32_t j = t->col[p];
-        if (k->role[j] == MPS_BODY_NONE) continue;
-        if (k->role[j] == MPS_BODY_ANCHOR || k->body[j] == HELD) return true;
+        if (k->role[j] == MPS_BODY_ANCHOR) return true;
+        if (!belongs(s, k, j)) continue;
+        if (k->body[j] == HELD) return true;
         if (k->body[j] == NEW) join(k, j, k->body[i]);
     }
     return false;
 }
 
+/* Set body[] of each row. A search ends as soon as the body is known to be held; later searches of the same body meet a row of this one.
+ * @return number of free bodies, in the order in which they were found */
+static int32_t find_bodies(const mps_stage *s, search *k, int32_t most)
+{
+    int32_t count = 0;
+    for (int64_t i = 0; i < s->n; i++) k->body[i] = NEW;
+    for (int64_t seed = 0; seed < s->n; seed++) {
+        if (k->role[seed] != MPS_BODY_SEED || k->body[seed] != NEW || !belongs(s, k, seed))
+            continue;
+        bool held = false;
+        k->found = 0;
+        join(k, seed, count);
+        for (int64_t next = 0; next < k->found && !held; next++)
+            held = is_held(s, k, k->queue[next]) || k->found > most;
+        for (int64_t m = 0; m < k->found && held; m++) k->body[k->queue[m]] = HELD;
+        count += !held;
+    }
+    for (int64_t i = 0; i < s->n; i++) k->body[i] = k->body[i] >= 0 ? k->body[i] : -1;
+    return count;
+}
+
+/* Number bodies by their least ids. @return 0, or 1: no memory */
+static int number_bodies(mps_stage *s, int32_t count, int32_t *body)
+{
+    uint64_t *least = (uint64_t *)(void *)mps_stage_scratch(s, 2 * (int64_t)count);
+    int32_t *order = mps_stage_scratch_integers(s, 2 * (int64_t)count);
+    if (!least || !order) return 1;
+    int32_t *number = order + count; /* scratch of the sort, then free */
+    for (int32_t k = 0; k < count; k++) {
+        least[k] = UINT64_MAX;
+        order[k] = k;
+    }
+    for (int64_t i = 0; i < s->n; i++)
+        if (body[i] >= 0 && (uint64_t)s->id[i] < least[body[i]])
+            least[body[i]] = (uint64_t)s->id[i];
+    mps__sort_keys(least, order, count);
+    for (int32_t k = 0; k < count; k++) number[order[k]] = k;
+    for (int64_t i = 0; i < s->n; i++)
+        if (body[i] >= 0) body[i] = number[body[i]];
+    host_of(s)->scratch_used -= 2;
+    return 0;
+}
+
 int mps_stage_bodies(mps_stage *s, int32_t most, const int32_t *role, int32_t *body)
 {
     search k = {role, body, mps_stage_scratch_integers(s, s->n), 0};
-    int32_t count = 0;
     if (!k.queue) return 1;
-    for (int64_t i = 0; i < s->n; i++) body[i] = NEW;
-    for (int64_t seed = 0; seed < s->n; seed++) {
-        if (role[seed] != MPS_BODY_SEED || body[seed] != NEW) continue;
-        bool held = false;
-        k.found = 0;
-        join(&k, seed, count);
-        for (int64_t next = 0; next < k.found && !held; next++)
-            held = is_held(s, &k, k.queue[next]) || k.found > most;
-        for (int64_t m = 0; m < k.found && held; m++) body[k.queue[m]] = HELD;
-        count += !held;
-    }
-    for (int64_t i = 0; i < s->n; i++) body[i] = body[i] >= 0 ? body[i] : -1;
+    const int32_t count = find_bodies(s, &k, most);
+    if (count > 1 && number_bodies(s, count, body)) return 1;
     host_of(s)->scratch_used--; /* the queue is not needed any more */
     return 0;
 }

@@ -57,8 +57,10 @@ void mps__neighbours_free(mps_neighbours *l);
 
 /* True if no particle moved by more than half the skin since the last search. */
 bool mps__neighbours_fresh(const mps_neighbours *l, int64_t n, const double *x, double re_far);
-/* Order of particles by cell, [n] in l->order; for sorting the store before a search. */
-mps_status mps__neighbours_order(mps_neighbours *l, int64_t n, const double *x, double re_far);
+/* Order of particles by cell, within a cell by id, [n] in l->order; for sorting the store before a search. It depends on positions and ids alone.
+ * `id` NULL: within a cell by place. */
+mps_status mps__neighbours_order(mps_neighbours *l, int64_t n, const double *x, const int64_t *id,
+                                 double re_far);
 /* The particles were put into l->order. */
 void mps__neighbours_sorted(mps_neighbours *l, int64_t n);
 /* Search candidates; positions must be finite and are borrowed. Rows are exact, but screens hide nothing yet. l->kind is forgotten. */

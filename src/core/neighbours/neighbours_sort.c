@@ -10,8 +10,12 @@ enum { MPS__BITS_2D = 31, MPS__BITS_3D = 21 };
  * memory. */
 enum { MPS__CROWD = 4096 };
 
+/* Cells are wider than the reach by this share, so that rounding of a cell number hides no pair. */
+static const double margin = 1e-6;
+
+/* Corners of cells are multiples of their size: which particles share a cell depends on nothing but their positions. */
 typedef struct cell_map {
-    double lo[3], size;
+    double first[3], size; /* number of cell 0 along each axis, counted from the origin */
     int bits, dim;
 } cell_map;
 
@@ -72,9 +76,34 @@ static void corner_rows(void *argument, int64_t begin, int64_t end, double *valu
     }
 }
 
-/* Box of the particles and the packing of cell numbers into keys. */
-static mps_status map_cells(mps_neighbours *l, int64_t n, const double *x, double size, cell_map *m)
+/* Numbers from 2^52 on are whole. */
+static inline double round_down(double v)
 {
+    const double whole = v > -0x1p52 && v < 0x1p52 ? (double)(int64_t)v : v;
+    return whole > v ? whole - 1 : whole;
+}
+
+/* What an error calls particle i: its id, or its place where there are no ids. */
+static long long name_of(const int64_t *id, int64_t i)
+{
+    return (long long)(id ? id[i] : i);
+}
+
+/* The particle at the upper end of the box along an axis, or at no number; of several the one with the least id. */
+static int64_t far_particle(const mps_neighbours *l, int64_t n, const double *x, const int64_t *id,
+                            int d, double hi)
+{
+    int64_t far = -1;
+    for (int64_t i = 0; i < n; i++)
+        if (!(x[i * l->dim + d] < hi) && (far < 0 || name_of(id, i) < name_of(id, far))) far = i;
+    return far < 0 ? 0 : far;
+}
+
+/* Box of the particles and the packing of cell numbers into keys. */
+static mps_status map_cells(mps_neighbours *l, int64_t n, const double *x, const int64_t *id,
+                            double reach, cell_map *m)
+{
+    const double size = (1 + margin) * reach;
     *m = (cell_map){.size = size, .dim = l->dim, .bits = mps__cell_bits(l->dim)};
     const double limit = (double)(INT64_C(1) << m->bits) - 4.0;
     double corner[6] = {-INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY};
@@ -82,14 +111,11 @@ static mps_status map_cells(mps_neighbours *l, int64_t n, const double *x, doubl
     for (int d = 0; d < l->dim; d++) {
         const double lo = -corner[l->dim + d], hi = corner[d];
         const bool fits = (hi - lo) / size < limit;
-        int64_t far = 0;
-        while (!fits && far < n - 1 && x[far * l->dim + d] < hi) far++;
+        const int64_t far = fits ? 0 : far_particle(l, n, x, id, d, hi);
         MPS__CHECK(l->context, fits,
                    "particles lie %g m apart along axis %d (particle %lld at %g): at most %g m",
-                   hi - lo, d, (long long)far, x[far * l->dim + d], limit * size);
-        /* cell 0 stays empty, also when lo - size rounds far from the origin: no neighbour is
-         * beyond it */
-        m->lo[d] = lo - 2 * size;
+                   hi - lo, d, name_of(id, far), x[far * l->dim + d], limit * size);
+        m->first[d] = round_down(lo / size) - 2; /* cell 0 stays empty: no neighbour is beyond it */
     }
     return MPS_OK;
 }
@@ -99,23 +125,43 @@ static uint64_t cell_key(const cell_map *m, const double *x)
 {
     const double last = (double)((INT64_C(1) << m->bits) - 2);
     uint64_t key = 0;
-    for (int d = m->dim - 1; d >= 0; d--)
-        key = (key << m->bits) | (uint64_t)fmin(fmax((x[d] - m->lo[d]) / m->size, 0), last);
+    for (int d = m->dim - 1; d >= 0; d--) {
+        const double cell = round_down(x[d] / m->size) - m->first[d];
+        key = (key << m->bits) | (uint64_t)(cell > 0 ? (cell < last ? cell : last) : 0);
+    }
     return key;
 }
 
 /* Refuse cells with too many particles; keys are sorted. */
-static mps_status check_crowds(const mps_neighbours *l, int64_t n, const double *x, double size)
+static mps_status check_crowds(const mps_neighbours *l, int64_t n, const double *x,
+                               const int64_t *id, double size)
 {
     for (int64_t from = 0, to = 0; from < n; from = to) {
         while (to < n && l->key[to] == l->key[from]) to++;
-        const double *at = x + (int64_t)l->order[from] * l->dim;
-        MPS__CHECK(l->context, to - from <= MPS__CROWD,
-                   "%lld particles lie within %g m of each other, particle %d at (%g, %g) m is "
-                   "one: at most %d",
-                   (long long)(to - from), size, l->order[from], at[0], at[1], MPS__CROWD);
+        if (to - from <= MPS__CROWD) continue;
+        int64_t one = l->order[from];
+        for (int64_t k = from; k < to; k++)
+            if (name_of(id, l->order[k]) < name_of(id, one)) one = l->order[k];
+        return mps__fail(l->context, MPS_E_ARG,
+                         "%lld particles lie within %g m of each other, particle %lld at (%g, %g) "
+                         "m is one: at most %d",
+                         (long long)(to - from), size, name_of(id, one), x[one * l->dim],
+                         x[one * l->dim + 1], MPS__CROWD);
     }
     return MPS_OK;
+}
+
+/* Particles of a cell by ascending id; keys are sorted. Most are in this order since the last search. */
+static void order_ties(const mps_neighbours *l, int64_t n, const int64_t *id)
+{
+    int32_t *const order = l->order;
+    for (int64_t a = 1; a < n; a++) {
+        const int32_t i = order[a];
+        int64_t b = a;
+        for (; b > 0 && l->key[b - 1] == l->key[a] && id[order[b - 1]] > id[i]; b--)
+            order[b] = order[b - 1];
+        order[b] = i;
+    }
 }
 
 typedef struct keying {
@@ -133,17 +179,20 @@ static void key_rows(void *argument, int64_t begin, int64_t end)
     }
 }
 
-mps_status mps__neighbours_order(mps_neighbours *l, int64_t n, const double *x, double re_far)
+mps_status mps__neighbours_order(mps_neighbours *l, int64_t n, const double *x, const int64_t *id,
+                                 double re_far)
 {
     cell_map m;
     l->valid = l->sorted = false;
     l->key = mps__scratch_take(l->context, l->shared, 0, 2 * n, sizeof *l->key);
     l->order = mps__scratch_take(l->context, l->shared, 1, 2 * n, sizeof *l->order);
     if (!l->key || !l->order) return MPS_E_NOMEM;
-    MPS__TRY(map_cells(l, n, x, re_far + l->skin, &m));
+    MPS__TRY(map_cells(l, n, x, id, re_far + l->skin, &m));
     mps_parallel_rows(l->parallel, n, key_rows, &(keying){l, &m, x});
     mps__sort_keys(l->key, l->order, n);
-    return check_crowds(l, n, x, m.size);
+    MPS__TRY(check_crowds(l, n, x, id, m.size));
+    if (id) order_ties(l, n, id);
+    return MPS_OK;
 }
 
 void mps__neighbours_sorted(mps_neighbours *l, int64_t n)

@@ -68,49 +68,74 @@ static bool all_have_level(mps__ppe *e, const mps_parallel *parallel)
     return true;
 }
 
-/* Visit the component of row `seed`, breadth first; its rows stand in e->queue. Returns their number. */
-static int64_t flood(mps__ppe *e, int64_t seed, bool *level)
+/* In e->component: a row whose component was not looked at yet. In e->queue: behind the last row of a component. */
+enum { NEW = -2, END = -1 };
+
+/* From trees to chains: e->queue becomes the next row of the same component, by ascending rows. */
+static void chain_rows(mps__ppe *e)
 {
-    int32_t *queue = e->queue;
-    int64_t count = 0;
-    *level = false;
-    queue[count++] = (int32_t)seed;
-    e->component[seed] = -1;
-    for (int64_t next = 0; next < count; next++) {
-        const int32_t r = queue[next];
-        *level = *level || e->shift[r] > 0;
-        for (int64_t k = e->row[r]; k < e->row[r + 1]; k++)
-            if (e->component[e->col[k]] == -2) {
-                e->component[e->col[k]] = -1;
-                queue[count++] = e->col[k];
-            }
+    int32_t *root = e->queue, *next = e->queue, *last = e->component;
+    for (int32_t r = 0; r < e->n; r++) {
+        root[r] = root[root[r]]; /* rows further up have their root already */
+        last[r] = NEW;
     }
-    return count;
+    for (int32_t r = 0; r < e->n; r++) {
+        const int32_t first = root[r];
+        if (first < r) next[last[first]] = r;
+        last[first] = r;
+    }
+    for (int32_t r = 0; r < e->n; r++) {
+        if (last[r] == NEW) continue;
+        next[last[r]] = END;
+        e->component[r] = NEW;
+    }
 }
 
-int32_t mps__levels_find(mps__ppe *e, const mps_parallel *parallel)
+/* A component, from its first row on. */
+typedef struct component {
+    int64_t rows, least; /* least id of its particles */
+    bool level;
+} component;
+
+/* Its rows count as seen. */
+static component look_at(mps__ppe *e, const int64_t *id, int32_t first)
+{
+    component c = {0, INT64_MAX, false};
+    for (int32_t r = first; r != END; r = e->queue[r]) {
+        const int64_t own = id[e->particle[r]];
+        c.rows++;
+        c.least = own < c.least ? own : c.least;
+        c.level = c.level || e->shift[r] > 0;
+        e->component[r] = -1;
+    }
+    return c;
+}
+
+/* The component gets a number; the mean of its right side is taken off. */
+static void balance(mps__ppe *e, int32_t first, int64_t rows, int32_t number)
+{
+    double mean = 0;
+    for (int32_t r = first; r != END; r = e->queue[r]) mean += e->rhs[r] / (double)rows;
+    for (int32_t r = first; r != END; r = e->queue[r]) {
+        e->rhs[r] -= mean;
+        e->component[r] = number;
+    }
+}
+
+int32_t mps__levels_find(mps__ppe *e, const int64_t *id, const mps_parallel *parallel)
 {
     int32_t singular = 0;
-    int64_t largest = 0;
+    component largest = {0, INT64_MAX, true};
     e->level_free = false;
     if (all_have_level(e, parallel)) return 0;
-    for (int64_t r = 0; r < e->n; r++) e->component[r] = -2;
-    for (int64_t seed = 0; seed < e->n; seed++) {
-        if (e->component[seed] != -2) continue;
-        bool level;
-        const int64_t count = flood(e, seed, &level);
-        if (count > largest) {
-            largest = count;
-            e->level_free = !level;
-        }
-        if (level) continue;
-        double mean = 0;
-        for (int64_t k = 0; k < count; k++) mean += e->rhs[e->queue[k]] / (double)count;
-        for (int64_t k = 0; k < count; k++) {
-            e->rhs[e->queue[k]] -= mean;
-            e->component[e->queue[k]] = singular;
-        }
-        singular++;
+    chain_rows(e);
+    for (int32_t r = 0; r < e->n; r++) {
+        if (e->component[r] != NEW) continue;
+        const component c = look_at(e, id, r);
+        if (c.rows > largest.rows || (c.rows == largest.rows && c.least < largest.least))
+            largest = c;
+        if (!c.level) balance(e, r, c.rows, singular++);
     }
+    e->level_free = !largest.level;
     return singular;
 }

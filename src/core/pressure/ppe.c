@@ -334,7 +334,7 @@ mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps__ppe_ter
     mps_parallel_rows(pairs->parallel, e->n, note_rows,
                       &a); /* after all rows: it may overwrite terms that they look at */
     MPS__TRY(set_ranks(e));
-    const int32_t singular = mps__levels_find(e, pairs->parallel);
+    const int32_t singular = mps__levels_find(e, s->id, pairs->parallel);
     e->problem = (mps_ppe_problem){.struct_size = sizeof e->problem,
                                    .dim = s->dim,
                                    .n = e->n,

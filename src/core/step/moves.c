@@ -21,6 +21,14 @@ static double moved(const mps__world *w, const mps__pose *next, int64_t i)
     return sqrt(square);
 }
 
+/* Place of the particle with this id, which is there. */
+static int64_t place_of(const mps__particles *s, int64_t id)
+{
+    int64_t i = 0;
+    while (s->id[i] != id) i++;
+    return i;
+}
+
 static mps_status jumped(const mps__world *w, const mps__pose *next, double dt, int64_t i)
 {
     const double *x = w->work.x0 + i * w->setup.dim, distance = moved(w, next, i);
@@ -50,7 +58,7 @@ typedef struct ways {
     double dt, limit;
 } ways;
 
-/* Number of solids; the farthest way, and the negative of the first particle beyond the limit. */
+/* Number of solids; the farthest way, and the negative of the least id beyond the limit. */
 static void way_rows(void *argument, int64_t begin, int64_t end, double *v)
 {
     const ways *k = argument;
@@ -59,7 +67,7 @@ static void way_rows(void *argument, int64_t begin, int64_t end, double *v)
         const double distance = s->kind[i] == MPS_FLUID ? moved(k->w, k->next, i) : 0;
         v[0] += s->kind[i] != MPS_FLUID;
         v[1] = distance > v[1] ? distance : v[1];
-        if (distance > k->limit && v[2] < -(double)i) v[2] = -(double)i;
+        if (distance > k->limit) v[2] = fmax(v[2], -(double)s->id[i]);
     }
 }
 
@@ -71,7 +79,8 @@ mps_status mps__world_check_moves(mps__world *w, const mps__pose *next, double d
     if (!may_jump(w)) return MPS_OK;
     mps_parallel_reduce(&w->pool.parallel, w->particles.n, way_rows, &k,
                         &(mps_parallel_values){1, 2, v});
-    if (v[0] > 0 && !isinf(v[2])) return jumped(w, next, dt, (int64_t)-v[2]);
+    if (v[0] > 0 && !isinf(v[2]))
+        return jumped(w, next, dt, place_of(&w->particles, (int64_t)-v[2]));
     if (w->setup.control.dt > 0 && v[1] > w->setup.dp && !w->state.moves_told) {
         w->state.moves_told = true;
         mps__log(w->context, MPS_LOG_WARNING,
@@ -119,7 +128,7 @@ typedef struct result {
     double dense; /* liquid is denser [kg/m3] */
 } result;
 
-/* The largest speed of the fluid, that of the liquid, and the negative of the first particle that is not finite or too fast. */
+/* The largest speed of the fluid, that of the liquid, and the negative of the least id of what is not finite or too fast. */
 static void result_rows(void *argument, int64_t begin, int64_t end, double *v)
 {
     const result *k = argument;
@@ -130,7 +139,7 @@ static void result_rows(void *argument, int64_t begin, int64_t end, double *v)
         const double speed = sqrt(mps__dot(u, u, w->setup.dim));
         if (!(isfinite(speed) && speed <= w->setup.speed_limit &&
               mps__finite(s->x + i * w->setup.dim, w->setup.dim) && isfinite(s->p[i]))) {
-            if (v[2] < -(double)i) v[2] = -(double)i;
+            v[2] = fmax(v[2], -(double)s->id[i]);
         } else if (s->kind[i] == MPS_FLUID) {
             v[0] = speed > v[0] ? speed : v[0];
             if (s->rho[i] >= k->dense) v[1] = speed > v[1] ? speed : v[1];
@@ -151,7 +160,7 @@ mps_status mps__world_check_result(const mps__world *w, const mps_stage *s, bool
     info->max_speed = v[0];
     info->cfl = v[0] * s->dt / s->dp;
     if (isinf(v[2])) return MPS_OK;
-    const int64_t worst = (int64_t)-v[2];
+    const int64_t worst = place_of(&w->particles, (int64_t)-v[2]);
     const double *u = w->particles.u + worst * s->dim,
                  *x = (arrived ? w->work.x0 : w->particles.x) + worst * s->dim;
     return mps__fail(w->context, MPS_E_DIVERGED,

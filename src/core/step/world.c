@@ -158,16 +158,16 @@ void mps__world_take_back(mps__world *w)
     if (w->lists.aside > 0) set_aside(w, -w->lists.aside);
 }
 
-/* Apply the policy to the particles with `gone`, if any; the text says where they are. */
+/* Apply the policy to the particles with `gone`, if any; the text says where they are, and names the one with the least id. */
 static mps_status handle_lost(mps__world *w, const bool *gone, const char *where)
 {
     mps__particles *s = &w->particles;
     int64_t lost = 0, first = -1, count = 0;
-    for (int64_t i = s->n - 1; i >= 0; i--)
-        if (gone[i]) {
-            lost++;
-            first = i;
-        }
+    for (int64_t i = 0; i < s->n; i++) {
+        if (!gone[i]) continue;
+        if (first < 0 || s->id[i] < s->id[first]) first = i;
+        lost++;
+    }
     if (!lost) return MPS_OK;
     const double *x = s->x + first * w->setup.dim;
     const double z = w->setup.dim == 3 ? x[2] : 0;
@@ -298,24 +298,32 @@ static void link_dummies(mps__world *w)
     }
 }
 
+/* Sum of the ways from its dummies to wall particle i. All candidates are there. */
+static void sum_ways(const mps__world *w, int64_t i, double *sum)
+{
+    const mps__particles *s = &w->particles;
+    const mps_neighbours *l = &w->lists.neighbours;
+    const int dim = w->setup.dim;
+    for (int d = 0; d < dim; d++) sum[d] = 0;
+    for (int64_t k = l->begin[i]; k < l->begin[i] + l->count[i]; k++) {
+        const int64_t j = l->col[k];
+        for (int d = 0; d < dim && s->wall_of[j] == i; d++)
+            sum[d] += s->ref[i * dim + d] - s->ref[j * dim + d];
+    }
+}
+
 /* A wall particle given without an area faces away from its dummies. */
 static void estimate_areas(mps__world *w)
 {
     mps__particles *s = &w->particles;
     const int dim = w->setup.dim;
-    double *sum = w->work.motion; /* free between steps */
-    memset(sum, 0, (size_t)(s->n * dim) * sizeof *sum);
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->wall_of[i] >= 0)
-            for (int d = 0; d < dim; d++)
-                sum[s->wall_of[i] * dim + d] += s->ref[s->wall_of[i] * dim + d] -
-                                                s->ref[i * dim + d];
     for (int64_t i = 0; i < s->n; i++) {
-        double *area = s->area + i * dim, *v = sum + i * dim;
-        const double length = sqrt(mps__dot(v, v, dim));
-        if (s->kind[i] != MPS_WALL || mps__dot(area, area, dim) > 0 || length < 1e-6 * w->setup.dp)
-            continue;
-        for (int d = 0; d < dim; d++) area[d] = v[d] / length * pow(w->setup.dp, dim - 1);
+        double *area = s->area + i * dim, sum[3];
+        if (s->kind[i] != MPS_WALL || mps__dot(area, area, dim) > 0) continue;
+        sum_ways(w, i, sum);
+        const double length = sqrt(mps__dot(sum, sum, dim));
+        if (length < 1e-6 * w->setup.dp) continue;
+        for (int d = 0; d < dim; d++) area[d] = sum[d] / length * pow(w->setup.dp, dim - 1);
     }
 }
 
@@ -437,7 +445,7 @@ static mps_status renew(mps__world *w)
     MPS__TRY(list_again(w));
     if (w->lists.linked != s->generation ||
         !mps__neighbours_fresh(&w->lists.neighbours, s->n, s->x, w->setup.re_far)) {
-        MPS__TRY(mps__neighbours_order(&w->lists.neighbours, s->n, s->x, w->setup.re_far));
+        MPS__TRY(mps__neighbours_order(&w->lists.neighbours, s->n, s->x, s->id, w->setup.re_far));
         MPS__TRY(mps__particles_permute(s, s->n, w->lists.neighbours.order));
         return search(w, true);
     }
