@@ -2,6 +2,7 @@
 /* Components of the pressure equation, and whether each has a level: a row that sees a known pressure, or volume that can change. Nearly always
  * all have one. Then one pass over the entries on all threads is enough: trees of joined rows, whose root is their lowest row. */
 #include "levels.h"
+#include <mps/exact.h>
 #include <stdatomic.h>
 
 /* The lowest row of every tree is its own parent, others have a lower one. Parents are only ever replaced by rows further up, so that threads
@@ -88,6 +89,19 @@ static int64_t flood(mps__ppe *e, int64_t seed, bool *level)
     return count;
 }
 
+static double mean_of(const double *rhs, const int32_t *row, int64_t count)
+{
+    enum { BLOCK = 256 };
+    double part[BLOCK];
+    mps_exact sum = {{0}, 0, 0};
+    for (int64_t lo = 0, n; lo < count; lo += n) {
+        n = count - lo < BLOCK ? count - lo : BLOCK;
+        for (int64_t k = 0; k < n; k++) part[k] = rhs[row[lo + k]];
+        mps_exact_add(&sum, n, part);
+    }
+    return mps_exact_value(&sum) / (double)count;
+}
+
 int32_t mps__levels_find(mps__ppe *e, const mps_parallel *parallel)
 {
     int32_t singular = 0;
@@ -104,8 +118,7 @@ int32_t mps__levels_find(mps__ppe *e, const mps_parallel *parallel)
             e->level_free = !level;
         }
         if (level) continue;
-        double mean = 0;
-        for (int64_t k = 0; k < count; k++) mean += e->rhs[e->queue[k]] / (double)count;
+        const double mean = mean_of(e->rhs, e->queue, count);
         for (int64_t k = 0; k < count; k++) {
             e->rhs[e->queue[k]] -= mean;
             e->component[e->queue[k]] = singular;
