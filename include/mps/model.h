@@ -344,7 +344,9 @@ MPS_API void mps_stage_rows(const mps_stage *s, mps_rows_fn rows, void *argument
 typedef void (*mps_sums_fn)(const mps_stage *s, void *arguments, int64_t begin, int64_t end,
                             double *sums);
 
-/** Sums over all rows: the same bytes for any number of threads.
+/** Sums over all rows: the same bytes for any number of threads and any order of the rows, see
+ *  mps/exact.h. `add` is called for one row at a time, with sums of 0: what a row contributes must
+ *  not depend on other rows.
  *  @param count  1..16 @param sums  [count] out */
 MPS_API void mps_stage_sum(const mps_stage *s, int32_t count, mps_sums_fn add, void *arguments,
                            double *sums);

@@ -44,22 +44,27 @@ typedef struct making {
     double square; /* mean of r_ij^2 */
 } making;
 
-/* values: sums of kappa, of its inverse and of rows, then the largest kappa. */
-static void measure_rows(void *argument, int64_t begin, int64_t end, double *values)
+/* Sums: of kappa, of its inverse, of rows; the maximum: kappa. */
+static void measure_rows(void *argument, int64_t begin, int64_t end, mps_exact *sums, double *most)
 {
     const making *m = argument;
     const mps_ppe_problem *problem = m->problem;
-    for (int64_t i = begin; i < end; i++) {
+    double term[3][MPS__BLOCK];
+    for (int64_t i = begin, count = 0; i < end; i++) {
         const int64_t entries = problem->row[i + 1] - problem->row[i];
         const double flux = fmax(problem->diagonal[i] - problem->shift[i], 0) * m->square,
                      kappa = entries > 0 ? flux / (double)entries : 0;
         m->g->point_kappa[i] = kappa;
-        if (kappa > values[3]) values[3] = kappa;
+        if (kappa > *most) *most = kappa;
         /* a lone pair at the end of the kernel says little */
-        if (entries < FEW_ENTRIES || !(kappa > 0)) continue;
-        values[0] += kappa;
-        values[1] += 1 / kappa;
-        values[2] += 1;
+        if (entries >= FEW_ENTRIES && kappa > 0) {
+            term[0][count] = kappa;
+            term[1][count] = 1 / kappa;
+            term[2][count++] = 1;
+        }
+        if (count < MPS__BLOCK && i + 1 < end) continue;
+        for (int k = 0; k < 3; k++) mps_exact_add(&sums[k], count, term[k]);
+        count = 0;
     }
 }
 
@@ -67,13 +72,14 @@ static void measure_rows(void *argument, int64_t begin, int64_t end, double *val
 void mps__grid_measure(mps__grid *g, const mps_ppe_problem *problem)
 {
     making m = {.g = g, .problem = problem, .square = mean_square(problem)};
-    double v[4] = {0};
-    const mps_parallel_values values = {3, 1, v};
-    mps_parallel_reduce(mps__team(problem->parallel, problem->n), problem->n, measure_rows, &m,
-                        &values);
+    mps_exact sums[3] = {{{0}, 0, 0}};
+    double v[3], most = 0;
+    mps__reduce(problem->parallel, problem->n, measure_rows, &m,
+                &(mps_exact_values){3, 1, sums, &most});
+    for (int k = 0; k < 3; k++) v[k] = mps_exact_value(&sums[k]);
     g->one = !(v[0] * v[1] > one_density * v[2] * v[2]);
     g->dim = problem->dim;
-    g->unit = v[3] > 0 ? problem->dp * problem->dp / v[3] : 1;
+    g->unit = most > 0 ? problem->dp * problem->dp / most : 1;
     g->size = problem->dp * (!g->one ? 2 : problem->dim == 2 ? 3 : 2.5);
     g->per_size = 1 / g->size;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Memory, blocked reductions, row products and the null space: what all solvers share. */
+/* Memory, reductions, row products and the null space: what all solvers share. */
 #define _POSIX_C_SOURCE 200809L
 #include "kernels.h"
 #include <math.h>
@@ -18,45 +18,28 @@ void mps__give(const mps_allocator *allocator, void *block)
     if (block) allocator->release(allocator->user, block);
 }
 
-double mps__block_dot(const double *x, const double *y, int64_t count)
+void mps__reduce(const mps_parallel *p, int64_t n, mps_exact_fn body, void *argument,
+                 const mps_exact_values *values)
 {
-    /* eight sums hide the latency of the addition; their order is fixed */
-    double s[8] = {0};
-    int64_t i = 0;
-    for (; i + 8 <= count; i += 8)
-        for (int k = 0; k < 8; k++) s[k] += x[i + k] * y[i + k];
-    for (; i < count; i++) s[0] += x[i] * y[i];
-    return ((s[0] + s[4]) + (s[1] + s[5])) + ((s[2] + s[6]) + (s[3] + s[7]));
-}
-
-double mps__sum_blocks(const double *partial, int64_t count)
-{
-    double s = 0;
-    for (int64_t b = 0; b < count; b++) s += partial[b];
-    return s;
+    mps_exact_rows(mps__team(p, n), n, MPS__BLOCK, body, argument, values);
 }
 
 typedef struct dot {
     const double *x, *y;
-    int64_t n;
-    double *partial;
 } dot;
 
-static void dot_blocks(void *argument, int64_t begin, int64_t end)
+static void dot_rows(void *argument, int64_t begin, int64_t end, mps_exact *sum, double *none)
 {
     const dot *d = argument;
-    for (int64_t b = begin; b < end; b++) {
-        const int64_t lo = b * MPS__BLOCK;
-        d->partial[b] = mps__block_dot(d->x + lo, d->y + lo, mps__block_end(b, d->n) - lo);
-    }
+    (void)none;
+    mps_exact_add_products(sum, end - begin, d->x + begin, d->y + begin);
 }
 
-double mps__blocked_dot(const mps_parallel *p, const double *x, const double *y, int64_t n,
-                        double *partial)
+double mps__dot_product(const mps_parallel *p, const double *x, const double *y, int64_t n)
 {
-    mps_parallel_rows_least(mps__team(p, n), mps__blocks(n), 1, dot_blocks,
-                            &(dot){x, y, n, partial});
-    return mps__sum_blocks(partial, mps__blocks(n));
+    mps_exact sum = {{0}, 0, 0};
+    mps__reduce(p, n, dot_rows, &(dot){x, y}, &(mps_exact_values){.sums = 1, .sum = &sum});
+    return mps_exact_value(&sum);
 }
 
 /* Four sums: one would wait for each addition. */
@@ -73,10 +56,11 @@ static double row_dot(const float *val, const int32_t *col, int64_t count, const
 typedef struct multiply {
     const mps_ppe_problem *problem;
     const double *x;
-    double *y, *partial;
+    double *y;
 } multiply;
 
-static void multiply_blocks(void *argument, int64_t begin, int64_t end)
+/* Blocks: their products are summed while they are in cache. */
+static void multiply_rows(void *argument, int64_t begin, int64_t end, mps_exact *sum, double *none)
 {
     const multiply *m = argument;
     const mps_ppe_problem *problem = m->problem;
@@ -85,22 +69,21 @@ static void multiply_blocks(void *argument, int64_t begin, int64_t end)
     const float *val = problem->val;
     const double *x = m->x, *diagonal = problem->diagonal;
     double *y = m->y;
-    for (int64_t b = begin; b < end; b++) {
-        const int64_t lo = b * MPS__BLOCK, hi = mps__block_end(b, problem->n);
-        for (int64_t i = lo; i < hi; i++) {
+    (void)none;
+    for (int64_t lo = begin, hi; lo < end; lo = hi) {
+        hi = lo + MPS__BLOCK < end ? lo + MPS__BLOCK : end;
+        for (int64_t i = lo; i < hi; i++)
             y[i] = diagonal[i] * x[i] + row_dot(val + row[i], col + row[i], row[i + 1] - row[i], x);
-        }
-        m->partial[b] = mps__block_dot(x + lo, y + lo, hi - lo);
+        mps_exact_add_products(sum, hi - lo, x + lo, y + lo);
     }
 }
 
-double mps__rows_multiply(const mps_ppe_problem *problem, const double *x, double *y,
-                          double *partial)
+double mps__rows_multiply(const mps_ppe_problem *problem, const double *x, double *y)
 {
-    const int64_t n = problem->n, blocks = mps__blocks(n);
-    mps_parallel_rows_least(mps__team(problem->parallel, n), blocks, 1, multiply_blocks,
-                            &(multiply){problem, x, y, partial});
-    return mps__sum_blocks(partial, blocks);
+    mps_exact sum = {{0}, 0, 0};
+    mps__reduce(problem->parallel, problem->n, multiply_rows, &(multiply){problem, x, y},
+                &(mps_exact_values){.sums = 1, .sum = &sum});
+    return mps_exact_value(&sum);
 }
 
 /* Largest negative of a diagonal entry. */
@@ -128,26 +111,27 @@ void mps__guess_clean(double *p, int64_t n)
     if (sum != 0) memset(p, 0, (size_t)n * sizeof *p);
 }
 
-void mps__components_center(const mps_ppe_problem *problem, double *p, double *sums)
+void mps__components_center(const mps_ppe_problem *problem, double *p, mps__component *sums)
 {
-    int32_t components = problem->component ? problem->components : 0;
+    const int32_t components = problem->component ? problem->components : 0,
+                  *component = problem->component;
     if (components < 1) return;
-    double *counts = sums + components;
-    memset(sums, 0, 2 * (size_t)components * sizeof *sums);
-    for (int64_t i = 0; i < problem->n; i++) {
-        int32_t c = problem->component[i];
+    memset(sums, 0, (size_t)components * sizeof *sums);
+    for (int64_t i = 0, end; i < problem->n; i = end) {
+        const int32_t c = component[i];
+        for (end = i + 1; end < problem->n && component[end] == c;) end++;
         if (c < 0) continue;
-        sums[c] += p[i];
-        counts[c] += 1;
+        mps_exact_add(&sums[c].sum, end - i, p + i);
+        sums[c].rows += (double)(end - i);
     }
-    for (int64_t i = 0; i < problem->n; i++) {
-        int32_t c = problem->component[i];
-        if (c >= 0) p[i] -= sums[c] / counts[c];
-    }
+    for (int32_t c = 0; c < components; c++)
+        sums[c].mean = mps_exact_value(&sums[c].sum) / sums[c].rows;
+    for (int64_t i = 0; i < problem->n; i++)
+        if (component[i] >= 0) p[i] -= sums[component[i]].mean;
 }
 
-bool mps__guess_begin(const mps_ppe_problem *problem, double *p, double *residual, double *sums,
-                      mps_ppe_result *result)
+bool mps__guess_begin(const mps_ppe_problem *problem, double *p, double *residual,
+                      mps__component *sums, mps_ppe_result *result)
 {
     mps__components_center(problem, p, sums);
     mps_ppe_check(problem, p, residual, result);
@@ -159,9 +143,14 @@ bool mps__guess_begin(const mps_ppe_problem *problem, double *p, double *residua
 
 bool mps__curvature_negative(const mps_ppe_problem *problem, const double *x, double curvature)
 {
-    double scale = 0;
-    for (int64_t i = 0; i < problem->n; i++) scale += problem->diagonal[i] * x[i] * x[i];
-    return -curvature > 1e-12 * scale;
+    mps_exact scale = {{0}, 0, 0};
+    for (int64_t lo = 0, n; lo < problem->n; lo += n) {
+        double part[MPS__BLOCK];
+        n = problem->n - lo < MPS__BLOCK ? problem->n - lo : MPS__BLOCK;
+        for (int64_t i = 0; i < n; i++) part[i] = problem->diagonal[lo + i] * x[lo + i];
+        mps_exact_add_products(&scale, n, part, x + lo);
+    }
+    return -curvature > 1e-12 * mps_exact_value(&scale);
 }
 
 void mps__result_begin(mps_ppe_result *result)

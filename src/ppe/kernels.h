@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Building blocks of the solvers. Reductions run over fixed blocks whose sums are added in order, so the bytes of a
- * result do not depend on the number of threads. */
+/* Building blocks of the solvers. Sums over rows are exact (mps/exact.h), so the bytes of a result depend neither on the
+ * number of threads nor on the order of the rows. */
 #ifndef MPS_PPE_KERNELS_H
 #define MPS_PPE_KERNELS_H
 
+#include <mps/exact.h>
 #include <mps/ppe.h>
 #include <stdbool.h>
 
@@ -24,13 +25,6 @@ static inline int64_t mps__blocks(int64_t n)
     return (n + MPS__BLOCK - 1) / MPS__BLOCK;
 }
 
-/* One past the last element of a block. */
-static inline int64_t mps__block_end(int64_t block, int64_t n)
-{
-    const int64_t end = (block + 1) * MPS__BLOCK;
-    return end < n ? end : n;
-}
-
 /* The parallel-for of a loop over n elements: NULL, the calling thread alone, if there are so few
  * that the start of other threads takes longer than the loop. */
 static inline const mps_parallel *mps__team(const mps_parallel *p, int64_t n)
@@ -42,29 +36,32 @@ static inline const mps_parallel *mps__team(const mps_parallel *p, int64_t n)
 void *mps__take(const mps_allocator *allocator, int64_t count, size_t size);
 void mps__give(const mps_allocator *allocator, void *block);
 
-/* The sum of the blocks' sums in their order. */
-double mps__sum_blocks(const double *partial, int64_t count);
-/* x'y over at most one block. */
-double mps__block_dot(const double *x, const double *y, int64_t count);
-/* x'y; partial [blocks] is scratch. */
-double mps__blocked_dot(const mps_parallel *p, const double *x, const double *y, int64_t n,
-                        double *partial);
+/* Sums and maxima over rows 0..n-1, on all threads if it is worth it; `sum` and `maximum` as in mps_exact_rows(). */
+void mps__reduce(const mps_parallel *p, int64_t n, mps_exact_fn body, void *argument,
+                 const mps_exact_values *values);
+/* x'y */
+double mps__dot_product(const mps_parallel *p, const double *x, const double *y, int64_t n);
 
-/* y = A x. @return x'y; partial [blocks] is scratch */
-double mps__rows_multiply(const mps_ppe_problem *problem, const double *x, double *y,
-                          double *partial);
+/* y = A x. @return x'y */
+double mps__rows_multiply(const mps_ppe_problem *problem, const double *x, double *y);
 /* Whether no row has a negative diagonal. */
 bool mps__rows_nonnegative(const mps_ppe_problem *problem);
 
 /* A first guess with NaN or infinity becomes zero. */
 void mps__guess_clean(double *p, int64_t n);
+/* Sum, number and mean of the rows of a singular component. */
+typedef struct mps__component {
+    mps_exact sum;
+    double rows, mean;
+} mps__component;
+
 /* The guess a solver begins with, zero if p leads nowhere, centred, and its residual in `residual` [n]. False: not even that is finite. */
-bool mps__guess_begin(const mps_ppe_problem *problem, double *p, double *residual, double *sums,
-                      mps_ppe_result *result);
+bool mps__guess_begin(const mps_ppe_problem *problem, double *p, double *residual,
+                      mps__component *sums, mps_ppe_result *result);
 /* Whether the curvature x'Ax < 0 is more than the rounding of a direction of no curvature. */
 bool mps__curvature_negative(const mps_ppe_problem *problem, const double *x, double curvature);
-/* Subtract the mean of p over each singular component, whose null vector is 1; sums [2 components] is scratch. */
-void mps__components_center(const mps_ppe_problem *problem, double *p, double *sums);
+/* Subtract the mean of p over each singular component, whose null vector is 1; sums [components] is scratch. */
+void mps__components_center(const mps_ppe_problem *problem, double *p, mps__component *sums);
 
 /* What a solver reports before it has done anything: no memory. */
 void mps__result_begin(mps_ppe_result *result);

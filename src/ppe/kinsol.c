@@ -25,8 +25,8 @@ typedef struct newton {
     N_Vector p, one, stop;
     double *start, *residual, *inner, *slope, *ones; /* [capacity] */
     double *diagonal,
-        *shift;   /* diagonal and row sums of J at the first guess, for the preconditioner */
-    double *sums; /* [2 sum_capacity] */
+        *shift; /* diagonal and row sums of J at the first guess, for the preconditioner */
+    mps__component *sums; /* [sum_capacity] */
     int64_t sum_capacity;
     /* of the solve in progress */
     const mps_ppe_problem *problem;
@@ -68,12 +68,11 @@ static int times(N_Vector vx, N_Vector vy, N_Vector vp, sunbooleantype *changed,
     (void)vp, (void)changed;
     newton *k = data;
     const double *x = mps__vector_data(vx);
-    double *y = mps__vector_data(vy),
-           curvature = mps__rows_multiply(k->problem, x, y, k->space.partial);
+    double *y = mps__vector_data(vy), curvature = mps__rows_multiply(k->problem, x, y);
     mps__vector_written(vy);
     if (k->problem->law) {
         for (int64_t i = 0; i < k->space.n; i++) y[i] += k->slope[i] * x[i];
-        curvature = mps__blocked_dot(k->space.parallel, x, y, k->space.n, k->space.partial);
+        curvature = mps__dot_product(k->space.parallel, x, y, k->space.n);
     }
     mps__space_remember(&k->space, x, y, curvature);
     if (!isfinite(curvature))
@@ -113,8 +112,7 @@ static int precondition(N_Vector vp, N_Vector scale, N_Vector f, N_Vector f_scal
     mps__vector_written(vr);
     k->failure = k->pc->apply(k->pc_self, k->inner, z);
     if (k->failure) return -1;
-    const double dot = mps__blocked_dot(k->space.parallel, k->inner, z, k->space.n,
-                                        k->space.partial);
+    const double dot = mps__dot_product(k->space.parallel, k->inner, z, k->space.n);
     if (!isfinite(dot))
         k->failure = MPS_PPE_NAN;
     else if (dot <= 0)
@@ -127,7 +125,7 @@ static int precondition(N_Vector vp, N_Vector scale, N_Vector f, N_Vector f_scal
 static void drop_arrays(newton *k)
 {
     double **all[] = {&k->start, &k->residual, &k->inner, &k->slope,
-                      &k->ones,  &k->diagonal, &k->shift, &k->space.partial};
+                      &k->ones,  &k->diagonal, &k->shift};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         mps__give(&k->space.allocator, *all[i]);
         *all[i] = NULL;
@@ -140,8 +138,6 @@ static bool make_arrays(newton *k, int64_t capacity)
 {
     const mps_allocator *a = &k->space.allocator;
     drop_arrays(k);
-    k->space.partial = mps__take(a, 2 * mps__blocks(capacity), sizeof(double));
-    if (!k->space.partial) return false;
     double **all[] = {&k->start, &k->residual, &k->inner, &k->slope,
                       &k->ones,  &k->diagonal, &k->shift};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
@@ -173,15 +169,14 @@ static bool make_solver(newton *k)
            !KINSetNumMaxIters(k->kinsol, MOST_STEPS);
 }
 
-/* Make an array hold `count` doubles; what was in it is lost. */
-static bool grow(const newton *k, double **array, int64_t *capacity, int64_t count)
+static bool make_sums(newton *k, int64_t components)
 {
-    if (count <= *capacity) return true;
-    double *larger = mps__take(&k->space.allocator, count, sizeof *larger);
+    if (components <= k->sum_capacity) return true;
+    mps__component *larger = mps__take(&k->space.allocator, components, sizeof *larger);
     if (!larger) return false;
-    mps__give(&k->space.allocator, *array);
-    *array = larger;
-    *capacity = count;
+    mps__give(&k->space.allocator, k->sums);
+    k->sums = larger;
+    k->sum_capacity = components;
     return true;
 }
 
@@ -191,9 +186,7 @@ static bool prepare(newton *k, const mps_ppe_problem *problem)
     k->space.n = problem->n;
     k->space.parallel = problem->parallel;
     k->space.weight = problem->divergence > 0 ? problem->weight : NULL;
-    if (problem->component &&
-        !grow(k, &k->sums, &k->sum_capacity, 2 * (int64_t)problem->components))
-        return false;
+    if (problem->component && !make_sums(k, problem->components)) return false;
     return problem->n <= k->space.capacity || make_arrays(k, problem->n + problem->n / 8);
 }
 
@@ -247,8 +240,8 @@ static int attempt(newton *k, double *p, mps_ppe_result *result)
 {
     const mps_ppe_problem *problem = k->problem;
     const size_t bytes = (size_t)problem->n * sizeof *p;
-    const double norm = sqrt(mps__blocked_dot(problem->parallel, problem->rhs, problem->rhs,
-                                              problem->n, k->space.partial));
+    const double norm = sqrt(
+        mps__dot_product(problem->parallel, problem->rhs, problem->rhs, problem->n));
     if (norm == 0) memset(p, 0, bytes);
     if (!mps__guess_begin(k->problem, p, k->residual, k->sums, result)) return MPS_PPE_NAN;
     const double excess = mps__result_excess(problem, result);

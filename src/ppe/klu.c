@@ -19,7 +19,8 @@ typedef struct klu {
 /* What one solution holds; the pattern changes every step, so nothing is kept. */
 typedef struct job {
     const mps_ppe_problem *problem;
-    double *residual, *correction, *start, *sums;
+    double *residual, *correction, *start;
+    mps__component *sums;
     int32_t *pin; /* [components] the unknown that is held at 0 */
     SUNMatrix matrix;
     N_Vector x, b;
@@ -69,7 +70,7 @@ static bool open_job(const klu *k, job *j, const mps_ppe_problem *problem)
     j->residual = mps__take(a, n, sizeof(double));
     j->correction = mps__take(a, n, sizeof(double));
     j->start = mps__take(a, n, sizeof(double));
-    j->sums = mps__take(a, 2 * (int64_t)problem->components, sizeof(double));
+    j->sums = mps__take(a, problem->components, sizeof *j->sums);
     j->pin = mps__take(a, problem->components, sizeof(int32_t));
     if (!j->residual || !j->correction || !j->start || !j->sums || !j->pin) return false;
     j->matrix = SUNSparseMatrix(n, n, (sunindextype)problem->row[n] + n, CSR_MAT, k->context);

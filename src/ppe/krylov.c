@@ -16,7 +16,7 @@ typedef struct krylov {
     SUNLinearSolver solver;
     N_Vector x, b, stop;
     double *start, *residual, *correction, *inner; /* [capacity] */
-    double *sums;                                  /* [2 sum_capacity] */
+    mps__component *sums;                          /* [sum_capacity] */
     int64_t sum_capacity;
     /* of the solve in progress */
     const mps_ppe_problem *problem;
@@ -43,7 +43,7 @@ static int times(void *data, N_Vector v, N_Vector z)
         if (apply(k, x, k->inner)) return -1;
         x = k->inner;
     }
-    double curvature = mps__rows_multiply(k->problem, x, y, k->space.partial);
+    double curvature = mps__rows_multiply(k->problem, x, y);
     mps__space_remember(&k->space, x, y, curvature);
     if (!isfinite(curvature))
         k->failure = MPS_PPE_BREAKDOWN;
@@ -61,7 +61,7 @@ static int precondition(void *data, N_Vector vr, N_Vector vz, sunrealtype tolera
     const double *r = mps__vector_data(vr);
     double *z = mps__vector_data(vz);
     if (apply(k, r, z)) return -1;
-    double dot = mps__blocked_dot(k->space.parallel, r, z, k->space.n, k->space.partial);
+    double dot = mps__dot_product(k->space.parallel, r, z, k->space.n);
     mps__space_remember(&k->space, r, z, dot);
     if (!isfinite(dot))
         k->failure = MPS_PPE_NAN;
@@ -74,7 +74,7 @@ static int precondition(void *data, N_Vector vr, N_Vector vz, sunrealtype tolera
 
 static void drop_arrays(krylov *k)
 {
-    double **all[] = {&k->start, &k->residual, &k->correction, &k->inner, &k->space.partial};
+    double **all[] = {&k->start, &k->residual, &k->correction, &k->inner};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         mps__give(&k->space.allocator, *all[i]);
         *all[i] = NULL;
@@ -91,11 +91,9 @@ static bool make_arrays(krylov *k, int64_t capacity)
     k->residual = mps__take(a, capacity, sizeof *k->residual);
     k->correction = mps__take(a, capacity, sizeof *k->correction);
     if (!k->kind->symmetric) k->inner = mps__take(a, capacity, sizeof *k->inner);
-    k->space.partial = mps__take(a, 2 * mps__blocks(capacity), sizeof *k->space.partial);
     mps__vector_point(k->x, k->correction);
     mps__vector_point(k->b, k->residual);
-    if (!k->start || !k->residual || !k->correction || (!k->inner && !k->kind->symmetric) ||
-        !k->space.partial)
+    if (!k->start || !k->residual || !k->correction || (!k->inner && !k->kind->symmetric))
         return false;
     return mps__space_grow(&k->space, capacity);
 }
@@ -120,7 +118,7 @@ static bool make_solver(krylov *k)
 static bool make_sums(krylov *k, int64_t components)
 {
     if (components <= k->sum_capacity) return true;
-    double *larger = mps__take(&k->space.allocator, 2 * components, sizeof *larger);
+    mps__component *larger = mps__take(&k->space.allocator, components, sizeof *larger);
     if (!larger) return false;
     mps__give(&k->space.allocator, k->sums);
     k->sums = larger;
@@ -210,8 +208,7 @@ static int attempt(krylov *k, double *p, mps_ppe_result *result)
 {
     const mps_ppe_problem *problem = k->problem;
     size_t bytes = (size_t)problem->n * sizeof *p;
-    double norm = sqrt(mps__blocked_dot(problem->parallel, problem->rhs, problem->rhs, problem->n,
-                                        k->space.partial));
+    double norm = sqrt(mps__dot_product(problem->parallel, problem->rhs, problem->rhs, problem->n));
     if (norm == 0) memset(p, 0, bytes);
     if (!mps__guess_begin(k->problem, p, k->residual, k->sums, result)) return MPS_PPE_NAN;
     double excess = mps__result_excess(problem, result);

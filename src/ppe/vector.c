@@ -143,32 +143,25 @@ static void scale(sunrealtype a, N_Vector vx, N_Vector vz)
         &(operands){.a = a, .x = mps__vector_data(vx), .z = mps__vector_data(vz)});
 }
 
-/* Squares of blocks of x, and the largest |x weight| of each. */
-static void excess_blocks(void *argument, int64_t begin, int64_t end)
+/* Squares of x, and the largest |x weight|. */
+static void excess_rows(void *argument, int64_t begin, int64_t end, mps_exact *squares,
+                        double *largest)
 {
     const operands *o = argument;
-    const mps__space *space = o->space;
-    const double *r = o->x, *weight = space->weight;
-    double *partial = space->partial, *most = partial + mps__blocks(space->n);
-    for (int64_t b = begin; b < end; b++) {
-        const int64_t lo = b * MPS__BLOCK, hi = mps__block_end(b, space->n);
-        double largest = 0;
-        partial[b] = mps__block_dot(r + lo, r + lo, hi - lo);
-        for (int64_t i = lo; weight && i < hi; i++) largest = fmax(largest, fabs(r[i] * weight[i]));
-        most[b] = largest;
-    }
+    const double *r = o->x, *weight = o->space->weight;
+    mps_exact_add_products(squares, end - begin, r + begin, r + begin);
+    for (int64_t i = begin; weight && i < end; i++)
+        *largest = fmax(*largest, fabs(r[i] * weight[i]));
 }
 
 /* How far r is above the limits of both norms, in one pass. */
 static double excess(mps__space *space, const double *r)
 {
-    const int64_t blocks = mps__blocks(space->n);
-    const double *most = space->partial + blocks;
+    mps_exact squares = {{0}, 0, 0};
     double largest = 0;
-    mps_parallel_rows_least(mps__team(space->parallel, space->n), blocks, 1, excess_blocks,
-                            &(operands){.space = space, .x = r});
-    for (int64_t b = 0; b < blocks; b++) largest = fmax(largest, most[b]);
-    double norm = sqrt(mps__sum_blocks(space->partial, blocks)) / space->norm_limit;
+    mps__reduce(space->parallel, space->n, excess_rows, &(operands){.space = space, .x = r},
+                &(mps_exact_values){1, 1, &squares, &largest});
+    double norm = sqrt(mps_exact_value(&squares)) / space->norm_limit;
     double divergence = space->weight ? largest / space->divergence_limit : 0;
     return norm < divergence ? divergence : norm;
 }
@@ -219,7 +212,7 @@ static sunrealtype dot_product(N_Vector vx, N_Vector vy)
     const double *x = mps__vector_data(vx), *y = mps__vector_data(vy);
     bool known = (x == space->dot_x && y == space->dot_y) ||
                  (x == space->dot_y && y == space->dot_x);
-    return known ? space->dot : mps__blocked_dot(space->parallel, x, y, space->n, space->partial);
+    return known ? space->dot : mps__dot_product(space->parallel, x, y, space->n);
 }
 
 static void absolute_rows(void *argument, int64_t begin, int64_t end)
@@ -278,9 +271,14 @@ static sunrealtype weighted_norm(N_Vector vx, N_Vector vw)
     mps__space *space = content_of(vx)->space;
     const double *x = mps__vector_data(vx), *w = mps__vector_data(vw);
     if (content_of(vw)->stop) return excess(space, x);
-    double squares = 0;
-    for (int64_t i = 0; i < space->n; i++) squares += x[i] * w[i] * (x[i] * w[i]);
-    return sqrt(squares);
+    mps_exact squares = {{0}, 0, 0};
+    for (int64_t lo = 0, n; lo < space->n; lo += n) {
+        double part[MPS__BLOCK];
+        n = space->n - lo < MPS__BLOCK ? space->n - lo : MPS__BLOCK;
+        for (int64_t i = 0; i < n; i++) part[i] = x[lo + i] * w[lo + i];
+        mps_exact_add_products(&squares, n, part, part);
+    }
+    return sqrt(mps_exact_value(&squares));
 }
 
 static void set_ops(N_Vector v)

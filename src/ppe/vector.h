@@ -14,7 +14,6 @@ typedef struct mps__space {
     SUNContext context;
     int64_t n, capacity;
     const mps_parallel *parallel;
-    double *partial; /* [2 blocks of capacity] */
     /* list of vectors made ahead for N_VClone, which dereferences NULL when a clone fails */
     N_Vector spare;
     N_Vector owned; /* list of all vectors with an array of their own */

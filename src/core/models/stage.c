@@ -3,6 +3,7 @@
 #include "host.h"
 #include "neighbours.h"
 #include <math.h>
+#include <mps/exact.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -20,6 +21,7 @@ typedef struct job {
     mps_rows_fn rows;
     mps_sums_fn sums;
     void *arguments;
+    int32_t count; /* sums */
 } job;
 
 static void run_rows(void *argument, int64_t begin, int64_t end)
@@ -28,7 +30,25 @@ static void run_rows(void *argument, int64_t begin, int64_t end)
     k->rows(k->s, k->arguments, begin, end);
 }
 
-static void run_sums(void *argument, int64_t begin, int64_t end, double *values)
+/* One row at a time: a sum of several rows would depend on where ranges begin. */
+static void run_sums(void *argument, int64_t begin, int64_t end, mps_exact *sums, double *none)
+{
+    enum { BLOCK = 128 };
+    const job *k = argument;
+    double term[MPS_PARALLEL_VALUES][BLOCK];
+    (void)none;
+    for (int64_t lo = begin, n; lo < end; lo += n) {
+        n = end - lo < BLOCK ? end - lo : BLOCK;
+        for (int64_t i = 0; i < n; i++) {
+            double own[MPS_PARALLEL_VALUES] = {0};
+            k->sums(k->s, k->arguments, lo + i, lo + i + 1, own);
+            for (int32_t m = 0; m < k->count; m++) term[m][i] = own[m];
+        }
+        for (int32_t m = 0; m < k->count; m++) mps_exact_add(&sums[m], n, term[m]);
+    }
+}
+
+static void run_maxima(void *argument, int64_t begin, int64_t end, double *values)
 {
     const job *k = argument;
     k->sums(k->s, k->arguments, begin, end, values);
@@ -57,9 +77,12 @@ static bool begin_values(const mps_stage *s, int32_t count, const char *what, do
 void mps_stage_sum(const mps_stage *s, int32_t count, mps_sums_fn add, void *arguments,
                    double *sums)
 {
-    job k = {.s = s, .sums = add, .arguments = arguments};
-    if (begin_values(s, count, "sums", 0, sums))
-        mps_parallel_sum(host_of(s)->parallel, s->n, count, run_sums, &k, sums);
+    job k = {.s = s, .sums = add, .arguments = arguments, .count = count};
+    mps_exact sum[MPS_PARALLEL_VALUES] = {{{0}, 0, 0}};
+    if (!begin_values(s, count, "sums", 0, sums)) return;
+    mps_exact_rows(host_of(s)->parallel, s->n, MPS_PARALLEL_LEAST, run_sums, &k,
+                   &(mps_exact_values){.sums = count, .sum = sum});
+    for (int32_t m = 0; m < count; m++) sums[m] = mps_exact_value(&sum[m]);
 }
 
 void mps_stage_max(const mps_stage *s, int32_t count, mps_sums_fn raise, void *arguments,
@@ -67,7 +90,7 @@ void mps_stage_max(const mps_stage *s, int32_t count, mps_sums_fn raise, void *a
 {
     job k = {.s = s, .sums = raise, .arguments = arguments};
     if (begin_values(s, count, "maxima", -INFINITY, maxima))
-        mps_parallel_max(host_of(s)->parallel, s->n, count, run_sums, &k, maxima);
+        mps_parallel_max(host_of(s)->parallel, s->n, count, run_maxima, &k, maxima);
 }
 
 typedef struct besides {

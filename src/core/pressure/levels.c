@@ -46,8 +46,11 @@ static void join_rows(void *argument, int64_t begin, int64_t end)
     const forest *f = argument;
     const mps__ppe *e = f->e;
     for (int64_t r = begin; r < end; r++)
-        for (int64_t k = e->row[r]; k < e->row[r + 1] && e->col[k] < r; k++)
+        for (int64_t k = e->row[r]; k < e->row[r + 1]; k++) {
+            if (e->col[k] >= e->n) continue; /* of another rank: it may stand anywhere in the row */
+            if (e->col[k] > r) break;
             if (parent_of(f, e->col[k]) != parent_of(f, (int32_t)r)) join(f, (int32_t)r, e->col[k]);
+        }
 }
 
 /* Whether each component has a level. Most rows come into the tree of their first column at once. */
@@ -91,51 +94,100 @@ static void chain_rows(mps__ppe *e)
     }
 }
 
-/* A component, from its first row on. */
-typedef struct component {
-    int64_t rows, least; /* least id of its particles */
-    bool level;
-} component;
+/* Flag of a set: something fixes its pressures. */
+enum { LEVEL = 1 };
 
-/* Its rows count as seen. */
-static component look_at(mps__ppe *e, const int64_t *id, int32_t first)
+/* A component from its first row on, as far as it is here. */
+static mps__set part_of(const mps__ppe *e, const int64_t *id, int32_t first)
 {
-    component c = {0, INT64_MAX, false};
+    enum { BLOCK = 256 };
+    double term[BLOCK];
+    mps__set part = {.label = INT64_MAX};
+    int32_t count = 0;
     for (int32_t r = first; r != END; r = e->queue[r]) {
         const int64_t own = id[e->particle[r]];
-        c.rows++;
-        c.least = own < c.least ? own : c.least;
-        c.level = c.level || e->shift[r] > 0;
-        e->component[r] = -1;
+        part.rows++;
+        part.label = own < part.label ? own : part.label;
+        part.flags |= e->shift[r] > 0 ? LEVEL : 0;
+        term[count++] = e->rhs[r];
+        if (count < BLOCK) continue;
+        mps_exact_add(&part.sum, count, term);
+        count = 0;
     }
-    return c;
+    mps_exact_add(&part.sum, count, term);
+    return part;
 }
 
-/* The component gets a number; the mean of its right side is taken off. */
-static void balance(mps__ppe *e, int32_t first, int64_t rows, int32_t number)
+/* List the components as far as they are here; rows get the place in the list. */
+static mps_status list_parts(mps__ppe *e, const int64_t *id)
 {
-    double mean = 0;
-    for (int32_t r = first; r != END; r = e->queue[r]) mean += e->rhs[r] / (double)rows;
-    for (int32_t r = first; r != END; r = e->queue[r]) {
-        e->rhs[r] -= mean;
-        e->component[r] = number;
-    }
-}
-
-int32_t mps__levels_find(mps__ppe *e, const int64_t *id, const mps_parallel *parallel)
-{
-    int32_t singular = 0;
-    component largest = {0, INT64_MAX, true};
-    e->level_free = false;
-    if (all_have_level(e, parallel)) return 0;
-    chain_rows(e);
+    mps__sets_begin(&e->sets, e->context);
     for (int32_t r = 0; r < e->n; r++) {
         if (e->component[r] != NEW) continue;
-        const component c = look_at(e, id, r);
-        if (c.rows > largest.rows || (c.rows == largest.rows && c.least < largest.least))
-            largest = c;
-        if (!c.level) balance(e, r, c.rows, singular++);
+        const mps__set part = part_of(e, id, r);
+        for (int32_t k = r; k != END; k = e->queue[k]) e->component[k] = (int32_t)e->sets.parts;
+        MPS__TRY(mps__sets_add(&e->sets, &part));
     }
-    e->level_free = !largest.level;
+    return MPS_OK;
+}
+
+/* Join what the border of ranks parts. Labels are ids, which doubles hold. */
+static mps_status join_border(mps__ppe *e, double *label)
+{
+    if (e->ranks.share(e->ranks.host, label)) return mps__ranks_status(e->ghosts->ranks);
+    for (int64_t r = 0; r < e->n; r++)
+        for (int64_t k = e->row[r]; k < e->row[r + 1]; k++)
+            if (e->col[k] >= e->n)
+                MPS__TRY(mps__sets_join(&e->sets, (int64_t)label[r], (int64_t)label[e->col[k]]));
+    return MPS_OK;
+}
+
+/* Of two sets as large the first one, with the least label, counts as the largest. */
+static bool largest_is_free(const mps__sets *s)
+{
+    int64_t largest = 0;
+    for (int64_t k = 1; k < s->count; k++)
+        if (s->list[k].rows > s->list[largest].rows) largest = k;
+    return s->count > 0 && !(s->list[largest].flags & LEVEL);
+}
+
+/* Sets without a level get numbers. Rows of them lose the mean of the right side. Returns how many there are. */
+static int32_t balance(mps__ppe *e, const double *label)
+{
+    int32_t singular = 0;
+    for (int64_t k = 0; k < e->sets.count; k++)
+        e->sets.list[k].number = e->sets.list[k].flags & LEVEL ? -1 : singular++;
+    for (int64_t r = 0; r < e->n; r++) {
+        const mps__set *set = mps__sets_find(&e->sets, (int64_t)label[r]);
+        e->component[r] = set->number;
+        if (set->number >= 0) e->rhs[r] -= mps_exact_value(&set->sum) / (double)set->rows;
+    }
     return singular;
+}
+
+static mps_status find_levels(mps__ppe *e, const int64_t *id, int32_t *singular)
+{
+    mps__ranks none, *ranks = e->ghosts ? e->ghosts->ranks : &none;
+    mps__ranks_init(&none, e->context);
+    double *label = mps__scratch_take(e->context, e->scratch, MPS__PPE_LABELS, e->columns,
+                                      sizeof *label);
+    if (!label) return MPS_E_NOMEM;
+    chain_rows(e);
+    MPS__TRY(list_parts(e, id));
+    for (int64_t r = 0; r < e->n; r++) label[r] = (double)e->sets.part[e->component[r]].label;
+    if (e->ranks.ranks > 1) MPS__TRY(join_border(e, label));
+    MPS__TRY(mps__sets_merge(&e->sets, ranks));
+    e->level_free = largest_is_free(&e->sets);
+    *singular = balance(e, label);
+    return MPS_OK;
+}
+
+mps_status mps__levels_find(mps__ppe *e, const int64_t *id, const mps_parallel *parallel,
+                            int32_t *singular)
+{
+    double lacking = !all_have_level(e, parallel);
+    if (e->ranks.ranks > 1) mps__ranks_max(e->ghosts->ranks, 1, &lacking);
+    e->level_free = false;
+    *singular = 0;
+    return lacking > 0 ? find_levels(e, id, singular) : MPS_OK;
 }

@@ -9,7 +9,7 @@
 #include <string.h>
 
 /* Blocks of scratch. */
-enum { VALUES, COLUMNS, ROWS, LAWS, NUMBERS };
+enum { VALUES, COLUMNS, ROWS, LAWS, NUMBERS = MPS__PPE_LABELS + 1 };
 
 void mps__ppe_init(mps__ppe *e, mps__context *context)
 {
@@ -19,6 +19,7 @@ void mps__ppe_init(mps__ppe *e, mps__context *context)
 void mps__ppe_free(mps__ppe *e)
 {
     mps__scratch_free(e->context, &e->own);
+    mps__sets_free(&e->sets);
     mps__ppe_init(e, e->context);
 }
 
@@ -334,7 +335,8 @@ mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps__ppe_ter
     mps_parallel_rows(pairs->parallel, e->n, note_rows,
                       &a); /* after all rows: it may overwrite terms that they look at */
     MPS__TRY(set_ranks(e));
-    const int32_t singular = mps__levels_find(e, s->id, pairs->parallel);
+    int32_t singular;
+    MPS__TRY(mps__levels_find(e, s->id, pairs->parallel, &singular));
     e->problem = (mps_ppe_problem){.struct_size = sizeof e->problem,
                                    .dim = s->dim,
                                    .n = e->n,

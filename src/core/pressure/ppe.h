@@ -3,7 +3,7 @@
 #ifndef MPS_CORE_PPE_H
 #define MPS_CORE_PPE_H
 
-#include "ghosts.h"
+#include "sets.h"
 #include "solvers.h"
 #include <mps/model.h>
 
@@ -16,6 +16,9 @@ typedef struct mps__ppe_terms {
     double *source, *shift, *value, *gas, *law;
     int32_t *condition;
 } mps__ppe_terms;
+
+/* The block of scratch that levels.c takes. */
+enum { MPS__PPE_LABELS = 4 };
 
 typedef struct mps__ppe {
     mps__context *context;
@@ -39,6 +42,7 @@ typedef struct mps__ppe {
     int32_t *queue;     /* [n] scratch */
     mps_ppe_problem problem;
     mps_ppe_ranks ranks; /* its entry `ranks` */
+    mps__sets sets;      /* components of the matrix */
 } mps__ppe;
 
 void mps__ppe_init(mps__ppe *e, mps__context *context);

@@ -3,6 +3,7 @@
 #include "solvers.h"
 #include "ppe/builtin.h"
 #include <math.h>
+#include <mps/exact.h>
 #include <string.h>
 
 static const mps_solver_limits default_limits = {
@@ -364,15 +365,16 @@ typedef struct check {
     double *r;
 } check;
 
-/* No comparison finds a NaN the larger one, so it has a number of its own, POISON. */
-enum { SQUARES, RHS_SQUARES, POISON, LARGEST, VALUES };
+/* Squares of the residual and of the right side. No comparison finds a NaN the larger one, so it has a maximum of its own, POISON. */
+enum { SQUARES, RHS_SQUARES, SUMS };
+enum { LARGEST, POISON, MAXIMA };
+enum { CHECK_BLOCK = 1024 }; /* rows: what is summed is still in cache */
 
-static void check_rows(void *argument, int64_t begin, int64_t end, double *values)
+static void check_block(const check *c, int64_t begin, int64_t end, double *maxima)
 {
-    const check *c = argument;
     const mps_ppe_problem *problem = c->problem;
     const double *p = c->p, *law = has_law(problem) ? problem->law : NULL;
-    double *r = c->r, squares = 0, rhs_squares = 0, poison = 0, largest = values[LARGEST];
+    double *r = c->r, largest = maxima[LARGEST], poison = 0;
     for (int64_t i = begin; i < end; i++) {
         double s = problem->diagonal[i] * p[i];
         for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++)
@@ -380,26 +382,36 @@ static void check_rows(void *argument, int64_t begin, int64_t end, double *value
         if (law && law[i] > 0) s += problem->gas[i] * (mps_ppe_law(law[i], p[i], NULL) - p[i]);
         r[i] = problem->rhs[i] - s;
         const double d = problem->weight ? fabs(r[i] * problem->weight[i]) : 0;
-        squares += r[i] * r[i];
-        rhs_squares += problem->rhs[i] * problem->rhs[i];
         if (d > largest) largest = d;
         poison += 0 * d;
     }
-    values[SQUARES] += squares;
-    values[RHS_SQUARES] += rhs_squares;
-    values[POISON] += poison;
-    values[LARGEST] = largest;
+    maxima[LARGEST] = largest;
+    if (poison != 0) maxima[POISON] = 1;
+}
+
+static void check_rows(void *argument, int64_t begin, int64_t end, mps_exact *sums, double *maxima)
+{
+    const check *c = argument;
+    const double *rhs = c->problem->rhs;
+    for (int64_t lo = begin, hi; lo < end; lo = hi) {
+        hi = lo + CHECK_BLOCK < end ? lo + CHECK_BLOCK : end;
+        check_block(c, lo, hi, maxima);
+        mps_exact_add_products(&sums[SQUARES], hi - lo, c->r + lo, c->r + lo);
+        mps_exact_add_products(&sums[RHS_SQUARES], hi - lo, rhs + lo, rhs + lo);
+    }
 }
 
 mps_status mps_ppe_check(const mps_ppe_problem *problem, const double *p, double *work,
                          mps_ppe_result *result)
 {
     MPS__TRY(mps__struct_check(NULL, "mps_ppe_result", result));
-    double values[VALUES] = {0};
-    mps_parallel_reduce(problem->parallel, problem->n, check_rows, &(check){problem, p, work},
-                        &(mps_parallel_values){LARGEST, VALUES - LARGEST, values});
-    result->residual = sqrt(values[SQUARES]) /
-                       (values[RHS_SQUARES] > 0 ? sqrt(values[RHS_SQUARES]) : 1);
-    result->divergence = values[LARGEST] + values[POISON];
+    mps_exact sums[SUMS] = {{{0}, 0, 0}};
+    double maxima[MAXIMA] = {0};
+    mps_exact_rows(problem->parallel, problem->n, MPS_PARALLEL_LEAST, check_rows,
+                   &(check){problem, p, work}, &(mps_exact_values){SUMS, MAXIMA, sums, maxima});
+    const double squares = mps_exact_value(&sums[SQUARES]),
+                 rhs_squares = mps_exact_value(&sums[RHS_SQUARES]);
+    result->residual = sqrt(squares) / (rhs_squares > 0 ? sqrt(rhs_squares) : 1);
+    result->divergence = maxima[POISON] > 0 ? NAN : maxima[LARGEST];
     return MPS_OK;
 }

@@ -1,28 +1,56 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sums of energy and momentum. Particles are summed in a fixed number of parts, each by one thread: the same bytes for any number of threads. */
+/* Sums of energy and momentum. They are exact: the same bytes for any number of threads and any order of the particles. */
 #include "budget.h"
+#include <mps/exact.h>
 #include <string.h>
+
+enum { TERMS = 5, BLOCK = 256 };
 
 /* What terms are made of. */
 typedef struct terms {
     const mps__world *w;
     const void *data;
+    int32_t count; /* sums, TERMS at most */
 } terms;
 
+/* Terms of a block of particles, for each sum. */
+typedef struct block {
+    double term[TERMS][BLOCK];
+    int64_t n;
+} block;
+
+static void flush_block(const terms *k, block *b, mps_exact *sums)
+{
+    for (int32_t v = 0; v < k->count; v++) mps_exact_add(&sums[v], b->n, b->term[v]);
+    b->n = 0;
+}
+
 /* Define `name`, which adds the terms of one kind of particles; each has its own loop, in which its function is inlined. */
-#define ADD_TERMS(name, kind_of_particles, term)                                             \
-    static void name(void *argument, int64_t begin, int64_t end, double *sum)                \
-    {                                                                                        \
-        const terms *k = argument;                                                           \
-        for (int64_t i = begin; i < end; i++)                                                \
-            if (k->w->particles.kind[i] == (kind_of_particles)) term(k->w, k->data, i, sum); \
+#define ADD_TERMS(name, kind_of_particles, set)                                                 \
+    static void name(void *argument, int64_t begin, int64_t end, mps_exact *sums, double *none) \
+    {                                                                                           \
+        const terms *k = argument;                                                              \
+        block b;                                                                                \
+        (void)none;                                                                             \
+        b.n = 0;                                                                                \
+        for (int64_t i = begin; i < end; i++) {                                                 \
+            double own[TERMS] = {0};                                                            \
+            if (k->w->particles.kind[i] != (kind_of_particles)) continue;                       \
+            set(k->w, k->data, i, own);                                                         \
+            for (int32_t v = 0; v < TERMS; v++) b.term[v][b.n] = own[v];                        \
+            if (++b.n == BLOCK) flush_block(k, &b, sums);                                       \
+        }                                                                                       \
+        flush_block(k, &b, sums);                                                               \
     }
 
-static void sum_terms(const mps__world *w, mps_reduce_fn add, const void *data, int32_t count,
-                      double *sums)
+static void sum_terms(const mps__world *w, mps_exact_fn add, const void *data, int32_t count,
+                      double *values)
 {
-    terms k = {w, data};
-    mps_parallel_sum(&w->pool.parallel, w->particles.n, count, add, &k, sums);
+    terms k = {w, data, count};
+    mps_exact sums[TERMS] = {{{0}, 0, 0}};
+    mps_exact_rows(&w->pool.parallel, w->particles.n, MPS_PARALLEL_LEAST, add, &k,
+                   &(mps_exact_values){.sums = count, .sum = sums});
+    for (int32_t v = 0; v < count; v++) values[v] = mps_exact_value(&sums[v]);
 }
 
 static double mass(const mps__world *w, int64_t i)
@@ -31,21 +59,21 @@ static double mass(const mps__world *w, int64_t i)
                                                     : w->setup.dp * w->setup.dp * w->setup.dp);
 }
 
-static void energy_term(const mps__world *w, const void *data, int64_t i, double *sum)
+static void energy_term(const mps__world *w, const void *data, int64_t i, double *term)
 {
     (void)data;
     const double *u = w->particles.u + i * w->setup.dim;
-    sum[0] += 0.5 * mass(w, i) * mps__dot(u, u, w->setup.dim);
-    sum[1] -= mass(w, i) * mps__dot(w->setup.g, w->particles.x + i * w->setup.dim, w->setup.dim);
-    for (int d = 0; d < w->setup.dim; d++) sum[2 + d] += mass(w, i) * u[d];
+    term[0] = 0.5 * mass(w, i) * mps__dot(u, u, w->setup.dim);
+    term[1] = -mass(w, i) * mps__dot(w->setup.g, w->particles.x + i * w->setup.dim, w->setup.dim);
+    for (int d = 0; d < w->setup.dim; d++) term[2 + d] = mass(w, i) * u[d];
 }
 
 ADD_TERMS(add_energy, MPS_FLUID, energy_term)
 
 void mps__budget_sum(const mps__world *w, mps__bulk *bulk)
 {
-    double s[5];
-    sum_terms(w, add_energy, NULL, 5, s);
+    double s[TERMS] = {0};
+    sum_terms(w, add_energy, NULL, 2 + w->setup.dim, s);
     *bulk = (mps__bulk){s[0], s[1], {s[2], s[3], s[4]}};
 }
 
@@ -54,40 +82,37 @@ typedef struct acceleration {
     double dt;
 } acceleration;
 
-static void push_term(const mps__world *w, const void *data, int64_t i, double *sum)
+static void push_term(const mps__world *w, const void *data, int64_t i, double *term)
 {
     const acceleration *k = data;
     const double *b = k->a + i * w->setup.dim, *u = w->particles.u + i * w->setup.dim,
                  m = mass(w, i);
-    sum[0] += m * k->dt *
+    term[0] = m * k->dt *
               (mps__dot(b, u, w->setup.dim) + 0.5 * k->dt * mps__dot(b, b, w->setup.dim));
-    sum[1] += m;
-    for (int d = 0; d < w->setup.dim; d++) {
-        sum[2 + d] += m * u[d];
-        sum[5 + d] += m * k->dt * b[d];
-    }
+    term[1] = m;
+    for (int d = 0; d < w->setup.dim; d++) term[2 + d] = m * k->dt * b[d];
 }
 
 ADD_TERMS(add_push, MPS_FLUID, push_term)
 
 void mps__budget_push(const mps__world *w, const double *a, double dt, mps__push *push)
 {
-    double s[8];
-    sum_terms(w, add_push, &(acceleration){a, dt}, 8, s);
-    *push = (mps__push){s[0], s[1], {s[2], s[3], s[4]}, {s[5], s[6], s[7]}};
+    double s[TERMS] = {0};
+    sum_terms(w, add_push, &(acceleration){a, dt}, 2 + w->setup.dim, s);
+    *push = (mps__push){s[0], s[1], {s[2], s[3], s[4]}};
 }
 
-static void wall_term(const mps__world *w, const void *data, int64_t i, double *sum)
+static void wall_term(const mps__world *w, const void *data, int64_t i, double *term)
 {
     const double *area = w->work.area + i * w->setup.dim;
-    for (int d = 0; d < w->setup.dim; d++) sum[d] += ((const double *)data)[i] * area[d];
+    for (int d = 0; d < w->setup.dim; d++) term[d] = ((const double *)data)[i] * area[d];
 }
 
 ADD_TERMS(add_wall, MPS_WALL, wall_term)
 
 void mps__budget_wall_force(const mps__world *w, const double *pressure, double force[3])
 {
-    sum_terms(w, add_wall, pressure, 3, force);
+    sum_terms(w, add_wall, pressure, w->setup.dim, force);
 }
 
 /* A rigid velocity, about `centre`, and the impulses it works on. */
@@ -129,7 +154,7 @@ static tank_move mean_move(const mps__world *w, const mps__pose *end, double dt)
     return k;
 }
 
-static void wall_work_term(const mps__world *w, const void *data, int64_t i, double *sum)
+static void wall_work_term(const mps__world *w, const void *data, int64_t i, double *term)
 {
     const tank_move *k = data;
     const double *o = k->omega, *a = k->a + i * w->setup.dim;
@@ -139,7 +164,7 @@ static void wall_work_term(const mps__world *w, const void *data, int64_t i, dou
     const double spin[3] = {o[1] * r[2] - o[2] * r[1], o[2] * r[0] - o[0] * r[2],
                             o[0] * r[1] - o[1] * r[0]};
     for (int d = 0; d < w->setup.dim; d++)
-        sum[0] += mass(w, i) * k->dt * a[d] * (k->v[d] + spin[d]);
+        term[0] += mass(w, i) * k->dt * a[d] * (k->v[d] + spin[d]);
 }
 
 ADD_TERMS(add_wall_work, MPS_FLUID, wall_work_term)
@@ -153,9 +178,9 @@ double mps__budget_wall_work(const mps__world *w, const mps__pose *end, const do
     return work;
 }
 
-static void lift_term(const mps__world *w, const void *data, int64_t i, double *sum)
+static void lift_term(const mps__world *w, const void *data, int64_t i, double *term)
 {
-    sum[0] += mass(w, i) *
+    term[0] = mass(w, i) *
               mps__dot(w->setup.g, (const double *)data + i * w->setup.dim, w->setup.dim);
 }
 
@@ -189,12 +214,12 @@ void mps__budget_update(const mps__world *w, mps__budget *b)
     b->start = b->last.kinetic + b->last.potential;
 }
 
-static void deviation_term(const mps__world *w, const void *data, int64_t i, double *sum)
+static void deviation_term(const mps__world *w, const void *data, int64_t i, double *term)
 {
     (void)data;
     if (w->particles.region[i] > MPS_REGION_SECOND) return;
-    sum[0] += w->work.volume_deviation[i];
-    sum[1] += 1;
+    term[0] = w->work.volume_deviation[i];
+    term[1] = 1;
 }
 
 ADD_TERMS(add_deviation, MPS_FLUID, deviation_term)

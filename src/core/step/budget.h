@@ -7,9 +7,9 @@
 
 /* What accelerations do to it over dt. */
 typedef struct mps__push {
-    double energy;                  /* kinetic energy gained [J] */
-    double mass;                    /* [kg] */
-    double momentum[3], impulse[3]; /* before, and gained [kg m/s] */
+    double energy;     /* kinetic energy gained [J] */
+    double mass;       /* [kg] */
+    double impulse[3]; /* [kg m/s] */
 } mps__push;
 
 void mps__budget_sum(const mps__world *w, mps__bulk *bulk);

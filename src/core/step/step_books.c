@@ -4,6 +4,14 @@
 #include "plates.h"
 #include "step.h"
 
+/* Whether verbs run at a moment. Without, all is as before it. */
+static bool acts(const mps__step *q, int32_t moment)
+{
+    const int32_t *begin = q->w->host.plan.begin;
+    return begin[moment] < begin[moment + 1];
+}
+
+/* Velocities are those that the last state was booked with: no verb changes them before. */
 void mps__step_book_forces(mps__step *q)
 {
     const mps_stage *s = &q->stage;
@@ -15,7 +23,7 @@ void mps__step_book_forces(mps__step *q)
         const double weight = push.mass * s->dt * s->g[d];
         m->force[d] += push.impulse[d];
         m->gravity[d] += weight;
-        q->momentum[d] = push.momentum[d] + push.impulse[d] + weight;
+        q->momentum[d] = q->budget.last.momentum[d] + push.impulse[d] + weight;
     }
 }
 
@@ -36,6 +44,7 @@ void mps__step_book_pressure(mps__step *q)
 void mps__step_book_collisions(mps__step *q)
 {
     mps__bulk after;
+    if (!acts(q, MPS_VELOCITY)) return;
     mps__budget_sum(q->w, &after);
     q->budget.collision += q->bulk.kinetic - after.kinetic;
     for (int d = 0; d < q->w->setup.dim; d++)
@@ -46,6 +55,7 @@ void mps__step_book_collisions(mps__step *q)
 void mps__step_book_shift(mps__step *q)
 {
     mps__bulk after;
+    if (!acts(q, MPS_SHIFT)) return;
     mps__budget_sum(q->w, &after);
     q->budget.shift += q->bulk.kinetic - after.kinetic + mps__budget_lift(q->w, q->w->work.motion);
     for (int d = 0; d < q->w->setup.dim; d++)
