@@ -357,8 +357,9 @@ MPS_API void mps_stage_max(const mps_stage *s, int32_t count, mps_sums_fn raise,
 
 /** Mark rows that have a near neighbour among some rows. A row without pairs, which solids away
  *  from fluid and dummies may be, is not marked.
- *  @param member  [n] not 0 for these rows @param beside  [n] out: 1 or 0 */
-MPS_API void mps_stage_beside(const mps_stage *s, const int32_t *member, int32_t *beside);
+ *  @param member  [n] not 0 for these rows @param beside  [n] out: 1 or 0
+ *  @return 0, or non-zero after a failure (the error is set) */
+MPS_API int mps_stage_beside(mps_stage *s, int32_t *member, int32_t *beside);
 
 /** Roles of rows in mps_stage_bodies(). */
 enum {
@@ -377,7 +378,7 @@ enum {
  *  @param most  larger bodies are taken for held @param role  [n] MPS_BODY_...
  *  @param body  [n] out: 0.. for rows of bodies that are free, by the least id of each, else -1
  *  @return 0, or non-zero after a failure (no memory; the error is set) */
-MPS_API int mps_stage_bodies(mps_stage *s, int32_t most, const int32_t *role, int32_t *body);
+MPS_API int mps_stage_bodies(mps_stage *s, int32_t most, int32_t *role, int32_t *body);
 
 /** Rows by square cells, for searches beyond the far radius: bucket b holds the rows first[b] - 1,
  *  next[of that] - 1, ... until 0, ascending, of all cells with that bucket. */
@@ -426,9 +427,21 @@ MPS_API int mps_stage_grid(mps_stage *s, double side, mps_grid *grid);
  *  @param velocity  NULL, or [dim] out, in the lab [m/s] */
 MPS_API void mps_stage_tank(const mps_stage *s, const double *x, double *place, double *velocity);
 
-/** Make values that rows wrote into scratch [n*components] visible at neighbours. Call it between a
- *  loop that writes scratch and one that reads it at neighbours. Channels need no call. */
-MPS_API int mps_stage_refresh(mps_stage *s, double *scratch, int32_t components);
+/** Scratch, or a channel, whose values a verb wrote and then reads at neighbours. */
+typedef struct mps_shared {
+    /** [n*components], double or int32_t */
+    void *values;
+    /** Numbers per particle. */
+    int32_t components;
+    /** MPS_TYPE_REAL or MPS_TYPE_INTEGER */
+    int32_t type;
+} mps_shared;
+
+/** Make values that rows wrote visible at their neighbours. Call it between a loop that writes
+ *  scratch or a channel and a loop of the same verb that reads it at neighbours. Channels that other
+ *  verbs wrote need no call.
+ *  @param shared  [count], 1..16 @return 0, or non-zero after a failure (the error is set) */
+MPS_API int mps_stage_refresh(mps_stage *s, int32_t count, const mps_shared *shared);
 
 /** Scratch of `count` doubles, zeroed, valid until the verb returns. At most 16, of both types.
  *  @return NULL: no memory, or too many (the error is set; let the verb return non-zero) */

@@ -173,13 +173,21 @@ MPS_ROW void spread_row(const int dim, const mps_stage *s, fields *f, int64_t i)
 }
 MPS_ROWS(spread_rows, spread_row, fields)
 
+/* Make the regions visible at neighbours, or the members. */
+static int refresh(mps_stage *s, int32_t *values)
+{
+    return mps_stage_refresh(s, 1, &(mps_shared){values, 1, MPS_TYPE_INTEGER});
+}
+
 /* Inner fluid particles with a near neighbour of region `from` become `to`. */
-static void spread(const mps_stage *s, fields *f, int32_t from, int32_t to)
+static int spread(mps_stage *s, fields *f, int32_t from, int32_t to)
 {
     f->from = from;
     f->to = to;
     mps_stage_rows(s, from_rows, f);
+    if (refresh(s, f->member)) return 1;
     mps_stage_rows(s, spread_rows, f);
+    return 0;
 }
 
 /* n/n0 and |A|/|A|0 of a particle as if there were no spray: no pressure acts on spray, so that it
@@ -228,15 +236,17 @@ MPS_ROW void any_spray_row(const int dim, const mps_stage *s, fields *f, int64_t
 MPS_SUMS(any_spray_rows, any_spray_row, fields)
 
 /* Inner particles beside spray that are on the surface without it. */
-static void look_beside_spray(const mps_stage *s, fields *f)
+static int look_beside_spray(mps_stage *s, fields *f)
 {
     double any;
     mps_stage_max(s, 1, any_spray_rows, f, &any);
-    if (!(any > 0)) return;
+    if (!(any > 0)) return 0;
     f->from = MPS_REGION_SPRAY;
     mps_stage_rows(s, from_rows, f);
+    if (refresh(s, f->member)) return 1;
     mps_stage_rows(s, beside_spray_rows, f);
     mps_stage_rows(s, surface_rows, f);
+    return refresh(s, f->region);
 }
 
 /* Whether a particle has both a wall and the surface within 1.5 dp. */
@@ -275,14 +285,13 @@ static int find_surface(mps_stage *s)
     if (!f.member || !f.mark) return 1;
     s->equation->complete_surface = s->setting[COMPLETE] > 0;
     mps_stage_rows(s, own_rows, &f);
-    look_beside_spray(s, &f);
+    if (refresh(s, f.region) || look_beside_spray(s, &f)) return 1;
     if (s->setting[CONTACT] > 0) {
         mps_stage_rows(s, contact_rows, &f);
         mps_stage_rows(s, surface_rows, &f);
     }
-    spread(s, &f, MPS_REGION_SURFACE, MPS_REGION_NEAR);
-    spread(s, &f, MPS_REGION_NEAR, MPS_REGION_SECOND);
-    return 0;
+    return spread(s, &f, MPS_REGION_SURFACE, MPS_REGION_NEAR) ||
+           spread(s, &f, MPS_REGION_NEAR, MPS_REGION_SECOND);
 }
 
 static const mps_verb verbs[] = {

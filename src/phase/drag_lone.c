@@ -138,7 +138,9 @@ static int drag_lone_gas(mps_stage *s)
                 .weight = mps_stage_scratch(s, s->n),
                 .change = mps_stage_scratch(s, s->n * s->dim)};
     if (!f.share || !f.weight || !f.change) return 1;
+    const mps_shared judged[] = {{f.share, 1, MPS_TYPE_REAL}, {f.weight, 1, MPS_TYPE_REAL}};
     mps_stage_rows(s, judge_rows, &f);
+    if (mps_stage_refresh(s, 2, judged)) return 1;
     mps_stage_rows(s, drag_rows, &f);
     mps_stage_rows(s, add_change_rows, &f);
     return 0;

@@ -86,6 +86,9 @@ static int accelerate_fluid(mps_stage *s)
                 .first = mps_stage_scratch(s, s->n * s->dim)};
     if (!f.first) return 1;
     mps_stage_rows(s, find_first_rows, &f);
+    if (s->setting[SECOND] > 0 &&
+        mps_stage_refresh(s, 1, &(mps_shared){f.first, s->dim, MPS_TYPE_REAL}))
+        return 1;
     mps_stage_rows(s, accelerate_rows, &f);
     return 0;
 }

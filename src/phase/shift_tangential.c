@@ -233,6 +233,7 @@ static int shift_fluid(mps_stage *s)
                 .du = mps_stage_scratch(s, s->n * s->dim)};
     if (!f.even || !f.du) return 1;
     mps_stage_rows(s, add_even_rows, &f);
+    if (mps_stage_refresh(s, 1, &(mps_shared){f.even, s->dim, MPS_TYPE_REAL})) return 1;
     mps_stage_rows(s, move_rows, &f);
     mps_stage_rows(s, add_change_rows, &f);
     return 0;

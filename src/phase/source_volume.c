@@ -398,11 +398,16 @@ static int add_sources(mps_stage *s)
                 .over = 1.0 / s->dt,
                 .on = k[START] > 0 ? mps__smaller(1.0, s->t * rate / k[START]) : 1.0};
     if (!f.is_solid || !f.solid || !f.delta || !f.relative || !f.v) return 1;
+    const mps_shared first[] = {{f.is_solid, 1, MPS_TYPE_REAL},
+                                {f.delta, 1, MPS_TYPE_REAL},
+                                {f.relative, s->dim, MPS_TYPE_REAL}};
     set_pace(s, &f);
     mps_stage_rows(s, prepare_rows, &f);
+    if (mps_stage_refresh(s, 3, first)) return 1;
     if (mps_op_volume_sum(s->far, f.is_solid, f.solid) != MPS_OK)
         return mps_stage_fail(s, "the volumes of the solids cannot be summed");
     mps_stage_rows(s, slip_rows, &f);
+    if (mps_stage_refresh(s, 1, &(mps_shared){f.v, s->dim, MPS_TYPE_REAL})) return 1;
     mps_stage_rows(s, add_source_rows, &f);
     return 0;
 }

@@ -151,7 +151,7 @@ static mps_status walk(world *w, int32_t rank, mps__ghosts *g)
         w->wrong[rank] += wrong_rows(g);
         MPS__TRY(check_share(g, &w->wrong[rank]));
         for (int64_t i = 0; i < s->n; i++) w->wrong[rank] += s->kind[i] != kind_of(s->id[i]);
-        w->wrong[rank] += g->owned != all;
+        w->wrong[rank] += g->known != s->n;
     }
     return MPS_OK;
 }

@@ -350,13 +350,13 @@ static int bodies_and_blocks(mps_stage *s)
 static int refresh_all(mps_stage *s)
 {
     double *b = mps_stage_scratch(s, 2 * s->n);
-    assert_int_equal(mps_stage_refresh(s, b, 2), 0);
-    return mps_stage_refresh(s, b, 0);
+    assert_int_equal(mps_stage_refresh(s, 1, &(mps_shared){b, 2, MPS_TYPE_REAL}), 0);
+    return mps_stage_refresh(s, 1, &(mps_shared){b, 0, MPS_TYPE_REAL});
 }
 
 static int refresh_nothing(mps_stage *s)
 {
-    return mps_stage_refresh(s, NULL, 1);
+    return mps_stage_refresh(s, 1, &(mps_shared){NULL, 1, MPS_TYPE_REAL});
 }
 
 static void scratch(void **state)

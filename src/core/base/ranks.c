@@ -111,6 +111,16 @@ void mps__ranks_add(mps__ranks *r, int32_t count, int64_t *values)
     mps__ranks_reduce(r, count, sizeof *values, values, added);
 }
 
+static void joined(void *into, const void *from)
+{
+    mps_exact_join(into, from);
+}
+
+void mps__ranks_sum(mps__ranks *r, int32_t count, mps_exact *sums)
+{
+    mps__ranks_reduce(r, count, sizeof *sums, sums, joined);
+}
+
 void mps__ranks_gather(mps__ranks *r, const void *own, const int64_t *bytes, void *all)
 {
     if (begin(r, r->count > 1 ? bytes[r->rank] : 0))

@@ -4,6 +4,7 @@
 #define MPS_CORE_RANKS_H
 
 #include "base.h"
+#include <mps/exact.h>
 #include <mps/ranks.h>
 
 typedef struct mps__ranks {
@@ -38,6 +39,8 @@ void mps__ranks_reduce(mps__ranks *r, int32_t count, size_t bytes, void *values,
 void mps__ranks_max(mps__ranks *r, int32_t count, double *values);
 /* Sums over all ranks. */
 void mps__ranks_add(mps__ranks *r, int32_t count, int64_t *values);
+/* Exact sums over all ranks. */
+void mps__ranks_sum(mps__ranks *r, int32_t count, mps_exact *sums);
 /* Collect blocks of all ranks; `bytes` [ranks]. */
 void mps__ranks_gather(mps__ranks *r, const void *own, const int64_t *bytes, void *all);
 /* A number of each rank, in their order: values [ranks]. */

@@ -272,7 +272,7 @@ static mps_status move_in(arrival *v)
     w->lists.linked = v->have.linked ? w->particles.generation : -1;
     mps__plates_set_active(w);
     w->lists.neighbours.valid = false;
-    w->lists.aside = 0;
+    w->lists.aside = w->lists.gone = 0;
     mps__free(w->context, w->lists.listed_at);
     w->lists.listed_at = v->listed_at;
     v->listed_at = NULL;

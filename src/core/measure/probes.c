@@ -231,7 +231,7 @@ static mps_status check_wall(mps__world *w, const mps_probe *c)
 static double line_length(const mps__world *w, const mps_probe *c)
 {
     double lo[3], hi[3], length = INFINITY;
-    if (!mps__world_domain(w, lo, hi)) return 0;
+    if (!mps__world_domain((mps__world *)w, lo, hi)) return 0;
     for (int32_t d = 0; d < w->setup.dim; d++)
         if (c->direction[d] != 0)
             length = fmin(length,

@@ -3,10 +3,10 @@
 #ifndef MPS_CORE_HOST_H
 #define MPS_CORE_HOST_H
 
-#include "ghosts.h"
 #include "motion.h"
 #include "parallel.h"
 #include "plan.h"
+#include "sets.h"
 
 typedef struct mps__host {
     mps__context *context;
@@ -21,6 +21,7 @@ typedef struct mps__host {
     const mps__pose *next;     /* pose at the end of the step; NULL: not known yet */
     bool no_memory;            /* a verb got no scratch */
     bool misused;              /* a verb asked for a loop that there is not */
+    mps__sets sets; /* bodies */
     mps__plan plan;
 } mps__host;
 

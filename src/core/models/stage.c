@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Loops, sums, bodies and scratch for verbs of models: the one place where these loops are. */
+/* Loops, sums and scratch for verbs of models: the one place where these loops are. Rows are owned particles. */
 #include "host.h"
-#include "neighbours.h"
 #include <math.h>
 #include <mps/exact.h>
 #include <stdarg.h>
@@ -24,19 +23,32 @@ typedef struct job {
     int32_t count; /* sums */
 } job;
 
-static void run_rows(void *argument, int64_t begin, int64_t end)
+static void own_rows(void *argument, int64_t begin, int64_t end)
 {
     const job *k = argument;
     k->rows(k->s, k->arguments, begin, end);
 }
 
+static void run_rows(void *argument, int64_t begin, int64_t end)
+{
+    const job *k = argument;
+    mps__ghosts_rows(host_of(k->s)->ghosts, own_rows, argument, begin, end);
+}
+
+/* Rows of one thread, and where it collects. */
+typedef struct part {
+    const job *k;
+    mps_exact *sums;
+    double *maxima;
+} part;
+
 /* One row at a time: a sum of several rows would depend on where ranges begin. */
-static void run_sums(void *argument, int64_t begin, int64_t end, mps_exact *sums, double *none)
+static void sum_rows(void *argument, int64_t begin, int64_t end)
 {
     enum { BLOCK = 128 };
-    const job *k = argument;
+    const part *own_part = argument;
+    const job *k = own_part->k;
     double term[MPS_PARALLEL_VALUES][BLOCK];
-    (void)none;
     for (int64_t lo = begin, n; lo < end; lo += n) {
         n = end - lo < BLOCK ? end - lo : BLOCK;
         for (int64_t i = 0; i < n; i++) {
@@ -44,14 +56,30 @@ static void run_sums(void *argument, int64_t begin, int64_t end, mps_exact *sums
             k->sums(k->s, k->arguments, lo + i, lo + i + 1, own);
             for (int32_t m = 0; m < k->count; m++) term[m][i] = own[m];
         }
-        for (int32_t m = 0; m < k->count; m++) mps_exact_add(&sums[m], n, term[m]);
+        for (int32_t m = 0; m < k->count; m++) mps_exact_add(&own_part->sums[m], n, term[m]);
     }
+}
+
+static void run_sums(void *argument, int64_t begin, int64_t end, mps_exact *sums, double *none)
+{
+    const job *k = argument;
+    part own = {.k = k, .sums = sums};
+    (void)none;
+    mps__ghosts_rows(host_of(k->s)->ghosts, sum_rows, &own, begin, end);
+}
+
+static void raise_rows(void *argument, int64_t begin, int64_t end)
+{
+    const part *own_part = argument;
+    const job *k = own_part->k;
+    k->sums(k->s, k->arguments, begin, end, own_part->maxima);
 }
 
 static void run_maxima(void *argument, int64_t begin, int64_t end, double *values)
 {
     const job *k = argument;
-    k->sums(k->s, k->arguments, begin, end, values);
+    part own = {.k = k, .maxima = values};
+    mps__ghosts_rows(host_of(k->s)->ghosts, raise_rows, &own, begin, end);
 }
 
 void mps_stage_rows(const mps_stage *s, mps_rows_fn rows, void *arguments)
@@ -82,6 +110,7 @@ void mps_stage_sum(const mps_stage *s, int32_t count, mps_sums_fn add, void *arg
     if (!begin_values(s, count, "sums", 0, sums)) return;
     mps_exact_rows(host_of(s)->parallel, s->n, MPS_PARALLEL_LEAST, run_sums, &k,
                    &(mps_exact_values){.sums = count, .sum = sum});
+    mps__ranks_sum(host_of(s)->ghosts->ranks, count, sum);
     for (int32_t m = 0; m < count; m++) sums[m] = mps_exact_value(&sum[m]);
 }
 
@@ -89,8 +118,9 @@ void mps_stage_max(const mps_stage *s, int32_t count, mps_sums_fn raise, void *a
                    double *maxima)
 {
     job k = {.s = s, .sums = raise, .arguments = arguments};
-    if (begin_values(s, count, "maxima", -INFINITY, maxima))
-        mps_parallel_max(host_of(s)->parallel, s->n, count, run_maxima, &k, maxima);
+    if (!begin_values(s, count, "maxima", -INFINITY, maxima)) return;
+    mps_parallel_max(host_of(s)->parallel, s->n, count, run_maxima, &k, maxima);
+    mps__ranks_max(host_of(s)->ghosts->ranks, count, maxima);
 }
 
 typedef struct besides {
@@ -109,98 +139,11 @@ static void beside_rows(const mps_stage *s, void *arguments, int64_t begin, int6
     }
 }
 
-void mps_stage_beside(const mps_stage *s, const int32_t *member, int32_t *beside)
+int mps_stage_beside(mps_stage *s, int32_t *member, int32_t *beside)
 {
+    const mps_shared shared = {.values = member, .components = 1, .type = MPS_TYPE_INTEGER};
+    if (mps_stage_refresh(s, 1, &shared)) return 1;
     mps_stage_rows(s, beside_rows, &(besides){member, beside});
-}
-
-/* Rows of a body in the order in which they were found. */
-typedef struct search {
-    const int32_t *role;
-    int32_t *body, *queue;
-    int64_t found;
-} search;
-
-/* In `body` until the search of all is over: not looked at; member of a body that is held. */
-enum { NEW = -1, HELD = -2 };
-
-/* Solids may have no rows: a link through one would depend on where the search begins. */
-static bool belongs(const mps_stage *s, const search *k, int64_t i)
-{
-    return s->kind[i] == MPS_FLUID &&
-           (k->role[i] == MPS_BODY_SEED || k->role[i] == MPS_BODY_MEMBER);
-}
-
-static void join(search *k, int64_t i, int32_t number)
-{
-    k->body[i] = number;
-    k->queue[k->found++] = (int32_t)i;
-}
-
-/* Look at the neighbours of row i. @return whether one of them holds the body; new members join it */
-static bool is_held(const mps_stage *s, search *k, int64_t i)
-{
-    const mps_stencil *t = s->near;
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const int32_t j = t->col[p];
-        if (k->role[j] == MPS_BODY_ANCHOR) return true;
-        if (!belongs(s, k, j)) continue;
-        if (k->body[j] == HELD) return true;
-        if (k->body[j] == NEW) join(k, j, k->body[i]);
-    }
-    return false;
-}
-
-/* Set body[] of each row. A search ends as soon as the body is known to be held; later searches of the same body meet a row of this one.
- * @return number of free bodies, in the order in which they were found */
-static int32_t find_bodies(const mps_stage *s, search *k, int32_t most)
-{
-    int32_t count = 0;
-    for (int64_t i = 0; i < s->n; i++) k->body[i] = NEW;
-    for (int64_t seed = 0; seed < s->n; seed++) {
-        if (k->role[seed] != MPS_BODY_SEED || k->body[seed] != NEW || !belongs(s, k, seed))
-            continue;
-        bool held = false;
-        k->found = 0;
-        join(k, seed, count);
-        for (int64_t next = 0; next < k->found && !held; next++)
-            held = is_held(s, k, k->queue[next]) || k->found > most;
-        for (int64_t m = 0; m < k->found && held; m++) k->body[k->queue[m]] = HELD;
-        count += !held;
-    }
-    for (int64_t i = 0; i < s->n; i++) k->body[i] = k->body[i] >= 0 ? k->body[i] : -1;
-    return count;
-}
-
-/* Number bodies by their least ids. @return 0, or 1: no memory */
-static int number_bodies(mps_stage *s, int32_t count, int32_t *body)
-{
-    uint64_t *least = (uint64_t *)(void *)mps_stage_scratch(s, 2 * (int64_t)count);
-    int32_t *order = mps_stage_scratch_integers(s, 2 * (int64_t)count);
-    if (!least || !order) return 1;
-    int32_t *number = order + count; /* scratch of the sort, then free */
-    for (int32_t k = 0; k < count; k++) {
-        least[k] = UINT64_MAX;
-        order[k] = k;
-    }
-    for (int64_t i = 0; i < s->n; i++)
-        if (body[i] >= 0 && (uint64_t)s->id[i] < least[body[i]])
-            least[body[i]] = (uint64_t)s->id[i];
-    mps__sort_keys(least, order, count);
-    for (int32_t k = 0; k < count; k++) number[order[k]] = k;
-    for (int64_t i = 0; i < s->n; i++)
-        if (body[i] >= 0) body[i] = number[body[i]];
-    host_of(s)->scratch_used -= 2;
-    return 0;
-}
-
-int mps_stage_bodies(mps_stage *s, int32_t most, const int32_t *role, int32_t *body)
-{
-    search k = {role, body, mps_stage_scratch_integers(s, s->n), 0};
-    if (!k.queue) return 1;
-    const int32_t count = find_bodies(s, &k, most);
-    if (count > 1 && number_bodies(s, count, body)) return 1;
-    host_of(s)->scratch_used--; /* the queue is not needed any more */
     return 0;
 }
 
@@ -248,12 +191,25 @@ void mps_stage_tank(const mps_stage *s, const double *x, double *place, double *
     for (int d = 0; d < s->dim; d++) velocity[d] = (next[d] - x[d]) / s->dt;
 }
 
-/* All rows are in one memory, where they are visible at once. */
-int mps_stage_refresh(mps_stage *s, double *scratch, int32_t components)
+int mps_stage_refresh(mps_stage *s, int32_t count, const mps_shared *shared)
 {
-    if (scratch && components >= 1) return 0;
-    return mps_stage_fail(s, "refresh: scratch is NULL, or components is %d: must be >= 1",
-                          (int)components);
+    enum { MOST = 16 };
+    mps__shared list[MOST];
+    if (count < 1 || count > MOST)
+        return mps_stage_fail(s, "refresh: %d arrays: must be 1..%d", (int)count, MOST);
+    for (int32_t k = 0; k < count; k++) {
+        const mps_shared *a = &shared[k];
+        if (!a->values || a->components < 1)
+            return mps_stage_fail(s, "refresh: array %d is NULL, or has %d components: must be >= 1",
+                                  (int)k, (int)a->components);
+        if (a->type != MPS_TYPE_REAL && a->type != MPS_TYPE_INTEGER)
+            return mps_stage_fail(s, "refresh: array %d has type %d: MPS_TYPE_REAL or _INTEGER",
+                                  (int)k, (int)a->type);
+        list[k] = (mps__shared){a->values, (size_t)a->components * (a->type == MPS_TYPE_REAL
+                                                                        ? sizeof(double)
+                                                                        : sizeof(int32_t))};
+    }
+    return mps__ghosts_share(host_of(s)->ghosts, list, count) < 0;
 }
 
 /* ---- scratch and errors ---- */

@@ -23,6 +23,7 @@ static void moved_rows(void *argument, int64_t begin, int64_t end, double *value
     double worst = values[0];
     for (int64_t i = begin; i < end; i++) {
         double s = 0;
+        if (c->l->ghost && c->l->ghost[i]) continue;
         for (int d = 0; d < dim; d++) {
             double m = x[i * dim + d] - searched[i * dim + d];
             s += m * m;
@@ -326,9 +327,9 @@ MPS__DIM_INLINE int64_t search_cell(searching *s, int64_t first, shelf *h, int64
     finding f;
     for (; a < l->n && l->key[a] == l->key[first]; a++) {
         const int32_t i = sorted ? (int32_t)a : l->order[a];
-        const bool solid = l->kind && l->kind[i] != MPS_FLUID;
-        l->rim[i] = dummies && !solid;
-        l->idle[i] = solid && (!fluid || (l->kind[i] == MPS_DUMMY && !l->dummy_rows));
+        const bool solid = l->kind && l->kind[i] != MPS_FLUID, ghost = l->ghost && l->ghost[i];
+        l->rim[i] = dummies && !solid && !ghost;
+        l->idle[i] = ghost || (solid && (!fluid || (l->kind[i] == MPS_DUMMY && !l->dummy_rows)));
         if (!l->idle[i]) find_row(s, a, range, ranges, &f, dim, sorted);
         if (!l->idle[i] && solid) l->idle[i] = !meets_fluid(l, &f);
         if (l->idle[i])

@@ -46,7 +46,8 @@ struct mps_neighbours {
     bool dummy_rows;     /* nor do dummies, unless this is set */
     bool partial;        /* the last search left such solids out: */
     bool had_dummy_rows; /* but not dummies */
-    uint8_t *idle;       /* [n] 1 for each of them */
+    const uint8_t *ghost; /* NULL, or [n] 1: a copy of another rank's particle, which gets no row */
+    uint8_t *idle;        /* [n] 1 for each of them */
     uint8_t *rim;        /* [n] 1: fluid with dummies not far away; 0 where kinds were not given */
     /* NULL, or what hides particles from each other; its seers are up to date */
     const mps__screens *screens;

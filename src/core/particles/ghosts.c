@@ -86,7 +86,7 @@ static mps_status append(mps__ghosts *g, int64_t count, int64_t aside)
     for (int64_t k = 0; k < count; k++) unpack(s, s->n + k, g->in + (size_t)k * bytes);
     s->n += count;
     return mps__grow(g->context, (void **)&g->ghost, &g->capacity, s->n - count,
-                     mps__room(s->n, g->capacity), 1);
+                     mps__room(s->n + aside, g->capacity), 1);
 }
 
 /* ---- routes ---- */
@@ -207,7 +207,6 @@ mps_status mps__ghosts_adopt(mps__ghosts *g, const mps__placing *p)
     MPS__TRY(mps__particles_permute(s, count, order));
     memset(g->ghost + g->known, 0, (size_t)(s->n - g->known));
     g->known = s->n;
-    g->owned += fresh;
     return MPS_OK;
 }
 
@@ -310,6 +309,7 @@ mps_status mps__ghosts_renew(mps__ghosts *g, const mps__placing *p, int64_t asid
     for (int64_t k = 0; k < g->receives; k++) g->receive[k] = (int32_t)(owned + k);
     memset(g->ghost, 0, (size_t)owned);
     memset(g->ghost + owned, 1, (size_t)(s->n - owned));
+    memset(g->ghost + s->n, 0, (size_t)aside);
     g->known = s->n;
     s->generation = generation;
     return MPS_OK;
@@ -344,7 +344,7 @@ mps_status mps__ghosts_ordered(mps__ghosts *g, const int32_t *order)
     for (int64_t k = 0; k < n; k++) place[order[k]] = (int32_t)k;
     for (int64_t k = 0; k < g->sends; k++) g->send[k] = place[g->send[k]];
     for (int64_t k = 0; k < g->receives; k++) g->receive[k] = place[g->receive[k]];
-    memset(g->ghost, 0, (size_t)n);
+    memset(g->ghost, 0, (size_t)n); /* those aside are no ghosts */
     for (int64_t k = 0; k < g->receives; k++) g->ghost[g->receive[k]] = 1;
     return find_runs(g);
 }
@@ -353,6 +353,10 @@ void mps__ghosts_rows(const mps__ghosts *g, mps_range_fn rows, void *argument, i
                       int64_t end)
 {
     int64_t lo = 0, hi = g->runs;
+    if (!mps__ranks_many(g->ranks)) {
+        rows(argument, begin, end);
+        return;
+    }
     while (lo < hi) { /* the first range that ends behind `begin` */
         const int64_t middle = lo + (hi - lo) / 2;
         if (g->run[2 * middle + 1] > begin)

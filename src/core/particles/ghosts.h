@@ -29,7 +29,6 @@ typedef struct mps__ghosts {
     int64_t *run;   /* [2 runs] ranges of owned particles: begin, end */
     int64_t capacity, run_capacity, runs;
     int64_t known;   /* particles that ranks have divided; those behind them all ranks have */
-    int64_t owned;   /* of all ranks */
     bool cut;        /* space is divided */
     bool connected;  /* there is a route: */
     mps_route route; /* owned particles to other ranks, and theirs to the ghosts here */

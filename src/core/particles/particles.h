@@ -41,6 +41,7 @@ typedef struct mps__particles {
     int32_t *held;   /* [n] 1: its pressure was the least allowed in the last step */
     /* [n] place of a dummy's wall particle, -1: none; follows when particles move */
     int32_t *wall_of;
+    int64_t *wall_id; /* on many ranks [n] id of that wall particle, -1: none; else NULL */
     /* [n] number of the screen + 1 of walls of thin plates, of walls they stand on, and of
      * dummies: their shadows */
     int32_t *plate;

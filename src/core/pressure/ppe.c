@@ -13,7 +13,7 @@ enum { VALUES, COLUMNS, ROWS, LAWS, NUMBERS = MPS__PPE_LABELS + 1 };
 
 void mps__ppe_init(mps__ppe *e, mps__context *context)
 {
-    *e = (mps__ppe){.context = context, .scratch = &e->own};
+    *e = (mps__ppe){.context = context, .scratch = &e->own, .sets = {.context = context}};
 }
 
 void mps__ppe_free(mps__ppe *e)

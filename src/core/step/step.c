@@ -183,7 +183,7 @@ static mps_status try_step(mps__step *q, double dt_max, double *planned)
 {
     mps__world *w = q->w;
     q->budget = w->state.budget;
-    if (w->lists.aside > 0) mps__budget_book_added(w, &q->budget);
+    if (w->lists.gone > 0) mps__budget_book_added(w, &q->budget);
     start(w, &q->budget);
     MPS__TRY(mps__step_turn_areas(w));
     mps__step_open(q);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What a step stands on: domain, lost particles, sorted particles, neighbour lists, dummies and their walls. */
 #include "plates.h"
+#include "world_ranks.h"
 #include <string.h>
 
 mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, double dp)
@@ -33,7 +34,8 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
                           .particles = &w->particles,
                           .scratch = &w->scratch,
                           .parallel = &w->pool.parallel,
-                          .ghosts = &w->ghosts};
+                          .ghosts = &w->ghosts,
+                          .sets = {.context = context}};
     mps__plan_init(&w->host.plan);
     mps__ranks_init(&w->ranks, context);
     mps__ghosts_init(&w->ghosts, context, &w->ranks, &w->particles);
@@ -67,6 +69,7 @@ void mps__world_free(mps__world *w)
     mps__free(w->context, w->lists.listed_at);
     mps__scratch_free(w->context, &w->scratch);
     mps__pool_free(&w->pool);
+    mps__sets_free(&w->host.sets);
     mps__ghosts_free(&w->ghosts);
     mps__ranks_free(&w->ranks);
 }
@@ -82,10 +85,11 @@ static void speed_rows(void *argument, int64_t begin, int64_t end, double *value
     values[0] = most;
 }
 
-double mps__world_speed(const mps__world *w)
+double mps__world_speed(mps__world *w)
 {
     double most = 0;
-    mps_parallel_max(&w->pool.parallel, w->particles.n, 1, speed_rows, (mps__world *)w, &most);
+    mps_parallel_max(&w->pool.parallel, w->particles.n, 1, speed_rows, w, &most);
+    mps__ranks_max(&w->ranks, 1, &most);
     return sqrt(most);
 }
 
@@ -106,31 +110,35 @@ void mps__world_note_phases(const mps__world *w)
                      "phase %d is defined, but no fluid particle is of it", p);
 }
 
-bool mps__world_domain(const mps__world *w, double lo[3], double hi[3])
+/* Box of the solids: upper corner, negative of the lower one; infinite without any. */
+static void box_of_solids(const mps__world *w, double corner[6])
 {
+    const mps__particles *s = &w->particles;
+    for (int d = 0; d < 6; d++) corner[d] = -INFINITY;
+    for (int64_t i = 0; i < s->n; i++)
+        for (int d = 0; s->kind[i] != MPS_FLUID && d < s->dim; d++) {
+            corner[d] = fmax(corner[d], s->ref[i * s->dim + d]);
+            corner[3 + d] = fmax(corner[3 + d], -s->ref[i * s->dim + d]);
+        }
+}
+
+bool mps__world_domain(mps__world *w, double lo[3], double hi[3])
+{
+    double corner[6], size = 0;
     if (w->setup.domain_given) {
         memcpy(lo, w->setup.domain_min, 3 * sizeof *lo);
         memcpy(hi, w->setup.domain_max, 3 * sizeof *hi);
         return true;
     }
-    const mps__particles *s = &w->particles;
-    bool any = false;
-    double margin = 0;
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] == MPS_FLUID) continue;
-        for (int d = 0; d < w->setup.dim; d++) {
-            const double v = s->ref[i * w->setup.dim + d];
-            lo[d] = any ? fmin(lo[d], v) : v;
-            hi[d] = any ? fmax(hi[d], v) : v;
-        }
-        any = true;
+    box_of_solids(w, corner);
+    mps__ranks_max(&w->ranks, 6, corner);
+    if (isinf(corner[0])) return false;
+    for (int d = 0; d < w->setup.dim; d++) size = fmax(size, corner[d] + corner[3 + d]);
+    for (int d = 0; d < w->setup.dim; d++) {
+        lo[d] = -corner[3 + d] - size;
+        hi[d] = corner[d] + size;
     }
-    for (int d = 0; any && d < w->setup.dim; d++) margin = fmax(margin, hi[d] - lo[d]);
-    for (int d = 0; any && d < w->setup.dim; d++) {
-        lo[d] -= margin;
-        hi[d] += margin;
-    }
-    return any;
+    return true;
 }
 
 static bool outside(const mps__world *w, int64_t i, const double *lo, const double *hi)
@@ -143,52 +151,65 @@ static bool outside(const mps__world *w, int64_t i, const double *lo, const doub
     return false;
 }
 
-/* The last particles are no more, but they stay where they are in memory: what comes now may fail. */
-static void set_aside(mps__world *w, int64_t count)
+/* The last particles are no more, but they stay where they are in memory: what comes now may fail. `all`: on all ranks. */
+static void set_aside(mps__world *w, int64_t count, int64_t all)
 {
     w->particles.n -= count;
+    w->ghosts.known -= count;
     w->particles.generation++;
-    w->state.lost += count;
+    w->state.lost += all;
     w->lists.aside += count;
+    w->lists.gone += all;
     w->lists.neighbours.valid = false;
 }
 
 void mps__world_take_back(mps__world *w)
 {
-    if (w->lists.aside > 0) set_aside(w, -w->lists.aside);
+    if (w->lists.gone > 0) set_aside(w, -w->lists.aside, -w->lists.gone);
+}
+
+/* Move the particles with `gone` behind the others. */
+static mps_status part_lost(mps__world *w, const bool *gone, int64_t lost)
+{
+    mps__particles *s = &w->particles;
+    int64_t stay = 0, go = s->n - lost;
+    if (lost == 0) return MPS_OK;
+    int32_t *order = mps__alloc(w->context, s->n, sizeof *order);
+    if (!order) return MPS_E_NOMEM;
+    for (int64_t i = 0; i < s->n; i++) order[gone[i] ? go++ : stay++] = (int32_t)i;
+    mps_status status = mps__ghosts_ordered(&w->ghosts, order);
+    if (status == MPS_OK) status = mps__particles_permute(s, s->n, order);
+    mps__free(w->context, order);
+    return status;
 }
 
 /* Apply the policy to the particles with `gone`, if any; the text says where they are, and names the one with the least id. */
 static mps_status handle_lost(mps__world *w, const bool *gone, const char *where)
 {
-    mps__particles *s = &w->particles;
-    int64_t lost = 0, first = -1, count = 0;
+    const mps__particles *s = &w->particles;
+    mps__found found = {.id = INT64_MAX};
     for (int64_t i = 0; i < s->n; i++) {
         if (!gone[i]) continue;
-        if (first < 0 || s->id[i] < s->id[first]) first = i;
-        lost++;
+        found.count++;
+        if (s->id[i] > found.id) continue;
+        found.id = s->id[i];
+        memcpy(found.x, s->x + i * s->dim, (size_t)s->dim * sizeof *s->x);
     }
-    if (!lost) return MPS_OK;
-    const double *x = s->x + first * w->setup.dim;
-    const double z = w->setup.dim == 3 ? x[2] : 0;
+    const int64_t lost = found.count;
+    mps__world_find(w, &found);
+    if (found.count == 0) return MPS_OK;
     if (w->setup.lost_policy == MPS_LOST_ERROR)
         return mps__fail(w->context, MPS_E_LOST,
                          "%lld particles %s at t = %.6g s; particle %lld is at (%g, %g, %g) m",
-                         (long long)lost, where, w->state.t, (long long)s->id[first], x[0], x[1],
-                         z);
+                         (long long)found.count, where, w->state.t, (long long)found.id, found.x[0],
+                         found.x[1], found.x[2]);
     mps__log(w->context, MPS_LOG_WARNING,
              "t = %.6g s: %lld particles %s and were removed; particle %lld was at (%g, %g, %g) m",
-             w->state.t, (long long)lost, where, (long long)s->id[first], x[0], x[1], z);
-    int32_t *order = mps__alloc(w->context, s->n, sizeof *order);
-    if (!order) return MPS_E_NOMEM;
-    for (int64_t i = 0; i < s->n; i++)
-        if (!gone[i]) order[count++] = (int32_t)i;
-    for (int64_t i = 0; i < s->n; i++)
-        if (gone[i]) order[count++] = (int32_t)i;
-    const mps_status status = mps__particles_permute(s, count, order);
-    mps__free(w->context, order);
-    if (status == MPS_OK) set_aside(w, lost);
-    return status;
+             w->state.t, (long long)found.count, where, (long long)found.id, found.x[0], found.x[1],
+             found.x[2]);
+    MPS__TRY(part_lost(w, gone, lost));
+    set_aside(w, lost, found.count);
+    return MPS_OK;
 }
 
 typedef struct box {
@@ -199,7 +220,8 @@ typedef struct box {
 static void outside_rows(void *argument, int64_t begin, int64_t end)
 {
     const box *b = argument;
-    for (int64_t i = begin; i < end; i++) b->w->work.gone[i] = outside(b->w, i, b->lo, b->hi);
+    for (int64_t i = begin; i < end; i++)
+        b->w->work.gone[i] = !mps__is_ghost(&b->w->ghosts, i) && outside(b->w, i, b->lo, b->hi);
 }
 
 static mps_status leave_domain(mps__world *w)
@@ -368,11 +390,14 @@ static mps_status link_solids(mps__world *w)
 {
     mps_stencil near;
     link_dummies(w);
+    MPS__TRY(mps__world_link_ghosts(w));
     estimate_areas(w);
+    MPS__TRY(mps__world_share_areas(w));
     MPS__TRY(mps__plates_find(w));
     mps__neighbours_hide(&w->lists.neighbours);
     MPS__TRY(mps__world_stencil(w, MPS_NEAR, &near));
     MPS__TRY(mps_op_number_density(&near, w->particles.nd));
+    mps__host_written(&w->host, MPS__NUMBER_DENSITY);
     w->lists.linked = w->particles.generation;
     return MPS_OK;
 }
@@ -441,31 +466,44 @@ static mps_status list_again(mps__world *w)
 /* Sort the store along the cells and search anew, where needed. */
 static mps_status renew(mps__world *w)
 {
-    mps__particles *s = &w->particles;
+    const mps__particles *s = &w->particles;
+    enum { LINK, SEARCH, THINGS };
     MPS__TRY(list_again(w));
-    if (w->lists.linked != s->generation ||
-        !mps__neighbours_fresh(&w->lists.neighbours, s->n, s->x, w->setup.re_far)) {
-        MPS__TRY(mps__neighbours_order(&w->lists.neighbours, s->n, s->x, s->id, w->setup.re_far));
-        MPS__TRY(mps__particles_permute(s, s->n, w->lists.neighbours.order));
+    bool wanted[THINGS] = {[LINK] = w->lists.linked != s->generation};
+    wanted[SEARCH] = wanted[LINK] ||
+                     !mps__neighbours_fresh(&w->lists.neighbours, s->n, s->x, w->setup.re_far);
+    mps__world_any(w, THINGS, wanted);
+    if (wanted[LINK]) w->lists.linked = -1;
+    if (wanted[SEARCH]) {
+        MPS__TRY(mps__world_divide(w));
         return search(w, true);
     }
+    MPS__TRY(mps__world_share_places(w));
     mps__world_rows(w);
     return MPS_OK;
 }
 
 mps_status mps__world_neighbours(mps__world *w)
 {
-    MPS__CHECK(w->context, w->particles.n > 0, "there are no particles");
-    w->lists.aside = 0;
+    bool any = w->particles.n > 0;
+    MPS__TRY(mps__world_adopt(w));
+    mps__world_any(w, 1, &any);
+    MPS__CHECK(w->context, any, "there are no particles");
+    w->lists.aside = w->lists.gone = 0;
     MPS__TRY(reserve_work(w));
     mps_status status = leave_domain(w);
-    if (w->particles.n == 0)
+    any = w->particles.n > 0;
+    if (w->lists.gone > 0) mps__world_any(w, 1, &any);
+    if (!any)
         status = mps__fail(w->context, MPS_E_STATE, "t = %.6g s: all particles left the domain",
                            w->state.t);
     if (status == MPS_OK) status = renew(w);
-    const int64_t aside = w->lists.aside;
+    if (status == MPS_OK) status = reserve_work(w); /* there may be more than before */
+    const int64_t gone = w->lists.gone;
     if (status == MPS_OK) status = leave_tank(w);
-    if (status == MPS_OK && w->lists.aside > aside) status = renew(w);
+    if (status == MPS_OK && w->lists.gone > gone) status = renew(w);
+    if (status == MPS_OK) status = reserve_work(w);
+    if (status == MPS_OK) status = mps__ranks_status(&w->ranks);
     if (status < 0) mps__world_take_back(w);
     return status;
 }

@@ -110,6 +110,7 @@ typedef struct mps__lists {
      * again */
     double *listed_at;
     int64_t aside;  /* lost particles that lie behind the others, until the next are looked for */
+    int64_t gone;   /* the same of all ranks */
     int64_t linked; /* generation of the particles whose dummies know their walls */
 } mps__lists;
 
@@ -169,7 +170,7 @@ static inline double mps__crossing_time(const mps__world *w, double speed, doubl
     return w->state.step > 0 ? fmin(fmax(wanted, last - 0.1 * dt), last + 0.1 * dt) : wanted;
 }
 /* Largest speed of all particles [m/s]. */
-double mps__world_speed(const mps__world *w);
+double mps__world_speed(mps__world *w);
 /* One step, undone if it fails. step.c */
 mps_status mps__world_step(mps__world *w, double dt_max);
 /* Fail for what is not finite or too fast, with the particle and its place, which is in work.x0 if particles arrived at new ones. Sets the
@@ -183,8 +184,8 @@ mps_status mps__world_check_moves(mps__world *w, const mps__pose *next, double d
  * not something left. limits.c */
 mps_status mps__world_limit_step(mps__world *w, mps_stage *s, double dt_max, double *planned);
 /* Farthest way [m] of the walls from the present pose to another, and of the fluid as they see it if it keeps its velocity for dt. moves.c */
-double mps__world_way_of_walls(const mps__world *w, const mps__pose *pose, double dt);
+double mps__world_way_of_walls(mps__world *w, const mps__pose *pose, double dt);
 /* Bounding box of the domain in the tank's frame. False without solids and without a given domain. */
-bool mps__world_domain(const mps__world *w, double lo[3], double hi[3]);
+bool mps__world_domain(mps__world *w, double lo[3], double hi[3]);
 
 #endif

@@ -1,0 +1,169 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Bodies of fluid for verbs of models: found on each rank by a search from row to row, then put together. */
+#include "host.h"
+
+/* Rows of a body in the order in which they were found. */
+typedef struct search {
+    const mps_stage *s;
+    const mps__ghosts *ghosts;
+    const int32_t *role;
+    int32_t *body, *queue;
+    int64_t found;
+    int32_t most;
+} search;
+
+/* In `body` until all is over: not looked at; member of a body that is held. */
+enum { NEW = -1, HELD = -2 };
+
+/* Flags of a set: it is held; it has a row where searches may begin. */
+enum { FLAG_HELD = 1, FLAG_SEEDED = 2 };
+
+/* Solids may have no rows: a link through one would depend on where the search begins. */
+static bool belongs(const search *k, int64_t i)
+{
+    return k->s->kind[i] == MPS_FLUID &&
+           (k->role[i] == MPS_BODY_SEED || k->role[i] == MPS_BODY_MEMBER);
+}
+
+static void join(search *k, int64_t i, int32_t number)
+{
+    k->body[i] = number;
+    k->queue[k->found++] = (int32_t)i;
+}
+
+/* Look at the neighbours of row i. @return whether one of them holds the body; new members join it */
+static bool is_held(search *k, int64_t i)
+{
+    const mps_stencil *t = k->s->near;
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+        const int32_t j = t->col[p];
+        if (k->role[j] == MPS_BODY_ANCHOR) return true;
+        if (!belongs(k, j) || mps__is_ghost(k->ghosts, j)) continue;
+        if (k->body[j] == HELD) return true;
+        if (k->body[j] == NEW) join(k, j, k->body[i]);
+    }
+    return false;
+}
+
+/* Whether row i has a member of another rank beside it. */
+static bool at_border(const search *k, int64_t i)
+{
+    const mps_stencil *t = k->s->near;
+    for (int64_t p = t->begin[i]; k->ghosts->ghost && p < t->end[i]; p++)
+        if (k->ghosts->ghost[t->col[p]] && belongs(k, t->col[p])) return true;
+    return false;
+}
+
+/* Searches begin at seeds, and at borders: the seed of a body may be on another rank. */
+static bool begins(const search *k, int64_t i)
+{
+    if (k->body[i] != NEW || !belongs(k, i) || mps__is_ghost(k->ghosts, i)) return false;
+    return k->role[i] == MPS_BODY_SEED || at_border(k, i);
+}
+
+/* Set body[] of each row. A search ends as soon as the body is known to be held; later searches of the same body meet a row of this one.
+ * @return number of bodies that are free as far as they are here */
+static int32_t find_bodies(search *k)
+{
+    int32_t count = 0;
+    for (int64_t i = 0; i < k->s->n; i++) k->body[i] = NEW;
+    for (int64_t seed = 0; seed < k->s->n; seed++) {
+        if (!begins(k, seed)) continue;
+        bool held = false;
+        k->found = 0;
+        join(k, seed, count);
+        for (int64_t next = 0; next < k->found && !held; next++)
+            held = is_held(k, k->queue[next]) || k->found > k->most;
+        for (int64_t m = 0; m < k->found && held; m++) k->body[k->queue[m]] = HELD;
+        count += !held;
+    }
+    return count;
+}
+
+/* List the parts of bodies that are here. */
+static mps_status list_parts(const search *k, int32_t count, mps__sets *sets)
+{
+    for (int32_t c = 0; c < count; c++)
+        MPS__TRY(mps__sets_add(sets, &(mps__set){.label = INT64_MAX}));
+    for (int64_t i = 0; count > 0 && i < k->s->n; i++) {
+        if (k->body[i] < 0) continue;
+        mps__set *part = &sets->part[k->body[i]];
+        part->rows++;
+        part->label = k->s->id[i] < part->label ? k->s->id[i] : part->label;
+        part->flags |= k->role[i] == MPS_BODY_SEED ? FLAG_SEEDED : 0;
+    }
+    return MPS_OK;
+}
+
+/* Join what borders part. `label` [n] is scratch: the part of a row, -1: held or none. Labels are ids, which doubles hold. */
+static mps_status join_border(const search *k, mps__host *h, double *label)
+{
+    const mps_stencil *t = k->s->near;
+    mps__set *part = h->sets.part;
+    for (int64_t i = 0; i < k->s->n; i++)
+        label[i] = k->body[i] >= 0 ? (double)part[k->body[i]].label : -1;
+    MPS__TRY(mps__ghosts_share(h->ghosts, &(mps__shared){label, sizeof *label}, 1));
+    for (int64_t i = 0; i < k->s->n; i++)
+        for (int64_t p = t->begin[i]; k->body[i] >= 0 && p < t->end[i]; p++) {
+            const int32_t j = t->col[p];
+            if (!h->ghosts->ghost[j] || !belongs(k, j)) continue;
+            if (label[j] < 0)
+                part[k->body[i]].flags |= FLAG_HELD;
+            else
+                MPS__TRY(mps__sets_join(&h->sets, (int64_t)label[i], (int64_t)label[j]));
+        }
+    return MPS_OK;
+}
+
+/* Numbers of the sets that are free, by their labels; -1 for the others. */
+static void number_sets(mps__sets *sets, int32_t most)
+{
+    int32_t count = 0;
+    for (int64_t k = 0; k < sets->count; k++) {
+        const mps__set *set = &sets->list[k];
+        const bool is_free = !(set->flags & FLAG_HELD) && set->flags & FLAG_SEEDED &&
+                             set->rows <= most;
+        sets->list[k].number = is_free ? count++ : -1;
+    }
+}
+
+/* Put the parts together; body[] becomes the number of a free body or -1. Borrows two blocks. */
+static int merge_bodies(mps_stage *s, search *k, int32_t count)
+{
+    mps__host *h = s->host;
+    const bool many = mps__ranks_many(h->ghosts->ranks);
+    double *least = mps_stage_scratch(s, count), *label = mps_stage_scratch(s, many ? s->n : 1);
+    if (!least || !label) return 1;
+    mps__sets_begin(&h->sets, h->context);
+    mps_status status = list_parts(k, count, &h->sets);
+    for (int32_t c = 0; status == MPS_OK && c < count; c++)
+        least[c] = (double)h->sets.part[c].label;
+    if (status == MPS_OK && many) status = join_border(k, h, label);
+    if (status == MPS_OK) status = mps__sets_merge(&h->sets, h->ghosts->ranks);
+    h->no_memory = h->no_memory || status == MPS_E_NOMEM;
+    if (status < 0) return 1;
+    number_sets(&h->sets, k->most);
+    for (int64_t i = 0; i < s->n; i++)
+        k->body[i] = k->body[i] < 0
+                         ? -1
+                         : mps__sets_find(&h->sets, (int64_t)least[k->body[i]])->number;
+    h->scratch_used -= 2;
+    return 0;
+}
+
+int mps_stage_bodies(mps_stage *s, int32_t most, int32_t *role, int32_t *body)
+{
+    mps__host *h = s->host;
+    const mps_shared shared = {.values = role, .components = 1, .type = MPS_TYPE_INTEGER};
+    search k = {.s = s,
+                .ghosts = h->ghosts,
+                .role = role,
+                .body = body,
+                .queue = mps_stage_scratch_integers(s, s->n),
+                .most = most};
+    if (!k.queue || mps_stage_refresh(s, 1, &shared)) return 1;
+    const int32_t count = find_bodies(&k);
+    if (merge_bodies(s, &k, count)) return 1;
+    h->scratch_used--; /* the queue is not needed any more */
+    return 0;
+}

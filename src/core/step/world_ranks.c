@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Particles on many ranks. Space is cut in the frame of the tank, so that a tank that moves carries its cuts along. */
+#include "world_ranks.h"
+#include <string.h>
+
+/* Ghosts must not be lost to rounding of places in the tank's frame. */
+static const double margin = 1e-9;
+
+mps_status mps__world_ranks_set(mps__world *w, const mps_ranks_ops *ops)
+{
+    mps__particles *s = &w->particles;
+    MPS__TRY(mps__ranks_set(&w->ranks, ops));
+    if (!mps__ranks_many(&w->ranks)) return MPS_OK;
+    return mps__particles_field_add(s, "wall_id", 1, sizeof *s->wall_id, false,
+                                    (void **)&s->wall_id);
+}
+
+static void place_of(const void *world, int64_t i, double *X)
+{
+    const mps__world *w = world;
+    const mps__particles *s = &w->particles;
+    if (s->kind[i] == MPS_FLUID)
+        mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * s->dim, X);
+    else
+        memcpy(X, s->ref + i * s->dim, (size_t)s->dim * sizeof *X);
+}
+
+/* The walls of dummies that are ghosts are ghosts too: they are at most as far from them as rows reach. */
+static mps__placing placing(const mps__world *w)
+{
+    const double reach = (w->setup.re_far + w->lists.neighbours.skin) * (1 + margin);
+    return (mps__placing){place_of, w, reach, 2 * reach};
+}
+
+mps_status mps__world_adopt(mps__world *w)
+{
+    const mps__placing p = placing(w);
+    return mps__ghosts_adopt(&w->ghosts, &p);
+}
+
+void mps__world_any(mps__world *w, int32_t count, bool *things)
+{
+    double value[8];
+    if (!mps__ranks_many(&w->ranks)) return;
+    for (int32_t k = 0; k < count; k++) value[k] = things[k];
+    mps__ranks_max(&w->ranks, count, value);
+    for (int32_t k = 0; k < count; k++) things[k] = value[k] > 0;
+}
+
+static void found_by_both(void *into, const void *from)
+{
+    mps__found *a = into;
+    const mps__found *b = from;
+    const int64_t count = a->count + b->count;
+    if (b->id < a->id) *a = *b;
+    a->count = count;
+}
+
+void mps__world_find(mps__world *w, mps__found *found)
+{
+    mps__ranks_reduce(&w->ranks, 1, sizeof *found, found, found_by_both);
+}
+
+int64_t mps__world_owned(const mps__world *w)
+{
+    return w->particles.n - w->ghosts.receives;
+}
+
+/* ---- walls of dummies: places change with each order, ids do not -------------------------------------------------- */
+
+static uint64_t slot_of(int64_t id, uint64_t size)
+{
+    return ((uint64_t)id * UINT64_C(0x9e3779b97f4a7c15) >> 20) & (size - 1);
+}
+
+/* Places of dummies' walls from their ids: a hash table of the walls. */
+static mps_status find_walls(mps__world *w)
+{
+    mps__particles *s = &w->particles;
+    uint64_t size = 16, at;
+    int64_t walls = 0;
+    for (int64_t i = 0; i < s->n; i++) walls += s->kind[i] == MPS_WALL;
+    while (size < 2 * (uint64_t)walls) size *= 2;
+    int32_t *table = mps__scratch_take(w->context, &w->scratch, 3, (int64_t)size, sizeof *table);
+    if (!table) return MPS_E_NOMEM;
+    for (uint64_t k = 0; k < size; k++) table[k] = -1;
+    for (int64_t i = 0; i < s->n; i++) {
+        if (s->kind[i] != MPS_WALL) continue;
+        for (at = slot_of(s->id[i], size); table[at] >= 0;) at = (at + 1) & (size - 1);
+        table[at] = (int32_t)i;
+    }
+    for (int64_t i = 0; i < s->n; i++) {
+        s->wall_of[i] = -1;
+        if (s->kind[i] != MPS_DUMMY || s->wall_id[i] < 0) continue;
+        for (at = slot_of(s->wall_id[i], size); table[at] >= 0; at = (at + 1) & (size - 1))
+            if (s->id[table[at]] == s->wall_id[i]) {
+                s->wall_of[i] = table[at];
+                break;
+            }
+    }
+    return MPS_OK;
+}
+
+mps_status mps__world_link_ghosts(mps__world *w)
+{
+    mps__particles *s = &w->particles;
+    if (!mps__ranks_many(&w->ranks)) return MPS_OK;
+    for (int64_t i = 0; i < s->n; i++)
+        s->wall_id[i] = s->kind[i] == MPS_DUMMY && s->wall_of[i] >= 0 ? s->id[s->wall_of[i]] : -1;
+    MPS__TRY(mps__ghosts_share(&w->ghosts, &(mps__shared){s->wall_id, sizeof *s->wall_id}, 1));
+    return find_walls(w);
+}
+
+/* ---- places ------------------------------------------------------------------------------------------------------ */
+
+mps_status mps__world_share_areas(mps__world *w)
+{
+    mps__particles *s = &w->particles;
+    return mps__ghosts_share(&w->ghosts,
+                             &(mps__shared){s->area, (size_t)s->dim * sizeof *s->area}, 1);
+}
+
+mps_status mps__world_share_places(mps__world *w)
+{
+    mps__particles *s = &w->particles;
+    return mps__ghosts_share(&w->ghosts, &(mps__shared){s->x, (size_t)s->dim * sizeof *s->x}, 1);
+}
+
+mps_status mps__world_divide(mps__world *w)
+{
+    mps__particles *s = &w->particles;
+    mps_neighbours *l = &w->lists.neighbours;
+    const mps__placing p = placing(w);
+    MPS__TRY(mps__ghosts_renew(&w->ghosts, &p, w->lists.aside));
+    mps__host_all_alike(&w->host);
+    MPS__TRY(mps__neighbours_order(l, s->n, s->x, s->id, w->setup.re_far));
+    MPS__TRY(mps__ghosts_ordered(&w->ghosts, l->order));
+    MPS__TRY(mps__particles_permute(s, s->n, l->order));
+    l->ghost = w->ghosts.ghost;
+    return mps__ranks_many(&w->ranks) ? find_walls(w) : MPS_OK;
+}

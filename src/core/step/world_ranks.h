@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What ranks do together before a step: divide the particles, and agree on what is to be done. Alone these calls change nothing. */
+#ifndef MPS_CORE_WORLD_RANKS_H
+#define MPS_CORE_WORLD_RANKS_H
+
+#include "world.h"
+
+/* Run on the ranks of an engine, before there is anything. */
+mps_status mps__world_ranks_set(mps__world *w, const mps_ranks_ops *ops);
+/* Keep the own ones of the particles that all ranks added alike. */
+mps_status mps__world_adopt(mps__world *w);
+/* Whether something is so on any rank, for each of `count` things. */
+void mps__world_any(mps__world *w, int32_t count, bool *things);
+/* Send particles to their owners and renew the ghosts; order particles as a search wants them. */
+mps_status mps__world_divide(mps__world *w);
+/* Dummies that are ghosts learn their walls, and walls that are ghosts their areas. */
+mps_status mps__world_link_ghosts(mps__world *w);
+mps_status mps__world_share_areas(mps__world *w);
+/* Fluid that is a ghost gets its present place. */
+mps_status mps__world_share_places(mps__world *w);
+/* Particles that something was found about: how many, and the one with the least id. */
+typedef struct mps__found {
+    int64_t count, id; /* id: INT64_MAX without any */
+    double x[3];
+} mps__found;
+/* The same of all ranks. */
+void mps__world_find(mps__world *w, mps__found *found);
+/* Particles that are no ghosts. */
+int64_t mps__world_owned(const mps__world *w);
+
+#endif
