@@ -297,6 +297,38 @@ static void bodies(void **state)
     mps_sim_destroy(sim);
 }
 
+static int check_links(mps_stage *s)
+{
+    int32_t *role = mps_stage_scratch_integers(s, s->n),
+            *body = mps_stage_scratch_integers(s, s->n);
+    for (int64_t i = 0; i < s->n; i++) role[i] = MPS_BODY_SEED;
+    assert_int_equal(mps_stage_bodies(s, MOST_IN_A_BODY, role, body), 0);
+    for (int64_t i = 0; i < s->n; i++) assert_int_equal(body[i], s->id[i] == 2 ? -1 : s->id[i]);
+    return 0;
+}
+
+/* A wall between two drops joins no body, whatever its role is, and links none. */
+static void solids_link_no_bodies(void **state)
+{
+    (void)state;
+    const double drops[4] = {0.3, 0, 0, 0}, wall[2] = {0.15, 0};
+    mps_sim *sim = empty_sim(2, 0.1, NULL);
+    mps_particle_block b;
+    assert_int_equal(mps_particle_block_init(&b, sizeof b), MPS_OK);
+    b.count = 2;
+    b.position = drops;
+    ASSERT_OK(sim, mps_particles_add(sim, &b, NULL));
+    b.count = 1;
+    b.position = wall;
+    b.kind = MPS_WALL;
+    ASSERT_OK(sim, mps_particles_add(sim, &b, NULL));
+    use_model(sim, &player);
+    play = check_links;
+    ASSERT_OK(sim, mps_step(sim, 1, NULL));
+    play = NULL;
+    mps_sim_destroy(sim);
+}
+
 /* ---- scratch --------------------------------------------------------------------------------- */
 
 static int blocks_wanted;
@@ -389,6 +421,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_row_once), cmocka_unit_test(sums_do_not_depend_on_threads),
         cmocka_unit_test(wrong_counts),  cmocka_unit_test(beside),
-        cmocka_unit_test(bodies),        cmocka_unit_test(scratch)};
+        cmocka_unit_test(bodies),        cmocka_unit_test(solids_link_no_bodies),
+        cmocka_unit_test(scratch)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

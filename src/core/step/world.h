@@ -147,6 +147,8 @@ void mps__world_rows(mps__world *w);
 mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *stencil);
 /* A stencil that has the rows of all particles, from lists that are fresh. */
 mps_status mps__world_stencil_all(mps__world *w, int32_t which, mps_stencil *stencil);
+/* Dummies find their walls, and walls without an area get one, from a search that left no particle out. links.c */
+void mps__world_link_walls(mps__world *w);
 /* A tank or solid has so many layers of dummies. */
 void mps__world_note_layers(mps__world *w, int32_t layers);
 /* Tell the log of phases that were defined and have no fluid. */
