@@ -373,8 +373,8 @@ enum {
     MPS_BODY_ANCHOR = 3
 };
 
-/** Find bodies, sets of fluid rows linked by near pairs, that no anchor holds. Solids can be anchors
- *  and belong to no body. Borrows up to 3 blocks of scratch and returns them.
+/** Find bodies, sets of fluid rows linked by near pairs, that no anchor holds. Solids may be
+ *  anchors and belong to no body. Borrows up to 3 blocks of scratch and returns them.
  *  @param most  larger bodies are taken for held @param role  [n] MPS_BODY_...
  *  @param body  [n] out: 0.. for rows of bodies that are free, by the least id of each, else -1
  *  @return 0, or non-zero after a failure (no memory; the error is set) */

@@ -8,6 +8,7 @@
 #ifndef MPS_PPE_H
 #define MPS_PPE_H
 
+#include <mps/exact.h>
 #include <mps/parallel.h>
 #include <mps/ranks.h>
 #include <mps/types.h>
@@ -107,6 +108,10 @@ static inline int mps_ppe_reduce(const mps_ppe_problem *problem, int32_t count, 
                           : 0;
 }
 
+/** Sums and maxima over the rows of all ranks, from those of this rank, in one message: at most 4 of
+ *  each. @return as mps_ppe_share() */
+MPS_API int mps_ppe_total(const mps_ppe_problem *problem, const mps_exact_values *values);
+
 /** Why a solver stopped. */
 enum {
     /** Both limits are met. */
@@ -169,6 +174,8 @@ typedef struct mps_preconditioner_ops {
     void *user;
     /** NULL, or one line for lists. */
     const char *help;
+    /** 1: works on equations whose rows lie on several ranks (mps_ppe_problem.ranks); default 0 */
+    int32_t ranks;
 } mps_preconditioner_ops;
 
 /** A solver. The kit of tests/conformance checks a table for all demands below (solver_kit.h:
@@ -219,6 +226,8 @@ typedef struct mps_solver_ops {
     void *user;
     /** NULL, or one line for lists. */
     const char *help;
+    /** 1: works on equations whose rows lie on several ranks (mps_ppe_problem.ranks); default 0 */
+    int32_t ranks;
 } mps_solver_ops;
 
 /** Register a solver on a handle under its name; the table is copied.

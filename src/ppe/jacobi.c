@@ -36,14 +36,16 @@ static int setup(void *self, const mps_ppe_problem *problem)
     if (!reserve(j, problem->n)) return MPS_PPE_NOMEM;
     j->n = problem->n;
     j->parallel = problem->parallel;
+    bool poison = false, negative = false;
     for (int64_t i = 0; i < problem->n; i++) {
-        double d = problem->diagonal[i];
-        if (!isfinite(d)) return MPS_PPE_NAN;
-        if (d < 0) return MPS_PPE_INDEFINITE;
+        const double d = problem->diagonal[i];
+        poison = poison || !isfinite(d);
+        negative = negative || d < 0;
         /* an empty row is a particle without neighbours, its residual is 0 */
         j->inverse[i] = d > 0 ? 1 / d : 1;
     }
-    return 0;
+    if (mps__on_any_rank(problem, poison)) return MPS_PPE_NAN;
+    return mps__on_any_rank(problem, negative) ? MPS_PPE_INDEFINITE : 0;
 }
 
 typedef struct operands {
@@ -86,4 +88,5 @@ const mps_preconditioner_ops mps__preconditioner_jacobi = {
     .apply = apply,
     .destroy = destroy,
     .help = "Diagonal scaling",
+    .ranks = 1,
 };

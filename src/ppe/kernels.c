@@ -18,10 +18,19 @@ void mps__give(const mps_allocator *allocator, void *block)
     if (block) allocator->release(allocator->user, block);
 }
 
-void mps__reduce(const mps_parallel *p, int64_t n, mps_exact_fn body, void *argument,
+void mps__reduce(const mps_ppe_problem *problem, mps_exact_fn body, void *argument,
                  const mps_exact_values *values)
 {
-    mps_exact_rows(mps__team(p, n), n, MPS__BLOCK, body, argument, values);
+    mps_exact_rows(mps__team(problem->parallel, problem->n), problem->n, MPS__BLOCK, body, argument,
+                   values);
+    mps_ppe_total(problem, values);
+}
+
+bool mps__on_any_rank(const mps_ppe_problem *problem, bool here)
+{
+    double any = here;
+    mps_ppe_total(problem, &(mps_exact_values){.maxima = 1, .maximum = &any});
+    return any > 0;
 }
 
 typedef struct dot {
@@ -35,10 +44,10 @@ static void dot_rows(void *argument, int64_t begin, int64_t end, mps_exact *sum,
     mps_exact_add_products(sum, end - begin, d->x + begin, d->y + begin);
 }
 
-double mps__dot_product(const mps_parallel *p, const double *x, const double *y, int64_t n)
+double mps__dot_product(const mps_ppe_problem *problem, const double *x, const double *y)
 {
     mps_exact sum = {{0}, 0, 0};
-    mps__reduce(p, n, dot_rows, &(dot){x, y}, &(mps_exact_values){.sums = 1, .sum = &sum});
+    mps__reduce(problem, dot_rows, &(dot){x, y}, &(mps_exact_values){.sums = 1, .sum = &sum});
     return mps_exact_value(&sum);
 }
 
@@ -81,7 +90,8 @@ static void multiply_rows(void *argument, int64_t begin, int64_t end, mps_exact 
 double mps__rows_multiply(const mps_ppe_problem *problem, const double *x, double *y)
 {
     mps_exact sum = {{0}, 0, 0};
-    mps__reduce(problem->parallel, problem->n, multiply_rows, &(multiply){problem, x, y},
+    if (mps_ppe_share(problem, (double *)x)) return NAN;
+    mps__reduce(problem, multiply_rows, &(multiply){problem, x, y},
                 &(mps_exact_values){.sums = 1, .sum = &sum});
     return mps_exact_value(&sum);
 }
@@ -101,14 +111,22 @@ bool mps__rows_nonnegative(const mps_ppe_problem *problem)
     double most = 0;
     mps_parallel_max(mps__team(problem->parallel, problem->n), problem->n, 1, negative_rows,
                      (mps_ppe_problem *)problem, &most);
-    return !(most > 0);
+    return !mps__on_any_rank(problem, most > 0);
 }
 
-void mps__guess_clean(double *p, int64_t n)
+void mps__guess_clean(const mps_ppe_problem *problem, double *p)
 {
     double sum = 0; /* NaN as soon as one entry is not finite */
-    for (int64_t i = 0; i < n; i++) sum += 0.0 * p[i];
-    if (sum != 0) memset(p, 0, (size_t)n * sizeof *p);
+    for (int64_t i = 0; i < problem->n; i++) sum += 0.0 * p[i];
+    if (mps__on_any_rank(problem, sum != 0)) memset(p, 0, (size_t)problem->n * sizeof *p);
+}
+
+static void join_components(void *into, const void *from)
+{
+    mps__component *a = into;
+    const mps__component *b = from;
+    mps_exact_join(&a->sum, &b->sum);
+    a->rows += b->rows;
 }
 
 void mps__components_center(const mps_ppe_problem *problem, double *p, mps__component *sums)
@@ -124,6 +142,7 @@ void mps__components_center(const mps_ppe_problem *problem, double *p, mps__comp
         mps_exact_add(&sums[c].sum, end - i, p + i);
         sums[c].rows += (double)(end - i);
     }
+    mps_ppe_reduce(problem, components, sizeof *sums, sums, join_components);
     for (int32_t c = 0; c < components; c++)
         sums[c].mean = mps_exact_value(&sums[c].sum) / sums[c].rows;
     for (int64_t i = 0; i < problem->n; i++)
@@ -150,6 +169,7 @@ bool mps__curvature_negative(const mps_ppe_problem *problem, const double *x, do
         for (int64_t i = 0; i < n; i++) part[i] = problem->diagonal[lo + i] * x[lo + i];
         mps_exact_add_products(&scale, n, part, x + lo);
     }
+    mps_ppe_total(problem, &(mps_exact_values){.sums = 1, .sum = &scale});
     return -curvature > 1e-12 * mps_exact_value(&scale);
 }
 

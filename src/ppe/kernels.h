@@ -36,19 +36,27 @@ static inline const mps_parallel *mps__team(const mps_parallel *p, int64_t n)
 void *mps__take(const mps_allocator *allocator, int64_t count, size_t size);
 void mps__give(const mps_allocator *allocator, void *block);
 
-/* Sums and maxima over rows 0..n-1, on all threads if it is worth it; `sum` and `maximum` as in mps_exact_rows(). */
-void mps__reduce(const mps_parallel *p, int64_t n, mps_exact_fn body, void *argument,
+/* Sums and maxima over the rows of all ranks, on all threads if it is worth it; `sum` and `maximum` as in mps_exact_rows(). */
+void mps__reduce(const mps_ppe_problem *problem, mps_exact_fn body, void *argument,
                  const mps_exact_values *values);
 /* x'y */
-double mps__dot_product(const mps_parallel *p, const double *x, const double *y, int64_t n);
+double mps__dot_product(const mps_ppe_problem *problem, const double *x, const double *y);
 
 /* y = A x. @return x'y */
 double mps__rows_multiply(const mps_ppe_problem *problem, const double *x, double *y);
 /* Whether no row has a negative diagonal. */
 bool mps__rows_nonnegative(const mps_ppe_problem *problem);
 
+/* Whether something is so on any rank. */
+bool mps__on_any_rank(const mps_ppe_problem *problem, bool here);
+/* Columns of the matrix: room for an array that is multiplied by it. */
+static inline int64_t mps__columns(const mps_ppe_problem *problem)
+{
+    return problem->n + (problem->ranks ? problem->ranks->ghosts : 0);
+}
+
 /* A first guess with NaN or infinity becomes zero. */
-void mps__guess_clean(double *p, int64_t n);
+void mps__guess_clean(const mps_ppe_problem *problem, double *p);
 /* Sum, number and mean of the rows of a singular component. */
 typedef struct mps__component {
     mps_exact sum;

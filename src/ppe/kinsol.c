@@ -72,7 +72,7 @@ static int times(N_Vector vx, N_Vector vy, N_Vector vp, sunbooleantype *changed,
     mps__vector_written(vy);
     if (k->problem->law) {
         for (int64_t i = 0; i < k->space.n; i++) y[i] += k->slope[i] * x[i];
-        curvature = mps__dot_product(k->space.parallel, x, y, k->space.n);
+        curvature = mps__dot_product(k->problem, x, y);
     }
     mps__space_remember(&k->space, x, y, curvature);
     if (!isfinite(curvature))
@@ -112,7 +112,7 @@ static int precondition(N_Vector vp, N_Vector scale, N_Vector f, N_Vector f_scal
     mps__vector_written(vr);
     k->failure = k->pc->apply(k->pc_self, k->inner, z);
     if (k->failure) return -1;
-    const double dot = mps__dot_product(k->space.parallel, k->inner, z, k->space.n);
+    const double dot = mps__dot_product(k->problem, k->inner, z);
     if (!isfinite(dot))
         k->failure = MPS_PPE_NAN;
     else if (dot <= 0)
@@ -184,6 +184,7 @@ static bool make_sums(newton *k, int64_t components)
 static bool prepare(newton *k, const mps_ppe_problem *problem)
 {
     k->space.n = problem->n;
+    k->space.problem = problem;
     k->space.parallel = problem->parallel;
     k->space.weight = problem->divergence > 0 ? problem->weight : NULL;
     if (problem->component && !make_sums(k, problem->components)) return false;
@@ -227,7 +228,7 @@ static int run(newton *k, double *p, mps_ppe_result *result)
     result->iterations = iterations < k->problem->max_iterations ? (int32_t)iterations
                                                                  : k->problem->max_iterations;
     result->setup_seconds = k->setup_seconds;
-    mps__guess_clean(p, k->problem->n);
+    mps__guess_clean(k->problem, p);
     mps__components_center(k->problem, p, k->sums);
     mps_ppe_check(k->problem, p, k->residual, result);
     if (mps__result_excess(k->problem, result) <= 1) return MPS_PPE_CONVERGED;
@@ -241,7 +242,7 @@ static int attempt(newton *k, double *p, mps_ppe_result *result)
     const mps_ppe_problem *problem = k->problem;
     const size_t bytes = (size_t)problem->n * sizeof *p;
     const double norm = sqrt(
-        mps__dot_product(problem->parallel, problem->rhs, problem->rhs, problem->n));
+        mps__dot_product(problem, problem->rhs, problem->rhs));
     if (norm == 0) memset(p, 0, bytes);
     if (!mps__guess_begin(k->problem, p, k->residual, k->sums, result)) return MPS_PPE_NAN;
     const double excess = mps__result_excess(problem, result);
@@ -297,7 +298,7 @@ static void solve(void *self, const mps_ppe_problem *problem, const mps_precondi
 {
     newton *k = self;
     mps__result_begin(result);
-    mps__guess_clean(p, problem->n);
+    mps__guess_clean(problem, p);
     if (!prepare(k, problem)) return;
     k->problem = problem;
     k->pc = pc;

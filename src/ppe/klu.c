@@ -180,7 +180,7 @@ static void solve(void *self, const mps_ppe_problem *problem, const mps_precondi
     const klu *k = self;
     job j = {0};
     mps__result_begin(result);
-    mps__guess_clean(p, problem->n);
+    mps__guess_clean(problem, p);
     if (open_job(k, &j, problem)) result->reason = attempt(k, &j, p, result);
     close_job(k, &j);
 }

@@ -61,7 +61,7 @@ static int precondition(void *data, N_Vector vr, N_Vector vz, sunrealtype tolera
     const double *r = mps__vector_data(vr);
     double *z = mps__vector_data(vz);
     if (apply(k, r, z)) return -1;
-    double dot = mps__dot_product(k->space.parallel, r, z, k->space.n);
+    double dot = mps__dot_product(k->problem, r, z);
     mps__space_remember(&k->space, r, z, dot);
     if (!isfinite(dot))
         k->failure = MPS_PPE_NAN;
@@ -133,7 +133,9 @@ static bool prepare(krylov *k, const mps_ppe_problem *problem)
     k->space.parallel = problem->parallel;
     k->space.weight = problem->divergence > 0 ? problem->weight : NULL;
     if (problem->component && !make_sums(k, problem->components)) return false;
-    return problem->n <= k->space.capacity || make_arrays(k, problem->n + problem->n / 32);
+    const int64_t columns = mps__columns(problem);
+    k->space.problem = problem;
+    return columns <= k->space.capacity || make_arrays(k, columns + columns / 32);
 }
 
 /* ---- solution ---- */
@@ -159,7 +161,7 @@ static void run(krylov *k, double *p, double delta, mps_ppe_result *result)
         if (reason) k->failure = reason;
         d = k->inner;
     }
-    mps__guess_clean(d, problem->n);
+    mps__guess_clean(problem, d);
     for (int64_t i = 0; i < problem->n; i++) p[i] += d[i];
     mps__components_center(problem, p, k->sums);
     mps_ppe_check(problem, p, k->residual, result);
@@ -208,7 +210,7 @@ static int attempt(krylov *k, double *p, mps_ppe_result *result)
 {
     const mps_ppe_problem *problem = k->problem;
     size_t bytes = (size_t)problem->n * sizeof *p;
-    double norm = sqrt(mps__dot_product(problem->parallel, problem->rhs, problem->rhs, problem->n));
+    double norm = sqrt(mps__dot_product(problem, problem->rhs, problem->rhs));
     if (norm == 0) memset(p, 0, bytes);
     if (!mps__guess_begin(k->problem, p, k->residual, k->sums, result)) return MPS_PPE_NAN;
     double excess = mps__result_excess(problem, result);
@@ -245,7 +247,7 @@ void mps__krylov_solve(void *self, const mps_ppe_problem *problem, const mps_pre
 {
     krylov *k = self;
     mps__result_begin(result);
-    mps__guess_clean(p, problem->n);
+    mps__guess_clean(problem, p);
     if (!prepare(k, problem)) return;
     k->problem = problem;
     k->pc = pc;

@@ -34,4 +34,5 @@ const mps_solver_ops mps__solver_pcg = {
     .solve = mps__krylov_solve,
     .destroy = mps__krylov_destroy,
     .help = "Preconditioned conjugate gradients, for symmetric matrices",
+    .ranks = 1,
 };

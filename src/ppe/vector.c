@@ -32,7 +32,9 @@ static N_Vector_ID get_id(N_Vector v)
 
 static sunindextype get_length(N_Vector v)
 {
-    return (sunindextype)content_of(v)->space->n;
+    const mps__space *space = content_of(v)->space;
+    const mps_ppe_ranks *ranks = space->problem ? space->problem->ranks : NULL;
+    return (sunindextype)(ranks ? ranks->rows : space->n);
 }
 
 /* Take a vector off the list of those with an array of their own. */
@@ -159,7 +161,7 @@ static double excess(mps__space *space, const double *r)
 {
     mps_exact squares = {{0}, 0, 0};
     double largest = 0;
-    mps__reduce(space->parallel, space->n, excess_rows, &(operands){.space = space, .x = r},
+    mps__reduce(space->problem, excess_rows, &(operands){.space = space, .x = r},
                 &(mps_exact_values){1, 1, &squares, &largest});
     double norm = sqrt(mps_exact_value(&squares)) / space->norm_limit;
     double divergence = space->weight ? largest / space->divergence_limit : 0;
@@ -212,7 +214,7 @@ static sunrealtype dot_product(N_Vector vx, N_Vector vy)
     const double *x = mps__vector_data(vx), *y = mps__vector_data(vy);
     bool known = (x == space->dot_x && y == space->dot_y) ||
                  (x == space->dot_y && y == space->dot_x);
-    return known ? space->dot : mps__dot_product(space->parallel, x, y, space->n);
+    return known ? space->dot : mps__dot_product(space->problem, x, y);
 }
 
 static void absolute_rows(void *argument, int64_t begin, int64_t end)
@@ -253,6 +255,7 @@ static sunrealtype largest_norm(N_Vector vx)
     if (x == space->dot_x && x == space->dot_y)
         return sqrt(space->dot); /* a vector that N_VProd made of the stopping vector */
     for (int64_t i = 0; i < space->n; i++) largest = fmax(largest, fabs(x[i]));
+    mps_ppe_total(space->problem, &(mps_exact_values){.maxima = 1, .maximum = &largest});
     return largest;
 }
 
@@ -261,9 +264,10 @@ static sunrealtype least(N_Vector vx)
     const mps__space *space = content_of(vx)->space;
     const double *x = mps__vector_data(vx);
     if (content_of(vx)->stop) return 1;
-    double smallest = INFINITY;
-    for (int64_t i = 0; i < space->n; i++) smallest = fmin(smallest, x[i]);
-    return smallest;
+    double most = -INFINITY;
+    for (int64_t i = 0; i < space->n; i++) most = fmax(most, -x[i]);
+    mps_ppe_total(space->problem, &(mps_exact_values){.maxima = 1, .maximum = &most});
+    return -most;
 }
 
 static sunrealtype weighted_norm(N_Vector vx, N_Vector vw)
@@ -278,6 +282,7 @@ static sunrealtype weighted_norm(N_Vector vx, N_Vector vw)
         for (int64_t i = 0; i < n; i++) part[i] = x[lo + i] * w[lo + i];
         mps_exact_add_products(&squares, n, part, part);
     }
+    mps_ppe_total(space->problem, &(mps_exact_values){.sums = 1, .sum = &squares});
     return sqrt(mps_exact_value(&squares));
 }
 

@@ -430,49 +430,6 @@ static void order_is_permutation(void **state)
     cloud_free(&c);
 }
 
-/* Within a cell particles stand by id, so that the order does not depend on where they stood, nor on the box of all particles. */
-static void order_of_ties(void **state)
-{
-    (void)state;
-    enum { N = 1500 };
-    for (int dim = 2; dim <= 3; dim++) {
-        mps__context context = {.allocator = mps__allocator_default()};
-        mps_neighbours l;
-        cloud c = clustered(dim, N, 64);
-        static double x[3 * N];
-        static int64_t id[N], first[N];
-        assert_int_equal(mps__neighbours_init(&l, &context, dim, CLOUD_DP), MPS_OK);
-        const int64_t steps[] = {1, 7, 11, N - 1}; /* none has a factor of N */
-        for (int m = 0; m < 4; m++) {
-            const int64_t step = steps[m];
-            for (int64_t i = 0; i < N; i++) {
-                id[i] = (i * step + 3 * step) % N;
-                for (int d = 0; d < dim; d++) x[i * dim + d] = c.x[id[i] * dim + d];
-            }
-            assert_int_equal(mps__neighbours_order(&l, N, x, id, far_radius), MPS_OK);
-            for (int64_t k = 0; k < N; k++) {
-                if (step == 1) first[k] = id[l.order[k]];
-                assert_int_equal(id[l.order[k]], first[k]);
-                if (k > 0 && l.key[k] == l.key[k - 1])
-                    assert_true(id[l.order[k]] > id[l.order[k - 1]]);
-            }
-        }
-        int64_t lowest = 0, seen = 0;
-        for (int64_t i = 0; i < N; i++)
-            if (x[i * dim] < x[lowest * dim]) lowest = i;
-        const int64_t moved = id[lowest];
-        x[lowest * dim] -= 12.3456 * CLOUD_DP; /* the box grows; all others keep their order */
-        assert_int_equal(mps__neighbours_order(&l, N, x, id, far_radius), MPS_OK);
-        for (int64_t k = 0; k < N; k++) {
-            if (id[l.order[k]] == moved) continue;
-            seen += first[seen] == moved;
-            assert_int_equal(id[l.order[k]], first[seen++]);
-        }
-        mps__neighbours_free(&l);
-        cloud_free(&c);
-    }
-}
-
 /* The library's own lists take positions as they are: what is no number is refused, not cast. */
 static void position_not_finite(void **state)
 {
@@ -512,7 +469,6 @@ int main(void)
         cmocka_unit_test(skin_rows),
         cmocka_unit_test(skin_limit),
         cmocka_unit_test(order_is_permutation),
-        cmocka_unit_test(order_of_ties),
         cmocka_unit_test(position_not_finite),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,111 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The pressure equation of small clouds: against a dense double loop, with known solutions, and its singular components. */
-#include "cloud.h"
-#include "ppe.h"
-#include <setjmp.h>
-#include <stdarg.h>
-#include <cmocka.h>
-
-enum { MOST = 512 };
-static const double re_near = 2.1 * CLOUD_DP, re_far = 3.1 * CLOUD_DP, rho0 = 1000, gravity = 9.81;
-
-/* Particles with all that an assembly looks at. */
-typedef struct tank {
-    cloud c;
-    mps_neighbours *list;
-    mps_stencil near, far;
-    mps__context context;
-    mps__ppe e;
-    int64_t id[MOST];
-    int32_t kind[MOST], phase[MOST], region[MOST], fixed[MOST];
-    double p[MOST], density[MOST], wet[MOST], depth[MOST], rhs[MOST], shift[MOST], value[MOST],
-        accel[3 * MOST], gas[MOST], law[MOST];
-    mps_stage stage;
-    mps_flux flux;
-    mps__ppe_terms terms;
-} tank;
-
-static void tank_init(tank *k, cloud c)
-{
-    mps_kernel kernel = {.struct_size = sizeof kernel};
-    memset(k, 0, sizeof *k);
-    k->near.struct_size = k->far.struct_size = sizeof k->near;
-    assert_true(c.n <= MOST);
-    k->c = c;
-    k->context.allocator = mps__allocator_default();
-    mps__ppe_init(&k->e, &k->context);
-    assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
-    assert_int_equal(mps_neighbours_create(c.dim, CLOUD_DP, NULL, &k->list), MPS_OK);
-    assert_int_equal(mps_neighbours_build(k->list, c.n, c.x, re_near, re_far), MPS_OK);
-    assert_int_equal(mps_neighbours_stencil_get(k->list, MPS_NEAR, &kernel, &k->near), MPS_OK);
-    assert_int_equal(mps_neighbours_stencil_get(k->list, MPS_FAR, &kernel, &k->far), MPS_OK);
-    for (int64_t i = 0; i < c.n; i++) {
-        k->id[i] = i;
-        k->density[i] = rho0;
-        k->wet[i] = 1;
-    }
-    k->stage = (mps_stage){.struct_size = sizeof k->stage,
-                           .dim = c.dim,
-                           .n = c.n,
-                           .dt = 1e-3,
-                           .dp = CLOUD_DP,
-                           .kind = k->kind,
-                           .id = k->id,
-                           .x = c.x,
-                           .near = &k->near,
-                           .far = &k->far};
-    k->flux = (mps_flux){.struct_size = sizeof k->flux,
-                         .body = 1,
-                         .kind = k->kind,
-                         .phase = k->phase,
-                         .density = k->density,
-                         .distance = k->depth,
-                         .wetted = k->wet,
-                         .tank_acceleration = k->accel};
-    k->terms = (mps__ppe_terms){
-        .equation = {.struct_size = sizeof(mps_equation), .radius = MPS_FAR, .gain = 1},
-        .flux = &k->flux,
-        .region = k->region,
-        .density = k->density,
-        .pressure = k->p,
-        .source = k->rhs,
-        .shift = k->shift,
-        .value = k->value,
-        .gas = k->gas,
-        .law = k->law,
-        .condition = k->fixed};
-}
-
-static void tank_free(tank *k)
-{
-    mps__ppe_free(&k->e);
-    mps_neighbours_destroy(k->list);
-    cloud_free(&k->c);
-}
-
-/* The lowest three rows of an nx wide lattice: two of dummies, one of walls. */
-static void add_floor(tank *k, int nx)
-{
-    for (int32_t i = 0; i < 3 * nx; i++) {
-        k->kind[i] = i / nx == 2 ? MPS_WALL : MPS_DUMMY;
-        k->region[i] = i / nx == 2 ? MPS_REGION_INNER : MPS_REGION_DRY;
-    }
-}
-
-/* The highest row: the surface, at a given pressure. */
-static void add_surface(tank *k, int nx, double value)
-{
-    for (int64_t i = k->c.n - nx; i < k->c.n; i++) {
-        k->region[i] = MPS_REGION_SURFACE;
-        k->fixed[i] = 1;
-        k->value[i] = value;
-    }
-}
-
-static void assemble(tank *k)
-{
-    assert_int_equal(mps__ppe_assemble(&k->e, &k->stage, &k->terms), MPS_OK);
-}
+#include "ppe_fixture.h"
 
 static double entry(const mps__ppe *e, int64_t r, int32_t c)
 {
@@ -401,30 +296,6 @@ static void separate_pools(void **state)
     tank_free(&k);
 }
 
-/* Of two pools of the same size the one with the least id says whether the level of the tank is free, wherever its rows are. */
-static void largest_of_equals(void **state)
-{
-    (void)state;
-    for (int open = 0; open < 2; open++)
-        for (int lowest = 0; lowest < 2; lowest++) {
-            tank k;
-            cloud c = cloud_lattice(2, 12, 6, 1, 0.2, 8);
-            for (int64_t i = 0; i < c.n; i++)
-                c.x[2 * i] += 10 * CLOUD_DP * (double)(i % 12 / 6); /* two pools, 6 wide */
-            tank_init(&k, c);
-            for (int64_t i = 0; i < c.n; i++) {
-                k.id[i] = c.n - i;
-                k.rhs[i] = (double)(i % 5);
-            }
-            k.id[40 + 6 * lowest] = 0; /* 40 % 12 / 6 is pool 0 */
-            k.shift[50 + 6 * open] = 1e-6;
-            assemble(&k);
-            assert_int_equal(k.e.problem.components, 1);
-            assert_int_equal(k.e.level_free, open != lowest);
-            tank_free(&k);
-        }
-}
-
 /* Rows in any order, so that a pool begins as many trees of rows that meet late: 1 and 3 threads find the one without a level. */
 static void pools_in_any_order(void **state)
 {
@@ -516,7 +387,6 @@ int main(void)
         cmocka_unit_test(fixed_rows),
         cmocka_unit_test(closed_tank),
         cmocka_unit_test(separate_pools),
-        cmocka_unit_test(largest_of_equals),
         cmocka_unit_test(pools_in_any_order),
         cmocka_unit_test(detached_fluid),
         cmocka_unit_test(no_unknowns),

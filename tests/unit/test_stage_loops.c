@@ -248,7 +248,7 @@ static int check_bodies(mps_stage *s)
 {
     int32_t *role = mps_stage_scratch_integers(s, s->n),
             *body = mps_stage_scratch_integers(s, s->n);
-    int32_t at[CHAINS * LONGEST], seen[64] = {0}, bodies = 0;
+    int32_t at[CHAINS * LONGEST], bodies = 0;
     assert_true(role && body);
     for (int64_t i = 0; i < s->n; i++) {
         const chain *c = &chains[s->id[i] / LONGEST];
@@ -268,10 +268,8 @@ static int check_bodies(mps_stage *s)
             if (!wanted) continue;
             const int same = place > 0 && free[place - 1] == 'x';
             if (same) assert_int_equal(number, body[at[k * LONGEST + place - 1]]);
-            if (!same) assert_int_equal(seen[number]++, 0); /* a number of its own */
-            bodies = number + 1 > bodies ? number + 1 : bodies;
+            if (!same) assert_int_equal(number, bodies++); /* by the least id */
         }
-    for (int32_t k = 0; k < bodies; k++) assert_int_equal(seen[k], 1); /* 0, 1, ... */
     return 0;
 }
 
@@ -286,7 +284,7 @@ static void bodies(void **state)
             const int in = place < (int)strlen(chains[k].roles);
             double *to = x + 2 * (k * LONGEST + place);
             to[0] = 0.15 * (in ? place : place + 20); /* two are no neighbours: re_near is 0.21 */
-            to[1] = 1.0 * k;
+            to[1] = -1.0 * k; /* rows are sorted from the last chain to the first */
         }
     assert_int_equal(mps_particle_block_init(&b, sizeof b), MPS_OK);
     b.count = (int64_t)CHAINS * LONGEST;
@@ -294,6 +292,38 @@ static void bodies(void **state)
     ASSERT_OK(sim, mps_particles_add(sim, &b, NULL));
     use_model(sim, &player);
     play = check_bodies;
+    ASSERT_OK(sim, mps_step(sim, 1, NULL));
+    play = NULL;
+    mps_sim_destroy(sim);
+}
+
+static int check_links(mps_stage *s)
+{
+    int32_t *role = mps_stage_scratch_integers(s, s->n),
+            *body = mps_stage_scratch_integers(s, s->n);
+    for (int64_t i = 0; i < s->n; i++) role[i] = MPS_BODY_SEED;
+    assert_int_equal(mps_stage_bodies(s, MOST_IN_A_BODY, role, body), 0);
+    for (int64_t i = 0; i < s->n; i++) assert_int_equal(body[i], s->id[i] == 2 ? -1 : s->id[i]);
+    return 0;
+}
+
+/* A wall between two drops joins no body, whatever its role is, and links none. */
+static void solids_link_no_bodies(void **state)
+{
+    (void)state;
+    const double drops[4] = {0.3, 0, 0, 0}, wall[2] = {0.15, 0};
+    mps_sim *sim = empty_sim(2, 0.1, NULL);
+    mps_particle_block b;
+    assert_int_equal(mps_particle_block_init(&b, sizeof b), MPS_OK);
+    b.count = 2;
+    b.position = drops;
+    ASSERT_OK(sim, mps_particles_add(sim, &b, NULL));
+    b.count = 1;
+    b.position = wall;
+    b.kind = MPS_WALL;
+    ASSERT_OK(sim, mps_particles_add(sim, &b, NULL));
+    use_model(sim, &player);
+    play = check_links;
     ASSERT_OK(sim, mps_step(sim, 1, NULL));
     play = NULL;
     mps_sim_destroy(sim);
@@ -344,7 +374,7 @@ static int bodies_and_blocks(mps_stage *s)
             *body = mps_stage_scratch_integers(s, s->n);
     for (int k = 0; k < 20; k++) assert_int_equal(mps_stage_bodies(s, 3, role, body), 0);
     for (int k = 2; k < 16; k++) assert_non_null(mps_stage_scratch(s, 1));
-    return mps_stage_bodies(s, 3, role, body); /* it needs one itself */
+    return mps_stage_bodies(s, 3, role, body); /* it needs some itself */
 }
 
 static int refresh_all(mps_stage *s)
@@ -391,6 +421,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_row_once), cmocka_unit_test(sums_do_not_depend_on_threads),
         cmocka_unit_test(wrong_counts),  cmocka_unit_test(beside),
-        cmocka_unit_test(bodies),        cmocka_unit_test(scratch)};
+        cmocka_unit_test(bodies),        cmocka_unit_test(solids_link_no_bodies),
+        cmocka_unit_test(scratch)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

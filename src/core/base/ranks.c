@@ -84,6 +84,19 @@ void mps__ranks_reduce(mps__ranks *r, int32_t count, size_t bytes, void *values,
         r->failed = r->ops.reduce(r->self, count, bytes, values, combine) != 0;
 }
 
+static void any_text(void *into, const void *from)
+{
+    char *a = into;
+    const char *b = from;
+    if (b[0] && (!a[0] || strcmp(b, a) < 0)) memcpy(a, b, MPS__ERROR_SIZE);
+}
+
+mps_status mps__ranks_text(mps__ranks *r, mps_status status)
+{
+    mps__ranks_reduce(r, 1, MPS__ERROR_SIZE, r->context->error, any_text);
+    return status;
+}
+
 static void larger(void *into, const void *from)
 {
     double a, b;

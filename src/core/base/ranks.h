@@ -32,6 +32,9 @@ mps_status mps__ranks_status(mps__ranks *r);
 /* A status of this rank alone: where it is a failure, all other ranks fail too. Returns it. */
 mps_status mps__ranks_tell(mps__ranks *r, mps_status status);
 
+/* A failure that all ranks know of and one of them has the text of: all get it. Those without have an empty text. Returns the status. */
+mps_status mps__ranks_text(mps__ranks *r, mps_status status);
+
 /* Combine values of all ranks. */
 void mps__ranks_reduce(mps__ranks *r, int32_t count, size_t bytes, void *values,
                        mps_combine_fn combine);

@@ -45,6 +45,12 @@ typedef struct mps__ppe {
     mps__sets sets;      /* components of the matrix */
 } mps__ppe;
 
+/* Unknowns of all ranks. */
+static inline int64_t mps__ppe_rows(const mps__ppe *e)
+{
+    return e->ranks.ranks > 1 ? e->ranks.rows : e->n;
+}
+
 void mps__ppe_init(mps__ppe *e, mps__context *context);
 void mps__ppe_free(mps__ppe *e);
 /* Build a row for every unknown, with the old pressures as the first guess. Of the terms `value` and `condition` are left where e->spare is theirs. */

@@ -313,10 +313,12 @@ mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *pro
     s->ready = s->ready && effort->again;
     limited.max_iterations = s->limits.max_iterations;
     *result = (mps_ppe_result){.struct_size = sizeof *result};
-    if (problem->n == 0) return MPS_OK;
+    if ((problem->ranks ? problem->ranks->rows : problem->n) == 0) return MPS_OK;
     solve(s, &limited, p, result);
     mps_status status = status_of(result->reason);
-    if (status >= 0 && !mps__finite(p, problem->n)) {
+    double poison = !mps__finite(p, problem->n);
+    mps_ppe_total(problem, &(mps_exact_values){.maxima = 1, .maximum = &poison});
+    if (status >= 0 && poison > 0) {
         result->reason = MPS_PPE_NAN;
         status = MPS_E_SOLVER;
     }
@@ -331,7 +333,7 @@ mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *pro
                      s->use->name, s->pc ? s->pc->name : "none", reason_text(result->reason),
                      result->iterations, limited.max_iterations, result->residual,
                      limited.tolerance, result->divergence, limited.divergence,
-                     (long long)problem->n);
+                     (long long)(problem->ranks ? problem->ranks->rows : problem->n));
 }
 
 /* ---- for plug-ins ---- */
@@ -352,6 +354,34 @@ double mps_ppe_law(double law, double p, double *slope)
     const double share = 1 + p / law, used = share < least ? least : share;
     if (slope) *slope = 1 / used;
     return law * (log(used) + (share - used) / used);
+}
+
+/* What travels in one message. */
+typedef struct total {
+    int32_t sums, maxima;
+    mps_exact sum[4];
+    double maximum[4];
+} total;
+
+static void add_total(void *into, const void *from)
+{
+    total *a = into;
+    const total *b = from;
+    for (int32_t k = 0; k < a->sums; k++) mps_exact_join(&a->sum[k], &b->sum[k]);
+    for (int32_t k = 0; k < a->maxima; k++)
+        if (b->maximum[k] > a->maximum[k]) a->maximum[k] = b->maximum[k];
+}
+
+int mps_ppe_total(const mps_ppe_problem *problem, const mps_exact_values *values)
+{
+    total t = {.sums = values->sums, .maxima = values->maxima};
+    if (!problem->ranks) return 0;
+    for (int32_t k = 0; k < t.sums; k++) t.sum[k] = values->sum[k];
+    for (int32_t k = 0; k < t.maxima; k++) t.maximum[k] = values->maximum[k];
+    const int failed = mps_ppe_reduce(problem, 1, sizeof t, &t, add_total);
+    for (int32_t k = 0; k < t.sums; k++) values->sum[k] = t.sum[k];
+    for (int32_t k = 0; k < t.maxima; k++) values->maximum[k] = t.maximum[k];
+    return failed;
 }
 
 static bool has_law(const mps_ppe_problem *problem)
@@ -407,8 +437,11 @@ mps_status mps_ppe_check(const mps_ppe_problem *problem, const double *p, double
     MPS__TRY(mps__struct_check(NULL, "mps_ppe_result", result));
     mps_exact sums[SUMS] = {{{0}, 0, 0}};
     double maxima[MAXIMA] = {0};
+    const mps_exact_values values = {SUMS, MAXIMA, sums, maxima};
+    if (mps_ppe_share(problem, (double *)p)) return MPS_E_RANKS;
     mps_exact_rows(problem->parallel, problem->n, MPS_PARALLEL_LEAST, check_rows,
-                   &(check){problem, p, work}, &(mps_exact_values){SUMS, MAXIMA, sums, maxima});
+                   &(check){problem, p, work}, &values);
+    if (mps_ppe_total(problem, &values)) return MPS_E_RANKS;
     const double squares = mps_exact_value(&sums[SQUARES]),
                  rhs_squares = mps_exact_value(&sums[RHS_SQUARES]);
     result->residual = sqrt(squares) / (rhs_squares > 0 ? sqrt(rhs_squares) : 1);

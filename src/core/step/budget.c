@@ -36,6 +36,7 @@ static void flush_block(const terms *k, block *b, mps_exact *sums)
         for (int64_t i = begin; i < end; i++) {                                                 \
             double own[TERMS] = {0};                                                            \
             if (k->w->particles.kind[i] != (kind_of_particles)) continue;                       \
+            if (mps__is_ghost(&k->w->ghosts, i)) continue;                                      \
             set(k->w, k->data, i, own);                                                         \
             for (int32_t v = 0; v < TERMS; v++) b.term[v][b.n] = own[v];                        \
             if (++b.n == BLOCK) flush_block(k, &b, sums);                                       \
@@ -50,6 +51,7 @@ static void sum_terms(const mps__world *w, mps_exact_fn add, const void *data, i
     mps_exact sums[TERMS] = {{{0}, 0, 0}};
     mps_exact_rows(&w->pool.parallel, w->particles.n, MPS_PARALLEL_LEAST, add, &k,
                    &(mps_exact_values){.sums = count, .sum = sums});
+    mps__ranks_sum(w->ghosts.ranks, count, sums);
     for (int32_t v = 0; v < count; v++) values[v] = mps_exact_value(&sums[v]);
 }
 

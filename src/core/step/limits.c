@@ -24,6 +24,9 @@ static mps_status choose_dt(mps__world *w, mps_stage *s, double *chosen)
     if (nu > 0) dt = least(dt, c->viscous * w->setup.dp * w->setup.dp / nu);
     s->dt_limit = INFINITY;
     MPS__TRY(mps__host_run(&w->host, s, MPS_LIMIT));
+    s->dt_limit = -s->dt_limit;
+    mps__ranks_max(&w->ranks, 1, &s->dt_limit);
+    s->dt_limit = -s->dt_limit;
     dt = least(dt, s->dt_limit);
     if (w->state.dt_previous > 0) dt = least(dt, c->growth * w->state.dt_previous);
     *chosen = dt;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Checks of what a step has done: finite, not too fast, and not farther than the walls can hold; how far the walls go. */
-#include "world.h"
+#include "world_ranks.h"
 #include <string.h>
 
 /* Layers of dummies behind walls that a user gave particle by particle. */
@@ -21,24 +21,29 @@ static double moved(const mps__world *w, const mps__pose *next, int64_t i)
     return sqrt(square);
 }
 
-/* Place of the particle with this id, which is there. */
-static int64_t place_of(const mps__particles *s, int64_t id)
+/* Place of the particle with this id; -1: it is on another rank, which has the text of the failure. */
+static int64_t place_of(mps__world *w, int64_t id)
 {
+    const mps__particles *s = &w->particles;
     int64_t i = 0;
-    while (s->id[i] != id) i++;
-    return i;
+    w->context->error[0] = 0;
+    while (i < s->n && (s->id[i] != id || mps__is_ghost(&w->ghosts, i))) i++;
+    return i < s->n ? i : -1;
 }
 
-static mps_status jumped(const mps__world *w, const mps__pose *next, double dt, int64_t i)
+static mps_status jumped(mps__world *w, const mps__pose *next, double dt, int64_t id)
 {
+    const int64_t i = place_of(w, id);
+    if (i < 0) return mps__ranks_text(&w->ranks, MPS_E_DIVERGED);
     const double *x = w->work.x0 + i * w->setup.dim, distance = moved(w, next, i);
-    return mps__fail(
+    mps__fail(
         w->context, MPS_E_DIVERGED,
         "t = %.9g s: fluid particle %lld at (%g, %g, %g) m would move %g m in a step of %g s, at "
         "%g m/s; allowed: at most "
         "%g m, as deep as walls and their dummies are. Take a shorter step, or an adaptive one",
         w->state.t, (long long)w->particles.id[i], x[0], x[1], w->setup.dim == 3 ? x[2] : 0,
         distance, dt, distance / dt, limit_of(w));
+    return mps__ranks_text(&w->ranks, MPS_E_DIVERGED);
 }
 
 /* Steps that follow the speed never get there, unless a model of a plug-in pushes. */
@@ -58,14 +63,15 @@ typedef struct ways {
     double dt, limit;
 } ways;
 
-/* Number of solids; the farthest way, and the negative of the least id beyond the limit. */
+/* 1: there are solids; the farthest way, and the negative of the least id beyond the limit. */
 static void way_rows(void *argument, int64_t begin, int64_t end, double *v)
 {
     const ways *k = argument;
     const mps__particles *s = &k->w->particles;
     for (int64_t i = begin; i < end; i++) {
+        if (mps__is_ghost(&k->w->ghosts, i)) continue;
         const double distance = s->kind[i] == MPS_FLUID ? moved(k->w, k->next, i) : 0;
-        v[0] += s->kind[i] != MPS_FLUID;
+        if (s->kind[i] != MPS_FLUID) v[0] = 1;
         v[1] = distance > v[1] ? distance : v[1];
         if (distance > k->limit) v[2] = fmax(v[2], -(double)s->id[i]);
     }
@@ -77,10 +83,9 @@ mps_status mps__world_check_moves(mps__world *w, const mps__pose *next, double d
     ways k = {w, next, dt, limit_of(w)};
     double v[3] = {0, 0, -INFINITY};
     if (!may_jump(w)) return MPS_OK;
-    mps_parallel_reduce(&w->pool.parallel, w->particles.n, way_rows, &k,
-                        &(mps_parallel_values){1, 2, v});
-    if (v[0] > 0 && !isinf(v[2]))
-        return jumped(w, next, dt, place_of(&w->particles, (int64_t)-v[2]));
+    mps_parallel_max(&w->pool.parallel, w->particles.n, 3, way_rows, &k, v);
+    mps__ranks_max(&w->ranks, 3, v);
+    if (v[0] > 0 && !isinf(v[2])) return jumped(w, next, dt, (int64_t)-v[2]);
     if (w->setup.control.dt > 0 && v[1] > w->setup.dp && !w->state.moves_told) {
         w->state.moves_told = true;
         mps__log(w->context, MPS_LOG_WARNING,
@@ -114,11 +119,12 @@ static void wall_way_rows(void *argument, int64_t begin, int64_t end, double *mo
     }
 }
 
-double mps__world_way_of_walls(const mps__world *w, const mps__pose *pose, double dt)
+double mps__world_way_of_walls(mps__world *w, const mps__pose *pose, double dt)
 {
     ways k = {w, pose, dt, 0};
     double most = 0;
     mps_parallel_max(&w->pool.parallel, w->particles.n, 1, wall_way_rows, &k, &most);
+    mps__ranks_max(&w->ranks, 1, &most);
     return sqrt(most);
 }
 
@@ -135,6 +141,7 @@ static void result_rows(void *argument, int64_t begin, int64_t end, double *v)
     const mps__world *w = k->w;
     const mps__particles *s = &w->particles;
     for (int64_t i = begin; i < end; i++) {
+        if (mps__is_ghost(&w->ghosts, i)) continue;
         const double *u = s->u + i * w->setup.dim;
         const double speed = sqrt(mps__dot(u, u, w->setup.dim));
         if (!(isfinite(speed) && speed <= w->setup.speed_limit &&
@@ -148,7 +155,7 @@ static void result_rows(void *argument, int64_t begin, int64_t end, double *v)
 }
 
 /* NaN and speeds beyond every physical range stop the run, with the particle and its place. */
-mps_status mps__world_check_result(const mps__world *w, const mps_stage *s, bool arrived,
+mps_status mps__world_check_result(mps__world *w, const mps_stage *s, bool arrived,
                                    mps_step_info *info)
 {
     result k = {w, 0};
@@ -156,16 +163,19 @@ mps_status mps__world_check_result(const mps__world *w, const mps_stage *s, bool
     for (int p = 0; p < MPS__PHASES; p++)
         if (w->setup.phase_defined[p]) k.dense = fmax(k.dense, 0.5 * w->setup.phase_density[p]);
     mps_parallel_max(&w->pool.parallel, s->n, 3, result_rows, &k, v);
+    mps__ranks_max(&w->ranks, 3, v);
     info->crossing_time = mps__crossing_time(w, v[1], s->dt);
     info->max_speed = v[0];
     info->cfl = v[0] * s->dt / s->dp;
     if (isinf(v[2])) return MPS_OK;
-    const int64_t worst = place_of(&w->particles, (int64_t)-v[2]);
+    const int64_t worst = place_of(w, (int64_t)-v[2]);
+    if (worst < 0) return mps__ranks_text(&w->ranks, MPS_E_DIVERGED);
     const double *u = w->particles.u + worst * s->dim,
                  *x = (arrived ? w->work.x0 : w->particles.x) + worst * s->dim;
-    return mps__fail(w->context, MPS_E_DIVERGED,
-                     "t = %.9g s: particle %lld at (%g, %g, %g) m got velocity (%g, %g, %g) m/s "
-                     "and pressure %g Pa; allowed: finite, at most %g m/s",
-                     s->t, (long long)s->id[worst], x[0], x[1], s->dim == 3 ? x[2] : 0, u[0], u[1],
-                     s->dim == 3 ? u[2] : 0, w->particles.p[worst], w->setup.speed_limit);
+    mps__fail(w->context, MPS_E_DIVERGED,
+              "t = %.9g s: particle %lld at (%g, %g, %g) m got velocity (%g, %g, %g) m/s and "
+              "pressure %g Pa; allowed: finite, at most %g m/s",
+              s->t, (long long)s->id[worst], x[0], x[1], s->dim == 3 ? x[2] : 0, u[0], u[1],
+              s->dim == 3 ? u[2] : 0, w->particles.p[worst], w->setup.speed_limit);
+    return mps__ranks_text(&w->ranks, MPS_E_DIVERGED);
 }

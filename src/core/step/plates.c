@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Particles near thin plates: where their lines of sight start, and that none passes a plate. */
 #include "plates.h"
+#include "world_ranks.h"
 #include <string.h>
 
 /* In spacings: how far above their face the lines of sight of walls start, and the least distance
@@ -60,6 +61,8 @@ void mps__plates_set_active(mps__world *w)
         if (s->plate[i] > 0 && s->kind[i] == MPS_WALL &&
             s->part[i] == p->list[s->plate[i] - 1].part)
             p->list[s->plate[i] - 1].active = true;
+    for (int32_t k = 0; k < p->count && mps__ranks_many(&w->ranks); k++)
+        mps__world_any(w, 1, &p->list[k].active);
 }
 
 mps_status mps__plates_find(mps__world *w)

@@ -3,6 +3,7 @@
 #include "guard.h"
 #include "step.h"
 #include "undo.h"
+#include "world_ranks.h"
 
 static mps_status look_around(mps__step *q);
 static mps_status predict(mps__step *q);
@@ -27,10 +28,12 @@ void mps__step_end_stage(mps__step *q, int stage)
     q->clock = now;
 }
 
-static bool on_surface(const void *particles, int64_t i)
+static bool on_surface(const void *world, int64_t i)
 {
-    const mps__particles *s = particles;
-    return s->kind[i] == MPS_FLUID && s->region[i] == MPS_REGION_SURFACE;
+    const mps__world *w = world;
+    const mps__particles *s = &w->particles;
+    return s->kind[i] == MPS_FLUID && s->region[i] == MPS_REGION_SURFACE &&
+           !mps__is_ghost(&w->ghosts, i);
 }
 
 /* Neighbours, number density, regions and all else at r^k that later moments read. */
@@ -43,8 +46,7 @@ static mps_status look_around(mps__step *q)
     MPS__TRY(mps__step_begin(q));
     MPS__TRY(mps__step_run(q, MPS_CLASSIFY));
     MPS__TRY(mps__step_run(q, MPS_PREPARE));
-    q->info.surface = mps__parallel_count(&w->pool.parallel, w->particles.n, on_surface,
-                                          &w->particles);
+    q->info.surface = mps__parallel_count(&w->pool.parallel, w->particles.n, on_surface, w);
     return MPS_OK;
 }
 
@@ -151,8 +153,15 @@ static void commit(mps__step *q)
     w->motion.now = q->pose;
     mps__parallel_copy(&w->pool.parallel, w->particles.load, w->work.load, w->particles.n);
     w->info.separated = 0;
-    for (int64_t i = 0; i < w->particles.n; i++)
-        w->info.separated += w->particles.held[i] = q->terms.condition[i] == MPS__ROW_HELD;
+    for (int64_t i = 0; i < w->particles.n; i++) {
+        w->particles.held[i] = q->terms.condition[i] == MPS__ROW_HELD;
+        w->info.separated += w->particles.held[i] && !mps__is_ghost(&w->ghosts, i);
+    }
+    int64_t counts[] = {w->info.surface, w->info.separated, w->info.ppe_unknowns};
+    mps__ranks_add(&w->ranks, 3, counts);
+    w->info.surface = counts[0];
+    w->info.separated = counts[1];
+    w->info.ppe_unknowns = counts[2];
     w->state.jump = q->jump;
     w->state.spread = q->spread;
     w->state.budget = q->budget;
@@ -194,23 +203,25 @@ static mps_status try_step(mps__step *q, double dt_max, double *planned)
     w->host.next = &q->pose;
     const mps_status status = run_stages(q);
     w->host.next = NULL;
-    return status;
+    return status < 0 ? status : mps__ranks_status(&w->ranks);
 }
 
-static bool any_fluid(const mps__world *w)
+static bool any_fluid(mps__world *w)
 {
-    for (int64_t i = 0; i < w->particles.n; i++)
-        if (w->particles.kind[i] == MPS_FLUID) return true;
-    return false;
+    bool any = false;
+    for (int64_t i = 0; i < w->particles.n && !any; i++) any = w->particles.kind[i] == MPS_FLUID;
+    mps__world_any(w, 1, &any);
+    return any;
 }
 
 mps_status mps__world_step(mps__world *w, double dt_max)
 {
     mps__step q = {.w = w, .clock = mps__clock()};
-    if (!any_fluid(w))
-        return mps__fail(w->context, MPS_E_STATE, "there is no fluid particle to step");
     w->host.motion = &w->motion;
     w->host.next = NULL;
+    MPS__TRY(mps__world_adopt(w));
+    if (!any_fluid(w))
+        return mps__fail(w->context, MPS_E_STATE, "there is no fluid particle to step");
     MPS__TRY(mps__plan_make(&w->host.plan, &w->models));
     mps__plan_note(&w->host.plan, &w->models);
     /* what has come, changed or gone since the last step, whatever becomes of this one */

@@ -31,6 +31,18 @@ static mps_status check_laws(const mps__step *q)
     return MPS_OK;
 }
 
+/* An equation on many ranks needs a solver that knows of them. */
+static mps_status check_ranks(const mps__step *q)
+{
+    const mps__solvers *s = &q->w->solvers;
+    if (!mps__ranks_many(q->w->ghosts.ranks) || (s->use->ranks && (!s->pc || s->pc->ranks)))
+        return MPS_OK;
+    return mps__fail(q->w->context, MPS_E_STATE,
+                     "solver '%s' with preconditioner '%s' works on one rank only: choose "
+                     "'sundials.pcg' with 'jacobi'",
+                     s->use->name, s->pc ? s->pc->name : "none");
+}
+
 static void note_level(mps__step *q)
 {
     mps__world *w = q->w;
@@ -48,7 +60,7 @@ static mps_status solve(mps__step *q, mps_ppe_result *result)
     mps__world *w = q->w;
     w->bounds.held = w->particles.held;
     w->bounds.solves = 0;
-    if (w->ppe.n == 0) return MPS_OK;
+    if (mps__ppe_rows(&w->ppe) == 0) return MPS_OK;
     const mps_status status = mps__bounds_solve(&w->bounds, &w->solvers, &w->ppe, &q->stage,
                                                 &q->terms, result);
     /* a NaN of the prediction has a particle and a place */
@@ -78,6 +90,7 @@ mps_status mps__step_project(mps__step *q)
     mps__step_begin_equation(q);
     MPS__TRY(mps__step_run(q, MPS_SOURCE));
     MPS__TRY(check_laws(q));
+    MPS__TRY(check_ranks(q));
     spread_gain(q);
     mps__step_end_stage(q, MPS_STAGE_OPERATORS);
     MPS__TRY(share_terms(q));

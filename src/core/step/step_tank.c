@@ -53,6 +53,7 @@ static void note_jump(mps__step *q)
     mps__world *w = q->w;
     double most = 0;
     mps_parallel_max(&w->pool.parallel, w->particles.n, 1, solid_acceleration_rows, w, &most);
+    mps__ranks_max(&w->ranks, 1, &most);
     const double dt = q->stage.dt,
                  change = w->state.dt_before > 0 ? 2 * dt / (dt + w->state.dt_before) : 1;
     q->jump = (mps__jump){change * sqrt(most),

@@ -151,10 +151,12 @@ void mps__world_rows(mps__world *w);
 mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *stencil);
 /* A stencil that has the rows of all particles, from lists that are fresh. */
 mps_status mps__world_stencil_all(mps__world *w, int32_t which, mps_stencil *stencil);
+/* Dummies find their walls, and walls without an area get one, from a search that left no particle out. links.c */
+mps_status mps__world_link_walls(mps__world *w);
 /* A tank or solid has so many layers of dummies. */
 void mps__world_note_layers(mps__world *w, int32_t layers);
 /* Tell the log of phases that were defined and have no fluid. */
-void mps__world_note_phases(const mps__world *w);
+void mps__world_note_phases(mps__world *w);
 /* Largest mps_step_info.crossing_time [s]: below 5 U_g steps do not depend on the speed. */
 static inline double mps__crossing_limit(const mps__world *w)
 {
@@ -175,7 +177,7 @@ double mps__world_speed(mps__world *w);
 mps_status mps__world_step(mps__world *w, double dt_max);
 /* Fail for what is not finite or too fast, with the particle and its place, which is in work.x0 if particles arrived at new ones. Sets the
  * speeds of `info`. moves.c */
-mps_status mps__world_check_result(const mps__world *w, const mps_stage *s, bool arrived,
+mps_status mps__world_check_result(mps__world *w, const mps_stage *s, bool arrived,
                                    mps_step_info *info);
 /* Fluid that passes a wall in a step of dt that ends at a pose; the places before it are work.x0. moves.c */
 mps_status mps__world_check_moves(mps__world *w, const mps__pose *next, double dt);

@@ -11,6 +11,7 @@ mps_status mps__world_ranks_set(mps__world *w, const mps_ranks_ops *ops)
     mps__particles *s = &w->particles;
     MPS__TRY(mps__ranks_set(&w->ranks, ops));
     if (!mps__ranks_many(&w->ranks)) return MPS_OK;
+    w->ppe.ghosts = &w->ghosts;
     return mps__particles_field_add(s, "wall_id", 1, sizeof *s->wall_id, false,
                                     (void **)&s->wall_id);
 }
@@ -40,7 +41,7 @@ mps_status mps__world_adopt(mps__world *w)
 
 void mps__world_any(mps__world *w, int32_t count, bool *things)
 {
-    double value[8];
+    double value[MPS__PHASES];
     if (!mps__ranks_many(&w->ranks)) return;
     for (int32_t k = 0; k < count; k++) value[k] = things[k];
     mps__ranks_max(&w->ranks, count, value);

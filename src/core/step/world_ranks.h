@@ -9,7 +9,7 @@
 mps_status mps__world_ranks_set(mps__world *w, const mps_ranks_ops *ops);
 /* Keep the own ones of the particles that all ranks added alike. */
 mps_status mps__world_adopt(mps__world *w);
-/* Whether something is so on any rank, for each of `count` things. */
+/* Whether something is so on any rank, for each of `count` things, at most 16. */
 void mps__world_any(mps__world *w, int32_t count, bool *things);
 /* Send particles to their owners and renew the ghosts; order particles as a search wants them. */
 mps_status mps__world_divide(mps__world *w);
