@@ -144,16 +144,16 @@ static void compare(const scene *s, const record *a, const record *b, int32_t ra
         if (a[k].count != b[k].count)
             fail_msg("%d ranks, step %d: %lld particles, not %lld", (int)ranks, k + 1,
                      (long long)b[k].count, (long long)a[k].count);
+        for (int v = 0; v < 8; v++)
+            if (memcmp(&a[k].info[v], &b[k].info[v], sizeof(double)) != 0)
+                fail_msg("%d ranks, step %d: %s is %.17g, not %.17g", (int)ranks, k + 1, infos[v],
+                         b[k].info[v], a[k].info[v]);
         for (int64_t id = 0; id < MOST; id++)
             for (int v = 0; v < NUMBERS; v++)
                 if (memcmp(&a[k].value[id][v], &b[k].value[id][v], sizeof(double)) != 0)
                     fail_msg("%d ranks, step %d: %s of particle %lld is %.17g, not %.17g",
                              (int)ranks, k + 1, names[v], (long long)id, b[k].value[id][v],
                              a[k].value[id][v]);
-        for (int v = 0; v < 8; v++)
-            if (memcmp(&a[k].info[v], &b[k].info[v], sizeof(double)) != 0)
-                fail_msg("%d ranks, step %d: %s is %.17g, not %.17g", (int)ranks, k + 1, infos[v],
-                         b[k].info[v], a[k].info[v]);
     }
 }
 

@@ -105,6 +105,7 @@ static void wall_way_rows(void *argument, int64_t begin, int64_t end, double *mo
     for (int64_t i = begin; i < end; i++) {
         double X[3], here[3], next[3], square = 0;
         const bool fluid = s->kind[i] == MPS_FLUID;
+        if (mps__is_ghost(&w->ghosts, i)) continue;
         if (fluid)
             mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * w->setup.dim, X);
         else

@@ -80,6 +80,7 @@ static void speed_rows(void *argument, int64_t begin, int64_t end, double *value
     double most = values[0];
     for (int64_t i = begin; i < end; i++) {
         const double *u = w->particles.u + i * w->setup.dim, square = mps__dot(u, u, w->setup.dim);
+        if (mps__is_ghost(&w->ghosts, i)) continue;
         most = square > most ? square : most; /* a NaN does not count */
     }
     values[0] = most;
