@@ -113,6 +113,7 @@ static void run_rank(void *argument, int32_t rank)
     }
     if (status == MPS_OK) status = build(sim, k->scene);
     for (int s = 0; s < k->scene->steps && status >= 0; s++) {
+        sim->world.ghosts.recut = s % 7 == 3; /* new cuts whenever a search comes */
         status = mps_step(sim, 1, &info);
         if (status >= 0) note(sim, &info, rank, &k->records[s]);
     }

@@ -42,6 +42,12 @@ static void place_row(const void *argument, int64_t i, double *X)
     memcpy(X, s->x + i * s->dim, (size_t)s->dim * sizeof *X);
 }
 
+static float weight_row(const void *argument, int64_t i)
+{
+    (void)argument, (void)i;
+    return 1;
+}
+
 static void set_places(mps__particles *s, int step)
 {
     for (int64_t i = 0; i < s->n; i++) place_of(s->id[i], step, s->dim, s->x + i * s->dim);
@@ -132,7 +138,7 @@ static int64_t wrong_rows(const mps__ghosts *g)
 static mps_status walk(world *w, int32_t rank, mps__ghosts *g)
 {
     mps__particles *s = g->particles;
-    const mps__placing p = {place_row, s, reach, reach_walls};
+    const mps__placing p = {place_row, weight_row, s, reach, reach_walls};
     int64_t all = COUNT;
     MPS__TRY(add(s, COUNT, 0));
     for (int step = 0; step < STEPS; step++) {
@@ -142,6 +148,7 @@ static mps_status walk(world *w, int32_t rank, mps__ghosts *g)
             all += MORE;
         }
         MPS__TRY(mps__ghosts_adopt(g, &p));
+        g->recut = step % 3 == 1;
         MPS__TRY(mps__ghosts_renew(g, &p, 0));
         MPS__TRY(turn_round(g));
         for (int64_t i = 0; i < s->n; i++)

@@ -167,23 +167,26 @@ static mps_status find_owners(mps__ghosts *g, const mps__placing *p, int64_t beg
     return mps__ranks_status(r);
 }
 
-/* Divide space by the particles begin .. end-1 of each rank. */
+/* Divide space by the owned particles begin .. end-1 of each rank. */
 static mps_status divide(mps__ghosts *g, const mps__placing *p, int64_t begin, int64_t end)
 {
     mps__ranks *r = g->ranks;
     const int dim = g->particles->dim;
+    int64_t count = 0;
     double *X = mps__alloc(g->context, (end - begin) * dim, sizeof *X);
     float *weight = mps__alloc(g->context, end - begin, sizeof *weight);
     for (int64_t i = begin; X && weight && i < end; i++) {
-        p->place(p->argument, i, X + (i - begin) * dim);
-        weight[i - begin] = 1;
+        if (mps__is_ghost(g, i)) continue;
+        p->place(p->argument, i, X + count * dim);
+        weight[count++] = p->weight(p->argument, i);
     }
     if (X && weight && !r->failed)
-        r->failed = r->ops.partition(r->self, dim, end - begin, X, weight) != 0;
+        r->failed = r->ops.partition(r->self, dim, count, X, weight) != 0;
     const mps_status status = X && weight ? mps__ranks_status(r) : MPS_E_NOMEM;
     mps__free(g->context, X);
     mps__free(g->context, weight);
     g->cut = status == MPS_OK;
+    g->recut = false;
     return status;
 }
 
@@ -297,6 +300,7 @@ mps_status mps__ghosts_renew(mps__ghosts *g, const mps__placing *p, int64_t asid
     mps__particles *s = g->particles;
     if (!mps__ranks_many(g->ranks)) return MPS_OK;
     const int64_t generation = s->generation; /* none comes and none goes, seen from all ranks */
+    if (g->recut) MPS__TRY(divide(g, p, 0, s->n));
     forget_route(g);
     MPS__TRY(migrate(g, p, aside));
     forget_route(g);

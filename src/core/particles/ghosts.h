@@ -10,6 +10,7 @@
 /* Places in the frame of the cuts, which is that of the tank: X [dim] of particle i. */
 typedef struct mps__placing {
     void (*place)(const void *argument, int64_t i, double *X);
+    float (*weight)(const void *argument, int64_t i); /* work that particle i makes */
     const void *argument;
     double reach;       /* of the owned particles: fluid and dummies within it become ghosts [m] */
     double reach_walls; /* likewise wall particles: those that dummies within `reach` belong to */
@@ -30,6 +31,7 @@ typedef struct mps__ghosts {
     int64_t capacity, run_capacity, runs;
     int64_t known;   /* particles that ranks have divided; those behind them all ranks have */
     bool cut;        /* space is divided */
+    bool recut;      /* it is to be divided anew with the next mps__ghosts_renew() */
     bool connected;  /* there is a route: */
     mps_route route; /* owned particles to other ranks, and theirs to the ghosts here */
     int64_t sends, receives, send_capacity, receive_capacity;
@@ -51,7 +53,7 @@ static inline bool mps__is_ghost(const mps__ghosts *g, int64_t i)
 /* Of the particles that all ranks added alike since the last call, keep the own ones. The first call divides space. All calls below are those
  * of all ranks together; alone they do nothing. */
 mps_status mps__ghosts_adopt(mps__ghosts *g, const mps__placing *p);
-/* Particles go to the ranks that own their places, and new ghosts come. The last `aside` particles in memory, behind those of the store, stay
+/* Particles go to the ranks that own their places, after new cuts if these are wanted, and new ghosts come. The last `aside` particles in memory, behind those of the store, stay
  * there. Owned particles and ghosts are not in order yet: mps__ghosts_ordered() must follow. */
 mps_status mps__ghosts_renew(mps__ghosts *g, const mps__placing *p, int64_t aside);
 /* The store is about to be permuted: particle order[k] comes to place k. */

@@ -26,11 +26,19 @@ static void place_of(const void *world, int64_t i, double *X)
         memcpy(X, s->ref + i * s->dim, (size_t)s->dim * sizeof *X);
 }
 
+/* Work of a particle over that of fluid: solids without fluid about them have no rows, walls with it no gradients. */
+static float weight_of(const void *world, int64_t i)
+{
+    const mps__particles *s = &((const mps__world *)world)->particles;
+    if (s->kind[i] == MPS_FLUID) return 1;
+    return s->kind[i] == MPS_WALL && s->region[i] != MPS_REGION_DRY ? 0.5f : 0.05f;
+}
+
 /* The walls of dummies that are ghosts are ghosts too: they are at most as far from them as rows reach. */
 static mps__placing placing(const mps__world *w)
 {
     const double reach = (w->setup.re_far + w->lists.neighbours.skin) * (1 + margin);
-    return (mps__placing){place_of, w, reach, 2 * reach};
+    return (mps__placing){place_of, weight_of, w, reach, 2 * reach};
 }
 
 mps_status mps__world_adopt(mps__world *w)
