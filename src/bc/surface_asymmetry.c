@@ -153,10 +153,14 @@ MPS_ROWS(from_rows, from_row, fields)
 MPS_ROW bool inner_beside(const mps_stage *s, const fields *f, int64_t i)
 {
     const mps_stencil *t = s->near;
-    bool any = false;
+    const int32_t *const member = f->member, *const j = t->col;
+    int64_t p = t->begin[i], end = t->end[i];
+    int32_t any = 0;
     if (s->kind[i] != MPS_FLUID || f->region[i] != MPS_REGION_INNER) return false;
-    for (int64_t p = t->begin[i]; p < t->end[i] && !any; p++) any = f->member[t->col[p]] != 0;
-    return any;
+    for (; p + 4 <= end && !any; p += 4) /* most rows find none */
+        any = member[j[p]] | member[j[p + 1]] | member[j[p + 2]] | member[j[p + 3]];
+    for (; p < end && !any; p++) any = member[j[p]];
+    return any != 0;
 }
 
 MPS_ROW void surface_row(const int dim, const mps_stage *s, fields *f, int64_t i)

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The bytes of a run depend on the particles and their ids, not on where they stood in memory before a search. */
+/* The bytes and texts of a run depend on the particles and their ids, not on where they stood in memory before a search. */
 #include "sim.h"
 #include "cloud.h"
 #include "phase_fixture.h"
+#include <stdio.h>
 
 enum { STEPS = 24, SHUFFLE_EACH = 6 };
 static const double dp = 0.05;
@@ -144,9 +145,85 @@ static void order_of_ties(void **state)
     }
 }
 
+/* Walls and dummies of an uneven floor without areas, and water on it. */
+static mps_sim *uneven_floor(void)
+{
+    static const int32_t kind[4] = {MPS_DUMMY, MPS_DUMMY, MPS_WALL, MPS_FLUID};
+    enum { LONG = 12 };
+    mps_sim *sim = new_sim(2, dp);
+    mps_particle_block b;
+    double x[2 * LONG];
+    uint64_t seed = 3;
+    for (int row = 0; row < 4; row++) {
+        for (int k = 0; k < 2 * LONG; k++)
+            x[k] = dp * ((k % 2 ? row : k / 2) + 0.2 * cloud_random(&seed));
+        assert_int_equal(mps_particle_block_init(&b, sizeof b), MPS_OK);
+        b.count = LONG;
+        b.kind = kind[row];
+        b.position = x;
+        ASSERT_OK(sim, mps_particles_add(sim, &b, NULL));
+    }
+    return sim;
+}
+
+/* A wall given without an area faces along the sum of the ways from its dummies. */
+static void areas_of_walls(void **state)
+{
+    (void)state;
+    mps_sim *kept = uneven_floor(), *mixed = uneven_floor();
+    const mps__particles *s = &kept->world.particles;
+    uint64_t seed = 9;
+    new_history(mixed, true, &seed);
+    ASSERT_OK(kept, mps_step(kept, 1e-4, NULL));
+    ASSERT_OK(mixed, mps_step(mixed, 1e-4, NULL));
+    same_particles(kept, mixed);
+    for (int64_t i = 0; i < s->n; i++) {
+        double sum[2] = {0, 0};
+        for (int64_t j = 0; j < s->n; j++)
+            for (int d = 0; d < 2 && s->wall_of[j] == i; d++)
+                sum[d] += s->ref[2 * i + d] - s->ref[2 * j + d];
+        const double length = hypot(sum[0], sum[1]);
+        for (int d = 0; d < 2; d++)
+            ASSERT_NEAR(s->area[2 * i + d], length > 0 ? dp * sum[d] / length : 0, 1e-12 * dp);
+        if (s->kind[i] == MPS_WALL && s->x[2 * i] > dp && s->x[2 * i] < 10 * dp)
+            assert_true(s->area[2 * i + 1] > 0.5 * dp);
+    }
+    mps_sim_destroy(kept);
+    mps_sim_destroy(mixed);
+}
+
+/* The text about lost particles names the least id, wherever the particles stand. */
+static void least_id_is_named(void **state)
+{
+    static const scene plain = {"imps", 2, false, false};
+    (void)state;
+    for (int turn = 0; turn < 2; turn++) {
+        mps_sim *sim = tank_of(&plain);
+        mps__particles *s = &sim->world.particles;
+        char word[40];
+        int64_t lost[2] = {0}, found = 0; /* places, by ascending ids */
+        sim->world.setup.lost_policy = MPS_LOST_ERROR;
+        for (int64_t i = 0; i < s->n && found < 2; i++)
+            if (s->kind[i] == MPS_FLUID) lost[found++] = i;
+        const int64_t least = s->id[lost[0]];
+        assert_true(found == 2 && least < s->id[lost[1]]);
+        for (int k = 0; k < 2; k++) s->x[2 * lost[k]] = 100;
+        int32_t *order = calloc((size_t)s->n, sizeof *order);
+        for (int32_t i = 0; i < s->n; i++) order[i] = turn ? (int32_t)s->n - 1 - i : i;
+        assert_int_equal(mps__particles_permute(s, s->n, order), MPS_OK);
+        free(order);
+        snprintf(word, sizeof word, "2 particles left the domain");
+        ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_LOST, word);
+        snprintf(word, sizeof word, "; particle %lld is at", (long long)least);
+        assert_non_null(strstr(mps_sim_error(sim), word));
+        mps_sim_destroy(sim);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(history_of_store),
-                                       cmocka_unit_test(order_of_ties)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(history_of_store), cmocka_unit_test(order_of_ties),
+        cmocka_unit_test(areas_of_walls), cmocka_unit_test(least_id_is_named)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
