@@ -62,23 +62,26 @@ static int dummy_apply(void *self, const double *r, double *z)
 
 static mps_solver_ops dummy_solver(const char *name, const char *pc)
 {
-    return (mps_solver_ops){
-        sizeof(mps_solver_ops), MPS_PPE_API, name, pc,  1, dummy_create, dummy_solve,
-        dummy_destroy,          0,           NULL, NULL};
+    return (mps_solver_ops){.struct_size = sizeof(mps_solver_ops),
+                            .api = MPS_PPE_API,
+                            .name = name,
+                            .preconditioner = pc,
+                            .symmetric = 1,
+                            .create = dummy_create,
+                            .solve = dummy_solve,
+                            .destroy = dummy_destroy};
 }
 
 static mps_preconditioner_ops dummy_preconditioner(const char *name)
 {
-    return (mps_preconditioner_ops){sizeof(mps_preconditioner_ops),
-                                    MPS_PPE_API,
-                                    name,
-                                    1,
-                                    dummy_create,
-                                    dummy_setup,
-                                    dummy_apply,
-                                    dummy_destroy,
-                                    NULL,
-                                    NULL};
+    return (mps_preconditioner_ops){.struct_size = sizeof(mps_preconditioner_ops),
+                                    .api = MPS_PPE_API,
+                                    .name = name,
+                                    .symmetric = 1,
+                                    .create = dummy_create,
+                                    .setup = dummy_setup,
+                                    .apply = dummy_apply,
+                                    .destroy = dummy_destroy};
 }
 
 /* ---- fixture ---- */
