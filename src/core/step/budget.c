@@ -46,13 +46,16 @@ static double mass(const mps__world *w, int64_t i)
                                                     : w->setup.dp * w->setup.dp * w->setup.dp);
 }
 
+/* Kinetic energy, momentum, and last the potential energy. */
 static void energy_term(const mps__world *w, const void *data, int64_t i, double *term)
 {
     (void)data;
     const double *u = w->particles.u + i * w->setup.dim;
-    term[0] = 0.5 * mass(w, i) * mps__dot(u, u, w->setup.dim);
-    term[1] = -mass(w, i) * mps__dot(w->setup.g, w->particles.x + i * w->setup.dim, w->setup.dim);
-    for (int d = 0; d < w->setup.dim; d++) term[2 + d] = mass(w, i) * u[d];
+    const double m = mass(w, i);
+    term[0] = 0.5 * m * mps__dot(u, u, w->setup.dim);
+    for (int d = 0; d < w->setup.dim; d++) term[1 + d] = m * u[d];
+    term[1 + w->setup.dim] = -m *
+                             mps__dot(w->setup.g, w->particles.x + i * w->setup.dim, w->setup.dim);
 }
 
 ADD_TERMS(add_energy, MPS_FLUID, energy_term)
@@ -61,7 +64,15 @@ void mps__budget_sum(const mps__world *w, mps__bulk *bulk)
 {
     double s[TERMS] = {0};
     sum_terms(w, add_energy, NULL, 2 + w->setup.dim, s);
-    *bulk = (mps__bulk){s[0], s[1], {s[2], s[3], s[4]}};
+    *bulk = (mps__bulk){.kinetic = s[0], .potential = s[1 + w->setup.dim]};
+    for (int d = 0; d < w->setup.dim; d++) bulk->momentum[d] = s[1 + d];
+}
+
+void mps__budget_sum_flow(const mps__world *w, mps__bulk *bulk)
+{
+    double s[TERMS] = {0};
+    sum_terms(w, add_energy, NULL, 1 + w->setup.dim, s);
+    *bulk = (mps__bulk){.kinetic = s[0], .momentum = {s[1], s[2], s[3]}};
 }
 
 typedef struct acceleration {
