@@ -107,7 +107,7 @@ static int32_t special_of(double v)
     return v > 0 ? PLUS : MINUS;
 }
 
-/* Add at most BLOCK terms of any size. */
+/* Add at most BLOCK terms of any size. In plain vectors, so that tests compare these with wide ones. */
 static void add_block(mps_exact *sum, int64_t count, const double *x, const double *y)
 {
     double term[BLOCK];
@@ -122,11 +122,11 @@ static void add_block(mps_exact *sum, int64_t count, const double *x, const doub
     }
     raise_level(sum, (int32_t)(most >> 52) / LEVEL_BITS);
     if (sum->level < SCALED) {
-        deposit(sum->part, sum->level, count, term, NULL);
+        deposit_plain(sum->part, sum->level, count, term, NULL);
         return;
     }
     for (int64_t i = 0; i < count; i++) term[i] *= SCALE;
-    deposit(sum->part, sum->level - SCALE_LEVELS, count, term, NULL);
+    deposit_plain(sum->part, sum->level - SCALE_LEVELS, count, term, NULL);
 }
 
 static inline void add(mps_exact *sum, int64_t count, const double *x, const double *y)
