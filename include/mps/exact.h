@@ -4,7 +4,7 @@
  *  The levels k = 0, 1, ... have the units u_k = 2^(26 k - 1074). A term v leaves an integer number
  *  of units in the three levels K+2, K+1, K, one after the other:
  *
- *    n_k = v/u_k rounded to the nearest even integer,   v <- v - n_k u_k.
+ *    n_k = v/u_k rounded to the nearest integer, halves to even,   v <- v - n_k u_k.
  *
  *  What is left of v after the third is dropped. K is the lowest level for which the largest |v| is
  *  below 2^77 u_K. The numbers n_k depend on v alone, and a level above those of a term gets 0 from
@@ -22,7 +22,8 @@
 MPS_BEGIN_DECLS
 
 /** A sum; all zero: no terms yet. Memory of the caller, may be copied. Read it with
- *  mps_exact_value(). */
+ *  mps_exact_value(). Functions on one sum must not run at the same time; give each thread its own
+ *  sum and join them. */
 typedef struct mps_exact {
     /** Sum of n_k for k = level, level+1, level+2. */
     int64_t part[3];

@@ -145,15 +145,22 @@ static void scale(sunrealtype a, N_Vector vx, N_Vector vz)
         &(operands){.a = a, .x = mps__vector_data(vx), .z = mps__vector_data(vz)});
 }
 
-/* Squares of x, and the largest |x weight|. */
+/* Squares of x, and the largest |x weight|; a NaN does not count. */
 static void excess_rows(void *argument, int64_t begin, int64_t end, mps_exact *squares,
                         double *largest)
 {
     const operands *o = argument;
     const double *r = o->x, *weight = o->space->weight;
-    mps_exact_add_products(squares, end - begin, r + begin, r + begin);
-    for (int64_t i = begin; weight && i < end; i++)
-        *largest = fmax(*largest, fabs(r[i] * weight[i]));
+    double most = *largest;
+    for (int64_t lo = begin, hi; lo < end; lo = hi) {
+        hi = lo + MPS__BLOCK < end ? lo + MPS__BLOCK : end;
+        mps_exact_add_products(squares, hi - lo, r + lo, r + lo);
+        for (int64_t i = lo; weight && i < hi; i++) {
+            const double size = fabs(r[i] * weight[i]);
+            most = size > most ? size : most;
+        }
+    }
+    *largest = most;
 }
 
 /* How far r is above the limits of both norms, in one pass. */

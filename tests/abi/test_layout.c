@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Layout of the public structs on x86-64, written by make_layout. Sizes may grow, offsets never change within a major version. */
+#include <mps/exact.h>
 #include <mps/flux.h>
 #include <mps/geometry.h>
 #include <mps/list.h>
@@ -18,6 +19,17 @@
 #if defined(__x86_64__) && !defined(__ILP32__)
 #define SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), #type)
 #define AT(type, member, bytes) _Static_assert(offsetof(type, member) == (bytes), #type "." #member)
+
+SIZE(mps_exact, 32);
+AT(mps_exact, part, 0);
+AT(mps_exact, level, 24);
+AT(mps_exact, special, 28);
+
+SIZE(mps_exact_values, 24);
+AT(mps_exact_values, sums, 0);
+AT(mps_exact_values, maxima, 4);
+AT(mps_exact_values, sum, 8);
+AT(mps_exact_values, maximum, 16);
 
 SIZE(mps_flux, 96);
 AT(mps_flux, struct_size, 0);

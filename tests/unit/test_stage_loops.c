@@ -139,6 +139,42 @@ static void sums_do_not_depend_on_threads(void **state)
         }
 }
 
+/* Rows in another order have the same terms, and numbers of all sizes that cancel. */
+static const int32_t *order;
+
+static void add_ordered(const mps_stage *s, void *none, int64_t begin, int64_t end, double *sums)
+{
+    (void)none;
+    assert_int_equal(end, begin + 1);
+    for (int k = 0; k < 3; k++) assert_true(sums[k] == 0);
+    const int64_t i = order[begin];
+    sums[0] = number(s, i, 0);
+    sums[1] = i % 2 ? number(s, i - 1, 1) : -number(s, i, 1);
+    sums[2] = 0.1 * (double)i;
+}
+
+static int sum_in_orders(mps_stage *s)
+{
+    double first[3], other[3];
+    int32_t *row = mps_stage_scratch_integers(s, s->n);
+    assert_non_null(row);
+    order = row;
+    for (int64_t i = 0; i < s->n; i++) row[i] = (int32_t)i;
+    mps_stage_sum(s, 3, add_ordered, NULL, first);
+    for (int64_t i = 0; i < s->n; i++) row[i] = (int32_t)((i * 611 + 17) % s->n);
+    mps_stage_sum(s, 3, add_ordered, NULL, other);
+    assert_memory_equal(first, other, sizeof first);
+    assert_true(first[1] == 0);
+    ASSERT_NEAR(first[2], 0.05 * (double)(s->n * (s->n - 1)), 1e-10);
+    return 0;
+}
+
+static void sums_do_not_depend_on_the_order(void **state)
+{
+    (void)state;
+    for (int32_t threads = 1; threads <= 3; threads++) play_once(1600, threads, sum_in_orders);
+}
+
 static int32_t wanted_count;
 
 static int sum_many(mps_stage *s)
@@ -418,10 +454,13 @@ static void scratch(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_row_once), cmocka_unit_test(sums_do_not_depend_on_threads),
-        cmocka_unit_test(wrong_counts),  cmocka_unit_test(beside),
-        cmocka_unit_test(bodies),        cmocka_unit_test(solids_link_no_bodies),
-        cmocka_unit_test(scratch)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(each_row_once),
+                                       cmocka_unit_test(sums_do_not_depend_on_threads),
+                                       cmocka_unit_test(sums_do_not_depend_on_the_order),
+                                       cmocka_unit_test(wrong_counts),
+                                       cmocka_unit_test(beside),
+                                       cmocka_unit_test(bodies),
+                                       cmocka_unit_test(solids_link_no_bodies),
+                                       cmocka_unit_test(scratch)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
 /* Energies, mass, volume and momentum of the fluid, and the budgets of energy and momentum. */
 #include "budget.h"
 #include "probes.h"
+#include "terms.h"
 #include <math.h>
 #include <mps/model.h>
 #include <string.h>
@@ -11,15 +12,20 @@ static void bulk_sums(const mps__world *w, mps_energy *e)
     const mps__particles *s = &w->particles;
     const double volume = w->setup.dim == 2 ? w->setup.dp * w->setup.dp
                                             : w->setup.dp * w->setup.dp * w->setup.dp;
+    mps_exact sums[4] = {{{0}, 0, 0}}; /* of the mass, and of the mass times the place */
+    mps__terms t;
     int64_t count = 0;
+    mps__terms_begin(&t, sums, 1 + w->setup.dim);
     for (int64_t i = 0; i < s->n; i++) {
+        double own[4] = {s->rho[i] * volume};
         if (s->kind[i] != MPS_FLUID) continue;
-        double mass = s->rho[i] * volume;
-        e->mass += mass;
-        for (int32_t d = 0; d < w->setup.dim; d++)
-            e->centre[d] += mass * s->x[i * w->setup.dim + d];
+        for (int32_t d = 0; d < w->setup.dim; d++) own[1 + d] = own[0] * s->x[i * w->setup.dim + d];
+        mps__terms_add(&t, own);
         count++;
     }
+    mps__terms_end(&t);
+    e->mass = mps_exact_value(&sums[0]);
+    for (int32_t d = 0; d < w->setup.dim; d++) e->centre[d] = mps_exact_value(&sums[1 + d]);
     e->volume = volume * (double)count;
     for (int32_t d = 0; d < w->setup.dim; d++)
         if (e->mass > 0) e->centre[d] /= e->mass;
@@ -42,14 +48,20 @@ static double half_cells(const mps__world *w)
 {
     const mps__particles *s = &w->particles;
     const int dim = w->setup.dim;
-    double sum[3] = {0}, walls = 0;
+    mps_exact sums[4] = {{{0}, 0, 0}}; /* of |A|, and of A */
+    mps__terms t;
+    double open[3] = {0};
+    mps__terms_begin(&t, sums, 1 + dim);
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_WALL || !is_wet(w, i)) continue;
         const double *a = s->area + i * dim;
-        walls += sqrt(mps__dot(a, a, dim));
-        for (int d = 0; d < dim; d++) sum[d] += a[d];
+        double own[4] = {sqrt(mps__dot(a, a, dim))};
+        memcpy(own + 1, a, (size_t)dim * sizeof *a);
+        mps__terms_add(&t, own);
     }
-    return 0.5 * w->setup.dp * (walls - sqrt(mps__dot(sum, sum, dim)));
+    mps__terms_end(&t);
+    for (int d = 0; d < dim; d++) open[d] = mps_exact_value(&sums[1 + d]);
+    return 0.5 * w->setup.dp * (mps_exact_value(&sums[0]) - sqrt(mps__dot(open, open, dim)));
 }
 
 mps_status mps__energy_measure(mps__world *w, mps_energy *e)

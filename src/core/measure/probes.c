@@ -3,6 +3,7 @@
 #include "probes.h"
 #include "plates.h"
 #include "probe_gauge.h"
+#include "terms.h"
 #include <math.h>
 #include <string.h>
 
@@ -145,27 +146,32 @@ static bool face_wanted(const mps__world *w, const mps__probe *probe, int64_t i,
 static void measure_force(const mps__world *w, const mps__probe *probe, double *values)
 {
     const mps__particles *s = &w->particles;
-    double at[3] = {0, 0, 0}, force[3] = {0, 0, 0}, moment[3] = {0, 0, 0};
+    double at[3] = {0, 0, 0}, total[6];
+    mps_exact sums[6] = {{{0}, 0, 0}};
+    mps__terms t;
     mps__motion_point(&w->motion, &w->motion.now, probe->config.at, at, NULL, NULL);
+    mps__terms_begin(&t, sums, 6);
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_WALL || s->load[i] == 0) continue;
-        double f[3] = {0, 0, 0}, r[3] = {0, 0, 0}, area[3] = {0, 0, 0};
+        double f[6] = {0}, r[3] = {0, 0, 0}, area[3] = {0, 0, 0}; /* f: force, moment */
         for (int32_t d = 0; d < w->setup.dim; d++)
             area[d] = face_wanted(w, probe, i, d) ? s->area[i * w->setup.dim + d] : 0;
         mps__motion_rotate(&w->motion, &w->motion.now, area, f);
         for (int32_t d = 0; d < w->setup.dim; d++) {
             f[d] *= -s->load[i];
-            force[d] += f[d];
             r[d] = s->x[i * w->setup.dim + d] - at[d];
         }
         for (int d = 0; d < 3; d++)
-            moment[d] += r[(d + 1) % 3] * f[(d + 2) % 3] - r[(d + 2) % 3] * f[(d + 1) % 3];
+            f[3 + d] = r[(d + 1) % 3] * f[(d + 2) % 3] - r[(d + 2) % 3] * f[(d + 1) % 3];
+        mps__terms_add(&t, f);
     }
-    memcpy(values, force, (size_t)w->setup.dim * sizeof(double));
+    mps__terms_end(&t);
+    for (int k = 0; k < 6; k++) total[k] = mps_exact_value(&sums[k]);
+    memcpy(values, total, (size_t)w->setup.dim * sizeof *total);
     if (w->setup.dim == 2)
-        values[2] = moment[2];
+        values[2] = total[5];
     else
-        memcpy(values + 3, moment, sizeof moment);
+        memcpy(values + 3, total + 3, 3 * sizeof *total);
 }
 
 /* ---- adding ---- */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Loops, sums and scratch for verbs of models: the one place where these loops are. Rows are owned particles. */
 #include "host.h"
+#include "terms.h"
 #include <math.h>
-#include <mps/exact.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -45,19 +45,16 @@ typedef struct part {
 /* One row at a time: a sum of several rows would depend on where ranges begin. */
 static void sum_rows(void *argument, int64_t begin, int64_t end)
 {
-    enum { BLOCK = 128 };
     const part *own_part = argument;
     const job *k = own_part->k;
-    double term[MPS_PARALLEL_VALUES][BLOCK];
-    for (int64_t lo = begin, n; lo < end; lo += n) {
-        n = end - lo < BLOCK ? end - lo : BLOCK;
-        for (int64_t i = 0; i < n; i++) {
-            double own[MPS_PARALLEL_VALUES] = {0};
-            k->sums(k->s, k->arguments, lo + i, lo + i + 1, own);
-            for (int32_t m = 0; m < k->count; m++) term[m][i] = own[m];
-        }
-        for (int32_t m = 0; m < k->count; m++) mps_exact_add(&own_part->sums[m], n, term[m]);
+    mps__terms t;
+    mps__terms_begin(&t, own_part->sums, k->count);
+    for (int64_t i = begin; i < end; i++) {
+        double own[MPS_PARALLEL_VALUES] = {0};
+        k->sums(k->s, k->arguments, i, i + 1, own);
+        mps__terms_add(&t, own);
     }
+    mps__terms_end(&t);
 }
 
 static void run_sums(void *argument, int64_t begin, int64_t end, mps_exact *sums, double *none)

@@ -1,47 +1,34 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Sums of energy and momentum. They are exact: the same bytes for any number of threads and any order of the particles. */
 #include "budget.h"
-#include <mps/exact.h>
+#include "terms.h"
 #include <string.h>
 
-enum { TERMS = 5, BLOCK = 256 };
+enum { TERMS = 5 }; /* sums of one loop, at most */
 
 /* What terms are made of. */
 typedef struct terms {
     const mps__world *w;
     const void *data;
-    int32_t count; /* sums, TERMS at most */
+    int32_t count; /* sums */
 } terms;
-
-/* Terms of a block of particles, for each sum. */
-typedef struct block {
-    double term[TERMS][BLOCK];
-    int64_t n;
-} block;
-
-static void flush_block(const terms *k, block *b, mps_exact *sums)
-{
-    for (int32_t v = 0; v < k->count; v++) mps_exact_add(&sums[v], b->n, b->term[v]);
-    b->n = 0;
-}
 
 /* Define `name`, which adds the terms of one kind of particles; each has its own loop, in which its function is inlined. */
 #define ADD_TERMS(name, kind_of_particles, set)                                                 \
     static void name(void *argument, int64_t begin, int64_t end, mps_exact *sums, double *none) \
     {                                                                                           \
         const terms *k = argument;                                                              \
-        block b;                                                                                \
+        mps__terms t;                                                                           \
         (void)none;                                                                             \
-        b.n = 0;                                                                                \
+        mps__terms_begin(&t, sums, k->count);                                                   \
         for (int64_t i = begin; i < end; i++) {                                                 \
             double own[TERMS] = {0};                                                            \
             if (k->w->particles.kind[i] != (kind_of_particles)) continue;                       \
             if (mps__is_ghost(&k->w->ghosts, i)) continue;                                      \
             set(k->w, k->data, i, own);                                                         \
-            for (int32_t v = 0; v < TERMS; v++) b.term[v][b.n] = own[v];                        \
-            if (++b.n == BLOCK) flush_block(k, &b, sums);                                       \
+            mps__terms_add(&t, own);                                                            \
         }                                                                                       \
-        flush_block(k, &b, sums);                                                               \
+        mps__terms_end(&t);                                                                     \
     }
 
 static void sum_terms(const mps__world *w, mps_exact_fn add, const void *data, int32_t count,
@@ -61,13 +48,16 @@ static double mass(const mps__world *w, int64_t i)
                                                     : w->setup.dp * w->setup.dp * w->setup.dp);
 }
 
+/* Kinetic energy, momentum, and last the potential energy. */
 static void energy_term(const mps__world *w, const void *data, int64_t i, double *term)
 {
     (void)data;
     const double *u = w->particles.u + i * w->setup.dim;
-    term[0] = 0.5 * mass(w, i) * mps__dot(u, u, w->setup.dim);
-    term[1] = -mass(w, i) * mps__dot(w->setup.g, w->particles.x + i * w->setup.dim, w->setup.dim);
-    for (int d = 0; d < w->setup.dim; d++) term[2 + d] = mass(w, i) * u[d];
+    const double m = mass(w, i);
+    term[0] = 0.5 * m * mps__dot(u, u, w->setup.dim);
+    for (int d = 0; d < w->setup.dim; d++) term[1 + d] = m * u[d];
+    term[1 + w->setup.dim] = -m *
+                             mps__dot(w->setup.g, w->particles.x + i * w->setup.dim, w->setup.dim);
 }
 
 ADD_TERMS(add_energy, MPS_FLUID, energy_term)
@@ -76,7 +66,15 @@ void mps__budget_sum(const mps__world *w, mps__bulk *bulk)
 {
     double s[TERMS] = {0};
     sum_terms(w, add_energy, NULL, 2 + w->setup.dim, s);
-    *bulk = (mps__bulk){s[0], s[1], {s[2], s[3], s[4]}};
+    *bulk = (mps__bulk){.kinetic = s[0], .potential = s[1 + w->setup.dim]};
+    for (int d = 0; d < w->setup.dim; d++) bulk->momentum[d] = s[1 + d];
+}
+
+void mps__budget_sum_flow(const mps__world *w, mps__bulk *bulk)
+{
+    double s[TERMS] = {0};
+    sum_terms(w, add_energy, NULL, 1 + w->setup.dim, s);
+    *bulk = (mps__bulk){.kinetic = s[0], .momentum = {s[1], s[2], s[3]}};
 }
 
 typedef struct acceleration {

@@ -13,6 +13,8 @@ typedef struct mps__push {
 } mps__push;
 
 void mps__budget_sum(const mps__world *w, mps__bulk *bulk);
+/* What changes of velocities change: all but the potential energy, which is set to 0. */
+void mps__budget_sum_flow(const mps__world *w, mps__bulk *bulk);
 void mps__budget_push(const mps__world *w, const double *a, double dt, mps__push *push);
 /* Force of the walls on the fluid, sum p A, in the step in progress [N]. */
 void mps__budget_wall_force(const mps__world *w, const double *pressure, double force[3]);

@@ -16,7 +16,7 @@ typedef struct mps__step {
     mps_step_info info;
     mps__budget budget;
     double momentum[3]; /* of the prediction */
-    mps__bulk bulk;     /* of the state that was booked last */
+    mps__bulk bulk;     /* of the velocities that were booked last */
     mps__jump jump;
     double spread; /* time that a gain below 1 spreads pressures over [s] */
     double clock;  /* beginning of the present stage */

@@ -33,7 +33,7 @@ void mps__step_book_pressure(mps__step *q)
     mps_momentum *m = &q->budget.momentum;
     double force[3];
     q->budget.wall_work += mps__budget_wall_work(w, &q->pose, w->work.motion, q->stage.dt);
-    mps__budget_sum(w, &q->bulk);
+    mps__budget_sum_flow(w, &q->bulk);
     mps__budget_wall_force(w, w->work.load, force);
     for (int d = 0; d < w->setup.dim; d++) {
         m->pressure[d] += q->bulk.momentum[d] - q->momentum[d];
@@ -45,7 +45,7 @@ void mps__step_book_collisions(mps__step *q)
 {
     mps__bulk after;
     if (!acts(q, MPS_VELOCITY)) return;
-    mps__budget_sum(q->w, &after);
+    mps__budget_sum_flow(q->w, &after);
     q->budget.collision += q->bulk.kinetic - after.kinetic;
     for (int d = 0; d < q->w->setup.dim; d++)
         q->budget.momentum.collision[d] += after.momentum[d] - q->bulk.momentum[d];
@@ -56,7 +56,7 @@ void mps__step_book_shift(mps__step *q)
 {
     mps__bulk after;
     if (!acts(q, MPS_SHIFT)) return;
-    mps__budget_sum(q->w, &after);
+    mps__budget_sum_flow(q->w, &after);
     q->budget.shift += q->bulk.kinetic - after.kinetic + mps__budget_lift(q->w, q->w->work.motion);
     for (int d = 0; d < q->w->setup.dim; d++)
         q->budget.momentum.shift[d] += after.momentum[d] - q->bulk.momentum[d];
