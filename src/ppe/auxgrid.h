@@ -12,7 +12,8 @@ enum {
         21, /* of a cell's coordinate; what lies further out is put into the last cell */
     MPS__GRID_LEVELS = 22,  /* after 19 halvings four cells are left along each axis */
     MPS__GRID_DIRECT = 150, /* fewer cells are solved directly */
-    MPS__GRID_ABOUT = 27    /* a cell and those about it, in 3-D */
+    MPS__GRID_ABOUT = 27,   /* a cell and those about it, in 3-D */
+    MPS__GRID_TURNS = 256   /* cells whose particles are worth a second thread */
 };
 
 /* One grid, and how the points above it (particles, or the cells of the finer grid) reach its cells.
@@ -59,9 +60,10 @@ typedef struct mps__grid {
     int64_t point_capacity;
     int64_t *point_key;  /* [points] coordinates of the cell that holds a point, -1: none */
     double *point_kappa; /* [points]; free when all grids are there */
-    int32_t *list;       /* [points] particles by cell of the first grid, in their order in each */
-    int64_t start_capacity;
-    int32_t *start; /* [cells + 1] first particle of a cell in `list` */
+    int32_t *list;       /* [points] particles by turn of their cell, in their order in each */
+    int64_t turn_capacity;
+    int32_t *turn;  /* [cells] cells of the first grid by key, whatever their colour */
+    int32_t *start; /* [cells + 1] first particle in `list` of the cell of each turn */
     int64_t order_capacity;
     int32_t *order;       /* [2 * cells] to sort the cells */
     size_t part_capacity; /* bytes */
@@ -83,8 +85,8 @@ void mps__grid_release(mps__grid *g);
 bool mps__grid_reserve(mps__grid *g, int64_t points);
 /* Room for so many bytes in `parts`. */
 bool mps__grid_reserve_parts(mps__grid *g, size_t bytes);
-/* Room for `start`. */
-bool mps__grid_reserve_start(mps__grid *g, int64_t cells);
+/* Room for `turn` and `start`. */
+bool mps__grid_reserve_turns(mps__grid *g, int64_t cells);
 /* Cells and neighbours of a level from point_key; links and sums are zero. False when out of memory. */
 bool mps__grid_cells(mps__grid *g, mps__grid_level *l, int64_t points);
 
@@ -132,7 +134,7 @@ void mps__grid_restrict(mps__grid *g, const double *values, double scale);
 bool mps__grid_factorise(mps__grid *g);
 /* One V-cycle from b to x of the first grid. */
 void mps__grid_cycle(mps__grid *g);
-/* Value of a point from the cells around it; for a constant number of corners, 2^dim, the loop unrolls. */
+/* Value of a point from the cells around it. For a constant number of corners, 2^dim, the loop unrolls. */
 static inline double mps__grid_value_of(const mps__grid_level *l, const int corners, int64_t point)
 {
     const int32_t *about = l->about + (int64_t)l->home[point] * (corners == 4 ? 9 : 27);

@@ -79,9 +79,9 @@ static void drop_work(mps__grid *g)
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) mps__give(&g->allocator, all[k]);
     g->point_key = g->table_key = NULL;
     g->point_kappa = NULL;
-    g->list = g->start = g->order = g->table_cell = NULL;
+    g->list = g->turn = g->start = g->order = g->table_cell = NULL;
     g->parts = NULL;
-    g->point_capacity = g->table_capacity = g->order_capacity = g->start_capacity = 0;
+    g->point_capacity = g->table_capacity = g->order_capacity = g->turn_capacity = 0;
     g->part_capacity = 0;
 }
 
@@ -143,14 +143,16 @@ bool mps__grid_reserve_parts(mps__grid *g, size_t bytes)
     return g->parts;
 }
 
-bool mps__grid_reserve_start(mps__grid *g, int64_t cells)
+bool mps__grid_reserve_turns(mps__grid *g, int64_t cells)
 {
-    if (cells < g->start_capacity) return true;
+    if (cells < g->turn_capacity) return true;
+    mps__give(&g->allocator, g->turn);
     mps__give(&g->allocator, g->start);
-    g->start_capacity = cells + cells / 8 + 1;
-    g->start = mps__take(&g->allocator, g->start_capacity, sizeof *g->start);
-    if (!g->start) g->start_capacity = 0;
-    return g->start;
+    const int64_t capacity = cells + cells / 8 + 1;
+    g->turn = mps__take(&g->allocator, capacity, sizeof *g->turn);
+    g->start = mps__take(&g->allocator, capacity, sizeof *g->start);
+    g->turn_capacity = g->turn && g->start ? capacity : 0;
+    return g->turn_capacity > 0;
 }
 
 void mps__grid_release(mps__grid *g)

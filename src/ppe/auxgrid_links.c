@@ -98,15 +98,16 @@ static void corner_rows(void *argument, int64_t begin, int64_t end, double *valu
 
 /* The corner is below the least particle and one of few places: an odd multiple of a quarter of the range of coordinates. So the
  * cells stand still while particles move, and cells merge into the same coarser ones down to four along each axis, which are
- * fewer than are solved directly. A tank at the origin is a quarter of the range from where the corner changes. */
+ * fewer than are solved directly. A tank at the origin is a quarter of the range from where the corner changes; half a spacing before its walls a cell begins,
+ * which takes fewer iterations than a cell that begins at them. */
 void mps__grid_place(mps__grid *g, const mps_ppe_problem *problem)
 {
     double most[3] = {-INFINITY, -INFINITY, -INFINITY};
     mps_parallel_max(mps__team(problem->parallel, problem->n), problem->n, problem->dim,
                      corner_rows, (void *)problem, most);
-    const double part = 1 << (MPS__GRID_BITS - 1);
+    const double part = 1 << (MPS__GRID_BITS - 1), before = 0.5 * problem->dp * g->per_size;
     for (int a = 0; a < problem->dim; a++)
-        g->corner[a] = (floor(-most[a] * g->per_size / part + 0.5) - 0.5) * part;
+        g->corner[a] = (floor(-most[a] * g->per_size / part + 0.5) - 0.5) * part - before;
     mps_parallel_rows_least(problem->parallel, problem->n, MPS__TEAM_LEAST / 2, place_rows,
                             &(making){.g = g, .problem = problem});
 }
@@ -119,14 +120,15 @@ static void sum_particles(void *argument, int64_t begin, int64_t end)
     const making *m = argument;
     const mps__grid *g = m->g;
     const int64_t *row = m->problem->row;
-    for (int64_t c = begin; c < end; c++) {
+    for (int64_t t = begin; t < end; t++) {
+        const int64_t c = g->turn[t];
         double kappa = 0, sum = 0;
-        for (int32_t p = g->start[c]; p < g->start[c + 1]; p++) {
+        for (int32_t p = g->start[t]; p < g->start[t + 1]; p++) {
             const int64_t i = g->list[p];
             kappa += g->point_kappa[i];
             sum += g->point_kappa[i] * (double)(row[i + 1] - row[i]);
         }
-        m->l->count[c] = g->start[c + 1] - g->start[c];
+        m->l->count[c] = g->start[t + 1] - g->start[t];
         m->l->kappa[c] = kappa / m->l->count[c];
         m->l->x[c] = sum;
     }
@@ -151,7 +153,8 @@ static void link_cells(void *argument, int64_t begin, int64_t end)
 static void note_shifts(void *argument, int64_t begin, int64_t end)
 {
     const making *m = argument;
-    for (int64_t i = begin; i < end; i++) m->g->point_kappa[i] = fmax(m->problem->shift[i], 0);
+    const double *shift = m->problem->shift;
+    for (int64_t i = begin; i < end; i++) m->g->point_kappa[i] = shift[i] > 0 ? shift[i] : 0;
 }
 
 /* What holds the pressure's level, to the cells that the particle takes its value from: a cell filled at its edge only would

@@ -7,8 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-enum { LEAST = 256 }; /* cells that are worth a thread */
-
 /* Digits of base three: 0 without a step along the axis, 1 with one down, 2 with one up. */
 const uint8_t mps__grid_corner[8][8] = {{0, 1, 3, 4, 9, 10, 12, 13},  {0, 2, 3, 5, 9, 11, 12, 14},
                                         {0, 1, 6, 7, 9, 10, 15, 16},  {0, 2, 6, 8, 9, 11, 15, 17},
@@ -28,35 +26,43 @@ typedef struct transfer {
     const mps_ppe_problem *problem;
     const double *values;
     double scale;
+    double *parts; /* [cells + 1][3^dim] */
 } transfer;
 
 /* ---- particles by cell ---- */
 
+/* Cells take turns as the particles meet them, so that the list goes through memory about as the particles do. No sum depends
+ * on the turns. */
 bool mps__grid_list(mps__grid *g)
 {
     const mps__grid_level *l = &g->level[0];
-    if (!mps__grid_reserve_start(g, l->cells)) return false;
-    int32_t *start = g->start;
-    memset(start, 0, (size_t)(l->cells + 1) * sizeof *start);
-    for (int64_t i = 0; i < l->points; i++) start[l->home[i]]++;
-    int32_t end = 0;
-    for (int64_t c = 0; c <= l->cells; c++) start[c] = end += start[c];
-    for (int64_t i = l->points; i-- > 0;) g->list[--start[l->home[i]]] = (int32_t)i;
+    if (!mps__grid_reserve_turns(g, l->cells)) return false;
+    int32_t *next = g->order, seen = 0, end = 0;
+    memset(next, 0, (size_t)l->cells * sizeof *next);
+    for (int64_t i = 0; i < l->points; i++)
+        if (next[l->home[i]]++ == 0) g->turn[seen++] = l->home[i];
+    for (int64_t t = 0; t < l->cells; t++) {
+        const int32_t count = next[g->turn[t]];
+        g->start[t] = next[g->turn[t]] = end;
+        end += count;
+    }
+    g->start[l->cells] = end;
+    for (int64_t i = 0; i < l->points; i++) g->list[next[l->home[i]]++] = (int32_t)i;
     return true;
 }
 
 /* ---- shares of the points ---- */
 
 /* Shares of the 2^dim cells around a point. far[a] is the share of the cell beside its own along axis a; only cells joined to
- * the own one by links count, and a cell that conducts less counts less. */
-static inline __attribute__((always_inline)) void set_shares_of(const int dim, const mps__grid *g,
-                                                                mps__grid_level *l, int64_t point,
+ * the own one by links count, and a cell that conducts less than the point counts less. */
+static inline __attribute__((always_inline)) void set_shares_of(const int dim, mps__grid_level *l,
+                                                                int64_t point, double kappa,
                                                                 const double *far, const int side)
 {
     const int corners = 1 << dim;
     float *share = l->share + point * corners;
     int32_t at[8]; /* -1: not joined */
-    double kappa = g->point_kappa[point], w[8], sum = 0;
+    double w[8], sum = 0;
     for (int k = 0; k < corners; k++) {
         at[k] = k == 0 ? l->home[point] : -1;
         w[k] = 1;
@@ -75,13 +81,13 @@ static inline __attribute__((always_inline)) void set_shares_of(const int dim, c
     l->side[point] = (uint8_t)side;
 }
 
-static void set_shares(const mps__grid *g, mps__grid_level *l, int64_t point, const double *far,
-                       int side)
+static void set_shares(const mps__grid *g, mps__grid_level *l, int64_t point, double kappa,
+                       const double *far, int side)
 {
     if (g->dim == 2)
-        set_shares_of(2, g, l, point, far, side);
+        set_shares_of(2, l, point, kappa, far, side);
     else
-        set_shares_of(3, g, l, point, far, side);
+        set_shares_of(3, l, point, kappa, far, side);
 }
 
 static void share_particles(void *argument, int64_t begin, int64_t end)
@@ -95,7 +101,7 @@ static void share_particles(void *argument, int64_t begin, int64_t end)
             side |= (f > 0) << a;
             far[a] = fabs(f);
         }
-        set_shares(t->g, t->l, i, far, side);
+        set_shares(t->g, t->l, i, t->g->point_kappa[i], far, side);
     }
 }
 
@@ -112,37 +118,44 @@ void mps__grid_share_cells(const mps__grid *g, const mps__grid_level *fine, mps_
         int side = 0;
         for (int a = 0; a < g->dim; a++)
             side |= (int)(mps__grid_coordinate(fine->key[c], a) & 1) << a;
-        if (l->home[c] >= 0) set_shares(g, l, c, far, side);
+        if (l->home[c] >= 0) set_shares(g, l, c, fine->kappa[c], far, side);
     }
 }
 
 /* ---- from the particles to the cells ---- */
 
-/* What the particles of a cell add to it and to the cells about it. */
-static inline __attribute__((always_inline)) void part_of(const int corners, const transfer *t,
-                                                          const mps__grid_level *l, int64_t cell)
+/* What a particle adds to its cell and to the cells about it. */
+static inline __attribute__((always_inline)) void add_value(const int corners, const transfer *t,
+                                                            const mps__grid_level *l, int64_t i)
 {
-    const int about = corners == 4 ? 9 : 27;
-    const int32_t *list = t->g->list, last = t->g->start[cell + 1];
-    double sum[MPS__GRID_ABOUT] = {0};
-    for (int32_t p = t->g->start[cell]; p < last; p++) {
-        const int64_t i = list[p];
-        const uint8_t *corner = mps__grid_corner[l->side[i]];
-        const float *share = l->share + i * corners;
-        const double value = t->scale * t->values[i];
-        for (int k = 0; k < corners; k++) sum[corner[k]] += (double)share[k] * value;
-    }
-    memcpy((double *)t->g->parts + cell * about, sum, (size_t)about * sizeof *sum);
+    double *part = t->parts + (int64_t)l->home[i] * (corners == 4 ? 9 : 27);
+    const uint8_t *corner = mps__grid_corner[l->side[i]];
+    const float *share = l->share + i * corners;
+    const double value = t->scale * t->values[i];
+    for (int k = 0; k < corners; k++) part[corner[k]] += (double)share[k] * value;
 }
 
-static void part_cells(void *argument, int64_t begin, int64_t end)
+/* Particles as they lie in memory: the fastest way of one thread. */
+static void add_rows(void *argument, int64_t begin, int64_t end)
 {
-    const transfer *t = argument;
-    const mps__grid_level level = *t->l; /* its pointers stay in registers */
-    if (t->g->dim == 2)
-        for (int64_t c = begin; c < end; c++) part_of(4, t, &level, c);
+    const transfer t = *(const transfer *)argument;
+    const mps__grid_level l = *t.l; /* its pointers stay in registers */
+    if (t.g->dim == 2)
+        for (int64_t i = begin; i < end; i++) add_value(4, &t, &l, i);
     else
-        for (int64_t c = begin; c < end; c++) part_of(8, t, &level, c);
+        for (int64_t i = begin; i < end; i++) add_value(8, &t, &l, i);
+}
+
+/* Particles of some cells: threads do not write to the same cells. The order in each cell is that of one thread. */
+static void add_turns(void *argument, int64_t begin, int64_t end)
+{
+    const transfer t = *(const transfer *)argument;
+    const mps__grid_level l = *t.l;
+    const int32_t *list = t.g->list, first = t.g->start[begin], last = t.g->start[end];
+    if (t.g->dim == 2)
+        for (int32_t p = first; p < last; p++) add_value(4, &t, &l, list[p]);
+    else
+        for (int32_t p = first; p < last; p++) add_value(8, &t, &l, list[p]);
 }
 
 /* The parts for a cell; those of the cell that stands for none are zero. */
@@ -171,9 +184,12 @@ void mps__grid_restrict(mps__grid *g, const double *values, double scale)
 {
     mps__grid_level *l = &g->level[0];
     const mps_parallel *team = mps__team(g->parallel, l->points);
-    transfer t = {.g = g, .l = l, .values = values, .scale = scale};
-    const int about = g->dim == 2 ? 9 : MPS__GRID_ABOUT;
-    memset((double *)g->parts + l->cells * about, 0, (size_t)about * sizeof(double));
-    mps_parallel_rows_least(team, l->cells, LEAST, part_cells, &t);
-    mps_parallel_rows_least(team, l->cells, LEAST, sum_cells, &t);
+    transfer t = {.g = g, .l = l, .values = values, .scale = scale, .parts = g->parts};
+    memset(t.parts, 0,
+           (size_t)(l->cells + 1) * (g->dim == 2 ? 9 : MPS__GRID_ABOUT) * sizeof *t.parts);
+    if (team && team->threads > 1)
+        mps_parallel_rows_least(team, l->cells, MPS__GRID_TURNS, add_turns, &t);
+    else
+        add_rows(&t, 0, l->points);
+    mps_parallel_rows_least(team, l->cells, MPS__GRID_TURNS, sum_cells, &t);
 }
