@@ -74,7 +74,7 @@ static bool reserve_cells(mps__grid *g, mps__grid_level *l, int64_t cells)
 
 static void drop_work(mps__grid *g)
 {
-    void *all[] = {g->point_key, g->point_kappa, g->list,       g->start,
+    void *all[] = {g->point_key, g->point_kappa, g->list,       g->turn, g->start,
                    g->order,     g->table_key,   g->table_cell, g->parts};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) mps__give(&g->allocator, all[k]);
     g->point_key = g->table_key = NULL;

@@ -96,10 +96,10 @@ static void corner_rows(void *argument, int64_t begin, int64_t end, double *valu
             values[a] = fmax(values[a], -problem->x[i * problem->dim + a]);
 }
 
-/* The corner is below the least particle and one of few places: an odd multiple of a quarter of the range of coordinates. So the
- * cells stand still while particles move, and cells merge into the same coarser ones down to four along each axis, which are
- * fewer than are solved directly. A tank at the origin is a quarter of the range from where the corner changes; half a spacing before its walls a cell begins,
- * which takes fewer iterations than a cell that begins at them. */
+/* The corner is below the least particle and has few places: odd multiples of a quarter of the range of coordinates. So the cells
+ * stand still while particles move, and the same cells merge until four are left along each axis; so few are solved directly.
+ * For a tank at the origin the corner changes place only if the tank is moved by a quarter of the range. Its first cells begin
+ * half a spacing before its walls, which takes fewer iterations than cells that begin at them. */
 void mps__grid_place(mps__grid *g, const mps_ppe_problem *problem)
 {
     double most[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -114,7 +114,7 @@ void mps__grid_place(mps__grid *g, const mps_ppe_problem *problem)
 
 /* ---- first grid ---- */
 
-/* Mean conductivity of a cell's particles, and sum k_ij r_ij^2 of their pairs into x. */
+/* Mean conductivity of a cell's particles; into x the sum k_ij r_ij^2 of their pairs. */
 static void sum_particles(void *argument, int64_t begin, int64_t end)
 {
     const making *m = argument;
@@ -130,7 +130,7 @@ static void sum_particles(void *argument, int64_t begin, int64_t end)
         }
         m->l->count[c] = g->start[t + 1] - g->start[t];
         m->l->kappa[c] = kappa / m->l->count[c];
-        m->l->x[c] = sum;
+        m->l->x[c] = g->unit * sum;
     }
 }
 
@@ -143,7 +143,7 @@ static void link_cells(void *argument, int64_t begin, int64_t end)
     const mps__grid *g = m->g;
     const mps__grid_level *l = m->l;
     const int sides = 2 * g->dim;
-    const double c = stiffer * g->unit * g->per_size * g->per_size / sides;
+    const double c = stiffer * g->per_size * g->per_size / sides;
     for (int64_t k = begin * sides; k < end * sides; k++) {
         const int64_t cell = k / sides, other = l->next[k];
         if (other != cell) l->link[k] = (float)(c * sqrt(l->x[cell] * l->x[other]));

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* auxgrid: transfer of values between the points and the cells of a grid. A point takes its value from the 2^dim cells on the
- * side of its cell that it is nearer to; values go back to the cells with the same shares. Each cell sums what it gets on its
- * own, in the order of the particles, so the sums depend neither on threads nor on where particles begin and end. */
+ * side of its cell that it is nearer to, and adds to those cells with the same shares.
+ *
+ * A sum over particles has two steps with a fixed order each, so that it does not depend on threads: the particles of a cell, in
+ * their order, make up its parts for itself and for the cells about it; then each cell adds up the parts for it. */
 #include "auxgrid.h"
 #include "kernels.h"
 #include <math.h>
@@ -22,7 +24,6 @@ static const uint8_t opposite[MPS__GRID_ABOUT] = {0,  2,  1,  6,  8,  7,  3,  5,
 typedef struct transfer {
     mps__grid *g;
     mps__grid_level *l;
-    const mps__grid_level *fine;
     const mps_ppe_problem *problem;
     const double *values;
     double scale;

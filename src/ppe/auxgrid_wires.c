@@ -15,10 +15,10 @@ enum {
     CHUNKS = 8      /* parts of the rows, each with sums of its own */
 };
 
-/* Integers for a conductance of 1, that of a pair of the lightest fluid. A pair of a fluid 1000 times as dense has a conductance of
- * 0.001 and an error of 2e-9 of that, less than a float. A face has the sum of some hundred pairs. */
+/* The integer of a conductance of 1, about that of a pair of the lightest fluid. A pair of a fluid 1000 times as dense conducts
+ * 0.001, with an error of 2e-9 of that: less than the error of a float. A face adds up some hundred pairs. */
 static const double per_unit = 0x1p38;
-/* A sum that reaches this is no longer counted; the face then conducts infinitely much, which mps__grid_factorise() refuses. */
+/* From here on a sum counts as infinite, which mps__grid_factorise() refuses. */
 #define MOST (UINT64_C(1) << 58)
 
 typedef struct wiring {
