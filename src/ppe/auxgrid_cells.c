@@ -173,7 +173,8 @@ void mps__grid_release(mps__grid *g)
 static int64_t slot(const mps__grid *g, int64_t key)
 {
     uint64_t hash = (uint64_t)key * 0x9e3779b97f4a7c15u;
-    int64_t s = (int64_t)(hash >> 20) & (g->table_size - 1);
+    /* high bits, which all coordinates have a part in; low ones for very large tables */
+    int64_t s = (int64_t)(hash >> 40 ^ hash >> 20) & (g->table_size - 1);
     while (g->table_key[s] != key && g->table_key[s] != -1) s = (s + 1) & (g->table_size - 1);
     return s;
 }
