@@ -103,9 +103,12 @@ static void apply_rows(void *argument, int64_t begin, int64_t end)
     const mps__grid_level first = g->level[0]; /* its pointers stay in registers */
     const double *inverse = o->a->inverse, *r = o->r;
     double *z = o->z;
-    const int dim = g->dim;
-    for (int64_t i = begin; i < end; i++)
-        z[i] = inverse[i] * r[i] + mps__grid_value(&first, dim, i);
+    if (g->dim == 2)
+        for (int64_t i = begin; i < end; i++)
+            z[i] = inverse[i] * r[i] + mps__grid_value_of(&first, 4, i);
+    else
+        for (int64_t i = begin; i < end; i++)
+            z[i] = inverse[i] * r[i] + mps__grid_value_of(&first, 8, i);
 }
 
 static int apply(void *self, const double *r, double *z)

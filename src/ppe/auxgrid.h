@@ -9,22 +9,30 @@
 
 enum {
     MPS__GRID_BITS =
-        20, /* of a cell's coordinate; what lies further out is put into the last cell */
-    MPS__GRID_LEVELS = 22,  /* after 20 halvings one cell is left */
+        21, /* of a cell's coordinate; what lies further out is put into the last cell */
+    MPS__GRID_LEVELS = 22,  /* after 19 halvings four cells are left along each axis */
     MPS__GRID_DIRECT = 150, /* fewer cells are solved directly */
-    MPS__GRID_CHUNKS =
-        8 /* parts of the particles, each summed by one thread; a fixed number, so that sums do not depend on the threads */
+    MPS__GRID_ABOUT = 27,   /* a cell and those about it, in 3-D */
+    MPS__GRID_TURNS = 256   /* cells whose particles are worth a second thread */
 };
 
-/* One grid, and how the points above it (particles, or the cells of the finer grid) reach its cells. The `red` cells, whose
- * coordinates have an even sum, come first: a cell's neighbours have the other colour. */
+/* One grid, and how the points above it (particles, or the cells of the finer grid) reach its cells.
+ *
+ * Order of the cells: first the `red` ones, whose coordinates have an even sum, then the black ones (a cell's neighbours have
+ * the other colour), both by key. A sum over cells, and the direct solution of the last grid, then depends on the set of
+ * cells alone, and not on which particle was met first. A sum over particles runs in the order of the particles.
+ *
+ * The cells about a cell are numbered by one digit of base three for each axis: 0 the same coordinate, 1 one less, 2 one more. */
 typedef struct mps__grid_level {
     int64_t points, point_capacity;
     int64_t cells, red, cell_capacity;
     int32_t *home; /* [points] cell that holds the point, -1: none */
-    int32_t *at;   /* [points << dim] cells that a point takes its value from */
-    float *share;  /* [points << dim] and how much of each; 0 or a sum of 1 */
-    int64_t *key;  /* [cells] packed coordinates */
+    uint8_t *
+        side; /* [points] bit a: which side of its cell the point is nearer to along axis a, 0 below, 1 above */
+    float *
+        share; /* [points << dim] how much a point takes from the cells on that side; 0 or a sum of 1 */
+    int64_t *key;   /* [cells] packed coordinates */
+    int32_t *about; /* [cells * 3^dim] the cells about each, `cells` where there is none */
     int32_t *
         next; /* [cells * 2 dim] neighbours below and above along each axis, itself where there is none */
     float *link;     /* [cells * 2 dim] conductances to them, equal from both sides */
@@ -32,16 +40,18 @@ typedef struct mps__grid_level {
     double *inverse; /* [cells] of the diagonal, 0 for a cell with nothing */
     double *kappa;   /* [cells] mean conductivity of its points */
     double *count;   /* [cells] particles */
-    double *b, *x;   /* [cells] right side and solution of the cycle in progress */
+    double *b,
+        *x; /* [cells + 1] right side and solution of the cycle in progress; the last x, for no cell, is 0 */
 } mps__grid_level;
 
 typedef struct mps__grid {
     mps_allocator allocator;
     const mps_parallel *parallel;
     int dim;
-    bool one;                     /* one density everywhere */
-    double lo[3], size, per_size; /* corner, edge and 1 / edge of the first grid's cells [m] */
-    double unit;                  /* matrix entries times this are of order one */
+    bool one; /* one density everywhere */
+    double corner[3], size,
+        per_size; /* corner [cells], edge and 1 / edge of the first grid's cells [m] */
+    double unit;  /* matrix entries times this are of order one */
     int levels;
     mps__grid_level level[MPS__GRID_LEVELS];
     int64_t table_size, table_capacity; /* a power of two */
@@ -50,15 +60,17 @@ typedef struct mps__grid {
     int64_t point_capacity;
     int64_t *point_key;  /* [points] coordinates of the cell that holds a point, -1: none */
     double *point_kappa; /* [points]; free when all grids are there */
+    int32_t *list;       /* [points] particles by turn of their cell, in their order in each */
+    int64_t turn_capacity;
+    int32_t *turn;  /* [cells] cells of the first grid by key, whatever their colour */
+    int32_t *start; /* [cells + 1] first particle in `list` of the cell of each turn */
     int64_t order_capacity;
-    int32_t *order;       /* [cells] cells in order of appearance to cells by colour */
+    int32_t *order;       /* [2 * cells] to sort the cells */
     size_t part_capacity; /* bytes */
     void *
-        parts; /* [chunks * cells] what each chunk adds to the first grid: floats [2 dim] of links, or a double */
-    int32_t range[MPS__GRID_CHUNKS][2]
-                 [2]; /* red and black cells that a chunk adds to, first and one past the last */
-    double *factor;   /* [direct * direct] L of the last grid's L D L' */
-    double *pivot;    /* [direct] 1/D, 0 where D is */
+        parts; /* what the particles of each cell add to the cells about it, or the faces of two densities */
+    double *factor; /* [direct * direct] L of the last grid's L D L' */
+    double *pivot;  /* [direct] 1/D, 0 where D is */
 } mps__grid;
 
 /* ---- cells (auxgrid_cells.c) ---- */
@@ -69,15 +81,12 @@ static inline int64_t mps__grid_coordinate(int64_t key, int axis)
 }
 
 void mps__grid_release(mps__grid *g);
-/* Room for what the chunks add to the first grid. */
-bool mps__grid_reserve_parts(mps__grid *g);
-/* First point of a chunk; of the one behind the last: the end. */
-static inline int64_t mps__grid_chunk(int64_t points, int chunk)
-{
-    return points * chunk / MPS__GRID_CHUNKS;
-}
 /* Room to find the cells of so many points. */
 bool mps__grid_reserve(mps__grid *g, int64_t points);
+/* Room for so many bytes in `parts`. */
+bool mps__grid_reserve_parts(mps__grid *g, size_t bytes);
+/* Room for `turn` and `start`. */
+bool mps__grid_reserve_turns(mps__grid *g, int64_t cells);
 /* Cells and neighbours of a level from point_key; links and sums are zero. False when out of memory. */
 bool mps__grid_cells(mps__grid *g, mps__grid_level *l, int64_t points);
 
@@ -92,21 +101,47 @@ bool mps__grid_from_matrix(mps__grid *g, const mps_ppe_problem *problem);
 /* All coarser grids. False when out of memory. */
 bool mps__grid_coarsen(mps__grid *g);
 
+/* Position of a particle in cells, within the range of coordinates. */
+static inline double mps__grid_position(const mps__grid *g, const mps_ppe_problem *problem,
+                                        int64_t i, int a)
+{
+    const double most = (1 << MPS__GRID_BITS) - 0.5;
+    double u = problem->x[i * problem->dim + a] * g->per_size - g->corner[a];
+    u = u > 0 ? u : 0;
+    return u < most ? u : most;
+}
+
+/* Links of the first grid from the pairs of particles, for more than one density (auxgrid_wires.c). False when out of memory. */
+bool mps__grid_wires(mps__grid *g, const mps_ppe_problem *problem);
+
+/* ---- transfer (auxgrid_transfer.c) ---- */
+
+/* Cells on the side that a point is nearer to, as numbers about its cell: [side][corner]. */
+extern const uint8_t mps__grid_corner[8][8];
+
+/* Particles by cell of the first grid. False when out of memory. */
+bool mps__grid_list(mps__grid *g);
+/* Shares and sides of the particles. */
+void mps__grid_share_particles(mps__grid *g, const mps_ppe_problem *problem);
+/* The same of the cells of the finer grid, whose conductivities are in point_kappa. */
+void mps__grid_share_cells(const mps__grid *g, const mps__grid_level *fine, mps__grid_level *l);
+/* Sum the particles' values into the right side of the first grid. */
+void mps__grid_restrict(mps__grid *g, const double *values, double scale);
+
 /* ---- cycle (auxgrid_cycle.c) ---- */
 
 /* Inverse diagonals and the factors of the last grid. False: a coefficient is not finite. */
 bool mps__grid_factorise(mps__grid *g);
 /* One V-cycle from b to x of the first grid. */
 void mps__grid_cycle(mps__grid *g);
-/* Sum the particles' values into the right side of the first grid. */
-void mps__grid_restrict(mps__grid *g, const double *values, double scale);
-/* Value of a point from the cells around it; for a constant number of corners, 2^dim, the loop unrolls. */
+/* Value of a point from the cells around it. For a constant number of corners, 2^dim, the loop unrolls. */
 static inline double mps__grid_value_of(const mps__grid_level *l, const int corners, int64_t point)
 {
-    const int32_t *at = l->at + point * corners;
+    const int32_t *about = l->about + (int64_t)l->home[point] * (corners == 4 ? 9 : 27);
+    const uint8_t *corner = mps__grid_corner[l->side[point]];
     const float *share = l->share + point * corners;
     double s = 0;
-    for (int k = 0; k < corners; k++) s += (double)share[k] * l->x[at[k]];
+    for (int k = 0; k < corners; k++) s += (double)share[k] * l->x[about[corner[k]]];
     return s;
 }
 static inline double mps__grid_value(const mps__grid_level *l, int dim, int64_t point)

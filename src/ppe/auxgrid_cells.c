@@ -8,22 +8,30 @@
 static void drop_points(mps__grid *g, mps__grid_level *l)
 {
     mps__give(&g->allocator, l->home);
-    mps__give(&g->allocator, l->at);
+    mps__give(&g->allocator, l->side);
     mps__give(&g->allocator, l->share);
-    l->home = l->at = NULL;
+    l->home = NULL;
+    l->side = NULL;
     l->share = NULL;
     l->point_capacity = 0;
 }
 
 static void drop_cells(mps__grid *g, mps__grid_level *l)
 {
-    void *all[] = {l->key, l->next, l->link, l->shift, l->inverse, l->kappa, l->count, l->b, l->x};
+    void *all[] = {l->key,     l->about, l->next,  l->link, l->shift,
+                   l->inverse, l->kappa, l->count, l->b,    l->x};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) mps__give(&g->allocator, all[k]);
     l->key = NULL;
-    l->next = NULL;
+    l->about = l->next = NULL;
     l->link = NULL;
     l->shift = l->inverse = l->kappa = l->count = l->b = l->x = NULL;
     l->cell_capacity = 0;
+}
+
+/* A cell and those about it. */
+static int all_about(const mps__grid *g)
+{
+    return g->dim == 2 ? 9 : MPS__GRID_ABOUT;
 }
 
 static bool reserve_points(mps__grid *g, mps__grid_level *l, int64_t points)
@@ -32,9 +40,9 @@ static bool reserve_points(mps__grid *g, mps__grid_level *l, int64_t points)
     drop_points(g, l);
     int64_t capacity = points + points / 32;
     l->home = mps__take(&g->allocator, capacity, sizeof *l->home);
-    l->at = mps__take(&g->allocator, capacity << g->dim, sizeof *l->at);
+    l->side = mps__take(&g->allocator, capacity, sizeof *l->side);
     l->share = mps__take(&g->allocator, capacity << g->dim, sizeof *l->share);
-    if (l->home && l->at && l->share)
+    if (l->home && l->side && l->share)
         l->point_capacity = capacity;
     else
         drop_points(g, l);
@@ -47,6 +55,7 @@ static bool reserve_cells(mps__grid *g, mps__grid_level *l, int64_t cells)
     drop_cells(g, l);
     int64_t capacity = cells + cells / 8 + 1; /* a grid may have no cell at all */
     l->key = mps__take(&g->allocator, capacity, sizeof *l->key);
+    l->about = mps__take(&g->allocator, capacity * all_about(g), sizeof *l->about);
     l->next = mps__take(&g->allocator, capacity * 2 * g->dim, sizeof *l->next);
     l->link = mps__take(&g->allocator, capacity * 2 * g->dim, sizeof *l->link);
     l->shift = mps__take(&g->allocator, capacity, sizeof *l->shift);
@@ -55,8 +64,8 @@ static bool reserve_cells(mps__grid *g, mps__grid_level *l, int64_t cells)
     l->count = mps__take(&g->allocator, capacity, sizeof *l->count);
     l->b = mps__take(&g->allocator, capacity, sizeof *l->b);
     l->x = mps__take(&g->allocator, capacity, sizeof *l->x);
-    if (l->key && l->next && l->link && l->shift && l->inverse && l->kappa && l->count && l->b &&
-        l->x)
+    if (l->key && l->about && l->next && l->link && l->shift && l->inverse && l->kappa &&
+        l->count && l->b && l->x)
         l->cell_capacity = capacity;
     else
         drop_cells(g, l);
@@ -65,13 +74,14 @@ static bool reserve_cells(mps__grid *g, mps__grid_level *l, int64_t cells)
 
 static void drop_work(mps__grid *g)
 {
-    void *all[] = {g->point_key, g->point_kappa, g->order, g->table_key, g->table_cell, g->parts};
+    void *all[] = {g->point_key, g->point_kappa, g->list,       g->turn, g->start,
+                   g->order,     g->table_key,   g->table_cell, g->parts};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) mps__give(&g->allocator, all[k]);
     g->point_key = g->table_key = NULL;
     g->point_kappa = NULL;
-    g->order = g->table_cell = NULL;
+    g->list = g->turn = g->start = g->order = g->table_cell = NULL;
     g->parts = NULL;
-    g->point_capacity = g->table_capacity = g->order_capacity = 0;
+    g->point_capacity = g->table_capacity = g->order_capacity = g->turn_capacity = 0;
     g->part_capacity = 0;
 }
 
@@ -98,7 +108,7 @@ static bool reserve_order(mps__grid *g, int64_t cells)
     if (cells < g->order_capacity) return true;
     mps__give(&g->allocator, g->order);
     g->order_capacity = cells + cells / 8 + 1;
-    g->order = mps__take(&g->allocator, g->order_capacity, sizeof *g->order);
+    g->order = mps__take(&g->allocator, 2 * g->order_capacity, sizeof *g->order);
     if (!g->order) g->order_capacity = 0;
     return g->order;
 }
@@ -115,25 +125,34 @@ bool mps__grid_reserve(mps__grid *g, int64_t points)
     const int64_t capacity = points + points / 32;
     g->point_key = mps__take(&g->allocator, capacity, sizeof *g->point_key);
     g->point_kappa = mps__take(&g->allocator, capacity, sizeof *g->point_kappa);
-    if (g->point_key && g->point_kappa && reserve_table(g, table_for(points / 8)))
+    g->list = mps__take(&g->allocator, capacity, sizeof *g->list);
+    if (g->point_key && g->point_kappa && g->list && reserve_table(g, table_for(points / 8)))
         g->point_capacity = capacity;
     else
         drop_work(g);
     return g->point_capacity > 0;
 }
 
-bool mps__grid_reserve_parts(mps__grid *g)
+bool mps__grid_reserve_parts(mps__grid *g, size_t bytes)
 {
-    const size_t cells = (size_t)g->level[0].cells, links = 2 * (size_t)g->dim * sizeof(float);
-    const size_t each = MPS__GRID_CHUNKS *
-                        (g->one ? sizeof(double)
-                                : links); /* 2 dim floats are no less than a double */
-    if (cells * each < g->part_capacity) return true;
+    if (bytes < g->part_capacity) return true;
     mps__give(&g->allocator, g->parts);
-    g->part_capacity = (cells + cells / 8 + 1) * each;
+    g->part_capacity = bytes + bytes / 8 + sizeof(double);
     g->parts = mps__take(&g->allocator, (int64_t)g->part_capacity, 1);
     if (!g->parts) g->part_capacity = 0;
     return g->parts;
+}
+
+bool mps__grid_reserve_turns(mps__grid *g, int64_t cells)
+{
+    if (cells < g->turn_capacity) return true;
+    mps__give(&g->allocator, g->turn);
+    mps__give(&g->allocator, g->start);
+    const int64_t capacity = cells + cells / 8 + 1;
+    g->turn = mps__take(&g->allocator, capacity, sizeof *g->turn);
+    g->start = mps__take(&g->allocator, capacity, sizeof *g->start);
+    g->turn_capacity = g->turn && g->start ? capacity : 0;
+    return g->turn_capacity > 0;
 }
 
 void mps__grid_release(mps__grid *g)
@@ -154,7 +173,8 @@ void mps__grid_release(mps__grid *g)
 static int64_t slot(const mps__grid *g, int64_t key)
 {
     uint64_t hash = (uint64_t)key * 0x9e3779b97f4a7c15u;
-    int64_t s = (int64_t)(hash >> 20) & (g->table_size - 1);
+    /* high bits, which all coordinates have a part in; low ones for very large tables */
+    int64_t s = (int64_t)(hash >> 40 ^ hash >> 20) & (g->table_size - 1);
     while (g->table_key[s] != key && g->table_key[s] != -1) s = (s + 1) & (g->table_size - 1);
     return s;
 }
@@ -199,21 +219,75 @@ static bool find_cells(mps__grid *g, mps__grid_level *l)
     return true;
 }
 
-/* Number the red cells first. */
+enum { LOW_DIGIT = 11 }; /* bits; of a coordinate, the rest is the high digit */
+
+/* Sort cells in `from` by one digit of their keys into `to`, which keeps the order of equal ones. */
+static void sort_digit(const int64_t *key, int shift, int bits, int64_t cells, const int32_t *from,
+                       int32_t *to)
+{
+    int32_t first[1 << LOW_DIGIT] = {0}, sum = 0;
+    const int64_t mask = (1 << bits) - 1;
+    for (int64_t c = 0; c < cells; c++) first[key[c] >> shift & mask]++;
+    for (int64_t d = 0; d <= mask; d++) {
+        const int32_t count = first[d];
+        first[d] = sum;
+        sum += count;
+    }
+    for (int64_t c = 0; c < cells; c++) to[first[key[from[c]] >> shift & mask]++] = from[c];
+}
+
+/* Cells in order of their keys, one of the two halves of `order`. Digits that all cells share cost nothing. */
+static const int32_t *sort_keys(const mps__grid *g, const int64_t *key, int64_t cells)
+{
+    int32_t *from = g->order, *to = g->order + g->order_capacity;
+    int64_t differ = 0;
+    for (int64_t c = 0; c < cells; c++) {
+        from[c] = (int32_t)c;
+        differ |= key[c] ^ key[0];
+    }
+    for (int shift = 0, bits; shift < 3 * MPS__GRID_BITS; shift += bits) {
+        bits = shift % MPS__GRID_BITS ? MPS__GRID_BITS - LOW_DIGIT : LOW_DIGIT;
+        if (!(differ >> shift & ((1 << bits) - 1))) continue;
+        sort_digit(key, shift, bits, cells, from, to);
+        int32_t *swap = from;
+        from = to;
+        to = swap;
+    }
+    return from;
+}
+
+/* What a loop works on; each uses its own. */
+typedef struct finding {
+    const mps__grid *g;
+    mps__grid_level *l;
+    const int32_t *number; /* of the cells, by order of appearance */
+} finding;
+
+static void renumber_rows(void *argument, int64_t begin, int64_t end)
+{
+    const finding *f = argument;
+    for (int64_t i = begin; i < end; i++)
+        if (f->l->home[i] >= 0) f->l->home[i] = f->number[f->l->home[i]];
+}
+
+/* Number the red cells first, and cells of a colour by key. Keys in order of appearance replace those of the points. */
 static void sort_cells(mps__grid *g, mps__grid_level *l)
 {
-    int32_t seen = 0, red = 0, black = (int32_t)l->red;
-    for (int64_t i = 0; i < l->points; i++) {
-        if (l->home[i] < 0) continue;
-        if (l->home[i] == seen) {
-            int32_t cell = is_red(g->point_key[i]) ? red++ : black++;
-            l->key[cell] = g->point_key[i];
-            g->order[seen++] = cell;
-        }
-        l->home[i] = g->order[l->home[i]];
+    int64_t *key = g->point_key;
+    for (int64_t s = 0; s < g->table_size; s++)
+        if (g->table_key[s] >= 0) key[g->table_cell[s]] = g->table_key[s];
+    const int32_t *sorted = sort_keys(g, key, l->cells);
+    int32_t *number = g->order + (sorted == g->order ? g->order_capacity : 0);
+    int32_t red = 0, black = (int32_t)l->red;
+    for (int64_t c = 0; c < l->cells; c++) {
+        const int32_t cell = sorted[c];
+        number[cell] = is_red(key[cell]) ? red++ : black++;
+        l->key[number[cell]] = key[cell];
     }
     for (int64_t s = 0; s < g->table_size; s++)
-        if (g->table_key[s] >= 0) g->table_cell[s] = g->order[g->table_cell[s]];
+        if (g->table_key[s] >= 0) g->table_cell[s] = number[g->table_cell[s]];
+    mps_parallel_rows_least(g->parallel, l->points, MPS__TEAM_LEAST / 2, renumber_rows,
+                            &(finding){.l = l, .number = number});
 }
 
 static void find_neighbours(const mps__grid *g, mps__grid_level *l)
@@ -233,6 +307,28 @@ static void find_neighbours(const mps__grid *g, mps__grid_level *l)
         }
 }
 
+/* Cells about those of a range, each found as the neighbour of one that is a step nearer. */
+static void find_about(void *argument, int64_t begin, int64_t end)
+{
+    static const int power[3] = {1, 3, 9};
+    const mps__grid *g = ((const finding *)argument)->g;
+    const mps__grid_level *l = ((const finding *)argument)->l;
+    const int all = all_about(g), sides = 2 * g->dim;
+    for (int64_t c = begin; c < end; c++) {
+        int32_t *about = l->about + c * all;
+        for (int k = 0; k < all; k++) {
+            about[k] = (int32_t)(k == 0 ? c : l->cells);
+            for (int a = 0; a < g->dim && about[k] == l->cells; a++) {
+                const int digit = k / power[a] % 3;
+                const int64_t from = about[k - digit * power[a]];
+                if (digit == 0 || from == l->cells) continue;
+                const int32_t next = l->next[from * sides + 2 * a + digit - 1];
+                if (next != from) about[k] = next;
+            }
+        }
+    }
+}
+
 bool mps__grid_cells(mps__grid *g, mps__grid_level *l, int64_t points)
 {
     if (!reserve_points(g, l, points)) return false;
@@ -241,6 +337,9 @@ bool mps__grid_cells(mps__grid *g, mps__grid_level *l, int64_t points)
         return false;
     sort_cells(g, l);
     find_neighbours(g, l);
+    mps_parallel_rows(mps__team(g->parallel, l->cells), l->cells, find_about,
+                      &(finding){.g = g, .l = l});
     for (int64_t c = 0; c < l->cells; c++) l->shift[c] = l->kappa[c] = l->count[c] = 0;
+    l->b[l->cells] = l->x[l->cells] = 0;
     return true;
 }

@@ -97,13 +97,10 @@ static inline double pull(const mps__grid_level *l, int sides, int64_t c)
 
 /* What a loop of the cycle works on; each uses its own. */
 typedef struct cycle {
-    mps__grid *g;
     mps__grid_level *l;
     const mps__grid_level *coarse;
     int sides;
     int64_t from; /* first cell */
-    const double *values;
-    double scale;
 } cycle;
 
 /* A loop over cells, which do next to nothing each. */
@@ -155,68 +152,20 @@ static void sweep_up(const mps__grid *g, mps__grid_level *l)
 
 /* Add a value to the 2^dim corners about a point. */
 static inline void spread_over(const mps__grid_level *l, const int corners, int64_t point,
-                               double value, double *b)
+                               double value)
 {
-    const int32_t *at = l->at + point * corners;
+    const int32_t *about = l->about + (int64_t)l->home[point] * (corners == 4 ? 9 : 27);
+    const uint8_t *corner = mps__grid_corner[l->side[point]];
     const float *share = l->share + point * corners;
-    for (int k = 0; k < corners; k++) b[at[k]] += (double)share[k] * value;
+    for (int k = 0; k < corners; k++) l->b[about[corner[k]]] += (double)share[k] * value;
 }
 
-static inline void spread(const mps__grid_level *l, int dim, int64_t point, double value, double *b)
+static inline void spread(const mps__grid_level *l, int dim, int64_t point, double value)
 {
     if (dim == 2)
-        spread_over(l, 4, point, value, b);
+        spread_over(l, 4, point, value);
     else
-        spread_over(l, 8, point, value, b);
-}
-
-/* What chunk c of the particles adds to the cells. */
-static void restrict_chunk(void *argument, int32_t c)
-{
-    const cycle *y = argument;
-    const mps__grid *g = y->g;
-    const mps__grid_level *l = &g->level[0];
-    double *b = (double *)g->parts + c * l->cells;
-    for (int colour = 0; colour < 2; colour++)
-        for (int32_t k = g->range[c][colour][0]; k < g->range[c][colour][1]; k++) b[k] = 0;
-    for (int64_t i = mps__grid_chunk(l->points, c); i < mps__grid_chunk(l->points, c + 1); i++)
-        spread(l, g->dim, i, y->scale * y->values[i], b);
-}
-
-/* Right sides of cells from..to-1 of one colour. */
-static void sum_chunks(const mps__grid *g, int colour, int64_t from, int64_t to)
-{
-    const mps__grid_level *l = &g->level[0];
-    for (int64_t k = from; k < to; k++) l->b[k] = 0;
-    for (int c = 0; c < MPS__GRID_CHUNKS; c++) {
-        const double *b = (const double *)g->parts + c * l->cells;
-        const int64_t first = g->range[c][colour][0] > from ? g->range[c][colour][0] : from;
-        const int64_t last = g->range[c][colour][1] < to ? g->range[c][colour][1] : to;
-        for (int64_t k = first; k < last; k++) l->b[k] += b[k];
-    }
-}
-
-/* Blocks of red cells, then blocks of black ones. */
-static void sum_blocks(void *argument, int64_t begin, int64_t end)
-{
-    const mps__grid *g = ((const cycle *)argument)->g;
-    const mps__grid_level *l = &g->level[0];
-    const int64_t red = mps__blocks(l->red);
-    for (int64_t k = begin; k < end; k++) {
-        const int64_t from = k < red ? k * MPS__BLOCK : l->red + (k - red) * MPS__BLOCK,
-                      last = k < red ? l->red : l->cells;
-        sum_chunks(g, k >= red, from, from + MPS__BLOCK < last ? from + MPS__BLOCK : last);
-    }
-}
-
-void mps__grid_restrict(mps__grid *g, const double *values, double scale)
-{
-    const mps__grid_level *l = &g->level[0];
-    const mps_parallel *team = mps__team(g->parallel, l->points);
-    cycle y = {.g = g, .values = values, .scale = scale};
-    mps_parallel_run(team, MPS__GRID_CHUNKS, restrict_chunk, &y);
-    mps_parallel_rows_least(team, mps__blocks(l->red) + mps__blocks(l->cells - l->red), 2,
-                            sum_blocks, &y);
+        spread_over(l, 8, point, value);
 }
 
 /* What is left of the right side, to the next grid. The black cells were solved last: only red ones have a residual. */
@@ -225,8 +174,8 @@ static void restrict_residual(const mps__grid *g, const mps__grid_level *fine, m
     memset(l->b, 0, (size_t)l->cells * sizeof *l->b);
     for (int64_t c = 0; c < fine->red; c++) {
         if (l->home[c] < 0) continue;
-        spread(l, g->dim, c, fine->b[c] + pull(fine, 2 * g->dim, c) - fine->x[c] / fine->inverse[c],
-               l->b);
+        spread(l, g->dim, c,
+               fine->b[c] + pull(fine, 2 * g->dim, c) - fine->x[c] / fine->inverse[c]);
     }
 }
 

@@ -1,0 +1,196 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* auxgrid: transfer of values between the points and the cells of a grid. A point takes its value from the 2^dim cells on the
+ * side of its cell that it is nearer to, and adds to those cells with the same shares.
+ *
+ * A sum over particles has two steps with a fixed order each, so that it does not depend on threads: the particles of a cell, in
+ * their order, make up its parts for itself and for the cells about it; then each cell adds up the parts for it. */
+#include "auxgrid.h"
+#include "kernels.h"
+#include <math.h>
+#include <string.h>
+
+/* Digits of base three: 0 without a step along the axis, 1 with one down, 2 with one up. */
+const uint8_t mps__grid_corner[8][8] = {{0, 1, 3, 4, 9, 10, 12, 13},  {0, 2, 3, 5, 9, 11, 12, 14},
+                                        {0, 1, 6, 7, 9, 10, 15, 16},  {0, 2, 6, 8, 9, 11, 15, 17},
+                                        {0, 1, 3, 4, 18, 19, 21, 22}, {0, 2, 3, 5, 18, 20, 21, 23},
+                                        {0, 1, 6, 7, 18, 19, 24, 25}, {0, 2, 6, 8, 18, 20, 24, 26}};
+
+/* Number of a cell about its neighbour: each step the other way. */
+static const uint8_t opposite[MPS__GRID_ABOUT] = {0,  2,  1,  6,  8,  7,  3,  5,  4,
+                                                  18, 20, 19, 24, 26, 25, 21, 23, 22,
+                                                  9,  11, 10, 15, 17, 16, 12, 14, 13};
+
+/* What a loop works on; each uses its own. */
+typedef struct transfer {
+    mps__grid *g;
+    mps__grid_level *l;
+    const mps_ppe_problem *problem;
+    const double *values;
+    double scale;
+    double *parts; /* [cells + 1][3^dim] */
+} transfer;
+
+/* ---- particles by cell ---- */
+
+/* Cells take turns as the particles meet them, so that the list goes through memory about as the particles do. No sum depends
+ * on the turns. */
+bool mps__grid_list(mps__grid *g)
+{
+    const mps__grid_level *l = &g->level[0];
+    if (!mps__grid_reserve_turns(g, l->cells)) return false;
+    int32_t *next = g->order, seen = 0, end = 0;
+    memset(next, 0, (size_t)l->cells * sizeof *next);
+    for (int64_t i = 0; i < l->points; i++)
+        if (next[l->home[i]]++ == 0) g->turn[seen++] = l->home[i];
+    for (int64_t t = 0; t < l->cells; t++) {
+        const int32_t count = next[g->turn[t]];
+        g->start[t] = next[g->turn[t]] = end;
+        end += count;
+    }
+    g->start[l->cells] = end;
+    for (int64_t i = 0; i < l->points; i++) g->list[next[l->home[i]]++] = (int32_t)i;
+    return true;
+}
+
+/* ---- shares of the points ---- */
+
+/* Shares of the 2^dim cells around a point. far[a] is the share of the cell beside its own along axis a; only cells joined to
+ * the own one by links count, and a cell that conducts less than the point counts less. */
+static inline __attribute__((always_inline)) void set_shares_of(const int dim, mps__grid_level *l,
+                                                                int64_t point, double kappa,
+                                                                const double *far, const int side)
+{
+    const int corners = 1 << dim;
+    float *share = l->share + point * corners;
+    int32_t at[8]; /* -1: not joined */
+    double w[8], sum = 0;
+    for (int k = 0; k < corners; k++) {
+        at[k] = k == 0 ? l->home[point] : -1;
+        w[k] = 1;
+        for (int a = 0; a < dim; a++) {
+            w[k] *= k >> a & 1 ? far[a] : 1 - far[a];
+            int32_t before = k >> a & 1 ? at[k ^ 1 << a] : -1;
+            if (at[k] >= 0 || before < 0) continue;
+            int64_t link = (int64_t)before * 2 * dim + 2 * a + (side >> a & 1);
+            if (l->link[link] > 0) at[k] = l->next[link];
+        }
+        if (at[k] < 0) w[k] = 0;
+        if (at[k] >= 0 && kappa > l->kappa[at[k]]) w[k] *= l->kappa[at[k]] / kappa;
+        sum += w[k];
+    }
+    for (int k = 0; k < corners; k++) share[k] = (float)(sum > 0 ? w[k] / sum : k == 0);
+    l->side[point] = (uint8_t)side;
+}
+
+static void set_shares(const mps__grid *g, mps__grid_level *l, int64_t point, double kappa,
+                       const double *far, int side)
+{
+    if (g->dim == 2)
+        set_shares_of(2, l, point, kappa, far, side);
+    else
+        set_shares_of(3, l, point, kappa, far, side);
+}
+
+static void share_particles(void *argument, int64_t begin, int64_t end)
+{
+    const transfer *t = argument;
+    for (int64_t i = begin; i < end; i++) {
+        double far[3];
+        int side = 0;
+        for (int a = 0; a < t->g->dim; a++) {
+            double u = mps__grid_position(t->g, t->problem, i, a), f = u - floor(u) - 0.5;
+            side |= (f > 0) << a;
+            far[a] = fabs(f);
+        }
+        set_shares(t->g, t->l, i, t->g->point_kappa[i], far, side);
+    }
+}
+
+void mps__grid_share_particles(mps__grid *g, const mps_ppe_problem *problem)
+{
+    mps_parallel_rows(mps__team(problem->parallel, problem->n), problem->n, share_particles,
+                      &(transfer){.g = g, .l = &g->level[0], .problem = problem});
+}
+
+void mps__grid_share_cells(const mps__grid *g, const mps__grid_level *fine, mps__grid_level *l)
+{
+    static const double far[3] = {0.25, 0.25, 0.25};
+    for (int64_t c = 0; c < fine->cells; c++) {
+        int side = 0;
+        for (int a = 0; a < g->dim; a++)
+            side |= (int)(mps__grid_coordinate(fine->key[c], a) & 1) << a;
+        if (l->home[c] >= 0) set_shares(g, l, c, fine->kappa[c], far, side);
+    }
+}
+
+/* ---- from the particles to the cells ---- */
+
+/* What a particle adds to its cell and to the cells about it. */
+static inline __attribute__((always_inline)) void add_value(const int corners, const transfer *t,
+                                                            const mps__grid_level *l, int64_t i)
+{
+    double *part = t->parts + (int64_t)l->home[i] * (corners == 4 ? 9 : 27);
+    const uint8_t *corner = mps__grid_corner[l->side[i]];
+    const float *share = l->share + i * corners;
+    const double value = t->scale * t->values[i];
+    for (int k = 0; k < corners; k++) part[corner[k]] += (double)share[k] * value;
+}
+
+/* Particles as they lie in memory: the fastest way of one thread. */
+static void add_rows(void *argument, int64_t begin, int64_t end)
+{
+    const transfer t = *(const transfer *)argument;
+    const mps__grid_level l = *t.l; /* its pointers stay in registers */
+    if (t.g->dim == 2)
+        for (int64_t i = begin; i < end; i++) add_value(4, &t, &l, i);
+    else
+        for (int64_t i = begin; i < end; i++) add_value(8, &t, &l, i);
+}
+
+/* Particles of some cells: threads do not write to the same cells. The order in each cell is that of one thread. */
+static void add_turns(void *argument, int64_t begin, int64_t end)
+{
+    const transfer t = *(const transfer *)argument;
+    const mps__grid_level l = *t.l;
+    const int32_t *list = t.g->list, first = t.g->start[begin], last = t.g->start[end];
+    if (t.g->dim == 2)
+        for (int32_t p = first; p < last; p++) add_value(4, &t, &l, list[p]);
+    else
+        for (int32_t p = first; p < last; p++) add_value(8, &t, &l, list[p]);
+}
+
+/* The parts for a cell; those of the cell that stands for none are zero. */
+static inline __attribute__((always_inline)) void
+sum_of(const int all, const mps__grid *g, mps__grid_level *l, int64_t begin, int64_t end)
+{
+    const double *parts = g->parts;
+    for (int64_t c = begin; c < end; c++) {
+        const int32_t *about = l->about + c * all;
+        double sum = 0;
+        for (int k = 0; k < all; k++) sum += parts[(int64_t)about[k] * all + opposite[k]];
+        l->b[c] = sum;
+    }
+}
+
+static void sum_cells(void *argument, int64_t begin, int64_t end)
+{
+    const transfer *t = argument;
+    if (t->g->dim == 2)
+        sum_of(9, t->g, t->l, begin, end);
+    else
+        sum_of(27, t->g, t->l, begin, end);
+}
+
+void mps__grid_restrict(mps__grid *g, const double *values, double scale)
+{
+    mps__grid_level *l = &g->level[0];
+    const mps_parallel *team = mps__team(g->parallel, l->points);
+    transfer t = {.g = g, .l = l, .values = values, .scale = scale, .parts = g->parts};
+    memset(t.parts, 0,
+           (size_t)(l->cells + 1) * (g->dim == 2 ? 9 : MPS__GRID_ABOUT) * sizeof *t.parts);
+    if (team && team->threads > 1)
+        mps_parallel_rows_least(team, l->cells, MPS__GRID_TURNS, add_turns, &t);
+    else
+        add_rows(&t, 0, l->points);
+    mps_parallel_rows_least(team, l->cells, MPS__GRID_TURNS, sum_cells, &t);
+}
