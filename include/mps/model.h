@@ -96,7 +96,10 @@ enum {
     MPS_USE_OPTIONAL = 8,
     /** Reads values of the neighbours of dummies too. Implies MPS_USE_NEIGHBOURS. Without an active
      *  model that does, dummies have no rows in mps_stage.near and .far. */
-    MPS_USE_DUMMIES = 16
+    MPS_USE_DUMMIES = 16,
+    /** Reads values of the near neighbours of neighbours within the far radius too, and looks at the
+     *  near rows of these. Implies MPS_USE_NEIGHBOURS. */
+    MPS_USE_ROWS = 32
 };
 
 /** A channel that a verb uses. Its array is s->data[k], k the place in mps_verb.uses. */
@@ -325,6 +328,9 @@ typedef struct mps_model_ops {
     void (*destroy)(const mps_allocator *allocator, void *self);
     /** Data of the caller, e.g. a pointer that the verbs need as s->self. */
     void *user;
+    /** NULL, or the farthest distance at which its verbs look at particles, if it is more than the far
+     *  radius [m]. @param setting  values of the settings in their order @param dp  spacing [m] */
+    double (*reach)(const double *setting, double dp);
 } mps_model_ops;
 
 /** Register a model on a handle; the table is copied. Then choose it with mps_model_use().

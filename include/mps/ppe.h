@@ -35,11 +35,17 @@ typedef struct mps_ppe_ranks {
     int64_t rows;
     /** Rows of the ranks before this one: the number of row 0 among all rows. */
     int64_t first;
+    /** [n + ghosts] columns in the order of the particles, which is the same on all ranks that have
+     *  them */
+    const int32_t *order;
+    /** Ranks that own places [m*dim] of the lab: a function of the place, the same on all ranks. A
+     *  column of a particle within reach of an owned place is here. Non-zero: failed. */
+    int (*owner)(void *host, int64_t m, const double *x, int32_t *rank);
     /** Set x[n..n+ghosts-1] to the values that the owners have in x[0..n-1]. Non-zero: failed. */
     int (*share)(void *host, double *x);
     /** Combine values of all ranks, as mps_ranks_ops.reduce. Non-zero: failed. */
     int (*reduce)(void *host, int32_t count, size_t bytes, void *values, mps_combine_fn combine);
-    /** First argument of both. */
+    /** First argument of these functions. */
     void *host;
 } mps_ppe_ranks;
 
@@ -67,7 +73,7 @@ typedef struct mps_ppe_problem {
     const double *shift;
     /** [n] residual times weight = divergence times dt */
     const double *weight;
-    /** [n*dim] positions of the unknowns [m] */
+    /** [n*dim] positions of the unknowns [m]; on many ranks [(n + ghosts)*dim] */
     const double *x;
     /** Particle spacing [m]. */
     double dp;
@@ -103,9 +109,9 @@ static inline int mps_ppe_share(const mps_ppe_problem *problem, double *x)
 static inline int mps_ppe_reduce(const mps_ppe_problem *problem, int32_t count, size_t bytes,
                                  void *values, mps_combine_fn combine)
 {
-    return problem->ranks ? problem->ranks->reduce(problem->ranks->host, count, bytes, values,
-                                                   combine)
-                          : 0;
+    return problem->ranks
+               ? problem->ranks->reduce(problem->ranks->host, count, bytes, values, combine)
+               : 0;
 }
 
 /** Sums and maxima over the rows of all ranks, from those of this rank, in one message: at most 4 of
@@ -176,6 +182,11 @@ typedef struct mps_preconditioner_ops {
     const char *help;
     /** 1: works on equations whose rows lie on several ranks (mps_ppe_problem.ranks); default 0 */
     int32_t ranks;
+    /** Kept 0. */
+    int32_t reserved;
+    /** On many ranks: farthest distance from an owned place of unknowns that it looks at [dp]; 0: the
+     *  far radius is enough. */
+    double reach;
 } mps_preconditioner_ops;
 
 /** A solver. The kit of tests/conformance checks a table for all demands below (solver_kit.h:

@@ -37,8 +37,8 @@ static const mps_channel channels[] = {
 
 enum { DENSITY, REGION, PRESSURE_DENSITY, INTERFACE_DISTANCE, USES };
 static const mps_use uses[USES] = {
-    [DENSITY] = {"density", MPS_USE_NEIGHBOURS},
-    [REGION] = {"region", MPS_USE_NEIGHBOURS},
+    [DENSITY] = {"density", MPS_USE_ROWS},
+    [REGION] = {"region", MPS_USE_ROWS},
     [PRESSURE_DENSITY] = {"pressure_density", MPS_USE_NEIGHBOURS | MPS_USE_CHANGE},
     [INTERFACE_DISTANCE] = {"interface_distance", MPS_USE_CHANGE}};
 
@@ -166,6 +166,7 @@ static int find_distances(mps_stage *s)
                 .rho = mps_stage_scratch(s, s->n)};
     if (!f.heavy || !f.rho) return 1;
     mps_stage_rows(s, find_heavy_rows, &f);
+    if (mps_stage_refresh(s, 1, &(mps_shared){f.heavy, 1, MPS_TYPE_INTEGER})) return 1;
     mps_stage_rows(s, find_distance_rows, &f);
     mps_stage_rows(s, keep_density_rows, &f);
     return 0;

@@ -71,6 +71,7 @@ int mps__gas_expect(mps_stage *s, double *denser, double *volume_deviation, doub
     volumes f = {denser, mps_stage_scratch(s, s->n), volume_deviation, number_density};
     if (!f.sum) return 1;
     mps_stage_rows(s, shrink_rows, &f);
+    if (mps_stage_refresh(s, 1, &(mps_shared){denser, 1, MPS_TYPE_REAL})) return 1;
     if (mps_op_volume_sum(s->far, denser, f.sum) != MPS_OK)
         return mps_stage_fail(s, "the volumes of the gas cannot be summed");
     mps_stage_rows(s, subtract_rows, &f);

@@ -67,6 +67,11 @@ static int pull_interfaces(mps_stage *s)
     return 0;
 }
 
+static double reach(const double *setting, double dp)
+{
+    return setting[RADIUS] * dp;
+}
+
 static int limit_step(mps_stage *s)
 {
     mps__tension_limit(s, s->data[LIMIT_DENSITY], s->setting[SIGMA]);
@@ -84,4 +89,5 @@ const mps_model_ops mps__tension_csf = {.struct_size = sizeof(mps_model_ops),
                                         .setting_count = SETTINGS,
                                         .settings = settings,
                                         .verb_count = 2,
-                                        .verbs = verbs};
+                                        .verbs = verbs,
+                                        .reach = reach};

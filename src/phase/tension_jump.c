@@ -70,6 +70,11 @@ static int find_jumps(mps_stage *s)
     return 0;
 }
 
+static double reach(const double *setting, double dp)
+{
+    return setting[RADIUS] * dp;
+}
+
 static int limit_step(mps_stage *s)
 {
     mps__tension_limit(s, s->data[LIMIT_DENSITY], s->setting[SIGMA]);
@@ -90,4 +95,5 @@ const mps_model_ops mps__tension_jump = {
     .channel_count = 1,
     .channels = channels,
     .verb_count = 2,
-    .verbs = verbs};
+    .verbs = verbs,
+    .reach = reach};

@@ -141,6 +141,7 @@ static int diffuse_velocity(mps_stage *s)
         int32_t *slippery = mps_stage_scratch_integers(s, s->n);
         if (!slippery) return 1;
         mps_stage_rows(s, find_slippery_rows, slippery);
+        if (mps_stage_refresh(s, 1, &(mps_shared){slippery, 1, MPS_TYPE_INTEGER})) return 1;
         f.slippery = slippery;
     }
     for (int p = 0; p < MPS__PHASE_LIMIT; p++)

@@ -72,8 +72,7 @@ void mps__grid_measure(mps__grid *g, const mps_ppe_problem *problem)
     making m = {.g = g, .problem = problem, .square = mean_square(problem)};
     mps_exact sums[3] = {{{0}, 0, 0}};
     double v[3], most = 0;
-    mps__reduce(problem, measure_rows, &m,
-                &(mps_exact_values){3, 1, sums, &most});
+    mps__reduce(problem, measure_rows, &m, &(mps_exact_values){3, 1, sums, &most});
     for (int k = 0; k < 3; k++) v[k] = mps_exact_value(&sums[k]);
     g->one = !(v[0] * v[1] > one_density * v[2] * v[2]);
     g->dim = problem->dim;

@@ -241,8 +241,7 @@ static int attempt(newton *k, double *p, mps_ppe_result *result)
 {
     const mps_ppe_problem *problem = k->problem;
     const size_t bytes = (size_t)problem->n * sizeof *p;
-    const double norm = sqrt(
-        mps__dot_product(problem, problem->rhs, problem->rhs));
+    const double norm = sqrt(mps__dot_product(problem, problem->rhs, problem->rhs));
     if (norm == 0) memset(p, 0, bytes);
     if (!mps__guess_begin(k->problem, p, k->residual, k->sums, result)) return MPS_PPE_NAN;
     const double excess = mps__result_excess(problem, result);

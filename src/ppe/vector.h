@@ -16,7 +16,7 @@ typedef struct mps__space {
     const mps_parallel *parallel;
     /* list of vectors made ahead for N_VClone, which dereferences NULL when a clone fails */
     N_Vector spare;
-    N_Vector owned; /* list of all vectors with an array of their own */
+    N_Vector owned;                 /* list of all vectors with an array of their own */
     const mps_ppe_problem *problem; /* of the solution in progress */
     /* One dot product computed by the kernel that wrote its vectors, while they were in cache. Any other write forgets it. */
     const double *dot_x, *dot_y;

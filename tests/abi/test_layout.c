@@ -11,6 +11,7 @@
 #include <mps/particles.h>
 #include <mps/ppe.h>
 #include <mps/probe.h>
+#include <mps/ranks.h>
 #include <mps/sim.h>
 #include <mps/step.h>
 #include <mps/types.h>
@@ -190,7 +191,7 @@ AT(mps_verb, after, 16);
 AT(mps_verb, before, 24);
 AT(mps_verb, run, 32);
 
-SIZE(mps_model_ops, 88);
+SIZE(mps_model_ops, 96);
 AT(mps_model_ops, struct_size, 0);
 AT(mps_model_ops, api, 4);
 AT(mps_model_ops, name, 8);
@@ -205,6 +206,7 @@ AT(mps_model_ops, verbs, 56);
 AT(mps_model_ops, create, 64);
 AT(mps_model_ops, destroy, 72);
 AT(mps_model_ops, user, 80);
+AT(mps_model_ops, reach, 88);
 
 SIZE(mps_grid, 40);
 AT(mps_grid, struct_size, 0);
@@ -213,6 +215,11 @@ AT(mps_grid, side, 8);
 AT(mps_grid, buckets, 16);
 AT(mps_grid, first, 24);
 AT(mps_grid, next, 32);
+
+SIZE(mps_shared, 16);
+AT(mps_shared, values, 0);
+AT(mps_shared, components, 8);
+AT(mps_shared, type, 12);
 
 SIZE(mps_motion_state, 152);
 AT(mps_motion_state, struct_size, 0);
@@ -303,6 +310,20 @@ AT(mps_lease, data, 24);
 AT(mps_lease, integers, 32);
 AT(mps_lease, ids, 40);
 
+SIZE(mps_ppe_ranks, 80);
+AT(mps_ppe_ranks, struct_size, 0);
+AT(mps_ppe_ranks, rank, 4);
+AT(mps_ppe_ranks, ranks, 8);
+AT(mps_ppe_ranks, reserved, 12);
+AT(mps_ppe_ranks, ghosts, 16);
+AT(mps_ppe_ranks, rows, 24);
+AT(mps_ppe_ranks, first, 32);
+AT(mps_ppe_ranks, order, 40);
+AT(mps_ppe_ranks, owner, 48);
+AT(mps_ppe_ranks, share, 56);
+AT(mps_ppe_ranks, reduce, 64);
+AT(mps_ppe_ranks, host, 72);
+
 SIZE(mps_ppe_problem, 152);
 AT(mps_ppe_problem, struct_size, 0);
 AT(mps_ppe_problem, dim, 4);
@@ -324,6 +345,7 @@ AT(mps_ppe_problem, component, 112);
 AT(mps_ppe_problem, gas, 120);
 AT(mps_ppe_problem, law, 128);
 AT(mps_ppe_problem, parallel, 136);
+AT(mps_ppe_problem, ranks, 144);
 
 SIZE(mps_ppe_result, 40);
 AT(mps_ppe_result, struct_size, 0);
@@ -334,7 +356,7 @@ AT(mps_ppe_result, residual, 16);
 AT(mps_ppe_result, divergence, 24);
 AT(mps_ppe_result, setup_seconds, 32);
 
-SIZE(mps_preconditioner_ops, 72);
+SIZE(mps_preconditioner_ops, 88);
 AT(mps_preconditioner_ops, struct_size, 0);
 AT(mps_preconditioner_ops, api, 4);
 AT(mps_preconditioner_ops, name, 8);
@@ -345,8 +367,11 @@ AT(mps_preconditioner_ops, apply, 40);
 AT(mps_preconditioner_ops, destroy, 48);
 AT(mps_preconditioner_ops, user, 56);
 AT(mps_preconditioner_ops, help, 64);
+AT(mps_preconditioner_ops, ranks, 72);
+AT(mps_preconditioner_ops, reserved, 76);
+AT(mps_preconditioner_ops, reach, 80);
 
-SIZE(mps_solver_ops, 80);
+SIZE(mps_solver_ops, 88);
 AT(mps_solver_ops, struct_size, 0);
 AT(mps_solver_ops, api, 4);
 AT(mps_solver_ops, name, 8);
@@ -358,6 +383,7 @@ AT(mps_solver_ops, destroy, 48);
 AT(mps_solver_ops, nonlinear, 56);
 AT(mps_solver_ops, user, 64);
 AT(mps_solver_ops, help, 72);
+AT(mps_solver_ops, ranks, 80);
 
 SIZE(mps_probe, 112);
 AT(mps_probe, struct_size, 0);
@@ -401,6 +427,35 @@ AT(mps_momentum, numerical, 128);
 AT(mps_momentum, collision, 152);
 AT(mps_momentum, shift, 176);
 AT(mps_momentum, added, 200);
+
+SIZE(mps_route, 48);
+AT(mps_route, to_count, 0);
+AT(mps_route, from_count, 4);
+AT(mps_route, to, 8);
+AT(mps_route, sent, 16);
+AT(mps_route, from, 24);
+AT(mps_route, received, 32);
+AT(mps_route, data, 40);
+
+SIZE(mps_ranks_ops, 136);
+AT(mps_ranks_ops, struct_size, 0);
+AT(mps_ranks_ops, api, 4);
+AT(mps_ranks_ops, name, 8);
+AT(mps_ranks_ops, create, 16);
+AT(mps_ranks_ops, destroy, 24);
+AT(mps_ranks_ops, place, 32);
+AT(mps_ranks_ops, partition, 40);
+AT(mps_ranks_ops, owner, 48);
+AT(mps_ranks_ops, overlap, 56);
+AT(mps_ranks_ops, connect, 64);
+AT(mps_ranks_ops, disconnect, 72);
+AT(mps_ranks_ops, exchange_begin, 80);
+AT(mps_ranks_ops, exchange_end, 88);
+AT(mps_ranks_ops, reduce, 96);
+AT(mps_ranks_ops, gather, 104);
+AT(mps_ranks_ops, fail, 112);
+AT(mps_ranks_ops, failure, 120);
+AT(mps_ranks_ops, user, 128);
 
 SIZE(mps_config, 216);
 AT(mps_config, struct_size, 0);

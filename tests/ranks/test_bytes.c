@@ -139,8 +139,8 @@ static record *run_scene(const scene *s, int32_t ranks, uint32_t skew)
 static void compare(const scene *s, const record *a, const record *b, int32_t ranks)
 {
     static const char *const names[] = {"x", "y", "z", "u", "v", "w", "p", "n", "load"},
-                             *const infos[] = {"t", "dt", "iterations", "unknowns", "surface",
-                                               "max_speed", "kinetic", "wall_work"};
+                             *const infos[] = {"t",       "dt",        "iterations", "unknowns",
+                                               "surface", "max_speed", "kinetic",    "wall_work"};
     for (int k = 0; k < s->steps; k++) {
         if (a[k].count != b[k].count)
             fail_msg("%d ranks, step %d: %lld particles, not %lld", (int)ranks, k + 1,

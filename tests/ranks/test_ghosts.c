@@ -152,8 +152,7 @@ static mps_status walk(world *w, int32_t rank, mps__ghosts *g)
         MPS__TRY(mps__ghosts_renew(g, &p, 0));
         MPS__TRY(turn_round(g));
         for (int64_t i = 0; i < s->n; i++)
-            if (!g->ghost[i])
-                __atomic_fetch_add(&w->owners[step][s->id[i]], 1, __ATOMIC_RELAXED);
+            if (!g->ghost[i]) __atomic_fetch_add(&w->owners[step][s->id[i]], 1, __ATOMIC_RELAXED);
         w->missing[rank] += missing_ghosts(g, all, step);
         w->wrong[rank] += wrong_rows(g);
         MPS__TRY(check_share(g, &w->wrong[rank]));

@@ -117,7 +117,8 @@ static void tell_uses(const mps_verb *verb, char out[MPS__USES_SIZE])
     out[0] = 0;
     for (int32_t u = 0; u < verb->use_count; u++) {
         const int32_t a = verb->uses[u].access;
-        const char *read = a & MPS_USE_DUMMIES      ? "d"
+        const char *read = a & MPS_USE_ROWS         ? "a"
+                           : a & MPS_USE_DUMMIES    ? "d"
                            : a & MPS_USE_NEIGHBOURS ? "n"
                            : a & MPS_USE_READ       ? "r"
                                                     : "";

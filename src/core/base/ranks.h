@@ -14,7 +14,8 @@ typedef struct mps__ranks {
     int32_t rank, count; /* 0, 1: alone */
     /* A call failed, here or on another rank. All later ones do nothing; mps__ranks_status() tells. */
     bool failed;
-    int64_t rounds, bytes; /* exchanges, reductions and gathers; bytes that this rank sent with them */
+    int64_t rounds,
+        bytes; /* exchanges, reductions and gathers; bytes that this rank sent with them */
 } mps__ranks;
 
 /* Values of this rank stay as they are where a call fails: callers look at mps__ranks_status() before they use them for good. */

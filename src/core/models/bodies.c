@@ -144,9 +144,8 @@ static int merge_bodies(mps_stage *s, search *k, int32_t count)
     if (status < 0) return 1;
     number_sets(&h->sets, k->most);
     for (int64_t i = 0; i < s->n; i++)
-        k->body[i] = k->body[i] < 0
-                         ? -1
-                         : mps__sets_find(&h->sets, (int64_t)least[k->body[i]])->number;
+        k->body[i] = k->body[i] < 0 ? -1
+                                    : mps__sets_find(&h->sets, (int64_t)least[k->body[i]])->number;
     h->scratch_used -= 2;
     return 0;
 }

@@ -288,9 +288,8 @@ void mps__channels_begin(const mps__channels *c, int64_t begin, int64_t end)
 static mps__field *field_of(const mps__channels *c, mps__particles *s, int32_t k)
 {
     if (k >= MPS__CHANNELS) return &s->field[k - MPS__CHANNELS];
-    return c->list[k].spec.life == MPS_LIFE_PARTICLE
-               ? mps__particles_field(s, c->list[k].spec.name)
-               : NULL;
+    return c->list[k].spec.life == MPS_LIFE_PARTICLE ? mps__particles_field(s, c->list[k].spec.name)
+                                                     : NULL;
 }
 
 bool *mps__channels_stale(mps__channels *c, mps__particles *s, int32_t k)

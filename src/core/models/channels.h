@@ -9,6 +9,9 @@
 
 enum { MPS__CHANNELS = 64 };
 
+/* Accesses that read values of neighbours. */
+enum { MPS__USE_AROUND = MPS_USE_NEIGHBOURS | MPS_USE_DUMMIES | MPS_USE_ROWS };
+
 /* Channels of the library, in the order of the list. */
 enum {
     MPS__VELOCITY,

@@ -125,9 +125,8 @@ mps_status mps__host_share(mps__host *h, const int32_t *channel, int32_t count)
                                      : mps__channels_stale(h->channels, h->particles, channel[k]);
         if (!stale || !*stale) continue;
         *stale = false;
-        shared[found++] = (mps__shared){
-            mps__channels_array(h->channels, h->particles, channel[k]),
-            mps__channels_bytes(h->channels, h->particles, channel[k])};
+        shared[found++] = (mps__shared){mps__channels_array(h->channels, h->particles, channel[k]),
+                                        mps__channels_bytes(h->channels, h->particles, channel[k])};
     }
     return mps__ghosts_share(h->ghosts, shared, found);
 }
@@ -154,8 +153,7 @@ static mps_status share_before(mps__host *h, const mps_stage *s, const mps__call
     int32_t channel[MPS__USES + MPS__FLUX_CHANNELS], count = 0;
     if (!mps__ranks_many(h->ghosts->ranks)) return MPS_OK;
     for (int32_t u = 0; u < call->verb->use_count; u++)
-        if (call->verb->uses[u].access & (MPS_USE_NEIGHBOURS | MPS_USE_DUMMIES))
-            channel[count++] = call->channel[u];
+        if (call->verb->uses[u].access & MPS__USE_AROUND) channel[count++] = call->channel[u];
     if (s->moment >= MPS_FORCE) {
         mps__host_flux(h, channel + count);
         count += MPS__FLUX_CHANNELS;

@@ -21,7 +21,7 @@ typedef struct mps__host {
     const mps__pose *next;     /* pose at the end of the step; NULL: not known yet */
     bool no_memory;            /* a verb got no scratch */
     bool misused;              /* a verb asked for a loop that there is not */
-    mps__sets sets; /* bodies */
+    mps__sets sets;            /* bodies */
     mps__plan plan;
 } mps__host;
 

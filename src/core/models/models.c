@@ -74,7 +74,7 @@ static mps_status check_settings(mps__context *c, const mps_model_ops *ops)
 static mps_status check_verbs(mps__context *c, const mps_model_ops *ops)
 {
     const int32_t known = MPS_USE_READ | MPS_USE_NEIGHBOURS | MPS_USE_WRITE | MPS_USE_OPTIONAL |
-                          MPS_USE_DUMMIES;
+                          MPS_USE_DUMMIES | MPS_USE_ROWS;
     for (int32_t v = 0; v < ops->verb_count; v++) {
         const mps_verb *verb = &ops->verbs[v];
         MPS__CHECK(c, verb->run, "model '%s': verb %d has no function", ops->name, (int)v);
@@ -90,8 +90,7 @@ static mps_status check_verbs(mps__context *c, const mps_model_ops *ops)
             MPS__CHECK(c,
                        verb->uses[u].channel && verb->uses[u].channel[0] &&
                            !(verb->uses[u].access & ~known) &&
-                           verb->uses[u].access & (MPS_USE_READ | MPS_USE_NEIGHBOURS |
-                                                   MPS_USE_WRITE | MPS_USE_DUMMIES),
+                           verb->uses[u].access & (known & ~MPS_USE_OPTIONAL),
                        "model '%s': use %d of verb %d has no channel, or access %d, which is no "
                        "sum of MPS_USE_...",
                        ops->name, (int)u, (int)v, (int)verb->uses[u].access);
@@ -174,21 +173,37 @@ bool mps__models_foreign(const mps__models *m, const mps__model *model)
     return model->ops >= &m->registry[m->built_in];
 }
 
-/* Whether a verb does. */
-static bool reads_dummy_rows(const mps_verb *verb)
+/* Whether a verb of an active model has an access. */
+static bool any_use(const mps__models *m, int32_t access)
 {
-    int32_t all = 0;
-    for (int32_t u = 0; u < verb->use_count; u++) all |= verb->uses[u].access;
-    return all & MPS_USE_DUMMIES;
+    bool any = false;
+    for (int32_t k = 0; k < m->active; k++)
+        for (int32_t v = 0; v < m->on[k].ops->verb_count; v++) {
+            const mps_verb *verb = &m->on[k].ops->verbs[v];
+            for (int32_t u = 0; u < verb->use_count; u++)
+                any = any || verb->uses[u].access & access;
+        }
+    return any;
 }
 
 bool mps__models_dummy_rows(const mps__models *m)
 {
-    bool any = false;
-    for (int32_t k = 0; k < m->active; k++)
-        for (int32_t v = 0; v < m->on[k].ops->verb_count; v++)
-            any = any || reads_dummy_rows(&m->on[k].ops->verbs[v]);
-    return any;
+    return any_use(m, MPS_USE_DUMMIES);
+}
+
+bool mps__models_neighbour_rows(const mps__models *m)
+{
+    return any_use(m, MPS_USE_ROWS);
+}
+
+double mps__models_reach(const mps__models *m, double dp)
+{
+    double reach = 0;
+    for (int32_t k = 0; k < m->active; k++) {
+        const mps_model_ops *ops = m->on[k].ops;
+        if (ops->reach) reach = fmax(reach, ops->reach(m->on[k].k, dp));
+    }
+    return reach;
 }
 
 static void drop(mps__models *m, int32_t k)

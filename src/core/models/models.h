@@ -44,6 +44,10 @@ mps_status mps__models_remove(mps__models *m, const char *slot);
 bool mps__models_foreign(const mps__models *m, const mps__model *model);
 /* Whether an active model reads rows of dummies. */
 bool mps__models_dummy_rows(const mps__models *m);
+/* Whether an active model reads rows of neighbours. */
+bool mps__models_neighbour_rows(const mps__models *m);
+/* Farthest distance at which an active model looks at particles, if it says so; else 0 [m]. */
+double mps__models_reach(const mps__models *m, double dp);
 /* The setting `key` of the model in a slot; NULL with the error set. `setting` may be NULL. */
 double *mps__models_value(mps__models *m, const char *slot, const char *key,
                           const mps_setting **setting);

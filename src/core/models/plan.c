@@ -28,9 +28,7 @@ static mps_status check_access(const mps__models *m, const mps__call *call, int3
     const mps_use *use = &call->verb->uses[u];
     const uint32_t moment = 1u << call->verb->moment;
     const char *what = NULL;
-    if ((use->access & (MPS_USE_READ | MPS_USE_NEIGHBOURS | MPS_USE_DUMMIES)) &&
-        !(k->reads & moment))
-        what = "read";
+    if ((use->access & (MPS_USE_READ | MPS__USE_AROUND)) && !(k->reads & moment)) what = "read";
     if ((use->access & MPS_USE_WRITE) && !(k->writes & moment)) what = "written";
     if (!what) return MPS_OK;
     return mps__fail(m->context, MPS_E_STATE,
@@ -74,7 +72,7 @@ static int what_it_does(const mps__call *call, int32_t channel)
     for (int32_t u = 0; u < call->verb->use_count; u++) {
         if (call->channel[u] != channel) continue;
         const int32_t access = call->verb->uses[u].access;
-        const bool reads = access & (MPS_USE_READ | MPS_USE_NEIGHBOURS | MPS_USE_DUMMIES);
+        const bool reads = access & (MPS_USE_READ | MPS__USE_AROUND);
         does = access & MPS_USE_WRITE ? (reads ? CHANGES : PRODUCES) : READS;
     }
     return does;

@@ -197,14 +197,15 @@ int mps_stage_refresh(mps_stage *s, int32_t count, const mps_shared *shared)
     for (int32_t k = 0; k < count; k++) {
         const mps_shared *a = &shared[k];
         if (!a->values || a->components < 1)
-            return mps_stage_fail(s, "refresh: array %d is NULL, or has %d components: must be >= 1",
+            return mps_stage_fail(s,
+                                  "refresh: array %d is NULL, or has %d components: must be >= 1",
                                   (int)k, (int)a->components);
         if (a->type != MPS_TYPE_REAL && a->type != MPS_TYPE_INTEGER)
             return mps_stage_fail(s, "refresh: array %d has type %d: MPS_TYPE_REAL or _INTEGER",
                                   (int)k, (int)a->type);
-        list[k] = (mps__shared){a->values, (size_t)a->components * (a->type == MPS_TYPE_REAL
-                                                                        ? sizeof(double)
-                                                                        : sizeof(int32_t))};
+        list[k] = (mps__shared){a->values,
+                                (size_t)a->components *
+                                    (a->type == MPS_TYPE_REAL ? sizeof(double) : sizeof(int32_t))};
     }
     return mps__ghosts_share(host_of(s)->ghosts, list, count) < 0;
 }

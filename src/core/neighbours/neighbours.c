@@ -327,7 +327,8 @@ MPS__DIM_INLINE int64_t search_cell(searching *s, int64_t first, shelf *h, int64
     finding f;
     for (; a < l->n && l->key[a] == l->key[first]; a++) {
         const int32_t i = sorted ? (int32_t)a : l->order[a];
-        const bool solid = l->kind && l->kind[i] != MPS_FLUID, ghost = l->ghost && l->ghost[i];
+        const bool solid = l->kind && l->kind[i] != MPS_FLUID,
+                   ghost = l->ghost && l->ghost[i] && (solid || !l->ghost_rows);
         l->rim[i] = dummies && !solid && !ghost;
         l->idle[i] = ghost || (solid && (!fluid || (l->kind[i] == MPS_DUMMY && !l->dummy_rows)));
         if (!l->idle[i]) find_row(s, a, range, ranges, &f, dim, sorted);

@@ -43,12 +43,13 @@ struct mps_neighbours {
     /* of the next search: NULL, or kinds of the particles; then solids without fluid about them
      * get no pairs, */
     const int32_t *kind;
-    bool dummy_rows;     /* nor do dummies, unless this is set */
-    bool partial;        /* the last search left such solids out: */
-    bool had_dummy_rows; /* but not dummies */
+    bool dummy_rows;      /* nor do dummies, unless this is set */
+    bool partial;         /* the last search left such solids out: */
+    bool had_dummy_rows;  /* but not dummies */
     const uint8_t *ghost; /* NULL, or [n] 1: a copy of another rank's particle, which gets no row */
+    bool ghost_rows;      /* but fluid does; not complete where ghosts end */
     uint8_t *idle;        /* [n] 1 for each of them */
-    uint8_t *rim;        /* [n] 1: fluid with dummies not far away; 0 where kinds were not given */
+    uint8_t *rim;         /* [n] 1: fluid with dummies not far away; 0 where kinds were not given */
     /* NULL, or what hides particles from each other; its seers are up to date */
     const mps__screens *screens;
 };

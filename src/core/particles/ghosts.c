@@ -132,8 +132,8 @@ static mps_status connect_ranks(mps__ghosts *g)
 /* Room in the buffers, of which nothing is kept. */
 static mps_status reserve_buffers(mps__ghosts *g, size_t bytes)
 {
-    MPS__TRY(mps__grow(g->context, (void **)&g->out, &g->out_capacity, 0,
-                       g->sends * (int64_t)bytes, 1));
+    MPS__TRY(
+        mps__grow(g->context, (void **)&g->out, &g->out_capacity, 0, g->sends * (int64_t)bytes, 1));
     return mps__grow(g->context, (void **)&g->in, &g->in_capacity, 0, g->receives * (int64_t)bytes,
                      1);
 }

@@ -35,7 +35,7 @@ typedef struct mps__ghosts {
     bool connected;  /* there is a route: */
     mps_route route; /* owned particles to other ranks, and theirs to the ghosts here */
     int64_t sends, receives, send_capacity, receive_capacity;
-    int32_t *send, *receive; /* places of these particles, in the order of the route */
+    int32_t *send, *receive;    /* places of these particles, in the order of the route */
     struct mps__parcel *parcel; /* what goes to which rank, while that is found */
     int64_t parcels, parcel_capacity, out_capacity, in_capacity;
     char *out, *in;

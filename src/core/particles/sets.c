@@ -99,8 +99,8 @@ static void join_parts(const mps__sets *s)
 /* Sets in the order of their labels: a root stands before its other parts. */
 static mps_status list_sets(mps__sets *s)
 {
-    MPS__TRY(mps__grow(s->context, (void **)&s->list, &s->list_capacity, 0, s->parts,
-                       sizeof *s->list));
+    MPS__TRY(
+        mps__grow(s->context, (void **)&s->list, &s->list_capacity, 0, s->parts, sizeof *s->list));
     s->count = 0;
     for (int64_t k = 0; k < s->parts; k++) {
         const int32_t root = root_of(s->set, (int32_t)k);
@@ -126,8 +126,8 @@ mps_status mps__sets_merge(mps__sets *s, mps__ranks *r)
         MPS__TRY(collect(s, r, (void **)&s->pair, &s->pair_capacity, &s->pairs, sizeof *s->pair));
     }
     if (s->parts > 0) qsort(s->part, (size_t)s->parts, sizeof *s->part, by_label);
-    MPS__TRY(mps__grow(s->context, (void **)&s->set, &s->set_capacity, 0, s->parts,
-                       sizeof *s->set));
+    MPS__TRY(
+        mps__grow(s->context, (void **)&s->set, &s->set_capacity, 0, s->parts, sizeof *s->set));
     join_parts(s);
     return list_sets(s);
 }

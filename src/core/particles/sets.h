@@ -10,7 +10,7 @@
 typedef struct mps__set {
     int64_t label; /* least id of its particles */
     int64_t rows;
-    int32_t flags; /* bits; a set has those of all its parts */
+    int32_t flags;  /* bits; a set has those of all its parts */
     int32_t number; /* of a set: its place in the order of labels */
     mps_exact sum;
 } mps__set;

@@ -84,22 +84,22 @@ static int32_t *carve_numbers(char **room, int64_t count)
 static mps_status reserve_rows(const assembly *a)
 {
     mps__ppe *e = a->e;
-    const int64_t n = e->n, all = e->columns, late = e->spare ? 0 : 2 + a->s->dim;
+    const int64_t n = e->n, all = e->columns, late = e->spare ? 0 : 2 * n + (1 + a->s->dim) * all;
     char *room = mps__scratch_take(e->context, e->scratch, ROWS,
-                                   2 * ((4 + late) * n + (e->spare ? 0 : all) + 1) + all + a->s->n,
-                                   sizeof(int32_t));
+                                   2 * (4 * n + late + 1) + 2 * all + a->s->n, sizeof(int32_t));
     if (!room) return MPS_E_NOMEM;
     e->diagonal = carve(&room, n);
     e->rhs = carve(&room, n);
     e->shift = carve(&room, n);
     e->row = (int64_t *)(void *)carve(&room, n + 1);
-    e->x = e->spare ? e->spare_x : carve(&room, n * a->s->dim);
+    e->x = e->spare ? e->spare_x : carve(&room, all * a->s->dim);
     char *spare = e->spare ? (char *)e->spare : (char *)carve(&room, 2 * n + all);
     e->weight = carve(&spare, n);
     e->p = carve(&spare, all);
     e->component = carve_numbers(&spare, n);
     e->queue = carve_numbers(&spare, n);
     e->particle = carve_numbers(&room, all);
+    e->order = carve_numbers(&room, all);
     e->unknown = carve_numbers(&room, a->s->n);
     return MPS_OK;
 }
@@ -248,15 +248,15 @@ static inline __attribute__((always_inline)) void fill_row(const int dim, const 
     }
 }
 
-/* What rows are not made of. It may stand where the terms were. */
+/* What rows are not made of, also of columns of other ranks. It may stand where the terms were. */
 static void note_unknown(const assembly *a, int64_t r)
 {
     const mps__ppe *e = a->e;
     const mps_stage *s = a->s;
     const int64_t i = e->particle[r];
-    e->weight[r] = s->dt * s->dt;
     e->p[r] = a->t->pressure[i];
     for (int d = 0; d < s->dim; d++) e->x[r * s->dim + d] = s->x[i * s->dim + d];
+    if (r < e->n) e->weight[r] = s->dt * s->dt;
 }
 
 static void fill_rows(void *argument, int64_t begin, int64_t end)
@@ -298,6 +298,23 @@ static int reduce_values(void *host, int32_t count, size_t bytes, void *values,
     return r->failed;
 }
 
+static int find_owners(void *host, int64_t m, const double *x, int32_t *rank)
+{
+    const mps__ppe *e = host;
+    return e->owner(e->world, m, x, rank) < 0;
+}
+
+/* Rows and columns of other ranks, merged by their particles. */
+static void order_columns(mps__ppe *e)
+{
+    int64_t row = 0, column = e->n;
+    for (int64_t k = 0; k < e->columns; k++) {
+        const bool own = column == e->columns ||
+                         (row < e->n && e->particle[row] < e->particle[column]);
+        e->order[k] = (int32_t)(own ? row++ : column++);
+    }
+}
+
 static mps_status set_ranks(mps__ppe *e)
 {
     if (!e->ghosts || !mps__ranks_many(e->ghosts->ranks)) return MPS_OK;
@@ -305,10 +322,13 @@ static mps_status set_ranks(mps__ppe *e)
     int64_t *rows = mps__scratch_take(e->context, e->scratch, NUMBERS, r->count, sizeof *rows);
     if (!rows) return MPS_E_NOMEM;
     mps__ranks_gather_number(r, e->n, rows);
+    order_columns(e);
     e->ranks = (mps_ppe_ranks){.struct_size = sizeof e->ranks,
                                .rank = r->rank,
                                .ranks = r->count,
                                .ghosts = e->columns - e->n,
+                               .order = e->order,
+                               .owner = find_owners,
                                .share = share_columns,
                                .reduce = reduce_values,
                                .host = e};
@@ -332,7 +352,7 @@ mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps__ppe_ter
     a.unknown = e->unknown;
     MPS__TRY(reserve_entries(e, start_rows(&a)));
     mps_parallel_rows(pairs->parallel, e->n, fill_rows, &a);
-    mps_parallel_rows(pairs->parallel, e->n, note_rows,
+    mps_parallel_rows(pairs->parallel, e->columns, note_rows,
                       &a); /* after all rows: it may overwrite terms that they look at */
     MPS__TRY(set_ranks(e));
     int32_t singular;

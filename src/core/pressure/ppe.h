@@ -27,6 +27,9 @@ typedef struct mps__ppe {
     double *spare,
         *spare_x; /* NULL, or room [3 particles], [particles*dim] that is free when rows are filled: terms but `value` */
     mps__ghosts *ghosts; /* NULL: alone */
+    /* on many ranks: who owns places of the lab */
+    mps_status (*owner)(void *world, int64_t m, const double *x, int32_t *rank);
+    void *world;       /* its first argument */
     int64_t n;         /* unknowns of the last assembly */
     int64_t columns;   /* and those of other ranks that they look at, behind them */
     int32_t *unknown;  /* [particles] row of a particle, or column of a ghost; -1: none */
@@ -34,12 +37,14 @@ typedef struct mps__ppe {
     int64_t *row;      /* [n+1] CSR beside the diagonal */
     int32_t *col;
     float *val;
-    double *diagonal, *rhs, *shift, *weight, *x;
+    double *diagonal, *rhs, *shift, *weight;
+    double *x;          /* [columns*dim] */
     double *p;          /* [columns] */
     double *gas, *law;  /* NULL: all rows are linear */
     int32_t *component; /* scratch unless there is one without a level: problem.component */
     bool level_free;    /* the largest component has no level */
     int32_t *queue;     /* [n] scratch */
+    int32_t *order;     /* on many ranks [columns] in the order of the particles */
     mps_ppe_problem problem;
     mps_ppe_ranks ranks; /* its entry `ranks` */
     mps__sets sets;      /* components of the matrix */

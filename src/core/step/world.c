@@ -343,6 +343,7 @@ static mps_status search_lists(mps__world *w, bool sorted, bool all)
     if (sorted) mps__neighbours_sorted(&w->lists.neighbours, s->n);
     w->lists.neighbours.kind = all ? NULL : s->kind;
     w->lists.neighbours.dummy_rows = mps__models_dummy_rows(&w->models);
+    w->lists.neighbours.ghost_rows = mps__models_neighbour_rows(&w->models);
     return mps__neighbours_search(&w->lists.neighbours, s->n, s->x, w->setup.re_near,
                                   w->setup.re_far);
 }

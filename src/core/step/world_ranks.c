@@ -6,12 +6,26 @@
 /* Ghosts must not be lost to rounding of places in the tank's frame. */
 static const double margin = 1e-9;
 
+/* Owners of places of the lab. */
+static mps_status find_owners(void *world, int64_t m, const double *x, int32_t *rank)
+{
+    mps__world *w = world;
+    for (int64_t k = 0; k < m && !w->ranks.failed; k++) {
+        double X[3];
+        mps__motion_to_tank(&w->motion, &w->motion.now, x + k * w->setup.dim, X);
+        w->ranks.failed = w->ranks.ops.owner(w->ranks.self, 1, X, rank + k) != 0;
+    }
+    return mps__ranks_status(&w->ranks);
+}
+
 mps_status mps__world_ranks_set(mps__world *w, const mps_ranks_ops *ops)
 {
     mps__particles *s = &w->particles;
     MPS__TRY(mps__ranks_set(&w->ranks, ops));
     if (!mps__ranks_many(&w->ranks)) return MPS_OK;
     w->ppe.ghosts = &w->ghosts;
+    w->ppe.owner = find_owners;
+    w->ppe.world = w;
     return mps__particles_field_add(s, "wall_id", 1, sizeof *s->wall_id, false,
                                     (void **)&s->wall_id);
 }
@@ -37,8 +51,13 @@ static float weight_of(const void *world, int64_t i)
 /* The walls of dummies that are ghosts are ghosts too: they are at most as far from them as rows reach. */
 static mps__placing placing(const mps__world *w)
 {
-    const double reach = (w->setup.re_far + w->lists.neighbours.skin) * (1 + margin);
-    return (mps__placing){place_of, weight_of, w, reach, 2 * reach};
+    const double skin = w->lists.neighbours.skin, far = w->setup.re_far + skin,
+                 rows = mps__models_neighbour_rows(&w->models) ? far + w->setup.re_near : far,
+                 solver = w->solvers.pc ? w->solvers.pc->reach * w->setup.dp + skin : 0,
+                 reach = fmax(rows,
+                              fmax(solver, mps__models_reach(&w->models, w->setup.dp) + skin));
+    return (mps__placing){place_of, weight_of, w, reach * (1 + margin),
+                          (reach + far) * (1 + margin)};
 }
 
 mps_status mps__world_adopt(mps__world *w)
@@ -125,8 +144,8 @@ mps_status mps__world_link_ghosts(mps__world *w)
 mps_status mps__world_share_areas(mps__world *w)
 {
     mps__particles *s = &w->particles;
-    return mps__ghosts_share(&w->ghosts,
-                             &(mps__shared){s->area, (size_t)s->dim * sizeof *s->area}, 1);
+    return mps__ghosts_share(&w->ghosts, &(mps__shared){s->area, (size_t)s->dim * sizeof *s->area},
+                             1);
 }
 
 mps_status mps__world_share_places(mps__world *w)
