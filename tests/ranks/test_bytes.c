@@ -10,13 +10,15 @@
 #include <string.h>
 #include <cmocka.h>
 
-enum { MOST = 20000, STEPS = 60, TEXT = 300, NUMBERS = 9 };
+enum { MOST = 8000, TEXT = 300, NUMBERS = 9 };
 
 typedef struct scene {
     const char *preset;
     int32_t dim, steps;
     double dp;
     mps_motion_fn motion;
+    int baffle;   /* 1: a block, 2: a thin plate, in the way of the fluid */
+    double sigma; /* of the interface [N/m] */
 } scene;
 
 /* What is compared: numbers of each particle by its id, and those of the step. */
@@ -55,13 +57,27 @@ static int roll(void *user, double t, mps_motion_state *state)
 static mps_status build(mps_sim *sim, const scene *s)
 {
     const double lo[3] = {0, 0, 0}, depth[3] = {0.3, 0.26, 0.4}, all[3] = {0.6, 0.45, 0.4};
+    const double b[3] = {0.36, 0, 0}, c[3] = {0.42, 0.1, 0.4}, up[3] = {0.02, 0.15, 0},
+                 along[3] = {0, 0, 0.4};
     mps_tank tank;
+    mps_phase gas;
     mps_status status = mps_preset_use(sim, s->preset);
     if (status == MPS_OK) status = mps_solver_use(sim, "sundials.pcg", "jacobi");
     mps_tank_init(&tank, sizeof tank);
     for (int d = 0; d < 3; d++) tank.size[d] = all[d];
     if (status == MPS_OK) status = mps_tank_add(sim, &tank, NULL);
+    if (status == MPS_OK && s->baffle == 1) status = mps_baffle_add(sim, "block", b, c, NULL);
+    if (status == MPS_OK && s->baffle == 2)
+        status = mps_plate_add(sim, "plate", b, up, s->dim == 3 ? along : NULL);
     if (status == MPS_OK) status = mps_fill_box_add(sim, 0, lo, depth, NULL, NULL);
+    mps_phase_init(&gas, sizeof gas);
+    gas.density = 1.2;
+    gas.viscosity = 1.8e-5;
+    if (status == MPS_OK && s->preset[0] == 'm') {
+        status = mps_phase_set(sim, 1, &gas);
+        if (status == MPS_OK) status = mps_fill_box_add(sim, 1, lo, all, NULL, NULL);
+        if (status == MPS_OK) status = mps_tension_set(sim, 0, 1, s->sigma);
+    }
     if (status == MPS_OK && s->motion) status = mps_motion_callback_set(sim, s->motion, NULL);
     return status;
 }
@@ -73,6 +89,7 @@ static void note(mps_sim *sim, const mps_step_info *info, int32_t rank, record *
     const int dim = s->dim;
     for (int64_t i = 0; i < s->n; i++) {
         if (mps__is_ghost(&sim->world.ghosts, i)) continue;
+        if (s->id[i] >= MOST) fail_msg("id %lld", (long long)s->id[i]);
         double *v = r->value[s->id[i]];
         for (int d = 0; d < dim; d++) {
             v[d] = s->x[i * dim + d];
@@ -194,9 +211,56 @@ static void roll_2d(void **state)
     check(&(scene){.preset = "imps", .dim = 2, .steps = 60, .dp = 0.02, .motion = roll});
 }
 
+static void baffle_2d(void **state)
+{
+    (void)state;
+    check(&(scene){.preset = "imps", .dim = 2, .steps = 150, .dp = 0.02, .baffle = 1});
+}
+
+static void plate_2d(void **state)
+{
+    (void)state;
+    check(&(scene){
+        .preset = "imps", .dim = 2, .steps = 120, .dp = 0.02, .baffle = 2, .motion = roll});
+}
+
+static void plate_3d(void **state)
+{
+    (void)state;
+    check(&(scene){.preset = "imps", .dim = 3, .steps = 25, .dp = 0.05, .baffle = 2});
+}
+
+static void air_2d(void **state)
+{
+    (void)state;
+    check(&(scene){
+        .preset = "mmps", .dim = 2, .steps = 40, .dp = 0.025, .motion = sway, .sigma = 0.07});
+}
+
+static void air_3d(void **state)
+{
+    (void)state;
+    check(&(scene){.preset = "mmps", .dim = 3, .steps = 8, .dp = 0.06, .sigma = 0.07});
+}
+
+static void paper_2d(void **state)
+{
+    (void)state;
+    check(&(scene){.preset = "imps.paper", .dim = 2, .steps = 40, .dp = 0.025});
+}
+
+static void paper_air_2d(void **state)
+{
+    (void)state;
+    check(&(scene){.preset = "mmps.paper", .dim = 2, .steps = 20, .dp = 0.025, .sigma = 0.07});
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(dam_2d), cmocka_unit_test(dam_3d),
-                                       cmocka_unit_test(surge_2d), cmocka_unit_test(roll_2d)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(dam_2d),   cmocka_unit_test(dam_3d),      cmocka_unit_test(surge_2d),
+        cmocka_unit_test(roll_2d),  cmocka_unit_test(baffle_2d),   cmocka_unit_test(plate_2d),
+        cmocka_unit_test(plate_3d), cmocka_unit_test(air_2d),      cmocka_unit_test(air_3d),
+        cmocka_unit_test(paper_2d), cmocka_unit_test(paper_air_2d)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -124,7 +124,7 @@ static void check_uses(mps_sim *sim, const mps_verb_info *v)
         char *colon = strchr(use, ':');
         assert_non_null(colon);
         *colon = 0;
-        const size_t letters = strspn(colon + 1, "rndw");
+        const size_t letters = strspn(colon + 1, "rndaw");
         assert_true(letters >= 1 && letters <= 2);
         const char *behind = colon + 1 + letters;
         assert_true(!behind[0] || strcmp(behind, "?") == 0);

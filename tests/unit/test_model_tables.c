@@ -109,7 +109,7 @@ static void bad_verbs(void **state)
     full.use_count = 2;
     refused(sim, &ops, "'velocity'");
     const mps_use uses[] = {{NULL, MPS_USE_READ}, {"velocity", 0},  {"velocity", MPS_USE_OPTIONAL},
-                            {"velocity", 32},     {"velocity", -1}, {"", MPS_USE_READ}};
+                            {"velocity", 64},     {"velocity", -1}, {"", MPS_USE_READ}};
     full.use_count = 1;
     for (size_t k = 0; k < sizeof uses / sizeof uses[0]; k++) {
         full.uses = &uses[k];

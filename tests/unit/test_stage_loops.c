@@ -442,9 +442,9 @@ static void scratch(void **state)
     play = bodies_and_blocks;
     ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_PLUGIN, "at most 16 blocks");
     play = refresh_all;
-    ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_PLUGIN, "components is 0");
+    ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_PLUGIN, "has 0 components");
     play = refresh_nothing;
-    ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_PLUGIN, "scratch is NULL");
+    ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_PLUGIN, "array 0 is NULL");
     play = take_blocks;
     blocks_wanted = 16;
     ASSERT_OK(sim, mps_step(sim, 1, NULL));
