@@ -292,6 +292,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     double dp = 0;
     if (!sim) return 0;
     input = &in;
+    memset(models, 0, sizeof models);
     mps_sim_shape(sim, NULL, &dp);
     mps_tank_init(&tank, sizeof tank);
     tank.size[0] = tank.size[1] = 0.5;

@@ -83,10 +83,9 @@ static inline int run_garbage(mps_stage *s)
     return end == 255 ? mps_stage_fail(s, "garbage") : end == 252;
 }
 
-static inline void register_model(fuzz_input *in, mps_sim *sim, int k)
+/* Tables must stay as they are while a handle has them: each is filled once per input. */
+static inline void fill_model(fuzz_input *in, garbage_model *m, int k)
 {
-    garbage_model *m = &models[k];
-    memset(m, 0, sizeof *m);
     snprintf(m->name, sizeof m->name, "garbage%d.any", k);
     m->channel[0] = (mps_channel){"mine", "-", "any", 2, MPS_TYPE_REAL, fuzz_byte(in) % 2, 0};
     m->channel[1] = (mps_channel){"ours", "-", "any", 1, MPS_TYPE_INTEGER, MPS_LIFE_STEP, 0};
@@ -96,10 +95,16 @@ static inline void register_model(fuzz_input *in, mps_sim *sim, int k)
                          .run = run_garbage};
     for (int u = 0; u < m->verb.use_count; u++) {
         m->which[u] = fuzz_pick(in, CHANNELS);
-        m->use[u] = (mps_use){channels[m->which[u]].name, fuzz_byte(in) % 16};
+        m->use[u] = (mps_use){channels[m->which[u]].name, fuzz_byte(in) % 64};
     }
     if (fuzz_byte(in) > 250) m->verb.after = "*";
     m->setting = (mps_setting){"any", "-", "any", MPS_TYPE_REAL, 0, -1, 1};
+}
+
+static inline void register_model(fuzz_input *in, mps_sim *sim, int k)
+{
+    garbage_model *m = &models[k];
+    if (!m->name[0]) fill_model(in, m, k);
     const mps_model_ops ops = {.struct_size = sizeof ops,
                                .api = MPS_MODEL_API,
                                .name = m->name,

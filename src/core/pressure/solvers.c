@@ -269,6 +269,19 @@ static int apply_in_use(void *self, const double *r, double *z)
     return s->pc->apply(s->pc_self, r, z);
 }
 
+/* One solution. A plug-in may report anything: its numbers are brought into their ranges. */
+static void run_solver(const mps__solvers *s, const mps_ppe_problem *problem,
+                       const mps_preconditioner_ops *pc, void *pc_self, double *p,
+                       mps_ppe_result *result)
+{
+    const int32_t most = problem->max_iterations;
+    s->use->solve(s->use_self, problem, pc, pc_self, p, result);
+    result->struct_size = sizeof *result;
+    if (result->iterations < 0) result->iterations = 0;
+    if (result->iterations > most) result->iterations = most;
+    if (!(result->setup_seconds >= 0) || isinf(result->setup_seconds)) result->setup_seconds = 0;
+}
+
 /* auxgrid is the default for its speed, and not proved for every matrix of a plug-in: where it fails jacobi solves again. */
 static void solve(mps__solvers *s, const mps_ppe_problem *problem, double *p,
                   mps_ppe_result *result)
@@ -281,13 +294,11 @@ static void solve(mps__solvers *s, const mps_ppe_problem *problem, double *p,
         pc.setup = setup_unless_ready;
         pc.apply = apply_in_use;
     }
-    s->use->solve(s->use_self, problem, s->pc ? &pc : NULL, s->pc ? s : NULL, p, result);
-    result->struct_size = sizeof *result;
+    run_solver(s, problem, s->pc ? &pc : NULL, s->pc ? s : NULL, p, result);
     const bool failed = result->reason == MPS_PPE_INDEFINITE || result->reason == MPS_PPE_BREAKDOWN;
     if (!failed || !s->pc || strcmp(s->pc->name, mps__preconditioner_auxgrid.name) != 0) return;
     if (!s->spare_self && spare->create(&s->context->allocator, &s->spare_self)) return;
-    s->use->solve(s->use_self, problem, spare, s->spare_self, p, &second);
-    second.struct_size = sizeof second;
+    run_solver(s, problem, spare, s->spare_self, p, &second);
     mps__log(s->context, MPS_LOG_WARNING,
              "preconditioner '%s' %s after %d iterations; with '%s' the solver %s", s->pc->name,
              reason_text(result->reason), result->iterations, spare->name,
