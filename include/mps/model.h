@@ -97,8 +97,8 @@ enum {
     /** Reads values of the neighbours of dummies too. Implies MPS_USE_NEIGHBOURS. Without an active
      *  model that does, dummies have no rows in mps_stage.near and .far. */
     MPS_USE_DUMMIES = 16,
-    /** Reads values of the near neighbours of neighbours within the far radius too, and looks at the
-     *  near rows of these. Implies MPS_USE_NEIGHBOURS. */
+    /** Reads values of the near neighbours of neighbours within the far radius too, and looks at
+     *  the near rows of these. Implies MPS_USE_NEIGHBOURS. */
     MPS_USE_ROWS = 32
 };
 
@@ -328,8 +328,8 @@ typedef struct mps_model_ops {
     void (*destroy)(const mps_allocator *allocator, void *self);
     /** Data of the caller, e.g. a pointer that the verbs need as s->self. */
     void *user;
-    /** NULL, or the farthest distance at which its verbs look at particles, if it is more than the far
-     *  radius [m]. @param setting  values of the settings in their order @param dp  spacing [m] */
+    /** NULL, or the farthest distance at which its verbs look at particles, if it is more than the
+     *  far radius [m]. @param setting  values of the settings in their order @param dp  spacing [m] */
     double (*reach)(const double *setting, double dp);
 } mps_model_ops;
 
@@ -444,8 +444,8 @@ typedef struct mps_shared {
 } mps_shared;
 
 /** Make values that rows wrote visible at their neighbours. Call it between a loop that writes
- *  scratch or a channel and a loop of the same verb that reads it at neighbours. Channels that other
- *  verbs wrote need no call.
+ *  scratch or a channel and a loop of the same verb that reads it at neighbours. Channels that
+ *  other verbs wrote need no call.
  *  @param shared  [count], 1..16 @return 0, or non-zero after a failure (the error is set) */
 MPS_API int mps_stage_refresh(mps_stage *s, int32_t count, const mps_shared *shared);
 

@@ -114,8 +114,8 @@ static inline int mps_ppe_reduce(const mps_ppe_problem *problem, int32_t count, 
                : 0;
 }
 
-/** Sums and maxima over the rows of all ranks, from those of this rank, in one message: at most 4 of
- *  each. @return as mps_ppe_share() */
+/** Sums and maxima over the rows of all ranks, from those of this rank, in one message: at most 4
+ *  of each. @return as mps_ppe_share() */
 MPS_API int mps_ppe_total(const mps_ppe_problem *problem, const mps_exact_values *values);
 
 /** Why a solver stopped. */
@@ -184,8 +184,8 @@ typedef struct mps_preconditioner_ops {
     int32_t ranks;
     /** Kept 0. */
     int32_t reserved;
-    /** On many ranks: farthest distance from an owned place of unknowns that it looks at [dp]; 0: the
-     *  far radius is enough. */
+    /** On many ranks: farthest distance from an owned place of unknowns that it looks at [dp]; 0:
+     *  the far radius is enough. */
     double reach;
 } mps_preconditioner_ops;
 

@@ -3,8 +3,8 @@
  *
  *  A rank is one of several processes, each with a handle of its own. All ranks make the same calls
  *  of the library with the same arguments, and together hold one simulation. A rank owns the
- *  particles of one part of space. It also has ghosts: copies of the particles of other ranks within
- *  reach of its own. An engine knows ranks, parts of space and messages; it knows no particles.
+ *  particles of one part of space. It also has ghosts: copies of the particles of other ranks
+ *  within reach of its own. An engine knows ranks, parts of space and messages, and no particles.
  *  Results do not depend on the number of ranks, nor on where the parts of space are cut.
  *
  *  All ranks call the same functions of their engines in the same order. Functions that return int
@@ -59,8 +59,8 @@ typedef struct mps_ranks_ops {
     /** Cut space anew, so that all ranks own about the same weight.
      *  @param n  places of this rank @param x  [n*dim] @param weight  [n] > 0 */
     int (*partition)(void *self, int32_t dim, int64_t n, const double *x, const float *weight);
-    /** Ranks that own places: a function of the place and the last partition, the same on all ranks.
-     *  Not collective. @param x  [n*dim] @param rank  [n] out */
+    /** Ranks that own places: a function of the place and the last partition, the same on all
+     *  ranks. Not collective. @param x  [n*dim] @param rank  [n] out */
     int (*owner)(void *self, int64_t n, const double *x, int32_t *rank);
     /** Ranks that own a place in a box, ascending. Not collective.
      *  @param lo  [dim] @param hi  [dim] @param rank  [ranks] out @param count  out */
