@@ -329,7 +329,8 @@ typedef struct mps_model_ops {
     /** Data of the caller, e.g. a pointer that the verbs need as s->self. */
     void *user;
     /** NULL, or the farthest distance at which its verbs look at particles, if it is more than the
-     *  far radius [m]. @param setting  values of the settings in their order @param dp  spacing [m] */
+     *  far radius [m].
+     *  @param setting  values of the settings in their order @param dp  spacing [m] */
     double (*reach)(const double *setting, double dp);
 } mps_model_ops;
 
