@@ -87,9 +87,9 @@ typedef struct mps_verb_info {
     const char *moment_name;
     /** Name of the model. */
     const char *model;
-    /** Channels that it uses, "name:r", "name:n" (neighbours), "name:d" (of dummies too), "name:w",
-     *  "name:rw", "name:nw", with a "?" behind if the channel may be missing and a space between
-     *  two. */
+    /** Channels that it uses, "name:r", "name:n" (neighbours), "name:d" (of dummies too), "name:a"
+     *  (and their neighbours), "name:w", "name:rw", "name:nw", with a "?" behind if the channel may
+     *  be missing and a space between two. */
     const char *uses;
 } mps_verb_info;
 

@@ -96,7 +96,10 @@ enum {
     MPS_USE_OPTIONAL = 8,
     /** Reads values of the neighbours of dummies too. Implies MPS_USE_NEIGHBOURS. Without an active
      *  model that does, dummies have no rows in mps_stage.near and .far. */
-    MPS_USE_DUMMIES = 16
+    MPS_USE_DUMMIES = 16,
+    /** Reads values of the near neighbours of neighbours within the far radius too, and looks at
+     *  the near rows of these. Implies MPS_USE_NEIGHBOURS. */
+    MPS_USE_ROWS = 32
 };
 
 /** A channel that a verb uses. Its array is s->data[k], k the place in mps_verb.uses. */
@@ -325,6 +328,10 @@ typedef struct mps_model_ops {
     void (*destroy)(const mps_allocator *allocator, void *self);
     /** Data of the caller, e.g. a pointer that the verbs need as s->self. */
     void *user;
+    /** NULL, or the farthest distance at which its verbs look at particles, if it is more than the
+     *  far radius [m].
+     *  @param setting  values of the settings in their order @param dp  spacing [m] */
+    double (*reach)(const double *setting, double dp);
 } mps_model_ops;
 
 /** Register a model on a handle; the table is copied. Then choose it with mps_model_use().
@@ -344,7 +351,9 @@ MPS_API void mps_stage_rows(const mps_stage *s, mps_rows_fn rows, void *argument
 typedef void (*mps_sums_fn)(const mps_stage *s, void *arguments, int64_t begin, int64_t end,
                             double *sums);
 
-/** Sums over all rows: the same bytes for any number of threads.
+/** Sums over all rows: the same bytes for any number of threads and any order of the rows, see
+ *  mps/exact.h. `add` is called for one row at a time, with sums of 0: what a row contributes must
+ *  not depend on other rows.
  *  @param count  1..16 @param sums  [count] out */
 MPS_API void mps_stage_sum(const mps_stage *s, int32_t count, mps_sums_fn add, void *arguments,
                            double *sums);
@@ -353,9 +362,11 @@ MPS_API void mps_stage_sum(const mps_stage *s, int32_t count, mps_sums_fn add, v
 MPS_API void mps_stage_max(const mps_stage *s, int32_t count, mps_sums_fn raise, void *arguments,
                            double *maxima);
 
-/** Mark rows that have a near neighbour among some rows.
- *  @param member  [n] not 0 for these rows @param beside  [n] out: 1 or 0 */
-MPS_API void mps_stage_beside(const mps_stage *s, const int32_t *member, int32_t *beside);
+/** Mark rows that have a near neighbour among some rows. A row without pairs, which solids away
+ *  from fluid and dummies may be, is not marked.
+ *  @param member  [n] not 0 for these rows @param beside  [n] out: 1 or 0
+ *  @return 0, or non-zero after a failure (the error is set) */
+MPS_API int mps_stage_beside(mps_stage *s, int32_t *member, int32_t *beside);
 
 /** Roles of rows in mps_stage_bodies(). */
 enum {
@@ -369,11 +380,12 @@ enum {
     MPS_BODY_ANCHOR = 3
 };
 
-/** Find bodies, sets of rows linked by near pairs, that no anchor holds. Dummies link no others.
+/** Find bodies, sets of fluid rows linked by near pairs, that no anchor holds. Solids may be
+ *  anchors and belong to no body. Borrows up to 3 blocks of scratch and returns them.
  *  @param most  larger bodies are taken for held @param role  [n] MPS_BODY_...
- *  @param body  [n] out: 0.. for rows of bodies that are free, else -1
+ *  @param body  [n] out: 0.. for rows of bodies that are free, by the least id of each, else -1
  *  @return 0, or non-zero after a failure (no memory; the error is set) */
-MPS_API int mps_stage_bodies(mps_stage *s, int32_t most, const int32_t *role, int32_t *body);
+MPS_API int mps_stage_bodies(mps_stage *s, int32_t most, int32_t *role, int32_t *body);
 
 /** Rows by square cells, for searches beyond the far radius: bucket b holds the rows first[b] - 1,
  *  next[of that] - 1, ... until 0, ascending, of all cells with that bucket. */
@@ -422,9 +434,21 @@ MPS_API int mps_stage_grid(mps_stage *s, double side, mps_grid *grid);
  *  @param velocity  NULL, or [dim] out, in the lab [m/s] */
 MPS_API void mps_stage_tank(const mps_stage *s, const double *x, double *place, double *velocity);
 
-/** Make values that rows wrote into scratch [n*components] visible at neighbours. Call it between a
- *  loop that writes scratch and one that reads it at neighbours. Channels need no call. */
-MPS_API int mps_stage_refresh(mps_stage *s, double *scratch, int32_t components);
+/** Scratch, or a channel, whose values a verb wrote and then reads at neighbours. */
+typedef struct mps_shared {
+    /** [n*components], double or int32_t */
+    void *values;
+    /** Numbers per particle. */
+    int32_t components;
+    /** MPS_TYPE_REAL or MPS_TYPE_INTEGER */
+    int32_t type;
+} mps_shared;
+
+/** Make values that rows wrote visible at their neighbours. Call it between a loop that writes
+ *  scratch or a channel and a loop of the same verb that reads it at neighbours. Channels that
+ *  other verbs wrote need no call.
+ *  @param shared  [count], 1..16 @return 0, or non-zero after a failure (the error is set) */
+MPS_API int mps_stage_refresh(mps_stage *s, int32_t count, const mps_shared *shared);
 
 /** Scratch of `count` doubles, zeroed, valid until the verb returns. At most 16, of both types.
  *  @return NULL: no memory, or too many (the error is set; let the verb return non-zero) */

@@ -3,6 +3,7 @@
 #ifndef MPS_MPS_H
 #define MPS_MPS_H
 
+#include <mps/exact.h>
 #include <mps/geometry.h>
 #include <mps/list.h>
 #include <mps/motion.h>
@@ -11,6 +12,7 @@
 #include <mps/parallel.h>
 #include <mps/particles.h>
 #include <mps/probe.h>
+#include <mps/ranks.h>
 #include <mps/sim.h>
 #include <mps/status.h>
 #include <mps/step.h>

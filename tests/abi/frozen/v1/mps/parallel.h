@@ -157,7 +157,7 @@ static inline void mps_parallel_reduce_part(void *argument, int32_t part)
 
 /** Sums and maxima over rows 0..n-1 in one loop. Rows are added up in MPS_PARALLEL_PARTS parts
  *  of fixed ranges and the parts in their order: the result has the same bytes for any number of
- *  threads.
+ *  threads, but not for another order of the rows; mps_exact_rows() has this too.
  *  @param body adds rows to the sums, raises the maxima; may be called with begin = end */
 static inline void mps_parallel_reduce(const mps_parallel *p, int64_t n, mps_reduce_fn body,
                                        void *argument, const mps_parallel_values *values)

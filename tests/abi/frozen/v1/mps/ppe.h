@@ -8,13 +8,46 @@
 #ifndef MPS_PPE_H
 #define MPS_PPE_H
 
+#include <mps/exact.h>
 #include <mps/parallel.h>
+#include <mps/ranks.h>
 #include <mps/types.h>
 
 MPS_BEGIN_DECLS
 
 /** Version of this interface, for mps_solver_ops.api and mps_preconditioner_ops.api. */
 #define MPS_PPE_API 1u
+
+/** An equation whose rows lie on several ranks. Each rank has `n` rows. Columns n..n+ghosts-1 are
+ *  unknowns of other ranks. All ranks make the same calls in the same order. */
+typedef struct mps_ppe_ranks {
+    /** sizeof(mps_ppe_ranks) of the library */
+    uint32_t struct_size;
+    /** Number of this rank. */
+    int32_t rank;
+    /** Number of ranks. */
+    int32_t ranks;
+    /** Kept 0. */
+    int32_t reserved;
+    /** Columns of unknowns of other ranks. */
+    int64_t ghosts;
+    /** Rows of all ranks. */
+    int64_t rows;
+    /** Rows of the ranks before this one: the number of row 0 among all rows. */
+    int64_t first;
+    /** [n + ghosts] columns in the order of the particles, which is the same on all ranks that have
+     *  them */
+    const int32_t *order;
+    /** Ranks that own places [m*dim] of the lab: a function of the place, the same on all ranks. A
+     *  column of a particle within reach of an owned place is here. Non-zero: failed. */
+    int (*owner)(void *host, int64_t m, const double *x, int32_t *rank);
+    /** Set x[n..n+ghosts-1] to the values that the owners have in x[0..n-1]. Non-zero: failed. */
+    int (*share)(void *host, double *x);
+    /** Combine values of all ranks, as mps_ranks_ops.reduce. Non-zero: failed. */
+    int (*reduce)(void *host, int32_t count, size_t bytes, void *values, mps_combine_fn combine);
+    /** First argument of these functions. */
+    void *host;
+} mps_ppe_ranks;
 
 /** One pressure equation, made by the library; all arrays are borrowed for the call. */
 typedef struct mps_ppe_problem {
@@ -26,7 +59,8 @@ typedef struct mps_ppe_problem {
     int64_t n;
     /** [n+1] CSR row starts of the entries beside the diagonal */
     const int64_t *row;
-    /** [row[n]] columns, ascending in a row */
+    /** [row[n]] columns, ascending in a row; on many ranks in the order of the particles, and those
+     *  of other ranks are n and above */
     const int32_t *col;
     /** [row[n]] -k_ij in single precision, for half the memory traffic; entries ij and ji are
      *  equal. */
@@ -39,7 +73,7 @@ typedef struct mps_ppe_problem {
     const double *shift;
     /** [n] residual times weight = divergence times dt */
     const double *weight;
-    /** [n*dim] positions of the unknowns [m] */
+    /** [n*dim] positions of the unknowns [m]; on many ranks [(n + ghosts)*dim] */
     const double *x;
     /** Particle spacing [m]. */
     double dp;
@@ -59,7 +93,30 @@ typedef struct mps_ppe_problem {
     const double *law;
     /** Threads to use; NULL: the calling thread. Valid as long as the matrix. */
     const mps_parallel *parallel;
+    /** NULL: all rows are here. Otherwise arrays of unknowns that are multiplied by the matrix need
+     *  room for n + ghosts values. */
+    const mps_ppe_ranks *ranks;
 } mps_ppe_problem;
+
+/** Set the values of x at columns of other ranks; does nothing where all rows are here.
+ *  @param x  [n + ghosts] @return 0, or non-zero after a failure */
+static inline int mps_ppe_share(const mps_ppe_problem *problem, double *x)
+{
+    return problem->ranks ? problem->ranks->share(problem->ranks->host, x) : 0;
+}
+
+/** Combine values of all ranks; does nothing where all rows are here. @return as mps_ppe_share() */
+static inline int mps_ppe_reduce(const mps_ppe_problem *problem, int32_t count, size_t bytes,
+                                 void *values, mps_combine_fn combine)
+{
+    return problem->ranks
+               ? problem->ranks->reduce(problem->ranks->host, count, bytes, values, combine)
+               : 0;
+}
+
+/** Sums and maxima over the rows of all ranks, from those of this rank, in one message: at most 4
+ *  of each. @return as mps_ppe_share() */
+MPS_API int mps_ppe_total(const mps_ppe_problem *problem, const mps_exact_values *values);
 
 /** Why a solver stopped. */
 enum {
@@ -123,6 +180,13 @@ typedef struct mps_preconditioner_ops {
     void *user;
     /** NULL, or one line for lists. */
     const char *help;
+    /** 1: works on equations whose rows lie on several ranks (mps_ppe_problem.ranks); default 0 */
+    int32_t ranks;
+    /** Kept 0. */
+    int32_t reserved;
+    /** On many ranks: farthest distance from an owned place of unknowns that it looks at [dp]; 0:
+     *  the far radius is enough. */
+    double reach;
 } mps_preconditioner_ops;
 
 /** A solver. The kit of tests/conformance checks a table for all demands below (solver_kit.h:
@@ -173,6 +237,8 @@ typedef struct mps_solver_ops {
     void *user;
     /** NULL, or one line for lists. */
     const char *help;
+    /** 1: works on equations whose rows lie on several ranks (mps_ppe_problem.ranks); default 0 */
+    int32_t ranks;
 } mps_solver_ops;
 
 /** Register a solver on a handle under its name; the table is copied.

@@ -25,7 +25,8 @@ typedef int32_t mps_status;
     X(MPS_E_SOLVER, -8, "the pressure solver broke down")                                       \
     X(MPS_E_PLUGIN, -9, "a plug-in reported a failure")                                         \
     X(MPS_E_IO, -10, "a file could not be read or written")                                     \
-    X(MPS_E_VERSION, -11, "a struct or a table comes from a newer version")
+    X(MPS_E_VERSION, -11, "a struct or a table comes from a newer version")                     \
+    X(MPS_E_RANKS, -12, "another rank failed, or the messages between ranks did")
 
 #define MPS_STATUS_ENUM(name, value, meaning) name = (value),
 enum { MPS_STATUS_LIST(MPS_STATUS_ENUM) };
