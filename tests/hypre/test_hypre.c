@@ -193,9 +193,13 @@ static void take_steps(mps_sim *sim, int count)
 static void test_against_pcg(void **state)
 {
     (void)state;
-    const mps_solver_ops both = {sizeof both, MPS_PPE_API,    "test.both", NULL,
-                                 1,           create_nothing, solve_both,  destroy_nothing,
-                                 0,           NULL,           NULL};
+    const mps_solver_ops both = {.struct_size = sizeof both,
+                                 .api = MPS_PPE_API,
+                                 .name = "test.both",
+                                 .symmetric = 1,
+                                 .create = create_nothing,
+                                 .solve = solve_both,
+                                 .destroy = destroy_nothing};
     for (int k = 0; k < 4; k++) {
         mps_sim *sim = make_tank(2 + k / 2, k % 2);
         assert_int_equal(mps_solver_register(sim, &both), MPS_OK);
