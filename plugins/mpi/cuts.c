@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Cuts of space: recursive coordinate bisection of Zoltan. Each rank keeps all cuts, so that owners are found without messages. */
-#include "engine.h"
+#include "mpi_engine.h"
 #include <stdio.h>
 #include <string.h>
 #include <zoltan.h>

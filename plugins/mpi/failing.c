@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Failing together. A rank that fails sends its text to rank 0. Rank 0 sends the first text that it gets to all ranks, so that all have the
  * same one. All loops that wait listen for these notices, which have a communicator of their own. */
-#include "engine.h"
+#include "mpi_engine.h"
 #include <stdio.h>
 #include <string.h>
 

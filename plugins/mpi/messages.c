@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Routes, exchanges, reductions and gathers, all of sends and receives: those can be cancelled when a rank fails, collective calls of MPI can
  * not. */
-#include "engine.h"
+#include "mpi_engine.h"
 #include <stdlib.h>
 #include <string.h>
 

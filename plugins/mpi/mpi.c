@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The table of the engine, and how it begins and ends. */
-#include "engine.h"
+#include "mpi_engine.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Memory, messages that begin, and the loop that waits for them. */
-#include "engine.h"
+#include "mpi_engine.h"
 #include <sched.h>
 #include <stdio.h>
 #include <string.h>
