@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # What `cmake --install` puts where. The static library's targets are a set of their own: only they need SUNDIALS.
-# Components, which are packages of Debian: runtime, dev (what has no other name), drivers, hypre.
+# Components, which are packages of Debian: runtime, dev (what has no other name), drivers, hypre, mpi.
 include(CMakePackageConfigHelpers)
 
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME dev)

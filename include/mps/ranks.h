@@ -50,9 +50,10 @@ typedef struct mps_ranks_ops {
     uint32_t api;
     /** e.g. "mpi.zoltan" */
     const char *name;
-    /** New state in *self, which holds `user` before. Non-zero: out of memory. */
-    int (*create)(const mps_allocator *allocator, void **self);
-    /** Gives back what create made. */
+    /** New state in *self, which holds `user` before. Non-zero: it failed.
+     *  @param text  [size] out: why it failed; empty: out of memory */
+    int (*create)(const mps_allocator *allocator, void **self, char *text, size_t size);
+    /** Gives back what create made. All ranks call it, also after a failure. */
     void (*destroy)(const mps_allocator *allocator, void *self);
     /** Number of this rank, from 0, and of all ranks. */
     void (*place)(void *self, int32_t *rank, int32_t *ranks);
@@ -85,9 +86,9 @@ typedef struct mps_ranks_ops {
      *  @param own  block of this rank @param bytes  [ranks] of each block @param all  out */
     int (*gather)(void *self, const void *own, const int64_t *bytes, void *all);
     /** This rank fails, perhaps while others wait for it: their calls end with non-zero, and so do
-     *  all later ones on every rank. Not collective. */
+     *  all later ones on every rank. No array of an exchange is used any more. Not collective. */
     void (*fail)(void *self, const char *text);
-    /** Text of the rank that failed first; NULL: none failed. */
+    /** Text of the rank that failed first, the same on all ranks; NULL: none failed. */
     const char *(*failure)(void *self);
     /** What *self holds when create is called. */
     void *user;

@@ -87,9 +87,9 @@ static int barrier(engine_team *t)
     return failed;
 }
 
-static int create(const mps_allocator *allocator, void **self)
+static int create(const mps_allocator *allocator, void **self, char *text, size_t size)
 {
-    (void)allocator, (void)self; /* the seat is the state */
+    (void)allocator, (void)self, (void)text, (void)size; /* the seat is the state */
     return 0;
 }
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Runs on 2, 3, 4 and 7 ranks have the bytes of a run on one, after every step. */
 #include "engine.h"
+#include "scenes.h"
 #include "sim.h"
-#include <mps/mps.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -10,23 +10,7 @@
 #include <string.h>
 #include <cmocka.h>
 
-enum { MOST = 8000, TEXT = 300, NUMBERS = 9 };
-
-typedef struct scene {
-    const char *preset;
-    int32_t dim, steps;
-    double dp;
-    mps_motion_fn motion;
-    int baffle;   /* 1: a block, 2: a thin plate, in the way of the fluid */
-    double sigma; /* of the interface [N/m] */
-} scene;
-
-/* What is compared: numbers of each particle by its id, and those of the step. */
-typedef struct record {
-    double value[MOST][NUMBERS];
-    double info[8];
-    int64_t count;
-} record;
+enum { TEXT = 300 };
 
 typedef struct run {
     const scene *scene;
@@ -35,104 +19,22 @@ typedef struct run {
     char error[64][TEXT];
 } run;
 
-/* Polynomials alone: sines of C libraries differ in the last digit. */
-static int sway(void *user, double t, mps_motion_state *state)
-{
-    (void)user;
-    state->value[MPS_SURGE] = 1.5 * t * t;
-    state->rate[MPS_SURGE] = 3 * t;
-    state->accel[MPS_SURGE] = 3;
-    return 0;
-}
-
-static int roll(void *user, double t, mps_motion_state *state)
-{
-    (void)user;
-    state->value[MPS_ROLL] = 2 * t * t;
-    state->rate[MPS_ROLL] = 4 * t;
-    state->accel[MPS_ROLL] = 4;
-    return 0;
-}
-
-static mps_status build(mps_sim *sim, const scene *s)
-{
-    const double lo[3] = {0, 0, 0}, depth[3] = {0.3, 0.26, 0.4}, all[3] = {0.6, 0.45, 0.4};
-    const double b[3] = {0.36, 0, 0}, c[3] = {0.42, 0.1, 0.4}, up[3] = {0.02, 0.15, 0},
-                 along[3] = {0, 0, 0.4};
-    mps_tank tank;
-    mps_phase gas;
-    mps_status status = mps_preset_use(sim, s->preset);
-    if (status == MPS_OK) status = mps_solver_use(sim, "sundials.pcg", "jacobi");
-    mps_tank_init(&tank, sizeof tank);
-    for (int d = 0; d < 3; d++) tank.size[d] = all[d];
-    if (status == MPS_OK) status = mps_tank_add(sim, &tank, NULL);
-    if (status == MPS_OK && s->baffle == 1) status = mps_baffle_add(sim, "block", b, c, NULL);
-    if (status == MPS_OK && s->baffle == 2)
-        status = mps_plate_add(sim, "plate", b, up, s->dim == 3 ? along : NULL);
-    if (status == MPS_OK) status = mps_fill_box_add(sim, 0, lo, depth, NULL, NULL);
-    mps_phase_init(&gas, sizeof gas);
-    gas.density = 1.2;
-    gas.viscosity = 1.8e-5;
-    if (status == MPS_OK && s->preset[0] == 'm') {
-        status = mps_phase_set(sim, 1, &gas);
-        if (status == MPS_OK) status = mps_fill_box_add(sim, 1, lo, all, NULL, NULL);
-        if (status == MPS_OK) status = mps_tension_set(sim, 0, 1, s->sigma);
-    }
-    if (status == MPS_OK && s->motion) status = mps_motion_callback_set(sim, s->motion, NULL);
-    return status;
-}
-
-/* Owned particles only; each rank fills its own. */
-static void note(mps_sim *sim, const mps_step_info *info, int32_t rank, record *r)
-{
-    const mps__particles *s = &sim->world.particles;
-    const int dim = s->dim;
-    for (int64_t i = 0; i < s->n; i++) {
-        if (mps__is_ghost(&sim->world.ghosts, i)) continue;
-        if (s->id[i] >= MOST) fail_msg("id %lld", (long long)s->id[i]);
-        double *v = r->value[s->id[i]];
-        for (int d = 0; d < dim; d++) {
-            v[d] = s->x[i * dim + d];
-            v[3 + d] = s->u[i * dim + d];
-        }
-        v[6] = s->p[i];
-        v[7] = s->nd[i];
-        v[8] = s->load[i];
-        __atomic_fetch_add(&r->count, 1, __ATOMIC_RELAXED);
-    }
-    mps_energy e = {.struct_size = sizeof e};
-    mps_energy_get(sim, &e);
-    const double numbers[] = {info->t,
-                              info->dt,
-                              info->ppe_iterations,
-                              (double)info->ppe_unknowns,
-                              (double)info->surface,
-                              info->max_speed,
-                              e.kinetic,
-                              e.wall_work};
-    if (rank == 0) memcpy(r->info, numbers, sizeof numbers);
-}
-
 static void run_rank(void *argument, int32_t rank)
 {
     run *k = argument;
-    mps_config config;
     mps_sim *sim = NULL;
     mps_step_info info;
-    mps_config_init(&config, sizeof config);
-    config.dim = k->scene->dim;
-    config.dp = k->scene->dp;
     mps_step_info_init(&info, sizeof info);
-    mps_status status = mps_sim_create(&config, &sim);
+    mps_status status = scene_create(k->scene, &sim);
     if (status == MPS_OK && k->team) {
         const mps_ranks_ops ops = engine_ops(k->team, rank);
         status = mps_sim_ranks_set(sim, &ops);
     }
-    if (status == MPS_OK) status = build(sim, k->scene);
+    if (status == MPS_OK) status = scene_build(sim, k->scene);
     for (int s = 0; s < k->scene->steps && status >= 0; s++) {
         sim->world.ghosts.recut = s % 7 == 3; /* new cuts whenever a search comes */
         status = mps_step(sim, 1, &info);
-        if (status >= 0) note(sim, &info, rank, &k->records[s]);
+        if (status >= 0) record_note(sim, &info, &k->records[s]);
     }
     if (status < 0) snprintf(k->error[rank], TEXT, "%s", mps_sim_error(sim));
     mps_sim_destroy(sim);
@@ -153,26 +55,12 @@ static record *run_scene(const scene *s, int32_t ranks, uint32_t skew)
     return k.records;
 }
 
-static void compare(const scene *s, const record *a, const record *b, int32_t ranks)
+static void compare(const scene *s, const record *alone, const record *many, int32_t ranks)
 {
-    static const char *const names[] = {"x", "y", "z", "u", "v", "w", "p", "n", "load"},
-                             *const infos[] = {"t",       "dt",        "iterations", "unknowns",
-                                               "surface", "max_speed", "kinetic",    "wall_work"};
-    for (int k = 0; k < s->steps; k++) {
-        if (a[k].count != b[k].count)
-            fail_msg("%d ranks, step %d: %lld particles, not %lld", (int)ranks, k + 1,
-                     (long long)b[k].count, (long long)a[k].count);
-        for (int v = 0; v < 8; v++)
-            if (memcmp(&a[k].info[v], &b[k].info[v], sizeof(double)) != 0)
-                fail_msg("%d ranks, step %d: %s is %.17g, not %.17g", (int)ranks, k + 1, infos[v],
-                         b[k].info[v], a[k].info[v]);
-        for (int64_t id = 0; id < MOST; id++)
-            for (int v = 0; v < NUMBERS; v++)
-                if (memcmp(&a[k].value[id][v], &b[k].value[id][v], sizeof(double)) != 0)
-                    fail_msg("%d ranks, step %d: %s of particle %lld is %.17g, not %.17g",
-                             (int)ranks, k + 1, names[v], (long long)id, b[k].value[id][v],
-                             a[k].value[id][v]);
-    }
+    char text[TEXT];
+    for (int k = 0; k < s->steps; k++)
+        if (!record_same(&alone[k], &many[k], text, sizeof text))
+            fail_msg("%s on %d ranks, step %d: %s", s->name, (int)ranks, k + 1, text);
 }
 
 static void check(const scene *s)
@@ -187,80 +75,17 @@ static void check(const scene *s)
     free(alone);
 }
 
-static void dam_2d(void **state)
+static void test_scene(void **state)
 {
-    (void)state;
-    check(&(scene){.preset = "imps", .dim = 2, .steps = 60, .dp = 0.02});
-}
-
-static void dam_3d(void **state)
-{
-    (void)state;
-    check(&(scene){.preset = "imps", .dim = 3, .steps = 20, .dp = 0.05});
-}
-
-static void surge_2d(void **state)
-{
-    (void)state;
-    check(&(scene){.preset = "imps", .dim = 2, .steps = 60, .dp = 0.02, .motion = sway});
-}
-
-static void roll_2d(void **state)
-{
-    (void)state;
-    check(&(scene){.preset = "imps", .dim = 2, .steps = 60, .dp = 0.02, .motion = roll});
-}
-
-static void baffle_2d(void **state)
-{
-    (void)state;
-    check(&(scene){.preset = "imps", .dim = 2, .steps = 150, .dp = 0.02, .baffle = 1});
-}
-
-static void plate_2d(void **state)
-{
-    (void)state;
-    check(&(scene){
-        .preset = "imps", .dim = 2, .steps = 120, .dp = 0.02, .baffle = 2, .motion = roll});
-}
-
-static void plate_3d(void **state)
-{
-    (void)state;
-    check(&(scene){.preset = "imps", .dim = 3, .steps = 25, .dp = 0.05, .baffle = 2});
-}
-
-static void air_2d(void **state)
-{
-    (void)state;
-    check(&(scene){
-        .preset = "mmps", .dim = 2, .steps = 40, .dp = 0.025, .motion = sway, .sigma = 0.07});
-}
-
-static void air_3d(void **state)
-{
-    (void)state;
-    check(&(scene){.preset = "mmps", .dim = 3, .steps = 8, .dp = 0.06, .sigma = 0.07});
-}
-
-static void paper_2d(void **state)
-{
-    (void)state;
-    check(&(scene){.preset = "imps.paper", .dim = 2, .steps = 40, .dp = 0.025});
-}
-
-static void paper_air_2d(void **state)
-{
-    (void)state;
-    check(&(scene){.preset = "mmps.paper", .dim = 2, .steps = 20, .dp = 0.025, .sigma = 0.07});
+    check(*state);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(dam_2d),   cmocka_unit_test(dam_3d),      cmocka_unit_test(surge_2d),
-        cmocka_unit_test(roll_2d),  cmocka_unit_test(baffle_2d),   cmocka_unit_test(plate_2d),
-        cmocka_unit_test(plate_3d), cmocka_unit_test(air_2d),      cmocka_unit_test(air_3d),
-        cmocka_unit_test(paper_2d), cmocka_unit_test(paper_air_2d)};
+    struct CMUnitTest tests[SCENES];
+    for (int k = 0; k < SCENES; k++)
+        tests[k] = (struct CMUnitTest){.name = scenes[k].name,
+                                       .test_func = test_scene,
+                                       .initial_state = (void *)(uintptr_t)&scenes[k]};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

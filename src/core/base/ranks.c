@@ -28,8 +28,10 @@ mps_status mps__ranks_set(mps__ranks *r, const mps_ranks_ops *ops)
     MPS__TRY(mps__struct_in(r->context, "mps_ranks_ops", &copy, sizeof copy, ops));
     MPS__TRY(check_table(r->context, &copy));
     void *self = copy.user;
-    if (copy.create(&r->context->allocator, &self))
-        return mps__fail(r->context, MPS_E_NOMEM, "no memory for engine of ranks '%s'", copy.name);
+    char text[MPS__HINT_SIZE] = "";
+    if (copy.create(&r->context->allocator, &self, text, sizeof text))
+        return mps__fail(r->context, text[0] ? MPS_E_PLUGIN : MPS_E_NOMEM,
+                         "engine of ranks '%s': %s", copy.name, text[0] ? text : "no memory");
     int32_t rank = -1, count = 0;
     copy.place(self, &rank, &count);
     if (count < 1 || rank < 0 || rank >= count) {

@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Failing together. A rank that fails sends its text to rank 0. Rank 0 sends the first text that it gets to all ranks, so that all have the
+ * same one. All loops that wait listen for these notices, which have a communicator of their own. */
+#include "mpi_engine.h"
+#include <stdio.h>
+#include <string.h>
+
+enum { FAILED = 1, GOODBYE };
+/* A rank that failed waits for the text of rank 0, and at the end for messages of others [s]. */
+static const double patience_text = 1, patience_end = 2;
+
+static void tell(mps__mpi *e, int32_t rank, int tag)
+{
+    MPI_Request *request = &e->telling.request[e->telling.count];
+    const int bytes = tag == FAILED ? (int)strlen(e->own) + 1 : 0;
+    if (e->telling.count < e->telling.room &&
+        MPI_Isend(e->own, bytes, MPI_CHAR, rank, tag, e->notices, request) == MPI_SUCCESS)
+        e->telling.count++;
+}
+
+int mps__mpi_listen_begin(mps__mpi *e)
+{
+    return MPI_Irecv(e->heard, MPS__MPI_TEXT, MPI_CHAR, e->rank == 0 ? MPI_ANY_SOURCE : 0,
+                     MPI_ANY_TAG, e->notices, &e->notice) != MPI_SUCCESS;
+}
+
+/* Rank 0: this text counts. */
+static void settle(mps__mpi *e, const char *text)
+{
+    if (e->settled) return;
+    snprintf(e->own, sizeof e->own, "%s", text);
+    e->text = e->own;
+    e->failed = e->settled = true;
+    for (int32_t k = 1; k < e->ranks; k++)
+        if (!e->gone[k]) tell(e, k, FAILED);
+}
+
+/* A notice came. */
+static void hear(mps__mpi *e, const MPI_Status *status)
+{
+    e->heard[MPS__MPI_TEXT - 1] = '\0';
+    if (e->rank > 0) {
+        e->text = e->heard;
+        e->failed = e->settled = true;
+        return;
+    }
+    if (status->MPI_TAG == GOODBYE)
+        e->gone[status->MPI_SOURCE] = 1;
+    else
+        settle(e, e->heard);
+    if (mps__mpi_listen_begin(e)) settle(e, "MPI does not receive messages any more");
+}
+
+bool mps__mpi_failed(mps__mpi *e)
+{
+    MPI_Status status;
+    int here = 1;
+    while (here && e->notice != MPI_REQUEST_NULL) {
+        if (MPI_Test(&e->notice, &here, &status) != MPI_SUCCESS) break;
+        if (here) hear(e, &status);
+    }
+    return e->failed;
+}
+
+void mps__mpi_fail(void *engine, const char *text)
+{
+    mps__mpi *e = engine;
+    if (mps__mpi_failed(e)) return;
+    if (e->rank == 0) {
+        settle(e, text);
+        return;
+    }
+    snprintf(e->own, sizeof e->own, "%s", text);
+    e->text = e->own;
+    e->failed = true;
+    tell(e, 0, FAILED);
+}
+
+const char *mps__mpi_failure(void *engine)
+{
+    mps__mpi *e = engine;
+    if (!mps__mpi_failed(e)) return NULL;
+    const double end = mps__mpi_now() + patience_text;
+    for (int64_t turn = 0; !e->settled && mps__mpi_now() < end; turn++) {
+        mps__mpi_failed(e);
+        mps__mpi_rest(turn);
+    }
+    return e->text;
+}
+
+int mps__mpi_error(mps__mpi *e, const char *call, int code)
+{
+    char text[MPS__MPI_TEXT], why[MPI_MAX_ERROR_STRING] = "";
+    int length = 0;
+    MPI_Error_string(code, why, &length);
+    snprintf(text, sizeof text, "rank %d of %d: MPI failed in '%s': %.300s", (int)e->rank,
+             (int)e->ranks, call, why);
+    mps__mpi_fail(e, text);
+    return 1;
+}
+
+static bool all_gone(const mps__mpi *e)
+{
+    for (int32_t k = 1; k < e->ranks && e->rank == 0; k++)
+        if (!e->gone[k]) return false;
+    return true;
+}
+
+/* Rank 0 stays until all others are gone: one of them may still fail and have to be heard. */
+bool mps__mpi_leave(mps__mpi *e)
+{
+    if (e->rank > 0) tell(e, 0, GOODBYE);
+    const double begin = mps__mpi_now();
+    int sent = 0;
+    for (int64_t turn = 0;; turn++) {
+        const double limit = mps__mpi_failed(e) || e->rank > 0 ? patience_end : e->watchdog;
+        MPI_Testall(e->telling.count, e->telling.request, &sent, MPI_STATUSES_IGNORE);
+        if ((sent && all_gone(e)) || mps__mpi_now() - begin > limit) break;
+        mps__mpi_rest(turn);
+    }
+    if (e->notice != MPI_REQUEST_NULL) {
+        MPI_Cancel(&e->notice);
+        MPI_Wait(&e->notice, MPI_STATUS_IGNORE);
+    }
+    if (!sent) e->stuck = true;
+    return sent && all_gone(e);
+}

@@ -1,0 +1,151 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Scenes whose bytes do not depend on the number of ranks. */
+#include "scenes.h"
+#include "sim.h"
+#include <stdio.h>
+#include <string.h>
+
+/* Polynomials alone: sines of C libraries differ in the last digit. */
+static int sway(void *user, double t, mps_motion_state *state)
+{
+    (void)user;
+    state->value[MPS_SURGE] = 1.5 * t * t;
+    state->rate[MPS_SURGE] = 3 * t;
+    state->accel[MPS_SURGE] = 3;
+    return 0;
+}
+
+static int roll(void *user, double t, mps_motion_state *state)
+{
+    (void)user;
+    state->value[MPS_ROLL] = 2 * t * t;
+    state->rate[MPS_ROLL] = 4 * t;
+    state->accel[MPS_ROLL] = 4;
+    return 0;
+}
+
+const scene scenes[SCENES] = {
+    {.name = "dam_2d", .preset = "imps", .dim = 2, .steps = 60, .dp = 0.02},
+    {.name = "dam_3d", .preset = "imps", .dim = 3, .steps = 20, .dp = 0.05},
+    {.name = "surge_2d", .preset = "imps", .dim = 2, .steps = 60, .dp = 0.02, .motion = sway},
+    {.name = "roll_2d", .preset = "imps", .dim = 2, .steps = 60, .dp = 0.02, .motion = roll},
+    {.name = "baffle_2d", .preset = "imps", .dim = 2, .steps = 150, .dp = 0.02, .baffle = 1},
+    {.name = "plate_2d",
+     .preset = "imps",
+     .dim = 2,
+     .steps = 120,
+     .dp = 0.02,
+     .motion = roll,
+     .baffle = 2},
+    {.name = "plate_3d", .preset = "imps", .dim = 3, .steps = 25, .dp = 0.05, .baffle = 2},
+    {.name = "air_2d",
+     .preset = "mmps",
+     .dim = 2,
+     .steps = 40,
+     .dp = 0.025,
+     .motion = sway,
+     .sigma = 0.07},
+    {.name = "air_3d", .preset = "mmps", .dim = 3, .steps = 8, .dp = 0.06, .sigma = 0.07},
+    {.name = "paper_2d", .preset = "imps.paper", .dim = 2, .steps = 40, .dp = 0.025},
+    {.name = "paper_air_2d",
+     .preset = "mmps.paper",
+     .dim = 2,
+     .steps = 20,
+     .dp = 0.025,
+     .sigma = 0.07},
+};
+
+mps_status scene_create(const scene *s, mps_sim **sim)
+{
+    mps_config config;
+    mps_config_init(&config, sizeof config);
+    config.dim = s->dim;
+    config.dp = s->dp;
+    return mps_sim_create(&config, sim);
+}
+
+static mps_status add_air(mps_sim *sim, const scene *s, const double lo[3], const double hi[3])
+{
+    mps_phase gas;
+    mps_phase_init(&gas, sizeof gas);
+    gas.density = 1.2;
+    gas.viscosity = 1.8e-5;
+    mps_status status = mps_phase_set(sim, 1, &gas);
+    if (status == MPS_OK) status = mps_fill_box_add(sim, 1, lo, hi, NULL, NULL);
+    if (status == MPS_OK) status = mps_tension_set(sim, 0, 1, s->sigma);
+    return status;
+}
+
+mps_status scene_build(mps_sim *sim, const scene *s)
+{
+    const double lo[3] = {0, 0, 0}, depth[3] = {0.3, 0.26, 0.4}, all[3] = {0.6, 0.45, 0.4};
+    const double b[3] = {0.36, 0, 0}, c[3] = {0.42, 0.1, 0.4}, up[3] = {0.02, 0.15, 0},
+                 along[3] = {0, 0, 0.4};
+    mps_tank tank;
+    mps_status status = mps_preset_use(sim, s->preset);
+    if (status == MPS_OK) status = mps_solver_use(sim, "sundials.pcg", "jacobi");
+    mps_tank_init(&tank, sizeof tank);
+    for (int d = 0; d < 3; d++) tank.size[d] = all[d];
+    if (status == MPS_OK) status = mps_tank_add(sim, &tank, NULL);
+    if (status == MPS_OK && s->baffle == 1) status = mps_baffle_add(sim, "block", b, c, NULL);
+    if (status == MPS_OK && s->baffle == 2)
+        status = mps_plate_add(sim, "plate", b, up, s->dim == 3 ? along : NULL);
+    if (status == MPS_OK) status = mps_fill_box_add(sim, 0, lo, depth, NULL, NULL);
+    if (status == MPS_OK && s->preset[0] == 'm') status = add_air(sim, s, lo, all);
+    if (status == MPS_OK && s->motion) status = mps_motion_callback_set(sim, s->motion, NULL);
+    return status;
+}
+
+void record_note(mps_sim *sim, const mps_step_info *info, record *r)
+{
+    const mps__particles *s = &sim->world.particles;
+    const int dim = s->dim;
+    for (int64_t i = 0; i < s->n; i++) {
+        if (mps__is_ghost(&sim->world.ghosts, i)) continue;
+        double *v = r->value[s->id[i]];
+        for (int d = 0; d < dim; d++) {
+            v[d] = s->x[i * dim + d];
+            v[3 + d] = s->u[i * dim + d];
+        }
+        v[6] = s->p[i];
+        v[7] = s->nd[i];
+        v[8] = s->load[i];
+        __atomic_fetch_add(&r->count, 1, __ATOMIC_RELAXED);
+    }
+    mps_energy e = {.struct_size = sizeof e};
+    mps_energy_get(sim, &e);
+    const double numbers[] = {info->t,
+                              info->dt,
+                              info->ppe_iterations,
+                              (double)info->ppe_unknowns,
+                              (double)info->surface,
+                              info->max_speed,
+                              e.kinetic,
+                              e.wall_work};
+    if (sim->world.ranks.rank == 0) memcpy(r->info, numbers, sizeof numbers);
+}
+
+bool record_same(const record *alone, const record *many, char *text, size_t size)
+{
+    static const char *const names[] = {"x", "y", "z", "u", "v", "w", "p", "n", "load"},
+                             *const infos[] = {"t",       "dt",        "iterations", "unknowns",
+                                               "surface", "max_speed", "kinetic",    "wall_work"};
+    const record *a = alone, *b = many;
+    if (a->count != b->count) {
+        snprintf(text, size, "%lld particles, not %lld", (long long)b->count, (long long)a->count);
+        return false;
+    }
+    for (int v = 0; v < SCENE_INFOS; v++)
+        if (memcmp(&a->info[v], &b->info[v], sizeof(double)) != 0) {
+            snprintf(text, size, "%s is %.17g, not %.17g", infos[v], b->info[v], a->info[v]);
+            return false;
+        }
+    for (int64_t id = 0; id < SCENE_MOST; id++)
+        for (int v = 0; v < SCENE_NUMBERS; v++)
+            if (memcmp(&a->value[id][v], &b->value[id][v], sizeof(double)) != 0) {
+                snprintf(text, size, "%s of particle %lld is %.17g, not %.17g", names[v],
+                         (long long)id, b->value[id][v], a->value[id][v]);
+                return false;
+            }
+    return true;
+}

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Scenes whose bytes do not depend on the number of ranks, and what is compared of them. */
+#ifndef RANKS_SCENES_H
+#define RANKS_SCENES_H
+
+#include <mps/mps.h>
+#include <stdbool.h>
+
+enum { SCENES = 11, SCENE_MOST = 8000, SCENE_NUMBERS = 9, SCENE_INFOS = 8 };
+
+typedef struct scene {
+    const char *name, *preset;
+    int32_t dim, steps;
+    double dp;
+    mps_motion_fn motion;
+    int baffle;   /* 1: a block, 2: a thin plate, in the way of the fluid */
+    double sigma; /* of the interface [N/m] */
+} scene;
+
+extern const scene scenes[SCENES];
+
+/* What is compared: numbers of each particle by its id, and those of the step. */
+typedef struct record {
+    double value[SCENE_MOST][SCENE_NUMBERS];
+    double info[SCENE_INFOS];
+    int64_t count;
+} record;
+
+/* A handle; ranks are set between the two calls. */
+mps_status scene_create(const scene *s, mps_sim **sim);
+mps_status scene_build(mps_sim *sim, const scene *s);
+
+/* The owned particles of this rank, into a record that is empty at first; rank 0 adds the numbers of the step. */
+void record_note(mps_sim *sim, const mps_step_info *info, record *r);
+/* Whether both have the same bytes; else `text` says what differs first. */
+bool record_same(const record *alone, const record *many, char *text, size_t size);
+
+#endif

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The engine of threads against the kit. */
+#include "engine.h"
+#include "engine_kit.h"
+#include <setjmp.h>
+#include <stdarg.h>
+#include <string.h>
+#include <cmocka.h>
+
+enum { MOST = 7 };
+
+typedef struct job {
+    engine_team *team;
+    int32_t also;
+    int call; /* -1: no failure */
+    double balance;
+    char fault[MOST][ENGINE_TEXT], said[MOST][ENGINE_TEXT];
+} job;
+
+static void run_rank(void *argument, int32_t rank)
+{
+    job *j = argument;
+    const mps_ranks_ops ops = engine_ops(j->team, rank);
+    if (j->call < 0)
+        engine_kit_check(&ops, j->balance, j->fault[rank]);
+    else
+        engine_kit_fail(&ops, j->call, j->also, j->said[rank], j->fault[rank]);
+}
+
+static void check(int32_t ranks, uint32_t skew, int call, int32_t also)
+{
+    job j = {.team = engine_create(ranks, skew), .call = call, .also = also};
+    j.balance = skew ? 0 : 1.05;
+    engine_run(j.team, run_rank, &j);
+    for (int32_t r = 0; r < ranks; r++) {
+        assert_string_equal(j.fault[r], "");
+        assert_string_equal(j.said[r], j.said[0]);
+    }
+    engine_destroy(j.team);
+}
+
+static void test_calls(void **state)
+{
+    (void)state;
+    for (int32_t ranks = 1; ranks <= 4; ranks++) check(ranks, 0, -1, -1);
+    check(3, 1, -1, -1);
+    check(MOST, 0, -1, -1);
+}
+
+static void test_failures(void **state)
+{
+    (void)state;
+    for (int call = 0; call < ENGINE_CALLS; call++)
+        for (int32_t ranks = 1; ranks <= 4; ranks++) {
+            check(ranks, 0, call, -1);
+            check(ranks, 0, call, 0);
+        }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_calls),
+                                       cmocka_unit_test(test_failures)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
