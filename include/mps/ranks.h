@@ -112,6 +112,16 @@ MPS_API mps_status mps_sim_ranks(const mps_sim *sim, int32_t *rank, int32_t *ran
  *  @param ghost  out: [n] 1 for a ghost; NULL: no particle is one @return MPS_E_ARG, MPS_E_BUSY */
 MPS_API mps_status mps_particles_ghosts(const mps_sim *sim, const uint8_t **ghost);
 
+/** Put the particles of all ranks into the store of rank 0, in the order that they would have on
+ *  one rank, for output: leases and mps_frames_write() of rank 0 then see all of them, those of
+ *  other ranks see none. All ranks make this call and mps_particles_gather_end(); between the two
+ *  the handle may only be read. On one rank it changes nothing.
+ *  @return MPS_E_BUSY (a lease is open), MPS_E_STATE (gathered already), MPS_E_NOMEM, MPS_E_RANKS */
+MPS_API mps_status mps_particles_gather(mps_sim *sim);
+
+/** Put back the particles that each rank had. @return MPS_E_BUSY (a lease is open), MPS_E_STATE */
+MPS_API mps_status mps_particles_gather_end(mps_sim *sim);
+
 MPS_END_DECLS
 
 #endif

@@ -135,7 +135,7 @@ static bool prepare(krylov *k, const mps_ppe_problem *problem)
     if (problem->component && !make_sums(k, problem->components)) return false;
     const int64_t columns = mps__columns(problem);
     k->space.problem = problem;
-    return columns <= k->space.capacity || make_arrays(k, columns + columns / 32);
+    return (k->start && columns <= k->space.capacity) || make_arrays(k, columns + columns / 32 + 1);
 }
 
 /* ---- solution ---- */

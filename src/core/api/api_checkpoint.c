@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Checkpoints of the public interface. */
 #include "checkpoint.h"
+#include "gather.h"
 #include <mps/output.h>
 
 static const char setup_part[] = "set-up";
@@ -23,16 +24,9 @@ static void put_all(mps_sim *sim, const mps__text *setup, mps__archive *a)
     mps__state_put(sim, a);
 }
 
-mps_status mps_checkpoint_write(mps_sim *sim, const char *path)
+static mps_status save_all(mps_sim *sim, const char *path)
 {
-    MPS__READS(sim);
-    mps__context *c = &sim->context;
-    MPS__CHECK(c, path && path[0], "the path of the checkpoint is NULL or empty");
-    for (int32_t k = 0; k < sim->world.particles.fields; k++)
-        if (sim->world.particles.field[k].writer)
-            return mps__fail(c, MPS_E_BUSY, "field \"%s\" is leased for writing",
-                             sim->world.particles.field[k].name);
-    mps__archive a = {.context = c};
+    mps__archive a = {.context = &sim->context};
     mps__text setup;
     mps_status status = make_setup(sim, &setup);
     if (status == MPS_OK) {
@@ -43,9 +37,24 @@ mps_status mps_checkpoint_write(mps_sim *sim, const char *path)
         put_all(sim, &setup, &a);
         status = mps__archive_save(&a, path);
     }
-    mps__free(c, setup.data);
+    mps__free(&sim->context, setup.data);
     mps__archive_free(&a);
     return status;
+}
+
+mps_status mps_checkpoint_write(mps_sim *sim, const char *path)
+{
+    MPS__READS(sim);
+    mps__context *c = &sim->context;
+    MPS__CHECK(c, path && path[0], "the path of the checkpoint is NULL or empty");
+    for (int32_t k = 0; k < sim->world.particles.fields; k++)
+        if (sim->world.particles.field[k].writer)
+            return mps__fail(c, MPS_E_BUSY, "field \"%s\" is leased for writing",
+                             sim->world.particles.field[k].name);
+    MPS__TRY(mps__gather_all(&sim->world));
+    const mps_status status = sim->world.ranks.rank == 0 ? save_all(sim, path) : MPS_OK;
+    mps__gather_end(&sim->world);
+    return mps__ranks_tell(&sim->world.ranks, status);
 }
 
 static mps_status check_setup(mps_sim *sim, const mps__archive *a)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Public functions of ranks. */
+#include "gather.h"
 #include "sim.h"
-#include "world_ranks.h"
 
 mps_status mps_sim_ranks_set(mps_sim *sim, const mps_ranks_ops *ops)
 {
@@ -30,5 +30,35 @@ mps_status mps_particles_ghosts(const mps_sim *sim, const uint8_t **ghost)
     MPS__READS(sim);
     MPS__CHECK(mps__sim_context(sim), ghost, "ghost is NULL");
     *ghost = sim->world.ghosts.ghost;
+    return MPS_OK;
+}
+
+static mps_status no_leases(mps_sim *sim)
+{
+    const int32_t open = mps__particles_leases(&sim->world.particles);
+    return open ? mps__fail(&sim->context, MPS_E_BUSY, "%d lease(s) are open; end them first", open)
+                : MPS_OK;
+}
+
+mps_status mps_particles_gather(mps_sim *sim)
+{
+    MPS__READS(sim);
+    mps__world *w = &sim->world;
+    MPS__TRY(no_leases(sim));
+    if (w->gathered.begun)
+        return mps__fail(&sim->context, MPS_E_STATE, "the particles are gathered already");
+    MPS__TRY(mps__ranks_tell(&w->ranks, mps__gather_all(w)));
+    w->gathered.begun = true;
+    return MPS_OK;
+}
+
+mps_status mps_particles_gather_end(mps_sim *sim)
+{
+    MPS__READS(sim);
+    MPS__TRY(no_leases(sim));
+    if (!sim->world.gathered.begun)
+        return mps__fail(&sim->context, MPS_E_STATE,
+                         "the particles are not gathered: call mps_particles_gather() first");
+    mps__gather_end(&sim->world);
     return MPS_OK;
 }

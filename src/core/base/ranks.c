@@ -158,3 +158,18 @@ void mps__ranks_exchange(mps__ranks *r, const mps_route *route, size_t bytes, co
     r->failed = r->ops.exchange_begin(r->self, route, bytes, out, in) != 0 ||
                 r->ops.exchange_end(r->self, route) != 0;
 }
+
+void mps__ranks_send_to_first(mps__ranks *r, const void *own, const int64_t *bytes, void *all)
+{
+    static const int32_t first = 0;
+    mps_route route = {0};
+    if (!begin(r, r->rank == 0 ? 0 : bytes[r->rank])) return;
+    const int64_t sent = bytes[r->rank];
+    const bool sends = r->rank != 0 && sent > 0;
+    r->failed = r->ops.connect(r->self, sends, &first, &sent, &route) != 0;
+    if (r->failed) return;
+    if (r->rank == 0 && sent > 0) memcpy(all, own, (size_t)sent);
+    r->failed = r->ops.exchange_begin(r->self, &route, 1, own, (char *)all + (all ? sent : 0)) ||
+                r->ops.exchange_end(r->self, &route);
+    r->ops.disconnect(r->self, &route);
+}

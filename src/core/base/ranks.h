@@ -47,6 +47,8 @@ void mps__ranks_add(mps__ranks *r, int32_t count, int64_t *values);
 void mps__ranks_sum(mps__ranks *r, int32_t count, mps_exact *sums);
 /* Collect blocks of all ranks; `bytes` [ranks]. */
 void mps__ranks_gather(mps__ranks *r, const void *own, const int64_t *bytes, void *all);
+/* The same, at rank 0 only. */
+void mps__ranks_send_to_first(mps__ranks *r, const void *own, const int64_t *bytes, void *all);
 /* A number of each rank, in their order: values [ranks]. */
 void mps__ranks_gather_number(mps__ranks *r, int64_t own, int64_t *values);
 /* Exchange elements along a route. */

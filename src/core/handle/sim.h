@@ -43,11 +43,22 @@ static inline mps_status mps__sim_free(const mps_sim *sim, int32_t allowed, cons
                      call, c->lock.what);
 }
 
+/* Refuse a call that would change particles while they are those of all ranks. */
+static inline mps_status mps__sim_divided(const mps_sim *sim, const char *call)
+{
+    if (!sim->world.gathered.begun) return MPS_OK;
+    return mps__fail(mps__sim_context(sim), MPS_E_STATE,
+                     "%s() was called while the particles are gathered: call "
+                     "mps_particles_gather_end() first",
+                     call);
+}
+
 /* Begin a public function that changes a simulation, or one that reads more than single values of it. */
 #define MPS__CHANGES(sim)                                        \
     do {                                                         \
         if (!(sim)) return MPS_E_ARG;                            \
         MPS__TRY(mps__sim_free((sim), MPS__UNLOCKED, __func__)); \
+        MPS__TRY(mps__sim_divided((sim), __func__));             \
     } while (0)
 #define MPS__READS(sim)                                           \
     do {                                                          \

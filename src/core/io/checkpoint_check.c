@@ -218,6 +218,7 @@ static mps_status check_reals(mps__context *c, const mps__arrived *a)
     const mps__particles *s = &a->sim->world.particles;
     for (int32_t k = 0; k < s->fields; k++) {
         const mps__field *f = &s->field[k];
+        if (!a->field[k]) continue; /* not stored */
         if (f->size == sizeof(double) && strcmp(f->name, "id") != 0)
             MPS__TRY(check_finite(c, f->name, a->field[k], a->n * f->components));
     }

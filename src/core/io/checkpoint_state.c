@@ -2,6 +2,7 @@
 /* The state of a simulation, what the next step depends on and what has been booked so far. */
 #include "checkpoint_check.h"
 #include "plates.h"
+#include "world_ranks.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -62,6 +63,12 @@ static size_t element(const mps__field *f)
     return (size_t)f->components * f->size;
 }
 
+/* What only ranks have is found anew from the rest: the file is the same for any number of ranks. */
+static bool is_stored(const mps__particles *s, int32_t field)
+{
+    return s->field[field].data != (void **)&s->wall_id;
+}
+
 /* ---- out ---- */
 
 static void put_particles(const mps__world *w, mps__archive *a)
@@ -69,8 +76,9 @@ static void put_particles(const mps__world *w, mps__archive *a)
     const mps__particles *s = &w->particles;
     char name[MPS__PART_TITLE];
     for (int32_t k = 0; k < s->fields; k++)
-        mps__archive_put(a, title(name, "field", s->field[k].name), *s->field[k].data,
-                         element(&s->field[k]), s->n);
+        if (is_stored(s, k))
+            mps__archive_put(a, title(name, "field", s->field[k].name), *s->field[k].data,
+                             element(&s->field[k]), s->n);
     const bool linked = w->lists.linked == s->generation;
     const lists have = {linked, linked && (w->lists.neighbours.valid || w->lists.listed_at)};
     mps__archive_put(a, "lists", &have, sizeof have, 1);
@@ -174,7 +182,8 @@ static mps_status find_particles(arrival *v)
     char name[MPS__PART_TITLE];
     if (!mps__archive_get(v->a, "field id", sizeof *s->id, &v->n)) return MPS_E_VERSION;
     for (int32_t k = 0; k < s->fields; k++)
-        if (!(v->arrived.field[k] = part(v, title(name, "field", s->field[k].name),
+        if (is_stored(s, k) &&
+            !(v->arrived.field[k] = part(v, title(name, "field", s->field[k].name),
                                          element(&s->field[k]), v->n)))
             return MPS_E_VERSION;
     const void *have = part(v, "lists", sizeof v->have, 1);
@@ -267,7 +276,7 @@ static mps_status move_in(arrival *v)
 {
     mps__world *w = &v->sim->world;
     mps__probes *p = &v->sim->probes;
-    MPS__TRY(mps__particles_replace(&w->particles, v->n, v->arrived.field));
+    MPS__TRY(mps__world_replace(w, v->n, v->arrived.field, v->listed_at != NULL));
     for (int k = 0; k < v->count; k++) memcpy(v->slots[k].at, v->value[k], v->slots[k].size);
     w->lists.linked = v->have.linked ? w->particles.generation : -1;
     mps__plates_set_active(w);
@@ -276,6 +285,7 @@ static mps_status move_in(arrival *v)
     mps__free(w->context, w->lists.listed_at);
     w->lists.listed_at = v->listed_at;
     v->listed_at = NULL;
+    mps__world_keep_listed(w);
     for (int64_t k = 0; k < p->count; k++) {
         if (p->list[k].removed) continue;
         mps__series old = p->list[k].series;

@@ -18,6 +18,13 @@ void mps__ghosts_init(mps__ghosts *g, mps__context *context, mps__ranks *ranks,
     *g = (mps__ghosts){.context = context, .ranks = ranks, .particles = particles};
 }
 
+void mps__ghosts_forget(mps__ghosts *g)
+{
+    if (g->connected) g->ranks->ops.disconnect(g->ranks->self, &g->route);
+    g->connected = false;
+    g->known = g->sends = g->receives = g->runs = 0;
+}
+
 static void forget_route(mps__ghosts *g)
 {
     if (g->connected) g->ranks->ops.disconnect(g->ranks->self, &g->route);
@@ -40,14 +47,14 @@ static size_t bytes_of(const mps__field *f)
     return (size_t)f->components * f->size;
 }
 
-static size_t packet_bytes(const mps__particles *s)
+size_t mps__ghosts_packet(const mps__particles *s)
 {
     size_t bytes = 0;
     for (int32_t k = 0; k < s->fields; k++) bytes += bytes_of(&s->field[k]);
     return bytes;
 }
 
-static void pack(const mps__particles *s, int64_t i, char *to)
+void mps__ghosts_pack(const mps__particles *s, int64_t i, char *to)
 {
     for (int32_t k = 0; k < s->fields; to += bytes_of(&s->field[k++])) {
         const size_t bytes = bytes_of(&s->field[k]);
@@ -55,7 +62,7 @@ static void pack(const mps__particles *s, int64_t i, char *to)
     }
 }
 
-static void unpack(const mps__particles *s, int64_t i, const char *from)
+void mps__ghosts_unpack(const mps__particles *s, int64_t i, const char *from)
 {
     for (int32_t k = 0; k < s->fields; from += bytes_of(&s->field[k++])) {
         const size_t bytes = bytes_of(&s->field[k]);
@@ -77,13 +84,13 @@ static void move_tail(const mps__particles *s, int64_t aside, int64_t from, int6
 static mps_status append(mps__ghosts *g, int64_t count, int64_t aside)
 {
     mps__particles *s = g->particles;
-    const size_t bytes = packet_bytes(s);
+    const size_t bytes = mps__ghosts_packet(s);
     s->n += aside; /* what is copied to larger arrays */
     const mps_status status = mps__particles_reserve(s, count);
     s->n -= aside;
     MPS__TRY(status);
     move_tail(s, aside, s->n, s->n + count);
-    for (int64_t k = 0; k < count; k++) unpack(s, s->n + k, g->in + (size_t)k * bytes);
+    for (int64_t k = 0; k < count; k++) mps__ghosts_unpack(s, s->n + k, g->in + (size_t)k * bytes);
     s->n += count;
     return mps__grow(g->context, (void **)&g->ghost, &g->capacity, s->n - count,
                      mps__room(s->n + aside, g->capacity), 1);
@@ -142,12 +149,31 @@ static mps_status reserve_buffers(mps__ghosts *g, size_t bytes)
 static mps_status send_parcels(mps__ghosts *g)
 {
     const mps__particles *s = g->particles;
-    const size_t bytes = packet_bytes(s);
+    const size_t bytes = mps__ghosts_packet(s);
     MPS__TRY(connect_ranks(g));
     MPS__TRY(reserve_buffers(g, bytes));
-    for (int64_t k = 0; k < g->sends; k++) pack(s, g->send[k], g->out + (size_t)k * bytes);
+    for (int64_t k = 0; k < g->sends; k++)
+        mps__ghosts_pack(s, g->send[k], g->out + (size_t)k * bytes);
     mps__ranks_exchange(g->ranks, &g->route, bytes, g->out, g->in);
     return mps__ranks_status(g->ranks);
+}
+
+/* Ranges of owned particles. */
+static mps_status find_runs(mps__ghosts *g)
+{
+    const int64_t n = g->particles->n;
+    g->runs = 0;
+    for (int64_t i = 0; i < n;) {
+        while (i < n && g->ghost[i]) i++;
+        if (i == n) break;
+        if (2 * g->runs == g->run_capacity)
+            MPS__TRY(mps__grow(g->context, (void **)&g->run, &g->run_capacity, 2 * g->runs,
+                               4 * g->runs + 64, sizeof *g->run));
+        g->run[2 * g->runs] = i;
+        while (i < n && !g->ghost[i]) i++;
+        g->run[2 * g->runs++ + 1] = i;
+    }
+    return MPS_OK;
 }
 
 /* ---- owners ---- */
@@ -195,7 +221,7 @@ mps_status mps__ghosts_adopt(mps__ghosts *g, const mps__placing *p)
     mps__particles *s = g->particles;
     const mps__ranks *r = g->ranks;
     if (!mps__ranks_many(r) || s->n == g->known) return MPS_OK;
-    const int64_t fresh = s->n - g->known;
+    const int64_t fresh = s->n - g->known, generation = s->generation;
     if (!g->cut)
         MPS__TRY(divide(g, p, g->known + fresh * r->rank / r->count,
                         g->known + fresh * (r->rank + 1) / r->count));
@@ -210,7 +236,8 @@ mps_status mps__ghosts_adopt(mps__ghosts *g, const mps__placing *p)
     MPS__TRY(mps__particles_permute(s, count, order));
     memset(g->ghost + g->known, 0, (size_t)(s->n - g->known));
     g->known = s->n;
-    return MPS_OK;
+    s->generation = generation;
+    return find_runs(g);
 }
 
 /* Particles that are on the wrong rank leave, ghosts vanish, and others come. */
@@ -315,29 +342,12 @@ mps_status mps__ghosts_renew(mps__ghosts *g, const mps__placing *p, int64_t asid
     memset(g->ghost + owned, 1, (size_t)(s->n - owned));
     memset(g->ghost + s->n, 0, (size_t)aside);
     g->known = s->n;
+    g->reach = p->reach;
     s->generation = generation;
     return MPS_OK;
 }
 
 /* ---- order ---- */
-
-/* Ranges of owned particles. */
-static mps_status find_runs(mps__ghosts *g)
-{
-    const int64_t n = g->particles->n;
-    g->runs = 0;
-    for (int64_t i = 0; i < n;) {
-        while (i < n && g->ghost[i]) i++;
-        if (i == n) break;
-        if (2 * g->runs == g->run_capacity)
-            MPS__TRY(mps__grow(g->context, (void **)&g->run, &g->run_capacity, 2 * g->runs,
-                               4 * g->runs + 64, sizeof *g->run));
-        g->run[2 * g->runs] = i;
-        while (i < n && !g->ghost[i]) i++;
-        g->run[2 * g->runs++ + 1] = i;
-    }
-    return MPS_OK;
-}
 
 mps_status mps__ghosts_ordered(mps__ghosts *g, const int32_t *order)
 {

@@ -30,6 +30,7 @@ typedef struct mps__ghosts {
     int64_t *run;   /* [2 runs] ranges of owned particles: begin, end */
     int64_t capacity, run_capacity, runs;
     int64_t known;   /* particles that ranks have divided; those behind them all ranks have */
+    double reach;    /* of the present ghosts [m] */
     bool cut;        /* space is divided */
     bool recut;      /* it is to be divided anew with the next mps__ghosts_renew() */
     bool connected;  /* there is a route: */
@@ -62,6 +63,13 @@ mps_status mps__ghosts_ordered(mps__ghosts *g, const int32_t *order);
 mps_status mps__ghosts_share(mps__ghosts *g, const mps__shared *shared, int32_t count);
 /* The same of numbers that some particles have: particle i has x[index[i]], none where index[i] < 0. */
 mps_status mps__ghosts_share_indexed(mps__ghosts *g, const int32_t *index, double *x);
+
+/* The store has other particles, which all ranks have alike: those of a checkpoint. */
+void mps__ghosts_forget(mps__ghosts *g);
+/* Bytes of all fields of a particle; these fields one behind the other, and back. */
+size_t mps__ghosts_packet(const mps__particles *s);
+void mps__ghosts_pack(const mps__particles *s, int64_t i, char *to);
+void mps__ghosts_unpack(const mps__particles *s, int64_t i, const char *from);
 
 /* Call rows(argument, begin, end) for the owned particles in begin..end-1. */
 void mps__ghosts_rows(const mps__ghosts *g, mps_range_fn rows, void *argument, int64_t begin,

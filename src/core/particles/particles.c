@@ -119,7 +119,7 @@ mps_status mps__particles_replace(mps__particles *s, int64_t n, const void *cons
     void *array[MPS__FIELDS_MAX];
     MPS__TRY(new_arrays(s, capacity, array));
     for (int32_t k = 0; k < s->fields; k++)
-        memcpy(array[k], from[k], (size_t)n * stride(&s->field[k]));
+        if (from[k]) memcpy(array[k], from[k], (size_t)n * stride(&s->field[k]));
     swap_arrays(s, capacity, array);
     s->n = n;
     s->generation++;

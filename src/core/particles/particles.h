@@ -58,7 +58,7 @@ void mps__particles_free(mps__particles *s);
 
 /* Room for `extra` more; on failure nothing changed. */
 mps_status mps__particles_reserve(mps__particles *s, int64_t extra);
-/* n other particles, with the values of each field in from[]; on failure nothing changed. */
+/* n other particles, with the values of each field in from[], NULL: zeros; on failure nothing changed. */
 mps_status mps__particles_replace(mps__particles *s, int64_t n, const void *const from[]);
 /* Append `count` zeroed particles with new ids (room must be reserved). Returns the place of the first. */
 int64_t mps__particles_append(mps__particles *s, int64_t count);

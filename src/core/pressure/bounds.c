@@ -112,9 +112,9 @@ static void mark_rows(mps__bounds *b, const mps__ppe *e)
 
 static mps_status pin_rows(mps__bounds *b, mps__ppe *e)
 {
-    MPS__TRY(mps__grow(b->context, (void **)&b->pinned, &b->pinned_capacity, 0, e->columns,
+    MPS__TRY(mps__grow(b->context, (void **)&b->pinned, &b->pinned_capacity, 0, e->columns + 1,
                        sizeof *b->pinned));
-    MPS__TRY(mps__grow(b->context, (void **)&b->mark, &b->mark_capacity, 0, e->n, 1));
+    MPS__TRY(mps__grow(b->context, (void **)&b->mark, &b->mark_capacity, 0, e->n + 1, 1));
     for (int64_t c = 0; c < e->columns; c++) b->pinned[c] = NAN;
     for (int64_t k = 0; k < b->count; k++)
         if (b->list[k].held) b->pinned[b->list[k].row] = b->list[k].least;

@@ -363,18 +363,30 @@ static mps_status search(mps__world *w, bool sorted)
     return status;
 }
 
-/* Candidates for models that want rows of dummies and did not when the last search was done, or the reverse. */
+/* Whether the candidates of the last search still hold, but models or the solver want others: rows of dummies or none, more ghosts. */
+static bool wants_other_lists(const mps__world *w)
+{
+    const mps_neighbours *l = &w->lists.neighbours;
+    return l->valid && w->lists.linked == w->particles.generation &&
+           (l->dummy_rows != mps__models_dummy_rows(&w->models) || mps__world_wants_ghosts(w));
+}
+
 static mps_status note_models(mps__world *w)
 {
     const mps__particles *s = &w->particles;
-    const mps_neighbours *l = &w->lists.neighbours;
-    if (!l->valid || w->lists.linked != s->generation ||
-        l->dummy_rows == mps__models_dummy_rows(&w->models))
-        return MPS_OK;
+    if (!wants_other_lists(w)) return MPS_OK;
     w->lists.listed_at = mps__alloc(w->context, s->n * s->dim, sizeof(double));
     if (!w->lists.listed_at) return MPS_E_NOMEM;
-    mps__parallel_copy(&w->pool.parallel, w->lists.listed_at, l->searched, s->n * s->dim);
+    mps__parallel_copy(&w->pool.parallel, w->lists.listed_at, w->lists.neighbours.searched,
+                       s->n * s->dim);
     return MPS_OK;
+}
+
+/* Lists at the places that the store has for now. */
+static mps_status search_listed(mps__world *w)
+{
+    MPS__TRY(search_lists(w, true, false));
+    return mps__plates_find(w);
 }
 
 /* The candidates of a search that was done before a checkpoint or for other models, unless particles came or went since: the store has
@@ -384,6 +396,7 @@ static mps_status list_again(mps__world *w)
     mps__particles *s = &w->particles;
     double *const now = s->x;
     if (!w->lists.listed_at) MPS__TRY(note_models(w));
+    if (mps__ranks_many(&w->ranks)) return mps__world_list_again(w, search_listed);
     if (!w->lists.listed_at) return MPS_OK;
     if (w->lists.linked == s->generation) {
         s->x = w->lists.listed_at;

@@ -114,6 +114,16 @@ typedef struct mps__lists {
     int64_t linked; /* generation of the particles whose dummies know their walls */
 } mps__lists;
 
+/* What stands aside while the store has particles of all ranks; gather.h. */
+typedef struct mps__gathered {
+    bool begun; /* by the user */
+    bool swapped;
+    void *array[MPS__FIELDS_MAX]; /* of the fields */
+    int64_t n, capacity;
+    uint8_t *ghost;
+    double *listed; /* places of the last search */
+} mps__gathered;
+
 typedef struct mps__world {
     mps__context *context;
     mps__setup setup;
@@ -126,6 +136,7 @@ typedef struct mps__world {
     int32_t threads; /* of the pool */
     mps__ranks ranks;
     mps__ghosts ghosts;
+    mps__gathered gathered;
     mps__models models;
     mps__channels channels;
     mps__host host;

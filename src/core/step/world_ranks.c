@@ -60,6 +60,13 @@ static mps__placing placing(const mps__world *w)
                           (reach + far) * (1 + margin)};
 }
 
+bool mps__world_wants_ghosts(const mps__world *w)
+{
+    return mps__ranks_many(w->ghosts.ranks) &&
+           (placing(w).reach > w->ghosts.reach ||
+            mps__models_neighbour_rows(&w->models) != w->lists.neighbours.ghost_rows);
+}
+
 mps_status mps__world_adopt(mps__world *w)
 {
     const mps__placing p = placing(w);
@@ -102,7 +109,7 @@ static uint64_t slot_of(int64_t id, uint64_t size)
 }
 
 /* Places of dummies' walls from their ids: a hash table of the walls. */
-static mps_status find_walls(mps__world *w)
+mps_status mps__world_find_walls(mps__world *w)
 {
     mps__particles *s = &w->particles;
     uint64_t size = 16, at;
@@ -136,7 +143,7 @@ mps_status mps__world_link_ghosts(mps__world *w)
     for (int64_t i = 0; i < s->n; i++)
         s->wall_id[i] = s->kind[i] == MPS_DUMMY && s->wall_of[i] >= 0 ? s->id[s->wall_of[i]] : -1;
     MPS__TRY(mps__ghosts_share(&w->ghosts, &(mps__shared){s->wall_id, sizeof *s->wall_id}, 1));
-    return find_walls(w);
+    return mps__world_find_walls(w);
 }
 
 /* ---- places ------------------------------------------------------------------------------------------------------ */
@@ -165,5 +172,66 @@ mps_status mps__world_divide(mps__world *w)
     MPS__TRY(mps__ghosts_ordered(&w->ghosts, l->order));
     MPS__TRY(mps__particles_permute(s, s->n, l->order));
     l->ghost = w->ghosts.ghost;
-    return mps__ranks_many(&w->ranks) ? find_walls(w) : MPS_OK;
+    return mps__ranks_many(&w->ranks) ? mps__world_find_walls(w) : MPS_OK;
+}
+
+/* ---- after a checkpoint ------------------------------------------------------------------------------------------ */
+
+static const char listed_field[] = "listed_at";
+
+mps_status mps__world_replace(mps__world *w, int64_t n, const void *const from[], bool listed)
+{
+    mps__particles *s = &w->particles;
+    const void *all[MPS__FIELDS_MAX] = {NULL};
+    memcpy(all, from, (size_t)s->fields * sizeof *all);
+    const bool travels = mps__ranks_many(&w->ranks) && listed;
+    if (travels)
+        MPS__TRY(mps__particles_field_add(s, listed_field, s->dim, sizeof(double), false, NULL));
+    const mps_status status = mps__particles_replace(s, n, all);
+    if (status < 0 && travels) mps__particles_field_drop(s);
+    if (status < 0 || !mps__ranks_many(&w->ranks)) return status;
+    for (int64_t i = 0; i < n; i++) s->wall_id[i] = s->wall_of[i] >= 0 ? s->id[s->wall_of[i]] : -1;
+    mps__ghosts_forget(&w->ghosts);
+    w->lists.neighbours.ghost = NULL;
+    if (w->ghosts.ghost) memset(w->ghosts.ghost, 0, (size_t)w->ghosts.capacity);
+    return status;
+}
+
+void mps__world_keep_listed(mps__world *w)
+{
+    mps__particles *s = &w->particles;
+    const mps__field *f = mps__particles_field(s, listed_field);
+    if (!f || !w->lists.listed_at) return;
+    memcpy(*f->data, w->lists.listed_at, (size_t)(s->n * s->dim) * sizeof *s->x);
+    mps__free(w->context, w->lists.listed_at);
+    w->lists.listed_at = NULL;
+}
+
+static void exchange_places(mps__particles *s, double *other)
+{
+    for (int64_t k = 0; k < s->n * s->dim; k++) {
+        const double x = s->x[k];
+        s->x[k] = other[k];
+        other[k] = x;
+    }
+}
+
+mps_status mps__world_list_again(mps__world *w, mps_status (*search)(mps__world *w))
+{
+    mps__particles *s = &w->particles;
+    if (w->lists.listed_at && !mps__particles_field(s, listed_field))
+        MPS__TRY(mps__particles_field_add(s, listed_field, s->dim, sizeof(double), false, NULL));
+    mps__world_keep_listed(w);
+    const mps__field *f = mps__particles_field(s, listed_field);
+    if (!f) return MPS_OK;
+    mps_status status = MPS_OK;
+    if (w->lists.linked == s->generation) {
+        exchange_places(s, *f->data);
+        status = mps__world_divide(w);
+        if (status == MPS_OK) status = search(w);
+        exchange_places(s, *f->data);
+        w->lists.neighbours.valid = status == MPS_OK;
+    }
+    mps__particles_field_drop(s);
+    return status;
 }
