@@ -44,7 +44,7 @@ static mps_status save_all(mps_sim *sim, const char *path)
 
 mps_status mps_checkpoint_write(mps_sim *sim, const char *path)
 {
-    MPS__READS(sim);
+    MPS__MEASURES(sim);
     mps__context *c = &sim->context;
     MPS__CHECK(c, path && path[0], "the path of the checkpoint is NULL or empty");
     for (int32_t k = 0; k < sim->world.particles.fields; k++)

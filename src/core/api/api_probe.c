@@ -48,7 +48,7 @@ int32_t mps_probe_size(const mps_sim *sim, int32_t id)
 
 mps_status mps_probe_read(mps_sim *sim, int32_t id, double *values)
 {
-    MPS__READS(sim);
+    MPS__MEASURES(sim);
     mps__probe *probe = NULL;
     MPS__CHECK(&sim->context, values, "values is NULL");
     MPS__TRY(find_probe(sim, id, &probe));
@@ -70,7 +70,7 @@ static mps__probe *find_series(mps_sim *sim, int32_t id, mps_status *status)
 mps_status mps_probe_series(mps_sim *sim, int32_t id, int64_t *count, const double **t,
                             const double **values)
 {
-    MPS__READS(sim);
+    MPS__MEASURES(sim);
     mps_status status;
     mps__probe *probe = find_series(sim, id, &status);
     if (!probe) return status;
@@ -98,7 +98,7 @@ mps_status mps_energy_init(mps_energy *energy, size_t size)
 
 mps_status mps_energy_get(mps_sim *sim, mps_energy *energy)
 {
-    MPS__READS(sim);
+    MPS__MEASURES(sim);
     mps_energy now;
     MPS__TRY(mps__energy_measure(&sim->world, &now));
     return mps__struct_out(&sim->context, "mps_energy", energy, &now, sizeof now);
@@ -112,7 +112,7 @@ mps_status mps_momentum_init(mps_momentum *momentum, size_t size)
 
 mps_status mps_momentum_get(mps_sim *sim, mps_momentum *momentum)
 {
-    MPS__READS(sim);
+    MPS__MEASURES(sim);
     mps_momentum now;
     mps__momentum_measure(&sim->world, &now);
     return mps__struct_out(&sim->context, "mps_momentum", momentum, &now, sizeof now);

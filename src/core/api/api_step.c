@@ -109,7 +109,7 @@ mps_status mps_run(mps_sim *sim, double t_end, mps_monitor_fn monitor, void *use
 mps_status mps_stencil_get(mps_sim *sim, int32_t which, mps_stencil *stencil)
 {
     mps_stencil view;
-    MPS__READS(sim);
+    MPS__MEASURES(sim);
     MPS__TRY(mps__struct_check(&sim->context, "mps_stencil", stencil));
     MPS__CHECK(&sim->context, which == MPS_NEAR || which == MPS_FAR,
                "which is %d: must be MPS_NEAR (0) or MPS_FAR (1)", which);

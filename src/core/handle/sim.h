@@ -60,6 +60,12 @@ static inline mps_status mps__sim_divided(const mps_sim *sim, const char *call)
         MPS__TRY(mps__sim_free((sim), MPS__UNLOCKED, __func__)); \
         MPS__TRY(mps__sim_divided((sim), __func__));             \
     } while (0)
+/* One that asks all ranks for what each of them knows. */
+#define MPS__MEASURES(sim)                           \
+    do {                                             \
+        MPS__READS(sim);                             \
+        MPS__TRY(mps__sim_divided((sim), __func__)); \
+    } while (0)
 #define MPS__READS(sim)                                           \
     do {                                                          \
         if (!(sim)) return MPS_E_ARG;                             \
