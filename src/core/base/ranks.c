@@ -173,3 +173,27 @@ void mps__ranks_send_to_first(mps__ranks *r, const void *own, const int64_t *byt
                 r->ops.exchange_end(r->self, &route);
     r->ops.disconnect(r->self, &route);
 }
+
+mps_status mps__ranks_collect(mps__ranks *r, void **list, int64_t *count, size_t size)
+{
+    if (!mps__ranks_many(r)) return MPS_OK;
+    int64_t *bytes = mps__alloc(r->context, r->count, sizeof *bytes), all = 0;
+    if (!bytes) return MPS_E_NOMEM;
+    mps__ranks_gather_number(r, *count, bytes);
+    for (int32_t k = 0; k < r->count; k++) {
+        all += bytes[k];
+        bytes[k] *= (int64_t)size;
+    }
+    mps_status status = mps__ranks_status(r);
+    void *larger = status == MPS_OK ? mps__alloc(r->context, all, size) : NULL;
+    if (status == MPS_OK && !larger) status = MPS_E_NOMEM;
+    if (status == MPS_OK) {
+        mps__ranks_gather(r, *list, bytes, larger);
+        mps__free(r->context, *list);
+        *list = larger;
+        *count = all;
+        status = mps__ranks_status(r);
+    }
+    mps__free(r->context, bytes);
+    return status;
+}

@@ -47,7 +47,9 @@ void mps__ranks_add(mps__ranks *r, int32_t count, int64_t *values);
 void mps__ranks_sum(mps__ranks *r, int32_t count, mps_exact *sums);
 /* Collect blocks of all ranks; `bytes` [ranks]. */
 void mps__ranks_gather(mps__ranks *r, const void *own, const int64_t *bytes, void *all);
-/* The same, at rank 0 only. */
+/* Replace a list of this rank, in memory of its own, by the lists of all ranks one behind the other. Alone it stays. */
+mps_status mps__ranks_collect(mps__ranks *r, void **list, int64_t *count, size_t size);
+/* Blocks of all ranks, at rank 0 only. */
 void mps__ranks_send_to_first(mps__ranks *r, const void *own, const int64_t *bytes, void *all);
 /* A number of each rank, in their order: values [ranks]. */
 void mps__ranks_gather_number(mps__ranks *r, int64_t own, int64_t *values);

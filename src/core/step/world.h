@@ -112,6 +112,8 @@ typedef struct mps__lists {
     int64_t aside;  /* lost particles that lie behind the others, until the next are looked for */
     int64_t gone;   /* the same of all ranks */
     int64_t linked; /* generation of the particles whose dummies know their walls */
+    int64_t links;  /* how often dummies were linked to walls */
+    int64_t orders; /* how often particles were put in order */
 } mps__lists;
 
 /* What stands aside while the store has particles of all ranks; gather.h. */
