@@ -126,6 +126,13 @@ typedef struct mps__gathered {
     double *listed; /* places of the last search */
 } mps__gathered;
 
+/* Work of this rank since ranks compared theirs; balance.c. */
+typedef struct mps__balance {
+    int32_t steps;
+    double work, waited; /* [s] */
+    double uneven;       /* largest work over the mean at the last comparison */
+} mps__balance;
+
 typedef struct mps__world {
     mps__context *context;
     mps__setup setup;
@@ -139,6 +146,7 @@ typedef struct mps__world {
     mps__ranks ranks;
     mps__ghosts ghosts;
     mps__gathered gathered;
+    mps__balance balance;
     mps__models models;
     mps__channels channels;
     mps__host host;
