@@ -310,7 +310,7 @@ AT(mps_lease, data, 24);
 AT(mps_lease, integers, 32);
 AT(mps_lease, ids, 40);
 
-SIZE(mps_ppe_ranks, 80);
+SIZE(mps_ppe_ranks, 112);
 AT(mps_ppe_ranks, struct_size, 0);
 AT(mps_ppe_ranks, rank, 4);
 AT(mps_ppe_ranks, ranks, 8);
@@ -322,7 +322,11 @@ AT(mps_ppe_ranks, order, 40);
 AT(mps_ppe_ranks, owner, 48);
 AT(mps_ppe_ranks, share, 56);
 AT(mps_ppe_ranks, reduce, 64);
-AT(mps_ppe_ranks, host, 72);
+AT(mps_ppe_ranks, gather, 72);
+AT(mps_ppe_ranks, connect, 80);
+AT(mps_ppe_ranks, disconnect, 88);
+AT(mps_ppe_ranks, exchange, 96);
+AT(mps_ppe_ranks, host, 104);
 
 SIZE(mps_ppe_problem, 152);
 AT(mps_ppe_problem, struct_size, 0);

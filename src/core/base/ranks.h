@@ -49,6 +49,9 @@ void mps__ranks_sum(mps__ranks *r, int32_t count, mps_exact *sums);
 void mps__ranks_gather(mps__ranks *r, const void *own, const int64_t *bytes, void *all);
 /* A number of each rank, in their order: values [ranks]. */
 void mps__ranks_gather_number(mps__ranks *r, int64_t own, int64_t *values);
+/* Make a route; where that fails there is none. */
+void mps__ranks_connect(mps__ranks *r, int32_t count, const int32_t *to, const int64_t *sent,
+                        mps_route *route);
 /* Exchange elements along a route. */
 void mps__ranks_exchange(mps__ranks *r, const mps_route *route, size_t bytes, const void *out,
                          void *in);
