@@ -21,7 +21,7 @@ static int create(const mps_allocator *allocator, void **self)
     return 0;
 }
 
-/* Whether there is a diagonal entry that is not finite, and one that is negative. */
+/* Whether there is a diagonal entry that is not finite, and one that is negative, on any rank. */
 static void check_rows(void *argument, int64_t begin, int64_t end, double *values)
 {
     const mps_ppe_problem *problem = argument;
@@ -40,6 +40,7 @@ static int check_diagonal(const mps_ppe_problem *problem)
     double found[2] = {0};
     mps_parallel_max(mps__team(problem->parallel, problem->n), problem->n, 2, check_rows,
                      (mps_ppe_problem *)problem, found);
+    mps_ppe_total(problem, &(mps_exact_values){.maxima = 2, .maximum = found});
     return found[0] > 0 ? MPS_PPE_NAN : found[1] > 0 ? MPS_PPE_INDEFINITE : 0;
 }
 
@@ -68,12 +69,21 @@ static void invert_diagonal(auxgrid *a, const mps_ppe_problem *problem)
                             &(operands){.problem = problem, .z = a->inverse});
 }
 
+/* Cells of the first grid. */
+static int find_cells(mps__grid *g, const mps_ppe_problem *problem)
+{
+    if (mps__grid_many(g)) return mps__grid_ranks_cells(g, problem);
+    mps__grid_place(g, problem, problem->n);
+    return mps__grid_cells(g, &g->level[0], problem->n) ? 0 : MPS_PPE_NOMEM;
+}
+
 static int build_grids(mps__grid *g, const mps_ppe_problem *problem)
 {
     mps__grid_measure(g, problem);
-    mps__grid_place(g, problem);
-    if (!mps__grid_cells(g, &g->level[0], problem->n)) return MPS_PPE_NOMEM;
-    if (!mps__grid_from_matrix(g, problem)) return MPS_PPE_NOMEM;
+    mps__grid_lay(g, problem);
+    int reason = find_cells(g, problem);
+    if (!reason) reason = mps__grid_from_matrix(g, problem);
+    if (reason) return reason;
     g->levels = 1;
     if (!mps__grid_coarsen(g)) return MPS_PPE_NOMEM;
     return mps__grid_factorise(g) ? 0 : MPS_PPE_NAN;
@@ -83,15 +93,18 @@ static int setup(void *self, const mps_ppe_problem *problem)
 {
     auxgrid *a = self;
     mps__grid *g = &a->grid;
-    if (problem->n >= INT32_MAX) return MPS_PPE_BREAKDOWN;
+    const int64_t columns = mps__columns(problem),
+                  rows = problem->ranks ? problem->ranks->rows : problem->n;
+    if (mps__on_any_rank(problem, columns >= INT32_MAX)) return MPS_PPE_BREAKDOWN;
     if (g->dim != problem->dim) mps__grid_release(g); /* its arrays are sized by the dimension */
     a->n = problem->n;
     g->dim = problem->dim;
     g->parallel = problem->parallel;
     g->levels = 0;
-    if (!mps__grid_reserve(g, problem->n)) return MPS_PPE_NOMEM;
-    int reason = check_diagonal(problem);
-    if (!reason && problem->n > 0) reason = build_grids(g, problem);
+    if (!mps__grid_reserve(g, columns > 0 ? columns : 1)) return MPS_PPE_NOMEM;
+    int reason = mps__grid_ranks_begin(g, problem);
+    if (!reason) reason = check_diagonal(problem);
+    if (!reason && rows > 0) reason = build_grids(g, problem);
     if (!reason) invert_diagonal(a, problem);
     return reason;
 }
@@ -115,8 +128,9 @@ static int apply(void *self, const double *r, double *z)
 {
     auxgrid *a = self;
     mps__grid *g = &a->grid;
-    if (a->n == 0) return 0;
-    mps__grid_restrict(g, r, g->unit);
+    if (g->levels == 0) return 0; /* no rank has rows */
+    const int reason = mps__grid_restrict(g, r, g->unit);
+    if (reason) return reason;
     mps__grid_cycle(g);
     mps_parallel_rows_least(g->parallel, a->n, MPS__TEAM_LEAST / 2, apply_rows,
                             &(operands){.a = a, .r = r, .z = z});
@@ -141,4 +155,6 @@ const mps_preconditioner_ops mps__preconditioner_auxgrid = {
     .apply = apply,
     .destroy = destroy,
     .help = "Multigrid cycle on auxiliary grids; the fastest for large systems",
+    .ranks = 1,
+    .reach = 2.5, /* from the centre of a cell to its corners, the largest is sqrt(3) 1.25 */
 };
