@@ -21,7 +21,7 @@ static int create(const mps_allocator *allocator, void **self)
     return 0;
 }
 
-/* Whether there is a diagonal entry that is not finite, and one that is negative, on any rank. */
+/* Whether there is a diagonal entry that is not finite, and one that is negative. */
 static void check_rows(void *argument, int64_t begin, int64_t end, double *values)
 {
     const mps_ppe_problem *problem = argument;
@@ -35,12 +35,14 @@ static void check_rows(void *argument, int64_t begin, int64_t end, double *value
     if (negative) values[1] = 1;
 }
 
-static int check_diagonal(const mps_ppe_problem *problem)
+/* The same answer on all ranks: too many unknowns on one, or a diagonal entry that is refused. */
+static int check(const mps_ppe_problem *problem)
 {
-    double found[2] = {0};
+    double found[3] = {0, 0, mps__columns(problem) >= INT32_MAX};
     mps_parallel_max(mps__team(problem->parallel, problem->n), problem->n, 2, check_rows,
                      (mps_ppe_problem *)problem, found);
-    mps_ppe_total(problem, &(mps_exact_values){.maxima = 2, .maximum = found});
+    mps_ppe_total(problem, &(mps_exact_values){.maxima = 3, .maximum = found});
+    if (found[2] > 0) return MPS_PPE_BREAKDOWN;
     return found[0] > 0 ? MPS_PPE_NAN : found[1] > 0 ? MPS_PPE_INDEFINITE : 0;
 }
 
@@ -95,15 +97,15 @@ static int setup(void *self, const mps_ppe_problem *problem)
     mps__grid *g = &a->grid;
     const int64_t columns = mps__columns(problem),
                   rows = problem->ranks ? problem->ranks->rows : problem->n;
-    if (mps__on_any_rank(problem, columns >= INT32_MAX)) return MPS_PPE_BREAKDOWN;
+    int reason = check(problem);
+    g->levels = 0;
+    if (reason) return reason;
     if (g->dim != problem->dim) mps__grid_release(g); /* its arrays are sized by the dimension */
     a->n = problem->n;
     g->dim = problem->dim;
     g->parallel = problem->parallel;
-    g->levels = 0;
     if (!mps__grid_reserve(g, columns > 0 ? columns : 1)) return MPS_PPE_NOMEM;
-    int reason = mps__grid_ranks_begin(g, problem);
-    if (!reason) reason = check_diagonal(problem);
+    reason = mps__grid_ranks_begin(g, problem);
     if (!reason && rows > 0) reason = build_grids(g, problem);
     if (!reason) invert_diagonal(a, problem);
     return reason;
@@ -156,5 +158,5 @@ const mps_preconditioner_ops mps__preconditioner_auxgrid = {
     .destroy = destroy,
     .help = "Multigrid cycle on auxiliary grids; the fastest for large systems",
     .ranks = 1,
-    .reach = 2.5, /* from the centre of a cell to its corners, the largest is sqrt(3) 1.25 */
+    .reach = 2.3, /* from the centre of a cell to its corners, the largest is sqrt(3) 1.25 */
 };
