@@ -20,6 +20,7 @@ typedef struct world {
     const kit_system *system;
     double *z, *shared; /* [particles] */
     int32_t threads;
+    int64_t fail_at; /* allocation of rank 1 that fails; 0: none */
     int reason[RANKS];
 } world;
 
@@ -214,6 +215,7 @@ static void run_rank(void *argument, int32_t rank)
     void *self = NULL;
     float *weight = take(all->n, sizeof *weight);
     kit_memory_init(&memory);
+    if (rank == 1) memory.fail_at = w->fail_at;
     for (int64_t i = 0; i < all->n; i++) weight[i] = 1;
     if (pc->create(&memory.allocator, &self)) abort();
     for (int cut = 0; cut < CUTS && !w->reason[rank]; cut++) {
@@ -226,6 +228,8 @@ static void run_rank(void *argument, int32_t rank)
         if (!reason) reason = pc->apply(self, r, z);
         for (int64_t k = 0; k < p.problem.n && !reason; k++) w->z[p.particle[k]] = z[k];
         w->reason[rank] = reason;
+        if (reason == MPS_PPE_NOMEM)
+            (p.ops.fail)(p.ops.user, "no memory"); /* cmocka has a macro `fail` */
         free(r);
         free(z);
         if (cut + 1 == CUTS || reason) pc->destroy(&memory.allocator, self);
@@ -341,11 +345,41 @@ static void all_refuse(void **state)
     kit_system_free(s);
 }
 
+/* Where a rank has no memory all ranks end, without a crash or a leak. */
+static void no_memory(void **state)
+{
+    (void)state;
+    const kit_lattice lattices[] = {{2, 40, 30, 1, 1, 1, 3.1, 1, 0},
+                                    {2, 40, 30, 1, 1, 1, 3.1, 1000, 0}};
+    for (int k = 0; k < 2; k++) {
+        kit_system *s = kit_lattice_system(&lattices[k]);
+        assert_non_null(s);
+        bool failed = true;
+        for (int64_t at = 2; failed; at++) { /* the first is that of create() */
+            world w = {.system = s,
+                       .threads = 1,
+                       .fail_at = at,
+                       .z = take(s->problem.n, sizeof *w.z),
+                       .shared = take(s->problem.n, sizeof *w.shared)};
+            run(&w, 3, 1);
+            failed = w.reason[1] != 0;
+            for (int32_t r = 0; r < 3; r++) {
+                assert_int_equal(w.reason[r] != 0, failed);
+                assert_int_not_equal(w.reason[r], -1);
+            }
+            assert_true(at > 30 || failed);
+            free(w.z);
+            free(w.shared);
+        }
+        kit_system_free(s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_density), cmocka_unit_test(two_densities),
+        cmocka_unit_test(one_density),  cmocka_unit_test(two_densities),
         cmocka_unit_test(with_threads), cmocka_unit_test(few_particles),
-        cmocka_unit_test(all_refuse)};
+        cmocka_unit_test(all_refuse),   cmocka_unit_test(no_memory)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
