@@ -14,9 +14,11 @@ typedef struct auxgrid {
 
 static int create(const mps_allocator *allocator, void **self)
 {
+    const int64_t *whole = *self; /* of tests */
     auxgrid *a = mps__take(allocator, 1, sizeof *a);
     if (!a) return MPS_PPE_NOMEM;
     *a = (auxgrid){.grid.allocator = *allocator};
+    a->grid.ranks.whole = whole ? *whole : MPS__GRID_WHOLE;
     *self = a;
     return 0;
 }
@@ -88,7 +90,8 @@ static int build_grids(mps__grid *g, const mps_ppe_problem *problem)
     if (reason) return reason;
     g->levels = 1;
     if (!mps__grid_coarsen(g)) return MPS_PPE_NOMEM;
-    return mps__grid_factorise(g) ? 0 : MPS_PPE_NAN;
+    if (!mps__grid_factorise(g)) return MPS_PPE_NAN;
+    return mps__grid_many(g) ? mps__grid_divide(g) : 0;
 }
 
 static int setup(void *self, const mps_ppe_problem *problem)
@@ -131,9 +134,9 @@ static int apply(void *self, const double *r, double *z)
     auxgrid *a = self;
     mps__grid *g = &a->grid;
     if (g->levels == 0) return 0; /* no rank has rows */
-    const int reason = mps__grid_restrict(g, r, g->unit);
+    int reason = mps__grid_restrict(g, r, g->unit);
+    if (!reason) reason = mps__grid_cycle(g);
     if (reason) return reason;
-    mps__grid_cycle(g);
     mps_parallel_rows_least(g->parallel, a->n, MPS__TEAM_LEAST / 2, apply_rows,
                             &(operands){.a = a, .r = r, .z = z});
     return 0;

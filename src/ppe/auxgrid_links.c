@@ -219,7 +219,8 @@ static int share_shifts(making *m)
 static int collect_sums(mps__grid *g, mps__grid_level *l)
 {
     double counted = 0;
-    const int reason = mps__grid_ranks_collect(g, 3, (double *[]){l->count, l->kappa, l->x});
+    const int reason = mps__grid_ranks_collect(g, &g->ranks.owned, 3,
+                                               (double *[]){l->count, l->kappa, l->x});
     if (reason) return reason;
     for (int64_t c = 0; c < l->cells; c++) counted += l->count[c];
     return counted == (double)g->ranks.table.rows ? 0 : MPS_PPE_BREAKDOWN;

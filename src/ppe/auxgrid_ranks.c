@@ -15,9 +15,8 @@ enum {
 
 /* ---- memory ---- */
 
-static void *room(mps__grid *g, int which, int64_t count, size_t size)
+void *mps__grid_room_of(mps__grid *g, mps__grid_room *r, int64_t count, size_t size)
 {
-    mps__grid_room *r = &g->ranks.room[which];
     const int64_t bytes = count * (int64_t)size;
     if (r->at && bytes <= r->bytes) return r->at;
     mps__give(&g->allocator, r->at);
@@ -25,6 +24,11 @@ static void *room(mps__grid *g, int which, int64_t count, size_t size)
     r->at = mps__take(&g->allocator, r->bytes, 1);
     if (!r->at) r->bytes = 0;
     return r->at;
+}
+
+static void *room(mps__grid *g, int which, int64_t count, size_t size)
+{
+    return mps__grid_room_of(g, &g->ranks.room[which], count, size);
 }
 
 static void disconnect(mps__grid_ranks *r)
@@ -35,15 +39,18 @@ static void disconnect(mps__grid_ranks *r)
 
 void mps__grid_ranks_release(mps__grid *g)
 {
+    const int64_t whole = g->ranks.whole;
     disconnect(&g->ranks);
+    mps__grid_divided_release(g);
     for (int k = 0; k < MPS__GRID_ROOMS; k++) mps__give(&g->allocator, g->ranks.room[k].at);
-    g->ranks = (mps__grid_ranks){.n = 0};
+    g->ranks = (mps__grid_ranks){.whole = whole};
 }
 
 int mps__grid_ranks_begin(mps__grid *g, const mps_ppe_problem *problem)
 {
     mps__grid_ranks *r = &g->ranks;
     disconnect(r);
+    mps__grid_undivide(g);
     r->table = problem->ranks ? *problem->ranks : (mps_ppe_ranks){.ranks = 0};
     if (!mps__grid_many(g)) return 0;
     const int32_t ranks = r->table.ranks;
@@ -52,9 +59,9 @@ int mps__grid_ranks_begin(mps__grid *g, const mps_ppe_problem *problem)
     r->value = room(g, MPS__GRID_VALUES, r->columns, sizeof *r->value);
     r->entries = room(g, MPS__GRID_ENTRIES, r->columns, sizeof *r->entries);
     r->place = room(g, MPS__GRID_PLACES, r->columns, sizeof *r->place);
-    r->first = room(g, MPS__GRID_COUNTS, 3 * (int64_t)ranks + 1, sizeof *r->first);
-    if (!r->value || !r->entries || !r->place || !r->first) return MPS_PPE_NOMEM;
-    r->bytes = r->first + ranks + 1;
+    r->owned.first = room(g, MPS__GRID_COUNTS, 3 * (int64_t)ranks + 1, sizeof *r->owned.first);
+    if (!r->value || !r->entries || !r->place || !r->owned.first) return MPS_PPE_NOMEM;
+    r->bytes = r->owned.first + ranks + 1;
     r->count = r->bytes + ranks;
     for (int64_t k = 0; k < r->columns; k++) r->place[r->table.order[k]] = (int32_t)k;
     return 0;
@@ -100,20 +107,22 @@ int mps__grid_ranks_exchange(mps__grid *g)
     return 0;
 }
 
-int mps__grid_ranks_collect(mps__grid *g, int arrays, double *const *array)
+int mps__grid_ranks_collect(mps__grid *g, const mps__grid_owned *owned, int arrays,
+                            double *const *array)
 {
     mps__grid_ranks *r = &g->ranks;
-    const int64_t first = r->first[r->table.rank], own = r->first[r->table.rank + 1] - first,
-                  all = r->first[r->table.ranks];
+    const int64_t first = owned->first[r->table.rank],
+                  own = owned->first[r->table.rank + 1] - first, all = owned->first[r->table.ranks];
     double *out = room(g, MPS__GRID_OUT, own * arrays, sizeof *out),
            *in = room(g, MPS__GRID_IN, all * arrays, sizeof *in);
     if (!out || !in) return MPS_PPE_NOMEM;
     for (int64_t k = 0; k < own; k++)
-        for (int a = 0; a < arrays; a++) out[k * arrays + a] = array[a][r->cell[first + k]];
-    for (int32_t k = 0; k < r->table.ranks; k++) r->count[k] = r->first[k + 1] - r->first[k];
+        for (int a = 0; a < arrays; a++) out[k * arrays + a] = array[a][owned->cell[first + k]];
+    for (int32_t k = 0; k < r->table.ranks; k++)
+        r->count[k] = owned->first[k + 1] - owned->first[k];
     if (gather(r, out, (size_t)arrays * sizeof *out, in)) return MPS_PPE_BREAKDOWN;
     for (int64_t k = 0; k < all; k++)
-        for (int a = 0; a < arrays; a++) array[a][r->cell[k]] = in[k * arrays + a];
+        for (int a = 0; a < arrays; a++) array[a][owned->cell[k]] = in[k * arrays + a];
     return 0;
 }
 
@@ -184,18 +193,20 @@ static int find_owners(mps__grid *g)
 {
     mps__grid_ranks *r = &g->ranks;
     const int64_t cells = g->level[0].cells;
-    r->cell = room(g, MPS__GRID_CELLS, 2 * cells, sizeof *r->cell);
+    r->owned.cell = room(g, MPS__GRID_CELLS, 2 * cells, sizeof *r->owned.cell);
     r->owner = room(g, MPS__GRID_OWNERS, cells, sizeof *r->owner);
-    if (!r->cell || !r->owner) return MPS_PPE_NOMEM;
-    int32_t *own = r->cell + cells;
+    if (!r->owned.cell || !r->owner) return MPS_PPE_NOMEM;
+    int32_t *own = r->owned.cell + cells;
     const int64_t count = find_own(g, own);
     if (count < 0) return count == -1 ? MPS_PPE_NOMEM : MPS_PPE_BREAKDOWN;
     if (gather_count(r, count) != cells) return MPS_PPE_BREAKDOWN;
-    r->first[0] = 0;
-    for (int32_t k = 0; k < r->table.ranks; k++) r->first[k + 1] = r->first[k] + r->count[k];
-    if (gather(r, own, sizeof *own, r->cell)) return MPS_PPE_BREAKDOWN;
+    r->owned.first[0] = 0;
     for (int32_t k = 0; k < r->table.ranks; k++)
-        for (int64_t c = r->first[k]; c < r->first[k + 1]; c++) r->owner[r->cell[c]] = k;
+        r->owned.first[k + 1] = r->owned.first[k] + r->count[k];
+    if (gather(r, own, sizeof *own, r->owned.cell)) return MPS_PPE_BREAKDOWN;
+    for (int32_t k = 0; k < r->table.ranks; k++)
+        for (int64_t c = r->owned.first[k]; c < r->owned.first[k + 1]; c++)
+            r->owner[r->owned.cell[c]] = k;
     return 0;
 }
 
@@ -216,12 +227,12 @@ static void list_sent(mps__grid *g, int64_t *list)
     mps__grid_ranks *r = &g->ranks;
     const int all = g->dim == 2 ? 9 : MPS__GRID_ABOUT;
     const int32_t rank = r->table.rank;
-    for (int64_t c = r->first[rank]; c < r->first[rank + 1]; c++)
+    for (int64_t c = r->owned.first[rank]; c < r->owned.first[rank + 1]; c++)
         for (int k = 1; k < all; k++) {
-            const int32_t owner = owner_about(g, r->cell[c], k);
+            const int32_t owner = owner_about(g, r->owned.cell[c], k);
             if (owner < 0 || owner == rank) continue;
             if (list)
-                list[r->bytes[owner]++] = (int64_t)r->cell[c] * all + k;
+                list[r->bytes[owner]++] = (int64_t)r->owned.cell[c] * all + k;
             else
                 r->count[owner]++;
         }
@@ -234,8 +245,8 @@ static int64_t list_received(const mps__grid *g, const uint8_t *beside, int64_t 
     const mps__grid_ranks *r = &g->ranks;
     const int all = g->dim == 2 ? 9 : MPS__GRID_ABOUT;
     int64_t listed = 0;
-    for (int64_t c = 0; c < r->first[r->table.ranks]; c++) {
-        const int32_t cell = r->cell[c];
+    for (int64_t c = 0; c < r->owned.first[r->table.ranks]; c++) {
+        const int32_t cell = r->owned.cell[c];
         if (!beside[cell] || r->owner[cell] == r->table.rank) continue;
         for (int k = 1; k < all; k++) {
             if (owner_about(g, cell, k) != r->table.rank) continue;
@@ -254,8 +265,8 @@ static uint8_t *mark_beside(mps__grid *g)
     uint8_t *beside = room(g, MPS__GRID_MARKS, l->cells + 1, sizeof *beside);
     if (!beside) return NULL;
     memset(beside, 0, (size_t)l->cells + 1);
-    for (int64_t c = r->first[r->table.rank]; c < r->first[r->table.rank + 1]; c++)
-        for (int k = 1; k < all; k++) beside[l->about[(int64_t)r->cell[c] * all + k]] = 1;
+    for (int64_t c = r->owned.first[r->table.rank]; c < r->owned.first[r->table.rank + 1]; c++)
+        for (int k = 1; k < all; k++) beside[l->about[(int64_t)r->owned.cell[c] * all + k]] = 1;
     return beside;
 }
 

@@ -223,7 +223,8 @@ static int restrict_ranks(mps__grid *g, const double *values, double scale)
     reason = mps__grid_ranks_exchange(g);
     if (reason) return reason;
     mps_parallel_rows_least(team, g->turns, MPS__GRID_TURNS, sum_turns, &t);
-    return mps__grid_ranks_collect(g, 1, &l->b);
+    /* the cycle on a divided grid takes the right side of the own cells */
+    return g->ranks.divided > 0 ? 0 : mps__grid_ranks_collect(g, &g->ranks.owned, 1, &l->b);
 }
 
 int mps__grid_restrict(mps__grid *g, const double *values, double scale)

@@ -20,6 +20,7 @@ typedef struct world {
     const kit_system *system;
     double *z, *shared; /* [particles] */
     int32_t threads;
+    int64_t whole; /* cells from which on a grid is divided; 0: the default, more than there are */
     int64_t fail_at; /* allocation of rank 1 that fails; 0: none */
     int reason[RANKS];
 } world;
@@ -212,7 +213,7 @@ static void run_rank(void *argument, int32_t rank)
     const mps_parallel parallel = kit_parallel(w->threads);
     piece p = {.w = w, .ops = engine_ops(w->team, rank)};
     kit_memory memory;
-    void *self = NULL;
+    void *self = w->whole > 0 ? &w->whole : NULL;
     float *weight = take(all->n, sizeof *weight);
     kit_memory_init(&memory);
     if (rank == 1) memory.fail_at = w->fail_at;
@@ -248,11 +249,13 @@ static void run(world *w, int32_t ranks, uint32_t skew)
     engine_destroy(w->team);
 }
 
-static void check_ranks(const kit_system *s, const double *alone, int32_t ranks, int32_t threads)
+static void check_ranks(const kit_system *s, const double *alone, int32_t ranks, int32_t threads,
+                        int64_t whole)
 {
     const int64_t n = s->problem.n;
     world w = {.system = s,
                .threads = threads,
+               .whole = whole,
                .z = take(n, sizeof *w.z),
                .shared = take(n, sizeof *w.shared)};
     run(&w, ranks, (uint32_t)ranks % 4);
@@ -282,11 +285,12 @@ static double *applied_alone(const kit_system *s)
 static void check_lattice(const kit_lattice *lattice, int32_t threads)
 {
     static const int32_t ranks[] = {2, 3, 4, 7, RANKS};
+    static const int64_t whole[] = {0, 300, 1};
     kit_system *s = kit_lattice_system(lattice);
     assert_non_null(s);
     double *alone = applied_alone(s);
     for (size_t k = 0; k < sizeof ranks / sizeof ranks[0]; k++)
-        check_ranks(s, alone, ranks[k], threads);
+        for (int w = 0; w < 3; w++) check_ranks(s, alone, ranks[k], threads, whole[w]);
     free(alone);
     kit_system_free(s);
 }
@@ -358,6 +362,7 @@ static void no_memory(void **state)
         for (int64_t at = 2; failed; at++) { /* the first is that of create() */
             world w = {.system = s,
                        .threads = 1,
+                       .whole = 100,
                        .fail_at = at,
                        .z = take(s->problem.n, sizeof *w.z),
                        .shared = take(s->problem.n, sizeof *w.shared)};

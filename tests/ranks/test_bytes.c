@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Runs on 2, 3, 4 and 7 ranks have the bytes of a run on one, after every step. */
+#include "../../src/ppe/builtin.h"
 #include "engine.h"
 #include "sim.h"
 #include <mps/mps.h>
@@ -52,11 +53,22 @@ static int roll(void *user, double t, mps_motion_state *state)
     return 0;
 }
 
+/* Under the name "divided": auxgrid that divides all grids but the last, as it does with large ones. */
+static mps_status register_divided(mps_sim *sim)
+{
+    static int64_t whole = 1;
+    mps_preconditioner_ops ops = mps__preconditioner_auxgrid;
+    ops.name = "divided";
+    ops.user = &whole;
+    return mps_preconditioner_register(sim, &ops);
+}
+
 static mps_status build(mps_sim *sim, const scene *s)
 {
     const double lo[3] = {0, 0, 0}, depth[3] = {0.3, 0.26, 0.4}, all[3] = {0.6, 0.45, 0.4};
     mps_tank tank;
     mps_status status = mps_preset_use(sim, s->preset);
+    if (status == MPS_OK) status = register_divided(sim);
     if (status == MPS_OK) status = mps_solver_use(sim, "sundials.pcg", s->preconditioner);
     mps_tank_init(&tank, sizeof tank);
     for (int d = 0; d < 3; d++) tank.size[d] = all[d];
@@ -161,8 +173,8 @@ static void compare(const scene *s, const record *a, const record *b, int32_t ra
 static void check(scene s)
 {
     static const int32_t ranks[] = {2, 3, 4, 7};
-    static const char *const preconditioners[] = {"jacobi", "auxgrid"};
-    for (int p = 0; p < 2; p++) {
+    static const char *const preconditioners[] = {"jacobi", "auxgrid", "divided"};
+    for (int p = 0; p < 3; p++) {
         s.preconditioner = preconditioners[p];
         record *alone = run_scene(&s, 1, 0);
         for (int k = 0; k < 4; k++) {
