@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Scenes whose bytes do not depend on the number of ranks. */
 #include "scenes.h"
+#include "ppe/builtin.h"
 #include "sim.h"
 #include <stdio.h>
 #include <string.h>
@@ -46,6 +47,38 @@ const scene scenes[SCENES] = {
      .motion = sway,
      .sigma = 0.07},
     {.name = "air_3d", .preset = "mmps", .dim = 3, .steps = 8, .dp = 0.06, .sigma = 0.07},
+    {.name = "dam_2d_jacobi",
+     .preset = "imps",
+     .dim = 2,
+     .steps = 30,
+     .dp = 0.02,
+     .preconditioner = "jacobi"},
+    {.name = "dam_3d_divided",
+     .preset = "imps",
+     .dim = 3,
+     .steps = 12,
+     .dp = 0.05,
+     .preconditioner = "divided"},
+    {.name = "roll_2d_divided",
+     .preset = "imps",
+     .dim = 2,
+     .steps = 40,
+     .dp = 0.02,
+     .motion = roll,
+     .preconditioner = "divided"},
+    {.name = "air_2d_divided",
+     .preset = "mmps",
+     .dim = 2,
+     .steps = 20,
+     .dp = 0.025,
+     .motion = sway,
+     .preconditioner = "divided"},
+    {.name = "air_2d_jacobi",
+     .preset = "mmps",
+     .dim = 2,
+     .steps = 12,
+     .dp = 0.025,
+     .preconditioner = "jacobi"},
     {.name = "paper_2d", .preset = "imps.paper", .dim = 2, .steps = 40, .dp = 0.025},
     {.name = "paper_air_2d",
      .preset = "mmps.paper",
@@ -62,6 +95,16 @@ mps_status scene_create(const scene *s, mps_sim **sim)
     config.dim = s->dim;
     config.dp = s->dp;
     return mps_sim_create(&config, sim);
+}
+
+/* Under the name "divided": auxgrid that divides all grids but the last, as it does with large ones. */
+static mps_status register_divided(mps_sim *sim)
+{
+    static int64_t whole = 1;
+    mps_preconditioner_ops ops = mps__preconditioner_auxgrid;
+    ops.name = "divided";
+    ops.user = &whole;
+    return mps_preconditioner_register(sim, &ops);
 }
 
 static mps_status add_air(mps_sim *sim, const scene *s, const double lo[3], const double hi[3])
@@ -102,7 +145,10 @@ mps_status scene_build(mps_sim *sim, const scene *s)
                  along[3] = {0, 0, 0.4};
     mps_tank tank;
     mps_status status = mps_preset_use(sim, s->preset);
-    if (status == MPS_OK) status = mps_solver_use(sim, "sundials.pcg", "jacobi");
+    if (status == MPS_OK) status = register_divided(sim);
+    if (status == MPS_OK)
+        status = mps_solver_use(sim, "sundials.pcg",
+                                s->preconditioner ? s->preconditioner : "auxgrid");
     mps_tank_init(&tank, sizeof tank);
     for (int d = 0; d < 3; d++) tank.size[d] = all[d];
     if (status == MPS_OK) status = mps_tank_add(sim, &tank, NULL);
