@@ -8,6 +8,8 @@
 
 /* Turns of a loop that waits: the first keep the processor, the next leave it to processes that are ready, the others sleep. */
 enum { BUSY = 200, YIELDING = 2000, SLEEP = 50000 /* ns */ };
+/* Busy turns between two looks for failures: to look costs as much as a turn. */
+enum { LISTEN = 16 };
 /* Cancelled messages end at once, or when the other rank has heard of the failure [s]. */
 static const double patience = 2;
 
@@ -150,6 +152,7 @@ int mps__mpi_wait(mps__mpi *e, mps__mpi_list *list, const char *call)
             list->count = 0;
             return 0;
         }
+        if (turn < BUSY && turn % LISTEN != LISTEN - 1) continue;
         if (mps__mpi_failed(e) || turn < BUSY) continue;
         if (turn == BUSY) end = mps__mpi_now() + e->watchdog;
         if (turn > BUSY && mps__mpi_now() > end) time_out(e, call);
