@@ -67,7 +67,8 @@ typedef struct mps_ranks_ops {
      *  @param lo  [dim] @param hi  [dim] @param rank  [ranks] out @param count  out */
     int (*overlap)(void *self, const double *lo, const double *hi, int32_t *rank, int32_t *count);
     /** Make a route: this rank says what it sends, and learns what it receives.
-     *  @param to  [count] ascending, not the own rank @param sent  [count] elements, > 0 */
+     *  @param to  [count] ascending, not the own rank @param sent  [count] elements, > 0
+     *  @param route  out; empty after a failure */
     int (*connect)(void *self, int32_t count, const int32_t *to, const int64_t *sent,
                    mps_route *route);
     /** Free a route. Not collective. */

@@ -45,6 +45,22 @@ static const mps_model_ops failing = {.struct_size = sizeof(mps_model_ops),
                                       .verb_count = 1,
                                       .verbs = verbs};
 
+static int64_t left = -1; /* allocations of rank 1 until one fails; -1: none does */
+
+static void *take(void *user, size_t size)
+{
+    (void)user;
+    if (left == 0) return NULL;
+    if (left > 0) left--;
+    return malloc(size);
+}
+
+static void give(void *user, void *block)
+{
+    (void)user;
+    free(block);
+}
+
 static mps_sim *open_dam(const mps_model_ops *model)
 {
     const double lo[3] = {0, 0, 0}, hi[3] = {0.3, 0.26, 0};
@@ -53,6 +69,7 @@ static mps_sim *open_dam(const mps_model_ops *model)
     mps_tank tank;
     mps_config_init(&config, sizeof config);
     config.dp = 0.02;
+    config.allocator = (mps_allocator){.alloc = take, .release = give};
     mps_tank_init(&tank, sizeof tank);
     tank.size[0] = 0.6;
     tank.size[1] = 0.45;
@@ -135,6 +152,31 @@ static void check_watchdog(void)
     unsetenv("MPS_MPI_WATCHDOG");
 }
 
+/* ---- a rank without memory ---- */
+
+/* The k-th allocation of rank 1, and all later ones, fail: all ranks fail, or none. @return whether they do */
+static int check_allocation(int64_t k)
+{
+    int failed, all;
+    mps_sim *sim = open_dam(NULL);
+    left = rank == 1 ? k : -1;
+    mps_status status = MPS_OK;
+    for (int s = 0; s < 8 && status >= 0; s++) status = mps_step(sim, 1, NULL);
+    left = -1;
+    failed = status < 0;
+    MPI_Allreduce(&failed, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+    expect(all == 0 || all == ranks, "all ranks fail, or none", mps_status_name(status));
+    mps_sim_destroy(sim);
+    return failed;
+}
+
+static void check_memory(void)
+{
+    int64_t k = 0;
+    while (check_allocation(k)) k += 1 + k / 8;
+    expect(k > 10, "allocations of a step", "");
+}
+
 /* ---- calls that are refused ---- */
 
 static void check_wrong(void)
@@ -194,6 +236,7 @@ int main(int argc, char **argv)
     check_motion();
     check_monitor();
     check_watchdog();
+    check_memory();
     MPI_Finalize();
     check_over();
     return wrong;
