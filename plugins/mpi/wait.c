@@ -81,12 +81,13 @@ static MPI_Request *next_request(mps__mpi *e, mps__mpi_list *list)
 {
     if (list->count == list->room) {
         const int32_t room = 2 * list->room + 16;
-        MPI_Request *larger = mps__mpi_alloc(e, (size_t)room * sizeof *larger);
+        MPI_Request *larger = mps__mpi_alloc(e, (size_t)room * sizeof(MPI_Request));
         if (!larger) {
             mps__mpi_fail(e, "no memory for messages between ranks");
             return NULL;
         }
-        if (list->count > 0) memcpy(larger, list->request, (size_t)list->count * sizeof *larger);
+        if (list->count > 0)
+            memcpy(larger, list->request, (size_t)list->count * sizeof(MPI_Request));
         mps__mpi_release(e, list->request);
         list->request = larger;
         list->room = room;

@@ -53,7 +53,7 @@ int main(int argc, char **argv)
     MPI_Init(&argc, &argv);
     MPI_Comm_size(MPI_COMM_WORLD, &ranks);
     check(0);
-    check(100);
+    check(4099);
     for (int call = 0; call < ENGINE_CALLS; call++) {
         check_failure(call, -1);
         for (int32_t also = 0; also < 2 && also < ranks; also++) check_failure(call, also);
