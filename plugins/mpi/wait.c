@@ -64,7 +64,7 @@ static void stop(mps__mpi *e, mps__mpi_list *list)
     list->count = 0;
 }
 
-/* A rank that has failed cancels its receives and sends no more. A send ends if the other rank received it before; else it is left to MPI. */
+/* A rank that has failed cancels its receives and sends no more. A send ends if the other rank receives it; else it is left to MPI. */
 void mps__mpi_stop(mps__mpi *e)
 {
     if (e->exchange.count > 0) stop(e, &e->exchange);
