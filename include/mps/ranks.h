@@ -103,7 +103,7 @@ typedef struct mps_ranks_ops {
  *  this rank: see mps_particles_ghosts(). Motions and limits must be functions of the time and of
  *  what all ranks get alike.
  *  @return MPS_E_ARG (which entry, and what is allowed), MPS_E_STATE (too late), MPS_E_VERSION,
- *  MPS_E_NOMEM, MPS_E_BUSY */
+ *  MPS_E_PLUGIN (why the engine does not begin), MPS_E_NOMEM, MPS_E_BUSY */
 MPS_API mps_status mps_sim_ranks_set(mps_sim *sim, const mps_ranks_ops *ops);
 
 /** Number of this rank and of all ranks; 0 and 1 without an engine. @return MPS_E_ARG */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Routes, exchanges, reductions and gathers, all made of sends and receives: MPI can cancel those when a rank fails, and no collective call. */
+/* Routes, exchanges, reductions and gathers, made of sends and receives: MPI can cancel those when a rank fails, but no collective call. */
 #include "mpi_engine.h"
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/** @file mpi.h  Plug-in library libmps_mpi: runs one simulation on the ranks of an MPI communicator.
- *  Messages are those of MPI, space is cut by the recursive coordinate bisection (RCB) of Zoltan.
+/** @file mpi.h  Plug-in library libmps_mpi: runs one simulation on the ranks of a communicator of
+ *  MPI. Messages are those of MPI, space is cut by the recursive coordinate bisection (RCB) of Zoltan.
  *
  *      MPI_Init(&argc, &argv);
  *      mps_sim_create(&config, &sim);
@@ -27,8 +27,8 @@
 MPS_BEGIN_DECLS
 
 /** Run a handle on all ranks of a communicator. All ranks make this call, before particles, solids,
- *  probes or steps. All of them destroy the handle before MPI_Finalize(); rank 0 waits there for the
- *  others. Handles that work at the same time in different threads need MPI_THREAD_MULTIPLE.
+ *  probes or steps. All of them destroy the handle before MPI_Finalize(); rank 0 waits there for
+ *  the others. Handles that work at the same time in different threads need MPI_THREAD_MULTIPLE.
  *  @param comm  an intracommunicator; the library works on duplicates. The program has called
  *               MPI_Init() or MPI_Init_thread(): MPI_THREAD_FUNNELED is enough if the thread that
  *               called it calls the library
