@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file mpi.h  Plug-in library libmps_mpi: runs one simulation on the ranks of a communicator of
- *  MPI. Messages are those of MPI, space is cut by the recursive coordinate bisection (RCB) of Zoltan.
+ *  MPI. Messages are those of MPI, space is cut by recursive coordinate bisection (RCB) of Zoltan.
  *
  *      MPI_Init(&argc, &argv);
  *      mps_sim_create(&config, &sim);
