@@ -30,6 +30,7 @@ const scene scenes[SCENES] = {
     {.name = "dam_3d", .preset = "imps", .dim = 3, .steps = 20, .dp = 0.05},
     {.name = "surge_2d", .preset = "imps", .dim = 2, .steps = 60, .dp = 0.02, .motion = sway},
     {.name = "roll_2d", .preset = "imps", .dim = 2, .steps = 60, .dp = 0.02, .motion = roll},
+    {.name = "changes_2d", .preset = "imps", .dim = 2, .steps = 40, .dp = 0.02, .changes = true},
     {.name = "baffle_2d", .preset = "imps", .dim = 2, .steps = 150, .dp = 0.02, .baffle = 1},
     {.name = "plate_2d",
      .preset = "imps",
@@ -161,6 +162,31 @@ mps_status scene_build(mps_sim *sim, const scene *s)
     if (status == MPS_OK && s->motion) status = mps_motion_callback_set(sim, s->motion, NULL);
     if (status == MPS_OK) status = add_probes(sim);
     return status;
+}
+
+/* Fluid is taken away before step 9, and some comes before step 13. */
+mps_status scene_change(mps_sim *sim, const scene *s, int step)
+{
+    enum { GO = 25, COME = 4 };
+    int64_t ids[GO], twice[2];
+    double places[COME * 2];
+    mps_particle_block block;
+    if (!s->changes || (step != 9 && step != 13)) return MPS_OK;
+    for (int k = 0; k < GO; k++) ids[k] = sim->world.particles.next_id - 40 + k;
+    if (step == 9) {
+        twice[0] = twice[1] = ids[0];
+        if (mps_particles_remove(sim, 2, twice) != MPS_E_ARG) return MPS_E_STATE;
+        return mps_particles_remove(sim, GO, ids);
+    }
+    mps_particle_block_init(&block, sizeof block);
+    for (int k = 0; k < COME; k++) {
+        places[2 * k] = 0.41 + 0.02 * k;
+        places[2 * k + 1] = 0.33;
+    }
+    block.kind = MPS_FLUID;
+    block.count = COME;
+    block.position = places;
+    return mps_particles_add(sim, &block, NULL);
 }
 
 void record_note(mps_sim *sim, const mps_step_info *info, record *r)

@@ -6,7 +6,7 @@
 #include <mps/mps.h>
 #include <stdbool.h>
 
-enum { SCENES = 16, SCENE_MOST = 8000, SCENE_NUMBERS = 9, SCENE_INFOS = 24, SCENE_PROBES = 4 };
+enum { SCENES = 17, SCENE_MOST = 8000, SCENE_NUMBERS = 9, SCENE_INFOS = 24, SCENE_PROBES = 4 };
 
 typedef struct scene {
     const char *name, *preset;
@@ -15,6 +15,7 @@ typedef struct scene {
     mps_motion_fn motion;
     int baffle;   /* 1: a block, 2: a thin plate, in the way of the fluid */
     double sigma; /* of the interface [N/m] */
+    bool changes; /* particles go and come between steps */
     /* NULL: auxgrid; "divided": auxgrid that divides small grids too */
     const char *preconditioner;
 } scene;
@@ -32,6 +33,8 @@ typedef struct record {
 mps_status scene_create(const scene *s, mps_sim **sim);
 mps_status scene_build(mps_sim *sim, const scene *s);
 
+/* Before a step, from 0: what changes in it. */
+mps_status scene_change(mps_sim *sim, const scene *s, int step);
 /* The owned particles of this rank, into a record that is empty at first; rank 0 adds the numbers of the step. */
 void record_note(mps_sim *sim, const mps_step_info *info, record *r);
 /* Whether both have the same bytes; else `text` says what differs first. */

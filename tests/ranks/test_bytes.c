@@ -34,7 +34,8 @@ static void run_rank(void *argument, int32_t rank)
     if (status == MPS_OK) status = scene_build(sim, k->scene);
     for (int s = 0; s < k->scene->steps && status >= 0; s++) {
         sim->world.ghosts.recut = s % 7 == 3; /* new cuts whenever a search comes */
-        status = mps_step(sim, 1, &info);
+        status = scene_change(sim, k->scene, s);
+        if (status == MPS_OK) status = mps_step(sim, 1, &info);
         if (status >= 0) record_note(sim, &info, &k->records[s]);
     }
     if (status < 0) snprintf(k->error[rank], TEXT, "%s", mps_sim_error(sim));

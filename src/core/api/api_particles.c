@@ -3,6 +3,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "plates.h"
 #include "sim.h"
+#include "world_ranks.h"
 #include <math.h>
 #include <mps/particles.h>
 #include <string.h>
@@ -116,6 +117,17 @@ static void store_block(mps_sim *sim, const mps_particle_block *b, int32_t part,
     }
 }
 
+/* Each rank looks at the particles that it has; all refuse alike. */
+static mps_status check_overlap_everywhere(mps_sim *sim, const mps_particle_block *b)
+{
+    mps__ranks *r = &sim->world.ranks;
+    if (!mps__ranks_many(r)) return check_overlap(sim, b);
+    sim->context.error[0] = 0;
+    bool any = check_overlap(sim, b) < 0;
+    mps__world_any(&sim->world, 1, &any);
+    return any ? mps__ranks_text(r, MPS_E_ARG) : mps__ranks_status(r);
+}
+
 mps_status mps_particles_add(mps_sim *sim, const mps_particle_block *block, int64_t *ids)
 {
     MPS__CHANGES(sim);
@@ -124,7 +136,7 @@ mps_status mps_particles_add(mps_sim *sim, const mps_particle_block *block, int6
     MPS__TRY(not_leased(sim));
     MPS__TRY(mps__struct_in(&sim->context, "mps_particle_block", &b, sizeof b, block));
     MPS__TRY(check_block(sim, &b));
-    MPS__TRY(check_overlap(sim, &b));
+    MPS__TRY(check_overlap_everywhere(sim, &b));
     MPS__TRY(mps__particles_reserve(s, b.count));
     int32_t part = -1;
     if (b.kind != MPS_FLUID) {
@@ -151,36 +163,59 @@ static int32_t *places(mps_sim *sim)
     return place;
 }
 
+/* Whether all ids are known, each given once; on many ranks each is owned by one. `place` of a particle that goes becomes -1. */
+static mps_status check_ids(mps_sim *sim, int64_t count, const int64_t *ids, int32_t *place)
+{
+    const mps__particles *s = &sim->world.particles;
+    const bool many = mps__ranks_many(&sim->world.ranks);
+    int64_t *found = mps__alloc(&sim->context, count, sizeof *found), bad = count;
+    if (!found) return MPS_E_NOMEM;
+    for (int64_t k = 0; k < count; k++) {
+        if (ids[k] < 0 || ids[k] >= s->next_id || place[ids[k]] < 0) continue;
+        found[k] = !many || !mps__is_ghost(&sim->world.ghosts, place[ids[k]]);
+        place[ids[k]] = -1;
+    }
+    for (int64_t k = 0; k < count; k += INT32_MAX)
+        mps__ranks_add(&sim->world.ranks, (int32_t)(count - k < INT32_MAX ? count - k : INT32_MAX),
+                       found + k);
+    for (int64_t k = count - 1; k >= 0; k--) bad = found[k] == 1 ? bad : k;
+    mps__free(&sim->context, found);
+    MPS__TRY(mps__ranks_status(&sim->world.ranks));
+    MPS__CHECK(&sim->context, bad == count, "remove: id %lld is unknown, or given twice",
+               (long long)ids[bad < count ? bad : 0]);
+    return MPS_OK;
+}
+
+/* Take out the particles whose place is -1. */
+static mps_status take_out(mps_sim *sim, const int32_t *place)
+{
+    mps__particles *s = &sim->world.particles;
+    int64_t left = 0, gone = 0;
+    int32_t *order = mps__alloc(&sim->context, s->n, sizeof *order);
+    if (!order) return MPS_E_NOMEM;
+    for (int64_t i = 0; i < s->n; i++) left += place[s->id[i]] >= 0;
+    for (int64_t i = 0, kept = 0; i < s->n; i++)
+        order[place[s->id[i]] >= 0 ? kept++ : left + gone++] = (int32_t)i;
+    mps_status status = mps__ghosts_ordered(&sim->world.ghosts, order);
+    if (status == MPS_OK) status = mps__particles_permute(s, left, order);
+    if (status == MPS_OK && mps__ranks_many(&sim->world.ranks)) sim->world.ghosts.known = left;
+    mps__free(&sim->context, order);
+    return status;
+}
+
 mps_status mps_particles_remove(mps_sim *sim, int64_t count, const int64_t *ids)
 {
     MPS__CHANGES(sim);
-    mps__particles *s = &sim->world.particles;
     MPS__TRY(not_leased(sim));
     MPS__CHECK(&sim->context, count >= 1 && ids, "remove: count is %lld with %s ids",
                (long long)count, ids ? "given" : "no");
+    MPS__TRY(mps__world_adopt(&sim->world));
     int32_t *place = places(sim);
     if (!place) return MPS_E_NOMEM;
-    mps_status status = MPS_OK;
-    for (int64_t k = 0; k < count && status == MPS_OK; k++) {
-        if (ids[k] < 0 || ids[k] >= s->next_id || place[ids[k]] < 0)
-            status = mps__fail(&sim->context, MPS_E_ARG,
-                               "remove: id %lld is unknown, or given twice", (long long)ids[k]);
-        else
-            place[ids[k]] = -1;
-    }
-    if (status == MPS_OK) {
-        int64_t left = 0;
-        int32_t *keep = place; /* filled from the front, behind what is read */
-        int32_t *gone = mps__alloc(&sim->context, s->n, sizeof *gone);
-        if (!gone) status = MPS_E_NOMEM;
-        for (int64_t i = 0; gone && i < s->n; i++) gone[i] = place[s->id[i]] < 0;
-        for (int64_t i = 0; gone && i < s->n; i++)
-            if (!gone[i]) keep[left++] = (int32_t)i;
-        if (gone) status = mps__particles_permute(s, left, keep);
-        mps__free(&sim->context, gone);
-        if (status == MPS_OK) sim->world.lists.neighbours.valid = false;
-        if (status == MPS_OK) mps__plates_set_active(&sim->world);
-    }
+    mps_status status = check_ids(sim, count, ids, place);
+    if (status == MPS_OK) status = take_out(sim, place);
+    if (status == MPS_OK) sim->world.lists.neighbours.valid = false;
+    if (status == MPS_OK) mps__plates_set_active(&sim->world);
     mps__free(&sim->context, place);
     return status;
 }

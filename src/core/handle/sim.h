@@ -60,6 +60,22 @@ static inline mps_status mps__sim_divided(const mps_sim *sim, const char *call)
         MPS__TRY(mps__sim_free((sim), MPS__UNLOCKED, __func__)); \
         MPS__TRY(mps__sim_divided((sim), __func__));             \
     } while (0)
+/* Refuse geometry where ranks have divided the particles: it looks at all that is there. */
+static inline mps_status mps__sim_whole(const mps_sim *sim, const char *call)
+{
+    if (!mps__ranks_many(sim->world.ghosts.ranks) || sim->world.ghosts.known == 0) return MPS_OK;
+    return mps__fail(mps__sim_context(sim), MPS_E_STATE,
+                     "%s() was called when the ranks had divided the particles: build the geometry "
+                     "before the first step; particles may be added and removed later",
+                     call);
+}
+
+/* A public function that builds geometry. */
+#define MPS__BUILDS(sim)                           \
+    do {                                           \
+        MPS__CHANGES(sim);                         \
+        MPS__TRY(mps__sim_whole((sim), __func__)); \
+    } while (0)
 /* One that asks all ranks for what each of them knows. */
 #define MPS__MEASURES(sim)                           \
     do {                                             \

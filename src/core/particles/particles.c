@@ -157,6 +157,7 @@ int64_t mps__particles_append(mps__particles *s, int64_t count)
     for (int64_t i = first; i < first + count; i++) {
         s->id[i] = s->next_id++;
         s->wall_of[i] = -1;
+        if (s->wall_id) s->wall_id[i] = -1;
     }
     s->n += count;
     s->generation++;

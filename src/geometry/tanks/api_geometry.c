@@ -118,7 +118,7 @@ mps_status mps_tank_init(mps_tank *tank, size_t size)
 
 mps_status mps_tank_add(mps_sim *sim, const mps_tank *tank, double *built)
 {
-    MPS__CHANGES(sim);
+    MPS__BUILDS(sim);
     mps_tank t = tank_defaults;
     char name[MPS__PART_NAME - 3]; /* room for ".x0" */
     int64_t cells[3] = {0, 0, 0};
@@ -141,7 +141,7 @@ mps_status mps_tank_add(mps_sim *sim, const mps_tank *tank, double *built)
 mps_status mps_baffle_add(mps_sim *sim, const char *name, const double *lo, const double *hi,
                           double *built)
 {
-    MPS__CHANGES(sim);
+    MPS__BUILDS(sim);
     mps__lattice_box box;
     char copy[MPS__PART_NAME];
     MPS__TRY(mps__solids_allowed(sim));
@@ -223,7 +223,7 @@ static mps_status plate_inside(mps_sim *sim, const mps__plate_shape *s)
 mps_status mps_plate_add(mps_sim *sim, const char *name, const double *corner, const double *edge,
                          const double *edge2)
 {
-    MPS__CHANGES(sim);
+    MPS__BUILDS(sim);
     const int dim = sim->world.setup.dim;
     mps__plate_shape s = {
         .nodes = {1, 1}, .spacing = {sim->world.setup.dp, sim->world.setup.dp}, .columns = 1};
@@ -261,7 +261,7 @@ static mps_status fill_points(mps_sim *sim, int32_t phase, const double *lo, con
 mps_status mps_fill_box_add(mps_sim *sim, int32_t phase, const double *lo, const double *hi,
                             int64_t *added, double *built)
 {
-    MPS__CHANGES(sim);
+    MPS__BUILDS(sim);
     mps__lattice_box box;
     MPS__TRY(fill_points(sim, phase, lo, hi, &box));
     MPS__TRY(mps__geometry_fill(sim, phase, &box, NULL, NULL, added));
@@ -272,7 +272,7 @@ mps_status mps_fill_box_add(mps_sim *sim, int32_t phase, const double *lo, const
 mps_status mps_fill_level_add(mps_sim *sim, int32_t phase, const double *lo, const double *hi,
                               int64_t *added, double *built)
 {
-    MPS__CHANGES(sim);
+    MPS__BUILDS(sim);
     mps__lattice_box box;
     MPS__TRY(has_tank(sim));
     MPS__TRY(corners(sim, lo, hi));
@@ -292,7 +292,7 @@ mps_status mps_fill_level_add(mps_sim *sim, int32_t phase, const double *lo, con
 mps_status mps_fill_add(mps_sim *sim, int32_t phase, mps_inside_fn inside, void *user,
                         int64_t *added)
 {
-    MPS__CHANGES(sim);
+    MPS__BUILDS(sim);
     MPS__TRY(mps__fill_allowed(sim));
     MPS__TRY(phase_ok(sim, phase));
     MPS__TRY(has_tank(sim));

@@ -54,7 +54,7 @@ mps_status mps_solid_init(mps_solid *solid, size_t size)
 
 mps_status mps_solid_add(mps_sim *sim, const mps_solid *solid)
 {
-    MPS__CHANGES(sim);
+    MPS__BUILDS(sim);
     mps_solid s = solid_defaults;
     char name[MPS__PART_NAME];
     MPS__TRY(mps__solids_allowed(sim));
@@ -190,7 +190,7 @@ static mps_status add_mesh(mps_sim *sim, const char *path, const mps_stl *s, mps
 
 mps_status mps_stl_add(mps_sim *sim, const char *path, const mps_stl *stl, double *built)
 {
-    MPS__CHANGES(sim);
+    MPS__BUILDS(sim);
     mps_stl s = stl_defaults;
     char name[MPS__PART_NAME];
     double box[6];
