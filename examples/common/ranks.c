@@ -5,6 +5,7 @@
 #include <dlfcn.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* A rank that exits waits for the others to hear of it [s]. */
 static const double patience = 20;
@@ -47,6 +48,8 @@ static void check_alone(const char *program)
                 "%s: mpirun started %d processes: --mpi makes one run of them; without it start "
                 "one process\n",
                 program, count);
+    else
+        sleep(1); /* mpirun ends all processes with the first one that exits so */
     exit(CLI_USAGE);
 }
 
