@@ -67,7 +67,8 @@ typedef struct mps_ranks_ops {
      *  @param lo  [dim] @param hi  [dim] @param rank  [ranks] out @param count  out */
     int (*overlap)(void *self, const double *lo, const double *hi, int32_t *rank, int32_t *count);
     /** Make a route: this rank says what it sends, and learns what it receives.
-     *  @param to  [count] ascending, not the own rank @param sent  [count] elements, > 0 */
+     *  @param to  [count] ascending, not the own rank @param sent  [count] elements, > 0
+     *  @param route  out; empty after a failure */
     int (*connect)(void *self, int32_t count, const int32_t *to, const int64_t *sent,
                    mps_route *route);
     /** Free a route. Not collective. */
@@ -102,7 +103,7 @@ typedef struct mps_ranks_ops {
  *  this rank: see mps_particles_ghosts(). Motions and limits must be functions of the time and of
  *  what all ranks get alike.
  *  @return MPS_E_ARG (which entry, and what is allowed), MPS_E_STATE (too late), MPS_E_VERSION,
- *  MPS_E_NOMEM, MPS_E_BUSY */
+ *  MPS_E_PLUGIN (why the engine does not begin), MPS_E_NOMEM, MPS_E_BUSY */
 MPS_API mps_status mps_sim_ranks_set(mps_sim *sim, const mps_ranks_ops *ops);
 
 /** Number of this rank and of all ranks; 0 and 1 without an engine. @return MPS_E_ARG */

@@ -112,7 +112,7 @@ int mps__mpi_owner(void *engine, int64_t n, const double *x, int32_t *rank)
 {
     mps__mpi *e = engine;
     int found = 0, part;
-    if (mps__mpi_failed(e)) return 1;
+    if (e->failed) return 1;
     for (int64_t k = 0; k < n; k++) {
         double place[3] = {0};
         for (int d = 0; d < e->dim && e->cut; d++) place[d] = x[k * e->dim + d];
@@ -141,7 +141,7 @@ int mps__mpi_overlap(void *engine, const double *lo, const double *hi, int32_t *
     mps__mpi *e = engine;
     double a[3] = {0}, b[3] = {0};
     int found = 0;
-    if (mps__mpi_failed(e)) return 1;
+    if (e->failed) return 1;
     rank[0] = 0;
     *count = 1;
     if (!e->cut) return 0;

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Routes, exchanges, reductions and gathers, all of sends and receives: those can be cancelled when a rank fails, collective calls of MPI can
- * not. */
+/* Routes, exchanges, reductions and gathers, made of sends and receives: MPI can cancel those when a rank fails, but no collective call. */
 #include "mpi_engine.h"
 #include <stdlib.h>
 #include <string.h>
@@ -27,8 +26,8 @@ static void combine_all(int32_t count, size_t bytes, char *into, const char *fro
     for (int32_t k = 0; k < count; k++, into += bytes, from += bytes) combine(into, from);
 }
 
-/* Both ranks of a pair combine the same two values in the same order, so that they have the same bytes. Ranks beyond the largest power of two
- * give their values to another one and get the result. */
+/* Both ranks of a pair combine the same two values in the same order, so that they have the same bytes. Ranks beyond the largest power of
+ * two give their values to another one and get the result. */
 int mps__mpi_reduce(void *engine, int32_t count, size_t bytes, void *values, mps_combine_fn combine)
 {
     mps__mpi *e = engine;

@@ -45,7 +45,7 @@ static mps__mpi *make(const mps_allocator *allocator, const mps__mpi_start *star
     *e = empty;
     e->gone = mps__mpi_alloc(e, (size_t)e->ranks);
     e->telling.room = e->ranks + 1;
-    e->telling.request = mps__mpi_alloc(e, (size_t)e->telling.room * sizeof *e->telling.request);
+    e->telling.request = mps__mpi_alloc(e, (size_t)e->telling.room * sizeof(MPI_Request));
     if (e->gone) memset(e->gone, 0, (size_t)e->ranks);
     return e;
 }
@@ -93,7 +93,7 @@ static int create(const mps_allocator *allocator, void **self, char *text, size_
     double seconds;
     const bool valid = read_watchdog(&seconds, text, size);
     mps__mpi *e = valid ? make(allocator, start) : NULL;
-    if (!agree(start->comm, e && e->gone && e->telling.request)) {
+    if (!agree(start->comm, e && e->gone && e->telling.request) || !e) {
         if (e && e->gone && e->telling.request)
             snprintf(text, size, "another rank has no memory, or a wrong MPS_MPI_WATCHDOG");
         if (e) release(e);

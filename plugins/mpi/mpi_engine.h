@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* An engine of ranks over MPI. No call waits inside of MPI, except for Zoltan's: each is a loop that also listens for failures of others. */
+/* An engine of ranks over MPI. Except for Zoltan, no call waits inside of MPI: each waits in a loop that also listens for failures. */
 #ifndef MPS_MPI_ENGINE_H
 #define MPS_MPI_ENGINE_H
 

@@ -8,6 +8,8 @@
 
 /* Turns of a loop that waits: the first keep the processor, the next leave it to processes that are ready, the others sleep. */
 enum { BUSY = 200, YIELDING = 2000, SLEEP = 50000 /* ns */ };
+/* Busy turns between two looks for failures: to look costs as much as a turn. */
+enum { LISTEN = 16 };
 /* Cancelled messages end at once, or when the other rank has heard of the failure [s]. */
 static const double patience = 2;
 
@@ -62,7 +64,7 @@ static void stop(mps__mpi *e, mps__mpi_list *list)
     list->count = 0;
 }
 
-/* A rank that has failed cancels its receives and sends no more. A send ends if the other rank received it before; else it is left to MPI. */
+/* A rank that has failed cancels its receives and sends no more. A send ends if the other rank receives it; else it is left to MPI. */
 void mps__mpi_stop(mps__mpi *e)
 {
     if (e->exchange.count > 0) stop(e, &e->exchange);
@@ -79,12 +81,13 @@ static MPI_Request *next_request(mps__mpi *e, mps__mpi_list *list)
 {
     if (list->count == list->room) {
         const int32_t room = 2 * list->room + 16;
-        MPI_Request *larger = mps__mpi_alloc(e, (size_t)room * sizeof *larger);
+        MPI_Request *larger = mps__mpi_alloc(e, (size_t)room * sizeof(MPI_Request));
         if (!larger) {
             mps__mpi_fail(e, "no memory for messages between ranks");
             return NULL;
         }
-        if (list->count > 0) memcpy(larger, list->request, (size_t)list->count * sizeof *larger);
+        if (list->count > 0)
+            memcpy(larger, list->request, (size_t)list->count * sizeof(MPI_Request));
         mps__mpi_release(e, list->request);
         list->request = larger;
         list->room = room;
@@ -150,6 +153,7 @@ int mps__mpi_wait(mps__mpi *e, mps__mpi_list *list, const char *call)
             list->count = 0;
             return 0;
         }
+        if (turn < BUSY && turn % LISTEN != LISTEN - 1) continue;
         if (mps__mpi_failed(e) || turn < BUSY) continue;
         if (turn == BUSY) end = mps__mpi_now() + e->watchdog;
         if (turn > BUSY && mps__mpi_now() > end) time_out(e, call);

@@ -14,9 +14,11 @@ typedef struct auxgrid {
 
 static int create(const mps_allocator *allocator, void **self)
 {
+    const int64_t *whole = *self; /* of tests */
     auxgrid *a = mps__take(allocator, 1, sizeof *a);
     if (!a) return MPS_PPE_NOMEM;
     *a = (auxgrid){.grid.allocator = *allocator};
+    a->grid.ranks.whole = whole ? *whole : MPS__GRID_WHOLE;
     *self = a;
     return 0;
 }
@@ -35,11 +37,14 @@ static void check_rows(void *argument, int64_t begin, int64_t end, double *value
     if (negative) values[1] = 1;
 }
 
-static int check_diagonal(const mps_ppe_problem *problem)
+/* The same answer on all ranks: too many unknowns on one, or a diagonal entry that is refused. */
+static int check(const mps_ppe_problem *problem)
 {
-    double found[2] = {0};
+    double found[3] = {0, 0, mps__columns(problem) >= INT32_MAX};
     mps_parallel_max(mps__team(problem->parallel, problem->n), problem->n, 2, check_rows,
                      (mps_ppe_problem *)problem, found);
+    mps_ppe_total(problem, &(mps_exact_values){.maxima = 3, .maximum = found});
+    if (found[2] > 0) return MPS_PPE_BREAKDOWN;
     return found[0] > 0 ? MPS_PPE_NAN : found[1] > 0 ? MPS_PPE_INDEFINITE : 0;
 }
 
@@ -68,30 +73,43 @@ static void invert_diagonal(auxgrid *a, const mps_ppe_problem *problem)
                             &(operands){.problem = problem, .z = a->inverse});
 }
 
+/* Cells of the first grid. */
+static int find_cells(mps__grid *g, const mps_ppe_problem *problem)
+{
+    if (mps__grid_many(g)) return mps__grid_ranks_cells(g, problem);
+    mps__grid_place(g, problem, problem->n);
+    return mps__grid_cells(g, &g->level[0], problem->n) ? 0 : MPS_PPE_NOMEM;
+}
+
 static int build_grids(mps__grid *g, const mps_ppe_problem *problem)
 {
     mps__grid_measure(g, problem);
-    mps__grid_place(g, problem);
-    if (!mps__grid_cells(g, &g->level[0], problem->n)) return MPS_PPE_NOMEM;
-    if (!mps__grid_from_matrix(g, problem)) return MPS_PPE_NOMEM;
+    mps__grid_lay(g, problem);
+    int reason = find_cells(g, problem);
+    if (!reason) reason = mps__grid_from_matrix(g, problem);
+    if (reason) return reason;
     g->levels = 1;
     if (!mps__grid_coarsen(g)) return MPS_PPE_NOMEM;
-    return mps__grid_factorise(g) ? 0 : MPS_PPE_NAN;
+    if (!mps__grid_factorise(g)) return MPS_PPE_NAN;
+    return mps__grid_many(g) ? mps__grid_divide(g) : 0;
 }
 
 static int setup(void *self, const mps_ppe_problem *problem)
 {
     auxgrid *a = self;
     mps__grid *g = &a->grid;
-    if (problem->n >= INT32_MAX) return MPS_PPE_BREAKDOWN;
+    const int64_t columns = mps__columns(problem),
+                  rows = problem->ranks ? problem->ranks->rows : problem->n;
+    int reason = check(problem);
+    g->levels = 0;
+    if (reason) return reason;
     if (g->dim != problem->dim) mps__grid_release(g); /* its arrays are sized by the dimension */
     a->n = problem->n;
     g->dim = problem->dim;
     g->parallel = problem->parallel;
-    g->levels = 0;
-    if (!mps__grid_reserve(g, problem->n)) return MPS_PPE_NOMEM;
-    int reason = check_diagonal(problem);
-    if (!reason && problem->n > 0) reason = build_grids(g, problem);
+    if (!mps__grid_reserve(g, columns > 0 ? columns : 1)) return MPS_PPE_NOMEM;
+    reason = mps__grid_ranks_begin(g, problem);
+    if (!reason && rows > 0) reason = build_grids(g, problem);
     if (!reason) invert_diagonal(a, problem);
     return reason;
 }
@@ -115,9 +133,10 @@ static int apply(void *self, const double *r, double *z)
 {
     auxgrid *a = self;
     mps__grid *g = &a->grid;
-    if (a->n == 0) return 0;
-    mps__grid_restrict(g, r, g->unit);
-    mps__grid_cycle(g);
+    if (g->levels == 0) return 0; /* no rank has rows */
+    int reason = mps__grid_restrict(g, r, g->unit);
+    if (!reason) reason = mps__grid_cycle(g);
+    if (reason) return reason;
     mps_parallel_rows_least(g->parallel, a->n, MPS__TEAM_LEAST / 2, apply_rows,
                             &(operands){.a = a, .r = r, .z = z});
     return 0;
@@ -141,4 +160,6 @@ const mps_preconditioner_ops mps__preconditioner_auxgrid = {
     .apply = apply,
     .destroy = destroy,
     .help = "Multigrid cycle on auxiliary grids; the fastest for large systems",
+    .ranks = 1,
+    .reach = 2.3, /* from the centre of a cell to its corners, the largest is sqrt(3) 1.25 */
 };

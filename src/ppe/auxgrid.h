@@ -13,7 +13,9 @@ enum {
     MPS__GRID_LEVELS = 22,  /* after 19 halvings four cells are left along each axis */
     MPS__GRID_DIRECT = 150, /* fewer cells are solved directly */
     MPS__GRID_ABOUT = 27,   /* a cell and those about it, in 3-D */
-    MPS__GRID_TURNS = 256   /* cells whose particles are worth a second thread */
+    MPS__GRID_TURNS = 256,  /* cells whose particles are worth a second thread */
+    MPS__GRID_WHOLE =
+        65536 /* many ranks: cells of a grid from which on each rank works on its own cells only */
 };
 
 /* One grid, and how the points above it (particles, or the cells of the finer grid) reach its cells.
@@ -44,6 +46,89 @@ typedef struct mps__grid_level {
         *x; /* [cells + 1] right side and solution of the cycle in progress; the last x, for no cell, is 0 */
 } mps__grid_level;
 
+/* Room that grows and is kept; its contents are not. */
+typedef struct mps__grid_room {
+    void *at;
+    int64_t bytes;
+} mps__grid_room;
+
+enum { MPS__GRID_DIVIDED_ROOMS = 5 };
+enum {
+    MPS__GRID_VALUES,
+    MPS__GRID_ENTRIES,
+    MPS__GRID_PLACES,
+    MPS__GRID_COUNTS,
+    MPS__GRID_KEYS,
+    MPS__GRID_OWNERS,
+    MPS__GRID_CELLS,
+    MPS__GRID_CENTRES,
+    MPS__GRID_MARKS,
+    MPS__GRID_SENT,
+    MPS__GRID_RECEIVED,
+    MPS__GRID_PARTNERS,
+    MPS__GRID_PARTS_OUT,
+    MPS__GRID_PARTS_IN,
+    MPS__GRID_OUT,
+    MPS__GRID_IN,
+    MPS__GRID_ROOMS
+};
+
+/* Values of cells that a rank sends to others, and cells whose values it gets, in the order of the route. */
+typedef struct mps__grid_plan {
+    mps__grid_room room[4];
+    int64_t sends, receives;
+    int32_t *send, *receive;
+    double *out, *in;
+    mps_route route;
+    bool connected;
+} mps__grid_plan;
+
+/* Cells of rank 0, of rank 1, ..., ascending for each. */
+typedef struct mps__grid_owned {
+    int64_t *first; /* [ranks + 1] */
+    int32_t *cell;  /* [cells] */
+} mps__grid_owned;
+
+/* A grid that is divided among the ranks: each works on its own cells. */
+typedef struct mps__grid_divided {
+    mps__grid_room room[MPS__GRID_DIVIDED_ROOMS];
+    int32_t *owner; /* [cells] */
+    mps__grid_owned owned;
+    int64_t own, own_red; /* own cells, which begin with the red ones */
+    int32_t *cell;        /* [own] */
+    double *rest;         /* [cells] residuals of red cells */
+    int64_t adding;
+    int32_t *add; /* [adding] red cells that own cells of the coarser grid take residuals from */
+    mps__grid_plan ring; /* x of cells that own cells, or points of this rank, look at */
+    mps__grid_plan left; /* rest */
+} mps__grid_divided;
+
+/* Many ranks: each cell of the first grid is owned by the rank that owns its centre, one of a coarser grid by the owner of its first cell.
+ * The owner sums the particles of the cell, which it all has, and what they add to the cells about it goes to the owners of these. All
+ * ranks have the cells and coefficients of all grids. Of large grids each solves its own cells; the right side of the first small one is
+ * collected on all ranks, which do the same with it and all coarser ones. */
+typedef struct mps__grid_ranks {
+    mps_ppe_ranks table; /* its `ranks` are 0: alone */
+    mps__grid_room room[MPS__GRID_ROOMS];
+    int64_t n;             /* rows of this rank */
+    int64_t columns;       /* and those of other ranks: points of the first grid */
+    double *value;         /* [columns] */
+    double *entries;       /* [columns] of the rows */
+    int32_t *place;        /* [columns] of a column in the order of the particles */
+    int64_t *bytes;        /* [ranks] of a message */
+    int64_t *count;        /* [ranks] scratch */
+    mps__grid_owned owned; /* cells of the first grid */
+    int32_t *owner;        /* [cells] of it */
+    double *out, *in;
+    int64_t *send,
+        *receive; /* parts that go to other ranks and come from them, in the order of the route */
+    mps_route route;
+    bool connected;
+    int64_t whole; /* cells of a grid from which on it is divided */
+    int divided;   /* levels that are divided, from the first on */
+    mps__grid_divided level[MPS__GRID_LEVELS];
+} mps__grid_ranks;
+
 typedef struct mps__grid {
     mps_allocator allocator;
     const mps_parallel *parallel;
@@ -71,7 +156,15 @@ typedef struct mps__grid {
         parts; /* what the particles of each cell add to the cells about it, or the faces of two densities */
     double *factor; /* [direct * direct] L of the last grid's L D L' */
     double *pivot;  /* [direct] 1/D, 0 where D is */
+    int64_t
+        turns; /* cells of the first grid that particles are summed for: all, or those of this rank */
+    mps__grid_ranks ranks;
 } mps__grid;
+
+static inline bool mps__grid_many(const mps__grid *g)
+{
+    return g->ranks.table.ranks > 1;
+}
 
 /* ---- cells (auxgrid_cells.c) ---- */
 
@@ -87,6 +180,8 @@ bool mps__grid_reserve(mps__grid *g, int64_t points);
 bool mps__grid_reserve_parts(mps__grid *g, size_t bytes);
 /* Room for `turn` and `start`. */
 bool mps__grid_reserve_turns(mps__grid *g, int64_t cells);
+/* Keys of the cells from point_key, where the keys then are, each once. Returns their number, -1 when out of memory. */
+int64_t mps__grid_find(mps__grid *g, mps__grid_level *l, int64_t points);
 /* Cells and neighbours of a level from point_key; links and sums are zero. False when out of memory. */
 bool mps__grid_cells(mps__grid *g, mps__grid_level *l, int64_t points);
 
@@ -94,10 +189,12 @@ bool mps__grid_cells(mps__grid *g, mps__grid_level *l, int64_t points);
 
 /* Conductivity of each row, from which the cell size follows. */
 void mps__grid_measure(mps__grid *g, const mps_ppe_problem *problem);
-/* Coordinates of the particles' cells into point_key. */
-void mps__grid_place(mps__grid *g, const mps_ppe_problem *problem);
-/* Coefficients of the first grid and the shares of the particles. False when out of memory. */
-bool mps__grid_from_matrix(mps__grid *g, const mps_ppe_problem *problem);
+/* Corner of the first grid. */
+void mps__grid_lay(mps__grid *g, const mps_ppe_problem *problem);
+/* Coordinates of the cells of the first particles into point_key. */
+void mps__grid_place(mps__grid *g, const mps_ppe_problem *problem, int64_t points);
+/* Coefficients of the first grid and the shares of the particles. Returns 0 or a reason of failure. */
+int mps__grid_from_matrix(mps__grid *g, const mps_ppe_problem *problem);
 /* All coarser grids. False when out of memory. */
 bool mps__grid_coarsen(mps__grid *g);
 
@@ -111,8 +208,8 @@ static inline double mps__grid_position(const mps__grid *g, const mps_ppe_proble
     return u < most ? u : most;
 }
 
-/* Links of the first grid from the pairs of particles, for more than one density (auxgrid_wires.c). False when out of memory. */
-bool mps__grid_wires(mps__grid *g, const mps_ppe_problem *problem);
+/* Links of the first grid from the pairs of particles, for more than one density (auxgrid_wires.c). Returns 0 or a reason of failure. */
+int mps__grid_wires(mps__grid *g, const mps_ppe_problem *problem);
 
 /* ---- transfer (auxgrid_transfer.c) ---- */
 
@@ -125,15 +222,42 @@ bool mps__grid_list(mps__grid *g);
 void mps__grid_share_particles(mps__grid *g, const mps_ppe_problem *problem);
 /* The same of the cells of the finer grid, whose conductivities are in point_kappa. */
 void mps__grid_share_cells(const mps__grid *g, const mps__grid_level *fine, mps__grid_level *l);
-/* Sum the particles' values into the right side of the first grid. */
-void mps__grid_restrict(mps__grid *g, const double *values, double scale);
+/* Sum the values [n] of the particles into the right side of the first grid. Returns 0 or a reason of failure. */
+int mps__grid_restrict(mps__grid *g, const double *values, double scale);
+
+/* ---- many ranks (auxgrid_ranks.c); all return 0 or a reason of failure ---- */
+
+/* Begin with an equation, on one rank or many. */
+int mps__grid_ranks_begin(mps__grid *g, const mps_ppe_problem *problem);
+void mps__grid_ranks_release(mps__grid *g);
+/* Cells of the first grid and their owners, after mps__grid_lay(). Conductivities and numbers of entries of all columns. */
+int mps__grid_ranks_cells(mps__grid *g, const mps_ppe_problem *problem);
+/* Values [n] of the rows into `value`, and those of the other columns. */
+int mps__grid_ranks_share(mps__grid *g, const double *values);
+/* What particles of one rank add to cells of another, into `parts`. */
+int mps__grid_ranks_exchange(mps__grid *g);
+/* Values of cells: those of each rank's own cells to all ranks. */
+int mps__grid_ranks_collect(mps__grid *g, const mps__grid_owned *owned, int arrays,
+                            double *const *array);
+/* Room that is kept; NULL: out of memory. */
+void *mps__grid_room_of(mps__grid *g, mps__grid_room *room, int64_t count, size_t size);
+
+/* ---- divided grids (auxgrid_divided.c) ---- */
+
+/* After all grids are there. */
+int mps__grid_divide(mps__grid *g);
+/* Free the routes; no grid is divided. */
+void mps__grid_undivide(mps__grid *g);
+void mps__grid_divided_release(mps__grid *g);
+/* Values of the cells of a plan from their owners. */
+int mps__grid_plan_share(mps__grid *g, mps__grid_plan *p, double *values);
 
 /* ---- cycle (auxgrid_cycle.c) ---- */
 
 /* Inverse diagonals and the factors of the last grid. False: a coefficient is not finite. */
 bool mps__grid_factorise(mps__grid *g);
-/* One V-cycle from b to x of the first grid. */
-void mps__grid_cycle(mps__grid *g);
+/* One V-cycle from b to x of the first grid. Returns 0 or a reason of failure. */
+int mps__grid_cycle(mps__grid *g);
 /* Value of a point from the cells around it. For a constant number of corners, 2^dim, the loop unrolls. */
 static inline double mps__grid_value_of(const mps__grid_level *l, const int corners, int64_t point)
 {

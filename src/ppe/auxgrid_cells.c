@@ -162,6 +162,7 @@ void mps__grid_release(mps__grid *g)
         drop_cells(g, &g->level[k]);
     }
     drop_work(g);
+    mps__grid_ranks_release(g);
     mps__give(&g->allocator, g->factor);
     mps__give(&g->allocator, g->pivot);
     g->factor = g->pivot = NULL;
@@ -270,12 +271,27 @@ static void renumber_rows(void *argument, int64_t begin, int64_t end)
         if (f->l->home[i] >= 0) f->l->home[i] = f->number[f->l->home[i]];
 }
 
-/* Number the red cells first, and cells of a colour by key. Keys in order of appearance replace those of the points. */
+/* Keys of cells in order of appearance replace those of the points. */
+static void list_keys(mps__grid *g)
+{
+    for (int64_t s = 0; s < g->table_size; s++)
+        if (g->table_key[s] >= 0) g->point_key[g->table_cell[s]] = g->table_key[s];
+}
+
+int64_t mps__grid_find(mps__grid *g, mps__grid_level *l, int64_t points)
+{
+    if (!reserve_points(g, l, points)) return -1;
+    l->points = points;
+    if (!find_cells(g, l)) return -1;
+    list_keys(g);
+    return l->cells;
+}
+
+/* Number the red cells first, and cells of a colour by key. */
 static void sort_cells(mps__grid *g, mps__grid_level *l)
 {
-    int64_t *key = g->point_key;
-    for (int64_t s = 0; s < g->table_size; s++)
-        if (g->table_key[s] >= 0) key[g->table_cell[s]] = g->table_key[s];
+    const int64_t *key = g->point_key;
+    list_keys(g);
     const int32_t *sorted = sort_keys(g, key, l->cells);
     int32_t *number = g->order + (sorted == g->order ? g->order_capacity : 0);
     int32_t red = 0, black = (int32_t)l->red;

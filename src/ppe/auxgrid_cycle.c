@@ -100,7 +100,9 @@ typedef struct cycle {
     mps__grid_level *l;
     const mps__grid_level *coarse;
     int sides;
-    int64_t from; /* first cell */
+    int64_t from;        /* first cell */
+    const int32_t *list; /* of cells, on a divided grid */
+    double *rest;
 } cycle;
 
 /* A loop over cells, which do next to nothing each. */
@@ -191,16 +193,115 @@ static void correct(const mps__grid *g, mps__grid_level *fine, const mps__grid_l
     run(g, fine->cells, correct_rows, &(cycle){.l = fine, .coarse = l, .sides = 2 * g->dim});
 }
 
-void mps__grid_cycle(mps__grid *g)
+/* ---- divided grids: the same for the own cells, with the values of the others from their owners ---- */
+
+static void begin_listed(void *argument, int64_t begin, int64_t end)
+{
+    const cycle *y = argument;
+    const mps__grid_level *l = y->l;
+    for (int64_t k = begin; k < end; k++) {
+        const int32_t c = y->list[k];
+        l->x[c] = c < l->red ? l->b[c] * l->inverse[c] : 0;
+    }
+}
+
+static void relax_listed(void *argument, int64_t begin, int64_t end)
+{
+    const cycle *y = argument;
+    const mps__grid_level level = *y->l, *l = &level;
+    for (int64_t k = begin; k < end; k++) {
+        const int32_t c = y->list[k];
+        l->x[c] = (l->b[c] + pull(l, y->sides, c)) * l->inverse[c];
+    }
+}
+
+static void rest_listed(void *argument, int64_t begin, int64_t end)
+{
+    const cycle *y = argument;
+    const mps__grid_level *l = y->l;
+    for (int64_t k = begin; k < end; k++) {
+        const int32_t c = y->list[k];
+        y->rest[c] = l->b[c] + pull(l, y->sides, c) - l->x[c] / l->inverse[c];
+    }
+}
+
+static void correct_listed(void *argument, int64_t begin, int64_t end)
+{
+    const cycle *y = argument;
+    for (int64_t k = begin; k < end; k++) correct_rows(argument, y->list[k], y->list[k] + 1);
+}
+
+/* Own cells of one colour, then their values for other ranks. */
+static int relax_own(mps__grid *g, int k, bool red)
+{
+    mps__grid_divided *d = &g->ranks.level[k];
+    mps__grid_level *l = &g->level[k];
+    run(g, red ? d->own_red : d->own - d->own_red, relax_listed,
+        &(cycle){.l = l, .sides = 2 * g->dim, .list = d->cell + (red ? 0 : d->own_red)});
+    return mps__grid_plan_share(g, &d->ring, l->x);
+}
+
+static int sweep_down_own(mps__grid *g, int k)
+{
+    mps__grid_divided *d = &g->ranks.level[k];
+    mps__grid_level *l = &g->level[k];
+    run(g, d->own, begin_listed, &(cycle){.l = l, .list = d->cell});
+    int reason = mps__grid_plan_share(g, &d->ring, l->x);
+    for (int s = 1; s < 2 * SWEEPS && !reason; s++) reason = relax_own(g, k, s % 2 == 0);
+    return reason;
+}
+
+static int sweep_up_own(mps__grid *g, int k)
+{
+    mps__grid_divided *d = &g->ranks.level[k];
+    mps__grid_level *l = &g->level[k];
+    run(g, d->own, correct_listed,
+        &(cycle){.l = l, .coarse = l + 1, .sides = 2 * g->dim, .list = d->cell});
+    int reason = mps__grid_plan_share(g, &d->ring, l->x);
+    for (int s = 0; s < 2 * SWEEPS && !reason; s++) reason = relax_own(g, k, s % 2 == 1);
+    return reason;
+}
+
+/* The terms of an own coarse cell in their order; what is summed for others is not used. */
+static int restrict_own(mps__grid *g, int k)
+{
+    mps__grid_divided *d = &g->ranks.level[k];
+    mps__grid_level *fine = &g->level[k], *l = fine + 1;
+    run(g, d->own_red, rest_listed,
+        &(cycle){.l = fine, .sides = 2 * g->dim, .list = d->cell, .rest = d->rest});
+    const int reason = mps__grid_plan_share(g, &d->left, d->rest);
+    memset(l->b, 0, (size_t)l->cells * sizeof *l->b);
+    for (int64_t a = 0; a < d->adding; a++) spread(l, g->dim, d->add[a], d->rest[d->add[a]]);
+    return reason;
+}
+
+static void cycle_whole(mps__grid *g, int first)
 {
     int last = g->levels - 1;
-    for (int k = 0; k < last; k++) {
+    for (int k = first; k < last; k++) {
         sweep_down(g, &g->level[k]);
         restrict_residual(g, &g->level[k], &g->level[k + 1]);
     }
     solve_last(g, &g->level[last]);
-    for (int k = last - 1; k >= 0; k--) {
+    for (int k = last - 1; k >= first; k--) {
         correct(g, &g->level[k], &g->level[k + 1]);
         sweep_up(g, &g->level[k]);
     }
+}
+
+int mps__grid_cycle(mps__grid *g)
+{
+    const int divided = mps__grid_many(g) ? g->ranks.divided : 0;
+    int reason = 0;
+    for (int k = 0; k < divided && !reason; k++) {
+        reason = sweep_down_own(g, k);
+        if (!reason) reason = restrict_own(g, k);
+    }
+    if (divided > 0 && !reason)
+        reason = mps__grid_ranks_collect(g, &g->ranks.level[divided].owned, 1,
+                                         &g->level[divided].b);
+    if (reason) return reason;
+    cycle_whole(g, divided);
+    for (int k = divided - 1; k >= 0 && !reason; k--) reason = sweep_up_own(g, k);
+    return reason;
 }

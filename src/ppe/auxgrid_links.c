@@ -21,26 +21,61 @@ static double square_distance(const mps_ppe_problem *problem, int64_t i, int64_t
     return r2;
 }
 
-/* Sum of k_ij r_ij^2 over that of k_ij, from one row of SAMPLE: all rows have the same kernel. */
-static double mean_square(const mps_ppe_problem *problem)
-{
-    double squares = 0, sum = 0;
-    for (int64_t i = 0; i < problem->n; i += SAMPLE)
-        for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) {
-            const double c = fmax(-(double)problem->val[k], 0);
-            squares += c * square_distance(problem, i, problem->col[k]);
-            sum += c;
-        }
-    return sum > 0 ? squares / sum : 0;
-}
-
 /* A grid and what it is made from. */
 typedef struct making {
     mps__grid *g;
     mps__grid_level *l;
     const mps_ppe_problem *problem;
+    double per_dp; /* 1 / particle spacing */
+    bool every;    /* all rows are sampled */
     double square; /* mean of r_ij^2 */
 } making;
+
+/* One place of SAMPLE, on each line along an axis. A function of the place: the numbers of rows depend on the rank. */
+static bool is_sampled(const making *m, int64_t i)
+{
+    static const int64_t step[3] = {1, 5, 7};
+    const mps_ppe_problem *problem = m->problem;
+    int64_t sum = 0;
+    for (int a = 0; a < problem->dim; a++) {
+        const double u = problem->x[i * problem->dim + a] * m->per_dp;
+        if (fabs(u) < 0x1p40) sum += step[a] * (int64_t)floor(u);
+    }
+    return m->every || sum % SAMPLE == 0;
+}
+
+/* Sums: of k_ij r_ij^2, of k_ij. */
+static void square_rows(void *argument, int64_t begin, int64_t end, mps_exact *sums, double *none)
+{
+    const making *m = argument;
+    const mps_ppe_problem *problem = m->problem;
+    (void)none;
+    for (int64_t i = begin; i < end; i++) {
+        double squares = 0, sum = 0;
+        if (!is_sampled(m, i)) continue;
+        for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) {
+            const double c = fmax(-(double)problem->val[k], 0);
+            squares += c * square_distance(problem, i, problem->col[k]);
+            sum += c;
+        }
+        mps_exact_add(&sums[0], 1, &squares);
+        mps_exact_add(&sums[1], 1, &sum);
+    }
+}
+
+/* Sum of k_ij r_ij^2 over that of k_ij, from a sample of the rows: all have the same kernel. */
+static double mean_square(const mps_ppe_problem *problem)
+{
+    making m = {.problem = problem, .per_dp = 1 / problem->dp};
+    double v[2] = {0};
+    for (int pass = 0; pass < 2 && !(v[1] > 0); pass++) {
+        mps_exact sums[2] = {{{0}, 0, 0}};
+        m.every = pass > 0;
+        mps__reduce(problem, square_rows, &m, &(mps_exact_values){.sums = 2, .sum = sums});
+        for (int k = 0; k < 2; k++) v[k] = mps_exact_value(&sums[k]);
+    }
+    return v[1] > 0 ? v[0] / v[1] : 0;
+}
 
 /* Sums: of kappa, of its inverse, of rows; the maximum: kappa. */
 static void measure_rows(void *argument, int64_t begin, int64_t end, mps_exact *sums, double *most)
@@ -105,15 +140,20 @@ static void corner_rows(void *argument, int64_t begin, int64_t end, double *valu
  * stand still while particles move, and the same cells merge until four are left along each axis; so few are solved directly.
  * For a tank at the origin the corner changes place only if the tank is moved by a quarter of the range. Its first cells begin
  * half a spacing before its walls, which takes fewer iterations than cells that begin at them. */
-void mps__grid_place(mps__grid *g, const mps_ppe_problem *problem)
+void mps__grid_lay(mps__grid *g, const mps_ppe_problem *problem)
 {
     double most[3] = {-INFINITY, -INFINITY, -INFINITY};
     mps_parallel_max(mps__team(problem->parallel, problem->n), problem->n, problem->dim,
                      corner_rows, (void *)problem, most);
+    mps_ppe_total(problem, &(mps_exact_values){.maxima = problem->dim, .maximum = most});
     const double part = 1 << (MPS__GRID_BITS - 1), before = 0.5 * problem->dp * g->per_size;
     for (int a = 0; a < problem->dim; a++)
         g->corner[a] = (floor(-most[a] * g->per_size / part + 0.5) - 0.5) * part - before;
-    mps_parallel_rows_least(problem->parallel, problem->n, MPS__TEAM_LEAST / 2, place_rows,
+}
+
+void mps__grid_place(mps__grid *g, const mps_ppe_problem *problem, int64_t points)
+{
+    mps_parallel_rows_least(problem->parallel, points, MPS__TEAM_LEAST / 2, place_rows,
                             &(making){.g = g, .problem = problem});
 }
 
@@ -125,13 +165,14 @@ static void sum_particles(void *argument, int64_t begin, int64_t end)
     const making *m = argument;
     const mps__grid *g = m->g;
     const int64_t *row = m->problem->row;
+    const double *entries = mps__grid_many(g) ? g->ranks.entries : NULL;
     for (int64_t t = begin; t < end; t++) {
         const int64_t c = g->turn[t];
         double kappa = 0, sum = 0;
         for (int32_t p = g->start[t]; p < g->start[t + 1]; p++) {
             const int64_t i = g->list[p];
             kappa += g->point_kappa[i];
-            sum += g->point_kappa[i] * (double)(row[i + 1] - row[i]);
+            sum += g->point_kappa[i] * (entries ? entries[i] : (double)(row[i + 1] - row[i]));
         }
         m->l->count[c] = g->start[t + 1] - g->start[t];
         m->l->kappa[c] = kappa / m->l->count[c];
@@ -164,31 +205,47 @@ static void note_shifts(void *argument, int64_t begin, int64_t end)
 
 /* What holds the pressure's level, to the cells that the particle takes its value from: a cell filled at its edge only would
  * otherwise hold a value that no particle has. */
-static void share_shifts(making *m)
+static int share_shifts(making *m)
 {
     mps__grid_level *l = m->l;
     mps_parallel_rows_least(m->problem->parallel, m->problem->n, MPS__TEAM_LEAST / 2, note_shifts,
                             m);
-    mps__grid_restrict(m->g, m->g->point_kappa, m->g->unit);
-    memcpy(l->shift, l->b, (size_t)l->cells * sizeof *l->shift);
+    const int reason = mps__grid_restrict(m->g, m->g->point_kappa, m->g->unit);
+    if (!reason) memcpy(l->shift, l->b, (size_t)l->cells * sizeof *l->shift);
+    return reason;
 }
 
-bool mps__grid_from_matrix(mps__grid *g, const mps_ppe_problem *problem)
+/* Sums of cells on all ranks. Each particle has been counted once. */
+static int collect_sums(mps__grid *g, mps__grid_level *l)
 {
+    double counted = 0;
+    const int reason = mps__grid_ranks_collect(g, &g->ranks.owned, 3,
+                                               (double *[]){l->count, l->kappa, l->x});
+    if (reason) return reason;
+    for (int64_t c = 0; c < l->cells; c++) counted += l->count[c];
+    return counted == (double)g->ranks.table.rows ? 0 : MPS_PPE_BREAKDOWN;
+}
+
+int mps__grid_from_matrix(mps__grid *g, const mps_ppe_problem *problem)
+{
+    int reason = 0;
     mps__grid_level *l = &g->level[0];
     making m = {.g = g, .l = l, .problem = problem};
     const mps_parallel *team = mps__team(problem->parallel, problem->n);
     const size_t parts = (size_t)(l->cells + 1) * (g->dim == 2 ? 9 : MPS__GRID_ABOUT) *
                          sizeof(double);
-    if (!mps__grid_list(g) || !mps__grid_reserve_parts(g, parts)) return false;
-    mps_parallel_rows(team, l->cells, sum_particles, &m);
+    if (!mps__grid_list(g) || !mps__grid_reserve_parts(g, parts)) return MPS_PPE_NOMEM;
+    mps_parallel_rows(team, g->turns, sum_particles, &m);
+    if (mps__grid_many(g)) reason = collect_sums(g, l);
+    if (reason) return reason;
     if (g->one)
         mps_parallel_rows(team, l->cells, link_cells, &m);
-    else if (!mps__grid_wires(g, problem))
-        return false;
+    else
+        reason = mps__grid_wires(g, problem);
+    if (reason) return reason;
     mps__grid_share_particles(g, problem);
-    share_shifts(&m);
-    return true;
+    if (mps__grid_many(g)) memset(g->parts, 0, parts); /* what no rank fills stays zero */
+    return share_shifts(&m);
 }
 
 /* ---- coarser grids: two cells become one along each axis ---- */

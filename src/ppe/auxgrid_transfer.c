@@ -32,23 +32,36 @@ typedef struct transfer {
 
 /* ---- particles by cell ---- */
 
+/* On many ranks each sums the particles of its own cells. */
+static inline bool is_summed(const mps__grid_ranks *r, int32_t cell)
+{
+    return !r || r->owner[cell] == r->table.rank;
+}
+
 /* Cells take turns as the particles meet them, so that the list goes through memory about as the particles do. No sum depends
  * on the turns. */
 bool mps__grid_list(mps__grid *g)
 {
     const mps__grid_level *l = &g->level[0];
+    const mps__grid_ranks *r = mps__grid_many(g) ? &g->ranks : NULL;
     if (!mps__grid_reserve_turns(g, l->cells)) return false;
-    int32_t *next = g->order, seen = 0, end = 0;
+    int32_t *next = g->order, end = 0;
+    g->turns = 0;
     memset(next, 0, (size_t)l->cells * sizeof *next);
-    for (int64_t i = 0; i < l->points; i++)
-        if (next[l->home[i]]++ == 0) g->turn[seen++] = l->home[i];
-    for (int64_t t = 0; t < l->cells; t++) {
+    for (int64_t k = 0; k < l->points; k++) {
+        const int32_t home = l->home[r ? r->table.order[k] : k];
+        if (is_summed(r, home) && next[home]++ == 0) g->turn[g->turns++] = home;
+    }
+    for (int64_t t = 0; t < g->turns; t++) {
         const int32_t count = next[g->turn[t]];
         g->start[t] = next[g->turn[t]] = end;
         end += count;
     }
-    g->start[l->cells] = end;
-    for (int64_t i = 0; i < l->points; i++) g->list[next[l->home[i]]++] = (int32_t)i;
+    g->start[g->turns] = end;
+    for (int64_t k = 0; k < l->points; k++) {
+        const int32_t i = r ? r->table.order[k] : (int32_t)k;
+        if (is_summed(r, l->home[i])) g->list[next[l->home[i]]++] = i;
+    }
     return true;
 }
 
@@ -108,8 +121,9 @@ static void share_particles(void *argument, int64_t begin, int64_t end)
 
 void mps__grid_share_particles(mps__grid *g, const mps_ppe_problem *problem)
 {
-    mps_parallel_rows(mps__team(problem->parallel, problem->n), problem->n, share_particles,
-                      &(transfer){.g = g, .l = &g->level[0], .problem = problem});
+    mps__grid_level *l = &g->level[0];
+    mps_parallel_rows(mps__team(problem->parallel, l->points), l->points, share_particles,
+                      &(transfer){.g = g, .l = l, .problem = problem});
 }
 
 void mps__grid_share_cells(const mps__grid *g, const mps__grid_level *fine, mps__grid_level *l)
@@ -181,11 +195,44 @@ static void sum_cells(void *argument, int64_t begin, int64_t end)
         sum_of(27, t->g, t->l, begin, end);
 }
 
-void mps__grid_restrict(mps__grid *g, const double *values, double scale)
+/* Parts of the cells that this rank owns; those of all others come from other ranks or stay zero. */
+static void clear_turns(void *argument, int64_t begin, int64_t end)
+{
+    const transfer *t = argument;
+    const int all = t->g->dim == 2 ? 9 : MPS__GRID_ABOUT;
+    for (int64_t k = begin; k < end; k++)
+        memset(t->parts + (int64_t)t->g->turn[k] * all, 0, (size_t)all * sizeof *t->parts);
+}
+
+static void sum_turns(void *argument, int64_t begin, int64_t end)
+{
+    const transfer *t = argument;
+    const int32_t *turn = t->g->turn;
+    for (int64_t k = begin; k < end; k++) sum_cells(argument, turn[k], turn[k] + 1);
+}
+
+static int restrict_ranks(mps__grid *g, const double *values, double scale)
+{
+    mps__grid_level *l = &g->level[0];
+    const mps_parallel *team = mps__team(g->parallel, l->points);
+    transfer t = {.g = g, .l = l, .values = g->ranks.value, .scale = scale, .parts = g->parts};
+    int reason = mps__grid_ranks_share(g, values);
+    if (reason) return reason;
+    mps_parallel_rows_least(team, g->turns, MPS__GRID_TURNS, clear_turns, &t);
+    mps_parallel_rows_least(team, g->turns, MPS__GRID_TURNS, add_turns, &t);
+    reason = mps__grid_ranks_exchange(g);
+    if (reason) return reason;
+    mps_parallel_rows_least(team, g->turns, MPS__GRID_TURNS, sum_turns, &t);
+    /* the cycle on a divided grid takes the right side of the own cells */
+    return g->ranks.divided > 0 ? 0 : mps__grid_ranks_collect(g, &g->ranks.owned, 1, &l->b);
+}
+
+int mps__grid_restrict(mps__grid *g, const double *values, double scale)
 {
     mps__grid_level *l = &g->level[0];
     const mps_parallel *team = mps__team(g->parallel, l->points);
     transfer t = {.g = g, .l = l, .values = values, .scale = scale, .parts = g->parts};
+    if (mps__grid_many(g)) return restrict_ranks(g, values, scale);
     memset(t.parts, 0,
            (size_t)(l->cells + 1) * (g->dim == 2 ? 9 : MPS__GRID_ABOUT) * sizeof *t.parts);
     if (team && team->threads > 1)
@@ -193,4 +240,5 @@ void mps__grid_restrict(mps__grid *g, const double *values, double scale)
     else
         add_rows(&t, 0, l->points);
     mps_parallel_rows_least(team, l->cells, MPS__GRID_TURNS, sum_cells, &t);
+    return 0;
 }

@@ -25,6 +25,8 @@ typedef struct wiring {
     const mps__grid *g;
     const mps__grid_level *l;
     const mps_ppe_problem *problem;
+    const int32_t *
+        place; /* NULL, or [columns] where the numbers of rows are not in the order of the particles */
     int32_t chunks;
     uint64_t
         *faces; /* [chunks][cells * dim] conductance of the face above a cell along each axis */
@@ -116,7 +118,8 @@ static void add_row(const wiring *y, int64_t i, uint64_t *faces)
     for (int a = 0; a < g->dim; a++) w.x[a] = mps__grid_position(g, problem, i, a);
     for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) {
         int32_t j = problem->col[k], home[2] = {l->home[i], l->home[j]};
-        if (j <= i || home[0] == home[1] || !(problem->val[k] < 0)) continue;
+        const bool before = y->place ? y->place[j] <= y->place[i] : j <= i;
+        if (before || home[0] == home[1] || !(problem->val[k] < 0)) continue;
         w.k = -(double)problem->val[k] * g->unit;
         for (int a = 0; a < g->dim; a++) w.d[a] = mps__grid_position(g, problem, j, a) - w.x[a];
         if (!add_short_wire(g, l, &w, home, faces)) add_wire(g, l, &w, home, faces);
@@ -149,15 +152,42 @@ static void set_links(void *argument, int64_t begin, int64_t end)
     }
 }
 
-bool mps__grid_wires(mps__grid *g, const mps_ppe_problem *problem)
+static void add_faces(void *into, const void *from)
+{
+    uint64_t a, b;
+    memcpy(&a, into, sizeof a);
+    memcpy(&b, from, sizeof b);
+    a = a + b < MOST ? a + b : MOST;
+    memcpy(into, &a, sizeof a);
+}
+
+/* Sums of all chunks into the first, then over the ranks. A pair of two ranks is a wire of the particle that comes first. */
+static int add_ranks(wiring *y)
+{
+    const int64_t count = y->l->cells * y->g->dim;
+    for (int64_t f = 0; f < count; f++) {
+        uint64_t sum = 0;
+        for (int32_t c = 0; c < y->chunks; c++) sum += y->faces[c * count + f];
+        y->faces[f] = sum < MOST ? sum : MOST;
+    }
+    y->chunks = 1;
+    return mps_ppe_reduce(y->problem, (int32_t)count, sizeof *y->faces, y->faces, add_faces)
+               ? MPS_PPE_BREAKDOWN
+               : 0;
+}
+
+int mps__grid_wires(mps__grid *g, const mps_ppe_problem *problem)
 {
     const mps__grid_level *l = &g->level[0];
     const mps_parallel *team = mps__team(problem->parallel, problem->n);
     const int32_t chunks = team && team->threads > 1 ? CHUNKS : 1;
     if (!mps__grid_reserve_parts(g, (size_t)(chunks * l->cells * g->dim) * sizeof(uint64_t)))
-        return false;
+        return MPS_PPE_NOMEM;
     wiring y = {.g = g, .l = l, .problem = problem, .chunks = chunks, .faces = g->parts};
+    if (mps__grid_many(g)) y.place = g->ranks.place;
     mps_parallel_run(team, chunks, add_chunk, &y);
+    const int reason = mps__grid_many(g) ? add_ranks(&y) : 0;
+    if (reason) return reason;
     mps_parallel_rows(team, l->cells, set_links, &y);
-    return true;
+    return 0;
 }

@@ -204,13 +204,15 @@ AT(mps_lease, stride, 8); AT(mps_lease, slot, 12);
 AT(mps_lease, count, 16); AT(mps_lease, data, 24);
 AT(mps_lease, integers, 32); AT(mps_lease, ids, 40);
 
-SIZE(mps_ppe_ranks, 80);
+SIZE(mps_ppe_ranks, 112);
 AT(mps_ppe_ranks, struct_size, 0); AT(mps_ppe_ranks, rank, 4);
 AT(mps_ppe_ranks, ranks, 8); AT(mps_ppe_ranks, reserved, 12);
 AT(mps_ppe_ranks, ghosts, 16); AT(mps_ppe_ranks, rows, 24);
 AT(mps_ppe_ranks, first, 32); AT(mps_ppe_ranks, order, 40);
 AT(mps_ppe_ranks, owner, 48); AT(mps_ppe_ranks, share, 56);
-AT(mps_ppe_ranks, reduce, 64); AT(mps_ppe_ranks, host, 72);
+AT(mps_ppe_ranks, reduce, 64); AT(mps_ppe_ranks, gather, 72);
+AT(mps_ppe_ranks, connect, 80); AT(mps_ppe_ranks, disconnect, 88);
+AT(mps_ppe_ranks, exchange, 96); AT(mps_ppe_ranks, host, 104);
 
 SIZE(mps_ppe_problem, 152);
 AT(mps_ppe_problem, struct_size, 0); AT(mps_ppe_problem, dim, 4);

@@ -250,6 +250,14 @@ static int64_t sent_to(const mps_route *route, int32_t rank, int64_t *before)
     return 0;
 }
 
+static void disconnect_ranks(void *self, mps_route *route)
+{
+    (void)self;
+    free(route->data);
+    free((void *)route->sent);
+    *route = (mps_route){0};
+}
+
 static int connect_ranks(void *self, int32_t count, const int32_t *to, const int64_t *sent,
                          mps_route *route)
 {
@@ -274,15 +282,9 @@ static int connect_ranks(void *self, int32_t count, const int32_t *to, const int
         list[RANKS + route->from_count] = r;
         elements[RANKS + route->from_count++] = received;
     }
-    return barrier(t) || failed;
-}
-
-static void disconnect_ranks(void *self, mps_route *route)
-{
-    (void)self;
-    free(route->data);
-    free((void *)route->sent);
-    *route = (mps_route){0};
+    failed = barrier(t) || failed;
+    if (failed) disconnect_ranks(self, route); /* all others have read it, or none has */
+    return failed;
 }
 
 static int exchange_begin(void *self, const mps_route *route, size_t bytes, const void *out,

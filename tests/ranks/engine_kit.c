@@ -8,7 +8,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { PLACES = 3000, COMMON = 400, LARGE = 60000 };
+enum { PLACES = 2000, COMMON = 300, LARGE = 30000 };
 
 typedef struct kit {
     const mps_ranks_ops *ops;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Conformance of an engine of ranks. All ranks call the same functions, each with its own table; `fault` [ENGINE_TEXT] gets what is wrong first
- * and stays empty if all is right. */
+/* Conformance of an engine of ranks. All ranks call the same functions, each with its own table. `fault` [ENGINE_TEXT] gets the first
+ * fault, and stays empty if there is none. */
 #ifndef RANKS_ENGINE_KIT_H
 #define RANKS_ENGINE_KIT_H
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Scenes whose bytes do not depend on the number of ranks. */
 #include "scenes.h"
+#include "ppe/builtin.h"
 #include "sim.h"
 #include <stdio.h>
 #include <string.h>
@@ -46,6 +47,38 @@ const scene scenes[SCENES] = {
      .motion = sway,
      .sigma = 0.07},
     {.name = "air_3d", .preset = "mmps", .dim = 3, .steps = 8, .dp = 0.06, .sigma = 0.07},
+    {.name = "dam_2d_jacobi",
+     .preset = "imps",
+     .dim = 2,
+     .steps = 30,
+     .dp = 0.02,
+     .preconditioner = "jacobi"},
+    {.name = "dam_3d_divided",
+     .preset = "imps",
+     .dim = 3,
+     .steps = 12,
+     .dp = 0.05,
+     .preconditioner = "divided"},
+    {.name = "roll_2d_divided",
+     .preset = "imps",
+     .dim = 2,
+     .steps = 40,
+     .dp = 0.02,
+     .motion = roll,
+     .preconditioner = "divided"},
+    {.name = "air_2d_divided",
+     .preset = "mmps",
+     .dim = 2,
+     .steps = 20,
+     .dp = 0.025,
+     .motion = sway,
+     .preconditioner = "divided"},
+    {.name = "air_2d_jacobi",
+     .preset = "mmps",
+     .dim = 2,
+     .steps = 12,
+     .dp = 0.025,
+     .preconditioner = "jacobi"},
     {.name = "paper_2d", .preset = "imps.paper", .dim = 2, .steps = 40, .dp = 0.025},
     {.name = "paper_air_2d",
      .preset = "mmps.paper",
@@ -64,6 +97,16 @@ mps_status scene_create(const scene *s, mps_sim **sim)
     return mps_sim_create(&config, sim);
 }
 
+/* Under the name "divided": auxgrid that divides all grids but the last, as it does with large ones. */
+static mps_status register_divided(mps_sim *sim)
+{
+    static int64_t whole = 1;
+    mps_preconditioner_ops ops = mps__preconditioner_auxgrid;
+    ops.name = "divided";
+    ops.user = &whole;
+    return mps_preconditioner_register(sim, &ops);
+}
+
 static mps_status add_air(mps_sim *sim, const scene *s, const double lo[3], const double hi[3])
 {
     mps_phase gas;
@@ -76,6 +119,25 @@ static mps_status add_air(mps_sim *sim, const scene *s, const double lo[3], cons
     return status;
 }
 
+/* A sensor on the wall that the liquid meets, a gauge, a pressure in the liquid, the force on all walls. */
+static mps_status add_probes(mps_sim *sim)
+{
+    static const int32_t types[SCENE_PROBES] = {MPS_PROBE_WALL_PRESSURE, MPS_PROBE_GAUGE,
+                                                MPS_PROBE_FLUID_PRESSURE, MPS_PROBE_FORCE};
+    static const double places[SCENE_PROBES][3] = {
+        {0.6, 0.06, 0.2}, {0.2, 0, 0.2}, {0.15, 0.1, 0.2}, {0, 0, 0}};
+    mps_status status = MPS_OK;
+    for (int k = 0; k < SCENE_PROBES && status == MPS_OK; k++) {
+        mps_probe probe;
+        int32_t id;
+        mps_probe_init(&probe, sizeof probe);
+        probe.type = types[k];
+        for (int d = 0; d < 3; d++) probe.at[d] = places[k][d];
+        status = mps_probe_add(sim, &probe, &id);
+    }
+    return status;
+}
+
 mps_status scene_build(mps_sim *sim, const scene *s)
 {
     const double lo[3] = {0, 0, 0}, depth[3] = {0.3, 0.26, 0.4}, all[3] = {0.6, 0.45, 0.4};
@@ -83,7 +145,10 @@ mps_status scene_build(mps_sim *sim, const scene *s)
                  along[3] = {0, 0, 0.4};
     mps_tank tank;
     mps_status status = mps_preset_use(sim, s->preset);
-    if (status == MPS_OK) status = mps_solver_use(sim, "sundials.pcg", "jacobi");
+    if (status == MPS_OK) status = register_divided(sim);
+    if (status == MPS_OK)
+        status = mps_solver_use(sim, "sundials.pcg",
+                                s->preconditioner ? s->preconditioner : "auxgrid");
     mps_tank_init(&tank, sizeof tank);
     for (int d = 0; d < 3; d++) tank.size[d] = all[d];
     if (status == MPS_OK) status = mps_tank_add(sim, &tank, NULL);
@@ -93,6 +158,7 @@ mps_status scene_build(mps_sim *sim, const scene *s)
     if (status == MPS_OK) status = mps_fill_box_add(sim, 0, lo, depth, NULL, NULL);
     if (status == MPS_OK && s->preset[0] == 'm') status = add_air(sim, s, lo, all);
     if (status == MPS_OK && s->motion) status = mps_motion_callback_set(sim, s->motion, NULL);
+    if (status == MPS_OK) status = add_probes(sim);
     return status;
 }
 
@@ -121,15 +187,47 @@ void record_note(mps_sim *sim, const mps_step_info *info, record *r)
                               (double)info->surface,
                               info->max_speed,
                               e.kinetic,
-                              e.wall_work};
-    if (sim->world.ranks.rank == 0) memcpy(r->info, numbers, sizeof numbers);
+                              e.wall_work,
+                              e.mass,
+                              e.volume_filled,
+                              e.centre[0],
+                              e.centre[1]};
+    double probes[10] = {0};
+    int at = 0;
+    for (int32_t k = 0; k < SCENE_PROBES; at += mps_probe_size(sim, k++))
+        mps_probe_read(sim, k, probes + at);
+    if (sim->world.ranks.rank > 0) return;
+    memcpy(r->info, numbers, sizeof numbers);
+    memcpy(r->info + 12, probes, sizeof probes);
 }
 
 bool record_same(const record *alone, const record *many, char *text, size_t size)
 {
     static const char *const names[] = {"x", "y", "z", "u", "v", "w", "p", "n", "load"},
-                             *const infos[] = {"t",       "dt",        "iterations", "unknowns",
-                                               "surface", "max_speed", "kinetic",    "wall_work"};
+                             *const infos[] = {"t",
+                                               "dt",
+                                               "iterations",
+                                               "unknowns",
+                                               "surface",
+                                               "max_speed",
+                                               "kinetic",
+                                               "wall_work",
+                                               "mass",
+                                               "volume",
+                                               "cx",
+                                               "cy",
+                                               "wall pressure",
+                                               "gauge",
+                                               "fluid pressure",
+                                               "force",
+                                               "force",
+                                               "force",
+                                               "moment",
+                                               "moment",
+                                               "moment",
+                                               "-",
+                                               "-",
+                                               "-"};
     const record *a = alone, *b = many;
     if (a->count != b->count) {
         snprintf(text, size, "%lld particles, not %lld", (long long)b->count, (long long)a->count);

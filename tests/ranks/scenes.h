@@ -6,7 +6,7 @@
 #include <mps/mps.h>
 #include <stdbool.h>
 
-enum { SCENES = 11, SCENE_MOST = 8000, SCENE_NUMBERS = 9, SCENE_INFOS = 8 };
+enum { SCENES = 16, SCENE_MOST = 8000, SCENE_NUMBERS = 9, SCENE_INFOS = 24, SCENE_PROBES = 4 };
 
 typedef struct scene {
     const char *name, *preset;
@@ -15,6 +15,8 @@ typedef struct scene {
     mps_motion_fn motion;
     int baffle;   /* 1: a block, 2: a thin plate, in the way of the fluid */
     double sigma; /* of the interface [N/m] */
+    /* NULL: auxgrid; "divided": auxgrid that divides small grids too */
+    const char *preconditioner;
 } scene;
 
 extern const scene scenes[SCENES];

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The public functions of mps/probe.h. */
 #include "sim.h"
+#include "world_ranks.h"
 
 static const mps_probe probe_defaults = {.direction = {0, 1, 0}, .average = MPS_AVERAGE_AUTO};
 static const mps_energy energy_defaults = {0};
@@ -114,6 +115,7 @@ mps_status mps_momentum_get(mps_sim *sim, mps_momentum *momentum)
 {
     MPS__MEASURES(sim);
     mps_momentum now;
+    MPS__TRY(mps__world_adopt(&sim->world));
     mps__momentum_measure(&sim->world, &now);
     return mps__struct_out(&sim->context, "mps_momentum", momentum, &now, sizeof now);
 }

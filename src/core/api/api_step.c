@@ -2,6 +2,7 @@
 /* Stepping of the public interface, and the stencil of a simulation. */
 #include "kernel.h"
 #include "sim.h"
+#include "world_ranks.h"
 #include <math.h>
 
 static const mps_time_control control_default = {.struct_size = sizeof(mps_time_control),
@@ -99,8 +100,10 @@ mps_status mps_run(mps_sim *sim, double t_end, mps_monitor_fn monitor, void *use
         if (fabs(t_end - w->state.t) <= fmax(small, 1e-6 * w->info.dt))
             w->state.t = w->info.t = t_end;
         const mps__lock before = mps__lock_set(&sim->context, MPS__READ_ONLY, "a monitor");
-        const int stop = monitor && monitor(user, sim, &w->info);
+        bool stop = monitor && monitor(user, sim, &w->info);
         sim->context.lock = before;
+        mps__world_any(w, 1, &stop); /* a monitor of any rank stops all */
+        MPS__TRY(mps__ranks_status(&w->ranks));
         if (stop) return MPS_W_STOPPED;
     }
     return result;

@@ -82,8 +82,10 @@ static bool begin(mps__ranks *r, int64_t bytes)
 void mps__ranks_reduce(mps__ranks *r, int32_t count, size_t bytes, void *values,
                        mps_combine_fn combine)
 {
-    if (begin(r, count * (int64_t)bytes))
-        r->failed = r->ops.reduce(r->self, count, bytes, values, combine) != 0;
+    if (!begin(r, count * (int64_t)bytes)) return;
+    const double start = mps__clock();
+    r->failed = r->ops.reduce(r->self, count, bytes, values, combine) != 0;
+    r->seconds += mps__clock() - start;
 }
 
 static void any_text(void *into, const void *from)
@@ -138,8 +140,10 @@ void mps__ranks_sum(mps__ranks *r, int32_t count, mps_exact *sums)
 
 void mps__ranks_gather(mps__ranks *r, const void *own, const int64_t *bytes, void *all)
 {
-    if (begin(r, r->count > 1 ? bytes[r->rank] : 0))
-        r->failed = r->ops.gather(r->self, own, bytes, all) != 0;
+    if (!begin(r, r->count > 1 ? bytes[r->rank] : 0)) return;
+    const double start = mps__clock();
+    r->failed = r->ops.gather(r->self, own, bytes, all) != 0;
+    r->seconds += mps__clock() - start;
 }
 
 void mps__ranks_gather_number(mps__ranks *r, int64_t own, int64_t *values)
@@ -149,14 +153,22 @@ void mps__ranks_gather_number(mps__ranks *r, int64_t own, int64_t *values)
     mps__ranks_add(r, r->count, values);
 }
 
+void mps__ranks_connect(mps__ranks *r, int32_t count, const int32_t *to, const int64_t *sent,
+                        mps_route *route)
+{
+    if (begin(r, 0)) r->failed = r->ops.connect(r->self, count, to, sent, route) != 0;
+}
+
 void mps__ranks_exchange(mps__ranks *r, const mps_route *route, size_t bytes, const void *out,
                          void *in)
 {
     int64_t sent = 0;
     for (int32_t k = 0; k < route->to_count; k++) sent += route->sent[k] * (int64_t)bytes;
     if (!begin(r, sent)) return;
+    const double start = mps__clock();
     r->failed = r->ops.exchange_begin(r->self, route, bytes, out, in) != 0 ||
                 r->ops.exchange_end(r->self, route) != 0;
+    r->seconds += mps__clock() - start;
 }
 
 void mps__ranks_send_to_first(mps__ranks *r, const void *own, const int64_t *bytes, void *all)
@@ -172,4 +184,28 @@ void mps__ranks_send_to_first(mps__ranks *r, const void *own, const int64_t *byt
     r->failed = r->ops.exchange_begin(r->self, &route, 1, own, (char *)all + (all ? sent : 0)) ||
                 r->ops.exchange_end(r->self, &route);
     r->ops.disconnect(r->self, &route);
+}
+
+mps_status mps__ranks_collect(mps__ranks *r, void **list, int64_t *count, size_t size)
+{
+    if (!mps__ranks_many(r)) return MPS_OK;
+    int64_t *bytes = mps__alloc(r->context, r->count, sizeof *bytes), all = 0;
+    if (!bytes) return MPS_E_NOMEM;
+    mps__ranks_gather_number(r, *count, bytes);
+    for (int32_t k = 0; k < r->count; k++) {
+        all += bytes[k];
+        bytes[k] *= (int64_t)size;
+    }
+    mps_status status = mps__ranks_status(r);
+    void *larger = status == MPS_OK ? mps__alloc(r->context, all, size) : NULL;
+    if (status == MPS_OK && !larger) status = MPS_E_NOMEM;
+    if (status == MPS_OK) {
+        mps__ranks_gather(r, *list, bytes, larger);
+        mps__free(r->context, *list);
+        *list = larger;
+        *count = all;
+        status = mps__ranks_status(r);
+    }
+    mps__free(r->context, bytes);
+    return status;
 }

@@ -14,8 +14,9 @@ typedef struct mps__ranks {
     int32_t rank, count; /* 0, 1: alone */
     /* A call failed, here or on another rank. All later ones do nothing; mps__ranks_status() tells. */
     bool failed;
-    int64_t rounds,
-        bytes; /* exchanges, reductions and gathers; bytes that this rank sent with them */
+    int64_t rounds; /* exchanges, reductions and gathers */
+    int64_t bytes;  /* that this rank sent with them */
+    double seconds; /* in them */
 } mps__ranks;
 
 /* Values of this rank stay as they are where a call fails: callers look at mps__ranks_status() before they use them for good. */
@@ -47,10 +48,15 @@ void mps__ranks_add(mps__ranks *r, int32_t count, int64_t *values);
 void mps__ranks_sum(mps__ranks *r, int32_t count, mps_exact *sums);
 /* Collect blocks of all ranks; `bytes` [ranks]. */
 void mps__ranks_gather(mps__ranks *r, const void *own, const int64_t *bytes, void *all);
-/* The same, at rank 0 only. */
+/* Replace a list of this rank, in memory of its own, by the lists of all ranks one behind the other. Alone it stays. */
+mps_status mps__ranks_collect(mps__ranks *r, void **list, int64_t *count, size_t size);
+/* Blocks of all ranks, at rank 0 only. */
 void mps__ranks_send_to_first(mps__ranks *r, const void *own, const int64_t *bytes, void *all);
 /* A number of each rank, in their order: values [ranks]. */
 void mps__ranks_gather_number(mps__ranks *r, int64_t own, int64_t *values);
+/* Make a route; where that fails there is none. */
+void mps__ranks_connect(mps__ranks *r, int32_t count, const int32_t *to, const int64_t *sent,
+                        mps_route *route);
 /* Exchange elements along a route. */
 void mps__ranks_exchange(mps__ranks *r, const mps_route *route, size_t bytes, const void *out,
                          void *in);

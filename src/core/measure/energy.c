@@ -2,6 +2,7 @@
 /* Energies, mass, volume and momentum of the fluid, and the budgets of energy and momentum. */
 #include "budget.h"
 #include "probes.h"
+#include "world_ranks.h"
 #include "terms.h"
 #include <math.h>
 #include <mps/model.h>
@@ -18,12 +19,14 @@ static void bulk_sums(const mps__world *w, mps_energy *e)
     mps__terms_begin(&t, sums, 1 + w->setup.dim);
     for (int64_t i = 0; i < s->n; i++) {
         double own[4] = {s->rho[i] * volume};
-        if (s->kind[i] != MPS_FLUID) continue;
+        if (s->kind[i] != MPS_FLUID || mps__is_ghost(&w->ghosts, i)) continue;
         for (int32_t d = 0; d < w->setup.dim; d++) own[1 + d] = own[0] * s->x[i * w->setup.dim + d];
         mps__terms_add(&t, own);
         count++;
     }
     mps__terms_end(&t);
+    mps__ranks_sum(w->ghosts.ranks, 1 + w->setup.dim, sums);
+    mps__ranks_add(w->ghosts.ranks, 1, &count);
     e->mass = mps_exact_value(&sums[0]);
     for (int32_t d = 0; d < w->setup.dim; d++) e->centre[d] = mps_exact_value(&sums[1 + d]);
     e->volume = volume * (double)count;
@@ -53,20 +56,24 @@ static double half_cells(const mps__world *w)
     double open[3] = {0};
     mps__terms_begin(&t, sums, 1 + dim);
     for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_WALL || !is_wet(w, i)) continue;
+        if (s->kind[i] != MPS_WALL || mps__is_ghost(&w->ghosts, i) || !is_wet(w, i)) continue;
         const double *a = s->area + i * dim;
         double own[4] = {sqrt(mps__dot(a, a, dim))};
         memcpy(own + 1, a, (size_t)dim * sizeof *a);
         mps__terms_add(&t, own);
     }
     mps__terms_end(&t);
+    mps__ranks_sum(w->ghosts.ranks, 1 + dim, sums);
     for (int d = 0; d < dim; d++) open[d] = mps_exact_value(&sums[1 + d]);
     return 0.5 * w->setup.dp * (mps_exact_value(&sums[0]) - sqrt(mps__dot(open, open, dim)));
 }
 
 mps_status mps__energy_measure(mps__world *w, mps_energy *e)
 {
-    if (w->state.step == 0 && w->particles.n > 0) MPS__TRY(mps__world_neighbours_kept(w));
+    MPS__TRY(mps__world_adopt(w));
+    bool any = w->particles.n > 0;
+    mps__world_any(w, 1, &any);
+    if (w->state.step == 0 && any) MPS__TRY(mps__world_neighbours_kept(w));
     mps__budget b = w->state.budget;
     mps__budget_update(w, &b);
     *e = (mps_energy){.struct_size = sizeof *e,
@@ -82,7 +89,7 @@ mps_status mps__energy_measure(mps__world *w, mps_energy *e)
     e->numerical = e->wall_work + e->added - e->viscous - e->collision - e->shift -
                    (e->kinetic + e->potential - b.start);
     e->volume /= 1.0 + b.deviation;
-    e->volume_filled = e->volume + (w->particles.n > 0 ? half_cells(w) : 0);
+    e->volume_filled = e->volume + (any ? half_cells(w) : 0);
     e->mass_filled = e->volume > 0 ? e->mass * e->volume_filled / e->volume : 0;
     e->volume_error = b.deviation_start - b.deviation;
     return MPS_OK;

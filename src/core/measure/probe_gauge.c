@@ -10,6 +10,7 @@
  * spacing less is the reading, so that still water reads the same with air above it and without. */
 #include "probe_gauge.h"
 #include "plates.h"
+#include "world_ranks.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -51,14 +52,17 @@ static double spline(double q)
 }
 
 /* What is below the surface, a bit for each phase: as asked for, or what is denser than the mean of the lightest and the heaviest there. */
-static uint32_t liquid_phases(const mps__world *w, const mps_probe *c)
+static uint32_t liquid_phases(mps__world *w, const mps_probe *c)
 {
     const mps__particles *s = &w->particles;
     double low = INFINITY, high = 0;
     uint32_t present = 0, liquid = 0;
     if (c->phases) return c->phases;
+    bool any[MPS__PHASES] = {false};
     for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID) present |= UINT32_C(1) << s->phase[i];
+        if (s->kind[i] == MPS_FLUID) any[s->phase[i]] = true;
+    mps__world_any(w, MPS__PHASES, any);
+    for (int p = 0; p < MPS__PHASES; p++) present |= any[p] ? UINT32_C(1) << p : 0;
     for (int p = 0; p < MPS__PHASES; p++) {
         if (!(present >> p & 1)) continue;
         low = fmin(low, w->setup.phase_density[p]);
@@ -96,13 +100,12 @@ static bool line_coordinates(const line *l, const mps__particles *s, int64_t i, 
     return b->s >= -3 * l->dp && b->s <= l->length + 3 * l->dp;
 }
 
-static void wall_facing(line *l, const mps__particles *s, int64_t i, beside *b)
+static void wall_facing(const line *l, const mps__particles *s, int64_t i, beside *b)
 {
     const double *area = &s->area[i * s->dim];
     double norm = sqrt(mps__dot(area, area, s->dim));
     for (int32_t e = 0; e < l->sides; e++) {
         b->facing[e] = norm > 0 ? mps__dot(area, l->tank_across[e], s->dim) / norm : 0;
-        l->faces = l->faces || fabs(b->facing[e]) > 0.5;
     }
 }
 
@@ -120,7 +123,8 @@ static mps_status line_collect(line *l, mps__world *w, uint32_t phases)
     int64_t capacity = 0;
     for (int64_t i = 0; i < s->n; i++) {
         beside b = {0};
-        if (mps__is_shadow(s, i) || !line_coordinates(l, s, i, &b)) continue;
+        if (mps__is_shadow(s, i) || mps__is_ghost(&w->ghosts, i) || !line_coordinates(l, s, i, &b))
+            continue;
         const bool fluid = s->kind[i] == MPS_FLUID;
         if (fluid && !(phases >> s->phase[i] & 1)) continue;
         b.id = s->id[i];
@@ -132,6 +136,10 @@ static mps_status line_collect(line *l, mps__world *w, uint32_t phases)
             mps__grow(w->context, (void **)&l->list, &capacity, l->count, l->count + 1, sizeof b));
         l->list[l->count++] = b;
     }
+    MPS__TRY(mps__ranks_collect(&w->ranks, (void **)&l->list, &l->count, sizeof *l->list));
+    for (int64_t k = 0; k < l->count; k++)
+        for (int32_t e = 0; e < l->sides; e++)
+            l->faces = l->faces || fabs(l->list[k].facing[e]) > 0.5;
     if (l->count > 0) qsort(l->list, (size_t)l->count, sizeof *l->list, compare_places);
     return MPS_OK;
 }

@@ -6,6 +6,7 @@
  * chords at equal steps of the angle, which is exact for linear pressures (Gauss-Chebyshev) and moves smoothly with the
  * sensor. Where the particles are not on a lattice, the weights are corrected so that a linear pressure stays exact. */
 #include "probe_sensor.h"
+#include "gather.h"
 #include "probe_face.h"
 #include <math.h>
 #include <stdlib.h>
@@ -193,6 +194,8 @@ mps_status mps__sensor_build(mps__world *w, const mps_probe *config, mps__sensor
     if (status < 0) return status;
     sensor->generation = w->particles.generation;
     sensor->linked = w->lists.linked;
+    sensor->links = w->lists.links;
+    sensor->orders = -1;
     return MPS_OK;
 }
 
@@ -225,20 +228,71 @@ static void locate(const mps__particles *s, mps__sensor *sensor)
     }
 }
 
+/* Whether particles came or went since the weights were found. */
+static bool is_old(const mps__world *w, const mps__sensor *sensor)
+{
+    if (mps__ranks_many(w->ghosts.ranks)) return sensor->links != w->lists.links;
+    return sensor->generation != w->particles.generation || sensor->linked != w->lists.linked;
+}
+
+static mps_status build_again(mps__world *w, const mps_probe *config, mps__sensor *sensor)
+{
+    MPS__TRY(mps__gather_solids(w));
+    mps_status status = isfinite(mps__sensor_distance(w, config->at))
+                            ? mps__sensor_build(w, config, sensor)
+                            : mps__fail(w->context, MPS_E_STATE,
+                                        "wall pressure: there is no wall particle any more");
+    mps__gather_end(w);
+    return status;
+}
+
+/* Where the particles are on this rank. */
+static void locate_owned(const mps__world *w, mps__sensor *sensor)
+{
+    const mps__particles *s = &w->particles;
+    if (sensor->orders == w->lists.orders && w->lists.orders > 0) return;
+    for (int64_t k = 0; k < sensor->count; k++) sensor->list[k].place = -1;
+    locate(s, sensor);
+    for (int64_t k = 0; k < sensor->count; k++)
+        if (sensor->list[k].place >= 0 && mps__is_ghost(&w->ghosts, sensor->list[k].place))
+            sensor->list[k].place = -1;
+    sensor->orders = w->lists.orders;
+}
+
+static void either(void *into, const void *from)
+{
+    double a, b;
+    memcpy(&a, into, sizeof a);
+    memcpy(&b, from, sizeof b);
+    if (a == 0) memcpy(into, &b, sizeof b);
+}
+
+/* Pressures of the particles, from the ranks that own them. */
+static mps_status collect_pressures(mps__world *w, mps__sensor *sensor, double *p)
+{
+    locate_owned(w, sensor);
+    for (int64_t k = 0; k < sensor->count; k++)
+        p[k] = sensor->list[k].place >= 0 ? w->particles.load[sensor->list[k].place] : 0;
+    mps__ranks_reduce(&w->ranks, (int32_t)sensor->count, sizeof *p, p, either);
+    return mps__ranks_status(&w->ranks);
+}
+
 mps_status mps__sensor_read(mps__world *w, const mps_probe *config, mps__sensor *sensor,
                             double *value)
 {
     const mps__particles *s = &w->particles;
-    if (sensor->generation != s->generation || sensor->linked != w->lists.linked) {
-        if (!isfinite(mps__sensor_distance(w, config->at)))
-            return mps__fail(w->context, MPS_E_STATE,
-                             "wall pressure: there is no wall particle any more");
-        MPS__TRY(mps__sensor_build(w, config, sensor));
-    }
-    if (!in_place(s, sensor)) locate(s, sensor);
     double sum = 0;
-    for (int64_t k = 0; k < sensor->count; k++)
-        sum += sensor->list[k].weight * s->load[sensor->list[k].place];
+    if (is_old(w, sensor)) MPS__TRY(build_again(w, config, sensor));
+    if (mps__ranks_many(&w->ranks)) {
+        double *p = mps__scratch_take(w->context, &w->scratch, 0, sensor->count, sizeof *p);
+        if (!p) return MPS_E_NOMEM;
+        MPS__TRY(collect_pressures(w, sensor, p));
+        for (int64_t k = 0; k < sensor->count; k++) sum += sensor->list[k].weight * p[k];
+    } else {
+        if (!in_place(s, sensor)) locate(s, sensor);
+        for (int64_t k = 0; k < sensor->count; k++)
+            sum += sensor->list[k].weight * s->load[sensor->list[k].place];
+    }
     *value = sum;
     return MPS_OK;
 }

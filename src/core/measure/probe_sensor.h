@@ -9,7 +9,7 @@
 /* A wall particle under the sensor and its share of the area; < 0 where pressure is extrapolated from others. */
 typedef struct mps__sensor_weight {
     int64_t id;
-    int64_t place; /* where it was last seen: sorting moves it */
+    int64_t place; /* where it was last seen: sorting moves it; on many ranks -1: not owned here */
     double weight;
 } mps__sensor_weight;
 
@@ -17,6 +17,7 @@ typedef struct mps__sensor {
     int64_t count, capacity;
     mps__sensor_weight *list;   /* by ascending id; the weights' sum is 1 */
     int64_t generation, linked; /* of the particles it was made for */
+    int64_t links, orders;      /* on many ranks likewise, and when they were looked for */
 } mps__sensor;
 
 void mps__sensor_free(mps__context *c, mps__sensor *sensor);

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Probes: checks when one is added, pressure in the fluid, forces. Wall sensors, gauges and series have files of their own. */
 #include "probes.h"
+#include "gather.h"
 #include "plates.h"
 #include "probe_gauge.h"
 #include "terms.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Fastest sampling [Hz], so that samples can be counted. */
@@ -89,25 +91,57 @@ static double moments_value(const mps__world *w, moments *m)
     return fmin(fmax(value, m->low), m->high);
 }
 
-/* Fluid particles and the walls they wet; a dry wall has p = 0 exactly. */
-static void measure_fluid(const mps__world *w, const mps_probe *c, double *value)
+/* A particle about a place. */
+typedef struct about {
+    int64_t id;
+    double r[3], d2, p;
+} about;
+
+static int compare_id(const void *a, const void *b)
+{
+    const int64_t i = ((const about *)a)->id, j = ((const about *)b)->id;
+    return (i > j) - (i < j);
+}
+
+/* Fluid particles and the walls they wet about a place; a dry wall has p = 0 exactly. */
+static mps_status find_about(const mps__world *w, const mps_probe *c, about **list, int64_t *count)
 {
     const mps__particles *s = &w->particles;
-    moments m = {.low = INFINITY, .high = -INFINITY, .nearest2 = INFINITY};
+    const int dim = w->setup.dim;
+    int64_t capacity = 0;
     double at[3];
     mps__motion_point(&w->motion, &w->motion.now, c->at, at, NULL, NULL);
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] == MPS_DUMMY || (s->kind[i] == MPS_WALL && s->load[i] == 0)) continue;
-        double r[3] = {0, 0, 0}, d2 = distance2(&s->x[i * w->setup.dim], at, w->setup.dim);
-        if (d2 >= w->setup.re_near * w->setup.re_near || mps__plates_hide(w, c->at, i)) continue;
-        for (int32_t d = 0; d < w->setup.dim; d++) r[d] = s->x[i * w->setup.dim + d] - at[d];
-        add_moment(&m, r,
-                   mps_kernel_value(&w->setup.kernel, fmax(sqrt(d2), 1e-3 * w->setup.dp),
-                                    w->setup.re_near),
-                   s->kind[i] == MPS_WALL ? s->load[i] : s->p[i]);
-        m.nearest2 = fmin(m.nearest2, d2);
+        about e = {.id = s->id[i], .d2 = distance2(&s->x[i * dim], at, dim)};
+        if (e.d2 >= w->setup.re_near * w->setup.re_near || mps__is_ghost(&w->ghosts, i) ||
+            mps__plates_hide(w, c->at, i))
+            continue;
+        for (int32_t d = 0; d < dim; d++) e.r[d] = s->x[i * dim + d] - at[d];
+        e.p = s->kind[i] == MPS_WALL ? s->load[i] : s->p[i];
+        MPS__TRY(
+            mps__grow(w->context, (void **)list, &capacity, *count, *count + 1, sizeof **list));
+        (*list)[(*count)++] = e;
     }
+    return mps__ranks_collect(w->ghosts.ranks, (void **)list, count, sizeof **list);
+}
+
+static mps_status measure_fluid(const mps__world *w, const mps_probe *c, double *value)
+{
+    moments m = {.low = INFINITY, .high = -INFINITY, .nearest2 = INFINITY};
+    about *list = NULL;
+    int64_t count = 0;
+    const mps_status status = find_about(w, c, &list, &count);
+    if (count > 0) qsort(list, (size_t)count, sizeof *list, compare_id);
+    for (int64_t k = 0; k < count; k++) {
+        const double r = fmax(sqrt(list[k].d2), 1e-3 * w->setup.dp);
+        add_moment(&m, list[k].r, mps_kernel_value(&w->setup.kernel, r, w->setup.re_near),
+                   list[k].p);
+        m.nearest2 = fmin(m.nearest2, list[k].d2);
+    }
+    mps__free(w->context, list);
     *value = m.nearest2 < 0.25 * w->setup.re_near * w->setup.re_near ? moments_value(w, &m) : 0;
+    return status;
 }
 
 /* ---- forces ---- */
@@ -152,7 +186,7 @@ static void measure_force(const mps__world *w, const mps__probe *probe, double *
     mps__motion_point(&w->motion, &w->motion.now, probe->config.at, at, NULL, NULL);
     mps__terms_begin(&t, sums, 6);
     for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_WALL || s->load[i] == 0) continue;
+        if (s->kind[i] != MPS_WALL || s->load[i] == 0 || mps__is_ghost(&w->ghosts, i)) continue;
         double f[6] = {0}, r[3] = {0, 0, 0}, area[3] = {0, 0, 0}; /* f: force, moment */
         for (int32_t d = 0; d < w->setup.dim; d++)
             area[d] = face_wanted(w, probe, i, d) ? s->area[i * w->setup.dim + d] : 0;
@@ -166,6 +200,7 @@ static void measure_force(const mps__world *w, const mps__probe *probe, double *
         mps__terms_add(&t, f);
     }
     mps__terms_end(&t);
+    mps__ranks_sum(w->ghosts.ranks, 6, sums);
     for (int k = 0; k < 6; k++) total[k] = mps_exact_value(&sums[k]);
     memcpy(values, total, (size_t)w->setup.dim * sizeof *total);
     if (w->setup.dim == 2)
@@ -340,12 +375,21 @@ static mps_status complete(mps__world *w, mps__probe *p, const char *part)
                                                      : MPS_OK;
 }
 
+/* Ranks look at the solids of all. */
+static mps_status prepare(mps__world *w, mps__probe *p, const char *part)
+{
+    MPS__TRY(mps__gather_solids(w));
+    mps_status status = check_probe(w, &p->config);
+    if (status == MPS_OK) status = complete(w, p, part);
+    mps__gather_end(w);
+    return status;
+}
+
 mps_status mps__probes_add(mps__world *w, mps__probes *p, const mps_probe *probe, int32_t *id)
 {
     mps__probe added = {.config = *probe};
-    MPS__TRY(check_probe(w, &added.config));
     MPS__CHECK(w->context, p->count < INT32_MAX, "too many probes");
-    mps_status status = complete(w, &added, probe->part);
+    mps_status status = prepare(w, &added, probe->part);
     if (status == MPS_OK)
         status = mps__grow(w->context, (void **)&p->list, &p->capacity, p->count, p->count + 1,
                            sizeof added);
@@ -374,14 +418,14 @@ int32_t mps__probe_values(const mps__world *w, const mps__probe *p)
 
 mps_status mps__probe_measure(mps__world *w, mps__probe *p, double *values)
 {
+    MPS__TRY(mps__world_adopt(w));
     switch (p->config.type) {
     case MPS_PROBE_WALL_PRESSURE:
         return mps__sensor_read(w, &p->config, &p->sensor, values);
     case MPS_PROBE_GAUGE:
         return mps__gauge_measure(w, &p->config, values);
     case MPS_PROBE_FLUID_PRESSURE:
-        measure_fluid(w, &p->config, values);
-        return MPS_OK;
+        return measure_fluid(w, &p->config, values);
     default:
         measure_force(w, p, values);
         return MPS_OK;

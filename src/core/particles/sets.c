@@ -35,31 +35,6 @@ mps_status mps__sets_join(mps__sets *s, int64_t a, int64_t b)
     return MPS_OK;
 }
 
-/* Replace a list of this rank by those of all ranks. */
-static mps_status collect(mps__sets *s, mps__ranks *r, void **list, int64_t *capacity,
-                          int64_t *count, size_t size)
-{
-    int64_t *bytes = mps__alloc(s->context, r->count, sizeof *bytes), all = 0;
-    if (!bytes) return MPS_E_NOMEM;
-    mps__ranks_gather_number(r, *count, bytes);
-    for (int32_t k = 0; k < r->count; k++) {
-        all += bytes[k];
-        bytes[k] *= (int64_t)size;
-    }
-    mps_status status = mps__ranks_status(r);
-    void *larger = status == MPS_OK ? mps__alloc(s->context, all, size) : NULL;
-    if (status == MPS_OK && !larger) status = MPS_E_NOMEM;
-    if (status == MPS_OK) {
-        mps__ranks_gather(r, *list, bytes, larger);
-        mps__free(s->context, *list);
-        *list = larger;
-        *capacity = *count = all;
-        status = mps__ranks_status(r);
-    }
-    mps__free(s->context, bytes);
-    return status;
-}
-
 static int by_label(const void *a, const void *b)
 {
     const int64_t x = ((const mps__set *)a)->label, y = ((const mps__set *)b)->label;
@@ -122,8 +97,10 @@ static mps_status list_sets(mps__sets *s)
 mps_status mps__sets_merge(mps__sets *s, mps__ranks *r)
 {
     if (mps__ranks_many(r)) {
-        MPS__TRY(collect(s, r, (void **)&s->part, &s->part_capacity, &s->parts, sizeof *s->part));
-        MPS__TRY(collect(s, r, (void **)&s->pair, &s->pair_capacity, &s->pairs, sizeof *s->pair));
+        MPS__TRY(mps__ranks_collect(r, (void **)&s->part, &s->parts, sizeof *s->part));
+        MPS__TRY(mps__ranks_collect(r, (void **)&s->pair, &s->pairs, sizeof *s->pair));
+        s->part_capacity = s->parts;
+        s->pair_capacity = s->pairs;
     }
     if (s->parts > 0) qsort(s->part, (size_t)s->parts, sizeof *s->part, by_label);
     MPS__TRY(

@@ -97,7 +97,7 @@ static mps_status pin(mps__bounds *b, mps__ppe *e, int64_t r)
 /* Mark the rows that have a pinned column; rows of pinned unknowns tell, and of those of other ranks the rows at the border. */
 static void mark_rows(mps__bounds *b, const mps__ppe *e)
 {
-    memset(b->mark, 0, (size_t)e->n);
+    if (e->n > 0) memset(b->mark, 0, (size_t)e->n);
     for (int64_t k = 0; k < b->count; k++) {
         const int64_t r = b->list[k].row;
         if (!b->list[k].held) continue;

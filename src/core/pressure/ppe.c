@@ -298,6 +298,35 @@ static int reduce_values(void *host, int32_t count, size_t bytes, void *values,
     return r->failed;
 }
 
+static int gather_blocks(void *host, const void *own, const int64_t *bytes, void *all)
+{
+    mps__ranks *r = ((const mps__ppe *)host)->ghosts->ranks;
+    mps__ranks_gather(r, own, bytes, all);
+    return r->failed;
+}
+
+static int connect_ranks(void *host, int32_t count, const int32_t *to, const int64_t *sent,
+                         mps_route *route)
+{
+    mps__ranks *r = ((const mps__ppe *)host)->ghosts->ranks;
+    mps__ranks_connect(r, count, to, sent, route);
+    return r->failed;
+}
+
+static void disconnect_ranks(void *host, mps_route *route)
+{
+    mps__ranks *r = ((const mps__ppe *)host)->ghosts->ranks;
+    r->ops.disconnect(r->self, route);
+}
+
+static int exchange_elements(void *host, const mps_route *route, size_t bytes, const void *out,
+                             void *in)
+{
+    mps__ranks *r = ((const mps__ppe *)host)->ghosts->ranks;
+    mps__ranks_exchange(r, route, bytes, out, in);
+    return r->failed;
+}
+
 static int find_owners(void *host, int64_t m, const double *x, int32_t *rank)
 {
     const mps__ppe *e = host;
@@ -331,6 +360,10 @@ static mps_status set_ranks(mps__ppe *e)
                                .owner = find_owners,
                                .share = share_columns,
                                .reduce = reduce_values,
+                               .gather = gather_blocks,
+                               .connect = connect_ranks,
+                               .disconnect = disconnect_ranks,
+                               .exchange = exchange_elements,
                                .host = e};
     for (int32_t k = 0; k < r->count; k++) {
         e->ranks.first += k < r->rank ? rows[k] : 0;

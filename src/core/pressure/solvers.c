@@ -390,8 +390,9 @@ int mps_ppe_total(const mps_ppe_problem *problem, const mps_exact_values *values
     for (int32_t k = 0; k < t.sums; k++) t.sum[k] = values->sum[k];
     for (int32_t k = 0; k < t.maxima; k++) t.maximum[k] = values->maximum[k];
     const int failed = mps_ppe_reduce(problem, 1, sizeof t, &t, add_total);
-    for (int32_t k = 0; k < t.sums; k++) values->sum[k] = t.sum[k];
-    for (int32_t k = 0; k < t.maxima; k++) values->maximum[k] = t.maximum[k];
+    /* not t.sums: a rank that runs out of memory in its solver may be in another total */
+    for (int32_t k = 0; k < values->sums; k++) values->sum[k] = t.sum[k];
+    for (int32_t k = 0; k < values->maxima; k++) values->maximum[k] = t.maximum[k];
     return failed;
 }
 

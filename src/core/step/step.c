@@ -216,7 +216,8 @@ static bool any_fluid(mps__world *w)
 
 mps_status mps__world_step(mps__world *w, double dt_max)
 {
-    mps__step q = {.w = w, .clock = mps__clock()};
+    const double begin = mps__clock();
+    mps__step q = {.w = w, .clock = begin};
     w->host.motion = &w->motion;
     w->host.next = NULL;
     MPS__TRY(mps__world_adopt(w));
@@ -248,5 +249,6 @@ mps_status mps__world_step(mps__world *w, double dt_max)
     if (planned > 0) w->state.dt_previous = planned;
     mps__step_end_stage(&q, MPS_STAGE_CORRECT);
     w->info.seconds[MPS_STAGE_CORRECT] = q.info.seconds[MPS_STAGE_CORRECT];
+    mps__world_balance(w, mps__clock() - begin);
     return q.not_converged ? MPS_W_NOT_CONVERGED : MPS_OK;
 }

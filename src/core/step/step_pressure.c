@@ -39,7 +39,7 @@ static mps_status check_ranks(const mps__step *q)
         return MPS_OK;
     return mps__fail(q->w->context, MPS_E_STATE,
                      "solver '%s' with preconditioner '%s' works on one rank only: choose "
-                     "'sundials.pcg' with 'jacobi'",
+                     "'sundials.pcg' with 'auxgrid' or 'jacobi'",
                      s->use->name, s->pc ? s->pc->name : "none");
 }
 

@@ -333,6 +333,7 @@ static mps_status link_solids(mps__world *w)
     MPS__TRY(mps_op_number_density(&near, w->particles.nd));
     mps__host_written(&w->host, MPS__NUMBER_DENSITY);
     w->lists.linked = w->particles.generation;
+    w->lists.links++;
     return MPS_OK;
 }
 
@@ -456,9 +457,22 @@ mps_status mps__world_neighbours(mps__world *w)
     return status;
 }
 
+/* Ranks order particles with each search, so that arrays that the caller holds would change. */
+static mps_status neighbours_of_ranks(mps__world *w)
+{
+    const int32_t open = mps__particles_leases(&w->particles);
+    if (open)
+        return mps__fail(w->context, MPS_E_BUSY,
+                         "%d lease(s) are open, and on many ranks particles change their places "
+                         "with new neighbours: end them first",
+                         open);
+    return mps__world_neighbours(w);
+}
+
 mps_status mps__world_neighbours_kept(mps__world *w)
 {
     mps__particles *s = &w->particles;
+    if (mps__ranks_many(&w->ranks)) return neighbours_of_ranks(w);
     MPS__CHECK(w->context, s->n > 0, "there are no particles");
     MPS__TRY(reserve_work(w));
     MPS__TRY(list_again(w));

@@ -112,6 +112,8 @@ typedef struct mps__lists {
     int64_t aside;  /* lost particles that lie behind the others, until the next are looked for */
     int64_t gone;   /* the same of all ranks */
     int64_t linked; /* generation of the particles whose dummies know their walls */
+    int64_t links;  /* how often dummies were linked to walls */
+    int64_t orders; /* how often particles were put in order */
 } mps__lists;
 
 /* What stands aside while the store has particles of all ranks; gather.h. */
@@ -123,6 +125,13 @@ typedef struct mps__gathered {
     uint8_t *ghost;
     double *listed; /* places of the last search */
 } mps__gathered;
+
+/* Work of this rank since ranks compared theirs; balance.c. */
+typedef struct mps__balance {
+    int32_t steps;
+    double work, waited; /* [s] */
+    double uneven;       /* largest work over the mean at the last comparison */
+} mps__balance;
 
 typedef struct mps__world {
     mps__context *context;
@@ -137,6 +146,7 @@ typedef struct mps__world {
     mps__ranks ranks;
     mps__ghosts ghosts;
     mps__gathered gathered;
+    mps__balance balance;
     mps__models models;
     mps__channels channels;
     mps__host host;

@@ -172,6 +172,7 @@ mps_status mps__world_divide(mps__world *w)
     MPS__TRY(mps__ghosts_ordered(&w->ghosts, l->order));
     MPS__TRY(mps__particles_permute(s, s->n, l->order));
     l->ghost = w->ghosts.ghost;
+    w->lists.orders++;
     return mps__ranks_many(&w->ranks) ? mps__world_find_walls(w) : MPS_OK;
 }
 

@@ -15,6 +15,8 @@ mps_status mps__world_replace(mps__world *w, int64_t n, const void *const from[]
 void mps__world_keep_listed(mps__world *w);
 /* Lists of the particles at these places, as lists.listed_at has them on one rank. */
 mps_status mps__world_list_again(mps__world *w, mps_status (*search)(mps__world *w));
+/* A step took so long on this rank; sometimes ranks compare, and cut space anew. */
+void mps__world_balance(mps__world *w, double seconds);
 /* Whether on many ranks models or the solver look farther than ghosts reach, or at rows that ghosts lack. */
 bool mps__world_wants_ghosts(const mps__world *w);
 /* Whether something is so on any rank, for each of `count` things, at most 16. */

@@ -1,0 +1,330 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* auxgrid on many ranks: owners of the cells of the first grid, and messages between them. All ranks number the cells alike, so these go
+ * by their numbers.
+ *
+ * Sums over particles have the same terms in the same order as on one rank: the owner of a cell has all of its particles as rows or
+ * columns, in the order of the particles, and the owner of a cell beside it gets the parts for it one by one. */
+#include "auxgrid.h"
+#include "kernels.h"
+#include <string.h>
+
+enum {
+    UNSEEN = -1,
+    SEEN = -2
+}; /* owners that are not known yet; SEEN: the cell has particles here */
+
+/* ---- memory ---- */
+
+void *mps__grid_room_of(mps__grid *g, mps__grid_room *r, int64_t count, size_t size)
+{
+    const int64_t bytes = count * (int64_t)size;
+    if (r->at && bytes <= r->bytes) return r->at;
+    mps__give(&g->allocator, r->at);
+    r->bytes = bytes + bytes / 8 + 64;
+    r->at = mps__take(&g->allocator, r->bytes, 1);
+    if (!r->at) r->bytes = 0;
+    return r->at;
+}
+
+static void *room(mps__grid *g, int which, int64_t count, size_t size)
+{
+    return mps__grid_room_of(g, &g->ranks.room[which], count, size);
+}
+
+static void disconnect(mps__grid_ranks *r)
+{
+    if (r->connected) r->table.disconnect(r->table.host, &r->route);
+    r->connected = false;
+}
+
+void mps__grid_ranks_release(mps__grid *g)
+{
+    const int64_t whole = g->ranks.whole;
+    disconnect(&g->ranks);
+    mps__grid_divided_release(g);
+    for (int k = 0; k < MPS__GRID_ROOMS; k++) mps__give(&g->allocator, g->ranks.room[k].at);
+    g->ranks = (mps__grid_ranks){.whole = whole};
+}
+
+int mps__grid_ranks_begin(mps__grid *g, const mps_ppe_problem *problem)
+{
+    mps__grid_ranks *r = &g->ranks;
+    disconnect(r);
+    mps__grid_undivide(g);
+    r->table = problem->ranks ? *problem->ranks : (mps_ppe_ranks){.ranks = 0};
+    if (!mps__grid_many(g)) return 0;
+    const int32_t ranks = r->table.ranks;
+    r->n = problem->n;
+    r->columns = mps__columns(problem);
+    r->value = room(g, MPS__GRID_VALUES, r->columns, sizeof *r->value);
+    r->entries = room(g, MPS__GRID_ENTRIES, r->columns, sizeof *r->entries);
+    r->place = room(g, MPS__GRID_PLACES, r->columns, sizeof *r->place);
+    r->owned.first = room(g, MPS__GRID_COUNTS, 3 * (int64_t)ranks + 1, sizeof *r->owned.first);
+    if (!r->value || !r->entries || !r->place || !r->owned.first) return MPS_PPE_NOMEM;
+    r->bytes = r->owned.first + ranks + 1;
+    r->count = r->bytes + ranks;
+    for (int64_t k = 0; k < r->columns; k++) r->place[r->table.order[k]] = (int32_t)k;
+    return 0;
+}
+
+/* ---- messages ---- */
+
+/* A number of each rank into `count`. Returns their sum, -1 after a failure. */
+static int64_t gather_count(mps__grid_ranks *r, int64_t own)
+{
+    int64_t sum = 0;
+    for (int32_t k = 0; k < r->table.ranks; k++) r->bytes[k] = sizeof own;
+    if (r->table.gather(r->table.host, &own, r->bytes, r->count)) return -1;
+    for (int32_t k = 0; k < r->table.ranks; k++) sum += r->count[k];
+    return sum;
+}
+
+/* Collect `count` elements of each rank. */
+static int gather(mps__grid_ranks *r, const void *own, size_t size, void *all)
+{
+    for (int32_t k = 0; k < r->table.ranks; k++) r->bytes[k] = r->count[k] * (int64_t)size;
+    return r->table.gather(r->table.host, own, r->bytes, all) ? MPS_PPE_BREAKDOWN : 0;
+}
+
+int mps__grid_ranks_share(mps__grid *g, const double *values)
+{
+    mps__grid_ranks *r = &g->ranks;
+    memcpy(r->value, values, (size_t)r->n * sizeof *values);
+    return r->table.share(r->table.host, r->value) ? MPS_PPE_BREAKDOWN : 0;
+}
+
+int mps__grid_ranks_exchange(mps__grid *g)
+{
+    const mps__grid_ranks *r = &g->ranks;
+    double *parts = g->parts;
+    int64_t sent = 0, received = 0;
+    for (int32_t k = 0; k < r->route.to_count; k++) sent += r->route.sent[k];
+    for (int32_t k = 0; k < r->route.from_count; k++) received += r->route.received[k];
+    for (int64_t k = 0; k < sent; k++) r->out[k] = parts[r->send[k]];
+    if (r->table.exchange(r->table.host, &r->route, sizeof *parts, r->out, r->in))
+        return MPS_PPE_BREAKDOWN;
+    for (int64_t k = 0; k < received; k++) parts[r->receive[k]] = r->in[k];
+    return 0;
+}
+
+int mps__grid_ranks_collect(mps__grid *g, const mps__grid_owned *owned, int arrays,
+                            double *const *array)
+{
+    mps__grid_ranks *r = &g->ranks;
+    const int64_t first = owned->first[r->table.rank],
+                  own = owned->first[r->table.rank + 1] - first, all = owned->first[r->table.ranks];
+    double *out = room(g, MPS__GRID_OUT, own * arrays, sizeof *out),
+           *in = room(g, MPS__GRID_IN, all * arrays, sizeof *in);
+    if (!out || !in) return MPS_PPE_NOMEM;
+    for (int64_t k = 0; k < own; k++)
+        for (int a = 0; a < arrays; a++) out[k * arrays + a] = array[a][owned->cell[first + k]];
+    for (int32_t k = 0; k < r->table.ranks; k++)
+        r->count[k] = owned->first[k + 1] - owned->first[k];
+    if (gather(r, out, (size_t)arrays * sizeof *out, in)) return MPS_PPE_BREAKDOWN;
+    for (int64_t k = 0; k < all; k++)
+        for (int a = 0; a < arrays; a++) array[a][owned->cell[k]] = in[k * arrays + a];
+    return 0;
+}
+
+/* ---- cells ---- */
+
+/* Conductivities and numbers of entries of all columns, the first into `value`. */
+static int share_rows(mps__grid *g, const mps_ppe_problem *problem)
+{
+    mps__grid_ranks *r = &g->ranks;
+    for (int64_t i = 0; i < r->n; i++)
+        r->entries[i] = (double)(problem->row[i + 1] - problem->row[i]);
+    if (r->table.share(r->table.host, r->entries)) return MPS_PPE_BREAKDOWN;
+    return mps__grid_ranks_share(g, g->point_kappa);
+}
+
+/* Keys of the cells that hold rows of any rank, some more than once. */
+static int collect_keys(mps__grid *g, const mps_ppe_problem *problem, const int64_t **key,
+                        int64_t *keys)
+{
+    mps__grid_ranks *r = &g->ranks;
+    mps__grid_place(g, problem, r->n);
+    const int64_t own = mps__grid_find(g, &g->level[0], r->n);
+    if (own < 0) return MPS_PPE_NOMEM;
+    *keys = gather_count(r, own);
+    if (*keys < 0) return MPS_PPE_BREAKDOWN;
+    int64_t *all = room(g, MPS__GRID_KEYS, *keys, sizeof *all);
+    *key = all;
+    return all ? gather(r, g->point_key, sizeof *all, all) : MPS_PPE_NOMEM;
+}
+
+/* Centres of the cells that have particles here. Returns their number, -1: out of memory. */
+static int64_t find_centres(mps__grid *g, double **centre)
+{
+    mps__grid_ranks *r = &g->ranks;
+    const mps__grid_level *l = &g->level[0];
+    int64_t seen = 0;
+    for (int64_t c = 0; c < l->cells; c++) r->owner[c] = UNSEEN;
+    for (int64_t i = 0; i < l->points; i++) {
+        seen += r->owner[l->home[i]] == UNSEEN;
+        r->owner[l->home[i]] = SEEN;
+    }
+    double *x = *centre = room(g, MPS__GRID_CENTRES, seen * g->dim, sizeof *x);
+    if (!x) return -1;
+    for (int64_t c = 0; c < l->cells; c++)
+        for (int a = 0; a < g->dim && r->owner[c] == SEEN; a++)
+            *x++ = ((double)mps__grid_coordinate(l->key[c], a) + 0.5 + g->corner[a]) * g->size;
+    return seen;
+}
+
+/* Cells that this rank owns into `own` [cells]. Returns their number, -1: out of memory, -2: failed */
+static int64_t find_own(mps__grid *g, int32_t *own)
+{
+    mps__grid_ranks *r = &g->ranks;
+    const mps__grid_level *l = &g->level[0];
+    double *centre;
+    const int64_t seen = find_centres(g, &centre);
+    int64_t count = 0;
+    int32_t *rank = room(g, MPS__GRID_PARTNERS, seen, sizeof *rank);
+    if (seen < 0 || !rank) return -1;
+    if (r->table.owner(r->table.host, seen, centre, rank)) return -2;
+    for (int64_t c = 0; c < l->cells; c++)
+        if (r->owner[c] == SEEN && *rank++ == r->table.rank) own[count++] = (int32_t)c;
+    return count;
+}
+
+/* Owners of all cells. Each cell has one, which has its particles. */
+static int find_owners(mps__grid *g)
+{
+    mps__grid_ranks *r = &g->ranks;
+    const int64_t cells = g->level[0].cells;
+    r->owned.cell = room(g, MPS__GRID_CELLS, 2 * cells, sizeof *r->owned.cell);
+    r->owner = room(g, MPS__GRID_OWNERS, cells, sizeof *r->owner);
+    if (!r->owned.cell || !r->owner) return MPS_PPE_NOMEM;
+    int32_t *own = r->owned.cell + cells;
+    const int64_t count = find_own(g, own);
+    if (count < 0) return count == -1 ? MPS_PPE_NOMEM : MPS_PPE_BREAKDOWN;
+    if (gather_count(r, count) != cells) return MPS_PPE_BREAKDOWN;
+    r->owned.first[0] = 0;
+    for (int32_t k = 0; k < r->table.ranks; k++)
+        r->owned.first[k + 1] = r->owned.first[k] + r->count[k];
+    if (gather(r, own, sizeof *own, r->owned.cell)) return MPS_PPE_BREAKDOWN;
+    for (int32_t k = 0; k < r->table.ranks; k++)
+        for (int64_t c = r->owned.first[k]; c < r->owned.first[k + 1]; c++)
+            r->owner[r->owned.cell[c]] = k;
+    return 0;
+}
+
+/* ---- parts that go to other ranks ---- */
+
+/* Owner of the cell in direction k of a cell; -1: there is no cell. */
+static int32_t owner_about(const mps__grid *g, int64_t cell, int k)
+{
+    const mps__grid_level *l = &g->level[0];
+    const int32_t other = l->about[cell * (g->dim == 2 ? 9 : MPS__GRID_ABOUT) + k];
+    return other == l->cells ? -1 : g->ranks.owner[other];
+}
+
+/* Parts of the own cells that go to other ranks. Without a list: how many go to each, into `count`. Otherwise into the list, those for a
+ * rank from `bytes` of it on. */
+static void list_sent(mps__grid *g, int64_t *list)
+{
+    mps__grid_ranks *r = &g->ranks;
+    const int all = g->dim == 2 ? 9 : MPS__GRID_ABOUT;
+    const int32_t rank = r->table.rank;
+    for (int64_t c = r->owned.first[rank]; c < r->owned.first[rank + 1]; c++)
+        for (int k = 1; k < all; k++) {
+            const int32_t owner = owner_about(g, r->owned.cell[c], k);
+            if (owner < 0 || owner == rank) continue;
+            if (list)
+                list[r->bytes[owner]++] = (int64_t)r->owned.cell[c] * all + k;
+            else
+                r->count[owner]++;
+        }
+}
+
+/* Parts that come, in the order in which they are sent: by rank, cell and direction. @param beside  [cells] 1 for a cell about an own one
+ * @return how many, at most `most` of them listed */
+static int64_t list_received(const mps__grid *g, const uint8_t *beside, int64_t most, int64_t *list)
+{
+    const mps__grid_ranks *r = &g->ranks;
+    const int all = g->dim == 2 ? 9 : MPS__GRID_ABOUT;
+    int64_t listed = 0;
+    for (int64_t c = 0; c < r->owned.first[r->table.ranks]; c++) {
+        const int32_t cell = r->owned.cell[c];
+        if (!beside[cell] || r->owner[cell] == r->table.rank) continue;
+        for (int k = 1; k < all; k++) {
+            if (owner_about(g, cell, k) != r->table.rank) continue;
+            if (listed < most) list[listed] = (int64_t)cell * all + k;
+            listed++;
+        }
+    }
+    return listed;
+}
+
+static uint8_t *mark_beside(mps__grid *g)
+{
+    const mps__grid_ranks *r = &g->ranks;
+    const mps__grid_level *l = &g->level[0];
+    const int all = g->dim == 2 ? 9 : MPS__GRID_ABOUT;
+    uint8_t *beside = room(g, MPS__GRID_MARKS, l->cells + 1, sizeof *beside);
+    if (!beside) return NULL;
+    memset(beside, 0, (size_t)l->cells + 1);
+    for (int64_t c = r->owned.first[r->table.rank]; c < r->owned.first[r->table.rank + 1]; c++)
+        for (int k = 1; k < all; k++) beside[l->about[(int64_t)r->owned.cell[c] * all + k]] = 1;
+    return beside;
+}
+
+/* A route to the ranks that get parts. */
+static int connect_owners(mps__grid *g)
+{
+    mps__grid_ranks *r = &g->ranks;
+    const int32_t ranks = r->table.ranks;
+    int32_t *to = room(g, MPS__GRID_PARTNERS, ranks, sizeof *to), partners = 0;
+    int64_t sent = 0;
+    memset(r->count, 0, (size_t)ranks * sizeof *r->count);
+    list_sent(g, NULL);
+    for (int32_t k = 0; k < ranks; sent += r->count[k++]) r->bytes[k] = sent;
+    r->send = room(g, MPS__GRID_SENT, sent, sizeof *r->send);
+    if (!to || !r->send) return MPS_PPE_NOMEM;
+    list_sent(g, r->send);
+    for (int32_t k = 0; k < ranks; k++) {
+        if (r->count[k] == 0) continue;
+        to[partners] = k;
+        r->count[partners++] = r->count[k];
+    }
+    if (r->table.connect(r->table.host, partners, to, r->count, &r->route))
+        return MPS_PPE_BREAKDOWN;
+    r->connected = true;
+    r->out = room(g, MPS__GRID_PARTS_OUT, sent, sizeof *r->out);
+    return r->out ? 0 : MPS_PPE_NOMEM;
+}
+
+static int find_parts(mps__grid *g)
+{
+    mps__grid_ranks *r = &g->ranks;
+    const int reason = connect_owners(g);
+    const uint8_t *beside = mark_beside(g);
+    int64_t received = 0;
+    if (reason) return reason;
+    for (int32_t k = 0; k < r->route.from_count; k++) received += r->route.received[k];
+    r->receive = room(g, MPS__GRID_RECEIVED, received, sizeof *r->receive);
+    r->in = room(g, MPS__GRID_PARTS_IN, received, sizeof *r->in);
+    if (!beside || !r->receive || !r->in) return MPS_PPE_NOMEM;
+    return list_received(g, beside, received, r->receive) == received ? 0 : MPS_PPE_BREAKDOWN;
+}
+
+int mps__grid_ranks_cells(mps__grid *g, const mps_ppe_problem *problem)
+{
+    mps__grid_ranks *r = &g->ranks;
+    mps__grid_level *l = &g->level[0];
+    const int64_t *key, columns = r->columns;
+    int64_t keys;
+    int reason = share_rows(g, problem);
+    if (!reason) reason = collect_keys(g, problem, &key, &keys);
+    if (reason) return reason;
+    if (columns + keys >= INT32_MAX) return MPS_PPE_BREAKDOWN;
+    if (!mps__grid_reserve(g, columns + keys)) return MPS_PPE_NOMEM;
+    memcpy(g->point_kappa, r->value, (size_t)columns * sizeof *r->value);
+    mps__grid_place(g, problem, columns);
+    memcpy(g->point_key + columns, key, (size_t)keys * sizeof *key);
+    if (!mps__grid_cells(g, l, columns + keys)) return MPS_PPE_NOMEM;
+    l->points = columns; /* the keys behind them are those of cells, not of particles */
+    reason = find_owners(g);
+    return reason ? reason : find_parts(g);
+}
