@@ -302,7 +302,10 @@ static void run_begin(run *r)
                    r->options.quiet);
     progress_from(&r->progress, r->totals.t, r->totals.steps);
     run_first_rows(r);
-    if (ranks_first()) run_frames_open(r);
+    if (ranks_gather(r->sim)) {
+        if (ranks_first()) run_frames_open(r);
+        ranks_gather_end(r->sim);
+    }
     while (r->options.resume && run_picture_due(r, r->totals.t))
         r->picture_at[r->pictures++] = NAN; /* taken before, maybe with another --t-end */
     catch_interrupt();

@@ -40,15 +40,15 @@ while read -r name options; do
     done
 done <<'CASES'
 dam dam_break --solver sundials.pcg/jacobi --dp 0.02 --t-end 0.2 --frames 4 --checkpoint 0.1
-roll sloshing_roll --solver sundials.pcg/jacobi --dp 0.0155 --t-end 0.1 --frames 2 --checkpoint 0.1
-air sloshing_breaking --solver sundials.pcg/jacobi --model mmps --dp 0.03 --t-end 0.05 --frames 2 --checkpoint 0.05
-film impact --solver sundials.pcg/jacobi --case film --dp 0.05 --frames 2 --checkpoint 1
+roll sloshing_roll --dp 0.0155 --t-end 0.1 --frames 2 --checkpoint 0.1
+air sloshing_breaking --model mmps --dp 0.03 --t-end 0.05 --frames 2 --checkpoint 0.05
+film impact --case film --dp 0.05 --frames 2 --checkpoint 1
 CASES
 ranks 0 1 dam_break --solver sundials.pcg/jacobi --dp 0.02 --t-end 0.2 --frames 4 --checkpoint 0.1 --out dam.one
 same dam.1 dam.one
 
 # ---- stopped by a signal, on with other numbers of ranks
-surge=(sloshing_surge --solver sundials.pcg/jacobi --dp 0.05 --t-end 1 --frames 0)
+surge=(sloshing_surge --dp 0.05 --t-end 1 --frames 0)
 
 stopped() { # signal, ranks, options...: the signal goes to mpirun, which passes on USR1 and no other; or to its last rank
     local pid tries=0 to
@@ -82,10 +82,14 @@ ranks 2 2 dam_break --solver sundials.pcg/ic0 --dp 0.02 --t-end 0.01 --out ic0
 says 'a solver for one rank' 'works on one rank only'
 ranks 0 2 dam_break --help
 says 'help' 'usage: dam_break'
-ranks 3 2 sloshing_surge --solver sundials.pcg/jacobi --dp 0.05 --dt 0.1 --t-end 5 --frames 2 --out diverged
+ranks 3 2 sloshing_surge --dp 0.05 --dt 0.1 --t-end 5 --frames 2 --out diverged
 says 'a run that diverges' 'at t ='
 [ -s diverged/summary.json ] || fail 'a run that diverges leaves no summary'
-"$here/run" "$mpirun" 2 "$drivers/dam_break" --dp 0.02 --t-end 0.01 --out alone >log 2>&1 && fail 'mpirun without --mpi is not refused'
+# rank 1 alone refuses its options: rank 0 ends too, and the message is not lost
+"$here/run" "$mpirun" 1 "$drivers/dam_break" --mpi --dp 0.02 --out lone : -n 1 "$drivers/dam_break" --mpi --set shift.bogus=1 </dev/null >log 2>&1
+[ $? = 2 ] || fail "one rank with a wrong setting: $(cat log)"
+says 'one rank with a wrong setting' 'has no setting "bogus"'
+"$here/run" "$mpirun" 2 "$drivers/dam_break" --dp 0.02 --t-end 0.01 --out alone </dev/null >log 2>&1 && fail 'mpirun without --mpi is not refused'
 says 'mpirun without --mpi' 'mpirun started 2 processes'
 [ ! -e alone ] || fail 'mpirun without --mpi makes a folder'
 cp "$drivers/dam_break" . # away from the module
