@@ -117,7 +117,8 @@ MPS_API mps_status mps_particles_ghosts(const mps_sim *sim, const uint8_t **ghos
  *  one rank, for output: leases and mps_frames_write() of rank 0 then see all of them, those of
  *  other ranks see none. All ranks make this call and mps_particles_gather_end(); between the two
  *  the handle may only be read. On one rank it changes nothing.
- *  @return MPS_E_BUSY (a lease is open), MPS_E_STATE (gathered already), MPS_E_NOMEM, MPS_E_RANKS */
+ *  @return MPS_E_BUSY (a lease is open), MPS_E_STATE (gathered already), MPS_E_NOMEM,
+ *          MPS_E_RANKS */
 MPS_API mps_status mps_particles_gather(mps_sim *sim);
 
 /** Put back the particles that each rank had. @return MPS_E_BUSY (a lease is open), MPS_E_STATE */

@@ -94,6 +94,7 @@ mps_status scene_create(const scene *s, mps_sim **sim)
     mps_config_init(&config, sizeof config);
     config.dim = s->dim;
     config.dp = s->dp;
+    config.threads = s->threads > 0 ? s->threads : 1;
     return mps_sim_create(&config, sim);
 }
 

@@ -10,7 +10,7 @@ enum { SCENES = 16, SCENE_MOST = 8000, SCENE_NUMBERS = 9, SCENE_INFOS = 24, SCEN
 
 typedef struct scene {
     const char *name, *preset;
-    int32_t dim, steps;
+    int32_t dim, steps, threads; /* threads 0: one */
     double dp;
     mps_motion_fn motion;
     int baffle;   /* 1: a block, 2: a thin plate, in the way of the fluid */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs on 2, 3, 4 and 7 ranks have the bytes of a run on one, after every step. */
+/* Runs on 2, 3, 4 and 7 ranks have the bytes of a run on one, after every step. The environment variables MPS_RANKS_STEPS and MPS_RANKS_THREADS
+ * ask for other numbers of steps, and of threads of each rank. */
 #include "engine.h"
 #include "scenes.h"
 #include "sim.h"
@@ -75,9 +76,18 @@ static void check(const scene *s)
     free(alone);
 }
 
+static int32_t number_of(const char *name, int32_t otherwise)
+{
+    const char *text = getenv(name);
+    return text ? (int32_t)strtol(text, NULL, 10) : otherwise;
+}
+
 static void test_scene(void **state)
 {
-    check(*state);
+    scene s = *(const scene *)*state;
+    s.steps = number_of("MPS_RANKS_STEPS", s.steps);
+    s.threads = number_of("MPS_RANKS_THREADS", s.threads);
+    check(&s);
 }
 
 int main(void)

@@ -28,7 +28,9 @@ mps_status mps_probe_add(mps_sim *sim, const mps_probe *probe, int32_t *id)
     mps_probe p = probe_defaults;
     MPS__CHECK(&sim->context, id, "id is NULL");
     MPS__TRY(mps__struct_in(&sim->context, "mps_probe", &p, sizeof p, probe));
-    return mps__probes_add(&sim->world, &sim->probes, &p, id);
+    const mps_status status = mps__probes_add(&sim->world, &sim->probes, &p, id);
+    /* what all ranks refuse ends no run */
+    return status == MPS_E_NOMEM ? mps__ranks_tell(&sim->world.ranks, status) : status;
 }
 
 mps_status mps_probe_remove(mps_sim *sim, int32_t id)
@@ -53,7 +55,7 @@ mps_status mps_probe_read(mps_sim *sim, int32_t id, double *values)
     mps__probe *probe = NULL;
     MPS__CHECK(&sim->context, values, "values is NULL");
     MPS__TRY(find_probe(sim, id, &probe));
-    return mps__probe_read(&sim->world, probe, values);
+    return mps__ranks_tell(&sim->world.ranks, mps__probe_read(&sim->world, probe, values));
 }
 
 /* A probe that keeps samples; NULL: there is none, and the status says why. */
@@ -75,7 +77,7 @@ mps_status mps_probe_series(mps_sim *sim, int32_t id, int64_t *count, const doub
     mps_status status;
     mps__probe *probe = find_series(sim, id, &status);
     if (!probe) return status;
-    MPS__TRY(mps__probe_take(&sim->world, probe));
+    MPS__TRY(mps__ranks_tell(&sim->world.ranks, mps__probe_take(&sim->world, probe)));
     if (count) *count = probe->series.count;
     if (t) *t = probe->series.t;
     if (values) *values = probe->series.value;
@@ -101,7 +103,7 @@ mps_status mps_energy_get(mps_sim *sim, mps_energy *energy)
 {
     MPS__MEASURES(sim);
     mps_energy now;
-    MPS__TRY(mps__energy_measure(&sim->world, &now));
+    MPS__TRY(mps__ranks_tell(&sim->world.ranks, mps__energy_measure(&sim->world, &now)));
     return mps__struct_out(&sim->context, "mps_energy", energy, &now, sizeof now);
 }
 

@@ -72,7 +72,7 @@ mps_status mps_step(mps_sim *sim, double dt_max, mps_step_info *info)
     if (info) MPS__TRY(mps__struct_in(&sim->context, "mps_step_info", &probe, sizeof probe, info));
     MPS__TRY(ready(sim));
     /* before the step, not after it: what runs out of memory here leaves no step half done */
-    MPS__TRY(mps__probes_take(&sim->world, &sim->probes));
+    MPS__TRY(mps__ranks_tell(&sim->world.ranks, mps__probes_take(&sim->world, &sim->probes)));
     const mps__lock before = mps__lock_set(&sim->context, MPS__LOCKED, "a callback in a step");
     mps_status status = mps__ranks_tell(&sim->world.ranks, mps__world_step(&sim->world, dt_max));
     sim->context.lock = before;

@@ -162,6 +162,9 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
 void mps__world_free(mps__world *w);
 /* Lists at the present positions: search and sort if needed, then exact rows. Lost particles are handled here. */
 mps_status mps__world_neighbours(mps__world *w);
+/* Remove fluid outside of the domain, or behind walls, as the policy says. lost.c */
+mps_status mps__world_leave_domain(mps__world *w);
+mps_status mps__world_leave_tank(mps__world *w);
 /* Those that were removed last come back, as long as nothing was added since. */
 void mps__world_take_back(mps__world *w);
 /* The same while the caller holds arrays: no particle is removed or moved to another place. */

@@ -45,6 +45,17 @@ typedef struct mps_ppe_ranks {
     int (*share)(void *host, double *x);
     /** Combine values of all ranks, as mps_ranks_ops.reduce. Non-zero: failed. */
     int (*reduce)(void *host, int32_t count, size_t bytes, void *values, mps_combine_fn combine);
+    /** Collect blocks of all ranks, as mps_ranks_ops.gather. Non-zero: failed. */
+    int (*gather)(void *host, const void *own, const int64_t *bytes, void *all);
+    /** Make a route between ranks, as mps_ranks_ops.connect. Non-zero: failed, there is none. */
+    int (*connect)(void *host, int32_t count, const int32_t *to, const int64_t *sent,
+                   mps_route *route);
+    /** Free a route. A solver or preconditioner may keep one until its next set-up or until it is
+     *  destroyed. Not collective. */
+    void (*disconnect)(void *host, mps_route *route);
+    /** Exchange elements along a route, as mps_ranks_ops.exchange_begin and exchange_end. Non-zero:
+     *  failed. */
+    int (*exchange)(void *host, const mps_route *route, size_t bytes, const void *out, void *in);
     /** First argument of these functions. */
     void *host;
 } mps_ppe_ranks;

@@ -50,9 +50,10 @@ typedef struct mps_ranks_ops {
     uint32_t api;
     /** e.g. "mpi.zoltan" */
     const char *name;
-    /** New state in *self, which holds `user` before. Non-zero: out of memory. */
-    int (*create)(const mps_allocator *allocator, void **self);
-    /** Gives back what create made. */
+    /** New state in *self, which holds `user` before. Non-zero: it failed.
+     *  @param text  [size] out: why it failed; empty: out of memory */
+    int (*create)(const mps_allocator *allocator, void **self, char *text, size_t size);
+    /** Gives back what create made. All ranks call it, also after a failure. */
     void (*destroy)(const mps_allocator *allocator, void *self);
     /** Number of this rank, from 0, and of all ranks. */
     void (*place)(void *self, int32_t *rank, int32_t *ranks);
@@ -66,7 +67,8 @@ typedef struct mps_ranks_ops {
      *  @param lo  [dim] @param hi  [dim] @param rank  [ranks] out @param count  out */
     int (*overlap)(void *self, const double *lo, const double *hi, int32_t *rank, int32_t *count);
     /** Make a route: this rank says what it sends, and learns what it receives.
-     *  @param to  [count] ascending, not the own rank @param sent  [count] elements, > 0 */
+     *  @param to  [count] ascending, not the own rank @param sent  [count] elements, > 0
+     *  @param route  out; empty after a failure */
     int (*connect)(void *self, int32_t count, const int32_t *to, const int64_t *sent,
                    mps_route *route);
     /** Free a route. Not collective. */
@@ -85,9 +87,9 @@ typedef struct mps_ranks_ops {
      *  @param own  block of this rank @param bytes  [ranks] of each block @param all  out */
     int (*gather)(void *self, const void *own, const int64_t *bytes, void *all);
     /** This rank fails, perhaps while others wait for it: their calls end with non-zero, and so do
-     *  all later ones on every rank. Not collective. */
+     *  all later ones on every rank. No array of an exchange is used any more. Not collective. */
     void (*fail)(void *self, const char *text);
-    /** Text of the rank that failed first; NULL: none failed. */
+    /** Text of the rank that failed first, the same on all ranks; NULL: none failed. */
     const char *(*failure)(void *self);
     /** What *self holds when create is called. */
     void *user;
@@ -101,7 +103,7 @@ typedef struct mps_ranks_ops {
  *  this rank: see mps_particles_ghosts(). Motions and limits must be functions of the time and of
  *  what all ranks get alike.
  *  @return MPS_E_ARG (which entry, and what is allowed), MPS_E_STATE (too late), MPS_E_VERSION,
- *  MPS_E_NOMEM, MPS_E_BUSY */
+ *  MPS_E_PLUGIN (why the engine does not begin), MPS_E_NOMEM, MPS_E_BUSY */
 MPS_API mps_status mps_sim_ranks_set(mps_sim *sim, const mps_ranks_ops *ops);
 
 /** Number of this rank and of all ranks; 0 and 1 without an engine. @return MPS_E_ARG */
@@ -110,6 +112,17 @@ MPS_API mps_status mps_sim_ranks(const mps_sim *sim, int32_t *rank, int32_t *ran
 /** Which particles are copies of particles of other ranks. The array is valid until the next step.
  *  @param ghost  out: [n] 1 for a ghost; NULL: no particle is one @return MPS_E_ARG, MPS_E_BUSY */
 MPS_API mps_status mps_particles_ghosts(const mps_sim *sim, const uint8_t **ghost);
+
+/** Put the particles of all ranks into the store of rank 0, in the order that they would have on
+ *  one rank, for output: leases and mps_frames_write() of rank 0 then see all of them, those of
+ *  other ranks see none. All ranks make this call and mps_particles_gather_end(); between the two
+ *  the handle may only be read. On one rank it changes nothing.
+ *  @return MPS_E_BUSY (a lease is open), MPS_E_STATE (gathered already), MPS_E_NOMEM,
+ *          MPS_E_RANKS */
+MPS_API mps_status mps_particles_gather(mps_sim *sim);
+
+/** Put back the particles that each rank had. @return MPS_E_BUSY (a lease is open), MPS_E_STATE */
+MPS_API mps_status mps_particles_gather_end(mps_sim *sim);
 
 MPS_END_DECLS
 
