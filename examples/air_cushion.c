@@ -44,9 +44,9 @@ static void add_columns(run *r, double *start)
     phase_means m;
     if (!phase_means_get(r->sim, 0, &m)) run_check(r, MPS_E_STATE, "slug");
     *start = m.x[1];
-    run_value(r, "x_slug", "m",
-              "Rise of the slug: height of its centre of mass above that at the start",
-              displacement, start);
+    run_particle_value(r, "x_slug", "m",
+                       "Rise of the slug: height of its centre of mass above that at the start",
+                       displacement, start);
 }
 
 int main(int argc, char **argv)

@@ -65,9 +65,9 @@ static void add_columns(run *r, const double *built, bins *b)
     b->count = (int64_t)(built[0] / b->size) + 1;
     b->furthest = calloc((size_t)b->count, sizeof *b->furthest);
     if (!b->furthest) run_check(r, MPS_E_NOMEM, "front");
-    run_value(r, "front", "m",
-              "Place of the front: how far liquid reaches from the left wall without a gap", front,
-              b);
+    run_particle_value(
+        r, "front", "m",
+        "Place of the front: how far liquid reaches from the left wall without a gap", front, b);
 }
 
 int main(int argc, char **argv)

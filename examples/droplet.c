@@ -83,14 +83,15 @@ static double radius(void *user, mps_sim *sim)
 
 static void add_columns(run *r)
 {
-    run_value(r, "dp", "Pa",
-              "Pressure jump: mean of the drop within half its radius less that of the air beyond "
-              "1.5 radii",
-              jump, NULL);
+    run_particle_value(
+        r, "dp", "Pa",
+        "Pressure jump: mean of the drop within half its radius less that of the air beyond "
+        "1.5 radii",
+        jump, NULL);
     r->column[r->columns - 1].pressure = true;
-    run_value(r, "rx", "m",
-              "Half axis of the drop along x: of the ellipse with the drop's second moment", radius,
-              NULL);
+    run_particle_value(
+        r, "rx", "m", "Half axis of the drop along x: of the ellipse with the drop's second moment",
+        radius, NULL);
     run_mark_add(r, "sigma/R", "Pa", 1, &r->options.t_end, &(double){r->options.sigma / RADIUS});
 }
 

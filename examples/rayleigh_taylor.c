@@ -50,11 +50,11 @@ static void add_columns(run *r, raster *g)
 {
     const double lo[] = {0, 0};
     if (!raster_create(g, r->sim, lo, SIZE, SMOOTHING)) run_check(r, MPS_E_NOMEM, "interface");
-    run_value(r, "ytop", "m", "Highest point of the interface: y", top, g);
-    run_value(r, "ybot", "m", "Lowest point of the interface: y", bottom, g);
+    run_particle_value(r, "ytop", "m", "Highest point of the interface: y", top, g);
+    run_particle_value(r, "ybot", "m", "Lowest point of the interface: y", bottom, g);
     run_mark_add(r, "tips, volume of fluid", "m", 10, TIP_T, TIP);
-    run_figure_add(r, "strays", "particles that strayed into the other fluid at the end", strays,
-                   NULL);
+    run_particle_figure(r, "strays", "particles that strayed into the other fluid at the end",
+                        strays, NULL);
 }
 
 int main(int argc, char **argv)

@@ -57,10 +57,10 @@ static void add_columns(run *r, raster *g)
 {
     const double lo[] = {0, 0};
     if (!raster_create(g, r->sim, lo, SIZE, SMOOTHING)) run_check(r, MPS_E_NOMEM, "interface");
-    run_value(r, "yc", "m", "Height of the bubble: y of its centre of mass", height, NULL);
-    run_value(r, "v", "m/s", "Rise velocity of the bubble: mean of its velocity along y", speed,
-              NULL);
-    run_value(
+    run_particle_value(r, "yc", "m", "Height of the bubble: y of its centre of mass", height, NULL);
+    run_particle_value(r, "v", "m/s", "Rise velocity of the bubble: mean of its velocity along y",
+                       speed, NULL);
+    run_particle_value(
         r, "circularity", "",
         "Circularity of the bubble: circumference of the circle of the same area over its own",
         circularity, g);

@@ -25,8 +25,9 @@ static void add_columns(run *r, const tank_case *c)
     run_gauge(r, "eta_left", dp, middle, level);
     run_gauge(r, "eta_right", c->size[0] - dp, middle, level);
     if (!cavities_create(&below, r->sim, c->size)) run_check(r, MPS_E_NOMEM, "cavities");
-    run_value(r, "air_volume", r->options.dim == 3 ? "m3" : "m2",
-              "Volume of trapped air: of cavities that liquid encloses", air_volume, &below);
+    run_particle_value(r, "air_volume", r->options.dim == 3 ? "m3" : "m2",
+                       "Volume of trapped air: of cavities that liquid encloses", air_volume,
+                       &below);
 }
 
 int main(int argc, char **argv)

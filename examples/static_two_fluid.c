@@ -36,8 +36,9 @@ static void add_columns(run *r)
 {
     static const char *const name[] = {"P1", "P2", "P3"};
     for (int i = 0; i < 3; i++) run_wall_pressure(r, name[i], 0, 0.25 * (i + 1), 0);
-    run_figure_add(r, "trespass", "how far a fluid reaches beyond the interface at the end [m]",
-                   trespass, NULL);
+    run_particle_figure(r, "trespass",
+                        "how far a fluid reaches beyond the interface at the end [m]", trespass,
+                        NULL);
 }
 
 int main(int argc, char **argv)

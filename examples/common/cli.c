@@ -2,6 +2,7 @@
 /* Command line of the drivers: one table, every value checked by name and range. */
 #include "cli.h"
 #include "listing.h"
+#include "ranks.h"
 #include <math.h>
 #include <mps/mps.h>
 #include <stdio.h>
@@ -30,6 +31,8 @@ static int cli_table(cli_options *o, cli_option *table)
                               TYPE_REAL, &o->calm, 0, 1, false};
     table[n++] = (cli_option){"--t-end", "S", "time simulated [s]", TYPE_REAL, &o->t_end, 0, o->t_max, false};
     table[n++] = (cli_option){"--threads", "N", "threads of the simulation", TYPE_INT, &o->threads, 1, CLI_THREADS_MAX, false};
+    table[n++] = (cli_option){"--mpi", NULL, "one run on the ranks that mpirun starts, one thread each unless --threads says more",
+                              TYPE_FLAG, &o->mpi, 0, 0, true};
     table[n++] = (cli_option){"--solver", "NAME", "pressure solver, or solver/preconditioner", TYPE_TEXT, &o->solver, 0, 0, false};
     table[n++] = (cli_option){"--out", "DIR", "folder for all outputs", TYPE_TEXT, &o->out, 0, 0, false};
     table[n++] = (cli_option){"--frames", "N", "frames for ParaView besides the first; 0: none",
@@ -97,6 +100,7 @@ static void cli_default_text(const cli_option *e, char *text, size_t size)
 
 static void cli_help(const cli_options *o, const cli_option *table, int n)
 {
+    if (!ranks_first()) ranks_exit(CLI_OK);
     printf("%s - %s\n\nusage: %s [options]\n\n", o->program, o->about, o->program);
     for (int i = 0; i < n; i++) {
         char left[64], initial[128];
@@ -123,15 +127,15 @@ static void cli_help(const cli_options *o, const cli_option *table, int n)
            "Exit: 0 done, 1 failed, 2 wrong value or folder, 3 diverged or beyond a model (outputs "
            "stay readable), 130 interrupted by "
            "Ctrl-C.\n");
-    exit(CLI_OK);
+    ranks_exit(CLI_OK);
 }
 
 void cli_refuse(const cli_options *o, const char *format, const char *a, const char *b)
 {
-    fprintf(stderr, "%s: ", o->program);
-    fprintf(stderr, format, a, b);
-    fprintf(stderr, "\n%s --help lists all options\n", o->program);
-    exit(CLI_USAGE);
+    fprintf(ranks_messages(), "%s: ", o->program);
+    fprintf(ranks_messages(), format, a, b);
+    fprintf(ranks_messages(), "\n%s --help lists all options\n", o->program);
+    ranks_exit(CLI_USAGE);
 }
 
 static void cli_refuse_value(const cli_options *o, const cli_option *e, const char *text)
@@ -144,8 +148,8 @@ static void cli_refuse_value(const cli_options *o, const cli_option *e, const ch
     else
         snprintf(allowed, sizeof allowed, "a number %s 0, at most %g",
                  e->min < 0 ? "not less than" : "greater than", e->max);
-    fprintf(stderr, "%s: %s %s: must be %s\n", o->program, e->name, text, allowed);
-    exit(CLI_USAGE);
+    fprintf(ranks_messages(), "%s: %s %s: must be %s\n", o->program, e->name, text, allowed);
+    ranks_exit(CLI_USAGE);
 }
 
 static void cli_set_number(cli_options *o, const cli_option *e, const char *text)
@@ -175,8 +179,9 @@ static void cli_set_choice(const cli_options *o, const cli_option *e, const char
         *(int32_t *)e->value = index;
         return;
     }
-    fprintf(stderr, "%s: %s %s: must be one of %s\n", o->program, e->name, text, e->argument);
-    exit(CLI_USAGE);
+    fprintf(ranks_messages(), "%s: %s %s: must be one of %s\n", o->program, e->name, text,
+            e->argument);
+    ranks_exit(CLI_USAGE);
 }
 
 /* Increasing times, e.g. "2.2,2.3". */
@@ -232,10 +237,10 @@ static void cli_take(cli_options *o, cli_option *table, int n, int argc, char **
     cli_option *e = cli_find(table, n, name, equals ? (size_t)(equals - name) : strlen(name));
     if (!e) cli_refuse(o, "unknown option %s%s", name, "");
     if (e->type == TYPE_HELP) cli_help(o, table, n);
-    if (e->type == TYPE_LISTING) exit(listing_print());
+    if (e->type == TYPE_LISTING) ranks_exit(ranks_first() ? listing_print() : CLI_OK);
     if (e->type == TYPE_VERSION) {
-        printf("%s, libmps %s\n", o->program, mps_version(NULL, NULL, NULL));
-        exit(CLI_OK);
+        if (ranks_first()) printf("%s, libmps %s\n", o->program, mps_version(NULL, NULL, NULL));
+        ranks_exit(CLI_OK);
     }
     if (e->type == TYPE_FLAG) {
         if (equals) cli_refuse(o, "%s takes no value%s", e->name, "");
@@ -279,6 +284,7 @@ void cli_own(cli_options *o, cli_option option)
 void cli_parse(cli_options *o, int argc, char **argv)
 {
     cli_option table[CLI_OPTIONS];
+    if (ranks_begin(o->program, argc, argv)) o->threads = 1;
     o->both_phases = strncmp(o->model, "mmps", 4) == 0;
     o->two_phases = o->need || o->both_phases;
     int n = cli_table(o, table);

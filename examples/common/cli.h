@@ -63,7 +63,8 @@ typedef struct cli_options {
      * mps_step_info.crossing_time */
     double sensor_average;
     bool average_given;          /* by the user */
-    int32_t threads;             /* of the simulation */
+    int32_t threads;             /* of the simulation; with --mpi, of each rank */
+    bool mpi;                    /* one run on all ranks of MPI */
     int32_t frames;              /* frames besides the first */
     int pictures;                /* 0: at quarters of the time */
     double picture_t[CLI_TIMES]; /* [s], ascending */

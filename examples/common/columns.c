@@ -2,6 +2,7 @@
 /* Columns of probes.csv: adding them, and what each one is and where, for the report and summary.json. */
 #include "outputs.h"
 #include "view.h"
+#include "ranks.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -39,8 +40,8 @@ static void about_average(const run *r, run_column *c)
 static run_column *run_column_add(run *r, const char *name, const char *unit)
 {
     if (r->columns == RUN_COLUMNS) {
-        fprintf(stderr, "%s: more than %d columns\n", r->options.program, RUN_COLUMNS);
-        exit(CLI_FAILED);
+        fprintf(ranks_messages(), "%s: more than %d columns\n", r->options.program, RUN_COLUMNS);
+        ranks_exit(CLI_FAILED);
     }
     run_column *c = &r->column[r->columns++];
     *c = (run_column){.probe = -1, .type = "value"};
@@ -132,6 +133,13 @@ void run_value(run *r, const char *name, const char *unit, const char *about, ru
     about_add(c, "%s", about);
     c->value = value;
     c->user = user;
+}
+
+void run_particle_value(run *r, const char *name, const char *unit, const char *about,
+                        run_value_fn value, void *user)
+{
+    run_value(r, name, unit, about, value, user);
+    r->column[r->columns - 1].particles = true;
 }
 
 /* ---- the common columns, names and texts ------------------------------------------------------------------------ */

@@ -2,6 +2,7 @@
 /* Folders are locked by fcntl() on a file in them: the system removes the lock however the program
  * ends, and tells which process holds it. */
 #include "folder.h"
+#include "ranks.h"
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -44,9 +45,9 @@ const char *folder_advice(int error)
 
 static void folder_refuse(const cli_options *o, int error)
 {
-    fprintf(stderr, "%s: --out %s: %s; %s\n", o->program, o->out, strerror(error),
+    fprintf(ranks_messages(), "%s: --out %s: %s; %s\n", o->program, o->out, strerror(error),
             folder_advice(error));
-    exit(CLI_USAGE);
+    ranks_exit(CLI_USAGE);
 }
 
 /* mkdir -p */
@@ -90,14 +91,14 @@ static void folder_refuse_locked(const cli_options *o, int fd)
 {
     struct flock held = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
     if (fcntl(fd, F_GETLK, &held) == 0 && held.l_type != F_UNLCK)
-        fprintf(stderr,
+        fprintf(ranks_messages(),
                 "%s: --out %s: another run is writing there, process %ld; wait until it ends, or "
                 "choose another folder with --out\n",
                 o->program, o->out, (long)held.l_pid);
     else
-        fprintf(stderr, "%s: --out %s: another run was writing there; try again\n", o->program,
-                o->out);
-    exit(CLI_USAGE);
+        fprintf(ranks_messages(), "%s: --out %s: another run was writing there; try again\n",
+                o->program, o->out);
+    ranks_exit(CLI_USAGE);
 }
 
 /* Is there room for the first files? A full disk often takes a name and no more. */
@@ -156,13 +157,13 @@ static void folder_check(const cli_options *o)
                  FILES[i]);
     }
     if (!there[0] || o->resume || o->overwrite) return;
-    fprintf(stderr,
+    fprintf(ranks_messages(),
             "%s: --out %s: there is an earlier run (%s); %s, --overwrite removes it, or choose "
             "another folder with --out\n",
             o->program, o->out, there,
             folder_has(o, FILES[0]) ? "--resume goes on from its checkpoint"
                                     : "it has no checkpoint to go on from with --resume");
-    exit(CLI_USAGE);
+    ranks_exit(CLI_USAGE);
 }
 
 void folder_open(const cli_options *o)
@@ -181,10 +182,9 @@ static void folder_remove(run *r, const char *name)
     char path[FOLDER_PATH + 300];
     snprintf(path, sizeof path, "%s/%s", r->options.out, name);
     if (unlink(path) == 0 || errno == ENOENT) return;
-    fprintf(stderr, "%s: --overwrite: cannot remove %s: %s; %s\n", r->options.program, path,
-            strerror(errno), folder_advice(errno));
-    mps_sim_destroy(r->sim);
-    exit(CLI_USAGE);
+    fprintf(ranks_messages(), "%s: --overwrite: cannot remove %s: %s; %s\n", r->options.program,
+            path, strerror(errno), folder_advice(errno));
+    ranks_exit(CLI_USAGE);
 }
 
 /* `name` is `before`, at least so many digits, `after`. */

@@ -53,8 +53,17 @@ enum {
 
 /* Remember the first thing that went wrong besides stepping. @return false if it did */
 bool run_note(run *r, mps_status status, const char *what);
-/* Value of one of the driver's own columns now; NAN if it cannot be measured. */
-double run_measure_column(run *r, const run_column *c);
+/* Values of the driver's own columns now; NAN where one cannot be measured. All ranks make this call, rank 0 gets all values.
+ * @param values  [columns] */
+void run_measure_columns(run *r, double *values);
+/* Open all tables, or go on with them from the checkpoint; exits with a message if that cannot be. */
+void run_open_tables(run *r);
+/* The state that the first step begins with. Its row is in the files where a run goes on: it is only what the next one is interpolated from. */
+void run_first_rows(run *r);
+/* A row at t. */
+void run_sample(run *r, double t);
+/* There is no pressure before the first step: the row of t = 0 waits for it and takes its pressures, or goes out without (NULL). */
+void run_write_start(run *r, const double *first);
 /* Columns of probes.csv behind the time, and column k of them: those of the driver, then the common ones. */
 int run_columns_all(const run *r);
 run_column run_column_at(const run *r, int k);

@@ -3,6 +3,7 @@
 #include "picture.h"
 #include "font.h"
 #include "view.h"
+#include "ranks.h"
 #include <math.h>
 #include <png.h>
 #include <stdio.h>
@@ -280,7 +281,7 @@ static bool image_save(const image *m, const char *path)
                      .height = (png_uint_32)m->height,
                      .format = PNG_FORMAT_RGB};
     bool done = png_image_write_to_file(&png, path, 0, m->pixel, 0, NULL) != 0;
-    if (!done) fprintf(stderr, "%s: %s\n", path, png.message);
+    if (!done) fprintf(ranks_messages(), "%s: %s\n", path, png.message);
     return done;
 }
 
@@ -291,7 +292,7 @@ static bool picture_draw(scene *s, const char *path)
     scene_scale(s);
     bool done = image_create(&m, s) && draw_particles(&m, s);
     if (done) draw_scale(&m, s);
-    if (!done) fprintf(stderr, "%s: out of memory\n", path);
+    if (!done) fprintf(ranks_messages(), "%s: out of memory\n", path);
     done = done && image_save(&m, path);
     free(m.pixel);
     return done;
@@ -325,6 +326,6 @@ bool picture_save(mps_sim *sim, double gravity, const char *path)
     while (leased > 0) mps_lease_end(sim, &lease[--leased]);
     view_close(sim, &v);
 fail:
-    if (!done) fprintf(stderr, "%s: no picture: %s\n", path, mps_sim_error(sim));
+    if (!done) fprintf(ranks_messages(), "%s: no picture: %s\n", path, mps_sim_error(sim));
     return done;
 }

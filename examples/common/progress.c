@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Progress lines of the drivers. */
 #include "progress.h"
+#include "ranks.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -58,21 +59,21 @@ bool progress_step(progress *p, const mps_step_info *info)
         char left[32];
         progress_time(left, sizeof left, eta);
         const char *on = p->colour ? "\033[1m" : "", *off = p->colour ? "\033[0m" : "";
-        fprintf(stderr,
+        fprintf(ranks_messages(),
                 "\r%s%5.1f %%%s  t %.3f s  dt %.1e  CFL %.2f  PPE %3d  %.0f kp/s  left %s\033[K",
                 on, percent, off, info->t, info->dt, info->cfl, (int)info->ppe_iterations,
                 p->rate / 1000, left);
         p->line = true;
     } else {
-        fprintf(stderr, "t=%.6g step=%lld dt=%.3e wall=%.1f eta=%.1f\n", info->t,
+        fprintf(ranks_messages(), "t=%.6g step=%lld dt=%.3e wall=%.1f eta=%.1f\n", info->t,
                 (long long)info->step, info->dt, now - p->start, eta);
     }
-    fflush(stderr);
+    fflush(ranks_messages());
     return true;
 }
 
 void progress_clear(progress *p)
 {
-    if (p->line) fputs("\r\033[K", stderr);
+    if (p->line) fputs("\r\033[K", ranks_messages());
     p->line = false;
 }

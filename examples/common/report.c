@@ -2,6 +2,7 @@
 /* Plots of a run, and report.html: one page with everything in it that works offline. */
 #include "outputs.h"
 #include "svg_plot.h"
+#include "ranks.h"
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -281,6 +282,7 @@ static void html_settings(FILE *out, const run *r)
         html_number(out, "time step: largest dt u / dp", o->cfl, "");
     html_number(out, "time asked for", o->t_end, "s");
     html_number(out, "threads", o->threads, "");
+    if (ranks_count() > 1) html_number(out, "ranks", ranks_count(), "");
     html_row(out, "libmps", mps_version(NULL, NULL, NULL));
     fputs("</table>\n", out);
 }
@@ -408,7 +410,7 @@ static bool report_page(const run *r, const plots *all)
     if (out) report_write(out, r, all);
     bool failed = !out || ferror(out);
     if (out && fclose(out) != 0) failed = true;
-    if (failed) fprintf(stderr, "%s: %s\n", path, strerror(errno));
+    if (failed) fprintf(ranks_messages(), "%s: %s\n", path, strerror(errno));
     return !failed;
 }
 

@@ -5,6 +5,7 @@
 #include "folder.h"
 #include "outputs.h"
 #include "trace.h"
+#include "ranks.h"
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -35,25 +36,30 @@ static bool resume_is_done(const run *r)
 
 static void resume_refuse(run *r, int code, const char *why)
 {
-    fprintf(stderr, "%s: --resume: %s\n", r->options.program, why);
-    mps_sim_destroy(r->sim);
-    exit(code);
+    fprintf(ranks_messages(), "%s: --resume: %s\n", r->options.program, why);
+    ranks_exit(code);
 }
 
-/* A checkpoint without the rows before it would be of no use, the one that is there may be. */
-void resume_save(run *r)
+/* Rows up to now are on the disk, and no checkpoint is. One without the rows before it would be of no use, the one that is there may be. */
+static bool resume_rows(run *r)
 {
-    char path[RESUME_PATH];
-    if (r->checkpoint_t == r->totals.t) return;
-    resume_path(r, path);
+    if (r->checkpoint_t == r->totals.t) return false;
     table_sync(&r->probes);
     table_sync(&r->momentum);
     table_sync(&r->steps);
     if (r->trace) table_sync(&r->trace->file);
-    if (r->probes.failed || r->momentum.failed || r->steps.failed ||
-        (r->trace && r->trace->file.failed))
-        r->output_failed = true;
-    else if (run_note(r, mps_checkpoint_write(r->sim, path), "checkpoint"))
+    const bool failed = r->probes.failed || r->momentum.failed || r->steps.failed ||
+                        (r->trace && r->trace->file.failed);
+    r->output_failed = r->output_failed || failed;
+    return !failed;
+}
+
+void resume_save(run *r)
+{
+    char path[RESUME_PATH];
+    resume_path(r, path);
+    if (!ranks_told(ranks_first() && resume_rows(r))) return;
+    if (run_note(r, mps_checkpoint_write(r->sim, path), "checkpoint"))
         r->checkpoint_t = r->totals.t;
 }
 
@@ -93,13 +99,14 @@ void resume_load(run *r)
                  ANEW);
         resume_refuse(r, usage ? CLI_USAGE : CLI_FAILED, why);
     }
+    ranks_most(0); /* where another rank cannot read it, all exit */
     mps_sim_time(r->sim, &t, NULL);
     snprintf(why, sizeof why,
              "the checkpoint is at t = %g s, later than --t-end %g; give a later --t-end", t,
              r->options.t_end);
     if (t > r->options.t_end) resume_refuse(r, CLI_USAGE, why);
     if (t == r->options.t_end && !r->options.quiet)
-        fprintf(stderr,
+        fprintf(ranks_messages(),
                 "%s: --resume: this run has come to its end, t = %g s: no step is left, its last "
                 "picture, plots and report are written again; a later --t-end goes on\n",
                 r->options.program, t);
@@ -136,6 +143,7 @@ void resume_tables(run *r)
 
 void resume_say_anew(const run *r)
 {
-    fprintf(stderr, "%s: --resume: these files do not go with the options or the checkpoint; %s\n",
+    fprintf(ranks_messages(),
+            "%s: --resume: these files do not go with the options or the checkpoint; %s\n",
             r->options.program, ANEW);
 }

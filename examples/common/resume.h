@@ -5,13 +5,13 @@
 
 #include "run.h"
 
-/* Write the checkpoint, after the rows up to its time, unless it is there. */
+/* Write the checkpoint, after the rows up to its time, unless it is there. All ranks make this call. */
 void resume_save(run *r);
 /* True once for each interval of checkpoints. */
 bool resume_due(run *r, double t);
 /* Begin anew: what an earlier run left does not belong to the files that begin now. Exits with a message if it cannot be removed. */
 void resume_forget(run *r);
-/* Put the simulation where the checkpoint is; exits with a message if that cannot be. */
+/* Put the simulation where the checkpoint is, on all ranks; exits with a message if that cannot be. */
 void resume_load(run *r);
 /* Add a row of steps.csv to the totals. */
 void resume_add_step(void *user, const double *row);

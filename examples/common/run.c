@@ -3,6 +3,7 @@
 #include "run.h"
 #include "folder.h"
 #include "view.h"
+#include "ranks.h"
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -25,7 +26,7 @@ static bool run_log_average(run *r, const char *text)
         if (r->column[i].probe == probe) name = r->column[i].name;
     if (!r->options.average_given) return true;
     progress_clear(&r->progress);
-    fprintf(stderr,
+    fprintf(ranks_messages(),
             "%s: warning: t = %.6g s: %s is a mean over %g s; liquid crosses a spacing in %g s, "
             "and pressures of impacts over less than that depend on the time step: "
             "--sensor-average %.2g, or more\n",
@@ -36,21 +37,22 @@ static bool run_log_average(run *r, const char *text)
 static void run_log(void *user, int level, const char *text)
 {
     run *r = user;
-    if (r->options.quiet || r->messages > RUN_MESSAGES || run_log_average(r, text)) return;
+    if (!ranks_first() || r->options.quiet || r->messages > RUN_MESSAGES ||
+        run_log_average(r, text))
+        return;
     progress_clear(&r->progress);
     if (r->messages++ == RUN_MESSAGES)
-        fprintf(stderr, "%s: further messages are not shown\n", r->options.program);
+        fprintf(ranks_messages(), "%s: further messages are not shown\n", r->options.program);
     else
-        fprintf(stderr, "%s: %s%s\n", r->options.program,
+        fprintf(ranks_messages(), "%s: %s%s\n", r->options.program,
                 level >= MPS_LOG_WARNING ? "warning: " : "", text);
 }
 
 static void run_refuse(run *r, const char *option, const char *value, const char *why,
                        const char *allowed)
 {
-    fprintf(stderr, "%s: %s %s: %s%s\n", r->options.program, option, value, why, allowed);
-    mps_sim_destroy(r->sim);
-    exit(CLI_USAGE);
+    fprintf(ranks_messages(), "%s: %s %s: %s%s\n", r->options.program, option, value, why, allowed);
+    ranks_exit(CLI_USAGE);
 }
 
 /* "slot.key=value"; the slot may be a full name, so the key begins behind the last dot. @return the library's answer */
@@ -160,7 +162,9 @@ void run_open(run *r, const cli_options *o)
     mps_config config;
     *r = (run){.options = *o};
     signal(SIGPIPE, SIG_IGN); /* a reader of stderr that goes away does not end the run */
-    folder_open(o);
+    r->options.quiet = o->quiet || !ranks_first();
+    if (ranks_first()) folder_open(o);
+    ranks_most(0); /* where rank 0 refuses the folder, all exit */
     mps_config_init(&config, sizeof config);
     config.dim = o->dim;
     config.dp = o->dp;
@@ -175,9 +179,10 @@ void run_open(run *r, const cli_options *o)
     config.error_size = sizeof error;
     mps_status status = mps_sim_create(&config, &r->sim);
     if (status != MPS_OK) {
-        fprintf(stderr, "%s: %s: %s\n", o->program, mps_status_name(status), error);
-        exit(status == MPS_E_ARG ? CLI_USAGE : CLI_FAILED);
+        fprintf(ranks_messages(), "%s: %s: %s\n", o->program, mps_status_name(status), error);
+        ranks_exit(status == MPS_E_ARG ? CLI_USAGE : CLI_FAILED);
     }
+    run_check(r, ranks_attach(r->sim), "--mpi");
     run_use_models(r);
     run_use_solver(r);
     run_set_time(r);
@@ -186,11 +191,10 @@ void run_open(run *r, const cli_options *o)
 void run_check(run *r, mps_status status, const char *what)
 {
     if (status >= 0) return;
-    fprintf(stderr, "%s: %s: %s: %s\n", r->options.program, what, mps_status_name(status),
+    fprintf(ranks_messages(), "%s: %s: %s: %s\n", r->options.program, what, mps_status_name(status),
             mps_sim_error(r->sim));
-    mps_sim_destroy(r->sim);
     /* the geometry is fixed: what does not fit is an option, mostly --dp */
-    exit(status == MPS_E_ARG ? CLI_USAGE : CLI_FAILED);
+    ranks_exit(status == MPS_E_ARG ? CLI_USAGE : CLI_FAILED);
 }
 
 bool run_has_gas(const run *r)
@@ -226,6 +230,14 @@ void run_figure_add(run *r, const char *name, const char *about, run_value_fn va
     run_figure *f = &r->figure[r->figures++];
     *f = (run_figure){.name = name, .value = value, .user = user};
     snprintf(f->about, sizeof f->about, "%s", about);
+}
+
+void run_particle_figure(run *r, const char *name, const char *about, run_value_fn value,
+                         void *user)
+{
+    const int before = r->figures;
+    run_figure_add(r, name, about, value, user);
+    if (r->figures > before) r->figure[before].particles = true;
 }
 
 void run_mark_add(run *r, const char *label, const char *unit, int count, const double *t,

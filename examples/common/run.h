@@ -29,7 +29,8 @@ typedef struct run_column {
     double at[3], diameter; /* of a sensor or gauge, in the tank's frame [m] */
     int32_t probe, component;
     double zero;
-    bool pressure; /* known after the first step */
+    bool pressure;  /* known after the first step */
+    bool particles; /* `value` reads particles */
     run_value_fn value;
     void *user;
 } run_column;
@@ -45,6 +46,7 @@ typedef struct run_mark {
 typedef struct run_figure {
     const char *name;
     char about[160]; /* what it is */
+    bool particles;  /* `value` reads particles */
     run_value_fn value;
     void *user;
     double measured;
@@ -115,11 +117,17 @@ void run_gauge(run *r, const char *name, double x, double z, double level);
 void run_gauge_from(run *r, const char *name, const double *foot, double level);
 /* A component of the pressure force on a part, or on all solids for NULL. */
 void run_force(run *r, const char *name, const char *part, int32_t component);
-/* A value of the driver. @param about  what it is, title of its plot; behind a colon where and how */
+/* A value of the driver. It may call mps_probe_read() and the like, which all ranks do, and leases no particles.
+ * @param about  what it is, title of its plot; behind a colon where and how */
 void run_value(run *r, const char *name, const char *unit, const char *about, run_value_fn value,
                void *user);
-/* A number for summary.json. @param about  what it is */
+/* A value that leases the particles. Rank 0 alone asks for it and has those of all ranks; no call that all ranks make is allowed. */
+void run_particle_value(run *r, const char *name, const char *unit, const char *about,
+                        run_value_fn value, void *user);
+/* A number for summary.json, likewise. @param about  what it is */
 void run_figure_add(run *r, const char *name, const char *about, run_value_fn value, void *user);
+void run_particle_figure(run *r, const char *name, const char *about, run_value_fn value,
+                         void *user);
 void run_mark_add(run *r, const char *label, const char *unit, int count, const double *t,
                   const double *value);
 

@@ -5,6 +5,7 @@
 #include "picture.h"
 #include "resume.h"
 #include "trace.h"
+#include "ranks.h"
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -15,6 +16,11 @@
 enum { RUN_QUARTERS = 4 };
 
 static volatile sig_atomic_t interrupted;
+
+/* What rank 0 finds due after a step, and all ranks then do. */
+enum { DUE_SAMPLE = 1, DUE_FRAME = 2, DUE_PICTURE = 4, DUE_CHECKPOINT = 8 };
+/* Why all ranks stop; the more serious is the larger. */
+enum { STOP_INTERRUPTED = 1, STOP_FAILED = 2 };
 
 /* The handler is there for one SIGINT and one SIGTERM: a second Ctrl-C ends the program at once. */
 static void on_interrupt(int signal)
@@ -29,6 +35,7 @@ static void catch_interrupt(void)
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+    if (ranks_count() > 1) sigaction(SIGUSR1, &action, NULL); /* mpirun passes it on */
     /* a terminal that closes may say so several times; nohup ignores it */
     action.sa_flags = 0;
     sigaction(SIGHUP, NULL, &before);
@@ -42,114 +49,6 @@ bool run_note(run *r, mps_status status, const char *what)
     if (!r->totals.error[0])
         snprintf(r->totals.error, sizeof r->totals.error, "%s: %s", what, mps_sim_error(r->sim));
     return false;
-}
-
-/* ---- rows ------------------------------------------------------------------------------------------------------ */
-
-static void header_add(char *header, size_t size, const char *name, const char *unit)
-{
-    size_t used = strlen(header);
-    snprintf(header + used, size - used, ",%s[%s]", name, unit);
-}
-
-static bool run_open_table(run *r, table *t, const char *name, const char *header, int columns,
-                           double interval)
-{
-    if (!table_create(t, r->options.out, name, columns, interval)) return false;
-    if (!r->options.resume) return table_begin(t, header);
-    return table_resume(t, header, r->totals.t_before, t == &r->steps ? resume_add_step : NULL, r);
-}
-
-static bool run_open_probes(run *r)
-{
-    char header[(RUN_COLUMNS + RUN_COMMON) * 48] = "t[s]";
-    for (int i = 0; i < run_columns_all(r); i++) {
-        const run_column c = run_column_at(r, i);
-        if (c.unit[0])
-            header_add(header, sizeof header, c.name, c.unit);
-        else
-            snprintf(header + strlen(header), sizeof header - strlen(header), ",%s", c.name);
-    }
-    return run_open_table(r, &r->probes, "probes.csv", header, 1 + run_columns_all(r),
-                          r->options.probe_dt);
-}
-
-/* Names of the columns of momentum.csv, in the order of MOMENTUM_TOTAL and on. */
-static const char *const MOMENTA[] = {"momentum",  "gravity",   "force", "pressure", "walls",
-                                      "numerical", "collision", "shift", "added"};
-
-static bool run_open_momentum(run *r)
-{
-    char header[3 * MOMENTUM_COLUMNS * 32] = "t[s]", name[32];
-    const int dim = r->options.dim == 3 ? 3 : 2;
-    for (int d = 0; d < dim; d++)
-        for (int k = 0; k < MOMENTUM_COLUMNS; k++) {
-            snprintf(name, sizeof name, "%s_%c", MOMENTA[k], "xyz"[d]);
-            header_add(header, sizeof header, name, dim == 3 ? "N s" : "N s/m");
-        }
-    return run_open_table(r, &r->momentum, "momentum.csv", header, 1 + dim * MOMENTUM_COLUMNS,
-                          r->options.probe_dt);
-}
-
-static void run_momentum(run *r, double t)
-{
-    mps_momentum m;
-    double row[1 + 3 * MOMENTUM_COLUMNS] = {t};
-    const int dim = r->options.dim == 3 ? 3 : 2;
-    mps_momentum_init(&m, sizeof m);
-    run_note(r, mps_momentum_get(r->sim, &m), "momentum");
-    const double *const values[MOMENTUM_COLUMNS] = {m.total,     m.gravity, m.force,
-                                                    m.pressure,  m.walls,   m.numerical,
-                                                    m.collision, m.shift,   m.added};
-    for (int d = 0; d < dim; d++)
-        for (int k = 0; k < MOMENTUM_COLUMNS; k++) row[1 + d * MOMENTUM_COLUMNS + k] = values[k][d];
-    table_sample(&r->momentum, row);
-}
-
-static void run_energies(run *r, double *out)
-{
-    mps_energy e;
-    mps_motion_state tank = {.struct_size = sizeof tank};
-    mps_energy_init(&e, sizeof e);
-    run_note(r, mps_energy_get(r->sim, &e), "energies");
-    run_note(r, mps_motion_state_get(r->sim, &tank), "motion");
-    const double values[RUN_COMMON] = {e.kinetic, tank.value[MPS_SURGE], e.potential, e.wall_work,
-                                       e.viscous, e.collision,           e.shift,     e.numerical,
-                                       e.added,   e.volume_error};
-    memcpy(out, values, sizeof values);
-    r->totals.volume_error = e.volume_error;
-}
-
-double run_measure_column(run *r, const run_column *c)
-{
-    double values[8] = {0};
-    if (c->value) return c->value(c->user, r->sim);
-    if (!run_note(r, mps_probe_read(r->sim, c->probe, values), c->name)) return NAN;
-    return values[c->component] - c->zero;
-}
-
-static void run_measure(run *r, double t, double *row)
-{
-    row[0] = t;
-    for (int i = 0; i < r->columns; i++) row[1 + i] = run_measure_column(r, &r->column[i]);
-    run_energies(r, row + 1 + r->columns);
-}
-
-/* There is no pressure before the first step: the row of t = 0 waits for it and takes its pressures, or goes out without. */
-static void run_write_start(run *r, const double *first)
-{
-    for (int i = 0; first && i < r->columns; i++)
-        if (r->column[i].pressure) r->start[1 + i] = first[1 + i];
-    table_sample(&r->probes, r->start);
-}
-
-static void run_sample(run *r, double t)
-{
-    double row[1 + RUN_COLUMNS + RUN_COMMON];
-    run_measure(r, t, row);
-    if (r->totals.steps == 1) run_write_start(r, row);
-    table_sample(&r->probes, row);
-    run_momentum(r, t);
 }
 
 /* ---- frames and pictures ---------------------------------------------------------------------------------------- */
@@ -181,12 +80,10 @@ static void run_frames_open(run *r)
     r->frame = run_frame_next(r, r->totals.t);
 }
 
-static void run_frame(run *r, double t)
+static bool run_frame_due(const run *r, double t)
 {
     double interval = r->options.t_end / (r->options.frames > 0 ? r->options.frames : 1);
-    if (!r->frames || t < (double)r->frame * interval - 1e-9 * interval) return;
-    run_frame_write(r, t);
-    r->frame = run_frame_next(r, t);
+    return r->frames && t >= (double)r->frame * interval - 1e-9 * interval;
 }
 
 /* At the times asked for, or at quarters; the end has a picture of its own. */
@@ -203,10 +100,21 @@ static bool run_picture_due(const run *r, double t)
 static void run_picture(run *r, double t)
 {
     char path[560];
-    if (!run_picture_due(r, t)) return;
     r->picture_at[r->pictures] = t;
     snprintf(path, sizeof path, "%s/picture_%d.png", r->options.out, ++r->pictures);
     if (!picture_save(r->sim, r->options.gravity, path)) r->output_failed = true;
+}
+
+/* Frames and pictures of the particles of all ranks. */
+static void run_draw(run *r, double t, int due)
+{
+    if (!(due & (DUE_FRAME | DUE_PICTURE)) || !ranks_gather(r->sim)) return;
+    if (ranks_first() && due & DUE_FRAME) {
+        run_frame_write(r, t);
+        r->frame = run_frame_next(r, t);
+    }
+    if (ranks_first() && due & DUE_PICTURE) run_picture(r, t);
+    ranks_gather_end(r->sim);
 }
 
 /* ---- steps ------------------------------------------------------------------------------------------------------ */
@@ -230,11 +138,9 @@ static const table *run_failed_table(const run *r)
     return NULL;
 }
 
-static int run_monitor(void *user, mps_sim *sim, const mps_step_info *info)
+/* The row of a step, and what else is due after it. */
+static int run_step(run *r, const mps_step_info *info)
 {
-    run *r = user;
-    (void)sim;
-    double begin = progress_clock();
     const double row[STEP_COLUMNS] = {info->t,
                                       info->dt,
                                       info->cfl,
@@ -247,13 +153,15 @@ static int run_monitor(void *user, mps_sim *sim, const mps_step_info *info)
                                       info->ppe_solves};
     run_add_up(r, info, row);
     table_append(&r->steps, row);
-    if (r->trace) trace_step(r, info->t, info->dt);
     /* interpolation needs the samples on both sides of an output time; the next step is at most a little longer than this one */
-    if (r->totals.steps == 1 || table_wants(&r->probes, info->t, 2 * info->dt))
-        run_sample(r, info->t);
-    run_frame(r, info->t);
-    run_picture(r, info->t);
-    if (resume_due(r, info->t)) resume_save(r);
+    const bool sample = r->totals.steps == 1 || table_wants(&r->probes, info->t, 2 * info->dt);
+    return (sample ? DUE_SAMPLE : 0) | (run_frame_due(r, info->t) ? DUE_FRAME : 0) |
+           (run_picture_due(r, info->t) ? DUE_PICTURE : 0) |
+           (resume_due(r, info->t) ? DUE_CHECKPOINT : 0);
+}
+
+static void run_progress(run *r, const mps_step_info *info)
+{
     if (progress_step(&r->progress, info)) {
         table_flush(&r->probes);
         table_flush(&r->momentum);
@@ -261,9 +169,27 @@ static int run_monitor(void *user, mps_sim *sim, const mps_step_info *info)
         if (r->trace) table_flush(&r->trace->file);
     }
     if (run_failed_table(r)) r->output_failed = true;
+}
+
+static int run_monitor(void *user, mps_sim *sim, const mps_step_info *info)
+{
+    run *r = user;
+    (void)sim;
+    double begin = progress_clock();
+    const int due = ranks_told(ranks_first() ? run_step(r, info) : 0);
+    if (r->trace) trace_step(r, info->t, info->dt);
+    if (due & DUE_SAMPLE) run_sample(r, info->t);
+    run_draw(r, info->t, due);
+    if (due & DUE_CHECKPOINT) resume_save(r);
+    if (ranks_first()) run_progress(r, info);
     r->step_end = progress_clock();
     r->totals.output_s += r->step_end - begin;
-    return interrupted || r->output_failed;
+    const int stop = ranks_most(r->output_failed ? STOP_FAILED
+                                : interrupted    ? STOP_INTERRUPTED
+                                                 : 0);
+    if (stop == STOP_INTERRUPTED) interrupted = 1;
+    r->output_failed = stop == STOP_FAILED;
+    return stop;
 }
 
 /* ---- the end ---------------------------------------------------------------------------------------------------- */
@@ -287,15 +213,30 @@ static void run_last_checkpoint(run *r, mps_status status)
     if (status == MPS_W_STOPPED || r->options.checkpoint > 0) resume_save(r);
 }
 
-static void run_close(run *r)
+/* The last state, also of a run that broke off. */
+static void run_close_particles(run *r)
 {
     char path[560];
-    run_frame_write(r, r->totals.t); /* the last state, also of a run that broke off */
-    mps_frames_close(r->frames);
+    run_frame_write(r, r->totals.t);
     snprintf(path, sizeof path, "%s/picture_end.png", r->options.out);
     if (!picture_save(r->sim, r->options.gravity, path)) r->output_failed = true;
     for (int i = 0; i < r->figures; i++)
-        r->figure[i].measured = r->figure[i].value(r->figure[i].user, r->sim);
+        if (r->figure[i].particles)
+            r->figure[i].measured = r->figure[i].value(r->figure[i].user, r->sim);
+}
+
+static void run_close(run *r)
+{
+    for (int i = 0; i < r->figures; i++)
+        r->figure[i].measured = r->figure[i].particles
+                                    ? NAN
+                                    : r->figure[i].value(r->figure[i].user, r->sim);
+    if (ranks_gather(r->sim)) { /* not where a rank has failed */
+        if (ranks_first()) run_close_particles(r);
+        ranks_gather_end(r->sim);
+    }
+    if (!ranks_first()) return;
+    mps_frames_close(r->frames);
     if (r->totals.steps == 0) run_write_start(r, NULL);
     if (r->trace && !table_close(&r->trace->file)) r->output_failed = true;
     if (!table_close(&r->probes) || !table_close(&r->momentum) || !table_close(&r->steps))
@@ -308,22 +249,23 @@ static void run_say(const run *r, int code, mps_status status)
     const char *program = r->options.program;
     const table *failed = run_failed_table(r);
     if (code == CLI_INTERRUPTED)
-        fprintf(stderr,
+        fprintf(ranks_messages(),
                 "%s: interrupted at t = %.6g s after %lld steps; outputs are complete up to there; "
                 "go on with --resume and the same options\n",
                 program, s->t, (long long)s->steps);
     else if (status < 0)
-        fprintf(stderr, "%s: %s at t = %.6g s, step %lld: %s\n", program, mps_status_name(status),
-                s->t, (long long)s->steps + 1, s->error);
+        fprintf(ranks_messages(), "%s: %s at t = %.6g s, step %lld: %s\n", program,
+                mps_status_name(status), s->t, (long long)s->steps + 1, s->error);
     else if (code != CLI_OK && failed)
-        fprintf(stderr, "%s: stopped at t = %.6g s, outputs cannot be written: %s; %s%s\n", program,
-                s->t, strerror(failed->error), folder_advice(failed->error),
+        fprintf(ranks_messages(),
+                "%s: stopped at t = %.6g s, outputs cannot be written: %s; %s%s\n", program, s->t,
+                strerror(failed->error), folder_advice(failed->error),
                 r->checkpoint_t > 0 ? "; --resume goes on from the last checkpoint" : "");
     else if (code != CLI_OK)
-        fprintf(stderr, "%s: %s\n", program,
+        fprintf(ranks_messages(), "%s: %s\n", program,
                 s->error[0] ? s->error : "an output could not be written");
     if (r->options.quiet || code == CLI_USAGE) return;
-    fprintf(stderr,
+    fprintf(ranks_messages(),
             "%s: t = %.6g s, %lld steps in %.1f s (%.2f ms a step, %.1f pressure iterations), %lld "
             "particles lost, outputs in %s\n",
             program, s->t, (long long)s->steps_here, s->wall_s,
@@ -339,30 +281,6 @@ static double cpu_clock(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static void run_open_tables(run *r)
-{
-    if (r->options.resume)
-        resume_load(r);
-    else
-        resume_forget(r);
-    if (!run_open_probes(r) || !run_open_momentum(r) ||
-        !run_open_table(r, &r->steps, "steps.csv", STEP_HEADER, STEP_COLUMNS, 0) ||
-        !trace_open(r)) {
-        if (r->options.resume) resume_say_anew(r);
-        exit(CLI_USAGE);
-    }
-    if (r->options.resume) resume_tables(r);
-}
-
-/* The state that the first step begins with. Its row is in the files where a run goes on: it is only what the next one is interpolated from. */
-static void run_first_rows(run *r)
-{
-    run_measure(r, r->totals.t, r->start);
-    if (r->options.resume) table_sample(&r->probes, r->start);
-    run_momentum(r, r->totals.t);
-    if (r->trace && !r->options.resume) trace_step(r, 0, 0);
-}
-
 /* Open everything and take the first row and frame. */
 static void run_begin(run *r)
 {
@@ -372,36 +290,39 @@ static void run_begin(run *r)
     r->totals.dummy = mps_particles_count(r->sim, MPS_DUMMY);
     run_boxes(r);
     run_open_tables(r);
+    ranks_most(0); /* where rank 0 cannot open them, all exit */
     if (!r->options.quiet) {
         fprintf(
-            stderr,
+            ranks_messages(),
             "%s: %s, dp %g m, %lld fluid, %lld wall, %lld dummy particles, from t = %g to %g s\n",
             r->options.program, r->options.model, r->options.dp, (long long)r->totals.fluid,
             (long long)r->totals.wall, (long long)r->totals.dummy, r->totals.t, r->options.t_end);
     }
-    run_first_rows(r);
-    run_frames_open(r);
-    while (r->options.resume && run_picture_due(r, r->totals.t))
-        r->picture_at[r->pictures++] = NAN; /* taken before, maybe with another --t-end */
     progress_begin(&r->progress, r->options.t_end, mps_particles_count(r->sim, -1),
                    r->options.quiet);
     progress_from(&r->progress, r->totals.t, r->totals.steps);
+    run_first_rows(r);
+    if (ranks_gather(r->sim)) {
+        if (ranks_first()) run_frames_open(r);
+        ranks_gather_end(r->sim);
+    }
+    while (r->options.resume && run_picture_due(r, r->totals.t))
+        r->picture_at[r->pictures++] = NAN; /* taken before, maybe with another --t-end */
     catch_interrupt();
 }
 
-int run_finish(run *r)
+/* The failure that all ranks end with: rather that of the rank that failed first than that there was one. */
+static mps_status run_agree(mps_status status)
 {
-    double wall = progress_clock(), cpu = cpu_clock();
-    mps_status status = MPS_W_STOPPED;
-    run_begin(r);
-    r->step_end = progress_clock();
-    if (!r->output_failed) status = mps_run(r->sim, r->options.t_end, run_monitor, r);
-    if (status < 0) snprintf(r->totals.error, sizeof r->totals.error, "%s", mps_sim_error(r->sim));
-    progress_clear(&r->progress);
-    run_last_checkpoint(r, status);
-    run_close(r);
-    r->totals.wall_s = progress_clock() - wall;
-    r->totals.cpu_s = cpu_clock() - cpu;
+    const int other = 1, most = ranks_most(status >= 0             ? 0
+                                           : status == MPS_E_RANKS ? other
+                                                                   : other - status);
+    return most == 0 ? status : most == other ? MPS_E_RANKS : other - most;
+}
+
+/* What rank 0 writes and says at the end. @return exit code */
+static int run_report(run *r, mps_status status)
+{
     int code = run_exit_code(r, status);
     r->totals.status = code == CLI_OK     ? "ok"
                        : status != MPS_OK ? mps_status_name(status)
@@ -410,10 +331,28 @@ int run_finish(run *r)
     run_say(r, code, status);
     /* refused before its first step: what it wrote is no run that another one must keep */
     if (code == CLI_USAGE) folder_clear(r);
+    return code;
+}
+
+int run_finish(run *r)
+{
+    double wall = progress_clock(), cpu = cpu_clock();
+    mps_status status = MPS_W_STOPPED;
+    run_begin(r);
+    r->step_end = progress_clock();
+    r->output_failed = ranks_most(r->output_failed) > 0;
+    if (!r->output_failed) status = run_agree(mps_run(r->sim, r->options.t_end, run_monitor, r));
+    if (status < 0) snprintf(r->totals.error, sizeof r->totals.error, "%s", mps_sim_error(r->sim));
+    progress_clear(&r->progress);
+    run_last_checkpoint(r, status);
+    run_close(r);
+    r->totals.wall_s = progress_clock() - wall;
+    r->totals.cpu_s = cpu_clock() - cpu;
+    const int code = ranks_told(ranks_first() ? run_report(r, status) : 0);
     table_free(&r->probes);
     table_free(&r->momentum);
     table_free(&r->steps);
     if (r->trace) trace_free(r->trace);
-    mps_sim_destroy(r->sim);
+    ranks_detach();
     return code;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* summary.json: one object for programs, flat but for two lists: what the columns of probes.csv and the driver's own numbers are. */
 #include "outputs.h"
+#include "ranks.h"
 #include <errno.h>
 #include <math.h>
 #include <string.h>
@@ -49,6 +50,7 @@ static void summary_counts(FILE *out, const run *r)
     json_number(out, "steps", (double)s->steps);
     json_number(out, "particles_lost", (double)s->lost);
     json_number(out, "threads", r->options.threads);
+    json_number(out, "ranks", ranks_count());
     json_number(out, "dim", r->options.dim);
 }
 
@@ -161,6 +163,6 @@ bool summary_save(const run *r)
     if (out) summary_write(out, r);
     bool failed = !out || ferror(out);
     if (out && fclose(out) != 0) failed = true;
-    if (failed) fprintf(stderr, "%s: %s\n", path, strerror(errno));
+    if (failed) fprintf(ranks_messages(), "%s: %s\n", path, strerror(errno));
     return !failed;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A small plotter: axes with round ticks, curves thinned to the pixels there are, marks, a legend. */
 #include "svg_plot.h"
+#include "ranks.h"
 #include <errno.h>
 #include <math.h>
 #include <string.h>
@@ -205,6 +206,6 @@ bool plot_save(const char *folder, const char *name, const plot *p)
     if (out) plot_svg(out, p);
     bool failed = !out || ferror(out);
     if (out && fclose(out) != 0) failed = true;
-    if (failed) fprintf(stderr, "%s: %s\n", path, strerror(errno));
+    if (failed) fprintf(ranks_messages(), "%s: %s\n", path, strerror(errno));
     return !failed;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Rows of probes.csv and steps.csv. */
 #include "table.h"
+#include "ranks.h"
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -43,13 +44,13 @@ bool table_create(table *t, const char *folder, const char *name, int columns, d
     t->row = calloc((size_t)columns, sizeof *t->row);
     t->kept = calloc((size_t)columns * TABLE_ROWS, sizeof *t->kept);
     if (t->before && t->row && t->kept) return true;
-    fprintf(stderr, "%s: out of memory\n", t->path);
+    fprintf(ranks_messages(), "%s: out of memory\n", t->path);
     return false;
 }
 
 static bool table_refuse(const table *t, const char *why)
 {
-    fprintf(stderr, "%s: %s\n", t->path, why);
+    fprintf(ranks_messages(), "%s: %s\n", t->path, why);
     return false;
 }
 
@@ -178,7 +179,8 @@ bool table_close(table *t)
     if (t->file && fclose(t->file) != 0) table_fail(t);
     t->file = NULL;
     if (t->failed)
-        fprintf(stderr, "%s: could not be written completely: %s\n", t->path, strerror(t->error));
+        fprintf(ranks_messages(), "%s: could not be written completely: %s\n", t->path,
+                strerror(t->error));
     return !t->failed;
 }
 

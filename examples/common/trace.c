@@ -2,6 +2,7 @@
 /* Rows of every step, and integrals, means, extremes and slopes of their columns. */
 #include "trace.h"
 #include "outputs.h"
+#include "ranks.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -58,6 +59,8 @@ void trace_step(run *r, double t, double dt)
     mps_momentum m;
     mps_momentum_init(&m, sizeof m);
     run_note(r, mps_momentum_get(r->sim, &m), "momentum");
+    run_measure_columns(r, row + TRACE_OWN);
+    if (!ranks_first()) return;
     row[TRACE_T] = t;
     row[TRACE_DT] = dt;
     for (int d = 0; d < r->options.dim; d++) {
@@ -65,9 +68,8 @@ void trace_step(run *r, double t, double dt)
         row[TRACE_WALLS + d] = m.walls[d];
     }
     for (int i = 0; i < r->columns; i++)
-        row[TRACE_OWN + i] = dt > 0 || !r->column[i].pressure
-                                 ? run_measure_column(r, &r->column[i])
-                                 : 0; /* no pressure before the first step */
+        if (dt == 0 && r->column[i].pressure)
+            row[TRACE_OWN + i] = 0; /* none before the first step */
     table_append(&r->trace->file, row);
     trace_keep(r->trace, row);
 }

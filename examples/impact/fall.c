@@ -115,8 +115,9 @@ static void build_floor(impact *c)
         impact_figure(c, least_mean[i], TRACE_LEAST, impact_last(c), smooth, rho * GRAVITY * h);
         impact_figure(c, means[i], TRACE_MEAN, impact_last(c), mean, rho * GRAVITY * h);
     }
-    run_value(r, "gap", "m",
-              "Gap above the floor: from the floor to the lowest liquid, less a spacing", gap, c);
+    run_particle_value(r, "gap", "m",
+                       "Gap above the floor: from the floor to the lowest liquid, less a spacing",
+                       gap, c);
     impact_figure(c, "gap", TRACE_CHANGE, impact_last(c), raw, 0.5 * GRAVITY * PULL * PULL);
     impact_figure(c, "fall_fluid", TRACE_CHANGE, TRACE_MOMENTUM + 1, raw, -fluid);
 }

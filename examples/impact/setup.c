@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What the cases share: walls, liquid with a velocity, figures. */
 #include "impact.h"
+#include "common/ranks.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -86,8 +87,8 @@ void impact_figure(impact *c, const char *name, trace_kind kind, int column, imp
 {
     run *r = &c->run;
     if (r->figures == RUN_FIGURES) {
-        fprintf(stderr, "%s: more than %d figures\n", r->options.program, RUN_FIGURES);
-        exit(CLI_FAILED);
+        fprintf(ranks_messages(), "%s: more than %d figures\n", r->options.program, RUN_FIGURES);
+        ranks_exit(CLI_FAILED);
     }
     trace_measure *m = &c->measure[r->figures];
     *m = (trace_measure){.rows = &c->rows,
