@@ -169,11 +169,11 @@ double mps_exact_value(const mps_exact *sum)
     if (sum->special == PLUS) return INFINITY;
     if (sum->special == MINUS) return -INFINITY;
     if (sum->special) return NAN;
-    const int64_t middle = sum->part[1] + sum->part[0] / unit, high = sum->part[2] + middle / unit;
+    const int64_t middle = sum->part[1] + sum->part[0] / unit, high = sum->part[2] + middle / unit,
+                  top = high / split;
     /* what is below 2^84 and what is above: rounded once, unless there is both */
     const double low = (double)(middle % unit * unit + sum->part[0] % unit),
-                 below = (double)(high % split) * 0x1p52 + low,
-                 above = (double)(high / split) * 0x1p84;
+                 below = (double)(high % split) * 0x1p52 + low, above = (double)top * 0x1p84;
     return ldexp(above + below, LEVEL_BITS * sum->level - FIRST_BITS);
 }
 

@@ -73,7 +73,10 @@ mps_status mps__energy_measure(mps__world *w, mps_energy *e)
     MPS__TRY(mps__world_adopt(w));
     bool any = w->particles.n > 0;
     mps__world_any(w, 1, &any);
-    if (w->state.step == 0 && any) MPS__TRY(mps__world_neighbours_kept(w));
+    /* in the order of a step, so that measuring first changes no byte of what comes */
+    if (w->state.step == 0 && any)
+        MPS__TRY(mps__particles_leases(&w->particles) ? mps__world_neighbours_kept(w)
+                                                      : mps__world_neighbours(w));
     mps__budget b = w->state.budget;
     mps__budget_update(w, &b);
     *e = (mps_energy){.struct_size = sizeof *e,
