@@ -407,7 +407,6 @@ static void scratch_without_refresh(void **state)
 
 /* Counts fluid within a distance that is more than the far radius. */
 enum { FAR_AWAY = 6 };
-
 MPS_ROW void crowd_row(const int dim, const mps_stage *s, const wind *f, int64_t i)
 {
     if (s->kind[i] != MPS_FLUID) return;
