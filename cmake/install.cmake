@@ -15,7 +15,8 @@ install(EXPORT mpsStaticTargets NAMESPACE mps:: DESTINATION ${package})
 
 # Conformance kits of models and of solvers, as sources: mps::model_kit and mps::solver_kit.
 set(MPS_KIT_DIR ${CMAKE_INSTALL_DATADIR}/mps/conformance)
-foreach(kit model_kit.h model_kit.c model_scenes.h model_scenes.c model_copies.h model_copies.c model_watch.c model_report.c solver_kit.h solver_kit.c solver_systems.c)
+foreach(kit model_kit.h model_kit.c model_scenes.h model_scenes.c model_copies.h model_copies.c model_watch.c model_ranks.c model_report.c solver_kit.h solver_kit.c solver_systems.c solver_ranks.h solver_ranks.c kit_engine.h
+    kit_engine.c)
   install(FILES tests/conformance/${kit} DESTINATION ${MPS_KIT_DIR})
 endforeach()
 

@@ -169,6 +169,13 @@ static void check_threads(kit *k)
     }
 }
 
+/* In the first scene and in 2-D. */
+static void check_ranks(kit *k)
+{
+    for (int n = 0; n < k->scenes && !(k->failed & KIT_RANKS); n++)
+        if (n == 0 || k->scene[n].dim == 2) k->failed |= kit_compare_ranks(&k->scene[n], 4);
+}
+
 /* Largest difference of two states over the largest value of its component. `b` has the fluid, the
  * last particles, in the reverse order for each phase; positions tell who is who. */
 static double apart(const kit_state *a, const kit_state *b, int32_t dim)
@@ -436,7 +443,7 @@ int kit_check_model(const mps_model_ops *ops, kit_prepare_fn prepare, void *user
     } checks[] = {{check_verbs, false},  {check_repeat, false},    {check_settings, false},
                   {check_threads, true}, {check_order, true},      {check_handles, false},
                   {check_memory, false}, {check_checkpoint, true}, {check_midrun, false},
-                  {check_budget, false}};
+                  {check_budget, false}, {check_ranks, true}};
     kit k = {.ops = ops, .prepare = prepare, .user = user};
     check_table(&k);
     if (!k.failed) check_run(&k);

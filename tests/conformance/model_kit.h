@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Conformance kit of models. Give it your table; it runs the model in small tanks and reports which
- * rules of <mps/model.h> it breaks. Needs libmps and the C library. It writes small checkpoint
+ * rules of <mps/model.h> it breaks. Needs libmps and the C library with threads. It writes small checkpoint
  * files in the working folder and removes them. One check at a time: it is not thread-safe.
  *
  * A verb runs more than once per step here, on copies of its arrays: it may depend on its stage and
@@ -53,12 +53,21 @@ enum {
     /* A verb does not change "acceleration", "velocity" or "displacement" of walls and dummies. */
     KIT_SOLIDS = 16384,
     /* The same values give the same result: in two runs of a verb, and in two runs of a scene. If
-     * two runs of a scene differ, KIT_THREADS, KIT_ORDER and KIT_CHECKPOINT are left out. */
+     * two runs of a scene differ, KIT_THREADS, KIT_ORDER, KIT_CHECKPOINT and KIT_RANKS are left
+     * out. */
     KIT_REPEAT = 32768,
     /* At least one verb changes something in at least one scene: a channel, the limit of the time
      * step or a scalar of the pressure equation. Else nothing was tested. For a model that acts only
      * in states that the callback cannot make, take this bit out of the result. */
-    KIT_ACTS = 65536
+    KIT_ACTS = 65536,
+    /* Same bytes on one rank and on two, which are threads (<mps/ranks.h>): all fields of all
+     * particles after each step, in the 2-D scenes that accept the model and in the first one. The
+     * usual reasons: a loop of its own over all rows, with ghosts, in place of mps_stage_sum();
+     * scratch read at neighbours without mps_stage_refresh(); a channel read at neighbours without
+     * MPS_USE_NEIGHBOURS; a look beyond the far radius without mps_model_ops.reach; other calls of
+     * mps_stage_... on one rank than on the other. Left out: scenes with a solver that works on
+     * one rank only. */
+    KIT_RANKS = 131072
 };
 
 /* Called in each scene after the model was switched on: set settings, write first values of fields,

@@ -32,7 +32,7 @@ const char *kit_moment(int32_t moment)
 static const char *const checks[] = {
     "KIT_TABLE",   "KIT_RUN",        "KIT_SETTINGS", "KIT_THREADS", "KIT_ORDER",      "KIT_WRITES",
     "KIT_OWN_ROW", "KIT_WRITE_ONLY", "KIT_MEMORY",   "KIT_HANDLES", "KIT_CHECKPOINT", "KIT_MIDRUN",
-    "KIT_BUDGET",  "KIT_ADDS",       "KIT_SOLIDS",   "KIT_REPEAT",  "KIT_ACTS"};
+    "KIT_BUDGET",  "KIT_ADDS",       "KIT_SOLIDS",   "KIT_REPEAT",  "KIT_ACTS",       "KIT_RANKS"};
 enum { CHECKS = sizeof checks / sizeof checks[0] };
 
 static void print_failed(const mps_model_ops *ops, int failed)

@@ -3,6 +3,7 @@
  * 2-D without air with a drop that falls. */
 #include "model_scenes.h"
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -158,6 +159,7 @@ mps_status kit_open(const kit_case *c, mps_sim **sim)
     config.threads = c->threads;
     if (c->allocator) config.allocator = *c->allocator;
     mps_status status = mps_sim_create(&config, sim);
+    if (status >= 0 && c->ranks) status = mps_sim_ranks_set(*sim, c->ranks);
     if (status >= 0) status = build(c, *sim);
     if (status >= 0 && !c->without) status = kit_switch_on(c, *sim);
     return status;
@@ -172,11 +174,13 @@ mps_status kit_steps(mps_sim *sim, int steps)
 
 /* ---- states ---------------------------------------------------------------------------------- */
 
+enum { LIBRARY_FIELDS = 4 };
+
 /* Fields that are compared: the library's, and channels that live with their particles. */
 static int32_t field_name(const mps_sim *sim, int32_t index, const char **name)
 {
-    static const char *const own[] = {"position", "velocity", "pressure", "density"};
-    const int32_t count = sizeof own / sizeof own[0];
+    static const char *const own[LIBRARY_FIELDS] = {"position", "velocity", "pressure", "density"};
+    const int32_t count = LIBRARY_FIELDS;
     mps_channel_info info;
     int32_t found = count;
     if (index < count) *name = own[index];
@@ -196,6 +200,10 @@ static bool append(mps_sim *sim, const char *name, const int64_t *place, kit_sta
     mps_lease lease = {.struct_size = sizeof lease};
     if (mps_lease_begin(sim, name, MPS_READ, &lease) < 0) return false;
     const int32_t wide = s->stride + lease.stride;
+    kit_field *field = &s->field[s->fields++];
+    snprintf(field->name, sizeof field->name, "%s", name);
+    field->first = s->stride;
+    field->components = lease.stride;
     double *data = malloc((size_t)s->n * (size_t)wide * sizeof *data);
     for (int64_t i = 0; data && i < s->n; i++) {
         if (s->stride > 0)
@@ -233,7 +241,10 @@ static bool append_all(mps_sim *sim, int64_t *place, kit_state *s)
         s->id[i] = place[2 * i];
         place[i] = place[2 * i + 1];
     }
-    for (int32_t k = 0; good && field_name(sim, k, &name); k++) good = append(sim, name, place, s);
+    for (int32_t k = 0; good && field_name(sim, k, &name); k++) {
+        good = s->fields < KIT_FIELDS && append(sim, name, place, s);
+        if (good) s->field[k].own = k >= LIBRARY_FIELDS;
+    }
     return good;
 }
 

@@ -21,6 +21,7 @@ typedef struct kit_case {
     const char *key;                /* NULL, or a setting */
     double value;                   /* of it */
     const mps_allocator *allocator; /* NULL: malloc */
+    const mps_ranks_ops *ranks;     /* NULL, or the engine of this rank */
 } kit_case;
 
 enum { KIT_SCENES = 6 };
@@ -37,10 +38,20 @@ mps_status kit_switch_on(const kit_case *scene, mps_sim *sim);
 /* Steps; the first failure ends them. */
 mps_status kit_steps(mps_sim *sim, int steps);
 
+/* Columns of a state that hold one field. */
+typedef struct kit_field {
+    char name[32];
+    int32_t first, components;
+    bool own; /* of a model, not of the library */
+} kit_field;
+
+enum { KIT_FIELDS = 48 };
+
 /* State of all fields, ordered by id. */
 typedef struct kit_state {
     int64_t n;
-    int32_t stride;
+    int32_t stride, fields;
+    kit_field field[KIT_FIELDS];
     int64_t *id;
     double *data; /* [n*stride], the fields beside each other */
 } kit_state;
@@ -70,5 +81,9 @@ void kit_summary(const mps_model_ops *ops, int failed, int count, const kit_case
  * @param acted  [verbs of the model] true is written for verbs that change something
  * @return sum of KIT_... that failed */
 int kit_watch(const kit_case *scene, bool acted[]);
+
+/* Run the model in a scene on one rank and on two, which are threads, and compare all fields.
+ * @return KIT_RANKS if it failed, else 0 */
+int kit_compare_ranks(const kit_case *scene, int steps);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The checks of the solver kit; each builds its system, runs the pair and says what is wrong. */
 #include "solver_kit.h"
+#include "solver_ranks.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -393,6 +394,13 @@ static void check_memory(pair *k)
     kit_system_free(s);
 }
 
+static void check_ranks(pair *k)
+{
+    char text[KIT_RANKS_TEXT] = "";
+    const bool failed = kit_ranks_failed(k->solver, k->pc, text);
+    EXPECT(k, !failed, "%s", text);
+}
+
 static bool table_complete(pair *k)
 {
     const mps_solver_ops *s = k->solver;
@@ -409,9 +417,9 @@ static bool table_complete(pair *k)
 int kit_check_solver(const mps_solver_ops *solver, const mps_preconditioner_ops *pc)
 {
     static void (*const checks[])(pair *) = {
-        check_small,       check_lattices, check_divergence, check_zero_rhs,
-        check_warm_start,  check_nan,      check_indefinite, check_max_iterations,
-        check_unreachable, check_threads,  check_reuse,      check_memory,
+        check_small, check_lattices,   check_divergence,     check_zero_rhs,    check_warm_start,
+        check_nan,   check_indefinite, check_max_iterations, check_unreachable, check_threads,
+        check_reuse, check_memory,     check_ranks,
     };
     pair k = {solver, pc, 0};
     if (!table_complete(&k)) return k.failures;
@@ -473,5 +481,6 @@ int kit_check_preconditioner(const mps_preconditioner_ops *pc)
     }
     pc->destroy(&memory.allocator, self);
     EXPECT(&k, memory.live == 0, "%lld blocks leaked", (long long)memory.live);
+    if (pc->name) check_ranks(&k);
     return k.failures;
 }

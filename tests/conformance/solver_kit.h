@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Conformance kit of pressure solvers. Give it your tables; it builds systems like those of MPS, runs the solver over
- * them and tells what it did wrong. Needs <mps/ppe.h>, the C library with POSIX threads and nothing else; tables are tested unregistered. */
+ * them and tells what it did wrong. Needs libmps and the C library with POSIX threads. The last check runs
+ * the tables in a small dam break on one rank and on two, which are threads: with `ranks` 1 both solutions agree to 1e-9, with `ranks` 0 the
+ * library refuses the table on two ranks. The other checks use the tables unregistered. */
 #ifndef SOLVER_KIT_H
 #define SOLVER_KIT_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What the kit of models prints: a line for a model that passes, and the reason for models that have
- * no effect, overwrite what others added, move solids or do not repeat. */
+ * no effect, overwrite what others added, move solids, do not repeat or differ on two ranks. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -62,7 +62,7 @@ static void passes(void **state)
 {
     (void)state;
     assert_int_equal(verb_told(damp), 0);
-    assert_string_equal(told, "model_kit: bad.model: passed; checks: 17, verbs: 1, settings: 0, "
+    assert_string_equal(told, "model_kit: bad.model: passed; checks: 18, verbs: 1, settings: 0, "
                               "scenes: imps 2-D, imps 3-D, mmps 2-D, imps.paper 2-D, mmps 3-D, "
                               "mmps.paper 2-D\n");
 }
@@ -83,7 +83,7 @@ static void notes_a_verb_without_effect(void **state)
     ops.verb_count = 2;
     assert_int_equal(check_told(&ops), 0);
     TOLD("note: verb 1, MPS_LIMIT, changes nothing in the scenes: it was not tested\n");
-    TOLD("passed; checks: 17, verbs: 2");
+    TOLD("passed; checks: 18, verbs: 2");
 }
 
 static int shorten(mps_stage *s)
@@ -311,6 +311,155 @@ static void late_counter(void **state)
     TOLD("failed: KIT_CHECKPOINT KIT_REPEAT\n");
 }
 
+/* ---- two ranks ------------------------------------------------------------------------------- */
+
+/* Pushes the fluid by a number. */
+typedef struct wind {
+    double *a, by;
+} wind;
+
+MPS_ROW void blow_row(const int dim, const mps_stage *s, const wind *f, int64_t i)
+{
+    if (s->kind[i] == MPS_FLUID) f->a[i * dim] += f->by;
+}
+MPS_ROWS(blow_rows, blow_row, const wind)
+
+/* Counts fluid in a loop of its own, which takes ghosts too and leaves out what other ranks own. */
+static int push_by_loop(mps_stage *s)
+{
+    wind f = {.a = arrays(s).a};
+    for (int64_t i = 0; i < s->n; i++) f.by += s->kind[i] == MPS_FLUID ? 1e-4 : 0;
+    mps_stage_rows(s, blow_rows, &f);
+    return 0;
+}
+
+MPS_ROW void count_row(const int dim, const mps_stage *s, void *none, int64_t i, double *sums)
+{
+    (void)dim, (void)none;
+    sums[0] += s->kind[i] == MPS_FLUID ? 1e-4 : 0;
+}
+MPS_SUMS(count_rows, count_row, void)
+
+static int push_by_sum(mps_stage *s)
+{
+    wind f = {.a = arrays(s).a};
+    mps_stage_sum(s, 1, count_rows, NULL, &f.by);
+    mps_stage_rows(s, blow_rows, &f);
+    return 0;
+}
+
+static void sums_by_a_loop(void **state)
+{
+    (void)state;
+    assert_int_equal(verb_told(push_by_sum), 0);
+    assert_int_equal(verb_told(push_by_loop), KIT_RANKS);
+    TOLD("preset imps, 2-D, step 1: two ranks give other bytes than one: channel 'position', "
+         "component 0 of particle ");
+    TOLD("a sum without mps_stage_sum()");
+    TOLD("failed: KIT_RANKS\n");
+}
+
+/* Velocities in scratch, which rows read at their neighbours. */
+typedef struct smooth {
+    double *a, *copy;
+    const double *u;
+} smooth;
+
+MPS_ROW void copy_row(const int dim, const mps_stage *s, const smooth *f, int64_t i)
+{
+    (void)s;
+    for (int d = 0; d < dim; d++) f->copy[i * dim + d] = f->u[i * dim + d];
+}
+MPS_ROWS(copy_rows, copy_row, const smooth)
+
+MPS_ROW void smooth_row(const int dim, const mps_stage *s, const smooth *f, int64_t i)
+{
+    const mps_stencil *t = s->near;
+    if (s->kind[i] != MPS_FLUID) return;
+    for (int64_t p = t->begin[i]; p < t->end[i]; p++)
+        for (int d = 0; d < dim; d++) f->a[i * dim + d] -= 0.1 * f->copy[t->col[p] * dim + d];
+}
+MPS_ROWS(smooth_rows, smooth_row, const smooth)
+
+static bool refreshed;
+
+static int smooth_scratch(mps_stage *s)
+{
+    const push all = arrays(s);
+    smooth f = {all.a, mps_stage_scratch(s, s->n * s->dim), all.u};
+    const mps_shared shared = {.values = f.copy, .components = s->dim, .type = MPS_TYPE_REAL};
+    if (!f.copy) return 1;
+    mps_stage_rows(s, copy_rows, &f);
+    if (refreshed && mps_stage_refresh(s, 1, &shared)) return 1;
+    mps_stage_rows(s, smooth_rows, &f);
+    return 0;
+}
+
+static void scratch_without_refresh(void **state)
+{
+    (void)state;
+    refreshed = true;
+    assert_int_equal(verb_told(smooth_scratch), 0);
+    refreshed = false;
+    assert_int_equal(verb_told(smooth_scratch), KIT_RANKS);
+    TOLD("scratch read at neighbours without mps_stage_refresh()");
+}
+
+/* Counts fluid within a distance that is more than the far radius. */
+enum { FAR_AWAY = 6 };
+MPS_ROW void crowd_row(const int dim, const mps_stage *s, const wind *f, int64_t i)
+{
+    if (s->kind[i] != MPS_FLUID) return;
+    for (int64_t j = 0; j < s->n; j++) {
+        double r2 = 0;
+        for (int d = 0; d < dim; d++) r2 += pow(s->x[j * dim + d] - s->x[i * dim + d], 2);
+        if (s->kind[j] == MPS_FLUID && r2 < pow(FAR_AWAY * s->dp, 2)) f->a[i * dim] += 1e-3;
+    }
+}
+MPS_ROWS(crowd_rows, crowd_row, const wind)
+
+static int push_by_crowd(mps_stage *s)
+{
+    wind f = {.a = arrays(s).a};
+    mps_stage_rows(s, crowd_rows, &f);
+    return 0;
+}
+
+static double far_away(const double *setting, double dp)
+{
+    (void)setting;
+    return FAR_AWAY * dp;
+}
+
+static void looks_too_far(void **state)
+{
+    mps_verb verb;
+    mps_model_ops ops = model_of(&verb, push_by_crowd);
+    (void)state;
+    assert_int_equal(check_told(&ops), KIT_RANKS);
+    TOLD("a look beyond the far radius without 'reach' of the table");
+    ops.reach = far_away;
+    assert_int_equal(check_told(&ops), 0); /* it has what it needs */
+}
+
+/* A sum on the rank that has the first particle. */
+static int sum_on_one_rank(mps_stage *s)
+{
+    bool first = false;
+    double sum = 0;
+    for (int64_t i = 0; i < s->n; i++) first = first || s->id[i] == 0;
+    if (first) mps_stage_sum(s, 1, count_rows, NULL, &sum);
+    return damp(s);
+}
+
+static void calls_on_one_rank(void **state)
+{
+    (void)state;
+    assert_int_equal(verb_told(sum_on_one_rank), KIT_RANKS);
+    TOLD("preset imps, 2-D, on 2 ranks: ");
+    TOLD("ranks make different calls: '");
+}
+
 /* ---- names of moments ------------------------------------------------------------------------ */
 
 static int write_density(mps_stage *s)
@@ -341,6 +490,10 @@ int main(void)
         cmocka_unit_test(moves_solids),
         cmocka_unit_test(static_counter),
         cmocka_unit_test(late_counter),
+        cmocka_unit_test(sums_by_a_loop),
+        cmocka_unit_test(scratch_without_refresh),
+        cmocka_unit_test(looks_too_far),
+        cmocka_unit_test(calls_on_one_rank),
         cmocka_unit_test(moment_by_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -12,6 +12,7 @@
 
 #include "../../src/ppe/builtin.h"
 #include "solver_kit.h"
+#include "solver_ranks.h"
 
 static void kit_over(const mps_solver_ops *solver)
 {
@@ -384,6 +385,48 @@ static void test_check(void **state)
     kit_system_free(s);
 }
 
+/* ---- two ranks ---- */
+
+/* Conjugate gradients that are wrong by a millionth on several ranks. */
+static void solve_apart(void *self, const mps_ppe_problem *problem,
+                        const mps_preconditioner_ops *pc, void *pc_self, double *p,
+                        mps_ppe_result *result)
+{
+    mps__solver_pcg.solve(self, problem, pc, pc_self, p, result);
+    for (int64_t i = 0; problem->ranks && i < problem->n; i++) p[i] *= 1 + 1e-6;
+}
+
+static void test_ranks_told(void **state)
+{
+    char text[KIT_RANKS_TEXT];
+    mps_solver_ops apart = mps__solver_pcg;
+    (void)state;
+    apart.solve = solve_apart;
+    assert_false(kit_ranks_failed(&mps__solver_pcg, NULL, text));
+    assert_true(kit_ranks_failed(&apart, NULL, text));
+    assert_non_null(strstr(text, "solutions on two ranks and on one differ by 1"));
+    assert_non_null(strstr(text, "a sum or maximum without mps_ppe_total()"));
+}
+
+static void solve_nothing(void *self, const mps_ppe_problem *problem,
+                          const mps_preconditioner_ops *pc, void *pc_self, double *p,
+                          mps_ppe_result *result)
+{
+    (void)self, (void)problem, (void)pc, (void)pc_self, (void)p;
+    result->reason = MPS_PPE_INDEFINITE;
+}
+
+/* An equation that is not solved is a failure, with the text of the library. */
+static void test_ranks_failure(void **state)
+{
+    char text[KIT_RANKS_TEXT];
+    mps_solver_ops nothing = mps__solver_pcg;
+    (void)state;
+    nothing.solve = solve_nothing;
+    assert_true(kit_ranks_failed(&nothing, NULL, text));
+    assert_non_null(strstr(text, "on 1 rank(s): "));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -393,6 +436,8 @@ int main(void)
         cmocka_unit_test(test_klu),
         cmocka_unit_test(test_kinsol),
         cmocka_unit_test(test_preconditioners),
+        cmocka_unit_test(test_ranks_told),
+        cmocka_unit_test(test_ranks_failure),
         cmocka_unit_test(test_against_direct),
         cmocka_unit_test(test_iterations),
         cmocka_unit_test(test_ic0_shift),

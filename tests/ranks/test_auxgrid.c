@@ -2,7 +2,7 @@
 /* `auxgrid` of one equation whose rows lie on many ranks has the bytes of one rank, wherever the cuts are. */
 #include "../../src/ppe/builtin.h"
 #include "../conformance/solver_kit.h"
-#include "engine.h"
+#include "kit_engine.h"
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,7 +16,7 @@ static const double reach = 3.1; /* of the widest lattice; more than auxgrid ask
 
 /* What all ranks have together. */
 typedef struct world {
-    engine_team *team;
+    kit_engine_team *team;
     const kit_system *system;
     double *z, *shared; /* [particles] */
     int32_t threads;
@@ -211,7 +211,7 @@ static void run_rank(void *argument, int32_t rank)
     const mps_ppe_problem *all = &w->system->problem;
     const mps_preconditioner_ops *pc = &mps__preconditioner_auxgrid;
     const mps_parallel parallel = kit_parallel(w->threads);
-    piece p = {.w = w, .ops = engine_ops(w->team, rank)};
+    piece p = {.w = w, .ops = kit_engine_ops(w->team, rank)};
     kit_memory memory;
     void *self = w->whole > 0 ? &w->whole : NULL;
     float *weight = take(all->n, sizeof *weight);
@@ -244,9 +244,9 @@ static void run_rank(void *argument, int32_t rank)
 
 static void run(world *w, int32_t ranks, uint32_t skew)
 {
-    w->team = engine_create(ranks, skew);
-    engine_run(w->team, run_rank, w);
-    engine_destroy(w->team);
+    w->team = kit_engine_create(ranks, skew);
+    kit_engine_run(w->team, run_rank, w);
+    kit_engine_destroy(w->team);
 }
 
 static void check_ranks(const kit_system *s, const double *alone, int32_t ranks, int32_t threads,

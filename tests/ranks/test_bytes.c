@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Runs on 2, 3, 4 and 7 ranks have the bytes of a run on one, after every step. The environment variables MPS_RANKS_STEPS and MPS_RANKS_THREADS
  * ask for other numbers of steps, and of threads of each rank. */
-#include "engine.h"
+#include "kit_engine.h"
 #include "scenes.h"
 #include "sim.h"
 #include <setjmp.h>
@@ -15,7 +15,7 @@ enum { TEXT = 300 };
 
 typedef struct run {
     const scene *scene;
-    engine_team *team;
+    kit_engine_team *team;
     record *records; /* [steps] */
     char error[64][TEXT];
 } run;
@@ -28,7 +28,7 @@ static void run_rank(void *argument, int32_t rank)
     mps_step_info_init(&info, sizeof info);
     mps_status status = scene_create(k->scene, &sim);
     if (status == MPS_OK && k->team) {
-        const mps_ranks_ops ops = engine_ops(k->team, rank);
+        const mps_ranks_ops ops = kit_engine_ops(k->team, rank);
         status = mps_sim_ranks_set(sim, &ops);
     }
     if (status == MPS_OK) status = scene_build(sim, k->scene);
@@ -46,14 +46,14 @@ static record *run_scene(const scene *s, int32_t ranks, uint32_t skew)
 {
     run k = {.scene = s, .records = calloc((size_t)s->steps, sizeof(record))};
     assert_non_null(k.records);
-    if (ranks > 1) k.team = engine_create(ranks, skew);
+    if (ranks > 1) k.team = kit_engine_create(ranks, skew);
     if (k.team)
-        engine_run(k.team, run_rank, &k);
+        kit_engine_run(k.team, run_rank, &k);
     else
         run_rank(&k, 0);
     for (int32_t r = 0; r < ranks; r++)
         if (k.error[r][0]) fail_msg("rank %d of %d: %s", (int)r, (int)ranks, k.error[r]);
-    if (k.team) engine_destroy(k.team);
+    if (k.team) kit_engine_destroy(k.team);
     return k.records;
 }
 

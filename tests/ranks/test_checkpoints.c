@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Checkpoints of any number of ranks are the same file, and go on with any other number as if nothing had been. */
-#include "engine.h"
+#include "kit_engine.h"
 #include "scenes.h"
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,7 +13,7 @@ enum { TEXT = 300, BEFORE = 17, AFTER = 12 };
 
 typedef struct run {
     const scene *scene;
-    engine_team *team;
+    kit_engine_team *team;
     const char *from,
         *to; /* checkpoints that are read before and written after the steps; NULL: none */
     int steps;
@@ -29,7 +29,7 @@ static void run_rank(void *argument, int32_t rank)
     mps_step_info_init(&info, sizeof info);
     mps_status status = scene_create(k->scene, &sim);
     if (status == MPS_OK && k->team) {
-        const mps_ranks_ops ops = engine_ops(k->team, rank);
+        const mps_ranks_ops ops = kit_engine_ops(k->team, rank);
         status = mps_sim_ranks_set(sim, &ops);
     }
     if (status == MPS_OK) status = scene_build(sim, k->scene);
@@ -49,16 +49,16 @@ static record *take(const scene *s, int32_t ranks, int steps, const char *from, 
              .to = to,
              .steps = steps,
              .last = calloc(1, sizeof(record)),
-             .team = ranks > 1 ? engine_create(ranks, (uint32_t)ranks) : NULL};
+             .team = ranks > 1 ? kit_engine_create(ranks, (uint32_t)ranks) : NULL};
     assert_non_null(k.last);
     if (k.team)
-        engine_run(k.team, run_rank, &k);
+        kit_engine_run(k.team, run_rank, &k);
     else
         run_rank(&k, 0);
     for (int32_t r = 0; r < ranks; r++)
         if (k.error[r][0])
             fail_msg("%s, rank %d of %d: %s", s->name, (int)r, (int)ranks, k.error[r]);
-    if (k.team) engine_destroy(k.team);
+    if (k.team) kit_engine_destroy(k.team);
     return k.last;
 }
 

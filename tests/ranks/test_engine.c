@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The engine of threads against the kit. */
-#include "engine.h"
+#include "kit_engine.h"
 #include "engine_kit.h"
 #include <setjmp.h>
 #include <stdarg.h>
@@ -10,7 +10,7 @@
 enum { MOST = 7 };
 
 typedef struct job {
-    engine_team *team;
+    kit_engine_team *team;
     int32_t also;
     int call; /* -1: no failure */
     double balance;
@@ -20,7 +20,7 @@ typedef struct job {
 static void run_rank(void *argument, int32_t rank)
 {
     job *j = argument;
-    const mps_ranks_ops ops = engine_ops(j->team, rank);
+    const mps_ranks_ops ops = kit_engine_ops(j->team, rank);
     if (j->call < 0)
         engine_kit_check(&ops, j->balance, j->fault[rank]);
     else
@@ -29,14 +29,14 @@ static void run_rank(void *argument, int32_t rank)
 
 static void check(int32_t ranks, uint32_t skew, int call, int32_t also)
 {
-    job j = {.team = engine_create(ranks, skew), .call = call, .also = also};
+    job j = {.team = kit_engine_create(ranks, skew), .call = call, .also = also};
     j.balance = skew ? 0 : 1.05;
-    engine_run(j.team, run_rank, &j);
+    kit_engine_run(j.team, run_rank, &j);
     for (int32_t r = 0; r < ranks; r++) {
         assert_string_equal(j.fault[r], "");
         assert_string_equal(j.said[r], j.said[0]);
     }
-    engine_destroy(j.team);
+    kit_engine_destroy(j.team);
 }
 
 static void test_calls(void **state)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Particles that all ranks know by their ids move at random: each has one owner at any time, all ghosts within reach are there, and shared values
  * are those of the owners. */
-#include "engine.h"
+#include "kit_engine.h"
 #include "ghosts.h"
 #include <math.h>
 #include <setjmp.h>
@@ -15,7 +15,7 @@ static const double reach = 0.08, reach_walls = 0.12;
 
 /* What all ranks have together. */
 typedef struct world {
-    engine_team *team;
+    kit_engine_team *team;
     int dim;
     int32_t owners[STEPS][COUNT + MORE]; /* how many ranks own a particle; each rank adds */
     int64_t wrong[RANKS], missing[RANKS];
@@ -169,7 +169,7 @@ static void run_rank(void *argument, int32_t rank)
     mps__particles s;
     mps__ranks r;
     mps__ghosts g;
-    const mps_ranks_ops ops = engine_ops(w->team, rank);
+    const mps_ranks_ops ops = kit_engine_ops(w->team, rank);
     mps__ranks_init(&r, &c);
     mps__ghosts_init(&g, &c, &r, &s);
     mps_status status = mps__particles_init(&s, &c, w->dim);
@@ -184,9 +184,9 @@ static void run_rank(void *argument, int32_t rank)
 static void check(int32_t ranks, int dim, uint32_t skew)
 {
     world *w = calloc(1, sizeof *w);
-    w->team = engine_create(ranks, skew);
+    w->team = kit_engine_create(ranks, skew);
     w->dim = dim;
-    engine_run(w->team, run_rank, w);
+    kit_engine_run(w->team, run_rank, w);
     for (int32_t r = 0; r < ranks; r++) {
         assert_int_equal(w->status[r], MPS_OK);
         assert_int_equal(w->wrong[r], 0);
@@ -195,7 +195,7 @@ static void check(int32_t ranks, int dim, uint32_t skew)
     for (int step = 0; step < STEPS; step++)
         for (int id = 0; id < (step < STEPS / 2 ? COUNT : COUNT + MORE); id++)
             assert_int_equal(w->owners[step][id], 1);
-    engine_destroy(w->team);
+    kit_engine_destroy(w->team);
     free(w);
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* How many messages a step takes: rounds and bytes against a table. Both are exact, as results and cuts are. When a change takes fewer, put
  * the new numbers here; when it takes more, find out why first. */
-#include "engine.h"
+#include "kit_engine.h"
 #include "scenes.h"
 #include "sim.h"
 #include <setjmp.h>
@@ -29,7 +29,7 @@ enum { ROWS = sizeof table / sizeof table[0] };
 
 typedef struct run {
     const scene *scene;
-    engine_team *team;
+    kit_engine_team *team;
     int64_t rounds[MOST_RANKS], bytes[MOST_RANKS];
     mps_status status[MOST_RANKS];
 } run;
@@ -39,7 +39,7 @@ static void run_rank(void *argument, int32_t rank)
     run *k = argument;
     mps_sim *sim = NULL;
     int64_t rounds = 0, bytes = 0;
-    const mps_ranks_ops ops = engine_ops(k->team, rank);
+    const mps_ranks_ops ops = kit_engine_ops(k->team, rank);
     mps_status status = scene_create(k->scene, &sim);
     if (status == MPS_OK) status = mps_sim_ranks_set(sim, &ops);
     if (status == MPS_OK) status = scene_build(sim, k->scene);
@@ -69,10 +69,10 @@ static const scene *find(const char *name)
 static void test_row(void **state)
 {
     const count *row = *state;
-    run k = {.scene = find(row->scene), .team = engine_create(row->ranks, 0)};
+    run k = {.scene = find(row->scene), .team = kit_engine_create(row->ranks, 0)};
     int64_t bytes = 0;
-    engine_run(k.team, run_rank, &k);
-    engine_destroy(k.team);
+    kit_engine_run(k.team, run_rank, &k);
+    kit_engine_destroy(k.team);
     for (int32_t r = 0; r < row->ranks; r++) {
         assert_true(k.status[r] >= 0);
         assert_int_equal(k.rounds[r], k.rounds[0]);

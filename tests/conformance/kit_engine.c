@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Ranks as threads: pointers are posted, a barrier lets the others read them, and a second one lets the owner go on. Space is cut by recursive
- * coordinate bisection, which each rank works out for itself from the places of all. */
-#include "engine.h"
+/* Ranks as threads. A rank posts pointers, a barrier lets the others read them, a second barrier lets the owner go on. Space is cut by
+ * recursive coordinate bisection, which each rank computes for itself from the places of all. */
+#ifndef _POSIX_C_SOURCE
+#define _POSIX_C_SOURCE 200809L
+#endif
+#include "kit_engine.h"
 #include <math.h>
 #include <pthread.h>
 #include <stdbool.h>
@@ -20,10 +23,11 @@ typedef struct cut {
 
 /* A rank: what it posts, and its copy of the cuts. */
 typedef struct seat {
-    engine_team *team;
+    kit_engine_team *team;
     int32_t rank, dim, cuts;
     cut cut[2 * RANKS];
     /* posted */
+    const char *call;
     const void *out;
     const mps_route *route;
     void *in;
@@ -34,7 +38,7 @@ typedef struct seat {
     uint32_t random; /* the same on all ranks */
 } seat;
 
-struct engine_team {
+struct kit_engine_team {
     int32_t ranks, waiting;
     int64_t round;
     bool failed;
@@ -44,9 +48,9 @@ struct engine_team {
     seat seat[RANKS];
 };
 
-engine_team *engine_create(int32_t ranks, uint32_t skew)
+kit_engine_team *kit_engine_create(int32_t ranks, uint32_t skew)
 {
-    engine_team *t = calloc(1, sizeof *t);
+    kit_engine_team *t = calloc(1, sizeof *t);
     if (!t || ranks > RANKS) abort();
     t->ranks = ranks;
     pthread_mutex_init(&t->lock, NULL);
@@ -57,31 +61,52 @@ engine_team *engine_create(int32_t ranks, uint32_t skew)
     return t;
 }
 
-void engine_destroy(engine_team *t)
+void kit_engine_destroy(kit_engine_team *t)
 {
     pthread_mutex_destroy(&t->lock);
     pthread_cond_destroy(&t->next);
     free(t);
 }
 
-/* Wait for all ranks. @return non-zero if one has failed */
-static int barrier(engine_team *t)
+/* With the lock: the run ends on all ranks. */
+static void end_team(kit_engine_team *t, const char *text)
 {
+    if (!t->failed) snprintf(t->text, sizeof t->text, "%s", text);
+    t->failed = true;
+    pthread_cond_broadcast(&t->next);
+}
+
+/* With the lock, when all wait: they must be in the same call. */
+static void compare_calls(kit_engine_team *t)
+{
+    char text[TEXT];
+    for (int32_t r = 1; r < t->ranks && !t->failed; r++) {
+        if (strcmp(t->seat[r].call, t->seat[0].call) == 0) continue;
+        snprintf(text, sizeof text, "ranks make different calls: '%s' on rank 0, '%s' on rank %d",
+                 t->seat[0].call, t->seat[r].call, (int)r);
+        end_team(t, text);
+    }
+}
+
+/* Wait for all ranks. @return non-zero if one has failed */
+static int barrier(seat *s, const char *call)
+{
+    kit_engine_team *t = s->team;
     struct timespec end;
     clock_gettime(CLOCK_REALTIME, &end);
     end.tv_sec += WATCHDOG;
     pthread_mutex_lock(&t->lock);
     const int64_t round = t->round;
-    if (++t->waiting == t->ranks) {
+    s->call = call;
+    if (++t->waiting == t->ranks) compare_calls(t);
+    if (t->waiting == t->ranks && !t->failed) {
         t->waiting = 0;
         t->round++;
         pthread_cond_broadcast(&t->next);
     }
     while (t->round == round && !t->failed)
-        if (pthread_cond_timedwait(&t->next, &t->lock, &end)) {
-            fprintf(stderr, "a rank waits for %d s: ranks make different calls\n", WATCHDOG);
-            abort();
-        }
+        if (pthread_cond_timedwait(&t->next, &t->lock, &end))
+            end_team(t, "a rank waited for 120 s: ranks make different calls");
     const bool failed = t->failed;
     pthread_mutex_unlock(&t->lock);
     return failed;
@@ -179,12 +204,12 @@ static void cut_points(seat *s, point *p, int64_t n, int32_t first, int32_t end)
 static int partition(void *self, int32_t dim, int64_t n, const double *x, const float *weight)
 {
     seat *s = self;
-    engine_team *t = s->team;
+    kit_engine_team *t = s->team;
     int64_t all = 0, at = 0;
     s->n = n;
     s->x = x;
     s->weight = weight;
-    if (barrier(t)) return 1;
+    if (barrier(s, "partition")) return 1;
     for (int32_t r = 0; r < t->ranks; r++) all += t->seat[r].n;
     point *p = malloc((size_t)(all + 1) * sizeof *p);
     if (!p) abort();
@@ -197,7 +222,7 @@ static int partition(void *self, int32_t dim, int64_t n, const double *x, const 
     s->cuts = 0;
     cut_points(s, p, all, 0, t->ranks);
     free(p);
-    return barrier(t);
+    return barrier(s, "partition");
 }
 
 /* Place in cut[] of the part above: a cut is followed by all that lies below it. */
@@ -239,6 +264,14 @@ static int overlap(void *self, const double *lo, const double *hi, int32_t *rank
 
 /* ---- messages ---- */
 
+static void fail(void *self, const char *text)
+{
+    kit_engine_team *t = ((seat *)self)->team;
+    pthread_mutex_lock(&t->lock);
+    end_team(t, text);
+    pthread_mutex_unlock(&t->lock);
+}
+
 /* Elements that a rank sends to another, and how many go to others before them. */
 static int64_t sent_to(const mps_route *route, int32_t rank, int64_t *before)
 {
@@ -262,7 +295,7 @@ static int connect_ranks(void *self, int32_t count, const int32_t *to, const int
                          mps_route *route)
 {
     seat *s = self;
-    engine_team *t = s->team;
+    kit_engine_team *t = s->team;
     int32_t *list = calloc(2 * RANKS, sizeof *list);
     int64_t *elements = calloc(2 * RANKS, sizeof *elements), before;
     if (!list || !elements) abort();
@@ -275,14 +308,14 @@ static int connect_ranks(void *self, int32_t count, const int32_t *to, const int
                          .received = elements + RANKS,
                          .data = list};
     s->route = route;
-    int failed = barrier(t);
+    int failed = barrier(s, "connect");
     for (int32_t r = 0; r < t->ranks && !failed; r++) {
         const int64_t received = r == s->rank ? 0 : sent_to(t->seat[r].route, s->rank, &before);
         if (received == 0) continue;
         list[RANKS + route->from_count] = r;
         elements[RANKS + route->from_count++] = received;
     }
-    failed = barrier(t) || failed;
+    failed = barrier(s, "connect") || failed;
     if (failed) disconnect_ranks(self, route); /* all others have read it, or none has */
     return failed;
 }
@@ -301,29 +334,32 @@ static int exchange_begin(void *self, const mps_route *route, size_t bytes, cons
 static int exchange_end(void *self, const mps_route *route)
 {
     seat *s = self;
-    engine_team *t = s->team;
+    kit_engine_team *t = s->team;
     char *in = s->in;
-    if (barrier(t)) return 1;
+    if (barrier(s, "exchange")) return 1;
     for (int32_t k = 0; k < route->from_count; k++) {
         const seat *from = &t->seat[route->from[k]];
         int64_t before;
         const int64_t elements = sent_to(from->route, s->rank, &before);
-        if (elements != route->received[k] || from->bytes != s->bytes) abort();
+        if (elements != route->received[k] || from->bytes != s->bytes) {
+            fail(self, "ranks exchange different arrays");
+            return 1;
+        }
         memcpy(in, (const char *)from->out + (size_t)before * s->bytes,
                (size_t)elements * s->bytes);
         in += (size_t)elements * s->bytes;
     }
-    return barrier(t);
+    return barrier(s, "exchange");
 }
 
 static int reduce(void *self, int32_t count, size_t bytes, void *values, mps_combine_fn combine)
 {
     seat *s = self;
-    engine_team *t = s->team;
+    kit_engine_team *t = s->team;
     char *result = malloc((size_t)count * bytes);
     if (!result) abort();
     s->out = values;
-    int failed = barrier(t);
+    int failed = barrier(s, "reduce");
     for (int32_t r = 0; r < t->ranks && !failed; r++)
         for (int32_t k = 0; k < count; k++) {
             const char *from = (const char *)t->seat[r].out + (size_t)k * bytes;
@@ -332,7 +368,7 @@ static int reduce(void *self, int32_t count, size_t bytes, void *values, mps_com
             else
                 combine(result + (size_t)k * bytes, from);
         }
-    failed = barrier(t) || failed;
+    failed = barrier(s, "reduce") || failed;
     if (!failed) memcpy(values, result, (size_t)count * bytes);
     free(result);
     return failed;
@@ -341,35 +377,25 @@ static int reduce(void *self, int32_t count, size_t bytes, void *values, mps_com
 static int gather(void *self, const void *own, const int64_t *bytes, void *all)
 {
     seat *s = self;
-    engine_team *t = s->team;
+    kit_engine_team *t = s->team;
     char *at = all;
     s->out = own;
-    int failed = barrier(t);
+    int failed = barrier(s, "gather");
     for (int32_t r = 0; r < t->ranks && !failed; at += bytes[r++])
         if (bytes[r] > 0) memcpy(at, t->seat[r].out, (size_t)bytes[r]);
-    return barrier(t) || failed;
-}
-
-static void fail(void *self, const char *text)
-{
-    engine_team *t = ((seat *)self)->team;
-    pthread_mutex_lock(&t->lock);
-    if (!t->failed) snprintf(t->text, sizeof t->text, "%s", text);
-    t->failed = true;
-    pthread_cond_broadcast(&t->next);
-    pthread_mutex_unlock(&t->lock);
+    return barrier(s, "gather") || failed;
 }
 
 static const char *failure(void *self)
 {
-    engine_team *t = ((seat *)self)->team;
+    kit_engine_team *t = ((seat *)self)->team;
     pthread_mutex_lock(&t->lock);
     const char *text = t->failed ? t->text : NULL;
     pthread_mutex_unlock(&t->lock);
     return text;
 }
 
-mps_ranks_ops engine_ops(engine_team *team, int32_t rank)
+mps_ranks_ops kit_engine_ops(kit_engine_team *team, int32_t rank)
 {
     return (mps_ranks_ops){.struct_size = sizeof(mps_ranks_ops),
                            .api = MPS_RANKS_API,
@@ -406,7 +432,8 @@ static void *run_task(void *argument)
     return NULL;
 }
 
-void engine_run(engine_team *team, void (*body)(void *argument, int32_t rank), void *argument)
+void kit_engine_run(kit_engine_team *team, void (*body)(void *argument, int32_t rank),
+                    void *argument)
 {
     pthread_t thread[RANKS];
     task tasks[RANKS];
