@@ -145,6 +145,7 @@ static double excess(const pcg *s, const double *r)
         for (int64_t i = 0; i < problem->n; i++)
             largest = fmax(largest, fabs(r[i] * problem->weight[i]) / problem->divergence);
     total(problem, &squares, &largest);
+    if (problem->ranks && isnan(squares)) return NAN; /* other ranks failed: into hypre no more */
     return fmax(largest, sqrt(squares) / s->norm_limit);
 }
 
