@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* hypre.boomeramg on the ranks of MPI: the pressures of sundials.pcg on the same ranks, and communicators that are refused. */
+/* hypre.boomeramg on the ranks of MPI: the pressures of sundials.pcg on the same ranks, a rank without memory, and communicators that are
+ * refused. */
 #include "ppe/builtin.h"
 #include <math.h>
 #include <mps/hypre.h>
@@ -26,9 +27,13 @@ static int32_t iterations[2]; /* of hypre.boomeramg and sundials.pcg, all steps 
 static double worst;          /* largest relative difference of the two solutions */
 static int64_t least_rows;    /* of a rank */
 
+static int64_t left = -1; /* allocations of this rank until one fails; -1: none does */
+
 static void *take(void *user, size_t size)
 {
     (void)user;
+    if (left == 0) return NULL;
+    if (left > 0) left--;
     return malloc(size);
 }
 
@@ -101,15 +106,61 @@ static void solve_both(void *self, const mps_ppe_problem *problem, const mps_pre
     free(q);
 }
 
-static const mps_solver_ops both = {.struct_size = sizeof both,
-                                    .api = MPS_PPE_API,
-                                    .name = "test.both",
-                                    .preconditioner = "auxgrid",
-                                    .symmetric = 1,
-                                    .create = create_nothing,
-                                    .solve = solve_both,
-                                    .destroy = destroy_nothing,
-                                    .ranks = 1};
+/* The k-th allocation of the last rank, and all later ones, fail: all ranks run out of memory. @return the reason */
+static int32_t solve_poor(const mps_solver_ops *ops, const mps_ppe_problem *problem, double *p,
+                          int64_t k)
+{
+    const mps_allocator allocator = {.alloc = take, .release = give};
+    mps_ppe_result result = {.struct_size = sizeof result};
+    int32_t reasons[2];
+    void *self = ops->user;
+    memset(p, 0, (size_t)problem->n * sizeof *p);
+    expect(ops->create(&allocator, &self) == 0, "state", ops->name);
+    left = rank == ranks - 1 ? k : -1;
+    ops->solve(self, problem, NULL, NULL, p, &result);
+    left = -1;
+    ops->destroy(&allocator, self);
+    reasons[0] = result.reason;
+    reasons[1] = -result.reason;
+    MPI_Allreduce(MPI_IN_PLACE, reasons, 2, MPI_INT32_T, MPI_MAX, world);
+    expect(reasons[0] == -reasons[1], "all ranks have one reason", "");
+    return result.reason;
+}
+
+static void solve_poorly(void *self, const mps_ppe_problem *problem,
+                         const mps_preconditioner_ops *pc, void *pc_self, double *p,
+                         mps_ppe_result *result)
+{
+    (void)self, (void)pc, (void)pc_self;
+    int64_t k = 0;
+    mps_hypre_settings settings;
+    mps_solver_ops hypre;
+    mps_hypre_settings_init(&settings, sizeof settings);
+    settings.comm = &world;
+    expect(mps_hypre_solver(&settings, &hypre) == MPS_OK, "table", "");
+    while (k < 100 && solve_poor(&hypre, problem, p, k) == MPS_PPE_NOMEM) k++;
+    expect(k >= 5 && k < 100, "allocations of a solver", "");
+    solve_one(&hypre, problem, NULL, NULL, p, result);
+}
+
+typedef void (*solve_fn)(void *self, const mps_ppe_problem *problem,
+                         const mps_preconditioner_ops *pc, void *pc_self, double *p,
+                         mps_ppe_result *result);
+
+static mps_status use_solver(mps_sim *sim, solve_fn solve)
+{
+    const mps_solver_ops ops = {.struct_size = sizeof ops,
+                                .api = MPS_PPE_API,
+                                .name = "test.ranks",
+                                .preconditioner = "auxgrid",
+                                .symmetric = 1,
+                                .create = create_nothing,
+                                .solve = solve,
+                                .destroy = destroy_nothing,
+                                .ranks = 1};
+    const mps_status status = mps_solver_register(sim, &ops);
+    return status < 0 ? status : mps_solver_use(sim, ops.name, "auxgrid");
+}
 
 /* ---- scenes ---- */
 
@@ -156,11 +207,10 @@ static mps_sim *open_tank(const scene *s)
 static void check_scene(const scene *s)
 {
     mps_sim *sim = open_tank(s);
-    mps_status status = mps_solver_register(sim, &both);
+    mps_status status = use_solver(sim, solve_both);
     worst = 0;
     iterations[0] = iterations[1] = 0;
     least_rows = INT64_MAX;
-    if (status == MPS_OK) status = mps_solver_use(sim, both.name, "auxgrid");
     for (int k = 0; k < s->steps && status == MPS_OK; k++) status = mps_step(sim, 2e-3, NULL);
     expect(status == MPS_OK, s->name, mps_sim_error(sim));
     expect(worst < 1e-9, s->name, "solutions differ");
@@ -170,6 +220,15 @@ static void check_scene(const scene *s)
                "auxgrid %.1f; at least %lld rows on a rank\n",
                s->name, (int)ranks, worst, (double)iterations[0] / s->steps,
                (double)iterations[1] / s->steps, (long long)least_rows);
+    mps_sim_destroy(sim);
+}
+
+static void check_memory(const scene *s)
+{
+    mps_sim *sim = open_tank(s);
+    mps_status status = use_solver(sim, solve_poorly);
+    if (status == MPS_OK) status = mps_step(sim, 2e-3, NULL);
+    expect(status == MPS_OK, "a rank without memory", mps_sim_error(sim));
     mps_sim_destroy(sim);
 }
 
@@ -248,6 +307,7 @@ int main(int argc, char **argv)
     MPI_Comm_rank(world, &rank);
     MPI_Comm_size(world, &ranks);
     for (size_t k = 0; k < sizeof scenes / sizeof scenes[0]; k++) check_scene(&scenes[k]);
+    for (int k = 0; k < 2; k++) check_memory(&scenes[k]);
     check_name();
     check_refused();
     MPI_Finalize();
