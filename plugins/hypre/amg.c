@@ -36,25 +36,27 @@ static void drop_objects(mps__amg *a)
 void mps__amg_release(mps__amg *a)
 {
     const mps_allocator allocator = a->allocator;
+    const MPI_Comm comm = a->comm;
     drop_objects(a);
     mps__hypre_give(&allocator, a->index);
     mps__hypre_give(&allocator, a->length);
     mps__hypre_give(&allocator, a->columns);
     mps__hypre_give(&allocator, a->values);
-    *a = (mps__amg){.allocator = allocator};
+    *a = (mps__amg){.allocator = allocator, .comm = comm};
 }
 
 static bool reserve(mps__amg *a, const mps_ppe_problem *problem)
 {
+    const int64_t columns = mps__hypre_columns(problem);
     int64_t longest = 1;
     for (int64_t i = 0; i < problem->n; i++) {
         const int64_t length = problem->row[i + 1] - problem->row[i] + 1;
         if (length > longest) longest = length;
     }
-    if (problem->n <= a->capacity && longest <= a->longest) return true;
+    if (a->index && columns <= a->capacity && longest <= a->longest) return true;
     mps__amg_release(a);
     const mps_allocator *allocator = &a->allocator;
-    a->capacity = problem->n + problem->n / 8;
+    a->capacity = columns + columns / 8;
     a->longest = 2 * longest;
     a->index = mps__hypre_take(allocator, a->capacity, sizeof *a->index);
     a->length = mps__hypre_take(allocator, a->capacity, sizeof *a->length);
@@ -67,16 +69,27 @@ static bool reserve(mps__amg *a, const mps_ppe_problem *problem)
 
 /* ---- matrix ---- */
 
+/* Numbers of the columns among the rows of all ranks; those of other ranks come from there. */
+static bool number_columns(mps__amg *a, const mps_ppe_problem *problem, double *work)
+{
+    a->n = problem->n;
+    a->first = problem->ranks ? problem->ranks->first : 0;
+    for (int64_t i = 0; i < problem->n; i++) work[i] = (double)(a->first + i);
+    if (mps_ppe_share(problem, work)) return false;
+    for (int64_t i = 0; i < mps__hypre_columns(problem); i++) a->index[i] = (HYPRE_BigInt)work[i];
+    return true;
+}
+
 /* Entries of row i into columns and values, the diagonal first; an empty row gets a diagonal of 1. @return how many */
 static HYPRE_Int copy_row(mps__amg *a, const mps_ppe_problem *problem, int64_t i)
 {
     const bool floating = problem->component && problem->component[i] >= 0;
     const double diagonal = problem->diagonal[i] * (floating ? 1 + GROUND : 1);
     HYPRE_Int count = 0;
-    a->columns[count] = (HYPRE_BigInt)i;
+    a->columns[count] = a->index[i];
     a->values[count++] = diagonal > 0 ? diagonal : 1;
     for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) {
-        a->columns[count] = problem->col[k];
+        a->columns[count] = a->index[problem->col[k]];
         a->values[count++] = (double)problem->val[k];
     }
     return count;
@@ -84,12 +97,11 @@ static HYPRE_Int copy_row(mps__amg *a, const mps_ppe_problem *problem, int64_t i
 
 static void make_matrix(mps__amg *a, const mps_ppe_problem *problem)
 {
-    const HYPRE_BigInt last = (HYPRE_BigInt)problem->n - 1;
-    for (int64_t i = 0; i < problem->n; i++) {
-        a->index[i] = (HYPRE_BigInt)i;
+    /* last < first: no row is here */
+    const HYPRE_BigInt first = (HYPRE_BigInt)a->first, last = first + (HYPRE_BigInt)a->n - 1;
+    for (int64_t i = 0; i < problem->n; i++)
         a->length[i] = (HYPRE_Int)(problem->row[i + 1] - problem->row[i]) + 1;
-    }
-    HYPRE_IJMatrixCreate(MPI_COMM_SELF, 0, last, 0, last, &a->matrix);
+    HYPRE_IJMatrixCreate(a->comm, first, last, first, last, &a->matrix);
     HYPRE_IJMatrixSetObjectType(a->matrix, HYPRE_PARCSR);
     HYPRE_IJMatrixSetRowSizes(a->matrix, a->length);
     HYPRE_IJMatrixInitialize(a->matrix);
@@ -102,7 +114,8 @@ static void make_matrix(mps__amg *a, const mps_ppe_problem *problem)
 
 static void make_vector(const mps__amg *a, HYPRE_IJVector *v)
 {
-    HYPRE_IJVectorCreate(MPI_COMM_SELF, 0, (HYPRE_BigInt)a->n - 1, v);
+    const HYPRE_BigInt first = (HYPRE_BigInt)a->first;
+    HYPRE_IJVectorCreate(a->comm, first, first + (HYPRE_BigInt)a->n - 1, v);
     HYPRE_IJVectorSetObjectType(*v, HYPRE_PARCSR);
     HYPRE_IJVectorInitialize(*v);
     HYPRE_IJVectorAssemble(*v);
@@ -144,13 +157,24 @@ static int outcome(void)
     return !error ? 0 : error & HYPRE_ERROR_MEMORY ? MPS_PPE_NOMEM : MPS_PPE_BREAKDOWN;
 }
 
-int mps__amg_setup(mps__amg *a, const mps_ppe_problem *problem, const mps_hypre_settings *settings)
+/* What this rank can find before hypre, which waits for all ranks. */
+static int prepare(mps__amg *a, const mps_ppe_problem *problem, double *work)
+{
+    const int64_t rows = problem->ranks ? problem->ranks->rows : problem->n;
+    const bool large = problem->row[problem->n] + problem->n >= INT32_MAX || rows >= INT32_MAX;
+    int reason = large ? MPS_PPE_BREAKDOWN : reserve(a, problem) ? 0 : MPS_PPE_NOMEM;
+    reason = mps__hypre_worst(problem, reason);
+    if (reason) return reason;
+    return mps__hypre_worst(problem, number_columns(a, problem, work) ? 0 : MPS_PPE_BREAKDOWN);
+}
+
+int mps__amg_setup(mps__amg *a, const mps_ppe_problem *problem, const mps_hypre_settings *settings,
+                   double *work)
 {
     void *matrix = NULL;
     drop_objects(a); /* the pattern changes every step, so nothing is kept */
-    if (problem->row[problem->n] + problem->n >= INT32_MAX) return MPS_PPE_BREAKDOWN;
-    if (!reserve(a, problem)) return MPS_PPE_NOMEM;
-    a->n = problem->n;
+    const int reason = prepare(a, problem, work);
+    if (reason) return reason;
     HYPRE_ClearAllErrors();
     make_matrix(a, problem);
     make_vector(a, &a->r);
@@ -158,7 +182,7 @@ int mps__amg_setup(mps__amg *a, const mps_ppe_problem *problem, const mps_hypre_
     make_cycle(a, settings);
     HYPRE_IJMatrixGetObject(a->matrix, &matrix);
     HYPRE_BoomerAMGSetup(a->cycle, matrix, object_of(a->r), object_of(a->z));
-    return outcome();
+    return mps__hypre_worst(problem, outcome());
 }
 
 int mps__amg_apply(mps__amg *a, const double *r, double *z)

@@ -12,8 +12,9 @@
 /* A prepared matrix. Zero-initialise, with the allocator. */
 typedef struct mps__amg {
     mps_allocator allocator;
-    int64_t n, capacity, longest;
-    HYPRE_BigInt *index;   /* [capacity] 0, 1, 2, ... */
+    MPI_Comm comm;
+    int64_t n, first, capacity, longest;
+    HYPRE_BigInt *index;   /* [capacity] numbers of the columns among the rows of all ranks */
     HYPRE_Int *length;     /* [capacity] entries of a row */
     HYPRE_BigInt *columns; /* [longest] of one row */
     double *values;        /* [longest] */
@@ -22,12 +23,25 @@ typedef struct mps__amg {
     HYPRE_Solver cycle;
 } mps__amg;
 
-/* Both return 0 or a reason MPS_PPE_... */
-int mps__amg_setup(mps__amg *a, const mps_ppe_problem *problem, const mps_hypre_settings *settings);
-/* z = M^-1 r, M symmetric positive definite. */
+/* Collective, as is the next. @param work  [columns] scratch @return 0 or a reason MPS_PPE_..., the same on all ranks */
+int mps__amg_setup(mps__amg *a, const mps_ppe_problem *problem, const mps_hypre_settings *settings,
+                   double *work);
+/* z = M^-1 r, M symmetric positive definite. @return 0 or a reason, that of this rank */
 int mps__amg_apply(mps__amg *a, const double *r, double *z);
 /* Free all but the allocator. */
 void mps__amg_release(mps__amg *a);
+
+/* The largest reason of all ranks. */
+int mps__hypre_worst(const mps_ppe_problem *problem, int reason);
+/* Columns of the matrix: room for an array that is multiplied by it. */
+static inline int64_t mps__hypre_columns(const mps_ppe_problem *problem)
+{
+    return problem->n + (problem->ranks ? problem->ranks->ghosts : 0);
+}
+
+/* The communicator of these settings, and whether this process has that rank of so many in it. */
+MPI_Comm mps__hypre_comm(const mps_hypre_settings *settings);
+bool mps__hypre_place(MPI_Comm comm, int32_t rank, int32_t ranks);
 
 /* `count` elements (at least one) or NULL; not zeroed. */
 void *mps__hypre_take(const mps_allocator *allocator, int64_t count, size_t size);

@@ -53,6 +53,8 @@ static mps_status check(const mps_hypre_settings *s)
         if (ranges[k].value < ranges[k].least || ranges[k].value > ranges[k].most)
             return fail(s, MPS_E_ARG, "%s is %d; allowed: %d to %d", ranges[k].name,
                         ranges[k].value, ranges[k].least, ranges[k].most);
+    if (s->comm && *(const MPI_Comm *)s->comm == MPI_COMM_NULL)
+        return fail(s, MPS_E_ARG, "comm is MPI_COMM_NULL; allowed: NULL or an intracommunicator");
     if (!symmetric(s->relaxation))
         return fail(s, MPS_E_ARG, "relaxation is %d; allowed: 6, 7, 8, 16 and 18", s->relaxation);
     if (!(s->threshold >= 0 && s->threshold < 1))
@@ -89,6 +91,38 @@ static mps_status start(const mps_hypre_settings *s)
     return MPS_OK;
 }
 
+/* ---- ranks ---- */
+
+MPI_Comm mps__hypre_comm(const mps_hypre_settings *settings)
+{
+    return settings && settings->comm ? *(const MPI_Comm *)settings->comm : MPI_COMM_SELF;
+}
+
+bool mps__hypre_place(MPI_Comm comm, int32_t rank, int32_t ranks)
+{
+    int at = 0, size = 1;
+    MPI_Comm_rank(comm, &at);
+    MPI_Comm_size(comm, &size);
+    return at == rank && size == ranks;
+}
+
+/* The ranks of a handle are those of the communicator. */
+static mps_status check_place(const mps_sim *sim, const mps_hypre_settings *s)
+{
+    int32_t rank, ranks;
+    int at = 0, size = 1;
+    const MPI_Comm comm = mps__hypre_comm(s);
+    const mps_status status = mps_sim_ranks(sim, &rank, &ranks);
+    if (status < 0) return fail(s, status, "sim is NULL");
+    if (mps__hypre_place(comm, rank, ranks)) return MPS_OK;
+    MPI_Comm_rank(comm, &at);
+    MPI_Comm_size(comm, &size);
+    return fail(s, MPS_E_STATE,
+                "the handle is rank %d of %d, %s has rank %d of %d: set settings.comm to the "
+                "communicator of mps_mpi_attach(), and call that first",
+                (int)rank, (int)ranks, s && s->comm ? "comm" : "MPI_COMM_SELF", at, size);
+}
+
 /* ---- public ---- */
 
 mps_status mps_hypre_settings_init(mps_hypre_settings *settings, size_t size)
@@ -115,6 +149,7 @@ mps_status mps_hypre_solver(const mps_hypre_settings *settings, mps_solver_ops *
         .solve = mps__hypre_solve,
         .destroy = mps__hypre_destroy,
         .user = (void *)(uintptr_t)settings, /* only read */
+        .ranks = settings && settings->comm,
     };
     return MPS_OK;
 }
@@ -122,6 +157,7 @@ mps_status mps_hypre_solver(const mps_hypre_settings *settings, mps_solver_ops *
 mps_status mps_hypre_register(mps_sim *sim, const mps_hypre_settings *settings)
 {
     mps_solver_ops ops;
-    const mps_status status = mps_hypre_solver(settings, &ops);
+    mps_status status = mps_hypre_solver(settings, &ops);
+    if (status >= 0) status = check_place(sim, settings);
     return status < 0 ? status : mps_solver_register(sim, &ops);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Conjugate gradients around BoomerAMG. Each pass solves A d = b - A p from d = 0 and adds d to p; passes go on until the true residual is
- * small in both norms. */
+ * small in both norms. On many ranks each adds its rows up, and the sums of the ranks are joined exactly: all ranks have the same bytes and
+ * take the same way. */
 #include "amg.h"
 #include <math.h>
 #include <string.h>
@@ -9,11 +10,18 @@
 enum { IDLE_PASSES = 4, ARRAYS = 6 };
 static const double DEEPEST = 1e-10; /* residual reduction of one pass */
 
+/* A singular component. */
+typedef struct component {
+    double sum, rows; /* of this rank, then of all */
+    mps_exact exact;
+} component;
+
 typedef struct pcg {
     mps__amg amg;
     mps_hypre_settings settings;
     double *block; /* [ARRAYS * capacity] all of the next */
-    double *start, *residual, *d, *z, *direction, *image, *sums; /* sums: [2 sum_capacity] */
+    double *start, *residual, *d, *z, *direction, *image;
+    component *sums; /* [sum_capacity] */
     int64_t capacity, sum_capacity;
     /* of the solve in progress */
     const mps_ppe_problem *problem;
@@ -29,7 +37,25 @@ static double seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static double dot(const double *x, const double *y, int64_t n)
+/* The sum and the maximum of the ranks' values, in one message; the sum is NaN after a failure. */
+static void total(const mps_ppe_problem *problem, double *sum, double *most)
+{
+    mps_exact exact;
+    if (!problem->ranks) return;
+    mps_exact_begin(&exact);
+    mps_exact_add(&exact, 1, sum);
+    const mps_exact_values values = {.sums = 1, .maxima = 1, .sum = &exact, .maximum = most};
+    *sum = mps_ppe_total(problem, &values) ? NAN : mps_exact_value(&exact);
+}
+
+int mps__hypre_worst(const mps_ppe_problem *problem, int reason)
+{
+    double none = 0, most = reason;
+    total(problem, &none, &most);
+    return none == 0 ? (int)most : MPS_PPE_BREAKDOWN;
+}
+
+static double dot_here(const double *x, const double *y, int64_t n)
 {
     double s = 0;
     for (int64_t i = 0; i < n; i++) s += x[i] * y[i];
@@ -37,11 +63,30 @@ static double dot(const double *x, const double *y, int64_t n)
 }
 
 /* A first guess with NaN or infinity becomes zero. */
-static void clean(double *p, int64_t n)
+static void clean(const mps_ppe_problem *problem, double *p)
 {
     double sum = 0; /* NaN as soon as one entry is not finite */
-    for (int64_t i = 0; i < n; i++) sum += 0.0 * p[i];
-    if (sum != 0) memset(p, 0, (size_t)n * sizeof *p);
+    for (int64_t i = 0; i < problem->n; i++) sum += 0.0 * p[i];
+    if (mps__hypre_worst(problem, sum != 0)) memset(p, 0, (size_t)problem->n * sizeof *p);
+}
+
+static void join(void *into, const void *from)
+{
+    component *a = into;
+    const component *b = from;
+    mps_exact_join(&a->exact, &b->exact);
+    a->rows += b->rows;
+}
+
+/* The sums of all ranks in place of those of this one. */
+static void join_components(const mps_ppe_problem *problem, component *sums)
+{
+    if (!problem->ranks) return;
+    for (int32_t c = 0; c < problem->components; c++)
+        mps_exact_add(&sums[c].exact, 1, &sums[c].sum);
+    const int failed = mps_ppe_reduce(problem, problem->components, sizeof *sums, sums, join);
+    for (int32_t c = 0; c < problem->components; c++)
+        sums[c].sum = failed ? NAN : mps_exact_value(&sums[c].exact);
 }
 
 /* Take the mean over each singular component off p. */
@@ -49,18 +94,18 @@ static void center(const pcg *s, double *p)
 {
     const mps_ppe_problem *problem = s->problem;
     const int32_t components = problem->component ? problem->components : 0;
-    double *counts = s->sums + components;
     if (components < 1) return;
-    memset(s->sums, 0, 2 * (size_t)components * sizeof *s->sums);
+    memset(s->sums, 0, (size_t)components * sizeof *s->sums); /* the bytes between members too */
     for (int64_t i = 0; i < problem->n; i++) {
         const int32_t c = problem->component[i];
         if (c < 0) continue;
-        s->sums[c] += p[i];
-        counts[c] += 1;
+        s->sums[c].sum += p[i];
+        s->sums[c].rows += 1;
     }
+    join_components(problem, s->sums);
     for (int64_t i = 0; i < problem->n; i++) {
         const int32_t c = problem->component[i];
-        if (c >= 0) p[i] -= s->sums[c] / counts[c];
+        if (c >= 0) p[i] -= s->sums[c].sum / s->sums[c].rows;
     }
 }
 
@@ -68,7 +113,8 @@ static void center(const pcg *s, double *p)
 static double multiply(const pcg *s)
 {
     const mps_ppe_problem *problem = s->problem;
-    double curvature = 0;
+    double curvature = 0, none = 0;
+    if (mps_ppe_share(problem, s->direction)) return NAN;
     for (int64_t i = 0; i < problem->n; i++) {
         double sum = problem->diagonal[i] * s->direction[i];
         for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++)
@@ -76,15 +122,17 @@ static double multiply(const pcg *s)
         s->image[i] = sum;
         curvature += sum * s->direction[i];
     }
+    total(problem, &curvature, &none);
     return curvature;
 }
 
 /* Whether a curvature below zero is more than the rounding of a direction of no curvature. */
 static bool negative(const pcg *s, double curvature)
 {
-    double scale = 0;
+    double scale = 0, none = 0;
     for (int64_t i = 0; i < s->problem->n; i++)
         scale += s->problem->diagonal[i] * s->direction[i] * s->direction[i];
+    total(s->problem, &scale, &none);
     return -curvature > 1e-12 * scale;
 }
 
@@ -92,11 +140,13 @@ static bool negative(const pcg *s, double curvature)
 static double excess(const pcg *s, const double *r)
 {
     const mps_ppe_problem *problem = s->problem;
-    double largest = 0;
+    double largest = 0, squares = dot_here(r, r, problem->n);
     if (problem->divergence > 0)
         for (int64_t i = 0; i < problem->n; i++)
             largest = fmax(largest, fabs(r[i] * problem->weight[i]) / problem->divergence);
-    return fmax(largest, sqrt(dot(r, r, problem->n)) / s->norm_limit);
+    total(problem, &squares, &largest);
+    if (problem->ranks && isnan(squares)) return NAN; /* other ranks failed: into hypre no more */
+    return fmax(largest, sqrt(squares) / s->norm_limit);
 }
 
 static double result_excess(const mps_ppe_problem *problem, const mps_ppe_result *result)
@@ -110,16 +160,17 @@ static double result_excess(const mps_ppe_problem *problem, const mps_ppe_result
 static bool reserve(pcg *s, const mps_ppe_problem *problem)
 {
     const mps_allocator *allocator = &s->amg.allocator;
-    const int64_t components = problem->component ? problem->components : 0;
+    const int64_t components = problem->component ? problem->components : 0,
+                  columns = mps__hypre_columns(problem);
     if (components > s->sum_capacity) {
         mps__hypre_give(allocator, s->sums);
-        s->sums = mps__hypre_take(allocator, 2 * components, sizeof *s->sums);
+        s->sums = mps__hypre_take(allocator, components, sizeof *s->sums);
         s->sum_capacity = s->sums ? components : 0;
         if (!s->sums) return false;
     }
-    if (problem->n <= s->capacity) return true;
+    if (s->block && columns <= s->capacity) return true;
     mps__hypre_give(allocator, s->block);
-    s->capacity = problem->n + problem->n / 8;
+    s->capacity = columns + columns / 8;
     s->block = mps__hypre_take(allocator, ARRAYS * s->capacity, sizeof *s->block);
     double **arrays[ARRAYS] = {&s->start, &s->residual, &s->d, &s->z, &s->direction, &s->image};
     for (int k = 0; k < ARRAYS; k++) *arrays[k] = s->block ? s->block + k * s->capacity : NULL;
@@ -132,10 +183,11 @@ static bool reserve(pcg *s, const mps_ppe_problem *problem)
 /* z = M^-1 r within what A can produce. @return r'z in *product */
 static int precondition(pcg *s, double *product)
 {
-    const int reason = mps__amg_apply(&s->amg, s->residual, s->z);
-    if (reason) return reason;
+    double reason = mps__amg_apply(&s->amg, s->residual, s->z);
     center(s, s->z);
-    *product = dot(s->residual, s->z, s->problem->n);
+    *product = dot_here(s->residual, s->z, s->problem->n);
+    total(s->problem, product, &reason);
+    if (reason > 0) return (int)reason;
     return !isfinite(*product) ? MPS_PPE_NAN : *product <= 0 ? MPS_PPE_INDEFINITE : 0;
 }
 
@@ -179,7 +231,7 @@ static int pass(pcg *s, double *p, double share, mps_ppe_result *result)
     const double limit = fmax(share, DEEPEST * excess(s, s->residual));
     const int failure = descend(s, limit, problem->max_iterations - result->iterations,
                                 &result->iterations);
-    clean(s->d, problem->n);
+    clean(problem, s->d);
     for (int64_t i = 0; i < problem->n; i++) p[i] += s->d[i];
     center(s, p);
     mps_ppe_check(problem, p, s->residual, result);
@@ -218,9 +270,12 @@ static bool begin(const pcg *s, double *p, mps_ppe_result *result)
 static int setup(pcg *s, mps_ppe_result *result)
 {
     const double t = seconds();
+    int reason = 0;
     for (int64_t i = 0; i < s->problem->n; i++)
-        if (s->problem->diagonal[i] < 0) return MPS_PPE_INDEFINITE;
-    const int reason = mps__amg_setup(&s->amg, s->problem, &s->settings);
+        if (s->problem->diagonal[i] < 0) reason = MPS_PPE_INDEFINITE;
+    reason = mps__hypre_worst(s->problem, reason);
+    if (reason) return reason;
+    reason = mps__amg_setup(&s->amg, s->problem, &s->settings, s->direction);
     result->setup_seconds = seconds() - t;
     return reason;
 }
@@ -229,7 +284,9 @@ static int attempt(pcg *s, double *p, mps_ppe_result *result)
 {
     const mps_ppe_problem *problem = s->problem;
     const size_t bytes = (size_t)problem->n * sizeof *p;
-    const double norm = sqrt(dot(problem->rhs, problem->rhs, problem->n));
+    double squares = dot_here(problem->rhs, problem->rhs, problem->n), none = 0;
+    total(problem, &squares, &none);
+    const double norm = sqrt(squares);
     if (norm == 0) memset(p, 0, bytes);
     if (!begin(s, p, result)) return MPS_PPE_NAN;
     const double guessed = result_excess(problem, result);
@@ -256,7 +313,8 @@ int mps__hypre_create(const mps_allocator *allocator, void **self)
     pcg *s = mps__hypre_take(allocator, 1, sizeof *s);
     *self = s;
     if (!s) return MPS_PPE_NOMEM;
-    *s = (pcg){.amg.allocator = *allocator, .settings = settings ? *settings : mps__hypre_defaults};
+    *s = (pcg){.amg = {.allocator = *allocator, .comm = mps__hypre_comm(settings)},
+               .settings = settings ? *settings : mps__hypre_defaults};
     return 0;
 }
 
@@ -269,10 +327,14 @@ void mps__hypre_solve(void *self, const mps_ppe_problem *problem, const mps_prec
     result->iterations = 0;
     result->residual = result->divergence = INFINITY;
     result->setup_seconds = 0;
-    clean(p, problem->n);
-    if (!reserve(s, problem)) return;
+    const mps_ppe_ranks *ranks = problem->ranks;
+    const bool here = mps__hypre_place(s->amg.comm, ranks ? ranks->rank : 0,
+                                       ranks ? ranks->ranks : 1);
+    clean(problem, p);
     s->problem = problem;
-    result->reason = attempt(s, p, result);
+    result->reason = !here ? MPS_PPE_BREAKDOWN : reserve(s, problem) ? 0 : MPS_PPE_NOMEM;
+    result->reason = mps__hypre_worst(problem, result->reason);
+    if (!result->reason) result->reason = attempt(s, p, result);
 }
 
 void mps__hypre_destroy(const mps_allocator *allocator, void *self)
