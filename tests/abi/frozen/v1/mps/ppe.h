@@ -201,8 +201,8 @@ typedef struct mps_preconditioner_ops {
 } mps_preconditioner_ops;
 
 /** A solver. The kit of tests/conformance checks a table for all demands below (solver_kit.h:
- *  kit_check_solver(), kit_check_preconditioner(); link solver_kit.c and solver_systems.c to your
- *  program). With every matrix:
+ *  kit_check_solver(), kit_check_preconditioner(); link solver_kit.c, solver_systems.c,
+ *  solver_ranks.c and kit_engine.c to your program). With every matrix:
  *  - p is finite when solve() returns, also after a failure; iterations are 0..max_iterations.
  *  - CONVERGED: residual and divergence are within the limits. With CONVERGED and with
  *    MAX_ITERATIONS both are true to 1 % (mps_ppe_check() fills them), and p has the mean zero over
@@ -221,7 +221,8 @@ typedef struct mps_preconditioner_ops {
  *    solved other systems before.
  *  - MPS_PPE_NOMEM when an allocation fails. destroy() gives back all memory.
  *  - One unknown, rows without entries beside the diagonal, several components and densities of
- *    1000 : 1 (with the default preconditioner) are solved. */
+ *    1000 : 1 (with the default preconditioner) are solved.
+ *  - With `ranks` 1: the solution on two ranks is that on one, within 1e-9. */
 typedef struct mps_solver_ops {
     /** sizeof(mps_solver_ops) */
     uint32_t struct_size;

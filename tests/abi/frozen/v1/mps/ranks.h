@@ -98,10 +98,11 @@ typedef struct mps_ranks_ops {
 /** Run this handle on the ranks of an engine. Call it once, on all ranks, before particles, solids,
  *  probes or steps. With one rank in all it changes nothing.
  *
- *  What the program builds before the first step, and adds later, is built alike on all ranks; each
- *  rank then keeps its own. Leases, tags and stencils hold the owned particles and the ghosts of
- *  this rank: see mps_particles_ghosts(). Motions and limits must be functions of the time and of
- *  what all ranks get alike.
+ *  What the program builds before the first step is built alike on all ranks; each rank then keeps
+ *  its own. Tanks, solids and fills come before the first step; mps_particles_add() and _remove()
+ *  may come later, alike on all ranks. Leases, tags and stencils hold the owned particles and the
+ *  ghosts of this rank: see mps_particles_ghosts(). Motions and limits must be functions of the
+ *  time and of what all ranks get alike.
  *  @return MPS_E_ARG (which entry, and what is allowed), MPS_E_STATE (too late), MPS_E_VERSION,
  *  MPS_E_PLUGIN (why the engine does not begin), MPS_E_NOMEM, MPS_E_BUSY */
 MPS_API mps_status mps_sim_ranks_set(mps_sim *sim, const mps_ranks_ops *ops);
