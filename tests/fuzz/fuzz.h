@@ -85,7 +85,7 @@ static inline int64_t fuzz_whole(fuzz_input *in)
 /* A status that exists, with a text if it is a failure. */
 static inline mps_status fuzz_status(mps_sim *sim, mps_status status)
 {
-    FUZZ_MUST(status >= MPS_E_VERSION && status <= MPS_W_STOPPED);
+    FUZZ_MUST(status >= MPS_E_RANKS && status <= MPS_W_STOPPED);
     FUZZ_MUST(status >= 0 || mps_sim_error(sim)[0]);
     return status;
 }

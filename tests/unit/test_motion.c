@@ -315,6 +315,24 @@ static void harmonic_refusals(void **state)
     mps_sim_destroy(sim);
 }
 
+/* Places that overflow: the tank keeps its motion, and the particles their places. */
+static void far_away(void **state)
+{
+    (void)state;
+    mps_sim *sim = new_sim(2, 0.1);
+    const double centre[2] = {1.5e308, 0};
+    const mps_harmonic h = {MPS_SURGE, 0, 1.7e308, 1, pi / 2};
+    mps_tank tank;
+    assert_int_equal(mps_tank_init(&tank, sizeof tank), MPS_OK);
+    tank.size[0] = tank.size[1] = 0.5;
+    ASSERT_OK(sim, mps_tank_add(sim, &tank, NULL));
+    ASSERT_OK(sim, mps_motion_centre_set(sim, centre, MPS_START_AT_REST));
+    const double before = sim->world.particles.x[0];
+    ASSERT_REFUSED(sim, mps_motion_harmonics_set(sim, 1, &h), MPS_E_ARG, "must be finite");
+    assert_true(sim->world.particles.x[0] == before && !sim->world.motion.fn);
+    mps_sim_destroy(sim);
+}
+
 static int broken(void *user, double t, mps_motion_state *s)
 {
     (void)t;
@@ -406,8 +424,8 @@ int main(void)
         cmocka_unit_test(point_follows_its_path), cmocka_unit_test(order_of_rotations),
         cmocka_unit_test(contents_are_carried),   cmocka_unit_test(start_with_tank),
         cmocka_unit_test(beyond_the_table),       cmocka_unit_test(table_refusals),
-        cmocka_unit_test(harmonic_refusals),      cmocka_unit_test(callback_refusals),
-        cmocka_unit_test(other_refusals),
+        cmocka_unit_test(harmonic_refusals),      cmocka_unit_test(far_away),
+        cmocka_unit_test(callback_refusals),      cmocka_unit_test(other_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

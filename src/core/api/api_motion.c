@@ -59,11 +59,29 @@ static void carry_particles(mps_sim *sim, const mps__motion *old)
     sim->world.state.dt_before = 0;
 }
 
+/* Refuse a motion that would carry a particle to a place that is no number, by overflow. */
+static mps_status check_places(mps_sim *sim, const mps__motion *next)
+{
+    const mps__world *w = &sim->world;
+    const mps__particles *s = &w->particles;
+    for (int64_t i = 0; i < s->n; i++) {
+        double X[3] = {0}, x[3] = {0};
+        mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * s->dim, X);
+        mps__motion_point(next, &next->now, X, x, NULL, NULL);
+        MPS__CHECK(&sim->context, mps__finite(x, s->dim),
+                   "the motion would carry particle %lld to (%g, %g, %g) m at t = %.9g s: must be "
+                   "finite",
+                   (long long)s->id[i], x[0], x[1], x[2], w->state.t);
+    }
+    return MPS_OK;
+}
+
 /* Replace the motion; on failure the old one stays and `next` is released. */
 static mps_status install(mps_sim *sim, mps__motion *next)
 {
     mps__world *w = &sim->world;
     mps_status status = mps__motion_pose(next, w->state.t, &next->now);
+    if (status == MPS_OK) status = check_places(sim, next);
     if (status < 0) {
         mps__motion_free(next);
         return status;
