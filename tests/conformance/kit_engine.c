@@ -28,6 +28,7 @@ typedef struct seat {
     cut cut[2 * RANKS];
     /* posted */
     const char *call;
+    int64_t size; /* of what all ranks must give alike; 0: each its own */
     const void *out;
     const mps_route *route;
     void *in;
@@ -81,9 +82,12 @@ static void compare_calls(kit_engine_team *t)
 {
     char text[TEXT];
     for (int32_t r = 1; r < t->ranks && !t->failed; r++) {
-        if (strcmp(t->seat[r].call, t->seat[0].call) == 0) continue;
-        snprintf(text, sizeof text, "ranks make different calls: '%s' on rank 0, '%s' on rank %d",
-                 t->seat[0].call, t->seat[r].call, (int)r);
+        const seat *first = &t->seat[0], *own = &t->seat[r];
+        if (strcmp(own->call, first->call) == 0 && own->size == first->size) continue;
+        snprintf(
+            text, sizeof text,
+            "ranks make different calls: '%s' of %lld bytes on rank 0, '%s' of %lld on rank %d",
+            first->call, (long long)first->size, own->call, (long long)own->size, (int)r);
         end_team(t, text);
     }
 }
@@ -359,6 +363,7 @@ static int reduce(void *self, int32_t count, size_t bytes, void *values, mps_com
     char *result = malloc((size_t)count * bytes);
     if (!result) abort();
     s->out = values;
+    s->size = count * (int64_t)bytes;
     int failed = barrier(s, "reduce");
     for (int32_t r = 0; r < t->ranks && !failed; r++)
         for (int32_t k = 0; k < count; k++) {
@@ -370,6 +375,7 @@ static int reduce(void *self, int32_t count, size_t bytes, void *values, mps_com
         }
     failed = barrier(s, "reduce") || failed;
     if (!failed) memcpy(values, result, (size_t)count * bytes);
+    s->size = 0;
     free(result);
     return failed;
 }
