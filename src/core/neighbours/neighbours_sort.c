@@ -79,7 +79,8 @@ static void corner_rows(void *argument, int64_t begin, int64_t end, double *valu
 /* Numbers from 2^52 on are whole. */
 static inline double round_down(double v)
 {
-    const double whole = v > -0x1p52 && v < 0x1p52 ? (double)(int64_t)v : v;
+    static const double most = 4503599627370496.0; /* 2^52 */
+    const double whole = fabs(v) < most ? (double)(int64_t)v : v;
     return whole > v ? whole - 1 : whole;
 }
 

@@ -167,8 +167,8 @@ static int32_t balance(mps__ppe *e, const double *label)
 
 static mps_status find_levels(mps__ppe *e, const int64_t *id, int32_t *singular)
 {
-    mps__ranks none, *ranks = e->ghosts ? e->ghosts->ranks : &none;
-    mps__ranks_init(&none, e->context);
+    mps__ranks none = {.context = e->context, .count = 1};
+    mps__ranks *ranks = e->ghosts ? e->ghosts->ranks : &none;
     double *label = mps__scratch_take(e->context, e->scratch, MPS__PPE_LABELS, e->columns,
                                       sizeof *label);
     if (!label) return MPS_E_NOMEM;
