@@ -148,7 +148,6 @@ void mps__ranks_gather(mps__ranks *r, const void *own, const int64_t *bytes, voi
 
 void mps__ranks_gather_number(mps__ranks *r, int64_t own, int64_t *values)
 {
-    values[r->rank] = own;
     for (int32_t k = 0; k < r->count; k++) values[k] = k == r->rank ? own : 0;
     mps__ranks_add(r, r->count, values);
 }

@@ -18,18 +18,17 @@ void mps__ghosts_init(mps__ghosts *g, mps__context *context, mps__ranks *ranks,
     *g = (mps__ghosts){.context = context, .ranks = ranks, .particles = particles};
 }
 
-void mps__ghosts_forget(mps__ghosts *g)
-{
-    if (g->connected) g->ranks->ops.disconnect(g->ranks->self, &g->route);
-    g->connected = false;
-    g->known = g->sends = g->receives = g->runs = 0;
-}
-
 static void forget_route(mps__ghosts *g)
 {
     if (g->connected) g->ranks->ops.disconnect(g->ranks->self, &g->route);
     g->connected = false;
     g->sends = g->receives = 0;
+}
+
+void mps__ghosts_forget(mps__ghosts *g)
+{
+    forget_route(g);
+    g->known = g->runs = 0;
 }
 
 void mps__ghosts_free(mps__ghosts *g)

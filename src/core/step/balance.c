@@ -19,8 +19,8 @@ void mps__world_balance(mps__world *w, double seconds)
     mps_exact_add(&sum, 1, &b->work);
     mps__ranks_max(&w->ranks, 1, &most);
     mps__ranks_sum(&w->ranks, 1, &sum);
-    b->uneven = most * w->ranks.count / mps_exact_value(&sum);
-    w->ghosts.recut = w->ghosts.recut || b->uneven > UNEVEN;
+    const double uneven = most * w->ranks.count / mps_exact_value(&sum);
+    w->ghosts.recut = w->ghosts.recut || uneven > UNEVEN;
     b->work = 0;
     b->steps = 0;
 }

@@ -130,7 +130,6 @@ typedef struct mps__gathered {
 typedef struct mps__balance {
     int32_t steps;
     double work, waited; /* [s] */
-    double uneven;       /* largest work over the mean at the last comparison */
 } mps__balance;
 
 typedef struct mps__world {

@@ -96,11 +96,6 @@ void mps__world_find(mps__world *w, mps__found *found)
     mps__ranks_reduce(&w->ranks, 1, sizeof *found, found, found_by_both);
 }
 
-int64_t mps__world_owned(const mps__world *w)
-{
-    return w->particles.n - w->ghosts.receives;
-}
-
 /* ---- walls of dummies: places change with each order, ids do not -------------------------------------------------- */
 
 static uint64_t slot_of(int64_t id, uint64_t size)

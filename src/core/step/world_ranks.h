@@ -37,7 +37,5 @@ typedef struct mps__found {
 } mps__found;
 /* The same of all ranks. */
 void mps__world_find(mps__world *w, mps__found *found);
-/* Particles that are no ghosts. */
-int64_t mps__world_owned(const mps__world *w);
 
 #endif
