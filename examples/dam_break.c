@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Dam break of Lobovsky et al. 2014: a column of water 0.6 m long and 0.3 m high in a tank 1.61 x 0.6 m, in 3-D 0.15 m wide. */
+#include "common/ranks.h"
 #include "common/run.h"
 #include "common/view.h"
 #include <math.h>
@@ -34,15 +35,16 @@ static void build(run *r, double *built)
 static bool bins_collect(const bins *b, mps_sim *sim)
 {
     view v;
+    const bool open = view_open(sim, &v);
     memset(b->furthest, 0, (size_t)b->count * sizeof *b->furthest);
-    if (!view_open(sim, &v)) return false;
-    for (int64_t i = 0; i < v.x.count; i++) {
+    for (int64_t i = 0; open && i < v.x.count; i++) {
         double at = v.x.data[i * v.x.stride];
         int64_t k = (int64_t)(at / b->size);
         if (v.kind.integers[i] == MPS_FLUID && at > 0 && k < b->count)
             b->furthest[k] = fmax(b->furthest[k], at);
     }
-    return view_close(sim, &v);
+    ranks_largest((int)b->count, b->furthest);
+    return open && view_close(sim, &v);
 }
 
 /* The front: how far liquid reaches from the left wall without a gap. */
@@ -65,9 +67,9 @@ static void add_columns(run *r, const double *built, bins *b)
     b->count = (int64_t)(built[0] / b->size) + 1;
     b->furthest = calloc((size_t)b->count, sizeof *b->furthest);
     if (!b->furthest) run_check(r, MPS_E_NOMEM, "front");
-    run_particle_value(
-        r, "front", "m",
-        "Place of the front: how far liquid reaches from the left wall without a gap", front, b);
+    run_value(r, "front", "m",
+              "Place of the front: how far liquid reaches from the left wall without a gap", front,
+              b);
 }
 
 int main(int argc, char **argv)

@@ -66,6 +66,7 @@ typedef struct cli_options {
     int32_t threads;             /* of the simulation; with --mpi, of each rank */
     bool mpi;                    /* one run on all ranks of MPI */
     int32_t frames;              /* frames besides the first */
+    bool pieces;                 /* each rank writes its part of them */
     int pictures;                /* 0: at quarters of the time */
     double picture_t[CLI_TIMES]; /* [s], ascending */
     int32_t dim;                 /* 2 or 3 */

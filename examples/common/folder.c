@@ -187,14 +187,16 @@ static void folder_remove(run *r, const char *name)
     ranks_exit(CLI_USAGE);
 }
 
-/* `name` is `before`, at least so many digits, `after`. */
+/* `name` is `before`, at least so many digits, perhaps '_' and the number of a rank, `after`. */
 static bool folder_is_numbered(const char *name, const char *before, size_t digits,
                                const char *after)
 {
     const size_t length = strlen(before);
     if (strncmp(name, before, length) != 0) return false;
     const size_t count = strspn(name + length, "0123456789");
-    return count >= digits && strcmp(name + length + count, after) == 0;
+    const char *end = name + length + count;
+    if (*end == '_') end += 1 + strspn(end + 1, "0123456789");
+    return count >= digits && strcmp(end, after) == 0;
 }
 
 /* Numbered files of the folder or of one in it; `inside` is "" or ends in '/'. */
@@ -221,8 +223,8 @@ void folder_clear(run *r)
         folder_remove(r, name);
     }
     folder_remove_numbered(r, "", "picture_", 1, ".png");
-    folder_remove_numbered(r, "frames/", "frames_", 6, ".vtp");
-    folder_remove_numbered(r, "frames/", "frames_", 6, ".vtp.tmp");
+    static const char *const ends[] = {".vtp", ".vtp.tmp", ".pvtp", ".pvtp.tmp"};
+    for (int i = 0; i < 4; i++) folder_remove_numbered(r, "frames/", "frames_", 6, ends[i]);
     snprintf(path, sizeof path, "%s/frames", r->options.out);
     rmdir(path); /* if nothing else is in it */
 }

@@ -122,6 +122,12 @@ int ranks_most(int value)
     return values[VALUE];
 }
 
+void ranks_largest(int count, double *values)
+{
+    ranks_most(0);
+    if (ranks_count() > 1) self.engine->largest_numbers(count, values);
+}
+
 int ranks_told(int value)
 {
     return ranks_most(ranks_first() ? value : 0);

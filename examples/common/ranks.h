@@ -17,6 +17,8 @@ typedef struct ranks_engine {
     mps_status (*attach)(mps_sim *sim);
     /* Largest of each value over all ranks. @return false: not all ranks came within so many seconds; 0: wait for ever */
     bool (*largest)(int count, int *values, double seconds);
+    /* The same of numbers, and it waits for ever. */
+    void (*largest_numbers)(int count, double *values);
     void (*abort)(int code);
 } ranks_engine;
 
@@ -28,6 +30,8 @@ bool ranks_first(void);
 int ranks_count(void);
 /* Largest value of all ranks. All ranks make this call; it does not return where one of them exits instead. */
 int ranks_most(int value);
+/* The same for each of some numbers. */
+void ranks_largest(int count, double *values);
 /* A value that rank 0 decides; what the others give does not count. Values are not negative. */
 int ranks_told(int value);
 /* Where messages go: stderr of rank 0. Others keep theirs, which are shown if rank 0 has none. */

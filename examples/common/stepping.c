@@ -67,17 +67,20 @@ static int64_t run_frame_next(const run *r, double t)
     return (int64_t)(t / r->options.t_end * r->options.frames + 1e-9) + 1;
 }
 
+/* Frames of all particles, which rank 0 writes, or a piece of each rank. */
 static void run_frames_open(run *r)
 {
-    const bool resume = r->options.resume;
+    const bool resume = r->options.resume, pieces = r->options.pieces;
     r->frame_t = -1;
-    if (r->options.frames == 0) return;
+    if (r->options.frames == 0 || !(pieces || ranks_gather(r->sim))) return;
     run_note(r,
-             mps_frames_open(r->sim, r->options.out, "frames", resume ? MPS_FRAMES_CONTINUE : 0,
+             mps_frames_open(r->sim, r->options.out, "frames",
+                             (resume ? MPS_FRAMES_CONTINUE : 0) | (pieces ? MPS_FRAMES_PIECES : 0),
                              &r->frames),
              "frames");
     if (!resume) run_frame_write(r, 0);
     r->frame = run_frame_next(r, r->totals.t);
+    if (!pieces) ranks_gather_end(r->sim);
 }
 
 static bool run_frame_due(const run *r, double t)
@@ -108,12 +111,12 @@ static void run_picture(run *r, double t)
 /* Frames and pictures of the particles of all ranks. */
 static void run_draw(run *r, double t, int due)
 {
-    if (!(due & (DUE_FRAME | DUE_PICTURE)) || !ranks_gather(r->sim)) return;
-    if (ranks_first() && due & DUE_FRAME) {
-        run_frame_write(r, t);
-        r->frame = run_frame_next(r, t);
-    }
-    if (ranks_first() && due & DUE_PICTURE) run_picture(r, t);
+    const bool frame = due & DUE_FRAME, picture = due & DUE_PICTURE, apart = r->options.pieces;
+    if (frame) r->frame = run_frame_next(r, t);
+    if (frame && apart) run_frame_write(r, t);
+    if (!(picture || (frame && !apart)) || !ranks_gather(r->sim)) return;
+    if (frame && !apart) run_frame_write(r, t);
+    if (ranks_first() && picture) run_picture(r, t);
     ranks_gather_end(r->sim);
 }
 
@@ -217,7 +220,6 @@ static void run_last_checkpoint(run *r, mps_status status)
 static void run_close_particles(run *r)
 {
     char path[560];
-    run_frame_write(r, r->totals.t);
     snprintf(path, sizeof path, "%s/picture_end.png", r->options.out);
     if (!picture_save(r->sim, r->options.gravity, path)) r->output_failed = true;
     for (int i = 0; i < r->figures; i++)
@@ -231,12 +233,14 @@ static void run_close(run *r)
         r->figure[i].measured = r->figure[i].particles
                                     ? NAN
                                     : r->figure[i].value(r->figure[i].user, r->sim);
+    if (r->options.pieces) run_frame_write(r, r->totals.t);
     if (ranks_gather(r->sim)) { /* not where a rank has failed */
+        if (!r->options.pieces) run_frame_write(r, r->totals.t);
         if (ranks_first()) run_close_particles(r);
         ranks_gather_end(r->sim);
     }
-    if (!ranks_first()) return;
     mps_frames_close(r->frames);
+    if (!ranks_first()) return;
     if (r->totals.steps == 0) run_write_start(r, NULL);
     if (r->trace && !table_close(&r->trace->file)) r->output_failed = true;
     if (!table_close(&r->probes) || !table_close(&r->momentum) || !table_close(&r->steps))
@@ -302,10 +306,7 @@ static void run_begin(run *r)
                    r->options.quiet);
     progress_from(&r->progress, r->totals.t, r->totals.steps);
     run_first_rows(r);
-    if (ranks_gather(r->sim)) {
-        if (ranks_first()) run_frames_open(r);
-        ranks_gather_end(r->sim);
-    }
+    run_frames_open(r);
     while (r->options.resume && run_picture_due(r, r->totals.t))
         r->picture_at[r->pictures++] = NAN; /* taken before, maybe with another --t-end */
     catch_interrupt();

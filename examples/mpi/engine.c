@@ -35,21 +35,35 @@ static void rest(int turn)
         nanosleep(&moment, NULL);
 }
 
+/* Wait for a message, for ever if seconds is 0. */
+static bool wait_for(MPI_Request *request, double seconds)
+{
+    const double start = MPI_Wtime();
+    int done = 0;
+    for (int turn = 0; !done; turn += turn < BUSY_TURNS) {
+        MPI_Test(request, &done, MPI_STATUS_IGNORE);
+        if (!done && seconds > 0 && MPI_Wtime() - start > seconds) return false;
+        if (!done) rest(turn);
+    }
+    return true;
+}
+
 static bool largest(int count, int *values, double seconds)
 {
     static int given[MOST_VALUES], most[MOST_VALUES]; /* MPI may use them after a return */
     MPI_Request request;
-    const double start = MPI_Wtime();
-    int done = 0;
     for (int k = 0; k < count; k++) given[k] = values[k];
     MPI_Iallreduce(given, most, count, MPI_INT, MPI_MAX, MPI_COMM_WORLD, &request);
-    for (int turn = 0; !done; turn += turn < BUSY_TURNS) {
-        MPI_Test(&request, &done, MPI_STATUS_IGNORE);
-        if (!done && seconds > 0 && MPI_Wtime() - start > seconds) return false;
-        if (!done) rest(turn);
-    }
+    if (!wait_for(&request, seconds)) return false;
     for (int k = 0; k < count; k++) values[k] = most[k];
     return true;
+}
+
+static void largest_numbers(int count, double *values)
+{
+    MPI_Request request;
+    MPI_Iallreduce(MPI_IN_PLACE, values, count, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD, &request);
+    wait_for(&request, 0);
 }
 
 static void end_all(int code)
@@ -58,4 +72,4 @@ static void end_all(int code)
 }
 
 extern const ranks_engine mps_drivers_mpi;
-const ranks_engine mps_drivers_mpi = {begin, end, attach, largest, end_all};
+const ranks_engine mps_drivers_mpi = {begin, end, attach, largest, largest_numbers, end_all};

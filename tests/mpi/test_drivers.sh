@@ -47,6 +47,16 @@ CASES
 ranks 0 1 dam_break --solver sundials.pcg/jacobi --dp 0.02 --t-end 0.2 --frames 4 --checkpoint 0.1 --out dam.one
 same dam.1 dam.one
 
+# ---- frames in pieces; a run of other ranks in the same folder leaves none of them
+pieces=(dam_break --dp 0.02 --t-end 0.1 --frames 2 --out pieces)
+ranks 0 3 "${pieces[@]}" --pieces
+[ "$(grep -c '\.pvtp"' pieces/frames.pvd)" = 3 ] || fail "--pieces: $(cat pieces/frames.pvd)"
+[ "$(ls pieces/frames/frames_00000?.pvtp pieces/frames/frames_00000?_000?.vtp | wc -l)" = 12 ] || fail "--pieces: $(ls pieces/frames)"
+ranks 0 2 "${pieces[@]}" --pieces --overwrite
+[ "$(ls pieces/frames | wc -l)" = 9 ] || fail "--pieces --overwrite: $(ls pieces/frames)"
+runs 0 "${pieces[@]}" --pieces --overwrite
+[ "$(ls pieces/frames | wc -l)" = 3 ] || fail "--pieces on one rank: $(ls pieces/frames)"
+
 # ---- stopped by a signal, on with other numbers of ranks
 surge=(sloshing_surge --dp 0.05 --t-end 1 --frames 0)
 

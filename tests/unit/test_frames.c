@@ -426,7 +426,7 @@ static void refusals(void **state)
     ASSERT_REFUSED(sim, mps_frames_open(sim, folder, NULL, 0, &frames), MPS_E_ARG, "name");
     ASSERT_REFUSED(sim, mps_frames_open(sim, "", "run", 0, &frames), MPS_E_ARG, "folder");
     ASSERT_REFUSED(sim, mps_frames_open(sim, NULL, "run", 0, &frames), MPS_E_ARG, "folder");
-    ASSERT_REFUSED(sim, mps_frames_open(sim, folder, "run", 16, &frames), MPS_E_ARG, "kinds is 16");
+    ASSERT_REFUSED(sim, mps_frames_open(sim, folder, "run", 32, &frames), MPS_E_ARG, "kinds is 32");
     ASSERT_REFUSED(sim, mps_frames_open(sim, folder, "run", 0, NULL), MPS_E_ARG, "frames is NULL");
     assert_int_equal(mps_frames_open(NULL, folder, "run", 0, &frames), MPS_E_ARG);
     assert_int_equal(mps_frames_write(NULL), MPS_E_ARG);

@@ -11,7 +11,7 @@ from pathlib import Path
 try:
     from vtkmodules.vtkCommonDataModel import vtkDataObject
     from vtkmodules.vtkFiltersCore import vtkThreshold
-    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPPolyDataReader
 except ImportError as error:
     print(f"skipped: no VTK for {sys.executable} ({error}); Debian's package is python3-vtk9")
     sys.exit(77)
@@ -35,8 +35,10 @@ def threshold(reader, name, value):
 with tempfile.TemporaryDirectory() as folder:
     done = subprocess.run([sys.argv[1], folder], stdout=subprocess.PIPE, text=True, check=True)
     fluid, wall = (int(word) for word in done.stdout.split())
-    for frame in sorted(Path(folder).glob("cells/*.vtp")):
-        reader = vtkXMLPolyDataReader()
+    frames = sorted(Path(folder).glob("cells/*.vtp")) + sorted(Path(folder).glob("pieces/*.pvtp"))
+    check("frames", len(frames), 4)
+    for frame in frames:
+        reader = vtkXMLPolyDataReader() if frame.suffix == ".vtp" else vtkXMLPPolyDataReader()
         reader.SetFileName(str(frame))
         reader.Update()
         data = reader.GetOutput()

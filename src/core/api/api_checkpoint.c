@@ -51,10 +51,11 @@ mps_status mps_checkpoint_write(mps_sim *sim, const char *path)
         if (sim->world.particles.field[k].writer)
             return mps__fail(c, MPS_E_BUSY, "field \"%s\" is leased for writing",
                              sim->world.particles.field[k].name);
-    MPS__TRY(mps__gather_all(&sim->world));
-    const mps_status status = sim->world.ranks.rank == 0 ? save_all(sim, path) : MPS_OK;
+    mps__ranks *r = &sim->world.ranks;
+    MPS__TRY(mps__ranks_tell(r, mps__gather_all(&sim->world)));
+    const mps_status status = r->rank == 0 ? save_all(sim, path) : MPS_OK;
     mps__gather_end(&sim->world);
-    return mps__ranks_tell(&sim->world.ranks, status);
+    return mps__ranks_agree(r, status);
 }
 
 static mps_status check_setup(mps_sim *sim, const mps__archive *a)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Particles of the public interface: add, remove, fields, leases. */
 #define _POSIX_C_SOURCE 200809L
+#include "gather.h"
 #include "plates.h"
 #include "sim.h"
 #include "world_ranks.h"
@@ -149,7 +150,8 @@ mps_status mps_particles_add(mps_sim *sim, const mps_particle_block *block, int6
     store_block(sim, &b, part, first);
     sim->world.lists.neighbours.valid = false;
     for (int64_t k = 0; ids && k < b.count; k++) ids[k] = s->id[first + k];
-    return MPS_OK;
+    if (!mps__world_divided(&sim->world)) return MPS_OK;
+    return mps__ranks_tell(&sim->world.ranks, mps__world_adopt(&sim->world));
 }
 
 /* Places of all ids, [next_id], -1 where there is none; NULL when memory is out. */

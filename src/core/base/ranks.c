@@ -114,6 +114,17 @@ void mps__ranks_max(mps__ranks *r, int32_t count, double *values)
     mps__ranks_reduce(r, count, sizeof *values, values, larger);
 }
 
+mps_status mps__ranks_agree(mps__ranks *r, mps_status status)
+{
+    double worst = -(double)status;
+    if (!mps__ranks_many(r)) return status;
+    mps__ranks_max(r, 1, &worst);
+    MPS__TRY(mps__ranks_status(r));
+    if (!(worst > 0)) return status;
+    if (status >= 0) r->context->error[0] = 0;
+    return mps__ranks_text(r, (mps_status)-worst);
+}
+
 static void added(void *into, const void *from)
 {
     int64_t a, b;

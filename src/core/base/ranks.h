@@ -36,6 +36,8 @@ mps_status mps__ranks_tell(mps__ranks *r, mps_status status);
 
 /* A failure that all ranks know of and one of them has the text of: all get it. Those without have an empty text. Returns the status. */
 mps_status mps__ranks_text(mps__ranks *r, mps_status status);
+/* All ranks have come here, some perhaps with an error after which they can go on: all return the worst one, with one text. */
+mps_status mps__ranks_agree(mps__ranks *r, mps_status status);
 
 /* Combine values of all ranks. */
 void mps__ranks_reduce(mps__ranks *r, int32_t count, size_t bytes, void *values,

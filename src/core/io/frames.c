@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Frames for ParaView: XML PolyData (.vtp) with appended raw data, and the .pvd series that names them with their times.
- * Every file is written beside its place and renamed, so that a reader never sees half a file. */
+ * Every file is written beside its place and renamed, so that a reader never sees half a file.
+ *
+ * On many ranks rank 0 alone has the series; the others write pieces, or nothing. */
 #define _POSIX_C_SOURCE 200809L
 #include "frames.h"
+#include "frame_file.h"
 #include <dirent.h>
 #include <errno.h>
 #include <math.h>
@@ -11,7 +14,13 @@
 #include <string.h>
 #include <sys/stat.h>
 
-enum { NAME_SIZE = 48, CHUNK = 512, COLUMNS = MPS__FIELDS_MAX + 4, LINE_SIZE = 256 };
+enum { NAME_SIZE = 48, LINE_SIZE = 256 };
+
+/* A frame of the series. */
+typedef struct stamp {
+    double t;
+    bool pieces; /* .pvtp */
+} stamp;
 
 struct mps_frames {
     mps__world *world; /* borrowed */
@@ -20,36 +29,11 @@ struct mps_frames {
     char *folder, *path, *temporary; /* the last two are room for file names */
     size_t path_size;
     int64_t count, capacity;
-    double *times;
+    stamp *frame;
     bool continues; /* frames of a run before this one are in it */
+    bool pieces;    /* each rank writes its own particles */
+    int64_t place;  /* of the frame that is written */
 };
-
-/* How a column's numbers are stored in the file. */
-typedef enum stored { AS_FLOAT32, AS_FLOAT64, AS_UINT8, AS_INT64 } stored;
-
-static const struct {
-    const char *name;
-    size_t size;
-} stored_type[] = {{"Float32", 4}, {"Float64", 8}, {"UInt8", 1}, {"Int64", 8}};
-
-/* One array of a frame. */
-typedef struct column {
-    const char *name;
-    stored type;
-    /* numbers per particle in memory and in the file; the file's third of a 2-D vector is zero */
-    int32_t stride, width;
-    const void *data;
-} column;
-
-typedef struct frame {
-    const mps_frames *series;
-    const mps__particles *s;
-    FILE *file;
-    int64_t points;
-    uint64_t offset; /* where the next array begins behind the '_' */
-    int32_t columns;
-    column column[COLUMNS];
-} frame;
 
 static mps_status io_failed(const mps_frames *f, const char *what, const char *path)
 {
@@ -57,16 +41,7 @@ static mps_status io_failed(const mps_frames *f, const char *what, const char *p
                      strerror(errno));
 }
 
-/* A number as XML wants it, whatever the host program's locale says about the decimal point. */
-static const char *number(char out[32], double value)
-{
-    snprintf(out, 32, "%.17g", value);
-    for (char *c = out; *c; c++)
-        if (*c == ',') *c = '.';
-    return out;
-}
-
-/* What number() wrote, as strtod() wants it. */
+/* What mps__frame_number() wrote, as strtod() wants it. */
 static double number_back(const char *text)
 {
     char own[32], half[8];
@@ -77,205 +52,41 @@ static double number_back(const char *text)
     return strtod(own, NULL);
 }
 
-static void print_escaped(FILE *file, const char *text)
-{
-    for (; *text; text++) switch (*text) {
-        case '&':
-            fputs("&amp;", file);
-            break;
-        case '<':
-            fputs("&lt;", file);
-            break;
-        case '>':
-            fputs("&gt;", file);
-            break;
-        case '"':
-            fputs("&quot;", file);
-            break;
-        default:
-            fputc((unsigned char)*text < 0x20 ? '_' : *text, file);
-        }
-}
-
-static const char *byte_order(void)
-{
-    const uint16_t one = 1;
-    unsigned char first;
-    memcpy(&first, &one, 1);
-    return first ? "LittleEndian" : "BigEndian";
-}
-
-static bool selected(const frame *f, int64_t i)
-{
-    return (f->series->kinds >> f->s->kind[i] & 1) != 0 && !mps__is_shadow(f->s, i);
-}
-
-/* ---- columns ---- */
-
-static void add_column(frame *f, const char *name, stored type, int32_t stride, const void *data)
-{
-    bool vector = type <= AS_FLOAT64 && stride == 2 && f->s->dim == 2;
-    f->column[f->columns++] = (column){name, type, stride, vector ? 3 : stride, data};
-}
-
-/* Points first, then what belongs to them. */
-static void list_columns(frame *f)
-{
-    const mps__particles *s = f->s;
-    add_column(f, "position", AS_FLOAT32, s->dim, s->x);
-    add_column(f, "velocity", AS_FLOAT32, s->dim, s->u);
-    add_column(f, "pressure", AS_FLOAT32, 1, s->p);
-    add_column(f, "number_density", AS_FLOAT32, 1, s->nd);
-    add_column(f, "density", AS_FLOAT32, 1, s->rho);
-    add_column(f, "kind", AS_UINT8, 1, s->kind);
-    add_column(f, "phase", AS_UINT8, 1, s->phase);
-    add_column(f, "id", AS_INT64, 1, s->id);
-    for (int32_t k = 0; k < s->fields; k++)
-        if (s->field[k].data == &s->field[k].own && s->field[k].is_public)
-            add_column(f, s->field[k].name, AS_FLOAT64, s->field[k].components, s->field[k].own);
-}
-
-static uint64_t column_bytes(const frame *f, const column *c)
-{
-    return (uint64_t)f->points * (uint64_t)c->width * stored_type[c->type].size;
-}
-
-static void print_array(frame *f, const char *name, const char *type, int32_t width, uint64_t bytes)
-{
-    fprintf(f->file, "<DataArray type=\"%s\" Name=\"", type);
-    print_escaped(f->file, name);
-    fprintf(f->file, "\" NumberOfComponents=\"%d\" format=\"appended\" offset=\"%llu\"/>\n",
-            (int)width, (unsigned long long)f->offset);
-    f->offset += sizeof(uint64_t) + bytes;
-}
-
-static void print_column(frame *f, const column *c)
-{
-    print_array(f, c->name, stored_type[c->type].name, c->width, column_bytes(f, c));
-}
-
-static void print_xml(frame *f)
-{
-    char t[32];
-    fprintf(f->file,
-            "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"%s\" "
-            "header_type=\"UInt64\">\n<PolyData>\n",
-            byte_order());
-    fprintf(f->file,
-            "<FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
-            "format=\"ascii\">%s</DataArray></FieldData>\n",
-            number(t, f->series->world->state.t));
-    fprintf(f->file,
-            "<Piece NumberOfPoints=\"%lld\" NumberOfVerts=\"%lld\" NumberOfLines=\"0\" "
-            "NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n",
-            (long long)f->points, (long long)f->points);
-    print_column(f, &f->column[0]);
-    fprintf(f->file, "</Points>\n<PointData>\n");
-    for (int32_t k = 1; k < f->columns; k++) print_column(f, &f->column[k]);
-    fprintf(f->file, "</PointData>\n<Verts>\n");
-    print_array(f, "connectivity", "Int32", 1, (uint64_t)f->points * sizeof(int32_t));
-    print_array(f, "offsets", "Int32", 1, (uint64_t)f->points * sizeof(int32_t));
-    fprintf(f->file, "</Verts>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_");
-}
-
-/* ---- data ---- */
-
-/* One number in the file's type; returns its bytes. */
-static size_t store(unsigned char *out, const column *c, int64_t i, int32_t component)
-{
-    int64_t place = i * c->stride + component;
-    bool padding = component >= c->stride;
-    double d = c->type <= AS_FLOAT64 && !padding ? ((const double *)c->data)[place] : 0;
-    float single = (float)d;
-    switch (c->type) {
-    case AS_FLOAT32:
-        memcpy(out, &single, sizeof single);
-        break;
-    case AS_FLOAT64:
-        memcpy(out, &d, sizeof d);
-        break;
-    case AS_UINT8:
-        *out = (unsigned char)((const int32_t *)c->data)[place];
-        break;
-    case AS_INT64:
-        memcpy(out, (const int64_t *)c->data + place, sizeof(int64_t));
-        break;
-    }
-    return stored_type[c->type].size;
-}
-
-static void write_size(frame *f, uint64_t bytes)
-{
-    fwrite(&bytes, sizeof bytes, 1, f->file);
-}
-
-static void write_column(frame *f, const column *c)
-{
-    unsigned char block[CHUNK * 9 * 8];
-    size_t used = 0, most = (size_t)c->width * stored_type[c->type].size;
-    write_size(f, column_bytes(f, c));
-    for (int64_t i = 0; i < f->s->n; i++) {
-        if (!selected(f, i)) continue;
-        for (int32_t k = 0; k < c->width; k++) used += store(block + used, c, i, k);
-        if (used + most <= sizeof block) continue;
-        fwrite(block, 1, used, f->file);
-        used = 0;
-    }
-    fwrite(block, 1, used, f->file);
-}
-
-/* first, first + 1, ...: one number for each point. */
-static void write_numbers(frame *f, int32_t first)
-{
-    int32_t block[CHUNK];
-    write_size(f, (uint64_t)f->points * sizeof block[0]);
-    for (int64_t k = 0; k < f->points;) {
-        size_t count = 0;
-        for (; k < f->points && count < CHUNK; k++) block[count++] = first + (int32_t)k;
-        fwrite(block, sizeof block[0], count, f->file);
-    }
-}
-
-/* One cell for each point, so that filters that choose cells choose particles. */
-static void write_cells(frame *f)
-{
-    write_numbers(f, 0); /* points of the cells */
-    write_numbers(f, 1); /* ends of the cells in that list */
-}
-
-static void write_frame(const mps_frames *series, FILE *file)
-{
-    frame f = {.series = series, .s = &series->world->particles, .file = file};
-    for (int64_t i = 0; i < f.s->n; i++) f.points += selected(&f, i);
-    list_columns(&f);
-    print_xml(&f);
-    for (int32_t k = 0; k < f.columns; k++) write_column(&f, &f.column[k]);
-    write_cells(&f);
-    fprintf(file, "\n</AppendedData>\n</VTKFile>\n");
-}
-
 static const char series_head[] = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" "
                                   "version=\"0.1\" byte_order=\"%s\">\n<Collection>\n";
 static const char series_time[] = "<DataSet timestep=\"";
 static const char series_end[] = "</Collection>\n</VTKFile>\n";
 
 /* The line of frame k in the .pvd. */
-static void series_line(const mps_frames *f, int64_t k, double time, char line[LINE_SIZE])
+static void series_line(const mps_frames *f, int64_t k, const stamp *frame, char line[LINE_SIZE])
 {
     char t[32];
-    snprintf(line, LINE_SIZE, "%s%s\" part=\"0\" file=\"%s/%s_%06lld.vtp\"/>\n", series_time,
-             number(t, time), f->name, f->name, (long long)k);
+    snprintf(line, LINE_SIZE, "%s%s\" part=\"0\" file=\"%s/%s_%06lld.%s\"/>\n", series_time,
+             mps__frame_number(t, frame->t), f->name, f->name, (long long)k,
+             frame->pieces ? "pvtp" : "vtp");
 }
 
 static void write_series(const mps_frames *f, FILE *file)
 {
     char line[LINE_SIZE];
-    fprintf(file, series_head, byte_order());
+    fprintf(file, series_head, mps__frame_byte_order());
     for (int64_t k = 0; k < f->count; k++) {
-        series_line(f, k, f->times[k], line);
+        series_line(f, k, &f->frame[k], line);
         fputs(line, file);
     }
     fputs(series_end, file);
+}
+
+static void write_frame(const mps_frames *f, FILE *file)
+{
+    mps__frame_write(f->world, f->kinds, file);
+}
+
+static void write_pieces(const mps_frames *f, FILE *file)
+{
+    char stem[NAME_SIZE + 32];
+    snprintf(stem, sizeof stem, "%s_%06lld", f->name, (long long)f->place);
+    mps__frame_write_pieces(f->world, stem, f->world->ranks.count, file);
 }
 
 /* Write f->path through f->temporary. */
@@ -313,14 +124,16 @@ static mps_status create_folder(const mps_frames *f)
     return MPS_OK;
 }
 
-/* "<name>_<digits>.vtp" that the series does not name. */
+/* "<name>_<digits>.vtp", ".pvtp" or "_<rank>.vtp" that the series does not name. */
 static bool is_old_frame(const mps_frames *f, const char *file)
 {
     size_t length = strlen(f->name);
     if (strncmp(file, f->name, length) != 0 || file[length] != '_') return false;
     const char *digits = file + length + 1;
-    size_t count = strspn(digits, "0123456789");
-    return count >= 6 && strcmp(digits + count, ".vtp") == 0 &&
+    const size_t count = strspn(digits, "0123456789");
+    const char *end = digits + count;
+    if (*end == '_') end += 1 + strspn(end + 1, "0123456789");
+    return count >= 6 && (strcmp(end, ".vtp") == 0 || strcmp(end, ".pvtp") == 0) &&
            strtoll(digits, NULL, 10) >= f->count;
 }
 
@@ -333,7 +146,7 @@ static mps_status remove_old(const mps_frames *f)
     DIR *folder = opendir(f->temporary);
     if (!folder) return io_failed(f, "read the folder", f->temporary);
     while (status == MPS_OK && (entry = readdir(folder)) != NULL) {
-        if (!is_old_frame(f, entry->d_name) || strlen(entry->d_name) >= NAME_SIZE + 24) continue;
+        if (!is_old_frame(f, entry->d_name) || strlen(entry->d_name) >= NAME_SIZE + 48) continue;
         snprintf(f->path, f->path_size, "%s/%s/%s", f->folder, f->name, entry->d_name);
         if (remove(f->path) != 0 && errno != ENOENT) status = io_failed(f, "remove", f->path);
     }
@@ -356,25 +169,33 @@ static bool read_text(FILE *file, const char *wanted)
     return true;
 }
 
-/* Times of the frames up to the present one. Every line must be the one that is written for its number and time. */
+/* Whether the line is the one that is written for frame k; its time and kind. */
+static bool read_line(const mps_frames *f, int64_t k, const char *line, stamp *frame)
+{
+    char wanted[LINE_SIZE];
+    *frame = (stamp){number_back(line + strlen(series_time)), strstr(line, ".pvtp\"") != NULL};
+    series_line(f, k, frame, wanted);
+    return strcmp(line, wanted) == 0;
+}
+
+/* Frames up to the present one. */
 static mps_status read_times(mps_frames *f, FILE *file, bool *good)
 {
-    char head[LINE_SIZE], line[LINE_SIZE] = "", wanted[LINE_SIZE];
+    char head[LINE_SIZE], line[LINE_SIZE] = "";
     const size_t before = strlen(series_time);
     const double last = f->world->state.t + time_slack(f);
     bool later = false;
-    snprintf(head, sizeof head, series_head, byte_order());
+    stamp frame;
+    snprintf(head, sizeof head, series_head, mps__frame_byte_order());
     *good = read_text(file, head);
     for (int64_t k = 0;
          *good && fgets(line, sizeof line, file) && strncmp(line, series_time, before) == 0; k++) {
-        const double time = number_back(line + before);
-        series_line(f, k, time, wanted);
-        *good = strcmp(line, wanted) == 0;
-        later = later || !(time <= last);
+        *good = read_line(f, k, line, &frame);
+        later = later || !(frame.t <= last);
         if (later) continue;
-        MPS__TRY(mps__grow(f->world->context, (void **)&f->times, &f->capacity, f->count,
-                           f->count + 1, sizeof *f->times));
-        f->times[f->count++] = time;
+        MPS__TRY(mps__grow(f->world->context, (void **)&f->frame, &f->capacity, f->count,
+                           f->count + 1, sizeof *f->frame));
+        f->frame[f->count++] = frame;
     }
     const char *newline = strchr(series_end, '\n') + 1;
     *good = *good && strncmp(line, series_end, (size_t)(newline - series_end)) == 0 &&
@@ -416,12 +237,13 @@ static mps_status open_series(mps_frames *f, const char *folder)
 {
     mps__context *c = f->world->context;
     size_t length = strlen(folder);
-    f->path_size = length + 2 * NAME_SIZE + 32;
+    f->path_size = length + 2 * NAME_SIZE + 64;
     f->folder = mps__alloc(c, (int64_t)length + 1, 1);
     f->path = mps__alloc(c, (int64_t)f->path_size, 1);
     f->temporary = mps__alloc(c, (int64_t)f->path_size + 8, 1);
     if (!f->folder || !f->path || !f->temporary) return MPS_E_NOMEM;
     memcpy(f->folder, folder, length + 1);
+    if (f->world->ranks.rank > 0) return f->pieces ? create_folder(f) : MPS_OK;
     MPS__TRY(create_folder(f));
     if (f->continues) MPS__TRY(read_series(f));
     MPS__TRY(update_series(f));
@@ -433,7 +255,7 @@ mps_status mps__frames_open(mps__world *w, const char *folder, const char *name,
 {
     mps__context *c = w->context;
     const int32_t some = MPS_FRAMES_FLUID | MPS_FRAMES_WALL | MPS_FRAMES_DUMMY,
-                  all = some | MPS_FRAMES_CONTINUE;
+                  all = some | MPS_FRAMES_CONTINUE | MPS_FRAMES_PIECES;
     *frames = NULL;
     MPS__CHECK(c, folder && folder[0], "the folder of the frames is NULL or empty");
     MPS__CHECK(c, good_name(name),
@@ -442,13 +264,16 @@ mps_status mps__frames_open(mps__world *w, const char *folder, const char *name,
                name ? name : "", NAME_SIZE - 1);
     MPS__CHECK(c, kinds >= 0 && kinds <= all,
                "frames: kinds is %d, must be a sum of MPS_FRAMES_..., 0..%d", (int)kinds, (int)all);
+    const bool pieces = (kinds & MPS_FRAMES_PIECES) != 0 && mps__ranks_many(&w->ranks);
     mps_frames *f = mps__alloc(c, 1, sizeof *f);
-    if (!f) return MPS_E_NOMEM;
+    if (!f) return pieces ? mps__ranks_tell(&w->ranks, MPS_E_NOMEM) : MPS_E_NOMEM;
     f->world = w;
     f->kinds = kinds & some ? kinds & some : MPS_FRAMES_FLUID | MPS_FRAMES_WALL;
     f->continues = (kinds & MPS_FRAMES_CONTINUE) != 0;
+    f->pieces = pieces;
     memcpy(f->name, name, strlen(name) + 1);
     mps_status status = open_series(f, folder);
+    if (f->pieces) status = mps__ranks_agree(&w->ranks, status);
     if (status < 0)
         mps_frames_close(f);
     else
@@ -460,29 +285,82 @@ mps_status mps__frames_open(mps__world *w, const char *folder, const char *name,
 static bool repeats_last(const mps_frames *f)
 {
     return f->continues && f->count > 0 &&
-           fabs(f->world->state.t - f->times[f->count - 1]) <= time_slack(f);
+           fabs(f->world->state.t - f->frame[f->count - 1].t) <= time_slack(f);
+}
+
+/* The place of the frame, of which rank 0 tells the others, and its line in the series. */
+static mps_status choose_place(mps_frames *f)
+{
+    mps__ranks *r = &f->world->ranks;
+    int64_t place = f->count - repeats_last(f);
+    if (f->pieces && r->rank > 0) place = 0;
+    if (f->pieces) mps__ranks_add(r, 1, &place);
+    f->place = place;
+    if (r->rank > 0) return MPS_OK;
+    return mps__grow(f->world->context, (void **)&f->frame, &f->capacity, f->count, place + 1,
+                     sizeof *f->frame);
+}
+
+/* A file of the frame; `suffix` comes behind its number. */
+static mps_status write_part(const mps_frames *f, const char *suffix,
+                             void (*write)(const mps_frames *f, FILE *file))
+{
+    snprintf(f->path, f->path_size, "%s/%s/%s_%06lld%s", f->folder, f->name, f->name,
+             (long long)f->place, suffix);
+    return write_file(f, write);
+}
+
+/* The series with the frame that was written. */
+static mps_status add_frame(mps_frames *f)
+{
+    const stamp frame = {f->world->state.t, f->pieces};
+    const bool fresh = f->place == f->count,
+               other = !fresh && f->frame[f->place].pieces != f->pieces;
+    f->frame[f->place] = frame;
+    if (!fresh && !other) return MPS_OK;
+    f->count = f->place + 1;
+    const mps_status status = update_series(f);
+    if (status < 0 && fresh) f->count--;
+    return status;
+}
+
+static mps_status write_whole(mps_frames *f)
+{
+    MPS__TRY(choose_place(f));
+    MPS__TRY(write_part(f, ".vtp", write_frame));
+    return add_frame(f);
+}
+
+static mps_status write_own_piece(mps_frames *f)
+{
+    char suffix[32];
+    mps__ranks *r = &f->world->ranks;
+    mps_status status = choose_place(f);
+    snprintf(suffix, sizeof suffix, "_%04d.vtp", (int)r->rank);
+    if (status == MPS_OK) status = write_part(f, suffix, write_frame);
+    MPS__TRY(mps__ranks_agree(r, status));
+    if (r->rank == 0) status = write_part(f, ".pvtp", write_pieces);
+    if (r->rank == 0 && status == MPS_OK) status = add_frame(f);
+    return mps__ranks_agree(r, status);
 }
 
 mps_status mps_frames_write(mps_frames *frames)
 {
     mps_frames *f = frames;
     if (!f) return MPS_E_ARG;
-    if (f->world->context->lock.level > MPS__READ_ONLY)
+    const mps__world *w = f->world;
+    if (w->context->lock.level > MPS__READ_ONLY)
         return mps__fail(
-            f->world->context, MPS_E_BUSY,
+            w->context, MPS_E_BUSY,
             "mps_frames_write() was called from %s: call it when mps_step() has returned",
-            f->world->context->lock.what);
-    const int64_t place = f->count - repeats_last(f);
-    MPS__TRY(mps__grow(f->world->context, (void **)&f->times, &f->capacity, f->count, place + 1,
-                       sizeof *f->times));
-    snprintf(f->path, f->path_size, "%s/%s/%s_%06lld.vtp", f->folder, f->name, f->name,
-             (long long)place);
-    MPS__TRY(write_file(f, write_frame));
-    if (place < f->count) return MPS_OK;
-    f->times[f->count++] = f->world->state.t;
-    mps_status status = update_series(f);
-    if (status < 0) f->count--;
-    return status;
+            w->context->lock.what);
+    if (mps__ranks_many(&w->ranks) && f->pieces == w->gathered.begun)
+        return mps__fail(w->context, MPS_E_STATE,
+                         f->pieces ? "frames in pieces: call mps_particles_gather_end() first"
+                                   : "the frames of many ranks: call mps_particles_gather() "
+                                     "first, or open them with MPS_FRAMES_PIECES");
+    if (f->pieces) return write_own_piece(f);
+    return w->ranks.rank == 0 ? write_whole(f) : MPS_OK;
 }
 
 void mps_frames_close(mps_frames *frames)
@@ -492,6 +370,6 @@ void mps_frames_close(mps_frames *frames)
     mps__free(c, frames->folder);
     mps__free(c, frames->path);
     mps__free(c, frames->temporary);
-    mps__free(c, frames->times);
+    mps__free(c, frames->frame);
     mps__free(c, frames);
 }

@@ -2,10 +2,47 @@
 /* Even work on all ranks: space is cut anew when one of them works longer than the others. Results do not depend on cuts, so these may follow
  * the clock. */
 #include "world_ranks.h"
+#include <math.h>
 
 /* Steps whose work is compared, and the largest work over the mean that is left as it is. */
 enum { STEPS = 50 };
-static const double UNEVEN = 1.15;
+static const double UNEVEN = 1.05;
+/* A rank that stood still for a while is not that slow. */
+static const double cost_least = 0.2, cost_most = 5;
+
+/* Work of a particle over that of fluid: solids without fluid about them have no rows, walls with it no gradients. */
+static double load_of(const mps__particles *s, int64_t i)
+{
+    if (s->kind[i] == MPS_FLUID) return 1;
+    return s->kind[i] == MPS_WALL && s->region[i] != MPS_REGION_DRY ? 0.5 : 0.05;
+}
+
+float mps__world_weight(const void *world, int64_t i)
+{
+    const mps__world *w = world;
+    return (float)(w->balance.cost * load_of(&w->particles, i));
+}
+
+/* What ranks measured, and what their particles should have cost: the next cuts give less to those that took longer. */
+static void compare(mps__world *w)
+{
+    enum { WORK, LOAD, VALUES };
+    mps__balance *b = &w->balance;
+    double own[VALUES] = {b->work, 0}, most = b->work, mean[VALUES];
+    mps_exact sum[VALUES] = {{{0}, 0, 0}};
+    for (int64_t i = 0; i < w->particles.n; i++)
+        if (!mps__is_ghost(&w->ghosts, i)) own[LOAD] += load_of(&w->particles, i);
+    for (int k = 0; k < VALUES; k++) mps_exact_add(&sum[k], 1, &own[k]);
+    mps__ranks_max(&w->ranks, 1, &most);
+    mps__ranks_sum(&w->ranks, VALUES, sum);
+    for (int k = 0; k < VALUES; k++) mean[k] = mps_exact_value(&sum[k]) / w->ranks.count;
+    if (!(most > UNEVEN * mean[WORK])) return;
+    w->ghosts.recut = true;
+    b->cost = 1;
+    if (own[LOAD] > 0)
+        b->cost = fmin(fmax(own[WORK] / own[LOAD] * (mean[LOAD] / mean[WORK]), cost_least),
+                       cost_most);
+}
 
 void mps__world_balance(mps__world *w, double seconds)
 {
@@ -13,14 +50,9 @@ void mps__world_balance(mps__world *w, double seconds)
     if (!mps__ranks_many(&w->ranks)) return;
     b->work += seconds - (w->ranks.seconds - b->waited);
     b->waited = w->ranks.seconds;
+    if (w->state.step == 1) w->ghosts.recut = true; /* the first cuts did not know the dry walls */
     if (++b->steps < STEPS) return;
-    double most = b->work;
-    mps_exact sum = {{0}, 0, 0};
-    mps_exact_add(&sum, 1, &b->work);
-    mps__ranks_max(&w->ranks, 1, &most);
-    mps__ranks_sum(&w->ranks, 1, &sum);
-    const double uneven = most * w->ranks.count / mps_exact_value(&sum);
-    w->ghosts.recut = w->ghosts.recut || uneven > UNEVEN;
+    compare(w);
     b->work = 0;
     b->steps = 0;
 }

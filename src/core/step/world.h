@@ -130,6 +130,7 @@ typedef struct mps__gathered {
 typedef struct mps__balance {
     int32_t steps;
     double work, waited; /* [s] */
+    double cost;         /* of a particle of this rank over that of the mean rank */
 } mps__balance;
 
 typedef struct mps__world {

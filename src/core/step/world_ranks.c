@@ -26,6 +26,7 @@ mps_status mps__world_ranks_set(mps__world *w, const mps_ranks_ops *ops)
     w->ppe.ghosts = &w->ghosts;
     w->ppe.owner = find_owners;
     w->ppe.world = w;
+    w->balance.cost = 1;
     return mps__particles_field_add(s, "wall_id", 1, sizeof *s->wall_id, false,
                                     (void **)&s->wall_id);
 }
@@ -40,14 +41,6 @@ static void place_of(const void *world, int64_t i, double *X)
         memcpy(X, s->ref + i * s->dim, (size_t)s->dim * sizeof *X);
 }
 
-/* Work of a particle over that of fluid: solids without fluid about them have no rows, walls with it no gradients. */
-static float weight_of(const void *world, int64_t i)
-{
-    const mps__particles *s = &((const mps__world *)world)->particles;
-    if (s->kind[i] == MPS_FLUID) return 1;
-    return s->kind[i] == MPS_WALL && s->region[i] != MPS_REGION_DRY ? 0.5f : 0.05f;
-}
-
 /* The walls of dummies that are ghosts are ghosts too: they are at most as far from them as rows reach. */
 static mps__placing placing(const mps__world *w)
 {
@@ -56,7 +49,7 @@ static mps__placing placing(const mps__world *w)
                  solver = w->solvers.pc ? w->solvers.pc->reach * w->setup.dp + skin : 0,
                  reach = fmax(rows,
                               fmax(solver, mps__models_reach(&w->models, w->setup.dp) + skin));
-    return (mps__placing){place_of, weight_of, w, reach * (1 + margin),
+    return (mps__placing){place_of, mps__world_weight, w, reach * (1 + margin),
                           (reach + far) * (1 + margin)};
 }
 

@@ -17,6 +17,8 @@ void mps__world_keep_listed(mps__world *w);
 mps_status mps__world_list_again(mps__world *w, mps_status (*search)(mps__world *w));
 /* A step took so long on this rank; sometimes ranks compare, and cut space anew. */
 void mps__world_balance(mps__world *w, double seconds);
+/* Work that particle i makes, as far as is known. */
+float mps__world_weight(const void *world, int64_t i);
 /* Whether on many ranks models or the solver look farther than ghosts reach, or at rows that ghosts lack. */
 bool mps__world_wants_ghosts(const mps__world *w);
 /* Whether something is so on any rank, for each of `count` things, at most 16. */
