@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/** @file output.h  Frames for ParaView (a .vtp file per frame, and a .pvd series that is valid
- *  after every frame), and checkpoints. */
+/** @file output.h  Frames for ParaView (a .vtp file per frame, on many ranks one per rank, and a
+ *  .pvd series that is valid after every frame), and checkpoints. */
 #ifndef MPS_OUTPUT_H
 #define MPS_OUTPUT_H
 
@@ -20,12 +20,22 @@ enum {
     /** Dummies. */
     MPS_FRAMES_DUMMY = 4,
     /** Continue a series. */
-    MPS_FRAMES_CONTINUE = 8
+    MPS_FRAMES_CONTINUE = 8,
+    /** On many ranks: each rank writes its own particles. On one rank it changes nothing. */
+    MPS_FRAMES_PIECES = 16
 };
 
 /** Open a series: writes FOLDER/NAME.pvd and FOLDER/NAME/NAME_000000.vtp ...; the folder
  *  must exist. Frames of an earlier series of the same folder and name are removed, other files are
  *  not touched.
+ *
+ *  On many ranks there are two ways:
+ *  - Without MPS_FRAMES_PIECES rank 0 writes the files of a run on one rank: call
+ *    mps_particles_gather() before mps_frames_write(). Calls of other ranks do nothing.
+ *  - With MPS_FRAMES_PIECES all ranks make all calls of frames, in one folder that they share. Rank
+ *    R writes NAME_000000_R.vtp (R with four digits), rank 0 also NAME_000000.pvtp, which names the
+ *    pieces. No rank needs memory for the particles of another. A file that one rank cannot write
+ *    is an error on all ranks, after which the run can go on.
  *
  *  With MPS_FRAMES_CONTINUE frames up to the present time stay, later ones are removed, and the
  *  series continues: for an interrupted run, after mps_checkpoint_read(). A state at the time of
@@ -46,7 +56,9 @@ MPS_API mps_status mps_frames_open(mps_sim *sim, const char *folder, const char 
 /** Write the present state: position, velocity, pressure, number density, density, kind, phase, id
  *  and all user fields. Each particle is a vertex cell, so that filters of cells (Threshold, Clip)
  *  keep single particles. The .pvd is replaced as a whole.
- *  @return MPS_E_IO with the path and the reason of the system; MPS_E_NOMEM */
+ *  @return MPS_E_IO with the path and the reason of the system; MPS_E_NOMEM; MPS_E_STATE (many
+ *          ranks: not gathered without MPS_FRAMES_PIECES, or gathered with it); MPS_E_BUSY (called
+ *          from a verb or a callback) */
 MPS_API mps_status mps_frames_write(mps_frames *frames);
 
 /** Close a series; NULL is allowed. */
