@@ -60,13 +60,26 @@ static void finish(void)
     free(self.text);
 }
 
+/* From the folder of the program, or where the system has libraries. */
+static void *open_module(void)
+{
+    static const char name[] = "mps_drivers_mpi.so";
+    char path[1024];
+    ssize_t length = readlink("/proc/self/exe", path, sizeof path - sizeof name);
+    while (length > 0 && path[length - 1] != '/') length--;
+    if (length < 0) length = 0;
+    memcpy(path + length, name, sizeof name);
+    void *module = length > 0 ? dlopen(path, RTLD_NOW | RTLD_GLOBAL) : NULL;
+    return module ? module : dlopen(name, RTLD_NOW | RTLD_GLOBAL);
+}
+
 bool ranks_begin(const char *program, int argc, char **argv)
 {
     bool wanted = false;
     for (int i = 1; i < argc; i++) wanted = wanted || strcmp(argv[i], "--mpi") == 0;
     if (!wanted) check_alone(program);
     if (!wanted || self.engine) return wanted;
-    void *module = dlopen("mps_drivers_mpi.so", RTLD_NOW | RTLD_GLOBAL);
+    void *module = open_module();
     self.engine = module ? dlsym(module, "mps_drivers_mpi") : NULL;
     if (!self.engine) refuse_module(program);
     self.engine->begin(&self.rank, &self.count);
