@@ -414,6 +414,18 @@ static bool table_complete(pair *k)
     return k->failures == 0;
 }
 
+/* Returns the failures, which have been told; without any this is. */
+static int report(const pair *k, int checks)
+{
+    const char *const solver = k->solver ? k->solver->name : "", *const pc = k->pc && k->pc->name
+                                                                                 ? k->pc->name
+                                                                                 : "";
+    if (k->failures == 0)
+        printf("solver_kit: %s%s%s: passed; checks: %d\n", solver, solver[0] && pc[0] ? "/" : "",
+               pc, checks);
+    return k->failures;
+}
+
 int kit_check_solver(const mps_solver_ops *solver, const mps_preconditioner_ops *pc)
 {
     static void (*const checks[])(pair *) = {
@@ -423,8 +435,9 @@ int kit_check_solver(const mps_solver_ops *solver, const mps_preconditioner_ops 
     };
     pair k = {solver, pc, 0};
     if (!table_complete(&k)) return k.failures;
-    for (size_t i = 0; i < sizeof checks / sizeof checks[0]; i++) checks[i](&k);
-    return k.failures;
+    const int count = sizeof checks / sizeof checks[0];
+    for (int i = 0; i < count; i++) checks[i](&k);
+    return report(&k, count);
 }
 
 /* ---- a preconditioner alone ---- */
@@ -482,5 +495,5 @@ int kit_check_preconditioner(const mps_preconditioner_ops *pc)
     pc->destroy(&memory.allocator, self);
     EXPECT(&k, memory.live == 0, "%lld blocks leaked", (long long)memory.live);
     if (pc->name) check_ranks(&k);
-    return k.failures;
+    return report(&k, pc->name ? 2 : 1);
 }

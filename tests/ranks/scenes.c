@@ -80,6 +80,14 @@ const scene scenes[SCENES] = {
      .steps = 12,
      .dp = 0.025,
      .preconditioner = "jacobi"},
+    {.name = "drop_2d", .preset = "imps", .dim = 2, .steps = 60, .dp = 0.02, .drop = true},
+    {.name = "drop_air_2d",
+     .preset = "mmps",
+     .dim = 2,
+     .steps = 20,
+     .dp = 0.025,
+     .sigma = 0.07,
+     .drop = true},
     {.name = "paper_2d", .preset = "imps.paper", .dim = 2, .steps = 40, .dp = 0.025},
     {.name = "paper_air_2d",
      .preset = "mmps.paper",
@@ -143,6 +151,7 @@ static mps_status add_probes(mps_sim *sim)
 mps_status scene_build(mps_sim *sim, const scene *s)
 {
     const double lo[3] = {0, 0, 0}, depth[3] = {0.3, 0.26, 0.4}, all[3] = {0.6, 0.45, 0.4};
+    const double from[3] = {0.2, 0.12, 0}, to[3] = {0.4, 0.32, 0.4};
     const double b[3] = {0.36, 0, 0}, c[3] = {0.42, 0.1, 0.4}, up[3] = {0.02, 0.15, 0},
                  along[3] = {0, 0, 0.4};
     mps_tank tank;
@@ -157,7 +166,8 @@ mps_status scene_build(mps_sim *sim, const scene *s)
     if (status == MPS_OK && s->baffle == 1) status = mps_baffle_add(sim, "block", b, c, NULL);
     if (status == MPS_OK && s->baffle == 2)
         status = mps_plate_add(sim, "plate", b, up, s->dim == 3 ? along : NULL);
-    if (status == MPS_OK) status = mps_fill_box_add(sim, 0, lo, depth, NULL, NULL);
+    if (status == MPS_OK)
+        status = mps_fill_box_add(sim, 0, s->drop ? from : lo, s->drop ? to : depth, NULL, NULL);
     if (status == MPS_OK && s->preset[0] == 'm') status = add_air(sim, s, lo, all);
     if (status == MPS_OK && s->motion) status = mps_motion_callback_set(sim, s->motion, NULL);
     if (status == MPS_OK) status = add_probes(sim);

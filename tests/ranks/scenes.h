@@ -6,7 +6,7 @@
 #include <mps/mps.h>
 #include <stdbool.h>
 
-enum { SCENES = 17, SCENE_MOST = 8000, SCENE_NUMBERS = 9, SCENE_INFOS = 24, SCENE_PROBES = 4 };
+enum { SCENES = 19, SCENE_MOST = 8000, SCENE_NUMBERS = 9, SCENE_INFOS = 24, SCENE_PROBES = 4 };
 
 typedef struct scene {
     const char *name, *preset;
@@ -16,6 +16,8 @@ typedef struct scene {
     int baffle;   /* 1: a block, 2: a thin plate, in the way of the fluid */
     double sigma; /* of the interface [N/m] */
     bool changes; /* particles go and come between steps */
+    bool
+        drop; /* the liquid is a drop about the middle of the tank, where the cuts of four ranks meet */
     /* NULL: auxgrid; "divided": auxgrid that divides small grids too */
     const char *preconditioner;
 } scene;
