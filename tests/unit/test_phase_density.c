@@ -14,7 +14,7 @@ typedef struct block {
     double n0, re;
 } block;
 
-static block block_make(int dim, double jitter)
+static block block_make_with(int dim, double jitter, const char *kernel)
 {
     block b = {.c = dim == 2 ? cloud_lattice(2, 18, 21, 1, jitter, 6)
                              : cloud_lattice(3, 8, 12, 8, jitter, 6),
@@ -25,10 +25,16 @@ static block block_make(int dim, double jitter)
         b.phase[i] = (int32_t)fmin(2, b.c.x[i * dim + 1] / ((dim == 2 ? 7 : 4) * CLOUD_DP));
     b.sim = bare_sim(dim, CLOUD_DP, 3.1, 1e-6);
     for (int p = 0; p < 3; p++) set_phase(b.sim, p, rho[p], 0);
+    assert_int_equal(mps_kernel_find(kernel, &b.kernel), MPS_OK);
+    ASSERT_OK(b.sim, mps_kernel_use(b.sim, &b.kernel));
     add_cloud(b.sim, &b.c, b.phase, NULL);
-    assert_int_equal(mps_kernel_find("improved", &b.kernel), MPS_OK);
     assert_int_equal(mps_lattice_constants(&b.kernel, dim, CLOUD_DP, b.re, &b.n0, NULL), MPS_OK);
     return b;
+}
+
+static block block_make(int dim, double jitter)
+{
+    return block_make_with(dim, jitter, "improved");
 }
 
 static void block_free(block *b)
@@ -80,6 +86,20 @@ static void smoothing(void **state)
         free(density);
         block_free(&b);
     }
+}
+
+/* A kernel that is infinite at 0: a particle's own density has the weight of one half a spacing away. */
+static void smoothing_by_original_kernel(void **state)
+{
+    (void)state;
+    block b = block_make_with(2, 0.2, "original");
+    const double self = mps_kernel_value(&b.kernel, 0.5 * CLOUD_DP, b.re);
+    ASSERT_OK(b.sim, mps_model_use(b.sim, "density.smooth"));
+    ASSERT_OK(b.sim, mps_model_set(b.sim, "density", "self", 1));
+    ASSERT_OK(b.sim, mps_step(b.sim, 1, NULL));
+    for (int64_t i = 0; i < b.c.n; i++)
+        ASSERT_NEAR(spy.density[i] / smoothed(&b, i, self), 1, 1e-10);
+    block_free(&b);
 }
 
 /* ---- gradient.density --------------------------------------------------------------------------------------------------- */
@@ -404,10 +424,14 @@ static void plane_takes_over(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(smoothing),          cmocka_unit_test(gradient_to_the_letter),
-        cmocka_unit_test(gradient_of_linear), cmocka_unit_test(gas_terms),
-        cmocka_unit_test(equation_of_state),  cmocka_unit_test(gas_refused),
-        cmocka_unit_test(conserved),          cmocka_unit_test(plane_takes_over)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(smoothing),
+                                       cmocka_unit_test(smoothing_by_original_kernel),
+                                       cmocka_unit_test(gradient_to_the_letter),
+                                       cmocka_unit_test(gradient_of_linear),
+                                       cmocka_unit_test(gas_terms),
+                                       cmocka_unit_test(equation_of_state),
+                                       cmocka_unit_test(gas_refused),
+                                       cmocka_unit_test(conserved),
+                                       cmocka_unit_test(plane_takes_over)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
