@@ -36,6 +36,7 @@ set(CPACK_COMPONENT_DEV_DESCRIPTION "${PROJECT_DESCRIPTION}: headers, static lib
 set(CPACK_DEBIAN_DRIVERS_PACKAGE_NAME libmps${PROJECT_VERSION_MAJOR}-drivers)
 set(CPACK_DEBIAN_DRIVERS_PACKAGE_SECTION science)
 set(CPACK_COMPONENT_DRIVERS_DEPENDS runtime)
+set(CPACK_DEBIAN_DRIVERS_PACKAGE_SUGGESTS "libmps${PROJECT_VERSION_MAJOR}-mpi")
 set(CPACK_COMPONENT_DRIVERS_DESCRIPTION "${PROJECT_DESCRIPTION}: programs of the cases, mps_sloshing_surge and others")
 
 # Plug-in libraries, each with its headers, which need those of libmps.

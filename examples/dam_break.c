@@ -43,8 +43,9 @@ static bool bins_collect(const bins *b, mps_sim *sim)
         if (v.kind.integers[i] == MPS_FLUID && at > 0 && k < b->count)
             b->furthest[k] = fmax(b->furthest[k], at);
     }
-    ranks_largest((int)b->count, b->furthest);
-    return open && view_close(sim, &v);
+    const bool all = ranks_most(!open) == 0;
+    ranks_largest((int)b->count, b->furthest); /* ghosts change no maximum */
+    return open && view_close(sim, &v) && all;
 }
 
 /* The front: how far liquid reaches from the left wall without a gap. */

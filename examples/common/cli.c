@@ -37,7 +37,7 @@ static int cli_table(cli_options *o, cli_option *table)
     table[n++] = (cli_option){"--out", "DIR", "folder for all outputs", TYPE_TEXT, &o->out, 0, 0, false};
     table[n++] = (cli_option){"--frames", "N", "frames for ParaView besides the first; 0: none",
                               TYPE_INT, &o->frames, 0, CLI_FRAMES_MAX, false};
-    table[n++] = (cli_option){"--pieces", NULL, "with --mpi: each rank writes its own part of a frame (.pvtp)", TYPE_FLAG, &o->pieces, 0, 0, true};
+    table[n++] = (cli_option){"--pieces", NULL, "with --mpi: each rank writes its own .vtp of a frame, and a .pvtp names them", TYPE_FLAG, &o->pieces, 0, 0, true};
     table[n++] = (cli_option){"--checkpoint", "S", "a checkpoint every S simulated seconds and at the end; default: only at Ctrl-C",
                               TYPE_REAL, &o->checkpoint, 1e-6, o->t_max, false};
     table[n++] = (cli_option){"--resume", NULL, "go on from the checkpoint in the folder of --out", TYPE_FLAG, &o->resume, 0, 0, true};

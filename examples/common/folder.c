@@ -187,7 +187,7 @@ static void folder_remove(run *r, const char *name)
     ranks_exit(CLI_USAGE);
 }
 
-/* `name` is `before`, at least so many digits, perhaps '_' and the number of a rank, `after`. */
+/* `name` is `before`, at least so many digits, perhaps '_' and four or more of the number of a rank, `after`. */
 static bool folder_is_numbered(const char *name, const char *before, size_t digits,
                                const char *after)
 {
@@ -195,8 +195,8 @@ static bool folder_is_numbered(const char *name, const char *before, size_t digi
     if (strncmp(name, before, length) != 0) return false;
     const size_t count = strspn(name + length, "0123456789");
     const char *end = name + length + count;
-    if (*end == '_') end += 1 + strspn(end + 1, "0123456789");
-    return count >= digits && strcmp(end, after) == 0;
+    const size_t rank = *end == '_' ? strspn(end + 1, "0123456789") : 0;
+    return count >= digits && strcmp(rank >= 4 ? end + 1 + rank : end, after) == 0;
 }
 
 /* Numbered files of the folder or of one in it; `inside` is "" or ends in '/'. */

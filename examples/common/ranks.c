@@ -25,7 +25,8 @@ static _Noreturn void refuse_module(const char *program)
 {
     fprintf(stderr,
             "%s: --mpi: %s; it is built with the drivers where there are MPI and Zoltan (Debian: "
-            "libopenmpi-dev, libtrilinos-zoltan-dev): cmake -DMPS_WITH_MPI=ON\n",
+            "libopenmpi-dev, libtrilinos-zoltan-dev): cmake -DMPS_WITH_MPI=ON; of the packages of "
+            "libmps it is in libmps1-mpi\n",
             program, dlerror());
     exit(CLI_USAGE);
 }
@@ -69,8 +70,7 @@ static void *open_module(void)
     while (length > 0 && path[length - 1] != '/') length--;
     if (length < 0) length = 0;
     memcpy(path + length, name, sizeof name);
-    void *module = length > 0 ? dlopen(path, RTLD_NOW | RTLD_GLOBAL) : NULL;
-    return module ? module : dlopen(name, RTLD_NOW | RTLD_GLOBAL);
+    return dlopen(length > 0 && access(path, F_OK) == 0 ? path : name, RTLD_NOW | RTLD_GLOBAL);
 }
 
 bool ranks_begin(const char *program, int argc, char **argv)

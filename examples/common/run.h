@@ -117,7 +117,8 @@ void run_gauge(run *r, const char *name, double x, double z, double level);
 void run_gauge_from(run *r, const char *name, const double *foot, double level);
 /* A component of the pressure force on a part, or on all solids for NULL. */
 void run_force(run *r, const char *name, const char *part, int32_t component);
-/* A value of the driver. It may call mps_probe_read() and the like, which all ranks do, and leases no particles.
+/* A value of the driver. All ranks ask for it: it may call mps_probe_read() and the like. If it leases particles, these are the rank's own and
+ * its ghosts, and ranks_largest() must combine what the ranks find.
  * @param about  what it is, title of its plot; behind a colon where and how */
 void run_value(run *r, const char *name, const char *unit, const char *about, run_value_fn value,
                void *user);

@@ -53,9 +53,17 @@ bool run_note(run *r, mps_status status, const char *what)
 
 /* ---- frames and pictures ---------------------------------------------------------------------------------------- */
 
-/* The state at t, unless it is in the last frame already. */
-static void run_frame_write(run *r, double t)
+/* Whether each rank writes a piece of a frame: a call that all ranks make. */
+static bool run_apart(const run *r)
 {
+    return r->options.pieces && ranks_count() > 1;
+}
+
+/* The present state, unless it is in the last frame already. */
+static void run_frame_write(run *r)
+{
+    double t = 0;
+    mps_sim_time(r->sim, &t, NULL);
     if (!r->frames || t <= r->frame_t) return;
     run_note(r, mps_frames_write(r->frames), "frames");
     r->frame_t = t;
@@ -70,7 +78,7 @@ static int64_t run_frame_next(const run *r, double t)
 /* Frames of all particles, which rank 0 writes, or a piece of each rank. */
 static void run_frames_open(run *r)
 {
-    const bool resume = r->options.resume, pieces = r->options.pieces;
+    const bool resume = r->options.resume, pieces = run_apart(r);
     r->frame_t = -1;
     if (r->options.frames == 0 || !(pieces || ranks_gather(r->sim))) return;
     run_note(r,
@@ -78,7 +86,7 @@ static void run_frames_open(run *r)
                              (resume ? MPS_FRAMES_CONTINUE : 0) | (pieces ? MPS_FRAMES_PIECES : 0),
                              &r->frames),
              "frames");
-    if (!resume) run_frame_write(r, 0);
+    if (!resume) run_frame_write(r);
     r->frame = run_frame_next(r, r->totals.t);
     if (!pieces) ranks_gather_end(r->sim);
 }
@@ -111,11 +119,11 @@ static void run_picture(run *r, double t)
 /* Frames and pictures of the particles of all ranks. */
 static void run_draw(run *r, double t, int due)
 {
-    const bool frame = due & DUE_FRAME, picture = due & DUE_PICTURE, apart = r->options.pieces;
+    const bool frame = due & DUE_FRAME, picture = due & DUE_PICTURE, apart = run_apart(r);
     if (frame) r->frame = run_frame_next(r, t);
-    if (frame && apart) run_frame_write(r, t);
+    if (frame && apart) run_frame_write(r);
     if (!(picture || (frame && !apart)) || !ranks_gather(r->sim)) return;
-    if (frame && !apart) run_frame_write(r, t);
+    if (frame && !apart) run_frame_write(r);
     if (ranks_first() && picture) run_picture(r, t);
     ranks_gather_end(r->sim);
 }
@@ -227,15 +235,15 @@ static void run_close_particles(run *r)
             r->figure[i].measured = r->figure[i].value(r->figure[i].user, r->sim);
 }
 
-static void run_close(run *r)
+static void run_close(run *r, mps_status status)
 {
     for (int i = 0; i < r->figures; i++)
         r->figure[i].measured = r->figure[i].particles
                                     ? NAN
                                     : r->figure[i].value(r->figure[i].user, r->sim);
-    if (r->options.pieces) run_frame_write(r, r->totals.t);
+    if (run_apart(r) && status >= 0) run_frame_write(r);
     if (ranks_gather(r->sim)) { /* not where a rank has failed */
-        if (!r->options.pieces) run_frame_write(r, r->totals.t);
+        if (!run_apart(r)) run_frame_write(r);
         if (ranks_first()) run_close_particles(r);
         ranks_gather_end(r->sim);
     }
@@ -346,7 +354,7 @@ int run_finish(run *r)
     if (status < 0) snprintf(r->totals.error, sizeof r->totals.error, "%s", mps_sim_error(r->sim));
     progress_clear(&r->progress);
     run_last_checkpoint(r, status);
-    run_close(r);
+    run_close(r, status);
     r->totals.wall_s = progress_clock() - wall;
     r->totals.cpu_s = cpu_clock() - cpu;
     const int code = ranks_told(ranks_first() ? run_report(r, status) : 0);

@@ -47,16 +47,6 @@ CASES
 ranks 0 1 dam_break --solver sundials.pcg/jacobi --dp 0.02 --t-end 0.2 --frames 4 --checkpoint 0.1 --out dam.one
 same dam.1 dam.one
 
-# ---- frames in pieces; a run of other ranks in the same folder leaves none of them
-pieces=(dam_break --dp 0.02 --t-end 0.1 --frames 2 --out pieces)
-ranks 0 3 "${pieces[@]}" --pieces
-[ "$(grep -c '\.pvtp"' pieces/frames.pvd)" = 3 ] || fail "--pieces: $(cat pieces/frames.pvd)"
-[ "$(ls pieces/frames/frames_00000?.pvtp pieces/frames/frames_00000?_000?.vtp | wc -l)" = 12 ] || fail "--pieces: $(ls pieces/frames)"
-ranks 0 2 "${pieces[@]}" --pieces --overwrite
-[ "$(ls pieces/frames | wc -l)" = 9 ] || fail "--pieces --overwrite: $(ls pieces/frames)"
-runs 0 "${pieces[@]}" --pieces --overwrite
-[ "$(ls pieces/frames | wc -l)" = 3 ] || fail "--pieces on one rank: $(ls pieces/frames)"
-
 # ---- stopped by a signal, on with other numbers of ranks
 surge=(sloshing_surge --dp 0.05 --t-end 1 --frames 0)
 
@@ -80,6 +70,24 @@ stopped USR1 2 --out steps.now --probe-dt 0.001
 stopped TERM 3 --out steps.now --resume
 ranks 0 2 "${surge[@]}" --out steps.now --resume
 for file in probes.csv momentum.csv steps.csv picture_end.png; do cmp whole/$file steps.now/$file || fail "--resume on other ranks: other $file"; done
+
+# ---- frames in pieces; a run of other ranks in the same folder leaves none of them
+pieces=(dam_break --dp 0.02 --t-end 0.1 --frames 2 --out pieces)
+ranks 0 3 "${pieces[@]}" --pieces
+[ "$(grep -c '\.pvtp"' pieces/frames.pvd)" = 3 ] || fail "--pieces: $(cat pieces/frames.pvd)"
+[ "$(ls pieces/frames/frames_00000?.pvtp pieces/frames/frames_00000?_000?.vtp | wc -l)" = 12 ] || fail "--pieces: $(ls pieces/frames)"
+ranks 0 2 "${pieces[@]}" --pieces --overwrite
+[ "$(ls pieces/frames | wc -l)" = 9 ] || fail "--pieces --overwrite: $(ls pieces/frames)"
+rows=0
+rm -rf steps.now
+stopped TERM 2 --out steps.now --frames 4 --pieces # also the last state is a frame of all ranks
+[ "$(grep -c '\.pvtp"' steps.now/frames.pvd)" -ge 2 ] || fail "stopped with --pieces: $(cat steps.now/frames.pvd)"
+[ -s steps.now/picture_end.png ] || fail 'stopped with --pieces: no last picture'
+ranks 0 3 "${surge[@]}" --out steps.now --frames 4 --pieces --resume
+[ "$(ls steps.now/frames/*.pvtp | wc -l)" = "$(grep -c '\.pvtp"' steps.now/frames.pvd)" ] || fail "--pieces --resume: $(ls steps.now/frames)"
+rm -rf steps.now
+runs 0 "${pieces[@]}" --pieces --overwrite
+[ "$(ls pieces/frames | wc -l)" = 3 ] || fail "--pieces on one rank: $(ls pieces/frames)"
 
 # ---- what is refused is said once, and all ranks end
 ranks 2 2 dam_break --bogus

@@ -17,6 +17,7 @@ typedef struct run {
     kit_engine_team *team;
     char folder[64];
     int32_t kinds;                         /* of mps_frames_open() */
+    int frames;                            /* 0: FRAMES */
     bool blocked;                          /* rank 1 cannot write its piece of the second frame */
     mps_status status[MOST_RANKS][FRAMES]; /* of the frames */
     mps_status wrong[MOST_RANKS];          /* of a frame of gathered particles */
@@ -35,7 +36,8 @@ static void write_frames(run *k, mps_sim *sim, int32_t rank, mps_frames *frames)
 {
     char path[PATH];
     mps_status status = MPS_OK;
-    for (int s = 0, frame = 0; frame < FRAMES && status >= 0; s++) {
+    const int frame_count = k->frames > 0 ? k->frames : FRAMES;
+    for (int s = 0, frame = 0; frame < frame_count && status >= 0; s++) {
         status = scene_change(sim, k->scene, s);
         if (s == frame_step[frame] && status >= 0) {
             snprintf(path, sizeof path, "%s/f/f_000001_0001.vtp", k->folder);
@@ -77,9 +79,11 @@ static void take(run *k, int32_t ranks)
 {
     for (int s = 0; s < SCENES; s++)
         if (strcmp(scenes[s].name, "changes_2d") == 0) k->scene = &scenes[s];
-    strcpy(k->folder, "ranks_frames_XXXXXX");
-    assert_non_null(mkdtemp(k->folder));
-    if (ranks > 1) k->team = kit_engine_create(ranks, 3);
+    if (!k->folder[0]) {
+        strcpy(k->folder, "ranks_frames_XXXXXX");
+        assert_non_null(mkdtemp(k->folder));
+    }
+    k->team = ranks > 1 ? kit_engine_create(ranks, 3) : NULL;
     if (k->team)
         kit_engine_run(k->team, run_rank, k);
     else
@@ -224,10 +228,59 @@ static void whole_frames_need_all(void **state)
     remove_folder(&k);
 }
 
+/* ---- going on with a series ---- */
+
+static int64_t files_in(const run *k, char names[TEXT])
+{
+    char command[160], line[64];
+    int64_t count = 0;
+    snprintf(command, sizeof command, "ls '%s/f'", k->folder);
+    FILE *f = popen(command, "r");
+    assert_non_null(f);
+    for (names[0] = 0; fgets(line, sizeof line, f); count++)
+        strncat(names, line, TEXT - 1 - strlen(names));
+    pclose(f);
+    return count;
+}
+
+/* The first frame of the same folder is written again on other numbers of ranks: no file of the others is left. */
+static void other_ranks_go_on(void **state)
+{
+    (void)state;
+    static const struct {
+        int32_t ranks, kinds;
+        int64_t files;
+    } turn[] = {{4, MPS_FRAMES_PIECES, 5},
+                {2, MPS_FRAMES_PIECES, 3},
+                {1, 0, 1},
+                {3, MPS_FRAMES_PIECES, 4},
+                {1, MPS_FRAMES_PIECES, 1}};
+    static float p[IDS];
+    char path[PATH], names[TEXT];
+    run k = {.frames = 1};
+    for (size_t t = 0; t < sizeof turn / sizeof turn[0]; t++) {
+        k.kinds = turn[t].kinds | MPS_FRAMES_CONTINUE;
+        take(&k, turn[t].ranks);
+        clean(&k, turn[t].ranks);
+        if (files_in(&k, names) != turn[t].files) fail_msg("turn %d leaves %s", (int)t, names);
+        int64_t n = 0;
+        forget(p);
+        for (int r = 0; r < turn[t].ranks; r++) {
+            snprintf(path, sizeof path, "%s/f/f_000000", k.folder);
+            if (turn[t].ranks > 1)
+                snprintf(path + strlen(path), sizeof path - strlen(path), "_%04d", r);
+            strcat(path, ".vtp");
+            n += collect(path, p);
+        }
+        assert_in_range(n, 300, 2000);
+    }
+    remove_folder(&k);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(pieces_have_all),
-                                       cmocka_unit_test(one_rank_cannot),
-                                       cmocka_unit_test(whole_frames_need_all)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pieces_have_all), cmocka_unit_test(one_rank_cannot),
+        cmocka_unit_test(whole_frames_need_all), cmocka_unit_test(other_ranks_go_on)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

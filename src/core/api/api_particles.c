@@ -129,9 +129,8 @@ static mps_status check_overlap_everywhere(mps_sim *sim, const mps_particle_bloc
     return any ? mps__ranks_text(r, MPS_E_ARG) : mps__ranks_status(r);
 }
 
-mps_status mps_particles_add(mps_sim *sim, const mps_particle_block *block, int64_t *ids)
+static mps_status add_block(mps_sim *sim, const mps_particle_block *block, int64_t *ids)
 {
-    MPS__CHANGES(sim);
     mps__particles *s = &sim->world.particles;
     mps_particle_block b = block_default;
     MPS__TRY(not_leased(sim));
@@ -150,8 +149,19 @@ mps_status mps_particles_add(mps_sim *sim, const mps_particle_block *block, int6
     store_block(sim, &b, part, first);
     sim->world.lists.neighbours.valid = false;
     for (int64_t k = 0; ids && k < b.count; k++) ids[k] = s->id[first + k];
-    if (!mps__world_divided(&sim->world)) return MPS_OK;
-    return mps__ranks_tell(&sim->world.ranks, mps__world_adopt(&sim->world));
+    return mps__world_divided(&sim->world) ? mps__world_adopt(&sim->world) : MPS_OK;
+}
+
+/* Other ranks have the memory, and what this one has not. */
+static mps_status tell_no_memory(mps_sim *sim, mps_status status)
+{
+    return status == MPS_E_NOMEM ? mps__ranks_tell(&sim->world.ranks, status) : status;
+}
+
+mps_status mps_particles_add(mps_sim *sim, const mps_particle_block *block, int64_t *ids)
+{
+    MPS__CHANGES(sim);
+    return tell_no_memory(sim, add_block(sim, block, ids));
 }
 
 /* Places of all ids, [next_id], -1 where there is none; NULL when memory is out. */
@@ -205,9 +215,8 @@ static mps_status take_out(mps_sim *sim, const int32_t *place)
     return status;
 }
 
-mps_status mps_particles_remove(mps_sim *sim, int64_t count, const int64_t *ids)
+static mps_status remove_block(mps_sim *sim, int64_t count, const int64_t *ids)
 {
-    MPS__CHANGES(sim);
     MPS__TRY(not_leased(sim));
     MPS__CHECK(&sim->context, count >= 1 && ids, "remove: count is %lld with %s ids",
                (long long)count, ids ? "given" : "no");
@@ -220,6 +229,12 @@ mps_status mps_particles_remove(mps_sim *sim, int64_t count, const int64_t *ids)
     if (status == MPS_OK) mps__plates_set_active(&sim->world);
     mps__free(&sim->context, place);
     return status;
+}
+
+mps_status mps_particles_remove(mps_sim *sim, int64_t count, const int64_t *ids)
+{
+    MPS__CHANGES(sim);
+    return tell_no_memory(sim, remove_block(sim, count, ids));
 }
 
 int64_t mps_particles_count(const mps_sim *sim, int32_t kind)

@@ -166,7 +166,10 @@ void mps__ranks_gather_number(mps__ranks *r, int64_t own, int64_t *values)
 void mps__ranks_connect(mps__ranks *r, int32_t count, const int32_t *to, const int64_t *sent,
                         mps_route *route)
 {
-    if (begin(r, 0)) r->failed = r->ops.connect(r->self, count, to, sent, route) != 0;
+    if (!begin(r, 0)) return;
+    const double start = mps__clock();
+    r->failed = r->ops.connect(r->self, count, to, sent, route) != 0;
+    r->seconds += mps__clock() - start;
 }
 
 void mps__ranks_exchange(mps__ranks *r, const mps_route *route, size_t bytes, const void *out,

@@ -124,17 +124,25 @@ static mps_status create_folder(const mps_frames *f)
     return MPS_OK;
 }
 
-/* "<name>_<digits>.vtp", ".pvtp" or "_<rank>.vtp" that the series does not name. */
+/* What may be behind the number of a frame: ".vtp", ".pvtp" or "_<rank>.vtp", and ".tmp" where a program was killed. */
+static bool is_frame_end(const char *end)
+{
+    static const char *const ends[] = {".vtp", ".vtp.tmp", ".pvtp", ".pvtp.tmp"};
+    const size_t rank = *end == '_' ? strspn(end + 1, "0123456789") : 0;
+    bool known = false;
+    for (int k = 0; k < (rank >= 4 ? 2 : 4); k++)
+        known = known || strcmp(end + (rank >= 4 ? rank + 1 : 0), ends[k]) == 0;
+    return known;
+}
+
+/* "<name>_<digits>..." that the series does not name. */
 static bool is_old_frame(const mps_frames *f, const char *file)
 {
     size_t length = strlen(f->name);
     if (strncmp(file, f->name, length) != 0 || file[length] != '_') return false;
     const char *digits = file + length + 1;
     const size_t count = strspn(digits, "0123456789");
-    const char *end = digits + count;
-    if (*end == '_') end += 1 + strspn(end + 1, "0123456789");
-    return count >= 6 && (strcmp(end, ".vtp") == 0 || strcmp(end, ".pvtp") == 0) &&
-           strtoll(digits, NULL, 10) >= f->count;
+    return count >= 6 && is_frame_end(digits + count) && strtoll(digits, NULL, 10) >= f->count;
 }
 
 /* Frames of an earlier run in the same folder, which the new series may not reach; the .pvd names them no more. */
@@ -288,17 +296,34 @@ static bool repeats_last(const mps_frames *f)
            fabs(f->world->state.t - f->frame[f->count - 1].t) <= time_slack(f);
 }
 
-/* The place of the frame, of which rank 0 tells the others, and its line in the series. */
+/* A frame of pieces cannot be replaced as a whole, nor by one: it leaves the series, with its files, before it is written anew. */
+static mps_status drop_repeated(mps_frames *f)
+{
+    if (!repeats_last(f) || !(f->pieces || f->frame[f->count - 1].pieces)) return MPS_OK;
+    f->count--;
+    const mps_status status = update_series(f);
+    if (status < 0) f->count++;
+    return status < 0 ? status : remove_old(f);
+}
+
+/* The place of the frame, and room for it in the series. */
 static mps_status choose_place(mps_frames *f)
 {
-    mps__ranks *r = &f->world->ranks;
-    int64_t place = f->count - repeats_last(f);
-    if (f->pieces && r->rank > 0) place = 0;
-    if (f->pieces) mps__ranks_add(r, 1, &place);
-    f->place = place;
-    if (r->rank > 0) return MPS_OK;
-    return mps__grow(f->world->context, (void **)&f->frame, &f->capacity, f->count, place + 1,
+    MPS__TRY(drop_repeated(f));
+    f->place = f->count - repeats_last(f);
+    return mps__grow(f->world->context, (void **)&f->frame, &f->capacity, f->count, f->place + 1,
                      sizeof *f->frame);
+}
+
+/* Rank 0 chooses it. */
+static mps_status choose_together(mps_frames *f)
+{
+    mps__ranks *r = &f->world->ranks;
+    const mps_status status = r->rank == 0 ? choose_place(f) : MPS_OK;
+    MPS__TRY(mps__ranks_agree(r, status));
+    if (r->rank > 0) f->place = 0;
+    mps__ranks_add(r, 1, &f->place);
+    return mps__ranks_status(r);
 }
 
 /* A file of the frame; `suffix` comes behind its number. */
@@ -314,13 +339,12 @@ static mps_status write_part(const mps_frames *f, const char *suffix,
 static mps_status add_frame(mps_frames *f)
 {
     const stamp frame = {f->world->state.t, f->pieces};
-    const bool fresh = f->place == f->count,
-               other = !fresh && f->frame[f->place].pieces != f->pieces;
+    const bool fresh = f->place == f->count;
     f->frame[f->place] = frame;
-    if (!fresh && !other) return MPS_OK;
-    f->count = f->place + 1;
+    if (!fresh) return MPS_OK;
+    f->count++;
     const mps_status status = update_series(f);
-    if (status < 0 && fresh) f->count--;
+    if (status < 0) f->count--;
     return status;
 }
 
@@ -335,9 +359,10 @@ static mps_status write_own_piece(mps_frames *f)
 {
     char suffix[32];
     mps__ranks *r = &f->world->ranks;
-    mps_status status = choose_place(f);
+    MPS__TRY(mps__ranks_status(r));
+    MPS__TRY(choose_together(f));
     snprintf(suffix, sizeof suffix, "_%04d.vtp", (int)r->rank);
-    if (status == MPS_OK) status = write_part(f, suffix, write_frame);
+    mps_status status = write_part(f, suffix, write_frame);
     MPS__TRY(mps__ranks_agree(r, status));
     if (r->rank == 0) status = write_part(f, ".pvtp", write_pieces);
     if (r->rank == 0 && status == MPS_OK) status = add_frame(f);

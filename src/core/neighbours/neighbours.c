@@ -394,9 +394,10 @@ mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x,
     if (re_near < re_far)
         MPS__TRY(
             mps__neighbours_fit(l, (void **)&l->far_end, &l->far_capacity, n, sizeof *l->far_end));
-    const bool alike = l->n > 0 && re_far == l->re_far && l->partial == (l->kind != NULL) &&
-                       l->dummy_rows == l->had_dummy_rows;
     /* on many ranks a search has a few particles more or less than the one before */
+    const bool near = n <= l->n + l->n / 8 && n >= l->n - l->n / 8;
+    const bool alike = near && l->n > 0 && re_far == l->re_far && l->partial == (l->kind != NULL) &&
+                       l->dummy_rows == l->had_dummy_rows;
     l->pairs = alike ? (int64_t)((double)l->pairs * (double)n / (double)l->n) : 0;
     l->end = re_near < re_far ? l->far_end : l->middle;
     l->partial = l->kind != NULL;

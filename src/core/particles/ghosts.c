@@ -29,6 +29,7 @@ void mps__ghosts_forget(mps__ghosts *g)
 {
     forget_route(g);
     g->known = g->runs = 0;
+    g->divided = false;
 }
 
 void mps__ghosts_free(mps__ghosts *g)
@@ -128,7 +129,9 @@ static mps_status connect_ranks(mps__ghosts *g)
         sent[count++] = sent[k];
     }
     g->sends = g->parcels;
+    const double start = mps__clock();
     r->failed = r->failed || r->ops.connect(r->self, count, to, sent, &g->route);
+    r->seconds += mps__clock() - start;
     MPS__TRY(mps__ranks_status(r));
     g->connected = true;
     for (int32_t k = 0; k < g->route.from_count; k++) g->receives += g->route.received[k];
@@ -205,8 +208,10 @@ static mps_status divide(mps__ghosts *g, const mps__placing *p, int64_t begin, i
         p->place(p->argument, i, X + count * dim);
         weight[count++] = p->weight(p->argument, i);
     }
+    const double start = mps__clock();
     if (X && weight && !r->failed)
         r->failed = r->ops.partition(r->self, dim, count, X, weight) != 0;
+    r->seconds += mps__clock() - start;
     const mps_status status = X && weight ? mps__ranks_status(r) : MPS_E_NOMEM;
     mps__free(g->context, X);
     mps__free(g->context, weight);
@@ -235,6 +240,7 @@ mps_status mps__ghosts_adopt(mps__ghosts *g, const mps__placing *p)
     MPS__TRY(mps__particles_permute(s, count, order));
     memset(g->ghost + g->known, 0, (size_t)(s->n - g->known));
     g->known = s->n;
+    g->divided = true;
     s->generation = generation;
     return find_runs(g);
 }

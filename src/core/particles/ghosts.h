@@ -30,6 +30,7 @@ typedef struct mps__ghosts {
     int64_t *run;   /* [2 runs] ranges of owned particles: begin, end */
     int64_t capacity, run_capacity, runs;
     int64_t known;   /* particles that ranks have divided; those behind them all ranks have */
+    bool divided;    /* they have divided some, be it none of this rank */
     double reach;    /* of the present ghosts [m] */
     bool cut;        /* space is divided */
     bool recut;      /* it is to be divided anew with the next mps__ghosts_renew() */

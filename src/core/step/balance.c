@@ -7,7 +7,7 @@
 /* Steps whose work is compared, and the largest work over the mean that is left as it is. */
 enum { STEPS = 50 };
 static const double UNEVEN = 1.05;
-/* A rank that stood still for a while is not that slow. */
+/* Limits of the measured cost: a rank that other programs interrupt looks slower than it is. */
 static const double cost_least = 0.2, cost_most = 5;
 
 /* Work of a particle over that of fluid: solids without fluid about them have no rows, walls with it no gradients. */
@@ -23,7 +23,7 @@ float mps__world_weight(const void *world, int64_t i)
     return (float)(w->balance.cost * load_of(&w->particles, i));
 }
 
-/* What ranks measured, and what their particles should have cost: the next cuts give less to those that took longer. */
+/* Compare the work of the ranks, and what it cost for a unit of load: the next cuts give less to those that took longer. */
 static void compare(mps__world *w)
 {
     enum { WORK, LOAD, VALUES };
@@ -39,7 +39,7 @@ static void compare(mps__world *w)
     if (!(most > UNEVEN * mean[WORK])) return;
     w->ghosts.recut = true;
     b->cost = 1;
-    if (own[LOAD] > 0)
+    if (own[LOAD] > 0 && own[WORK] > 0)
         b->cost = fmin(fmax(own[WORK] / own[LOAD] * (mean[LOAD] / mean[WORK]), cost_least),
                        cost_most);
 }
@@ -49,7 +49,6 @@ void mps__world_balance(mps__world *w, double seconds)
     mps__balance *b = &w->balance;
     if (!mps__ranks_many(&w->ranks)) return;
     b->work += seconds - (w->ranks.seconds - b->waited);
-    b->waited = w->ranks.seconds;
     if (w->state.step == 1) w->ghosts.recut = true; /* the first cuts did not know the dry walls */
     if (++b->steps < STEPS) return;
     compare(w);

@@ -220,6 +220,7 @@ mps_status mps__world_step(mps__world *w, double dt_max)
     mps__step q = {.w = w, .clock = begin};
     w->host.motion = &w->motion;
     w->host.next = NULL;
+    w->balance.waited = w->ranks.seconds;
     MPS__TRY(mps__world_adopt(w));
     if (!any_fluid(w))
         return mps__fail(w->context, MPS_E_STATE, "there is no fluid particle to step");

@@ -129,8 +129,9 @@ typedef struct mps__gathered {
 /* Work of this rank since ranks compared theirs; balance.c. */
 typedef struct mps__balance {
     int32_t steps;
-    double work, waited; /* [s] */
-    double cost;         /* of a particle of this rank over that of the mean rank */
+    double work;   /* of the steps since then [s] */
+    double waited; /* mps__ranks.seconds when the step began */
+    double cost;   /* of a particle of this rank over that of the mean rank */
 } mps__balance;
 
 typedef struct mps__world {
