@@ -49,7 +49,8 @@ enum {
  *  | MPS_E_ARG | folder or name is empty; kinds |
  *  | MPS_E_IO | a file cannot be written; with MPS_FRAMES_CONTINUE: the files are not as |
  *  | | mps_frames_write() left them, nothing is removed then |
- *  | MPS_E_NOMEM | no memory | */
+ *  | MPS_E_NOMEM | no memory |
+ *  | MPS_E_RANKS | another rank failed | */
 MPS_API mps_status mps_frames_open(mps_sim *sim, const char *folder, const char *name,
                                    int32_t kinds, mps_frames **frames);
 
@@ -58,7 +59,7 @@ MPS_API mps_status mps_frames_open(mps_sim *sim, const char *folder, const char 
  *  keep single particles. The .pvd is replaced as a whole.
  *  @return MPS_E_IO with the path and the reason of the system; MPS_E_NOMEM; MPS_E_STATE (many
  *          ranks: not gathered without MPS_FRAMES_PIECES, or gathered with it); MPS_E_BUSY (called
- *          from a verb or a callback) */
+ *          from a verb or a callback); MPS_E_RANKS (another rank failed) */
 MPS_API mps_status mps_frames_write(mps_frames *frames);
 
 /** Close a series; NULL is allowed. */
@@ -70,14 +71,15 @@ MPS_API void mps_frames_close(mps_frames *frames);
  *  partial file, also after a loss of power. A link is replaced, not followed.
  *  Byte order of the machine, a checksum for each part, about 150 bytes per particle. May be called
  *  by a monitor. Data that a plug-in, a motion callback or a solver of the user keeps outside of
- *  fields is not in it.
+ *  fields is not in it. On many ranks all ranks make this call, and rank 0 writes.
  *
  *  | error | reason |
  *  |---|---|
  *  | MPS_E_ARG | path is NULL or empty |
  *  | MPS_E_IO | the path with the reason of the system; also if it is not a regular file |
  *  | MPS_E_BUSY | a lease for writing is open; called from a verb or a callback |
- *  | MPS_E_NOMEM | no memory | */
+ *  | MPS_E_NOMEM | no memory |
+ *  | MPS_E_RANKS | another rank failed | */
 MPS_API mps_status mps_checkpoint_write(mps_sim *sim, const char *path);
 
 /** Continue where mps_checkpoint_write() was called, in a simulation that was set up by the same
