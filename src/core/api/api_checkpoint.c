@@ -81,10 +81,16 @@ mps_status mps_checkpoint_read(mps_sim *sim, const char *path)
     if (open)
         return mps__fail(c, MPS_E_BUSY,
                          "%d lease(s) are open; end them before reading a checkpoint", open);
+    mps__ranks *r = &sim->world.ranks;
+    if (mps__world_divided(&sim->world))
+        return mps__fail(c, MPS_E_STATE,
+                         "the ranks have divided the particles: read a checkpoint before the first "
+                         "step");
     mps__archive a = {.context = c};
-    mps_status status = mps__archive_load(&a, path);
-    if (status == MPS_OK) status = check_setup(sim, &a);
+    mps_status status = mps__ranks_agree(r, mps__archive_load(&a, path));
+    if (status == MPS_OK) status = mps__ranks_agree(r, check_setup(sim, &a));
     if (status == MPS_OK) status = mps__state_get(sim, &a);
     mps__archive_free(&a);
-    return status;
+    /* without memory on one rank others have the state of the file */
+    return status == MPS_E_NOMEM ? mps__ranks_tell(r, status) : status;
 }

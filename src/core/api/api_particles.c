@@ -121,12 +121,7 @@ static void store_block(mps_sim *sim, const mps_particle_block *b, int32_t part,
 /* Each rank looks at the particles that it has; all refuse alike. */
 static mps_status check_overlap_everywhere(mps_sim *sim, const mps_particle_block *b)
 {
-    mps__ranks *r = &sim->world.ranks;
-    if (!mps__ranks_many(r)) return check_overlap(sim, b);
-    sim->context.error[0] = 0;
-    bool any = check_overlap(sim, b) < 0;
-    mps__world_any(&sim->world, 1, &any);
-    return any ? mps__ranks_text(r, MPS_E_ARG) : mps__ranks_status(r);
+    return mps__ranks_agree(&sim->world.ranks, check_overlap(sim, b));
 }
 
 static mps_status add_block(mps_sim *sim, const mps_particle_block *block, int64_t *ids)
@@ -152,16 +147,19 @@ static mps_status add_block(mps_sim *sim, const mps_particle_block *block, int64
     return mps__world_divided(&sim->world) ? mps__world_adopt(&sim->world) : MPS_OK;
 }
 
-/* Other ranks have the memory, and what this one has not. */
-static mps_status tell_no_memory(mps_sim *sim, mps_status status)
+/* Where one rank has no memory, the others have the particles and it has not. */
+static mps_status same_everywhere(mps_sim *sim, mps_status status)
 {
-    return status == MPS_E_NOMEM ? mps__ranks_tell(&sim->world.ranks, status) : status;
+    mps__ranks *r = &sim->world.ranks;
+    return status == MPS_OK        ? mps__ranks_status(r)
+           : status == MPS_E_NOMEM ? mps__ranks_tell(r, status)
+                                   : status;
 }
 
 mps_status mps_particles_add(mps_sim *sim, const mps_particle_block *block, int64_t *ids)
 {
     MPS__CHANGES(sim);
-    return tell_no_memory(sim, add_block(sim, block, ids));
+    return same_everywhere(sim, add_block(sim, block, ids));
 }
 
 /* Places of all ids, [next_id], -1 where there is none; NULL when memory is out. */
@@ -234,7 +232,7 @@ static mps_status remove_block(mps_sim *sim, int64_t count, const int64_t *ids)
 mps_status mps_particles_remove(mps_sim *sim, int64_t count, const int64_t *ids)
 {
     MPS__CHANGES(sim);
-    return tell_no_memory(sim, remove_block(sim, count, ids));
+    return same_everywhere(sim, remove_block(sim, count, ids));
 }
 
 int64_t mps_particles_count(const mps_sim *sim, int32_t kind)

@@ -95,7 +95,7 @@ mps_status mps__energy_measure(mps__world *w, mps_energy *e)
     e->volume_filled = e->volume + (any ? half_cells(w) : 0);
     e->mass_filled = e->volume > 0 ? e->mass * e->volume_filled / e->volume : 0;
     e->volume_error = b.deviation_start - b.deviation;
-    return MPS_OK;
+    return mps__ranks_status(&w->ranks);
 }
 
 void mps__momentum_measure(const mps__world *w, mps_momentum *m)

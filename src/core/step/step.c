@@ -251,5 +251,6 @@ mps_status mps__world_step(mps__world *w, double dt_max)
     mps__step_end_stage(&q, MPS_STAGE_CORRECT);
     w->info.seconds[MPS_STAGE_CORRECT] = q.info.seconds[MPS_STAGE_CORRECT];
     mps__world_balance(w, mps__clock() - begin);
+    MPS__TRY(mps__ranks_status(&w->ranks));
     return q.not_converged ? MPS_W_NOT_CONVERGED : MPS_OK;
 }
