@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Checks of the numbers in a checkpoint. */
 #include "checkpoint_check.h"
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,13 +25,23 @@ static mps_status check_range(mps__context *c, const char *name, double value, d
     return MPS_OK;
 }
 
+/* Finite, with room for products of four: what comes of them must be finite as well. */
+static const double most_of_all = 1e75;
+
+static mps_status check_within(mps__context *c, const char *name, const double *values,
+                               int64_t count, double most)
+{
+    for (int64_t k = 0; k < count; k++)
+        if (!(fabs(values[k]) <= most))
+            DAMAGED("number %lld of \"%s\" is %g; must be within +-%g", (long long)k, name,
+                    values[k], most);
+    return MPS_OK;
+}
+
 static mps_status check_finite(mps__context *c, const char *name, const double *values,
                                int64_t count)
 {
-    for (int64_t k = 0; k < count; k++)
-        if (!isfinite(values[k]))
-            DAMAGED("number %lld of \"%s\" is %g", (long long)k, name, values[k]);
-    return MPS_OK;
+    return check_within(c, name, values, count, most_of_all);
 }
 
 /* ---- scalars ---- */
@@ -123,11 +134,13 @@ static mps_status check_counts(mps__context *c, const mps__arrived *a)
 mps_status mps__check_scalars(mps__context *c, const mps__arrived *a)
 {
     const mps__state *s = &a->state;
-    const double most = 1e300; /* finite, with room for sums */
+    const double most = most_of_all;
     MPS__TRY(check_range(c, "state.t", s->t, 0, most));
     MPS__TRY(check_range(c, "state.crossing_time", s->crossing_time, 0, most));
-    MPS__TRY(check_range(c, "state.dt_previous", s->dt_previous, 0, most));
-    MPS__TRY(check_range(c, "state.dt_before", s->dt_before, 0, most));
+    if (s->dt_previous != 0)
+        MPS__TRY(check_range(c, "state.dt_previous", s->dt_previous, 1 / most, most));
+    if (s->dt_before != 0) /* speeds of the tank are divided by it */
+        MPS__TRY(check_range(c, "state.dt_before", s->dt_before, 1 / most, most));
     MPS__TRY(check_range(c, "state.jump", s->jump.accel, 0, most));
     MPS__TRY(check_range(c, "state.spread", s->spread, 0, most));
     MPS__TRY(check_counts(c, a));
@@ -220,7 +233,8 @@ static mps_status check_reals(mps__context *c, const mps__arrived *a)
         const mps__field *f = &s->field[k];
         if (!a->field[k]) continue; /* not stored */
         if (f->size == sizeof(double) && strcmp(f->name, "id") != 0)
-            MPS__TRY(check_finite(c, f->name, a->field[k], a->n * f->components));
+            MPS__TRY(check_within(c, f->name, a->field[k], a->n * f->components,
+                                  f->data == &f->own ? DBL_MAX : most_of_all));
     }
     const double *density = field(a, "density");
     for (int64_t i = 0; i < a->n; i++) {
