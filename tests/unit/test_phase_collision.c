@@ -284,6 +284,35 @@ static void feet_are_closed(void **state)
     for (size_t k = 0; k < sizeof c / sizeof c[0]; k++) stays_out(&c[k], c[k].dim == 2 ? 200 : 100);
 }
 
+/* A drop that falls on a flat floor stops within half a spacing of it, wherever the wall particles are: over one of them, between two, amid
+ * four. */
+static void floor_stops_drops(void **state)
+{
+    (void)state;
+    static const double aside[3][2] = {{0, 0}, {0.5, 0}, {0.5, 0.5}};
+    const double dp = CLOUD_DP;
+    for (int k = 0; k < 3; k++)
+        for (double height = 0.1; height < 0.9; height += 0.1) {
+            const double u[3] = {0, -1e-3, 0};
+            cloud c = cloud_empty(3, 1);
+            const int32_t phase = 0;
+            c.x[0] = (5 + aside[k][0]) * dp;
+            c.x[1] = height * dp;
+            c.x[2] = (5 + aside[k][1]) * dp;
+            mps_sim *sim = bare_sim(3, dp, 2.1, 0.1 * dp);
+            add_tank(sim, 10 * dp, 10 * dp, 10 * dp);
+            add_cloud(sim, &c, &phase, u);
+            ASSERT_OK(sim, mps_model_use(sim, "collision.pair"));
+            ASSERT_OK(sim, mps_step(sim, 1, NULL));
+            double *now = field_by_id(sim, "velocity");
+            const double left = now[3 * (mps_particles_count(sim, -1) - 1) + 1];
+            ASSERT_NEAR(left, height < 0.5 - 1e-6 ? 0 : -1e-3, 1e-12);
+            mps_sim_destroy(sim);
+            cloud_free(&c);
+            free(now);
+        }
+}
+
 /* Liquid squeezed against the floor, with the shift alone, whose velocities are along the floor: what is within 0.5 dp of it does not sink. */
 static void shift_keeps_off(void **state)
 {
@@ -397,11 +426,16 @@ static void order(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(momentum),           cmocka_unit_test(lone_pair),
-        cmocka_unit_test(any_spacing),        cmocka_unit_test(edge_is_a_post),
-        cmocka_unit_test(corners_are_closed), cmocka_unit_test(edges_are_closed),
-        cmocka_unit_test(feet_are_closed),    cmocka_unit_test(shift_keeps_off),
-        cmocka_unit_test(out_of_the_wall),    cmocka_unit_test(order)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(momentum),
+                                       cmocka_unit_test(lone_pair),
+                                       cmocka_unit_test(any_spacing),
+                                       cmocka_unit_test(edge_is_a_post),
+                                       cmocka_unit_test(corners_are_closed),
+                                       cmocka_unit_test(edges_are_closed),
+                                       cmocka_unit_test(feet_are_closed),
+                                       cmocka_unit_test(floor_stops_drops),
+                                       cmocka_unit_test(shift_keeps_off),
+                                       cmocka_unit_test(out_of_the_wall),
+                                       cmocka_unit_test(order)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
