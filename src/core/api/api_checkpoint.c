@@ -85,7 +85,7 @@ mps_status mps_checkpoint_read(mps_sim *sim, const char *path)
     if (mps__world_divided(&sim->world))
         return mps__fail(c, MPS_E_STATE,
                          "the ranks have divided the particles: read a checkpoint before the first "
-                         "step");
+                         "step, and before anything is measured");
     mps__archive a = {.context = c};
     mps_status status = mps__ranks_agree(r, mps__archive_load(&a, path));
     if (status == MPS_OK) status = mps__ranks_agree(r, check_setup(sim, &a));

@@ -63,7 +63,7 @@ static inline mps_status mps__sim_divided(const mps_sim *sim, const char *call)
 /* Refuse geometry where ranks have divided the particles: it looks at all that is there. */
 static inline mps_status mps__sim_whole(const mps_sim *sim, const char *call)
 {
-    if (!mps__ranks_many(sim->world.ghosts.ranks) || !sim->world.ghosts.divided) return MPS_OK;
+    if (!sim->world.ghosts.divided) return MPS_OK;
     return mps__fail(mps__sim_context(sim), MPS_E_STATE,
                      "%s() was called when the ranks had divided the particles: build the geometry "
                      "before the first step; particles may be added and removed later",

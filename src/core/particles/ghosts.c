@@ -25,13 +25,6 @@ static void forget_route(mps__ghosts *g)
     g->sends = g->receives = 0;
 }
 
-void mps__ghosts_forget(mps__ghosts *g)
-{
-    forget_route(g);
-    g->known = g->runs = 0;
-    g->divided = false;
-}
-
 void mps__ghosts_free(mps__ghosts *g)
 {
     forget_route(g);

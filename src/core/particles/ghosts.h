@@ -65,8 +65,6 @@ mps_status mps__ghosts_share(mps__ghosts *g, const mps__shared *shared, int32_t 
 /* The same of numbers that some particles have: particle i has x[index[i]], none where index[i] < 0. */
 mps_status mps__ghosts_share_indexed(mps__ghosts *g, const int32_t *index, double *x);
 
-/* The store has other particles, which all ranks have alike: those of a checkpoint. */
-void mps__ghosts_forget(mps__ghosts *g);
 /* Bytes of all fields of a particle; these fields one behind the other, and back. */
 size_t mps__ghosts_packet(const mps__particles *s);
 void mps__ghosts_pack(const mps__particles *s, int64_t i, char *to);

@@ -17,7 +17,7 @@ void mps__gather_end(mps__world *w);
 /* Whether ranks have divided the particles. */
 static inline bool mps__world_divided(const mps__world *w)
 {
-    return mps__ranks_many(w->ghosts.ranks) && w->ghosts.divided;
+    return w->ghosts.divided;
 }
 
 #endif

@@ -180,9 +180,6 @@ mps_status mps__world_replace(mps__world *w, int64_t n, const void *const from[]
     if (status < 0 && travels) mps__particles_field_drop(s);
     if (status < 0 || !mps__ranks_many(&w->ranks)) return status;
     for (int64_t i = 0; i < n; i++) s->wall_id[i] = s->wall_of[i] >= 0 ? s->id[s->wall_of[i]] : -1;
-    mps__ghosts_forget(&w->ghosts);
-    w->lists.neighbours.ghost = NULL;
-    if (w->ghosts.ghost) memset(w->ghosts.ghost, 0, (size_t)w->ghosts.capacity);
     return status;
 }
 
