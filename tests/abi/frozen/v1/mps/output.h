@@ -98,7 +98,7 @@ MPS_API mps_status mps_checkpoint_write(mps_sim *sim, const char *path);
  *  | MPS_E_ARG | a setting differs: which one, and both values |
  *  | MPS_E_IO | the file cannot be read, is cut short, damaged or not a checkpoint |
  *  | MPS_E_VERSION | written by a newer library, or with another byte order |
- *  | MPS_E_STATE | on many ranks: after the first step |
+ *  | MPS_E_STATE | on many ranks: after the first step, or after something was measured |
  *  | MPS_E_BUSY | a lease is open; called from a monitor, a verb or a callback |
  *  | MPS_E_NOMEM | no memory; on many ranks the run then ends | */
 MPS_API mps_status mps_checkpoint_read(mps_sim *sim, const char *path);
