@@ -7,6 +7,7 @@ import numpy as np
 import evaluate as e
 import measures as m
 import phases as ph
+import potential
 import theory
 from plots import Panel
 
@@ -59,11 +60,10 @@ def standing_wave(outcomes, refs):
 
 
 def small_surge(outcomes, refs):
-    tank, t = theory.Surge(0.6, 0.3, 5e-4, 6.85), np.linspace(0, 3, 300)
+    flow = potential.half_full(5e-4, 3.0)
     eta = overlay("height 0.02 m from the right wall", "mm", outcomes, "eta_right", factor=1e3)
     p = overlay("P1, 5 ms mean", "Pa", outcomes, "P1", 0.005, y_limits=(2715, 2775))
-    yield "small_surge.svg", [eta.reference("linear theory", t, 1e3 * tank.elevation(t, 0.58)),
-                              p.reference("linear theory", t, tank.left_wall_pressure(t, 0.02))]
+    yield "small_surge.svg", [eta.reference("FNPF", flow.t, 1e3 * flow.height(0.58)), p.reference("FNPF", flow.t, flow.p[0])]
 
 
 def high_fill(outcomes, refs, name="high_fill"):
@@ -75,13 +75,16 @@ def high_fill(outcomes, refs, name="high_fill"):
 
 def surge(outcomes, refs):
     panels = [overlay(f"height at the {side} wall", "m", outcomes, f"eta_{side}", 0.005) for side in ("left", "right")]
-    marks(panels[0], "FNPF, damped", e.SURGE_DAMPED)
-    marks(panels[0], "FNPF, undamped", e.SURGE_UNDAMPED, "x")
+    o, flow = outcomes[-1], potential.surge_tank()
+    panels[0].reference("FNPF", flow.t, flow.height(o.dp))
+    panels[1].reference("FNPF", flow.t, flow.height(0.8 - o.dp))
     yield "surge_elevation.svg", panels
-    yield "surge_pressure.svg", [overlay(f"P{i}, {0.05 * i:.2f} m above the floor, 5 ms mean", "Pa", outcomes, f"P{i}", 0.005, begin=0.05)
-                                  for i in (1, 3, 5)]
-    o = outcomes[-1]
+    pressures = [overlay(f"P{i}, {0.05 * i:.2f} m above the floor, 5 ms mean", "Pa", outcomes, f"P{i}", 0.005, begin=0.05) for i in (1, 3, 5)]
+    for panel, row in zip(pressures, (0, 2)):
+        panel.reference("FNPF", flow.t, flow.p[row])
+    yield "surge_pressure.svg", pressures
     budget = Panel(f"energy since the start, dp {o.dp:g}", "J/m").curve("kinetic + potential", o.t, o["ke"] + o["pe"] - o["ke"][0] - o["pe"][0])
+    budget.reference("FNPF", flow.t, flow.energy)
     for name in ("wall_work", "viscous", "numerical"):
         budget.curve(name.replace("_", " "), o.t, o[name])
     yield "surge_energy.svg", [budget]

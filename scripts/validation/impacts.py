@@ -37,13 +37,17 @@ def flat(o, refs):
 
 
 def film(o, refs):
-    """Impulses to 4 dp/U after contact and from there to 12 dp/U, in rho U dp h. Liquid of the half cells of the floor belongs to the walls."""
-    fluid, exact, whole = number(o, "impulse_fluid"), number(o, "exact_fluid"), number(o, "exact_half_cell")
+    """Impulses in rho U dp h, to 4 dp/U after contact, from there to 12 dp/U, and both. Liquid of the half cells of the floor belongs to the
+    walls: at first they have more of the impulse than their share, later less."""
+    fluid, exact, half = number(o, "impulse_fluid"), number(o, "exact_fluid"), number(o, "exact_half_cell")
+    walls, late_fluid, late_walls = number(o, "impulse_walls"), number(o, "late_fluid"), number(o, "late_walls")
+    share = half / exact
     return [relative("impulse of the fluid", fluid, exact, "{:.2f}"),
-            relative("impulse of the wall", number(o, "impulse_walls"), whole, "{:.2f}"),
-            relative("walls / (fluid and its half cells)", number(o, "impulse_walls") / (fluid * whole / exact), 1, "{:.2f}", 15, 15),
-            relative("from 4 to 12 dp/U, fluid", number(o, "late_fluid"), number(o, "late_exact"), "{:.2f}"),
-            relative("from 4 to 12 dp/U, wall", number(o, "late_walls"), number(o, "late_exact") * whole / exact, "{:.2f}"), *peaks(o)]
+            relative("impulse of the wall", walls, half, "{:.2f}"),
+            relative("from 4 to 12 dp/U, fluid", late_fluid, number(o, "late_exact"), "{:.2f}"),
+            relative("from 4 to 12 dp/U, wall", late_walls, number(o, "late_exact") * share, "{:.2f}"),
+            relative("walls / (fluid and its half cells)", (walls + late_walls) / ((fluid + late_fluid) * share), 1, "{:.2f}", 15, 15),
+            relative("the same to 4 dp/U", walls / (fluid * share), 1, "{:.2f}"), *peaks(o)]
 
 
 def wedge(o, refs):
