@@ -262,7 +262,10 @@ def long_breaking(o, refs):
 
 
 def long_surge(o, refs):
-    return [bounded("numerical, at the end [J/m]", o["numerical"][-1], "{:+.1f}", 10, 10), *long_run(o, refs)]
+    taken = o["viscous"] + o["collision"] + o["shift"]
+    return [bounded("numerical, at the end [J/m]", o["numerical"][-1], "{:+.1f}", 10, 10),
+            bounded("numerical and what dissipation, collisions and shift take, at the end [J/m]", (o["numerical"] + taken)[-1], "{:+.1f}", 10, 10),
+            fact("the same, largest at any time", np.abs(o["numerical"] + taken).max(), "{:.1f} J/m"), *long_run(o, refs)]
 
 
 def long_run(o, refs, volume=None):
