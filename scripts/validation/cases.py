@@ -70,7 +70,7 @@ STILL = ("P1, mean error [% of rho g h]", "P2, mean error [% of rho g h]", "P3, 
          "level [% of the depth]")
 HIGH_FILL = ("crest 1", "crest 1, time", "crest 2", "crest 2, time", "P1, peak at 0.58 s", "P1, peak at 1.50 s", "P1, peak at 2.40 s",
              "P1, peak at 3.30 s", "P1, peak at 3.60 s", "P1, peak at 4.21 s", "P1, dip between 3.30 and 3.60 s (20 ms mean)")
-SURGE = ("crest 1, time", "crest 2", "crest 2, time", "crest 3", "crest 3, time", "crest 4", "crest 4, time")
+SURGE = ("crest 1", "crest 1, time", "crest 2, time", "crest 3", "crest 3, time", "crest 4", "crest 4, time")
 WAVE = tuple(f"{figure}, {place}{unit}" for place in ("crests at the wall", "centre of mass")
              for figure, unit in (("frequency", ""), ("amplitude after 5 periods / viscous", ""), ("growth a period", " [%]")))
 BAFFLE = ("line of the spectrum at gauge a", "line of the spectrum at gauge c", "amplitude at gauge a / unbaffled", "amplitude at gauge c / unbaffled",
