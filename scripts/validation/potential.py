@@ -114,6 +114,8 @@ class Tank:
         x, y, phi = (self.filtered(f)[: self.points + 1] for f in self.state())
         self.x, self.y, self.phi = x + self.grid()[: self.points + 1], y, phi
         self.t, self.count = self.t + dt, self.count + 1
+        if not np.abs(self.y - self.depth).max() < 2 * self.depth:
+            raise FloatingPointError(f"potential flow: the surface breaks up at t = {self.t:.3f} s; use shorter steps or fewer points")
 
     def integral(self, f):
         """Over xi, from wall to wall."""
