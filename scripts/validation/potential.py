@@ -126,17 +126,20 @@ class Tank:
         z, first, _, _ = self.kernels(self.x, self.y)
         return self.integral(z.imag * first.real)
 
-    def moment(self):
-        """Mass times x of its centre, from the left wall [kg]."""
-        z, first, _, _ = self.kernels(self.x, self.y)
-        return WATER * self.integral(z.real * z.imag * first.real)
-
-    def energy(self):
-        """Kinetic energy relative to the tank and potential energy above the still level [J/m]."""
+    def bulk(self):
+        """Kinetic energy [J/m] and momentum along x [kg/s a metre of width] relative to the tank, and potential energy above the still level.
+        Momentum is the flux through the surface, -d(psi), times x."""
         kernels = self.kernels(self.x, self.y)
         z, first, _, _ = kernels
         _, dpsi = self.conjugate(kernels, self.phi)
-        return -0.5 * WATER * self.integral(self.even(self.phi) * dpsi), 0.5 * WATER * G * self.integral((z.imag - self.depth) ** 2 * first.real)
+        return (-0.5 * WATER * self.integral(self.even(self.phi) * dpsi), -WATER * self.integral(z.real * dpsi),
+                0.5 * WATER * G * self.integral((z.imag - self.depth) ** 2 * first.real))
+
+    def lab_energy(self):
+        """Kinetic and potential energy in the lab, less that at rest [J/m]."""
+        kinetic, momentum, potential = self.bulk()
+        v = self.velocity(self.t)
+        return kinetic + potential + v * momentum + 0.5 * WATER * self.length * self.depth * v * v
 
     def left_wall_pressures(self, heights):
         """[Pa] at heights above the floor, from phi and d(phi)/dt there by Cauchy's integral."""
@@ -163,14 +166,10 @@ class Flow:
     in the lab, less that at rest."""
 
     def __init__(self, tank, end, dt, sensors):
-        rows, moment = [], tank.moment()
-        mass = WATER * tank.length * tank.depth
+        rows = []
         while tank.t < end - 0.5 * dt:
             tank.step(dt)
-            before, moment = moment, tank.moment()
-            v = tank.velocity(tank.t - 0.5 * dt)  # as the momentum, from the moments, is that of half a step before
-            lab = sum(tank.energy()) + v * (moment - before) / dt + 0.5 * mass * v * v
-            rows.append((tank.t, tank.x, tank.y - tank.depth, tank.left_wall_pressures(sensors), lab))
+            rows.append((tank.t, tank.x, tank.y - tank.depth, tank.left_wall_pressures(sensors), tank.lab_energy()))
         self.t, self.x, self.y, pressures, self.energy = (np.array(column) for column in zip(*rows))
         self.p = pressures.T
 
