@@ -178,16 +178,12 @@ class Flow:
         return np.array([np.interp(x, *row) for row in zip(self.x, self.y)])
 
 
-def quiet_start(length, depth, a, w, end, dt, sensor, points=32):
-    """x = -a (1 - cos w t)."""
-    tank = Tank(length, depth, lambda t: -a * w * sin(w * t), lambda t: -a * w * w * cos(w * t), points)
-    return Flow(tank, end, dt, [sensor])
-
-
 @lru_cache
 def half_full(amplitude, end):
-    """The tank of 0.6 m with 0.3 m of water; P1."""
-    return quiet_start(0.6, 0.3, amplitude, 6.85, end, 0.005, 0.02)
+    """The tank of 0.6 m with 0.3 m of water, x = -amplitude (1 - cos 6.85 t); P1."""
+    w = 6.85
+    tank = Tank(0.6, 0.3, lambda t: -amplitude * w * sin(w * t), lambda t: -amplitude * w * w * cos(w * t), 32)
+    return Flow(tank, end, 0.005, [0.02])
 
 
 @lru_cache
