@@ -77,7 +77,11 @@ class Tank:
         df, dpsi = self.conjugate(kernels, phi)
         w = ((df + 1j * dpsi) / kernels[1])[: self.points + 1]
         w[0], w[-1] = 1j * w[0].imag, 1j * w[-1].imag
-        return w.real, -w.imag, 0.5 * np.abs(w) ** 2 - G * (y - self.depth) - self.acceleration(t) * self.smooth_x(x)
+        return w.real, -w.imag, 0.5 * np.abs(w) ** 2 + self.force(t, x, y)
+
+    def force(self, t, x, y):
+        """Potential of gravity and of the tank's acceleration at the surface, with the sign of d(phi)/dt."""
+        return -G * (y - self.depth) - self.acceleration(t) * self.smooth_x(x)
 
     def filtered(self, f):
         """Without the shortest waves, which the nonlinear terms would fold back."""
@@ -147,7 +151,7 @@ class Tank:
         z, first, _, _ = kernels
         df, dpsi = self.conjugate(kernels, self.phi)
         f = df + 1j * dpsi
-        rate = -0.5 * np.abs(f / first)[: self.points + 1] ** 2 - G * (self.y - self.depth) - self.acceleration(self.t) * self.smooth_x(self.x)
+        rate = -0.5 * np.abs(f / first)[: self.points + 1] ** 2 + self.force(self.t, self.x, self.y)
         _, dpsi = self.conjugate(kernels, rate)
         spectrum = np.fft.rfft(dpsi)
         spectrum[1:] /= 1j * pi / self.points * np.arange(1, self.points + 1)
