@@ -27,7 +27,7 @@ static const struct bench_kind kinds[] = {
      {1.3, 0.18, 0},
      1000,
      1e-3,
-     {.dof = MPS_SURGE, .amplitude = 0.1, .omega = 3.1164599471},
+     {.dof = MPS_MOVE_X, .amplitude = 0.1, .omega = 3.1164599471},
      EMPTY},
     {"breaking_air",
      2,
@@ -35,7 +35,7 @@ static const struct bench_kind kinds[] = {
      {1.3, 0.18, 0},
      1000,
      1e-3,
-     {.dof = MPS_SURGE, .amplitude = 0.1, .omega = 3.1164599471},
+     {.dof = MPS_MOVE_X, .amplitude = 0.1, .omega = 3.1164599471},
      AIR},
 };
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Speed and memory of the step on real cases, and of the pressure solvers on equations recorded there. */
 #include "bench.h"
+#include "../examples/common/profile.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,6 +18,7 @@ typedef struct options {
     int repeats;
     double skip, t_end, re_far, tolerance;
     const char *json, *record;
+    bool profile;
 } options;
 
 /* One measured run. */
@@ -46,6 +48,8 @@ static const char usage[] =
     "  --repeats n        whole list of runs n times, one after the other (default 1)\n"
     "  --re-far r         far radius [dp]\n"
     "  --tolerance x      relative residual (default 1e-6)\n"
+    "  --profile          a table of all passes of the measured steps, before the line of each "
+    "run\n"
     "  --json file        all figures\n"
     "  --record file      write the pressure equation of the last step\n"
     "  --replay file      solve a recorded equation with every solver and number of threads; may "
@@ -75,9 +79,14 @@ static void parse(options *o, int argc, char **argv)
                           {"--solver", &o->solvers, NULL}, {"--replay", &o->replay, NULL},
                           {"--skip", NULL, &o->skip},      {"--t-end", NULL, &o->t_end},
                           {"--re-far", NULL, &o->re_far},  {"--tolerance", NULL, &o->tolerance}};
-    for (int k = 1; k < argc; k += 2) {
-        const char *name = argv[k], *text = k + 1 < argc ? argv[k + 1] : NULL;
+    for (int k = 1; k < argc; k++) {
+        const char *name = argv[k];
         bool known = false;
+        if (strcmp(name, "--profile") == 0) {
+            o->profile = true;
+            continue;
+        }
+        const char *text = k + 1 < argc ? argv[++k] : NULL;
         if (!text) {
             fputs(usage, stdout);
             exit(strcmp(name, "--help") ? 2 : 0);
@@ -146,6 +155,7 @@ static void measure(const options *o, mps_sim *sim, outcome *r)
         step(sim, o->skip - t, &info);
     for (int64_t k = 0; k < o->warm; k++) step(sim, 1.0, &info);
     mps_sim_time(sim, &t, NULL);
+    mps_profile_reset(sim);
     const double wall = bench_wall(), cpu = bench_cpu(), begin = t;
     while (more(o, r, t)) {
         step(sim, o->t_end > 0 ? o->t_end - t : 1.0, &info);
@@ -159,6 +169,13 @@ static void measure(const options *o, mps_sim *sim, outcome *r)
     r->wall = bench_wall() - wall;
     r->cpu = bench_cpu() - cpu;
     r->t = t - begin;
+}
+
+static void print_profile(mps_sim *sim, const outcome *r)
+{
+    double seconds = 0;
+    for (int k = 0; k < MPS_STAGE_COUNT; k++) seconds += r->seconds[k];
+    profile_print(sim, seconds);
 }
 
 static outcome run(const options *o, const char *name, const char *solver, int32_t threads)
@@ -179,6 +196,7 @@ static outcome run(const options *o, const char *name, const char *solver, int32
     snprintf(r.solver, sizeof r.solver, "%s/%s", used[0], used[1] ? used[1] : "none");
     r.triad = bench_triad();
     measure(o, sim, &r);
+    if (o->profile) print_profile(sim, &r);
     if (mps_lease_begin(sim, "position", MPS_READ, &x) < 0) bench_fail(name, mps_sim_error(sim));
     r.particles = x.count;
     mps_lease_end(sim, &x);

@@ -1,15 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # What `cmake --install` puts where. The static library's targets are a set of their own: only they need SUNDIALS.
-# Components, which are packages of Debian: runtime, dev (what has no other name), drivers, hypre, mpi.
 include(CMakePackageConfigHelpers)
 
-set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME dev)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/mps)
 
-install(TARGETS mps EXPORT mpsTargets LIBRARY COMPONENT runtime NAMELINK_COMPONENT dev)
+install(TARGETS mps EXPORT mpsTargets)
 install(TARGETS mps_static EXPORT mpsStaticTargets)
 install(DIRECTORY include/mps TYPE INCLUDE FILES_MATCHING PATTERN "*.h")
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(EXPORT mpsTargets NAMESPACE mps:: DESTINATION ${package})
 install(EXPORT mpsStaticTargets NAMESPACE mps:: DESTINATION ${package})
 

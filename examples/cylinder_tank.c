@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A lying cylinder with elliptical ends, half full, in surge near its first natural frequency; or a tank from an STL file. */
-#include "common/run.h"
+#include "common/tank.h"
 #include <math.h>
 #include <string.h>
 
@@ -66,14 +66,14 @@ static void add_file(run *r, cylinder_case *c)
 static void build(run *r, cylinder_case *c)
 {
     const mps_harmonic motion = {
-        .dof = MPS_SURGE, .amplitude = r->options.amplitude, .omega = OMEGA};
+        .dof = MPS_MOVE_X, .amplitude = r->options.amplitude, .omega = OMEGA};
     if (r->options.stl)
         add_file(r, c);
     else
         add_shell(r, c);
     c->level = c->lo[1] + FILL * (c->hi[1] - c->lo[1]) + 0.01 * r->options.dp;
     run_check(r, mps_fill_add(r->sim, 0, under_water, c, NULL), "water");
-    run_check(r, mps_motion_harmonics_set(r->sim, 1, &motion), "motion");
+    tank_move(r, motion);
 }
 
 static double force_value(void *user, mps_sim *sim)
@@ -123,7 +123,7 @@ int main(int argc, char **argv)
     o.dp_max = 0.05;
     o.t_end = 3;
     o.amplitude = 0.02;
-    o.has_stl = true;
+    o.has_ramp = o.has_stl = true;
     cli_parse(&o, argc, argv);
     run_open(&r, &o);
     build(&r, &c);

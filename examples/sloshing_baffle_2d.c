@@ -7,7 +7,7 @@
 static const tank_case tank = {
     .size = {0.57, 0.5},
     .depth = 0.18,
-    .motion = {.dof = MPS_SURGE, .amplitude = 0.1, .omega = 3.53},
+    .motion = {.dof = MPS_MOVE_X, .amplitude = 0.1, .omega = 3.53},
     .plate = {.middle = 0.285, .thickness = 0.006, .bottom = 0, .top = 0.15}};
 
 static void add_columns(run *r, const tank_case *c)

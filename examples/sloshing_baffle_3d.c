@@ -6,7 +6,7 @@
 static const tank_case tank = {
     .size = {0.57, 0.5, 0.31},
     .depth = 0.2,
-    .motion = {.dof = MPS_SURGE, .amplitude = 0.03, .omega = 6.582},
+    .motion = {.dof = MPS_MOVE_X, .amplitude = 0.03, .omega = 6.582},
     .plate = {.middle = 0.278, .thickness = 0.006, .bottom = 0.05, .top = 0.2}};
 
 /* The paper prints a width of 0.6 m. Its particle numbers at dp 0.005, 274195 of liquid and 102500 of solids, are those of a lattice

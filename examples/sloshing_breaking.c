@@ -7,7 +7,7 @@
 
 static const double FREQUENCY = 0.496;
 static tank_case tank = {
-    .size = {1.3, 0.9, 0.1}, .depth = 0.18, .motion = {.dof = MPS_SURGE, .amplitude = 0.1}};
+    .size = {1.3, 0.9, 0.1}, .depth = 0.18, .motion = {.dof = MPS_MOVE_X, .amplitude = 0.1}};
 
 /* The cavity under the plunging crest: a model with air keeps it, one without lets it fall in. */
 static double air_volume(void *user, mps_sim *sim)

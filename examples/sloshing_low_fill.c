@@ -5,7 +5,7 @@
 static const tank_case tank = {
     .size = {0.6, 0.6},
     .depth = 0.03,
-    .motion = {.dof = MPS_SURGE, .form = 1, .amplitude = 0.01, .omega = 2.825}};
+    .motion = {.dof = MPS_MOVE_X, .form = 1, .amplitude = 0.01, .omega = 2.825}};
 
 static void add_columns(run *r, const tank_case *c)
 {

@@ -13,11 +13,6 @@ static const struct {
 static const double SIZE[] = {0.9, 0.508, 0.062}, DEPTH = 0.093, CYCLES = 0.85, DEGREES = 4,
                     PI = 3.14159265358979;
 
-/* The roll: a(t) = amplitude sin(w t), with an amplitude that grows over the first `ramp` periods. */
-typedef struct roll {
-    double amplitude, omega, ramp;
-} roll;
-
 /* Period of the longest wave of a tank of this length, by linear theory. */
 static double natural_period(double gravity)
 {
@@ -25,30 +20,14 @@ static double natural_period(double gravity)
     return 2 * PI / sqrt(gravity * k * tanh(k * DEPTH));
 }
 
-static int turn(void *user, double t, mps_motion_state *s)
-{
-    const roll *m = user;
-    const double x = m->ramp > 0 ? fmin(1, t * m->omega / (2 * PI * m->ramp)) : 1,
-                 over = m->ramp > 0 ? m->omega / (2 * PI * m->ramp) : 0;
-    /* 10 x^3 - 15 x^4 + 6 x^5: velocity and acceleration are continuous */
-    const double a = m->amplitude, f = a * x * x * x * (10 - 15 * x + 6 * x * x),
-                 df = a * over * 30 * x * x * (1 - x) * (1 - x),
-                 ddf = a * over * over * 60 * x * (1 - x) * (1 - 2 * x), w = m->omega,
-                 sine = sin(w * t), cosine = cos(w * t);
-    s->value[MPS_YAW] = f * sine;
-    s->rate[MPS_YAW] = df * sine + f * w * cosine;
-    s->accel[MPS_YAW] = ddf * sine + 2 * df * w * cosine - f * w * w * sine;
-    return 0;
-}
-
 static double angle(void *user, mps_sim *sim)
 {
     mps_motion_state s = {.struct_size = sizeof s};
     (void)user;
-    return mps_motion_state_get(sim, &s) == MPS_OK ? s.value[MPS_YAW] * 180 / PI : NAN;
+    return mps_motion_state_get(sim, &s) == MPS_OK ? s.value[MPS_ROTATE_Z] * 180 / PI : NAN;
 }
 
-static void build(run *r, int32_t liquid, roll *m)
+static void build(run *r, int32_t liquid, mps_harmonic motion)
 {
     const double lo[3] = {0}, middle[3] = {0.5 * SIZE[0], 0, 0.5 * SIZE[2]};
     tank_walls(r, SIZE);
@@ -59,7 +38,7 @@ static void build(run *r, int32_t liquid, roll *m)
         run_check(r, mps_fill_box_add(r->sim, 1, lo, SIZE, NULL, NULL), "air");
     }
     run_check(r, mps_motion_centre_set(r->sim, middle, MPS_START_AT_REST), "centre");
-    run_check(r, mps_motion_callback_set(r->sim, turn, m), "motion");
+    tank_move(r, motion);
 }
 
 /* Pressures at the still level on both sides, heights at both walls and at a quarter of the length. */
@@ -82,7 +61,7 @@ int main(int argc, char **argv)
     run r;
     int32_t liquid = OIL;
     double degrees = DEGREES, cycles = CYCLES;
-    roll m = {.ramp = 0.5};
+    mps_harmonic motion = {.dof = MPS_ROTATE_Z};
     cli_defaults(&o, "sloshing_roll",
                  "lateral impact of a shallow liquid in a tank that rolls about the middle of its "
                  "floor, by 4 degrees");
@@ -90,7 +69,8 @@ int main(int argc, char **argv)
     o.dp_min = 0.001;
     o.dp_max = 0.031;
     o.t_end = 5;
-    o.has_dim = o.has_sigma = true;
+    o.ramp = 0.5;
+    o.has_dim = o.has_ramp = o.has_sigma = true;
     o.need =
         "reference.lid"; /* in a closed tank full of liquid and gas something must set the level of the pressures */
     cli_own(&o, (cli_option){"--liquid", "water|oil",
@@ -100,13 +80,11 @@ int main(int argc, char **argv)
                              0.01, 20, false});
     cli_own(&o, (cli_option){"--cycles", "R", "period over the first natural period", TYPE_REAL,
                              &cycles, 0.2, 5, false});
-    cli_own(&o, (cli_option){"--ramp", "N", "periods in which the amplitude grows", TYPE_REAL,
-                             &m.ramp, -1, 10, false});
     cli_parse(&o, argc, argv);
-    m.amplitude = degrees * PI / 180;
-    m.omega = 2 * PI / (cycles * natural_period(o.gravity));
+    motion.amplitude = degrees * PI / 180;
+    motion.omega = 2 * PI / (cycles * natural_period(o.gravity));
     run_open(&r, &o);
-    build(&r, liquid, &m);
+    build(&r, liquid, motion);
     add_columns(&r);
     return run_finish(&r);
 }

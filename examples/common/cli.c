@@ -3,6 +3,7 @@
 #include "cli.h"
 #include "listing.h"
 #include "ranks.h"
+#include <fcntl.h>
 #include <math.h>
 #include <mps/mps.h>
 #include <stdio.h>
@@ -37,6 +38,7 @@ static int cli_table(cli_options *o, cli_option *table)
     table[n++] = (cli_option){"--out", "DIR", "folder for all outputs", TYPE_TEXT, &o->out, 0, 0, false};
     table[n++] = (cli_option){"--frames", "N", "frames for ParaView besides the first; 0: none",
                               TYPE_INT, &o->frames, 0, CLI_FRAMES_MAX, false};
+    table[n++] = (cli_option){"--tank-frame", NULL, "frames in the frame of the tank: its walls stand still", TYPE_FLAG, &o->tank_frame, 0, 0, true};
     table[n++] = (cli_option){"--pieces", NULL, "with --mpi: each rank writes its own .vtp of a frame, and a .pvtp names them", TYPE_FLAG, &o->pieces, 0, 0, true};
     table[n++] = (cli_option){"--checkpoint", "S", "a checkpoint every S simulated seconds and at the end; default: only at Ctrl-C",
                               TYPE_REAL, &o->checkpoint, 1e-6, o->t_max, false};
@@ -51,6 +53,9 @@ static int cli_table(cli_options *o, cli_option *table)
     if (o->has_dim) table[n++] = (cli_option){"--dim", "D", "2 or 3 dimensions", TYPE_INT, &o->dim, 2, 3, false};
     if (o->amplitude > 0)
         table[n++] = (cli_option){"--amplitude", "M", "amplitude of the motion [m]", TYPE_REAL, &o->amplitude, 0, 10, false};
+    if (o->has_ramp)
+        table[n++] = (cli_option){"--ramp", "N", "periods in which the motion grows to its amplitude; 0: it starts at once",
+                                  TYPE_REAL, &o->ramp, -1, 100, false};
     if (o->has_layers)
         table[n++] = (cli_option){"--layers", "N", "columns of particles of the baffle; 0: by its thickness",
                               TYPE_INT, &o->layers, 0, 100, false};
@@ -62,6 +67,7 @@ static int cli_table(cli_options *o, cli_option *table)
         table[n++] = (cli_option){"--sigma", "N/M", "surface tension [N/m], for models that have it", TYPE_REAL, &o->sigma, -1, 100, false};
     for (int i = 0; i < o->owns; i++) table[n++] = o->own[i];
     table[n++] = (cli_option){"--no-report", NULL, "no report.html", TYPE_FLAG, &o->report, 0, 0, false};
+    table[n++] = (cli_option){"--profile", NULL, "print a table of all passes of the steps: calls, seconds, bytes", TYPE_FLAG, &o->profile, 0, 0, true};
     table[n++] = (cli_option){"--quiet", NULL, "no progress", TYPE_FLAG, &o->quiet, 0, 0, true};
     table[n++] = (cli_option){"--list-models", NULL, "all models with settings, channels and solvers", TYPE_LISTING, NULL, 0, 0, false};
     table[n++] = (cli_option){"--version", NULL, "version of the library", TYPE_VERSION, NULL, 0, 0, false};
@@ -254,8 +260,17 @@ static void cli_take(cli_options *o, cli_option *table, int n, int argc, char **
     cli_set(o, e, text);
 }
 
+/* Where a host starts a driver without standard streams, the first files would take their numbers, and messages would land in them. */
+static void fill_streams(void)
+{
+    for (int fd = 0; fd <= 2; fd++)
+        if (fcntl(fd, F_GETFD) == -1 && open("/dev/null", fd == 0 ? O_RDONLY : O_WRONLY) != fd)
+            exit(2);
+}
+
 void cli_defaults(cli_options *o, const char *program, const char *about)
 {
+    fill_streams();
     *o = (cli_options){.program = program,
                        .about = about,
                        .model = "imps",

@@ -67,10 +67,13 @@ typedef struct cli_options {
     bool mpi;                    /* one run on all ranks of MPI */
     int32_t frames;              /* frames besides the first */
     bool pieces;                 /* each rank writes its part of them */
+    bool tank_frame;             /* they are in the frame of the tank */
     int pictures;                /* 0: at quarters of the time */
     double picture_t[CLI_TIMES]; /* [s], ascending */
     int32_t dim;                 /* 2 or 3 */
     double amplitude;            /* of the motion [m]; offered by drivers that set it */
+    double ramp;                 /* periods in which the motion grows to its amplitude */
+    bool has_ramp;               /* the driver offers --ramp */
     int32_t layers;              /* columns of a baffle; 0: as it is thick */
     bool has_dim, has_layers;    /* the driver offers --dim, --layers */
     const char *stl;             /* NULL, or a file with the tank; offered if has_stl */
@@ -94,7 +97,7 @@ typedef struct cli_options {
     const char *prefer; /* NULL, or "slot.key=value", set before --set where the model has it */
     int owns;           /* options of this driver alone */
     cli_option own[CLI_OWN];
-    bool report, quiet;
+    bool report, quiet, profile;
 } cli_options;
 
 /* Sensible defaults for everything but program, about, dp and t_end. */

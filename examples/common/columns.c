@@ -54,12 +54,19 @@ static run_column *run_probe_add(run *r, const char *name, const char *unit, con
                                  double zero)
 {
     int32_t id;
-    run_check(r, mps_probe_add(r->sim, probe, &id), name);
+    mps_probe named = *probe;
+    mps_probe_info info;
+    named.name = name;
+    run_check(r, mps_probe_add(r->sim, &named, &id), name);
+    mps_probe_info_init(&info, sizeof info);
+    run_check(r, mps_probe_info_get(r->sim, id, &info), name);
     run_column *c = run_column_add(r, name, unit);
     c->probe = id;
     c->zero = zero;
-    c->diameter = probe->diameter;
-    memcpy(c->at, probe->at, sizeof c->at);
+    c->diameter = info.diameter;
+    memcpy(c->at, info.at, sizeof c->at);
+    memcpy(c->normal, info.normal, sizeof c->normal);
+    snprintf(c->part, sizeof c->part, "%s", info.part);
     return c;
 }
 
@@ -76,10 +83,9 @@ void run_wall_sensor(run *r, const char *name, double x, double y, double z, dou
     run_column *c = run_probe_add(r, name, "Pa", &probe, 0);
     c->pressure = true;
     c->type = "wall_pressure";
-    if (c->diameter == 0) c->diameter = r->options.dp; /* that of the library */
     about_add(c, "Wall pressure: sensor at ");
     about_place(r, c, c->at);
-    about_add(c, ", face %g m wide", c->diameter);
+    about_add(c, " on '%s', face %g m wide", c->part, c->diameter);
     about_average(r, c);
 }
 
@@ -118,7 +124,7 @@ void run_force(run *r, const char *name, const char *part, int32_t component)
     c->component = component;
     c->pressure = true;
     c->type = "force";
-    about_add(c, "Pressure force along %c: of the liquid on ", "xyz"[component]);
+    about_add(c, "Force along %c: of the liquid on ", "xyz"[component]);
     if (part)
         about_add(c, "the part '%s'", part);
     else
@@ -147,12 +153,18 @@ void run_particle_value(run *r, const char *name, const char *unit, const char *
 /* Those of every driver, behind its own, in the order of COLUMN_KE and on. The energy's unit is J, J/m in 2-D. */
 static const run_column COMMON[RUN_COMMON] = {
     {.name = "ke", .unit = "J", .about = "Kinetic energy: of all fluid"},
-    {.name = "x_tank", .unit = "m", .about = "Place of the tank along x: its surge"},
+    {.name = "x_tank", .unit = "m", .about = "Displacement of the tank along x"},
     {.name = "pe", .unit = "J", .about = "Potential energy: of all fluid, 0 at the lab's origin"},
-    {.name = "wall_work",
+    {.name = "wall_work_momentum",
      .unit = "J",
-     .about = "Work of the walls: of the pressure of moving walls on the fluid, since the start"},
+     .about = "Work of the walls, by momentum: that the fluid received, since the start"},
+    {.name = "wall_work_probes",
+     .unit = "J",
+     .about = "Work of the walls, by probes: of the forces that probes show, since the start"},
     {.name = "viscous", .unit = "J", .about = "Energy lost by viscosity: since the start"},
+    {.name = "plugins",
+     .unit = "J",
+     .about = "Energy lost in plug-ins: in models that are not the library's, since the start"},
     {.name = "collision", .unit = "J", .about = "Energy lost in collisions: since the start"},
     {.name = "shift", .unit = "J", .about = "Energy lost in shifting: since the start"},
     {.name = "numerical",

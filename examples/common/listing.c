@@ -58,7 +58,7 @@ static void print_channels(const mps_sim *sim)
     mps_channel_info c;
     mps_channel_info_init(&c, sizeof c);
     printf("## Channels of the library\n\nArrays with values per particle that verbs of models may "
-           "use.\n\n"
+           "use; with 0 numbers: one number for all particles.\n\n"
            "| channel | numbers in 2-D | type | unit | meaning |\n|---|---|---|---|---|\n");
     for (int32_t i = 0; mps_channel_info_get(sim, i, &c) == MPS_OK; i++)
         if (c.own)
@@ -86,10 +86,10 @@ static void print_order(mps_sim *sim, const char *preset)
     if (mps_preset_use(sim, preset) != MPS_OK) return;
     printf("## Order of a step: %s\n\nChannels: `r` reads its own row, `n` neighbours too, `w` "
            "writes, `?` may be missing.\n\n"
-           "| moment | model | channels |\n|---|---|---|\n",
+           "| hook | model | channels |\n|---|---|---|\n",
            preset);
     for (int32_t i = 0; mps_verb_info_get(sim, i, &v) == MPS_OK; i++)
-        printf("| %s | `%s` | %s |\n", v.moment_name, v.model, v.uses);
+        printf("| %s | `%s` | %s |\n", v.hook_name, v.model, v.uses);
     printf("\n");
 }
 

@@ -143,8 +143,10 @@ static double scene_noise(const scene *s)
  * pressure may be negative all over: several phases have a lower end as well. Noise alone stays at the dark end. */
 static void scene_scale(scene *s)
 {
-    double *p = malloc((size_t)s->n * sizeof *p), top = scene_noise(s), bottom = 0;
-    int64_t n = 0;
+    double top = scene_noise(s), bottom = 0;
+    int64_t fluid = 0, n = 0;
+    for (int64_t i = 0; i < s->n; i++) fluid += s->kind[i] == MPS_FLUID;
+    double *p = malloc((size_t)fluid * sizeof *p);
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_FLUID) continue;
         if (s->phase[i] >= s->phases) s->phases = s->phase[i] + 1;
@@ -212,23 +214,33 @@ static int compare_depths(const void *a, const void *b)
 }
 
 /* In 3-D what is about the middle across z, one or two layers, so that baffles and levels between the walls are seen. */
-static bool in_slice(const scene *s, int64_t i)
+static bool is_drawn(const scene *s, int64_t i)
 {
+    if (s->kind[i] == MPS_DUMMY && s->plate[i]) return false;
     return s->dim == 2 || fabs(s->x[i * 3 + 2] - 0.5 * (s->lo[2] + s->hi[2])) <= 0.75 * s->dp;
 }
 
-/* From the back to the front. */
-static bool draw_particles(image *m, const scene *s)
+/* In 3-D from the back to the front. */
+static bool draw_slice(image *m, const scene *s)
 {
-    depth *order = malloc((size_t)s->n * sizeof *order);
-    int64_t n = 0;
+    int64_t count = 0, n = 0;
+    for (int64_t i = 0; i < s->n; i++) count += is_drawn(s, i);
+    if (count == 0) return true;
+    depth *order = malloc((size_t)count * sizeof *order);
     if (!order) return false;
     for (int64_t i = 0; i < s->n; i++)
-        if (in_slice(s, i) && !(s->kind[i] == MPS_DUMMY && s->plate[i]))
-            order[n++] = (depth){s->dim == 3 ? s->x[i * 3 + 2] : 0, i};
+        if (is_drawn(s, i)) order[n++] = (depth){s->x[i * 3 + 2], i};
     qsort(order, (size_t)n, sizeof *order, compare_depths);
     for (int64_t k = 0; k < n; k++) draw_particle(m, s, order[k].i);
     free(order);
+    return true;
+}
+
+static bool draw_particles(image *m, const scene *s)
+{
+    if (s->dim == 3) return draw_slice(m, s);
+    for (int64_t i = 0; i < s->n; i++)
+        if (is_drawn(s, i)) draw_particle(m, s, i);
     return true;
 }
 
@@ -281,7 +293,7 @@ static bool image_save(const image *m, const char *path)
                      .height = (png_uint_32)m->height,
                      .format = PNG_FORMAT_RGB};
     bool done = png_image_write_to_file(&png, path, 0, m->pixel, 0, NULL) != 0;
-    if (!done) fprintf(ranks_messages(), "%s: %s\n", path, png.message);
+    if (!done) fprintf(ranks_messages(), "%s: no picture: %s\n", path, png.message);
     return done;
 }
 
@@ -292,7 +304,7 @@ static bool picture_draw(scene *s, const char *path)
     scene_scale(s);
     bool done = image_create(&m, s) && draw_particles(&m, s);
     if (done) draw_scale(&m, s);
-    if (!done) fprintf(ranks_messages(), "%s: out of memory\n", path);
+    if (!done) fprintf(ranks_messages(), "%s: no picture: out of memory\n", path);
     done = done && image_save(&m, path);
     free(m.pixel);
     return done;
@@ -311,8 +323,9 @@ bool picture_save(mps_sim *sim, double gravity, const char *path)
     int leased = 0;
     mps_sim_shape(sim, &s.dim, &s.dp);
     mps_sim_time(sim, &s.t, NULL);
-    if (!view_open(sim, &v)) goto fail;
-    while (leased < 4 && mps_lease_begin(sim, name[leased], MPS_READ, &lease[leased]) == MPS_OK)
+    const bool open = view_open(sim, &v);
+    while (open && leased < 4 &&
+           mps_lease_begin(sim, name[leased], MPS_READ, &lease[leased]) == MPS_OK)
         leased++;
     s.n = v.x.count;
     s.x = v.x.data;
@@ -322,10 +335,11 @@ bool picture_save(mps_sim *sim, double gravity, const char *path)
     s.kind = v.kind.integers;
     s.phase = v.phase.integers;
     s.plate = lease[1].integers;
-    done = leased == 4 && picture_draw(&s, path);
+    if (leased == 4)
+        done = picture_draw(&s, path);
+    else
+        fprintf(ranks_messages(), "%s: no picture: %s\n", path, mps_sim_error(sim));
     while (leased > 0) mps_lease_end(sim, &lease[--leased]);
-    view_close(sim, &v);
-fail:
-    if (!done) fprintf(ranks_messages(), "%s: no picture: %s\n", path, mps_sim_error(sim));
+    if (open) view_close(sim, &v);
     return done;
 }

@@ -26,7 +26,7 @@ static _Noreturn void refuse_module(const char *program)
     fprintf(stderr,
             "%s: --mpi: %s; it is built with the drivers where there are MPI and Zoltan (Debian: "
             "libopenmpi-dev, libtrilinos-zoltan-dev): cmake -DMPS_WITH_MPI=ON; of the packages of "
-            "libmps it is in libmps1-mpi\n",
+            "libmps --mpi needs libmps-mpi1\n",
             program, dlerror());
     exit(CLI_USAGE);
 }

@@ -86,7 +86,7 @@ bool raster_fill(raster *g, mps_sim *sim)
         const int layer = v.kind.integers[i] != MPS_FLUID ? RASTER_SOLID
                           : v.phase.integers[i] == 0      ? RASTER_LIQUID
                                                           : RASTER_OTHER;
-        spread(g, v.x.data + i * v.x.stride, tank.value + MPS_SURGE, g->share[layer]);
+        spread(g, v.x.data + i * v.x.stride, tank.value + MPS_MOVE_X, g->share[layer]);
     }
     g->step = step;
     return view_close(sim, &v);

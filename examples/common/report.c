@@ -148,6 +148,8 @@ static void plots_energy(plots *all, const run *r)
     plot_add(p, column_of(t, "potential - start", base + COLUMN_PE, -pe));
     plot_add(p, column_of(t, "work of walls", base + COLUMN_WALL_WORK, 0));
     plot_add(p, column_of(t, "lost: viscous", base + COLUMN_VISCOUS, 0));
+    if (last_of(t, base + COLUMN_PLUGINS) != 0)
+        plot_add(p, column_of(t, "lost: plug-ins", base + COLUMN_PLUGINS, 0));
     plot_add(p, column_of(t, "lost: collision", base + COLUMN_COLLISION, 0));
     plot_add(p, column_of(t, "lost: shift", base + COLUMN_SHIFT, 0));
     plot_add(p, column_of(t, "lost: numerical", base + COLUMN_NUMERICAL, 0));

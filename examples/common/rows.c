@@ -37,8 +37,9 @@ static bool run_open_probes(run *r)
 }
 
 /* Names of the columns of momentum.csv, in the order of MOMENTUM_TOTAL and on. */
-static const char *const MOMENTA[] = {"momentum",  "gravity",   "force", "pressure", "walls",
-                                      "numerical", "collision", "shift", "added"};
+static const char *const MOMENTA[] = {"momentum",  "gravity",  "force", "plugins",
+                                      "reaction",  "pressure", "walls", "numerical",
+                                      "collision", "shift",    "added"};
 
 static bool run_open_momentum(run *r)
 {
@@ -61,9 +62,9 @@ static void run_momentum(run *r, double t)
     mps_momentum_init(&m, sizeof m);
     run_note(r, mps_momentum_get(r->sim, &m), "momentum");
     if (!ranks_first()) return;
-    const double *const values[MOMENTUM_COLUMNS] = {m.total,     m.gravity, m.force,
-                                                    m.pressure,  m.walls,   m.numerical,
-                                                    m.collision, m.shift,   m.added};
+    const double *const values[MOMENTUM_COLUMNS] = {m.total,     m.gravity,  m.force, m.plugins,
+                                                    m.reaction,  m.pressure, m.walls, m.numerical,
+                                                    m.collision, m.shift,    m.added};
     for (int d = 0; d < dim; d++)
         for (int k = 0; k < MOMENTUM_COLUMNS; k++) row[1 + d * MOMENTUM_COLUMNS + k] = values[k][d];
     table_sample(&r->momentum, row);
@@ -76,9 +77,18 @@ static void run_energies(run *r, double *out)
     mps_energy_init(&e, sizeof e);
     run_note(r, mps_energy_get(r->sim, &e), "energies");
     run_note(r, mps_motion_state_get(r->sim, &tank), "motion");
-    const double values[RUN_COMMON] = {e.kinetic, tank.value[MPS_SURGE], e.potential, e.wall_work,
-                                       e.viscous, e.collision,           e.shift,     e.numerical,
-                                       e.added,   e.volume_error};
+    const double values[RUN_COMMON] = {e.kinetic,
+                                       tank.value[MPS_MOVE_X],
+                                       e.potential,
+                                       e.wall_work_momentum,
+                                       e.wall_work_probes,
+                                       e.viscous,
+                                       e.plugins,
+                                       e.collision,
+                                       e.shift,
+                                       e.numerical,
+                                       e.added,
+                                       e.volume_error};
     memcpy(out, values, sizeof values);
     r->totals.volume_error = e.volume_error;
 }

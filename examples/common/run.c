@@ -17,13 +17,12 @@ enum { RUN_MESSAGES = 20 }; /* of the library, before it is cut short */
 static bool run_log_average(run *r, const char *text)
 {
     double t, average, crossing;
-    int probe;
-    const char *name = "a sensor";
-    if (sscanf(text, "t = %lf s: probe %d averages over %lf s; liquid crosses a spacing in %lf s",
-               &t, &probe, &average, &crossing) != 4)
+    char name[32];
+    const char *rest = strstr(text, "' averages over ");
+    if (!rest || sscanf(text, "t = %lf s: probe %*d '%31[^']", &t, name) != 2 ||
+        sscanf(rest, "' averages over %lf s; liquid crosses a spacing in %lf s", &average,
+               &crossing) != 2)
         return false;
-    for (int i = 0; i < r->columns; i++)
-        if (r->column[i].probe == probe) name = r->column[i].name;
     if (!r->options.average_given) return true;
     progress_clear(&r->progress);
     fprintf(ranks_messages(),

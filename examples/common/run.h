@@ -10,7 +10,7 @@
 
 enum {
     RUN_COLUMNS = 32,
-    RUN_COMMON = 10,
+    RUN_COMMON = 12,
     RUN_MARKS = 4,
     RUN_FIGURES = 32,
     RUN_MARK_POINTS = 16,
@@ -27,6 +27,9 @@ typedef struct run_column {
     char about[240];
     const char *type;       /* "wall_pressure", "gauge", "force", or "value": a driver's own */
     double at[3], diameter; /* of a sensor or gauge, in the tank's frame [m] */
+    /* the face that a sensor reads: its normal, and its part */
+    double normal[3];
+    char part[32];
     int32_t probe, component;
     double zero;
     bool pressure;  /* known after the first step */
@@ -118,7 +121,7 @@ void run_gauge_from(run *r, const char *name, const double *foot, double level);
 /* A component of the pressure force on a part, or on all solids for NULL. */
 void run_force(run *r, const char *name, const char *part, int32_t component);
 /* A value of the driver. All ranks ask for it: it may call mps_probe_read() and the like. If it leases particles, these are the rank's own and
- * its ghosts, and ranks_largest() must combine what the ranks find.
+ * its ghosts, and ranks_largest() must combine what the ranks find: ghosts change no maximum, but a sum.
  * @param about  what it is, title of its plot; behind a colon where and how */
 void run_value(run *r, const char *name, const char *unit, const char *about, run_value_fn value,
                void *user);

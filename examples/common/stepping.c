@@ -3,6 +3,7 @@
 #include "folder.h"
 #include "outputs.h"
 #include "picture.h"
+#include "profile.h"
 #include "resume.h"
 #include "trace.h"
 #include "ranks.h"
@@ -83,7 +84,8 @@ static void run_frames_open(run *r)
     if (r->options.frames == 0 || !(pieces || ranks_gather(r->sim))) return;
     run_note(r,
              mps_frames_open(r->sim, r->options.out, "frames",
-                             (resume ? MPS_FRAMES_CONTINUE : 0) | (pieces ? MPS_FRAMES_PIECES : 0),
+                             (resume ? MPS_FRAMES_CONTINUE : 0) | (pieces ? MPS_FRAMES_PIECES : 0) |
+                                 (r->options.tank_frame ? MPS_FRAMES_TANK : 0),
                              &r->frames),
              "frames");
     if (!resume) run_frame_write(r);
@@ -329,6 +331,14 @@ static mps_status run_agree(mps_status status)
     return most == 0 ? status : most == other ? MPS_E_RANKS : other - most;
 }
 
+/* What the steps of rank 0 have cost. */
+static void run_profile(const run *r)
+{
+    double seconds = 0;
+    for (int k = 0; k < MPS_STAGE_COUNT; k++) seconds += r->totals.seconds[k];
+    profile_print(r->sim, seconds);
+}
+
 /* What rank 0 writes and says at the end. @return exit code */
 static int run_report(run *r, mps_status status)
 {
@@ -338,6 +348,7 @@ static int run_report(run *r, mps_status status)
                                           : mps_status_name(MPS_E_IO);
     if (!summary_save(r) || !report_save(r)) code = code == CLI_OK ? CLI_FAILED : code;
     run_say(r, code, status);
+    if (r->options.profile && code != CLI_USAGE) run_profile(r);
     /* refused before its first step: what it wrote is no run that another one must keep */
     if (code == CLI_USAGE) folder_clear(r);
     return code;

@@ -119,7 +119,13 @@ static void summary_columns(FILE *out, const run *r)
                 k ? "," : "", c.name, c.unit, c.type);
         if (strcmp(c.type, "wall_pressure") == 0 || strcmp(c.type, "gauge") == 0)
             fprintf(out, "\"at\": [%.9g, %.9g, %.9g], ", c.at[0], c.at[1], c.at[2]);
-        if (strcmp(c.type, "wall_pressure") == 0) fprintf(out, "\"diameter\": %.9g, ", c.diameter);
+        if (strcmp(c.type, "wall_pressure") == 0) {
+            fprintf(out,
+                    "\"diameter\": %.9g, \"normal\": [%.9g, %.9g, %.9g], \"part\": ", c.diameter,
+                    c.normal[0], c.normal[1], c.normal[2]);
+            json_string(out, c.part);
+            fputs(", ", out);
+        }
         fputs("\"about\": ", out);
         json_string(out, c.about);
         fputc('}', out);

@@ -45,6 +45,17 @@ void tank_fill(run *r, const double *size, double depth, bool whole_rows)
     run_figure_add(r, "still_level", "y of the still level as filled [m]", still_level, &r->level);
 }
 
+void tank_move(run *r, mps_harmonic motion)
+{
+    motion.ramp = r->options.ramp * 2 * acos(-1.0) / motion.omega;
+    run_check(r, mps_motion_harmonics_set(r->sim, 1, &motion), "motion");
+}
+
+bool tank_moves_as_given(const run *r, const tank_case *c)
+{
+    return r->options.amplitude == c->motion.amplitude && r->options.ramp == 0;
+}
+
 void tank_build(run *r, const tank_case *c)
 {
     const double lo[3] = {0};
@@ -57,12 +68,13 @@ void tank_build(run *r, const tank_case *c)
         run_phase(r, 1, TANK_AIR_DENSITY, TANK_AIR_VISCOSITY);
         run_check(r, mps_fill_box_add(r->sim, 1, lo, c->size, NULL, NULL), "air");
     }
-    run_check(r, mps_motion_harmonics_set(r->sim, 1, &motion), "motion");
+    tank_move(r, motion);
 }
 
 void tank_parse(cli_options *o, const tank_case *c, int argc, char **argv)
 {
     o->amplitude = c->motion.amplitude;
+    o->has_ramp = true;
     o->has_layers = c->plate.top > 0;
     o->has_sigma = !o->has_layers;
     if (!o->has_layers)

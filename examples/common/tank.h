@@ -14,7 +14,7 @@
 typedef struct tank_case {
     double size[3];      /* inner [m]; the third in 3-D */
     double depth;        /* of the water [m] */
-    mps_harmonic motion; /* what --amplitude gives replaces its amplitude */
+    mps_harmonic motion; /* --amplitude and --ramp replace its amplitude and ramp */
     baffle plate;        /* a baffle across it; top 0: none. With one the case is for one liquid */
     bool whole_rows;     /* no more water than the whole rows below the depth hold */
 } tank_case;
@@ -32,6 +32,10 @@ void tank_build(run *r, const tank_case *c);
 /* Liquid up to a depth, which need not be a multiple of the spacing; sets the still level and writes it to summary.json. With `whole_rows`, with a
  * model to the letter of the papers and below gas it ends with the last whole row: in a row of both the one would have to pass through the other. */
 void tank_fill(run *r, const double *size, double depth, bool whole_rows);
+/* A harmonic motion that grows over the periods of --ramp. */
+void tank_move(run *r, mps_harmonic motion);
+/* Whether the motion is the driver's own, that its references belong to. */
+bool tank_moves_as_given(const run *r, const tank_case *c);
 /* Command line of a driver of such a tank, and run and outputs; the case may be changed in between. */
 void tank_parse(cli_options *o, const tank_case *c, int argc, char **argv);
 int tank_run(const cli_options *o, const tank_case *c, tank_columns_fn columns);

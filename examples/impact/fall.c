@@ -65,9 +65,9 @@ static void build_column(impact *c)
 static int leave(void *user, double t, mps_motion_state *s)
 {
     (void)user;
-    s->value[MPS_HEAVE] = -GRAVITY * t * t;
-    s->rate[MPS_HEAVE] = -2 * GRAVITY * t;
-    s->accel[MPS_HEAVE] = -2 * GRAVITY;
+    s->value[MPS_MOVE_Y] = -GRAVITY * t * t;
+    s->rate[MPS_MOVE_Y] = -2 * GRAVITY * t;
+    s->accel[MPS_MOVE_Y] = -2 * GRAVITY;
     return 0;
 }
 

@@ -6,7 +6,7 @@
  *    q_ij = rho_ij b_ij.r_ij - jump_ij,   r_ij = x_j - x_i,
  *
  *  s_ij the share of the pair, rho_ij its density, b_ij its body acceleration, jump_ij the pressure
- *  that i has more than j by surface tension. */
+ *  of i above that of j by surface tension. */
 #ifndef MPS_FLUX_H
 #define MPS_FLUX_H
 
@@ -18,7 +18,8 @@ MPS_BEGIN_DECLS
 typedef struct mps_flux {
     /** sizeof(mps_flux) */
     uint32_t struct_size;
-    /** 1: pressures are those beyond a fluid that moves with the tank, b = g - a_tank; 0: b = 0. */
+    /** 1: pressures are relative to those of a fluid that moves with the tank, b = g - a_tank.
+     *  0: b = 0. */
     int32_t body;
     /** [n] */
     const int32_t *kind;
@@ -36,7 +37,7 @@ typedef struct mps_flux {
     const double *tank_acceleration;
     /** Gravity [m/s2]. */
     double g[3];
-    /** Weight of wall-wall pairs, mps_equation.wall_factor. */
+    /** Weight of wall-wall pairs, the channel "equation_wall_factor". */
     double wall_factor;
 } mps_flux;
 
@@ -75,7 +76,7 @@ static inline double mps_flux_body(const mps_flux *f, int dim, int64_t i, int64_
     return sum;
 }
 
-/** s_ij of two wall particles: a wall stands for half a cell, as far as that holds fluid. */
+/** s_ij of two wall particles: each is half a cell, of which the wetted share counts. */
 static inline double mps_flux_wall_share(const mps_flux *f, int64_t i, int64_t j)
 {
     const double a = f->wetted ? f->wetted[i] : 1.0, b = f->wetted ? f->wetted[j] : 1.0;

@@ -52,16 +52,17 @@ MPS_API mps_status mps_tank_add(mps_sim *sim, const mps_tank *tank, double *buil
 
 /** Add a solid box (a baffle): points of the lattice in the closed box lo..hi, walls in its outer
  *  layer, dummies inside. It follows the tank and comes before the fluid: fluid nearer than dp/2 to
- *  its points is refused. Points of other solids are left out, so that walls on which a baffle
- *  stands stay.
+ *  its points is refused. Points of other solids are left out: a baffle does not replace walls on
+ *  which it stands.
  *
  *  A box of one to three layers across one axis, with liquid on both sides, is a plate: the liquid
  *  on one side does not feel the other, and walls on which the plate stands are divided between the
- *  sides. The plate reaches a wall that is next to it on the lattice. One layer has no thickness:
- *  each point of the lattice carries two walls, one a side, with opposite areas; a point of a free
- *  edge carries one wall, almost without area. Forces are those on both faces. A wall probe reads
- *  the side on which its place lies; in the plane itself the older one. Dummies of a plate: field
- *  "plate" in mps/particles.h.
+ *  sides. The plate reaches a wall that is next to it on the lattice: this closes the slot between
+ *  them, and a warning is logged. One layer has no thickness: each lattice point has two wall
+ *  particles, one for each side, with opposite areas. Along a free edge each lattice point has one
+ *  wall particle, of almost no area. Forces are those on both faces. A wall probe reads the side on
+ *  which its place lies; for a place in the plane it reads the side that was made first. Dummies of
+ *  a plate: field "plate" in mps/particles.h.
  *  @param name   name of the part
  *  @param lo,hi  [dim] corners [m]
  *  @param built  NULL, or [2*dim] out: corners of the box of its lattice points [m] (a difference
@@ -73,7 +74,7 @@ MPS_API mps_status mps_baffle_add(mps_sim *sim, const char *name, const double *
 /** Add a plate without thickness anywhere in the tank, e.g. an inclined baffle; otherwise as a
  *  baffle of one layer. Its particles have their own lattice, about dp wide. Fills leave out points
  *  nearer than 0.7 dp. An edge stands on a wall if it lies within 0.75 dp of wall particles along
- *  its whole length: let it end on the wall. Plates may stand on plates.
+ *  its whole length: place the edge on the wall. Plates may stand on plates.
  *  @param name    name of the part
  *  @param corner  [dim] an end (2-D), a corner (3-D) [m]
  *  @param edge    [dim] from there to the other end, or along one side [m], at least 2 dp long
@@ -83,9 +84,11 @@ MPS_API mps_status mps_baffle_add(mps_sim *sim, const char *name, const double *
 MPS_API mps_status mps_plate_add(mps_sim *sim, const char *name, const double *corner,
                                  const double *edge, const double *edge2);
 
-/** Fill a box with fluid of a phase: free points of the lattice in the closed box. The level of n
- *  rows is n dp above the floor: a depth that is not a multiple of dp becomes the next smaller one.
- *  mps_fill_level_add() keeps the depth.
+/** Fill a box with fluid of a phase: free points of the lattice in the closed box. Each fill logs
+ *  the volume that was built and that was asked for; beside walls that slope, both count whole
+ *  cells of the lattice. The first fill after solids warns of slots between walls in which no
+ *  particle fits. The level of n rows is n dp above the floor: a depth that is not a multiple of dp
+ *  becomes the next smaller one. mps_fill_level_add() keeps the depth.
  *  @param added  NULL, or out: particles added
  *  @param built  NULL, or [2*dim] out: corners of the box of lattice points [m] (a difference to lo
  *                and hi is logged)
@@ -93,9 +96,9 @@ MPS_API mps_status mps_plate_add(mps_sim *sim, const char *name, const double *c
 MPS_API mps_status mps_fill_box_add(mps_sim *sim, int32_t phase, const double *lo, const double *hi,
                                     int64_t *added, double *built);
 
-/** Fill a box up to the level hi[1] [m]. If the level lies between two rows of the lattice, the
- *  upper row gets the share of its points that the mass below the level needs, evenly spread; the
- *  liquid at rest settles to the level. Otherwise as mps_fill_box_add().
+/** Fill a box up to the level hi[1] [m], in a tank or in any solid. If the level lies between two
+ *  rows of the lattice, the upper row gets the share of its points that the mass below the level
+ *  needs, evenly spread; the liquid at rest settles to the level. Otherwise as mps_fill_box_add().
  *  @param built  NULL, or [2*dim] out: built[dim+1] is the level of the mass that was filled in
  *  [m] */
 MPS_API mps_status mps_fill_level_add(mps_sim *sim, int32_t phase, const double *lo,
@@ -104,7 +107,9 @@ MPS_API mps_status mps_fill_level_add(mps_sim *sim, int32_t phase, const double 
 /** Non-zero if a point [dim] [m] is inside. */
 typedef int (*mps_inside_fn)(void *user, const double *x);
 
-/** Fill the free lattice points of the tank for which `inside` returns non-zero.
+/** Fill the free lattice points of the tank for which `inside` returns non-zero. For a flat surface
+ *  use mps_fill_level_add(): with `inside` the liquid is up to one row short, as the points of a
+ *  row are inside or not. To know the volume asked for, `inside` is also called between the points.
  *  @return see the table of this file */
 MPS_API mps_status mps_fill_add(mps_sim *sim, int32_t phase, mps_inside_fn inside, void *user,
                                 int64_t *added);
@@ -145,18 +150,18 @@ MPS_API mps_status mps_solid_init(mps_solid *solid, size_t size);
 
 /** Add a solid with walls that follow its surface: wall particles lie on it about dp apart, at
  *  edges and corners too, each with its share of the area; dummies lie behind them. Wall particles
- *  are half cells, so fills leave out the inside and what is nearer than dp/2 to the surface: the
- *  liquid reaches the surface, the volume of the fluid particles ends dp/2 before it. The first
- *  rows beside a solid are moved by up to 0.45 dp, so that their density is even; `inside` of a
- *  fill is asked for the point of the lattice.
+ *  are half cells. So fills leave out the inside and points nearer than dp/2 to the surface: the
+ *  liquid reaches the surface, the volume of the fluid particles ends dp/2 before it. Fills move
+ *  the first rows beside a solid by up to 0.45 dp, so that their density is even, and call `inside`
+ *  with the lattice point.
  *
  *  The first tank or solid makes the lattice of the fills, that of a solid begins at its corner
  *  `lo`: put `lo` on a lattice plane of flat walls. Without a tank each further solid extends the
- *  lattice, and fills keep to the boxes of the solids. A body in a tank may end in its walls: what
- *  lies beyond them, or nearer than 0.7 dp to a wall particle, is left out, and walls inside of the
- *  body become dummies. Add bodies before the fluid: fluid inside of a solid is refused. Parts
- *  thinner than 3 dp are logged as a warning, because liquid on one side feels the other; thin
- *  screens are made by mps_baffle_add() and mps_plate_add().
+ *  lattice, and fills keep to the boxes of the solids. A body may end in the walls of a tank: its
+ *  points beyond the walls, or nearer than 0.7 dp to a wall particle, are left out. Walls of the
+ *  tank inside the body become dummies. Add bodies before the fluid: fluid inside a solid is
+ *  refused. Parts thinner than 3 dp are logged as a warning, because liquid on one side feels the
+ *  other; thin screens are made by mps_baffle_add() and mps_plate_add().
  *  @return see the table of this file; MPS_E_ARG also for a distance that is not finite (with its
  *          place), no surface in the box, a surface that leaves the box */
 MPS_API mps_status mps_solid_add(mps_sim *sim, const mps_solid *solid);

@@ -13,6 +13,7 @@
 #include <mps/particles.h>
 #include <mps/probe.h>
 #include <mps/ranks.h>
+#include <mps/ship.h>
 #include <mps/sim.h>
 #include <mps/status.h>
 #include <mps/step.h>

@@ -58,8 +58,8 @@ enum {
     MPS_PARALLEL_VALUES = 16,
     /** Rows of a part of mps_parallel_rows(), at least. */
     MPS_PARALLEL_LEAST = 128,
-    /** Ranges for each thread in mps_parallel_rows(): a thread that is held up leaves some of its
-     *  own to the others. */
+    /** Ranges for each thread in mps_parallel_rows(): other threads take over ranges of a
+     *  delayed one. */
     MPS_PARALLEL_RANGES = 8
 };
 
@@ -157,7 +157,8 @@ static inline void mps_parallel_reduce_part(void *argument, int32_t part)
 
 /** Sums and maxima over rows 0..n-1 in one loop. Rows are added up in MPS_PARALLEL_PARTS parts
  *  of fixed ranges and the parts in their order: the result has the same bytes for any number of
- *  threads, but not for another order of the rows; mps_exact_rows() has this too.
+ *  threads, but not for another order of the rows; those of mps_exact_rows() do not depend on the
+ *  order either.
  *  @param body adds rows to the sums, raises the maxima; may be called with begin = end */
 static inline void mps_parallel_reduce(const mps_parallel *p, int64_t n, mps_reduce_fn body,
                                        void *argument, const mps_parallel_values *values)

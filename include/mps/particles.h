@@ -44,7 +44,8 @@ typedef struct mps_particle_block {
     int64_t count;
     /** [count*dim] [m], finite, in the frame of the lab at the present position of the tank. */
     const double *position;
-    /** NULL (at rest), or [count*dim] [m/s]. Walls take the velocity of the tank instead. */
+    /** NULL (at rest), or [count*dim] [m/s]; of fluid at most mps_config.speed_limit. Walls take
+     *  the velocity of the tank instead. */
     const double *velocity;
     /** NULL (estimated), or [count*dim] wetted area vector of wall particles, into the fluid
      *  [m^(dim-1)]. */
@@ -55,7 +56,9 @@ typedef struct mps_particle_block {
  *  @param size  sizeof(mps_particle_block) @return MPS_E_ARG: bad size */
 MPS_API mps_status mps_particle_block_init(mps_particle_block *block, size_t size);
 
-/** Add particles between steps.
+/** Add particles between steps. Fluid outside the box of the solids is accepted and logged: an open
+ *  tank may be filled from above. It counts as fluid until it leaves the domain or touches a wall
+ *  from behind; then it is lost, as mps_config.lost_policy says.
  *  @param ids  NULL, or [count] out: their ids, never used before on this handle
  *
  *  | error (the state is as before) | reason |
@@ -74,7 +77,8 @@ MPS_API mps_status mps_particles_add(mps_sim *sim, const mps_particle_block *blo
  *  | MPS_E_NOMEM | no memory | */
 MPS_API mps_status mps_particles_remove(mps_sim *sim, int64_t count, const int64_t *ids);
 
-/** Count particles. @param kind  a kind, or -1 for all @return the number; -1: bad argument */
+/** Count particles; on many ranks those that a lease holds, ghosts too (mps/ranks.h).
+ *  @param kind  a kind, or -1 for all @return the number; -1: bad argument */
 MPS_API int64_t mps_particles_count(const mps_sim *sim, int32_t kind);
 
 /** Place of a particle in the present order, or -1. Valid until the next step, add or remove. */

@@ -100,9 +100,15 @@ typedef struct mps_ranks_ops {
  *
  *  What the program builds before the first step is built alike on all ranks; each rank then keeps
  *  its own. Tanks, solids and fills come before the first step; mps_particles_add() and _remove()
- *  may come later, alike on all ranks. Leases, tags and stencils hold the owned particles and the
- *  ghosts of this rank: see mps_particles_ghosts(). Motions and limits must be functions of the
- *  time and of what all ranks get alike.
+ *  may come later, alike on all ranks. Motions and limits must be functions of the time and of
+ *  what all ranks get alike.
+ *
+ *  Leases and stencils hold the owned particles and the ghosts of this rank, which
+ *  mps_particles_ghosts() tells apart: a sum must leave out ghosts. When a function has succeeded
+ *  that steps or measures, ghosts have the bytes of their owners in all fields. A lease sends no
+ *  message: any rank may lease alone, also in a monitor. Values that are written count at owned
+ *  particles only; ghosts get them in the next step or measurement. Particles that were added have
+ *  no ghosts until then.
  *  @return MPS_E_ARG (which entry, and what is allowed), MPS_E_STATE (too late), MPS_E_VERSION,
  *  MPS_E_PLUGIN (why the engine does not begin), MPS_E_NOMEM, MPS_E_BUSY */
 MPS_API mps_status mps_sim_ranks_set(mps_sim *sim, const mps_ranks_ops *ops);

@@ -123,8 +123,8 @@ MPS_API mps_status mps_phase_set(mps_sim *sim, int32_t index, const mps_phase *p
  *  @return MPS_E_ARG: not defined */
 MPS_API mps_status mps_phase_get(const mps_sim *sim, int32_t index, mps_phase *phase);
 
-/** Set the surface tension between two phases, for the models of the slot "tension". They have a
- *  value for pairs that are not set here.
+/** Set the surface tension between two phases, for the models of the slot "tension". A pair
+ *  that is not set has the value of the model's setting "sigma".
  *  @param a,b    two different defined phases, in any order
  *  @param sigma  [N/m], >= 0
  *  @return MPS_E_ARG, MPS_E_BUSY */
@@ -135,18 +135,18 @@ MPS_API mps_status mps_tension_get(const mps_sim *sim, int32_t a, int32_t b, dou
 
 /* ---- models ---------------------------------------------------------------------------------- */
 
-/** Replace all models by those of a preset, with its settings; the settings before are lost. A
+/** Replace all models by those of a preset, with its settings; earlier settings are lost. A
  *  preset is a list of calls of mps_model_use() and mps_model_set().
  *
  *  "imps" (default): one liquid with a free surface, stable and accurate.
  *
  *  "mmps": several phases that fill the tank together, without a free surface; operators of "imps",
- *  stable at densities of 1000 : 1. It has surface tension ("tension.csf", 0.0727 N/m unless set),
- *  and phase 1 is a gas ("gas.compressible", 340 m/s unless set). A step fails without fluid of the
- *  gas, or when it moves at its speed of sound. For two liquids: mps_model_remove(sim, "gas").
+ *  stable at densities of 1000 : 1. It has surface tension ("tension.jump", 0.0727 N/m unless
+ *  set), and phase 1 is a gas ("gas.compressible", 340 m/s unless set). A step fails if the gas has
+ *  no particle or moves at its speed of sound. For two liquids: mps_model_remove(sim, "gas").
  *
  *  "imps.paper": W22 (1)-(12) literally; "mmps.paper": W22 (10)-(26) literally. They are for
- *  comparison, less stable, and want mps_config.re_far 4.1 in 2-D and mps_time_control.gravity
+ *  comparison and less stable. They need mps_config.re_far 4.1 in 2-D and mps_time_control.gravity
  *  0.03, which a preset cannot set.
  *  @return MPS_E_NAME with the nearest known name, MPS_E_NOMEM, MPS_E_BUSY */
 MPS_API mps_status mps_preset_use(mps_sim *sim, const char *name);
@@ -197,8 +197,8 @@ MPS_API mps_status mps_solver_limits_init(mps_solver_limits *limits, size_t size
  *                         "sundials.kinsol" (needed by gas.isentropic), or a registered one
  *  @param preconditioner  NULL (default of the solver), "none", "jacobi", "ic0", "auxgrid", or a
  *                         registered one. If "auxgrid", the default of sundials.pcg, fails at a
- *                         matrix, the equation is solved again with "jacobi" and a warning is
- *  logged
+ *                         matrix, the equation is solved again with "jacobi", and this is logged
+ *                         as a warning
  *
  *  | error | reason |
  *  |---|---|

@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 
 
 def arguments():
-    p = argparse.ArgumentParser(prog="scripts/validate", description="Run the validation cases, compare them, write docs/validation.md, docs/paper-cases.md and docs/plots.")
+    p = argparse.ArgumentParser(prog="scripts/validate", description="Run the validation cases, compare them, write docs/validation.md, docs/validation/, docs/paper-cases.md and docs/plots.")
     p.add_argument("--no-install", action="store_true", help="do not install missing packages")
     p.add_argument("--data", metavar="DIR", help="folder with reference/ and theory/: series to compare with")
     p.add_argument("--jobs", type=int, default=1, metavar="N", help="drivers at a time, each on one thread (1)")
@@ -78,7 +78,7 @@ def main():
     if not options.no_page:
         page.write(Path(options.docs))
         paper.write(page, Path(options.docs))
-        say(f"\nwrote {options.docs}/validation.md, paper-cases.md and plots")
+        say(f"\nwrote {options.docs}/validation.md, validation/, paper-cases.md and plots")
     worse = list(worse_than_expected(page, options.cases))
     for text in worse:
         say(f"WORSE {text}")

@@ -279,5 +279,5 @@ def long_run(o, refs, volume=None):
                below("particles lost [% of the liquid]", 100 * o.summary["particles_lost"] / o.summary["n_fluid"], "{:.2f}", 0.1),
                fact("potential energy, mean of the last quarter / start", o["pe"][-quarter:].mean() / o["pe"][0], "{:.4f}"),
                fact("kinetic energy, mean of the last / second quarter", o["ke"][-quarter:].mean() / o["ke"][quarter:2 * quarter].mean(), "{:.2f}"),
-               fact("work of the walls", o["wall_work"][-1], "{:.1f} J/m")]
-    return figures + [fact(f"of it {name}", 100 * o[name][-1] / o["wall_work"][-1], "{:.1f} %") for name in ("viscous", "collision", "shift", "numerical")]
+               fact("work of the walls", o["wall_work_momentum"][-1], "{:.1f} J/m")]
+    return figures + [fact(f"of it {name}", 100 * o[name][-1] / o["wall_work_momentum"][-1], "{:.1f} %") for name in ("viscous", "collision", "shift", "numerical")]

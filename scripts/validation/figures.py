@@ -85,7 +85,7 @@ def surge(outcomes, refs):
     yield "surge_pressure.svg", pressures
     budget = Panel(f"energy since the start, dp {o.dp:g}", "J/m").curve("kinetic + potential", o.t, o["ke"] + o["pe"] - o["ke"][0] - o["pe"][0])
     budget.reference("FNPF", flow.t, flow.energy)
-    for name in ("wall_work", "viscous", "numerical"):
+    for name in ("wall_work_momentum", "viscous", "numerical"):
         budget.curve(name.replace("_", " "), o.t, o[name])
     yield "surge_energy.svg", [budget]
 

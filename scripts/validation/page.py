@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""docs/validation.md and docs/plots/ from the runs that are there: tables and plots are put into the text of validation.md.in."""
+"""The pages of the validation and docs/plots/ from the runs that are there: tables and plots are put into the text of pages/**/*.md.in."""
 import json
 import re
 from pathlib import Path
@@ -10,7 +10,8 @@ import plots
 import trust
 from results import GOOD, MISSED, NO_REFERENCE, PASS, to_json
 
-HERE = Path(__file__).resolve().parent
+PAGES = Path(__file__).resolve().parent / "pages"  # laid out as docs/
+PAPER = PAGES / "paper-cases.md.in"  # written by paper.py
 
 
 def table(head, rows):
@@ -113,14 +114,14 @@ class Page:
                 (o.folder / "figures.json").write_text(json.dumps(to_json(figures), indent=1, default=float) + "\n")
             self.results[case.name] = found
 
-    def section(self, name, folder):
+    def section(self, name, folder, plots_link):
         results = self.results.get(name, [])
         if not results:
             return "Not run."
         outcomes = [o for o, _ in results]
         parts = [command_lines(outcomes), figure_table(results), run_table(outcomes)]
         for picture in self.draw(name, outcomes, folder):
-            parts.append(f"![{name.replace('_', ' ')}](plots/{picture})")
+            parts.append(f"![{name.replace('_', ' ')}]({plots_link}/{picture})")
         return "\n\n".join(parts)
 
     def draw(self, name, outcomes, folder):
@@ -137,10 +138,14 @@ class Page:
     def write(self, docs):
         folder = docs / "plots"
         folder.mkdir(parents=True, exist_ok=True)
-        text = (HERE / "validation.md.in").read_text(encoding="utf-8")
         rows = list(trust.rows(self.results))
-        text = text.replace("@first@", table(trust.FIRST, trust.first(rows))).replace("@trust@", table(trust.HEAD, rows))
-        text = text.replace("@overview@", overview({name: found for name, found in self.results.items() if name not in self.paper}))
-        text = text.replace("@others@", others_table([o for o in self.others if o.run.case not in self.paper]))
-        text = re.sub(r"@case (\w+)@", lambda match: self.section(match.group(1), folder), text)
-        (docs / "validation.md").write_text(text, encoding="utf-8")
+        tables = {"first": table(trust.FIRST, trust.first(rows)), "trust": table(trust.HEAD, rows),
+                  "overview": overview({name: found for name, found in self.results.items() if name not in self.paper}),
+                  "others": others_table([o for o in self.others if o.run.case not in self.paper])}
+        for template in sorted(set(PAGES.rglob("*.md.in")) - {PAPER}):
+            page = (docs / template.relative_to(PAGES)).with_suffix("")
+            plots_link = "../" * len(template.relative_to(PAGES).parent.parts) + "plots"
+            text = re.sub(r"@(first|trust|overview|others)@", lambda match: tables[match.group(1)], template.read_text(encoding="utf-8"))
+            text = re.sub(r"@case (\w+)@", lambda match, link=plots_link: self.section(match.group(1), folder, link), text)
+            page.parent.mkdir(exist_ok=True)
+            page.write_text(text, encoding="utf-8")

@@ -12,10 +12,9 @@ import measures as m
 import phases as ph
 import plots
 import theory
-from page import items, table
+from page import PAPER, items, table
 from plots import Panel
 
-HERE = Path(__file__).resolve().parent
 MODELS = ("imps", "imps.paper", "mmps", "mmps.paper")
 # row of the table -> model -> (case, the other model in it), or why there is none
 CASES = {
@@ -198,7 +197,7 @@ def write(page, docs):
         images = [f"![{name.replace('_', ' ')}](plots/{file})" for file in SECTIONS[name][1](book, folder)]
         return "\n\n".join([checks_list(found[name]), *images])
 
-    text = (HERE / "paper-cases.md.in").read_text(encoding="utf-8")
+    text = PAPER.read_text(encoding="utf-8")
     here = {case for rows in CASES.values() for case in rows.values()} | page.paper
     used = [o for runs in book.runs.values() for o in runs if o.run.case in here]
     older = sum(not o.current for o in used)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The tables that begin docs/validation.md: what a user can rely on, within what, at which resolution."""
+"""The tables of docs/validation.md and docs/validation/errors.md: what a user can rely on, within what, at which resolution."""
 import re
 
 import numpy as np

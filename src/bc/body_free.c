@@ -22,22 +22,23 @@ typedef struct fields {
 } fields;
 
 /* Wetted solids hold the fluid beside them. Spray and dry solids take no part. */
-MPS_ROW void role_row(const int dim, const mps_stage *s, fields *f, int64_t i)
+MPS_ROW void role_row(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     (void)dim;
-    if (f->region[i] >= MPS_REGION_SPRAY)
+    if (mps_region_of(f->region, i) >= MPS_REGION_SPRAY)
         f->role[i] = MPS_BODY_NONE;
-    else if (s->kind[i] != MPS_FLUID)
+    else if (!mps_is_fluid(v, i))
         f->role[i] = MPS_BODY_ANCHOR;
     else
-        f->role[i] = f->region[i] == MPS_REGION_SURFACE ? MPS_BODY_SEED : MPS_BODY_MEMBER;
+        f->role[i] = mps_region_of(f->region, i) == MPS_REGION_SURFACE ? MPS_BODY_SEED
+                                                                       : MPS_BODY_MEMBER;
 }
 MPS_ROWS(role_rows, role_row, fields)
 
-MPS_ROW void free_row(const int dim, const mps_stage *s, fields *f, int64_t i)
+MPS_ROW void free_row(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     if (f->body[i] < 0) return;
-    for (int d = 0; d < dim; d++) f->tank_acceleration[i * dim + d] = s->g[d];
+    for (int d = 0; d < dim; d++) f->tank_acceleration[i * dim + d] = v->g[d];
 }
 MPS_ROWS(free_rows, free_row, fields)
 
@@ -45,17 +46,17 @@ static int free_bodies(mps_stage *s)
 {
     fields f = {.region = s->data[REGION],
                 .tank_acceleration = s->data[TANK_ACCELERATION],
-                .role = mps_stage_scratch_integers(s, s->n),
-                .body = mps_stage_scratch_integers(s, s->n)};
+                .role = mps_stage_scratch_integers(s, s->view->n),
+                .body = mps_stage_scratch_integers(s, s->view->n)};
     if (!f.role || !f.body) return 1;
-    mps_stage_rows(s, role_rows, &f);
+    mps_stage_rows(s, &role_rows, &f);
     if (mps_stage_bodies(s, LARGE, f.role, f.body)) return 1;
-    mps_stage_rows(s, free_rows, &f);
+    mps_stage_rows(s, &free_rows, &f);
     return 0;
 }
 
 static const mps_verb verbs[] = {
-    {.moment = MPS_PREPARE, .use_count = USES, .uses = uses, .run = free_bodies}};
+    {.hook = MPS_PREPARE, .use_count = USES, .uses = uses, .run = free_bodies}};
 
 const mps_model_ops mps__body_free = {.struct_size = sizeof(mps_model_ops),
                                       .api = MPS_MODEL_API,

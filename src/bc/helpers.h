@@ -6,10 +6,10 @@
 #include <mps/model.h>
 #include <stdbool.h>
 
-/* Unit vector against gravity; false without gravity. */
-bool mps__upward(const mps_stage *s, double up[3]);
+/* Unit vector against gravity; false, and `up` as it was, without gravity. */
+bool mps__upward(const mps_view *v, double up[3]);
 
 /* Height of particle i along it [m]. */
-double mps__height(const mps_stage *s, const double up[3], int64_t i);
+double mps__height(const mps_view *v, const double up[3], int64_t i);
 
 #endif

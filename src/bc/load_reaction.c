@@ -42,34 +42,34 @@ typedef struct contact {
 
 /* Unit normal of a wall particle. @return its area; 0: too small for a face, e.g. the edge of a
  * plate */
-MPS_ROW double face(const int dim, const mps_stage *s, int64_t i, double n[3])
+MPS_ROW double face(const int dim, const mps_view *v, int64_t i, double n[3])
 {
     double size = 0;
-    for (int d = 0; d < dim; d++) size += s->area[i * dim + d] * s->area[i * dim + d];
+    for (int d = 0; d < dim; d++) size += v->area[i * dim + d] * v->area[i * dim + d];
     size = sqrt(size);
-    for (int d = 0; d < dim; d++) n[d] = size > 0 ? s->area[i * dim + d] / size : 0;
-    return size > 1e-4 * (dim == 2 ? s->dp : s->dp * s->dp) ? size : 0;
+    for (int d = 0; d < dim; d++) n[d] = size > 0 ? v->area[i * dim + d] / size : 0;
+    return size > 1e-4 * (dim == 2 ? v->dp : v->dp * v->dp) ? size : 0;
 }
 
-MPS_ROW contact sum_contact(const int dim, const mps_stage *s, const fields *f, int64_t i,
+MPS_ROW contact sum_contact(const int dim, const mps_view *v, const fields *f, int64_t i,
                             const double n[3])
 {
-    const mps_stencil *t = s->near;
-    const double cell = (dim == 2 ? s->dp * s->dp : s->dp * s->dp * s->dp) * dim / t->n0;
+    const mps_stencil *t = &v->near;
+    const double cell = (dim == 2 ? v->dp * v->dp : v->dp * v->dp * v->dp) * dim / t->n0;
     contact c = {0};
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const int64_t j = t->col[p];
-        if (s->kind[j] != MPS_FLUID || f->region[j] >= MPS_REGION_SPRAY) continue;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const int64_t j = mps_stencil_column(t, p);
+        if (!mps_is_fluid(v, j) || mps_region_of(f->region, j) >= MPS_REGION_SPRAY) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        const double *b = f->correction + j * dim * dim, rho = mps_flux_density(s->flux, i, j);
-        const double body = mps_flux_body(s->flux, dim, i, j, q.d);
+        const double *b = f->correction + j * dim * dim, rho = mps_flux_density(&v->flux, i, j);
+        const double body = mps_flux_body(&v->flux, dim, i, j, q.d);
         double slope = 0, push = 0;
         for (int d = 0; d < dim; d++) {
             slope += f->a[j * dim + d] * q.d[d];
             for (int e = 0; e < dim; e++) push += n[d] * b[d * dim + e] * q.d[e];
         }
         const double carried = f->p[j] - rho * body;
-        const bool surface = f->region[j] == MPS_REGION_SURFACE;
+        const bool surface = mps_region_of(f->region, j) == MPS_REGION_SURFACE;
         c.weight += q.w;
         c.p += q.w * carried;
         c.rise += cell * q.w_r2 * push * (surface ? f->p[i] - carried : 2.0 * rho * (slope + body));
@@ -77,19 +77,19 @@ MPS_ROW contact sum_contact(const int dim, const mps_stage *s, const fields *f, 
     return c;
 }
 
-MPS_ROW double pressure_of(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW double pressure_of(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     double n[3];
-    const double size = face(dim, s, i, n);
-    const contact c = sum_contact(dim, s, f, i, n);
+    const double size = face(dim, v, i, n);
+    const contact c = sum_contact(dim, v, f, i, n);
     if (c.weight == 0) return f->p[i];
     return fmax(c.p / c.weight + (size > 0 ? c.rise / size : 0), fmin(f->p[i], 0));
 }
 
-MPS_ROW void load_row(const int dim, const mps_stage *s, fields *f, int64_t i)
+MPS_ROW void load_row(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    if (s->kind[i] != MPS_WALL || f->region[i] == MPS_REGION_DRY) return;
-    f->wall_pressure[i] = pressure_of(dim, s, f, i);
+    if (!mps_is_wall(v, i) || mps_region_of(f->region, i) == MPS_REGION_DRY) return;
+    f->wall_pressure[i] = pressure_of(dim, v, f, i);
 }
 MPS_ROWS(load_rows, load_row, fields)
 
@@ -100,12 +100,12 @@ static int load_walls(mps_stage *s)
                 .correction = s->data[CORRECTION],
                 .region = s->data[REGION],
                 .wall_pressure = s->data[WALL_PRESSURE]};
-    mps_stage_rows(s, load_rows, &f);
+    mps_stage_rows(s, &load_rows, &f);
     return 0;
 }
 
 static const mps_verb verbs[] = {
-    {.moment = MPS_LOAD, .use_count = USES, .uses = uses, .run = load_walls}};
+    {.hook = MPS_LOAD, .use_count = USES, .uses = uses, .run = load_walls}};
 
 const mps_model_ops mps__load_reaction = {
     .struct_size = sizeof(mps_model_ops),

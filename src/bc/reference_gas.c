@@ -20,23 +20,23 @@ typedef struct fields {
     double up[3], top; /* against gravity; height of the highest gas */
 } fields;
 
-static inline bool is_gas(const mps_stage *s, int64_t i)
+static inline bool is_gas(const mps_view *v, int64_t i)
 {
-    return s->kind[i] == MPS_FLUID && s->phase[i] == (int32_t)s->setting[PHASE];
+    return mps_is_fluid(v, i) && v->phase[i] == (int32_t)v->setting[PHASE];
 }
 
-MPS_ROW void top_row(const int dim, const mps_stage *s, fields *f, int64_t i, double *most)
+MPS_ROW void top_row(const int dim, const mps_view *v, const fields *f, int64_t i, double *most)
 {
     (void)dim;
-    if (is_gas(s, i)) most[0] = fmax(most[0], mps__height(s, f->up, i));
+    if (is_gas(v, i)) most[0] = fmax(most[0], mps__height(v, f->up, i));
 }
 MPS_SUMS(top_rows, top_row, fields)
 
-MPS_ROW void layer_row(const int dim, const mps_stage *s, fields *f, int64_t i)
+MPS_ROW void layer_row(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     (void)dim;
-    if (!is_gas(s, i)) return;
-    if (mps__height(s, f->up, i) < f->top - s->setting[LAYER] * s->dp) return;
+    if (!is_gas(v, i)) return;
+    if (mps__height(v, f->up, i) < f->top - v->setting[LAYER] * v->dp) return;
     f->condition[i] = MPS_ROW_FIXED;
     f->value[i] = 0;
 }
@@ -45,21 +45,21 @@ MPS_ROWS(layer_rows, layer_row, fields)
 static int fix_layer(mps_stage *s)
 {
     fields f = {.condition = s->data[PRESSURE_CONDITION], .value = s->data[PRESSURE_VALUE]};
-    if (!mps__upward(s, f.up))
+    if (!mps__upward(s->view, f.up))
         return mps_stage_fail(s, "without gravity there is no uppermost layer: remove the model "
                                  "\"reference\"");
-    mps_stage_max(s, 1, top_rows, &f, &f.top);
+    mps_stage_max(s, 1, &top_rows, &f, &f.top);
     if (isinf(f.top))
         return mps_stage_fail(s,
                               "phase %d has no fluid particle: add the gas, set reference.phase to "
                               "it, or remove the model \"reference\"",
-                              (int)s->setting[PHASE]);
-    mps_stage_rows(s, layer_rows, &f);
+                              (int)s->view->setting[PHASE]);
+    mps_stage_rows(s, &layer_rows, &f);
     return 0;
 }
 
 static const mps_verb verbs[] = {
-    {.moment = MPS_SOURCE, .use_count = USES, .uses = uses, .run = fix_layer}};
+    {.hook = MPS_SOURCE, .use_count = USES, .uses = uses, .run = fix_layer}};
 
 const mps_model_ops mps__reference_gas = {
     .struct_size = sizeof(mps_model_ops),

@@ -27,34 +27,34 @@ typedef struct fields {
 } fields;
 
 /* Wall particles in the equation. */
-static inline bool wetted(const mps_stage *s, const fields *f, int64_t i)
+static inline bool wetted(const mps_view *v, const fields *f, int64_t i)
 {
-    return s->kind[i] == MPS_WALL && f->region[i] < MPS_REGION_SURFACE;
+    return mps_is_wall(v, i) && mps_region_of(f->region, i) < MPS_REGION_SURFACE;
 }
 
-MPS_ROW void top_row(const int dim, const mps_stage *s, fields *f, int64_t i, double *most)
+MPS_ROW void top_row(const int dim, const mps_view *v, const fields *f, int64_t i, double *most)
 {
     (void)dim;
-    if (wetted(s, f, i)) most[0] = fmax(most[0], mps__height(s, f->up, i));
+    if (wetted(v, f, i)) most[0] = fmax(most[0], mps__height(v, f->up, i));
 }
 MPS_SUMS(top_rows, top_row, fields)
 
 /* Sums of weight times pressure, and of the weight. */
-MPS_ROW void mean_row(const int dim, const mps_stage *s, fields *f, int64_t i, double *sums)
+MPS_ROW void mean_row(const int dim, const mps_view *v, const fields *f, int64_t i, double *sums)
 {
     (void)dim;
-    if (!wetted(s, f, i)) return;
+    if (!wetted(v, f, i)) return;
     const double share = f->wetted_share ? f->wetted_share[i] : 1.0;
-    const double w = share * exp((mps__height(s, f->up, i) - f->top) / (s->setting[LAYER] * s->dp));
+    const double w = share * exp((mps__height(v, f->up, i) - f->top) / (v->setting[LAYER] * v->dp));
     sums[0] += w * f->pressure[i];
     sums[1] += w;
 }
 MPS_SUMS(mean_rows, mean_row, fields)
 
-MPS_ROW void level_row(const int dim, const mps_stage *s, fields *f, int64_t i)
+MPS_ROW void level_row(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    (void)dim, (void)s;
-    if (f->region[i] < MPS_REGION_SPRAY) f->pressure[i] -= f->mean;
+    (void)dim, (void)v;
+    if (mps_region_of(f->region, i) < MPS_REGION_SPRAY) f->pressure[i] -= f->mean;
 }
 MPS_ROWS(level_rows, level_row, fields)
 
@@ -65,19 +65,19 @@ static int subtract_mean(mps_stage *s)
                 .wetted_share = s->data[WETTED_SHARE],
                 .pressure = s->data[PRESSURE]};
     if (!s->level_free) return 0;
-    if (!mps__upward(s, f.up))
+    if (!mps__upward(s->view, f.up))
         return mps_stage_fail(
             s, "without gravity there is no highest wall: remove the model \"reference\"");
-    mps_stage_max(s, 1, top_rows, &f, &f.top);
-    mps_stage_sum(s, 2, mean_rows, &f, sums);
+    mps_stage_max(s, 1, &top_rows, &f, &f.top);
+    mps_stage_sum(s, 2, &mean_rows, &f, sums);
     if (!(sums[1] > 0)) return 0;
     f.mean = sums[0] / sums[1];
-    mps_stage_rows(s, level_rows, &f);
+    mps_stage_rows(s, &level_rows, &f);
     return 0;
 }
 
 static const mps_verb verbs[] = {
-    {.moment = MPS_LEVEL, .use_count = USES, .uses = uses, .run = subtract_mean}};
+    {.hook = MPS_LEVEL, .use_count = USES, .uses = uses, .run = subtract_mean}};
 
 const mps_model_ops mps__reference_lid = {
     .struct_size = sizeof(mps_model_ops),

@@ -34,31 +34,31 @@ typedef struct fields {
 } fields;
 
 /* Least pressure of wall i; +inf: no void near. */
-MPS_ROW double least_pressure(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW double least_pressure(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    const mps_stencil *t = s->near;
-    const double *tank = f->tank_acceleration + i * dim, *x = s->x;
+    const mps_stencil *t = &v->near;
+    const double *tank = f->tank_acceleration + i * dim, *x = v->x;
     double least = INFINITY;
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const int64_t j = t->col[p];
-        const int32_t region = f->region[j];
-        const bool fluid = s->kind[j] == MPS_FLUID, surface = fluid && region == MPS_REGION_SURFACE;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const int64_t j = mps_stencil_column(t, p);
+        const int32_t region = mps_region_of(f->region, j);
+        const bool fluid = mps_is_fluid(v, j), surface = fluid && region == MPS_REGION_SURFACE;
         if (!surface && !(fluid && region == MPS_REGION_SPRAY) &&
-            !(s->kind[j] == MPS_WALL && region == MPS_REGION_DRY))
+            !(mps_is_wall(v, j) && region == MPS_REGION_DRY))
             continue;
         double body = 0;
         for (int d = 0; d < dim && surface; d++)
-            body += (s->g[d] - tank[d]) * (x[i * dim + d] - x[j * dim + d]);
+            body += (v->g[d] - tank[d]) * (x[i * dim + d] - x[j * dim + d]);
         least = fmin(least, fmin(0, f->density[j] * body));
     }
     return least;
 }
 
-MPS_ROW void wall_row(const int dim, const mps_stage *s, fields *f, int64_t i)
+MPS_ROW void wall_row(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    if (s->kind[i] != MPS_WALL || f->region[i] != MPS_REGION_INNER) return;
+    if (!mps_is_wall(v, i) || mps_region_of(f->region, i) != MPS_REGION_INNER) return;
     if (f->condition[i] != MPS_ROW_FREE) return;
-    const double least = least_pressure(dim, s, f, i);
+    const double least = least_pressure(dim, v, f, i);
     if (!(least <= 0)) return;
     f->condition[i] = MPS_ROW_LEAST;
     f->value[i] = least;
@@ -72,13 +72,13 @@ static int let_go(mps_stage *s)
                 .region = s->data[REGION],
                 .condition = s->data[PRESSURE_CONDITION],
                 .value = s->data[PRESSURE_VALUE]};
-    if ((double)s->since_jump < s->setting[HOLD]) return 0;
-    mps_stage_rows(s, wall_rows, &f);
+    if ((double)s->since_jump < s->view->setting[HOLD]) return 0;
+    mps_stage_rows(s, &wall_rows, &f);
     return 0;
 }
 
 static const mps_verb verbs[] = {
-    {.moment = MPS_SOURCE, .use_count = USES, .uses = uses, .after = "reference", .run = let_go}};
+    {.hook = MPS_SOURCE, .use_count = USES, .uses = uses, .after = "reference", .run = let_go}};
 
 const mps_model_ops mps__separation_void = {
     .struct_size = sizeof(mps_model_ops),

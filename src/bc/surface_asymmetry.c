@@ -11,8 +11,8 @@
  * too, and p = 0 amid high pressure tears the fluid; so some asymmetry is required there.
  * The last line finds films of one row on a wall. They have n0 and more, because the wall is near,
  * but are more one-sided than any surface. As inner particles such rows respond to their own
- * pressure with the wrong sign, see docs/records/numerics-history.md. The factor n keeps the
- * pressure of particles that are squeezed together, and one-sided for that reason.
+ * pressure with the wrong sign. The factor n keeps the pressure of particles that are squeezed
+ * together, and one-sided for that reason.
  *
  * Particles with too little fluid about them are spray. The papers test wall particles too
  * (walls = 1): dry walls have p = 0.
@@ -70,10 +70,11 @@ static const mps_setting settings[SETTINGS] = {
     [FILM] = {"film", "-", "On the surface: asymmetry over n/n0 above this (film of one row)",
               MPS_TYPE_REAL, 1.1, 0.0, 100.0}};
 
-enum { NUMBER_DENSITY, ASYMMETRY, REGION, USES };
+enum { NUMBER_DENSITY, ASYMMETRY, REGION, COMPLETE_SURFACE, USES };
 static const mps_use uses[USES] = {[NUMBER_DENSITY] = {"number_density", MPS_USE_READ},
                                    [ASYMMETRY] = {"asymmetry", MPS_USE_READ},
-                                   [REGION] = {"region", MPS_USE_NEIGHBOURS | MPS_USE_CHANGE}};
+                                   [REGION] = {"region", MPS_USE_NEIGHBOURS | MPS_USE_CHANGE},
+                                   [COMPLETE_SURFACE] = {"equation_complete", MPS_USE_WRITE}};
 
 typedef struct fields {
     const double *number_density, *asymmetry;
@@ -105,14 +106,14 @@ static inline bool on_surface(const double *k, double n, double a)
 }
 
 /* Whether the kernel sum over the fluid, with or without its spray, is less than `enough`. */
-MPS_ROW bool detached(const int dim, const mps_stage *s, const int32_t *region, int64_t i,
+MPS_ROW bool detached(const int dim, const mps_view *v, const int32_t *region, int64_t i,
                       bool with_spray, double enough)
 {
-    const mps_stencil *t = s->near;
+    const mps_stencil *t = &v->near;
     double sum = 0;
-    for (int64_t p = t->begin[i]; p < t->end[i] && sum < enough; p++)
-        if (s->kind[t->col[p]] == MPS_FLUID &&
-            (with_spray || region[t->col[p]] != MPS_REGION_SPRAY))
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i) && sum < enough; p++)
+        if (mps_is_fluid(v, mps_stencil_column(t, p)) &&
+            (with_spray || mps_region_of(region, mps_stencil_column(t, p)) != MPS_REGION_SPRAY))
             sum += mps_stencil_pair_dim(dim, t, i, p).w;
     return sum < enough;
 }
@@ -127,13 +128,13 @@ MPS_ROW double asymmetry_of(const int dim, const fields *f, int64_t i)
 
 /* ---- surface and spray by the sums of each particle ------------------------------------------ */
 
-MPS_ROW void own_row(const int dim, const mps_stage *s, fields *f, int64_t i)
+MPS_ROW void own_row(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    const double *k = s->setting, n0 = s->near->n0;
-    if (s->kind[i] != MPS_FLUID && !(s->kind[i] == MPS_WALL && k[WALLS] > 0)) return;
+    const double *k = v->setting, n0 = v->near.n0;
+    if (!mps_is_fluid(v, i) && !(mps_is_wall(v, i) && k[WALLS] > 0)) return;
     const double a = asymmetry_of(dim, f, i);
     const double n = f->number_density[i] / n0;
-    if (s->kind[i] == MPS_FLUID && detached(dim, s, f->region, i, true, k[SPRAY] * n0))
+    if (mps_is_fluid(v, i) && detached(dim, v, f->region, i, true, k[SPRAY] * n0))
         f->region[i] = MPS_REGION_SPRAY;
     else if (on_surface(k, n, a))
         f->region[i] = MPS_REGION_SURFACE;
@@ -142,38 +143,38 @@ MPS_ROWS(own_rows, own_row, fields)
 
 /* ---- particles beside others: each looks about itself ---------------------------------------- */
 
-MPS_ROW void from_row(const int dim, const mps_stage *s, fields *f, int64_t i)
+MPS_ROW void from_row(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     (void)dim;
-    f->member[i] = f->region[i] == f->from && s->kind[i] == MPS_FLUID;
+    f->member[i] = mps_region_of(f->region, i) == f->from && mps_is_fluid(v, i);
 }
 MPS_ROWS(from_rows, from_row, fields)
 
 /* Whether an inner fluid particle has a near neighbour in the fluid of region `from`. */
-MPS_ROW bool inner_beside(const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW bool inner_beside(const mps_view *v, const fields *f, int64_t i)
 {
-    const mps_stencil *t = s->near;
+    const mps_stencil *t = &v->near;
     const int32_t *const member = f->member, *const j = t->col;
-    int64_t p = t->begin[i], end = t->end[i];
+    int64_t p = mps_stencil_begin(t, i), end = mps_stencil_end(t, i);
     int32_t any = 0;
-    if (s->kind[i] != MPS_FLUID || f->region[i] != MPS_REGION_INNER) return false;
+    if (!mps_is_fluid(v, i) || mps_region_of(f->region, i) != MPS_REGION_INNER) return false;
     for (; p + 4 <= end && !any; p += 4) /* most rows find none */
         any = member[j[p]] | member[j[p + 1]] | member[j[p + 2]] | member[j[p + 3]];
     for (; p < end && !any; p++) any = member[j[p]];
     return any != 0;
 }
 
-MPS_ROW void surface_row(const int dim, const mps_stage *s, fields *f, int64_t i)
+MPS_ROW void surface_row(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    (void)dim, (void)s;
+    (void)dim, (void)v;
     if (f->mark[i]) f->region[i] = MPS_REGION_SURFACE;
 }
 MPS_ROWS(surface_rows, surface_row, fields)
 
-MPS_ROW void spread_row(const int dim, const mps_stage *s, fields *f, int64_t i)
+MPS_ROW void spread_row(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     (void)dim;
-    if (inner_beside(s, f, i)) f->region[i] = f->to;
+    if (inner_beside(v, f, i)) f->region[i] = f->to;
 }
 MPS_ROWS(spread_rows, spread_row, fields)
 
@@ -188,22 +189,22 @@ static int spread(mps_stage *s, fields *f, int32_t from, int32_t to)
 {
     f->from = from;
     f->to = to;
-    mps_stage_rows(s, from_rows, f);
+    mps_stage_rows(s, &from_rows, f);
     if (refresh(s, f->member)) return 1;
-    mps_stage_rows(s, spread_rows, f);
+    mps_stage_rows(s, &spread_rows, f);
     return 0;
 }
 
 /* n/n0 and |A|/|A|0 of a particle as if there were no spray: no pressure acts on spray, so that it
  * counts as void for its neighbours. */
-MPS_ROW void without_spray(const int dim, const mps_stage *s, const fields *f, int64_t i, double *n,
+MPS_ROW void without_spray(const int dim, const mps_view *v, const fields *f, int64_t i, double *n,
                            double *a)
 {
-    const mps_stencil *t = s->near;
+    const mps_stencil *t = &v->near;
     double sum = f->number_density[i], left[3], square = 0;
     for (int d = 0; d < dim; d++) left[d] = f->asymmetry[i * dim + d];
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        if (f->region[t->col[p]] != MPS_REGION_SPRAY) continue;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        if (mps_region_of(f->region, mps_stencil_column(t, p)) != MPS_REGION_SPRAY) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         sum -= q.w;
         for (int d = 0; d < dim; d++) left[d] += dim / t->n0 * q.w * q.d[d] / q.r;
@@ -216,26 +217,27 @@ MPS_ROW void without_spray(const int dim, const mps_stage *s, const fields *f, i
 /* Whether an inner particle beside spray is on the surface, or one of the last of its body. Fluid
  * that is left amid spray has p = 0: one or two particles that share a pressure only with the walls
  * of a corner would take all the momentum that these walls give. */
-MPS_ROW bool beside_spray(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW bool beside_spray(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    const double *k = s->setting;
+    const double *k = v->setting;
     double n, a;
-    if (!inner_beside(s, f, i)) return false;
-    if (detached(dim, s, f->region, i, false, k[SPRAY] * s->near->n0)) return true;
-    without_spray(dim, s, f, i, &n, &a);
+    if (!inner_beside(v, f, i)) return false;
+    if (detached(dim, v, f->region, i, false, k[SPRAY] * v->near.n0)) return true;
+    without_spray(dim, v, f, i, &n, &a);
     return on_surface(k, n, a);
 }
 
-MPS_ROW void beside_spray_row(const int dim, const mps_stage *s, fields *f, int64_t i)
+MPS_ROW void beside_spray_row(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    f->mark[i] = beside_spray(dim, s, f, i);
+    f->mark[i] = beside_spray(dim, v, f, i);
 }
 MPS_ROWS(beside_spray_rows, beside_spray_row, fields)
 
-MPS_ROW void any_spray_row(const int dim, const mps_stage *s, fields *f, int64_t i, double *most)
+MPS_ROW void any_spray_row(const int dim, const mps_view *v, const fields *f, int64_t i,
+                           double *most)
 {
-    (void)dim, (void)s;
-    if (f->region[i] == MPS_REGION_SPRAY) most[0] = 1;
+    (void)dim, (void)v;
+    if (mps_region_of(f->region, i) == MPS_REGION_SPRAY) most[0] = 1;
 }
 MPS_SUMS(any_spray_rows, any_spray_row, fields)
 
@@ -243,36 +245,37 @@ MPS_SUMS(any_spray_rows, any_spray_row, fields)
 static int look_beside_spray(mps_stage *s, fields *f)
 {
     double any;
-    mps_stage_max(s, 1, any_spray_rows, f, &any);
+    mps_stage_max(s, 1, &any_spray_rows, f, &any);
     if (!(any > 0)) return 0;
     f->from = MPS_REGION_SPRAY;
-    mps_stage_rows(s, from_rows, f);
+    mps_stage_rows(s, &from_rows, f);
     if (refresh(s, f->member)) return 1;
-    mps_stage_rows(s, beside_spray_rows, f);
-    mps_stage_rows(s, surface_rows, f);
+    mps_stage_rows(s, &beside_spray_rows, f);
+    mps_stage_rows(s, &surface_rows, f);
     return refresh(s, f->region);
 }
 
 /* Whether a particle has both a wall and the surface within 1.5 dp. */
-MPS_ROW bool at_contact(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW bool at_contact(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    const mps_stencil *t = s->near;
+    const mps_stencil *t = &v->near;
     bool wall = false, surface = false;
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        if (q.r2 > 2.25 * s->dp * s->dp) continue;
-        wall = wall || s->kind[q.j] == MPS_WALL;
-        surface = surface || (s->kind[q.j] == MPS_FLUID && f->region[q.j] == MPS_REGION_SURFACE);
+        if (q.r2 > 2.25 * v->dp * v->dp) continue;
+        wall = wall || mps_is_wall(v, q.j);
+        surface = surface ||
+                  (mps_is_fluid(v, q.j) && mps_region_of(f->region, q.j) == MPS_REGION_SURFACE);
     }
     return wall && surface;
 }
 
-MPS_ROW void contact_row(const int dim, const mps_stage *s, fields *f, int64_t i)
+MPS_ROW void contact_row(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    const double *k = s->setting;
-    f->mark[i] = s->kind[i] == MPS_FLUID && f->region[i] == MPS_REGION_INNER &&
-                 f->number_density[i] < k[CONTACT_LOW] * s->near->n0 &&
-                 asymmetry_of(dim, f, i) > k[CONTACT_SHARE] && at_contact(dim, s, f, i);
+    const double *k = v->setting;
+    f->mark[i] = mps_is_fluid(v, i) && mps_region_of(f->region, i) == MPS_REGION_INNER &&
+                 f->number_density[i] < k[CONTACT_LOW] * v->near.n0 &&
+                 asymmetry_of(dim, f, i) > k[CONTACT_SHARE] && at_contact(dim, v, f, i);
 }
 MPS_ROWS(contact_rows, contact_row, fields)
 
@@ -280,26 +283,27 @@ MPS_ROWS(contact_rows, contact_row, fields)
 
 static int find_surface(mps_stage *s)
 {
+    const mps_view *v = s->view;
     fields f = {.number_density = s->data[NUMBER_DENSITY],
                 .asymmetry = s->data[ASYMMETRY],
                 .region = s->data[REGION],
-                .member = mps_stage_scratch_integers(s, s->n),
-                .mark = mps_stage_scratch_integers(s, s->n),
-                .a0 = lattice_asymmetry(s->near)};
+                .member = mps_stage_scratch_integers(s, v->n),
+                .mark = mps_stage_scratch_integers(s, v->n),
+                .a0 = lattice_asymmetry(&v->near)};
     if (!f.member || !f.mark) return 1;
-    s->equation->complete_surface = s->setting[COMPLETE] > 0;
-    mps_stage_rows(s, own_rows, &f);
+    *(int32_t *)s->data[COMPLETE_SURFACE] = v->setting[COMPLETE] > 0;
+    mps_stage_rows(s, &own_rows, &f);
     if (refresh(s, f.region) || look_beside_spray(s, &f)) return 1;
-    if (s->setting[CONTACT] > 0) {
-        mps_stage_rows(s, contact_rows, &f);
-        mps_stage_rows(s, surface_rows, &f);
+    if (v->setting[CONTACT] > 0) {
+        mps_stage_rows(s, &contact_rows, &f);
+        mps_stage_rows(s, &surface_rows, &f);
     }
     return spread(s, &f, MPS_REGION_SURFACE, MPS_REGION_NEAR) ||
            spread(s, &f, MPS_REGION_NEAR, MPS_REGION_SECOND);
 }
 
 static const mps_verb verbs[] = {
-    {.moment = MPS_CLASSIFY, .use_count = USES, .uses = uses, .run = find_surface}};
+    {.hook = MPS_CLASSIFY, .use_count = USES, .uses = uses, .run = find_surface}};
 
 const mps_model_ops mps__surface_asymmetry = {
     .struct_size = sizeof(mps_model_ops),

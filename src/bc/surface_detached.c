@@ -22,30 +22,31 @@ typedef struct fields {
     double enough, lightest; /* limit of the kernel sum; least density of the fluid */
 } fields;
 
-MPS_ROW void lightest_row(const int dim, const mps_stage *s, fields *f, int64_t i, double *most)
+MPS_ROW void lightest_row(const int dim, const mps_view *v, const fields *f, int64_t i,
+                          double *most)
 {
     (void)dim;
-    if (s->kind[i] == MPS_FLUID) most[0] = fmax(most[0], -f->density[i]);
+    if (mps_is_fluid(v, i)) most[0] = fmax(most[0], -f->density[i]);
 }
 MPS_SUMS(lightest_rows, lightest_row, fields)
 
 /* The sum above, up to `enough`. */
-MPS_ROW double sum_about(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW double sum_about(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    const mps_stencil *t = s->near;
+    const mps_stencil *t = &v->near;
     double sum = 0;
-    for (int64_t p = t->begin[i]; p < t->end[i] && sum < f->enough; p++) {
-        const int64_t j = t->col[p];
-        if (s->kind[j] == MPS_FLUID)
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i) && sum < f->enough; p++) {
+        const int64_t j = mps_stencil_column(t, p);
+        if (mps_is_fluid(v, j))
             sum += mps_stencil_pair_dim(dim, t, i, p).w * fmin(1.0, f->density[j] / f->density[i]);
     }
     return sum;
 }
 
-MPS_ROW void spray_row(const int dim, const mps_stage *s, fields *f, int64_t i)
+MPS_ROW void spray_row(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    if (s->kind[i] != MPS_FLUID || !(f->density[i] > f->lightest)) return;
-    if (sum_about(dim, s, f, i) < f->enough) f->region[i] = MPS_REGION_SPRAY;
+    if (!mps_is_fluid(v, i) || !(f->density[i] > f->lightest)) return;
+    if (sum_about(dim, v, f, i) < f->enough) f->region[i] = MPS_REGION_SPRAY;
 }
 MPS_ROWS(spray_rows, spray_row, fields)
 
@@ -54,15 +55,15 @@ static int find_spray(mps_stage *s)
     double most;
     fields f = {.density = s->data[DENSITY],
                 .region = s->data[REGION],
-                .enough = s->setting[SPRAY] * s->near->n0};
-    mps_stage_max(s, 1, lightest_rows, &f, &most);
+                .enough = s->view->setting[SPRAY] * s->view->near.n0};
+    mps_stage_max(s, 1, &lightest_rows, &f, &most);
     f.lightest = -most;
-    mps_stage_rows(s, spray_rows, &f);
+    mps_stage_rows(s, &spray_rows, &f);
     return 0;
 }
 
 static const mps_verb verbs[] = {
-    {.moment = MPS_CLASSIFY, .use_count = USES, .uses = uses, .run = find_spray}};
+    {.hook = MPS_CLASSIFY, .use_count = USES, .uses = uses, .run = find_spray}};
 
 const mps_model_ops mps__surface_detached = {
     .struct_size = sizeof(mps_model_ops),

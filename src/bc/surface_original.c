@@ -17,23 +17,23 @@ typedef struct fields {
     int32_t *region;
 } fields;
 
-MPS_ROW void surface_row(const int dim, const mps_stage *s, fields *f, int64_t i)
+MPS_ROW void surface_row(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     (void)dim;
-    if (s->kind[i] == MPS_DUMMY) return;
-    if (f->number_density[i] < s->setting[BETA] * s->near->n0) f->region[i] = MPS_REGION_SURFACE;
+    if (mps_is_dummy(v, i)) return;
+    if (f->number_density[i] < v->setting[BETA] * v->near.n0) f->region[i] = MPS_REGION_SURFACE;
 }
 MPS_ROWS(surface_rows, surface_row, fields)
 
 static int find_surface(mps_stage *s)
 {
     fields f = {.number_density = s->data[NUMBER_DENSITY], .region = s->data[REGION]};
-    mps_stage_rows(s, surface_rows, &f);
+    mps_stage_rows(s, &surface_rows, &f);
     return 0;
 }
 
 static const mps_verb verbs[] = {
-    {.moment = MPS_CLASSIFY, .use_count = USES, .uses = uses, .run = find_surface}};
+    {.hook = MPS_CLASSIFY, .use_count = USES, .uses = uses, .run = find_surface}};
 
 const mps_model_ops mps__surface_original = {
     .struct_size = sizeof(mps_model_ops),

@@ -18,13 +18,13 @@ typedef struct densities {
 } densities;
 
 /* Density of the fluid nearest to a solid particle, spray aside; its own without any near. */
-MPS_ROW double density_beside(const int dim, const mps_stage *s, const densities *f, int64_t i)
+MPS_ROW double density_beside(const int dim, const mps_view *v, const densities *f, int64_t i)
 {
-    const mps_stencil *t = s->near;
+    const mps_stencil *t = &v->near;
     double density = f->density[i], nearest = INFINITY;
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const int64_t j = t->col[p];
-        if (s->kind[j] != MPS_FLUID || f->region[j] == MPS_REGION_SPRAY) continue;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const int64_t j = mps_stencil_column(t, p);
+        if (!mps_is_fluid(v, j) || mps_region_of(f->region, j) == MPS_REGION_SPRAY) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         if (q.r2 >= nearest) continue;
         nearest = q.r2;
@@ -33,9 +33,9 @@ MPS_ROW double density_beside(const int dim, const mps_stage *s, const densities
     return density;
 }
 
-MPS_ROW void density_row(const int dim, const mps_stage *s, densities *f, int64_t i)
+MPS_ROW void density_row(const int dim, const mps_view *v, const densities *f, int64_t i)
 {
-    if (s->kind[i] != MPS_FLUID) f->pressure_density[i] = density_beside(dim, s, f, i);
+    if (!mps_is_fluid(v, i)) f->pressure_density[i] = density_beside(dim, v, f, i);
 }
 MPS_ROWS(density_rows, density_row, densities)
 
@@ -45,7 +45,7 @@ static int take_densities(mps_stage *s)
     densities f = {.density = s->data[DENSITY],
                    .region = s->data[REGION],
                    .pressure_density = s->data[PRESSURE_DENSITY]};
-    mps_stage_rows(s, density_rows, &f);
+    mps_stage_rows(s, &density_rows, &f);
     return 0;
 }
 
@@ -59,14 +59,14 @@ typedef struct pressures {
     double *pressure; /* written of dummies, read of the others */
 } pressures;
 
-MPS_ROW void dummy_row(const int dim, const mps_stage *s, pressures *f, int64_t i)
+MPS_ROW void dummy_row(const int dim, const mps_view *v, const pressures *f, int64_t i)
 {
-    const mps_stencil *t = s->near;
-    if (s->kind[i] != MPS_DUMMY) return;
+    const mps_stencil *t = &v->near;
+    if (!mps_is_dummy(v, i)) return;
     double sum = 0, weight = 0;
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        if (s->kind[q.j] == MPS_DUMMY) continue;
+        if (mps_is_dummy(v, q.j)) continue;
         sum += q.w * f->pressure[q.j];
         weight += q.w;
     }
@@ -77,13 +77,13 @@ MPS_ROWS(dummy_rows, dummy_row, pressures)
 static int extrapolate(mps_stage *s)
 {
     pressures f = {.pressure = s->data[PRESSURE]};
-    mps_stage_rows(s, dummy_rows, &f);
+    mps_stage_rows(s, &dummy_rows, &f);
     return 0;
 }
 
 static const mps_verb verbs[] = {
-    {.moment = MPS_PREPARE, .use_count = DENSITY_USES, .uses = density_uses, .run = take_densities},
-    {.moment = MPS_LEVEL,
+    {.hook = MPS_PREPARE, .use_count = DENSITY_USES, .uses = density_uses, .run = take_densities},
+    {.hook = MPS_LEVEL,
      .use_count = PRESSURE_USES,
      .uses = pressure_uses,
      .after = "reference",

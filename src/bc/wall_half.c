@@ -14,11 +14,12 @@ static const double NEARLY = 0.7;
 /* A fluid particle is before a face if it is so far above its plane, over dp. */
 static const double ABOVE = 0.1;
 
-enum { DENSITY, REGION, WETTED_SHARE, PRESSURE_DENSITY, USES };
+enum { DENSITY, REGION, WETTED_SHARE, PRESSURE_DENSITY, WALL_FACTOR, USES };
 static const mps_use uses[USES] = {[DENSITY] = {"density", MPS_USE_NEIGHBOURS},
                                    [REGION] = {"region", MPS_USE_NEIGHBOURS | MPS_USE_CHANGE},
                                    [WETTED_SHARE] = {"wetted_share", MPS_USE_WRITE},
-                                   [PRESSURE_DENSITY] = {"pressure_density", MPS_USE_WRITE}};
+                                   [PRESSURE_DENSITY] = {"pressure_density", MPS_USE_WRITE},
+                                   [WALL_FACTOR] = {"equation_wall_factor", MPS_USE_WRITE}};
 
 static const mps_channel channels[] = {
     {.name = "wetted_share",
@@ -53,17 +54,17 @@ static double half_sum(const mps_stencil *t)
 /* Kernel sum over the fluid. Spray does not count: a wall particle with no other neighbours than
  * walls would make the system singular. Fluid that is all behind the plane of the face does not
  * count either: beyond an edge a wall would take the pressure of liquid before the other face. */
-MPS_ROW double fluid_sum(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW double fluid_sum(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    const mps_stencil *t = s->near;
-    const double *area = s->area + i * dim;
+    const mps_stencil *t = &v->near;
+    const double *area = v->area + i * dim;
     double sum = 0, size = 0;
     for (int d = 0; d < dim; d++) size += area[d] * area[d];
     bool before = size == 0;
-    const double least = ABOVE * s->dp * sqrt(size);
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const int64_t j = t->col[p];
-        if (s->kind[j] != MPS_FLUID || f->region[j] == MPS_REGION_SPRAY) continue;
+    const double least = ABOVE * v->dp * sqrt(size);
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const int64_t j = mps_stencil_column(t, p);
+        if (!mps_is_fluid(v, j) || mps_region_of(f->region, j) == MPS_REGION_SPRAY) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         double height = 0;
         for (int d = 0; d < dim; d++) height += q.d[d] * area[d];
@@ -78,21 +79,21 @@ MPS_ROW double fluid_sum(const int dim, const mps_stage *s, const fields *f, int
  * distance). By the nearest alone the row would change from gas to water within a step where a wave
  * runs up the wall, and its pressure with it. Counting those farther away moves the pressures of a
  * still tank by 0.1 % of rho g h. */
-MPS_ROW double density_beside(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW double density_beside(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    const mps_stencil *t = s->near;
+    const mps_stencil *t = &v->near;
     double nearest = 0, rho = f->density[i], sum = 0, weight = 0;
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const int64_t j = t->col[p];
-        if (s->kind[j] != MPS_FLUID || f->region[j] == MPS_REGION_SPRAY) continue;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const int64_t j = mps_stencil_column(t, p);
+        if (!mps_is_fluid(v, j) || mps_region_of(f->region, j) == MPS_REGION_SPRAY) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         if (q.w_r2 <= nearest) continue;
         nearest = q.w_r2;
         rho = f->density[j];
     }
-    for (int64_t p = t->begin[i]; p < t->end[i] && nearest > 0; p++) {
-        const int64_t j = t->col[p];
-        if (s->kind[j] != MPS_FLUID || f->region[j] == MPS_REGION_SPRAY) continue;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i) && nearest > 0; p++) {
+        const int64_t j = mps_stencil_column(t, p);
+        if (!mps_is_fluid(v, j) || mps_region_of(f->region, j) == MPS_REGION_SPRAY) continue;
         const double nearly = fmax(0, mps_stencil_pair_dim(dim, t, i, p).w_r2 / nearest - NEARLY);
         sum += nearly * nearly * (f->density[j] - rho);
         weight += nearly * nearly;
@@ -100,13 +101,13 @@ MPS_ROW double density_beside(const int dim, const mps_stage *s, const fields *f
     return weight > 0 ? rho + sum / weight : rho;
 }
 
-MPS_ROW void wall_row(const int dim, const mps_stage *s, fields *f, int64_t i)
+MPS_ROW void wall_row(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    if (s->kind[i] != MPS_WALL) return;
-    const double sum = fluid_sum(dim, s, f, i);
+    if (!mps_is_wall(v, i)) return;
+    const double sum = fluid_sum(dim, v, f, i);
     f->wetted_share[i] = sum < f->full ? sum / f->full : 1.0;
     if (sum == 0) f->region[i] = MPS_REGION_DRY;
-    f->pressure_density[i] = density_beside(dim, s, f, i);
+    f->pressure_density[i] = density_beside(dim, v, f, i);
 }
 MPS_ROWS(wall_rows, wall_row, fields)
 
@@ -116,17 +117,14 @@ static int wet_walls(mps_stage *s)
                 .region = s->data[REGION],
                 .wetted_share = s->data[WETTED_SHARE],
                 .pressure_density = s->data[PRESSURE_DENSITY],
-                .full = half_sum(s->near)};
-    s->equation->wall_factor = 0.5;
-    mps_stage_rows(s, wall_rows, &f);
+                .full = half_sum(&s->view->near)};
+    *(double *)s->data[WALL_FACTOR] = 0.5;
+    mps_stage_rows(s, &wall_rows, &f);
     return 0;
 }
 
-static const mps_verb verbs[] = {{.moment = MPS_CLASSIFY,
-                                  .use_count = USES,
-                                  .uses = uses,
-                                  .after = "surface",
-                                  .run = wet_walls}};
+static const mps_verb verbs[] = {
+    {.hook = MPS_CLASSIFY, .use_count = USES, .uses = uses, .after = "surface", .run = wet_walls}};
 
 const mps_model_ops mps__wall_half = {
     .struct_size = sizeof(mps_model_ops),

@@ -5,6 +5,7 @@
  * velocities before the collisions, so that the order of particles does not matter. The momentum
  * of pairs is conserved. */
 #include "walls.h"
+#include <mps/reaction.h>
 
 enum { DISTANCE, RESTITUTION, WALL_DISTANCE, SETTINGS };
 static const mps_setting settings[SETTINGS] = {
@@ -25,6 +26,7 @@ typedef struct fields {
     double *velocity;
     const double *density;
     double *change; /* [n*dim] of the velocity */
+    double *walls;  /* [n*dim] the part of it by walls, over dt */
     double least;   /* least_weight() */
 } fields;
 
@@ -37,18 +39,16 @@ static double least_weight(const mps_stencil *t, double distance)
 }
 
 /* Change of the velocity of i by its fluid neighbours. Returns whether it has solid ones too. */
-MPS_ROW bool collide_pairs(const int dim, const mps_stage *stage, const fields *given, int64_t i,
+MPS_ROW bool collide_pairs(const int dim, const mps_view *view, const fields *f, int64_t i,
                            double du[3])
 {
-    const mps_stage copy = *stage, *s = &copy;
-    const fields own = *given, *f = &own;
-    const mps_stencil near = *s->near, *t = &near;
+    const mps_stencil *t = &view->near;
     const double *u = f->velocity, *rho = f->density;
-    const double reach = s->setting[DISTANCE] * s->dp, reach2 = reach * reach;
+    const double reach = view->setting[DISTANCE] * view->dp, reach2 = reach * reach;
     bool solids = false;
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const int64_t j = t->col[p];
-        if (s->kind[j] != MPS_FLUID) {
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const int64_t j = mps_stencil_column(t, p);
+        if (!mps_is_fluid(view, j)) {
             solids = true;
             continue;
         }
@@ -58,45 +58,51 @@ MPS_ROW bool collide_pairs(const int dim, const mps_stage *stage, const fields *
         double approach = 0; /* rate of separation times distance */
         for (int d = 0; d < dim; d++) approach += (u[j * dim + d] - u[i * dim + d]) * q.d[d];
         if (approach >= 0) continue;
-        const double share = (1.0 + s->setting[RESTITUTION]) * rho[j] / (rho[i] + rho[j]);
+        const double share = (1.0 + view->setting[RESTITUTION]) * rho[j] / (rho[i] + rho[j]);
         for (int d = 0; d < dim; d++) du[d] += share * approach / q.r2 * q.d[d];
     }
     return solids;
 }
 
-MPS_ROW void collide(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void collide(const int dim, const mps_view *view, const fields *f, int64_t i)
 {
-    if (s->kind[i] != MPS_FLUID) return;
-    const double *u = f->velocity + i * dim, wall_distance = s->setting[WALL_DISTANCE] * s->dp;
+    if (!mps_is_fluid(view, i)) return;
+    const double *u = f->velocity + i * dim,
+                 wall_distance = view->setting[WALL_DISTANCE] * view->dp;
     double du[3] = {0}, v[3];
-    const bool solids = collide_pairs(dim, s, f, i, du);
+    const bool solids = collide_pairs(dim, view, f, i, du);
     for (int d = 0; d < dim; d++) v[d] = u[d] + du[d];
-    if (solids) mps__walls_keep_off(s, wall_distance, 0, f->velocity, i, v);
-    for (int d = 0; d < dim; d++) f->change[i * dim + d] = v[d] - u[d];
+    if (solids) mps__walls_keep_off(view, wall_distance, 0, f->velocity, i, v);
+    for (int d = 0; d < dim; d++) {
+        f->change[i * dim + d] = v[d] - u[d];
+        f->walls[i * dim + d] = (v[d] - (u[d] + du[d])) / view->dt;
+    }
 }
 MPS_ROWS(collide_rows, collide, fields)
 
-MPS_ROW void add_change(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void add_change(const int dim, const mps_view *view, const fields *f, int64_t i)
 {
-    (void)s;
+    (void)view;
     for (int d = 0; d < dim; d++) f->velocity[i * dim + d] += f->change[i * dim + d];
 }
 MPS_ROWS(add_change_rows, add_change, fields)
 
 static int collide_particles(mps_stage *s)
 {
+    const mps_view *view = s->view;
     fields f = {.velocity = s->data[VELOCITY],
                 .density = s->data[DENSITY],
-                .change = mps_stage_scratch(s, s->n * s->dim),
-                .least = least_weight(s->near, s->setting[DISTANCE] * s->dp)};
-    if (!f.change) return 1;
-    mps_stage_rows(s, collide_rows, &f);
-    mps_stage_rows(s, add_change_rows, &f);
-    return 0;
+                .change = mps_stage_scratch(s, view->n * view->dim),
+                .walls = mps_stage_scratch(s, view->n * view->dim),
+                .least = least_weight(&view->near, view->setting[DISTANCE] * view->dp)};
+    if (!f.change || !f.walls) return 1;
+    mps_stage_rows(s, &collide_rows, &f);
+    mps_stage_rows(s, &add_change_rows, &f);
+    return mps_stage_reaction(s, NULL, f.walls);
 }
 
 static const mps_verb verbs[] = {
-    {.moment = MPS_VELOCITY, .use_count = USES, .uses = uses, .run = collide_particles}};
+    {.hook = MPS_VELOCITY, .use_count = USES, .uses = uses, .run = collide_particles}};
 
 const mps_model_ops mps__collision_pair = {
     .struct_size = sizeof(mps_model_ops),

@@ -58,43 +58,47 @@ typedef struct crossing {
     double heaviest, lightest; /* densities met */
 } crossing;
 
-static inline bool in_fluid(const mps_stage *s, const fields *f, int64_t i)
+static inline bool in_fluid(const mps_view *v, const fields *f, int64_t i)
 {
-    return s->kind[i] == MPS_FLUID && f->region[i] < MPS_REGION_SPRAY;
+    return mps_is_fluid(v, i) && mps_region_of(f->region, i) < MPS_REGION_SPRAY;
 }
 
 /* Finds fluid with lighter fluid among its near neighbours. */
-MPS_ROW void find_heavy(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void find_heavy(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     (void)dim;
-    const mps_stencil *t = s->near;
+    const mps_stencil *t = &v->near;
     bool found = false;
-    if (!in_fluid(s, f, i)) return;
-    for (int64_t p = t->begin[i]; p < t->end[i] && !found; p++)
-        found = in_fluid(s, f, t->col[p]) && f->density[t->col[p]] < f->density[i];
+    if (!in_fluid(v, f, i)) return;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i) && !found; p++)
+        found = in_fluid(v, f, mps_stencil_column(t, p)) &&
+                f->density[mps_stencil_column(t, p)] < f->density[i];
     f->heavy[i] = found;
 }
 MPS_ROWS(find_heavy_rows, find_heavy, fields)
 
 /* True if a near pair of particle i has two densities. */
-MPS_ROW bool at_interface(const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW bool at_interface(const mps_view *v, const fields *f, int64_t i)
 {
-    const mps_stencil *t = s->near;
+    const mps_stencil *t = &v->near;
     const double *rho = f->pressure_density;
     bool found = false;
-    if (f->region[i] >= MPS_REGION_SPRAY) return false;
-    for (int64_t p = t->begin[i]; p < t->end[i] && !found; p++)
-        found = f->region[t->col[p]] < MPS_REGION_SPRAY && rho[t->col[p]] != rho[i];
+    if (mps_region_of(f->region, i) >= MPS_REGION_SPRAY) return false;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i) && !found; p++)
+        found = mps_region_of(f->region, mps_stencil_column(t, p)) < MPS_REGION_SPRAY &&
+                rho[mps_stencil_column(t, p)] != rho[i];
     return found;
 }
 
 /* Adds the pairs of particle j with lighter fluid. at: x_j - x_i. */
-MPS_ROW void add_pairs(const int dim, const mps_stage *s, const fields *f, int64_t j,
+MPS_ROW void add_pairs(const int dim, const mps_view *v, const fields *f, int64_t j,
                        const double *at, double reach, crossing *c)
 {
-    const mps_stencil *t = s->near;
-    for (int64_t p = t->begin[j]; p < t->end[j]; p++) {
-        if (!in_fluid(s, f, t->col[p]) || f->density[t->col[p]] >= f->density[j]) continue;
+    const mps_stencil *t = &v->near;
+    for (int64_t p = mps_stencil_begin(t, j); p < mps_stencil_end(t, j); p++) {
+        if (!in_fluid(v, f, mps_stencil_column(t, p)) ||
+            f->density[mps_stencil_column(t, p)] >= f->density[j])
+            continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, j, p);
         double middle[3], r2 = 0;
         for (int d = 0; d < dim; d++) {
@@ -115,18 +119,18 @@ MPS_ROW void add_pairs(const int dim, const mps_stage *s, const fields *f, int64
 }
 
 /* Distance of i from the interface; changes *rho, its "pressure_density", if i is solid. */
-MPS_ROW double distance_of(const int dim, const mps_stage *s, const fields *f, int64_t i,
+MPS_ROW double distance_of(const int dim, const mps_view *v, const fields *f, int64_t i,
                            double *rho)
 {
     static const double here[3] = {0};
-    const mps_stencil *t = s->far;
-    const double *k = s->setting, reach = t->re - 0.5 * s->dp, unknown = 0.5 * s->dp;
+    const mps_stencil *t = &v->far;
+    const double *k = v->setting, reach = t->re - 0.5 * v->dp, unknown = 0.5 * v->dp;
     crossing c = {.lightest = INFINITY};
     double size = 0, height = 0;
-    if (f->heavy[i]) add_pairs(dim, s, f, i, here, reach, &c);
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const int64_t j = t->col[p];
-        if (f->heavy[j]) add_pairs(dim, s, f, j, mps_stencil_pair_dim(dim, t, i, p).d, reach, &c);
+    if (f->heavy[i]) add_pairs(dim, v, f, i, here, reach, &c);
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const int64_t j = mps_stencil_column(t, p);
+        if (f->heavy[j]) add_pairs(dim, v, f, j, mps_stencil_pair_dim(dim, t, i, p).d, reach, &c);
     }
     for (int d = 0; d < dim; d++) {
         size += c.toward[d] * c.toward[d];
@@ -136,22 +140,22 @@ MPS_ROW double distance_of(const int dim, const mps_stage *s, const fields *f, i
     size = sqrt(size);
     height /= c.weight * size; /* from i to the plane, toward the lighter side */
     const double trust = fmin(1.0, fmax(0.0, (size / c.length - k[FLAT]) / BLEND));
-    if (s->kind[i] != MPS_FLUID && trust > 0.5) *rho = height > 0 ? c.heaviest : c.lightest;
+    if (!mps_is_fluid(v, i) && trust > 0.5) *rho = height > 0 ? c.heaviest : c.lightest;
     if (*rho < c.heaviest) height = -height;
-    return fmax(k[LEAST] * s->dp, trust * height + (1.0 - trust) * unknown);
+    return fmax(k[LEAST] * v->dp, trust * height + (1.0 - trust) * unknown);
 }
 
-MPS_ROW void find_distance(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void find_distance(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     double rho = f->pressure_density[i];
-    if (at_interface(s, f, i)) f->distance[i] = distance_of(dim, s, f, i, &rho);
+    if (at_interface(v, f, i)) f->distance[i] = distance_of(dim, v, f, i, &rho);
     f->rho[i] = rho;
 }
 MPS_ROWS(find_distance_rows, find_distance, fields)
 
-MPS_ROW void keep_density(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void keep_density(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    (void)dim, (void)s;
+    (void)dim, (void)v;
     f->pressure_density[i] = f->rho[i];
 }
 MPS_ROWS(keep_density_rows, keep_density, fields)
@@ -162,18 +166,18 @@ static int find_distances(mps_stage *s)
                 .region = s->data[REGION],
                 .pressure_density = s->data[PRESSURE_DENSITY],
                 .distance = s->data[INTERFACE_DISTANCE],
-                .heavy = mps_stage_scratch_integers(s, s->n),
-                .rho = mps_stage_scratch(s, s->n)};
+                .heavy = mps_stage_scratch_integers(s, s->view->n),
+                .rho = mps_stage_scratch(s, s->view->n)};
     if (!f.heavy || !f.rho) return 1;
-    mps_stage_rows(s, find_heavy_rows, &f);
+    mps_stage_rows(s, &find_heavy_rows, &f);
     if (mps_stage_refresh(s, 1, &(mps_shared){f.heavy, 1, MPS_TYPE_INTEGER})) return 1;
-    mps_stage_rows(s, find_distance_rows, &f);
-    mps_stage_rows(s, keep_density_rows, &f);
+    mps_stage_rows(s, &find_distance_rows, &f);
+    mps_stage_rows(s, &keep_density_rows, &f);
     return 0;
 }
 
 static const mps_verb verbs[] = {
-    {.moment = MPS_PREPARE, .use_count = USES, .uses = uses, .run = find_distances}};
+    {.hook = MPS_PREPARE, .use_count = USES, .uses = uses, .run = find_distances}};
 
 const mps_model_ops mps__density_interface = {
     .struct_size = sizeof(mps_model_ops),

@@ -22,14 +22,14 @@ typedef struct fields {
 } fields;
 
 /* Sums are of the differences, so that a density without other densities near it keeps its bits. */
-MPS_ROW void smooth(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void smooth(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    if (s->kind[i] != MPS_FLUID) return;
-    const mps_stencil *t = s->near;
+    if (!mps_is_fluid(v, i)) return;
+    const mps_stencil *t = &v->near;
     const double rho = f->density[i];
     double sum = 0, weight = f->self;
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        if (s->kind[t->col[p]] != MPS_FLUID) continue;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        if (!mps_is_fluid(v, mps_stencil_column(t, p))) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         sum += q.w * (f->density[q.j] - rho);
         weight += q.w;
@@ -40,17 +40,17 @@ MPS_ROWS(smooth_rows, smooth, fields)
 
 static int smooth_densities(mps_stage *s)
 {
-    const mps_kernel *kernel = &s->near->kernel; /* only "improved" is surely finite at 0 */
-    const double r = kernel->id == MPS_KERNEL_IMPROVED ? 0.0 : 0.5 * s->dp;
+    const mps_kernel *kernel = &s->view->near.kernel; /* only "improved" is surely finite at 0 */
+    const double r = kernel->id == MPS_KERNEL_IMPROVED ? 0.0 : 0.5 * s->view->dp;
     fields f = {.density = s->data[DENSITY],
                 .smoothed = s->data[SMOOTHED],
-                .self = s->setting[SELF] * mps_kernel_weight(kernel, r, s->near->re)};
-    mps_stage_rows(s, smooth_rows, &f);
+                .self = s->view->setting[SELF] * mps_kernel_weight(kernel, r, s->view->near.re)};
+    mps_stage_rows(s, &smooth_rows, &f);
     return 0;
 }
 
 static const mps_verb verbs[] = {
-    {.moment = MPS_PREPARE, .use_count = USES, .uses = uses, .run = smooth_densities}};
+    {.hook = MPS_PREPARE, .use_count = USES, .uses = uses, .run = smooth_densities}};
 
 const mps_model_ops mps__density_smooth = {
     .struct_size = sizeof(mps_model_ops),

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Artificial dissipation: damps pairs of fluid particles along their line,
  *   a_i = 2(D+2)/n0 sum (alpha l U_g + beta l max(0, -u_n)) w u_n/r r_ij,
- * l the spacing, U_g the mps_stage.velocity_scale, u_n the rate of separation, w = W/r^2. The force
+ * l the spacing, U_g the mps_view.velocity_scale, u_n the rate of separation, w = W/r^2. The force
  * of a pair conserves momentum. alpha calms the lattice; beta takes the energy of violent impacts.
  * On a shear flow alpha acts as a kinematic viscosity alpha l U_g/D. The viscosity nu of the fluid
  * calms the lattice too. So `viscous` D nu (mean of the pair) is subtracted from alpha l U_g, down
@@ -35,16 +35,15 @@ typedef struct block {
     double calm[PAIRS];
 } block;
 
-MPS_ROW void gather(const int dim, const mps_stage *stage, const fields *f, int64_t i,
+MPS_ROW void gather(const int dim, const mps_view *v, const fields *f, int64_t i,
                     const int64_t pairs[2], block *b)
 {
-    const mps_stage copy = *stage, *s = &copy;
-    const mps_stencil near = *s->near, *t = &near;
+    const mps_stencil *t = &v->near;
     const double *all = f->velocity, *rho = f->density, *half = f->half;
     const double *u = all + i * dim;
     int n = 0;
     for (int64_t p = pairs[0]; p < pairs[1]; p++) {
-        if (s->kind[t->col[p]] != MPS_FLUID) continue;
+        if (!mps_is_fluid(v, mps_stencil_column(t, p))) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         double rate = 0;
         for (int d = 0; d < dim; d++) {
@@ -54,25 +53,25 @@ MPS_ROW void gather(const int dim, const mps_stage *stage, const fields *f, int6
         b->r2[n] = q.r2;
         b->rate[n] = rate;
         b->w_r2[n] = q.w_r2;
-        b->calm[n] = half[s->phase[q.j]];
+        b->calm[n] = half[v->phase[q.j]];
         b->rho[n++] = rho[q.j];
     }
     b->count = n;
 }
 
-MPS_ROW void damp(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void damp(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    if (s->kind[i] != MPS_FLUID) return;
-    const mps_stencil *t = s->near;
-    const double c = 2.0 * (dim + 2) / t->n0, own = f->half[s->phase[i]], rho = f->density[i];
-    const double beta = s->setting[BETA], dp = s->dp;
+    if (!mps_is_fluid(v, i)) return;
+    const mps_stencil *t = &v->near;
+    const double c = 2.0 * (dim + 2) / t->n0, own = f->half[v->phase[i]], rho = f->density[i];
+    const double beta = v->setting[BETA], dp = v->dp;
     /* a larger viscosity would reverse velocities within a step; the limit falls below r = dp */
-    const double most = 0.15 * dp / s->dt, most_near = most / (dp * dp * dp);
+    const double most = 0.15 * dp / v->dt, most_near = most / (dp * dp * dp);
     double sum[3] = {0}, share[PAIRS];
     block b;
-    for (int64_t p = t->begin[i]; p < t->end[i]; p += PAIRS) {
-        const int64_t end = p + PAIRS < t->end[i] ? p + PAIRS : t->end[i];
-        gather(dim, s, f, i, (const int64_t[]){p, end}, &b);
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p += PAIRS) {
+        const int64_t end = p + PAIRS < mps_stencil_end(t, i) ? p + PAIRS : mps_stencil_end(t, i);
+        gather(dim, v, f, i, (const int64_t[]){p, end}, &b);
         for (int n = 0; n < b.count; n++) {
             const double r = sqrt(b.r2[n]), over = 1.0 / r, less = most_near * b.r2[n] * r;
             const double limit = r < dp ? less : most, closing = b.rate[n] < 0 ? b.rate[n] : 0.0;
@@ -90,23 +89,28 @@ MPS_ROWS(damp_rows, damp, fields)
 
 static int damp_pairs(mps_stage *s)
 {
+    const mps_view *v = s->view;
     fields f = {.velocity = s->data[VELOCITY],
                 .density = s->data[DENSITY],
                 .acceleration = s->data[ACCELERATION]};
-    const double *k = s->setting;
+    const double *k = v->setting;
     double rho[MPS__PHASE_LIMIT];
     mps__phase_densities(s, f.density, rho);
     for (int p = 0; p < MPS__PHASE_LIMIT; p++) {
-        const double viscous = k[VISCOUS] * s->dim * s->viscosity[p];
-        f.half[p] = 0.5 * (k[ALPHA] * s->velocity_scale -
-                           (rho[p] > 0 ? viscous / (rho[p] * s->dp) : 0.0));
+        const double viscous = k[VISCOUS] * v->dim * v->viscosity[p];
+        f.half[p] = 0.5 * (k[ALPHA] * v->velocity_scale -
+                           (rho[p] > 0 ? viscous / (rho[p] * v->dp) : 0.0));
     }
-    mps_stage_rows(s, damp_rows, &f);
+    mps_stage_rows(s, &damp_rows, &f);
     return 0;
 }
 
-static const mps_verb verbs[] = {
-    {.moment = MPS_FORCE, .use_count = USES, .uses = uses, .run = damp_pairs}};
+static const mps_verb verbs[] = {{.hook = MPS_FORCE,
+                                  .use_count = USES,
+                                  .uses = uses,
+                                  .after = "viscosity",
+                                  .before = "tension",
+                                  .run = damp_pairs}};
 
 const mps_model_ops mps__dissipation_radial = {
     .struct_size = sizeof(mps_model_ops),

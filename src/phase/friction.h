@@ -16,19 +16,19 @@ static const double mps__mirror_near = 0.5;
  * velocity at i is extrapolated from wall and dummy, so that rigid rotation with the tank is no
  * shear. Its spin about the normal is left out: it cancels over the dummies about i.
  * velocity: [n*dim] the channel. */
-MPS_ROW void mps__mirror_velocity(const int dim, const mps_stage *s, const double *velocity,
+MPS_ROW void mps__mirror_velocity(const int dim, const mps_view *view, const double *velocity,
                                   int64_t i, int64_t j, double du[3])
 {
-    const int64_t w = s->wall_of[j];
+    const int64_t w = view->wall_of[j];
     const double *u = velocity + i * dim, *v = velocity + j * dim;
     for (int d = 0; d < dim; d++) du[d] = v[d] - u[d];
     if (w < 0) return;
     double size = 0, above = 0, below = 0, apart = 0, turn = 0, ahead = 0;
     double r[3], h[3], dv[3]; /* from the wall: dummy, fluid; dummy's velocity less the wall's */
     for (int d = 0; d < dim; d++) {
-        const double area = s->area[w * dim + d];
-        r[d] = s->x[j * dim + d] - s->x[w * dim + d];
-        h[d] = s->x[i * dim + d] - s->x[w * dim + d];
+        const double area = view->area[w * dim + d];
+        r[d] = view->x[j * dim + d] - view->x[w * dim + d];
+        h[d] = view->x[i * dim + d] - view->x[w * dim + d];
         dv[d] = v[d] - velocity[w * dim + d];
         size += area * area;
         above += area * h[d];
@@ -38,7 +38,7 @@ MPS_ROW void mps__mirror_velocity(const int dim, const mps_stage *s, const doubl
         ahead += r[d] * h[d];
     }
     if (!(size > 0 && apart > 0 && above > 0 && below > 0)) return;
-    const double over = 1.0 / sqrt(size), near = mps__mirror_near * s->dp, y = above * over;
+    const double over = 1.0 / sqrt(size), near = mps__mirror_near * view->dp, y = above * over;
     const double ratio = below * over * y / (y > near ? y * y : near * near);
     /* Omega x h with Omega = r x dv / r^2 is (dv (r.h) - r (dv.h))/r^2 */
     for (int d = 0; d < dim; d++) {

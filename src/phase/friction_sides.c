@@ -6,14 +6,18 @@
  *   drag = i w [1/(1 - tanh(z)/z) - 1],  z = b/2 sqrt(i w/nu);
  * `rate` is the real part of drag. Limits: 12 nu/b^2 (slow: plane Poiseuille flow across the width)
  * and sqrt(2 w nu)/b (fast: two Stokes layers). The imaginary part, the inertia that the layers
- * add, is left out. No preset has this model; without `width` there is no friction. */
+ * add, is left out. No preset has this model; without `width` there is no friction. For
+ * force probes the side walls are the part "sides". */
 #include "helpers.h"
+#include <mps/reaction.h>
 
 enum { WIDTH, OMEGA, SETTINGS };
 static const mps_setting settings[SETTINGS] = {
     [WIDTH] = {"width", "m", "Distance between the side walls", MPS_TYPE_REAL, 1e9, 1e-9, 1e9},
     [OMEGA] = {"omega", "rad/s", "Angular frequency of the flow; 0: slow flow", MPS_TYPE_REAL, 0.0,
                0.0, 1e6}};
+
+static const char *const parts[] = {"sides"};
 
 enum { VELOCITY, DENSITY, ACCELERATION, USES };
 static const mps_use uses[USES] = {[VELOCITY] = {"velocity", MPS_USE_READ},
@@ -28,6 +32,7 @@ typedef struct rigid {
 typedef struct fields {
     const double *velocity, *density;
     double *acceleration;
+    double *friction; /* [n*dim] what this model adds */
     rigid tank;
 } fields;
 
@@ -45,12 +50,13 @@ static double drag_rate(double nu, double width, double omega)
 }
 
 /* Sums over the solids: of x (2), of u (2), of 1. */
-MPS_ROW void add_solid(const int dim, const mps_stage *s, const fields *f, int64_t i, double *sums)
+MPS_ROW void add_solid(const int dim, const mps_view *view, const fields *f, int64_t i,
+                       double *sums)
 {
     (void)dim;
-    if (s->kind[i] == MPS_FLUID) return;
+    if (mps_is_fluid(view, i)) return;
     for (int d = 0; d < 2; d++) {
-        sums[d] += s->x[2 * i + d];
+        sums[d] += view->x[2 * i + d];
         sums[2 + d] += f->velocity[2 * i + d];
     }
     sums[4]++;
@@ -58,12 +64,13 @@ MPS_ROW void add_solid(const int dim, const mps_stage *s, const fields *f, int64
 MPS_SUMS(add_solid_rows, add_solid, fields)
 
 /* Sums over the solids: of the moment of the velocity about the mean of x, of the inertia. */
-MPS_ROW void add_moment(const int dim, const mps_stage *s, const fields *f, int64_t i, double *sums)
+MPS_ROW void add_moment(const int dim, const mps_view *view, const fields *f, int64_t i,
+                        double *sums)
 {
     (void)dim;
-    if (s->kind[i] == MPS_FLUID) return;
+    if (mps_is_fluid(view, i)) return;
     const rigid *m = &f->tank;
-    const double x = s->x[2 * i] - m->x[0], y = s->x[2 * i + 1] - m->x[1];
+    const double x = view->x[2 * i] - m->x[0], y = view->x[2 * i + 1] - m->x[1];
     sums[0] += x * (f->velocity[2 * i + 1] - m->u[1]) - y * (f->velocity[2 * i] - m->u[0]);
     sums[1] += x * x + y * y;
 }
@@ -73,45 +80,51 @@ MPS_SUMS(add_moment_rows, add_moment, fields)
 static void find_motion(const mps_stage *s, fields *f)
 {
     double solids[5], moments[2];
-    mps_stage_sum(s, 5, add_solid_rows, f, solids);
+    mps_stage_sum(s, 5, &add_solid_rows, f, solids);
     for (int d = 0; d < 2 && solids[4] > 0; d++) {
         f->tank.x[d] = solids[d] / solids[4];
         f->tank.u[d] = solids[2 + d] / solids[4];
     }
-    mps_stage_sum(s, 2, add_moment_rows, f, moments);
+    mps_stage_sum(s, 2, &add_moment_rows, f, moments);
     if (moments[1] > 0) f->tank.rate = moments[0] / moments[1];
 }
 
 /* The rate is a mean over the step, so that a step of any length removes at most the velocity. */
-MPS_ROW void slow_down(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void slow_down(const int dim, const mps_view *view, const fields *f, int64_t i)
 {
     (void)dim;
-    if (s->kind[i] != MPS_FLUID) return;
-    const double *k = s->setting, nu = s->viscosity[s->phase[i]] / f->density[i];
+    if (!mps_is_fluid(view, i)) return;
+    const double *k = view->setting, nu = view->viscosity[view->phase[i]] / f->density[i];
     if (nu == 0) return;
-    const double rate = -expm1(-s->dt * drag_rate(nu, k[WIDTH], k[OMEGA])) / s->dt;
-    const double x = s->x[2 * i] - f->tank.x[0], y = s->x[2 * i + 1] - f->tank.x[1];
+    const double rate = -expm1(-view->dt * drag_rate(nu, k[WIDTH], k[OMEGA])) / view->dt;
+    const double x = view->x[2 * i] - f->tank.x[0], y = view->x[2 * i + 1] - f->tank.x[1];
     const double *u = f->velocity + 2 * i, *v = f->tank.u, turn = f->tank.rate;
-    f->acceleration[2 * i] -= rate * (u[0] - v[0] + turn * y);
-    f->acceleration[2 * i + 1] -= rate * (u[1] - v[1] - turn * x);
+    f->friction[2 * i] = -rate * (u[0] - v[0] + turn * y);
+    f->friction[2 * i + 1] = -rate * (u[1] - v[1] - turn * x);
+    for (int d = 0; d < 2; d++) f->acceleration[2 * i + d] += f->friction[2 * i + d];
 }
 MPS_ROWS(slow_down_rows, slow_down, fields)
 
 static int slow_down_fluid(mps_stage *s)
 {
-    if (s->dim != 2)
+    if (s->view->dim != 2)
         return mps_stage_fail(s, "is for thin tanks in 2-D: remove the model \"friction\" in 3-D, "
                                  "where the side walls have particles");
     fields f = {.velocity = s->data[VELOCITY],
                 .density = s->data[DENSITY],
-                .acceleration = s->data[ACCELERATION]};
+                .acceleration = s->data[ACCELERATION],
+                .friction = mps_stage_scratch(s, s->view->n * s->view->dim)};
+    if (!f.friction) return 1;
     find_motion(s, &f);
-    mps_stage_rows(s, slow_down_rows, &f);
-    return 0;
+    mps_stage_rows(s, &slow_down_rows, &f);
+    return mps_stage_reaction(s, parts[0], f.friction);
 }
 
-static const mps_verb verbs[] = {
-    {.moment = MPS_FORCE, .use_count = USES, .uses = uses, .run = slow_down_fluid}};
+static const mps_verb verbs[] = {{.hook = MPS_FORCE,
+                                  .use_count = USES,
+                                  .uses = uses,
+                                  .after = "dissipation",
+                                  .run = slow_down_fluid}};
 
 const mps_model_ops mps__friction_sides = {
     .struct_size = sizeof(mps_model_ops),
@@ -121,4 +134,6 @@ const mps_model_ops mps__friction_sides = {
     .setting_count = SETTINGS,
     .settings = settings,
     .verb_count = 1,
-    .verbs = verbs};
+    .verbs = verbs,
+    .part_count = 1,
+    .parts = parts};

@@ -8,10 +8,9 @@ typedef struct speeds {
 } speeds;
 
 /* Maxima over the gas: of |u|^2, of 1. */
-MPS_ROW void raise_speed(const int dim, const mps_stage *s, const speeds *f, int64_t i,
-                         double *most)
+MPS_ROW void raise_speed(const int dim, const mps_view *v, const speeds *f, int64_t i, double *most)
 {
-    if (!mps__is_gas(s, i, f->phase)) return;
+    if (!mps__is_gas(v, i, f->phase)) return;
     double square = 0;
     for (int d = 0; d < dim; d++) square += f->velocity[i * dim + d] * f->velocity[i * dim + d];
     most[0] = fmax(most[0], square);
@@ -22,7 +21,7 @@ MPS_SUMS(raise_speed_rows, raise_speed, speeds)
 int mps__gas_check(mps_stage *s, double phase, double sound, const double *velocity)
 {
     double most[2];
-    mps_stage_max(s, 2, raise_speed_rows, &(speeds){velocity, phase}, most);
+    mps_stage_max(s, 2, &raise_speed_rows, &(speeds){velocity, phase}, most);
     if (!(most[1] > 0))
         return mps_stage_fail(
             s,
@@ -46,19 +45,19 @@ typedef struct volumes {
 } volumes;
 
 /* (n - n0)/n0 of the particle becomes the share by which its volume is smaller. */
-MPS_ROW void shrink(const int dim, const mps_stage *s, const volumes *f, int64_t i)
+MPS_ROW void shrink(const int dim, const mps_view *v, const volumes *f, int64_t i)
 {
-    (void)dim, (void)s;
+    (void)dim, (void)v;
     f->denser[i] /= 1.0 + f->denser[i];
 }
 MPS_ROWS(shrink_rows, shrink, volumes)
 
-MPS_ROW void subtract(const int dim, const mps_stage *s, const volumes *f, int64_t i)
+MPS_ROW void subtract(const int dim, const mps_view *v, const volumes *f, int64_t i)
 {
-    const mps_stencil *t = s->near;
+    const mps_stencil *t = &v->near;
     f->volume_deviation[i] -= f->sum[i];
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const double less = f->denser[t->col[p]];
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const double less = f->denser[mps_stencil_column(t, p)];
         if (less != 0) f->number_density[i] -= less * mps_stencil_pair_dim(dim, t, i, p).w;
     }
 }
@@ -68,74 +67,74 @@ MPS_ROWS(subtract_rows, subtract, volumes)
  * its neighbours too: walls and liquid beside a compressed gas keep their own. */
 int mps__gas_expect(mps_stage *s, double *denser, double *volume_deviation, double *number_density)
 {
-    volumes f = {denser, mps_stage_scratch(s, s->n), volume_deviation, number_density};
+    volumes f = {denser, mps_stage_scratch(s, s->view->n), volume_deviation, number_density};
     if (!f.sum) return 1;
-    mps_stage_rows(s, shrink_rows, &f);
+    mps_stage_rows(s, &shrink_rows, &f);
     if (mps_stage_refresh(s, 1, &(mps_shared){denser, 1, MPS_TYPE_REAL})) return 1;
-    if (mps_op_volume_sum(s->far, denser, f.sum) != MPS_OK)
+    if (mps_op_volume_sum(&s->view->far, denser, f.sum) != MPS_OK)
         return mps_stage_fail(s, "the volumes of the gas cannot be summed");
-    mps_stage_rows(s, subtract_rows, &f);
+    mps_stage_rows(s, &subtract_rows, &f);
     return 0;
 }
 
 /* Share of the cell of a wall particle that holds gas: the part of the cell that the wall particle
  * stands for, times the share of gas in the fluid beside it. */
-MPS_ROW double wall_share(const int dim, const mps_stage *s, const int32_t *region, int64_t i,
+MPS_ROW double wall_share(const int dim, const mps_view *v, const int32_t *region, int64_t i,
                           double phase)
 {
-    const mps_stencil *t = s->near;
-    const double wall_factor = s->equation->wall_factor;
+    const mps_stencil *t = &v->near;
+    const double wall_factor = v->flux.wall_factor;
     double fluid = 0, gas = 0, walls = 0;
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const int64_t j = t->col[p];
-        if (region[j] >= MPS_REGION_SPRAY) continue;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const int64_t j = mps_stencil_column(t, p);
+        if (mps_region_of(region, j) >= MPS_REGION_SPRAY) continue;
         const double w = mps_stencil_pair_dim(dim, t, i, p).w;
-        if (s->kind[j] == MPS_FLUID) fluid += w;
-        if (mps__is_gas(s, j, phase)) gas += w;
-        if (s->kind[j] == MPS_WALL) walls += wall_factor * w;
+        if (mps_is_fluid(v, j)) fluid += w;
+        if (mps__is_gas(v, j, phase)) gas += w;
+        if (mps_is_wall(v, j)) walls += wall_factor * w;
     }
     return fluid > 0 ? gas / fluid * (fluid + walls) / t->n0 : 0.0;
 }
 
-double mps__gas_share(const mps_stage *s, const int32_t *region, int64_t i, double phase)
+double mps__gas_share(const mps_view *v, const int32_t *region, int64_t i, double phase)
 {
-    if (s->kind[i] == MPS_FLUID) return mps__is_gas(s, i, phase) ? 1.0 : 0.0;
-    if (s->kind[i] == MPS_DUMMY || region[i] >= MPS_REGION_SPRAY) return 0.0;
-    if (s->equation->wall_factor == 0) return 0.0;
-    return s->dim == 2 ? wall_share(2, s, region, i, phase) : wall_share(3, s, region, i, phase);
+    if (mps_is_fluid(v, i)) return mps__is_gas(v, i, phase) ? 1.0 : 0.0;
+    if (mps_is_dummy(v, i) || mps_region_of(region, i) >= MPS_REGION_SPRAY) return 0.0;
+    if (v->flux.wall_factor == 0) return 0.0;
+    return v->dim == 2 ? wall_share(2, v, region, i, phase) : wall_share(3, v, region, i, phase);
 }
 
-static inline bool in_equation(const mps_stage *s, const int32_t *region, int64_t i)
+static inline bool in_equation(const mps_view *v, const int32_t *region, int64_t i)
 {
-    return s->kind[i] != MPS_DUMMY && region[i] < MPS_REGION_SURFACE;
+    return !mps_is_dummy(v, i) && mps_region_of(region, i) < MPS_REGION_SURFACE;
 }
 
 /* Sums: of the sources in the equation, of their rows, of rows of the gas, of fixed rows. */
 enum { SOURCES, ROWS, GAS, FIXED, SUMS };
 
-MPS_ROW void add_source(const int dim, const mps_stage *s, const mps__gas_rows *f, int64_t i,
+MPS_ROW void add_source(const int dim, const mps_view *v, const mps__gas_rows *f, int64_t i,
                         double *sums)
 {
     (void)dim;
     if (f->condition[i] == MPS_ROW_FIXED) sums[FIXED]++;
-    if (!in_equation(s, f->region, i)) return;
+    if (!in_equation(v, f->region, i)) return;
     sums[SOURCES] += f->source[i];
     sums[ROWS]++;
-    if (mps__is_gas(s, i, f->phase)) sums[GAS]++;
+    if (mps__is_gas(v, i, f->phase)) sums[GAS]++;
 }
 MPS_SUMS(add_source_rows, add_source, mps__gas_rows)
 
 /* What mps__gas_conserve() subtracts: from the gas, from each row. */
 typedef struct balance {
-    const mps__gas_rows *rows;
+    mps__gas_rows rows;
     double gas, part;
 } balance;
 
-MPS_ROW void subtract_balance(const int dim, const mps_stage *s, const balance *f, int64_t i)
+MPS_ROW void subtract_balance(const int dim, const mps_view *v, const balance *f, int64_t i)
 {
     (void)dim;
-    if (!in_equation(s, f->rows->region, i)) return;
-    f->rows->source[i] += (mps__is_gas(s, i, f->rows->phase) ? f->gas : 0.0) - f->part;
+    if (!in_equation(v, f->rows.region, i)) return;
+    f->rows.source[i] += (mps__is_gas(v, i, f->rows.phase) ? f->gas : 0.0) - f->part;
 }
 MPS_ROWS(subtract_balance_rows, subtract_balance, balance)
 
@@ -146,16 +145,17 @@ MPS_ROWS(subtract_balance_rows, subtract_balance, balance)
  *    0.2 % of rho g h into the liquid.
  *  - What is larger, as a single row asks for in an impact: taken from the gas alone. As a source
  *    in the whole liquid it would be a pressure of many kPa for a step. */
-void mps__gas_conserve(const mps_stage *s, mps__gas_rows *rows, double surplus)
+void mps__gas_conserve(const mps_stage *s, const mps__gas_rows *rows, double surplus)
 {
+    const mps_view *v = s->view;
     static const double share = 0.1;   /* of the surplus that a step removes */
     static const double small = 0.005; /* bound of the shared rest, in g/dp */
-    const double bound = small * s->velocity_scale * s->velocity_scale / (s->dp * s->dp);
+    const double bound = small * v->velocity_scale * v->velocity_scale / (v->dp * v->dp);
     double sums[SUMS];
-    mps_stage_sum(s, SUMS, add_source_rows, rows, sums);
+    mps_stage_sum(s, SUMS, &add_source_rows, rows, sums);
     if (sums[FIXED] > 0 || sums[GAS] == 0) return;
     const double part = fmin(fmax(sums[SOURCES] / sums[ROWS], -bound), bound);
     const double rest = sums[SOURCES] - part * sums[ROWS];
-    const double own = (share * surplus / (s->dt * s->dt) - rest) / sums[GAS];
-    mps_stage_rows(s, subtract_balance_rows, &(balance){rows, own, part});
+    const double own = (share * surplus / (v->dt * v->dt) - rest) / sums[GAS];
+    mps_stage_rows(s, &subtract_balance_rows, &(balance){*rows, own, part});
 }

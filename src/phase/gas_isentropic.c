@@ -51,46 +51,46 @@ typedef struct fields {
 } fields;
 
 /* (n - n0)/n0 of a particle at its pressure. */
-static inline double by_law(const mps_stage *s, const fields *f, int64_t i)
+static inline double by_law(const mps_view *v, const fields *f, int64_t i)
 {
-    const double *k = s->setting;
+    const double *k = v->setting;
     return exp(mps_ppe_law(k[AMBIENT], f->pressure[i], NULL) / (k[AMBIENT] * k[EXPONENT])) - 1.0;
 }
 
-MPS_ROW void find_denser(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void find_denser(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     (void)dim;
-    if (mps__is_gas(s, i, s->setting[PHASE])) f->denser[i] = by_law(s, f, i);
+    if (mps__is_gas(v, i, v->setting[PHASE])) f->denser[i] = by_law(v, f, i);
 }
 MPS_ROWS(find_denser_rows, find_denser, fields)
 
 static int expect_volumes(mps_stage *s)
 {
-    const double *k = s->setting;
+    const double *k = s->view->setting;
     double rho[MPS__PHASE_LIMIT];
     mps__phase_densities(s, s->data[EXPECT_DENSITY], rho);
     const double own = rho[(int)k[PHASE]];
     const double sound = own > 0 ? sqrt(k[EXPONENT] * k[AMBIENT] / own) : INFINITY;
     if (mps__gas_check(s, k[PHASE], sound, s->data[EXPECT_VELOCITY])) return 1;
-    fields f = {.pressure = s->data[EXPECT_PRESSURE], .denser = mps_stage_scratch(s, s->n)};
+    fields f = {.pressure = s->data[EXPECT_PRESSURE], .denser = mps_stage_scratch(s, s->view->n)};
     if (!f.denser) return 1;
-    mps_stage_rows(s, find_denser_rows, &f);
+    mps_stage_rows(s, &find_denser_rows, &f);
     return mps__gas_expect(s, f.denser, s->data[EXPECT_VOLUME], s->data[EXPECT_NUMBER]);
 }
 
 /* Sum over the gas: volume by the law less 1, in cells of the lattice. */
-MPS_ROW void add_surplus(const int dim, const mps_stage *s, const fields *f, int64_t i, double *sum)
+MPS_ROW void add_surplus(const int dim, const mps_view *v, const fields *f, int64_t i, double *sum)
 {
     (void)dim;
-    if (mps__is_gas(s, i, s->setting[PHASE])) sum[0] += 1.0 / (1.0 + by_law(s, f, i)) - 1.0;
+    if (mps__is_gas(v, i, v->setting[PHASE])) sum[0] += 1.0 / (1.0 + by_law(v, f, i)) - 1.0;
 }
 MPS_SUMS(add_surplus_rows, add_surplus, fields)
 
-MPS_ROW void compress(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void compress(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     (void)dim;
-    const double *k = s->setting;
-    const double stiffness = mps__gas_share(s, f->region, i, k[PHASE]) * f->whole;
+    const double *k = v->setting;
+    const double stiffness = mps__gas_share(v, f->region, i, k[PHASE]) * f->whole;
     if (stiffness == 0) return;
     f->gas_shift[i] += stiffness;
     f->gas_law[i] = k[AMBIENT];
@@ -100,30 +100,26 @@ MPS_ROWS(compress_rows, compress, fields)
 
 static int compress_gas(mps_stage *s)
 {
-    const double *k = s->setting;
+    const double *k = s->view->setting;
     fields f = {.pressure = s->data[PRESSURE],
                 .region = s->data[REGION],
                 .gas_shift = s->data[GAS_SHIFT],
                 .gas_law = s->data[GAS_LAW],
                 .source = s->data[SOURCE],
-                .whole = 1.0 / (k[EXPONENT] * k[AMBIENT] * s->dt * s->dt)};
+                .whole = 1.0 / (k[EXPONENT] * k[AMBIENT] * s->view->dt * s->view->dt)};
     double surplus;
     if (k[CONSERVE] > 0) {
         mps__gas_rows rows = {f.region, s->data[CONDITION], f.source, k[PHASE]};
-        mps_stage_sum(s, 1, add_surplus_rows, &f, &surplus);
+        mps_stage_sum(s, 1, &add_surplus_rows, &f, &surplus);
         mps__gas_conserve(s, &rows, surplus);
     }
-    mps_stage_rows(s, compress_rows, &f);
+    mps_stage_rows(s, &compress_rows, &f);
     return 0;
 }
 
 static const mps_verb verbs[] = {
-    {.moment = MPS_PREPARE, .use_count = EXPECT_USES, .uses = expect_uses, .run = expect_volumes},
-    {.moment = MPS_SOURCE,
-     .use_count = USES,
-     .uses = uses,
-     .after = "source",
-     .run = compress_gas}};
+    {.hook = MPS_PREPARE, .use_count = EXPECT_USES, .uses = expect_uses, .run = expect_volumes},
+    {.hook = MPS_SOURCE, .use_count = USES, .uses = uses, .after = "source", .run = compress_gas}};
 
 const mps_model_ops mps__gas_isentropic = {
     .struct_size = sizeof(mps_model_ops),

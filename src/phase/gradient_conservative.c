@@ -13,9 +13,9 @@ typedef struct fields {
     double *acceleration;
 } fields;
 
-MPS_ROW void accelerate(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void accelerate(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    if (s->kind[i] != MPS_FLUID) return;
+    if (!mps_is_fluid(v, i)) return;
     for (int64_t d = i * dim; d < (i + 1) * dim; d++)
         f->acceleration[d] -= f->gradient[d] / f->density[i];
 }
@@ -23,17 +23,17 @@ MPS_ROWS(accelerate_rows, accelerate, fields)
 
 static int accelerate_fluid(mps_stage *s)
 {
-    double *gradient = mps_stage_scratch(s, s->n * s->dim);
+    double *gradient = mps_stage_scratch(s, s->view->n * s->view->dim);
     if (!gradient) return 1;
-    if (mps_op_gradient_conservative(s->near, s->data[PRESSURE], gradient) != MPS_OK)
+    if (mps_op_gradient_conservative(&s->view->near, s->data[PRESSURE], gradient) != MPS_OK)
         return mps_stage_fail(s, "the gradient of the pressure cannot be summed");
     fields f = {s->data[DENSITY], gradient, s->data[ACCELERATION]};
-    mps_stage_rows(s, accelerate_rows, &f);
+    mps_stage_rows(s, &accelerate_rows, &f);
     return 0;
 }
 
 static const mps_verb verbs[] = {
-    {.moment = MPS_GRADIENT, .use_count = USES, .uses = uses, .run = accelerate_fluid}};
+    {.hook = MPS_GRADIENT, .use_count = USES, .uses = uses, .run = accelerate_fluid}};
 
 const mps_model_ops mps__gradient_conservative = {
     .struct_size = sizeof(mps_model_ops),

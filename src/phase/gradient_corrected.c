@@ -28,22 +28,20 @@ typedef struct fields {
 } fields;
 
 /* G_i; if `first` is not NULL the second pass. */
-MPS_ROW void gradient(const int dim, const mps_stage *stage, const fields *given, int64_t i,
+MPS_ROW void gradient(const int dim, const mps_view *v, const fields *f, int64_t i,
                       const double *first, double *g)
 {
-    const mps_stage copy = *stage, *s = &copy;
-    const fields local = *given, *f = &local;
-    const mps_flux pairs = *s->flux, *flux = &pairs;
-    const mps_stencil near = *s->near, *t = &near;
+    const mps_flux *flux = &v->flux;
+    const mps_stencil *t = &v->near;
     const double *b = f->correction + i * dim * dim, pi = f->pressure[i];
     double sum[3] = {0};
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        if (f->region[t->col[p]] >= MPS_REGION_SPRAY) continue;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        if (mps_region_of(f->region, mps_stencil_column(t, p)) >= MPS_REGION_SPRAY) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         const double body = mps_flux_body(flux, dim, i, q.j, q.d);
         const double rho = mps_flux_density(flux, i, q.j), jump = mps_flux_jump(flux, i, q.j);
         double difference = (f->pressure[q.j] - pi + jump) / rho - body;
-        if (first && s->kind[q.j] == MPS_FLUID) {
+        if (first && mps_is_fluid(v, q.j)) {
             double slope = 0;
             for (int d = 0; d < dim; d++) slope += first[q.j * dim + d] * q.d[d];
             difference = 2.0 * difference - slope;
@@ -56,23 +54,23 @@ MPS_ROW void gradient(const int dim, const mps_stage *stage, const fields *given
     }
 }
 
-MPS_ROW void find_first(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void find_first(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    if (s->kind[i] != MPS_FLUID || f->region[i] == MPS_REGION_SPRAY) return;
-    gradient(dim, s, f, i, NULL, f->first + i * dim);
+    if (!mps_is_fluid(v, i) || mps_region_of(f->region, i) == MPS_REGION_SPRAY) return;
+    gradient(dim, v, f, i, NULL, f->first + i * dim);
 }
 MPS_ROWS(find_first_rows, find_first, fields)
 
-MPS_ROW void accelerate(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void accelerate(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    if (s->kind[i] != MPS_FLUID || f->region[i] == MPS_REGION_SPRAY) return;
+    if (!mps_is_fluid(v, i) || mps_region_of(f->region, i) == MPS_REGION_SPRAY) return;
     const double *tank = f->tank_acceleration + i * dim;
     double own[3];
     for (int d = 0; d < dim; d++) own[d] = f->first[i * dim + d];
-    if (s->setting[SECOND] > 0 && f->region[i] == MPS_REGION_SURFACE)
-        gradient(dim, s, f, i, f->first, own);
+    if (v->setting[SECOND] > 0 && mps_region_of(f->region, i) == MPS_REGION_SURFACE)
+        gradient(dim, v, f, i, f->first, own);
     for (int d = 0; d < dim; d++)
-        f->acceleration[i * dim + d] -= (s->flux->body ? s->g[d] - tank[d] : 0) + own[d];
+        f->acceleration[i * dim + d] -= (v->flux.body ? v->g[d] - tank[d] : 0) + own[d];
 }
 MPS_ROWS(accelerate_rows, accelerate, fields)
 
@@ -83,18 +81,18 @@ static int accelerate_fluid(mps_stage *s)
                 .correction = s->data[CORRECTION],
                 .region = s->data[REGION],
                 .acceleration = s->data[ACCELERATION],
-                .first = mps_stage_scratch(s, s->n * s->dim)};
+                .first = mps_stage_scratch(s, s->view->n * s->view->dim)};
     if (!f.first) return 1;
-    mps_stage_rows(s, find_first_rows, &f);
-    if (s->setting[SECOND] > 0 &&
-        mps_stage_refresh(s, 1, &(mps_shared){f.first, s->dim, MPS_TYPE_REAL}))
+    mps_stage_rows(s, &find_first_rows, &f);
+    if (s->view->setting[SECOND] > 0 &&
+        mps_stage_refresh(s, 1, &(mps_shared){f.first, s->view->dim, MPS_TYPE_REAL}))
         return 1;
-    mps_stage_rows(s, accelerate_rows, &f);
+    mps_stage_rows(s, &accelerate_rows, &f);
     return 0;
 }
 
 static const mps_verb verbs[] = {
-    {.moment = MPS_GRADIENT, .use_count = USES, .uses = uses, .run = accelerate_fluid}};
+    {.hook = MPS_GRADIENT, .use_count = USES, .uses = uses, .run = accelerate_fluid}};
 
 const mps_model_ops mps__gradient_corrected = {
     .struct_size = sizeof(mps_model_ops),

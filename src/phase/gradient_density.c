@@ -18,26 +18,26 @@ typedef struct fields {
 } fields;
 
 /* P'_i */
-static double least_pressure(const mps_stage *s, const double *pressure, int64_t i)
+static double least_pressure(const mps_view *v, const double *pressure, int64_t i)
 {
-    const mps_stencil *t = s->near;
+    const mps_stencil *t = &v->near;
     double least = pressure[i];
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const int64_t j = t->col[p];
-        if (s->kind[j] != MPS_FLUID || s->phase[j] != s->phase[i]) continue;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const int64_t j = mps_stencil_column(t, p);
+        if (!mps_is_fluid(v, j) || v->phase[j] != v->phase[i]) continue;
         if (pressure[j] < least) least = pressure[j];
     }
     return least;
 }
 
-MPS_ROW void accelerate(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void accelerate(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    if (s->kind[i] != MPS_FLUID) return;
-    const mps_stencil *t = s->near;
+    if (!mps_is_fluid(v, i)) return;
+    const mps_stencil *t = &v->near;
     const double *all = f->pressure, rho = f->density[i];
-    const double apart = (all[i] - least_pressure(s, all, i)) / rho;
+    const double apart = (all[i] - least_pressure(v, all, i)) / rho;
     double sum[3] = {0};
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         const double difference = 2.0 * (all[q.j] - all[i]) / (rho + f->density[q.j]);
         const double share = q.w_r2 * (difference + apart);
@@ -50,12 +50,12 @@ MPS_ROWS(accelerate_rows, accelerate, fields)
 static int accelerate_fluid(mps_stage *s)
 {
     fields f = {s->data[PRESSURE], s->data[DENSITY], s->data[ACCELERATION]};
-    mps_stage_rows(s, accelerate_rows, &f);
+    mps_stage_rows(s, &accelerate_rows, &f);
     return 0;
 }
 
 static const mps_verb verbs[] = {
-    {.moment = MPS_GRADIENT, .use_count = USES, .uses = uses, .run = accelerate_fluid}};
+    {.hook = MPS_GRADIENT, .use_count = USES, .uses = uses, .run = accelerate_fluid}};
 
 const mps_model_ops mps__gradient_density = {.struct_size = sizeof(mps_model_ops),
                                              .api = MPS_MODEL_API,

@@ -6,7 +6,7 @@
 #include <mps/model.h>
 #include <stdbool.h>
 
-/* Length of mps_stage.viscosity, and of a side of mps_stage.tension. */
+/* Length of mps_view.viscosity, and of a side of mps_view.tension. */
 enum { MPS__PHASE_LIMIT = 16 };
 
 /* Smallest density of the fluid particles of each phase [kg/m3]; 0 for a phase without particles.
@@ -28,9 +28,9 @@ static inline double mps__smaller(double a, double b)
 }
 
 /* True for a fluid particle of the phase that a setting names. */
-static inline bool mps__is_gas(const mps_stage *s, int64_t i, double phase)
+static inline bool mps__is_gas(const mps_view *v, int64_t i, double phase)
 {
-    return s->kind[i] == MPS_FLUID && s->phase[i] == (int32_t)phase;
+    return mps_is_fluid(v, i) && v->phase[i] == (int32_t)phase;
 }
 
 /* Fails if no fluid particle has this phase, or if one is not slower than the speed of sound.
@@ -45,7 +45,7 @@ int mps__gas_expect(mps_stage *s, double *denser, double *volume_deviation, doub
 
 /* Share of the cell of particle i that holds gas, 0..1. Cells of wall particles count if
  * mps_equation.wall_factor > 0. region: the channel of that name. */
-double mps__gas_share(const mps_stage *s, const int32_t *region, int64_t i, double phase);
+double mps__gas_share(const mps_view *v, const int32_t *region, int64_t i, double phase);
 
 /* Arrays that mps__gas_conserve() works on. */
 typedef struct mps__gas_rows {
@@ -58,6 +58,6 @@ typedef struct mps__gas_rows {
 /* Keeps the volume of the gas if no row of the pressure equation is fixed: subtracts the sum of all
  * sources, and a part of `surplus`, the sum over the gas of (volume by the equation of state - 1)
  * in cells of the lattice. Call it before the gas adds its own terms. */
-void mps__gas_conserve(const mps_stage *s, mps__gas_rows *rows, double surplus);
+void mps__gas_conserve(const mps_stage *s, const mps__gas_rows *rows, double surplus);
 
 #endif

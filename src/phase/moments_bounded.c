@@ -51,23 +51,24 @@ typedef struct fields {
 } fields;
 
 /* Smallest eigenvalue allowed for particle i. */
-static inline double floor_of(const mps_stage *s, const fields *f, int64_t i)
+static inline double floor_of(const mps_view *view, const fields *f, int64_t i)
 {
-    const double plain = s->setting[f->region[i] == MPS_REGION_SURFACE ? SURFACE : FLOOR];
+    const double plain =
+        view->setting[mps_region_of(f->region, i) == MPS_REGION_SURFACE ? SURFACE : FLOOR];
     const double v = f->volume_deviation[i];
     if (f->density[i] != f->light || v >= 0) return plain;
     const double square = v * v / (TORN_FROM * TORN_FROM);
-    return plain + fmin(1.0, square * square) * fmax(0.0, s->setting[TORN] - plain);
+    return plain + fmin(1.0, square * square) * fmax(0.0, view->setting[TORN] - plain);
 }
 
 /* M_i */
-MPS_ROW void moments(const int dim, const mps_stage *s, const int32_t *region, int64_t i,
+MPS_ROW void moments(const int dim, const mps_view *view, const int32_t *region, int64_t i,
                      double m[9])
 {
-    const mps_stencil near = *s->near, *t = &near;
+    const mps_stencil *t = &view->near;
     for (int d = 0; d < dim * dim; d++) m[d] = 0;
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        if (region[t->col[p]] >= MPS_REGION_SPRAY) continue;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        if (mps_region_of(region, mps_stencil_column(t, p)) >= MPS_REGION_SPRAY) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         for (int d = 0; d < dim; d++)
             for (int e = d; e < dim; e++) m[d * dim + e] += q.w_r2 * q.d[d] * q.d[e];
@@ -76,12 +77,12 @@ MPS_ROW void moments(const int dim, const mps_stage *s, const int32_t *region, i
         for (int e = d; e < dim; e++) m[e * dim + d] = m[d * dim + e] *= dim / t->n0;
 }
 
-MPS_ROW void invert(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void invert(const int dim, const mps_view *view, const fields *f, int64_t i)
 {
-    if (s->kind[i] != MPS_FLUID || f->region[i] == MPS_REGION_SPRAY) return;
-    const double least = floor_of(s, f, i);
+    if (!mps_is_fluid(view, i) || mps_region_of(f->region, i) == MPS_REGION_SPRAY) return;
+    const double least = floor_of(view, f, i);
     double m[9];
-    moments(dim, s, f->region, i, m);
+    moments(dim, view, f->region, i, m);
     mps_matrix_inverse_bounded(dim, m, least, f->correction + i * dim * dim);
 }
 MPS_ROWS(invert_rows, invert, fields)
@@ -92,21 +93,18 @@ static int invert_moments(mps_stage *s)
                 .density = s->data[DENSITY],
                 .volume_deviation = s->data[VOLUME_DEVIATION],
                 .correction = s->data[CORRECTION]};
-    if (s->setting[TORN] > 0) {
+    if (s->view->setting[TORN] > 0) {
         double rho[2];
         mps__density_range(s, f.density, rho);
         f.light = rho[1] > rho[0] ? rho[0] : 0;
     }
-    mps_stage_rows(s, invert_rows, &f);
+    mps_stage_rows(s, &invert_rows, &f);
     return 0;
 }
 
 /* Before the gas takes what its law wants from the volume deviation. */
-static const mps_verb verbs[] = {{.moment = MPS_PREPARE,
-                                  .use_count = USES,
-                                  .uses = uses,
-                                  .before = "gas",
-                                  .run = invert_moments}};
+static const mps_verb verbs[] = {
+    {.hook = MPS_PREPARE, .use_count = USES, .uses = uses, .before = "gas", .run = invert_moments}};
 
 const mps_model_ops mps__moments_bounded = {
     .struct_size = sizeof(mps_model_ops),

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Particle shifting toward an even lattice:
  *   s_i = -c dt (U_g + max_j |u_j - u_i|) l D/n0 sum w r_ij  over all kinds,  w = W/r^2,
- * at most `limit` l, l the spacing, U_g the mps_stage.velocity_scale. In the first two rows of a
+ * at most `limit` l, l the spacing, U_g the mps_view.velocity_scale. In the first two rows of a
  * free surface the part along the normal of the surface is removed: it would expand the fluid.
  * Near walls and in corners of calm water, sum w r_ij would push the fluid without end, against the
  * volume term: a disordered lattice presses on an ordered one. So the part with U_g loses the share
@@ -56,17 +56,18 @@ typedef struct pair_sums {
 
 /* Normal of the free surface near i: its own asymmetry, or the mean of its surface neighbours'. Not
  * a unit vector. */
-MPS_ROW void surface_normal(const int dim, const mps_stage *s, const fields *f, int64_t i,
+MPS_ROW void surface_normal(const int dim, const mps_view *view, const fields *f, int64_t i,
                             double n[3])
 {
-    const mps_stencil *t = s->near;
+    const mps_stencil *t = &view->near;
     const double *a = f->asymmetry;
     const int32_t *region = f->region;
-    for (int d = 0; d < dim; d++) n[d] = region[i] == MPS_REGION_SURFACE ? a[i * dim + d] : 0.0;
-    if (region[i] != MPS_REGION_NEAR) return;
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const int64_t j = t->col[p];
-        if (region[j] != MPS_REGION_SURFACE) continue;
+    for (int d = 0; d < dim; d++)
+        n[d] = mps_region_of(region, i) == MPS_REGION_SURFACE ? a[i * dim + d] : 0.0;
+    if (mps_region_of(region, i) != MPS_REGION_NEAR) return;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const int64_t j = mps_stencil_column(t, p);
+        if (mps_region_of(region, j) != MPS_REGION_SURFACE) continue;
         const double w = mps_stencil_pair_dim(dim, t, i, p).w;
         for (int d = 0; d < dim; d++) n[d] += w * a[j * dim + d];
     }
@@ -74,16 +75,16 @@ MPS_ROW void surface_normal(const int dim, const mps_stage *s, const fields *f, 
 
 /* Unit normal of the interface between two densities beside i. @return 0: there is none, 1: as good
  * as a plane */
-MPS_ROW double interface_normal(const int dim, const mps_stage *s, const fields *f, int64_t i,
+MPS_ROW double interface_normal(const int dim, const mps_view *view, const fields *f, int64_t i,
                                 double n[3])
 {
-    const mps_stencil *t = s->near;
+    const mps_stencil *t = &view->near;
     double size = 0, length = 0;
     for (int d = 0; d < dim; d++) n[d] = 0;
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const int64_t j = t->col[p];
-        if (s->kind[j] != MPS_FLUID || f->density[j] == f->density[i]) continue;
-        if (f->region[j] == MPS_REGION_SPRAY) continue;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const int64_t j = mps_stencil_column(t, p);
+        if (!mps_is_fluid(view, j) || f->density[j] == f->density[i]) continue;
+        if (mps_region_of(f->region, j) == MPS_REGION_SPRAY) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         length += q.w * q.r;
         for (int d = 0; d < dim; d++) n[d] += q.w * q.d[d];
@@ -95,12 +96,12 @@ MPS_ROW double interface_normal(const int dim, const mps_stage *s, const fields 
 }
 
 /* Fills `even`. */
-MPS_ROW void add_even(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void add_even(const int dim, const mps_view *view, const fields *f, int64_t i)
 {
-    if (s->kind[i] != MPS_FLUID || f->region[i] == MPS_REGION_SPRAY) return;
-    const mps_stencil near = *s->near, *t = &near;
+    if (!mps_is_fluid(view, i) || mps_region_of(f->region, i) == MPS_REGION_SPRAY) return;
+    const mps_stencil *t = &view->near;
     double sum[3] = {0};
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         for (int d = 0; d < dim; d++) sum[d] += q.w_r2 * q.d[d];
     }
@@ -108,17 +109,14 @@ MPS_ROW void add_even(const int dim, const mps_stage *s, const fields *f, int64_
 }
 MPS_ROWS(add_even_rows, add_even, fields)
 
-MPS_ROW void collect(const int dim, const mps_stage *stage, const fields *given, int64_t i,
-                     pair_sums *c)
+MPS_ROW void collect(const int dim, const mps_view *view, const fields *f, int64_t i, pair_sums *c)
 {
-    const mps_stage copy = *stage, *s = &copy;
-    const fields local = *given, *f = &local;
-    const mps_stencil near = *s->near, *t = &near;
+    const mps_stencil *t = &view->near;
     const double *all = f->velocity, *u = all + i * dim, *even = f->even;
     *c = (pair_sums){0};
     for (int d = 0; d < dim; d++) c->even[d] = even[i * dim + d];
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        if (s->kind[t->col[p]] != MPS_FLUID) {
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        if (!mps_is_fluid(view, mps_stencil_column(t, p))) {
             c->solids = true;
             continue;
         }
@@ -129,11 +127,12 @@ MPS_ROW void collect(const int dim, const mps_stage *stage, const fields *given,
             v2 += v[d] * v[d];
         }
         c->most = mps__larger(c->most, v2);
-        if (f->region[q.j] < MPS_REGION_SURFACE) {
+        if (mps_region_of(f->region, q.j) < MPS_REGION_SURFACE) {
             c->weight += q.w;
             for (int d = 0; d < dim; d++) c->mean[d] += q.w * even[q.j * dim + d];
         }
-        if (s->phase[q.j] != s->phase[i] || f->region[q.j] == MPS_REGION_SPRAY) continue;
+        if (view->phase[q.j] != view->phase[i] || mps_region_of(f->region, q.j) == MPS_REGION_SPRAY)
+            continue;
         for (int d = 0; d < dim; d++) {
             c->low[d] = mps__smaller(c->low[d], v[d]);
             c->high[d] = mps__larger(c->high[d], v[d]);
@@ -144,28 +143,28 @@ MPS_ROW void collect(const int dim, const mps_stage *stage, const fields *given,
 }
 
 /* Takes from v its part normal to the interface, except that of the strain rate, torn * even. */
-MPS_ROW void along_interface(const int dim, const mps_stage *s, const fields *f, int64_t i,
+MPS_ROW void along_interface(const int dim, const mps_view *view, const fields *f, int64_t i,
                              double torn, const double *even, double v[3])
 {
     double n[3], across = 0;
-    const double share = interface_normal(dim, s, f, i, n);
+    const double share = interface_normal(dim, view, f, i, n);
     if (share == 0) return;
     for (int d = 0; d < dim; d++) across += n[d] * (v[d] - torn * even[d]);
     for (int d = 0; d < dim; d++) v[d] -= share * across * n[d];
 }
 
 /* v: out, shift of i without walls */
-MPS_ROW void shift_of(const int dim, const mps_stage *s, const fields *f, int64_t i,
+MPS_ROW void shift_of(const int dim, const mps_view *view, const fields *f, int64_t i,
                       const pair_sums *sums, double v[3])
 {
-    const double *k = s->setting;
-    const double c = -k[STRENGTH] * s->dt * s->dp * dim / s->near->n0;
-    const double calm = c * s->velocity_scale, torn = c * sqrt(sums->most);
+    const double *k = view->setting;
+    const double c = -k[STRENGTH] * view->dt * view->dp * dim / view->near.n0;
+    const double calm = c * view->velocity_scale, torn = c * sqrt(sums->most);
     const double smooth = sums->weight > 0 ? k[FILTER] * calm / sums->weight : 0;
     double n[3] = {0}, n2 = 0, vn = 0, v2 = 0;
     for (int d = 0; d < dim; d++) v[d] = (calm + torn) * sums->even[d] - smooth * sums->mean[d];
-    if (s->phases > 1) along_interface(dim, s, f, i, torn, sums->even, v);
-    surface_normal(dim, s, f, i, n);
+    if (view->phases > 1) along_interface(dim, view, f, i, torn, sums->even, v);
+    surface_normal(dim, view, f, i, n);
     for (int d = 0; d < dim; d++) {
         n2 += n[d] * n[d];
         vn += n[d] * v[d];
@@ -174,16 +173,16 @@ MPS_ROW void shift_of(const int dim, const mps_stage *s, const fields *f, int64_
         if (n2 > 0) v[d] -= vn / n2 * n[d];
         v2 += v[d] * v[d];
     }
-    const double limit = k[LIMIT] * s->dp;
+    const double limit = k[LIMIT] * view->dp;
     if (v2 > limit * limit)
         for (int d = 0; d < dim; d++) v[d] *= limit / sqrt(v2);
 }
 
 /* du = s.grad u at i, between the smallest and the largest difference of its neighbours. */
-MPS_ROW void transport(const int dim, const mps_stage *s, const pair_sums *sums,
+MPS_ROW void transport(const int dim, const mps_view *view, const pair_sums *sums,
                        const double *shift, double *du)
 {
-    const double c = dim / s->near->n0;
+    const double c = dim / view->near.n0;
     double m[9], b[9];
     for (int d = 0; d < dim; d++)
         for (int e = d; e < dim; e++) m[d * dim + e] = m[e * dim + d] = c * sums->m[d * dim + e];
@@ -198,49 +197,51 @@ MPS_ROW void transport(const int dim, const mps_stage *s, const pair_sums *sums,
 
 /* Displacement of a particle, and with `transport` the change of its velocity. All is inlined into
  * one function, so that the sums stay in registers. */
-MPS_ROW void move(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void move(const int dim, const mps_view *view, const fields *f, int64_t i)
 {
-    if (s->kind[i] != MPS_FLUID) return;
-    const double *k = s->setting;
-    const bool spray = f->region[i] == MPS_REGION_SPRAY;
+    if (!mps_is_fluid(view, i)) return;
+    const double *k = view->setting;
+    const bool spray = mps_region_of(f->region, i) == MPS_REGION_SPRAY;
     pair_sums sums = {.solids = true};
     double v[3] = {0};
     if (!spray) {
-        collect(dim, s, f, i, &sums);
-        shift_of(dim, s, f, i, &sums, v);
+        collect(dim, view, f, i, &sums);
+        shift_of(dim, view, f, i, &sums, v);
     }
-    if (sums.solids) mps__walls_keep_off(s, wall_distance * s->dp, k[LIMIT] * s->dp, NULL, i, v);
-    if (k[TRANSPORT] > 0 && !spray) transport(dim, s, &sums, v, f->du + i * dim);
+    if (sums.solids)
+        mps__walls_keep_off(view, wall_distance * view->dp, k[LIMIT] * view->dp, NULL, i, v);
+    if (k[TRANSPORT] > 0 && !spray) transport(dim, view, &sums, v, f->du + i * dim);
     for (int d = 0; d < dim; d++) f->displacement[i * dim + d] += v[d];
 }
 MPS_ROWS(move_rows, move, fields)
 
-MPS_ROW void add_change(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void add_change(const int dim, const mps_view *view, const fields *f, int64_t i)
 {
-    (void)s;
+    (void)view;
     for (int d = 0; d < dim; d++) f->velocity[i * dim + d] += f->du[i * dim + d];
 }
 MPS_ROWS(add_change_rows, add_change, fields)
 
 static int shift_fluid(mps_stage *s)
 {
+    const mps_view *view = s->view;
     fields f = {.velocity = s->data[VELOCITY],
                 .displacement = s->data[DISPLACEMENT],
                 .asymmetry = s->data[ASYMMETRY],
                 .density = s->data[DENSITY],
                 .region = s->data[REGION],
-                .even = mps_stage_scratch(s, s->n * s->dim),
-                .du = mps_stage_scratch(s, s->n * s->dim)};
+                .even = mps_stage_scratch(s, view->n * view->dim),
+                .du = mps_stage_scratch(s, view->n * view->dim)};
     if (!f.even || !f.du) return 1;
-    mps_stage_rows(s, add_even_rows, &f);
-    if (mps_stage_refresh(s, 1, &(mps_shared){f.even, s->dim, MPS_TYPE_REAL})) return 1;
-    mps_stage_rows(s, move_rows, &f);
-    mps_stage_rows(s, add_change_rows, &f);
+    mps_stage_rows(s, &add_even_rows, &f);
+    if (mps_stage_refresh(s, 1, &(mps_shared){f.even, view->dim, MPS_TYPE_REAL})) return 1;
+    mps_stage_rows(s, &move_rows, &f);
+    mps_stage_rows(s, &add_change_rows, &f);
     return 0;
 }
 
 static const mps_verb verbs[] = {
-    {.moment = MPS_SHIFT, .use_count = USES, .uses = uses, .run = shift_fluid}};
+    {.hook = MPS_SHIFT, .use_count = USES, .uses = uses, .run = shift_fluid}};
 
 const mps_model_ops mps__shift_tangential = {
     .struct_size = sizeof(mps_model_ops),

@@ -20,17 +20,19 @@ typedef struct fields {
     double rate; /* 1/dt */
 } fields;
 
-/* Pairs of walls count whole. */
+static const mps_use equation_uses[] = {{"equation_wall_factor", MPS_USE_CHANGE}};
+
+/* Pairs of walls count whole, whatever the model of walls wants. */
 static int set_equation(mps_stage *s)
 {
-    s->equation->wall_factor = 1;
+    *(double *)s->data[0] = 1;
     return 0;
 }
 
-MPS_ROW void add_source(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void add_source(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     (void)dim;
-    const double n0 = s->near->n0, rate = f->rate, gamma = s->setting[GAMMA];
+    const double n0 = v->near.n0, rate = f->rate, gamma = v->setting[GAMMA];
     f->source[i] += -(1.0 - gamma) * rate * f->divergence[i] +
                     gamma * rate * rate * (f->number_density[i] - n0) / n0;
 }
@@ -38,18 +40,18 @@ MPS_ROWS(add_source_rows, add_source, fields)
 
 static int add_sources(mps_stage *s)
 {
-    double *divergence = mps_stage_scratch(s, s->n);
+    double *divergence = mps_stage_scratch(s, s->view->n);
     if (!divergence) return 1;
-    if (mps_op_divergence(s->near, s->data[VELOCITY], divergence) != MPS_OK)
+    if (mps_op_divergence(&s->view->near, s->data[VELOCITY], divergence) != MPS_OK)
         return mps_stage_fail(s, "the divergence of the velocity cannot be summed");
-    fields f = {divergence, s->data[NUMBER_DENSITY], s->data[SOURCE], 1.0 / s->dt};
-    mps_stage_rows(s, add_source_rows, &f);
+    fields f = {divergence, s->data[NUMBER_DENSITY], s->data[SOURCE], 1.0 / s->view->dt};
+    mps_stage_rows(s, &add_source_rows, &f);
     return 0;
 }
 
 static const mps_verb verbs[] = {
-    {.moment = MPS_CLASSIFY, .after = "wall", .run = set_equation},
-    {.moment = MPS_SOURCE, .use_count = USES, .uses = uses, .run = add_sources}};
+    {.hook = MPS_CLASSIFY, .use_count = 1, .uses = equation_uses, .run = set_equation},
+    {.hook = MPS_SOURCE, .use_count = USES, .uses = uses, .run = add_sources}};
 
 const mps_model_ops mps__source_mixed = {
     .struct_size = sizeof(mps_model_ops),

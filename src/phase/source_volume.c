@@ -4,7 +4,7 @@
  * v the velocities relative to the reference motion. Gravity and the acceleration of the tank are
  * in the body field b = g - a_tank, so that fluid at rest or rigidly accelerated is exact on any
  * arrangement of particles. Walls are free-slip: no-slip walls double the noise.
- * tau_g = dp/U_g, U_g the mps_stage.velocity_scale.
+ * tau_g = dp/U_g, U_g the mps_view.velocity_scale.
  *
  * gain: gradient and divergence are not exact inverses. In films of one or two particles on a wall,
  * where B is large in both, a full step overshoots more than twice, and the error grows from step
@@ -106,25 +106,26 @@ typedef struct fields {
 /* delta of a fluid particle; not negative near the surface, where the kernel is cut off. The region
  * SECOND has no surface particle within the near radius: there a kernel that reaches at most half a
  * spacing farther is whole. */
-MPS_ROW double clipped_deviation(const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW double clipped_deviation(const mps_view *view, const fields *f, int64_t i)
 {
-    const double clip = s->setting[CLIP];
+    const double clip = view->setting[CLIP];
     double v = f->volume_deviation[i];
-    if (f->region[i] > f->whole && v < 0) v = 0;
+    if (mps_region_of(f->region, i) > f->whole && v < 0) v = 0;
     return mps__smaller(clip, mps__larger(-clip, v));
 }
 
-/* Fills is_solid, delta, and v: of fluid as if it moved with the tank during this step, without
- * gravity and pressure; of walls their velocity in this step. */
-MPS_ROW void prepare(const int dim, const mps_stage *s, const fields *f, int64_t i)
+/* Fills is_solid, delta, and relative: of fluid the velocity as if it moved with the tank during
+ * this step, without gravity and pressure; of walls their velocity in this step. */
+MPS_ROW void prepare(const int dim, const mps_view *view, const fields *f, int64_t i)
 {
-    const bool fluid = s->kind[i] == MPS_FLUID;
+    const bool fluid = mps_is_fluid(view, i);
     f->is_solid[i] = !fluid;
-    if (fluid && f->region[i] < MPS_REGION_SURFACE) f->delta[i] = clipped_deviation(s, f, i);
+    if (fluid && mps_region_of(f->region, i) < MPS_REGION_SURFACE)
+        f->delta[i] = clipped_deviation(view, f, i);
     for (int d = 0; d < dim; d++) {
         const int64_t k = i * dim + d;
-        const double body = s->g[d] - f->tank_acceleration[k];
-        f->relative[k] = f->velocity[k] - (fluid ? s->dt * body : 0.0);
+        const double body = view->g[d] - f->tank_acceleration[k];
+        f->relative[k] = f->velocity[k] - (fluid ? view->dt * body : 0.0);
     }
 }
 MPS_ROWS(prepare_rows, prepare, fields)
@@ -132,21 +133,21 @@ MPS_ROWS(prepare_rows, prepare, fields)
 /* Share of a neighbour's velocity in that of the face between both: by mass, so that water does not
  * respond to the air beside it. With it the divergence is the adjoint of a pressure gradient over
  * rho_ij. */
-static inline double face_share(const mps_stage *s, const double *rho, int64_t i, int64_t j)
+static inline double face_share(const mps_view *view, const double *rho, int64_t i, int64_t j)
 {
-    if (s->phase[i] == s->phase[j] || s->kind[j] != MPS_FLUID) return 1.0;
+    if (view->phase[i] == view->phase[j] || !mps_is_fluid(view, j)) return 1.0;
     return 2.0 * rho[j] / (rho[i] + rho[j]);
 }
 
 /* Free slip: a wall particle keeps its velocity along its normal and takes that of the fluid about
  * it along the face. */
-MPS_ROW void slip_wall(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void slip_wall(const int dim, const mps_view *view, const fields *f, int64_t i)
 {
-    const mps_stencil *t = s->near;
-    const double *v = f->relative, *area = s->area + i * dim;
+    const mps_stencil *t = &view->near;
+    const double *v = f->relative, *area = view->area + i * dim;
     double sum[3] = {0}, weight = 0, size = 0, largest = 0, normal = 0;
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        if (s->kind[t->col[p]] != MPS_FLUID) continue;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        if (!mps_is_fluid(view, mps_stencil_column(t, p))) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         const double mass = q.w * f->density[q.j];
         weight += mass;
@@ -158,28 +159,29 @@ MPS_ROW void slip_wall(const int dim, const mps_stage *s, const fields *f, int64
     for (int d = 0; d < dim; d++) normal += sum[d] / weight * area[d] / sqrt(size);
     /* where faces of the lattice meet (half a cell of each) no direction is free in 2-D, and only
      * the edge in 3-D */
-    if (dim == 2 && size > 1.5 * largest * largest && size < 0.6 * s->dp * s->dp) return;
+    if (dim == 2 && size > 1.5 * largest * largest && size < 0.6 * view->dp * view->dp) return;
     for (int d = 0; d < dim; d++)
         f->v[i * dim + d] += sum[d] / weight - normal * area[d] / sqrt(size);
 }
 
-MPS_ROW void slip(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void slip(const int dim, const mps_view *view, const fields *f, int64_t i)
 {
     for (int d = 0; d < dim; d++) f->v[i * dim + d] = f->relative[i * dim + d];
-    if (s->kind[i] == MPS_WALL && f->region[i] != MPS_REGION_DRY) slip_wall(dim, s, f, i);
+    if (mps_is_wall(view, i) && mps_region_of(f->region, i) != MPS_REGION_DRY)
+        slip_wall(dim, view, f, i);
 }
 MPS_ROWS(slip_rows, slip, fields)
 
 /* B_i with the shares of faces, for a particle beside another density. */
-MPS_ROW void face_correction(const int dim, const mps_stage *s, const fields *f, int64_t i,
+MPS_ROW void face_correction(const int dim, const mps_view *view, const fields *f, int64_t i,
                              double *b)
 {
-    const mps_stencil *t = s->near;
+    const mps_stencil *t = &view->near;
     double m[9] = {0};
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        if (f->region[t->col[p]] >= MPS_REGION_SPRAY) continue;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        if (mps_region_of(f->region, mps_stencil_column(t, p)) >= MPS_REGION_SPRAY) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        const double share = dim / t->n0 * face_share(s, f->density, i, q.j) * q.w_r2;
+        const double share = dim / t->n0 * face_share(view, f->density, i, q.j) * q.w_r2;
         for (int d = 0; d < dim; d++)
             for (int e = 0; e < dim; e++) m[d * dim + e] += share * q.d[d] * q.d[e];
     }
@@ -208,19 +210,17 @@ MPS_ROW double strained_divergence(const int dim, const mps_stencil *t, const do
  * compressed at the rate (1/gain - 1/2) dt T, and delta expands them again against the pressure.
  * deviation: out, kernel mean of delta over the fluid: noise of delta at the scale of the lattice
  * must not reach the pressure. */
-MPS_ROW double fluid_divergence(const int dim, const mps_stage *stage, const fields *given,
-                                int64_t i, double *deviation)
+MPS_ROW double fluid_divergence(const int dim, const mps_view *view, const fields *f, int64_t i,
+                                double *deviation)
 {
-    const mps_stage copy = *stage, *s = &copy;
-    const fields local = *given, *f = &local;
-    const mps_stencil near = *s->near, *t = &near;
+    const mps_stencil *t = &view->near;
     const double *v = f->v, *delta = f->delta, self = f->own;
     double g[9] = {0}, own[9];
     double deltas = self * delta[i], weight = self;
     bool mixed = false;
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const bool fluid = s->kind[t->col[p]] == MPS_FLUID;
-        const bool apart = f->region[t->col[p]] >= MPS_REGION_SPRAY;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const bool fluid = mps_is_fluid(view, mps_stencil_column(t, p));
+        const bool apart = mps_region_of(f->region, mps_stencil_column(t, p)) >= MPS_REGION_SPRAY;
         if (apart && !fluid) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         if (fluid) {
@@ -228,7 +228,7 @@ MPS_ROW double fluid_divergence(const int dim, const mps_stage *stage, const fie
             weight += q.w;
         }
         if (apart) continue;
-        const double share = face_share(s, f->density, i, q.j), w = share * q.w_r2;
+        const double share = face_share(view, f->density, i, q.j), w = share * q.w_r2;
         mixed = mixed || share != 1.0;
         for (int d = 0; d < dim; d++) {
             const double rate = w * (v[q.j * dim + d] - v[i * dim + d]);
@@ -238,35 +238,35 @@ MPS_ROW double fluid_divergence(const int dim, const mps_stage *stage, const fie
     *deviation = deltas / weight;
     const double *b = f->correction + i * dim * dim;
     if (mixed) {
-        face_correction(dim, stage, given, i, own);
+        face_correction(dim, view, f, i, own);
         b = own;
     }
-    return strained_divergence(dim, t, g, b, f->strain * s->dt);
+    return strained_divergence(dim, t, g, b, f->strain * view->dt);
 }
 
 /* Speed below which a step is 0.06 tau_g; above it a step is 0.3 dp/u. */
-static inline double calm_speed(const mps_stage *s)
+static inline double calm_speed(const mps_view *view)
 {
-    return 0.3 / 0.06 * s->velocity_scale;
+    return 0.3 / 0.06 * view->velocity_scale;
 }
 
 /* True for fluid that is much lighter than the row of wall particle i. */
-static inline bool lighter(const mps_stage *s, const fields *f, int64_t i, int64_t j)
+static inline bool lighter(const mps_view *view, const fields *f, int64_t i, int64_t j)
 {
-    return s->kind[j] == MPS_FLUID && f->density[j] < 0.5 * f->pressure_density[i];
+    return mps_is_fluid(view, j) && f->density[j] < 0.5 * f->pressure_density[i];
 }
 
 /* Largest speed relative to wall particle i of the fluid about it that is as dense as its row; at
  * least that of calm water. */
-MPS_ROW double wall_speed(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW double wall_speed(const int dim, const mps_view *view, const fields *f, int64_t i)
 {
-    const mps_stencil *t = s->near;
+    const mps_stencil *t = &view->near;
     const double *v = f->v;
-    double most = calm_speed(s) * calm_speed(s);
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const int64_t j = t->col[p];
-        if (s->kind[j] != MPS_FLUID || lighter(s, f, i, j)) continue;
-        if (f->region[j] >= MPS_REGION_SPRAY) continue;
+    double most = calm_speed(view) * calm_speed(view);
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const int64_t j = mps_stencil_column(t, p);
+        if (!mps_is_fluid(view, j) || lighter(view, f, i, j)) continue;
+        if (mps_region_of(f->region, j) >= MPS_REGION_SPRAY) continue;
         double square = 0;
         for (int d = 0; d < dim; d++) {
             const double rate = v[j * dim + d] - v[i * dim + d];
@@ -280,13 +280,13 @@ MPS_ROW double wall_speed(const int dim, const mps_stage *s, const fields *f, in
 /* Divergence of the half cell of a wall particle, with the weights of its row of the pressure
  * equation. Where gas and water share the cell, the speed of the gas is limited to that of the
  * water: otherwise gas that shoots along the wall would set the pressure of the water there. */
-MPS_ROW double wall_divergence(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW double wall_divergence(const int dim, const mps_view *view, const fields *f, int64_t i)
 {
-    const mps_stencil *t = s->near;
+    const mps_stencil *t = &view->near;
     const double *v = f->v;
     double sum = 0, limit = 0;
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        if (f->region[t->col[p]] >= MPS_REGION_SPRAY) continue;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        if (mps_region_of(f->region, mps_stencil_column(t, p)) >= MPS_REGION_SPRAY) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         double flux = 0, square = 0, share = 1.0;
         for (int d = 0; d < dim; d++) {
@@ -294,11 +294,11 @@ MPS_ROW double wall_divergence(const int dim, const mps_stage *s, const fields *
             flux += rate * q.d[d];
             square += rate * rate;
         }
-        if (lighter(s, f, i, q.j)) {
-            if (limit == 0) limit = wall_speed(dim, s, f, i);
+        if (lighter(view, f, i, q.j)) {
+            if (limit == 0) limit = wall_speed(dim, view, f, i);
             if (square > limit * limit) share = limit / sqrt(square);
         }
-        if (s->kind[q.j] == MPS_WALL) share = mps_flux_wall_share(s->flux, i, q.j);
+        if (mps_is_wall(view, q.j)) share = mps_flux_wall_share(&view->flux, i, q.j);
         sum += q.w_r2 * flux * share;
     }
     return dim / t->n0 * sum;
@@ -314,10 +314,10 @@ static inline double relaxation(const double *k, double delta, double open, doub
 }
 
 /* Maxima of |u|^2: of fluid denser than the lightest, of all fluid. */
-MPS_ROW void raise_speed(const int dim, const mps_stage *s, const fields *f, int64_t i,
+MPS_ROW void raise_speed(const int dim, const mps_view *view, const fields *f, int64_t i,
                          double *most)
 {
-    if (s->kind[i] != MPS_FLUID || f->region[i] >= MPS_REGION_SURFACE) return;
+    if (!mps_is_fluid(view, i) || mps_region_of(f->region, i) >= MPS_REGION_SURFACE) return;
     double square = 0;
     for (int d = 0; d < dim; d++) square += f->velocity[i * dim + d] * f->velocity[i * dim + d];
     most[1] = mps__larger(most[1], square);
@@ -327,57 +327,65 @@ MPS_SUMS(raise_speed_rows, raise_speed, fields)
 
 static void set_pace(const mps_stage *s, fields *f)
 {
+    const mps_view *view = s->view;
     double rho[2], fastest[2];
     mps__density_range(s, f->density, rho);
     const bool several = rho[1] > rho[0];
-    f->pace = (pacing){rho[0], rho[1] - rho[0], 1.0, s->velocity_scale};
-    if (!several && s->setting[RAPID] == 0) return;
-    mps_stage_max(s, 2, raise_speed_rows, f, fastest);
+    f->pace = (pacing){rho[0], rho[1] - rho[0], 1.0, view->velocity_scale};
+    if (!several && view->setting[RAPID] == 0) return;
+    mps_stage_max(s, 2, &raise_speed_rows, f, fastest);
     const double dense = sqrt(mps__larger(0, fastest[0])), any = sqrt(mps__larger(0, fastest[1]));
-    f->pace.drive = fmax(several ? dense : any, s->velocity_scale);
+    f->pace.drive = fmax(several ? dense : any, view->velocity_scale);
     if (!several) return;
-    const double share = fmax(dense, calm_speed(s)) / fmax(any, calm_speed(s));
-    f->pace.heavy = 1.0 - s->setting[PACE] * (1.0 - share);
+    const double share = fmax(dense, calm_speed(view)) / fmax(any, calm_speed(view));
+    f->pace.heavy = 1.0 - view->setting[PACE] * (1.0 - share);
 }
 
-static inline double row_pace(const mps_stage *s, const fields *f, int64_t i)
+static inline double row_pace(const mps_view *view, const fields *f, int64_t i)
 {
     if (f->pace.heavy == 1.0) return 1.0;
-    const double rho = s->kind[i] == MPS_FLUID ? f->density[i] : f->pressure_density[i];
+    const double rho = mps_is_fluid(view, i) ? f->density[i] : f->pressure_density[i];
     return 1.0 - (1.0 - f->pace.heavy) * (rho - f->pace.lightest) / f->pace.span;
 }
 
-MPS_ROW void add_source(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void add_source(const int dim, const mps_view *view, const fields *f, int64_t i)
 {
-    if (f->region[i] >= MPS_REGION_SURFACE) return;
-    const double *k = s->setting, share = row_pace(s, f, i);
-    if (s->kind[i] == MPS_FLUID) {
+    if (mps_region_of(f->region, i) >= MPS_REGION_SURFACE) return;
+    const double *k = view->setting, share = row_pace(view, f, i);
+    if (mps_is_fluid(view, i)) {
         double mean;
-        const double divergence = fluid_divergence(dim, s, f, i, &mean);
+        const double divergence = fluid_divergence(dim, view, f, i, &mean);
         const double open = mps__larger(0.0, 1.0 - 2.0 * k[ASIDE] * f->solid[i]);
-        const double rapid = k[RAPID] * f->pace.drive / s->velocity_scale;
+        const double rapid = k[RAPID] * f->pace.drive / view->velocity_scale;
         const double back = f->on * f->rate * relaxation(k, mean, open, rapid) * mean;
         f->source[i] += share * f->over * (back - divergence);
     } else {
-        f->source[i] -= share * f->over * wall_divergence(dim, s, f, i);
+        f->source[i] -= share * f->over * wall_divergence(dim, view, f, i);
     }
 }
 MPS_ROWS(add_source_rows, add_source, fields)
 
+enum { EQUATION_GAIN, EQUATION_RADIUS, EQUATION_BODY, EQUATION_USES };
+static const mps_use equation_uses[EQUATION_USES] = {
+    [EQUATION_GAIN] = {"equation_gain", MPS_USE_WRITE},
+    [EQUATION_RADIUS] = {"equation_radius", MPS_USE_WRITE},
+    [EQUATION_BODY] = {"equation_body", MPS_USE_WRITE}};
+
 static int set_equation(mps_stage *s)
 {
-    s->equation->gain = s->setting[GAIN];
-    s->equation->radius = MPS_NEAR;
-    s->equation->body = 1;
+    *(double *)s->data[EQUATION_GAIN] = s->view->setting[GAIN];
+    *(int32_t *)s->data[EQUATION_RADIUS] = MPS_NEAR;
+    *(int32_t *)s->data[EQUATION_BODY] = 1;
     return 0;
 }
 
 static int add_sources(mps_stage *s)
 {
-    const double *k = s->setting, rate = s->velocity_scale / s->dp;
-    const mps_stencil *t = s->near;
-    const double r = t->kernel.id == MPS_KERNEL_IMPROVED ? 0.0 : 0.5 * s->dp;
-    const bool far = s->far->re > t->re + 0.5 * s->dp;
+    const mps_view *view = s->view;
+    const double *k = view->setting, rate = view->velocity_scale / view->dp;
+    const mps_stencil *t = &view->near;
+    const double r = t->kernel.id == MPS_KERNEL_IMPROVED ? 0.0 : 0.5 * view->dp;
+    const bool far = view->far.re > t->re + 0.5 * view->dp;
     fields f = {.velocity = s->data[VELOCITY],
                 .density = s->data[DENSITY],
                 .tank_acceleration = s->data[TANK_ACCELERATION],
@@ -386,35 +394,35 @@ static int add_sources(mps_stage *s)
                 .correction = s->data[CORRECTION],
                 .region = s->data[REGION],
                 .source = s->data[SOURCE],
-                .is_solid = mps_stage_scratch(s, s->n),
-                .solid = mps_stage_scratch(s, s->n),
-                .delta = mps_stage_scratch(s, s->n),
-                .relative = mps_stage_scratch(s, s->n * s->dim),
-                .v = mps_stage_scratch(s, s->n * s->dim),
+                .is_solid = mps_stage_scratch(s, view->n),
+                .solid = mps_stage_scratch(s, view->n),
+                .delta = mps_stage_scratch(s, view->n),
+                .relative = mps_stage_scratch(s, view->n * view->dim),
+                .v = mps_stage_scratch(s, view->n * view->dim),
                 .whole = far ? MPS_REGION_INNER : MPS_REGION_SECOND,
                 .strain = k[STRAIN] * (0.5 + k[FORWARD] * (1.0 / k[GAIN] - 1.0)),
                 .own = 0.5 * mps_kernel_weight(&t->kernel, r, t->re),
                 .rate = rate,
-                .over = 1.0 / s->dt,
-                .on = k[START] > 0 ? mps__smaller(1.0, s->t * rate / k[START]) : 1.0};
+                .over = 1.0 / view->dt,
+                .on = k[START] > 0 ? mps__smaller(1.0, view->t * rate / k[START]) : 1.0};
     if (!f.is_solid || !f.solid || !f.delta || !f.relative || !f.v) return 1;
     const mps_shared first[] = {{f.is_solid, 1, MPS_TYPE_REAL},
                                 {f.delta, 1, MPS_TYPE_REAL},
-                                {f.relative, s->dim, MPS_TYPE_REAL}};
+                                {f.relative, view->dim, MPS_TYPE_REAL}};
     set_pace(s, &f);
-    mps_stage_rows(s, prepare_rows, &f);
+    mps_stage_rows(s, &prepare_rows, &f);
     if (mps_stage_refresh(s, 3, first)) return 1;
-    if (mps_op_volume_sum(s->far, f.is_solid, f.solid) != MPS_OK)
+    if (mps_op_volume_sum(&view->far, f.is_solid, f.solid) != MPS_OK)
         return mps_stage_fail(s, "the volumes of the solids cannot be summed");
-    mps_stage_rows(s, slip_rows, &f);
-    if (mps_stage_refresh(s, 1, &(mps_shared){f.v, s->dim, MPS_TYPE_REAL})) return 1;
-    mps_stage_rows(s, add_source_rows, &f);
+    mps_stage_rows(s, &slip_rows, &f);
+    if (mps_stage_refresh(s, 1, &(mps_shared){f.v, view->dim, MPS_TYPE_REAL})) return 1;
+    mps_stage_rows(s, &add_source_rows, &f);
     return 0;
 }
 
 static const mps_verb verbs[] = {
-    {.moment = MPS_CLASSIFY, .run = set_equation},
-    {.moment = MPS_SOURCE, .use_count = USES, .uses = uses, .run = add_sources}};
+    {.hook = MPS_CLASSIFY, .use_count = EQUATION_USES, .uses = equation_uses, .run = set_equation},
+    {.hook = MPS_SOURCE, .use_count = USES, .uses = uses, .run = add_sources}};
 
 const mps_model_ops mps__source_volume = {
     .struct_size = sizeof(mps_model_ops),

@@ -27,21 +27,21 @@ typedef struct contour_sums {
 
 typedef struct fields {
     mps_grid grid;
-    const mps_stencil *pairs;
     double threshold;
+    int32_t which; /* MPS_NEAR or MPS_FAR: the pairs that tell an interface */
     double *kappa;
 } fields;
 
-MPS_ROW void add_neighbour(const int dim, const mps_stage *s, double decay, int64_t i, int64_t j,
+MPS_ROW void add_neighbour(const int dim, const mps_view *v, double decay, int64_t i, int64_t j,
                            contour_sums *m)
 {
     double r[3], r2 = 0;
     for (int d = 0; d < dim; d++) {
-        r[d] = s->x[j * dim + d] - s->x[i * dim + d];
+        r[d] = v->x[j * dim + d] - v->x[i * dim + d];
         r2 += r[d] * r[d];
     }
     if (decay * r2 >= 9.0) return;
-    const double g = exp(-decay * r2), c = s->phase[j] != s->phase[i] ? 1.0 : 0.0;
+    const double g = exp(-decay * r2), c = v->phase[j] != v->phase[i] ? 1.0 : 0.0;
     m->g += g;
     m->c += g * c;
     for (int d = 0; d < dim; d++) {
@@ -56,38 +56,38 @@ MPS_ROW void add_neighbour(const int dim, const mps_stage *s, double decay, int6
     }
 }
 
-MPS_ROW void collect(const int dim, const mps_stage *s, const mps_grid *grid, int64_t i,
+MPS_ROW void collect(const int dim, const mps_view *v, const mps_grid *grid, int64_t i,
                      contour_sums *m)
 {
     const double decay = 9.0 / (grid->side * grid->side);
     const int cells = dim == 2 ? 9 : 27;
     int64_t home[3];
     *m = (contour_sums){0};
-    mps_grid_cell(grid, s->x + i * dim, home);
+    mps_grid_cell(grid, v->x + i * dim, home);
     for (int k = 0; k < cells; k++) {
         const int64_t cell[3] = {home[0] + k % 3 - 1, home[1] + k / 3 % 3 - 1,
                                  dim == 3 ? home[2] + k / 9 - 1 : 0};
         for (int64_t j = grid->first[mps_grid_bucket(grid, cell)] - 1; j >= 0;
              j = grid->next[j] - 1) {
             int64_t of[3];
-            mps_grid_cell(grid, s->x + j * dim, of); /* other cells may share the bucket */
+            mps_grid_cell(grid, v->x + j * dim, of); /* other cells may share the bucket */
             if (of[0] != cell[0] || of[1] != cell[1] || of[2] != cell[2]) continue;
-            add_neighbour(dim, s, decay, i, j, m);
+            add_neighbour(dim, v, decay, i, j, m);
         }
     }
 }
 
 /* kappa from f = c/g: f' = (c' - f g')/g, f'' = (c'' - f g'' - f' g' - g' f')/g; 0 away from
  * interfaces. The lattice resolves no smaller radius than dp: |kappa| <= (D-1)/dp. */
-MPS_ROW double curvature(const int dim, const mps_stage *s, const contour_sums *m, double threshold)
+MPS_ROW double curvature(const int dim, const mps_view *v, const contour_sums *m, double threshold)
 {
-    const double f = m->c / m->g, most = (dim - 1) / s->dp;
+    const double f = m->c / m->g, most = (dim - 1) / v->dp;
     double f1[3], size2 = 0, sum = 0;
     for (int d = 0; d < dim; d++) {
         f1[d] = (m->c1[d] - f * m->g1[d]) / m->g;
         size2 += f1[d] * f1[d];
     }
-    if (!(sqrt(size2) * s->dp > threshold)) return 0;
+    if (!(sqrt(size2) * v->dp > threshold)) return 0;
     for (int d = 0; d < dim; d++)
         for (int e = 0; e < dim; e++) {
             const int k = d * dim + e;
@@ -99,51 +99,49 @@ MPS_ROW double curvature(const int dim, const mps_stage *s, const contour_sums *
 }
 
 /* True for fluid with fluid of another phase among its pairs. */
-MPS_ROW bool at_interface(const mps_stage *s, const mps_stencil *t, int64_t i)
+MPS_ROW bool at_interface(const mps_view *v, const mps_stencil *t, int64_t i)
 {
-    if (s->kind[i] != MPS_FLUID) return false;
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const int64_t j = t->col[p];
-        if (s->kind[j] == MPS_FLUID && s->phase[j] != s->phase[i]) return true;
+    if (!mps_is_fluid(v, i)) return false;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const int64_t j = mps_stencil_column(t, p);
+        if (mps_is_fluid(v, j) && v->phase[j] != v->phase[i]) return true;
     }
     return false;
 }
 
-MPS_ROW void find_curvature(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void find_curvature(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    if (!at_interface(s, f->pairs, i)) return;
+    if (!at_interface(v, f->which == MPS_NEAR ? &v->near : &v->far, i)) return;
     contour_sums m;
-    collect(dim, s, &f->grid, i, &m);
-    f->kappa[i] = curvature(dim, s, &m, f->threshold);
+    collect(dim, v, &f->grid, i, &m);
+    f->kappa[i] = curvature(dim, v, &m, f->threshold);
 }
 MPS_ROWS(find_curvature_rows, find_curvature, fields)
 
 /* Maxima over the fluid: of the phase, of its negative. */
-MPS_ROW void raise_phase(const int dim, const mps_stage *s, const void *none, int64_t i,
-                         double *most)
+MPS_ROW void raise_phase(const int dim, const mps_view *v, const fields *f, int64_t i, double *most)
 {
-    (void)dim, (void)none;
-    if (s->kind[i] != MPS_FLUID) return;
-    most[0] = fmax(most[0], s->phase[i]);
-    most[1] = fmax(most[1], -s->phase[i]);
+    (void)dim, (void)f;
+    if (!mps_is_fluid(v, i)) return;
+    most[0] = fmax(most[0], v->phase[i]);
+    most[1] = fmax(most[1], -v->phase[i]);
 }
-MPS_SUMS(raise_phase_rows, raise_phase, void)
+MPS_SUMS(raise_phase_rows, raise_phase, fields)
 
-int mps__curvatures(mps_stage *s, const mps_stencil *pairs, double radius, double threshold,
-                    double *kappa)
+int mps__curvatures(mps_stage *s, int32_t which, double radius, double threshold, double *kappa)
 {
-    fields f = {{.struct_size = sizeof f.grid}, pairs, threshold, kappa};
+    fields f = {{.struct_size = sizeof f.grid}, threshold, which, kappa};
     double phase[2];
-    mps_stage_max(s, 2, raise_phase_rows, NULL, phase);
+    mps_stage_max(s, 2, &raise_phase_rows, &f, phase);
     if (!(phase[0] > -phase[1])) return 0; /* one phase or none */
-    if (mps_stage_grid(s, radius * s->dp, &f.grid)) return 1;
-    mps_stage_rows(s, find_curvature_rows, &f);
+    if (mps_stage_grid(s, radius * s->view->dp, &f.grid)) return 1;
+    mps_stage_rows(s, &find_curvature_rows, &f);
     return 0;
 }
 
-double mps__pair_sigma(const mps_stage *s, int32_t a, int32_t b, double other)
+double mps__pair_sigma(const mps_view *v, int32_t a, int32_t b, double other)
 {
-    const double own = s->tension[a * MPS__PHASE_LIMIT + b];
+    const double own = v->tension[a * MPS__PHASE_LIMIT + b];
     return own >= 0 ? own : other;
 }
 
@@ -154,10 +152,10 @@ void mps__tension_limit(mps_stage *s, const double *density, double other)
     mps__phase_densities(s, density, rho);
     for (int a = 0; a < MPS__PHASE_LIMIT; a++)
         for (int b = 0; b < a; b++) {
-            const double sigma = mps__pair_sigma(s, a, b, other);
+            const double sigma = mps__pair_sigma(s->view, a, b, other);
             if (rho[a] == 0 || rho[b] == 0 || sigma == 0) continue;
             const double mean = 0.5 * (rho[a] + rho[b]);
-            const double limit = 0.5 * sqrt(mean * pow(s->dp, 3) / (2.0 * pi * sigma));
+            const double limit = 0.5 * sqrt(mean * pow(s->view->dp, 3) / (2.0 * pi * sigma));
             if (limit < s->dt_limit) s->dt_limit = limit;
         }
 }

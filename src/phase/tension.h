@@ -5,14 +5,13 @@
 
 #include "helpers.h"
 
-/* Curvature of the interface at fluid with another phase among its `pairs` [1/m].
- * radius: r_s [dp]. threshold: smallest |grad f| dp of an interface. kappa: [n] in: 0; out: of the
- * rows above. Returns non-zero after a failure (no memory). */
-int mps__curvatures(mps_stage *s, const mps_stencil *pairs, double radius, double threshold,
-                    double *kappa);
+/* Curvature of the interface at fluid with another phase among its pairs [1/m].
+ * which: MPS_NEAR or MPS_FAR, the pairs. radius: r_s [dp]. threshold: smallest |grad f| dp of an
+ * interface. kappa: [n] in: 0; out: of the rows above. Returns non-zero after a failure (no memory). */
+int mps__curvatures(mps_stage *s, int32_t which, double radius, double threshold, double *kappa);
 
 /* sigma of two phases by mps_tension_set() [N/m]; `other` if it is not set. */
-double mps__pair_sigma(const mps_stage *s, int32_t a, int32_t b, double other);
+double mps__pair_sigma(const mps_view *v, int32_t a, int32_t b, double other);
 
 /* Lowers s->dt_limit to half the time in which the shortest capillary wave travels a spacing, for
  * the fastest pair of phases. density: [n] the channel. */

@@ -30,15 +30,15 @@ typedef struct fields {
 } fields;
 
 /* grad: out, sigma <grad C>_i / rho_i */
-MPS_ROW void colour_gradient(const int dim, const mps_stage *s, const fields *f, int64_t i,
+MPS_ROW void colour_gradient(const int dim, const mps_view *v, const fields *f, int64_t i,
                              double grad[3])
 {
-    const mps_stencil *t = s->near;
+    const mps_stencil *t = &v->near;
     for (int d = 0; d < dim; d++) grad[d] = 0;
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const int64_t j = t->col[p];
-        if (s->kind[j] != MPS_FLUID || s->phase[j] == s->phase[i]) continue;
-        const double own = mps__pair_sigma(s, s->phase[i], s->phase[j], s->setting[SIGMA]);
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const int64_t j = mps_stencil_column(t, p);
+        if (!mps_is_fluid(v, j) || v->phase[j] == v->phase[i]) continue;
+        const double own = mps__pair_sigma(v, v->phase[i], v->phase[j], v->setting[SIGMA]);
         if (own == 0) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         const double sum = f->density[i] + f->density[j];
@@ -47,23 +47,23 @@ MPS_ROW void colour_gradient(const int dim, const mps_stage *s, const fields *f,
     }
 }
 
-MPS_ROW void pull(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void pull(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     double grad[3];
     if (f->kappa[i] == 0) return;
-    colour_gradient(dim, s, f, i, grad);
+    colour_gradient(dim, v, f, i, grad);
     for (int d = 0; d < dim; d++) f->acceleration[i * dim + d] -= f->kappa[i] * grad[d];
 }
 MPS_ROWS(pull_rows, pull, fields)
 
 static int pull_interfaces(mps_stage *s)
 {
-    const double *k = s->setting;
+    const double *k = s->view->setting;
     fields f = {.density = s->data[DENSITY],
                 .acceleration = s->data[ACCELERATION],
-                .kappa = mps_stage_scratch(s, s->n)};
-    if (!f.kappa || mps__curvatures(s, s->near, k[RADIUS], k[THRESHOLD], f.kappa)) return 1;
-    mps_stage_rows(s, pull_rows, &f);
+                .kappa = mps_stage_scratch(s, s->view->n)};
+    if (!f.kappa || mps__curvatures(s, MPS_NEAR, k[RADIUS], k[THRESHOLD], f.kappa)) return 1;
+    mps_stage_rows(s, &pull_rows, &f);
     return 0;
 }
 
@@ -74,13 +74,18 @@ static double reach(const double *setting, double dp)
 
 static int limit_step(mps_stage *s)
 {
-    mps__tension_limit(s, s->data[LIMIT_DENSITY], s->setting[SIGMA]);
+    mps__tension_limit(s, s->data[LIMIT_DENSITY], s->view->setting[SIGMA]);
     return 0;
 }
 
 static const mps_verb verbs[] = {
-    {.moment = MPS_LIMIT, .use_count = LIMIT_USES, .uses = limit_uses, .run = limit_step},
-    {.moment = MPS_FORCE, .use_count = USES, .uses = uses, .run = pull_interfaces}};
+    {.hook = MPS_LIMIT, .use_count = LIMIT_USES, .uses = limit_uses, .run = limit_step},
+    {.hook = MPS_FORCE,
+     .use_count = USES,
+     .uses = uses,
+     .after = "viscosity",
+     .before = "friction",
+     .run = pull_interfaces}};
 
 const mps_model_ops mps__tension_csf = {.struct_size = sizeof(mps_model_ops),
                                         .api = MPS_MODEL_API,

@@ -41,32 +41,32 @@ typedef struct fields {
 } fields;
 
 /* Mean of sigma over the neighbours of other phases. */
-MPS_ROW double mean_sigma(const int dim, const mps_stage *s, int64_t i)
+MPS_ROW double mean_sigma(const int dim, const mps_view *v, int64_t i)
 {
-    const mps_stencil *t = s->far;
+    const mps_stencil *t = &v->far;
     double sum = 0, weight = 0;
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const int64_t j = t->col[p];
-        if (s->kind[j] != MPS_FLUID || s->phase[j] == s->phase[i]) continue;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const int64_t j = mps_stencil_column(t, p);
+        if (!mps_is_fluid(v, j) || v->phase[j] == v->phase[i]) continue;
         const double w = mps_stencil_pair_dim(dim, t, i, p).w;
-        sum += w * mps__pair_sigma(s, s->phase[i], s->phase[j], s->setting[SIGMA]);
+        sum += w * mps__pair_sigma(v, v->phase[i], v->phase[j], v->setting[SIGMA]);
         weight += w;
     }
     return weight > 0 ? sum / weight : 0;
 }
 
-MPS_ROW void find_jump(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void find_jump(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    if (f->kappa[i] != 0) f->jump[i] = f->kappa[i] * mean_sigma(dim, s, i);
+    if (f->kappa[i] != 0) f->jump[i] = f->kappa[i] * mean_sigma(dim, v, i);
 }
 MPS_ROWS(find_jump_rows, find_jump, fields)
 
 static int find_jumps(mps_stage *s)
 {
-    const double *k = s->setting;
-    fields f = {.jump = s->data[JUMP], .kappa = mps_stage_scratch(s, s->n)};
-    if (!f.kappa || mps__curvatures(s, s->far, k[RADIUS], k[THRESHOLD], f.kappa)) return 1;
-    mps_stage_rows(s, find_jump_rows, &f);
+    const double *k = s->view->setting;
+    fields f = {.jump = s->data[JUMP], .kappa = mps_stage_scratch(s, s->view->n)};
+    if (!f.kappa || mps__curvatures(s, MPS_FAR, k[RADIUS], k[THRESHOLD], f.kappa)) return 1;
+    mps_stage_rows(s, &find_jump_rows, &f);
     return 0;
 }
 
@@ -77,13 +77,13 @@ static double reach(const double *setting, double dp)
 
 static int limit_step(mps_stage *s)
 {
-    mps__tension_limit(s, s->data[LIMIT_DENSITY], s->setting[SIGMA]);
+    mps__tension_limit(s, s->data[LIMIT_DENSITY], s->view->setting[SIGMA]);
     return 0;
 }
 
 static const mps_verb verbs[] = {
-    {.moment = MPS_LIMIT, .use_count = LIMIT_USES, .uses = limit_uses, .run = limit_step},
-    {.moment = MPS_PREPARE, .use_count = USES, .uses = uses, .run = find_jumps}};
+    {.hook = MPS_LIMIT, .use_count = LIMIT_USES, .uses = limit_uses, .run = limit_step},
+    {.hook = MPS_PREPARE, .use_count = USES, .uses = uses, .run = find_jumps}};
 
 const mps_model_ops mps__tension_jump = {
     .struct_size = sizeof(mps_model_ops),

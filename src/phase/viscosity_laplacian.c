@@ -6,6 +6,7 @@
  * If a model brings the channel "viscosity" [Pa s], a particle has the value of that channel
  * instead of the viscosity of its phase. */
 #include "friction.h"
+#include <mps/reaction.h>
 
 enum { MIRROR, SETTINGS };
 static const mps_setting settings[SETTINGS] = {
@@ -24,6 +25,7 @@ typedef struct fields {
     const double *velocity, *density;
     const double *viscosity; /* NULL: of the phases */
     double *acceleration;
+    double *friction; /* [n*dim] the share of solids */
     bool mirror;
 } fields;
 
@@ -32,7 +34,8 @@ MPS_ROW void weights(const int dim, const mps_stencil *t, int64_t i, int64_t fro
                      double *w)
 {
     for (int k = 0; k < count; k++) {
-        const double *a = t->x + i * dim, *b = t->x + (int64_t)t->col[from + k] * dim;
+        const double *a = t->x + i * dim,
+                     *b = t->x + (int64_t)mps_stencil_column(t, from + k) * dim;
         const double x = b[0] - a[0], y = b[1] - a[1], z = dim == 3 ? b[2] - a[2] : 0;
         w[k] = dim == 3 ? x * x + y * y + z * z : x * x + y * y;
     }
@@ -40,30 +43,35 @@ MPS_ROW void weights(const int dim, const mps_stencil *t, int64_t i, int64_t fro
     mps_kernel_weights(&t->kernel, t->re, count, w, w);
 }
 
-MPS_ROW void diffuse(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void diffuse(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    if (s->kind[i] != MPS_FLUID) return;
-    const double mu = f->viscosity ? f->viscosity[i] : s->viscosity[s->phase[i]];
+    if (!mps_is_fluid(v, i)) return;
+    const double mu = f->viscosity ? f->viscosity[i] : v->viscosity[v->phase[i]];
     const double nu = mu / f->density[i];
     if (nu == 0) return;
-    const mps_stencil far = *s->far, *t = &far;
+    const mps_stencil *t = &v->far;
     const double *all = f->velocity, *u = all + i * dim, c = 2.0 * dim / (t->n0 * t->lambda);
     const bool mirror = f->mirror;
-    double sum[3] = {0}, w[PAIRS];
-    for (int64_t from = t->begin[i]; from < t->end[i]; from += PAIRS) {
-        const int count = t->end[i] - from < PAIRS ? (int)(t->end[i] - from) : PAIRS;
+    double sum[3] = {0}, wall[3] = {0}, w[PAIRS];
+    for (int64_t from = mps_stencil_begin(t, i); from < mps_stencil_end(t, i); from += PAIRS) {
+        const int count = mps_stencil_end(t, i) - from < PAIRS ? (int)(mps_stencil_end(t, i) - from)
+                                                               : PAIRS;
         weights(dim, t, i, from, count, w);
         for (int k = 0; k < count; k++) {
-            const int64_t j = t->col[from + k];
+            const int64_t j = mps_stencil_column(t, from + k);
             double du[3];
-            if (mirror && s->kind[j] == MPS_DUMMY)
-                mps__mirror_velocity(dim, s, all, i, j, du);
+            if (mirror && mps_is_dummy(v, j))
+                mps__mirror_velocity(dim, v, all, i, j, du);
             else
                 for (int d = 0; d < dim; d++) du[d] = all[j * dim + d] - u[d];
             for (int d = 0; d < dim; d++) sum[d] += du[d] * w[k];
+            for (int d = 0; d < dim && !mps_is_fluid(v, j); d++) wall[d] += du[d] * w[k];
         }
     }
-    for (int d = 0; d < dim; d++) f->acceleration[i * dim + d] += c * nu * sum[d];
+    for (int d = 0; d < dim; d++) {
+        f->acceleration[i * dim + d] += c * nu * sum[d];
+        f->friction[i * dim + d] = c * nu * wall[d];
+    }
 }
 MPS_ROWS(diffuse_rows, diffuse, fields)
 
@@ -73,13 +81,18 @@ static int diffuse_velocity(mps_stage *s)
                 .density = s->data[DENSITY],
                 .viscosity = s->data[VISCOSITY],
                 .acceleration = s->data[ACCELERATION],
-                .mirror = s->setting[MIRROR] >= 0.5};
-    mps_stage_rows(s, diffuse_rows, &f);
-    return 0;
+                .friction = mps_stage_scratch(s, s->view->n * s->view->dim),
+                .mirror = s->view->setting[MIRROR] >= 0.5};
+    if (!f.friction) return 1;
+    mps_stage_rows(s, &diffuse_rows, &f);
+    return mps_stage_reaction(s, NULL, f.friction);
 }
 
-static const mps_verb verbs[] = {
-    {.moment = MPS_FORCE, .use_count = USES, .uses = uses, .run = diffuse_velocity}};
+static const mps_verb verbs[] = {{.hook = MPS_FORCE,
+                                  .use_count = USES,
+                                  .uses = uses,
+                                  .before = "friction",
+                                  .run = diffuse_velocity}};
 
 const mps_model_ops mps__viscosity_laplacian = {
     .struct_size = sizeof(mps_model_ops),

@@ -19,6 +19,7 @@
  *     behind the wall with a far radius of 3.1 dp, at 0.4 dp with 4.1 dp (with `stress` 1 half)
  *   slip: walls without friction, by the axis of the lab nearest to their normal */
 #include "friction.h"
+#include <mps/reaction.h>
 
 enum { THETA, SLIP, STRESS, MIRROR, SETTINGS };
 static const mps_setting settings[SETTINGS] = {
@@ -45,6 +46,7 @@ static const mps_use limit_uses[LIMIT_USES] = {[LIMIT_DENSITY] = {"density", MPS
 typedef struct fields {
     const double *velocity, *density, *viscosity;
     double *acceleration;
+    double *friction;                                 /* [n*dim] the share of solids */
     const int32_t *slippery;                          /* NULL: no wall is */
     double theta;                                     /* of mean_viscosity() */
     bool whole;                                       /* pairs act along their line */
@@ -63,13 +65,13 @@ static double mean_viscosity(double theta, double a, double b)
 }
 
 /* Axis nearest to the normal of a solid particle; of dummies that of their wall. -1: no normal. */
-static inline int wall_axis(const int dim, const mps_stage *s, int64_t i)
+static inline int wall_axis(const int dim, const mps_view *v, int64_t i)
 {
-    const int64_t wall = s->kind[i] == MPS_DUMMY ? s->wall_of[i] : i;
+    const int64_t wall = mps_is_dummy(v, i) ? v->wall_of[i] : i;
     int axis = -1;
     double most = 0;
     for (int d = 0; wall >= 0 && d < dim; d++) {
-        const double area = fabs(s->area[wall * dim + d]);
+        const double area = fabs(v->area[wall * dim + d]);
         if (area <= most) continue;
         most = area;
         axis = d;
@@ -77,79 +79,90 @@ static inline int wall_axis(const int dim, const mps_stage *s, int64_t i)
     return axis;
 }
 
-/* slippery: 1 for solid particles without friction */
-MPS_ROW void find_slippery(const int dim, const mps_stage *s, int32_t *slippery, int64_t i)
+typedef struct slips {
+    int32_t *slippery; /* [n] 1 for solid particles without friction */
+} slips;
+
+MPS_ROW void find_slippery(const int dim, const mps_view *v, const slips *f, int64_t i)
 {
-    if (s->kind[i] == MPS_FLUID) return;
-    const int axis = wall_axis(dim, s, i);
-    slippery[i] = axis >= 0 && ((int)s->setting[SLIP] >> axis & 1);
+    if (mps_is_fluid(v, i)) return;
+    const int axis = wall_axis(dim, v, i);
+    f->slippery[i] = axis >= 0 && ((int)v->setting[SLIP] >> axis & 1);
 }
-MPS_ROWS(find_slippery_rows, find_slippery, int32_t)
+MPS_ROWS(find_slippery_rows, find_slippery, slips)
 
 /* given: the channel "viscosity" is there. */
-MPS_ROW void diffuse(const int dim, const mps_stage *s, const fields *f, int64_t i,
-                     const bool given)
+MPS_ROW void diffuse(const int dim, const mps_view *v, const fields *f, int64_t i, const bool given)
 {
-    if (s->kind[i] != MPS_FLUID) return;
-    const mps_stencil *t = s->far;
+    if (!mps_is_fluid(v, i)) return;
+    const mps_stencil *t = &v->far;
     const double *all = f->velocity, *u = all + i * dim;
-    const double *mu = f->mean + MPS__PHASE_LIMIT * s->phase[i];
+    const double *mu = f->mean + MPS__PHASE_LIMIT * v->phase[i];
     const double c = 2.0 * dim / (t->n0 * t->lambda * f->density[i]);
-    double sum[3] = {0};
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        if (f->slippery && f->slippery[t->col[p]] > 0) continue;
+    double sum[3] = {0}, wall[3] = {0};
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        if (f->slippery && f->slippery[mps_stencil_column(t, p)] > 0) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        const int64_t like = s->kind[q.j] == MPS_FLUID ? q.j : i; /* whose mu j has */
+        const int64_t like = mps_is_fluid(v, q.j) ? q.j : i; /* whose mu j has */
         const double w = q.w * (given
                                     ? mean_viscosity(f->theta, f->viscosity[i], f->viscosity[like])
-                                    : mu[s->phase[like]]);
+                                    : mu[v->phase[like]]);
         double du[3], along = 0;
-        if (f->mirror && s->kind[q.j] == MPS_DUMMY)
-            mps__mirror_velocity(dim, s, all, i, q.j, du);
+        if (f->mirror && mps_is_dummy(v, q.j))
+            mps__mirror_velocity(dim, v, all, i, q.j, du);
         else
             for (int d = 0; d < dim; d++) du[d] = all[q.j * dim + d] - u[d];
         for (int d = 0; d < dim; d++) along += du[d] * q.d[d];
         along *= (dim + 2) / (q.r * q.r);
-        for (int d = 0; d < dim; d++) sum[d] += w * (f->whole ? along * q.d[d] : du[d]);
+        for (int d = 0; d < dim; d++) {
+            const double term = w * (f->whole ? along * q.d[d] : du[d]);
+            sum[d] += term;
+            if (!mps_is_fluid(v, q.j)) wall[d] += term;
+        }
     }
-    for (int d = 0; d < dim; d++) f->acceleration[i * dim + d] += c * sum[d];
+    for (int d = 0; d < dim; d++) {
+        f->acceleration[i * dim + d] += c * sum[d];
+        f->friction[i * dim + d] = c * wall[d];
+    }
 }
 
-MPS_ROW void diffuse_phase(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void diffuse_phase(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    diffuse(dim, s, f, i, false);
+    diffuse(dim, v, f, i, false);
 }
 MPS_ROWS(diffuse_phase_rows, diffuse_phase, fields)
 
-MPS_ROW void diffuse_given(const int dim, const mps_stage *s, const fields *f, int64_t i)
+MPS_ROW void diffuse_given(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    diffuse(dim, s, f, i, true);
+    diffuse(dim, v, f, i, true);
 }
 MPS_ROWS(diffuse_given_rows, diffuse_given, fields)
 
 static int diffuse_velocity(mps_stage *s)
 {
-    const double *k = s->setting;
+    const double *k = s->view->setting;
     fields f = {.velocity = s->data[VELOCITY],
                 .density = s->data[DENSITY],
                 .viscosity = s->data[VISCOSITY],
                 .acceleration = s->data[ACCELERATION],
+                .friction = mps_stage_scratch(s, s->view->n * s->view->dim),
                 .theta = k[THETA],
                 .whole = k[STRESS] >= 0.5,
                 .mirror = k[MIRROR] >= 0.5};
+    if (!f.friction) return 1;
     if (k[SLIP] >= 1) {
-        int32_t *slippery = mps_stage_scratch_integers(s, s->n);
+        int32_t *slippery = mps_stage_scratch_integers(s, s->view->n);
         if (!slippery) return 1;
-        mps_stage_rows(s, find_slippery_rows, slippery);
+        mps_stage_rows(s, &find_slippery_rows, &(slips){slippery});
         if (mps_stage_refresh(s, 1, &(mps_shared){slippery, 1, MPS_TYPE_INTEGER})) return 1;
         f.slippery = slippery;
     }
     for (int p = 0; p < MPS__PHASE_LIMIT; p++)
         for (int q = 0; q < MPS__PHASE_LIMIT; q++)
-            f.mean[MPS__PHASE_LIMIT * p + q] = mean_viscosity(k[THETA], s->viscosity[p],
-                                                              s->viscosity[q]);
-    mps_stage_rows(s, f.viscosity ? diffuse_given_rows : diffuse_phase_rows, &f);
-    return 0;
+            f.mean[MPS__PHASE_LIMIT * p + q] = mean_viscosity(k[THETA], s->view->viscosity[p],
+                                                              s->view->viscosity[q]);
+    mps_stage_rows(s, f.viscosity ? &diffuse_given_rows : &diffuse_phase_rows, &f);
+    return mps_stage_reaction(s, NULL, f.friction);
 }
 
 /* Limits of a light fluid beside a viscous one, by the viscosities of the phases; the limit of a
@@ -158,26 +171,31 @@ static int diffuse_velocity(mps_stage *s)
  * 2.1 dp. */
 static int limit_step(mps_stage *s)
 {
-    const double *k = s->setting;
+    const mps_view *v = s->view;
+    const double *k = v->setting;
     double rho[MPS__PHASE_LIMIT], nu = 0, own = 0;
     mps__phase_densities(s, s->data[LIMIT_DENSITY], rho);
     for (int p = 0; p < MPS__PHASE_LIMIT; p++)
-        if (rho[p] > 0) own = fmax(own, s->viscosity[p] / rho[p]);
+        if (rho[p] > 0) own = fmax(own, v->viscosity[p] / rho[p]);
     for (int p = 0; p < MPS__PHASE_LIMIT; p++)
         for (int q = 0; q < MPS__PHASE_LIMIT; q++) {
             if (p == q || !(rho[p] > 0 && rho[q] > 0)) continue;
-            nu = fmax(nu, mean_viscosity(k[THETA], s->viscosity[p], s->viscosity[q]) / rho[p]);
+            nu = fmax(nu, mean_viscosity(k[THETA], v->viscosity[p], v->viscosity[q]) / rho[p]);
         }
-    double limit = nu > 0 ? 0.2 * s->dp * s->dp / nu : INFINITY;
+    double limit = nu > 0 ? 0.2 * v->dp * v->dp / nu : INFINITY;
     if (k[STRESS] >= 0.5 && own != 0)
-        limit = fmin(limit, 0.7 * s->far->lambda / (2 * (s->dim + 2) * fmax(nu, own)));
+        limit = fmin(limit, 0.7 * v->far.lambda / (2 * (v->dim + 2) * fmax(nu, own)));
     if (limit < s->dt_limit) s->dt_limit = limit;
     return 0;
 }
 
 static const mps_verb verbs[] = {
-    {.moment = MPS_LIMIT, .use_count = LIMIT_USES, .uses = limit_uses, .run = limit_step},
-    {.moment = MPS_FORCE, .use_count = USES, .uses = uses, .run = diffuse_velocity}};
+    {.hook = MPS_LIMIT, .use_count = LIMIT_USES, .uses = limit_uses, .run = limit_step},
+    {.hook = MPS_FORCE,
+     .use_count = USES,
+     .uses = uses,
+     .before = "friction",
+     .run = diffuse_velocity}};
 
 const mps_model_ops mps__viscosity_pair = {.struct_size = sizeof(mps_model_ops),
                                            .api = MPS_MODEL_API,

@@ -6,9 +6,9 @@
 enum { TURNS = 4 };
 
 /* Unit normal of wall j. Returns its area; 0: it has no normal. */
-MPS_ROW double normal(const int dim, const mps_stage *s, int64_t j, double n[3])
+MPS_ROW double normal(const int dim, const mps_view *view, int64_t j, double n[3])
 {
-    const double *area = s->area + j * dim;
+    const double *area = view->area + j * dim;
     double size = 0;
     for (int d = 0; d < dim; d++) size += area[d] * area[d];
     size = sqrt(size);
@@ -18,9 +18,10 @@ MPS_ROW double normal(const int dim, const mps_stage *s, int64_t j, double n[3])
 
 /* Direction away from wall j; false if it has none. The edge of a thin plate has a normal, but no
  * face: it acts as a round post. */
-MPS_ROW bool away(const int dim, const mps_stage *s, const mps_pair *q, double n[3])
+MPS_ROW bool away(const int dim, const mps_view *view, const mps_pair *q, double n[3])
 {
-    const double size = normal(dim, s, q->j, n), least = 1e-4 * (dim == 2 ? s->dp : s->dp * s->dp);
+    const double size = normal(dim, view, q->j, n),
+                 least = 1e-4 * (dim == 2 ? view->dp : view->dp * view->dp);
     for (int d = 0; d < dim && size < least; d++) n[d] = -q->d[d] / q->r;
     return size > 0;
 }
@@ -35,7 +36,7 @@ MPS_ROW double height_over(const int dim, const mps_pair *q, const double n[3])
 
 /* True if the wall particle `other`, next to the fluid particle, is above the face of `wall` and on
  * the side of the fluid particle. */
-MPS_ROW bool rises(const int dim, const mps_stage *s, const mps_pair *wall, const double n[3],
+MPS_ROW bool rises(const int dim, const mps_view *view, const mps_pair *wall, const double n[3],
                    double height, const mps_pair *other)
 {
     double rise = 0, along = 0;
@@ -44,33 +45,33 @@ MPS_ROW bool rises(const int dim, const mps_stage *s, const mps_pair *wall, cons
         rise += line * n[d];
         along -= line * (wall->d[d] + height * n[d]);
     }
-    return other->r2 < 2.5 * s->dp * s->dp && rise > 0.25 * s->dp && along > 0;
+    return other->r2 < 2.5 * view->dp * view->dp && rise > 0.25 * view->dp && along > 0;
 }
 
 /* In a concave corner a face extends to the face that rises from it. The wall particles in
  * the corner do not show that: they have one normal for all faces, or the normal of the solid that
  * was added first, or a plate that starts between them hides them. */
-MPS_ROW bool goes_on(const int dim, const mps_stage *s, int64_t i, const mps_pair *wall,
+MPS_ROW bool goes_on(const int dim, const mps_view *view, int64_t i, const mps_pair *wall,
                      const double n[3], double height)
 {
-    const mps_stencil *t = s->near;
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        if (s->kind[t->col[p]] != MPS_WALL) continue;
+    const mps_stencil *t = &view->near;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        if (!mps_is_wall(view, mps_stencil_column(t, p))) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        if (rises(dim, s, wall, n, height, &q)) return true;
+        if (rises(dim, view, wall, n, height, &q)) return true;
     }
     return false;
 }
 
 /* True if the face of wall j, with normal n, blocks particle i. The distance to a face is measured
  * along its normal, not along the line to its particle, so that films slide. */
-MPS_ROW bool in_way(const int dim, const mps_stage *s, double reach, int64_t i, const mps_pair *q,
+MPS_ROW bool in_way(const int dim, const mps_view *view, double reach, int64_t i, const mps_pair *q,
                     const double n[3])
 {
     const double height = height_over(dim, q, n), aside2 = q->r2 - height * height;
-    const double square = s->dp * s->dp;
+    const double square = view->dp * view->dp;
     if (aside2 <= 0.6 * square) return true;
-    return height > -reach && aside2 <= 2 * square && goes_on(dim, s, i, q, n, height);
+    return height > -reach && aside2 <= 2 * square && goes_on(dim, view, i, q, n, height);
 }
 
 /* Arguments of mps__walls_keep_off(). */
@@ -87,28 +88,28 @@ static inline double outward(const task *k, double height)
 }
 
 /* Corrects v once for each wall. Returns whether v has changed. */
-MPS_ROW bool turn(const int dim, const mps_stage *s, const task *k, int64_t i, double v[3])
+MPS_ROW bool turn(const int dim, const mps_view *view, const task *k, int64_t i, double v[3])
 {
-    const mps_stencil *t = s->near;
+    const mps_stencil *t = &view->near;
     bool changed = false;
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        if (s->kind[t->col[p]] != MPS_WALL) continue;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        if (!mps_is_wall(view, mps_stencil_column(t, p))) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         double n[3], vn = 0;
-        if (!away(dim, s, &q, n) || height_over(dim, &q, n) >= k->reach) continue;
+        if (!away(dim, view, &q, n) || height_over(dim, &q, n) >= k->reach) continue;
         const double least = outward(k, height_over(dim, &q, n));
         for (int d = 0; d < dim; d++) vn += (v[d] - (k->u ? k->u[q.j * dim + d] : 0)) * n[d];
-        if (vn >= least || !in_way(dim, s, k->reach, i, &q, n)) continue;
+        if (vn >= least || !in_way(dim, view, k->reach, i, &q, n)) continue;
         for (int d = 0; d < dim; d++) v[d] += (least - vn) * n[d];
         changed = true;
     }
     return changed;
 }
 
-void mps__walls_keep_off(const mps_stage *s, double reach, double lift, const double *u, int64_t i,
-                         double v[3])
+void mps__walls_keep_off(const mps_view *view, double reach, double lift, const double *u,
+                         int64_t i, double v[3])
 {
     const task asked = {reach, lift, u};
     for (int k = 0; k < TURNS; k++)
-        if (!(s->dim == 2 ? turn(2, s, &asked, i, v) : turn(3, s, &asked, i, v))) return;
+        if (!(view->dim == 2 ? turn(2, view, &asked, i, v) : turn(3, view, &asked, i, v))) return;
 }

@@ -9,7 +9,7 @@
  * v is a velocity and u [n*dim] holds the velocities of the walls; or v is a displacement and u is
  * NULL. A particle nearer than reach/2 to a face, or behind its plane (it came over a rim), is
  * moved out by up to `lift` a call. */
-void mps__walls_keep_off(const mps_stage *s, double reach, double lift, const double *u, int64_t i,
-                         double v[3]);
+void mps__walls_keep_off(const mps_view *view, double reach, double lift, const double *u,
+                         int64_t i, double v[3]);
 
 #endif

@@ -20,11 +20,6 @@ enum { MPS__BLOCK = 1024, MPS__TEAM_LEAST = 8192 };
 #define MPS__INDEPENDENT
 #endif
 
-static inline int64_t mps__blocks(int64_t n)
-{
-    return (n + MPS__BLOCK - 1) / MPS__BLOCK;
-}
-
 /* The parallel-for of a loop over n elements: NULL, the calling thread alone, if there are so few
  * that the start of other threads takes longer than the loop. */
 static inline const mps_parallel *mps__team(const mps_parallel *p, int64_t n)

@@ -12,7 +12,9 @@
 #include <mps/ppe.h>
 #include <mps/probe.h>
 #include <mps/ranks.h>
+#include <mps/ship.h>
 #include <mps/sim.h>
+#include <mps/stage.h>
 #include <mps/step.h>
 #include <mps/types.h>
 
@@ -76,9 +78,16 @@ AT(mps_channel_info, help, 32); AT(mps_channel_info, reads, 40);
 AT(mps_channel_info, writes, 44); AT(mps_channel_info, own, 48);
 
 SIZE(mps_verb_info, 32);
-AT(mps_verb_info, struct_size, 0); AT(mps_verb_info, moment, 4);
-AT(mps_verb_info, moment_name, 8); AT(mps_verb_info, model, 16);
+AT(mps_verb_info, struct_size, 0); AT(mps_verb_info, hook, 4);
+AT(mps_verb_info, hook_name, 8); AT(mps_verb_info, model, 16);
 AT(mps_verb_info, uses, 24);
+
+SIZE(mps_pass_info, 64);
+AT(mps_pass_info, struct_size, 0); AT(mps_pass_info, hook, 4);
+AT(mps_pass_info, hook_name, 8); AT(mps_pass_info, name, 16);
+AT(mps_pass_info, uses, 24); AT(mps_pass_info, model, 32);
+AT(mps_pass_info, reserved, 36); AT(mps_pass_info, calls, 40);
+AT(mps_pass_info, seconds, 48); AT(mps_pass_info, bytes, 56);
 
 SIZE(mps_name_info, 24);
 AT(mps_name_info, struct_size, 0); AT(mps_name_info, active, 4);
@@ -99,62 +108,36 @@ AT(mps_setting, help, 16); AT(mps_setting, type, 24);
 AT(mps_setting, initial, 32); AT(mps_setting, min, 40);
 AT(mps_setting, max, 48);
 
-SIZE(mps_equation, 32);
-AT(mps_equation, struct_size, 0); AT(mps_equation, radius, 4);
-AT(mps_equation, complete_surface, 8); AT(mps_equation, body, 12);
-AT(mps_equation, wall_factor, 16); AT(mps_equation, gain, 24);
-
-SIZE(mps_stage, 240);
-AT(mps_stage, struct_size, 0); AT(mps_stage, dim, 4);
-AT(mps_stage, moment, 8); AT(mps_stage, phases, 12);
-AT(mps_stage, n, 16); AT(mps_stage, step, 24);
-AT(mps_stage, since_jump, 32); AT(mps_stage, t, 40);
-AT(mps_stage, dt, 48); AT(mps_stage, dp, 56);
-AT(mps_stage, velocity_scale, 64); AT(mps_stage, g, 72);
-AT(mps_stage, kind, 96); AT(mps_stage, phase, 104);
-AT(mps_stage, id, 112); AT(mps_stage, x, 120);
-AT(mps_stage, area, 128); AT(mps_stage, wall_of, 136);
-AT(mps_stage, near, 144); AT(mps_stage, far, 152);
-AT(mps_stage, viscosity, 160); AT(mps_stage, tension, 168);
-AT(mps_stage, flux, 176); AT(mps_stage, equation, 184);
-AT(mps_stage, level_free, 192); AT(mps_stage, reserved, 196);
-AT(mps_stage, dt_limit, 200); AT(mps_stage, data, 208);
-AT(mps_stage, setting, 216); AT(mps_stage, self, 224);
-AT(mps_stage, host, 232);
-
 SIZE(mps_verb, 40);
-AT(mps_verb, moment, 0); AT(mps_verb, use_count, 4);
+AT(mps_verb, hook, 0); AT(mps_verb, use_count, 4);
 AT(mps_verb, uses, 8); AT(mps_verb, after, 16);
 AT(mps_verb, before, 24); AT(mps_verb, run, 32);
 
-SIZE(mps_model_ops, 96);
+SIZE(mps_model_ops, 104);
 AT(mps_model_ops, struct_size, 0); AT(mps_model_ops, api, 4);
 AT(mps_model_ops, name, 8); AT(mps_model_ops, help, 16);
 AT(mps_model_ops, setting_count, 24); AT(mps_model_ops, channel_count, 28);
-AT(mps_model_ops, verb_count, 32); AT(mps_model_ops, reserved, 36);
+AT(mps_model_ops, verb_count, 32); AT(mps_model_ops, part_count, 36);
 AT(mps_model_ops, settings, 40); AT(mps_model_ops, channels, 48);
 AT(mps_model_ops, verbs, 56); AT(mps_model_ops, create, 64);
 AT(mps_model_ops, destroy, 72); AT(mps_model_ops, user, 80);
-AT(mps_model_ops, reach, 88);
-
-SIZE(mps_grid, 40);
-AT(mps_grid, struct_size, 0); AT(mps_grid, dim, 4);
-AT(mps_grid, side, 8); AT(mps_grid, buckets, 16);
-AT(mps_grid, first, 24); AT(mps_grid, next, 32);
-
-SIZE(mps_shared, 16);
-AT(mps_shared, values, 0); AT(mps_shared, components, 8);
-AT(mps_shared, type, 12);
+AT(mps_model_ops, reach, 88); AT(mps_model_ops, parts, 96);
 
 SIZE(mps_motion_state, 152);
 AT(mps_motion_state, struct_size, 0); AT(mps_motion_state, reserved, 4);
 AT(mps_motion_state, value, 8); AT(mps_motion_state, rate, 56);
 AT(mps_motion_state, accel, 104);
 
-SIZE(mps_harmonic, 32);
+SIZE(mps_motion_pose, 200);
+AT(mps_motion_pose, struct_size, 0); AT(mps_motion_pose, reserved, 4);
+AT(mps_motion_pose, rotation, 8); AT(mps_motion_pose, translation, 80);
+AT(mps_motion_pose, velocity, 104); AT(mps_motion_pose, omega, 128);
+AT(mps_motion_pose, accel, 152); AT(mps_motion_pose, alpha, 176);
+
+SIZE(mps_harmonic, 40);
 AT(mps_harmonic, dof, 0); AT(mps_harmonic, form, 4);
 AT(mps_harmonic, amplitude, 8); AT(mps_harmonic, omega, 16);
-AT(mps_harmonic, phase, 24);
+AT(mps_harmonic, phase, 24); AT(mps_harmonic, ramp, 32);
 
 SIZE(mps_kernel, 24);
 AT(mps_kernel, struct_size, 0); AT(mps_kernel, id, 4);
@@ -250,30 +233,39 @@ AT(mps_solver_ops, solve, 40); AT(mps_solver_ops, destroy, 48);
 AT(mps_solver_ops, nonlinear, 56); AT(mps_solver_ops, user, 64);
 AT(mps_solver_ops, help, 72); AT(mps_solver_ops, ranks, 80);
 
-SIZE(mps_probe, 112);
+SIZE(mps_probe, 144);
 AT(mps_probe, struct_size, 0); AT(mps_probe, type, 4);
 AT(mps_probe, at, 8); AT(mps_probe, direction, 32);
 AT(mps_probe, diameter, 56); AT(mps_probe, length, 64);
 AT(mps_probe, part, 72); AT(mps_probe, count_drops, 80);
 AT(mps_probe, average, 88); AT(mps_probe, rate, 96);
-AT(mps_probe, phases, 104);
+AT(mps_probe, phases, 104); AT(mps_probe, name, 112);
+AT(mps_probe, normal, 120);
 
-SIZE(mps_energy, 160);
+SIZE(mps_probe_info, 88);
+AT(mps_probe_info, struct_size, 0); AT(mps_probe_info, type, 4);
+AT(mps_probe_info, name, 8); AT(mps_probe_info, part, 16);
+AT(mps_probe_info, at, 24); AT(mps_probe_info, normal, 48);
+AT(mps_probe_info, diameter, 72); AT(mps_probe_info, values, 80);
+
+SIZE(mps_energy, 176);
 AT(mps_energy, struct_size, 0); AT(mps_energy, kinetic, 8);
-AT(mps_energy, potential, 16); AT(mps_energy, wall_work, 24);
-AT(mps_energy, viscous, 32); AT(mps_energy, collision, 40);
-AT(mps_energy, shift, 48); AT(mps_energy, numerical, 56);
-AT(mps_energy, mass, 64); AT(mps_energy, volume, 72);
-AT(mps_energy, volume_error, 80); AT(mps_energy, centre, 88);
-AT(mps_energy, momentum, 112); AT(mps_energy, added, 136);
-AT(mps_energy, volume_filled, 144); AT(mps_energy, mass_filled, 152);
+AT(mps_energy, potential, 16); AT(mps_energy, wall_work_momentum, 24);
+AT(mps_energy, wall_work_probes, 32); AT(mps_energy, viscous, 40);
+AT(mps_energy, plugins, 48); AT(mps_energy, collision, 56);
+AT(mps_energy, shift, 64); AT(mps_energy, numerical, 72);
+AT(mps_energy, mass, 80); AT(mps_energy, volume, 88);
+AT(mps_energy, volume_error, 96); AT(mps_energy, centre, 104);
+AT(mps_energy, momentum, 128); AT(mps_energy, added, 152);
+AT(mps_energy, volume_filled, 160); AT(mps_energy, mass_filled, 168);
 
-SIZE(mps_momentum, 224);
+SIZE(mps_momentum, 272);
 AT(mps_momentum, struct_size, 0); AT(mps_momentum, total, 8);
 AT(mps_momentum, gravity, 32); AT(mps_momentum, force, 56);
-AT(mps_momentum, pressure, 80); AT(mps_momentum, walls, 104);
-AT(mps_momentum, numerical, 128); AT(mps_momentum, collision, 152);
-AT(mps_momentum, shift, 176); AT(mps_momentum, added, 200);
+AT(mps_momentum, plugins, 80); AT(mps_momentum, reaction, 104);
+AT(mps_momentum, pressure, 128); AT(mps_momentum, walls, 152);
+AT(mps_momentum, numerical, 176); AT(mps_momentum, collision, 200);
+AT(mps_momentum, shift, 224); AT(mps_momentum, added, 248);
 
 SIZE(mps_route, 48);
 AT(mps_route, to_count, 0); AT(mps_route, from_count, 4);
@@ -291,6 +283,17 @@ AT(mps_ranks_ops, disconnect, 72); AT(mps_ranks_ops, exchange_begin, 80);
 AT(mps_ranks_ops, exchange_end, 88); AT(mps_ranks_ops, reduce, 96);
 AT(mps_ranks_ops, gather, 104); AT(mps_ranks_ops, fail, 112);
 AT(mps_ranks_ops, failure, 120); AT(mps_ranks_ops, user, 128);
+
+SIZE(mps_ship, 96);
+AT(mps_ship, struct_size, 0); AT(mps_ship, axes, 4);
+AT(mps_ship, degrees, 8); AT(mps_ship, order, 12);
+AT(mps_ship, forward, 24); AT(mps_ship, up, 48);
+AT(mps_ship, origin, 72);
+
+SIZE(mps_ship_motion, 152);
+AT(mps_ship_motion, struct_size, 0); AT(mps_ship_motion, reserved, 4);
+AT(mps_ship_motion, value, 8); AT(mps_ship_motion, rate, 56);
+AT(mps_ship_motion, accel, 104);
 
 SIZE(mps_config, 216);
 AT(mps_config, struct_size, 0); AT(mps_config, dim, 4);
@@ -312,13 +315,59 @@ SIZE(mps_solver_limits, 24);
 AT(mps_solver_limits, struct_size, 0); AT(mps_solver_limits, max_iterations, 4);
 AT(mps_solver_limits, tolerance, 8); AT(mps_solver_limits, divergence, 16);
 
+SIZE(mps_tank_pose, 272);
+AT(mps_tank_pose, centre, 0); AT(mps_tank_pose, shift, 24);
+AT(mps_tank_pose, rotation, 48); AT(mps_tank_pose, next_shift, 120);
+AT(mps_tank_pose, next_rotation, 144); AT(mps_tank_pose, rate, 216);
+AT(mps_tank_pose, omega, 240); AT(mps_tank_pose, has_next, 264);
+AT(mps_tank_pose, reserved, 268);
+
+SIZE(mps_view, 776);
+AT(mps_view, struct_size, 0); AT(mps_view, dim, 4);
+AT(mps_view, n, 8); AT(mps_view, t, 16);
+AT(mps_view, dt, 24); AT(mps_view, dp, 32);
+AT(mps_view, velocity_scale, 40); AT(mps_view, g, 48);
+AT(mps_view, phases, 72); AT(mps_view, reserved, 76);
+AT(mps_view, kind, 80); AT(mps_view, phase, 88);
+AT(mps_view, id, 96); AT(mps_view, x, 104);
+AT(mps_view, area, 112); AT(mps_view, wall_of, 120);
+AT(mps_view, viscosity, 128); AT(mps_view, tension, 136);
+AT(mps_view, setting, 144); AT(mps_view, near, 152);
+AT(mps_view, far, 280); AT(mps_view, flux, 408);
+AT(mps_view, tank, 504);
+
+SIZE(mps_stage, 72);
+AT(mps_stage, struct_size, 0); AT(mps_stage, hook, 4);
+AT(mps_stage, view, 8); AT(mps_stage, data, 16);
+AT(mps_stage, self, 24); AT(mps_stage, step, 32);
+AT(mps_stage, since_jump, 40); AT(mps_stage, dt_limit, 48);
+AT(mps_stage, level_free, 56); AT(mps_stage, reserved, 60);
+AT(mps_stage, host, 64);
+
+SIZE(mps_rows, 24);
+AT(mps_rows, struct_size, 0); AT(mps_rows, bytes, 4);
+AT(mps_rows, name, 8); AT(mps_rows, run, 16);
+
+SIZE(mps_sums, 24);
+AT(mps_sums, struct_size, 0); AT(mps_sums, bytes, 4);
+AT(mps_sums, name, 8); AT(mps_sums, run, 16);
+
+SIZE(mps_grid, 40);
+AT(mps_grid, struct_size, 0); AT(mps_grid, dim, 4);
+AT(mps_grid, side, 8); AT(mps_grid, buckets, 16);
+AT(mps_grid, first, 24); AT(mps_grid, next, 32);
+
+SIZE(mps_shared, 16);
+AT(mps_shared, values, 0); AT(mps_shared, components, 8);
+AT(mps_shared, type, 12);
+
 SIZE(mps_time_control, 64);
 AT(mps_time_control, struct_size, 0); AT(mps_time_control, dt, 8);
 AT(mps_time_control, cfl, 16); AT(mps_time_control, gravity, 24);
 AT(mps_time_control, viscous, 32); AT(mps_time_control, growth, 40);
 AT(mps_time_control, dt_max, 48); AT(mps_time_control, dt_min, 56);
 
-SIZE(mps_step_info, 144);
+SIZE(mps_step_info, 152);
 AT(mps_step_info, struct_size, 0); AT(mps_step_info, ppe_iterations, 4);
 AT(mps_step_info, step, 8); AT(mps_step_info, t, 16);
 AT(mps_step_info, dt, 24); AT(mps_step_info, cfl, 32);
@@ -327,6 +376,7 @@ AT(mps_step_info, ppe_divergence, 56); AT(mps_step_info, ppe_unknowns, 64);
 AT(mps_step_info, lost, 72); AT(mps_step_info, surface, 80);
 AT(mps_step_info, seconds, 88); AT(mps_step_info, crossing_time, 128);
 AT(mps_step_info, ppe_solves, 136); AT(mps_step_info, separated, 140);
+AT(mps_step_info, limit, 144);
 
 SIZE(mps_allocator, 24);
 AT(mps_allocator, alloc, 0); AT(mps_allocator, release, 8);

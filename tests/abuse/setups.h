@@ -95,9 +95,9 @@ static inline void shake(mps_sim *sim, double metres, double radians, double ome
     int32_t dim, count = 0;
     assert_int_equal(mps_sim_shape(sim, &dim, NULL), MPS_OK);
     for (int32_t dof = 0; dof < MPS_DOF_COUNT; dof++)
-        if (dim == 3 || dof == MPS_SURGE || dof == MPS_HEAVE || dof == MPS_YAW)
-            h[count++] = (mps_harmonic){dof, 0, dof < MPS_ROLL ? metres : radians,
-                                        omega * (1 + 0.1 * dof), dof};
+        if (dim == 3 || dof == MPS_MOVE_X || dof == MPS_MOVE_Y || dof == MPS_ROTATE_Z)
+            h[count++] = (mps_harmonic){
+                dof, 0, dof < MPS_ROTATE_X ? metres : radians, omega * (1 + 0.1 * dof), dof, 0};
     assert_int_equal(mps_motion_harmonics_set(sim, count, h), MPS_OK);
 }
 
@@ -114,7 +114,7 @@ static inline void absurd(mps_sim *sim)
 static inline void jump(mps_sim *sim)
 {
     const double t[4] = {0, 0.01, 0.011, 10}, x[4] = {0, 0, 5, 5};
-    const int32_t dof = MPS_SURGE;
+    const int32_t dof = MPS_MOVE_X;
     assert_int_equal(mps_motion_table_set(sim, 4, t, 1, &dof, x), MPS_OK);
 }
 

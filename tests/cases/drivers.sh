@@ -2,12 +2,46 @@
 # Sourced by the tests of the drivers, whose argument is the folder of the drivers: a folder to work in, runs and failures.
 drivers=$(realpath "${1:?usage: $0 FOLDER_OF_DRIVERS}") || exit 2
 scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
+trap 'kill -KILL $(jobs -p) 2>/dev/null; rm -rf "$scratch"' EXIT
 cd "$scratch" || exit 1
 failures=0
 fail() {
     echo "FAILED: $*"
     failures=$((failures + 1))
+}
+
+# [s] Only a signal ends a run with this --t-end.
+never=10000
+
+# Start a run that a test stops: $pid.
+starts() { # log, driver, options...
+    "$drivers/$2" "${@:3}" --threads 1 >"$1" 2>&1 &
+    pid=$!
+}
+
+# Wait until a command succeeds, or the run $pid has ended.
+wait_for() {
+    until "$@" 2>/dev/null || ! kill -0 "$pid" 2>/dev/null; do sleep 0.02; done
+}
+
+more_lines() { # file, number: it has more lines than that on the disk
+    [ "$(wc -l <"$1")" -gt "$2" ]
+}
+
+# Wait for the end of the run $pid.
+ends() { # exit code, what, log
+    local code
+    wait "$pid" 2>/dev/null
+    code=$?
+    [ $code = "$1" ] || { fail "$2: exit $code instead of $1"; cat "$3"; }
+}
+
+# An end for runs that go on: a multiple of an interval, 60 steps behind all steps in the folders. The last 20 steps of a run share what is left.
+later() { # interval, folders...
+    local interval=$1
+    shift
+    awk -F, -v interval="$interval" 'FNR == 1 {columns = NF} FNR > 1 && NF == columns && $1 + 60 * $2 > t {t = $1 + 60 * $2}
+        END {printf "%.10g", (int(t / interval) + 1) * interval}' "${@/%//steps.csv}"
 }
 
 runs() { # exit code, driver, options...

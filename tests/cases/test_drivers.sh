@@ -85,8 +85,8 @@ refused '--out /dev/null/x: Not a directory' static_tank --out /dev/null/x
 
 # --list-models: all models of the library with their settings, and all else that has a name
 "$drivers/static_tank" --list-models >list || fail "--list-models: exit $?"
-models=$(sed -nE 's/^MODEL\(([a-z]+)_([a-z_]+)\)$/\1.\2/p' "$sources/src/core/models/models.inc")
-[ "$(wc -w <<<"$models")" -ge 29 ] || fail "models.inc has too few models: $models"
+models=$(sed -nE 's/^extern const mps_model_ops mps__([a-z]+)_([a-z_]+);$/\1.\2/p' "$sources/src/core/models/built_in.h")
+[ "$(wc -w <<<"$models")" -ge 29 ] || fail "built_in.h has too few models: $models"
 for name in $models; do
     grep -qx "### $name" list || fail "--list-models has no section $name"
 done
@@ -94,6 +94,13 @@ for name in imps.paper mmps.paper sundials.kinsol auxgrid improved restitution a
     grep -qF "\`$name\`" list || fail "--list-models does not name $name"
 done
 "$drivers/droplet" --list-models | cmp -s - list || fail "--list-models of two drivers differ"
+
+# --profile: a line for each pass on stdout, and their sum, which is the time of the steps
+"$drivers/static_tank" --dp 0.05 --t-end 0.02 --frames 0 --no-report --quiet --profile --out profile --threads 1 >table 2>log || fail "--profile: exit $?: $(cat log)"
+for name in search limits predict source.volume solve gradient.corrected move commit; do
+    grep -q " $name " table || fail "--profile has no line of $name"
+done
+awk '$1 == "sum" {found = $2 > 0 && ($2 - $NF) ^ 2 <= (0.02 * $NF) ^ 2} END {exit !found}' table || fail "--profile: $(tail -1 table)"
 
 # a short run of each: header, number and spacing of rows, every key of the summary, frames
 columns() { # driver, dp, fluid particles, header wanted, options...
@@ -159,6 +166,8 @@ runs 0 sloshing_roll --liquid water --dp 0.031 --t-end 0.02 --frames 0 --out rol
 cmp -s roll_water/probes.csv sloshing_roll/probes.csv && fail "--liquid water changes nothing"
 runs 0 sloshing_roll --ramp 0 --angle 2 --dp 0.031 --t-end 0.02 --frames 0 --out roll_jump
 value_is roll_jump angle 21 0.154081 1e-6 # 2 sin(2 pi 0.02/1.62953)
+runs 0 sloshing_surge --ramp 1 --dp 0.05 --t-end 0.1 --frames 0 --out surge_ramp
+value_is surge_ramp x_tank 101 1.12077e-4 1e-9 # 0.02 sin(6.469 t) x^3 (10 - 15 x + 6 x^2), x = 6.469 t/(2 pi)
 runs 0 rising_bubble --case 2 --dp 0.05 --t-end 0.02 --frames 0 --out bubble2
 cmp -s bubble2/probes.csv rising_bubble/probes.csv && fail "--case 2 changes nothing"
 
@@ -247,7 +256,7 @@ runs 0 impact --case wedge --dp 0.02 --t-end 0.02 --frames 0 --sensor-average 0.
 grep -q 'warning: t = .*: F is a mean over 0.001 s;.*--sensor-average' log || fail "a short average: $(cat log)"
 
 # what each column of probes.csv is, and where: in summary.json and in the report
-grep -qF '{"name": "P1", "unit": "Pa", "type": "wall_pressure", "at": [0, 0.05, 0], "diameter": 0.025, "about": "Wall pressure: sensor at (0, 0.05) m' sloshing_surge/summary.json ||
+grep -qF '{"name": "P1", "unit": "Pa", "type": "wall_pressure", "at": [0, 0.05, 0], "diameter": 0.025, "normal": [1, 0, 0], "part": "tank.x0", "about": "Wall pressure: sensor at (0, 0.05) m' sloshing_surge/summary.json ||
     fail "sloshing_surge/summary.json does not say where P1 is"
 grep -qF '{"name": "still_level", "about": "y of the still level' sloshing_surge/summary.json || fail "sloshing_surge/summary.json does not say what still_level is"
 grep -qF '{"name": "wetted_dp", "about": "wetted side' own_average/summary.json || fail "the summary of a wedge does not say what wetted_dp is"
@@ -267,6 +276,12 @@ runs 0 static_tank --dp 0.025 --t-end 0.005 --frames 0 --no-report --out bare
 if [ -e bare/report.html ] || [ -e bare/frames.pvd ]; then fail "--no-report --frames 0 wrote them"; fi
 has bare probes.csv summary.json
 
+# without standard streams messages land in no file
+"$drivers/static_tank" --dp 0.025 --t-end 0.005 --frames 0 --no-report --threads 1 --out closed <&- >&- 2>&- || fail "closed streams: exit $?"
+has closed probes.csv summary.json
+head -1 closed/probes.csv | grep -q '^t\[' || fail "closed streams: probes.csv begins with $(head -1 closed/probes.csv)"
+if grep -l 'static_tank:' closed/*.csv; then fail "closed streams: messages are in these files"; fi
+
 # the outputs of a run that breaks off are readable: steps far too long for a tank that starts with a jump
 runs 3 sloshing_surge --model imps.paper --dp 0.025 --dt 0.1 --t-end 5 --out diverged
 grep -q 'at t = .*step' log || fail "a diverged run does not say when: $(cat log)"
@@ -278,13 +293,10 @@ runs 3 sloshing_high_fill --model mmps --dp 0.05 --set gas.sound=1 --amplitude 0
 grep -q 'phase 1 moves at .* m/s, and the speed of sound there is 1 m/s' log || fail "a gas that is too fast: $(cat log)"
 
 # Ctrl-C
-"$drivers/static_tank" --dp 0.02 --t-end 1000 --out stopped --threads 1 >log 2>&1 &
-pid=$!
-sleep 2
+starts log static_tank --dp 0.02 --t-end $never --out stopped
+wait_for more_lines stopped/probes.csv 1
 kill -INT $pid
-wait $pid
-code=$?
-[ $code = 130 ] || { fail "Ctrl-C: exit $code instead of 130"; cat log; }
+ends 130 Ctrl-C log
 has stopped probes.csv summary.json report.html
 grep -q '"status": "MPS_W_STOPPED"' stopped/summary.json || fail "an interrupted run's status"
 

@@ -46,9 +46,8 @@ runs 2 "${tank[@]}" --out mine2 --use gas.compressible # refused when the first 
 [ ! -e mine2/probes.csv ] || fail "a run that is refused leaves files that the next one is refused for"
 
 # ---- two runs at a time
-"$drivers/static_tank" --dp 0.04 --t-end 1000 --frames 0 --out busy --threads 1 >busy.log 2>&1 &
-pid=$!
-until [ -s busy/run.lock ] || [ -e busy/probes.csv ]; do sleep 0.05; done
+starts busy.log static_tank --dp 0.04 --t-end $never --frames 0 --out busy
+wait_for test -e busy/probes.csv
 for option in --overwrite --resume; do
     runs 2 "${tank[@]}" --out busy $option
     says "another run is writing there, process $pid"

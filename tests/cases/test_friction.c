@@ -106,15 +106,15 @@ static int drive(void *user, double t, mps_motion_state *s)
     const flow *f = user;
     const double w = f->rate;
     if (f->kind == ROUND) {
-        s->value[MPS_YAW] = w * t;
-        s->rate[MPS_YAW] = w;
+        s->value[MPS_ROTATE_Z] = w * t;
+        s->rate[MPS_ROTATE_Z] = w;
     } else if (f->kind == SWING) {
-        s->value[MPS_SURGE] = f->speed / w * (1 - cos(w * t));
-        s->rate[MPS_SURGE] = f->speed * sin(w * t);
-        s->accel[MPS_SURGE] = f->speed * w * cos(w * t);
+        s->value[MPS_MOVE_X] = f->speed / w * (1 - cos(w * t));
+        s->rate[MPS_MOVE_X] = f->speed * sin(w * t);
+        s->accel[MPS_MOVE_X] = f->speed * w * cos(w * t);
     } else {
-        s->value[MPS_SURGE] = f->speed * t;
-        s->rate[MPS_SURGE] = f->speed;
+        s->value[MPS_MOVE_X] = f->speed * t;
+        s->rate[MPS_MOVE_X] = f->speed;
     }
     return 0;
 }
@@ -147,21 +147,22 @@ static double friction; /* momentum per mass that force models gave to the middl
 
 static int watch(mps_stage *s)
 {
+    const mps_view *v = s->view;
     const double *a = s->data[0];
     double sum = 0, count = 0;
-    const double centre = middle(s->x, s->kind, s->n);
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_FLUID || fabs(s->x[2 * i] - centre) > 0.5 * GAP) continue;
+    const double centre = middle(v->x, v->kind, v->n);
+    for (int64_t i = 0; i < v->n; i++) {
+        if (v->kind[i] != MPS_FLUID || fabs(v->x[2 * i] - centre) > 0.5 * GAP) continue;
         sum += a[2 * i];
         count++;
     }
-    friction += s->dt * sum / count;
+    friction += v->dt * sum / count;
     return 0;
 }
 
 static const mps_use watch_uses[] = {{"acceleration", MPS_USE_READ}};
 static const mps_verb watch_verbs[] = {
-    {.moment = MPS_FORCE, .use_count = 1, .uses = watch_uses, .after = "*", .run = watch}};
+    {.hook = MPS_FORCE, .use_count = 1, .uses = watch_uses, .after = "*", .run = watch}};
 static const mps_model_ops watcher = {.struct_size = sizeof(mps_model_ops),
                                       .api = MPS_MODEL_API,
                                       .name = "watch.test",

@@ -184,15 +184,15 @@ static double give; /* sum over all rows, for 1 Pa, in cells of the lattice */
 static int count_cells(mps_stage *s)
 {
     const double *gas = s->data[0];
-    const double whole = 1.0 / (rho * 1.4 * ambient / rho * s->dt * s->dt);
+    const double whole = 1.0 / (rho * 1.4 * ambient / rho * s->view->dt * s->view->dt);
     give = 0;
-    for (int64_t i = 0; i < s->n; i++) give += gas[i] / whole;
+    for (int64_t i = 0; i < s->view->n; i++) give += gas[i] / whole;
     return 0;
 }
 
 static const mps_use counter_uses[] = {{"gas_shift", MPS_USE_READ}};
 static const mps_verb counter_verbs[] = {
-    {.moment = MPS_SOURCE, .use_count = 1, .uses = counter_uses, .after = "*", .run = count_cells}};
+    {.hook = MPS_SOURCE, .use_count = 1, .uses = counter_uses, .after = "*", .run = count_cells}};
 static const mps_model_ops counter = {.struct_size = sizeof(mps_model_ops),
                                       .api = MPS_MODEL_API,
                                       .name = "counter.gas",

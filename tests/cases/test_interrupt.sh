@@ -3,23 +3,14 @@
 # Runs that are stopped by a signal: a checkpoint, rows that are complete up to it and go on without gap or double; progress in a batch log.
 # usage: tests/cases/test_interrupt.sh FOLDER_OF_DRIVERS
 set -uo pipefail
+[ -n "${HUP_ENDS:-}" ] || HUP_ENDS=1 exec env --default-signal=HUP bash "$0" "$@" # also under nohup
 . "$(dirname "$0")/drivers.sh"
-surge=(sloshing_surge --dp 0.025 --t-end 1.5 --frames 0 --no-report --probe-dt 0.001)
+surge=(sloshing_surge --dp 0.025 --frames 0 --no-report --probe-dt 0.001)
+tank=(static_tank --dp 0.02 --frames 0 --no-report)
 
-begin() { # folder, driver, options...: starts it; $pid
-    "$drivers/$2" "${@:3}" --out "$1" --threads 1 >"$1.log" 2>&1 &
-    pid=$!
-}
-
-has_rows() { # folder: waits until some are on the disk
-    local tries=0
-    until [ -s "$1/probes.csv" ] || [ $((tries += 1)) -gt 3000 ] || ! kill -0 "$pid" 2>/dev/null; do sleep 0.01; done
-}
-
-ends() { # exit code, what, folder
-    wait "$pid" 2>/dev/null
-    local code=$?
-    [ $code = "$1" ] || { fail "$2: exit $code instead of $1"; cat "$3.log"; }
+begin() { # folder, driver, options...: a run that has taken steps; $pid
+    starts "$1.log" "${@:2}" --t-end $never --out "$1"
+    wait_for more_lines "$1/probes.csv" 1
 }
 
 # A row at every 0.001 s from 0 up to the time of the last step, which is that of the checkpoint, and no other.
@@ -30,50 +21,55 @@ complete() { # folder
         fail "$1/probes.csv is not complete"
 }
 
-begin batch static_tank --dp 0.02 --t-end 1000 --frames 0 --no-report # for what comes last
-batch=$pid
-begin silent static_tank --dp 0.02 --t-end 1000 --frames 0 --no-report --quiet
+begin silent "${tank[@]}" --quiet # for what comes last
 silent=$pid
-begun=$SECONDS
+begin batch "${tank[@]}"
+batch=$pid
 
-runs 0 "${surge[@]}" --out whole
 for signal in INT TERM HUP; do
     begin $signal "${surge[@]}"
-    has_rows $signal
     kill -$signal $pid
-    [ $signal != HUP ] || { sleep 0.02; kill -HUP $pid 2>/dev/null; } # terminals say it more than once
-    ends 130 SIG$signal $signal
+    if [ $signal = HUP ]; then while kill -HUP $pid 2>/dev/null; do sleep 0.01; done; fi # terminals say it more than once
+    ends 130 SIG$signal $signal.log
     [ -s $signal/checkpoint.mps ] || fail "SIG$signal leaves no checkpoint"
     [ ! -e $signal/run.lock ] || fail "SIG$signal leaves the folder locked"
     [ -s $signal/summary.json ] || fail "SIG$signal leaves no summary"
     complete $signal
-    runs 0 "${surge[@]}" --out $signal --resume
+done
+end=$(later 0.1 INT TERM HUP)
+runs 0 "${surge[@]}" --t-end "$end" --out whole
+for signal in INT TERM HUP; do
+    runs 0 "${surge[@]}" --t-end "$end" --out $signal --resume
     for file in probes.csv momentum.csv steps.csv; do cmp whole/$file $signal/$file || fail "SIG$signal, --resume: other $file"; done
 done
 
 # nohup: the signal is ignored
 trap '' HUP
-begin nohup sloshing_surge --dp 0.025 --t-end 0.3 --frames 0 --no-report
+begin nohup "${surge[@]}"
 trap - HUP
-has_rows nohup
-kill -HUP $pid 2>/dev/null
-ends 0 "SIGHUP under nohup" nohup
+kill -HUP $pid
+wait_for more_lines nohup/steps.csv $(($(wc -l <nohup/steps.csv) + 200)) # more than wait in memory, which a run that ends writes too
+kill -TERM $pid || fail "SIGHUP ends a run under nohup"
+ends 130 "SIGTERM under nohup" nohup.log
 
 # no process reads what it says
-"$drivers/static_tank" --dp 0.04 --t-end 1000 --frames 0 --out pipe --threads 1 2> >(exec true) &
+mkfifo ears
+"$drivers/static_tank" --dp 0.04 --t-end $never --frames 0 --out pipe --threads 1 2>ears &
 pid=$!
-has_rows pipe
+: <ears # opened, then closed
+wait_for more_lines pipe/probes.csv 1
 kill -TERM $pid
-touch pipe.log
-ends 130 "SIGTERM with a closed pipe" pipe
+ends 130 "SIGTERM with a closed pipe" /dev/null
 
-# a line every 10 s
-sleep $((begun + 13 - SECONDS > 0 ? begun + 13 - SECONDS : 0))
-for pid in $batch $silent; do kill -TERM $pid; done
+# a line every 10 s; the silent run, which began before, has none when it has taken a step more
 pid=$batch
-ends 130 "the batch run" batch
+wait_for grep -q eta= batch.log
 pid=$silent
-ends 130 "the silent run" silent
+wait_for more_lines silent/steps.csv "$(wc -l <silent/steps.csv)"
+kill -TERM $batch $silent
+ends 130 "the silent run" silent.log
+pid=$batch
+ends 130 "the batch run" batch.log
 number='[0-9.e+-]+'
 grep -E "^t=$number step=[0-9]+ dt=$number wall=$number eta=$number\$" batch.log | sed 's/.*wall=\([0-9.]*\).*/\1/' |
     awk '{if ($1 - last < 9.9) exit 1; last = $1} END {exit !(last >= 9.9)}' || fail "not a line of progress every 10 s: $(cat batch.log)"

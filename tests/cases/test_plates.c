@@ -172,8 +172,8 @@ static void tank_frame(mps_sim *sim, const double *x, double X[2])
     mps_motion_state m = {.struct_size = sizeof m};
     OK(sim, mps_motion_state_get(sim, &m));
     /* the centre is the foot of the baffle */
-    const double c = cos(m.value[MPS_YAW]), s = sin(m.value[MPS_YAW]),
-                 dx = x[0] - 0.28 - m.value[MPS_SURGE], dy = x[1];
+    const double c = cos(m.value[MPS_ROTATE_Z]), s = sin(m.value[MPS_ROTATE_Z]),
+                 dx = x[0] - 0.28 - m.value[MPS_MOVE_X], dy = x[1];
     X[0] = 0.28 + c * dx + s * dy;
     X[1] = -s * dx + c * dy;
 }
@@ -227,14 +227,14 @@ static void check_motion(const mps_harmonic *motion, double t_end)
 static void sloshing_over_a_baffle(void **state)
 {
     (void)state;
-    const mps_harmonic surge = {.dof = MPS_SURGE, .amplitude = 0.1, .omega = 3.53};
+    const mps_harmonic surge = {.dof = MPS_MOVE_X, .amplitude = 0.1, .omega = 3.53};
     check_motion(&surge, 3);
 }
 
 static void rolling_with_a_baffle(void **state)
 {
     (void)state;
-    const mps_harmonic roll = {.dof = MPS_YAW, .amplitude = 0.2, .omega = 4};
+    const mps_harmonic roll = {.dof = MPS_ROTATE_Z, .amplitude = 0.2, .omega = 4};
     check_motion(&roll, 2);
 }
 

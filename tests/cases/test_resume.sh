@@ -17,15 +17,12 @@ refused() { # text that must be in the message, folder, driver, options...
 
 # Send a signal to a run as soon as it has written a checkpoint.
 stopped() { # signal, exit code, folder, driver, options...
-    local signal=$1 wanted=$2 folder=$3 pid code tries=0
+    local signal=$1 wanted=$2 folder=$3
     shift 3
-    "$drivers/$1" "${@:2}" --out "$folder" --threads 1 >log 2>&1 &
-    pid=$!
-    until [ -e "$folder/checkpoint.mps" ] || [ $((tries += 1)) -gt 3000 ]; do sleep 0.02; done
+    starts log "$@" --out "$folder"
+    wait_for test -e "$folder/checkpoint.mps"
     kill -"$signal" $pid
-    wait $pid 2>/dev/null
-    code=$?
-    [ $code = "$wanted" ] || { fail "$* and $signal: exit $code instead of $wanted"; cat log; }
+    ends "$wanted" "$* and $signal" log
 }
 
 same() { # folder, folder
@@ -41,30 +38,37 @@ series() { # folder
     sed -n 's/.*file="\([^"]*\)".*/\1/p' "$1/frames.pvd" | diff - <(cd "$1" && find frames -name '*.vtp' | sort) || fail "$1/frames.pvd does not name its files"
 }
 
-# Ctrl-C, and SIGKILL a while after a checkpoint.
-goes_on() { # name, interval of checkpoints, driver, options...
-    local name=$1 interval=$2
-    shift 2
-    runs 0 "$@" --frames 20 --out "$name"
-    stopped INT 130 "$name.int" "$@" --frames 20 --checkpoint "$interval"
+# Ctrl-C, and SIGKILL a while after a checkpoint. Where the machine is quick these runs get farther: the end is chosen behind both. Frames are at the
+# same times with either end, the first picture is before the checkpoint, the second one after it.
+goes_on() { # name, interval of checkpoints, of frames, driver, options...
+    local name=$1 interval=$2 frames=$3 end first second
+    shift 3
+    first=$(awk "BEGIN {print $interval / 2}")
+    local endless=(--t-end "$(awk "BEGIN {print 50000 * $frames}")" --frames 50000 --checkpoint "$interval" --pictures "$first")
+    stopped INT 130 "$name.int" "$@" "${endless[@]}"
     grep -q 'go on with --resume' log || fail "$*: Ctrl-C does not say how to go on: $(cat log)"
-    runs 0 "$@" --frames 20 --out "$name.int" --resume
+    stopped KILL 137 "$name.kill" "$@" "${endless[@]}"
+    end=$(later "$(awk "BEGIN {print 4 * $frames}")" "$name.int" "$name.kill")
+    second=$(awk "BEGIN {print $end - 2 * $frames}")
+    set -- "$@" --t-end "$end" --frames "$(awk "BEGIN {printf \"%.0f\", $end / $frames}")" --pictures "$first,$second"
+    runs 0 "$@" --out "$name"
+    [ -s "$name/picture_2.png" ] || fail "$name: no second picture"
+    runs 0 "$@" --out "$name.int" --resume
     same "$name" "$name.int"
     series "$name.int"
-    stopped KILL 137 "$name.kill" "$@" --frames 20 --checkpoint "$interval"
     printf '1,2' >>"$name.kill/probes.csv" # a row of which only half came to the disk
     tail -n 2 "$name/steps.csv" >>"$name.kill/steps.csv"
     cat "$name/probes.csv" >>"$name.kill/probes.csv" # more than the rest of the run will write
-    runs 0 "$@" --frames 20 --out "$name.kill" --resume --checkpoint "$interval"
+    runs 0 "$@" --out "$name.kill" --resume --checkpoint "$interval"
     same "$name" "$name.kill"
     series "$name.kill"
     diff -rq "$name/frames" "$name.kill/frames" || fail "$name.kill has other frames than $name"
     cmp "$name/frames.pvd" "$name.kill/frames.pvd" || fail "$name.kill/frames.pvd is not that of $name"
 }
-goes_on surge 0.2 sloshing_surge --dp 0.025 --t-end 1
-goes_on air 0.02 sloshing_high_fill --model mmps --dp 0.05 --t-end 0.1 --sensor-average 0.005
-goes_on impact 0.02 impact --case flat --dp 0.02 --cfl 0.1
-goes_on solid 0.04 sloshing_baffle_3d --dp 0.025 --t-end 0.12
+goes_on surge 0.2 0.05 sloshing_surge --dp 0.025
+goes_on air 0.02 0.005 sloshing_high_fill --model mmps --dp 0.05 --sensor-average 0.005
+goes_on impact 0.02 0.002 impact --case flat --dp 0.02 --cfl 0.1
+goes_on solid 0.04 0.006 sloshing_baffle_3d --dp 0.025
 
 # an end with a checkpoint, and a later end
 tank=(static_tank --dp 0.04 --probe-dt 0.002)
@@ -118,12 +122,10 @@ runs 0 "${tank[@]}" --t-end 0.01 --frames 0 --out longer --overwrite
 [ ! -e longer/checkpoint.mps ] || fail "a checkpoint stays behind"
 
 # without --checkpoint there is one at SIGTERM
-"$drivers/static_tank" --dp 0.04 --t-end 1000 --frames 0 --out term --threads 1 >log 2>&1 &
-pid=$!
-until [ -e term/picture_end.png ] || [ "$(wc -l 2>/dev/null <term/probes.csv || echo 0)" -gt 1 ]; do sleep 0.05; done
+starts log static_tank --dp 0.04 --t-end $never --frames 0 --out term
+wait_for more_lines term/probes.csv 1
 kill -TERM $pid
-wait $pid
-[ $? = 130 ] || { fail "SIGTERM: not exit 130"; cat log; }
+ends 130 SIGTERM log
 [ -s term/checkpoint.mps ] || fail "SIGTERM leaves no checkpoint"
 
 if [ $failures -gt 0 ]; then exit 1; fi

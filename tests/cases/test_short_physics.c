@@ -268,7 +268,7 @@ static void standing_wave(void **state)
 
 static void surge(mps_sim *sim, int32_t start)
 {
-    const mps_harmonic motion = {.dof = MPS_SURGE, .amplitude = 0.02, .omega = 6.469};
+    const mps_harmonic motion = {.dof = MPS_MOVE_X, .amplitude = 0.02, .omega = 6.469};
     const double centre[3] = {0, 0, 0};
     OK(sim, mps_motion_centre_set(sim, centre, start));
     OK(sim, mps_motion_harmonics_set(sim, 1, &motion));
@@ -363,7 +363,7 @@ static void rolling_tank(void **state)
 {
     (void)state;
     const double size[3] = {0.4, 0.4, 0}, dp = 0.02, centre[3] = {0.2, 0.2, 0};
-    const mps_harmonic motion = {.dof = MPS_YAW, .amplitude = 0.1, .omega = 3};
+    const mps_harmonic motion = {.dof = MPS_ROTATE_Z, .amplitude = 0.1, .omega = 3};
     record r;
     record_open(&r, 2, dp, size, 0.2);
     OK(r.sim, mps_motion_centre_set(r.sim, centre, MPS_START_AT_REST));
@@ -386,7 +386,7 @@ static void full_tank(void **state)
 {
     (void)state;
     const double size[2] = {0.4, 0.3}, at[2][3] = {{0, 0.16, 0}, {0.4, 0.16, 0}};
-    const mps_harmonic surge = {.dof = MPS_SURGE, .amplitude = 0.02, .omega = 6};
+    const mps_harmonic surge = {.dof = MPS_MOVE_X, .amplitude = 0.02, .omega = 6};
     record r;
     double errors = 0, squares = 0;
     int32_t id[2];
@@ -405,7 +405,7 @@ static void full_tank(void **state)
         OK(r.sim, mps_motion_state_get(r.sim, &m));
         OK(r.sim, mps_probe_read(r.sim, id[0], &left));
         OK(r.sim, mps_probe_read(r.sim, id[1], &right));
-        const double wanted = rho0 * size[0] * m.accel[MPS_SURGE];
+        const double wanted = rho0 * size[0] * m.accel[MPS_MOVE_X];
         errors += k > 20 ? (left - right - wanted) * (left - right - wanted) : 0;
         squares += k > 20 ? wanted * wanted : 0;
     }

@@ -26,7 +26,7 @@ static int look(mps_stage *s)
 {
     for (int k = 0; k < ARRAYS; k++) seen[k] = s->data[k];
     test.heat = s->data[HEAT];
-    for (int64_t i = 0; i < s->n; i++) test.heat[i] = 2;
+    for (int64_t i = 0; i < s->view->n; i++) test.heat[i] = 2;
     return 0;
 }
 
@@ -34,7 +34,7 @@ static int look(mps_stage *s)
 static int steal(mps_stage *s)
 {
     if (test.thief < 0) return 0;
-    assert_true(s->n > 5);
+    assert_true(s->view->n > 5);
     if (test.thief == REGION)
         ((int32_t *)seen[REGION])[5] ^= 1;
     else
@@ -51,13 +51,13 @@ static int take(mps_stage *s)
 }
 
 static const mps_verb look_verbs[] = {
-    {.moment = MPS_CLASSIFY, .use_count = ARRAYS, .uses = sees, .after = "*", .run = look}};
+    {.hook = MPS_CLASSIFY, .use_count = ARRAYS, .uses = sees, .after = "*", .run = look}};
 static const mps_use reads_heat[] = {{"heat", MPS_USE_NEIGHBOURS}};
 static const mps_verb steal_verbs[] = {
-    {.moment = MPS_FORCE, .use_count = 1, .uses = reads_heat, .run = steal}};
+    {.hook = MPS_FORCE, .use_count = 1, .uses = reads_heat, .run = steal}};
 static const mps_use writes_heat[] = {{"heat", MPS_USE_WRITE}};
 static const mps_verb take_verbs[] = {
-    {.moment = MPS_SOURCE, .use_count = 1, .uses = writes_heat, .run = take}};
+    {.hook = MPS_SOURCE, .use_count = 1, .uses = writes_heat, .run = take}};
 static const mps_model_ops looker = {TOY("looker.toy", 1, look_verbs), .channel_count = 2,
                                      .channels = heat};
 static const mps_model_ops thief = {TOY("thief.toy", 1, steal_verbs)};
@@ -86,7 +86,7 @@ static void undeclared_writes(void **state)
         ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_PLUGIN, "model 'thief.toy'");
         snprintf(name, sizeof name, "wrote '%s' of particle", sees[test.thief].channel);
         ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_PLUGIN, name);
-        ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_PLUGIN, "moment 'force'");
+        ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_PLUGIN, "hook 'force'");
         if (strstr(mps_sim_error(sim), "taker.toy") || strstr(mps_sim_error(sim), "looker.toy"))
             fail_msg("'%s' names another model", mps_sim_error(sim));
     }

@@ -23,7 +23,7 @@ static inline push arrays(const mps_stage *s)
 /* A model with one verb of MPS_FORCE. */
 static inline mps_model_ops model_of(mps_verb *verb, int (*run)(mps_stage *))
 {
-    *verb = (mps_verb){.moment = MPS_FORCE, .use_count = USES, .uses = uses, .run = run};
+    *verb = (mps_verb){.hook = MPS_FORCE, .use_count = USES, .uses = uses, .run = run};
     return (mps_model_ops){.struct_size = sizeof(mps_model_ops),
                            .api = MPS_MODEL_API,
                            .name = "bad.model",
@@ -39,17 +39,17 @@ static inline int check_verb(int (*run)(mps_stage *))
     return kit_check_model(&ops, NULL, NULL);
 }
 
-MPS_ROW void damp_row(const int dim, const mps_stage *s, const push *f, int64_t i)
+MPS_ROW void damp_row(const int dim, const mps_view *v, const push *f, int64_t i)
 {
-    if (s->kind[i] != MPS_FLUID) return;
+    if (v->kind[i] != MPS_FLUID) return;
     for (int d = 0; d < dim; d++) f->a[i * dim + d] -= 2 * f->u[i * dim + d];
 }
-MPS_ROWS(damp_rows, damp_row, const push)
+MPS_ROWS(damp_rows, damp_row, push)
 
 static inline int damp(mps_stage *s)
 {
     push f = arrays(s);
-    mps_stage_rows(s, damp_rows, &f);
+    mps_stage_rows(s, &damp_rows, &f);
     return 0;
 }
 

@@ -11,9 +11,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
-enum { RANKS = 64, TEXT = 512, WATCHDOG = 120 };
+enum { RANKS = 64, TEXT = 512 };
 
 typedef struct cut {
     int32_t axis; /* -1: all of it belongs to rank `first` */
@@ -40,7 +39,7 @@ typedef struct seat {
 } seat;
 
 struct kit_engine_team {
-    int32_t ranks, waiting;
+    int32_t ranks, waiting, gone; /* gone: ranks whose body has returned */
     int64_t round;
     bool failed;
     char text[TEXT];
@@ -92,25 +91,34 @@ static void compare_calls(kit_engine_team *t)
     }
 }
 
+/* With the lock: ranks that wait for one whose body has returned would wait for ever. */
+static void look_for_gone(kit_engine_team *t)
+{
+    char text[TEXT];
+    int32_t waits = 0, gone = 0;
+    if (t->failed || t->gone == 0 || t->waiting == 0 || t->waiting + t->gone < t->ranks) return;
+    while (!t->seat[waits].call) waits++;
+    while (t->seat[gone].call) gone++;
+    snprintf(text, sizeof text, "ranks make different calls: '%s' on rank %d, none on rank %d",
+             t->seat[waits].call, (int)waits, (int)gone);
+    end_team(t, text);
+}
+
 /* Wait for all ranks. @return non-zero if one has failed */
 static int barrier(seat *s, const char *call)
 {
     kit_engine_team *t = s->team;
-    struct timespec end;
-    clock_gettime(CLOCK_REALTIME, &end);
-    end.tv_sec += WATCHDOG;
     pthread_mutex_lock(&t->lock);
     const int64_t round = t->round;
     s->call = call;
     if (++t->waiting == t->ranks) compare_calls(t);
+    look_for_gone(t);
     if (t->waiting == t->ranks && !t->failed) {
         t->waiting = 0;
         t->round++;
         pthread_cond_broadcast(&t->next);
     }
-    while (t->round == round && !t->failed)
-        if (pthread_cond_timedwait(&t->next, &t->lock, &end))
-            end_team(t, "a rank waited for 120 s: ranks make different calls");
+    while (t->round == round && !t->failed) pthread_cond_wait(&t->next, &t->lock);
     const bool failed = t->failed;
     pthread_mutex_unlock(&t->lock);
     return failed;
@@ -426,6 +434,7 @@ mps_ranks_ops kit_engine_ops(kit_engine_team *team, int32_t rank)
 /* ---- threads ---- */
 
 typedef struct task {
+    kit_engine_team *team;
     void (*body)(void *argument, int32_t rank);
     void *argument;
     int32_t rank;
@@ -434,7 +443,13 @@ typedef struct task {
 static void *run_task(void *argument)
 {
     const task *k = argument;
+    kit_engine_team *t = k->team;
     k->body(k->argument, k->rank);
+    pthread_mutex_lock(&t->lock);
+    t->gone++;
+    t->seat[k->rank].call = NULL;
+    look_for_gone(t);
+    pthread_mutex_unlock(&t->lock);
     return NULL;
 }
 
@@ -443,8 +458,9 @@ void kit_engine_run(kit_engine_team *team, void (*body)(void *argument, int32_t 
 {
     pthread_t thread[RANKS];
     task tasks[RANKS];
+    team->gone = 0;
     for (int32_t r = 0; r < team->ranks; r++) {
-        tasks[r] = (task){body, argument, r};
+        tasks[r] = (task){team, body, argument, r};
         if (pthread_create(&thread[r], NULL, run_task, &tasks[r])) abort();
     }
     for (int32_t r = 0; r < team->ranks; r++) pthread_join(thread[r], NULL);

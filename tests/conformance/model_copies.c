@@ -19,7 +19,8 @@ void kit_learn_shapes(const mps_sim *sim)
         const size_t number = info.type == MPS_TYPE_INTEGER ? sizeof(int32_t) : sizeof(double);
         snprintf(to->name, sizeof to->name, "%s", info.name);
         to->type = info.type;
-        to->element = (size_t)info.components * number;
+        to->is_scalar = info.components == 0;
+        to->element = to->is_scalar ? number : (size_t)info.components * number;
     }
 }
 
@@ -30,6 +31,11 @@ const kit_shape *kit_shape_of(const mps_use *use)
     return NULL;
 }
 
+size_t kit_bytes(const kit_shape *k, int64_t n)
+{
+    return (k->is_scalar ? 1 : (size_t)n) * k->element;
+}
+
 void kit_release(kit_arrays *a)
 {
     for (int u = 0; u < KIT_USES; u++) free(a->of[u]);
@@ -38,16 +44,12 @@ void kit_release(kit_arrays *a)
 bool kit_copy(const mps_stage *s, const mps_verb *verb, const kit_arrays *from, kit_arrays *a)
 {
     *a = (kit_arrays){.dt_limit = from ? from->dt_limit : s->dt_limit};
-    if (from)
-        a->equation = from->equation;
-    else if (s->equation)
-        a->equation = *s->equation;
     for (int32_t u = 0; u < verb->use_count; u++) {
         const kit_shape *k = kit_shape_of(&verb->uses[u]);
         if (!s->data[u] || !k) continue;
-        a->of[u] = malloc((size_t)s->n * k->element + 1);
+        a->of[u] = malloc(kit_bytes(k, s->view->n) + 1);
         if (!a->of[u]) return false;
-        memcpy(a->of[u], from ? from->of[u] : s->data[u], (size_t)s->n * k->element);
+        memcpy(a->of[u], from ? from->of[u] : s->data[u], kit_bytes(k, s->view->n));
     }
     return true;
 }
@@ -57,7 +59,6 @@ int kit_run_on(const mps_stage *s, const mps_verb *verb, kit_arrays *a)
     mps_stage t = *s;
     void *data[KIT_USES];
     for (int32_t u = 0; u < verb->use_count; u++) data[u] = a->of[u] ? a->of[u] : s->data[u];
-    if (s->equation) t.equation = &a->equation;
     t.dt_limit = a->dt_limit;
     t.data = data;
     const int failed = verb->run(&t);
@@ -68,10 +69,9 @@ int kit_run_on(const mps_stage *s, const mps_verb *verb, kit_arrays *a)
 bool kit_same(const mps_stage *s, const mps_verb *verb, const kit_arrays *a)
 {
     if (memcmp(&a->dt_limit, &s->dt_limit, sizeof a->dt_limit) != 0) return false;
-    if (s->equation && memcmp(&a->equation, s->equation, sizeof a->equation) != 0) return false;
     for (int32_t u = 0; u < verb->use_count; u++)
         if (a->of[u] &&
-            memcmp(a->of[u], s->data[u], (size_t)s->n * kit_shape_of(&verb->uses[u])->element) != 0)
+            memcmp(a->of[u], s->data[u], kit_bytes(kit_shape_of(&verb->uses[u]), s->view->n)) != 0)
             return false;
     return true;
 }

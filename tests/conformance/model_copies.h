@@ -11,18 +11,21 @@ enum { KIT_USES = 24 };
 typedef struct kit_shape {
     char name[32];
     int32_t type;
-    size_t element; /* bytes per particle */
+    size_t element; /* bytes per particle; of a scalar, in all */
+    bool is_scalar; /* one number for all particles */
 } kit_shape;
 
-/* What a verb may write: the arrays of its uses, and two entries of the stage. */
+/* What a verb may write: the arrays of its uses, and an entry of the stage. */
 typedef struct kit_arrays {
     void *of[KIT_USES];
-    mps_equation equation;
     double dt_limit;
 } kit_arrays;
 
 /* Take the shapes of all channels from a handle; one list for all. */
 void kit_learn_shapes(const mps_sim *sim);
+
+/* Bytes of an array of n particles. */
+size_t kit_bytes(const kit_shape *k, int64_t n);
 
 /* @return NULL: no such channel */
 const kit_shape *kit_shape_of(const mps_use *use);

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Conformance kit of models. Give it your table; it runs the model in small tanks and reports which
- * rules of <mps/model.h> it breaks. Needs libmps and the C library with threads. It writes small checkpoint
- * files in the working folder and removes them. One check at a time: it is not thread-safe.
+ * rules of <mps/model.h> it breaks. Needs libmps and the C library with threads. It writes small
+ * checkpoint files in the working folder and removes them. One check at a time: it is not
+ * thread-safe.
  *
- * A verb runs more than once per step here, on copies of its arrays: it may depend on its stage and
- * its channels only. A model whose result depends on a counter in `self` fails.
+ * A verb runs more than once per step here, on copies of its arrays, except in MPS_POPULATE, where
+ * particles would come twice: it may depend on its stage and its channels only. A model whose result depends on a counter in `self` fails.
  *
  * Without a failure the kit prints on stdout in which scenes the model ran, and which of its verbs
  * changed nothing there and so were not tested. */

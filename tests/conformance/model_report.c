@@ -20,12 +20,12 @@ int kit_say(const mps_model_ops *ops, int bit, const char *format, ...)
     return bit;
 }
 
-const char *kit_moment(int32_t moment)
+const char *kit_hook(int32_t hook)
 {
-    static const char *const names[MPS_MOMENT_COUNT] = {
-        "MPS_LIMIT", "MPS_CLASSIFY", "MPS_PREPARE", "MPS_FORCE",    "MPS_SOURCE",
-        "MPS_LEVEL", "MPS_GRADIENT", "MPS_LOAD",    "MPS_VELOCITY", "MPS_SHIFT"};
-    return moment >= 0 && moment < MPS_MOMENT_COUNT ? names[moment] : "unknown moment";
+    static const char *const names[MPS_HOOK_COUNT] = {
+        "MPS_POPULATE", "MPS_LIMIT", "MPS_MOTION",   "MPS_CLASSIFY", "MPS_PREPARE",  "MPS_FORCE",
+        "MPS_SOURCE",   "MPS_LEVEL", "MPS_GRADIENT", "MPS_LOAD",     "MPS_VELOCITY", "MPS_SHIFT"};
+    return hook >= 0 && hook < MPS_HOOK_COUNT ? names[hook] : "unknown hook";
 }
 
 /* Names of the checks by their bits. */
@@ -54,7 +54,7 @@ void kit_summary(const mps_model_ops *ops, int failed, int count, const kit_case
         if (!acted[v])
             printf("model_kit: %s: note: verb %d, %s, changes nothing in the scenes: it was not "
                    "tested\n",
-                   name_of(ops), (int)v, kit_moment(ops->verbs[v].moment));
+                   name_of(ops), (int)v, kit_hook(ops->verbs[v].hook));
     printf("model_kit: %s: passed; checks: %d, verbs: %d, settings: %d, scenes:", name_of(ops),
            CHECKS, (int)ops->verb_count, (int)ops->setting_count);
     for (int n = 0; n < count; n++)

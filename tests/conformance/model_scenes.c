@@ -114,7 +114,7 @@ static mps_status fill(const kit_case *c, mps_sim *sim)
 
 static mps_status build(const kit_case *c, mps_sim *sim)
 {
-    const mps_harmonic surge = {.dof = MPS_SURGE, .amplitude = 0.01, .omega = 8};
+    const mps_harmonic surge = {.dof = MPS_MOVE_X, .amplitude = 0.01, .omega = 8};
     const double side = DP * side_of(c);
     mps_solver_limits limits;
     mps_tank tank;

@@ -68,8 +68,8 @@ __attribute__((format(printf, 3, 4)))
 #endif
 int kit_say(const mps_model_ops *ops, int bit, const char *format, ...);
 
-/* Name of a moment, e.g. "MPS_FORCE". */
-const char *kit_moment(int32_t moment);
+/* Name of a hook, e.g. "MPS_FORCE". */
+const char *kit_hook(int32_t hook);
 
 /* Print the result of all checks: on stdout if none failed, else their names on stderr.
  * @param scene  [count] scenes that accept the model

@@ -39,7 +39,7 @@ static void say_repeat(const mps_stage *s)
                             "%s: two runs of the verb on the same values give different results: "
                             "it depends on something that is neither in its stage nor in its "
                             "channels, e.g. a static variable or a counter in s->self",
-                            kit_moment(s->moment));
+                            kit_hook(s->hook));
 }
 
 /* Whether a run on the values before gives what the run on the real arrays gave. */
@@ -60,16 +60,16 @@ static bool repeats(const mps_stage *s, const mps_verb *verb, const kit_arrays *
 static const double POISON_REAL = -12345.678;
 static const int32_t POISON_INTEGER = -12345678;
 
-static void poison(const mps_stage *s, const mps_verb *verb, kit_arrays *a)
+static void poison(const mps_view *view, const mps_verb *verb, kit_arrays *a)
 {
     for (int32_t u = 0; u < verb->use_count; u++) {
         const kit_shape *k = kit_shape_of(&verb->uses[u]);
         if (!a->of[u] || !writes(&verb->uses[u]) || reads(&verb->uses[u])) continue;
         if (k->type == MPS_TYPE_INTEGER)
-            for (int64_t v = 0; v < s->n * (int64_t)(k->element / sizeof(int32_t)); v++)
+            for (int64_t v = 0; v < (int64_t)(kit_bytes(k, view->n) / sizeof(int32_t)); v++)
                 ((int32_t *)a->of[u])[v] = POISON_INTEGER;
         else
-            for (int64_t v = 0; v < s->n * (int64_t)(k->element / sizeof(double)); v++)
+            for (int64_t v = 0; v < (int64_t)(kit_bytes(k, view->n) / sizeof(double)); v++)
                 ((double *)a->of[u])[v] = POISON_REAL;
     }
 }
@@ -89,13 +89,13 @@ static void compare_written(const mps_stage *s, const mps_verb *verb, const kit_
         if (!a->of[u] || !writes(&verb->uses[u])) continue;
         const size_t size = k->type == MPS_TYPE_INTEGER ? sizeof(int32_t) : sizeof(double);
         const unsigned char *fake = a->of[u], *real = s->data[u];
-        for (size_t b = 0; b < (size_t)s->n * k->element; b += size) {
+        for (size_t b = 0; b < kit_bytes(k, s->view->n); b += size) {
             const bool kept = !reads(&verb->uses[u]) && is_poison(fake + b, k->type);
             if (kept || memcmp(fake + b, real + b, size) == 0) continue;
             if (repeats(s, verb, before))
                 watch.failed |= kit_say(watch.ops, KIT_WRITE_ONLY,
                                         "%s: '%s' depends on values before a pure MPS_USE_WRITE",
-                                        kit_moment(s->moment), k->name);
+                                        kit_hook(s->hook), k->name);
             return;
         }
     }
@@ -105,7 +105,7 @@ static void compare_written(const mps_stage *s, const mps_verb *verb, const kit_
 
 static bool own_only(const mps_use *use, const kit_shape *k)
 {
-    return k && k->type == MPS_TYPE_REAL && use->access & MPS_USE_READ &&
+    return k && !k->is_scalar && k->type == MPS_TYPE_REAL && use->access & MPS_USE_READ &&
            !(use->access & MPS_USE_NEIGHBOURS);
 }
 
@@ -119,11 +119,11 @@ static int32_t own_use(const mps_verb *verb, const kit_arrays *a, int64_t number
 }
 
 /* A row that differs from call to call; mostly fluid. */
-static int64_t choose_row(const mps_stage *s, int64_t call)
+static int64_t choose_row(const mps_view *v, int64_t call)
 {
-    int64_t i = (call * 7919 + 101) % s->n;
-    for (int64_t k = 0; k < s->n && call % 4 != 3 && s->kind[i] != MPS_FLUID; k++)
-        i = (i + 1) % s->n;
+    int64_t i = (call * 7919 + 101) % v->n;
+    for (int64_t k = 0; k < v->n && call % 4 != 3 && v->kind[i] != MPS_FLUID; k++)
+        i = (i + 1) % v->n;
     return i;
 }
 
@@ -133,10 +133,10 @@ static void disturb(const kit_shape *k, void *array, int64_t row)
     for (size_t d = 0; d < k->element / sizeof *value; d++) value[d] = 1.01 * value[d] + 1e-3;
 }
 
-static double distance(const mps_stage *s, int64_t i, int64_t j)
+static double distance(const mps_view *v, int64_t i, int64_t j)
 {
     double sum = 0;
-    for (int d = 0; d < s->dim; d++) sum += pow(s->x[i * s->dim + d] - s->x[j * s->dim + d], 2);
+    for (int d = 0; d < v->dim; d++) sum += pow(v->x[i * v->dim + d] - v->x[j * v->dim + d], 2);
     return sqrt(sum);
 }
 
@@ -148,12 +148,13 @@ static void compare_rows(const mps_stage *s, const mps_verb *verb, const kit_arr
     int64_t near = -1;
     for (int32_t u = 0; u < verb->use_count; u++) {
         if (!a->of[u] || !writes(&verb->uses[u])) continue;
+        if (kit_shape_of(&verb->uses[u])->is_scalar) continue;
         const size_t size = kit_shape_of(&verb->uses[u])->element;
-        for (int64_t j = 0; j < s->n; j++) {
+        for (int64_t j = 0; j < s->view->n; j++) {
             const size_t at = (size_t)j * size;
             if (j == row || memcmp((char *)a->of[u] + at, (char *)s->data[u] + at, size) == 0)
                 continue;
-            if (distance(s, row, j) > s->far->re * 1.001) return;
+            if (distance(s->view, row, j) > s->view->far.re * 1.001) return;
             near = j;
         }
     }
@@ -161,7 +162,7 @@ static void compare_rows(const mps_stage *s, const mps_verb *verb, const kit_arr
         watch.failed |= kit_say(watch.ops, KIT_OWN_ROW,
                                 "%s: '%s' is used with MPS_USE_READ, and its value at a particle "
                                 "changes what a neighbour gets: MPS_USE_NEIGHBOURS",
-                                kit_moment(s->moment), channel);
+                                kit_hook(s->hook), channel);
 }
 
 /* ---- sums of several models ------------------------------------------------------------------ */
@@ -170,13 +171,13 @@ static void compare_rows(const mps_stage *s, const mps_verb *verb, const kit_arr
 static bool is_sum(const mps_stage *s, const mps_use *use)
 {
     static const struct {
-        int32_t moment;
+        int32_t hook;
         const char *channel;
     } sums[] = {{MPS_FORCE, "acceleration"},    {MPS_GRADIENT, "acceleration"},
                 {MPS_SHIFT, "displacement"},    {MPS_SOURCE, "pressure_source"},
                 {MPS_SOURCE, "pressure_shift"}, {MPS_SOURCE, "gas_shift"}};
     for (size_t k = 0; writes(use) && k < sizeof sums / sizeof sums[0]; k++)
-        if (sums[k].moment == s->moment && strcmp(sums[k].channel, use->channel) == 0) return true;
+        if (sums[k].hook == s->hook && strcmp(sums[k].channel, use->channel) == 0) return true;
     return false;
 }
 
@@ -204,7 +205,7 @@ static void add_share(const mps_stage *s, const mps_verb *verb, int number, kit_
 {
     for (int32_t u = 0; u < verb->use_count; u++) {
         if (!a->of[u] || !is_sum(s, &verb->uses[u])) continue;
-        const int64_t count = s->n * width(kit_shape_of(&verb->uses[u]));
+        const int64_t count = s->view->n * width(kit_shape_of(&verb->uses[u]));
         for (int64_t v = 0; v < count; v++) ((double *)a->of[u])[v] += share(number, u, v);
     }
 }
@@ -216,7 +217,7 @@ static void compare_sums(const mps_stage *s, const mps_verb *verb, int number,
 {
     for (int32_t u = 0; u < verb->use_count; u++) {
         if (!a->of[u] || !is_sum(s, &verb->uses[u])) continue;
-        const int64_t count = s->n * width(kit_shape_of(&verb->uses[u]));
+        const int64_t count = s->view->n * width(kit_shape_of(&verb->uses[u]));
         const double *fake = a->of[u], *real = s->data[u];
         double largest = 0;
         for (int64_t v = 0; v < count; v++) largest = fmax(largest, fabs(fake[v]));
@@ -228,7 +229,7 @@ static void compare_sums(const mps_stage *s, const mps_verb *verb, int number,
                 watch.failed |= kit_say(watch.ops, KIT_ADDS,
                                         "%s: of %g that another model added to '%s', %g is left: "
                                         "add with +=, do not overwrite",
-                                        kit_moment(s->moment), wanted, verb->uses[u].channel, kept);
+                                        kit_hook(s->hook), wanted, verb->uses[u].channel, kept);
             return;
         }
     }
@@ -245,13 +246,13 @@ static void compare_solids(const mps_stage *s, const mps_verb *verb, const kit_a
         for (int k = 0; k < 3; k++) moves = moves || strcmp(verb->uses[u].channel, names[k]) == 0;
         if (!moves || !before->of[u] || !writes(&verb->uses[u])) continue;
         const double *was = before->of[u], *is = s->data[u];
-        for (int64_t v = 0; v < s->n * s->dim; v++) {
-            const int32_t kind = s->kind[v / s->dim];
+        for (int64_t v = 0; v < s->view->n * s->view->dim; v++) {
+            const int32_t kind = s->view->kind[v / s->view->dim];
             if (kind == MPS_FLUID || memcmp(&was[v], &is[v], sizeof *is) == 0) continue;
             watch.failed |= kit_say(watch.ops, KIT_SOLIDS,
                                     "%s: '%s' of a %s is changed: solids move with the tank, a "
-                                    "model moves rows with s->kind[i] == MPS_FLUID only",
-                                    kit_moment(s->moment), verb->uses[u].channel,
+                                    "model moves rows with view->kind[i] == MPS_FLUID only",
+                                    kit_hook(s->hook), verb->uses[u].channel,
                                     kind == MPS_WALL ? "wall particle" : "dummy");
             return;
         }
@@ -265,11 +266,11 @@ static void compare_read(const mps_stage *s, const mps_verb *verb, const kit_arr
     for (int32_t u = 0; u < verb->use_count; u++) {
         const kit_shape *k = kit_shape_of(&verb->uses[u]);
         if (!before->of[u] || writes(&verb->uses[u])) continue;
-        const size_t size = (size_t)s->n * k->element;
+        const size_t size = kit_bytes(k, s->view->n);
         if (memcmp(before->of[u], s->data[u], size) == 0) continue;
         memcpy(s->data[u], before->of[u], size);
         watch.failed |= kit_say(watch.ops, KIT_WRITES, "%s: '%s' is written without MPS_USE_WRITE",
-                                kit_moment(s->moment), k->name);
+                                kit_hook(s->hook), k->name);
     }
 }
 
@@ -296,12 +297,12 @@ static int choose(const mps_stage *s, const mps_verb *verb, int number, int64_t 
 static int compare(mps_stage *s, int number, int64_t call, kit_arrays *before, kit_arrays *fake)
 {
     const mps_verb *verb = &watch.ops->verbs[number];
-    const int64_t row = choose_row(s, call);
+    const int64_t row = choose_row(s->view, call);
     int test = choose(s, verb, number, call);
     const int32_t use = test == OWN_ROW ? own_use(verb, fake, call / 2) : -1;
     if (test == OWN_ROW && use < 0) test = WRITES;
     if (test == OWN_ROW) disturb(kit_shape_of(&verb->uses[use]), fake->of[use], row);
-    if (test == WRITES) poison(s, verb, fake);
+    if (test == WRITES) poison(s->view, verb, fake);
     if (test == SUMS) add_share(s, verb, number, fake);
     const int other = kit_run_on(s, verb, fake), failed = verb->run(s);
     if (test == NOTHING && (other != failed || (!failed && !kit_same(s, verb, fake))))
@@ -324,7 +325,7 @@ static void remember(const mps_stage *s, int number, const kit_arrays *before)
         if (!before->of[u] || !is_sum(s, &verb->uses[u])) continue;
         const double *left = s->data[u];
         double *largest = &watch.largest[number][u];
-        for (int64_t v = 0; v < s->n * width(kit_shape_of(&verb->uses[u])); v++)
+        for (int64_t v = 0; v < s->view->n * width(kit_shape_of(&verb->uses[u])); v++)
             *largest = fmax(*largest, fabs(left[v]));
     }
 }
@@ -337,6 +338,10 @@ static int observe(mps_stage *s, int number)
     kit_arrays before, fake = {.dt_limit = 0};
     int failed = 1;
     if (watch.failed) return verb->run(s);
+    if (s->hook == MPS_POPULATE) { /* a second run would add particles again */
+        watch.acted[number] = true;
+        return verb->run(s);
+    }
     if (kit_copy(s, verb, NULL, &before) && kit_copy(s, verb, NULL, &fake)) {
         failed = call == 0 ? verb->run(s) : compare(s, number, call, &before, &fake);
         if (call == 0 && !failed) watch.scratch[number] = borrowed(s);

@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Conformance kit of pressure solvers. Give it your tables; it builds systems like those of MPS, runs the solver over
- * them and tells what it did wrong. Needs libmps and the C library with POSIX threads. The last check runs
- * the tables in a small dam break on one rank and on two, which are threads: with `ranks` 1 both solutions agree to 1e-9, with `ranks` 0 the
- * library refuses the table on two ranks. The other checks use the tables unregistered. */
+/* Conformance kit of pressure solvers. Give it your tables; it builds systems like those of MPS,
+ * solves them and reports which demands of <mps/ppe.h> the solver breaks. Needs libmps and the C
+ * library with POSIX threads.
+ *
+ * The last check runs the tables in a small dam break on one rank and on two, which are threads.
+ * With `ranks` 1 both solutions must agree to 1e-9; with `ranks` 0 the library must refuse the
+ * table on two ranks. The other checks use the tables without registering them. */
 #ifndef SOLVER_KIT_H
 #define SOLVER_KIT_H
 
@@ -23,7 +26,8 @@ typedef struct kit_system {
 typedef struct kit_lattice {
     int dim, nx, ny, nz; /* particles along each side of a box; nz = 1 in 2-D */
     int boxes;           /* 1.. */
-    int open; /* the first `open` boxes have a free surface on top (Dirichlet), the others are singular */
+    /* the first `open` boxes have a free surface on top (Dirichlet), the others are singular */
+    int open;
     double re;           /* kernel radius [dp] */
     double contrast;     /* density of the upper half of a box is 1000 / contrast */
     double compressible; /* share of the mean diagonal added to every row as a shift */
@@ -35,7 +39,7 @@ kit_system *kit_lattice_system(const kit_lattice *options);
 kit_system *kit_dense_system(int n, const double *a, const double *exact);
 void kit_system_free(kit_system *system);
 
-/* An allocator that counts, and fails the fail_at-th allocation (1..; 0: never) and those after it. */
+/* An allocator that counts. It fails the fail_at-th allocation (1..; 0: never) and those after. */
 typedef struct kit_memory {
     mps_allocator allocator;
     int64_t live, count, fail_at;
@@ -53,9 +57,11 @@ mps_parallel kit_parallel(int threads);
 /* |a - b| / |b| */
 double kit_difference(const double *a, const double *b, int64_t n);
 
-/* Run all checks. @param pc NULL for none. @return number of failed checks; each is told on stderr */
+/* Run all checks. @param pc NULL for none. 
+ * @return number of failed checks; each is printed on stderr */
 int kit_check_solver(const mps_solver_ops *solver, const mps_preconditioner_ops *pc);
-/* Checks of a preconditioner alone: linear, symmetric and positive if it says so, finite, no leak. */
+/* Checks of a preconditioner alone: linear, finite, no leak; symmetric and positive definite if its
+ * table says so. */
 int kit_check_preconditioner(const mps_preconditioner_ops *pc);
 
 #endif

@@ -79,7 +79,7 @@ static void notes_a_verb_without_effect(void **state)
     mps_verb verbs[2];
     mps_model_ops ops = model_of(&verbs[0], damp);
     (void)state;
-    verbs[1] = (mps_verb){.moment = MPS_LIMIT, .run = do_nothing};
+    verbs[1] = (mps_verb){.hook = MPS_LIMIT, .run = do_nothing};
     ops.verb_count = 2;
     assert_int_equal(check_told(&ops), 0);
     TOLD("note: verb 1, MPS_LIMIT, changes nothing in the scenes: it was not tested\n");
@@ -98,14 +98,14 @@ static void limit_is_an_effect(void **state)
     mps_verb verb;
     const mps_model_ops ops = model_of(&verb, shorten);
     (void)state;
-    verb = (mps_verb){.moment = MPS_LIMIT, .run = shorten};
+    verb = (mps_verb){.hook = MPS_LIMIT, .run = shorten};
     assert_int_equal(check_told(&ops), 0);
     NOT_TOLD("note");
 }
 
 static int damp_3d(mps_stage *s)
 {
-    return s->dim == 3 ? damp(s) : 0;
+    return s->view->dim == 3 ? damp(s) : 0;
 }
 
 static void effect_in_3d(void **state)
@@ -128,17 +128,17 @@ static void without_effect(void **state)
 
 /* ---- sums of several models ------------------------------------------------------------------ */
 
-MPS_ROW void replace_row(const int dim, const mps_stage *s, const push *f, int64_t i)
+MPS_ROW void replace_row(const int dim, const mps_view *v, const push *f, int64_t i)
 {
-    if (s->kind[i] != MPS_FLUID) return;
+    if (v->kind[i] != MPS_FLUID) return;
     for (int d = 0; d < dim; d++) f->a[i * dim + d] = -2 * f->u[i * dim + d];
 }
-MPS_ROWS(replace_rows, replace_row, const push)
+MPS_ROWS(replace_rows, replace_row, push)
 
 static int replace(mps_stage *s)
 {
     push f = arrays(s);
-    mps_stage_rows(s, replace_rows, &f);
+    mps_stage_rows(s, &replace_rows, &f);
     return 0;
 }
 
@@ -153,24 +153,24 @@ static void overwrites(void **state)
     TOLD("failed: KIT_ADDS\n");
     verb.after = "*"; /* it may depend on what is there, but not drop it */
     assert_int_equal(check_told(&ops), KIT_ADDS);
-    verb.moment = MPS_GRADIENT;
+    verb.hook = MPS_GRADIENT;
     assert_int_equal(check_told(&ops), KIT_ADDS);
     TOLD("MPS_GRADIENT: of ");
 }
 
 /* Takes away a tenth of what others added. */
-MPS_ROW void brake_row(const int dim, const mps_stage *s, const push *f, int64_t i)
+MPS_ROW void brake_row(const int dim, const mps_view *v, const push *f, int64_t i)
 {
-    if (s->kind[i] != MPS_FLUID) return;
+    if (v->kind[i] != MPS_FLUID) return;
     for (int d = 0; d < dim; d++)
         f->a[i * dim + d] = 0.9 * f->a[i * dim + d] - 2 * f->u[i * dim + d];
 }
-MPS_ROWS(brake_rows, brake_row, const push)
+MPS_ROWS(brake_rows, brake_row, push)
 
 static int brake(mps_stage *s)
 {
     push f = arrays(s);
-    mps_stage_rows(s, brake_rows, &f);
+    mps_stage_rows(s, &brake_rows, &f);
     return 0;
 }
 
@@ -187,16 +187,16 @@ static void depends_on_the_sum(void **state)
 static int shift_to(mps_stage *s)
 {
     double *dx = s->data[0];
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID) dx[i * s->dim] = 1e-4 * s->dp;
+    for (int64_t i = 0; i < s->view->n; i++)
+        if (s->view->kind[i] == MPS_FLUID) dx[i * s->view->dim] = 1e-4 * s->view->dp;
     return 0;
 }
 
 static int set_source(mps_stage *s)
 {
     double *source = s->data[0];
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID) source[i] = 1e-3;
+    for (int64_t i = 0; i < s->view->n; i++)
+        if (s->view->kind[i] == MPS_FLUID) source[i] = 1e-3;
     return 0;
 }
 
@@ -207,11 +207,11 @@ static void overwrites_other_sums(void **state)
     mps_verb verb;
     const mps_model_ops ops = model_of(&verb, shift_to);
     (void)state;
-    verb = (mps_verb){.moment = MPS_SHIFT, .use_count = 1, .uses = shift, .run = shift_to};
+    verb = (mps_verb){.hook = MPS_SHIFT, .use_count = 1, .uses = shift, .run = shift_to};
     assert_int_equal(check_told(&ops), KIT_ADDS);
     TOLD("MPS_SHIFT: of ");
     TOLD("added to 'displacement'");
-    verb = (mps_verb){.moment = MPS_SOURCE, .use_count = 1, .uses = source, .run = set_source};
+    verb = (mps_verb){.hook = MPS_SOURCE, .use_count = 1, .uses = source, .run = set_source};
     assert_true(check_told(&ops) & KIT_ADDS);
     TOLD("MPS_SOURCE: of ");
     TOLD("added to 'pressure_source'");
@@ -222,15 +222,15 @@ static void overwrites_other_sums(void **state)
 static int push_all(mps_stage *s)
 {
     push f = arrays(s);
-    for (int64_t i = 0; i < s->n; i++) f.a[i * s->dim] += 0.1;
+    for (int64_t i = 0; i < s->view->n; i++) f.a[i * s->view->dim] += 0.1;
     return 0;
 }
 
 static int move_walls(mps_stage *s)
 {
     double *u = s->data[0];
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_WALL) u[i * s->dim] = 0.01;
+    for (int64_t i = 0; i < s->view->n; i++)
+        if (s->view->kind[i] == MPS_WALL) u[i * s->view->dim] = 0.01;
     return 0;
 }
 
@@ -242,9 +242,9 @@ static void moves_solids(void **state)
     (void)state;
     assert_int_equal(check_told(&ops), KIT_SOLIDS);
     TOLD("MPS_FORCE: 'acceleration' of a ");
-    TOLD("is changed: solids move with the tank, a model moves rows with s->kind[i] == MPS_FLUID "
-         "only\n");
-    verb = (mps_verb){.moment = MPS_VELOCITY, .use_count = 1, .uses = velocity, .run = move_walls};
+    TOLD("is changed: solids move with the tank, a model moves rows with view->kind[i] == "
+         "MPS_FLUID only\n");
+    verb = (mps_verb){.hook = MPS_VELOCITY, .use_count = 1, .uses = velocity, .run = move_walls};
     assert_true(check_told(&ops) & KIT_SOLIDS);
     TOLD("MPS_VELOCITY: 'velocity' of a wall particle is changed");
 }
@@ -256,8 +256,8 @@ static int push_by_static(mps_stage *s)
     static int64_t calls;
     push f = arrays(s);
     calls++;
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID) f.a[i * s->dim] += 1e-3 * (double)(calls % 97);
+    for (int64_t i = 0; i < s->view->n; i++)
+        if (s->view->kind[i] == MPS_FLUID) f.a[i * s->view->dim] += 1e-3 * (double)(calls % 97);
     return 0;
 }
 
@@ -281,8 +281,8 @@ static int push_late(mps_stage *s)
     int64_t *calls = s->self;
     push f = arrays(s);
     if (++*calls < 5) return damp(s);
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID) f.a[i * s->dim] += 0.1 * (double)*calls;
+    for (int64_t i = 0; i < s->view->n; i++)
+        if (s->view->kind[i] == MPS_FLUID) f.a[i * s->view->dim] += 0.1 * (double)*calls;
     return 0;
 }
 
@@ -318,33 +318,33 @@ typedef struct wind {
     double *a, by;
 } wind;
 
-MPS_ROW void blow_row(const int dim, const mps_stage *s, const wind *f, int64_t i)
+MPS_ROW void blow_row(const int dim, const mps_view *v, const wind *f, int64_t i)
 {
-    if (s->kind[i] == MPS_FLUID) f->a[i * dim] += f->by;
+    if (v->kind[i] == MPS_FLUID) f->a[i * dim] += f->by;
 }
-MPS_ROWS(blow_rows, blow_row, const wind)
+MPS_ROWS(blow_rows, blow_row, wind)
 
 /* Counts fluid in a loop of its own, which takes ghosts too and leaves out what other ranks own. */
 static int push_by_loop(mps_stage *s)
 {
     wind f = {.a = arrays(s).a};
-    for (int64_t i = 0; i < s->n; i++) f.by += s->kind[i] == MPS_FLUID ? 1e-4 : 0;
-    mps_stage_rows(s, blow_rows, &f);
+    for (int64_t i = 0; i < s->view->n; i++) f.by += s->view->kind[i] == MPS_FLUID ? 1e-4 : 0;
+    mps_stage_rows(s, &blow_rows, &f);
     return 0;
 }
 
-MPS_ROW void count_row(const int dim, const mps_stage *s, void *none, int64_t i, double *sums)
+MPS_ROW void count_row(const int dim, const mps_view *v, const wind *f, int64_t i, double *sums)
 {
-    (void)dim, (void)none;
-    sums[0] += s->kind[i] == MPS_FLUID ? 1e-4 : 0;
+    (void)dim;
+    sums[0] += v->kind[i] == MPS_FLUID ? f->by : 0;
 }
-MPS_SUMS(count_rows, count_row, void)
+MPS_SUMS(count_rows, count_row, wind)
 
 static int push_by_sum(mps_stage *s)
 {
     wind f = {.a = arrays(s).a};
-    mps_stage_sum(s, 1, count_rows, NULL, &f.by);
-    mps_stage_rows(s, blow_rows, &f);
+    mps_stage_sum(s, 1, &count_rows, &(wind){.by = 1e-4}, &f.by);
+    mps_stage_rows(s, &blow_rows, &f);
     return 0;
 }
 
@@ -365,33 +365,33 @@ typedef struct smooth {
     const double *u;
 } smooth;
 
-MPS_ROW void copy_row(const int dim, const mps_stage *s, const smooth *f, int64_t i)
+MPS_ROW void copy_row(const int dim, const mps_view *v, const smooth *f, int64_t i)
 {
-    (void)s;
+    (void)v;
     for (int d = 0; d < dim; d++) f->copy[i * dim + d] = f->u[i * dim + d];
 }
-MPS_ROWS(copy_rows, copy_row, const smooth)
+MPS_ROWS(copy_rows, copy_row, smooth)
 
-MPS_ROW void smooth_row(const int dim, const mps_stage *s, const smooth *f, int64_t i)
+MPS_ROW void smooth_row(const int dim, const mps_view *v, const smooth *f, int64_t i)
 {
-    const mps_stencil *t = s->near;
-    if (s->kind[i] != MPS_FLUID) return;
+    const mps_stencil *t = &v->near;
+    if (v->kind[i] != MPS_FLUID) return;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++)
         for (int d = 0; d < dim; d++) f->a[i * dim + d] -= 0.1 * f->copy[t->col[p] * dim + d];
 }
-MPS_ROWS(smooth_rows, smooth_row, const smooth)
+MPS_ROWS(smooth_rows, smooth_row, smooth)
 
 static bool refreshed;
 
 static int smooth_scratch(mps_stage *s)
 {
     const push all = arrays(s);
-    smooth f = {all.a, mps_stage_scratch(s, s->n * s->dim), all.u};
-    const mps_shared shared = {.values = f.copy, .components = s->dim, .type = MPS_TYPE_REAL};
+    smooth f = {all.a, mps_stage_scratch(s, s->view->n * s->view->dim), all.u};
+    const mps_shared shared = {.values = f.copy, .components = s->view->dim, .type = MPS_TYPE_REAL};
     if (!f.copy) return 1;
-    mps_stage_rows(s, copy_rows, &f);
+    mps_stage_rows(s, &copy_rows, &f);
     if (refreshed && mps_stage_refresh(s, 1, &shared)) return 1;
-    mps_stage_rows(s, smooth_rows, &f);
+    mps_stage_rows(s, &smooth_rows, &f);
     return 0;
 }
 
@@ -407,21 +407,21 @@ static void scratch_without_refresh(void **state)
 
 /* Counts fluid within a distance that is more than the far radius. */
 enum { FAR_AWAY = 6 };
-MPS_ROW void crowd_row(const int dim, const mps_stage *s, const wind *f, int64_t i)
+MPS_ROW void crowd_row(const int dim, const mps_view *v, const wind *f, int64_t i)
 {
-    if (s->kind[i] != MPS_FLUID) return;
-    for (int64_t j = 0; j < s->n; j++) {
+    if (v->kind[i] != MPS_FLUID) return;
+    for (int64_t j = 0; j < v->n; j++) {
         double r2 = 0;
-        for (int d = 0; d < dim; d++) r2 += pow(s->x[j * dim + d] - s->x[i * dim + d], 2);
-        if (s->kind[j] == MPS_FLUID && r2 < pow(FAR_AWAY * s->dp, 2)) f->a[i * dim] += 1e-3;
+        for (int d = 0; d < dim; d++) r2 += pow(v->x[j * dim + d] - v->x[i * dim + d], 2);
+        if (v->kind[j] == MPS_FLUID && r2 < pow(FAR_AWAY * v->dp, 2)) f->a[i * dim] += 1e-3;
     }
 }
-MPS_ROWS(crowd_rows, crowd_row, const wind)
+MPS_ROWS(crowd_rows, crowd_row, wind)
 
 static int push_by_crowd(mps_stage *s)
 {
     wind f = {.a = arrays(s).a};
-    mps_stage_rows(s, crowd_rows, &f);
+    mps_stage_rows(s, &crowd_rows, &f);
     return 0;
 }
 
@@ -447,8 +447,8 @@ static int sum_on_one_rank(mps_stage *s)
 {
     bool first = false;
     double sum = 0;
-    for (int64_t i = 0; i < s->n; i++) first = first || s->id[i] == 0;
-    if (first) mps_stage_sum(s, 1, count_rows, NULL, &sum);
+    for (int64_t i = 0; i < s->view->n; i++) first = first || s->view->id[i] == 0;
+    if (first) mps_stage_sum(s, 1, &count_rows, &(wind){.by = 1e-4}, &sum);
     return damp(s);
 }
 
@@ -460,20 +460,20 @@ static void calls_on_one_rank(void **state)
     TOLD("ranks make different calls: '");
 }
 
-/* ---- names of moments ------------------------------------------------------------------------ */
+/* ---- names of hooks ------------------------------------------------------------------------ */
 
 static int write_density(mps_stage *s)
 {
-    arrays(s).rho[s->n / 2] *= 1.0001;
+    arrays(s).rho[s->view->n / 2] *= 1.0001;
     return 0;
 }
 
-static void moment_by_name(void **state)
+static void hook_by_name(void **state)
 {
     (void)state;
     if (verb_told(write_density) & KIT_RUN) skip(); /* a checked library refuses the step */
     TOLD("MPS_FORCE: 'density' is written without MPS_USE_WRITE\n");
-    NOT_TOLD("moment 3");
+    NOT_TOLD("hook 3");
 }
 
 int main(void)
@@ -494,7 +494,7 @@ int main(void)
         cmocka_unit_test(scratch_without_refresh),
         cmocka_unit_test(looks_too_far),
         cmocka_unit_test(calls_on_one_rank),
-        cmocka_unit_test(moment_by_name),
+        cmocka_unit_test(hook_by_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,17 +12,8 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "built_in.h"
 #include "force_fixture.h"
-
-#define MODEL(model) extern const mps_model_ops mps__##model;
-#include "models.inc"
-#undef MODEL
-
-static const mps_model_ops *const built_in[] = {
-#define MODEL(model) &mps__##model,
-#include "models.inc"
-#undef MODEL
-};
 
 /* The gradient of one liquid is unstable at the densities of water and air. */
 static mps_status one_phase(void *user, mps_sim *sim)
@@ -87,9 +78,10 @@ static void test_built_in(void **state)
 {
     int bad = 0;
     (void)state;
-    for (size_t k = 0; k < sizeof built_in / sizeof built_in[0]; k++) {
-        const int failed = kit_check_model(built_in[k], prepare_of(built_in[k]), NULL);
-        if (failed) print_error("%s: %d\n", built_in[k]->name, failed);
+    for (int k = 0; mps__built_in_models[k]; k++) {
+        const int failed = kit_check_model(mps__built_in_models[k],
+                                           prepare_of(mps__built_in_models[k]), NULL);
+        if (failed) print_error("%s: %d\n", mps__built_in_models[k]->name, failed);
         bad += failed != 0;
     }
     assert_int_equal(bad, 0);
@@ -105,7 +97,7 @@ static void test_good(void **state)
 
 static int write_density(mps_stage *s)
 {
-    arrays(s).rho[s->n / 2] *= 1.0001;
+    arrays(s).rho[s->view->n / 2] *= 1.0001;
     return 0;
 }
 
@@ -116,19 +108,19 @@ static void test_writes_what_it_reads(void **state)
     assert_true(check_verb(write_density) & (KIT_WRITES | KIT_RUN));
 }
 
-MPS_ROW void mean_row(const int dim, const mps_stage *s, const push *f, int64_t i)
+MPS_ROW void mean_row(const int dim, const mps_view *v, const push *f, int64_t i)
 {
-    const mps_stencil *t = s->near;
-    if (s->kind[i] != MPS_FLUID) return;
+    const mps_stencil *t = &v->near;
+    if (v->kind[i] != MPS_FLUID) return;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++)
         for (int d = 0; d < dim; d++) f->a[i * dim + d] -= 0.1 * f->u[t->col[p] * dim + d];
 }
-MPS_ROWS(mean_rows, mean_row, const push)
+MPS_ROWS(mean_rows, mean_row, push)
 
 static int read_neighbours(mps_stage *s)
 {
     push f = arrays(s);
-    mps_stage_rows(s, mean_rows, &f);
+    mps_stage_rows(s, &mean_rows, &f);
     return 0;
 }
 
@@ -141,11 +133,12 @@ static void test_reads_neighbours(void **state)
 /* Each row writes rows of neighbours: they depend on the order of rows and on the threads. */
 static int write_neighbours(mps_stage *s)
 {
+    const mps_view *v = s->view;
     push f = arrays(s);
-    const mps_stencil *t = s->near;
-    for (int64_t i = 0; i < s->n; i++)
+    const mps_stencil *t = &v->near;
+    for (int64_t i = 0; i < v->n; i++)
         for (int64_t p = t->begin[i]; p < t->end[i]; p++)
-            if (s->kind[t->col[p]] == MPS_FLUID) f.a[t->col[p] * s->dim] -= 0.1 * f.u[i * s->dim];
+            if (v->kind[t->col[p]] == MPS_FLUID) f.a[t->col[p] * v->dim] -= 0.1 * f.u[i * v->dim];
     return 0;
 }
 
@@ -159,7 +152,7 @@ static void test_writes_rows_of_neighbours(void **state)
 static int add_to_own(mps_stage *s)
 {
     double *own = s->data[0];
-    for (int64_t i = 0; i < s->n; i++) own[i] += 1;
+    for (int64_t i = 0; i < s->view->n; i++) own[i] += 1;
     return 0;
 }
 
@@ -182,8 +175,8 @@ static void test_reads_what_it_writes(void **state)
 static int push_by_id(mps_stage *s)
 {
     push f = arrays(s);
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID) f.a[i * s->dim] += 0.01 * (double)s->id[i];
+    for (int64_t i = 0; i < s->view->n; i++)
+        if (s->view->kind[i] == MPS_FLUID) f.a[i * s->view->dim] += 0.01 * (double)s->view->id[i];
     return 0;
 }
 
@@ -194,21 +187,23 @@ static void test_order_of_particles(void **state)
 }
 
 /* The part of the rows that a thread has decides. */
-static void push_first(const mps_stage *s, void *arguments, int64_t begin, int64_t end)
+static void push_first(const mps_view *v, const void *fields, int64_t begin, int64_t end)
 {
-    const push *f = arguments;
+    const push *f = fields;
     bool first = true;
     for (int64_t i = begin; i < end; i++)
-        if (s->kind[i] == MPS_FLUID) {
-            f->a[i * s->dim] += first ? 0.5 : 0;
+        if (v->kind[i] == MPS_FLUID) {
+            f->a[i * v->dim] += first ? 0.5 : 0;
             first = false;
         }
 }
 
+static const mps_rows push_first_rows = {sizeof(mps_rows), sizeof(push), "push_first", push_first};
+
 static int push_by_thread(mps_stage *s)
 {
     push f = arrays(s);
-    mps_stage_rows(s, push_first, &f);
+    mps_stage_rows(s, &push_first_rows, &f);
     return 0;
 }
 
@@ -223,8 +218,8 @@ static int push_by_count(mps_stage *s)
 {
     push f = arrays(s);
     int64_t *calls = s->self;
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID) f.a[i * s->dim] += 0.1 * (double)*calls;
+    for (int64_t i = 0; i < s->view->n; i++)
+        if (s->view->kind[i] == MPS_FLUID) f.a[i * s->view->dim] += 0.1 * (double)*calls;
     ++*calls;
     return 0;
 }
@@ -274,8 +269,8 @@ static int push_by_user(mps_stage *s)
     push f = arrays(s);
     double *user = s->self;
     *user = *user < 1 ? *user + 0.01 : 0;
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID) f.a[i * s->dim] += *user;
+    for (int64_t i = 0; i < s->view->n; i++)
+        if (s->view->kind[i] == MPS_FLUID) f.a[i * s->view->dim] += *user;
     return 0;
 }
 
@@ -320,8 +315,8 @@ static void test_leak(void **state)
 static int push_by_setting(mps_stage *s)
 {
     push f = arrays(s);
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->kind[i] == MPS_FLUID) f.a[i * s->dim] += 1 / (2 - s->setting[0]);
+    for (int64_t i = 0; i < s->view->n; i++)
+        if (s->view->kind[i] == MPS_FLUID) f.a[i * s->view->dim] += 1 / (2 - s->view->setting[0]);
     return 0;
 }
 
@@ -353,7 +348,7 @@ static void test_table(void **state)
 
 static int push_nan(mps_stage *s)
 {
-    arrays(s).a[s->n / 2 * s->dim] = NAN;
+    arrays(s).a[s->view->n / 2 * s->view->dim] = NAN;
     return 0;
 }
 

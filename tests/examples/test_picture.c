@@ -5,6 +5,8 @@
 #include <png.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 enum { RIGHT = 132 }; /* pixels of the scale, which has all colours */
 
@@ -53,8 +55,50 @@ static void rounding_is_dark(void **state)
     assert_true(bright_of(1e-9, 0) > 1000); /* at rest without gravity it may be all there is */
 }
 
+/* Save a picture that cannot be, and give what was said of it. */
+static void save_in_vain(mps_sim *sim, const char *path, char *text, int size)
+{
+    static const char said[] = "test_picture.txt";
+    fflush(stderr);
+    const int before = dup(STDERR_FILENO);
+    assert_true(before >= 0 && freopen(said, "w", stderr));
+    const bool saved = picture_save(sim, 9.81, path);
+    fflush(stderr);
+    assert_true(dup2(before, STDERR_FILENO) >= 0);
+    close(before);
+    FILE *file = fopen(said, "r");
+    assert_non_null(file);
+    const size_t length = fread(text, 1, (size_t)size - 1, file);
+    text[length] = 0;
+    fclose(file);
+    remove(said);
+    assert_false(saved);
+}
+
+/* One line with the reason, whatever the library failed at before. */
+static void reasons(void **state)
+{
+    (void)state;
+    char text[1000];
+    mps_sim *sim = new_sim(2, 0.05);
+    mps_lease p = {.struct_size = sizeof p};
+    add_tank(sim, 0.5, 0.5, 0);
+    ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_STATE, "no fluid");
+    save_in_vain(sim, "no/such/folder.png", text, sizeof text);
+    assert_non_null(strstr(text, "no/such/folder.png: no picture: "));
+    assert_null(strstr(text, "fluid"));
+    assert_true(strchr(text, '\n') == text + strlen(text) - 1);
+    ASSERT_OK(sim, mps_lease_begin(sim, "pressure", MPS_WRITE, &p));
+    save_in_vain(sim, "leased.png", text, sizeof text);
+    assert_non_null(strstr(text, "leased.png: no picture: "));
+    assert_true(strlen(text) > strlen("leased.png: no picture: ") + 5);
+    ASSERT_OK(sim, mps_lease_end(sim, &p));
+    mps_sim_destroy(sim);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(rounding_is_dark)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(rounding_is_dark),
+                                       cmocka_unit_test(reasons)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

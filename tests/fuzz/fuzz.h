@@ -103,6 +103,16 @@ static inline void fuzz_check_finite(mps_sim *sim)
     }
 }
 
+/* Energies and the budget are finite. */
+static inline void fuzz_check_energy(mps_sim *sim)
+{
+    mps_energy e;
+    mps_energy_init(&e, sizeof e);
+    if (mps_energy_get(sim, &e) < 0) return;
+    const double values[] = {e.kinetic, e.potential, e.added, e.numerical};
+    for (size_t k = 0; k < sizeof values / sizeof values[0]; k++) FUZZ_MUST(isfinite(values[k]));
+}
+
 /* A step; a failed one leaves time and number of particles as they were. */
 static inline mps_status fuzz_step(mps_sim *sim, double dt_max)
 {
@@ -117,6 +127,7 @@ static inline mps_status fuzz_step(mps_sim *sim, double dt_max)
         FUZZ_MUST(count == mps_particles_count(sim, -1));
     } else {
         FUZZ_MUST(after > before && steps[1] == steps[0] + 1);
+        fuzz_check_energy(sim);
     }
     fuzz_check_finite(sim);
     return status;

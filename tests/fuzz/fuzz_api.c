@@ -126,6 +126,8 @@ static void use_probes(fuzz_input *in, mps_sim *sim)
         if (fuzz_byte(in) > 128) probe.rate = fabs(fuzz_real(in, 500));
         if (fuzz_byte(in) > 200) probe.length = fuzz_real(in, 1);
         if (fuzz_byte(in) > 200) probe.direction[0] = fuzz_real(in, 1);
+        if (fuzz_byte(in) > 200) probe.normal[fuzz_byte(in) % 3] = fuzz_real(in, 1);
+        if (fuzz_byte(in) > 200) probe.name = fuzz_byte(in) > 128 ? "P" : "Q";
         probe.phases = fuzz_byte(in) > 200 ? fuzz_byte(in) : 0;
         fuzz_status(sim, mps_probe_add(sim, &probe, &id));
         break;
@@ -187,8 +189,9 @@ static void use_controls(fuzz_input *in, mps_sim *sim)
 
 static void use_motion(fuzz_input *in, mps_sim *sim)
 {
-    const mps_harmonic h = {fuzz_byte(in) % 7, fuzz_byte(in) % 2, fuzz_real(in, 0.02),
-                            fuzz_real(in, 10), 0};
+    const mps_harmonic h = {
+        fuzz_byte(in) % 7, fuzz_byte(in) % 2, fuzz_real(in, 0.02), fuzz_real(in, 10), 0,
+        fuzz_real(in, 1)};
     switch (fuzz_pick(in, 3)) {
     case 0:
         fuzz_status(sim, mps_motion_harmonics_set(sim, 1, &h));
@@ -199,6 +202,33 @@ static void use_motion(fuzz_input *in, mps_sim *sim)
     default:
         fuzz_status(sim, mps_motion_clear(sim));
     }
+}
+
+/* Arbitrary struct sizes: the library reads at most 4096 bytes of a struct. */
+static void use_sizes(fuzz_input *in, mps_sim *sim)
+{
+    enum { LARGEST = 4096 };
+    unsigned char *bytes = calloc(1, LARGEST);
+    FUZZ_MUST(bytes);
+    const uint32_t size = (uint32_t)fuzz_whole(in);
+    memcpy(bytes, &size, sizeof size);
+    switch (fuzz_pick(in, 5)) {
+    case 0:
+        fuzz_status(sim, mps_phase_set(sim, 0, (mps_phase *)bytes));
+        break;
+    case 1:
+        fuzz_status(sim, mps_time_control_set(sim, (mps_time_control *)bytes));
+        break;
+    case 2:
+        fuzz_status(sim, mps_tank_add(sim, (mps_tank *)bytes, NULL));
+        break;
+    case 3:
+        fuzz_status(sim, mps_particles_add(sim, (mps_particle_block *)bytes, NULL));
+        break;
+    default:
+        fuzz_status(sim, mps_energy_get(sim, (mps_energy *)bytes));
+    }
+    free(bytes);
 }
 
 static int monitor(void *user, mps_sim *sim, const mps_step_info *info)
@@ -249,6 +279,9 @@ static void call(fuzz_input *in, mps_sim *sim)
         mps_sim_time(sim, &t, NULL);
         fuzz_status(sim, mps_run(sim, t + 2e-3, monitor, NULL));
         fuzz_check_finite(sim);
+        break;
+    case 11:
+        use_sizes(in, sim);
         break;
     default:
         fuzz_step(sim, fuzz_byte(in) < 245 ? 2e-3 : fuzz_real(in, 1));

@@ -50,7 +50,7 @@ static mps_sim *build(int k)
 {
     const double lo[3] = {0, 0, 0}, hi[3] = {0.4, k == 1 ? 0.4 : 0.2, 0.4},
                  half[3] = {0.4, 0.2, 0.4}, foot[2] = {0.2, 0}, edge[2] = {0, 0.2};
-    const mps_harmonic surge = {.dof = MPS_SURGE, .amplitude = 0.02, .omega = 8};
+    const mps_harmonic surge = {.dof = MPS_MOVE_X, .amplitude = 0.02, .omega = 8};
     mps_config config;
     mps_tank tank;
     mps_sim *sim = NULL;

@@ -37,6 +37,7 @@ static void set_harmonics(fuzz_input *in, mps_sim *sim)
         h[k].amplitude = fuzz_real(in, 0.02);
         h[k].omega = fuzz_real(in, 5);
         h[k].phase = fuzz_real(in, 3);
+        h[k].ramp = fuzz_real(in, 1);
     }
     fuzz_status(sim, mps_motion_harmonics_set(sim, count, h));
 }
@@ -72,20 +73,43 @@ static void act(fuzz_input *in, mps_sim *sim)
     fuzz_status(sim, mps_motion_to_lab(sim, centre, lab, velocity));
 }
 
+/* Gas above the liquid, with the tension of their interface. */
+static void add_gas(mps_sim *sim, const double *hi)
+{
+    const double lo[3] = {0, 0.2, 0};
+    mps_phase gas;
+    mps_phase_init(&gas, sizeof gas);
+    gas.density = 1.2;
+    FUZZ_MUST(mps_phase_set(sim, 1, &gas) == MPS_OK && mps_preset_use(sim, "mmps") == MPS_OK);
+    FUZZ_MUST(mps_tension_set(sim, 0, 1, 0.07) == MPS_OK);
+    FUZZ_MUST(mps_fill_box_add(sim, 1, lo, hi, NULL, NULL) == MPS_OK);
+}
+
+static void fix_step(mps_sim *sim)
+{
+    mps_time_control control;
+    mps_time_control_init(&control, sizeof control);
+    control.dt = 1e-4;
+    FUZZ_MUST(mps_time_control_set(sim, &control) == MPS_OK);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     fuzz_input in = {data, size, 0};
     mps_config config;
     mps_tank tank;
     mps_sim *sim = NULL;
-    const double lo[3] = {0, 0, 0}, hi[3] = {0.4, 0.2, 0.4};
-    const int32_t dim = fuzz_byte(&in) % 8 == 7 ? 3 : 2;
+    const double lo[3] = {0, 0, 0}, hi[3] = {0.4, 0.2, 0.4}, top[3] = {0.4, 0.4, 0.4};
+    const unsigned mode = fuzz_byte(&in);
+    const int32_t dim = mode % 8 == 7 ? 3 : 2;
     fuzz_config(&config, dim, 0.1);
     mps_tank_init(&tank, sizeof tank);
     tank.size[0] = tank.size[1] = tank.size[2] = 0.4;
     FUZZ_MUST(mps_sim_create(&config, &sim) == MPS_OK);
     FUZZ_MUST(mps_tank_add(sim, &tank, NULL) == MPS_OK);
     FUZZ_MUST(mps_fill_box_add(sim, 0, lo, hi, NULL, NULL) == MPS_OK);
+    if (mode & 64) add_gas(sim, top);
+    if (mode & 128) fix_step(sim);
     for (int k = 0; k < 24 && fuzz_left(&in); k++) act(&in, sim);
     mps_sim_destroy(sim);
     return 0;

@@ -54,6 +54,15 @@ static size_t make_binary(fuzz_input *in, unsigned char *out)
     return 84 + 50 * (size_t)(odd == 1 ? TRIANGLES - 1 : odd == 2 ? TRIANGLES + 1 : TRIANGLES);
 }
 
+static void place_anywhere(fuzz_input *in, mps_stl *stl)
+{
+    for (int d = 0; d < 3; d++) {
+        stl->shift[d] = fuzz_real(in, 1);
+        if (fuzz_byte(in) > 200) stl->rotation[d] = fuzz_real(in, 4);
+    }
+    stl->open_side = fuzz_byte(in) > 240 ? (int32_t)fuzz_byte(in) % 9 : 0;
+}
+
 static void step_some(mps_sim *sim)
 {
     const double lo[3] = {-1, -1, -1}, hi[3] = {2, 2, 2};
@@ -78,11 +87,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     stl.container = mode & 1;
     if (mode & 2) stl.scale = fuzz_real(&in, 1);
     if (mode & 4) stl.shift[1] = fuzz_real(&in, 1);
+    if (mode & 128) place_anywhere(&in, &stl);
     if ((mode & 48) == 48)
         write_file(data + in.at, size - in.at); /* any bytes */
     else
         write_file(file, make_binary(&in, file));
-    if (!(mode & 1)) { /* a body in a tank */
+    if (!(mode & 1) || mode & 64) { /* a body in a tank, or a second container */
         mps_tank tank;
         mps_tank_init(&tank, sizeof tank);
         for (int d = 0; d < 3; d++) tank.lo[d] = -0.3, tank.size[d] = 1.5;

@@ -7,7 +7,7 @@
 #include <mps/model.h>
 #include <mps/ppe.h>
 
-enum { USES = 4, MODELS = 3 };
+enum { USES = 4, MODELS = 3, SCALAR = 99 };
 
 /* The input of the run, for the plug-ins. */
 static fuzz_input *input;
@@ -35,7 +35,14 @@ static const struct {
                 {"wetted_share", 1, 0},
                 {"mine", 2, 0},
                 {"ours", 1, 1},
-                {"asymmetry", 0, 0}};
+                {"asymmetry", 0, 0},
+                {"solid_place", 0, 0},
+                {"solid_area", 0, 0},
+                {"equation_gain", SCALAR, 0},
+                {"equation_wall_factor", SCALAR, 0},
+                {"equation_radius", SCALAR, 1},
+                {"equation_body", SCALAR, 1},
+                {"equation_complete", SCALAR, 1}};
 
 enum { CHANNELS = sizeof channels / sizeof channels[0] };
 
@@ -56,24 +63,18 @@ static inline int run_garbage(mps_stage *s)
     const garbage_model *m = s->self;
     for (int k = 0; k < m->verb.use_count; k++) {
         const int per = channels[m->which[k]].components ? channels[m->which[k]].components
-                                                         : s->dim;
+                                                         : s->view->dim;
         if (!(m->use[k].access & MPS_USE_WRITE) || !s->data[k]) continue;
         for (int tries = fuzz_pick(input, 4); tries >= 0; tries--) {
-            const int64_t at = (int64_t)(fuzz_byte(input) * 37 % (uint64_t)(s->n * per));
+            const int64_t numbers = per == SCALAR ? 1 : s->view->n * per,
+                          at = (int64_t)(fuzz_byte(input) * 37 % (uint64_t)numbers);
             if (channels[m->which[k]].whole)
                 ((int32_t *)s->data[k])[at] = (int32_t)fuzz_whole(input);
             else
                 ((double *)s->data[k])[at] = fuzz_real(input, 10);
         }
     }
-    if (s->moment == MPS_LIMIT) s->dt_limit = fuzz_real(input, 1e-3);
-    if (s->equation && fuzz_byte(input) > 200) {
-        s->equation->gain = fuzz_real(input, 1);
-        s->equation->wall_factor = fuzz_real(input, 1);
-        s->equation->radius = (int32_t)fuzz_whole(input);
-        s->equation->body = (int32_t)fuzz_whole(input);
-        s->equation->complete_surface = (int32_t)fuzz_whole(input);
-    }
+    if (s->hook == MPS_LIMIT) s->dt_limit = fuzz_real(input, 1e-3);
     const unsigned end = fuzz_byte(input);
     if (end == 254) mps_stage_scratch(s, fuzz_whole(input));
     if (end == 253) {
@@ -89,7 +90,7 @@ static inline void fill_model(fuzz_input *in, garbage_model *m, int k)
     snprintf(m->name, sizeof m->name, "garbage%d.any", k);
     m->channel[0] = (mps_channel){"mine", "-", "any", 2, MPS_TYPE_REAL, fuzz_byte(in) % 2, 0};
     m->channel[1] = (mps_channel){"ours", "-", "any", 1, MPS_TYPE_INTEGER, MPS_LIFE_STEP, 0};
-    m->verb = (mps_verb){.moment = fuzz_byte(in) % 11,
+    m->verb = (mps_verb){.hook = fuzz_byte(in) % (MPS_HOOK_COUNT + 1),
                          .use_count = fuzz_pick(in, USES + 1),
                          .uses = m->use,
                          .run = run_garbage};

@@ -52,9 +52,9 @@ static uint64_t hash_state(mps_sim *sim)
 static int sway(void *user, double t, mps_motion_state *state)
 {
     (void)user;
-    state->value[MPS_SURGE] = 0.5 * t * t;
-    state->rate[MPS_SURGE] = t;
-    state->accel[MPS_SURGE] = 1;
+    state->value[MPS_MOVE_X] = 0.5 * t * t;
+    state->rate[MPS_MOVE_X] = t;
+    state->accel[MPS_MOVE_X] = 1;
     return 0;
 }
 

@@ -1,73 +1,40 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Drivers with --mpi write the same files on any number of ranks, stop together, and go on with another number. 77: MPI starts no ranks here.
+# Drivers with --mpi stop together, and go on with another number of ranks. 77: MPI starts no ranks here.
 # usage: tests/mpi/test_drivers.sh FOLDER_OF_DRIVERS MPIRUN
 set -uo pipefail
-here=$(realpath "$(dirname "$0")")
-mpirun=${2:?usage: $0 FOLDER_OF_DRIVERS MPIRUN}
-. "$here/../cases/drivers.sh"
-export ASAN_OPTIONS=${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0 # of MPI
-"$here/run" "$mpirun" 3 true || exit 77
-
-ranks() { # exit code, ranks, driver, options...
-    local wanted=$1 code
-    "$here/run" "$mpirun" "$2" "$drivers/$3" --mpi "${@:4}" </dev/null >log 2>&1
-    code=$?
-    [ $code = "$wanted" ] || { fail "$2 ranks, ${*:3}: exit $code instead of $wanted"; cat log; }
-}
+. "$(dirname "$0")/ranks.sh"
 
 says() { # what, text
     grep -qF -- "$2" log || fail "$1: says '$(cat log)', not '$2'"
     [ "$(grep -cF -- "$2" log)" = 1 ] || fail "$1: says '$2' more than once"
 }
 
-# All files but the report and the summary, which tell seconds; of the summary what tells none.
-same() { # folder, other folder
-    local file
-    diff -rq -x report.html -x summary.json "$1" "$2" || fail "$2 is not the same as $1"
-    for file in "$1" "$2"; do grep -vE '"(.*_s|s_per_step|peak_rss_bytes|ranks|threads)":' "$file/summary.json" >"$file.summary"; done
-    cmp "$1.summary" "$2.summary" || fail "$2/summary.json is not that of $1"
-}
-
-# ---- the same bytes
-while read -r name options; do
-    read -ra options <<<"$options"
-    runs 0 "${options[@]}" --out "$name.1"
-    for n in 2 3; do
-        ranks 0 $n "${options[@]}" --out "$name.$n"
-        same "$name.1" "$name.$n"
-        grep -q "\"ranks\": $n" "$name.$n/summary.json" || fail "$name.$n/summary.json does not tell its ranks"
-    done
-done <<'CASES'
-dam dam_break --solver sundials.pcg/jacobi --dp 0.02 --t-end 0.2 --frames 4 --checkpoint 0.1
-roll sloshing_roll --dp 0.0155 --t-end 0.1 --frames 2 --checkpoint 0.1
-air sloshing_breaking --model mmps --dp 0.03 --t-end 0.05 --frames 2 --checkpoint 0.05
-film impact --case film --dp 0.05 --frames 2 --checkpoint 1
-CASES
-ranks 0 1 dam_break --solver sundials.pcg/jacobi --dp 0.02 --t-end 0.2 --frames 4 --checkpoint 0.1 --out dam.one
+runs 0 dam_break --dp 0.02 --t-end 0.1 --frames 0 --out dam.1
+ranks 0 1 dam_break --dp 0.02 --t-end 0.1 --frames 0 --out dam.one
 same dam.1 dam.one
 
 # ---- stopped by a signal, on with other numbers of ranks
-surge=(sloshing_surge --dp 0.05 --t-end 1 --frames 0)
+surge=(sloshing_surge --dp 0.05 --frames 0 --probe-dt 0.001)
+rows=1
 
 stopped() { # signal, ranks, options...: the signal goes to mpirun, which passes on USR1 and no other; or to its last rank
-    local pid tries=0 to
-    "$here/run" "$mpirun" "$2" "$drivers/${surge[0]}" --mpi "${surge[@]:1}" "${@:3}" >log 2>&1 &
+    local to
+    "$here/run" "$mpirun" "$2" "$drivers/${surge[0]}" --mpi "${surge[@]:1}" --t-end $never "${@:3}" >log 2>&1 &
     pid=$! to=$!
-    until [ "$(wc -l 2>/dev/null <steps.now/steps.csv)" -gt "${rows:-0}" ] 2>/dev/null || [ $((tries += 1)) -gt 500 ]; do sleep 0.02; done
+    wait_for more_lines steps.now/steps.csv $rows
     [ "$1" = USR1 ] || to=$(pgrep -P $pid | tail -1)
     kill -"$1" "$to"
-    wait $pid 2>/dev/null
-    local code=$?
-    [ $code = 130 ] || { fail "SIG$1 on $2 ranks: exit $code instead of 130"; cat log; }
+    ends 130 "SIG$1 on $2 ranks" log
     says "SIG$1" 'interrupted at t ='
     [ -s steps.now/checkpoint.mps ] || fail "SIG$1 leaves no checkpoint"
     [ ! -e steps.now/run.lock ] || fail "SIG$1 leaves the folder locked"
     rows=$(wc -l <steps.now/steps.csv)
 }
-runs 0 "${surge[@]}" --out whole
-stopped USR1 2 --out steps.now --probe-dt 0.001
+stopped USR1 2 --out steps.now
 stopped TERM 3 --out steps.now --resume
+surge+=(--t-end "$(later 0.1 steps.now)")
+runs 0 "${surge[@]}" --out whole
 ranks 0 2 "${surge[@]}" --out steps.now --resume
 for file in probes.csv momentum.csv steps.csv picture_end.png; do cmp whole/$file steps.now/$file || fail "--resume on other ranks: other $file"; done
 
@@ -78,12 +45,12 @@ ranks 0 3 "${pieces[@]}" --pieces
 [ "$(ls pieces/frames/frames_00000?.pvtp pieces/frames/frames_00000?_000?.vtp | wc -l)" = 12 ] || fail "--pieces: $(ls pieces/frames)"
 ranks 0 2 "${pieces[@]}" --pieces --overwrite
 [ "$(ls pieces/frames | wc -l)" = 9 ] || fail "--pieces --overwrite: $(ls pieces/frames)"
-rows=0
+rows=1
 rm -rf steps.now
 stopped TERM 2 --out steps.now --frames 4 --pieces # also the last state is a frame of all ranks
 [ "$(grep -c '\.pvtp"' steps.now/frames.pvd)" -ge 2 ] || fail "stopped with --pieces: $(cat steps.now/frames.pvd)"
 [ -s steps.now/picture_end.png ] || fail 'stopped with --pieces: no last picture'
-ranks 0 3 "${surge[@]}" --out steps.now --frames 4 --pieces --resume
+ranks 0 3 "${surge[@]}" --t-end "$(later 0.1 steps.now)" --out steps.now --frames 4 --pieces --resume
 [ "$(ls steps.now/frames/*.pvtp | wc -l)" = "$(grep -c '\.pvtp"' steps.now/frames.pvd)" ] || fail "--pieces --resume: $(ls steps.now/frames)"
 rm -rf steps.now
 runs 0 "${pieces[@]}" --pieces --overwrite

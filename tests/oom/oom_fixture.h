@@ -146,7 +146,7 @@ static inline void filled_threads(mps_sim *sim)
 
 static inline int run_nothing(mps_stage *s)
 {
-    return mps_stage_scratch(s, s->n) == NULL;
+    return mps_stage_scratch(s, s->view->n) == NULL;
 }
 
 static inline int create_state(const mps_allocator *allocator, void **self)
@@ -164,7 +164,7 @@ static inline mps_status register_model(mps_sim *sim)
 {
     static const mps_use uses[] = {{"oom_mark", MPS_USE_CHANGE}};
     static const mps_verb verbs[] = {
-        {.moment = MPS_FORCE, .use_count = 1, .uses = uses, .run = run_nothing}};
+        {.hook = MPS_FORCE, .use_count = 1, .uses = uses, .run = run_nothing}};
     static const mps_channel channels[] = {
         {"oom_mark", "-", "any", 2, MPS_TYPE_REAL, MPS_LIFE_PARTICLE, 1}};
     const mps_model_ops ops = {.struct_size = sizeof ops,

@@ -79,14 +79,14 @@ static mps_status field_add(mps_sim *sim)
 
 static mps_status harmonics(mps_sim *sim)
 {
-    const mps_harmonic h = {.dof = MPS_SURGE, .amplitude = 0.01, .omega = 3};
+    const mps_harmonic h = {.dof = MPS_MOVE_X, .amplitude = 0.01, .omega = 3};
     return mps_motion_harmonics_set(sim, 1, &h);
 }
 
 static mps_status motion_table(mps_sim *sim)
 {
     const double t[4] = {0, 1, 2, 3}, x[4] = {0, 0.01, 0, -0.01};
-    const int32_t dof = MPS_SURGE;
+    const int32_t dof = MPS_MOVE_X;
     return mps_motion_table_set(sim, 4, t, 1, &dof, x);
 }
 

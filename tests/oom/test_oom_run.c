@@ -207,7 +207,7 @@ static const scene scenes[] = {
     {"first step, kinsol", gas_for_kinsol, step, 20, 0},
     {"stencil", filled, stencil, 10, 0},
     {"stencil of more", grown, stencil, 10, 0},
-    {"checkpoint_write", sampled, write_checkpoint, 3, 0},
+    {"checkpoint_write", sampled, write_checkpoint, 2, 0},
     {"checkpoint_read", beyond, read_checkpoint, 20, 0},
     {"step after checkpoint_read", restored, step, 8, 0},
     {"first step, imps, 3-D", filled, step, 20, 3},

@@ -6,7 +6,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { PLACES = 2000, COMMON = 300, LARGE = 30000 };
 
@@ -407,13 +406,6 @@ static int make_call(kit *k, int call, mps_route *route)
     return failed;
 }
 
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 void engine_kit_fail(const mps_ranks_ops *ops, int call, int32_t also, char *said, char *fault)
 {
     kit k;
@@ -429,11 +421,9 @@ void engine_kit_fail(const mps_ranks_ops *ops, int call, int32_t also, char *sai
     else /* one exchange may end without the rank that fails */
         for (int turn = 0; turn < 3 && !failed; turn++)
             failed = make_call(&k, call, call == ENGINE_CONNECT ? NULL : &route);
-    const double begun = now();
     for (int other = 0; other < ENGINE_CALLS; other++)
         expect(&k, make_call(&k, other, other == ENGINE_CONNECT ? NULL : &route),
                "call %d does not fail after a failure in %d", other, call);
-    expect(&k, now() - begun < 5, "calls after a failure take %g s", now() - begun);
     const char *what = ops->failure(k.self);
     snprintf(said, ENGINE_TEXT, "%s", what ? what : "no failure");
     snprintf(text, sizeof text, "rank %d fails in call %d", (int)k.ranks - 1, call);

@@ -10,18 +10,18 @@
 static int sway(void *user, double t, mps_motion_state *state)
 {
     (void)user;
-    state->value[MPS_SURGE] = 1.5 * t * t;
-    state->rate[MPS_SURGE] = 3 * t;
-    state->accel[MPS_SURGE] = 3;
+    state->value[MPS_MOVE_X] = 1.5 * t * t;
+    state->rate[MPS_MOVE_X] = 3 * t;
+    state->accel[MPS_MOVE_X] = 3;
     return 0;
 }
 
 static int roll(void *user, double t, mps_motion_state *state)
 {
     (void)user;
-    state->value[MPS_ROLL] = 2 * t * t;
-    state->rate[MPS_ROLL] = 4 * t;
-    state->accel[MPS_ROLL] = 4;
+    state->value[MPS_ROTATE_Z] = 2 * t * t;
+    state->rate[MPS_ROTATE_Z] = 4 * t;
+    state->accel[MPS_ROTATE_Z] = 4;
     return 0;
 }
 
@@ -129,19 +129,21 @@ static mps_status add_air(mps_sim *sim, const scene *s, const double lo[3], cons
     return status;
 }
 
-/* A sensor on the wall that the liquid meets, a gauge, a pressure in the liquid, the force on all walls. */
+/* A sensor on the wall that the liquid meets, a gauge, a pressure in the liquid, the forces on all walls and on the floor. */
 static mps_status add_probes(mps_sim *sim)
 {
     static const int32_t types[SCENE_PROBES] = {MPS_PROBE_WALL_PRESSURE, MPS_PROBE_GAUGE,
-                                                MPS_PROBE_FLUID_PRESSURE, MPS_PROBE_FORCE};
+                                                MPS_PROBE_FLUID_PRESSURE, MPS_PROBE_FORCE,
+                                                MPS_PROBE_FORCE};
     static const double places[SCENE_PROBES][3] = {
-        {0.6, 0.06, 0.2}, {0.2, 0, 0.2}, {0.15, 0.1, 0.2}, {0, 0, 0}};
+        {0.6, 0.06, 0.2}, {0.2, 0, 0.2}, {0.15, 0.1, 0.2}, {0, 0, 0}, {0.1, 0, 0}};
     mps_status status = MPS_OK;
     for (int k = 0; k < SCENE_PROBES && status == MPS_OK; k++) {
         mps_probe probe;
         int32_t id;
         mps_probe_init(&probe, sizeof probe);
         probe.type = types[k];
+        if (k == SCENE_PROBES - 1) probe.part = "tank.y0";
         for (int d = 0; d < 3; d++) probe.at[d] = places[k][d];
         status = mps_probe_add(sim, &probe, &id);
     }
@@ -224,18 +226,19 @@ void record_note(mps_sim *sim, const mps_step_info *info, record *r)
                               (double)info->surface,
                               info->max_speed,
                               e.kinetic,
-                              e.wall_work,
+                              e.wall_work_momentum,
+                              e.wall_work_probes,
                               e.mass,
                               e.volume_filled,
                               e.centre[0],
                               e.centre[1]};
-    double probes[10] = {0};
+    double probes[15] = {0};
     int at = 0;
     for (int32_t k = 0; k < SCENE_PROBES; at += mps_probe_size(sim, k++))
         mps_probe_read(sim, k, probes + at);
     if (sim->world.ranks.rank > 0) return;
     memcpy(r->info, numbers, sizeof numbers);
-    memcpy(r->info + 12, probes, sizeof probes);
+    memcpy(r->info + 13, probes, sizeof probes);
 }
 
 bool record_same(const record *alone, const record *many, char *text, size_t size)
@@ -248,7 +251,8 @@ bool record_same(const record *alone, const record *many, char *text, size_t siz
                                                "surface",
                                                "max_speed",
                                                "kinetic",
-                                               "wall_work",
+                                               "wall_work_momentum",
+                                               "wall_work_probes",
                                                "mass",
                                                "volume",
                                                "cx",
@@ -256,15 +260,18 @@ bool record_same(const record *alone, const record *many, char *text, size_t siz
                                                "wall pressure",
                                                "gauge",
                                                "fluid pressure",
-                                               "force",
-                                               "force",
-                                               "force",
-                                               "moment",
-                                               "moment",
-                                               "moment",
-                                               "-",
-                                               "-",
-                                               "-"};
+                                               "force or moment",
+                                               "force or moment",
+                                               "force or moment",
+                                               "force or moment",
+                                               "force or moment",
+                                               "force or moment",
+                                               "force or moment",
+                                               "force or moment",
+                                               "force or moment",
+                                               "force or moment",
+                                               "force or moment",
+                                               "force or moment"};
     const record *a = alone, *b = many;
     if (a->count != b->count) {
         snprintf(text, size, "%lld particles, not %lld", (long long)b->count, (long long)a->count);

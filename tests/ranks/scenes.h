@@ -6,7 +6,7 @@
 #include <mps/mps.h>
 #include <stdbool.h>
 
-enum { SCENES = 19, SCENE_MOST = 8000, SCENE_NUMBERS = 9, SCENE_INFOS = 24, SCENE_PROBES = 4 };
+enum { SCENES = 19, SCENE_MOST = 8000, SCENE_NUMBERS = 9, SCENE_INFOS = 28, SCENE_PROBES = 5 };
 
 typedef struct scene {
     const char *name, *preset;

@@ -4,6 +4,7 @@
 #include "engine_kit.h"
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 #include <cmocka.h>
 
@@ -57,9 +58,44 @@ static void test_failures(void **state)
         }
 }
 
+/* ---- a rank that makes one call less ---- */
+
+typedef struct absence {
+    kit_engine_team *team;
+    char said[MOST][ENGINE_TEXT];
+} absence;
+
+static void keep(void *into, const void *from)
+{
+    (void)into, (void)from;
+}
+
+static void stay_away(void *argument, int32_t rank)
+{
+    absence *a = argument;
+    const mps_ranks_ops ops = kit_engine_ops(a->team, rank);
+    int32_t value = 0;
+    for (int k = 0; k < (rank == 1 ? 2 : 3); k++)
+        ops.reduce(ops.user, 1, sizeof value, &value, keep);
+    const char *what = ops.failure(ops.user);
+    if (rank != 1) snprintf(a->said[rank], ENGINE_TEXT, "%s", what ? what : "");
+}
+
+static void test_absence(void **state)
+{
+    (void)state;
+    absence a = {.team = kit_engine_create(3, 0)};
+    kit_engine_run(a.team, stay_away, &a);
+    assert_string_equal(a.said[0],
+                        "ranks make different calls: 'reduce' on rank 0, none on rank 1");
+    assert_string_equal(a.said[2], a.said[0]);
+    kit_engine_destroy(a.team);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_calls),
-                                       cmocka_unit_test(test_failures)};
+                                       cmocka_unit_test(test_failures),
+                                       cmocka_unit_test(test_absence)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

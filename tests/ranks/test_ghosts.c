@@ -61,7 +61,7 @@ static int32_t kind_of(int64_t id)
 static mps_status add(mps__particles *s, int64_t count, int step)
 {
     MPS__TRY(mps__particles_reserve(s, count));
-    const int64_t first = mps__particles_append(s, count);
+    const int64_t first = mps__particles_append(s, count, MPS_FLUID);
     for (int64_t i = first; i < s->n; i++) {
         s->kind[i] = kind_of(s->id[i]);
         place_of(s->id[i], step, s->dim, s->x + i * s->dim);

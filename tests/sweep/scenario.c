@@ -138,8 +138,8 @@ static double natural(const scenario *s)
 static void draw_harmonics(scenario *s, uint64_t *state, int32_t dof)
 {
     int32_t count = 1 + whole(state, 3);
-    double amplitude = dof < MPS_ROLL ? log_uniform(state, 0.01, 3) * s->depth
-                                      : log_uniform(state, 1, 60) * PI / 180;
+    double amplitude = dof < MPS_ROTATE_X ? log_uniform(state, 0.01, 3) * s->depth
+                                          : log_uniform(state, 1, 60) * PI / 180;
     for (int32_t k = 0; k < count; k++) {
         mps_harmonic *h = &s->harmonic[s->harmonics++];
         h->dof = dof;
@@ -152,7 +152,7 @@ static void draw_harmonics(scenario *s, uint64_t *state, int32_t dof)
 
 static void draw_motion(scenario *s, uint64_t *state)
 {
-    static const int32_t plane[] = {MPS_SURGE, MPS_HEAVE, MPS_YAW};
+    static const int32_t plane[] = {MPS_MOVE_X, MPS_MOVE_Y, MPS_ROTATE_Z};
     int32_t count = s->dim == 3 ? MPS_DOF_COUNT : 3, chosen = 1 + whole(state, (1 << count) - 1);
     for (int d = 0; d < s->dim; d++) s->centre[d] = uniform(state, -0.2, 1.2) * s->size[d];
     s->start = chance(state, 0.5) ? MPS_START_WITH_TANK : MPS_START_AT_REST;
@@ -215,7 +215,7 @@ mps_status scenario_build(const scenario *s, const char *model, mps_sim **sim, d
 
 void scenario_print(const scenario *s, FILE *out)
 {
-    static const char *const dof[] = {"surge", "heave", "sway", "roll", "yaw", "pitch"},
+    static const char *const dof[] = {"x", "y", "z", "rotate_x", "rotate_y", "rotate_z"},
                              *const obstacle[] = {"none", "baffle", "plate"};
     fprintf(out, "seed=%llu dim=%d size=%.3gx%.3g", (unsigned long long)s->seed, (int)s->dim,
             s->size[0], s->size[1]);
@@ -228,7 +228,7 @@ void scenario_print(const scenario *s, FILE *out)
         const mps_harmonic *h = &s->harmonic[k];
         if (k == 0 || h->dof != h[-1].dof) fprintf(out, "%s%s:", k ? "," : "", dof[h->dof]);
         fprintf(out, "%s%.3g%s@%.3g", k && h->dof == h[-1].dof ? "+" : "",
-                h->dof < MPS_ROLL ? h->amplitude : h->amplitude * 180 / PI,
-                h->dof < MPS_ROLL ? "m" : "deg", h->omega);
+                h->dof < MPS_ROTATE_X ? h->amplitude : h->amplitude * 180 / PI,
+                h->dof < MPS_ROTATE_X ? "m" : "deg", h->omega);
     }
 }

@@ -36,8 +36,8 @@ static inline int remove_folder(void **state)
 
 static inline void shake(mps_sim *sim, double amplitude)
 {
-    const mps_harmonic motion[2] = {{.dof = MPS_SURGE, .amplitude = amplitude, .omega = 12},
-                                    {.dof = MPS_YAW, .amplitude = 0.2, .omega = 9}};
+    const mps_harmonic motion[2] = {{.dof = MPS_MOVE_X, .amplitude = amplitude, .omega = 12},
+                                    {.dof = MPS_ROTATE_Z, .amplitude = 0.2, .omega = 9}};
     ASSERT_OK(sim, mps_motion_harmonics_set(sim, 2, motion));
 }
 

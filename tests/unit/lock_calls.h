@@ -132,7 +132,7 @@ CALL(mps_preset_use, return mps_preset_use(sim, "imps.paper");)
 CALL(mps_model_use, return mps_model_use(sim, "wall.extrapolate");)
 CALL(mps_model_remove, return mps_model_remove(sim, "shift");)
 CALL(mps_model_set, return mps_model_set(sim, "collision", "distance", 0.7);)
-CALL(mps_model_register, const mps_verb v = {.moment = MPS_FORCE, .run = no_verb};
+CALL(mps_model_register, const mps_verb v = {.hook = MPS_FORCE, .run = no_verb};
      const mps_model_ops ops = {.struct_size = sizeof ops,
                                 .api = MPS_MODEL_API,
                                 .name = "new.toy",
@@ -191,6 +191,7 @@ CALL(mps_probe_series, return mps_probe_series(sim, 0, NULL, NULL, NULL);)
 CALL(mps_probe_series_clear, return mps_probe_series_clear(sim, 99);) /* keeps the samples of 0 */
 CALL(mps_energy_get, STRUCT(mps_energy); return mps_energy_get(sim, &a);)
 CALL(mps_momentum_get, STRUCT(mps_momentum); return mps_momentum_get(sim, &a);)
+CALL(mps_profile_reset, return mps_profile_reset(sim);)
 
 /* ---- single values: never refused ------------------------------------------------------------ */
 
@@ -199,6 +200,7 @@ CALL(mps_setting_info_get, STRUCT(mps_setting_info);
      return mps_setting_info_get(sim, "collision.pair", 0, &a);)
 CALL(mps_channel_info_get, STRUCT(mps_channel_info); return mps_channel_info_get(sim, 0, &a);)
 CALL(mps_verb_info_get, STRUCT(mps_verb_info); return mps_verb_info_get(sim, 0, &a);)
+CALL(mps_pass_info_get, STRUCT(mps_pass_info); return mps_pass_info_get(sim, 0, &a);)
 CALL(mps_preset_info_get, STRUCT(mps_name_info); return mps_preset_info_get(sim, 0, &a);)
 CALL(mps_solver_info_get, STRUCT(mps_name_info); return mps_solver_info_get(sim, 0, &a);)
 CALL(mps_preconditioner_info_get, STRUCT(mps_name_info);
@@ -210,6 +212,7 @@ CALL(mps_motion_to_lab, double x[2]; return mps_motion_to_lab(sim, low, x, NULL)
 CALL(mps_particles_count, return mps_particles_count(sim, -1) > 0 ? MPS_OK : MPS_E_BUSY;)
 CALL(mps_particle_index, return mps_particle_index(sim, 1) >= 0 ? MPS_OK : MPS_E_BUSY;)
 CALL(mps_part_find, return mps_part_find(sim, "tank.y0") >= 0 ? MPS_OK : MPS_E_BUSY;)
+CALL(mps_probe_info_get, STRUCT(mps_probe_info); return mps_probe_info_get(sim, 0, &a);)
 CALL(mps_probe_size, return mps_probe_size(sim, 0) == 3 ? MPS_OK : MPS_E_BUSY;)
 CALL(mps_sim_error, return mps_sim_error(sim) ? MPS_OK : MPS_E_BUSY;)
 CALL(mps_sim_shape, double dp; return mps_sim_shape(sim, NULL, &dp);)
@@ -281,10 +284,12 @@ static const lock_call lock_calls[] = {
     READS(mps_probe_series_clear),
     READS(mps_energy_get),
     READS(mps_momentum_get),
+    READS(mps_profile_reset),
     PLAIN(mps_model_info_get),
     PLAIN(mps_setting_info_get),
     PLAIN(mps_channel_info_get),
     PLAIN(mps_verb_info_get),
+    PLAIN(mps_pass_info_get),
     PLAIN(mps_preset_info_get),
     PLAIN(mps_solver_info_get),
     PLAIN(mps_preconditioner_info_get),
@@ -294,6 +299,7 @@ static const lock_call lock_calls[] = {
     PLAIN(mps_particles_count),
     PLAIN(mps_particle_index),
     PLAIN(mps_part_find),
+    PLAIN(mps_probe_info_get),
     PLAIN(mps_probe_size),
     PLAIN(mps_sim_error),
     PLAIN(mps_sim_shape),

@@ -20,7 +20,7 @@ static inline int do_nothing(mps_stage *s)
 }
 
 /* For models that only bring channels: a model needs a verb. */
-static const mps_verb idle_verbs[] = {{.moment = MPS_LIMIT, .run = do_nothing}};
+static const mps_verb idle_verbs[] = {{.hook = MPS_LIMIT, .run = do_nothing}};
 
 /* No models, no gravity, no particles, steps of 1 ms. */
 static inline mps_sim *empty_sim(int32_t dim, double dp, const mps_allocator *allocator)

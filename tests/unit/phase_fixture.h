@@ -28,23 +28,24 @@ static inline int spy_lay_number(mps_stage *s)
 {
     double *number_density = s->data[0];
     if (spy.given_deviation == 0) return 0;
-    for (int64_t i = 0; i < s->n; i++) {
-        spy.near_sum[s->id[i]] = number_density[i] / s->near->n0;
-        number_density[i] = s->near->n0 + spy.given_deviation * number_density[i];
+    for (int64_t i = 0; i < s->view->n; i++) {
+        spy.near_sum[s->view->id[i]] = number_density[i] / s->view->near.n0;
+        number_density[i] = s->view->near.n0 + spy.given_deviation * number_density[i];
     }
     return 0;
 }
 
 static inline int spy_lay_deviation(mps_stage *s)
 {
+    const mps_view *v = s->view;
     double *volume_deviation = s->data[0];
     if (spy.given_deviation == 0) return 0;
-    double *one = mps_stage_scratch(s, s->n), *sum = mps_stage_scratch(s, s->n);
+    double *one = mps_stage_scratch(s, v->n), *sum = mps_stage_scratch(s, v->n);
     assert_true(one && sum);
-    for (int64_t i = 0; i < s->n; i++) one[i] = 1;
-    assert_int_equal(mps_op_volume_sum(s->far, one, sum), MPS_OK);
-    for (int64_t i = 0; i < s->n; i++) {
-        spy.wide_sum[s->id[i]] = sum[i];
+    for (int64_t i = 0; i < v->n; i++) one[i] = 1;
+    assert_int_equal(mps_op_volume_sum(&v->far, one, sum), MPS_OK);
+    for (int64_t i = 0; i < v->n; i++) {
+        spy.wide_sum[v->id[i]] = sum[i];
         volume_deviation[i] = spy.given_deviation * sum[i];
     }
     return 0;
@@ -53,15 +54,15 @@ static inline int spy_lay_deviation(mps_stage *s)
 static inline int spy_lay_rhs(mps_stage *s)
 {
     double *source = s->data[0];
-    for (int64_t i = 0; i < s->n; i++) source[i] += spy.given_rhs;
+    for (int64_t i = 0; i < s->view->n; i++) source[i] += spy.given_rhs;
     return 0;
 }
 
 static inline int spy_lay_pressure(mps_stage *s)
 {
     double *p = s->data[0];
-    for (int64_t i = 0; spy.pressure && i < s->n; i++)
-        p[i] = spy.pressure(s->x + i * s->dim, s->dim);
+    for (int64_t i = 0; spy.pressure && i < s->view->n; i++)
+        p[i] = spy.pressure(s->view->x + i * s->view->dim, s->view->dim);
     return 0;
 }
 
@@ -71,18 +72,18 @@ static const mps_use spy_rhs_uses[] = {{"pressure_source", MPS_USE_CHANGE}};
 static const mps_use spy_pressure_uses[] = {{"pressure", MPS_USE_CHANGE}};
 
 static const mps_verb spy_before_verbs[] = {
-    {.moment = MPS_CLASSIFY,
+    {.hook = MPS_CLASSIFY,
      .use_count = 1,
      .uses = spy_number_uses,
      .before = "*",
      .run = spy_lay_number},
-    {.moment = MPS_PREPARE,
+    {.hook = MPS_PREPARE,
      .use_count = 1,
      .uses = spy_deviation_uses,
      .before = "*",
      .run = spy_lay_deviation},
-    {.moment = MPS_SOURCE, .use_count = 1, .uses = spy_rhs_uses, .before = "*", .run = spy_lay_rhs},
-    {.moment = MPS_LEVEL,
+    {.hook = MPS_SOURCE, .use_count = 1, .uses = spy_rhs_uses, .before = "*", .run = spy_lay_rhs},
+    {.hook = MPS_LEVEL,
      .use_count = 1,
      .uses = spy_pressure_uses,
      .before = "*",
@@ -104,17 +105,18 @@ static const mps_use spy_force_uses[SPY_FORCE_USES] = {
 
 static inline int spy_force(mps_stage *s)
 {
+    const mps_view *v = s->view;
     const double *a = s->data[SPY_ACCELERATION], *density = s->data[SPY_DENSITY];
     const double *volume = s->data[SPY_DEVIATION], *number = s->data[SPY_NUMBER];
     const int32_t *region = s->data[SPY_REGION];
-    const int dim = s->dim;
-    assert_true(s->n <= SPY_ROOM);
-    for (int64_t i = 0; i < s->n * dim; i++) spy.a[s->id[i / dim] * dim + i % dim] = a[i];
-    for (int64_t i = 0; i < s->n; i++) {
-        spy.density[s->id[i]] = density[i];
-        spy.region[s->id[i]] = region[i];
-        spy.volume[s->id[i]] = volume[i];
-        spy.number[s->id[i]] = number[i] / s->near->n0;
+    const int dim = v->dim;
+    assert_true(v->n <= SPY_ROOM);
+    for (int64_t i = 0; i < v->n * dim; i++) spy.a[v->id[i / dim] * dim + i % dim] = a[i];
+    for (int64_t i = 0; i < v->n; i++) {
+        spy.density[v->id[i]] = density[i];
+        spy.region[v->id[i]] = region[i];
+        spy.volume[v->id[i]] = volume[i];
+        spy.number[v->id[i]] = number[i] / v->near.n0;
     }
     return 0;
 }
@@ -128,13 +130,14 @@ static const mps_use spy_source_uses[SPY_SOURCE_USES] = {
 
 static inline int spy_source(mps_stage *s)
 {
+    const mps_view *v = s->view;
     const double *shift = s->data[SPY_SHIFT], *rhs = s->data[SPY_RHS];
     const double *gas = s->data[SPY_GAS], *law = s->data[SPY_LAW];
-    for (int64_t i = 0; i < s->n; i++) {
-        spy.shift[s->id[i]] = shift[i];
-        spy.rhs[s->id[i]] = rhs[i];
-        spy.gas[s->id[i]] = gas[i];
-        spy.law[s->id[i]] = law[i];
+    for (int64_t i = 0; i < v->n; i++) {
+        spy.shift[v->id[i]] = shift[i];
+        spy.rhs[v->id[i]] = rhs[i];
+        spy.gas[v->id[i]] = gas[i];
+        spy.law[v->id[i]] = law[i];
     }
     return 0;
 }
@@ -144,25 +147,26 @@ static const mps_use spy_gradient_uses[] = {{"acceleration", MPS_USE_READ},
 
 static inline int spy_gradient(mps_stage *s)
 {
+    const mps_view *v = s->view;
     const double *a = s->data[0], *p = s->data[1];
-    const int dim = s->dim;
+    const int dim = v->dim;
     spy.level_free = s->level_free;
-    for (int64_t i = 0; i < s->n * dim; i++) spy.dp_a[s->id[i / dim] * dim + i % dim] = a[i];
-    for (int64_t i = 0; i < s->n; i++) spy.p[s->id[i]] = p[i];
+    for (int64_t i = 0; i < v->n * dim; i++) spy.dp_a[v->id[i / dim] * dim + i % dim] = a[i];
+    for (int64_t i = 0; i < v->n; i++) spy.p[v->id[i]] = p[i];
     return 0;
 }
 
-static const mps_verb spy_after_verbs[] = {{.moment = MPS_FORCE,
+static const mps_verb spy_after_verbs[] = {{.hook = MPS_FORCE,
                                             .use_count = SPY_FORCE_USES,
                                             .uses = spy_force_uses,
                                             .after = "*",
                                             .run = spy_force},
-                                           {.moment = MPS_SOURCE,
+                                           {.hook = MPS_SOURCE,
                                             .use_count = SPY_SOURCE_USES,
                                             .uses = spy_source_uses,
                                             .after = "*",
                                             .run = spy_source},
-                                           {.moment = MPS_GRADIENT,
+                                           {.hook = MPS_GRADIENT,
                                             .use_count = 2,
                                             .uses = spy_gradient_uses,
                                             .after = "*",

@@ -16,14 +16,13 @@ static const double re_near = 2.1 * CLOUD_DP, re_far = 3.1 * CLOUD_DP, rho0 = 10
 typedef struct tank {
     cloud c;
     mps_neighbours *list;
-    mps_stencil near, far;
     mps__context context;
     mps__ppe e;
     int64_t id[MOST];
     int32_t kind[MOST], phase[MOST], region[MOST], fixed[MOST];
     double p[MOST], density[MOST], wet[MOST], depth[MOST], rhs[MOST], shift[MOST], value[MOST],
         accel[3 * MOST], gas[MOST], law[MOST];
-    mps_stage stage;
+    mps_view view;
     mps_flux flux;
     mps__ppe_terms terms;
 } tank;
@@ -32,31 +31,30 @@ static inline void tank_init(tank *k, cloud c)
 {
     mps_kernel kernel = {.struct_size = sizeof kernel};
     memset(k, 0, sizeof *k);
-    k->near.struct_size = k->far.struct_size = sizeof k->near;
     assert_true(c.n <= MOST);
     k->c = c;
+    k->view = (mps_view){.struct_size = sizeof k->view,
+                         .dim = c.dim,
+                         .n = c.n,
+                         .dt = 1e-3,
+                         .dp = CLOUD_DP,
+                         .kind = k->kind,
+                         .id = k->id,
+                         .x = c.x,
+                         .near = {.struct_size = sizeof k->view.near},
+                         .far = {.struct_size = sizeof k->view.far}};
     k->context.allocator = mps__allocator_default();
     mps__ppe_init(&k->e, &k->context);
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
     assert_int_equal(mps_neighbours_create(c.dim, CLOUD_DP, NULL, &k->list), MPS_OK);
     assert_int_equal(mps_neighbours_build(k->list, c.n, c.x, re_near, re_far), MPS_OK);
-    assert_int_equal(mps_neighbours_stencil_get(k->list, MPS_NEAR, &kernel, &k->near), MPS_OK);
-    assert_int_equal(mps_neighbours_stencil_get(k->list, MPS_FAR, &kernel, &k->far), MPS_OK);
+    assert_int_equal(mps_neighbours_stencil_get(k->list, MPS_NEAR, &kernel, &k->view.near), MPS_OK);
+    assert_int_equal(mps_neighbours_stencil_get(k->list, MPS_FAR, &kernel, &k->view.far), MPS_OK);
     for (int64_t i = 0; i < c.n; i++) {
         k->id[i] = i;
         k->density[i] = rho0;
         k->wet[i] = 1;
     }
-    k->stage = (mps_stage){.struct_size = sizeof k->stage,
-                           .dim = c.dim,
-                           .n = c.n,
-                           .dt = 1e-3,
-                           .dp = CLOUD_DP,
-                           .kind = k->kind,
-                           .id = k->id,
-                           .x = c.x,
-                           .near = &k->near,
-                           .far = &k->far};
     k->flux = (mps_flux){.struct_size = sizeof k->flux,
                          .body = 1,
                          .kind = k->kind,
@@ -65,18 +63,17 @@ static inline void tank_init(tank *k, cloud c)
                          .distance = k->depth,
                          .wetted = k->wet,
                          .tank_acceleration = k->accel};
-    k->terms = (mps__ppe_terms){
-        .equation = {.struct_size = sizeof(mps_equation), .radius = MPS_FAR, .gain = 1},
-        .flux = &k->flux,
-        .region = k->region,
-        .density = k->density,
-        .pressure = k->p,
-        .source = k->rhs,
-        .shift = k->shift,
-        .value = k->value,
-        .gas = k->gas,
-        .law = k->law,
-        .condition = k->fixed};
+    k->terms = (mps__ppe_terms){.equation = {.radius = MPS_FAR, .gain = 1},
+                                .flux = &k->flux,
+                                .region = k->region,
+                                .density = k->density,
+                                .pressure = k->p,
+                                .source = k->rhs,
+                                .shift = k->shift,
+                                .value = k->value,
+                                .gas = k->gas,
+                                .law = k->law,
+                                .condition = k->fixed};
 }
 
 static inline void tank_free(tank *k)
@@ -107,7 +104,8 @@ static inline void add_surface(tank *k, int nx, double value)
 
 static inline void assemble(tank *k)
 {
-    assert_int_equal(mps__ppe_assemble(&k->e, &k->stage, &k->terms), MPS_OK);
+    assert_int_equal(mps__ppe_fill(&k->e, &k->view, &k->terms), MPS_OK);
+    assert_int_equal(mps__ppe_note(&k->e, &k->view, &k->terms), MPS_OK);
 }
 
 #endif

@@ -11,7 +11,7 @@
 
 static const double dp = 0.05;
 
-/* ---- a model with a verb in every moment that pushes, fails or spoils on demand -------------- */
+/* ---- a model with a verb in every hook that pushes, fails or spoils on demand -------------- */
 
 enum { CLASSIFY, PREPARE, FORCE, SOURCE, LEVEL, GRADIENT, LOAD, VELOCITY, SHIFT, VERBS };
 static const char *const verb_name[VERBS] = {"classify", "prepare", "force",    "source", "level",
@@ -47,10 +47,10 @@ static inline int verb(mps_stage *s, int which, double *mess, int64_t count)
     return test.silent ? 1 : mps_stage_fail(s, "the %s is out of order", verb_name[which]);
 }
 
-static inline int64_t place_of(const mps_stage *s, int64_t id)
+static inline int64_t place_of(const mps_view *v, int64_t id)
 {
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->id[i] == id) return i;
+    for (int64_t i = 0; i < v->n; i++)
+        if (v->id[i] == id) return i;
     return 0;
 }
 
@@ -76,7 +76,7 @@ static inline int limit(mps_stage *s)
 static inline int classify(mps_stage *s)
 {
     int32_t *region = s->data[0];
-    if (test.region != MPS_REGION_INNER) region[place_of(s, test.victim)] = test.region;
+    if (test.region != MPS_REGION_INNER) region[place_of(s->view, test.victim)] = test.region;
     return verb(s, CLASSIFY, NULL, 0);
 }
 
@@ -87,11 +87,12 @@ static inline int prepare(mps_stage *s)
 
 static inline int force(mps_stage *s)
 {
+    const mps_view *v = s->view;
     double *a = s->data[0];
     assert_non_null(s->self);
-    for (int64_t i = 0; i < s->n; i++) a[i * s->dim] += s->setting[0];
-    if (test.spoil == 2) a[place_of(s, test.victim) * s->dim] = NAN;
-    return verb(s, FORCE, a, s->n * s->dim);
+    for (int64_t i = 0; i < v->n; i++) a[i * v->dim] += v->setting[0];
+    if (test.spoil == 2) a[place_of(v, test.victim) * v->dim] = NAN;
+    return verb(s, FORCE, a, v->n * v->dim);
 }
 
 static inline int source(mps_stage *s)
@@ -101,47 +102,49 @@ static inline int source(mps_stage *s)
 
 static inline int level(mps_stage *s)
 {
-    return verb(s, LEVEL, s->data[0], s->n);
+    return verb(s, LEVEL, s->data[0], s->view->n);
 }
 
 static inline int gradient(mps_stage *s)
 {
-    return verb(s, GRADIENT, s->data[0], s->n * s->dim);
+    return verb(s, GRADIENT, s->data[0], s->view->n * s->view->dim);
 }
 
 static inline int load(mps_stage *s)
 {
-    return verb(s, LOAD, s->data[0], s->n);
+    return verb(s, LOAD, s->data[0], s->view->n);
 }
 
 static inline int velocity(mps_stage *s)
 {
+    const mps_view *v = s->view;
     double *u = s->data[0];
-    if (test.spoil == 1) u[place_of(s, test.victim) * s->dim + 1] = NAN;
-    if (test.spoil == 3) u[place_of(s, test.victim) * s->dim + 1] = 1e4;
-    return verb(s, VELOCITY, u, s->n * s->dim);
+    if (test.spoil == 1) u[place_of(v, test.victim) * v->dim + 1] = NAN;
+    if (test.spoil == 3) u[place_of(v, test.victim) * v->dim + 1] = 1e4;
+    return verb(s, VELOCITY, u, v->n * v->dim);
 }
 
 static inline int shift(mps_stage *s)
 {
+    const mps_view *v = s->view;
     double *dx = s->data[0];
-    if (test.spoil == 4) dx[place_of(s, test.victim) * s->dim] += 4 * s->dp;
-    return verb(s, SHIFT, s->data[1], s->n * s->dim);
+    if (test.spoil == 4) dx[place_of(v, test.victim) * v->dim] += 4 * v->dp;
+    return verb(s, SHIFT, s->data[1], v->n * v->dim);
 }
 
 static const mps_setting push_settings[] = {
     {"acceleration", "m/s2", "along the first axis", MPS_TYPE_REAL, 0, -100, 100}};
 static const mps_verb push_verbs[] = {
-    {.moment = MPS_LIMIT, .run = limit},
-    {.moment = MPS_CLASSIFY, .use_count = 1, .uses = region_uses, .after = "*", .run = classify},
-    {.moment = MPS_PREPARE, .run = prepare},
-    {.moment = MPS_FORCE, .use_count = 1, .uses = push_uses, .run = force},
-    {.moment = MPS_SOURCE, .run = source},
-    {.moment = MPS_LEVEL, .use_count = 1, .uses = level_uses, .run = level},
-    {.moment = MPS_GRADIENT, .use_count = 1, .uses = push_uses, .run = gradient},
-    {.moment = MPS_LOAD, .use_count = 1, .uses = load_uses, .run = load},
-    {.moment = MPS_VELOCITY, .use_count = 1, .uses = velocity_uses, .run = velocity},
-    {.moment = MPS_SHIFT, .use_count = 2, .uses = shift_uses, .run = shift}};
+    {.hook = MPS_LIMIT, .run = limit},
+    {.hook = MPS_CLASSIFY, .use_count = 1, .uses = region_uses, .after = "*", .run = classify},
+    {.hook = MPS_PREPARE, .run = prepare},
+    {.hook = MPS_FORCE, .use_count = 1, .uses = push_uses, .run = force},
+    {.hook = MPS_SOURCE, .run = source},
+    {.hook = MPS_LEVEL, .use_count = 1, .uses = level_uses, .run = level},
+    {.hook = MPS_GRADIENT, .use_count = 1, .uses = push_uses, .run = gradient},
+    {.hook = MPS_LOAD, .use_count = 1, .uses = load_uses, .run = load},
+    {.hook = MPS_VELOCITY, .use_count = 1, .uses = velocity_uses, .run = velocity},
+    {.hook = MPS_SHIFT, .use_count = 2, .uses = shift_uses, .run = shift}};
 static const mps_model_ops push = {.struct_size = sizeof(mps_model_ops),
                                    .api = MPS_MODEL_API,
                                    .name = "test.push",

@@ -58,7 +58,7 @@ static void falls_with_g(void **state)
 static void is_left_behind(void **state)
 {
     (void)state;
-    const mps_harmonic h = {.dof = MPS_SURGE, .amplitude = 0.05, .omega = 20};
+    const mps_harmonic h = {.dof = MPS_MOVE_X, .amplitude = 0.05, .omega = 20};
     for (int k = 0; k < 2; k++) {
         mps_sim *sim = drop(2, 4, k ? "body" : NULL);
         ASSERT_OK(sim, mps_motion_harmonics_set(sim, 1, &h));

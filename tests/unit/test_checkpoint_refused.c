@@ -11,7 +11,7 @@
 static int other_motion(void *user, double t, mps_motion_state *state)
 {
     (void)user;
-    state->value[MPS_SURGE] = 0.2 * t;
+    state->value[MPS_MOVE_X] = 0.2 * t;
     return 0;
 }
 
@@ -212,16 +212,17 @@ static const forgery forgeries[] = {
     REAL("state.jump", offsetof(mps__jump, accel), NAN, "\"state.jump\""),
     WIDE("state.jump", offsetof(mps__jump, since), -1, "\"state.jump\""),
     REAL("state.before", offsetof(mps__pose, state.value), NAN, "\"state.before\""),
-    REAL("motion.now", offsetof(mps__pose, state.rate) + 8 * MPS_YAW, INFINITY, "\"motion.now\""),
+    REAL("motion.now", offsetof(mps__pose, state.rate) + 8 * MPS_ROTATE_Z, INFINITY,
+         "\"motion.now\""),
     REAL("motion.now", offsetof(mps__pose, rotation), NAN, "\"motion.now\""),
     REAL("motion.now", offsetof(mps__pose, rotation) + 8, 0.5, "the rotation of \"motion.now\""),
-    REAL("motion.now", offsetof(mps__pose, state.value) + 8 * MPS_PITCH, 0.1,
-         "which 2-D does not have"),
+    REAL("motion.now", offsetof(mps__pose, state.value) + 8 * MPS_ROTATE_Y, 0.1,
+         "'MPS_ROTATE_Y' of \"motion.now\" is not 0"),
     REAL("motion.now", offsetof(mps__pose, omega), NAN, "\"motion.now\""),
     REAL("motion.now", offsetof(mps__pose, alpha), NAN, "\"motion.now\""),
     REAL("motion.now", offsetof(mps__pose, t), NAN, "\"motion.now\""),
     REAL("motion.hold", offsetof(mps_motion_state, accel), NAN, "\"motion.hold\""),
-    REAL("state.budget", offsetof(mps__budget, wall_work), NAN, "\"state.budget\""),
+    REAL("state.budget", offsetof(mps__budget, wall_work_momentum), NAN, "\"state.budget\""),
     REAL("state.budget", offsetof(mps__budget, deviation_start), NAN, "\"state.budget\""),
     REAL("state.budget", offsetof(mps__budget, last.momentum), NAN, "\"state.budget\""),
     REAL("state.budget", offsetof(mps__budget, momentum.added) + 16, NAN, "\"state.budget\""),

@@ -16,31 +16,32 @@ static sight seen;
 
 static int look(mps_stage *s)
 {
-    int32_t *member = mps_stage_scratch_integers(s, s->n),
-            *beside = mps_stage_scratch_integers(s, s->n);
+    const mps_view *v = s->view;
+    int32_t *member = mps_stage_scratch_integers(s, v->n),
+            *beside = mps_stage_scratch_integers(s, v->n);
     if (!member || !beside) return 1;
     seen = (sight){.calls = seen.calls + 1};
-    for (int64_t i = 0; i < s->n; i++) {
-        const bool dummy = s->kind[i] == MPS_DUMMY, fluid = s->kind[i] == MPS_FLUID;
+    for (int64_t i = 0; i < v->n; i++) {
+        const bool dummy = v->kind[i] == MPS_DUMMY, fluid = v->kind[i] == MPS_FLUID;
         bool any = false;
         member[i] = dummy;
-        for (int64_t p = s->near->begin[i]; p < s->near->end[i]; p++)
-            any = any || s->kind[s->near->col[p]] == MPS_DUMMY;
+        for (int64_t p = v->near.begin[i]; p < v->near.end[i]; p++)
+            any = any || v->kind[v->near.col[p]] == MPS_DUMMY;
         seen.dummies += dummy;
-        seen.with_row += dummy && s->near->end[i] > s->near->begin[i];
+        seen.with_row += dummy && v->near.end[i] > v->near.begin[i];
         seen.in_fluid_rows += fluid && any;
     }
     mps_stage_beside(s, member, beside);
-    for (int64_t i = 0; i < s->n; i++) seen.beside += s->kind[i] == MPS_FLUID && beside[i];
+    for (int64_t i = 0; i < v->n; i++) seen.beside += v->kind[i] == MPS_FLUID && beside[i];
     return 0;
 }
 
 static const mps_use plain_uses[] = {{"density", MPS_USE_NEIGHBOURS}},
                      dummy_uses[] = {{"density", MPS_USE_DUMMIES}};
 static const mps_verb plain_verbs[] = {
-    {.moment = MPS_PREPARE, .use_count = 1, .uses = plain_uses, .run = look}};
+    {.hook = MPS_PREPARE, .use_count = 1, .uses = plain_uses, .run = look}};
 static const mps_verb dummy_verbs[] = {
-    {.moment = MPS_PREPARE, .use_count = 1, .uses = dummy_uses, .run = look}};
+    {.hook = MPS_PREPARE, .use_count = 1, .uses = dummy_uses, .run = look}};
 
 static mps_model_ops model(const char *name, const mps_verb *verbs)
 {

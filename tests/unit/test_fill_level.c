@@ -47,7 +47,7 @@ static void rounding_is_told(void **state)
         sim = logging(dim, 0.01);
         const double even[3] = {0.4, 0.09, 0.1};
         ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, even, NULL, built));
-        assert_int_equal(told[0], 0);
+        if (strstr(told, "became") || !strstr(told, "asked for, +0 %")) fail_msg("\"%s\"", told);
         mps_sim_destroy(sim);
     }
 }

@@ -126,14 +126,14 @@ static void links_follow(void **state)
     const int32_t order[4] = {3, 1, 4, 0}; /* 2 goes */
     assert_int_equal(mps__particles_init(&s, &context, 2), MPS_OK);
     assert_int_equal(mps__particles_reserve(&s, 5), MPS_OK);
-    assert_int_equal(mps__particles_append(&s, 5), 0);
+    assert_int_equal(mps__particles_append(&s, 5, MPS_WALL), 0);
     for (int k = 0; k < 5; k++) assert_int_equal(s.wall_of[k], -1);
     s.wall_of[0] = 3;
     s.wall_of[1] = 2;
     s.wall_of[3] = 4;
-    const int64_t generation = s.generation;
+    const int64_t generation = s.generation, solids = s.solids;
     assert_int_equal(mps__particles_permute(&s, 4, order), MPS_OK);
-    assert_true(s.n == 4 && s.generation > generation);
+    assert_true(s.n == 4 && s.generation > generation && s.solids > solids);
     const int32_t links[4] = {2, -1, -1, 0};
     for (int k = 0; k < 4; k++) {
         assert_int_equal(s.id[k], order[k]);

@@ -87,8 +87,8 @@ static int32_t count_channels(mps_sim *sim, int own)
     for (int32_t k = 0; mps_channel_info_get(sim, k, &c) == MPS_OK; k++) {
         if (!is_text(c.name) || !is_text(c.unit) || !is_text(c.help))
             fail_msg("channel %d lacks a text", (int)k);
-        assert_true(c.components >= 1 && c.components <= 9 && c.reads != 0);
-        assert_true((c.reads | c.writes) < 1u << MPS_MOMENT_COUNT);
+        assert_true(c.components >= 0 && c.components <= 9 && c.reads != 0); /* 0: a scalar */
+        assert_true((c.reads | c.writes) < 1u << MPS_HOOK_COUNT);
         count += c.own == own;
     }
     return count;
@@ -144,14 +144,14 @@ static void verbs_of_the_presets(void **state)
         mps_verb_info v;
         mps_model_info m;
         mps_status status;
-        int32_t verbs = 0, wanted = 0, moment = 0;
+        int32_t verbs = 0, wanted = 0, hook = 0;
         ASSERT_OK(sim, mps_preset_use(sim, preset.name));
         assert_int_equal(mps_verb_info_init(&v, sizeof v), MPS_OK);
         for (; (status = mps_verb_info_get(sim, verbs, &v)) == MPS_OK; verbs++) {
-            assert_true(v.moment >= moment && v.moment < MPS_MOMENT_COUNT);
-            assert_true(is_text(v.moment_name) && is_text(v.model));
+            assert_true(v.hook >= hook && v.hook < MPS_HOOK_COUNT);
+            assert_true(is_text(v.hook_name) && is_text(v.model));
             check_uses(sim, &v);
-            moment = v.moment;
+            hook = v.hook;
         }
         ASSERT_STATUS(sim, status, MPS_E_ARG); /* not: no order */
         assert_int_equal(mps_model_info_init(&m, sizeof m), MPS_OK);
@@ -261,6 +261,11 @@ static mps_status get_verb(mps_sim *sim, int32_t k, void *i)
     return mps_verb_info_get(sim, k, i);
 }
 
+static mps_status get_pass(mps_sim *sim, int32_t k, void *i)
+{
+    return mps_pass_info_get(sim, k, i);
+}
+
 #define NAMES(what)                                                \
     static mps_status get_##what(mps_sim *sim, int32_t k, void *i) \
     {                                                              \
@@ -291,6 +296,11 @@ static mps_status init_verb(void *i, size_t size)
     return mps_verb_info_init(i, size);
 }
 
+static mps_status init_pass(void *i, size_t size)
+{
+    return mps_pass_info_init(i, size);
+}
+
 static mps_status init_name(void *i, size_t size)
 {
     return mps_name_info_init(i, size);
@@ -306,6 +316,7 @@ static const struct {
             {get_channel, init_channel, sizeof(mps_channel_info),
              sizeof(mps_channel_info) - offsetof(mps_channel_info, own) - sizeof(int32_t)},
             {get_verb, init_verb, sizeof(mps_verb_info), 0},
+            {get_pass, init_pass, sizeof(mps_pass_info), 0},
             {get_preset, init_name, sizeof(mps_name_info), 0},
             {get_solver, init_name, sizeof(mps_name_info), 0},
             {get_preconditioner, init_name, sizeof(mps_name_info), 0},

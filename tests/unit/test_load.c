@@ -25,16 +25,16 @@ typedef struct pair {
     double d[3], w, w_r2, r2;
 } pair;
 
-static bool pair_of(const mps_stage *s, const mps_kernel *kernel, int64_t i, int64_t j, pair *q)
+static bool pair_of(const mps_view *v, const mps_kernel *kernel, int64_t i, int64_t j, pair *q)
 {
-    const int dim = s->dim;
+    const int dim = v->dim;
     *q = (pair){0};
     for (int d = 0; d < dim; d++) {
-        q->d[d] = s->x[j * dim + d] - s->x[i * dim + d];
+        q->d[d] = v->x[j * dim + d] - v->x[i * dim + d];
         q->r2 += q->d[d] * q->d[d];
     }
-    if (q->r2 >= s->near->re * s->near->re) return false;
-    q->w = mps_kernel_value(kernel, sqrt(q->r2), s->near->re);
+    if (q->r2 >= v->near.re * v->near.re) return false;
+    q->w = mps_kernel_value(kernel, sqrt(q->r2), v->near.re);
     q->w_r2 = q->w / q->r2;
     return true;
 }
@@ -42,15 +42,16 @@ static bool pair_of(const mps_stage *s, const mps_kernel *kernel, int64_t i, int
 /* e_j and p'_j of the head of src/bc/load_reaction.c; the product s_j e_j. */
 static double rise(const mps_stage *s, int64_t i, int64_t j, const double *r, double *carried)
 {
+    const mps_view *v = s->view;
     const double *p = s->data[PRESSURE], *a = s->data[ACCELERATION], *rho = s->data[DENSITY];
     const double *tank = s->data[TANK];
     const int32_t *region = s->data[REGION];
     const double mean = (rho[i] + rho[j]) / 2;
     double fall = 0, moved = 0;
-    for (int d = 0; d < s->dim; d++) {
-        const double b = s->g[d] - (tank[i * s->dim + d] + tank[j * s->dim + d]) / 2;
+    for (int d = 0; d < v->dim; d++) {
+        const double b = v->g[d] - (tank[i * v->dim + d] + tank[j * v->dim + d]) / 2;
         fall += b * r[d];
-        moved += (a[j * s->dim + d] + b) * r[d];
+        moved += (a[j * v->dim + d] + b) * r[d];
     }
     *carried = p[j] - mean * fall;
     return region[j] == MPS_REGION_SURFACE ? p[i] - *carried : 2 * mean * moved;
@@ -59,23 +60,24 @@ static double rise(const mps_stage *s, int64_t i, int64_t j, const double *r, do
 /* P_i */
 static double expected(const mps_stage *s, const mps_kernel *kernel, int64_t i)
 {
-    const int dim = s->dim;
+    const mps_view *v = s->view;
+    const int dim = v->dim;
     const int32_t *region = s->data[REGION];
-    const double *p = s->data[PRESSURE], *area = s->area + i * dim;
+    const double *p = s->data[PRESSURE], *area = v->area + i * dim;
     double size2 = 0, weight = 0, mean = 0, sum = 0;
     for (int d = 0; d < dim; d++) size2 += area[d] * area[d];
-    for (int64_t j = 0; j < s->n; j++) {
+    for (int64_t j = 0; j < v->n; j++) {
         const double *b = (const double *)s->data[CORRECTION] + j * dim * dim;
         double carried, push = 0;
         pair q;
-        if (s->kind[j] != MPS_FLUID || !pair_of(s, kernel, i, j, &q)) continue;
+        if (v->kind[j] != MPS_FLUID || !pair_of(v, kernel, i, j, &q)) continue;
         seen.spray += region[j] == MPS_REGION_SPRAY;
         seen.surface += region[j] == MPS_REGION_SURFACE;
         if (region[j] == MPS_REGION_SPRAY) continue;
         for (int d = 0; d < dim; d++)
             for (int e = 0; e < dim; e++) push += area[d] * b[d * dim + e] * q.d[e];
         const double own = rise(s, i, j, q.d, &carried);
-        sum += pow(s->dp, dim) * dim / s->near->n0 * q.w_r2 * push * own;
+        sum += pow(v->dp, dim) * dim / v->near.n0 * q.w_r2 * push * own;
         mean += q.w * carried;
         weight += q.w;
     }
@@ -93,17 +95,17 @@ static int compare(mps_stage *s)
     double most = 0;
     mps_kernel kernel = {.struct_size = sizeof kernel};
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
-    for (int64_t i = 0; i < s->n; i++) most = fmax(most, fabs(p[i]));
+    for (int64_t i = 0; i < s->view->n; i++) most = fmax(most, fabs(p[i]));
     assert_true(most > 0);
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_WALL || region[i] == MPS_REGION_DRY) continue;
+    for (int64_t i = 0; i < s->view->n; i++) {
+        if (s->view->kind[i] != MPS_WALL || region[i] == MPS_REGION_DRY) continue;
         seen.worst = fmax(seen.worst, fabs(load[i] - expected(s, &kernel, i)) / most);
     }
     return 0;
 }
 
 static const mps_verb verbs[] = {
-    {.moment = MPS_LOAD, .use_count = USES, .uses = uses, .after = "*", .run = compare}};
+    {.hook = MPS_LOAD, .use_count = USES, .uses = uses, .after = "*", .run = compare}};
 static const mps_model_ops spy = {.struct_size = sizeof(mps_model_ops),
                                   .api = MPS_MODEL_API,
                                   .name = "after.spy",
@@ -115,7 +117,7 @@ static const mps_model_ops spy = {.struct_size = sizeof(mps_model_ops),
 static mps_sim *splash(int32_t dim)
 {
     const double dp = 0.05, lo[3] = {0}, hi[3] = {0.6, 0.3, 0.3}, drop[3] = {0.69, 0.04, 0.15};
-    const mps_harmonic surge = {.dof = MPS_SURGE, .amplitude = 0.1, .omega = 12, .phase = 0.9};
+    const mps_harmonic surge = {.dof = MPS_MOVE_X, .amplitude = 0.1, .omega = 12, .phase = 0.9};
     uint64_t seed = 3;
     mps_particle_block b;
     mps_lease x = {.struct_size = sizeof x};

@@ -57,9 +57,9 @@ static int meddling_motion(void *user, double t, mps_motion_state *state)
 {
     (void)user;
     meddle(MOTION);
-    state->value[MPS_SURGE] = 1e-3 * (1 - cos(5 * t));
-    state->rate[MPS_SURGE] = 5e-3 * sin(5 * t);
-    state->accel[MPS_SURGE] = 25e-3 * cos(5 * t);
+    state->value[MPS_MOVE_X] = 1e-3 * (1 - cos(5 * t));
+    state->rate[MPS_MOVE_X] = 5e-3 * sin(5 * t);
+    state->accel[MPS_MOVE_X] = 25e-3 * cos(5 * t);
     return 0;
 }
 
@@ -87,7 +87,7 @@ static int meddling_monitor(void *user, mps_sim *sim, const mps_step_info *info)
 
 /* ---- the scene ------------------------------------------------------------------------------- */
 
-static const mps_verb verbs[] = {{.moment = MPS_FORCE, .run = meddling_verb}};
+static const mps_verb verbs[] = {{.hook = MPS_FORCE, .run = meddling_verb}};
 static const mps_model_ops meddler = {TOY("meddler.toy", 1, verbs)};
 
 static mps_sim *new_scene(void)

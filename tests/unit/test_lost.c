@@ -183,9 +183,9 @@ static void beside_a_plate(void **state)
 static int quarter_turn(void *user, double t, mps_motion_state *state)
 {
     (void)user, (void)t;
-    state->value[MPS_SURGE] = 5;
-    state->value[MPS_HEAVE] = 2;
-    state->value[MPS_YAW] = acos(-1.0) / 2;
+    state->value[MPS_MOVE_X] = 5;
+    state->value[MPS_MOVE_Y] = 2;
+    state->value[MPS_ROTATE_Z] = acos(-1.0) / 2;
     return 0;
 }
 
@@ -314,7 +314,7 @@ static void too_long_steps(void **state)
     ASSERT_OK(sim, mps_step(sim, 1, NULL));
     mps_sim_destroy(sim);
     const double times[2] = {0, 1}, way[2] = {0, 31};
-    const int32_t surge = MPS_SURGE;
+    const int32_t surge = MPS_MOVE_X;
     sim = bullet(2, &m, &control);
     ASSERT_OK(sim, mps_motion_table_set(sim, 2, times, 1, &surge, way));
     ASSERT_OK(sim, mps_step(sim, 1, NULL));
@@ -422,9 +422,30 @@ static void long_steps_are_told_once(void **state)
     mps_sim_destroy(sim);
 }
 
+/* Fluid that is added outside of the walls is told at once. */
+static void added_outside(void **state)
+{
+    (void)state;
+    message m;
+    mps_particle_block b;
+    const double x[4] = {0.25, 0.4, 0.8, 0.25};
+    mps_sim *sim = pool(MPS_LOST_REMOVE, &m, NULL, NULL);
+    assert_int_equal(mps_particle_block_init(&b, sizeof b), MPS_OK);
+    b.count = 1;
+    b.position = x;
+    ASSERT_OK(sim, mps_particles_add(sim, &b, NULL));
+    assert_int_equal(m.count, 0);
+    b.position = x + 2;
+    ASSERT_OK(sim, mps_particles_add(sim, &b, NULL));
+    assert_true(m.count == 1 && m.level == MPS_LOG_WARNING);
+    assert_non_null(strstr(m.text, "outside of the box of the solids, first at (0.8, 0.25, 0) m"));
+    mps_sim_destroy(sim);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(added_outside),
         cmocka_unit_test(removed_and_counted),
         cmocka_unit_test(refused_by_policy),
         cmocka_unit_test(given_domain),

@@ -176,9 +176,8 @@ static void missing_channel(void **state)
     (void)state;
     static const mps_use wants[] = {{"heat", MPS_USE_READ}};
     static const mps_use may[] = {{"heat", MPS_USE_NEIGHBOURS | MPS_USE_OPTIONAL}};
-    static const mps_verb verb = {.moment = MPS_FORCE, .use_count = 1, .uses = wants, .run = look};
-    static const mps_verb optional = {
-        .moment = MPS_FORCE, .use_count = 1, .uses = may, .run = look};
+    static const mps_verb verb = {.hook = MPS_FORCE, .use_count = 1, .uses = wants, .run = look};
+    static const mps_verb optional = {.hook = MPS_FORCE, .use_count = 1, .uses = may, .run = look};
     static const mps_model_ops user = {TOY("user.toy", 1, &verb)};
     static const mps_model_ops easy = {TOY("easy.toy", 1, &optional)};
     const mps_model_ops bring = bringing("bring.toy", 1, &heat);
@@ -205,8 +204,8 @@ static void missing_channel(void **state)
     mps_sim_destroy(sim);
 }
 
-/* All moments, own channels and one of a model: what the list tells is what a step accepts. */
-static void wrong_moment(void **state)
+/* All hooks, own channels and one of a model: what the list tells is what a step accepts. */
+static void wrong_hook(void **state)
 {
     (void)state;
     static mps_use use;
@@ -223,12 +222,11 @@ static void wrong_moment(void **state)
     assert_int_equal(mps_channel_info_init(&c, sizeof c), MPS_OK);
     assert_int_equal(mps_verb_info_init(&v, sizeof v), MPS_OK);
     for (int32_t k = 0; mps_channel_info_get(sim, k, &c) == MPS_OK; k++)
-        for (int32_t moment = 0; moment < MPS_MOMENT_COUNT; moment++)
+        for (int32_t hook = 0; hook < MPS_HOOK_COUNT; hook++)
             for (int a = 0; a < 4; a++) {
                 use = (mps_use){c.name, access[a]};
-                verb = (mps_verb){
-                    .moment = moment, .use_count = 1, .uses = &use, .run = do_nothing};
-                const uint32_t bit = 1u << moment;
+                verb = (mps_verb){.hook = hook, .use_count = 1, .uses = &use, .run = do_nothing};
+                const uint32_t bit = 1u << hook;
                 const int may = (!(access[a] & 3) || c.reads & bit) &&
                                 (!(access[a] & MPS_USE_WRITE) || c.writes & bit);
                 ASSERT_OK(sim, mps_model_use(sim, "user.toy"));
@@ -238,15 +236,15 @@ static void wrong_moment(void **state)
                     ASSERT_REFUSED(sim, mps_verb_info_get(sim, 0, &v), MPS_E_STATE, c.name);
             }
     use = (mps_use){"acceleration", MPS_USE_CHANGE};
-    verb.moment = MPS_PREPARE;
+    verb.hook = MPS_PREPARE;
     ASSERT_OK(sim, mps_model_use(sim, "user.toy"));
     ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_STATE,
-                   "channel 'acceleration' cannot be written in moment 'prepare'");
+                   "channel 'acceleration' cannot be written in hook 'prepare'");
     use = (mps_use){"heat", MPS_USE_READ};
-    verb.moment = MPS_LIMIT;
+    verb.hook = MPS_LIMIT;
     ASSERT_OK(sim, mps_model_use(sim, "user.toy"));
     ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_STATE,
-                   "'heat' cannot be read in moment 'limit'");
+                   "'heat' cannot be read in hook 'limit'");
     mps_sim_destroy(sim);
 }
 
@@ -277,22 +275,23 @@ static int64_t rows_checked;
 
 static int check_first(mps_stage *s)
 {
+    const mps_view *v = s->view;
     for (int kind = 0; kind < KINDS; kind++) {
-        const int width = width_of(kind, s->dim);
-        for (int64_t at = 0; at < s->n * width; at++) {
+        const int width = width_of(kind, v->dim);
+        for (int64_t at = 0; at < v->n * width; at++) {
             const int d = (int)(at % width);
-            const int zero = kind == MATRIX && d / s->dim != d % s->dim;
+            const int zero = kind == MATRIX && d / v->dim != d % v->dim;
             assert_true(value_of(s, kind, at) == (zero ? 0 : all_kinds[kind].initial));
         }
     }
-    rows_checked += s->n;
+    rows_checked += v->n;
     return 0;
 }
 
 static int spoil(mps_stage *s)
 {
     for (int kind = 0; kind < KINDS; kind++)
-        for (int64_t at = 0; at < s->n * width_of(kind, s->dim); at++)
+        for (int64_t at = 0; at < s->view->n * width_of(kind, s->view->dim); at++)
             if (kind >= COUNT)
                 ((int32_t *)s->data[kind])[at] = 99;
             else
@@ -310,8 +309,8 @@ static void first_values(void **state)
         writes[k] = (mps_use){all_kinds[k].name, MPS_USE_WRITE};
     }
     static const mps_verb verbs[] = {
-        {.moment = MPS_CLASSIFY, .use_count = KINDS, .uses = reads, .run = check_first},
-        {.moment = MPS_SHIFT, .use_count = KINDS, .uses = writes, .run = spoil}};
+        {.hook = MPS_CLASSIFY, .use_count = KINDS, .uses = reads, .run = check_first},
+        {.hook = MPS_SHIFT, .use_count = KINDS, .uses = writes, .run = spoil}};
     static const mps_model_ops ops = {TOY("kinds.toy", 2, verbs), .channel_count = KINDS,
                                       .channels = all_kinds};
     for (int dim = 2; dim <= 3; dim++) {
@@ -330,10 +329,13 @@ static void first_values(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(names_of_the_library),   cmocka_unit_test(names_of_fields),
-        cmocka_unit_test(shared_by_two),          cmocka_unit_test(conflict),
-        cmocka_unit_test(conflict_within_a_slot), cmocka_unit_test(missing_channel),
-        cmocka_unit_test(wrong_moment),           cmocka_unit_test(first_values)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(names_of_the_library),
+                                       cmocka_unit_test(names_of_fields),
+                                       cmocka_unit_test(shared_by_two),
+                                       cmocka_unit_test(conflict),
+                                       cmocka_unit_test(conflict_within_a_slot),
+                                       cmocka_unit_test(missing_channel),
+                                       cmocka_unit_test(wrong_hook),
+                                       cmocka_unit_test(first_values)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -19,9 +19,9 @@ static struct {
 static int grow_old(mps_stage *s)
 {
     double *age = s->data[0], *mark = s->data[1];
-    for (int64_t i = 0; i < s->n; i++) {
+    for (int64_t i = 0; i < s->view->n; i++) {
         if (test.refresh) age[i] += 1;
-        if (test.fail) mark[i * s->dim] = -77;
+        if (test.fail) mark[i * s->view->dim] = -77;
     }
     return test.fail ? mps_stage_fail(s, "too old") : 0;
 }
@@ -31,7 +31,7 @@ static const mps_channel lives[] = {
     {"mark", "m", "a vector", MPS_VECTOR, MPS_TYPE_REAL, MPS_LIFE_PARTICLE, 0}};
 static const mps_use life_uses[] = {{"age", MPS_USE_CHANGE}, {"mark", MPS_USE_CHANGE}};
 static const mps_verb life_verbs[] = {
-    {.moment = MPS_VELOCITY, .use_count = 2, .uses = life_uses, .run = grow_old}};
+    {.hook = MPS_VELOCITY, .use_count = 2, .uses = life_uses, .run = grow_old}};
 static const mps_model_ops life = {TOY("life.toy", 1, life_verbs), .channel_count = 2,
                                    .channels = lives};
 
@@ -123,7 +123,8 @@ static void lease(void **state)
         assert_int_equal(l.stride, dim);
         ASSERT_OK(sim, mps_lease_end(sim, &l));
         assert_true(find_channel(sim, "age", &c) && c.life == MPS_LIFE_PARTICLE);
-        assert_true(c.reads == (1u << MPS_MOMENT_COUNT) - 1 && c.writes == c.reads);
+        assert_true(c.reads == (1u << MPS_HOOK_COUNT) - 1 &&
+                    c.writes == (c.reads & ~(1u << MPS_POPULATE)));
         test.refresh = 1;
         steps(sim, 3);
         assert_true(field_value(sim, "age", 3, 0) == 7 && field_value(sim, "age", 4, 0) == 8);
@@ -293,11 +294,11 @@ static int count_up(mps_stage *s)
 {
     double *mine = s->data[0];
     assert_non_null(mine);
-    for (int64_t i = 0; i < s->n; i++) mine[2 * i + 1] += (double)s->id[i];
+    for (int64_t i = 0; i < s->view->n; i++) mine[2 * i + 1] += (double)s->view->id[i];
     return test.fail;
 }
 
-/* A verb names a field that the user made; it is there in all moments, and comes back too. */
+/* A verb names a field that the user made; it is there in all hooks, and comes back too. */
 static void field_by_name(void **state)
 {
     (void)state;
@@ -312,15 +313,19 @@ static void field_by_name(void **state)
     mps_time_control control;
     assert_int_equal(mps_time_control_init(&control, sizeof control), MPS_OK);
     ASSERT_OK(sim, mps_time_control_set(sim, &control)); /* MPS_LIMIT is not skipped */
-    for (int32_t moment = 0; moment < MPS_MOMENT_COUNT; moment++) {
-        verb.moment = moment;
+    verb.hook = MPS_POPULATE; /* before what a failed step brings back is kept */
+    ASSERT_OK(sim, mps_model_use(sim, "user.toy"));
+    ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_STATE,
+                   "field 'mine' cannot be written in hook 'populate'");
+    for (int32_t hook = MPS_LIMIT; hook < MPS_HOOK_COUNT; hook++) {
+        verb.hook = hook;
         ASSERT_OK(sim, mps_model_use(sim, "user.toy"));
         test.fail = 1;
         ASSERT_STATUS(sim, mps_step(sim, 1e-3, NULL), MPS_E_PLUGIN);
         test.fail = 0;
-        assert_true(field_value(sim, "mine", 3, 1) == 3 * moment);
+        assert_true(field_value(sim, "mine", 3, 1) == 3 * (hook - MPS_LIMIT));
         steps(sim, 1);
-        assert_true(field_value(sim, "mine", 3, 1) == 3 * (moment + 1));
+        assert_true(field_value(sim, "mine", 3, 1) == 3 * (hook - MPS_LIMIT + 1));
         assert_true(field_value(sim, "mine", 3, 0) == 0);
     }
     mps_sim_destroy(sim);

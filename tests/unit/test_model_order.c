@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The order of verbs: by what they do to a channel, by `after` and `before`, by registration; the
  * same whatever order models are switched on in. */
+#include "built_in.h"
 #include "model_fixture.h"
+#include "models.h"
 #include <stdio.h>
 
 enum { MOST = 4, USES = 2 };
@@ -124,7 +126,7 @@ static int register_scene(mps_sim *sim, const scene *c)
     use_model(sim, &bring);
     for (; count < MOST && c->toys[count].name; count++) {
         const toy *t = &c->toys[count];
-        table.verb[count] = (mps_verb){.moment = MPS_FORCE,
+        table.verb[count] = (mps_verb){.hook = MPS_FORCE,
                                        .uses = t->uses,
                                        .after = t->after,
                                        .before = t->before,
@@ -147,7 +149,7 @@ static mps_status listed(mps_sim *sim, char out[64])
     out[0] = 0;
     assert_int_equal(mps_verb_info_init(&v, sizeof v), MPS_OK);
     for (int32_t k = 0; (status = mps_verb_info_get(sim, k, &v)) == MPS_OK; k++) {
-        if (v.moment != MPS_FORCE) continue;
+        if (v.hook != MPS_FORCE) continue;
         const size_t used = strlen(out), slot = strcspn(v.model, ".");
         snprintf(out + used, 64 - used, "%s%.*s", used ? " " : "", (int)slot, v.model);
     }
@@ -224,16 +226,16 @@ static void one_of_two_goes(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Verbs of one model in one moment run in the order of its table; moments in theirs. */
+/* Verbs of one model in one hook run in the order of its table; hooks in theirs. */
 static void order_of_a_table(void **state)
 {
     (void)state;
     static const mps_use reads[] = {READS("q")}, writes[] = {WRITES("q")};
     static const mps_verb verbs[] = {
-        {.moment = MPS_SHIFT, .use_count = 1, .uses = reads, .run = note},
-        {.moment = MPS_FORCE, .use_count = 1, .uses = reads, .run = note},
-        {.moment = MPS_FORCE, .use_count = 1, .uses = writes, .run = note},
-        {.moment = MPS_PREPARE, .use_count = 1, .uses = writes, .before = "*", .run = note}};
+        {.hook = MPS_SHIFT, .use_count = 1, .uses = reads, .run = note},
+        {.hook = MPS_FORCE, .use_count = 1, .uses = reads, .run = note},
+        {.hook = MPS_FORCE, .use_count = 1, .uses = writes, .run = note},
+        {.hook = MPS_PREPARE, .use_count = 1, .uses = writes, .before = "*", .run = note}};
     static const mps_model_ops ops = {TOY("table.toy", 4, verbs), .user = "x"};
     static const char *const wanted[][2] = {
         {"limit", ""}, {"prepare", "q:w"}, {"force", "q:r"}, {"force", "q:w"}, {"shift", "q:r"}};
@@ -244,7 +246,7 @@ static void order_of_a_table(void **state)
     assert_int_equal(mps_verb_info_init(&v, sizeof v), MPS_OK);
     for (int32_t k = 0; k < 5; k++) {
         ASSERT_OK(sim, mps_verb_info_get(sim, k, &v));
-        assert_string_equal(v.moment_name, wanted[k][0]);
+        assert_string_equal(v.hook_name, wanted[k][0]);
         assert_string_equal(v.uses, wanted[k][1]);
     }
     assert_int_equal(mps_verb_info_get(sim, 5, &v), MPS_E_ARG);
@@ -254,9 +256,65 @@ static void order_of_a_table(void **state)
     mps_sim_destroy(sim);
 }
 
+enum { NO_USE, PRODUCES, CHANGES, ONLY_READS };
+
+/* What a verb does to a channel. */
+static int does(const mps_verb *v, const char *channel)
+{
+    for (int32_t u = 0; u < v->use_count; u++) {
+        const int32_t access = v->uses[u].access;
+        if (strcmp(v->uses[u].channel, channel) != 0) continue;
+        if (!(access & MPS_USE_WRITE)) return ONLY_READS;
+        return access & ~(MPS_USE_WRITE | MPS_USE_OPTIONAL) ? CHANGES : PRODUCES;
+    }
+    return NO_USE;
+}
+
+static bool named(const char *slot, const mps_model_ops *ops)
+{
+    return slot && mps__same_slot(slot, ops->name);
+}
+
+/* Both write a channel, and neither a name nor what they do to channels says which is first. */
+static bool undecided(const mps_model_ops *a, const mps_verb *v, const mps_model_ops *b,
+                      const mps_verb *w)
+{
+    bool decided = v->hook != w->hook || named(v->before, b) || named(v->after, b) ||
+                   named(w->before, a) || named(w->after, a);
+    bool shared = false;
+    for (int32_t u = 0; u < v->use_count; u++) {
+        const char *channel = v->uses[u].channel;
+        const int mine = does(v, channel), theirs = does(w, channel);
+        decided = decided || (theirs != NO_USE && mine != theirs);
+        shared = shared || (mine == theirs && mine != ONLY_READS);
+    }
+    return shared && !decided;
+}
+
+/* The list of the built-in models decides nothing that a step could show. */
+static void built_in_order(void **state)
+{
+    const mps_model_ops *const *all = mps__built_in_models;
+    int ties = 0, pairs = 0;
+    (void)state;
+    for (int a = 0; all[a]; a++)
+        for (int b = 0; b < a; b++) {
+            if (mps__same_slot(all[a]->name, all[b]->name)) continue;
+            for (int32_t v = 0; v < all[a]->verb_count; v++)
+                for (int32_t w = 0; w < all[b]->verb_count; w++, pairs++)
+                    if (undecided(all[a], &all[a]->verbs[v], all[b], &all[b]->verbs[w])) {
+                        print_error("%s and %s\n", all[a]->name, all[b]->name);
+                        ties++;
+                    }
+        }
+    assert_true(pairs > 400);
+    assert_int_equal(ties, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(order), cmocka_unit_test(one_of_two_goes),
-                                       cmocka_unit_test(order_of_a_table)};
+                                       cmocka_unit_test(order_of_a_table),
+                                       cmocka_unit_test(built_in_order)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

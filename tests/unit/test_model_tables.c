@@ -6,7 +6,7 @@
 
 static const mps_use one_use[] = {{"velocity", MPS_USE_READ}};
 static const mps_verb one_verb = {
-    .moment = MPS_FORCE, .use_count = 1, .uses = one_use, .run = do_nothing};
+    .hook = MPS_FORCE, .use_count = 1, .uses = one_use, .run = do_nothing};
 static const mps_setting one_setting = {"size", "m", "a size", MPS_TYPE_REAL, 1, 0, 2};
 static const mps_channel one_channel = {"heat", "J", "heat", 1, MPS_TYPE_REAL, MPS_LIFE_STEP, 0};
 static const mps_model_ops good = {TOY("good.toy", 1, &one_verb), .setting_count = 1,
@@ -95,8 +95,8 @@ static void bad_verbs(void **state)
     mps_verb verb = one_verb;
     mps_sim *sim = empty_sim(2, 0.1, NULL);
     BAD_VERB(run, NULL, "no function");
-    BAD_VERB(moment, -1, "moment -1");
-    BAD_VERB(moment, MPS_MOMENT_COUNT, "moment 10");
+    BAD_VERB(hook, -1, "hook -1");
+    BAD_VERB(hook, MPS_HOOK_COUNT, "hook 12");
     BAD_VERB(use_count, -1, "-1 uses");
     BAD_VERB(uses, NULL, "1 uses");
     mps_verb full = one_verb;
@@ -155,7 +155,7 @@ static void bad_channels(void **state)
     BAD_CHANNEL(help, NULL, "help");
     BAD_CHANNEL(components, 0, "0 components");
     BAD_CHANNEL(components, 10, "10 components");
-    BAD_CHANNEL(components, -3, "-3 components");
+    BAD_CHANNEL(components, -4, "-4 components");
     BAD_CHANNEL(type, MPS_TYPE_FLAG, "type 2");
     BAD_CHANNEL(life, 2, "life 2");
     BAD_CHANNEL(initial, NAN, "finite");
@@ -183,8 +183,7 @@ static void full_tables(void **state)
         settings[k] = one_setting;
         settings[k].key = key[k];
         key[k][0] = 'k', key[k][1] = (char)('a' + k);
-        verbs[k] = (mps_verb){
-            .moment = MPS_FORCE, .use_count = 24, .uses = uses, .run = do_nothing};
+        verbs[k] = (mps_verb){.hook = MPS_FORCE, .use_count = 24, .uses = uses, .run = do_nothing};
     }
     for (int k = 0; k < 8; k++) {
         channels[k] = one_channel;
@@ -298,7 +297,7 @@ static void user_and_create(void **state)
 {
     (void)state;
     const mps_allocator allocator = {take, give, &test};
-    static const mps_verb verb = {.moment = MPS_FORCE, .run = check_self};
+    static const mps_verb verb = {.hook = MPS_FORCE, .run = check_self};
     static int mine;
     for (int with_user = 0; with_user < 2; with_user++)
         for (int with_create = 0; with_create < 2; with_create++) {
@@ -327,7 +326,7 @@ static void create_fails(void **state)
 {
     (void)state;
     const mps_allocator allocator = {take, give, &test};
-    static const mps_verb verb = {.moment = MPS_FORCE, .run = do_nothing};
+    static const mps_verb verb = {.hook = MPS_FORCE, .run = do_nothing};
     static const mps_model_ops first = {TOY("state.first", 1, &verb)};
     const mps_model_ops ops = {TOY("state.toy", 1, &verb), .create = create, .destroy = destroy};
     memset(&test, 0, sizeof test);

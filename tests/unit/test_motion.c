@@ -9,27 +9,28 @@ static void harmonics_are_exact(void **state)
 {
     (void)state;
     mps_sim *sim = new_sim(2, 0.1);
-    const mps_harmonic h[3] = {
-        {MPS_SURGE, 0, 0.02, 6.469, 0.3}, {MPS_SURGE, 1, 0.005, 6.85, 7}, {MPS_YAW, 0, 0.1, 2, 0}};
+    const mps_harmonic h[3] = {{MPS_MOVE_X, 0, 0.02, 6.469, 0.3, 0},
+                               {MPS_MOVE_X, 1, 0.005, 6.85, 7, 0},
+                               {MPS_ROTATE_Z, 0, 0.1, 2, 0, 0}};
     ASSERT_OK(sim, mps_motion_harmonics_set(sim, 3, h));
     mps__pose pose;
     for (double t = 0; t < 3; t += 0.37) {
         ASSERT_OK(sim, mps__motion_pose(&sim->world.motion, t, &pose));
-        ASSERT_NEAR(pose.state.value[MPS_SURGE],
+        ASSERT_NEAR(pose.state.value[MPS_MOVE_X],
                     0.02 * sin(6.469 * t + 0.3) - 0.005 * (1 - cos(6.85 * t)), 1e-15);
-        ASSERT_NEAR(pose.state.rate[MPS_SURGE],
+        ASSERT_NEAR(pose.state.rate[MPS_MOVE_X],
                     0.02 * 6.469 * cos(6.469 * t + 0.3) - 0.005 * 6.85 * sin(6.85 * t), 1e-14);
-        ASSERT_NEAR(pose.state.accel[MPS_SURGE],
+        ASSERT_NEAR(pose.state.accel[MPS_MOVE_X],
                     -0.02 * 6.469 * 6.469 * sin(6.469 * t + 0.3) -
                         0.005 * 6.85 * 6.85 * cos(6.85 * t),
                     1e-13);
-        ASSERT_NEAR(pose.state.value[MPS_YAW], 0.1 * sin(2 * t), 1e-16);
+        ASSERT_NEAR(pose.state.value[MPS_ROTATE_Z], 0.1 * sin(2 * t), 1e-16);
         ASSERT_NEAR(pose.omega[2], 0.2 * cos(2 * t), 1e-15);
         ASSERT_NEAR(pose.alpha[2], -0.4 * sin(2 * t), 1e-15);
     }
     mps_motion_state now = {.struct_size = sizeof now};
     ASSERT_OK(sim, mps_motion_state_get(sim, &now));
-    ASSERT_NEAR(now.value[MPS_SURGE], 0.02 * sin(0.3), 1e-16);
+    ASSERT_NEAR(now.value[MPS_MOVE_X], 0.02 * sin(0.3), 1e-16);
     mps_sim_destroy(sim);
 }
 
@@ -37,7 +38,7 @@ static void harmonics_are_exact(void **state)
 static void sine_table(int64_t rows, double error[3])
 {
     double t[512], y[512];
-    const int32_t dof = MPS_HEAVE;
+    const int32_t dof = MPS_MOVE_Y;
     mps_sim *sim = new_sim(2, 0.1);
     mps__pose pose;
     for (int64_t k = 0; k < rows; k++) {
@@ -78,7 +79,7 @@ static void spline_is_c2(void **state)
     (void)state;
     const double t[6] = {-0.5, 0, 0.3, 0.4, 1.2, 2},
                  y[12] = {0, 3, 1, 3, -2, 2, 0.5, 2, 0.7, 2, 0, 1};
-    const int32_t dof[2] = {MPS_YAW, MPS_SURGE};
+    const int32_t dof[2] = {MPS_ROTATE_Z, MPS_MOVE_X};
     mps_sim *sim = new_sim(2, 0.1);
     ASSERT_OK(sim, mps_motion_table_set(sim, 6, t, 2, dof, y));
     mps__motion *m = &sim->world.motion;
@@ -99,7 +100,7 @@ static void spline_is_c2(void **state)
         if (t[k] <= 0) continue;
         ASSERT_OK(sim, mps__motion_pose(m, t[k] - 1e-12, &a));
         ASSERT_OK(sim, mps__motion_pose(m, t[k] + 1e-12, &b));
-        ASSERT_NEAR(a.state.accel[MPS_YAW], b.state.accel[MPS_YAW], 1e-7);
+        ASSERT_NEAR(a.state.accel[MPS_ROTATE_Z], b.state.accel[MPS_ROTATE_Z], 1e-7);
     }
     mps_sim_destroy(sim);
 }
@@ -109,7 +110,8 @@ static int tumble(void *user, double t, mps_motion_state *s)
     static const double amplitude[6] = {0.1, 0.2, 0.3, 0.7, 0.5, 0.9},
                         omega[6] = {1, 1.3, 0.7, 1.7, 0.9, 1.1};
     for (int k = 0; k < 6; k++) {
-        if (*(int *)user == 2 && (k == MPS_SWAY || k == MPS_ROLL || k == MPS_PITCH)) continue;
+        if (*(int *)user == 2 && (k == MPS_MOVE_Z || k == MPS_ROTATE_X || k == MPS_ROTATE_Y))
+            continue;
         s->value[k] = amplitude[k] * sin(omega[k] * t + k);
         s->rate[k] = amplitude[k] * omega[k] * cos(omega[k] * t + k);
         s->accel[k] = -amplitude[k] * omega[k] * omega[k] * sin(omega[k] * t + k);
@@ -151,14 +153,12 @@ static void point_follows_its_path(void **state)
     }
 }
 
-/* R = Rz(yaw) Ry(pitch) Rx(roll), each right-handed. */
+/* R = Ry Rz Rx, each right-handed. */
 static int turned(void *user, double t, mps_motion_state *s)
 {
     (void)t;
     const double *angle = user;
-    s->value[MPS_ROLL] = angle[0];
-    s->value[MPS_PITCH] = angle[1];
-    s->value[MPS_YAW] = angle[2];
+    for (int k = 0; k < 3; k++) s->value[MPS_ROTATE_X + k] = angle[k];
     return 0;
 }
 
@@ -173,7 +173,8 @@ static void order_of_rotations(void **state)
                 {{0, 0, quarter}, {1, 0, 0}, {0, 1, 0}},
                 {{quarter, quarter, 0}, {0, 1, 0}, {1, 0, 0}},
                 {{quarter, 0, quarter}, {0, 0, 1}, {1, 0, 0}},
-                {{0, quarter, quarter}, {0, 0, 1}, {0, 1, 0}}};
+                {{0, quarter, quarter}, {1, 0, 0}, {0, 1, 0}},
+                {{0, quarter, quarter}, {0, 0, 1}, {1, 0, 0}}};
     for (size_t k = 0; k < sizeof list / sizeof list[0]; k++) {
         mps_sim *sim = new_sim(3, 0.1);
         double x[3], angle[3];
@@ -195,7 +196,8 @@ static void contents_are_carried(void **state)
     const mps__particles *s = &sim->world.particles;
     double before[2 * 400];
     memcpy(before, s->x, (size_t)s->n * 2 * sizeof(double));
-    const mps_harmonic h[2] = {{MPS_SURGE, 0, 0.2, 1, pi / 2}, {MPS_YAW, 0, 0.1, 1, pi / 2}};
+    const mps_harmonic h[2] = {{MPS_MOVE_X, 0, 0.2, 1, pi / 2, 0},
+                               {MPS_ROTATE_Z, 0, 0.1, 1, pi / 2, 0}};
     ASSERT_OK(sim, mps_motion_harmonics_set(sim, 2, h));
     for (int64_t i = 0; i < s->n; i++) {
         double x[2];
@@ -209,12 +211,12 @@ static void contents_are_carried(void **state)
     assert_memory_equal(before, s->x, (size_t)s->n * 2 * sizeof(double));
     mps_motion_state now = {.struct_size = sizeof now};
     ASSERT_OK(sim, mps_motion_state_get(sim, &now));
-    ASSERT_NEAR(now.value[MPS_SURGE], 0.2, 1e-15);
-    ASSERT_NEAR(now.rate[MPS_SURGE], 0, 0);
-    ASSERT_NEAR(now.accel[MPS_SURGE], 0, 0);
+    ASSERT_NEAR(now.value[MPS_MOVE_X], 0.2, 1e-15);
+    ASSERT_NEAR(now.rate[MPS_MOVE_X], 0, 0);
+    ASSERT_NEAR(now.accel[MPS_MOVE_X], 0, 0);
     mps__pose later;
     ASSERT_OK(sim, mps__motion_pose(&sim->world.motion, 100, &later));
-    ASSERT_NEAR(later.state.value[MPS_YAW], 0.1, 1e-15);
+    ASSERT_NEAR(later.state.value[MPS_ROTATE_Z], 0.1, 1e-15);
     mps_sim_destroy(sim);
 }
 
@@ -222,7 +224,7 @@ static void start_with_tank(void **state)
 {
     (void)state;
     mps_sim *sim = new_sim(2, 0.1);
-    const mps_harmonic h = {MPS_SURGE, 0, 0.2, 3, 0};
+    const mps_harmonic h = {MPS_MOVE_X, 0, 0.2, 3, 0, 0};
     const double centre[2] = {0, 0};
     ASSERT_OK(sim, mps_motion_harmonics_set(sim, 1, &h));
     assert_int_equal(sim->world.state.start_pending, 0);
@@ -243,7 +245,7 @@ static void beyond_the_table(void **state)
     (void)state;
     mps_sim *sim = new_sim(2, 0.1);
     const double t[3] = {0, 1, 2.5}, y[3] = {0, 0.1, 0.3};
-    const int32_t dof = MPS_SURGE;
+    const int32_t dof = MPS_MOVE_X;
     mps__pose pose;
     ASSERT_OK(sim, mps_motion_table_set(sim, 3, t, 1, &dof, y));
     ASSERT_OK(sim, mps__motion_pose(&sim->world.motion, 2.5 + 5e-10, &pose));
@@ -259,7 +261,7 @@ static void table_refusals(void **state)
     (void)state;
     mps_sim *sim = new_sim(2, 0.1);
     double t[4] = {0, 1, 2, 3}, y[8] = {0};
-    int32_t dof[2] = {MPS_SURGE, MPS_YAW};
+    int32_t dof[2] = {MPS_MOVE_X, MPS_ROTATE_Z};
 #define REFUSE(word, rows, dofs) \
     ASSERT_REFUSED(sim, mps_motion_table_set(sim, rows, t, dofs, dof, y), MPS_E_ARG, word)
     REFUSE("1 rows", 1, 2);
@@ -273,13 +275,13 @@ static void table_refusals(void **state)
     y[5] = INFINITY;
     REFUSE("row 2, column 1", 4, 2);
     y[5] = 0;
-    dof[1] = MPS_SURGE;
+    dof[1] = MPS_MOVE_X;
     REFUSE("columns 0 and 1", 4, 2);
-    dof[1] = MPS_PITCH;
+    dof[1] = MPS_ROTATE_Y;
     REFUSE("needs 3-D", 4, 2);
     dof[1] = 6;
     REFUSE("0..5", 4, 2);
-    dof[1] = MPS_YAW;
+    dof[1] = MPS_ROTATE_Z;
     t[0] = 0.5;
     REFUSE("after the present time", 4, 2);
     t[0] = 0;
@@ -296,14 +298,14 @@ static void harmonic_refusals(void **state)
 {
     (void)state;
     mps_sim *sim = new_sim(2, 0.1);
-    const mps_harmonic good = {MPS_SURGE, 0, 0.1, 1, 0};
+    const mps_harmonic good = {MPS_MOVE_X, 0, 0.1, 1, 0, 0};
     mps_harmonic h;
 #define REFUSE(change, word) \
     h = good;                \
     change;                  \
     ASSERT_REFUSED(sim, mps_motion_harmonics_set(sim, 1, &h), MPS_E_ARG, word)
-    REFUSE(h.dof = MPS_SWAY, "needs 3-D");
-    REFUSE(h.dof = MPS_PITCH, "needs 3-D");
+    REFUSE(h.dof = MPS_MOVE_Z, "needs 3-D");
+    REFUSE(h.dof = MPS_ROTATE_Y, "needs 3-D");
     REFUSE(h.dof = -1, "-1");
     REFUSE(h.form = 2, "form is 2");
     REFUSE(h.amplitude = NAN, "amplitude is nan");
@@ -320,16 +322,28 @@ static void far_away(void **state)
 {
     (void)state;
     mps_sim *sim = new_sim(2, 0.1);
-    const double centre[2] = {1.5e308, 0};
-    const mps_harmonic h = {MPS_SURGE, 0, 1.7e308, 1, pi / 2};
+    const double centre[2] = {1.01e8, 0}, t[3] = {0, 1, 2}, x[3] = {0, 1e300, 0};
+    const int32_t dof = MPS_MOVE_X;
+    mps_harmonic h = {MPS_MOVE_X, 0, 1.7e308, 1, pi / 2, 0};
     mps_tank tank;
     assert_int_equal(mps_tank_init(&tank, sizeof tank), MPS_OK);
     tank.size[0] = tank.size[1] = 0.5;
     ASSERT_OK(sim, mps_tank_add(sim, &tank, NULL));
-    ASSERT_OK(sim, mps_motion_centre_set(sim, centre, MPS_START_AT_REST));
+    ASSERT_REFUSED(sim, mps_motion_centre_set(sim, centre, MPS_START_AT_REST), MPS_E_ARG,
+                   "must be within 1e+08 m");
     const double before = sim->world.particles.x[0];
-    ASSERT_REFUSED(sim, mps_motion_harmonics_set(sim, 1, &h), MPS_E_ARG, "must be finite");
+    ASSERT_REFUSED(sim, mps_motion_harmonics_set(sim, 1, &h), MPS_E_ARG, "must be within 1e+08 m");
+    h.amplitude = 1.01e8;
+    ASSERT_REFUSED(sim, mps_motion_harmonics_set(sim, 1, &h), MPS_E_ARG, "carries the tank to");
     assert_true(sim->world.particles.x[0] == before && !sim->world.motion.fn);
+    mps_time_control fixed;
+    assert_int_equal(mps_time_control_init(&fixed, sizeof fixed), MPS_OK);
+    fixed.dt = 1e-3;
+    fill_depth(sim, 0.5, 0.3, 0);
+    ASSERT_OK(sim, mps_time_control_set(sim, &fixed));
+    ASSERT_OK(sim, mps_motion_table_set(sim, 3, t, 1, &dof, x));
+    ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_DIVERGED, "carries the tank to");
+    assert_true(sim->world.particles.x[0] == before);
     mps_sim_destroy(sim);
 }
 
@@ -337,8 +351,8 @@ static int broken(void *user, double t, mps_motion_state *s)
 {
     (void)t;
     const int how = *(int *)user;
-    if (how == 1) s->rate[MPS_SURGE] = NAN;
-    if (how == 2) s->value[MPS_SWAY] = 0.1;
+    if (how == 1) s->rate[MPS_MOVE_X] = NAN;
+    if (how == 2) s->value[MPS_MOVE_Z] = 0.1;
     return how == 3 ? 7 : 0;
 }
 
@@ -348,9 +362,10 @@ static void callback_refusals(void **state)
     mps_sim *sim = new_sim(2, 0.1);
     int how = 1;
     ASSERT_REFUSED(sim, mps_motion_callback_set(sim, broken, &how), MPS_E_PLUGIN,
-                   "surge rate is nan");
+                   "the rate of 'MPS_MOVE_X' is nan");
     how = 2;
-    ASSERT_REFUSED(sim, mps_motion_callback_set(sim, broken, &how), MPS_E_ARG, "sway value is 0.1");
+    ASSERT_REFUSED(sim, mps_motion_callback_set(sim, broken, &how), MPS_E_ARG,
+                   "the value of 'MPS_MOVE_Z' is 0.1");
     how = 3;
     ASSERT_REFUSED(sim, mps_motion_callback_set(sim, broken, &how), MPS_E_PLUGIN, "failed with 7");
     assert_null(sim->world.motion.fn);
@@ -379,47 +394,33 @@ static void other_refusals(void **state)
     mps_sim_destroy(sim);
 }
 
-/* In 2-D roll and yaw are names of the same rotation, of the plane; a tank turns by their sum. */
-static void roll_turns_the_plane(void **state)
+/* In 2-D the tank turns counterclockwise about its centre; there is no other rotation. */
+static void turns_the_plane(void **state)
 {
     (void)state;
     const double corner[2] = {1, 0}, centre[2] = {0.25, 0.5};
-    const mps_harmonic yaw = {MPS_YAW, 0, 0.3, 2, 0.7}, roll = {MPS_ROLL, 0, 0.3, 2, 0.7};
-    const mps_harmonic both[2] = {{MPS_ROLL, 0, 0.1, 2, 0.7}, {MPS_YAW, 0, 0.2, 2, 0.7}};
-    double at[3][2], speed[3][2];
-    for (int k = 0; k < 3; k++) {
-        mps_sim *sim = new_sim(2, 0.1);
-        mps_motion_state now = {.struct_size = sizeof now};
-        ASSERT_OK(sim, mps_motion_centre_set(sim, centre, MPS_START_AT_REST));
-        ASSERT_OK(sim, mps_motion_harmonics_set(sim, k == 2 ? 2 : 1,
-                                                k == 0   ? &yaw
-                                                : k == 1 ? &roll
-                                                         : both));
-        ASSERT_OK(sim, mps_motion_to_lab(sim, corner, at[k], speed[k]));
-        ASSERT_OK(sim, mps_motion_state_get(sim, &now));
-        ASSERT_NEAR(now.value[MPS_ROLL] + now.value[MPS_YAW], 0.3 * sin(0.7), 1e-15);
-        assert_true((now.value[MPS_ROLL] == 0) == (k == 0));
-        ASSERT_OK(sim, mps_motion_clear(sim));
-        ASSERT_REFUSED(sim,
-                       mps_motion_harmonics_set(sim, 1, &(mps_harmonic){MPS_PITCH, 0, 0.1, 1, 0}),
-                       MPS_E_ARG, "needs 3-D");
-        mps_sim_destroy(sim);
-    }
     const double a = 0.3 * sin(0.7), rate = 0.6 * cos(0.7);
-    ASSERT_NEAR(at[0][0], 0.25 + 0.75 * cos(a) + 0.5 * sin(a), 1e-14);
-    ASSERT_NEAR(at[0][1], 0.5 + 0.75 * sin(a) - 0.5 * cos(a), 1e-14);
-    ASSERT_NEAR(speed[0][0], -rate * (at[0][1] - 0.5), 1e-14);
-    for (int k = 1; k < 3; k++)
-        for (int d = 0; d < 2; d++) {
-            ASSERT_NEAR(at[k][d], at[0][d], 1e-14);
-            ASSERT_NEAR(speed[k][d], speed[0][d], 1e-14);
-        }
+    const mps_harmonic turn = {MPS_ROTATE_Z, 0, 0.3, 2, 0.7, 0};
+    double at[2], speed[2];
+    mps_sim *sim = new_sim(2, 0.1);
+    ASSERT_OK(sim, mps_motion_centre_set(sim, centre, MPS_START_AT_REST));
+    ASSERT_OK(sim, mps_motion_harmonics_set(sim, 1, &turn));
+    ASSERT_OK(sim, mps_motion_to_lab(sim, corner, at, speed));
+    ASSERT_NEAR(at[0], 0.25 + 0.75 * cos(a) + 0.5 * sin(a), 1e-14);
+    ASSERT_NEAR(at[1], 0.5 + 0.75 * sin(a) - 0.5 * cos(a), 1e-14);
+    ASSERT_NEAR(speed[0], -rate * (at[1] - 0.5), 1e-14);
+    ASSERT_NEAR(speed[1], rate * (at[0] - 0.25), 1e-14);
+    for (int32_t dof = MPS_ROTATE_X; dof <= MPS_ROTATE_Y; dof++)
+        ASSERT_REFUSED(
+            sim, mps_motion_harmonics_set(sim, 1, &(mps_harmonic){dof, 0, 0.1, 1, 0, 0}), MPS_E_ARG,
+            dof == MPS_ROTATE_X ? "'MPS_ROTATE_X' (3) needs 3-D" : "'MPS_ROTATE_Y' (4) needs 3-D");
+    mps_sim_destroy(sim);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(roll_turns_the_plane),   cmocka_unit_test(harmonics_are_exact),
+        cmocka_unit_test(turns_the_plane),        cmocka_unit_test(harmonics_are_exact),
         cmocka_unit_test(spline_converges),       cmocka_unit_test(spline_is_c2),
         cmocka_unit_test(point_follows_its_path), cmocka_unit_test(order_of_rotations),
         cmocka_unit_test(contents_are_carried),   cmocka_unit_test(start_with_tank),

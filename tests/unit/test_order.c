@@ -17,8 +17,8 @@ typedef struct scene {
 
 static mps_sim *tank_of(const scene *c)
 {
-    const mps_harmonic motion[2] = {{.dof = MPS_SURGE, .amplitude = 0.1, .omega = 12},
-                                    {.dof = MPS_YAW, .amplitude = 0.2, .omega = 9}};
+    const mps_harmonic motion[2] = {{.dof = MPS_MOVE_X, .amplitude = 0.1, .omega = 12},
+                                    {.dof = MPS_ROTATE_Z, .amplitude = 0.2, .omega = 9}};
     const double size[3] = {0.6, 0.5, 0.3}, lo[3] = {0}, water[3] = {0.3, 0.35, 0.3},
                  air_right[3] = {0.3, 0, 0}, air_above[3] = {0, 0.35, 0}, left[3] = {0.3, 0.5, 0.3},
                  plate_lo[3] = {0.45, 0, 0}, plate_hi[3] = {0.45, 0.2, 0.3};

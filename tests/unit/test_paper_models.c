@@ -17,10 +17,10 @@ static int look_at_regions(mps_stage *s)
     const double *density = s->data[0];
     const int32_t *region = s->data[1];
     seen.wrong = seen.surface = seen.inside = 0;
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_FLUID) continue;
+    for (int64_t i = 0; i < s->view->n; i++) {
+        if (s->view->kind[i] != MPS_FLUID) continue;
         const bool surface = region[i] == MPS_REGION_SURFACE;
-        seen.wrong += surface != (density[i] < 0.9 * s->near->n0);
+        seen.wrong += surface != (density[i] < 0.9 * s->view->near.n0);
         seen.surface += surface;
         seen.inside += !surface;
     }
@@ -28,16 +28,16 @@ static int look_at_regions(mps_stage *s)
 }
 
 /* Kernel mean of the pressures of fluid and walls about dummy i. */
-static double mean_about(const mps_stage *s, const double *pressure, int64_t i)
+static double mean_about(const mps_view *v, const double *pressure, int64_t i)
 {
     double sum = 0, weight = 0;
-    for (int64_t p = s->near->begin[i]; p < s->near->end[i]; p++) {
-        const int32_t j = s->near->col[p];
-        if (s->kind[j] == MPS_DUMMY) continue;
+    for (int64_t p = v->near.begin[i]; p < v->near.end[i]; p++) {
+        const int32_t j = v->near.col[p];
+        if (v->kind[j] == MPS_DUMMY) continue;
         double r2 = 0;
-        for (int d = 0; d < s->dim; d++)
-            r2 += pow(s->near->x[j * s->dim + d] - s->near->x[i * s->dim + d], 2);
-        const double w = mps_kernel_value(&s->near->kernel, sqrt(r2), s->near->re);
+        for (int d = 0; d < v->dim; d++)
+            r2 += pow(v->near.x[j * v->dim + d] - v->near.x[i * v->dim + d], 2);
+        const double w = mps_kernel_value(&v->near.kernel, sqrt(r2), v->near.re);
         sum += w * pressure[j];
         weight += w;
     }
@@ -49,9 +49,9 @@ static int look_at_dummies(mps_stage *s)
     const double *pressure = s->data[0];
     seen.dummies = 0;
     seen.largest = 0;
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_DUMMY) continue;
-        const double wanted = mean_about(s, pressure, i);
+    for (int64_t i = 0; i < s->view->n; i++) {
+        if (s->view->kind[i] != MPS_DUMMY) continue;
+        const double wanted = mean_about(s->view, pressure, i);
         ASSERT_NEAR(pressure[i], wanted, 1e-12 * fabs(wanted));
         seen.dummies += pressure[i] != 0;
         seen.largest = fmax(seen.largest, pressure[i]);
@@ -64,12 +64,12 @@ static const mps_use region_uses[REGION_USES] = {{"number_density", MPS_USE_READ
                                                  {"region", MPS_USE_READ}},
                      pressure_uses[PRESSURE_USES] = {
                          {"pressure", MPS_USE_NEIGHBOURS | MPS_USE_DUMMIES}};
-static const mps_verb region_verb = {.moment = MPS_CLASSIFY,
+static const mps_verb region_verb = {.hook = MPS_CLASSIFY,
                                      .use_count = REGION_USES,
                                      .uses = region_uses,
                                      .after = "*",
                                      .run = look_at_regions},
-                      dummy_verb = {.moment = MPS_LEVEL,
+                      dummy_verb = {.hook = MPS_LEVEL,
                                     .use_count = PRESSURE_USES,
                                     .uses = pressure_uses,
                                     .after = "*",

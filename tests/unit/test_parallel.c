@@ -229,7 +229,7 @@ static void rows_and_sums(void **state)
                 {zeros, n / 2}, {zeros + n / 2, 0}, {zeros + n / 2, n - n / 2}};
             mps__parallel_zero(&pool.parallel, blocks, 3);
             for (int64_t i = 0; i < ROWS; i++) assert_true(zeros[i] == (i < n ? 0 : 1));
-            mps__parallel_copy(&pool.parallel, zeros, x, n);
+            mps__parallel_copy(&pool.parallel, zeros, x, (size_t)n * sizeof *x);
             assert_memory_equal(zeros, x, (size_t)n * sizeof *x);
             mps__pool_free(&pool);
         }
@@ -251,7 +251,7 @@ static void run_backwards(void *user, int32_t parts, mps_part_fn body, void *arg
 
 static mps_sim *shaken_pool(int32_t threads, const mps_parallel *host)
 {
-    const mps_harmonic surge = {.dof = MPS_SURGE, .amplitude = 0.03, .omega = 9};
+    const mps_harmonic surge = {.dof = MPS_MOVE_X, .amplitude = 0.03, .omega = 9};
     mps_config config;
     mps_sim *sim = NULL;
     assert_int_equal(mps_config_init(&config, sizeof config), MPS_OK);

@@ -375,8 +375,8 @@ static double heavy_distance; /* "interface_distance" of id 0 */
 static int keep_distance(mps_stage *s)
 {
     const double *distance = s->data[0];
-    for (int64_t i = 0; i < s->n; i++)
-        if (s->id[i] == 0) heavy_distance = distance[i] / s->dp;
+    for (int64_t i = 0; i < s->view->n; i++)
+        if (s->view->id[i] == 0) heavy_distance = distance[i] / s->view->dp;
     return 0;
 }
 
@@ -386,7 +386,7 @@ static double distance_between_two(double alignment)
 {
     static const mps_use uses[] = {{"interface_distance", MPS_USE_READ}};
     static const mps_verb verb = {
-        .moment = MPS_FORCE, .use_count = 1, .uses = uses, .run = keep_distance};
+        .hook = MPS_FORCE, .use_count = 1, .uses = uses, .run = keep_distance};
     static const mps_model_ops keeper = {.struct_size = sizeof keeper,
                                          .api = MPS_MODEL_API,
                                          .name = "keeper.distance",

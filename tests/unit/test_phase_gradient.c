@@ -8,15 +8,15 @@ static const double rho = 800;
 static int lay_region(mps_stage *s)
 {
     int32_t *region = s->data[0];
-    for (int64_t i = 0; i < s->n; i++) region[i] = MPS_REGION_SURFACE;
+    for (int64_t i = 0; i < s->view->n; i++) region[i] = MPS_REGION_SURFACE;
     return 0;
 }
 
 static int lay_identity(mps_stage *s)
 {
     double *b = s->data[0];
-    const int dim = s->dim;
-    for (int64_t i = 0; i < s->n; i++)
+    const int dim = s->view->dim;
+    for (int64_t i = 0; i < s->view->n; i++)
         for (int k = 0; k < dim * dim; k++) b[i * dim * dim + k] = k % (dim + 1) == 0;
     return 0;
 }
@@ -24,8 +24,8 @@ static int lay_identity(mps_stage *s)
 static const mps_use region_uses[] = {{"region", MPS_USE_CHANGE}},
                      correction_uses[] = {{"correction", MPS_USE_CHANGE}};
 static const mps_verb laying[] = {
-    {.moment = MPS_CLASSIFY, .use_count = 1, .uses = region_uses, .after = "*", .run = lay_region},
-    {.moment = MPS_PREPARE,
+    {.hook = MPS_CLASSIFY, .use_count = 1, .uses = region_uses, .after = "*", .run = lay_region},
+    {.hook = MPS_PREPARE,
      .use_count = 1,
      .uses = correction_uses,
      .after = "*",

@@ -25,34 +25,35 @@ typedef struct pair {
     double d[3], r, w, w_r2;
 } pair;
 
-static bool pair_of(const mps_stage *s, int64_t i, int64_t j, pair *q)
+static bool pair_of(const mps_view *v, int64_t i, int64_t j, pair *q)
 {
     static mps_kernel kernel = {.struct_size = sizeof kernel};
-    const int dim = s->dim;
+    const int dim = v->dim;
     if (!kernel.id) assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
     *q = (pair){0};
-    for (int d = 0; d < dim; d++) q->d[d] = s->x[j * dim + d] - s->x[i * dim + d];
+    for (int d = 0; d < dim; d++) q->d[d] = v->x[j * dim + d] - v->x[i * dim + d];
     q->r = sqrt(q->d[0] * q->d[0] + q->d[1] * q->d[1] + q->d[2] * q->d[2]);
-    if (i == j || q->r >= s->near->re) return false;
-    q->w = mps_kernel_value(&kernel, q->r, s->near->re);
+    if (i == j || q->r >= v->near.re) return false;
+    q->w = mps_kernel_value(&kernel, q->r, v->near.re);
     q->w_r2 = q->w / (q->r * q->r);
     return true;
 }
 
 static int keep(mps_stage *s)
 {
+    const mps_view *v = s->view;
     const double *u = s->data[VELOCITY], *x = s->data[DISPLACEMENT];
-    const size_t bytes = (size_t)(s->n * s->dim) * sizeof *u;
+    const size_t bytes = (size_t)(v->n * v->dim) * sizeof *u;
     const int32_t *region = s->data[REGION];
-    assert_true(s->n <= ROOM);
+    assert_true(v->n <= ROOM);
     memcpy(seen.velocity, u, bytes);
     memcpy(seen.displacement, x, bytes);
     memset(seen.even, 0, sizeof seen.even);
-    for (int64_t i = 0; i < s->n; i++)
-        for (int64_t j = 0; j < s->n; j++) {
+    for (int64_t i = 0; i < v->n; i++)
+        for (int64_t j = 0; j < v->n; j++) {
             pair q;
-            if (region[i] == MPS_REGION_SPRAY || !pair_of(s, i, j, &q)) continue;
-            for (int d = 0; d < s->dim; d++) seen.even[i * s->dim + d] += q.w_r2 * q.d[d];
+            if (region[i] == MPS_REGION_SPRAY || !pair_of(v, i, j, &q)) continue;
+            for (int d = 0; d < v->dim; d++) seen.even[i * v->dim + d] += q.w_r2 * q.d[d];
         }
     return 0;
 }
@@ -74,13 +75,13 @@ static void remove_along(int dim, const double *n, double share, double *v)
 /* Largest |u_j - u_i|; mean: of sum w r over the fluid inside. */
 static double strain_and_mean(const mps_stage *s, int64_t i, double *mean)
 {
-    const int dim = s->dim;
+    const int dim = s->view->dim;
     const int32_t *region = s->data[REGION];
     double most = 0, weight = 0, sum[3] = {0};
-    for (int64_t j = 0; j < s->n; j++) {
+    for (int64_t j = 0; j < s->view->n; j++) {
         pair q;
         double du[3];
-        if (!pair_of(s, i, j, &q)) continue;
+        if (!pair_of(s->view, i, j, &q)) continue;
         for (int d = 0; d < dim; d++)
             du[d] = seen.velocity[j * dim + d] - seen.velocity[i * dim + d];
         most = fmax(most, sqrt(dot(dim, du, du)));
@@ -98,40 +99,44 @@ static double interface_of(const mps_stage *s, int64_t i, double *n)
     const double *rho = s->data[DENSITY];
     const int32_t *region = s->data[REGION];
     double length = 0;
-    for (int64_t j = 0; j < s->n; j++) {
+    for (int64_t j = 0; j < s->view->n; j++) {
         pair q;
-        if (rho[j] == rho[i] || region[j] == MPS_REGION_SPRAY || !pair_of(s, i, j, &q)) continue;
+        if (rho[j] == rho[i] || region[j] == MPS_REGION_SPRAY || !pair_of(s->view, i, j, &q))
+            continue;
         length += q.w * q.r;
-        for (int d = 0; d < s->dim; d++) n[d] += q.w * q.d[d];
+        for (int d = 0; d < s->view->dim; d++) n[d] += q.w * q.d[d];
     }
-    return length > 0 ? fmin(1, 2 * sqrt(dot(s->dim, n, n)) / length) : 0;
+    return length > 0 ? fmin(1, 2 * sqrt(dot(s->view->dim, n, n)) / length) : 0;
 }
 
 static void surface_of(const mps_stage *s, int64_t i, double *n)
 {
+    const mps_view *v = s->view;
     const double *a = s->data[ASYMMETRY];
     const int32_t *region = s->data[REGION];
     pair q;
-    for (int d = 0; d < s->dim && region[i] == MPS_REGION_SURFACE; d++) n[d] = a[i * s->dim + d];
-    for (int64_t j = 0; j < s->n && region[i] == MPS_REGION_NEAR; j++)
-        if (region[j] == MPS_REGION_SURFACE && pair_of(s, i, j, &q))
-            for (int d = 0; d < s->dim; d++) n[d] += q.w * a[j * s->dim + d];
+    for (int d = 0; d < v->dim && region[i] == MPS_REGION_SURFACE; d++) n[d] = a[i * v->dim + d];
+    for (int64_t j = 0; j < v->n && region[i] == MPS_REGION_NEAR; j++)
+        if (region[j] == MPS_REGION_SURFACE && pair_of(v, i, j, &q))
+            for (int d = 0; d < v->dim; d++) n[d] += q.w * a[j * v->dim + d];
     seen.surface += region[i] == MPS_REGION_SURFACE;
     seen.near += region[i] == MPS_REGION_NEAR;
 }
 
 static void expected_shift(const mps_stage *s, int64_t i, double *v)
 {
-    const int dim = s->dim;
-    const double c = -STRENGTH * s->dt * s->dp * dim / s->near->n0, *even = seen.even + i * dim;
+    const mps_view *view = s->view;
+    const int dim = view->dim;
+    const double c = -STRENGTH * view->dt * view->dp * dim / view->near.n0,
+                 *even = seen.even + i * dim;
     double mean[3] = {0}, between[3] = {0}, up[3] = {0}, calm[3] = {0};
     const double rate = strain_and_mean(s, i, mean), share = interface_of(s, i, between);
-    for (int d = 0; d < dim; d++) calm[d] = c * s->velocity_scale * (even[d] - FILTER * mean[d]);
+    for (int d = 0; d < dim; d++) calm[d] = c * view->velocity_scale * (even[d] - FILTER * mean[d]);
     remove_along(dim, between, share, calm);
     for (int d = 0; d < dim; d++) v[d] = calm[d] + c * rate * even[d];
     surface_of(s, i, up);
     remove_along(dim, up, 1, v);
-    const double length = sqrt(dot(dim, v, v)), most = seen.limit * s->dp;
+    const double length = sqrt(dot(dim, v, v)), most = seen.limit * view->dp;
     for (int d = 0; d < dim && length > most; d++) v[d] *= most / length;
     seen.limited += length > most;
     seen.beside += share > 0;
@@ -141,13 +146,15 @@ static void expected_shift(const mps_stage *s, int64_t i, double *v)
 /* s.grad u over the same phase, within the range of its velocities. */
 static void expected_change(const mps_stage *s, int64_t i, const double *shift, double *du)
 {
-    const int dim = s->dim;
-    const double c = dim / s->near->n0, *u = seen.velocity;
+    const mps_view *view = s->view;
+    const int dim = view->dim;
+    const double c = dim / view->near.n0, *u = seen.velocity;
     const int32_t *region = s->data[REGION];
     double m[9] = {0}, b[9], low[3] = {0}, high[3] = {0}, g[9] = {0};
-    for (int64_t j = 0; j < s->n; j++) {
+    for (int64_t j = 0; j < view->n; j++) {
         pair q;
-        if (s->phase[j] != s->phase[i] || region[j] == MPS_REGION_SPRAY || !pair_of(s, i, j, &q))
+        if (view->phase[j] != view->phase[i] || region[j] == MPS_REGION_SPRAY ||
+            !pair_of(view, i, j, &q))
             continue;
         for (int d = 0; d < dim; d++) {
             const double rate = u[j * dim + d] - u[i * dim + d];
@@ -170,15 +177,15 @@ static int compare(mps_stage *s)
 {
     const double *u = s->data[VELOCITY], *x = s->data[DISPLACEMENT];
     const int32_t *region = s->data[REGION];
-    for (int64_t i = 0; i < s->n; i++) {
+    for (int64_t i = 0; i < s->view->n; i++) {
         double v[3] = {0}, du[3] = {0};
         if (region[i] != MPS_REGION_SPRAY) {
             expected_shift(s, i, v);
             expected_change(s, i, v, du);
         }
         seen.spray += region[i] == MPS_REGION_SPRAY;
-        for (int d = 0; d < s->dim; d++) {
-            const int64_t k = i * s->dim + d;
+        for (int d = 0; d < s->view->dim; d++) {
+            const int64_t k = i * s->view->dim + d;
             const double moved = x[k] - seen.displacement[k], change = u[k] - seen.velocity[k];
             seen.shift = fmax(seen.shift, fabs(moved));
             seen.change = fmax(seen.change, fabs(change));
@@ -190,7 +197,7 @@ static int compare(mps_stage *s)
 }
 
 static const mps_verb before_verbs[] = {
-    {.moment = MPS_SHIFT, .use_count = USES, .uses = uses, .before = "*", .run = keep}};
+    {.hook = MPS_SHIFT, .use_count = USES, .uses = uses, .before = "*", .run = keep}};
 static const mps_model_ops before_shift = {.struct_size = sizeof(mps_model_ops),
                                            .api = MPS_MODEL_API,
                                            .name = "before.shift",
@@ -198,7 +205,7 @@ static const mps_model_ops before_shift = {.struct_size = sizeof(mps_model_ops),
                                            .verb_count = 1,
                                            .verbs = before_verbs};
 static const mps_verb after_verbs[] = {
-    {.moment = MPS_SHIFT, .use_count = USES, .uses = uses, .after = "*", .run = compare}};
+    {.hook = MPS_SHIFT, .use_count = USES, .uses = uses, .after = "*", .run = compare}};
 static const mps_model_ops after_shift = {.struct_size = sizeof(mps_model_ops),
                                           .api = MPS_MODEL_API,
                                           .name = "after.shift",

@@ -81,12 +81,12 @@ static void long_step(void **state)
 
 static int turn(void *user, double t, mps_motion_state *s)
 {
-    s->value[MPS_SURGE] = 0.3 * t;
-    s->value[MPS_HEAVE] = -0.2 * t;
-    s->value[MPS_YAW] = *(double *)user * t;
-    s->rate[MPS_SURGE] = 0.3;
-    s->rate[MPS_HEAVE] = -0.2;
-    s->rate[MPS_YAW] = *(double *)user;
+    s->value[MPS_MOVE_X] = 0.3 * t;
+    s->value[MPS_MOVE_Y] = -0.2 * t;
+    s->value[MPS_ROTATE_Z] = *(double *)user * t;
+    s->rate[MPS_MOVE_X] = 0.3;
+    s->rate[MPS_MOVE_Y] = -0.2;
+    s->rate[MPS_ROTATE_Z] = *(double *)user;
     return 0;
 }
 

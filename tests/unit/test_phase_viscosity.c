@@ -268,8 +268,8 @@ static const double belt_speed = 1e-9; /* so slow that no particle moves a spaci
 static int belts(mps_stage *s)
 {
     double *u = s->data[0];
-    for (int64_t i = 0; i < s->n; i++) {
-        const int64_t row = s->id[i] / COLUMNS;
+    for (int64_t i = 0; i < s->view->n; i++) {
+        const int64_t row = s->view->id[i] / COLUMNS;
         if (row < BELT || row >= ROWS - BELT) u[2 * i] = row < BELT ? 0 : belt_speed;
     }
     return 0;
@@ -277,7 +277,7 @@ static int belts(mps_stage *s)
 
 static const mps_use belt_uses[] = {{"velocity", MPS_USE_CHANGE}};
 static const mps_verb belt_verbs[] = {
-    {.moment = MPS_VELOCITY, .use_count = 1, .uses = belt_uses, .after = "*", .run = belts}};
+    {.hook = MPS_VELOCITY, .use_count = 1, .uses = belt_uses, .after = "*", .run = belts}};
 static const mps_model_ops belt = {.struct_size = sizeof(mps_model_ops),
                                    .api = MPS_MODEL_API,
                                    .name = "belt.test",

@@ -51,7 +51,7 @@ static void no_particle_passes(void **state)
         const double centre[3] = {0.3, 0.1, 0},
                      at[4][3] = {
                          {0.1, 0.1, 0.2}, {0.3, 0.2, 0.2}, {0.4, 0.4, 0.2}, {0.9, 0.3, 0.2}};
-        const mps_harmonic turn = {.dof = MPS_YAW, .amplitude = 0.5, .omega = 5};
+        const mps_harmonic turn = {.dof = MPS_ROTATE_Z, .amplitude = 0.5, .omega = 5};
         double x[12], u[12] = {0};
         int64_t ids[4];
         ASSERT_OK(sim, mps_motion_centre_set(sim, centre, MPS_START_AT_REST));

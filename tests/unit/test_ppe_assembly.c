@@ -38,7 +38,7 @@ static double surface_factor(const tank *k, double re)
 /* 2D/(n0 lambda) W/rho of one pair, in single precision as the matrix has it; 0 if it takes no part. */
 static double coefficient(const tank *k, int64_t i, int64_t j)
 {
-    const mps_stencil *t = k->terms.equation.radius == MPS_NEAR ? &k->near : &k->far;
+    const mps_stencil *t = k->terms.equation.radius == MPS_NEAR ? &k->view.near : &k->view.far;
     const double r = sqrt(cloud_distance2(&k->c, i, j));
     if (i == j || r >= t->re || !in_equation(k, i) || !in_equation(k, j)) return 0;
     double factor = 1;
@@ -86,7 +86,7 @@ static void solve(tank *k, double *p)
         k->e.p[r] = sum / a[r * (n + 1) + r];
     }
     free(a);
-    mps__ppe_scatter(&k->e, &k->stage, &k->terms, p);
+    mps__ppe_scatter(&k->e, &k->view, &k->terms, p);
 }
 
 /* ---- structure --------------------------------------------------------------------------------------------------- */
@@ -313,8 +313,8 @@ static void pools_in_any_order(void **state)
         }
         tank_init(&k, c);
         assert_int_equal(mps_neighbours_parallel_set(k.list, &threads), MPS_OK);
-        assert_int_equal(mps_neighbours_stencil_get(k.list, MPS_FAR, &k.far.kernel, &k.far),
-                         MPS_OK);
+        assert_int_equal(
+            mps_neighbours_stencil_get(k.list, MPS_FAR, &k.view.far.kernel, &k.view.far), MPS_OK);
         for (int64_t i = c.n - 9; i < c.n; i++) k.shift[i] = pool[i] != 1 ? 1e-6 : 0;
         assemble(&k);
         assert_int_equal(k.e.problem.components, 1);
@@ -373,7 +373,7 @@ static void no_unknowns(void **state)
     assemble(&k);
     assert_int_equal(k.e.n, 0);
     assert_int_equal(k.e.problem.components, 0);
-    mps__ppe_scatter(&k.e, &k.stage, &k.terms, p);
+    mps__ppe_scatter(&k.e, &k.view, &k.terms, p);
     for (int64_t i = 0; i < k.c.n; i++) assert_true(p[i] == (double)i);
     tank_free(&k);
 }

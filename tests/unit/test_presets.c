@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The presets: which models they switch on, and every setting that is not the model's own default. */
+#include "built_in.h"
 #include "tank_fixture.h"
 #include <mps/model.h>
 
@@ -48,19 +49,10 @@ static const wanted list[] = {{"imps", imps_models, imps_settings},
                               {"mmps", mmps_models, mmps_settings},
                               {"mmps.paper", paper_models, paper_settings}};
 
-#define MODEL(name) extern const mps_model_ops mps__##name;
-#include "models.inc"
-#undef MODEL
-static const mps_model_ops *const all[] = {
-#define MODEL(name) &mps__##name,
-#include "models.inc"
-#undef MODEL
-};
-
 static const mps_model_ops *built_in(const char *name)
 {
-    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
-        if (strcmp(all[k]->name, name) == 0) return all[k];
+    for (int k = 0; mps__built_in_models[k]; k++)
+        if (strcmp(mps__built_in_models[k]->name, name) == 0) return mps__built_in_models[k];
     return NULL;
 }
 

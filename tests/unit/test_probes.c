@@ -55,8 +55,9 @@ static void force_turns_with_the_tank(void **state)
     (void)state;
     mps_sim *sim = new_sim(3, dp);
     add_tank(sim, 0.2, 0.1, 0.15);
-    const mps_harmonic h[3] = {
-        {MPS_ROLL, 0, 0.3, 1, 1}, {MPS_YAW, 0, 0.5, 1, 1.5}, {MPS_PITCH, 0, 0.4, 1, 2}};
+    const mps_harmonic h[3] = {{MPS_ROTATE_X, 0, 0.3, 1, 1, 0},
+                               {MPS_ROTATE_Z, 0, 0.5, 1, 1.5, 0},
+                               {MPS_ROTATE_Y, 0, 0.4, 1, 2, 0}};
     ASSERT_OK(sim, mps_motion_harmonics_set(sim, 3, h));
     mps_lease lease = {.struct_size = sizeof lease};
     ASSERT_OK(sim, mps_lease_begin(sim, "wall_pressure", MPS_WRITE, &lease));
@@ -119,7 +120,7 @@ static void energy_budget(void **state)
     mps__world *w = &sim->world;
     mps_energy e;
     mps_energy_init(&e, sizeof e);
-    w->state.budget = (mps__budget){.wall_work = 5,
+    w->state.budget = (mps__budget){.wall_work_momentum = 5,
                                     .viscous = 1,
                                     .collision = 0.5,
                                     .shift = 0.25,
@@ -148,15 +149,15 @@ static void momentum_budget(void **state)
 {
     (void)state;
     mps_sim *sim = filled(2, 0.1);
-    const mps_harmonic surge = {.dof = MPS_SURGE, .amplitude = 0.02, .omega = 20};
+    const mps_harmonic surge = {.dof = MPS_MOVE_X, .amplitude = 0.02, .omega = 20};
     mps_momentum start, m;
     ASSERT_OK(sim, mps_motion_harmonics_set(sim, 1, &surge));
     momentum(sim, &start);
     for (int k = 0; k < 60; k++) assert_true(mps_step(sim, 1, NULL) >= 0);
     momentum(sim, &m);
     for (int d = 0; d < 2; d++) {
-        const double sum = start.total[d] + m.gravity[d] + m.force[d] + m.pressure[d] +
-                           m.collision[d] + m.shift[d] + m.added[d];
+        const double sum = start.total[d] + m.gravity[d] + m.force[d] + m.plugins[d] +
+                           m.pressure[d] + m.collision[d] + m.shift[d] + m.added[d];
         ASSERT_NEAR(m.total[d], sum, 1e-9 * fabs(m.gravity[1]));
         ASSERT_NEAR(m.numerical[d], m.pressure[d] - m.walls[d], 1e-12);
     }

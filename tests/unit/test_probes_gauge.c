@@ -104,7 +104,7 @@ static void gauge_in_a_turned_tank(void **state)
 {
     (void)state;
     mps_sim *sim = filled(2, 0.2);
-    const mps_harmonic h[2] = {{MPS_YAW, 0, 0.4, 1, 1}, {MPS_SURGE, 0, 3, 1, 1}};
+    const mps_harmonic h[2] = {{MPS_ROTATE_Z, 0, 0.4, 1, 1, 0}, {MPS_MOVE_X, 0, 3, 1, 1, 0}};
     ASSERT_OK(sim, mps_motion_harmonics_set(sim, 2, h));
     const mps_probe p = probe_of(MPS_PROBE_GAUGE, 0.123, 0, 0);
     ASSERT_NEAR(read_one(sim, &p), 0.2, 0.01 * dp);

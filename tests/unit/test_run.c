@@ -163,7 +163,7 @@ static void monitor_meddles(void **state)
 static void threads_agree(void **state)
 {
     (void)state;
-    const mps_harmonic h = {.dof = MPS_SURGE, .amplitude = 0.02, .omega = 8};
+    const mps_harmonic h = {.dof = MPS_MOVE_X, .amplitude = 0.02, .omega = 8};
     static const char *const fields[] = {"position", "velocity", "pressure"};
     mps_sim *sim[3];
     for (int k = 0; k < 3; k++) {

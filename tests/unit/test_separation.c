@@ -24,36 +24,37 @@ static const mps_use uses[USES] = {[PRESSURE] = {"pressure", MPS_USE_READ},
                                    [REGION] = {"region", MPS_USE_NEIGHBOURS},
                                    [TANK_ACCELERATION] = {"tank_acceleration", MPS_USE_READ}};
 
-static bool sees_void(const mps_stage *s, const int32_t *region, int64_t i)
+static bool sees_void(const mps_view *v, const int32_t *region, int64_t i)
 {
     bool seen = false;
-    for (int64_t p = s->near->begin[i]; p < s->near->end[i]; p++) {
-        const int64_t j = s->near->col[p];
-        seen = seen || (s->kind[j] == MPS_FLUID && region[j] >= MPS_REGION_SURFACE) ||
-               (s->kind[j] == MPS_WALL && region[j] == MPS_REGION_DRY);
+    for (int64_t p = v->near.begin[i]; p < v->near.end[i]; p++) {
+        const int64_t j = v->near.col[p];
+        seen = seen || (v->kind[j] == MPS_FLUID && region[j] >= MPS_REGION_SURFACE) ||
+               (v->kind[j] == MPS_WALL && region[j] == MPS_REGION_DRY);
     }
     return seen;
 }
 
 static int look(mps_stage *s)
 {
+    const mps_view *v = s->view;
     const double *pressure = s->data[PRESSURE], *tank = s->data[TANK_ACCELERATION];
     const int32_t *region = s->data[REGION];
-    for (int64_t i = 0; i < s->n; i++) {
+    for (int64_t i = 0; i < v->n; i++) {
         double b = 0;
-        if (s->kind[i] != MPS_WALL || region[i] != MPS_REGION_INNER) continue;
-        if (spy.among && !spy.among[s->id[i]]) continue;
-        spy.suction -= s->dt * fmin(0, pressure[i]);
-        if (!sees_void(s, region, i)) continue;
-        for (int d = 0; d < s->dim; d++) b += pow(s->g[d] - tank[i * s->dim + d], 2);
-        spy.least = fmin(spy.least, pressure[i] / (RHO * sqrt(b) * s->near->re));
+        if (v->kind[i] != MPS_WALL || region[i] != MPS_REGION_INNER) continue;
+        if (spy.among && !spy.among[v->id[i]]) continue;
+        spy.suction -= v->dt * fmin(0, pressure[i]);
+        if (!sees_void(v, region, i)) continue;
+        for (int d = 0; d < v->dim; d++) b += pow(v->g[d] - tank[i * v->dim + d], 2);
+        spy.least = fmin(spy.least, pressure[i] / (RHO * sqrt(b) * v->near.re));
         spy.seen++;
     }
     return 0;
 }
 
 static const mps_verb spy_verbs[] = {
-    {.moment = MPS_GRADIENT, .use_count = USES, .uses = uses, .after = "*", .run = look}};
+    {.hook = MPS_GRADIENT, .use_count = USES, .uses = uses, .after = "*", .run = look}};
 static const mps_model_ops spy_model = {.struct_size = sizeof(mps_model_ops),
                                         .api = MPS_MODEL_API,
                                         .name = "after.spy",
@@ -72,10 +73,10 @@ static int pull(void *user, double t, mps_motion_state *state)
     const double a = 4 * GRAVITY, rise = 0.1, w = 3.14159265358979 / rise, q = fmin(t, rise),
                  after = t - q;
     const double rate = 0.5 * a * (q - sin(w * q) / w);
-    state->accel[MPS_SURGE] = -0.5 * a * (1 - cos(w * q));
-    state->rate[MPS_SURGE] = -(rate + a * after);
-    state->value[MPS_SURGE] = -(0.5 * a * (0.5 * q * q - (1 - cos(w * q)) / (w * w)) +
-                                rate * after + 0.5 * a * after * after);
+    state->accel[MPS_MOVE_X] = -0.5 * a * (1 - cos(w * q));
+    state->rate[MPS_MOVE_X] = -(rate + a * after);
+    state->value[MPS_MOVE_X] = -(0.5 * a * (0.5 * q * q - (1 - cos(w * q)) / (w * w)) +
+                                 rate * after + 0.5 * a * after * after);
     return 0;
 }
 
@@ -218,20 +219,21 @@ static struct {
 /* Of wall i by all particles within the near radius; INFINITY: no void there. */
 static double least_pressure(const mps_stage *s, int64_t i)
 {
-    const double *rho = s->data[DENSITY], *tank = (const double *)s->data[TANK] + i * s->dim;
+    const mps_view *v = s->view;
+    const double *rho = s->data[DENSITY], *tank = (const double *)s->data[TANK] + i * v->dim;
     const int32_t *region = s->data[NEAR_REGION];
     double least = INFINITY;
-    for (int64_t j = 0; j < s->n; j++) {
+    for (int64_t j = 0; j < v->n; j++) {
         double r2 = 0, head = 0;
-        for (int d = 0; d < s->dim; d++) {
-            const double r = s->x[j * s->dim + d] - s->x[i * s->dim + d];
+        for (int d = 0; d < v->dim; d++) {
+            const double r = v->x[j * v->dim + d] - v->x[i * v->dim + d];
             r2 += r * r;
-            head -= rho[j] * (s->g[d] - tank[d]) * r;
+            head -= rho[j] * (v->g[d] - tank[d]) * r;
         }
-        if (i == j || r2 >= s->near->re * s->near->re) continue;
-        if (s->kind[j] == MPS_FLUID && region[j] == MPS_REGION_SURFACE)
+        if (i == j || r2 >= v->near.re * v->near.re) continue;
+        if (v->kind[j] == MPS_FLUID && region[j] == MPS_REGION_SURFACE)
             least = fmin(least, fmin(0, head));
-        else if (s->kind[j] != MPS_DUMMY && region[j] >= MPS_REGION_SPRAY)
+        else if (v->kind[j] != MPS_DUMMY && region[j] >= MPS_REGION_SPRAY)
             least = fmin(least, 0);
     }
     return least;
@@ -241,11 +243,11 @@ static int compare(mps_stage *s)
 {
     const double *value = s->data[VALUE];
     const int32_t *region = s->data[NEAR_REGION], *condition = s->data[CONDITION];
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_WALL || region[i] != MPS_REGION_INNER) continue;
+    for (int64_t i = 0; i < s->view->n; i++) {
+        if (s->view->kind[i] != MPS_WALL || region[i] != MPS_REGION_INNER) continue;
         const double least = least_pressure(s, i);
         assert_int_equal(condition[i], least <= 0 ? MPS_ROW_LEAST : MPS_ROW_FREE);
-        if (least <= 0) ASSERT_NEAR(value[i], least, 1e-9 * RHO * GRAVITY * s->dp);
+        if (least <= 0) ASSERT_NEAR(value[i], least, 1e-9 * RHO * GRAVITY * s->view->dp);
         limits.zero += least == 0;
         limits.below += least < 0;
         limits.none += least > 0;
@@ -253,7 +255,7 @@ static int compare(mps_stage *s)
     return 0;
 }
 
-static const mps_verb least_verbs[] = {{.moment = MPS_SOURCE,
+static const mps_verb least_verbs[] = {{.hook = MPS_SOURCE,
                                         .use_count = LEAST_USES,
                                         .uses = least_uses,
                                         .after = "*",
@@ -286,7 +288,7 @@ static void least_by_all_particles(void **state)
 static mps_sim *jumping(int32_t dim, double depth)
 {
     const double across = dim == 3 ? 0.24 : 0;
-    const mps_harmonic surge = {.dof = MPS_SURGE, .amplitude = 0.2, .omega = 5};
+    const mps_harmonic surge = {.dof = MPS_MOVE_X, .amplitude = 0.2, .omega = 5};
     mps_sim *sim = new_sim(dim, 0.04);
     add_tank(sim, 0.8, 0.48, across);
     fill_depth(sim, 0.8, depth, across);

@@ -17,7 +17,7 @@ static int count_create(const mps_allocator *allocator, void **self)
     return (void)allocator, (void)self, 0;
 }
 
-static const mps_verb good_verbs[] = {{.moment = MPS_FORCE, .run = force}};
+static const mps_verb good_verbs[] = {{.hook = MPS_FORCE, .run = force}};
 static const mps_model_ops good_model = {.struct_size = sizeof(mps_model_ops),
                                          .api = MPS_MODEL_API,
                                          .name = "mine.force",
@@ -131,14 +131,14 @@ static void missing_parts(void **state)
     assert_string_equal(told, "");
     ASSERT_OK(sim, mps_run(sim, 2e-3, NULL, NULL));
     ASSERT_OK(sim, mps_run(sim, 3e-3, NULL, NULL));
-    assert_int_equal(count_of("adds to 'acceleration' in moment 'gradient'"), 1);
+    assert_int_equal(count_of("adds to 'acceleration' in hook 'gradient'"), 1);
     assert_int_equal(count_of("pressure_source"), 0);
     ASSERT_OK(sim, mps_model_use(sim, "gradient.corrected"));
     ASSERT_OK(sim, mps_model_remove(sim, "source"));
     ASSERT_OK(sim, mps_run(sim, 4e-3, NULL, NULL));
     ASSERT_OK(sim, mps_run(sim, 5e-3, NULL, NULL));
-    assert_int_equal(count_of("adds to 'acceleration' in moment 'gradient'"), 1);
-    assert_int_equal(count_of("adds to 'pressure_source' in moment 'source'"), 1);
+    assert_int_equal(count_of("adds to 'acceleration' in hook 'gradient'"), 1);
+    assert_int_equal(count_of("adds to 'pressure_source' in hook 'source'"), 1);
     mps_sim_destroy(sim);
 }
 

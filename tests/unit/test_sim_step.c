@@ -85,8 +85,8 @@ static void failing_model(void **state)
 static int surge(void *user, double t, mps_motion_state *state)
 {
     (void)user, (void)t;
-    state->rate[MPS_SURGE] = 0.5;
-    state->value[MPS_SURGE] = 0.5 * t;
+    state->rate[MPS_MOVE_X] = 0.5;
+    state->value[MPS_MOVE_X] = 0.5 * t;
     return 0;
 }
 
@@ -128,13 +128,13 @@ static double spoilt_density;
 static int spoil_density(mps_stage *s)
 {
     double *nd = s->data[0];
-    nd[place_of(s, 10)] = spoilt_density;
+    nd[place_of(s->view, 10)] = spoilt_density;
     return 0;
 }
 
 static const mps_use density_uses[] = {{"number_density", MPS_USE_CHANGE}};
 static const mps_verb density_verbs[] = {
-    {.moment = MPS_PREPARE, .use_count = 1, .uses = density_uses, .run = spoil_density}};
+    {.hook = MPS_PREPARE, .use_count = 1, .uses = density_uses, .run = spoil_density}};
 static const mps_model_ops density_model = {.struct_size = sizeof(mps_model_ops),
                                             .api = MPS_MODEL_API,
                                             .name = "test.density",

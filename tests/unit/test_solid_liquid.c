@@ -123,7 +123,7 @@ static void rolling_circle(void **state)
 {
     (void)state;
     mps_sim *sim = half_full(2, 0.1);
-    const mps_harmonic h = {.dof = MPS_YAW, .amplitude = 0.3, .omega = 3};
+    const mps_harmonic h = {.dof = MPS_ROTATE_Z, .amplitude = 0.3, .omega = 3};
     ASSERT_OK(sim, mps_motion_harmonics_set(sim, 1, &h));
     assert_true(mps_run(sim, 1.5, NULL, NULL) >= 0);
     assert_true(kinetic(sim) < 1e-3 * 1000 * pi / 8 * 0.81);

@@ -7,7 +7,20 @@ enum { ROOM = 4000 };
 static const double TAU = 7, CLIP = 0.12, STRAIN = 0.9, GAIN = 0.6, FIRM = 0.05, RAPID = 0.4,
                     TORN = 0.06, FORWARD = 0.3, PACE = 0.8, ASIDE = 0.7;
 
-enum { VELOCITY, DENSITY, ROW_DENSITY, REGION, TANK, DEVIATION, CORRECTION, WETTED, SOURCE, USES };
+enum {
+    VELOCITY,
+    DENSITY,
+    ROW_DENSITY,
+    REGION,
+    TANK,
+    DEVIATION,
+    CORRECTION,
+    WETTED,
+    SOURCE,
+    EQUATION_GAIN,
+    EQUATION_RADIUS,
+    USES
+};
 static const mps_use uses[USES] = {[VELOCITY] = {"velocity", MPS_USE_NEIGHBOURS},
                                    [DENSITY] = {"density", MPS_USE_NEIGHBOURS},
                                    [ROW_DENSITY] = {"pressure_density", MPS_USE_NEIGHBOURS},
@@ -16,10 +29,13 @@ static const mps_use uses[USES] = {[VELOCITY] = {"velocity", MPS_USE_NEIGHBOURS}
                                    [DEVIATION] = {"volume_deviation", MPS_USE_NEIGHBOURS},
                                    [CORRECTION] = {"correction", MPS_USE_NEIGHBOURS},
                                    [WETTED] = {"wetted_share", MPS_USE_NEIGHBOURS},
-                                   [SOURCE] = {"pressure_source", MPS_USE_READ}};
+                                   [SOURCE] = {"pressure_source", MPS_USE_READ},
+                                   [EQUATION_GAIN] = {"equation_gain", MPS_USE_READ},
+                                   [EQUATION_RADIUS] = {"equation_radius", MPS_USE_READ}};
 
-/* The stage, v, delta, share of solids by row, and how rows were found. */
-static const mps_stage *st;
+/* The stage and its view, v, delta, share of solids by row, and how rows were found. */
+static const mps_stage *stage;
+static const mps_view *view;
 static const double *rho, *row_rho;
 static const int32_t *region;
 static double v[3 * ROOM], delta[ROOM], *solid;
@@ -35,13 +51,13 @@ typedef struct pair {
 static bool pair_of(int64_t i, int64_t j, pair *q)
 {
     static mps_kernel kernel = {.struct_size = sizeof kernel};
-    const double re = st->near->re;
+    const double re = view->near.re;
     double r2 = 0, u2 = 0;
     if (!kernel.id) assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
     *q = (pair){0};
-    for (int d = 0; d < st->dim; d++) {
-        q->d[d] = st->x[j * st->dim + d] - st->x[i * st->dim + d];
-        q->du[d] = v[j * st->dim + d] - v[i * st->dim + d];
+    for (int d = 0; d < view->dim; d++) {
+        q->d[d] = view->x[j * view->dim + d] - view->x[i * view->dim + d];
+        q->du[d] = v[j * view->dim + d] - v[i * view->dim + d];
         q->flux += q->d[d] * q->du[d];
         r2 += q->d[d] * q->d[d];
         u2 += q->du[d] * q->du[d];
@@ -56,12 +72,13 @@ static bool pair_of(int64_t i, int64_t j, pair *q)
 /* v as if fluid moved with the tank without gravity and pressure. */
 static void relative(void)
 {
-    const double *u = st->data[VELOCITY], *tank = st->data[TANK], *given = st->data[DEVIATION];
-    for (int64_t i = 0; i < st->n; i++) {
-        const bool fluid = st->kind[i] == MPS_FLUID;
-        for (int d = 0; d < st->dim; d++) {
-            const int64_t k = i * st->dim + d;
-            v[k] = u[k] - (fluid ? st->dt * (st->g[d] - tank[k]) : 0);
+    const double *u = stage->data[VELOCITY], *tank = stage->data[TANK],
+                 *given = stage->data[DEVIATION];
+    for (int64_t i = 0; i < view->n; i++) {
+        const bool fluid = view->kind[i] == MPS_FLUID;
+        for (int d = 0; d < view->dim; d++) {
+            const int64_t k = i * view->dim + d;
+            v[k] = u[k] - (fluid ? view->dt * (view->g[d] - tank[k]) : 0);
         }
         const bool counts = fluid && region[i] < MPS_REGION_SURFACE;
         delta[i] = counts ? fmin(CLIP, fmax(-CLIP, given[i])) : 0;
@@ -73,15 +90,15 @@ static void relative(void)
 static void slip(void)
 {
     static double mean[3 * ROOM];
-    const int dim = st->dim;
+    const int dim = view->dim;
     memset(mean, 0, sizeof mean);
-    for (int64_t i = 0; i < st->n; i++) {
-        const double *area = st->area + i * dim;
+    for (int64_t i = 0; i < view->n; i++) {
+        const double *area = view->area + i * dim;
         double weight = 0, size2 = 0, most = 0, normal = 0;
-        if (st->kind[i] != MPS_WALL || region[i] == MPS_REGION_DRY) continue;
-        for (int64_t j = 0; j < st->n; j++) {
+        if (view->kind[i] != MPS_WALL || region[i] == MPS_REGION_DRY) continue;
+        for (int64_t j = 0; j < view->n; j++) {
             pair q;
-            if (st->kind[j] != MPS_FLUID || !pair_of(i, j, &q)) continue;
+            if (view->kind[j] != MPS_FLUID || !pair_of(i, j, &q)) continue;
             weight += q.w * rho[j];
             for (int d = 0; d < dim; d++) mean[i * dim + d] += q.w * rho[j] * q.du[d];
         }
@@ -91,27 +108,27 @@ static void slip(void)
             most = fmax(most, area[d] * area[d]);
             normal += mean[i * dim + d] * area[d];
         }
-        const bool corner = dim == 2 && size2 > 1.5 * most && size2 < 0.6 * st->dp * st->dp;
+        const bool corner = dim == 2 && size2 > 1.5 * most && size2 < 0.6 * view->dp * view->dp;
         for (int d = 0; d < dim && size2 > 0; d++) mean[i * dim + d] -= normal * area[d] / size2;
         for (int d = 0; d < dim && (corner || size2 == 0); d++) mean[i * dim + d] = 0;
         seen.corners += corner;
         seen.slipped += !corner;
     }
-    for (int64_t k = 0; k < st->n * dim; k++) v[k] += mean[k];
+    for (int64_t k = 0; k < view->n * dim; k++) v[k] += mean[k];
 }
 
 /* Divergence less the strain of a fluid row. */
 static double strained(int64_t i)
 {
-    const int dim = st->dim;
-    const double c = dim / st->near->n0, strain = STRAIN * (0.5 + FORWARD * (1 / GAIN - 1));
-    const double *b = (const double *)st->data[CORRECTION] + i * dim * dim;
+    const int dim = view->dim;
+    const double c = dim / view->near.n0, strain = STRAIN * (0.5 + FORWARD * (1 / GAIN - 1));
+    const double *b = (const double *)stage->data[CORRECTION] + i * dim * dim;
     double g[9] = {0}, m[9] = {0}, a[9] = {0}, own[9], sum = 0;
     bool mixed = false;
-    for (int64_t j = 0; j < st->n; j++) {
+    for (int64_t j = 0; j < view->n; j++) {
         pair q;
         if (region[j] >= MPS_REGION_SPRAY || !pair_of(i, j, &q)) continue;
-        const bool apart = st->kind[j] == MPS_FLUID && st->phase[j] != st->phase[i];
+        const bool apart = view->kind[j] == MPS_FLUID && view->phase[j] != view->phase[i];
         const double share = apart ? 2 * rho[j] / (rho[i] + rho[j]) : 1;
         mixed = mixed || apart;
         for (int d = 0; d < dim; d++)
@@ -127,7 +144,7 @@ static double strained(int64_t i)
                       (mixed ? own : b)[k % dim * dim + k / dim % dim];
     for (int d = 0; d < dim; d++) {
         sum += a[d * dim + d];
-        for (int e = 0; e < dim; e++) sum -= strain * st->dt * a[d * dim + e] * a[e * dim + d];
+        for (int e = 0; e < dim; e++) sum -= strain * view->dt * a[d * dim + e] * a[e * dim + d];
     }
     return sum;
 }
@@ -135,12 +152,12 @@ static double strained(int64_t i)
 /* Relaxation of the kernel mean of delta; drive: speed of the denser fluid. */
 static double back(int64_t i, double drive)
 {
-    const double u_g = st->velocity_scale, rate = u_g / st->dp;
-    double weight = 0.5 * mps_kernel_weight(&st->near->kernel, 0, st->near->re);
+    const double u_g = view->velocity_scale, rate = u_g / view->dp;
+    double weight = 0.5 * mps_kernel_weight(&view->near.kernel, 0, view->near.re);
     double mean = weight * delta[i];
-    for (int64_t j = 0; j < st->n; j++) {
+    for (int64_t j = 0; j < view->n; j++) {
         pair q;
-        if (st->kind[j] != MPS_FLUID || !pair_of(i, j, &q)) continue;
+        if (view->kind[j] != MPS_FLUID || !pair_of(i, j, &q)) continue;
         mean += q.w * delta[j];
         weight += q.w;
     }
@@ -148,31 +165,31 @@ static double back(int64_t i, double drive)
     const double open = fmax(0, 1 - 2 * ASIDE * solid[i]), torn = fmin(1, pow(mean / TORN, 4));
     seen.torn += torn > 0.05;
     return mean *
-           (rate * fmin(1, (open + pow(mean / FIRM, 4)) / TAU) + RAPID * drive / st->dp * torn);
+           (rate * fmin(1, (open + pow(mean / FIRM, 4)) / TAU) + RAPID * drive / view->dp * torn);
 }
 
 static bool lighter(int64_t i, int64_t j)
 {
-    return st->kind[j] == MPS_FLUID && rho[j] < 0.5 * row_rho[i];
+    return view->kind[j] == MPS_FLUID && rho[j] < 0.5 * row_rho[i];
 }
 
 /* Divergence of the half cell of a wall; light fluid is no faster than the dense beside it. */
 static double of_wall(int64_t i)
 {
-    const double *wetted = st->data[WETTED];
-    double most = 5 * st->velocity_scale, sum = 0;
+    const double *wetted = stage->data[WETTED];
+    double most = 5 * view->velocity_scale, sum = 0;
     pair q;
-    for (int64_t j = 0; j < st->n; j++)
-        if (st->kind[j] == MPS_FLUID && !lighter(i, j) && region[j] < MPS_REGION_SPRAY &&
+    for (int64_t j = 0; j < view->n; j++)
+        if (view->kind[j] == MPS_FLUID && !lighter(i, j) && region[j] < MPS_REGION_SPRAY &&
             pair_of(i, j, &q))
             most = fmax(most, q.speed);
-    for (int64_t j = 0; j < st->n; j++) {
+    for (int64_t j = 0; j < view->n; j++) {
         if (region[j] >= MPS_REGION_SPRAY || !pair_of(i, j, &q)) continue;
         const bool slow_down = lighter(i, j) && q.speed > most;
-        const double share = slow_down                 ? most / q.speed
-                             : st->kind[j] == MPS_WALL ? 0.5 * fmin(wetted[i], wetted[j])
-                                                       : 1;
-        sum += st->dim / st->near->n0 * q.w_r2 * q.flux * share;
+        const double share = slow_down                   ? most / q.speed
+                             : view->kind[j] == MPS_WALL ? 0.5 * fmin(wetted[i], wetted[j])
+                                                         : 1;
+        sum += view->dim / view->near.n0 * q.w_r2 * q.flux * share;
         seen.limited += slow_down;
     }
     return sum;
@@ -181,12 +198,12 @@ static double of_wall(int64_t i)
 /* Largest speeds of the fluid inside: of the denser, of all. */
 static void speeds(double light, double most[2])
 {
-    const double *u = st->data[VELOCITY];
+    const double *u = stage->data[VELOCITY];
     most[0] = most[1] = 0;
-    for (int64_t i = 0; i < st->n; i++) {
+    for (int64_t i = 0; i < view->n; i++) {
         double u2 = 0;
-        if (st->kind[i] != MPS_FLUID || region[i] >= MPS_REGION_SURFACE) continue;
-        for (int d = 0; d < st->dim; d++) u2 += u[i * st->dim + d] * u[i * st->dim + d];
+        if (view->kind[i] != MPS_FLUID || region[i] >= MPS_REGION_SURFACE) continue;
+        for (int d = 0; d < view->dim; d++) u2 += u[i * view->dim + d] * u[i * view->dim + d];
         if (rho[i] > light) most[0] = fmax(most[0], sqrt(u2));
         most[1] = fmax(most[1], sqrt(u2));
     }
@@ -194,38 +211,41 @@ static void speeds(double light, double most[2])
 
 static int compare(mps_stage *s)
 {
-    const double *got = s->data[SOURCE], light = 100, heavy = 1000, calm = 5 * s->velocity_scale;
-    double most[2], *is_solid = mps_stage_scratch(s, s->n);
-    solid = mps_stage_scratch(s, s->n);
-    assert_true(s->n <= ROOM && is_solid && solid);
-    st = s;
+    const double *got = s->data[SOURCE], light = 100, heavy = 1000,
+                 calm = 5 * s->view->velocity_scale;
+    double most[2], *is_solid = mps_stage_scratch(s, s->view->n);
+    solid = mps_stage_scratch(s, s->view->n);
+    stage = s;
+    view = s->view;
+    assert_true(view->n <= ROOM && is_solid && solid);
     rho = s->data[DENSITY];
     row_rho = s->data[ROW_DENSITY];
     region = s->data[REGION];
-    for (int64_t i = 0; i < s->n; i++) is_solid[i] = s->kind[i] != MPS_FLUID;
-    assert_int_equal(mps_op_volume_sum(s->far, is_solid, solid), MPS_OK);
+    for (int64_t i = 0; i < view->n; i++) is_solid[i] = view->kind[i] != MPS_FLUID;
+    assert_int_equal(mps_op_volume_sum(&view->far, is_solid, solid), MPS_OK);
     relative();
     slip();
     speeds(light, most);
     const double slow = PACE * (1 - fmax(calm, most[0]) / fmax(calm, most[1]));
-    for (int64_t i = 0; i < s->n; i++) {
-        const bool fluid = s->kind[i] == MPS_FLUID;
+    for (int64_t i = 0; i < view->n; i++) {
+        const bool fluid = view->kind[i] == MPS_FLUID;
         seen.spray += region[i] == MPS_REGION_SPRAY;
         if (region[i] >= MPS_REGION_SURFACE) continue;
         const double pace = 1 - slow * (row_rho[i] - light) / (heavy - light),
-                     wanted = fluid ? back(i, fmax(most[0], s->velocity_scale)) - strained(i)
+                     wanted = fluid ? back(i, fmax(most[0], view->velocity_scale)) - strained(i)
                                     : -of_wall(i);
-        seen.worst = fmax(seen.worst, fabs(got[i] * s->dt - pace * wanted) / (1 + fabs(wanted)));
+        seen.worst = fmax(seen.worst, fabs(got[i] * view->dt - pace * wanted) / (1 + fabs(wanted)));
         seen.fluid += fluid;
         seen.walls += !fluid;
     }
-    assert_true(s->equation->gain == GAIN && s->equation->radius == MPS_NEAR);
-    assert_true(s->equation->body == 1 && slow > 0.1);
+    assert_true(*(double *)s->data[EQUATION_GAIN] == GAIN);
+    assert_true(*(int32_t *)s->data[EQUATION_RADIUS] == MPS_NEAR);
+    assert_true(view->flux.body == 1 && slow > 0.1);
     return 0;
 }
 
 static const mps_verb verbs[] = {
-    {.moment = MPS_SOURCE, .use_count = USES, .uses = uses, .after = "*", .run = compare}};
+    {.hook = MPS_SOURCE, .use_count = USES, .uses = uses, .after = "*", .run = compare}};
 static const mps_model_ops rows = {.struct_size = sizeof(mps_model_ops),
                                    .api = MPS_MODEL_API,
                                    .name = "after.rows",
@@ -256,7 +276,7 @@ static void use_source(mps_sim *sim)
 static void move_layers(int dim)
 {
     const int nx = dim == 2 ? 15 : 7, ny = dim == 2 ? 12 : 8, nz = dim == 3 ? 4 : 1;
-    const mps_harmonic surge = {.dof = MPS_SURGE, .amplitude = 0.05, .omega = 9, .phase = 0.7};
+    const mps_harmonic surge = {.dof = MPS_MOVE_X, .amplitude = 0.05, .omega = 9, .phase = 0.7};
     cloud c = cloud_lattice(dim, nx, ny, nz, 0.15, 77);
     int32_t *phase = cloud_phases(c.n);
     double *u = cloud_field(c.n * dim, 5);

@@ -12,7 +12,7 @@ static int run_play(mps_stage *s)
     return play ? play(s) : 0;
 }
 
-static const mps_verb verbs[] = {{.moment = MPS_PREPARE, .run = run_play}};
+static const mps_verb verbs[] = {{.hook = MPS_PREPARE, .run = run_play}};
 static const mps_model_ops player = {TOY("player.toy", 1, verbs)};
 
 /* `count` particles of a distorted lattice, `threads` threads. */
@@ -48,18 +48,18 @@ typedef struct counted {
     int dim;
 } counted;
 
-MPS_ROW void count_row(const int dim, const mps_stage *s, const counted *c, int64_t i)
+MPS_ROW void count_row(const int dim, const mps_view *v, const counted *c, int64_t i)
 {
-    c->times[i] += dim == c->dim && i < s->n ? 1 : 100;
+    c->times[i] += dim == c->dim && i < v->n ? 1 : 100;
 }
 MPS_ROWS(count_rows, count_row, counted)
 
 static int count_all(mps_stage *s)
 {
-    counted c = {mps_stage_scratch_integers(s, s->n), s->dim};
+    counted c = {mps_stage_scratch_integers(s, s->view->n), s->view->dim};
     assert_non_null(c.times);
-    mps_stage_rows(s, count_rows, &c);
-    for (int64_t i = 0; i < s->n; i++) assert_int_equal(c.times[i], 1);
+    mps_stage_rows(s, &count_rows, &c);
+    for (int64_t i = 0; i < s->view->n; i++) assert_int_equal(c.times[i], 1);
     return 0;
 }
 
@@ -79,46 +79,63 @@ static double total[SUMS], maxima[SUMS], sum_before[SUMS], max_before[SUMS];
 static double exact[3]; /* number of rows, sum and maximum of the ids */
 
 /* Numbers of all sizes, so that the order of a sum is seen in its last bits. */
-static double number(const mps_stage *s, int64_t i, int k)
+typedef struct numbers {
+    const int64_t *id;
+} numbers;
+
+static double number(const int64_t *id, int64_t i, int k)
 {
-    return sin((double)(s->id[i] * 16 + k)) * pow(10.0, (double)((s->id[i] * 7 + k) % 19));
+    return sin((double)(id[i] * 16 + k)) * pow(10.0, (double)((id[i] * 7 + k) % 19));
 }
 
-MPS_ROW void add_row_of(const int dim, const mps_stage *s, void *none, int64_t i, double *sum)
+MPS_ROW void sum_row(const int dim, const mps_view *v, const numbers *f, int64_t i, double *sum)
 {
-    (void)dim, (void)none;
-    for (int k = 2; k < SUMS; k++) sum[k] += number(s, i, k);
+    (void)dim, (void)v;
+    for (int k = 2; k < SUMS; k++) sum[k] += number(f->id, i, k);
     sum[0] += 1;
-    sum[1] += (double)s->id[i];
+    sum[1] += (double)f->id[i];
 }
-MPS_SUMS(add_rows, add_row_of, void)
+MPS_SUMS(add_rows, sum_row, numbers)
 
-MPS_ROW void raise_row(const int dim, const mps_stage *s, void *none, int64_t i, double *most)
+MPS_ROW void one_row(const int dim, const mps_view *v, const numbers *f, int64_t i, double *sum)
 {
-    (void)dim, (void)none;
+    (void)dim, (void)v, (void)f, (void)i;
+    sum[0] += 1;
+}
+MPS_SUMS(one_rows, one_row, numbers)
+
+MPS_ROW void raise_row(const int dim, const mps_view *v, const numbers *f, int64_t i, double *most)
+{
+    (void)dim, (void)v;
     for (int k = 1; k < SUMS; k++)
-        if (number(s, i, k) > most[k]) most[k] = number(s, i, k);
-    if ((double)s->id[i] > most[0]) most[0] = (double)s->id[i];
+        if (number(f->id, i, k) > most[k]) most[k] = number(f->id, i, k);
+    if ((double)f->id[i] > most[0]) most[0] = (double)f->id[i];
 }
-MPS_SUMS(raise_rows, raise_row, void)
+MPS_SUMS(raise_rows, raise_row, numbers)
 
-static void raise_nothing(const mps_stage *s, void *none, int64_t begin, int64_t end, double *most)
+static void raise_none(const mps_view *v, const void *fields, int64_t begin, int64_t end,
+                       int32_t stride, double *most)
 {
-    (void)s, (void)none, (void)begin, (void)end, (void)most;
+    (void)v, (void)fields, (void)begin, (void)end, (void)most;
+    assert_int_equal(stride, 0);
 }
+
+static const mps_sums raise_nothing = {sizeof(mps_sums), 0, "raise_nothing", raise_none};
 
 static int sum_all(mps_stage *s)
 {
+    const mps_view *v = s->view;
+    const numbers f = {v->id};
     double one[2] = {-1, -1}, none;
-    mps_stage_sum(s, SUMS, add_rows, NULL, total);
-    mps_stage_max(s, SUMS, raise_rows, NULL, maxima);
-    mps_stage_sum(s, 1, add_rows, NULL, one); /* no more than `count` numbers are written */
-    assert_true(one[0] == (double)s->n && one[1] == -1);
-    mps_stage_max(s, 1, raise_nothing, NULL, &none);
+    mps_stage_sum(s, SUMS, &add_rows, &f, total);
+    mps_stage_max(s, SUMS, &raise_rows, &f, maxima);
+    mps_stage_sum(s, 1, &one_rows, &f, one); /* no more than `count` numbers are written */
+    assert_true(one[0] == (double)v->n && one[1] == -1);
+    mps_stage_max(s, 1, &raise_nothing, NULL, &none);
     assert_true(none == -INFINITY);
-    exact[0] = (double)s->n;
-    exact[1] = 0.5 * (double)(s->n * (s->n - 1));
-    exact[2] = (double)(s->n - 1);
+    exact[0] = (double)v->n;
+    exact[1] = 0.5 * (double)(v->n * (v->n - 1));
+    exact[2] = (double)(v->n - 1);
     return 0;
 }
 
@@ -140,32 +157,43 @@ static void sums_do_not_depend_on_threads(void **state)
 }
 
 /* Rows in another order have the same terms, and numbers of all sizes that cancel. */
-static const int32_t *order;
+typedef struct ordered {
+    const int64_t *id;
+    const int32_t *order;
+} ordered;
 
-static void add_ordered(const mps_stage *s, void *none, int64_t begin, int64_t end, double *sums)
+static void add_some(const mps_view *v, const void *fields, int64_t begin, int64_t end,
+                     int32_t stride, double *values)
 {
-    (void)none;
-    assert_int_equal(end, begin + 1);
-    for (int k = 0; k < 3; k++) assert_true(sums[k] == 0);
-    const int64_t i = order[begin];
-    sums[0] = number(s, i, 0);
-    sums[1] = i % 2 ? number(s, i - 1, 1) : -number(s, i, 1);
-    sums[2] = 0.1 * (double)i;
+    const ordered *f = fields;
+    (void)v;
+    assert_int_equal(stride, 3);
+    for (int64_t k = begin; k < end; k++) {
+        double *sums = values + (k - begin) * stride;
+        for (int c = 0; c < 3; c++) assert_true(sums[c] == 0);
+        const int64_t i = f->order[k];
+        sums[0] = number(f->id, i, 0);
+        sums[1] = i % 2 ? number(f->id, i - 1, 1) : -number(f->id, i, 1);
+        sums[2] = 0.1 * (double)i;
+    }
 }
+
+static const mps_sums add_ordered = {sizeof(mps_sums), sizeof(ordered), "add_ordered", add_some};
 
 static int sum_in_orders(mps_stage *s)
 {
+    const mps_view *v = s->view;
     double first[3], other[3];
-    int32_t *row = mps_stage_scratch_integers(s, s->n);
+    int32_t *row = mps_stage_scratch_integers(s, v->n);
+    const ordered f = {v->id, row};
     assert_non_null(row);
-    order = row;
-    for (int64_t i = 0; i < s->n; i++) row[i] = (int32_t)i;
-    mps_stage_sum(s, 3, add_ordered, NULL, first);
-    for (int64_t i = 0; i < s->n; i++) row[i] = (int32_t)((i * 611 + 17) % s->n);
-    mps_stage_sum(s, 3, add_ordered, NULL, other);
+    for (int64_t i = 0; i < v->n; i++) row[i] = (int32_t)i;
+    mps_stage_sum(s, 3, &add_ordered, &f, first);
+    for (int64_t i = 0; i < v->n; i++) row[i] = (int32_t)((i * 611 + 17) % v->n);
+    mps_stage_sum(s, 3, &add_ordered, &f, other);
     assert_memory_equal(first, other, sizeof first);
     assert_true(first[1] == 0);
-    ASSERT_NEAR(first[2], 0.05 * (double)(s->n * (s->n - 1)), 1e-10);
+    ASSERT_NEAR(first[2], 0.05 * (double)(v->n * (v->n - 1)), 1e-10);
     return 0;
 }
 
@@ -179,17 +207,19 @@ static int32_t wanted_count;
 
 static int sum_many(mps_stage *s)
 {
+    const numbers f = {s->view->id};
     double many[32];
     for (int k = 0; k < 32; k++) many[k] = 7;
-    mps_stage_sum(s, wanted_count, add_rows, NULL, many);
+    mps_stage_sum(s, wanted_count, &add_rows, &f, many);
     for (int k = 0; k < 32; k++) assert_true(many[k] == (k < wanted_count && k < 16 ? 0 : 7));
     return 0;
 }
 
 static int raise_many(mps_stage *s)
 {
+    const numbers f = {s->view->id};
     double many[32];
-    mps_stage_max(s, wanted_count, raise_rows, NULL, many);
+    mps_stage_max(s, wanted_count, &raise_rows, &f, many);
     return 0;
 }
 
@@ -220,25 +250,26 @@ static void wrong_counts(void **state)
 
 static int check_beside(mps_stage *s)
 {
-    int32_t *member = mps_stage_scratch_integers(s, s->n);
-    int32_t *beside = mps_stage_scratch_integers(s, s->n);
+    const mps_view *v = s->view;
+    int32_t *member = mps_stage_scratch_integers(s, v->n);
+    int32_t *beside = mps_stage_scratch_integers(s, v->n);
     int64_t found = 0;
     assert_true(member && beside);
-    for (int64_t i = 0; i < s->n; i++) {
-        member[i] = s->id[i] % 50 == 0 ? 3 : 0; /* anything but 0 */
+    for (int64_t i = 0; i < v->n; i++) {
+        member[i] = v->id[i] % 50 == 0 ? 3 : 0; /* anything but 0 */
         beside[i] = 77;
     }
     mps_stage_beside(s, member, beside);
-    for (int64_t i = 0; i < s->n; i++) {
+    for (int64_t i = 0; i < v->n; i++) {
         int32_t wanted = 0;
-        for (int64_t j = 0; j < s->n; j++) {
-            const double x = s->x[2 * j] - s->x[2 * i], y = s->x[2 * j + 1] - s->x[2 * i + 1];
-            if (j != i && member[j] && x * x + y * y < s->near->re * s->near->re) wanted = 1;
+        for (int64_t j = 0; j < v->n; j++) {
+            const double x = v->x[2 * j] - v->x[2 * i], y = v->x[2 * j + 1] - v->x[2 * i + 1];
+            if (j != i && member[j] && x * x + y * y < v->near.re * v->near.re) wanted = 1;
         }
         assert_int_equal(beside[i], wanted);
         found += wanted;
     }
-    assert_true(found > s->n / 10 && found < s->n);
+    assert_true(found > v->n / 10 && found < v->n);
     return 0;
 }
 
@@ -282,16 +313,17 @@ static int32_t role_of(char letter)
 /* Ids are numbered by chain: chain k has LONGEST of them, the last of which are far away. */
 static int check_bodies(mps_stage *s)
 {
-    int32_t *role = mps_stage_scratch_integers(s, s->n),
-            *body = mps_stage_scratch_integers(s, s->n);
+    const mps_view *v = s->view;
+    int32_t *role = mps_stage_scratch_integers(s, v->n),
+            *body = mps_stage_scratch_integers(s, v->n);
     int32_t at[CHAINS * LONGEST], bodies = 0;
     assert_true(role && body);
-    for (int64_t i = 0; i < s->n; i++) {
-        const chain *c = &chains[s->id[i] / LONGEST];
-        const size_t place = (size_t)(s->id[i] % LONGEST);
+    for (int64_t i = 0; i < v->n; i++) {
+        const chain *c = &chains[v->id[i] / LONGEST];
+        const size_t place = (size_t)(v->id[i] % LONGEST);
         role[i] = place < strlen(c->roles) ? role_of(c->roles[place]) : MPS_BODY_NONE;
         body[i] = 55;
-        at[s->id[i]] = (int32_t)i;
+        at[v->id[i]] = (int32_t)i;
     }
     assert_int_equal(mps_stage_bodies(s, MOST_IN_A_BODY, role, body), 0);
     for (int k = 0; k < CHAINS; k++)
@@ -335,11 +367,12 @@ static void bodies(void **state)
 
 static int check_links(mps_stage *s)
 {
-    int32_t *role = mps_stage_scratch_integers(s, s->n),
-            *body = mps_stage_scratch_integers(s, s->n);
-    for (int64_t i = 0; i < s->n; i++) role[i] = MPS_BODY_SEED;
+    const mps_view *v = s->view;
+    int32_t *role = mps_stage_scratch_integers(s, v->n),
+            *body = mps_stage_scratch_integers(s, v->n);
+    for (int64_t i = 0; i < v->n; i++) role[i] = MPS_BODY_SEED;
     assert_int_equal(mps_stage_bodies(s, MOST_IN_A_BODY, role, body), 0);
-    for (int64_t i = 0; i < s->n; i++) assert_int_equal(body[i], s->id[i] == 2 ? -1 : s->id[i]);
+    for (int64_t i = 0; i < v->n; i++) assert_int_equal(body[i], v->id[i] == 2 ? -1 : v->id[i]);
     return 0;
 }
 
@@ -372,23 +405,24 @@ static int blocks_wanted;
 /* Of both types, zeroed, none on top of another; given back when the verb returns. */
 static int take_blocks(mps_stage *s)
 {
+    const mps_view *v = s->view;
     void *block[20] = {NULL};
     for (int k = 0; k < blocks_wanted; k++) {
         if (k % 2) {
-            int32_t *b = mps_stage_scratch_integers(s, s->n);
-            for (int64_t i = 0; b && i < s->n; i++) assert_int_equal(b[i], 0);
-            for (int64_t i = 0; b && i < s->n; i++) b[i] = k;
+            int32_t *b = mps_stage_scratch_integers(s, v->n);
+            for (int64_t i = 0; b && i < v->n; i++) assert_int_equal(b[i], 0);
+            for (int64_t i = 0; b && i < v->n; i++) b[i] = k;
             block[k] = b;
         } else {
-            double *b = mps_stage_scratch(s, s->n);
-            for (int64_t i = 0; b && i < s->n; i++) assert_true(b[i] == 0);
-            for (int64_t i = 0; b && i < s->n; i++) b[i] = k;
+            double *b = mps_stage_scratch(s, v->n);
+            for (int64_t i = 0; b && i < v->n; i++) assert_true(b[i] == 0);
+            for (int64_t i = 0; b && i < v->n; i++) b[i] = k;
             block[k] = b;
         }
         if (!block[k]) return 1;
     }
     for (int k = 0; k < blocks_wanted; k++)
-        for (int64_t i = 0; i < s->n; i++)
+        for (int64_t i = 0; i < v->n; i++)
             assert_true((k % 2 ? ((int32_t *)block[k])[i] : ((double *)block[k])[i]) == k);
     return 0;
 }
@@ -406,8 +440,8 @@ static int take_too_much(mps_stage *s)
 /* The search of bodies gives back what it borrowed. */
 static int bodies_and_blocks(mps_stage *s)
 {
-    int32_t *role = mps_stage_scratch_integers(s, s->n),
-            *body = mps_stage_scratch_integers(s, s->n);
+    int32_t *role = mps_stage_scratch_integers(s, s->view->n),
+            *body = mps_stage_scratch_integers(s, s->view->n);
     for (int k = 0; k < 20; k++) assert_int_equal(mps_stage_bodies(s, 3, role, body), 0);
     for (int k = 2; k < 16; k++) assert_non_null(mps_stage_scratch(s, 1));
     return mps_stage_bodies(s, 3, role, body); /* it needs some itself */
@@ -415,7 +449,7 @@ static int bodies_and_blocks(mps_stage *s)
 
 static int refresh_all(mps_stage *s)
 {
-    double *b = mps_stage_scratch(s, 2 * s->n);
+    double *b = mps_stage_scratch(s, 2 * s->view->n);
     assert_int_equal(mps_stage_refresh(s, 1, &(mps_shared){b, 2, MPS_TYPE_REAL}), 0);
     return mps_stage_refresh(s, 1, &(mps_shared){b, 0, MPS_TYPE_REAL});
 }

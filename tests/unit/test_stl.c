@@ -276,6 +276,10 @@ static void bad_files(void **state)
     ASSERT_REFUSED(sim, read_file(sim, 1, -1), MPS_E_ARG, "stl.scale");
     ASSERT_REFUSED(sim, mps_stl_add(sim, "", &(mps_stl){.struct_size = sizeof(mps_stl)}, NULL),
                    MPS_E_ARG, "empty");
+    write_binary(&t);
+    add_tank(sim, 1, 1, 1); /* in a tank too lattice points must not be one */
+    const mps_stl far = {.struct_size = sizeof far, .container = 1, .shift = {0, 0, 1e16}};
+    ASSERT_REFUSED(sim, mps_stl_add(sim, path, &far, NULL), MPS_E_ARG, "must be within 1e+08 m");
     mps_sim_destroy(sim);
 }
 
@@ -487,6 +491,7 @@ int main(void)
         cmocka_unit_test(scale_and_orientation),
         cmocka_unit_test(bad_meshes),
         cmocka_unit_test(bad_files),
+
         cmocka_unit_test(degenerate_triangles),
         cmocka_unit_test(damaged_files),
         cmocka_unit_test(distances),

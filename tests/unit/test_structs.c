@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Structs that cross the interface: sizes that no version had are refused, and nothing is written beyond the caller's size. */
 #include "tank_fixture.h"
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
 #include <mps/model.h>
 #include <mps/ppe.h>
 #include <stdlib.h>
@@ -16,9 +19,9 @@ typedef mps_status (*init_fn)(void *out, size_t size);
 #define ALL(X)                                                                                     \
     X(mps_channel_info)                                                                            \
     X(mps_config) X(mps_energy) X(mps_grid) X(mps_kernel) X(mps_lease) X(mps_model_info)           \
-        X(mps_momentum) X(mps_motion_state) X(mps_name_info) X(mps_parallel) X(mps_particle_block) \
-            X(mps_phase) X(mps_ppe_result) X(mps_probe) X(mps_setting_info) X(mps_solid)           \
-                X(mps_solver_limits) X(mps_stencil) X(mps_step_info) X(mps_stl) X(mps_tank)        \
+        X(mps_momentum) X(mps_motion_pose) X(mps_motion_state) X(mps_name_info) X(mps_parallel) X(mps_particle_block) X(mps_pass_info) \
+            X(mps_phase) X(mps_ppe_result) X(mps_probe) X(mps_probe_info) X(mps_setting_info) X(mps_ship) X(mps_ship_motion) \
+                X(mps_solid) X(mps_solver_limits) X(mps_stencil) X(mps_step_info) X(mps_stl) X(mps_tank)        \
                     X(mps_time_control) X(mps_verb_info)
 /* clang-format on */
 ALL(INIT)
@@ -97,6 +100,27 @@ static void fillers_refuse_sizes(void **state)
     mps_sim_destroy(sim);
 }
 
+/* An invalid size is refused before a byte behind the struct is read. The struct ends at the end of a page; the next page is not mapped. */
+static void sizes_without_end(void **state)
+{
+    (void)state;
+    const size_t page = (size_t)sysconf(_SC_PAGESIZE);
+    const int memory = open("/dev/zero", O_RDWR);
+    char *two = mmap(NULL, 2 * page, PROT_READ | PROT_WRITE, MAP_PRIVATE, memory, 0);
+    assert_true(memory >= 0 && two != MAP_FAILED);
+    assert_int_equal(munmap(two + page, page), 0);
+    mps_phase *phase = (mps_phase *)(two + page - sizeof *phase);
+    mps_sim *sim = new_sim(2, 0.1);
+    for (uint32_t size = 4097; size < UINT32_MAX / 2; size *= 2) {
+        assert_int_equal(mps_phase_init(phase, sizeof *phase), MPS_OK);
+        phase->struct_size = size;
+        ASSERT_REFUSED(sim, mps_phase_set(sim, 0, phase), MPS_E_ARG, "mps_phase.struct_size is");
+    }
+    mps_sim_destroy(sim);
+    munmap(two, page);
+    close(memory);
+}
+
 /* Structs of a newer program are filled up to the entries of this library. */
 static void newer_structs_are_filled(void **state)
 {
@@ -136,6 +160,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(init_knows_sizes),
         cmocka_unit_test(fillers_refuse_sizes),
+        cmocka_unit_test(sizes_without_end),
         cmocka_unit_test(newer_structs_are_filled),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

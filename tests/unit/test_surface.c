@@ -11,13 +11,13 @@ static int32_t region[1000]; /* by id, of the last step */
 static int keep_regions(mps_stage *s)
 {
     const int32_t *regions = s->data[0];
-    for (int64_t i = 0; i < s->n; i++) region[s->id[i]] = regions[i];
+    for (int64_t i = 0; i < s->view->n; i++) region[s->view->id[i]] = regions[i];
     return 0;
 }
 
 static const mps_use keeper_uses[] = {{"region", MPS_USE_READ}};
 static const mps_verb keeper_verbs[] = {
-    {.moment = MPS_SOURCE, .use_count = 1, .uses = keeper_uses, .after = "*", .run = keep_regions}};
+    {.hook = MPS_SOURCE, .use_count = 1, .uses = keeper_uses, .after = "*", .run = keep_regions}};
 static const mps_model_ops keeper = {.struct_size = sizeof(mps_model_ops),
                                      .api = MPS_MODEL_API,
                                      .name = "keeper.regions",

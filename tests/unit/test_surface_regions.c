@@ -15,34 +15,34 @@ static const mps_use uses[USES] = {[NUMBER] = {"number_density", MPS_USE_READ},
 enum { LONE, TORN, FLAT, FILM, REST, AMID_SPRAY, BESIDE_SPRAY, CONTACT, FULL, PARTLY, BEHIND, ALL };
 static int64_t found[ALL];
 
-static const mps_stage *stage;
+static const mps_view *v;
 static mps_kernel kernel = {.struct_size = sizeof kernel};
 
 static bool pair_of(int64_t i, int64_t j, double *d, double *r, double *w)
 {
     double r2 = 0;
-    for (int k = 0; k < stage->dim; k++) {
-        d[k] = stage->x[j * stage->dim + k] - stage->x[i * stage->dim + k];
+    for (int k = 0; k < v->dim; k++) {
+        d[k] = v->x[j * v->dim + k] - v->x[i * v->dim + k];
         r2 += d[k] * d[k];
     }
     *r = sqrt(r2);
-    if (i == j || *r >= stage->near->re) return false;
-    *w = mps_kernel_value(&kernel, *r, stage->near->re);
+    if (i == j || *r >= v->near.re) return false;
+    *w = mps_kernel_value(&kernel, *r, v->near.re);
     return true;
 }
 
 /* Sums of a row of the lattice that fills one half space: of W over all below its row, and |A|. */
 static void half_space(double *full, double *a0)
 {
-    const double dp = stage->dp, re = stage->near->re;
+    const double dp = v->dp, re = v->near.re;
     *full = *a0 = 0;
     for (int i = -3; i <= 3; i++)
         for (int j = 1; j <= 3; j++)
-            for (int k = stage->dim == 3 ? -3 : 0; k <= (stage->dim == 3 ? 3 : 0); k++) {
+            for (int k = v->dim == 3 ? -3 : 0; k <= (v->dim == 3 ? 3 : 0); k++) {
                 const double r = dp * sqrt((double)(i * i + j * j + k * k));
                 if (r >= re) continue;
                 *full += mps_kernel_value(&kernel, r, re);
-                *a0 += j * dp / r * mps_kernel_value(&kernel, r, re) * stage->dim / stage->near->n0;
+                *a0 += j * dp / r * mps_kernel_value(&kernel, r, re) * v->dim / v->near.n0;
             }
 }
 
@@ -53,14 +53,14 @@ typedef struct sums {
 
 static sums sums_of(int64_t i, const int32_t *region, int32_t left)
 {
-    const int dim = stage->dim;
-    const double n0 = stage->near->n0;
+    const int dim = v->dim;
+    const double n0 = v->near.n0;
     double a[3] = {0}, d[3], r, w;
     sums c = {0};
-    for (int64_t j = 0; j < stage->n; j++) {
+    for (int64_t j = 0; j < v->n; j++) {
         if (region[j] == left || !pair_of(i, j, d, &r, &w)) continue;
         c.n += w / n0;
-        if (stage->kind[j] == MPS_FLUID) c.fluid += w / n0;
+        if (v->kind[j] == MPS_FLUID) c.fluid += w / n0;
         for (int k = 0; k < dim; k++) a[k] += dim / n0 * w * d[k] / r;
     }
     c.a = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
@@ -81,8 +81,8 @@ static int rule(double n, double a)
 static bool beside(int64_t i, const int32_t *region, int32_t kind, int32_t wanted, double reach)
 {
     double d[3], r, w;
-    for (int64_t j = 0; j < stage->n; j++)
-        if (stage->kind[j] == kind && region[j] == wanted && pair_of(i, j, d, &r, &w) && r < reach)
+    for (int64_t j = 0; j < v->n; j++)
+        if (v->kind[j] == kind && region[j] == wanted && pair_of(i, j, d, &r, &w) && r < reach)
             return true;
     return false;
 }
@@ -90,9 +90,9 @@ static bool beside(int64_t i, const int32_t *region, int32_t kind, int32_t wante
 /* Spray, and the surface by the sums of each particle. */
 static void own_sums(const sums *c, int32_t *region)
 {
-    for (int64_t i = 0; i < stage->n; i++) {
-        region[i] = stage->kind[i] == MPS_DUMMY ? MPS_REGION_DRY : MPS_REGION_INNER;
-        if (stage->kind[i] != MPS_FLUID) continue;
+    for (int64_t i = 0; i < v->n; i++) {
+        region[i] = v->kind[i] == MPS_DUMMY ? MPS_REGION_DRY : MPS_REGION_INNER;
+        if (v->kind[i] != MPS_FLUID) continue;
         const int why = rule(c[i].n, c[i].a);
         if (why != REST) region[i] = MPS_REGION_SURFACE;
         if (c[i].fluid < 0.25) region[i] = MPS_REGION_SPRAY;
@@ -104,11 +104,11 @@ static void own_sums(const sums *c, int32_t *region)
 static void beside_others(const sums *c, double a0, int32_t *region)
 {
     static int32_t old[ROOM];
-    const double re = stage->near->re;
+    const double re = v->near.re;
     for (int pass = 0; pass < 2; pass++) {
-        memcpy(old, region, (size_t)stage->n * sizeof *old);
-        for (int64_t i = 0; i < stage->n; i++) {
-            if (stage->kind[i] != MPS_FLUID || old[i] != MPS_REGION_INNER) continue;
+        memcpy(old, region, (size_t)v->n * sizeof *old);
+        for (int64_t i = 0; i < v->n; i++) {
+            if (v->kind[i] != MPS_FLUID || old[i] != MPS_REGION_INNER) continue;
             bool changed = false;
             if (pass == 0 && beside(i, old, MPS_FLUID, MPS_REGION_SPRAY, re)) {
                 const sums left = sums_of(i, old, MPS_REGION_SPRAY);
@@ -116,8 +116,8 @@ static void beside_others(const sums *c, double a0, int32_t *region)
                 found[left.fluid < 0.25 ? AMID_SPRAY : BESIDE_SPRAY] += changed;
             }
             if (pass == 1 && c[i].n < 0.95 && c[i].a > 0.55) {
-                changed = beside(i, old, MPS_WALL, MPS_REGION_INNER, 1.5 * stage->dp) &&
-                          beside(i, old, MPS_FLUID, MPS_REGION_SURFACE, 1.5 * stage->dp);
+                changed = beside(i, old, MPS_WALL, MPS_REGION_INNER, 1.5 * v->dp) &&
+                          beside(i, old, MPS_FLUID, MPS_REGION_SURFACE, 1.5 * v->dp);
                 found[CONTACT] += changed;
             }
             if (changed) region[i] = MPS_REGION_SURFACE;
@@ -128,10 +128,10 @@ static void beside_others(const sums *c, double a0, int32_t *region)
 /* NEAR and SECOND. */
 static void bands(int32_t *region)
 {
-    const double re = stage->near->re;
+    const double re = v->near.re;
     for (int32_t to = MPS_REGION_NEAR; to >= MPS_REGION_SECOND; to--)
-        for (int64_t i = 0; i < stage->n; i++)
-            if (stage->kind[i] == MPS_FLUID && region[i] == MPS_REGION_INNER &&
+        for (int64_t i = 0; i < v->n; i++)
+            if (v->kind[i] == MPS_FLUID && region[i] == MPS_REGION_INNER &&
                 beside(i, region, MPS_FLUID, to + 1, re))
                 region[i] = to;
 }
@@ -139,19 +139,19 @@ static void bands(int32_t *region)
 /* Share of a wall's half space that is full, 0 if all fluid is behind its face. */
 static double wet(int64_t i, const int32_t *region, double full)
 {
-    const int dim = stage->dim;
-    const double *area = stage->area + i * dim;
+    const int dim = v->dim;
+    const double *area = v->area + i * dim;
     double sum = 0, size = 0, highest = -1, d[3], r, w;
     for (int k = 0; k < dim; k++) size += area[k] * area[k];
-    for (int64_t j = 0; j < stage->n; j++) {
+    for (int64_t j = 0; j < v->n; j++) {
         double height = 0;
-        if (stage->kind[j] != MPS_FLUID || region[j] == MPS_REGION_SPRAY) continue;
+        if (v->kind[j] != MPS_FLUID || region[j] == MPS_REGION_SPRAY) continue;
         if (!pair_of(i, j, d, &r, &w)) continue;
         for (int k = 0; k < dim; k++) height += d[k] * area[k] / sqrt(size);
         highest = fmax(highest, height);
         sum += w;
     }
-    const bool before = size == 0 || highest > 0.1 * stage->dp;
+    const bool before = size == 0 || highest > 0.1 * v->dp;
     found[sum >= full ? FULL : PARTLY] += before && sum > 0;
     found[BEHIND] += !before && sum > 0;
     return before ? fmin(1, sum / full) : 0;
@@ -164,30 +164,30 @@ static int compare(mps_stage *s)
     const double *number = s->data[NUMBER], *wetted = s->data[WETTED];
     const int32_t *got = s->data[REGION];
     double full, a0;
-    stage = s;
-    assert_true(s->n <= ROOM);
+    v = s->view;
+    assert_true(v->n <= ROOM);
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
     half_space(&full, &a0);
     memset(region, -1, sizeof region);
-    for (int64_t i = 0; i < s->n; i++) {
+    for (int64_t i = 0; i < v->n; i++) {
         c[i] = sums_of(i, region, MPS_REGION_DRY);
         c[i].a /= a0;
-        if (s->kind[i] == MPS_FLUID) ASSERT_NEAR(c[i].n, number[i] / s->near->n0, 1e-12);
+        if (v->kind[i] == MPS_FLUID) ASSERT_NEAR(c[i].n, number[i] / v->near.n0, 1e-12);
     }
     own_sums(c, region);
     beside_others(c, a0, region);
     bands(region);
-    for (int64_t i = 0; i < s->n; i++) {
-        const double share = s->kind[i] == MPS_WALL ? wet(i, region, full) : 0;
-        if (s->kind[i] == MPS_WALL && share == 0) region[i] = MPS_REGION_DRY;
+    for (int64_t i = 0; i < v->n; i++) {
+        const double share = v->kind[i] == MPS_WALL ? wet(i, region, full) : 0;
+        if (v->kind[i] == MPS_WALL && share == 0) region[i] = MPS_REGION_DRY;
         assert_int_equal(got[i], region[i]);
-        if (s->kind[i] == MPS_WALL) ASSERT_NEAR(wetted[i], share, 1e-12);
+        if (v->kind[i] == MPS_WALL) ASSERT_NEAR(wetted[i], share, 1e-12);
     }
     return 0;
 }
 
 static const mps_verb verbs[] = {
-    {.moment = MPS_PREPARE, .use_count = USES, .uses = uses, .after = "*", .run = compare}};
+    {.hook = MPS_PREPARE, .use_count = USES, .uses = uses, .after = "*", .run = compare}};
 static const mps_model_ops regions = {.struct_size = sizeof(mps_model_ops),
                                       .api = MPS_MODEL_API,
                                       .name = "after.regions",

@@ -7,7 +7,7 @@
 static mps_sim *wave(const char *solver, const char *preconditioner, int threads)
 {
     mps_sim *sim = new_sim(2, 0.01);
-    const mps_harmonic surge = {.dof = MPS_SURGE, .amplitude = 0.05, .omega = 8};
+    const mps_harmonic surge = {.dof = MPS_MOVE_X, .amplitude = 0.05, .omega = 8};
     ASSERT_OK(sim, mps_threads_set(sim, threads));
     ASSERT_OK(sim, mps_solver_use(sim, solver, preconditioner));
     add_tank(sim, 0.5, 0.3, 0);

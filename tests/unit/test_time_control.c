@@ -47,12 +47,20 @@ static void bad_time_control(void **state)
     mps_sim_destroy(sim);
 }
 
-static double step_taken(mps_sim *sim, double dt_max)
+/* Take a step and check the name of its limit; NULL: any. */
+static double step_taken_by(mps_sim *sim, double dt_max, const char *limit)
 {
     mps_step_info info;
     assert_int_equal(mps_step_info_init(&info, sizeof info), MPS_OK);
     ASSERT_OK(sim, mps_step(sim, dt_max, &info));
+    assert_non_null(info.limit);
+    if (limit) assert_string_equal(info.limit, limit);
     return info.dt;
+}
+
+static double step_taken(mps_sim *sim, double dt_max)
+{
+    return step_taken_by(sim, dt_max, NULL);
 }
 
 /* Each limit in turn is the smallest and gives the step. */
@@ -62,23 +70,24 @@ static void limits(void **state)
     const double g = sqrt(9.81 * dp);
     mps_sim *sim = pool();
     use_push(sim);
-    ASSERT_NEAR(step_taken(sim, 1), 0.06 * dp / g, 1e-15);
+    ASSERT_NEAR(step_taken_by(sim, 1, "gravity"), 0.06 * dp / g, 1e-15);
     mps_time_control c = control();
     c.dt_max = 1e-4;
     ASSERT_OK(sim, mps_time_control_set(sim, &c));
-    ASSERT_NEAR(step_taken(sim, 1), 1e-4, 1e-18);
+    ASSERT_NEAR(step_taken_by(sim, 1, "dt_max"), 1e-4, 1e-18);
     c.dt_max = -1;
     ASSERT_OK(sim, mps_time_control_set(sim, &c)); /* forgets the previous step, */
     test.dt_limit = 2e-4;
-    ASSERT_NEAR(step_taken(sim, 1), 2e-4, 1e-18);
+    ASSERT_NEAR(step_taken_by(sim, 1, "test.push"), 2e-4, 1e-18);
     test.dt_limit = INFINITY;
-    ASSERT_NEAR(step_taken(sim, 1), 2.2e-4, 1e-15); /* which growth is measured against */
-    ASSERT_NEAR(step_taken(sim, 1e-5), 1e-5, 1e-18);
-    ASSERT_NEAR(step_taken(sim, 1), 1.1 * 2.2e-4,
+    ASSERT_NEAR(step_taken_by(sim, 1, "growth"), 2.2e-4,
+                1e-15); /* which growth is measured against */
+    ASSERT_NEAR(step_taken_by(sim, 1e-5, "caller"), 1e-5, 1e-18);
+    ASSERT_NEAR(step_taken_by(sim, 1, "growth"), 1.1 * 2.2e-4,
                 1e-15); /* a step cut by the caller does not count */
     c.dt = 5e-4;
     ASSERT_OK(sim, mps_time_control_set(sim, &c));
-    ASSERT_NEAR(step_taken(sim, 1), 5e-4, 1e-18);
+    ASSERT_NEAR(step_taken_by(sim, 1, "fixed"), 5e-4, 1e-18);
     c.dt = 0;
     c.growth = -1;
     ASSERT_OK(sim, mps_time_control_set(sim, &c));
@@ -86,10 +95,12 @@ static void limits(void **state)
     assert_int_equal(mps_phase_init(&honey, sizeof honey), MPS_OK);
     honey.viscosity = 1000;
     ASSERT_OK(sim, mps_phase_set(sim, 0, &honey));
-    ASSERT_NEAR(step_taken(sim, 1), 0.2 * dp * dp, 1e-15);
+    ASSERT_NEAR(step_taken_by(sim, 1, "viscous"), 0.2 * dp * dp, 1e-15);
     c.dt_min = 1e-2;
     ASSERT_OK(sim, mps_time_control_set(sim, &c));
     ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_DIVERGED, "below dt_min = 0.01");
+    ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_DIVERGED,
+                   "by the limit 'viscous': the largest kinematic viscosity is 1 m2/s");
     mps_sim_destroy(sim);
 }
 
@@ -102,7 +113,7 @@ static void fast_walls(void **state)
         const bool turn = k == 2,
                    against = k ==
                              1; /* against: the liquid comes towards the walls, the speeds add up */
-        const mps_harmonic shock = {.dof = turn ? MPS_YAW : MPS_SURGE,
+        const mps_harmonic shock = {.dof = turn ? MPS_ROTATE_Z : MPS_MOVE_X,
                                     .amplitude = turn ? 1 : 1000,
                                     .omega = turn ? 200 : 0.2};
         const double speed = against ? 320

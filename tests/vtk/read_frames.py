@@ -44,6 +44,20 @@ with tempfile.TemporaryDirectory() as folder:
         data = reader.GetOutput()
         check(f"{frame.name}: points", data.GetNumberOfPoints(), fluid + wall)
         check(f"{frame.name}: vertices", data.GetNumberOfVerts(), fluid + wall)
+        part = data.GetPointData().GetArray("part")
+        names = data.GetFieldData().GetAbstractArray("part_names")
+        check(f"{frame.name}: names of parts", [names.GetValue(k) for k in range(names.GetNumberOfValues())],
+              [f"tank.{axis}{end}" for axis in "xyz" for end in "01"])
+        wanted = {"tank.x0": (0, 0), "tank.x1": (0, 0.6), "tank.y0": (1, 0), "tank.y1": (1, 0.5), "tank.z0": (2, 0), "tank.z1": (2, 0.4)}
+        for k in range(data.GetNumberOfPoints()):
+            number = int(part.GetValue(k))
+            if number < 0:
+                continue
+            axis, place = wanted[names.GetValue(number)]
+            if abs(data.GetPoint(k)[axis] - place) > 1e-5:
+                sys.exit(f"{frame.name}: a particle of {names.GetValue(number)} at {data.GetPoint(k)}")
+        check(f"{frame.name}: particles without a part", sum(part.GetValue(k) < 0 for k in range(data.GetNumberOfPoints())), fluid)
+        check(f"{frame.name}: wall_pressure", data.GetPointData().HasArray("wall_pressure"), 1)
         check(f"{frame.name}: points of a cell", {data.GetCell(k).GetNumberOfPoints() for k in range(data.GetNumberOfCells())}, {1})
         for kind, count in ((0, fluid), (1, wall)):
             kept = threshold(reader, "kind", kind)

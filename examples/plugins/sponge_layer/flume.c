@@ -64,7 +64,7 @@ static void print_order(mps_sim *sim)
     mps_verb_info verb;
     mps_verb_info_init(&verb, sizeof verb);
     for (int32_t k = 0; mps_verb_info_get(sim, k, &verb) == MPS_OK; k++)
-        printf("%-9s %-22s %s\n", verb.moment_name, verb.model, verb.uses);
+        printf("%-9s %-22s %s\n", verb.hook_name, verb.model, verb.uses);
 }
 
 /* Highest surface at the gauge between two times [m]. */

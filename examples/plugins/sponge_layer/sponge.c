@@ -23,33 +23,33 @@ typedef struct fields {
 } fields;
 
 /* Damping at a place of the tank [1/s]. */
-static double damping(const mps_stage *s, double x)
+static double damping(const mps_view *v, double x)
 {
-    const double length = s->setting[TO] - s->setting[FROM];
-    const double share = length != 0 ? (x - s->setting[FROM]) / length : 0;
-    return share > 0 && share <= 1 ? s->setting[RATE] * share * share : 0;
+    const double length = v->setting[TO] - v->setting[FROM];
+    const double share = length != 0 ? (x - v->setting[FROM]) / length : 0;
+    return share > 0 && share <= 1 ? v->setting[RATE] * share * share : 0;
 }
 
-MPS_ROW void damp(const int dim, const mps_stage *s, fields *f, int64_t i)
+MPS_ROW void damp(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     double place[3], tank[3];
-    if (s->kind[i] != MPS_FLUID) return;
-    mps_stage_tank(s, s->x + i * dim, place, tank);
-    const double k = damping(s, place[0]);
+    if (v->kind[i] != MPS_FLUID) return;
+    mps_view_tank(v, v->x + i * dim, place, tank);
+    const double k = damping(v, place[0]);
     for (int d = 0; d < dim; d++)
-        f->acceleration[i * dim + d] -= k / (1 + k * s->dt) * (f->velocity[i * dim + d] - tank[d]);
+        f->acceleration[i * dim + d] -= k / (1 + k * v->dt) * (f->velocity[i * dim + d] - tank[d]);
 }
 MPS_ROWS(damp_rows, damp, fields)
 
 static int damp_fluid(mps_stage *s)
 {
     fields f = {.velocity = s->data[VELOCITY], .acceleration = s->data[ACCELERATION]};
-    mps_stage_rows(s, damp_rows, &f);
+    mps_stage_rows(s, &damp_rows, &f);
     return 0;
 }
 
 static const mps_verb verbs[] = {
-    {.moment = MPS_FORCE, .use_count = USES, .uses = uses, .run = damp_fluid}};
+    {.hook = MPS_FORCE, .use_count = USES, .uses = uses, .run = damp_fluid}};
 
 const mps_model_ops sponge_layer = {.struct_size = sizeof(mps_model_ops),
                                     .api = MPS_MODEL_API,

@@ -85,7 +85,7 @@ static double heat(mps_sim *sim, profile weight)
 
 static int mixing(mps_sim *sim)
 {
-    const mps_harmonic surge = {.dof = MPS_SURGE, .amplitude = 0.01, .omega = 7.0};
+    const mps_harmonic surge = {.dof = MPS_MOVE_X, .amplitude = 0.01, .omega = 7.0};
     if (build(sim, HEIGHT / 2) || warm(sim, halves)) return 1;
     if (mps_model_set(sim, "temperature", "arrhenius", 2000) < 0) return failed(sim, "arrhenius");
     if (mps_motion_harmonics_set(sim, 1, &surge) < 0) return failed(sim, "motion");
@@ -121,7 +121,7 @@ static double cold(const double *x)
 /* Energy that friction takes from a cold sloshing tank [J/m]. */
 static int lost(mps_sim *sim, double arrhenius, double *energy)
 {
-    const mps_harmonic surge = {.dof = MPS_SURGE, .amplitude = 0.01, .omega = 7.0};
+    const mps_harmonic surge = {.dof = MPS_MOVE_X, .amplitude = 0.01, .omega = 7.0};
     mps_energy e;
     mps_energy_init(&e, sizeof e);
     if (build(sim, HEIGHT / 2) || warm(sim, cold)) return 1;

@@ -39,11 +39,17 @@ static const mps_channel channels[] = {{.name = "temperature",
                                         .life = MPS_LIFE_STEP,
                                         .initial = 0.0}};
 
+/* Arrays of particles that the loops use; each verb sets those that its loops need. */
+typedef struct fields {
+    const double *density;
+    double *temperature, *viscosity, *rate;
+} fields;
+
 /* mu over that of the phase. */
-static double viscosity_ratio(const mps_stage *s, double temperature)
+static double viscosity_ratio(const mps_view *v, double temperature)
 {
     const double t = temperature > COLDEST ? temperature : COLDEST;
-    return exp(s->setting[ARRHENIUS] * (1 / t - 1 / s->setting[REFERENCE]));
+    return exp(v->setting[ARRHENIUS] * (1 / t - 1 / v->setting[REFERENCE]));
 }
 
 /* ---- MPS_LIMIT: the longest stable step ------------------------------------------------------ */
@@ -53,24 +59,24 @@ static const mps_use limit_uses[LIMIT_USES] = {[LIMIT_TEMPERATURE] = {"temperatu
                                                [LIMIT_DENSITY] = {"density", MPS_USE_READ}};
 
 /* Raise most[0] to the kinematic viscosity. */
-MPS_ROW void raise(const int dim, const mps_stage *s, void *none, int64_t i, double *most)
+MPS_ROW void raise(const int dim, const mps_view *v, const fields *f, int64_t i, double *most)
 {
-    const double *temperature = s->data[LIMIT_TEMPERATURE], *density = s->data[LIMIT_DENSITY];
     (void)dim;
-    (void)none;
-    if (s->kind[i] != MPS_FLUID) return;
-    const double mu = s->viscosity[s->phase[i]] * viscosity_ratio(s, temperature[i]);
-    most[0] = fmax(most[0], mu / density[i]);
+    if (v->kind[i] != MPS_FLUID) return;
+    const double mu = v->viscosity[v->phase[i]] * viscosity_ratio(v, f->temperature[i]);
+    most[0] = fmax(most[0], mu / f->density[i]);
 }
-MPS_SUMS(raise_rows, raise, void)
+MPS_SUMS(raise_rows, raise, fields)
 
 /* Explicit diffusion has no new extremes below dt = lambda/(2 D kappa); half of it is allowed. */
 static int limit_step(mps_stage *s)
 {
+    const mps_view *v = s->view;
+    const fields f = {.temperature = s->data[LIMIT_TEMPERATURE], .density = s->data[LIMIT_DENSITY]};
     double nu;
-    mps_stage_max(s, 1, raise_rows, NULL, &nu);
-    const double most = fmax(nu, s->setting[KAPPA]);
-    if (most > 0) s->dt_limit = fmin(s->dt_limit, 0.5 * s->far->lambda / (2 * s->dim * most));
+    mps_stage_max(s, 1, &raise_rows, &f, &nu);
+    const double most = fmax(nu, v->setting[KAPPA]);
+    if (most > 0) s->dt_limit = fmin(s->dt_limit, 0.5 * v->far.lambda / (2 * v->dim * most));
     return 0;
 }
 
@@ -80,18 +86,18 @@ enum { SET_TEMPERATURE, SET_VISCOSITY, SET_USES };
 static const mps_use set_uses[SET_USES] = {[SET_TEMPERATURE] = {"temperature", MPS_USE_READ},
                                            [SET_VISCOSITY] = {"viscosity", MPS_USE_WRITE}};
 
-MPS_ROW void set(const int dim, const mps_stage *s, double *viscosity, int64_t i)
+MPS_ROW void set(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    const double *temperature = s->data[SET_TEMPERATURE];
     (void)dim;
-    if (s->kind[i] == MPS_FLUID)
-        viscosity[i] = s->viscosity[s->phase[i]] * viscosity_ratio(s, temperature[i]);
+    if (v->kind[i] == MPS_FLUID)
+        f->viscosity[i] = v->viscosity[v->phase[i]] * viscosity_ratio(v, f->temperature[i]);
 }
-MPS_ROWS(set_rows, set, double)
+MPS_ROWS(set_rows, set, fields)
 
 static int set_viscosity(mps_stage *s)
 {
-    mps_stage_rows(s, set_rows, s->data[SET_VISCOSITY]);
+    const fields f = {.temperature = s->data[SET_TEMPERATURE], .viscosity = s->data[SET_VISCOSITY]};
+    mps_stage_rows(s, &set_rows, &f);
     return 0;
 }
 
@@ -100,58 +106,58 @@ static const mps_use conduct_uses[CONDUCT_USES] = {
     [CONDUCT_TEMPERATURE] = {"temperature", MPS_USE_NEIGHBOURS | MPS_USE_CHANGE}};
 
 /* T_j - T_i of a solid particle of temperature `wall`, as fluid particle i sees it. */
-MPS_ROW double step_to_solid(const int dim, const mps_stage *s, double own, int64_t i, int64_t j)
+MPS_ROW double step_to_solid(const int dim, const mps_view *v, double own, int64_t i, int64_t j)
 {
-    const int64_t w = s->kind[j] == MPS_DUMMY ? s->wall_of[j] : j;
-    const double wall = s->setting[WALL];
+    const int64_t w = v->kind[j] == MPS_DUMMY ? v->wall_of[j] : j;
+    const double wall = v->setting[WALL];
     double above = 0, below = 0; /* distances of i and j from the face of w, times its area */
     for (int d = 0; w >= 0 && d < dim; d++) {
-        above += s->area[w * dim + d] * (s->x[i * dim + d] - s->x[w * dim + d]);
-        below -= s->area[w * dim + d] * (s->x[j * dim + d] - s->x[w * dim + d]);
+        above += v->area[w * dim + d] * (v->x[i * dim + d] - v->x[w * dim + d]);
+        below -= v->area[w * dim + d] * (v->x[j * dim + d] - v->x[w * dim + d]);
     }
     const double ratio = above > 0 && below > 0 ? below / above : 0;
     return (wall - own) * (1 + fmin(ratio, 3.0));
 }
 
-/* dT/dt of a row into rate[i]; temperatures are not changed while neighbours read them. */
-MPS_ROW void conduct(const int dim, const mps_stage *s, double *rate, int64_t i)
+/* dT/dt of a row; temperatures are not changed while neighbours read them. */
+MPS_ROW void conduct(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    const double *temperature = s->data[CONDUCT_TEMPERATURE], own = temperature[i];
-    const mps_stencil *t = s->far;
+    const mps_stencil *t = &v->far;
+    const double *temperature = f->temperature, own = temperature[i];
     double sum = 0;
-    if (s->kind[i] != MPS_FLUID) return;
+    if (v->kind[i] != MPS_FLUID) return;
     for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        if (s->kind[q.j] == MPS_FLUID)
+        if (v->kind[q.j] == MPS_FLUID)
             sum += (temperature[q.j] - own) * q.w;
-        else if (s->setting[ADIABATIC] < 0.5)
-            sum += step_to_solid(dim, s, own, i, q.j) * q.w;
+        else if (v->setting[ADIABATIC] < 0.5)
+            sum += step_to_solid(dim, v, own, i, q.j) * q.w;
     }
-    rate[i] = s->setting[KAPPA] * 2 * dim / (t->n0 * t->lambda) * sum;
+    f->rate[i] = v->setting[KAPPA] * 2 * dim / (t->n0 * t->lambda) * sum;
 }
-MPS_ROWS(conduct_rows, conduct, double)
+MPS_ROWS(conduct_rows, conduct, fields)
 
-MPS_ROW void add(const int dim, const mps_stage *s, const double *rate, int64_t i)
+MPS_ROW void add(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    double *temperature = s->data[CONDUCT_TEMPERATURE];
     (void)dim;
-    temperature[i] += s->dt * rate[i];
+    f->temperature[i] += v->dt * f->rate[i];
 }
-MPS_ROWS(add_rows, add, const double)
+MPS_ROWS(add_rows, add, fields)
 
 static int conduct_heat(mps_stage *s)
 {
-    double *rate = mps_stage_scratch(s, s->n);
-    if (!rate) return 1;
-    mps_stage_rows(s, conduct_rows, rate);
-    mps_stage_rows(s, add_rows, rate);
+    const fields f = {.temperature = s->data[CONDUCT_TEMPERATURE],
+                      .rate = mps_stage_scratch(s, s->view->n)};
+    if (!f.rate) return 1;
+    mps_stage_rows(s, &conduct_rows, &f);
+    mps_stage_rows(s, &add_rows, &f);
     return 0;
 }
 
 static const mps_verb verbs[] = {
-    {.moment = MPS_LIMIT, .use_count = LIMIT_USES, .uses = limit_uses, .run = limit_step},
-    {.moment = MPS_PREPARE, .use_count = SET_USES, .uses = set_uses, .run = set_viscosity},
-    {.moment = MPS_PREPARE, .use_count = CONDUCT_USES, .uses = conduct_uses, .run = conduct_heat}};
+    {.hook = MPS_LIMIT, .use_count = LIMIT_USES, .uses = limit_uses, .run = limit_step},
+    {.hook = MPS_PREPARE, .use_count = SET_USES, .uses = set_uses, .run = set_viscosity},
+    {.hook = MPS_PREPARE, .use_count = CONDUCT_USES, .uses = conduct_uses, .run = conduct_heat}};
 
 const mps_model_ops temperature_conduction = {
     .struct_size = sizeof(mps_model_ops),

@@ -18,23 +18,15 @@ static mps_status make_setup(mps_sim *sim, mps__text *text)
     return MPS_OK;
 }
 
-static void put_all(mps_sim *sim, const mps__text *setup, mps__archive *a)
-{
-    mps__archive_put(a, setup_part, setup->data, 1, setup->size);
-    mps__state_put(sim, a);
-}
-
 static mps_status save_all(mps_sim *sim, const char *path)
 {
     mps__archive a = {.context = &sim->context};
     mps__text setup;
     mps_status status = make_setup(sim, &setup);
+    if (status == MPS_OK) status = mps__archive_create(&a, path);
     if (status == MPS_OK) {
-        put_all(sim, &setup, &a);
-        status = mps__archive_room(&a);
-    }
-    if (status == MPS_OK) {
-        put_all(sim, &setup, &a);
+        mps__archive_put(&a, setup_part, setup.data, 1, setup.size);
+        mps__state_put(sim, &a);
         status = mps__archive_save(&a, path);
     }
     mps__free(&sim->context, setup.data);

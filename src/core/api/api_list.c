@@ -9,6 +9,7 @@ static const mps_model_info model_default = {.struct_size = sizeof(mps_model_inf
 static const mps_setting_info setting_default = {.struct_size = sizeof(mps_setting_info)};
 static const mps_channel_info channel_default = {.struct_size = sizeof(mps_channel_info)};
 static const mps_verb_info verb_default = {.struct_size = sizeof(mps_verb_info)};
+static const mps_pass_info pass_default = {.struct_size = sizeof(mps_pass_info)};
 static const mps_name_info name_default = {.struct_size = sizeof(mps_name_info)};
 
 mps_status mps_model_info_init(mps_model_info *info, size_t size)
@@ -31,6 +32,11 @@ mps_status mps_channel_info_init(mps_channel_info *info, size_t size)
 mps_status mps_verb_info_init(mps_verb_info *info, size_t size)
 {
     return mps__struct_init("mps_verb_info", info, size, &verb_default, sizeof verb_default);
+}
+
+mps_status mps_pass_info_init(mps_pass_info *info, size_t size)
+{
+    return mps__struct_init("mps_pass_info", info, size, &pass_default, sizeof pass_default);
 }
 
 mps_status mps_name_info_init(mps_name_info *info, size_t size)
@@ -95,8 +101,9 @@ mps_status mps_channel_info_get(const mps_sim *sim, int32_t index, mps_channel_i
 {
     if (!sim) return MPS_E_ARG;
     const mps__channels *c = &sim->world.channels;
-    if (index < 0 || index >= c->count) return MPS_E_ARG;
-    const mps__channel *k = &c->list[index];
+    const int32_t hidden = MPS__OWN_CHANNELS - MPS__PUBLIC_CHANNELS;
+    if (index < 0 || index >= c->count - hidden) return MPS_E_ARG;
+    const mps__channel *k = &c->list[index < MPS__PUBLIC_CHANNELS ? index : index + hidden];
     const mps_channel_info found = {.struct_size = sizeof found,
                                     .components = k->components,
                                     .type = k->spec.type,
@@ -106,24 +113,24 @@ mps_status mps_channel_info_get(const mps_sim *sim, int32_t index, mps_channel_i
                                     .help = k->spec.help,
                                     .reads = k->reads,
                                     .writes = k->writes,
-                                    .own = index < MPS__OWN_CHANNELS};
+                                    .own = index < MPS__PUBLIC_CHANNELS};
     return mps__struct_out(mps__sim_context(sim), "mps_channel_info", info, &found, sizeof found);
 }
 
 /* "name:rw? name:n" */
-static void tell_uses(const mps_verb *verb, char out[MPS__USES_SIZE])
+static void tell_uses(const mps__call *call, char out[MPS__USES_SIZE])
 {
     size_t used = 0;
     out[0] = 0;
-    for (int32_t u = 0; u < verb->use_count; u++) {
-        const int32_t a = verb->uses[u].access;
+    for (int32_t u = 0; u < call->use_count; u++) {
+        const int32_t a = call->uses[u].access;
         const char *read = a & MPS_USE_ROWS         ? "a"
                            : a & MPS_USE_DUMMIES    ? "d"
                            : a & MPS_USE_NEIGHBOURS ? "n"
                            : a & MPS_USE_READ       ? "r"
                                                     : "";
         const int length = snprintf(out + used, MPS__USES_SIZE - used, "%s%s:%s%s%s", u ? " " : "",
-                                    verb->uses[u].channel, read, a & MPS_USE_WRITE ? "w" : "",
+                                    call->uses[u].channel, read, a & MPS_USE_WRITE ? "w" : "",
                                     a & MPS_USE_OPTIONAL ? "?" : "");
         if (length < 0 || used + (size_t)length >= MPS__USES_SIZE) break;
         used += (size_t)length;
@@ -131,20 +138,62 @@ static void tell_uses(const mps_verb *verb, char out[MPS__USES_SIZE])
     out[used] = 0; /* no names by halves */
 }
 
+/* Verb number `index` of the plan, or NULL. */
+static const mps__call *find_verb(const mps__plan *p, int32_t index)
+{
+    for (int32_t k = 0; k < p->begin[MPS_HOOK_COUNT] && index >= 0; k++)
+        if (p->call[k].model && index-- == 0) return &p->call[k];
+    return NULL;
+}
+
 mps_status mps_verb_info_get(mps_sim *sim, int32_t index, mps_verb_info *info)
 {
     if (!sim) return MPS_E_ARG;
     mps__plan *p = &sim->world.host.plan;
     if (mps__plan_make(p, &sim->world.models) < 0) return MPS_E_STATE;
-    if (index < 0 || index >= p->begin[MPS_MOMENT_COUNT]) return MPS_E_ARG;
-    const mps__call *call = &p->call[index];
-    tell_uses(call->verb, sim->uses);
+    const mps__call *call = find_verb(p, index);
+    if (!call) return MPS_E_ARG;
+    tell_uses(call, sim->uses);
     const mps_verb_info found = {.struct_size = sizeof found,
-                                 .moment = call->verb->moment,
-                                 .moment_name = mps__moment_name(call->verb->moment),
-                                 .model = call->model->ops->name,
+                                 .hook = call->hook,
+                                 .hook_name = mps__hook_name(call->hook),
+                                 .model = call->name,
                                  .uses = sim->uses};
     return mps__struct_out(&sim->context, "mps_verb_info", info, &found, sizeof found);
+}
+
+/* ---- passes ---- */
+
+mps_status mps_pass_info_get(mps_sim *sim, int32_t index, mps_pass_info *info)
+{
+    const mps__call *call;
+    int part;
+    if (!sim) return MPS_E_ARG;
+    mps__plan *p = &sim->world.host.plan;
+    if (mps__plan_make(p, &sim->world.models) < 0) return MPS_E_STATE;
+    if (!mps__plan_entry(p, index, &call, &part)) return MPS_E_ARG;
+    const mps__cost *cost = call ? &call->cost : &p->outside[part];
+    sim->uses[0] = 0;
+    if (call) tell_uses(call, sim->uses);
+    const mps_pass_info found = {.struct_size = sizeof found,
+                                 .hook = call ? call->hook : -1,
+                                 .hook_name = call ? mps__hook_name(call->hook) : "step",
+                                 .name = call ? call->name : mps__part_name(part),
+                                 .uses = sim->uses,
+                                 .model = call && call->model,
+                                 .calls = cost->calls,
+                                 .seconds = cost->seconds,
+                                 .bytes = cost->bytes};
+    return mps__struct_out(&sim->context, "mps_pass_info", info, &found, sizeof found);
+}
+
+mps_status mps_profile_reset(mps_sim *sim)
+{
+    MPS__READS(sim);
+    mps__plan *p = &sim->world.host.plan;
+    MPS__TRY(mps__plan_make(p, &sim->world.models));
+    mps__plan_clear_costs(p);
+    return MPS_OK;
 }
 
 /* ---- names ---- */

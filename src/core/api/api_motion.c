@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The public functions of mps/motion.h. A new motion carries the tank and what is in it to its pose at the present time. */
-#include "bc/builtin_motion.h"
+#include "step.h"
+#include "builtin_motion.h"
 #include "sim.h"
 #include <math.h>
 #include <string.h>
@@ -25,10 +26,11 @@ static mps_status check_dof(mps_sim *sim, const char *what, int64_t index, int32
     MPS__CHECK(&sim->context, dof >= 0 && dof < MPS_DOF_COUNT,
                "%s %lld: degree of freedom %d is not one of 0..%d", what, (long long)index,
                (int)dof, MPS_DOF_COUNT - 1);
-    MPS__CHECK(
-        &sim->context, (dof != MPS_SWAY && dof != MPS_PITCH) || sim->world.setup.dim == 3,
-        "%s %lld: degree of freedom %d needs 3-D; 2-D has surge 0, heave 1, and roll 3 or yaw 4",
-        what, (long long)index, (int)dof);
+    MPS__CHECK(&sim->context, mps__dof_in_plane(dof) || sim->world.setup.dim == 3,
+               "%s %lld: degree of freedom '%s' (%d) needs 3-D; 2-D has MPS_MOVE_X (%d), "
+               "MPS_MOVE_Y (%d) and MPS_ROTATE_Z (%d)",
+               what, (long long)index, mps__dof_name[dof], (int)dof, MPS_MOVE_X, MPS_MOVE_Y,
+               MPS_ROTATE_Z);
     return MPS_OK;
 }
 
@@ -59,29 +61,12 @@ static void carry_particles(mps_sim *sim, const mps__motion *old)
     sim->world.state.dt_before = 0;
 }
 
-/* Refuse a motion that would carry a particle to a place that is no number, by overflow. */
-static mps_status check_places(mps_sim *sim, const mps__motion *next)
-{
-    const mps__world *w = &sim->world;
-    const mps__particles *s = &w->particles;
-    for (int64_t i = 0; i < s->n; i++) {
-        double X[3] = {0}, x[3] = {0};
-        mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * s->dim, X);
-        mps__motion_point(next, &next->now, X, x, NULL, NULL);
-        MPS__CHECK(&sim->context, mps__finite(x, s->dim),
-                   "the motion would carry particle %lld to (%g, %g, %g) m at t = %.9g s: must be "
-                   "finite",
-                   (long long)s->id[i], x[0], x[1], x[2], w->state.t);
-    }
-    return MPS_OK;
-}
-
 /* Replace the motion; on failure the old one stays and `next` is released. */
 static mps_status install(mps_sim *sim, mps__motion *next)
 {
     mps__world *w = &sim->world;
     mps_status status = mps__motion_pose(next, w->state.t, &next->now);
-    if (status == MPS_OK) status = check_places(sim, next);
+    if (status == MPS_OK) status = mps__world_check_pose(w, next, &next->now, MPS_E_ARG);
     if (status < 0) {
         mps__motion_free(next);
         return status;
@@ -94,14 +79,28 @@ static mps_status install(mps_sim *sim, mps__motion *next)
     return MPS_OK;
 }
 
-static mps_status install_function(mps_sim *sim, mps_motion_fn fn, void *user, bool owned,
-                                   double t_end)
+/* A motion of the library: data of its own, and how long a step may be is known. */
+static mps_status install_built_in(mps_sim *sim, mps_motion_fn fn, void *data,
+                                   double (*longest)(const void *, double, double), double t_end)
+{
+    mps__motion next = sim->world.motion;
+    next.fn = fn;
+    next.user = data;
+    next.release = release_block;
+    next.t_end = t_end;
+    next.longest = longest;
+    next.told = false;
+    return install(sim, &next);
+}
+
+static mps_status install_function(mps_sim *sim, mps_motion_fn fn, void *user)
 {
     mps__motion next = sim->world.motion;
     next.fn = fn;
     next.user = user;
-    next.release = owned ? release_block : NULL;
-    next.t_end = t_end;
+    next.release = NULL;
+    next.t_end = INFINITY;
+    next.longest = NULL;
     return install(sim, &next);
 }
 
@@ -122,6 +121,8 @@ static mps_status check_harmonic(mps_sim *sim, int32_t k, const mps_harmonic *h)
     MPS__CHECK(c, isfinite(h->omega) && h->omega >= 0,
                "harmonic %d: omega is %g rad/s, must be finite and >= 0", (int)k, h->omega);
     MPS__CHECK(c, isfinite(h->phase), "harmonic %d: phase is %g, must be finite", (int)k, h->phase);
+    MPS__CHECK(c, isfinite(h->ramp) && h->ramp >= 0,
+               "harmonic %d: ramp is %g s, must be finite and >= 0", (int)k, h->ramp);
     return MPS_OK;
 }
 
@@ -174,8 +175,9 @@ mps_status mps_motion_centre_set(mps_sim *sim, const double *centre, int32_t sta
                "start is %d: must be MPS_START_AT_REST (0) or MPS_START_WITH_TANK (1)", (int)start);
     mps__motion next = w->motion;
     for (int32_t d = 0; d < w->setup.dim; d++) {
-        MPS__CHECK(&sim->context, isfinite(centre[d]), "centre[%d] is %g: must be finite", (int)d,
-                   centre[d]);
+        MPS__CHECK(&sim->context, fabs(centre[d]) <= MPS__FARTHEST * w->setup.dp,
+                   "centre[%d] is %g m: must be within %g m, %g spacings, of the origin", (int)d,
+                   centre[d], MPS__FARTHEST * w->setup.dp, MPS__FARTHEST);
         next.centre[d] = centre[d];
     }
     /* the pose in force does not depend on the centre */
@@ -196,7 +198,8 @@ mps_status mps_motion_harmonics_set(mps_sim *sim, int32_t count, const mps_harmo
     for (int32_t k = 0; k < count; k++) MPS__TRY(check_harmonic(sim, k, &harmonics[k]));
     void *data = mps__motion_harmonic_create(&sim->context.allocator, count, harmonics);
     if (!data) return no_memory(sim, count);
-    return install_function(sim, mps__motion_harmonic, data, true, INFINITY);
+    return install_built_in(sim, mps__motion_harmonic, data, mps__motion_harmonic_longest,
+                            INFINITY);
 }
 
 mps_status mps_motion_table_set(mps_sim *sim, int64_t rows, const double *t, int32_t dofs,
@@ -221,7 +224,7 @@ mps_status mps_motion_table_set(mps_sim *sim, int64_t rows, const double *t, int
                    (long long)(k / dofs), (int)(k % dofs));
     void *data = mps__motion_table_create(&c->allocator, rows, t, dofs, dof, values);
     if (!data) return no_memory(sim, rows);
-    return install_function(sim, mps__motion_table, data, true, t[rows - 1]);
+    return install_built_in(sim, mps__motion_table, data, mps__motion_table_longest, t[rows - 1]);
 }
 
 mps_status mps_motion_callback_set(mps_sim *sim, mps_motion_fn fn, void *user)
@@ -230,7 +233,7 @@ mps_status mps_motion_callback_set(mps_sim *sim, mps_motion_fn fn, void *user)
     MPS__TRY(changeable(sim));
     MPS__CHECK(&sim->context, fn,
                "the motion callback is NULL: use mps_motion_clear() for no motion");
-    return install_function(sim, fn, user, false, INFINITY);
+    return install_function(sim, fn, user);
 }
 
 mps_status mps_motion_clear(mps_sim *sim)
@@ -243,6 +246,7 @@ mps_status mps_motion_clear(mps_sim *sim)
     next.fn = NULL;
     next.user = NULL;
     next.release = NULL;
+    next.longest = NULL;
     next.t_end = INFINITY;
     return install(sim, &next);
 }

@@ -48,6 +48,13 @@ static mps_status check_block(mps_sim *sim, const mps_particle_block *b)
             MPS__CHECK(c, isfinite(arrays[a][k]),
                        "block.%s of particle %lld, axis %lld is %g: must be finite", names[a],
                        (long long)(k / dim), (long long)(k % dim), arrays[a][k]);
+    for (int64_t k = 0; b->velocity && b->kind == MPS_FLUID && k < b->count; k++) {
+        const double *u = b->velocity + k * dim, speed = sqrt(mps__dot(u, u, dim));
+        MPS__CHECK(c, speed <= sim->world.setup.speed_limit,
+                   "block.velocity of particle %lld is (%g, %g, %g) m/s: at most %g m/s, "
+                   "mps_config.speed_limit",
+                   (long long)k, u[0], u[1], dim == 3 ? u[2] : 0, sim->world.setup.speed_limit);
+    }
     return MPS_OK;
 }
 
@@ -99,7 +106,6 @@ static void store_block(mps_sim *sim, const mps_particle_block *b, int32_t part,
     for (int64_t k = 0; k < b->count; k++) {
         const int64_t i = first + k;
         memcpy(s->x + i * dim, b->position + k * dim, (size_t)dim * sizeof(double));
-        s->kind[i] = b->kind;
         s->phase[i] = b->phase;
         s->part[i] = part;
         s->rho[i] = w->setup.phase_density[b->phase];
@@ -116,6 +122,32 @@ static void store_block(mps_sim *sim, const mps_particle_block *b, int32_t part,
             for (int d = 0; d < dim; d++) s->area[i * dim + d] -= s->ref[i * dim + d];
         }
     }
+}
+
+/* An open tank may be filled from above, so fluid outside of the walls is taken; but its owner is told. */
+static void tell_outside(mps_sim *sim, const mps_particle_block *b)
+{
+    mps__world *w = &sim->world;
+    const int dim = w->setup.dim;
+    double corner[6], X[3];
+    int64_t count = 0, first = 0;
+    if (b->kind != MPS_FLUID) return;
+    mps__world_box_of_solids(w, corner);
+    for (int64_t k = b->count - 1; k >= 0 && !isinf(corner[0]); k--) {
+        bool outside = false;
+        mps__motion_to_tank(&w->motion, &w->motion.now, b->position + k * dim, X);
+        for (int d = 0; d < dim; d++)
+            outside = outside || X[d] > corner[d] || X[d] < -corner[3 + d];
+        count += outside;
+        first = outside ? k : first;
+    }
+    if (count == 0) return;
+    const double *x = b->position + first * dim;
+    mps__log(w->context, MPS_LOG_WARNING,
+             "%lld fluid particles of the block are outside of the box of the solids, first at "
+             "(%g, %g, %g) m: they count as fluid until they leave the domain or touch a wall from "
+             "behind, and are lost then",
+             (long long)count, x[0], x[1], dim == 3 ? x[2] : 0);
 }
 
 /* Each rank looks at the particles that it has; all refuse alike. */
@@ -140,8 +172,9 @@ static mps_status add_block(mps_sim *sim, const mps_particle_block *block, int64
                    "block.part \"%s\": empty, or one part too many (at most %d)",
                    b.part ? b.part : "solid", MPS__PARTS_MAX);
     }
-    const int64_t first = mps__particles_append(s, b.count);
+    const int64_t first = mps__particles_append(s, b.count, b.kind);
     store_block(sim, &b, part, first);
+    tell_outside(sim, &b);
     sim->world.lists.neighbours.valid = false;
     for (int64_t k = 0; ids && k < b.count; k++) ids[k] = s->id[first + k];
     return mps__world_divided(&sim->world) ? mps__world_adopt(&sim->world) : MPS_OK;
@@ -343,10 +376,12 @@ mps_status mps_lease_end(mps_sim *sim, mps_lease *lease)
             "field '%s' of particle %lld was written as %g: must be finite%s; the lease stays open",
             f->name, (long long)s->id[k / f->components], data[k],
             data == s->rho ? " and > 0" : "");
-    if (write)
+    if (write) {
         f->writer = false;
-    else
+        s->written = true;
+    } else {
         f->readers--;
+    }
     return mps__struct_out(c, "mps_lease", lease, &closed, sizeof closed);
 }
 

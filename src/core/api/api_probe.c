@@ -2,8 +2,10 @@
 /* The public functions of mps/probe.h. */
 #include "sim.h"
 #include "world_ranks.h"
+#include <string.h>
 
 static const mps_probe probe_defaults = {.direction = {0, 1, 0}, .average = MPS_AVERAGE_AUTO};
+static const mps_probe_info info_default = {.struct_size = sizeof(mps_probe_info)};
 static const mps_energy energy_defaults = {0};
 static const mps_momentum momentum_defaults = {0};
 
@@ -40,6 +42,31 @@ mps_status mps_probe_remove(mps_sim *sim, int32_t id)
     MPS__TRY(find_probe(sim, id, &probe));
     mps__probe_remove(&sim->context, probe);
     return MPS_OK;
+}
+
+mps_status mps_probe_info_init(mps_probe_info *info, size_t size)
+{
+    return mps__struct_init("mps_probe_info", info, size, &info_default, sizeof info_default);
+}
+
+mps_status mps_probe_info_get(const mps_sim *sim, int32_t id, mps_probe_info *info)
+{
+    mps__probe *p = NULL;
+    if (!sim) return MPS_E_ARG;
+    MPS__TRY(find_probe(sim, id, &p));
+    const mps__particles *s = &sim->world.particles;
+    /* NOLINTNEXTLINE(clang-analyzer-core.NullDereference): find_probe() sets it or fails below 0 */
+    const bool sensor = p->config.type == MPS_PROBE_WALL_PRESSURE;
+    const int32_t part = sensor ? p->sensor.face.part : -1;
+    mps_probe_info found = {.struct_size = sizeof found,
+                            .type = p->config.type,
+                            .name = p->name,
+                            .part = part >= 0 ? s->part_name[part] : p->part_name,
+                            .diameter = p->config.diameter,
+                            .values = mps__probe_values(&sim->world, p)};
+    memcpy(found.at, p->config.at, sizeof found.at);
+    if (sensor) memcpy(found.normal, p->sensor.face.normal, sizeof found.normal);
+    return mps__struct_out(mps__sim_context(sim), "mps_probe_info", info, &found, sizeof found);
 }
 
 int32_t mps_probe_size(const mps_sim *sim, int32_t id)

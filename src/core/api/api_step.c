@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Stepping of the public interface, and the stencil of a simulation. */
+#include "step.h"
 #include "kernel.h"
 #include "sim.h"
 #include "world_ranks.h"

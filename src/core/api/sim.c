@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Create and destroy a simulation; configuration, phases and models of the public interface. */
+#include "step.h"
 #include "sim.h"
 #include <math.h>
 #include <stdio.h>
@@ -78,7 +79,8 @@ static mps_status check_config(mps__context *c, mps_config *f)
 static mps_status set_up(mps_sim *sim, const mps_config *f)
 {
     mps__world *w = &sim->world;
-    MPS__TRY(mps__world_init(w, &sim->context, f->dim, f->dp));
+    MPS__TRY(
+        mps__world_init(w, &sim->context, f->dim, f->dp, mps__step_passes, mps__step_pass_count));
     const char *kernel = f->kernel ? f->kernel : config_default.kernel;
     w->setup.kernel.struct_size = sizeof w->setup.kernel;
     if (mps_kernel_find(kernel, &w->setup.kernel) != MPS_OK) {

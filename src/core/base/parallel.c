@@ -401,19 +401,20 @@ void mps__parallel_zero(const mps_parallel *p, const mps__block *blocks, int32_t
 }
 
 typedef struct copying {
-    double *to;
-    const double *from;
+    char *to;
+    const char *from;
 } copying;
 
 static void copy_rows(void *argument, int64_t begin, int64_t end)
 {
     const copying *c = argument;
-    memcpy(c->to + begin, c->from + begin, (size_t)(end - begin) * sizeof *c->to);
+    memcpy(c->to + begin, c->from + begin, (size_t)(end - begin));
 }
 
-void mps__parallel_copy(const mps_parallel *p, double *to, const double *from, int64_t count)
+void mps__parallel_copy(const mps_parallel *p, void *to, const void *from, size_t bytes)
 {
-    mps_parallel_rows_least(p, count, MPS__ROWS_CHEAP, copy_rows, &(copying){to, from});
+    mps_parallel_rows_least(p, (int64_t)bytes, MPS__ROWS_CHEAP * sizeof(double), copy_rows,
+                            &(copying){to, from});
 }
 
 typedef struct testing {

@@ -36,7 +36,7 @@ typedef struct mps__block {
     int64_t count;
 } mps__block;
 void mps__parallel_zero(const mps_parallel *p, const mps__block *blocks, int32_t count);
-void mps__parallel_copy(const mps_parallel *p, double *to, const double *from, int64_t count);
+void mps__parallel_copy(const mps_parallel *p, void *to, const void *from, size_t bytes);
 
 /* First row of 0..n-1 that `is_bad`, n if there is none. */
 typedef bool (*mps__row_test)(const void *argument, int64_t i);

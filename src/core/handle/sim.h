@@ -20,6 +20,7 @@ struct mps_sim {
     bool lattice_of_solids;
     double lattice_lo[3];
     int64_t lattice_cells[3];
+    int64_t slots_told; /* particles.solids when the log told of slots without room */
     /* where the solids are */
     int32_t solids;
     int64_t solid_capacity;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Archives in memory and in files. */
+/* Archives: written to a file part by part, read as a whole. */
 #define _POSIX_C_SOURCE 200809L
 #include "archive.h"
 #include <errno.h>
@@ -53,10 +53,14 @@ static int64_t padded(const part *p)
 
 /* ---- writing ---- */
 
+static void note_error(mps__archive *a)
+{
+    if (!a->error) a->error = errno ? errno : EIO;
+}
+
 static void put_bytes(mps__archive *a, const void *data, size_t bytes)
 {
-    if (a->data && bytes > 0) memcpy(a->data + a->size, data, bytes);
-    a->size += (int64_t)bytes;
+    if (!a->error && bytes > 0 && fwrite(data, 1, bytes, a->file) != bytes) note_error(a);
 }
 
 static void put_head(mps__archive *a)
@@ -73,35 +77,15 @@ void mps__archive_put(mps__archive *a, const char *name, const void *elements, s
     part p = {.bytes = (uint32_t)bytes, .count = count};
     const size_t size = (size_t)count * bytes;
     strncpy(p.name, name, sizeof p.name - 1);
-    if (a->size == 0) put_head(a);
-    if (a->data) p.checksum = part_checksum(p, elements);
+    p.checksum = part_checksum(p, elements);
     put_bytes(a, &p, sizeof p);
     put_bytes(a, elements, size);
     put_bytes(a, zeros, (size_t)padded(&p) - size);
 }
 
-mps_status mps__archive_room(mps__archive *a)
-{
-    const int64_t end = (int64_t)sizeof(part);
-    a->data = mps__alloc(a->context, a->size + end, 1);
-    a->size = 0;
-    return a->data ? MPS_OK : MPS_E_NOMEM;
-}
-
 static mps_status io_failed(mps__context *c, const char *what, const char *path)
 {
     return mps__fail(c, MPS_E_IO, "cannot %s \"%.300s\": %s", what, path, strerror(errno));
-}
-
-/* On the disk before it takes the place of what was there: a machine that stops in between has one or the other. */
-static bool write_all(const mps__archive *a, FILE *file)
-{
-    bool good = fwrite(a->data, 1, (size_t)a->size, file) == (size_t)a->size && fflush(file) == 0 &&
-                fsync(fileno(file)) == 0;
-    const int error = errno;
-    if (fclose(file) != 0) return false;
-    if (!good) errno = error;
-    return good;
 }
 
 /* The new name is on the disk as well. `path` is cut to its folder. A folder that may not be read, and a file system that knows nothing of this,
@@ -129,30 +113,41 @@ static mps_status check_place(mps__context *c, const char *path)
     return MPS_OK;
 }
 
-static mps_status save_through(const mps__archive *a, const char *path, const char *temporary)
+mps_status mps__archive_create(mps__archive *a, const char *path)
 {
-    FILE *file = fopen(temporary, "wb");
-    if (!file) return io_failed(a->context, "create", temporary);
-    mps_status status = MPS_OK;
-    if (!write_all(a, file))
-        status = io_failed(a->context, "write", temporary);
-    else if (rename(temporary, path) != 0)
-        status = io_failed(a->context, "replace", path);
-    if (status < 0) remove(temporary);
-    return status;
+    MPS__TRY(check_place(a->context, path));
+    const size_t size = strlen(path) + sizeof ".tmp";
+    a->temporary = mps__alloc(a->context, (int64_t)size, 1);
+    if (!a->temporary) return MPS_E_NOMEM;
+    snprintf(a->temporary, size, "%s.tmp", path);
+    a->file = fopen(a->temporary, "wb");
+    if (!a->file) return io_failed(a->context, "create", a->temporary);
+    put_head(a);
+    return MPS_OK;
+}
+
+/* On the disk before it takes the place of what was there: a machine that stops in between has one or the other. */
+static bool close_file(mps__archive *a)
+{
+    if (!a->error && (fflush(a->file) != 0 || fsync(fileno(a->file)) != 0)) note_error(a);
+    if (fclose(a->file) != 0) note_error(a);
+    a->file = NULL;
+    errno = a->error;
+    return a->error == 0;
 }
 
 mps_status mps__archive_save(mps__archive *a, const char *path)
 {
+    mps_status status = MPS_OK;
     mps__archive_put(a, last_part, NULL, 1, 0);
-    MPS__TRY(check_place(a->context, path));
-    const size_t size = strlen(path) + sizeof ".tmp";
-    char *temporary = mps__alloc(a->context, (int64_t)size, 1);
-    if (!temporary) return MPS_E_NOMEM;
-    snprintf(temporary, size, "%s.tmp", path);
-    mps_status status = save_through(a, path, temporary);
-    if (status == MPS_OK) status = sync_folder(a->context, temporary);
-    mps__free(a->context, temporary);
+    if (!close_file(a))
+        status = io_failed(a->context, "write", a->temporary);
+    else if (rename(a->temporary, path) != 0)
+        status = io_failed(a->context, "replace", path);
+    if (status < 0)
+        remove(a->temporary);
+    else
+        status = sync_folder(a->context, a->temporary);
     return status;
 }
 
@@ -256,6 +251,6 @@ const void *mps__archive_get(const mps__archive *a, const char *name, size_t byt
 void mps__archive_free(mps__archive *a)
 {
     mps__free(a->context, a->data);
-    a->data = NULL;
-    a->size = 0;
+    mps__free(a->context, a->temporary);
+    *a = (mps__archive){.context = a->context};
 }

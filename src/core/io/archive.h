@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Named arrays in one block of memory that goes to a file and comes back, or is refused.
+/* Named arrays that go to a file and come back, or are refused.
  *
  * File: "mpsstate", version, byte order; then parts: name, bytes of an element, checksum, number of elements, the elements, zeros up to a
  * multiple of eight; the last part is called "end". Numbers are as they are in memory. */
@@ -7,21 +7,27 @@
 #define MPS_CORE_ARCHIVE_H
 
 #include "base.h"
+#include <stdio.h>
 
 enum { MPS__PART_TITLE = 40 }; /* bytes of a part's name, with the 0 */
 
 typedef struct mps__archive {
     mps__context *context;
-    unsigned char *data; /* NULL: nothing is written, only `size` grows */
+    /* while it is written: */
+    FILE *file;
+    char *temporary; /* name of the file, until it takes that of the archive */
+    int error;       /* errno of the first failure */
+    /* when it was read: */
+    unsigned char *data;
     int64_t size;
 } mps__archive;
 
-/* Add a part. Call all of them twice: without `data` to learn the size, then with mps__archive_room(). */
+/* Begin a file beside `path`. */
+mps_status mps__archive_create(mps__archive *a, const char *path);
+/* Write a part. mps__archive_save() tells of a failure. */
 void mps__archive_put(mps__archive *a, const char *name, const void *elements, size_t bytes,
                       int64_t count);
-/* Memory for what was put, and back to the beginning. */
-mps_status mps__archive_room(mps__archive *a);
-/* Close the archive and write it beside `path`, then in its place. */
+/* End the file and put it in the place of `path`. */
 mps_status mps__archive_save(mps__archive *a, const char *path);
 /* Read a file and check all of it. */
 mps_status mps__archive_load(mps__archive *a, const char *path);

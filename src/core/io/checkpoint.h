@@ -13,7 +13,7 @@ typedef struct mps__text {
     int64_t size;
 } mps__text;
 
-/* The solid particles among n: how many, and a checksum of their kinds, parts and places in any order. */
+/* The solid particles among n: how many, and a checksum of their kinds, parts and places (NULL: without, where a model moves them) in any order. */
 typedef struct mps__solids {
     int64_t count;
     uint64_t checksum;

@@ -52,12 +52,10 @@ static mps_status check_pose_state(mps__context *c, const mps__arrived *a, const
     MPS__TRY(check_finite(c, name, s->value, MPS_DOF_COUNT));
     MPS__TRY(check_finite(c, name, s->rate, MPS_DOF_COUNT));
     MPS__TRY(check_finite(c, name, s->accel, MPS_DOF_COUNT));
-    for (int d = 0; d < MPS_DOF_COUNT; d++) {
-        const bool flat = d == MPS_SURGE || d == MPS_HEAVE || d == MPS_YAW || d == MPS_ROLL;
-        if (a->sim->world.setup.dim == 2 && !flat &&
+    for (int d = 0; d < MPS_DOF_COUNT; d++)
+        if (a->sim->world.setup.dim == 2 && !mps__dof_in_plane(d) &&
             (s->value[d] != 0 || s->rate[d] != 0 || s->accel[d] != 0))
-            DAMAGED("\"%s\" moves in direction %d, which 2-D does not have", name, d);
-    }
+            DAMAGED("'%s' of \"%s\" is not 0, but 2-D does not have it", mps__dof_name[d], name);
     return MPS_OK;
 }
 
@@ -71,7 +69,7 @@ static mps_status check_pose(mps__context *c, const mps__arrived *a, const char 
     MPS__TRY(check_finite(c, name, p->rotation, 9));
     MPS__TRY(check_finite(c, name, p->omega, 3));
     MPS__TRY(check_finite(c, name, p->alpha, 3));
-    mps__motion_pose_of(&p->state, a->sim->world.setup.dim, p->t, &exact);
+    mps__motion_pose_of(&p->state, p->t, &exact);
     for (int k = 0; set && k < 9; k++)
         if (fabs(p->rotation[k] - exact.rotation[k]) > ROTATION)
             DAMAGED("the rotation of \"%s\" is not that of its angles", name);
@@ -80,15 +78,23 @@ static mps_status check_pose(mps__context *c, const mps__arrived *a, const char 
 
 static mps_status check_budget(mps__context *c, const mps__budget *b)
 {
-    const double work[] = {b->wall_work, b->viscous, b->collision, b->shift,
-                           b->added,     b->start,   b->deviation, b->deviation_start};
+    const double work[] = {b->wall_work_momentum,
+                           b->wall_work_probes,
+                           b->viscous,
+                           b->plugins,
+                           b->collision,
+                           b->shift,
+                           b->added,
+                           b->start,
+                           b->deviation,
+                           b->deviation_start};
     const mps__bulk *l = &b->last;
     const double last[] = {l->kinetic, l->potential, l->momentum[0], l->momentum[1],
                            l->momentum[2]};
     const double *const change[] = {
-        b->momentum.total,     b->momentum.gravity, b->momentum.force,
-        b->momentum.pressure,  b->momentum.walls,   b->momentum.numerical,
-        b->momentum.collision, b->momentum.shift,   b->momentum.added};
+        b->momentum.plugins,   b->momentum.reaction, b->momentum.total, b->momentum.gravity,
+        b->momentum.force,     b->momentum.pressure, b->momentum.walls, b->momentum.numerical,
+        b->momentum.collision, b->momentum.shift,    b->momentum.added};
     MPS__TRY(check_finite(c, "state.budget", work, sizeof work / sizeof work[0]));
     MPS__TRY(check_finite(c, "state.budget", last, sizeof last / sizeof last[0]));
     for (size_t k = 0; k < sizeof change / sizeof change[0]; k++)
@@ -265,9 +271,10 @@ static mps_status check_links(mps__context *c, const mps__arrived *a)
 static mps_status check_solids(mps__context *c, const mps__arrived *a)
 {
     const mps__particles *s = &a->sim->world.particles;
-    const mps__solids here = mps__solids_of(s->n, s->dim, s->kind, s->part, s->ref);
+    const bool moved = mps__models_move_solids(&a->sim->world.models);
+    const mps__solids here = mps__solids_of(s->n, s->dim, s->kind, s->part, moved ? NULL : s->ref);
     const mps__solids there = mps__solids_of(a->n, s->dim, field(a, "kind"), field(a, "part"),
-                                             field(a, "ref"));
+                                             moved ? NULL : field(a, "ref"));
     if (there.count != here.count || there.checksum != here.checksum)
         DAMAGED("its solid particles (%lld) are not those of its set-up (%lld)",
                 (long long)there.count, (long long)here.count);

@@ -83,8 +83,9 @@ mps__solids mps__solids_of(int64_t n, int32_t dim, const int32_t *kind, const in
     for (int64_t i = 0; i < n; i++) {
         if (kind[i] == MPS_FLUID) continue;
         const int32_t what[2] = {kind[i], part[i]};
-        solids.checksum += mps__checksum(mps__checksum(0, what, sizeof what), ref + i * dim,
-                                         (size_t)dim * sizeof *ref);
+        const uint64_t tags = mps__checksum(0, what, sizeof what);
+        solids.checksum += ref ? mps__checksum(tags, ref + i * dim, (size_t)dim * sizeof *ref)
+                               : tags;
         solids.count++;
     }
     return solids;
@@ -93,10 +94,13 @@ mps__solids mps__solids_of(int64_t n, int32_t dim, const int32_t *kind, const in
 static void put_solids(const mps_sim *sim, mps__text *t)
 {
     const mps__particles *s = &sim->world.particles;
-    const mps__solids solids = mps__solids_of(s->n, s->dim, s->kind, s->part, s->ref);
+    const bool moved = mps__models_move_solids(&sim->world.models);
+    const mps__solids solids = mps__solids_of(s->n, s->dim, s->kind, s->part,
+                                              moved ? NULL : s->ref);
     for (int32_t k = 0; k < s->parts; k++) line(t, "part %s", s->part_name[k]);
     line(t, "solid particles %lld", (long long)solids.count);
-    line(t, "checksum of their places %llu", (unsigned long long)solids.checksum);
+    line(t, "checksum of their %s %llu", moved ? "parts" : "places",
+         (unsigned long long)solids.checksum);
     line(t, "layers of dummies %d", (int)sim->world.setup.layers);
     for (int32_t k = 0; k < sim->world.lists.screens.count; k++) {
         const mps__screen *p = &sim->world.lists.screens.list[k];
@@ -116,6 +120,9 @@ static void put_probes(const mps__probes *p, mps__text *t)
         }
         line(t, "probe %lld type %d", (long long)k, (int)c->type);
         line(t, "probe %lld at %.17g %.17g %.17g", (long long)k, c->at[0], c->at[1], c->at[2]);
+        line(t, "probe %lld name %s", (long long)k, p->list[k].name);
+        line(t, "probe %lld normal %.17g %.17g %.17g", (long long)k, c->normal[0], c->normal[1],
+             c->normal[2]);
         line(t, "probe %lld along %.17g %.17g %.17g", (long long)k, c->direction[0],
              c->direction[1], c->direction[2]);
         line(t, "probe %lld diameter %.17g", (long long)k, c->diameter);

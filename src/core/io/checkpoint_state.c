@@ -79,8 +79,9 @@ static void put_particles(const mps__world *w, mps__archive *a)
         if (is_stored(s, k))
             mps__archive_put(a, title(name, "field", s->field[k].name), *s->field[k].data,
                              element(&s->field[k]), s->n);
-    const bool linked = w->lists.linked == s->generation;
-    const lists have = {linked, linked && (w->lists.neighbours.valid || w->lists.listed_at)};
+    const bool linked = w->lists.linked == s->solids, listed = w->lists.listed == s->generation;
+    const lists have = {linked,
+                        linked && listed && (w->lists.neighbours.valid || w->lists.listed_at)};
     mps__archive_put(a, "lists", &have, sizeof have, 1);
     /* the order of the particles and the time of the next search are those of the last one */
     if (have.listed && w->lists.listed_at)
@@ -257,17 +258,16 @@ static mps_status find_all_series(arrival *v)
 /* The tank must be where it was, if a motion moves it. */
 static mps_status check_motion(const arrival *v)
 {
-    static const char *const name[MPS_DOF_COUNT] = {"surge", "heave", "sway",
-                                                    "roll",  "yaw",   "pitch"};
     mps__world *w = &v->sim->world;
     const mps__pose saved = v->arrived.now;
     mps__pose here;
     if (!w->motion.fn) return MPS_OK;
     MPS__TRY(mps__motion_pose(&w->motion, saved.t, &here));
     for (int d = 0; d < MPS_DOF_COUNT; d++)
-        MPS__CHECK(w->context, saved.state.value[d] == here.state.value[d],
-                   "the motion is another one: at t = %.9g s %s is %.17g, in the checkpoint %.17g",
-                   saved.t, name[d], here.state.value[d], saved.state.value[d]);
+        MPS__CHECK(
+            w->context, saved.state.value[d] == here.state.value[d],
+            "the motion is another one: at t = %.9g s '%s' is %.17g, in the checkpoint %.17g",
+            saved.t, mps__dof_name[d], here.state.value[d], saved.state.value[d]);
     return MPS_OK;
 }
 
@@ -278,7 +278,8 @@ static mps_status move_in(arrival *v)
     mps__probes *p = &v->sim->probes;
     MPS__TRY(mps__world_replace(w, v->n, v->arrived.field, v->listed_at != NULL));
     for (int k = 0; k < v->count; k++) memcpy(v->slots[k].at, v->value[k], v->slots[k].size);
-    w->lists.linked = v->have.linked ? w->particles.generation : -1;
+    w->lists.linked = v->have.linked ? w->particles.solids : -1;
+    w->lists.listed = v->have.listed ? w->particles.generation : -1;
     mps__plates_set_active(w);
     w->lists.neighbours.valid = false;
     w->lists.aside = w->lists.gone = 0;

@@ -7,12 +7,12 @@
 enum { CHUNK = 512, COLUMNS = MPS__FIELDS_MAX + 4 };
 
 /* How a column's numbers are stored in the file. */
-typedef enum stored { AS_FLOAT32, AS_FLOAT64, AS_UINT8, AS_INT64 } stored;
+typedef enum stored { AS_FLOAT32, AS_FLOAT64, AS_UINT8, AS_INT32, AS_INT64 } stored;
 
 static const struct {
     const char *name;
     size_t size;
-} stored_type[] = {{"Float32", 4}, {"Float64", 8}, {"UInt8", 1}, {"Int64", 8}};
+} stored_type[] = {{"Float32", 4}, {"Float64", 8}, {"UInt8", 1}, {"Int32", 4}, {"Int64", 8}};
 
 /* One array of a frame. */
 typedef struct column {
@@ -21,6 +21,8 @@ typedef struct column {
     /* numbers per particle in memory and in the file; the file's third of a 2-D vector is zero */
     int32_t stride, width;
     const void *data;
+    /* NULL, or what the numbers of particle i are in the frame of the tank */
+    void (*in_tank)(const mps__world *w, int64_t i, double out[3]);
 } column;
 
 typedef struct frame {
@@ -87,7 +89,23 @@ static bool selected(const frame *f, int64_t i)
 static void add_column(frame *f, const char *name, stored type, int32_t stride, const void *data)
 {
     bool vector = type <= AS_FLOAT64 && stride == 2 && f->s->dim == 2;
-    f->column[f->columns++] = (column){name, type, stride, vector ? 3 : stride, data};
+    f->column[f->columns++] = (column){name, type, stride, vector ? 3 : stride, data, NULL};
+}
+
+static void place_in_tank(const mps__world *w, int64_t i, double out[3])
+{
+    mps__motion_to_tank(&w->motion, &w->motion.now, w->particles.x + i * w->particles.dim, out);
+}
+
+/* Relative to the tank. */
+static void velocity_in_tank(const mps__world *w, int64_t i, double out[3])
+{
+    double X[3], v[3];
+    place_in_tank(w, i, X);
+    mps__motion_point(&w->motion, &w->motion.now, X, NULL, v, NULL);
+    for (int32_t d = 0; d < w->particles.dim; d++)
+        v[d] = w->particles.u[i * w->particles.dim + d] - v[d];
+    mps__motion_rotate_back(&w->motion, &w->motion.now, v, out);
 }
 
 /* Points first, then what belongs to them. */
@@ -96,11 +114,17 @@ static void list_columns(frame *f)
     const mps__particles *s = f->s;
     add_column(f, "position", AS_FLOAT32, s->dim, s->x);
     add_column(f, "velocity", AS_FLOAT32, s->dim, s->u);
+    if (f->kinds & MPS_FRAMES_TANK) {
+        f->column[0].in_tank = place_in_tank;
+        f->column[1].in_tank = velocity_in_tank;
+    }
     add_column(f, "pressure", AS_FLOAT32, 1, s->p);
+    add_column(f, "wall_pressure", AS_FLOAT32, 1, s->load);
     add_column(f, "number_density", AS_FLOAT32, 1, s->nd);
     add_column(f, "density", AS_FLOAT32, 1, s->rho);
     add_column(f, "kind", AS_UINT8, 1, s->kind);
     add_column(f, "phase", AS_UINT8, 1, s->phase);
+    add_column(f, "part", AS_INT32, 1, s->part);
     add_column(f, "id", AS_INT64, 1, s->id);
     for (int32_t k = 0; k < s->fields; k++)
         if (s->field[k].data == &s->field[k].own && s->field[k].is_public)
@@ -126,13 +150,30 @@ static void print_column(frame *f, const column *c)
     print_array(f, c->name, stored_type[c->type].name, c->width, column_bytes(f, c));
 }
 
-static void print_time(const frame *f)
+/* Names of the parts: each a list of its characters, with a 0 behind it. */
+static void print_parts(const frame *f)
+{
+    fprintf(f->file,
+            "<DataArray type=\"String\" Name=\"part_names\" NumberOfTuples=\"%d\" "
+            "format=\"ascii\">",
+            (int)f->s->parts);
+    for (int32_t k = 0; k < f->s->parts; k++) {
+        for (const char *c = f->s->part_name[k]; *c; c++)
+            fprintf(f->file, "%d ", (int)(unsigned char)*c);
+        fputs("0 ", f->file);
+    }
+    fputs("</DataArray>", f->file);
+}
+
+static void print_frame_data(const frame *f)
 {
     char t[32];
     fprintf(f->file,
             "<FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
-            "format=\"ascii\">%s</DataArray></FieldData>\n",
+            "format=\"ascii\">%s</DataArray>",
             mps__frame_number(t, f->world->state.t));
+    if (f->s->parts > 0) print_parts(f);
+    fputs("</FieldData>\n", f->file);
 }
 
 static void print_xml(frame *f)
@@ -141,7 +182,7 @@ static void print_xml(frame *f)
             "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"%s\" "
             "header_type=\"UInt64\">\n<PolyData>\n",
             mps__frame_byte_order());
-    print_time(f);
+    print_frame_data(f);
     fprintf(f->file,
             "<Piece NumberOfPoints=\"%lld\" NumberOfVerts=\"%lld\" NumberOfLines=\"0\" "
             "NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n",
@@ -157,12 +198,19 @@ static void print_xml(frame *f)
 
 /* ---- data ---- */
 
-/* One number in the file's type; returns its bytes. */
-static size_t store(unsigned char *out, const column *c, int64_t i, int32_t component)
+/* The numbers of a particle. */
+static void fetch(const frame *f, const column *c, int64_t i, double out[9])
 {
-    int64_t place = i * c->stride + component;
-    bool padding = component >= c->stride;
-    double d = c->type <= AS_FLOAT64 && !padding ? ((const double *)c->data)[place] : 0;
+    memset(out, 0, 9 * sizeof *out);
+    if (c->in_tank)
+        c->in_tank(f->world, i, out);
+    else if (c->type <= AS_FLOAT64)
+        memcpy(out, (const double *)c->data + i * c->stride, (size_t)c->stride * sizeof *out);
+}
+
+/* One number in the file's type, d if it is a real one; returns its bytes. */
+static size_t store(unsigned char *out, const column *c, int64_t place, double d)
+{
     float single = (float)d;
     switch (c->type) {
     case AS_FLOAT32:
@@ -173,6 +221,9 @@ static size_t store(unsigned char *out, const column *c, int64_t i, int32_t comp
         break;
     case AS_UINT8:
         *out = (unsigned char)((const int32_t *)c->data)[place];
+        break;
+    case AS_INT32:
+        memcpy(out, (const int32_t *)c->data + place, sizeof(int32_t));
         break;
     case AS_INT64:
         memcpy(out, (const int64_t *)c->data + place, sizeof(int64_t));
@@ -193,7 +244,10 @@ static void write_column(frame *f, const column *c)
     write_size(f, column_bytes(f, c));
     for (int64_t i = 0; i < f->s->n; i++) {
         if (!selected(f, i)) continue;
-        for (int32_t k = 0; k < c->width; k++) used += store(block + used, c, i, k);
+        double numbers[9];
+        fetch(f, c, i, numbers);
+        for (int32_t k = 0; k < c->width; k++)
+            used += store(block + used, c, i * c->stride + k, numbers[k]);
         if (used + most <= sizeof block) continue;
         fwrite(block, 1, used, f->file);
         used = 0;
@@ -248,7 +302,7 @@ void mps__frame_write_pieces(const mps__world *world, const char *stem, int32_t 
             "<?xml version=\"1.0\"?>\n<VTKFile type=\"PPolyData\" version=\"1.0\" "
             "byte_order=\"%s\" header_type=\"UInt64\">\n<PPolyData GhostLevel=\"0\">\n",
             mps__frame_byte_order());
-    print_time(&f);
+    print_frame_data(&f);
     fprintf(file, "<PPoints>\n");
     print_piece_array(file, &f.column[0]);
     fprintf(file, "</PPoints>\n<PPointData>\n");

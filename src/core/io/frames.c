@@ -263,7 +263,7 @@ mps_status mps__frames_open(mps__world *w, const char *folder, const char *name,
 {
     mps__context *c = w->context;
     const int32_t some = MPS_FRAMES_FLUID | MPS_FRAMES_WALL | MPS_FRAMES_DUMMY,
-                  all = some | MPS_FRAMES_CONTINUE | MPS_FRAMES_PIECES;
+                  all = some | MPS_FRAMES_CONTINUE | MPS_FRAMES_PIECES | MPS_FRAMES_TANK;
     *frames = NULL;
     MPS__CHECK(c, folder && folder[0], "the folder of the frames is NULL or empty");
     MPS__CHECK(c, good_name(name),
@@ -276,7 +276,8 @@ mps_status mps__frames_open(mps__world *w, const char *folder, const char *name,
     mps_frames *f = mps__alloc(c, 1, sizeof *f);
     if (!f) return pieces ? mps__ranks_tell(&w->ranks, MPS_E_NOMEM) : MPS_E_NOMEM;
     f->world = w;
-    f->kinds = kinds & some ? kinds & some : MPS_FRAMES_FLUID | MPS_FRAMES_WALL;
+    f->kinds = (kinds & some ? kinds & some : MPS_FRAMES_FLUID | MPS_FRAMES_WALL) |
+               (kinds & MPS_FRAMES_TANK);
     f->continues = (kinds & MPS_FRAMES_CONTINUE) != 0;
     f->pieces = pieces;
     memcpy(f->name, name, strlen(name) + 1);

@@ -82,15 +82,17 @@ mps_status mps__energy_measure(mps__world *w, mps_energy *e)
     *e = (mps_energy){.struct_size = sizeof *e,
                       .kinetic = b.last.kinetic,
                       .potential = b.last.potential,
-                      .wall_work = b.wall_work,
+                      .wall_work_momentum = b.wall_work_momentum,
+                      .wall_work_probes = b.wall_work_probes,
                       .viscous = b.viscous,
+                      .plugins = b.plugins,
                       .collision = b.collision,
                       .shift = b.shift,
                       .added = b.added};
     memcpy(e->momentum, b.last.momentum, sizeof e->momentum);
     bulk_sums(w, e);
-    e->numerical = e->wall_work + e->added - e->viscous - e->collision - e->shift -
-                   (e->kinetic + e->potential - b.start);
+    e->numerical = e->wall_work_momentum + e->added - e->viscous - e->plugins - e->collision -
+                   e->shift - (e->kinetic + e->potential - b.start);
     e->volume /= 1.0 + b.deviation;
     e->volume_filled = e->volume + (any ? half_cells(w) : 0);
     e->mass_filled = e->volume > 0 ? e->mass * e->volume_filled / e->volume : 0;

@@ -9,8 +9,13 @@
 #include <string.h>
 
 /* In spacings: walls within `flat` of the plane of a face belong to it, neighbours within `beside` tell a face from an edge; a particle stands for
- * its face as far as `cover`; gap to the wall on which a face stands; normals are averaged as far as `around`. */
-static const double flat = 0.25, beside = 1.6, cover = 1.1, foot_gap = 1.3, around = 1.9;
+ * its face as far as `cover`; gap to the wall on which a face stands; normals are averaged as far as `around`; faces as near as that within `as_near`
+ * are told; a face that was asked for is so `near`. */
+static const double flat = 0.25, beside = 1.6, cover = 1.1, foot_gap = 1.3, around = 1.9,
+                    as_near = 0.5, near = 2;
+
+/* Cosines: of the largest angle between a normal and the one that was asked for, and of the least between two faces. */
+static const double looks_there = 0.8660254037844386, looks_elsewhere = 0.9;
 
 typedef mps__face_solid solid;
 
@@ -99,6 +104,14 @@ static double remoteness(const mps__face *f, const solid *e)
     return off * off + beyond * beyond + 1e-4 * along * along;
 }
 
+/* Whether a wall particle looks where the sensor's normal does, near enough to be meant. */
+static bool is_wanted(const mps__face *f, const solid *e)
+{
+    const double most = (near + 1e-6) * f->dp;
+    return !f->wanted ||
+           (mps__dot(e->n, f->wanted, 3) >= looks_there && remoteness(f, e) <= most * most);
+}
+
 /* The least remote wall particle of a face. Of two as remote the one that looks at the sensor, then the older. NULL: none. */
 static solid *least_remote(const mps__face *f, bool (*may_be)(const mps__face *f, const solid *e))
 {
@@ -107,7 +120,7 @@ static solid *least_remote(const mps__face *f, bool (*may_be)(const mps__face *f
     solid *best = NULL;
     for (int64_t k = 0; k < f->solids; k++) {
         solid *e = &f->solid[k];
-        if (!e->wall) continue;
+        if (!e->wall || !is_wanted(f, e)) continue;
         const double remote = remoteness(f, e), looks = -mps__dot(e->r, e->n, 3);
         if (remote > least + margin || (best && remote >= least - margin && looks <= towards) ||
             !may_be(f, e))
@@ -175,21 +188,46 @@ static void face_normal(mps__face *f, const mps__world *w)
     for (int d = 0; d < 3; d++) f->normal[d] = sum[d] / size;
 }
 
+/* There is no wall, or none that looks where it should. */
+static mps_status no_base(const mps__face *f, const mps__world *w)
+{
+    if (!f->wanted)
+        return mps__fail(w->context, MPS_E_STATE, "wall pressure: there is no wall particle");
+    return mps__fail(w->context, MPS_E_STATE,
+                     "wall pressure: no face within 2 dp = %g m of probe.at looks along "
+                     "probe.normal (%g, %g, %g), or within 30 degrees of it",
+                     near * f->dp, f->wanted[0], f->wanted[1], f->wanted[2]);
+}
+
 static mps_status find_base(mps__face *f, mps__world *w, const mps_probe *c)
 {
     *f = (mps__face){
         .dim = w->setup.dim, .sides = w->setup.dim - 1, .dp = w->setup.dp, .width = w->setup.dp};
+    f->wanted = mps__dot(c->normal, c->normal, 3) > 0 ? c->normal : NULL;
     f->radius = fmax(0.5 * c->diameter, 1e-6 * w->setup.dp);
     MPS__TRY(collect_solids(f, w, c->at));
     f->base = least_remote(f, on_face);
     if (!f->base) f->base = least_remote(f, any_with_normal);
     if (!f->base) f->base = least_remote(f, any_wall);
-    if (!f->base)
-        return mps__fail(w->context, MPS_E_STATE, "wall pressure: there is no wall particle");
+    if (!f->base) return no_base(f, w);
     face_normal(f, w);
     f->off = -mps__dot(f->base->r, f->normal, 3);
     mps__probe_across(w->setup.dim, f->normal, f->tangent);
     return MPS_OK;
+}
+
+/* On a face that looks elsewhere than the sensor's. */
+static bool on_other_face(const mps__face *f, const solid *e)
+{
+    return mps__dot(e->n, f->normal, 3) < looks_elsewhere && on_face(f, e);
+}
+
+const mps__face_solid *mps__face_rival(mps__face *f)
+{
+    const double own = sqrt(remoteness(f, f->base));
+    f->wanted = NULL;
+    const solid *e = has_normal(f->base) ? least_remote(f, on_other_face) : NULL;
+    return e && sqrt(remoteness(f, e)) <= own + as_near * f->dp ? e : NULL;
 }
 
 void mps__face_free(mps__face *f, mps__context *c)

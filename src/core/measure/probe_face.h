@@ -22,6 +22,7 @@ typedef struct mps__face_point {
 /* The plane of a face at the sensor. */
 typedef struct mps__face {
     int32_t dim, sides;            /* directions along the face: 1 or 2 */
+    const double *wanted;          /* NULL, or where the face looks, of length 1 */
     mps__face_solid *base;         /* a particle of the face */
     double dp, width, radius, off; /* off: of the sensor's place before the plane, < 0: behind it */
     double normal[3], tangent[2][3];
@@ -35,6 +36,8 @@ typedef struct mps__face {
 /* Find the face of a sensor and its particles; there must be a wall. mps__face_free() afterwards in any case. */
 mps_status mps__face_find(mps__face *f, mps__world *w, const mps_probe *c);
 void mps__face_free(mps__face *f, mps__context *c);
+/* A particle of the nearest face that looks elsewhere, if that is as near within dp/2; NULL: none. */
+const mps__face_solid *mps__face_rival(mps__face *f);
 /* Whether it looks to one side: it has a normal. */
 bool mps__face_has_sides(const mps__face *f);
 /* Distance from a place of the tank's frame to the nearest wall particle; infinite without walls. */

@@ -19,14 +19,29 @@ static const double widths[] = {1, 1.3, 1.7, 2.2};
 /* Sum of the absolute weights up to which narrow tents are good: noise is amplified by no more. */
 static const double tame = 1.3;
 
-mps_status mps__sensor_place(mps__world *w, const mps_probe *config, double *off, double *beyond)
+static mps__sensor_face face_of(const mps__world *w, const mps__face_solid *e, const double *n)
+{
+    mps__sensor_face face = {.part = w->particles.part[e->place]};
+    for (int d = 0; d < 3; d++) face.normal[d] = n[d] + 0.0; /* no -0 */
+    return face;
+}
+
+static mps__sensor_place place_on(const mps__world *w, mps__face *f)
+{
+    mps__sensor_place p = {.face = face_of(w, f->base, f->normal)};
+    if (mps__face_has_sides(f)) p.off = f->off;
+    for (int32_t a = 0; a < f->sides; a++) p.beyond = fmax(p.beyond, fmax(f->lo[a], -f->hi[a]));
+    const mps__face_solid *rival = mps__face_rival(f);
+    p.has_rival = rival != NULL;
+    if (rival) p.rival = face_of(w, rival, rival->n);
+    return p;
+}
+
+mps_status mps__sensor_place_find(mps__world *w, const mps_probe *config, mps__sensor_place *place)
 {
     mps__face f;
     const mps_status status = mps__face_find(&f, w, config);
-    *off = status == MPS_OK && mps__face_has_sides(&f) ? f.off : 0;
-    *beyond = 0;
-    for (int32_t a = 0; a < f.sides && status == MPS_OK; a++)
-        *beyond = fmax(*beyond, fmax(f.lo[a], -f.hi[a]));
+    *place = status == MPS_OK ? place_on(w, &f) : (mps__sensor_place){0};
     mps__face_free(&f, w->context);
     return status;
 }
@@ -190,6 +205,7 @@ mps_status mps__sensor_build(mps__world *w, const mps_probe *config, mps__sensor
     /* all of it is beside the face, or a single particle */
     if (status == MPS_OK && sensor->count == 0)
         sensor->list[sensor->count++] = (mps__sensor_weight){f.base->id, f.base->place, 1};
+    if (status == MPS_OK) sensor->face = face_of(w, f.base, f.normal);
     mps__face_free(&f, w->context);
     if (status < 0) return status;
     sensor->generation = w->particles.generation;

@@ -1,23 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Probes: checks when one is added, pressure in the fluid, forces. Wall sensors, gauges and series have files of their own. */
+/* Probes: checks when one is added, forces. Wall sensors, fluid pressures, gauges and series have files of their own. */
 #include "probes.h"
 #include "gather.h"
 #include "plates.h"
+#include "probe_fluid.h"
 #include "probe_gauge.h"
+#include "rotation.h"
 #include "terms.h"
 #include <math.h>
-#include <stdlib.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Fastest sampling [Hz], so that samples can be counted. */
 static const double RATE_MAX = 1e9;
-
-static double distance2(const double *a, const double *b, int32_t dim)
-{
-    double sum = 0;
-    for (int32_t d = 0; d < dim; d++) sum += (a[d] - b[d]) * (a[d] - b[d]);
-    return sum;
-}
 
 void mps__probe_across(int32_t dim, const double d[3], double out[2][3])
 {
@@ -35,113 +30,6 @@ void mps__probe_across(int32_t dim, const double d[3], double out[2][3])
         int a = (k + 1) % 3, b = (k + 2) % 3;
         out[1][k] = d[a] * out[0][b] - d[b] * out[0][a];
     }
-}
-
-/* ---- pressure in the fluid ---- */
-
-/* Moments of the kernel-weighted pressures around a place. */
-typedef struct moments {
-    double weight, p, x[3], px[3], xx[9];
-    double low, high, nearest2;
-} moments;
-
-static void add_moment(moments *m, const double *r, double weight, double p)
-{
-    m->weight += weight;
-    m->p += weight * p;
-    for (int a = 0; a < 3; a++) {
-        m->x[a] += weight * r[a];
-        m->px[a] += weight * r[a] * p;
-        for (int b = 0; b < 3; b++) m->xx[3 * a + b] += weight * r[a] * r[b];
-    }
-    m->low = fmin(m->low, p);
-    m->high = fmax(m->high, p);
-}
-
-/* Solve the dim x dim system in place, symmetric positive definite; false if it is close to singular. */
-static bool solve_small(int32_t dim, double a[9], double b[3], double scale)
-{
-    for (int32_t k = 0; k < dim; k++) {
-        if (a[3 * k + k] < 1e-3 * scale) return false;
-        for (int32_t i = k + 1; i < dim; i++) {
-            double f = a[3 * i + k] / a[3 * k + k];
-            for (int32_t j = k; j < dim; j++) a[3 * i + j] -= f * a[3 * k + j];
-            b[i] -= f * b[k];
-        }
-    }
-    for (int32_t k = dim - 1; k >= 0; k--) {
-        for (int32_t j = k + 1; j < dim; j++) b[k] -= a[3 * k + j] * b[j];
-        b[k] /= a[3 * k + k];
-    }
-    return true;
-}
-
-/* Weighted mean, moved from the particles' centroid to the place by the weighted least-squares gradient. */
-static double moments_value(const mps__world *w, moments *m)
-{
-    double mean = m->p / m->weight, a[9], g[3], value = mean;
-    for (int i = 0; i < 3; i++) {
-        g[i] = m->px[i] / m->weight - mean * m->x[i] / m->weight;
-        for (int j = 0; j < 3; j++)
-            a[3 * i + j] = m->xx[3 * i + j] / m->weight -
-                           m->x[i] * m->x[j] / (m->weight * m->weight);
-    }
-    if (!solve_small(w->setup.dim, a, g, w->setup.dp * w->setup.dp)) return mean;
-    for (int32_t d = 0; d < w->setup.dim; d++) value -= g[d] * m->x[d] / m->weight;
-    return fmin(fmax(value, m->low), m->high);
-}
-
-/* A particle about a place. */
-typedef struct about {
-    int64_t id;
-    double r[3], d2, p;
-} about;
-
-static int compare_id(const void *a, const void *b)
-{
-    const int64_t i = ((const about *)a)->id, j = ((const about *)b)->id;
-    return (i > j) - (i < j);
-}
-
-/* Fluid particles and the walls they wet about a place; a dry wall has p = 0 exactly. */
-static mps_status find_about(const mps__world *w, const mps_probe *c, about **list, int64_t *count)
-{
-    const mps__particles *s = &w->particles;
-    const int dim = w->setup.dim;
-    int64_t capacity = 0;
-    double at[3];
-    mps__motion_point(&w->motion, &w->motion.now, c->at, at, NULL, NULL);
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] == MPS_DUMMY || (s->kind[i] == MPS_WALL && s->load[i] == 0)) continue;
-        about e = {.id = s->id[i], .d2 = distance2(&s->x[i * dim], at, dim)};
-        if (e.d2 >= w->setup.re_near * w->setup.re_near || mps__is_ghost(&w->ghosts, i) ||
-            mps__plates_hide(w, c->at, i))
-            continue;
-        for (int32_t d = 0; d < dim; d++) e.r[d] = s->x[i * dim + d] - at[d];
-        e.p = s->kind[i] == MPS_WALL ? s->load[i] : s->p[i];
-        MPS__TRY(
-            mps__grow(w->context, (void **)list, &capacity, *count, *count + 1, sizeof **list));
-        (*list)[(*count)++] = e;
-    }
-    return mps__ranks_collect(w->ghosts.ranks, (void **)list, count, sizeof **list);
-}
-
-static mps_status measure_fluid(const mps__world *w, const mps_probe *c, double *value)
-{
-    moments m = {.low = INFINITY, .high = -INFINITY, .nearest2 = INFINITY};
-    about *list = NULL;
-    int64_t count = 0;
-    const mps_status status = find_about(w, c, &list, &count);
-    if (count > 0) qsort(list, (size_t)count, sizeof *list, compare_id);
-    for (int64_t k = 0; k < count; k++) {
-        const double r = fmax(sqrt(list[k].d2), 1e-3 * w->setup.dp);
-        add_moment(&m, list[k].r, mps_kernel_value(&w->setup.kernel, r, w->setup.re_near),
-                   list[k].p);
-        m.nearest2 = fmin(m.nearest2, list[k].d2);
-    }
-    mps__free(w->context, list);
-    *value = m.nearest2 < 0.25 * w->setup.re_near * w->setup.re_near ? moments_value(w, &m) : 0;
-    return status;
 }
 
 /* ---- forces ---- */
@@ -176,7 +64,33 @@ static bool face_wanted(const mps__world *w, const mps__probe *probe, int64_t i,
     return part_matches(probe->part_name, name);
 }
 
-/* -p A on every wall particle of the part; A points into the fluid. */
+/* Force and moment about `at` of what verbs reported; on the fluid. */
+static void add_reactions(const mps__world *w, const mps__probe *probe, const double at[3],
+                          double total[6])
+{
+    const mps__particles *s = &w->particles;
+    const mps__motion *m = &w->motion;
+    double centre[3] = {0};
+    mps__motion_point(m, &m->now, m->centre, centre, NULL, NULL);
+    const double r[3] = {centre[0] - at[0], centre[1] - at[1], centre[2] - at[2]};
+    for (int32_t k = 0; k <= s->parts; k++) {
+        const mps__reaction *own = &w->state.reaction[k];
+        double f[3] = {0}, about[3] = {0}, arm[3];
+        if (probe->config.part && (k == 0 || !part_matches(probe->part_name, s->part_name[k - 1])))
+            continue;
+        for (int d = 0; d < 3; d++) {
+            f[d] = mps__dot(m->now.rotation + 3 * d, own->force, 3);
+            about[d] = mps__dot(m->now.rotation + 3 * d, own->moment, 3);
+        }
+        mps__cross(r, f, arm);
+        for (int d = 0; d < 3; d++) {
+            total[d] -= f[d];
+            total[3 + d] -= about[d] + arm[d];
+        }
+    }
+}
+
+/* -p A on every wall particle of the part, A points into the fluid, and the reactions of the part. */
 static void measure_force(const mps__world *w, const mps__probe *probe, double *values)
 {
     const mps__particles *s = &w->particles;
@@ -202,6 +116,7 @@ static void measure_force(const mps__world *w, const mps__probe *probe, double *
     mps__terms_end(&t);
     mps__ranks_sum(w->ghosts.ranks, 6, sums);
     for (int k = 0; k < 6; k++) total[k] = mps_exact_value(&sums[k]);
+    add_reactions(w, probe, at, total);
     memcpy(values, total, (size_t)w->setup.dim * sizeof *total);
     if (w->setup.dim == 2)
         values[2] = total[5];
@@ -245,26 +160,40 @@ static mps_status check_place(const mps__world *w, const mps_probe *c)
     return MPS_OK;
 }
 
-/* A sensor belongs on its wall: rounding of a tank to its lattice puts it up to half a spacing behind a face or beyond its end. */
-static mps_status check_wall(mps__world *w, const mps_probe *c)
+/* The direction in which the face looks, of length 1; 0 stays. */
+static mps_status check_normal(const mps__world *w, mps_probe *c)
 {
+    const double *n = c->normal, z = w->setup.dim == 3 ? n[2] : 0,
+                 size = sqrt(n[0] * n[0] + n[1] * n[1] + z * z);
+    if (n[0] == 0 && n[1] == 0 && n[2] == 0) return MPS_OK;
+    MPS__CHECK(w->context, size > 0 && isfinite(size),
+               "probe.normal is (%g, %g, %g): must be finite, and in 2-D not along z", n[0], n[1],
+               n[2]);
+    for (int d = 0; d < 3; d++) c->normal[d] = d < w->setup.dim ? n[d] / size : 0;
+    return MPS_OK;
+}
+
+/* A sensor belongs on its wall: rounding of a tank to its lattice puts it up to half a spacing behind a face or beyond its end. */
+static mps_status check_wall(mps__world *w, mps_probe *c, mps__sensor_place *place)
+{
+    MPS__TRY(check_normal(w, c));
     const double distance = mps__sensor_distance(w, c->at), half = 0.5 * w->setup.dp,
                  slack = 1e-6 * w->setup.dp;
-    double off, beyond;
     MPS__CHECK(w->context, isfinite(distance), "wall pressure: there is no wall particle");
     MPS__CHECK(
         w->context, distance <= 2 * w->setup.dp,
         "wall pressure: the nearest wall particle is %g m away, at most 2 dp = %g m are allowed",
         distance, 2 * w->setup.dp);
-    MPS__TRY(mps__sensor_place(w, c, &off, &beyond));
-    MPS__CHECK(w->context, off >= -half - slack,
+    const mps_status status = mps__sensor_place_find(w, c, place);
+    if (status < 0) return status == MPS_E_STATE ? MPS_E_ARG : status; /* no such face */
+    MPS__CHECK(w->context, place->off >= -half - slack,
                "wall pressure: probe.at lies %g m behind the face of its wall; allowed: on the "
                "liquid's side, or at most dp/2 = %g m behind",
-               -off, half);
-    MPS__CHECK(w->context, beyond <= half + slack,
+               -place->off, half);
+    MPS__CHECK(w->context, place->beyond <= half + slack,
                "wall pressure: probe.at lies %g m beyond the end of the face of its wall; allowed: "
                "at most dp/2 = %g m",
-               beyond, half);
+               place->beyond, half);
     return MPS_OK;
 }
 
@@ -336,14 +265,14 @@ static mps_status check_numbers(const mps__world *w, const mps_probe *c)
 }
 
 /* Check and complete a definition. */
-static mps_status check_probe(mps__world *w, mps_probe *c)
+static mps_status check_probe(mps__world *w, mps_probe *c, mps__sensor_place *place)
 {
     MPS__TRY(check_numbers(w, c));
     if (c->type == MPS_PROBE_GAUGE && c->average == MPS_AVERAGE_AUTO) c->average = 0;
     if (c->diameter == 0) c->diameter = c->type == MPS_PROBE_GAUGE ? 3 * w->setup.dp : w->setup.dp;
     if (c->type == MPS_PROBE_FORCE) return c->part ? check_part(w, c->part) : MPS_OK;
     MPS__TRY(check_place(w, c));
-    if (c->type == MPS_PROBE_WALL_PRESSURE) return check_wall(w, c);
+    if (c->type == MPS_PROBE_WALL_PRESSURE) return check_wall(w, c, place);
     return c->type == MPS_PROBE_GAUGE ? check_gauge(w, c) : MPS_OK;
 }
 
@@ -360,9 +289,26 @@ void mps__probes_free(mps__context *c, mps__probes *p)
     *p = (mps__probes){0};
 }
 
-/* What a checked definition needs besides; the caller frees it if it fails. */
-static mps_status complete(mps__world *w, mps__probe *p, const char *part)
+/* The probe's own copy of its name, which no other probe has. */
+static mps_status take_name(mps__context *c, const mps__probes *all, mps__probe *p)
 {
+    const char *name = p->config.name;
+    if (!name) return MPS_OK;
+    MPS__CHECK(c, mps__name_copy(p->name, sizeof p->name, name),
+               "probe.name \"%.40s\": must have 1..%d characters", name, MPS__PART_NAME - 1);
+    for (int64_t k = 0; k < all->count; k++)
+        if (strcmp(all->list[k].name, name) == 0)
+            return mps__fail(c, MPS_E_NAME,
+                             "probe.name \"%s\" is that of probe %lld: names must differ", name,
+                             (long long)k);
+    p->config.name = NULL;
+    return MPS_OK;
+}
+
+/* What a checked definition needs besides; the caller frees it if it fails. */
+static mps_status complete(mps__world *w, mps__probe *p)
+{
+    const char *part = p->config.part;
     if (part) {
         MPS__CHECK(w->context, mps__name_copy(p->part_name, sizeof p->part_name, part),
                    "probe.part must have 1..%d characters", MPS__PART_NAME - 1);
@@ -376,20 +322,47 @@ static mps_status complete(mps__world *w, mps__probe *p, const char *part)
 }
 
 /* Ranks look at the solids of all. */
-static mps_status prepare(mps__world *w, mps__probe *p, const char *part)
+static mps_status prepare(mps__world *w, const mps__probes *all, mps__probe *p,
+                          mps__sensor_place *place)
 {
+    MPS__TRY(take_name(w->context, all, p));
     MPS__TRY(mps__gather_solids(w));
-    mps_status status = check_probe(w, &p->config);
-    if (status == MPS_OK) status = complete(w, p, part);
+    mps_status status = check_probe(w, &p->config, place);
+    if (status == MPS_OK) status = complete(w, p);
     mps__gather_end(w);
     return status;
+}
+
+const char *mps__probe_label(const mps__probes *p, int64_t id, char out[MPS__PROBE_LABEL])
+{
+    const char *name = p->list[id].name, *quote = name[0] ? "'" : "";
+    snprintf(out, MPS__PROBE_LABEL, "%lld%s%s%s%s", (long long)id, name[0] ? " " : "", quote, name,
+             quote);
+    return out;
+}
+
+/* Say which of two faces a sensor reads, where both are about as near. */
+static void note_face(const mps__world *w, const mps__probes *p, int64_t k,
+                      const mps__sensor_place *place)
+{
+    const mps__sensor_face *f[2] = {&place->face, &place->rival};
+    const char *part[2];
+    char label[MPS__PROBE_LABEL];
+    if (!place->has_rival) return;
+    for (int a = 0; a < 2; a++) part[a] = f[a]->part >= 0 ? w->particles.part_name[f[a]->part] : "";
+    mps__log(w->context, MPS_LOG_INFO,
+             "probe %s reads the face with the normal (%.4g, %.4g, %.4g), part \"%s\"; another is "
+             "as near, with (%.4g, %.4g, %.4g), part \"%s\": probe.normal chooses",
+             mps__probe_label(p, k, label), f[0]->normal[0], f[0]->normal[1], f[0]->normal[2],
+             part[0], f[1]->normal[0], f[1]->normal[1], f[1]->normal[2], part[1]);
 }
 
 mps_status mps__probes_add(mps__world *w, mps__probes *p, const mps_probe *probe, int32_t *id)
 {
     mps__probe added = {.config = *probe};
+    mps__sensor_place place = {.has_rival = false};
     MPS__CHECK(w->context, p->count < INT32_MAX, "too many probes");
-    mps_status status = prepare(w, &added, probe->part);
+    mps_status status = prepare(w, p, &added, &place);
     if (status == MPS_OK)
         status = mps__grow(w->context, (void **)&p->list, &p->capacity, p->count, p->count + 1,
                            sizeof added);
@@ -399,6 +372,7 @@ mps_status mps__probes_add(mps__world *w, mps__probes *p, const mps_probe *probe
     }
     p->list[p->count] = added;
     *id = (int32_t)p->count++;
+    if (mps__dot(probe->normal, probe->normal, 3) == 0) note_face(w, p, *id, &place);
     return MPS_OK;
 }
 
@@ -425,7 +399,7 @@ mps_status mps__probe_measure(mps__world *w, mps__probe *p, double *values)
     case MPS_PROBE_GAUGE:
         return mps__gauge_measure(w, &p->config, values);
     case MPS_PROBE_FLUID_PRESSURE:
-        return measure_fluid(w, &p->config, values);
+        return mps__fluid_measure(w, &p->config, values);
     default:
         measure_force(w, p, values);
         return MPS_OK;
@@ -442,15 +416,16 @@ static double window(const mps__world *w, const mps_probe *c)
 static void note_window(mps__world *w, const mps__probes *p, int64_t k)
 {
     const mps_probe *c = &p->list[k].config;
+    char label[MPS__PROBE_LABEL];
     if (w->state.window_told || c->type == MPS_PROBE_GAUGE ||
         window(w, c) >= w->state.crossing_time)
         return;
     w->state.window_told = true;
     mps__log(w->context, MPS_LOG_WARNING,
-             "t = %.6g s: probe %d averages over %g s; liquid crosses a spacing in %g s, and "
+             "t = %.6g s: probe %s averages over %g s; liquid crosses a spacing in %g s, and "
              "pressures of impacts over less than that depend "
              "on the time step (average = MPS_AVERAGE_AUTO follows it)",
-             w->state.t, (int)k, c->average, w->state.crossing_time);
+             w->state.t, mps__probe_label(p, k, label), c->average, w->state.crossing_time);
 }
 
 mps_status mps__probe_take(mps__world *w, mps__probe *p)
@@ -475,13 +450,14 @@ mps_status mps__probe_take(mps__world *w, mps__probe *p)
 
 mps_status mps__probes_take(mps__world *w, mps__probes *p)
 {
+    char label[MPS__PROBE_LABEL];
     for (int64_t k = 0; k < p->count; k++) {
         if (p->list[k].removed) continue;
         note_window(w, p, k);
         const mps_status status = mps__probe_take(w, &p->list[k]);
         if (status < 0)
-            return mps__fail(w->context, status, "no step was done, probe %d: %.400s", (int)k,
-                             w->context->error);
+            return mps__fail(w->context, status, "no step was done, probe %s: %.400s",
+                             mps__probe_label(p, k, label), w->context->error);
     }
     return MPS_OK;
 }

@@ -9,11 +9,11 @@
 #include <mps/probe.h>
 
 typedef struct mps__probe {
-    mps_probe config; /* part points to part_name */
-    char part_name[MPS__PART_NAME];
-    mps__sensor sensor; /* of a wall pressure */
-    mps__series series; /* of an average or a rate */
-    bool removed;       /* its place in the list stays: numbers are not used again */
+    mps_probe config;                                     /* part points to part_name */
+    char part_name[MPS__PART_NAME], name[MPS__PART_NAME]; /* "": none; config.name is NULL */
+    mps__sensor sensor;                                   /* of a wall pressure */
+    mps__series series;                                   /* of an average or a rate */
+    bool removed; /* its place in the list stays: numbers are not used again */
 } mps__probe;
 
 typedef struct mps__probes {
@@ -24,6 +24,9 @@ typedef struct mps__probes {
 void mps__probes_free(mps__context *c, mps__probes *p);
 mps_status mps__probes_add(mps__world *w, mps__probes *p, const mps_probe *probe, int32_t *id);
 void mps__probe_remove(mps__context *c, mps__probe *p);
+/* "3 'P1'", or "3" for a probe without a name: for messages. */
+enum { MPS__PROBE_LABEL = MPS__PART_NAME + 32 };
+const char *mps__probe_label(const mps__probes *p, int64_t id, char out[MPS__PROBE_LABEL]);
 int32_t mps__probe_values(const mps__world *w, const mps__probe *p);
 /* The present value. */
 mps_status mps__probe_measure(mps__world *w, mps__probe *p, double *values);

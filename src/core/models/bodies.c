@@ -4,7 +4,7 @@
 
 /* Rows of a body in the order in which they were found. */
 typedef struct search {
-    const mps_stage *s;
+    const mps_view *s;
     const mps__ghosts *ghosts;
     const int32_t *role;
     int32_t *body, *queue;
@@ -21,8 +21,7 @@ enum { FLAG_HELD = 1, FLAG_SEEDED = 2 };
 /* Solids may have no rows: a link through one would depend on where the search begins. */
 static bool belongs(const search *k, int64_t i)
 {
-    return k->s->kind[i] == MPS_FLUID &&
-           (k->role[i] == MPS_BODY_SEED || k->role[i] == MPS_BODY_MEMBER);
+    return mps_is_fluid(k->s, i) && (k->role[i] == MPS_BODY_SEED || k->role[i] == MPS_BODY_MEMBER);
 }
 
 static void join(search *k, int64_t i, int32_t number)
@@ -34,9 +33,9 @@ static void join(search *k, int64_t i, int32_t number)
 /* Look at the neighbours of row i. @return whether one of them holds the body; new members join it */
 static bool is_held(search *k, int64_t i)
 {
-    const mps_stencil *t = k->s->near;
-    for (int64_t p = t->begin[i]; p < t->end[i]; p++) {
-        const int32_t j = t->col[p];
+    const mps_stencil *t = &k->s->near;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const int32_t j = mps_stencil_column(t, p);
         if (k->role[j] == MPS_BODY_ANCHOR) return true;
         if (!belongs(k, j) || mps__is_ghost(k->ghosts, j)) continue;
         if (k->body[j] == HELD) return true;
@@ -48,9 +47,10 @@ static bool is_held(search *k, int64_t i)
 /* Whether row i has a member of another rank beside it. */
 static bool at_border(const search *k, int64_t i)
 {
-    const mps_stencil *t = k->s->near;
-    for (int64_t p = t->begin[i]; k->ghosts->ghost && p < t->end[i]; p++)
-        if (k->ghosts->ghost[t->col[p]] && belongs(k, t->col[p])) return true;
+    const mps_stencil *t = &k->s->near;
+    for (int64_t p = mps_stencil_begin(t, i); k->ghosts->ghost && p < mps_stencil_end(t, i); p++)
+        if (k->ghosts->ghost[mps_stencil_column(t, p)] && belongs(k, mps_stencil_column(t, p)))
+            return true;
     return false;
 }
 
@@ -98,14 +98,15 @@ static mps_status list_parts(const search *k, int32_t count, mps__sets *sets)
 /* Join what borders part. `label` [n] is scratch: the part of a row, -1: held or none. Labels are ids, which doubles hold. */
 static mps_status join_border(const search *k, mps__host *h, double *label)
 {
-    const mps_stencil *t = k->s->near;
+    const mps_stencil *t = &k->s->near;
     mps__set *part = h->sets.part;
     for (int64_t i = 0; i < k->s->n; i++)
         label[i] = k->body[i] >= 0 ? (double)part[k->body[i]].label : -1;
     MPS__TRY(mps__ghosts_share(h->ghosts, &(mps__shared){label, sizeof *label}, 1));
     for (int64_t i = 0; i < k->s->n; i++)
-        for (int64_t p = t->begin[i]; k->body[i] >= 0 && p < t->end[i]; p++) {
-            const int32_t j = t->col[p];
+        for (int64_t p = mps_stencil_begin(t, i); k->body[i] >= 0 && p < mps_stencil_end(t, i);
+             p++) {
+            const int32_t j = mps_stencil_column(t, p);
             if (!h->ghosts->ghost[j] || !belongs(k, j)) continue;
             if (label[j] < 0)
                 part[k->body[i]].flags |= FLAG_HELD;
@@ -132,7 +133,8 @@ static int merge_bodies(mps_stage *s, search *k, int32_t count)
 {
     mps__host *h = s->host;
     const bool many = mps__ranks_many(h->ghosts->ranks);
-    double *least = mps_stage_scratch(s, count), *label = mps_stage_scratch(s, many ? s->n : 1);
+    double *least = mps_stage_scratch(s, count),
+           *label = mps_stage_scratch(s, many ? s->view->n : 1);
     if (!least || !label) return 1;
     mps__sets_begin(&h->sets, h->context);
     mps_status status = list_parts(k, count, &h->sets);
@@ -143,7 +145,7 @@ static int merge_bodies(mps_stage *s, search *k, int32_t count)
     h->no_memory = h->no_memory || status == MPS_E_NOMEM;
     if (status < 0) return 1;
     number_sets(&h->sets, k->most);
-    for (int64_t i = 0; i < s->n; i++)
+    for (int64_t i = 0; i < s->view->n; i++)
         k->body[i] = k->body[i] < 0 ? -1
                                     : mps__sets_find(&h->sets, (int64_t)least[k->body[i]])->number;
     h->scratch_used -= 2;
@@ -154,11 +156,11 @@ int mps_stage_bodies(mps_stage *s, int32_t most, int32_t *role, int32_t *body)
 {
     mps__host *h = s->host;
     const mps_shared shared = {.values = role, .components = 1, .type = MPS_TYPE_INTEGER};
-    search k = {.s = s,
+    search k = {.s = s->view,
                 .ghosts = h->ghosts,
                 .role = role,
                 .body = body,
-                .queue = mps_stage_scratch_integers(s, s->n),
+                .queue = mps_stage_scratch_integers(s, s->view->n),
                 .most = most};
     if (!k.queue || mps_stage_refresh(s, 1, &shared)) return 1;
     const int32_t count = find_bodies(&k);

@@ -4,14 +4,18 @@
 #include <math.h>
 #include <string.h>
 
-/* Bits of moments. */
+/* Bits of hooks. */
 enum {
-    ALL = (1 << MPS_MOMENT_COUNT) - 1,
-    STEP = ALL & ~(1 << MPS_LIMIT),
+    ALL = (1 << MPS_HOOK_COUNT) - 1,
+    BROUGHT = ALL & ~(1 << MPS_POPULATE | 1 << MPS_LIMIT),
+    STEP = BROUGHT & ~(1 << MPS_MOTION),
+    MOTION = 1 << MPS_MOTION,
     SORTING = 1 << MPS_CLASSIFY | 1 << MPS_PREPARE,
     SOURCE = 1 << MPS_SOURCE,
     LEVEL = 1 << MPS_LEVEL,
     PUSH = 1 << MPS_FORCE | 1 << MPS_GRADIENT,
+    EQUATION = SORTING | 1 << MPS_FORCE | SOURCE,
+    NEVER = 0,
     LOAD = 1 << MPS_LOAD,
     MOVE = 1 << MPS_VELOCITY | 1 << MPS_SHIFT,
     SHIFT = 1 << MPS_SHIFT
@@ -22,20 +26,21 @@ typedef struct own_channel {
     const char *name, *unit, *help;
     int32_t components, type;
     uint32_t reads, writes;
+    int32_t where;
 } own_channel;
 
 static const own_channel own[MPS__OWN_CHANNELS] = {
     [MPS__VELOCITY] = {"velocity", "m/s",
                        "Velocity; for solids that of the tank over this step; in MPS_SOURCE u*",
-                       MPS_VECTOR, MPS_TYPE_REAL, ALL, MOVE},
+                       MPS_VECTOR, MPS_TYPE_REAL, ALL, MOVE, MPS__IN_FIELD},
     [MPS__PRESSURE] = {"pressure", "Pa", "Pressure; from MPS_LEVEL on the new one", 1,
-                       MPS_TYPE_REAL, ALL, LEVEL},
+                       MPS_TYPE_REAL, ALL, LEVEL, MPS__IN_FIELD},
     [MPS__DENSITY] = {"density", "kg/m3", "Density of the particle's phase", 1, MPS_TYPE_REAL, ALL,
-                      0},
+                      NEVER, MPS__IN_FIELD},
     [MPS__NUMBER_DENSITY] = {"number_density", "-", "Sum of W over near pairs, W22 (7)", 1,
-                             MPS_TYPE_REAL, ALL, SORTING},
+                             MPS_TYPE_REAL, ALL, SORTING, MPS__IN_FIELD},
     [MPS__REGION] = {"region", "-", "MPS_REGION_...; initially INNER, for dummies DRY", 1,
-                     MPS_TYPE_INTEGER, STEP, 1 << MPS_CLASSIFY},
+                     MPS_TYPE_INTEGER, STEP, 1 << MPS_CLASSIFY, MPS__IN_FIELD},
     [MPS__TANK_ACCELERATION] = {"tank_acceleration", "m/s2",
                                 "Acceleration of the rigid tank at the particle over this step",
                                 MPS_VECTOR, MPS_TYPE_REAL, STEP, SORTING},
@@ -49,7 +54,7 @@ static const own_channel own[MPS__OWN_CHANNELS] = {
                                "Density in operators of the pressure; initially as density", 1,
                                MPS_TYPE_REAL, STEP, SORTING},
     [MPS__ACCELERATION] = {"acceleration", "m/s2",
-                           "Sum of the accelerations of this moment; initially 0 in MPS_FORCE and "
+                           "Sum of the accelerations of this hook; initially 0 in MPS_FORCE and "
                            "MPS_GRADIENT",
                            MPS_VECTOR, MPS_TYPE_REAL, PUSH | LOAD, PUSH},
     [MPS__DISPLACEMENT] = {"displacement", "m", "Displacement in addition to dt u; initially 0",
@@ -69,12 +74,47 @@ static const own_channel own[MPS__OWN_CHANNELS] = {
                       SOURCE, SOURCE},
     [MPS__WALL_PRESSURE] = {"wall_pressure", "Pa",
                             "Pressure that probes and forces see; initially as pressure", 1,
-                            MPS_TYPE_REAL, LOAD, LOAD},
+                            MPS_TYPE_REAL, LOAD, LOAD, MPS__IN_ARENA},
+    [MPS__SOLID_PLACE] = {"solid_place", "m",
+                          "Place of a solid in the frame of the tank at the end of the step; "
+                          "initially where it is",
+                          MPS_VECTOR, MPS_TYPE_REAL, BROUGHT, MOTION, MPS__IN_FIELD},
+    [MPS__SOLID_AREA] = {"solid_area", "m2",
+                         "Area vector of a wall in the frame of the tank at the end of the step "
+                         "[m^(dim-1)]; initially what it is",
+                         MPS_VECTOR, MPS_TYPE_REAL, BROUGHT, MOTION, MPS__IN_FIELD},
+    [MPS__EQUATION_RADIUS] = {"equation_radius", "-",
+                              "Pairs of the Laplacian: MPS_NEAR or MPS_FAR; initially MPS_FAR",
+                              MPS_SCALAR, MPS_TYPE_INTEGER, EQUATION, EQUATION, MPS__IN_FIELD},
+    [MPS__EQUATION_COMPLETE] = {"equation_complete", "-",
+                                "1: surface pairs carry the flux that the surface cuts off; "
+                                "initially 0",
+                                MPS_SCALAR, MPS_TYPE_INTEGER, EQUATION, EQUATION, MPS__IN_FIELD},
+    [MPS__EQUATION_BODY] = {"equation_body", "-",
+                            "1: pressures are those beyond a fluid that moves with the tank; "
+                            "initially 0",
+                            MPS_SCALAR, MPS_TYPE_INTEGER, EQUATION, EQUATION, MPS__IN_FIELD},
+    [MPS__EQUATION_WALL_FACTOR] = {"equation_wall_factor", "-",
+                                   "Weight of wall-wall pairs, >= 0; initially 0", MPS_SCALAR,
+                                   MPS_TYPE_REAL, EQUATION, EQUATION, MPS__IN_FIELD},
+    [MPS__EQUATION_GAIN] = {"equation_gain", "-",
+                            "Share of the divergence that a step takes away, > 0, <= 1; initially "
+                            "1",
+                            MPS_SCALAR, MPS_TYPE_REAL, EQUATION, EQUATION, MPS__IN_FIELD},
+    [MPS__POSITION] = {"position", "m", "Position", MPS_VECTOR, MPS_TYPE_REAL, NEVER, NEVER,
+                       MPS__IN_FIELD},
+    [MPS__POSITION_BEFORE] = {"position_before", "m", "Position at the beginning of the step",
+                              MPS_VECTOR, MPS_TYPE_REAL, NEVER, NEVER, MPS__IN_ARENA},
+    [MPS__UNKNOWN_NUMBERS] = {"unknown_numbers", "-", "Numbers of the unknowns, by row", 3,
+                              MPS_TYPE_REAL, NEVER, NEVER, MPS__IN_ARENA},
+    [MPS__UNKNOWN_PLACES] = {"unknown_places", "m", "Positions of the unknowns, by row", MPS_VECTOR,
+                             MPS_TYPE_REAL, NEVER, NEVER, MPS__IN_ARENA},
 };
 
 static int32_t numbers(const mps__channels *c, int32_t components)
 {
     if (components == MPS_VECTOR) return c->dim;
+    if (components == MPS_SCALAR) return 0;
     return components == MPS_MATRIX ? c->dim * c->dim : components;
 }
 
@@ -95,21 +135,33 @@ void mps__channels_init(mps__channels *c, mps__context *context, int32_t dim)
                                              .type = own[k].type},
                                     .reads = own[k].reads,
                                     .writes = own[k].writes,
-                                    .components = numbers(c, own[k].components)};
+                                    .components = numbers(c, own[k].components),
+                                    .where = own[k].where,
+                                    .offset = -1};
 }
 
-/* The arrays of the library's channels are not owned here. */
 void mps__channels_free(mps__channels *c)
 {
-    for (int32_t k = MPS__OWN_CHANNELS; k < c->count; k++) mps__free(c->context, c->list[k].array);
+    mps__free(c->context, c->arena);
+    c->arena = NULL;
+    c->held = 0;
     c->count = c->count < MPS__OWN_CHANNELS ? c->count : MPS__OWN_CHANNELS;
 }
 
 int32_t mps__channels_find(const mps__channels *c, const char *name)
 {
     for (int32_t k = 0; k < c->count; k++)
-        if (strcmp(c->list[k].spec.name, name) == 0) return k;
+        if (!(k >= MPS__PUBLIC_CHANNELS && k < MPS__OWN_CHANNELS) &&
+            strcmp(c->list[k].spec.name, name) == 0)
+            return k;
     return -1;
+}
+
+int32_t mps__channels_find_own(const char *name)
+{
+    int32_t k = MPS__OWN_CHANNELS - 1;
+    while (k >= 0 && strcmp(own[k].name, name) != 0) k--;
+    return k;
 }
 
 mps_status mps__channel_check(mps__context *c, const char *model, const mps_channel *s)
@@ -120,9 +172,12 @@ mps_status mps__channel_check(mps__context *c, const char *model, const mps_chan
                s->name);
     MPS__CHECK(c,
                (s->components >= 1 && s->components <= 9) || s->components == MPS_VECTOR ||
-                   s->components == MPS_MATRIX,
-               "model '%s': channel '%s' has %d components: 1..9, MPS_VECTOR or MPS_MATRIX", model,
-               s->name, (int)s->components);
+                   s->components == MPS_MATRIX || s->components == MPS_SCALAR,
+               "model '%s': channel '%s' has %d components: 1..9, MPS_VECTOR, MPS_MATRIX or "
+               "MPS_SCALAR",
+               model, s->name, (int)s->components);
+    MPS__CHECK(c, s->components != MPS_SCALAR || s->life == MPS_LIFE_STEP,
+               "model '%s': channel '%s' is a scalar: it must live for a step", model, s->name);
     MPS__CHECK(
         c, s->type == MPS_TYPE_REAL || (s->type == MPS_TYPE_INTEGER && s->life == MPS_LIFE_STEP),
         "model '%s': channel '%s' has type %d and life %d: real, or integer for a step", model,
@@ -138,7 +193,7 @@ mps_status mps__channel_check(mps__context *c, const char *model, const mps_chan
             (fabs(s->initial) <= INT32_MAX && s->initial == floor(s->initial)),
         "model '%s': channel '%s' of integers begins with %g: must be a whole number of 32 bits",
         model, s->name, s->initial);
-    for (int32_t k = 0; k < MPS__OWN_CHANNELS; k++)
+    for (int32_t k = 0; k < MPS__PUBLIC_CHANNELS; k++)
         MPS__CHECK(c, strcmp(own[k].name, s->name) != 0,
                    "model '%s' brings channel '%s', which is the library's own", model, s->name);
     return MPS_OK;
@@ -193,18 +248,20 @@ static mps_status bring(mps__channels *c, mps__particles *s, const char *model,
                "channel '%s' of model '%s' is one too many: at most %d", spec->name, model,
                MPS__CHANNELS);
     mps__channel fresh = {.spec = *spec,
-                          .reads = STEP,
-                          .writes = STEP,
+                          .reads = BROUGHT,
+                          .writes = BROUGHT,
                           .components = numbers(c, spec->components),
-                          .users = 1};
+                          .users = 1,
+                          .where = MPS__IN_ARENA,
+                          .offset = -1};
     if (spec->life == MPS_LIFE_PARTICLE) {
         MPS__TRY(bring_field(c, s, model, spec));
-        fresh.reads = fresh.writes = ALL;
+        fresh.reads = ALL;
+        fresh.writes = ALL & ~(1 << MPS_POPULATE);
+        fresh.where = MPS__IN_FIELD;
     } else {
         MPS__CHECK(c->context, !mps__particles_field(s, spec->name),
                    "model '%s' brings channel '%s', and a field has this name", model, spec->name);
-        fresh.array = mps__alloc(c->context, c->capacity, mps__channel_element(&fresh));
-        if (!fresh.array) return MPS_E_NOMEM;
     }
     c->list[c->count++] = fresh;
     return MPS_OK;
@@ -213,7 +270,6 @@ static mps_status bring(mps__channels *c, mps__particles *s, const char *model,
 static void drop(mps__channels *c, int32_t k)
 {
     if (k < MPS__OWN_CHANNELS || --c->list[k].users > 0) return;
-    mps__free(c->context, c->list[k].array);
     memmove(&c->list[k], &c->list[k + 1], (size_t)(c->count - k - 1) * sizeof c->list[0]);
     c->count--;
 }
@@ -250,26 +306,33 @@ void mps__channels_drop(mps__channels *c, const mps_model_ops *ops)
         drop(c, mps__channels_find(c, ops->channels[k].name));
 }
 
+/* Nothing in the arena outlives a step. An even number of particles keeps numbers of eight bytes aligned. */
 mps_status mps__channels_reserve(mps__channels *c, int64_t n)
 {
-    if (n <= c->capacity) return MPS_OK;
-    const int64_t wanted = mps__room(n, c->capacity);
-    c->capacity = 0; /* nothing in here outlives a step */
-    for (int32_t k = MPS__OWN_CHANNELS; k < c->count; k++) {
-        mps__channel *own_array = &c->list[k];
-        if (own_array->spec.life != MPS_LIFE_STEP) continue;
-        mps__free(c->context, own_array->array);
-        own_array->array = mps__alloc(c->context, wanted, mps__channel_element(own_array));
-        if (!own_array->array) return MPS_E_NOMEM;
+    const int64_t even = n + n % 2, had = c->stride > 0 ? (int64_t)c->held / c->stride : 0;
+    if (even > had) {
+        const int64_t wanted = mps__room(even, had) + 1;
+        mps__free(c->context, c->arena);
+        c->held = 0;
+        c->arena = mps__alloc(c->context, wanted - wanted % 2, (size_t)c->stride);
+        if (!c->arena) return MPS_E_NOMEM;
+        c->held = (size_t)(wanted - wanted % 2) * (size_t)c->stride;
     }
-    c->capacity = wanted;
+    for (int32_t k = 0; k < c->count; k++) {
+        mps__channel *own_array = &c->list[k];
+        if (own_array->where != MPS__IN_ARENA) continue;
+        own_array->array = own_array->offset < 0 ? NULL : c->arena + own_array->offset * even;
+        if (mps__channel_is_scalar(own_array)) own_array->array = &own_array->scalar;
+    }
     return MPS_OK;
 }
 
-static void begin_rows(const mps__channel *k, int32_t dim, int64_t begin, int64_t end)
+void mps__channel_begin(const mps__channel *k, int32_t dim, int64_t begin, int64_t end)
 {
-    const int32_t width = k->components, diagonal = k->spec.components == MPS_MATRIX ? dim + 1 : 1;
-    for (int64_t i = begin; i < end; i++)
+    const bool scalar = mps__channel_is_scalar(k);
+    const int32_t width = scalar ? 1 : k->components,
+                  diagonal = k->spec.components == MPS_MATRIX ? dim + 1 : 1;
+    for (int64_t i = scalar ? 0 : begin; i < (scalar ? 1 : end); i++)
         for (int32_t d = 0; d < width; d++) {
             const double value = d % diagonal == 0 ? k->spec.initial : 0;
             if (k->spec.type == MPS_TYPE_INTEGER)
@@ -279,22 +342,27 @@ static void begin_rows(const mps__channel *k, int32_t dim, int64_t begin, int64_
         }
 }
 
-void mps__channels_begin(const mps__channels *c, int64_t begin, int64_t end)
-{
-    for (int32_t k = MPS__OWN_CHANNELS; k < c->count; k++)
-        if (c->list[k].spec.life == MPS_LIFE_STEP) begin_rows(&c->list[k], c->dim, begin, end);
-}
-
-static mps__field *field_of(const mps__channels *c, mps__particles *s, int32_t k)
+mps__field *mps__channels_field(const mps__channels *c, mps__particles *s, int32_t k)
 {
     if (k >= MPS__CHANNELS) return &s->field[k - MPS__CHANNELS];
-    return c->list[k].spec.life == MPS_LIFE_PARTICLE ? mps__particles_field(s, c->list[k].spec.name)
-                                                     : NULL;
+    if (c->list[k].where != MPS__IN_FIELD || mps__channel_is_scalar(&c->list[k])) return NULL;
+    mps__field *f = &s->field[c->list[k].field];
+    return strcmp(f->name, c->list[k].spec.name) == 0
+               ? f
+               : mps__particles_field(s, c->list[k].spec.name);
+}
+
+void mps__channels_find_fields(mps__channels *c, mps__particles *s)
+{
+    for (int32_t k = 0; k < c->count; k++) {
+        const mps__field *f = mps__channels_field(c, s, k);
+        if (f) c->list[k].field = (int32_t)(f - s->field);
+    }
 }
 
 bool *mps__channels_stale(mps__channels *c, mps__particles *s, int32_t k)
 {
-    mps__field *f = field_of(c, s, k);
+    mps__field *f = mps__channels_field(c, s, k);
     return f ? &f->stale : &c->list[k].stale;
 }
 
@@ -307,8 +375,6 @@ size_t mps__channels_bytes(const mps__channels *c, const mps__particles *s, int3
 void *mps__channels_array(const mps__channels *c, mps__particles *s, int32_t k)
 {
     if (k < 0) return NULL;
-    if (k >= MPS__CHANNELS) return *s->field[k - MPS__CHANNELS].data;
-    if (c->list[k].spec.life == MPS_LIFE_STEP) return c->list[k].array;
-    mps__field *f = mps__particles_field(s, c->list[k].spec.name);
-    return f ? *f->data : NULL;
+    const mps__field *f = mps__channels_field(c, s, k);
+    return f ? *f->data : c->list[k].array;
 }

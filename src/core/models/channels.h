@@ -12,7 +12,10 @@ enum { MPS__CHANNELS = 64 };
 /* Accesses that read values of neighbours. */
 enum { MPS__USE_AROUND = MPS_USE_NEIGHBOURS | MPS_USE_DUMMIES | MPS_USE_ROWS };
 
-/* Channels of the library, in the order of the list. */
+/* Access of passes of the library: the values before are dead, another life of the channel begins. */
+enum { MPS__USE_BEGIN = 1 << 16 };
+
+/* Channels of the library, in the order of the list. Those from MPS__PUBLIC_CHANNELS on are for its own passes. */
 enum {
     MPS__VELOCITY,
     MPS__PRESSURE,
@@ -32,23 +35,47 @@ enum {
     MPS__GAS_SHIFT,
     MPS__GAS_LAW,
     MPS__WALL_PRESSURE,
+    MPS__SOLID_PLACE,
+    MPS__SOLID_AREA,
+    MPS__EQUATION_RADIUS,
+    MPS__EQUATION_COMPLETE,
+    MPS__EQUATION_BODY,
+    MPS__EQUATION_WALL_FACTOR,
+    MPS__EQUATION_GAIN,
+    MPS__PUBLIC_CHANNELS,
+    MPS__POSITION = MPS__PUBLIC_CHANNELS,
+    MPS__POSITION_BEFORE,
+    MPS__UNKNOWN_NUMBERS,
+    MPS__UNKNOWN_PLACES,
     MPS__OWN_CHANNELS
+};
+
+/* Where the array of a channel is. */
+enum {
+    MPS__IN_ARENA, /* memory of a step, of which channels that do not live at the same time share parts */
+    MPS__IN_FIELD /* a field of the particles, or a number elsewhere: set for each step */
 };
 
 typedef struct mps__channel {
     mps_channel spec;       /* its name is that of the model's table, or the library's */
-    uint32_t reads, writes; /* bits of the moments in which it may be read and written */
-    int32_t components;     /* numbers per particle */
+    uint32_t reads, writes; /* bits of the hooks in which it may be read and written */
+    int32_t components;     /* numbers per particle; 0: a scalar */
     int32_t users;          /* active models that bring it */
-    bool stale;  /* owners have newer values than ghosts; of MPS_LIFE_PARTICLE: the field knows */
-    void *array; /* where it is in this step; of MPS_LIFE_PARTICLE: NULL, the field has it */
+    int32_t where;          /* MPS__IN_... */
+    int32_t field;          /* of MPS__IN_FIELD: its number, found when a plan is made */
+    int64_t offset;         /* of MPS__IN_ARENA: bytes a particle before it; -1: no call uses it */
+    bool stale;    /* owners have newer values than ghosts; of MPS_LIFE_PARTICLE: the field knows */
+    void *array;   /* where it is in this step; of MPS_LIFE_PARTICLE: NULL, the field has it */
+    double scalar; /* value of a scalar that a model brings */
 } mps__channel;
 
 typedef struct mps__channels {
     mps__context *context;
     int32_t dim, count;
-    int64_t capacity; /* particles that the arrays of models have room for */
     mps__channel list[MPS__CHANNELS];
+    int64_t stride; /* bytes of the arena a particle */
+    size_t held;    /* bytes of the arena */
+    char *arena;
 } mps__channels;
 
 void mps__channels_init(mps__channels *c, mps__context *context, int32_t dim);
@@ -62,13 +89,24 @@ mps_status mps__channels_bring(mps__channels *c, mps__particles *s, const mps_mo
                                const mps_model_ops *leaving);
 /* A model that is switched off takes back what no other brings. Fields of particles stay. */
 void mps__channels_drop(mps__channels *c, const mps_model_ops *ops);
+/* Place of a channel of the library, also of those for its passes only. */
+int32_t mps__channels_find_own(const char *name);
 /* Place in the list, or -1. */
 int32_t mps__channels_find(const mps__channels *c, const char *name);
 
-/* Room for the arrays of models. */
+/* Room in the arena for n particles; sets the arrays of the channels in it. */
 mps_status mps__channels_reserve(mps__channels *c, int64_t n);
-/* Set rows begin .. end-1 of the arrays of models that live for a step to their first values. */
-void mps__channels_begin(const mps__channels *c, int64_t begin, int64_t end);
+/* Set rows begin .. end-1 of a channel that lives for a step to its first value; of a scalar, all of it. */
+void mps__channel_begin(const mps__channel *k, int32_t dim, int64_t begin, int64_t end);
+/* Whether channel k of the list is a number for all particles. */
+static inline bool mps__channel_is_scalar(const mps__channel *k)
+{
+    return k->spec.components == MPS_SCALAR;
+}
+/* The field of the particles that channel k is, or NULL; from MPS__CHANNELS on a field by its number. */
+mps__field *mps__channels_field(const mps__channels *c, mps__particles *s, int32_t k);
+/* Note the fields of all channels, so that they are found without a search. */
+void mps__channels_find_fields(mps__channels *c, mps__particles *s);
 /* Bytes of channel k for each particle. */
 size_t mps__channel_element(const mps__channel *k);
 /* The same of channel k of the list, or of a field of the user. */

@@ -4,12 +4,17 @@
 #include <math.h>
 #include <string.h>
 
-static bool may_write(const mps__host *h, const mps__call *call, const void *array)
+/* Whether the call may write some bytes of an array of `element` bytes a particle. What the last of a step keeps are fields that are no channels. */
+static bool may_write(const mps__host *h, const mps__call *call, const char *array, size_t element)
 {
-    bool may = false;
-    for (int32_t u = 0; u < call->verb->use_count; u++)
-        may = may || (call->verb->uses[u].access & MPS_USE_WRITE &&
-                      mps__channels_array(h->channels, h->particles, call->channel[u]) == array);
+    bool may = call->pass && call->pass->place == MPS__LAST_OF_STEP;
+    for (int32_t u = 0; u < call->use_count; u++) {
+        const char *other = mps__channels_array(h->channels, h->particles, call->channel[u]);
+        if (!other || !(call->uses[u].access & MPS_USE_WRITE)) continue;
+        const size_t n = (size_t)h->particles->n,
+                     bytes = mps__channels_bytes(h->channels, h->particles, call->channel[u]);
+        may = may || (array < other + n * bytes && other < array + n * element);
+    }
     return may;
 }
 
@@ -25,21 +30,22 @@ static mps_status protect(mps__guard *g, const mps__host *h, const char *name, c
     return MPS_OK;
 }
 
-mps_status mps__guard_begin(mps__guard *g, const mps__host *h, const mps_stage *s,
-                            const mps__call *call)
+/* Channels of models come first: memory that they share has their names. */
+mps_status mps__guard_begin(mps__guard *g, const mps__host *h, const mps__call *call)
 {
     mps_status status = MPS_OK;
-    (void)s;
     g->count = 0;
-    for (int32_t k = 0; k < h->channels->count && status == MPS_OK; k++) {
+    for (int32_t m = 0; m < h->channels->count && status == MPS_OK; m++) {
+        const int32_t k = (m + MPS__OWN_CHANNELS) % h->channels->count;
         const mps__channel *c = &h->channels->list[k];
         const void *array = mps__channels_array(h->channels, h->particles, k);
-        if (!may_write(h, call, array))
+        if (array && c->where == MPS__IN_ARENA && !mps__channel_is_scalar(c) &&
+            !may_write(h, call, array, mps__channel_element(c)))
             status = protect(g, h, c->spec.name, array, mps__channel_element(c));
     }
     for (int32_t k = 0; k < h->particles->fields && status == MPS_OK; k++) {
         const mps__field *f = &h->particles->field[k];
-        if (!may_write(h, call, *f->data))
+        if (!may_write(h, call, *f->data, (size_t)f->components * f->size))
             status = protect(g, h, f->name, *f->data, (size_t)f->components * f->size);
     }
     return status;
@@ -53,16 +59,15 @@ static mps_status compare(const mps__host *h, const mps_stage *s, const mps__cal
     size_t at = 0;
     while (((const char *)k->array)[at] == ((const char *)k->copy)[at]) at++;
     return mps__fail(h->context, MPS_E_PLUGIN,
-                     "model '%s' at t = %.9g s wrote '%s' of particle %lld in moment '%s': its "
+                     "model '%s' at t = %.9g s wrote '%s' of particle %lld in hook '%s': its "
                      "verb must declare this with MPS_USE_WRITE",
-                     call->model->ops->name, s->t, k->name,
-                     (long long)h->particles->id[at / k->element], mps__moment_name(s->moment));
+                     call->name, s->view->t, k->name, (long long)h->particles->id[at / k->element],
+                     mps__hook_name(s->hook));
 }
 
 mps_status mps__guard_end(mps__guard *g, const mps__host *h, const mps_stage *s,
-                          const mps__call *call)
+                          const mps__call *call, mps_status status)
 {
-    mps_status status = MPS_OK;
     for (int32_t k = 0; k < g->count; k++) {
         if (status == MPS_OK) status = compare(h, s, call, &g->list[k]);
         mps__free(h->context, g->list[k].copy);
@@ -72,10 +77,6 @@ mps_status mps__guard_end(mps__guard *g, const mps__host *h, const mps_stage *s,
 
 void mps__guard_poison(const mps__host *h)
 {
-    for (int32_t k = 0; k < h->channels->count; k++) {
-        const mps__channel *c = &h->channels->list[k];
-        const bool field = k < MPS__OWN_CHANNELS && c->reads & 1u << MPS_LIMIT;
-        if (c->spec.life != MPS_LIFE_STEP || c->spec.type != MPS_TYPE_REAL || field) continue;
-        for (int64_t v = 0; v < h->particles->n * c->components; v++) ((double *)c->array)[v] = NAN;
-    }
+    double *values = (double *)(void *)h->channels->arena;
+    for (size_t v = 0; v < h->channels->held / sizeof *values; v++) values[v] = NAN;
 }

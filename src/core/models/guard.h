@@ -18,11 +18,10 @@ typedef struct mps__guard {
 } mps__guard;
 
 /* Before a verb. */
-mps_status mps__guard_begin(mps__guard *g, const mps__host *h, const mps_stage *s,
-                            const mps__call *call);
-/* After it: MPS_E_PLUGIN with model, channel and particle if it wrote what it does not declare. */
+mps_status mps__guard_begin(mps__guard *g, const mps__host *h, const mps__call *call);
+/* After it: `status`, if it failed, or MPS_E_PLUGIN with model, channel and particle if it wrote what it does not declare. */
 mps_status mps__guard_end(mps__guard *g, const mps__host *h, const mps_stage *s,
-                          const mps__call *call);
+                          const mps__call *call, mps_status status);
 /* The step is over: arrays that live for a step become NaN. */
 void mps__guard_poison(const mps__host *h);
 

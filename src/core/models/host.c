@@ -3,27 +3,26 @@
 #include "guard.h"
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static mps_status verb_failed(mps__host *h, const mps__call *call, double t)
 {
     char *error = h->context->error;
     const mps_status status = h->no_memory ? MPS_E_NOMEM : MPS_E_PLUGIN;
     if (!error[0])
-        return mps__fail(h->context, status, "model '%s' failed at t = %.9g s",
-                         call->model->ops->name, t);
-    return mps__fail(h->context, status, "model '%s' at t = %.9g s: %.300s", call->model->ops->name,
-                     t, error);
+        return mps__fail(h->context, status, "model '%s' failed at t = %.9g s", call->name, t);
+    return mps__fail(h->context, status, "model '%s' at t = %.9g s: %.300s", call->name, t, error);
 }
 
 /* The text of a failure at particle i: what the model left there, and what is allowed. */
 static mps_status left(const mps__host *h, const mps_stage *s, const mps__call *call, int64_t i,
                        const char *what, const char *allowed)
 {
-    const double *x = s->x + i * s->dim;
+    const double *x = s->view->x + i * s->view->dim;
     return mps__fail(
         h->context, MPS_E_PLUGIN,
-        "model '%s' at t = %.9g s left %s at particle %lld, (%g, %g, %g) m; must be %s",
-        call->model->ops->name, s->t, what, (long long)s->id[i], x[0], x[1], s->dim == 3 ? x[2] : 0,
+        "model '%s' at t = %.9g s left %s at particle %lld, (%g, %g, %g) m; must be %s", call->name,
+        s->view->t, what, (long long)s->view->id[i], x[0], x[1], s->view->dim == 3 ? x[2] : 0,
         allowed);
 }
 
@@ -33,13 +32,13 @@ static bool is_no_region(const void *regions, int64_t i)
     return region[i] < MPS_REGION_INNER || region[i] > MPS_REGION_DRY;
 }
 
-/* Regions decide which rows later moments work on. */
+/* Regions decide which rows later hooks work on. */
 static mps_status check_regions(const mps__host *h, const mps_stage *s, const mps__call *call)
 {
     char what[32], allowed[32];
     const int32_t *region = mps__channels_array(h->channels, h->particles, MPS__REGION);
-    const int64_t first = mps__parallel_first(h->parallel, s->n, is_no_region, region);
-    if (first == s->n) return MPS_OK;
+    const int64_t first = mps__parallel_first(h->parallel, s->view->n, is_no_region, region);
+    if (first == s->view->n) return MPS_OK;
     snprintf(what, sizeof what, "region %d", (int)region[first]);
     snprintf(allowed, sizeof allowed, "%d..%d", MPS_REGION_INNER, MPS_REGION_DRY);
     return left(h, s, call, first, what, allowed);
@@ -47,8 +46,8 @@ static mps_status check_regions(const mps__host *h, const mps_stage *s, const mp
 
 static bool writes(const mps__call *call, int32_t channel)
 {
-    for (int32_t u = 0; u < call->verb->use_count; u++)
-        if (call->channel[u] == channel && call->verb->uses[u].access & MPS_USE_WRITE) return true;
+    for (int32_t u = 0; u < call->use_count; u++)
+        if (call->channel[u] == channel && call->uses[u].access & MPS_USE_WRITE) return true;
     return false;
 }
 
@@ -64,8 +63,8 @@ static mps_status check_number_density(const mps__host *h, const mps_stage *s,
 {
     char what[64];
     const double *nd = mps__channels_array(h->channels, h->particles, MPS__NUMBER_DENSITY);
-    const int64_t first = mps__parallel_first(h->parallel, s->n, is_not_finite, nd);
-    if (first == s->n) return MPS_OK;
+    const int64_t first = mps__parallel_first(h->parallel, s->view->n, is_not_finite, nd);
+    if (first == s->view->n) return MPS_OK;
     snprintf(what, sizeof what, "the number density %g", nd[first]);
     return left(h, s, call, first, what, "finite");
 }
@@ -75,47 +74,50 @@ static mps_status left_equation(const mps__host *h, const mps_stage *s, const mp
 {
     return mps__fail(h->context, MPS_E_PLUGIN,
                      "model '%s' at t = %.9g s left %s = %g in the pressure equation; must be %s",
-                     call->model->ops->name, s->t, what, value, allowed);
+                     call->name, s->view->t, what, value, allowed);
+}
+
+static double number_of(const mps__host *h, int32_t channel)
+{
+    const mps__channel *k = &h->channels->list[channel];
+    return k->spec.type == MPS_TYPE_INTEGER ? *(const int32_t *)k->array
+                                            : *(const double *)k->array;
 }
 
 /* The step divides by the gain, and a NaN here would be that of all pressures. */
 static mps_status check_equation(const mps__host *h, const mps_stage *s, const mps__call *call)
 {
-    const mps_equation *e = s->equation;
-    if (e->radius != MPS_NEAR && e->radius != MPS_FAR)
-        return left_equation(h, s, call, "radius", e->radius, "MPS_NEAR or MPS_FAR");
-    if (!(e->gain > 0 && e->gain <= 1))
-        return left_equation(h, s, call, "gain", e->gain, "> 0 and <= 1");
-    if (!(e->wall_factor >= 0 && isfinite(e->wall_factor)))
-        return left_equation(h, s, call, "wall_factor", e->wall_factor, "finite and >= 0");
+    const double radius = number_of(h, MPS__EQUATION_RADIUS),
+                 gain = number_of(h, MPS__EQUATION_GAIN),
+                 wall_factor = number_of(h, MPS__EQUATION_WALL_FACTOR);
+    if (radius != MPS_NEAR && radius != MPS_FAR)
+        return left_equation(h, s, call, "equation_radius", radius, "MPS_NEAR or MPS_FAR");
+    if (!(gain > 0 && gain <= 1))
+        return left_equation(h, s, call, "equation_gain", gain, "> 0 and <= 1");
+    if (!(wall_factor >= 0 && isfinite(wall_factor)))
+        return left_equation(h, s, call, "equation_wall_factor", wall_factor, "finite and >= 0");
     return MPS_OK;
 }
 
 static mps_status check_after(const mps__host *h, const mps_stage *s, const mps__call *call)
 {
-    if (s->moment == MPS_LIMIT && !(s->dt_limit > 0))
+    if (s->hook == MPS_LIMIT && !(s->dt_limit > 0))
         return mps__fail(
             h->context, MPS_E_PLUGIN,
             "model '%s' at t = %.9g s allows a step of %g s; must be > 0, INFINITY for no limit",
-            call->model->ops->name, s->t, s->dt_limit);
+            call->name, s->view->t, s->dt_limit);
     if (!mps__models_foreign(h->models, call->model)) return MPS_OK;
-    if (s->equation) MPS__TRY(check_equation(h, s, call));
+    for (int32_t u = 0; u < call->use_count; u++)
+        if (call->channel[u] >= MPS__EQUATION_RADIUS && call->channel[u] <= MPS__EQUATION_GAIN)
+            MPS__TRY(check_equation(h, s, call));
     if (writes(call, MPS__NUMBER_DENSITY)) MPS__TRY(check_number_density(h, s, call));
-    return s->moment == MPS_CLASSIFY ? check_regions(h, s, call) : MPS_OK;
+    return writes(call, MPS__REGION) ? check_regions(h, s, call) : MPS_OK;
 }
 
 /* ---- ghosts ---- */
 
-void mps__host_flux(const mps__host *h, int32_t channel[MPS__FLUX_CHANNELS])
-{
-    channel[0] = MPS__PRESSURE_DENSITY;
-    channel[1] = MPS__TANK_ACCELERATION;
-    channel[2] = mps__channels_find(h->channels, "interface_distance");
-    channel[3] = mps__channels_find(h->channels, "pressure_jump");
-    channel[4] = mps__channels_find(h->channels, "wetted_share");
-}
-
-mps_status mps__host_share(mps__host *h, const int32_t *channel, int32_t count)
+/* Ghosts get the values of those of the channels whose owners have newer ones. */
+static mps_status share(mps__host *h, const int32_t *channel, int32_t count)
 {
     mps__shared shared[MPS__USES + MPS__FLUX_CHANNELS];
     int32_t found = 0;
@@ -131,90 +133,238 @@ mps_status mps__host_share(mps__host *h, const int32_t *channel, int32_t count)
     return mps__ghosts_share(h->ghosts, shared, found);
 }
 
-void mps__host_written(mps__host *h, int32_t channel)
-{
-    *mps__channels_stale(h->channels, h->particles, channel) = true;
-}
-
-void mps__host_alike(mps__host *h, int32_t channel)
-{
-    *mps__channels_stale(h->channels, h->particles, channel) = false;
-}
-
 void mps__host_all_alike(mps__host *h)
 {
     for (int32_t k = 0; k < h->channels->count; k++) h->channels->list[k].stale = false;
     for (int32_t k = 0; k < h->particles->fields; k++) h->particles->field[k].stale = false;
 }
 
-/* Channels that the verb reads at neighbours; from MPS_FORCE on also those of the fluxes of pairs, which need no use. */
-static mps_status share_before(mps__host *h, const mps_stage *s, const mps__call *call)
+/* Channels that the call reads at neighbours; from MPS_FORCE on also those of the fluxes of pairs, which need no use. */
+static mps_status share_before(mps__host *h, const mps__call *call)
 {
     int32_t channel[MPS__USES + MPS__FLUX_CHANNELS], count = 0;
+    bool pairs = call->model != NULL;
     if (!mps__ranks_many(h->ghosts->ranks)) return MPS_OK;
-    for (int32_t u = 0; u < call->verb->use_count; u++)
-        if (call->verb->uses[u].access & MPS__USE_AROUND) channel[count++] = call->channel[u];
-    if (s->moment >= MPS_FORCE) {
-        mps__host_flux(h, channel + count);
+    for (int32_t u = 0; u < call->use_count; u++) {
+        if (!(call->uses[u].access & MPS__USE_AROUND)) continue;
+        channel[count++] = call->channel[u];
+        pairs = true;
+    }
+    if (pairs && call->hook >= MPS_FORCE) {
+        mps__flux_channels(h->channels, channel + count);
         count += MPS__FLUX_CHANNELS;
     }
-    return mps__host_share(h, channel, count);
+    return share(h, channel, count);
 }
 
-static void note_writes(mps__host *h, const mps__call *call)
+static bool is_array(const mps__host *h, int32_t channel)
 {
-    for (int32_t u = 0; u < call->verb->use_count; u++)
-        if (call->channel[u] >= 0 && call->verb->uses[u].access & MPS_USE_WRITE)
-            mps__host_written(h, call->channel[u]);
+    return channel >= MPS__CHANNELS ||
+           (channel >= 0 && !mps__channel_is_scalar(&h->channels->list[channel]));
 }
 
-static mps_status run_call(mps__host *h, mps_stage *s, const mps__call *call)
+/* Which values ghosts have after a call, and the other place. Loops go over owned rows; those of a pass that is everywhere give ghosts values as
+ * new as those that it read, and as those that it changed. */
+static void note_writes(mps__host *h, const mps__call *call, int32_t place)
 {
-    void *data[MPS__USES];
-    MPS__TRY(share_before(h, s, call));
-    for (int32_t u = 0; u < call->verb->use_count; u++)
-        data[u] = mps__channels_array(h->channels, h->particles, call->channel[u]);
-    s->data = data;
-    s->setting = call->model->k;
-    s->self = call->model->self;
+    bool old = !(call->pass && call->pass->everywhere);
+    for (int32_t u = 0; u < call->use_count && !old; u++)
+        old = !(call->uses[u].access & MPS_USE_WRITE) && is_array(h, call->channel[u]) &&
+              *mps__channels_stale(h->channels, h->particles, call->channel[u]);
+    for (int32_t u = 0; u < call->use_count; u++) {
+        if (!is_array(h, call->channel[u]) || !(call->uses[u].access & MPS_USE_WRITE)) continue;
+        bool *stale = mps__channels_stale(h->channels, h->particles, call->channel[u]);
+        *stale = old || (call->uses[u].access & MPS_USE_READ && *stale);
+        mps__twins_written(&h->twins, call->channel[u], place);
+    }
+}
+
+/* ---- first values ---- */
+
+typedef struct beginning {
+    const mps__channel *channel;
+    int32_t dim;
+} beginning;
+
+static void begin_rows(void *argument, int64_t begin, int64_t end)
+{
+    const beginning *b = argument;
+    mps__channel_begin(b->channel, b->dim, begin, end);
+}
+
+/* Channels of models get their first values before the first call that uses them. */
+static void begin_channels(mps__host *h, const mps__call *call, int32_t place)
+{
+    for (int32_t k = MPS__OWN_CHANNELS; call->begins >> k; k++) {
+        if (!(call->begins >> k & 1)) continue;
+        mps__channel there = h->channels->list[k];
+        there.array = mps__twins_array(&h->twins, k, place);
+        h->channels->list[k].stale = false;
+        mps_parallel_rows(h->parallel, h->particles->n, begin_rows,
+                          &(beginning){&there, h->channels->dim});
+        mps__twins_written(&h->twins, k, place);
+    }
+}
+
+/* ---- an engine ---- */
+
+/* Where a call runs. Verbs of plug-ins and passes that read the world run on the host. */
+static int32_t place_of(const mps__host *h, const mps__call *call)
+{
+    if (!h->twins.open) return MPS__ON_HOST;
+    const bool flat = call->pass ? call->pass->flat : !mps__models_foreign(h->models, call->model);
+    return flat ? MPS__ON_ENGINE : MPS__ON_HOST;
+}
+
+/* What a call reads comes to where it runs, and so do rows that it leaves as they are. Fluxes of pairs need no use. */
+static void make_ready(mps__host *h, const mps__call *call, int32_t place)
+{
+    int32_t flux[MPS__FLUX_CHANNELS];
+    if (!h->twins.open) return;
+    mps__twins_ready(&h->twins, MPS__POSITION, place);
+    for (int32_t u = 0; u < call->use_count; u++)
+        if (!(call->uses[u].access & MPS__USE_BEGIN))
+            mps__twins_ready(&h->twins, call->channel[u], place);
+    if (call->hook < MPS_FORCE) return;
+    mps__flux_channels(h->channels, flux);
+    for (int f = 0; f < MPS__FLUX_CHANNELS; f++) mps__twins_ready(&h->twins, flux[f], place);
+}
+
+/* The view shows arrays of one place. What no call writes, as kinds and rows of pairs, has only one. */
+static void show_place(mps__host *h, mps_view *v, int32_t place)
+{
+    int32_t flux[MPS__FLUX_CHANNELS];
+    if (!h->twins.open) return;
+    v->x = v->near.x = v->far.x = mps__twins_array(&h->twins, MPS__POSITION, place);
+    if (!v->flux.density) return;
+    mps__flux_channels(h->channels, flux);
+    v->flux.density = mps__twins_array(&h->twins, flux[0], place);
+    v->flux.tank_acceleration = mps__twins_array(&h->twins, flux[1], place);
+    v->flux.distance = mps__twins_array(&h->twins, flux[2], place);
+    v->flux.jump = mps__twins_array(&h->twins, flux[3], place);
+    v->flux.wetted = mps__twins_array(&h->twins, flux[4], place);
+}
+
+/* ---- calls ---- */
+
+static mps_status run_verb(mps__host *h, mps_stage *s, const mps__call *call)
+{
+    const mps__lock before = mps__lock_set(h->context, MPS__LOCKED, "a verb of a model");
     h->context->error[0] = 0;
     h->no_memory = false;
     h->misused = false;
+    h->foreign = mps__models_foreign(h->models, call->model);
     const int failed = call->verb->run(s) || h->misused;
+    h->context->lock = before;
+    return failed ? verb_failed(h, call, s->view->t) : check_after(h, s, call);
+}
+
+static mps_status run_call(mps__host *h, mps_stage *s, mps_view *v, mps__call *call)
+{
+    void *data[MPS__USES];
+    const int32_t place = place_of(h, call);
+    for (int32_t u = 0; u < call->use_count; u++)
+        data[u] = mps__twins_array(&h->twins, call->channel[u], place);
+    show_place(h, v, place);
+    s->data = data;
+    v->setting = call->model ? call->model->k : NULL;
+    s->self = call->model ? call->model->self : h->step;
+    h->everywhere = call->pass && call->pass->everywhere;
+    const mps_status status = call->pass ? call->pass->run(s) : run_verb(h, s, call);
+    h->everywhere = false;
     h->scratch_used = 0;
     s->data = NULL;
-    note_writes(h, call);
-    return failed ? verb_failed(h, call, s->t) : check_after(h, s, call);
+    show_place(h, v, MPS__ON_HOST);
+    note_writes(h, call, place);
+    return status;
+}
+
+/* ---- costs ---- */
+
+/* Bytes that the loops of a call move at least: each array that it declares once for reading, once for writing. */
+static double bytes_of(const mps__host *h, const mps__call *call)
+{
+    double bytes = 0;
+    for (int32_t u = 0; u < call->use_count; u++) {
+        if (!is_array(h, call->channel[u])) continue;
+        const int32_t access = call->uses[u].access;
+        const int times = !!(access & (MPS_USE_READ | MPS__USE_AROUND)) +
+                          !!(access & MPS_USE_WRITE);
+        bytes += times * (double)h->particles->n *
+                 (double)mps__channels_bytes(h->channels, h->particles, call->channel[u]);
+    }
+    return bytes;
+}
+
+void mps__host_begin(mps__host *h)
+{
+    memset(h->seconds, 0, sizeof h->seconds);
+    h->step = NULL; /* that of the step before is gone */
+    h->before_call = NULL;
+    h->in_calls = 0;
+    h->clock = mps__clock();
+}
+
+double mps__host_book(mps__host *h, int part)
+{
+    const double now = mps__clock(), seconds = now - h->clock - h->in_calls;
+    mps__cost *cost = &h->plan.outside[part];
+    cost->calls++;
+    cost->seconds += seconds;
+    h->in_calls = 0;
+    h->clock = now;
+    return seconds;
+}
+
+static int stage_of(const mps__call *call)
+{
+    if (call->pass) return call->pass->stage;
+    return call->hook <= MPS_SOURCE ? MPS_STAGE_OPERATORS : MPS_STAGE_CORRECT;
 }
 
 #ifdef MPS_CHECKED
-static mps_status run_checked(mps__host *h, mps_stage *s, const mps__call *call)
+static mps_status run_checked(mps__host *h, mps_stage *s, mps_view *v, mps__call *call)
 {
     mps__guard guard;
-    mps_status status = mps__guard_begin(&guard, h, s, call);
-    if (status == MPS_OK) status = run_call(h, s, call);
-    const mps_status after = mps__guard_end(&guard, h, s, call);
-    return status < 0 ? status : after;
+    mps_status status = mps__guard_begin(&guard, h, call);
+    if (status == MPS_OK) status = run_call(h, s, v, call);
+    return mps__guard_end(&guard, h, s, call, status);
 }
 #else
 #define run_checked run_call
 #endif
 
-mps_status mps__host_run(mps__host *h, mps_stage *s, int32_t moment)
+mps_status mps__host_run(mps__host *h, mps_stage *s, mps_view *v, int32_t hook)
 {
-    const mps__lock before = mps__lock_set(h->context, MPS__LOCKED, "a verb of a model");
     mps_status status = MPS_OK;
-    s->moment = moment;
+    double clock = mps__clock();
+    s->hook = hook;
+    s->view = v;
     s->host = h;
-    for (int32_t k = h->plan.begin[moment]; k < h->plan.begin[moment + 1] && status == MPS_OK; k++)
-        status = run_checked(h, s, &h->plan.call[k]);
-    h->context->lock = before;
+    if (hook == MPS_LIMIT) h->limiter = -1;
+    for (int32_t k = h->plan.begin[hook]; k < h->plan.begin[hook + 1] && status == MPS_OK; k++) {
+        mps__call *call = &h->plan.call[k];
+        const double limit = s->dt_limit;
+        if (h->before_call) h->before_call(h->step, call);
+        status = share_before(h, call);
+        begin_channels(h, call, place_of(h, call));
+        make_ready(h, call, place_of(h, call));
+        if (status == MPS_OK) status = run_checked(h, s, v, call);
+        if (hook == MPS_LIMIT && s->dt_limit < limit) h->limiter = k;
+        call->cost.calls++;
+        call->cost.bytes += bytes_of(h, call);
+        const double now = mps__clock(), seconds = now - clock;
+        clock = now;
+        call->cost.seconds += seconds;
+        h->seconds[stage_of(call)] += seconds;
+        h->in_calls += seconds;
+    }
     return status;
 }
 
 const char *mps__host_writer(const mps__host *h, int32_t channel)
 {
-    for (int32_t k = 0; k < h->plan.begin[MPS_MOMENT_COUNT]; k++)
-        if (writes(&h->plan.call[k], channel)) return h->plan.call[k].model->ops->name;
+    for (int32_t k = 0; k < h->plan.begin[MPS_HOOK_COUNT]; k++)
+        if (h->plan.call[k].model && writes(&h->plan.call[k], channel)) return h->plan.call[k].name;
     return NULL;
 }

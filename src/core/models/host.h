@@ -3,10 +3,18 @@
 #ifndef MPS_CORE_HOST_H
 #define MPS_CORE_HOST_H
 
+#include "engine.h"
 #include "motion.h"
 #include "parallel.h"
-#include "plan.h"
+#include "reaction.h"
 #include "sets.h"
+#include <mps/step.h>
+
+/* A particle of fluid to come. */
+typedef struct mps__entry {
+    double x[3], u[3];
+    int32_t phase;
+} mps__entry;
 
 typedef struct mps__host {
     mps__context *context;
@@ -17,26 +25,46 @@ typedef struct mps__host {
     int32_t scratch_used;  /* so many blocks */
     const mps_parallel *parallel;
     mps__ghosts *ghosts;
-    const mps__motion *motion; /* of the tank */
-    const mps__pose *next;     /* pose at the end of the step; NULL: not known yet */
-    bool no_memory;            /* a verb got no scratch */
-    bool misused;              /* a verb asked for a loop that there is not */
-    mps__sets sets;            /* bodies */
+    const bool *phase_defined; /* [MPS__PHASES] */
+    mps__entry *entry;         /* fluid that verbs of MPS_POPULATE let in */
+    int64_t entries, entry_capacity;
+    uint8_t *leaves; /* [n] 1: a row that leaves; where `leaving` */
+    int64_t leaves_capacity;
+    bool leaving;
+    bool everywhere; /* loops go over ghosts too */
+    bool foreign;    /* the verb in progress is not one of the library's */
+    bool no_memory;  /* a verb got no scratch */
+    bool misused;    /* a verb asked for a loop that there is not */
+    int32_t limiter; /* place in the plan of the verb that lowered s->dt_limit last, or -1 */
+    mps__sets sets;  /* bodies */
     mps__plan plan;
+    mps__twins twins;
+    mps__reactions reactions; /* of the step in progress */
+    void *step;               /* the step in progress, for passes; NULL before MPS_LIMIT */
+    void (*before_call)(void *step, const mps__call *); /* what verbs see may have changed */
+    double seconds[MPS_STAGE_COUNT];                    /* of the step, by MPS_STAGE_... */
+    double clock;    /* when a part of the step was booked last, or the step began [s] */
+    double in_calls; /* of calls since then [s] */
 } mps__host;
 
-/* Channels that mps_flux shows; -1: no model brings it. */
-enum { MPS__FLUX_CHANNELS = 5 };
-void mps__host_flux(const mps__host *h, int32_t channel[MPS__FLUX_CHANNELS]);
-/* Ghosts get the values of those of the channels whose owners have newer ones. `channel` may have -1, for none; at most 24 besides those of fluxes. */
-mps_status mps__host_share(mps__host *h, const int32_t *channel, int32_t count);
-/* Owners have written new values of a channel; or ghosts have got the same ones. */
-void mps__host_written(mps__host *h, int32_t channel);
-void mps__host_alike(mps__host *h, int32_t channel);
+/* A step begins: its costs add up to the time from here to the last part that is booked. */
+void mps__host_begin(mps__host *h);
+/* Book a part of the step outside of its calls: the time since the part before, without that of calls. @return it [s] */
+double mps__host_book(mps__host *h, int part);
+
 /* Ghosts are new: they have all fields of their owners. */
 void mps__host_all_alike(mps__host *h);
-/* Run the verbs of a moment in their order. MPS_E_PLUGIN, MPS_E_NOMEM with model and time in the text. */
-mps_status mps__host_run(mps__host *h, mps_stage *s, int32_t moment);
+/* Run the calls of a hook in their order. Of a verb MPS_E_PLUGIN, MPS_E_NOMEM with model and time in the text. */
+mps_status mps__host_run(mps__host *h, mps_stage *s, mps_view *v, int32_t hook);
+/* Loops over owned rows outside of calls, which only look at the particles as they are: mps__world_view(). stage.c */
+void mps__host_rows(const mps__host *h, const mps_view *v, const mps_rows *rows,
+                    const void *fields);
+/* Exact sums, of all ranks. @param count  1..MPS_PARALLEL_VALUES */
+void mps__host_sum(const mps__host *h, const mps_view *v, int32_t count, const mps_sums *add,
+                   const void *fields, double *sums);
+/* Maxima, of all ranks; `maxima` are lower bounds before. */
+void mps__host_max(const mps__host *h, const mps_view *v, int32_t count, const mps_sums *raise,
+                   const void *fields, double *maxima);
 /* Name of the first model that writes a channel of the library, or NULL. */
 const char *mps__host_writer(const mps__host *h, int32_t channel);
 

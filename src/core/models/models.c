@@ -1,27 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Registry of models, the active list and its settings. */
 #include "models.h"
+#include "built_in.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-/* One line of a preset: switch a model on (key NULL), or change a number of the one switched on last. */
-typedef struct preset_line {
-    const char *model, *key;
-    double value;
-} preset_line;
-
-#include "presets.inc"
-
-#define MODEL(name) extern const mps_model_ops mps__##name;
-#include "models.inc"
-#undef MODEL
-
-static const mps_model_ops *const built_in[] = {
-#define MODEL(name) &mps__##name,
-#include "models.inc"
-#undef MODEL
-};
 
 static size_t slot_length(const char *name)
 {
@@ -78,9 +61,9 @@ static mps_status check_verbs(mps__context *c, const mps_model_ops *ops)
     for (int32_t v = 0; v < ops->verb_count; v++) {
         const mps_verb *verb = &ops->verbs[v];
         MPS__CHECK(c, verb->run, "model '%s': verb %d has no function", ops->name, (int)v);
-        MPS__CHECK(c, verb->moment >= 0 && verb->moment < MPS_MOMENT_COUNT,
-                   "model '%s': verb %d has moment %d: MPS_LIMIT..MPS_SHIFT", ops->name, (int)v,
-                   (int)verb->moment);
+        MPS__CHECK(c, verb->hook >= 0 && verb->hook < MPS_HOOK_COUNT,
+                   "model '%s': verb %d has hook %d: MPS_POPULATE..MPS_SHIFT", ops->name, (int)v,
+                   (int)verb->hook);
         MPS__CHECK(c,
                    verb->use_count >= 0 && verb->use_count <= MPS__USES &&
                        (verb->use_count == 0 || verb->uses),
@@ -112,8 +95,9 @@ static mps_status check_tables(mps__context *c, const mps_model_ops *ops)
         const void *table;
     } all[] = {{"settings", ops->setting_count, 0, MPS__SETTINGS, ops->settings},
                {"channels", ops->channel_count, 0, MPS__BROUGHT, ops->channels},
-               {"verbs", ops->verb_count, 1, MPS__VERBS, ops->verbs}};
-    for (int k = 0; k < 3; k++)
+               {"verbs", ops->verb_count, 1, MPS__VERBS, ops->verbs},
+               {"parts", ops->part_count, 0, MPS__BROUGHT, ops->parts}};
+    for (int k = 0; k < 4; k++)
         MPS__CHECK(c,
                    all[k].count >= all[k].least && all[k].count <= all[k].most &&
                        (all[k].count == 0 || all[k].table),
@@ -122,6 +106,10 @@ static mps_status check_tables(mps__context *c, const mps_model_ops *ops)
     MPS__TRY(check_settings(c, ops));
     for (int32_t k = 0; k < ops->channel_count; k++)
         MPS__TRY(mps__channel_check(c, ops->name, &ops->channels[k]));
+    for (int32_t k = 0; k < ops->part_count; k++)
+        MPS__CHECK(c, ops->parts[k] && ops->parts[k][0] && strlen(ops->parts[k]) < MPS__PART_NAME,
+                   "model '%s': the name of part %d must have 1..%d characters", ops->name, (int)k,
+                   MPS__PART_NAME - 1);
     return check_verbs(c, ops);
 }
 
@@ -162,8 +150,8 @@ mps_status mps__models_init(mps__models *m, mps__context *context, mps__channels
                             mps__particles *particles)
 {
     *m = (mps__models){.context = context, .channels = channels, .particles = particles};
-    for (size_t k = 0; k < sizeof built_in / sizeof built_in[0]; k++)
-        MPS__TRY(mps__models_register(m, built_in[k]));
+    for (int k = 0; mps__built_in_models[k]; k++)
+        MPS__TRY(mps__models_register(m, mps__built_in_models[k]));
     m->built_in = m->known;
     return MPS_OK;
 }
@@ -194,6 +182,19 @@ bool mps__models_dummy_rows(const mps__models *m)
 bool mps__models_neighbour_rows(const mps__models *m)
 {
     return any_use(m, MPS_USE_ROWS);
+}
+
+bool mps__models_move_solids(const mps__models *m)
+{
+    bool any = false;
+    for (int32_t k = 0; k < m->active; k++)
+        for (int32_t v = 0; v < m->on[k].ops->verb_count; v++) {
+            const mps_verb *verb = &m->on[k].ops->verbs[v];
+            for (int32_t u = 0; u < verb->use_count; u++)
+                any = any || (verb->uses[u].access & MPS_USE_WRITE &&
+                              strcmp(verb->uses[u].channel, "solid_place") == 0);
+        }
+    return any;
 }
 
 double mps__models_reach(const mps__models *m, double dp)
@@ -257,12 +258,24 @@ static mps_status unknown_model(mps__models *m, const char *name)
                      mps__list(hint, '"', names, list_slots(m, slot, names)));
 }
 
+static mps_status check_parts(const mps__models *m, const mps_model_ops *ops)
+{
+    int32_t fresh = 0;
+    for (int32_t k = 0; k < ops->part_count; k++)
+        fresh += mps__part_number(m->particles, ops->parts[k], false) < 0;
+    MPS__CHECK(m->context, m->particles->parts + fresh <= MPS__PARTS_MAX,
+               "model '%s' brings %d parts, and there are %d: at most %d", ops->name, (int)fresh,
+               (int)m->particles->parts, MPS__PARTS_MAX);
+    return MPS_OK;
+}
+
 /* A model that is ready to be switched on: its state is made, its channels are there. `leaving`: NULL, or the one it replaces. */
 static mps_status make(mps__models *m, int32_t which, const mps_model_ops *leaving,
                        mps__model *fresh)
 {
     const mps_model_ops *ops = &m->registry[which];
     *fresh = (mps__model){.ops = ops, .self = ops->user};
+    MPS__TRY(check_parts(m, ops));
     for (int32_t k = 0; k < ops->setting_count; k++) fresh->k[k] = ops->settings[k].initial;
     const mps__lock before = mps__lock_set(m->context, MPS__LOCKED, "create of a model");
     const bool failed = ops->create && ops->create(&m->context->allocator, &fresh->self) != 0;
@@ -270,6 +283,8 @@ static mps_status make(mps__models *m, int32_t which, const mps_model_ops *leavi
     if (failed) return mps__fail(m->context, MPS_E_NOMEM, "no memory for model '%s'", ops->name);
     const mps_status status = mps__channels_bring(m->channels, m->particles, ops, leaving);
     if (status < 0 && ops->destroy) ops->destroy(&m->context->allocator, fresh->self);
+    for (int32_t k = 0; k < ops->part_count && status == MPS_OK; k++)
+        mps__part_number(m->particles, ops->parts[k], true);
     return status;
 }
 
@@ -358,15 +373,15 @@ double *mps__models_value(mps__models *m, const char *slot, const char *key,
 mps_status mps__models_preset(mps__models *m, const char *name)
 {
     MPS__CHECK(m->context, name, "the preset's name is NULL");
-    const char *names[PRESET_COUNT];
+    const char *names[MPS__PRESETS];
     char hint[MPS__HINT_SIZE];
-    for (size_t p = 0; p < PRESET_COUNT; p++) {
-        names[p] = presets[p].name;
+    for (int p = 0; p < MPS__PRESETS; p++) {
+        names[p] = mps__presets[p].name;
         if (strcmp(name, names[p]) != 0) continue;
         mps__models kept = *m;
         m->active = 0;
         mps_status status = MPS_OK;
-        for (const preset_line *l = presets[p].lines; l->model && status == MPS_OK; l++) {
+        for (const mps__preset_line *l = mps__presets[p].lines; l->model && status == MPS_OK; l++) {
             if (!l->key)
                 status = mps__models_use(m, l->model);
             else
@@ -382,13 +397,13 @@ mps_status mps__models_preset(mps__models *m, const char *name)
         return status;
     }
     return mps__fail(m->context, MPS_E_NAME, "no preset \"%.60s\"; %s", name,
-                     mps__hint(hint, '"', name, names, PRESET_COUNT));
+                     mps__hint(hint, '"', name, names, MPS__PRESETS));
 }
 
 bool mps__models_preset_info(int32_t k, const char **name, const char **help)
 {
-    if (k < 0 || k >= (int32_t)PRESET_COUNT) return false;
-    *name = presets[k].name;
-    *help = presets[k].help;
+    if (k < 0 || k >= MPS__PRESETS) return false;
+    *name = mps__presets[k].name;
+    *help = mps__presets[k].help;
     return true;
 }

@@ -46,6 +46,8 @@ bool mps__models_foreign(const mps__models *m, const mps__model *model);
 bool mps__models_dummy_rows(const mps__models *m);
 /* Whether an active model reads rows of neighbours. */
 bool mps__models_neighbour_rows(const mps__models *m);
+/* Whether an active model moves solids in the tank. */
+bool mps__models_move_solids(const mps__models *m);
 /* Farthest distance at which an active model looks at particles, if it says so; else 0 [m]. */
 double mps__models_reach(const mps__models *m, double dp);
 /* The setting `key` of the model in a slot; NULL with the error set. `setting` may be NULL. */

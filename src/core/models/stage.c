@@ -16,23 +16,27 @@ static mps__host *host_of(const mps_stage *s)
 
 /* A loop or a sum over rows, as the parallel-for of the handle wants it. */
 typedef struct job {
-    const mps_stage *s;
-    mps_rows_fn rows;
-    mps_sums_fn sums;
-    void *arguments;
+    const mps__host *h;
+    const mps_view *v;
+    const mps_rows *rows;
+    const mps_sums *sums;
+    const void *fields;
     int32_t count; /* sums */
 } job;
 
 static void own_rows(void *argument, int64_t begin, int64_t end)
 {
     const job *k = argument;
-    k->rows(k->s, k->arguments, begin, end);
+    k->rows->run(k->v, k->fields, begin, end);
 }
 
 static void run_rows(void *argument, int64_t begin, int64_t end)
 {
     const job *k = argument;
-    mps__ghosts_rows(host_of(k->s)->ghosts, own_rows, argument, begin, end);
+    if (k->h->everywhere)
+        own_rows(argument, begin, end);
+    else
+        mps__ghosts_rows(k->h->ghosts, own_rows, argument, begin, end);
 }
 
 /* Rows of one thread, and where it collects. */
@@ -42,17 +46,31 @@ typedef struct part {
     double *maxima;
 } part;
 
-/* One row at a time: a sum of several rows would depend on where ranges begin. */
+/* Zeros change no exact sum. */
+static bool is_zero(const double *values, int32_t count)
+{
+    int32_t k = 0;
+    while (k < count && values[k] == 0) k++;
+    return k == count;
+}
+
+/* Terms of each row on its own: a sum of several rows would depend on where ranges begin. */
 static void sum_rows(void *argument, int64_t begin, int64_t end)
 {
+    enum { BLOCK = 32 };
     const part *own_part = argument;
     const job *k = own_part->k;
     mps__terms t;
     mps__terms_begin(&t, own_part->sums, k->count);
-    for (int64_t i = begin; i < end; i++) {
-        double own[MPS_PARALLEL_VALUES] = {0};
-        k->sums(k->s, k->arguments, i, i + 1, own);
-        mps__terms_add(&t, own);
+    for (int64_t from = begin; from < end; from += BLOCK) {
+        const int64_t to = from + BLOCK < end ? from + BLOCK : end;
+        double values[BLOCK * MPS_PARALLEL_VALUES];
+        memset(values, 0, (size_t)((to - from) * k->count) * sizeof *values);
+        k->sums->run(k->v, k->fields, from, to, k->count, values);
+        for (int64_t i = from; i < to; i++) {
+            const double *own = values + (i - from) * k->count;
+            if (!is_zero(own, k->count)) mps__terms_add(&t, own);
+        }
     }
     mps__terms_end(&t);
 }
@@ -62,27 +80,53 @@ static void run_sums(void *argument, int64_t begin, int64_t end, mps_exact *sums
     const job *k = argument;
     part own = {.k = k, .sums = sums};
     (void)none;
-    mps__ghosts_rows(host_of(k->s)->ghosts, sum_rows, &own, begin, end);
+    mps__ghosts_rows(k->h->ghosts, sum_rows, &own, begin, end);
 }
 
 static void raise_rows(void *argument, int64_t begin, int64_t end)
 {
     const part *own_part = argument;
     const job *k = own_part->k;
-    k->sums(k->s, k->arguments, begin, end, own_part->maxima);
+    k->sums->run(k->v, k->fields, begin, end, 0, own_part->maxima);
 }
 
 static void run_maxima(void *argument, int64_t begin, int64_t end, double *values)
 {
     const job *k = argument;
     part own = {.k = k, .maxima = values};
-    mps__ghosts_rows(host_of(k->s)->ghosts, raise_rows, &own, begin, end);
+    mps__ghosts_rows(k->h->ghosts, raise_rows, &own, begin, end);
 }
 
-void mps_stage_rows(const mps_stage *s, mps_rows_fn rows, void *arguments)
+void mps__host_rows(const mps__host *h, const mps_view *v, const mps_rows *rows, const void *fields)
 {
-    job k = {.s = s, .rows = rows, .arguments = arguments};
-    mps_parallel_rows(host_of(s)->parallel, s->n, run_rows, &k);
+    job k = {.h = h, .v = v, .rows = rows, .fields = fields};
+    mps_parallel_rows(h->parallel, v->n, run_rows, &k);
+}
+
+void mps__host_sum(const mps__host *h, const mps_view *v, int32_t count, const mps_sums *add,
+                   const void *fields, double *sums)
+{
+    job k = {.h = h, .v = v, .sums = add, .fields = fields, .count = count};
+    mps_exact sum[MPS_PARALLEL_VALUES] = {{{0}, 0, 0}};
+    mps_exact_rows(h->parallel, v->n, MPS_PARALLEL_LEAST, run_sums, &k,
+                   &(mps_exact_values){.sums = count, .sum = sum});
+    mps__ranks_sum(h->ghosts->ranks, count, sum);
+    for (int32_t m = 0; m < count; m++) sums[m] = mps_exact_value(&sum[m]);
+}
+
+void mps__host_max(const mps__host *h, const mps_view *v, int32_t count, const mps_sums *raise,
+                   const void *fields, double *maxima)
+{
+    job k = {.h = h, .v = v, .sums = raise, .fields = fields};
+    mps_parallel_max(h->parallel, v->n, count, run_maxima, &k, maxima);
+    mps__ranks_max(h->ghosts->ranks, count, maxima);
+}
+
+/* ---- what verbs call ---- */
+
+void mps_stage_rows(const mps_stage *s, const mps_rows *rows, const void *fields)
+{
+    mps__host_rows(host_of(s), s->view, rows, fields);
 }
 
 /* First values of sums or maxima. A count that the loops have no room for makes the verb fail,
@@ -99,25 +143,18 @@ static bool begin_values(const mps_stage *s, int32_t count, const char *what, do
     return false;
 }
 
-void mps_stage_sum(const mps_stage *s, int32_t count, mps_sums_fn add, void *arguments,
+void mps_stage_sum(const mps_stage *s, int32_t count, const mps_sums *add, const void *fields,
                    double *sums)
 {
-    job k = {.s = s, .sums = add, .arguments = arguments, .count = count};
-    mps_exact sum[MPS_PARALLEL_VALUES] = {{{0}, 0, 0}};
-    if (!begin_values(s, count, "sums", 0, sums)) return;
-    mps_exact_rows(host_of(s)->parallel, s->n, MPS_PARALLEL_LEAST, run_sums, &k,
-                   &(mps_exact_values){.sums = count, .sum = sum});
-    mps__ranks_sum(host_of(s)->ghosts->ranks, count, sum);
-    for (int32_t m = 0; m < count; m++) sums[m] = mps_exact_value(&sum[m]);
+    if (begin_values(s, count, "sums", 0, sums))
+        mps__host_sum(host_of(s), s->view, count, add, fields, sums);
 }
 
-void mps_stage_max(const mps_stage *s, int32_t count, mps_sums_fn raise, void *arguments,
+void mps_stage_max(const mps_stage *s, int32_t count, const mps_sums *raise, const void *fields,
                    double *maxima)
 {
-    job k = {.s = s, .sums = raise, .arguments = arguments};
-    if (!begin_values(s, count, "maxima", -INFINITY, maxima)) return;
-    mps_parallel_max(host_of(s)->parallel, s->n, count, run_maxima, &k, maxima);
-    mps__ranks_max(host_of(s)->ghosts->ranks, count, maxima);
+    if (begin_values(s, count, "maxima", -INFINITY, maxima))
+        mps__host_max(host_of(s), s->view, count, raise, fields, maxima);
 }
 
 typedef struct besides {
@@ -125,22 +162,22 @@ typedef struct besides {
     int32_t *beside;
 } besides;
 
-static void beside_rows(const mps_stage *s, void *arguments, int64_t begin, int64_t end)
+MPS_ROW void look_beside(const int dim, const mps_view *v, const besides *b, int64_t i)
 {
-    const besides *b = arguments;
-    const mps_stencil *t = s->near;
-    for (int64_t i = begin; i < end; i++) {
-        bool any = false;
-        for (int64_t p = t->begin[i]; p < t->end[i] && !any; p++) any = b->member[t->col[p]] != 0;
-        b->beside[i] = any;
-    }
+    const mps_stencil *t = &v->near;
+    bool any = false;
+    (void)dim;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i) && !any; p++)
+        any = b->member[mps_stencil_column(t, p)] != 0;
+    b->beside[i] = any;
 }
+MPS_ROWS(beside_rows, look_beside, besides)
 
 int mps_stage_beside(mps_stage *s, int32_t *member, int32_t *beside)
 {
     const mps_shared shared = {.values = member, .components = 1, .type = MPS_TYPE_INTEGER};
     if (mps_stage_refresh(s, 1, &shared)) return 1;
-    mps_stage_rows(s, beside_rows, &(besides){member, beside});
+    mps_stage_rows(s, &beside_rows, &(besides){member, beside});
     return 0;
 }
 
@@ -153,39 +190,24 @@ mps_status mps_grid_init(mps_grid *grid, size_t size)
 /* Chains of rows: serial, as each row may change the chain of any bucket. */
 int mps_stage_grid(mps_stage *s, double side, mps_grid *grid)
 {
-    mps_grid made = {.dim = s->dim, .side = side, .buckets = s->n};
-    int32_t *first = mps_stage_scratch_integers(s, s->n),
-            *next = mps_stage_scratch_integers(s, s->n);
+    mps_grid made = {.dim = s->view->dim, .side = side, .buckets = s->view->n};
+    int32_t *first = mps_stage_scratch_integers(s, s->view->n),
+            *next = mps_stage_scratch_integers(s, s->view->n);
     if (!(side > 0)) return mps_stage_fail(s, "the side of a grid is %g m: must be > 0", side);
     if (!first || !next) return 1;
     made.first = first;
     made.next = next;
     if (mps__struct_out(NULL, "mps_grid", grid, &made, sizeof made) < 0)
         return mps_stage_fail(s, "the grid is NULL or not initialised: call mps_grid_init() first");
-    for (int64_t i = s->n - 1; i >= 0; i--) {
+    for (int64_t i = s->view->n - 1; i >= 0; i--) {
         int64_t cell[3];
-        if (s->kind[i] != MPS_FLUID) continue;
-        mps_grid_cell(&made, s->x + i * s->dim, cell);
+        if (!mps_is_fluid(s->view, i)) continue;
+        mps_grid_cell(&made, s->view->x + i * s->view->dim, cell);
         const int64_t b = mps_grid_bucket(&made, cell);
         next[i] = first[b];
         first[b] = (int32_t)(i + 1);
     }
     return 0;
-}
-
-void mps_stage_tank(const mps_stage *s, const double *x, double *place, double *velocity)
-{
-    const mps__host *h = host_of(s);
-    double X[3] = {0}, next[3] = {0};
-    mps__motion_to_tank(h->motion, &h->motion->now, x, X);
-    for (int d = 0; d < s->dim && place; d++) place[d] = X[d];
-    if (!velocity) return;
-    if (!h->next) {
-        mps__motion_point(h->motion, &h->motion->now, X, NULL, velocity, NULL);
-        return;
-    }
-    mps__motion_point(h->motion, h->next, X, next, NULL, NULL);
-    for (int d = 0; d < s->dim; d++) velocity[d] = (next[d] - x[d]) / s->dt;
 }
 
 int mps_stage_refresh(mps_stage *s, int32_t count, const mps_shared *shared)

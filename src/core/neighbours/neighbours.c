@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Search of pairs: cells as sorted 64-bit keys (x fastest), candidates with a skin, all in one pass. */
 #include "neighbours_rows.h"
+#include "loop.h"
 #include <math.h>
 #include <stdatomic.h>
 #include <string.h>
@@ -8,36 +9,31 @@
 /* Places looked at between two copies of what was found; entries of rows that a thread collects. */
 enum { MPS__CHUNK = 256, MPS__SHELF = 4096 };
 
-/* A list and positions that are not, or not yet, its own. */
-typedef struct cloud {
-    const mps_neighbours *l;
-    const double *x;
-} cloud;
+/* Positions, and those at the last search. */
+typedef struct way {
+    const double *x, *searched;
+    const uint8_t *ghost; /* NULL: alone */
+} way;
 
 /* Largest square of a way since the last search. */
-static void moved_rows(void *argument, int64_t begin, int64_t end, double *values)
+MPS_ROW void moved_row(const int dim, const way *w, int64_t i, double *worst)
 {
-    const cloud *c = argument;
-    const int dim = c->l->dim;
-    const double *x = c->x, *searched = c->l->searched;
-    double worst = values[0];
-    for (int64_t i = begin; i < end; i++) {
-        double s = 0;
-        if (c->l->ghost && c->l->ghost[i]) continue;
-        for (int d = 0; d < dim; d++) {
-            double m = x[i * dim + d] - searched[i * dim + d];
-            s += m * m;
-        }
-        if (s > worst) worst = s;
+    double s = 0;
+    if (w->ghost && w->ghost[i]) return;
+    for (int d = 0; d < dim; d++) {
+        const double m = w->x[i * dim + d] - w->searched[i * dim + d];
+        s += m * m;
     }
-    values[0] = worst;
+    if (s > *worst) *worst = s;
 }
+MPS__VALUES(moved_rows, moved_row, way, 0, 1)
 
 bool mps__neighbours_fresh(const mps_neighbours *l, int64_t n, const double *x, double re_far)
 {
     double worst = 0;
     if (!l->valid || n != l->n || re_far != l->re_far) return false;
-    mps_parallel_max(l->parallel, n, 1, moved_rows, &(cloud){l, x}, &worst);
+    mps__values_run(l->parallel, &moved_rows, l->dim, n, &(way){x, l->searched, l->ghost}, NULL,
+                    &worst);
     return worst < 0.25 * l->skin * l->skin;
 }
 
@@ -90,6 +86,26 @@ mps_status mps__neighbours_fit(mps_neighbours *l, void **block, int64_t *capacit
 
 /* ---- places around a cell -------------------------------------------------------------------------------------- */
 
+/* What the search of a part of the places sees. */
+typedef struct search {
+    mps__rings rings;
+    double reach2;
+    bool sorted; /* place a is particle a */
+    bool ghost_rows, dummy_rows;
+    int64_t n, room; /* particles, entries that col has room for */
+    const uint64_t *key;
+    const int32_t *order;
+    const double *place;          /* positions of the places, one axis after the other */
+    const int32_t *kind;          /* NULL: all alike; else with */
+    const int32_t *fluid, *dummy; /* of them up to each place */
+    const uint8_t *ghost;         /* NULL: alone */
+    int64_t *begin, *middle, *end;
+    int32_t *count, *col;
+    uint8_t *rim, *idle;
+    atomic_int_least64_t *taken; /* entries of col that rows have, or would have were it longer */
+    int64_t *longest; /* [MPS__PARTS] longest row of each part if too long for the stack, else 0 */
+} search;
+
 static int64_t first_at_least(const uint64_t *key, int64_t n, uint64_t value)
 {
     int64_t lo = 0;
@@ -106,17 +122,17 @@ static int64_t first_at_least(const uint64_t *key, int64_t n, uint64_t value)
 }
 
 /* Ranges of sorted places that hold the cells around `key`: one for each row of three cells. */
-static int ranges_around(const mps_neighbours *l, uint64_t key, int64_t range[9][2])
+MPS_ROW int ranges_around(const int dim, const search *s, uint64_t key, int64_t range[9][2])
 {
-    const int bits = mps__cell_bits(l->dim), high = l->dim == 3;
+    const int bits = mps__cell_bits(dim), high = dim == 3;
     int count = 0;
     for (int dz = -high; dz <= high; dz++)
         for (int dy = -1; dy <= 1; dy++) {
             int64_t step = (int64_t)dy * (INT64_C(1) << bits) +
                            (high ? (int64_t)dz * (INT64_C(1) << (2 * bits)) : 0);
             uint64_t middle = key + (uint64_t)step;
-            int64_t first = first_at_least(l->key, l->n, middle - 1), last = first;
-            while (last < l->n && l->key[last] <= middle + 1) last++;
+            int64_t first = first_at_least(s->key, s->n, middle - 1), last = first;
+            while (last < s->n && s->key[last] <= middle + 1) last++;
             if (last > first) {
                 range[count][0] = first;
                 range[count++][1] = last;
@@ -125,15 +141,204 @@ static int ranges_around(const mps_neighbours *l, uint64_t key, int64_t range[9]
     return count;
 }
 
-/* Positions of the sorted places, one axis after the other, so that loops over places run along memory. They borrow
- * l->searched, which takes its own values after the search. */
-static void gather_places(void *argument, int64_t begin, int64_t end)
+/* Positions, and room for them in the order of the places, one axis after the other, so that loops over places run along memory. */
+typedef struct places {
+    int64_t n;
+    const int32_t *order;
+    const double *x;
+    double *sorted;
+} places;
+
+MPS_ROW void place_row(const int dim, const places *p, int64_t a)
 {
-    mps_neighbours *l = argument;
-    for (int64_t a = begin; a < end; a++)
-        for (int d = 0; d < l->dim; d++)
-            l->searched[d * l->n + a] = l->x[(int64_t)l->order[a] * l->dim + d];
+    for (int d = 0; d < dim; d++) p->sorted[d * p->n + a] = p->x[(int64_t)p->order[a] * dim + d];
 }
+MPS__LOOP(place_rows, place_row, places)
+
+/* Whether any are in these ranges. */
+static bool any_within(const int32_t *until, int64_t range[9][2], int ranges)
+{
+    bool any = false;
+    for (int k = 0; k < ranges; k++)
+        any = any || until[range[k][1] - 1] > (range[k][0] > 0 ? until[range[k][0] - 1] : 0);
+    return any;
+}
+
+/* Squared distances of place a to from..to-1, at most MPS__CHUNK: a loop of its own, so that the compiler takes several at a time. */
+MPS_ROW void measure_places(const int dim, const search *s, int64_t a, int64_t from, int64_t to,
+                            double *r2)
+{
+    const double *const x = s->place, *const y = x + s->n, *const z = x + (dim - 1) * s->n;
+    const double xa = x[a], ya = y[a], za = z[a];
+    for (int64_t b = from; b < to; b++) {
+        const double dx = x[b] - xa, dy = y[b] - ya, dz = dim == 3 ? z[b] - za : 0.0;
+        r2[b - from] = dim == 3 ? dx * dx + dy * dy + dz * dz : dx * dx + dy * dy;
+    }
+    if (a >= from && a < to) r2[a - from] = INFINITY; /* no pair with itself */
+}
+
+/* ---- rows ------------------------------------------------------------------------------------------------------ */
+
+/* What was found about a place. */
+typedef struct finding {
+    int64_t count; /* more than MPS__ROW: not all are here */
+    int32_t j[MPS__ROW + MPS__CHUNK];
+    double r2[MPS__ROW + MPS__CHUNK];
+} finding;
+
+/* Particles nearer to place a than the reach. Compaction without branches: every third or sixth place is near, and no processor
+ * guesses which. */
+MPS_ROW void find_row(const int dim, const bool sorted, const search *s, int64_t a,
+                      int64_t range[9][2], int ranges, finding *f)
+{
+    const double reach2 = s->reach2;
+    int64_t n = 0;
+    for (int k = 0; k < ranges; k++)
+        for (int64_t from = range[k][0]; from < range[k][1] && n <= MPS__ROW; from += MPS__CHUNK) {
+            const int64_t to = from + MPS__CHUNK < range[k][1] ? from + MPS__CHUNK : range[k][1];
+            double r2[MPS__CHUNK];
+            measure_places(dim, s, a, from, to, r2);
+            for (int64_t b = from; b < to; b++) {
+                f->j[n] = sorted ? (int32_t)b : s->order[b];
+                f->r2[n] = r2[b - from];
+                n += r2[b - from] < reach2;
+            }
+        }
+    f->count = n;
+}
+
+/* The same for rows of any length, which are not parted. They are stored if `row` is not NULL; returns how many. */
+MPS_ROW int64_t long_row(const int dim, const search *s, int64_t a, int64_t range[9][2], int ranges,
+                         int32_t *row)
+{
+    int64_t n = 0;
+    for (int k = 0; k < ranges; k++)
+        for (int64_t b = range[k][0]; b < range[k][1]; b++) {
+            double r2;
+            measure_places(dim, s, a, b, b + 1, &r2);
+            if (r2 >= s->reach2) continue;
+            if (row) row[n] = s->order[b];
+            n++;
+        }
+    if (row) mps__sort_row(row, n);
+    return n;
+}
+
+static bool meets_fluid(const search *s, const finding *f)
+{
+    bool any = f->count > MPS__ROW;
+    for (int64_t k = 0; k < f->count && !any; k++) any = s->kind[f->j[k]] == MPS_FLUID;
+    return any;
+}
+
+/* Rows of a thread on their way to col. Those of places from.. on have begins within it. */
+typedef struct shelf {
+    int64_t from, used;
+    int32_t entry[MPS__SHELF];
+} shelf;
+
+/* Whether `count` entries of col can be had, and where. All threads take theirs one behind the other. */
+static bool take(const search *s, int64_t count, int64_t *at)
+{
+    *at = atomic_fetch_add(s->taken, count);
+    return *at + count <= s->room;
+}
+
+/* Rows of the places up to `to` move from the shelf to col. Without room they are only counted. */
+static void unload(const search *s, shelf *h, int64_t to)
+{
+    int64_t at;
+    if (h->used > 0 && take(s, h->used, &at)) {
+        memcpy(s->col + at, h->entry, (size_t)h->used * sizeof *s->col);
+        for (int64_t a = h->from; a < to; a++) {
+            const int32_t i = s->order[a];
+            s->begin[i] += at;
+            s->middle[i] += at;
+            if (s->end != s->middle) s->end[i] += at;
+        }
+    }
+    h->from = to;
+    h->used = 0;
+}
+
+static void set_row(const search *s, int64_t i, int64_t begin, mps__parted row, int64_t count)
+{
+    s->begin[i] = begin;
+    s->middle[i] = begin + row.near;
+    s->end[i] = begin + row.near + row.far;
+    s->count[i] = (int32_t)count;
+}
+
+/* Row of place a from what was found. */
+MPS_ROW void keep_row(const bool sorted, const search *s, int64_t a, const finding *f, shelf *h)
+{
+    int32_t far[MPS__ROW], out[MPS__ROW];
+    if (h->used + f->count > MPS__SHELF) unload(s, h, a);
+    int32_t *row = h->entry + h->used;
+    const mps__parted parted = mps__part_row(&s->rings, f->j, f->r2, f->count, row, far, out);
+    set_row(s, sorted ? a : s->order[a], h->used, parted, f->count);
+    h->used += f->count;
+    if (sorted) return;
+    mps__sort_row(row, parted.near);
+    mps__sort_row(row + parted.near, parted.far);
+}
+
+/* A row longer than the stack has room for: not parted yet. */
+MPS_ROW void keep_long_row(const int dim, const search *s, int64_t a, int64_t range[9][2],
+                           int ranges, shelf *h, int64_t *longest)
+{
+    int64_t at;
+    const int64_t count = long_row(dim, s, a, range, ranges, NULL);
+    unload(s, h, a);
+    if (take(s, count, &at)) long_row(dim, s, a, range, ranges, s->col + at);
+    set_row(s, s->order[a], at, (mps__parted){0, 0}, count);
+    *longest = count > *longest ? count : *longest;
+    h->from = a + 1;
+}
+
+/* All rows of the cell that starts at sorted place `first`. Returns the end of its places. */
+MPS_ROW int64_t search_cell(const int dim, const bool sorted, const search *s, int64_t first,
+                            shelf *h, int64_t *longest)
+{
+    int64_t range[9][2], a = first;
+    const int ranges = ranges_around(dim, s, s->key[first], range);
+    const bool fluid = !s->kind || any_within(s->fluid, range, ranges);
+    const bool dummies = s->kind && any_within(s->dummy, range, ranges);
+    finding f;
+    for (; a < s->n && s->key[a] == s->key[first]; a++) {
+        const int32_t i = sorted ? (int32_t)a : s->order[a];
+        const bool solid = s->kind && s->kind[i] != MPS_FLUID,
+                   ghost = s->ghost && s->ghost[i] && (solid || !s->ghost_rows);
+        s->rim[i] = dummies && !solid && !ghost;
+        s->idle[i] = ghost || (solid && (!fluid || (s->kind[i] == MPS_DUMMY && !s->dummy_rows)));
+        if (!s->idle[i]) find_row(dim, sorted, s, a, range, ranges, &f);
+        if (!s->idle[i] && solid) s->idle[i] = !meets_fluid(s, &f);
+        if (s->idle[i])
+            set_row(s, i, h->used, (mps__parted){0, 0}, 0);
+        else if (f.count > MPS__ROW)
+            keep_long_row(dim, s, a, range, ranges, h, longest);
+        else
+            keep_row(sorted, s, a, &f, h);
+    }
+    return a;
+}
+
+/* The cells that begin in one of MPS__PARTS parts of the sorted places. */
+MPS_ROW void search_part(const int dim, const search *s, int64_t part)
+{
+    const int64_t end = s->n * (part + 1) / MPS__PARTS;
+    int64_t a = s->n * part / MPS__PARTS, longest = 0;
+    while (a > 0 && a < end && s->key[a] == s->key[a - 1]) a++;
+    shelf h;
+    h.from = a;
+    h.used = 0;
+    while (a < end)
+        a = s->sorted ? search_cell(dim, true, s, a, &h, &longest)
+                      : search_cell(dim, false, s, a, &h, &longest);
+    unload(s, &h, a);
+    s->longest[part] = longest;
+}
+MPS__LOOP(search_parts, search_part, search)
 
 /* Fluid and dummies up to each place, itself included. They borrow the second half of the keys, which was scratch of their sort. */
 static int32_t *fluid_until(const mps_neighbours *l)
@@ -156,231 +361,50 @@ static void count_kinds(mps_neighbours *l)
     }
 }
 
-/* Whether any are in these ranges. */
-static bool any_within(const int32_t *until, int64_t range[9][2], int ranges)
+static search search_of(const mps_neighbours *l, bool sorted)
 {
-    bool any = false;
-    for (int k = 0; k < ranges; k++)
-        any = any || until[range[k][1] - 1] > (range[k][0] > 0 ? until[range[k][0] - 1] : 0);
-    return any;
-}
-
-/* Squared distances of place a to from..to-1, at most MPS__CHUNK: a loop of its own, so that the compiler takes several at a time. */
-MPS__DIM_INLINE void measure_places(const mps_neighbours *l, int64_t a, int64_t from, int64_t to,
-                                    const int dim, double *r2)
-{
-    const double *const x = l->searched, *const y = x + l->n, *const z = x + (dim - 1) * l->n;
-    const double xa = x[a], ya = y[a], za = z[a];
-    for (int64_t b = from; b < to; b++) {
-        const double dx = x[b] - xa, dy = y[b] - ya, dz = dim == 3 ? z[b] - za : 0.0;
-        r2[b - from] = dim == 3 ? dx * dx + dy * dy + dz * dz : dx * dx + dy * dy;
-    }
-    if (a >= from && a < to) r2[a - from] = INFINITY; /* no pair with itself */
-}
-
-/* ---- rows ------------------------------------------------------------------------------------------------------ */
-
-typedef struct searching {
-    mps_neighbours *l;
-    mps__rings rings;
-    double reach2;
-    bool sorted;                /* place a is particle a */
-    atomic_int_least64_t taken; /* entries of col that rows have, or would have if it were longer */
-    /* of the rows of each part that are too long for the stack; else 0 */
-    int64_t longest[MPS__PARTS];
-} searching;
-
-/* What was found about a place. */
-typedef struct finding {
-    int64_t count; /* more than MPS__ROW: not all are here */
-    int32_t j[MPS__ROW + MPS__CHUNK];
-    double r2[MPS__ROW + MPS__CHUNK];
-} finding;
-
-/* Particles nearer to place a than the reach. Compaction without branches: every third or sixth place is near, and no processor
- * guesses which. */
-MPS__DIM_INLINE void find_row(const searching *s, int64_t a, int64_t range[9][2], int ranges,
-                              finding *f, const int dim, const bool sorted)
-{
-    const mps_neighbours *l = s->l;
-    const double reach2 = s->reach2;
-    int64_t n = 0;
-    for (int k = 0; k < ranges; k++)
-        for (int64_t from = range[k][0]; from < range[k][1] && n <= MPS__ROW; from += MPS__CHUNK) {
-            const int64_t to = from + MPS__CHUNK < range[k][1] ? from + MPS__CHUNK : range[k][1];
-            double r2[MPS__CHUNK];
-            measure_places(l, a, from, to, dim, r2);
-            for (int64_t b = from; b < to; b++) {
-                f->j[n] = sorted ? (int32_t)b : l->order[b];
-                f->r2[n] = r2[b - from];
-                n += r2[b - from] < reach2;
-            }
-        }
-    f->count = n;
-}
-
-/* The same for rows of any length, which are not parted. They are stored if `row` is not NULL; returns how many. */
-static int64_t long_row(const searching *s, int64_t a, int64_t range[9][2], int ranges,
-                        int32_t *row)
-{
-    const mps_neighbours *l = s->l;
-    int64_t n = 0;
-    for (int k = 0; k < ranges; k++)
-        for (int64_t b = range[k][0]; b < range[k][1]; b++) {
-            double r2;
-            if (l->dim == 2)
-                measure_places(l, a, b, b + 1, 2, &r2);
-            else
-                measure_places(l, a, b, b + 1, 3, &r2);
-            if (r2 >= s->reach2) continue;
-            if (row) row[n] = l->order[b];
-            n++;
-        }
-    if (row) mps__sort_row(row, n);
-    return n;
-}
-
-static bool meets_fluid(const mps_neighbours *l, const finding *f)
-{
-    bool any = f->count > MPS__ROW;
-    for (int64_t k = 0; k < f->count && !any; k++) any = l->kind[f->j[k]] == MPS_FLUID;
-    return any;
-}
-
-/* Rows of a thread on their way to col. Those of places from.. on have begins within it. */
-typedef struct shelf {
-    int64_t from, used;
-    int32_t entry[MPS__SHELF];
-} shelf;
-
-/* Whether `count` entries of col can be had, and where. All threads take theirs one behind the other. */
-static bool take(searching *s, int64_t count, int64_t *at)
-{
-    *at = atomic_fetch_add(&s->taken, count);
-    return *at + count <= s->l->pair_capacity;
-}
-
-/* Rows of the places up to `to` move from the shelf to col. Without room they are only counted. */
-static void unload(searching *s, shelf *h, int64_t to)
-{
-    mps_neighbours *l = s->l;
-    int64_t at;
-    if (h->used > 0 && take(s, h->used, &at)) {
-        memcpy(l->col + at, h->entry, (size_t)h->used * sizeof *l->col);
-        for (int64_t a = h->from; a < to; a++) {
-            const int32_t i = l->order[a];
-            l->begin[i] += at;
-            l->middle[i] += at;
-            if (l->end != l->middle) l->end[i] += at;
-        }
-    }
-    h->from = to;
-    h->used = 0;
-}
-
-static void set_row(mps_neighbours *l, int64_t i, int64_t begin, mps__parted row, int64_t count)
-{
-    l->begin[i] = begin;
-    l->middle[i] = begin + row.near;
-    l->end[i] = begin + row.near + row.far;
-    l->count[i] = (int32_t)count;
-}
-
-/* Row of place a from what was found. */
-MPS__DIM_INLINE void keep_row(searching *s, int64_t a, const finding *f, shelf *h,
-                              const bool sorted)
-{
-    int32_t far[MPS__ROW], out[MPS__ROW];
-    if (h->used + f->count > MPS__SHELF) unload(s, h, a);
-    int32_t *row = h->entry + h->used;
-    const mps__parted parted = mps__part_row(&s->rings, f->j, f->r2, f->count, row, far, out);
-    set_row(s->l, sorted ? a : s->l->order[a], h->used, parted, f->count);
-    h->used += f->count;
-    if (sorted) return;
-    mps__sort_row(row, parted.near);
-    mps__sort_row(row + parted.near, parted.far);
-}
-
-/* A row longer than the stack has room for: not parted yet. */
-static void keep_long_row(searching *s, int64_t a, int64_t range[9][2], int ranges, shelf *h,
-                          int64_t *longest)
-{
-    mps_neighbours *l = s->l;
-    int64_t at;
-    const int64_t count = long_row(s, a, range, ranges, NULL);
-    unload(s, h, a);
-    if (take(s, count, &at)) long_row(s, a, range, ranges, l->col + at);
-    set_row(l, l->order[a], at, (mps__parted){0, 0}, count);
-    *longest = count > *longest ? count : *longest;
-    h->from = a + 1;
-}
-
-/* All rows of the cell that starts at sorted place `first`. Returns the end of its places. */
-MPS__DIM_INLINE int64_t search_cell(searching *s, int64_t first, shelf *h, int64_t *longest,
-                                    const int dim, const bool sorted)
-{
-    mps_neighbours *l = s->l;
-    int64_t range[9][2], a = first;
-    const int ranges = ranges_around(l, l->key[first], range);
-    const bool fluid = !l->kind || any_within(fluid_until(l), range, ranges);
-    const bool dummies = l->kind && any_within(dummies_until(l), range, ranges);
-    finding f;
-    for (; a < l->n && l->key[a] == l->key[first]; a++) {
-        const int32_t i = sorted ? (int32_t)a : l->order[a];
-        const bool solid = l->kind && l->kind[i] != MPS_FLUID,
-                   ghost = l->ghost && l->ghost[i] && (solid || !l->ghost_rows);
-        l->rim[i] = dummies && !solid && !ghost;
-        l->idle[i] = ghost || (solid && (!fluid || (l->kind[i] == MPS_DUMMY && !l->dummy_rows)));
-        if (!l->idle[i]) find_row(s, a, range, ranges, &f, dim, sorted);
-        if (!l->idle[i] && solid) l->idle[i] = !meets_fluid(l, &f);
-        if (l->idle[i])
-            set_row(l, i, h->used, (mps__parted){0, 0}, 0);
-        else if (f.count > MPS__ROW)
-            keep_long_row(s, a, range, ranges, h, longest);
-        else
-            keep_row(s, a, &f, h, sorted);
-    }
-    return a;
-}
-
-/* The cells that begin in one of MPS__PARTS parts of the sorted places. */
-static void search_part(void *argument, int32_t part)
-{
-    searching *s = argument;
-    const mps_neighbours *l = s->l;
-    const int64_t end = l->n * (part + 1) / MPS__PARTS;
-    int64_t a = l->n * part / MPS__PARTS, longest = 0;
-    while (a > 0 && a < end && l->key[a] == l->key[a - 1]) a++;
-    shelf h;
-    h.from = a;
-    h.used = 0;
-    while (a < end) {
-        if (l->dim == 2)
-            a = s->sorted ? search_cell(s, a, &h, &longest, 2, true)
-                          : search_cell(s, a, &h, &longest, 2, false);
-        else
-            a = s->sorted ? search_cell(s, a, &h, &longest, 3, true)
-                          : search_cell(s, a, &h, &longest, 3, false);
-    }
-    unload(s, &h, a);
-    s->longest[part] = longest;
+    return (search){.rings = mps__rings_of(l),
+                    .reach2 = (l->re_far + l->skin) * (l->re_far + l->skin),
+                    .sorted = sorted,
+                    .ghost_rows = l->ghost_rows,
+                    .dummy_rows = l->dummy_rows,
+                    .n = l->n,
+                    .key = l->key,
+                    .order = l->order,
+                    .place = l->searched,
+                    .kind = l->kind,
+                    .fluid = fluid_until(l),
+                    .dummy = dummies_until(l),
+                    .ghost = l->ghost,
+                    .begin = l->begin,
+                    .middle = l->middle,
+                    .end = l->end,
+                    .count = l->count,
+                    .rim = l->rim,
+                    .idle = l->idle};
 }
 
 /* All rows. There are about as many pairs as last time; where there is no room for them all, this pass counts them, and a second one stores
  * them. */
-static mps_status search_rows(mps_neighbours *l, searching *s)
+static mps_status search_rows(mps_neighbours *l, bool sorted)
 {
-    int64_t expected = l->pairs + l->pairs / 64;
+    int64_t expected = l->pairs + l->pairs / 64, longest[MPS__PARTS];
+    atomic_int_least64_t taken;
+    search s = search_of(l, sorted);
+    s.taken = &taken;
+    s.longest = longest;
     do {
         MPS__TRY(
             mps__neighbours_fit(l, (void **)&l->col, &l->pair_capacity, expected, sizeof *l->col));
-        atomic_store(&s->taken, 0);
-        mps_parallel_run(l->parallel, MPS__PARTS, search_part, s);
-        l->pairs = expected = atomic_load(&s->taken);
+        s.col = l->col;
+        s.room = l->pair_capacity;
+        atomic_init(&taken, 0);
+        mps__loop_run_long(l->parallel, &search_parts, l->dim, MPS__PARTS, &s);
+        l->pairs = expected = atomic_load(&taken);
     } while (expected > l->pair_capacity);
     l->longest = 0;
     for (int p = 0; p < MPS__PARTS; p++)
-        l->longest = s->longest[p] > l->longest ? s->longest[p] : l->longest;
+        l->longest = longest[p] > l->longest ? longest[p] : l->longest;
     return l->longest > 0 ? mps__neighbours_part_long(l) : MPS_OK;
 }
 
@@ -406,13 +430,10 @@ mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x,
     l->x = x;
     l->re_near = re_near;
     l->re_far = re_far;
-    mps_parallel_rows(l->parallel, n, gather_places, l);
+    /* they borrow l->searched, which takes its own values after the search */
+    mps__loop_run(l->parallel, &place_rows, l->dim, n, &(places){n, l->order, x, l->searched});
     if (l->kind) count_kinds(l);
-    searching s = {.l = l,
-                   .rings = mps__rings_of(l),
-                   .reach2 = (re_far + l->skin) * (re_far + l->skin),
-                   .sorted = sorted};
-    MPS__TRY(search_rows(l, &s));
+    MPS__TRY(search_rows(l, sorted));
     memcpy(l->searched, x, (size_t)(n * l->dim) * sizeof *x);
     l->kind = NULL;
     l->valid = true;

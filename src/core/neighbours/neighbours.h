@@ -56,6 +56,8 @@ struct mps_neighbours {
 
 mps_status mps__neighbours_init(mps_neighbours *l, mps__context *context, int32_t dim, double dp);
 void mps__neighbours_free(mps_neighbours *l);
+/* Free the arrays of the last search. The next search makes new ones; it still knows how many pairs to expect. */
+void mps__neighbours_release(mps_neighbours *l);
 
 /* True if no particle moved by more than half the skin since the last search. */
 bool mps__neighbours_fresh(const mps_neighbours *l, int64_t n, const double *x, double re_far);

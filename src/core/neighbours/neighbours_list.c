@@ -17,11 +17,24 @@ mps_status mps__neighbours_init(mps_neighbours *l, mps__context *context, int32_
     return MPS_OK;
 }
 
+void mps__neighbours_release(mps_neighbours *l)
+{
+    void **const all[] = {(void **)&l->near_begin, (void **)&l->near_col, (void **)&l->begin,
+                          (void **)&l->middle,     (void **)&l->far_end,  (void **)&l->count,
+                          (void **)&l->col,        (void **)&l->w_r2,     (void **)&l->searched,
+                          (void **)&l->idle,       (void **)&l->rim,      (void **)&l->scratch};
+    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
+        mps__free(l->context, *all[k]);
+        *all[k] = NULL;
+    }
+    l->capacity = l->pair_capacity = l->near_capacity = l->weight_capacity = 0;
+    l->scratch_capacity = l->far_capacity = 0;
+    l->valid = false;
+}
+
 void mps__neighbours_free(mps_neighbours *l)
 {
-    void *all[] = {l->near_begin, l->near_col, l->begin,    l->middle, l->far_end, l->count,
-                   l->col,        l->w_r2,     l->searched, l->idle,   l->rim,     l->scratch};
-    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) mps__free(l->context, all[k]);
+    mps__neighbours_release(l);
     mps__scratch_free(l->context, &l->own_scratch);
     if (l->parallel == &l->pool.parallel) mps__pool_free(&l->pool);
     mps__neighbours_init(l, l->context, l->dim, l->dp);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Exact rows at positions that have changed since the search, from its candidates, and what screens hide. */
 #include "neighbours_rows.h"
+#include "loop.h"
 #include <math.h>
 
 /* Pairs nearer than this [dp] have no direction and are left out: they are the two faces of a thin plate. */
@@ -22,11 +23,23 @@ void mps__sort_row(int32_t *row, int64_t n)
     }
 }
 
+/* What exact rows see: the list, and room for rows that are too long for the stack. */
+typedef struct exact {
+    mps__rings rings;
+    const double *x;
+    const int64_t *begin;
+    const int32_t *count;
+    int64_t *middle, *end;
+    int32_t *col;
+    int64_t n, longest; /* particles; candidates of the longest of such rows */
+    double *scratch;    /* [MPS__PARTS * 2 longest] */
+} exact;
+
 /* Squared distances of i to some of its candidates. Returns whether they are all in [least, most). */
-MPS__DIM_INLINE bool measure(const mps_neighbours *l, int64_t i, const int32_t *row, int64_t count,
-                             const double ring[2], double *r2, const int dim)
+MPS_ROW bool measure(const int dim, const double *x, int64_t i, const int32_t *row, int64_t count,
+                     const double ring[2], double *r2)
 {
-    const double *const x = l->x, *const at = x + i * dim;
+    const double *const at = x + i * dim;
     double nearest = INFINITY, farthest = 0;
     for (int64_t k = 0; k < count; k++) {
         const double d2 = mps__square_between(at, x + (int64_t)row[k] * dim, dim);
@@ -39,16 +52,17 @@ MPS__DIM_INLINE bool measure(const mps_neighbours *l, int64_t i, const int32_t *
 
 /* Squared distances of i to all candidates. Returns whether each is still in the part where the last step put it: then the row is what it
  * should be. */
-MPS__DIM_INLINE bool row_stands(const mps_neighbours *l, int64_t i, const mps__rings *g, double *r2,
-                                const int dim)
+MPS_ROW bool row_stands(const int dim, const exact *l, int64_t i, double *r2)
 {
+    const mps__rings *g = &l->rings;
     const int32_t *row = l->col + l->begin[i];
     const int64_t nears = l->middle[i] - l->begin[i], within = l->end[i] - l->begin[i];
     const double near[2] = {g->least, g->near2}, far[2] = {g->near2, g->far2},
                  out[2] = {g->far2, INFINITY};
-    const bool near_stand = measure(l, i, row, nears, near, r2, dim);
-    const bool far_stand = measure(l, i, row + nears, within - nears, far, r2 + nears, dim);
-    const bool out_stand = measure(l, i, row + within, l->count[i] - within, out, r2 + within, dim);
+    const bool near_stand = measure(dim, l->x, i, row, nears, near, r2);
+    const bool far_stand = measure(dim, l->x, i, row + nears, within - nears, far, r2 + nears);
+    const bool out_stand = measure(dim, l->x, i, row + within, l->count[i] - within, out,
+                                   r2 + within);
     return near_stand && far_stand && out_stand;
 }
 
@@ -59,54 +73,77 @@ typedef struct room {
 } room;
 
 /* Few have changed their part since the last step, so that sorting is short work. */
-MPS__DIM_INLINE void exact_row(mps_neighbours *l, int64_t i, const mps__rings *g, const room *r,
-                               const int dim)
+MPS_ROW void part_again(const int dim, const exact *l, int64_t i, const room *r)
 {
-    if (l->count[i] == 0 || row_stands(l, i, g, r->r2, dim)) return;
+    if (row_stands(dim, l, i, r->r2)) return;
     int32_t *const row = l->col + l->begin[i];
-    const mps__parted parted = mps__part_row(g, row, r->r2, l->count[i], row, r->far, r->out);
+    const mps__parted parted = mps__part_row(&l->rings, row, r->r2, l->count[i], row, r->far,
+                                             r->out);
     mps__sort_row(row, parted.near);
     mps__sort_row(row + parted.near, parted.far);
     l->middle[i] = l->begin[i] + parted.near;
     l->end[i] = l->middle[i] + parted.far;
 }
 
-static void exact_part(void *argument, int32_t part)
+MPS_ROW void exact_row(const int dim, const exact *l, int64_t i)
 {
-    mps_neighbours *l = argument;
-    const mps__rings g = mps__rings_of(l);
     double r2[MPS__ROW];
     int32_t far[MPS__ROW], out[MPS__ROW];
-    room r = {r2, far, out};
-    if (l->longest > 0) {
-        r.r2 = l->scratch + 2 * l->longest * part;
-        r.far = (int32_t *)(void *)(r.r2 + l->longest);
-        r.out = r.far + l->longest;
-    }
-    for (int64_t i = l->n * part / MPS__PARTS; i < l->n * (part + 1) / MPS__PARTS; i++) {
-        if (l->dim == 2)
-            exact_row(l, i, &g, &r, 2);
-        else
-            exact_row(l, i, &g, &r, 3);
-    }
+    if (l->count[i] > 0 && l->count[i] <= MPS__ROW) part_again(dim, l, i, &(room){r2, far, out});
+}
+MPS__LOOP(exact_rows, exact_row, exact)
+
+/* Rows too long for the stack, of one of MPS__PARTS parts of the particles. */
+MPS_ROW void exact_part(const int dim, const exact *l, int64_t part)
+{
+    double *const r2 = l->scratch + 2 * l->longest * part;
+    int32_t *const far = (int32_t *)(void *)(r2 + l->longest), *const out = far + l->longest;
+    for (int64_t i = l->n * part / MPS__PARTS; i < l->n * (part + 1) / MPS__PARTS; i++)
+        if (l->count[i] > MPS__ROW) part_again(dim, l, i, &(room){r2, far, out});
+}
+MPS__LOOP(exact_parts, exact_part, exact)
+
+static exact exact_of(const mps_neighbours *l)
+{
+    return (exact){.rings = mps__rings_of(l),
+                   .x = l->x,
+                   .begin = l->begin,
+                   .count = l->count,
+                   .middle = l->middle,
+                   .end = l->end,
+                   .col = l->col,
+                   .n = l->n,
+                   .longest = l->longest,
+                   .scratch = l->scratch};
 }
 
 mps_status mps__neighbours_part_long(mps_neighbours *l)
 {
     MPS__TRY(mps__neighbours_fit(l, (void **)&l->scratch, &l->scratch_capacity,
                                  MPS__PARTS * 2 * l->longest, sizeof *l->scratch));
-    mps_parallel_run(l->parallel, MPS__PARTS, exact_part, l);
+    const exact rows = exact_of(l);
+    mps__loop_run_long(l->parallel, &exact_parts, l->dim, MPS__PARTS, &rows);
     return MPS_OK;
 }
 
+/* What screens hide in rows of seers. */
+typedef struct hiding {
+    const mps__screen *list;
+    int32_t screens;
+    const mps__seer *seer;
+    const int32_t *slot;
+    const int64_t *begin;
+    int64_t *middle, *end;
+    int32_t *col;
+} hiding;
+
 /* Pairs from..to-1 that see each other change places with those from `out` on; they stay in order. Returns the end. */
-static int64_t keep_visible(mps_neighbours *l, const mps__seer *a, int64_t from, int64_t to,
+static int64_t keep_visible(const hiding *l, const mps__seer *a, int64_t from, int64_t to,
                             int64_t out)
 {
-    const mps__screens *s = l->screens;
     for (int64_t k = from; k < to; k++) {
-        const int32_t j = l->col[k], slot = s->slot[j];
-        if (slot >= 0 && mps__screens_hidden(s, a, &s->seer[slot])) continue;
+        const int32_t j = l->col[k], slot = l->slot[j];
+        if (slot >= 0 && mps__screens_hidden(l->list, l->screens, a, &l->seer[slot])) continue;
         l->col[k] = l->col[out];
         l->col[out++] = j;
     }
@@ -114,27 +151,31 @@ static int64_t keep_visible(mps_neighbours *l, const mps__seer *a, int64_t from,
 }
 
 /* What screens hide goes behind the others. */
-static void screen_rows(void *argument, int64_t begin, int64_t end)
+MPS_ROW void hide_row(const int dim, const hiding *l, int64_t k)
 {
-    mps_neighbours *l = argument;
-    for (int64_t k = begin; k < end; k++) {
-        const mps__seer *a = &l->screens->seer[k];
-        const int64_t i = a->particle, middle = l->middle[i], last = l->end[i];
-        l->middle[i] = keep_visible(l, a, l->begin[i], middle, l->begin[i]);
-        l->end[i] = keep_visible(l, a, middle, last, l->middle[i]);
-    }
+    const mps__seer *a = &l->seer[k];
+    const int64_t i = a->particle, middle = l->middle[i], last = l->end[i];
+    (void)dim;
+    l->middle[i] = keep_visible(l, a, l->begin[i], middle, l->begin[i]);
+    l->end[i] = keep_visible(l, a, middle, last, l->middle[i]);
 }
+MPS__LOOP(hide_rows, hide_row, hiding)
 
 void mps__neighbours_hide(mps_neighbours *l)
 {
-    if (l->screens && l->screens->count > 0)
-        mps_parallel_rows(l->parallel, l->screens->seers, screen_rows, l);
+    const mps__screens *s = l->screens;
+    if (!s || s->count == 0) return;
+    mps__loop_run(
+        l->parallel, &hide_rows, l->dim, s->seers,
+        &(hiding){s->list, s->count, s->seer, s->slot, l->begin, l->middle, l->end, l->col});
 }
 
 void mps__neighbours_rows(mps_neighbours *l, const double *x)
 {
     l->x = x;
-    mps_parallel_run(l->parallel, MPS__PARTS, exact_part, l);
+    const exact rows = exact_of(l);
+    mps__loop_run(l->parallel, &exact_rows, l->dim, l->n, &rows);
+    if (l->longest > 0) mps__loop_run_long(l->parallel, &exact_parts, l->dim, MPS__PARTS, &rows);
     mps__neighbours_hide(l);
 }
 

@@ -4,10 +4,8 @@
 #define MPS_CORE_NEIGHBOURS_ROWS_H
 
 #include "neighbours.h"
+#include <mps/stage.h>
 #include <string.h>
-
-/* Functions compiled for each constant `dim`. */
-#define MPS__DIM_INLINE static inline __attribute__((always_inline))
 
 /* Rows up to this length are worked on in the stack; longer ones are an exception. */
 enum { MPS__ROW = 1024 };
@@ -29,9 +27,8 @@ typedef struct mps__parted {
 
 /* Put candidates, whose squared distances are r2, into `row`: near pairs, then the others within reach, then what is out of it, the last two
  * by way of `far` and `out`. `from` may be `row`. Each candidate is written to all three and counted at one: no branches. */
-MPS__DIM_INLINE mps__parted mps__part_row(const mps__rings *g, const int32_t *from,
-                                          const double *r2, int64_t count, int32_t *row,
-                                          int32_t *far, int32_t *out)
+MPS_ROW mps__parted mps__part_row(const mps__rings *g, const int32_t *from, const double *r2,
+                                  int64_t count, int32_t *row, int32_t *far, int32_t *out)
 {
     const double least = g->least, near2 = g->near2, far2 = g->far2;
     int64_t nears = 0, fars = 0, outs = 0;

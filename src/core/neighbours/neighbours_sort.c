@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The order of particles by their cells. */
 #include "neighbours.h"
+#include "loop.h"
 #include <math.h>
 #include <string.h>
 
@@ -16,7 +17,7 @@ static const double margin = 1e-6;
 /* Corners of cells are multiples of their size: which particles share a cell depends on nothing but their positions. */
 typedef struct cell_map {
     double first[3], size; /* number of cell 0 along each axis, counted from the origin */
-    int bits, dim;
+    int bits;
 } cell_map;
 
 int mps__cell_bits(int32_t dim)
@@ -25,7 +26,6 @@ int mps__cell_bits(int32_t dim)
 }
 
 typedef struct corners {
-    int dim;
     const double *x;
 } corners;
 
@@ -57,24 +57,17 @@ void mps__sort_keys(uint64_t *key, int32_t *order, int64_t n)
     }
 }
 
-/* Upper corner of the particles' box, and the negative of the lower one; infinity where a position is no number. */
-static void corner_rows(void *argument, int64_t begin, int64_t end, double *values)
+/* Upper corner of the particles' box, and behind it the negative of the lower one; infinity where a position is no number. */
+MPS_ROW void corner_row(const int dim, const corners *c, int64_t i, double *values)
 {
-    const corners *c = argument;
-    const int dim = c->dim;
     for (int d = 0; d < dim; d++) {
-        double hi = values[d], lo = values[dim + d];
-        bool unknown = false;
-        for (int64_t i = begin; i < end; i++) {
-            const double v = c->x[i * dim + d];
-            if (v > hi) hi = v;
-            if (-v > lo) lo = -v;
-            unknown |= v != v;
-        }
-        values[d] = unknown ? INFINITY : hi;
-        values[dim + d] = lo;
+        const double v = c->x[i * dim + d];
+        if (v > values[d]) values[d] = v;
+        if (-v > values[3 + d]) values[3 + d] = -v;
+        if (v != v) values[d] = INFINITY;
     }
 }
+MPS__VALUES(corner_rows, corner_row, corners, 0, 6)
 
 /* Numbers from 2^52 on are whole. */
 static inline double round_down(double v)
@@ -105,12 +98,12 @@ static mps_status map_cells(mps_neighbours *l, int64_t n, const double *x, const
                             double reach, cell_map *m)
 {
     const double size = (1 + margin) * reach;
-    *m = (cell_map){.size = size, .dim = l->dim, .bits = mps__cell_bits(l->dim)};
+    *m = (cell_map){.size = size, .bits = mps__cell_bits(l->dim)};
     const double limit = (double)(INT64_C(1) << m->bits) - 4.0;
     double corner[6] = {-INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY};
-    mps_parallel_max(l->parallel, n, 2 * l->dim, corner_rows, &(corners){l->dim, x}, corner);
+    mps__values_run(l->parallel, &corner_rows, l->dim, n, &(corners){x}, NULL, corner);
     for (int d = 0; d < l->dim; d++) {
-        const double lo = -corner[l->dim + d], hi = corner[d];
+        const double lo = -corner[3 + d], hi = corner[d];
         const bool fits = (hi - lo) / size < limit;
         const int64_t far = fits ? 0 : far_particle(l, n, x, id, d, hi);
         MPS__CHECK(l->context, fits,
@@ -122,11 +115,11 @@ static mps_status map_cells(mps_neighbours *l, int64_t n, const double *x, const
 }
 
 /* Positions lie in the box of map_cells(). The number of a cell is bounded all the same, so that no position can be cast out of range. */
-static uint64_t cell_key(const cell_map *m, const double *x)
+MPS_ROW uint64_t cell_key(const int dim, const cell_map *m, const double *x)
 {
     const double last = (double)((INT64_C(1) << m->bits) - 2);
     uint64_t key = 0;
-    for (int d = m->dim - 1; d >= 0; d--) {
+    for (int d = dim - 1; d >= 0; d--) {
         const double cell = round_down(x[d] / m->size) - m->first[d];
         key = (key << m->bits) | (uint64_t)(cell > 0 ? (cell < last ? cell : last) : 0);
     }
@@ -166,19 +159,18 @@ static void order_ties(const mps_neighbours *l, int64_t n, const int64_t *id)
 }
 
 typedef struct keying {
-    mps_neighbours *l;
-    const cell_map *m;
+    cell_map map;
     const double *x;
+    uint64_t *key;
+    int32_t *order;
 } keying;
 
-static void key_rows(void *argument, int64_t begin, int64_t end)
+MPS_ROW void key_row(const int dim, const keying *k, int64_t i)
 {
-    const keying *k = argument;
-    for (int64_t i = begin; i < end; i++) {
-        k->l->key[i] = cell_key(k->m, k->x + i * k->l->dim);
-        k->l->order[i] = (int32_t)i;
-    }
+    k->key[i] = cell_key(dim, &k->map, k->x + i * dim);
+    k->order[i] = (int32_t)i;
 }
+MPS__LOOP(key_rows, key_row, keying)
 
 mps_status mps__neighbours_order(mps_neighbours *l, int64_t n, const double *x, const int64_t *id,
                                  double re_far)
@@ -189,7 +181,7 @@ mps_status mps__neighbours_order(mps_neighbours *l, int64_t n, const double *x, 
     l->order = mps__scratch_take(l->context, l->shared, 1, 2 * n, sizeof *l->order);
     if (!l->key || !l->order) return MPS_E_NOMEM;
     MPS__TRY(map_cells(l, n, x, id, re_far + l->skin, &m));
-    mps_parallel_rows(l->parallel, n, key_rows, &(keying){l, &m, x});
+    mps__loop_run(l->parallel, &key_rows, l->dim, n, &(keying){m, x, l->key, l->order});
     mps__sort_keys(l->key, l->order, n);
     MPS__TRY(check_crowds(l, n, x, id, m.size));
     if (id) order_ties(l, n, id);

@@ -76,16 +76,16 @@ void mps__screens_sides(const mps__screens *s, mps__seer *a)
 
 /* Where plates meet, a line may cross several screens: what is seen there is the shadow of the first of them. Most pairs stand on the same
  * side of all of them. */
-bool mps__screens_hidden(const mps__screens *s, const mps__seer *a, const mps__seer *b)
+bool mps__screens_hidden(const mps__screen *list, int32_t count, const mps__seer *a,
+                         const mps__seer *b)
 {
     const int32_t shadow = a->shadow ? a->shadow : b->shadow;
     const uint64_t apart = a->above ^ b->above;
     if (a->shadow && b->shadow) return true;
-    if (!apart && s->count <= MPS__SCREEN_BITS) return shadow != 0;
-    for (int32_t k = 0; k < s->count; k++) {
+    if (!apart && count <= MPS__SCREEN_BITS) return shadow != 0;
+    for (int32_t k = 0; k < count; k++) {
         if (k < MPS__SCREEN_BITS && !(apart >> k & 1)) continue;
-        if (s->list[k].active && mps__screen_crossed(&s->list[k], a->at, b->at))
-            return shadow != k + 1;
+        if (list[k].active && mps__screen_crossed(&list[k], a->at, b->at)) return shadow != k + 1;
     }
     return shadow != 0;
 }

@@ -54,7 +54,8 @@ double mps__screen_distance(const mps__screen *s, const double *X);
 bool mps__screen_crossed(const mps__screen *s, const double *a, const double *b);
 /* Set `above` from `at`. */
 void mps__screens_sides(const mps__screens *s, mps__seer *a);
-/* True if the two are no pair. */
-bool mps__screens_hidden(const mps__screens *s, const mps__seer *a, const mps__seer *b);
+/* True if the two are no pair. @param list [count] all screens */
+bool mps__screens_hidden(const mps__screen *list, int32_t count, const mps__seer *a,
+                         const mps__seer *b);
 
 #endif

@@ -25,6 +25,9 @@ typedef struct mps__array {
 mps_status mps__op_begin(const char *call, const mps_stencil *given, mps_stencil *s,
                          const mps__array *arrays);
 
+/* Inverse of a symmetric matrix whose eigenvalues are raised to `least`: bounded where neighbours are too few. */
+void mps__inverse_bounded(int dim, const double *m, double least, double *inverse);
+
 /* All of it in one pass. */
 void mps__op_weigh(const mps_stencil *s, const mps__weighed *out);
 

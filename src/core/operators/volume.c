@@ -2,6 +2,7 @@
 /* Volume per particle from a wide, smooth kernel. n/n0 would not do: its kernel is so peaked that an area-preserving
  * stretch of the lattice changes n by several per cent. */
 #include "operators.h"
+#include "loop.h"
 #include <math.h>
 #include <mps/operators.h>
 
@@ -11,7 +12,7 @@ enum { PAIRS = 64 };
 /* Kernel at the squared distance r2 < h^2, support h = 1/over. 2-D: Wendland C2. 3-D: (1 - q^2)^3. Support there is 2.1 dp as a rule, so few that
  * the particle itself is a third of a sum of C2, and disordered liquid looks 2 % denser than the lattice; with the broader kernel sums are those of
  * Voronoi volumes to some tenths of a per cent. */
-static inline __attribute__((always_inline)) double wide(const int dim, double r2, double over)
+MPS_ROW double wide(const int dim, double r2, double over)
 {
     if (dim == 3) {
         const double b = 1.0 - r2 * over * over;
@@ -35,10 +36,8 @@ static double wide_lattice(const mps_stencil *t)
 }
 
 /* Kernel sum over all pairs and the particle itself. Short loops, one thing each: the compiler takes several roots at a time. */
-static inline __attribute__((always_inline)) double wide_sum(const int dim,
-                                                             const mps_stencil *stencil, int64_t i)
+MPS_ROW double wide_sum(const int dim, const mps_stencil *t, int64_t i)
 {
-    const mps_stencil copy = *stencil, *t = &copy; /* its pointers stay in registers */
     const double *a = t->x + i * dim, over = 1.0 / t->re;
     double sum = 1.0, r[PAIRS]; /* wide(0) */
     for (int64_t from = t->begin[i]; from < t->end[i]; from += PAIRS) {
@@ -52,32 +51,29 @@ static inline __attribute__((always_inline)) double wide_sum(const int dim,
 }
 
 typedef struct volume_sums {
-    const mps_stencil *s;
+    mps_stencil s;
     const double *f;
     double *out, full;
 } volume_sums;
 
-static void deviation_rows(void *argument, int64_t begin, int64_t end)
+MPS_ROW void deviation_row(const int dim, const volume_sums *v, int64_t i)
 {
-    const volume_sums *v = argument;
-    const mps_stencil *s = v->s;
-    for (int64_t i = begin; i < end; i++)
-        v->out[i] = (s->dim == 2 ? wide_sum(2, s, i) : wide_sum(3, s, i)) / v->full - 1.0;
+    v->out[i] = wide_sum(dim, &v->s, i) / v->full - 1.0;
 }
+MPS__LOOP(deviation_rows, deviation_row, volume_sums)
 
 mps_status mps_op_volume_deviation(const mps_stencil *s, double *delta)
 {
     mps_stencil own = {0};
     MPS__TRY(
         mps__op_begin(__func__, s, &own, (const mps__array[]){{"delta", delta}, {NULL, NULL}}));
-    volume_sums v = {.s = &own, .out = delta, .full = wide_lattice(&own)};
-    mps_parallel_rows(s->parallel, s->n, deviation_rows, &v);
+    const volume_sums v = {.s = own, .out = delta, .full = wide_lattice(&own)};
+    mps__loop_run(own.parallel, &deviation_rows, own.dim, own.n, &v);
     return MPS_OK;
 }
 
 /* Kernel sum of f over all pairs and the particle itself. */
-static inline __attribute__((always_inline)) double wide_sum_of(const int dim, const mps_stencil *t,
-                                                                const double *f, int64_t i)
+MPS_ROW double wide_sum_of(const int dim, const mps_stencil *t, const double *f, int64_t i)
 {
     const double *a = t->x + i * dim, over = 1.0 / t->re;
     double sum = f[i]; /* wide(0) = 1 */
@@ -92,14 +88,11 @@ static inline __attribute__((always_inline)) double wide_sum_of(const int dim, c
     return sum;
 }
 
-static void sum_rows(void *argument, int64_t begin, int64_t end)
+MPS_ROW void sum_row(const int dim, const volume_sums *v, int64_t i)
 {
-    const volume_sums *v = argument;
-    const mps_stencil *s = v->s;
-    for (int64_t i = begin; i < end; i++)
-        v->out[i] = (s->dim == 2 ? wide_sum_of(2, s, v->f, i) : wide_sum_of(3, s, v->f, i)) /
-                    v->full;
+    v->out[i] = wide_sum_of(dim, &v->s, v->f, i) / v->full;
 }
+MPS__LOOP(sum_rows, sum_row, volume_sums)
 
 mps_status mps_op_volume_sum(const mps_stencil *s, const double *f, double *sum)
 {
@@ -107,7 +100,7 @@ mps_status mps_op_volume_sum(const mps_stencil *s, const double *f, double *sum)
     MPS__TRY(mps__op_begin(__func__, s, &own,
                            (const mps__array[]){{"f", f}, {"sum", sum}, {NULL, NULL}}));
     MPS__CHECK(own.host, f != sum, "%s(): f and sum are the same array: must be two", __func__);
-    volume_sums v = {.s = &own, .f = f, .out = sum, .full = wide_lattice(&own)};
-    mps_parallel_rows(s->parallel, s->n, sum_rows, &v);
+    const volume_sums v = {.s = own, .f = f, .out = sum, .full = wide_lattice(&own)};
+    mps__loop_run(own.parallel, &sum_rows, own.dim, own.n, &v);
     return MPS_OK;
 }

@@ -218,7 +218,7 @@ mps_status mps__ghosts_adopt(mps__ghosts *g, const mps__placing *p)
     mps__particles *s = g->particles;
     const mps__ranks *r = g->ranks;
     if (!mps__ranks_many(r) || s->n == g->known) return MPS_OK;
-    const int64_t fresh = s->n - g->known, generation = s->generation;
+    const int64_t fresh = s->n - g->known, generation = s->generation, solids = s->solids;
     if (!g->cut)
         MPS__TRY(divide(g, p, g->known + fresh * r->rank / r->count,
                         g->known + fresh * (r->rank + 1) / r->count));
@@ -235,6 +235,7 @@ mps_status mps__ghosts_adopt(mps__ghosts *g, const mps__placing *p)
     g->known = s->n;
     g->divided = true;
     s->generation = generation;
+    s->solids = solids;
     return find_runs(g);
 }
 
@@ -324,7 +325,8 @@ mps_status mps__ghosts_renew(mps__ghosts *g, const mps__placing *p, int64_t asid
 {
     mps__particles *s = g->particles;
     if (!mps__ranks_many(g->ranks)) return MPS_OK;
-    const int64_t generation = s->generation; /* none comes and none goes, seen from all ranks */
+    const int64_t generation = s->generation,
+                  solids = s->solids; /* none comes and none goes, seen from all ranks */
     if (g->recut) MPS__TRY(divide(g, p, 0, s->n));
     forget_route(g);
     MPS__TRY(migrate(g, p, aside));
@@ -342,6 +344,7 @@ mps_status mps__ghosts_renew(mps__ghosts *g, const mps__placing *p, int64_t asid
     g->known = s->n;
     g->reach = p->reach;
     s->generation = generation;
+    s->solids = solids;
     return MPS_OK;
 }
 

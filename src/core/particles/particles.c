@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The particle store: a table of arrays that grow, permute and shrink together. */
 #include "particles.h"
+#include <mps/particles.h>
 #include <string.h>
 
 mps_status mps__particles_field_add(mps__particles *s, const char *name, int32_t components,
@@ -123,6 +124,7 @@ mps_status mps__particles_replace(mps__particles *s, int64_t n, const void *cons
     swap_arrays(s, capacity, array);
     s->n = n;
     s->generation++;
+    s->solids++;
     return MPS_OK;
 }
 
@@ -150,17 +152,19 @@ void mps__particles_field_drop(mps__particles *s)
     *f->data = NULL;
 }
 
-int64_t mps__particles_append(mps__particles *s, int64_t count)
+int64_t mps__particles_append(mps__particles *s, int64_t count, int32_t kind)
 {
     int64_t first = s->n;
     for (int32_t k = 0; k < s->fields; k++) begin_field(&s->field[k], first, count);
     for (int64_t i = first; i < first + count; i++) {
         s->id[i] = s->next_id++;
+        s->kind[i] = kind;
         s->wall_of[i] = -1;
         if (s->wall_id) s->wall_id[i] = -1;
     }
     s->n += count;
     s->generation++;
+    s->solids += kind != MPS_FLUID;
     return first;
 }
 
@@ -221,10 +225,18 @@ static void permute_field(mps__particles *s, const mps__field *f, int64_t count,
     mps_parallel_rows_least(s->parallel, count, MPS__ROWS_CHEAP, store_rows, &m);
 }
 
+static int64_t count_solids(const mps__particles *s)
+{
+    int64_t count = 0;
+    for (int64_t i = 0; i < s->n; i++) count += s->kind[i] != MPS_FLUID;
+    return count;
+}
+
 mps_status mps__particles_permute(mps__particles *s, int64_t count, const int32_t *order)
 {
     size_t largest = sizeof(int32_t);
     if (in_order(s, count, order)) return MPS_OK;
+    const int64_t solids = count != s->n ? count_solids(s) : 0;
     for (int32_t k = 0; k < s->fields; k++)
         if (stride(&s->field[k]) > largest) largest = stride(&s->field[k]);
     /* 0 and 1 may hold the order */
@@ -236,8 +248,10 @@ mps_status mps__particles_permute(mps__particles *s, int64_t count, const int32_
     for (int64_t i = 0; i < count; i++) place[order[i]] = (int32_t)i;
     for (int64_t i = 0; i < count; i++)
         if (s->wall_of[i] >= 0) s->wall_of[i] = place[s->wall_of[i]];
-    if (count != s->n) s->generation++;
+    const bool fewer = count != s->n;
     s->n = count;
+    if (fewer) s->generation++;
+    if (fewer && count_solids(s) != solids) s->solids++;
     return MPS_OK;
 }
 

@@ -50,6 +50,8 @@ typedef struct mps__particles {
     int32_t parts;
     char part_name[MPS__PARTS_MAX][MPS__PART_NAME];
     int64_t generation;         /* grows when particles come or go */
+    int64_t solids;             /* grows when solids come or go */
+    bool written;               /* the user wrote a field since ghosts got values of all fields */
     mps__scratch own, *scratch; /* to move particles with: its own, or one shared with others */
 } mps__particles;
 
@@ -60,8 +62,8 @@ void mps__particles_free(mps__particles *s);
 mps_status mps__particles_reserve(mps__particles *s, int64_t extra);
 /* n other particles, with the values of each field in from[], NULL: zeros; on failure nothing changed. */
 mps_status mps__particles_replace(mps__particles *s, int64_t n, const void *const from[]);
-/* Append `count` zeroed particles with new ids (room must be reserved). Returns the place of the first. */
-int64_t mps__particles_append(mps__particles *s, int64_t count);
+/* Append `count` zeroed particles of a kind with new ids (room must be reserved). Returns the place of the first. */
+int64_t mps__particles_append(mps__particles *s, int64_t count, int32_t kind);
 /* Keep particle order[k] at place k for k < count; what is not listed is gone. */
 mps_status mps__particles_permute(mps__particles *s, int64_t count, const int32_t *order);
 mps__field *mps__particles_field(mps__particles *s, const char *name);

@@ -48,7 +48,7 @@ void mps__bounds_free(mps__bounds *b)
 }
 
 /* Rows of components whose level is free are left out: their pressures are known but for a constant. */
-static mps_status collect(mps__bounds *b, const mps__ppe *e, const mps_stage *s,
+static mps_status collect(mps__bounds *b, const mps__ppe *e, const mps_view *s,
                           const mps__ppe_terms *t)
 {
     const int32_t *component = e->problem.component; /* NULL: none without a level */
@@ -175,7 +175,7 @@ static mps_status solve_held(mps__bounds *b, mps__solvers *solvers, mps__ppe *e,
     return status;
 }
 
-mps_status mps__bounds_solve(mps__bounds *b, mps__solvers *solvers, mps__ppe *e, const mps_stage *s,
+mps_status mps__bounds_solve(mps__bounds *b, mps__solvers *solvers, mps__ppe *e, const mps_view *s,
                              mps__ppe_terms *t, mps_ppe_result *result)
 {
     mps_status status = MPS_OK;

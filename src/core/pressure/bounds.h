@@ -27,7 +27,7 @@ void mps__bounds_init(mps__bounds *b, mps__context *context);
 void mps__bounds_free(mps__bounds *b);
 /* Solve the assembled equation for e->p, with p_i >= value_i in rows of MPS_ROW_LEAST, beginning with those of b->held; its condition becomes
  * MPS__ROW_HELD where they are at it now. Iterations and times of `result` are those of all solutions. */
-mps_status mps__bounds_solve(mps__bounds *b, mps__solvers *solvers, mps__ppe *e, const mps_stage *s,
+mps_status mps__bounds_solve(mps__bounds *b, mps__solvers *solvers, mps__ppe *e, const mps_view *s,
                              mps__ppe_terms *t, mps_ppe_result *result);
 
 #endif

@@ -2,12 +2,15 @@
 /* Components of the pressure equation, and whether each has a level: a row that sees a known pressure, or volume that can change. Nearly always
  * all have one. Then one pass over the entries on all threads is enough: trees of joined rows, whose root is their lowest row. */
 #include "levels.h"
+#include "loop.h"
 #include <stdatomic.h>
 
 /* The lowest row of every tree is its own parent, others have a lower one. Parents are only ever replaced by rows further up, so that threads
  * may meet in a tree. */
 typedef struct forest {
-    const mps__ppe *e;
+    int64_t n; /* rows of this rank */
+    const int64_t *row;
+    const int32_t *col;
     _Atomic int32_t *parent;
 } forest;
 
@@ -41,29 +44,28 @@ static void join(const forest *f, int32_t r, int32_t c)
     }
 }
 
-static void join_rows(void *argument, int64_t begin, int64_t end)
+MPS_ROW void join_row(const int dim, const forest *f, int64_t r)
 {
-    const forest *f = argument;
-    const mps__ppe *e = f->e;
-    for (int64_t r = begin; r < end; r++)
-        for (int64_t k = e->row[r]; k < e->row[r + 1]; k++) {
-            if (e->col[k] >= e->n) continue; /* of another rank: it may stand anywhere in the row */
-            if (e->col[k] > r) break;
-            if (parent_of(f, e->col[k]) != parent_of(f, (int32_t)r)) join(f, (int32_t)r, e->col[k]);
-        }
+    (void)dim;
+    for (int64_t k = f->row[r]; k < f->row[r + 1]; k++) {
+        if (f->col[k] >= f->n) continue; /* of another rank: it may stand anywhere in the row */
+        if (f->col[k] > r) break;
+        if (parent_of(f, f->col[k]) != parent_of(f, (int32_t)r)) join(f, (int32_t)r, f->col[k]);
+    }
 }
+MPS__LOOP(join_rows, join_row, forest)
 
 /* Whether each component has a level. Most rows come into the tree of their first column at once. */
 static bool all_have_level(mps__ppe *e, const mps_parallel *parallel)
 {
-    const forest f = {e, (_Atomic int32_t *)(void *)e->queue};
+    const forest f = {e->n, e->row, e->col, (_Atomic int32_t *)(void *)e->queue};
     int32_t *level = e->component;
     for (int32_t r = 0; r < e->n; r++) {
         const int32_t first = e->row[r] < e->row[r + 1] ? e->col[e->row[r]] : r;
         set_parent(&f, r, first < r ? parent_of(&f, first) : r);
         level[r] = 0;
     }
-    mps_parallel_rows(parallel, e->n, join_rows, (void *)&f);
+    mps__loop_run(parallel, &join_rows, MPS__ANY_DIM, e->n, &f);
     for (int32_t r = 0; r < e->n; r++)
         if (e->shift[r] > 0) level[root_of(&f, r)] = 1;
     for (int32_t r = 0; r < e->n; r++)

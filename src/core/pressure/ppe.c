@@ -2,9 +2,9 @@
 /* Assembly of the pressure equation, W22 (10)(16)(17): a row for every unknown, Dirichlet neighbours moved to the right side. */
 #include "ppe.h"
 #include "levels.h"
-#include "parallel.h"
+#include "loop.h"
 #include <math.h>
-#include <mps/model.h>
+#include <mps/stage.h>
 #include <mps/operators.h>
 #include <string.h>
 
@@ -23,15 +23,21 @@ void mps__ppe_free(mps__ppe *e)
     mps__ppe_init(e, e->context);
 }
 
-/* What an assembly looks at. */
+/* What rows of the matrix see: terms of the equation by particle, and the arrays that they become by unknown. */
 typedef struct assembly {
-    mps__ppe *e;
-    const mps_stage *s;
-    const mps__ppe_terms *t;
-    const mps_stencil *pairs;
-    const int32_t *unknown;
-    double c;       /* 2D/(n0 lambda) */
-    double surface; /* weight of pairs with one particle on the surface */
+    mps_stencil pairs;
+    mps_flux flux;
+    const int32_t *kind, *region, *condition;
+    const double *density, *source, *shift, *value, *gas, *law;
+    const uint8_t *ghost; /* NULL: alone */
+    double c;             /* 2D/(n0 lambda) */
+    double surface;       /* weight of pairs with one particle on the surface */
+    double gain;
+    const int32_t *unknown, *particle;
+    int64_t *row;
+    int32_t *col;
+    float *val;
+    double *diagonal, *rhs, *row_shift, *row_gas, *row_law; /* the last two NULL: all are linear */
 } assembly;
 
 /* Full flux of a linear pressure through the row below a flat surface, over that of the pairs the surface leaves. */
@@ -53,17 +59,16 @@ static double complete_flux(const mps_stencil *t)
 /* Weight of a pair by what its particles are; 0: it does not take part. An unknown is not on the surface. */
 static inline double pair_factor(const assembly *a, int64_t i, int64_t j)
 {
-    const mps_stage *s = a->s;
-    if (a->unknown[j] < 0 && a->t->condition[j] != MPS_ROW_FIXED) return 0.0;
-    if (s->kind[i] == MPS_WALL && s->kind[j] == MPS_WALL)
-        return mps_flux_wall_share(a->t->flux, i, j);
-    return a->t->region[j] == MPS_REGION_SURFACE ? a->surface : 1.0;
+    if (a->unknown[j] < 0 && a->condition[j] != MPS_ROW_FIXED) return 0.0;
+    if (a->kind[i] == MPS_WALL && a->kind[j] == MPS_WALL)
+        return mps_flux_wall_share(&a->flux, i, j);
+    return a->region[j] == MPS_REGION_SURFACE ? a->surface : 1.0;
 }
 
 static inline bool is_unknown(const assembly *a, int64_t i)
 {
-    return a->s->kind[i] != MPS_DUMMY && a->t->region[i] < MPS_REGION_SURFACE &&
-           a->t->condition[i] != MPS_ROW_FIXED;
+    return a->kind[i] != MPS_DUMMY && a->region[i] < MPS_REGION_SURFACE &&
+           a->condition[i] != MPS_ROW_FIXED;
 }
 
 static double *carve(char **room, int64_t count)
@@ -81,18 +86,17 @@ static int32_t *carve_numbers(char **room, int64_t count)
 }
 
 /* Arrays of the rows, all in one block: those of eight bytes first. */
-static mps_status reserve_rows(const assembly *a)
+static mps_status reserve_rows(mps__ppe *e, const mps_view *s)
 {
-    mps__ppe *e = a->e;
-    const int64_t n = e->n, all = e->columns, late = e->spare ? 0 : 2 * n + (1 + a->s->dim) * all;
+    const int64_t n = e->n, all = e->columns, late = e->spare ? 0 : 2 * n + (1 + s->dim) * all;
     char *room = mps__scratch_take(e->context, e->scratch, ROWS,
-                                   2 * (4 * n + late + 1) + 2 * all + a->s->n, sizeof(int32_t));
+                                   2 * (4 * n + late + 1) + 2 * all + s->n, sizeof(int32_t));
     if (!room) return MPS_E_NOMEM;
     e->diagonal = carve(&room, n);
     e->rhs = carve(&room, n);
     e->shift = carve(&room, n);
     e->row = (int64_t *)(void *)carve(&room, n + 1);
-    e->x = e->spare ? e->spare_x : carve(&room, all * a->s->dim);
+    e->x = e->spare ? e->spare_x : carve(&room, all * s->dim);
     char *spare = e->spare ? (char *)e->spare : (char *)carve(&room, 2 * n + all);
     e->weight = carve(&spare, n);
     e->p = carve(&spare, all);
@@ -100,18 +104,17 @@ static mps_status reserve_rows(const assembly *a)
     e->queue = carve_numbers(&spare, n);
     e->particle = carve_numbers(&room, all);
     e->order = carve_numbers(&room, all);
-    e->unknown = carve_numbers(&room, a->s->n);
+    e->unknown = carve_numbers(&room, s->n);
     return MPS_OK;
 }
 
 /* Room for laws of gases, where any row has one. */
-static mps_status reserve_laws(const assembly *a)
+static mps_status reserve_laws(mps__ppe *e, const assembly *a, int64_t particles)
 {
-    mps__ppe *e = a->e;
     bool any = false;
     e->gas = e->law = NULL;
-    for (int64_t i = 0; i < a->s->n && !any; i++)
-        any = a->t->law[i] > 0 && a->t->equation.gain * a->t->gas[i] > 0 && is_unknown(a, i);
+    for (int64_t i = 0; i < particles && !any; i++)
+        any = a->law[i] > 0 && a->gain * a->gas[i] > 0 && is_unknown(a, i);
     if (!any) return MPS_OK;
     e->gas = mps__scratch_take(e->context, e->scratch, LAWS, 2 * e->n, sizeof *e->gas);
     if (!e->gas) return MPS_E_NOMEM;
@@ -122,7 +125,7 @@ static mps_status reserve_laws(const assembly *a)
 static bool is_unknown_row(const void *argument, int64_t i)
 {
     const assembly *a = argument;
-    return is_unknown(a, i) && !(a->e->ghosts && mps__is_ghost(a->e->ghosts, i));
+    return is_unknown(a, i) && !(a->ghost && a->ghost[i]);
 }
 
 static bool is_unknown_column(const void *argument, int64_t i)
@@ -131,49 +134,43 @@ static bool is_unknown_column(const void *argument, int64_t i)
 }
 
 /* Unknowns in the order of the particles, behind them those of other ranks. */
-static mps_status number_rows(const assembly *a)
+static mps_status number_rows(mps__ppe *e, const mps_view *s, const assembly *a)
 {
-    mps__ppe *e = a->e;
+    const mps_parallel *parallel = a->pairs.parallel;
     int64_t rows = 0, column;
-    e->n = mps__parallel_count(a->pairs->parallel, a->s->n, is_unknown_row, a);
-    e->columns = e->ghosts ? mps__parallel_count(a->pairs->parallel, a->s->n, is_unknown_column, a)
-                           : e->n;
+    e->n = mps__parallel_count(parallel, s->n, is_unknown_row, a);
+    e->columns = a->ghost ? mps__parallel_count(parallel, s->n, is_unknown_column, a) : e->n;
     column = e->n;
-    MPS__TRY(reserve_rows(a));
-    for (int64_t i = 0; i < a->s->n; i++) {
-        const bool solved = is_unknown(a, i), ghost = e->ghosts && mps__is_ghost(e->ghosts, i);
+    MPS__TRY(reserve_rows(e, s));
+    for (int64_t i = 0; i < s->n; i++) {
+        const bool solved = is_unknown(a, i), ghost = a->ghost && a->ghost[i];
         int64_t *next = ghost ? &column : &rows;
         e->unknown[i] = solved ? (int32_t)*next : -1;
         if (solved) e->particle[(*next)++] = (int32_t)i;
     }
-    return reserve_laws(a);
+    return reserve_laws(e, a, s->n);
 }
 
 /* Entries of row r beside the diagonal. */
-static int64_t count_row(const assembly *a, int64_t r)
+MPS_ROW void count_row(const int dim, const assembly *a, int64_t r)
 {
-    const mps__ppe *e = a->e;
-    const int64_t i = e->particle[r];
+    const mps_stencil *pairs = &a->pairs;
+    const int64_t i = a->particle[r];
     int64_t count = 0;
-    for (int64_t k = a->pairs->begin[i]; k < a->pairs->end[i]; k++) {
-        const int64_t j = a->pairs->col[k];
-        count += e->unknown[j] >= 0 && (a->s->kind[i] == MPS_FLUID || pair_factor(a, i, j) != 0);
+    (void)dim;
+    for (int64_t k = pairs->begin[i]; k < pairs->end[i]; k++) {
+        const int64_t j = pairs->col[k];
+        count += a->unknown[j] >= 0 && (a->kind[i] == MPS_FLUID || pair_factor(a, i, j) != 0);
     }
-    return count;
+    a->row[r + 1] = count;
 }
-
-static void count_rows(void *argument, int64_t begin, int64_t end)
-{
-    const assembly *a = argument;
-    for (int64_t r = begin; r < end; r++) a->e->row[r + 1] = count_row(a, r);
-}
+MPS__LOOP(count_rows, count_row, assembly)
 
 /* Row starts. Returns the entries of all. */
-static int64_t start_rows(assembly *a)
+static int64_t start_rows(mps__ppe *e, const assembly *a)
 {
-    mps__ppe *e = a->e;
     e->row[0] = 0;
-    mps_parallel_rows(a->pairs->parallel, e->n, count_rows, a);
+    mps__loop_run(a->pairs.parallel, &count_rows, a->pairs.dim, e->n, a);
     for (int64_t r = 0; r < e->n; r++) e->row[r + 1] += e->row[r];
     return e->row[e->n];
 }
@@ -194,22 +191,15 @@ static void sort_row(const int32_t *particle, int32_t *col, float *val, int64_t 
     }
 }
 
-static inline __attribute__((always_inline)) void fill_row(const int dim, const assembly *all,
-                                                           int64_t r)
+MPS_ROW void fill_row(const int dim, const assembly *a, int64_t r)
 {
-    mps__ppe *e = all->e;
-    const mps_stage stage = *all->s,
-                    *s = &stage; /* copies, so that the pointers in them stay in registers */
-    const mps_stencil stencil = *all->pairs, *pairs = &stencil;
-    const mps_flux flux = *all->t->flux;
-    mps__ppe_terms terms = *all->t;
-    terms.flux = &flux;
-    const assembly copy = {e, s, &terms, pairs, all->unknown, all->c, all->surface}, *a = &copy;
-    const int64_t i = e->particle[r];
-    int32_t *col = e->col + e->row[r];
-    const double gain = terms.equation.gain, gas = gain * a->t->gas[i];
-    float *val = e->val + e->row[r];
-    double coupling = 0, shift = gain * a->t->shift[i] + gas, rhs = gain * a->t->source[i];
+    const mps_stencil *pairs = &a->pairs;
+    const mps_flux *flux = &a->flux;
+    const int64_t i = a->particle[r];
+    int32_t *col = a->col + a->row[r];
+    const double gas = a->gain * a->gas[i];
+    float *val = a->val + a->row[r];
+    double coupling = 0, shift = a->gain * a->shift[i] + gas, rhs = a->gain * a->source[i];
     int64_t count = 0;
     int64_t last = -1;
     bool sorted = true;
@@ -217,15 +207,15 @@ static inline __attribute__((always_inline)) void fill_row(const int dim, const 
         const double factor = pair_factor(a, i, pairs->col[k]);
         if (factor == 0) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, pairs, i, k);
-        const double rho = mps_flux_density(&flux, i, q.j);
+        const double rho = mps_flux_density(flux, i, q.j);
         const float entry = (float)(a->c * factor * q.w /
                                     rho); /* the same from both sides, and in the diagonal */
         const double kij = (double)entry;
-        rhs -= kij * (rho * mps_flux_body(&flux, dim, i, q.j, q.d) - mps_flux_jump(&flux, i, q.j));
+        rhs -= kij * (rho * mps_flux_body(flux, dim, i, q.j, q.d) - mps_flux_jump(flux, i, q.j));
         const int32_t column = a->unknown[q.j];
         if (column < 0) {
             shift += kij;
-            rhs += kij * terms.value[q.j];
+            rhs += kij * a->value[q.j];
             continue;
         }
         coupling += kij;
@@ -235,45 +225,19 @@ static inline __attribute__((always_inline)) void fill_row(const int dim, const 
         val[count++] = -entry;
     }
     if (coupling + shift == 0) { /* no pair: p = 0 */
-        shift = a->c / terms.density[i];
+        shift = a->c / a->density[i];
         rhs = 0;
     }
-    e->diagonal[r] = coupling + shift;
-    if (!sorted) sort_row(e->particle, col, val, count);
-    e->rhs[r] = rhs;
-    e->shift[r] = shift;
-    if (e->law) {
-        e->gas[r] = gas;
-        e->law[r] = gas > 0 ? a->t->law[i] : 0;
+    a->diagonal[r] = coupling + shift;
+    if (!sorted) sort_row(a->particle, col, val, count);
+    a->rhs[r] = rhs;
+    a->row_shift[r] = shift;
+    if (a->row_law) {
+        a->row_gas[r] = gas;
+        a->row_law[r] = gas > 0 ? a->law[i] : 0;
     }
 }
-
-/* What rows are not made of, also of columns of other ranks. It may stand where the terms were. */
-static void note_unknown(const assembly *a, int64_t r)
-{
-    const mps__ppe *e = a->e;
-    const mps_stage *s = a->s;
-    const int64_t i = e->particle[r];
-    e->p[r] = a->t->pressure[i];
-    for (int d = 0; d < s->dim; d++) e->x[r * s->dim + d] = s->x[i * s->dim + d];
-    if (r < e->n) e->weight[r] = s->dt * s->dt;
-}
-
-static void fill_rows(void *argument, int64_t begin, int64_t end)
-{
-    const assembly *a = argument;
-    for (int64_t r = begin; r < end; r++) {
-        if (a->s->dim == 2)
-            fill_row(2, a, r);
-        else
-            fill_row(3, a, r);
-    }
-}
-
-static void note_rows(void *argument, int64_t begin, int64_t end)
-{
-    for (int64_t r = begin; r < end; r++) note_unknown(argument, r);
-}
+MPS__LOOP(fill_rows, fill_row, assembly)
 
 static mps_status reserve_entries(mps__ppe *e, int64_t entries)
 {
@@ -372,24 +336,79 @@ static mps_status set_ranks(mps__ppe *e)
     return mps__ranks_status(r);
 }
 
-mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps__ppe_terms *t)
+static assembly assembly_of(const mps__ppe *e, const mps_view *s, const mps__ppe_terms *t)
 {
-    const mps_stencil *pairs = t->equation.radius == MPS_NEAR ? s->near : s->far;
-    assembly a = {.e = e,
-                  .s = s,
-                  .t = t,
-                  .pairs = pairs,
-                  .c = 2.0 * s->dim / (pairs->n0 * pairs->lambda),
-                  .surface = t->equation.complete_surface ? complete_flux(pairs) : 1.0};
-    MPS__TRY(number_rows(&a));
-    a.unknown = e->unknown;
-    MPS__TRY(reserve_entries(e, start_rows(&a)));
-    mps_parallel_rows(pairs->parallel, e->n, fill_rows, &a);
-    mps_parallel_rows(pairs->parallel, e->columns, note_rows,
-                      &a); /* after all rows: it may overwrite terms that they look at */
+    const mps_stencil *pairs = t->equation.radius == MPS_NEAR ? &s->near : &s->far;
+    return (assembly){.pairs = *pairs,
+                      .flux = *t->flux,
+                      .kind = s->kind,
+                      .region = t->region,
+                      .condition = t->condition,
+                      .density = t->density,
+                      .source = t->source,
+                      .shift = t->shift,
+                      .value = t->value,
+                      .gas = t->gas,
+                      .law = t->law,
+                      .ghost = e->ghosts ? e->ghosts->ghost : NULL,
+                      .c = 2.0 * s->dim / (pairs->n0 * pairs->lambda),
+                      .surface = t->equation.complete_surface ? complete_flux(pairs) : 1.0,
+                      .gain = t->equation.gain};
+}
+
+/* The arrays that rows write, once there is room for them. */
+static void see_rows(assembly *a, const mps__ppe *e)
+{
+    a->unknown = e->unknown;
+    a->particle = e->particle;
+    a->row = e->row;
+    a->col = e->col;
+    a->val = e->val;
+    a->diagonal = e->diagonal;
+    a->rhs = e->rhs;
+    a->row_shift = e->shift;
+    a->row_gas = e->gas;
+    a->row_law = e->law;
+}
+
+mps_status mps__ppe_fill(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t)
+{
+    assembly a = assembly_of(e, s, t);
+    MPS__TRY(number_rows(e, s, &a));
+    see_rows(&a, e);
+    MPS__TRY(reserve_entries(e, start_rows(e, &a)));
+    see_rows(&a, e);
+    mps__loop_run(a.pairs.parallel, &fill_rows, s->dim, e->n, &a);
+    return MPS_OK;
+}
+
+/* What rows are not made of, also of columns of other ranks. */
+typedef struct notes {
+    const double *place, *pressure; /* of particles */
+    const int32_t *particle;
+    int64_t rows;
+    double dt2;
+    double *x, *p, *weight;
+} notes;
+
+MPS_ROW void note_row(const int dim, const notes *a, int64_t r)
+{
+    const int64_t i = a->particle[r];
+    a->p[r] = a->pressure[i];
+    for (int d = 0; d < dim; d++) a->x[r * dim + d] = a->place[i * dim + d];
+    if (r < a->rows) a->weight[r] = a->dt2;
+}
+MPS__LOOP(note_rows, note_row, notes)
+
+mps_status mps__ppe_note(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t)
+{
+    const mps_parallel *parallel = s->far.parallel;
+    mps__loop_run(
+        parallel, &note_rows, s->dim, e->columns,
+        &(notes){s->x, t->pressure, e->particle, e->n, s->dt * s->dt, e->x, e->p, e->weight});
     MPS__TRY(set_ranks(e));
     int32_t singular;
-    MPS__TRY(mps__levels_find(e, s->id, pairs->parallel, &singular));
+    MPS__TRY(mps__levels_find(e, s->id, parallel, &singular));
     e->problem = (mps_ppe_problem){.struct_size = sizeof e->problem,
                                    .dim = s->dim,
                                    .n = e->n,
@@ -406,29 +425,29 @@ mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps__ppe_ter
                                    .component = singular ? e->component : NULL,
                                    .gas = e->gas,
                                    .law = e->law,
-                                   .parallel = pairs->parallel,
+                                   .parallel = parallel,
                                    .ranks = e->ranks.ranks > 1 ? &e->ranks : NULL};
     return MPS_OK;
 }
 
 typedef struct scatter {
-    const mps__ppe *e;
-    const mps__ppe_terms *t;
+    const int32_t *unknown, *condition;
+    const double *solution, *value;
     double *p;
 } scatter;
 
-static void scatter_rows(void *argument, int64_t begin, int64_t end)
+MPS_ROW void scatter_row(const int dim, const scatter *c, int64_t i)
 {
-    const scatter *c = argument;
-    for (int64_t i = begin; i < end; i++) {
-        if (c->e->unknown[i] >= 0)
-            c->p[i] = c->e->p[c->e->unknown[i]];
-        else
-            c->p[i] = c->t->condition[i] == MPS_ROW_FIXED ? c->t->value[i] : 0;
-    }
+    (void)dim;
+    if (c->unknown[i] >= 0)
+        c->p[i] = c->solution[c->unknown[i]];
+    else
+        c->p[i] = c->condition[i] == MPS_ROW_FIXED ? c->value[i] : 0;
 }
+MPS__LOOP(scatter_rows, scatter_row, scatter)
 
-void mps__ppe_scatter(const mps__ppe *e, const mps_stage *s, const mps__ppe_terms *t, double *p)
+void mps__ppe_scatter(const mps__ppe *e, const mps_view *s, const mps__ppe_terms *t, double *p)
 {
-    mps_parallel_rows(s->far->parallel, s->n, scatter_rows, &(scatter){e, t, p});
+    mps__loop_run(s->far.parallel, &scatter_rows, s->dim, s->n,
+                  &(scatter){e->unknown, t->condition, e->p, t->value, p});
 }

@@ -5,11 +5,17 @@
 
 #include "sets.h"
 #include "solvers.h"
-#include <mps/model.h>
+#include <mps/stage.h>
 
-/* What models say of the equation: mps_equation, the fluxes of its pairs, and its channels. */
+/* Scalars of the equation: the channels "equation_...". */
+typedef struct mps__equation {
+    int32_t radius, complete_surface, body;
+    double wall_factor, gain;
+} mps__equation;
+
+/* What models say of the equation: its scalars, the fluxes of its pairs, and its channels. */
 typedef struct mps__ppe_terms {
-    mps_equation equation;
+    mps__equation equation;
     const mps_flux *flux;
     const int32_t *region;
     const double *density, *pressure; /* [n] those before the solution */
@@ -25,7 +31,7 @@ typedef struct mps__ppe {
     mps__scratch own,
         *scratch; /* where all arrays are: its own, or one shared with others. They last until these take it again */
     double *spare,
-        *spare_x; /* NULL, or room [3 particles], [particles*dim] that is free when rows are filled: terms but `value` */
+        *spare_x; /* NULL, or room [3 particles], [particles*dim] for what mps__ppe_note() writes */
     mps__ghosts *ghosts; /* NULL: alone */
     /* on many ranks: who owns places of the lab */
     mps_status (*owner)(void *world, int64_t m, const double *x, int32_t *rank);
@@ -58,9 +64,11 @@ static inline int64_t mps__ppe_rows(const mps__ppe *e)
 
 void mps__ppe_init(mps__ppe *e, mps__context *context);
 void mps__ppe_free(mps__ppe *e);
-/* Build a row for every unknown, with the old pressures as the first guess. Of the terms `value` and `condition` are left where e->spare is theirs. */
-mps_status mps__ppe_assemble(mps__ppe *e, const mps_stage *s, const mps__ppe_terms *t);
+/* Build a row for every unknown. */
+mps_status mps__ppe_fill(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t);
+/* Then what an unknown is beside its row, with the old pressures as the first guess. e->spare and e->spare_x take it. */
+mps_status mps__ppe_note(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t);
 /* Pressures of all particles from the solution e->p. */
-void mps__ppe_scatter(const mps__ppe *e, const mps_stage *s, const mps__ppe_terms *t, double *p);
+void mps__ppe_scatter(const mps__ppe *e, const mps_view *s, const mps__ppe_terms *t, double *p);
 
 #endif

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Registry of pressure solvers and preconditioners, and the solution with the pair in use. */
 #include "solvers.h"
+#include "loop.h"
 #include "ppe/builtin.h"
 #include <math.h>
-#include <mps/exact.h>
 #include <string.h>
 
 static const mps_solver_limits default_limits = {
@@ -401,8 +401,12 @@ static bool has_law(const mps_ppe_problem *problem)
     return problem->struct_size >= sizeof *problem && problem->law;
 }
 
+/* What rows of the check see: those of the problem. */
 typedef struct check {
-    const mps_ppe_problem *problem;
+    const int64_t *row;
+    const int32_t *col;
+    const float *val;
+    const double *diagonal, *rhs, *weight, *gas, *law; /* the last three NULL: none */
     const double *p;
     double *r;
 } check;
@@ -410,38 +414,22 @@ typedef struct check {
 /* Squares of the residual and of the right side. No comparison finds a NaN the larger one, so it has a maximum of its own, POISON. */
 enum { SQUARES, RHS_SQUARES, SUMS };
 enum { LARGEST, POISON, MAXIMA };
-enum { CHECK_BLOCK = 1024 }; /* rows: what is summed is still in cache */
 
-static void check_block(const check *c, int64_t begin, int64_t end, double *maxima)
+MPS_ROW void check_row(const int dim, const check *c, int64_t i, double *values)
 {
-    const mps_ppe_problem *problem = c->problem;
-    const double *p = c->p, *law = has_law(problem) ? problem->law : NULL;
-    double *r = c->r, largest = maxima[LARGEST], poison = 0;
-    for (int64_t i = begin; i < end; i++) {
-        double s = problem->diagonal[i] * p[i];
-        for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++)
-            s += (double)problem->val[k] * p[problem->col[k]];
-        if (law && law[i] > 0) s += problem->gas[i] * (mps_ppe_law(law[i], p[i], NULL) - p[i]);
-        r[i] = problem->rhs[i] - s;
-        const double d = problem->weight ? fabs(r[i] * problem->weight[i]) : 0;
-        if (d > largest) largest = d;
-        poison += 0 * d;
-    }
-    maxima[LARGEST] = largest;
-    if (poison != 0) maxima[POISON] = 1;
+    const double *p = c->p;
+    double s = c->diagonal[i] * p[i], *maxima = values + SUMS;
+    (void)dim;
+    for (int64_t k = c->row[i]; k < c->row[i + 1]; k++) s += (double)c->val[k] * p[c->col[k]];
+    if (c->law && c->law[i] > 0) s += c->gas[i] * (mps_ppe_law(c->law[i], p[i], NULL) - p[i]);
+    const double r = c->rhs[i] - s, d = c->weight ? fabs(r * c->weight[i]) : 0;
+    c->r[i] = r;
+    values[SQUARES] = r * r;
+    values[RHS_SQUARES] = c->rhs[i] * c->rhs[i];
+    if (d > maxima[LARGEST]) maxima[LARGEST] = d;
+    if (0 * d != 0) maxima[POISON] = 1;
 }
-
-static void check_rows(void *argument, int64_t begin, int64_t end, mps_exact *sums, double *maxima)
-{
-    const check *c = argument;
-    const double *rhs = c->problem->rhs;
-    for (int64_t lo = begin, hi; lo < end; lo = hi) {
-        hi = lo + CHECK_BLOCK < end ? lo + CHECK_BLOCK : end;
-        check_block(c, lo, hi, maxima);
-        mps_exact_add_products(&sums[SQUARES], hi - lo, c->r + lo, c->r + lo);
-        mps_exact_add_products(&sums[RHS_SQUARES], hi - lo, rhs + lo, rhs + lo);
-    }
-}
+MPS__VALUES(check_rows, check_row, check, SUMS, MAXIMA)
 
 mps_status mps_ppe_check(const mps_ppe_problem *problem, const double *p, double *work,
                          mps_ppe_result *result)
@@ -450,9 +438,19 @@ mps_status mps_ppe_check(const mps_ppe_problem *problem, const double *p, double
     mps_exact sums[SUMS] = {{{0}, 0, 0}};
     double maxima[MAXIMA] = {0};
     const mps_exact_values values = {SUMS, MAXIMA, sums, maxima};
+    const bool laws = has_law(problem);
+    const check seen = {.row = problem->row,
+                        .col = problem->col,
+                        .val = problem->val,
+                        .diagonal = problem->diagonal,
+                        .rhs = problem->rhs,
+                        .weight = problem->weight,
+                        .gas = laws ? problem->gas : NULL,
+                        .law = laws ? problem->law : NULL,
+                        .p = p,
+                        .r = work};
     if (mps_ppe_share(problem, (double *)p)) return MPS_E_RANKS;
-    mps_exact_rows(problem->parallel, problem->n, MPS_PARALLEL_LEAST, check_rows,
-                   &(check){problem, p, work}, &values);
+    mps__values_run(problem->parallel, &check_rows, problem->dim, problem->n, &seen, sums, maxima);
     if (mps_ppe_total(problem, &values)) return MPS_E_RANKS;
     const double squares = mps_exact_value(&sums[SQUARES]),
                  rhs_squares = mps_exact_value(&sums[RHS_SQUARES]);

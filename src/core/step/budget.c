@@ -1,71 +1,56 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Sums of energy and momentum. They are exact: the same bytes for any number of threads and any order of the particles. */
 #include "budget.h"
-#include "terms.h"
 #include <string.h>
 
 enum { TERMS = 5 }; /* sums of one loop, at most */
 
 /* What terms are made of. */
 typedef struct terms {
-    const mps__world *w;
-    const void *data;
-    int32_t count; /* sums */
+    const double *rho, *u;
+    const double
+        *data; /* of a particle: an acceleration, a displacement, a pressure, a deviation */
+    const int32_t *region;
+    double cell, dt;
+    double centre[3], v[3], omega[3]; /* of the tank's motion, a rigid velocity about `centre` */
 } terms;
 
-/* Define `name`, which adds the terms of one kind of particles; each has its own loop, in which its function is inlined. */
-#define ADD_TERMS(name, kind_of_particles, set)                                                 \
-    static void name(void *argument, int64_t begin, int64_t end, mps_exact *sums, double *none) \
-    {                                                                                           \
-        const terms *k = argument;                                                              \
-        mps__terms t;                                                                           \
-        (void)none;                                                                             \
-        mps__terms_begin(&t, sums, k->count);                                                   \
-        for (int64_t i = begin; i < end; i++) {                                                 \
-            double own[TERMS] = {0};                                                            \
-            if (k->w->particles.kind[i] != (kind_of_particles)) continue;                       \
-            if (mps__is_ghost(&k->w->ghosts, i)) continue;                                      \
-            set(k->w, k->data, i, own);                                                         \
-            mps__terms_add(&t, own);                                                            \
-        }                                                                                       \
-        mps__terms_end(&t);                                                                     \
-    }
-
-static void sum_terms(const mps__world *w, mps_exact_fn add, const void *data, int32_t count,
+static void sum_terms(const mps__world *w, const mps_sums *add, terms *f, int32_t count,
                       double *values)
 {
-    terms k = {w, data, count};
-    mps_exact sums[TERMS] = {{{0}, 0, 0}};
-    mps_exact_rows(&w->pool.parallel, w->particles.n, MPS_PARALLEL_LEAST, add, &k,
-                   &(mps_exact_values){.sums = count, .sum = sums});
-    mps__ranks_sum(w->ghosts.ranks, count, sums);
-    for (int32_t v = 0; v < count; v++) values[v] = mps_exact_value(&sums[v]);
+    const double dp = w->setup.dp;
+    mps_view v;
+    mps__world_view(w, &v);
+    f->rho = w->particles.rho;
+    f->u = w->particles.u;
+    f->region = w->particles.region;
+    f->cell = w->setup.dim == 2 ? dp * dp : dp * dp * dp;
+    mps__host_sum(&w->host, &v, count, add, f, values);
 }
 
-static double mass(const mps__world *w, int64_t i)
+/* Kinetic energy and momentum. */
+MPS_ROW void add_flow(const int dim, const mps_view *v, const terms *f, int64_t i, double *term)
 {
-    return w->particles.rho[i] * (w->setup.dim == 2 ? w->setup.dp * w->setup.dp
-                                                    : w->setup.dp * w->setup.dp * w->setup.dp);
+    if (!mps_is_fluid(v, i)) return;
+    const double *u = f->u + i * dim, m = f->rho[i] * f->cell;
+    term[0] = 0.5 * m * mps__dot(u, u, dim);
+    for (int d = 0; d < dim; d++) term[1 + d] = m * u[d];
 }
+MPS_SUMS(add_flows, add_flow, terms)
 
-/* Kinetic energy, momentum, and last the potential energy. */
-static void energy_term(const mps__world *w, const void *data, int64_t i, double *term)
+/* The same, and last the potential energy. */
+MPS_ROW void add_energy(const int dim, const mps_view *v, const terms *f, int64_t i, double *term)
 {
-    (void)data;
-    const double *u = w->particles.u + i * w->setup.dim;
-    const double m = mass(w, i);
-    term[0] = 0.5 * m * mps__dot(u, u, w->setup.dim);
-    for (int d = 0; d < w->setup.dim; d++) term[1 + d] = m * u[d];
-    term[1 + w->setup.dim] = -m *
-                             mps__dot(w->setup.g, w->particles.x + i * w->setup.dim, w->setup.dim);
+    if (!mps_is_fluid(v, i)) return;
+    add_flow(dim, v, f, i, term);
+    term[1 + dim] = -(f->rho[i] * f->cell) * mps__dot(v->g, v->x + i * dim, dim);
 }
-
-ADD_TERMS(add_energy, MPS_FLUID, energy_term)
+MPS_SUMS(add_energies, add_energy, terms)
 
 void mps__budget_sum(const mps__world *w, mps__bulk *bulk)
 {
     double s[TERMS] = {0};
-    sum_terms(w, add_energy, NULL, 2 + w->setup.dim, s);
+    sum_terms(w, &add_energies, &(terms){0}, 2 + w->setup.dim, s);
     *bulk = (mps__bulk){.kinetic = s[0], .potential = s[1 + w->setup.dim]};
     for (int d = 0; d < w->setup.dim; d++) bulk->momentum[d] = s[1 + d];
 }
@@ -73,57 +58,30 @@ void mps__budget_sum(const mps__world *w, mps__bulk *bulk)
 void mps__budget_sum_flow(const mps__world *w, mps__bulk *bulk)
 {
     double s[TERMS] = {0};
-    sum_terms(w, add_energy, NULL, 1 + w->setup.dim, s);
+    sum_terms(w, &add_flows, &(terms){0}, 1 + w->setup.dim, s);
     *bulk = (mps__bulk){.kinetic = s[0], .momentum = {s[1], s[2], s[3]}};
 }
 
-typedef struct acceleration {
-    const double *a;
-    double dt;
-} acceleration;
-
-static void push_term(const mps__world *w, const void *data, int64_t i, double *term)
+MPS_ROW void add_push(const int dim, const mps_view *v, const terms *f, int64_t i, double *term)
 {
-    const acceleration *k = data;
-    const double *b = k->a + i * w->setup.dim, *u = w->particles.u + i * w->setup.dim,
-                 m = mass(w, i);
-    term[0] = m * k->dt *
-              (mps__dot(b, u, w->setup.dim) + 0.5 * k->dt * mps__dot(b, b, w->setup.dim));
+    if (!mps_is_fluid(v, i)) return;
+    const double *b = f->data + i * dim, *u = f->u + i * dim, m = f->rho[i] * f->cell;
+    term[0] = m * f->dt * (mps__dot(b, u, dim) + 0.5 * f->dt * mps__dot(b, b, dim));
     term[1] = m;
-    for (int d = 0; d < w->setup.dim; d++) term[2 + d] = m * k->dt * b[d];
+    for (int d = 0; d < dim; d++) term[2 + d] = m * f->dt * b[d];
 }
-
-ADD_TERMS(add_push, MPS_FLUID, push_term)
+MPS_SUMS(add_pushes, add_push, terms)
 
 void mps__budget_push(const mps__world *w, const double *a, double dt, mps__push *push)
 {
     double s[TERMS] = {0};
-    sum_terms(w, add_push, &(acceleration){a, dt}, 2 + w->setup.dim, s);
+    sum_terms(w, &add_pushes, &(terms){.data = a, .dt = dt}, 2 + w->setup.dim, s);
     *push = (mps__push){s[0], s[1], {s[2], s[3], s[4]}};
 }
 
-static void wall_term(const mps__world *w, const void *data, int64_t i, double *term)
-{
-    const double *area = w->work.area + i * w->setup.dim;
-    for (int d = 0; d < w->setup.dim; d++) term[d] = ((const double *)data)[i] * area[d];
-}
-
-ADD_TERMS(add_wall, MPS_WALL, wall_term)
-
-void mps__budget_wall_force(const mps__world *w, const double *pressure, double force[3])
-{
-    sum_terms(w, add_wall, pressure, w->setup.dim, force);
-}
-
-/* A rigid velocity, about `centre`, and the impulses it works on. */
-typedef struct tank_move {
-    double centre[3], v[3], omega[3], dt;
-    const double *a;
-} tank_move;
-
 /* Add half the velocity from one pose to another. Its turn is the part of (R1 R0^T - 1)/dt without strain, of what the walls really do. */
 static void add_half_move(const mps__motion *m, const mps__pose *from, const mps__pose *to,
-                          double dt, tank_move *k)
+                          double dt, terms *k)
 {
     double c0[3] = {0}, c1[3] = {0}, turn[9] = {0};
     mps__motion_point(m, from, m->centre, c0, NULL, NULL);
@@ -138,10 +96,10 @@ static void add_half_move(const mps__motion *m, const mps__pose *from, const mps
 }
 
 /* Mean of the velocities of the last step and of this one; before the first: what the start convention says. */
-static tank_move mean_move(const mps__world *w, const mps__pose *end, double dt)
+static terms mean_move(const mps__world *w, const mps__pose *end, double dt)
 {
     const mps__motion *m = &w->motion;
-    tank_move k = {.dt = dt};
+    terms k = {.dt = dt};
     mps__motion_point(m, &m->now, m->centre, k.centre, NULL, NULL);
     add_half_move(m, &m->now, end, dt, &k);
     if (w->state.dt_before > 0)
@@ -154,42 +112,103 @@ static tank_move mean_move(const mps__world *w, const mps__pose *end, double dt)
     return k;
 }
 
-static void wall_work_term(const mps__world *w, const void *data, int64_t i, double *term)
+/* Velocity at a particle. */
+MPS_ROW void move_velocity(const int dim, const mps_view *v, const terms *f, int64_t i, double u[3])
 {
-    const tank_move *k = data;
-    const double *o = k->omega, *a = k->a + i * w->setup.dim;
+    const double *o = f->omega;
     double r[3] = {0};
-    for (int d = 0; d < w->setup.dim; d++)
-        r[d] = w->particles.x[i * w->setup.dim + d] - k->centre[d];
+    for (int d = 0; d < dim; d++) r[d] = v->x[i * dim + d] - f->centre[d];
     const double spin[3] = {o[1] * r[2] - o[2] * r[1], o[2] * r[0] - o[0] * r[2],
                             o[0] * r[1] - o[1] * r[0]};
-    for (int d = 0; d < w->setup.dim; d++)
-        term[0] += mass(w, i) * k->dt * a[d] * (k->v[d] + spin[d]);
+    for (int d = 0; d < 3; d++) u[d] = f->v[d] + spin[d];
 }
 
-ADD_TERMS(add_wall_work, MPS_FLUID, wall_work_term)
+MPS_ROW void add_work(const int dim, const mps_view *v, const terms *f, int64_t i, double *term)
+{
+    if (!mps_is_fluid(v, i)) return;
+    const double *a = f->data + i * dim;
+    double u[3];
+    move_velocity(dim, v, f, i, u);
+    for (int d = 0; d < dim; d++) term[0] += f->rho[i] * f->cell * f->dt * a[d] * u[d];
+}
+MPS_SUMS(add_works, add_work, terms)
 
 double mps__budget_wall_work(const mps__world *w, const mps__pose *end, const double *a, double dt)
 {
-    tank_move k = mean_move(w, end, dt);
-    k.a = a;
+    terms k = mean_move(w, end, dt);
     double work;
-    sum_terms(w, add_wall_work, &k, 1, &work);
+    k.data = a;
+    sum_terms(w, &add_works, &k, 1, &work);
     return work;
 }
 
-static void lift_term(const mps__world *w, const void *data, int64_t i, double *term)
+double mps__budget_tank_work(const mps__world *w, const mps__pose *end, const double force[6],
+                             double dt)
 {
-    term[0] = mass(w, i) *
-              mps__dot(w->setup.g, (const double *)data + i * w->setup.dim, w->setup.dim);
+    const terms k = mean_move(w, end, dt);
+    return dt * (mps__dot(force, k.v, 3) + mps__dot(force + 3, k.omega, 3));
 }
 
-ADD_TERMS(add_lift, MPS_FLUID, lift_term)
+/* Force, and last its work. */
+MPS_ROW void add_wall(const int dim, const mps_view *v, const terms *f, int64_t i, double *term)
+{
+    if (!mps_is_wall(v, i) || f->data[i] == 0) return;
+    const double *area = v->area + i * dim;
+    double u[3];
+    move_velocity(dim, v, f, i, u);
+    for (int d = 0; d < dim; d++) {
+        term[d] = f->data[i] * area[d];
+        term[dim] += f->dt * term[d] * u[d];
+    }
+}
+MPS_SUMS(add_walls, add_wall, terms)
+
+double mps__budget_wall_force(const mps__world *w, const mps__pose *end, const double *pressure,
+                              double dt, double force[3])
+{
+    terms k = mean_move(w, end, dt);
+    double s[TERMS] = {0};
+    k.data = pressure;
+    sum_terms(w, &add_walls, &k, 1 + w->setup.dim, s);
+    for (int d = 0; d < 3; d++) force[d] = d < w->setup.dim ? s[d] : 0;
+    return s[w->setup.dim];
+}
+
+typedef struct body_fields {
+    const double *pressure, *area, *from,
+        *to; /* area and places in the frame of the tank, in which bodies move */
+} body_fields;
+
+MPS_ROW void add_body_work(const int dim, const mps_view *v, const body_fields *f, int64_t i,
+                           double *term)
+{
+    if (!mps_is_wall(v, i)) return;
+    for (int64_t k = i * dim; k < (i + 1) * dim; k++)
+        term[0] += f->pressure[i] * f->area[k] * (f->to[k] - f->from[k]);
+}
+MPS_SUMS(add_body_works, add_body_work, body_fields)
+
+double mps__budget_body_work(const mps__world *w, const double *pressure)
+{
+    const body_fields f = {pressure, w->particles.area, w->particles.ref, w->work.placed};
+    double work = 0;
+    mps_view v;
+    if (!w->work.bodies) return 0;
+    mps__world_view(w, &v);
+    mps__host_sum(&w->host, &v, 1, &add_body_works, &f, &work);
+    return work;
+}
+
+MPS_ROW void add_lift(const int dim, const mps_view *v, const terms *f, int64_t i, double *term)
+{
+    if (mps_is_fluid(v, i)) term[0] = f->rho[i] * f->cell * mps__dot(v->g, f->data + i * dim, dim);
+}
+MPS_SUMS(add_lifts, add_lift, terms)
 
 double mps__budget_lift(const mps__world *w, const double *dx)
 {
     double lift;
-    sum_terms(w, add_lift, dx, 1, &lift);
+    sum_terms(w, &add_lifts, &(terms){.data = dx}, 1, &lift);
     return lift;
 }
 
@@ -214,19 +233,19 @@ void mps__budget_update(const mps__world *w, mps__budget *b)
     b->start = b->last.kinetic + b->last.potential;
 }
 
-static void deviation_term(const mps__world *w, const void *data, int64_t i, double *term)
+MPS_ROW void add_deviation(const int dim, const mps_view *v, const terms *f, int64_t i,
+                           double *term)
 {
-    (void)data;
-    if (w->particles.region[i] > MPS_REGION_SECOND) return;
-    term[0] = w->work.volume_deviation[i];
+    (void)dim;
+    if (!mps_is_fluid(v, i) || f->region[i] > MPS_REGION_SECOND) return;
+    term[0] = f->data[i];
     term[1] = 1;
 }
+MPS_SUMS(add_deviations, add_deviation, terms)
 
-ADD_TERMS(add_deviation, MPS_FLUID, deviation_term)
-
-double mps__budget_mean_deviation(const mps__world *w)
+double mps__budget_mean_deviation(const mps__world *w, const double *deviation)
 {
     double s[2];
-    sum_terms(w, add_deviation, NULL, 2, s);
+    sum_terms(w, &add_deviations, &(terms){.data = deviation}, 2, s);
     return s[1] > 0 ? s[0] / s[1] : 0;
 }

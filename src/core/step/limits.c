@@ -1,45 +1,67 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How long a step may be. */
-#include "world.h"
+/* How long a step may be, and which limit decides. */
+#include "step.h"
 
 /* So many steps at most share what is left of a run. */
 static const double SHARED_STEPS = 20;
 
-static double least(double a, double b)
+/* The limit that decides so far. */
+typedef struct limit {
+    double dt;
+    const char *name;         /* mps_step_info.limit */
+    const char *what, *units; /* the value behind it, for messages */
+    double value;
+} limit;
+
+static void lower(limit *l, limit other)
 {
-    return b > 0 && b < a ? b : a;
+    if (other.dt > 0 && other.dt < l->dt) *l = other;
 }
 
-/* dt of the limits of the state, and of the growth since the last step that they chose; never 0. */
-static mps_status choose_dt(mps__world *w, mps_stage *s, double *chosen)
+/* Models lower s->dt_limit; the least of all ranks counts, and the name of the model that asked for it. */
+static mps_status limit_by_models(mps__world *w, mps_stage *s, mps_view *v, limit *l)
+{
+    s->dt_limit = INFINITY;
+    MPS__TRY(mps__host_run(&w->host, s, v, MPS_LIMIT));
+    double own = s->dt_limit, least = -own, call = -1;
+    mps__ranks_max(&w->ranks, 1, &least);
+    s->dt_limit = -least;
+    if (!(s->dt_limit < l->dt)) return MPS_OK;
+    if (own == s->dt_limit) call = w->host.limiter;
+    mps__ranks_max(&w->ranks, 1, &call);
+    const char *name = call < 0 ? "model" : w->host.plan.call[(int)call].name;
+    lower(l, (limit){s->dt_limit, name, "the model allows", "s", s->dt_limit});
+    return MPS_OK;
+}
+
+/* The limits of the state, and of the growth since the last step that they chose. */
+static mps_status limit_by_state(mps__world *w, mps_stage *s, mps_view *v, limit *l)
 {
     const mps_time_control *c = &w->setup.control;
-    double dt = INFINITY, nu = 0;
-    const double speed = mps__world_speed(w);
+    const double dp = w->setup.dp, speed = mps__world_speed(w), scale = w->setup.velocity_scale;
+    double nu = 0;
     for (int k = 0; k < MPS__PHASES; k++)
         if (w->setup.phase_defined[k])
             nu = fmax(nu, w->setup.phase_viscosity[k] / w->setup.phase_density[k]);
-    if (speed > 0) dt = least(dt, c->cfl * w->setup.dp / speed);
-    dt = least(dt, c->gravity * w->setup.dp / w->setup.velocity_scale);
-    if (nu > 0) dt = least(dt, c->viscous * w->setup.dp * w->setup.dp / nu);
-    s->dt_limit = INFINITY;
-    MPS__TRY(mps__host_run(&w->host, s, MPS_LIMIT));
-    s->dt_limit = -s->dt_limit;
-    mps__ranks_max(&w->ranks, 1, &s->dt_limit);
-    s->dt_limit = -s->dt_limit;
-    dt = least(dt, s->dt_limit);
-    if (w->state.dt_previous > 0) dt = least(dt, c->growth * w->state.dt_previous);
-    *chosen = dt;
+    if (speed > 0)
+        lower(l, (limit){c->cfl * dp / speed, "cfl", "the largest speed is", "m/s", speed});
+    lower(l, (limit){c->gravity * dp / scale, "gravity", "the velocity scale is", "m/s", scale});
+    if (nu > 0)
+        lower(l, (limit){c->viscous * dp * dp / nu, "viscous", "the largest kinematic viscosity is",
+                         "m2/s", nu});
+    MPS__TRY(limit_by_models(w, s, v, l));
+    const double last = w->state.dt_previous;
+    if (last > 0) lower(l, (limit){c->growth * last, "growth", "the last step was", "s", last});
     return MPS_OK;
 }
 
 /* Shorten a step of at most `longest` until walls move no farther in it, or in half of it, than the cfl number allows. Where they speed up
  * the way is that of a power of the time: square roots do not fall below what is needed. */
-static mps_status follow_walls(mps__world *w, double longest, double *dt)
+static mps_status follow_walls(mps__world *w, double longest, limit *l)
 {
     const int trials = 40;
     const double allowed = w->setup.control.cfl * w->setup.dp;
-    double trial = fmin(*dt, longest);
+    double trial = fmin(l->dt, longest);
     if (allowed <= 0 || !w->motion.fn) return MPS_OK;
     for (int k = 0; k < trials; k++) {
         double way = 0;
@@ -49,36 +71,66 @@ static mps_status follow_walls(mps__world *w, double longest, double *dt)
             way = fmax(way, part * mps__world_way_of_walls(w, &pose, trial / part));
         }
         if (way <= allowed * (1 + 1e-9)) return MPS_OK;
+        const double speed = way / trial;
         trial *= k < trials / 2 && way > 1.02 * allowed ? sqrt(allowed / way) : allowed / way;
-        *dt = trial;
+        *l = (limit){trial, "walls", "the largest speed of the walls and relative to them is",
+                     "m/s", speed};
     }
     return MPS_OK;
 }
 
-mps_status mps__world_limit_step(mps__world *w, mps_stage *s, double dt_max, double *planned)
+/* The longest step that does not miss what the motion does; infinite where it is not known. */
+static double resolving(const mps__world *w, double dt)
+{
+    const mps__motion *m = &w->motion;
+    return m->longest ? m->longest(m->user, w->state.t, dt) : INFINITY;
+}
+
+/* A step of at most `longest` that the limits choose. */
+static mps_status choose(mps__world *w, mps_stage *s, mps_view *v, double longest, limit *l)
+{
+    const double least = w->setup.control.dt_min;
+    MPS__TRY(limit_by_state(w, s, v, l));
+    const double known = resolving(w, fmin(l->dt, longest));
+    lower(l, (limit){known, "motion", "the motion of the tank changes within", "s", known});
+    MPS__TRY(follow_walls(w, longest, l));
+    if (l->dt >= least) return MPS_OK;
+    return mps__fail(w->context, MPS_E_DIVERGED,
+                     "the time step fell to %g s at t = %.9g s, below dt_min = %g s, by the limit "
+                     "'%s': %s %g %s",
+                     l->dt, w->state.t, least, l->name, l->what, l->value, l->units);
+}
+
+/* The user chose the step: all that is left is to tell. */
+static void check_fixed(mps__world *w, double dt)
+{
+    const double known = resolving(w, dt);
+    if (w->motion.told || !(known < dt)) return;
+    w->motion.told = true;
+    mps__log(w->context, MPS_LOG_WARNING,
+             "t = %.9g s: a fixed step of %g s misses parts of the tank's motion; it changes "
+             "within %g s: take steps of at most that",
+             w->state.t, dt, known);
+}
+
+mps_status mps__world_limit_step(mps__world *w, mps_stage *s, mps_view *v, double dt_max,
+                                 double *planned, const char **name)
 {
     const mps_time_control *c = &w->setup.control;
-    const double longest = c->dt > 0 ? dt_max : least(dt_max, c->dt_max);
-    s->dt = w->state.dt_previous;
-    double dt = c->dt;
-    if (c->dt <= 0) {
-        MPS__TRY(choose_dt(w, s, &dt));
-        MPS__TRY(follow_walls(w, longest, &dt));
-        if (!(dt >= c->dt_min))
-            return mps__fail(w->context, MPS_E_DIVERGED,
-                             "the time step fell to %g s at t = %.9g s, below dt_min = %g s; the "
-                             "largest speed is %g m/s%s",
-                             dt, w->state.t, c->dt_min, mps__world_speed(w),
-                             w->motion.fn ? ", or that of the walls in this step is too large"
-                                          : "");
-    }
-    const double step = fmin(dt, longest);
-    *planned = dt <= longest ? dt : 0;
+    const bool own = c->dt <= 0 && c->dt_max > 0 && c->dt_max < dt_max;
+    const double longest = own ? c->dt_max : dt_max;
+    limit l = {c->dt > 0 ? c->dt : INFINITY, "fixed", "", "", 0};
+    v->dt = w->state.dt_previous;
+    if (c->dt <= 0) MPS__TRY(choose(w, s, v, longest, &l));
+    const double step = fmin(l.dt, longest);
+    *planned = l.dt <= longest ? l.dt : 0;
     const double steps = ceil(dt_max / step * (1 - 1e-6));
-    s->dt = w->ending && steps <= SHARED_STEPS ? dt_max / steps : step;
-    if (!(w->state.t + s->dt > w->state.t))
+    v->dt = w->ending && steps <= SHARED_STEPS ? dt_max / steps : step;
+    if (c->dt > 0) check_fixed(w, v->dt);
+    *name = v->dt == l.dt ? l.name : own && v->dt == longest ? "dt_max" : "caller";
+    if (!(w->state.t + v->dt > w->state.t))
         return mps__fail(w->context, MPS_E_DIVERGED,
-                         "the time step is %g s, too short to change the time, %g s", s->dt,
+                         "the time step is %g s, too short to change the time, %g s", v->dt,
                          w->state.t);
     return MPS_OK;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Checks of what a step has done: finite, not too fast, and not farther than the walls can hold; how far the walls go. */
 #include "world_ranks.h"
+#include <float.h>
 #include <string.h>
 
 /* Layers of dummies behind walls that a user gave particle by particle. */
@@ -11,14 +12,29 @@ static double limit_of(const mps__world *w)
     return (1 + (w->setup.layers > 0 ? w->setup.layers : layers_unknown)) * w->setup.dp;
 }
 
+/* Ways in a step, in the frame of the tank, whose poses at both ends are in the view. */
+typedef struct ways {
+    const double *before, *x; /* [n*dim] places at its begin and its end */
+    const double *ref, *u;
+    double dt, limit;
+} ways;
+
 /* How far a fluid particle went with respect to the tank. */
-static double moved(const mps__world *w, const mps__pose *next, int64_t i)
+MPS_ROW double moved(const int dim, const mps_view *v, const ways *f, int64_t i)
 {
+    const mps_tank_pose *k = &v->tank;
     double from[3], to[3], square = 0;
-    mps__motion_to_tank(&w->motion, &w->motion.now, w->work.x0 + i * w->setup.dim, from);
-    mps__motion_to_tank(&w->motion, next, w->particles.x + i * w->setup.dim, to);
-    for (int d = 0; d < w->setup.dim; d++) square += (to[d] - from[d]) * (to[d] - from[d]);
+    mps__tank_place(dim, k->centre, k->shift, k->rotation, f->before + i * dim, from);
+    mps__tank_place(dim, k->centre, k->next_shift, k->next_rotation, f->x + i * dim, to);
+    for (int d = 0; d < dim; d++) square += (to[d] - from[d]) * (to[d] - from[d]);
     return sqrt(square);
+}
+
+/* The particles now, and the tank now and at another pose. */
+static void view_of(const mps__world *w, const mps__pose *next, mps_view *v)
+{
+    mps__world_view(w, v);
+    mps__motion_view_next(next, &v->tank);
 }
 
 /* Place of the particle with this id; -1: it is on another rank, which has the text of the failure. */
@@ -31,18 +47,18 @@ static int64_t place_of(mps__world *w, int64_t id)
     return i < s->n ? i : -1;
 }
 
-static mps_status jumped(mps__world *w, const mps__pose *next, double dt, int64_t id)
+static mps_status jumped(mps__world *w, const mps_view *v, const ways *f, int64_t id)
 {
     const int64_t i = place_of(w, id);
     if (i < 0) return mps__ranks_text(&w->ranks, MPS_E_DIVERGED);
-    const double *x = w->work.x0 + i * w->setup.dim, distance = moved(w, next, i);
+    const double *x = f->before + i * v->dim, distance = moved(v->dim, v, f, i);
     mps__fail(
         w->context, MPS_E_DIVERGED,
         "t = %.9g s: fluid particle %lld at (%g, %g, %g) m would move %g m in a step of %g s, at "
         "%g m/s; allowed: at most "
         "%g m, as deep as walls and their dummies are. Take a shorter step, or an adaptive one",
         w->state.t, (long long)w->particles.id[i], x[0], x[1], w->setup.dim == 3 ? x[2] : 0,
-        distance, dt, distance / dt, limit_of(w));
+        distance, f->dt, distance / f->dt, f->limit);
     return mps__ranks_text(&w->ranks, MPS_E_DIVERGED);
 }
 
@@ -56,115 +72,117 @@ static bool may_jump(const mps__world *w)
     return c->dt > 0 || c->cfl <= 0 || c->cfl > 1 || foreign;
 }
 
-/* Ways of the fluid in a step. */
-typedef struct ways {
-    const mps__world *w;
-    const mps__pose *next;
-    double dt, limit;
-} ways;
-
 /* 1: there are solids; the farthest way, and the negative of the least id beyond the limit. */
-static void way_rows(void *argument, int64_t begin, int64_t end, double *v)
+MPS_ROW void raise_way(const int dim, const mps_view *v, const ways *f, int64_t i, double *most)
 {
-    const ways *k = argument;
-    const mps__particles *s = &k->w->particles;
-    for (int64_t i = begin; i < end; i++) {
-        if (mps__is_ghost(&k->w->ghosts, i)) continue;
-        const double distance = s->kind[i] == MPS_FLUID ? moved(k->w, k->next, i) : 0;
-        if (s->kind[i] != MPS_FLUID) v[0] = 1;
-        v[1] = distance > v[1] ? distance : v[1];
-        if (distance > k->limit) v[2] = fmax(v[2], -(double)s->id[i]);
-    }
+    const double distance = mps_is_fluid(v, i) ? moved(dim, v, f, i) : 0;
+    if (!mps_is_fluid(v, i)) most[0] = 1;
+    most[1] = distance > most[1] ? distance : most[1];
+    if (distance > f->limit) most[2] = fmax(most[2], -(double)v->id[i]);
 }
+MPS_SUMS(raise_ways, raise_way, ways)
 
 /* Fluid that moves farther in a step than the layers of the solids are deep may come out behind them unseen. */
-mps_status mps__world_check_moves(mps__world *w, const mps__pose *next, double dt)
+mps_status mps__world_check_moves(mps__world *w, const mps__pose *next, const double *before,
+                                  double dt)
 {
-    ways k = {w, next, dt, limit_of(w)};
-    double v[3] = {0, 0, -INFINITY};
+    const ways f = {.before = before, .x = w->particles.x, .dt = dt, .limit = limit_of(w)};
+    double most[3] = {0, 0, -INFINITY};
+    mps_view v;
     if (!may_jump(w)) return MPS_OK;
-    mps_parallel_max(&w->pool.parallel, w->particles.n, 3, way_rows, &k, v);
-    mps__ranks_max(&w->ranks, 3, v);
-    if (v[0] > 0 && !isinf(v[2])) return jumped(w, next, dt, (int64_t)-v[2]);
-    if (w->setup.control.dt > 0 && v[1] > w->setup.dp && !w->state.moves_told) {
+    view_of(w, next, &v);
+    mps__host_max(&w->host, &v, 3, &raise_ways, &f, most);
+    if (most[0] > 0 && !isinf(most[2])) return jumped(w, &v, &f, (int64_t)-most[2]);
+    if (w->setup.control.dt > 0 && most[1] > w->setup.dp && !w->state.moves_told) {
         w->state.moves_told = true;
         mps__log(w->context, MPS_LOG_WARNING,
                  "t = %.9g s: in a fixed step of %g s fluid moves up to %g m, more than a spacing "
                  "of %g m: the step is too long for its speed",
-                 w->state.t, dt, v[1], w->setup.dp);
+                 w->state.t, dt, most[1], w->setup.dp);
     }
     return MPS_OK;
 }
 
 /* Square of the longest way of a wall, or of the fluid as the walls see it. */
-static void wall_way_rows(void *argument, int64_t begin, int64_t end, double *most)
+MPS_ROW void raise_wall_way(const int dim, const mps_view *v, const ways *f, int64_t i,
+                            double *most)
 {
-    const ways *k = argument;
-    const mps__world *w = k->w;
-    const mps__particles *s = &w->particles;
-    for (int64_t i = begin; i < end; i++) {
-        double X[3], here[3], next[3], square = 0;
-        const bool fluid = s->kind[i] == MPS_FLUID;
-        if (mps__is_ghost(&w->ghosts, i)) continue;
-        if (fluid)
-            mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * w->setup.dim, X);
-        else
-            memcpy(X, s->ref + i * w->setup.dim, (size_t)w->setup.dim * sizeof *X);
-        mps__motion_point(&w->motion, &w->motion.now, X, here, NULL, NULL);
-        mps__motion_point(&w->motion, k->next, X, next, NULL, NULL);
-        for (int d = 0; d < w->setup.dim; d++) {
-            const double way = next[d] - here[d] - (fluid ? k->dt * s->u[i * w->setup.dim + d] : 0);
-            square += way * way;
-        }
-        *most = square > *most ? square : *most;
+    const mps_tank_pose *k = &v->tank;
+    const bool fluid = mps_is_fluid(v, i);
+    double X[3], here[3], next[3], square = 0;
+    if (fluid)
+        mps__tank_place(dim, k->centre, k->shift, k->rotation, v->x + i * dim, X);
+    else
+        for (int d = 0; d < dim; d++) X[d] = f->ref[i * dim + d];
+    mps__tank_point(dim, k->centre, k->shift, k->rotation, X, here);
+    mps__tank_point(dim, k->centre, k->next_shift, k->next_rotation, X, next);
+    for (int d = 0; d < dim; d++) {
+        const double way = next[d] - here[d] - (fluid ? f->dt * f->u[i * dim + d] : 0);
+        square += way * way;
     }
+    *most = square > *most ? square : *most;
 }
+MPS_SUMS(raise_wall_ways, raise_wall_way, ways)
 
 double mps__world_way_of_walls(mps__world *w, const mps__pose *pose, double dt)
 {
-    ways k = {w, pose, dt, 0};
+    const ways f = {.ref = w->particles.ref, .u = w->particles.u, .dt = dt};
     double most = 0;
-    mps_parallel_max(&w->pool.parallel, w->particles.n, 1, wall_way_rows, &k, &most);
-    mps__ranks_max(&w->ranks, 1, &most);
+    mps_view v;
+    view_of(w, pose, &v);
+    mps__host_max(&w->host, &v, 1, &raise_wall_ways, &f, &most);
     return sqrt(most);
+}
+
+mps_status mps__world_check_pose(const mps__world *w, const mps__motion *m, const mps__pose *pose,
+                                 mps_status refusal)
+{
+    const double most = MPS__FARTHEST * w->setup.dp, origin[3] = {0, 0, 0};
+    double x[3] = {0};
+    bool near = true;
+    mps__motion_point(m, pose, origin, x, NULL, NULL);
+    for (int d = 0; d < w->setup.dim; d++) near = near && fabs(x[d]) <= most;
+    if (near) return MPS_OK;
+    return mps__fail(w->context, refusal,
+                     "the motion carries the tank to (%g, %g, %g) m at t = %.9g s: must be within "
+                     "%g m, %g spacings, of the origin",
+                     x[0], x[1], x[2], pose->t, most, MPS__FARTHEST);
 }
 
 /* What a step has done. */
 typedef struct result {
-    const mps__world *w;
-    double dense; /* liquid is denser [kg/m3] */
+    const double *x, *u, *p, *rho;
+    double fastest; /* speed limit */
+    double dense;   /* liquid is denser [kg/m3] */
 } result;
 
 /* The largest speed of the fluid, that of the liquid, and the negative of the least id of what is not finite or too fast. */
-static void result_rows(void *argument, int64_t begin, int64_t end, double *v)
+MPS_ROW void raise_result(const int dim, const mps_view *v, const result *f, int64_t i,
+                          double *most)
 {
-    const result *k = argument;
-    const mps__world *w = k->w;
-    const mps__particles *s = &w->particles;
-    for (int64_t i = begin; i < end; i++) {
-        if (mps__is_ghost(&w->ghosts, i)) continue;
-        const double *u = s->u + i * w->setup.dim;
-        const double speed = sqrt(mps__dot(u, u, w->setup.dim));
-        if (!(isfinite(speed) && speed <= w->setup.speed_limit &&
-              mps__finite(s->x + i * w->setup.dim, w->setup.dim) && isfinite(s->p[i]))) {
-            v[2] = fmax(v[2], -(double)s->id[i]);
-        } else if (s->kind[i] == MPS_FLUID) {
-            v[0] = speed > v[0] ? speed : v[0];
-            if (s->rho[i] >= k->dense) v[1] = speed > v[1] ? speed : v[1];
-        }
+    const double *u = f->u + i * dim, speed = sqrt(mps__dot(u, u, dim));
+    bool sound = speed <= f->fastest && isfinite(f->p[i]);
+    for (int d = 0; d < dim; d++) sound = sound && isfinite(f->x[i * dim + d]);
+    if (!sound) {
+        most[2] = fmax(most[2], -(double)v->id[i]);
+    } else if (mps_is_fluid(v, i)) {
+        most[0] = speed > most[0] ? speed : most[0];
+        if (f->rho[i] >= f->dense) most[1] = speed > most[1] ? speed : most[1];
     }
 }
+MPS_SUMS(raise_results, raise_result, result)
 
 /* NaN and speeds beyond every physical range stop the run, with the particle and its place. */
-mps_status mps__world_check_result(mps__world *w, const mps_stage *s, bool arrived,
+mps_status mps__world_check_result(mps__world *w, const mps_view *s, const double *before,
                                    mps_step_info *info)
 {
-    result k = {w, 0};
+    const mps__particles *all = &w->particles;
+    result f = {.x = all->x, .u = all->u, .p = all->p, .rho = all->rho};
     double v[3] = {0, 0, -INFINITY};
+    f.fastest = fmin(w->setup.speed_limit, DBL_MAX);
     for (int p = 0; p < MPS__PHASES; p++)
-        if (w->setup.phase_defined[p]) k.dense = fmax(k.dense, 0.5 * w->setup.phase_density[p]);
-    mps_parallel_max(&w->pool.parallel, s->n, 3, result_rows, &k, v);
-    mps__ranks_max(&w->ranks, 3, v);
+        if (w->setup.phase_defined[p]) f.dense = fmax(f.dense, 0.5 * w->setup.phase_density[p]);
+    mps__host_max(&w->host, s, 3, &raise_results, &f, v);
     info->crossing_time = mps__crossing_time(w, v[1], s->dt);
     info->max_speed = v[0];
     info->cfl = v[0] * s->dt / s->dp;
@@ -172,7 +190,7 @@ mps_status mps__world_check_result(mps__world *w, const mps_stage *s, bool arriv
     const int64_t worst = place_of(w, (int64_t)-v[2]);
     if (worst < 0) return mps__ranks_text(&w->ranks, MPS_E_DIVERGED);
     const double *u = w->particles.u + worst * s->dim,
-                 *x = (arrived ? w->work.x0 : w->particles.x) + worst * s->dim;
+                 *x = (before ? before : w->particles.x) + worst * s->dim;
     mps__fail(w->context, MPS_E_DIVERGED,
               "t = %.9g s: particle %lld at (%g, %g, %g) m got velocity (%g, %g, %g) m/s and "
               "pressure %g Pa; allowed: finite, at most %g m/s",

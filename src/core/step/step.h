@@ -5,64 +5,108 @@
 
 #include "budget.h"
 
+/* ---- what other rooms call ---- */
+
+/* One step, undone if it fails. step.c */
+mps_status mps__world_step(mps__world *w, double dt_max);
+/* Fail for what is not finite or too fast, with the particle and its place `before` (NULL: it has not moved). Sets the speeds of `info`. moves.c */
+mps_status mps__world_check_result(mps__world *w, const mps_view *s, const double *before,
+                                   mps_step_info *info);
+/* Fluid that passes a wall in a step of dt that ends at a pose; the places before it are `before`. moves.c */
+mps_status mps__world_check_moves(mps__world *w, const mps__pose *next, const double *before,
+                                  double dt);
+/* The step to take, in s->dt; `planned` is the one the limits chose, 0 if the caller cut it. They also differ where the last steps of a run
+ * share what is left of it, so that none is a sliver: pressures of a tank that accelerates jump with dt, by half of its change. Rounding is
+ * not something left. limits.c */
+mps_status mps__world_limit_step(mps__world *w, mps_stage *s, mps_view *v, double dt_max,
+                                 double *planned, const char **name);
+/* Fail with `refusal` where a motion carries the tank farther. moves.c */
+mps_status mps__world_check_pose(const mps__world *w, const mps__motion *m, const mps__pose *pose,
+                                 mps_status refusal);
+/* Farthest way [m] of the walls from the present pose to another, and of the fluid as they see it if it keeps its velocity for dt. moves.c */
+double mps__world_way_of_walls(mps__world *w, const mps__pose *pose, double dt);
+
+/* ---- a step in progress ---- */
+
 /* What one step carries along; committed to the world only when all went well. */
 typedef struct mps__step {
     mps__world *w;
     mps_stage stage;
-    mps_stencil near, far;
-    mps_flux flux;
+    mps_view view; /* of the stage */
+    mps_flux flux; /* that of the view from MPS_FORCE on */
     mps__ppe_terms terms;
     mps__pose pose; /* of the tank at the end of the step */
     mps_step_info info;
     mps__budget budget;
-    double momentum[3]; /* of the prediction */
-    mps__bulk bulk;     /* of the velocities that were booked last */
+    double momentum[3];       /* of the prediction */
+    mps__bulk bulk;           /* of the velocities that were booked last */
+    mps__push before_plugins; /* what was so before plug-ins of the hook in progress */
+    bool foreign;             /* the last call was of a plug-in, */
+    int32_t foreign_hook;     /* in this hook */
+    mps__reaction reaction[1 + MPS__PARTS_MAX];
     mps__jump jump;
-    double spread; /* time that a gain below 1 spreads pressures over [s] */
-    double clock;  /* beginning of the present stage */
+    double deviation;     /* mean volume deviation */
+    double setup_seconds; /* of the solver */
+    double spread;        /* time that a gain below 1 spreads pressures over [s] */
     bool not_converged;
-    bool moved; /* positions are new, the old ones kept */
+    const double *before; /* positions before particles moved; NULL: they have not */
 } mps__step;
 
-/* ---- the flow: step.c ---- */
+/* ---- passes.c: all passes, in their order within a hook ---- */
 
-/* Book the time since the last call as that of MPS_STAGE_... */
-void mps__step_end_stage(mps__step *q, int stage);
+extern const mps__pass *const mps__step_passes[];
+extern const int32_t mps__step_pass_count;
+
+/* The step that a pass belongs to. */
+static inline mps__step *mps__step_of(const mps_stage *s)
+{
+    return s->self;
+}
 
 /* ---- the stage: step_stage.c ---- */
 
 /* What verbs see, and where the channels of the library are. */
 void mps__step_open(mps__step *q);
-/* First values of the channels that live for a step; number density and asymmetry at the present positions. */
-mps_status mps__step_begin(mps__step *q);
-/* First values of the channels of the pressure equation. */
-void mps__step_begin_equation(mps__step *q);
-/* Run the verbs of a moment. */
-mps_status mps__step_run(mps__step *q, int32_t moment);
+/* Run the calls of a hook. */
+mps_status mps__step_run(mps__step *q, int32_t hook);
+/* Number density and asymmetry at the present positions, and the volume deviation; first values of what lives for a step. */
+extern const mps__pass mps__pass_weights, mps__pass_volumes, mps__pass_first_values;
+/* First values of the pressure equation. */
+extern const mps__pass mps__pass_clear_equation, mps__pass_first_conditions;
 
 /* ---- the tank: step_tank.c ---- */
 
 /* Area vectors of the walls at the beginning of the step. */
 mps_status mps__step_turn_areas(mps__world *w);
-/* Velocities of the solids over this step, accelerations of the tank, and whether its velocity jumped. */
-void mps__step_move_tank(mps__step *q);
+/* Where the channels "solid_place" and "solid_area" are in this step; and after it. */
+mps_status mps__step_place_solids(mps__world *w);
+void mps__step_keep_places(mps__world *w);
+/* Velocities of the solids over this step and accelerations of the tank; whether its velocity jumped. */
+extern const mps__pass mps__pass_tank, mps__pass_jump;
+
+/* ---- the fluid: step_fluid.c ---- */
+
+/* Near rows of the neighbours. */
+extern const mps__pass mps__pass_neighbours;
+/* u* = u + dt (a + g); u = u* + dt a(p); r = r + dt u + shift. Z14 (9)(12)(13). */
+extern const mps__pass mps__pass_clear_forces, mps__pass_predict, mps__pass_clear_gradient,
+    mps__pass_first_loads, mps__pass_push, mps__pass_clear_displacement, mps__pass_move,
+    mps__pass_check, mps__pass_share, mps__pass_keep;
 
 /* ---- the pressures: step_pressure.c ---- */
 
 /* <lap p> = source: sources, equation and solution. W22 (10). */
-mps_status mps__step_project(mps__step *q);
+extern const mps__pass mps__pass_equation, mps__pass_matrix, mps__pass_unknowns, mps__pass_solve,
+    mps__pass_pressures;
 
 /* ---- the books: step_books.c ---- */
 
-/* What force models and gravity are about to do. */
-void mps__step_book_forces(mps__step *q);
-/* What the new pressures have done. */
-void mps__step_book_pressure(mps__step *q);
-/* What collisions have done to the velocities. */
-void mps__step_book_collisions(mps__step *q);
-/* What displacements and the change of velocities with them do. */
-void mps__step_book_shift(mps__step *q);
-/* Stop drops at plates, and book it as a collision. */
-void mps__step_stop_at_plates(mps__step *q);
+/* What others have done to the fluid since the last step. Fails where its energy overflows: that could never be taken away again. */
+mps_status mps__step_book_between(mps__world *w);
+/* What plug-ins of MPS_FORCE or MPS_VELOCITY do: call it before and after them. */
+void mps__step_book_plugins(mps__step *q, bool after);
+/* What force models and gravity are about to do; what pressures, collisions and displacements have done; drops stopped at plates. */
+extern const mps__pass mps__pass_book_forces, mps__pass_book_pressure, mps__pass_book_collisions,
+    mps__pass_book_reactions, mps__pass_book_shift, mps__pass_plates;
 
 #endif

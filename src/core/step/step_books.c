@@ -3,21 +3,78 @@
  * stop drops, change the flow here. */
 #include "plates.h"
 #include "step.h"
+#include <string.h>
 
-/* Whether verbs run at a moment. Without, all is as before it. */
-static bool acts(const mps__step *q, int32_t moment)
+/* Whether verbs run at a hook. Without, all is as before it. */
+static bool acts(const mps__step *q, int32_t hook)
 {
-    const int32_t *begin = q->w->host.plan.begin;
-    return begin[moment] < begin[moment + 1];
+    const mps__plan *p = &q->w->host.plan;
+    bool any = false;
+    for (int32_t k = p->begin[hook]; k < p->begin[hook + 1]; k++) any = any || p->call[k].model;
+    return any;
+}
+
+mps_status mps__step_book_between(mps__world *w)
+{
+    mps__budget budget = w->state.budget;
+    mps__budget_update(w, &budget);
+    const double energy = budget.last.kinetic + budget.last.potential;
+    if (!isfinite(energy))
+        return mps__fail(w->context, MPS_E_DIVERGED,
+                         "t = %.9g s: the energy of the fluid is %g J before the step; velocities "
+                         "must be at most %g m/s",
+                         w->state.t, energy, w->setup.speed_limit);
+    w->state.budget = budget;
+    return MPS_OK;
+}
+
+/* What there is at a hook: the kinetic energy, or what accelerations so far bring to it. */
+static mps__push so_far(const mps__step *q)
+{
+    mps__push push = {0};
+    mps__bulk bulk;
+    if (q->stage.hook == MPS_FORCE) {
+        const double *a = mps__channels_array(&q->w->channels, &q->w->particles, MPS__ACCELERATION);
+        mps__budget_push(q->w, a, q->view.dt, &push);
+        return push;
+    }
+    mps__budget_sum_flow(q->w, &bulk);
+    push.energy = bulk.kinetic;
+    memcpy(push.impulse, bulk.momentum, sizeof bulk.momentum);
+    return push;
+}
+
+void mps__step_book_plugins(mps__step *q, bool after)
+{
+    const bool force = q->stage.hook == MPS_FORCE;
+    mps_momentum *m = &q->budget.momentum;
+    if (!force && q->stage.hook != MPS_VELOCITY) return;
+    mps__twins_fields_ready(&q->w->host.twins);
+    if (force) mps__twins_ready(&q->w->host.twins, MPS__ACCELERATION, MPS__ON_HOST);
+    const mps__push now = so_far(q);
+    if (!after) {
+        q->before_plugins = now;
+        return;
+    }
+    /* the line of the hook, which gets all that its verbs did, gives it back */
+    const double gained = now.energy - q->before_plugins.energy;
+    q->budget.plugins -= gained;
+    *(force ? &q->budget.viscous : &q->budget.collision) += gained;
+    for (int d = 0; d < q->view.dim; d++) {
+        const double impulse = now.impulse[d] - q->before_plugins.impulse[d];
+        m->plugins[d] += impulse;
+        *(force ? &m->force[d] : &m->collision[d]) -= impulse;
+    }
 }
 
 /* Velocities are those that the last state was booked with: no verb changes them before. */
-void mps__step_book_forces(mps__step *q)
+static mps_status book_forces(mps_stage *stage)
 {
-    const mps_stage *s = &q->stage;
+    mps__step *q = mps__step_of(stage);
+    const mps_view *s = &q->view;
     mps_momentum *m = &q->budget.momentum;
     mps__push push;
-    mps__budget_push(q->w, q->w->work.motion, s->dt, &push);
+    mps__budget_push(q->w, stage->data[0], s->dt, &push);
     q->budget.viscous -= push.energy;
     for (int d = 0; d < s->dim; d++) {
         const double weight = push.mass * s->dt * s->g[d];
@@ -25,48 +82,106 @@ void mps__step_book_forces(mps__step *q)
         m->gravity[d] += weight;
         q->momentum[d] = q->budget.last.momentum[d] + push.impulse[d] + weight;
     }
+    return MPS_OK;
 }
 
-void mps__step_book_pressure(mps__step *q)
+static const mps_use book_forces_uses[] = {
+    {"acceleration", MPS_USE_READ}, {"velocity", MPS_USE_READ}, {"density", MPS_USE_READ}};
+
+const mps__pass mps__pass_book_forces = {.name = "book_forces",
+                                         .hook = MPS_FORCE,
+                                         .place = MPS__AFTER_MODELS,
+                                         .stage = MPS_STAGE_OPERATORS,
+                                         .use_count = 3,
+                                         .uses = book_forces_uses,
+                                         .run = book_forces};
+
+static mps_status book_pressure(mps_stage *s)
 {
+    mps__step *q = mps__step_of(s);
     mps__world *w = q->w;
     mps_momentum *m = &q->budget.momentum;
     double force[3];
-    q->budget.wall_work += mps__budget_wall_work(w, &q->pose, w->work.motion, q->stage.dt);
+    const double bodies = mps__budget_body_work(w, s->data[1]);
+    q->budget.wall_work_momentum += bodies +
+                                    mps__budget_wall_work(w, &q->pose, s->data[0], q->view.dt);
+    q->budget.wall_work_probes += bodies + mps__budget_wall_force(w, &q->pose, s->data[1],
+                                                                  q->view.dt, force);
     mps__budget_sum_flow(w, &q->bulk);
-    mps__budget_wall_force(w, w->work.load, force);
     for (int d = 0; d < w->setup.dim; d++) {
         m->pressure[d] += q->bulk.momentum[d] - q->momentum[d];
-        m->walls[d] += q->stage.dt * force[d];
+        m->walls[d] += q->view.dt * force[d];
     }
+    return MPS_OK;
 }
 
-void mps__step_book_collisions(mps__step *q)
+static const mps_use book_pressure_uses[] = {{"acceleration", MPS_USE_READ},
+                                             {"wall_pressure", MPS_USE_READ},
+                                             {"velocity", MPS_USE_READ},
+                                             {"density", MPS_USE_READ},
+                                             {"solid_place", MPS_USE_READ}};
+
+const mps__pass mps__pass_book_pressure = {.name = "book_pressure",
+                                           .hook = MPS_LOAD,
+                                           .place = MPS__AFTER_MODELS,
+                                           .stage = MPS_STAGE_CORRECT,
+                                           .use_count = 5,
+                                           .uses = book_pressure_uses,
+                                           .run = book_pressure};
+
+static mps_status book_collisions(mps_stage *s)
 {
+    mps__step *q = mps__step_of(s);
     mps__bulk after;
-    if (!acts(q, MPS_VELOCITY)) return;
+    if (!acts(q, MPS_VELOCITY)) return MPS_OK;
     mps__budget_sum_flow(q->w, &after);
     q->budget.collision += q->bulk.kinetic - after.kinetic;
     for (int d = 0; d < q->w->setup.dim; d++)
         q->budget.momentum.collision[d] += after.momentum[d] - q->bulk.momentum[d];
     q->bulk = after;
+    return MPS_OK;
 }
 
-void mps__step_book_shift(mps__step *q)
+static const mps_use book_collisions_uses[] = {{"velocity", MPS_USE_READ},
+                                               {"density", MPS_USE_READ}};
+
+const mps__pass mps__pass_book_collisions = {.name = "book_collisions",
+                                             .hook = MPS_VELOCITY,
+                                             .place = MPS__AFTER_MODELS,
+                                             .stage = MPS_STAGE_CORRECT,
+                                             .use_count = 2,
+                                             .uses = book_collisions_uses,
+                                             .run = book_collisions};
+
+static mps_status book_shift(mps_stage *s)
 {
+    mps__step *q = mps__step_of(s);
     mps__bulk after;
-    if (!acts(q, MPS_SHIFT)) return;
+    if (!acts(q, MPS_SHIFT)) return MPS_OK;
     mps__budget_sum_flow(q->w, &after);
-    q->budget.shift += q->bulk.kinetic - after.kinetic + mps__budget_lift(q->w, q->w->work.motion);
+    q->budget.shift += q->bulk.kinetic - after.kinetic + mps__budget_lift(q->w, s->data[0]);
     for (int d = 0; d < q->w->setup.dim; d++)
         q->budget.momentum.shift[d] += after.momentum[d] - q->bulk.momentum[d];
+    return MPS_OK;
 }
 
-void mps__step_stop_at_plates(mps__step *q)
+static const mps_use book_shift_uses[] = {
+    {"displacement", MPS_USE_READ}, {"velocity", MPS_USE_READ}, {"density", MPS_USE_READ}};
+
+const mps__pass mps__pass_book_shift = {.name = "book_shift",
+                                        .hook = MPS_SHIFT,
+                                        .place = MPS__AFTER_MODELS,
+                                        .stage = MPS_STAGE_CORRECT,
+                                        .use_count = 3,
+                                        .uses = book_shift_uses,
+                                        .run = book_shift};
+
+static mps_status stop_at_plates(mps_stage *s)
 {
+    mps__step *q = mps__step_of(s);
     mps__world *w = q->w;
     mps__bulk moved, stopped;
-    if (w->lists.screens.count == 0) return;
+    if (w->lists.screens.count == 0) return MPS_OK;
     mps__budget_sum(w, &moved);
     mps__plates_stop(w, &q->pose);
     mps__budget_sum(w, &stopped);
@@ -74,4 +189,16 @@ void mps__step_stop_at_plates(mps__step *q)
                            (moved.potential - stopped.potential);
     for (int d = 0; d < w->setup.dim; d++)
         q->budget.momentum.collision[d] += stopped.momentum[d] - moved.momentum[d];
+    return MPS_OK;
 }
+
+static const mps_use stop_at_plates_uses[] = {{"velocity", MPS_USE_CHANGE},
+                                              {"position", MPS_USE_CHANGE}};
+
+const mps__pass mps__pass_plates = {.name = "plates",
+                                    .hook = MPS_SHIFT,
+                                    .place = MPS__AFTER_MODELS,
+                                    .stage = MPS_STAGE_CORRECT,
+                                    .use_count = 2,
+                                    .uses = stop_at_plates_uses,
+                                    .run = stop_at_plates};

@@ -11,23 +11,28 @@ static const double SPREAD_SHARE = 0.2;
 static void spread_gain(mps__step *q)
 {
     double *gain = &q->terms.equation.gain;
-    const double dt = q->stage.dt, wanted = dt * (1 - *gain) / *gain;
+    const double dt = q->view.dt, wanted = dt * (1 - *gain) / *gain;
     q->spread = q->w->state.spread > 0
                     ? q->w->state.spread + SPREAD_SHARE * (wanted - q->w->state.spread)
                     : wanted;
     *gain = dt / (dt + q->spread);
 }
 
+static bool has_law(const void *law, int64_t i)
+{
+    return ((const double *)law)[i] > 0;
+}
+
 /* The law of a gas needs a solver of nonlinear rows. */
 static mps_status check_laws(const mps__step *q)
 {
     const mps__world *w = q->w;
-    for (int64_t i = 0; i < q->stage.n && !w->solvers.use->nonlinear; i++)
-        if (q->terms.law[i] > 0)
-            return mps__fail(w->context, MPS_E_STATE,
-                             "model '%s' makes the pressure equation nonlinear, and solver '%s' is "
-                             "for linear ones: choose 'sundials.kinsol'",
-                             mps__host_writer(&w->host, MPS__GAS_LAW), w->solvers.use->name);
+    if (!w->solvers.use->nonlinear &&
+        mps__parallel_first(&w->pool.parallel, q->view.n, has_law, q->terms.law) < q->view.n)
+        return mps__fail(w->context, MPS_E_STATE,
+                         "model '%s' makes the pressure equation nonlinear, and solver '%s' is "
+                         "for linear ones: choose 'sundials.kinsol'",
+                         mps__host_writer(&w->host, MPS__GAS_LAW), w->solvers.use->name);
     return MPS_OK;
 }
 
@@ -52,61 +57,138 @@ static void note_level(mps__step *q)
     mps__log(w->context, MPS_LOG_INFO,
              "t = %.9g s: no surface, fixed pressure or compressible phase gives the pressures a "
              "level; their mean is zero",
-             q->stage.t);
+             q->view.t);
 }
 
-static mps_status solve(mps__step *q, mps_ppe_result *result)
+/* What models have made of the equation. */
+static mps_status close_equation(mps_stage *s)
 {
-    mps__world *w = q->w;
-    w->bounds.held = w->particles.held;
-    w->bounds.solves = 0;
-    if (mps__ppe_rows(&w->ppe) == 0) return MPS_OK;
-    const mps_status status = mps__bounds_solve(&w->bounds, &w->solvers, &w->ppe, &q->stage,
-                                                &q->terms, result);
-    /* a NaN of the prediction has a particle and a place */
-    if (status == MPS_E_SOLVER) MPS__TRY(mps__world_check_result(w, &q->stage, q->moved, &q->info));
-    if (status < 0)
-        return mps__fail(w->context, status, "t = %.9g s: %.400s", q->stage.t, w->context->error);
-    q->not_converged = status == MPS_W_NOT_CONVERGED;
-    if (q->not_converged)
-        mps__log(w->context, MPS_LOG_WARNING, "t = %.9g s: %.400s", q->stage.t, w->context->error);
-    return MPS_OK;
-}
-
-/* What rows look at in their neighbours. */
-static mps_status share_terms(mps__step *q)
-{
-    int32_t channel[3 + MPS__FLUX_CHANNELS] = {MPS__REGION, MPS__PRESSURE_CONDITION,
-                                               MPS__PRESSURE_VALUE};
-    mps__host_flux(&q->w->host, channel + 3);
-    return mps__host_share(&q->w->host, channel, 3 + MPS__FLUX_CHANNELS);
-}
-
-/* <lap p> = source. W22 (10). */
-mps_status mps__step_project(mps__step *q)
-{
-    mps__world *w = q->w;
-    mps_ppe_result result = {.struct_size = sizeof result};
-    mps__step_begin_equation(q);
-    MPS__TRY(mps__step_run(q, MPS_SOURCE));
+    mps__step *q = mps__step_of(s);
     MPS__TRY(check_laws(q));
     MPS__TRY(check_ranks(q));
     spread_gain(q);
-    mps__step_end_stage(q, MPS_STAGE_OPERATORS);
-    MPS__TRY(share_terms(q));
-    MPS__TRY(mps__ppe_assemble(&w->ppe, &q->stage, &q->terms));
+    return MPS_OK;
+}
+
+static const mps_use equation_uses[] = {{"gas_law", MPS_USE_READ},
+                                        {"equation_gain", MPS_USE_CHANGE}};
+
+const mps__pass mps__pass_equation = {.name = "equation",
+                                      .hook = MPS_SOURCE,
+                                      .place = MPS__AFTER_MODELS,
+                                      .stage = MPS_STAGE_OPERATORS,
+                                      .use_count = 2,
+                                      .uses = equation_uses,
+                                      .run = close_equation};
+
+/* ---- matrix and unknowns ---- */
+
+static mps_status fill_matrix(mps_stage *s)
+{
+    mps__step *q = mps__step_of(s);
+    return mps__ppe_fill(&q->w->ppe, &q->view, &q->terms);
+}
+
+static const mps_use matrix_uses[] = {{"region", MPS_USE_NEIGHBOURS},
+                                      {"pressure_condition", MPS_USE_NEIGHBOURS},
+                                      {"pressure_value", MPS_USE_NEIGHBOURS},
+                                      {"pressure_source", MPS_USE_READ},
+                                      {"pressure_shift", MPS_USE_READ},
+                                      {"gas_shift", MPS_USE_READ},
+                                      {"gas_law", MPS_USE_READ},
+                                      {"density", MPS_USE_READ},
+                                      {"equation_radius", MPS_USE_READ},
+                                      {"equation_complete", MPS_USE_READ},
+                                      {"equation_gain", MPS_USE_READ}};
+
+const mps__pass mps__pass_matrix = {.name = "matrix",
+                                    .hook = MPS_SOURCE,
+                                    .place = MPS__AFTER_MODELS,
+                                    .stage = MPS_STAGE_PPE_SETUP,
+                                    .use_count = sizeof matrix_uses / sizeof matrix_uses[0],
+                                    .uses = matrix_uses,
+                                    .run = fill_matrix};
+
+static mps_status note_unknowns(mps_stage *s)
+{
+    mps__step *q = mps__step_of(s);
+    MPS__TRY(mps__ppe_note(&q->w->ppe, &q->view, &q->terms));
     note_level(q);
-    mps__step_end_stage(q, MPS_STAGE_PPE_SETUP);
-    MPS__TRY(solve(q, &result));
-    mps__ppe_scatter(&w->ppe, &q->stage, &q->terms, w->particles.p);
-    mps__host_written(&w->host, MPS__PRESSURE);
+    return MPS_OK;
+}
+
+static const mps_use unknown_uses[] = {{"pressure", MPS_USE_READ},
+                                       {"unknown_numbers", MPS_USE_WRITE | MPS__USE_BEGIN},
+                                       {"unknown_places", MPS_USE_WRITE | MPS__USE_BEGIN}};
+
+const mps__pass mps__pass_unknowns = {.name = "unknowns",
+                                      .hook = MPS_SOURCE,
+                                      .place = MPS__AFTER_MODELS,
+                                      .stage = MPS_STAGE_PPE_SETUP,
+                                      .use_count = 3,
+                                      .uses = unknown_uses,
+                                      .run = note_unknowns};
+
+/* ---- solution ---- */
+
+static mps_status solve(mps_stage *s)
+{
+    mps__step *q = mps__step_of(s);
+    mps__world *w = q->w;
+    mps_ppe_result result = {.struct_size = sizeof result};
+    mps_status status = MPS_OK;
+    w->bounds.held = w->particles.held;
+    w->bounds.solves = 0;
+    if (mps__ppe_rows(&w->ppe) > 0)
+        status = mps__bounds_solve(&w->bounds, &w->solvers, &w->ppe, &q->view, &q->terms, &result);
+    /* a NaN of the prediction has a particle and a place */
+    if (status == MPS_E_SOLVER) {
+        mps__twins_fields_ready(&w->host.twins);
+        MPS__TRY(mps__world_check_result(w, &q->view, q->before, &q->info));
+    }
+    if (status < 0)
+        return mps__fail(w->context, status, "t = %.9g s: %.400s", q->view.t, w->context->error);
+    q->not_converged = status == MPS_W_NOT_CONVERGED;
+    if (q->not_converged)
+        mps__log(w->context, MPS_LOG_WARNING, "t = %.9g s: %.400s", q->view.t, w->context->error);
     q->info.ppe_solves = w->bounds.solves;
     q->info.ppe_iterations = result.iterations;
     q->info.ppe_residual = result.residual;
     q->info.ppe_divergence = result.divergence;
-    q->info.ppe_unknowns = w->ppe.n;
-    mps__step_end_stage(q, MPS_STAGE_PPE_SOLVE);
-    q->info.seconds[MPS_STAGE_PPE_SOLVE] -= result.setup_seconds;
-    q->info.seconds[MPS_STAGE_PPE_SETUP] += result.setup_seconds;
+    q->info.ppe_unknowns = mps__ppe_rows(&w->ppe);
+    q->setup_seconds = result.setup_seconds;
     return MPS_OK;
 }
+
+static const mps_use solve_uses[] = {{"pressure_value", MPS_USE_READ},
+                                     {"pressure_condition", MPS_USE_CHANGE},
+                                     {"unknown_numbers", MPS_USE_CHANGE},
+                                     {"unknown_places", MPS_USE_READ}};
+
+const mps__pass mps__pass_solve = {.name = "solve",
+                                   .hook = MPS_SOURCE,
+                                   .place = MPS__AFTER_MODELS,
+                                   .stage = MPS_STAGE_PPE_SOLVE,
+                                   .use_count = 4,
+                                   .uses = solve_uses,
+                                   .run = solve};
+
+static mps_status scatter_pressures(mps_stage *s)
+{
+    mps__step *q = mps__step_of(s);
+    mps__ppe_scatter(&q->w->ppe, &q->view, &q->terms, s->data[0]);
+    return MPS_OK;
+}
+
+static const mps_use pressure_uses[] = {{"pressure", MPS_USE_WRITE},
+                                        {"unknown_numbers", MPS_USE_READ},
+                                        {"pressure_condition", MPS_USE_READ},
+                                        {"pressure_value", MPS_USE_READ}};
+
+const mps__pass mps__pass_pressures = {.name = "pressures",
+                                       .hook = MPS_SOURCE,
+                                       .place = MPS__AFTER_MODELS,
+                                       .stage = MPS_STAGE_PPE_SOLVE,
+                                       .use_count = 4,
+                                       .uses = pressure_uses,
+                                       .run = scatter_pressures};

@@ -2,34 +2,26 @@
 /* The stage of a step: what verbs see, the arrays of the library's channels, and their first values. */
 #include "operators.h"
 #include "step.h"
+#include <string.h>
 
 /* ---- what verbs see ---- */
 
-static void set_arrays(mps__world *w)
+/* Scalars of the equation are numbers of the step. */
+static void set_scalars(mps__step *q)
 {
-    mps__particles *s = &w->particles;
-    mps__work *k = &w->work;
-    void *const array[MPS__OWN_CHANNELS] = {
-        [MPS__VELOCITY] = s->u,
-        [MPS__PRESSURE] = s->p,
-        [MPS__DENSITY] = s->rho,
-        [MPS__NUMBER_DENSITY] = s->nd,
-        [MPS__REGION] = s->region,
-        [MPS__TANK_ACCELERATION] = k->tank_acceleration,
-        [MPS__VOLUME_DEVIATION] = k->volume_deviation,
-        [MPS__ASYMMETRY] = k->asymmetry,
-        [MPS__PRESSURE_DENSITY] = k->pressure_density,
-        [MPS__ACCELERATION] = k->motion,
-        [MPS__DISPLACEMENT] = k->motion,
-        [MPS__PRESSURE_SOURCE] = k->source,
-        [MPS__PRESSURE_SHIFT] = k->shift,
-        [MPS__PRESSURE_VALUE] = k->value,
-        [MPS__PRESSURE_CONDITION] = k->condition,
-        [MPS__GAS_SHIFT] = k->gas,
-        [MPS__GAS_LAW] = k->law,
-        [MPS__WALL_PRESSURE] = k->load,
-    };
-    for (int32_t c = 0; c < MPS__OWN_CHANNELS; c++) w->channels.list[c].array = array[c];
+    mps__channel *list = q->w->channels.list;
+    mps__equation *e = &q->terms.equation;
+    *e = (mps__equation){.radius = MPS_FAR, .gain = 1.0};
+    list[MPS__EQUATION_RADIUS].array = &e->radius;
+    list[MPS__EQUATION_COMPLETE].array = &e->complete_surface;
+    list[MPS__EQUATION_BODY].array = &e->body;
+    list[MPS__EQUATION_WALL_FACTOR].array = &e->wall_factor;
+    list[MPS__EQUATION_GAIN].array = &e->gain;
+}
+
+static void *array_of(mps__world *w, int32_t channel)
+{
+    return mps__channels_array(&w->channels, &w->particles, channel);
 }
 
 /* A channel that a model may bring; NULL if none does. */
@@ -45,139 +37,208 @@ static void set_flux(mps__step *q)
     q->flux = (mps_flux){.struct_size = sizeof q->flux,
                          .kind = w->particles.kind,
                          .phase = w->particles.phase,
-                         .density = w->work.pressure_density,
+                         .density = array_of(w, MPS__PRESSURE_DENSITY),
                          .distance = brought(w, "interface_distance"),
                          .jump = brought(w, "pressure_jump"),
                          .wetted = brought(w, "wetted_share"),
-                         .tank_acceleration = w->work.tank_acceleration,
+                         .tank_acceleration = array_of(w, MPS__TANK_ACCELERATION),
                          .g = {w->setup.g[0], w->setup.g[1], w->setup.g[2]}};
 }
 
 static void set_terms(mps__step *q)
 {
-    const mps__world *w = q->w;
-    const mps__work *k = &w->work;
-    q->terms = (mps__ppe_terms){
-        .equation = {.struct_size = sizeof(mps_equation), .radius = MPS_FAR, .gain = 1.0},
-        .flux = &q->flux,
-        .region = w->particles.region,
-        .density = w->particles.rho,
-        .pressure = w->particles.p,
-        .source = k->source,
-        .shift = k->shift,
-        .value = k->value,
-        .gas = k->gas,
-        .law = k->law,
-        .condition = k->condition};
+    mps__world *w = q->w;
+    q->terms = (mps__ppe_terms){.flux = &q->flux,
+                                .region = w->particles.region,
+                                .density = w->particles.rho,
+                                .pressure = w->particles.p,
+                                .source = array_of(w, MPS__PRESSURE_SOURCE),
+                                .shift = array_of(w, MPS__PRESSURE_SHIFT),
+                                .value = array_of(w, MPS__PRESSURE_VALUE),
+                                .gas = array_of(w, MPS__GAS_SHIFT),
+                                .law = array_of(w, MPS__GAS_LAW),
+                                .condition = array_of(w, MPS__PRESSURE_CONDITION)};
+    set_scalars(q);
+    w->ppe.spare = array_of(w, MPS__UNKNOWN_NUMBERS);
+    w->ppe.spare_x = array_of(w, MPS__UNKNOWN_PLACES);
+}
+
+/* Fluxes of pairs are complete from MPS_FORCE on; models may change their scalars until MPS_SOURCE. */
+static void show_flux(mps__step *q, const mps__call *call)
+{
+    q->flux.wall_factor = q->terms.equation.wall_factor;
+    q->flux.body = q->terms.equation.body;
+    q->view.flux = call->hook >= MPS_FORCE ? q->flux : (mps_flux){.struct_size = sizeof q->flux};
+}
+
+/* What plug-ins do is booked apart from what the library's models do. */
+static void note_plugins(mps__step *q, const mps__call *call)
+{
+    const bool foreign = call->model && mps__models_foreign(&q->w->models, call->model),
+               goes_on = q->foreign && q->foreign_hook == call->hook;
+    if (goes_on && !foreign) mps__step_book_plugins(q, true);
+    if (foreign && !goes_on) mps__step_book_plugins(q, false);
+    q->foreign = foreign;
+    q->foreign_hook = call->hook;
+}
+
+static void before_call(void *step, const mps__call *call)
+{
+    show_flux(step, call);
+    note_plugins(step, call);
 }
 
 void mps__step_open(mps__step *q)
 {
     mps__world *w = q->w;
-    const mps__particles *s = &w->particles;
-    q->stage = (mps_stage){.struct_size = sizeof q->stage,
-                           .dim = w->setup.dim,
-                           .n = s->n,
-                           .step = w->state.step + 1,
-                           .t = w->state.t,
-                           .dp = w->setup.dp,
-                           .velocity_scale = w->setup.velocity_scale,
-                           .g = {w->setup.g[0], w->setup.g[1], w->setup.g[2]},
-                           .kind = s->kind,
-                           .phase = s->phase,
-                           .id = s->id,
-                           .x = s->x,
-                           .area = w->work.area,
-                           .wall_of = s->wall_of,
-                           .near = &q->near,
-                           .far = &q->far,
-                           .viscosity = w->setup.phase_viscosity,
-                           .tension = w->setup.tension};
-    for (int p = 0; p < MPS__PHASES; p++) q->stage.phases += w->setup.phase_defined[p];
-    set_arrays(w);
+    q->stage = (mps_stage){.struct_size = sizeof q->stage, .step = w->state.step + 1};
+    mps__world_view(w, &q->view);
     set_flux(q);
     set_terms(q);
+    w->host.step = q;
+    w->host.before_call = before_call;
+    memset(&w->host.reactions, 0, sizeof w->host.reactions);
 }
 
-mps_status mps__step_run(mps__step *q, int32_t moment)
+mps_status mps__step_run(mps__step *q, int32_t hook)
 {
-    q->flux.wall_factor = q->terms.equation.wall_factor;
-    q->flux.body = q->terms.equation.body;
-    q->stage.flux = moment >= MPS_FORCE ? &q->flux : NULL;
-    q->stage.equation = moment >= MPS_CLASSIFY && moment <= MPS_SOURCE ? &q->terms.equation : NULL;
-    const mps_status status = mps__host_run(&q->w->host, &q->stage, moment);
-    q->flux.body = q->terms.equation.body;
-    return status;
+    return mps__host_run(&q->w->host, &q->stage, &q->view, hook);
 }
 
 /* ---- first values ---- */
 
 /* Weights of the near pairs, and their rows without gaps; where the radii are equal the far rows are the same. */
-static void weigh_pairs(mps__step *q)
+static mps_status weigh_pairs(mps_stage *s)
 {
-    const mps__world *w = q->w;
-    const mps_neighbours *l = &w->lists.neighbours;
-    mps__op_weigh(&q->near, &(mps__weighed){.begin = l->near_begin,
-                                            .col = l->near_col,
-                                            .w_r2 = l->w_r2,
-                                            .idle = l->idle,
-                                            .n = w->particles.nd,
-                                            .a = w->work.asymmetry});
-    q->near.begin = l->near_begin;
-    q->near.end = l->near_begin + 1;
-    q->near.col = l->near_col;
-    if (q->near.re == q->far.re) q->far = q->near;
-    q->near.w_r2 = l->w_r2;
-}
-
-static void begin_rows(void *world, int64_t begin, int64_t end)
-{
-    mps__world *w = world;
-    mps__particles *s = &w->particles;
-    for (int64_t i = begin; i < end; i++) {
-        s->region[i] = s->kind[i] == MPS_DUMMY ? MPS_REGION_DRY : MPS_REGION_INNER;
-        w->work.pressure_density[i] = s->rho[i];
-    }
-    mps__channels_begin(&w->channels, begin, end);
-}
-
-/* Sums over pairs are those of owners; all else begins alike at ghosts. */
-static void note_ghosts(mps__world *w)
-{
-    static const int32_t alike[] = {MPS__REGION, MPS__TANK_ACCELERATION, MPS__PRESSURE_DENSITY};
-    static const int32_t written[] = {MPS__NUMBER_DENSITY, MPS__ASYMMETRY, MPS__VOLUME_DEVIATION};
-    for (int32_t k = MPS__OWN_CHANNELS; k < w->channels.count; k++)
-        w->channels.list[k].stale = false; /* those that are fields have flags of their own */
-    for (int k = 0; k < 3; k++) {
-        mps__host_alike(&w->host, alike[k]);
-        mps__host_written(&w->host, written[k]);
-    }
-}
-
-mps_status mps__step_begin(mps__step *q)
-{
-    mps__world *w = q->w;
-    weigh_pairs(q);
-    MPS__TRY(mps_op_volume_deviation(&q->far, w->work.volume_deviation));
-    mps_parallel_rows(&w->pool.parallel, w->particles.n, begin_rows, w);
-    note_ghosts(w);
+    mps__step *q = mps__step_of(s);
+    const mps_neighbours *l = &q->w->lists.neighbours;
+    mps_stencil *near = &q->view.near;
+    mps__op_weigh(near, &(mps__weighed){.begin = l->near_begin,
+                                        .col = l->near_col,
+                                        .w_r2 = l->w_r2,
+                                        .idle = l->idle,
+                                        .n = s->data[0],
+                                        .a = s->data[1]});
+    near->begin = l->near_begin;
+    near->end = l->near_begin + 1;
+    near->col = l->near_col;
+    if (near->re == q->view.far.re) q->view.far = *near;
+    near->w_r2 = l->w_r2;
     return MPS_OK;
 }
 
-static void begin_equation_rows(void *terms, int64_t begin, int64_t end)
+static const mps_use weight_uses[] = {{"number_density", MPS_USE_CHANGE},
+                                      {"asymmetry", MPS_USE_WRITE | MPS__USE_BEGIN}};
+
+const mps__pass mps__pass_weights = {.name = "weights",
+                                     .hook = MPS_CLASSIFY,
+                                     .stage = MPS_STAGE_OPERATORS,
+                                     .flat = true,
+                                     .use_count = 2,
+                                     .uses = weight_uses,
+                                     .run = weigh_pairs};
+
+static mps_status find_volumes(mps_stage *s)
 {
-    const mps__ppe_terms *t = terms;
-    for (int64_t i = begin; i < end; i++) {
-        t->source[i] = t->shift[i] = t->value[i] = t->gas[i] = t->law[i] = 0;
-        t->condition[i] = t->region[i] == MPS_REGION_SURFACE ? MPS_ROW_FIXED : MPS_ROW_FREE;
-    }
+    return mps_op_volume_deviation(&s->view->far, s->data[0]);
 }
 
-void mps__step_begin_equation(mps__step *q)
+static const mps_use volume_uses[] = {{"volume_deviation", MPS_USE_WRITE | MPS__USE_BEGIN}};
+
+const mps__pass mps__pass_volumes = {.name = "volumes",
+                                     .hook = MPS_CLASSIFY,
+                                     .stage = MPS_STAGE_OPERATORS,
+                                     .flat = true,
+                                     .use_count = 1,
+                                     .uses = volume_uses,
+                                     .run = find_volumes};
+
+typedef struct first_fields {
+    const double *density;
+    double *pressure_density;
+    int32_t *region;
+} first_fields;
+
+MPS_ROW void begin_row(const int dim, const mps_view *v, const first_fields *f, int64_t i)
 {
-    mps__world *w = q->w;
-    mps_parallel_rows(&w->pool.parallel, w->particles.n, begin_equation_rows, &q->terms);
-    for (int32_t k = MPS__PRESSURE_SOURCE; k <= MPS__GAS_LAW; k++) mps__host_alike(&w->host, k);
-    if (*mps__channels_stale(&w->channels, &w->particles, MPS__REGION))
-        mps__host_written(&w->host, MPS__PRESSURE_CONDITION);
+    (void)dim;
+    f->region[i] = mps_is_dummy(v, i) ? MPS_REGION_DRY : MPS_REGION_INNER;
+    f->pressure_density[i] = f->density[i];
 }
+MPS_ROWS(begin_rows, begin_row, first_fields)
+
+static mps_status set_first_values(mps_stage *s)
+{
+    mps_stage_rows(s, &begin_rows, &(first_fields){s->data[0], s->data[1], s->data[2]});
+    return MPS_OK;
+}
+
+static const mps_use first_uses[] = {{"density", MPS_USE_READ},
+                                     {"pressure_density", MPS_USE_WRITE | MPS__USE_BEGIN},
+                                     {"region", MPS_USE_WRITE}};
+
+const mps__pass mps__pass_first_values = {.name = "first_values",
+                                          .hook = MPS_CLASSIFY,
+                                          .stage = MPS_STAGE_OPERATORS,
+                                          .everywhere = true,
+                                          .flat = true,
+                                          .use_count = 3,
+                                          .uses = first_uses,
+                                          .run = set_first_values};
+
+/* ---- first values of the pressure equation ---- */
+
+enum { SOURCE, SHIFT, VALUE, GAS, LAW, TERMS };
+static const mps_use term_uses[TERMS] = {
+    [SOURCE] = {"pressure_source", MPS_USE_WRITE | MPS__USE_BEGIN},
+    [SHIFT] = {"pressure_shift", MPS_USE_WRITE | MPS__USE_BEGIN},
+    [VALUE] = {"pressure_value", MPS_USE_WRITE | MPS__USE_BEGIN},
+    [GAS] = {"gas_shift", MPS_USE_WRITE | MPS__USE_BEGIN},
+    [LAW] = {"gas_law", MPS_USE_WRITE | MPS__USE_BEGIN}};
+
+static mps_status clear_equation(mps_stage *s)
+{
+    mps__block terms[TERMS];
+    for (int k = 0; k < TERMS; k++) terms[k] = (mps__block){s->data[k], s->view->n};
+    mps__parallel_zero(&mps__step_of(s)->w->pool.parallel, terms, TERMS);
+    return MPS_OK;
+}
+
+const mps__pass mps__pass_clear_equation = {.name = "clear_equation",
+                                            .hook = MPS_SOURCE,
+                                            .stage = MPS_STAGE_OPERATORS,
+                                            .everywhere = true,
+                                            .flat = true,
+                                            .use_count = TERMS,
+                                            .uses = term_uses,
+                                            .run = clear_equation};
+
+typedef struct condition_fields {
+    const int32_t *region;
+    int32_t *condition;
+} condition_fields;
+
+MPS_ROW void condition_row(const int dim, const mps_view *v, const condition_fields *f, int64_t i)
+{
+    (void)dim, (void)v;
+    f->condition[i] = f->region[i] == MPS_REGION_SURFACE ? MPS_ROW_FIXED : MPS_ROW_FREE;
+}
+MPS_ROWS(condition_rows, condition_row, condition_fields)
+
+static mps_status set_first_conditions(mps_stage *s)
+{
+    mps_stage_rows(s, &condition_rows, &(condition_fields){s->data[0], s->data[1]});
+    return MPS_OK;
+}
+
+static const mps_use condition_uses[] = {{"region", MPS_USE_READ},
+                                         {"pressure_condition", MPS_USE_WRITE | MPS__USE_BEGIN}};
+
+const mps__pass mps__pass_first_conditions = {.name = "first_conditions",
+                                              .hook = MPS_SOURCE,
+                                              .stage = MPS_STAGE_OPERATORS,
+                                              .everywhere = true,
+                                              .flat = true,
+                                              .use_count = 2,
+                                              .uses = condition_uses,
+                                              .run = set_first_conditions};

@@ -3,21 +3,6 @@
 #include "step.h"
 #include <string.h>
 
-/* Velocity of a point of the tank over the last step; before the first: what the start convention says. */
-static void tank_velocity(const mps__world *w, const double *X, double *u)
-{
-    double from[3], to[3];
-    if (w->state.dt_before > 0) {
-        mps__motion_point(&w->motion, &w->state.before, X, from, NULL, NULL);
-        mps__motion_point(&w->motion, &w->motion.now, X, to, NULL, NULL);
-        for (int d = 0; d < w->setup.dim; d++) u[d] = (to[d] - from[d]) / w->state.dt_before;
-    } else if (w->motion.start == MPS_START_WITH_TANK) {
-        mps__motion_point(&w->motion, &w->motion.now, X, NULL, u, NULL);
-    } else {
-        for (int d = 0; d < w->setup.dim; d++) u[d] = 0;
-    }
-}
-
 /* Whether the tank has the same place in both poses. */
 static bool same_place(const mps__pose *a, const mps__pose *b)
 {
@@ -36,77 +21,201 @@ static bool at_rest(const mps__step *q)
     return was && same_place(&w->motion.now, &q->pose);
 }
 
-/* Square of the largest acceleration of the solids. */
-static void solid_acceleration_rows(void *world, int64_t begin, int64_t end, double *most)
+/* ---- velocities and accelerations ---- */
+
+/* How the tank moved before this step: by its last pose, by its rates (a start with the tank), not at all; where bodies
+ * move in it, as the solids did. */
+enum { BY_POSE, BY_RATES, AT_REST, AS_BEFORE };
+
+typedef struct tank_fields {
+    const double *ref, *place; /* of solids in the frame of the tank, at both ends of the step */
+    double *velocity, *acceleration;
+    double before_shift[3], before_rotation[9]; /* at the beginning of the last step */
+    double dt_before;
+    int32_t before;
+} tank_fields;
+
+/* Velocity of a point X of the tank over the last step, which is at `here` now. */
+MPS_ROW void velocity_before(const int dim, const mps_view *v, const tank_fields *f,
+                             const double *X, const double here[3], double u[3])
 {
-    const mps__world *w = world;
-    for (int64_t i = begin; i < end; i++) {
-        const double *a = w->work.tank_acceleration + i * w->setup.dim;
-        if (w->particles.kind[i] != MPS_FLUID) *most = fmax(*most, mps__dot(a, a, w->setup.dim));
+    double from[3], arm[3] = {0, 0, 0};
+    for (int d = 0; d < 3; d++) u[d] = 0;
+    if (f->before == BY_POSE || (f->before == AS_BEFORE && f->dt_before > 0)) {
+        mps__tank_point(dim, v->tank.centre, f->before_shift, f->before_rotation, X, from);
+        for (int d = 0; d < dim; d++) u[d] = (here[d] - from[d]) / f->dt_before;
+    } else if (f->before == BY_RATES) {
+        const double *R = v->tank.rotation, *o = v->tank.omega;
+        double r[3] = {0, 0, 0};
+        for (int d = 0; d < dim; d++) r[d] = X[d] - v->tank.centre[d];
+        for (int d = 0; d < 3; d++)
+            arm[d] = R[3 * d] * r[0] + R[3 * d + 1] * r[1] + R[3 * d + 2] * r[2];
+        for (int d = 0; d < dim; d++) {
+            const int e = (d + 1) % 3, g = (d + 2) % 3;
+            u[d] = v->tank.rate[d] + (o[e] * arm[g] - o[g] * arm[e]);
+        }
     }
 }
 
+MPS_ROW void move_tank_row(const int dim, const mps_view *v, const tank_fields *f, int64_t i)
+{
+    const mps_tank_pose *k = &v->tank;
+    const bool fluid = mps_is_fluid(v, i);
+    double X[3], here[3], next[3], old[3];
+    if (fluid)
+        mps__tank_place(dim, k->centre, k->shift, k->rotation, v->x + i * dim, X);
+    else
+        for (int d = 0; d < dim; d++) X[d] = f->ref[i * dim + d];
+    mps__tank_point(dim, k->centre, k->shift, k->rotation, X, here);
+    mps__tank_point(dim, k->centre, k->next_shift, k->next_rotation, fluid ? X : f->place + i * dim,
+                    next);
+    velocity_before(dim, v, f, X, here, old);
+    for (int d = 0; d < dim && !fluid && f->before == AS_BEFORE; d++)
+        old[d] = f->velocity[i * dim + d];
+    for (int d = 0; d < dim; d++) {
+        const double u = (next[d] - here[d]) / v->dt;
+        f->acceleration[i * dim + d] = (u - old[d]) / v->dt;
+        if (!fluid) f->velocity[i * dim + d] = u;
+    }
+}
+MPS_ROWS(move_tank_rows, move_tank_row, tank_fields)
+
+MPS_ROW void rest_row(const int dim, const mps_view *v, const tank_fields *f, int64_t i)
+{
+    for (int64_t k = i * dim; k < (i + 1) * dim; k++) {
+        f->acceleration[k] = 0;
+        if (!mps_is_fluid(v, i)) f->velocity[k] = 0;
+    }
+}
+MPS_ROWS(rest_rows, rest_row, tank_fields)
+
+/* Solids get the velocity that carries them to their next place; every particle the acceleration a rigid tank has there. */
+static mps_status move_tank(mps_stage *s)
+{
+    const mps__step *q = mps__step_of(s);
+    const mps__world *w = q->w;
+    const bool with_tank = w->motion.start == MPS_START_WITH_TANK,
+               bodies = w->work.bodies && w->state.dt_before > 0;
+    tank_fields f = {.ref = w->particles.ref,
+                     .place = s->data[2],
+                     .velocity = s->data[0],
+                     .acceleration = s->data[1],
+                     .dt_before = w->state.dt_before,
+                     .before = bodies                   ? AS_BEFORE
+                               : w->state.dt_before > 0 ? BY_POSE
+                               : with_tank              ? BY_RATES
+                                                        : AT_REST};
+    memcpy(f.before_shift, w->state.before.state.value, sizeof f.before_shift);
+    memcpy(f.before_rotation, w->state.before.rotation, sizeof f.before_rotation);
+    mps_stage_rows(s, at_rest(q) && !w->work.bodies ? &rest_rows : &move_tank_rows, &f);
+    return MPS_OK;
+}
+
+static const mps_use tank_uses[] = {{"velocity", MPS_USE_CHANGE},
+                                    {"tank_acceleration", MPS_USE_WRITE | MPS__USE_BEGIN},
+                                    {"solid_place", MPS_USE_READ}};
+
+const mps__pass mps__pass_tank = {.name = "tank",
+                                  .hook = MPS_MOTION,
+                                  .place = MPS__AFTER_MODELS,
+                                  .stage = MPS_STAGE_OPERATORS,
+                                  .everywhere = true,
+                                  .use_count = 3,
+                                  .uses = tank_uses,
+                                  .run = move_tank};
+
+/* ---- jumps ---- */
+
+typedef struct jump_fields {
+    const double *acceleration;
+} jump_fields;
+
+/* Square of the largest acceleration of the solids. */
+MPS_ROW void raise_acceleration(const int dim, const mps_view *v, const jump_fields *f, int64_t i,
+                                double *most)
+{
+    const double *a = f->acceleration + i * dim, square = mps__dot(a, a, dim);
+    if (!mps_is_fluid(v, i)) *most = square > *most ? square : *most;
+}
+MPS_SUMS(raise_accelerations, raise_acceleration, jump_fields)
+
 /* A velocity that changes within a step by more than twice as much as in the last one, and than by 2 g, jumps. Velocities are means over a step, so
  * half a step lies on either side of the change: over dt alone a steady acceleration would jump where a step is cut short. */
-static void note_jump(mps__step *q)
+static mps_status note_jump(mps_stage *s)
 {
+    mps__step *q = mps__step_of(s);
     mps__world *w = q->w;
-    double most = 0;
-    mps_parallel_max(&w->pool.parallel, w->particles.n, 1, solid_acceleration_rows, w, &most);
-    mps__ranks_max(&w->ranks, 1, &most);
-    const double dt = q->stage.dt,
+    double most;
+    mps_stage_max(s, 1, &raise_accelerations, &(jump_fields){s->data[0]}, &most);
+    const double dt = q->view.dt,
                  change = w->state.dt_before > 0 ? 2 * dt / (dt + w->state.dt_before) : 1;
-    q->jump = (mps__jump){change * sqrt(most),
+    q->jump = (mps__jump){change * sqrt(fmax(most, 0)),
                           w->state.jump.since < INT32_MAX ? w->state.jump.since + 1 : INT32_MAX};
     if (q->jump.accel > 2 * w->setup.velocity_scale * w->setup.velocity_scale / w->setup.dp &&
         q->jump.accel > 2 * w->state.jump.accel)
         q->jump.since = 0;
     q->stage.since_jump = q->jump.since;
+    return MPS_OK;
 }
 
-static void rest_rows(void *step, int64_t begin, int64_t end)
-{
-    const mps__step *q = step;
-    const mps__particles *s = &q->w->particles;
-    const int dim = s->dim;
-    for (int64_t k = begin * dim; k < end * dim; k++) q->w->work.tank_acceleration[k] = 0;
-    for (int64_t i = begin; i < end; i++)
-        for (int d = 0; d < dim; d++)
-            s->u[i * dim + d] = s->kind[i] == MPS_FLUID ? s->u[i * dim + d] : 0;
-}
+static const mps_use jump_uses[] = {{"tank_acceleration", MPS_USE_READ}};
 
-static void move_row(const mps__step *q, int64_t i)
+const mps__pass mps__pass_jump = {.name = "jump",
+                                  .hook = MPS_MOTION,
+                                  .place = MPS__AFTER_MODELS,
+                                  .stage = MPS_STAGE_OPERATORS,
+                                  .flat = true,
+                                  .use_count = 1,
+                                  .uses = jump_uses,
+                                  .run = note_jump};
+
+/* ---- bodies that the tank does not carry ---- */
+
+/* Places and areas of solids at the end of the step have memory of their own only if a model writes them. */
+mps_status mps__step_place_solids(mps__world *w)
 {
-    mps__world *w = q->w;
     const mps__particles *s = &w->particles;
-    const int dim = w->setup.dim;
-    double X[3], here[3], next[3], old[3];
-    if (s->kind[i] == MPS_FLUID)
-        mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * dim, X);
-    else
-        memcpy(X, s->ref + i * dim, (size_t)dim * sizeof *X);
-    mps__motion_point(&w->motion, &w->motion.now, X, here, NULL, NULL);
-    mps__motion_point(&w->motion, &q->pose, X, next, NULL, NULL);
-    tank_velocity(w, X, old);
-    for (int d = 0; d < dim; d++) {
-        const double u = (next[d] - here[d]) / q->stage.dt;
-        w->work.tank_acceleration[i * dim + d] = (u - old[d]) / q->stage.dt;
-        if (s->kind[i] != MPS_FLUID) s->u[i * dim + d] = u;
-    }
+    mps__work *k = &w->work;
+    const int64_t count = s->n * s->dim;
+    mps__channel *list = w->channels.list;
+    k->bodies = mps__plan_has_writer(&w->host.plan, MPS__SOLID_PLACE) ||
+                mps__plan_has_writer(&w->host.plan, MPS__SOLID_AREA);
+    list[MPS__SOLID_PLACE].array = s->ref;
+    list[MPS__SOLID_AREA].array = s->area;
+    if (!k->bodies) return MPS_OK;
+    MPS__TRY(mps__grow(w->context, (void **)&k->placed, &k->placed_capacity, 0, 2 * count,
+                       sizeof *k->placed));
+    list[MPS__SOLID_PLACE].array = k->placed;
+    list[MPS__SOLID_AREA].array = k->placed + count;
+    memcpy(k->placed, s->ref, (size_t)count * sizeof *s->ref);
+    memcpy(k->placed + count, s->area, (size_t)count * sizeof *s->area);
+    return MPS_OK;
 }
 
-static void move_rows(void *step, int64_t begin, int64_t end)
+/* The step is made: bodies are where it has put them. */
+void mps__step_keep_places(mps__world *w)
 {
-    for (int64_t i = begin; i < end; i++) move_row(step, i);
+    const mps__particles *s = &w->particles;
+    const int64_t count = s->n * s->dim;
+    if (!w->work.bodies) return;
+    memcpy(s->ref, w->work.placed, (size_t)count * sizeof *s->ref);
+    memcpy(s->area, w->work.placed + count, (size_t)count * sizeof *s->area);
 }
 
-static void turn_rows(void *world, int64_t begin, int64_t end)
+/* ---- areas ---- */
+
+typedef struct turn_fields {
+    const double *area;
+    double *turned;
+} turn_fields;
+
+MPS_ROW void turn_row(const int dim, const mps_view *v, const turn_fields *f, int64_t i)
 {
-    const mps__world *w = world;
-    for (int64_t i = begin; i < end; i++)
-        mps__motion_rotate(&w->motion, &w->motion.now, w->particles.area + i * w->setup.dim,
-                           w->work.turned + i * w->setup.dim);
+    const double *R = v->tank.rotation, *a = f->area + i * dim, z = dim == 3 ? a[2] : 0;
+    for (int d = 0; d < dim; d++)
+        f->turned[i * dim + d] = R[3 * d] * a[0] + R[3 * d + 1] * a[1] + R[3 * d + 2] * z;
 }
+MPS_ROWS(turn_rows, turn_row, turn_fields)
 
 /* Area vectors turn with the tank. */
 mps_status mps__step_turn_areas(mps__world *w)
@@ -117,15 +226,11 @@ mps_status mps__step_turn_areas(mps__world *w)
     if (!mps__motion_turned(&w->motion.now)) return MPS_OK;
     MPS__TRY(mps__grow(w->context, (void **)&k->turned, &k->turned_capacity, 0, s->n * w->setup.dim,
                        sizeof *k->turned));
-    mps_parallel_rows(&w->pool.parallel, s->n, turn_rows, w);
+    mps_view v;
+    mps__world_view(w, &v);
+    w->host.everywhere = true;
+    mps__host_rows(&w->host, &v, &turn_rows, &(turn_fields){s->area, k->turned});
+    w->host.everywhere = false;
     k->area = k->turned;
     return MPS_OK;
-}
-
-/* Solids get the velocity that carries them to their next place; every particle the acceleration a rigid tank has there. */
-void mps__step_move_tank(mps__step *q)
-{
-    mps_parallel_rows(&q->w->pool.parallel, q->w->particles.n, at_rest(q) ? rest_rows : move_rows,
-                      q);
-    note_jump(q);
 }

@@ -5,9 +5,9 @@
 
 #include "world.h"
 
-/* Keep velocities, pressures and the fields that verbs write. */
+/* Keep the fields that calls of the plan write. */
 mps_status mps__undo_keep(mps__world *w);
-/* Bring them back; positions too if particles `moved`, from work.x0. */
-void mps__undo_restore(const mps__world *w, bool moved);
+/* Bring them back; positions too if particles have moved, from `before`; else NULL. */
+void mps__undo_restore(const mps__world *w, const double *before);
 
 #endif

@@ -9,10 +9,9 @@
 static const mps_solid solid_defaults = {.name = "solid", .dummy_layers = 2};
 static const mps_stl stl_defaults = {.name = "solid", .dummy_layers = 2, .scale = 1};
 
-/* The box of a body in a tank may reach as far as it likes; others make the lattice. */
+/* Lattice points of the box can be told apart. */
 static mps_status check_corner(mps_sim *sim, const char *what, const double *lo)
 {
-    if (sim->has_tank && !sim->lattice_of_solids) return MPS_OK;
     for (int d = 0; d < sim->world.setup.dim; d++)
         MPS__TRY(mps__place_resolved(sim, what, d, lo[d]));
     return MPS_OK;

@@ -18,8 +18,8 @@ typedef struct mps__lattice_box {
 /* A thin plate: nodes on a rectangle (in 2-D a line), one to three columns of them side by side. */
 typedef struct mps__plate_shape {
     double corner[3], normal[3], along[2][3]; /* tank's frame; the last three are unit vectors */
-    double spacing[2];
-    int64_t nodes[2]; /* along the edges; the second is 1 in 2-D */
+    double spacing[2], across;                /* along the edges, between columns */
+    int64_t nodes[2];                         /* along the edges; the second is 1 in 2-D */
     int32_t columns;
     int32_t axis; /* of the normal on the tank's lattice, -1: the plate does not stand on it */
 } mps__plate_shape;
@@ -40,8 +40,18 @@ mps_status mps__geometry_baffle(mps_sim *sim, const char *name, const mps__latti
 /* True if a box is thin and has liquid on both sides, or may have; then its shape. */
 bool mps__plate_of_box(mps_sim *sim, const mps__lattice_box *box, mps__plate_shape *shape);
 mps_status mps__geometry_plate(mps_sim *sim, const char *name, const mps__plate_shape *shape);
-/* `inside` may be NULL: all points. box->top becomes the share that was taken. */
-mps_status mps__geometry_fill(mps_sim *sim, int32_t phase, mps__lattice_box *box,
-                              mps_inside_fn inside, void *user, int64_t *added);
+/* Warn of slots that no liquid fits in, once for all solids that are there. */
+mps_status mps__slots_tell(mps_sim *sim);
+/* What is filled: the corners that were asked for [dim], or `inside`. */
+typedef struct mps__fill {
+    int32_t phase;
+    const double *lo, *hi;
+    mps_inside_fn inside;
+    void *user;
+} mps__fill;
+
+/* Fill points of the box. box->top becomes the share that was taken. */
+mps_status mps__geometry_fill(mps_sim *sim, const mps__fill *fill, mps__lattice_box *box,
+                              int64_t *added);
 
 #endif

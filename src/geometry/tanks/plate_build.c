@@ -36,6 +36,7 @@ typedef struct builder {
     int32_t dim, part, number; /* number of the screen + 1 */
     double dp;
     int32_t edge[2][2];
+    bool closed[2][2]; /* the plate was made longer by a node, up to the wall */
     resident *residents;
     place *places;
     int64_t resident_count, resident_capacity, place_count, place_capacity, fresh, taken;
@@ -143,6 +144,7 @@ static void reach_wall(builder *b, int e, int end)
         edge_stands_on(b, e, end, 1) == EDGE_FREE)
         return;
     b->shape.nodes[e]++;
+    b->closed[e][end] = true;
     if (end) return;
     for (int d = 0; d < b->dim; d++) b->shape.corner[d] -= b->dp * b->shape.along[e][d];
     for (int64_t k = 0; k < b->resident_count; k++) b->residents[k].at[e] += b->dp;
@@ -431,7 +433,7 @@ static mps_status build(builder *b, const char *name)
     for (int64_t k = 0; k < b->place_count; k++) fresh += b->places[k].resident < 0;
     MPS__TRY(mps__screens_reserve(&w->lists.screens));
     MPS__TRY(mps__particles_reserve(&w->particles, fresh));
-    int64_t next = mps__particles_append(&w->particles, fresh);
+    int64_t next = mps__particles_append(&w->particles, fresh, MPS_WALL);
     for (int64_t k = 0; k < b->place_count; k++)
         put(b, &b->places[k], b->places[k].resident < 0 ? next++ : b->places[k].resident);
     mps__screen screen;
@@ -439,6 +441,22 @@ static mps_status build(builder *b, const char *name)
     mps__screens_add(&w->lists.screens, &screen);
     w->lists.neighbours.valid = false;
     return MPS_OK;
+}
+
+static void tell_closed(const builder *b, const char *name)
+{
+    for (int e = 0; e < b->dim - 1; e++)
+        for (int end = 0; end < 2; end++) {
+            int64_t node[2] = {(b->shape.nodes[0] - 1) / 2, (b->shape.nodes[1] - 1) / 2};
+            double X[3] = {0, 0, 0};
+            if (!b->closed[e][end]) continue;
+            node[e] = end ? b->shape.nodes[e] - 1 : 0;
+            node_place(b, node, 0, X);
+            mps__log(&b->sim->context, MPS_LOG_WARNING,
+                     "the slot between \"%s\" and the wall at (%g, %g, %g) m is %g m wide, one "
+                     "spacing: no particle fits in, the plate ends on the wall",
+                     name, X[0], X[1], X[2], b->shape.spacing[e]);
+        }
 }
 
 mps_status mps__geometry_plate(mps_sim *sim, const char *name, const mps__plate_shape *shape)
@@ -450,6 +468,7 @@ mps_status mps__geometry_plate(mps_sim *sim, const char *name, const mps__plate_
                  .dp = sim->world.setup.dp,
                  .number = sim->world.lists.screens.count + 1};
     const mps_status status = build(&b, name);
+    if (status >= 0) tell_closed(&b, name);
     mps__free(&sim->context, b.residents);
     mps__free(&sim->context, b.places);
     if (status < 0) sim->world.particles.parts = parts;

@@ -212,13 +212,12 @@ static void append(const work *w, const mps__buckets *from, int32_t kind, int32_
     mps__world *world = &w->sim->world;
     mps__particles *s = &world->particles;
     const size_t bytes = (size_t)s->dim * sizeof(double);
-    int64_t i = mps__particles_append(s, from->count);
+    int64_t i = mps__particles_append(s, from->count, kind);
     for (int64_t k = 0; k < from->count; k++, i++) {
         const double *X = from->x + 3 * k;
         mps__motion_point(&world->motion, &world->motion.now, X, s->x + i * s->dim, NULL, NULL);
         memcpy(s->ref + i * s->dim, X, bytes);
         if (kind == MPS_WALL) memcpy(s->area + i * s->dim, w->samples.area + 3 * k, bytes);
-        s->kind[i] = kind;
         s->part[i] = part;
         s->rho[i] = world->setup.phase_density[0];
     }

@@ -5,39 +5,43 @@
 
 int frozen_model_calls;
 
-static void pull_rows(const mps_stage *s, void *arguments, int64_t begin, int64_t end)
-{
-    double *a = s->data[0], *age = s->data[1];
-    (void)arguments;
-    for (int64_t i = begin; i < end; i++) {
-        if (s->kind[i] != MPS_FLUID) continue;
-        a[i * s->dim] += s->setting[0];
-        age[i] += s->dt;
-    }
-}
+typedef struct fields {
+    double *acceleration, *age;
+} fields;
 
-static void count_rows(const mps_stage *s, void *arguments, int64_t begin, int64_t end, double *sums)
+MPS_ROW void pull(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    (void)arguments;
-    for (int64_t i = begin; i < end; i++) sums[0] += s->kind[i] == MPS_FLUID;
+    if (!mps_is_fluid(v, i)) return;
+    f->acceleration[i * dim] += v->setting[0];
+    f->age[i] += v->dt;
 }
+MPS_ROWS(pull_rows, pull, fields)
+
+MPS_ROW void count(const int dim, const mps_view *v, const fields *f, int64_t i, double *sum)
+{
+    (void)dim, (void)f;
+    sum[0] += mps_is_fluid(v, i);
+}
+MPS_SUMS(count_rows, count, fields)
 
 static int run(mps_stage *s)
 {
+    const mps_view *v = s->view;
+    const fields f = {s->data[0], s->data[1]};
     double fluid = 0;
-    if (s->struct_size < sizeof *s || s->dim != 2 || s->moment != MPS_FORCE || s->n < 1 || s->dp != 0.05 || s->setting[0] != 0.25)
+    if (s->struct_size < sizeof *s || v->struct_size < sizeof *v || v->dim != 2 || s->hook != MPS_FORCE || v->n < 1 || v->dp != 0.05 ||
+        v->setting[0] != 0.25)
         return mps_stage_fail(s, "a field of the stage is at another place");
-    if (!(s->dt > 0) || s->g[1] != -9.81 || !s->near || !s->far || s->near->dim != 2 || s->near->n != s->n ||
-        s->self != &frozen_model_calls)
+    if (!(v->dt > 0) || v->g[1] != -9.81 || v->near.dim != 2 || v->near.n != v->n || v->far.n != v->n || s->self != &frozen_model_calls)
         return mps_stage_fail(s, "a field of the stage is at another place");
-    mps_stage_rows(s, pull_rows, NULL);
-    mps_stage_sum(s, 1, count_rows, NULL, &fluid);
+    mps_stage_rows(s, &pull_rows, &f);
+    mps_stage_sum(s, 1, &count_rows, &f, &fluid);
     frozen_model_calls += fluid > 0;
     return 0;
 }
 
 static const mps_use uses[] = {{"acceleration", MPS_USE_CHANGE}, {"frozen_age", MPS_USE_CHANGE}};
-static const mps_verb verbs[] = {{.moment = MPS_FORCE, .use_count = 2, .uses = uses, .run = run}};
+static const mps_verb verbs[] = {{.hook = MPS_FORCE, .use_count = 2, .uses = uses, .run = run}};
 static const mps_channel channels[] = {{"frozen_age", "s", "time in the fluid", 1, MPS_TYPE_REAL, MPS_LIFE_PARTICLE, 0}};
 static const mps_setting settings[] = {{"pull", "m/s2", "acceleration along x", MPS_TYPE_REAL, 0, -1, 1}};
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file list.h  What there is: presets, models, settings, channels, verbs, solvers,
- *  preconditioners, kernels; built in or registered on the handle.
+ *  preconditioners, kernels; built in or registered on the handle. Passes of a step, and what they
+ *  cost.
  *
  *  All functions named ..._info_get() take an index from 0 and return MPS_E_ARG beyond the last,
  *  without an error text: loop until they fail. Texts are valid until models or solvers change. */
@@ -57,7 +58,7 @@ typedef struct mps_setting_info {
 typedef struct mps_channel_info {
     /** Set by mps_channel_info_init(). */
     uint32_t struct_size;
-    /** Numbers per particle. */
+    /** Numbers per particle; 0: a scalar, one number for all particles. */
     int32_t components;
     /** MPS_TYPE_REAL or MPS_TYPE_INTEGER of mps/model.h */
     int32_t type;
@@ -69,9 +70,9 @@ typedef struct mps_channel_info {
     const char *unit;
     /** One line. */
     const char *help;
-    /** Moments in which verbs may read it: bits 1 << MPS_LIMIT .. 1 << MPS_SHIFT. */
+    /** Hooks in which verbs may read it: bits 1 << MPS_POPULATE .. 1 << MPS_SHIFT. */
     uint32_t reads;
-    /** Moments in which verbs may write it. */
+    /** Hooks in which verbs may write it. */
     uint32_t writes;
     /** 1: the library's own. */
     int32_t own;
@@ -81,10 +82,10 @@ typedef struct mps_channel_info {
 typedef struct mps_verb_info {
     /** Set by mps_verb_info_init(). */
     uint32_t struct_size;
-    /** MPS_LIMIT .. MPS_SHIFT of mps/model.h */
-    int32_t moment;
+    /** MPS_POPULATE .. MPS_SHIFT of mps/stage.h */
+    int32_t hook;
     /** e.g. "force" */
-    const char *moment_name;
+    const char *hook_name;
     /** Name of the model. */
     const char *model;
     /** Channels that it uses, "name:r", "name:n" (neighbours), "name:d" (of dummies too), "name:a"
@@ -92,6 +93,35 @@ typedef struct mps_verb_info {
      *  be missing and a space between two. */
     const char *uses;
 } mps_verb_info;
+
+/** A pass: a part of a step, in the order in which a step runs them, and what it has cost. The
+ *  seconds of all passes add up to those of mps_step_info.seconds. */
+typedef struct mps_pass_info {
+    /** Set by mps_pass_info_init(). */
+    uint32_t struct_size;
+    /** MPS_POPULATE .. MPS_SHIFT of mps/stage.h; -1: in no hook */
+    int32_t hook;
+    /** e.g. "force"; "step" for hook -1 */
+    const char *hook_name;
+    /** Name of the model for a verb of a model; else name of the pass, e.g. "predict". */
+    const char *name;
+    /** Channels that it uses, as mps_verb_info.uses. Passes of the library also use arrays that are
+     *  no channels of the list. */
+    const char *uses;
+    /** 1: a verb of a model, 0: a pass of the library. */
+    int32_t model;
+    /** Kept 0. */
+    int32_t reserved;
+    /** Calls since the models changed last, or since mps_profile_reset(). Calls of steps that
+     *  failed count. */
+    int64_t calls;
+    /** Wall clock of these calls [s]; on many ranks that of this rank. */
+    double seconds;
+    /** Bytes of the arrays in `uses`, once for reading and once for writing, summed over the calls:
+     *  what loops over all particles move at least. Lists of neighbours, matrices and arrays that
+     *  are not in `uses` do not count. */
+    double bytes;
+} mps_pass_info;
 
 /** A preset, solver, preconditioner or kernel. */
 typedef struct mps_name_info {
@@ -114,6 +144,8 @@ MPS_API mps_status mps_channel_info_init(mps_channel_info *info, size_t size);
 /** Set struct_size and zero. */
 MPS_API mps_status mps_verb_info_init(mps_verb_info *info, size_t size);
 /** Set struct_size and zero. */
+MPS_API mps_status mps_pass_info_init(mps_pass_info *info, size_t size);
+/** Set struct_size and zero. */
 MPS_API mps_status mps_name_info_init(mps_name_info *info, size_t size);
 
 /** Model number `index` of all that are known. */
@@ -129,6 +161,15 @@ MPS_API mps_status mps_channel_info_get(const mps_sim *sim, int32_t index, mps_c
 /** Verb number `index` of the active models, in the order of a step.
  *  @return MPS_E_STATE: the active models have no order, with text */
 MPS_API mps_status mps_verb_info_get(mps_sim *sim, int32_t index, mps_verb_info *info);
+
+/** Pass number `index` of a step, verbs of models included, in the order of the step.
+ *  @return MPS_E_STATE: the active models have no order, with text */
+MPS_API mps_status mps_pass_info_get(mps_sim *sim, int32_t index, mps_pass_info *info);
+
+/** Set calls, seconds and bytes of all passes to zero.
+ *  @return MPS_E_STATE: the active models have no order; MPS_E_BUSY: called from a verb or a
+ *          callback; a monitor may call it */
+MPS_API mps_status mps_profile_reset(mps_sim *sim);
 
 /** Preset number `index`, for mps_preset_use(). */
 MPS_API mps_status mps_preset_info_get(const mps_sim *sim, int32_t index, mps_name_info *info);

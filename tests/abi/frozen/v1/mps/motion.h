@@ -1,15 +1,30 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file motion.h  Rigid motion of the tank: six degrees of freedom about a given centre.
  *
- *    x(t) = c + d(t) + R(t) (X - c),   R = Rz(yaw) Ry(pitch) Rx(roll) in 3-D.
+ *  Axes of the lab: x and z horizontal, y up; right-handed. A tank in its pose at rest has the same
+ *  axes. A point X of the tank is at
  *
- *  2-D has surge, heave and one rotation, that of the plane, positive from x to y. It has two
- *  names: MPS_ROLL, as for the cross-section of a ship, and MPS_YAW, about the axis z. The tank
- *  turns by the sum of both, R = Rz(roll + yaw). Sway and pitch are refused.
+ *    x(t) = c + d(t) + R(t) (X - c),   R = Ry(b) Rz(g) Rx(a),
+ *
+ *  where c is the centre of rotation, d = (MPS_MOVE_X, MPS_MOVE_Y, MPS_MOVE_Z), a = MPS_ROTATE_X,
+ *  b = MPS_ROTATE_Y, g = MPS_ROTATE_Z, and
+ *
+ *          | 1    0       0   |         |  cos b  0  sin b |         | cos g  -sin g  0 |
+ *    Rx(a)=| 0  cos a  -sin a |,  Ry(b)=|    0    1    0   |,  Rz(g)=| sin g   cos g  0 |
+ *          | 0  sin a   cos a |         | -sin b  0  cos b |         |   0       0    1 |
+ *
+ *  Positive angles turn y to z, z to x, x to y: right-handed about the axis. About axes that turn
+ *  with the tank: first about y by b, then about the new z by g, then about the newest x by a.
+ *  About the axes of the lab: first x, then z, then y. For a ship with its bow along +x this is the
+ *  usual order yaw (b), pitch (g), roll (a). <mps/ship.h> converts from and to a ship's own axes.
+ *
+ *  2-D is the plane x, y: it has MPS_MOVE_X, MPS_MOVE_Y and MPS_ROTATE_Z, positive from x to y
+ *  (counterclockwise). The other three are refused.
  *
  *  All walls, probes and gauges move with the tank. Setting a motion carries the tank and its
  *  liquid to the pose of the motion at the present time. Between steps a new motion should begin at
- *  the present pose. */
+ *  the present pose. A motion that carries the origin of the tank farther than 1e9 dp from that of
+ *  the lab is refused when it is set, or fails the step with MPS_E_DIVERGED. */
 #ifndef MPS_MOTION_H
 #define MPS_MOTION_H
 
@@ -19,18 +34,18 @@ MPS_BEGIN_DECLS
 
 /** Degrees of freedom in tables and harmonics. */
 enum {
-    /** Along x [m]. */
-    MPS_SURGE = 0,
-    /** Along y, up [m]. */
-    MPS_HEAVE = 1,
-    /** Along z [m]; 3-D only. */
-    MPS_SWAY = 2,
-    /** About x [rad]; in 2-D the rotation of the plane. */
-    MPS_ROLL = 3,
-    /** About z [rad]; in 2-D the rotation of the plane. */
-    MPS_YAW = 4,
-    /** About y [rad]; 3-D only. */
-    MPS_PITCH = 5,
+    /** Displacement along x of the lab [m]. */
+    MPS_MOVE_X = 0,
+    /** Displacement along y of the lab, up [m]. */
+    MPS_MOVE_Y = 1,
+    /** Displacement along z of the lab [m]; 3-D only. */
+    MPS_MOVE_Z = 2,
+    /** Angle a of R, about x [rad]; 3-D only. */
+    MPS_ROTATE_X = 3,
+    /** Angle b of R, about y [rad]; 3-D only. */
+    MPS_ROTATE_Y = 4,
+    /** Angle g of R, about z [rad]; in 2-D the rotation of the plane. */
+    MPS_ROTATE_Z = 5,
     /** Number of degrees of freedom. */
     MPS_DOF_COUNT = 6
 };
@@ -52,6 +67,49 @@ typedef struct mps_motion_state {
 /** Set struct_size and zero. @param size  sizeof(mps_motion_state) @return MPS_E_ARG: bad size */
 MPS_API mps_status mps_motion_state_init(mps_motion_state *state, size_t size);
 
+/** The same pose with the matrix R, for programs that compute with matrices. Vectors have the axes
+ *  of the lab. */
+typedef struct mps_motion_pose {
+    /** Set by mps_motion_pose_init(), or sizeof(mps_motion_pose). */
+    uint32_t struct_size;
+    /** Kept 0. */
+    int32_t reserved;
+    /** R, row by row. */
+    double rotation[9];
+    /** Displacement d of the centre of rotation [m]. */
+    double translation[3];
+    /** Velocity of the centre of rotation [m/s]. */
+    double velocity[3];
+    /** Angular velocity [rad/s]. */
+    double omega[3];
+    /** Acceleration of the centre of rotation [m/s2]. */
+    double accel[3];
+    /** Angular acceleration [rad/s2]. */
+    double alpha[3];
+} mps_motion_pose;
+
+/** Set struct_size, R = 1 and zero. @param size  sizeof(mps_motion_pose)
+ *  @return MPS_E_ARG: bad size */
+MPS_API mps_status mps_motion_pose_init(mps_motion_pose *pose, size_t size);
+
+/** The matrix of three angles. Needs no simulation.
+ *  @param state  finite
+ *  @param pose   initialised by mps_motion_pose_init(); out
+ *  @return MPS_E_ARG; `pose` is as before then */
+MPS_API mps_status mps_motion_pose_from_state(const mps_motion_state *state, mps_motion_pose *pose);
+
+/** The three angles of a matrix: MPS_ROTATE_X and MPS_ROTATE_Y in -pi..pi, MPS_ROTATE_Z in
+ *  -pi/2..pi/2; of a rotation about z alone, MPS_ROTATE_Z in -pi..pi. Needs no simulation.
+ *  @param pose   finite; R^T R is 1 within 1e-6 in each entry and det R > 0
+ *  @param state  initialised by mps_motion_state_init(); out
+ *
+ *  | error | reason; `state` is as before |
+ *  |---|---|
+ *  | MPS_E_ARG | `pose`; a struct was not initialised |
+ *  | MPS_E_STATE | MPS_ROTATE_Z is within 1e-6 of +-pi/2 and R no rotation about z alone: there |
+ *  | | the two other angles cannot be told apart | */
+MPS_API mps_status mps_motion_pose_to_state(const mps_motion_pose *pose, mps_motion_state *state);
+
 /** How the motion begins. */
 enum {
     /** Walls jump to their velocity, the liquid is at rest in the lab (as in the papers;
@@ -67,14 +125,24 @@ enum {
  *
  *  | error | reason |
  *  |---|---|
- *  | MPS_E_ARG | centre is not finite; start |
+ *  | MPS_E_ARG | centre is not finite or farther than 1e9 dp from the origin; start |
  *  | MPS_E_STATE | a step was done |
  *  | MPS_E_BUSY | a lease is open; called from a monitor, a verb or a callback | */
 MPS_API mps_status mps_motion_centre_set(mps_sim *sim, const double *centre, int32_t start);
 
-/** One harmonic. Its layout does not change within a major version. */
+/** One harmonic, q(t) = f(t) h(t). Its layout does not change within a major version.
+ *
+ *  h(t) = A sin(w t + phase) or -A (1 - cos(w t)) starts at t = 0 with the velocity A w or with the
+ *  acceleration -A w^2. Liquid at rest then gets a pressure peak in the first step or steps. The
+ *  second form moves about -A, not about 0. With a ramp T, position, velocity and acceleration are
+ *  continuous and begin at 0: with x = t/T,
+ *
+ *    f = 10 x^3 - 15 x^4 + 6 x^5 for 0 <= t <= T, 1 after it.
+ *
+ *  One to two periods are usual. t is the time of the simulation, also where the motion is set
+ *  later than at t = 0. */
 typedef struct mps_harmonic {
-    /** MPS_SURGE .. MPS_PITCH */
+    /** MPS_MOVE_X .. MPS_ROTATE_Z */
     int32_t dof;
     /** 0: A sin(w t + phase); 1: -A (1 - cos(w t)), phase is not used. */
     int32_t form;
@@ -84,9 +152,14 @@ typedef struct mps_harmonic {
     double omega;
     /** [rad] */
     double phase;
+    /** T, over which the amplitude grows [s], >= 0; 0: f = 1 at once. */
+    double ramp;
 } mps_harmonic;
 
-/** Motion as a sum of harmonics. @param count  >= 1 @param harmonics  [count], copied
+/** Motion as a sum of harmonics. An adaptive step is at most a twentieth of the shortest period,
+ *  and of the shortest ramp while it lasts, of all harmonics whose amplitude is not 0 (the limit
+ *  "motion" of mps_step_info.limit). A longer fixed step is logged once as a warning.
+ *  @param count  >= 1 @param harmonics  [count], copied
  *  @return MPS_E_ARG (which harmonic), MPS_E_BUSY, MPS_E_NOMEM */
 MPS_API mps_status mps_motion_harmonics_set(mps_sim *sim, int32_t count,
                                             const mps_harmonic *harmonics);
@@ -100,6 +173,12 @@ MPS_API mps_status mps_motion_harmonics_set(mps_sim *sim, int32_t count,
  *  exactly. mps_step() does not cut its step to the table, but takes at most the given dt_max.
  *  After the table mps_motion_clear() holds the tank where it is; its velocity becomes zero at
  *  once.
+ *
+ *  An adaptive step may span several rows only where the accelerations of the spline are linear in
+ *  time, within 1.2 per cent of the largest one of the column (as those of a harmonic over a
+ *  twentieth of its period). Elsewhere it is as long as an interval of rows, or ends at the next
+ *  row (the limit "motion" of mps_step_info.limit). Noise in the table makes steps short. A longer
+ *  fixed step is logged once as a warning.
  *  @param rows    >= 2
  *  @param t       [rows] [s], strictly increasing, t[0] <= present time
  *  @param dofs    number of columns, 1..6
@@ -113,8 +192,9 @@ MPS_API mps_status mps_motion_table_set(mps_sim *sim, int64_t rows, const double
  *  struct_size and zeros. @return 0; non-zero: the step fails with MPS_E_PLUGIN */
 typedef int (*mps_motion_fn)(void *user, double t, mps_motion_state *state);
 
-/** Motion by callback. @return MPS_E_ARG, MPS_E_BUSY, MPS_E_PLUGIN (the callback fails at the
- *  present time) */
+/** Motion by callback. The library does not know how fast it changes: set mps_time_control.dt_max
+ *  to a twentieth of its shortest period.
+ *  @return MPS_E_ARG, MPS_E_BUSY, MPS_E_PLUGIN (the callback fails at the present time) */
 MPS_API mps_status mps_motion_callback_set(mps_sim *sim, mps_motion_fn fn, void *user);
 
 /** No motion from now on; the tank stays where it is. @return MPS_E_BUSY */

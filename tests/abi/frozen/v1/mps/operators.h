@@ -149,6 +149,24 @@ typedef struct mps_stencil {
 /** Set struct_size and zero. @param size  sizeof(mps_stencil) @return MPS_E_ARG: bad size */
 MPS_API mps_status mps_stencil_init(mps_stencil *stencil, size_t size);
 
+/** First pair of row i. */
+static inline int64_t mps_stencil_begin(const mps_stencil *s, int64_t i)
+{
+    return s->begin[i];
+}
+
+/** One past the last pair of row i. */
+static inline int64_t mps_stencil_end(const mps_stencil *s, int64_t i)
+{
+    return s->end[i];
+}
+
+/** Neighbour of pair number k. */
+static inline int64_t mps_stencil_column(const mps_stencil *s, int64_t k)
+{
+    return s->col[k];
+}
+
 /** One pair of a row, for the inner loops of plug-ins. */
 typedef struct mps_pair {
     /** r_ij = x_j - x_i [m]; the third is 0 in 2-D */
@@ -169,7 +187,7 @@ typedef struct mps_pair {
 static inline mps_pair mps_stencil_pair_dim(int32_t dim, const mps_stencil *s, int64_t i, int64_t k)
 {
     mps_pair q;
-    q.j = s->col[k];
+    q.j = mps_stencil_column(s, k);
     const double *a = s->x + i * dim, *b = s->x + q.j * dim;
     q.d[0] = b[0] - a[0];
     q.d[1] = b[1] - a[1];

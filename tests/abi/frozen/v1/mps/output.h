@@ -22,7 +22,10 @@ enum {
     /** Continue a series. */
     MPS_FRAMES_CONTINUE = 8,
     /** On many ranks: each rank writes its own particles. On one rank it changes nothing. */
-    MPS_FRAMES_PIECES = 16
+    MPS_FRAMES_PIECES = 16,
+    /** Positions in the frame of the tank, and velocities relative to the tank along its axes: the
+     *  walls stand still. Fields of the user stay as they are. */
+    MPS_FRAMES_TANK = 32
 };
 
 /** Open a series: writes FOLDER/NAME.pvd and FOLDER/NAME/NAME_000000.vtp ...; the folder
@@ -54,9 +57,12 @@ enum {
 MPS_API mps_status mps_frames_open(mps_sim *sim, const char *folder, const char *name,
                                    int32_t kinds, mps_frames **frames);
 
-/** Write the present state: position, velocity, pressure, number density, density, kind, phase, id
- *  and all user fields. Each particle is a vertex cell, so that filters of cells (Threshold, Clip)
- *  keep single particles. The .pvd is replaced as a whole.
+/** Write the present state: position, velocity, pressure, wall_pressure, number_density, density,
+ *  kind, phase, part, id and all user fields. At walls "wall_pressure" is what sensors show and
+ *  "pressure" the unknown of the pressure equation; in impacts they differ by up to some kPa. In
+ *  the fluid they are the same after a step. "part" is the number of the solid, -1 for fluid; its
+ *  name is line `part` of the array "part_names" of the frame. Each particle is a vertex cell, so
+ *  that filters of cells (Threshold, Clip) keep single particles. The .pvd is replaced as a whole.
  *  @return MPS_E_IO with the path and the reason of the system; MPS_E_NOMEM; MPS_E_STATE (many
  *          ranks: not gathered without MPS_FRAMES_PIECES, or gathered with it); MPS_E_BUSY (called
  *          from a verb or a callback); MPS_E_RANKS (another rank failed) */

@@ -14,8 +14,10 @@ MPS_BEGIN_DECLS
 enum {
     /** 1 value [Pa]: mean over a disc of `diameter` (2-D: a strip) on the face at `at`, linear
      *  between the wall particles; parts of the disc beyond the face do not count. The face is the
-     *  one whose plane is nearest to `at`. `at` may be before the face with a wall particle within
-     *  2 dp, at most dp/2 behind it, and at most dp/2 beyond its end.
+     *  one whose plane is nearest to `at`, with a `normal` the nearest of those that look there.
+     *  Where another face is as near within dp/2 (knuckle, corner, plate) the log tells which one
+     *  is read; mps_probe_info_get() always does. `at` may be before the face with a wall particle
+     *  within 2 dp, at most dp/2 behind it, and at most dp/2 beyond its end.
      *  A linear pressure is exact on any flat face, also where its particles are no lattice. On a
      *  curved face of radius R, with a diameter of dp, the value is that of a place at most
      *  dp^2/(3 R) away. */
@@ -28,12 +30,17 @@ enum {
      *  particles is not a surface, two are. Below another phase: the interface, half a spacing
      *  above these centres, less that half spacing. */
     MPS_PROBE_GAUGE = 2,
-    /** dim + (1 in 2-D, 3 in 3-D) values [N, N m; per m in 2-D]: pressure force and moment about
-     *  `at`, which moves with the tank; components along the axes of the lab. */
+    /** dim + (1 in 2-D, 3 in 3-D) values [N, N m; per m in 2-D]: force of the fluid on solids and
+     *  its moment about `at`, which moves with the tank; components along the axes of the lab. It
+     *  is the sum of -P_i A_i over the wall particles, P_i the wall pressure, and of all that
+     *  models report by mps_stage_reaction(): friction at walls (viscosity.laplacian,
+     *  viscosity.pair) and collisions with them (collision.pair), on the part next to the fluid;
+     *  friction.sides, part "sides"; plug-ins. Its integral over time is -(walls + reaction) of
+     *  mps_momentum. It has no part in drops that thin plates stop, nor in shifts. */
     MPS_PROBE_FORCE = 3
 };
 
-/** For mps_probe.average: the shortest time that the resolution can tell,
+/** For mps_probe.average: the shortest time that the spacing resolves,
  *  mps_step_info.crossing_time. */
 #define MPS_AVERAGE_AUTO (-1.0)
 
@@ -58,14 +65,20 @@ typedef struct mps_probe {
     int32_t count_drops;
     /** Mean over the last `average` seconds [s], see mps_probe_series(); 0: the value now. Default
      *  MPS_AVERAGE_AUTO: mps_step_info.crossing_time for pressures and forces, 0 for gauges. In
-     *  impacts a pressure averaged over less depends on the time step; a warning with the values is
-     *  logged once. A mean lags by half its time. */
+     *  impacts a pressure averaged over a shorter time depends on the time step; this is logged
+     *  once as a warning. A mean lags by half its time. */
     double average;
     /** Samples a second [Hz] kept for mps_probe_series(), at most 1e9; default 0: none. */
     double rate;
     /** Gauge: phases below the surface, bit 1 << phase for each; they are defined before. Default
      *  0: the liquid, all phases denser than the mean of the lightest and the densest phase. */
     uint32_t phases;
+    /** Name in messages and in mps_probe_info, 1..31 characters, no other probe's; NULL: none. */
+    const char *name;
+    /** Wall pressure: direction from the face into the liquid, of any length, in the frame of the
+     *  tank. The face is the nearest one within 2 dp whose normal is within 30 degrees of it.
+     *  Default 0: the nearest one. */
+    double normal[3];
 } mps_probe;
 
 /** Set every entry to its default. @param size  sizeof(mps_probe) @return MPS_E_ARG: bad size */
@@ -77,8 +90,9 @@ MPS_API mps_status mps_probe_init(mps_probe *probe, size_t size);
  *  | error | reason |
  *  |---|---|
  *  | MPS_E_ARG | a value; outside the box of the solids; for a wall probe no wall particle |
- *  | | within 2 dp, or more than dp/2 behind the face or beyond its end (the text tells how far) |
- *  | MPS_E_NAME | no part has this name |
+ *  | | within 2 dp, or more than dp/2 behind the face or beyond its end (the text tells how far), |
+ *  | | or no face that looks along `normal` |
+ *  | MPS_E_NAME | no part has this name; another probe has this name |
  *  | MPS_E_BUSY | called from a verb or a callback |
  *  | MPS_E_NOMEM | no memory | */
 MPS_API mps_status mps_probe_add(mps_sim *sim, const mps_probe *probe, int32_t *id);
@@ -88,6 +102,33 @@ MPS_API mps_status mps_probe_add(mps_sim *sim, const mps_probe *probe, int32_t *
  *  average or a rate must be removed with its walls: without them no further step is done.
  *  @return MPS_E_ARG: no such probe */
 MPS_API mps_status mps_probe_remove(mps_sim *sim, int32_t id);
+
+/** A probe as it was added, and the face that it reads. */
+typedef struct mps_probe_info {
+    /** Set by mps_probe_info_init(). */
+    uint32_t struct_size;
+    /** MPS_PROBE_... */
+    int32_t type;
+    /** Its name; "": none. Valid until a probe is added or removed, like `part`. */
+    const char *name;
+    /** Wall pressure: part of the face. Force: its part or prefix. "": none, or all. */
+    const char *part;
+    /** Place in the frame of the tank [m]. */
+    double at[3];
+    /** Wall pressure: normal of the face into the liquid, of length 1, in the frame of the tank. */
+    double normal[3];
+    /** As mps_probe.diameter, with its default [m]. */
+    double diameter;
+    /** Number of values, as mps_probe_size(). */
+    int32_t values;
+} mps_probe_info;
+
+/** Set struct_size and zero. @param size  sizeof(mps_probe_info) @return MPS_E_ARG: bad size */
+MPS_API mps_status mps_probe_info_init(mps_probe_info *info, size_t size);
+
+/** Tell what a probe is. @param info  initialised by mps_probe_info_init(); out
+ *  @return MPS_E_ARG: no such probe, or it was removed */
+MPS_API mps_status mps_probe_info_get(const mps_sim *sim, int32_t id, mps_probe_info *info);
 
 /** Number of values of a probe, or -1. */
 MPS_API int32_t mps_probe_size(const mps_sim *sim, int32_t id);
@@ -137,18 +178,30 @@ typedef struct mps_energy {
     double kinetic;
     /** -sum m g.x [J] */
     double potential;
-    /** Work of the pressure of walls on the fluid [J]; of an impulse: with the mean of the
-     *  velocities of the walls before and after it. */
-    double wall_work;
-    /** Lost in force models (viscosity) [J]; >= 0: dissipation; < 0: moving walls drag the fluid
-     *  along. */
+    /** Work of the walls on the fluid [J]: by pressures, from the change that they make to the
+     *  fluid's momentum and moment of momentum, and by reactions (mps_stage_reaction()). It closes
+     *  the budget. Of an impulse: with the mean of the velocities of the walls before and after
+     *  it. Where models move solids in the tank (MPS_MOTION): also the sum of P_i A_i.way_i over
+     *  them, with their half cells. */
+    double wall_work_momentum;
+    /** The same work by what force probes show [J]: sum of P_i A_i.u_i dt over the wall particles,
+     *  P_i their pressure, A_i their area, u_i their velocity, and by reactions. So it is the work
+     *  that a user computes from force probes. It includes the half cells at walls, which have no
+     *  fluid particle (see above), and is not in the budget: docs/explanations/walls.md. */
+    double wall_work_probes;
+    /** Dissipated by the library's models of MPS_FORCE: viscosity, friction at walls, damping,
+     *  tension [J]. */
     double viscous;
+    /** Lost in models of plug-ins, in MPS_FORCE and MPS_VELOCITY [J]. Where they report what solids
+     *  do (mps_stage_reaction()) it is what these dissipate; < 0: gained, e.g. by a driving
+     *  force. */
+    double plugins;
     /** Lost in collisions, and of drops stopped by thin plates [J]. */
     double collision;
     /** Lost in shifting, kinetic and potential [J]. */
     double shift;
-    /** The rest [J]: wall_work + added - viscous - collision - shift - d(kinetic + potential), d:
-     *  since before the first step. */
+    /** The rest [J]: wall_work_momentum + added - viscous - plugins - collision - shift -
+     *  d(kinetic + potential), d: since before the first step. */
     double numerical;
     /** Mass of the fluid particles [kg]. */
     double mass;
@@ -182,8 +235,8 @@ MPS_API mps_status mps_energy_get(mps_sim *sim, mps_energy *energy);
 
 /** Momentum of the fluid particles (per metre of width in 2-D) and its changes since the first step
  *  [kg m/s]:
- *    total = that before the first step + gravity + force + pressure + collision + shift +
- *  added. */
+ *    total = that before the first step + gravity + force + plugins + pressure + collision + shift
+ *  + added. */
 typedef struct mps_momentum {
     /** Set by mps_momentum_init(). */
     uint32_t struct_size;
@@ -191,11 +244,18 @@ typedef struct mps_momentum {
     double total[3];
     /** Weight times time. */
     double gravity[3];
-    /** By force models: friction at walls; pairs inside the fluid add nothing. */
+    /** By the library's models of MPS_FORCE: friction at walls; pairs inside the fluid add
+     *  nothing. */
     double force[3];
-    /** By pressure gradients. */
+    /** By models of plug-ins, in MPS_FORCE and MPS_VELOCITY. */
+    double plugins[3];
+    /** The part of force, plugins and collision that solids exert, as models report it by
+     *  mps_stage_reaction(). */
+    double reaction[3];
+    /** By pressure gradients: what the fluid particles received. */
     double pressure[3];
-    /** The part of `pressure` by walls: integral over time of the sum of p A. */
+    /** The same by the walls, as force probes show it: integral over time of the sum of P_i A_i,
+     *  P_i the wall pressure. */
     double walls[3];
     /** pressure - walls: weight and inertia of the half cells at walls (of order dp), and the
      *  gradient, which is exact for linear pressures and does not conserve momentum. */

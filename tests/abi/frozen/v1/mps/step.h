@@ -19,7 +19,8 @@ typedef struct mps_time_control {
      *  logged once when fluid moves more than dp in a fixed step. */
     double dt;
     /** dt |u|max / dp; default 0.3. |u|max: of the fluid, of walls in the step to come, and of both
-     *  relative to each other. */
+     *  relative to each other. Besides, a motion of the tank limits adaptive steps so that none
+     *  misses a part of it (mps/motion.h). */
     double cfl;
     /** dt U_g / dp, U_g the velocity scale; default 0.06. */
     double gravity;
@@ -91,13 +92,26 @@ typedef struct mps_step_info {
     double seconds[MPS_STAGE_COUNT];
     /** dp/u [s], u = |u|max of the liquid (fluid at least half as dense as the densest phase):
      *  pressures that change faster depend on the time step. At most dp/(5 U_g); in calm liquid,
-     *  where u < U_g, u/U_g times that. It changes by at most a tenth of the time that passes. */
+     *  where u < U_g, u/U_g times that. Its rate of change is at most 0.1. */
     double crossing_time;
     /** Solutions of the pressure equation: 2 beside void, more while liquid separates from
      *  walls. */
     int32_t ppe_solves;
     /** Wall particles at their least pressure, from which the liquid may separate. */
     int32_t separated;
+    /** Name of the limit that chose dt:
+     *
+     *  | limit | set by |
+     *  |---|---|
+     *  | "cfl", "gravity", "viscous", "growth", "dt_max" | the entry of mps_time_control |
+     *  | "walls" | mps_time_control.cfl: speed of walls, and of fluid relative to them |
+     *  | "motion" | the motion of the tank, see mps_motion_table_set() |
+     *  | e.g. "tension.jump" | the model of this name |
+     *  | "fixed" | mps_time_control.dt |
+     *  | "caller" | dt_max of mps_step(), t_end of mps_run() |
+     *
+     *  A constant of the library or of the plug-in that brings the model. */
+    const char *limit;
 } mps_step_info;
 
 /** Set struct_size and zero. @param size  sizeof(mps_step_info) @return MPS_E_ARG: bad size */
@@ -114,7 +128,8 @@ MPS_API mps_status mps_step_info_init(mps_step_info *info, size_t size);
  *  | MPS_W_NOT_CONVERGED | the step was done; the pressure residual stayed above its tolerance |
  *  | MPS_E_ARG | dt_max; info is not initialised |
  *  | MPS_E_BUSY | a lease is open; called from a monitor, a verb or a callback |
- *  | MPS_E_DIVERGED | not finite, or faster than mps_config.speed_limit; a step below dt_min; |
+ *  | MPS_E_DIVERGED | not finite, or faster than mps_config.speed_limit; a step below dt_min (the |
+ *  | | text names the limit that decided, and its value); |
  *  | | fluid would pass through walls and dummies, 1 + dummy_layers spacings (with a fixed |
  *  | | step, a cfl that is off or above 1, or a plug-in among the models) |
  *  | MPS_E_LOST | a particle left the domain or the tank, with MPS_LOST_ERROR |

@@ -1,0 +1,466 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/** @file stage.h  What verbs of models see of a step; loops, sums and scratch that they use.
+ *
+ *  A verb gets a stage. Its loops run over rows, particles in their present order: a row function
+ *  gets a view, which has numbers and arrays only, and the fields that the verb gives to the loop.
+ *
+ *  Notation: n particles, dim = 2 or 3. */
+#ifndef MPS_STAGE_H
+#define MPS_STAGE_H
+
+#include <mps/flux.h>
+#include <mps/operators.h>
+#include <mps/types.h>
+
+MPS_BEGIN_DECLS
+
+/** Region of a particle: values of the channel "region", written in MPS_CLASSIFY. */
+enum {
+    /** Inside the fluid, or a wetted solid particle. */
+    MPS_REGION_INNER = 0,
+    /** Fluid with a NEAR particle among its near neighbours. */
+    MPS_REGION_SECOND = 1,
+    /** Fluid with a SURFACE particle among its near neighbours. */
+    MPS_REGION_NEAR = 2,
+    /** On the free surface: the pressure is given there. */
+    MPS_REGION_SURFACE = 3,
+    /** Detached fluid: ballistic, p = 0, in no operator of the pressure. */
+    MPS_REGION_SPRAY = 4,
+    /** Solid without fluid around it, and every dummy: p = 0, in no operator of the pressure. */
+    MPS_REGION_DRY = 5
+};
+
+/** Hooks of a step: when a verb runs. */
+enum {
+    /** Before neighbours are searched: let fluid in and out, mps_stage_add(), mps_stage_remove().
+     *  view->dt is the length of the last step (0: none), and there are no pairs. */
+    MPS_POPULATE = 0,
+    /** Before the length of the step is known: lower s->dt_limit. view->dt is that of the last step
+     *  which the caller did not cut (0: none). Channels that live for a step cannot be used.
+     *  Skipped if dt is fixed. */
+    MPS_LIMIT = 1,
+    /** Move solids: write "solid_place" and "solid_area" of bodies that the tank does not carry.
+     *  There are no pairs. */
+    MPS_MOTION = 2,
+    /** Write "region" and what follows from it. Another value fails with MPS_E_PLUGIN. */
+    MPS_CLASSIFY = 3,
+    /** Write the quantities that later hooks read. */
+    MPS_PREPARE = 4,
+    /** Add non-pressure accelerations of fluid particles to "acceleration". */
+    MPS_FORCE = 5,
+    /** Add to the pressure equation; "velocity" is u*. The equation is solved after this. */
+    MPS_SOURCE = 6,
+    /** Change the new pressures. */
+    MPS_LEVEL = 7,
+    /** Add accelerations by the new pressures to "acceleration", which arrives as 0. */
+    MPS_GRADIENT = 8,
+    /** Change "wall_pressure"; "acceleration" holds what MPS_GRADIENT left. */
+    MPS_LOAD = 9,
+    /** Change velocities after the correction, e.g. collisions. */
+    MPS_VELOCITY = 10,
+    /** Add to "displacement" of fluid particles; may change "velocity" to transport it. */
+    MPS_SHIFT = 11,
+    /** Number of hooks. */
+    MPS_HOOK_COUNT = 12
+};
+
+/** Type of the numbers of a channel or a setting. */
+enum {
+    /** double */
+    MPS_TYPE_REAL = 0,
+    /** int32_t of a channel, a whole number of a setting */
+    MPS_TYPE_INTEGER = 1,
+    /** Settings only: 0 (off) or 1 (on). */
+    MPS_TYPE_FLAG = 2
+};
+
+/* The pressure equation is
+ *    sum_j k_ij (p_i - p_j + q_ij) + gain (shift_i p_i + gas_i f(p_i)) = gain source_i   [1/s2]
+ *  over pairs of fluid and walls, k_ij and q_ij as in mps/flux.h. Verbs write it as channels:
+ *    "pressure_source" [1/s2], e.g. -div u* / dt; arrives 0
+ *    "pressure_shift" >= 0 [1/(Pa s2)], e.g. compressibility; arrives 0
+ *    "gas_shift" >= 0 [1/(Pa s2)], "gas_law" P [Pa]: f(p) = p, or P ln(1 + p/P) where P > 0, which
+ *    needs a solver of nonlinear rows; arrive 0
+ *    "pressure_condition" MPS_ROW_..., "pressure_value" [Pa]; arrive FIXED at 0 on the surface,
+ *    FREE elsewhere.
+ *  Unknowns are particles of regions INNER, SECOND and NEAR that are not fixed.
+ *  Scalars of the equation, written from MPS_CLASSIFY to MPS_SOURCE:
+ *    "equation_radius" pairs of the Laplacian, MPS_NEAR or MPS_FAR; arrives MPS_FAR
+ *    "equation_complete" 1: pairs with one particle on the surface also carry the flux of the pairs
+ *    that the surface cuts off; arrives 0
+ *    "equation_body" 1: pressures relative to a fluid that moves with the tank, b = g - a_tank
+ *    in mps/flux.h; arrives 0
+ *    "equation_wall_factor" >= 0, weight of wall-wall pairs, times the smaller "wetted_share" of
+ *    both; arrives 0
+ *    "equation_gain" share of the divergence that a step removes, 0 < gain <= 1; arrives 1. */
+
+/** Conditions on a row of the pressure equation: values of the channel "pressure_condition". */
+enum {
+    /** The equation holds. */
+    MPS_ROW_FREE = 0,
+    /** p_i = value_i (Dirichlet). */
+    MPS_ROW_FIXED = 1,
+    /** p_i >= value_i. The equation holds where p_i is above; at value_i fluid may separate. */
+    MPS_ROW_LEAST = 2
+};
+
+/** Poses of the rigid tank at the beginning and at the end of a step, for mps_view_tank(). A part
+ *  of mps_view; it does not grow within a major version. */
+typedef struct mps_tank_pose {
+    /** Centre of rotations, in the frame of the tank [m]. */
+    double centre[3];
+    /** Displacement at the beginning of the step [m]. */
+    double shift[3];
+    /** Rotation at the beginning of the step, row by row. */
+    double rotation[9];
+    /** Displacement at the end of the step [m]. */
+    double next_shift[3];
+    /** Rotation at the end of the step. */
+    double next_rotation[9];
+    /** Velocity of the centre at the beginning of the step [m/s]. */
+    double rate[3];
+    /** Angular velocity at the beginning of the step [rad/s]. */
+    double omega[3];
+    /** 1: the end of the step is known; 0 in MPS_LIMIT. */
+    int32_t has_next;
+    /** Kept 0. */
+    int32_t reserved;
+} mps_tank_pose;
+
+/** What row functions see: numbers and borrowed arrays, no pointers to other structs. */
+typedef struct mps_view {
+    /** sizeof(mps_view) of the library */
+    uint32_t struct_size;
+    /** 2 or 3 */
+    int32_t dim;
+    /** Number of particles. */
+    int64_t n;
+    /** Time at the beginning of the step [s]. */
+    double t;
+    /** Length of the step [s]. */
+    double dt;
+    /** Spacing [m]. */
+    double dp;
+    /** U_g [m/s] */
+    double velocity_scale;
+    /** Gravity [m/s2]. */
+    double g[3];
+    /** Number of phases defined. */
+    int32_t phases;
+    /** Kept 0. */
+    int32_t reserved;
+    /** [n] MPS_FLUID ... */
+    const int32_t *kind;
+    /** [n] number of the phase of fluid particles */
+    const int32_t *phase;
+    /** [n] */
+    const int64_t *id;
+    /** [n*dim] positions at the beginning of the step, in the lab [m]; in the frame of the tank:
+     *  mps_view_tank() */
+    const double *x;
+    /** [n*dim] wetted area vector of wall particles, into the fluid [m^(dim-1)] */
+    const double *area;
+    /** [n] nearest wall particle of a dummy; -1: none near */
+    const int32_t *wall_of;
+    /** [16] mu of the phases [Pa s] */
+    const double *viscosity;
+    /** [16*16] sigma of two phases by mps_tension_set() [N/m], symmetric; < 0: not set */
+    const double *tension;
+    /** Values of the model's settings, in their order; also those of integers and flags. */
+    const double *setting;
+    /** Pairs within re_near. Rows of solids without fluid within the radii may be empty. Rows of
+     *  dummies are empty unless an active model has MPS_USE_DUMMIES; dummies occur in other rows. A
+     *  particle with an empty row keeps its "number_density"; its other sums are those of no
+     *  pairs. */
+    mps_stencil near;
+    /** Pairs within re_far, likewise. Row i of one need not begin where row i of the other does. */
+    mps_stencil far;
+    /** From MPS_FORCE on: fluxes of pairs of the pressure equation; before, all zero. `body` is
+     *  final from MPS_LEVEL on. Its channels need not be among the uses. */
+    mps_flux flux;
+    /** The rigid tank. */
+    mps_tank_pose tank;
+} mps_view;
+
+/** Whether row i is fluid. */
+static inline int mps_is_fluid(const mps_view *v, int64_t i)
+{
+    return v->kind[i] == MPS_FLUID;
+}
+
+/** Whether row i is a wall particle. */
+static inline int mps_is_wall(const mps_view *v, int64_t i)
+{
+    return v->kind[i] == MPS_WALL;
+}
+
+/** Whether row i is a dummy. */
+static inline int mps_is_dummy(const mps_view *v, int64_t i)
+{
+    return v->kind[i] == MPS_DUMMY;
+}
+
+/** Region of row i, MPS_REGION_... @param region  the channel "region" */
+static inline int32_t mps_region_of(const int32_t *region, int64_t i)
+{
+    return region[i];
+}
+
+/** What a verb sees: the view of its rows, its channels, and the library behind it. Borrowed for
+ *  the call. */
+typedef struct mps_stage {
+    /** sizeof(mps_stage) of the library */
+    uint32_t struct_size;
+    /** The hook: MPS_POPULATE .. MPS_SHIFT. */
+    int32_t hook;
+    /** What row functions get. */
+    const mps_view *view;
+    /** Arrays of the verb's uses, in their order; double or int32_t. */
+    void *const *data;
+    /** State of the model: what mps_model_ops.create made, else mps_model_ops.user. */
+    void *self;
+    /** Number of this step, from 1. */
+    int64_t step;
+    /** Steps since the velocity of the tank jumped; 0: in this one; large if it never did. */
+    int64_t since_jump;
+    /** In MPS_LIMIT: longest step allowed [s], arrives INFINITY; a verb lowers it, to > 0. */
+    double dt_limit;
+    /** From MPS_LEVEL on, 1: nothing fixes the level of the pressures, so their mean is 0; else
+     *  0. */
+    int32_t level_free;
+    /** Kept 0. */
+    int32_t reserved;
+    /** Private. */
+    void *host;
+} mps_stage;
+
+/* ---- loops and sums over particles ----------------------------------------------------------- */
+
+/** Work on rows begin .. end-1. It may write rows of its own only. */
+typedef void (*mps_rows_fn)(const mps_view *view, const void *fields, int64_t begin, int64_t end);
+
+/** What rows begin .. end-1 contribute: row i adds to values[(i - begin) * stride + k], which begin
+ *  at 0. For maxima stride is 0: all rows raise the same values, which begin at -INFINITY. */
+typedef void (*mps_sums_fn)(const mps_view *view, const void *fields, int64_t begin, int64_t end,
+                            int32_t stride, double *values);
+
+/** A loop over rows; MPS_ROWS() defines one. */
+typedef struct mps_rows {
+    /** sizeof(mps_rows) */
+    uint32_t struct_size;
+    /** Bytes of the fields that it takes. */
+    uint32_t bytes;
+    /** Name of the loop. */
+    const char *name;
+    /** What it does. */
+    mps_rows_fn run;
+} mps_rows;
+
+/** Sums or maxima over rows; MPS_SUMS() defines them. */
+typedef struct mps_sums {
+    /** sizeof(mps_sums) */
+    uint32_t struct_size;
+    /** Bytes of the fields that they take. */
+    uint32_t bytes;
+    /** Name of the loop. */
+    const char *name;
+    /** What it does. */
+    mps_sums_fn run;
+} mps_sums;
+
+/** Run a loop over all rows, in parts at the same time. Returns when all are done.
+ *  @param fields  numbers and arrays, no pointers to other structs: rows->bytes of them, copied */
+MPS_API void mps_stage_rows(const mps_stage *s, const mps_rows *rows, const void *fields);
+
+/** Sums over all rows: the same bytes for any number of threads and any order of the rows, see
+ *  mps/exact.h. What a row contributes must not depend on other rows.
+ *  @param count  1..16 @param sums  [count] out */
+MPS_API void mps_stage_sum(const mps_stage *s, int32_t count, const mps_sums *add,
+                           const void *fields, double *sums);
+
+/** Maxima over all rows. @param count  1..16 @param maxima  [count] out; -INFINITY without rows */
+MPS_API void mps_stage_max(const mps_stage *s, int32_t count, const mps_sums *raise,
+                           const void *fields, double *maxima);
+
+/** Mark rows that have a near neighbour among the member rows. A row without pairs (solids away
+ *  from fluid, dummies) is not marked.
+ *  @param member  [n] not 0 for member rows @param beside  [n] out: 1 or 0
+ *  @return 0, or non-zero after a failure (the error is set) */
+MPS_API int mps_stage_beside(mps_stage *s, int32_t *member, int32_t *beside);
+
+/** Roles of rows in mps_stage_bodies(). */
+enum {
+    /** Belongs to no body. */
+    MPS_BODY_NONE = 0,
+    /** Belongs to the body of its neighbours. */
+    MPS_BODY_MEMBER = 1,
+    /** Member where the search of a body begins. Bodies without a seed are not found. */
+    MPS_BODY_SEED = 2,
+    /** Belongs to no body and holds those beside it. */
+    MPS_BODY_ANCHOR = 3
+};
+
+/** Find bodies, sets of fluid rows linked by near pairs, that no anchor holds. Solids may be
+ *  anchors and belong to no body. Borrows up to 3 blocks of scratch and returns them.
+ *  @param most  bodies with more rows count as held @param role  [n] MPS_BODY_...
+ *  @param body  [n] out: 0.. for rows of bodies that are free, by the least id of each, else -1
+ *  @return 0, or non-zero after a failure (no memory; the error is set) */
+MPS_API int mps_stage_bodies(mps_stage *s, int32_t most, int32_t *role, int32_t *body);
+
+/** Rows by square cells, for searches beyond the far radius: bucket b holds the rows of all
+ *  cells with that bucket, ascending: r = first[b] - 1, then
+ *  r = next[r] - 1, ... until r is -1. */
+typedef struct mps_grid {
+    /** Set by mps_grid_init(), or sizeof(mps_grid). */
+    uint32_t struct_size;
+    /** 2 or 3 */
+    int32_t dim;
+    /** Side of a cell [m]. */
+    double side;
+    /** Number of buckets. */
+    int64_t buckets;
+    /** [buckets] */
+    const int32_t *first;
+    /** [n] */
+    const int32_t *next;
+} mps_grid;
+
+/** Set struct_size and zero. @param size  sizeof(mps_grid) @return MPS_E_ARG: bad size */
+MPS_API mps_status mps_grid_init(mps_grid *grid, size_t size);
+
+/** Cell of a place x [dim]. */
+static inline void mps_grid_cell(const mps_grid *grid, const double *x, int64_t cell[3])
+{
+    cell[2] = 0;
+    for (int d = 0; d < grid->dim; d++) cell[d] = (int64_t)floor(x[d] / grid->side);
+}
+
+/** Bucket of a cell. */
+static inline int64_t mps_grid_bucket(const mps_grid *grid, const int64_t cell[3])
+{
+    const uint64_t h = (uint64_t)cell[0] * 73856093u ^ (uint64_t)cell[1] * 19349663u ^
+                       (uint64_t)cell[2] * 83492791u;
+    return (int64_t)(h % (uint64_t)grid->buckets);
+}
+
+/** Sort the fluid rows into cells of a side. The grid lives as long as scratch, and takes 2 blocks.
+ *  @param grid  initialised by mps_grid_init(); out
+ *  @return 0, or non-zero after a failure (no memory, side not > 0, grid not initialised) */
+MPS_API int mps_stage_grid(mps_stage *s, double side, mps_grid *grid);
+
+/** Place of a point of the lab in the frame of the tank, and the velocity of the rigid tank there
+ *  over this step, as "velocity" has it for a solid at this point. In MPS_LIMIT it is the velocity
+ *  at the beginning of the step.
+ *  @param x  [dim] point, e.g. v->x + i * dim [m] @param place  NULL, or [dim] out [m]
+ *  @param velocity  NULL, or [dim] out, in the lab [m/s] */
+static inline void mps_view_tank(const mps_view *v, const double *x, double *place,
+                                 double *velocity)
+{
+    const mps_tank_pose *k = &v->tank;
+    const double *R = k->rotation, *N = k->next_rotation;
+    double r[3] = {0, 0, 0}, arm[3] = {0, 0, 0}, turned[3];
+    for (int d = 0; d < v->dim; d++) r[d] = x[d] - k->centre[d] - k->shift[d];
+    for (int d = 0; d < v->dim; d++) {
+        const double X = k->centre[d] + (R[d] * r[0] + R[3 + d] * r[1] + R[6 + d] * r[2]);
+        arm[d] = X - k->centre[d];
+        if (place) place[d] = X;
+    }
+    if (!velocity) return;
+    if (!k->has_next) N = R;
+    for (int d = 0; d < 3; d++)
+        turned[d] = N[3 * d] * arm[0] + N[3 * d + 1] * arm[1] + N[3 * d + 2] * arm[2];
+    for (int d = 0; d < v->dim; d++) {
+        const int e = (d + 1) % 3, f = (d + 2) % 3;
+        velocity[d] = k->has_next
+                          ? (k->centre[d] + k->next_shift[d] + turned[d] - x[d]) / v->dt
+                          : k->rate[d] + (k->omega[e] * turned[f] - k->omega[f] * turned[e]);
+    }
+}
+
+/** Scratch, or a channel, whose values a verb wrote and then reads at neighbours. */
+typedef struct mps_shared {
+    /** [n*components], double or int32_t */
+    void *values;
+    /** Numbers per particle. */
+    int32_t components;
+    /** MPS_TYPE_REAL or MPS_TYPE_INTEGER */
+    int32_t type;
+} mps_shared;
+
+/** Make values that rows wrote visible at their neighbours. Call it between a loop that writes
+ *  scratch or a channel and a loop of the same verb that reads it at neighbours. Channels that
+ *  other verbs wrote need no call.
+ *  @param shared  [count], 1..16 @return 0, or non-zero after a failure (the error is set) */
+MPS_API int mps_stage_refresh(mps_stage *s, int32_t count, const mps_shared *shared);
+
+/** Let fluid in, in MPS_POPULATE: particles of one phase, added when the verb returns. The budget
+ *  books them as added. On many ranks all ranks add the same ones.
+ *  @param phase  a phase that is defined @param count  >= 0
+ *  @param x  [count*dim] positions in the lab [m], finite, 0.5 dp or more apart from each other and
+ *            from other particles; not checked here
+ *  @param u  [count*dim] velocities [m/s]
+ *  @return 0, or non-zero after a failure (no memory, bad arguments; the error is set) */
+MPS_API int mps_stage_add(mps_stage *s, int32_t phase, int64_t count, const double *x,
+                          const double *u);
+
+/** Let fluid out, in MPS_POPULATE: rows that leave the simulation when the verb returns. The budget
+ *  books them as added, with a negative sign; they do not count as lost.
+ *  @param leaves  [n] not 0 for these rows; solids stay whatever it says
+ *  @return 0, or non-zero after a failure (the error is set) */
+MPS_API int mps_stage_remove(mps_stage *s, const int32_t *leaves);
+
+/** Scratch of `count` doubles, zeroed, valid until the verb returns. At most 16, of both types.
+ *  @return NULL: no memory, or too many (the error is set; let the verb return non-zero) */
+MPS_API double *mps_stage_scratch(mps_stage *s, int64_t count);
+
+/** As mps_stage_scratch(), of integers. */
+MPS_API int32_t *mps_stage_scratch_integers(mps_stage *s, int64_t count);
+
+/** Report a failure of a verb; text as printf. Returns 1, so that a verb can end with it. */
+MPS_API int mps_stage_fail(mps_stage *s, const char *format, ...);
+
+/** For row functions: inlined into their loops. */
+#if defined(__GNUC__)
+#define MPS_ROW static inline __attribute__((always_inline))
+#else
+#define MPS_ROW static inline
+#endif
+
+/** Define the mps_rows `name` from a row function
+ *    MPS_ROW void row(const int dim, const mps_view *v, const type *fields, int64_t i);
+ *  compiled for dim = 2 and 3, so that loops over dim unroll. View and fields are copies of the
+ *  loop's own, which stay in registers: a loop without fields has a struct all the same. */
+#define MPS_ROWS(name, row, type)                                                                  \
+    static void name##_run(const mps_view *view_, const void *fields_, int64_t begin, int64_t end) \
+    {                                                                                              \
+        const mps_view own_ = *view_;                                                              \
+        const type given_ = *(const type *)fields_;                                                \
+        if (own_.dim == 2)                                                                         \
+            for (int64_t i = begin; i < end; i++) row(2, &own_, &given_, i);                       \
+        else                                                                                       \
+            for (int64_t i = begin; i < end; i++) row(3, &own_, &given_, i);                       \
+    }                                                                                              \
+    static const mps_rows name = {sizeof(mps_rows), sizeof(type), #name, name##_run};
+
+/** Define the mps_sums `name` from a row function
+ *    MPS_ROW void row(const int dim, const mps_view *v, const type *fields, int64_t i,
+ *                     double *sums);
+ *  It adds to sums[0] .. sums[count-1], and to no more; for mps_stage_max() it raises them. */
+#define MPS_SUMS(name, row, type)                                                                  \
+    static void name##_run(const mps_view *view_, const void *fields_, int64_t begin, int64_t end, \
+                           int32_t stride_, double *values_)                                       \
+    {                                                                                              \
+        const mps_view own_ = *view_;                                                              \
+        const type given_ = *(const type *)fields_;                                                \
+        if (own_.dim == 2)                                                                         \
+            for (int64_t i = begin; i < end; i++)                                                  \
+                row(2, &own_, &given_, i, values_ + (i - begin) * stride_);                        \
+        else                                                                                       \
+            for (int64_t i = begin; i < end; i++)                                                  \
+                row(3, &own_, &given_, i, values_ + (i - begin) * stride_);                        \
+    }                                                                                              \
+    static const mps_sums name = {sizeof(mps_sums), sizeof(type), #name, name##_run};
+
+MPS_END_DECLS
+
+#endif

@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Loops of the library's own on the threads of a handle: the one place where they are run. */
+#include "loop.h"
+
+/* A loop, or sums and maxima, as the parallel-for wants them. */
+typedef struct job {
+    const mps__loop *loop;
+    const mps__values *values;
+    int32_t dim;
+    const void *fields;
+} job;
+
+static void run_rows(void *argument, int64_t begin, int64_t end)
+{
+    const job *k = argument;
+    k->loop->run(k->dim, k->fields, begin, end);
+}
+
+static void run_values(void *argument, int64_t begin, int64_t end, mps_exact *sum, double *maximum)
+{
+    const job *k = argument;
+    k->values->run(k->dim, k->fields, begin, end, sum, maximum);
+}
+
+void mps__loop_run(const mps_parallel *p, const mps__loop *loop, int32_t dim, int64_t n,
+                   const void *fields)
+{
+    mps_parallel_rows(p, n, run_rows, &(job){.loop = loop, .dim = dim, .fields = fields});
+}
+
+void mps__loop_run_long(const mps_parallel *p, const mps__loop *loop, int32_t dim, int64_t n,
+                        const void *fields)
+{
+    mps_parallel_rows_least(p, n, 1, run_rows, &(job){.loop = loop, .dim = dim, .fields = fields});
+}
+
+void mps__values_run(const mps_parallel *p, const mps__values *values, int32_t dim, int64_t n,
+                     const void *fields, mps_exact *sum, double *maximum)
+{
+    job k = {.values = values, .dim = dim, .fields = fields};
+    const mps_exact_values wanted = {values->sums, values->maxima, sum, maximum};
+    mps_exact_rows(p, n, MPS_PARALLEL_LEAST, run_values, &k, &wanted);
+}

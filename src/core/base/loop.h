@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Loops of the library's own over rows, in the shape of those of models (mps/stage.h): a row function, what it sees as numbers and arrays
+ * (no pointers to other structs), and a table of both, which the function that runs the loop takes as it is. */
+#ifndef MPS_CORE_LOOP_H
+#define MPS_CORE_LOOP_H
+
+#include "parallel.h"
+#include "terms.h"
+#include <mps/stage.h>
+#include <string.h>
+
+/* A loop over rows; MPS__LOOP() defines one. */
+typedef struct mps__loop {
+    const char *name;
+    size_t bytes; /* of the fields */
+    void (*run)(int32_t dim, const void *fields, int64_t begin, int64_t end);
+} mps__loop;
+
+/* Sums and maxima over rows; MPS__VALUES() defines them. */
+typedef struct mps__values {
+    const char *name;
+    size_t bytes;         /* of the fields */
+    int32_t sums, maxima; /* MPS_PARALLEL_VALUES in all at most */
+    void (*run)(int32_t dim, const void *fields, int64_t begin, int64_t end, mps_exact *sum,
+                double *maximum);
+} mps__values;
+
+/* The dimension of loops whose rows do not look at it. */
+enum { MPS__ANY_DIM = 2 };
+
+/* Run rows 0..n-1, ranges of MPS_PARALLEL_LEAST of them at least. A row writes nothing that others read. */
+void mps__loop_run(const mps_parallel *p, const mps__loop *loop, int32_t dim, int64_t n,
+                   const void *fields);
+/* The same with ranges of one row at least: rows are few and long. */
+void mps__loop_run_long(const mps_parallel *p, const mps__loop *loop, int32_t dim, int64_t n,
+                        const void *fields);
+/* Terms of rows 0..n-1 are added to the sums, their maxima raised. */
+void mps__values_run(const mps_parallel *p, const mps__values *values, int32_t dim, int64_t n,
+                     const void *fields, mps_exact *sum, double *maximum);
+
+/* Define the mps__loop `name` from a row function
+ *   MPS_ROW void row(const int dim, const type *fields, int64_t i);
+ * compiled for dim = 2 and 3, so that loops over dim unroll. The fields are a copy of the loop's own, which stays in registers. */
+#define MPS__LOOP(name, row, type)                                                        \
+    static void name##_run(int32_t dim_, const void *fields_, int64_t begin, int64_t end) \
+    {                                                                                     \
+        const type given_ = *(const type *)fields_;                                       \
+        if (dim_ == 2)                                                                    \
+            for (int64_t i = begin; i < end; i++) row(2, &given_, i);                     \
+        else                                                                              \
+            for (int64_t i = begin; i < end; i++) row(3, &given_, i);                     \
+    }                                                                                     \
+    static const mps__loop name = {#name, sizeof(type), name##_run};
+
+/* Define the mps__values `name` from a row function
+ *   MPS_ROW void row(const int dim, const type *fields, int64_t i, double *values);
+ * which sets values[0..sums-1] to the terms of the row, each 0 before, and raises the maxima behind them. */
+#define MPS__VALUES(name, row, type, sums, maxima)                                        \
+    static void name##_run(int32_t dim_, const void *fields_, int64_t begin, int64_t end, \
+                           mps_exact *sum_, double *maximum_)                             \
+    {                                                                                     \
+        const type given_ = *(const type *)fields_;                                       \
+        double own_[(sums) + (maxima)];                                                   \
+        mps__terms terms_;                                                                \
+        mps__terms_begin(&terms_, sum_, sums);                                            \
+        memcpy(own_ + (sums), maximum_, (maxima) * sizeof(double));                       \
+        for (int64_t i = begin; i < end; i++) {                                           \
+            memset(own_, 0, (sums) * sizeof(double));                                     \
+            if (dim_ == 2)                                                                \
+                row(2, &given_, i, own_);                                                 \
+            else                                                                          \
+                row(3, &given_, i, own_);                                                 \
+            if ((sums) > 0) mps__terms_add(&terms_, own_);                                \
+        }                                                                                 \
+        mps__terms_end(&terms_);                                                          \
+        memcpy(maximum_, own_ + (sums), (maxima) * sizeof(double));                       \
+    }                                                                                     \
+    static const mps__values name = {#name, sizeof(type), sums, maxima, name##_run};
+
+#endif

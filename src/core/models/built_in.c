@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The built-in models, in the order of lists. Verbs that write the same channel say themselves which is first. */
+#include "built_in.h"
+#include <stddef.h>
+
+const mps_model_ops *const mps__built_in_models[] = {&mps__surface_asymmetry,
+                                                     &mps__surface_detached,
+                                                     &mps__surface_original,
+                                                     &mps__reference_lid,
+                                                     &mps__wall_half,
+                                                     &mps__wall_extrapolate,
+                                                     &mps__body_free,
+                                                     &mps__moments_bounded,
+                                                     &mps__density_smooth,
+                                                     &mps__density_interface,
+                                                     &mps__viscosity_laplacian,
+                                                     &mps__viscosity_pair,
+                                                     &mps__dissipation_radial,
+                                                     &mps__tension_csf,
+                                                     &mps__tension_jump,
+                                                     &mps__friction_sides,
+                                                     &mps__reference_gas,
+                                                     &mps__source_mixed,
+                                                     &mps__source_volume,
+                                                     &mps__gas_compressible,
+                                                     &mps__gas_isentropic,
+                                                     &mps__separation_void,
+                                                     &mps__gradient_conservative,
+                                                     &mps__gradient_corrected,
+                                                     &mps__gradient_density,
+                                                     &mps__load_reaction,
+                                                     &mps__drag_lone,
+                                                     &mps__collision_pair,
+                                                     &mps__shift_tangential,
+                                                     NULL};

@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What verbs report of the forces that solids exert on the fluid: friction, baffles, screens. */
+#include "reaction.h"
+#include "host.h"
+#include "rotation.h"
+#include "terms.h"
+#include <math.h>
+#include <mps/reaction.h>
+
+/* Places of rows are in `place`: 1 + that of mps__reactions, 0 for rows that do not count. */
+typedef struct report {
+    const mps_view *v;
+    const mps__host *h;
+    const double *acceleration;
+    int32_t *place; /* NULL: all rows are at `wanted` */
+    int32_t wanted;
+    double centre[3];
+} report;
+
+/* Force and moment of a fluid row. */
+static void add_row(const report *k, int64_t i, mps__terms *t)
+{
+    const mps_view *v = k->v;
+    double f[6] = {0}, r[3] = {0};
+    const double mass = k->h->particles->rho[i] *
+                        (v->dim == 2 ? v->dp * v->dp : v->dp * v->dp * v->dp);
+    for (int d = 0; d < v->dim; d++) {
+        f[d] = mass * k->acceleration[i * v->dim + d];
+        r[d] = v->x[i * v->dim + d] - k->centre[d];
+    }
+    mps__cross(r, f, f + 3);
+    mps__terms_add(t, f);
+}
+
+static void add_rows(void *argument, int64_t begin, int64_t end, mps_exact *sums, double *none)
+{
+    const report *k = argument;
+    mps__terms t;
+    (void)none;
+    mps__terms_begin(&t, sums, 6);
+    for (int64_t i = begin; i < end; i++)
+        if (mps_is_fluid(k->v, i) && !mps__is_ghost(k->h->ghosts, i) &&
+            (!k->place || k->place[i] == k->wanted + 1))
+            add_row(k, i, &t);
+    mps__terms_end(&t);
+}
+
+static int32_t line_of(const mps_stage *s, const mps__host *h)
+{
+    if (h->foreign) return MPS__LINE_PLUGINS;
+    return s->hook == MPS_FORCE ? MPS__LINE_VISCOUS : MPS__LINE_COLLISION;
+}
+
+/* Add the rows of one place. @return non-zero: not finite */
+static int add_place(mps_stage *s, mps__host *h, report *k, int32_t place)
+{
+    mps_exact sums[6] = {{{0}, 0, 0}};
+    k->wanted = place;
+    mps_exact_rows(h->parallel, s->view->n, MPS_PARALLEL_LEAST, add_rows, k,
+                   &(mps_exact_values){.sums = 6, .sum = sums});
+    for (int d = 0; d < 6; d++) {
+        if (!isfinite(mps_exact_value(&sums[d])))
+            return mps_stage_fail(s, "the acceleration that a solid gives the fluid, by "
+                                     "mps_stage_reaction(), is not finite");
+        mps_exact_join(&h->reactions.sum[place][d], &sums[d]);
+        mps_exact_join(&h->reactions.sum[line_of(s, h)][d], &sums[d]);
+    }
+    return 0;
+}
+
+/* The solid nearest to a fluid row, of those as near the one with the least id; -1: there is none. */
+MPS_ROW int64_t nearest_solid(const int dim, const mps_view *v, int64_t i)
+{
+    const mps_stencil *t = &v->far;
+    double least = INFINITY;
+    int64_t nearest = -1;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const int64_t j = mps_stencil_column(t, p);
+        double r2 = 0;
+        if (mps_is_fluid(v, j)) continue;
+        for (int d = 0; d < dim; d++)
+            r2 += (v->x[j * dim + d] - v->x[i * dim + d]) * (v->x[j * dim + d] - v->x[i * dim + d]);
+        if (r2 > least || (r2 == least && v->id[j] > v->id[nearest])) continue;
+        least = r2;
+        nearest = j;
+    }
+    return nearest;
+}
+
+typedef struct place_fields {
+    const double *acceleration;
+    const int32_t *part;
+    int32_t *place;
+} place_fields;
+
+MPS_ROW void place_row(const int dim, const mps_view *v, const place_fields *f, int64_t i)
+{
+    const double *a = f->acceleration + i * dim;
+    if (!mps_is_fluid(v, i) || (a[0] == 0 && a[1] == 0 && (dim == 2 || a[2] == 0))) return;
+    const int64_t solid = nearest_solid(dim, v, i);
+    f->place[i] = MPS__REACTION_WHOLE + 2 + (solid < 0 ? -1 : f->part[solid]);
+}
+MPS_ROWS(place_rows, place_row, place_fields)
+
+/* Each row acts on the part beside it. */
+static int add_beside(mps_stage *s, mps__host *h, report *k)
+{
+    bool used[MPS__REACTIONS + 1] = {false};
+    k->place = mps_stage_scratch_integers(s, s->view->n);
+    if (!k->place) return 1;
+    mps_stage_rows(s, &place_rows, &(place_fields){k->acceleration, h->particles->part, k->place});
+    for (int64_t i = 0; i < s->view->n; i++) used[k->place[i]] = true;
+    int failed = 0;
+    for (int32_t place = MPS__REACTION_WHOLE; place < MPS__REACTIONS && !failed; place++)
+        if (used[place + 1]) failed = add_place(s, h, k, place);
+    return failed;
+}
+
+int mps_stage_reaction(mps_stage *s, const char *part, const double *acceleration)
+{
+    mps__host *h = s->host;
+    report k = {.v = s->view, .h = h, .acceleration = acceleration};
+    if (s->hook != MPS_FORCE && s->hook != MPS_VELOCITY)
+        return mps_stage_fail(s,
+                              "mps_stage_reaction() is for verbs of MPS_FORCE and MPS_VELOCITY, "
+                              "this one is of hook '%s'",
+                              mps__hook_name(s->hook));
+    if (!acceleration) return mps_stage_fail(s, "mps_stage_reaction(): the acceleration is NULL");
+    const int32_t number = mps__part_number(h->particles, part, false);
+    if (part && number < 0)
+        return mps_stage_fail(s,
+                              "mps_stage_reaction(): no part is named '%.40s': name one of the "
+                              "tank, or list it in mps_model_ops.parts",
+                              part);
+    h->reactions.any = true;
+    for (int d = 0; d < 3; d++) k.centre[d] = s->view->tank.centre[d] + s->view->tank.shift[d];
+    return part ? add_place(s, h, &k, MPS__REACTION_WHOLE + 1 + number) : add_beside(s, h, &k);
+}

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Forces of solids on the fluid that verbs report, besides pressures on walls: mps_stage_reaction(). */
+#ifndef MPS_CORE_REACTION_H
+#define MPS_CORE_REACTION_H
+
+#include "particles.h"
+#include <mps/exact.h>
+#include <stdbool.h>
+
+/* Which line of the energy budget takes what a reaction dissipates: by the model and the hook of its verb. */
+enum { MPS__LINE_VISCOUS, MPS__LINE_COLLISION, MPS__LINE_PLUGINS, MPS__LINES };
+
+/* Places in mps__reactions.sum: lines, then the tank as a whole, then parts. */
+enum { MPS__REACTION_WHOLE = MPS__LINES, MPS__REACTIONS = MPS__LINES + 1 + MPS__PARTS_MAX };
+
+/* Of one step, as this rank knows it: force on the fluid and moment about the centre of the tank's motion, in the lab. */
+typedef struct mps__reactions {
+    bool any; /* a verb reported, on all ranks */
+    mps_exact sum[MPS__REACTIONS][6];
+} mps__reactions;
+
+#endif

@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Kinematics of the rigid tank. The motions themselves are callbacks; src/bc holds the built-in ones. */
+#ifndef MPS_CORE_MOTION_H
+#define MPS_CORE_MOTION_H
+
+#include "base.h"
+#include "rotation.h"
+#include <mps/motion.h>
+#include <mps/stage.h>
+
+/* Pose of the tank at one time, ready for mapping points. */
+typedef struct mps__pose {
+    double t;
+    mps_motion_state state;
+    double rotation[9];        /* R, row by row */
+    double omega[3], alpha[3]; /* angular velocity and acceleration in the lab [rad/s], [rad/s2] */
+} mps__pose;
+
+typedef struct mps__motion {
+    mps__context *context;
+    int32_t dim, start;
+    double centre[3];
+    mps_motion_fn fn; /* NULL: the tank keeps the pose `hold` */
+    void *user;
+    void (*release)(mps__context *c, void *user); /* frees a built-in motion's data, or NULL */
+    double t_end;                                 /* last time the motion is defined for */
+    /* The longest step from t that misses nothing of the motion [s]; of steps up to dt. NULL: not known */
+    double (*longest)(const void *user, double t, double dt);
+    bool told; /* that a fixed step is longer */
+    mps_motion_state hold;
+    mps__pose now; /* at the present time */
+} mps__motion;
+
+/* Names of the degrees of freedom, for messages. */
+extern const char *const mps__dof_name[MPS_DOF_COUNT];
+/* Whether 2-D has it. */
+bool mps__dof_in_plane(int32_t dof);
+
+/* x = c + d + R (X - c), of rows: centre c, displacement d, rotation R. */
+static inline void mps__tank_point(const int dim, const double centre[3], const double shift[3],
+                                   const double R[9], const double *X, double *x)
+{
+    double r[3] = {0, 0, 0}, s[3];
+    for (int d = 0; d < dim; d++) r[d] = X[d] - centre[d];
+    for (int d = 0; d < 3; d++) s[d] = R[3 * d] * r[0] + R[3 * d + 1] * r[1] + R[3 * d + 2] * r[2];
+    for (int d = 0; d < dim; d++) x[d] = centre[d] + shift[d] + s[d];
+}
+
+/* X = c + R^T (x - c - d), the way back. */
+static inline void mps__tank_place(const int dim, const double centre[3], const double shift[3],
+                                   const double R[9], const double *x, double *X)
+{
+    double r[3] = {0, 0, 0};
+    for (int d = 0; d < dim; d++) r[d] = x[d] - centre[d] - shift[d];
+    for (int d = 0; d < dim; d++)
+        X[d] = centre[d] + (R[d] * r[0] + R[3 + d] * r[1] + R[6 + d] * r[2]);
+}
+
+void mps__motion_init(mps__motion *m, mps__context *context, int32_t dim);
+void mps__motion_free(mps__motion *m);
+/* The pose of given displacements, angles and rates. */
+void mps__motion_pose_of(const mps_motion_state *state, double t, mps__pose *pose);
+/* A caller's state, if its size is one of a version and all of it is finite; `own`: out. */
+mps_status mps__motion_state_in(const mps_motion_state *given, mps_motion_state *own);
+/* The three angles of a tank whose axes have these directions in the lab, that is, the columns of R. false: MPS_ROTATE_Z is within 1e-6
+ * of +-pi/2. */
+bool mps__motion_angles_of(const mps__triad *axes, const double omega[3], const double alpha[3],
+                           mps_motion_state *state);
+/* Pose at time t. Fails for a callback's failure, NaN, a direction 2-D does not have, or t beyond a table. */
+mps_status mps__motion_pose(mps__motion *m, double t, mps__pose *pose);
+/* Lab position, velocity and acceleration of a point X of the tank; x, v, a are [dim], any may be NULL. */
+void mps__motion_point(const mps__motion *m, const mps__pose *pose, const double *X, double *x,
+                       double *v, double *a);
+/* Back from the lab to the tank's frame. */
+void mps__motion_to_tank(const mps__motion *m, const mps__pose *pose, const double *x, double *X);
+/* What rows see of a pose at the beginning of a step; and of the one at its end. */
+void mps__motion_view(const mps__motion *m, const mps__pose *pose, mps_tank_pose *view);
+void mps__motion_view_next(const mps__pose *pose, mps_tank_pose *view);
+/* Whether vectors of the tank's frame are others in the lab. */
+bool mps__motion_turned(const mps__pose *pose);
+/* Rotate a vector of the tank's frame into the lab. */
+void mps__motion_rotate(const mps__motion *m, const mps__pose *pose, const double *V, double *v);
+/* Rotate a vector of the lab into the tank's frame. */
+void mps__motion_rotate_back(const mps__motion *m, const mps__pose *pose, const double *v,
+                             double *V);
+
+#endif

@@ -1,0 +1,267 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* How the fluid moves in a step: prediction, correction, new positions; then the checks, and what is kept. */
+#include "step.h"
+#include "world_ranks.h"
+
+static mps_status find_near_rows(mps_stage *s)
+{
+    return mps__neighbours_near(&mps__step_of(s)->w->lists.neighbours);
+}
+
+const mps__pass mps__pass_neighbours = {.name = "neighbours",
+                                        .hook = MPS_CLASSIFY,
+                                        .stage = MPS_STAGE_NEIGHBOURS,
+                                        .run = find_near_rows};
+
+/* ---- accelerations to velocities ---- */
+
+typedef struct push_fields {
+    const double *a;
+    double *u;
+} push_fields;
+
+static mps_status clear_vectors(mps_stage *s)
+{
+    const mps__block vectors = {s->data[0], s->view->n * s->view->dim};
+    mps__parallel_zero(&mps__step_of(s)->w->pool.parallel, &vectors, 1);
+    return MPS_OK;
+}
+
+static const mps_use clear_uses[] = {{"acceleration", MPS_USE_WRITE | MPS__USE_BEGIN}};
+
+const mps__pass mps__pass_clear_forces = {.name = "clear_forces",
+                                          .hook = MPS_FORCE,
+                                          .stage = MPS_STAGE_OPERATORS,
+                                          .everywhere = true,
+                                          .flat = true,
+                                          .use_count = 1,
+                                          .uses = clear_uses,
+                                          .run = clear_vectors};
+
+const mps__pass mps__pass_clear_gradient = {.name = "clear_gradient",
+                                            .hook = MPS_GRADIENT,
+                                            .stage = MPS_STAGE_CORRECT,
+                                            .everywhere = true,
+                                            .flat = true,
+                                            .use_count = 1,
+                                            .uses = clear_uses,
+                                            .run = clear_vectors};
+
+MPS_ROW void predict_row(const int dim, const mps_view *v, const push_fields *f, int64_t i)
+{
+    if (!mps_is_fluid(v, i)) return;
+    for (int d = 0; d < dim; d++) f->u[i * dim + d] += v->dt * (f->a[i * dim + d] + v->g[d]);
+}
+MPS_ROWS(predict_rows, predict_row, push_fields)
+
+/* u* = u + dt (a + g). Z14 (9). */
+static mps_status predict(mps_stage *s)
+{
+    mps_stage_rows(s, &predict_rows, &(push_fields){s->data[0], s->data[1]});
+    return MPS_OK;
+}
+
+static const mps_use push_uses[] = {{"acceleration", MPS_USE_READ}, {"velocity", MPS_USE_CHANGE}};
+
+const mps__pass mps__pass_predict = {.name = "predict",
+                                     .hook = MPS_FORCE,
+                                     .place = MPS__AFTER_MODELS,
+                                     .stage = MPS_STAGE_OPERATORS,
+                                     .flat = true,
+                                     .use_count = 2,
+                                     .uses = push_uses,
+                                     .run = predict};
+
+MPS_ROW void push_row(const int dim, const mps_view *v, const push_fields *f, int64_t i)
+{
+    for (int64_t k = i * dim; k < (i + 1) * dim; k++)
+        f->u[k] += mps_is_fluid(v, i) ? v->dt * f->a[k] : 0;
+}
+MPS_ROWS(push_rows, push_row, push_fields)
+
+/* u = u* + dt a(p) */
+static mps_status push(mps_stage *s)
+{
+    mps_stage_rows(s, &push_rows, &(push_fields){s->data[0], s->data[1]});
+    return MPS_OK;
+}
+
+const mps__pass mps__pass_push = {.name = "push",
+                                  .hook = MPS_LOAD,
+                                  .place = MPS__AFTER_MODELS,
+                                  .stage = MPS_STAGE_CORRECT,
+                                  .flat = true,
+                                  .use_count = 2,
+                                  .uses = push_uses,
+                                  .run = push};
+
+/* ---- pressures on walls ---- */
+
+static mps_status copy_pressures(mps_stage *s)
+{
+    mps__parallel_copy(&mps__step_of(s)->w->pool.parallel, s->data[1], s->data[0],
+                       (size_t)s->view->n * sizeof(double));
+    return MPS_OK;
+}
+
+static const mps_use load_uses[] = {{"pressure", MPS_USE_READ},
+                                    {"wall_pressure", MPS_USE_WRITE | MPS__USE_BEGIN}};
+
+const mps__pass mps__pass_first_loads = {.name = "first_loads",
+                                         .hook = MPS_LOAD,
+                                         .stage = MPS_STAGE_CORRECT,
+                                         .everywhere = true,
+                                         .flat = true,
+                                         .use_count = 2,
+                                         .uses = load_uses,
+                                         .run = copy_pressures};
+
+/* ---- new positions ---- */
+
+static const mps_use displacement_uses[] = {{"displacement", MPS_USE_WRITE | MPS__USE_BEGIN}};
+
+const mps__pass mps__pass_clear_displacement = {.name = "clear_displacement",
+                                                .hook = MPS_SHIFT,
+                                                .stage = MPS_STAGE_CORRECT,
+                                                .everywhere = true,
+                                                .flat = true,
+                                                .use_count = 1,
+                                                .uses = displacement_uses,
+                                                .run = clear_vectors};
+
+typedef struct move_fields {
+    const double *dx, *u, *place;
+    double *x, *before;
+} move_fields;
+
+MPS_ROW void move_row(const int dim, const mps_view *v, const move_fields *f, int64_t i)
+{
+    double *x = f->x + i * dim;
+    for (int d = 0; d < dim; d++) f->before[i * dim + d] = x[d];
+    if (mps_is_fluid(v, i))
+        for (int d = 0; d < dim; d++) x[d] += v->dt * f->u[i * dim + d] + f->dx[i * dim + d];
+    else
+        mps__tank_point(dim, v->tank.centre, v->tank.next_shift, v->tank.next_rotation,
+                        f->place + i * dim, x);
+}
+MPS_ROWS(move_rows, move_row, move_fields)
+
+/* r = r + dt u + shift; solids go where the tank will be. */
+static mps_status move(mps_stage *s)
+{
+    mps__step *q = mps__step_of(s);
+    q->before = mps__channels_array(&q->w->channels, &q->w->particles, MPS__POSITION_BEFORE);
+    mps_stage_rows(s, &move_rows,
+                   &(move_fields){s->data[0], s->data[1], s->data[4], s->data[2], s->data[3]});
+    return MPS_OK;
+}
+
+static const mps_use move_uses[] = {{"displacement", MPS_USE_READ},
+                                    {"velocity", MPS_USE_READ},
+                                    {"position", MPS_USE_CHANGE},
+                                    {"position_before", MPS_USE_WRITE | MPS__USE_BEGIN},
+                                    {"solid_place", MPS_USE_READ}};
+
+const mps__pass mps__pass_move = {.name = "move",
+                                  .hook = MPS_SHIFT,
+                                  .place = MPS__AFTER_MODELS,
+                                  .stage = MPS_STAGE_CORRECT,
+                                  .everywhere = true,
+                                  .flat = true,
+                                  .use_count = 5,
+                                  .uses = move_uses,
+                                  .run = move};
+
+/* ---- checks, and what is kept ---- */
+
+static mps_status check(mps_stage *s)
+{
+    mps__step *q = mps__step_of(s);
+    MPS__TRY(mps__world_check_result(q->w, &q->view, q->before, &q->info));
+    return mps__world_check_moves(q->w, &q->pose, q->before, q->view.dt);
+}
+
+static const mps_use check_uses[] = {{"velocity", MPS_USE_READ},
+                                     {"pressure", MPS_USE_READ},
+                                     {"position", MPS_USE_READ},
+                                     {"position_before", MPS_USE_READ}};
+
+const mps__pass mps__pass_check = {.name = "check",
+                                   .hook = MPS_SHIFT,
+                                   .place = MPS__AFTER_MODELS,
+                                   .stage = MPS_STAGE_CORRECT,
+                                   .use_count = 4,
+                                   .uses = check_uses,
+                                   .run = check};
+
+static mps_status share(mps_stage *s)
+{
+    return mps__world_share_step(mps__step_of(s)->w);
+}
+
+/* Ghosts get the fields that have changed, for leases and the next step. */
+const mps__pass mps__pass_share = {.name = "share",
+                                   .hook = MPS_SHIFT,
+                                   .place = MPS__AFTER_MODELS,
+                                   .stage = MPS_STAGE_CORRECT,
+                                   .run = share};
+
+typedef struct keep_fields {
+    const double *wall_pressure;
+    const int32_t *condition, *region;
+    double *load;
+    int32_t *held;
+} keep_fields;
+
+MPS_ROW void keep_row(const int dim, const mps_view *v, const keep_fields *f, int64_t i)
+{
+    (void)dim, (void)v;
+    f->load[i] = f->wall_pressure[i];
+    f->held[i] = f->condition[i] == MPS__ROW_HELD;
+}
+MPS_ROWS(keep_rows, keep_row, keep_fields)
+
+/* Sums: of 1 over the surface, over the rows at their least pressure. */
+enum { SURFACE, SEPARATED, COUNTS };
+
+MPS_ROW void count_row(const int dim, const mps_view *v, const keep_fields *f, int64_t i,
+                       double *sums)
+{
+    (void)dim;
+    sums[SURFACE] += mps_is_fluid(v, i) && f->region[i] == MPS_REGION_SURFACE;
+    sums[SEPARATED] += f->condition[i] == MPS__ROW_HELD;
+}
+MPS_SUMS(count_rows, count_row, keep_fields)
+
+static mps_status keep(mps_stage *s)
+{
+    mps__step *q = mps__step_of(s);
+    mps__world *w = q->w;
+    const keep_fields f = {.wall_pressure = s->data[0],
+                           .condition = s->data[1],
+                           .region = s->data[2],
+                           .load = w->particles.load,
+                           .held = w->particles.held};
+    double counts[COUNTS];
+    mps_stage_rows(s, &keep_rows, &f);
+    mps_stage_sum(s, COUNTS, &count_rows, &f, counts);
+    q->info.surface = (int64_t)counts[SURFACE];
+    q->info.separated = (int64_t)counts[SEPARATED];
+    mps__step_keep_places(w);
+    q->deviation = mps__budget_mean_deviation(w, s->data[3]);
+    return MPS_OK;
+}
+
+static const mps_use keep_uses[] = {
+    {"wall_pressure", MPS_USE_READ}, {"pressure_condition", MPS_USE_READ},
+    {"region", MPS_USE_READ},        {"volume_deviation", MPS_USE_READ},
+    {"solid_place", MPS_USE_READ},   {"solid_area", MPS_USE_READ}};
+
+const mps__pass mps__pass_keep = {.name = "keep",
+                                  .hook = MPS_SHIFT,
+                                  .place = MPS__LAST_OF_STEP,
+                                  .stage = MPS_STAGE_CORRECT,
+                                  .everywhere = true,
+                                  .use_count = sizeof keep_uses / sizeof keep_uses[0],
+                                  .uses = keep_uses,
+                                  .run = keep};

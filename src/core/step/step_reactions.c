@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Forces of solids that verbs reported in a step: their work, and what force probes show of them. */
+#include "step.h"
+#include <string.h>
+
+/* A sum of mps__reactions, force and moment. */
+static void value_of(const mps__reactions *r, int32_t place, double value[6])
+{
+    for (int k = 0; k < 6; k++) value[k] = mps_exact_value(&r->sum[place][k]);
+}
+
+/* A vector of the lab, in the frame of the tank. */
+static void to_tank(const mps__pose *pose, const double *v, double *V)
+{
+    for (int d = 0; d < 3; d++) {
+        V[d] = 0;
+        for (int e = 0; e < 3; e++) V[d] += pose->rotation[e * 3 + d] * v[e];
+    }
+}
+
+static mps_status book_reactions(mps_stage *s)
+{
+    mps__step *q = mps__step_of(s);
+    mps__world *w = q->w;
+    mps__budget *b = &q->budget;
+    mps__reactions *r = &w->host.reactions;
+    double *const line[MPS__LINES] = {[MPS__LINE_VISCOUS] = &b->viscous,
+                                      [MPS__LINE_COLLISION] = &b->collision,
+                                      [MPS__LINE_PLUGINS] = &b->plugins};
+    double value[6];
+    memset(q->reaction, 0, sizeof q->reaction);
+    if (!r->any) return MPS_OK;
+    mps__ranks_sum(w->ghosts.ranks, 6 * (MPS__REACTION_WHOLE + 1 + w->particles.parts), r->sum[0]);
+    for (int k = 0; k < MPS__LINES; k++) {
+        value_of(r, k, value);
+        const double work = mps__budget_tank_work(w, &q->pose, value, q->view.dt);
+        *line[k] += work;
+        b->wall_work_momentum += work;
+        b->wall_work_probes += work;
+        for (int d = 0; d < w->setup.dim; d++) b->momentum.reaction[d] += q->view.dt * value[d];
+    }
+    for (int32_t k = 0; k <= w->particles.parts; k++) {
+        value_of(r, MPS__REACTION_WHOLE + k, value);
+        to_tank(&w->motion.now, value, q->reaction[k].force);
+        to_tank(&w->motion.now, value + 3, q->reaction[k].moment);
+    }
+    return MPS_OK;
+}
+
+const mps__pass mps__pass_book_reactions = {.name = "book_reactions",
+                                            .hook = MPS_VELOCITY,
+                                            .place = MPS__AFTER_MODELS,
+                                            .stage = MPS_STAGE_CORRECT,
+                                            .run = book_reactions};

@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Particles that left the domain or stand behind a wall. */
+#include "world_ranks.h"
+#include <string.h>
+
+/* The last particles are no more, but they stay where they are in memory: what comes now may fail. `all`: on all ranks. */
+static void set_aside(mps__world *w, int64_t count, int64_t all)
+{
+    w->particles.n -= count;
+    w->ghosts.known -= count;
+    w->particles.generation++;
+    w->lists.aside += count;
+    w->lists.gone += all;
+    w->lists.neighbours.valid = false;
+}
+
+void mps__world_take_back(mps__world *w)
+{
+    w->state.lost -= w->lists.lost;
+    w->lists.lost = 0;
+    if (w->lists.gone > 0) set_aside(w, -w->lists.aside, -w->lists.gone);
+}
+
+/* Move the particles with `gone` behind the others. */
+static mps_status part_lost(mps__world *w, const bool *gone, int64_t lost)
+{
+    mps__particles *s = &w->particles;
+    int64_t stay = 0, go = s->n - lost;
+    if (lost == 0) return MPS_OK;
+    int32_t *order = mps__alloc(w->context, s->n, sizeof *order);
+    if (!order) return MPS_E_NOMEM;
+    for (int64_t i = 0; i < s->n; i++) order[gone[i] ? go++ : stay++] = (int32_t)i;
+    mps_status status = mps__ghosts_ordered(&w->ghosts, order);
+    if (status == MPS_OK) status = mps__particles_permute(s, s->n, order);
+    mps__free(w->context, order);
+    return status;
+}
+
+/* Apply the policy to the particles with `gone`, if any; the text says where they are, and names the one with the least id. */
+static mps_status handle_lost(mps__world *w, const bool *gone, const char *where)
+{
+    const mps__particles *s = &w->particles;
+    mps__found found = {.id = INT64_MAX};
+    for (int64_t i = 0; i < s->n; i++) {
+        if (!gone[i]) continue;
+        found.count++;
+        if (s->id[i] > found.id) continue;
+        found.id = s->id[i];
+        memcpy(found.x, s->x + i * s->dim, (size_t)s->dim * sizeof *s->x);
+    }
+    const int64_t lost = found.count;
+    mps__world_find(w, &found);
+    if (found.count == 0) return MPS_OK;
+    if (w->setup.lost_policy == MPS_LOST_ERROR)
+        return mps__fail(w->context, MPS_E_LOST,
+                         "%lld particles %s at t = %.6g s; particle %lld is at (%g, %g, %g) m",
+                         (long long)found.count, where, w->state.t, (long long)found.id, found.x[0],
+                         found.x[1], found.x[2]);
+    mps__log(w->context, MPS_LOG_WARNING,
+             "t = %.6g s: %lld particles %s and were removed; particle %lld was at (%g, %g, %g) m",
+             w->state.t, (long long)found.count, where, (long long)found.id, found.x[0], found.x[1],
+             found.x[2]);
+    MPS__TRY(part_lost(w, gone, lost));
+    set_aside(w, lost, found.count);
+    w->state.lost += found.count;
+    w->lists.lost += found.count;
+    return MPS_OK;
+}
+
+mps_status mps__world_part(mps__world *w, const bool *gone, int64_t count)
+{
+    int64_t all = count;
+    MPS__TRY(part_lost(w, gone, count));
+    mps__ranks_add(&w->ranks, 1, &all);
+    if (all > 0) set_aside(w, count, all);
+    return mps__ranks_status(&w->ranks);
+}
+
+typedef struct box {
+    bool *gone;
+    double lo[3], hi[3];
+} box;
+
+MPS_ROW void look_outside(const int dim, const mps_view *v, const box *f, int64_t i)
+{
+    const mps_tank_pose *k = &v->tank;
+    double X[3];
+    f->gone[i] = false;
+    if (!mps_is_fluid(v, i)) return;
+    mps__tank_place(dim, k->centre, k->shift, k->rotation, v->x + i * dim, X);
+    for (int d = 0; d < dim; d++) f->gone[i] |= !(X[d] >= f->lo[d] && X[d] <= f->hi[d]);
+}
+MPS_ROWS(outside_rows, look_outside, box)
+
+/* None is gone, nor are ghosts, which loops leave out. */
+static void clear_gone(const mps__world *w)
+{
+    memset(w->work.gone, 0, (size_t)w->particles.n * sizeof *w->work.gone);
+}
+
+mps_status mps__world_leave_domain(mps__world *w)
+{
+    box b = {.gone = w->work.gone};
+    mps_view v;
+    if (!mps__world_domain(w, b.lo, b.hi)) return MPS_OK;
+    mps__world_view(w, &v);
+    clear_gone(w);
+    mps__host_rows(&w->host, &v, &outside_rows, &b);
+    return handle_lost(w, w->work.gone, "left the domain");
+}
+
+/* What a row looks at to know whether it is behind a wall: pairs of the search, and solids in the frame of the tank. */
+typedef struct rims {
+    const int64_t *begin, *middle; /* near candidates of a row */
+    const int32_t *col, *plate;
+    const uint8_t *rim; /* not 0: the row may have dummies beside it */
+    const double *ref, *area;
+    bool *gone;
+} rims;
+
+MPS_ROW double distance2(const int dim, const mps_view *v, int64_t i, int64_t j)
+{
+    double sum = 0;
+    for (int d = 0; d < dim; d++) {
+        const double way = v->x[j * dim + d] - v->x[i * dim + d];
+        sum += way * way;
+    }
+    return sum;
+}
+
+/* Is particle i, `r2` from a dummy, beyond the face this dummy stands behind, and is no wall nearer than the dummy? */
+MPS_ROW bool behind(const int dim, const mps_view *v, const rims *f, int64_t i, int64_t dummy,
+                    double r2)
+{
+    const mps_tank_pose *k = &v->tank;
+    const int64_t wall = v->wall_of[dummy];
+    double X[3], height = 0;
+    if (wall < 0) return false;
+    mps__tank_place(dim, k->centre, k->shift, k->rotation, v->x + i * dim, X);
+    for (int d = 0; d < dim; d++)
+        height += (X[d] - f->ref[wall * dim + d]) * f->area[wall * dim + d];
+    for (int64_t p = f->begin[i]; height < 0 && p < f->middle[i]; p++)
+        if (mps_is_wall(v, f->col[p]) && distance2(dim, v, i, f->col[p]) <= r2) return false;
+    return height < 0;
+}
+
+/* Whether particle i touches a wall from behind. */
+MPS_ROW bool spilled(const int dim, const mps_view *v, const rims *f, int64_t i)
+{
+    for (int64_t p = f->begin[i]; p < f->middle[i]; p++) {
+        const int64_t j = f->col[p];
+        if (!mps_is_dummy(v, j) || f->plate[j] != 0) continue;
+        const double r2 = distance2(dim, v, i, j);
+        if (r2 < v->dp * v->dp && behind(dim, v, f, i, j, r2)) return true;
+    }
+    return false;
+}
+
+MPS_ROW void look_behind(const int dim, const mps_view *v, const rims *f, int64_t i)
+{
+    f->gone[i] = f->rim[i] && spilled(dim, v, f, i);
+}
+MPS_ROWS(spilled_rows, look_behind, rims)
+
+/* Liquid that ran over the rim of an open tank touches its walls from behind. There they would press it as if it stood before them. */
+mps_status mps__world_leave_tank(mps__world *w)
+{
+    const mps_neighbours *l = &w->lists.neighbours;
+    const mps__particles *s = &w->particles;
+    const rims f = {.begin = l->begin,
+                    .middle = l->middle,
+                    .col = l->col,
+                    .plate = s->plate,
+                    .rim = l->rim,
+                    .ref = s->ref,
+                    .area = s->area,
+                    .gone = w->work.gone};
+    mps_view v;
+    mps__world_view(w, &v);
+    clear_gone(w);
+    mps__host_rows(&w->host, &v, &spilled_rows, &f);
+    return handle_lost(w, w->work.gone, "are behind a wall");
+}

@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Particles near thin plates: where their lines of sight start, and that none passes a plate. */
+#include "plates.h"
+#include "world_ranks.h"
+#include <string.h>
+
+/* In spacings: how far above their face the lines of sight of walls start, and the least distance
+ * of fluid to the plane of a plate. */
+static const double above_face = 1e-5, off_plane = 1e-2;
+
+static void wall_sight(const mps__world *w, int64_t i, double at[3])
+{
+    const double *area = w->particles.area + i * w->setup.dim,
+                 size = sqrt(mps__dot(area, area, w->setup.dim));
+    for (int d = 0; d < w->setup.dim; d++)
+        at[d] = w->particles.ref[i * w->setup.dim + d] +
+                (size > 0 ? above_face * w->setup.dp * area[d] / size : 0);
+}
+
+/* Fluid in the very plane of a plate, beyond its edge, would see both of its faces: it is put on one side. */
+static void fluid_sight(const mps__world *w, const double *x, double at[3])
+{
+    mps__motion_to_tank(&w->motion, &w->motion.now, x, at);
+    for (int32_t k = 0; k < w->lists.screens.count; k++) {
+        const mps__screen *s = &w->lists.screens.list[k];
+        const double height = mps__screen_height(s, at),
+                     least = height < 0 ? -off_plane * w->setup.dp : off_plane * w->setup.dp;
+        if (fabs(height) >= fabs(least)) continue;
+        for (int d = 0; d < w->setup.dim; d++) at[d] += (least - height) * s->normal[d];
+    }
+}
+
+static void sight(const mps__world *w, int64_t i, double at[3])
+{
+    const mps__particles *s = &w->particles;
+    at[2] = 0;
+    if (s->kind[i] == MPS_FLUID)
+        fluid_sight(w, s->x + i * w->setup.dim, at);
+    else if (s->kind[i] == MPS_WALL)
+        wall_sight(w, i, at);
+    else
+        memcpy(at, s->ref + i * w->setup.dim, (size_t)w->setup.dim * sizeof *at);
+}
+
+/* Near enough to be, until the next search, the partner of a particle or of a shadow beyond some screen. */
+static bool near_screen(const mps__world *w, const double *X)
+{
+    const double depth = fmax(3 * w->setup.dp, w->setup.re_far),
+                 reach = w->setup.re_far + depth + w->lists.neighbours.skin;
+    for (int32_t k = 0; k < w->lists.screens.count; k++)
+        if (mps__screen_distance(&w->lists.screens.list[k], X) < reach) return true;
+    return false;
+}
+
+void mps__plates_set_active(mps__world *w)
+{
+    const mps__particles *s = &w->particles;
+    mps__screens *p = &w->lists.screens;
+    for (int32_t k = 0; k < p->count; k++) p->list[k].active = false;
+    for (int64_t i = 0; i < s->n; i++)
+        if (s->plate[i] > 0 && s->kind[i] == MPS_WALL &&
+            s->part[i] == p->list[s->plate[i] - 1].part)
+            p->list[s->plate[i] - 1].active = true;
+    for (int32_t k = 0; k < p->count && mps__ranks_many(&w->ranks); k++)
+        mps__world_any(w, 1, &p->list[k].active);
+}
+
+mps_status mps__plates_find(mps__world *w)
+{
+    const mps__particles *s = &w->particles;
+    mps__screens *p = &w->lists.screens;
+    if (p->count == 0) return MPS_OK;
+    mps__plates_set_active(w);
+    MPS__TRY(mps__grow(w->context, (void **)&p->slot, &p->slot_capacity, 0, s->n, sizeof *p->slot));
+    p->seers = 0;
+    for (int64_t i = 0; i < s->n; i++) {
+        mps__seer seer = {.particle = (int32_t)i, .shadow = mps__is_shadow(s, i) ? s->plate[i] : 0};
+        sight(w, i, seer.at);
+        mps__screens_sides(p, &seer);
+        p->slot[i] = -1;
+        if (!near_screen(w, seer.at)) continue;
+        MPS__TRY(mps__grow(w->context, (void **)&p->seer, &p->seer_capacity, p->seers, p->seers + 1,
+                           sizeof seer));
+        p->slot[i] = (int32_t)p->seers;
+        p->seer[p->seers++] = seer;
+    }
+    return MPS_OK;
+}
+
+static void look_rows(void *argument, int64_t begin, int64_t end)
+{
+    mps__world *w = argument;
+    mps__screens *p = &w->lists.screens;
+    for (int64_t k = begin; k < end; k++) {
+        mps__seer *seer = &p->seer[k];
+        if (w->particles.kind[seer->particle] != MPS_FLUID) continue;
+        sight(w, seer->particle, seer->at);
+        mps__screens_sides(p, seer);
+    }
+}
+
+void mps__plates_look(mps__world *w)
+{
+    mps_parallel_rows(&w->pool.parallel, w->lists.screens.seers, look_rows, w);
+}
+
+/* Back to the height it had, with the velocity along the plate. */
+static void stop(mps__world *w, const mps__pose *end, int64_t i, const mps__screen *s,
+                 double height, double X[3])
+{
+    double *x = w->particles.x + i * w->setup.dim, *u = w->particles.u + i * w->setup.dim, n[3],
+           v[3], approach = 0;
+    const double back = height - mps__screen_height(s, X);
+    for (int d = 0; d < w->setup.dim; d++) X[d] += back * s->normal[d];
+    mps__motion_point(&w->motion, end, X, x, v, NULL);
+    mps__motion_rotate(&w->motion, end, s->normal, n);
+    for (int d = 0; d < w->setup.dim; d++) approach += (u[d] - v[d]) * n[d];
+    for (int d = 0; d < w->setup.dim; d++) u[d] -= approach * height < 0 ? approach * n[d] : 0;
+}
+
+void mps__plates_stop(mps__world *w, const mps__pose *end)
+{
+    const mps__screens *p = &w->lists.screens;
+    if (p->count == 0) return;
+    for (int64_t k = 0; k < p->seers; k++) {
+        const mps__seer *seer = &p->seer[k];
+        const int64_t i = seer->particle;
+        double X[3] = {0};
+        if (w->particles.kind[i] != MPS_FLUID) continue;
+        mps__motion_to_tank(&w->motion, end, w->particles.x + i * w->setup.dim, X);
+        for (int32_t m = 0; m < p->count; m++)
+            if (p->list[m].active && mps__screen_crossed(&p->list[m], seer->at, X))
+                stop(w, end, i, &p->list[m], mps__screen_height(&p->list[m], seer->at), X);
+    }
+}
+
+bool mps__plates_hide(const mps__world *w, const double *X, int64_t i)
+{
+    if (w->lists.screens.count == 0) return false;
+    mps__seer from = {0}, to = {0};
+    if (mps__is_shadow(&w->particles, i)) return true;
+    memcpy(from.at, X, (size_t)w->setup.dim * sizeof *X);
+    sight(w, i, to.at);
+    mps__screens_sides(&w->lists.screens, &from);
+    mps__screens_sides(&w->lists.screens, &to);
+    return mps__screens_hidden(w->lists.screens.list, w->lists.screens.count, &from, &to);
+}
+
+int32_t mps__plates_part(const mps__world *w, int64_t i, int d)
+{
+    const int32_t plate = w->particles.plate[i];
+    if (plate == 0 || w->lists.screens.list[plate - 1].axis != d ||
+        w->particles.area[i * w->setup.dim + d] == 0)
+        return -1;
+    return w->lists.screens.list[plate - 1].part;
+}
+
+double mps__plates_share(const mps__world *w, int64_t i)
+{
+    const mps__particles *s = &w->particles;
+    if (s->plate[i] == 0 || s->kind[i] != MPS_WALL ||
+        w->lists.screens.list[s->plate[i] - 1].columns > 1)
+        return 1;
+    return mps__dot(s->area + i * w->setup.dim, w->lists.screens.list[s->plate[i] - 1].normal,
+                    w->setup.dim) != 0
+               ? 0.5
+               : 1;
+}

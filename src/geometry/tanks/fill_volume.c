@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Volume of a fill. A particle stands for its cell; beside a wall for the half cell of the wall too, and at a free surface for the half of
+ * its cell below it: n rows are n spacings deep. */
+#include "lattice_plan.h"
+#include <math.h>
+
+/* Places in a cell at which `inside` is asked, if it differs at its corners. */
+enum { PLACES = 256 };
+
+/* A cell: how far it reaches from its point to both sides [spacings], its volume, and at how many of the two ends of an axis the liquid may
+ * end, at most. */
+typedef struct cell {
+    double reach[3][2], volume;
+    int free_ends;
+} cell;
+
+/* State of the point beside k; walls of a tank are beyond the box of a fill. */
+static int beside(const mps__lattice_plan *p, const int64_t k[3], int axis, int64_t step)
+{
+    int64_t place = 0, stride = 1;
+    const int64_t at = k[axis] + step;
+    if (at < p->box.first[axis] || at > p->box.last[axis])
+        return at <= 0 || at >= p->sim->lattice_cells[axis] ? POINT_SOLID : POINT_FREE;
+    for (int d = 0; d < p->dim; d++) {
+        place += (k[d] + (d == axis ? step : 0) - p->box.first[d]) * stride;
+        stride *= p->box.last[d] - p->box.first[d] + 1;
+    }
+    return p->state[place];
+}
+
+static cell cell_of(const mps__lattice_plan *p, const int64_t k[3])
+{
+    cell c = {.volume = 1};
+    for (int d = 0; d < p->dim; d++) {
+        int ends = 0;
+        for (int end = 0; end < 2; end++) {
+            const int state = beside(p, k, d, end ? 1 : -1);
+            c.reach[d][end] = state == POINT_SOLID ? 1 : 0.5;
+            ends += state == POINT_FREE;
+        }
+        c.volume *= (c.reach[d][0] + c.reach[d][1]) * p->sim->world.setup.dp;
+        c.free_ends = ends > c.free_ends ? ends : c.free_ends;
+    }
+    return c;
+}
+
+/* The part of a cell in the box lo..hi [m^dim]. */
+static double in_box(const mps__lattice_plan *p, const double X[3], const cell *c, const double *lo,
+                     const double *hi)
+{
+    double volume = 1;
+    for (int d = 0; d < p->dim; d++) {
+        const double h = p->sim->world.setup.dp;
+        volume *= fmax(0, fmin(hi[d], X[d] + c->reach[d][1] * h) -
+                              fmax(lo[d], X[d] - c->reach[d][0] * h));
+    }
+    return volume;
+}
+
+static int is_inside(const mps__lattice_plan *p, const double X[3], const cell *c,
+                     const double q[3])
+{
+    double x[3] = {0, 0, 0};
+    for (int d = 0; d < p->dim; d++)
+        x[d] = X[d] + (-c->reach[d][0] + q[d] * (c->reach[d][0] + c->reach[d][1])) *
+                          p->sim->world.setup.dp;
+    return p->inside(p->user, x) != 0;
+}
+
+/* Whether the liquid ends near a point: another free point beside it is not what it is. */
+static bool at_the_end(const mps__lattice_plan *p, const int64_t k[3], int state)
+{
+    int64_t o[3];
+    for (int n = 0; n < (p->dim == 2 ? 9 : 27); n++) {
+        bool in = true;
+        int64_t place = 0, stride = 1;
+        for (int d = 0; d < p->dim; d++) {
+            o[d] = k[d] + (d == 0 ? n % 3 : d == 1 ? n / 3 % 3 : n / 9) - 1;
+            in = in && o[d] >= p->box.first[d] && o[d] <= p->box.last[d];
+            place += (o[d] - p->box.first[d]) * stride;
+            stride *= p->box.last[d] - p->box.first[d] + 1;
+        }
+        if (in && p->state[place] <= POINT_CHOSEN && p->state[place] != state) return true;
+    }
+    return false;
+}
+
+/* Share of a cell that is inside. The places are an additive recurrence: 256 of them resolve a plane at any angle to some 1/128. */
+static double share_inside(const mps__lattice_plan *p, const double X[3], const cell *c)
+{
+    static const double step[2][3] = {{0.7548776662466927, 0.5698402909980532, 0},
+                                      {0.8191725133961645, 0.6710436067037893, 0.5497004779019703}};
+    const int corners = 1 << p->dim;
+    int inside = 0;
+    for (int corner = 0; corner < corners; corner++)
+        inside += is_inside(p, X, c,
+                            (const double[]){corner & 1, corner >> 1 & 1, corner >> 2 & 1});
+    if (inside == 0 || inside == corners) return inside > 0;
+    inside = 0;
+    for (int n = 0; n < PLACES; n++) {
+        double q[3];
+        for (int d = 0; d < 3; d++) {
+            const double at = (n + 0.5) * step[p->dim - 2][d];
+            q[d] = at - floor(at);
+        }
+        inside += is_inside(p, X, c, q);
+    }
+    return (double)inside / PLACES;
+}
+
+void mps__lattice_plan_volumes(const mps__lattice_plan *p, const double *lo, const double *hi,
+                               double *built, double *asked)
+{
+    int64_t k[3] = {p->box.first[0], p->box.first[1], p->box.first[2]}, place = 0;
+    *built = *asked = 0;
+    do {
+        const int state = p->state[place++];
+        double X[3] = {0, 0, 0};
+        if (state > POINT_CHOSEN) continue;
+        const cell c = cell_of(p, k);
+        mps__lattice_point(p, k, X);
+        if (!p->inside)
+            *asked += in_box(p, X, &c, lo, hi);
+        else if (at_the_end(p, k, state))
+            *asked += c.volume * share_inside(p, X, &c);
+        else
+            *asked += state == POINT_CHOSEN ? c.volume : 0;
+        if (state == POINT_CHOSEN) *built += c.volume * (1 - 0.5 * c.free_ends);
+    } while (mps__lattice_plan_next(p, k));
+}

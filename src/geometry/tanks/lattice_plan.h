@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Particles on a lattice: choose points that are free, then append them all at once. */
+#ifndef MPS_CORE_LATTICE_PLAN_H
+#define MPS_CORE_LATTICE_PLAN_H
+
+#include "geometry.h"
+#include "packing.h"
+
+/* Points; the last two are taken: by fluid, by a solid or beside its surface. */
+enum { POINT_FREE = 0, POINT_CHOSEN = 1, POINT_FLUID = 2, POINT_SOLID = 3 };
+
+/* What becomes of one lattice point. */
+typedef struct mps__lattice_site {
+    int32_t kind, phase, part;
+    double area[3];
+} mps__lattice_site;
+
+/* One call's work: which points, what they become, and what was there before. */
+typedef struct mps__lattice_plan {
+    mps_sim *sim;
+    mps__lattice_box box;
+    int32_t dim;
+    unsigned char *state; /* POINT_... of every lattice point of the box, x fastest */
+    bool (*choose)(const struct mps__lattice_plan *p, const int64_t k[3]);
+    void (*describe)(const struct mps__lattice_plan *p, const int64_t k[3], mps__lattice_site *out);
+    int64_t taken, chosen;
+    /* of solids: the box whose ends are faces, and the part of each end */
+    int64_t first[3], last[3];
+    int32_t part[6]; /* x0 x1 y0 y1 z0 z1 */
+    bool open_top, of_tank;
+    /* of fluid */
+    int32_t phase;
+    mps_inside_fn inside;
+    void *user;
+    mps__packing packing; /* beside solids of any shape */
+} mps__lattice_plan;
+
+void mps__lattice_plan_init(mps__lattice_plan *p, mps_sim *sim, const mps__lattice_box *box);
+void mps__lattice_plan_free(mps__lattice_plan *p);
+/* The next point of the box, x fastest; false behind the last. */
+bool mps__lattice_plan_next(const mps__lattice_plan *p, int64_t k[3]);
+/* Place of a lattice point, tank's frame. */
+void mps__lattice_point(const mps__lattice_plan *p, const int64_t k[3], double X[3]);
+/* Whether liquid at a place of the tank's frame would press against a plate which is not on the lattice. */
+bool mps__plate_covers(const mps_sim *sim, const double *X);
+/* Decide for every lattice point of the box; the store is not touched. mps__lattice_plan_free() afterwards in any case. */
+mps_status mps__lattice_plan_choose(mps__lattice_plan *p);
+/* Volume that was chosen [m^dim], and that was asked for where it was free: the box lo..hi, or `inside` of a fill. */
+void mps__lattice_plan_volumes(const mps__lattice_plan *p, const double *lo, const double *hi,
+                               double *built, double *asked);
+/* Append what was chosen: all or nothing. */
+mps_status mps__lattice_plan_build(mps__lattice_plan *p);
+
+#endif

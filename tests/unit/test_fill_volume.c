@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The volume of a fill in the log: built and asked for. */
+#include "sim.h"
+#include "tank_fixture.h"
+#include <stdio.h>
+
+static char told[4096];
+
+static void keep_log(void *user, int level, const char *text)
+{
+    (void)user, (void)level;
+    strncat(told, text, sizeof told - strlen(told) - 2);
+    strcat(told, "\n");
+}
+
+static mps_sim *logging(int32_t dim, double dp)
+{
+    mps_config config;
+    mps_sim *sim = NULL;
+    assert_int_equal(mps_config_init(&config, sizeof config), MPS_OK);
+    config.dim = dim;
+    config.dp = dp;
+    config.log = keep_log;
+    assert_int_equal(mps_sim_create(&config, &sim), MPS_OK);
+    told[0] = 0;
+    return sim;
+}
+
+/* The volume that a fill tells, built and asked for; -1: there is no such line. */
+static void last_fill(double *built, double *asked)
+{
+    const char *at = NULL, *next = told;
+    int dim[2];
+    while ((next = strstr(next, "fill of phase 0: ")) != NULL) at = next++;
+    *built = *asked = -1;
+    if (at) sscanf(at, "fill of phase 0: %lf m%d of %lf m%d", built, &dim[0], asked, &dim[1]);
+}
+
+static int below(void *user, const double *x)
+{
+    return x[1] < *(const double *)user;
+}
+
+static int below_slope(void *user, const double *x)
+{
+    return x[1] < *(const double *)user + 0.3 * (x[0] - 0.4);
+}
+
+static double bowl(void *user, const double *x)
+{
+    (void)user;
+    return 0.25 - hypot(x[0], x[1] - 0.25);
+}
+
+/* Liquid below a level on a row of the lattice: that row is not inside, and the log tells what is missing. */
+static void volumes_are_told(void **state)
+{
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++) {
+        const double width = dim == 3 ? 0.3 : 1, lo[3] = {0, 0, 0}, hi[3] = {0.8, 0.2, 0.304};
+        double level = 0.2, built, asked;
+        mps_sim *sim = logging(dim, 0.02);
+        add_tank(sim, 0.8, 0.5, 0.3);
+        ASSERT_OK(sim, mps_fill_add(sim, 0, below, &level, NULL));
+        last_fill(&built, &asked);
+        ASSERT_NEAR(asked, 0.8 * 0.2 * width, 2e-3 * asked);
+        ASSERT_NEAR(built, 0.8 * 0.18 * width, 1e-3 * asked);
+        mps_sim_destroy(sim);
+        sim = logging(dim, 0.02);
+        add_tank(sim, 0.8, 0.5, 0.3);
+        ASSERT_OK(sim, mps_fill_add(sim, 0, below_slope, &level, NULL));
+        last_fill(&built, &asked);
+        ASSERT_NEAR(asked, 0.8 * 0.2 * width, 4e-3 * asked);
+        mps_sim_destroy(sim);
+        sim = logging(dim, 0.016); /* the level is 12.5 rows above the floor */
+        add_tank(sim, 0.8, 0.512, 0.304);
+        ASSERT_OK(sim, mps_fill_level_add(sim, 0, lo, hi, NULL, NULL));
+        last_fill(&built, &asked);
+        const double volume = 0.8 * 0.2 * (dim == 3 ? 0.304 : 1);
+        ASSERT_NEAR(asked, volume, 1e-3 * asked);
+        ASSERT_NEAR(built, asked, 2e-3 * asked);
+        mps_sim_destroy(sim);
+    }
+}
+
+/* A level in a solid, mps_fill_level_add(): the segment of a circle. */
+static void level_in_a_bowl(void **state)
+{
+    (void)state;
+    const double lo[2] = {-0.3, 0}, hi[2] = {0.3, 0.2}, dp = 0.01, R = 0.25;
+    mps_sim *sim = logging(2, dp);
+    mps_solid solid;
+    double built, asked;
+    assert_int_equal(mps_solid_init(&solid, sizeof solid), MPS_OK);
+    solid.distance = bowl;
+    solid.lo[0] = -0.25;
+    solid.hi[0] = 0.25;
+    solid.hi[1] = 0.5;
+    ASSERT_OK(sim, mps_solid_add(sim, &solid));
+    ASSERT_OK(sim, mps_fill_level_add(sim, 0, lo, hi, NULL, NULL));
+    last_fill(&built, &asked);
+    const double a = acos((R - 0.2) / R), segment = R * R * (a - sin(a) * cos(a));
+    ASSERT_NEAR(asked, segment, 0.03 * segment);
+    ASSERT_NEAR(built, segment, 0.03 * segment);
+    mps_sim_destroy(sim);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(volumes_are_told),
+        cmocka_unit_test(level_in_a_bowl),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
