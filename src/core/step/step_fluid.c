@@ -210,7 +210,7 @@ typedef struct keep_fields {
     const double *wall_pressure;
     const int32_t *condition, *region;
     double *load;
-    int32_t *held;
+    uint8_t *held;
 } keep_fields;
 
 MPS_ROW void keep_row(const int dim, const mps_view *v, const keep_fields *f, int64_t i)
