@@ -19,7 +19,16 @@
  * pushes, e_j = p_i - p'_j. Where pressures are linear P_i is p_i.
  *
  * A wall shows no more suction than it has in the equation: one from which the liquid separates
- * (separation.void) shows none. The flow does not change. */
+ * (separation.void) shows none.
+ *
+ * Above the contact line no liquid touches the wall, but the equation continues the static pressure
+ * of the liquid to it, in calm water down to -2 rho g dp. A wall shows only the suction beyond
+ * that, or the suction in the fluid about it: where P_i < 0 it becomes
+ *
+ *   max(P_i, min(P_i - least, pull)),   least = min(0, min_j p'_j),   pull = min(0, min_j p_j),
+ *
+ * least over the fluid j about it that is on the surface or next to it and does not pull, p_j >= 0.
+ * So a dry wall shows 0. The flow does not change. */
 #include "helpers.h"
 
 enum { PRESSURE, ACCELERATION, REGION, CORRECTION, WALL_PRESSURE, USES };
@@ -37,7 +46,7 @@ typedef struct fields {
 
 /* Sums over the fluid about a wall particle. */
 typedef struct contact {
-    double weight, p, rise; /* sum W, sum W p'_j, A_i sum c_ij e_j */
+    double weight, p, rise, least, pull; /* sum W, sum W p'_j, A_i sum c_ij e_j, least, pull */
 } contact;
 
 /* Unit normal of a wall particle. @return its area; 0: too small for a face, e.g. the edge of a
@@ -69,9 +78,12 @@ MPS_ROW contact sum_contact(const int dim, const mps_view *v, const fields *f, i
             for (int e = 0; e < dim; e++) push += n[d] * b[d * dim + e] * q.d[e];
         }
         const double carried = f->p[j] - rho * body;
-        const bool surface = mps_region_of(f->region, j) == MPS_REGION_SURFACE;
+        const int32_t region = mps_region_of(f->region, j);
+        const bool surface = region == MPS_REGION_SURFACE;
         c.weight += q.w;
         c.p += q.w * carried;
+        if (region >= MPS_REGION_NEAR && f->p[j] >= 0) c.least = fmin(c.least, carried);
+        c.pull = fmin(c.pull, f->p[j]);
         c.rise += cell * q.w_r2 * push * (surface ? f->p[i] - carried : 2.0 * rho * (slope + body));
     }
     return c;
@@ -83,7 +95,8 @@ MPS_ROW double pressure_of(const int dim, const mps_view *v, const fields *f, in
     const double size = face(dim, v, i, n);
     const contact c = sum_contact(dim, v, f, i, n);
     if (c.weight == 0) return f->p[i];
-    return fmax(c.p / c.weight + (size > 0 ? c.rise / size : 0), fmin(f->p[i], 0));
+    const double shown = fmax(c.p / c.weight + (size > 0 ? c.rise / size : 0), fmin(f->p[i], 0));
+    return fmax(shown, fmin(shown - c.least, c.pull));
 }
 
 MPS_ROW void load_row(const int dim, const mps_view *v, const fields *f, int64_t i)

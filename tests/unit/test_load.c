@@ -14,9 +14,10 @@ static const mps_use uses[USES] = {[PRESSURE] = {"pressure", MPS_USE_NEIGHBOURS}
                                    [TANK] = {"tank_acceleration", MPS_USE_NEIGHBOURS},
                                    [LOAD] = {"wall_pressure", MPS_USE_READ}};
 
-/* Walls so far: by what they show, and those with a particle of the surface or spray about them. */
+/* Walls so far: by what they show (dry: less than the equation continues to them), and those with a particle of the
+ * surface or spray about them. */
 static struct {
-    int64_t pressed, held, surface, spray;
+    int64_t pressed, held, dry, pulls, surface, spray;
     double worst; /* largest |wall_pressure - expected| over the largest pressure */
 } seen;
 
@@ -64,7 +65,7 @@ static double expected(const mps_stage *s, const mps_kernel *kernel, int64_t i)
     const int dim = v->dim;
     const int32_t *region = s->data[REGION];
     const double *p = s->data[PRESSURE], *area = v->area + i * dim;
-    double size2 = 0, weight = 0, mean = 0, sum = 0;
+    double size2 = 0, weight = 0, mean = 0, sum = 0, beyond = 0, pull = 0;
     for (int d = 0; d < dim; d++) size2 += area[d] * area[d];
     for (int64_t j = 0; j < v->n; j++) {
         const double *b = (const double *)s->data[CORRECTION] + j * dim * dim;
@@ -77,15 +78,22 @@ static double expected(const mps_stage *s, const mps_kernel *kernel, int64_t i)
         for (int d = 0; d < dim; d++)
             for (int e = 0; e < dim; e++) push += area[d] * b[d * dim + e] * q.d[e];
         const double own = rise(s, i, j, q.d, &carried);
+        if (p[j] >= 0 && (region[j] == MPS_REGION_NEAR || region[j] == MPS_REGION_SURFACE))
+            beyond = fmin(beyond, carried);
+        pull = fmin(pull, p[j]);
         sum += pow(v->dp, dim) * dim / v->near.n0 * q.w_r2 * push * own;
         mean += q.w * carried;
         weight += q.w;
     }
     if (weight == 0) return p[i];
-    const double shown = mean / weight + (size2 > 0 ? sum / size2 : 0), least = fmin(p[i], 0);
-    seen.pressed += shown > least;
-    seen.held += shown < least;
-    return fmax(shown, least);
+    const double most = mean / weight + (size2 > 0 ? sum / size2 : 0), least = fmin(p[i], 0),
+                 shown = fmax(most, least);
+    seen.pressed += most > least;
+    seen.held += most < least;
+    if (shown >= 0) return shown;
+    seen.dry += fmin(shown - beyond, pull) > shown;
+    seen.pulls += fmin(shown - beyond, pull) <= shown;
+    return fmax(shown, fmin(shown - beyond, pull));
 }
 
 static int compare(mps_stage *s)
@@ -148,11 +156,13 @@ static void sum_over_the_fluid(void **state)
         mps_sim *sim = splash(dim);
         memset(&seen, 0, sizeof seen);
         for (int step = 0; step < 4; step++) ASSERT_OK(sim, mps_step(sim, 1, NULL));
-        print_message("%d-D: %lld press, %lld held back; pairs with %lld of the surface, %lld "
-                      "spray; off by %.2g\n",
-                      dim, (long long)seen.pressed, (long long)seen.held, (long long)seen.surface,
-                      (long long)seen.spray, seen.worst);
+        print_message("%d-D: %lld press, %lld held back, %lld dry, %lld pull; pairs with %lld of "
+                      "the surface, %lld spray; off by %.2g\n",
+                      dim, (long long)seen.pressed, (long long)seen.held, (long long)seen.dry,
+                      (long long)seen.pulls, (long long)seen.surface, (long long)seen.spray,
+                      seen.worst);
         assert_true(seen.pressed > 20 && seen.held > 0 && seen.surface > 20 && seen.spray > 0);
+        assert_true(seen.dry > 0 && seen.pulls > 0);
         assert_true(seen.worst < 1e-9);
         mps_sim_destroy(sim);
     }
