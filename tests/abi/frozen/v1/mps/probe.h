@@ -18,6 +18,7 @@ enum {
      *  Where another face is as near within dp/2 (knuckle, corner, plate) the log tells which one
      *  is read; mps_probe_info_get() always does. `at` may be before the face with a wall particle
      *  within 2 dp, at most dp/2 behind it, and at most dp/2 beyond its end.
+     *  Dry walls, above the contact line, count with 0; suction in the liquid is shown.
      *  A linear pressure is exact on any flat face, also where its particles are no lattice. On a
      *  curved face of radius R, with a diameter of dp, the value is that of a place at most
      *  dp^2/(3 R) away. */
