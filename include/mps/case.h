@@ -7,6 +7,7 @@
 #ifndef MPS_CASE_H
 #define MPS_CASE_H
 
+#include <mps/job.h>
 #include <mps/types.h>
 #include <stddef.h>
 
@@ -122,6 +123,29 @@ MPS_API mps_status mps_case_key_get(int32_t index, mps_case_key *key);
  *  @param buffer  [size] out, ends with 0; may be NULL where size is 0
  *  @return length of the whole text, without its end; a text of `size` or more was cut */
 MPS_API size_t mps_case_schema_write(char *buffer, size_t size);
+
+/** Build the simulation of a case, and its job with all columns, figures and references. What the
+ *  library refuses becomes a message at the line of the object. The case must live until job and
+ *  simulation are destroyed.
+ *  @param options  of the program: folder, command, resume, overwrite, quiet, signals, ranks, say,
+ *                  error; the case says the rest
+ *  @param job      out: the job; destroy it after the simulation. NULL on failure
+ *  @param sim      out: the simulation. NULL on failure
+ *
+ *  | error | reason |
+ *  |---|---|
+ *  | MPS_E_ARG | an argument; the case has errors, see mps_case_message_get() |
+ *  | MPS_E_STATE, MPS_E_BUSY, MPS_E_IO, MPS_E_RANKS | as mps_job_create(); text in options->error |
+ *  | MPS_E_NOMEM | no memory | */
+MPS_API mps_status mps_case_job(mps_case *c, const mps_job_config *options, mps_job **job,
+                                mps_sim **sim);
+
+/** What a case amounts to: particles, volumes asked for and built, natural periods, largest motion,
+ *  sensors, expected cost. It builds the simulation and does a few steps.
+ *  @param text    out: lines for people; to be freed with free(). NULL on failure
+ *  @param sketch  out: tank, liquid and sensors as SVG; likewise
+ *  @return as mps_case_job() */
+MPS_API mps_status mps_case_check(mps_case *c, char **text, char **sketch);
 
 MPS_END_DECLS
 

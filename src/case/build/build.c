@@ -1,0 +1,165 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A case becomes a simulation and a job. */
+#include "motion.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { TIMES_MOST = 24 };
+
+/* All before the job: its end may be in units of T1, which the liquid as filled tells. */
+static void build_simulation(build *b, const mps_job_config *options)
+{
+    static void (*const part[])(build *) = {
+        mps__build_tank,  mps__build_solids, mps__build_phases, mps__build_fills,
+        mps__build_modes, mps__build_motion, mps__build_time};
+    b->root = mps__case_root(b->c);
+    b->dim = (int32_t)mps__read_number(b->c, b->root, "dim", 2);
+    mps__case_scale_set(b->c, (read_scale){NAN, NAN, NAN});
+    b->dp = mps__read_number(b->c, b->root, "dp", NAN);
+    mps__case_scale_set(b->c, (read_scale){b->dp, NAN, NAN});
+    b->gravity = mps__read_number(b->c, b->root, "gravity", 9.81);
+    b->level = b->depth = NAN;
+    if (!mps__case_failed(b->c)) mps__build_fluids_read(b);
+    if (!mps__case_failed(b->c)) mps__build_open(b, options);
+    for (size_t i = 0; i < sizeof part / sizeof *part; i++)
+        if (b->sim && b->status == MPS_OK && !mps__case_failed(b->c)) part[i](b);
+}
+
+static void build_columns(build *b)
+{
+    mps__build_sensors(b);
+    mps__build_references(b);
+    mps__build_inputs(b);
+    if (b->job && !isnan(b->level) && mps__build_filled(b)) mps_job_level_set(b->job, b->level);
+}
+
+/* A level was asked for, by `depth`; else the job takes that of the highest particle. */
+bool mps__build_filled(const build *b)
+{
+    return !isnan(b->depth);
+}
+
+/* "surge" of "cases/surge.yaml". */
+static void name_of(const mps_case *c, char *name, size_t size)
+{
+    const char *path = c->source[0].name, *slash = strrchr(path, '/');
+    const char *begin = slash ? slash + 1 : path, *dot = strrchr(begin, '.');
+    snprintf(name, size, "%.*s", (int)(dot ? dot - begin : (int)strlen(begin)), begin);
+}
+
+/* The preset and what was changed in it. */
+static void model_of(const build *b, char *text, size_t size)
+{
+    static const char *const key[] = {"use", "remove", "settings"};
+    size_t used = (size_t)snprintf(text, size, "%s", b->model);
+    for (int i = 0; i < 3; i++) {
+        const tree_node *node = mps__tree_find(b->root, key[i]);
+        const bool one = node && node->kind == TREE_TEXT;
+        for (const tree_node *at = node ? (one ? node : node->first) : NULL; at && used < size;
+             at = one ? NULL : at->next)
+            used += (size_t)snprintf(text + used, size - used, ", %s %s%s%s", key[i],
+                                     at->key && !one ? at->key : "", at->key && !one ? " " : "",
+                                     at->text ? at->text : "");
+    }
+}
+
+/* What the program says, and what the case says. */
+static mps_status create_job(build *b, const mps_job_config *options)
+{
+    const tree_node *run = mps__tree_find(b->root, "run"),
+                    *output = mps__tree_find(b->root, "output");
+    double times[TIMES_MOST];
+    char name[BUILD_TEXT], model[2 * BUILD_TEXT];
+    mps_job_config config = *options;
+    name_of(b->c, name, sizeof name);
+    model_of(b, model, sizeof model);
+    config.name = config.name ? config.name : name;
+    config.title = mps__read_text(b->root, "title", config.title);
+    config.text = mps_case_text(b->c);
+    config.model = model;
+    config.t_end = b->until;
+    config.gravity = b->gravity;
+    const double rate = mps__read_number(b->c, output, "rate", 0);
+    if (rate > 0) config.row_interval = 1 / rate;
+    config.checkpoint = mps__read_number(b->c, run, "checkpoint", config.checkpoint);
+    config.average = mps__read_number(b->c, run, "average", config.average);
+    config.frames = (int32_t)mps__read_number(b->c, output, "frames", config.frames);
+    config.picture_count = mps__read_numbers(b->c, output, "pictures", TIMES_MOST, times);
+    config.picture_t = times;
+    config.tank_frame = mps__read_word(output, "frame", 0) == 1;
+    config.pieces = mps__read_flag(output, "pieces", config.pieces);
+    config.profile = config.profile || mps__read_flag(output, "profile", false);
+    config.trace = config.trace || mps__read_flag(output, "trace", false);
+    config.threads = (int32_t)mps__read_number(b->c, run, "threads", 2);
+    config.page_bytes =
+        (int64_t)mps__read_number(b->c, output, "page", (double)config.page_bytes);
+    if (config.page_bytes == 0) config.report = 0;
+    return mps__case_failed(b->c) ? MPS_E_ARG : mps_job_create(&config, &b->job);
+}
+
+/* The job says what the library said before. */
+static void say_log(build *b)
+{
+    b->log->job = b->job;
+    for (int32_t i = 0; i < b->log->count; i++)
+        mps_job_log(b->job, b->log->level[i], b->log->text[i]);
+}
+
+static build *begin(mps_case *c)
+{
+    build *b = calloc(1, sizeof *b);
+    if (b) b->c = c;
+    return b;
+}
+
+mps_status mps_case_job(mps_case *c, const mps_job_config *options, mps_job **job, mps_sim **sim)
+{
+    if (job) *job = NULL;
+    if (sim) *sim = NULL;
+    if (!c || !options || !job || !sim || mps__case_failed(c)) return MPS_E_ARG;
+    build *b = begin(c);
+    if (!b) return MPS_E_NOMEM;
+    build_simulation(b, options);
+    mps_status status = b->status;
+    if (status == MPS_OK) status = mps__case_failed(c) ? MPS_E_ARG : create_job(b, options);
+    if (status == MPS_OK) {
+        say_log(b);
+        build_columns(b);
+        status = b->status < 0 ? b->status : mps__case_failed(c) ? MPS_E_ARG : MPS_OK;
+    }
+    if (c->no_memory) status = MPS_E_NOMEM;
+    if (status == MPS_OK) {
+        *job = b->job;
+        *sim = b->sim;
+    } else {
+        mps_sim_destroy(b->sim);
+        mps_job_destroy(b->job);
+    }
+    free(b);
+    return status;
+}
+
+mps_status mps_case_check(mps_case *c, char **text, char **sketch)
+{
+    if (text) *text = NULL;
+    if (sketch) *sketch = NULL;
+    if (!c || !text || !sketch || mps__case_failed(c)) return MPS_E_ARG;
+    build *b = begin(c);
+    if (!b) return MPS_E_NOMEM;
+    build_simulation(b, NULL);
+    if (b->sim && b->status == MPS_OK && !mps__case_failed(c)) build_columns(b);
+    mps_status status = b->status < 0 ? b->status : mps__case_failed(c) ? MPS_E_ARG : MPS_OK;
+    if (status == MPS_OK) *sketch = mps__sketch_write(b);
+    if (status == MPS_OK) *text = mps__check_write(b);
+    if (c->no_memory || (status == MPS_OK && (!*sketch || !*text))) {
+        free(*sketch);
+        free(*text);
+        *sketch = *text = NULL;
+        status = MPS_E_NOMEM;
+    }
+    mps_sim_destroy(b->sim);
+    free(b);
+    return status;
+}

@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Natural periods of the liquid at rest, by linear theory: w^2 = g k tanh(k h), k = n pi/L.
+ *
+ * Of a rectangular tank L and h are those asked for, so that a motion in units of T1 is the same at every spacing. Of other tanks L is the length
+ * of the free surface and h the volume below it over its area, both of the liquid as filled; that is exact for no other shape, and the
+ * text says so. */
+#include "build.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* The liquid as filled, phase 0. */
+typedef struct liquid {
+    int64_t count, surface; /* particles; of them within a spacing of the highest */
+    double top, lo[3], hi[3]; /* of those at the surface */
+} liquid;
+
+static bool take(build *b, liquid *l, bool surface)
+{
+    mps_lease x = {.struct_size = sizeof x}, kind = x, phase = x;
+    bool good = mps_lease_begin(b->sim, "position", MPS_READ, &x) == MPS_OK;
+    good = good && mps_lease_begin(b->sim, "kind", MPS_READ, &kind) == MPS_OK;
+    good = good && mps_lease_begin(b->sim, "phase", MPS_READ, &phase) == MPS_OK;
+    for (int64_t i = 0; good && i < x.count; i++) {
+        const double *at = x.data + i * x.stride;
+        if (kind.integers[i] != MPS_FLUID || phase.integers[i] != 0) continue;
+        if (!surface) {
+            l->top = l->count ? fmax(l->top, at[1]) : at[1];
+            l->count++;
+            continue;
+        }
+        if (at[1] < l->top - 0.999 * b->dp) continue;
+        for (int d = 0; d < x.stride; d++) {
+            l->lo[d] = l->surface ? fmin(l->lo[d], at[d]) : at[d];
+            l->hi[d] = l->surface ? fmax(l->hi[d], at[d]) : at[d];
+        }
+        l->surface++;
+    }
+    mps_lease_end(b->sim, &phase);
+    mps_lease_end(b->sim, &kind);
+    mps_lease_end(b->sim, &x);
+    return good && l->count > 0;
+}
+
+/* Along x but for motions across it; without a motion along the longer side. */
+static int32_t wave_axis(const build *b)
+{
+    const tree_node *motion = mps__tree_find(b->root, "motion");
+    if (b->dim == 2) return 0;
+    const int32_t forward = motion ? mps__read_word(motion, "forward", 0) : 0;
+    const bool along_z = forward % 2 == 1; /* x, z, -x, -z */
+    const bool lengthwise = mps__tree_find(motion, "surge") || mps__tree_find(motion, "pitch"),
+               athwart = mps__tree_find(motion, "sway") || mps__tree_find(motion, "roll");
+    if (lengthwise != athwart) return lengthwise != along_z ? 0 : 2;
+    const form *t = &b->tank.form;
+    return t->hi[0] - t->lo[0] >= t->hi[2] - t->lo[2] ? 0 : 2;
+}
+
+static void as_asked(build *b, build_modes *m)
+{
+    const int32_t a = m->axis;
+    m->length = b->tank.size[a];
+    m->depth = b->depth;
+    snprintf(m->how, sizeof m->how,
+             "rectangular tank: length %.4g m and depth %.4g m as asked for, w^2 = g k tanh(k h)",
+             m->length, m->depth);
+}
+
+/* Particles at walls stand for half a spacing more; in a tank on a lattice the wall is a whole one away from them. */
+static bool as_filled(build *b, build_modes *m)
+{
+    liquid l = {0};
+    if (!take(b, &l, false) || !take(b, &l, true) || l.surface < 1) return false;
+    const double gap = b->tank.form.kind == FORM_BOX && !b->tank.file ? 2 : 1;
+    m->length = l.hi[m->axis] - l.lo[m->axis] + gap * b->dp;
+    m->depth = (double)l.count * pow(b->dp, b->dim) / ((double)l.surface * pow(b->dp, b->dim - 1));
+    snprintf(m->how, sizeof m->how,
+             "estimate: length of the free surface %.4g m and mean depth %.4g m as filled, in "
+             "w^2 = g k tanh(k h)",
+             m->length, m->depth);
+    return true;
+}
+
+void mps__build_modes(build *b)
+{
+    build_modes *m = &b->modes;
+    if (mps__case_failed(b->c) || b->gravity == 0) return;
+    const form *t = &b->tank.form;
+    m->axis = wave_axis(b);
+    if (t->kind == FORM_BOX && !b->tank.file && !isnan(b->depth))
+        as_asked(b, m);
+    else if (!as_filled(b, m))
+        return;
+    const double pi = acos(-1.0);
+    for (m->count = 0; m->count < BUILD_MODES; m->count++) {
+        const double k = (m->count + 1) * pi / m->length;
+        m->period[m->count] = 2 * pi / sqrt(b->gravity * k * tanh(k * m->depth));
+    }
+    mps__case_scale_set(b->c, (read_scale){b->dp, m->period[0], NAN});
+}
