@@ -8,7 +8,7 @@
  *  mps_job_config.say alone.
  *
  *  Order of calls: mps_job_config_init(), mps_job_create(), building of the simulation, columns
- *  and figures, mps_job_run(), mps_job_destroy(), mps_sim_destroy(). */
+ *  and figures, mps_job_run(), mps_sim_destroy(), mps_job_destroy(). */
 #ifndef MPS_JOB_H
 #define MPS_JOB_H
 
@@ -192,8 +192,7 @@ MPS_API void mps_job_log(void *job, int level, const char *text);
 MPS_API void mps_job_say(mps_job *job, const char *text);
 
 /** Add a probe and a column of probes.csv with one of its values. Columns stand in the order of
- *  these calls. A probe of the same name is not added twice: further columns show its other
- *  components.
+ *  these calls; each adds a probe of its own.
  *  @param sim        the simulation of this job, with all solids; the same in all calls
  *  @param probe      wall pressure, fluid pressure, gauge or force; probe->name is not used
  *  @param component  of its values, from 0
@@ -344,16 +343,33 @@ MPS_API mps_status mps_trace_init(mps_trace *trace, size_t size);
  *  MPS_E_NOMEM */
 MPS_API mps_status mps_job_trace_add(mps_job *job, const mps_trace *trace);
 
-/** Add known points to compare with; copied. They are drawn in the plots of a unit.
- *  @param label   what they are
- *  @param column  the one column that they belong to; NULL: all of the unit
- *  @param line    0: marks; 1: a line
- *  @param t       [count] times, not descending [s]
- *  @param value   [count]
- *  @return MPS_E_ARG, MPS_E_NOMEM */
-MPS_API mps_status mps_job_reference_add(mps_job *job, const char *label, const char *unit,
-                                         const char *column, int32_t line, int64_t count,
-                                         const double *t, const double *value);
+/** Known points to compare with, drawn in the plots of a unit. Fill it with
+ *  mps_reference_init(). */
+typedef struct mps_reference {
+    /** Set by mps_reference_init(). */
+    uint32_t struct_size;
+    /** 0 (default): marks; 1: a line. */
+    int32_t line;
+    /** What they are; required. */
+    const char *label;
+    /** Unit of the values; required. */
+    const char *unit;
+    /** The one column that they belong to; NULL: all of the unit. */
+    const char *column;
+    /** Number of points, >= 1. */
+    int64_t count;
+    /** [count] times, not descending [s] */
+    const double *t;
+    /** [count] values */
+    const double *value;
+} mps_reference;
+
+/** Set every entry to its default. @param size  sizeof(mps_reference) @return MPS_E_ARG: bad
+ *  size */
+MPS_API mps_status mps_reference_init(mps_reference *reference, size_t size);
+
+/** Add known points; they are copied. @return MPS_E_ARG, MPS_E_NOMEM */
+MPS_API mps_status mps_job_reference_add(mps_job *job, const mps_reference *reference);
 
 /** Set the still level as filled, y [m]; the figure "still_level". Without it the highest particle
  *  of phase 0 is the level. @return MPS_E_ARG, MPS_E_NAME: it is set already, MPS_E_NOMEM */
