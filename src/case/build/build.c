@@ -76,7 +76,7 @@ static mps_status create_job(build *b, const mps_job_config *options)
     name_of(b->c, name, sizeof name);
     model_of(b, model, sizeof model);
     config.name = config.name ? config.name : name;
-    config.title = mps__read_text(b->root, "title", config.title);
+    config.title = mps__read_text(b->c, b->root, "title", config.title);
     config.text = mps_case_text(b->c);
     config.model = model;
     config.t_end = b->until;
@@ -88,10 +88,10 @@ static mps_status create_job(build *b, const mps_job_config *options)
     config.frames = (int32_t)mps__read_number(b->c, output, "frames", config.frames);
     config.picture_count = mps__read_numbers(b->c, output, "pictures", TIMES_MOST, times);
     config.picture_t = times;
-    config.tank_frame = mps__read_word(output, "frame", 0) == 1;
-    config.pieces = mps__read_flag(output, "pieces", config.pieces);
-    config.profile = config.profile || mps__read_flag(output, "profile", false);
-    config.trace = config.trace || mps__read_flag(output, "trace", false);
+    config.tank_frame = mps__read_choice(b->c, output, "frame", 0) == 1;
+    config.pieces = mps__read_flag(b->c, output, "pieces", config.pieces);
+    config.profile = config.profile || mps__read_flag(b->c, output, "profile", false);
+    config.trace = config.trace || mps__read_flag(b->c, output, "trace", false);
     config.threads = (int32_t)mps__read_number(b->c, run, "threads", 2);
     config.page_bytes =
         (int64_t)mps__read_number(b->c, output, "page", (double)config.page_bytes);

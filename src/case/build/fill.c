@@ -90,7 +90,7 @@ static void fill_depth(filling *f)
     const form *t = &b->tank.form;
     b->depth = mps__read_number(b->c, f->map, "depth", NAN);
     const double level = t->lo[1] + b->depth;
-    const bool whole = mps__read_flag(f->map, "whole_rows", false) || b->several || b->paper;
+    const bool whole = mps__read_flag(b->c, f->map, "whole_rows", false) || b->several || b->paper;
     if (mps__case_failed(b->c)) return;
     if (level > t->hi[1] * (1 + 1e-12)) {
         char text[BUILD_TEXT];

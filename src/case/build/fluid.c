@@ -29,11 +29,11 @@ static void read_fluid(build *b, const tree_node *at, build_fluid *f)
         return;
     }
     if (!own) return;
-    uint64_t kind = 0;
     f->density = mps__read_number(b->c, own, "density", f->density);
-    f->viscosity = mps__read_mixed(b->c, own, "viscosity", f->viscosity, &kind);
+    f->viscosity = mps__read_number(b->c, own, "viscosity", f->viscosity);
     f->tension = mps__read_number(b->c, own, "tension", f->tension);
-    if (kind & UNIT_KINEMATIC) f->viscosity = f->density * f->viscosity;
+    if (mps__read_is(b->c, own, "viscosity", UNIT_KINEMATIC))
+        f->viscosity = f->density * f->viscosity;
     if (isnan(f->density) || isnan(f->viscosity))
         mps__case_say(b->c, own, false, "fluids.%s: density and viscosity are needed", at->key);
 }
@@ -78,7 +78,7 @@ void mps__build_fluids_read(build *b)
     if (mps__case_failed(b->c)) return;
     qsort(b->fluid, (size_t)b->fluids, sizeof *b->fluid, by_density);
     snprintf(b->model, sizeof b->model, "%s",
-             mps__read_text(b->root, "model", b->fluids > 1 ? "mmps" : "imps"));
+             mps__read_text(b->c, b->root, "model", b->fluids > 1 ? "mmps" : "imps"));
     b->several = strncmp(b->model, "mmps", 4) == 0;
     const tree_node *model = mps__tree_find(b->root, "model");
     if (b->several && b->fluids < 2)

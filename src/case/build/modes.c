@@ -47,7 +47,7 @@ static int32_t wave_axis(const build *b)
 {
     const tree_node *motion = mps__tree_find(b->root, "motion");
     if (b->dim == 2) return 0;
-    const int32_t forward = motion ? mps__read_word(motion, "forward", 0) : 0;
+    const int32_t forward = motion ? mps__read_choice(b->c, motion, "forward", 0) : 0;
     const bool along_z = forward % 2 == 1; /* x, z, -x, -z */
     const bool lengthwise = mps__tree_find(motion, "surge") || mps__tree_find(motion, "pitch"),
                athwart = mps__tree_find(motion, "sway") || mps__tree_find(motion, "roll");

@@ -31,9 +31,8 @@ static double read_omega(build *b, const tree_node *node, const char *name)
 /* A time, or a number of periods. */
 static double read_ramp(build *b, const tree_node *node, double omega)
 {
-    uint64_t kind = 0;
-    const double value = mps__read_mixed(b->c, node, "ramp", 0, &kind);
-    return kind == UNIT_NONE && value > 0 ? value * 2 * acos(-1.0) / omega : value;
+    const double value = mps__read_number(b->c, node, "ramp", 0);
+    return mps__read_is(b->c, node, "ramp", UNIT_NONE) && value > 0 ? value * 2 * acos(-1.0) / omega : value;
 }
 
 static void read_harmonic(build *b, build_motion *m, const tree_node *node, int32_t degree)
@@ -57,7 +56,7 @@ static void read_harmonic(build *b, build_motion *m, const tree_node *node, int3
         m->harmonic[m->count++] = h;
         return;
     }
-    h.form = mps__read_word(node, "form", 0);
+    h.form = mps__read_choice(b->c, node, "form", 0);
     h.amplitude = mps__read_number(b->c, node, "amplitude", NAN);
     h.omega = read_omega(b, node, name);
     h.phase = mps__read_number(b->c, node, "phase", 0);
@@ -88,13 +87,13 @@ static void read_ship(build *b, build_motion *m, const tree_node *map)
 {
     static const double forward[4][3] = {{1, 0, 0}, {0, 0, 1}, {-1, 0, 0}, {0, 0, -1}};
     mps_ship_init(&m->ship, sizeof m->ship);
-    const int32_t way = mps__read_word(map, "forward", b->dim == 2 ? 1 : 0);
+    const int32_t way = mps__read_choice(b->c, map, "forward", b->dim == 2 ? 1 : 0);
     memcpy(m->ship.forward, forward[way], sizeof forward[way]);
     /* z up, z down, axes of the library */
-    const int32_t axes = mps__read_word(map, "axes", 2);
+    const int32_t axes = mps__read_choice(b->c, map, "axes", 2);
     m->flipped = axes == 2;
     m->ship.axes = axes == 1 ? MPS_SHIP_Z_DOWN : MPS_SHIP_Z_UP;
-    const char *order = mps__read_text(map, "order", "yaw pitch roll");
+    const char *order = mps__read_text(b->c, map, "order", "yaw pitch roll");
     char word[3][8] = {"", "", ""};
     const int words = sscanf(order, "%7s %7s %7s", word[0], word[1], word[2]);
     int seen = 0;
@@ -301,7 +300,7 @@ void mps__build_motion(build *b)
     if (!file && m->count == 0 && !mps__case_failed(b->c))
         mps__case_say(b->c, map, false, "motion: no degree is given: surge, sway, heave, roll, pitch, yaw, or file");
     if (mps__case_failed(b->c) || (file && !mps__motion_file(b, m, map))) return;
-    const int32_t start = mps__read_word(map, "start", MPS_START_AT_REST);
+    const int32_t start = mps__read_choice(b->c, map, "start", MPS_START_AT_REST);
     if (!mps__build_try(b, mps_motion_centre_set(b->sim, m->centre, start), map, "motion.centre"))
         return;
     if (file)

@@ -23,7 +23,7 @@ static const tree_node *at_of(const tree_node *map, const char *key)
 static int32_t find_column(build *b, const tree_node *map, const csv *t, const char *key)
 {
     const tree_node *columns = mps__tree_find(map, "columns");
-    const char *name = columns ? mps__read_text(columns, key, NULL) : key;
+    const char *name = columns ? mps__read_text(b->c, columns, key, NULL) : key;
     const int32_t k = name ? mps__csv_find(t, name) : -1;
     if (k < 0 && columns && name) {
         char names[BUILD_TEXT];
@@ -44,7 +44,7 @@ static bool choose(build *b, const tree_node *map, const csv *t, chosen *c)
     if (c->time < 0) c->time = 0;
     c->factor[0] =
         mps__csv_factor(b->c, mps__tree_find(map, "file"), t, c->time, UNIT_TIME,
-                        mps__read_text(mps__tree_find(map, "units"), "time", NULL));
+                        mps__read_text(b->c, mps__tree_find(map, "units"), "time", NULL));
     for (int32_t d = 0; d < MOTION_DEGREES; d++) {
         c->degree[d] = find_column(b, map, t, mps__degrees[d]);
         if (c->degree[d] < 0) continue;
@@ -52,7 +52,7 @@ static bool choose(build *b, const tree_node *map, const csv *t, chosen *c)
         c->factor[1 + d] =
             mps__csv_factor(b->c, at_of(map, mps__degrees[d]), t, c->degree[d],
                             d < MPS_SHIP_ROLL ? UNIT_LENGTH : UNIT_ANGLE,
-                            mps__read_text(mps__tree_find(map, "units"), mps__degrees[d],
+                            mps__read_text(b->c, mps__tree_find(map, "units"), mps__degrees[d],
                                            NULL));
         if (b->dim == 2 && d == MPS_SHIP_YAW)
             mps__case_say(b->c, at_of(map, "yaw"), false, "yaw: there is none in 2-D; name the wanted degrees in 'columns'");
@@ -100,7 +100,7 @@ bool mps__motion_file(build *b, build_motion *m, const tree_node *map)
     csv t = {0};
     chosen c = {.time = -1};
     const tree_node *node = mps__tree_find(map, "file");
-    const char *path = mps__read_file(b->c, map, "file");
+    const char *path = mps__read_path(b->c, map, "file");
     if (b->dim == 3 && !mps__tree_find(map, "axes"))
         mps__case_say(b->c, node, false,
                       "motion.axes is needed for a file in 3-D: 'x forward, y port, z up' or 'x "

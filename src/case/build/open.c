@@ -51,7 +51,7 @@ static bool has_model(const build *b, const char *slot)
 /* A text or a list of texts, each for a call of the library. */
 static void for_names(build *b, const char *key, mps_status (*call)(mps_sim *, const char *))
 {
-    const tree_node *node = mps__read_map(b->root, key);
+    const tree_node *node = mps__tree_find(b->root, key);
     mps__read_all(node);
     const tree_node *at = node && node->kind == TREE_LIST ? node->first : node;
     for (; at; at = at == node ? NULL : at->next)
@@ -62,9 +62,9 @@ static void for_names(build *b, const char *key, mps_status (*call)(mps_sim *, c
 static void set_one(build *b, const tree_node *at)
 {
     char slot[96];
-    double value;
     const char *dot = strrchr(at->key, '.');
-    if (!dot || !mps__read_setting(b->c, at, &value)) return;
+    const double value = mps__read_setting(b->c, at, NAN);
+    if (!dot || isnan(value)) return;
     snprintf(slot, sizeof slot, "%.*s", (int)(dot - at->key), at->key);
     mps__build_try(b, mps_model_set(b->sim, slot, dot + 1, value), at, at->key);
 }
@@ -87,8 +87,8 @@ static void use_solver(build *b, const tree_node *run)
 {
     mps_solver_limits limits;
     const tree_node *at = mps__tree_find(run, "solver");
-    const char *solver = mps__read_text(run, "solver", "sundials.pcg"),
-               *preconditioner = mps__read_text(run, "preconditioner", NULL);
+    const char *solver = mps__read_text(b->c, run, "solver", "sundials.pcg"),
+               *preconditioner = mps__read_text(b->c, run, "preconditioner", NULL);
     if (preconditioner && !preconditioner[0]) preconditioner = NULL;
     mps__build_try(b, mps_solver_use(b->sim, solver, preconditioner), at ? at : run, "run.solver");
     mps_solver_limits_init(&limits, sizeof limits);
@@ -112,13 +112,13 @@ static void create(build *b, const tree_node *run, const mps_job_config *options
     config.velocity_scale = mps__read_number(b->c, run, "velocity_scale", 0);
     if (b->paper && b->dim == 2) config.re_far = 4.1; /* W22; in 3-D no paper says */
     const tree_node *kernel = mps__tree_find(b->root, "kernel");
-    config.kernel = mps__read_text(kernel, "name", config.kernel);
+    config.kernel = mps__read_text(b->c, kernel, "name", config.kernel);
     if (mps__tree_find(kernel, "near"))
         config.re_near = mps__read_number(b->c, kernel, "near", NAN) / b->dp;
     if (mps__tree_find(kernel, "far"))
         config.re_far = mps__read_number(b->c, kernel, "far", NAN) / b->dp;
     config.speed_limit = mps__read_number(b->c, run, "speed_limit", config.speed_limit);
-    config.lost_policy = mps__read_word(run, "lost", MPS_LOST_REMOVE);
+    config.lost_policy = mps__read_choice(b->c, run, "lost", MPS_LOST_REMOVE);
     const bool ranks = options && options->ranks;
     config.threads = (int32_t)mps__read_number(b->c, run, "threads", ranks ? 1 : 2);
     if (options && options->threads > 0) config.threads = options->threads;

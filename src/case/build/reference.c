@@ -84,8 +84,8 @@ static bool read_table(build *b, const tree_node *map, series *s)
     csv t = {0};
     int32_t column[2];
     const tree_node *node = mps__tree_find(map, "file");
-    const char *path = mps__read_file(b->c, map, "file"),
-               *unit = mps__read_text(map, "unit", NULL);
+    const char *path = mps__read_path(b->c, map, "file"),
+               *unit = mps__read_text(b->c, map, "unit", NULL);
     bool good = path && mps__csv_read(b->c, node, path, &t) && read_columns(b, map, &t, column);
     const double times = good ? mps__csv_factor(b->c, node, &t, column[0], UNIT_TIME, NULL) : NAN;
     const double factor =
@@ -114,11 +114,11 @@ static void add_reference(build *b, const tree_node *map, const char *name)
     if (file ? !read_table(b, map, &s) : !read_inline(b, map, &s)) return;
     const double shift = mps__read_number(b->c, map, "shift", 0);
     for (int64_t i = 0; i < s.count; i++) s.t[i] += shift;
-    const char *column = mps__read_text(map, "column", "");
+    const char *column = mps__read_text(b->c, map, "column", "");
     mps_reference r;
     mps_reference_init(&r, sizeof r);
-    r.line = mps__read_word(map, "style", 0);
-    r.label = mps__read_text(map, "label", "reference");
+    r.line = mps__read_choice(b->c, map, "style", 0);
+    r.label = mps__read_text(b->c, map, "label", "reference");
     r.unit = s.unit;
     r.count = s.count;
     r.t = s.t;
@@ -138,9 +138,9 @@ static void add_figure(build *b, const tree_node *map)
                                    MPS_TRACE_CHANGE,  MPS_TRACE_INTEGRAL, MPS_TRACE_SLOPE};
     mps_trace t;
     mps_trace_init(&t, sizeof t);
-    t.kind = take[mps__read_word(map, "take", 0)];
+    t.kind = take[mps__read_choice(b->c, map, "take", 0)];
     t.name = map->key;
-    t.column = mps__read_text(map, "column", "");
+    t.column = mps__read_text(b->c, map, "column", "");
     t.from = mps__read_number(b->c, map, "from", 0);
     t.to = mps__read_number(b->c, map, "until", b->until);
     t.window = mps__read_number(b->c, map, "window", 0);

@@ -161,8 +161,8 @@ static void add_gauge(const sensing *s)
     if (b->dim == 3 && given > 1) probe.at[2] = whole ? x[2] : from_wall(b, 2, x[1]);
     mps__read_numbers(b->c, s->map, "direction", 3, probe.direction);
     probe.length = mps__read_number(b->c, s->map, "length", probe.length);
-    probe.count_drops = mps__read_flag(s->map, "drops", false);
-    const char *fluid = mps__read_text(s->map, "fluid", "");
+    probe.count_drops = mps__read_flag(b->c, s->map, "drops", false);
+    const char *fluid = mps__read_text(b->c, s->map, "fluid", "");
     const int32_t phase = fluid[0] ? mps__build_phase(b, s->map, fluid) : -1;
     if (phase >= 0) probe.phases = 1u << phase;
     if (isnan(b->level)) b->level = find_level(b);
@@ -179,18 +179,18 @@ static void add_measure(const sensing *s)
     char name[64];
     mps_measure m;
     mps_measure_init(&m, sizeof m);
-    snprintf(name, sizeof name, "%s", mps__read_text(s->map, "measure", ""));
+    snprintf(name, sizeof name, "%s", mps__read_text(b->c, s->map, "measure", ""));
     for (char *p = name; *p; p++)
         if (*p == ' ') *p = '_';
     m.measure = name;
     m.name = s->map->key;
-    const char *fluid = mps__read_text(s->map, "fluid", ""),
-               *part = mps__read_text(s->map, "part", "");
+    const char *fluid = mps__read_text(b->c, s->map, "fluid", ""),
+               *part = mps__read_text(b->c, s->map, "part", "");
     m.phase = fluid[0] ? mps__build_phase(b, mps__tree_find(s->map, "fluid"), fluid) : 0;
     m.part = part[0] ? part : NULL;
-    m.axis = mps__read_word(s->map, "axis", 1);
-    m.change = mps__read_flag(s->map, "change", false);
-    m.at_end = mps__read_flag(s->map, "at_end", false);
+    m.axis = mps__read_choice(b->c, s->map, "axis", 1);
+    m.change = mps__read_flag(b->c, s->map, "change", false);
+    m.at_end = mps__read_flag(b->c, s->map, "at_end", false);
     m.radius = mps__read_number(b->c, s->map, "radius", 0);
     m.level = mps__read_number(b->c, s->map, "level", 0);
     m.smoothing = mps__read_number(b->c, s->map, "smoothing", m.smoothing * b->dp) / b->dp;

@@ -158,7 +158,7 @@ void mps__sensor_row(const sensing *s)
     if (count != 2 && !mps__case_failed(b->c)) mps__sensor_say(s, "row", "needs its two ends");
     if (!r || mps__case_failed(b->c)) return;
     r->count = (int32_t)cells;
-    r->take = mps__read_word(s->map, "take", TAKE_LARGEST);
+    r->take = mps__read_choice(b->c, s->map, "take", TAKE_LARGEST);
     r->spacing = distance(x[0], x[1]) / cells;
     at = mps__build_alloc(b, (size_t)r->count * sizeof *at);
     for (int32_t i = 0; at && i < r->count; i++)
@@ -238,11 +238,11 @@ void mps__sensor_force(const sensing *s)
     begin(s, &probe);
     probe.type = MPS_PROBE_FORCE;
     probe.part =
-        find_part(b, mps__read_text(s->map, "force", "all"), part, sizeof part);
+        find_part(b, mps__read_text(b->c, s->map, "force", "all"), part, sizeof part);
     mps__read_numbers(b->c, s->map, "about", 3, probe.at);
     /* all, x, y, z, mx, my, mz */
-    const int32_t chosen = mps__read_word(s->map, "component", 0),
-                  axes = mps__read_word(s->map, "axes", 0);
+    const int32_t chosen = mps__read_choice(b->c, s->map, "component", 0),
+                  axes = mps__read_choice(b->c, s->map, "axes", 0);
     if (mps__case_failed(b->c)) return;
     if (b->dim == 2 && (chosen == 3 || chosen == 4 || chosen == 5)) {
         mps__sensor_say(s, "component", "in 2-D there are x, y and mz");

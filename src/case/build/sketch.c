@@ -181,7 +181,7 @@ static void draw(const drawing *d)
             "font-size='12'>\n<rect width='100%%' height='100%%' fill='#fff'/>\n",
             WIDTH, height);
     fprintf(d->file, "<text x='%d' y='20' font-size='14'>", MARGIN);
-    write_escaped(d->file, mps__read_text(b->root, "title", ""));
+    write_escaped(d->file, mps__read_text(b->c, b->root, "title", ""));
     fprintf(d->file, "</text>\n");
     draw_cells(d);
     draw_outline(d);

@@ -17,7 +17,7 @@ int32_t mps__build_points(build *b, const tree_node *node, double z, int32_t mos
         }
         double *x = out[count++];
         x[2] = z;
-        const int32_t given = mps__node_numbers(b->c, at, 3, x, NULL);
+        const int32_t given = mps__read_values(b->c, at, 3, x);
         if (given < 2 && !mps__case_failed(b->c))
             mps__case_say(b->c, at, false, "a point has %s", b->dim == 3 ? "x y z" : "x y");
         if (given < 3) x[2] = z;
@@ -69,7 +69,7 @@ static void read_chamfer(build *b, const tree_node *map)
     static const char *const key[] = {"bottom", "top"};
     for (int i = 0; i < 2; i++)
         if (mps__read_numbers(b->c, node, key[i], 2, cut[i]) == 1) cut[i][1] = cut[i][0];
-    s->sideways = b->dim == 3 && mps__read_word(node, "across", 0) == 1;
+    s->sideways = b->dim == 3 && mps__read_choice(b->c, node, "across", 0) == 1;
     const int k = s->sideways ? 2 : 0;
     const double x0 = s->lo[k], x1 = s->hi[k], y0 = s->lo[1], y1 = s->hi[1];
     if (2 * fmax(cut[0][0], cut[1][0]) > x1 - x0 || cut[0][1] + cut[1][1] > y1 - y0)
@@ -112,7 +112,7 @@ static void read_cylinder(build *b, const tree_node *map)
     s->radius = mps__read_number(b->c, node, "radius", NAN);
     s->length = mps__read_number(b->c, node, "length", 0);
     s->heads = mps__read_number(b->c, node, "heads", 0);
-    s->axis = mps__read_word(node, "axis", 0);
+    s->axis = mps__read_choice(b->c, node, "axis", 0);
     for (int d = 0; d < 3; d++) {
         const bool along = d == s->axis, up = d == 1;
         s->lo[d] = along || up ? 0 : -s->radius;
@@ -147,8 +147,8 @@ bool mps__build_stl(build *b, const tree_node *map, mps_stl *stl)
                       "the unit of the file is needed: 'unit: mm', or the length of a unit");
         return false;
     }
-    stl->scale = mps__read_unit(map, "unit", 1);
-    const int32_t up = mps__read_word(map, "up", 1);
+    stl->scale = mps__read_unit(b->c, map, "unit", 1);
+    const int32_t up = mps__read_choice(b->c, map, "up", 1);
     const bool turned = mps__read_numbers(b->c, map, "turn", 3, angle) > 0;
     if (turned && mps__tree_find(map, "up"))
         mps__case_say(b->c, mps__tree_find(map, "turn"), false, "give 'up' or 'turn', not both");
@@ -171,7 +171,7 @@ static void add_file(build *b, const tree_node *map)
     stl.dummy_layers = (int32_t)mps__read_number(b->c, map, "dummies", stl.dummy_layers);
     stl.container = 1;
     stl.open_side = side[b->tank.open];
-    const char *path = mps__read_file(b->c, map, "stl");
+    const char *path = mps__read_path(b->c, map, "stl");
     if (!path || !mps__build_try(b, mps_stl_add(b->sim, path, &stl, box), node, "tank")) return;
     memcpy(s->lo, box, sizeof s->lo);
     memcpy(s->hi, box + 3, sizeof s->hi);
@@ -235,7 +235,7 @@ void mps__build_tank(build *b)
     if (chosen < 0 && !mps__case_failed(b->c))
         mps__case_say(b->c, map, false, "tank: give size, polygon, cylinder, sphere or stl");
     if (mps__case_failed(b->c)) return;
-    b->tank.open = mps__read_word(map, "open", 0);
+    b->tank.open = mps__read_choice(b->c, map, "open", 0);
     read[chosen](b, map);
     if (chosen == 0) lay_about(b, map);
     if (chosen == 0) read_chamfer(b, map);
