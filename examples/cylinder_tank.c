@@ -25,12 +25,6 @@ static double shell(void *user, const double *x)
     return value * (1 - value) / slope;
 }
 
-static int under_water(void *user, const double *x)
-{
-    const cylinder_case *c = user;
-    return x[1] < c->level;
-}
-
 static void add_shell(driver *d, cylinder_case *c)
 {
     const double lo[] = {0, 0, -RADIUS}, hi[] = {STRAIGHT + 2 * END, 2 * RADIUS, RADIUS};
@@ -65,8 +59,11 @@ static void build(driver *d, cylinder_case *c)
         add_file(d, c);
     else
         add_shell(d, c);
-    c->level = c->lo[1] + FILL * (c->hi[1] - c->lo[1]) + 0.01 * d->dp;
-    driver_check(d, mps_fill_add(d->sim, 0, under_water, c, NULL), "water");
+    const double top[] = {c->hi[0], c->lo[1] + FILL * (c->hi[1] - c->lo[1]), c->hi[2]};
+    double built[6];
+    driver_check(d, mps_fill_level_add(d->sim, 0, c->lo, top, NULL, built), "water");
+    c->level = built[4];
+    driver_check_job(d, mps_job_level_set(d->job, c->level));
     tank_move(d, motion);
 }
 
@@ -75,10 +72,9 @@ static void add_columns(driver *d, const cylinder_case *c)
     const double x = 0.5 * (c->lo[0] + c->hi[0]), z = 0.5 * (c->lo[2] + c->hi[2]),
                  quarter = 0.25 * (c->hi[0] - c->lo[0]);
     const double foot[] = {x, c->lo[1] + d->dp, z}, left[] = {x - quarter, foot[1], z};
-    const double level = driver_top(d);
     driver_wall(d, "P_bottom", x, c->lo[1], z, 2 * d->dp);
-    driver_gauge_from(d, "eta_middle", foot, level);
-    driver_gauge_from(d, "eta_left", left, level);
+    driver_gauge_from(d, "eta_middle", foot, c->level);
+    driver_gauge_from(d, "eta_left", left, c->level);
     driver_force(d, "F_x", "tank", 0);
     driver_force(d, "F_y", "tank", 1);
 }

@@ -15,9 +15,9 @@ static void add_columns(driver *d, const tank_case *c)
     double level = c->level, dp = d->dp, top = floor(c->plate.top / dp + 1e-6) * dp,
            middle = c->size[0] / 2;
     const double on_baffle[] = {middle, top, 0};
-    driver_gauge(d, "eta_a", middle - 0.275, 0, level);
+    driver_gauge(d, "eta_a", 0.01, 0, level);
     driver_gauge_from(d, "eta_b", on_baffle, level);
-    driver_gauge(d, "eta_c", middle + 0.275, 0, level);
+    driver_gauge(d, "eta_c", 0.56, 0, level);
 }
 
 int main(int argc, char **argv)

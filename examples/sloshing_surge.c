@@ -15,7 +15,7 @@ static void add_columns(driver *d, const tank_case *c)
 {
     static const char *const name[] = {"P1", "P2", "P3", "P4", "P5"};
     double level = c->level, dp = d->dp;
-    for (int i = 0; i < 5; i++) driver_wall(d, name[i], 0, 0.05 * (i + 1), 0, 0);
+    for (int i = 0; i < 5; i++) driver_wall(d, name[i], 0, (i + 1) / 20.0, 0, 0);
     driver_gauge(d, "eta_left", dp, 0, level);
     driver_gauge(d, "eta_right", c->size[0] - dp, 0, level);
     if (tank_moves_as_given(d, c)) driver_marks(d, "crests, FNPF", "m", 5, CREST_T, CREST);

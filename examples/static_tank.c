@@ -18,7 +18,7 @@ static void add_columns(driver *d)
 {
     static const char *const name[] = {"P1", "P2", "P3"};
     double level = driver_top(d), middle = SIZE[d->dim - 2][2] / 2;
-    for (int i = 0; i < 3; i++) driver_wall(d, name[i], 0, 0.05 * (i + 1), middle, 0);
+    for (int i = 0; i < 3; i++) driver_wall(d, name[i], 0, (i + 1) / 20.0, middle, 0);
     driver_gauge(d, "eta_left", d->dp, middle, level);
 }
 

@@ -289,8 +289,7 @@ void mps__build_motion(build *b)
     const bool file = mps__tree_find(map, "file") != NULL;
     b->until = mps__read_number(b->c, mps__tree_find(b->root, "run"), "until", NAN);
     m->dim = b->dim;
-    m->centre[2] = mps__build_middle(b);
-    mps__read_numbers(b->c, map, "centre", 3, m->centre);
+    if (mps__read_numbers(b->c, map, "centre", 3, m->centre) == 2) m->centre[2] = mps__build_middle(b);
     read_ship(b, m, map);
     for (int32_t d = 0; d < MOTION_DEGREES && !mps__case_failed(b->c); d++)
         read_degree(b, m, map, d);
