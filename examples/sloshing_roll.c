@@ -11,7 +11,7 @@ static const struct {
 } LIQUID[] = {{998, 8.94e-4}, {900, 0.045}};
 
 static const double SIZE[] = {0.9, 0.508, 0.062}, DEPTH = 0.093, CYCLES = 0.85, DEGREES = 4,
-                    PI = 3.14159265358979;
+                    PI = 3.14159265358979323846;
 
 /* Period of the longest wave of a tank of this length, by linear theory. */
 static double natural_period(double gravity)
