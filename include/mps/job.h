@@ -164,7 +164,7 @@ typedef struct mps_job_config {
 MPS_API mps_status mps_job_config_init(mps_job_config *config, size_t size);
 
 /** Make the folder and lock it against other programs until mps_job_destroy(). Nothing in it is
- *  changed yet.
+ *  changed yet. The lock holds between programs: one program must not have two jobs in a folder.
  *  @param job  out: the job, or NULL on failure
  *
  *  | error | reason |

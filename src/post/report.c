@@ -302,10 +302,9 @@ static void html_picture(FILE *out, const report *r, const char *name, double t)
 
 static void report_write(FILE *out, const report *r, const plots *all)
 {
-    fprintf(out,
-            "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>%s</title>\n",
-            r->name);
-    fputs("<style>body{font:15px sans-serif;color:#222;max-width:1120px;margin:2em auto;padding:0 "
+    fputs("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>", out);
+    mps__svg_text(out, r->name);
+    fputs("</title>\n<style>body{font:15px sans-serif;color:#222;max-width:1120px;margin:2em auto;padding:0 "
           "1em}table{border-collapse:collapse}"
           "td{border-bottom:1px solid #ddd;padding:3px 18px 3px "
           "0}figure{margin:1.5em "
@@ -313,7 +312,9 @@ static void report_write(FILE *out, const report *r, const plots *all)
           "wrap;gap:4em}</style></"
           "head><body>\n",
           out);
-    fprintf(out, "<h1>%s</h1>\n<p>", r->name);
+    fputs("<h1>", out);
+    mps__svg_text(out, r->name);
+    fputs("</h1>\n<p>", out);
     mps__svg_text(out, r->title);
     fputs("</p>\n<div class=\"two\"><div>\n", out);
     html_rows(out, "Settings", r->setting, r->settings);

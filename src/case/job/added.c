@@ -188,14 +188,16 @@ mps_status mps_job_probe_add(mps_job *job, mps_sim *sim, const mps_probe *probe,
     if (status != MPS_OK) return status;
     status = add_probe(job, sim, probe, name, &id);
     if (status < 0) return status;
-    if (component < 0 || component >= mps_probe_size(sim, id))
-        return mps__job_refuse(job, MPS_E_ARG, "%s: component is %d, must be 0 to %d", name,
-                               (int)component, (int)mps_probe_size(sim, id) - 1);
+    const int32_t size = mps_probe_size(sim, id);
     mps_probe_info_init(&info, sizeof info);
-    status = mps_probe_info_get(sim, id, &info);
-    if (status < 0) return mps__job_refuse(job, status, "%s: %s", name, mps_sim_error(sim));
-    job_column *c = add_column(job, name, unit);
-    if (!c) return MPS_E_NOMEM;
+    mps_probe_info_get(sim, id, &info); /* it is there */
+    job_column *c = component >= 0 && component < size ? add_column(job, name, unit) : NULL;
+    if (!c) {
+        mps_probe_remove(sim, id);
+        if (component >= 0 && component < size) return MPS_E_NOMEM;
+        return mps__job_refuse(job, MPS_E_ARG, "%s: component is %d, must be 0 to %d", name,
+                               (int)component, (int)size - 1);
+    }
     c->probe = id;
     c->component = component;
     c->zero = zero;

@@ -115,7 +115,7 @@ static int32_t report(mps_job *job, mps_status status)
 
 int32_t mps__job_finish(mps_job *job, mps_status status, double wall_s, double cpu_s)
 {
-    const double begin = mps__clock();
+    const double begin = mps__progress_clock();
     last_checkpoint(job, status);
     for (int k = 0; k < job->figures; k++) {
         job_figure *f = &job->figure[k];
@@ -123,7 +123,7 @@ int32_t mps__job_finish(mps_job *job, mps_status status, double wall_s, double c
     }
     mps__drawing_end(job, status);
     if (mps__job_first(job)) close_tables(job);
-    job->totals.wall_s = wall_s + mps__clock() - begin;
+    job->totals.wall_s = wall_s + mps__progress_clock() - begin;
     job->totals.cpu_s = cpu_s;
     return mps__job_told(job, mps__job_first(job) ? report(job, status) : 0);
 }

@@ -182,6 +182,8 @@ static mps_status open_folder(mps_job *job)
     if (mps__job_first(job))
         status = mps__folder_open(&job->place, c->folder, c->resume || c->overwrite, job->error,
                                   sizeof job->error);
+    else
+        snprintf(job->place.path, sizeof job->place.path, "%s", c->folder); /* it reads there */
     if (status != MPS_OK) job->code = MPS_EXIT_USAGE;
     return mps__job_agree(job) ? MPS_OK : status != MPS_OK ? status : MPS_E_RANKS;
 }

@@ -7,7 +7,7 @@
 #include <time.h>
 #include <unistd.h>
 
-double mps__clock(void)
+double mps__progress_clock(void)
 {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
@@ -21,7 +21,7 @@ void mps__progress_begin(progress *p, double t_end, int64_t particles, bool term
     *p = (progress){
         .terminal = terminal && isatty(2) && !dumb, .t_end = t_end, .particles = particles};
     p->colour = p->terminal && !(no_colour && no_colour[0]);
-    p->start = p->shown = mps__clock();
+    p->start = p->shown = mps__progress_clock();
 }
 
 void mps__progress_from(progress *p, double t, int64_t steps)
@@ -43,7 +43,7 @@ static void progress_time(char *text, size_t size, double seconds)
 
 bool mps__progress_step(progress *p, const mps_step_info *info, char *text, size_t size)
 {
-    double now = mps__clock(), interval = p->terminal ? 0.1 : 10;
+    double now = mps__progress_clock(), interval = p->terminal ? 0.1 : 10;
     if (now - p->shown < interval) return false;
     double rate = (double)(info->step - p->steps_shown) * (double)p->particles / (now - p->shown);
     /* a tenth of a second is only a few steps */

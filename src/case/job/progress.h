@@ -19,7 +19,7 @@ typedef struct progress {
 } progress;
 
 /* Wall clock, monotonic [s]. */
-double mps__clock(void);
+double mps__progress_clock(void);
 /* @param terminal  stderr may be a terminal, and lines go there */
 void mps__progress_begin(progress *p, double t_end, int64_t particles, bool terminal);
 /* The run goes on from here: what was computed before took no time. */

@@ -63,7 +63,7 @@ static void add_up(mps_job *job, const mps_step_info *info, const double *row)
     job_totals *s = &job->totals;
     mps__resume_add_step(job, row);
     s->steps_here++;
-    s->step_s += mps__clock() - job->step_end;
+    s->step_s += mps__progress_clock() - job->step_end;
     for (int k = 0; k < MPS_STAGE_COUNT; k++) s->seconds[k] += info->seconds[k];
 }
 
@@ -118,14 +118,14 @@ static int monitor(void *user, mps_sim *sim, const mps_step_info *info)
 {
     mps_job *job = user;
     (void)sim;
-    const double begin = mps__clock();
+    const double begin = mps__progress_clock();
     const int due = mps__job_told(job, mps__job_first(job) ? take_step(job, info) : 0);
     if (job->config.trace) mps__trace_step(job, info->t, info->dt);
     if (due & DUE_SAMPLE) mps__job_sample(job, info->t);
     mps__drawing_do(job, info->t, due);
     if (due & DUE_CHECKPOINT) mps__resume_save(job);
     if (mps__job_first(job)) show_progress(job, info);
-    job->step_end = mps__clock();
+    job->step_end = mps__progress_clock();
     job->totals.output_s += job->step_end - begin;
     return agree_to_stop(job);
 }
@@ -195,19 +195,20 @@ static double cpu_clock(void)
 /* Step to the end, when all is open. */
 static int32_t step(mps_job *job)
 {
-    const double wall = mps__clock(), cpu = cpu_clock();
+    const double wall = mps__progress_clock(), cpu = cpu_clock();
     mps_status status = MPS_W_STOPPED;
     handlers before;
     begin(job);
     catch_signals(job, &before);
-    job->step_end = mps__clock();
+    job->step_end = mps__progress_clock();
     job->output_failed = mps__job_most(job, job->output_failed) > 0;
     if (!job->output_failed)
         status = agree_on(job, mps_run(job->sim, job->config.t_end, monitor, job));
     if (status < 0) snprintf(job->error, sizeof job->error, "%s", mps_sim_error(job->sim));
     const char *clear = mps__progress_clear(&job->progress);
     if (clear[0]) mps__job_show(job, MPS_JOB_PROGRESS, clear);
-    const int32_t code = mps__job_finish(job, status, mps__clock() - wall, cpu_clock() - cpu);
+    const int32_t code = mps__job_finish(job, status, mps__progress_clock() - wall,
+                                         cpu_clock() - cpu);
     release_signals(&before);
     return code;
 }
