@@ -26,8 +26,7 @@ int verb_check(const choices *c)
     const mps_status status = mps_case_check(tank, &text, &sketch);
     if (mps_case_message_count(tank) > before) cli_print_messages(tank);
     if (status != MPS_OK) {
-        if (status != MPS_E_ARG)
-            fprintf(stderr, "mps %s: %s\n", c->verb, mps_status_text(status));
+        if (status != MPS_E_ARG) fprintf(stderr, "mps %s: %s\n", c->verb, mps_status_text(status));
         mps_case_destroy(tank);
         return status == MPS_E_ARG ? MPS_EXIT_USAGE : MPS_EXIT_FAILED;
     }

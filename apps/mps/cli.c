@@ -22,14 +22,23 @@ enum { OPTIONS = 8, THREADS_MOST = 1024 };
 static void make_table(choices *c, option *table)
 {
     const option all[OPTIONS] = {
-        {HAS_SET, "--set", 's', "PATH=VALUE", "change a value of the case; may be repeated", OPTION_SET, NULL},
-        {HAS_OUT, "--out", 'o', "PLACE", "folder or file of the outputs; default: the name of the case", OPTION_TEXT, (void *)&c->out},
-        {HAS_THREADS, "--threads", 'j', "N", "threads; results do not depend on them", OPTION_COUNT, &c->threads},
-        {HAS_OVERWRITE, "--overwrite", 0, NULL, "replace what is there", OPTION_FLAG, &c->overwrite},
-        {HAS_RESUME, "--resume", 0, NULL, "continue from the checkpoint in the folder", OPTION_FLAG, &c->resume},
-        {HAS_QUIET, "--quiet", 'q', NULL, "no progress, no messages but of failures", OPTION_FLAG, &c->quiet},
-        {HAS_PROFILE, "--profile", 0, NULL, "print what each pass of the steps costs", OPTION_FLAG, &c->profile},
-        {HAS_MPI, "--mpi", 0, NULL, "one run on the ranks that mpirun starts", OPTION_FLAG, &c->mpi}};
+        {HAS_SET, "--set", 's', "PATH=VALUE", "change a value of the case; may be repeated",
+         OPTION_SET, NULL},
+        {HAS_OUT, "--out", 'o', "PLACE",
+         "folder or file of the outputs; default: the name of the case", OPTION_TEXT,
+         (void *)&c->out},
+        {HAS_THREADS, "--threads", 'j', "N", "threads; results do not depend on them", OPTION_COUNT,
+         &c->threads},
+        {HAS_OVERWRITE, "--overwrite", 0, NULL, "replace what is there", OPTION_FLAG,
+         &c->overwrite},
+        {HAS_RESUME, "--resume", 0, NULL, "continue from the checkpoint in the folder", OPTION_FLAG,
+         &c->resume},
+        {HAS_QUIET, "--quiet", 'q', NULL, "no progress, no messages but of failures", OPTION_FLAG,
+         &c->quiet},
+        {HAS_PROFILE, "--profile", 0, NULL, "print what each pass of the steps costs", OPTION_FLAG,
+         &c->profile},
+        {HAS_MPI, "--mpi", 0, NULL, "one run on the ranks that mpirun starts", OPTION_FLAG,
+         &c->mpi}};
     memcpy(table, all, sizeof all);
 }
 
@@ -144,7 +153,8 @@ void cli_stem(const char *path, char *out, size_t size)
 {
     const char *slash = strrchr(path, '/'), *begin = slash ? slash + 1 : path,
                *dot = strrchr(begin, '.');
-    snprintf(out, size, "%.*s", (int)(dot && dot > begin ? dot - begin : (int)strlen(begin)), begin);
+    snprintf(out, size, "%.*s", (int)(dot && dot > begin ? dot - begin : (int)strlen(begin)),
+             begin);
 }
 
 void cli_print_messages(const mps_case *c)

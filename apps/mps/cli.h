@@ -13,10 +13,10 @@ enum { CLI_SETS = 64, CLI_FILES = 64 };
 typedef struct choices {
     const char *program, *verb;
     int32_t files, sets;
-    const char *file[CLI_FILES];      /* arguments that are no options */
-    const char *set[CLI_SETS + 2];    /* "path=value" */
-    const char *out;                  /* NULL: as the verb has it */
-    int32_t threads;                  /* 0: as the case says */
+    const char *file[CLI_FILES];   /* arguments that are no options */
+    const char *set[CLI_SETS + 2]; /* "path=value" */
+    const char *out;               /* NULL: as the verb has it */
+    int32_t threads;               /* 0: as the case says */
     bool overwrite, resume, quiet, profile, mpi;
     char command[1024]; /* the whole line */
 } choices;

@@ -59,7 +59,8 @@ static bool attribute(const char *text, const char *name, char *out, size_t size
 static bool tell_frame(const head *h)
 {
     char points[32], name[64];
-    if (!strstr(h->text, "<VTKFile") || !attribute(h->text, "NumberOfPoints", points, sizeof points))
+    if (!strstr(h->text, "<VTKFile") ||
+        !attribute(h->text, "NumberOfPoints", points, sizeof points))
         return false;
     printf("frame of particles for ParaView, %s particles, %lld bytes\n", points, h->size);
     for (const char *at = h->text; (at = strstr(at, "<DataArray")) != NULL; at++)
@@ -77,7 +78,8 @@ static bool tell_series(const head *h)
 static bool tell_page(const head *h)
 {
     if (!strstr(h->text, "<!DOCTYPE html") && !strstr(h->text, "<html")) return false;
-    printf("page, %lld bytes; open it in a browser; 'mps run' runs the case that it carries\n", h->size);
+    printf("page, %lld bytes; open it in a browser; 'mps run' runs the case that it carries\n",
+           h->size);
     return true;
 }
 
@@ -153,8 +155,7 @@ int verb_info(const choices *c)
     struct stat status;
     h.path = c->file[0];
     if (stat(h.path, &status) != 0 || !S_ISREG(status.st_mode) || !(h.file = fopen(h.path, "rb"))) {
-        fprintf(stderr, "mps info: %s: %s\n", h.path,
-                errno ? strerror(errno) : "is no file");
+        fprintf(stderr, "mps info: %s: %s\n", h.path, errno ? strerror(errno) : "is no file");
         return MPS_EXIT_USAGE;
     }
     h.size = (long long)status.st_size;

@@ -33,7 +33,8 @@ int verb_init(const choices *c)
         if (strcmp(s->name, c->file[0]) != 0) continue;
         snprintf(path, sizeof path, "%s%s", s->name, strchr(s->name, '.') ? "" : ".yaml");
         int code = write_new(c, c->out ? c->out : path, s->text);
-        for (const start *t = starts; t->name && code == MPS_EXIT_OK; t++) /* tables that it names */
+        for (const start *t = starts; t->name && code == MPS_EXIT_OK;
+             t++) /* tables that it names */
             if (t != s && strchr(t->name, '.') && strstr(s->text, t->name))
                 code = write_new(c, t->name, t->text);
         return code;

@@ -9,8 +9,10 @@
 #include <string.h>
 
 static const char RUN_TEXT[] =
-    "Writes probes.csv, summary.json, frames.pvd with frames/, pictures and report.html into the folder.\n"
-    "A folder with an earlier run is refused unless --overwrite or --resume is given, and so is one\n"
+    "Writes probes.csv, summary.json, frames.pvd with frames/, pictures and report.html into the "
+    "folder.\n"
+    "A folder with an earlier run is refused unless --overwrite or --resume is given, and so is "
+    "one\n"
     "that another run is writing to.\n"
     "Ctrl-C (or SIGTERM, SIGHUP) ends the run after its step with a checkpoint; 'mps resume DIR'\n"
     "continues from it, also to a later end: --set run.until='10 s'.\n"
@@ -19,27 +21,30 @@ static const char RUN_TEXT[] =
 
 static const verb VERBS[] = {
     {"run", "CASE", "Run a case: a YAML file, or a report.html with its case.", 1, 1,
-     HAS_SET | HAS_OUT | HAS_THREADS | HAS_OVERWRITE | HAS_RESUME | HAS_QUIET | HAS_PROFILE | HAS_MPI,
+     HAS_SET | HAS_OUT | HAS_THREADS | HAS_OVERWRITE | HAS_RESUME | HAS_QUIET | HAS_PROFILE |
+         HAS_MPI,
      verb_run, RUN_TEXT},
     {"resume", "DIR", "Continue the run in a folder from its checkpoint.", 1, 1,
      HAS_SET | HAS_THREADS | HAS_QUIET | HAS_PROFILE | HAS_MPI, verb_resume, NULL},
-    {"check", "CASE", "Say what a case amounts to, without running it, and draw tank and sensors as SVG.",
-     1, 1, HAS_SET | HAS_OUT | HAS_QUIET, verb_check, NULL},
-    {"init", "NAME", "Write a commented case to start from into NAME.yaml; 'mps list cases' shows the names.",
-     1, 1, HAS_OUT | HAS_OVERWRITE, verb_init, NULL},
+    {"check", "CASE",
+     "Say what a case amounts to, without running it, and draw tank and sensors as SVG.", 1, 1,
+     HAS_SET | HAS_OUT | HAS_QUIET, verb_check, NULL},
+    {"init", "NAME",
+     "Write a commented case to start from into NAME.yaml; 'mps list cases' shows the names.", 1, 1,
+     HAS_OUT | HAS_OVERWRITE, verb_init, NULL},
     {"list", "[cases|keys|models|settings|solvers|units|measures]", "List what there is.", 0, 1, 0,
      verb_list, NULL},
     {"info", "FILE", "Say what a file is: case, checkpoint, frame, table, page, surface.", 1, 1, 0,
      verb_info, NULL},
-    {"schema", "", "Print the JSON Schema of case files, for editors.", 0, 0, 0, verb_schema, NULL}};
+    {"schema", "", "Print the JSON Schema of case files, for editors.", 0, 0, 0, verb_schema,
+     NULL}};
 
 enum { VERB_COUNT = sizeof VERBS / sizeof *VERBS };
 
 static void print_all(FILE *out)
 {
     fprintf(out, "usage: mps VERB ...\n\n");
-    for (int i = 0; i < VERB_COUNT; i++)
-        fprintf(out, "  %-8s %s\n", VERBS[i].name, VERBS[i].help);
+    for (int i = 0; i < VERB_COUNT; i++) fprintf(out, "  %-8s %s\n", VERBS[i].name, VERBS[i].help);
     fprintf(out, "\n'mps VERB --help' explains a verb. 'mps --version' prints the version.\n");
 }
 

@@ -9,11 +9,11 @@
 enum { TIMES_MOST = 24 };
 
 /* All before the job: its end may be in units of T1, which the liquid as filled tells. */
-static void build_simulation(build *b, const mps_job_config *options)
+void mps__build_simulation(build *b, const mps_job_config *options)
 {
-    static void (*const part[])(build *) = {
-        mps__build_tank,  mps__build_solids, mps__build_phases, mps__build_fills,
-        mps__build_modes, mps__build_motion, mps__build_time};
+    static void (*const part[])(build *) = {mps__build_tank,  mps__build_solids, mps__build_phases,
+                                            mps__build_fills, mps__build_modes,  mps__build_motion,
+                                            mps__build_time};
     b->root = mps__case_root(b->c);
     b->dim = (int32_t)mps__read_number(b->c, b->root, "dim", 2);
     mps__case_scale_set(b->c, (read_scale){NAN, NAN, NAN});
@@ -27,12 +27,22 @@ static void build_simulation(build *b, const mps_job_config *options)
         if (b->sim && b->status == MPS_OK && !mps__case_failed(b->c)) part[i](b);
 }
 
+/* Statistics are made from the folder of the run, sweeps by the program. */
 static void build_columns(build *b)
 {
+    static const char *const others[] = {"mps",   "title",   "base",  "set",
+                                         "sweep", "collect", "output"};
+    char path[PATH_ROOM];
     mps__build_sensors(b);
     mps__build_references(b);
     mps__build_inputs(b);
-    if (b->job && !isnan(b->level) && mps__build_filled(b)) mps_job_level_set(b->job, b->level);
+    if (b->job && mps__build_filled(b)) mps_job_level_set(b->job, b->level);
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        mps__read_all(mps__tree_find(b->root, others[i]));
+    const tree_node *unread = mps__case_failed(b->c) ? NULL : mps__case_unread(b->c);
+    if (unread)
+        mps__case_say(b->c, unread, false, "'%s' has no effect here; remove it",
+                      mps__tree_path(unread, path, sizeof path));
 }
 
 /* A level was asked for, by `depth`; else the job takes that of the highest particle. */
@@ -66,19 +76,13 @@ static void model_of(const build *b, char *text, size_t size)
 }
 
 /* What the program says, and what the case says. */
-static mps_status create_job(build *b, const mps_job_config *options)
+static void read_config(build *b, mps_job_config *out, double *times)
 {
     const tree_node *run = mps__tree_find(b->root, "run"),
                     *output = mps__tree_find(b->root, "output");
-    double times[TIMES_MOST];
-    char name[BUILD_TEXT], model[2 * BUILD_TEXT];
-    mps_job_config config = *options;
-    name_of(b->c, name, sizeof name);
-    model_of(b, model, sizeof model);
-    config.name = config.name ? config.name : name;
+    mps_job_config config = *out;
     config.title = mps__read_text(b->c, b->root, "title", config.title);
     config.text = mps_case_text(b->c);
-    config.model = model;
     config.t_end = b->until;
     config.gravity = b->gravity;
     const double rate = mps__read_number(b->c, output, "rate", 0);
@@ -93,9 +97,21 @@ static mps_status create_job(build *b, const mps_job_config *options)
     config.profile = config.profile || mps__read_flag(b->c, output, "profile", false);
     config.trace = config.trace || mps__read_flag(b->c, output, "trace", false);
     config.threads = (int32_t)mps__read_number(b->c, run, "threads", 2);
-    config.page_bytes =
-        (int64_t)mps__read_number(b->c, output, "page", (double)config.page_bytes);
+    config.page_bytes = (int64_t)mps__read_number(b->c, output, "page", (double)config.page_bytes);
     if (config.page_bytes == 0) config.report = 0;
+    *out = config;
+}
+
+static mps_status create_job(build *b, const mps_job_config *options)
+{
+    double times[TIMES_MOST];
+    char name[BUILD_TEXT], model[2 * BUILD_TEXT];
+    mps_job_config config = *options;
+    name_of(b->c, name, sizeof name);
+    model_of(b, model, sizeof model);
+    config.name = config.name ? config.name : name;
+    config.model = model;
+    read_config(b, &config, times);
     return mps__case_failed(b->c) ? MPS_E_ARG : mps_job_create(&config, &b->job);
 }
 
@@ -121,7 +137,7 @@ mps_status mps_case_job(mps_case *c, const mps_job_config *options, mps_job **jo
     if (!c || !options || !job || !sim || mps__case_failed(c)) return MPS_E_ARG;
     build *b = begin(c);
     if (!b) return MPS_E_NOMEM;
-    build_simulation(b, options);
+    mps__build_simulation(b, options);
     mps_status status = b->status;
     if (status == MPS_OK) status = mps__case_failed(c) ? MPS_E_ARG : create_job(b, options);
     if (status == MPS_OK) {
@@ -148,8 +164,14 @@ mps_status mps_case_check(mps_case *c, char **text, char **sketch)
     if (!c || !text || !sketch || mps__case_failed(c)) return MPS_E_ARG;
     build *b = begin(c);
     if (!b) return MPS_E_NOMEM;
-    build_simulation(b, NULL);
-    if (b->sim && b->status == MPS_OK && !mps__case_failed(c)) build_columns(b);
+    mps__build_simulation(b, NULL);
+    if (b->sim && b->status == MPS_OK && !mps__case_failed(c)) {
+        double times[TIMES_MOST];
+        mps_job_config config;
+        mps_job_config_init(&config, sizeof config);
+        read_config(b, &config, times);
+        build_columns(b);
+    }
     mps_status status = b->status < 0 ? b->status : mps__case_failed(c) ? MPS_E_ARG : MPS_OK;
     if (status == MPS_OK) *sketch = mps__sketch_write(b);
     if (status == MPS_OK) *text = mps__check_write(b);

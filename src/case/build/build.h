@@ -46,7 +46,13 @@ typedef struct build_solid {
     double end[2][3];
 } build_solid;
 
-typedef enum sensor_kind { SENSOR_WALL, SENSOR_FLUID, SENSOR_GAUGE, SENSOR_FORCE, SENSOR_MEASURE } sensor_kind;
+typedef enum sensor_kind {
+    SENSOR_WALL,
+    SENSOR_FLUID,
+    SENSOR_GAUGE,
+    SENSOR_FORCE,
+    SENSOR_MEASURE
+} sensor_kind;
 
 /* A column, for the sketch and the check. */
 typedef struct build_sensor {
@@ -100,6 +106,9 @@ bool mps__build_try(build *b, mps_status status, const tree_node *at, const char
 /* Memory that lives as long as the case; NULL after a message. */
 void *mps__build_alloc(build *b, size_t size);
 
+/* All but the columns. The case has messages where something was refused, or status is negative; the simulation is the caller's. */
+void mps__build_simulation(build *b, const mps_job_config *options);
+
 /* In the order of calls. Each returns at once where there are errors. */
 void mps__build_fluids_read(build *b);
 void mps__build_open(build *b, const mps_job_config *options);
@@ -120,7 +129,8 @@ char *mps__check_write(build *b);
 char *mps__sketch_write(build *b);
 
 /* Points of a list, or one point; z is `z` where two numbers are given. @return how many */
-int32_t mps__build_points(build *b, const tree_node *node, double z, int32_t most, double (*out)[3]);
+int32_t mps__build_points(build *b, const tree_node *node, double z, int32_t most,
+                          double (*out)[3]);
 /* A fluid by its name; -1 after a message. */
 int32_t mps__build_phase(build *b, const tree_node *at, const char *name);
 /* How to turn a file with this axis up; angles for mps_stl.rotation. */

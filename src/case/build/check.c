@@ -57,7 +57,8 @@ static void write_tank(const writer *w, const build *b)
     if (b->dim == 3) fprintf(w->file, " x %.4g", t->hi[2] - t->lo[2]);
     fprintf(w->file, " m, lower corner ");
     write_place(w, b, t->lo);
-    if (!b->tank.file) fprintf(w->file, ", %.5g %s inside", mps__form_volume(t), b->dim == 3 ? "m3" : "m2");
+    if (!b->tank.file)
+        fprintf(w->file, ", %.5g %s inside", mps__form_volume(t), b->dim == 3 ? "m3" : "m2");
     for (int d = 0; d < b->dim && b->tank.built[0] > 0; d++)
         if (fabs(b->tank.built[d] - b->tank.size[d]) > 1e-6 * b->dp)
             fprintf(w->file, "; built %.5g m along %c", b->tank.built[d], "xyz"[d]);
@@ -211,10 +212,11 @@ static void write_cost(const writer *w, build *b)
     fprintf(w->file, ", steps of about %.2g s\n", dt);
     heading(w, "cost");
     getrusage(RUSAGE_SELF, &usage);
-    fprintf(w->file,
-            "about %.2g s of wall clock (%.2g s a step, %d steps measured; impacts take more), %.0f "
-            "MB of memory\n",
-            took * b->until / dt, took, STEPS, (double)usage.ru_maxrss / 1024);
+    fprintf(
+        w->file,
+        "about %.2g s of wall clock (%.2g s a step, %d steps measured; impacts take more), %.0f "
+        "MB of memory\n",
+        took * b->until / dt, took, STEPS, (double)usage.ru_maxrss / 1024);
 }
 
 char *mps__check_write(build *b)

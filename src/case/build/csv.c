@@ -180,10 +180,10 @@ double mps__csv_factor(mps_case *c, const tree_node *at, const csv *t, int32_t c
     const mps__unit *u = text[0] ? mps__unit_find(text, strlen(text)) : NULL;
     mps__kinds_name(kinds, wanted, sizeof wanted);
     if (!text[0])
-        mps__case_say(c, at, false,
-                      "%s: column '%s' has no unit; write it into the header, e.g. '%s[%s]': %s is wanted",
-                      t->path, t->name[column], t->name[column], kinds & UNIT_ANGLE ? "deg" : "s",
-                      wanted);
+        mps__case_say(
+            c, at, false,
+            "%s: column '%s' has no unit; write it into the header, e.g. '%s[%s]': %s is wanted",
+            t->path, t->name[column], t->name[column], kinds & UNIT_ANGLE ? "deg" : "s", wanted);
     else if (!u || !(u->kinds & kinds) || u->scale != SCALE_NONE)
         mps__case_say(c, at, false, "%s: column '%s' has the unit '%s', %s is wanted", t->path,
                       t->name[column], text, wanted);

@@ -12,8 +12,8 @@ typedef struct csv {
     int64_t rows;
     int32_t columns;
     char name[CSV_COLUMNS][CSV_NAME], unit[CSV_COLUMNS][CSV_NAME];
-    double *value;   /* [rows*columns] as written */
-    int64_t *line;   /* [rows] in the file */
+    double *value; /* [rows*columns] as written */
+    int64_t *line; /* [rows] in the file */
 } csv;
 
 /* Read a file; where that fails there is a message at `at`. Free it in any case. */

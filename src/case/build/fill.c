@@ -71,8 +71,8 @@ static void fill_standing(filling *f)
 {
     build *b = f->b;
     const form *t = &b->tank.form;
-    const double amplitude =
-        mps__read_number(b->c, mps__tree_find(f->map, "start"), "standing_wave", NAN);
+    const double amplitude = mps__read_number(b->c, mps__tree_find(f->map, "start"),
+                                              "standing_wave", NAN);
     if (mps__case_failed(b->c)) return;
     if (b->dim == 3 || t->kind != FORM_BOX || b->tank.file || t->lo[0] != 0 || t->lo[1] != 0)
         say(f, "start", "a standing wave is for rectangular tanks in 2-D that begin at x = y = 0");
@@ -213,8 +213,8 @@ static bool read_drop(filling *f, drop *o)
     build *b = f->b;
     form s = {.kind = FORM_BALL, .dim = b->dim};
     double sigma = 0;
-    const double share =
-        mps__read_number(b->c, mps__tree_find(f->map, "start"), "oscillation", NAN);
+    const double share = mps__read_number(b->c, mps__tree_find(f->map, "start"), "oscillation",
+                                          NAN);
     if (b->dim == 3 || b->fluids != 2 || !mps__tree_find(f->map, "sphere")) {
         say(f, "start", "an oscillation is for 'sphere' in 2-D and two fluids");
         return false;
@@ -225,8 +225,7 @@ static bool read_drop(filling *f, drop *o)
         return false;
     *o = (drop){{s.end[0][0], s.end[0][1]}, s.radius, 0};
     o->rate = share *
-              sqrt(6 * sigma /
-                   ((b->fluid[0].density + b->fluid[1].density) * pow(s.radius, 3)));
+              sqrt(6 * sigma / ((b->fluid[0].density + b->fluid[1].density) * pow(s.radius, 3)));
     return true;
 }
 

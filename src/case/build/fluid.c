@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const build_fluid KNOWN[] = {{"water", 1000, 1e-3, NAN, NULL}, {"air", 1.29, 1.5e-5, NAN, NULL}};
+static const build_fluid KNOWN[] = {{"water", 1000, 1e-3, NAN, NULL},
+                                    {"air", 1.29, 1.5e-5, NAN, NULL}};
 
 static const build_fluid *find_known(const char *name)
 {
@@ -87,7 +88,8 @@ void mps__build_fluids_read(build *b)
                       "'- air: rest' to fill, or take imps",
                       b->model);
     if (!b->several && b->fluids > 1)
-        mps__case_say(b->c, model, false, "model: '%s' is for one liquid, %d are filled in; mmps is for several",
+        mps__case_say(b->c, model, false,
+                      "model: '%s' is for one liquid, %d are filled in; mmps is for several",
                       b->model, (int)b->fluids);
 }
 
@@ -101,7 +103,8 @@ void mps__build_phases(build *b)
         phase.viscosity = f->viscosity;
         if (!mps__build_try(b, mps_phase_set(b->sim, i, &phase), f->at, f->name)) return;
     }
-    for (int32_t i = 0; i < b->fluids; i++) /* the tension of a liquid is that against all lighter ones */
+    for (int32_t i = 0; i < b->fluids;
+         i++) /* the tension of a liquid is that against all lighter ones */
         for (int32_t k = i + 1; k < b->fluids && !isnan(b->fluid[i].tension); k++)
             mps__build_try(b, mps_tension_set(b->sim, i, k, b->fluid[i].tension), b->fluid[i].at,
                            "tension");

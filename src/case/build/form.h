@@ -19,7 +19,7 @@ typedef struct form {
     int32_t points;
     double point[FORM_POINTS][2]; /* FORM_POLYGON, in order */
     bool sideways;                /* FORM_POLYGON: in the plane z, y; it reaches along x */
-    double end[2][3];              /* FORM_ROD; FORM_BALL: its centre is end[0] */
+    double end[2][3];             /* FORM_ROD; FORM_BALL: its centre is end[0] */
     double radius;
     int32_t axis;         /* FORM_TUBE */
     double length, heads; /* of its straight part, depth of a head [m]; heads 0: flat ends */

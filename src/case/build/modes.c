@@ -11,7 +11,7 @@
 
 /* The liquid as filled, phase 0. */
 typedef struct liquid {
-    int64_t count, surface; /* particles; of them within a spacing of the highest */
+    int64_t count, surface;   /* particles; of them within a spacing of the highest */
     double top, lo[3], hi[3]; /* of those at the surface */
 } liquid;
 

@@ -32,7 +32,8 @@ static double read_omega(build *b, const tree_node *node, const char *name)
 static double read_ramp(build *b, const tree_node *node, double omega)
 {
     const double value = mps__read_number(b->c, node, "ramp", 0);
-    return mps__read_is(b->c, node, "ramp", UNIT_NONE) && value > 0 ? value * 2 * acos(-1.0) / omega : value;
+    return mps__read_is(b->c, node, "ramp", UNIT_NONE) && value > 0 ? value * 2 * acos(-1.0) / omega
+                                                                    : value;
 }
 
 static void read_harmonic(build *b, build_motion *m, const tree_node *node, int32_t degree)
@@ -289,7 +290,8 @@ void mps__build_motion(build *b)
     const bool file = mps__tree_find(map, "file") != NULL;
     b->until = mps__read_number(b->c, mps__tree_find(b->root, "run"), "until", NAN);
     m->dim = b->dim;
-    if (mps__read_numbers(b->c, map, "centre", 3, m->centre) == 2) m->centre[2] = mps__build_middle(b);
+    if (mps__read_numbers(b->c, map, "centre", 3, m->centre) == 2)
+        m->centre[2] = mps__build_middle(b);
     read_ship(b, m, map);
     for (int32_t d = 0; d < MOTION_DEGREES && !mps__case_failed(b->c); d++)
         read_degree(b, m, map, d);
@@ -297,7 +299,8 @@ void mps__build_motion(build *b)
         mps__case_say(b->c, mps__tree_find(map, "file"), false,
                       "motion: give a file or degrees, not both");
     if (!file && m->count == 0 && !mps__case_failed(b->c))
-        mps__case_say(b->c, map, false, "motion: no degree is given: surge, sway, heave, roll, pitch, yaw, or file");
+        mps__case_say(b->c, map, false,
+                      "motion: no degree is given: surge, sway, heave, roll, pitch, yaw, or file");
     if (mps__case_failed(b->c) || (file && !mps__motion_file(b, m, map))) return;
     const int32_t start = mps__read_choice(b->c, map, "start", MPS_START_AT_REST);
     if (!mps__build_try(b, mps_motion_centre_set(b->sim, m->centre, start), map, "motion.centre"))

@@ -42,20 +42,20 @@ static bool choose(build *b, const tree_node *map, const csv *t, chosen *c)
                                                          : mps__csv_find(t, "time");
     if (c->time < 0) c->time = mps__csv_find(t, "t");
     if (c->time < 0) c->time = 0;
-    c->factor[0] =
-        mps__csv_factor(b->c, mps__tree_find(map, "file"), t, c->time, UNIT_TIME,
-                        mps__read_text(b->c, mps__tree_find(map, "units"), "time", NULL));
+    c->factor[0] = mps__csv_factor(
+        b->c, mps__tree_find(map, "file"), t, c->time, UNIT_TIME,
+        mps__read_text(b->c, mps__tree_find(map, "units"), "time", NULL));
     for (int32_t d = 0; d < MOTION_DEGREES; d++) {
         c->degree[d] = find_column(b, map, t, mps__degrees[d]);
         if (c->degree[d] < 0) continue;
         found++;
-        c->factor[1 + d] =
-            mps__csv_factor(b->c, at_of(map, mps__degrees[d]), t, c->degree[d],
-                            d < MPS_SHIP_ROLL ? UNIT_LENGTH : UNIT_ANGLE,
-                            mps__read_text(b->c, mps__tree_find(map, "units"), mps__degrees[d],
-                                           NULL));
+        c->factor[1 + d] = mps__csv_factor(
+            b->c, at_of(map, mps__degrees[d]), t, c->degree[d],
+            d < MPS_SHIP_ROLL ? UNIT_LENGTH : UNIT_ANGLE,
+            mps__read_text(b->c, mps__tree_find(map, "units"), mps__degrees[d], NULL));
         if (b->dim == 2 && d == MPS_SHIP_YAW)
-            mps__case_say(b->c, at_of(map, "yaw"), false, "yaw: there is none in 2-D; name the wanted degrees in 'columns'");
+            mps__case_say(b->c, at_of(map, "yaw"), false,
+                          "yaw: there is none in 2-D; name the wanted degrees in 'columns'");
     }
     if (!found && !mps__case_failed(b->c)) {
         char names[BUILD_TEXT];
@@ -80,16 +80,18 @@ static bool check_times(build *b, const tree_node *node, const csv *t, const bui
     const double until = b->until;
     for (int64_t i = 1; i < m->rows; i++)
         if (!(m->t[i] > m->t[i - 1])) {
-            mps__case_say(b->c, node, false, "%s:%lld: the time %g s is not later than that before it, %g s",
-                          t->path, (long long)t->line[i], m->t[i] + from, m->t[i - 1] + from);
+            mps__case_say(b->c, node, false,
+                          "%s:%lld: the time %g s is not later than that before it, %g s", t->path,
+                          (long long)t->line[i], m->t[i] + from, m->t[i - 1] + from);
             return false;
         }
     const double last = m->t[m->rows - 1];
     if (m->rows < 2 || m->t[0] > 0 || last < until * (1 - 1e-12)) {
-        mps__case_say(b->c, node, false,
-                      "motion.file: has times from %g s to %g s; the run takes %g s to %g s ('from' "
-                      "and run.until)",
-                      m->t[0] + from, last + from, from, from + until);
+        mps__case_say(
+            b->c, node, false,
+            "motion.file: has times from %g s to %g s; the run takes %g s to %g s ('from' "
+            "and run.until)",
+            m->t[0] + from, last + from, from, from + until);
         return false;
     }
     return true;

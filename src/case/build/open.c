@@ -93,8 +93,8 @@ static void use_solver(build *b, const tree_node *run)
     mps__build_try(b, mps_solver_use(b->sim, solver, preconditioner), at ? at : run, "run.solver");
     mps_solver_limits_init(&limits, sizeof limits);
     limits.tolerance = mps__read_number(b->c, run, "tolerance", limits.tolerance);
-    limits.max_iterations =
-        (int32_t)mps__read_number(b->c, run, "iterations", limits.max_iterations);
+    limits.max_iterations = (int32_t)mps__read_number(b->c, run, "iterations",
+                                                      limits.max_iterations);
     limits.divergence = mps__read_number(b->c, run, "divergence", limits.divergence);
     mps__build_try(b, mps_solver_limits_set(b->sim, &limits), run, "run");
 }

@@ -22,10 +22,10 @@ static void unit_of(uint64_t kinds, int32_t dim, char *out, size_t size)
     static const struct {
         uint64_t kind;
         const char *name[2];
-    } names[] = {{UNIT_PRESSURE, {"Pa", "Pa"}},  {UNIT_LENGTH, {"m", "m"}},
-                 {UNIT_VELOCITY, {"m/s", "m/s"}}, {UNIT_FORCE, {"N", "N"}},
+    } names[] = {{UNIT_PRESSURE, {"Pa", "Pa"}},    {UNIT_LENGTH, {"m", "m"}},
+                 {UNIT_VELOCITY, {"m/s", "m/s"}},  {UNIT_FORCE, {"N", "N"}},
                  {UNIT_STIFFNESS, {"N/m", "N/m"}}, {UNIT_MOMENT, {"N m", "N m"}},
-                 {UNIT_ANGLE, {"deg", "deg"}},   {UNIT_VOLUME, {"m3", "m3"}},
+                 {UNIT_ANGLE, {"deg", "deg"}},     {UNIT_VOLUME, {"m3", "m3"}},
                  {UNIT_AREA, {"m2", "m2"}}};
     out[0] = '\0';
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
@@ -88,8 +88,7 @@ static bool read_table(build *b, const tree_node *map, series *s)
                *unit = mps__read_text(b->c, map, "unit", NULL);
     bool good = path && mps__csv_read(b->c, node, path, &t) && read_columns(b, map, &t, column);
     const double times = good ? mps__csv_factor(b->c, node, &t, column[0], UNIT_TIME, NULL) : NAN;
-    const double factor =
-        good ? mps__csv_factor(b->c, node, &t, column[1], UNIT_ANY, unit) : NAN;
+    const double factor = good ? mps__csv_factor(b->c, node, &t, column[1], UNIT_ANY, unit) : NAN;
     if (good && !isnan(times) && !isnan(factor)) {
         const char *text = unit && unit[0] ? unit : t.unit[column[1]];
         const mps__unit *u = mps__unit_find(text, strlen(text));
@@ -170,24 +169,47 @@ static void add_input(build *b, const char *key, const char *value)
     if (b->job && mps_job_input_add(b->job, key, value) < 0) b->status = MPS_E_NOMEM;
 }
 
+/* Constants of the statistics in SI, for programs that read summary.json and know no T1. */
+static bool add_constant(build *b, const tree_node *node, const char *path)
+{
+    static const struct {
+        uint64_t kind;
+        const char *unit;
+    } units[] = {{UNIT_TIME, " s"}, {UNIT_PRESSURE, " Pa"}, {UNIT_FREQUENCY, " Hz"}};
+    char text[64];
+    const char *unit = "";
+    if (strncmp(path, "impacts.", 8) != 0 || !node->entry || node->entry->shape != SHAPE_NUMBERS)
+        return false;
+    const double value = mps__read_number(b->c, node->parent, node->key, NAN);
+    for (int i = 0; i < 3; i++)
+        if (node->entry->units & units[i].kind) unit = units[i].unit;
+    snprintf(text, sizeof text, "%.9g%s", value, unit);
+    add_input(b, path, text);
+    return true;
+}
+
 /* Each value of the tree under its path. */
 static void add_node(build *b, const tree_node *node)
 {
     char path[PATH_ROOM], text[2 * BUILD_TEXT];
     size_t used = 0;
+    mps__tree_path(node, path, sizeof path);
+    if (add_constant(b, node, path)) return;
+    if (strncmp(path, "impacts.", 8) == 0) mps__read_all(node);
     if (node->kind == TREE_TEXT) {
         add_input(b, mps__tree_path(node, path, sizeof path), node->text);
         return;
     }
     bool texts = node->kind == TREE_LIST && node->first;
-    for (const tree_node *at = node->first; at; at = at->next) texts = texts && at->kind == TREE_TEXT;
+    for (const tree_node *at = node->first; at; at = at->next)
+        texts = texts && at->kind == TREE_TEXT;
     if (!texts) {
         for (const tree_node *at = node->first; at; at = at->next) add_node(b, at);
         return;
     }
     for (const tree_node *at = node->first; at && used < sizeof text; at = at->next)
-        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", at == node->first ? "" : "; ",
-                                 at->text);
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s",
+                                 at == node->first ? "" : "; ", at->text);
     add_input(b, mps__tree_path(node, path, sizeof path), text);
 }
 

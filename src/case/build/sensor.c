@@ -74,8 +74,8 @@ bool mps__sensor_value(const sensing *s, const char *name, const char *unit, con
 {
     build *b = s->b;
     if (!b->job) return true;
-    const mps_status status =
-        mps_job_value_add(b->job, name, unit, about, MPS_JOB_PRESSURE, value, user);
+    const mps_status status = mps_job_value_add(b->job, name, unit, about, MPS_JOB_PRESSURE, value,
+                                                user);
     if (status < 0)
         mps__case_say(b->c, s->map, false, "sensors.%s: %s", name, mps_job_error(b->job));
     return status >= 0;
@@ -167,8 +167,7 @@ static void add_gauge(const sensing *s)
     if (phase >= 0) probe.phases = 1u << phase;
     if (isnan(b->level)) b->level = find_level(b);
     const double level = mps__read_number(b->c, s->map, "level", b->level);
-    if (!mps__case_failed(b->c))
-        mps__sensor_add(s, &probe, 0, level - probe.at[1], s->map->key);
+    if (!mps__case_failed(b->c)) mps__sensor_add(s, &probe, 0, level - probe.at[1], s->map->key);
 }
 
 /* Names of measures have '_' for blanks. */
@@ -225,9 +224,9 @@ static void add_sensor(build *b, const tree_node *map)
 {
     static const char *const kind[] = {"wall",  "panel", "row",    "pressure",
                                        "gauge", "force", "measure"};
-    static void (*const add[])(const sensing *) = {
-        add_wall, mps__sensor_panel, mps__sensor_row, add_fluid, add_gauge, mps__sensor_force,
-        add_measure};
+    static void (*const add[])(const sensing *) = {add_wall,   mps__sensor_panel, mps__sensor_row,
+                                                   add_fluid,  add_gauge,         mps__sensor_force,
+                                                   add_measure};
     const sensing s = {b, map};
     int chosen = -1;
     for (int i = 0; i < 7; i++) {

@@ -63,7 +63,8 @@ static void begin(const sensing *s, mps_probe *probe)
     mps_case *c = s->b->c;
     mps_probe_init(probe, sizeof *probe);
     probe->type = MPS_PROBE_WALL_PRESSURE;
-    probe->average = mps__read_number(c, mps__tree_find(s->b->root, "run"), "average", probe->average);
+    probe->average = mps__read_number(c, mps__tree_find(s->b->root, "run"), "average",
+                                      probe->average);
     probe->average = mps__read_number(c, s->map, "average", probe->average);
     probe->rate = mps__read_number(c, s->map, "rate", probe->rate);
     mps__read_numbers(c, s->map, "normal", 3, probe->normal);
@@ -76,8 +77,8 @@ static bool read_panel(const sensing *s, double *corner, double (*side)[3])
 {
     build *b = s->b;
     double x[4][3];
-    const int32_t count =
-        mps__build_points(b, mps__tree_find(s->map, "panel"), mps__build_middle(b), 4, x);
+    const int32_t count = mps__build_points(b, mps__tree_find(s->map, "panel"),
+                                            mps__build_middle(b), 4, x);
     if (mps__case_failed(b->c)) return false;
     if (count < 2 || (b->dim == 2 && count != 2)) {
         mps__sensor_say(s, "panel", b->dim == 2 ? "needs its two ends" : "needs its corners");
@@ -94,8 +95,9 @@ static bool read_panel(const sensing *s, double *corner, double (*side)[3])
         }
         if (b->dim == 3 && count == 2 && x[1][d] != x[0][d]) {
             if (used == 2) {
-                mps__sensor_say(s, "panel", "two points are opposite corners of a panel along the "
-                                            "axes; of an inclined one give three corners");
+                mps__sensor_say(s, "panel",
+                                "two points are opposite corners of a panel along the "
+                                "axes; of an inclined one give three corners");
                 return false;
             }
             side[used++][d] = x[1][d] - x[0][d];
@@ -162,8 +164,7 @@ void mps__sensor_row(const sensing *s)
     r->spacing = distance(x[0], x[1]) / cells;
     at = mps__build_alloc(b, (size_t)r->count * sizeof *at);
     for (int32_t i = 0; at && i < r->count; i++)
-        for (int d = 0; d < 3; d++)
-            at[i][d] = x[0][d] + (i + 0.5) / cells * (x[1][d] - x[0][d]);
+        for (int d = 0; d < 3; d++) at[i][d] = x[0][d] + (i + 0.5) / cells * (x[1][d] - x[0][d]);
     if (at && add_cells(s, &probe, at, r, false))
         mps__sensor_value(s, s->map->key, r->take == TAKE_PLACE ? "m" : "Pa", about[r->take],
                           row_value, r);
@@ -184,8 +185,7 @@ static double load_value(void *user, mps_sim *sim)
     double lab[6], load[6];
     mps_motion_state pose = {.struct_size = sizeof pose};
     if (mps_probe_read(sim, l->probe, lab) < 0 || mps_motion_state_get(sim, &pose) < 0) return NAN;
-    const mps_status status =
-        mps_ship_load_from_lab(&l->ship, &pose, l->axes, l->at, lab, load);
+    const mps_status status = mps_ship_load_from_lab(&l->ship, &pose, l->axes, l->at, lab, load);
     return status < 0 ? NAN : l->sign * load[l->component];
 }
 
@@ -207,14 +207,14 @@ static void add_ship_loads(const sensing *s, mps_probe *probe, int32_t chosen, i
         if (chosen > 0 && chosen - 1 != k) continue;
         ship_load *l = mps__build_alloc(b, sizeof *l);
         if (!l) return;
-        *l = (ship_load){b->motion->ship, id, axes - 1, k, {probe->at[0], probe->at[1], probe->at[2]}, 1};
+        *l = (ship_load){
+            b->motion->ship, id, axes - 1, k, {probe->at[0], probe->at[1], probe->at[2]}, 1};
         if (b->motion->flipped && k % 3 == 1) l->sign = -1;
         memcpy(l->ship.origin, probe->at, sizeof l->ship.origin);
         snprintf(text, sizeof text, "%s%s%s", s->map->key, chosen > 0 ? "" : "_",
                  chosen > 0 ? "" : name[k]);
         snprintf(about, sizeof about, "%s of the liquid, %s: along axes of the ship %s",
-                 k < 3 ? "Force" : "Moment", name[k],
-                 axes == 1 ? "at rest" : "that turn with it");
+                 k < 3 ? "Force" : "Moment", name[k], axes == 1 ? "at rest" : "that turn with it");
         if (!mps__sensor_value(s, text, k < 3 ? "N" : "N m", about, load_value, l)) return;
     }
 }
@@ -237,8 +237,7 @@ void mps__sensor_force(const sensing *s)
     mps_probe probe;
     begin(s, &probe);
     probe.type = MPS_PROBE_FORCE;
-    probe.part =
-        find_part(b, mps__read_text(b->c, s->map, "force", "all"), part, sizeof part);
+    probe.part = find_part(b, mps__read_text(b->c, s->map, "force", "all"), part, sizeof part);
     mps__read_numbers(b->c, s->map, "about", 3, probe.at);
     /* all, x, y, z, mx, my, mz */
     const int32_t chosen = mps__read_choice(b->c, s->map, "component", 0),

@@ -63,8 +63,8 @@ static bool mark(drawing *d)
             row >= d->rows || (b->dim == 3 && fabs(p[2] - middle) > 0.75 * reach))
             continue;
         uint8_t *cell = &d->cells[row * d->columns + column];
-        const uint8_t value =
-            kind.integers[i] == MPS_WALL ? WALL : (uint8_t)(1 + phase.integers[i]);
+        const uint8_t value = kind.integers[i] == MPS_WALL ? WALL
+                                                           : (uint8_t)(1 + phase.integers[i]);
         if (value > *cell) *cell = value;
     }
     mps_lease_end(b->sim, &phase);
@@ -80,7 +80,8 @@ static void draw_cells(const drawing *d)
     for (int32_t row = 0; row < d->rows; row++)
         for (int32_t from = 0, to; from < d->columns; from = to) {
             const uint8_t *cells = d->cells + row * d->columns, kind = cells[from];
-            for (to = from + 1; to < d->columns && cells[to] == kind; to++) {}
+            for (to = from + 1; to < d->columns && cells[to] == kind; to++) {
+            }
             if (kind == EMPTY) continue;
             fprintf(d->file, "<rect x='%.1f' y='%.1f' width='%.1f' height='%.1f' fill='%s'/>\n",
                     at_x(d, d->lo[0] + from * d->cell), at_y(d, d->lo[1] + (row + 1) * d->cell),
@@ -134,7 +135,9 @@ static void draw_mark(const drawing *d, const build_sensor *s)
 {
     const double x = at_x(d, s->at[0]), y = at_y(d, s->at[1]);
     if (s->kind == SENSOR_GAUGE)
-        fprintf(d->file, "<line x1='%.1f' y1='%.1f' x2='%.1f' y2='%.1f' stroke='#b00' stroke-dasharray='5 3'/>\n",
+        fprintf(d->file,
+                "<line x1='%.1f' y1='%.1f' x2='%.1f' y2='%.1f' stroke='#b00' stroke-dasharray='5 "
+                "3'/>\n",
                 x, y, x, at_y(d, d->b->tank.form.hi[1]));
     else
         fprintf(d->file, "<circle cx='%.1f' cy='%.1f' r='4' fill='#b00' stroke='#fff'/>\n", x, y);
@@ -144,7 +147,8 @@ static void draw_mark(const drawing *d, const build_sensor *s)
 static void draw_names(const drawing *d, bool right)
 {
     const build *b = d->b;
-    const double middle = 0.5 * (d->lo[0] + d->hi[0]), edge = right ? WIDTH - MARGIN + 14 : MARGIN - 14;
+    const double middle = 0.5 * (d->lo[0] + d->hi[0]),
+                 edge = right ? WIDTH - MARGIN + 14 : MARGIN - 14;
     double last = HEAD - LINE, before = INFINITY;
     for (;;) {
         const build_sensor *next = NULL; /* the highest below the one before */
@@ -161,10 +165,12 @@ static void draw_names(const drawing *d, bool right)
         before = top;
         const double y = fmax(last + LINE, at_y(d, next->at[1]));
         last = y;
-        fprintf(d->file, "<line x1='%.1f' y1='%.1f' x2='%.1f' y2='%.1f' stroke='#b00' stroke-width='0.5'/>\n",
-                at_x(d, next->at[0]), at_y(d, next->at[1]), edge, y);
-        fprintf(d->file, "<text x='%.1f' y='%.1f' text-anchor='%s'>", edge + (right ? 3 : -3), y + 4,
-                right ? "start" : "end");
+        fprintf(
+            d->file,
+            "<line x1='%.1f' y1='%.1f' x2='%.1f' y2='%.1f' stroke='#b00' stroke-width='0.5'/>\n",
+            at_x(d, next->at[0]), at_y(d, next->at[1]), edge, y);
+        fprintf(d->file, "<text x='%.1f' y='%.1f' text-anchor='%s'>", edge + (right ? 3 : -3),
+                y + 4, right ? "start" : "end");
         write_escaped(d->file, next->name);
         fprintf(d->file, "</text>\n");
     }
@@ -176,27 +182,33 @@ static void draw(const drawing *d)
 {
     const build *b = d->b;
     const double bottom = at_y(d, d->lo[1]), height = bottom + 60 + LINE * 2;
-    fprintf(d->file,
-            "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 %d %.0f' font-family='sans-serif' "
-            "font-size='12'>\n<rect width='100%%' height='100%%' fill='#fff'/>\n",
-            WIDTH, height);
+    fprintf(
+        d->file,
+        "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 %d %.0f' font-family='sans-serif' "
+        "font-size='12'>\n<rect width='100%%' height='100%%' fill='#fff'/>\n",
+        WIDTH, height);
     fprintf(d->file, "<text x='%d' y='20' font-size='14'>", MARGIN);
     write_escaped(d->file, mps__read_text(b->c, b->root, "title", ""));
     fprintf(d->file, "</text>\n");
     draw_cells(d);
     draw_outline(d);
     if (!isnan(b->level))
-        fprintf(d->file, "<line x1='%.1f' y1='%.1f' x2='%.1f' y2='%.1f' stroke='#0057a8' stroke-dasharray='2 3'/>\n",
+        fprintf(d->file,
+                "<line x1='%.1f' y1='%.1f' x2='%.1f' y2='%.1f' stroke='#0057a8' "
+                "stroke-dasharray='2 3'/>\n",
                 at_x(d, d->lo[0]), at_y(d, b->level), at_x(d, d->hi[0]), at_y(d, b->level));
     for (int32_t i = 0; i < b->sensors; i++)
         if (has_place(&b->sensor[i])) draw_mark(d, &b->sensor[i]);
     draw_names(d, false);
     draw_names(d, true);
     const form *t = &b->tank.form;
-    fprintf(d->file, "<text x='%.1f' y='%.1f' text-anchor='middle'>x: %.4g .. %.4g m, y: %.4g .. %.4g m%s</text>\n",
+    fprintf(d->file,
+            "<text x='%.1f' y='%.1f' text-anchor='middle'>x: %.4g .. %.4g m, y: %.4g .. %.4g "
+            "m%s</text>\n",
             0.5 * WIDTH, bottom + 24, t->lo[0], t->hi[0], t->lo[1], t->hi[1],
             b->dim == 3 ? ", section through the middle" : "");
-    fprintf(d->file, "<text x='%.1f' y='%.1f' text-anchor='middle'>", 0.5 * WIDTH, bottom + 24 + LINE);
+    fprintf(d->file, "<text x='%.1f' y='%.1f' text-anchor='middle'>", 0.5 * WIDTH,
+            bottom + 24 + LINE);
     for (int32_t i = 0; i < b->fluids; i++) {
         if (i) fprintf(d->file, ", ");
         write_escaped(d->file, b->fluid[i].name);

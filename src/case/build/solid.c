@@ -47,8 +47,9 @@ static openings read_openings(reading *r, const plate *p)
     o.pitch = 1.0 / o.count;
     o.gap = open * o.pitch;
     if (fmin(o.gap, o.pitch - o.gap) * p->length[0] < 2 * r->b->dp)
-        say(r, "holes", "openings and what is between them must be at least 2 dp wide: take a smaller "
-                        "dp or a larger pitch");
+        say(r, "holes",
+            "openings and what is between them must be at least 2 dp wide: take a smaller "
+            "dp or a larger pitch");
     return o;
 }
 
@@ -116,8 +117,8 @@ static bool add_flat(reading *r, const plate *p, const double *from, const doubl
         hi[d] = fmax(from[d], to[d]);
     }
     const double origin = b->tank.form.lo[p->axis];
-    const double first =
-        origin + round((lo[p->axis] - origin) / b->dp - 0.5 * (columns - 1)) * b->dp;
+    const double first = origin +
+                         round((lo[p->axis] - origin) / b->dp - 0.5 * (columns - 1)) * b->dp;
     lo[p->axis] = first;
     hi[p->axis] = first + (columns - 1) * b->dp;
     return mps__build_try(b, mps_baffle_add(b->sim, r->name, lo, hi, NULL), r->map, r->name);
@@ -135,10 +136,9 @@ static bool add_piece(reading *r, const plate *p, const double *at, const double
         }
     }
     if (p->axis >= 0) return add_flat(r, p, from, to);
-    return mps__build_try(r->b,
-                          mps_plate_add(r->b->sim, r->name, from, edge[0],
-                                        r->b->dim == 3 ? edge[1] : NULL),
-                          r->map, r->name);
+    return mps__build_try(
+        r->b, mps_plate_add(r->b->sim, r->name, from, edge[0], r->b->dim == 3 ? edge[1] : NULL),
+        r->map, r->name);
 }
 
 static void add_plate(reading *r)

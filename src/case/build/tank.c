@@ -75,9 +75,9 @@ static void read_chamfer(build *b, const tree_node *map)
     if (2 * fmax(cut[0][0], cut[1][0]) > x1 - x0 || cut[0][1] + cut[1][1] > y1 - y0)
         mps__case_say(b->c, node, false, "tank.chamfer: larger than the tank, %g x %g m", x1 - x0,
                       y1 - y0);
-    const double corner[8][2] = {
-        {x0 + cut[0][0], y0}, {x1 - cut[0][0], y0}, {x1, y0 + cut[0][1]}, {x1, y1 - cut[1][1]},
-        {x1 - cut[1][0], y1}, {x0 + cut[1][0], y1}, {x0, y1 - cut[1][1]}, {x0, y0 + cut[0][1]}};
+    const double corner[8][2] = {{x0 + cut[0][0], y0}, {x1 - cut[0][0], y0}, {x1, y0 + cut[0][1]},
+                                 {x1, y1 - cut[1][1]}, {x1 - cut[1][0], y1}, {x0 + cut[1][0], y1},
+                                 {x0, y1 - cut[1][1]}, {x0, y0 + cut[0][1]}};
     for (int i = 0; i < 8; i++) { /* without points that coincide, where one cut is 0 */
         const double *last = s->points ? s->point[s->points - 1] : corner[7];
         if (hypot(corner[i][0] - last[0], corner[i][1] - last[1]) < 1e-9 * (x1 - x0)) continue;
