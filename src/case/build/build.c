@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A case becomes a simulation and a job. */
-#include "motion.h"
+#include "ship_motion.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

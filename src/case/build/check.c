@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What a case amounts to, as a text for people. */
-#include "motion.h"
+#include "ship_motion.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>

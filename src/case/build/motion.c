@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Motion of the tank: degrees of a ship as harmonics of the lab. */
-#include "motion.h"
+#include "ship_motion.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -60,7 +60,7 @@ static void read_harmonic(build *b, build_motion *m, const tree_node *node, int3
     h.form = mps__read_choice(b->c, node, "form", 0);
     h.amplitude = mps__read_number(b->c, node, "amplitude", NAN);
     h.omega = read_omega(b, node, name);
-    h.phase = mps__read_number(b->c, node, "phase", 0);
+    if (h.form == 0) h.phase = mps__read_number(b->c, node, "phase", 0);
     if (mps__case_failed(b->c)) return;
     h.ramp = read_ramp(b, node, h.omega);
     if (isnan(h.amplitude))

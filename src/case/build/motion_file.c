@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A measured or computed motion of the ship from a table. */
 #include "csv.h"
-#include "motion.h"
+#include "ship_motion.h"
 #include "units.h"
 #include <math.h>
 #include <stdio.h>

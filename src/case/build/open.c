@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The empty simulation with its models, settings, solver and time steps. */
-#include "motion.h"
+#include "ship_motion.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

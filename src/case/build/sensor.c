@@ -145,6 +145,16 @@ static double from_wall(const build *b, int d, double value)
     return signbit(value) ? b->tank.form.hi[d] + value : b->tank.form.lo[d] + value;
 }
 
+/* Height of the floor below a place: where a line upwards enters the tank. Of a file it is the lower end of its box. */
+static double floor_below(const build *b, const double *x)
+{
+    const form *t = &b->tank.form;
+    double at[3] = {x[0], t->lo[1], x[2]};
+    if (t->kind == FORM_BOX) return t->lo[1];
+    while (at[1] < t->hi[1] && mps__form_inside(t, at) <= 0) at[1] += 0.25 * b->dp;
+    return at[1] < t->hi[1] ? at[1] : t->lo[1];
+}
+
 /* "x", in 3-D "x z", or a whole point: the line begins there. */
 static void add_gauge(const sensing *s)
 {
@@ -156,9 +166,9 @@ static void add_gauge(const sensing *s)
     const bool whole = given == 3 || (given == 2 && b->dim == 2);
     if (mps__case_failed(b->c)) return;
     probe.at[0] = from_wall(b, 0, x[0]);
-    probe.at[1] = whole ? x[1] : b->tank.form.lo[1];
     probe.at[2] = mps__build_middle(b);
     if (b->dim == 3 && given > 1) probe.at[2] = whole ? x[2] : from_wall(b, 2, x[1]);
+    probe.at[1] = whole ? x[1] : floor_below(b, probe.at);
     mps__read_numbers(b->c, s->map, "direction", 3, probe.direction);
     probe.length = mps__read_number(b->c, s->map, "length", probe.length);
     probe.count_drops = mps__read_flag(b->c, s->map, "drops", false);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Sensors of several probes: panels, rows, forces. */
-#include "motion.h"
+#include "ship_motion.h"
 #include "sensor.h"
 #include <math.h>
 #include <stdio.h>

@@ -41,31 +41,40 @@ static void frame(drawing *d)
     }
     const double length = d->hi[0] - d->lo[0], height = d->hi[1] - d->lo[1];
     d->scale = fmin((WIDTH - 2 * MARGIN) / length, (WIDTH - 2 * MARGIN) / height);
-    d->cell = fmax(d->b->dp, fmax(length, height) / CELLS);
+    d->cell = fmax(0.5 * d->b->dp, fmax(length, height) / CELLS);
     d->columns = (int32_t)(length / d->cell) + 1;
     d->rows = (int32_t)(height / d->cell) + 1;
 }
 
-/* Cells by their particles; a wall shows over a fluid. In 3-D those within a spacing of the middle. */
+/* All cells that a particle covers, walls thinner than fluid; a wall shows over a fluid. */
+static void cover(drawing *d, const double *x, uint8_t value)
+{
+    const double reach = (value == WALL ? 0.3 : 0.5) * d->b->dp;
+    const int32_t left = (int32_t)floor((x[0] - reach - d->lo[0]) / d->cell + 1e-6),
+                  right = (int32_t)ceil((x[0] + reach - d->lo[0]) / d->cell - 1e-6),
+                  low = (int32_t)floor((x[1] - reach - d->lo[1]) / d->cell + 1e-6),
+                  high = (int32_t)ceil((x[1] + reach - d->lo[1]) / d->cell - 1e-6);
+    for (int32_t row = low < 0 ? 0 : low; row < high && row < d->rows; row++)
+        for (int32_t k = left < 0 ? 0 : left; k < right && k < d->columns; k++) {
+            uint8_t *cell = &d->cells[row * d->columns + k];
+            if (value > *cell) *cell = value;
+        }
+}
+
+/* In 3-D the particles within a spacing of the middle. */
 static bool mark(drawing *d)
 {
     build *b = d->b;
-    const double middle = mps__build_middle(b), reach = fmax(b->dp, d->cell);
+    const double middle = mps__build_middle(b);
     mps_lease x = {.struct_size = sizeof x}, kind = x, phase = x;
     bool good = mps_lease_begin(b->sim, "position", MPS_READ, &x) == MPS_OK;
     good = good && mps_lease_begin(b->sim, "kind", MPS_READ, &kind) == MPS_OK;
     good = good && mps_lease_begin(b->sim, "phase", MPS_READ, &phase) == MPS_OK;
     for (int64_t i = 0; good && i < x.count; i++) {
-        const double *p = x.data + i * x.stride;
-        const int32_t column = (int32_t)floor((p[0] - d->lo[0]) / d->cell),
-                      row = (int32_t)floor((p[1] - d->lo[1]) / d->cell);
-        if (kind.integers[i] == MPS_DUMMY || column < 0 || column >= d->columns || row < 0 ||
-            row >= d->rows || (b->dim == 3 && fabs(p[2] - middle) > 0.75 * reach))
+        const double *at = x.data + i * x.stride;
+        if (kind.integers[i] == MPS_DUMMY || (b->dim == 3 && fabs(at[2] - middle) > 0.75 * b->dp))
             continue;
-        uint8_t *cell = &d->cells[row * d->columns + column];
-        const uint8_t value = kind.integers[i] == MPS_WALL ? WALL
-                                                           : (uint8_t)(1 + phase.integers[i]);
-        if (value > *cell) *cell = value;
+        cover(d, at, kind.integers[i] == MPS_WALL ? WALL : (uint8_t)(1 + phase.integers[i]));
     }
     mps_lease_end(b->sim, &phase);
     mps_lease_end(b->sim, &kind);
@@ -107,6 +116,22 @@ static void draw_outline(const drawing *d)
 }
 
 /* ---- sensors ---- */
+
+static void write_escaped(FILE *file, const char *text);
+
+static void draw_solids(const drawing *d)
+{
+    for (int32_t i = 0; i < d->b->solids; i++) {
+        const build_solid *s = &d->b->solid[i];
+        double at[2];
+        for (int k = 0; k < 2; k++)
+            at[k] = s->plate ? 0.5 * (s->end[0][k] + s->end[1][k])
+                             : 0.5 * (s->form.lo[k] + s->form.hi[k]);
+        fprintf(d->file, "<text x='%.1f' y='%.1f'>", at_x(d, at[0]) + 8, at_y(d, at[1]));
+        write_escaped(d->file, s->name);
+        fprintf(d->file, "</text>\n");
+    }
+}
 
 /* A text as XML. */
 static void write_escaped(FILE *file, const char *text)
@@ -199,6 +224,7 @@ static void draw(const drawing *d)
                 at_x(d, d->lo[0]), at_y(d, b->level), at_x(d, d->hi[0]), at_y(d, b->level));
     for (int32_t i = 0; i < b->sensors; i++)
         if (has_place(&b->sensor[i])) draw_mark(d, &b->sensor[i]);
+    draw_solids(d);
     draw_names(d, false);
     draw_names(d, true);
     const form *t = &b->tank.form;

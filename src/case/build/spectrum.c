@@ -3,7 +3,7 @@
  *   S(w) ~ w^-5 exp(-1.25 (w_p/w)^4) gamma^r, r = exp(-(w - w_p)^2/(2 s^2 w_p^2)), s = 0.07 for w <= w_p, 0.09 above,
  * from 0.5 to 3 w_p, scaled so that the variance over this band is (significant/2)^2. The band is cut into parts of equal width; each has one
  * harmonic, at a random frequency within it, with the variance of its part. The same seed gives the same harmonics on all machines. */
-#include "motion.h"
+#include "ship_motion.h"
 #include <math.h>
 
 enum { PARTS = 64 }; /* of the integral over a part of the band */
