@@ -119,7 +119,10 @@ static bool tell_table(const head *h)
     char line[65536], last[64] = "", first[64] = "";
     long long rows = 0;
     const size_t length = strcspn(h->text, "\n");
-    if (!memchr(h->text, ',', length) || memchr(h->text, '\0', length)) return false;
+    for (size_t i = 0; i < length; i++)
+        if ((unsigned char)h->text[i] < ' ' && h->text[i] != '\t' && h->text[i] != '\r')
+            return false;
+    if (!memchr(h->text, ',', length) || length == h->count) return false;
     printf("table\n");
     for (const char *at = h->text; at < h->text + length; at += strcspn(at, ",\n") + 1)
         printf("  %.*s\n", (int)strcspn(at, ",\n"), at);
