@@ -379,6 +379,12 @@ MPS_API mps_status mps_job_level_set(mps_job *job, double level);
  *  @return MPS_E_ARG, MPS_E_NOMEM */
 MPS_API mps_status mps_job_input_add(mps_job *job, const char *key, const char *value);
 
+/** Add a line of the sketch on the page, e.g. the tank or a baffle, in its frame; 2-D, or a cut.
+ *  @param count  number of points, >= 2; closed where the last is the first
+ *  @param x      [2*count] places along x and y [m]; copied
+ *  @return MPS_E_ARG, MPS_E_NOMEM */
+MPS_API mps_status mps_job_outline_add(mps_job *job, int32_t count, const double *x);
+
 /** Stop the run after its step, as a signal does. Allowed in signal handlers and other threads. */
 MPS_API void mps_job_stop(mps_job *job);
 

@@ -175,6 +175,8 @@ static void outputs_are_complete(void **state)
     assert_int_equal(mps_job_reference_add(job, &r), MPS_OK);
     assert_int_equal(mps_job_input_add(job, "dp", "40 mm"), MPS_OK);
     assert_int_equal(mps_job_level_set(job, 0.2), MPS_OK);
+    ASSERT_JOB_REFUSED(job, mps_job_outline_add(job, 1, t), MPS_E_ARG, "two places");
+    assert_int_equal(mps_job_outline_add(job, 2, (const double[]){0, 0, 0.4, 0}), MPS_OK);
     assert_int_equal(mps_measure_init(&centre, sizeof centre), MPS_OK);
     centre.measure = "centre", centre.name = "x_end", centre.at_end = 1;
     assert_int_equal(mps_job_measure_add(job, sim, &centre), MPS_OK);
@@ -195,7 +197,9 @@ static void outputs_are_complete(void **state)
         "\"status\": \"ok\"",
         "{\"name\": \"P1\", \"unit\": \"Pa\", \"type\": \"wall_pressure\", \"at\": [0, 0.08, 0]",
         "{\"name\": \"M\", \"unit\": \"N m/m\", \"type\": \"moment\"",
-        "\"tank_frame\": false"};
+        "\"tank_frame\": false",
+        "[[0, 0], [0.4, 0]]",
+        "{\"name\": \"phase 0\", \"density\": 1000, "};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++)
         if (!strstr(summary, wanted[k])) fail_msg("summary.json has no %s: %s", wanted[k], summary);
     assert_string_equal(text_of("complete", "case.yaml"), "mps: 1\n");
