@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A job as its program sees it: opening, texts, known points and inputs. Its columns are in columns.c and added.c, stepping is in step.c. */
+/* A job as its program sees it: opening, texts, known points and inputs. Its columns are in columns.c and added.c, stepping is in stepping.c. */
 #include "run.h"
 #include <math.h>
 #include <stdarg.h>
