@@ -319,9 +319,11 @@ static void traces_are_measured(void **state)
     ASSERT_JOB_REFUSED(job, mps_job_trace_add(job, &t), MPS_E_NAME, "'least'");
     t.name = "x", t.column = "nothing";
     ASSERT_JOB_REFUSED(job, mps_job_trace_add(job, &t), MPS_E_NAME, "'nothing'");
-    t.column = "walls_x", t.to = 0;
-    ASSERT_JOB_REFUSED(job, mps_job_trace_add(job, &t), MPS_E_ARG, "from <= to");
+    t.column = "walls_x", t.to = NAN;
+    ASSERT_JOB_REFUSED(job, mps_job_trace_add(job, &t), MPS_E_ARG, "must be numbers");
     t.to = 1, t.kind = MPS_TRACE_MEAN; /* beyond the end */
+    assert_int_equal(mps_job_trace_add(job, &t), MPS_OK);
+    t.name = "y", t.to = t.from - 0.001; /* an empty span */
     assert_int_equal(mps_job_trace_add(job, &t), MPS_OK);
     assert_int_equal(mps_job_run(job, sim), MPS_EXIT_OK);
     const char *summary = text_of("trace", "summary.json");
@@ -335,6 +337,7 @@ static void traces_are_measured(void **state)
                     k == 0 ? 0 : 0.25 * figures[k].wanted);
     }
     assert_non_null(strstr(summary, "\n  \"x\": null"));
+    assert_non_null(strstr(summary, "\n  \"y\": null"));
     assert_non_null(strstr(text_of("trace", "trace.csv"), "walls_z[N s/m],now[s]\n"));
     mps_sim_destroy(sim);
     mps_job_destroy(job);

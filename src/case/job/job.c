@@ -38,7 +38,7 @@ void mps__job_tell(mps_job *job, const char *format, ...)
     va_start(values, format);
     vsnprintf(text + used, sizeof text - (size_t)used - 1, format, values);
     va_end(values);
-    strcat(text, "\n");
+    memcpy(text + strlen(text), "\n", 2);
     mps__job_show(job, MPS_JOB_MESSAGE, text);
 }
 
