@@ -339,8 +339,8 @@ typedef struct mps_trace {
 MPS_API mps_status mps_trace_init(mps_trace *trace, size_t size);
 
 /** Add a figure that is measured from all steps; trace.csv is written. It is NAN where the run does
- *  not reach `to`, and where `to` is before `from`. @return MPS_E_ARG, MPS_E_NAME (no such column, another figure has this name),
- *  MPS_E_NOMEM */
+ *  not reach `to`, and where `to` is before `from`.
+ *  @return MPS_E_ARG, MPS_E_NAME (no such column, another figure has this name), MPS_E_NOMEM */
 MPS_API mps_status mps_job_trace_add(mps_job *job, const mps_trace *trace);
 
 /** Known points to compare with, drawn in the plots of a unit. Fill it with
