@@ -37,7 +37,8 @@ _Noreturn void driver_leave(driver *d, int code, const char *format, ...)
     va_start(values, format);
     vsnprintf(text + used, sizeof text - (size_t)used - 1, format, values);
     va_end(values);
-    leave(d, code, strcat(text, "\n"));
+    memcpy(text + strlen(text), "\n", 2);
+    leave(d, code, text);
 }
 
 _Noreturn void driver_refuse(driver *d, const char *format, ...)

@@ -339,8 +339,8 @@ typedef struct mps_trace {
 MPS_API mps_status mps_trace_init(mps_trace *trace, size_t size);
 
 /** Add a figure that is measured from all steps; trace.csv is written. It is NAN where the run does
- *  not reach `to`. @return MPS_E_ARG, MPS_E_NAME (no such column, another figure has this name),
- *  MPS_E_NOMEM */
+ *  not reach `to`, and where `to` is before `from`.
+ *  @return MPS_E_ARG, MPS_E_NAME (no such column, another figure has this name), MPS_E_NOMEM */
 MPS_API mps_status mps_job_trace_add(mps_job *job, const mps_trace *trace);
 
 /** Known points to compare with, drawn in the plots of a unit. Fill it with
@@ -378,6 +378,12 @@ MPS_API mps_status mps_job_level_set(mps_job *job, double level);
 /** Add an input of the case to "inputs" of summary.json and to the page, e.g. "dp" and "4 mm".
  *  @return MPS_E_ARG, MPS_E_NOMEM */
 MPS_API mps_status mps_job_input_add(mps_job *job, const char *key, const char *value);
+
+/** Add a line of the sketch on the page, e.g. the tank or a baffle, in its frame; 2-D, or a cut.
+ *  @param count  number of points, >= 2; closed where the last is the first
+ *  @param x      [2*count] places along x and y [m]; copied
+ *  @return MPS_E_ARG, MPS_E_NOMEM */
+MPS_API mps_status mps_job_outline_add(mps_job *job, int32_t count, const double *x);
 
 /** Stop the run after its step, as a signal does. Allowed in signal handlers and other threads. */
 MPS_API void mps_job_stop(mps_job *job);

@@ -144,7 +144,7 @@ static void scene_scale(scene *s)
     double top = scene_noise(s), bottom = 0;
     int64_t fluid = 0, n = 0;
     for (int64_t i = 0; i < s->n; i++) fluid += s->kind[i] == MPS_FLUID;
-    double *p = malloc((size_t)fluid * sizeof *p);
+    double *p = fluid > 0 ? malloc((size_t)fluid * sizeof *p) : NULL;
     for (int64_t i = 0; i < s->n; i++) {
         if (s->kind[i] != MPS_FLUID) continue;
         if (s->phase[i] >= s->phases) s->phases = s->phase[i] + 1;

@@ -175,6 +175,8 @@ static void outputs_are_complete(void **state)
     assert_int_equal(mps_job_reference_add(job, &r), MPS_OK);
     assert_int_equal(mps_job_input_add(job, "dp", "40 mm"), MPS_OK);
     assert_int_equal(mps_job_level_set(job, 0.2), MPS_OK);
+    ASSERT_JOB_REFUSED(job, mps_job_outline_add(job, 1, t), MPS_E_ARG, "two places");
+    assert_int_equal(mps_job_outline_add(job, 2, (const double[]){0, 0, 0.4, 0}), MPS_OK);
     assert_int_equal(mps_measure_init(&centre, sizeof centre), MPS_OK);
     centre.measure = "centre", centre.name = "x_end", centre.at_end = 1;
     assert_int_equal(mps_job_measure_add(job, sim, &centre), MPS_OK);
@@ -195,7 +197,9 @@ static void outputs_are_complete(void **state)
         "\"status\": \"ok\"",
         "{\"name\": \"P1\", \"unit\": \"Pa\", \"type\": \"wall_pressure\", \"at\": [0, 0.08, 0]",
         "{\"name\": \"M\", \"unit\": \"N m/m\", \"type\": \"moment\"",
-        "\"tank_frame\": false"};
+        "\"tank_frame\": false",
+        "[[0, 0], [0.4, 0]]",
+        "{\"name\": \"phase 0\", \"density\": 1000, "};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++)
         if (!strstr(summary, wanted[k])) fail_msg("summary.json has no %s: %s", wanted[k], summary);
     assert_string_equal(text_of("complete", "case.yaml"), "mps: 1\n");
@@ -315,9 +319,11 @@ static void traces_are_measured(void **state)
     ASSERT_JOB_REFUSED(job, mps_job_trace_add(job, &t), MPS_E_NAME, "'least'");
     t.name = "x", t.column = "nothing";
     ASSERT_JOB_REFUSED(job, mps_job_trace_add(job, &t), MPS_E_NAME, "'nothing'");
-    t.column = "walls_x", t.to = 0;
-    ASSERT_JOB_REFUSED(job, mps_job_trace_add(job, &t), MPS_E_ARG, "from <= to");
+    t.column = "walls_x", t.to = NAN;
+    ASSERT_JOB_REFUSED(job, mps_job_trace_add(job, &t), MPS_E_ARG, "must be numbers");
     t.to = 1, t.kind = MPS_TRACE_MEAN; /* beyond the end */
+    assert_int_equal(mps_job_trace_add(job, &t), MPS_OK);
+    t.name = "y", t.to = t.from - 0.001; /* an empty span */
     assert_int_equal(mps_job_trace_add(job, &t), MPS_OK);
     assert_int_equal(mps_job_run(job, sim), MPS_EXIT_OK);
     const char *summary = text_of("trace", "summary.json");
@@ -331,6 +337,7 @@ static void traces_are_measured(void **state)
                     k == 0 ? 0 : 0.25 * figures[k].wanted);
     }
     assert_non_null(strstr(summary, "\n  \"x\": null"));
+    assert_non_null(strstr(summary, "\n  \"y\": null"));
     assert_non_null(strstr(text_of("trace", "trace.csv"), "walls_z[N s/m],now[s]\n"));
     mps_sim_destroy(sim);
     mps_job_destroy(job);

@@ -176,7 +176,7 @@ static const forgery forgeries[] = {
     NARROW("field wall_of", 2, -2, "\"wall_of\" of particle 2 is -2"),
     NARROW("field wall_of", 2, 1 << 30, "\"wall_of\" of particle 2"),
     NARROW("field region", 3, 6, "\"region\" of particle 3 is 6; must be 0..5"),
-    NARROW("field held", 3, 2, "\"held\" of particle 3 is 2; must be 0..1"),
+    NARROW("field held", 3, 2, "\"held\" of particle 12 is 2; must be 0 or 1"), /* a byte each */
     WIDE("field id", 32, INT64_C(1) << 40, "\"id\" of particle 4"),
     WIDE("field id", 32, -1, "\"id\" of particle 4 is -1"),
     WIDE("particles.next_id", 0, 3, "\"id\" of particle"),

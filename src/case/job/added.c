@@ -82,8 +82,8 @@ static job_column *add_column(mps_job *job, const char *name, const char *unit)
     job->column = grown;
     job_column *c = &grown[job->columns++];
     *c = (job_column){.probe = -1, .type = "value"};
-    strcpy(c->name, name);
-    strcpy(c->unit, unit);
+    snprintf(c->name, sizeof c->name, "%s", name);
+    snprintf(c->unit, sizeof c->unit, "%s", unit);
     return c;
 }
 
@@ -222,7 +222,7 @@ mps_status mps_job_value_add(mps_job *job, const char *name, const char *unit, c
                                name);
     job_column *c = add_column(job, name, unit);
     if (!c) return MPS_E_NOMEM;
-    strcpy(c->about, about);
+    snprintf(c->about, sizeof c->about, "%s", about);
     c->flags = flags;
     c->value = value;
     c->user = user;
@@ -246,8 +246,8 @@ mps_status mps_job_figure_add(mps_job *job, const char *name, const char *about,
     job->figure = grown;
     job_figure *f = &grown[job->figures++];
     *f = (job_figure){.flags = flags, .value = value, .user = user};
-    strcpy(f->name, name);
-    strcpy(f->about, about);
+    snprintf(f->name, sizeof f->name, "%s", name);
+    snprintf(f->about, sizeof f->about, "%s", about);
     return MPS_OK;
 }
 
@@ -255,7 +255,7 @@ mps_status mps_job_figure_add(mps_job *job, const char *name, const char *about,
 
 static mps_status keep_quantity(mps_job *job, quantity *q)
 {
-    quantity **grown = mps__job_grown(job->quantity, job->quantities, sizeof *grown);
+    quantity **grown = mps__job_grown(job->quantity, job->quantities, sizeof(void *));
     if (!grown) {
         mps__quantity_free(q);
         return mps__job_refuse(job, MPS_E_NOMEM, "out of memory");

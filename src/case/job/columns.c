@@ -80,10 +80,11 @@ void mps__job_boxes(mps_job *job)
         return;
     for (int64_t i = 0; i < v.x.count; i++) {
         const double *x = v.x.data + i * v.x.stride;
-        const bool fluid = v.kind.integers[i] == MPS_FLUID, first = v.phase.integers[i] == 0;
+        const bool fluid = v.kind.integers[i] == MPS_FLUID;
+        const int32_t phase = v.phase.integers[i];
         if (v.kind.integers[i] == MPS_WALL) take(&job->walls, x, job->dim);
-        if (fluid && first) take(&job->liquid, x, job->dim);
-        job->several = job->several || (fluid && !first);
+        if (fluid && phase == 0) take(&job->liquid, x, job->dim);
+        if (fluid && phase >= job->phases) job->phases = phase + 1;
     }
     tidy(&job->walls, job->dp);
     tidy(&job->liquid, job->dp);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A job as its program sees it: opening, texts, known points and inputs. Its columns are in columns.c and added.c, stepping is in step.c. */
+/* A job as its program sees it: opening, texts, known points and inputs. Its columns are in columns.c and added.c, stepping is in stepping.c. */
 #include "run.h"
 #include <math.h>
 #include <stdarg.h>
@@ -38,7 +38,7 @@ void mps__job_tell(mps_job *job, const char *format, ...)
     va_start(values, format);
     vsnprintf(text + used, sizeof text - (size_t)used - 1, format, values);
     va_end(values);
-    strcat(text, "\n");
+    memcpy(text + strlen(text), "\n", 2);
     mps__job_show(job, MPS_JOB_MESSAGE, text);
 }
 
@@ -231,6 +231,8 @@ static void free_lists(mps_job *job)
     }
     for (int k = 0; k < job->quantities; k++) mps__quantity_free(job->quantity[k]);
     for (int k = 0; k < job->traces; k++) free(job->trace[k]);
+    for (int k = 0; k < job->outlines; k++) free(job->outline[k].x);
+    free(job->outline);
     free(job->reference);
     free(job->input);
     free(job->quantity);
@@ -325,6 +327,20 @@ mps_status mps_job_input_add(mps_job *job, const char *key, const char *value)
     free(i->key);
     free(i->value);
     return mps__job_refuse(job, MPS_E_NOMEM, "out of memory");
+}
+
+mps_status mps_job_outline_add(mps_job *job, int32_t count, const double *x)
+{
+    if (!job) return MPS_E_ARG;
+    bool good = count >= 2 && x;
+    for (int64_t k = 0; good && k < 2 * (int64_t)count; k++) good = isfinite(x[k]);
+    if (!good) return mps__job_refuse(job, MPS_E_ARG, "an outline needs at least two places");
+    job_outline *grown = mps__job_grown(job->outline, job->outlines, sizeof *grown);
+    if (grown) job->outline = grown;
+    double *copy = grown ? copy_numbers(2 * (int64_t)count, x) : NULL;
+    if (!copy) return mps__job_refuse(job, MPS_E_NOMEM, "out of memory");
+    grown[job->outlines++] = (job_outline){count, copy};
+    return MPS_OK;
 }
 
 static double still_level(void *user, mps_sim *sim)

@@ -149,7 +149,7 @@ bool mps__page_save(mps_job *job)
                       .dim = job->dim,
                       .t_end = c->t_end,
                       .page = c->report != 0,
-                      .several = job->several,
+                      .several = job->phases > 1,
                       .probes = rows_of(&job->probes),
                       .momentum = rows_of(&job->momentum),
                       .steps = rows_of(&job->steps),

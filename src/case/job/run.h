@@ -56,6 +56,12 @@ typedef struct job_reference {
     double *t, *value;
 } job_reference;
 
+/* A line of the sketch. */
+typedef struct job_outline {
+    int32_t count;
+    double *x; /* [2*count] */
+} job_outline;
+
 typedef struct job_input {
     char *key, *value;
 } job_input;
@@ -83,16 +89,17 @@ struct mps_job {
     int32_t dim;
     double dp;
     folder place;
-    int columns, figures, references, inputs, traces, quantities;
+    int columns, figures, references, inputs, outlines, traces, quantities;
     job_column *column;
     job_figure *figure;
     job_reference *reference;
     job_input *input;
+    job_outline *outline;
     trace_figure **trace;
     quantity **quantity; /* of measures */
     double level;        /* still level as filled in [m]; 0: that of the highest particle */
     job_box walls, liquid;
-    bool several; /* there is fluid of several phases */
+    int32_t phases; /* the highest number among the fluid, plus one */
     table probes, steps, momentum, trace_rows;
     double *
         all_rows; /* of trace.csv, [all_count][trace_rows.columns]; the first is the state before the first step, with dt = 0 */

@@ -185,6 +185,41 @@ static void summary_references(FILE *out, const mps_job *job)
     fputs("\n  ]", out);
 }
 
+/* Phases that the fluid has; "gas": of less than a hundredth of the largest density. */
+static void summary_phases(FILE *out, const mps_job *job)
+{
+    mps_phase p;
+    double densest = 0;
+    mps_phase_init(&p, sizeof p);
+    for (int32_t k = 0; k < job->phases; k++)
+        if (mps_phase_get(job->sim, k, &p) == MPS_OK) densest = fmax(densest, p.density);
+    fputs(",\n  \"phases\": [", out);
+    for (int32_t k = 0; k < job->phases; k++) {
+        if (mps_phase_get(job->sim, k, &p) != MPS_OK) continue;
+        fprintf(out,
+                "%s\n    {\"name\": \"phase %d\", \"density\": %.17g, \"viscosity\": %.17g, "
+                "\"gas\": %s}",
+                k ? "," : "", (int)k, p.density, p.viscosity,
+                p.density < 0.01 * densest ? "true" : "false");
+    }
+    fputs("\n  ]", out);
+}
+
+/* Lines of the sketch. */
+static void summary_outlines(FILE *out, const mps_job *job)
+{
+    if (job->outlines == 0) return;
+    fputs(",\n  \"outline\": [", out);
+    for (int k = 0; k < job->outlines; k++) {
+        const job_outline *o = &job->outline[k];
+        fputs(k ? ",\n    [" : "\n    [", out);
+        for (int32_t i = 0; i < o->count; i++)
+            fprintf(out, "%s[%.9g, %.9g]", i ? ", " : "", o->x[2 * i], o->x[2 * i + 1]);
+        fputc(']', out);
+    }
+    fputs("\n  ]", out);
+}
+
 /* When it ended and where it ran. */
 static void summary_machine(FILE *out)
 {
@@ -235,6 +270,8 @@ static void summary_write(FILE *out, const mps_job *job)
     if (job->figures > 0) summary_figures(out, job);
     summary_inputs(out, job);
     summary_references(out, job);
+    summary_phases(out, job);
+    summary_outlines(out, job);
     fputs("\n}\n", out);
 }
 

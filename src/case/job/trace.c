@@ -170,7 +170,7 @@ static double measure(void *user, mps_sim *sim)
     const mps_job *t = f->job;
     (void)sim;
     if (m->kind == MPS_TRACE_GIVEN) return m->scale;
-    if (t->all_failed || t->all_count < 2 ||
+    if (m->to < m->from || t->all_failed || t->all_count < 2 ||
         value_at(t, t->all_count - 1, TRACE_T) < m->to * (1 - SLACK))
         return NAN;
     switch (m->kind) {
@@ -237,14 +237,15 @@ mps_status mps_job_trace_add(mps_job *job, const mps_trace *trace)
     const int column = find_column(job, trace->column);
     const char *name = trace->name ? trace->name : "";
     const bool given = trace->kind == MPS_TRACE_GIVEN;
-    if (trace->kind < MPS_TRACE_GIVEN || trace->kind > MPS_TRACE_SLOPE ||
-        (!given && !(trace->from <= trace->to)) || !(trace->window >= 0) || !isfinite(trace->scale))
-        return mps__job_refuse(job, MPS_E_ARG,
-                               "figure '%s': needs a known kind, from <= to, window >= 0", name);
+    if (trace->kind < MPS_TRACE_GIVEN || trace->kind > MPS_TRACE_SLOPE || !isfinite(trace->from) ||
+        !isfinite(trace->to) || !(trace->window >= 0) || !isfinite(trace->scale))
+        return mps__job_refuse(
+            job, MPS_E_ARG,
+            "figure '%s': needs a known kind, window >= 0; times and scale must be numbers", name);
     if (!given && column < 0)
         return mps__job_refuse(job, MPS_E_NAME, "figure '%s': no column '%s'", name,
                                trace->column ? trace->column : "");
-    trace_figure **grown = mps__job_grown(job->trace, job->traces, sizeof *grown),
+    trace_figure **grown = mps__job_grown(job->trace, job->traces, sizeof(void *)),
                  *f = malloc(sizeof *f);
     if (grown) job->trace = grown;
     if (!grown || !f) {

@@ -180,6 +180,16 @@ static mps_status check_tags(mps__context *c, const mps__arrived *a, const char 
     return MPS_OK;
 }
 
+static mps_status check_held(mps__context *c, const mps__arrived *a)
+{
+    const uint8_t *values = field(a, "held");
+    for (int64_t i = 0; i < a->n; i++)
+        if (values[i] > 1)
+            DAMAGED("\"held\" of particle %lld is %d; must be 0 or 1", (long long)i,
+                    (int)values[i]);
+    return MPS_OK;
+}
+
 static int ascending(const void *a, const void *b)
 {
     const int64_t x = *(const int64_t *)a, y = *(const int64_t *)b;
@@ -290,7 +300,7 @@ mps_status mps__check_particles(mps__context *c, const mps__arrived *a)
     MPS__TRY(check_tags(c, a, "phase", 0, MPS__PHASES - 1));
     MPS__TRY(check_tags(c, a, "part", -1, w->particles.parts - 1));
     MPS__TRY(check_tags(c, a, "region", MPS_REGION_INNER, MPS_REGION_DRY));
-    MPS__TRY(check_tags(c, a, "held", 0, 1));
+    MPS__TRY(check_held(c, a));
     MPS__TRY(check_tags(c, a, "wall_of", -1, a->n - 1));
     MPS__TRY(check_tags(c, a, "plate", 0, w->lists.screens.count));
     if (a->linked < 0 || a->linked > 1 || a->listed < 0 || a->listed > a->linked)

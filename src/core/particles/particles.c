@@ -48,7 +48,7 @@ mps_status mps__particles_init(mps__particles *s, mps__context *context, int32_t
         {"wall_of", 1, sizeof(int32_t), false, (void **)&s->wall_of},
         {"plate", 1, sizeof(int32_t), false, (void **)&s->plate},
         {"wall_pressure", 1, sizeof(double), true, (void **)&s->load},
-        {"held", 1, sizeof(int32_t), false, (void **)&s->held},
+        {"held", 1, sizeof(uint8_t), false, (void **)&s->held},
     };
     for (size_t k = 0; k < sizeof built_in / sizeof built_in[0]; k++)
         MPS__TRY(mps__particles_field_add(s, built_in[k].name, built_in[k].components,
@@ -184,7 +184,9 @@ static void gather(char *to, const char *from, const int32_t *order, int64_t fir
 #define GATHER(size)                       \
     for (int64_t i = first; i < last; i++) \
     memcpy(to + (size_t)i * (size), from + (size_t)order[i] * (size), (size))
-    if (bytes == 4)
+    if (bytes == 1)
+        GATHER(1);
+    else if (bytes == 4)
         GATHER(4);
     else if (bytes == 8)
         GATHER(8);

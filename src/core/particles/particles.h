@@ -38,7 +38,7 @@ typedef struct mps__particles {
     int64_t *id;          /* [n] stable, ascending at creation */
     int32_t *kind, *phase, *part;
     int32_t *region; /* [n] MPS_REGION_... of the last step */
-    int32_t *held;   /* [n] 1: its pressure was the least allowed in the last step */
+    uint8_t *held;   /* [n] 1: its pressure was the least allowed in the last step */
     /* [n] place of a dummy's wall particle, -1: none; follows when particles move */
     int32_t *wall_of;
     int64_t *wall_id; /* on many ranks [n] id of that wall particle, -1: none; else NULL */

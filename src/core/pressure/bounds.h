@@ -10,7 +10,7 @@ typedef struct mps__bounds {
     mps__context *context;
     int64_t count, capacity;
     struct mps__bound *list;
-    const int32_t *held; /* [particles] 1: at its least in the last step; borrowed for a solution */
+    const uint8_t *held; /* [particles] 1: at its least in the last step; borrowed for a solution */
     int32_t solves;      /* of the last call */
     bool any;            /* on any rank a row has a least pressure */
     double *pinned;      /* [columns] pressure of a held row, else NaN */

@@ -204,13 +204,14 @@ const mps__pass mps__pass_share = {.name = "share",
                                    .hook = MPS_SHIFT,
                                    .place = MPS__AFTER_MODELS,
                                    .stage = MPS_STAGE_CORRECT,
+                                   .undeclared = true,
                                    .run = share};
 
 typedef struct keep_fields {
     const double *wall_pressure;
     const int32_t *condition, *region;
     double *load;
-    int32_t *held;
+    uint8_t *held;
 } keep_fields;
 
 MPS_ROW void keep_row(const int dim, const mps_view *v, const keep_fields *f, int64_t i)
@@ -261,6 +262,7 @@ const mps__pass mps__pass_keep = {.name = "keep",
                                   .hook = MPS_SHIFT,
                                   .place = MPS__LAST_OF_STEP,
                                   .stage = MPS_STAGE_CORRECT,
+                                  .undeclared = true,
                                   .everywhere = true,
                                   .use_count = sizeof keep_uses / sizeof keep_uses[0],
                                   .uses = keep_uses,
