@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Volumes, levels and natural periods of tanks that cases build, against their exact values. */
 #include "build_kit.h"
+#include "section.h"
 
 /* Volume of all fluid with its half cells at walls. */
 static double volume(const built *t)
@@ -152,13 +153,53 @@ static void periods(void **state)
         same_number(t.b.until, 2 * t.b.modes.period[0], 1e-12);
         built_free(&t);
     }
-    /* a polygon that is a rectangle: by the liquid as filled, within 2 % */
+}
+
+/* Sections: the first value w^2/g of a rectangle k tanh(k h), of planes at 45 degrees 1/h (phi = x y), of a half-full circle 1.3557/R. */
+static void sections(void **state)
+{
+    const double pi = acos(-1.0);
+    form box = {
+        .kind = FORM_POLYGON, .dim = 2, .points = 4, .point = {{1, 0}, {3, 0}, {3, 2}, {1, 2}}};
+    form wedge = {.kind = FORM_POLYGON, .dim = 2, .points = 3, .point = {{-1, 1}, {0, 0}, {1, 1}}};
+    form circle = {.kind = FORM_BALL, .dim = 2, .end = {{0, 2}}, .radius = 2};
+    double value[3];
+    (void)state;
+    mps__form_box(&box);
+    mps__form_box(&wedge);
+    mps__form_box(&circle);
+    for (double depth = 0.2; depth < 2; depth += 0.6) {
+        assert_true(mps__section_modes(&box, depth, 3, value));
+        for (int n = 1; n <= 3; n++) {
+            const double k = n * pi / 2, off = value[n - 1] / (k * tanh(k * depth)) - 1;
+            printf("rectangle, depth %g, mode %d: %+.3f %%\n", depth, n, 100 * off);
+            assert_true(fabs(off) < (n == 1 ? 0.0005 : 0.0025));
+        }
+    }
+    assert_true(mps__section_modes(&wedge, 0.8, 1, value));
+    printf("wedge: %+.3f %%\n", 100 * (value[0] * 0.8 - 1));
+    assert_true(fabs(value[0] * 0.8 - 1) < 0.001);
+    assert_true(mps__section_modes(&circle, 2, 1, value));
+    printf("circle: %+.3f %%\n", 100 * (value[0] * 2 / 1.35573 - 1));
+    assert_true(fabs(value[0] * 2 / 1.35573 - 1) < 0.001);
+}
+
+/* The same in cases; a cylinder is estimated, and says so. */
+static void methods(void **state)
+{
     built t;
+    (void)state;
     built_make(&t,
-               "mps: 1\ndp: 0.25 m\ntank: {polygon: [0 0 m, 40 0 m, 40 30 m, 0 30 m]}\n"
+               "mps: 1\ndp: 0.5 m\ntank: {polygon: [0 0 m, 40 0 m, 40 30 m, 0 30 m]}\n"
                "fill: [{water: {depth: 20 m}}]\nrun: {until: 2 T1}\n",
                NULL);
-    assert_true(fabs(t.b.modes.period[0] / 7.4756 - 1) < 0.02);
+    assert_true(fabs(t.b.modes.period[0] / 7.4745 - 1) < 0.002);
+    assert_non_null(strstr(t.b.modes.how, "potential flow"));
+    built_free(&t);
+    built_make(&t,
+               "mps: 1\ndim: 3\ndp: 50 mm\ntank: {cylinder: {radius: 0.5 m, length: 1.5 m}}\n"
+               "fill: [{water: {depth: 50 %}}]\nrun: {until: 2 T1}\n",
+               NULL);
     assert_non_null(strstr(t.b.modes.how, "estimate"));
     built_free(&t);
 }
@@ -191,6 +232,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(chamfered), cmocka_unit_test(chamfered_3d),
                                        cmocka_unit_test(rolled),    cmocka_unit_test(forms),
-                                       cmocka_unit_test(periods),   cmocka_unit_test(axes)};
+                                       cmocka_unit_test(periods),   cmocka_unit_test(sections),
+                                       cmocka_unit_test(methods),   cmocka_unit_test(axes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

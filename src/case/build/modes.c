@@ -1,10 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Natural periods of the liquid at rest, by linear theory: w^2 = g k tanh(k h), k = n pi/L.
+/* Natural periods of the liquid at rest, by linear theory, with the tank as it is asked for, so that a motion in units of T1 is the same at every
+ * spacing.
  *
- * Of a rectangular tank L and h are those asked for, so that a motion in units of T1 is the same at every spacing. Of other tanks L is the length
- * of the free surface and h the volume below it over its area, both of the liquid as filled; that is exact for no other shape, and the
- * text says so. */
+ * | tank | by |
+ * |---|---|
+ * | rectangular, filled to a depth | w^2 = g k tanh(k h), k = n pi/L |
+ * | a section: outlines in 2-D; prisms whose waves run across them | potential flow in it, section.c |
+ * | others | the same with L the length of the free surface as filled, h the volume below it over its area: an estimate |
+ *
+ * All without solids in the tank. */
 #include "build.h"
+#include "section.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -66,6 +72,30 @@ static void as_asked(build *b, build_modes *m)
              m->length, m->depth);
 }
 
+enum { SECTION_MODES = 3 };
+
+/* A section whose waves are known by potential flow. */
+static bool by_section(build *b, build_modes *m)
+{
+    const form *t = &b->tank.form;
+    form plane = *t;
+    double value[SECTION_MODES];
+    const bool across = t->kind == FORM_POLYGON && m->axis == (t->sideways ? 2 : 0);
+    const bool circle = t->kind == FORM_BALL && b->dim == 2;
+    if (b->tank.file || isnan(b->depth) || !(across || circle)) return false;
+    plane.dim = 2;
+    plane.sideways = false;
+    mps__form_box(&plane);
+    if (!mps__section_modes(&plane, plane.lo[1] + b->depth, SECTION_MODES, value)) return false;
+    for (m->count = 0; m->count < SECTION_MODES; m->count++)
+        m->period[m->count] = 2 * acos(-1.0) / sqrt(b->gravity * value[m->count]);
+    m->length = plane.hi[0] - plane.lo[0];
+    m->depth = b->depth;
+    snprintf(m->how, sizeof m->how, "potential flow in the section, filled %.4g m as asked for",
+             b->depth);
+    return true;
+}
+
 /* Particles at walls stand for half a spacing more; in a tank on a lattice the wall is a whole one away from them. */
 static bool as_filled(build *b, build_modes *m)
 {
@@ -87,6 +117,10 @@ void mps__build_modes(build *b)
     if (mps__case_failed(b->c) || b->gravity == 0) return;
     const form *t = &b->tank.form;
     m->axis = wave_axis(b);
+    if (by_section(b, m)) {
+        mps__case_scale_set(b->c, (read_scale){b->dp, m->period[0], NAN});
+        return;
+    }
     if (t->kind == FORM_BOX && !b->tank.file && !isnan(b->depth))
         as_asked(b, m);
     else if (!as_filled(b, m))
