@@ -103,6 +103,8 @@ typedef struct build {
 
 /* Whether a call of the library succeeded; else its text becomes a message at the line of `at`. */
 bool mps__build_try(build *b, mps_status status, const tree_node *at, const char *what);
+/* The same for a call of the job. */
+bool mps__build_try_job(build *b, mps_status status, const tree_node *at, const char *what);
 /* Memory that lives as long as the case; NULL after a message. */
 void *mps__build_alloc(build *b, size_t size);
 

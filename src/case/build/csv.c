@@ -21,6 +21,7 @@ static char *read_file(mps_case *c, const tree_node *at, const char *path)
     char *text = size >= 0 && size < CSV_BYTES ? malloc((size_t)size + 1) : NULL;
     const bool whole = text && fseek(file, 0, SEEK_SET) == 0 &&
                        fread(text, 1, (size_t)size, file) == (size_t)size;
+    if (!text && size >= 0 && size < CSV_BYTES) c->no_memory = true;
     if (!whole) {
         mps__case_say(c, at, false, "%s: %s", path,
                       size >= CSV_BYTES ? "is larger than 1 GB" : strerror(errno));

@@ -86,7 +86,10 @@ static bool by_section(build *b, build_modes *m)
     plane.dim = 2;
     plane.sideways = false;
     mps__form_box(&plane);
-    if (!mps__section_modes(&plane, plane.lo[1] + b->depth, SECTION_MODES, value)) return false;
+    const mps_status status = mps__section_modes(&plane, plane.lo[1] + b->depth, SECTION_MODES,
+                                                 value);
+    if (status == MPS_E_NOMEM) b->status = status;
+    if (status != MPS_OK) return false;
     for (m->count = 0; m->count < SECTION_MODES; m->count++)
         m->period[m->count] = 2 * acos(-1.0) / sqrt(b->gravity * value[m->count]);
     m->length = plane.hi[0] - plane.lo[0];
@@ -123,7 +126,7 @@ void mps__build_modes(build *b)
     }
     if (t->kind == FORM_BOX && !b->tank.file && !isnan(b->depth))
         as_asked(b, m);
-    else if (!as_filled(b, m))
+    else if (b->status < 0 || !as_filled(b, m))
         return;
     const double pi = acos(-1.0);
     for (m->count = 0; m->count < BUILD_MODES; m->count++) {

@@ -15,6 +15,16 @@ bool mps__build_try(build *b, mps_status status, const tree_node *at, const char
     return false;
 }
 
+bool mps__build_try_job(build *b, mps_status status, const tree_node *at, const char *what)
+{
+    if (status >= 0) return true;
+    if (status == MPS_E_NOMEM)
+        b->status = status;
+    else
+        mps__case_say(b->c, at, false, "%s: %s", what, mps_job_error(b->job));
+    return false;
+}
+
 void *mps__build_alloc(build *b, size_t size)
 {
     void *memory = mps__case_take(b->c, size);

@@ -125,8 +125,7 @@ static void add_reference(build *b, const tree_node *map, const char *name)
     if (!column[0] && mps__tree_find(mps__tree_find(b->root, "sensors"), name)) column = name;
     r.column = column[0] ? column : NULL;
     if (mps__case_failed(b->c) || !b->job) return;
-    if (mps_job_reference_add(b->job, &r) < 0)
-        mps__case_say(b->c, map, false, "reference.%s: %s", name, mps_job_error(b->job));
+    mps__build_try_job(b, mps_job_reference_add(b->job, &r), map, name);
 }
 
 /* ---- figures ---- */
@@ -145,8 +144,7 @@ static void add_figure(build *b, const tree_node *map)
     t.window = mps__read_number(b->c, map, "window", 0);
     t.scale = mps__read_number(b->c, map, "over", 1);
     if (mps__case_failed(b->c) || !b->job) return;
-    if (mps_job_trace_add(b->job, &t) < 0)
-        mps__case_say(b->c, map, false, "figures.%s: %s", map->key, mps_job_error(b->job));
+    mps__build_try_job(b, mps_job_trace_add(b->job, &t), map, map->key);
 }
 
 void mps__build_references(build *b)
@@ -166,7 +164,7 @@ void mps__build_references(build *b)
 
 static void add_input(build *b, const char *key, const char *value)
 {
-    if (b->job && mps_job_input_add(b->job, key, value) < 0) b->status = MPS_E_NOMEM;
+    if (b->job) mps__build_try_job(b, mps_job_input_add(b->job, key, value), b->root, key);
 }
 
 /* Constants of the statistics in SI, for programs that read summary.json and know no T1. */

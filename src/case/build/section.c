@@ -146,11 +146,11 @@ static void purify(const section *s, double *u, const double *modes, int32_t cou
 }
 
 /* Inverse iteration: u becomes K^-1 M u. */
-static bool find_mode(const section *s, double *modes, int32_t m, double *value)
+static mps_status find_mode(const section *s, double *modes, int32_t m, double *value)
 {
     const int64_t top = (int64_t)s->nx * s->ny;
     double *u = modes + m * s->n, *load = calloc((size_t)s->n * 2, sizeof *load), before = 0;
-    if (!load) return false;
+    if (!load) return MPS_E_NOMEM;
     double *x = load + s->n;
     bool good = true, settled = false;
     for (int32_t i = 0; i < s->nx; i++) /* as in a rectangular tank, and a little of all others */
@@ -167,17 +167,19 @@ static bool find_mode(const section *s, double *modes, int32_t m, double *value)
         before = *value;
     }
     free(load);
-    return good && settled && *value > 0;
+    return good && settled && *value > 0 ? MPS_OK : MPS_E_STATE;
 }
 
-bool mps__section_modes(const form *f, double level, int32_t count, double *value)
+mps_status mps__section_modes(const form *f, double level, int32_t count, double *value)
 {
     section s = {0};
-    bool good = make_section(&s, f, level);
-    double *modes = good ? calloc((size_t)s.n * (size_t)count, sizeof *modes) : NULL;
-    good = good && modes;
-    for (int32_t m = 0; good && m < count; m++) good = find_mode(&s, modes, m, &value[m]);
+    double *modes = NULL;
+    mps_status status = make_section(&s, f, level) ? MPS_OK : MPS_E_NOMEM;
+    if (status == MPS_OK) modes = calloc((size_t)s.n * (size_t)count, sizeof *modes);
+    if (!modes) status = MPS_E_NOMEM;
+    for (int32_t m = 0; status == MPS_OK && m < count; m++)
+        status = find_mode(&s, modes, m, &value[m]);
     free(modes);
     free_section(&s);
-    return good;
+    return status;
 }

@@ -60,11 +60,9 @@ bool mps__sensor_add(const sensing *s, mps_probe *probe, int32_t component, doub
     }
     char what[64];
     snprintf(what, sizeof what, "sensors.%s", name);
-    if (status < 0 && b->job && status != MPS_E_NOMEM) {
-        mps__case_say(b->c, s->map, false, "%s: %s", what, mps_job_error(b->job));
+    if (b->job ? !mps__build_try_job(b, status, s->map, what)
+               : !mps__build_try(b, status, s->map, what))
         return false;
-    }
-    if (!mps__build_try(b, status, s->map, what)) return false;
     note_probe(b, name, probe);
     return true;
 }
@@ -76,9 +74,7 @@ bool mps__sensor_value(const sensing *s, const char *name, const char *unit, con
     if (!b->job) return true;
     const mps_status status = mps_job_value_add(b->job, name, unit, about, MPS_JOB_PRESSURE, value,
                                                 user);
-    if (status < 0)
-        mps__case_say(b->c, s->map, false, "sensors.%s: %s", name, mps_job_error(b->job));
-    return status >= 0;
+    return mps__build_try_job(b, status, s->map, name);
 }
 
 /* ---- kinds ---- */
@@ -210,8 +206,7 @@ static void add_measure(const sensing *s)
     mps__sensor_box(b, name, given != NULL, box, m.box);
     if (mps__case_failed(b->c)) return;
     note(b, s->map->key, SENSOR_MEASURE);
-    if (b->job && mps_job_measure_add(b->job, b->sim, &m) < 0)
-        mps__case_say(b->c, s->map, false, "sensors.%s: %s", s->map->key, mps_job_error(b->job));
+    if (b->job) mps__build_try_job(b, mps_job_measure_add(b->job, b->sim, &m), s->map, s->map->key);
 }
 
 /* The box of a measure: as given, or that of the tank, as built for the front. */
