@@ -304,7 +304,8 @@ static void report_write(FILE *out, const report *r, const plots *all)
 {
     fputs("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>", out);
     mps__svg_text(out, r->name);
-    fputs("</title>\n<style>body{font:15px sans-serif;color:#222;max-width:1120px;margin:2em auto;padding:0 "
+    fputs("</title>\n<style>body{font:15px sans-serif;color:#222;max-width:1120px;margin:2em "
+          "auto;padding:0 "
           "1em}table{border-collapse:collapse}"
           "td{border-bottom:1px solid #ddd;padding:3px 18px 3px "
           "0}figure{margin:1.5em "
