@@ -97,23 +97,24 @@ typedef struct mps_case_key {
     uint32_t struct_size;
     /** 1: must be given where its place is given. */
     int32_t required;
-    /** Path; `*` is a name that the user chooses: "sensors.*.wall". */
+    /** Path; `*` is a name that the user chooses, `a|b` stands for both: "sensors.*.wall". */
     const char *path;
-    /** What it holds, e.g. "length", "text", "map". */
-    const char *kind;
-    /** Units of its kind, e.g. "m, cm, mm, km, dp"; "" for none. */
-    const char *units;
-    /** What is allowed, e.g. "> 0 m" or "2, 3"; "" where all is. */
+    /** What is allowed of each number, e.g. "> 0" (in SI units), or words, "x|y|z"; "" where all
+     *  is. */
     const char *range;
     /** Default, "" for none. */
     const char *otherwise;
-    /** One line. */
-    const char *help;
     /** An example of a value. */
     const char *example;
+    /** One line. */
+    const char *help;
+    /** What it holds, e.g. "length", "text", "map". */
+    char kind[96];
+    /** Units of its kind, e.g. "m, cm, mm, km, um, dp"; "" for none. */
+    char units[160];
 } mps_case_key;
 
-/** Key number `index`, from 0, in the order of the reference. Texts are constants of the library.
+/** Key number `index`, from 0, in the order of the reference. Its texts are constants.
  *  @param key  with its struct_size; out
  *  @return MPS_E_ARG: beyond the last key; key */
 MPS_API mps_status mps_case_key_get(int32_t index, mps_case_key *key);
