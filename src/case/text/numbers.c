@@ -168,18 +168,20 @@ static size_t unit_length(const char *at)
 static bool convert(mps__numbers *n, const char *at, int32_t first, int32_t last,
                     const mps__unit *u)
 {
+    /* where no length is wanted, 40 % is 0.4 */
+    const bool is_share = u && u->scale == SCALE_WHOLE && !(n->kinds & UNIT_LENGTH);
     for (int32_t k = first; k < last; k++) {
         number_text text;
         at += strspn(at, " \n\t\r");
         find_number(at, &text);
         at += text.length;
         const double number = number_value(&text, u ? u->tens : 0);
-        double scale = u ? n->scale[u->scale] : 1;
-        if (u && u->scale == SCALE_WHOLE && !(n->kinds & UNIT_LENGTH)) scale = 1;
+        const bool relative = u && u->scale != SCALE_NONE && !is_share;
+        const double scale = relative ? n->scale[u->scale] : 1;
         if (!u && number != 0 && !(n->kinds & UNIT_NONE))
             return refuse_bare(n, text.start, (int)text.length);
         n->out[k] = u ? number * u->times / u->over * scale : number;
-        n->relative = n->relative || (u && u->scale != SCALE_NONE);
+        n->relative = n->relative || relative;
         if (isnan(scale)) n->missing = u->name;
         if (isinf(n->out[k])) return refuse(n, "'%.*s' is too large", text.start, text.length);
         if (!u && number != 0) n->found &= UNIT_NONE;

@@ -17,7 +17,6 @@ static const mps__unit units[] = {
     {"min", UNIT_TIME, 0, 60, 1, SCALE_NONE}, {"h", UNIT_TIME, 0, 3600, 1, SCALE_NONE}, {"T1", UNIT_TIME, 0, 1, 1, SCALE_T1},
     {"deg", UNIT_ANGLE, 0, PI, 180, SCALE_NONE}, {"rad", UNIT_ANGLE, 0, 1, 1, SCALE_NONE},
     {"rad/s", UNIT_OMEGA, 0, 1, 1, SCALE_NONE}, {"deg/s", UNIT_OMEGA, 0, PI, 180, SCALE_NONE},
-    {"rpm", UNIT_OMEGA, 0, PI, 30, SCALE_NONE},
     {"rad/s2", UNIT_ANG_ACCEL, 0, 1, 1, SCALE_NONE}, {"deg/s2", UNIT_ANG_ACCEL, 0, PI, 180, SCALE_NONE},
     {"Hz", UNIT_FREQUENCY, 0, 1, 1, SCALE_NONE}, {"kHz", UNIT_FREQUENCY, 3, 1, 1, SCALE_NONE},
     {"mHz", UNIT_FREQUENCY, -3, 1, 1, SCALE_NONE},
