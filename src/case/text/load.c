@@ -83,7 +83,9 @@ static char *read_file(mps_case *c, const char *path, const tree_node *from, siz
     FILE *file = fopen(path, "rb");
     const size_t most = is_page(path) ? PAGE_BYTES : TREE_BYTES;
     char *text = NULL;
-    if (!file || fstat(fileno(file), &s) != 0)
+    if (!file && errno == ENOMEM)
+        c->no_memory = true;
+    else if (!file || fstat(fileno(file), &s) != 0)
         refuse_file(c, path, from, strerror(errno));
     else if (!S_ISREG(s.st_mode))
         refuse_file(c, path, from, "it is no file");

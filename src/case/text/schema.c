@@ -63,6 +63,7 @@ mps_status mps_case_key_get(int32_t index, mps_case_key *key)
 /* ---- the schema ------------------------------------------------------------------------------- */
 
 #define NUMBER "[+-]?([0-9]+\\\\.?[0-9]*|\\\\.[0-9]+)([eE][+-]?[0-9]+)?"
+#define ZERO   "[+-]?0(\\\\.0*)?"
 #define NAME   "^[A-Za-z_][A-Za-z0-9_-]{0,30}$"
 
 static void put_key(mps__out *o, const mps__key *key, bool strict);
@@ -126,10 +127,12 @@ static void put_numbers(mps__out *o, const mps__key *key)
         put_units(o, key->units);
         mps__out_put(o, "|");
     }
-    mps__out_put(o, bare ? NUMBER "%s" : "[+-]?0(\\\\.0*)?%s",
-                 many ? "(\\\\s+" NUMBER ")*" : "");
+    if (bare)
+        mps__out_put(o, many ? NUMBER "(\\\\s+" NUMBER ")*" : NUMBER);
+    else
+        mps__out_put(o, many ? ZERO "(\\\\s+" ZERO ")*" : ZERO);
     mps__out_put(o, ")\\\\s*$\"}");
-    if (bare && !many) {
+    if (bare && key->few == 1) {
         mps__out_put(o, ",{\"type\":\"%s\"", key->whole ? "integer" : "number");
         put_bounds(o, key->range);
         mps__out_put(o, "}");
