@@ -4,7 +4,8 @@
 #include "case_kit.h"
 #include "units.h"
 
-static const char *const files[] = {"box.yaml", "polygon.yaml", "cylinder.yaml", "sphere.yaml", "stl.yaml"};
+static const char *const files[] = {"box.yaml", "polygon.yaml", "cylinder.yaml", "sphere.yaml",
+                                    "stl.yaml"};
 enum { FILES = sizeof files / sizeof files[0] };
 
 static int32_t made;
@@ -84,8 +85,7 @@ static void leave_range(const char *text, const tree_node *n)
             continue;
         }
         if (mps__range_holds(n->entry->range, value, false)) continue;
-        snprintf(with, sizeof with, "%g %s", tries[k],
-                 u && !(n->units & UNIT_NONE) ? u->name : "");
+        snprintf(with, sizeof with, "%g %s", tries[k], u && !(n->units & UNIT_NONE) ? u->name : "");
         refused(text, n, false, with, "out of its range");
     }
 }
@@ -106,7 +106,8 @@ static void break_value(const char *text, const tree_node *n)
         break;
     case SHAPE_WORD:
     case SHAPE_FLAG:
-        refused(text, n, false, "furlong", n->entry->shape == SHAPE_WORD ? "is not known" : "yes or no");
+        refused(text, n, false, "furlong",
+                n->entry->shape == SHAPE_WORD ? "is not known" : "yes or no");
         break;
     case SHAPE_UNIT:
         refused(text, n, false, "furlong", "is no unit here");
@@ -139,8 +140,7 @@ static void break_all(const char *text, const tree_node *node, bool *seen)
             if (setting) refused(text, n, true, "gas.soubd: 3", "did you mean");
             if (!setting) break_value(text, n);
             /* the first of a list of maps stands behind its dash */
-            if (n->parent->parent && n->parent->parent->kind == TREE_LIST &&
-                n->parent->first == n)
+            if (n->parent->parent && n->parent->parent->kind == TREE_LIST && n->parent->first == n)
                 continue;
             give_twice(text, n);
         }
@@ -183,7 +183,9 @@ static void files_that_are_none(void **state)
     kit_refused("just a text", 1, 1, "a map of keys is wanted");
     kit_refused("[1, 2]", 1, 1, "a map of keys is wanted");
     kit_refused("mps: 1\ntank:\n\tsize: 1 1 m\n", 3, 1, "a tab in the indentation");
-    kit_refused("mps: 1\ntitle: a\xff" "b\n", 2, 9, "byte 0xff|no text in UTF-8");
+    kit_refused("mps: 1\ntitle: a\xff"
+                "b\n",
+                2, 9, "byte 0xff|no text in UTF-8");
     kit_refused("mps: 1\ntitle: \x01\n", 2, 8, "byte 0x01");
     kit_refused("mps: 1\n---\nmps: 1\n", 2, 1, "a second document");
     kit_refused("%YAML 1.1\n---\nmps: 1\n", 1, 1, "a directive");

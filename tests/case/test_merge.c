@@ -6,8 +6,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define CASE "mps: 1\ndp: 4 mm\ntank: {size: 0.8 0.5 m}\nfill: [{water: {depth: 25 %}}, {air: rest}]\nmodel: mmps\n" \
-             "run: {until: 5 s}\n"
+#define CASE                                                                           \
+    "mps: 1\ndp: 4 mm\ntank: {size: 0.8 0.5 m}\nfill: [{water: {depth: 25 %}}, {air: " \
+    "rest}]\nmodel: mmps\n"                                                            \
+    "run: {until: 5 s}\n"
 
 static mps_case *good(const char *text, const char *const *sets)
 {
@@ -65,7 +67,8 @@ static void reads_back(void **state)
         mps_case_destroy(b);
         free(text);
     }
-    round_trip(CASE "title: \"colon: # 'quote' \\\" \\\\ \\t tab, [list] {map} %\\n second line\"\n");
+    round_trip(CASE
+               "title: \"colon: # 'quote' \\\" \\\\ \\t tab, [list] {map} %\\n second line\"\n");
     round_trip(CASE "title: \"- dash\"\n");
     round_trip(CASE "title: \"...\"\n");
     round_trip(CASE "title: \" blanks \"\n");
@@ -168,8 +171,8 @@ static char *new_folder(void)
 
 static void remove_folder(const char *folder)
 {
-    static const char *const names[] = {"base.yaml", "a.yaml", "b.yaml", "page.html", "t.csv",
-                                        "empty.html"};
+    static const char *const names[] = {"base.yaml", "a.yaml", "b.yaml",
+                                        "page.html", "t.csv",  "empty.html"};
     for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
         char path[300];
         snprintf(path, sizeof path, "%s/%s", folder, names[k]);
@@ -190,10 +193,13 @@ static void bases(void **state)
     char *folder = new_folder();
     mps_case *c = NULL;
     (void)state;
-    write_file(folder, "base.yaml", CASE "reference: {P: {file: t.csv}}\nmotion: {surge: {amplitude: 1 mm, omega: 2 rad/s}}\n");
+    write_file(
+        folder, "base.yaml",
+        CASE "reference: {P: {file: t.csv}}\nmotion: {surge: {amplitude: 1 mm, omega: 2 rad/s}}\n");
     write_file(folder, "t.csv", "t,p\n");
-    write_file(folder, "a.yaml", "mps: 1\nbase: base.yaml\nmotion: {surge: {amplitude: 9 mm}}\n"
-                                 "fill: [{water: {depth: 1 m}}]\nset: {run.until: 9 s, motion.surge.period: 4 s}\n");
+    write_file(folder, "a.yaml",
+               "mps: 1\nbase: base.yaml\nmotion: {surge: {amplitude: 9 mm}}\n"
+               "fill: [{water: {depth: 1 m}}]\nset: {run.until: 9 s, motion.surge.period: 4 s}\n");
     assert_int_equal(read_in(folder, "a.yaml", &c), MPS_OK);
     has(c, "amplitude: 9 mm\n    period: 4 s\n");
     has(c, "until: 9 s");
@@ -233,12 +239,14 @@ static void pages(void **state)
     char *folder = new_folder();
     mps_case *c = NULL;
     (void)state;
-    write_file(folder, "page.html", "<html>\n<body><p>text</p>\n<script type=\"text/yaml\" id=\"case\">" CASE
-                                    "title: \"<\\/b> <\\!-- x\"\n</script></body></html>\n");
+    write_file(folder, "page.html",
+               "<html>\n<body><p>text</p>\n<script type=\"text/yaml\" id=\"case\">" CASE
+               "title: \"<\\/b> <\\!-- x\"\n</script></body></html>\n");
     assert_int_equal(read_in(folder, "page.html", &c), MPS_OK);
     has(c, "title: \"</b> <!-- x\"\n");
     mps_case_destroy(c);
-    write_file(folder, "page.html", "<html>\n\n<script type=\"text/yaml\" id=\"case\">mps: 1\ndpp: 3 m\n</script>\n");
+    write_file(folder, "page.html",
+               "<html>\n\n<script type=\"text/yaml\" id=\"case\">mps: 1\ndpp: 3 m\n</script>\n");
     assert_int_equal(read_in(folder, "page.html", &c), MPS_E_ARG);
     assert_true(kit_has(c, 4, 1, "unknown key 'dpp'"));
     mps_case_destroy(c);
@@ -283,7 +291,8 @@ static void sweeps(void **state)
     kit_refused(CASE "sweep: {tank: 4 8 mm}\n", 7, 9, "no path of a value");
     kit_refused(CASE "sweep: {dp: 4 8 s}\n", 7, 13, "is the unit of a time");
     kit_refused(CASE "sweep: {dp: 2 to 1 step 1 mm}\n", 7, 13, "values are wanted");
-    kit_refused(CASE "sweep: {model: [imps, nothing, 3]}\nsweeps: 1\n", 8, 1, "did you mean 'sweep'?");
+    kit_refused(CASE "sweep: {model: [imps, nothing, 3]}\nsweeps: 1\n", 8, 1,
+                "did you mean 'sweep'?");
     kit_refused(CASE "sweep: {dp: 1 to 1000 step 1 mm, run.cfl: 0.001 to 0.9 step 0.001}\n", 7, 1,
                 "runs, 100000 at most");
     kit_refused(CASE "sweep: []\n", 7, 8, "a map of paths");
@@ -294,16 +303,16 @@ static void reads(void **state)
 {
     double x[3];
     (void)state;
-    mps_case *c = good("mps: 1\ndp: 4 mm\ntank: {size: 0.8 0.5 m, up: z}\nfill: [{water: {depth: 25 %}}]\n"
-                       "motion: {surge: {amplitude: 2 dp, period: 0.5 T1, ramp: 2}}\n"
-                       "sensors: {P: {wall: 0 50 mm, average: 0}, F: {panel: [0 1 m, 2 3 4 m]}}\n"
-                       "output: {film: yes}\nuse: viscosity.pair\nremove: [collision, shift]\n"
-                       "settings: {tension.radius: 12 mm, gas.sound: 340 m/s}\nrun: {until: 1 s}\n",
-                       NULL);
+    mps_case *c = good(
+        "mps: 1\ndp: 4 mm\ntank: {size: 0.8 0.5 m, up: z}\nfill: [{water: {depth: 25 %}}]\n"
+        "motion: {surge: {amplitude: 2 dp, period: 0.5 T1, ramp: 2}}\n"
+        "sensors: {P: {wall: 0 50 mm, average: 0}, F: {panel: [0 1 m, 2 3 4 m]}}\n"
+        "output: {film: yes}\nuse: viscosity.pair\nremove: [collision, shift]\n"
+        "settings: {tension.radius: 12 mm, gas.sound: 340 m/s}\nrun: {until: 1 s}\n",
+        NULL);
     const tree_node *root = mps__case_root(c), *tank = mps__tree_find(root, "tank"),
                     *surge = mps__tree_find(mps__tree_find(root, "motion"), "surge"),
-                    *sensors = mps__tree_find(root, "sensors"),
-                    *p = mps__tree_find(sensors, "P"),
+                    *sensors = mps__tree_find(root, "sensors"), *p = mps__tree_find(sensors, "P"),
                     *panel = mps__tree_find(mps__tree_find(sensors, "F"), "panel"),
                     *water = mps__tree_find(mps__tree_find(root, "fill"), "water"),
                     *settings = mps__tree_find(root, "settings");
@@ -327,22 +336,24 @@ static void reads(void **state)
     assert_null(mps__read_text_at(c, root, "use", 1));
     assert_string_equal(mps__read_text_at(c, root, "remove", 1), "shift");
     assert_null(mps__read_text_at(c, root, "remove", 2));
-    assert_true(mps__read_setting(c, mps__tree_find(settings, "tension.radius"), 0) == 0.012 / 0.004);
+    assert_true(mps__read_setting(c, mps__tree_find(settings, "tension.radius"), 0) ==
+                0.012 / 0.004);
     assert_true(mps__read_setting(c, mps__tree_find(settings, "gas.sound"), 0) == 340);
     assert_false(mps__case_failed(c));
     assert_string_equal(mps__case_unread(c)->key, "mps");
     mps__read_all(mps__tree_find(root, "mps"));
     assert_string_equal(mps__case_unread(c)->key, "period");
     assert_true(mps__read_number(c, surge, "period", 9) == 9);
-    assert_true(kit_has(c, 5, 43, "motion.surge.period: 'T1' is not known here; write a time in s"));
+    assert_true(
+        kit_has(c, 5, 43, "motion.surge.period: 'T1' is not known here; write a time in s"));
     mps_case_destroy(c);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reads_back), cmocka_unit_test(sets),   cmocka_unit_test(wrong_sets),
-        cmocka_unit_test(groups),     cmocka_unit_test(bases),  cmocka_unit_test(pages),
-        cmocka_unit_test(sweeps),     cmocka_unit_test(reads)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(reads_back), cmocka_unit_test(sets),
+                                       cmocka_unit_test(wrong_sets), cmocka_unit_test(groups),
+                                       cmocka_unit_test(bases),      cmocka_unit_test(pages),
+                                       cmocka_unit_test(sweeps),     cmocka_unit_test(reads)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -54,10 +54,14 @@ static void columns(void **state)
 {
     char text[2000];
     (void)state;
-    said(HEAD "title: \"M\xc3\xb6we\"\ntank: {\"gr\xc3\xb6\xc3\x9f" "e\": 1 m, size: 1 1 m}\n"
+    said(HEAD "title: \"M\xc3\xb6we\"\ntank: {\"gr\xc3\xb6\xc3\x9f"
+              "e\": 1 m, size: 1 1 m}\n"
               "fill: [{water: {depth: 1 m}}]\nrun: {until: 1 s}\n",
-         NULL, "test.yaml:4:8: error: unknown key 'tank.gr\xc3\xb6\xc3\x9f" "e'");
-    snprintf(text, sizeof text, HEAD "run: {%*suntil: 5 s, untl: 6 s}\n%s", 400, "", "model: imps\n");
+         NULL,
+         "test.yaml:4:8: error: unknown key 'tank.gr\xc3\xb6\xc3\x9f"
+         "e'");
+    snprintf(text, sizeof text, HEAD "run: {%*suntil: 5 s, untl: 6 s}\n%s", 400, "",
+             "model: imps\n");
     mps_case *c = NULL;
     assert_int_equal(kit_read(text, NULL, &c), MPS_E_ARG);
     char *all = kit_messages(c);
@@ -101,7 +105,8 @@ static void near_keys(void **state)
     said(HEAD BODY "model: imsp\n", NULL, "no preset of models 'imsp'; did you mean 'imps'?");
     said(HEAD BODY "use: viscosity.pairs\n", NULL, "did you mean 'viscosity.pair'?");
     said(HEAD BODY "remove: [colision]\n", NULL, "did you mean 'collision'?");
-    said(HEAD BODY "settings: {gas.sound: 5 Pa}\n", NULL, "'Pa' is the unit of a pressure; a velocity");
+    said(HEAD BODY "settings: {gas.sound: 5 Pa}\n", NULL,
+         "'Pa' is the unit of a pressure; a velocity");
     said(HEAD BODY "settings: {gas.sound: -5 m/s}\n", NULL, "is out of its range");
     said(HEAD BODY "settings: {gas.sond: 5 m/s}\n", NULL, "did you mean 'gas.sound'?");
     said("mps: 1\ndp: 4 mm\ntank: {size: 1 1 m}\nfill: [{water: {depth: 1 m}}]\n"
@@ -127,7 +132,8 @@ static void rules(void **state)
     said(HEAD BODY "sensors: {a.b: {wall: 0 0 m}}\n", NULL, "name 'a.b'");
     said(HEAD "tank: {size: 1 1 m}\nfill: {water: {depth: 1 m}}\n", NULL, "a list of fluids");
     said(HEAD "tank: {size: 1 1 m}\nfill: [{water: rest, air: rest}]\n", NULL, "one fluid");
-    said(HEAD "tank: {size: 1 1 m}\nfill: [{water: all}]\n", NULL, "a map of keys is wanted, not a text");
+    said(HEAD "tank: {size: 1 1 m}\nfill: [{water: all}]\n", NULL,
+         "a map of keys is wanted, not a text");
     said(HEAD "tank: {size: 1 m}\n", NULL, "tank.size: 1 number, 2 are wanted");
     said("mps: 1\ndp: 1 dp\n" BODY, NULL, "'dp' is not known here");
 }

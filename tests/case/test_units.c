@@ -202,8 +202,10 @@ static void other_locale(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(values),         cmocka_unit_test(all_units), cmocka_unit_test(lists),
-        cmocka_unit_test(kinds),          cmocka_unit_test(refused),   cmocka_unit_test(ranges),
-        cmocka_unit_test(unknown_scales), cmocka_unit_test(split),     cmocka_unit_test(other_locale)};
+        cmocka_unit_test(values),         cmocka_unit_test(all_units),
+        cmocka_unit_test(lists),          cmocka_unit_test(kinds),
+        cmocka_unit_test(refused),        cmocka_unit_test(ranges),
+        cmocka_unit_test(unknown_scales), cmocka_unit_test(split),
+        cmocka_unit_test(other_locale)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
