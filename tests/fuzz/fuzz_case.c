@@ -51,8 +51,7 @@ static void check_text(const mps_case *c)
 static void read_case(const char *text, size_t size, int32_t count, const char *const *sets)
 {
     mps_case *c = NULL;
-    const mps_status status =
-        mps_case_read_text(text, size, "/nowhere/case.yaml", count, sets, &c);
+    const mps_status status = mps_case_read_text(text, size, "/nowhere/case.yaml", count, sets, &c);
     FUZZ_MUST(c && (status == MPS_OK || status == MPS_E_ARG || status == MPS_E_IO));
     FUZZ_MUST((status == MPS_OK) == (mps_case_text(c) != NULL));
     FUZZ_MUST(status == MPS_OK || mps_case_message_count(c) > 0);

@@ -16,9 +16,10 @@ static void refuse_kind(mps_case *c, const tree_node *node, const char *wanted)
     char path[PATH_ROOM];
     const mps__key *e = node->entry;
     const bool empty = node->kind == TREE_TEXT && !*node->text;
-    mps__case_say(c, node, false, "%s: %s is wanted, not %s%s%s%s", mps__tree_path(node, path, sizeof path),
-                  wanted, empty ? "nothing" : is[node->kind], *e->example ? ", e.g. '" : "",
-                  e->example, *e->example ? "'" : "");
+    mps__case_say(c, node, false, "%s: %s is wanted, not %s%s%s%s",
+                  mps__tree_path(node, path, sizeof path), wanted,
+                  empty ? "nothing" : is[node->kind], *e->example ? ", e.g. '" : "", e->example,
+                  *e->example ? "'" : "");
 }
 
 /* ---- names and keys --------------------------------------------------------------------------- */
@@ -45,13 +46,14 @@ static bool check_name(mps_case *c, const tree_node *node)
                       more[] = "0123456789-";
     const size_t length = strlen(node->key);
     size_t good = 0;
-    while (node->key[good] && (strchr(letters, node->key[good]) ||
-                               (good > 0 && strchr(more, node->key[good]))))
+    while (node->key[good] &&
+           (strchr(letters, node->key[good]) || (good > 0 && strchr(more, node->key[good]))))
         good++;
     if (good == length && length > 0 && length <= NAME_MOST) return true;
-    mps__case_say_key(c, node,
-                      "name '%.60s': a letter is wanted, then letters, digits, _ and -, %d in all at most",
-                      node->key, NAME_MOST);
+    mps__case_say_key(
+        c, node,
+        "name '%.60s': a letter is wanted, then letters, digits, _ and -, %d in all at most",
+        node->key, NAME_MOST);
     return false;
 }
 

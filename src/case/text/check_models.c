@@ -32,9 +32,9 @@ static bool find_name(const mps_sim *sim, list_fn list, const char *name, char *
 static void refuse_name(mps_case *c, const tree_node *node, const char *what, const char *nearest)
 {
     char path[PATH_ROOM];
-    mps__case_say(c, node, false, "%s: no %s '%.60s'%s%s%s", mps__tree_path(node, path, sizeof path),
-                  what, node->text, *nearest ? "; did you mean '" : "", nearest,
-                  *nearest ? "'?" : "");
+    mps__case_say(c, node, false, "%s: no %s '%.60s'%s%s%s",
+                  mps__tree_path(node, path, sizeof path), what, node->text,
+                  *nearest ? "; did you mean '" : "", nearest, *nearest ? "'?" : "");
 }
 
 static void check_name(mps_case *c, const mps_sim *sim, const tree_node *node, const char *what,
@@ -163,8 +163,7 @@ static const tree_node *below(const tree_node *root, const char *map, const char
 void mps__check_models(mps_case *c, tree_node *root)
 {
     const tree_node *model = mps__tree_find(root, "model"), *use = mps__tree_find(root, "use"),
-                    *gone = mps__tree_find(root, "remove"),
-                    *solver = below(root, "run", "solver"),
+                    *gone = mps__tree_find(root, "remove"), *solver = below(root, "run", "solver"),
                     *preconditioner = below(root, "run", "preconditioner"),
                     *kernel = below(root, "kernel", "name");
     tree_node *settings = mps__tree_find(root, "settings");

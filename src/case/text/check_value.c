@@ -106,7 +106,8 @@ int32_t mps__node_numbers(mps_case *c, const tree_node *node, int32_t most, doub
     if (found) *found = n.found;
     if (!right_count(c, node, &n, few) || !in_range(c, node, &n)) return -1;
     if (n.missing && strcmp(node->entry->path, "dp") == 0) {
-        mps__case_say(c, node, false, "dp: 'dp' is not known here; a length is wanted, e.g. '4 mm'");
+        mps__case_say(c, node, false,
+                      "dp: 'dp' is not known here; a length is wanted, e.g. '4 mm'");
         return -1;
     }
     return n.count;
@@ -199,9 +200,8 @@ static void check_flag(mps_case *c, tree_node *node)
 static void check_unit(mps_case *c, tree_node *node)
 {
     char path[PATH_ROOM], list[160];
-    const mps__unit *u = node->kind == TREE_TEXT
-                             ? mps__unit_find(node->text, strlen(node->text))
-                             : NULL;
+    const mps__unit *u = node->kind == TREE_TEXT ? mps__unit_find(node->text, strlen(node->text))
+                                                 : NULL;
     if (u && (u->kinds & node->units) && u->scale == SCALE_NONE) return;
     if (node->kind != TREE_TEXT || !*node->text) {
         refuse(c, node, "a unit");

@@ -142,8 +142,8 @@ const char *mps__key_nearest(const mps__key *parent, const char *name, char *buf
         const char *word;
         size_t length;
         if (!mps__key_is_below(parent, &mps__keys[k])) continue;
-        for (int32_t i = 0;
-             (length = mps__words_get(mps__key_last(&mps__keys[k]), i, &word)) > 0; i++) {
+        for (int32_t i = 0; (length = mps__words_get(mps__key_last(&mps__keys[k]), i, &word)) > 0;
+             i++) {
             char known[WORD_ROOM];
             if (length >= sizeof known || *word == '*') continue;
             memcpy(known, word, length);

@@ -3,29 +3,68 @@
 #include "keys.h"
 #include "units.h"
 
-#define MAP(path, help)            {path, SHAPE_MAP, 0, 0, 0, "", NULL, false, false, "", "", help}
-#define MAPS(path, help)           {path, SHAPE_MAPS, 0, 0, 0, "", NULL, false, false, "", "", help}
-#define NAMES(path, help)          {path, SHAPE_NAMES, 0, 0, 0, "", NULL, false, false, "", "", help}
-#define ITEM(path, help)           {path, SHAPE_MAP, 0, 0, 0, "", NULL, false, false, "", "", help}
+#define MAP(path, help)                                                \
+    {                                                                  \
+        path, SHAPE_MAP, 0, 0, 0, "", NULL, false, false, "", "", help \
+    }
+#define MAPS(path, help)                                                \
+    {                                                                   \
+        path, SHAPE_MAPS, 0, 0, 0, "", NULL, false, false, "", "", help \
+    }
+#define NAMES(path, help)                                                \
+    {                                                                    \
+        path, SHAPE_NAMES, 0, 0, 0, "", NULL, false, false, "", "", help \
+    }
+#define ITEM(path, help)                                               \
+    {                                                                  \
+        path, SHAPE_MAP, 0, 0, 0, "", NULL, false, false, "", "", help \
+    }
 /* a quantity, several, and points */
-#define ONE(path, units, range, otherwise, example, help) \
-    {path, SHAPE_NUMBERS, units, 1, 1, range, NULL, false, false, otherwise, example, help}
-#define MUST(path, units, range, example, help) \
-    {path, SHAPE_NUMBERS, units, 1, 1, range, NULL, true, false, "", example, help}
-#define MANY(path, units, few, many, range, otherwise, example, help) \
-    {path, SHAPE_NUMBERS, units, few, many, range, NULL, false, false, otherwise, example, help}
-#define WHOLE(path, range, otherwise, example, help) \
-    {path, SHAPE_NUMBERS, UNIT_NONE, 1, 1, range, NULL, false, true, otherwise, example, help}
-#define POINTS(path, few, many, example, help) \
-    {path, SHAPE_POINTS, UNIT_LENGTH, few, many, "", NULL, false, false, "", example, help}
+#define ONE(path, units, range, otherwise, example, help)                                     \
+    {                                                                                         \
+        path, SHAPE_NUMBERS, units, 1, 1, range, NULL, false, false, otherwise, example, help \
+    }
+#define MUST(path, units, range, example, help)                                       \
+    {                                                                                 \
+        path, SHAPE_NUMBERS, units, 1, 1, range, NULL, true, false, "", example, help \
+    }
+#define MANY(path, units, few, many, range, otherwise, example, help)                              \
+    {                                                                                              \
+        path, SHAPE_NUMBERS, units, few, many, range, NULL, false, false, otherwise, example, help \
+    }
+#define WHOLE(path, range, otherwise, example, help)                                             \
+    {                                                                                            \
+        path, SHAPE_NUMBERS, UNIT_NONE, 1, 1, range, NULL, false, true, otherwise, example, help \
+    }
+#define POINTS(path, few, many, example, help)                                                \
+    {                                                                                         \
+        path, SHAPE_POINTS, UNIT_LENGTH, few, many, "", NULL, false, false, "", example, help \
+    }
 /* texts */
-#define TEXT(path, otherwise, example, help) {path, SHAPE_TEXT, 0, 1, 1, "", NULL, false, false, otherwise, example, help}
-#define TEXTS(path, example, help)           {path, SHAPE_TEXTS, 0, 1, 256, "", NULL, false, false, "", example, help}
-#define WORD(path, words, otherwise, help)   {path, SHAPE_WORD, 0, 1, 1, "", words, false, false, otherwise, otherwise, help}
-#define FLAG(path, otherwise, help)          {path, SHAPE_FLAG, 0, 1, 1, "", NULL, false, false, otherwise, "yes", help}
-#define FILES(path, example, help)           {path, SHAPE_FILE, 0, 1, 1, "", NULL, false, false, "", example, help}
-#define AUNIT(path, units, otherwise, example, help) \
-    {path, SHAPE_UNIT, units, 1, 1, "", NULL, false, false, otherwise, example, help}
+#define TEXT(path, otherwise, example, help)                                        \
+    {                                                                               \
+        path, SHAPE_TEXT, 0, 1, 1, "", NULL, false, false, otherwise, example, help \
+    }
+#define TEXTS(path, example, help)                                              \
+    {                                                                           \
+        path, SHAPE_TEXTS, 0, 1, 256, "", NULL, false, false, "", example, help \
+    }
+#define WORD(path, words, otherwise, help)                                             \
+    {                                                                                  \
+        path, SHAPE_WORD, 0, 1, 1, "", words, false, false, otherwise, otherwise, help \
+    }
+#define FLAG(path, otherwise, help)                                               \
+    {                                                                             \
+        path, SHAPE_FLAG, 0, 1, 1, "", NULL, false, false, otherwise, "yes", help \
+    }
+#define FILES(path, example, help)                                           \
+    {                                                                        \
+        path, SHAPE_FILE, 0, 1, 1, "", NULL, false, false, "", example, help \
+    }
+#define AUNIT(path, units, otherwise, example, help)                                    \
+    {                                                                                   \
+        path, SHAPE_UNIT, units, 1, 1, "", NULL, false, false, otherwise, example, help \
+    }
 
 #define MOVE "motion.surge|sway|heave"
 #define TURN "motion.roll|pitch|yaw"

@@ -24,7 +24,8 @@ int32_t mps__source_add(mps_case *c, const mps__source *source)
 
 /* ---- pages ------------------------------------------------------------------------------------ */
 
-static const char page_begin[] = "<script type=\"text/yaml\" id=\"case\">", page_end[] = "</script>";
+static const char page_begin[] = "<script type=\"text/yaml\" id=\"case\">",
+                  page_end[] = "</script>";
 
 /* A page writes "</" as "<\/" and "<!--" as "<\!--", so that the case does not end its script. */
 char *mps__page_case(char *page, size_t *size, int32_t *line)

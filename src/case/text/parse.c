@@ -9,9 +9,9 @@ typedef struct parse {
     mps_case *c;
     int32_t source;
     int32_t depth;
-    tree_node *at;       /* list or map that is open */
+    tree_node *at; /* list or map that is open */
     tree_node *root;
-    const char *key;     /* of the value to come, in a map */
+    const char *key; /* of the value to come, in a map */
     mps__place key_place;
     int32_t documents;
     bool stop;
@@ -278,6 +278,7 @@ tree_node *mps__parse(mps_case *c, int32_t source)
     yaml_parser_delete(&y);
     if (c->no_memory) return NULL;
     if (!p.root && c->errors == errors)
-        mps__case_fail(c, (mps__place){source, 1, 1}, "there is nothing in it; a case begins with 'mps: 1'");
+        mps__case_fail(c, (mps__place){source, 1, 1},
+                       "there is nothing in it; a case begins with 'mps: 1'");
     return c->errors == errors ? p.root : NULL;
 }

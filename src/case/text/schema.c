@@ -11,12 +11,19 @@
 
 static const char *shape_name(key_shape shape)
 {
-    static const char *const names[] = {
-        [SHAPE_MAP] = "map",       [SHAPE_MAPS] = "map, or list of maps", [SHAPE_NAMES] = "map of names",
-        [SHAPE_FILLS] = "list",    [SHAPE_NUMBERS] = "number",            [SHAPE_POINTS] = "points",
-        [SHAPE_TEXT] = "text",     [SHAPE_TEXTS] = "text, or list of texts",
-        [SHAPE_WORD] = "word",     [SHAPE_FLAG] = "yes or no",            [SHAPE_FILE] = "file",
-        [SHAPE_UNIT] = "unit",     [SHAPE_PATHS] = "map of paths"};
+    static const char *const names[] = {[SHAPE_MAP] = "map",
+                                        [SHAPE_MAPS] = "map, or list of maps",
+                                        [SHAPE_NAMES] = "map of names",
+                                        [SHAPE_FILLS] = "list",
+                                        [SHAPE_NUMBERS] = "number",
+                                        [SHAPE_POINTS] = "points",
+                                        [SHAPE_TEXT] = "text",
+                                        [SHAPE_TEXTS] = "text, or list of texts",
+                                        [SHAPE_WORD] = "word",
+                                        [SHAPE_FLAG] = "yes or no",
+                                        [SHAPE_FILE] = "file",
+                                        [SHAPE_UNIT] = "unit",
+                                        [SHAPE_PATHS] = "map of paths"};
     return names[shape];
 }
 
@@ -25,7 +32,7 @@ static void kind_of(const mps__key *key, char *kind, size_t size)
 {
     char name[48];
     mps__kinds_name(key->units, name, sizeof name);
-    const char *word = strncmp(name, "an ", 3) == 0 ? name + 3
+    const char *word = strncmp(name, "an ", 3) == 0  ? name + 3
                        : strncmp(name, "a ", 2) == 0 ? name + 2
                                                      : name;
     if (key->shape != SHAPE_NUMBERS)
@@ -139,8 +146,7 @@ static void put_numbers(mps__out *o, const mps__key *key)
     } else {
         mps__out_put(o, ",{\"const\":0}");
     }
-    if (many)
-        mps__out_put(o, ",{\"type\":\"array\",\"items\":{\"type\":[\"string\",\"number\"]}}");
+    if (many) mps__out_put(o, ",{\"type\":\"array\",\"items\":{\"type\":[\"string\",\"number\"]}}");
     mps__out_put(o, "]");
 }
 
@@ -172,7 +178,8 @@ static void put_properties(mps__out *o, const mps__key *parent, bool strict)
             /* of motion.surge|sway and motion.surge|sway|roll, the key is put where its parent is */
             mps__out_put(o, "%s", comma);
             if (*word == '*')
-                mps__out_put(o, mps__key_dotted(parent) ? "\"^[a-z_]+\\\\.[a-z0-9_]+$\"" : "\"" NAME "\"");
+                mps__out_put(o, mps__key_dotted(parent) ? "\"^[a-z_]+\\\\.[a-z0-9_]+$\""
+                                                        : "\"" NAME "\"");
             else
                 put_string(o, word, length);
             mps__out_put(o, ":");
@@ -206,8 +213,7 @@ static void put_groups(mps__out *o, const mps__key *parent)
         if (!mps__group_is_of(&mps__key_groups[k], parent)) continue;
         mps__out_put(o, ",{\"oneOf\":[");
         comma = "";
-        for (int32_t i = 0;
-             (length = mps__words_get(mps__key_groups[k].keys, i, &word)) > 0; i++) {
+        for (int32_t i = 0; (length = mps__words_get(mps__key_groups[k].keys, i, &word)) > 0; i++) {
             mps__out_put(o, "%s{\"required\":[", comma);
             put_string(o, word, length);
             mps__out_put(o, "]}");

@@ -117,9 +117,10 @@ void mps__check_sweep(mps_case *c, tree_node *root)
         if (!can_sweep(key))
             mps__case_say_key(c, n, "sweep: '%.80s' is no path of a value", n->key);
         else if (count == 0 || count > PATH_VALUES)
-            mps__case_say(c, n, false,
-                          "sweep: 1 to %d values are wanted, e.g. '0.8 0.9 T1' or '1 to 2 step 0.1 s'",
-                          PATH_VALUES);
+            mps__case_say(
+                c, n, false,
+                "sweep: 1 to %d values are wanted, e.g. '0.8 0.9 T1' or '1 to 2 step 0.1 s'",
+                PATH_VALUES);
         else
             check_values(c, n, key, count);
         runs *= count;

@@ -111,8 +111,7 @@ static bool bound_holds(const char **at, double value, bool sign_only)
 {
     const bool above = **at == '>', closed = (*at)[1] == '=';
     double limit;
-    mps__numbers n = {
-        .kinds = UNIT_ANY, .scale = {1, NAN, NAN, 1}, .most = 1, .out = &limit};
+    mps__numbers n = {.kinds = UNIT_ANY, .scale = {1, NAN, NAN, 1}, .most = 1, .out = &limit};
     char text[64];
     *at += closed ? 2 : 1;
     *at += strspn(*at, " ");

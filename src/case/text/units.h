@@ -8,32 +8,32 @@
 #include <stdint.h>
 
 /* Kinds of quantities, bits. A unit may serve several: N/m is one of tension and of stiffness. */
-#define UNIT_NONE       (UINT64_C(1) << 0) /* a number without a unit */
-#define UNIT_LENGTH     (UINT64_C(1) << 1)
-#define UNIT_TIME       (UINT64_C(1) << 2)
-#define UNIT_ANGLE      (UINT64_C(1) << 3)
-#define UNIT_OMEGA      (UINT64_C(1) << 4)
-#define UNIT_FREQUENCY  (UINT64_C(1) << 5)
-#define UNIT_VELOCITY   (UINT64_C(1) << 6)
-#define UNIT_ACCEL      (UINT64_C(1) << 7)
-#define UNIT_DENSITY    (UINT64_C(1) << 8)
-#define UNIT_DYNAMIC    (UINT64_C(1) << 9)
-#define UNIT_KINEMATIC  (UINT64_C(1) << 10)
-#define UNIT_TENSION    (UINT64_C(1) << 11)
-#define UNIT_PRESSURE   (UINT64_C(1) << 12)
-#define UNIT_MASS       (UINT64_C(1) << 13)
-#define UNIT_INERTIA    (UINT64_C(1) << 14)
-#define UNIT_STIFFNESS  (UINT64_C(1) << 15)
-#define UNIT_FORCE      (UINT64_C(1) << 16)
-#define UNIT_MOMENT     (UINT64_C(1) << 17)
-#define UNIT_SHARE      (UINT64_C(1) << 18)
-#define UNIT_BYTES      (UINT64_C(1) << 19)
-#define UNIT_ANG_ACCEL  (UINT64_C(1) << 20)
-#define UNIT_VOLUME     (UINT64_C(1) << 21)
-#define UNIT_AREA       (UINT64_C(1) << 22)
-#define UNIT_KINDS      23
-#define UNIT_VISCOSITY  (UNIT_DYNAMIC | UNIT_KINEMATIC)
-#define UNIT_ANY        ((UINT64_C(1) << UNIT_KINDS) - 1)
+#define UNIT_NONE      (UINT64_C(1) << 0) /* a number without a unit */
+#define UNIT_LENGTH    (UINT64_C(1) << 1)
+#define UNIT_TIME      (UINT64_C(1) << 2)
+#define UNIT_ANGLE     (UINT64_C(1) << 3)
+#define UNIT_OMEGA     (UINT64_C(1) << 4)
+#define UNIT_FREQUENCY (UINT64_C(1) << 5)
+#define UNIT_VELOCITY  (UINT64_C(1) << 6)
+#define UNIT_ACCEL     (UINT64_C(1) << 7)
+#define UNIT_DENSITY   (UINT64_C(1) << 8)
+#define UNIT_DYNAMIC   (UINT64_C(1) << 9)
+#define UNIT_KINEMATIC (UINT64_C(1) << 10)
+#define UNIT_TENSION   (UINT64_C(1) << 11)
+#define UNIT_PRESSURE  (UINT64_C(1) << 12)
+#define UNIT_MASS      (UINT64_C(1) << 13)
+#define UNIT_INERTIA   (UINT64_C(1) << 14)
+#define UNIT_STIFFNESS (UINT64_C(1) << 15)
+#define UNIT_FORCE     (UINT64_C(1) << 16)
+#define UNIT_MOMENT    (UINT64_C(1) << 17)
+#define UNIT_SHARE     (UINT64_C(1) << 18)
+#define UNIT_BYTES     (UINT64_C(1) << 19)
+#define UNIT_ANG_ACCEL (UINT64_C(1) << 20)
+#define UNIT_VOLUME    (UINT64_C(1) << 21)
+#define UNIT_AREA      (UINT64_C(1) << 22)
+#define UNIT_KINDS     23
+#define UNIT_VISCOSITY (UNIT_DYNAMIC | UNIT_KINEMATIC)
+#define UNIT_ANY       ((UINT64_C(1) << UNIT_KINDS) - 1)
 
 /* What a unit is relative to. */
 typedef enum unit_scale { SCALE_NONE, SCALE_DP, SCALE_T1, SCALE_WHOLE } unit_scale;
@@ -55,10 +55,10 @@ typedef struct mps__numbers {
     double *out;
     /* results */
     int32_t count;
-    uint64_t found;         /* kinds that the units which are there serve; all of `kinds` if none */
+    uint64_t found;      /* kinds that the units which are there serve; all of `kinds` if none */
     bool relative;       /* a unit is dp, T1 or % */
     const char *missing; /* the unit whose scale is not known: its numbers are NAN; or NULL */
-    char why[600];          /* what is wrong */
+    char why[600];       /* what is wrong */
 } mps__numbers;
 
 /* Read a list of numbers, "0 50 mm". Each number without a unit takes that of the next that has one. 0 needs none.
