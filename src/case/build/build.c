@@ -27,32 +27,43 @@ void mps__build_simulation(build *b, const mps_job_config *options)
         if (b->sim && b->status == MPS_OK && !mps__case_failed(b->c)) part[i](b);
 }
 
-/* What the tank looks like in the plane x, y, where that is one line. */
-static void add_outline(build *b)
+/* What a form looks like in the plane x, y, where that is one line. */
+static int32_t outline_of(const form *t, double (*xy)[2])
 {
-    const form *t = &b->tank.form;
-    double xy[FORM_POINTS + 1][2];
     int32_t count = 0;
-    xy[0][0] = xy[0][1] = 0;
     if (t->kind == FORM_POLYGON && !t->sideways) {
         count = t->points;
         memcpy(xy, t->point, sizeof t->point);
     } else if (t->kind == FORM_BALL) {
-        for (count = 0; count < FORM_POINTS; count++) {
+        for (; count < FORM_POINTS; count++) {
             const double angle = 2 * acos(-1.0) * count / FORM_POINTS;
             xy[count][0] = t->end[0][0] + t->radius * cos(angle);
             xy[count][1] = t->end[0][1] + t->radius * sin(angle);
         }
-    } else if (t->kind == FORM_BOX && !b->tank.file) {
+    } else if (t->kind == FORM_BOX) {
         const double corner[4][2] = {
             {t->lo[0], t->lo[1]}, {t->hi[0], t->lo[1]}, {t->hi[0], t->hi[1]}, {t->lo[0], t->hi[1]}};
         count = 4;
         memcpy(xy, corner, sizeof corner);
     }
-    memcpy(xy[count], xy[0], sizeof xy[0]); /* closed */
+    if (count > 0) memcpy(xy[count++], xy[0], sizeof xy[0]); /* closed */
+    return count;
+}
+
+/* Tank and solids for the page. Of a file the box is not drawn. */
+static void add_outlines(build *b)
+{
+    double xy[FORM_POINTS + 1][2];
+    int32_t count = b->tank.file ? 0 : outline_of(&b->tank.form, xy);
     if (count > 0)
-        mps__build_try_job(b, mps_job_outline_add(b->job, count + 1, &xy[0][0]), b->tank.at,
-                           "tank");
+        mps__build_try_job(b, mps_job_outline_add(b->job, count, &xy[0][0]), b->tank.at, "tank");
+    for (int32_t i = 0; i < b->solids; i++) {
+        const build_solid *s = &b->solid[i];
+        count = s->file ? 0 : s->plate ? 2 : outline_of(&s->form, xy);
+        for (int k = 0; s->plate && k < 2; k++) memcpy(xy[k], s->end[k], sizeof xy[k]);
+        if (count > 0)
+            mps__build_try_job(b, mps_job_outline_add(b->job, count, &xy[0][0]), b->root, s->name);
+    }
 }
 
 /* Statistics are made from the folder of the run, sweeps by the program. */
@@ -66,7 +77,7 @@ static void build_columns(build *b)
     mps__build_inputs(b);
     if (b->job && mps__build_filled(b))
         mps__build_try_job(b, mps_job_level_set(b->job, b->level), b->root, "fill");
-    if (b->job) add_outline(b);
+    if (b->job) add_outlines(b);
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         mps__read_all(mps__tree_find(b->root, others[i]));
     const tree_node *unread = mps__case_failed(b->c) ? NULL : mps__case_unread(b->c);

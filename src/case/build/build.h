@@ -42,7 +42,7 @@ typedef struct build_tank {
 typedef struct build_solid {
     char name[BUILD_NAME];
     form form;
-    bool plate;
+    bool plate, file;
     double end[2][3];
 } build_solid;
 

@@ -253,6 +253,7 @@ static void add_file(reading *r)
     mps_stl stl;
     if (!mps__build_stl(r->b, r->map, &stl)) return;
     stl.name = r->name;
+    r->out->file = true;
     const char *path = mps__read_path(r->b->c, r->map, "stl");
     if (!path) return;
     if (!mps__build_try(r->b, mps_stl_add(r->b->sim, path, &stl, box),
