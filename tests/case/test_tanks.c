@@ -201,6 +201,15 @@ static void methods(void **state)
                "fill: [{water: {depth: 50 %}}]\nrun: {until: 2 T1}\n",
                NULL);
     assert_non_null(strstr(t.b.modes.how, "estimate"));
+    same_number(t.b.modes.length, 1.5, 1e-3);
+    same_number(t.b.modes.depth, 0.25 * acos(-1.0) * 0.5, 0.05);
+    built_free(&t);
+    /* a cube from a file, exact; the upper row holds a share of its points */
+    built_make(&t,
+               "mps: 1\ndim: 3\ndp: 60 mm\ntank: {stl: " CASES "cube.stl, unit: m}\n"
+               "fill: [{water: {depth: 40 %}}]\nrun: {until: 2 T1}\n",
+               NULL);
+    assert_true(fabs(t.b.modes.period[0] / 1.2275 - 1) < 0.02);
     built_free(&t);
 }
 

@@ -17,9 +17,23 @@
 
 /* The liquid as filled, phase 0. */
 typedef struct liquid {
-    int64_t count, surface;   /* particles; of them within a spacing of the highest */
-    double top, lo[3], hi[3]; /* of those at the surface */
+    int64_t count, surface,
+        walls;                /* particles; of them within a spacing of the highest; walls there */
+    double top, lo[3], hi[3]; /* of these walls, which lie on the tank */
 } liquid;
+
+/* The highest row may hold a share of its points only: the one below it tells the area. */
+static void take_surface(const build *b, liquid *l, const double *x, int32_t kind)
+{
+    const double below = (l->top - x[1]) / b->dp;
+    l->surface += kind == MPS_FLUID && below > 0.5 && below <= 1.5;
+    if (kind != MPS_WALL || fabs(below) > 0.75) return;
+    for (int d = 0; d < b->dim; d++) {
+        l->lo[d] = l->walls ? fmin(l->lo[d], x[d]) : x[d];
+        l->hi[d] = l->walls ? fmax(l->hi[d], x[d]) : x[d];
+    }
+    l->walls++;
+}
 
 static bool take(build *b, liquid *l, bool surface)
 {
@@ -29,18 +43,12 @@ static bool take(build *b, liquid *l, bool surface)
     good = good && mps_lease_begin(b->sim, "phase", MPS_READ, &phase) == MPS_OK;
     for (int64_t i = 0; good && i < x.count; i++) {
         const double *at = x.data + i * x.stride;
-        if (kind.integers[i] != MPS_FLUID || phase.integers[i] != 0) continue;
-        if (!surface) {
-            l->top = l->count ? fmax(l->top, at[1]) : at[1];
-            l->count++;
-            continue;
-        }
-        if (at[1] < l->top - 0.999 * b->dp) continue;
-        for (int d = 0; d < x.stride; d++) {
-            l->lo[d] = l->surface ? fmin(l->lo[d], at[d]) : at[d];
-            l->hi[d] = l->surface ? fmax(l->hi[d], at[d]) : at[d];
-        }
-        l->surface++;
+        const bool fluid = kind.integers[i] == MPS_FLUID;
+        if (fluid && phase.integers[i] != 0) continue;
+        if (surface) take_surface(b, l, at, kind.integers[i]);
+        if (surface || !fluid) continue;
+        l->top = l->count ? fmax(l->top, at[1]) : at[1];
+        l->count++;
     }
     mps_lease_end(b->sim, &phase);
     mps_lease_end(b->sim, &kind);
@@ -99,14 +107,14 @@ static bool by_section(build *b, build_modes *m)
     return true;
 }
 
-/* Particles at walls stand for half a spacing more; in a tank on a lattice the wall is a whole one away from them. */
+/* The surface reaches from wall to wall. */
 static bool as_filled(build *b, build_modes *m)
 {
     liquid l = {0};
-    if (!take(b, &l, false) || !take(b, &l, true) || l.surface < 1) return false;
-    const double gap = b->tank.form.kind == FORM_BOX && !b->tank.file ? 2 : 1;
-    m->length = l.hi[m->axis] - l.lo[m->axis] + gap * b->dp;
-    m->depth = (double)l.count * pow(b->dp, b->dim) / ((double)l.surface * pow(b->dp, b->dim - 1));
+    if (!take(b, &l, false) || !take(b, &l, true) || l.surface < 1 || l.walls < 2) return false;
+    m->length = l.hi[m->axis] - l.lo[m->axis];
+    m->depth = (double)l.count * b->dp / (double)l.surface;
+    if (!(m->length > 0)) return false;
     snprintf(m->how, sizeof m->how,
              "estimate: length of the free surface %.4g m and mean depth %.4g m as filled, in "
              "w^2 = g k tanh(k h)",
