@@ -111,6 +111,18 @@ static void use_solver(build *b, const tree_node *run)
 
 /* ---- all ---- */
 
+/* Corners of the box beyond which particles are lost. */
+static void read_domain(build *b, mps_config *config)
+{
+    double x[2][3];
+    const tree_node *node = mps__tree_find(b->root, "domain");
+    if (!node || mps__build_points(b, node, 0, 2, x) != 2) return;
+    for (int d = 0; d < 3; d++) {
+        config->domain_min[d] = fmin(x[0][d], x[1][d]);
+        config->domain_max[d] = fmax(x[0][d], x[1][d]);
+    }
+}
+
 static void create(build *b, const tree_node *run, const mps_job_config *options)
 {
     char error[2 * BUILD_TEXT] = "";
@@ -127,6 +139,7 @@ static void create(build *b, const tree_node *run, const mps_job_config *options
         config.re_near = mps__read_number(b->c, kernel, "near", NAN) / b->dp;
     if (mps__tree_find(kernel, "far"))
         config.re_far = mps__read_number(b->c, kernel, "far", NAN) / b->dp;
+    read_domain(b, &config);
     config.speed_limit = mps__read_number(b->c, run, "speed_limit", config.speed_limit);
     config.lost_policy = mps__read_choice(b->c, run, "lost", MPS_LOST_REMOVE);
     const bool ranks = options && options->ranks;
