@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Layout of the public structs on x86-64, written by make_layout. Sizes may grow, offsets never change within a major version. */
+#include <mps/case.h>
 #include <mps/exact.h>
 #include <mps/flux.h>
 #include <mps/geometry.h>
@@ -22,6 +23,19 @@
 #if defined(__x86_64__) && !defined(__ILP32__)
 #define SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), #type)
 #define AT(type, member, bytes) _Static_assert(offsetof(type, member) == (bytes), #type "." #member)
+
+SIZE(mps_case_message, 40);
+AT(mps_case_message, struct_size, 0); AT(mps_case_message, warning, 4);
+AT(mps_case_message, line, 8); AT(mps_case_message, column, 12);
+AT(mps_case_message, file, 16); AT(mps_case_message, text, 24);
+AT(mps_case_message, source, 32);
+
+SIZE(mps_case_key, 304);
+AT(mps_case_key, struct_size, 0); AT(mps_case_key, required, 4);
+AT(mps_case_key, path, 8); AT(mps_case_key, range, 16);
+AT(mps_case_key, otherwise, 24); AT(mps_case_key, example, 32);
+AT(mps_case_key, help, 40); AT(mps_case_key, kind, 48);
+AT(mps_case_key, units, 144);
 
 SIZE(mps_exact, 32);
 AT(mps_exact, part, 0); AT(mps_exact, level, 24);

@@ -2,7 +2,7 @@
 /* One run of the sweep: draw a tank from a seed, step it to the end, say in one line whether all went well.
  * scripts/sweep runs many of them. Exit code 0: ok, 1: something is wrong, 2: bad command line. */
 #include "../tags.h"
-#include "common/picture.h"
+#include "picture.h"
 #include "scenario.h"
 #include <errno.h>
 #include <math.h>
@@ -182,13 +182,13 @@ static mps_status change_models(const options *o, mps_sim *sim)
 
 static void take_picture(const options *o, mps_sim *sim, int number)
 {
-    char path[PATH_SIZE];
+    char path[PATH_SIZE], error[PICTURE_ERROR];
     if (!o->pictures) return;
     if (number >= 0)
         snprintf(path, sizeof path, "%s_%03d.png", o->pictures, number);
     else
         snprintf(path, sizeof path, "%s_end.png", o->pictures);
-    picture_save(sim, 9.81, path);
+    if (!mps__picture_save(sim, 9.81, path, error)) fprintf(stderr, "%s\n", error);
 }
 
 static void step(const options *o, mps_sim *sim, findings *f)

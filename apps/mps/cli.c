@@ -1,0 +1,180 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Reading the command line. */
+#include "cli.h"
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef enum option_kind { OPTION_FLAG, OPTION_TEXT, OPTION_COUNT, OPTION_SET } option_kind;
+
+typedef struct option {
+    int32_t bit;
+    const char *name;
+    char letter;
+    const char *argument, *help;
+    option_kind kind;
+    void *value;
+} option;
+
+enum { OPTIONS = 8, THREADS_MOST = 1024 };
+
+static void make_table(choices *c, option *table)
+{
+    const option all[OPTIONS] = {
+        {HAS_SET, "--set", 's', "PATH=VALUE", "change a value of the case; may be repeated",
+         OPTION_SET, NULL},
+        {HAS_OUT, "--out", 'o', "PLACE",
+         "folder or file of the outputs; default: the name of the case", OPTION_TEXT,
+         (void *)&c->out},
+        {HAS_THREADS, "--threads", 'j', "N", "threads; results do not depend on them", OPTION_COUNT,
+         &c->threads},
+        {HAS_OVERWRITE, "--overwrite", 0, NULL, "replace what is there", OPTION_FLAG,
+         &c->overwrite},
+        {HAS_RESUME, "--resume", 0, NULL, "continue from the checkpoint in the folder", OPTION_FLAG,
+         &c->resume},
+        {HAS_QUIET, "--quiet", 'q', NULL, "no progress, no messages but of failures", OPTION_FLAG,
+         &c->quiet},
+        {HAS_PROFILE, "--profile", 0, NULL, "print what each pass of the steps costs", OPTION_FLAG,
+         &c->profile},
+        {HAS_MPI, "--mpi", 0, NULL, "one run on the ranks that mpirun starts", OPTION_FLAG,
+         &c->mpi}};
+    memcpy(table, all, sizeof all);
+}
+
+void cli_print_help(const verb *v)
+{
+    choices none = {0};
+    option table[OPTIONS];
+    make_table(&none, table);
+    printf("usage: mps %s %s%s\n\n%s\n", v->name, v->arguments, v->options ? " [options]" : "",
+           v->help);
+    for (int i = 0; i < OPTIONS && v->options; i++) {
+        char left[48], letter[8] = "    ";
+        if (!(v->options & table[i].bit)) continue;
+        if (table[i].letter) snprintf(letter, sizeof letter, "-%c, ", table[i].letter);
+        snprintf(left, sizeof left, "%s%s %s", letter, table[i].name,
+                 table[i].argument ? table[i].argument : "");
+        printf("%s  %-24s %s\n", i == 0 ? "\n" : "", left, table[i].help);
+    }
+    if (v->more) printf("\n%s", v->more);
+}
+
+static int refuse(const choices *c, const char *what, const char *why)
+{
+    fprintf(stderr, "mps %s: %s: %s\n'mps %s --help' lists all options\n", c->verb, what, why,
+            c->verb);
+    return MPS_EXIT_USAGE;
+}
+
+/* The option that an argument names, and its value: "--out x", "--out=x", "-o x", "-ox". @return NULL: there is none */
+static const option *find(const option *table, int32_t bits, const char *argument,
+                          const char **value)
+{
+    const char *equals = strchr(argument, '=');
+    const size_t length = equals ? (size_t)(equals - argument) : strlen(argument);
+    *value = NULL;
+    for (int i = 0; i < OPTIONS; i++) {
+        const option *o = &table[i];
+        if (!(bits & o->bit)) continue;
+        if (strlen(o->name) == length && strncmp(o->name, argument, length) == 0) {
+            *value = equals ? equals + 1 : NULL;
+            return o;
+        }
+        if (o->letter && argument[0] == '-' && argument[1] == o->letter) {
+            *value = argument[2] ? argument + 2 : NULL;
+            return o;
+        }
+    }
+    return NULL;
+}
+
+static int take(choices *c, const option *o, const char *value)
+{
+    char *end;
+    if (o->kind == OPTION_TEXT) *(const char **)o->value = value;
+    if (o->kind == OPTION_SET) {
+        if (c->sets == CLI_SETS) return refuse(c, value, "is one --set too many");
+        c->set[c->sets++] = value;
+    }
+    if (o->kind == OPTION_COUNT) {
+        const long count = strtol(value, &end, 10);
+        if (end == value || *end || count < 1 || count > THREADS_MOST)
+            return refuse(c, value, "must be a whole number, 1 to 1024");
+        *(int32_t *)o->value = (int32_t)count;
+    }
+    return -1;
+}
+
+static void keep_command(choices *c, int argc, char **argv)
+{
+    size_t used = 0;
+    for (int i = 0; i < argc && used < sizeof c->command; i++) {
+        const bool quote = strpbrk(argv[i], " \t'\"$*;") != NULL;
+        used += (size_t)snprintf(c->command + used, sizeof c->command - used, "%s%s%s%s",
+                                 i ? " " : "", quote ? "'" : "", argv[i], quote ? "'" : "");
+    }
+}
+
+int cli_read(choices *c, const verb *v, int argc, char **argv)
+{
+    option table[OPTIONS];
+    make_table(c, table);
+    keep_command(c, argc, argv);
+    for (int i = 2; i < argc; i++) {
+        const char *value, *argument = argv[i];
+        if (strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0) {
+            cli_print_help(v);
+            return MPS_EXIT_OK;
+        }
+        if (argument[0] != '-' || !argument[1]) {
+            if (c->files == CLI_FILES || c->files == v->many)
+                return refuse(c, argument, "is one argument too many");
+            c->file[c->files++] = argument;
+            continue;
+        }
+        const option *o = find(table, v->options, argument, &value);
+        if (!o) return refuse(c, argument, "unknown option");
+        if (o->kind == OPTION_FLAG) {
+            if (value) return refuse(c, argument, "takes no value");
+            *(bool *)o->value = true;
+            continue;
+        }
+        if (!value) value = i + 1 < argc ? argv[++i] : NULL;
+        if (!value || !value[0]) return refuse(c, argument, "needs a value");
+        const int code = take(c, o, value);
+        if (code >= 0) return code;
+    }
+    if (c->files < v->few) return refuse(c, v->arguments, "is missing");
+    return -1;
+}
+
+void cli_stem(const char *path, char *out, size_t size)
+{
+    const char *slash = strrchr(path, '/'), *begin = slash ? slash + 1 : path,
+               *dot = strrchr(begin, '.');
+    snprintf(out, size, "%.*s", (int)(dot && dot > begin ? dot - begin : (int)strlen(begin)),
+             begin);
+}
+
+void cli_print_messages(const mps_case *c)
+{
+    const size_t size = mps_case_messages_write(c, NULL, 0) + 1;
+    char *text = malloc(size);
+    if (!text) return;
+    mps_case_messages_write(c, text, size);
+    fputs(text, stderr);
+    free(text);
+}
+
+mps_case *cli_case(const choices *c, int *code)
+{
+    mps_case *out = NULL;
+    const mps_status status = mps_case_read(c->file[0], c->sets, c->set, &out);
+    if (out) cli_print_messages(out);
+    if (status == MPS_OK) return out;
+    if (!out) fprintf(stderr, "mps %s: %s: %s\n", c->verb, c->file[0], mps_status_text(status));
+    *code = status == MPS_E_ARG || status == MPS_E_IO ? MPS_EXIT_USAGE : MPS_EXIT_FAILED;
+    mps_case_destroy(out);
+    return NULL;
+}

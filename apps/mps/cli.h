@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The command line of mps: verbs with their options. */
+#ifndef MPS_APPS_CLI_H
+#define MPS_APPS_CLI_H
+
+#include <mps/case.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+enum { CLI_SETS = 64, CLI_FILES = 64 };
+
+/* What a user has asked for. */
+typedef struct choices {
+    const char *program, *verb;
+    int32_t files, sets;
+    const char *file[CLI_FILES];   /* arguments that are no options */
+    const char *set[CLI_SETS + 2]; /* "path=value" */
+    const char *out;               /* NULL: as the verb has it */
+    int32_t threads;               /* 0: as the case says */
+    bool overwrite, resume, quiet, profile, mpi;
+    char command[1024]; /* the whole line */
+} choices;
+
+/* Options, as bits: which a verb has. */
+enum {
+    HAS_SET = 1,
+    HAS_OUT = 2,
+    HAS_THREADS = 4,
+    HAS_OVERWRITE = 8,
+    HAS_QUIET = 16,
+    HAS_PROFILE = 32,
+    HAS_MPI = 64,
+    HAS_RESUME = 128
+};
+
+/* A verb: `mps VERB ARGUMENTS`. @return exit code, MPS_EXIT_... */
+typedef struct verb {
+    const char *name, *arguments, *help;
+    int32_t few, many; /* arguments */
+    int32_t options;
+    int (*run)(const choices *c);
+    const char *more; /* text behind the options of `mps VERB --help`, or NULL */
+} verb;
+
+int verb_run(const choices *c);
+int verb_resume(const choices *c);
+int verb_check(const choices *c);
+int verb_init(const choices *c);
+int verb_list(const choices *c);
+int verb_info(const choices *c);
+int verb_schema(const choices *c);
+
+/* Read the line; prints help or what is wrong. @return -1: go on; else the exit code */
+int cli_read(choices *c, const verb *v, int argc, char **argv);
+void cli_print_help(const verb *v);
+/* Read a case and print its messages. @return NULL: it has errors, and *code is set */
+mps_case *cli_case(const choices *c, int *code);
+/* "surge" of "cases/surge.yaml". */
+void cli_stem(const char *path, char *out, size_t size);
+/* The messages of a case on stderr. */
+void cli_print_messages(const mps_case *c);
+
+#endif

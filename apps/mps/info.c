@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* mps info: what a file is, from its own bytes. */
+#include "cli.h"
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { HEAD = 4096 };
+
+/* The beginning of a file. */
+typedef struct head {
+    const char *path;
+    FILE *file;
+    long long size;
+    size_t count;
+    char text[HEAD + 1];
+} head;
+
+/* ---- kinds of files ---- */
+
+/* A checkpoint: 16 bytes of head, then parts with a title, bytes of an element, checksum, number of elements. */
+static bool tell_checkpoint(const head *h)
+{
+    enum { TITLE = 40, PART = TITLE + 16 };
+    char part[PART];
+    if (h->count < 16 || memcmp(h->text, "mpsstate", 8) != 0) return false;
+    printf("checkpoint of a run, %lld bytes; 'mps resume' continues from its folder\n", h->size);
+    if (fseek(h->file, 16, SEEK_SET) != 0) return true;
+    while (fread(part, 1, PART, h->file) == PART) {
+        uint32_t bytes;
+        int64_t elements;
+        memcpy(&bytes, part + TITLE, sizeof bytes);
+        memcpy(&elements, part + TITLE + 8, sizeof elements);
+        part[TITLE - 1] = '\0';
+        if (elements < 0 || bytes > 1u << 30 || elements > h->size) return true;
+        const long long length = (elements * (long long)bytes + 7) / 8 * 8;
+        if (strcmp(part, "end") == 0) return true;
+        printf("  %-24s %lld of %u bytes\n", part, (long long)elements, (unsigned)bytes);
+        if (fseek(h->file, (long)length, SEEK_CUR) != 0) return true;
+    }
+    printf("  it is cut short\n");
+    return true;
+}
+
+/* The value of an XML attribute. */
+static bool attribute(const char *text, const char *name, char *out, size_t size)
+{
+    char key[48];
+    snprintf(key, sizeof key, "%s=\"", name);
+    const char *at = strstr(text, key);
+    if (!at) return false;
+    at += strlen(key);
+    snprintf(out, size, "%.*s", (int)strcspn(at, "\""), at);
+    return true;
+}
+
+static bool tell_frame(const head *h)
+{
+    char points[32], name[64];
+    if (!strstr(h->text, "<VTKFile") ||
+        !attribute(h->text, "NumberOfPoints", points, sizeof points))
+        return false;
+    printf("frame of particles for ParaView, %s particles, %lld bytes\n", points, h->size);
+    for (const char *at = h->text; (at = strstr(at, "<DataArray")) != NULL; at++)
+        if (attribute(at, "Name", name, sizeof name)) printf("  %s\n", name);
+    return true;
+}
+
+static bool tell_series(const head *h)
+{
+    if (!strstr(h->text, "<VTKFile") || !strstr(h->text, "type=\"Collection\"")) return false;
+    printf("series of frames for ParaView, %lld bytes\n", h->size);
+    return true;
+}
+
+static bool tell_page(const head *h)
+{
+    if (!strstr(h->text, "<!DOCTYPE html") && !strstr(h->text, "<html")) return false;
+    printf("page, %lld bytes; open it in a browser; 'mps run' runs the case that it carries\n",
+           h->size);
+    return true;
+}
+
+static bool tell_surface(const head *h)
+{
+    uint32_t count;
+    if (strncmp(h->text, "solid", 5) == 0 && strstr(h->text, "facet")) {
+        printf("surface of triangles, ASCII STL, %lld bytes\n", h->size);
+        return true;
+    }
+    if (h->count < 84) return false;
+    memcpy(&count, h->text + 80, sizeof count);
+    if (h->size != 84 + 50LL * count) return false;
+    printf("surface of triangles, binary STL, %u triangles\n", (unsigned)count);
+    return true;
+}
+
+static bool tell_case(const head *h)
+{
+    if (strncmp(h->text, "mps:", 4) != 0 && !strstr(h->text, "\nmps:")) return false;
+    const char *title = strstr(h->text, "\ntitle:");
+    printf("case%s%.*s; 'mps check' says what it amounts to\n", title ? ": " : "",
+           title ? (int)strcspn(title + 8, "\n") : 0, title ? title + 8 : "");
+    return true;
+}
+
+static bool tell_summary(const head *h)
+{
+    if (h->text[0] != '{') return false;
+    printf("summary of a run or other JSON, %lld bytes\n", h->size);
+    return true;
+}
+
+/* A table: names of the columns, rows, first and last value of the first column. */
+static bool tell_table(const head *h)
+{
+    char line[65536], last[64] = "", first[64] = "";
+    long long rows = 0;
+    const size_t length = strcspn(h->text, "\n");
+    for (size_t i = 0; i < length; i++)
+        if ((unsigned char)h->text[i] < ' ' && h->text[i] != '\t' && h->text[i] != '\r')
+            return false;
+    if (!memchr(h->text, ',', length) || length == h->count) return false;
+    printf("table\n");
+    for (const char *at = h->text; at < h->text + length; at += strcspn(at, ",\n") + 1)
+        printf("  %.*s\n", (int)strcspn(at, ",\n"), at);
+    rewind(h->file);
+    if (!fgets(line, sizeof line, h->file)) return true;
+    while (fgets(line, sizeof line, h->file)) {
+        line[strcspn(line, ",\n")] = '\0';
+        snprintf(last, sizeof last, "%.40s", line);
+        if (rows++ == 0) memcpy(first, last, sizeof first);
+    }
+    printf("%lld rows, first column %s .. %s\n", rows, first, last);
+    return true;
+}
+
+/* ---- all ---- */
+
+static int tell(head *h)
+{
+    static bool (*const tells[])(const head *) = {tell_checkpoint, tell_frame, tell_series,
+                                                  tell_page,       tell_case,  tell_summary,
+                                                  tell_surface,    tell_table};
+    h->count = fread(h->text, 1, HEAD, h->file);
+    h->text[h->count] = '\0';
+    for (size_t i = 0; i < sizeof tells / sizeof *tells; i++)
+        if (tells[i](h)) return MPS_EXIT_OK;
+    fprintf(stderr, "mps info: %s: is no file of mps\n", h->path);
+    return MPS_EXIT_USAGE;
+}
+
+int verb_info(const choices *c)
+{
+    static head h;
+    struct stat status;
+    h.path = c->file[0];
+    if (stat(h.path, &status) != 0 || !S_ISREG(status.st_mode) || !(h.file = fopen(h.path, "rb"))) {
+        fprintf(stderr, "mps info: %s: %s\n", h.path, errno ? strerror(errno) : "is no file");
+        return MPS_EXIT_USAGE;
+    }
+    h.size = (long long)status.st_size;
+    const int code = tell(&h);
+    fclose(h.file);
+    return code;
+}

@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* mps list: what the library and the language of cases have. */
+#include "cli.h"
+#include "starts.h"
+#include <mps/mps.h>
+#include <mps/model.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static mps_sim *make_sim(void)
+{
+    mps_config config;
+    mps_sim *sim = NULL;
+    mps_config_init(&config, sizeof config);
+    config.dp = 1;
+    mps_sim_create(&config, &sim);
+    return sim;
+}
+
+/* The second comment line or the title of a case tells what it is. */
+static void list_cases(void)
+{
+    for (const start *s = starts; s->name; s++) {
+        if (strchr(s->name, '.')) continue; /* a table of one of them */
+        const char *title = strstr(s->text, "\ntitle: ");
+        const int length = title ? (int)strcspn(title + 8, "\n") : 0;
+        printf("%-20s %.*s\n", s->name, length, title ? title + 8 : "");
+    }
+}
+
+static void list_keys(void)
+{
+    mps_case_key k = {.struct_size = sizeof k};
+    for (int32_t i = 0; mps_case_key_get(i, &k) == MPS_OK; i++) {
+        if (!k.path[0]) continue;
+        printf("%s%s\n    %s", k.path, k.required ? " (required)" : "", k.help);
+        if (k.kind[0]) printf("; %s", k.kind);
+        if (k.range[0]) printf(", %s", k.range);
+        if (k.otherwise[0]) printf("; default: %s", k.otherwise);
+        if (k.example[0]) printf("; e.g. %s", k.example);
+        printf("\n");
+    }
+}
+
+/* Each kind of quantity once, with its units. */
+static void list_units(void)
+{
+    mps_case_key k = {.struct_size = sizeof k}, earlier = {.struct_size = sizeof earlier};
+    for (int32_t i = 0; mps_case_key_get(i, &k) == MPS_OK; i++) {
+        bool known = !k.units[0] || strchr(k.path, '*') == k.path;
+        for (int32_t j = 0; j < i && !known; j++)
+            known = mps_case_key_get(j, &earlier) == MPS_OK && strcmp(earlier.kind, k.kind) == 0;
+        if (!known) printf("%-24s %s\n", k.kind, k.units);
+    }
+}
+
+static void list_models(const mps_sim *sim)
+{
+    mps_name_info n;
+    mps_model_info m;
+    mps_name_info_init(&n, sizeof n);
+    mps_model_info_init(&m, sizeof m);
+    printf("model:\n");
+    for (int32_t i = 0; mps_preset_info_get(sim, i, &n) == MPS_OK; i++)
+        printf("  %-24s %s\n", n.name, n.help);
+    printf("use:\n");
+    for (int32_t i = 0; mps_model_info_get(sim, i, &m) == MPS_OK; i++)
+        printf("  %-24s %s\n", m.name, m.help);
+}
+
+static void list_settings(const mps_sim *sim)
+{
+    mps_model_info m;
+    mps_setting_info k;
+    mps_model_info_init(&m, sizeof m);
+    mps_setting_info_init(&k, sizeof k);
+    for (int32_t i = 0; mps_model_info_get(sim, i, &m) == MPS_OK; i++) {
+        if (m.settings > 0) printf("%s\n", m.name);
+        for (int32_t j = 0; mps_setting_info_get(sim, m.name, j, &k) == MPS_OK; j++)
+            printf("  %.*s.%s: %s; %g .. %g %s, default %g\n", (int)strcspn(m.name, "."), m.name,
+                   k.key, k.help, k.min, k.max, k.unit, k.initial);
+    }
+}
+
+static void list_solvers(const mps_sim *sim)
+{
+    mps_name_info n;
+    mps_name_info_init(&n, sizeof n);
+    printf("run.solver:\n");
+    for (int32_t i = 0; mps_solver_info_get(sim, i, &n) == MPS_OK; i++)
+        printf("  %-24s %s\n", n.name, n.help);
+    printf("run.preconditioner:\n");
+    for (int32_t i = 0; mps_preconditioner_info_get(sim, i, &n) == MPS_OK; i++)
+        printf("  %-24s %s\n", n.name, n.help);
+    printf("kernel.name:\n");
+    for (int32_t i = 0; mps_kernel_info_get(sim, i, &n) == MPS_OK; i++)
+        printf("  %-24s %s\n", n.name, n.help);
+}
+
+static void list_measures(void)
+{
+    mps_measure_info m;
+    mps_measure_info_init(&m, sizeof m);
+    for (int32_t i = 0; mps_measure_info_get(i, &m) == MPS_OK; i++)
+        printf("%-18s %s%s%s%s\n", m.name, m.unit[0] ? "[" : "", m.unit, m.unit[0] ? "] " : "",
+               m.help);
+}
+
+int verb_list(const choices *c)
+{
+    static const char *const all[] = {"cases",   "keys",  "models",  "settings",
+                                      "solvers", "units", "measures"};
+    const char *what = c->files ? c->file[0] : "";
+    int chosen = -1;
+    for (int i = 0; i < 7; i++)
+        if (strcmp(what, all[i]) == 0) chosen = i;
+    if (chosen < 0) {
+        if (what[0]) fprintf(stderr, "mps list: '%s' is no list\n", what);
+        for (int i = 0; i < 7; i++) fprintf(what[0] ? stderr : stdout, "mps list %s\n", all[i]);
+        return what[0] ? MPS_EXIT_USAGE : MPS_EXIT_OK;
+    }
+    mps_sim *sim = make_sim();
+    if (!sim) return MPS_EXIT_FAILED;
+    if (chosen == 0) list_cases();
+    if (chosen == 1) list_keys();
+    if (chosen == 2) list_models(sim);
+    if (chosen == 3) list_settings(sim);
+    if (chosen == 4) list_solvers(sim);
+    if (chosen == 5) list_units();
+    if (chosen == 6) list_measures();
+    mps_sim_destroy(sim);
+    return fflush(stdout) == 0 ? MPS_EXIT_OK : MPS_EXIT_FAILED;
+}

@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* mps run, mps resume. */
+#include "cli.h"
+#include <mps/mps.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ERROR_SIZE = 640, PATH_SIZE = 1024 };
+
+/* Exit code of a failure to begin. */
+static int code_of(mps_status status)
+{
+    const bool refused = status == MPS_E_ARG || status == MPS_E_STATE || status == MPS_E_BUSY ||
+                         status == MPS_E_IO;
+    return refused ? MPS_EXIT_USAGE : MPS_EXIT_FAILED;
+}
+
+/* Build and run a case that was read. */
+static int run_case(const choices *c, mps_case *tank, const mps_job_config *config)
+{
+    mps_job *job;
+    mps_sim *sim;
+    const int32_t before = mps_case_message_count(tank);
+    const mps_status status = mps_case_job(tank, config, &job, &sim);
+    if (status != MPS_OK) {
+        if (mps_case_message_count(tank) > before)
+            cli_print_messages(tank);
+        else
+            fprintf(stderr, "mps %s: %s\n", c->verb,
+                    config->error[0] ? config->error : mps_status_text(status));
+        return code_of(status);
+    }
+    const int32_t code = mps_job_run(job, sim);
+    mps_sim_destroy(sim);
+    mps_job_destroy(job);
+    return code;
+}
+
+/* With messages on the one rank that knows them. */
+static int run_on_ranks(const choices *c, mps_job_config *config, const char *folder)
+{
+    mps_job_ranks ranks = {.struct_size = sizeof ranks};
+    int code = MPS_EXIT_FAILED;
+    config->folder = folder;
+    config->command = c->command;
+    config->overwrite = c->overwrite;
+    config->quiet = c->quiet;
+    config->profile = c->profile;
+    config->signals = 1;
+    if (c->mpi) {
+        if (mps_job_ranks_load(&ranks, config->error, config->error_size) != MPS_OK) {
+            fprintf(stderr, "mps %s: --mpi: %s\n", c->verb, config->error);
+            return MPS_EXIT_USAGE;
+        }
+        config->ranks = &ranks;
+    }
+    mps_case *tank = cli_case(c, &code);
+    if (tank) code = run_case(c, tank, config);
+    mps_case_destroy(tank);
+    if (c->mpi) {
+        int32_t speak;
+        code = mps_job_ranks_leave(&ranks, code, &speak);
+        if (code < 0) ranks.abort(ranks.user, MPS_EXIT_FAILED);
+        ranks.end(ranks.user);
+    }
+    return code;
+}
+
+/* The choices with the number of threads as a further value of the case. */
+static choices with_threads(const choices *c, char *text, size_t size)
+{
+    choices all = *c;
+    if (c->threads > 0) {
+        snprintf(text, size, "run.threads=%d", (int)c->threads);
+        all.set[all.sets++] = text;
+    }
+    return all;
+}
+
+int verb_run(const choices *c)
+{
+    char error[ERROR_SIZE] = "", stem[PATH_SIZE], threads[48];
+    const choices all = with_threads(c, threads, sizeof threads);
+    mps_job_config config;
+    mps_job_config_init(&config, sizeof config);
+    config.error = error;
+    config.error_size = sizeof error;
+    config.resume = c->resume;
+    cli_stem(c->file[0], stem, sizeof stem);
+    return run_on_ranks(&all, &config, c->out ? c->out : stem);
+}
+
+int verb_resume(const choices *c)
+{
+    char error[ERROR_SIZE] = "", path[PATH_SIZE], threads[48];
+    choices all = with_threads(c, threads, sizeof threads);
+    mps_job_config config;
+    mps_job_config_init(&config, sizeof config);
+    config.error = error;
+    config.error_size = sizeof error;
+    config.resume = 1;
+    snprintf(path, sizeof path, "%s/case.yaml", c->file[0]);
+    all.file[0] = path;
+    return run_on_ranks(&all, &config, c->file[0]);
+}

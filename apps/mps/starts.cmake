@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Write the files of FILES (separated by |) into the C table OUTPUT, a line of text to a line of the file.
+string(REPLACE "|" ";" files "${FILES}")
+set(text "/* Made by apps/mps/starts.cmake. */\n#include \"starts.h\"\n#include <stddef.h>\n\nconst start starts[] = {\n")
+foreach(path ${files})
+  get_filename_component(name ${path} NAME)
+  string(REGEX REPLACE "\\.yaml$" "" name ${name})
+  file(READ ${path} content)
+  string(REPLACE "\\" "\\\\" content "${content}")
+  string(REPLACE "\"" "\\\"" content "${content}")
+  string(REPLACE "\n" "\\n\"\n     \"" content "${content}")
+  string(APPEND text "    {\"${name}\",\n     \"${content}\"},\n")
+endforeach()
+string(APPEND text "    {NULL, NULL}};\n")
+file(WRITE ${OUTPUT} "${text}")

@@ -1,0 +1,228 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A case becomes a simulation and a job. */
+#include "ship_motion.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { TIMES_MOST = 24 };
+
+/* All before the job: its end may be in units of T1, which the liquid as filled tells. */
+void mps__build_simulation(build *b, const mps_job_config *options)
+{
+    static void (*const part[])(build *) = {mps__build_tank,  mps__build_solids, mps__build_phases,
+                                            mps__build_fills, mps__build_modes,  mps__build_motion,
+                                            mps__build_time};
+    b->root = mps__case_root(b->c);
+    b->dim = (int32_t)mps__read_number(b->c, b->root, "dim", 2);
+    mps__case_scale_set(b->c, (read_scale){NAN, NAN, NAN});
+    b->dp = mps__read_number(b->c, b->root, "dp", NAN);
+    mps__case_scale_set(b->c, (read_scale){b->dp, NAN, NAN});
+    b->gravity = mps__read_number(b->c, b->root, "gravity", 9.81);
+    b->level = b->depth = NAN;
+    if (!mps__case_failed(b->c)) mps__build_fluids_read(b);
+    if (!mps__case_failed(b->c)) mps__build_open(b, options);
+    for (size_t i = 0; i < sizeof part / sizeof *part; i++)
+        if (b->sim && b->status == MPS_OK && !mps__case_failed(b->c)) part[i](b);
+}
+
+/* What a form looks like in the plane x, y, where that is one line. */
+static int32_t outline_of(const form *t, double (*xy)[2])
+{
+    int32_t count = 0;
+    if (t->kind == FORM_POLYGON && !t->sideways) {
+        count = t->points;
+        memcpy(xy, t->point, sizeof t->point);
+    } else if (t->kind == FORM_BALL) {
+        for (; count < FORM_POINTS; count++) {
+            const double angle = 2 * acos(-1.0) * count / FORM_POINTS;
+            xy[count][0] = t->end[0][0] + t->radius * cos(angle);
+            xy[count][1] = t->end[0][1] + t->radius * sin(angle);
+        }
+    } else if (t->kind == FORM_BOX) {
+        const double corner[4][2] = {
+            {t->lo[0], t->lo[1]}, {t->hi[0], t->lo[1]}, {t->hi[0], t->hi[1]}, {t->lo[0], t->hi[1]}};
+        count = 4;
+        memcpy(xy, corner, sizeof corner);
+    }
+    if (count > 0) memcpy(xy[count++], xy[0], sizeof xy[0]); /* closed */
+    return count;
+}
+
+/* Tank and solids for the page. Of a file the box is not drawn. */
+static void add_outlines(build *b)
+{
+    double xy[FORM_POINTS + 1][2];
+    int32_t count = b->tank.file ? 0 : outline_of(&b->tank.form, xy);
+    if (count > 0)
+        mps__build_try_job(b, mps_job_outline_add(b->job, count, &xy[0][0]), b->tank.at, "tank");
+    for (int32_t i = 0; i < b->solids; i++) {
+        const build_solid *s = &b->solid[i];
+        count = s->file ? 0 : s->plate ? 2 : outline_of(&s->form, xy);
+        for (int k = 0; s->plate && k < 2; k++) memcpy(xy[k], s->end[k], sizeof xy[k]);
+        if (count > 0)
+            mps__build_try_job(b, mps_job_outline_add(b->job, count, &xy[0][0]), b->root, s->name);
+    }
+}
+
+/* Statistics are made from the folder of the run, sweeps by the program. */
+static void build_columns(build *b)
+{
+    static const char *const others[] = {"mps",   "title",   "base",  "set",
+                                         "sweep", "collect", "output"};
+    char path[PATH_ROOM];
+    mps__build_sensors(b);
+    mps__build_references(b);
+    mps__build_inputs(b);
+    if (b->job && mps__build_filled(b))
+        mps__build_try_job(b, mps_job_level_set(b->job, b->level), b->root, "fill");
+    if (b->job) add_outlines(b);
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        mps__read_all(mps__tree_find(b->root, others[i]));
+    const tree_node *unread = mps__case_failed(b->c) ? NULL : mps__case_unread(b->c);
+    if (unread)
+        mps__case_say(b->c, unread, false, "'%s' has no effect here; remove it",
+                      mps__tree_path(unread, path, sizeof path));
+}
+
+/* A level was asked for, by `depth`; else the job takes that of the highest particle. */
+bool mps__build_filled(const build *b)
+{
+    return !isnan(b->depth);
+}
+
+/* "surge" of "cases/surge.yaml". */
+static void name_of(const mps_case *c, char *name, size_t size)
+{
+    const char *path = c->source[0].name, *slash = strrchr(path, '/');
+    const char *begin = slash ? slash + 1 : path, *dot = strrchr(begin, '.');
+    snprintf(name, size, "%.*s", (int)(dot ? dot - begin : (int)strlen(begin)), begin);
+}
+
+/* The preset and what was changed in it. */
+static void model_of(const build *b, char *text, size_t size)
+{
+    static const char *const key[] = {"use", "remove", "settings"};
+    size_t used = (size_t)snprintf(text, size, "%s", b->model);
+    for (int i = 0; i < 3; i++) {
+        const tree_node *node = mps__tree_find(b->root, key[i]);
+        const bool one = node && node->kind == TREE_TEXT;
+        for (const tree_node *at = node ? (one ? node : node->first) : NULL; at && used < size;
+             at = one ? NULL : at->next)
+            used += (size_t)snprintf(text + used, size - used, ", %s %s%s%s", key[i],
+                                     at->key && !one ? at->key : "", at->key && !one ? " " : "",
+                                     at->text ? at->text : "");
+    }
+}
+
+/* What the program says, and what the case says. */
+static void read_config(build *b, mps_job_config *out, double *times)
+{
+    const tree_node *run = mps__tree_find(b->root, "run"),
+                    *output = mps__tree_find(b->root, "output");
+    mps_job_config config = *out;
+    config.title = mps__read_text(b->c, b->root, "title", config.title);
+    config.text = mps_case_text(b->c);
+    config.t_end = b->until;
+    config.gravity = b->gravity;
+    const double rate = mps__read_number(b->c, output, "rate", 0);
+    if (rate > 0) config.row_interval = 1 / rate;
+    config.checkpoint = mps__read_number(b->c, run, "checkpoint", config.checkpoint);
+    config.average = mps__read_number(b->c, run, "average", config.average);
+    config.frames = (int32_t)mps__read_number(b->c, output, "frames", config.frames);
+    config.picture_count = mps__read_numbers(b->c, output, "pictures", TIMES_MOST, times);
+    config.picture_t = times;
+    config.tank_frame = mps__read_choice(b->c, output, "frame", 0) == 1;
+    config.pieces = mps__read_flag(b->c, output, "pieces", config.pieces);
+    config.profile = config.profile || mps__read_flag(b->c, output, "profile", false);
+    config.trace = config.trace || mps__read_flag(b->c, output, "trace", false);
+    config.threads = (int32_t)mps__read_number(b->c, run, "threads", 2);
+    config.page_bytes = (int64_t)mps__read_number(b->c, output, "page", (double)config.page_bytes);
+    if (config.page_bytes == 0) config.report = 0;
+    *out = config;
+}
+
+static mps_status create_job(build *b, const mps_job_config *options)
+{
+    double times[TIMES_MOST];
+    char name[BUILD_TEXT], model[2 * BUILD_TEXT];
+    mps_job_config config = *options;
+    name_of(b->c, name, sizeof name);
+    model_of(b, model, sizeof model);
+    config.name = config.name ? config.name : name;
+    config.model = model;
+    read_config(b, &config, times);
+    return mps__case_failed(b->c) ? MPS_E_ARG : mps_job_create(&config, &b->job);
+}
+
+/* The job says what the library said before. */
+static void say_log(build *b)
+{
+    b->log->job = b->job;
+    for (int32_t i = 0; i < b->log->count; i++)
+        mps_job_log(b->job, b->log->level[i], b->log->text[i]);
+}
+
+static build *begin(mps_case *c)
+{
+    build *b = calloc(1, sizeof *b);
+    if (b) b->c = c;
+    return b;
+}
+
+mps_status mps_case_job(mps_case *c, const mps_job_config *options, mps_job **job, mps_sim **sim)
+{
+    if (job) *job = NULL;
+    if (sim) *sim = NULL;
+    if (!c || !options || !job || !sim || mps__case_failed(c)) return MPS_E_ARG;
+    build *b = begin(c);
+    if (!b) return MPS_E_NOMEM;
+    mps__build_simulation(b, options);
+    mps_status status = b->status;
+    if (status == MPS_OK) status = mps__case_failed(c) ? MPS_E_ARG : create_job(b, options);
+    if (status == MPS_OK) {
+        say_log(b);
+        build_columns(b);
+        status = b->status < 0 ? b->status : mps__case_failed(c) ? MPS_E_ARG : MPS_OK;
+    }
+    if (c->no_memory) status = MPS_E_NOMEM;
+    if (status == MPS_OK) {
+        *job = b->job;
+        *sim = b->sim;
+    } else {
+        mps_sim_destroy(b->sim);
+        mps_job_destroy(b->job);
+    }
+    free(b);
+    return status;
+}
+
+mps_status mps_case_check(mps_case *c, char **text, char **sketch)
+{
+    if (text) *text = NULL;
+    if (sketch) *sketch = NULL;
+    if (!c || !text || !sketch || mps__case_failed(c)) return MPS_E_ARG;
+    build *b = begin(c);
+    if (!b) return MPS_E_NOMEM;
+    mps__build_simulation(b, NULL);
+    if (b->sim && b->status == MPS_OK && !mps__case_failed(c)) {
+        double times[TIMES_MOST];
+        mps_job_config config;
+        mps_job_config_init(&config, sizeof config);
+        read_config(b, &config, times);
+        build_columns(b);
+    }
+    mps_status status = b->status < 0 ? b->status : mps__case_failed(c) ? MPS_E_ARG : MPS_OK;
+    if (status == MPS_OK) *sketch = mps__sketch_write(b);
+    if (status == MPS_OK) *text = mps__check_write(b);
+    if (c->no_memory || (status == MPS_OK && (!*sketch || !*text))) {
+        free(*sketch);
+        free(*text);
+        *sketch = *text = NULL;
+        status = MPS_E_NOMEM;
+    }
+    mps_sim_destroy(b->sim);
+    free(b);
+    return status;
+}

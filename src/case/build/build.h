@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* From the tree of a case to its simulation. Each part of the case has its file; build.c calls them in the order of the drivers in C, so that
+ * a case and a driver of the same tank give the same bytes. */
+#ifndef MPS_CASE_BUILD_H
+#define MPS_CASE_BUILD_H
+
+#include "read.h"
+#include "form.h"
+#include <mps/case.h>
+#include <mps/job.h>
+#include <mps/mps.h>
+#include <stdbool.h>
+
+enum {
+    BUILD_FLUIDS = 16,
+    BUILD_SENSORS = 256,
+    BUILD_SOLIDS = 64,
+    BUILD_MODES = 6,
+    BUILD_NOTES = 40,
+    BUILD_TEXT = 240,
+    BUILD_NAME = 32
+};
+
+/* A liquid or gas of the case. */
+typedef struct build_fluid {
+    char name[BUILD_NAME];
+    double density, viscosity, tension; /* tension NAN: not given */
+    const tree_node *at;                /* where it is filled in first */
+} build_fluid;
+
+/* The tank: a shape, or a file. Its box is as asked. */
+typedef struct build_tank {
+    form form;
+    bool file;
+    int32_t open;    /* word of tank.open; 0: closed */
+    double size[3];  /* rectangular: as asked */
+    double built[3]; /* rectangular: size after rounding to the lattice */
+    const tree_node *at;
+} build_tank;
+
+/* A solid in the tank, for the sketch: corners of a plate or box, outline of a prism, or a shape. */
+typedef struct build_solid {
+    char name[BUILD_NAME];
+    form form;
+    bool plate, file;
+    double end[2][3];
+} build_solid;
+
+typedef enum sensor_kind {
+    SENSOR_WALL,
+    SENSOR_FLUID,
+    SENSOR_GAUGE,
+    SENSOR_FORCE,
+    SENSOR_MEASURE
+} sensor_kind;
+
+/* A column, for the sketch and the check. */
+typedef struct build_sensor {
+    char name[BUILD_NAME];
+    sensor_kind kind;
+    double at[3], normal[3], diameter;
+    char part[BUILD_NAME];
+} build_sensor;
+
+/* Natural periods of the liquid at rest. */
+typedef struct build_modes {
+    int32_t count, axis; /* 0: waves along x, 2: along z */
+    double period[BUILD_MODES];
+    double length, depth; /* of the free surface, of the liquid [m] */
+    char how[BUILD_TEXT];
+} build_modes;
+
+/* Texts of the library, kept until there is a job. In the memory of the case: the simulation keeps its address. */
+typedef struct build_log {
+    mps_job *job;
+    int32_t count;
+    int level[BUILD_NOTES];
+    char text[BUILD_NOTES][2 * BUILD_TEXT];
+} build_log;
+
+typedef struct build {
+    mps_case *c;
+    const tree_node *root;
+    mps_sim *sim;
+    mps_job *job; /* NULL: the case is checked only */
+    mps_status status;
+    int32_t dim;
+    double dp, gravity;
+    char model[64];
+    bool several, paper; /* several phases; to the letter of the papers */
+    int32_t fluids, solids, sensors;
+    build_fluid fluid[BUILD_FLUIDS]; /* by phase: of falling density */
+    build_tank tank;
+    build_solid solid[BUILD_SOLIDS];
+    build_sensor sensor[BUILD_SENSORS];
+    build_modes modes;
+    build_log *log;
+    double level; /* still level as filled [m]; NAN: none was asked for */
+    double depth; /* asked for [m]; NAN */
+    double until;
+    const struct build_motion *motion; /* NULL: none */
+} build;
+
+/* Whether a call of the library succeeded; else its text becomes a message at the line of `at`. */
+bool mps__build_try(build *b, mps_status status, const tree_node *at, const char *what);
+/* The same for a call of the job. */
+bool mps__build_try_job(build *b, mps_status status, const tree_node *at, const char *what);
+/* Memory that lives as long as the case; NULL after a message. */
+void *mps__build_alloc(build *b, size_t size);
+
+/* All but the columns. The case has messages where something was refused, or status is negative; the simulation is the caller's. */
+void mps__build_simulation(build *b, const mps_job_config *options);
+
+/* In the order of calls. Each returns at once where there are errors. */
+void mps__build_fluids_read(build *b);
+void mps__build_open(build *b, const mps_job_config *options);
+void mps__build_tank(build *b);
+void mps__build_solids(build *b);
+void mps__build_phases(build *b);
+void mps__build_fills(build *b);
+void mps__build_modes(build *b);
+void mps__build_motion(build *b);
+void mps__build_time(build *b);
+void mps__build_sensors(build *b);
+void mps__build_references(build *b);
+void mps__build_inputs(build *b);
+
+bool mps__build_filled(const build *b);
+/* What was understood, and a drawing of tank and sensors as SVG; to be freed, NULL: no memory. The check does a few steps. */
+char *mps__check_write(build *b);
+char *mps__sketch_write(build *b);
+
+/* Points of a list, or one point; z is `z` where two numbers are given. @return how many */
+int32_t mps__build_points(build *b, const tree_node *node, double z, int32_t most,
+                          double (*out)[3]);
+/* A fluid by its name; -1 after a message. */
+int32_t mps__build_phase(build *b, const tree_node *at, const char *name);
+/* How to turn a file with this axis up; angles for mps_stl.rotation. */
+bool mps__build_stl(build *b, const tree_node *map, mps_stl *stl);
+/* Middle of the tank's box along z; 0 in 2-D. */
+double mps__build_middle(const build *b);
+
+#endif

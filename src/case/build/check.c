@@ -1,0 +1,238 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What a case amounts to, as a text for people. */
+#include "ship_motion.h"
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <time.h>
+
+enum { STEPS = 3 }; /* that are timed, after the first */
+
+/* A text that grows. */
+typedef struct writer {
+    char *text;
+    size_t size;
+    FILE *file;
+} writer;
+
+static void heading(const writer *w, const char *name)
+{
+    fprintf(w->file, "%-9s ", name);
+}
+
+/* A number with few digits and the prefix of a person: 0.25 m is "250 mm". */
+static const char *length_text(double x, char *out, size_t size)
+{
+    const double a = fabs(x);
+    if (a > 0 && a < 1e-3)
+        snprintf(out, size, "%.4g um", x * 1e6);
+    else if (a > 0 && a < 0.1)
+        snprintf(out, size, "%.4g mm", x * 1e3);
+    else
+        snprintf(out, size, "%.4g m", x);
+    return out;
+}
+
+static void write_place(const writer *w, const build *b, const double *x)
+{
+    fprintf(w->file, b->dim == 3 ? "(%.4g, %.4g, %.4g) m" : "(%.4g, %.4g) m", x[0], x[1], x[2]);
+}
+
+/* ---- what there is ---- */
+
+static void write_tank(const writer *w, const build *b)
+{
+    static const char *const kind[] = {"box", "polygon", "body", "cylinder", "ball"};
+    const form *t = &b->tank.form;
+    char dp[32];
+    heading(w, "case");
+    fprintf(w->file, "%d-D, dp %s, gravity %g m/s2, model %s\n", (int)b->dim,
+            length_text(b->dp, dp, sizeof dp), b->gravity, b->model);
+    heading(w, "tank");
+    fprintf(w->file, "%s, %.4g x %.4g", b->tank.file ? "file" : kind[t->kind], t->hi[0] - t->lo[0],
+            t->hi[1] - t->lo[1]);
+    if (b->dim == 3) fprintf(w->file, " x %.4g", t->hi[2] - t->lo[2]);
+    fprintf(w->file, " m, lower corner ");
+    write_place(w, b, t->lo);
+    if (!b->tank.file)
+        fprintf(w->file, ", %.5g %s inside", mps__form_volume(t), b->dim == 3 ? "m3" : "m2");
+    for (int d = 0; d < b->dim && b->tank.built[0] > 0; d++)
+        if (fabs(b->tank.built[d] - b->tank.size[d]) > 1e-6 * b->dp)
+            fprintf(w->file, "; built %.5g m along %c", b->tank.built[d], "xyz"[d]);
+    fprintf(w->file, "\n");
+    for (int32_t i = 0; i < b->solids; i++) {
+        heading(w, i ? "" : "solids");
+        fprintf(w->file, "%s\n", b->solid[i].name);
+    }
+}
+
+static void write_fluids(const writer *w, build *b)
+{
+    int64_t count[3] = {0};
+    mps_lease kind = {.struct_size = sizeof kind};
+    mps_energy e;
+    mps_energy_init(&e, sizeof e);
+    if (mps_lease_begin(b->sim, "kind", MPS_READ, &kind) == MPS_OK) {
+        for (int64_t i = 0; i < kind.count; i++) count[kind.integers[i]]++;
+        mps_lease_end(b->sim, &kind);
+    }
+    heading(w, "particles");
+    fprintf(w->file, "%lld of fluid, %lld of walls, %lld behind walls\n", (long long)count[0],
+            (long long)count[1], (long long)count[2]);
+    for (int32_t i = 0; i < b->fluids; i++) {
+        heading(w, i ? "" : "fluids");
+        fprintf(w->file, "phase %d: %s, %g kg/m3, %g Pa s\n", (int)i, b->fluid[i].name,
+                b->fluid[i].density, b->fluid[i].viscosity);
+    }
+    for (int32_t i = 0; i < b->log->count; i++) {
+        heading(w, i ? "" : "library");
+        fprintf(w->file, "%s%s\n", b->log->level[i] ? "warning: " : "", b->log->text[i]);
+    }
+    if (mps_energy_get(b->sim, &e) == MPS_OK) {
+        heading(w, "volume");
+        fprintf(w->file, "%.5g %s of all fluid, %.5g kg\n", e.volume_filled,
+                b->dim == 3 ? "m3" : "m2", e.mass_filled);
+    }
+    if (mps__build_filled(b)) {
+        heading(w, "level");
+        fprintf(w->file, "y = %.5g m as filled, %.5g m asked for\n", b->level,
+                b->tank.form.lo[1] + b->depth);
+    }
+}
+
+static void write_modes(const writer *w, const build *b)
+{
+    const build_modes *m = &b->modes;
+    if (m->count == 0) return;
+    heading(w, "periods");
+    for (int32_t i = 0; i < m->count; i++)
+        fprintf(w->file, "%sT%d %.4g s", i ? ", " : "", (int)i + 1, m->period[i]);
+    fprintf(w->file, " (waves along %c)\n", "xyz"[m->axis]);
+    heading(w, "");
+    fprintf(w->file, "by %s%s\n", m->how, b->solids ? "; without the solids" : "");
+}
+
+static void write_motion(const writer *w, const build *b)
+{
+    const build_motion *m = b->motion;
+    const double degree = 180 / acos(-1.0);
+    heading(w, "motion");
+    if (!m) {
+        fprintf(w->file, "none\n");
+        return;
+    }
+    fprintf(w->file, "centre ");
+    write_place(w, b, m->centre);
+    if (m->rows > 0)
+        fprintf(w->file, ", %lld rows of %s, %.4g to %.4g s apart", (long long)m->rows, m->file,
+                m->step_least, m->step_most);
+    else
+        fprintf(w->file, ", %d harmonic%s", (int)m->count, m->count == 1 ? "" : "s");
+    fprintf(w->file, "\n");
+    for (int32_t d = 0; d < MOTION_DEGREES; d++) {
+        const bool turn = d >= MPS_SHIP_ROLL;
+        const double *most = m->largest[d], f = turn ? degree : 1;
+        if (!m->used[d]) continue;
+        heading(w, "");
+        fprintf(w->file, "%s: at most %.4g %s, %.4g %s/s, %.4g %s/s2\n", mps__degrees[d],
+                f * most[0], turn ? "deg" : "m", f * most[1], turn ? "deg" : "m", f * most[2],
+                turn ? "deg" : "m");
+    }
+}
+
+static void write_sensors(const writer *w, const build *b)
+{
+    static const char *const kind[] = {"wall pressure", "pressure", "gauge", "force", "measure"};
+    for (int32_t i = 0; i < b->sensors; i++) {
+        const build_sensor *s = &b->sensor[i];
+        heading(w, i ? "" : "sensors");
+        fprintf(w->file, "%s: %s", s->name, kind[s->kind]);
+        if (s->kind != SENSOR_MEASURE) {
+            fprintf(w->file, s->kind == SENSOR_FORCE ? " about " : " at ");
+            write_place(w, b, s->at);
+        }
+        if (s->part[0]) fprintf(w->file, " on '%s'", s->part);
+        if (s->kind == SENSOR_WALL) fprintf(w->file, ", %.4g m wide", s->diameter);
+        fprintf(w->file, "\n");
+    }
+}
+
+/* ---- what it costs ---- */
+
+static double seconds(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* Speed of the liquid that the steps must follow: that of the tank, and of a wave of half the depth. */
+static double expected_speed(const build *b)
+{
+    double most = 0;
+    const build_motion *m = b->motion;
+    for (int32_t d = 0; m && d < 3; d++) most = fmax(most, m->largest[d][1]);
+    for (int32_t d = 3; m && d < 6; d++) {
+        const form *t = &b->tank.form;
+        const double reach = fmax(fabs(t->hi[0] - m->centre[0]), fabs(t->hi[1] - m->centre[1]));
+        most = fmax(most, m->largest[d][1] * reach);
+    }
+    const double depth = b->modes.count ? b->modes.depth : b->tank.form.hi[1] - b->tank.form.lo[1];
+    return 2 * most + 0.5 * sqrt(b->gravity * depth);
+}
+
+static void write_cost(const writer *w, build *b)
+{
+    const tree_node *run = mps__tree_find(b->root, "run");
+    struct rusage usage;
+    mps_step_info info;
+    mps_step_info_init(&info, sizeof info);
+    heading(w, "run");
+    fprintf(w->file, "%.5g s", b->until);
+    if (b->modes.count) fprintf(w->file, " = %.3g T1", b->until / b->modes.period[0]);
+    double took = 0;
+    mps_status status = MPS_OK;
+    for (int i = 0; i <= STEPS && status >= 0; i++) {
+        const double before = seconds();
+        status = mps_step(b->sim, b->until, &info);
+        if (i > 0) took += (seconds() - before) / STEPS;
+    }
+    if (status < 0) {
+        fprintf(w->file, "\n");
+        heading(w, "warning");
+        fprintf(w->file, "the first steps fail: %s\n", mps_sim_error(b->sim));
+        return;
+    }
+    const double cfl = mps__read_number(b->c, run, "cfl", 0.3), speed = expected_speed(b);
+    const double fixed = mps__read_number(b->c, run, "dt", 0);
+    const double dt = fixed > 0 ? fixed : speed > 0 ? fmin(info.dt, cfl * b->dp / speed) : info.dt;
+    fprintf(w->file, ", steps of about %.2g s\n", dt);
+    heading(w, "cost");
+    getrusage(RUSAGE_SELF, &usage);
+    fprintf(
+        w->file,
+        "about %.2g s of wall clock (%.2g s a step, %d steps measured; impacts take more), %.0f "
+        "MB of memory\n",
+        took * b->until / dt, took, STEPS, (double)usage.ru_maxrss / 1024);
+}
+
+char *mps__check_write(build *b)
+{
+    writer w = {NULL, 0, NULL};
+    w.file = open_memstream(&w.text, &w.size);
+    if (!w.file) return NULL;
+    write_tank(&w, b);
+    write_fluids(&w, b);
+    write_modes(&w, b);
+    write_motion(&w, b);
+    write_sensors(&w, b);
+    write_cost(&w, b);
+    if (fclose(w.file) != 0) {
+        free(w.text);
+        return NULL;
+    }
+    return w.text;
+}

@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Fluids: water, air and those of the case. Phases are numbered by falling density, so that a gas is the last. */
+#include "build.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const build_fluid KNOWN[] = {{"water", 1000, 1e-3, NAN, NULL},
+                                    {"air", 1.29, 1.5e-5, NAN, NULL}};
+
+static const build_fluid *find_known(const char *name)
+{
+    for (size_t i = 0; i < sizeof KNOWN / sizeof *KNOWN; i++)
+        if (strcmp(KNOWN[i].name, name) == 0) return &KNOWN[i];
+    return NULL;
+}
+
+static void read_fluid(build *b, const tree_node *at, build_fluid *f)
+{
+    const tree_node *own = mps__tree_find(mps__tree_find(b->root, "fluids"), at->key);
+    const build_fluid *known = find_known(at->key);
+    *f = known ? *known : (build_fluid){.density = NAN, .viscosity = NAN, .tension = NAN};
+    f->at = at;
+    snprintf(f->name, sizeof f->name, "%s", at->key);
+    if (!own && !known) {
+        mps__case_say(b->c, at, false,
+                      "no fluid has the name '%s'; known are water, air and those of 'fluids'",
+                      at->key);
+        return;
+    }
+    if (!own) return;
+    f->density = mps__read_number(b->c, own, "density", f->density);
+    f->viscosity = mps__read_number(b->c, own, "viscosity", f->viscosity);
+    f->tension = mps__read_number(b->c, own, "tension", f->tension);
+    if (mps__read_is(b->c, own, "viscosity", UNIT_KINEMATIC))
+        f->viscosity = f->density * f->viscosity;
+    if (isnan(f->density) || isnan(f->viscosity))
+        mps__case_say(b->c, own, false, "fluids.%s: density and viscosity are needed", at->key);
+}
+
+static int by_density(const void *a, const void *b)
+{
+    const build_fluid *f = a, *g = b;
+    if (f->density != g->density) return f->density < g->density ? 1 : -1;
+    return f->at->line != g->at->line ? (f->at->line < g->at->line ? -1 : 1)
+                                      : (f->at->column < g->at->column ? -1 : 1);
+}
+
+static int32_t find_fluid(const build *b, const char *name)
+{
+    for (int32_t i = 0; i < b->fluids; i++)
+        if (strcmp(b->fluid[i].name, name) == 0) return i;
+    return -1;
+}
+
+int32_t mps__build_phase(build *b, const tree_node *at, const char *name)
+{
+    const int32_t phase = find_fluid(b, name);
+    if (phase < 0)
+        mps__case_say(b->c, at, false, "no fluid with the name '%s' is filled into the tank", name);
+    return phase;
+}
+
+void mps__build_fluids_read(build *b)
+{
+    const tree_node *fill = mps__tree_find(b->root, "fill");
+    for (const tree_node *item = fill ? fill->first : NULL; item; item = item->next) {
+        const tree_node *at = item->first; /* of a map with one key */
+        if (item->kind != TREE_MAP || !at || find_fluid(b, at->key) >= 0) continue;
+        if (b->fluids == BUILD_FLUIDS) {
+            mps__case_say(b->c, at, false, "more than %d fluids", BUILD_FLUIDS);
+            return;
+        }
+        read_fluid(b, at, &b->fluid[b->fluids++]);
+    }
+    if (!b->fluids && !mps__case_failed(b->c))
+        mps__case_say(b->c, fill, false, "fill: nothing is filled into the tank");
+    if (mps__case_failed(b->c)) return;
+    qsort(b->fluid, (size_t)b->fluids, sizeof *b->fluid, by_density);
+    snprintf(b->model, sizeof b->model, "%s",
+             mps__read_text(b->c, b->root, "model", b->fluids > 1 ? "mmps" : "imps"));
+    b->several = strncmp(b->model, "mmps", 4) == 0;
+    const tree_node *model = mps__tree_find(b->root, "model");
+    if (b->several && b->fluids < 2)
+        mps__case_say(b->c, model, false,
+                      "model: '%s' is for several fluids that fill the tank together; add "
+                      "'- air: rest' to fill, or take imps",
+                      b->model);
+    if (!b->several && b->fluids > 1)
+        mps__case_say(b->c, model, false,
+                      "model: '%s' is for one liquid, %d are filled in; mmps is for several",
+                      b->model, (int)b->fluids);
+}
+
+void mps__build_phases(build *b)
+{
+    for (int32_t i = 0; i < b->fluids && !mps__case_failed(b->c); i++) {
+        const build_fluid *f = &b->fluid[i];
+        mps_phase phase;
+        mps_phase_init(&phase, sizeof phase);
+        phase.density = f->density;
+        phase.viscosity = f->viscosity;
+        if (!mps__build_try(b, mps_phase_set(b->sim, i, &phase), f->at, f->name)) return;
+    }
+    for (int32_t i = 0; i < b->fluids;
+         i++) /* the tension of a liquid is that against all lighter ones */
+        for (int32_t k = i + 1; k < b->fluids && !isnan(b->fluid[i].tension); k++)
+            mps__build_try(b, mps_tension_set(b->sim, i, k, b->fluid[i].tension), b->fluid[i].at,
+                           "tension");
+}

@@ -1,0 +1,317 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Motion of the tank: degrees of a ship as harmonics of the lab. */
+#include "ship_motion.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+const char *const mps__degrees[MOTION_DEGREES] = {"surge", "sway", "heave", "roll", "pitch", "yaw"};
+
+/* ---- reading ---- */
+
+/* omega, from whichever of the three is given; NAN after a message. */
+static double read_omega(build *b, const tree_node *node, const char *name)
+{
+    static const char *const key[] = {"omega", "period", "frequency"};
+    const double turn = 2 * acos(-1.0);
+    int chosen = -1;
+    for (int i = 0; i < 3; i++) {
+        if (!mps__tree_find(node, key[i])) continue;
+        if (chosen >= 0)
+            mps__case_say(b->c, mps__tree_find(node, key[i]), false,
+                          "motion.%s: give one of omega, period and frequency", name);
+        chosen = i;
+    }
+    if (chosen < 0)
+        mps__case_say(b->c, node, false, "motion.%s: omega, period or frequency is needed", name);
+    const double value = chosen < 0 ? NAN : mps__read_number(b->c, node, key[chosen], NAN);
+    return chosen == 0 ? value : chosen == 1 ? turn / value : turn * value;
+}
+
+/* A time, or a number of periods. */
+static double read_ramp(build *b, const tree_node *node, double omega)
+{
+    const double value = mps__read_number(b->c, node, "ramp", 0);
+    return mps__read_is(b->c, node, "ramp", UNIT_NONE) && value > 0 ? value * 2 * acos(-1.0) / omega
+                                                                    : value;
+}
+
+static void read_harmonic(build *b, build_motion *m, const tree_node *node, int32_t degree)
+{
+    const char *name = mps__degrees[degree];
+    const tree_node *spectrum = mps__tree_find(node, "jonswap");
+    mps_harmonic h = {.dof = degree};
+    if (m->count == MOTION_HARMONICS) {
+        mps__case_say(b->c, node, false, "more than %d harmonics", MOTION_HARMONICS);
+        return;
+    }
+    if (spectrum) {
+        const double period = mps__read_number(b->c, spectrum, "peak", NAN);
+        h.ramp = read_ramp(b, node, 2 * acos(-1.0) / period);
+        mps__spectrum_add(b, m, spectrum, h);
+        return;
+    }
+    if (mps__tree_find(node, "acceleration")) {
+        h.form = MOTION_PUSH;
+        h.amplitude = mps__read_number(b->c, node, "acceleration", NAN);
+        m->harmonic[m->count++] = h;
+        return;
+    }
+    h.form = mps__read_choice(b->c, node, "form", 0);
+    h.amplitude = mps__read_number(b->c, node, "amplitude", NAN);
+    h.omega = read_omega(b, node, name);
+    if (h.form == 0) h.phase = mps__read_number(b->c, node, "phase", 0);
+    if (mps__case_failed(b->c)) return;
+    h.ramp = read_ramp(b, node, h.omega);
+    if (isnan(h.amplitude))
+        mps__case_say(b->c, node, false, "motion.%s: amplitude is needed", name);
+    else
+        m->harmonic[m->count++] = h;
+}
+
+static void read_degree(build *b, build_motion *m, const tree_node *map, int32_t degree)
+{
+    const tree_node *node = mps__tree_find(map, mps__degrees[degree]);
+    if (!node) return;
+    m->used[degree] = true;
+    if (b->dim == 2 && degree == MPS_SHIP_YAW)
+        mps__case_say(b->c, node, false,
+                      "motion.yaw: in 2-D there are surge and sway (both along x), heave, roll "
+                      "(x to y) and pitch (y to x)");
+    const tree_node *at = node->kind == TREE_LIST ? node->first : node;
+    for (; at && !mps__case_failed(b->c); at = at == node ? NULL : at->next)
+        read_harmonic(b, m, at, degree);
+}
+
+/* "x forward, y port, z up": the third word of each pair tells what it is. */
+static void read_ship(build *b, build_motion *m, const tree_node *map)
+{
+    static const double forward[4][3] = {{1, 0, 0}, {0, 0, 1}, {-1, 0, 0}, {0, 0, -1}};
+    mps_ship_init(&m->ship, sizeof m->ship);
+    const int32_t way = mps__read_choice(b->c, map, "forward", b->dim == 2 ? 1 : 0);
+    memcpy(m->ship.forward, forward[way], sizeof forward[way]);
+    /* z up, z down, axes of the library */
+    const int32_t axes = mps__read_choice(b->c, map, "axes", 2);
+    m->flipped = axes == 2;
+    m->ship.axes = axes == 1 ? MPS_SHIP_Z_DOWN : MPS_SHIP_Z_UP;
+    const char *order = mps__read_text(b->c, map, "order", "yaw pitch roll");
+    char word[3][8] = {"", "", ""};
+    const int words = sscanf(order, "%7s %7s %7s", word[0], word[1], word[2]);
+    int seen = 0;
+    for (int i = 0; i < 3; i++)
+        for (int32_t d = MPS_SHIP_ROLL; d <= MPS_SHIP_YAW; d++)
+            if (strcmp(word[i], mps__degrees[d]) == 0) {
+                m->ship.order[i] = d;
+                seen |= 1 << d;
+            }
+    if (words != 3 || seen != (1 << 3 | 1 << 4 | 1 << 5))
+        mps__case_say(b->c, mps__tree_find(map, "order"), false,
+                      "motion.order: must be roll, pitch and yaw, each once, the first rotation "
+                      "first; usual is 'yaw pitch roll'");
+    memcpy(m->ship.origin, m->centre, sizeof m->centre);
+}
+
+/* ---- axes ---- */
+
+static void cross(const double *a, const double *b, double *out)
+{
+    for (int d = 0; d < 3; d++)
+        out[d] = a[(d + 1) % 3] * b[(d + 2) % 3] - a[(d + 2) % 3] * b[(d + 1) % 3];
+}
+
+/* In 2-D: a section along the ship for surge and pitch, across it for sway and roll. */
+static void plane_to_lab(const build_motion *m, int32_t degree, int32_t *dof, double *sign)
+{
+    static const int32_t plane[] = {MPS_MOVE_X,   MPS_MOVE_X,   MPS_MOVE_Y,
+                                    MPS_ROTATE_Z, MPS_ROTATE_Z, MPS_ROTATE_Z};
+    const bool down = m->ship.axes == MPS_SHIP_Z_DOWN;
+    *dof = plane[degree];
+    *sign = 1;
+    if (down && (degree == MPS_SHIP_SWAY || degree == MPS_SHIP_HEAVE)) *sign = -1;
+    if (!down && !m->flipped && degree == MPS_SHIP_PITCH) *sign = -1;
+}
+
+void mps__degree_to_lab(const build_motion *m, int32_t degree, int32_t *dof, double *sign)
+{
+    const double down = m->ship.axes == MPS_SHIP_Z_DOWN ? -1 : 1;
+    double e[3][3];
+    if (m->dim == 2) {
+        plane_to_lab(m, degree, dof, sign);
+        return;
+    }
+    for (int d = 0; d < 3; d++) {
+        e[0][d] = m->ship.forward[d];
+        e[2][d] = down * m->ship.up[d];
+    }
+    cross(e[2], e[0], e[1]);
+    const double *axis = e[degree % 3];
+    const bool turned = m->flipped && degree % 3 == 1;
+    for (int d = 0; d < 3; d++)
+        if (fabs(axis[d]) > 0.5) {
+            *dof = degree < 3 ? MPS_MOVE_X + d : MPS_ROTATE_X + d;
+            *sign = (axis[d] > 0) != turned ? 1 : -1;
+        }
+}
+
+/* The rotations of the library are yaw, pitch, roll of a ship with its bow along x; a single rotation has no order. */
+static bool is_sum_of_harmonics(const build_motion *m)
+{
+    int rotations = 0;
+    for (int32_t i = 0; i < m->count; i++)
+        if (m->harmonic[i].form == MOTION_PUSH) return false;
+    for (int32_t d = MPS_SHIP_ROLL; d <= MPS_SHIP_YAW; d++) rotations += m->used[d];
+    const bool usual = m->ship.order[0] == MPS_SHIP_YAW && m->ship.order[1] == MPS_SHIP_PITCH;
+    return m->dim == 2 || rotations < 2 || (usual && fabs(m->ship.forward[0]) > 0.5);
+}
+
+/* Of the ship at t, for mps_motion_callback_set(). */
+static int ship_at(void *user, double t, mps_motion_state *state)
+{
+    const build_motion *m = user;
+    mps_ship_motion ship;
+    mps_ship_motion_init(&ship, sizeof ship);
+    for (int32_t d = 0; d < MOTION_DEGREES; d++) {
+        double q[3], sign;
+        int32_t dof;
+        mps__harmonics_at(m, d, t, q);
+        if (m->dim == 2) {
+            mps__degree_to_lab(m, d, &dof, &sign);
+            state->value[dof] += sign * q[0];
+            state->rate[dof] += sign * q[1];
+            state->accel[dof] += sign * q[2];
+        }
+        sign = m->flipped && d % 3 == 1 ? -1 : 1;
+        ship.value[d] = sign * q[0];
+        ship.rate[d] = sign * q[1];
+        ship.accel[d] = sign * q[2];
+    }
+    return m->dim == 2 || mps_ship_to_tank(&m->ship, &ship, state) == MPS_OK ? 0 : 1;
+}
+
+/* ---- setting ---- */
+
+static double shortest_period(const build_motion *m)
+{
+    double least = INFINITY;
+    for (int32_t i = 0; i < m->count; i++) {
+        if (m->harmonic[i].omega > 0) least = fmin(least, 2 * acos(-1.0) / m->harmonic[i].omega);
+        if (m->harmonic[i].ramp > 0) least = fmin(least, m->harmonic[i].ramp);
+    }
+    return least;
+}
+
+static void set_harmonics(build *b, build_motion *m, const tree_node *map)
+{
+    if (!is_sum_of_harmonics(m)) {
+        m->dt_max = fmin(shortest_period(m), b->until) / 20;
+        mps__build_try(b, mps_motion_callback_set(b->sim, ship_at, m), map, "motion");
+        return;
+    }
+    mps_harmonic *lab = mps__build_alloc(b, (size_t)m->count * sizeof *lab);
+    for (int32_t i = 0; lab && i < m->count; i++) {
+        double sign = 1;
+        lab[i] = m->harmonic[i];
+        mps__degree_to_lab(m, m->harmonic[i].dof, &lab[i].dof, &sign);
+        lab[i].amplitude *= sign;
+    }
+    if (lab) mps__build_try(b, mps_motion_harmonics_set(b->sim, m->count, lab), map, "motion");
+}
+
+static void set_table(build *b, build_motion *m, const tree_node *map)
+{
+    static const int32_t all[6] = {MPS_MOVE_X,   MPS_MOVE_Y,   MPS_MOVE_Z,
+                                   MPS_ROTATE_X, MPS_ROTATE_Y, MPS_ROTATE_Z},
+                         plane[3] = {MPS_MOVE_X, MPS_MOVE_Y, MPS_ROTATE_Z};
+    const int32_t dofs = b->dim == 3 ? 6 : 3, *dof = b->dim == 3 ? all : plane;
+    double *values = mps__build_alloc(b, (size_t)(m->rows * dofs) * sizeof *values);
+    if (!values) return;
+    for (int64_t i = 0; m->dim == 3 && m->flipped && i < m->rows; i++) {
+        m->column[6 * i + MPS_SHIP_SWAY] *= -1;
+        m->column[6 * i + MPS_SHIP_PITCH] *= -1;
+    }
+    if (b->dim == 3 &&
+        !mps__build_try(b, mps_ship_table(&m->ship, m->rows, m->column, dofs, dof, values), map,
+                        "motion.file"))
+        return;
+    for (int64_t i = 0; b->dim == 2 && i < m->rows; i++)
+        for (int32_t d = 0; d < MOTION_DEGREES; d++) {
+            int32_t to;
+            double sign;
+            mps__degree_to_lab(m, d, &to, &sign);
+            const int k = to == MPS_MOVE_X ? 0 : to == MPS_MOVE_Y ? 1 : 2;
+            values[i * 3 + k] += sign * m->column[i * 6 + d];
+        }
+    mps__build_try(b, mps_motion_table_set(b->sim, m->rows, m->t, dofs, dof, values), map,
+                   "motion.file");
+}
+
+/* ---- what it amounts to ---- */
+
+static void measure_harmonics(build_motion *m, double until)
+{
+    const double step = fmin(shortest_period(m) / 40, until / 1000);
+    const int64_t count = step > 0 && until / step < 1e6 ? (int64_t)(until / step) : 1000000;
+    for (int64_t i = 0; i <= count; i++)
+        for (int32_t d = 0; d < MOTION_DEGREES; d++) {
+            double q[3];
+            if (!m->used[d]) continue;
+            mps__harmonics_at(m, d, until * (double)i / (double)count, q);
+            for (int k = 0; k < 3; k++) m->largest[d][k] = fmax(m->largest[d][k], fabs(q[k]));
+        }
+}
+
+/* By differences of neighbouring rows. */
+static void measure_table(build_motion *m, double until)
+{
+    m->step_least = INFINITY;
+    for (int64_t i = 1; i < m->rows; i++) {
+        const double h = m->t[i] - m->t[i - 1];
+        m->step_least = fmin(m->step_least, h);
+        m->step_most = fmax(m->step_most, h);
+        if (m->t[i] < 0 || m->t[i - 1] > until) continue;
+        for (int32_t d = 0; d < MOTION_DEGREES; d++) {
+            const double *q = m->column + 6 * i + d, rate = (q[0] - q[-6]) / h;
+            m->largest[d][0] = fmax(m->largest[d][0], fabs(q[0]));
+            m->largest[d][1] = fmax(m->largest[d][1], fabs(rate));
+            if (i + 1 == m->rows) continue;
+            const double next = m->t[i + 1] - m->t[i], after = (q[6] - q[0]) / next;
+            m->largest[d][2] = fmax(m->largest[d][2], fabs(2 * (after - rate) / (h + next)));
+        }
+    }
+}
+
+void mps__build_motion(build *b)
+{
+    const tree_node *map = mps__tree_find(b->root, "motion");
+    if (!map || mps__case_failed(b->c)) return;
+    build_motion *m = mps__build_alloc(b, sizeof *m);
+    if (m) m->harmonic = mps__build_alloc(b, MOTION_HARMONICS * sizeof *m->harmonic);
+    if (!m || !m->harmonic) return;
+    const bool file = mps__tree_find(map, "file") != NULL;
+    b->until = mps__read_number(b->c, mps__tree_find(b->root, "run"), "until", NAN);
+    m->dim = b->dim;
+    if (mps__read_numbers(b->c, map, "centre", 3, m->centre) == 2)
+        m->centre[2] = mps__build_middle(b);
+    read_ship(b, m, map);
+    for (int32_t d = 0; d < MOTION_DEGREES && !mps__case_failed(b->c); d++)
+        read_degree(b, m, map, d);
+    if (file && m->count > 0)
+        mps__case_say(b->c, mps__tree_find(map, "file"), false,
+                      "motion: give a file or degrees, not both");
+    if (!file && m->count == 0 && !mps__case_failed(b->c))
+        mps__case_say(b->c, map, false,
+                      "motion: no degree is given: surge, sway, heave, roll, pitch, yaw, or file");
+    if (mps__case_failed(b->c) || (file && !mps__motion_file(b, m, map))) return;
+    const int32_t start = mps__read_choice(b->c, map, "start", MPS_START_AT_REST);
+    if (!mps__build_try(b, mps_motion_centre_set(b->sim, m->centre, start), map, "motion.centre"))
+        return;
+    if (file)
+        set_table(b, m, map);
+    else
+        set_harmonics(b, m, map);
+    if (file)
+        measure_table(m, b->until);
+    else
+        measure_harmonics(m, b->until);
+    b->motion = m;
+}

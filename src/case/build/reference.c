@@ -1,0 +1,231 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Known values beside the results, figures between two times, and what summary.json says about the case. */
+#include "build.h"
+#include "csv.h"
+#include "units.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- references ---- */
+
+typedef struct series {
+    int64_t count;
+    double *t, *value; /* in the memory of the case */
+    char unit[BUILD_NAME];
+} series;
+
+/* The SI unit of a value as columns of probes.csv have it. */
+static void unit_of(uint64_t kinds, int32_t dim, char *out, size_t size)
+{
+    static const struct {
+        uint64_t kind;
+        const char *name[2];
+    } names[] = {{UNIT_PRESSURE, {"Pa", "Pa"}},    {UNIT_LENGTH, {"m", "m"}},
+                 {UNIT_VELOCITY, {"m/s", "m/s"}},  {UNIT_FORCE, {"N", "N"}},
+                 {UNIT_STIFFNESS, {"N/m", "N/m"}}, {UNIT_MOMENT, {"N m", "N m"}},
+                 {UNIT_ANGLE, {"deg", "deg"}},     {UNIT_VOLUME, {"m3", "m3"}},
+                 {UNIT_AREA, {"m2", "m2"}}};
+    out[0] = '\0';
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (kinds & names[i].kind) {
+            snprintf(out, size, "%s", names[i].name[dim - 2]);
+            return;
+        }
+}
+
+static bool read_inline(build *b, const tree_node *map, series *s)
+{
+    uint64_t kinds = 0;
+    double *room = mps__build_alloc(b, 2 * COUNT_MOST * sizeof *room);
+    if (!room) return false;
+    s->t = room;
+    s->value = room + COUNT_MOST;
+    s->count = mps__read_numbers(b->c, map, "times", COUNT_MOST, s->t);
+    const int64_t values = mps__read_numbers(b->c, map, "values", COUNT_MOST, s->value);
+    const tree_node *node = mps__tree_find(map, "values");
+    if (mps__case_failed(b->c)) return false;
+    if (values != s->count) {
+        mps__case_say(b->c, node ? node : map, false, "%d times, but %d values", (int)s->count,
+                      (int)values);
+        return false;
+    }
+    mps__node_numbers(b->c, node, COUNT_MOST, s->value, &kinds);
+    unit_of(kinds, b->dim, s->unit, sizeof s->unit);
+    for (int64_t i = 0; i < s->count && strcmp(s->unit, "deg") == 0; i++)
+        s->value[i] *= 180 / acos(-1.0);
+    return true;
+}
+
+static bool read_columns(build *b, const tree_node *map, const csv *t, int32_t *column)
+{
+    const tree_node *node = mps__tree_find(map, "columns");
+    int k = 0;
+    column[0] = 0;
+    column[1] = 1;
+    for (const tree_node *at = node && node->kind == TREE_LIST ? node->first : NULL; at && k < 2;
+         at = at->next, k++) {
+        column[k] = mps__csv_find(t, at->text);
+        if (column[k] < 0) {
+            char names[BUILD_TEXT];
+            mps__csv_names(t, names, sizeof names);
+            mps__case_say(b->c, at, false, "'%s' is no column of %s, which has %s", at->text,
+                          t->path, names);
+        }
+    }
+    if (t->columns < 2)
+        mps__case_say(b->c, map, false, "%s: has one column, two are needed", t->path);
+    return !mps__case_failed(b->c);
+}
+
+static bool read_table(build *b, const tree_node *map, series *s)
+{
+    csv t = {0};
+    int32_t column[2];
+    const tree_node *node = mps__tree_find(map, "file");
+    const char *path = mps__read_path(b->c, map, "file"),
+               *unit = mps__read_text(b->c, map, "unit", NULL);
+    bool good = path && mps__csv_read(b->c, node, path, &t) && read_columns(b, map, &t, column);
+    const double times = good ? mps__csv_factor(b->c, node, &t, column[0], UNIT_TIME, NULL) : NAN;
+    const double factor = good ? mps__csv_factor(b->c, node, &t, column[1], UNIT_ANY, unit) : NAN;
+    if (good && !isnan(times) && !isnan(factor)) {
+        const char *text = unit && unit[0] ? unit : t.unit[column[1]];
+        const mps__unit *u = mps__unit_find(text, strlen(text));
+        unit_of(u->kinds, b->dim, s->unit, sizeof s->unit);
+        const double degrees = strcmp(s->unit, "deg") == 0 ? 180 / acos(-1.0) : 1;
+        s->t = mps__build_alloc(b, (size_t)t.rows * sizeof *s->t);
+        s->value = mps__build_alloc(b, (size_t)t.rows * sizeof *s->value);
+        for (int64_t i = 0; s->t && s->value && i < t.rows; i++) {
+            s->t[i] = t.value[i * t.columns + column[0]] * times;
+            s->value[i] = t.value[i * t.columns + column[1]] * factor * degrees;
+        }
+        s->count = s->t && s->value ? t.rows : 0;
+    }
+    mps__csv_free(&t);
+    return s->count > 0;
+}
+
+static void add_reference(build *b, const tree_node *map, const char *name)
+{
+    series s = {0};
+    const bool file = mps__tree_find(map, "file") != NULL;
+    if (file ? !read_table(b, map, &s) : !read_inline(b, map, &s)) return;
+    const double shift = mps__read_number(b->c, map, "shift", 0);
+    for (int64_t i = 0; i < s.count; i++) s.t[i] += shift;
+    const char *column = mps__read_text(b->c, map, "column", "");
+    mps_reference r;
+    mps_reference_init(&r, sizeof r);
+    r.line = mps__read_choice(b->c, map, "style", 0);
+    r.label = mps__read_text(b->c, map, "label", "reference");
+    r.unit = s.unit;
+    r.count = s.count;
+    r.t = s.t;
+    r.value = s.value;
+    if (!column[0] && mps__tree_find(mps__tree_find(b->root, "sensors"), name)) column = name;
+    r.column = column[0] ? column : NULL;
+    if (mps__case_failed(b->c) || !b->job) return;
+    mps__build_try_job(b, mps_job_reference_add(b->job, &r), map, name);
+}
+
+/* ---- figures ---- */
+
+static void add_figure(build *b, const tree_node *map)
+{
+    static const int32_t take[] = {MPS_TRACE_LARGEST, MPS_TRACE_LEAST,    MPS_TRACE_MEAN,
+                                   MPS_TRACE_CHANGE,  MPS_TRACE_INTEGRAL, MPS_TRACE_SLOPE};
+    mps_trace t;
+    mps_trace_init(&t, sizeof t);
+    t.kind = take[mps__read_choice(b->c, map, "take", 0)];
+    t.name = map->key;
+    t.column = mps__read_text(b->c, map, "column", "");
+    t.from = mps__read_number(b->c, map, "from", 0);
+    t.to = mps__read_number(b->c, map, "until", b->until);
+    t.window = mps__read_number(b->c, map, "window", 0);
+    t.scale = mps__read_number(b->c, map, "over", 1);
+    if (mps__case_failed(b->c) || !b->job) return;
+    mps__build_try_job(b, mps_job_trace_add(b->job, &t), map, map->key);
+}
+
+void mps__build_references(build *b)
+{
+    const tree_node *map = mps__tree_find(b->root, "reference"),
+                    *figures = mps__tree_find(b->root, "figures");
+    if (b->status < 0) return;
+    for (const tree_node *at = map ? map->first : NULL; at; at = at->next) {
+        const tree_node *one = at->kind == TREE_LIST ? at->first : at;
+        for (; one; one = one == at ? NULL : one->next) add_reference(b, one, at->key);
+    }
+    for (const tree_node *at = figures ? figures->first : NULL; at; at = at->next)
+        add_figure(b, at);
+}
+
+/* ---- inputs ---- */
+
+static void add_input(build *b, const char *key, const char *value)
+{
+    if (b->job) mps__build_try_job(b, mps_job_input_add(b->job, key, value), b->root, key);
+}
+
+/* Constants of the statistics in SI, for programs that read summary.json and know no T1. */
+static bool add_constant(build *b, const tree_node *node, const char *path)
+{
+    static const struct {
+        uint64_t kind;
+        const char *unit;
+    } units[] = {{UNIT_TIME, " s"}, {UNIT_PRESSURE, " Pa"}, {UNIT_FREQUENCY, " Hz"}};
+    char text[64];
+    const char *unit = "";
+    if (strncmp(path, "impacts.", 8) != 0 || !node->entry || node->entry->shape != SHAPE_NUMBERS)
+        return false;
+    const double value = mps__read_number(b->c, node->parent, node->key, NAN);
+    for (int i = 0; i < 3; i++)
+        if (node->entry->units & units[i].kind) unit = units[i].unit;
+    snprintf(text, sizeof text, "%.9g%s", value, unit);
+    add_input(b, path, text);
+    return true;
+}
+
+/* Each value of the tree under its path. */
+static void add_node(build *b, const tree_node *node)
+{
+    char path[PATH_ROOM], text[2 * BUILD_TEXT];
+    size_t used = 0;
+    mps__tree_path(node, path, sizeof path);
+    if (add_constant(b, node, path)) return;
+    if (strncmp(path, "impacts.", 8) == 0) mps__read_all(node);
+    if (node->kind == TREE_TEXT) {
+        add_input(b, mps__tree_path(node, path, sizeof path), node->text);
+        return;
+    }
+    bool texts = node->kind == TREE_LIST && node->first;
+    for (const tree_node *at = node->first; at; at = at->next)
+        texts = texts && at->kind == TREE_TEXT;
+    if (!texts) {
+        for (const tree_node *at = node->first; at; at = at->next) add_node(b, at);
+        return;
+    }
+    for (const tree_node *at = node->first; at && used < sizeof text; at = at->next)
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s",
+                                 at == node->first ? "" : "; ", at->text);
+    add_input(b, mps__tree_path(node, path, sizeof path), text);
+}
+
+void mps__build_inputs(build *b)
+{
+    char text[BUILD_TEXT];
+    for (const tree_node *at = b->root->first; at; at = at->next)
+        if (strcmp(at->key, "reference") != 0) add_node(b, at);
+    if (b->modes.count > 0) {
+        snprintf(text, sizeof text, "%.9g s", b->modes.period[0]);
+        add_input(b, "T1", text);
+        add_input(b, "T1 by", b->modes.how);
+    }
+    for (int32_t i = 0; i < b->fluids; i++) {
+        char key[BUILD_NAME + 16];
+        snprintf(key, sizeof key, "phase %d", (int)i);
+        snprintf(text, sizeof text, "%s: %g kg/m3, %g Pa s", b->fluid[i].name, b->fluid[i].density,
+                 b->fluid[i].viscosity);
+        add_input(b, key, text);
+    }
+}

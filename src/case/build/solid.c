@@ -1,0 +1,298 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Solids in the tank: plates with holes, boxes, cylinders, balls, prisms, files. */
+#include "build.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* What is being read. */
+typedef struct reading {
+    build *b;
+    const tree_node *map;
+    const char *name;
+    build_solid *out;
+} reading;
+
+static void say(const reading *r, const char *key, const char *text)
+{
+    const tree_node *at = mps__tree_find(r->map, key);
+    mps__case_say(r->b->c, at ? at : r->map, false, "solids.%s.%s: %s", r->name, key, text);
+}
+
+/* ---- plates ---- */
+
+/* Slots of a plate: every `pitch` along its first side one of length `gap`, in the middle of its pitch; shares of the side. */
+typedef struct openings {
+    int32_t count;
+    double pitch, gap;
+} openings;
+
+/* A plate: a corner and one or two edges. */
+typedef struct plate {
+    double corner[3], edge[2][3], length[2];
+    int32_t axis; /* across which it lies flat on the lattice; -1: inclined */
+    double thickness;
+} plate;
+
+/* Whole pitches: the pitch given is changed to the nearest one that divides the side. */
+static openings read_openings(reading *r, const plate *p)
+{
+    openings o = {0};
+    const tree_node *node = mps__tree_find(r->map, "holes");
+    if (!node) return o;
+    const double pitch = mps__read_number(r->b->c, node, "pitch", NAN),
+                 open = mps__read_number(r->b->c, node, "open", NAN);
+    if (mps__case_failed(r->b->c)) return o;
+    o.count = (int32_t)fmax(1, round(p->length[0] / pitch));
+    o.pitch = 1.0 / o.count;
+    o.gap = open * o.pitch;
+    if (fmin(o.gap, o.pitch - o.gap) * p->length[0] < 2 * r->b->dp)
+        say(r, "holes",
+            "openings and what is between them must be at least 2 dp wide: take a smaller "
+            "dp or a larger pitch");
+    return o;
+}
+
+static int32_t flat_across(const plate *p, int dim)
+{
+    for (int d = 0; d < dim; d++) {
+        const double off = fabs(p->edge[0][d]) + fabs(p->edge[1][d]);
+        if (off < 1e-9 * (p->length[0] + p->length[1])) {
+            int along = 0; /* edges along axes of the lattice */
+            for (int e = 0; e < dim - 1; e++)
+                for (int k = 0; k < dim; k++)
+                    along += fabs(fabs(p->edge[e][k]) - p->length[e]) < 1e-9 * p->length[e];
+            return along >= dim - 1 ? d : -1;
+        }
+    }
+    return -1;
+}
+
+/* From two points in 2-D, two opposite corners or three corners in 3-D. Points without z reach from side to side. */
+static bool read_plate(reading *r, plate *p)
+{
+    build *b = r->b;
+    const tree_node *node = mps__tree_find(r->map, "plate");
+    double x[3][3];
+    *p = (plate){.axis = -1};
+    const int32_t count = mps__build_points(b, node, NAN, 3, x);
+    if (count < 2) {
+        if (!mps__case_failed(b->c)) say(r, "plate", "needs two points");
+        return false;
+    }
+    const form *t = &b->tank.form;
+    for (int32_t i = 0; i < count; i++)
+        if (isnan(x[i][2])) x[i][2] = b->dim == 2 ? 0 : i == 0 ? t->lo[2] : t->hi[2];
+    memcpy(p->corner, x[0], sizeof p->corner);
+    for (int d = 0; d < 3; d++) {
+        const double across = x[1][d] - x[0][d];
+        if (count == 3) {
+            p->edge[0][d] = across;
+            p->edge[1][d] = x[2][d] - x[0][d];
+        } else { /* opposite corners of a plate whose edges are along z and in x, y, or along x and y */
+            const bool first = b->dim == 2 || (x[1][2] == x[0][2] ? d == 0 : d != 2);
+            p->edge[first ? 0 : 1][d] = across;
+        }
+    }
+    for (int e = 0; e < 2; e++)
+        p->length[e] = sqrt(p->edge[e][0] * p->edge[e][0] + p->edge[e][1] * p->edge[e][1] +
+                            p->edge[e][2] * p->edge[e][2]);
+    if (!(p->length[0] > 0) || (b->dim == 3 && !(p->length[1] > 0))) {
+        say(r, "plate", "has no area: its points are on one line");
+        return false;
+    }
+    p->axis = flat_across(p, b->dim);
+    p->thickness = mps__read_number(b->c, r->map, "thickness", 0);
+    return !mps__case_failed(b->c);
+}
+
+/* In whole columns of the lattice, as near to its place as they are: n columns are (n - 1) dp thick. */
+static bool add_flat(reading *r, const plate *p, const double *from, const double *to)
+{
+    build *b = r->b;
+    double lo[3], hi[3];
+    const double columns = round(p->thickness / b->dp) + 1;
+    for (int d = 0; d < 3; d++) {
+        lo[d] = fmin(from[d], to[d]);
+        hi[d] = fmax(from[d], to[d]);
+    }
+    const double origin = b->tank.form.lo[p->axis];
+    const double first = origin +
+                         round((lo[p->axis] - origin) / b->dp - 0.5 * (columns - 1)) * b->dp;
+    lo[p->axis] = first;
+    hi[p->axis] = first + (columns - 1) * b->dp;
+    return mps__build_try(b, mps_baffle_add(b->sim, r->name, lo, hi, NULL), r->map, r->name);
+}
+
+static bool add_piece(reading *r, const plate *p, const double *at, const double *size)
+{
+    double from[3], to[3], edge[2][3];
+    for (int d = 0; d < 3; d++) {
+        from[d] = to[d] = p->corner[d];
+        for (int e = 0; e < 2 && p->length[e] > 0; e++) {
+            from[d] += at[e] * p->edge[e][d];
+            edge[e][d] = size[e] * p->edge[e][d];
+            to[d] += (at[e] + size[e]) * p->edge[e][d];
+        }
+    }
+    if (p->axis >= 0) return add_flat(r, p, from, to);
+    return mps__build_try(
+        r->b, mps_plate_add(r->b->sim, r->name, from, edge[0], r->b->dim == 3 ? edge[1] : NULL),
+        r->map, r->name);
+}
+
+static void add_plate(reading *r)
+{
+    plate p;
+    if (!read_plate(r, &p)) return;
+    const openings o = read_openings(r, &p);
+    if (mps__case_failed(r->b->c)) return;
+    r->out->plate = true;
+    for (int d = 0; d < 3; d++) {
+        r->out->end[0][d] = p.corner[d];
+        r->out->end[1][d] = p.corner[d] + p.edge[0][d];
+    }
+    if (p.axis >= 0 && o.count == 0) {
+        double to[3];
+        for (int d = 0; d < 3; d++) to[d] = p.corner[d] + p.edge[0][d] + p.edge[1][d];
+        add_flat(r, &p, p.corner, to);
+        return;
+    }
+    double begin = 0;
+    for (int32_t i = 0; i <= o.count && !mps__case_failed(r->b->c); i++) {
+        const double end = i < o.count ? (i + 0.5) * o.pitch - 0.5 * o.gap : 1;
+        const double at[2] = {begin, 0}, size[2] = {end - begin, 1};
+        add_piece(r, &p, at, size);
+        begin = end + o.gap;
+    }
+}
+
+/* ---- bodies ---- */
+
+static void add_box(reading *r)
+{
+    build *b = r->b;
+    double x[2][3];
+    const tree_node *node = mps__tree_find(r->map, "box");
+    if (mps__build_points(b, node, NAN, 2, x) != 2) {
+        if (!mps__case_failed(b->c)) say(r, "box", "needs two points");
+        return;
+    }
+    form *s = &r->out->form;
+    for (int d = 0; d < 3; d++) {
+        if (isnan(x[0][d])) x[0][d] = b->tank.form.lo[d];
+        if (isnan(x[1][d])) x[1][d] = b->tank.form.hi[d];
+        s->lo[d] = fmin(x[0][d], x[1][d]);
+        s->hi[d] = fmax(x[0][d], x[1][d]);
+    }
+    mps__build_try(b, mps_baffle_add(b->sim, r->name, s->lo, s->hi, NULL), node, r->name);
+}
+
+/* A body of any shape. Its box reaches a little beyond its surface, and not far beyond the tank. */
+static void add_body(reading *r, const char *key)
+{
+    form *s = &r->out->form;
+    mps_solid solid;
+    if (mps__case_failed(r->b->c)) return;
+    mps__form_box(s);
+    mps_solid_init(&solid, sizeof solid);
+    solid.name = r->name;
+    solid.distance = mps__form_body;
+    solid.user = s;
+    for (int d = 0; d < 3; d++) {
+        solid.lo[d] = s->lo[d] - r->b->dp;
+        solid.hi[d] = s->hi[d] + r->b->dp;
+    }
+    mps__build_try(r->b, mps_solid_add(r->b->sim, &solid), mps__tree_find(r->map, key), r->name);
+}
+
+static void add_cylinder(reading *r)
+{
+    form *s = &r->out->form;
+    const tree_node *node = mps__tree_find(r->map, "cylinder");
+    s->kind = FORM_ROD;
+    mps__read_numbers(r->b->c, node, "from", 3, s->end[0]);
+    mps__read_numbers(r->b->c, node, "to", 3, s->end[1]);
+    s->radius = mps__read_number(r->b->c, node, "radius", NAN);
+    if (memcmp(s->end[0], s->end[1], sizeof s->end[0]) == 0 && !mps__case_failed(r->b->c))
+        say(r, "cylinder", "has no length: 'from' and 'to' are one point");
+    if (r->b->dim == 2 && !mps__case_failed(r->b->c))
+        say(r, "cylinder", "is for 3-D; in 2-D take 'sphere', a circle");
+    add_body(r, "cylinder");
+}
+
+static void add_sphere(reading *r)
+{
+    form *s = &r->out->form;
+    const tree_node *node = mps__tree_find(r->map, "sphere");
+    s->kind = FORM_BALL;
+    s->end[0][2] = mps__build_middle(r->b);
+    mps__read_numbers(r->b->c, node, "centre", 3, s->end[0]);
+    s->radius = mps__read_number(r->b->c, node, "radius", NAN);
+    add_body(r, "sphere");
+}
+
+static void add_prism(reading *r)
+{
+    build *b = r->b;
+    form *s = &r->out->form;
+    double point[FORM_POINTS][3], z[2] = {b->tank.form.lo[2], b->tank.form.hi[2]};
+    s->kind = FORM_POLYGON;
+    s->points = mps__build_points(b, mps__tree_find(r->map, "prism"), 0, FORM_POINTS, point);
+    for (int32_t i = 0; i < s->points; i++) memcpy(s->point[i], point[i], sizeof s->point[i]);
+    if (s->points < 3 && !mps__case_failed(b->c)) say(r, "prism", "needs at least 3 points");
+    mps__read_numbers(b->c, r->map, "between", 2, z);
+    s->lo[2] = z[0];
+    s->hi[2] = z[1];
+    add_body(r, "prism");
+}
+
+static void add_file(reading *r)
+{
+    double box[6];
+    mps_stl stl;
+    if (!mps__build_stl(r->b, r->map, &stl)) return;
+    stl.name = r->name;
+    r->out->file = true;
+    const char *path = mps__read_path(r->b->c, r->map, "stl");
+    if (!path) return;
+    if (!mps__build_try(r->b, mps_stl_add(r->b->sim, path, &stl, box),
+                        mps__tree_find(r->map, "stl"), r->name))
+        return;
+    memcpy(r->out->form.lo, box, sizeof r->out->form.lo);
+    memcpy(r->out->form.hi, box + 3, sizeof r->out->form.hi);
+}
+
+/* ---- all ---- */
+
+static void add_solid(build *b, const tree_node *map)
+{
+    static const char *const kind[] = {"plate", "box", "cylinder", "sphere", "prism", "stl"};
+    static void (*const add[])(reading *) = {add_plate,  add_box,   add_cylinder,
+                                             add_sphere, add_prism, add_file};
+    int chosen = -1;
+    if (b->solids == BUILD_SOLIDS) {
+        mps__case_say(b->c, map, false, "solids: more than %d", BUILD_SOLIDS);
+        return;
+    }
+    reading r = {b, map, map->key, &b->solid[b->solids++]};
+    *r.out = (build_solid){.form.dim = b->dim};
+    snprintf(r.out->name, sizeof r.out->name, "%s", map->key);
+    for (int i = 0; i < 6; i++) {
+        if (!mps__tree_find(map, kind[i])) continue;
+        if (chosen >= 0) say(&r, kind[i], "a solid is of one kind only");
+        chosen = i;
+    }
+    if (chosen < 0)
+        mps__case_say(b->c, map, false,
+                      "solids.%s: give plate, box, cylinder, sphere, prism or stl", map->key);
+    if (!mps__case_failed(b->c)) add[chosen](&r);
+}
+
+void mps__build_solids(build *b)
+{
+    const tree_node *map = mps__tree_find(b->root, "solids");
+    for (const tree_node *at = map ? map->first : NULL; at && !mps__case_failed(b->c);
+         at = at->next)
+        add_solid(b, at);
+}

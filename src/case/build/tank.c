@@ -1,0 +1,247 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Tanks: boxes, chamfered boxes, polygons, cylinders, balls, files. */
+#include "build.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+int32_t mps__build_points(build *b, const tree_node *node, double z, int32_t most, double (*out)[3])
+{
+    int32_t count = 0;
+    const tree_node *at = node && node->kind == TREE_LIST ? node->first : node;
+    mps__read_all(node);
+    for (; at; at = at->next) {
+        if (count == most) {
+            mps__case_say(b->c, at, false, "one point too many: at most %d", (int)most);
+            return 0;
+        }
+        double *x = out[count++];
+        x[2] = z;
+        const int32_t given = mps__read_values(b->c, at, 3, x);
+        if (given < 2 && !mps__case_failed(b->c))
+            mps__case_say(b->c, at, false, "a point has %s", b->dim == 3 ? "x y z" : "x y");
+        if (given < 3) x[2] = z;
+        if (at == node) break;
+    }
+    return mps__case_failed(b->c) ? 0 : count;
+}
+
+double mps__build_middle(const build *b)
+{
+    return b->dim == 3 ? 0.5 * (b->tank.form.lo[2] + b->tank.form.hi[2]) : 0;
+}
+
+/* ---- shapes ---- */
+
+static void read_size(build *b, const tree_node *map)
+{
+    form *s = &b->tank.form;
+    double size[3] = {0};
+    const int32_t given = mps__read_numbers(b->c, map, "size", 3, size);
+    mps__read_numbers(b->c, map, "at", 3, s->lo);
+    if (given < b->dim)
+        mps__case_say(b->c, mps__tree_find(map, "size"), false,
+                      "tank.size: %d numbers are needed in %d-D", (int)b->dim, (int)b->dim);
+    memcpy(b->tank.size, size, sizeof size);
+    for (int d = 0; d < 3; d++) s->hi[d] = s->lo[d] + size[d];
+}
+
+/* Two fluids meet at this height: the lattice has it half way between two rows, and the tank reaches as far up as down from it. */
+static void lay_about(build *b, const tree_node *map)
+{
+    form *s = &b->tank.form;
+    if (!mps__tree_find(map, "between_rows")) return;
+    const double middle = mps__read_number(b->c, map, "between_rows", NAN),
+                 size = s->hi[1] - s->lo[1];
+    const double half = (floor(size / 2 / b->dp + 1e-6) + 0.5) * b->dp;
+    s->lo[1] = middle - half;
+    b->tank.size[1] = 2 * half;
+    s->hi[1] = s->lo[1] + b->tank.size[1];
+}
+
+/* Cut the corners of the box: run along x, rise along y. */
+static void read_chamfer(build *b, const tree_node *map)
+{
+    form *s = &b->tank.form;
+    const tree_node *node = mps__tree_find(map, "chamfer");
+    if (!node) return;
+    double cut[2][2] = {{0}};
+    static const char *const key[] = {"bottom", "top"};
+    for (int i = 0; i < 2; i++)
+        if (mps__read_numbers(b->c, node, key[i], 2, cut[i]) == 1) cut[i][1] = cut[i][0];
+    s->sideways = b->dim == 3 && mps__read_choice(b->c, node, "across", 0) == 1;
+    const int k = s->sideways ? 2 : 0;
+    const double x0 = s->lo[k], x1 = s->hi[k], y0 = s->lo[1], y1 = s->hi[1];
+    if (2 * fmax(cut[0][0], cut[1][0]) > x1 - x0 || cut[0][1] + cut[1][1] > y1 - y0)
+        mps__case_say(b->c, node, false, "tank.chamfer: larger than the tank, %g x %g m", x1 - x0,
+                      y1 - y0);
+    const double corner[8][2] = {{x0 + cut[0][0], y0}, {x1 - cut[0][0], y0}, {x1, y0 + cut[0][1]},
+                                 {x1, y1 - cut[1][1]}, {x1 - cut[1][0], y1}, {x0 + cut[1][0], y1},
+                                 {x0, y1 - cut[1][1]}, {x0, y0 + cut[0][1]}};
+    for (int i = 0; i < 8; i++) { /* without points that coincide, where one cut is 0 */
+        const double *last = s->points ? s->point[s->points - 1] : corner[7];
+        if (hypot(corner[i][0] - last[0], corner[i][1] - last[1]) < 1e-9 * (x1 - x0)) continue;
+        memcpy(s->point[s->points++], corner[i], sizeof corner[i]);
+    }
+    s->kind = FORM_POLYGON;
+}
+
+static void read_polygon(build *b, const tree_node *map)
+{
+    form *s = &b->tank.form;
+    double point[FORM_POINTS][3];
+    const tree_node *node = mps__tree_find(map, "polygon");
+    s->kind = FORM_POLYGON;
+    s->points = mps__build_points(b, node, 0, FORM_POINTS, point);
+    for (int32_t i = 0; i < s->points; i++) memcpy(s->point[i], point[i], sizeof s->point[i]);
+    s->hi[2] = mps__read_number(b->c, map, "width", 0);
+    if (mps__case_failed(b->c)) return;
+    mps__form_box(s);
+    if (s->points < 3)
+        mps__case_say(b->c, node, false, "tank.polygon: at least 3 points are needed");
+    else if (b->dim == 3 && !(s->hi[2] > 0))
+        mps__case_say(b->c, node, false, "tank.width: is needed in 3-D, e.g. '2 m'");
+}
+
+/* Lowest point at y = 0, one end at 0 of its axis, the middle at 0 of the third. */
+static void read_cylinder(build *b, const tree_node *map)
+{
+    form *s = &b->tank.form;
+    const tree_node *node = mps__tree_find(map, "cylinder");
+    s->kind = b->dim == 3 ? FORM_TUBE : FORM_BALL;
+    s->radius = mps__read_number(b->c, node, "radius", NAN);
+    s->length = mps__read_number(b->c, node, "length", 0);
+    s->heads = mps__read_number(b->c, node, "heads", 0);
+    s->axis = mps__read_choice(b->c, node, "axis", 0);
+    for (int d = 0; d < 3; d++) {
+        const bool along = d == s->axis, up = d == 1;
+        s->lo[d] = along || up ? 0 : -s->radius;
+        s->hi[d] = along ? s->length + 2 * s->heads : up ? 2 * s->radius : s->radius;
+    }
+    if (b->dim == 3 && !mps__case_failed(b->c) && !(s->hi[s->axis] > 0))
+        mps__case_say(b->c, node, false, "tank.cylinder.length: is needed in 3-D");
+    for (int d = 0; b->dim == 2 && d < 2; d++) s->end[0][d] = s->lo[d] = s->radius;
+    if (b->dim == 2) mps__form_box(s);
+}
+
+static void read_ball(build *b, const tree_node *map)
+{
+    form *s = &b->tank.form;
+    s->kind = FORM_BALL;
+    s->radius = mps__read_number(b->c, mps__tree_find(map, "sphere"), "radius", NAN);
+    for (int d = 0; d < 2; d++) s->end[0][d] = s->radius;
+    mps__form_box(s);
+}
+
+/* ---- files ---- */
+
+bool mps__build_stl(build *b, const tree_node *map, mps_stl *stl)
+{
+    /* turns that bring the axis of the file to +y */
+    static const double turn[3][3] = {{0, 0, 1}, {0, 0, 0}, {-1, 0, 0}};
+    const double quarter = 0.5 * acos(-1.0);
+    double angle[3] = {0};
+    mps_stl_init(stl, sizeof *stl);
+    if (!mps__tree_find(map, "unit")) {
+        mps__case_say(b->c, mps__tree_find(map, "stl"), false,
+                      "the unit of the file is needed: 'unit: mm', or the length of a unit");
+        return false;
+    }
+    stl->scale = mps__read_unit(b->c, map, "unit", 1);
+    const int32_t up = mps__read_choice(b->c, map, "up", 1);
+    const bool turned = mps__read_numbers(b->c, map, "turn", 3, angle) > 0;
+    if (turned && mps__tree_find(map, "up"))
+        mps__case_say(b->c, mps__tree_find(map, "turn"), false, "give 'up' or 'turn', not both");
+    for (int d = 0; d < 3; d++) stl->rotation[d] = turned ? angle[d] : quarter * turn[up][d];
+    mps__read_numbers(b->c, map, "shift", 3, stl->shift);
+    return !mps__case_failed(b->c);
+}
+
+static void add_file(build *b, const tree_node *map)
+{
+    form *s = &b->tank.form;
+    const tree_node *node = mps__tree_find(map, "stl");
+    static const int32_t side[] = {MPS_SIDE_NONE, MPS_SIDE_Y1, MPS_SIDE_X0, MPS_SIDE_X1,
+                                   MPS_SIDE_Y0,   MPS_SIDE_Z0, MPS_SIDE_Z1};
+    double box[6];
+    mps_stl stl;
+    b->tank.file = true;
+    if (!mps__build_stl(b, map, &stl)) return;
+    stl.name = "tank";
+    stl.dummy_layers = (int32_t)mps__read_number(b->c, map, "dummies", stl.dummy_layers);
+    stl.container = 1;
+    stl.open_side = side[b->tank.open];
+    const char *path = mps__read_path(b->c, map, "stl");
+    if (!path || !mps__build_try(b, mps_stl_add(b->sim, path, &stl, box), node, "tank")) return;
+    memcpy(s->lo, box, sizeof s->lo);
+    memcpy(s->hi, box + 3, sizeof s->hi);
+}
+
+/* ---- all ---- */
+
+static void add_box(build *b, const tree_node *map)
+{
+    const form *s = &b->tank.form;
+    mps_tank tank;
+    mps_tank_init(&tank, sizeof tank);
+    for (int d = 0; d < 3; d++) {
+        tank.lo[d] = s->lo[d];
+        tank.size[d] = b->tank.size[d];
+    }
+    tank.open_top = b->tank.open == 1;
+    tank.dummy_layers = (int32_t)mps__read_number(b->c, map, "dummies", tank.dummy_layers);
+    if (b->tank.open > 1)
+        mps__case_say(b->c, mps__tree_find(map, "open"), false,
+                      "tank.open: of a box only the top can be open");
+    else
+        mps__build_try(b, mps_tank_add(b->sim, &tank, b->tank.built), map, "tank");
+}
+
+static void add_shape(build *b, const tree_node *map)
+{
+    form *s = &b->tank.form;
+    mps_solid solid;
+    if (b->tank.open) {
+        mps__case_say(b->c, mps__tree_find(map, "open"), false,
+                      "tank.open: only a rectangular tank can be open at its top");
+        return;
+    }
+    mps_solid_init(&solid, sizeof solid);
+    solid.dummy_layers = (int32_t)mps__read_number(b->c, map, "dummies", solid.dummy_layers);
+    solid.name = "tank";
+    solid.distance = mps__form_container;
+    solid.user = s;
+    memcpy(solid.lo, s->lo, sizeof solid.lo);
+    memcpy(solid.hi, s->hi, sizeof solid.hi);
+    mps__build_try(b, mps_solid_add(b->sim, &solid), map, "tank");
+}
+
+void mps__build_tank(build *b)
+{
+    static const char *const kind[] = {"size", "polygon", "cylinder", "sphere", "stl"};
+    static void (*const read[])(build *, const tree_node *) = {read_size, read_polygon,
+                                                               read_cylinder, read_ball, add_file};
+    const tree_node *map = mps__tree_find(b->root, "tank");
+    int chosen = -1;
+    b->tank.at = map;
+    b->tank.form.dim = b->dim;
+    for (int i = 0; i < 5; i++) {
+        const tree_node *node = mps__tree_find(map, kind[i]);
+        if (node && chosen >= 0)
+            mps__case_say(b->c, node, false, "tank: has '%s' and '%s'; give one of them",
+                          kind[chosen], kind[i]);
+        if (node && chosen < 0) chosen = i;
+    }
+    if (chosen < 0 && !mps__case_failed(b->c))
+        mps__case_say(b->c, map, false, "tank: give size, polygon, cylinder, sphere or stl");
+    if (mps__case_failed(b->c)) return;
+    b->tank.open = mps__read_choice(b->c, map, "open", 0);
+    read[chosen](b, map);
+    if (chosen == 0) lay_about(b, map);
+    if (chosen == 0) read_chamfer(b, map);
+    if (mps__case_failed(b->c) || b->tank.file) return;
+    if (b->tank.form.kind == FORM_BOX)
+        add_box(b, map);
+    else
+        add_shape(b, map);
+}

@@ -1,0 +1,204 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Finding keys in the table, and words that are near. */
+#include "keys.h"
+#include <stdio.h>
+#include <string.h>
+
+size_t mps__words_get(const char *words, int32_t index, const char **word)
+{
+    for (; index > 0 && *words; index--) {
+        words += strcspn(words, "|");
+        words += *words == '|';
+    }
+    *word = words;
+    return strcspn(words, "|");
+}
+
+bool mps__words_have(const char *words, const char *word, size_t length)
+{
+    const char *at;
+    size_t l;
+    for (int32_t i = 0; (l = mps__words_get(words, i, &at)) > 0; i++)
+        if (l == length && memcmp(at, word, l) == 0) return true;
+    return false;
+}
+
+/* Length of the first element of a path. Names with points in them are no elements of the table. */
+static size_t element(const char *path)
+{
+    return strcspn(path, ".");
+}
+
+/* Whether an element of a key stands for all that the element of its parent stands for. */
+static bool covers(const char *key, size_t key_length, const char *parent, size_t parent_length)
+{
+    if (key_length == parent_length && memcmp(key, parent, key_length) == 0) return true;
+    char words[80];
+    if (key_length >= sizeof words) return false;
+    memcpy(words, key, key_length);
+    words[key_length] = '\0';
+    size_t at = 0;
+    while (at < parent_length) {
+        size_t l = 0;
+        while (at + l < parent_length && parent[at + l] != '|') l++;
+        if (!mps__words_have(words, parent + at, l)) return false;
+        at += l + 1;
+    }
+    return true;
+}
+
+/* What stands in `path` behind the elements of `parent`; NULL: it is not below. */
+static const char *behind(const char *parent, const char *path)
+{
+    while (*parent) {
+        const size_t p = element(parent), k = element(path);
+        if (k == 0 || !covers(path, k, parent, p)) return NULL;
+        parent += p + (parent[p] == '.');
+        path += k;
+        if (*path != '.') return NULL;
+        path++;
+    }
+    return *path ? path : NULL;
+}
+
+bool mps__key_is_below(const mps__key *parent, const mps__key *key)
+{
+    const char *rest = behind(parent->path, key->path);
+    return rest && !rest[element(rest)];
+}
+
+const char *mps__key_last(const mps__key *key)
+{
+    const char *point = strrchr(key->path, '.');
+    return point ? point + 1 : key->path;
+}
+
+const mps__key *mps__key_below(const mps__key *parent, const char *name)
+{
+    for (int32_t k = 1; k < mps__keys_count; k++) {
+        const mps__key *key = &mps__keys[k];
+        if (!mps__key_is_below(parent, key)) continue;
+        const char *last = mps__key_last(key);
+        if (strcmp(last, "*") == 0 || mps__words_have(last, name, strlen(name))) return key;
+    }
+    return NULL;
+}
+
+bool mps__key_names(const mps__key *key)
+{
+    return key->shape == SHAPE_NAMES || key->shape == SHAPE_FILLS;
+}
+
+bool mps__key_dotted(const mps__key *key)
+{
+    return key->shape == SHAPE_PATHS || strcmp(key->path, "settings") == 0;
+}
+
+static int32_t least(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
+enum { WORD_ROOM = 40 };
+
+/* Letters to change, add, leave out or exchange with the next, from one word to the other. */
+static int32_t word_distance(const char *a, const char *b)
+{
+    const int32_t n = (int32_t)strlen(a), m = (int32_t)strlen(b);
+    int32_t rows[3][WORD_ROOM + 1], *last = rows[0], *now = rows[1], *before = rows[2];
+    if (n > WORD_ROOM || m > WORD_ROOM) return WORD_ROOM;
+    for (int32_t j = 0; j <= m; j++) now[j] = before[j] = last[j] = j;
+    for (int32_t i = 1; i <= n; i++) {
+        int32_t *spare = before;
+        before = last;
+        last = now;
+        now = spare;
+        now[0] = i;
+        for (int32_t j = 1; j <= m; j++) {
+            now[j] = least(least(now[j - 1], last[j]) + 1, last[j - 1] + (a[i - 1] != b[j - 1]));
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                now[j] = least(now[j], before[j - 2] + 1);
+        }
+    }
+    return now[m];
+}
+
+bool mps__words_near(const char *a, const char *b, int32_t *distance)
+{
+    size_t same = 0;
+    const size_t la = strlen(a), lb = strlen(b);
+    while (a[same] && a[same] == b[same]) same++;
+    *distance = word_distance(a, b);
+    if (*distance <= 2 && (size_t)*distance < (la > lb ? la : lb)) return true;
+    *distance += WORD_ROOM; /* a common beginning is the worse sign */
+    return same >= 3 && (same == la || same == lb);
+}
+
+const char *mps__key_nearest(const mps__key *parent, const char *name, char *buffer, size_t size)
+{
+    int32_t best = 2 * WORD_ROOM + 1, distance;
+    bool found = false;
+    for (int32_t k = 1; k < mps__keys_count; k++) {
+        const char *word;
+        size_t length;
+        if (!mps__key_is_below(parent, &mps__keys[k])) continue;
+        for (int32_t i = 0; (length = mps__words_get(mps__key_last(&mps__keys[k]), i, &word)) > 0;
+             i++) {
+            char known[WORD_ROOM];
+            if (length >= sizeof known || *word == '*') continue;
+            memcpy(known, word, length);
+            known[length] = '\0';
+            if (!mps__words_near(name, known, &distance) || distance >= best) continue;
+            if (length >= size) continue;
+            best = distance;
+            memcpy(buffer, known, length + 1);
+            found = true;
+        }
+    }
+    return found ? buffer : NULL;
+}
+
+/* The parent of a key: the first key that it is below. */
+static const mps__key *parent_of(const mps__key *key)
+{
+    for (int32_t k = 0; k < mps__keys_count; k++)
+        if (mps__key_is_below(&mps__keys[k], key)) return &mps__keys[k];
+    return NULL;
+}
+
+const mps__key *mps__key_elsewhere(const char *name)
+{
+    const mps__key *found = NULL;
+    for (int32_t k = 1; k < mps__keys_count; k++) {
+        const mps__key *key = &mps__keys[k];
+        if (!mps__words_have(mps__key_last(key), name, strlen(name))) continue;
+        if (found) return NULL;
+        found = parent_of(key);
+    }
+    return found;
+}
+
+bool mps__group_is_of(const mps__key_group *group, const mps__key *entry)
+{
+    char below[100]; /* of the pattern of the group, as a key of the group would be */
+    const int length = snprintf(below, sizeof below, "%s.x", group->path);
+    const mps__key probe = {.path = below};
+    return length < (int)sizeof below && mps__key_is_below(entry, &probe);
+}
+
+const mps__key *mps__key_at(const char *path)
+{
+    const mps__key *key = &mps__keys[0];
+    while (key && *path) {
+        char name[80];
+        const size_t length = mps__key_dotted(key) ? strlen(path) : element(path);
+        if (length >= sizeof name) return NULL;
+        memcpy(name, path, length);
+        name[length] = '\0';
+        path += length + (path[length] == '.');
+        /* of several maps one is named by its number */
+        if (key->shape == SHAPE_MAPS && name[strspn(name, "0123456789")] == '\0') continue;
+        key = mps__key_below(key, name);
+    }
+    return key;
+}

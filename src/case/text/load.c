@@ -1,0 +1,310 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Case files and the files below them, pages that carry a case, and the calls that read a case. */
+#include "tree.h"
+#include <errno.h>
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* Pages carry a film: they are larger than case files. */
+static const size_t PAGE_BYTES = (size_t)1 << 28;
+enum { BASES = 8 };
+
+int32_t mps__source_add(mps_case *c, const mps__source *source)
+{
+    if (c->sources == CASE_SOURCES) return -1;
+    c->source[c->sources] = *source;
+    return c->sources++;
+}
+
+/* ---- pages ------------------------------------------------------------------------------------ */
+
+static const char page_begin[] = "<script type=\"text/yaml\" id=\"case\">",
+                  page_end[] = "</script>";
+
+/* A page writes "</" as "<\/" and "<!--" as "<\!--", so that the case does not end its script. */
+char *mps__page_case(char *page, size_t *size, int32_t *line)
+{
+    char *begin = strstr(page, page_begin);
+    char *end = begin ? strstr(begin, page_end) : NULL;
+    if (!end) return NULL;
+    *line = 0;
+    for (const char *p = page; p < begin; p++) *line += *p == '\n';
+    begin += sizeof page_begin - 1;
+    char *to = begin;
+    for (const char *from = begin; from < end; from++) {
+        *to++ = *from;
+        if (*from == '<' && from[1] == '\\' && (from[2] == '/' || from[2] == '!')) from++;
+    }
+    *to = '\0';
+    *size = (size_t)(to - begin);
+    return begin;
+}
+
+/* ---- files ------------------------------------------------------------------------------------ */
+
+static bool is_page(const char *path)
+{
+    const char *point = strrchr(path, '.');
+    return point && (strcasecmp(point, ".html") == 0 || strcasecmp(point, ".htm") == 0);
+}
+
+/* A file that cannot be read, at the node that names it, or by its own name. */
+static void refuse_file(mps_case *c, const char *path, const tree_node *from, const char *why)
+{
+    c->no_file = true;
+    if (from) {
+        mps__case_say(c, from, false, "'%s' cannot be read: %s", path, why);
+        return;
+    }
+    const char *name = mps__case_copy(c, path, strlen(path));
+    const mps__source s = {.name = name ? name : "", .text = "", .folder = "", .option = true};
+    const int32_t source = mps__source_add(c, &s);
+    mps__case_fail(c, (mps__place){source < 0 ? 0 : source, 0, 0}, "it cannot be read: %s", why);
+}
+
+/* All bytes of a file, malloc'd, with a 0 behind. */
+static char *read_all(FILE *file, size_t size, size_t *got)
+{
+    char *text = malloc(size + 1);
+    if (!text) return NULL;
+    *got = fread(text, 1, size, file);
+    text[*got] = '\0';
+    return text;
+}
+
+static char *read_file(mps_case *c, const char *path, const tree_node *from, size_t *size)
+{
+    struct stat s;
+    FILE *file = fopen(path, "rb");
+    const size_t most = is_page(path) ? PAGE_BYTES : TREE_BYTES;
+    char *text = NULL;
+    if (!file && errno == ENOMEM)
+        c->no_memory = true;
+    else if (!file || fstat(fileno(file), &s) != 0)
+        refuse_file(c, path, from, strerror(errno));
+    else if (!S_ISREG(s.st_mode))
+        refuse_file(c, path, from, "it is no file");
+    else if ((unsigned long long)s.st_size > most)
+        refuse_file(c, path, from, "it is larger than 1 MB; a case file is a text");
+    else if ((text = read_all(file, (size_t)s.st_size, size)) == NULL)
+        c->no_memory = true;
+    if (file) fclose(file);
+    return text;
+}
+
+/* The folder of a file, absolute unless the present folder is gone. */
+const char *mps__folder_of(mps_case *c, const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    const int length = slash ? (int)(slash - path) + 1 : 0;
+    char here[PATH_MAX];
+    if (path[0] == '/' || !getcwd(here, sizeof here))
+        return mps__case_copy(c, path, (size_t)length);
+    return mps__case_print(c, "%s/%.*s", strcmp(here, "/") == 0 ? "" : here, length, path);
+}
+
+/* ---- base ------------------------------------------------------------------------------------- */
+
+/* The chain of files that are being read. */
+typedef struct chain {
+    const struct chain *before;
+    dev_t device;
+    ino_t number;
+    int32_t length;
+} chain;
+
+static tree_node *load(mps_case *c, const char *path, const tree_node *from, const chain *before);
+
+static bool is_open(const chain *files, const char *path)
+{
+    struct stat s;
+    const bool there = stat(path, &s) == 0;
+    for (; there && files; files = files->before)
+        if (files->device == s.st_dev && files->number == s.st_ino) return true;
+    return false;
+}
+
+static tree_node *load_base(mps_case *c, const tree_node *base, const chain *files)
+{
+    if (base->kind != TREE_TEXT || !*base->text) {
+        mps__case_say(c, base, false, "base: the name of a file is wanted, e.g. 'lng.yaml'");
+        return NULL;
+    }
+    const char *path = mps__file_path(c, base);
+    if (!path) return NULL;
+    if (is_open(files, path)) {
+        mps__case_say(c, base, false, "base: '%s' is a base of itself", base->text);
+        return NULL;
+    }
+    if (files->length == BASES) {
+        mps__case_say(c, base, false, "base: more than %d files", BASES);
+        return NULL;
+    }
+    return load(c, path, base, files);
+}
+
+/* Values of `set` go to their paths. */
+static void apply_set(mps_case *c, tree_node *root)
+{
+    tree_node *set = mps__tree_find(root, "set");
+    if (!set) return;
+    mps__tree_remove(root, set);
+    if (set->kind != TREE_MAP) {
+        mps__case_say(c, set, false, "set: a map of paths and values is wanted, {dp: 10 mm}");
+        return;
+    }
+    for (tree_node *n = set->first, *next; n; n = next) {
+        next = n->next;
+        mps__set(c, root, n->key, n, (mps__place){n->source, n->key_line, n->key_column});
+    }
+}
+
+static tree_node *load_source(mps_case *c, int32_t source, const char *path, const chain *before)
+{
+    struct stat s;
+    const bool there = stat(path, &s) == 0; /* a text from memory is no file */
+    const chain files = {before, there ? s.st_dev : 0, there ? s.st_ino : 0,
+                         before ? before->length + 1 : 1};
+    tree_node *root = mps__parse(c, source);
+    if (!root) return NULL;
+    if (root->kind != TREE_MAP) {
+        mps__case_say(c, root, false, "a map of keys is wanted; a case begins with 'mps: 1'");
+        return NULL;
+    }
+    tree_node *base = mps__tree_find(root, "base");
+    if (base) {
+        tree_node *under = load_base(c, base, &files);
+        if (!under) return NULL;
+        mps__tree_remove(root, base);
+        mps__merge(under, root);
+        root = under;
+    }
+    apply_set(c, root);
+    return root;
+}
+
+static int32_t add_file(mps_case *c, const char *path, char *text, size_t size)
+{
+    mps__source s = {.name = mps__case_copy(c, path, strlen(path)),
+                     .folder = mps__folder_of(c, path)};
+    if (is_page(path)) {
+        char *inner = mps__page_case(text, &size, &s.line_offset);
+        s.text = inner ? mps__case_copy(c, inner, size) : NULL;
+        if (!inner) {
+            refuse_file(c, path, NULL, "the page has no case");
+            return -1;
+        }
+    } else {
+        s.text = mps__case_copy(c, text, size);
+    }
+    s.size = size;
+    return s.name && s.folder && s.text ? mps__source_add(c, &s) : -1;
+}
+
+static tree_node *load(mps_case *c, const char *path, const tree_node *from, const chain *before)
+{
+    size_t size = 0;
+    char *text = read_file(c, path, from, &size);
+    if (!text) return NULL;
+    const int32_t source = add_file(c, path, text, size);
+    free(text);
+    return source < 0 ? NULL : load_source(c, source, path, before);
+}
+
+const char *mps__file_path(mps_case *c, const tree_node *node)
+{
+    if (node->text[0] == '/') return node->text;
+    return mps__case_print(c, "%s%s", c->source[node->source].folder, node->text);
+}
+
+/* ---- calls ------------------------------------------------------------------------------------ */
+
+/* Paths that `sets` give are no longer swept. */
+static void settle_sweep(tree_node *root, int32_t count, const char *const *sets)
+{
+    tree_node *sweep = mps__tree_find(root, "sweep");
+    for (int32_t k = 0; sweep && sweep->kind == TREE_MAP && k < count; k++) {
+        const size_t length = strcspn(sets[k], "=");
+        for (tree_node *n = sweep->first, *next; n; n = next) {
+            next = n->next;
+            if (strlen(n->key) == length && memcmp(n->key, sets[k], length) == 0)
+                mps__tree_remove(sweep, n);
+        }
+    }
+    if (sweep && sweep->kind == TREE_MAP && sweep->count == 0) mps__tree_remove(root, sweep);
+}
+
+static mps_status finish(mps_case *c, tree_node *root, int32_t count, const char *const *sets,
+                         mps_case **out)
+{
+    if (root && !c->no_memory) {
+        settle_sweep(root, count, sets);
+        for (int32_t k = 0; k < count; k++) mps__set_text(c, root, sets[k]);
+        c->root = root;
+        mps__check(c, root);
+    }
+    if (!mps__case_failed(c) && root) c->text = mps__tree_write(c, root);
+    if (c->no_memory) {
+        mps_case_destroy(c);
+        return MPS_E_NOMEM;
+    }
+    *out = c;
+    return c->no_file ? MPS_E_IO : c->errors > 0 ? MPS_E_ARG : MPS_OK;
+}
+
+static mps_status begin(int32_t count, const char *const *sets, mps_case **out)
+{
+    if (!out) return MPS_E_ARG;
+    *out = NULL;
+    if (count < 0 || (count > 0 && !sets)) return MPS_E_ARG;
+    for (int32_t k = 0; k < count; k++)
+        if (!sets[k]) return MPS_E_ARG;
+    mps_case *c = calloc(1, sizeof *c);
+    if (!c) return MPS_E_NOMEM;
+    c->scale = (read_scale){NAN, NAN, NAN};
+    *out = c;
+    return MPS_OK;
+}
+
+mps_status mps_case_read(const char *path, int32_t count, const char *const *sets, mps_case **out)
+{
+    mps_case *c = NULL;
+    const mps_status status = path ? begin(count, sets, &c) : MPS_E_ARG;
+    if (out) *out = NULL;
+    if (status != MPS_OK || !out) {
+        mps_case_destroy(c);
+        return status != MPS_OK ? status : MPS_E_ARG;
+    }
+    return finish(c, load(c, path, NULL, NULL), count, sets, out);
+}
+
+mps_status mps_case_read_text(const char *text, size_t size, const char *name, int32_t count,
+                              const char *const *sets, mps_case **out)
+{
+    mps_case *c = NULL;
+    const mps_status status = text && name ? begin(count, sets, &c) : MPS_E_ARG;
+    if (out) *out = NULL;
+    if (status != MPS_OK || !out) {
+        mps_case_destroy(c);
+        return status != MPS_OK ? status : MPS_E_ARG;
+    }
+    tree_node *root = NULL;
+    if (size > TREE_BYTES) {
+        refuse_file(c, name, NULL, "it is larger than 1 MB; a case file is a text");
+        c->no_file = false;
+    } else {
+        const mps__source s = {.name = mps__case_copy(c, name, strlen(name)),
+                               .text = mps__case_copy(c, text, size),
+                               .folder = mps__folder_of(c, name),
+                               .size = size};
+        const int32_t source = s.name && s.text && s.folder ? mps__source_add(c, &s) : -1;
+        if (source >= 0) root = load_source(c, source, name, NULL);
+    }
+    return finish(c, root, count, sets, out);
+}

@@ -1,0 +1,102 @@
+#!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
+# The program mps: each verb, exit codes, an interrupted run.
+# usage: test_program.sh PROGRAM CASES
+program=$1 cases=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failed=0
+
+fail() {
+    echo "FAILED: $*"
+    failed=1
+}
+
+# wanted exit code, wanted text, command ..
+expect() {
+    local code=$1 text=$2
+    shift 2
+    "$@" > log 2>&1
+    local got=$?
+    [ $got -eq "$code" ] || fail "exit $got, not $code: $*: $(tail -3 log)"
+    [ -z "$text" ] || grep -qF -- "$text" log || fail "no '$text': $*: $(head -5 log)"
+}
+
+expect 2 "usage: mps VERB" "$program"
+expect 0 "usage: mps VERB" "$program" --help
+expect 0 "libmps" "$program" --version
+expect 2 "is no verb" "$program" rum x
+expect 0 "--set" "$program" run --help
+expect 2 "unknown option" "$program" run --sett x.yaml
+expect 2 "is missing" "$program" run
+expect 2 "one argument too many" "$program" run a b
+expect 2 "needs a value" "$program" run x.yaml --set
+expect 2 "1 to 1024" "$program" run x.yaml -j many
+expect 2 "no.yaml" "$program" run no.yaml
+
+# init writes cases that check accepts; it replaces nothing
+for name in $("$program" list cases | cut -d' ' -f1); do
+    expect 0 "$name" "$program" init "$name"
+done
+[ -e voyage.csv ] || fail "no voyage.csv"
+expect 2 "is there already" "$program" init tank
+expect 0 "tank.yaml" "$program" init tank --overwrite
+expect 2 "no case with the name" "$program" init tnk
+for name in tank lng roll ship; do
+    expect 0 "periods" "$program" check $name.yaml
+    grep -q "particles .* of fluid" log || fail "$name: no particles"
+    grep -q "<svg" $name.svg || fail "$name: no drawing"
+done
+"$program" check tank.yaml | grep -q "T1 1.41[78] s" || fail "T1 of 1 m, 0.24 m"
+"$program" check tank.yaml --set fill.water.depth=50% | grep -q "T1 1.319 s" || fail "T1 of 1 m, 0.3 m"
+
+for list in cases keys models settings solvers units measures; do
+    [ "$("$program" list $list | wc -l)" -gt 3 ] || fail "list $list"
+done
+expect 2 "is no list" "$program" list model
+"$program" schema > schema.json || fail "schema"
+grep -q "2020-12" schema.json || fail "schema.json"
+
+# a run, refused, replaced, from its own case
+expect 0 "" "$program" run tank.yaml --set "run.until=0.05 s" --set output.frames=2 -o run -q
+[ -e run/report.html ] || fail "no report.html"
+expect 2 "earlier run" "$program" run tank.yaml --set "run.until=0.05 s" -o run -q
+expect 0 "" "$program" run tank.yaml --set "run.until=0.05 s" --set output.frames=2 -o run -q --overwrite -j 1
+expect 0 "" "$program" run run/case.yaml -o again -q
+cmp run/probes.csv again/probes.csv || fail "case.yaml gives other bytes"
+expect 2 "until" "$program" run tank.yaml --set run.until=5 -o none -q
+[ -e none ] && fail "a wrong case made a folder"
+expect 3 "" "$program" run tank.yaml --set "run.dt=20 ms" --set "motion.surge.amplitude=5 m" -o wild -q
+[ -s wild/probes.csv ] || fail "a run that diverged has no rows"
+
+# info
+for what in "case:tank.yaml" "table:run/probes.csv" "frame of particles:run/frames/frames_000001.vtp" \
+    "series of frames:run/frames.pvd" "page:run/report.html" "summary:run/summary.json"; do
+    expect 0 "${what%%:*}" "$program" info "${what#*:}"
+done
+head -c 3000 /dev/urandom > noise
+expect 2 "is no file of mps" "$program" info noise
+expect 2 "No such file" "$program" info nothing
+
+# interrupted, and continued: the same bytes as the whole run
+never=1000
+"$program" run tank.yaml --set "run.until=$never s" --set output.frames=0 -o cut > log 2>&1 &
+pid=$!
+for i in $(seq 600); do
+    [ "$(wc -l 2> /dev/null < cut/probes.csv)" -gt 60 ] 2> /dev/null && break
+    sleep 0.1
+done
+kill -INT $pid
+wait $pid
+got=$?
+[ $got -eq 130 ] || fail "interrupted: exit $got"
+expect 0 "checkpoint of a run" "$program" info cut/checkpoint.mps
+last=$(tail -1 cut/probes.csv | cut -d, -f1)
+end=$(awk -v t="$last" 'BEGIN { printf "%.3f", t + 0.2 }') # the last steps before the end are shorter
+expect 0 "" "$program" resume cut --set "run.until=$end s" -q
+expect 0 "" "$program" run tank.yaml --set "run.until=$end s" --set output.frames=0 -o whole -q
+cmp cut/probes.csv whole/probes.csv || fail "a continued run has other bytes"
+
+[ $failed -eq 0 ] && echo "mps does what it says"
+exit $failed
