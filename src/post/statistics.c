@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const double PI = 3.14159265358979323846;
@@ -219,15 +218,29 @@ double mps__quantile(int64_t n, const double *ascending, double q)
     return ascending[k] + (place - (double)k) * (ascending[k + 1] - ascending[k]);
 }
 
-static int compare_numbers(const void *a, const void *b)
+/* Let values[at] sink until none below it in the heap of n values is larger. */
+static void sink(double *values, int64_t at, int64_t n)
 {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
+    const double value = values[at];
+    for (int64_t child = 2 * at + 1; child < n; child = 2 * at + 1) {
+        if (child + 1 < n && values[child + 1] > values[child]) child++;
+        if (!(values[child] > value)) break;
+        values[at] = values[child];
+        at = child;
+    }
+    values[at] = value;
 }
 
+/* Heapsort: qsort() may ask for memory. */
 void mps__sort(int64_t n, double *values)
 {
-    if (n > 1) qsort(values, (size_t)n, sizeof *values, compare_numbers);
+    for (int64_t at = n / 2 - 1; at >= 0; at--) sink(values, at, n);
+    for (int64_t last = n - 1; last > 0; last--) {
+        const double largest = values[0];
+        values[0] = values[last];
+        values[last] = largest;
+        sink(values, 0, last);
+    }
 }
 
 /* ---- distributions ---- */

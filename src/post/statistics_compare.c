@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Two series over the time that both have. Both are straight lines between their samples, so integrals over the samples of both are exact. */
+/* Two series over the time that both have. They are straight lines between samples, so integrals over the samples of both are exact. */
 #include "statistics.h"
 #include <math.h>
 #include <stdlib.h>
@@ -87,14 +87,14 @@ static void find_differences(lines *a, lines *b, mps_comparison *c)
         const double to = next_time(a, b, t, c->t_last);
         const double now[2] = {value_at(a, to), value_at(b, to)}, dt = (to - t) / length;
         const double d0 = before[1] - before[0], d1 = now[1] - now[0];
+        squares += dt * square(d0, d1);
+        squares_first += dt * square(before[0], now[0]);
         for (int k = 0; k < 2; k++) {
             note_value(t, before[k], k, c);
             note_value(to, now[k], k, c);
             sum[k] += 0.5 * dt * (before[k] + now[k]);
             before[k] = now[k];
         }
-        squares += dt * square(d0, d1);
-        squares_first += dt * square(now[0], before[0]);
         if (!(fabs(d0) <= fabs(c->largest))) c->largest = d0, c->t_largest = t;
         if (!(fabs(d1) <= fabs(c->largest))) c->largest = d1, c->t_largest = to;
         more = to < c->t_last;

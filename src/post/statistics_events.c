@@ -115,7 +115,7 @@ static bool find_tent(const mps__signal *s, int64_t k, int d, double *rise, doub
 }
 
 /* Vertex of the parabola through a largest sample and its neighbours, not above a triangle. At equal distances the vertex is above the
- * sample by at most an eighth of the larger step down; the same bound holds at others, where a parabola may rise far between two samples. */
+ * sample by at most an eighth of the larger step down; the same bound holds at others, where a parabola may rise far above its samples. */
 static void find_peak(const mps__signal *s, int64_t k, mps_impact *e)
 {
     e->peak = s->p[k];

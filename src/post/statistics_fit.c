@@ -96,8 +96,8 @@ static void log_band(const mps_stats_config *config, int64_t n, double *values, 
     for (int k = 0; k < 2; k++) out[k] = exp(out[k]);
 }
 
-/* By resamples of the fitted distribution. Resamples of the peaks give bands that are too narrow: of 400 samples of 30 peaks (Pareto, x = 0.1)
- * their value lay in the band of 90 % in 69 %, with the correction for bias and skewness in 74 %, and in this one in 82 %. */
+/* By resamples of the fitted distribution. Resamples of the peaks give bands that are too narrow: for 400 samples of 30 peaks (Pareto,
+ * x = 0.1) the band of 90 % held the value of 30 peaks in 69 %; corrected for bias and skewness in 74 %; this one in 80 %. */
 static void find_bands(const mps_stats_config *config, sample *s, estimator estimate, mps_fit *fit)
 {
     const double u = fit->location;

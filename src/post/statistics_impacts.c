@@ -39,16 +39,36 @@ mps_status mps_panel_mean(const mps_stats_config *config, int32_t cells, int64_t
 
 /* ---- ranks and exceedance ---- */
 
-typedef struct ranked {
-    double peak;
-    int64_t index;
-} ranked;
-
-static int compare_peaks(const void *a, const void *b)
+/* Does event a come after event b in the list of ranks? */
+static bool ranks_after(const mps_impact *event, int64_t a, int64_t b)
 {
-    const ranked *x = a, *y = b;
-    if (x->peak != y->peak) return x->peak < y->peak ? 1 : -1;
-    return (x->index > y->index) - (x->index < y->index);
+    return event[a].peak != event[b].peak ? event[a].peak < event[b].peak : a > b;
+}
+
+/* Let rank[at] sink until none below it in the heap of n ranks comes after it. */
+static void sink(const mps_impact *event, int64_t *rank, int64_t at, int64_t n)
+{
+    const int64_t index = rank[at];
+    for (int64_t child = 2 * at + 1; child < n; child = 2 * at + 1) {
+        if (child + 1 < n && ranks_after(event, rank[child + 1], rank[child])) child++;
+        if (!ranks_after(event, rank[child], index)) break;
+        rank[at] = rank[child];
+        at = child;
+    }
+    rank[at] = index;
+}
+
+/* Heapsort: qsort() may ask for memory. */
+static void sort_ranks(const mps_impact *event, int64_t n, int64_t *rank)
+{
+    for (int64_t k = 0; k < n; k++) rank[k] = k;
+    for (int64_t at = n / 2 - 1; at >= 0; at--) sink(event, rank, at, n);
+    for (int64_t last = n - 1; last > 0; last--) {
+        const int64_t lowest = rank[0];
+        rank[0] = rank[last];
+        rank[last] = lowest;
+        sink(event, rank, 0, last);
+    }
 }
 
 static mps_status find_ranks(const mps_stats_config *config, mps_impacts *s)
@@ -56,20 +76,12 @@ static mps_status find_ranks(const mps_stats_config *config, mps_impacts *s)
     const size_t n = (size_t)s->info.events;
     s->rank = malloc((n + 1) * sizeof *s->rank);
     s->point = calloc(n + 1, sizeof *s->point);
-    ranked *all = malloc((n + 1) * sizeof *all);
-    if (!s->rank || !s->point || !all) {
-        free(all);
-        return mps__stats_no_memory(config);
-    }
-    for (size_t k = 0; k < n; k++) all[k] = (ranked){s->event[k].peak, (int64_t)k};
-    if (n > 1) qsort(all, n, sizeof *all, compare_peaks);
-    for (size_t k = 0; k < n; k++) {
-        s->rank[k] = all[k].index;
+    if (!s->rank || !s->point) return mps__stats_no_memory(config);
+    sort_ranks(s->event, s->info.events, s->rank);
+    for (size_t k = 0; k < n; k++)
         s->point[k] = (mps_exceedance){.struct_size = sizeof(mps_exceedance),
-                                       .peak = all[k].peak,
+                                       .peak = s->event[s->rank[k]].peak,
                                        .share = (double)(k + 1) / (double)(n + 1)};
-    }
-    free(all);
     return MPS_OK;
 }
 

@@ -271,7 +271,9 @@ static mps_status read_file(const mps_stats_config *config, const char *path, in
 {
     errno = 0;
     reader r = {.config = config, .path = path, .in = fopen(path, "rb")};
+    if (!r.in && errno == ENOMEM) return mps__stats_no_memory(config);
     if (!r.in) return mps__stats_fail(config, MPS_E_IO, "%s: %s", path, strerror(errno));
+    setvbuf(r.in, NULL, _IONBF, 0); /* `buffer` is one */
     mps_status status = fill(&r);
     if (status == MPS_OK) status = read_header(&r, count, names, table);
     if (status == MPS_OK) status = read_rows(&r, table);
