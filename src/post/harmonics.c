@@ -114,7 +114,7 @@ static mps_status gather(const mps_stats_config *config, int64_t n, const double
 mps_status mps_harmonics_find(const mps_stats_config *config, int64_t n, const double *t,
                               const double *p, mps_harmonics *h)
 {
-    double x[UNKNOWNS];
+    double x[UNKNOWNS] = {0};
     mps_harmonics out = {.struct_size = sizeof out};
     MPS__STATS_TRY(mps__stats_check(config));
     MPS__STATS_CHECK(config, mps__stats_known(h, sizeof *h), "call mps_harmonics_init() first");

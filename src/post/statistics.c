@@ -21,11 +21,6 @@ mps_status mps__stats_fail(const mps_stats_config *config, mps_status status, co
     return status;
 }
 
-mps_status mps__stats_no_memory(const mps_stats_config *config)
-{
-    return mps__stats_fail(config, MPS_E_NOMEM, "out of memory");
-}
-
 /* No version will have larger structs: a size that was never set is mostly beyond. */
 enum { LARGEST = 4096 };
 

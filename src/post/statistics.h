@@ -11,15 +11,24 @@
 /* Write the text to config->error and return `status`. */
 mps_status mps__stats_fail(const mps_stats_config *config, mps_status status, const char *format,
                            ...) __attribute__((format(printf, 3, 4)));
-mps_status mps__stats_no_memory(const mps_stats_config *config);
+
+/* A function of this header, so that analysers see that it is a failure. */
+static inline mps_status mps__stats_no_memory(const mps_stats_config *config)
+{
+    mps__stats_fail(config, MPS_E_NOMEM, "out of memory");
+    return MPS_E_NOMEM;
+}
 
 /* Refuse a config that is NULL, not initialised, or has an entry out of its range. */
 mps_status mps__stats_check(const mps_stats_config *config);
 
 /* Refuse an argument. */
-#define MPS__STATS_CHECK(config, condition, ...)                                    \
-    do {                                                                            \
-        if (!(condition)) return mps__stats_fail((config), MPS_E_ARG, __VA_ARGS__); \
+#define MPS__STATS_CHECK(config, condition, ...)               \
+    do {                                                       \
+        if (!(condition)) {                                    \
+            mps__stats_fail((config), MPS_E_ARG, __VA_ARGS__); \
+            return MPS_E_ARG;                                  \
+        }                                                      \
     } while (0)
 
 /* Propagate a failure. */

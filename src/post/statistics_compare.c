@@ -161,7 +161,7 @@ static mps_status find_shift(const mps_stats_config *config, lines *a, lines *b,
     const double length = c->t_last - c->t_first, step = length / (GRID - 1);
     double most = config->shift_most;
     if (isnan(most)) most = isnan(config->period) ? 0.25 * length : 0.5 * config->period;
-    const double lags = fmin(most / step, GRID / 2);
+    const double lags = fmin(most / step, 0.5 * GRID);
     double *grid = malloc(2 * GRID * sizeof *grid);
     if (!grid) return mps__stats_no_memory(config);
     fill_grid(a, c->t_first, step, grid);

@@ -170,12 +170,13 @@ mps_status mps_repeat_peaks(const mps_stats_config *config, int32_t runs,
     MPS__STATS_CHECK(config, index >= 0 && index < impacts[0]->info.events,
                      "index is %lld: must be 0 .. %lld", (long long)index,
                      (long long)impacts[0]->info.events - 1);
+    mps_impact first = {.struct_size = sizeof first};
+    mps_impacts_get(impacts[0], index, &first);
     double *peak = malloc((size_t)runs * sizeof *peak), t = 0;
     if (!peak) return mps__stats_no_memory(config);
-    const mps_impact *first = &impacts[0]->event[index];
     for (int32_t k = 0; k < runs; k++) {
-        const mps_impact *e = k == 0 ? first
-                                     : find_event(impacts[k], first->t, impacts[0]->info.window);
+        const mps_impact *e = k == 0 ? &first
+                                     : find_event(impacts[k], first.t, impacts[0]->info.window);
         peak[k] = e ? e->peak : NAN;
         t += e ? e->t : 0;
     }

@@ -74,7 +74,7 @@ static void sort_ranks(const mps_impact *event, int64_t n, int64_t *rank)
 static mps_status find_ranks(const mps_stats_config *config, mps_impacts *s)
 {
     const size_t n = (size_t)s->info.events;
-    s->rank = malloc((n + 1) * sizeof *s->rank);
+    s->rank = calloc(n + 1, sizeof *s->rank);
     s->point = calloc(n + 1, sizeof *s->point);
     if (!s->rank || !s->point) return mps__stats_no_memory(config);
     sort_ranks(s->event, s->info.events, s->rank);

@@ -32,7 +32,7 @@ static weibull_point weibull_equation(int64_t n, const double *z, double mean, d
 static double weibull_shape(int64_t n, const double *z, double mean, double start)
 {
     double low = 0, high = INFINITY, c = start;
-    for (int step = 0; step < 200; step++) {
+    for (int step = 0;; step++) {
         const weibull_point f = weibull_equation(n, z, mean, c);
         if (f.value < 0)
             low = c;
@@ -40,10 +40,9 @@ static double weibull_shape(int64_t n, const double *z, double mean, double star
             high = c;
         double next = c - f.value / f.slope;
         if (!(next > low && next < high)) next = isfinite(high) ? 0.5 * (low + high) : 2 * c;
-        if (fabs(next - c) <= 1e-14 * c) return next;
+        if (fabs(next - c) <= 1e-14 * c || step == 200) return next;
         c = next;
     }
-    return c;
 }
 
 mps__parameters mps__weibull(int64_t n, const double *y, double *work)
@@ -113,14 +112,13 @@ static bool bracket(int64_t n, const double *y, double v, double *from, double *
 {
     const double most = 100;
     const double sign = pareto_equation(n, y, theta_of(y, n, v)).slope < 0 ? -1 : 1;
-    for (double step = 0.25 * sign; fabs(v + step) < most; step *= 2) {
+    for (double step = 0.25 * sign;; step *= 2) {
         const pareto_point next = pareto_equation(n, y, theta_of(y, n, v + step));
         *from = v;
         *to = v += step;
         if (!(next.slope * sign > 0)) return next.shape > -1 && !isnan(next.slope);
-        if (!(next.shape > -1)) return false;
+        if (!(next.shape > -1) || fabs(v) > most) return false;
     }
-    return false;
 }
 
 /* Halve the bracket, or follow the chord where it does better (Illinois). */
@@ -173,11 +171,9 @@ mps__parameters mps__pareto(int64_t n, const double *y, double *work)
     if (start.state == MPS_FIT_SAME) return start;
     if (start.shape / start.scale * y[n - 1] > -1) v = log1p(start.shape / start.scale * y[n - 1]);
     if (!bracket(n, y, v, &from, &to)) return start;
-    const double theta = theta_of(y, n, pareto_root(n, y, from, to));
-    const double shape = pareto_equation(n, y, theta).shape;
-    double scale = theta != 0 ? shape / theta : 0;
-    if (theta == 0)
-        for (int64_t k = 0; k < n; k++) scale += y[k] / (double)n;
+    double theta = theta_of(y, n, pareto_root(n, y, from, to));
+    if (theta == 0) theta = 1e-20 / y[n - 1]; /* x/s, not 0/0 */
+    const double shape = pareto_equation(n, y, theta).shape, scale = shape / theta;
     return (mps__parameters){scale, shape, -(double)n * (log(scale) + shape + 1),
                              MPS_FIT_LIKELIHOOD};
 }

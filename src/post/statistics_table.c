@@ -253,7 +253,7 @@ static mps_status read_row(const reader *r, char *line, char **fields, mps_table
 static mps_status read_rows(reader *r, mps_table *table)
 {
     mps_status status = MPS_OK;
-    char *line = NULL, **fields = malloc((size_t)r->fields * sizeof *fields);
+    char *line = NULL, **fields = calloc((size_t)r->fields + 1, sizeof *fields);
     if (!fields) return mps__stats_no_memory(r->config);
     do {
         status = next_line(r, &line);

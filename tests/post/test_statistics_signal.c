@@ -174,6 +174,12 @@ static void constants_refused(void **state)
     SPOIL(order_most, INFINITY);
     SPOIL(safety, 0);
     SPOIL(safety_poor, -1);
+    mps_exceedance point;
+    mps_repeat repeat;
+    assert_int_equal(mps_exceedance_init(&point, sizeof point), MPS_OK);
+    assert_int_equal(mps_exceedance_init(&point, 8), MPS_E_ARG);
+    assert_int_equal(mps_repeat_init(&repeat, sizeof repeat), MPS_OK);
+    assert_int_equal(mps_repeat_init(NULL, sizeof repeat), MPS_E_ARG);
     assert_int_equal(mps_stats_config_init(NULL, sizeof config), MPS_E_ARG);
     assert_int_equal(mps_stats_config_init(&config, sizeof config - 1), MPS_E_ARG);
     config = event_config();

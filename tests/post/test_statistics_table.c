@@ -211,6 +211,24 @@ static void csv(void **state)
     mps_impacts_destroy(impacts);
 }
 
+/* A decay that the record does not hold. */
+static void unknown_numbers(void **state)
+{
+    (void)state;
+    mps_stats_config config = new_config();
+    const double t[] = {0, 1, 2, 3, 4, 5}, p[] = {0, 0, 0, 20, 10.5, 10.4};
+    const char *const names[] = {"P1"};
+    mps_impacts *impacts = NULL;
+    char text[400];
+    config.threshold = 11;
+    config.window = 1;
+    ASSERT_DONE(mps_impacts_find(&config, 6, t, p, &impacts));
+    const mps_impacts *const one[] = {impacts};
+    assert_in_range(mps_stats_csv_write(1, names, one, text, sizeof text), 1, sizeof text - 1);
+    assert_non_null(strstr(text, ",nan,nan,"));
+    mps_impacts_destroy(impacts);
+}
+
 /* Brackets and quotes are balanced, and no number is nan. */
 static void check_json(const char *text)
 {
@@ -282,9 +300,11 @@ static void other_locale(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(columns), cmocka_unit_test(unfinished_line), cmocka_unit_test(long_file),
-        cmocka_unit_test(errors),  cmocka_unit_test(endless_line),    cmocka_unit_test(csv),
-        cmocka_unit_test(json),    cmocka_unit_test(other_locale),
+        cmocka_unit_test(columns),         cmocka_unit_test(unfinished_line),
+        cmocka_unit_test(long_file),       cmocka_unit_test(errors),
+        cmocka_unit_test(endless_line),    cmocka_unit_test(csv),
+        cmocka_unit_test(unknown_numbers), cmocka_unit_test(json),
+        cmocka_unit_test(other_locale),
     };
     return cmocka_run_group_tests(tests, make_file, remove_file);
 }
