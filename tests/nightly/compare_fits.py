@@ -52,7 +52,7 @@ def scipys(kind, excess):
 
 
 def evds(excess, start):
-    """As scipys(); None where R says that it did not converge. In units of the mean, from a start 20 % off: BFGS on values in Pa stops early."""
+    """As scipys(); None: R did not converge. In units of the mean, from a start 20 % off: BFGS on values in Pa stops early."""
     unit = excess.mean()
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "peaks.txt"
@@ -79,7 +79,7 @@ def check(name, mine, other, problems):
 
 
 def main():
-    program, problems, worst, count, evd = sys.argv[1], [], {"scipy": (0, 0), "evd": (0, 0)}, 0, has_evd()
+    program, problems, worst, count, evd = sys.argv[1], [], {}, 0, has_evd()
     print(f"scipy {scipy.__version__}; " + ("evd" if evd else "no evd: R's part is left out"))
     for case, (kind, shape) in enumerate(CASES):
         for size in SIZES:
@@ -101,7 +101,7 @@ def main():
                     if other is None:
                         problems.append(f"{by}, {name}: did not converge")
                         continue
-                    worst[by] = tuple(map(max, worst[by], check(f"{by}, {name}", mine, other, problems)))
+                    worst[by] = tuple(map(max, worst.get(by, (0, 0)), check(f"{by}, {name}", mine, other, problems)))
                     count += 1
             quantile = stats.genpareto.isf(1 / size, fits["pareto"][3], u, fits["pareto"][2])
             if abs(quantile - fits["pareto"][5]) > 1e-9 * quantile:
