@@ -23,7 +23,8 @@ static mps_status take_sensors(scene *s, const page_run *run)
 {
     for (int32_t k = 0; k < run->columns; k++) {
         const page_column *c = &run->column[k];
-        if (!c->has_place) continue;
+        if (!c->has_place || strcmp(c->type, "force") == 0 || strcmp(c->type, "moment") == 0)
+            continue;
         scene_sensor *own = mps__scene_sensor(s, c->name);
         if (!own) return no_memory(run->errors);
         own->gauge = strcmp(c->type, "gauge") == 0;
