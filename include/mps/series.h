@@ -149,7 +149,7 @@ MPS_API mps_status mps_harmonics_init(mps_harmonics *h, size_t size);
  *  @param n  number of samples; @param t  [n] increasing [s]; @param p  [n]; nan is left out
  *  @param h  initialised, with count and omega; out
  *  @return MPS_E_ARG: an argument; fewer samples than unknowns, less than one period, or no
- *          solution because the samples are too far apart; MPS_E_NOMEM */
+ *          solution because the samples are too far apart */
 MPS_API mps_status mps_harmonics_find(const mps_stats_config *config, int64_t n, const double *t,
                                       const double *p, mps_harmonics *h);
 

@@ -262,11 +262,11 @@ MPS_API mps_status mps_long_term_value(const mps_stats_config *config, int32_t c
 /* ---- texts ---- */
 
 /** Events of several signals as CSV, in the order of time, at the scale of the signals: sensor,
- *  t[s], peak[Pa], rise[s], decay[s], skewness, duration[s], impulse[Pa s], rank.
+ *  t[s], peak[Pa], rise[s], decay[s], skewness, duration[s], impulse[Pa s], rank, unresolved.
  *  @param names   [count] of the signals
  *  @param buffer  [size] out, ends with 0; may be NULL where size is 0
  *  @return length of the whole text without its end: a text of `size` or more was cut. 0: an
- *          argument is NULL or negative */
+ *          argument is NULL or negative, or memory ran out */
 MPS_API size_t mps_stats_csv_write(int32_t count, const char *const *names,
                                    const mps_impacts *const *impacts, char *buffer, size_t size);
 
