@@ -31,7 +31,8 @@ typedef struct mps_impact {
     uint32_t struct_size;
     /** 1: it rises or decays faster than mps_stats_config.crossing_time. */
     int32_t unresolved;
-    /** P: largest value, of the parabola through the largest sample and its neighbours [Pa]. */
+    /** P: vertex of the parabola through the largest sample and its neighbours, or the top of
+     *  the triangle through them, whichever is lower [Pa]. */
     double peak;
     /** Time of P [s]. */
     double t;
@@ -107,7 +108,7 @@ typedef struct mps_exceedance {
     double peak;
     /** Q = i/(N + 1): share of the peaks above it. */
     double share;
-    /** Band of the i-th largest peak [Pa]. NAN without resamples. */
+    /** Band of the share: exact for independent peaks of any distribution. */
     double band[2];
 } mps_exceedance;
 
@@ -202,7 +203,8 @@ typedef struct mps_fit {
 /** Set struct_size and zero. @param size  sizeof(mps_fit) @return MPS_E_ARG */
 MPS_API mps_status mps_fit_init(mps_fit *fit, size_t size);
 
-/** Fit a distribution by likelihood, with bands by resampling. Peaks that equal u are left out.
+/** Fit a distribution by likelihood. Bands are those of samples drawn from the fitted distribution;
+ *  they do not contain the choice of u or of the distribution. Peaks that equal u are left out.
  *  @param count   number of peaks, >= 0
  *  @param peaks   [count] finite, none below u [Pa]
  *  @param u       threshold [Pa]

@@ -206,11 +206,9 @@ static uint64_t next_random(mps__random *r)
     return z ^ z >> 31;
 }
 
-int64_t mps__random_below(mps__random *r, int64_t n)
+double mps__random_share(mps__random *r)
 {
-    const double share = (double)(next_random(r) >> 11) * 0x1p-53;
-    const int64_t k = (int64_t)(share * (double)n);
-    return k < n ? k : n - 1;
+    return ((double)(next_random(r) >> 12) + 0.5) * 0x1p-52;
 }
 
 double mps__quantile(int64_t n, const double *ascending, double q)
@@ -269,26 +267,42 @@ static double beta_fraction(double a, double b, double x)
     return f;
 }
 
+/* Logarithm of x^a (1 - x)^b/B(a, b). */
+static double log_front(double a, double b, double x)
+{
+    return log_gamma(a + b) - log_gamma(a) - log_gamma(b) + a * log(x) + b * log1p(-x);
+}
+
 double mps__beta(double a, double b, double x)
 {
     if (!(x > 0)) return 0;
     if (!(x < 1)) return 1;
-    const double front = exp(log_gamma(a + b) - log_gamma(a) - log_gamma(b) + a * log(x) +
-                             b * log1p(-x));
+    const double front = exp(log_front(a, b, x));
     if (x < (a + 1) / (a + b + 2)) return front * beta_fraction(a, b, x) / a;
     return 1 - front * beta_fraction(b, a, 1 - x) / b;
 }
 
-/* P(|T| > t) = I_x(freedom/2, 1/2), x = freedom/(freedom + t^2), which grows with x. */
-double mps__student(double freedom, double share)
+/* Newton's steps, kept within bounds that close in. */
+double mps__beta_inverse(double a, double b, double q)
 {
-    double low = 0, high = 1;
-    for (int k = 0; k < 200 && low < 0.5 * (low + high) && 0.5 * (low + high) < high; k++) {
-        const double x = 0.5 * (low + high);
-        if (mps__beta(0.5 * freedom, 0.5, x) < 1 - share)
+    double low = 0, high = 1, x = a / (a + b);
+    for (int k = 0; k < 200; k++) {
+        const double off = mps__beta(a, b, x) - q;
+        if (off < 0)
             low = x;
         else
             high = x;
+        double next = x - off * x * (1 - x) / exp(log_front(a, b, x));
+        if (!(next > low && next < high)) next = 0.5 * (low + high);
+        if (fabs(next - x) <= 1e-14 * x) return next;
+        x = next;
     }
-    return sqrt(freedom * (1 - high) / high);
+    return x;
+}
+
+/* P(|T| > t) = I_x(freedom/2, 1/2), x = freedom/(freedom + t^2). */
+double mps__student(double freedom, double share)
+{
+    const double x = mps__beta_inverse(0.5 * freedom, 0.5, 1 - share);
+    return sqrt(freedom * (1 - x) / x);
 }

@@ -44,8 +44,8 @@ mps_status mps__stats_series(const mps_stats_config *config, const char *what, i
 typedef struct mps__random {
     uint64_t state;
 } mps__random;
-/* One of 0 .. n - 1. */
-int64_t mps__random_below(mps__random *r, int64_t n);
+/* 0 < .. < 1. */
+double mps__random_share(mps__random *r);
 
 /* Value below which a share q of n >= 1 ascending numbers are; linear between them. */
 double mps__quantile(int64_t n, const double *ascending, double q);
@@ -53,6 +53,8 @@ void mps__sort(int64_t n, double *values);
 
 /* Regularised incomplete beta function I_x(a, b), a and b > 0, 0 <= x <= 1. */
 double mps__beta(double a, double b, double x);
+/* x with I_x(a, b) = q, 0 < q < 1. */
+double mps__beta_inverse(double a, double b, double q);
 /* t with P(|T| <= t) = `share` for Student's T with `freedom` >= 1 degrees of freedom. */
 double mps__student(double freedom, double share);
 

@@ -99,8 +99,23 @@ static double crossing(const mps__signal *s, int64_t k, double value)
     return s->t[k - 1] + (value - a) / (b - a) * (s->t[k] - s->t[k - 1]);
 }
 
-/* Vertex of the parabola through a largest sample and its neighbours. At equal distances it is above the sample by at most an eighth
- * of the larger step down; the same bound holds at others, where a parabola may rise far between two of the samples. */
+/* A peak beside sample k in the direction d = -1 or 1, under the lines through the two samples on each side of it: exact for a
+ * triangle, and no higher than the sample after a step. False: too few samples. */
+static bool find_tent(const mps__signal *s, int64_t k, int d, double *rise, double *x)
+{
+    const int64_t behind = k - d, next = k + d, far = k + 2 * d;
+    if (far < 0 || far >= s->n) return false;
+    const double *t = s->t, *p = s->p;
+    const double up = (p[k] - p[behind]) / fabs(t[k] - t[behind]), gap = fabs(t[next] - t[k]);
+    const double down = (p[next] - p[far]) / fabs(t[far] - t[next]);
+    const double place = up + down > 0 ? (p[next] - p[k] + down * gap) / (up + down) : 0;
+    *x = d * fmax(0, place);
+    *rise = up * fmax(0, place);
+    return true;
+}
+
+/* Vertex of the parabola through a largest sample and its neighbours, not above a triangle. At equal distances the vertex is above the
+ * sample by at most an eighth of the larger step down; the same bound holds at others, where a parabola may rise far between two samples. */
 static void find_peak(const mps__signal *s, int64_t k, mps_impact *e)
 {
     e->peak = s->p[k];
@@ -113,8 +128,14 @@ static void find_peak(const mps__signal *s, int64_t k, mps_impact *e)
     /* p = P + slope x - curvature x^2 */
     const double slope = (up * after - down * before) / (before + after);
     const double most = fmax(s->p[k] - s->p[k - 1], s->p[k] - s->p[k + 1]) / 8;
-    e->peak += fmin(slope * slope / (4 * curvature), most);
-    e->t += slope / (2 * curvature);
+    double rise = fmin(slope * slope / (4 * curvature), most), x = slope / (2 * curvature);
+    double tent, place;
+    if (find_tent(s, k, slope > 0 ? 1 : -1, &tent, &place) && tent < rise) {
+        rise = tent;
+        x = place;
+    }
+    e->peak += rise;
+    e->t += x;
 }
 
 static void find_slopes(const mps_stats_config *config, const mps__signal *s, int64_t k,

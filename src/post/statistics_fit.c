@@ -52,60 +52,74 @@ typedef struct sample {
     double *y;                     /* [n] */
     double *again, *work;          /* [n] */
     double *scale, *shape, *value; /* [resamples] */
-    int64_t *drawn;                /* [n] how often */
 } sample;
 
 static mps_status make_sample(const mps_stats_config *config, int64_t count, sample *s)
 {
     const size_t n = (size_t)count, r = (size_t)config->resamples;
     if ((uint64_t)count > SIZE_MAX / 128) return mps__stats_no_memory(config);
-    s->y = malloc((4 * n + 3 * r + 1) * sizeof *s->y);
+    s->y = malloc((3 * n + 3 * r + 1) * sizeof *s->y);
     if (!s->y) return mps__stats_no_memory(config);
     s->again = s->y + n;
     s->work = s->again + n;
     s->scale = s->work + n;
     s->shape = s->scale + r;
     s->value = s->shape + r;
-    s->drawn = (int64_t *)(s->value + r);
     return MPS_OK;
 }
 
-/* n of the excesses, each as likely as the others, ascending. */
-static void draw(sample *s, mps__random *random)
+/* n excesses of the fitted distribution, ascending. */
+static void draw(sample *s, const mps_fit *fit, mps__random *random)
 {
-    int64_t at = 0;
-    memset(s->drawn, 0, (size_t)s->n * sizeof *s->drawn);
-    for (int64_t k = 0; k < s->n; k++) s->drawn[mps__random_below(random, s->n)]++;
+    mps_fit excess = *fit;
+    excess.location = 0;
     for (int64_t k = 0; k < s->n; k++)
-        for (int64_t c = 0; c < s->drawn[k]; c++) s->again[at++] = s->y[k];
+        s->again[k] = mps_fit_value(&excess, 1 / mps__random_share(random));
+    mps__sort(s->n, s->again);
 }
 
-static void band(const mps_stats_config *config, int64_t n, double *values, double out[2])
+/* Quantiles q of the deviations from the estimate, mirrored: what resamples have too much, the estimate may have too little of. */
+static void band(const mps_stats_config *config, int64_t n, double *values, double estimate,
+                 double out[2])
 {
     mps__sort(n, values);
-    out[0] = mps__quantile(n, values, 0.5 * (1 - config->confidence));
-    out[1] = mps__quantile(n, values, 0.5 * (1 + config->confidence));
+    out[0] = 2 * estimate - mps__quantile(n, values, 0.5 * (1 + config->confidence));
+    out[1] = 2 * estimate - mps__quantile(n, values, 0.5 * (1 - config->confidence));
 }
 
-/* Values may be NAN where n < 1. */
+/* The same for the logarithm of what is positive. */
+static void log_band(const mps_stats_config *config, int64_t n, double *values, double estimate,
+                     double out[2])
+{
+    for (int64_t k = 0; k < n; k++) values[k] = log(values[k]);
+    band(config, n, values, log(estimate), out);
+    for (int k = 0; k < 2; k++) out[k] = exp(out[k]);
+}
+
+/* By resamples of the fitted distribution. Resamples of the peaks give bands that are too narrow: of 400 samples of 30 peaks (Pareto, x = 0.1)
+ * their value lay in the band of 90 % in 69 %, with the correction for bias and skewness in 74 %, and in this one in 82 %. */
 static void find_bands(const mps_stats_config *config, sample *s, estimator estimate, mps_fit *fit)
 {
+    const double u = fit->location;
     mps__random random = {config->seed};
     int32_t good = 0;
     for (int32_t r = 0; r < config->resamples; r++) {
-        draw(s, &random);
+        draw(s, fit, &random);
         const mps__parameters found = estimate(s->n, s->again, s->work);
         if (found.state < MPS_FIT_LIKELIHOOD) continue;
         mps_fit one = *fit;
+        one.location = 0;
         one.scale = s->scale[good] = found.scale;
         one.shape = s->shape[good] = found.shape;
         s->value[good++] = mps_fit_value(&one, fit->number);
     }
     fit->resamples = good;
     if (good == 0) return;
-    band(config, good, s->scale, fit->scale_band);
-    band(config, good, s->shape, fit->shape_band);
-    if (!isnan(fit->value)) band(config, good, s->value, fit->value_band);
+    log_band(config, good, s->scale, fit->scale, fit->scale_band);
+    band(config, good, s->shape, fit->shape, fit->shape_band);
+    if (!(fit->value > u)) return; /* not known, or that of one peak */
+    log_band(config, good, s->value, fit->value - u, fit->value_band);
+    for (int k = 0; k < 2; k++) fit->value_band[k] += u;
 }
 
 static void find_fit(const mps_stats_config *config, sample *s, mps_fit *fit)

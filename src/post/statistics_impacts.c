@@ -67,31 +67,20 @@ static mps_status find_ranks(const mps_stats_config *config, mps_impacts *s)
         s->rank[k] = all[k].index;
         s->point[k] = (mps_exceedance){.struct_size = sizeof(mps_exceedance),
                                        .peak = all[k].peak,
-                                       .share = (double)(k + 1) / (double)(n + 1),
-                                       .band = {NAN, NAN}};
+                                       .share = (double)(k + 1) / (double)(n + 1)};
     }
     free(all);
     return MPS_OK;
 }
 
-/* The i-th largest of N peaks drawn from the N peaks is one of the j largest with the probability I_{j/N}(i, N - i + 1): what any number of
- * resamples tends to, so none are drawn. The smallest j that has the probability q. */
-static int64_t rank_reached(int64_t n, int64_t i, double q, int64_t from)
-{
-    int64_t j = from;
-    while (j < n && mps__beta((double)i, (double)(n - i + 1), (double)j / (double)n) < q) j++;
-    return j;
-}
-
+/* The true exceedance of the i-th largest of N independent peaks has the distribution beta(i, N - i + 1), whatever that of the peaks is. */
 static void find_point_bands(const mps_stats_config *config, mps_impacts *s)
 {
     const int64_t n = s->info.events;
-    const double q[2] = {0.5 * (1 + config->confidence), 0.5 * (1 - config->confidence)};
-    int64_t j[2] = {1, 1};
     for (int64_t i = 1; i <= n; i++)
         for (int b = 0; b < 2; b++) {
-            j[b] = rank_reached(n, i, q[b], j[b]);
-            s->point[i - 1].band[b] = s->point[j[b] - 1].peak;
+            const double q = 0.5 * (1 + (b ? config->confidence : -config->confidence));
+            s->point[i - 1].band[b] = mps__beta_inverse((double)i, (double)(n - i + 1), q);
         }
 }
 
@@ -161,7 +150,7 @@ static mps_status find_all(const mps_stats_config *config, const mps__signal *si
                                     &s->info.events, &s->info.cut));
     find_info(config, signal, s);
     MPS__STATS_TRY(find_ranks(config, s));
-    if (config->resamples > 0) find_point_bands(config, s);
+    find_point_bands(config, s);
     return find_fits(config, s);
 }
 
