@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Two parameters from excesses y = P - u: the estimators, without bands. */
+#ifndef MPS_POST_STATISTICS_FIT_H
+#define MPS_POST_STATISTICS_FIT_H
+
+#include "statistics.h"
+
+typedef struct mps__parameters {
+    double scale, shape, log_likelihood;
+    int32_t state; /* MPS_FIT_... */
+} mps__parameters;
+
+/* y: [n] ascending, > 0; work: [n]. By likelihood. */
+mps__parameters mps__weibull(int64_t n, const double *y, double *work);
+/* The same, without `work`. */
+mps__parameters mps__pareto(int64_t n, const double *y, double *work);
+/* By probability-weighted moments. */
+mps__parameters mps__pareto_moments(int64_t n, const double *y);
+
+#endif
