@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Speed and memory of the step on real cases, and of the pressure solvers on equations recorded there. */
 #include "bench.h"
-#include "../examples/common/profile.h"
 #include <math.h>
+#include <mps/job.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -175,7 +175,11 @@ static void print_profile(mps_sim *sim, const outcome *r)
 {
     double seconds = 0;
     for (int k = 0; k < MPS_STAGE_COUNT; k++) seconds += r->seconds[k];
-    profile_print(sim, seconds);
+    char *text;
+    if (mps_job_profile_text(sim, seconds, &text) != MPS_OK) return;
+    fputs(text, stdout);
+    fflush(stdout);
+    free(text);
 }
 
 static outcome run(const options *o, const char *name, const char *solver, int32_t threads)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Baffled tank of Zhang, Wan & Hino 2014 section 2.3: 0.57 x 0.5 x 0.31 m, 0.2 m of water, a baffle with a gap below it,
  * moved by x = a sin wt at the first natural frequency of the tank without it. */
-#include "common/tank.h"
+#include "driver/tank.h"
 
 static const tank_case tank = {
     .size = {0.57, 0.5, 0.31},
@@ -14,41 +14,42 @@ static const tank_case tank = {
  * the rows in the water. The printed baffle has 31 rows in it: with --layers 1 there are 273829 of liquid. --paper-baffle builds the baffle
  * of the numbers, from 0.08 m to one row above the water, and the lower lid: 274195 of liquid and 111360 of solids, since the sides of a
  * thin plate have walls and dummies of their own. */
-static void use_paper_lattice(tank_case *c, cli_options *o)
+static void use_paper_lattice(tank_case *c, driver *d)
 {
     c->size[1] = 0.25;
     c->plate.bottom = 0.08;
-    c->plate.top = c->depth + o->dp;
-    if (o->layers == 0) o->layers = 1;
+    c->plate.top = c->depth + d->dp;
+    if (d->layers == 0) d->layers = 1;
 }
 
-static void add_columns(run *r, const tank_case *c)
+static void add_columns(driver *d, const tank_case *c)
 {
-    double level = run_level(r), x = c->size[0] / 2, z = c->size[2] / 2;
-    run_gauge(r, "eta_a", x - 0.275, z, level);
-    run_gauge(r, "eta_b", x, z, level);
-    run_gauge(r, "eta_c", x + 0.275, z, level);
+    double level = c->level, x = c->size[0] / 2, z = c->size[2] / 2;
+    driver_gauge(d, "eta_a", x - 0.275, z, level);
+    driver_gauge(d, "eta_b", x, z, level);
+    driver_gauge(d, "eta_c", x + 0.275, z, level);
 }
 
 int main(int argc, char **argv)
 {
-    cli_options o;
+    driver d;
     tank_case c = tank;
     bool paper = false;
-    cli_defaults(&o, "sloshing_baffle_3d",
-                 "baffled tank of Zhang, Wan & Hino 2014, section 2.3: x = 0.03 m sin(6.582/s t)");
-    o.dim = 3;
-    o.dp = 0.02;
-    o.dp_min = 0.002;
-    o.dp_max = 0.025;
-    o.t_end = 2;
-    cli_own(
-        &o,
-        (cli_option){
+    driver_defaults(
+        &d, "sloshing_baffle_3d",
+        "baffled tank of Zhang, Wan & Hino 2014, section 2.3: x = 0.03 m sin(6.582/s t)");
+    d.dim = 3;
+    d.dp = 0.02;
+    d.dp_min = 0.002;
+    d.dp_max = 0.025;
+    d.t_end = 2;
+    driver_own(
+        &d,
+        (option){
             "--paper-baffle", NULL,
             "one column, as high as the paper's particle numbers say; lid 0.25 m above the floor",
-            TYPE_FLAG, &paper, 0, 0, true});
-    tank_parse(&o, &c, argc, argv);
-    if (paper) use_paper_lattice(&c, &o);
-    return tank_run(&o, &c, add_columns);
+            TYPE_FLAG, &paper, 0, 0, true, NULL});
+    tank_parse(&d, &c, argc, argv);
+    if (paper) use_paper_lattice(&c, &d);
+    return tank_run(&d, c, add_columns);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Half-full tank of Wen, Zhao & Wan 2022 section 5.1: 0.6 x 0.6 m, 0.3 m of water, moved by x = -a (1 - cos wt). */
-#include "common/tank.h"
+#include "driver/tank.h"
 
 static const tank_case tank = {
     .size = {0.6, 0.6},
@@ -13,24 +13,25 @@ static const double CREST[] = {0.0244, 0.0456, 0.0700, 0.0982, 0.1303};
 static const double PEAK_T[] = {0.58, 1.50, 2.40, 3.30, 3.60, 4.21, 4.55};
 static const double PEAK[] = {2812, 2869, 2925, 2991, 2916, 3071, 3001};
 
-static void add_columns(run *r, const tank_case *c)
+static void add_columns(driver *d, const tank_case *c)
 {
-    run_wall_pressure(r, "P1", 0, 0.02, 0);
-    run_gauge(r, "eta_right", c->size[0] - 0.02, 0, run_level(r));
-    if (!tank_moves_as_given(r, c)) return;
-    run_mark_add(r, "peaks of P1, FNPF", "Pa", 7, PEAK_T, PEAK);
-    run_mark_add(r, "crests, FNPF", "m", 5, CREST_T, CREST);
+    driver_wall(d, "P1", 0, 0.02, 0, 0);
+    driver_gauge(d, "eta_right", c->size[0] - 0.02, 0, c->level);
+    if (!tank_moves_as_given(d, c)) return;
+    driver_marks(d, "peaks of P1, FNPF", "Pa", 7, PEAK_T, PEAK);
+    driver_marks(d, "crests, FNPF", "m", 5, CREST_T, CREST);
 }
 
 int main(int argc, char **argv)
 {
-    cli_options o;
-    cli_defaults(
-        &o, "sloshing_high_fill",
+    driver d;
+    driver_defaults(
+        &d, "sloshing_high_fill",
         "half-full tank of Wen, Zhao & Wan 2022, section 5.1: x = -0.005 m (1 - cos(6.85/s t))");
-    o.dp = 0.01;
-    o.dp_min = 0.0005;
-    o.dp_max = 0.05;
-    o.t_end = 5;
-    return tank_main(&o, &tank, add_columns, argc, argv);
+    d.dp = 0.01;
+    d.dp_min = 0.0005;
+    d.dp_max = 0.05;
+    d.t_end = 5;
+    tank_parse(&d, &tank, argc, argv);
+    return tank_run(&d, tank, add_columns);
 }

@@ -2,7 +2,7 @@
 /* Lateral impact of a shallow liquid, SPHERIC validation test 10 (Souto-Iglesias et al. 2011): a tank 0.9 x 0.508 m, 0.093 m of water or
  * sunflower oil, rolls about the middle of its floor by 4 degrees, with 0.85 of the first natural period. It is 62 mm wide; in 2-D the friction of its
  * side walls, which matters for oil, is --use friction.sides --set friction.width=0.062 --set friction.omega=3.86. */
-#include "common/tank.h"
+#include "driver/tank.h"
 #include <math.h>
 
 enum { WATER, OIL };
@@ -11,7 +11,7 @@ static const struct {
 } LIQUID[] = {{998, 8.94e-4}, {900, 0.045}};
 
 static const double SIZE[] = {0.9, 0.508, 0.062}, DEPTH = 0.093, CYCLES = 0.85, DEGREES = 4,
-                    PI = 3.14159265358979;
+                    PI = 3.14159265358979323846;
 
 /* Period of the longest wave of a tank of this length, by linear theory. */
 static double natural_period(double gravity)
@@ -20,71 +20,62 @@ static double natural_period(double gravity)
     return 2 * PI / sqrt(gravity * k * tanh(k * DEPTH));
 }
 
-static double angle(void *user, mps_sim *sim)
+/* @return the still level */
+static double build(driver *d, int32_t liquid, mps_harmonic motion)
 {
-    mps_motion_state s = {.struct_size = sizeof s};
-    (void)user;
-    return mps_motion_state_get(sim, &s) == MPS_OK ? s.value[MPS_ROTATE_Z] * 180 / PI : NAN;
-}
-
-static void build(run *r, int32_t liquid, mps_harmonic motion)
-{
-    const double lo[3] = {0}, middle[3] = {0.5 * SIZE[0], 0, 0.5 * SIZE[2]};
-    tank_walls(r, SIZE);
-    run_phase(r, 0, LIQUID[liquid].density, LIQUID[liquid].viscosity);
-    tank_fill(r, SIZE, DEPTH, false);
-    if (run_has_gas(r)) {
-        run_phase(r, 1, TANK_AIR_DENSITY, TANK_AIR_VISCOSITY);
-        run_check(r, mps_fill_box_add(r->sim, 1, lo, SIZE, NULL, NULL), "air");
-    }
-    run_check(r, mps_motion_centre_set(r->sim, middle, MPS_START_AT_REST), "centre");
-    tank_move(r, motion);
+    const double middle[3] = {0.5 * SIZE[0], 0, 0.5 * SIZE[2]};
+    tank_walls(d, SIZE);
+    driver_phase(d, 0, LIQUID[liquid].density, LIQUID[liquid].viscosity);
+    const double level = tank_fill(d, SIZE, DEPTH, false);
+    if (driver_has_gas(d)) tank_air(d, SIZE);
+    driver_check(d, mps_motion_centre_set(d->sim, middle, MPS_START_AT_REST), "centre");
+    tank_move(d, motion);
+    return level;
 }
 
 /* Pressures at the still level on both sides, heights at both walls and at a quarter of the length. */
-static void add_columns(run *r)
+static void add_columns(driver *d, double level)
 {
-    const double level = run_level(r), dp = r->options.dp, z = 0.5 * SIZE[2];
-    run_wall_pressure(r, "P_left", 0, DEPTH, z);
-    run_wall_pressure(r, "P_right", SIZE[0], DEPTH, z);
-    run_gauge(r, "eta_left", dp, z, level);
-    run_gauge(r, "eta_quarter", 0.25 * SIZE[0], z, level);
-    run_gauge(r, "eta_right", SIZE[0] - dp, z, level);
-    run_value(r, "angle", "deg",
-              "Roll angle of the tank: about the middle of its floor, counterclockwise", angle,
-              NULL);
+    const double dp = d->dp, z = 0.5 * SIZE[2];
+    driver_wall(d, "P_left", 0, DEPTH, z, 0);
+    driver_wall(d, "P_right", SIZE[0], DEPTH, z, 0);
+    driver_gauge(d, "eta_left", dp, z, level);
+    driver_gauge(d, "eta_quarter", 0.25 * SIZE[0], z, level);
+    driver_gauge(d, "eta_right", SIZE[0] - dp, z, level);
+    driver_measure(d, driver_measure_of("angle", NULL,
+                                        "Roll angle of the tank: about the middle of its floor, "
+                                        "counterclockwise"));
 }
 
 int main(int argc, char **argv)
 {
-    cli_options o;
-    run r;
+    driver d;
     int32_t liquid = OIL;
     double degrees = DEGREES, cycles = CYCLES;
     mps_harmonic motion = {.dof = MPS_ROTATE_Z};
-    cli_defaults(&o, "sloshing_roll",
-                 "lateral impact of a shallow liquid in a tank that rolls about the middle of its "
-                 "floor, by 4 degrees");
-    o.dp = 0.00775;
-    o.dp_min = 0.001;
-    o.dp_max = 0.031;
-    o.t_end = 5;
-    o.ramp = 0.5;
-    o.has_dim = o.has_ramp = o.has_sigma = true;
-    o.need =
+    driver_defaults(
+        &d, "sloshing_roll",
+        "lateral impact of a shallow liquid in a tank that rolls about the middle of its "
+        "floor, by 4 degrees");
+    d.dp = 0.00775;
+    d.dp_min = 0.001;
+    d.dp_max = 0.031;
+    d.t_end = 5;
+    d.ramp = 0.5;
+    d.has_dim = d.has_ramp = d.has_sigma = true;
+    d.need =
         "reference.lid"; /* in a closed tank full of liquid and gas something must set the level of the pressures */
-    cli_own(&o, (cli_option){"--liquid", "water|oil",
-                             "998 kg/m3 and 0.894 mPa s, or 900 kg/m3 and 45 mPa s", TYPE_CHOICE,
-                             &liquid, 0, 0, false});
-    cli_own(&o, (cli_option){"--angle", "DEG", "amplitude of the roll [deg]", TYPE_REAL, &degrees,
-                             0.01, 20, false});
-    cli_own(&o, (cli_option){"--cycles", "R", "period over the first natural period", TYPE_REAL,
-                             &cycles, 0.2, 5, false});
-    cli_parse(&o, argc, argv);
+    driver_own(&d, (option){"--liquid", "water|oil",
+                            "998 kg/m3 and 0.894 mPa s, or 900 kg/m3 and 45 mPa s", TYPE_CHOICE,
+                            &liquid, 0, 0, false, NULL});
+    driver_own(&d, (option){"--angle", "DEG", "amplitude of the roll [deg]", TYPE_REAL, &degrees,
+                            0.01, 20, false, NULL});
+    driver_own(&d, (option){"--cycles", "R", "period over the first natural period", TYPE_REAL,
+                            &cycles, 0.2, 5, false, NULL});
+    driver_parse(&d, argc, argv);
     motion.amplitude = degrees * PI / 180;
-    motion.omega = 2 * PI / (cycles * natural_period(o.gravity));
-    run_open(&r, &o);
-    build(&r, liquid, motion);
-    add_columns(&r);
-    return run_finish(&r);
+    motion.omega = 2 * PI / (cycles * natural_period(d.gravity));
+    driver_open(&d);
+    add_columns(&d, build(&d, liquid, motion));
+    return driver_run(&d);
 }

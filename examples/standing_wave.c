@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* First standing wave of a basin of length 1 m and depth 0.5 m, released from the surface a cos(pi x/L), a = 0.02 m. */
-#include "common/run.h"
+#include "driver/driver.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -17,57 +17,49 @@ static void displace(double x, double y, double k, double top, double *out)
     out[1] *= (top + AMPLITUDE * cos(k * surface_x)) / surface_y;
 }
 
-static void add_water(run *r, double length)
+static void add_water(driver *d, double length)
 {
-    double dp = r->options.dp, k = acos(-1.0) / length;
+    double dp = d->dp, k = acos(-1.0) / length;
     int columns = (int)lround(length / dp) - 1, rows = (int)lround(DEPTH / dp);
     mps_particle_block block;
     mps_particle_block_init(&block, sizeof block);
     block.count = (int64_t)columns * rows;
     double *x = malloc((size_t)block.count * 2 * sizeof *x);
-    if (!x) run_check(r, MPS_E_NOMEM, "water");
+    if (!x) driver_check(d, MPS_E_NOMEM, "water");
     for (int i = 0; x && i < columns; i++)
         for (int j = 0; j < rows; j++)
             displace((i + 1) * dp, (j + 1) * dp, k, rows * dp, x + 2 * ((int64_t)i * rows + j));
     block.position = x;
-    mps_status status = mps_particles_add(r->sim, &block, NULL);
+    mps_status status = mps_particles_add(d->sim, &block, NULL);
     free(x);
-    run_check(r, status, "water");
+    driver_check(d, status, "water");
 }
 
-static void build(run *r)
+static void build(driver *d)
 {
     mps_tank tank;
     double built[3];
     mps_tank_init(&tank, sizeof tank);
     tank.size[0] = LENGTH;
     tank.size[1] = HEIGHT;
-    run_check(r, mps_tank_add(r->sim, &tank, built), "tank");
-    add_water(r, built[0]);
-}
-
-/* Horizontal centre of mass: it sees the odd modes only, so the free second harmonic of the prescribed cosine drops out. */
-static double centre(void *user, mps_sim *sim)
-{
-    mps_energy e;
-    (void)user;
-    mps_energy_init(&e, sizeof e);
-    return mps_energy_get(sim, &e) == MPS_OK ? e.centre[0] : NAN;
+    driver_check(d, mps_tank_add(d->sim, &tank, built), "tank");
+    add_water(d, built[0]);
 }
 
 int main(int argc, char **argv)
 {
-    cli_options o;
-    run r;
-    cli_defaults(&o, "standing_wave", "first standing wave of a basin 1 m long and 0.5 m deep");
-    o.dp = 0.01;
-    o.dp_min = 0.0005;
-    o.dp_max = 0.05;
-    o.t_end = 5.92; /* five periods */
-    cli_parse(&o, argc, argv);
-    run_open(&r, &o);
-    build(&r);
-    run_gauge(&r, "eta_left", o.dp, 0, lround(DEPTH / o.dp) * o.dp);
-    run_value(&r, "x_centre", "m", "Centre of mass along x: of all liquid", centre, NULL);
-    return run_finish(&r);
+    driver d;
+    driver_defaults(&d, "standing_wave", "first standing wave of a basin 1 m long and 0.5 m deep");
+    d.dp = 0.01;
+    d.dp_min = 0.0005;
+    d.dp_max = 0.05;
+    d.t_end = 5.92; /* five periods */
+    driver_parse(&d, argc, argv);
+    driver_open(&d);
+    build(&d);
+    driver_gauge(&d, "eta_left", d.dp, 0, lround(DEPTH / d.dp) * d.dp);
+    /* it sees the odd modes only, so the free second harmonic of the prescribed cosine drops out */
+    driver_measure(&d, driver_measure_of("centre_of_mass", "x_centre",
+                                         "Centre of mass along x: of all liquid"));
+    return driver_run(&d);
 }

@@ -1,40 +1,39 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Water at rest: 0.8 x 0.25 m in a tank 0.8 x 0.5 m, or 0.3 x 0.2 x 0.2 m in 3-D. Pressures must be hydrostatic and nothing move. */
-#include "common/tank.h"
+#include "driver/tank.h"
 
 /* Inner size of the tank and depth of the water [m]; y is up. */
 static const double SIZE[2][3] = {{0.8, 0.5, 0}, {0.3, 0.4, 0.2}};
 static const double DEPTH[2] = {0.25, 0.2};
 
-static void build(run *r)
+static void build(driver *d)
 {
-    int k = r->options.dim - 2;
+    int k = d->dim - 2;
     const double lo[] = {0, 0, 0}, hi[] = {SIZE[k][0], DEPTH[k], SIZE[k][2]};
-    tank_walls(r, SIZE[k]);
-    run_check(r, mps_fill_box_add(r->sim, 0, lo, hi, NULL, NULL), "water");
+    tank_walls(d, SIZE[k]);
+    driver_check(d, mps_fill_box_add(d->sim, 0, lo, hi, NULL, NULL), "water");
 }
 
-static void add_columns(run *r)
+static void add_columns(driver *d)
 {
     static const char *const name[] = {"P1", "P2", "P3"};
-    double level = run_level(r), middle = SIZE[r->options.dim - 2][2] / 2;
-    for (int i = 0; i < 3; i++) run_wall_pressure(r, name[i], 0, 0.05 * (i + 1), middle);
-    run_gauge(r, "eta_left", r->options.dp, middle, level);
+    double level = driver_top(d), middle = SIZE[d->dim - 2][2] / 2;
+    for (int i = 0; i < 3; i++) driver_wall(d, name[i], 0, 0.05 * (i + 1), middle, 0);
+    driver_gauge(d, "eta_left", d->dp, middle, level);
 }
 
 int main(int argc, char **argv)
 {
-    cli_options o;
-    run r;
-    cli_defaults(&o, "static_tank", "water at rest in a tank, 2-D or 3-D");
-    o.has_dim = true;
-    o.dp = 0.01;
-    o.dp_min = 0.0005;
-    o.dp_max = 0.05;
-    o.t_end = 5;
-    cli_parse(&o, argc, argv);
-    run_open(&r, &o);
-    build(&r);
-    add_columns(&r);
-    return run_finish(&r);
+    driver d;
+    driver_defaults(&d, "static_tank", "water at rest in a tank, 2-D or 3-D");
+    d.has_dim = true;
+    d.dp = 0.01;
+    d.dp_min = 0.0005;
+    d.dp_max = 0.05;
+    d.t_end = 5;
+    driver_parse(&d, argc, argv);
+    driver_open(&d);
+    build(&d);
+    add_columns(&d);
+    return driver_run(&d);
 }

@@ -13,23 +13,23 @@ static const double PASSED = 0.6, MEANS_END = 0.9; /* means of the passing strea
 static const double END[] = {1.6, 0.9};
 enum { FRONTS = 4, TOPS = 4 };
 
-static void set(impact *c, cli_options *o)
+static void set(impact *c, driver *d)
 {
-    o->gravity = GRAVITY;
+    d->gravity = GRAVITY;
     c->speed = sqrt(2 * GRAVITY * COLUMN_HEIGHT);
-    o->t_end = END[o->dim - 2];
+    d->t_end = END[d->dim - 2];
 }
 
 static void build_walls(impact *c)
 {
-    run *r = &c->run;
+    driver *d = &c->d;
     const double size[] = {LENGTH, HEIGHT, HALF_BREADTH};
     const double lo[] = {FRONT, 0, 0}, hi[] = {FRONT + BOX, BOX, BOX_HALF_BREADTH}, zero[3] = {0};
     const double column[] = {COLUMN_LENGTH, COLUMN_HEIGHT, HALF_BREADTH};
     impact_water(c);
     impact_walls(c, size, false);
-    run_check(r, mps_baffle_add(r->sim, "box", lo, hi, NULL), "box");
-    run_check(r, mps_fill_box_add(r->sim, 0, zero, column, NULL, NULL), "water");
+    driver_check(d, mps_baffle_add(d->sim, "box", lo, hi, NULL), "box");
+    driver_check(d, mps_fill_box_add(d->sim, 0, zero, column, NULL, NULL), "water");
 }
 
 static void build(impact *c)
@@ -39,10 +39,10 @@ static void build(impact *c)
                                        "T2_mean", "T3_mean", "T4_mean", "R_mean"};
     static const char *const least[] = {"F1_least", "F2_least", "F3_least", "F4_least", "T1_least",
                                         "T2_least", "T3_least", "T4_least", "R_least"};
-    run *r = &c->run;
-    const double dp = r->options.dp, pressure = c->density * c->speed * c->speed;
+    driver *d = &c->d;
+    const double dp = d->dp, pressure = c->density * c->speed * c->speed;
     const impact_span passing = {PASSED, MEANS_END, 0},
-                      smooth = {PASSED, END[r->options.dim - 2], 2 * dp / c->speed};
+                      smooth = {PASSED, END[d->dim - 2], 2 * dp / c->speed};
     build_walls(c);
     for (int i = 0; i <= FRONTS + TOPS; i++) {
         const double part = (2 * (i % FRONTS) + 1) / 8.0 * BOX;
@@ -52,14 +52,14 @@ static void build(impact *c)
                      y = i < FRONTS          ? part
                          : i < FRONTS + TOPS ? BOX
                                              : 0.5 * BOX;
-        run_wall_sensor(r, name[i], x, y, 0.5 * BOX_HALF_BREADTH, dp);
-        impact_figure(c, mean[i], TRACE_MEAN, impact_last(c), passing, 1);
-        impact_figure(c, least[i], TRACE_LEAST, impact_last(c), smooth, 1);
+        driver_wall(d, name[i], x, y, 0.5 * BOX_HALF_BREADTH, dp);
+        impact_figure(c, mean[i], MPS_TRACE_MEAN, name[i], passing, 1);
+        impact_figure(c, least[i], MPS_TRACE_LEAST, name[i], smooth, 1);
     }
-    run_force(r, "Fx", "box", 0);
-    impact_figure(c, "force_x", TRACE_MEAN, impact_last(c), passing, 1);
-    run_force(r, "Fy", "box", 1);
-    impact_figure(c, "force_y", TRACE_MEAN, impact_last(c), passing, 1);
+    driver_force(d, "Fx", "box", 0);
+    impact_figure(c, "force_x", MPS_TRACE_MEAN, "Fx", passing, 1);
+    driver_force(d, "Fy", "box", 1);
+    impact_figure(c, "force_y", MPS_TRACE_MEAN, "Fy", passing, 1);
     impact_given(c, "rho_u2", pressure);
 }
 

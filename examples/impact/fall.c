@@ -4,7 +4,6 @@
  * gap of g t^2/2; it reaches the rim first. The middle is shut off from it: no air can get in there, so the floor takes its liquid along and
  * pulls until the void has come in from the rims. So the rim has an exact answer, the middle and its gap have none. */
 #include "impact.h"
-#include "common/view.h"
 #include <math.h>
 
 static const double HEIGHT = 0.5, DROP = 0.1, BREADTH = 0.4, GRAVITY = 9.81;
@@ -13,19 +12,19 @@ static const double REST = 1, REST_FROM = 0.5;
 static const double PULL = 0.2;            /* time simulated [s] */
 static const double BEFORE = 3, AFTER = 4; /* window about contact [dp/U] */
 
-static void set_column(impact *c, cli_options *o)
+static void set_column(impact *c, driver *d)
 {
-    const double drop = lround(DROP / o->dp) * o->dp;
-    o->gravity = GRAVITY;
+    const double drop = lround(DROP / d->dp) * d->dp;
+    d->gravity = GRAVITY;
     c->speed = sqrt(2 * GRAVITY * drop);
     c->contact = c->speed / GRAVITY;
-    o->t_end = c->contact + REST;
+    d->t_end = c->contact + REST;
 }
 
 static void build_column(impact *c)
 {
-    run *r = &c->run;
-    const double dp = r->options.dp, u = c->speed, tick = dp / u, rho = c->density;
+    driver *d = &c->d;
+    const double dp = d->dp, u = c->speed, tick = dp / u, rho = c->density;
     const int drop = (int)lround(DROP / dp), wide = (int)lround(BREADTH / dp),
               high = (int)lround(HEIGHT / dp);
     const int across[] = {1, wide - 1}, up[] = {1 + drop, drop + high};
@@ -42,22 +41,20 @@ static void build_column(impact *c)
     impact_water(c);
     impact_walls(c, size, false);
     impact_fill(c, across, up);
-    run_wall_sensor(r, "P", middle, 0, 0.5 * size[2], 2 * dp);
-    const int pressure = impact_last(c);
-    run_force(r, "F", "tank.y0", 1);
-    const int force = impact_last(c);
-    impact_figure(c, "before", TRACE_LARGEST, pressure, before, rho * GRAVITY * h);
-    impact_figure(c, "impulse_walls", TRACE_INTEGRAL, force, hit, -wall * exact);
-    impact_figure(c, "impulse_fluid", TRACE_CHANGE, TRACE_MOMENTUM + 1, hit,
+    driver_wall(d, "P", middle, 0, 0.5 * size[2], 2 * dp);
+    driver_force(d, "F", "tank.y0", 1);
+    impact_figure(c, "before", MPS_TRACE_LARGEST, "P", before, rho * GRAVITY * h);
+    impact_figure(c, "impulse_walls", MPS_TRACE_INTEGRAL, "F", hit, -wall * exact);
+    impact_figure(c, "impulse_fluid", MPS_TRACE_CHANGE, "momentum_y", hit,
                   fluid * (exact - GRAVITY * (to - from)));
-    impact_figure(c, "rebound", TRACE_LARGEST, TRACE_MOMENTUM + 1, after, fluid * u);
-    impact_figure(c, "still", TRACE_MEAN, pressure, still, rho * GRAVITY * h);
-    impact_figure(c, "still_least", TRACE_LEAST, pressure, still, rho * GRAVITY * h);
-    impact_figure(c, "still_largest", TRACE_LARGEST, pressure, still, rho * GRAVITY * h);
-    impact_figure(c, "least", TRACE_LEAST, pressure, after, rho * GRAVITY * h);
-    impact_figure(c, "peak_raw", TRACE_LARGEST, pressure, (impact_span){0, after.to, 0},
+    impact_figure(c, "rebound", MPS_TRACE_LARGEST, "momentum_y", after, fluid * u);
+    impact_figure(c, "still", MPS_TRACE_MEAN, "P", still, rho * GRAVITY * h);
+    impact_figure(c, "still_least", MPS_TRACE_LEAST, "P", still, rho * GRAVITY * h);
+    impact_figure(c, "still_largest", MPS_TRACE_LARGEST, "P", still, rho * GRAVITY * h);
+    impact_figure(c, "least", MPS_TRACE_LEAST, "P", after, rho * GRAVITY * h);
+    impact_figure(c, "peak_raw", MPS_TRACE_LARGEST, "P", (impact_span){0, after.to, 0},
                   rho * u * u);
-    impact_figure(c, "peak_mean", TRACE_LARGEST, pressure, smooth, rho * u * u);
+    impact_figure(c, "peak_mean", MPS_TRACE_LARGEST, "P", smooth, rho * u * u);
 }
 
 /* ---- the floor leaves ------------------------------------------------------------------------------------------- */
@@ -71,30 +68,17 @@ static int leave(void *user, double t, mps_motion_state *s)
     return 0;
 }
 
-/* Lowest liquid above its place on the floor. */
-static double gap(void *user, mps_sim *sim)
-{
-    const double floor[3] = {0};
-    double at[3] = {0}, lowest = INFINITY;
-    view v;
-    if (mps_motion_to_lab(sim, floor, at, NULL) != MPS_OK || !view_open(sim, &v)) return NAN;
-    for (int64_t i = 0; i < v.x.count; i++)
-        if (v.kind.integers[i] == MPS_FLUID) lowest = fmin(lowest, v.x.data[i * v.x.stride + 1]);
-    view_close(sim, &v);
-    return lowest - at[1] - ((const impact *)user)->run.options.dp;
-}
-
-static void set_floor(impact *c, cli_options *o)
+static void set_floor(impact *c, driver *d)
 {
     (void)c;
-    o->gravity = GRAVITY;
-    o->t_end = PULL;
+    d->gravity = GRAVITY;
+    d->t_end = PULL;
 }
 
 static void build_floor(impact *c)
 {
-    run *r = &c->run;
-    const double dp = r->options.dp, rho = c->density;
+    driver *d = &c->d;
+    const double dp = d->dp, rho = c->density;
     const int wide = (int)lround(0.5 * BREADTH / dp), high = (int)lround(HEIGHT / dp);
     const int across[] = {wide, 2 * wide - 1}, up[] = {1, high};
     const double size[] = {(3 * wide - 1) * dp, 2 * HEIGHT, IMPACT_SLICE * dp}, h = high * dp,
@@ -108,18 +92,16 @@ static void build_floor(impact *c)
     impact_water(c);
     impact_walls(c, size, false);
     impact_fill(c, across, up);
-    run_check(r, mps_motion_callback_set(r->sim, leave, NULL), "motion");
+    driver_check(d, mps_motion_callback_set(d->sim, leave, NULL), "motion");
     for (int i = 0; i < 2; i++) {
-        run_wall_sensor(r, name[i], i == 0 ? middle : (wide + 1) * dp, 0, depth, 2 * dp);
-        impact_figure(c, least[i], TRACE_LEAST, impact_last(c), raw, rho * GRAVITY * h);
-        impact_figure(c, least_mean[i], TRACE_LEAST, impact_last(c), smooth, rho * GRAVITY * h);
-        impact_figure(c, means[i], TRACE_MEAN, impact_last(c), mean, rho * GRAVITY * h);
+        driver_wall(d, name[i], i == 0 ? middle : (wide + 1) * dp, 0, depth, 2 * dp);
+        impact_figure(c, least[i], MPS_TRACE_LEAST, name[i], raw, rho * GRAVITY * h);
+        impact_figure(c, least_mean[i], MPS_TRACE_LEAST, name[i], smooth, rho * GRAVITY * h);
+        impact_figure(c, means[i], MPS_TRACE_MEAN, name[i], mean, rho * GRAVITY * h);
     }
-    run_particle_value(r, "gap", "m",
-                       "Gap above the floor: from the floor to the lowest liquid, less a spacing",
-                       gap, c);
-    impact_figure(c, "gap", TRACE_CHANGE, impact_last(c), raw, 0.5 * GRAVITY * PULL * PULL);
-    impact_figure(c, "fall_fluid", TRACE_CHANGE, TRACE_MOMENTUM + 1, raw, -fluid);
+    driver_measure(d, driver_measure_of("gap", NULL, NULL));
+    impact_figure(c, "gap", MPS_TRACE_CHANGE, "gap", raw, 0.5 * GRAVITY * PULL * PULL);
+    impact_figure(c, "fall_fluid", MPS_TRACE_CHANGE, "momentum_y", raw, -fluid);
 }
 
 const impact_case impact_column = {set_column, build_column, 0.025, true};

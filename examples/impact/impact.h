@@ -3,12 +3,10 @@
 #ifndef MPS_EXAMPLES_IMPACT_H
 #define MPS_EXAMPLES_IMPACT_H
 
-#include "common/trace.h"
+#include "driver/driver.h"
 
 typedef struct impact {
-    run run;
-    trace rows;
-    trace_measure measure[RUN_FIGURES];
+    driver d;
     double density, speed; /* of the liquid [kg/m3], of its approach [m/s] */
     /* time at which the foremost row is one spacing from the wall: half cells of liquid and wall
      * meet [s] */
@@ -20,7 +18,7 @@ typedef struct impact {
 
 /* One case. `set` completes the options before the run opens, `build` adds particles, columns and figures. */
 typedef struct impact_case {
-    void (*set)(impact *c, cli_options *o);
+    void (*set)(impact *c, driver *d);
     void (*build)(impact *c);
     double dp;     /* default spacing [m] */
     bool in_space; /* also in 3-D */
@@ -33,7 +31,7 @@ extern const impact_case impact_flat, impact_film, impact_wedge, impact_jet, imp
 enum { IMPACT_GAP = 6, IMPACT_SLICE = 6 };
 
 /* No gravity: the speed of the flow scales what gravity scales elsewhere. */
-void impact_weightless(impact *c, cli_options *o);
+void impact_weightless(impact *c, driver *d);
 /* Water without viscosity: walls have free slip. */
 void impact_water(impact *c);
 /* Walls of a box from the origin; in 3-D the third size is whole spacings as well. */
@@ -46,15 +44,14 @@ void impact_start(impact *c, double u, double v);
 double impact_width(const impact *c);
 double impact_fluid_width(const impact *c);
 
-/* A figure of summary.json: `kind` of a column between two times, means over `window`, over `scale`. Columns: impact_last() or TRACE_... */
+/* A figure of summary.json, see mps_trace: `kind` of a column between two times, means over `window`, over `scale`. */
 typedef struct impact_span {
     double from, to, window;
 } impact_span;
-void impact_figure(impact *c, const char *name, trace_kind kind, int column, impact_span span,
+void impact_figure(impact *c, const char *name, int32_t kind, const char *column, impact_span span,
                    double scale);
-/* A known number beside them. */
+/* A known number beside them, and what it is. */
+void impact_told(impact *c, const char *name, const char *about, double value);
 void impact_given(impact *c, const char *name, double value);
-/* Column of trace.csv that was added last. */
-int impact_last(const impact *c);
 
 #endif

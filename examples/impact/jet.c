@@ -7,18 +7,18 @@ static const double WIDTH = 1; /* b [m] */
 /* Of the jet and the wall [b]; of the steady phase after contact [b/U]. */
 enum { LENGTH = 6, HALF_WALL = 12, BEGIN = 2, END = 5 };
 
-static void set(impact *c, cli_options *o)
+static void set(impact *c, driver *d)
 {
-    const double b = lround(WIDTH / o->dp) * o->dp;
-    impact_weightless(c, o);
-    c->contact = (IMPACT_GAP - 1) * o->dp / c->speed;
-    o->t_end = c->contact + END * b / c->speed + o->dp / c->speed;
+    const double b = lround(WIDTH / d->dp) * d->dp;
+    impact_weightless(c, d);
+    c->contact = (IMPACT_GAP - 1) * d->dp / c->speed;
+    d->t_end = c->contact + END * b / c->speed + d->dp / c->speed;
 }
 
 static void build(impact *c)
 {
-    run *r = &c->run;
-    const double dp = r->options.dp, rho = c->density, u = c->speed;
+    driver *d = &c->d;
+    const double dp = d->dp, rho = c->density, u = c->speed;
     const int wide = (int)lround(WIDTH / dp), left = HALF_WALL * wide;
     const int across[] = {left, left + wide - 1},
               up[] = {IMPACT_GAP, IMPACT_GAP + LENGTH * wide - 1};
@@ -32,19 +32,18 @@ static void build(impact *c)
     impact_walls(c, size, false);
     impact_fill(c, across, up);
     impact_start(c, 0, -u);
-    run_wall_sensor(r, "P", middle, 0, 0.5 * size[2], 2 * dp);
-    const int pressure = impact_last(c);
-    run_wall_sensor(r, "P_quarter", middle + 0.25 * b, 0, 0.5 * size[2], 2 * dp);
-    run_force(r, "F", "tank.y0", 1);
-    const int force = impact_last(c);
-    impact_figure(c, "stagnation", TRACE_MEAN, pressure, steady, 0.5 * rho * u * u);
-    impact_figure(c, "stagnation_least", TRACE_LEAST, pressure, settled, 0.5 * rho * u * u);
-    impact_figure(c, "stagnation_largest", TRACE_LARGEST, pressure, settled, 0.5 * rho * u * u);
-    impact_figure(c, "force_walls", TRACE_MEAN, force, steady, -rho * u * u * b * impact_width(c));
-    impact_figure(c, "force_fluid", TRACE_CHANGE, TRACE_MOMENTUM + 1, steady,
+    driver_wall(d, "P", middle, 0, 0.5 * size[2], 2 * dp);
+    driver_wall(d, "P_quarter", middle + 0.25 * b, 0, 0.5 * size[2], 2 * dp);
+    driver_force(d, "F", "tank.y0", 1);
+    impact_figure(c, "stagnation", MPS_TRACE_MEAN, "P", steady, 0.5 * rho * u * u);
+    impact_figure(c, "stagnation_least", MPS_TRACE_LEAST, "P", settled, 0.5 * rho * u * u);
+    impact_figure(c, "stagnation_largest", MPS_TRACE_LARGEST, "P", settled, 0.5 * rho * u * u);
+    impact_figure(c, "force_walls", MPS_TRACE_MEAN, "F", steady,
+                  -rho * u * u * b * impact_width(c));
+    impact_figure(c, "force_fluid", MPS_TRACE_CHANGE, "momentum_y", steady,
                   rho * u * b * impact_fluid_width(c) * u * (steady.to - steady.from));
-    impact_figure(c, "peak_raw", TRACE_LARGEST, pressure, start, rho * u * u);
-    impact_figure(c, "peak_mean", TRACE_LARGEST, pressure, smooth, rho * u * u);
+    impact_figure(c, "peak_raw", MPS_TRACE_LARGEST, "P", start, rho * u * u);
+    impact_figure(c, "peak_mean", MPS_TRACE_LARGEST, "P", smooth, rho * u * u);
 }
 
 const impact_case impact_jet = {set, build, 0.05, true};

@@ -39,11 +39,11 @@ static int first_row(const impact *c, double dp)
     return (int)ceil(top(c, dp) / dp - 1e-6) + IMPACT_GAP;
 }
 
-static void set(impact *c, cli_options *o)
+static void set(impact *c, driver *d)
 {
-    impact_weightless(c, o);
-    c->contact = (first_row(c, o->dp) * o->dp - top(c, o->dp) - o->dp) / c->speed;
-    o->t_end = c->contact + (SIDE * sin(angle(c)) + o->dp) / c->speed;
+    impact_weightless(c, d);
+    c->contact = (first_row(c, d->dp) * d->dp - top(c, d->dp) - d->dp) / c->speed;
+    d->t_end = c->contact + (SIDE * sin(angle(c)) + d->dp) / c->speed;
 }
 
 static double side(void *user, const double *x)
@@ -85,7 +85,7 @@ static double place(void *user, mps_sim *sim)
 static void add_row(impact *c, const wedge *w, row *s, const char *name, double diameter,
                     double average)
 {
-    const double dp = c->run.options.dp, sine = w->slope * w->cosine;
+    const double dp = c->d.dp, sine = w->slope * w->cosine;
     char about[200];
     mps_probe probe;
     mps_probe_init(&probe, sizeof probe);
@@ -97,7 +97,7 @@ static void add_row(impact *c, const wedge *w, row *s, const char *name, double 
         probe.at[0] = i * dp * w->cosine;
         probe.at[1] = w->top - i * dp * sine;
         if (probe.at[1] < 3 * dp) break;
-        run_check(&c->run, mps_probe_add(c->run.sim, &probe, &s->probe[s->count++]), name);
+        driver_check(&c->d, mps_probe_add(c->d.sim, &probe, &s->probe[s->count++]), name);
     }
     const int used = snprintf(
         about, sizeof about,
@@ -105,13 +105,12 @@ static void add_row(impact *c, const wedge *w, row *s, const char *name, double 
         s->count, diameter);
     if (average > 0)
         snprintf(about + used, sizeof about - (size_t)used, ", means of the last %g s", average);
-    run_value(&c->run, name, "Pa", about, largest, s);
-    c->run.column[c->run.columns - 1].pressure = true;
+    driver_value(&c->d, name, "Pa", about, MPS_JOB_PRESSURE, largest, s);
 }
 
 static void build_walls(impact *c, wedge *w)
 {
-    const double dp = c->run.options.dp, foot = lround(FOOT / dp) * dp; /* half width */
+    const double dp = c->d.dp, foot = lround(FOOT / dp) * dp; /* half width */
     mps_solid solid;
     mps_solid_init(&solid, sizeof solid);
     w->slope = tan(angle(c));
@@ -129,7 +128,7 @@ static void build_walls(impact *c, wedge *w)
     solid.hi[1] = w->top + edge;
     impact_water(c);
     impact_walls(c, size, false);
-    run_check(&c->run, mps_solid_add(c->run.sim, &solid), "wedge");
+    driver_check(&c->d, mps_solid_add(c->d.sim, &solid), "wedge");
     impact_fill(c, across, up);
     impact_start(c, 0, -c->speed);
 }
@@ -137,36 +136,34 @@ static void build_walls(impact *c, wedge *w)
 static void build(impact *c)
 {
     static wedge w;
-    run *r = &c->run;
+    driver *d = &c->d;
     build_walls(c, &w);
-    const double dp = r->options.dp, rho = c->density, v = c->speed, unit = rho * v * v * v,
-                 tick = dp / v;
+    const double dp = d->dp, rho = c->density, v = c->speed, unit = rho * v * v * v, tick = dp / v;
     const double end = c->contact + SIDE * sin(angle(c)) / v;
     const impact_span second = {0.5 * (c->contact + end), end, 0}, last = {end - 2 * tick, end, 0},
                       mean = {end - 0.5 * tick, end + 0.5 * tick, 0};
-    run_force(r, "F", "wedge", 1);
-    impact_figure(c, "force_slope", TRACE_SLOPE, impact_last(c), second, -0.5 * unit);
-    impact_figure(c, "force_mean", TRACE_MEAN, impact_last(c), second,
+    driver_force(d, "F", "wedge", 1);
+    impact_figure(c, "force_slope", MPS_TRACE_SLOPE, "F", second, -0.5 * unit);
+    impact_figure(c, "force_mean", MPS_TRACE_MEAN, "F", second,
                   -0.5 * unit * (0.5 * (second.from + end) - c->contact));
-    impact_figure(c, "force_fluid", TRACE_CHANGE, TRACE_MOMENTUM + 1, second,
+    impact_figure(c, "force_fluid", MPS_TRACE_CHANGE, "momentum_y", second,
                   0.5 * unit * (0.5 * (second.from + end) - c->contact) * (end - second.from));
     add_row(c, &w, &w.raw, "P_raw", 2 * dp, 0);
-    impact_figure(c, "cp_raw", TRACE_MEAN, impact_last(c), last, 0.5 * rho * v * v);
-    impact_figure(c, "cp_raw_largest", TRACE_LARGEST, impact_last(c), second, 0.5 * rho * v * v);
+    impact_figure(c, "cp_raw", MPS_TRACE_MEAN, "P_raw", last, 0.5 * rho * v * v);
+    impact_figure(c, "cp_raw_largest", MPS_TRACE_LARGEST, "P_raw", second, 0.5 * rho * v * v);
     add_row(c, &w, &w.narrow, "P_2dp", 2 * dp, tick);
-    impact_figure(c, "cp_2dp", TRACE_MEAN, impact_last(c), mean, 0.5 * rho * v * v);
-    impact_figure(c, "cp_2dp_mean", TRACE_MEAN, impact_last(c), second, 0.5 * rho * v * v);
+    impact_figure(c, "cp_2dp", MPS_TRACE_MEAN, "P_2dp", mean, 0.5 * rho * v * v);
+    impact_figure(c, "cp_2dp_mean", MPS_TRACE_MEAN, "P_2dp", second, 0.5 * rho * v * v);
     add_row(c, &w, &w.wide, "P_4dp", 4 * dp, tick);
-    impact_figure(c, "cp_4dp", TRACE_MEAN, impact_last(c), mean, 0.5 * rho * v * v);
-    impact_figure(c, "cp_4dp_mean", TRACE_MEAN, impact_last(c), second, 0.5 * rho * v * v);
-    run_value(r, "s_4dp", "m",
-              "Place of the largest pressure: distance from the wedge's edge along its side, of "
-              "the sensor with P_4dp",
-              place, &w.wide);
-    impact_figure(c, "place", TRACE_MEAN, impact_last(c), mean, SIDE);
-    impact_given(c, "wetted_dp", SIDE / dp);
-    snprintf(r->figure[r->figures - 1].about, sizeof r->figure[0].about,
-             "wetted side of the wedge at the end, to the undisturbed surface [dp]");
+    impact_figure(c, "cp_4dp", MPS_TRACE_MEAN, "P_4dp", mean, 0.5 * rho * v * v);
+    impact_figure(c, "cp_4dp_mean", MPS_TRACE_MEAN, "P_4dp", second, 0.5 * rho * v * v);
+    driver_value(d, "s_4dp", "m",
+                 "Place of the largest pressure: distance from the wedge's edge along its side, of "
+                 "the sensor with P_4dp",
+                 0, place, &w.wide);
+    impact_figure(c, "place", MPS_TRACE_MEAN, "s_4dp", mean, SIDE);
+    impact_told(c, "wetted_dp",
+                "wetted side of the wedge at the end, to the undisturbed surface [dp]", SIDE / dp);
 }
 
 const impact_case impact_wedge = {set, build, 0.005, false};

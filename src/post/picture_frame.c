@@ -2,7 +2,22 @@
 /* Scenes of the frames in a run's folder. */
 #include "picture_scene.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
+
+void mps__scene_past_scale(const char *folder, mps_picture_config *config)
+{
+    char *path = mps__page_path(folder, "summary.json");
+    json_t *summary = path ? json_load_file(path, 0, NULL) : NULL;
+    const json_t *list = json_object_get(summary, "pressure_scale"), *lo = json_array_get(list, 0),
+                 *hi = json_array_get(list, 1);
+    if (json_is_number(lo) && json_is_number(hi)) {
+        config->pressure_lo = json_number_value(lo);
+        config->pressure_hi = json_number_value(hi);
+    }
+    json_decref(summary);
+    free(path);
+}
 
 static mps_status no_memory(page_errors *e)
 {

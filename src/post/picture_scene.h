@@ -48,6 +48,9 @@ bool mps__scene_end(scene *s);
  * @return false without memory */
 bool mps__scene_scale(scene *s, mps_picture_config *config);
 
+/* The scale of a run that was interrupted, from its summary.json; nothing where there is none. */
+void mps__scene_past_scale(const char *folder, mps_picture_config *config);
+
 /* The present state of a simulation. */
 mps_status mps__scene_of_sim(scene *s, mps_sim *sim, page_errors *e);
 /* Title, spacing, phases and sensors from summary.json. */

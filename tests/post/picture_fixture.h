@@ -28,7 +28,8 @@ static inline sheet read_sheet(const char *path)
     s.pixel = malloc((size_t)s.width * (size_t)s.height * sizeof *s.pixel);
     assert_non_null(s.pixel);
     for (int y = 0; y < s.height; y++) {
-        const unsigned char *row = cairo_image_surface_get_data(surface) + (size_t)y * (size_t)stride;
+        const unsigned char *row = cairo_image_surface_get_data(surface) +
+                                   (size_t)y * (size_t)stride;
         memcpy(s.pixel + (size_t)y * (size_t)s.width, row, (size_t)s.width * sizeof *s.pixel);
     }
     for (int k = 0; k < s.width * s.height; k++) s.pixel[k] &= 0xffffff;
@@ -52,8 +53,7 @@ static inline bool is_colour(uint32_t pixel, double r, double g, double b)
 }
 
 static const double wall_colour[3] = {0.60, 0.62, 0.65}, least_colour[3] = {0.07, 0.13, 0.42},
-                    most_colour[3] = {0.99, 0.93, 0.25},
-                    mark_colour[3] = {0.84, 0.37, 0.00};
+                    most_colour[3] = {0.99, 0.93, 0.25}, mark_colour[3] = {0.84, 0.37, 0.00};
 
 /* A pixel and those `around` it have a colour; edges of grey text have any grey. */
 static inline bool is_area(const sheet *s, int x, int y, int around, const double c[3])
@@ -113,7 +113,8 @@ static inline mps_sim *wet_tank(int32_t dim)
     return sim;
 }
 
-static inline void add_sensor(mps_sim *sim, int32_t type, const char *name, double x, double y, double z)
+static inline void add_sensor(mps_sim *sim, int32_t type, const char *name, double x, double y,
+                              double z)
 {
     mps_probe probe;
     int32_t id;
@@ -129,7 +130,8 @@ static inline void add_sensor(mps_sim *sim, int32_t type, const char *name, doub
 /* Pressures of all fluid: p0 + slope (0.25 m - y). @return index of the particle nearest to (x, y) */
 static inline int64_t set_pressures(mps_sim *sim, double p0, double slope, double x, double y)
 {
-    mps_lease p = {.struct_size = sizeof p}, X = {.struct_size = sizeof X}, kind = {.struct_size = sizeof kind};
+    mps_lease p = {.struct_size = sizeof p}, X = {.struct_size = sizeof X},
+              kind = {.struct_size = sizeof kind};
     int64_t best = -1;
     double nearest = INFINITY;
     ASSERT_OK(sim, mps_lease_begin(sim, "pressure", MPS_WRITE, &p));
@@ -204,8 +206,10 @@ static inline void write_folder(const char *folder, mps_sim *sim, int frames, co
     }
     mps_frames_close(series);
     snprintf(text, sizeof text,
-             "{\"case\": \"tank\", %s \"dim\": %d, \"dp\": 0.05, \"gravity\": 9.81, \"phases\": [{\"density\": 1000}],"
-             "\"columns\": [{\"name\": \"P1\", \"unit\": \"Pa\", \"type\": \"wall_pressure\", \"at\": [0, 0.4, 0.2],"
+             "{\"case\": \"tank\", %s \"dim\": %d, \"dp\": 0.05, \"gravity\": 9.81, \"phases\": "
+             "[{\"density\": 1000}],"
+             "\"columns\": [{\"name\": \"P1\", \"unit\": \"Pa\", \"type\": \"wall_pressure\", "
+             "\"at\": [0, 0.4, 0.2],"
              "\"normal\": [1, 0, 0], \"about\": \"\"}]}\n",
              more, (int)dim);
     write_text(folder, "summary.json", text);

@@ -153,7 +153,8 @@ static void programs_that_fail(void **state)
     assert_no_film(&config, NULL, MPS_E_IO, "'false' failed with exit code 1");
     config.program = "true";
     assert_no_film(&config, NULL, MPS_E_IO, "'true' stopped before the end");
-    write_text(folder, "talks", "#!/bin/sh\nhead -c 1000 >/dev/null\necho one >&2\necho two >&2\nexit 3\n");
+    write_text(folder, "talks",
+               "#!/bin/sh\nhead -c 1000 >/dev/null\necho one >&2\necho two >&2\nexit 3\n");
     assert_int_equal(chmod("test_film_run/talks", 0755), 0);
     config.program = "test_film_run/talks";
     assert_no_film(&config, NULL, MPS_E_IO, "failed: one two");
@@ -231,9 +232,12 @@ static void paraview_state(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(frame_is_state),      cmocka_unit_test(folder_completes),
-        cmocka_unit_test(film_has_all_frames), cmocka_unit_test(programs_that_fail),
-        cmocka_unit_test(refusals),            cmocka_unit_test(paraview_state),
+        cmocka_unit_test(frame_is_state),
+        cmocka_unit_test(folder_completes),
+        cmocka_unit_test(film_has_all_frames),
+        cmocka_unit_test(programs_that_fail),
+        cmocka_unit_test(refusals),
+        cmocka_unit_test(paraview_state),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Building tanks of water. */
+#include "tank.h"
+#include <math.h>
+#include <string.h>
+
+void tank_walls(driver *d, const double *size)
+{
+    mps_tank tank;
+    mps_tank_init(&tank, sizeof tank);
+    memcpy(tank.size, size, sizeof tank.size);
+    driver_check(d, mps_tank_add(d->sim, &tank, NULL), "tank");
+}
+
+void tank_walls_about(driver *d, const double *size, double middle, double *lo, double *hi)
+{
+    double dp = d->dp, half = (floor(size[1] / 2 / dp + 1e-6) + 0.5) * dp;
+    mps_tank tank;
+    mps_tank_init(&tank, sizeof tank);
+    memcpy(tank.size, size, sizeof tank.size);
+    tank.lo[1] = middle - half;
+    tank.size[1] = 2 * half;
+    for (int k = 0; k < 3; k++) {
+        lo[k] = tank.lo[k];
+        hi[k] = tank.lo[k] + tank.size[k];
+    }
+    driver_check(d, mps_tank_add(d->sim, &tank, NULL), "tank");
+}
+
+/* A vertical baffle on the lattice: its faces are columns of wall particles, so n columns are (n - 1) dp thick. It stands in whole columns
+ * as near to its place as they are: d->layers of them, or as its thickness says. */
+static void add_baffle(driver *d, const baffle *b, double width)
+{
+    double dp = d->dp, columns = d->layers;
+    if (columns < 1) columns = round(b->thickness / dp) + 1;
+    double first = round(b->middle / dp - 0.5 * (columns - 1)) * dp;
+    const double lo[] = {first, b->bottom, 0}, hi[] = {first + (columns - 1) * dp, b->top, width};
+    driver_check(d, mps_baffle_add(d->sim, "baffle", lo, hi, NULL), "baffle");
+}
+
+double tank_fill(driver *d, const double *size, double depth, bool whole_rows)
+{
+    const double lo[3] = {0}, level[3] = {size[0], depth, size[2]};
+    double built[6];
+    if (whole_rows || driver_has_gas(d) || strstr(d->model, ".paper"))
+        driver_check(d, mps_fill_box_add(d->sim, 0, lo, level, NULL, built), "liquid");
+    else
+        driver_check(d, mps_fill_level_add(d->sim, 0, lo, level, NULL, built), "liquid");
+    driver_check_job(d, mps_job_level_set(d->job, built[d->dim + 1]));
+    return built[d->dim + 1];
+}
+
+void tank_air(driver *d, const double *size)
+{
+    const double lo[3] = {0};
+    driver_phase(d, 1, TANK_AIR_DENSITY, TANK_AIR_VISCOSITY);
+    driver_check(d, mps_fill_box_add(d->sim, 1, lo, size, NULL, NULL), "air");
+}
+
+void tank_move(driver *d, mps_harmonic motion)
+{
+    motion.ramp = d->ramp * 2 * acos(-1.0) / motion.omega;
+    driver_check(d, mps_motion_harmonics_set(d->sim, 1, &motion), "motion");
+}
+
+bool tank_moves_as_given(const driver *d, const tank_case *c)
+{
+    return d->amplitude == c->motion.amplitude && d->ramp == 0;
+}
+
+void tank_parse(driver *d, const tank_case *c, int argc, char **argv)
+{
+    d->amplitude = c->motion.amplitude;
+    d->has_ramp = true;
+    d->has_layers = c->plate.top > 0;
+    d->has_sigma = !d->has_layers;
+    if (!d->has_layers)
+        d->need =
+            "reference.lid"; /* in a closed tank full of liquid and gas something must set the level of the pressures */
+    driver_parse(d, argc, argv);
+}
+
+int tank_run(driver *d, tank_case c, tank_columns_fn columns)
+{
+    mps_harmonic motion = c.motion;
+    motion.amplitude = d->amplitude;
+    driver_open(d);
+    tank_walls(d, c.size);
+    if (c.plate.top > 0) add_baffle(d, &c.plate, c.size[2]);
+    c.level = tank_fill(d, c.size, c.depth, c.whole_rows);
+    if (driver_has_gas(d)) tank_air(d, c.size);
+    tank_move(d, motion);
+    columns(d, &c);
+    return driver_run(d);
+}

@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The common columns of probes.csv, and the boxes of tank and liquid. */
+#include "run.h"
+#include "view.h"
+#include <math.h>
+#include <string.h>
+
+/* Those of every job, behind those that were added, in the order of COLUMN_KE and on. The energy's unit is J, J/m in 2-D. */
+static const job_column COMMON[COLUMN_COMMON] = {
+    {.name = "ke", .unit = "J", .about = "Kinetic energy: of all fluid"},
+    {.name = "x_tank", .unit = "m", .about = "Displacement of the tank along x"},
+    {.name = "pe", .unit = "J", .about = "Potential energy: of all fluid, 0 at the lab's origin"},
+    {.name = "wall_work_momentum",
+     .unit = "J",
+     .about = "Work of the walls, by momentum: that the fluid received, since the start"},
+    {.name = "wall_work_probes",
+     .unit = "J",
+     .about = "Work of the walls, by probes: of the forces that probes show, since the start"},
+    {.name = "viscous", .unit = "J", .about = "Energy lost by viscosity: since the start"},
+    {.name = "plugins",
+     .unit = "J",
+     .about = "Energy lost in plug-ins: in models that are not the library's, since the start"},
+    {.name = "collision", .unit = "J", .about = "Energy lost in collisions: since the start"},
+    {.name = "shift", .unit = "J", .about = "Energy lost in shifting: since the start"},
+    {.name = "numerical",
+     .unit = "J",
+     .about = "Energy lost otherwise: what closes the budget, since the start"},
+    {.name = "added",
+     .unit = "J",
+     .about = "Energy from outside: of particles added or lost, since the start"},
+    {.name = "volume_error",
+     .about = "Error of volume: growth of the fluid below the surface since the first step, as a "
+              "share"}};
+
+int mps__job_columns(const mps_job *job)
+{
+    return job->columns + COLUMN_COMMON;
+}
+
+job_column mps__job_column(const mps_job *job, int k)
+{
+    if (k < job->columns) return job->column[k];
+    job_column c = COMMON[k - job->columns];
+    if (strcmp(c.unit, "J") == 0 && job->dim != 3) memcpy(c.unit, "J/m", sizeof "J/m");
+    c.type = "value";
+    c.probe = -1;
+    return c;
+}
+
+bool mps__job_is_common(const char *name)
+{
+    for (int k = 0; k < COLUMN_COMMON; k++)
+        if (strcmp(COMMON[k].name, name) == 0) return true;
+    return strcmp(name, "t") == 0;
+}
+
+/* Rounding of 0 becomes 0. */
+static void tidy(job_box *b, double dp)
+{
+    for (int d = 0; d < 3; d++) {
+        if (fabs(b->lo[d]) < 1e-9 * dp) b->lo[d] = 0;
+        if (fabs(b->hi[d]) < 1e-9 * dp) b->hi[d] = 0;
+    }
+}
+
+static void take(job_box *b, const double *x, int dim)
+{
+    for (int d = 0; d < dim; d++) {
+        b->lo[d] = b->count ? fmin(b->lo[d], x[d]) : x[d];
+        b->hi[d] = b->count ? fmax(b->hi[d], x[d]) : x[d];
+    }
+    b->count++;
+}
+
+void mps__job_boxes(mps_job *job)
+{
+    view v;
+    job->walls = job->liquid = (job_box){0};
+    if (!mps__job_note(job, mps__view_open(job->sim, &v) ? MPS_OK : MPS_E_BUSY, "size of the tank"))
+        return;
+    for (int64_t i = 0; i < v.x.count; i++) {
+        const double *x = v.x.data + i * v.x.stride;
+        const bool fluid = v.kind.integers[i] == MPS_FLUID, first = v.phase.integers[i] == 0;
+        if (v.kind.integers[i] == MPS_WALL) take(&job->walls, x, job->dim);
+        if (fluid && first) take(&job->liquid, x, job->dim);
+        job->several = job->several || (fluid && !first);
+    }
+    tidy(&job->walls, job->dp);
+    tidy(&job->liquid, job->dp);
+    mps__view_close(job->sim, &v);
+}
+
+double mps__job_depth(const mps_job *job)
+{
+    const double floor = job->walls.lo[1], top = job->level > 0 ? job->level : job->liquid.hi[1];
+    const bool stands = job->walls.count > 0 && job->liquid.count > 0 &&
+                        job->liquid.lo[1] - floor < 1.5 * job->dp;
+    return stands ? top - floor : NAN;
+}

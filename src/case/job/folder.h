@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The folder of a run's outputs: one run at a time, and no run over another one without being asked to. */
+#ifndef MPS_CASE_FOLDER_H
+#define MPS_CASE_FOLDER_H
+
+#include <mps/status.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { FOLDER_PATH = 512 };
+
+typedef struct folder {
+    char path[FOLDER_PATH];
+    char lock[FOLDER_PATH + 16]; /* "": not locked */
+    int fd;
+} folder;
+
+/* Make the folder and lock it against other programs.
+ * @param keep  an earlier run in it is allowed @param error  [size] out: why not
+ * @return MPS_E_IO: files cannot be made there, MPS_E_BUSY: another run is in progress, MPS_E_STATE: there are outputs of an earlier run */
+mps_status mps__folder_open(folder *f, const char *path, bool keep, char *error, size_t size);
+/* Remove the lock. */
+void mps__folder_close(folder *f);
+/* Remove one file; none is no failure. @return false: `error` says why */
+bool mps__folder_remove(const folder *f, const char *name, char *error, size_t size);
+/* Remove all that jobs write but the plots of columns. @return false: `error` says why */
+bool mps__folder_clear(const folder *f, char *error, size_t size);
+/* What to do about this reason that a file cannot be written. */
+const char *mps__folder_advice(int error);
+
+#endif

@@ -1,0 +1,344 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A job as its program sees it: opening, texts, known points and inputs. Its columns are in columns.c and added.c, stepping is in step.c. */
+#include "run.h"
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MESSAGES = 20 }; /* of the library, before it is cut short */
+
+/* ---- texts ---- */
+
+/* Without a function of the program: messages to stderr, tables to stdout. */
+static void say(mps_job *job, int32_t kind, const char *text)
+{
+    if (job->config.say) {
+        job->config.say(job->config.say_user, kind, text);
+        return;
+    }
+    FILE *out = kind == MPS_JOB_TABLE ? stdout : stderr;
+    fputs(text, out);
+    if (kind != MPS_JOB_MESSAGE) fflush(out);
+}
+
+void mps__job_show(mps_job *job, int32_t kind, const char *text)
+{
+    const char *clear = kind == MPS_JOB_PROGRESS ? "" : mps__progress_clear(&job->progress);
+    if (clear[0]) say(job, MPS_JOB_PROGRESS, clear);
+    say(job, kind, text);
+}
+
+void mps__job_tell(mps_job *job, const char *format, ...)
+{
+    char text[2 * JOB_ERROR];
+    va_list values;
+    int used = snprintf(text, sizeof text, "%.200s: ", job->config.name);
+    va_start(values, format);
+    vsnprintf(text + used, sizeof text - (size_t)used - 1, format, values);
+    va_end(values);
+    strcat(text, "\n");
+    mps__job_show(job, MPS_JOB_MESSAGE, text);
+}
+
+bool mps__job_fail(mps_job *job, int32_t code, const char *format, ...)
+{
+    va_list values;
+    if (job->code) return false;
+    job->code = code;
+    va_start(values, format);
+    vsnprintf(job->error, sizeof job->error, format, values);
+    va_end(values);
+    return false;
+}
+
+mps_status mps__job_refuse(mps_job *job, mps_status status, const char *format, ...)
+{
+    va_list values;
+    va_start(values, format);
+    vsnprintf(job->error, sizeof job->error, format, values);
+    va_end(values);
+    return status;
+}
+
+bool mps__job_note(mps_job *job, mps_status status, const char *what)
+{
+    if (status >= 0) return true;
+    job->output_failed = true;
+    if (!job->error[0])
+        snprintf(job->error, sizeof job->error, "%s: %s", what, mps_sim_error(job->sim));
+    return false;
+}
+
+const char *mps_job_error(const mps_job *job)
+{
+    return job ? job->error : "";
+}
+
+void mps_job_say(mps_job *job, const char *text)
+{
+    if (job && text && mps__job_first(job) && !job->config.quiet) mps__job_tell(job, "%s", text);
+}
+
+void mps_job_log(void *user, int level, const char *text)
+{
+    mps_job *job = user;
+    if (!job || !text || !mps__job_first(job) || job->config.quiet || job->messages > MESSAGES)
+        return;
+    if (job->messages++ == MESSAGES)
+        mps__job_tell(job, "further messages are not shown");
+    else
+        mps__job_tell(job, "%s%s", level >= MPS_LOG_WARNING ? "warning: " : "", text);
+}
+
+void mps_job_stop(mps_job *job)
+{
+    if (job) job->stop = 1;
+}
+
+/* ---- memory ---- */
+
+void *mps__job_grown(void *array, int count, size_t size)
+{
+    const bool full = (count & (count - 1)) == 0; /* room is a power of two */
+    return full ? realloc(array, (count > 0 ? 2 * (size_t)count : 1) * size) : array;
+}
+
+char *mps__job_copy(const char *text)
+{
+    const size_t size = text ? strlen(text) + 1 : 0;
+    char *copy = text ? malloc(size) : NULL;
+    if (copy) memcpy(copy, text, size);
+    return copy;
+}
+
+/* ---- opening ---- */
+
+mps_status mps_job_config_init(mps_job_config *config, size_t size)
+{
+    if (!config || size != sizeof *config) return MPS_E_ARG;
+    *config = (mps_job_config){.struct_size = sizeof *config,
+                               .row_interval = 1e-3,
+                               .gravity = 9.81,
+                               .average = MPS_AVERAGE_AUTO,
+                               .frames = 50,
+                               .report = 1,
+                               .threads = 1,
+                               .page_bytes = 12000000};
+    return MPS_OK;
+}
+
+/* @return NULL, or what is wrong */
+static const char *check(const mps_job_config *c)
+{
+    if (!c->name || !c->name[0]) return "name is required";
+    if (!c->folder || !c->folder[0]) return "folder is required";
+    if (!(c->t_end > 0) || !isfinite(c->t_end)) return "t_end must be > 0";
+    if (!(c->row_interval > 0) || !isfinite(c->row_interval)) return "row_interval must be > 0";
+    if (!(c->checkpoint >= 0) || !isfinite(c->checkpoint)) return "checkpoint must be >= 0";
+    if (!isfinite(c->gravity)) return "gravity must be a number";
+    if (c->frames < 0) return "frames must be >= 0";
+    if (c->threads < 1) return "threads must be >= 1";
+    if (c->picture_count < 0 || (c->picture_count > 0 && !c->picture_t))
+        return "picture_count must be >= 0, with as many times at picture_t";
+    for (int32_t k = 0; k < c->picture_count; k++)
+        if (!(c->picture_t[k] > (k ? c->picture_t[k - 1] : 0)) || !isfinite(c->picture_t[k]))
+            return "picture_t must be increasing times greater than 0";
+    if (c->ranks && (c->ranks->struct_size != sizeof *c->ranks || c->ranks->count < 1))
+        return "ranks must be filled in by mps_job_ranks_load()";
+    if (c->resume && c->overwrite) return "--resume and --overwrite exclude each other";
+    return NULL;
+}
+
+/* Own copies of texts and times. @return false: memory is out, mps_job_destroy() is allowed then */
+static bool copy_config(mps_job *job, const mps_job_config *from)
+{
+    mps_job_config *c = &job->config;
+    *c = *from;
+    const char **const texts[] = {&c->name, &c->title, &c->command,
+                                  &c->text, &c->model, &c->folder};
+    bool done = true;
+    if (!from->title) c->title = from->name;
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+        const char *given = *texts[k];
+        *texts[k] = mps__job_copy(given);
+        done = done && (!given || *texts[k]);
+    }
+    const size_t bytes = (size_t)from->picture_count * sizeof(double);
+    double *times = bytes ? malloc(bytes) : NULL;
+    if (times) memcpy(times, from->picture_t, bytes);
+    c->picture_t = times;
+    /* without times of their own there are pictures at the quarters */
+    job->picture_at = calloc((size_t)from->picture_count + 4, sizeof *job->picture_at);
+    return done && (!bytes || times) && job->picture_at;
+}
+
+/* Folder and lock, of which all ranks hear. */
+static mps_status open_folder(mps_job *job)
+{
+    const mps_job_config *c = &job->config;
+    mps_status status = MPS_OK;
+    if (mps__job_first(job))
+        status = mps__folder_open(&job->place, c->folder, c->resume || c->overwrite, job->error,
+                                  sizeof job->error);
+    else
+        snprintf(job->place.path, sizeof job->place.path, "%s", c->folder); /* it reads there */
+    if (status != MPS_OK) job->code = MPS_EXIT_USAGE;
+    return mps__job_agree(job) ? MPS_OK : status != MPS_OK ? status : MPS_E_RANKS;
+}
+
+mps_status mps_job_create(const mps_job_config *config, mps_job **job)
+{
+    if (job) *job = NULL;
+    if (!job || !config || config->struct_size != sizeof *config) return MPS_E_ARG;
+    const char *wrong = check(config);
+    mps_status status = wrong ? MPS_E_ARG : MPS_E_NOMEM;
+    mps_job *made = wrong ? NULL : calloc(1, sizeof *made);
+    if (!made || !copy_config(made, config)) {
+        if (config->error && config->error_size > 0)
+            snprintf(config->error, config->error_size, "%s", wrong ? wrong : "out of memory");
+        mps_job_destroy(made);
+        return status;
+    }
+    made->config.quiet = config->quiet || !mps__job_first(made);
+    status = open_folder(made);
+    if (config->error && config->error_size > 0)
+        snprintf(config->error, config->error_size, "%s", made->error);
+    made->config.error = NULL; /* it is the program's */
+    if (status == MPS_OK)
+        *job = made;
+    else
+        mps_job_destroy(made);
+    return status;
+}
+
+static void free_reference(job_reference *r)
+{
+    free(r->label);
+    free(r->unit);
+    free(r->column);
+    free(r->t);
+    free(r->value);
+}
+
+static void free_lists(mps_job *job)
+{
+    for (int k = 0; k < job->references; k++) free_reference(&job->reference[k]);
+    for (int k = 0; k < job->inputs; k++) {
+        free(job->input[k].key);
+        free(job->input[k].value);
+    }
+    for (int k = 0; k < job->quantities; k++) mps__quantity_free(job->quantity[k]);
+    for (int k = 0; k < job->traces; k++) free(job->trace[k]);
+    free(job->reference);
+    free(job->input);
+    free(job->quantity);
+    free(job->trace);
+    free(job->column);
+    free(job->figure);
+}
+
+void mps_job_destroy(mps_job *job)
+{
+    if (!job) return;
+    const mps_job_config *c = &job->config;
+    const void *const all[] = {c->name,       c->title,   c->command,   c->text,
+                               c->model,      c->folder,  c->picture_t, job->picture_at,
+                               job->all_rows, job->start, job->row};
+    mps__folder_close(&job->place);
+    free_lists(job);
+    mps__table_free(&job->probes);
+    mps__table_free(&job->steps);
+    mps__table_free(&job->momentum);
+    mps__table_free(&job->trace_rows);
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) free((void *)all[k]);
+    free(job);
+}
+
+/* ---- what to compare with, and inputs ---- */
+
+mps_status mps_reference_init(mps_reference *reference, size_t size)
+{
+    if (!reference || size != sizeof *reference) return MPS_E_ARG;
+    *reference = (mps_reference){.struct_size = sizeof *reference};
+    return MPS_OK;
+}
+
+/* Times do not descend, and all are numbers. */
+static bool are_points(int64_t count, const double *t, const double *value)
+{
+    if (count < 1 || !t || !value) return false;
+    for (int64_t k = 0; k < count; k++)
+        if (!isfinite(t[k]) || !isfinite(value[k]) || (k > 0 && t[k] < t[k - 1])) return false;
+    return true;
+}
+
+static double *copy_numbers(int64_t count, const double *from)
+{
+    double *copy = malloc((size_t)count * sizeof *copy);
+    if (copy) memcpy(copy, from, (size_t)count * sizeof *copy);
+    return copy;
+}
+
+mps_status mps_job_reference_add(mps_job *job, const mps_reference *reference)
+{
+    if (!job || !reference || reference->struct_size != sizeof *reference) return MPS_E_ARG;
+    if (!reference->label || !reference->unit ||
+        !are_points(reference->count, reference->t, reference->value))
+        return mps__job_refuse(
+            job, MPS_E_ARG, "reference '%s': needs a label, a unit and points with ascending times",
+            reference->label ? reference->label : "");
+    job_reference *grown = mps__job_grown(job->reference, job->references, sizeof *grown);
+    if (!grown) return mps__job_refuse(job, MPS_E_NOMEM, "out of memory");
+    job->reference = grown;
+    job_reference *r = &grown[job->references];
+    *r = (job_reference){.label = mps__job_copy(reference->label),
+                         .unit = mps__job_copy(reference->unit),
+                         .column = mps__job_copy(reference->column),
+                         .line = reference->line,
+                         .count = reference->count,
+                         .t = copy_numbers(reference->count, reference->t),
+                         .value = copy_numbers(reference->count, reference->value)};
+    if (r->label && r->unit && (r->column || !reference->column) && r->t && r->value) {
+        job->references++;
+        return MPS_OK;
+    }
+    free_reference(r);
+    return mps__job_refuse(job, MPS_E_NOMEM, "out of memory");
+}
+
+mps_status mps_job_input_add(mps_job *job, const char *key, const char *value)
+{
+    if (!job) return MPS_E_ARG;
+    if (!key || !key[0] || !value)
+        return mps__job_refuse(job, MPS_E_ARG, "an input needs a key and a value");
+    job_input *grown = mps__job_grown(job->input, job->inputs, sizeof *grown);
+    if (!grown) return mps__job_refuse(job, MPS_E_NOMEM, "out of memory");
+    job->input = grown;
+    job_input *i = &grown[job->inputs];
+    *i = (job_input){mps__job_copy(key), mps__job_copy(value)};
+    if (i->key && i->value) {
+        job->inputs++;
+        return MPS_OK;
+    }
+    free(i->key);
+    free(i->value);
+    return mps__job_refuse(job, MPS_E_NOMEM, "out of memory");
+}
+
+static double still_level(void *user, mps_sim *sim)
+{
+    (void)sim;
+    return ((const mps_job *)user)->level;
+}
+
+mps_status mps_job_level_set(mps_job *job, double level)
+{
+    if (!job) return MPS_E_ARG;
+    if (!isfinite(level)) return mps__job_refuse(job, MPS_E_ARG, "level must be a number");
+    const mps_status status = mps_job_figure_add(
+        job, "still_level", "y of the still level as filled [m]", 0, still_level, job);
+    if (status == MPS_OK) job->level = level;
+    return status;
+}

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Lines of progress: one that is kept up to date on a terminal, else a line of key=value every 10 s for batch logs:
+ * t [s], step, dt [s], wall [s] since the start, eta [s] until the end. */
+#ifndef MPS_CASE_PROGRESS_H
+#define MPS_CASE_PROGRESS_H
+
+#include <mps/step.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct progress {
+    bool terminal, colour;
+    bool line;           /* a line without its newline stands on the terminal */
+    double start, shown; /* wall clock [s] */
+    double t_begin, t_end;
+    int64_t particles;
+    int64_t steps_shown; /* steps at the last output, for the rate */
+    double rate;         /* particles a second, smoothed */
+} progress;
+
+/* Wall clock, monotonic [s]. */
+double mps__clock(void);
+/* @param terminal  stderr may be a terminal, and lines go there */
+void mps__progress_begin(progress *p, double t_end, int64_t particles, bool terminal);
+/* The run goes on from here: what was computed before took no time. */
+void mps__progress_from(progress *p, double t, int64_t steps);
+/* @param text  [size] out: the line to show @return true if it is time to (about ten times a second, or every 10 s) */
+bool mps__progress_step(progress *p, const mps_step_info *info, char *text, size_t size);
+/* What frees the line on the terminal for a message, "" if there is none. */
+const char *mps__progress_clear(progress *p);
+
+#endif

@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Rows of probes.csv and momentum.csv, and opening all tables. All ranks measure, rank 0 has the tables. */
+#include "run.h"
+#include <errno.h>
+#include <math.h>
+#include <mps/operators.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- opening ---- */
+
+static bool open_table(mps_job *job, table *t, const char *name, const char *header, int columns)
+{
+    const double interval = t == &job->steps ? 0 : job->config.row_interval;
+    const bool done = mps__table_create(t, job->place.path, name, columns, interval) &&
+                      (job->config.resume
+                           ? mps__table_resume(t, header, job->totals.t_before,
+                                               t == &job->steps ? mps__resume_add_step : NULL, job)
+                           : mps__table_begin(t, header));
+    if (done) return true;
+    if (!job->config.resume) return mps__job_fail(job, MPS_EXIT_USAGE, "%s", t->why);
+    return mps__job_fail(job, MPS_EXIT_USAGE, "--resume: %s; " RESUME_ANEW, t->why);
+}
+
+/* Header of probes.csv; to be freed, NULL: memory is out. */
+static char *probes_header(const mps_job *job)
+{
+    const int columns = mps__job_columns(job);
+    const size_t size = 8 + (size_t)columns * (JOB_NAME + JOB_UNIT + 4);
+    char *header = malloc(size);
+    size_t used = header ? (size_t)snprintf(header, size, "t[s]") : 0;
+    for (int k = 0; header && k < columns; k++) {
+        const job_column c = mps__job_column(job, k);
+        used += (size_t)snprintf(header + used, size - used, c.unit[0] ? ",%s[%s]" : ",%s", c.name,
+                                 c.unit);
+    }
+    return header;
+}
+
+static bool open_probes(mps_job *job)
+{
+    char *header = probes_header(job);
+    const bool done = header ? open_table(job, &job->probes, "probes.csv", header,
+                                          1 + mps__job_columns(job))
+                             : mps__job_fail(job, MPS_EXIT_FAILED, "out of memory");
+    free(header);
+    return done;
+}
+
+/* Names of the columns of momentum.csv, in the order of MOMENTUM_TOTAL and on. */
+static const char *const MOMENTA[] = {"momentum",  "gravity",  "force", "plugins",
+                                      "reaction",  "pressure", "walls", "numerical",
+                                      "collision", "shift",    "added"};
+
+static bool open_momentum(mps_job *job)
+{
+    char header[3 * MOMENTUM_COLUMNS * 32] = "t[s]";
+    size_t used = strlen(header);
+    for (int d = 0; d < job->dim; d++)
+        for (int k = 0; k < MOMENTUM_COLUMNS; k++)
+            used += (size_t)snprintf(header + used, sizeof header - used, ",%s_%c[%s]", MOMENTA[k],
+                                     "xyz"[d], job -> dim == 3 ? "N s" : "N s/m");
+    return open_table(job, &job->momentum, "momentum.csv", header, 1 + job->dim * MOMENTUM_COLUMNS);
+}
+
+/* The case as run. */
+static bool write_case(mps_job *job)
+{
+    char path[FOLDER_PATH + 16];
+    if (!job->config.text) return true;
+    snprintf(path, sizeof path, "%s/case.yaml", job->place.path);
+    FILE *out = fopen(path, "w");
+    bool done = out && fputs(job->config.text, out) >= 0;
+    if (out && fclose(out) != 0) done = false;
+    return done || mps__job_fail(job, MPS_EXIT_USAGE, "%s: %s", path, strerror(errno));
+}
+
+bool mps__job_open_tables(mps_job *job)
+{
+    if (!job->config.resume && !mps__resume_forget(job)) return false;
+    return open_probes(job) && open_momentum(job) &&
+           open_table(job, &job->steps, "steps.csv", STEP_HEADER, STEP_COLUMNS) &&
+           mps__trace_open(job) && write_case(job) &&
+           (!job->config.resume || mps__resume_tables(job));
+}
+
+/* ---- rows ---- */
+
+static void sample_momentum(mps_job *job, double t)
+{
+    mps_momentum m;
+    double row[1 + 3 * MOMENTUM_COLUMNS] = {t};
+    const int dim = job->dim;
+    mps_momentum_init(&m, sizeof m);
+    mps__job_note(job, mps_momentum_get(job->sim, &m), "momentum");
+    if (!mps__job_first(job)) return;
+    const double *const values[MOMENTUM_COLUMNS] = {m.total,     m.gravity,  m.force, m.plugins,
+                                                    m.reaction,  m.pressure, m.walls, m.numerical,
+                                                    m.collision, m.shift,    m.added};
+    for (int d = 0; d < dim; d++)
+        for (int k = 0; k < MOMENTUM_COLUMNS; k++) row[1 + d * MOMENTUM_COLUMNS + k] = values[k][d];
+    mps__table_sample(&job->momentum, row);
+}
+
+static void measure_energies(mps_job *job, double *out)
+{
+    mps_energy e;
+    mps_motion_state tank = {.struct_size = sizeof tank};
+    mps_energy_init(&e, sizeof e);
+    mps__job_note(job, mps_energy_get(job->sim, &e), "energies");
+    mps__job_note(job, mps_motion_state_get(job->sim, &tank), "motion");
+    const double values[COLUMN_COMMON] = {e.kinetic,
+                                          tank.value[MPS_MOVE_X],
+                                          e.potential,
+                                          e.wall_work_momentum,
+                                          e.wall_work_probes,
+                                          e.viscous,
+                                          e.plugins,
+                                          e.collision,
+                                          e.shift,
+                                          e.numerical,
+                                          e.added,
+                                          e.volume_error};
+    memcpy(out, values, sizeof values);
+    job->totals.volume_error = e.volume_error;
+}
+
+static double measure_column(mps_job *job, const job_column *c)
+{
+    double values[8] = {0};
+    if (c->value) return c->value(c->user, job->sim);
+    if (!mps__job_note(job, mps_probe_read(job->sim, c->probe, values), c->name)) return NAN;
+    return values[c->component] - c->zero;
+}
+
+void mps__job_measure(mps_job *job, double *values)
+{
+    bool particles = false;
+    for (int i = 0; i < job->columns; i++) {
+        const bool theirs = (job->column[i].flags & MPS_JOB_PARTICLES) != 0;
+        particles = particles || theirs;
+        values[i] = theirs ? NAN : measure_column(job, &job->column[i]);
+    }
+    if (!particles || !mps__job_gather(job)) return;
+    for (int i = 0; i < job->columns && mps__job_first(job); i++)
+        if (job->column[i].flags & MPS_JOB_PARTICLES)
+            values[i] = measure_column(job, &job->column[i]);
+    mps__job_gather_end(job);
+}
+
+static void measure_all(mps_job *job, double t, double *row)
+{
+    row[0] = t;
+    mps__job_measure(job, row + 1);
+    measure_energies(job, row + 1 + job->columns);
+}
+
+void mps__job_write_start(mps_job *job, const double *first)
+{
+    for (int i = 0; first && i < job->columns; i++)
+        if (job->column[i].flags & MPS_JOB_PRESSURE) job->start[1 + i] = first[1 + i];
+    mps__table_sample(&job->probes, job->start);
+}
+
+void mps__job_sample(mps_job *job, double t)
+{
+    measure_all(job, t, job->row);
+    if (mps__job_first(job)) {
+        if (job->totals.steps == 1) mps__job_write_start(job, job->row);
+        mps__table_sample(&job->probes, job->row);
+    }
+    sample_momentum(job, t);
+}
+
+/* Search neighbours as the first step does it. What is measured before it then has that order as well, on any number of ranks. A failure
+ * comes again in the step. */
+static void order(const mps_job *job)
+{
+    mps_stencil near;
+    mps_stencil_init(&near, sizeof near);
+    if (!job->config.resume) mps_stencil_get(job->sim, MPS_NEAR, &near);
+}
+
+void mps__job_first_rows(mps_job *job)
+{
+    order(job);
+    measure_all(job, job->totals.t, job->start);
+    if (job->config.resume && mps__job_first(job)) mps__table_sample(&job->probes, job->start);
+    sample_momentum(job, job->totals.t);
+    if (job->config.trace && !job->config.resume) mps__trace_step(job, 0, 0);
+}

@@ -1,0 +1,236 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Stepping a run to its end: rows, frames, pictures and checkpoints after each step, and Ctrl-C. */
+#include "run.h"
+#include <locale.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+/* Why all ranks stop; the more serious is the larger. */
+enum { STOP_INTERRUPTED = 1, STOP_FAILED = 2 };
+
+/* ---- signals ---- */
+
+/* Handlers have no argument: this is the one job of the process that catches signals. */
+static volatile sig_atomic_t interrupted;
+
+enum { SIGNALS = 4 };
+static const int CAUGHT[SIGNALS] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1};
+
+/* What the program had for each signal. */
+typedef struct handlers {
+    bool set[SIGNALS];
+    struct sigaction before[SIGNALS];
+} handlers;
+
+static void on_interrupt(int signal)
+{
+    (void)signal;
+    interrupted = 1;
+}
+
+/* The handler is there for one SIGINT and one SIGTERM: a second Ctrl-C ends the program at once. */
+static void catch_signals(const mps_job *job, handlers *h)
+{
+    *h = (handlers){{false}, {{.sa_flags = 0}}};
+    interrupted = 0;
+    if (!job->config.signals) return;
+    for (int k = 0; k < SIGNALS; k++) {
+        struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
+        const bool hangup = CAUGHT[k] == SIGHUP;
+        sigemptyset(&action.sa_mask);
+        if (CAUGHT[k] == SIGUSR1 && mps__job_ranks(job) == 1) continue; /* mpirun passes it on */
+        sigaction(CAUGHT[k], NULL, &h->before[k]);
+        /* a terminal that closes may say so several times; nohup ignores it */
+        if (hangup) action.sa_flags = 0;
+        if (hangup && h->before[k].sa_handler == SIG_IGN) continue;
+        h->set[k] = sigaction(CAUGHT[k], &action, NULL) == 0;
+    }
+}
+
+static void release_signals(const handlers *h)
+{
+    for (int k = 0; k < SIGNALS; k++)
+        if (h->set[k]) sigaction(CAUGHT[k], &h->before[k], NULL);
+}
+
+/* ---- steps ---- */
+
+static void add_up(mps_job *job, const mps_step_info *info, const double *row)
+{
+    job_totals *s = &job->totals;
+    mps__resume_add_step(job, row);
+    s->steps_here++;
+    s->step_s += mps__clock() - job->step_end;
+    for (int k = 0; k < MPS_STAGE_COUNT; k++) s->seconds[k] += info->seconds[k];
+}
+
+/* The row of a step, and what else is due after it. */
+static int take_step(mps_job *job, const mps_step_info *info)
+{
+    const double row[STEP_COLUMNS] = {info->t,
+                                      info->dt,
+                                      info->cfl,
+                                      info->ppe_iterations,
+                                      info->ppe_residual,
+                                      info->ppe_divergence,
+                                      info->max_speed,
+                                      (double)info->lost,
+                                      info->crossing_time,
+                                      info->ppe_solves};
+    add_up(job, info, row);
+    mps__table_append(&job->steps, row);
+    /* interpolation needs the samples on both sides of an output time; the next step is at most a little longer than this one */
+    const bool sample = job->totals.steps == 1 ||
+                        mps__table_wants(&job->probes, info->t, 2 * info->dt);
+    return (sample ? DUE_SAMPLE : 0) | mps__drawing_due(job, info->t) |
+           (mps__resume_due(job, info->t) ? DUE_CHECKPOINT : 0);
+}
+
+static void show_progress(mps_job *job, const mps_step_info *info)
+{
+    char text[256];
+    if (mps__progress_step(&job->progress, info, text, sizeof text)) {
+        if (!job->config.quiet) mps__job_show(job, MPS_JOB_PROGRESS, text);
+        mps__table_flush(&job->probes);
+        mps__table_flush(&job->momentum);
+        mps__table_flush(&job->steps);
+        if (job->config.trace) mps__table_flush(&job->trace_rows);
+    }
+    if (mps__job_failed_table(job)) job->output_failed = true;
+}
+
+/* What all ranks do now. */
+static int agree_to_stop(mps_job *job)
+{
+    const bool wanted = job->stop || (job->config.signals && interrupted);
+    const int stop = mps__job_most(job, job->output_failed ? STOP_FAILED
+                                        : wanted           ? STOP_INTERRUPTED
+                                                           : 0);
+    if (stop == STOP_INTERRUPTED) job->stop = 1;
+    job->output_failed = stop == STOP_FAILED;
+    return stop;
+}
+
+static int monitor(void *user, mps_sim *sim, const mps_step_info *info)
+{
+    mps_job *job = user;
+    (void)sim;
+    const double begin = mps__clock();
+    const int due = mps__job_told(job, mps__job_first(job) ? take_step(job, info) : 0);
+    if (job->config.trace) mps__trace_step(job, info->t, info->dt);
+    if (due & DUE_SAMPLE) mps__job_sample(job, info->t);
+    mps__drawing_do(job, info->t, due);
+    if (due & DUE_CHECKPOINT) mps__resume_save(job);
+    if (mps__job_first(job)) show_progress(job, info);
+    job->step_end = mps__clock();
+    job->totals.output_s += job->step_end - begin;
+    return agree_to_stop(job);
+}
+
+/* ---- a run ---- */
+
+static bool allocate_rows(mps_job *job)
+{
+    const size_t columns = 1 + (size_t)mps__job_columns(job);
+    job->start = calloc(columns, sizeof *job->start);
+    job->row = calloc(columns, sizeof *job->row);
+    return (job->start && job->row) || mps__job_fail(job, MPS_EXIT_FAILED, "out of memory");
+}
+
+/* Open all tables. @return false: a rank failed */
+static bool open_job(mps_job *job)
+{
+    if (job->ran)
+        mps__job_fail(job, MPS_EXIT_USAGE, "a job runs once; make another one");
+    else if (allocate_rows(job) && job->config.resume)
+        mps__resume_read(job);
+    job->ran = true;
+    if (!mps__job_agree(job)) return false; /* where another rank cannot read it, all end */
+    job->totals.fluid = mps_particles_count(job->sim, MPS_FLUID);
+    job->totals.wall = mps_particles_count(job->sim, MPS_WALL);
+    job->totals.dummy = mps_particles_count(job->sim, MPS_DUMMY);
+    mps__job_boxes(job);
+    if (mps__job_first(job)) mps__job_open_tables(job);
+    return mps__job_agree(job);
+}
+
+/* Take the first row and frame. */
+static void begin(mps_job *job)
+{
+    const mps_job_config *c = &job->config;
+    const job_totals *s = &job->totals;
+    if (!c->quiet)
+        mps__job_tell(job,
+                      "%s%sdp %g m, %lld fluid, %lld wall, %lld dummy particles, from t = %g to %g "
+                      "s",
+                      c->model ? c->model : "", c->model ? ", " : "", job->dp, (long long)s->fluid,
+                      (long long)s->wall, (long long)s->dummy, s->t, c->t_end);
+    mps__progress_begin(&job->progress, c->t_end, mps_particles_count(job->sim, -1),
+                        !c->quiet && !c->say);
+    mps__progress_from(&job->progress, s->t, s->steps);
+    mps__job_first_rows(job);
+    mps__frames_begin(job);
+    if (c->resume) mps__drawing_skip(job, s->t); /* taken before, maybe with another --t-end */
+}
+
+/* The failure that all ranks end with: rather that of the rank that failed first than that there was one. */
+static mps_status agree_on(mps_job *job, mps_status status)
+{
+    const int other = 1, most = mps__job_most(job, status >= 0             ? 0
+                                                   : status == MPS_E_RANKS ? other
+                                                                           : other - status);
+    return most == 0 ? status : most == other ? MPS_E_RANKS : other - most;
+}
+
+static double cpu_clock(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* Step to the end, when all is open. */
+static int32_t step(mps_job *job)
+{
+    const double wall = mps__clock(), cpu = cpu_clock();
+    mps_status status = MPS_W_STOPPED;
+    handlers before;
+    begin(job);
+    catch_signals(job, &before);
+    job->step_end = mps__clock();
+    job->output_failed = mps__job_most(job, job->output_failed) > 0;
+    if (!job->output_failed)
+        status = agree_on(job, mps_run(job->sim, job->config.t_end, monitor, job));
+    if (status < 0) snprintf(job->error, sizeof job->error, "%s", mps_sim_error(job->sim));
+    const char *clear = mps__progress_clear(&job->progress);
+    if (clear[0]) mps__job_show(job, MPS_JOB_PROGRESS, clear);
+    const int32_t code = mps__job_finish(job, status, mps__clock() - wall, cpu_clock() - cpu);
+    release_signals(&before);
+    return code;
+}
+
+int32_t mps_job_run(mps_job *job, mps_sim *sim)
+{
+    if (!job || !sim) return MPS_EXIT_USAGE;
+    const locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0); /* "1.5" in all files */
+    const locale_t before = plain ? uselocale(plain) : (locale_t)0;
+    int32_t code;
+    job->sim = sim;
+    job->code = 0;
+    job->error[0] = '\0';
+    mps_sim_shape(sim, &job->dim, &job->dp);
+    if (open_job(job)) {
+        code = step(job);
+    } else {
+        if (job->tells && job->error[0]) mps__job_tell(job, "%s", job->error);
+        code = job->code;
+    }
+    if (plain) {
+        uselocale(before);
+        freelocale(plain);
+    }
+    return code;
+}

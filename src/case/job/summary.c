@@ -1,0 +1,254 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* summary.json: one object for programs, flat but for lists: columns of probes.csv, figures, inputs, references, phases. */
+#include "run.h"
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/utsname.h>
+#include <time.h>
+#include <unistd.h>
+
+static void json_string(FILE *out, const char *text)
+{
+    fputc('"', out);
+    for (; *text; text++) {
+        if (*text == '"' || *text == '\\')
+            fprintf(out, "\\%c", *text);
+        else if ((unsigned char)*text < 0x20)
+            fprintf(out, "\\u%04x", (unsigned)*text);
+        else
+            fputc(*text, out);
+    }
+    fputc('"', out);
+}
+
+static void json_text(FILE *out, const char *key, const char *text)
+{
+    fprintf(out, ",\n  \"%s\": ", key);
+    json_string(out, text);
+}
+
+/* JSON has no NaN and no infinity. */
+static void json_number(FILE *out, const char *key, double value)
+{
+    if (isfinite(value))
+        fprintf(out, ",\n  \"%s\": %.17g", key, value);
+    else
+        fprintf(out, ",\n  \"%s\": null", key);
+}
+
+static double per_step(double sum, int64_t steps)
+{
+    return steps ? sum / (double)steps : 0;
+}
+
+static void summary_counts(FILE *out, const mps_job *job)
+{
+    const job_totals *s = &job->totals;
+    json_number(out, "n_fluid", (double)s->fluid);
+    json_number(out, "n_wall", (double)s->wall);
+    json_number(out, "n_dummy", (double)s->dummy);
+    json_number(out, "steps", (double)s->steps);
+    json_number(out, "particles_lost", (double)s->lost);
+    json_number(out, "threads", job->config.threads);
+    json_number(out, "ranks", mps__job_ranks(job));
+    json_number(out, "dim", job->dim);
+}
+
+/* Largest memory of this program [bytes]. That of getrusage() begins with the memory of the program that started it. */
+static double peak_memory(void)
+{
+    char line[160];
+    double kib = NAN;
+    FILE *status = fopen("/proc/self/status", "r");
+    while (status && fgets(line, sizeof line, status))
+        if (strncmp(line, "VmHWM:", 6) == 0) kib = strtod(line + 6, NULL);
+    if (status) fclose(status);
+    return 1024 * kib;
+}
+
+static void summary_times(FILE *out, const mps_job *job)
+{
+    const job_totals *s = &job->totals;
+    json_number(out, "t_end", s->t);
+    json_number(out, "t_resumed", s->t_before);
+    json_number(out, "dt_mean", per_step(s->t, s->steps));
+    json_number(out, "wall_s", s->wall_s);
+    json_number(out, "cpu_s", s->cpu_s);
+    json_number(out, "s_per_step", per_step(s->step_s, s->steps_here));
+    json_number(out, "output_s", s->output_s);
+    json_number(out, "ppe_iterations_mean", per_step(s->ppe_iterations, s->steps));
+    json_number(out, "ppe_solves_mean", per_step(s->ppe_solves, s->steps));
+    json_number(out, "ppe_s", s->seconds[MPS_STAGE_PPE_SETUP] + s->seconds[MPS_STAGE_PPE_SOLVE]);
+    json_number(out, "neighbour_s", s->seconds[MPS_STAGE_NEIGHBOURS]);
+    json_number(out, "operators_s",
+                s->seconds[MPS_STAGE_OPERATORS] + s->seconds[MPS_STAGE_CORRECT]);
+    json_number(out, "peak_rss_bytes", peak_memory());
+}
+
+/* What pressures were averaged over [s]. */
+static void summary_average(FILE *out, const mps_job *job)
+{
+    const bool follows = job->config.average == MPS_AVERAGE_AUTO;
+    json_text(out, "sensor_average", follows ? "dp/u_max" : "given");
+    json_number(out, "sensor_average_least",
+                follows ? job->totals.crossing_least : job->config.average);
+    json_number(out, "sensor_average_most",
+                follows ? job->totals.crossing_most : job->config.average);
+}
+
+/* Tank and liquid as they are built [m]. */
+static void summary_boxes(FILE *out, const mps_job *job)
+{
+    static const char *const wall[] = {"tank_lo_x", "tank_lo_y", "tank_lo_z"};
+    static const char *const size[] = {"tank_size_x", "tank_size_y", "tank_size_z"};
+    if (job->walls.count > 0)
+        for (int d = 0; d < job->dim; d++) {
+            json_number(out, wall[d], job->walls.lo[d]);
+            json_number(out, size[d], job->walls.hi[d] - job->walls.lo[d]);
+        }
+    json_number(out, "liquid_depth", mps__job_depth(job));
+}
+
+/* What each column of probes.csv is, and where. */
+static void summary_columns(FILE *out, const mps_job *job)
+{
+    fputs(",\n  \"columns\": [", out);
+    for (int k = 0; k < mps__job_columns(job); k++) {
+        const job_column c = mps__job_column(job, k);
+        fprintf(out, "%s\n    {\"name\": \"%s\", \"unit\": \"%s\", \"type\": \"%s\", ",
+                k ? "," : "", c.name, c.unit, c.type);
+        if (c.probe >= 0 && strcmp(c.type, "force") != 0)
+            fprintf(out, "\"at\": [%.9g, %.9g, %.9g], ", c.at[0], c.at[1], c.at[2]);
+        if (strcmp(c.type, "wall_pressure") == 0) {
+            fprintf(out,
+                    "\"diameter\": %.9g, \"normal\": [%.9g, %.9g, %.9g], \"part\": ", c.diameter,
+                    c.normal[0], c.normal[1], c.normal[2]);
+            json_string(out, c.part);
+            fputs(", ", out);
+        }
+        fputs("\"about\": ", out);
+        json_string(out, c.about);
+        fputc('}', out);
+    }
+    fputs("\n  ]", out);
+}
+
+/* What the figures are. */
+static void summary_figures(FILE *out, const mps_job *job)
+{
+    fputs(",\n  \"figures\": [", out);
+    for (int i = 0; i < job->figures; i++) {
+        fprintf(out, "%s\n    {\"name\": \"%s\", \"about\": ", i ? "," : "", job->figure[i].name);
+        json_string(out, job->figure[i].about);
+        fputc('}', out);
+    }
+    fputs("\n  ]", out);
+}
+
+/* ---- the case ---- */
+
+static void summary_inputs(FILE *out, const mps_job *job)
+{
+    fputs(",\n  \"inputs\": [", out);
+    for (int k = 0; k < job->inputs; k++) {
+        fprintf(out, "%s\n    {\"key\": ", k ? "," : "");
+        json_string(out, job->input[k].key);
+        fputs(", \"value\": ", out);
+        json_string(out, job->input[k].value);
+        fputc('}', out);
+    }
+    fputs("\n  ]", out);
+}
+
+static void summary_references(FILE *out, const mps_job *job)
+{
+    fputs(",\n  \"references\": [", out);
+    for (int k = 0; k < job->references; k++) {
+        const job_reference *p = &job->reference[k];
+        fprintf(out, "%s\n    {\"label\": ", k ? "," : "");
+        json_string(out, p->label);
+        fputs(", \"unit\": ", out);
+        json_string(out, p->unit);
+        fputs(", \"column\": ", out);
+        if (p->column)
+            json_string(out, p->column);
+        else
+            fputs("null", out);
+        fprintf(out, ", \"line\": %s, \"points\": [", p->line ? "true" : "false");
+        for (int64_t i = 0; i < p->count; i++)
+            fprintf(out, "%s[%.17g, %.17g]", i ? ", " : "", p->t[i], p->value[i]);
+        fputs("]}", out);
+    }
+    fputs("\n  ]", out);
+}
+
+/* When it ended and where it ran. */
+static void summary_machine(FILE *out)
+{
+    char text[600];
+    const time_t now = time(NULL);
+    struct tm utc;
+    struct utsname host;
+    if (gmtime_r(&now, &utc) && strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc) > 0)
+        json_text(out, "date", text);
+    if (uname(&host) >= 0) {
+        snprintf(text, sizeof text, "%s %s, %s, %ld processors", host.sysname, host.release,
+                 host.machine, sysconf(_SC_NPROCESSORS_ONLN));
+        json_text(out, "machine", text);
+    }
+}
+
+static void summary_case(FILE *out, const mps_job *job)
+{
+    fputs("{\n  \"case\": ", out);
+    json_string(out, job->config.name);
+    json_text(out, "title", job->config.title);
+    if (job->config.command) json_text(out, "command", job->config.command);
+    json_text(out, "model", job->config.model ? job->config.model : "");
+    json_number(out, "dp", job->dp);
+    json_number(out, "gravity", job->config.gravity);
+    fprintf(out, ",\n  \"tank_frame\": %s", job->config.tank_frame ? "true" : "false");
+}
+
+static void summary_write(FILE *out, const mps_job *job)
+{
+    char solver[128];
+    mps__job_solver(job, solver, sizeof solver);
+    summary_case(out, job);
+    summary_counts(out, job);
+    summary_times(out, job);
+    json_text(out, "ppe_solver", solver);
+    json_number(out, "volume_error", job->totals.volume_error);
+    json_number(out, "max_speed", job->totals.max_speed);
+    summary_average(out, job);
+    for (int i = 0; i < job->figures; i++)
+        json_number(out, job->figure[i].name, job->figure[i].measured);
+    json_text(out, "status", job->totals.status);
+    json_text(out, "error", job->error);
+    json_text(out, "version", mps_version(NULL, NULL, NULL));
+    summary_machine(out);
+    summary_boxes(out, job);
+    if (job->picture.pressure_hi > job->picture.pressure_lo)
+        fprintf(out, ",\n  \"pressure_scale\": [%.9g, %.9g]", job->picture.pressure_lo,
+                job->picture.pressure_hi);
+    summary_columns(out, job);
+    if (job->figures > 0) summary_figures(out, job);
+    summary_inputs(out, job);
+    summary_references(out, job);
+    fputs("\n}\n", out);
+}
+
+bool mps__summary_save(mps_job *job)
+{
+    char path[FOLDER_PATH + 32];
+    snprintf(path, sizeof path, "%s/summary.json", job->place.path);
+    FILE *out = fopen(path, "w");
+    if (out) summary_write(out, job);
+    bool failed = !out || ferror(out);
+    if (out && fclose(out) != 0) failed = true;
+    if (failed) mps__job_tell(job, "%s: %s", path, strerror(errno));
+    return !failed;
+}

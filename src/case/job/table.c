@@ -1,0 +1,189 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Rows of tables. */
+#include "table.h"
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { TABLE_ROWS = 8192 }; /* kept in memory; more than a plot has pixels */
+
+static void table_fail(table *t)
+{
+    if (!t->failed) t->error = errno;
+    t->failed = true;
+}
+
+/* Forget every second kept row: a run of any length needs the same memory. */
+static void table_thin(table *t)
+{
+    int64_t half = (t->count + 1) / 2;
+    size_t size = (size_t)t->columns * sizeof *t->kept;
+    for (int64_t i = 1; i < half; i++)
+        memmove(t->kept + i * t->columns, t->kept + 2 * i * t->columns, size);
+    t->count = half;
+    t->stride *= 2;
+}
+
+static void table_keep(table *t, const double *row)
+{
+    if (t->seen++ % t->stride != 0) return;
+    if (t->count == TABLE_ROWS) {
+        table_thin(t);
+        if ((t->seen - 1) % t->stride != 0) return;
+    }
+    memcpy(t->kept + t->count++ * t->columns, row, (size_t)t->columns * sizeof *row);
+}
+
+static bool table_refuse(table *t, const char *why)
+{
+    snprintf(t->why, sizeof t->why, "%s: %s", t->path, why);
+    return false;
+}
+
+bool mps__table_create(table *t, const char *folder, const char *name, int columns, double interval)
+{
+    *t = (table){.columns = columns, .interval = interval, .stride = 1};
+    snprintf(t->path, sizeof t->path, "%s/%s", folder, name);
+    t->before = calloc((size_t)columns, sizeof *t->before);
+    t->row = calloc((size_t)columns, sizeof *t->row);
+    t->kept = calloc((size_t)columns * TABLE_ROWS, sizeof *t->kept);
+    if (t->before && t->row && t->kept) return true;
+    return table_refuse(t, "out of memory");
+}
+
+bool mps__table_begin(table *t, const char *header)
+{
+    t->file = fopen(t->path, "w");
+    if (!t->file) return table_refuse(t, strerror(errno));
+    if (fprintf(t->file, "%s\n", header) > 0) return true;
+    return table_refuse(t, strerror(errno));
+}
+
+void mps__table_append(table *t, const double *row)
+{
+    for (int i = 0; i < t->columns; i++) {
+        if (fprintf(t->file, i ? ",%.17g" : "%.17g", row[i]) < 0) table_fail(t);
+    }
+    if (fputc('\n', t->file) == EOF) table_fail(t);
+    table_keep(t, row);
+}
+
+/* Output times are met within a billionth of the interval, so that 0.1 + 0.2 counts as 0.3. */
+static double table_time(const table *t)
+{
+    return (double)t->next * t->interval;
+}
+
+bool mps__table_wants(const table *t, double time, double ahead)
+{
+    return table_time(t) <= time + ahead + 1e-9 * t->interval;
+}
+
+void mps__table_sample(table *t, const double *row)
+{
+    while (mps__table_wants(t, row[0], 0)) {
+        double time = table_time(t), span = row[0] - t->before[0];
+        double f = t->has_before && span > 0 ? (time - t->before[0]) / span : 1;
+        if (f < 0) f = 0;
+        if (f > 1) f = 1;
+        for (int i = 1; i < t->columns; i++)
+            t->row[i] = f < 1 ? t->before[i] + f * (row[i] - t->before[i]) : row[i];
+        t->row[0] = time;
+        mps__table_append(t, t->row);
+        t->next++;
+    }
+    memcpy(t->before, row, (size_t)t->columns * sizeof *row);
+    t->has_before = true;
+}
+
+/* ---- going on with a file ---------------------------------------------------------------------------------------- */
+
+/* A whole row: a number for each column, and nothing else. */
+static bool table_parse(const char *line, int columns, double *row)
+{
+    for (int i = 0; i < columns; i++) {
+        char *end;
+        row[i] = strtod(line, &end);
+        if (end == line || *end != (i + 1 < columns ? ',' : '\n')) return false;
+        line = end + 1;
+    }
+    return *line == '\0';
+}
+
+/* Take rows as long as they are whole and not later than `time`; t->end is behind the last of them. */
+static bool table_read(table *t, double time, table_row_fn each, void *user)
+{
+    char *line = NULL;
+    size_t size = 0;
+    bool good = true;
+    while (good && getline(&line, &size, t->file) > 0 && table_parse(line, t->columns, t->row)) {
+        if (t->row[0] > time + 1e-9 * t->interval) break;
+        good = t->interval == 0 || t->row[0] == table_time(t);
+        if (!good) break;
+        table_keep(t, t->row);
+        if (each) each(user, t->row);
+        t->next++;
+        t->end = ftell(t->file);
+    }
+    free(line);
+    return good;
+}
+
+static bool table_same_header(table *t, const char *header)
+{
+    char *line = NULL;
+    size_t size = 0, length = strlen(header);
+    bool same = getline(&line, &size, t->file) > 0 && strncmp(line, header, length) == 0 &&
+                strcmp(line + length, "\n") == 0;
+    free(line);
+    t->end = ftell(t->file);
+    return same;
+}
+
+bool mps__table_resume(table *t, const char *header, double time, table_row_fn each, void *user)
+{
+    t->file = fopen(t->path, "r+");
+    if (!t->file) return table_refuse(t, strerror(errno));
+    if (!table_same_header(t, header)) return table_refuse(t, "has not the columns of this run");
+    if (!table_read(t, time, each, user))
+        return table_refuse(t, "has rows at other times; --probe-dt must be what it was");
+    if (t->interval > 0 && mps__table_wants(t, time, 0))
+        return table_refuse(t, "ends before the checkpoint");
+    return true;
+}
+
+bool mps__table_cut(table *t)
+{
+    if (fseek(t->file, t->end, SEEK_SET) == 0 && ftruncate(fileno(t->file), (off_t)t->end) == 0)
+        return true;
+    return table_refuse(t, strerror(errno));
+}
+
+/* ---- the end ----------------------------------------------------------------------------------------------------- */
+
+void mps__table_flush(table *t)
+{
+    if (fflush(t->file) != 0) table_fail(t);
+}
+
+void mps__table_sync(table *t)
+{
+    mps__table_flush(t);
+    if (fsync(fileno(t->file)) != 0) table_fail(t);
+}
+
+bool mps__table_close(table *t)
+{
+    if (t->file && fclose(t->file) != 0) table_fail(t);
+    t->file = NULL;
+    return !t->failed;
+}
+
+void mps__table_free(table *t)
+{
+    free(t->before);
+    free(t->row);
+    free(t->kept);
+    *t = (table){0};
+}

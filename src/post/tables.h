@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The tables of a run: places of their columns. */
+#ifndef MPS_POST_TABLES_H
+#define MPS_POST_TABLES_H
+
+/* Columns of steps.csv. */
+enum {
+    STEP_T,
+    STEP_DT,
+    STEP_CFL,
+    STEP_ITERATIONS,
+    STEP_RESIDUAL,
+    STEP_DIVERGENCE,
+    STEP_SPEED,
+    STEP_LOST,
+    STEP_CROSSING,
+    STEP_SOLVES,
+    STEP_COLUMNS
+};
+#define STEP_HEADER                                                          \
+    "t[s],dt[s],cfl,ppe_iterations,ppe_residual,ppe_divergence,max_speed[m/" \
+    "s],lost,crossing_time[s],ppe_solves"
+
+/* Places of the common columns in probes.csv, behind those that were added. */
+enum {
+    COLUMN_KE = 1,
+    COLUMN_TANK,
+    COLUMN_PE,
+    COLUMN_WALL_WORK,
+    COLUMN_WALL_WORK_PROBES,
+    COLUMN_VISCOUS,
+    COLUMN_PLUGINS,
+    COLUMN_COLLISION,
+    COLUMN_SHIFT,
+    COLUMN_NUMERICAL,
+    COLUMN_ADDED,
+    COLUMN_VOLUME,
+    COLUMN_COMMON = COLUMN_VOLUME /* number of them */
+};
+
+/* Columns of momentum.csv behind the time, for each axis. */
+enum {
+    MOMENTUM_TOTAL,
+    MOMENTUM_GRAVITY,
+    MOMENTUM_FORCE,
+    MOMENTUM_PLUGINS,
+    MOMENTUM_REACTION,
+    MOMENTUM_PRESSURE,
+    MOMENTUM_WALLS,
+    MOMENTUM_NUMERICAL,
+    MOMENTUM_COLLISION,
+    MOMENTUM_SHIFT,
+    MOMENTUM_ADDED,
+    MOMENTUM_COLUMNS
+};
+
+#endif
