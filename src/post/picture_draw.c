@@ -79,6 +79,7 @@ static void lay_space(layout *l, const scene *s, double room)
                      height = fmin(half * fmax(high, 1 / aspect), TALLEST * u);
         l->space = (pixel_box){20 * u, TOP * u, half + 30 * u, height};
         fit_slice(l, s, l->space.x + l->space.width + LEFT * u, TOP * u, half - 20 * u, height);
+        l->slice.box.y += 0.5 * (height - l->slice.box.height);
         place_bar(l, l->slice.box.x + l->slice.box.width, TOP * u, height);
         l->height = even((TOP + BOTTOM) * u + height);
     } else {
@@ -143,12 +144,17 @@ static void draw_sensors(canvas *c, const plane *v, const scene *s)
         }
 }
 
+static bool is_turned(const scene *s)
+{
+    return fabs(s->pose.turn[3]) > 1e-3 || fabs(s->pose.turn[5]) > 1e-3;
+}
+
 /* Where the tank is turned: the direction of gravity in its frame, R^T (0, -1, 0), beside the time. */
 static void draw_gravity(canvas *c, const scene *s, double x, double y)
 {
     const text_style style = {.size = 15, .place = TEXT_RIGHT, .ink = mps__grey};
     const double gx = -s->pose.turn[3], gy = -s->pose.turn[4], half = 16 * c->unit;
-    if (!(fabs(gx) > 1e-3 || fabs(s->pose.turn[5]) > 1e-3)) return;
+    if (!is_turned(s)) return;
     mps__canvas_arrow(c, x - half * gx, y + half * gy, x + half * gx, y - half * gy, mps__grey);
     mps__canvas_text(c, x - 16 * c->unit, y + 5 * c->unit, style, 0, "gravity");
 }
@@ -167,7 +173,9 @@ static void draw_head(canvas *c, const scene *s)
     draw_gravity(c, s, c->width - 2.2 * margin - used, foot - 8 * c->unit);
     style.place = TEXT_LEFT;
     style.bold = true;
-    mps__canvas_text(c, margin, foot, style, c->width - 8 * margin - used, s->title);
+    const double room = c->width - (is_turned(s) ? 8 : 3) * margin - used;
+    while (style.size > 15 && mps__canvas_text_width(c, style, s->title) > room) style.size--;
+    mps__canvas_text(c, margin, foot, style, room, s->title);
 }
 
 static mps_status draw_all(canvas *c, const layout *l, const scene *s, page_errors *e)

@@ -105,16 +105,21 @@ static void draw_sphere(const view *v, const sphere *ball)
         }
 }
 
-/* The outside of the tank: what looks at the reader is left out, the rest is a pale shell, darker below and to the right.
+/* The outside of the tank: what looks at the reader alone is left out, the rest is a pale shell, darker below and to the right.
  * @return false: left out */
 static bool dress_wall(const view *v, const hull *h, int64_t i, sphere *ball)
 {
     const scene *s = v->s;
     double out[3], n[3], length = 0, light;
+    int away = 0, sides = 0;
     mps__hull_outwards(h, s->x + 3 * i, out);
     ball->ink = (colour){0.60, 0.62, 0.65};
-    if (out[0] == 0 && out[1] == 0 && out[2] == 0) return true;
-    if (along(v->at.near, out) > 0.01) return false;
+    for (int d = 0; d < 3; d++) {
+        sides += out[d] != 0;
+        away += out[d] * v->at.near[d] < 0;
+    }
+    if (sides == 0) return true;
+    if (away == 0) return false;
     for (int d = 0; d < 3; d++) {
         n[d] = (2 * (double)s->x[3 * i + d] - s->lo[d] - s->hi[d]) / (s->hi[d] - s->lo[d] + s->dp);
         length += n[d] * n[d];
