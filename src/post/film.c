@@ -38,14 +38,14 @@ static mps_status check(const char *folder, const mps_film_config *config, page_
 typedef struct making {
     const mps_film_config *config;
     const film *f;
-    const char *path; /* where it is written, until it is complete */
+    const char *url; /* of the file that is written until the film is complete */
     page_errors *e;
     mps_picture_config picture; /* of all frames */
     scene s;
     film_frame frame;
     film_pipe pipe;
     bool started;
-    int width, height;
+    double lo[3], hi[3]; /* what the first picture shows */
 } making;
 
 static double rate_of(const making *m)
@@ -65,7 +65,6 @@ static const char *pixel_format(void)
     return first ? "bgr0" : "0rgb";
 }
 
-/* The sizes are those of the first picture; all others have the same. */
 static mps_status start(making *m, const canvas *c)
 {
     char size[WORD], rate[WORD];
@@ -106,10 +105,8 @@ static mps_status start(making *m, const canvas *c)
                                 "+faststart",
                                 "-f",
                                 "mp4",
-                                m->path,
+                                m->url,
                                 NULL};
-    m->width = c->width;
-    m->height = c->height;
     const mps_status status = mps__pipe_start(&m->pipe, argv, m->e);
     m->started = status == MPS_OK;
     return status;
@@ -128,9 +125,6 @@ static mps_status send_picture(making *m, canvas *c)
 {
     mps_status status = m->started ? MPS_OK : start(m, c);
     if (status != MPS_OK) return status;
-    if (c->width != m->width || c->height != m->height)
-        return mps__page_fail(m->e, MPS_E_IO,
-                              "no film: the walls of the tank are not the same in all frames");
     cairo_surface_flush(c->surface);
     return send_rows(m, c) ? MPS_OK : MPS_E_IO;
 }
@@ -143,6 +137,13 @@ static mps_status add_frame(making *m, int64_t k)
     if (status != MPS_OK) return status;
     if (!mps__scene_end(&m->s))
         return mps__page_fail(m->e, MPS_E_ARG, "no film: a frame has no particle");
+    if (!m->started) {
+        memcpy(m->lo, m->s.lo, sizeof m->lo);
+        memcpy(m->hi, m->s.hi, sizeof m->hi);
+    }
+    /* the same in all pictures, to the last digit: so they have one size */
+    memcpy(m->s.lo, m->lo, sizeof m->lo);
+    memcpy(m->s.hi, m->hi, sizeof m->hi);
     if (!mps__scene_scale(&m->s, &m->picture))
         return mps__page_fail(m->e, MPS_E_NOMEM, "no memory for a picture");
     status = mps__scene_draw(&m->s, m->config->width, &c, m->e);
@@ -174,16 +175,17 @@ static mps_status make(const film *f, const mps_film_config *config, const char 
                        page_errors *e)
 {
     const size_t length = strlen(path);
-    char *temporary = malloc(length + 5);
-    if (!temporary) return mps__page_fail(e, MPS_E_NOMEM, "no memory for a film");
-    memcpy(temporary, path, length);
-    memcpy(temporary + length, ".tmp", 5);
-    making m = {.config = config, .f = f, .path = temporary, .e = e};
+    char *url = malloc(length + 10);
+    if (!url) return mps__page_fail(e, MPS_E_NOMEM, "no memory for a film");
+    /* with "file:" ffmpeg takes no name for an option or an address */
+    snprintf(url, length + 10, "file:%s.tmp", path);
+    const char *temporary = url + strlen("file:");
+    making m = {.config = config, .f = f, .url = url, .e = e};
     mps_status status = add_frames(&m);
     if (status == MPS_OK && rename(temporary, path) != 0)
         status = mps__page_fail(e, MPS_E_IO, "cannot write '%s': %s", path, strerror(errno));
     if (status != MPS_OK) remove(temporary);
-    free(temporary);
+    free(url);
     return status;
 }
 

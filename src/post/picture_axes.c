@@ -14,13 +14,21 @@ double mps__plane_y(const plane *v, double y)
     return v->box.y + (v->hi[1] - y) * v->scale;
 }
 
-double mps__axes_step(double range, double most)
+void mps__axes_ticks(ticks *t, double lo, double hi, double most)
 {
-    static const double nice[] = {1, 2, 5};
-    double power = pow(10, floor(log10(range / most)));
-    for (;; power *= 10)
-        for (int k = 0; k < 3; k++)
-            if (range <= most * power * nice[k] * (1 + 1e-9)) return power * nice[k];
+    static const double nice[] = {1, 2, 5, 10};
+    const double least = (hi - lo) / fmin(fmax(most, 1), AXES_TICKS - 2),
+                 power = pow(10, floor(log10(least)));
+    int k = 0;
+    while (k < 3 && nice[k] * power * (1 + 1e-9) < least) k++;
+    *t = (ticks){.step = nice[k] * power};
+    const double first = ceil(lo / t->step - 1e-9);
+    for (int i = 0; i < AXES_TICKS; i++) {
+        const double value = (first + i) * t->step;
+        if (value > hi + 1e-9 * t->step) break;
+        if (i > 0 && !(value > t->value[i - 1])) break; /* far from zero steps are rounding */
+        t->value[t->count++] = value;
+    }
 }
 
 /* A number as its step needs it, with a minus sign as it is printed. */
@@ -48,14 +56,14 @@ static void draw_x(canvas *c, const plane *v, double unit, const char *name)
 {
     const text_style style = {.size = small, .place = TEXT_MIDDLE, .ink = mps__grey};
     const double foot = v->box.y + v->box.height + gap * c->unit, right = v->box.x + v->box.width;
-    const double lo = v->lo[0] / unit, hi = v->hi[0] / unit,
-                 step = mps__axes_step(hi - lo, v->box.width / (80 * c->unit));
     char text[48];
+    ticks t;
+    mps__axes_ticks(&t, v->lo[0] / unit, v->hi[0] / unit, v->box.width / (80 * c->unit));
     mps__canvas_line(c, v->box.x, foot, right, foot, 1, mps__grey);
-    for (double k = ceil(lo / step - 1e-9); k * step <= hi + 1e-9 * step; k++) {
-        const double x = mps__plane_x(v, k * step * unit);
+    for (int k = 0; k < t.count; k++) {
+        const double x = mps__plane_x(v, t.value[k] * unit);
         mps__canvas_line(c, x, foot, x, foot + tick * c->unit, 1, mps__grey);
-        print_number(text, k * step, step);
+        print_number(text, t.value[k], t.step);
         mps__canvas_text(c, x, foot + (tick + 16) * c->unit, style, 0, text);
     }
     snprintf(text, sizeof text, "x [%s]", name);
@@ -67,14 +75,14 @@ static void draw_y(canvas *c, const plane *v, double unit, const char *name)
 {
     const text_style style = {.size = small, .place = TEXT_RIGHT, .ink = mps__grey};
     const double left = v->box.x - gap * c->unit, foot = v->box.y + v->box.height;
-    const double lo = v->lo[1] / unit, hi = v->hi[1] / unit,
-                 step = mps__axes_step(hi - lo, fmax(1, v->box.height / (75 * c->unit)));
     char text[48];
+    ticks t;
+    mps__axes_ticks(&t, v->lo[1] / unit, v->hi[1] / unit, v->box.height / (75 * c->unit));
     mps__canvas_line(c, left, v->box.y, left, foot, 1, mps__grey);
-    for (double k = ceil(lo / step - 1e-9); k * step <= hi + 1e-9 * step; k++) {
-        const double y = mps__plane_y(v, k * step * unit);
+    for (int k = 0; k < t.count; k++) {
+        const double y = mps__plane_y(v, t.value[k] * unit);
         mps__canvas_line(c, left - tick * c->unit, y, left, y, 1, mps__grey);
-        print_number(text, k * step, step);
+        print_number(text, t.value[k], t.step);
         mps__canvas_text(c, left - (tick + 4) * c->unit, y + 0.36 * small * c->unit, style, 0,
                          text);
     }
@@ -128,13 +136,14 @@ static void draw_numbers(canvas *c, const scene *s, double x, double top, double
 {
     const text_style style = {.size = small, .ink = mps__grey};
     const char *name = "Pa";
-    const double unit = pressure_unit(s, &name), lo = s->p_lo / unit, hi = s->p_hi / unit,
-                 step = mps__axes_step(hi - lo, fmax(1, height / (45 * c->unit)));
+    const double unit = pressure_unit(s, &name), lo = s->p_lo / unit, hi = s->p_hi / unit;
     char text[48];
-    for (double k = ceil(lo / step - 1e-9); k * step <= hi + 1e-9 * step; k++) {
-        const double y = top + height * (hi - k * step) / (hi - lo);
+    ticks t;
+    mps__axes_ticks(&t, lo, hi, height / (45 * c->unit));
+    for (int k = 0; k < t.count; k++) {
+        const double y = top + height * (hi - t.value[k]) / (hi - lo);
         mps__canvas_line(c, x, y, x + tick * c->unit, y, 1, mps__grey);
-        print_number(text, k * step, step);
+        print_number(text, t.value[k], t.step);
         mps__canvas_text(c, x + (tick + 4) * c->unit, y + 0.36 * small * c->unit, style, 0, text);
     }
 }

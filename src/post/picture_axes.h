@@ -18,8 +18,15 @@ typedef struct plane {
 double mps__plane_x(const plane *v, double x);
 double mps__plane_y(const plane *v, double y);
 
-/* Step between ticks, 1, 2 or 5 times a power of ten: at most `most` of them over a range > 0. */
-double mps__axes_step(double range, double most);
+enum { AXES_TICKS = 64 };
+
+/* Round numbers from lo to hi, of a step of 1, 2 or 5 times a power of ten: about `most` of them. */
+typedef struct ticks {
+    int count;
+    double step, value[AXES_TICKS];
+} ticks;
+
+void mps__axes_ticks(ticks *t, double lo, double hi, double most);
 /* Ticks, numbers and units left of and below a view. */
 void mps__axes_draw(canvas *c, const plane *v);
 /* The colour of a pressure of a phase. */

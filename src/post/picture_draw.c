@@ -83,7 +83,7 @@ static void lay_space(layout *l, const scene *s, double room)
         place_bar(l, l->slice.box.x + l->slice.box.width, TOP * u, height);
         l->height = even((TOP + BOTTOM) * u + height);
     } else {
-        const double height = fmin(room / aspect, 0.55 * TALLEST * u);
+        const double height = fmax(fmin(room / aspect, 0.55 * TALLEST * u), 40 * u);
         l->space = (pixel_box){LEFT * u, (TOP - 20) * u, room, height};
         fit_slice(l, s, LEFT * u, (TOP + 50) * u + height, room, 0.45 * TALLEST * u);
         l->slice.box.x += 0.5 * (room - l->slice.box.width);

@@ -53,7 +53,8 @@ mps_status mps__scene_of_run(scene *s, const film *f)
 {
     const page_run *run = f->run;
     const char *title = mps__page_string(run, "title");
-    *s = (scene){.dim = f->dim, .dp = f->dp};
+    *s = (scene){
+        .dim = f->dim, .dp = f->dp, .phases = f->phases < SCENE_PHASES ? f->phases : SCENE_PHASES};
     if (!title[0]) title = mps__page_string(run, "case");
     snprintf(s->title, sizeof s->title, "%s", title);
     memcpy(s->run_lo, f->lo, sizeof s->run_lo);

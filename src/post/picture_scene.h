@@ -31,7 +31,7 @@ typedef struct scene {
     int32_t sensors;
     scene_sensor *sensor;
     /* by mps__scene_end(): */
-    int32_t phases;      /* the highest number in the fluid, plus one */
+    int32_t phases;      /* the highest number in the fluid, plus one; of a run: in all of it */
     double lo[3], hi[3]; /* what is in the picture */
     /* by mps__scene_scale(): */
     double p_lo, p_hi;

@@ -99,8 +99,9 @@ static void each_allocation(void **state)
         mps_sim *sim = wet_tank(dim);
         add_sensor(sim, MPS_PROBE_WALL_PRESSURE, "P1", 0, 0.4, 0.2);
         write_folder(folder, sim, 2, "");
-        write_text(folder, "program",
-                   "#!/bin/sh\ncat >/dev/null\nfor last do :; done\necho film >\"$last\"\n");
+        write_text(
+            folder, "program",
+            "#!/bin/sh\ncat >/dev/null\nfor last do :; done\necho film >\"${last#file:}\"\n");
         assert_int_equal(chmod("test_picture_memory_run/program", 0755), 0);
         assert_true(fail_each(sim, draw_state, path) >= 3);
         assert_true(fail_each(sim, draw_frame, path) >= 10);
