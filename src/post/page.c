@@ -29,27 +29,55 @@ mps_status mps_page_info_init(mps_page_info *info, size_t size)
     return MPS_OK;
 }
 
-/* Text that grows in memory. */
+/* A part of the page, in a file without a name. Not in memory: a stream to memory does not tell every failure. */
 typedef struct part {
     FILE *out;
-    char *text;
-    size_t size;
+    int64_t size;
 } part;
 
-static bool part_open(part *p)
+static mps_status part_fail(const page_run *r)
 {
-    *p = (part){0};
-    p->out = open_memstream(&p->text, &p->size);
-    return p->out != NULL;
+    return mps__page_fail(r->errors, MPS_E_IO, "cannot write a part of the page in '%s': %s",
+                          r->folder, strerror(errno));
 }
 
-/* @return status, or MPS_E_NOMEM where not all of the text is there */
-static mps_status part_close(part *p, page_errors *e, mps_status status)
+static mps_status part_open(part *p, const page_run *r)
 {
-    const bool failed = ferror(p->out) != 0;
-    if ((fclose(p->out) != 0 || failed) && status == MPS_OK)
-        return mps__page_fail(e, MPS_E_NOMEM, "no memory for the page");
+    char *path = mps__page_path(r->folder, "report.html.part");
+    if (!path) return mps__page_fail(r->errors, MPS_E_NOMEM, "no memory for the page");
+    p->out = fopen(path, "w+b");
+    mps_status status = p->out ? MPS_OK : part_fail(r);
+    if (p->out) remove(path); /* it stays as long as it is open */
+    free(path);
     return status;
+}
+
+/* All of the part is written. @return status, or MPS_E_IO */
+static mps_status part_end(part *p, const page_run *r, mps_status status)
+{
+    if (status == MPS_OK && (fflush(p->out) != 0 || ferror(p->out))) status = part_fail(r);
+    if (status == MPS_OK) p->size = ftell(p->out);
+    return status;
+}
+
+/* @return false: it cannot be read back */
+static bool part_copy(const part *p, FILE *out)
+{
+    char block[1 << 14];
+    int64_t left = p->size;
+    rewind(p->out);
+    while (left > 0) {
+        const size_t most = left < (int64_t)sizeof block ? (size_t)left : sizeof block;
+        if (fread(block, 1, most, p->out) != most) return false;
+        fwrite(block, 1, most, out);
+        left -= (int64_t)most;
+    }
+    return true;
+}
+
+static void part_close(part *p)
+{
+    if (p->out) fclose(p->out);
 }
 
 static void write_asset(FILE *out, const unsigned char *data, size_t size)
@@ -110,10 +138,10 @@ static void write_scripts(FILE *out)
 static mps_status write_rest(FILE *out, const page_run *r, int64_t bytes)
 {
     mps__page_sketch(out, r);
-    mps_status status = MPS_OK;
+    mps_status status = mps__page_impacts(out, r);
     mps__page_forces(out, r);
     mps__page_budget(out, r);
-    if (r->frames == 0) status = mps__page_pictures(out, r, bytes / 2);
+    if (status == MPS_OK && r->frames == 0) status = mps__page_pictures(out, r, bytes / 2);
     mps__page_case(out, r);
     fprintf(out,
             "</main>\n<footer>Made by libmps %s. Plots: uPlot, (c) Leon Sorokin, MIT "
@@ -138,13 +166,14 @@ typedef struct page {
     char note[240];
 } page;
 
-static void write_page(FILE *out, const page_run *r, const page *p)
+static bool write_page(FILE *out, const page_run *r, const page *p)
 {
-    fwrite(p->begin.text, 1, p->begin.size, out);
+    bool good = part_copy(&p->begin, out);
     mps__page_stage(out, r, p->shown[0] > 0, p->note);
-    fwrite(p->rest.text, 1, p->rest.size, out);
-    fwrite(p->film.text, 1, p->film.size, out);
+    good = part_copy(&p->rest, out) && good;
+    good = part_copy(&p->film, out) && good;
     fputs("</body></html>\n", out);
+    return good;
 }
 
 static mps_status save(const page_run *r, const page *p, int64_t *bytes)
@@ -158,10 +187,9 @@ static mps_status save(const page_run *r, const page *p, int64_t *bytes)
     else if (!out)
         status = cannot(r, "create", other);
     if (out) {
-        write_page(out, r, p);
+        const bool good = write_page(out, r, p) && fflush(out) == 0 && ferror(out) == 0;
         *bytes = ftell(out);
-        const bool failed = ferror(out) != 0;
-        if (fclose(out) != 0 || failed)
+        if (fclose(out) != 0 || !good)
             status = cannot(r, "write", other);
         else if (rename(other, path) != 0)
             status = cannot(r, "replace", path);
@@ -172,33 +200,34 @@ static mps_status save(const page_run *r, const page *p, int64_t *bytes)
     return status;
 }
 
-static mps_status make_parts(page *p, const page_run *r, const mps_page_config *config)
+static mps_status make_film(page *p, const page_run *r, int64_t bytes, int32_t frames)
 {
     film f;
+    mps_status status = mps__film_survey(&f, r);
+    if (status == MPS_OK) status = part_open(&p->film, r);
+    if (status == MPS_OK)
+        status = mps__film_write(&f, bytes, frames, p->film.out, p->note, sizeof p->note, p->shown);
+    status = part_end(&p->film, r, status);
+    mps__film_free(&f);
+    return status;
+}
+
+static mps_status make_parts(page *p, const page_run *r, const mps_page_config *config)
+{
     enum { STAGE = 6000 }; /* more than the stage and its note need */
-    if (!part_open(&p->begin))
-        return mps__page_fail(r->errors, MPS_E_NOMEM, "no memory for the page");
-    write_begin(p->begin.out, r);
-    mps_status status = part_close(&p->begin, r->errors, MPS_OK);
-    if (status != MPS_OK) return status;
-    if (!part_open(&p->rest))
-        return mps__page_fail(r->errors, MPS_E_NOMEM, "no memory for the page");
-    status = part_close(&p->rest, r->errors, write_rest(p->rest.out, r, config->bytes));
-    const int64_t left = config->bytes - (int64_t)p->begin.size - (int64_t)p->rest.size - STAGE;
+    mps_status status = part_open(&p->begin, r);
+    if (status == MPS_OK) {
+        write_begin(p->begin.out, r);
+        status = part_end(&p->begin, r, status);
+    }
+    if (status == MPS_OK) status = part_open(&p->rest, r);
+    if (status == MPS_OK) status = part_end(&p->rest, r, write_rest(p->rest.out, r, config->bytes));
+    const int64_t left = config->bytes - p->begin.size - p->rest.size - STAGE;
     if (status == MPS_OK && left < 0)
         status = mps__page_fail(r->errors, MPS_E_ARG,
                                 "bytes is %lld: without a film the page has %lld already",
                                 (long long)config->bytes, (long long)(config->bytes - left));
-    if (status != MPS_OK) return status;
-    status = mps__film_survey(&f, r);
-    if (status == MPS_OK && !part_open(&p->film))
-        status = mps__page_fail(r->errors, MPS_E_NOMEM, "no memory for the page");
-    else if (status == MPS_OK)
-        status = part_close(&p->film, r->errors,
-                            mps__film_write(&f, left, config->frames, p->film.out, p->note,
-                                            sizeof p->note, p->shown));
-    mps__film_free(&f);
-    return status;
+    return status == MPS_OK ? make_film(p, r, left, config->frames) : status;
 }
 
 static void fill_info(mps_page_info *info, const page *p, int64_t bytes)
@@ -220,9 +249,9 @@ static mps_status write_folder(const char *folder, const mps_page_config *config
     if (status == MPS_OK) status = make_parts(&p, &r, config);
     if (status == MPS_OK) status = save(&r, &p, &bytes);
     if (status == MPS_OK) fill_info(info, &p, bytes);
-    free(p.begin.text);
-    free(p.film.text);
-    free(p.rest.text);
+    part_close(&p.begin);
+    part_close(&p.film);
+    part_close(&p.rest);
     mps__page_run_free(&r);
     return status;
 }

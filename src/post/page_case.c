@@ -48,19 +48,18 @@ static void table_end(FILE *out)
 
 static void write_fluids(FILE *out, const page_run *r)
 {
-    const json_t *list = json_object_get(r->summary, "phases");
-    for (size_t k = 0; k < json_array_size(list); k++) {
-        const json_t *phase = json_array_get(list, k);
-        const char *name = json_string_value(json_object_get(phase, "name"));
+    const json_value *list = mps__json_get(r->summary, "phases");
+    for (size_t k = 0; k < mps__json_count(list); k++) {
+        const json_value *phase = mps__json_at(list, k);
+        const char *name = mps__json_text(mps__json_get(phase, "name"));
         char density[TEXT_NUMBER], viscosity[TEXT_NUMBER], label[64], text[160];
         snprintf(label, sizeof label, "fluid %d%s%.40s", (int)k, name ? ", " : "",
                  name ? name : "");
         snprintf(
             text, sizeof text, "%s, %s%s",
-            mps__quantity(density, json_number_value(json_object_get(phase, "density")), "kg/m3"),
-            mps__quantity(viscosity, json_number_value(json_object_get(phase, "viscosity")),
-                          "Pa s"),
-            json_is_true(json_object_get(phase, "gas")) ? ", gas" : "");
+            mps__quantity(density, mps__json_number(mps__json_get(phase, "density")), "kg/m3"),
+            mps__quantity(viscosity, mps__json_number(mps__json_get(phase, "viscosity")), "Pa s"),
+            mps__json_true(mps__json_get(phase, "gas")) ? ", gas" : "");
         row(out, label, text);
     }
 }
@@ -85,16 +84,16 @@ static void row_size(FILE *out, const page_run *r)
 
 static void write_inputs(FILE *out, const page_run *r)
 {
-    const json_t *list = json_object_get(r->summary, "inputs");
+    const json_value *list = mps__json_get(r->summary, "inputs");
     table_begin(out, "Inputs");
     row(out, "model", mps__page_string(r, "model"));
     row_number(out, r, "spacing of the particles", "dp", "m");
     row_size(out, r);
     row_number(out, r, "depth of the liquid", "liquid_depth", "m");
     write_fluids(out, r);
-    for (size_t k = 0; k < json_array_size(list); k++) {
-        const char *key = json_string_value(json_object_get(json_array_get(list, k), "key"));
-        const char *value = json_string_value(json_object_get(json_array_get(list, k), "value"));
+    for (size_t k = 0; k < mps__json_count(list); k++) {
+        const char *key = mps__json_text(mps__json_get(mps__json_at(list, k), "key"));
+        const char *value = mps__json_text(mps__json_get(mps__json_at(list, k), "value"));
         if (key && value) row(out, key, value);
     }
     table_end(out);
@@ -139,14 +138,14 @@ static void write_origin(FILE *out, const page_run *r)
 /* The numbers that the case measured for itself. */
 static void write_figures(FILE *out, const page_run *r)
 {
-    const json_t *list = json_object_get(r->summary, "figures");
-    if (json_array_size(list) == 0) return;
+    const json_value *list = mps__json_get(r->summary, "figures");
+    if (mps__json_count(list) == 0) return;
     table_begin(out, "Numbers of this case");
-    for (size_t k = 0; k < json_array_size(list); k++) {
-        const json_t *one = json_array_get(list, k);
-        const char *name = json_string_value(json_object_get(one, "name"));
-        const char *about = json_string_value(json_object_get(one, "about"));
-        const char *unit = json_string_value(json_object_get(one, "unit"));
+    for (size_t k = 0; k < mps__json_count(list); k++) {
+        const json_value *one = mps__json_at(list, k);
+        const char *name = mps__json_text(mps__json_get(one, "name"));
+        const char *about = mps__json_text(mps__json_get(one, "about"));
+        const char *unit = mps__json_text(mps__json_get(one, "unit"));
         char number[TEXT_NUMBER], text[320];
         if (!name) continue;
         const double value = mps__page_number(r, name);

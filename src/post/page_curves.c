@@ -229,24 +229,38 @@ static mps_status write_table(curves *c, const char *name, int64_t rows_most)
     return status;
 }
 
-/* Known points of others, as they stand in the summary, with "<" kept out of the element. */
-static mps_status write_references(FILE *out, const page_run *r)
+/* "[t, value]"; points that are none are left out. */
+static void write_points(FILE *out, const json_value *list)
 {
-    const json_t *list = json_object_get(r->summary, "references");
-    if (json_array_size(list) == 0) {
-        fputs("[]", out);
-        return MPS_OK;
+    bool any = false;
+    for (const json_value *p = list ? list->first : NULL; p; p = p->next) {
+        const double t = mps__json_number(mps__json_at(p, 0));
+        const double value = mps__json_number(mps__json_at(p, 1));
+        if (!isfinite(t) || !isfinite(value)) continue;
+        fprintf(out, any ? ", [%.9g, %.9g]" : "[%.9g, %.9g]", t, value);
+        any = true;
     }
-    char *text = json_dumps(list, JSON_COMPACT | JSON_REAL_PRECISION(9));
-    if (!text) return no_memory(r);
-    for (const char *c = text; *c; c++) {
-        if (*c == '<')
-            fputs("\\u003c", out);
-        else
-            fputc(*c, out);
+}
+
+/* Known points of others. */
+static void write_references(FILE *out, const page_run *r)
+{
+    const json_value *list = mps__json_get(r->summary, "references");
+    fputc('[', out);
+    for (const json_value *one = list ? list->first : NULL; one; one = one->next) {
+        const char *label = mps__json_text(mps__json_get(one, "label"));
+        const char *unit = mps__json_text(mps__json_get(one, "unit"));
+        const char *column = mps__json_text(mps__json_get(one, "column"));
+        fputs(one == list->first ? "{" : ",\n{", out);
+        write_member(out, "label", label ? label : "reference");
+        write_member(out, "unit", unit ? unit : "");
+        if (column) write_member(out, "column", column);
+        fprintf(out, "\"line\": %s, \"points\": [",
+                mps__json_true(mps__json_get(one, "line")) ? "true" : "false");
+        write_points(out, mps__json_get(one, "points"));
+        fputs("]}", out);
     }
-    free(text);
-    return MPS_OK;
+    fputc(']', out);
 }
 
 mps_status mps__page_curves(FILE *out, const page_run *r, int64_t bytes)
@@ -268,7 +282,7 @@ mps_status mps__page_curves(FILE *out, const page_run *r, int64_t bytes)
         status = write_table(&c, all[k].name, k == 0 ? rows : rows / 4 + ROWS_LEAST);
     }
     fputs("],\n\"references\": ", out);
-    if (status == MPS_OK) status = write_references(out, r);
+    write_references(out, r);
     fprintf(out, ",\n\"skip\": %.9g}</script>\n", 0.005 * fmax(mps__page_number(r, "t_end"), 0));
     return status;
 }

@@ -248,9 +248,9 @@ static mps_status survey_frames(film *f, film_frame *s)
 /* The scale that pictures of the run have, if the summary knows it. */
 static void take_given_scale(film *f)
 {
-    const json_t *list = json_object_get(f->run->summary, "pressure_scale");
-    const double lo = json_number_value(json_array_get(list, 0)),
-                 hi = json_number_value(json_array_get(list, 1));
+    const json_value *list = mps__json_get(f->run->summary, "pressure_scale");
+    const double lo = mps__json_number(mps__json_at(list, 0)),
+                 hi = mps__json_number(mps__json_at(list, 1));
     if (!(hi > lo)) return;
     f->pressure.lo = lo;
     f->pressure.hi = hi;

@@ -67,7 +67,8 @@ int64_t mps__film_find(const film_index *index, double id);
 /* A point in the frame of the tank. */
 void mps__film_to_tank(const film_pose *pose, const double x[3], double out[3]);
 
-/* Pack the film into at most `bytes` bytes of the page, written to `out`; what was left out goes to `note`.
+/* Pack the film into at most `bytes` bytes of the page; what was left out goes to `note`.
+ * @param out    an empty file that can be read and cut
  * @param shown  frames and particles in it */
 mps_status mps__film_write(const film *f, int64_t bytes, int32_t frames, FILE *out, char *note,
                            size_t note_size, int64_t shown[2]);

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum {
     FINE = 12,
@@ -272,13 +273,13 @@ static void packing_free(packing *p)
     free(p->value);
 }
 
-/* Pack by a plan. @param share  bytes of the whole film, of those that there are: above 1 it does not fit */
-static mps_status try_plan(const film *f, const plan *how, int64_t bytes, char **text, size_t *size,
-                           double *share)
+/* Pack by a plan, in place of what `out` holds.
+ * @param share  bytes of the whole film, of those that there are: above 1 it does not fit */
+static mps_status try_plan(const film *f, const plan *how, int64_t bytes, FILE *out, double *share)
 {
     packing p;
-    FILE *out = open_memstream(text, size);
-    if (!out) return no_memory(f);
+    rewind(out);
+    if (ftruncate(fileno(out), 0) != 0) return MPS_E_IO; /* the caller tells */
     mps_status status = packing_create(&p, f, how, out);
     p.most = bytes;
     if (status == MPS_OK) {
@@ -287,8 +288,7 @@ static mps_status try_plan(const film *f, const plan *how, int64_t bytes, char *
     }
     if (status == MPS_OK) status = pack_ids(&p);
     if (status == MPS_OK) status = pack_frames(&p);
-    if ((ferror(out) | fclose(out)) != 0 && status == MPS_OK) status = no_memory(f);
-    *share = (double)*size / (double)bytes * (double)p.frames / (double)(p.done ? p.done : 1);
+    *share = (double)ftell(out) / (double)bytes * (double)p.frames / (double)(p.done ? p.done : 1);
     packing_free(&p);
     return status;
 }
@@ -345,16 +345,15 @@ mps_status mps__film_write(const film *f, int64_t bytes, int32_t frames, FILE *o
     note[0] = '\0';
     if (f->moving.count == 0) return MPS_OK;
     while (status == MPS_OK && more && share > 1) {
-        char *text = NULL;
-        size_t size = 0;
-        status = try_plan(f, &how, bytes, &text, &size, &share);
-        if (status == MPS_OK && share <= 1) {
-            fwrite(text, 1, size, out);
-            shown[0] = (f->run->frames + how.step - 1) / how.step;
-            shown[1] = (f->moving.count + how.every - 1) / how.every;
-        }
-        free(text);
-        if (share > 1) more = less(f, &how, share);
+        status = try_plan(f, &how, bytes, out, &share);
+        if (status == MPS_OK && share > 1) more = less(f, &how, share);
+    }
+    if (status == MPS_OK && share <= 1) {
+        shown[0] = (f->run->frames + how.step - 1) / how.step;
+        shown[1] = (f->moving.count + how.every - 1) / how.every;
+    } else if (status == MPS_OK) {
+        rewind(out);
+        if (ftruncate(fileno(out), 0) != 0) status = MPS_E_IO;
     }
     if (shown[0] > 0)
         describe(f, &how, first_step, note, note_size);

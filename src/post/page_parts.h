@@ -11,6 +11,10 @@ const char *mps__page_title(const page_run *r);
 void mps__page_head(FILE *out, const page_run *r);
 /* Lights: what is good, what is not, and what to do. */
 void mps__page_verdict(FILE *out, const page_run *r);
+/* Time in which liquid crosses a spacing, at t [s]; NAN: not known. */
+double mps__page_crossing(const page_run *r, double t);
+/* True if the highest peak of a sensor is steep. */
+bool mps__page_has_impacts(const page_run *r);
 /* Stage of the film, its controls, and room for the curves beside it. */
 void mps__page_stage(FILE *out, const page_run *r, bool has_film, const char *note);
 /* Tank, level and sensors. */
@@ -18,6 +22,8 @@ void mps__page_sketch(FILE *out, const page_run *r);
 /* Table of the largest and least values of some columns. */
 void mps__page_extremes(FILE *out, const page_run *r, const char *caption,
                         bool (*wanted)(const page_column *c));
+/* Events of the sensors, the distribution of their peaks, and the highest ones. */
+mps_status mps__page_impacts(FILE *out, const page_run *r);
 /* Curves of forces and moments with their extremes. */
 void mps__page_forces(FILE *out, const page_run *r);
 /* Where the energy went, in words. */

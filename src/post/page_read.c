@@ -73,42 +73,42 @@ mps_status mps__page_file(page_errors *e, const char *path, int64_t most, char *
 
 double mps__page_number(const page_run *r, const char *key)
 {
-    const json_t *value = json_object_get(r->summary, key);
-    return json_is_number(value) ? json_number_value(value) : NAN;
+    const json_value *value = mps__json_get(r->summary, key);
+    return mps__json_number(value);
 }
 
 const char *mps__page_string(const page_run *r, const char *key)
 {
-    const char *text = json_string_value(json_object_get(r->summary, key));
+    const char *text = mps__json_text(mps__json_get(r->summary, key));
     return text ? text : "";
 }
 
-static const char *text_in(const json_t *object, const char *key)
+static const char *text_in(const json_value *object, const char *key)
 {
-    const char *text = json_string_value(json_object_get(object, key));
+    const char *text = mps__json_text(mps__json_get(object, key));
     return text ? text : "";
 }
 
 /* Three numbers. @return false if there are none */
-static bool vector_in(const json_t *object, const char *key, double out[3])
+static bool vector_in(const json_value *object, const char *key, double out[3])
 {
-    const json_t *list = json_object_get(object, key);
+    const json_value *list = mps__json_get(object, key);
     for (size_t d = 0; d < 3; d++) {
-        const json_t *value = json_array_get(list, d);
-        if (!json_is_number(value)) return false;
-        out[d] = json_number_value(value);
+        const json_value *value = mps__json_at(list, d);
+        out[d] = mps__json_number(value);
+        if (!isfinite(out[d])) return false;
     }
     return true;
 }
 
 static mps_status read_columns(page_run *r)
 {
-    const json_t *list = json_object_get(r->summary, "columns");
-    const size_t count = json_array_size(list);
+    const json_value *list = mps__json_get(r->summary, "columns");
+    const size_t count = mps__json_count(list);
     r->column = calloc(count + 1, sizeof *r->column);
     if (!r->column) return no_memory(r->errors);
     for (size_t k = 0; k < count; k++) {
-        const json_t *one = json_array_get(list, k);
+        const json_value *one = mps__json_at(list, k);
         page_column *c = &r->column[r->columns++];
         *c = (page_column){.name = text_in(one, "name"),
                            .unit = text_in(one, "unit"),
@@ -117,7 +117,7 @@ static mps_status read_columns(page_run *r)
                            .part = text_in(one, "part")};
         c->has_place = vector_in(one, "at", c->at);
         c->has_normal = vector_in(one, "normal", c->normal);
-        c->diameter = json_number_value(json_object_get(one, "diameter"));
+        c->diameter = mps__json_number(mps__json_get(one, "diameter"));
         c->place = mps__page_table_find(&r->probes, c->name);
     }
     return MPS_OK;
@@ -129,19 +129,21 @@ static mps_status read_summary(page_run *r)
     size_t size = 0;
     if (!path) return no_memory(r->errors);
     mps_status status = mps__page_file(r->errors, path, SERIES_MOST, &text, &size);
-    json_error_t error;
+    json_error error;
     if (status == MPS_E_NAME)
         status = mps__page_fail(r->errors, MPS_E_IO,
                                 "there is no '%s': a page needs the folder of a finished run",
                                 path);
+    if (status == MPS_OK && strlen(text) != size)
+        status = mps__page_fail(r->errors, MPS_E_IO, "'%s' is no text: it has a byte 0", path);
     if (status == MPS_OK) {
-        r->summary = json_loadb(text, size, JSON_REJECT_DUPLICATES, &error);
-        if (!r->summary && json_error_code(&error) == json_error_out_of_memory)
+        r->summary = mps__json_read(text, &error);
+        if (!r->summary && !error.why)
             status = no_memory(r->errors);
-        else if (!json_is_object(r->summary))
+        else if (!r->summary || r->summary->type != JSON_OBJECT)
             status = mps__page_fail(r->errors, MPS_E_IO, "'%s', line %d: %s", path,
                                     r->summary ? 1 : error.line,
-                                    r->summary ? "an object is wanted" : error.text);
+                                    r->summary ? "an object is wanted" : error.why);
     }
     free(text);
     free(path);
@@ -254,7 +256,7 @@ mps_status mps__page_run_read(page_run *r, const char *folder, page_errors *e)
 
 void mps__page_run_free(page_run *r)
 {
-    json_decref(r->summary);
+    mps__json_free(r->summary);
     mps__page_table_free(&r->probes);
     mps__page_table_free(&r->steps);
     mps__page_table_free(&r->momentum);

@@ -3,7 +3,7 @@
 #ifndef MPS_POST_PAGE_READ_H
 #define MPS_POST_PAGE_READ_H
 
-#include <jansson.h>
+#include "page_json.h"
 #include <mps/status.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -40,7 +40,7 @@ typedef struct page_stamp {
 typedef struct page_run {
     const char *folder;
     page_errors *errors;
-    json_t *summary;
+    json_value *summary;
     page_table probes, steps, momentum; /* the last two may be empty */
     int32_t columns;
     page_column *column;

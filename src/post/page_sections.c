@@ -44,9 +44,15 @@ static const char controls[] =
     "<option value=\"lab\">the lab</option></select></label>\n"
     "<label><input id=\"walls-on\" type=\"checkbox\" checked> walls</label>\n"
     "<label><input id=\"marks-on\" type=\"checkbox\" checked> sensors</label>\n"
-    "<span class=\"zoom\"><button id=\"closer\" type=\"button\" aria-label=\"Zoom in\">+</button>"
+    "</div>\n";
+static const char screen[] =
+    "<figure class=\"film\"><div id=\"screen\"><canvas id=\"canvas\" tabindex=\"0\" role=\"img\" "
+    "aria-label=\"Film of the particles\"></canvas><svg id=\"marks\" aria-hidden=\"true\"></svg>"
+    "<div class=\"zoom\"><button id=\"closer\" type=\"button\" aria-label=\"Zoom in\">+</button>"
     "<button id=\"farther\" type=\"button\" aria-label=\"Zoom out\">&#8722;</button>"
-    "<button id=\"whole\" type=\"button\">Whole tank</button></span>\n</div>\n";
+    "<button id=\"whole\" type=\"button\">All</button></div>"
+    "<p id=\"picked\" aria-live=\"polite\"></p><p id=\"waiting\">Unpacking the film</p></div>\n"
+    "<div id=\"scale\"></div>\n";
 
 void mps__page_stage(FILE *out, const page_run *r, bool has_film, const char *note)
 {
@@ -54,14 +60,9 @@ void mps__page_stage(FILE *out, const page_run *r, bool has_film, const char *no
     fputs(has_film ? "Film and curves</h2>\n" : "Curves</h2>\n", out);
     fprintf(out, "<div class=\"%s\">\n", has_film ? "stage" : "stage alone");
     if (has_film) {
-        fputs("<figure class=\"film\"><div id=\"screen\"><canvas id=\"canvas\" tabindex=\"0\" "
-              "role=\"img\" "
-              "aria-label=\"Film of the particles\"></canvas><svg id=\"marks\" "
-              "aria-hidden=\"true\"></svg><p id=\"waiting\">Unpacking the film</p></div>\n"
-              "<div id=\"scale\"></div>\n",
-              out);
+        fputs(screen, out);
         fputs(controls, out);
-        fputs("<p id=\"picked\" aria-live=\"polite\"></p>\n<figcaption>", out);
+        fputs("<figcaption>", out);
         mps__html(out, note);
         fprintf(
             out,
@@ -185,56 +186,44 @@ void mps__page_budget(FILE *out, const page_run *r)
 
 /* ---- pictures ---------------------------------------------------------------------------------------------------- */
 
+/* Write a picture if there is one and it needs no more than what is left of `bytes`. */
 static mps_status write_picture(FILE *out, const page_run *r, const char *name, int64_t *bytes)
 {
+    static const char head[] = "<section id=\"pictures\" aria-labelledby=\"pictures-title\">\n<h2 "
+                               "id=\"pictures-title\">Pictures</h2>\n<div class=\"pictures\">\n";
     char *path = mps__page_path(r->folder, name), *data = NULL;
     size_t size = 0;
     if (!path) return mps__page_fail(r->errors, MPS_E_NOMEM, "no memory for the page");
     mps_status status = mps__page_file(r->errors, path, 64 << 20, &data, &size);
+    const int64_t needed = (int64_t)size * 4 / 3 + 300;
     free(path);
-    if (status != MPS_OK) return status;
-    *bytes -= (int64_t)size * 4 / 3;
-    if (*bytes >= 0) {
-        const codec_bytes all = {.data = (unsigned char *)data, .size = size};
-        fprintf(out,
-                "<figure><img loading=\"lazy\" alt=\"The flow, %s\" src=\"data:image/png;base64,",
-                name);
-        mps__codec_base64(out, &all);
-        fprintf(out, "\"><figcaption>%s</figcaption></figure>\n", name);
+    if (status != MPS_OK || needed > *bytes) {
+        free(data);
+        return status == MPS_OK ? MPS_E_NAME : status;
     }
+    const codec_bytes all = {.data = (unsigned char *)data, .size = size};
+    fprintf(out,
+            "%s<figure><img loading=\"lazy\" alt=\"The flow, %s\" src=\"data:image/png;base64,",
+            strcmp(name, "picture_1.png") == 0 ? head : "", name);
+    mps__codec_base64(out, &all);
+    fprintf(out, "\"><figcaption>%s</figcaption></figure>\n", name);
     free(data);
-    return *bytes >= 0 ? MPS_OK : MPS_E_NAME;
+    *bytes -= needed;
+    return MPS_OK;
 }
 
 mps_status mps__page_pictures(FILE *out, const page_run *r, int64_t bytes)
 {
-    char name[48], *text = NULL;
-    size_t size = 0;
+    char name[48];
     int written = 0;
-    FILE *part = open_memstream(&text, &size);
-    if (!part) return mps__page_fail(r->errors, MPS_E_NOMEM, "no memory for the page");
     mps_status status = MPS_OK;
     for (int k = 1; status == MPS_OK && k <= 100; k++) {
         snprintf(name, sizeof name, "picture_%d.png", k);
-        status = write_picture(part, r, name, &bytes);
+        status = write_picture(out, r, name, &bytes);
         written += status == MPS_OK;
     }
-    if (status == MPS_E_NAME && bytes >= 0) {
-        status = write_picture(part, r, "picture_end.png", &bytes);
-        written += status == MPS_OK;
-    }
-    if ((ferror(part) | fclose(part)) != 0)
-        status = mps__page_fail(r->errors, MPS_E_NOMEM, "no memory for the page");
-    else if (status == MPS_E_NAME)
-        status = MPS_OK;
-    if (status == MPS_OK && written > 0) {
-        fputs("<section id=\"pictures\" aria-labelledby=\"pictures-title\">\n<h2 "
-              "id=\"pictures-title\">"
-              "Pictures</h2>\n<div class=\"pictures\">\n",
-              out);
-        fwrite(text, 1, size, out);
-        fputs("</div>\n</section>\n", out);
-    }
-    free(text);
-    return status;
+    if (status == MPS_E_NAME && written > 0)
+        status = write_picture(out, r, "picture_end.png", &bytes);
+    if (written > 0) fputs("</div>\n</section>\n", out);
+    return status == MPS_E_NAME ? MPS_OK : status;
 }

@@ -135,17 +135,17 @@ static void write_level(const sketch *s, const page_run *r)
 /* Polygons of the tank and its solids, or its box. */
 static void write_outline(const sketch *s, const page_run *r)
 {
-    const json_t *outline = json_object_get(r->summary, "outline");
-    if (json_array_size(outline) == 0)
+    const json_value *outline = mps__json_get(r->summary, "outline");
+    if (mps__json_count(outline) == 0)
         fprintf(s->out, "<rect class=\"tank\" x=\"%d\" y=\"%d\" width=\"%.1f\" height=\"%.1f\"/>\n",
                 MARGIN, TOP, (s->hi[0] - s->lo[0]) * s->scale, (s->hi[1] - s->lo[1]) * s->scale);
-    for (size_t k = 0; k < json_array_size(outline); k++) {
-        const json_t *polygon = json_array_get(outline, k);
+    for (size_t k = 0; k < mps__json_count(outline); k++) {
+        const json_value *polygon = mps__json_at(outline, k);
         fputs("<polygon class=\"tank\" points=\"", s->out);
-        for (size_t i = 0; i < json_array_size(polygon); i++) {
-            const json_t *point = json_array_get(polygon, i);
-            fprintf(s->out, "%.1f,%.1f ", at_x(s, json_number_value(json_array_get(point, 0))),
-                    at_y(s, json_number_value(json_array_get(point, 1))));
+        for (size_t i = 0; i < mps__json_count(polygon); i++) {
+            const json_value *point = mps__json_at(polygon, i);
+            fprintf(s->out, "%.1f,%.1f ", at_x(s, mps__json_number(mps__json_at(point, 0))),
+                    at_y(s, mps__json_number(mps__json_at(point, 1))));
         }
         fputs("\"/>\n", s->out);
     }

@@ -141,6 +141,8 @@ const char *mps__duration(char out[TEXT_NUMBER], double seconds)
     if (!isfinite(seconds) || seconds < 120) return mps__quantity(out, seconds, "s");
     if (minutes < 120)
         snprintf(out, TEXT_NUMBER, "%.0f min", minutes);
+    else if (fmod(minutes, 60) == 0)
+        snprintf(out, TEXT_NUMBER, "%.0f h", minutes / 60);
     else
         snprintf(out, TEXT_NUMBER, "%.0f h %.0f min", floor(minutes / 60), fmod(minutes, 60));
     return out;

@@ -158,8 +158,7 @@ static double rise_of(const page_table *t, int32_t k, double start, double *at)
     return NAN;
 }
 
-/* Time in which liquid crosses a spacing, at t [s]. */
-static double crossing_at(const page_run *r, double t)
+double mps__page_crossing(const page_run *r, double t)
 {
     const page_table *s = &r->steps;
     const int32_t k = mps__page_table_find(s, "crossing_time");
@@ -187,7 +186,7 @@ static light light_impacts(const page_run *r, bool *smooth)
         double at = 0, rise, crossing;
         if (strcmp(c->type, "wall_pressure") != 0 || c->place < 0) continue;
         rise = rise_of(&r->probes, c->place, start, &at);
-        crossing = crossing_at(r, at);
+        crossing = mps__page_crossing(r, at);
         if (!(rise > 0) || !(crossing > 0) || rise / crossing >= least) continue;
         least = rise / crossing;
         l.state = least >= 2.5 ? GOOD : least >= 1 ? LOOK : POOR;
@@ -211,13 +210,20 @@ static light light_impacts(const page_run *r, bool *smooth)
     return l;
 }
 
+bool mps__page_has_impacts(const page_run *r)
+{
+    bool smooth = true;
+    light_impacts(r, &smooth);
+    return !smooth;
+}
+
 static light light_repeats(const page_run *r, bool smooth)
 {
     light l = {.name = "Repeats", .state = smooth ? GOOD : LOOK};
     char number[TEXT_NUMBER];
-    const json_t *repeats = json_object_get(r->summary, "repeats");
-    const double count = json_number_value(json_object_get(repeats, "count"));
-    const double scatter = json_number_value(json_object_get(repeats, "scatter"));
+    const json_value *repeats = mps__json_get(r->summary, "repeats");
+    const double count = mps__json_number(mps__json_get(repeats, "count"));
+    const double scatter = mps__json_number(mps__json_get(repeats, "scatter"));
     if (count > 1) {
         l.state = by_limits(scatter, 0.2, 0.5);
         snprintf(l.value, sizeof l.value, "%.0f runs", count);

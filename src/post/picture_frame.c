@@ -7,15 +7,21 @@
 
 void mps__scene_past_scale(const char *folder, mps_picture_config *config)
 {
-    char *path = mps__page_path(folder, "summary.json");
-    json_t *summary = path ? json_load_file(path, 0, NULL) : NULL;
-    const json_t *list = json_object_get(summary, "pressure_scale"), *lo = json_array_get(list, 0),
-                 *hi = json_array_get(list, 1);
-    if (json_is_number(lo) && json_is_number(hi)) {
-        config->pressure_lo = json_number_value(lo);
-        config->pressure_hi = json_number_value(hi);
+    enum { SUMMARY_MOST = 64 << 20 };
+    char *path = mps__page_path(folder, "summary.json"), *text = NULL;
+    json_error error;
+    json_value *summary = NULL;
+    if (path && mps__page_file(NULL, path, SUMMARY_MOST, &text, NULL) == MPS_OK)
+        summary = mps__json_read(text, &error);
+    const json_value *list = mps__json_get(summary, "pressure_scale");
+    const double lo = mps__json_number(mps__json_at(list, 0)),
+                 hi = mps__json_number(mps__json_at(list, 1));
+    if (hi > lo) {
+        config->pressure_lo = lo;
+        config->pressure_hi = hi;
     }
-    json_decref(summary);
+    mps__json_free(summary);
+    free(text);
     free(path);
 }
 
@@ -27,10 +33,10 @@ static mps_status no_memory(page_errors *e)
 /* Densities, for the names of the bars and for what is rounding. */
 static void take_phases(scene *s, const page_run *run)
 {
-    const json_t *list = json_object_get(run->summary, "phases");
-    for (size_t k = 0; k < SCENE_PHASES && k < json_array_size(list); k++) {
-        const json_t *density = json_object_get(json_array_get(list, k), "density");
-        if (json_is_number(density)) s->density[k] = json_number_value(density);
+    const json_value *list = mps__json_get(run->summary, "phases");
+    for (size_t k = 0; k < SCENE_PHASES && k < mps__json_count(list); k++) {
+        const double density = mps__json_number(mps__json_get(mps__json_at(list, k), "density"));
+        if (density > 0) s->density[k] = density;
     }
 }
 

@@ -60,7 +60,7 @@ export async function readGroups(data) {
 function addReferences(g, references) {
     const mine = references.filter((r) => r.column ? g.series.some((s) => s.name === r.column) : r.unit === g.unit && g.place === "main" && !g.plot);
     if (!mine.length) return;
-    const points = mine.map((r) => new Map(r.points ?? r.t.map((t, i) => [t, r.value[i]])));
+    const points = mine.map((r) => new Map(r.points));
     const all = [...new Set([...g.t, ...points.flatMap((p) => [...p.keys()])])].sort((a, b) => a - b);
     const from = new Map(g.t.map((t, i) => [t, i]));
     for (const s of g.series) {
@@ -116,7 +116,7 @@ export class Charts {
         }).join("; "));
         box.append(head, room, legend);
         place.append(box);
-        const chart = {g, box, room, legend, factor, p, hidden: new Set()};
+        const chart = {g, box, room, legend, factor, p, most, hidden: new Set()};
         chart.plot = new uPlot(this.options(chart), [g.t, ...g.series.map((s) => s.values)], room);
         chart.line = document.createElement("div");
         chart.line.className = "now";
@@ -211,7 +211,7 @@ export class Charts {
         if (index === null || index === undefined) index = this.t === null ? null : nearest(g.t, this.t);
         chart.buttons?.forEach((b, k) => {
             const v = index === null ? null : g.series[k].values[index];
-            b.lastChild.textContent = v === null || v === undefined ? "" : rounded(v * chart.factor);
+            b.lastChild.textContent = v === null || v === undefined ? "" : rounded(Math.abs(v) < 5e-4 * chart.most ? 0 : v * chart.factor);
         });
     }
 

@@ -229,7 +229,7 @@ function bindControls() {
         drawScale();
         view.draw();
     });
-    on("seen", "change", (e) => { view.seen = e.target.value; view.draw(); });
+    on("seen", "change", (e) => { view.seen = e.target.value; reset(); });
     on("walls-on", "change", (e) => { view.showWalls = e.target.checked; view.draw(); });
     on("marks-on", "change", drawMarks);
     on("closer", "click", () => view.zoomBy(1.3));
@@ -311,6 +311,7 @@ async function openCurves() {
     state.charts = new Charts(groups, data.skip, setTime);
     byId("all-time").addEventListener("click", () => state.charts.setRange(null));
     for (const d of document.querySelectorAll("details")) d.addEventListener("toggle", () => state.charts.setTime(state.charts.t));
+    for (const b of document.querySelectorAll(".moment")) b.addEventListener("click", () => setTime(Number(b.dataset.time)));
     bindSketch();
     document.documentElement.dataset.curves = "all";
 }

@@ -177,8 +177,25 @@ export class View {
 
     // Bounds of what is shown: the tank with three spacings about it.
     bounds() {
-        const margin = 3 * this.data.dp;
-        return {lo: this.box.lo.map((v) => v - margin), hi: this.box.hi.map((v) => v + margin)};
+        const margin = 3 * this.data.dp, box = this.seen === "lab" ? this.swept() : this.box;
+        return {lo: box.lo.map((v) => v - margin), hi: box.hi.map((v) => v + margin)};
+    }
+
+    // Where the tank comes to, in the frame of the lab.
+    swept() {
+        if (this.sweptBox) return this.sweptBox;
+        const out = {lo: [...this.box.lo], hi: [...this.box.hi]};
+        for (const p of this.data.poses) {
+            for (let i = 0; i < 8; i++) {
+                const X = [0, 1, 2].map((d) => i >> d & 1 ? this.box.hi[d] : this.box.lo[d]);
+                for (let d = 0; d < 3; d++) {
+                    const v = dot(p.slice(3 * d, 3 * d + 3), X) + p[9 + d];
+                    out.lo[d] = Math.min(out.lo[d], v);
+                    out.hi[d] = Math.max(out.hi[d], v);
+                }
+            }
+        }
+        return this.sweptBox = out;
     }
 
     whole() {
@@ -274,7 +291,7 @@ export class View {
         gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
         if (solid) gl.enable(gl.DEPTH_TEST);
         const turned = [0, 3, 6, 1, 4, 7, 2, 5, 8].map((k) => turn[k]);
-        if (solid && this.showWalls) this.drawEdges(m, turned, shift);
+        if (solid && this.showWalls && this.inner) this.drawEdges(m, turned, shift);
         const {p, at} = this.points;
         gl.useProgram(p);
         gl.uniformMatrix4fv(at.camera, false, m);
