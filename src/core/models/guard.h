@@ -6,13 +6,15 @@
 
 #include "host.h"
 
-/* Copies of all arrays that a verb may not write. */
+/* Copies of all arrays that a verb may not write, one behind the other. */
 typedef struct mps__guard {
+    char *copies;
+    size_t element; /* bytes of a particle in all of them */
     int32_t count;
     struct mps__guarded {
         const char *name;
         const void *array;
-        void *copy;
+        size_t before;  /* bytes of a particle in those before it */
         size_t element; /* bytes of a particle */
     } list[MPS__CHANNELS + MPS__FIELDS_MAX];
 } mps__guard;

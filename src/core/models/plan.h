@@ -22,6 +22,7 @@ typedef struct mps__pass {
     int32_t stage; /* MPS_STAGE_... that its time belongs to */
     bool
         everywhere; /* its loops go over ghosts too: what it writes is right there, if what it reads is */
+    bool undeclared; /* it writes fields of particles that no use of it names */
     bool flat; /* its loops see the view and the arrays of its uses only: an engine may run them */
     int32_t use_count;
     const mps_use *uses;

@@ -204,6 +204,7 @@ const mps__pass mps__pass_share = {.name = "share",
                                    .hook = MPS_SHIFT,
                                    .place = MPS__AFTER_MODELS,
                                    .stage = MPS_STAGE_CORRECT,
+                                   .undeclared = true,
                                    .run = share};
 
 typedef struct keep_fields {
@@ -261,6 +262,7 @@ const mps__pass mps__pass_keep = {.name = "keep",
                                   .hook = MPS_SHIFT,
                                   .place = MPS__LAST_OF_STEP,
                                   .stage = MPS_STAGE_CORRECT,
+                                  .undeclared = true,
                                   .everywhere = true,
                                   .use_count = sizeof keep_uses / sizeof keep_uses[0],
                                   .uses = keep_uses,
