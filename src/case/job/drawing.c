@@ -36,7 +36,7 @@ static void begin_pictures(mps_job *job)
     mps_picture_config_init(&job->picture, sizeof job->picture);
     job->picture.title = c->title ? c->title : c->name;
     job->picture.gravity = fabs(c->gravity);
-    if (c->resume) mps__scene_past_scale(job->place.path, &job->picture);
+    if (c->resume) mps__scene_scale_read(job->place.path, &job->picture);
 }
 
 void mps__frames_begin(mps_job *job)
@@ -89,8 +89,14 @@ static void draw(mps_job *job, const char *name)
     snprintf(path, sizeof path, "%s/%s", job->place.path, name);
     config->error = error;
     config->error_size = sizeof error;
-    const mps_status status = mps_picture_save(job->sim, config, path);
+    const bool fixed = config->pressure_hi > config->pressure_lo;
+    mps_status status = mps_picture_save(job->sim, config, path);
     config->error = NULL;
+    if (status == MPS_OK && !fixed && config->pressure_hi > config->pressure_lo &&
+        !mps__scene_scale_write(job->place.path, config)) {
+        snprintf(error, sizeof error, "%s/" SCENE_SCALE_FILE ": cannot write it", job->place.path);
+        status = MPS_E_IO;
+    }
     if (status == MPS_OK) return;
     job->output_failed = true;
     if (!job->error[0]) snprintf(job->error, sizeof job->error, "%s", error);
