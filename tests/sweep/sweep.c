@@ -2,7 +2,7 @@
 /* One run of the sweep: draw a tank from a seed, step it to the end, say in one line whether all went well.
  * scripts/sweep runs many of them. Exit code 0: ok, 1: something is wrong, 2: bad command line. */
 #include "../tags.h"
-#include "picture.h"
+#include <mps/picture.h>
 #include "scenario.h"
 #include <errno.h>
 #include <math.h>
@@ -182,13 +182,17 @@ static mps_status change_models(const options *o, mps_sim *sim)
 
 static void take_picture(const options *o, mps_sim *sim, int number)
 {
-    char path[PATH_SIZE], error[PICTURE_ERROR];
+    char path[PATH_SIZE], error[400];
+    mps_picture_config config;
     if (!o->pictures) return;
     if (number >= 0)
         snprintf(path, sizeof path, "%s_%03d.png", o->pictures, number);
     else
         snprintf(path, sizeof path, "%s_end.png", o->pictures);
-    if (!mps__picture_save(sim, 9.81, path, error)) fprintf(stderr, "%s\n", error);
+    mps_picture_config_init(&config, sizeof config);
+    config.error = error;
+    config.error_size = sizeof error;
+    if (mps_picture_save(sim, &config, path) != MPS_OK) fprintf(stderr, "%s\n", error);
 }
 
 static void step(const options *o, mps_sim *sim, findings *f)

@@ -17,13 +17,12 @@ static const char LOCK[] = "run.lock";
 
 /* What every job writes, beside frames/ and plots of its own columns. The first ones tell that there is a run. */
 static const char *const FILES[] = {
-    "checkpoint.mps",      "probes.csv",          "steps.csv",
-    "frames.pvd",          "summary.json",        "checkpoint.mps.tmp",
-    "momentum.csv",        "trace.csv",           "report.html",
-    "frames.pvd.tmp",      "picture_end.png",     "plot_pressure.svg",
-    "plot_dt.svg",         "plot_ppe.svg",        "plot_elevation.svg",
-    "plot_momentum_x.svg", "plot_momentum_y.svg", "plot_speed.svg",
-    "plot_energy.svg",     "plot_momentum_z.svg", "case.yaml"};
+    "checkpoint.mps", "probes.csv",         "steps.csv",           "frames.pvd",
+    "summary.json",   "checkpoint.mps.tmp", "momentum.csv",        "trace.csv",
+    "report.html",    "frames.pvd.tmp",     "picture_end.png",     "picture_scale.json",
+    "film.mp4",       "paraview.py",        "plot_pressure.svg",   "plot_dt.svg",
+    "plot_ppe.svg",   "plot_elevation.svg", "plot_momentum_x.svg", "plot_momentum_y.svg",
+    "plot_speed.svg", "plot_energy.svg",    "plot_momentum_z.svg", "case.yaml"};
 enum { FOLDER_FILES = sizeof FILES / sizeof *FILES, FOLDER_SIGNS = 5 };
 
 const char *mps__folder_advice(int error)

@@ -9,6 +9,7 @@
 #include "table.h"
 #include "tables.h"
 #include <mps/job.h>
+#include <mps/picture.h>
 #include <mps/mps.h>
 #include <signal.h>
 #include <stdbool.h>
@@ -110,6 +111,7 @@ struct mps_job {
     double frame_t;     /* of the last frame; -1: none yet */
     int pictures;       /* taken so far */
     double *picture_at; /* [s]; NAN: before this program went on with the run */
+    mps_picture_config picture;
     progress progress;
     job_totals totals;
     int64_t checkpoint;  /* next checkpoint */

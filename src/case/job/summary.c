@@ -266,6 +266,9 @@ static void summary_write(FILE *out, const mps_job *job)
     json_text(out, "version", mps_version(NULL, NULL, NULL));
     summary_machine(out);
     summary_boxes(out, job);
+    if (job->picture.pressure_hi > job->picture.pressure_lo)
+        fprintf(out, ",\n  \"pressure_scale\": [%.9g, %.9g]", job->picture.pressure_lo,
+                job->picture.pressure_hi);
     summary_columns(out, job);
     if (job->figures > 0) summary_figures(out, job);
     summary_inputs(out, job);

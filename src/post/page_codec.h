@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* How particles and curves are packed: differences from a prediction, bytes of one significance side by side, deflate, base64.
+ * decode.js undoes it. */
+#ifndef MPS_POST_PAGE_CODEC_H
+#define MPS_POST_PAGE_CODEC_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <zlib.h>
+
+/* Packed bytes that grow. */
+typedef struct codec_bytes {
+    unsigned char *data;
+    size_t size, capacity;
+} codec_bytes;
+
+/* Particles of a film, frame by frame. A coordinate is an integer of `bits` bits; the last two frames predict it: 2 x - x before.
+ * Frame in a block, each a plane of [count] bytes: low bytes of x, y (, z); high bytes of x, y (, z); pressure; speed. All are
+ * differences: coordinates from the prediction, modulo 2^bits, small ones of either sign as small numbers; values from the frame before. */
+typedef struct codec {
+    int64_t count;
+    int32_t dim, bits;
+    int64_t frames;          /* so far */
+    uint16_t *last, *before; /* [dim*count], plane by plane */
+    unsigned char *value;    /* [2*count] of the last frame */
+    unsigned char *plane;    /* [(2*dim + 2)*count] */
+    z_stream stream;
+    bool open; /* a block has begun */
+} codec;
+
+/* Level of deflate. */
+enum { CODEC_LEVEL = 6 };
+
+/* @return false without memory; codec_free() is allowed then, too */
+bool mps__codec_create(codec *c, int64_t count, int32_t dim, int32_t bits);
+void mps__codec_free(codec *c);
+/* Append a frame to the block that is open, or begin one.
+ * @param q      [dim*count], plane by plane, below 2^bits
+ * @param value  [2*count], pressures, then speeds
+ * @return false without memory */
+bool mps__codec_frame(codec *c, const uint16_t *q, const unsigned char *value, codec_bytes *out);
+/* End the block. @return false without memory */
+bool mps__codec_end(codec *c, codec_bytes *out);
+
+/* Deflate a whole array. @return false without memory */
+bool mps__codec_pack(const void *data, size_t size, codec_bytes *out);
+/* A curve: 16 bits a value, of the range from lo to hi; 65535 is NAN. Differences modulo 65536, all low bytes, then all high bytes. */
+bool mps__codec_curve(const double *value, int64_t count, int64_t stride, double lo, double hi,
+                      codec_bytes *out);
+void mps__codec_base64(FILE *out, const codec_bytes *bytes);
+
+#endif

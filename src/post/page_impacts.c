@@ -1,0 +1,271 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Impacts of the wall sensors: events, exceedance, value of an exposure, highest peaks. */
+#include "page_exceedance.h"
+#include "page_parts.h"
+#include "page_text.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { HIGHEST = 10, SENSORS_MOST = 24, FEW = 5, COUNT_MOST = 1000000 };
+
+/* Impacts of a sensor. */
+typedef struct sensor {
+    const page_column *column;
+    mps_impacts *impacts;
+    double highest;
+} sensor;
+
+/* Natural period of the liquid in a box [s]; NAN: not known. */
+static double natural_period(const page_run *r)
+{
+    const double k = acos(-1.0) / mps__page_number(r, "tank_size_x");
+    const double g = mps__page_number(r, "gravity"), h = mps__page_number(r, "liquid_depth");
+    return 2 * acos(-1.0) / sqrt((isfinite(g) ? g : 9.81) * k * tanh(k * h));
+}
+
+/* Constants: those of the summary's member "impacts", else what the run itself tells. */
+static void take_constants(const page_run *r, mps_stats_config *c)
+{
+    const json_value *given = mps__json_get(r->summary, "impacts");
+    const struct {
+        const char *name;
+        double *value;
+    } member[] = {{"from", &c->from},
+                  {"until", &c->until},
+                  {"rate", &c->rate},
+                  {"high_pass", &c->high_pass},
+                  {"threshold", &c->threshold},
+                  {"deviations", &c->deviations},
+                  {"window", &c->window},
+                  {"window_share", &c->window_share},
+                  {"period", &c->period},
+                  {"share", &c->share},
+                  {"confidence", &c->confidence},
+                  {"exposure", &c->exposure},
+                  {"exposure_ratio", &c->exposure_ratio},
+                  {"dependence", &c->dependence},
+                  {"length_scale", &c->length_scale},
+                  {"density_ratio", &c->density_ratio}};
+    c->from = 0.005 * mps__page_number(r, "t_end"); /* the impulse of the start is no impact */
+    c->period = natural_period(r);
+    for (size_t k = 0; k < sizeof member / sizeof member[0]; k++) {
+        const double value = mps__json_number(mps__json_get(given, member[k].name));
+        if (isfinite(value)) *member[k].value = value;
+    }
+    const double least = mps__json_number(mps__json_get(given, "least_events"));
+    const double resamples = mps__json_number(mps__json_get(given, "resamples"));
+    if (least >= 2 && least <= COUNT_MOST) c->least_events = (int32_t)least;
+    if (resamples >= 0 && resamples <= COUNT_MOST) c->resamples = (int32_t)resamples;
+    if (isnan(c->window) && isnan(c->period)) c->window = 0.02 * mps__page_number(r, "t_end");
+}
+
+/* The column as a signal of its own. */
+static mps_status find_impacts(const page_run *r, const mps_stats_config *config, sensor *s)
+{
+    const page_table *t = &r->probes;
+    mps_impact high;
+    double *both = malloc((size_t)(t->rows + 1) * 2 * sizeof *both);
+    if (!both) return mps__page_fail(r->errors, MPS_E_NOMEM, "no memory for the page");
+    for (int64_t i = 0; i < t->rows; i++) {
+        both[i] = t->value[i * t->columns];
+        both[t->rows + i] = t->value[i * t->columns + s->column->place];
+    }
+    mps_status status = mps_impacts_find(config, t->rows, both, both + t->rows, &s->impacts);
+    free(both);
+    mps_impact_init(&high, sizeof high);
+    s->highest = -INFINITY;
+    if (status == MPS_OK && mps_impacts_highest(s->impacts, 0, &high) == MPS_OK)
+        s->highest = high.peak;
+    return status;
+}
+
+/* ---- texts ------------------------------------------------------------------------------------------------------- */
+
+static void write_fit(FILE *out, const mps_impacts *impacts, int32_t kind, const char *name,
+                      double scale)
+{
+    char a[TEXT_NUMBER], b[TEXT_NUMBER], c[TEXT_NUMBER];
+    mps_fit fit;
+    mps_fit_init(&fit, sizeof fit);
+    if (mps_impacts_fit_get(impacts, kind, &fit) != MPS_OK || !isfinite(fit.value)) return;
+    fprintf(out, "<li>%s: <b>%s</b>", name, mps__quantity(a, scale * fit.value, "Pa"));
+    if (isfinite(fit.value_band[0]))
+        fprintf(out, ", band %s to %s", mps__quantity(b, scale * fit.value_band[0], "Pa"),
+                mps__quantity(c, scale * fit.value_band[1], "Pa"));
+    fputs("</li>\n", out);
+}
+
+static void write_value(FILE *out, const mps_impacts *impacts, const mps_impacts_info *info,
+                        const mps_stats_config *c)
+{
+    char exposure[TEXT_NUMBER], ratio[TEXT_NUMBER], events[TEXT_NUMBER];
+    if (info->events < c->least_events) {
+        fprintf(out,
+                "<p>No distribution is fitted and no value for a longer time is given: that needs "
+                "%d events, there %s %lld.</p>\n",
+                (int)c->least_events, info->events == 1 ? "is" : "are", (long long)info->events);
+        return;
+    }
+    fprintf(out,
+            "<p>Exceeded once in %s (%s events), <b>for screening</b>, not for design:</p>\n<ul>\n",
+            mps__duration(exposure, c->exposure), mps__rounded(events, info->exposure_events));
+    write_fit(out, impacts, MPS_FIT_WEIBULL, "Weibull", info->pressure_scale);
+    write_fit(out, impacts, MPS_FIT_PARETO, "generalised Pareto", info->pressure_scale);
+    fputs("</ul>\n", out);
+    if (info->long_exposure)
+        fprintf(out,
+                "<p class=\"warning\">This time is more than %s lengths of the run: the values are "
+                "extrapolated.</p>\n",
+                mps__rounded(ratio, c->exposure_ratio));
+    if (info->dependent)
+        fputs("<p class=\"warning\">Successive peaks depend on each other: the bands are too "
+              "narrow.</p>\n",
+              out);
+}
+
+static void write_row(FILE *out, int64_t rank, const mps_impact *e)
+{
+    char text[TEXT_NUMBER];
+    fprintf(out, "<tr><td>%lld</td><td class=\"number\">%s</td>", (long long)rank + 1,
+            mps__quantity(text, e->peak, "Pa"));
+    fprintf(
+        out,
+        "<td class=\"number\"><button type=\"button\" class=\"moment\" data-time=\"%.9g\">%.4g s"
+        "</button></td>",
+        e->t, e->t);
+    fprintf(out, "<td class=\"number\">%s%s</td>", mps__quantity(text, e->rise, "s"),
+            e->unresolved ? " <span class=\"state\">not resolved</span>" : "");
+    fprintf(out, "<td class=\"number\">%s</td>", mps__quantity(text, e->decay, "s"));
+    fprintf(out, "<td class=\"number\">%s</td>", mps__quantity(text, e->duration, "s"));
+    fprintf(out, "<td class=\"number\">%s</td></tr>\n", mps__quantity(text, e->impulse, "Pa s"));
+}
+
+static void write_highest(FILE *out, const sensor *s)
+{
+    mps_impact e;
+    mps_impact_init(&e, sizeof e);
+    fputs("<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Highest peaks of ",
+          out);
+    mps__html(out, s->column->name);
+    fputs("\"><table><thead><tr><th>rank</th><th>peak</th><th>time</th><th>rise</th><th>decay</th>"
+          "<th>duration</th><th>impulse</th></tr></thead><tbody>\n",
+          out);
+    for (int64_t rank = 0; rank < HIGHEST; rank++)
+        if (mps_impacts_highest(s->impacts, rank, &e) == MPS_OK) write_row(out, rank, &e);
+    fputs("</tbody></table></div>\n", out);
+}
+
+static void write_sensor(FILE *out, const sensor *s, const mps_stats_config *c, bool open)
+{
+    char high[TEXT_NUMBER], u[TEXT_NUMBER], w[TEXT_NUMBER], rate[TEXT_NUMBER];
+    mps_impacts_info info;
+    mps_impacts_info_init(&info, sizeof info);
+    mps_impacts_info_get(s->impacts, &info);
+    fprintf(out, "<details%s class=\"impact\"><summary>", open ? " open" : "");
+    mps__html(out, s->column->name);
+    fprintf(out, ": %lld event%s, highest %s</summary>\n<div class=\"two\"><div>\n",
+            (long long)info.events, info.events == 1 ? "" : "s",
+            mps__quantity(high, s->highest, "Pa"));
+    fprintf(out, "<p>An event begins above %s and ends after %s below it. ",
+            mps__quantity(u, info.threshold, "Pa"), mps__quantity(w, info.window, "s"));
+    if (info.events >= FEW)
+        fprintf(out, "%s come in a minute. ", mps__rounded(rate, 60 * info.rate));
+    fprintf(out, "%lld of %lld rise%s or decay%s faster than the computation resolves.</p>\n",
+            (long long)info.unresolved, (long long)info.events, info.events == 1 ? "s" : "",
+            info.events == 1 ? "s" : "");
+    write_value(out, s->impacts, &info, c);
+    write_highest(out, s);
+    fputs("</div>\n", out);
+    mps__page_exceedance(out, s->impacts, s->column->name);
+    fputs("</div></details>\n", out);
+}
+
+/* Every constant, as used. */
+static void write_constants(FILE *out, const mps_stats_config *c)
+{
+    char a[TEXT_NUMBER];
+    fputs("<details><summary>Constants of the statistics</summary><table class=\"facts\"><tbody>\n",
+          out);
+    const struct {
+        const char *name, *unit;
+        double value;
+    } row[] = {{"samples from", "s", c->from},
+               {"until", "s", c->until},
+               {"rate (0: as in probes.csv)", "Hz", c->rate},
+               {"high-pass (0: none)", "Hz", c->high_pass},
+               {"threshold", "Pa", c->threshold},
+               {"else standard deviations above the mean", "", c->deviations},
+               {"window", "s", c->window},
+               {"else share of the period", "", c->window_share},
+               {"period", "s", c->period},
+               {"rise and decay from this share of the peak", "", c->share},
+               {"time that is resolved", "s", c->crossing_time},
+               {"least events of a fit", "", c->least_events},
+               {"resamples of a band", "", c->resamples},
+               {"share of the resamples in a band", "", c->confidence},
+               {"seed", "", (double)c->seed},
+               {"exposure", "s", c->exposure},
+               {"warning beyond lengths of the record", "", c->exposure_ratio},
+               {"warning beyond correlation times sqrt(N)", "", c->dependence},
+               {"length at full scale over that here", "", c->length_scale},
+               {"density at full scale over that here", "", c->density_ratio}};
+    for (size_t k = 0; k < sizeof row / sizeof row[0]; k++)
+        fprintf(out, "<tr><th scope=\"row\">%s</th><td>%s</td></tr>\n", row[k].name,
+                isfinite(row[k].value) ? mps__quantity(a, row[k].value, row[k].unit) : "not given");
+    fputs("</tbody></table></details>\n", out);
+}
+
+/* ---- the section ------------------------------------------------------------------------------------------------- */
+
+static int compare(const void *a, const void *b)
+{
+    const sensor *x = a, *y = b;
+    return (x->highest < y->highest) - (x->highest > y->highest);
+}
+
+/* @param config  out: with the time that is resolved, of the least one at a peak */
+static mps_status find_all(const page_run *r, mps_stats_config *config, sensor *all, int *count)
+{
+    mps_status status = MPS_OK;
+    take_constants(r, config);
+    const double crossing = mps__page_crossing(r, mps__page_number(r, "t_end"));
+    double given = mps__page_number(r, "sensor_average_most");
+    if (!isfinite(given)) given = isfinite(crossing) ? crossing : 0;
+    config->crossing_time = given;
+    for (int32_t k = 0; status == MPS_OK && k < r->columns && *count < SENSORS_MOST; k++) {
+        const page_column *c = &r->column[k];
+        if (strcmp(c->type, "wall_pressure") != 0 || c->place < 0) continue;
+        all[*count] = (sensor){.column = c};
+        status = find_impacts(r, config, &all[*count]);
+        if (status == MPS_OK) ++*count;
+    }
+    qsort(all, (size_t)*count, sizeof *all, compare);
+    return status;
+}
+
+mps_status mps__page_impacts(FILE *out, const page_run *r)
+{
+    sensor all[SENSORS_MOST];
+    int count = 0;
+    char text[256] = "";
+    mps_stats_config config;
+    if (!mps__page_has_impacts(r)) return MPS_OK;
+    mps_status status = mps_stats_config_init(&config, sizeof config);
+    config.error = text;
+    config.error_size = sizeof text;
+    if (status == MPS_OK) status = find_all(r, &config, all, &count);
+    if (status == MPS_E_NOMEM) mps__page_fail(r->errors, status, "no memory for the page");
+    if (status == MPS_E_ARG)
+        mps__page_fail(r->errors, status, "'%s': statistics of impacts: %s", r->folder, text);
+    if (status == MPS_OK) {
+        fputs("<section id=\"impacts\" aria-labelledby=\"impacts-title\">\n<h2 "
+              "id=\"impacts-title\">Impacts</h2>\n",
+              out);
+        for (int k = 0; k < count; k++) write_sensor(out, &all[k], &config, k == 0);
+        write_constants(out, &config);
+        fputs("</section>\n", out);
+    }
+    for (int k = 0; k < count; k++) mps_impacts_destroy(all[k].impacts);
+    return status;
+}

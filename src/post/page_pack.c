@@ -1,0 +1,364 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The film, packed into the bytes that there are: first with all that the frames hold, then with less. */
+#include "page_film.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum {
+    FINE = 12,
+    COARSE = 10,
+    WALL_BITS = 16,
+    WALLS_MOST = 20000,
+    LEAST_SHOWN = 4000,
+    BLOCKS = 24
+};
+
+/* What is packed. */
+typedef struct plan {
+    int32_t bits;
+    bool coarse;   /* values in steps of four codes */
+    int64_t every; /* particle */
+    int64_t step;  /* frames */
+} plan;
+
+/* A film that is being packed. */
+typedef struct packing {
+    const film *film;
+    plan plan;
+    int64_t shown;  /* particles */
+    int64_t frames; /* of the film */
+    int64_t
+        block; /* frames in a block, but for the first, which has one: the first picture comes at once */
+    double quantum; /* [m] */
+    codec codec;
+    uint16_t *q;          /* [dim*shown] */
+    unsigned char *value; /* [2*shown] */
+    film_frame frame;
+    FILE *out;
+    int64_t bytes, most, done; /* of base64; frames */
+} packing;
+
+static mps_status no_memory(const film *f)
+{
+    return mps__page_fail(f->run->errors, MPS_E_NOMEM, "no memory for the film of the page");
+}
+
+static int64_t base64_size(size_t bytes)
+{
+    return (int64_t)(bytes + 2) / 3 * 4;
+}
+
+static unsigned char value_code(const packing *p, const page_scale *scale, double value)
+{
+    const unsigned char code = mps__scale_code(scale, value);
+    return p->plan.coarse ? (unsigned char)(1 + (code - 1) / 4 * 4) : code;
+}
+
+/* Integers of all particles in the frame that has been read; what is not in it stays where it was, with values 0. */
+static void quantise(packing *p, const film_pose *pose)
+{
+    const film *f = p->film;
+    const film_frame *s = &p->frame;
+    const double top = (double)((1 << p->plan.bits) - 1);
+    memset(p->value, 0, 2 * (size_t)p->shown);
+    for (int64_t i = 0; i < s->count; i++) {
+        const int64_t place = mps__film_find(&f->moving, s->id[i]), at = place / p->plan.every;
+        const double *x = s->x + 3 * i, *u = s->u + 3 * i;
+        double X[3];
+        if (place < 0 || place % p->plan.every != 0 || !isfinite(x[0] + x[1] + x[2])) continue;
+        mps__film_to_tank(pose, x, X);
+        for (int32_t d = 0; d < f->dim; d++)
+            p->q[d * p->shown + at] = (uint16_t)fmin(fmax((X[d] - f->lo[d]) / p->quantum + 0.5, 0),
+                                                     top);
+        p->value[at] = value_code(p, &f->pressure, s->p[i]);
+        p->value[p->shown + at] = value_code(p, &f->speed,
+                                             sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]));
+    }
+}
+
+static void write_block(packing *p, const codec_bytes *bytes, int64_t frames, const char *kind)
+{
+    fprintf(p->out,
+            "<script type=\"application/octet-stream\" class=\"film-%s\" data-frames=\"%d\">", kind,
+            (int)frames);
+    mps__codec_base64(p->out, bytes);
+    fputs("</script>\n", p->out);
+    p->bytes += base64_size(bytes->size) + 90;
+}
+
+static mps_status pack_frames(packing *p)
+{
+    codec_bytes bytes = {0};
+    mps_status status = MPS_OK;
+    int64_t in_block = 0;
+    for (int64_t k = 0; status == MPS_OK && k < p->frames && p->bytes <= p->most; k++) {
+        status = mps__film_frame_read(p->film, k * p->plan.step, &p->frame);
+        if (status != MPS_OK) break;
+        quantise(p, &p->film->pose[k * p->plan.step]);
+        if (!mps__codec_frame(&p->codec, p->q, p->value, &bytes)) status = no_memory(p->film);
+        p->done = k + 1;
+        if (++in_block < (k == 0 ? 1 : p->block) && p->done < p->frames) continue;
+        if (!mps__codec_end(&p->codec, &bytes)) status = no_memory(p->film);
+        if (status == MPS_OK) write_block(p, &bytes, in_block, "block");
+        bytes.size = 0;
+        in_block = 0;
+    }
+    free(bytes.data);
+    return status;
+}
+
+/* ---- what does not change ---------------------------------------------------------------------------------------- */
+
+/* The ids of the particles that are shown, as integers of four bytes, the lowest first. */
+static mps_status pack_ids(packing *p)
+{
+    const film *f = p->film;
+    codec_bytes bytes = {0};
+    unsigned char *four = calloc((size_t)p->shown + 1, 5), *phase = four + 4 * p->shown;
+    if (!four) return no_memory(f);
+    for (int64_t k = 0; k < f->moving.count; k++) {
+        const film_entry *e = &f->moving.entry[k];
+        if (e->place % p->plan.every != 0) continue;
+        for (int b = 0; b < 4; b++)
+            four[4 * (e->place / p->plan.every) + b] = (unsigned char)((uint64_t)e->id >> 8 * b);
+        phase[e->place / p->plan.every] = f->phase[e->place];
+    }
+    const bool done = mps__codec_pack(four, (size_t)p->shown * 5, &bytes);
+    free(four);
+    if (done) write_block(p, &bytes, 0, "ids");
+    free(bytes.data);
+    return done ? MPS_OK : no_memory(f);
+}
+
+static bool wall_stands(const film *f, int64_t place)
+{
+    const double part = f->wall_part[place];
+    return part < 0 || part >= FILM_PARTS || !f->part_moves[(int)part];
+}
+
+/* Bounds of the walls that stand. @return how many */
+static int64_t wall_bounds(const film *f, double lo[3], double *quantum)
+{
+    double hi[3] = {-INFINITY, -INFINITY, -INFINITY};
+    int64_t count = 0;
+    for (int d = 0; d < 3; d++) lo[d] = INFINITY;
+    for (int64_t k = 0; k < f->wall.count; k++) {
+        if (!wall_stands(f, k)) continue;
+        count++;
+        for (int d = 0; d < 3; d++) {
+            lo[d] = fmin(lo[d], f->wall_x[3 * k + d]);
+            hi[d] = fmax(hi[d], f->wall_x[3 * k + d]);
+        }
+    }
+    *quantum = fmax(fmax(hi[0] - lo[0], hi[1] - lo[1]), hi[2] - lo[2]) / ((1 << WALL_BITS) - 1);
+    if (!(*quantum > 0)) *quantum = 1;
+    return count;
+}
+
+/* Walls that stand, as one frame of the codec; those of a wide tank are thinned. */
+static mps_status pack_walls(packing *p)
+{
+    const film *f = p->film;
+    double lo[3], quantum;
+    const int64_t all = wall_bounds(f, lo, &quantum), each = all / WALLS_MOST + 1;
+    const int64_t count = (all + each - 1) / each;
+    codec c;
+    codec_bytes bytes = {0};
+    uint16_t *q = calloc((size_t)(3 * count + 1), sizeof *q);
+    unsigned char *value = calloc((size_t)(2 * count + 1), 1);
+    bool done = mps__codec_create(&c, count, f->dim, WALL_BITS) && q && value;
+    for (int64_t k = 0, n = 0; done && k < f->wall.count; k++) {
+        if (!wall_stands(f, k) || n++ % each != 0) continue;
+        for (int32_t d = 0; d < f->dim; d++)
+            q[d * count + (n - 1) / each] = (uint16_t)((f->wall_x[3 * k + d] - lo[d]) / quantum +
+                                                       0.5);
+    }
+    done = done && mps__codec_frame(&c, q, value, &bytes) && mps__codec_end(&c, &bytes);
+    mps__codec_free(&c);
+    free(q);
+    free(value);
+    if (done) {
+        fprintf(p->out,
+                "<script type=\"application/json\" id=\"walls\">{\"count\": %lld, \"bits\": %d, "
+                "\"lo\": [%.9g, %.9g, %.9g], \"quantum\": %.9g, \"every\": %lld}</script>\n",
+                (long long)count, WALL_BITS, count ? lo[0] : 0, count ? lo[1] : 0,
+                count && f->dim == 3 ? lo[2] : 0, quantum, (long long)each);
+        write_block(p, &bytes, 1, "walls");
+    }
+    free(bytes.data);
+    return done ? MPS_OK : no_memory(f);
+}
+
+static void write_scale(FILE *out, const char *name, const page_scale *s)
+{
+    fprintf(out, "\"%s\": {\"lo\": %.9g, \"hi\": %.9g, \"most\": %.9g},\n", name, s->lo, s->hi,
+            s->most);
+}
+
+static void write_maps(FILE *out)
+{
+    fputs("\"maps\": [", out);
+    for (int m = 0; m < SCALE_MAPS; m++) {
+        fputs(m ? ", [" : "[", out);
+        for (int k = 0; k < SCALE_COLOURS; k++) {
+            const double *c = mps__scale_map[m][k];
+            fprintf(out, "%s[%g, %g, %g]", k ? ", " : "", c[0], c[1], c[2]);
+        }
+        fputc(']', out);
+    }
+    fputs("],\n", out);
+}
+
+static void write_poses(FILE *out, const packing *p)
+{
+    fputs("\"poses\": [", out);
+    for (int64_t k = 0; p->film->tank_moves && k < p->frames; k++) {
+        const film_pose *pose = &p->film->pose[k * p->plan.step];
+        fputs(k ? ",\n[" : "\n[", out);
+        for (int i = 0; i < 9; i++) fprintf(out, "%.6g, ", pose->turn[i]);
+        fprintf(out, "%.6g, %.6g, %.6g]", pose->shift[0], pose->shift[1], pose->shift[2]);
+    }
+    fputs("]}", out);
+}
+
+static void write_head(const packing *p)
+{
+    const film *f = p->film;
+    FILE *out = p->out;
+    fprintf(out,
+            "<script type=\"application/json\" id=\"film-data\">{\"dim\": %d, \"count\": %lld, "
+            "\"all\": %lld, \"bits\": %d, \"every\": %lld, \"frames\": %lld,\n",
+            (int)f->dim, (long long)p->shown, (long long)f->moving.count, (int)p->plan.bits,
+            (long long)p->plan.every, (long long)p->frames);
+    fprintf(out, "\"dp\": %.9g, \"quantum\": %.9g, \"phases\": %d,\n", f->dp, p->quantum,
+            (int)f->phases);
+    fprintf(out, "\"lo\": [%.9g, %.9g, %.9g], \"hi\": [%.9g, %.9g, %.9g],\n", f->lo[0], f->lo[1],
+            f->lo[2], f->hi[0], f->hi[1], f->hi[2]);
+    write_scale(out, "pressure", &f->pressure);
+    write_scale(out, "speed", &f->speed);
+    write_maps(out);
+    fputs("\"t\": [", out);
+    for (int64_t k = 0; k < p->frames; k++)
+        fprintf(out, "%s%.9g", k ? ", " : "", f->run->frame[k * p->plan.step].t);
+    fputs("],\n", out);
+    write_poses(out, p);
+    fputs("</script>\n", out);
+}
+
+/* ---- plans ------------------------------------------------------------------------------------------------------- */
+
+static mps_status packing_create(packing *p, const film *f, const plan *how, FILE *out)
+{
+    double extent = 0;
+    *p = (packing){.film = f, .plan = *how, .out = out};
+    for (int32_t d = 0; d < f->dim; d++) extent = fmax(extent, f->hi[d] - f->lo[d]);
+    p->quantum = extent > 0 ? extent / ((1 << how->bits) - 1) : 1;
+    p->shown = (f->moving.count + how->every - 1) / how->every;
+    p->frames = (f->run->frames + how->step - 1) / how->step;
+    p->block = (p->frames + BLOCKS - 1) / BLOCKS;
+    p->q = calloc((size_t)(f->dim * p->shown + 1), sizeof *p->q);
+    p->value = calloc((size_t)(2 * p->shown + 1), 1);
+    return mps__codec_create(&p->codec, p->shown, f->dim, how->bits) && p->q && p->value
+               ? MPS_OK
+               : no_memory(f);
+}
+
+static void packing_free(packing *p)
+{
+    mps__codec_free(&p->codec);
+    mps__film_frame_free(&p->frame);
+    free(p->q);
+    free(p->value);
+}
+
+/* Pack by a plan, in place of what `out` holds.
+ * @param share  bytes of the whole film, of those that there are: above 1 it does not fit */
+static mps_status try_plan(const film *f, const plan *how, int64_t bytes, FILE *out, double *share)
+{
+    packing p;
+    rewind(out);
+    if (ftruncate(fileno(out), 0) != 0) return MPS_E_IO; /* the caller tells */
+    mps_status status = packing_create(&p, f, how, out);
+    p.most = bytes;
+    if (status == MPS_OK) {
+        write_head(&p);
+        status = pack_walls(&p);
+    }
+    if (status == MPS_OK) status = pack_ids(&p);
+    if (status == MPS_OK) status = pack_frames(&p);
+    *share = (double)ftell(out) / (double)bytes * (double)p.frames / (double)(p.done ? p.done : 1);
+    packing_free(&p);
+    return status;
+}
+
+/* Less than that plan: first precision, then particles, then frames. @return false: there is nothing left to leave out */
+static bool less(const film *f, plan *how, double share)
+{
+    if (how->bits == FINE) {
+        how->bits = COARSE;
+        how->coarse = true;
+        return true;
+    }
+    const int64_t every = (int64_t)ceil((double)how->every * fmax(1.05 * share, 1.1));
+    if (f->moving.count / every >= LEAST_SHOWN) {
+        how->every = every;
+        return true;
+    }
+    how->step *= 2;
+    return f->run->frames / how->step >= 2;
+}
+
+static void describe(const film *f, const plan *how, int64_t first_step, char *note, size_t size)
+{
+    size_t used = 0;
+    note[0] = '\0';
+    if (how->bits != COARSE && how->step == first_step) return;
+    used = (size_t)snprintf(note, size, "To keep the page small, ");
+    if (how->bits == COARSE)
+        used += (size_t)snprintf(note + used, size - used,
+                                 "places are rounded to 1/%d of the picture's width and colours to "
+                                 "64 steps",
+                                 1 << COARSE);
+    if (how->every > 1)
+        used += (size_t)snprintf(note + used, size - used,
+                                 "; one particle of %lld is shown, drawn larger",
+                                 (long long)how->every);
+    if (how->step > first_step)
+        used += (size_t)snprintf(note + used, size - used, "; one frame of %lld is shown",
+                                 (long long)how->step);
+    snprintf(note + used, size - used, ". The folder has all %lld particles and %lld frames.",
+             (long long)f->moving.count, (long long)f->run->frames);
+}
+
+mps_status mps__film_write(const film *f, int64_t bytes, int32_t frames, FILE *out, char *note,
+                           size_t note_size, int64_t shown[2])
+{
+    plan how = {.bits = FINE, .every = 1, .step = 1};
+    if (frames > 0) how.step = (f->run->frames + frames - 1) / frames;
+    const int64_t first_step = how.step;
+    double share = 2;
+    bool more = true;
+    mps_status status = MPS_OK;
+    shown[0] = shown[1] = 0;
+    note[0] = '\0';
+    if (f->moving.count == 0) return MPS_OK;
+    while (status == MPS_OK && more && share > 1) {
+        status = try_plan(f, &how, bytes, out, &share);
+        if (status == MPS_OK && share > 1) more = less(f, &how, share);
+    }
+    if (status == MPS_OK && share <= 1) {
+        shown[0] = (f->run->frames + how.step - 1) / how.step;
+        shown[1] = (f->moving.count + how.every - 1) / how.every;
+    } else if (status == MPS_OK) {
+        rewind(out);
+        if (ftruncate(fileno(out), 0) != 0) status = MPS_E_IO;
+    }
+    if (shown[0] > 0)
+        describe(f, &how, first_step, note, note_size);
+    else if (status == MPS_OK)
+        snprintf(note, note_size, "There is no film: its limit, %lld bytes, is too low.",
+                 (long long)bytes);
+    return status;
+}

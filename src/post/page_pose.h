@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The pose of the tank, found from three of its wall particles. */
+#ifndef MPS_POST_PAGE_POSE_H
+#define MPS_POST_PAGE_POSE_H
+
+#include "page_film.h"
+
+/* Choose the three particles from the first frame, where the tank stands as it was built: ids in f->reference. */
+void mps__pose_choose(film *f, const film_frame *s);
+/* Pose in a frame. @return false: one of the three is missing */
+bool mps__pose_find(const film *f, const film_frame *s, film_pose *out);
+
+#endif

@@ -1,0 +1,268 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The folder of a run, read back. */
+#include "page_read.h"
+#include <errno.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SERIES_MOST = 64 << 20, CASE_MOST = 4 << 20, FRAMES_MOST = 1000000 };
+
+mps_status mps__page_fail(page_errors *e, mps_status status, const char *format, ...)
+{
+    va_list values;
+    va_start(values, format);
+    if (e && e->text && e->size > 0 && !e->text[0]) vsnprintf(e->text, e->size, format, values);
+    va_end(values);
+    return status;
+}
+
+static mps_status no_memory(page_errors *e)
+{
+    return mps__page_fail(e, MPS_E_NOMEM, "no memory for the page");
+}
+
+char *mps__page_path(const char *folder, const char *name)
+{
+    const size_t size = strlen(folder) + strlen(name) + 2;
+    char *path = malloc(size);
+    if (path) snprintf(path, size, "%s/%s", folder, name);
+    return path;
+}
+
+/* Bytes of an open file, -1 with errno. */
+static long size_of(FILE *file)
+{
+    if (fseek(file, 0, SEEK_END) != 0) return -1;
+    const long size = ftell(file);
+    return fseek(file, 0, SEEK_SET) == 0 ? size : -1;
+}
+
+mps_status mps__page_file(page_errors *e, const char *path, int64_t most, char **out, size_t *size)
+{
+    *out = NULL;
+    FILE *file = fopen(path, "rb");
+    if (!file && errno == ENOENT) return MPS_E_NAME;
+    if (!file) return mps__page_fail(e, MPS_E_IO, "cannot open '%s': %s", path, strerror(errno));
+    const long length = size_of(file);
+    mps_status status = MPS_OK;
+    if (length < 0)
+        status = mps__page_fail(e, MPS_E_IO, "cannot read '%s': %s", path, strerror(errno));
+    else if (length > most)
+        status = mps__page_fail(e, MPS_E_IO, "'%s' has %ld bytes, at most %lld are read", path,
+                                length, (long long)most);
+    else if (!(*out = malloc((size_t)length + 1)))
+        status = no_memory(e);
+    if (status == MPS_OK) {
+        const size_t got = fread(*out, 1, (size_t)length, file);
+        (*out)[got] = '\0';
+        if (size) *size = got;
+        if (got != (size_t)length)
+            status = mps__page_fail(e, MPS_E_IO, "'%s' cannot be read to its end", path);
+    }
+    fclose(file);
+    if (status != MPS_OK) {
+        free(*out);
+        *out = NULL;
+    }
+    return status;
+}
+
+/* ---- summary.json ------------------------------------------------------------------------------------------------ */
+
+double mps__page_number(const page_run *r, const char *key)
+{
+    const json_value *value = mps__json_get(r->summary, key);
+    return mps__json_number(value);
+}
+
+const char *mps__page_string(const page_run *r, const char *key)
+{
+    const char *text = mps__json_text(mps__json_get(r->summary, key));
+    return text ? text : "";
+}
+
+static const char *text_in(const json_value *object, const char *key)
+{
+    const char *text = mps__json_text(mps__json_get(object, key));
+    return text ? text : "";
+}
+
+/* Three numbers. @return false if there are none */
+static bool vector_in(const json_value *object, const char *key, double out[3])
+{
+    const json_value *list = mps__json_get(object, key);
+    for (size_t d = 0; d < 3; d++) {
+        const json_value *value = mps__json_at(list, d);
+        out[d] = mps__json_number(value);
+        if (!isfinite(out[d])) return false;
+    }
+    return true;
+}
+
+static mps_status read_columns(page_run *r)
+{
+    const json_value *list = mps__json_get(r->summary, "columns");
+    const size_t count = mps__json_count(list);
+    r->column = calloc(count + 1, sizeof *r->column);
+    if (!r->column) return no_memory(r->errors);
+    for (size_t k = 0; k < count; k++) {
+        const json_value *one = mps__json_at(list, k);
+        page_column *c = &r->column[r->columns++];
+        *c = (page_column){.name = text_in(one, "name"),
+                           .unit = text_in(one, "unit"),
+                           .type = text_in(one, "type"),
+                           .about = text_in(one, "about"),
+                           .part = text_in(one, "part")};
+        c->has_place = vector_in(one, "at", c->at);
+        c->has_normal = vector_in(one, "normal", c->normal);
+        c->diameter = mps__json_number(mps__json_get(one, "diameter"));
+        c->place = mps__page_table_find(&r->probes, c->name);
+    }
+    return MPS_OK;
+}
+
+static mps_status read_summary(page_run *r)
+{
+    char *path = mps__page_path(r->folder, "summary.json"), *text = NULL;
+    size_t size = 0;
+    if (!path) return no_memory(r->errors);
+    mps_status status = mps__page_file(r->errors, path, SERIES_MOST, &text, &size);
+    json_error error;
+    if (status == MPS_E_NAME)
+        status = mps__page_fail(r->errors, MPS_E_IO,
+                                "there is no '%s': a page needs the folder of a finished run",
+                                path);
+    if (status == MPS_OK && strlen(text) != size)
+        status = mps__page_fail(r->errors, MPS_E_IO, "'%s' is no text: it has a byte 0", path);
+    if (status == MPS_OK) {
+        r->summary = mps__json_read(text, &error);
+        if (!r->summary && !error.why)
+            status = no_memory(r->errors);
+        else if (!r->summary || r->summary->type != JSON_OBJECT)
+            status = mps__page_fail(r->errors, MPS_E_IO, "'%s', line %d: %s", path,
+                                    r->summary ? 1 : error.line,
+                                    r->summary ? "an object is wanted" : error.why);
+    }
+    free(text);
+    free(path);
+    return status;
+}
+
+/* ---- the series of frames ---------------------------------------------------------------------------------------- */
+
+static void unescape(char *text)
+{
+    static const struct {
+        const char *from;
+        char to;
+    } entity[] = {{"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}};
+    char *out = text;
+    while (*text) {
+        size_t k = 0;
+        while (k < 5 && strncmp(text, entity[k].from, strlen(entity[k].from)) != 0) k++;
+        *out++ = k < 5 ? entity[k].to : *text;
+        text += k < 5 ? strlen(entity[k].from) : 1;
+    }
+    *out = '\0';
+}
+
+/* Cut the value of an attribute out of a tag; NULL: it is not there. */
+static char *attribute(char *tag, const char *name, char **end)
+{
+    char *value = strstr(tag, name);
+    if (!value) return NULL;
+    value += strlen(name);
+    *end = strchr(value, '"');
+    if (*end) **end = '\0';
+    return *end ? value : NULL;
+}
+
+static mps_status add_frame(page_run *r, char *tag, const char *path)
+{
+    char *end = NULL, *number_end = NULL, *t = attribute(tag, "timestep=\"", &end);
+    char *file = t ? attribute(end + 1, "file=\"", &end) : NULL;
+    if (!t || !file || r->frames == FRAMES_MOST)
+        return mps__page_fail(r->errors, MPS_E_IO, "'%s': frame %lld has no time or no file", path,
+                              (long long)r->frames);
+    unescape(file);
+    page_stamp *more = realloc(r->frame, (size_t)(r->frames + 1) * sizeof *more);
+    if (!more) return no_memory(r->errors);
+    r->frame = more;
+    page_stamp *s = &more[r->frames];
+    *s = (page_stamp){.t = strtod(t, &number_end),
+                      .path = mps__page_path(file[0] == '/' ? "" : r->folder, file)};
+    if (!s->path) return no_memory(r->errors);
+    r->frames++;
+    if (number_end == t || !isfinite(s->t) || (r->frames > 1 && s->t <= s[-1].t))
+        return mps__page_fail(r->errors, MPS_E_IO, "'%s': times of frames do not increase at '%s'",
+                              path, t);
+    return MPS_OK;
+}
+
+static mps_status read_series(page_run *r)
+{
+    char *path = mps__page_path(r->folder, "frames.pvd"), *text = NULL;
+    if (!path) return no_memory(r->errors);
+    mps_status status = mps__page_file(r->errors, path, SERIES_MOST, &text, NULL);
+    char *tag = text ? strstr(text, "<DataSet ") : NULL;
+    while (status == MPS_OK && tag) {
+        char *end = strchr(tag, '>');
+        if (!end) break; /* half a tag */
+        *end = '\0';
+        status = add_frame(r, tag, path);
+        tag = strstr(end + 1, "<DataSet ");
+    }
+    free(text);
+    free(path);
+    return status == MPS_E_NAME ? MPS_OK : status;
+}
+
+/* ---- all of it --------------------------------------------------------------------------------------------------- */
+
+static mps_status read_table(page_run *r, const char *name, bool wanted, page_table *out)
+{
+    char *path = mps__page_path(r->folder, name);
+    if (!path) return no_memory(r->errors);
+    mps_status status = mps__page_table_read(r->errors, path, out);
+    if (status == MPS_E_NAME)
+        status = wanted ? mps__page_fail(r->errors, MPS_E_IO, "there is no '%s'", path) : MPS_OK;
+    free(path);
+    return status;
+}
+
+static mps_status read_case(page_run *r)
+{
+    char *path = mps__page_path(r->folder, "case.yaml");
+    if (!path) return no_memory(r->errors);
+    mps_status status = mps__page_file(r->errors, path, CASE_MOST, &r->text, NULL);
+    free(path);
+    return status == MPS_E_NAME ? MPS_OK : status;
+}
+
+mps_status mps__page_run_read(page_run *r, const char *folder, page_errors *e)
+{
+    *r = (page_run){.folder = folder, .errors = e};
+    mps_status status = read_summary(r);
+    if (status == MPS_OK) status = read_table(r, "probes.csv", true, &r->probes);
+    if (status == MPS_OK) status = read_table(r, "steps.csv", false, &r->steps);
+    if (status == MPS_OK) status = read_table(r, "momentum.csv", false, &r->momentum);
+    if (status == MPS_OK) status = read_columns(r);
+    if (status == MPS_OK) status = read_series(r);
+    if (status == MPS_OK) status = read_case(r);
+    return status;
+}
+
+void mps__page_run_free(page_run *r)
+{
+    mps__json_free(r->summary);
+    mps__page_table_free(&r->probes);
+    mps__page_table_free(&r->steps);
+    mps__page_table_free(&r->momentum);
+    for (int64_t k = 0; k < r->frames; k++) free(r->frame[k].path);
+    free(r->frame);
+    free(r->column);
+    free(r->text);
+    *r = (page_run){0};
+}

@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The folder of a run, read back: summary.json, tables (*.csv) and the series of frames. */
+#ifndef MPS_POST_PAGE_READ_H
+#define MPS_POST_PAGE_READ_H
+
+#include "page_json.h"
+#include <mps/status.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+
+/* Where the text of the first error goes. */
+typedef struct page_errors {
+    char *text; /* NULL: nowhere */
+    size_t size;
+} page_errors;
+
+/* A CSV file: names as "P1", units as "Pa". */
+typedef struct page_table {
+    int32_t columns;
+    int64_t rows;
+    char **name, **unit; /* [columns]; unit "" for none */
+    double *value;       /* [rows*columns] */
+} page_table;
+
+/* What a column of probes.csv is, from summary.json; texts belong to the summary. */
+typedef struct page_column {
+    const char *name, *unit, *type, *about, *part; /* never NULL */
+    double at[3], normal[3], diameter;
+    bool has_place, has_normal;
+    int32_t place; /* in probes.csv; -1: not there */
+} page_column;
+
+/* A frame of the series. */
+typedef struct page_stamp {
+    double t;
+    char *path;
+} page_stamp;
+
+typedef struct page_run {
+    const char *folder;
+    page_errors *errors;
+    json_value *summary;
+    page_table probes, steps, momentum; /* the last two may be empty */
+    int32_t columns;
+    page_column *column;
+    int64_t frames;
+    page_stamp *frame; /* [frames]; a series of none is allowed */
+    char *text;        /* case.yaml, or NULL */
+} page_run;
+
+/* Keep the text of an error. @return status */
+mps_status mps__page_fail(page_errors *e, mps_status status, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+/* "<folder>/<name>"; NULL without memory. The caller frees it. */
+char *mps__page_path(const char *folder, const char *name);
+/* A whole file with a 0 behind it. @param size  of the file, or NULL. @param most  largest size. MPS_E_NAME: there is no such file. */
+mps_status mps__page_file(page_errors *e, const char *path, int64_t most, char **out, size_t *size);
+/* Read a table; MPS_E_NAME without a text: there is no such file. A last row that is not complete is left out. */
+mps_status mps__page_table_read(page_errors *e, const char *path, page_table *out);
+void mps__page_table_free(page_table *t);
+/* Column by name, -1: none. */
+int32_t mps__page_table_find(const page_table *t, const char *name);
+/* Value of the last row; NAN where there is none. */
+double mps__page_table_last(const page_table *t, int32_t column);
+
+/* Read all of the folder but the frames themselves. */
+mps_status mps__page_run_read(page_run *r, const char *folder, page_errors *e);
+void mps__page_run_free(page_run *r);
+
+/* Members of summary.json; what is missing or of another kind is NAN, "". */
+double mps__page_number(const page_run *r, const char *key);
+const char *mps__page_string(const page_run *r, const char *key);
+
+#endif

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Texts of a page: escaped, and numbers as a person would round them. */
+#ifndef MPS_POST_PAGE_TEXT_H
+#define MPS_POST_PAGE_TEXT_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+enum { TEXT_NUMBER = 48 };
+
+/* Text with the characters replaced that mean something in HTML. */
+void mps__html(FILE *out, const char *text);
+/* The text of a JSON string with its quotes, safe within <script>. */
+void mps__json(FILE *out, const char *text);
+/* "12,437". */
+const char *mps__whole(char out[TEXT_NUMBER], int64_t value);
+/* Three digits: "0.0123", "5,400", "1.2e-07"; "-" for NAN. */
+const char *mps__rounded(char out[TEXT_NUMBER], double value);
+/* Three digits and a unit with a prefix: "14.0 kPa", "65 mm", "2.3 J/m". */
+const char *mps__quantity(char out[TEXT_NUMBER], double value, const char *unit);
+/* "2 h 5 min", "3.2 s". */
+const char *mps__duration(char out[TEXT_NUMBER], double seconds);
+
+#endif

@@ -1,0 +1,296 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Lights of a page: is the run to be trusted, and if not, what to do. Limits are those of docs/explanations/accuracy.md and impacts.md. */
+#include "page_parts.h"
+#include "page_text.h"
+#include <math.h>
+#include <string.h>
+
+/* A rise of more crossing times than this is no impact. */
+enum { SMOOTH = 25 };
+
+typedef enum state { GOOD, LOOK, POOR, UNKNOWN } state;
+
+/* A light. */
+typedef struct light {
+    const char *name;
+    state state;
+    char value[64], text[320], advice[320];
+} light;
+
+static state by_limits(double value, double good, double poor)
+{
+    if (!isfinite(value)) return UNKNOWN;
+    return value <= good ? GOOD : value <= poor ? LOOK : POOR;
+}
+
+/* ---- the run as a whole ---- */
+
+static light light_end(const page_run *r)
+{
+    light l = {.name = "End of the run"};
+    char t[TEXT_NUMBER];
+    const char *status = mps__page_string(r, "status"), *error = mps__page_string(r, "error");
+    const bool ok = strcmp(status, "ok") == 0, stopped = strcmp(status, "interrupted") == 0;
+    l.state = ok ? GOOD : stopped ? LOOK : POOR;
+    snprintf(l.value, sizeof l.value, "%.40s", ok ? "complete" : status[0] ? status : "not known");
+    mps__quantity(t, mps__page_number(r, "t_end"), "s");
+    snprintf(l.text, sizeof l.text, "The run reached t = %s.%s%.200s", t, error[0] ? " " : "",
+             error);
+    if (stopped)
+        snprintf(l.advice, sizeof l.advice, "Go on from its checkpoint: mps resume.");
+    else if (!ok)
+        snprintf(l.advice, sizeof l.advice,
+                 "Nothing after the last row is known. Look at the last frames of the film, then "
+                 "try a shorter step or a finer spacing.");
+    return l;
+}
+
+static double largest(const page_table *t, const char *name)
+{
+    const int32_t k = mps__page_table_find(t, name);
+    double most = NAN;
+    for (int64_t i = 0; k >= 0 && i < t->rows; i++) {
+        const double v = fabs(t->value[i * t->columns + k]);
+        if (isfinite(v) && !(most >= v)) most = v;
+    }
+    return most;
+}
+
+static light light_volume(const page_run *r)
+{
+    light l = {.name = "Volume"};
+    char number[TEXT_NUMBER];
+    const double most = largest(&r->probes, "volume_error");
+    l.state = by_limits(most, 0.02, 0.05);
+    snprintf(l.value, sizeof l.value, "%s %%", mps__rounded(number, 100 * most));
+    snprintf(l.text, sizeof l.text,
+             "Largest change of the liquid's volume since the first step. Below 2 %% is good.");
+    if (l.state == LOOK || l.state == POOR)
+        snprintf(l.advice, sizeof l.advice,
+                 "Levels and static pressures are off by about as much. Use a finer spacing or a "
+                 "shorter step.");
+    return l;
+}
+
+static light light_lost(const page_run *r)
+{
+    light l = {.name = "Particles lost"};
+    char number[TEXT_NUMBER], all[TEXT_NUMBER];
+    const double lost = mps__page_number(r, "particles_lost"), n = mps__page_number(r, "n_fluid");
+    l.state = by_limits(lost / fmax(n + lost, 1), 0, 1e-3);
+    snprintf(l.value, sizeof l.value, "%s",
+             isfinite(lost) ? mps__whole(number, (int64_t)lost) : "-");
+    snprintf(l.text, sizeof l.text, "Removed because they left the domain, of %s.",
+             mps__whole(all, isfinite(n) ? (int64_t)(n + fmax(lost, 0)) : 0));
+    if (l.state == LOOK || l.state == POOR)
+        snprintf(l.advice, sizeof l.advice,
+                 "In a closed tank none may be lost: look for a gap in the walls, or use a shorter "
+                 "step. An open tank may spill.");
+    return l;
+}
+
+/* ---- energy ---- */
+
+/* Energy in the wave: the largest kinetic energy and change of the potential one. */
+static double wave_energy(const page_table *t)
+{
+    const int32_t ke = mps__page_table_find(t, "ke"), pe = mps__page_table_find(t, "pe");
+    double most = NAN;
+    if (ke < 0 || pe < 0) return NAN;
+    for (int64_t i = 0; i < t->rows; i++) {
+        const double *row = t->value + i * t->columns, e = row[ke] + fabs(row[pe] - t->value[pe]);
+        if (isfinite(e) && !(most >= e)) most = e;
+    }
+    return most;
+}
+
+static double last_of(const page_run *r, const char *name)
+{
+    const double v = mps__page_table_last(&r->probes, mps__page_table_find(&r->probes, name));
+    return isfinite(v) ? v : 0;
+}
+
+/* A gain becomes random motion, which dissipation and shift take: their sum tells whether the wave keeps its energy. Where the liquid
+ * itself is viscous, the numerical part alone does. */
+static light light_energy(const page_run *r)
+{
+    light l = {.name = "Energy"};
+    char share[TEXT_NUMBER], wave[TEXT_NUMBER], rest[TEXT_NUMBER];
+    const char *unit = mps__page_number(r, "dim") == 3 ? "J" : "J/m";
+    const double all = wave_energy(&r->probes), numerical = last_of(r, "numerical");
+    const double sum = numerical + last_of(r, "shift") + last_of(r, "viscous");
+    const double open = fmin(fabs(numerical), fabs(sum));
+    l.state = by_limits(all > 0 ? open / all : NAN, 0.1, 0.3);
+    snprintf(l.value, sizeof l.value, "%s %%", mps__rounded(share, 100 * open / all));
+    snprintf(l.text, sizeof l.text,
+             "Energy that came or went without a physical reason (%s), of the largest energy of "
+             "the motion (%s). Below 10 %% is good.",
+             mps__quantity(rest, open, unit), mps__quantity(wave, all, unit));
+    if (l.state == UNKNOWN) snprintf(l.text, sizeof l.text, "The liquid did not move.");
+    if (l.state == LOOK || l.state == POOR)
+        snprintf(l.advice, sizeof l.advice,
+                 "The wave may be too %s. Repeat the run with half the spacing and compare crests.",
+                 sum > 0 ? "low" : "high");
+    return l;
+}
+
+/* ---- impacts ---- */
+
+/* Rise of the largest value of a column as a triangle: twice the time from half of it to it [s]; NAN where it is not in the record. */
+static double rise_of(const page_table *t, int32_t k, double start, double *at)
+{
+    int64_t peak = -1;
+    for (int64_t i = 0; i < t->rows; i++) {
+        const double *row = t->value + i * t->columns;
+        if (row[0] < start || !isfinite(row[k])) continue;
+        if (peak < 0 || row[k] > t->value[peak * t->columns + k]) peak = i;
+    }
+    if (peak < 0) return NAN;
+    const double half = t->value[peak * t->columns + k] / 2;
+    *at = t->value[peak * t->columns];
+    for (int64_t i = peak; i > 0; i--) {
+        const double *row = t->value + (i - 1) * t->columns, p = row[k], next = row[t->columns + k];
+        if (row[0] < start) return NAN;
+        if (!(p < half)) continue;
+        const double cross = row[0] + (row[t->columns] - row[0]) * (half - p) / (next - p);
+        return 2 * (*at - cross);
+    }
+    return NAN;
+}
+
+double mps__page_crossing(const page_run *r, double t)
+{
+    const page_table *s = &r->steps;
+    const int32_t k = mps__page_table_find(s, "crossing_time");
+    int64_t lo = 0, hi = s->rows;
+    if (k < 0 || s->rows == 0) return NAN;
+    while (hi - lo > 1) {
+        const int64_t middle = (lo + hi) / 2;
+        if (s->value[middle * s->columns] <= t)
+            lo = middle;
+        else
+            hi = middle;
+    }
+    return s->value[lo * s->columns + k];
+}
+
+/* @param smooth  set: there is no impact, as far as sensors tell */
+static light light_impacts(const page_run *r, bool *smooth)
+{
+    light l = {.name = "Resolution of impacts", .state = UNKNOWN};
+    char number[TEXT_NUMBER], rise_text[TEXT_NUMBER], cross_text[TEXT_NUMBER];
+    const double start = 0.005 * mps__page_number(r, "t_end");
+    double least = INFINITY;
+    for (int32_t k = 0; k < r->columns; k++) {
+        const page_column *c = &r->column[k];
+        double at = 0, rise, crossing;
+        if (strcmp(c->type, "wall_pressure") != 0 || c->place < 0) continue;
+        rise = rise_of(&r->probes, c->place, start, &at);
+        crossing = mps__page_crossing(r, at);
+        if (!(rise > 0) || !(crossing > 0) || rise / crossing >= least) continue;
+        least = rise / crossing;
+        l.state = least >= 2.5 ? GOOD : least >= 1 ? LOOK : POOR;
+        if (least > SMOOTH)
+            snprintf(l.value, sizeof l.value, "no steep peak");
+        else
+            snprintf(l.value, sizeof l.value, "%s x", mps__rounded(number, least));
+        snprintf(l.text, sizeof l.text,
+                 "The steepest of the highest peaks (%.40s) rises in %s; liquid crosses a spacing "
+                 "in %s. The rise should take 2.5 times as long.",
+                 c->name, mps__quantity(rise_text, rise, "s"),
+                 mps__quantity(cross_text, crossing, "s"));
+    }
+    *smooth = !(least <= SMOOTH);
+    if (l.state == UNKNOWN)
+        snprintf(l.text, sizeof l.text, "No wall sensor has a peak whose rise is in the record.");
+    if (l.state == LOOK || l.state == POOR)
+        snprintf(l.advice, sizeof l.advice,
+                 "This peak depends on the spacing. Use its impulse, or refine until the rise is "
+                 "2.5 times as long (mps converge).");
+    return l;
+}
+
+bool mps__page_has_impacts(const page_run *r)
+{
+    bool smooth = true;
+    light_impacts(r, &smooth);
+    return !smooth;
+}
+
+static light light_repeats(const page_run *r, bool smooth)
+{
+    light l = {.name = "Repeats", .state = smooth ? GOOD : LOOK};
+    char number[TEXT_NUMBER];
+    const json_value *repeats = mps__json_get(r->summary, "repeats");
+    const double count = mps__json_number(mps__json_get(repeats, "count"));
+    const double scatter = mps__json_number(mps__json_get(repeats, "scatter"));
+    if (count > 1) {
+        l.state = by_limits(scatter, 0.2, 0.5);
+        snprintf(l.value, sizeof l.value, "%.0f runs", count);
+        snprintf(l.text, sizeof l.text, "Their highest peaks scatter by %s %%.",
+                 mps__rounded(number, 100 * scatter));
+    } else if (smooth) {
+        snprintf(l.value, sizeof l.value, "one run");
+        snprintf(l.text, sizeof l.text,
+                 "No sensor shows an impact. Crests, smooth pressures and mean forces need no "
+                 "repeats.");
+    } else {
+        snprintf(l.value, sizeof l.value, "one run");
+        snprintf(l.text, sizeof l.text,
+                 "Peaks of impacts differ from run to run, also in experiments.");
+        snprintf(l.advice, sizeof l.advice,
+                 "One run of an impact is no answer: run five with slightly different spacings "
+                 "(mps repeat). Crests and mean forces need no repeats.");
+    }
+    return l;
+}
+
+/* ---- HTML ---- */
+
+static const char *const class_of[] = {"good", "look", "poor", "unknown"};
+static const char *const mark_of[] = {"&#10003;", "!", "&#10005;", "?"};
+static const char *const word_of[] = {"good", "check", "poor", "not known"};
+
+static void write_light(FILE *out, const light *l)
+{
+    fprintf(
+        out,
+        "<li class=\"light %s\"><span class=\"mark\" aria-hidden=\"true\">%s</span><div>\n<h3>%s "
+        "<span class=\"state\">%s</span></h3>\n<p class=\"value\">",
+        class_of[l->state], mark_of[l->state], l->name, word_of[l->state]);
+    mps__html(out, l->value);
+    fputs("</p>\n<p>", out);
+    mps__html(out, l->text);
+    fputs("</p>\n", out);
+    if (l->advice[0]) {
+        fputs("<p class=\"advice\">", out);
+        mps__html(out, l->advice);
+        fputs("</p>\n", out);
+    }
+    fputs("</div></li>\n", out);
+}
+
+void mps__page_verdict(FILE *out, const page_run *r)
+{
+    bool smooth = true;
+    const light impacts = light_impacts(r, &smooth);
+    const light all[] = {light_end(r),    light_volume(r), light_lost(r),
+                         light_energy(r), impacts,         light_repeats(r, smooth)};
+    const int count = sizeof all / sizeof all[0];
+    int poor = 0, look = 0;
+    for (int k = 0; k < count; k++) {
+        poor += all[k].state == POOR;
+        look += all[k].state == LOOK;
+    }
+    fputs("<section id=\"verdict\" aria-labelledby=\"verdict-title\">\n<h2 id=\"verdict-title\">",
+          out);
+    if (poor > 0)
+        fprintf(out, "%d of %d checks %s poor", poor, count, poor == 1 ? "is" : "are");
+    else if (look > 0)
+        fprintf(out, "%d of %d checks need%s a look", look, count, look == 1 ? "s" : "");
+    else
+        fputs("All checks are good", out);
+    fputs("</h2>\n<ul class=\"lights\">\n", out);
+    for (int k = 0; k < count; k++) write_light(out, &all[k]);
+    fputs("</ul>\n</section>\n", out);
+}

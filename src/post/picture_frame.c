@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Scenes of the frames in a run's folder. */
+#include "picture_scene.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void mps__scene_scale_read(const char *folder, mps_picture_config *config)
+{
+    enum { SCALE_MOST = 1000 };
+    char *path = mps__page_path(folder, SCENE_SCALE_FILE), *text = NULL;
+    json_error error;
+    json_value *list = NULL;
+    if (path && mps__page_file(NULL, path, SCALE_MOST, &text, NULL) == MPS_OK)
+        list = mps__json_read(text, &error);
+    const double lo = mps__json_number(mps__json_at(list, 0)),
+                 hi = mps__json_number(mps__json_at(list, 1));
+    if (hi > lo) {
+        config->pressure_lo = lo;
+        config->pressure_hi = hi;
+    }
+    mps__json_free(list);
+    free(text);
+    free(path);
+}
+
+bool mps__scene_scale_write(const char *folder, const mps_picture_config *config)
+{
+    char *path = mps__page_path(folder, SCENE_SCALE_FILE);
+    FILE *file = path ? fopen(path, "w") : NULL;
+    if (file) fprintf(file, "[%.17g, %.17g]\n", config->pressure_lo, config->pressure_hi);
+    bool done = file && !ferror(file);
+    if (file && fclose(file) != 0) done = false;
+    free(path);
+    return done;
+}
+
+static mps_status no_memory(page_errors *e)
+{
+    return mps__page_fail(e, MPS_E_NOMEM, "no memory for a picture");
+}
+
+/* Densities, for the names of the bars and for what is rounding. */
+static void take_phases(scene *s, const page_run *run)
+{
+    const json_value *list = mps__json_get(run->summary, "phases");
+    for (size_t k = 0; k < SCENE_PHASES && k < mps__json_count(list); k++) {
+        const double density = mps__json_number(mps__json_get(mps__json_at(list, k), "density"));
+        if (density > 0) s->density[k] = density;
+    }
+}
+
+static mps_status take_sensors(scene *s, const page_run *run)
+{
+    for (int32_t k = 0; k < run->columns; k++) {
+        const page_column *c = &run->column[k];
+        if (!c->has_place || strcmp(c->type, "force") == 0 || strcmp(c->type, "moment") == 0)
+            continue;
+        scene_sensor *own = mps__scene_sensor(s, c->name);
+        if (!own) return no_memory(run->errors);
+        own->gauge = strcmp(c->type, "gauge") == 0;
+        memcpy(own->at, c->at, sizeof own->at);
+        if (c->has_normal) memcpy(own->normal, c->normal, sizeof own->normal);
+    }
+    return MPS_OK;
+}
+
+mps_status mps__scene_of_run(scene *s, const film *f)
+{
+    const page_run *run = f->run;
+    const char *title = mps__page_string(run, "title");
+    *s = (scene){
+        .dim = f->dim, .dp = f->dp, .phases = f->phases < SCENE_PHASES ? f->phases : SCENE_PHASES};
+    if (!title[0]) title = mps__page_string(run, "case");
+    snprintf(s->title, sizeof s->title, "%s", title);
+    memcpy(s->run_lo, f->lo, sizeof s->run_lo);
+    memcpy(s->run_hi, f->hi, sizeof s->run_hi);
+    take_phases(s, run);
+    return take_sensors(s, run);
+}
+
+mps_status mps__scene_of_frame(scene *s, const film *f, int64_t k, const film_frame *frame)
+{
+    int64_t n = 0;
+    for (int64_t i = 0; i < frame->count; i++)
+        n += (int)frame->kind[i] == FILM_FLUID || (int)frame->kind[i] == FILM_WALL;
+    if (!mps__scene_room(s, n)) return no_memory(f->run->errors);
+    s->t = f->run->frame[k].t;
+    s->pose = f->pose[k];
+    s->speed2 = f->speed2;
+    n = 0;
+    for (int64_t i = 0; i < frame->count; i++) {
+        double X[3];
+        if ((int)frame->kind[i] != FILM_FLUID && (int)frame->kind[i] != FILM_WALL) continue;
+        mps__film_to_tank(&s->pose, frame->x + 3 * i, X);
+        for (int d = 0; d < 3; d++) s->x[3 * n + d] = (float)X[d];
+        s->p[n] = (float)frame->p[i];
+        s->kind[n] = (int)frame->kind[i] == FILM_FLUID ? SCENE_FLUID : SCENE_WALL;
+        s->phase[n++] = (uint8_t)frame->phase[i];
+    }
+    return MPS_OK;
+}

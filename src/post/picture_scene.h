@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What a picture shows, as plain arrays in the frame of the tank; filled from a simulation or from a frame of a run's folder, and the
+ * same for both. */
+#ifndef MPS_POST_PICTURE_SCENE_H
+#define MPS_POST_PICTURE_SCENE_H
+
+#include "page_film.h"
+#include <mps/picture.h>
+
+enum { SCENE_FLUID = 0, SCENE_WALL = 1, SCENE_PHASES = 16, SCENE_NAME = 48 };
+
+/* A place where something is measured. */
+typedef struct scene_sensor {
+    char name[SCENE_NAME];
+    bool gauge;              /* a line upwards from `at`; else a point */
+    double at[3], normal[3]; /* normal: into the liquid; 0: none */
+} scene_sensor;
+
+typedef struct scene {
+    int32_t dim;
+    int64_t n;
+    float *x;              /* [3*n] */
+    float *p;              /* [n] */
+    uint8_t *kind, *phase; /* [n] */
+    double dp, t;
+    char title[200];
+    film_pose pose;               /* of the tank: how its frame lies in the lab */
+    double density[SCENE_PHASES]; /* [kg/m3]; 0: not known */
+    double speed2;                /* square of the largest speed of fluid */
+    double run_lo[3], run_hi[3];  /* of what moves in all of the run; lo > hi: not known */
+    int32_t sensors;
+    scene_sensor *sensor;
+    /* by mps__scene_end(): */
+    int32_t phases;      /* the highest number in the fluid, plus one; of a run: in all of it */
+    double lo[3], hi[3]; /* what is in the picture */
+    /* by mps__scene_scale(): */
+    double p_lo, p_hi;
+} scene;
+
+/* Room for n particles. @return false without memory; mps__scene_free() is allowed then, too */
+bool mps__scene_room(scene *s, int64_t n);
+void mps__scene_free(scene *s);
+/* One more sensor of a name; NULL without memory. */
+scene_sensor *mps__scene_sensor(scene *s, const char *name);
+/* When all particles are in: what follows from them. @return false: there is no particle */
+bool mps__scene_end(scene *s);
+/* The colour scale: that of the config, or what picture.h says, which is then written to the config unless all pressures are rounding.
+ * @return false without memory */
+bool mps__scene_scale(scene *s, mps_picture_config *config);
+
+/* The scale goes to a file as soon as it is fixed, so that a run that was killed goes on with it. @return false: not written */
+#define SCENE_SCALE_FILE "picture_scale.json"
+bool mps__scene_scale_write(const char *folder, const mps_picture_config *config);
+/* The scale of an earlier program; nothing where there is none. */
+void mps__scene_scale_read(const char *folder, mps_picture_config *config);
+
+/* The present state of a simulation. */
+mps_status mps__scene_of_sim(scene *s, mps_sim *sim, page_errors *e);
+/* Title, spacing, phases and sensors from summary.json. */
+mps_status mps__scene_of_run(scene *s, const film *f);
+/* The particles of a frame that was read. */
+mps_status mps__scene_of_frame(scene *s, const film *f, int64_t k, const film_frame *frame);
+
+/* Draw a scene of at least one particle. Sizes are even numbers of pixels. */
+struct canvas;
+mps_status mps__scene_draw(const scene *s, int32_t width, struct canvas *out, page_errors *e);
+
+#endif

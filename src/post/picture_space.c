@@ -1,0 +1,262 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "picture_space.h"
+#include "picture_axes.h"
+#include "picture_hull.h"
+#include "picture_sensors.h"
+#include <math.h>
+#include <stdlib.h>
+
+enum { FINE = 2 }; /* samples along a pixel: their mean has soft edges */
+
+/* What a sample shows; larger depths are nearer to the reader. */
+typedef struct sample {
+    float depth, r, g, b;
+} sample;
+
+/* Orthographic: reader's right, up, and towards the reader. */
+typedef struct camera {
+    double right[3], up[3], near[3];
+    double lo[3], hi[3]; /* of the box of the scene, in these directions */
+    double scale, x, y;  /* samples a metre; sample of the lower left corner */
+} camera;
+
+typedef struct view {
+    const scene *s;
+    camera at;
+    int width, height; /* samples */
+    sample *pixel;
+} view;
+
+static double along(const double axis[3], const double x[3])
+{
+    return axis[0] * x[0] + axis[1] * x[1] + axis[2] * x[2];
+}
+
+/* From the front, from the right by 30 degrees, from above by 22. */
+static void aim(camera *c, const scene *s)
+{
+    const double turn = acos(-1.0) / 6, tilt = acos(-1.0) * 22 / 180;
+    *c = (camera){.right = {cos(turn), 0, -sin(turn)},
+                  .up = {-sin(tilt) * sin(turn), cos(tilt), -sin(tilt) * cos(turn)},
+                  .near = {cos(tilt) * sin(turn), sin(tilt), cos(tilt) * cos(turn)},
+                  .lo = {INFINITY, INFINITY, INFINITY},
+                  .hi = {-INFINITY, -INFINITY, -INFINITY}};
+    const double *const axis[3] = {c->right, c->up, c->near};
+    for (int corner = 0; corner < 8; corner++) {
+        double x[3];
+        for (int d = 0; d < 3; d++) x[d] = corner >> d & 1 ? s->hi[d] + s->dp : s->lo[d] - s->dp;
+        for (int d = 0; d < 3; d++) {
+            c->lo[d] = fmin(c->lo[d], along(axis[d], x));
+            c->hi[d] = fmax(c->hi[d], along(axis[d], x));
+        }
+    }
+}
+
+double mps__space_aspect(const scene *s)
+{
+    camera c;
+    aim(&c, s);
+    return (c.hi[0] - c.lo[0]) / (c.hi[1] - c.lo[1]);
+}
+
+/* Right, down and depth of a point, in samples and metres. */
+static void project(const camera *c, const double x[3], double out[3])
+{
+    out[0] = c->x + (along(c->right, x) - c->lo[0]) * c->scale;
+    out[1] = c->y - (along(c->up, x) - c->lo[1]) * c->scale;
+    out[2] = along(c->near, x);
+}
+
+/* ---- spheres ----------------------------------------------------------------------------------------------------- */
+
+typedef struct sphere {
+    double x[3], radius; /* as project() says; radius in samples */
+    colour ink;
+    bool flat; /* without light: a part of the shell */
+} sphere;
+
+/* Light from the upper left, paler with depth. */
+static void shade(const view *v, sample *p, const sphere *ball, double dx, double dy)
+{
+    const double nz = sqrt(1 - dx * dx - dy * dy),
+                 depth = ball->x[2] + nz * ball->radius / v->at.scale;
+    if (depth <= (double)p->depth) return;
+    const double light = ball->flat ? 1
+                                    : 0.55 + 0.50 * fmax(0, -0.36 * dx - 0.55 * dy + 0.755 * nz);
+    const double far = (v->at.hi[2] - depth) / (v->at.hi[2] - v->at.lo[2]),
+                 pale = ball->flat ? 0 : 0.35 * far;
+    p->depth = (float)depth;
+    p->r = (float)(fmin(1, light * ball->ink.r) * (1 - pale) + pale);
+    p->g = (float)(fmin(1, light * ball->ink.g) * (1 - pale) + pale);
+    p->b = (float)(fmin(1, light * ball->ink.b) * (1 - pale) + pale);
+}
+
+static void draw_sphere(const view *v, const sphere *ball)
+{
+    const double r = ball->radius, *m = ball->x;
+    if (!(fabs(m[0]) < 1e6 && fabs(m[1]) < 1e6)) return;
+    const int x0 = (int)fmax(0, floor(m[0] - r)), x1 = (int)fmin(v->width - 1, m[0] + r),
+              y0 = (int)fmax(0, floor(m[1] - r)), y1 = (int)fmin(v->height - 1, m[1] + r);
+    for (int j = y0; j <= y1; j++)
+        for (int i = x0; i <= x1; i++) {
+            const double dx = (i + 0.5 - m[0]) / r, dy = (j + 0.5 - m[1]) / r;
+            if (dx * dx + dy * dy <= 1)
+                shade(v, v->pixel + (size_t)j * (size_t)v->width + i, ball, dx, dy);
+        }
+}
+
+/* The outside of the tank: what looks at the reader alone is left out, the rest is a pale shell, darker below and to the right.
+ * @return false: left out */
+static bool dress_wall(const view *v, const hull *h, int64_t i, sphere *ball)
+{
+    const scene *s = v->s;
+    double out[3], n[3], length = 0, light;
+    int away = 0, sides = 0;
+    mps__hull_outwards(h, s->x + 3 * i, out);
+    ball->ink = (colour){0.60, 0.62, 0.65};
+    for (int d = 0; d < 3; d++) {
+        sides += out[d] != 0;
+        away += out[d] * v->at.near[d] < 0;
+    }
+    if (sides == 0) return true;
+    if (away == 0) return false;
+    for (int d = 0; d < 3; d++) {
+        n[d] = (2 * (double)s->x[3 * i + d] - s->lo[d] - s->hi[d]) / (s->hi[d] - s->lo[d] + s->dp);
+        length += n[d] * n[d];
+    }
+    light = along(v->at.up, n) - 0.5 * along(v->at.right, n);
+    light = 0.925 + 0.035 * light / sqrt(length + 1e-9);
+    ball->flat = true;
+    ball->ink = (colour){light - 0.008, light, light + 0.010};
+    return true;
+}
+
+/* One of two passes: the shell, or all else. */
+static void draw_spheres(const view *v, const hull *h, bool shell)
+{
+    const scene *s = v->s;
+    for (int64_t i = 0; i < s->n; i++) {
+        const bool fluid = s->kind[i] == SCENE_FLUID;
+        const double x[3] = {(double)s->x[3 * i], (double)s->x[3 * i + 1], (double)s->x[3 * i + 2]};
+        /* radii [dp] at which surfaces have no gaps */
+        sphere ball = {.radius = fmax(0.75, (fluid ? 0.62 : 0.75) * s->dp * v->at.scale)};
+        if (fluid)
+            ball.ink = mps__axes_colour(s, s->phase[i], (double)s->p[i]);
+        else if (!dress_wall(v, h, i, &ball))
+            continue;
+        if (ball.flat != shell) continue;
+        project(&v->at, x, ball.x);
+        draw_sphere(v, &ball);
+    }
+}
+
+/* The shell is behind all: at its edge, where it turns towards the reader, it hides nothing either. */
+static void draw_all(const view *v, const hull *h)
+{
+    draw_spheres(v, h, true);
+    for (size_t i = 0; i < (size_t)v->width * (size_t)v->height; i++) v->pixel[i].depth = -INFINITY;
+    draw_spheres(v, h, false);
+}
+
+/* ---- the view ---------------------------------------------------------------------------------------------------- */
+
+/* The mean of the samples of a pixel. */
+static void copy_pixels(canvas *c, const pixel_box *box, const view *v)
+{
+    mps__canvas_pixels_begin(c);
+    for (int y = 0; y < v->height / FINE; y++)
+        for (int x = 0; x < v->width / FINE; x++) {
+            colour sum = {0, 0, 0};
+            for (int k = 0; k < FINE * FINE; k++) {
+                const sample *p = v->pixel + (size_t)(y * FINE + k / FINE) * (size_t)v->width +
+                                  x * FINE + k % FINE;
+                sum.r += (double)p->r / (FINE * FINE);
+                sum.g += (double)p->g / (FINE * FINE);
+                sum.b += (double)p->b / (FINE * FINE);
+            }
+            mps__canvas_dot(c, box, (int)box->x + x, (int)box->y + y, sum, 1);
+        }
+    mps__canvas_pixels_end(c);
+}
+
+/* The edges of the box, and the directions of the axes at its lower corner. */
+static void draw_box(canvas *c, const pixel_box *box, const view *v)
+{
+    const scene *s = v->s;
+    for (int corner = 0; corner < 8; corner++)
+        for (int d = 0; d < 3; d++) {
+            double x[3], from[3], to[3];
+            if (corner >> d & 1) continue;
+            for (int k = 0; k < 3; k++) x[k] = corner >> k & 1 ? s->hi[k] : s->lo[k];
+            project(&v->at, x, from);
+            x[d] = s->hi[d];
+            project(&v->at, x, to);
+            mps__canvas_line(c, box->x + from[0] / FINE, box->y + from[1] / FINE,
+                             box->x + to[0] / FINE, box->y + to[1] / FINE, 0.8,
+                             (colour){0.62, 0.64, 0.67});
+        }
+}
+
+static void draw_axes(canvas *c, const pixel_box *box, const view *v)
+{
+    static const char *const name[3] = {"x", "y", "z"};
+    const text_style style = {.size = 15, .place = TEXT_MIDDLE, .ink = mps__ink};
+    const double length = 34 * c->unit, x0 = box->x + 22 * c->unit,
+                 y0 = box->y + box->height - 30 * c->unit;
+    for (int d = 0; d < 3; d++) {
+        const double dx = length * v->at.right[d], dy = -length * v->at.up[d];
+        mps__canvas_arrow(c, x0, y0, x0 + dx, y0 + dy, mps__ink);
+        mps__canvas_text(c, x0 + 1.35 * dx, y0 + 1.35 * dy + 5 * c->unit, style, 0, name[d]);
+    }
+}
+
+static void draw_sensors(canvas *c, const pixel_box *box, const view *v)
+{
+    marks m = {.inside = *box};
+    for (int32_t k = 0; k < v->s->sensors; k++) {
+        const scene_sensor *own = &v->s->sensor[k];
+        double x[3], top[3];
+        const double end[3] = {own->at[0], v->s->hi[1], own->at[2]};
+        project(&v->at, own->at, x);
+        project(&v->at, end, top);
+        if (own->gauge)
+            mps__marks_line(&m, c, box->x + x[0] / FINE, box->y + x[1] / FINE,
+                            box->y + top[1] / FINE, own->name);
+        else
+            mps__marks_point(&m, c, box->x + x[0] / FINE, box->y + x[1] / FINE,
+                             along(v->at.right, own->normal), -along(v->at.up, own->normal),
+                             own->name);
+    }
+}
+
+static bool open_view(view *v, const pixel_box *box, const scene *s)
+{
+    *v = (view){.s = s, .width = FINE * (int)box->width, .height = FINE * (int)box->height};
+    const size_t count = (size_t)v->width * (size_t)v->height;
+    v->pixel = malloc(count * sizeof *v->pixel);
+    if (!v->pixel) return false;
+    for (size_t i = 0; i < count; i++) v->pixel[i] = (sample){-INFINITY, 1, 1, 1};
+    camera *c = &v->at;
+    aim(c, s);
+    c->scale = fmin(v->width / (c->hi[0] - c->lo[0]), v->height / (c->hi[1] - c->lo[1]));
+    c->x = 0.5 * (v->width - (c->hi[0] - c->lo[0]) * c->scale);
+    c->y = 0.5 * (v->height + (c->hi[1] - c->lo[1]) * c->scale);
+    return true;
+}
+
+mps_status mps__space_draw(canvas *c, const pixel_box *box, const scene *s, page_errors *e)
+{
+    view v = {0};
+    hull h;
+    const bool open = mps__hull_create(&h, s) && open_view(&v, box, s);
+    if (open) {
+        draw_all(&v, &h);
+        copy_pixels(c, box, &v);
+        draw_box(c, box, &v);
+        draw_axes(c, box, &v);
+        draw_sensors(c, box, &v);
+    }
+    free(v.pixel);
+    mps__hull_free(&h);
+    return open ? MPS_OK : mps__page_fail(e, MPS_E_NOMEM, "no memory for a picture");
+}
