@@ -188,7 +188,6 @@ export class Charts {
         b.dataset.series = s.name;
         b.title = s.about || s.label;
         b.setAttribute("aria-pressed", "true");
-        b.setAttribute("aria-label", `Show ${s.label}`);
         swatch.style.borderTopColor = this.colour(chart.g, s, k);
         if (s.reference && !s.line) swatch.className = "ring";
         else if (k >= 8) swatch.style.borderTopStyle = k >= 16 ? "dotted" : "dashed";
