@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Dam break of Lobovsky et al. 2014: a column of water 0.6 m long and 0.3 m high in a tank 1.61 x 0.6 m, in 3-D 0.15 m wide. */
 #include "common/ranks.h"
-#include "common/run.h"
+#include "common/tank.h"
 #include "common/view.h"
 #include <math.h>
 #include <stdlib.h>
@@ -21,7 +21,7 @@ typedef struct bins {
 
 static void build(run *r, double *built)
 {
-    const double lo[] = {0, 0, 0}, hi[] = {COLUMN_LENGTH, COLUMN_HEIGHT, BREADTH};
+    const double hi[] = {COLUMN_LENGTH, COLUMN_HEIGHT, BREADTH};
     mps_tank tank;
     mps_tank_init(&tank, sizeof tank);
     tank.size[0] = LENGTH;
@@ -29,7 +29,7 @@ static void build(run *r, double *built)
     tank.size[2] = BREADTH;
     run_phase(r, 0, DENSITY, DENSITY * KINEMATIC_VISCOSITY);
     run_check(r, mps_tank_add(r->sim, &tank, built), "tank");
-    run_check(r, mps_fill_box_add(r->sim, 0, lo, hi, NULL, NULL), "water");
+    tank_liquid(r, hi, false, NULL);
 }
 
 static bool bins_collect(const bins *b, mps_sim *sim)

@@ -12,8 +12,9 @@ static const tank_case tank = {
 
 static void add_columns(run *r, const tank_case *c)
 {
-    double level = run_level(r), dp = r->options.dp, top = floor(c->plate.top / dp + 1e-6) * dp,
-           middle = c->size[0] / 2;
+    double h[2], level = run_level(r), middle = c->size[0] / 2;
+    run_check(r, mps_lattice_get(r->sim, NULL, h), "baffle");
+    const double top = floor(c->plate.top / h[1] + 1e-6) * h[1];
     const double on_baffle[] = {middle, top, 0};
     run_gauge(r, "eta_a", middle - 0.275, 0, level);
     run_gauge_from(r, "eta_b", on_baffle, level);

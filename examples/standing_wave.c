@@ -17,10 +17,11 @@ static void displace(double x, double y, double k, double top, double *out)
     out[1] *= (top + AMPLITUDE * cos(k * surface_x)) / surface_y;
 }
 
-static void add_water(run *r, double length)
+static double add_water(run *r, double length)
 {
-    double dp = r->options.dp, k = acos(-1.0) / length;
-    int columns = (int)lround(length / dp) - 1, rows = (int)lround(DEPTH / dp);
+    double h[2], k = acos(-1.0) / length;
+    run_check(r, mps_lattice_get(r->sim, NULL, h), "water");
+    int columns = (int)lround(length / h[0]) - 1, rows = (int)lround(DEPTH / h[1]);
     mps_particle_block block;
     mps_particle_block_init(&block, sizeof block);
     block.count = (int64_t)columns * rows;
@@ -28,14 +29,17 @@ static void add_water(run *r, double length)
     if (!x) run_check(r, MPS_E_NOMEM, "water");
     for (int i = 0; x && i < columns; i++)
         for (int j = 0; j < rows; j++)
-            displace((i + 1) * dp, (j + 1) * dp, k, rows * dp, x + 2 * ((int64_t)i * rows + j));
+            displace((i + 1) * h[0], (j + 1) * h[1], k, rows * h[1],
+                     x + 2 * ((int64_t)i * rows + j));
     block.position = x;
     mps_status status = mps_particles_add(r->sim, &block, NULL);
     free(x);
     run_check(r, status, "water");
+    return rows * h[1];
 }
 
-static void build(run *r)
+/* The still level. */
+static double build(run *r)
 {
     mps_tank tank;
     double built[3];
@@ -43,7 +47,7 @@ static void build(run *r)
     tank.size[0] = LENGTH;
     tank.size[1] = HEIGHT;
     run_check(r, mps_tank_add(r->sim, &tank, built), "tank");
-    add_water(r, built[0]);
+    return add_water(r, built[0]);
 }
 
 /* Horizontal centre of mass: it sees the odd modes only, so the free second harmonic of the prescribed cosine drops out. */
@@ -66,8 +70,8 @@ int main(int argc, char **argv)
     o.t_end = 5.92; /* five periods */
     cli_parse(&o, argc, argv);
     run_open(&r, &o);
-    build(&r);
-    run_gauge(&r, "eta_left", o.dp, 0, lround(DEPTH / o.dp) * o.dp);
+    const double level = build(&r);
+    run_gauge(&r, "eta_left", o.dp, 0, level);
     run_value(&r, "x_centre", "m", "Centre of mass along x: of all liquid", centre, NULL);
     return run_finish(&r);
 }

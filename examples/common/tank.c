@@ -33,14 +33,20 @@ static double still_level(void *user, mps_sim *sim)
     return *(const double *)user;
 }
 
+void tank_liquid(run *r, const double *hi, bool whole_rows, double *built)
+{
+    const double lo[3] = {0};
+    if (whole_rows || run_has_gas(r) || strstr(r->options.model, ".paper"))
+        run_check(r, mps_fill_box_add(r->sim, 0, lo, hi, NULL, built), "liquid");
+    else
+        run_check(r, mps_fill_level_add(r->sim, 0, lo, hi, NULL, built), "liquid");
+}
+
 void tank_fill(run *r, const double *size, double depth, bool whole_rows)
 {
-    const double lo[3] = {0}, level[3] = {size[0], depth, size[2]};
+    const double level[3] = {size[0], depth, size[2]};
     double built[6];
-    if (whole_rows || run_has_gas(r) || strstr(r->options.model, ".paper"))
-        run_check(r, mps_fill_box_add(r->sim, 0, lo, level, NULL, built), "liquid");
-    else
-        run_check(r, mps_fill_level_add(r->sim, 0, lo, level, NULL, built), "liquid");
+    tank_liquid(r, level, whole_rows, built);
     r->level = built[r->options.dim + 1];
     run_figure_add(r, "still_level", "y of the still level as filled [m]", still_level, &r->level);
 }

@@ -29,8 +29,10 @@ void tank_walls(run *r, const double *size);
 void tank_walls_about(run *r, const double *size, double middle, double *lo, double *hi);
 /* Walls, baffle, water up to the depth, air above it where the model has a gas, and the motion. */
 void tank_build(run *r, const tank_case *c);
-/* Liquid up to a depth, which need not be a multiple of the spacing; sets the still level and writes it to summary.json. With `whole_rows`, with a
- * model to the letter of the papers and below gas it ends with the last whole row: in a row of both the one would have to pass through the other. */
+/* Liquid from the corner 0 of the tank to `hi`, which need not be on the lattice. With `whole_rows`, with a model to the letter of the papers
+ * and below gas it ends with the last whole row: in a row of both the one would have to pass through the other. @param built as of mps_fill_level_add() */
+void tank_liquid(run *r, const double *hi, bool whole_rows, double *built);
+/* The same in the whole tank up to a depth; sets the still level and writes it to summary.json. */
 void tank_fill(run *r, const double *size, double depth, bool whole_rows);
 /* A harmonic motion that grows over the periods of --ramp. */
 void tank_move(run *r, mps_harmonic motion);

@@ -29,7 +29,7 @@ static void build_walls(impact *c)
     impact_water(c);
     impact_walls(c, size, false);
     run_check(r, mps_baffle_add(r->sim, "box", lo, hi, NULL), "box");
-    run_check(r, mps_fill_box_add(r->sim, 0, zero, column, NULL, NULL), "water");
+    run_check(r, mps_fill_level_add(r->sim, 0, zero, column, NULL, NULL), "water");
 }
 
 static void build(impact *c)

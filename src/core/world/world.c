@@ -46,6 +46,21 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
     return mps__solvers_init(&w->solvers, context);
 }
 
+void mps__world_spacing(mps__world *w, double dp)
+{
+    mps_neighbours *lists[] = {&w->lists.neighbours, &w->lists.complete};
+    const double ratio = dp / w->setup.dp;
+    if (ratio == 1) return;
+    w->setup.dp = dp;
+    w->setup.re_near *= ratio;
+    w->setup.re_far *= ratio;
+    if (!w->setup.scale_given) w->setup.velocity_scale *= sqrt(ratio);
+    for (int k = 0; k < 2; k++) {
+        lists[k]->dp = dp;
+        lists[k]->skin *= ratio;
+    }
+}
+
 void mps__world_free(mps__world *w)
 {
     mps__twins_attach(&w->host.twins, NULL);
