@@ -114,10 +114,13 @@ MPS_API mps_status mps_fill_box_add(mps_sim *sim, int32_t phase, const double *l
 
 /** Fill a box with its volume, up to the level hi[1] [m], in a tank or in any solid. If the level
  *  lies between two rows of the lattice, the upper row gets the share of its points that the mass
- *  below the level needs, evenly spread; the liquid at rest settles to the level. The same holds
- *  for the other sides of a block of liquid. The number of particles is right to half a particle,
- *  a block that ends on no wall has its edges right to one more. A gap between the box and a wall
- *  of a tank is closed if it is narrower than h. Otherwise as mps_fill_box_add().
+ *  below the level needs, evenly spread; the liquid at rest settles to the level. The other sides
+ *  of the box are filled in the same way. The number of particles is right to half a particle.
+ *
+ *  Walls take half a cell of the liquid, and a free surface lies at the centres of the outermost
+ *  particles. So a side of length L has L/h particles between a wall and a free surface, L/h - 1
+ *  between two walls, L/h + 1 between two free surfaces. A gap between the box and a wall of a tank
+ *  that is narrower than h is closed. Otherwise as mps_fill_box_add().
  *  @param built  NULL, or [2*dim] out: built[dim+1] is the level of the mass that was filled in
  *  [m] */
 MPS_API mps_status mps_fill_level_add(mps_sim *sim, int32_t phase, const double *lo,

@@ -9,7 +9,7 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
 {
     w->context = context;
     w->setup.dim = dim;
-    w->setup.dp = dp;
+    w->setup.dp = w->setup.dp_given = dp;
     w->threads = 1;
     mps__pool_init(&w->pool, context);
     w->lists.linked = w->lists.listed = -1;

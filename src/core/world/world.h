@@ -59,6 +59,7 @@ typedef struct mps__jump {
 /* What the user chose. The text of a checkpoint says it. */
 typedef struct mps__setup {
     int32_t dim, lost_policy;
+    double dp_given; /* by the user; dp is that of the first tank's cells */
     double dp, g[3], velocity_scale, re_near, re_far, speed_limit;
     double domain_min[3], domain_max[3]; /* tank's frame */
     bool domain_given, scale_given;

@@ -15,10 +15,10 @@ static mps_status has_tank(const mps_sim *sim)
     return MPS_OK;
 }
 
-/* Whole cells of every side. The lattice with its dummies must stay countable. */
+/* Whole cells of every side, the same for tanks of the same size. The lattice with its dummies must stay countable. */
 static mps_status tank_cells(mps_sim *sim, const mps_tank *tank, int64_t cells[3])
 {
-    const double dp = sim->world.setup.dp;
+    const double dp = sim->world.setup.dp_given;
     const int dim = sim->world.setup.dim;
     double along[3], points = 1;
     for (int d = 0; d < dim; d++) {
@@ -57,13 +57,20 @@ static void fit_lattice(const mps_sim *sim, const mps_tank *tank, mps__tank_latt
     }
     l->dp = first && volume != 1 ? dp * pow(volume, 1.0 / dim) : dp;
     if (first || fabs(volume - 1) < same_volume) return;
-    for (int d = 0; d < dim; d++) l->h[d] = dp;
+    for (int d = 0; d < dim; d++) {
+        l->cells[d] = (int64_t)round(tank->size[d] / dp);
+        l->h[d] = dp;
+    }
 }
 
 static void report_size(mps_sim *sim, const mps_tank *tank, const mps__tank_lattice *l, double dp,
                         double *built)
 {
     static const char axis[3] = {'x', 'y', 'z'};
+    if (l->dp != dp)
+        mps__log(&sim->context, MPS_LOG_INFO,
+                 "tank \"%s\": dp is %g m in place of %g m, so that whole cells fill the tank",
+                 tank->name, l->dp, dp);
     for (int d = 0; d < 3; d++) {
         const double size = (double)l->cells[d] * l->h[d];
         if (built) built[d] = size;
@@ -79,10 +86,6 @@ static void report_size(mps_sim *sim, const mps_tank *tank, const mps__tank_latt
                      tank->name, tank->size[d], axis[d], (long long)l->cells[d], l->h[d],
                      100 * (l->h[d] / l->dp - 1));
     }
-    if (l->dp != dp)
-        mps__log(&sim->context, MPS_LOG_INFO,
-                 "tank \"%s\": dp is %g m in place of %g m, so that whole cells fill the tank",
-                 tank->name, l->dp, dp);
 }
 
 static mps_status corners(mps_sim *sim, const double *lo, const double *hi)
