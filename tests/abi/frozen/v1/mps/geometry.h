@@ -177,13 +177,13 @@ MPS_API mps_status mps_solid_init(mps_solid *solid, size_t size);
  *  the first rows beside a solid by up to 0.45 dp, so that their density is even, and call `inside`
  *  with the lattice point.
  *
- *  The first tank or solid makes the lattice of the fills, that of a solid has h = dp and begins at
- *  its corner `lo`: put `lo` on a lattice plane of flat walls. Without a tank each further solid extends the
- *  lattice, and fills keep to the boxes of the solids. A body may end in the walls of a tank: its
- *  points beyond the walls, or nearer than 0.7 dp to a wall particle, are left out. Walls of the
- *  tank inside the body become dummies. Add bodies before the fluid: fluid inside a solid is
- *  refused. Parts thinner than 3 dp are logged as a warning, because liquid on one side feels the
- *  other; thin screens are made by mps_baffle_add() and mps_plate_add().
+ *  The first tank or solid makes the lattice of the fills, that of a solid has h = dp and begins
+ *  at its corner `lo`: put `lo` on a lattice plane of flat walls. Without a tank each further
+ *  solid extends the lattice, and fills keep to the boxes of the solids. A body may end in the
+ *  walls of a tank: its points beyond the walls, or nearer than 0.7 dp to a wall particle, are
+ *  left out. Walls of the tank inside the body become dummies. Add bodies before the fluid: fluid
+ *  inside a solid is refused. Parts thinner than 3 dp are logged as a warning, because liquid on
+ *  one side feels the other; thin screens are made by mps_baffle_add() and mps_plate_add().
  *  @return see the table of this file; MPS_E_ARG also for a distance that is not finite (with its
  *          place), no surface in the box, a surface that leaves the box */
 MPS_API mps_status mps_solid_add(mps_sim *sim, const mps_solid *solid);
