@@ -9,9 +9,8 @@ static const double DEPTH[2] = {0.25, 0.2};
 static void build(run *r)
 {
     int k = r->options.dim - 2;
-    const double lo[] = {0, 0, 0}, hi[] = {SIZE[k][0], DEPTH[k], SIZE[k][2]};
     tank_walls(r, SIZE[k]);
-    run_check(r, mps_fill_box_add(r->sim, 0, lo, hi, NULL, NULL), "water");
+    tank_fill(r, SIZE[k], DEPTH[k], true);
 }
 
 static void add_columns(run *r)
