@@ -142,7 +142,7 @@ static mps_status write_rest(FILE *out, const page_run *r, int64_t bytes)
     mps__page_forces(out, r);
     mps__page_budget(out, r);
     if (status == MPS_OK && r->frames == 0) status = mps__page_pictures(out, r, bytes / 2);
-    mps__page_case(out, r);
+    mps__page_of_case(out, r);
     fprintf(out,
             "</main>\n<footer>Made by libmps %s. Plots: uPlot, (c) Leon Sorokin, MIT "
             "licence.</footer>\n",

@@ -31,7 +31,7 @@ void mps__page_budget(FILE *out, const page_run *r);
 /* Pictures of the folder, as long as they need at most `bytes`. */
 mps_status mps__page_pictures(FILE *out, const page_run *r, int64_t bytes);
 /* Inputs, numbers of the case, machine, command, the case itself. */
-void mps__page_case(FILE *out, const page_run *r);
+void mps__page_of_case(FILE *out, const page_run *r);
 /* All columns as packed curves, at most `bytes` of base64. */
 mps_status mps__page_curves(FILE *out, const page_run *r, int64_t bytes);
 

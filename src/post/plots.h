@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Plots of a run, and report.html. */
-#ifndef MPS_POST_REPORT_H
-#define MPS_POST_REPORT_H
+/* Plots of a run, plot_*.svg. */
+#ifndef MPS_POST_PLOTS_H
+#define MPS_POST_PLOTS_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { REPORT_ROWS = 24, REPORT_PICTURES = 32, REPORT_ERROR = 640 };
+enum { REPORT_ERROR = 640 };
 
 /* Rows of a table in memory: element k of column c is rows[k * columns + c]; column 0 is the time. */
 typedef struct report_table {
@@ -29,30 +29,18 @@ typedef struct report_reference {
     const double *t, *value;
 } report_reference;
 
-/* A line of a list of names and values. */
-typedef struct report_row {
-    const char *name;
-    char value[REPORT_ERROR];
-} report_row;
-
 /* What is known of a run. */
 typedef struct report {
-    const char *folder, *name, *title;
+    const char *folder;
     int32_t dim;
     double t_end;
-    bool page;    /* write report.html */
-    bool several; /* there are several phases */
     report_table probes, momentum, steps;
     int columns, added, figures, references; /* added: those before the common ones */
     const report_column *column, *figure;
     const report_reference *reference;
-    int settings, results, pictures;
-    report_row setting[REPORT_ROWS], result[REPORT_ROWS];
-    char picture[REPORT_PICTURES][32];
-    double picture_t[REPORT_PICTURES]; /* NAN: not known */
 } report;
 
-/* plot_*.svg, and report.html if it is wanted. @param error  [REPORT_ERROR] out @return false: not all could be written */
+/* Write them. @param error  [REPORT_ERROR] out @return false: not all could be written */
 bool mps__report_save(const report *r, char *error);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Plots of a run, and report.html: one page with everything in it that works offline. */
-#include "report.h"
+/* Plots of a run as files of their own. */
+#include "plots.h"
 #include "svg_plot.h"
 #include "tables.h"
 #include <errno.h>
@@ -193,156 +193,6 @@ static void plots_make(plots *all, const report *r)
                   column_of(&r->steps, "largest speed", STEP_SPEED, 0));
 }
 
-/* ---- the page --------------------------------------------------------------------------------------------------- */
-
-static void html_row(FILE *out, const char *name, const char *value)
-{
-    fputs("<tr><td>", out);
-    mps__svg_text(out, name);
-    fputs("</td><td>", out);
-    mps__svg_text(out, value);
-    fputs("</td></tr>\n", out);
-}
-
-/* What each column of probes.csv is, and where. */
-static void html_columns(FILE *out, const report *r)
-{
-    char name[64];
-    fputs("<h2>Columns of probes.csv</h2>\n<table>\n", out);
-    html_row(out, "t [s]", "Time");
-    for (int k = 0; k < r->columns; k++) {
-        const report_column *c = &r->column[k];
-        snprintf(name, sizeof name, c->unit[0] ? "%s [%s]" : "%s", c->name, c->unit);
-        html_row(out, name, c->about);
-    }
-    fputs("</table>\n<p>Places are in the frame of the tank, which moves with it; y is up.", out);
-    if (r->dim == 2) fputs(" Forces and energies are those of 1 m of width.", out);
-    fputs("</p>\n", out);
-}
-
-/* Numbers of the case: value, and what each is. */
-static void html_figures(FILE *out, const report *r)
-{
-    char text[320];
-    if (r->figures == 0) return;
-    fputs("<h2>Numbers of this case, also in summary.json</h2>\n<table>\n", out);
-    for (int i = 0; i < r->figures; i++) {
-        const report_column *f = &r->figure[i];
-        if (isfinite(f->value))
-            snprintf(text, sizeof text, "%.6g: %s", f->value, f->about);
-        else
-            snprintf(text, sizeof text, "not reached: %s", f->about);
-        html_row(out, f->name, text);
-    }
-    fputs("</table>\n", out);
-}
-
-static void html_rows(FILE *out, const char *head, const report_row *rows, int count)
-{
-    fprintf(out, "<h2>%s</h2>\n<table>\n", head);
-    for (int i = 0; i < count; i++) html_row(out, rows[i].name, rows[i].value);
-    fputs("</table>\n", out);
-}
-
-static void base64_write(FILE *out, const unsigned char *data, size_t size)
-{
-    static const char
-        *const digit = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    for (size_t i = 0; i < size; i += 3) {
-        size_t left = size - i;
-        unsigned long v = (unsigned long)data[i] << 16 |
-                          (left > 1 ? (unsigned long)data[i + 1] << 8 : 0) |
-                          (left > 2 ? data[i + 2] : 0);
-        fputc(digit[v >> 18 & 63], out);
-        fputc(digit[v >> 12 & 63], out);
-        fputc(left > 1 ? digit[v >> 6 & 63] : '=', out);
-        fputc(left > 2 ? digit[v & 63] : '=', out);
-    }
-}
-
-static unsigned char *file_read(const char *path, size_t *size)
-{
-    FILE *in = fopen(path, "rb");
-    if (!in) return NULL;
-    long length = fseek(in, 0, SEEK_END) == 0 ? ftell(in) : -1;
-    unsigned char *data = length > 0 ? malloc((size_t)length) : NULL;
-    rewind(in);
-    *size = data ? fread(data, 1, (size_t)length, in) : 0;
-    fclose(in);
-    return data;
-}
-
-/* What is seen in a picture at a time [s]; NAN: it is not known here. */
-static void picture_text(char *text, size_t size, const report *r, double t)
-{
-    int used = 0;
-    if (isfinite(t)) used = snprintf(text, size, "t = %.4g s: ", t);
-    snprintf(text + used, size - (size_t)used,
-             "%s, coloured by pressure [Pa] as the %s; walls are dark grey balls, the dummies "
-             "behind them light grey ones",
-             r->dim == 3 ? "middle slice of the particles of fluid" : "particles of fluid",
-             r->several ? "bars at the right show, one for each phase" : "bar at the right shows");
-}
-
-/* Embed one picture; a run that broke off early has fewer of them. */
-static void html_picture(FILE *out, const report *r, const char *name, double t)
-{
-    char path[640], text[320];
-    size_t size = 0;
-    snprintf(path, sizeof path, "%s/%s", r->folder, name);
-    unsigned char *data = file_read(path, &size);
-    if (data) {
-        picture_text(text, sizeof text, r, t);
-        fprintf(out, "<figure><img alt=\"%s\" src=\"data:image/png;base64,", text);
-        base64_write(out, data, size);
-        fprintf(out, "\">\n<figcaption>%s: %s.</figcaption></figure>\n", name, text);
-    }
-    free(data);
-}
-
-static void report_write(FILE *out, const report *r, const plots *all)
-{
-    fputs("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>", out);
-    mps__svg_text(out, r->name);
-    fputs("</title>\n<style>body{font:15px sans-serif;color:#222;max-width:1120px;margin:2em "
-          "auto;padding:0 "
-          "1em}table{border-collapse:collapse}"
-          "td{border-bottom:1px solid #ddd;padding:3px 18px 3px "
-          "0}figure{margin:1.5em "
-          "0}figcaption{color:#555}img,svg{max-width:100%;height:auto}.two{display:flex;flex-wrap:"
-          "wrap;gap:4em}</style></"
-          "head><body>\n",
-          out);
-    fputs("<h1>", out);
-    mps__svg_text(out, r->name);
-    fputs("</h1>\n<p>", out);
-    mps__svg_text(out, r->title);
-    fputs("</p>\n<div class=\"two\"><div>\n", out);
-    html_rows(out, "Settings", r->setting, r->settings);
-    fputs("</div><div>\n", out);
-    html_rows(out, "Run", r->result, r->results);
-    fputs("</div></div>\n", out);
-    html_columns(out, r);
-    html_figures(out, r);
-    fputs("<h2>Curves</h2>\n", out);
-    for (int i = 0; i < all->count; i++) mps__plot_svg(out, &all->plot[i]);
-    fputs("<h2>Pictures</h2>\n", out);
-    for (int i = 0; i < r->pictures; i++) html_picture(out, r, r->picture[i], r->picture_t[i]);
-    fputs("</body></html>\n", out);
-}
-
-static bool report_page(const report *r, const plots *all, char *error)
-{
-    char path[640];
-    snprintf(path, sizeof path, "%s/report.html", r->folder);
-    FILE *out = fopen(path, "w");
-    if (out) report_write(out, r, all);
-    bool failed = !out || ferror(out);
-    if (out && fclose(out) != 0) failed = true;
-    if (failed) snprintf(error, REPORT_ERROR, "%.500s: %s", path, strerror(errno));
-    return !failed;
-}
-
 bool mps__report_save(const report *r, char *error)
 {
     plots all;
@@ -353,5 +203,5 @@ bool mps__report_save(const report *r, char *error)
             snprintf(error, REPORT_ERROR, "%.500s/%s: %s", r->folder, all.file[i], strerror(errno));
             done = false;
         }
-    return (!r->page || report_page(r, &all, error)) && done;
+    return done;
 }
