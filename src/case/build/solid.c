@@ -118,8 +118,7 @@ static bool add_flat(reading *r, const plate *p, const double *from, const doubl
         hi[d] = fmax(from[d], to[d]);
     }
     const double origin = b->tank.form.lo[p->axis];
-    const double first = origin +
-                         round((lo[p->axis] - origin) / h - 0.5 * (columns - 1)) * h;
+    const double first = origin + round((lo[p->axis] - origin) / h - 0.5 * (columns - 1)) * h;
     lo[p->axis] = first;
     hi[p->axis] = first + (columns - 1) * h;
     return mps__build_try(b, mps_baffle_add(b->sim, r->name, lo, hi, NULL), r->map, r->name);
