@@ -14,7 +14,8 @@ static void colour_of(double share, double out[3])
     const double f = fmin(fmax(share, 0), 1) * 4;
     const int k = f < 4 ? (int)f : 3;
     for (int c = 0; c < 3; c++)
-        out[c] = mps__scale_map[0][k][c] + (f - k) * (mps__scale_map[0][k + 1][c] - mps__scale_map[0][k][c]);
+        out[c] = mps__scale_map[0][k][c] +
+                 (f - k) * (mps__scale_map[0][k + 1][c] - mps__scale_map[0][k][c]);
 }
 
 /* A disc over what is there; its edge is covered by as many of FINE x FINE points of a pixel as are in it. */
@@ -25,7 +26,8 @@ static void draw_disc(double *picture, double x, double y, double radius, const 
             int in = 0;
             if (i < 0 || j < 0 || i >= WIDE || j >= TALL) continue;
             for (int k = 0; k < FINE * FINE; k++)
-                in += hypot(i + (k % FINE + 0.5) / FINE - x, j + (k / FINE + 0.5) / FINE - y) < radius;
+                in += hypot(i + (k % FINE + 0.5) / FINE - x, j + (k / FINE + 0.5) / FINE - y) <
+                      radius;
             for (int c = 0; c < 3; c++) {
                 double *p = picture + 3 * (j * WIDE + i) + c;
                 *p += (colour[c] - *p) * in / (FINE * FINE);
@@ -38,7 +40,8 @@ static double scale_of(const scene *s)
 {
     page_scale scale = {0};
     for (int32_t k = 0; k < s->frames; k++)
-        for (int32_t i = 0; i < s->fluid; i++) assert_true(mps__scale_take(&scale, (double)pressure_of(i, k)));
+        for (int32_t i = 0; i < s->fluid; i++)
+            assert_true(mps__scale_take(&scale, (double)pressure_of(i, k)));
     mps__scale_end(&scale, 0, false);
     return scale.hi;
 }
@@ -46,7 +49,8 @@ static double scale_of(const scene *s)
 /* Tank with three spacings about it in the middle of the picture. */
 static void draw(const scene *s, const char *path)
 {
-    const double dp = 0.05, scale = fmin(WIDE / (2 + 6 * dp), TALL / (1 + 6 * dp)), hi = scale_of(s);
+    const double dp = 0.05, scale = fmin(WIDE / (2 + 6 * dp), TALL / (1 + 6 * dp)),
+                 hi = scale_of(s);
     double *picture = malloc(3 * WIDE * TALL * sizeof *picture), X[3], colour[3];
     FILE *file = fopen(path, "wb");
     assert_true(picture && file);
@@ -57,8 +61,8 @@ static void draw(const scene *s, const char *path)
             if ((i < 0) != pass) continue;
             place_in_tank(s, i, FRAME, X);
             colour_of((double)pressure_of(i, FRAME) / hi, colour);
-            draw_disc(picture, WIDE / 2.0 + scale * (X[0] - 1), TALL / 2.0 - scale * (X[1] - 0.5), 0.5 * dp * scale,
-                      i < 0 ? WALL : colour);
+            draw_disc(picture, WIDE / 2.0 + scale * (X[0] - 1), TALL / 2.0 - scale * (X[1] - 0.5),
+                      0.5 * dp * scale, i < 0 ? WALL : colour);
         }
     for (int k = 0; k < 3 * WIDE * TALL; k++) fputc((int)(255 * picture[k] + 0.5), file);
     assert_int_equal(fclose(file), 0);
