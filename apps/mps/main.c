@@ -26,6 +26,8 @@ static const verb VERBS[] = {
      verb_run, RUN_TEXT},
     {"resume", "DIR", "Continue the run in a folder from its checkpoint.", 1, 1,
      HAS_SET | HAS_THREADS | HAS_QUIET | HAS_PROFILE | HAS_MPI, verb_resume, NULL},
+    {"report", "DIR", "Make report.html of a run again, from its folder.", 1, 1, 0, verb_report,
+     NULL},
     {"check", "CASE",
      "Say what a case amounts to, without running it, and draw tank and sensors as SVG.", 1, 1,
      HAS_SET | HAS_OUT | HAS_QUIET, verb_check, NULL},

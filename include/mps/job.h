@@ -145,7 +145,7 @@ typedef struct mps_job_config {
     int32_t trace;
     /** Threads of the simulation, for summary.json; default 1. */
     int32_t threads;
-    /** Limit of report.html [bytes]; default 12e6. */
+    /** Limit of report.html [bytes], 500,000 or more; default 12e6. */
     int64_t page_bytes;
     /** NULL: one process. It must live as long as the job. */
     const mps_job_ranks *ranks;

@@ -15,7 +15,7 @@ typedef struct mps_page_config {
     uint32_t struct_size;
     /** Largest number of frames in the film; 0: all frames of the folder. */
     int32_t frames;
-    /** Limit of the file [bytes], 200,000 or more. The film loses precision, then particles, then
+    /** Limit of the file [bytes], 500,000 or more. The film loses precision, then particles, then
      *  frames, until the page is below it; the page says what was left out. */
     int64_t bytes;
     /** Receives the text of an error, or NULL. */

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BYTES_LEAST = 200000, BYTES_DEFAULT = 12000000 };
+enum { BYTES_LEAST = 500000, BYTES_DEFAULT = 12000000 };
 
 static const mps_page_config config_default = {.struct_size = sizeof(mps_page_config),
                                                .bytes = BYTES_DEFAULT};
@@ -138,11 +138,11 @@ static void write_scripts(FILE *out)
 static mps_status write_rest(FILE *out, const page_run *r, int64_t bytes)
 {
     mps__page_sketch(out, r);
-    mps_status status = mps__page_impacts(out, r);
+    mps_status status = mps__page_impacts(out, r, bytes / 10);
     mps__page_forces(out, r);
     mps__page_budget(out, r);
     if (status == MPS_OK && r->frames == 0) status = mps__page_pictures(out, r, bytes / 2);
-    mps__page_of_case(out, r);
+    mps__page_about(out, r);
     fprintf(out,
             "</main>\n<footer>Made by libmps %s. Plots: uPlot, (c) Leon Sorokin, MIT "
             "licence.</footer>\n",

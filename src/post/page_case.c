@@ -190,7 +190,7 @@ static void write_text(FILE *out, const page_run *r)
     fputs("</script>\n", out);
 }
 
-void mps__page_of_case(FILE *out, const page_run *r)
+void mps__page_about(FILE *out, const page_run *r)
 {
     fputs(
         "<section id=\"about\" aria-labelledby=\"about-title\">\n<h2 id=\"about-title\">Case</h2>\n"

@@ -12,7 +12,8 @@ enum {
     TOP = 16,
     FOOT = 46,
     TICKS = 5,
-    CURVE = 80
+    CURVE = 80,
+    RANKS = 1024
 };
 
 /* Map from pressure and share to the drawing. */
@@ -29,6 +30,14 @@ static double at_x(const axes *a, double p)
 static double at_y(const axes *a, double share)
 {
     return TOP + (HEIGHT - TOP - FOOT) * log(share) / log(a->least);
+}
+
+/* Ranks to draw: of many peaks those that can be told apart on a logarithmic axis. @return how many */
+static int choose_ranks(int64_t count, int64_t rank[RANKS])
+{
+    int n = 0;
+    for (int64_t k = 0; k < count && n < RANKS; k += 1 + k / 64) rank[n++] = k;
+    return n;
 }
 
 /* A step of 1, 2 or 5 times a power of ten. */
@@ -75,27 +84,27 @@ static void write_axes(const axes *a)
             HEIGHT - 8, a->hi >= 2000 ? "kPa" : "Pa");
 }
 
-static bool write_band(const axes *a, const mps_impacts *impacts, int64_t count)
+static bool write_band(const axes *a, const mps_impacts *impacts, const int64_t *rank, int count)
 {
     mps_exceedance e;
     mps_exceedance_init(&e, sizeof e);
     if (mps_impacts_exceedance(impacts, 0, &e) != MPS_OK || !isfinite(e.band[0])) return false;
     fputs("<polygon class=\"band\" points=\"", a->out);
     for (int side = 0; side < 2; side++)
-        for (int64_t k = 0; k < count; k++) {
-            mps_impacts_exceedance(impacts, side ? count - 1 - k : k, &e);
+        for (int k = 0; k < count; k++) {
+            mps_impacts_exceedance(impacts, rank[side ? count - 1 - k : k], &e);
             fprintf(a->out, "%.1f,%.1f ", at_x(a, e.peak), at_y(a, fmax(e.band[side], a->least)));
         }
     fputs("\"/>\n", a->out);
     return true;
 }
 
-static void write_points(const axes *a, const mps_impacts *impacts, int64_t count)
+static void write_points(const axes *a, const mps_impacts *impacts, const int64_t *rank, int count)
 {
     mps_exceedance e;
     mps_exceedance_init(&e, sizeof e);
-    for (int64_t k = 0; k < count; k++) {
-        mps_impacts_exceedance(impacts, k, &e);
+    for (int k = 0; k < count; k++) {
+        mps_impacts_exceedance(impacts, rank[k], &e);
         fprintf(a->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3\"/>", at_x(a, e.peak),
                 at_y(a, e.share));
     }
@@ -122,10 +131,12 @@ static bool write_fit(const axes *a, const mps_impacts *impacts, int32_t kind)
 void mps__page_exceedance(FILE *out, const mps_impacts *impacts, const char *name)
 {
     axes a = {.out = out};
+    int64_t rank[RANKS];
     mps_impacts_info info;
     mps_impacts_info_init(&info, sizeof info);
     mps_impacts_info_get(impacts, &info);
     if (info.events < 2 || !range_of(&a, impacts, info.events)) return;
+    const int count = choose_ranks(info.events, rank);
     fprintf(
         out,
         "<figure><svg class=\"plot\" viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"Share of the "
@@ -134,10 +145,10 @@ void mps__page_exceedance(FILE *out, const mps_impacts *impacts, const char *nam
     mps__html(out, name);
     fputs(" above a pressure\">\n", out);
     write_axes(&a);
-    const bool banded = write_band(&a, impacts, info.events);
+    const bool banded = write_band(&a, impacts, rank, count);
     const bool weibull = write_fit(&a, impacts, MPS_FIT_WEIBULL);
     const bool pareto = write_fit(&a, impacts, MPS_FIT_PARETO);
-    write_points(&a, impacts, info.events);
+    write_points(&a, impacts, rank, count);
     fputs("</svg>\n<figcaption>Share of the peaks that are higher than a pressure.", out);
     if (weibull) fputs(" Full line: Weibull.", out);
     if (pareto) fputs(" Dashed: generalised Pareto.", out);

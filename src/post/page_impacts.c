@@ -16,48 +16,71 @@ typedef struct sensor {
     double highest;
 } sensor;
 
+/* The number of an input such as "1.418 s", in SI; NAN: there is none. */
+static double input_number(const page_run *r, const char *key)
+{
+    const char *text = mps__page_input(r, key);
+    char *end = NULL;
+    const double value = text ? strtod(text, &end) : NAN;
+    return end != text ? value : NAN;
+}
+
 /* Natural period of the liquid in a box [s]; NAN: not known. */
 static double natural_period(const page_run *r)
 {
     const double k = acos(-1.0) / mps__page_number(r, "tank_size_x");
     const double g = mps__page_number(r, "gravity"), h = mps__page_number(r, "liquid_depth");
-    return 2 * acos(-1.0) / sqrt((isfinite(g) ? g : 9.81) * k * tanh(k * h));
+    const double period = 2 * acos(-1.0) / sqrt((isfinite(g) ? g : 9.81) * k * tanh(k * h));
+    return isfinite(period) ? period : NAN; /* infinite without gravity */
 }
 
-/* Constants: those of the summary's member "impacts", else what the run itself tells. */
+/* Constants: those of the case, else what the run itself tells. */
 static void take_constants(const page_run *r, mps_stats_config *c)
 {
-    const json_value *given = mps__json_get(r->summary, "impacts");
     const struct {
-        const char *name;
+        const char *key;
         double *value;
-    } member[] = {{"from", &c->from},
-                  {"until", &c->until},
-                  {"rate", &c->rate},
-                  {"high_pass", &c->high_pass},
-                  {"threshold", &c->threshold},
-                  {"deviations", &c->deviations},
-                  {"window", &c->window},
-                  {"window_share", &c->window_share},
-                  {"period", &c->period},
-                  {"share", &c->share},
-                  {"confidence", &c->confidence},
-                  {"exposure", &c->exposure},
-                  {"exposure_ratio", &c->exposure_ratio},
-                  {"dependence", &c->dependence},
-                  {"length_scale", &c->length_scale},
-                  {"density_ratio", &c->density_ratio}};
+    } member[] = {{"T1", &c->period},
+                  {"impacts.from", &c->from},
+                  {"impacts.until", &c->until},
+                  {"impacts.rate", &c->rate},
+                  {"impacts.high_pass", &c->high_pass},
+                  {"impacts.threshold", &c->threshold},
+                  {"impacts.deviations", &c->deviations},
+                  {"impacts.window", &c->window},
+                  {"impacts.share", &c->share},
+                  {"impacts.confidence", &c->confidence},
+                  {"impacts.exposure", &c->exposure},
+                  {"impacts.exposure_ratio", &c->exposure_ratio},
+                  {"impacts.dependence", &c->dependence},
+                  {"impacts.scale", &c->length_scale},
+                  {"impacts.density_ratio", &c->density_ratio}};
     c->from = 0.005 * mps__page_number(r, "t_end"); /* the impulse of the start is no impact */
     c->period = natural_period(r);
     for (size_t k = 0; k < sizeof member / sizeof member[0]; k++) {
-        const double value = mps__json_number(mps__json_get(given, member[k].name));
+        const double value = input_number(r, member[k].key);
         if (isfinite(value)) *member[k].value = value;
     }
-    const double least = mps__json_number(mps__json_get(given, "least_events"));
-    const double resamples = mps__json_number(mps__json_get(given, "resamples"));
+    const double least = input_number(r, "impacts.least_events");
+    const double resamples = input_number(r, "impacts.resamples");
+    const double seed = input_number(r, "impacts.seed");
     if (least >= 2 && least <= COUNT_MOST) c->least_events = (int32_t)least;
     if (resamples >= 0 && resamples <= COUNT_MOST) c->resamples = (int32_t)resamples;
+    if (seed >= 0 && seed <= COUNT_MOST) c->seed = (uint64_t)seed;
     if (isnan(c->window) && isnan(c->period)) c->window = 0.02 * mps__page_number(r, "t_end");
+}
+
+/* True if the case asks for this sensor, or for none by name: "P1; P2". */
+static bool is_wanted(const page_run *r, const char *name)
+{
+    const char *list = mps__page_input(r, "impacts.sensors");
+    const size_t length = strlen(name);
+    for (const char *at = list; at && *at; at += strspn(at, "; ")) {
+        const size_t size = strcspn(at, ";");
+        if (size == length && memcmp(at, name, size) == 0) return true;
+        at += size;
+    }
+    return !list;
 }
 
 /* The column as a signal of its own. */
@@ -156,7 +179,8 @@ static void write_highest(FILE *out, const sensor *s)
     fputs("</tbody></table></div>\n", out);
 }
 
-static void write_sensor(FILE *out, const sensor *s, const mps_stats_config *c, bool open)
+static void write_sensor(FILE *out, const sensor *s, const mps_stats_config *c, bool open,
+                         bool plot)
 {
     char high[TEXT_NUMBER], u[TEXT_NUMBER], w[TEXT_NUMBER], rate[TEXT_NUMBER];
     mps_impacts_info info;
@@ -174,10 +198,15 @@ static void write_sensor(FILE *out, const sensor *s, const mps_stats_config *c, 
     fprintf(out, "%lld of %lld rise%s or decay%s faster than the computation resolves.</p>\n",
             (long long)info.unresolved, (long long)info.events, info.events == 1 ? "s" : "",
             info.events == 1 ? "s" : "");
+    if (info.cut > 0)
+        fprintf(out, "<p>%lld more began before the record or ended after it.</p>\n",
+                (long long)info.cut);
+    if (info.missing > 0)
+        fprintf(out, "<p>%lld samples are not known.</p>\n", (long long)info.missing);
     write_value(out, s->impacts, &info, c);
     write_highest(out, s);
     fputs("</div>\n", out);
-    mps__page_exceedance(out, s->impacts, s->column->name);
+    if (plot) mps__page_exceedance(out, s->impacts, s->column->name);
     fputs("</div></details>\n", out);
 }
 
@@ -236,6 +265,7 @@ static mps_status find_all(const page_run *r, mps_stats_config *config, sensor *
     for (int32_t k = 0; status == MPS_OK && k < r->columns && *count < SENSORS_MOST; k++) {
         const page_column *c = &r->column[k];
         if (strcmp(c->type, "wall_pressure") != 0 || c->place < 0) continue;
+        if (!is_wanted(r, c->name)) continue;
         all[*count] = (sensor){.column = c};
         status = find_impacts(r, config, &all[*count]);
         if (status == MPS_OK) ++*count;
@@ -244,7 +274,7 @@ static mps_status find_all(const page_run *r, mps_stats_config *config, sensor *
     return status;
 }
 
-mps_status mps__page_impacts(FILE *out, const page_run *r)
+mps_status mps__page_impacts(FILE *out, const page_run *r, int64_t bytes)
 {
     sensor all[SENSORS_MOST];
     int count = 0;
@@ -256,16 +286,22 @@ mps_status mps__page_impacts(FILE *out, const page_run *r)
     config.error_size = sizeof text;
     if (status == MPS_OK) status = find_all(r, &config, all, &count);
     if (status == MPS_E_NOMEM) mps__page_fail(r->errors, status, "no memory for the page");
-    if (status == MPS_E_ARG)
-        mps__page_fail(r->errors, status, "'%s': statistics of impacts: %s", r->folder, text);
-    if (status == MPS_OK) {
+    if (status != MPS_E_NOMEM && (status != MPS_OK || count > 0)) {
+        const long begin = ftell(out);
         fputs("<section id=\"impacts\" aria-labelledby=\"impacts-title\">\n<h2 "
               "id=\"impacts-title\">Impacts</h2>\n",
               out);
-        for (int k = 0; k < count; k++) write_sensor(out, &all[k], &config, k == 0);
+        if (status !=
+            MPS_OK) { /* constants of the case that do not fit: the rest of the page does */
+            fputs("<p class=\"warning\">There are no statistics: ", out);
+            mps__html(out, text);
+            fputs("</p>\n", out);
+        }
+        for (int k = 0; status == MPS_OK && k < count; k++)
+            write_sensor(out, &all[k], &config, k == 0, ftell(out) - begin < bytes);
         write_constants(out, &config);
         fputs("</section>\n", out);
     }
     for (int k = 0; k < count; k++) mps_impacts_destroy(all[k].impacts);
-    return status;
+    return status == MPS_E_NOMEM ? status : MPS_OK;
 }

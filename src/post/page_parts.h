@@ -22,8 +22,9 @@ void mps__page_sketch(FILE *out, const page_run *r);
 /* Table of the largest and least values of some columns. */
 void mps__page_extremes(FILE *out, const page_run *r, const char *caption,
                         bool (*wanted)(const page_column *c));
-/* Events of the sensors, the distribution of their peaks, and the highest ones. */
-mps_status mps__page_impacts(FILE *out, const page_run *r);
+/* Events of the sensors, the distribution of their peaks, and the highest ones; plots as long as all of it has less than
+ * `bytes`. */
+mps_status mps__page_impacts(FILE *out, const page_run *r, int64_t bytes);
 /* Curves of forces and moments with their extremes. */
 void mps__page_forces(FILE *out, const page_run *r);
 /* Where the energy went, in words. */
@@ -31,7 +32,7 @@ void mps__page_budget(FILE *out, const page_run *r);
 /* Pictures of the folder, as long as they need at most `bytes`. */
 mps_status mps__page_pictures(FILE *out, const page_run *r, int64_t bytes);
 /* Inputs, numbers of the case, machine, command, the case itself. */
-void mps__page_of_case(FILE *out, const page_run *r);
+void mps__page_about(FILE *out, const page_run *r);
 /* All columns as packed curves, at most `bytes` of base64. */
 mps_status mps__page_curves(FILE *out, const page_run *r, int64_t bytes);
 

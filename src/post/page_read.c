@@ -83,6 +83,16 @@ const char *mps__page_string(const page_run *r, const char *key)
     return text ? text : "";
 }
 
+const char *mps__page_input(const page_run *r, const char *key)
+{
+    const json_value *list = mps__json_get(r->summary, "inputs");
+    for (const json_value *one = list ? list->first : NULL; one; one = one->next) {
+        const char *name = mps__json_text(mps__json_get(one, "key"));
+        if (name && strcmp(name, key) == 0) return mps__json_text(mps__json_get(one, "value"));
+    }
+    return NULL;
+}
+
 static const char *text_in(const json_value *object, const char *key)
 {
     const char *text = mps__json_text(mps__json_get(object, key));

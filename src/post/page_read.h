@@ -71,5 +71,7 @@ void mps__page_run_free(page_run *r);
 /* Members of summary.json; what is missing or of another kind is NAN, "". */
 double mps__page_number(const page_run *r, const char *key);
 const char *mps__page_string(const page_run *r, const char *key);
+/* Value of an input of the case, as text; NULL: there is none. */
+const char *mps__page_input(const page_run *r, const char *key);
 
 #endif

@@ -30,9 +30,13 @@ static light light_end(const page_run *r)
     light l = {.name = "End of the run"};
     char t[TEXT_NUMBER];
     const char *status = mps__page_string(r, "status"), *error = mps__page_string(r, "error");
-    const bool ok = strcmp(status, "ok") == 0, stopped = strcmp(status, "interrupted") == 0;
+    const bool ok = strcmp(status, "ok") == 0, stopped = strcmp(status, "MPS_W_STOPPED") == 0;
     l.state = ok ? GOOD : stopped ? LOOK : POOR;
-    snprintf(l.value, sizeof l.value, "%.40s", ok ? "complete" : status[0] ? status : "not known");
+    snprintf(l.value, sizeof l.value, "%.40s",
+             ok          ? "complete"
+             : stopped   ? "interrupted"
+             : status[0] ? status
+                         : "not known");
     mps__quantity(t, mps__page_number(r, "t_end"), "s");
     snprintf(l.text, sizeof l.text, "The run reached t = %s.%s%.200s", t, error[0] ? " " : "",
              error);

@@ -205,7 +205,7 @@ static void outputs_are_complete(void **state)
     assert_string_equal(text_of("complete", "case.yaml"), "mps: 1\n");
     assert_true(is_there("complete", "report.html") && is_there("complete", "picture_end.png") &&
                 is_there("complete", "frames/frames_000002.vtp"));
-    assert_non_null(strstr(text_of("complete", "report.html"), "A \"title\" &amp; more"));
+    assert_non_null(strstr(text_of("complete", "report.html"), "A &quot;title&quot; &amp; more"));
     /* the row of t = 0 has the pressure of the first step, at rest rho g h */
     assert_true(number_in("complete", "probes.csv", 0, 1) ==
                 number_in("complete", "probes.csv", 1, 1));

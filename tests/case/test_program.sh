@@ -65,6 +65,14 @@ expect 2 "earlier run" "$program" run tank.yaml --set "run.until=0.05 s" -o run 
 expect 0 "" "$program" run tank.yaml --set "run.until=0.05 s" --set output.frames=2 -o run -q --overwrite -j 1
 expect 0 "" "$program" run run/case.yaml -o again -q
 cmp run/probes.csv again/probes.csv || fail "case.yaml gives other bytes"
+expect 0 "" "$program" run run/report.html -o once_more -q
+cmp run/probes.csv once_more/probes.csv || fail "the case of report.html gives other bytes"
+cmp run/frames/frames_000002.vtp once_more/frames/frames_000002.vtp || fail "the case of report.html gives another frame"
+rm run/report.html
+expect 0 "run/report.html: " "$program" report run
+[ -s run/report.html ] || fail "no report.html by 'mps report'"
+expect 2 "needs the folder of a finished run" "$program" report nowhere
+expect 2 "page_bytes must be" "$program" run tank.yaml --set "output.page=100 kB" -o none -q
 expect 2 "until" "$program" run tank.yaml --set run.until=5 -o none -q
 [ -e none ] && fail "a wrong case made a folder"
 expect 3 "" "$program" run tank.yaml --set "run.dt=20 ms" --set "motion.surge.amplitude=5 m" -o wild -q

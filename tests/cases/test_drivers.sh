@@ -106,7 +106,7 @@ awk '$1 == "sum" {found = $2 > 0 && ($2 - $NF) ^ 2 <= (0.02 * $NF) ^ 2} END {exi
 columns() { # driver, dp, fluid particles, header wanted, options...
     runs 0 "$1" --dp "$2" --t-end 0.02 --frames 2 --out "$1" --quiet "${@:5}"
     [ -s log ] && fail "$1 --quiet says: $(cat log)"
-    has "$1" probes.csv momentum.csv steps.csv summary.json frames.pvd picture_1.png picture_end.png plot_energy.svg plot_momentum_x.svg plot_momentum_y.svg plot_dt.svg plot_ppe.svg report.html
+    has "$1" probes.csv momentum.csv steps.csv summary.json frames.pvd picture_1.png picture_end.png report.html
     local header
     header=$(head -1 "$1/probes.csv")
     case $header in "$4"*) ;; *) fail "$1/probes.csv begins $header" ;; esac
@@ -261,10 +261,10 @@ grep -qF '{"name": "P1", "unit": "Pa", "type": "wall_pressure", "at": [0, 0.05, 
 grep -qF '{"name": "still_level", "about": "y of the still level' sloshing_surge/summary.json || fail "sloshing_surge/summary.json does not say what still_level is"
 grep -qF '{"name": "wetted_dp", "about": "wetted side' own_average/summary.json || fail "the summary of a wedge does not say what wetted_dp is"
 grep -qF '"liquid_depth": 0.25,' sloshing_surge/summary.json || fail "sloshing_surge/summary.json has no depth"
-for text in '<td>P1 \[Pa\]</td><td>Wall pressure: sensor at (0, 0.05) m' '<td>inner size of the tank</td><td>0.8 x 0.5 m' 'Not drawn: t &lt; 0.0001 s, the first half per cent'; do
+for text in 'P1 \[Pa\]</th><td>Wall pressure: sensor at (0, 0.05) m' 'inner size of the tank</th><td>0.8 x 0.5 m' 'id="film-data"' '"label": "crests, FNPF"'; do
     grep -q "$text" sloshing_surge/report.html || fail "sloshing_surge/report.html has no $text"
 done
-grep -q '>Half axis of the drop along x</text>' droplet/plot_elevation.svg || fail "droplet: the radius has a wrong title"
+grep -q '"about": "Half axis of the drop along x' droplet/report.html || fail "droplet: the page does not say what the radius is"
 for folder in sloshing_surge impact droplet dam_break; do # each column is in the list
     for name in $(head -1 $folder/probes.csv | tr , '\n' | sed 's/\[.*//' | grep -vx t); do
         grep -q "{\"name\": \"$name\", .*\"about\": \"..*\"}" $folder/summary.json || fail "$folder/summary.json says nothing about $name"

@@ -29,7 +29,7 @@ same() { # folder, folder
     local file
     for file in probes.csv momentum.csv steps.csv; do cmp "$1/$file" "$2/$file" || fail "$2/$file is not that of $1"; done
     [ ! -e "$1/trace.csv" ] || cmp "$1/trace.csv" "$2/trace.csv" || fail "$2/trace.csv is not that of $1"
-    for file in "$1"/plot_*.svg "$1"/picture_*.png; do cmp "$file" "$2/${file#*/}" || fail "$2/${file#*/} is not that of $1"; done
+    for file in "$1"/picture_*.png; do cmp "$file" "$2/${file#*/}" || fail "$2/${file#*/} is not that of $1"; done
 }
 
 # All frames the series names are there and no other, at increasing times.

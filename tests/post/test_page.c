@@ -160,11 +160,43 @@ static void sections_and_texts(void **unused)
     scene_remove(&s);
 }
 
+/* Constants of the case count; those that do not fit are told, and the rest of the page is there. */
+static void constants_of_impacts(void **unused)
+{
+    static const struct {
+        const char *inputs, *wanted;
+    } row[] = {{"", "P1: 4 events"},
+               {"{\"key\": \"impacts.threshold\", \"value\": \"11500 Pa\"}", "P1: 3 events"},
+               {"{\"key\": \"impacts.sensors\", \"value\": \"P2; P1\"}", "P1: 4 events"},
+               {"{\"key\": \"impacts.least_events\", \"value\": \"3\"}", "for screening"},
+               {"{\"key\": \"impacts.share\", \"value\": \"2\"}",
+                "There are no statistics: 'share' is 2"}};
+    scene s = {.dim = 2, .fluid = 20, .frames = 0, .rows = 500};
+    char more[200];
+    (void)unused;
+    scene_create(&s);
+    for (size_t k = 0; k < sizeof row / sizeof row[0]; k++) {
+        snprintf(more, sizeof more, ", \"inputs\": [%s]", row[k].inputs);
+        write_summary(&s, more);
+        assert_int_equal(page_of(&s, 0, NULL), MPS_OK);
+        char *page = text_read(&s, "report.html", NULL);
+        if (!strstr(page, row[k].wanted)) fail_msg("%s: no '%s'", row[k].inputs, row[k].wanted);
+        assert_non_null(strstr(page, "id=\"curve-data\""));
+        free(page);
+    }
+    write_summary(&s, ", \"inputs\": [{\"key\": \"impacts.sensors\", \"value\": \"P\"}]");
+    assert_int_equal(page_of(&s, 0, NULL), MPS_OK);
+    char *page = text_read(&s, "report.html", NULL);
+    assert_null(strstr(page, "P1: "));
+    free(page);
+    scene_remove(&s);
+}
+
 /* The page stays below its limit, says what was left out, and keeps every particle that it shows where it is. */
 static void limit_holds(void **unused)
 {
-    static const int64_t limit[] = {2000000, 600000, 400000, 300000};
-    scene s = {.dim = 3, .fluid = 9000, .frames = 40, .rows = 200, .moves = true};
+    static const int64_t limit[] = {2000000, 700000, 600000, 500000};
+    scene s = {.dim = 3, .fluid = 12000, .frames = 40, .rows = 200, .moves = true};
     int64_t before = INT64_MAX;
     (void)unused;
     scene_create(&s);
@@ -181,7 +213,7 @@ static void limit_holds(void **unused)
             assert_non_null(strstr(page, info.left_out));
         }
         if (k == 3)
-            assert_true(info.particles < 9000 && info.particles >= 1000 && info.frames >= 2);
+            assert_true(info.particles < 12000 && info.particles >= 1000 && info.frames >= 2);
         free(page);
     }
     scene_remove(&s);
@@ -309,10 +341,10 @@ static void arguments(void **unused)
     assert_int_equal(mps_page_write(NULL, NULL, NULL), MPS_E_ARG);
     assert_int_equal(mps_page_write("/nowhere", &config, &info), MPS_E_ARG);
     assert_non_null(strstr(error, "mps_page_info_init()"));
-    config.bytes = 199999;
+    config.bytes = 499999;
     assert_int_equal(mps_page_write("/nowhere", &config, NULL), MPS_E_ARG);
-    assert_non_null(strstr(error, "bytes is 199999: 200000 or more"));
-    config.bytes = 200000;
+    assert_non_null(strstr(error, "bytes is 499999: 500000 or more"));
+    config.bytes = 500000;
     config.frames = -1;
     assert_int_equal(mps_page_write("/nowhere", &config, NULL), MPS_E_ARG);
     assert_non_null(strstr(error, "frames is -1"));
@@ -324,10 +356,14 @@ static void arguments(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(film_comes_back), cmocka_unit_test(sections_and_texts),
-        cmocka_unit_test(limit_holds),     cmocka_unit_test(frames_wanted),
-        cmocka_unit_test(little_to_show),  cmocka_unit_test(broken_tables),
-        cmocka_unit_test(broken_frames),   cmocka_unit_test(arguments)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(film_comes_back),
+                                       cmocka_unit_test(sections_and_texts),
+                                       cmocka_unit_test(constants_of_impacts),
+                                       cmocka_unit_test(limit_holds),
+                                       cmocka_unit_test(frames_wanted),
+                                       cmocka_unit_test(little_to_show),
+                                       cmocka_unit_test(broken_tables),
+                                       cmocka_unit_test(broken_frames),
+                                       cmocka_unit_test(arguments)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,14 +15,12 @@ enum { FOLDER_ROOM = 65536 /* bytes that must fit on the disk */ };
 
 static const char LOCK[] = "run.lock";
 
-/* What every job writes, beside frames/ and plots of its own columns. The first ones tell that there is a run. */
+/* What every job writes, beside frames/. The first ones tell that there is a run. */
 static const char *const FILES[] = {
-    "checkpoint.mps", "probes.csv",         "steps.csv",           "frames.pvd",
-    "summary.json",   "checkpoint.mps.tmp", "momentum.csv",        "trace.csv",
-    "report.html",    "frames.pvd.tmp",     "picture_end.png",     "picture_scale.json",
-    "film.mp4",       "paraview.py",        "plot_pressure.svg",   "plot_dt.svg",
-    "plot_ppe.svg",   "plot_elevation.svg", "plot_momentum_x.svg", "plot_momentum_y.svg",
-    "plot_speed.svg", "plot_energy.svg",    "plot_momentum_z.svg", "case.yaml"};
+    "checkpoint.mps",     "probes.csv",         "steps.csv",      "frames.pvd",
+    "summary.json",       "checkpoint.mps.tmp", "momentum.csv",   "trace.csv",
+    "report.html",        "report.html.tmp",    "frames.pvd.tmp", "picture_end.png",
+    "picture_scale.json", "film.mp4",           "paraview.py",    "case.yaml"};
 enum { FOLDER_FILES = sizeof FILES / sizeof *FILES, FOLDER_SIGNS = 5 };
 
 const char *mps__folder_advice(int error)
@@ -179,7 +177,7 @@ mps_status mps__folder_open(folder *f, const char *path, bool keep, char *error,
 
 /* ---- removal ---- */
 
-bool mps__folder_remove(const folder *f, const char *name, char *error, size_t size)
+static bool folder_remove(const folder *f, const char *name, char *error, size_t size)
 {
     char path[FOLDER_PATH + 300];
     snprintf(path, sizeof path, "%s/%s", f->path, name);
@@ -212,7 +210,7 @@ static bool folder_remove_numbered(const folder *f, const char *const pattern[3]
     for (const struct dirent *e; done && there && (e = readdir(there)) != NULL;) {
         if (!folder_is_numbered(e->d_name, pattern[1], digits, pattern[2])) continue;
         snprintf(name, sizeof name, "%s%s", pattern[0], e->d_name);
-        done = mps__folder_remove(f, name, error, size);
+        done = folder_remove(f, name, error, size);
     }
     if (there) closedir(there);
     return done;
@@ -228,7 +226,7 @@ bool mps__folder_clear(const folder *f, char *error, size_t size)
                                                    {"frames/", "frames_", ".pvtp.tmp"}};
     char path[FOLDER_PATH + 64];
     for (int i = 0; i < FOLDER_FILES; i++)
-        if (!mps__folder_remove(f, FILES[i], error, size)) return false;
+        if (!folder_remove(f, FILES[i], error, size)) return false;
     if (!folder_remove_numbered(f, pictures, 1, error, size)) return false;
     for (int i = 0; i < 4; i++)
         if (!folder_remove_numbered(f, frames[i], 6, error, size)) return false;

@@ -21,8 +21,6 @@ typedef struct folder {
 mps_status mps__folder_open(folder *f, const char *path, bool keep, char *error, size_t size);
 /* Remove the lock. */
 void mps__folder_close(folder *f);
-/* Remove one file; none is no failure. @return false: `error` says why */
-bool mps__folder_remove(const folder *f, const char *name, char *error, size_t size);
 /* Remove all that jobs write but the plots of columns. @return false: `error` says why */
 bool mps__folder_clear(const folder *f, char *error, size_t size);
 /* What to do about this reason that a file cannot be written. */

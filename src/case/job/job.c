@@ -7,7 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MESSAGES = 20 }; /* of the library, before it is cut short */
+enum {
+    MESSAGES = 20,      /* of the library, before it is cut short */
+    PAGE_LEAST = 500000 /* as mps_page_write() wants it */
+};
 
 /* ---- texts ---- */
 
@@ -140,6 +143,7 @@ static const char *check(const mps_job_config *c)
     if (!isfinite(c->gravity)) return "gravity must be a number";
     if (c->frames < 0) return "frames must be >= 0";
     if (c->threads < 1) return "threads must be >= 1";
+    if (c->report && c->page_bytes < PAGE_LEAST) return "page_bytes must be >= 500000";
     if (c->picture_count < 0 || (c->picture_count > 0 && !c->picture_t))
         return "picture_count must be >= 0, with as many times at picture_t";
     for (int32_t k = 0; k < c->picture_count; k++)

@@ -66,13 +66,8 @@ bool mps__resume_due(mps_job *job, double t)
 
 bool mps__resume_forget(mps_job *job)
 {
-    char name[JOB_NAME + 16];
-    bool done = mps__folder_clear(&job->place, job->error, sizeof job->error);
+    const bool done = mps__folder_clear(&job->place, job->error, sizeof job->error);
     job->checkpoint = 1;
-    for (int k = 0; done && k < job->columns; k++) {
-        snprintf(name, sizeof name, "plot_%s.svg", job->column[k].name);
-        done = mps__folder_remove(&job->place, name, job->error, sizeof job->error);
-    }
     if (!done && !job->code) job->code = MPS_EXIT_USAGE;
     return done;
 }

@@ -233,7 +233,7 @@ const table *mps__job_failed_table(const mps_job *job);
 int32_t mps__job_finish(mps_job *job, mps_status status, double wall_s, double cpu_s);
 /* summary.json. @return false: it could not be written, job->error says why */
 bool mps__summary_save(mps_job *job);
-/* plot_*.svg and report.html. @return false: likewise */
+/* report.html, if it is wanted. @return false: likewise */
 bool mps__page_save(mps_job *job);
 /* "solver/preconditioner" */
 void mps__job_solver(const mps_job *job, char *text, size_t size);

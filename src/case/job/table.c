@@ -6,33 +6,10 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { TABLE_ROWS = 8192 }; /* kept in memory; more than a plot has pixels */
-
 static void table_fail(table *t)
 {
     if (!t->failed) t->error = errno;
     t->failed = true;
-}
-
-/* Forget every second kept row: a run of any length needs the same memory. */
-static void table_thin(table *t)
-{
-    int64_t half = (t->count + 1) / 2;
-    size_t size = (size_t)t->columns * sizeof *t->kept;
-    for (int64_t i = 1; i < half; i++)
-        memmove(t->kept + i * t->columns, t->kept + 2 * i * t->columns, size);
-    t->count = half;
-    t->stride *= 2;
-}
-
-static void table_keep(table *t, const double *row)
-{
-    if (t->seen++ % t->stride != 0) return;
-    if (t->count == TABLE_ROWS) {
-        table_thin(t);
-        if ((t->seen - 1) % t->stride != 0) return;
-    }
-    memcpy(t->kept + t->count++ * t->columns, row, (size_t)t->columns * sizeof *row);
 }
 
 static bool table_refuse(table *t, const char *why)
@@ -43,12 +20,11 @@ static bool table_refuse(table *t, const char *why)
 
 bool mps__table_create(table *t, const char *folder, const char *name, int columns, double interval)
 {
-    *t = (table){.columns = columns, .interval = interval, .stride = 1};
+    *t = (table){.columns = columns, .interval = interval};
     snprintf(t->path, sizeof t->path, "%s/%s", folder, name);
     t->before = calloc((size_t)columns, sizeof *t->before);
     t->row = calloc((size_t)columns, sizeof *t->row);
-    t->kept = calloc((size_t)columns * TABLE_ROWS, sizeof *t->kept);
-    if (t->before && t->row && t->kept) return true;
+    if (t->before && t->row) return true;
     return table_refuse(t, "out of memory");
 }
 
@@ -66,7 +42,6 @@ void mps__table_append(table *t, const double *row)
         if (fprintf(t->file, i ? ",%.17g" : "%.17g", row[i]) < 0) table_fail(t);
     }
     if (fputc('\n', t->file) == EOF) table_fail(t);
-    table_keep(t, row);
 }
 
 /* Output times are met within a billionth of the interval, so that 0.1 + 0.2 counts as 0.3. */
@@ -121,7 +96,6 @@ static bool table_read(table *t, double time, table_row_fn each, void *user)
         if (t->row[0] > time + 1e-9 * t->interval) break;
         good = t->interval == 0 || t->row[0] == table_time(t);
         if (!good) break;
-        table_keep(t, t->row);
         if (each) each(user, t->row);
         t->next++;
         t->end = ftell(t->file);
@@ -184,6 +158,5 @@ void mps__table_free(table *t)
 {
     free(t->before);
     free(t->row);
-    free(t->kept);
     *t = (table){0};
 }

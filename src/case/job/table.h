@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A CSV file that is written row by row, with a thinned copy in memory for the plots. */
+/* A CSV file that is written row by row. */
 #ifndef MPS_CASE_TABLE_H
 #define MPS_CASE_TABLE_H
 
@@ -19,10 +19,8 @@ typedef struct table {
     bool has_before;
     double *before; /* [columns] last sample, to interpolate from */
     double *row;    /* [columns] scratch */
-    double *kept;   /* [count*columns] every stride-th row */
-    int64_t count, seen, stride;
-    bool failed; /* out of memory or disk */
-    int error;   /* errno of the first failure */
+    bool failed;    /* out of memory or disk */
+    int error;      /* errno of the first failure */
 } table;
 
 /* What is done with each row of a file that is there. */

@@ -309,7 +309,7 @@ const mps__key mps__keys[] = {
     FLAG("output.pieces", "no", "with several ranks: each writes its own part of a frame"),
     MANY("output.pictures", UNIT_TIME, 1, 24, "> 0", "", "2.2 2.3 s", "times of pictures; default: quarters of the run"),
     FLAG("output.film", "no", "a film, where ffmpeg is installed"),
-    ONE("output.page", UNIT_BYTES, ">= 0", "12 MB", "12 MB", "most bytes of report.html; 0: none"),
+    ONE("output.page", UNIT_BYTES, ">= 0", "12 MB", "12 MB", "most bytes of report.html, 500 kB or more; 0: none"),
     FLAG("output.trace", "no", "trace.csv: all columns after each step"),
     FLAG("output.profile", "no", "a table of what each pass of the steps costs"),
 

@@ -148,6 +148,7 @@ function drawMarks() {
         const name = state.phase[state.picked] === 255 ? "Part of a body" : `Particle ${state.ids[state.picked]}`;
         byId("picked").textContent = p ? `${name}: speed ${quantity(decodeValue(value[k + data.count], data.speed), "m/s")}, pressure ${quantity(decodeValue(value[k], data.pressure), "Pa")}, at (${X.slice(0, data.dim).map(rounded).join(", ")}) m. Escape ends this.` : `${name} is not in this frame.`;
     } else byId("picked").textContent = "";
+    svg.setAttribute("viewBox", `0 0 ${view.canvas.width / scale} ${view.canvas.height / scale}`); // on paper it has another size
     svg.innerHTML = out.join("");
 }
 
