@@ -63,6 +63,7 @@ static int run_on_ranks(const choices *c, mps_job_config *config, const char *fo
         code = mps_job_ranks_leave(&ranks, code, &speak);
         if (code < 0) ranks.abort(ranks.user, MPS_EXIT_FAILED);
         ranks.end(ranks.user);
+        config->ranks = NULL;
     }
     return code;
 }

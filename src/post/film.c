@@ -204,9 +204,10 @@ mps_status mps_film_save(const char *folder, const mps_film_config *config, cons
         status = mps__page_fail(&e, MPS_E_ARG, "no film: the folder '%s' has no frame", folder);
     if (status == MPS_OK) status = mps__film_survey(&f, &run);
     char *place = mps__page_path(folder, "film.mp4");
-    if (status == MPS_OK && !place)
+    if (!path) path = place;
+    if (status == MPS_OK && !path)
         status = mps__page_fail(&e, MPS_E_NOMEM, "no memory for a film");
-    if (status == MPS_OK) status = make(&f, config, path ? path : place, &e);
+    if (status == MPS_OK && path) status = make(&f, config, path, &e);
     free(place);
     mps__film_free(&f);
     mps__page_run_free(&run);

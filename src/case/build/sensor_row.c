@@ -32,24 +32,31 @@ static double row_value(void *user, mps_sim *sim)
     return r->take == TAKE_MEAN ? sum / r->count : r->take == TAKE_PLACE ? place : most;
 }
 
+/* The row of cell i of a panel that is so many cells wide. */
+static int32_t row_of(int32_t i, int32_t across)
+{
+    return i / across;
+}
+
 /* Wall probes at places; named ones are columns too. */
 static bool add_cells(const sensing *s, mps_probe *probe, double (*at)[3], row *r, bool columns)
 {
     build *b = s->b;
     char name[2 * BUILD_NAME];
-    for (int32_t i = 0; i < r->count; i++) {
+    bool done = true;
+    for (int32_t i = 0; done && i < r->count; i++) {
         memcpy(probe->at, at[i], sizeof probe->at);
         snprintf(name, sizeof name, "%s_%d", s->map->key, (int)i + 1);
         if (columns) {
-            if (!mps__sensor_add(s, probe, 0, 0, name)) return false;
-            r->id[i] = mps__sensor_id(b, name);
+            done = mps__sensor_add(s, probe, 0, 0, name);
+            if (done) r->id[i] = mps__sensor_id(b, name);
         } else {
             probe->name = name;
-            if (!mps__build_try(b, mps_probe_add(b->sim, probe, &r->id[i]), s->map, s->map->key))
-                return false;
+            done = mps__build_try(b, mps_probe_add(b->sim, probe, &r->id[i]), s->map, s->map->key);
         }
     }
-    return true;
+    probe->name = NULL; /* that of the last stood here */
+    return done;
 }
 
 static double distance(const double *a, const double *b)
@@ -127,10 +134,11 @@ void mps__sensor_panel(const sensing *s)
     const double a = distance(side[0], zero) / cells[0], c = distance(side[1], zero) / cells[1];
     probe.diameter = b->dim == 2 ? a : 2 * sqrt(a * c / acos(-1.0)); /* a disc of the cell's area */
     at = mps__build_alloc(b, (size_t)r->count * sizeof *at);
+    const int32_t across = (int32_t)cells[0];
     for (int32_t i = 0; at && i < r->count; i++)
         for (int d = 0; d < 3; d++)
-            at[i][d] = corner[d] + (i % (int)cells[0] + 0.5) / cells[0] * side[0][d] +
-                       (b->dim == 3 ? (i / (int)cells[0] + 0.5) / cells[1] * side[1][d] : 0);
+            at[i][d] = corner[d] + (i % across + 0.5) / cells[0] * side[0][d] +
+                       (b->dim == 3 ? (row_of(i, across) + 0.5) / cells[1] * side[1][d] : 0);
     if (!at) return;
     if (r->count == 1) {
         memcpy(probe.at, at[0], sizeof probe.at);
@@ -202,7 +210,9 @@ static void add_ship_loads(const sensing *s, mps_probe *probe, int32_t chosen, i
     }
     snprintf(text, sizeof text, "%s.lab", s->map->key);
     probe->name = text;
-    if (!mps__build_try(b, mps_probe_add(b->sim, probe, &id), s->map, s->map->key)) return;
+    const bool added = mps__build_try(b, mps_probe_add(b->sim, probe, &id), s->map, s->map->key);
+    probe->name = NULL;
+    if (!added) return;
     for (int32_t k = 0; k < 6; k++) {
         if (chosen > 0 && chosen - 1 != k) continue;
         ship_load *l = mps__build_alloc(b, sizeof *l);

@@ -214,7 +214,8 @@ static void add_cylinder(reading *r)
     mps__read_numbers(r->b->c, node, "from", 3, s->end[0]);
     mps__read_numbers(r->b->c, node, "to", 3, s->end[1]);
     s->radius = mps__read_number(r->b->c, node, "radius", NAN);
-    if (memcmp(s->end[0], s->end[1], sizeof s->end[0]) == 0 && !mps__case_failed(r->b->c))
+    const double *from = s->end[0], *to = s->end[1];
+    if (from[0] == to[0] && from[1] == to[1] && from[2] == to[2] && !mps__case_failed(r->b->c))
         say(r, "cylinder", "has no length: 'from' and 'to' are one point");
     if (r->b->dim == 2 && !mps__case_failed(r->b->c))
         say(r, "cylinder", "is for 3-D; in 2-D take 'sphere', a circle");

@@ -14,7 +14,7 @@ static void refuse(mps_case *c, const tree_node *node, const char *wanted)
     char path[PATH_ROOM];
     const mps__key *e = node->entry;
     mps__tree_path(node, path, sizeof path);
-    if (node->kind == TREE_TEXT && *node->text)
+    if (node->kind == TREE_TEXT && node->text && *node->text)
         mps__case_say(c, node, false, "%s: '%.80s': %s is wanted, e.g. '%s'", path, node->text,
                       wanted, e->example);
     else

@@ -151,7 +151,7 @@ static void set_in_map(const way *w, tree_node *map, const mps__key *entry, cons
 {
     const mps__key *below = mps__key_below(entry, name);
     tree_node *child = mps__tree_find(map, name);
-    if (!below && entry->shape != SHAPE_PATHS) {
+    if (!below && (rest || entry->shape != SHAPE_PATHS)) {
         refuse_step(w, entry, name);
     } else if (!rest) {
         value->key = name;

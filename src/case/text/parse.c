@@ -238,7 +238,7 @@ static void take_event(parse *p, const yaml_event_t *e)
     case YAML_SEQUENCE_END_EVENT:
     case YAML_MAPPING_END_EVENT:
         p->depth--;
-        p->at = p->at->parent;
+        if (p->at) p->at = p->at->parent;
         break;
     case YAML_STREAM_END_EVENT:
         p->stop = true;
