@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Dam break of Lobovsky et al. 2014: a column of water 0.6 m long and 0.3 m high in a tank 1.61 x 0.6 m, in 3-D 0.15 m wide. */
-#include "driver/driver.h"
+#include "driver/tank.h"
 #include <string.h>
 
 static const double LENGTH = 1.61, HEIGHT = 0.6, BREADTH = 0.15, COLUMN_LENGTH = 0.6,
@@ -10,7 +10,7 @@ static const double SENSOR = 0.0042; /* diameter of the pressure sensors */
 
 static void build(driver *d, double *built)
 {
-    const double lo[] = {0, 0, 0}, hi[] = {COLUMN_LENGTH, COLUMN_HEIGHT, BREADTH};
+    const double hi[] = {COLUMN_LENGTH, COLUMN_HEIGHT, BREADTH};
     mps_tank tank;
     mps_tank_init(&tank, sizeof tank);
     tank.size[0] = LENGTH;
@@ -18,7 +18,7 @@ static void build(driver *d, double *built)
     tank.size[2] = BREADTH;
     driver_phase(d, 0, DENSITY, DENSITY * KINEMATIC_VISCOSITY);
     driver_check(d, mps_tank_add(d->sim, &tank, built), "tank");
-    driver_check(d, mps_fill_box_add(d->sim, 0, lo, hi, NULL, NULL), "water");
+    tank_liquid(d, hi, false, NULL);
 }
 
 static void add_columns(driver *d, const double *built)

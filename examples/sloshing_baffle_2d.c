@@ -12,8 +12,9 @@ static const tank_case tank = {
 
 static void add_columns(driver *d, const tank_case *c)
 {
-    double level = c->level, dp = d->dp, top = floor(c->plate.top / dp + 1e-6) * dp,
-           middle = c->size[0] / 2;
+    double h[2], level = c->level, middle = c->size[0] / 2;
+    driver_check(d, mps_lattice_get(d->sim, NULL, h), "baffle");
+    const double top = floor(c->plate.top / h[1] + 1e-6) * h[1];
     const double on_baffle[] = {middle, top, 0};
     driver_gauge(d, "eta_a", 0.01, 0, level);
     driver_gauge_from(d, "eta_b", on_baffle, level);

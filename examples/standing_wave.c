@@ -17,10 +17,11 @@ static void displace(double x, double y, double k, double top, double *out)
     out[1] *= (top + AMPLITUDE * cos(k * surface_x)) / surface_y;
 }
 
-static void add_water(driver *d, double length)
+static double add_water(driver *d, double length)
 {
-    double dp = d->dp, k = acos(-1.0) / length;
-    int columns = (int)lround(length / dp) - 1, rows = (int)lround(DEPTH / dp);
+    double h[2], k = acos(-1.0) / length;
+    driver_check(d, mps_lattice_get(d->sim, NULL, h), "water");
+    int columns = (int)lround(length / h[0]) - 1, rows = (int)lround(DEPTH / h[1]);
     mps_particle_block block;
     mps_particle_block_init(&block, sizeof block);
     block.count = (int64_t)columns * rows;
@@ -28,14 +29,17 @@ static void add_water(driver *d, double length)
     if (!x) driver_check(d, MPS_E_NOMEM, "water");
     for (int i = 0; x && i < columns; i++)
         for (int j = 0; j < rows; j++)
-            displace((i + 1) * dp, (j + 1) * dp, k, rows * dp, x + 2 * ((int64_t)i * rows + j));
+            displace((i + 1) * h[0], (j + 1) * h[1], k, rows * h[1],
+                     x + 2 * ((int64_t)i * rows + j));
     block.position = x;
     mps_status status = mps_particles_add(d->sim, &block, NULL);
     free(x);
     driver_check(d, status, "water");
+    return rows * h[1];
 }
 
-static void build(driver *d)
+/* The still level. */
+static double build(driver *d)
 {
     mps_tank tank;
     double built[3];
@@ -43,7 +47,7 @@ static void build(driver *d)
     tank.size[0] = LENGTH;
     tank.size[1] = HEIGHT;
     driver_check(d, mps_tank_add(d->sim, &tank, built), "tank");
-    add_water(d, built[0]);
+    return add_water(d, built[0]);
 }
 
 int main(int argc, char **argv)
@@ -56,8 +60,8 @@ int main(int argc, char **argv)
     d.t_end = 5.92; /* five periods */
     driver_parse(&d, argc, argv);
     driver_open(&d);
-    build(&d);
-    driver_gauge(&d, "eta_left", d.dp, 0, lround(DEPTH / d.dp) * d.dp);
+    const double level = build(&d);
+    driver_gauge(&d, "eta_left", d.dp, 0, level);
     /* it sees the odd modes only, so the free second harmonic of the prescribed cosine drops out */
     driver_measure(&d, driver_measure_of("centre_of_mass", "x_centre",
                                          "Centre of mass along x: of all liquid"));

@@ -9,9 +9,8 @@ static const double DEPTH[2] = {0.25, 0.2};
 static void build(driver *d)
 {
     int k = d->dim - 2;
-    const double lo[] = {0, 0, 0}, hi[] = {SIZE[k][0], DEPTH[k], SIZE[k][2]};
     tank_walls(d, SIZE[k]);
-    driver_check(d, mps_fill_box_add(d->sim, 0, lo, hi, NULL, NULL), "water");
+    tank_fill(d, SIZE[k], DEPTH[k], true);
 }
 
 static void add_columns(driver *d)

@@ -27,25 +27,32 @@ void tank_walls_about(driver *d, const double *size, double middle, double *lo, 
     driver_check(d, mps_tank_add(d->sim, &tank, NULL), "tank");
 }
 
-/* A vertical baffle on the lattice: its faces are columns of wall particles, so n columns are (n - 1) dp thick. It stands in whole columns
+/* A vertical baffle on the lattice: its faces are columns of wall particles, so n columns are n - 1 cells thick. It stands in whole columns
  * as near to its place as they are: d->layers of them, or as its thickness says. */
 static void add_baffle(driver *d, const baffle *b, double width)
 {
-    double dp = d->dp, columns = d->layers;
-    if (columns < 1) columns = round(b->thickness / dp) + 1;
-    double first = round(b->middle / dp - 0.5 * (columns - 1)) * dp;
-    const double lo[] = {first, b->bottom, 0}, hi[] = {first + (columns - 1) * dp, b->top, width};
+    double h[3], columns = d->layers;
+    driver_check(d, mps_lattice_get(d->sim, NULL, h), "baffle");
+    if (columns < 1) columns = round(b->thickness / h[0]) + 1;
+    double first = round(b->middle / h[0] - 0.5 * (columns - 1)) * h[0];
+    const double lo[] = {first, b->bottom, 0}, hi[] = {first + (columns - 1) * h[0], b->top, width};
     driver_check(d, mps_baffle_add(d->sim, "baffle", lo, hi, NULL), "baffle");
+}
+
+void tank_liquid(driver *d, const double *hi, bool whole_rows, double *built)
+{
+    const double lo[3] = {0};
+    if (whole_rows || driver_has_gas(d) || strstr(d->model, ".paper"))
+        driver_check(d, mps_fill_box_add(d->sim, 0, lo, hi, NULL, built), "liquid");
+    else
+        driver_check(d, mps_fill_level_add(d->sim, 0, lo, hi, NULL, built), "liquid");
 }
 
 double tank_fill(driver *d, const double *size, double depth, bool whole_rows)
 {
-    const double lo[3] = {0}, level[3] = {size[0], depth, size[2]};
+    const double level[3] = {size[0], depth, size[2]};
     double built[6];
-    if (whole_rows || driver_has_gas(d) || strstr(d->model, ".paper"))
-        driver_check(d, mps_fill_box_add(d->sim, 0, lo, level, NULL, built), "liquid");
-    else
-        driver_check(d, mps_fill_level_add(d->sim, 0, lo, level, NULL, built), "liquid");
+    tank_liquid(d, level, whole_rows, built);
     driver_check_job(d, mps_job_level_set(d->job, built[d->dim + 1]));
     return built[d->dim + 1];
 }

@@ -33,8 +33,10 @@ void tank_walls(driver *d, const double *size);
 /* The same with the lattice laid so that y = middle is halfway between two rows: two fluids meet there. The tank reaches as far up as
  * down from it, y = 0 may be up to a spacing off its floor. @param lo,hi [3] out: its corners */
 void tank_walls_about(driver *d, const double *size, double middle, double *lo, double *hi);
-/* Liquid up to a depth, which need not be a multiple of the spacing. With `whole_rows`, with a model to the letter of the papers and below
- * gas it ends with the last whole row: in a row of both the one would have to pass through the other. @return the still level */
+/* Liquid from the corner 0 of the tank to `hi`, which need not be on the lattice. With `whole_rows`, with a model to the letter of the papers
+ * and below gas it ends with the last whole row: in a row of both the one would have to pass through the other. @param built as of mps_fill_level_add() */
+void tank_liquid(driver *d, const double *hi, bool whole_rows, double *built);
+/* The same in the whole tank up to a depth. @return the still level */
 double tank_fill(driver *d, const double *size, double depth, bool whole_rows);
 /* Gas in all that is left of a box from the origin. */
 void tank_air(driver *d, const double *size);

@@ -29,7 +29,7 @@ static void build_walls(impact *c)
     impact_water(c);
     impact_walls(c, size, false);
     driver_check(d, mps_baffle_add(d->sim, "box", lo, hi, NULL), "box");
-    driver_check(d, mps_fill_box_add(d->sim, 0, zero, column, NULL, NULL), "water");
+    driver_check(d, mps_fill_level_add(d->sim, 0, zero, column, NULL, NULL), "water");
 }
 
 static void build(impact *c)

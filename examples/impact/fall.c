@@ -81,7 +81,7 @@ static void build_floor(impact *c)
     const double dp = d->dp, rho = c->density;
     const int wide = (int)lround(0.5 * BREADTH / dp), high = (int)lround(HEIGHT / dp);
     const int across[] = {wide, 2 * wide - 1}, up[] = {1, high};
-    const double size[] = {(3 * wide - 1) * dp, 2 * HEIGHT, IMPACT_SLICE * dp}, h = high * dp,
+    const double size[] = {(3 * wide - 1) * dp, 2 * high * dp, IMPACT_SLICE * dp}, h = high * dp,
                  middle = 0.5 * size[0], depth = 0.5 * size[2];
     const double fluid = rho * h * wide * dp * impact_fluid_width(c) * GRAVITY * PULL;
     const impact_span raw = {0, PULL, 0}, smooth = {0, PULL, 0.01}, mean = {0, PULL, 0};

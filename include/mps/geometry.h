@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file geometry.h  Tanks, baffles, plates, solids and fluid on a lattice.
  *
- *  Points of the lattice are lo + k dp. The wall particles lie ON the wall of the tank, the first
- *  fluid particles one dp inside, dummies one and two dp behind the wall. Places are in the frame
- *  of the tank; particles go where its present pose puts them. "Up" is y in 2-D and 3-D.
+ *  Points of the lattice are lo + k h, h the edges of its cells, near dp: mps_tank_add(). The wall
+ *  particles lie ON the wall of the tank, the first fluid particles one h inside, dummies one and
+ *  two h behind the wall. Places are in the frame of the tank; particles go where its present pose
+ *  puts them. "Up" is y in 2-D and 3-D.
  *
  *  Z14: Zhang, Wan & Hino (2014); its surge tank in 2-D has 199 x 62 fluid particles and 1974 of
  *  walls and dummies.
@@ -34,7 +35,7 @@ typedef struct mps_tank {
     /** Lower corner [m]. The whole tank lies within 1e9 dp of the origin, where the points of its
      *  lattice still differ. */
     double lo[3];
-    /** Inner size [m], at least 3 dp; it is rounded to whole spacings. */
+    /** Inner size [m], at least 3 dp. */
     double size[3];
     /** 1: no wall at the upper y end; the side walls end there. */
     int32_t open_top;
@@ -46,9 +47,23 @@ typedef struct mps_tank {
 MPS_API mps_status mps_tank_init(mps_tank *tank, size_t size);
 
 /** Add the walls of a tank. Fills use its lattice from now on.
- *  @param built  NULL, or [3] out: size after rounding to the lattice [m] (a rounding is logged)
+ *
+ *  The tank has the size that was asked for: a side of length L has n = L/dp cells, rounded, with
+ *  edges h = L/n. They differ from dp by at most 1/(2n): by less than 1 % from 50 cells on. If a
+ *  side is not a whole number of dp, the first tank changes the spacing to dp = (hx hy hz)^(1/3),
+ *  in 2-D (hx hy)^(1/2), because a cell has the volume of a particle; mps_sim_shape() returns it.
+ *  The radii of config.re_near and config.re_far, and the default of config.velocity_scale, follow.
+ *  Once there are particles the spacing is fixed: a tank whose cells have another volume, by more
+ *  than .1 %, is rounded to whole dp. The log tells the cells, and warns of a rounded tank.
+ *  @param built  NULL, or [3] out: size as built [m]
  *  @return see the table of this file */
 MPS_API mps_status mps_tank_add(mps_sim *sim, const mps_tank *tank, double *built);
+
+/** The lattice of the fills: that of the last tank, or of all solids.
+ *  @param lo  NULL, or [dim] out: its first point [m], in the frame of the tank
+ *  @param h   NULL, or [dim] out: distance of its points along each axis [m]
+ *  @return MPS_E_ARG; MPS_E_STATE: there is no tank and no solid */
+MPS_API mps_status mps_lattice_get(const mps_sim *sim, double *lo, double *h);
 
 /** Add a solid box (a baffle): points of the lattice in the closed box lo..hi, walls in its outer
  *  layer, dummies inside. It follows the tank and comes before the fluid: fluid nearer than dp/2 to
@@ -87,8 +102,9 @@ MPS_API mps_status mps_plate_add(mps_sim *sim, const char *name, const double *c
 /** Fill a box with fluid of a phase: free points of the lattice in the closed box. Each fill logs
  *  the volume that was built and that was asked for; beside walls that slope, both count whole
  *  cells of the lattice. The first fill after solids warns of slots between walls in which no
- *  particle fits. The level of n rows is n dp above the floor: a depth that is not a multiple of dp
- *  becomes the next smaller one. mps_fill_level_add() keeps the depth.
+ *  particle fits. The level of n rows is n h above the floor: a side of the box that is not on the
+ *  lattice (mps_lattice_get()) moves to the next lattice point inside the box.
+ *  mps_fill_level_add() keeps the volume of the box.
  *  @param added  NULL, or out: particles added
  *  @param built  NULL, or [2*dim] out: corners of the box of lattice points [m] (a difference to lo
  *                and hi is logged)
@@ -96,9 +112,15 @@ MPS_API mps_status mps_plate_add(mps_sim *sim, const char *name, const double *c
 MPS_API mps_status mps_fill_box_add(mps_sim *sim, int32_t phase, const double *lo, const double *hi,
                                     int64_t *added, double *built);
 
-/** Fill a box up to the level hi[1] [m], in a tank or in any solid. If the level lies between two
- *  rows of the lattice, the upper row gets the share of its points that the mass below the level
- *  needs, evenly spread; the liquid at rest settles to the level. Otherwise as mps_fill_box_add().
+/** Fill a box with its volume, up to the level hi[1] [m], in a tank or in any solid. If the level
+ *  lies between two rows of the lattice, the upper row gets the share of its points that the mass
+ *  below the level needs, evenly spread; the liquid at rest settles to the level. The other sides
+ *  of the box are filled in the same way. The number of particles is right to half a particle.
+ *
+ *  Walls take half a cell of the liquid, and a free surface lies at the centres of the outermost
+ *  particles. So a side of length L has L/h particles between a wall and a free surface, L/h - 1
+ *  between two walls, L/h + 1 between two free surfaces. A gap between the box and a wall of a tank
+ *  that is narrower than h is closed. Otherwise as mps_fill_box_add().
  *  @param built  NULL, or [2*dim] out: built[dim+1] is the level of the mass that was filled in
  *  [m] */
 MPS_API mps_status mps_fill_level_add(mps_sim *sim, int32_t phase, const double *lo,
@@ -155,13 +177,13 @@ MPS_API mps_status mps_solid_init(mps_solid *solid, size_t size);
  *  the first rows beside a solid by up to 0.45 dp, so that their density is even, and call `inside`
  *  with the lattice point.
  *
- *  The first tank or solid makes the lattice of the fills, that of a solid begins at its corner
- *  `lo`: put `lo` on a lattice plane of flat walls. Without a tank each further solid extends the
- *  lattice, and fills keep to the boxes of the solids. A body may end in the walls of a tank: its
- *  points beyond the walls, or nearer than 0.7 dp to a wall particle, are left out. Walls of the
- *  tank inside the body become dummies. Add bodies before the fluid: fluid inside a solid is
- *  refused. Parts thinner than 3 dp are logged as a warning, because liquid on one side feels the
- *  other; thin screens are made by mps_baffle_add() and mps_plate_add().
+ *  The first tank or solid makes the lattice of the fills, that of a solid has h = dp and begins
+ *  at its corner `lo`: put `lo` on a lattice plane of flat walls. Without a tank each further
+ *  solid extends the lattice, and fills keep to the boxes of the solids. A body may end in the
+ *  walls of a tank: its points beyond the walls, or nearer than 0.7 dp to a wall particle, are
+ *  left out. Walls of the tank inside the body become dummies. Add bodies before the fluid: fluid
+ *  inside a solid is refused. Parts thinner than 3 dp are logged as a warning, because liquid on
+ *  one side feels the other; thin screens are made by mps_baffle_add() and mps_plate_add().
  *  @return see the table of this file; MPS_E_ARG also for a distance that is not finite (with its
  *          place), no surface in the box, a surface that leaves the box */
 MPS_API mps_status mps_solid_add(mps_sim *sim, const mps_solid *solid);

@@ -29,7 +29,8 @@ typedef struct mps_config {
     uint32_t struct_size;
     /** 2 (default) or 3 */
     int32_t dim;
-    /** Initial particle spacing [m], 1e-12..1e12; it has no default. */
+    /** Initial particle spacing [m], 1e-12..1e12; it has no default. The first tank changes it so
+     *  that whole cells fill the tank: mps_tank_add(). */
     double dp;
     /** Gravity [m/s2]; all zero: none. mps_config_init() sets (0, -9.81, 0). */
     double gravity[3];
@@ -87,7 +88,8 @@ MPS_API void mps_sim_destroy(mps_sim *sim);
  *  NULL; valid until the next call on the handle. */
 MPS_API const char *mps_sim_error(const mps_sim *sim);
 
-/** Dimension and spacing [m]; they never change. Outputs may be NULL. @return MPS_E_ARG */
+/** Dimension and spacing [m]. Only mps_tank_add() changes the spacing. Outputs may be NULL.
+ *  @return MPS_E_ARG */
 MPS_API mps_status mps_sim_shape(const mps_sim *sim, int32_t *dim, double *dp);
 
 /** Time [s] and number of steps done. Outputs may be NULL. @return MPS_E_ARG */

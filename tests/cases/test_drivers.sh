@@ -124,11 +124,11 @@ columns() { # driver, dp, fluid particles, header wanted, options...
 columns sloshing_surge 0.025 310 't[s],P1[Pa],P2[Pa],P3[Pa],P4[Pa],P5[Pa],eta_left[m],eta_right[m],ke[J/m],x_tank[m],pe[J/m]'
 columns sloshing_high_fill 0.025 276 't[s],P1[Pa],eta_right[m],ke[J/m],x_tank[m]'
 columns sloshing_low_fill 0.015 78 't[s],P1[Pa],eta_right[m],ke[J/m],x_tank[m]'
-columns sloshing_breaking 0.025 366 't[s],P1[Pa],P2[Pa],P3[Pa],eta_left[m],eta_right[m],air_volume[m2],ke[J/m],x_tank[m]'
-columns sloshing_roll 0.031 84 't[s],P_left[Pa],P_right[Pa],eta_left[m],eta_quarter[m],eta_right[m],angle[deg],ke[J/m],x_tank[m]'
+columns sloshing_breaking 0.025 367 't[s],P1[Pa],P2[Pa],P3[Pa],eta_left[m],eta_right[m],air_volume[m2],ke[J/m],x_tank[m]'
+columns sloshing_roll 0.031 82 't[s],P_left[Pa],P_right[Pa],eta_left[m],eta_quarter[m],eta_right[m],angle[deg],ke[J/m],x_tank[m]'
 columns sloshing_baffle_2d 0.01 978 't[s],eta_a[m],eta_b[m],eta_c[m],ke[J/m],x_tank[m]'
 columns sloshing_baffle_3d 0.025 1859 't[s],eta_a[m],eta_b[m],eta_c[m],ke[J],x_tank[m]'
-columns dam_break 0.025 288 't[s],P1[Pa],P2[Pa],P3[Pa],P4[Pa],front[m],ke[J/m],x_tank[m]'
+columns dam_break 0.025 286 't[s],P1[Pa],P2[Pa],P3[Pa],P4[Pa],front[m],ke[J/m],x_tank[m]'
 columns static_tank 0.025 616 't[s],P1[Pa],P2[Pa],P3[Pa],eta_left[m],ke[J],x_tank[m]' --dim 3
 columns standing_wave 0.025 780 't[s],eta_left[m],x_centre[m],ke[J/m],x_tank[m]'
 columns impact 0.05 800 't[s],P_10[Pa],P_25[Pa],P_50[Pa],P_75[Pa],P_bottom[Pa],P_mean[Pa],F[N/m],ke[J/m],x_tank[m]' --probe-dt 1e-3
@@ -195,8 +195,8 @@ counts() { # fluid, walls and dummies, driver, options...
 }
 counts 12338 1974 sloshing_surge --whole-rows --dp 0.004
 counts 12437 1974 sloshing_surge --dp 0.004 # 62.5 rows: 0.25 m
-counts 1440 14766 dam_break --dim 3 --dp 0.025
-counts 3945 8676 sloshing_baffle_3d --paper-baffle --dp 0.02 # at the paper's dp 0.005: 274195 111360
+counts 1431 14766 dam_break --dim 3 --dp 0.025 # 23.85 x 12 rows
+counts 4116 8560 sloshing_baffle_3d --paper-baffle --dp 0.02 # at the paper's dp 0.005: 274195 111360
 
 # motions at t = 0.02: -a (1 - cos wt), also with an amplitude of one's own, and a sin wt
 tank_is() { # folder, formula

@@ -124,8 +124,20 @@ static inline mps_sim *dam_3d(void)
     return sim;
 }
 
+/* Cells that are not square, of another spacing than was asked for; a level between two rows. */
+static inline mps_sim *stretched(void)
+{
+    const double lo[2] = {0, 0}, hi[2] = {0.59, 0.28}, from[2] = {0.2, 0}, to[2] = {0.26, 0.15};
+    mps_sim *sim = new_sim(2, 0.05);
+    add_tank(sim, 0.59, 0.63, 0);
+    ASSERT_OK(sim, mps_baffle_add(sim, "baffle", from, to, NULL));
+    ASSERT_OK(sim, mps_fill_level_add(sim, 0, lo, hi, NULL, NULL));
+    shake(sim, 0.1);
+    return sim;
+}
+
 typedef mps_sim *(*scene)(void);
-static const scene scenes[] = {shaken, with_air, with_gas_law, plate, dam_3d};
+static const scene scenes[] = {shaken, with_air, with_gas_law, plate, dam_3d, stretched};
 enum { SCENES = sizeof scenes / sizeof scenes[0] };
 
 /* Some steps; on the way something that users do between steps. */

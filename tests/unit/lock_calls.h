@@ -211,6 +211,7 @@ CALL(mps_motion_state_get, mps_motion_state s = {.struct_size = sizeof s};
 CALL(mps_motion_to_lab, double x[2]; return mps_motion_to_lab(sim, low, x, NULL);)
 CALL(mps_particles_count, return mps_particles_count(sim, -1) > 0 ? MPS_OK : MPS_E_BUSY;)
 CALL(mps_particle_index, return mps_particle_index(sim, 1) >= 0 ? MPS_OK : MPS_E_BUSY;)
+CALL(mps_lattice_get, double h[3]; return mps_lattice_get(sim, NULL, h);)
 CALL(mps_part_find, return mps_part_find(sim, "tank.y0") >= 0 ? MPS_OK : MPS_E_BUSY;)
 CALL(mps_probe_info_get, STRUCT(mps_probe_info); return mps_probe_info_get(sim, 0, &a);)
 CALL(mps_probe_size, return mps_probe_size(sim, 0) == 3 ? MPS_OK : MPS_E_BUSY;)
@@ -298,6 +299,7 @@ static const lock_call lock_calls[] = {
     PLAIN(mps_motion_to_lab),
     PLAIN(mps_particles_count),
     PLAIN(mps_particle_index),
+    PLAIN(mps_lattice_get),
     PLAIN(mps_part_find),
     PLAIN(mps_probe_info_get),
     PLAIN(mps_probe_size),

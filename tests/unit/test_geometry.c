@@ -45,7 +45,7 @@ static void rounding(void **state)
         tank.size[0] = list[k].size;
         tank.size[1] = 10 * list[k].dp;
         ASSERT_OK(sim, mps_tank_add(sim, &tank, built));
-        ASSERT_NEAR(built[0], (double)list[k].cells * list[k].dp, 1e-12);
+        ASSERT_NEAR(built[0], list[k].size, 1e-12);
         assert_int_equal(mps_particles_count(sim, MPS_WALL), 2 * (list[k].cells + 10));
         /* up to the whole size of the tank: walls are taken, everything else is filled */
         assert_int_equal(fill_depth(sim, list[k].size, tank.size[1], 0), (list[k].cells - 1) * 9);

@@ -49,8 +49,10 @@ static void displace(const double *x, double k, double top, double amplitude, do
 static void add_displaced(filling *f, double amplitude, double depth)
 {
     build *b = f->b;
-    const double dp = b->dp, k = acos(-1.0) / b->tank.built[0];
-    const int columns = (int)lround(b->tank.built[0] / dp) - 1, rows = (int)lround(depth / dp);
+    double h[2];
+    if (!done(f, mps_lattice_get(b->sim, NULL, h))) return;
+    const double k = acos(-1.0) / b->tank.built[0];
+    const int columns = (int)lround(b->tank.built[0] / h[0]) - 1, rows = (int)lround(depth / h[1]);
     mps_particle_block block;
     mps_particle_block_init(&block, sizeof block);
     block.count = (int64_t)columns * rows;
@@ -58,13 +60,13 @@ static void add_displaced(filling *f, double amplitude, double depth)
     double *x = malloc((size_t)(block.count > 0 ? block.count : 1) * 2 * sizeof *x);
     for (int i = 0; x && i < columns; i++)
         for (int j = 0; j < rows; j++) {
-            const double at[2] = {(i + 1) * dp, (j + 1) * dp};
-            displace(at, k, rows * dp, amplitude, x + 2 * ((int64_t)i * rows + j));
+            const double at[2] = {(i + 1) * h[0], (j + 1) * h[1]};
+            displace(at, k, rows * h[1], amplitude, x + 2 * ((int64_t)i * rows + j));
         }
     block.position = x;
     done(f, x ? mps_particles_add(b->sim, &block, NULL) : MPS_E_NOMEM);
     free(x);
-    b->level = rows * dp;
+    b->level = rows * h[1];
 }
 
 static void fill_standing(filling *f)
@@ -84,13 +86,18 @@ static void fill_standing(filling *f)
 
 /* Below gas, and with a model to the letter of the papers, the liquid ends with the last whole row: in a row of both fluids the one would
  * have to pass through the other. */
+static bool in_whole_rows(const filling *f)
+{
+    return mps__read_flag(f->b->c, f->map, "whole_rows", false) || f->b->several || f->b->paper;
+}
+
 static void fill_depth(filling *f)
 {
     build *b = f->b;
     const form *t = &b->tank.form;
     b->depth = mps__read_number(b->c, f->map, "depth", NAN);
     const double level = t->lo[1] + b->depth;
-    const bool whole = mps__read_flag(b->c, f->map, "whole_rows", false) || b->several || b->paper;
+    const bool whole = in_whole_rows(f);
     if (mps__case_failed(b->c)) return;
     if (level > t->hi[1] * (1 + 1e-12)) {
         char text[BUILD_TEXT];
@@ -127,7 +134,8 @@ static void fill_box(filling *f)
         lo[d] = fmin(x[0][d], x[1][d]);
         hi[d] = fmax(x[0][d], x[1][d]);
     }
-    done(f, mps_fill_box_add(b->sim, f->phase, lo, hi, NULL, NULL));
+    done(f, in_whole_rows(f) ? mps_fill_box_add(b->sim, f->phase, lo, hi, NULL, NULL)
+                             : mps_fill_level_add(b->sim, f->phase, lo, hi, NULL, NULL));
 }
 
 /* With the points on its surface: on a lattice the volume of a ball is then nearer to its own. */

@@ -106,21 +106,21 @@ static bool read_plate(reading *r, plate *p)
     return !mps__case_failed(b->c);
 }
 
-/* In whole columns of the lattice, as near to its place as they are: n columns are (n - 1) dp thick. */
+/* In whole columns of the lattice, as near to its place as they are: n columns are n - 1 cells thick. */
 static bool add_flat(reading *r, const plate *p, const double *from, const double *to)
 {
     build *b = r->b;
-    double lo[3], hi[3];
-    const double columns = round(p->thickness / b->dp) + 1;
+    double lo[3], hi[3], lattice[3];
+    if (!mps__build_try(b, mps_lattice_get(b->sim, NULL, lattice), r->map, r->name)) return false;
+    const double h = lattice[p->axis], columns = round(p->thickness / h) + 1;
     for (int d = 0; d < 3; d++) {
         lo[d] = fmin(from[d], to[d]);
         hi[d] = fmax(from[d], to[d]);
     }
     const double origin = b->tank.form.lo[p->axis];
-    const double first = origin +
-                         round((lo[p->axis] - origin) / b->dp - 0.5 * (columns - 1)) * b->dp;
+    const double first = origin + round((lo[p->axis] - origin) / h - 0.5 * (columns - 1)) * h;
     lo[p->axis] = first;
-    hi[p->axis] = first + (columns - 1) * b->dp;
+    hi[p->axis] = first + (columns - 1) * h;
     return mps__build_try(b, mps_baffle_add(b->sim, r->name, lo, hi, NULL), r->map, r->name);
 }
 

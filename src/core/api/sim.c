@@ -91,8 +91,9 @@ static mps_status set_up(mps_sim *sim, const mps_config *f)
     }
     for (int d = 0; d < f->dim; d++) w->setup.g[d] = f->gravity[d];
     const double g = sqrt(mps__dot(w->setup.g, w->setup.g, f->dim));
-    w->setup.velocity_scale = f->velocity_scale > 0 ? f->velocity_scale
-                                                    : sqrt((g > 0 ? g : 9.81) * f->dp);
+    w->setup.scale_given = f->velocity_scale > 0;
+    w->setup.velocity_scale = w->setup.scale_given ? f->velocity_scale
+                                                   : sqrt((g > 0 ? g : 9.81) * f->dp);
     w->setup.re_near = f->re_near * f->dp;
     w->setup.re_far = f->re_far * f->dp;
     mps__pool_resize(&w->pool, f->threads);

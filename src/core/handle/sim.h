@@ -18,7 +18,7 @@ struct mps_sim {
     /* the lattice of the last tank, or of all solids */
     bool has_tank;
     bool lattice_of_solids;
-    double lattice_lo[3];
+    double lattice_lo[3], lattice_h[3]; /* first point, distance of points along each axis [m] */
     int64_t lattice_cells[3];
     int64_t slots_told; /* particles.solids when the log told of slots without room */
     /* where the solids are */

@@ -33,7 +33,8 @@ static void put_config(const mps_sim *sim, mps__text *t)
 {
     const mps__world *w = &sim->world;
     line(t, "dimensions %d", (int)w->setup.dim);
-    line(t, "dp %.17g", w->setup.dp);
+    line(t, "dp %.17g", w->setup.dp_given);
+    if (w->setup.dp != w->setup.dp_given) line(t, "dp of whole cells %.17g", w->setup.dp);
     line(t, "near radius %.17g", w->setup.re_near);
     line(t, "far radius %.17g", w->setup.re_far);
     vector(t, "gravity", w->setup.g);

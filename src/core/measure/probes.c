@@ -173,7 +173,7 @@ static mps_status check_normal(const mps__world *w, mps_probe *c)
     return MPS_OK;
 }
 
-/* A sensor belongs on its wall: rounding of a tank to its lattice puts it up to half a spacing behind a face or beyond its end. */
+/* A sensor belongs on its wall: rounding of a later tank puts it up to half a spacing behind a face or beyond its end. */
 static mps_status check_wall(mps__world *w, mps_probe *c, mps__sensor_place *place)
 {
     MPS__TRY(check_normal(w, c));

@@ -9,7 +9,7 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
 {
     w->context = context;
     w->setup.dim = dim;
-    w->setup.dp = dp;
+    w->setup.dp = w->setup.dp_given = dp;
     w->threads = 1;
     mps__pool_init(&w->pool, context);
     w->lists.linked = w->lists.listed = -1;
@@ -44,6 +44,21 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
     mps__ghosts_init(&w->ghosts, context, &w->ranks, &w->particles);
     MPS__TRY(mps__models_init(&w->models, context, &w->channels, &w->particles));
     return mps__solvers_init(&w->solvers, context);
+}
+
+void mps__world_spacing(mps__world *w, double dp)
+{
+    mps_neighbours *lists[] = {&w->lists.neighbours, &w->lists.complete};
+    const double ratio = dp / w->setup.dp;
+    if (ratio == 1) return;
+    w->setup.dp = dp;
+    w->setup.re_near *= ratio;
+    w->setup.re_far *= ratio;
+    if (!w->setup.scale_given) w->setup.velocity_scale *= sqrt(ratio);
+    for (int k = 0; k < 2; k++) {
+        lists[k]->dp = dp;
+        lists[k]->skin *= ratio;
+    }
 }
 
 void mps__world_free(mps__world *w)

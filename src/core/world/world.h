@@ -59,9 +59,10 @@ typedef struct mps__jump {
 /* What the user chose. The text of a checkpoint says it. */
 typedef struct mps__setup {
     int32_t dim, lost_policy;
+    double dp_given; /* by the user; dp is that of the first tank's cells */
     double dp, g[3], velocity_scale, re_near, re_far, speed_limit;
     double domain_min[3], domain_max[3]; /* tank's frame */
-    bool domain_given;
+    bool domain_given, scale_given;
     mps_kernel kernel;
     bool phase_defined[MPS__PHASES];
     double phase_density[MPS__PHASES], phase_viscosity[MPS__PHASES];
@@ -171,6 +172,8 @@ typedef struct mps__world {
 mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, double dp,
                            const mps__pass *const *passes, int32_t pass_count);
 void mps__world_free(mps__world *w);
+/* Another spacing, before the first particle: radii keep their multiples of it. */
+void mps__world_spacing(mps__world *w, double dp);
 /* Lists at the present positions: search and sort if needed, then exact rows. Lost particles are handled here. */
 mps_status mps__world_neighbours(mps__world *w);
 /* The same after mps__world_populate(). */

@@ -7,18 +7,18 @@
 
 static const mps_tank tank_defaults = {.name = "tank", .dummy_layers = 2};
 
-static mps_status has_tank(mps_sim *sim)
+static mps_status has_tank(const mps_sim *sim)
 {
     if (!sim->has_tank)
-        return mps__fail(&sim->context, MPS_E_STATE,
+        return mps__fail(mps__sim_context(sim), MPS_E_STATE,
                          "there is no lattice yet: call mps_tank_add() first");
     return MPS_OK;
 }
 
-/* Whole spacings of every side. The lattice with its dummies must stay countable. */
+/* Whole cells of every side, the same for tanks of the same size. The lattice with its dummies must stay countable. */
 static mps_status tank_cells(mps_sim *sim, const mps_tank *tank, int64_t cells[3])
 {
-    const double dp = sim->world.setup.dp;
+    const double dp = sim->world.setup.dp_given;
     const int dim = sim->world.setup.dim;
     double along[3], points = 1;
     for (int d = 0; d < dim; d++) {
@@ -40,16 +40,51 @@ static mps_status tank_cells(mps_sim *sim, const mps_tank *tank, int64_t cells[3
     return MPS_OK;
 }
 
-static void report_size(mps_sim *sim, const mps_tank *tank, const int64_t cells[3], double *built)
+/* Cells that fill the tank. Their volume is that of a particle: before the first particle the
+ * spacing follows them, later a tank whose cells have another volume is rounded. */
+static void fit_lattice(const mps_sim *sim, const mps_tank *tank, mps__tank_lattice *l)
+{
+    static const double same_volume = 1e-3;
+    const int dim = sim->world.setup.dim;
+    const double dp = sim->world.setup.dp;
+    const bool first = sim->world.particles.next_id == 0;
+    double volume = 1;
+    for (int d = 0; d < dim; d++) {
+        const double whole = (double)l->cells[d] * dp;
+        l->h[d] = fabs(tank->size[d] - whole) > 1e-6 * dp ? tank->size[d] / (double)l->cells[d]
+                                                          : dp;
+        volume *= l->h[d] / dp;
+    }
+    l->dp = first && volume != 1 ? dp * pow(volume, 1.0 / dim) : dp;
+    if (first || fabs(volume - 1) < same_volume) return;
+    for (int d = 0; d < dim; d++) {
+        l->cells[d] = (int64_t)round(tank->size[d] / dp);
+        l->h[d] = dp;
+    }
+}
+
+static void report_size(mps_sim *sim, const mps_tank *tank, const mps__tank_lattice *l, double dp,
+                        double *built)
 {
     static const char axis[3] = {'x', 'y', 'z'};
+    if (l->dp != dp)
+        mps__log(&sim->context, MPS_LOG_INFO,
+                 "tank \"%s\": dp is %g m in place of %g m, so that whole cells fill the tank",
+                 tank->name, l->dp, dp);
     for (int d = 0; d < 3; d++) {
-        double size = (double)cells[d] * sim->world.setup.dp;
+        const double size = (double)l->cells[d] * l->h[d];
         if (built) built[d] = size;
-        if (d < sim->world.setup.dim && fabs(size - tank->size[d]) > 1e-6 * sim->world.setup.dp)
+        if (d >= sim->world.setup.dim) continue;
+        if (fabs(size - tank->size[d]) > 1e-6 * dp)
+            mps__log(&sim->context, MPS_LOG_WARNING,
+                     "tank \"%s\": size %g m in %c rounded to %g m, %lld spacings: only before the "
+                     "first particle the spacing is fitted to a tank",
+                     tank->name, tank->size[d], axis[d], size, (long long)l->cells[d]);
+        else if (l->h[d] != dp)
             mps__log(&sim->context, MPS_LOG_INFO,
-                     "tank \"%s\": size %g m in %c rounded to %g m, %lld spacings", tank->name,
-                     tank->size[d], axis[d], size, (long long)cells[d]);
+                     "tank \"%s\": size %g m in %c has %lld cells of %g m, %+.2g %% of dp",
+                     tank->name, tank->size[d], axis[d], (long long)l->cells[d], l->h[d],
+                     100 * (l->h[d] / l->dp - 1));
     }
 }
 
@@ -79,6 +114,12 @@ static mps_status box_points(mps_sim *sim, const double *lo, const double *hi,
     return MPS_OK;
 }
 
+/* What a layer of this share lacks. */
+static double missing(double share)
+{
+    return share > 0 ? 1 - share : 0;
+}
+
 /* Corners of the points of a box, and the log of what differs from what was asked for. */
 static void report_box(mps_sim *sim, const char *what, const double *lo, const double *hi,
                        const mps__lattice_box *box, double *built)
@@ -87,10 +128,9 @@ static void report_box(mps_sim *sim, const char *what, const double *lo, const d
     const int dim = sim->world.setup.dim;
     const double dp = sim->world.setup.dp;
     for (int d = 0; d < dim; d++) {
-        const double first = box->lo[d] + (double)box->first[d] * dp;
-        const double last = box->lo[d] +
-                            ((double)box->last[d] - (d == 1 && box->top > 0 ? 1 - box->top : 0)) *
-                                dp;
+        const double h = box->h[d],
+                     first = box->lo[d] + ((double)box->first[d] + missing(box->share[d][0])) * h;
+        const double last = box->lo[d] + ((double)box->last[d] - missing(box->share[d][1])) * h;
         if (built) {
             built[d] = first;
             built[dim + d] = last;
@@ -121,7 +161,8 @@ mps_status mps_tank_add(mps_sim *sim, const mps_tank *tank, double *built)
     MPS__BUILDS(sim);
     mps_tank t = tank_defaults;
     char name[MPS__PART_NAME - 3]; /* room for ".x0" */
-    int64_t cells[3] = {0, 0, 0};
+    const double dp = sim->world.setup.dp;
+    mps__tank_lattice lattice = {.h = {dp, dp, dp}};
     MPS__TRY(mps__solids_allowed(sim));
     MPS__TRY(mps__struct_in(&sim->context, "mps_tank", &t, sizeof t, tank));
     if (t.name == NULL) t.name = tank_defaults.name;
@@ -132,9 +173,20 @@ mps_status mps_tank_add(mps_sim *sim, const mps_tank *tank, double *built)
                "tank.dummy_layers is %d: must be 1..8", (int)t.dummy_layers);
     MPS__CHECK(&sim->context, t.open_top == 0 || t.open_top == 1,
                "tank.open_top is %d: must be 0 or 1", (int)t.open_top);
-    MPS__TRY(tank_cells(sim, &t, cells));
-    MPS__TRY(mps__geometry_tank(sim, &t, cells));
-    report_size(sim, &t, cells, built);
+    MPS__TRY(tank_cells(sim, &t, lattice.cells));
+    fit_lattice(sim, &t, &lattice);
+    MPS__TRY(mps__geometry_tank(sim, &t, &lattice));
+    report_size(sim, &t, &lattice, dp, built);
+    return MPS_OK;
+}
+
+mps_status mps_lattice_get(const mps_sim *sim, double *lo, double *h)
+{
+    if (!sim) return MPS_E_ARG;
+    MPS__TRY(has_tank(sim));
+    const size_t bytes = (size_t)sim->world.setup.dim * sizeof *h;
+    if (lo) memcpy(lo, sim->lattice_lo, bytes);
+    if (h) memcpy(h, sim->lattice_h, bytes);
     return MPS_OK;
 }
 
@@ -163,7 +215,11 @@ static mps_status plate_edge(mps_sim *sim, mps__plate_shape *s, int e, const dou
     MPS__CHECK(&sim->context, edge, "edge%s of the plate is NULL", e ? "2" : "");
     MPS__CHECK(&sim->context, mps__finite(edge, dim), "edge%s of the plate is not finite",
                e ? "2" : "");
-    const double length = sqrt(mps__dot(edge, edge, dim)), cells = round(length / dp);
+    const double length = sqrt(mps__dot(edge, edge, dim));
+    double h = dp;
+    for (int d = 0; d < dim; d++)
+        if (fabs(edge[d]) > (1 - 1e-6) * length) h = sim->lattice_h[d];
+    const double cells = round(length / h);
     MPS__CHECK(&sim->context, length >= (2 - 1e-6) * dp && cells < INT32_MAX,
                "edge%s of the plate is %g m long: at least 2 spacings of %g m", e ? "2" : "",
                length, dp);
@@ -184,18 +240,19 @@ static void plate_normal(mps__plate_shape *s, int dim)
 /* Axis of the normal of a plate whose nodes are lattice points, else -1. */
 static int32_t plate_axis(const mps_sim *sim, const mps__plate_shape *s)
 {
-    const double dp = sim->world.setup.dp, small = 1e-6;
+    const double small = 1e-6;
     int32_t axis = -1;
     for (int d = 0; d < sim->world.setup.dim; d++) {
-        const double q = (s->corner[d] - sim->lattice_lo[d]) / dp;
+        const double q = (s->corner[d] - sim->lattice_lo[d]) / sim->lattice_h[d];
         if (fabs(q - round(q)) > small) return -1;
         if (fabs(s->normal[d]) > 1 - small) axis = d;
     }
     for (int e = 0; e < sim->world.setup.dim - 1; e++) {
-        double largest = 0;
+        bool on_axis = false;
         for (int d = 0; d < sim->world.setup.dim; d++)
-            largest = fmax(largest, fabs(s->along[e][d]));
-        if (largest < 1 - small || fabs(s->spacing[e] - dp) > small * dp) return -1;
+            on_axis = on_axis || (fabs(s->along[e][d]) > 1 - small &&
+                                  fabs(s->spacing[e] / sim->lattice_h[d] - 1) < small);
+        if (!on_axis) return -1;
     }
     return axis;
 }
@@ -210,7 +267,7 @@ static mps_status plate_inside(mps_sim *sim, const mps__plate_shape *s)
                 at += (corner >> e & 1) * (double)(s->nodes[e] - 1) * s->spacing[e] *
                       s->along[e][d];
             const double lo = sim->lattice_lo[d],
-                         hi = lo + (double)sim->lattice_cells[d] * sim->world.setup.dp,
+                         hi = lo + (double)sim->lattice_cells[d] * sim->lattice_h[d],
                          slack = 1e-6 * sim->world.setup.dp;
             MPS__CHECK(
                 &sim->context, at >= lo - slack && at <= hi + slack,
@@ -225,8 +282,8 @@ mps_status mps_plate_add(mps_sim *sim, const char *name, const double *corner, c
 {
     MPS__BUILDS(sim);
     const int dim = sim->world.setup.dim;
-    mps__plate_shape s = {
-        .nodes = {1, 1}, .spacing = {sim->world.setup.dp, sim->world.setup.dp}, .columns = 1};
+    const double dp = sim->world.setup.dp;
+    mps__plate_shape s = {.nodes = {1, 1}, .spacing = {dp, dp}, .across = dp, .columns = 1};
     char copy[MPS__PART_NAME];
     MPS__TRY(mps__solids_allowed(sim));
     MPS__CHECK(&sim->context, mps__name_copy(copy, sizeof copy, name),
@@ -246,6 +303,7 @@ mps_status mps_plate_add(mps_sim *sim, const char *name, const double *corner, c
     }
     plate_normal(&s, dim);
     s.axis = plate_axis(sim, &s);
+    if (s.axis >= 0) s.across = sim->lattice_h[s.axis];
     MPS__TRY(plate_inside(sim, &s));
     return mps__geometry_plate(sim, copy, &s);
 }
@@ -269,21 +327,33 @@ mps_status mps_fill_box_add(mps_sim *sim, int32_t phase, const double *lo, const
     return MPS_OK;
 }
 
+/* Layers of the box that lie partly in lo..hi, where the lattice has them. */
+static void add_layers(const mps_sim *sim, const double *lo, const double *hi,
+                       mps__lattice_box *box)
+{
+    static const double small = 1e-6;
+    for (int d = 0; d < sim->world.setup.dim; d++) {
+        const double from = (lo[d] - sim->lattice_lo[d]) / sim->lattice_h[d],
+                     to = (hi[d] - sim->lattice_lo[d]) / sim->lattice_h[d],
+                     below = (double)box->first[d] - from, above = to - (double)box->last[d];
+        if (below > small && box->first[d] > 0) {
+            box->share[d][0] = below;
+            box->first[d]--;
+        }
+        if (above > small && box->last[d] < sim->lattice_cells[d]) {
+            box->share[d][1] = above;
+            box->last[d]++;
+        }
+    }
+}
+
 mps_status mps_fill_level_add(mps_sim *sim, int32_t phase, const double *lo, const double *hi,
                               int64_t *added, double *built)
 {
     MPS__BUILDS(sim);
     mps__lattice_box box;
-    MPS__TRY(has_tank(sim));
-    MPS__TRY(corners(sim, lo, hi));
-    const int dim = sim->world.setup.dim;
-    const double rows = (hi[1] - sim->lattice_lo[1]) / sim->world.setup.dp,
-                 part = rows - floor(rows + 1e-6);
-    double top[3] = {0, 0, 0};
-    memcpy(top, hi, (size_t)dim * sizeof *top);
-    if (part > 1e-6) top[1] = sim->lattice_lo[1] + (floor(rows) + 1) * sim->world.setup.dp;
-    MPS__TRY(fill_points(sim, phase, lo, top, &box));
-    if (part > 1e-6 && (double)box.last[1] > rows) box.top = part;
+    MPS__TRY(fill_points(sim, phase, lo, hi, &box));
+    add_layers(sim, lo, hi, &box);
     MPS__TRY(mps__geometry_fill(sim, &(mps__fill){phase, lo, hi, NULL, NULL}, &box, added));
     report_box(sim, "fill", lo, hi, &box, built);
     return MPS_OK;
@@ -300,6 +370,7 @@ mps_status mps_fill_add(mps_sim *sim, int32_t phase, mps_inside_fn inside, void 
     mps__lattice_box box = {.lo = {0}};
     for (int d = 0; d < sim->world.setup.dim; d++) {
         box.lo[d] = sim->lattice_lo[d];
+        box.h[d] = sim->lattice_h[d];
         box.last[d] = sim->lattice_cells[d];
     }
     const mps__lock before = mps__lock_set(&sim->context, MPS__LOCKED, "an inside callback");

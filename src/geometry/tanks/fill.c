@@ -2,23 +2,127 @@
 /* Fluid on the lattice of a tank. */
 #include "lattice_plan.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-/* Points of the last row, evenly spread in groups: holes one point wide would not close, a bump some points wide levels out. Each line of
- * groups carries the remainder over, lines side by side begin elsewhere. */
-static bool in_top_row(const mps__lattice_plan *p, const int64_t k[3])
+/* Length of the groups in which points of a layer that is not whole are taken: holes one point wide would not close, a bump some points wide
+ * levels out. */
+enum { GROUP = 3 };
+
+/* Where a point lies in a layer: its place in the lines of the layer, and the line. */
+static void place_in_layer(const mps__lattice_plan *p, const int64_t k[3], int axis, int64_t *along,
+                           int64_t *line)
 {
-    enum { GROUP = 3 };
+    const int a = axis == 0 ? 1 : 0, b = axis == 2 ? 1 : 2;
+    *along = k[a] - p->box.first[a];
+    *line = k[b] - p->box.first[b];
+}
+
+/* Groups are evenly spread: each line of groups carries the remainder over, lines side by side begin elsewhere. */
+static bool by_pattern(const mps__lattice_plan *p, const int64_t k[3], int axis, double share)
+{
     static const double golden = 0.6180339887498949;
-    const int64_t i = (k[0] - p->box.first[0]) / GROUP, j = (k[2] - p->box.first[2]) / GROUP;
-    const double share = p->box.top, at = share * (double)i + golden * (double)j + 0.5;
-    return share == 0 || k[1] < p->box.last[1] || floor(at) > floor(at - share);
+    int64_t along, line;
+    place_in_layer(p, k, axis, &along, &line);
+    const double at = share * (double)(along / GROUP) + golden * (double)(line / GROUP) + 0.5;
+    return floor(at) > floor(at - share);
+}
+
+/* Share of the points of its layers that a point stands for: 1 inside of the box. Beyond the sides and the bottom of the box liquid does not
+ * pass solids; above the last whole row it covers them. */
+static double wanted_share(const mps__lattice_plan *p, const int64_t k[3])
+{
+    double share = 1;
+    for (int d = 0; d < p->dim; d++)
+        for (int end = 0; end < 2; end++) {
+            const double part = p->box.share[d][end];
+            if (part == 0 || k[d] != (end ? p->box.last[d] : p->box.first[d])) continue;
+            share *= part;
+            if ((d != 1 || end == 0) &&
+                mps__lattice_plan_beside(p, k, d, end ? -1 : 1) == POINT_SOLID)
+                share = 0;
+        }
+    return share;
+}
+
+static bool in_layers(const mps__lattice_plan *p, const int64_t k[3])
+{
+    bool in = wanted_share(p, k) > 0;
+    for (int d = 0; d < p->dim; d++)
+        for (int end = 0; end < 2; end++) {
+            const double part = p->box.share[d][end];
+            if (part > 0 && k[d] == (end ? p->box.last[d] : p->box.first[d]))
+                in = in && by_pattern(p, k, d, part);
+        }
+    return in;
+}
+
+/* Whether a point begins a group of a layer that is not whole. */
+static bool begins_group(const mps__lattice_plan *p, const int64_t k[3])
+{
+    for (int d = 0; d < p->dim; d++)
+        for (int end = 0; end < 2; end++) {
+            int64_t along, line;
+            if (p->box.share[d][end] == 0 || k[d] != (end ? p->box.last[d] : p->box.first[d]))
+                continue;
+            place_in_layer(p, k, d, &along, &line);
+            return along % GROUP == 0;
+        }
+    return false;
+}
+
+/* Points of layers that are not whole: how many the volume needs, how many were chosen, and how many of each state may change. */
+typedef struct tally {
+    double wanted;
+    int64_t chosen, of[2];
+} tally;
+
+/* Whether a point of a layer that is not whole may change: first points of groups, or all of them. */
+static bool may_change(const mps__lattice_plan *p, const int64_t k[3], bool first)
+{
+    const double share = wanted_share(p, k);
+    return share > 0 && share < 1 && (!first || begins_group(p, k));
+}
+
+static tally count_layers(const mps__lattice_plan *p, bool first)
+{
+    int64_t k[3] = {p->box.first[0], p->box.first[1], p->box.first[2]}, place = 0;
+    tally t = {0};
+    do {
+        const int state = p->state[place++];
+        if (state > POINT_CHOSEN || !may_change(p, k, false)) continue;
+        t.wanted += wanted_share(p, k);
+        t.chosen += state == POINT_CHOSEN;
+        t.of[state] += may_change(p, k, first);
+    } while (mps__lattice_plan_next(p, k));
+    return t;
+}
+
+/* Groups miss the number of points that the volume needs by some: points, evenly spread, are added or left out. */
+static void meet_volume(mps__lattice_plan *p, bool first)
+{
+    const tally t = count_layers(p, first);
+    const double lack = t.wanted - (double)t.chosen;
+    const int from = lack > 0 ? POINT_FREE : POINT_CHOSEN;
+    const int64_t all = t.of[from], change = all < llround(fabs(lack)) ? all : llround(fabs(lack));
+    int64_t k[3] = {p->box.first[0], p->box.first[1], p->box.first[2]}, place = 0, n = 0;
+    if (fabs(lack) < 0.5 + 1e-6 || change == 0) return;
+    do {
+        if (p->state[place] == from && may_change(p, k, first)) {
+            if ((n + 1) * change / all > n * change / all) {
+                p->state[place] = from == POINT_FREE ? POINT_CHOSEN : POINT_FREE;
+                p->chosen += from == POINT_FREE ? 1 : -1;
+            }
+            n++;
+        }
+        place++;
+    } while (mps__lattice_plan_next(p, k));
 }
 
 static bool fluid_choose(const mps__lattice_plan *p, const int64_t k[3])
 {
     double X[3];
-    if (!in_top_row(p, k)) return false;
+    if (!in_layers(p, k)) return false;
     if (!p->inside) return true;
     mps__lattice_point(p, k, X);
     return p->inside(p->user, X) != 0;
@@ -36,33 +140,58 @@ static mps_status fluid_run(mps__lattice_plan *p)
 {
     MPS__TRY(mps__packing_make(&p->packing, p->sim));
     MPS__TRY(mps__lattice_plan_choose(p));
+    meet_volume(p, true);
+    meet_volume(p, false);
     MPS__CHECK(&p->sim->context, p->chosen > 0,
                "nothing to fill: no free lattice point lies inside (%lld are taken)",
                (long long)p->taken);
     return mps__lattice_plan_build(p);
 }
 
-/* Share of the free points of the last row that were chosen. */
-static double top_share(const mps__lattice_plan *p)
+/* Share of the free points of a layer that were chosen; other layers that are not whole do not count. */
+static double built_share(const mps__lattice_plan *p, int axis, int end)
 {
+    const double part = p->box.share[axis][end];
     int64_t k[3] = {p->box.first[0], p->box.first[1], p->box.first[2]}, place = 0, chosen = 0,
             left = 0;
     do {
-        const int state = k[1] == p->box.last[1] ? p->state[place] : POINT_SOLID;
+        const int state = p->state[place++];
+        if (k[axis] != (end ? p->box.last[axis] : p->box.first[axis])) continue;
+        if (state > POINT_CHOSEN || wanted_share(p, k) != part) continue;
         chosen += state == POINT_CHOSEN;
         left += state == POINT_FREE;
-        place++;
     } while (mps__lattice_plan_next(p, k));
     return chosen > 0 ? (double)chosen / (double)(chosen + left) : 0;
 }
 
+/* What the layers at the ends of the box became; one without a point is none. */
+static void note_layers(const mps__lattice_plan *p, mps__lattice_box *box)
+{
+    for (int d = 0; d < p->dim; d++)
+        for (int end = 0; end < 2; end++) {
+            if (p->box.share[d][end] == 0) continue;
+            box->share[d][end] = built_share(p, d, end);
+            if (box->share[d][end] > 0) continue;
+            if (end)
+                box->last[d]--;
+            else
+                box->first[d]++;
+        }
+}
+
+/* Inside of layers that are not whole the liquid has no gaps, so only their points count. */
 static void report_volume(const mps__lattice_plan *p, const double *lo, const double *hi)
 {
-    double built, asked;
+    double built, asked, cell = 1;
+    for (int d = 0; d < p->dim; d++) cell *= p->box.h[d];
     mps__lattice_plan_volumes(p, lo, hi, &built, &asked);
+    const tally t = count_layers(p, false);
+    if (t.wanted > 0) built = asked + ((double)t.chosen - t.wanted) * cell;
+    const double error = asked > 0 ? built / asked - 1 : 0;
     mps__log(&p->sim->context, MPS_LOG_INFO,
-             "fill of phase %d: %.6g m%d of %.6g m%d asked for, %+.2g %%", (int)p->phase, built,
-             (int)p->dim, asked, (int)p->dim, asked > 0 ? 100 * (built / asked - 1) : 0.0);
+             "fill of phase %d: %.6g m%d of %.6g m%d asked for, %+.2g %%%s", (int)p->phase, built,
+             (int)p->dim, asked, (int)p->dim, 100 * error,
+             lo && fabs(error) > 0.002 ? "; mps_fill_level_add() keeps the volume" : "");
 }
 
 mps_status mps__geometry_fill(mps_sim *sim, const mps__fill *fill, mps__lattice_box *box,
@@ -78,8 +207,7 @@ mps_status mps__geometry_fill(mps_sim *sim, const mps__fill *fill, mps__lattice_
     p.user = fill->user;
     mps_status status = fluid_run(&p);
     if (status == MPS_OK) report_volume(&p, fill->lo, fill->hi);
-    if (status == MPS_OK && box->top > 0) box->top = top_share(&p);
-    if (p.box.top > 0 && box->top == 0) box->last[1]--;
+    if (status == MPS_OK) note_layers(&p, box);
     mps__lattice_plan_free(&p);
     if (status == MPS_OK && added) *added = p.chosen;
     return status;

@@ -7,26 +7,12 @@
 /* Places in a cell at which `inside` is asked, if it differs at its corners. */
 enum { PLACES = 256 };
 
-/* A cell: how far it reaches from its point to both sides [spacings], its volume, and at how many of the two ends of an axis the liquid may
+/* A cell: how far it reaches from its point to both sides [cells], its volume, and at how many of the two ends of an axis the liquid may
  * end, at most. */
 typedef struct cell {
     double reach[3][2], volume;
     int free_ends;
 } cell;
-
-/* State of the point beside k; walls of a tank are beyond the box of a fill. */
-static int beside(const mps__lattice_plan *p, const int64_t k[3], int axis, int64_t step)
-{
-    int64_t place = 0, stride = 1;
-    const int64_t at = k[axis] + step;
-    if (at < p->box.first[axis] || at > p->box.last[axis])
-        return at <= 0 || at >= p->sim->lattice_cells[axis] ? POINT_SOLID : POINT_FREE;
-    for (int d = 0; d < p->dim; d++) {
-        place += (k[d] + (d == axis ? step : 0) - p->box.first[d]) * stride;
-        stride *= p->box.last[d] - p->box.first[d] + 1;
-    }
-    return p->state[place];
-}
 
 static cell cell_of(const mps__lattice_plan *p, const int64_t k[3])
 {
@@ -34,11 +20,11 @@ static cell cell_of(const mps__lattice_plan *p, const int64_t k[3])
     for (int d = 0; d < p->dim; d++) {
         int ends = 0;
         for (int end = 0; end < 2; end++) {
-            const int state = beside(p, k, d, end ? 1 : -1);
+            const int state = mps__lattice_plan_beside(p, k, d, end ? 1 : -1);
             c.reach[d][end] = state == POINT_SOLID ? 1 : 0.5;
             ends += state == POINT_FREE;
         }
-        c.volume *= (c.reach[d][0] + c.reach[d][1]) * p->sim->world.setup.dp;
+        c.volume *= (c.reach[d][0] + c.reach[d][1]) * p->box.h[d];
         c.free_ends = ends > c.free_ends ? ends : c.free_ends;
     }
     return c;
@@ -50,7 +36,7 @@ static double in_box(const mps__lattice_plan *p, const double X[3], const cell *
 {
     double volume = 1;
     for (int d = 0; d < p->dim; d++) {
-        const double h = p->sim->world.setup.dp;
+        const double h = p->box.h[d];
         volume *= fmax(0, fmin(hi[d], X[d] + c->reach[d][1] * h) -
                               fmax(lo[d], X[d] - c->reach[d][0] * h));
     }
@@ -62,8 +48,7 @@ static int is_inside(const mps__lattice_plan *p, const double X[3], const cell *
 {
     double x[3] = {0, 0, 0};
     for (int d = 0; d < p->dim; d++)
-        x[d] = X[d] + (-c->reach[d][0] + q[d] * (c->reach[d][0] + c->reach[d][1])) *
-                          p->sim->world.setup.dp;
+        x[d] = X[d] + (-c->reach[d][0] + q[d] * (c->reach[d][0] + c->reach[d][1])) * p->box.h[d];
     return p->inside(p->user, x) != 0;
 }
 

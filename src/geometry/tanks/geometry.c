@@ -52,7 +52,7 @@ static bool in_solid(const mps__lattice_plan *p, const double *X)
     const double half = 0.5 - 1e-6;
     bool inside = p->of_tank;
     for (int d = 0; d < p->dim; d++) {
-        const double q = (X[d] - p->box.lo[d]) / p->sim->world.setup.dp;
+        const double q = (X[d] - p->box.lo[d]) / p->box.h[d];
         if (q <= (double)p->box.first[d] - half || q >= (double)p->box.last[d] + half) return false;
         inside = inside && q >= (double)p->first[d] + half &&
                  (q <= (double)p->last[d] - half || (d == 1 && p->open_top));
@@ -72,15 +72,15 @@ static mps_status check_fluid(const mps__lattice_plan *p, const char *what, cons
     return MPS_OK;
 }
 
-/* Trapezoid rule over the face across axis `a`: a spacing for every other axis, half of it at the face's ends. A box
- * one point thick stands for a spacing. */
+/* Trapezoid rule over the face across axis `a`: a cell for every other axis, half of it at the face's ends. A box
+ * one point thick stands for a cell. */
 static double face_weight(const mps__lattice_plan *p, const int64_t k[3], int a)
 {
     double weight = 1;
     for (int d = 0; d < p->dim; d++)
         if (d != a) {
             bool end = k[d] == p->first[d] || k[d] == p->last[d];
-            weight *= p->sim->world.setup.dp * (end && p->first[d] < p->last[d] ? 0.5 : 1.0);
+            weight *= p->box.h[d] * (end && p->first[d] < p->last[d] ? 0.5 : 1.0);
         }
     return weight;
 }
@@ -161,21 +161,22 @@ static mps_status tank_run(mps__lattice_plan *p, const char *name)
     return mps__lattice_plan_build(p);
 }
 
-mps_status mps__geometry_tank(mps_sim *sim, const mps_tank *tank, const int64_t cells[3])
+mps_status mps__geometry_tank(mps_sim *sim, const mps_tank *tank, const mps__tank_lattice *lattice)
 {
     mps__lattice_plan p;
     mps__lattice_box box = {.lo = {0}};
     for (int d = 0; d < sim->world.setup.dim; d++) {
         box.lo[d] = tank->lo[d];
+        box.h[d] = lattice->h[d];
         box.first[d] = -tank->dummy_layers;
-        box.last[d] = cells[d] + (d == 1 && tank->open_top ? 0 : tank->dummy_layers);
+        box.last[d] = lattice->cells[d] + (d == 1 && tank->open_top ? 0 : tank->dummy_layers);
     }
     mps__lattice_plan_init(&p, sim, &box);
     p.choose = tank_choose;
     p.describe = tank_describe;
     p.open_top = tank->open_top != 0;
     p.of_tank = true;
-    memcpy(p.last, cells, sizeof p.last);
+    memcpy(p.last, lattice->cells, sizeof p.last);
     int32_t parts = sim->world.particles.parts;
     mps_status status = tank_run(&p, tank->name);
     mps__lattice_plan_free(&p);
@@ -187,7 +188,9 @@ mps_status mps__geometry_tank(mps_sim *sim, const mps_tank *tank, const int64_t 
     sim->lattice_of_solids = false;
     mps__world_note_layers(&sim->world, tank->dummy_layers);
     memcpy(sim->lattice_lo, box.lo, sizeof sim->lattice_lo);
-    memcpy(sim->lattice_cells, cells, sizeof sim->lattice_cells);
+    memcpy(sim->lattice_h, lattice->h, sizeof sim->lattice_h);
+    memcpy(sim->lattice_cells, lattice->cells, sizeof sim->lattice_cells);
+    mps__world_spacing(&sim->world, lattice->dp);
     return MPS_OK;
 }
 
@@ -227,11 +230,12 @@ bool mps__lattice_clip(const mps_sim *sim, const double *lo, const double *hi,
     memset(box, 0, sizeof *box);
     for (int d = 0; d < sim->world.setup.dim; d++) {
         /* a point counts as inside when it is outside by rounding only */
-        double first = ceil((lo[d] - sim->lattice_lo[d]) / sim->world.setup.dp - 1e-6),
-               last = floor((hi[d] - sim->lattice_lo[d]) / sim->world.setup.dp + 1e-6);
+        double first = ceil((lo[d] - sim->lattice_lo[d]) / sim->lattice_h[d] - 1e-6),
+               last = floor((hi[d] - sim->lattice_lo[d]) / sim->lattice_h[d] + 1e-6);
         double end = (double)sim->lattice_cells[d];
         if (first > end || last < 0 || first > last) return false;
         box->lo[d] = sim->lattice_lo[d];
+        box->h[d] = sim->lattice_h[d];
         box->first[d] = first > 0 ? (int64_t)first : 0;
         box->last[d] = last < end ? (int64_t)last : sim->lattice_cells[d];
     }

@@ -6,13 +6,13 @@
 #include "sim.h"
 #include <mps/geometry.h>
 
-/* Lattice points first..last (both included) of the lattice lo + k dp, in the tank's frame. */
+/* Lattice points first..last (both included) of the lattice lo + k h, in the tank's frame. */
 typedef struct mps__lattice_box {
-    double lo[3];
+    double lo[3], h[3];
     int64_t first[3], last[3];
-    /* > 0: of the last row along y a fill takes this share of the points, evenly spread; 0: all
-     * of them */
-    double top;
+    /* > 0: of the first and the last layer across an axis a fill takes this share of the points,
+     * evenly spread; 0: all of them */
+    double share[3][2];
 } mps__lattice_box;
 
 /* A thin plate: nodes on a rectangle (in 2-D a line), one to three columns of them side by side. */
@@ -35,7 +35,13 @@ mps_status mps__in_the_way(mps_sim *sim, int64_t i, const double *X, const char 
 /* Lattice points of the closed box lo..hi that lie in the last tank; false if there is none. */
 bool mps__lattice_clip(const mps_sim *sim, const double *lo, const double *hi,
                        mps__lattice_box *box);
-mps_status mps__geometry_tank(mps_sim *sim, const mps_tank *tank, const int64_t cells[3]);
+/* The lattice of a tank: cells along each axis, their edges, and the spacing of a square cell of
+ * the same volume. */
+typedef struct mps__tank_lattice {
+    int64_t cells[3];
+    double h[3], dp;
+} mps__tank_lattice;
+mps_status mps__geometry_tank(mps_sim *sim, const mps_tank *tank, const mps__tank_lattice *lattice);
 mps_status mps__geometry_baffle(mps_sim *sim, const char *name, const mps__lattice_box *box);
 /* True if a box is thin and has liquid on both sides, or may have; then its shape. */
 bool mps__plate_of_box(mps_sim *sim, const mps__lattice_box *box, mps__plate_shape *shape);
@@ -50,7 +56,7 @@ typedef struct mps__fill {
     void *user;
 } mps__fill;
 
-/* Fill points of the box. box->top becomes the share that was taken. */
+/* Fill points of the box. box->share becomes what was taken. */
 mps_status mps__geometry_fill(mps_sim *sim, const mps__fill *fill, mps__lattice_box *box,
                               int64_t *added);
 

@@ -27,16 +27,16 @@ bool mps__lattice_plan_next(const mps__lattice_plan *p, int64_t k[3])
 
 void mps__lattice_point(const mps__lattice_plan *p, const int64_t k[3], double X[3])
 {
-    for (int d = 0; d < p->dim; d++) X[d] = p->box.lo[d] + (double)k[d] * p->sim->world.setup.dp;
+    for (int d = 0; d < p->dim; d++) X[d] = p->box.lo[d] + (double)k[d] * p->box.h[d];
 }
 
-/* Place in `state` of the lattice point that a particle at X occupies, i.e. nearer than dp/2; -1: none. */
+/* Place in `state` of the lattice point that a particle at X occupies, i.e. nearer than half a cell; -1: none. */
 static int64_t occupied(const mps__lattice_plan *p, const double *X)
 {
     int64_t place = 0, stride = 1;
     double distance2 = 0;
     for (int d = 0; d < p->dim; d++) {
-        double q = (X[d] - p->box.lo[d]) / p->sim->world.setup.dp, nearest = round(q);
+        double q = (X[d] - p->box.lo[d]) / p->box.h[d], nearest = round(q);
         if (nearest < (double)p->box.first[d] || nearest > (double)p->box.last[d]) return -1;
         distance2 += (q - nearest) * (q - nearest);
         place += ((int64_t)nearest - p->box.first[d]) * stride;
@@ -111,6 +111,19 @@ static void mark_chosen(mps__lattice_plan *p)
         }
         place++;
     } while (mps__lattice_plan_next(p, k));
+}
+
+int mps__lattice_plan_beside(const mps__lattice_plan *p, const int64_t k[3], int axis, int64_t step)
+{
+    int64_t place = 0, stride = 1;
+    const int64_t at = k[axis] + step;
+    if (at < p->box.first[axis] || at > p->box.last[axis])
+        return at <= 0 || at >= p->sim->lattice_cells[axis] ? POINT_SOLID : POINT_FREE;
+    for (int d = 0; d < p->dim; d++) {
+        place += (k[d] + (d == axis ? step : 0) - p->box.first[d]) * stride;
+        stride *= p->box.last[d] - p->box.first[d] + 1;
+    }
+    return p->state[place];
 }
 
 static void place_particle(const mps__lattice_plan *p, const int64_t k[3], int64_t i)

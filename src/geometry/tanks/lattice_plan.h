@@ -39,6 +39,9 @@ void mps__lattice_plan_init(mps__lattice_plan *p, mps_sim *sim, const mps__latti
 void mps__lattice_plan_free(mps__lattice_plan *p);
 /* The next point of the box, x fastest; false behind the last. */
 bool mps__lattice_plan_next(const mps__lattice_plan *p, int64_t k[3]);
+/* State of the point `step` beside k along an axis; walls of a tank are beyond the box of a fill. */
+int mps__lattice_plan_beside(const mps__lattice_plan *p, const int64_t k[3], int axis,
+                             int64_t step);
 /* Place of a lattice point, tank's frame. */
 void mps__lattice_point(const mps__lattice_plan *p, const int64_t k[3], double X[3]);
 /* Whether liquid at a place of the tank's frame would press against a plate which is not on the lattice. */

@@ -70,7 +70,7 @@ static mps_status collect_points(work *w)
         const int64_t k[3] = {place % n[0], place / n[0] % n[1], place / n[0] / n[1]};
         double X[3] = {0, 0, 0};
         for (int d = 0; d < sim->world.setup.dim; d++)
-            X[d] = sim->lattice_lo[d] + (double)k[d] * dp;
+            X[d] = sim->lattice_lo[d] + (double)k[d] * sim->lattice_h[d];
         const double r = clearance(sim, X);
         if (r > taking_part * dp || mps__solid_covers(sim, X)) continue;
         if (mps__buckets_nearest(&w->solids, X, occupied * (1 - 1e-9) * dp, NULL) >= 0) continue;
@@ -126,7 +126,7 @@ static mps_status make(work *w)
     for (int d = 0; d < sim->world.setup.dim; d++) {
         p->n[d] = sim->lattice_cells[d] + 1;
         w->lo[d] = sim->lattice_lo[d];
-        w->hi[d] = w->lo[d] + (double)sim->lattice_cells[d] * sim->world.setup.dp;
+        w->hi[d] = w->lo[d] + (double)sim->lattice_cells[d] * sim->lattice_h[d];
     }
     p->number = mps__alloc(&sim->context, p->n[0] * p->n[1] * p->n[2], sizeof *p->number);
     if (!p->number) return MPS_E_NOMEM;

@@ -16,7 +16,7 @@ static double covered(mps_sim *sim, const mps__lattice_box *box, int axis, int64
     for (int64_t i = 0; i < s->n; i++) {
         bool there = s->kind[i] == MPS_WALL;
         for (int d = 0; there && d < s->dim; d++) {
-            const double q = (s->ref[i * s->dim + d] - box->lo[d]) / sim->world.setup.dp;
+            const double q = (s->ref[i * s->dim + d] - box->lo[d]) / box->h[d];
             there = d == axis ? fabs(q - (double)at) < same
                               : q > (double)box->first[d] - same && q < (double)box->last[d] + same;
         }
@@ -47,17 +47,20 @@ bool mps__plate_of_box(mps_sim *sim, const mps__lattice_box *box, mps__plate_sha
 {
     const int dim = sim->world.setup.dim, axis = thinnest(box, dim);
     int e = 0;
-    *shape = (mps__plate_shape){
-        .axis = axis, .nodes = {1, 1}, .spacing = {sim->world.setup.dp, sim->world.setup.dp}};
+    *shape = (mps__plate_shape){.axis = axis,
+                                .nodes = {1, 1},
+                                .spacing = {sim->world.setup.dp, sim->world.setup.dp},
+                                .across = box->h[axis]};
     if (box->last[axis] - box->first[axis] > 2 || lies_on_wall(sim, box, axis)) return false;
     shape->columns = (int32_t)(box->last[axis] - box->first[axis]) + 1;
     shape->normal[axis] = 1;
     for (int d = 0; d < dim; d++) {
         const double middle = d == axis ? 0.5 * (double)(box->first[d] + box->last[d])
                                         : (double)box->first[d];
-        shape->corner[d] = box->lo[d] + middle * sim->world.setup.dp;
+        shape->corner[d] = box->lo[d] + middle * box->h[d];
         if (d == axis) continue;
         shape->along[e][d] = 1;
+        shape->spacing[e] = box->h[d];
         shape->nodes[e++] = box->last[d] - box->first[d] + 1;
     }
     return true;

@@ -103,7 +103,7 @@ static bool at_node(const builder *b, const resident *r, const int64_t node[2], 
 /* Height of column c [m]. */
 static double column_height(const builder *b, int32_t c)
 {
-    return (c - 0.5 * (b->shape.columns - 1)) * b->dp;
+    return (c - 0.5 * (b->shape.columns - 1)) * b->shape.across;
 }
 
 /* What a node of an edge stands on. */
@@ -146,8 +146,9 @@ static void reach_wall(builder *b, int e, int end)
     b->shape.nodes[e]++;
     b->closed[e][end] = true;
     if (end) return;
-    for (int d = 0; d < b->dim; d++) b->shape.corner[d] -= b->dp * b->shape.along[e][d];
-    for (int64_t k = 0; k < b->resident_count; k++) b->residents[k].at[e] += b->dp;
+    for (int d = 0; d < b->dim; d++)
+        b->shape.corner[d] -= b->shape.spacing[e] * b->shape.along[e][d];
+    for (int64_t k = 0; k < b->resident_count; k++) b->residents[k].at[e] += b->shape.spacing[e];
 }
 
 static void find_edges(builder *b)
@@ -195,7 +196,8 @@ static bool free_edges(const builder *b, const int64_t node[2], int32_t c, doubl
 {
     const double thickness = b->shape.columns == 1
                                  ? edge_area * b->dp
-                                 : b->dp * (c == 0 || c == b->shape.columns - 1 ? 0.5 : 1.0);
+                                 : b->shape.across *
+                                       (c == 0 || c == b->shape.columns - 1 ? 0.5 : 1.0);
     bool any = false;
     for (int d = 0; d < 3; d++) area[d] = 0;
     for (int e = 0; e < b->dim - 1; e++)
@@ -352,7 +354,8 @@ static mps_status cast_shadows(builder *b)
         for (node[0] = -rows_beyond(b, 0, 0); node[0] < b->shape.nodes[0] + rows_beyond(b, 0, 1);
              node[0]++)
             for (int64_t k = 1; k <= layers; k++) {
-                const double depth = (double)k * b->dp - column_height(b, b->shape.columns - 1);
+                const double depth = (double)k * b->shape.across -
+                                     column_height(b, b->shape.columns - 1);
                 if (depth < 0.5 * in_plane * b->dp) continue; /* between the columns */
                 for (int side = -1; side <= 1; side += 2) {
                     node_place(b, node, -side * depth, p.X);

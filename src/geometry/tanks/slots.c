@@ -81,7 +81,7 @@ static bool has_room(const search *q, const double X[3])
         const int64_t step[3] = {n % WIDE, n / WIDE % WIDE, n / (WIDE * WIDE)};
         double P[3] = {0, 0, 0};
         for (int d = 0; d < dim; d++) {
-            const double h = sim->world.setup.dp, middle = X[d] + 0.5 * q->width * q->normal[d];
+            const double h = sim->lattice_h[d], middle = X[d] + 0.5 * q->width * q->normal[d];
             P[d] = sim->lattice_lo[d] +
                    (floor((middle - sim->lattice_lo[d]) / h) - 1 + (double)step[d]) * h;
         }
@@ -113,7 +113,7 @@ static mps_status collect(search *q)
     double lo[3] = {0, 0, 0}, hi[3] = {0, 0, 0}, X[3];
     for (int d = 0; d < s->dim; d++) {
         lo[d] = sim->lattice_lo[d] - dp;
-        hi[d] = sim->lattice_lo[d] + (double)sim->lattice_cells[d] * sim->world.setup.dp + dp;
+        hi[d] = sim->lattice_lo[d] + (double)sim->lattice_cells[d] * sim->lattice_h[d] + dp;
     }
     MPS__TRY(mps__buckets_init(&q->walls, &q->sim->context, s->dim, lo, hi, 2 * dp));
     q->particle = mps__alloc(&q->sim->context, s->n, sizeof *q->particle);

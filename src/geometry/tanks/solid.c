@@ -68,11 +68,12 @@ static void make_box(work *w)
     memcpy(b->lo, w->solid->lo, sizeof b->lo);
     memcpy(b->hi, w->solid->hi, sizeof b->hi);
     for (int d = 0; d < sim->world.setup.dim; d++) {
-        const double origin = sim->has_tank ? sim->lattice_lo[d] : b->lo[d];
+        const double origin = sim->has_tank ? sim->lattice_lo[d] : b->lo[d],
+                     h = sim->has_tank ? sim->lattice_h[d] : dp;
         const bool tank = sim->has_tank && !sim->lattice_of_solids;
-        b->anchor[d] = origin + dp * floor((b->lo[d] - origin) / dp + 1e-6);
+        b->anchor[d] = origin + h * floor((b->lo[d] - origin) / h + 1e-6);
         b->keep_lo[d] = tank ? origin - 1e-6 * dp : -INFINITY;
-        b->keep_hi[d] = tank ? origin + ((double)sim->lattice_cells[d] + 1e-6) * dp : INFINITY;
+        b->keep_hi[d] = tank ? origin + ((double)sim->lattice_cells[d] + 1e-6) * h : INFINITY;
         w->around_lo[d] = b->anchor[d] - margin;
         w->around_hi[d] = b->hi[d] + margin;
     }
@@ -236,6 +237,7 @@ static void extend_lattice(work *w)
             sim->lattice_lo[d] = w->box.anchor[d];
         sim->lattice_cells[d] = (int64_t)floor(
             ((w->new_lattice ? end : fmax(end, hi)) - sim->lattice_lo[d]) / dp + 1e-6);
+        sim->lattice_h[d] = dp;
     }
     sim->has_tank = sim->lattice_of_solids = true;
 }
