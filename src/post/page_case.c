@@ -86,15 +86,15 @@ static void write_inputs(FILE *out, const page_run *r)
 {
     const json_value *list = mps__json_get(r->summary, "inputs");
     table_begin(out, "Inputs");
-    row(out, "model", mps__page_string(r, "model"));
+    if (!mps__page_input(r, "model")) row(out, "model", mps__page_string(r, "model"));
     row_number(out, r, "spacing of the particles", "dp", "m");
     row_size(out, r);
     row_number(out, r, "depth of the liquid", "liquid_depth", "m");
-    write_fluids(out, r);
-    for (size_t k = 0; k < mps__json_count(list); k++) {
-        const char *key = mps__json_text(mps__json_get(mps__json_at(list, k), "key"));
-        const char *value = mps__json_text(mps__json_get(mps__json_at(list, k), "value"));
-        if (key && value) row(out, key, value);
+    if (!mps__page_input(r, "phase 0")) write_fluids(out, r);
+    for (const json_value *one = list ? list->first : NULL; one; one = one->next) {
+        const char *key = mps__json_text(mps__json_get(one, "key"));
+        const char *value = mps__json_text(mps__json_get(one, "value"));
+        if (key && value && strcmp(key, "title") != 0) row(out, key, value);
     }
     table_end(out);
 }

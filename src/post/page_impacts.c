@@ -264,7 +264,7 @@ static mps_status find_all(const page_run *r, mps_stats_config *config, sensor *
     config->crossing_time = given;
     for (int32_t k = 0; status == MPS_OK && k < r->columns && *count < SENSORS_MOST; k++) {
         const page_column *c = &r->column[k];
-        if (strcmp(c->type, "wall_pressure") != 0 || c->place < 0) continue;
+        if (strcmp(c->unit, "Pa") != 0 || c->place < 0) continue; /* also means of panels */
         if (!is_wanted(r, c->name)) continue;
         all[*count] = (sensor){.column = c};
         status = find_impacts(r, config, &all[*count]);

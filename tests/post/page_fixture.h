@@ -23,6 +23,7 @@ typedef struct scene {
     char folder[64];
     int32_t dim, fluid, frames, rows;
     bool moves; /* the tank turns and shifts */
+    bool body;  /* the last four walls are a part of their own, which moves */
     char error[512];
 } scene;
 
@@ -73,6 +74,7 @@ static inline void place_in_tank(const scene *s, int32_t i, int32_t k, double ou
     out[0] = w % 2 ? 2 : 0;
     out[1] = (double)(w / 2 % 4) / 3;
     out[2] = s->dim == 3 ? 0.25 * (w / 8) : 0;
+    if (s->body && w >= WALLS - 4) out[1] += 0.1 * k;
 }
 
 /* The same in the lab: a turn about z and a shift. */
@@ -119,7 +121,8 @@ static inline void write_frame_head(FILE *file, int32_t n, double t)
         "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n<FieldData><DataArray "
         "type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
         "format=\"ascii\">%.17g</DataArray><DataArray type=\"String\" Name=\"part_names\" "
-        "NumberOfTuples=\"1\" format=\"ascii\">116 97 110 107 0 </DataArray></FieldData>\n<Piece "
+        "NumberOfTuples=\"1\" format=\"ascii\">116 97 110 107 0 98 0 "
+        "</DataArray></FieldData>\n<Piece "
         "NumberOfPoints=\"%d\" NumberOfVerts=\"0\">\n<Points>\n",
         t, (int)n);
     for (int k = 0; k < 7; k++) {
@@ -158,7 +161,7 @@ static inline void write_frame(const scene *s, int32_t k)
         u[3 * place] = i < 0 ? 0 : (float)(0.01 * (i % 100));
         p[place] = pressure_of(i, k);
         kind[place] = i < 0;
-        part[place] = i < 0 ? 0 : -1;
+        part[place] = i < 0 ? s->body && i < -(WALLS - 4) : -1;
         id[place] = id_of(s, i);
     }
     write_frame_head(file, n, k);

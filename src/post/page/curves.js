@@ -41,7 +41,7 @@ export async function readGroups(data) {
     for (const table of data.tables) {
         const t = await unpackTimes(table.t, table.points);
         for (const c of table.columns) {
-            const about = (c.about || "").split(":")[0], key = c.plot ? `${c.place}|${c.plot}` : `${c.place}|${c.type}|${c.unit}`;
+            const about = (c.about || "").split(":")[0], by = c.plot ?? (["value", "wall_pressure"].includes(c.type) ? `${c.unit}|${about}` : c.unit), key = `${c.place}|${by}`;
             if (!groups.has(key)) groups.set(key, {place: c.place, title: c.plot || about || c.label, titles: new Set(), unit: c.unit, t, table, series: [], plot: !!c.plot});
             const g = groups.get(key);
             g.titles.add(about || c.label);
