@@ -25,9 +25,9 @@ static void use_paper_lattice(tank_case *c, driver *d)
 static void add_columns(driver *d, const tank_case *c)
 {
     double level = c->level, x = c->size[0] / 2, z = c->size[2] / 2;
-    driver_gauge(d, "eta_a", x - 0.275, z, level);
+    driver_gauge(d, "eta_a", 0.01, z, level);
     driver_gauge(d, "eta_b", x, z, level);
-    driver_gauge(d, "eta_c", x + 0.275, z, level);
+    driver_gauge(d, "eta_c", 0.56, z, level);
 }
 
 int main(int argc, char **argv)
