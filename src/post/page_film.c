@@ -156,6 +156,7 @@ static mps_status take_moving(film *f, double id, double phase)
 static mps_status take_walls(film *f, const film_frame *s)
 {
     int64_t count = 0;
+    if (!s->kind || !s->x) return MPS_OK; /* an empty frame */
     for (int64_t i = 0; i < s->count; i++) count += (int)s->kind[i] == FILM_WALL;
     f->wall_x = malloc((size_t)(count + 1) * 3 * sizeof *f->wall_x);
     f->wall_part = malloc((size_t)(count + 1) * sizeof *f->wall_part);

@@ -249,7 +249,7 @@ void mps__json_free(json_value *value)
 
 const json_value *mps__json_get(const json_value *object, const char *key)
 {
-    if (!object || object->type != JSON_OBJECT) return NULL;
+    if (!object || !key || object->type != JSON_OBJECT) return NULL;
     for (const json_value *v = object->first; v; v = v->next)
         if (v->key && strcmp(v->key, key) == 0) return v;
     return NULL;

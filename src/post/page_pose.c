@@ -138,13 +138,20 @@ static bool find_corners(const film *f, const film_frame *s, double corner[3][3]
     return found == wanted;
 }
 
+static bool is_same(double (*a)[3], const double (*b)[3])
+{
+    for (int k = 0; k < 9; k++)
+        if (a[k / 3][k % 3] != b[k / 3][k % 3]) return false;
+    return true;
+}
+
 bool mps__pose_find(const film *f, const film_frame *s, film_pose *out)
 {
     double corner[3][3], first[3][3], now[9], built[9];
     *out = at_rest;
     if (f->reference[0] < 0) return true;
     if (!find_corners(f, s, corner)) return false;
-    if (memcmp(corner, f->corner, sizeof corner) == 0) return true;
+    if (is_same(corner, f->corner)) return true;
     axes(corner, now);
     memcpy(first, f->corner, sizeof first);
     axes(first, built);

@@ -144,9 +144,9 @@ static mps_status read_summary(page_run *r)
         status = mps__page_fail(r->errors, MPS_E_IO,
                                 "there is no '%s': a page needs the folder of a finished run",
                                 path);
-    if (status == MPS_OK && strlen(text) != size)
+    if (status == MPS_OK && (!text || strlen(text) != size))
         status = mps__page_fail(r->errors, MPS_E_IO, "'%s' is no text: it has a byte 0", path);
-    if (status == MPS_OK) {
+    if (status == MPS_OK && text) {
         r->summary = mps__json_read(text, &error);
         if (!r->summary && !error.why)
             status = no_memory(r->errors);

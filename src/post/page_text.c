@@ -88,7 +88,7 @@ const char *mps__rounded(char out[TEXT_NUMBER], double value)
     group(out, TEXT_NUMBER);
     if (out[0] == '-' && out[1]) { /* a minus, not a hyphen */
         memmove(out + 3, out + 1, strlen(out));
-        memcpy(out, "\xe2\x88\x92", 3);
+        for (int k = 0; k < 3; k++) out[k] = "\xe2\x88\x92"[k];
     }
     return out;
 }

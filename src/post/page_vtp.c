@@ -46,8 +46,8 @@ static bool take_array(vtp_piece *p, const char *tag, const char *end)
 {
     const char *name = attribute(tag, end, " Name=\""), *width = attribute(tag, end, "nents=\"");
     const char *offset = attribute(tag, end, " offset=\"");
-    const size_t length = name ? strcspn(name, "\"") : 0;
-    if (!offset || !width || p->arrays == VTP_ARRAYS || length >= VTP_NAME) return true;
+    const size_t length = name ? strcspn(name, "\"") : VTP_NAME;
+    if (!name || !offset || !width || p->arrays == VTP_ARRAYS || length >= VTP_NAME) return true;
     vtp_array *a = &p->array[p->arrays];
     a->type = type_of(attribute(tag, end, " type=\""));
     a->width = (int32_t)strtol(width, NULL, 10);
@@ -71,7 +71,7 @@ static mps_status take_parts(vtp_frame *f, const char *head)
     size_t n = 0;
     for (text++; n < most; text = end, n++) {
         const long code = strtol(text, &end, 10);
-        if (end == text) break;
+        if (!end || end == text) break;
         f->parts[n] = (char)code;
     }
     return MPS_OK;
@@ -131,7 +131,7 @@ static mps_status add_piece(vtp_frame *f, char *path)
     memset(p, 0, sizeof *p);
     p->path = path;
     mps_status status = read_head(f, path, &head, &size);
-    if (status == MPS_OK) status = take_head(f, p, head, size);
+    if (status == MPS_OK && head) status = take_head(f, p, head, size);
     free(head);
     return status;
 }

@@ -38,7 +38,8 @@ static void write_name(marks *m, canvas *c, double x, double y, const double *ma
     const pixel_box *in = &m->inside;
     x = fmax(in->x + 0.5 * width, fmin(x, in->x + in->width - 0.5 * width));
     for (int k = 0; k < TRIES; k++) {
-        const double shift = (k % 2 ? -1 : 1) * ((k + 1) / 2) * 0.5 * height;
+        const int lines = k % 2 ? -(k + 1) / 2 : k / 2;
+        const double shift = 0.5 * height * lines;
         const pixel_box box = {x - 0.5 * width, y + shift - 0.5 * height, width, height};
         if (!is_free(m, &box)) continue;
         take(m, &box);

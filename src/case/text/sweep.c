@@ -144,6 +144,12 @@ int64_t mps_case_runs(const mps_case *c)
     return runs;
 }
 
+/* A sweep that was read has values in each list. */
+static int64_t at_least_one(int32_t count)
+{
+    return count > 0 ? count : 1;
+}
+
 int32_t mps_case_sweep_count(const mps_case *c)
 {
     const tree_node *sweep = sweep_of(c);
@@ -158,8 +164,10 @@ mps_status mps_case_sweep_get(const mps_case *c, int64_t index, int32_t which, c
     if (!n || !buffer || index < 0 || which < 0 || index >= mps_case_runs(c)) return MPS_E_ARG;
     for (int32_t k = 0; n && k < which; k++) n = n->next;
     if (!n) return MPS_E_ARG;
-    for (const tree_node *later = n->next; later; later = later->next) index /= count_values(later);
-    if (!get_value(n, is_numbers(mps__key_at(n->key)), (int32_t)(index % count_values(n)), value,
+    for (const tree_node *later = n->next; later; later = later->next)
+        index /= at_least_one(count_values(later));
+    const int64_t values = at_least_one(count_values(n));
+    if (!get_value(n, is_numbers(mps__key_at(n->key)), (int32_t)(index % values), value,
                    sizeof value))
         return MPS_E_ARG;
     return (size_t)snprintf(buffer, size, "%s=%s", n->key, value) < size ? MPS_OK : MPS_E_ARG;
