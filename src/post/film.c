@@ -205,7 +205,8 @@ mps_status mps_film_save(const char *folder, const mps_film_config *config, cons
     if (status == MPS_OK) status = mps__film_survey(&f, &run);
     char *place = mps__page_path(folder, "film.mp4");
     if (!path) path = place;
-    if (status == MPS_OK && !place) status = mps__page_fail(&e, MPS_E_NOMEM, "no memory for a film");
+    if (status == MPS_OK && !place)
+        status = mps__page_fail(&e, MPS_E_NOMEM, "no memory for a film");
     if (status == MPS_OK && path) status = make(&f, config, path, &e);
     free(place);
     mps__film_free(&f);
