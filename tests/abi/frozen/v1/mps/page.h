@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/** @file page.h  report.html of a run: one file that needs no network, made from the run's folder
+ *  alone. It holds a film of the particles, all curves and the case. Part of libmps_case. */
+#ifndef MPS_PAGE_H
+#define MPS_PAGE_H
+
+#include <mps/status.h>
+#include <stddef.h>
+
+MPS_BEGIN_DECLS
+
+/** How a page is made; set by mps_page_config_init(). */
+typedef struct mps_page_config {
+    /** Set by mps_page_config_init(). */
+    uint32_t struct_size;
+    /** Largest number of frames in the film; 0: all frames of the folder. */
+    int32_t frames;
+    /** Limit of the file [bytes], 500,000 or more. The film loses precision, then particles, then
+     *  frames, until the page is below it; the page says what was left out. */
+    int64_t bytes;
+    /** Receives the text of an error, or NULL. */
+    char *error;
+    /** Size of `error` [bytes]. */
+    size_t error_size;
+} mps_page_config;
+
+/** What a page holds; set by mps_page_info_init(), filled by mps_page_write(). */
+typedef struct mps_page_info {
+    /** Set by mps_page_info_init(). */
+    uint32_t struct_size;
+    /** Frames of the film; 0: there is no film. */
+    int32_t frames;
+    /** Size of the file [bytes]. */
+    int64_t bytes;
+    /** Moving particles in the film. */
+    int64_t particles;
+    /** What was left out of the film to keep the limit, one sentence; "" for nothing. */
+    char left_out[240];
+} mps_page_info;
+
+/** Set all members to their defaults: all frames, 12,000,000 bytes, no text of errors.
+ *  @param size  sizeof(mps_page_config)
+ *  @return MPS_OK, MPS_E_ARG for NULL or for a size that this version does not know */
+MPS_API mps_status mps_page_config_init(mps_page_config *config, size_t size);
+
+/** The same for mps_page_info: nothing.
+ *  @param size  sizeof(mps_page_info) */
+MPS_API mps_status mps_page_info_init(mps_page_info *info, size_t size);
+
+/** Write <folder>/report.html from summary.json, probes.csv, steps.csv, momentum.csv, frames.pvd
+ *  with its frames, case.yaml and picture_*.png of that folder. Only summary.json and probes.csv
+ *  must be there. An interrupted call leaves an earlier page as it was.
+ *  @param folder  a folder that a run has written
+ *  @param config  NULL for the defaults
+ *  @param info    what the page holds, or NULL
+ *  @return MPS_OK, MPS_E_ARG (folder, config, or a limit that is too low for the curves), MPS_E_IO
+ *      (a file is missing or broken, or the page cannot be written), MPS_E_NOMEM */
+MPS_API mps_status mps_page_write(const char *folder, const mps_page_config *config,
+                                  mps_page_info *info);
+
+MPS_END_DECLS
+
+#endif

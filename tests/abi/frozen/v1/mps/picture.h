@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/** @file picture.h  Pictures of the particles as PNG, a film of a run, and a state for ParaView.
+ *  Part of libmps_case.
+ *
+ *  A picture has axes with units, the sensors with their names, a colour scale of the pressure and
+ *  the time. It is drawn in the frame of the tank: walls and sensors stand still, and an arrow
+ *  shows gravity where the tank is turned. In 2-D each particle is a disc of the diameter dp. In
+ *  3-D there are two views: all of the liquid with light and depth, behind the walls that face the
+ *  reader, and the slice of 1.5 dp about the middle of z, with axes.
+ *
+ *  All pictures of a run have one colour scale. It goes from 0 to the larger of two pressures,
+ *  rounded up to two digits: the 99 % quantile in the liquid, and 1.25 times that of the liquid at
+ *  rest below its present centre of mass. With several phases it begins at the 1 % quantile where
+ *  that is negative. The first picture with a pressure fixes it; larger pressures have the colour
+ *  of the upper end. The colours differ in lightness, and those of two phases can be told apart by
+ *  colour-blind readers. */
+#ifndef MPS_PICTURE_H
+#define MPS_PICTURE_H
+
+#include <mps/types.h>
+#include <stddef.h>
+
+MPS_BEGIN_DECLS
+
+/** How pictures of a run are drawn; set by mps_picture_config_init(). One config serves all
+ *  pictures of a run. */
+typedef struct mps_picture_config {
+    /** Set by mps_picture_config_init(). */
+    uint32_t struct_size;
+    /** Width [pixels], 400..4000; default 1280. A narrow tank gives a narrower picture. */
+    int32_t width;
+    /** Title, or NULL. Bytes that are not UTF-8 are shown as "?". */
+    const char *title;
+    /** Gravity [m/s2], >= 0; default 9.81. */
+    double gravity;
+    /** Lower end of the colour scale [Pa]. */
+    double pressure_lo;
+    /** Upper end [Pa]. Where it is not above the lower end (default) the first picture with a
+     *  pressure sets both. */
+    double pressure_hi;
+    /** 1 (default): sensors are drawn; 0: not. */
+    int32_t sensors;
+    /** Kept 0. */
+    int32_t reserved;
+    /** Receives the text of an error, or NULL. */
+    char *error;
+    /** Size of `error` [bytes]. */
+    size_t error_size;
+} mps_picture_config;
+
+/** Set all members to their defaults.
+ *  @param size  sizeof(mps_picture_config)
+ *  @return MPS_OK, MPS_E_ARG for NULL, MPS_E_VERSION for a size that this version does not know */
+MPS_API mps_status mps_picture_config_init(mps_picture_config *config, size_t size);
+
+/** Draw the present state of a simulation. Particles are leased meanwhile; on many ranks call it
+ *  on rank 0 between mps_particles_gather() and its end. Sensors are the probes of wall pressures,
+ *  pressures and gauges that have a name.
+ *  @param path  of the PNG; a file of this name is replaced
+ *
+ *  | error | reason; no file is left |
+ *  |---|---|
+ *  | MPS_E_ARG | an argument; there is no particle |
+ *  | MPS_E_BUSY | a field is leased for writing; called from a verb or a callback |
+ *  | MPS_E_IO | the file cannot be written |
+ *  | MPS_E_NOMEM | no memory | */
+MPS_API mps_status mps_picture_save(mps_sim *sim, mps_picture_config *config, const char *path);
+
+/** Draw a frame of a run's folder (summary.json, probes.csv, frames.pvd). The title, the gravity
+ *  and the colour scale of the folder are taken where the config has none; the scale is that of
+ *  all frames where the folder has none.
+ *  @param folder  a folder that a run has written
+ *  @param frame   0..frames - 1, or -1: the last one
+ *  @param path    as for mps_picture_save()
+ *  @return MPS_OK, MPS_E_ARG, MPS_E_IO (a file is missing or broken, or cannot be written),
+ *          MPS_E_NOMEM */
+MPS_API mps_status mps_picture_frame_save(const char *folder, int64_t frame,
+                                          mps_picture_config *config, const char *path);
+
+/** How a film is made; set by mps_film_config_init(). */
+typedef struct mps_film_config {
+    /** Set by mps_film_config_init(). */
+    uint32_t struct_size;
+    /** Width of the pictures [pixels], as in mps_picture_config. */
+    int32_t width;
+    /** Frames a second of the film, 1..120; 0 (default): as in the run, but at least 5 and at most
+     *  60. */
+    double rate;
+    /** Program that makes the film; default "ffmpeg", looked for in PATH. */
+    const char *program;
+    /** Receives the text of an error, or NULL. */
+    char *error;
+    /** Size of `error` [bytes]. */
+    size_t error_size;
+} mps_film_config;
+
+/** Set all members to their defaults.
+ *  @param size  sizeof(mps_film_config)
+ *  @return MPS_OK, MPS_E_ARG for NULL, MPS_E_VERSION for a size that this version does not know */
+MPS_API mps_status mps_film_config_init(mps_film_config *config, size_t size);
+
+/** Make a film of all frames of a run's folder: MP4 with H.264, which all players and browsers
+ *  show. The program ffmpeg runs meanwhile as a child of this process; no signal handler is
+ *  changed. An earlier film is replaced when the new one is complete.
+ *  @param folder  a folder that a run has written
+ *  @param config  NULL for the defaults
+ *  @param path    of the film; NULL: film.mp4 in the folder
+ *  @return MPS_OK, MPS_E_ARG (also: no frame), MPS_E_IO (no ffmpeg, or it failed: its own words are
+ *          in the text; a file is missing or broken), MPS_E_NOMEM */
+MPS_API mps_status mps_film_save(const char *folder, const mps_film_config *config,
+                                 const char *path);
+
+/** Write paraview.py into a run's folder: ParaView 5.10 or newer opens it by File > Load State or
+ *  `paraview --state=paraview.py`. It shows the frames with the colours and the scale of the
+ *  pictures, each phase as spheres of the diameter dp, and the walls in grey. It finds the frames
+ *  beside itself, so that the folder may be moved.
+ *  @param error       receives the text of an error, or NULL
+ *  @param error_size  its size [bytes]
+ *  @return as mps_film_save() */
+MPS_API mps_status mps_paraview_save(const char *folder, char *error, size_t error_size);
+
+MPS_END_DECLS
+
+#endif

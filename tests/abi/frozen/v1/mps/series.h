@@ -1,0 +1,271 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/** @file series.h  Series over time: constants of all statistics, columns of files, harmonics,
+ *  comparison, order of convergence, repeated runs. Functions of libmps_case; they need no
+ *  simulation. A function that fails writes nothing but a text to mps_stats_config.error. The same
+ *  input gives the same bytes. KR is the Korean Register's guidance GC-17-E of 2025. */
+#ifndef MPS_SERIES_H
+#define MPS_SERIES_H
+
+#include <mps/types.h>
+#include <stddef.h>
+
+MPS_BEGIN_DECLS
+
+/* ---- all constants ---- */
+
+/** Every constant of the definitions below. Fill it with mps_stats_config_init(). */
+typedef struct mps_stats_config {
+    /** Set by mps_stats_config_init(). */
+    uint32_t struct_size;
+    /** Resamples of a band, 0 (no bands) to 1000000. Default 1000. */
+    int32_t resamples;
+    /** [error_size] receives why a call failed; NULL (default): no text. */
+    char *error;
+    /** Bytes of `error`. */
+    size_t error_size;
+    /** Samples before this time are not used [s]. Default -INFINITY: all are. */
+    double from;
+    /** Samples after this time are not used [s]. Default INFINITY. */
+    double until;
+    /** Rate of the signal [1/s], linear between samples. Default 0: samples as given. */
+    double rate;
+    /** Frequency of a one-pole high-pass [1/s]. Default 0: off. */
+    double high_pass;
+    /** u: an event is at or above it [Pa]. Default NAN: mean and `deviations` standard deviations
+     *  of the signal, for a first look; a value in the unit of the signal is better. */
+    double threshold;
+    /** See `threshold`. Default 2. */
+    double deviations;
+    /** w: an event ends when p stays below u for w [s], >= 0. Default NAN: `window_share` of
+     *  `period`. */
+    double window;
+    /** See `window`. Default 0.2. */
+    double window_share;
+    /** Natural period of the liquid, or period of the motion [s]. Default NAN: not known. */
+    double period;
+    /** s: rise and decay are measured between s P and P, 0 < s < 1. Default 0.5 (KR 202). */
+    double share;
+    /** Least time that the computation resolves, mps_step_info.crossing_time [s]. Events that rise
+     *  or decay in less are marked. Default 0: not known. */
+    double crossing_time;
+    /** Fewest events of a fit, >= 2. Default 30. */
+    int32_t least_events;
+    /** Kept 0. */
+    int32_t reserved;
+    /** Where the resamples begin. The same seed gives the same bands. Default 1. */
+    uint64_t seed;
+    /** Share of the resamples, or of Student's distribution, in a band, 0 < c < 1. Default 0.9. */
+    double confidence;
+    /** D: exposure at full scale [s]. Default 10800: 3 hours. */
+    double exposure;
+    /** A warning is given where D exceeds this many lengths of the record. Default 3. */
+    double exposure_ratio;
+    /** Peaks count as dependent where |correlation| exceeds this over sqrt(N). Default 2: 95 %. */
+    double dependence;
+    /** L: length at full scale over that of the model (Froude). Default 1. */
+    double length_scale;
+    /** Density at full scale over that of the model. Default 1. */
+    double density_ratio;
+    /** Largest shift that mps_series_compare() tries [s]. Default NAN: half of `period`, or a
+     *  quarter of the common time. */
+    double shift_most;
+    /** Least order that mps_converge() trusts. Default 0.5. */
+    double order_least;
+    /** Larger orders count as this. Default 2. */
+    double order_most;
+    /** Band over the error, where the order is trusted. Default 1.25. */
+    double safety;
+    /** Band over the largest difference between two values, elsewhere. Default 3. */
+    double safety_poor;
+} mps_stats_config;
+
+/** Set every entry to its default. @param size  sizeof(mps_stats_config) @return MPS_E_ARG */
+MPS_API mps_status mps_stats_config_init(mps_stats_config *config, size_t size);
+
+/* ---- tables in files ---- */
+
+/** Columns of a CSV file in memory. */
+typedef struct mps_table mps_table;
+
+/** Read columns of a CSV file such as probes.csv. The first line has the names, with units in
+ *  brackets: "t[s],P1[Pa]". The first column is the time and grows from row to row. A last line
+ *  without its end is left out, because a run may still be writing it. Numbers may be nan.
+ *  @param count  number of `names`; 0: all columns
+ *  @param names  [count] with or without the unit
+ *  @param table  destroy it with mps_table_destroy(); NULL on failure
+ *
+ *  | error | reason; texts name the file and the line |
+ *  |---|---|
+ *  | MPS_E_ARG | an argument |
+ *  | MPS_E_NAME | no column, or several, of a name |
+ *  | MPS_E_IO | not readable; no number; too few or too many numbers; times that do not grow |
+ *  | MPS_E_NOMEM | | */
+MPS_API mps_status mps_table_read(const mps_stats_config *config, const char *path, int32_t count,
+                                  const char *const *names, mps_table **table);
+MPS_API void mps_table_destroy(mps_table *table);
+
+/** Number of rows; 0 for NULL. */
+MPS_API int64_t mps_table_rows(const mps_table *table);
+
+/** Number of columns besides the time; 0 for NULL. */
+MPS_API int32_t mps_table_columns(const mps_table *table);
+
+/** Name of a column without its unit; -1 is the time. NULL: no such column. */
+MPS_API const char *mps_table_name(const mps_table *table, int32_t column);
+
+/** Unit of a column, "" for none; -1 is the time. NULL: no such column. */
+MPS_API const char *mps_table_unit(const mps_table *table, int32_t column);
+
+/** Values of a column, [rows]; -1 is the time. NULL: no such column, or no rows. */
+MPS_API const double *mps_table_values(const mps_table *table, int32_t column);
+
+/* ---- harmonics ---- */
+
+/** Most harmonics of mps_harmonics. */
+enum { MPS_HARMONICS = 16 };
+
+/** p = mean + sum over k = 1..count of amplitude[k-1] sin(k w t + phase[k-1]). */
+typedef struct mps_harmonics {
+    /** Set by mps_harmonics_init(). */
+    uint32_t struct_size;
+    /** Harmonics, 1..MPS_HARMONICS. Default 1. */
+    int32_t count;
+    /** w [rad/s], > 0. */
+    double omega;
+    /** [unit of the series]; out */
+    double mean;
+    /** Root mean square of what is left [unit of the series]; out */
+    double rest;
+    /** [MPS_HARMONICS] >= 0 [unit of the series]; out */
+    double amplitude[16];
+    /** [MPS_HARMONICS] -pi..pi [rad]; out */
+    double phase[16];
+} mps_harmonics;
+
+/** Set struct_size, zero, count 1. @param size  sizeof(mps_harmonics) @return MPS_E_ARG */
+MPS_API mps_status mps_harmonics_init(mps_harmonics *h, size_t size);
+
+/** Fit harmonics to a series by least squares, between config.from and config.until.
+ *  @param n  number of samples; @param t  [n] increasing [s]; @param p  [n]; nan is left out
+ *  @param h  initialised, with count and omega; out
+ *  @return MPS_E_ARG: an argument; fewer samples than unknowns, less than one period, or no
+ *          solution because the samples are too far apart */
+MPS_API mps_status mps_harmonics_find(const mps_stats_config *config, int64_t n, const double *t,
+                                      const double *p, mps_harmonics *h);
+
+/* ---- comparison, convergence, repeats ---- */
+
+/** A series for mps_series_compare(). */
+typedef struct mps_series {
+    /** sizeof(mps_series), set by the caller. */
+    uint32_t struct_size;
+    /** Kept 0. */
+    int32_t reserved;
+    /** Number of samples. */
+    int64_t n;
+    /** [n] increasing [s] */
+    const double *t;
+    /** [n]; nan is left out */
+    const double *p;
+} mps_series;
+
+/** How two series differ, in the time that both have. Second minus first. */
+typedef struct mps_comparison {
+    /** Set by mps_comparison_init(), or sizeof(mps_comparison). */
+    uint32_t struct_size;
+    /** Kept 0. */
+    int32_t reserved;
+    /** The time that both have [s]. */
+    double t_first, t_last;
+    /** Mean and root mean square of the difference. */
+    double mean, rms;
+    /** Root mean square of the deviation of the first series from its mean, to judge `rms` by. */
+    double rms_first;
+    /** Difference of the largest magnitude, and its time. */
+    double largest, t_largest;
+    /** Highest value of each, and its time. */
+    double peak[2], t_peak[2];
+    /** Lowest value of each, and its time. */
+    double trough[2], t_trough[2];
+    /** By how much the second is later, by the largest correlation [s]. NAN: one is constant, or
+     *  there is no largest correlation within config.shift_most. */
+    double shift;
+    /** That correlation, -1..1. */
+    double correlation;
+    /** `shift` as an angle of config.period, 2 pi shift/period [rad]. NAN: no period. */
+    double phase;
+} mps_comparison;
+
+/** Set struct_size and zero. @param size  sizeof(mps_comparison) @return MPS_E_ARG */
+MPS_API mps_status mps_comparison_init(mps_comparison *c, size_t size);
+
+/** Compare two series on the samples of both, linear between them.
+ *  @param c  initialised; out
+ *  @return MPS_E_ARG: an argument; no common time; MPS_E_NOMEM */
+MPS_API mps_status mps_series_compare(const mps_stats_config *config, const mps_series *first,
+                                      const mps_series *second, mps_comparison *c);
+
+/** How three values follow the spacing. */
+enum {
+    /** Monotone, order within order_least..order_most; also a larger order, cut to order_most. */
+    MPS_CONVERGE_MONOTONE = 0,
+    /** Monotone, but the order is smaller than order_least, or there is none. */
+    MPS_CONVERGE_SLOW = 1,
+    /** The two differences have different signs. */
+    MPS_CONVERGE_OSCILLATING = 2,
+    /** All three values are the same. */
+    MPS_CONVERGE_SAME = 3
+};
+
+/** Order and band of a figure computed with three spacings: f = limit + C h^order. */
+typedef struct mps_convergence {
+    /** Set by mps_convergence_init(), or sizeof(mps_convergence). */
+    uint32_t struct_size;
+    /** MPS_CONVERGE_MONOTONE to MPS_CONVERGE_SAME. */
+    int32_t kind;
+    /** Observed order (Richardson). NAN: there is none. */
+    double order;
+    /** Value for a spacing of 0, by the smaller of `order` and order_most. NAN: the order is not
+     *  trusted. */
+    double limit;
+    /** Half of the width of a band about the finest value. */
+    double band;
+} mps_convergence;
+
+/** Set struct_size and zero. @param size  sizeof(mps_convergence) @return MPS_E_ARG */
+MPS_API mps_status mps_convergence_init(mps_convergence *c, size_t size);
+
+/** @param spacing  [3] > 0, ascending @param value  [3] finite @param c  initialised; out
+ *  @return MPS_E_ARG */
+MPS_API mps_status mps_converge(const mps_stats_config *config, const double *spacing,
+                                const double *value, mps_convergence *c);
+
+/** A figure of repeated runs. */
+typedef struct mps_repeat {
+    /** Set by mps_repeat_init(), or sizeof(mps_repeat). */
+    uint32_t struct_size;
+    /** Runs with a value. */
+    int32_t count;
+    /** Time of the event, mean of the runs [s]; mps_repeat_peaks() alone. */
+    double t;
+    /** Of all values. */
+    double mean, least, most;
+    /** Standard deviation, with count - 1. NAN for one value. */
+    double deviation;
+    /** Half of the band of the mean, by Student's t. NAN for one value. */
+    double mean_band;
+    /** Half of the band in which one more run falls. NAN for one value. */
+    double next_band;
+} mps_repeat;
+
+/** Set struct_size and zero. @param size  sizeof(mps_repeat) @return MPS_E_ARG */
+MPS_API mps_status mps_repeat_init(mps_repeat *r, size_t size);
+
+/** @param count  >= 1 @param value  [count]; nan: this run has none @param r  initialised; out
+ *  @return MPS_E_ARG: an argument; no run has a value */
+MPS_API mps_status mps_repeat_find(const mps_stats_config *config, int32_t count,
+                                   const double *value, mps_repeat *r);
+
+MPS_END_DECLS
+
+#endif

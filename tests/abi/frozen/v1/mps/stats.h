@@ -1,0 +1,296 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/** @file stats.h  Statistics of impacts: events of a signal, distributions of their peaks, values
+ *  of an exposure, the long term. Functions of libmps_case; they need no simulation.
+ *
+ *  Results are for screening: they rank designs and find the places and conditions to look at. A
+ *  design load needs tests or rules besides.
+ *
+ *  A function that fails writes nothing but a text to mps_stats_config.error. The same input gives
+ *  the same bytes. KR is the Korean Register's guidance GC-17-E of 2025. */
+#ifndef MPS_STATS_H
+#define MPS_STATS_H
+
+#include <mps/series.h>
+
+MPS_BEGIN_DECLS
+
+/* ---- impacts ---- */
+
+/** Mean over the cells of a panel, which have the same area (KR 303).
+ *  @param cells  >= 1 @param p  [cells][n] @param mean  [n] out; nan where a cell is
+ *  @return MPS_E_ARG */
+MPS_API mps_status mps_panel_mean(const mps_stats_config *config, int32_t cells, int64_t n,
+                                  const double *const *p, double *mean);
+
+/** Impacts in one signal. */
+typedef struct mps_impacts mps_impacts;
+
+/** One event: a time above the threshold. All at the scale of the signal. */
+typedef struct mps_impact {
+    /** Set by mps_impact_init(), or sizeof(mps_impact). */
+    uint32_t struct_size;
+    /** 1: it rises or decays faster than mps_stats_config.crossing_time. */
+    int32_t unresolved;
+    /** P: vertex of the parabola through the largest sample and its neighbours, or the top of
+     *  the triangle through them, whichever is lower [Pa]. */
+    double peak;
+    /** Time of P [s]. */
+    double t;
+    /** First upcrossing of the threshold [s]. */
+    double begin;
+    /** Last downcrossing of the threshold [s]. */
+    double end;
+    /** (t_P - t_s)/(1 - s), t_s the last upcrossing of s P before t_P [s]. NAN: not in the
+     *  record. */
+    double rise;
+    /** Likewise, with the first downcrossing of s P after t_P [s]. */
+    double decay;
+    /** decay/rise. NAN where one is not known. */
+    double skewness;
+    /** end - begin [s]. */
+    double duration;
+    /** Integral of p over the parts of the event that are at or above the threshold [Pa s]. */
+    double impulse;
+} mps_impact;
+
+/** Set struct_size and zero. @param size  sizeof(mps_impact) @return MPS_E_ARG */
+MPS_API mps_status mps_impact_init(mps_impact *impact, size_t size);
+
+/** What holds for a signal as a whole. */
+typedef struct mps_impacts_info {
+    /** Set by mps_impacts_info_init(), or sizeof(mps_impacts_info). */
+    uint32_t struct_size;
+    /** 1: D exceeds the record's length by more than `exposure_ratio`; values are extrapolated. */
+    int32_t long_exposure;
+    /** 1: |correlation| > correlation_limit; bands are too narrow. */
+    int32_t dependent;
+    /** Kept 0. */
+    int32_t reserved;
+    /** Samples used. */
+    int64_t samples;
+    /** Samples left out because they are nan. */
+    int64_t missing;
+    /** N. */
+    int64_t events;
+    /** Events left out: their beginning or their peak may lie outside of the record. */
+    int64_t cut;
+    /** Events that are marked as unresolved. */
+    int64_t unresolved;
+    /** u and w as used [Pa, s]. */
+    double threshold, window;
+    /** First and last time of the samples [s]. */
+    double t_first, t_last;
+    /** N over the length of the record [1/s]. */
+    double rate;
+    /** Correlation of each peak with the next. NAN: fewer than three peaks, or all the same. */
+    double correlation;
+    /** `dependence` over sqrt(N). */
+    double correlation_limit;
+    /** D/sqrt(L), the exposure at the scale of the signal [s]. */
+    double exposure;
+    /** Events expected in it: rate D/sqrt(L). */
+    double exposure_events;
+    /** Pressures times this, and times times this, are those at full scale: L times the ratio of
+     *  densities; sqrt(L). */
+    double pressure_scale, time_scale;
+} mps_impacts_info;
+
+/** Set struct_size and zero. @param size  sizeof(mps_impacts_info) @return MPS_E_ARG */
+MPS_API mps_status mps_impacts_info_init(mps_impacts_info *info, size_t size);
+
+/** One peak in the plot of exceedance. */
+typedef struct mps_exceedance {
+    /** Set by mps_exceedance_init(), or sizeof(mps_exceedance). */
+    uint32_t struct_size;
+    /** Kept 0. */
+    int32_t reserved;
+    /** The i-th largest of the N peaks [Pa]. */
+    double peak;
+    /** Q = i/(N + 1): share of the peaks above it. */
+    double share;
+    /** Band of the share: exact for independent peaks of any distribution. */
+    double band[2];
+} mps_exceedance;
+
+/** Set struct_size and zero. @param size  sizeof(mps_exceedance) @return MPS_E_ARG */
+MPS_API mps_status mps_exceedance_init(mps_exceedance *point, size_t size);
+
+/** Find the impacts of a signal, fit both distributions, and keep the results.
+ *
+ *  An event begins with the first crossing of u after w below u, and ends when p stays below u for
+ *  w. Its largest sample is its peak, one an event. An event is left out and counted as `cut` where
+ *  less than w below u precede it in the record, or where the record ends above u.
+ *  @param n  number of samples, >= 0
+ *  @param t  [n] times [s], each larger than the one before
+ *  @param p  [n] signal [Pa]; nan: not known, left out
+ *  @param impacts  destroy it with mps_impacts_destroy(); NULL on failure
+ *  @return MPS_E_ARG (which entry of `config`; index of a time or a value), MPS_E_NOMEM */
+MPS_API mps_status mps_impacts_find(const mps_stats_config *config, int64_t n, const double *t,
+                                    const double *p, mps_impacts **impacts);
+MPS_API void mps_impacts_destroy(mps_impacts *impacts);
+
+/** @param info  initialised; out @return MPS_E_ARG */
+MPS_API mps_status mps_impacts_info_get(const mps_impacts *impacts, mps_impacts_info *info);
+
+/** Event number `index` in the order of time. @param impact  initialised; out
+ *  @return MPS_E_ARG: no such event */
+MPS_API mps_status mps_impacts_get(const mps_impacts *impacts, int64_t index, mps_impact *impact);
+
+/** Event with the `rank`-th highest peak, from 0. Of equal peaks the earlier comes first.
+ *  @param impact  initialised; out @return MPS_E_ARG: no such event */
+MPS_API mps_status mps_impacts_highest(const mps_impacts *impacts, int64_t rank,
+                                       mps_impact *impact);
+
+/** Point number `rank` of the exceedance, from 0, the highest first. @param point  initialised; out
+ *  @return MPS_E_ARG: no such point */
+MPS_API mps_status mps_impacts_exceedance(const mps_impacts *impacts, int64_t rank,
+                                          mps_exceedance *point);
+
+/* ---- distributions ---- */
+
+/** Kinds of distributions of peaks P above u. Q is the share of the peaks above P. */
+enum {
+    /** Q = exp(-((P - u)/b)^c) (KR 306). scale: b, shape: c. */
+    MPS_FIT_WEIBULL = 0,
+    /** Q = (1 + x (P - u)/s)^(-1/x), generalised Pareto. scale: s, shape: x. */
+    MPS_FIT_PARETO = 1
+};
+
+/** How a fit was made. */
+enum {
+    /** No fit: fewer than mps_stats_config.least_events peaks above u. */
+    MPS_FIT_FEW = 0,
+    /** No fit: all peaks are the same. */
+    MPS_FIT_SAME = 1,
+    /** By likelihood. */
+    MPS_FIT_LIKELIHOOD = 2,
+    /** Pareto: the likelihood has no maximum; by probability-weighted moments. */
+    MPS_FIT_MOMENTS = 3
+};
+
+/** A distribution fitted to peaks. */
+typedef struct mps_fit {
+    /** Set by mps_fit_init(), or sizeof(mps_fit). */
+    uint32_t struct_size;
+    /** MPS_FIT_WEIBULL or MPS_FIT_PARETO. */
+    int32_t kind;
+    /** MPS_FIT_FEW to MPS_FIT_MOMENTS. The numbers below are NAN where there is no fit. */
+    int32_t state;
+    /** Resamples behind the bands. */
+    int32_t resamples;
+    /** Peaks above u. */
+    int64_t count;
+    /** u [Pa]. */
+    double location;
+    /** b or s [Pa]. */
+    double scale;
+    /** c or x. */
+    double shape;
+    /** Bands of both. NAN without resamples. */
+    double scale_band[2], shape_band[2];
+    /** s and x by probability-weighted moments; NAN for Weibull. */
+    double moments_scale, moments_shape;
+    /** Logarithm of the likelihood. */
+    double log_likelihood;
+    /** n: number of peaks that `value` is for. */
+    double number;
+    /** Exceeded once in n peaks on average [Pa]: mps_fit_value(). */
+    double value;
+    /** Its band [Pa]. */
+    double value_band[2];
+} mps_fit;
+
+/** Set struct_size and zero. @param size  sizeof(mps_fit) @return MPS_E_ARG */
+MPS_API mps_status mps_fit_init(mps_fit *fit, size_t size);
+
+/** Fit a distribution by likelihood. Bands are those of samples drawn from the fitted distribution;
+ *  they do not contain the choice of u or of the distribution. Peaks that equal u are left out.
+ *  @param count   number of peaks, >= 0
+ *  @param peaks   [count] finite, none below u [Pa]
+ *  @param u       threshold [Pa]
+ *  @param number  n of mps_fit.value; 0: no value
+ *  @param fit     initialised; out
+ *  @return MPS_E_ARG (index of the peak), MPS_E_NOMEM. Too few peaks are no error: mps_fit.state */
+MPS_API mps_status mps_fit_weibull(const mps_stats_config *config, int64_t count,
+                                   const double *peaks, double u, double number, mps_fit *fit);
+
+/** Likewise for the generalised Pareto distribution. The search starts from probability-weighted
+ *  moments and stays at x > -1. */
+MPS_API mps_status mps_fit_pareto(const mps_stats_config *config, int64_t count,
+                                  const double *peaks, double u, double number, mps_fit *fit);
+
+/** Fit of mps_impacts_find(). `number` is mps_impacts_info.exposure_events.
+ *  @param kind  MPS_FIT_WEIBULL or MPS_FIT_PARETO @param fit  initialised; out
+ *  @return MPS_E_ARG */
+MPS_API mps_status mps_impacts_fit_get(const mps_impacts *impacts, int32_t kind, mps_fit *fit);
+
+/** Value that n peaks exceed once on average [Pa]: u + b (ln n)^(1/c); u + s/x (n^x - 1). It is
+ *  the most probable maximum of n peaks. Needs kind, state, location, scale and shape of `fit`.
+ *  NAN: no fit, or n < 1. */
+MPS_API double mps_fit_value(const mps_fit *fit, double n);
+
+/** Share of the peaks above P: 1 for P <= u. NAN: no fit. */
+MPS_API double mps_fit_exceedance(const mps_fit *fit, double P);
+
+/** One condition of the long term: a fill, a heading, a sea state (KR 307). */
+typedef struct mps_condition {
+    /** Set by mps_condition_init(), or sizeof(mps_condition). */
+    uint32_t struct_size;
+    /** Kept 0. */
+    int32_t reserved;
+    /** Share of the time, >= 0. The shares sum to at most 1. */
+    double share;
+    /** Impacts per time at full scale, >= 0 [1/s]. */
+    double rate;
+    /** Distribution of peaks at full scale; not used where share or rate is 0. */
+    const mps_fit *fit;
+} mps_condition;
+
+/** Set struct_size and zero. @param size  sizeof(mps_condition) @return MPS_E_ARG */
+MPS_API mps_status mps_condition_init(mps_condition *condition, size_t size);
+
+/** Share of all impacts of the long term above P: sum of share rate/R Q(P), R the sum of share
+ *  rate. @param rate  R [1/s]; out, or NULL @return MPS_E_ARG: a condition; R = 0 */
+MPS_API mps_status mps_long_term_exceedance(const mps_stats_config *config, int32_t count,
+                                            const mps_condition *conditions, double P,
+                                            double *share, double *rate);
+
+/** Value exceeded once in `time` of the long term [Pa].
+ *  @param time   [s] at full scale
+ *  @param value  out; NAN where fewer than one impact is expected @return MPS_E_ARG */
+MPS_API mps_status mps_long_term_value(const mps_stats_config *config, int32_t count,
+                                       const mps_condition *conditions, double time, double *value);
+
+/* ---- texts ---- */
+
+/** Events of several signals as CSV, in the order of time, at the scale of the signals: sensor,
+ *  t[s], peak[Pa], rise[s], decay[s], skewness, duration[s], impulse[Pa s], rank, unresolved.
+ *  @param names   [count] of the signals
+ *  @param buffer  [size] out, ends with 0; may be NULL where size is 0
+ *  @return length of the whole text without its end: a text of `size` or more was cut. 0: an
+ *          argument is NULL or negative, or memory ran out */
+MPS_API size_t mps_stats_csv_write(int32_t count, const char *const *names,
+                                   const mps_impacts *const *impacts, char *buffer, size_t size);
+
+/** The statistics of several signals as JSON: all constants, and for each signal info, the
+ *  `highest` highest events, both fits, exceedance with its band. Numbers that are not known are
+ *  null. Parameters and result: as mps_stats_csv_write(). */
+MPS_API size_t mps_stats_json_write(int32_t count, const char *const *names,
+                                    const mps_impacts *const *impacts, int64_t highest,
+                                    char *buffer, size_t size);
+
+/* ---- repeated runs ---- */
+
+/** The peak of one event of the first run in all runs: of each other run the highest event within
+ *  `window` of its time. A run without such an event has no value.
+ *  @param runs   >= 1 @param impacts  [runs]
+ *  @param index  of the event in the first run
+ *  @param r      initialised; out
+ *  @return MPS_E_ARG, MPS_E_NOMEM */
+MPS_API mps_status mps_repeat_peaks(const mps_stats_config *config, int32_t runs,
+                                    const mps_impacts *const *impacts, int64_t index,
+                                    mps_repeat *r);
+
+MPS_END_DECLS
+
+#endif
