@@ -136,6 +136,7 @@ static void read_config(build *b, mps_job_config *out, double *times)
     config.tank_frame = mps__read_choice(b->c, output, "frame", 0) == 1;
     config.pieces = mps__read_flag(b->c, output, "pieces", config.pieces);
     config.profile = config.profile || mps__read_flag(b->c, output, "profile", false);
+    config.film = config.film || mps__read_flag(b->c, output, "film", false);
     config.trace = config.trace || mps__read_flag(b->c, output, "trace", false);
     config.threads = (int32_t)mps__read_number(b->c, run, "threads", 2);
     config.page_bytes = (int64_t)mps__read_number(b->c, output, "page", (double)config.page_bytes);

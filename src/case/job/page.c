@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* report.html of a run, from what the run has written. */
+/* report.html, film and state of ParaView of a run, from what the run has written. */
 #include "run.h"
 #include <mps/page.h>
+#include <mps/picture.h>
 
-bool mps__page_save(mps_job *job)
+static bool save_page(mps_job *job)
 {
     char error[FOLDER_PATH + 400] = "";
     mps_page_config config;
@@ -15,4 +16,30 @@ bool mps__page_save(mps_job *job)
     if (mps_page_write(job->place.path, &config, NULL) == MPS_OK) return true;
     mps__job_tell(job, "report.html: %s", error);
     return false;
+}
+
+/* What helps to look at the frames. A run without it is complete, so that a failure is a message only. */
+static void save_views(mps_job *job)
+{
+    char error[FOLDER_PATH + 400] = "";
+    mps_film_config config;
+    if (job->config.frames == 0) {
+        if (job->config.film) mps__job_tell(job, "no film: the run has no frames");
+        return;
+    }
+    if (mps_paraview_save(job->place.path, error, sizeof error) != MPS_OK)
+        mps__job_tell(job, "warning: no paraview.py: %s", error);
+    if (!job->config.film) return;
+    mps_film_config_init(&config, sizeof config);
+    config.error = error;
+    config.error_size = sizeof error;
+    if (mps_film_save(job->place.path, &config, NULL) != MPS_OK)
+        mps__job_tell(job, "warning: no film: %s", error);
+}
+
+bool mps__page_save(mps_job *job)
+{
+    const bool done = save_page(job);
+    save_views(job);
+    return done;
 }
