@@ -139,7 +139,8 @@ typedef struct mps_job_config {
     /** 1: no progress, no messages but of failures. */
     int32_t quiet;
     /** 1: the first SIGINT, SIGTERM or SIGHUP stops the run after its step; handlers are installed
-     *  while mps_job_run() runs. Default 0. */
+     *  while mps_job_run() runs; after a SIGHUP, SIGHUP is ignored from then on, since terminals
+     *  send it more than once. Default 0. */
     int32_t signals;
     /** 1: write trace.csv, the added columns after every step. mps_job_trace_add() sets it too. */
     int32_t trace;

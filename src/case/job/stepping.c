@@ -14,7 +14,7 @@ enum { STOP_INTERRUPTED = 1, STOP_FAILED = 2 };
 /* ---- signals ---- */
 
 /* Handlers have no argument: this is the one job of the process that catches signals. */
-static volatile sig_atomic_t interrupted;
+static volatile sig_atomic_t interrupted, hung_up;
 
 enum { SIGNALS = 4 };
 static const int CAUGHT[SIGNALS] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1};
@@ -27,7 +27,7 @@ typedef struct handlers {
 
 static void on_interrupt(int signal)
 {
-    (void)signal;
+    if (signal == SIGHUP) hung_up = 1;
     interrupted = 1;
 }
 
@@ -35,7 +35,7 @@ static void on_interrupt(int signal)
 static void catch_signals(const mps_job *job, handlers *h)
 {
     *h = (handlers){{false}, {{.sa_flags = 0}}};
-    interrupted = 0;
+    interrupted = hung_up = 0;
     if (!job->config.signals) return;
     for (int k = 0; k < SIGNALS; k++) {
         struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
@@ -50,10 +50,13 @@ static void catch_signals(const mps_job *job, handlers *h)
     }
 }
 
+/* After a SIGHUP that stopped the run the program has to unlock the folder and to return its code: the next one must not end it before. */
 static void release_signals(const handlers *h)
 {
+    const struct sigaction ignore = {.sa_handler = SIG_IGN};
     for (int k = 0; k < SIGNALS; k++)
-        if (h->set[k]) sigaction(CAUGHT[k], &h->before[k], NULL);
+        if (h->set[k])
+            sigaction(CAUGHT[k], CAUGHT[k] == SIGHUP && hung_up ? &ignore : &h->before[k], NULL);
 }
 
 /* ---- steps ---- */
