@@ -401,7 +401,7 @@ static void measures_are_right(void **state)
     c.t_end = 1e-6;
     mps_job *job = job_of(&c);
     mps_sim *sim = water();
-    char names[CASES][8];
+    char names[CASES][16];
     for (int k = 0; k < CASES; k++) {
         mps_measure m;
         assert_int_equal(mps_measure_init(&m, sizeof m), MPS_OK);
