@@ -144,7 +144,7 @@ typedef struct mps_job_config {
     int32_t signals;
     /** 1: write trace.csv, the added columns after every step. mps_job_trace_add() sets it too. */
     int32_t trace;
-    /** 1: film.mp4 of all frames, by the program ffmpeg; without it a message says why there is none. */
+    /** 1: film.mp4 of all frames, by the program ffmpeg; if that fails, a message says why. */
     int32_t film;
     /** Threads of the simulation, for summary.json; default 1. */
     int32_t threads;
