@@ -45,6 +45,8 @@ typedef struct verb {
 int verb_run(const choices *c);
 int verb_resume(const choices *c);
 int verb_report(const choices *c);
+int verb_stats(const choices *c);
+int verb_compare(const choices *c);
 int verb_check(const choices *c);
 int verb_init(const choices *c);
 int verb_list(const choices *c);

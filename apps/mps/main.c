@@ -19,6 +19,19 @@ static const char RUN_TEXT[] =
     "Exit: 0 done, 1 failed, 2 wrong case or folder, 3 diverged (outputs stay readable),\n"
     "130 interrupted.\n";
 
+static const char STATS_TEXT[] =
+    "Without columns: all pressures of probes.csv, or impacts.sensors of the case. Constants are\n"
+    "those of the case (impacts.*, T1). Writes statistics.json and statistics.csv into the "
+    "folder.\n"
+    "Values for a longer time are for screening, not for design.\n";
+
+static const char COMPARE_TEXT[] =
+    "Each run is compared with the first one, and with a table where the last argument is a file.\n"
+    "Columns of the same name are compared in the time that both have, without its first 0.5 %\n"
+    "(the impulse of the start): rms of the difference, rms of the first about its mean, highest\n"
+    "values with times, by how much the run is later, and this as degrees of T1 of\n"
+    "the first run that has it.\n";
+
 static const verb VERBS[] = {
     {"run", "CASE", "Run a case: a YAML file, or a report.html with its case.", 1, 1,
      HAS_SET | HAS_OUT | HAS_THREADS | HAS_OVERWRITE | HAS_RESUME | HAS_QUIET | HAS_PROFILE |
@@ -28,6 +41,10 @@ static const verb VERBS[] = {
      HAS_SET | HAS_THREADS | HAS_QUIET | HAS_PROFILE | HAS_MPI, verb_resume, NULL},
     {"report", "DIR", "Make report.html of a run again, from its folder.", 1, 1, 0, verb_report,
      NULL},
+    {"stats", "DIR [COLUMN ..]", "Impacts in the pressures of a run: events, peaks, fits.", 1,
+     CLI_FILES, 0, verb_stats, STATS_TEXT},
+    {"compare", "DIR DIR .. [reference.csv]", "Say how the columns of runs differ.", 2, CLI_FILES,
+     0, verb_compare, COMPARE_TEXT},
     {"check", "CASE",
      "Say what a case amounts to, without running it, and draw tank and sensors as SVG.", 1, 1,
      HAS_SET | HAS_OUT | HAS_QUIET, verb_check, NULL},

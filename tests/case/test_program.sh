@@ -78,6 +78,47 @@ expect 2 "until" "$program" run tank.yaml --set run.until=5 -o none -q
 expect 3 "" "$program" run tank.yaml --set "run.dt=20 ms" --set "motion.surge.amplitude=5 m" -o wild -q
 [ -s wild/probes.csv ] || fail "a run that diverged has no rows"
 
+# stats: 40 pulses, a triangle each of 0.2 s and 1000 Pa, 1025 Pa, .. at 1 s, 2 s, ..
+mkdir -p pulses shifted bare
+awk 'BEGIN { print "t[s],P1[Pa],P2[Pa],eta[m]"
+    for (i = 0; i <= 4100; i++) {
+        t = i / 100; n = int(t + 0.5); d = t - n; if (d < 0) d = -d
+        p = n >= 1 && n <= 40 && d < 0.1 ? (1000 + 25 * (n - 1)) * (1 - d / 0.1) : 0
+        printf "%.2f,%.9g,%.9g,%.9g\n", t, p, 0, sin(6.283185307179586 * t) } }' > pulses/probes.csv
+awk 'BEGIN { print "t[s],eta[m],P1[kPa]"
+    for (i = 0; i <= 4100; i++) printf "%.2f,%.9g,0\n", i / 100, sin(6.283185307179586 * (i / 100 - 0.1)) }' > shifted/probes.csv
+cp pulses/probes.csv bare/
+printf '{\n  "t_end": 41,\n  "inputs": [\n    {"key": "T1", "value": "1 s"},\n    {"key": "impacts.threshold", "value": "100 Pa"},\n    {"key": "impacts.sensors", "value": "P1; P2"}\n  ]\n}\n' > pulses/summary.json
+expect 0 "P1: 40 events" "$program" stats pulses
+for text in "highest 1975 Pa at 40 s" "above 100 Pa, until 0.2 s below it" "P2: 0 events" \
+    "exceeded once in 3 h" "for screening" "Weibull " "generalised Pareto "; do
+    grep -qF "$text" log || fail "stats: no '$text'"
+done
+grep -qE "^ +1 +1975 +40 +0.1 +0.1 " log || fail "stats: rise and decay of the highest: $(grep -E '^ +1 ' log)"
+[ "$(wc -l < pulses/statistics.csv)" -eq 41 ] || fail "statistics.csv has no 40 events"
+grep -q '"weibull"' pulses/statistics.json || fail "statistics.json has no fits"
+expect 0 "P1: 39 events" "$program" stats bare P1 # without constants the window is 0.82 s; the record begins 0.78 s before the first
+grep -q "1 left out at the ends" log || fail "stats: the first pulse is not told as cut"
+grep -q "P2" log && fail "stats of one column has another"
+expect 0 "P_right: " "$program" stats run
+expect 2 "the nearest is 'P_left'" "$program" stats run P_lift
+expect 2 "is no pressure" "$program" stats run eta_left
+expect 2 "no such folder" "$program" stats nowhere
+expect 2 "is no folder" "$program" stats pulses/probes.csv
+
+# compare: a sine of 1 s that is 0.1 s later differs by -2 sin(0.1 pi) cos(2 pi (t - 0.05)): rms from 0.205 to 41 s, of straight lines
+expect 0 "shifted against pulses" "$program" compare pulses shifted pulses/probes.csv
+awk '/^  eta/ { n++; ok += n == 2 ? $3 == 0 && $9 == 0 : ($3 - 0.4362) ^ 2 < 0.0002 ^ 2 && $9 == 0.1 && $10 == 36 }
+    END { exit !(n == 3 && ok == 3) }' log || fail "compare: $(grep eta log)"
+grep -q "P1.*is in kPa there" log || fail "compare: units"
+grep -q "pulses against pulses/probes.csv" log || fail "compare: no reference"
+expect 0 "P_left" "$program" compare run again
+awk '/^  P_left/ { exit !($3 == 0) }' log || fail "the same run differs"
+expect 2 "is missing" "$program" compare run
+expect 2 "no such folder" "$program" compare run nowhere
+expect 2 "the last argument" "$program" compare run/probes.csv run
+expect 2 "no column can be compared" "$program" compare run shifted
+
 # info
 for what in "case:tank.yaml" "table:run/probes.csv" "frame of particles:run/frames/frames_000001.vtp" \
     "series of frames:run/frames.pvd" "page:run/report.html" "summary:run/summary.json"; do

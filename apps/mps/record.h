@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What a run has left in its folder: columns of probes.csv, numbers of summary.json. */
+#ifndef MPS_APPS_RECORD_H
+#define MPS_APPS_RECORD_H
+
+#include <mps/series.h>
+#include <stdbool.h>
+
+/* The record of a run, or a table alone. */
+typedef struct record {
+    const char *place; /* folder or file, as given */
+    bool is_folder;
+    mps_table *table;
+    char *summary; /* text of summary.json, NULL: there is none */
+} record;
+
+/* "folder/name" into out. @return false: it has no room */
+bool record_path(const char *folder, const char *name, char *out, size_t size);
+/* Read probes.csv of a folder, or a CSV file. A failure is a text in config->error. */
+mps_status record_read(const mps_stats_config *config, const char *place, record *r);
+void record_free(record *r);
+/* A column by its name; -1: there is none. */
+int32_t record_find(const record *r, const char *name);
+/* The column with the most similar name, "" without columns. */
+const char *record_nearest(const record *r, const char *name);
+/* Last time of the table, NAN without rows. */
+double record_end(const record *r);
+/* A number of summary.json, such as "t_end"; NAN: there is none. */
+double record_number(const record *r, const char *key);
+/* Text of an input of the case, such as "impacts.window", up to a quote. NULL: there is none. */
+const char *record_input(const record *r, const char *key);
+/* Its number in SI: inputs are kept as "1.418 s". NAN: there is none. */
+double record_input_number(const record *r, const char *key);
+
+#endif

@@ -1,0 +1,292 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* mps stats: impacts of the pressures of a run. */
+#include "cli.h"
+#include "record.h"
+#include <errno.h>
+#include <math.h>
+#include <mps/stats.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { HIGHEST = 10, PATH_ROOM = 4096, COUNT_MOST = 1000000 };
+
+/* The signals of a run and their impacts. */
+typedef struct signals {
+    int32_t count;
+    int32_t *column;
+    const char **name;
+    mps_impacts **impacts;
+} signals;
+
+/* ---- constants ---- */
+
+/* Natural period of the liquid in a box [s]; NAN: not known. */
+static double natural_period(const record *r)
+{
+    const double k = acos(-1.0) / record_number(r, "tank_size_x");
+    const double g = record_number(r, "gravity"), h = record_number(r, "liquid_depth");
+    const double period = 2 * acos(-1.0) / sqrt((isfinite(g) ? g : 9.81) * k * tanh(k * h));
+    return isfinite(period) ? period : NAN; /* infinite without gravity */
+}
+
+/* Those of the case; else what the run itself tells, as in report.html. */
+static void take_constants(const record *r, mps_stats_config *c)
+{
+    const struct {
+        const char *key;
+        double *value;
+    } member[] = {{"T1", &c->period},
+                  {"impacts.from", &c->from},
+                  {"impacts.until", &c->until},
+                  {"impacts.rate", &c->rate},
+                  {"impacts.high_pass", &c->high_pass},
+                  {"impacts.threshold", &c->threshold},
+                  {"impacts.deviations", &c->deviations},
+                  {"impacts.window", &c->window},
+                  {"impacts.share", &c->share},
+                  {"impacts.confidence", &c->confidence},
+                  {"impacts.exposure", &c->exposure},
+                  {"impacts.exposure_ratio", &c->exposure_ratio},
+                  {"impacts.dependence", &c->dependence},
+                  {"impacts.scale", &c->length_scale},
+                  {"impacts.density_ratio", &c->density_ratio}};
+    const double end = record_end(r), crossing = record_number(r, "sensor_average_most");
+    c->period = natural_period(r);
+    if (end > 0) c->from = 0.005 * end; /* the impulse of the start is no impact */
+    if (isfinite(crossing)) c->crossing_time = crossing;
+    for (size_t k = 0; k < sizeof member / sizeof member[0]; k++) {
+        const double value = record_input_number(r, member[k].key);
+        if (isfinite(value)) *member[k].value = value;
+    }
+    const double least = record_input_number(r, "impacts.least_events");
+    const double resamples = record_input_number(r, "impacts.resamples");
+    const double seed = record_input_number(r, "impacts.seed");
+    if (least >= 2 && least <= COUNT_MOST) c->least_events = (int32_t)least;
+    if (resamples >= 0 && resamples <= COUNT_MOST) c->resamples = (int32_t)resamples;
+    if (seed >= 0 && seed <= COUNT_MOST) c->seed = (uint64_t)seed;
+    if (isnan(c->window) && isnan(c->period)) c->window = 0.02 * end;
+}
+
+/* ---- columns ---- */
+
+/* True if the case asks for this sensor, or for none by name: "P1; P2". */
+static bool is_wanted(const record *r, const char *name)
+{
+    const char *list = record_input(r, "impacts.sensors");
+    const size_t length = strlen(name);
+    for (const char *at = list; at && *at && *at != '"'; at += strspn(at, "; ")) {
+        const size_t size = strcspn(at, ";\"");
+        if (size == length && memcmp(at, name, size) == 0) return true;
+        at += size;
+    }
+    return !list;
+}
+
+/* The columns that the line names. @return exit code */
+static int take_named(const choices *c, const record *r, signals *s)
+{
+    for (int32_t k = 1; k < c->files; k++) {
+        const int32_t column = record_find(r, c->file[k]);
+        if (column < 0) {
+            fprintf(stderr, "mps stats: %s has no column '%s'; the nearest is '%s'\n", r->place,
+                    c->file[k], record_nearest(r, c->file[k]));
+            return MPS_EXIT_USAGE;
+        }
+        if (strcmp(mps_table_unit(r->table, column), "Pa") != 0) {
+            fprintf(stderr, "mps stats: column '%s' is no pressure: its unit is '%s', not 'Pa'\n",
+                    c->file[k], mps_table_unit(r->table, column));
+            return MPS_EXIT_USAGE;
+        }
+        s->column[s->count++] = column;
+    }
+    return MPS_EXIT_OK;
+}
+
+/* All pressures, or those that the case names. @return exit code */
+static int take_pressures(const record *r, signals *s)
+{
+    for (int32_t k = 0; k < mps_table_columns(r->table); k++)
+        if (strcmp(mps_table_unit(r->table, k), "Pa") == 0 &&
+            is_wanted(r, mps_table_name(r->table, k)))
+            s->column[s->count++] = k;
+    if (s->count > 0) return MPS_EXIT_OK;
+    fprintf(stderr, "mps stats: %s has no column of a pressure [Pa]\n", r->place);
+    return MPS_EXIT_USAGE;
+}
+
+static bool make_signals(signals *s, size_t room)
+{
+    s->column = calloc(room, sizeof *s->column);
+    s->name = calloc(room, sizeof *s->name);
+    /* NOLINTNEXTLINE(bugprone-sizeof-expression): an array of pointers */
+    s->impacts = calloc(room, sizeof *s->impacts);
+    return s->column && s->name && s->impacts;
+}
+
+static void free_signals(signals *s)
+{
+    for (int32_t k = 0; s->impacts && k < s->count; k++) mps_impacts_destroy(s->impacts[k]);
+    free(s->column);
+    free((void *)s->name);
+    free((void *)s->impacts);
+}
+
+static mps_status find_all(const mps_stats_config *config, const record *r, signals *s)
+{
+    mps_status status = MPS_OK;
+    for (int32_t k = 0; k < s->count && status == MPS_OK; k++) {
+        s->name[k] = mps_table_name(r->table, s->column[k]);
+        status = mps_impacts_find(config, mps_table_rows(r->table), mps_table_values(r->table, -1),
+                                  mps_table_values(r->table, s->column[k]), &s->impacts[k]);
+    }
+    return status;
+}
+
+/* ---- texts ---- */
+
+static void print_number(double value)
+{
+    if (isfinite(value))
+        printf(" %12.4g", value);
+    else
+        printf(" %12s", "-");
+}
+
+static void print_highest(const mps_impacts *impacts)
+{
+    mps_impact e;
+    mps_impact_init(&e, sizeof e);
+    if (mps_impacts_highest(impacts, 0, &e) != MPS_OK) return;
+    printf("  rank    peak [Pa]     time [s]     rise [s]    decay [s] duration [s]"
+           " impulse [Pa s]\n");
+    for (int64_t rank = 0; rank < HIGHEST && mps_impacts_highest(impacts, rank, &e) == MPS_OK;
+         rank++) {
+        const double row[] = {e.peak, e.t, e.rise, e.decay, e.duration, e.impulse};
+        printf("  %4lld", (long long)rank + 1);
+        for (size_t k = 0; k < sizeof row / sizeof row[0]; k++) print_number(row[k]);
+        printf("%s\n", e.unresolved ? "  not resolved" : "");
+    }
+}
+
+static void print_fit(const mps_impacts *impacts, int32_t kind, const char *name, double scale)
+{
+    mps_fit fit;
+    mps_fit_init(&fit, sizeof fit);
+    if (mps_impacts_fit_get(impacts, kind, &fit) != MPS_OK || !isfinite(fit.value)) return;
+    printf("    %-19s %.4g Pa", name, scale * fit.value);
+    if (isfinite(fit.value_band[0]))
+        printf(", band %.4g to %.4g Pa", scale * fit.value_band[0], scale * fit.value_band[1]);
+    printf("\n");
+}
+
+static void print_value(const mps_impacts *impacts, const mps_impacts_info *info,
+                        const mps_stats_config *c)
+{
+    if (info->events < c->least_events) {
+        printf("  no distribution is fitted: that needs %d events\n", (int)c->least_events);
+        return;
+    }
+    printf("  exceeded once in %.4g h (%.4g events), for screening, not for design:\n",
+           c->exposure / 3600, info->exposure_events);
+    print_fit(impacts, MPS_FIT_WEIBULL, "Weibull", info->pressure_scale);
+    print_fit(impacts, MPS_FIT_PARETO, "generalised Pareto", info->pressure_scale);
+    if (info->long_exposure)
+        printf("    this time is more than %.4g lengths of the record: extrapolated\n",
+               c->exposure_ratio);
+    if (info->dependent)
+        printf("    successive peaks depend on each other: the bands are too narrow\n");
+}
+
+static void print_signal(const char *name, const mps_impacts *impacts, const mps_stats_config *c)
+{
+    mps_impact high;
+    mps_impacts_info info;
+    mps_impact_init(&high, sizeof high);
+    mps_impacts_info_init(&info, sizeof info);
+    mps_impacts_info_get(impacts, &info);
+    printf("%s: %lld events, %.4g a minute", name, (long long)info.events, 60 * info.rate);
+    if (mps_impacts_highest(impacts, 0, &high) == MPS_OK)
+        printf(", highest %.4g Pa at %.4g s", high.peak, high.t);
+    printf("\n  above %.4g Pa, until %.4g s below it, from %.4g to %.4g s; %lld left out at the "
+           "ends\n",
+           info.threshold, info.window, info.t_first, info.t_last, (long long)info.cut);
+    print_highest(impacts);
+    print_value(impacts, &info, c);
+}
+
+/* ---- files ---- */
+
+static size_t write_text(const signals *s, bool json, char *buffer, size_t size)
+{
+    const mps_impacts *const *impacts = (const mps_impacts *const *)s->impacts;
+    return json ? mps_stats_json_write(s->count, s->name, impacts, HIGHEST, buffer, size)
+                : mps_stats_csv_write(s->count, s->name, impacts, buffer, size);
+}
+
+/* One of statistics.json and statistics.csv. @return exit code */
+static int write_file(const char *folder, const char *name, const signals *s, bool json)
+{
+    char path[PATH_ROOM];
+    const size_t size = write_text(s, json, NULL, 0) + 1;
+    char *text = malloc(size);
+    if (!text || write_text(s, json, text, size) + 1 != size || size == 1) {
+        fprintf(stderr, "mps stats: no memory for %s\n", name);
+        free(text);
+        return MPS_EXIT_FAILED;
+    }
+    FILE *file = record_path(folder, name, path, sizeof path) ? fopen(path, "wb") : NULL;
+    bool done = file && fwrite(text, 1, size - 1, file) == size - 1;
+    if (file && fclose(file) != 0) done = false;
+    if (!done)
+        fprintf(stderr, "mps stats: cannot write '%s' in '%s': %s\n", name, folder,
+                strerror(errno));
+    else
+        printf("%s\n", path);
+    free(text);
+    return done ? MPS_EXIT_OK : MPS_EXIT_FAILED;
+}
+
+/* ---- all ---- */
+
+static int run_stats(const choices *c, mps_stats_config *config, const record *r, signals *s)
+{
+    const int32_t columns = mps_table_columns(r->table);
+    if (!make_signals(s, (size_t)(columns > c->files ? columns : c->files))) {
+        fprintf(stderr, "mps stats: no memory\n");
+        return MPS_EXIT_FAILED;
+    }
+    int code = c->files > 1 ? take_named(c, r, s) : take_pressures(r, s);
+    if (code != MPS_EXIT_OK) return code;
+    take_constants(r, config);
+    const mps_status status = find_all(config, r, s);
+    if (status != MPS_OK) {
+        fprintf(stderr, "mps stats: %s: %s\n", r->place, config->error);
+        return status == MPS_E_NOMEM ? MPS_EXIT_FAILED : MPS_EXIT_USAGE;
+    }
+    for (int32_t k = 0; k < s->count; k++) print_signal(s->name[k], s->impacts[k], config);
+    code = write_file(r->place, "statistics.json", s, true);
+    return code == MPS_EXIT_OK ? write_file(r->place, "statistics.csv", s, false) : code;
+}
+
+int verb_stats(const choices *c)
+{
+    record r;
+    signals s = {0};
+    char error[640] = "";
+    mps_stats_config config;
+    mps_stats_config_init(&config, sizeof config);
+    config.error = error;
+    config.error_size = sizeof error;
+    const mps_status status = record_read(&config, c->file[0], &r);
+    int code = status == MPS_E_NOMEM ? MPS_EXIT_FAILED : MPS_EXIT_USAGE;
+    if (status != MPS_OK)
+        fprintf(stderr, "mps stats: %s\n", error);
+    else if (!r.is_folder)
+        fprintf(stderr, "mps stats: %s: is no folder of a run\n", r.place);
+    else
+        code = run_stats(c, &config, &r, &s);
+    free_signals(&s);
+    record_free(&r);
+    return code;
+}
