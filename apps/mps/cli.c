@@ -17,7 +17,7 @@ typedef struct option {
     void *value;
 } option;
 
-enum { OPTIONS = 8, THREADS_MOST = 1024 };
+enum { OPTIONS = 9, THREADS_MOST = 1024 };
 
 static void make_table(choices *c, option *table)
 {
@@ -29,6 +29,8 @@ static void make_table(choices *c, option *table)
          (void *)&c->out},
         {HAS_THREADS, "--threads", 'j', "N", "threads; results do not depend on them", OPTION_COUNT,
          &c->threads},
+        {HAS_COUNT, "--count", 'n', "N", "number of runs, 2 to 100; default 5", OPTION_COUNT,
+         &c->count},
         {HAS_OVERWRITE, "--overwrite", 0, NULL, "replace what is there", OPTION_FLAG,
          &c->overwrite},
         {HAS_RESUME, "--resume", 0, NULL, "continue from the checkpoint in the folder", OPTION_FLAG,

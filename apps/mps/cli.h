@@ -17,6 +17,7 @@ typedef struct choices {
     const char *set[CLI_SETS + 2]; /* "path=value" */
     const char *out;               /* NULL: as the verb has it */
     int32_t threads;               /* 0: as the case says */
+    int32_t count;                 /* 0: as the verb has it */
     bool overwrite, resume, quiet, profile, mpi;
     char command[1024]; /* the whole line */
 } choices;
@@ -30,7 +31,8 @@ enum {
     HAS_QUIET = 16,
     HAS_PROFILE = 32,
     HAS_MPI = 64,
-    HAS_RESUME = 128
+    HAS_RESUME = 128,
+    HAS_COUNT = 256
 };
 
 /* A verb: `mps VERB ARGUMENTS`. @return exit code, MPS_EXIT_... */
@@ -44,6 +46,9 @@ typedef struct verb {
 
 int verb_run(const choices *c);
 int verb_resume(const choices *c);
+int verb_sweep(const choices *c);
+int verb_repeat(const choices *c);
+int verb_converge(const choices *c);
 int verb_report(const choices *c);
 int verb_stats(const choices *c);
 int verb_compare(const choices *c);
@@ -58,6 +63,8 @@ int cli_read(choices *c, const verb *v, int argc, char **argv);
 void cli_print_help(const verb *v);
 /* Read a case and print its messages. @return NULL: it has errors, and *code is set */
 mps_case *cli_case(const choices *c, int *code);
+/* Run a case into a folder; config has resume and error, the choices say the rest. @return exit code */
+int cli_run(const choices *c, mps_job_config *config, const char *folder);
 /* "surge" of "cases/surge.yaml". */
 void cli_stem(const char *path, char *out, size_t size);
 /* The messages of a case on stderr. */

@@ -32,6 +32,13 @@ static const char COMPARE_TEXT[] =
     "values with times, by how much the run is later, and this as degrees of T1 of\n"
     "the first run that has it.\n";
 
+static const char SERIES_TEXT[] =
+    "Each run has a folder of its own, DIR/001 and so on. The same line again skips the runs that\n"
+    "are done and continues an interrupted one. Ctrl-C ends the present run with a checkpoint, "
+    "and\n"
+    "no other begins. A run that fails does not stop the others.\n"
+    "Exit: 0 all are done, else the largest exit code of the runs.\n";
+
 static const verb VERBS[] = {
     {"run", "CASE", "Run a case: a YAML file, or a report.html with its case.", 1, 1,
      HAS_SET | HAS_OUT | HAS_THREADS | HAS_OVERWRITE | HAS_RESUME | HAS_QUIET | HAS_PROFILE |
@@ -39,6 +46,13 @@ static const verb VERBS[] = {
      verb_run, RUN_TEXT},
     {"resume", "DIR", "Continue the run in a folder from its checkpoint.", 1, 1,
      HAS_SET | HAS_THREADS | HAS_QUIET | HAS_PROFILE | HAS_MPI, verb_resume, NULL},
+    {"sweep", "CASE", "Run all combinations of the case's 'sweep'; a table of 'collect'.", 1, 1,
+     HAS_SET | HAS_OUT | HAS_THREADS | HAS_OVERWRITE | HAS_QUIET, verb_sweep, SERIES_TEXT},
+    {"repeat", "CASE", "Run a case with dp within 0.5 %; mean and band of the largest values.", 1,
+     1, HAS_SET | HAS_OUT | HAS_THREADS | HAS_OVERWRITE | HAS_QUIET | HAS_COUNT, verb_repeat,
+     SERIES_TEXT},
+    {"converge", "CASE", "Run a case with dp times 2, sqrt(2), 1; order of the largest values.", 1,
+     1, HAS_SET | HAS_OUT | HAS_THREADS | HAS_OVERWRITE | HAS_QUIET, verb_converge, SERIES_TEXT},
     {"report", "DIR", "Make report.html of a run again, from its folder.", 1, 1, 0, verb_report,
      NULL},
     {"stats", "DIR [COLUMN ..]", "Impacts in the pressures of a run: events, peaks, fits.", 1,

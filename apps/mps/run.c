@@ -22,6 +22,11 @@ static int run_case(const choices *c, mps_case *tank, const mps_job_config *conf
     mps_job *job;
     mps_sim *sim;
     const int32_t before = mps_case_message_count(tank);
+    if (mps_case_sweep_count(tank) > 0) {
+        fprintf(stderr, "mps %s: %s: the case has a 'sweep'; use 'mps sweep'\n", c->verb,
+                c->file[0]);
+        return MPS_EXIT_USAGE;
+    }
     const mps_status status = mps_case_job(tank, config, &job, &sim);
     if (status != MPS_OK) {
         if (mps_case_message_count(tank) > before)
@@ -37,9 +42,22 @@ static int run_case(const choices *c, mps_case *tank, const mps_job_config *conf
     return code;
 }
 
-/* With messages on the one rank that knows them. */
-static int run_on_ranks(const choices *c, mps_job_config *config, const char *folder)
+/* The choices with the number of threads as a further value of the case. */
+static choices with_threads(const choices *c, char *text, size_t size)
 {
+    choices all = *c;
+    if (c->threads > 0) {
+        snprintf(text, size, "run.threads=%d", (int)c->threads);
+        all.set[all.sets++] = text;
+    }
+    return all;
+}
+
+/* With messages on the one rank that knows them. */
+int cli_run(const choices *c, mps_job_config *config, const char *folder)
+{
+    char threads[48];
+    const choices all = with_threads(c, threads, sizeof threads);
     mps_job_ranks ranks = {.struct_size = sizeof ranks};
     int code = MPS_EXIT_FAILED;
     config->folder = folder;
@@ -55,7 +73,7 @@ static int run_on_ranks(const choices *c, mps_job_config *config, const char *fo
         }
         config->ranks = &ranks;
     }
-    mps_case *tank = cli_case(c, &code);
+    mps_case *tank = cli_case(&all, &code);
     if (tank) code = run_case(c, tank, config);
     mps_case_destroy(tank);
     if (c->mpi) {
@@ -68,34 +86,22 @@ static int run_on_ranks(const choices *c, mps_job_config *config, const char *fo
     return code;
 }
 
-/* The choices with the number of threads as a further value of the case. */
-static choices with_threads(const choices *c, char *text, size_t size)
-{
-    choices all = *c;
-    if (c->threads > 0) {
-        snprintf(text, size, "run.threads=%d", (int)c->threads);
-        all.set[all.sets++] = text;
-    }
-    return all;
-}
-
 int verb_run(const choices *c)
 {
-    char error[ERROR_SIZE] = "", stem[PATH_SIZE], threads[48];
-    const choices all = with_threads(c, threads, sizeof threads);
+    char error[ERROR_SIZE] = "", stem[PATH_SIZE];
     mps_job_config config;
     mps_job_config_init(&config, sizeof config);
     config.error = error;
     config.error_size = sizeof error;
     config.resume = c->resume;
     cli_stem(c->file[0], stem, sizeof stem);
-    return run_on_ranks(&all, &config, c->out ? c->out : stem);
+    return cli_run(c, &config, c->out ? c->out : stem);
 }
 
 int verb_resume(const choices *c)
 {
-    char error[ERROR_SIZE] = "", path[PATH_SIZE], threads[48];
-    choices all = with_threads(c, threads, sizeof threads);
+    char error[ERROR_SIZE] = "", path[PATH_SIZE];
+    choices all = *c;
     mps_job_config config;
     mps_job_config_init(&config, sizeof config);
     config.error = error;
@@ -103,5 +109,5 @@ int verb_resume(const choices *c)
     config.resume = 1;
     snprintf(path, sizeof path, "%s/case.yaml", c->file[0]);
     all.file[0] = path;
-    return run_on_ranks(&all, &config, c->file[0]);
+    return cli_run(&all, &config, c->file[0]);
 }

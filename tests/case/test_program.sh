@@ -147,5 +147,65 @@ expect 0 "" "$program" resume cut --set "run.until=$end s" -q
 expect 0 "" "$program" run tank.yaml --set "run.until=$end s" --set output.frames=0 -o whole -q
 cmp cut/probes.csv whole/probes.csv || fail "a continued run has other bytes"
 
+# several runs of one case: a table, skipped when done, refused where it cannot be
+cat > sweep.yaml << END
+base: tank.yaml
+set: {dp: 20 mm, run.until: 0.05 s, output.frames: 0, output.page: 0 MB}
+sweep: {motion.surge.period: 0.9 1 T1, motion.surge.amplitude: 10 20 mm}
+collect: [P_left.max, F.last]
+END
+sed '/^sweep\|^collect/d' sweep.yaml > single.yaml
+expect 2 "use 'mps sweep'" "$program" run sweep.yaml -o none -q
+expect 2 "use 'mps sweep'" "$program" repeat sweep.yaml -o none -q
+expect 2 "use 'mps run'" "$program" sweep single.yaml -o none -q
+expect 2 "max, min, mean, last" "$program" sweep sweep.yaml --set "collect=[P_left.most]" -o none -q
+expect 2 "must be 2 to" "$program" repeat single.yaml -n 1 -o none -q
+[ -e none ] && fail "a refused series made a folder"
+expect 2 "no column of probes.csv is 'P_no'" "$program" sweep sweep.yaml --set "collect=[P_no.max]" -o no_column -q
+[ -e no_column/002 ] && fail "an unknown column did not end the sweep"
+expect 0 "run 4 of 4: motion.surge.period=1 T1 motion.surge.amplitude=20 mm" "$program" sweep sweep.yaml -o swept
+[ "$(wc -l < swept/sweep.csv)" -eq 5 ] || fail "sweep.csv: $(cat swept/sweep.csv)"
+head -1 swept/sweep.csv | grep -q '^run,motion.surge.period,motion.surge.amplitude,exit,P_left.max\[Pa\],F_x.last\[N/m\],' ||
+    fail "names of sweep.csv: $(head -1 swept/sweep.csv)"
+most=$(awk -F, 'NR > 1 && (NR == 2 || $2 > m) { m = $2 } END { printf "%.9g", m }' swept/003/probes.csv)
+last=$(awk -F, 'END { printf "%.9g", $5 }' swept/003/probes.csv)
+grep -q "^003,1 T1,10 mm,0,$most,$last," swept/sweep.csv || fail "not $most, $last: $(grep ^003 swept/sweep.csv)"
+expect 0 "" "$program" run single.yaml --set "motion.surge.period=1 T1" -o alone -q
+cmp alone/probes.csv swept/003/probes.csv || fail "a run of a sweep has other bytes than a run alone"
+cp swept/sweep.csv before.csv
+rm -r swept/002
+expect 0 "swept/001: is done already" "$program" sweep sweep.yaml -o swept -j 1
+cmp before.csv swept/sweep.csv || fail "a sweep made whole again has another table"
+expect 2 "run of another case" "$program" sweep sweep.yaml --set "run.until=0.06 s" -o swept -q
+sed 's/^sweep.*/sweep: {motion.surge.amplitude: 1e-6 5 m}/' sweep.yaml > bad.yaml
+expect 3 "bad/002 failed, exit code 3" "$program" sweep bad.yaml --set "run.dt=20 ms" --set "run.until=0.6 s" -o bad -q
+grep -q "^002,5 m,3,nan,nan" bad/sweep.csv || fail "sweep.csv of a failed run: $(cat bad/sweep.csv)"
+expect 0 "2 of 3 runs were built with the dp of an earlier one" "$program" repeat single.yaml -n 3 -o same -q
+expect 0 "largest value of" "$program" repeat single.yaml --set "dp=5 mm" --set "run.until=0.01 s" -n 3 -o repeated -q
+grep -q "^P_left \[Pa\]  *3 " log || fail "repeat: $(cat log)"
+grep -q "^dp: 4.975 mm" repeated/001/case.yaml && grep -q "^dp: 5.025 mm" repeated/003/case.yaml || fail "dp of repeat"
+expect 0 "order" "$program" converge single.yaml -o converged -q
+grep -q "^ke " log || fail "converge: $(cat log)"
+grep -q "^dp: 40 mm" converged/001/case.yaml && grep -q "^dp: 20 mm" converged/003/case.yaml || fail "dp of converge"
+
+# a sweep that is interrupted stops, and goes on
+long=(--set "run.until=10 s" --set "motion.surge.amplitude=10 mm")
+"$program" sweep sweep.yaml "${long[@]}" -o half > log 2>&1 &
+pid=$!
+for i in $(seq 600); do
+    [ "$(wc -l 2> /dev/null < half/001/probes.csv)" -gt 60 ] 2> /dev/null && break
+    sleep 0.1
+done
+kill -INT $pid
+wait $pid
+got=$?
+[ $got -eq 130 ] || fail "sweep interrupted: exit $got: $(tail -3 log)"
+[ -e half/001/checkpoint.mps ] || fail "no checkpoint of an interrupted sweep"
+[ -e half/002 ] && fail "an interrupted sweep went on"
+expect 0 "" "$program" sweep sweep.yaml "${long[@]}" -o half -q
+expect 0 "" "$program" run single.yaml "${long[@]}" --set "motion.surge.period=0.9 T1" -o unbroken -q
+cmp half/001/probes.csv unbroken/probes.csv || fail "a run of a continued sweep has other bytes"
+[ "$(wc -l < half/sweep.csv)" -eq 3 ] || fail "sweep.csv of a continued sweep: $(cat half/sweep.csv)"
+
 [ $failed -eq 0 ] && echo "mps does what it says"
 exit $failed

@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Several runs of one case, a folder each. */
+#include "series.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { ERROR_SIZE = 640, LINE_SIZE = 4096 };
+
+bool series_folder(const char *folder, int64_t index, char out[SERIES_PATH])
+{
+    return snprintf(out, SERIES_PATH, "%s/%03lld", folder, (long long)index + 1) < SERIES_PATH;
+}
+
+void series_place(const choices *c, char out[SERIES_PATH])
+{
+    cli_stem(c->file[0], out, SERIES_PATH);
+    if (c->out) snprintf(out, SERIES_PATH, "%s", c->out);
+}
+
+/* A file in the folder of a run, or NULL. */
+static FILE *open_in(const char *folder, const char *name)
+{
+    char path[SERIES_PATH + 32];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return fopen(path, "r");
+}
+
+static bool is_there(const char *folder, const char *name)
+{
+    FILE *file = open_in(folder, name);
+    if (file) fclose(file);
+    return file != NULL;
+}
+
+static bool is_done(const char *folder)
+{
+    char line[LINE_SIZE];
+    bool done = false;
+    FILE *in = open_in(folder, "summary.json");
+    while (in && fgets(line, sizeof line, in))
+        done = done || strstr(line, "\"status\": \"ok\"") != NULL;
+    if (in) fclose(in);
+    return done;
+}
+
+/* dp as it was built: a tank can only have some. nan: not known. */
+static double built_dp(const char *folder)
+{
+    static const char key[] = "  \"dp\": ";
+    char line[LINE_SIZE];
+    double dp = NAN;
+    FILE *in = open_in(folder, "summary.json");
+    while (in && isnan(dp) && fgets(line, sizeof line, in))
+        if (strncmp(line, key, sizeof key - 1) == 0) dp = strtod(line + sizeof key - 1, NULL);
+    if (in) fclose(in);
+    return dp;
+}
+
+/* Next line of a text, without the threads: results do not depend on them. */
+static const char *next_line(const char *text, size_t *length)
+{
+    static const char threads[] = "  threads: ";
+    for (;; text += *length) {
+        *length = strcspn(text, "\n");
+        if (text[*length]) ++*length;
+        if (strncmp(text, threads, sizeof threads - 1) != 0) return text;
+    }
+}
+
+static bool same_lines(const char *a, const char *b)
+{
+    size_t m, n;
+    do {
+        a = next_line(a, &m);
+        b = next_line(b, &n);
+        if (m != n || memcmp(a, b, n) != 0) return false;
+        a += m;
+        b += n;
+    } while (n > 0);
+    return true;
+}
+
+/* Whether the case of the folder is this one. */
+static bool same_case(const mps_case *tank, const char *folder)
+{
+    char path[SERIES_PATH + 32];
+    mps_case *earlier = NULL;
+    snprintf(path, sizeof path, "%s/case.yaml", folder);
+    const mps_status status = mps_case_read(path, 0, NULL, &earlier);
+    const char *now = mps_case_text(tank), *then = mps_case_text(earlier);
+    const bool same = status == MPS_OK && now && then && same_lines(now, then);
+    mps_case_destroy(earlier);
+    return same;
+}
+
+static int refuse_other(const choices *c, const char *folder)
+{
+    fprintf(stderr,
+            "mps %s: %s: there is a run of another case; --overwrite removes it, or choose "
+            "another folder with --out\n",
+            c->verb, folder);
+    return MPS_EXIT_USAGE;
+}
+
+int series_run(const choices *c, const char *folder)
+{
+    char error[ERROR_SIZE] = "";
+    choices one = *c;
+    mps_job_config config;
+    mps_job_config_init(&config, sizeof config);
+    config.error = error;
+    config.error_size = sizeof error;
+    if (is_there(folder, "case.yaml") && !c->overwrite) {
+        mps_case *tank = NULL;
+        const bool same = mps_case_read(c->file[0], c->sets, c->set, &tank) == MPS_OK &&
+                          same_case(tank, folder);
+        mps_case_destroy(tank);
+        if (!same) return refuse_other(c, folder);
+        if (is_done(folder)) {
+            if (!c->quiet) fprintf(stderr, "mps %s: %s: is done already\n", c->verb, folder);
+            return MPS_EXIT_OK;
+        }
+        config.resume = is_there(folder, "checkpoint.mps");
+        one.overwrite = !config.resume; /* killed, or failed: what is there is no use */
+    }
+    return cli_run(&one, &config, folder);
+}
+
+mps_table *series_table(const choices *c, const char *folder)
+{
+    char path[SERIES_PATH + 32], error[ERROR_SIZE] = "";
+    mps_stats_config config;
+    mps_table *rows = NULL;
+    if (!is_done(folder)) return NULL;
+    mps_stats_config_init(&config, sizeof config);
+    config.error = error;
+    config.error_size = sizeof error;
+    snprintf(path, sizeof path, "%s/probes.csv", folder);
+    if (mps_table_read(&config, path, 0, NULL, &rows) == MPS_OK) return rows;
+    fprintf(stderr, "mps %s: %s\n", c->verb, error[0] ? error : path);
+    return NULL;
+}
+
+bool series_key(const mps_case *tank, const char *key, char *out, size_t size)
+{
+    const size_t length = strlen(key);
+    for (const char *line = mps_case_text(tank); line && *line;) {
+        const size_t end = strcspn(line, "\n");
+        if (strncmp(line, key, length) == 0 && strncmp(line + length, ": ", 2) == 0)
+            return (size_t)snprintf(out, size, "%.*s", (int)(end - length - 2), line + length + 2) <
+                   size;
+        line += end + (line[end] == '\n');
+    }
+    return false;
+}
+
+double series_most(const mps_table *rows, int32_t column)
+{
+    const double *value = mps_table_values(rows, column);
+    double most = NAN;
+    for (int64_t i = 0; value && i < mps_table_rows(rows); i++) most = fmax(most, value[i]);
+    return most;
+}
+
+/* ---- runs with several dp ---- */
+
+/* The number of dp, and the rest of its text: its unit. */
+static int read_dp(const choices *c, double *dp, char unit[SERIES_DP])
+{
+    char text[SERIES_DP], *end;
+    int code = MPS_EXIT_FAILED;
+    mps_case *tank = cli_case(c, &code);
+    if (!tank) return code;
+    const bool swept = mps_case_sweep_count(tank) > 0;
+    const bool read = series_key(tank, "dp", text, sizeof text);
+    mps_case_destroy(tank);
+    if (swept) {
+        fprintf(stderr, "mps %s: the case has a sweep; use 'mps sweep'\n", c->verb);
+        return MPS_EXIT_USAGE;
+    }
+    *dp = read ? strtod(text, &end) : 0;
+    if (!(*dp > 0)) {
+        fprintf(stderr, "mps %s: %s: dp must be one number and a unit\n", c->verb, c->file[0]);
+        return MPS_EXIT_USAGE;
+    }
+    snprintf(unit, SERIES_DP, "%s", end);
+    return MPS_EXIT_OK;
+}
+
+int series_of_dp(const choices *c, int32_t count, const double *factor, mps_table **rows,
+                 double *dp)
+{
+    char place[SERIES_PATH], folder[SERIES_PATH], set[2 * SERIES_DP + 8], unit[SERIES_DP];
+    double given = 0;
+    int worst = read_dp(c, &given, unit);
+    if (worst != MPS_EXIT_OK) return worst;
+    series_place(c, place);
+    for (int32_t k = 0; k < count; k++) {
+        choices one = *c;
+        snprintf(set, sizeof set, "dp=%.9g%s", given * factor[k], unit);
+        one.set[one.sets++] = set;
+        const bool named = series_folder(place, k, folder);
+        if (!c->quiet)
+            fprintf(stderr, "mps %s: run %d of %d: %s\n", c->verb, (int)k + 1, (int)count, set);
+        const int code = named ? series_run(&one, folder) : MPS_EXIT_USAGE;
+        if (code == MPS_EXIT_INTERRUPTED) return code;
+        if (code != MPS_EXIT_OK)
+            fprintf(stderr, "mps %s: %s failed, exit code %d: %s\n", c->verb, folder, code, set);
+        if (code > worst) worst = code;
+        rows[k] = code == MPS_EXIT_OK ? series_table(c, folder) : NULL;
+        dp[k] = rows[k] ? built_dp(folder) : NAN;
+    }
+    return worst;
+}

@@ -1,0 +1,283 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* mps sweep: all combinations of a case's `sweep`, one after the other. */
+#include "series.h"
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { COLLECT_SIZE = 4096, COLLECT_MOST = 64 };
+
+/* ---- statistics ---- */
+
+typedef double (*statistic_fn)(int64_t n, const double *value);
+
+static double stat_max(int64_t n, const double *value)
+{
+    double most = NAN;
+    for (int64_t i = 0; i < n; i++) most = fmax(most, value[i]);
+    return most;
+}
+
+static double stat_min(int64_t n, const double *value)
+{
+    double least = NAN;
+    for (int64_t i = 0; i < n; i++) least = fmin(least, value[i]);
+    return least;
+}
+
+/* Rows are at equal times. */
+static double stat_mean(int64_t n, const double *value)
+{
+    double sum = 0;
+    int64_t count = 0;
+    for (int64_t i = 0; i < n; i++)
+        if (!isnan(value[i])) {
+            sum += value[i];
+            count++;
+        }
+    return count ? sum / (double)count : NAN;
+}
+
+static double stat_last(int64_t n, const double *value)
+{
+    return n > 0 ? value[n - 1] : NAN;
+}
+
+static const struct {
+    const char *name;
+    statistic_fn find;
+} STATISTICS[] = {{"max", stat_max}, {"min", stat_min}, {"mean", stat_mean}, {"last", stat_last}};
+
+enum { STATISTIC_COUNT = sizeof STATISTICS / sizeof *STATISTICS };
+
+/* An entry of `collect`: all columns of a sensor, or one column. */
+typedef struct entry {
+    const char *sensor; /* "": all columns */
+    int32_t statistic;
+} entry;
+
+typedef struct sweep {
+    const choices *c;
+    mps_case *tank;
+    char place[SERIES_PATH], collect[COLLECT_SIZE];
+    entry entry[COLLECT_MOST];
+    int32_t entries, paths;
+    int64_t runs;
+    int *code; /* [runs] */
+} sweep;
+
+/* Column "F", or "F_x" of the sensor F. */
+static bool belongs(const entry *e, const char *column)
+{
+    const size_t length = strlen(e->sensor);
+    if (length == 0 || strcmp(column, e->sensor) == 0) return true;
+    return strncmp(column, e->sensor, length) == 0 && strchr("_.", column[length]) != NULL;
+}
+
+static bool refuse_entry(const sweep *s, const char *word, const char *why)
+{
+    fprintf(stderr, "mps %s: collect: '%s' %s", s->c->verb, word, why);
+    for (int i = 0; i < STATISTIC_COUNT; i++)
+        fprintf(stderr, "%s%s", i ? ", " : " ", STATISTICS[i].name);
+    fputc('\n', stderr);
+    return false;
+}
+
+/* "[P1.max, F.last]": the texts stay in s->collect. */
+static bool read_collect(sweep *s)
+{
+    s->entries = 0;
+    if (!series_key(s->tank, "collect", s->collect, sizeof s->collect)) {
+        s->entry[s->entries++] = (entry){"", 0};
+        return true;
+    }
+    char *rest = NULL;
+    for (char *word = strtok_r(s->collect, "[], \"", &rest); word;
+         word = strtok_r(NULL, "[], \"", &rest)) {
+        int32_t k = 0;
+        char *dot = strrchr(word, '.');
+        while (dot && k < STATISTIC_COUNT && strcmp(dot + 1, STATISTICS[k].name) != 0) k++;
+        if (!dot || dot == word || k == STATISTIC_COUNT)
+            return refuse_entry(s, word,
+                                "must be a sensor and one of these statistics, as in P1.max:");
+        if (s->entries == COLLECT_MOST) return refuse_entry(s, word, "is one too many of");
+        *dot = '\0';
+        s->entry[s->entries++] = (entry){word, k};
+    }
+    return true;
+}
+
+/* Each entry has a column. */
+static bool has_columns(const sweep *s, const mps_table *rows)
+{
+    for (int32_t k = 0; k < s->entries; k++) {
+        bool found = false;
+        for (int32_t j = 0; j < mps_table_columns(rows); j++)
+            found = found || belongs(&s->entry[k], mps_table_name(rows, j));
+        if (found) continue;
+        fprintf(stderr, "mps %s: collect: no column of probes.csv is '%s'\n", s->c->verb,
+                s->entry[k].sensor);
+        return false;
+    }
+    return true;
+}
+
+/* ---- the table ---- */
+
+/* Rows of run number `index`, NULL where it has none. */
+static mps_table *rows_of(const sweep *s, int64_t index)
+{
+    char folder[SERIES_PATH];
+    if (s->code[index] != MPS_EXIT_OK || !series_folder(s->place, index, folder)) return NULL;
+    return series_table(s->c, folder);
+}
+
+static void write_names(const sweep *s, FILE *out, const mps_table *rows)
+{
+    char set[SERIES_VALUE];
+    fputs("run", out);
+    for (int32_t k = 0; k < s->paths; k++)
+        if (mps_case_sweep_get(s->tank, 0, k, set, sizeof set) == MPS_OK)
+            fprintf(out, ",%.*s", (int)strcspn(set, "="), set);
+    fputs(",exit", out);
+    for (int32_t k = 0; k < s->entries; k++)
+        for (int32_t j = 0; j < mps_table_columns(rows); j++) {
+            if (!belongs(&s->entry[k], mps_table_name(rows, j))) continue;
+            fprintf(out, ",%s.%s", mps_table_name(rows, j), STATISTICS[s->entry[k].statistic].name);
+            if (mps_table_unit(rows, j)[0]) fprintf(out, "[%s]", mps_table_unit(rows, j));
+        }
+    fputc('\n', out);
+}
+
+/* A value with its unit, as a field of a CSV file. */
+static void write_value(FILE *out, const char *text)
+{
+    const bool quote = strpbrk(text, ",\"") != NULL;
+    fputs(quote ? ",\"" : ",", out);
+    for (; *text; text++) {
+        if (*text == '"') fputc('"', out);
+        fputc(*text, out);
+    }
+    if (quote) fputc('"', out);
+}
+
+/* Columns are those of `first`; a run without rows has nan. */
+static void write_run(const sweep *s, FILE *out, int64_t index, const mps_table *first)
+{
+    char set[SERIES_VALUE];
+    mps_table *rows = rows_of(s, index);
+    fprintf(out, "%03lld", (long long)index + 1);
+    for (int32_t k = 0; k < s->paths; k++)
+        if (mps_case_sweep_get(s->tank, index, k, set, sizeof set) == MPS_OK)
+            write_value(out, set + strcspn(set, "=") + 1);
+    fprintf(out, ",%d", s->code[index]);
+    for (int32_t k = 0; k < s->entries; k++)
+        for (int32_t j = 0; j < mps_table_columns(first); j++) {
+            const char *name = mps_table_name(first, j), *here = mps_table_name(rows, j);
+            if (!belongs(&s->entry[k], name)) continue;
+            const double *value = here && strcmp(here, name) == 0 ? mps_table_values(rows, j)
+                                                                  : NULL;
+            fprintf(out, ",%.9g",
+                    value ? STATISTICS[s->entry[k].statistic].find(mps_table_rows(rows), value)
+                          : NAN);
+        }
+    fputc('\n', out);
+    mps_table_destroy(rows);
+}
+
+static int write_table(const sweep *s, int64_t done)
+{
+    char path[SERIES_PATH + 16];
+    mps_table *first = NULL;
+    for (int64_t i = 0; i < done && !first; i++) first = rows_of(s, i);
+    if (!first) return MPS_EXIT_OK; /* no run has values */
+    snprintf(path, sizeof path, "%s/sweep.csv", s->place);
+    FILE *out = fopen(path, "w");
+    if (out) {
+        write_names(s, out, first);
+        for (int64_t i = 0; i < done; i++) write_run(s, out, i, first);
+    }
+    mps_table_destroy(first);
+    bool good = out && !ferror(out);
+    if (out && fclose(out) != 0) good = false;
+    if (!good) fprintf(stderr, "mps %s: %s: %s\n", s->c->verb, path, strerror(errno));
+    return good ? MPS_EXIT_OK : MPS_EXIT_FAILED;
+}
+
+/* ---- the runs ---- */
+
+/* Run number `index` with its values. */
+static int run_one(const sweep *s, int64_t index)
+{
+    static char set[CLI_SETS][SERIES_VALUE];
+    char folder[SERIES_PATH];
+    choices one = *s->c;
+    if (!series_folder(s->place, index, folder)) return MPS_EXIT_USAGE;
+    if (!one.quiet)
+        fprintf(stderr, "mps sweep: run %lld of %lld:", (long long)index + 1, (long long)s->runs);
+    for (int32_t k = 0; k < s->paths; k++) {
+        if (mps_case_sweep_get(s->tank, index, k, set[k], sizeof set[k]) != MPS_OK)
+            return MPS_EXIT_FAILED;
+        one.set[one.sets++] = set[k];
+        if (!one.quiet) fprintf(stderr, " %s", set[k]);
+    }
+    if (!one.quiet) fputc('\n', stderr);
+    return series_run(&one, folder);
+}
+
+/* @return runs that were tried; *code: the worst of theirs, or why the sweep ended */
+static int64_t run_all(const sweep *s, int *code)
+{
+    bool known = false;
+    for (int64_t i = 0; i < s->runs; i++) {
+        s->code[i] = run_one(s, i);
+        if (s->code[i] > *code) *code = s->code[i];
+        if (s->code[i] == MPS_EXIT_INTERRUPTED) return i + 1;
+        mps_table *rows = known ? NULL : rows_of(s, i);
+        if (rows && !has_columns(s, rows)) {
+            mps_table_destroy(rows);
+            *code = MPS_EXIT_USAGE;
+            return 0;
+        }
+        known = known || rows;
+        mps_table_destroy(rows);
+    }
+    return s->runs;
+}
+
+static int sweep_runs(sweep *s)
+{
+    int code = MPS_EXIT_OK;
+    s->code = calloc((size_t)s->runs, sizeof *s->code);
+    if (!s->code) return MPS_EXIT_FAILED;
+    const int64_t done = run_all(s, &code);
+    const int table = write_table(s, done);
+    for (int64_t i = 0; i < done; i++)
+        if (s->code[i] != MPS_EXIT_OK)
+            fprintf(stderr, "mps sweep: %s/%03lld %s, exit code %d\n", s->place, (long long)i + 1,
+                    s->code[i] == MPS_EXIT_INTERRUPTED ? "was interrupted" : "failed", s->code[i]);
+    free(s->code);
+    return code != MPS_EXIT_OK ? code : table;
+}
+
+int verb_sweep(const choices *c)
+{
+    static sweep s;
+    int code = MPS_EXIT_FAILED;
+    s = (sweep){.c = c, .tank = cli_case(c, &code)};
+    if (!s.tank) return code;
+    s.runs = mps_case_runs(s.tank);
+    s.paths = mps_case_sweep_count(s.tank);
+    series_place(c, s.place);
+    code = MPS_EXIT_USAGE;
+    if (s.paths == 0)
+        fprintf(stderr, "mps sweep: %s: the case has no 'sweep'; use 'mps run'\n", c->file[0]);
+    else if (c->sets + s.paths > CLI_SETS)
+        fprintf(stderr, "mps sweep: at most %d values of --set and paths of 'sweep'\n", CLI_SETS);
+    else if (read_collect(&s))
+        code = sweep_runs(&s);
+    mps_case_destroy(s.tank);
+    return code;
+}
