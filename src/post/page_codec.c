@@ -153,7 +153,7 @@ bool mps__codec_curve(const double *value, int64_t count, int64_t stride, double
 void mps__codec_base64(FILE *out, const codec_bytes *bytes)
 {
     static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    char line[4 * 1024];
+    char line[4 * 1024] = "";
     size_t used = 0;
     for (size_t i = 0; i < bytes->size; i += 3) {
         const size_t left = bytes->size - i;

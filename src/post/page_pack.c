@@ -116,8 +116,9 @@ static mps_status pack_ids(packing *p)
 {
     const film *f = p->film;
     codec_bytes bytes = {0};
-    unsigned char *four = calloc((size_t)p->shown + 1, 5), *phase = four + 4 * p->shown;
+    unsigned char *four = calloc((size_t)p->shown + 1, 5);
     if (!four) return no_memory(f);
+    unsigned char *phase = four + 4 * p->shown;
     for (int64_t k = 0; k < f->moving.count; k++) {
         const film_entry *e = &f->moving.entry[k];
         if (e->place % p->plan.every != 0) continue;

@@ -147,7 +147,7 @@ static bool is_same(double (*a)[3], const double (*b)[3])
 
 bool mps__pose_find(const film *f, const film_frame *s, film_pose *out)
 {
-    double corner[3][3], first[3][3], now[9], built[9];
+    double corner[3][3] = {{0}}, first[3][3], now[9] = {0}, built[9] = {0};
     *out = at_rest;
     if (f->reference[0] < 0) return true;
     if (!find_corners(f, s, corner)) return false;

@@ -110,7 +110,7 @@ void mps__kinds_units(uint64_t kinds, char *out, size_t size)
 static bool bound_holds(const char **at, double value, bool sign_only)
 {
     const bool above = **at == '>', closed = (*at)[1] == '=';
-    double limit;
+    double limit = 0;
     mps__numbers n = {.kinds = UNIT_ANY, .scale = {1, NAN, NAN, 1}, .most = 1, .out = &limit};
     char text[64];
     *at += closed ? 2 : 1;
