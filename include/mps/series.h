@@ -102,6 +102,7 @@ typedef struct mps_table mps_table;
  *  | MPS_E_NOMEM | | */
 MPS_API mps_status mps_table_read(const mps_stats_config *config, const char *path, int32_t count,
                                   const char *const *names, mps_table **table);
+/** Free it. NULL is allowed. */
 MPS_API void mps_table_destroy(mps_table *table);
 
 /** Number of rows; 0 for NULL. */
@@ -175,18 +176,28 @@ typedef struct mps_comparison {
     uint32_t struct_size;
     /** Kept 0. */
     int32_t reserved;
-    /** The time that both have [s]. */
-    double t_first, t_last;
-    /** Mean and root mean square of the difference. */
-    double mean, rms;
+    /** Begin of the time that both have [s]. */
+    double t_first;
+    /** Its end [s]. */
+    double t_last;
+    /** Mean of the difference. */
+    double mean;
+    /** Root mean square of the difference. */
+    double rms;
     /** Root mean square of the deviation of the first series from its mean, to judge `rms` by. */
     double rms_first;
-    /** Difference of the largest magnitude, and its time. */
-    double largest, t_largest;
-    /** Highest value of each, and its time. */
-    double peak[2], t_peak[2];
-    /** Lowest value of each, and its time. */
-    double trough[2], t_trough[2];
+    /** Difference of the largest magnitude. */
+    double largest;
+    /** Its time [s]. */
+    double t_largest;
+    /** Highest value of each. */
+    double peak[2];
+    /** Times of these [s]. */
+    double t_peak[2];
+    /** Lowest value of each. */
+    double trough[2];
+    /** Times of these [s]. */
+    double t_trough[2];
     /** By how much the second is later, by the largest correlation [s]. NAN: one is constant, or
      *  there is no largest correlation within config.shift_most. */
     double shift;
@@ -248,8 +259,12 @@ typedef struct mps_repeat {
     int32_t count;
     /** Time of the event, mean of the runs [s]; mps_repeat_peaks() alone. */
     double t;
-    /** Of all values. */
-    double mean, least, most;
+    /** Mean of all values. */
+    double mean;
+    /** Least of all values. */
+    double least;
+    /** Largest of all values. */
+    double most;
     /** Standard deviation, with count - 1. NAN for one value. */
     double deviation;
     /** Half of the band of the mean, by Student's t. NAN for one value. */

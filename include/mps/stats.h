@@ -76,10 +76,14 @@ typedef struct mps_impacts_info {
     int64_t cut;
     /** Events that are marked as unresolved. */
     int64_t unresolved;
-    /** u and w as used [Pa, s]. */
-    double threshold, window;
-    /** First and last time of the samples [s]. */
-    double t_first, t_last;
+    /** u as used [Pa]. */
+    double threshold;
+    /** w as used [s]. */
+    double window;
+    /** First time of the samples [s]. */
+    double t_first;
+    /** Last time of the samples [s]. */
+    double t_last;
     /** N over the length of the record [1/s]. */
     double rate;
     /** Correlation of each peak with the next. NAN: fewer than three peaks, or all the same. */
@@ -90,9 +94,10 @@ typedef struct mps_impacts_info {
     double exposure;
     /** Events expected in it: rate D/sqrt(L). */
     double exposure_events;
-    /** Pressures times this, and times times this, are those at full scale: L times the ratio of
-     *  densities; sqrt(L). */
-    double pressure_scale, time_scale;
+    /** Pressures times this are those at full scale: L times the ratio of densities. */
+    double pressure_scale;
+    /** Times times this are those at full scale: sqrt(L). */
+    double time_scale;
 } mps_impacts_info;
 
 /** Set struct_size and zero. @param size  sizeof(mps_impacts_info) @return MPS_E_ARG */
@@ -127,6 +132,7 @@ MPS_API mps_status mps_exceedance_init(mps_exceedance *point, size_t size);
  *  @return MPS_E_ARG (which entry of `config`; index of a time or a value), MPS_E_NOMEM */
 MPS_API mps_status mps_impacts_find(const mps_stats_config *config, int64_t n, const double *t,
                                     const double *p, mps_impacts **impacts);
+/** Free it. NULL is allowed. */
 MPS_API void mps_impacts_destroy(mps_impacts *impacts);
 
 /** @param info  initialised; out @return MPS_E_ARG */
@@ -186,10 +192,14 @@ typedef struct mps_fit {
     double scale;
     /** c or x. */
     double shape;
-    /** Bands of both. NAN without resamples. */
-    double scale_band[2], shape_band[2];
-    /** s and x by probability-weighted moments; NAN for Weibull. */
-    double moments_scale, moments_shape;
+    /** Band of `scale`. NAN without resamples. */
+    double scale_band[2];
+    /** Band of `shape`. NAN without resamples. */
+    double shape_band[2];
+    /** s by probability-weighted moments; NAN for Weibull. */
+    double moments_scale;
+    /** x by probability-weighted moments; NAN for Weibull. */
+    double moments_shape;
     /** Logarithm of the likelihood. */
     double log_likelihood;
     /** n: number of peaks that `value` is for. */
