@@ -47,9 +47,9 @@ MPS_API mps_status mps_page_config_init(mps_page_config *config, size_t size);
  *  @param size  sizeof(mps_page_info) */
 MPS_API mps_status mps_page_info_init(mps_page_info *info, size_t size);
 
-/** Write report.html into a folder, from summary.json, probes.csv, steps.csv, momentum.csv, frames.pvd
- *  with its frames, case.yaml and picture_*.png of that folder. Only summary.json and probes.csv
- *  must be there. An interrupted call leaves an earlier page as it was.
+/** Write report.html into a folder, from summary.json, probes.csv, steps.csv, momentum.csv,
+ *  frames.pvd with its frames, case.yaml and picture_*.png of that folder. Only summary.json and
+ *  probes.csv must be there. An interrupted call leaves an earlier page as it was.
  *  @param folder  a folder that a run has written
  *  @param config  NULL for the defaults
  *  @param info    what the page holds, or NULL
