@@ -24,7 +24,8 @@ static bool by_pattern(const mps__lattice_plan *p, const int64_t k[3], int axis,
     static const double golden = 0.6180339887498949;
     int64_t along, line;
     place_in_layer(p, k, axis, &along, &line);
-    const double at = share * (double)(along / GROUP) + golden * (double)(line / GROUP) + 0.5;
+    const int64_t group = along / GROUP, row = line / GROUP;
+    const double at = share * (double)group + golden * (double)row + 0.5;
     return floor(at) > floor(at - share);
 }
 
@@ -106,7 +107,7 @@ static void meet_volume(mps__lattice_plan *p, bool first)
     const int from = lack > 0 ? POINT_FREE : POINT_CHOSEN;
     const int64_t all = t.of[from], change = all < llround(fabs(lack)) ? all : llround(fabs(lack));
     int64_t k[3] = {p->box.first[0], p->box.first[1], p->box.first[2]}, place = 0, n = 0;
-    if (fabs(lack) < 0.5 + 1e-6 || change == 0) return;
+    if (fabs(lack) < 0.5 + 1e-6 || all == 0 || change == 0) return;
     do {
         if (p->state[place] == from && may_change(p, k, first)) {
             if ((n + 1) * change / all > n * change / all) {
