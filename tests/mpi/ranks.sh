@@ -14,10 +14,11 @@ ranks() { # exit code, ranks, driver, options...
     [ $code = "$wanted" ] || { fail "$2 ranks, ${*:3}: exit $code instead of $wanted"; cat log; }
 }
 
-# All files but the report and the summary, which tell seconds; of the summary what tells none, nor how it was called.
+# All files but the report and the summary, which tell seconds, and the state of ParaView, which tells its folder; of the summary what tells
+# no seconds, nor how it was called.
 same() { # folder, other folder
     local file
-    diff -rq -x report.html -x summary.json "$1" "$2" || fail "$2 is not the same as $1"
+    diff -rq -x report.html -x summary.json -x paraview.py "$1" "$2" || fail "$2 is not the same as $1"
     for file in "$1" "$2"; do grep -vE '"(.*_s|s_per_step|peak_rss_bytes|ranks|threads|command|date)":' "$file/summary.json" >"$file.summary"; done
     cmp "$1.summary" "$2.summary" || fail "$2/summary.json is not that of $1"
 }
