@@ -34,7 +34,7 @@ static int spawn(film_pipe *p, int input, const char *const *argv)
     return failed;
 }
 
-/* A socket in place of a pipe: writing to it where nobody reads is an error alone, and not a signal, which a library must not touch. */
+/* A socket, not a pipe. If the child has ended, a write to a pipe sends SIGPIPE to the whole program; a write to a socket only fails. */
 mps_status mps__pipe_start(film_pipe *p, const char *const *argv, page_errors *e)
 {
     int both[2] = {-1, -1}, failed = 0;

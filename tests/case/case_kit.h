@@ -11,10 +11,20 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 #include <cmocka.h>
 #include "tree.h"
 
 #define CASES PROJECT_FOLDER "/tests/case/cases/"
+
+/* A name in the present folder as a whole path: names in a case are relative to its file. */
+static inline char *kit_here(char *out, size_t size, const char *name)
+{
+    char folder[512];
+    assert_non_null(getcwd(folder, sizeof folder));
+    assert_true((size_t)snprintf(out, size, "%s/%s", folder, name) < size);
+    return out;
+}
 
 /* Read a text with at most three sets, NULL behind the last. */
 static inline mps_status kit_read(const char *text, const char *const *sets, mps_case **c)

@@ -122,7 +122,7 @@ static inline double number_in(const char *folder, const char *name, int row, in
 /* Work in a folder that is removed at the end. */
 static inline int enter_folder(void **state)
 {
-    static char folder[] = "/tmp/mps_job_XXXXXX";
+    static char folder[] = "mps_job_XXXXXX";
     *state = folder;
     return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
 }
@@ -131,7 +131,7 @@ static inline int leave_folder(void **state)
 {
     char command[100];
     snprintf(command, sizeof command, "rm -rf %s", (const char *)*state);
-    return chdir("/tmp") == 0 && system(command) == 0 ? 0 : -1;
+    return chdir("..") == 0 && system(command) == 0 ? 0 : -1;
 }
 
 #endif

@@ -95,7 +95,7 @@ static mps_status try_check(mps_case *c, const char *folder)
 /* Every call up to the 300th, then each thirteenth: there the library's own arrays grow, which its tests look at. */
 static void starve(mps_status (*attempt)(mps_case *, const char *))
 {
-    char folder[] = "/tmp/mps_oom_XXXXXX", command[64];
+    char folder[] = "mps_oom_XXXXXX", command[64];
     int64_t failures = 0;
     bool whole = false;
     assert_non_null(mkdtemp(folder));

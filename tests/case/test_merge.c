@@ -57,7 +57,7 @@ static void reads_back(void **state)
                                         "sphere.yaml", "stl.yaml",     "sweep.yaml"};
     (void)state;
     for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
-        char path[300];
+        char path[700];
         snprintf(path, sizeof path, CASES "%s", names[k]);
         char *text = kit_file(path);
         mps_case *a = good(text, NULL), *b = good(mps_case_text(a), NULL);
@@ -153,7 +153,7 @@ static void groups(void **state)
 
 static void write_file(const char *folder, const char *name, const char *text)
 {
-    char path[300];
+    char path[700];
     snprintf(path, sizeof path, "%s/%s", folder, name);
     FILE *file = fopen(path, "wb");
     assert_non_null(file);
@@ -163,9 +163,8 @@ static void write_file(const char *folder, const char *name, const char *text)
 
 static char *new_folder(void)
 {
-    static char folder[] = "/tmp/mps_case_XXXXXX";
-    snprintf(folder, sizeof folder, "/tmp/mps_case_XXXXXX");
-    assert_non_null(mkdtemp(folder));
+    static char folder[600];
+    assert_non_null(mkdtemp(kit_here(folder, sizeof folder, "mps_case_XXXXXX")));
     return folder;
 }
 
@@ -174,7 +173,7 @@ static void remove_folder(const char *folder)
     static const char *const names[] = {"base.yaml", "a.yaml", "b.yaml",
                                         "page.html", "t.csv",  "empty.html"};
     for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
-        char path[300];
+        char path[700];
         snprintf(path, sizeof path, "%s/%s", folder, names[k]);
         unlink(path);
     }
@@ -183,7 +182,7 @@ static void remove_folder(const char *folder)
 
 static mps_status read_in(const char *folder, const char *name, mps_case **c)
 {
-    char path[300];
+    char path[700];
     snprintf(path, sizeof path, "%s/%s", folder, name);
     return mps_case_read(path, 0, NULL, c);
 }
@@ -206,7 +205,7 @@ static void bases(void **state)
     has(c, "- water:\n      depth: 1 m\nmodel");
     assert_null(strstr(mps_case_text(c), "base"));
     assert_null(strstr(mps_case_text(c), "omega"));
-    char file[300];
+    char file[700];
     snprintf(file, sizeof file, "file: %s/t.csv", folder);
     has(c, file);
     mps_case_destroy(c);

@@ -60,15 +60,15 @@ static void skew_axis(void **state)
 {
     const double axis[3] = {0.6, -0.5, 0.8};
     double lab_axis[3];
-    char path[] = "/tmp/mps_skew_XXXXXX";
+    char path[600];
     (void)state;
-    const int fd = mkstemp(path);
+    const int fd = mkstemp(kit_here(path, sizeof path, "mps_skew_XXXXXX"));
     assert_true(fd >= 0);
     close(fd);
     write_table(path, axis);
     to_lab(axis, lab_axis);
     for (int row = 0; row < 10; row++) {
-        char text[800];
+        char text[1400];
         built t;
         mps_motion_state s = {.struct_size = sizeof s};
         mps_motion_pose pose;

@@ -61,7 +61,7 @@ static void quiet(void *user, int32_t kind, const char *text)
 
 static void run(const char *text, table *t)
 {
-    char folder[] = "/tmp/mps_sensors_XXXXXX", command[100], error[300] = "";
+    char folder[] = "mps_sensors_XXXXXX", command[100], error[300] = "";
     mps_case *c = NULL;
     mps_job *job;
     mps_sim *sim;

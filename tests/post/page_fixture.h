@@ -245,7 +245,7 @@ static inline void write_summary(const scene *s, const char *more)
 static inline void scene_create(scene *s)
 {
     char path[128];
-    snprintf(s->folder, sizeof s->folder, "/tmp/mps_page_XXXXXX");
+    snprintf(s->folder, sizeof s->folder, "mps_page_XXXXXX");
     assert_non_null(mkdtemp(s->folder));
     path_of(s, "frames", path);
     assert_int_equal(mkdir(path, 0777), 0);
