@@ -17,9 +17,9 @@ static void bulk_sums(const mps__world *w, mps_energy *e)
     mps__terms t;
     int64_t count = 0;
     mps__terms_begin(&t, sums, 1 + w->setup.dim);
-    for (int64_t i = 0; i < s->n; i++) {
+    for (int64_t i = mps__own_from(&w->ghosts, 0); i < s->n; i = mps__own_from(&w->ghosts, i + 1)) {
         double own[4] = {s->rho[i] * volume};
-        if (s->kind[i] != MPS_FLUID || mps__is_ghost(&w->ghosts, i)) continue;
+        if (s->kind[i] != MPS_FLUID) continue;
         for (int32_t d = 0; d < w->setup.dim; d++) own[1 + d] = own[0] * s->x[i * w->setup.dim + d];
         mps__terms_add(&t, own);
         count++;
@@ -55,8 +55,8 @@ static double half_cells(const mps__world *w)
     mps__terms t;
     double open[3] = {0};
     mps__terms_begin(&t, sums, 1 + dim);
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_WALL || mps__is_ghost(&w->ghosts, i) || !is_wet(w, i)) continue;
+    for (int64_t i = mps__own_from(&w->ghosts, 0); i < s->n; i = mps__own_from(&w->ghosts, i + 1)) {
+        if (s->kind[i] != MPS_WALL || !is_wet(w, i)) continue;
         const double *a = s->area + i * dim;
         double own[4] = {sqrt(mps__dot(a, a, dim))};
         memcpy(own + 1, a, (size_t)dim * sizeof *a);

@@ -77,12 +77,10 @@ static mps_status find_about(const mps__world *w, const mps_probe *c, about **li
     int64_t capacity = 0;
     double at[3];
     mps__motion_point(&w->motion, &w->motion.now, c->at, at, NULL, NULL);
-    for (int64_t i = 0; i < s->n; i++) {
+    for (int64_t i = mps__own_from(&w->ghosts, 0); i < s->n; i = mps__own_from(&w->ghosts, i + 1)) {
         if (s->kind[i] == MPS_DUMMY || (s->kind[i] == MPS_WALL && s->load[i] == 0)) continue;
         about e = {.id = s->id[i], .d2 = mps__square_between(&s->x[i * dim], at, dim)};
-        if (e.d2 >= w->setup.re_near * w->setup.re_near || mps__is_ghost(&w->ghosts, i) ||
-            mps__plates_hide(w, c->at, i))
-            continue;
+        if (e.d2 >= w->setup.re_near * w->setup.re_near || mps__plates_hide(w, c->at, i)) continue;
         for (int32_t d = 0; d < dim; d++) e.r[d] = s->x[i * dim + d] - at[d];
         e.p = s->kind[i] == MPS_WALL ? s->load[i] : s->p[i];
         MPS__TRY(

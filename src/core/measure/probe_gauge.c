@@ -121,10 +121,9 @@ static mps_status line_collect(line *l, mps__world *w, uint32_t phases)
 {
     const mps__particles *s = &w->particles;
     int64_t capacity = 0;
-    for (int64_t i = 0; i < s->n; i++) {
+    for (int64_t i = mps__own_from(&w->ghosts, 0); i < s->n; i = mps__own_from(&w->ghosts, i + 1)) {
         beside b = {0};
-        if (mps__is_shadow(s, i) || mps__is_ghost(&w->ghosts, i) || !line_coordinates(l, s, i, &b))
-            continue;
+        if (mps__is_shadow(s, i) || !line_coordinates(l, s, i, &b)) continue;
         const bool fluid = s->kind[i] == MPS_FLUID;
         if (fluid && !(phases >> s->phase[i] & 1)) continue;
         b.id = s->id[i];

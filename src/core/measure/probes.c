@@ -99,8 +99,8 @@ static void measure_force(const mps__world *w, const mps__probe *probe, double *
     mps__terms t;
     mps__motion_point(&w->motion, &w->motion.now, probe->config.at, at, NULL, NULL);
     mps__terms_begin(&t, sums, 6);
-    for (int64_t i = 0; i < s->n; i++) {
-        if (s->kind[i] != MPS_WALL || s->load[i] == 0 || mps__is_ghost(&w->ghosts, i)) continue;
+    for (int64_t i = mps__own_from(&w->ghosts, 0); i < s->n; i = mps__own_from(&w->ghosts, i + 1)) {
+        if (s->kind[i] != MPS_WALL || s->load[i] == 0) continue;
         double f[6] = {0}, r[3] = {0, 0, 0}, area[3] = {0, 0, 0}; /* f: force, moment */
         for (int32_t d = 0; d < w->setup.dim; d++)
             area[d] = face_wanted(w, probe, i, d) ? s->area[i * w->setup.dim + d] : 0;

@@ -327,21 +327,6 @@ mps_status mps__channels_reserve(mps__channels *c, int64_t n)
     return MPS_OK;
 }
 
-void mps__channel_begin(const mps__channel *k, int32_t dim, int64_t begin, int64_t end)
-{
-    const bool scalar = mps__channel_is_scalar(k);
-    const int32_t width = scalar ? 1 : k->components,
-                  diagonal = k->spec.components == MPS_MATRIX ? dim + 1 : 1;
-    for (int64_t i = scalar ? 0 : begin; i < (scalar ? 1 : end); i++)
-        for (int32_t d = 0; d < width; d++) {
-            const double value = d % diagonal == 0 ? k->spec.initial : 0;
-            if (k->spec.type == MPS_TYPE_INTEGER)
-                ((int32_t *)k->array)[i * width + d] = (int32_t)value;
-            else
-                ((double *)k->array)[i * width + d] = value;
-        }
-}
-
 mps__field *mps__channels_field(const mps__channels *c, mps__particles *s, int32_t k)
 {
     if (k >= MPS__CHANNELS) return &s->field[k - MPS__CHANNELS];

@@ -96,8 +96,6 @@ int32_t mps__channels_find(const mps__channels *c, const char *name);
 
 /* Room in the arena for n particles; sets the arrays of the channels in it. */
 mps_status mps__channels_reserve(mps__channels *c, int64_t n);
-/* Set rows begin .. end-1 of a channel that lives for a step to its first value; of a scalar, all of it. */
-void mps__channel_begin(const mps__channel *k, int32_t dim, int64_t begin, int64_t end);
 /* Whether channel k of the list is a number for all particles. */
 static inline bool mps__channel_is_scalar(const mps__channel *k)
 {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Calls of verbs: what they get, and what is checked after them. */
 #include "guard.h"
+#include "loop.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -181,15 +182,36 @@ static void note_writes(mps__host *h, const mps__call *call, int32_t place)
 
 /* ---- first values ---- */
 
+/* A channel of models: `width` numbers a row, of which each `diagonal`th is `initial` and the others are 0. */
 typedef struct beginning {
-    const mps__channel *channel;
-    int32_t dim;
+    double initial;
+    double *reals; /* one of both is NULL */
+    int32_t *integers;
+    int32_t width, diagonal;
 } beginning;
 
-static void begin_rows(void *argument, int64_t begin, int64_t end)
+MPS_ROW void begin_row(const int dim, const beginning *b, int64_t i)
 {
-    const beginning *b = argument;
-    mps__channel_begin(b->channel, b->dim, begin, end);
+    (void)dim;
+    for (int32_t d = 0; d < b->width; d++) {
+        const double value = d % b->diagonal == 0 ? b->initial : 0;
+        if (b->reals)
+            b->reals[i * b->width + d] = value;
+        else
+            b->integers[i * b->width + d] = (int32_t)value;
+    }
+}
+MPS__LOOP(begin_rows, begin_row, beginning)
+
+static void begin_channel(const mps__host *h, const mps__channel *k, void *array)
+{
+    const bool scalar = mps__channel_is_scalar(k), real = k->spec.type == MPS_TYPE_REAL;
+    const beginning b = {.initial = k->spec.initial,
+                         .reals = real ? array : NULL,
+                         .integers = real ? NULL : array,
+                         .width = scalar ? 1 : k->components,
+                         .diagonal = k->spec.components == MPS_MATRIX ? h->channels->dim + 1 : 1};
+    mps__loop_run(h->parallel, &begin_rows, MPS__ANY_DIM, scalar ? 1 : h->particles->n, &b);
 }
 
 /* Channels of models get their first values before the first call that uses them. */
@@ -197,11 +219,8 @@ static void begin_channels(mps__host *h, const mps__call *call, int32_t place)
 {
     for (int32_t k = MPS__OWN_CHANNELS; call->begins >> k; k++) {
         if (!(call->begins >> k & 1)) continue;
-        mps__channel there = h->channels->list[k];
-        there.array = mps__twins_array(&h->twins, k, place);
         h->channels->list[k].stale = false;
-        mps_parallel_rows(h->parallel, h->particles->n, begin_rows,
-                          &(beginning){&there, h->channels->dim});
+        begin_channel(h, &h->channels->list[k], mps__twins_array(&h->twins, k, place));
         mps__twins_written(&h->twins, k, place);
     }
 }

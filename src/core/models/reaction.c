@@ -2,48 +2,36 @@
 /* What verbs report of the forces that solids exert on the fluid: friction, baffles, screens. */
 #include "reaction.h"
 #include "host.h"
+#include "loop.h"
 #include "rotation.h"
-#include "terms.h"
 #include <math.h>
 #include <mps/reaction.h>
 
 /* Places of rows are in `place`: 1 + that of mps__reactions, 0 for rows that do not count. */
 typedef struct report {
-    const mps_view *v;
-    const mps__host *h;
-    const double *acceleration;
+    const int32_t *kind;
+    const uint8_t *ghost; /* NULL: none */
+    const double *x, *rho, *acceleration;
     int32_t *place; /* NULL: all rows are at `wanted` */
     int32_t wanted;
+    double volume; /* of a particle */
     double centre[3];
 } report;
 
 /* Force and moment of a fluid row. */
-static void add_row(const report *k, int64_t i, mps__terms *t)
+MPS_ROW void add_row(const int dim, const report *k, int64_t i, double *values)
 {
-    const mps_view *v = k->v;
-    double f[6] = {0}, r[3] = {0};
-    const double mass = k->h->particles->rho[i] *
-                        (v->dim == 2 ? v->dp * v->dp : v->dp * v->dp * v->dp);
-    for (int d = 0; d < v->dim; d++) {
-        f[d] = mass * k->acceleration[i * v->dim + d];
-        r[d] = v->x[i * v->dim + d] - k->centre[d];
+    double r[3] = {0};
+    if (k->kind[i] != MPS_FLUID || (k->ghost && k->ghost[i])) return;
+    if (k->place && k->place[i] != k->wanted + 1) return;
+    const double mass = k->rho[i] * k->volume;
+    for (int d = 0; d < dim; d++) {
+        values[d] = mass * k->acceleration[i * dim + d];
+        r[d] = k->x[i * dim + d] - k->centre[d];
     }
-    mps__cross(r, f, f + 3);
-    mps__terms_add(t, f);
+    mps__cross(r, values, values + 3);
 }
-
-static void add_rows(void *argument, int64_t begin, int64_t end, mps_exact *sums, double *none)
-{
-    const report *k = argument;
-    mps__terms t;
-    (void)none;
-    mps__terms_begin(&t, sums, 6);
-    for (int64_t i = begin; i < end; i++)
-        if (mps_is_fluid(k->v, i) && !mps__is_ghost(k->h->ghosts, i) &&
-            (!k->place || k->place[i] == k->wanted + 1))
-            add_row(k, i, &t);
-    mps__terms_end(&t);
-}
+MPS__VALUES(add_rows, add_row, report, 6, 0)
 
 static int32_t line_of(const mps_stage *s, const mps__host *h)
 {
@@ -55,9 +43,9 @@ static int32_t line_of(const mps_stage *s, const mps__host *h)
 static int add_place(mps_stage *s, mps__host *h, report *k, int32_t place)
 {
     mps_exact sums[6] = {{{0}, 0, 0}};
+    double none[1];
     k->wanted = place;
-    mps_exact_rows(h->parallel, s->view->n, MPS_PARALLEL_LEAST, add_rows, k,
-                   &(mps_exact_values){.sums = 6, .sum = sums});
+    mps__values_run(h->parallel, &add_rows, s->view->dim, s->view->n, k, sums, none);
     for (int d = 0; d < 6; d++) {
         if (!isfinite(mps_exact_value(&sums[d])))
             return mps_stage_fail(s, "the acceleration that a solid gives the fluid, by "
@@ -119,7 +107,13 @@ static int add_beside(mps_stage *s, mps__host *h, report *k)
 int mps_stage_reaction(mps_stage *s, const char *part, const double *acceleration)
 {
     mps__host *h = s->host;
-    report k = {.v = s->view, .h = h, .acceleration = acceleration};
+    const mps_view *v = s->view;
+    report k = {.kind = v->kind,
+                .ghost = h->ghosts->ghost,
+                .x = v->x,
+                .rho = h->particles->rho,
+                .acceleration = acceleration,
+                .volume = v->dim == 2 ? v->dp * v->dp : v->dp * v->dp * v->dp};
     if (s->hook != MPS_FORCE && s->hook != MPS_VELOCITY)
         return mps_stage_fail(s,
                               "mps_stage_reaction() is for verbs of MPS_FORCE and MPS_VELOCITY, "
@@ -133,6 +127,6 @@ int mps_stage_reaction(mps_stage *s, const char *part, const double *acceleratio
                               "tank, or list it in mps_model_ops.parts",
                               part);
     h->reactions.any = true;
-    for (int d = 0; d < 3; d++) k.centre[d] = s->view->tank.centre[d] + s->view->tank.shift[d];
+    for (int d = 0; d < 3; d++) k.centre[d] = v->tank.centre[d] + v->tank.shift[d];
     return part ? add_place(s, h, &k, MPS__REACTION_WHOLE + 1 + number) : add_beside(s, h, &k);
 }

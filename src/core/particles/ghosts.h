@@ -52,6 +52,14 @@ static inline bool mps__is_ghost(const mps__ghosts *g, int64_t i)
     return g->ghost && g->ghost[i];
 }
 
+/* First particle from place i on that this rank owns; the number of particles: none. Loops over owned particles:
+ *   for (int64_t i = mps__own_from(g, 0); i < s->n; i = mps__own_from(g, i + 1)) */
+static inline int64_t mps__own_from(const mps__ghosts *g, int64_t i)
+{
+    while (g->ghost && i < g->particles->n && g->ghost[i]) i++;
+    return i;
+}
+
 /* Of the particles that all ranks added alike since the last call, keep the own ones. The first call divides space. All calls below are those
  * of all ranks together; alone they do nothing. */
 mps_status mps__ghosts_adopt(mps__ghosts *g, const mps__placing *p);

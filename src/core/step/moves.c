@@ -41,9 +41,9 @@ static void view_of(const mps__world *w, const mps__pose *next, mps_view *v)
 static int64_t place_of(mps__world *w, int64_t id)
 {
     const mps__particles *s = &w->particles;
-    int64_t i = 0;
+    int64_t i = mps__own_from(&w->ghosts, 0);
     w->context->error[0] = 0;
-    while (i < s->n && (s->id[i] != id || mps__is_ghost(&w->ghosts, i))) i++;
+    while (i < s->n && s->id[i] != id) i = mps__own_from(&w->ghosts, i + 1);
     return i < s->n ? i : -1;
 }
 

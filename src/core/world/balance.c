@@ -30,8 +30,9 @@ static void compare(mps__world *w)
     mps__balance *b = &w->balance;
     double own[VALUES] = {b->work, 0}, most = b->work, mean[VALUES];
     mps_exact sum[VALUES] = {{{0}, 0, 0}};
-    for (int64_t i = 0; i < w->particles.n; i++)
-        if (!mps__is_ghost(&w->ghosts, i)) own[LOAD] += load_of(&w->particles, i);
+    const mps__ghosts *g = &w->ghosts;
+    for (int64_t i = mps__own_from(g, 0); i < w->particles.n; i = mps__own_from(g, i + 1))
+        own[LOAD] += load_of(&w->particles, i);
     for (int k = 0; k < VALUES; k++) mps_exact_add(&sum[k], 1, &own[k]);
     mps__ranks_max(&w->ranks, 1, &most);
     mps__ranks_sum(&w->ranks, VALUES, sum);

@@ -56,8 +56,8 @@ static int64_t pack_own(const mps__world *w, bool solids, size_t bytes, char *ou
     const size_t place = (size_t)s->dim * sizeof *s->x;
     const double *searched = w->lists.neighbours.valid ? w->lists.neighbours.searched : s->x;
     int64_t count = 0;
-    for (int64_t i = 0; i < s->n; i++) {
-        if (mps__is_ghost(&w->ghosts, i) || (solids && s->kind[i] == MPS_FLUID)) continue;
+    for (int64_t i = mps__own_from(&w->ghosts, 0); i < s->n; i = mps__own_from(&w->ghosts, i + 1)) {
+        if (solids && s->kind[i] == MPS_FLUID) continue;
         if (out) {
             mps__ghosts_pack(s, i, out + (size_t)count * bytes);
             memcpy(out + (size_t)(count + 1) * bytes - place, searched + i * s->dim, place);
