@@ -322,7 +322,7 @@ mps_status mps_fill_box_add(mps_sim *sim, int32_t phase, const double *lo, const
     MPS__BUILDS(sim);
     mps__lattice_box box;
     MPS__TRY(fill_points(sim, phase, lo, hi, &box));
-    MPS__TRY(mps__geometry_fill(sim, &(mps__fill){phase, lo, hi, NULL, NULL}, &box, added));
+    MPS__TRY(mps__geometry_fill(sim, &(mps__fill){phase, false, lo, hi, NULL, NULL}, &box, added));
     report_box(sim, "fill", lo, hi, &box, built);
     return MPS_OK;
 }
@@ -354,7 +354,7 @@ mps_status mps_fill_level_add(mps_sim *sim, int32_t phase, const double *lo, con
     mps__lattice_box box;
     MPS__TRY(fill_points(sim, phase, lo, hi, &box));
     add_layers(sim, lo, hi, &box);
-    MPS__TRY(mps__geometry_fill(sim, &(mps__fill){phase, lo, hi, NULL, NULL}, &box, added));
+    MPS__TRY(mps__geometry_fill(sim, &(mps__fill){phase, true, lo, hi, NULL, NULL}, &box, added));
     report_box(sim, "fill", lo, hi, &box, built);
     return MPS_OK;
 }
@@ -374,8 +374,8 @@ mps_status mps_fill_add(mps_sim *sim, int32_t phase, mps_inside_fn inside, void 
         box.last[d] = sim->lattice_cells[d];
     }
     const mps__lock before = mps__lock_set(&sim->context, MPS__LOCKED, "an inside callback");
-    const mps_status status = mps__geometry_fill(sim, &(mps__fill){phase, NULL, NULL, inside, user},
-                                                 &box, added);
+    const mps_status status = mps__geometry_fill(
+        sim, &(mps__fill){phase, false, NULL, NULL, inside, user}, &box, added);
     sim->context.lock = before;
     return status;
 }

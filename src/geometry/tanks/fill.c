@@ -103,7 +103,7 @@ static tally count_layers(const mps__lattice_plan *p, bool first)
 static void meet_volume(mps__lattice_plan *p, bool first)
 {
     const tally t = count_layers(p, first);
-    const double lack = t.wanted - (double)t.chosen;
+    const double lack = p->keeps ? p->wanted - (double)p->chosen : t.wanted - (double)t.chosen;
     const int from = lack > 0 ? POINT_FREE : POINT_CHOSEN;
     const int64_t all = t.of[from], change = all < llround(fabs(lack)) ? all : llround(fabs(lack));
     int64_t k[3] = {p->box.first[0], p->box.first[1], p->box.first[2]}, place = 0, n = 0;
@@ -137,9 +137,67 @@ static void fluid_describe(const mps__lattice_plan *p, const int64_t k[3], mps__
     out->part = -1;
 }
 
-static mps_status fluid_run(mps__lattice_plan *p)
+/* ---- beside solids of any shape ---- */
+
+/* Cells of points beside solids are not whole, yet points are free or covered. A particle stands for what is half a spacing or more from
+ * solids, so this volume tells how many there are. @param given  out: as many are free */
+static double points_wanted(const mps__lattice_plan *p, double *given)
+{
+    int64_t k[3] = {p->box.first[0], p->box.first[1], p->box.first[2]}, place = 0;
+    double wanted = 0;
+    *given = 0;
+    do {
+        const int state = p->state[place++];
+        const double share = wanted_share(p, k);
+        if (share == 0 || !mps__lattice_plan_open(p, k, state)) continue;
+        if (state != POINT_SOLID) *given += share;
+        wanted += share * mps__lattice_plan_share(p, k, 0.5, share);
+    } while (mps__lattice_plan_next(p, k));
+    return wanted;
+}
+
+/* Free points of the uppermost layer. */
+static int64_t points_on_top(const mps__lattice_plan *p, int64_t layer)
+{
+    int64_t k[3] = {p->box.first[0], p->box.first[1], p->box.first[2]}, place = 0, n = 0;
+    do n += p->state[place++] <= POINT_CHOSEN && k[1] == layer;
+    while (mps__lattice_plan_next(p, k));
+    return n;
+}
+
+/* The uppermost layers take up what cells beside solids have too little or too much. */
+static mps_status level_out(mps__lattice_plan *p)
+{
+    mps__lattice_box *box = &p->box;
+    double given, lack;
+    MPS__TRY(mps__lattice_plan_choose(p));
+    p->wanted = points_wanted(p, &given);
+    lack = p->wanted - given;
+    for (int64_t layer = box->last[1]; fabs(lack) > 0.5 && layer >= box->first[1]; layer--) {
+        const double part = box->share[1][1] > 0 ? box->share[1][1] : 1;
+        const double all = (double)points_on_top(p, layer), here = part * all + lack;
+        box->share[1][1] = 0;
+        box->last[1] = layer;
+        if (here > all && layer < p->sim->lattice_cells[1] - 1) {
+            box->last[1]++;
+            box->share[1][1] = fmin(1, here / fmax(all, 1) - 1);
+        } else if (here > 0.5) {
+            box->share[1][1] = here < all ? here / all : 0;
+        } else {
+            box->last[1]--;
+        }
+        lack = here > 0.5 ? 0 : here;
+    }
+    mps__free(&p->sim->context, p->state);
+    p->state = NULL;
+    p->keeps = true;
+    return MPS_OK;
+}
+
+static mps_status fluid_run(mps__lattice_plan *p, bool keeps)
 {
     MPS__TRY(mps__packing_make(&p->packing, p->sim));
+    if (keeps && p->sim->solids > 0) MPS__TRY(level_out(p));
     MPS__TRY(mps__lattice_plan_choose(p));
     meet_volume(p, true);
     meet_volume(p, false);
@@ -187,12 +245,17 @@ static void report_volume(const mps__lattice_plan *p, const double *lo, const do
     for (int d = 0; d < p->dim; d++) cell *= p->box.h[d];
     mps__lattice_plan_volumes(p, lo, hi, &built, &asked);
     const tally t = count_layers(p, false);
-    if (t.wanted > 0) built = asked + ((double)t.chosen - t.wanted) * cell;
+    if (p->keeps) asked = mps__lattice_plan_liquid(p, lo, hi);
+    if (p->keeps)
+        built = asked + ((double)p->chosen - p->wanted) * cell;
+    else if (t.wanted > 0)
+        built = asked + ((double)t.chosen - t.wanted) * cell;
     const double error = asked > 0 ? built / asked - 1 : 0;
     mps__log(&p->sim->context, MPS_LOG_INFO,
              "fill of phase %d: %.6g m%d of %.6g m%d asked for, %+.2g %%%s", (int)p->phase, built,
              (int)p->dim, asked, (int)p->dim, 100 * error,
-             lo && fabs(error) > 0.002 ? "; mps_fill_level_add() keeps the volume" : "");
+             lo && !p->keeps && fabs(error) > 0.002 ? "; mps_fill_level_add() keeps the volume"
+                                                    : "");
 }
 
 mps_status mps__geometry_fill(mps_sim *sim, const mps__fill *fill, mps__lattice_box *box,
@@ -206,9 +269,9 @@ mps_status mps__geometry_fill(mps_sim *sim, const mps__fill *fill, mps__lattice_
     p.phase = fill->phase;
     p.inside = fill->inside;
     p.user = fill->user;
-    mps_status status = fluid_run(&p);
+    mps_status status = fluid_run(&p, fill->keeps);
     if (status == MPS_OK) report_volume(&p, fill->lo, fill->hi);
-    if (status == MPS_OK) note_layers(&p, box);
+    if (status == MPS_OK && !p.keeps) note_layers(&p, box);
     mps__lattice_plan_free(&p);
     if (status == MPS_OK && added) *added = p.chosen;
     return status;

@@ -48,9 +48,11 @@ bool mps__plate_of_box(mps_sim *sim, const mps__lattice_box *box, mps__plate_sha
 mps_status mps__geometry_plate(mps_sim *sim, const char *name, const mps__plate_shape *shape);
 /* Warn of slots that no liquid fits in, once for all solids that are there. */
 mps_status mps__slots_tell(mps_sim *sim);
-/* What is filled: the corners that were asked for [dim], or `inside`. */
+/* What is filled: the corners that were asked for [dim], or `inside`; whether the volume of the
+ * corners is kept beside solids of any shape. */
 typedef struct mps__fill {
     int32_t phase;
+    bool keeps;
     const double *lo, *hi;
     mps_inside_fn inside;
     void *user;

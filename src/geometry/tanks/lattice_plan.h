@@ -32,6 +32,8 @@ typedef struct mps__lattice_plan {
     int32_t phase;
     mps_inside_fn inside;
     void *user;
+    bool keeps;           /* the volume of a box, beside solids of any shape: */
+    double wanted;        /* as many points */
     mps__packing packing; /* beside solids of any shape */
 } mps__lattice_plan;
 
@@ -48,6 +50,14 @@ void mps__lattice_point(const mps__lattice_plan *p, const int64_t k[3], double X
 bool mps__plate_covers(const mps_sim *sim, const double *X);
 /* Decide for every lattice point of the box; the store is not touched. mps__lattice_plan_free() afterwards in any case. */
 mps_status mps__lattice_plan_choose(mps__lattice_plan *p);
+/* Share of the cell of a point that is `least` spacings or more from solids of any shape; of the cell only the lower part `height`, 0..1. More
+ * than 1 where the lattice ends before the solid. */
+double mps__lattice_plan_share(const mps__lattice_plan *p, const int64_t k[3], double least,
+                               double height);
+/* Whether fluid can be near a point: it is free, or covered by a solid of any shape that does not fill its cell. */
+bool mps__lattice_plan_open(const mps__lattice_plan *p, const int64_t k[3], int state);
+/* Volume of the box lo..hi that is neither in a solid nor in other fluid [m^dim]. */
+double mps__lattice_plan_liquid(const mps__lattice_plan *p, const double *lo, const double *hi);
 /* Volume that was chosen [m^dim], and that was asked for where it was free: the box lo..hi, or `inside` of a fill. */
 void mps__lattice_plan_volumes(const mps__lattice_plan *p, const double *lo, const double *hi,
                                double *built, double *asked);

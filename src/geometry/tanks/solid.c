@@ -34,16 +34,21 @@ static void work_free(work *w)
     mps__samples_free(&w->samples);
 }
 
-bool mps__solid_covers(const mps_sim *sim, const double *X)
+double mps__solid_clearance(const mps_sim *sim, const double *X)
 {
     bool within = !sim->lattice_of_solids;
-    for (int32_t k = 0; k < sim->solids; k++) {
-        double r;
-        if (!mps__distances_at(&sim->solid[k], X, &r)) continue;
-        if (r < (half_cell + 1e-6) * sim->world.setup.dp) return true;
-        within = true;
-    }
-    return !within;
+    double least = INFINITY, r;
+    for (int32_t k = 0; k < sim->solids; k++)
+        if (mps__distances_at(&sim->solid[k], X, &r)) {
+            least = fmin(least, r);
+            within = true;
+        }
+    return within ? least : -INFINITY;
+}
+
+bool mps__solid_covers(const mps_sim *sim, const double *X)
+{
+    return mps__solid_clearance(sim, X) < (half_cell + 1e-6) * sim->world.setup.dp;
 }
 
 /* ---- the box and what is there already ---- */

@@ -19,5 +19,7 @@ mps_status mps__solid_add(mps_sim *sim, const mps__solid *solid);
 /* Does a place of the tank's frame lie in a solid or nearer than dp/2 to one? Where solids alone make the lattice, places outside of
  * their boxes count as well. */
 bool mps__solid_covers(const mps_sim *sim, const double *X);
+/* Distance to the nearest solid of any shape [m]: < 0 in it, INFINITY far from all, -INFINITY outside of a lattice that solids have made. */
+double mps__solid_clearance(const mps_sim *sim, const double *X);
 
 #endif
