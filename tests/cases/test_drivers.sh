@@ -138,7 +138,7 @@ columns rayleigh_taylor 0.05 760 't[s],ytop[m],ybot[m],ke[J/m],x_tank[m],pe[J/m]
 columns rising_bubble 0.05 741 't[s],yc[m],v[m/s],circularity,ke[J/m],x_tank[m],pe[J/m]'
 columns droplet 0.001 361 't[s],dp[Pa],rx[m],ke[J/m],x_tank[m],pe[J/m]'
 columns air_cushion 0.02 931 't[s],x_slug[m],ke[J/m],x_tank[m],pe[J/m]'
-columns cylinder_tank 0.05 566 't[s],P_bottom[Pa],eta_middle[m],eta_left[m],F_x[N],F_y[N],ke[J],x_tank[m]'
+columns cylinder_tank 0.05 524 't[s],P_bottom[Pa],eta_middle[m],eta_left[m],F_x[N],F_y[N],ke[J],x_tank[m]'
 awk -F, 'NR == 2 && $2 > 0 {found = 1} END {exit !found}' static_tank/probes.csv || fail "static_tank/probes.csv has no pressure in the row of t = 0"
 
 # what the drivers of two phases begin with and end with

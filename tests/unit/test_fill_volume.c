@@ -135,7 +135,7 @@ static void level_over_slopes(void **state)
             ASSERT_OK(sim, mps_solid_add(sim, &solid));
             ASSERT_OK(sim, mps_fill_level_add(sim, 0, lo, hi, NULL, NULL));
             last_fill(&built, &asked);
-            ASSERT_NEAR(asked, exact, (dim == 3 ? 0.008 : 0.0005) * exact);
+            ASSERT_NEAR(asked, exact, (dim == 3 ? 0.004 : 0.0003) * exact);
             ASSERT_NEAR(built, asked, 0.51 * cell); /* the log has six digits */
             mps_sim_destroy(sim);
         }

@@ -44,6 +44,8 @@ mps_status mps__distances_make(mps__distances *f, mps__context *context, const m
 void mps__distances_free(mps__distances *f, mps__context *context);
 /* Linear between the lattice points. False outside of them. */
 bool mps__distances_at(const mps__distances *f, const double x[3], double *value);
+/* The same with sharp edges: where two faces meet, products of the distances along the axes would round the edge. */
+bool mps__distances_sharp(const mps__distances *f, const double x[3], double *value);
 void mps__distances_place(const mps__distances *f, int64_t point, double x[3]);
 
 /* What a vertex of a contour lies on. */

@@ -147,27 +147,93 @@ void mps__distances_place(const mps__distances *f, int64_t point, double x[3])
     }
 }
 
-bool mps__distances_at(const mps__distances *f, const double x[3], double *value)
+/* Points about a place: the lowest one, and the place between them, 0..1. */
+typedef struct between {
+    int64_t k[3];
+    double t[3];
+} between;
+
+static bool find_between(const mps__distances *f, const double x[3], between *b)
 {
-    int64_t k[3] = {0, 0, 0};
-    double t[3] = {0, 0, 0}, sum = 0;
+    *b = (between){.k = {0}};
     for (int d = 0; d < f->dim; d++) {
         const double q = (x[d] - f->lo[d]) / f->dp, last = (double)(f->n[d] - 1);
         if (!(q > -1e-6 && q < last + 1e-6)) return false;
-        k[d] = (int64_t)fmin(fmax(floor(q), 0), last - 1);
-        t[d] = fmin(fmax(q - (double)k[d], 0), 1);
+        b->k[d] = (int64_t)fmin(fmax(floor(q), 0), last - 1);
+        b->t[d] = fmin(fmax(q - (double)b->k[d], 0), 1);
     }
+    return true;
+}
+
+/* Place of a corner of the cell at k, by bits. */
+static int64_t corner_place(const mps__distances *f, const int64_t k[3], int corner)
+{
+    int64_t place = 0, stride = 1;
+    for (int d = 0; d < f->dim; d++) {
+        place += stride * (k[d] + (corner >> d & 1));
+        stride *= f->n[d];
+    }
+    return place;
+}
+
+bool mps__distances_at(const mps__distances *f, const double x[3], double *value)
+{
+    between b;
+    double sum = 0;
+    if (!find_between(f, x, &b)) return false;
     for (int corner = 0; corner < 1 << f->dim; corner++) {
         double weight = 1;
-        int64_t place = 0, stride = 1;
-        for (int d = 0; d < f->dim; d++) {
-            const int up = corner >> d & 1;
-            weight *= up ? t[d] : 1 - t[d];
-            place += stride * (k[d] + up);
-            stride *= f->n[d];
-        }
-        sum += weight * f->value[place];
+        for (int d = 0; d < f->dim; d++) weight *= corner >> d & 1 ? b.t[d] : 1 - b.t[d];
+        sum += weight * f->value[corner_place(f, b.k, corner)];
     }
     *value = sum;
+    return true;
+}
+
+/* Sum of the second differences at the corners of a cell: < 0 where faces meet about the liquid, > 0 where they meet about the solid. */
+static double bend(const mps__distances *f, const int64_t k[3])
+{
+    double sum = 0;
+    for (int corner = 0; corner < 1 << f->dim; corner++) {
+        const int64_t place = corner_place(f, k, corner);
+        int64_t stride = 1;
+        for (int d = 0; d < f->dim; d++) {
+            const int64_t at = k[d] + (corner >> d & 1);
+            if (at > 0 && at < f->n[d] - 1)
+                sum += f->value[place - stride] - 2 * f->value[place] + f->value[place + stride];
+            stride *= f->n[d];
+        }
+    }
+    return sum;
+}
+
+/* Linear in each of the simplices about the diagonal of the cell that begins at corner `from`. */
+static double along_diagonal(const mps__distances *f, const between *b, int from)
+{
+    double t[3], value = f->value[corner_place(f, b->k, from)];
+    int corner = from;
+    for (int d = 0; d < f->dim; d++) t[d] = from >> d & 1 ? 1 - b->t[d] : b->t[d];
+    for (int step = 0; step < f->dim; step++) { /* the axis with the largest way left is next */
+        int axis = -1;
+        for (int d = 0; d < f->dim; d++)
+            if ((corner >> d & 1) == (from >> d & 1) && (axis < 0 || t[d] > t[axis])) axis = d;
+        const int64_t here = corner_place(f, b->k, corner);
+        corner ^= 1 << axis;
+        value += t[axis] * (f->value[corner_place(f, b->k, corner)] - f->value[here]);
+    }
+    return value;
+}
+
+bool mps__distances_sharp(const mps__distances *f, const double x[3], double *value)
+{
+    between b;
+    if (!find_between(f, x, &b)) return false;
+    const bool about_liquid = bend(f, b.k) < 0;
+    double best = about_liquid ? -INFINITY : INFINITY;
+    for (int from = 0; from < 1 << (f->dim - 1); from++) {
+        const double v = along_diagonal(f, &b, from);
+        best = about_liquid ? fmax(best, v) : fmin(best, v);
+    }
+    *value = best;
     return true;
 }

@@ -34,21 +34,27 @@ static void work_free(work *w)
     mps__samples_free(&w->samples);
 }
 
-double mps__solid_clearance(const mps_sim *sim, const double *X)
+static double clearance(const mps_sim *sim, const double *X,
+                        bool (*at)(const mps__distances *f, const double x[3], double *value))
 {
     bool within = !sim->lattice_of_solids;
     double least = INFINITY, r;
     for (int32_t k = 0; k < sim->solids; k++)
-        if (mps__distances_at(&sim->solid[k], X, &r)) {
+        if (at(&sim->solid[k], X, &r)) {
             least = fmin(least, r);
             within = true;
         }
     return within ? least : -INFINITY;
 }
 
+double mps__solid_clearance(const mps_sim *sim, const double *X)
+{
+    return clearance(sim, X, mps__distances_sharp);
+}
+
 bool mps__solid_covers(const mps_sim *sim, const double *X)
 {
-    return mps__solid_clearance(sim, X) < (half_cell + 1e-6) * sim->world.setup.dp;
+    return clearance(sim, X, mps__distances_at) < (half_cell + 1e-6) * sim->world.setup.dp;
 }
 
 /* ---- the box and what is there already ---- */
