@@ -115,7 +115,7 @@ typedef struct mps_job_config {
     double row_interval;
     /** Interval of checkpoints [s]; default 0: only when interrupted. */
     double checkpoint;
-    /** Gravity [m/s2], by which pictures tell pressures from rounding; default 9.81. */
+    /** Gravity [m/s2], for the colour scale of pictures (picture.h); default 9.81. */
     double gravity;
     /** mps_probe.average of all wall pressures and forces, for summary.json; default
      *  MPS_AVERAGE_AUTO. */

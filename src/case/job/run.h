@@ -210,6 +210,12 @@ bool mps__resume_due(mps_job *job, double t);
 /* Write a checkpoint. All ranks make this call. */
 void mps__resume_save(mps_job *job);
 
+/* ---- colours.c ---- */
+
+/* Title, gravity and colour scale of all pictures. All ranks make this call, before a checkpoint is read: the scale is that of the case as it
+ * is built. */
+void mps__colours_begin(mps_job *job);
+
 /* ---- drawing.c ---- */
 
 /* What rank 0 finds due after a step, and all ranks then do. */

@@ -146,6 +146,8 @@ static bool allocate_rows(mps_job *job)
 /* Open all tables. @return false: a rank failed */
 static bool open_job(mps_job *job)
 {
+    if (!mps__job_agree(job)) return false; /* a rank that has failed hears nothing else */
+    if (!job->ran) mps__colours_begin(job);
     if (job->ran)
         mps__job_fail(job, MPS_EXIT_USAGE, "a job runs once; make another one");
     else if (allocate_rows(job) && job->config.resume)
