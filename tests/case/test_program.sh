@@ -172,6 +172,40 @@ last=$(awk -F, 'END { printf "%.9g", $5 }' swept/003/probes.csv)
 grep -q "^003,1 T1,10 mm,0,$most,$last," swept/sweep.csv || fail "not $most, $last: $(grep ^003 swept/sweep.csv)"
 expect 0 "" "$program" run single.yaml --set "motion.surge.period=1 T1" -o alone -q
 cmp alone/probes.csv swept/003/probes.csv || fail "a run of a sweep has other bytes than a run alone"
+# p3h and harmonic: those of 'mps stats', and of a fit of mean + a sin + b cos of its own
+sed '/^collect\|^sweep/d' sweep.yaml > fitted.yaml
+cat >> fitted.yaml << END
+sweep: {motion.surge.amplitude: 10 20 mm}
+impacts: {deviations: 0.5, window: 0.05 T1, least_events: 3, scale: 40, from: 1 s, until: 6 s}
+collect: [P_left.p3h, P_left.harmonic, F.harmonic, eta_left.harmonic]
+END
+expect 0 "" "$program" sweep fitted.yaml --set "dp=40 mm" --set "run.until=6.5 s" -o fitted -q
+head -1 fitted/sweep.csv | grep -qF 'exit,P_left.p3h[Pa],P_left.harmonic[Pa],F_x.harmonic[N/m],F_y.harmonic[N/m],F_m.harmonic[N m/m],eta_left' ||
+    fail "names of sweep.csv: $(head -1 fitted/sweep.csv)"
+for run in 001 002; do
+    expect 0 "" "$program" stats fitted/$run P_left
+    wanted=$(sed -n 's/.*"weibull".*"full_scale": \([-+.0-9e]*\),.*/\1/p' fitted/$run/statistics.json)
+    [ -n "$wanted" ] && [ "$(awk -F, -v run=$run '$1 == run { print $4 }' fitted/sweep.csv)" = "$wanted" ] ||
+        fail "p3h of run $run: not '$wanted': $(grep ^$run fitted/sweep.csv)"
+    omega=$(sed -n 's/.*"motion omega", "value": "\([.0-9]*\) rad.*/\1/p' fitted/$run/summary.json)
+    for column in P_left:5 F_x:6; do
+        awk -F, -v w="$omega" -v name="${column%%:*}" -v got="$(awk -F, -v run=$run -v k="${column#*:}" '$1 == run { print $k }' fitted/sweep.csv)" '
+            NR == 1 { for (k = 1; k <= NF; k++) if (index($k, name "[") == 1) at = k; next }
+            $1 >= 1 && $1 <= 6 && $at != "nan" {
+                f[0] = 1; f[1] = sin(w * $1); f[2] = cos(w * $1); f[3] = $at
+                for (i = 0; i < 3; i++) for (j = 0; j < 4; j++) m[i, j] += f[i] * f[j] }
+            END {
+                for (i = 0; i < 3; i++) for (r = 0; r < 3; r++) if (r != i) {
+                    q = m[r, i] / m[i, i]
+                    for (j = 0; j < 4; j++) m[r, j] -= q * m[i, j] }
+                a = m[1, 3] / m[1, 1]; b = m[2, 3] / m[2, 2]; e = sqrt(a * a + b * b)
+                exit !(e > 0 && (got / e - 1) ^ 2 < 1e-12) }' fitted/$run/probes.csv ||
+            fail "harmonic of ${column%%:*}, run $run: $(grep ^$run fitted/sweep.csv)"
+    done
+done
+expect 2 "is no pressure" "$program" sweep fitted.yaml --set "collect=[eta_left.p3h]" --set "run.until=0.05 s" -o no_pressure -q
+expect 0 "" "$program" sweep fitted.yaml --set "collect=[P_left.p3h, F.harmonic]" --set "run.until=0.05 s" --set "impacts.from=0 s" -o short -q
+grep -q "^001,10 mm,0,nan,nan,nan,nan$" short/sweep.csv || fail "sweep.csv of short runs: $(cat short/sweep.csv)"
 cp swept/sweep.csv before.csv
 rm -r swept/002
 expect 0 "swept/001: is done already" "$program" sweep sweep.yaml -o swept -j 1
@@ -183,9 +217,27 @@ grep -q "^002,5 m,3,nan,nan" bad/sweep.csv || fail "sweep.csv of a failed run: $
 expect 0 "2 of 3 runs were built with the dp of an earlier one" "$program" repeat single.yaml -n 3 -o same -q
 expect 0 "largest value of" "$program" repeat single.yaml --set "dp=5 mm" --set "run.until=0.01 s" -n 3 -o repeated -q
 grep -q "^P_left \[Pa\]  *3 " log || fail "repeat: $(cat log)"
+# repeat.csv: the values of the runs, their mean, least and largest
+[ "$(head -1 repeated/repeat.csv)" = "largest value of,unit,runs,mean,least,most,deviation,mean_band,next_band,001,002,003" ] ||
+    fail "repeat.csv: $(cat repeated/repeat.csv)"
+awk -F, '/^dp,m,,,,,,,/ { ok += $10 < $11 && $11 < $12 && $10 > 0.0049 && $12 < 0.0051 }
+    /^P_left,Pa,3,/ { m = ($10 + $11 + $12) / 3; d = sqrt((($10 - m) ^ 2 + ($11 - m) ^ 2 + ($12 - m) ^ 2) / 2)
+        least = most = $10; for (k = 11; k <= 12; k++) { if ($k < least) least = $k; if ($k > most) most = $k }
+        ok += ($4 / m - 1) ^ 2 < 1e-14 && $5 == least && $6 == most && ($7 - d) ^ 2 <= (1e-5 * d) ^ 2 && $8 > 0 && $9 > $8 }
+    END { exit !(ok == 2) }' repeated/repeat.csv || fail "repeat.csv: $(cat repeated/repeat.csv)"
 grep -q "^dp: 4.975 mm" repeated/001/case.yaml && grep -q "^dp: 5.025 mm" repeated/003/case.yaml || fail "dp of repeat"
 expect 0 "order" "$program" converge single.yaml -o converged -q
 grep -q "^ke " log || fail "converge: $(cat log)"
+# converge.csv: the largest values of the three runs, order and band as printed
+[ "$(head -1 converged/converge.csv)" = "largest value of,unit,coarse,middle,fine,change,order,limit,band,kind" ] ||
+    fail "converge.csv: $(cat converged/converge.csv)"
+most() { awk -F, -v name="$2" 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == name) at = k; next } !n++ || $at > m { m = $at } END { printf "%.9g", m }' "$1"; }
+three=$(most converged/001/probes.csv 'P_left[Pa]'),$(most converged/002/probes.csv 'P_left[Pa]'),$(most converged/003/probes.csv 'P_left[Pa]')
+grep -q "^P_left,Pa,$three," converged/converge.csv || fail "converge.csv has not $three: $(grep ^P_left converged/converge.csv)"
+grep -qE "^dp,m,0[.0-9]*,0[.0-9]*,0[.0-9]*,,,,,$" converged/converge.csv || fail "dp of converge.csv"
+awk '/^P_left/ { print $6, $7, $8 }' log > printed
+awk -F, 'NR == FNR { split($0, p, " "); next } /^P_left/ { exit !(sprintf("%.3g", $6) == p[1] && sprintf("%.3g", $7) == p[2] && sprintf("%.3g", $9) == p[3]) }' \
+    printed converged/converge.csv || fail "converge.csv is not as printed: $(cat printed) $(grep ^P_left converged/converge.csv)"
 grep -q "^dp: 40 mm" converged/001/case.yaml && grep -q "^dp: 20 mm" converged/003/case.yaml || fail "dp of converge"
 
 # a sweep that is interrupted stops, and goes on
