@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Pictures of a job: one scale of colours, which follows from the case alone, so that a run that was stopped has those of a whole one. */
 #include "job_fixture.h"
+#include "../post/picture_fixture.h"
 
 enum { SPLASH = 1 << 20 };
 
@@ -127,9 +128,81 @@ static void scale_follows_from_the_case(void **state)
     }
 }
 
+/* A number of summary.json. */
+static double summary_number(const char *folder, const char *key)
+{
+    char text[64];
+    snprintf(text, sizeof text, "\"%s\": ", key);
+    const char *found = strstr(text_of(folder, "summary.json"), text);
+    if (!found) fail_msg("summary.json has no '%s'", key);
+    return strtod(found + strlen(text), NULL);
+}
+
+/* Pixels that differ by more than rounding of single precision, which may shift the bar on the right by one. */
+static int count_others(const char *first, const char *second)
+{
+    const sheet a = read_sheet(first), b = read_sheet(second);
+    int others = 0;
+    assert_true(a.width == b.width && a.height == b.height);
+    for (int k = 0; k < a.width * a.height; k++)
+        for (int c = 0; c < 24 && k % a.width < a.width * 7 / 8; c += 8)
+            others += abs((int)(a.pixel[k] >> c & 255) - (int)(b.pixel[k] >> c & 255)) > 2;
+    free(a.pixel);
+    free(b.pixel);
+    return others;
+}
+
+/* A tank that begins displaced and turned: places, boxes and pictures are in its own frame, whether a picture shows the state or its frame. */
+static void displaced_tanks_keep_their_marks(void **state)
+{
+    (void)state;
+    const double lo[2] = {0}, hi[2] = {0.4, 0.2}, quarter = acos(0.0);
+    const mps_harmonic moves[2] = {
+        {.dof = MPS_MOVE_X, .amplitude = 0.3, .omega = 2, .phase = quarter},
+        {.dof = MPS_ROTATE_Z, .amplitude = 0.2, .omega = 3, .phase = quarter}};
+    char error[300], path[] = "displaced/again.png";
+    mps_job_config c = config_of("displaced");
+    mps_picture_config picture;
+    mps_probe probe;
+    c.frames = 2;
+    c.report = 1;
+    mps_job *job = job_of(&c);
+    mps_sim *sim = new_sim(2, 0.04);
+    add_tank(sim, 0.4, 0.4, 0);
+    ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, NULL));
+    assert_int_equal(mps_probe_init(&probe, sizeof probe), MPS_OK);
+    probe.type = MPS_PROBE_WALL_PRESSURE;
+    probe.at[1] = 0.12;
+    assert_int_equal(mps_job_probe_add(job, sim, &probe, 0, 0, "P1", NULL), MPS_OK);
+    ASSERT_OK(sim, mps_motion_harmonics_set(sim, 2, moves));
+    assert_int_equal(mps_job_run(job, sim), MPS_EXIT_OK);
+    mps_sim_destroy(sim);
+    mps_job_destroy(job);
+    ASSERT_NEAR(summary_number("displaced", "tank_lo_x"), 0, 1e-12);
+    ASSERT_NEAR(summary_number("displaced", "tank_lo_y"), 0, 1e-12);
+    ASSERT_NEAR(summary_number("displaced", "tank_size_x"), 0.4, 1e-12);
+    ASSERT_NEAR(summary_number("displaced", "tank_size_y"), 0.4, 1e-12);
+    ASSERT_NEAR(summary_number("displaced", "liquid_depth"), 0.2, 0.021);
+    assert_int_equal(mps_picture_config_init(&picture, sizeof picture), MPS_OK);
+    picture.error = error;
+    picture.error_size = sizeof error;
+    if (mps_picture_frame_save("displaced", -1, &picture, path) != MPS_OK) fail_msg("%s", error);
+    assert_int_equal(count_others("displaced/picture_end.png", path), 0);
+    /* the film of the page has the poses */
+    const char *poses = strstr(text_of("displaced", "report.html"), "\"poses\": [");
+    double turn, x;
+    assert_non_null(poses);
+    assert_int_equal(
+        sscanf(poses, "\"poses\": [ [%lf, %*f, %*f, %*f, %*f, %*f, %*f, %*f, %*f, %lf", &turn, &x),
+        2);
+    ASSERT_NEAR(turn, cos(0.2), 1e-5);
+    ASSERT_NEAR(x, 0.3, 1e-5);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(stops_change_no_picture),
+                                       cmocka_unit_test(displaced_tanks_keep_their_marks),
                                        cmocka_unit_test(scale_follows_from_the_case)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -147,7 +147,10 @@ static bool allocate_rows(mps_job *job)
 static bool open_job(mps_job *job)
 {
     if (!mps__job_agree(job)) return false; /* a rank that has failed hears nothing else */
-    if (!job->ran) mps__colours_begin(job);
+    if (!job->ran) {
+        mps__colours_begin(job);
+        mps__job_boxes(job);
+    }
     if (job->ran)
         mps__job_fail(job, MPS_EXIT_USAGE, "a job runs once; make another one");
     else if (allocate_rows(job) && job->config.resume)
@@ -157,7 +160,6 @@ static bool open_job(mps_job *job)
     job->totals.fluid = mps_particles_count(job->sim, MPS_FLUID);
     job->totals.wall = mps_particles_count(job->sim, MPS_WALL);
     job->totals.dummy = mps_particles_count(job->sim, MPS_DUMMY);
-    mps__job_boxes(job);
     if (mps__job_first(job)) mps__job_open_tables(job);
     return mps__job_agree(job);
 }

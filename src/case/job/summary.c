@@ -110,6 +110,10 @@ static void summary_boxes(FILE *out, const mps_job *job)
             json_number(out, size[d], job->walls.hi[d] - job->walls.lo[d]);
         }
     json_number(out, "liquid_depth", mps__job_depth(job));
+    fputs(",\n  \"tank_start\": [", out); /* R, row by row, and s of x = R X + s */
+    for (int k = 0; k < 9; k++) fprintf(out, "%.17g, ", job->built.turn[k]);
+    fprintf(out, "%.17g, %.17g, %.17g]", job->built.shift[0], job->built.shift[1],
+            job->built.shift[2]);
 }
 
 /* What each column of probes.csv is, and where. */
