@@ -160,6 +160,9 @@ typedef struct mps_job_config {
     char *error;
     /** Bytes at `error`. */
     size_t error_size;
+    /** Spacing as asked for [m], >= 0, for summary.json and messages: the first tank changes
+     *  mps_config.dp. Default 0: not told. */
+    double dp;
 } mps_job_config;
 
 /** Set every entry to its default. @param size  sizeof(mps_job_config) @return MPS_E_ARG: bad

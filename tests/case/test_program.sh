@@ -50,6 +50,25 @@ for name in tank lng roll ship; do
 done
 "$program" check tank.yaml | grep -q "T1 1.41[78] s" || fail "T1 of 1 m, 0.24 m"
 "$program" check tank.yaml --set fill.water.depth=50% | grep -q "T1 1.319 s" || fail "T1 of 1 m, 0.3 m"
+# T1 leaves out solids: those that stand in the surface are named, with the period of 0.6 m; those below it are not
+expect 0 "without the solids" "$program" check tank.yaml --set "dp=20 mm" --set "solids={high: {plate: [0.4 0 m, 0.4 0.4 m]}, low: {plate: [0.7 0 m, 0.7 0.1 m]}}"
+grep -q "^surface *solid 'high' stands in it, x = 0.4 m$" log || fail "surface: $(cat log)"
+grep -q "the longest open stretch, 0.6 m, is 0.9508 s" log || fail "open stretch: $(cat log)"
+grep -q "solid 'low'" log && fail "a solid below the surface stands in it"
+expect 0 "T1 1.418 s" "$program" check tank.yaml --set "dp=20 mm" --set "solids={low: {plate: [0.7 0 m, 0.7 0.1 m]}}"
+grep -q "^surface" log && fail "a solid below the surface: $(cat log)"
+expect 0 "x = 0.4 .. 0.5 m, not from side to side" "$program" check tank.yaml --set "dim=3" --set "dp=50 mm" --set "tank.size=1 0.6 0.5 m" \
+    --set "solids={post: {box: [0.4 0 0.2 m, 0.5 0.4 0.3 m]}}"
+grep -q "open stretch" log && fail "a post closes no surface"
+expect 0 "without the fluid above" "$program" check tank.yaml --set "dp=50 mm" --set "fill=[{water: {depth: 40 %}}, {air: rest}]" --set "model=mmps"
+# dp as asked for, as built, and cells
+expect 0 "dp 20 mm asked for, 19.9 mm built in cells of 19.8 mm x 20 mm," "$program" check tank.yaml --set "dp=20 mm" --set "tank.size=1.01 0.6 m"
+expect 0 "2-D, dp 20 mm, gravity" "$program" check tank.yaml --set "dp=20 mm"
+expect 0 "dp 0.0199017 m (0.02 m asked for, cells 0.0198039 x 0.02 m)," "$program" run tank.yaml --set "dp=20 mm" --set "tank.size=1.01 0.6 m" \
+    --set "run.until=0.01 s" --set "output.frames=0" -o cells
+grep -q '"dp": 0.01990171[0-9]*,' cells/summary.json && grep -q '"dp_asked": 0.02,' cells/summary.json &&
+    grep -q '"lattice": \[0.0198039[0-9]*, 0.02[0-9]*\]' cells/summary.json || fail "spacings of summary.json: $(grep -A3 '"dp"' cells/summary.json)"
+grep -q "19.8 mm x 20 mm" cells/report.html || fail "spacings on the page"
 
 for list in cases keys models settings solvers units measures; do
     [ "$("$program" list $list | wc -l)" -gt 3 ] || fail "list $list"

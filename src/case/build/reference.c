@@ -236,7 +236,8 @@ void mps__build_inputs(build *b)
     if (b->modes.count > 0) {
         snprintf(text, sizeof text, "%.9g s", b->modes.period[0]);
         add_input(b, "T1", text);
-        add_input(b, "T1 by", b->modes.how);
+        snprintf(text, sizeof text, "%s%s", b->modes.how, mps__modes_without(b));
+        add_input(b, "T1 by", text);
     }
     const double omega = motion_omega(b->motion);
     if (isfinite(omega)) {
