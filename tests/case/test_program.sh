@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The program mps: each verb, exit codes, an interrupted run.
 # usage: test_program.sh PROGRAM CASES
-program=$1 cases=$2
+program=$1 cases=$2 script=$(realpath "$0")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
@@ -165,6 +165,15 @@ end=$(awk -v t="$last" 'BEGIN { printf "%.3f", t + 0.2 }') # the last steps befo
 expect 0 "" "$program" resume cut --set "run.until=$end s" -q
 expect 0 "" "$program" run tank.yaml --set "run.until=$end s" --set output.frames=0 -o whole -q
 cmp cut/probes.csv whole/probes.csv || fail "a continued run has other bytes"
+
+# paraview.py asks ParaView for the arrays of the frames, their times, spheres of dp and the scale of the pictures; the camera shows the tank
+if command -v python3 > /dev/null; then
+    here=$(dirname "$script")
+    expect 0 "" python3 "$here/check_paraview.py" run
+    expect 0 "" "$program" run tank.yaml --set "dp=40 mm" --set "run.until=0.1 s" --set "output.frames=2" -o away -q \
+        --set "motion={surge: {amplitude: 0.3 m, period: 10000 s, phase: 90 deg}}"
+    expect 0 "" python3 "$here/check_paraview.py" away 0.3 0
+fi
 
 # several runs of one case: a table, skipped when done, refused where it cannot be
 cat > sweep.yaml << END
