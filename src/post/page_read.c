@@ -44,7 +44,9 @@ mps_status mps__page_file(page_errors *e, const char *path, int64_t most, char *
     *out = NULL;
     FILE *file = fopen(path, "rb");
     if (!file && errno == ENOENT) return MPS_E_NAME;
+    if (!file && errno == ENOMEM) return no_memory(e);
     if (!file) return mps__page_fail(e, MPS_E_IO, "cannot open '%s': %s", path, strerror(errno));
+    setvbuf(file, NULL, _IONBF, 0); /* it is read at once */
     const long length = size_of(file);
     mps_status status = MPS_OK;
     if (length < 0)

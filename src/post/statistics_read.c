@@ -102,6 +102,8 @@ static mps_status read_folder(const char *folder, mps_stats_config *config)
     double end = mps__page_number(&r, "t_end");
     if (status == MPS_E_NAME)
         status = read_end(config, folder, &end);
+    else if (status == MPS_E_NOMEM)
+        mps__stats_no_memory(config);
     else if (status != MPS_OK)
         mps__stats_fail(config, status, "%s", text);
     if (status == MPS_OK) status = mps__stats_take(&r, end, &taken);
