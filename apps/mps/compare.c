@@ -3,6 +3,7 @@
 #include "cli.h"
 #include "record.h"
 #include <math.h>
+#include <mps/stats.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -73,11 +74,22 @@ static int compare_two(mps_stats_config *config, const record *a, const record *
     return compared;
 }
 
+/* That of the first run that knows one [s]. */
+static double find_period(const choices *c, const mps_stats_config *config, const record *all)
+{
+    double period = NAN;
+    for (int32_t k = 0; k < c->files && isnan(period); k++) {
+        mps_stats_config own = *config;
+        if (all[k].is_folder && mps_stats_config_read(all[k].place, &own) == MPS_OK)
+            period = own.period;
+    }
+    return period;
+}
+
 /* Each run against the first one and, where the last argument is a file, against this reference. */
 static int compare_all(const choices *c, mps_stats_config *config, const record *all)
 {
-    for (int32_t k = 0; k < c->files && isnan(config->period); k++)
-        config->period = record_input_number(&all[k], "T1");
+    config->period = find_period(c, config, all);
     const int32_t last = c->files - 1, runs = all[last].is_folder ? c->files : last;
     for (int32_t k = 0; k < c->files; k++) {
         const bool reference = k == last && !all[k].is_folder;

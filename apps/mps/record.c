@@ -6,7 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-enum { PATH_ROOM = 4096, WORD_ROOM = 64, SUMMARY_MOST = 64 << 20 };
+enum { PATH_ROOM = 4096, WORD_ROOM = 64 };
 
 bool record_path(const char *folder, const char *name, char *out, size_t size)
 {
@@ -21,63 +21,6 @@ static mps_status fail(const mps_stats_config *config, mps_status status, const 
     return status;
 }
 
-/* ---- summary.json ---- */
-
-/* The text of summary.json. A run that still goes on has none. */
-static mps_status read_summary(const mps_stats_config *config, record *r)
-{
-    char path[PATH_ROOM];
-    struct stat status;
-    if (!record_path(r->place, "summary.json", path, sizeof path))
-        return fail(config, MPS_E_ARG, r->place, "the name is too long");
-    FILE *file = fopen(path, "rb");
-    if (!file) return MPS_OK;
-    if (fstat(fileno(file), &status) != 0 || status.st_size < 0 || status.st_size > SUMMARY_MOST) {
-        fclose(file);
-        return fail(config, MPS_E_IO, path, "cannot be read");
-    }
-    const size_t size = (size_t)status.st_size;
-    r->summary = malloc(size + 1);
-    const size_t got = r->summary ? fread(r->summary, 1, size, file) : 0;
-    if (r->summary) r->summary[got] = '\0';
-    fclose(file);
-    if (!r->summary) return fail(config, MPS_E_NOMEM, path, "no memory");
-    return got == size ? MPS_OK : fail(config, MPS_E_IO, path, "cannot be read to its end");
-}
-
-/* What stands behind a text. Within a JSON string a quote has a backslash, so a text with quotes is only found outside. */
-static const char *behind(const record *r, const char *text)
-{
-    const char *at = r->summary ? strstr(r->summary, text) : NULL;
-    return at ? at + strlen(text) : NULL;
-}
-
-static double number_at(const char *text)
-{
-    char *end = NULL;
-    const double value = text ? strtod(text, &end) : NAN;
-    return end != text && isfinite(value) ? value : NAN;
-}
-
-double record_number(const record *r, const char *key)
-{
-    char text[WORD_ROOM + 8];
-    snprintf(text, sizeof text, "\n  \"%.*s\": ", WORD_ROOM - 1, key);
-    return number_at(behind(r, text));
-}
-
-const char *record_input(const record *r, const char *key)
-{
-    char text[WORD_ROOM + 32];
-    snprintf(text, sizeof text, "{\"key\": \"%.*s\", \"value\": \"", WORD_ROOM - 1, key);
-    return behind(r, text);
-}
-
-double record_input_number(const record *r, const char *key)
-{
-    return number_at(record_input(r, key));
-}
-
 /* ---- the table ---- */
 
 mps_status record_read(const mps_stats_config *config, const char *place, record *r)
@@ -90,15 +33,12 @@ mps_status record_read(const mps_stats_config *config, const char *place, record
     r->is_folder = S_ISDIR(status.st_mode);
     if (r->is_folder && !record_path(place, "probes.csv", path, sizeof path))
         return fail(config, MPS_E_ARG, place, "the name is too long");
-    mps_status code = mps_table_read(config, r->is_folder ? path : place, 0, NULL, &r->table);
-    if (code == MPS_OK && r->is_folder) code = read_summary(config, r);
-    return code;
+    return mps_table_read(config, r->is_folder ? path : place, 0, NULL, &r->table);
 }
 
 void record_free(record *r)
 {
     mps_table_destroy(r->table);
-    free(r->summary);
     *r = (record){0};
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a run has left in its folder: columns of probes.csv, numbers of summary.json. */
+/* What a run has left in its folder: columns of probes.csv. */
 #ifndef MPS_APPS_RECORD_H
 #define MPS_APPS_RECORD_H
 
@@ -11,7 +11,6 @@ typedef struct record {
     const char *place; /* folder or file, as given */
     bool is_folder;
     mps_table *table;
-    char *summary; /* text of summary.json, NULL: there is none */
 } record;
 
 /* "folder/name" into out. @return false: it has no room */
@@ -25,11 +24,5 @@ int32_t record_find(const record *r, const char *name);
 const char *record_nearest(const record *r, const char *name);
 /* Last time of the table, NAN without rows. */
 double record_end(const record *r);
-/* A number of summary.json, such as "t_end"; NAN: there is none. */
-double record_number(const record *r, const char *key);
-/* Text of an input of the case, such as "impacts.window", up to a quote. NULL: there is none. */
-const char *record_input(const record *r, const char *key);
-/* Its number in SI: inputs are kept as "1.418 s". NAN: there is none. */
-double record_input_number(const record *r, const char *key);
 
 #endif

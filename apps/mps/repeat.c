@@ -1,10 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* mps repeat, mps converge: the same case with several dp. */
 #include "series.h"
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
-enum { REPEAT_MOST = 100, REPEAT_COUNT = 5, SPACINGS = 3, NAME_SIZE = 80 };
+enum {
+    REPEAT_MOST = 100,
+    REPEAT_COUNT = 5,
+    SPACINGS = 3,
+    NAME_SIZE = 80,
+    PATH_SIZE = SERIES_PATH + 32
+};
 
 /* Runs of one case differ by rounding alone; dp within this share gives others of the same flow. */
 static const double SPREAD = 0.005;
@@ -24,24 +32,86 @@ static void name_of(const mps_table *rows, int32_t column, char out[NAME_SIZE])
     snprintf(out, NAME_SIZE, unit[0] ? "%s [%s]" : "%s", mps_table_name(rows, column), unit);
 }
 
+/* Values of all runs, and a row of the table: mean and bands of the largest value of a column. */
+typedef struct figures {
+    int32_t count;
+    double value[REPEAT_MOST];
+    mps_repeat r;
+} figures;
+
+/* @return false: no run has a value */
+static bool find_figures(figures *f, int32_t count, mps_table *const *rows, int32_t column)
+{
+    mps_stats_config config;
+    mps_stats_config_init(&config, sizeof config);
+    mps_repeat_init(&f->r, sizeof f->r);
+    f->count = count;
+    for (int32_t k = 0; k < count; k++) f->value[k] = series_most(rows[k], column);
+    return mps_repeat_find(&config, count, f->value, &f->r) == MPS_OK;
+}
+
 static void print_repeat(int32_t count, mps_table *const *rows)
 {
     const mps_table *first = first_of(count, rows);
-    double value[REPEAT_MOST];
     char name[NAME_SIZE];
-    mps_stats_config config;
-    mps_stats_config_init(&config, sizeof config);
+    figures f;
     printf("%-28s %4s %12s %12s %12s %12s %12s\n", "largest value of", "runs", "mean", "least",
            "most", "90 % mean", "90 % next");
     for (int32_t j = 0; j < mps_table_columns(first); j++) {
-        mps_repeat r;
-        mps_repeat_init(&r, sizeof r);
-        for (int32_t k = 0; k < count; k++) value[k] = series_most(rows[k], j);
-        if (mps_repeat_find(&config, count, value, &r) != MPS_OK) continue;
+        if (!find_figures(&f, count, rows, j)) continue;
         name_of(first, j, name);
-        printf("%-28s %4d %12.5g %12.5g %12.5g %12.3g %12.3g\n", name, (int)r.count, r.mean,
-               r.least, r.most, r.mean_band, r.next_band);
+        printf("%-28s %4d %12.5g %12.5g %12.5g %12.3g %12.3g\n", name, (int)f.r.count, f.r.mean,
+               f.r.least, f.r.most, f.r.mean_band, f.r.next_band);
     }
+}
+
+/* repeat.csv: a row for each column that has values, behind the spacings as built. A run that does not count has nan. */
+static void write_repeat(FILE *out, int32_t count, mps_table *const *rows, const double *dp)
+{
+    const mps_table *first = first_of(count, rows);
+    figures f;
+    fputs("largest value of,unit,runs,mean,least,most,deviation,mean_band,next_band", out);
+    for (int32_t k = 0; k < count; k++) fprintf(out, ",%03d", (int)k + 1);
+    fputs("\ndp,m,,,,,,,", out);
+    for (int32_t k = 0; k < count; k++) fprintf(out, ",%.9g", rows[k] ? dp[k] : NAN);
+    fputc('\n', out);
+    for (int32_t j = 0; j < mps_table_columns(first); j++) {
+        if (!find_figures(&f, count, rows, j)) continue;
+        fprintf(out, "%s,%s,%d,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g", mps_table_name(first, j),
+                mps_table_unit(first, j), (int)f.r.count, f.r.mean, f.r.least, f.r.most,
+                f.r.deviation, f.r.mean_band, f.r.next_band);
+        for (int32_t k = 0; k < count; k++) fprintf(out, ",%.9g", f.value[k]);
+        fputc('\n', out);
+    }
+}
+
+/* Close a table of the verb. @return exit code: `code`, or that of a file that is not written */
+static int close_table(const choices *c, FILE *out, const char *path, int code)
+{
+    bool good = out && !ferror(out);
+    if (out && fclose(out) != 0) good = false;
+    if (good && !c->quiet) fprintf(stderr, "mps %s: %s\n", c->verb, path);
+    if (good) return code;
+    fprintf(stderr, "mps %s: %s: %s\n", c->verb, path, strerror(errno));
+    return code == MPS_EXIT_OK ? MPS_EXIT_FAILED : code;
+}
+
+/* "DIR/repeat.csv" */
+static FILE *open_table(const choices *c, char path[PATH_SIZE])
+{
+    char place[SERIES_PATH];
+    series_place(c, place);
+    snprintf(path, PATH_SIZE, "%s/%s.csv", place, c->verb);
+    return fopen(path, "w");
+}
+
+static int save_repeat(const choices *c, int32_t count, mps_table *const *rows, const double *dp,
+                       int code)
+{
+    char path[PATH_SIZE];
+    FILE *out = open_table(c, path);
+    if (out) write_repeat(out, count, rows, dp);
+    return close_table(c, out, path, code);
 }
 
 /* A tank that is filled with whole spacings gives the same dp for several that were asked for: the same run, which counts once. */
@@ -74,33 +144,64 @@ int verb_repeat(const choices *c)
         return MPS_EXIT_USAGE;
     }
     for (int32_t k = 0; k < count; k++) factor[k] = 1 + SPREAD * (2.0 * k / (count - 1) - 1);
-    const int code = series_of_dp(c, count, factor, rows, dp);
+    int code = series_of_dp(c, count, factor, rows, dp);
     drop_same(count, rows, dp);
-    if (code != MPS_EXIT_INTERRUPTED && first_of(count, rows)) print_repeat(count, rows);
+    if (code != MPS_EXIT_INTERRUPTED && first_of(count, rows)) {
+        print_repeat(count, rows);
+        code = save_repeat(c, count, rows, dp, code);
+    }
     for (int32_t k = 0; k < count; k++) mps_table_destroy(rows[k]);
     return code;
 }
 
-/* Runs are from coarse to fine, spacings of the library from fine to coarse. */
-static void print_converge(mps_table *const *rows, const double *dp)
+static const char *const KIND[] = {"monotone", "slow", "oscillating", "same"};
+
+/* Runs are from coarse to fine, spacings of the library from fine to coarse. @return false: a run has no value */
+static bool find_order(mps_table *const *rows, const double *dp, int32_t column,
+                       double value[SPACINGS], mps_convergence *r)
 {
-    static const char *const kind[] = {"monotone", "slow", "oscillating", "same"};
     const double spacing[SPACINGS] = {dp[2], dp[1], dp[0]};
-    char name[NAME_SIZE];
     mps_stats_config config;
     mps_stats_config_init(&config, sizeof config);
+    mps_convergence_init(r, sizeof *r);
+    for (int32_t k = 0; k < SPACINGS; k++) value[k] = series_most(rows[2 - k], column);
+    return mps_converge(&config, spacing, value, r) == MPS_OK;
+}
+
+static void print_converge(mps_table *const *rows, const double *dp)
+{
+    char name[NAME_SIZE];
     printf("%-28s %12s %12s %12s %10s %7s %10s %s\n", "largest value of", "coarse", "middle",
            "fine", "change", "order", "band", "kind");
     for (int32_t j = 0; j < mps_table_columns(rows[2]); j++) {
         double value[SPACINGS];
         mps_convergence r;
-        mps_convergence_init(&r, sizeof r);
-        for (int32_t k = 0; k < SPACINGS; k++) value[k] = series_most(rows[2 - k], j);
-        if (mps_converge(&config, spacing, value, &r) != MPS_OK) continue;
+        if (!find_order(rows, dp, j, value, &r)) continue;
         name_of(rows[2], j, name);
         printf("%-28s %12.5g %12.5g %12.5g %10.3g %7.3g %10.3g %s\n", name, value[2], value[1],
-               value[0], value[0] - value[1], r.order, r.band, kind[r.kind]);
+               value[0], value[0] - value[1], r.order, r.band, KIND[r.kind]);
     }
+}
+
+/* converge.csv: a row for each column, behind the spacings as built. */
+static int save_converge(const choices *c, mps_table *const *rows, const double *dp)
+{
+    char path[PATH_SIZE];
+    FILE *out = open_table(c, path);
+    if (out)
+        fprintf(out,
+                "largest value of,unit,coarse,middle,fine,change,order,limit,band,kind\n"
+                "dp,m,%.9g,%.9g,%.9g,,,,,\n",
+                dp[0], dp[1], dp[2]);
+    for (int32_t j = 0; out && j < mps_table_columns(rows[2]); j++) {
+        double value[SPACINGS];
+        mps_convergence r;
+        if (!find_order(rows, dp, j, value, &r)) continue;
+        fprintf(out, "%s,%s,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%s\n", mps_table_name(rows[2], j),
+                mps_table_unit(rows[2], j), value[2], value[1], value[0], value[0] - value[1],
+                r.order, r.limit, r.band, KIND[r.kind]);
+    }
+    return close_table(c, out, path, MPS_EXIT_OK);
 }
 
 int verb_converge(const choices *c)
@@ -117,6 +218,8 @@ int verb_converge(const choices *c)
     } else if (rows[0] && rows[1] && rows[2]) {
         printf("dp as built: %g, %g, %g m\n", dp[0], dp[1], dp[2]);
         print_converge(rows, dp);
+        const int saved = save_converge(c, rows, dp);
+        if (code == MPS_EXIT_OK) code = saved;
     }
     for (int32_t k = 0; k < SPACINGS; k++) mps_table_destroy(rows[k]);
     return code;

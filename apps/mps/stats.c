@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { HIGHEST = 10, PATH_ROOM = 4096, COUNT_MOST = 1000000 };
+enum { HIGHEST = 10, PATH_ROOM = 4096 };
 
 /* The signals of a run and their impacts. */
 typedef struct signals {
@@ -19,69 +19,7 @@ typedef struct signals {
     mps_impacts **impacts;
 } signals;
 
-/* ---- constants ---- */
-
-/* Natural period of the liquid in a box [s]; NAN: not known. */
-static double natural_period(const record *r)
-{
-    const double k = acos(-1.0) / record_number(r, "tank_size_x");
-    const double g = record_number(r, "gravity"), h = record_number(r, "liquid_depth");
-    const double period = 2 * acos(-1.0) / sqrt((isfinite(g) ? g : 9.81) * k * tanh(k * h));
-    return isfinite(period) ? period : NAN; /* infinite without gravity */
-}
-
-/* Those of the case; else what the run itself tells, as in report.html. */
-static void take_constants(const record *r, mps_stats_config *c)
-{
-    const struct {
-        const char *key;
-        double *value;
-    } member[] = {{"T1", &c->period},
-                  {"impacts.from", &c->from},
-                  {"impacts.until", &c->until},
-                  {"impacts.rate", &c->rate},
-                  {"impacts.high_pass", &c->high_pass},
-                  {"impacts.threshold", &c->threshold},
-                  {"impacts.deviations", &c->deviations},
-                  {"impacts.window", &c->window},
-                  {"impacts.share", &c->share},
-                  {"impacts.confidence", &c->confidence},
-                  {"impacts.exposure", &c->exposure},
-                  {"impacts.exposure_ratio", &c->exposure_ratio},
-                  {"impacts.dependence", &c->dependence},
-                  {"impacts.scale", &c->length_scale},
-                  {"impacts.density_ratio", &c->density_ratio}};
-    const double end = record_end(r), crossing = record_number(r, "sensor_average_most");
-    c->period = natural_period(r);
-    if (end > 0) c->from = 0.005 * end; /* the impulse of the start is no impact */
-    if (isfinite(crossing)) c->crossing_time = crossing;
-    for (size_t k = 0; k < sizeof member / sizeof member[0]; k++) {
-        const double value = record_input_number(r, member[k].key);
-        if (isfinite(value)) *member[k].value = value;
-    }
-    const double least = record_input_number(r, "impacts.least_events");
-    const double resamples = record_input_number(r, "impacts.resamples");
-    const double seed = record_input_number(r, "impacts.seed");
-    if (least >= 2 && least <= COUNT_MOST) c->least_events = (int32_t)least;
-    if (resamples >= 0 && resamples <= COUNT_MOST) c->resamples = (int32_t)resamples;
-    if (seed >= 0 && seed <= COUNT_MOST) c->seed = (uint64_t)seed;
-    if (isnan(c->window) && isnan(c->period)) c->window = 0.02 * end;
-}
-
 /* ---- columns ---- */
-
-/* True if the case asks for this sensor, or for none by name: "P1; P2". */
-static bool is_wanted(const record *r, const char *name)
-{
-    const char *list = record_input(r, "impacts.sensors");
-    const size_t length = strlen(name);
-    for (const char *at = list; at && *at && *at != '"'; at += strspn(at, "; ")) {
-        const size_t size = strcspn(at, ";\"");
-        if (size == length && memcmp(at, name, size) == 0) return true;
-        at += size;
-    }
-    return !list;
-}
 
 /* The columns that the line names. @return exit code */
 static int take_named(const choices *c, const record *r, signals *s)
@@ -104,11 +42,11 @@ static int take_named(const choices *c, const record *r, signals *s)
 }
 
 /* All pressures, or those that the case names. @return exit code */
-static int take_pressures(const record *r, signals *s)
+static int take_pressures(const mps_stats_config *config, const record *r, signals *s)
 {
     for (int32_t k = 0; k < mps_table_columns(r->table); k++)
         if (strcmp(mps_table_unit(r->table, k), "Pa") == 0 &&
-            is_wanted(r, mps_table_name(r->table, k)))
+            mps_stats_wants(config, mps_table_name(r->table, k)))
             s->column[s->count++] = k;
     if (s->count > 0) return MPS_EXIT_OK;
     fprintf(stderr, "mps stats: %s has no column of a pressure [Pa]\n", r->place);
@@ -256,10 +194,13 @@ static int run_stats(const choices *c, mps_stats_config *config, const record *r
         fprintf(stderr, "mps stats: no memory\n");
         return MPS_EXIT_FAILED;
     }
-    int code = c->files > 1 ? take_named(c, r, s) : take_pressures(r, s);
-    if (code != MPS_EXIT_OK) return code;
-    take_constants(r, config);
-    const mps_status status = find_all(config, r, s);
+    mps_status status = mps_stats_config_read(r->place, config);
+    int code = MPS_EXIT_OK;
+    if (status == MPS_OK) {
+        code = c->files > 1 ? take_named(c, r, s) : take_pressures(config, r, s);
+        if (code != MPS_EXIT_OK) return code;
+        status = find_all(config, r, s);
+    }
     if (status != MPS_OK) {
         fprintf(stderr, "mps stats: %s: %s\n", r->place, config->error);
         return status == MPS_E_NOMEM ? MPS_EXIT_FAILED : MPS_EXIT_USAGE;

@@ -1,128 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* mps sweep: all combinations of a case's `sweep`, one after the other. */
-#include "series.h"
+#include "collect.h"
 #include <errno.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { COLLECT_SIZE = 4096, COLLECT_MOST = 64 };
-
-/* ---- statistics ---- */
-
-typedef double (*statistic_fn)(int64_t n, const double *value);
-
-static double stat_max(int64_t n, const double *value)
-{
-    double most = NAN;
-    for (int64_t i = 0; i < n; i++) most = fmax(most, value[i]);
-    return most;
-}
-
-static double stat_min(int64_t n, const double *value)
-{
-    double least = NAN;
-    for (int64_t i = 0; i < n; i++) least = fmin(least, value[i]);
-    return least;
-}
-
-/* Rows are at equal times. */
-static double stat_mean(int64_t n, const double *value)
-{
-    double sum = 0;
-    int64_t count = 0;
-    for (int64_t i = 0; i < n; i++)
-        if (!isnan(value[i])) {
-            sum += value[i];
-            count++;
-        }
-    return count ? sum / (double)count : NAN;
-}
-
-static double stat_last(int64_t n, const double *value)
-{
-    return n > 0 ? value[n - 1] : NAN;
-}
-
-static const struct {
-    const char *name;
-    statistic_fn find;
-} STATISTICS[] = {{"max", stat_max}, {"min", stat_min}, {"mean", stat_mean}, {"last", stat_last}};
-
-enum { STATISTIC_COUNT = sizeof STATISTICS / sizeof *STATISTICS };
-
-/* An entry of `collect`: all columns of a sensor, or one column. */
-typedef struct entry {
-    const char *sensor; /* "": all columns */
-    int32_t statistic;
-} entry;
-
 typedef struct sweep {
     const choices *c;
     mps_case *tank;
-    char place[SERIES_PATH], collect[COLLECT_SIZE];
-    entry entry[COLLECT_MOST];
-    int32_t entries, paths;
+    char place[SERIES_PATH];
+    collect collect;
+    int32_t paths;
     int64_t runs;
     int *code; /* [runs] */
 } sweep;
-
-/* Column "F", or "F_x" of the sensor F. */
-static bool belongs(const entry *e, const char *column)
-{
-    const size_t length = strlen(e->sensor);
-    if (length == 0 || strcmp(column, e->sensor) == 0) return true;
-    return strncmp(column, e->sensor, length) == 0 && strchr("_.", column[length]) != NULL;
-}
-
-static bool refuse_entry(const sweep *s, const char *word, const char *why)
-{
-    fprintf(stderr, "mps %s: collect: '%s' %s", s->c->verb, word, why);
-    for (int i = 0; i < STATISTIC_COUNT; i++)
-        fprintf(stderr, "%s%s", i ? ", " : " ", STATISTICS[i].name);
-    fputc('\n', stderr);
-    return false;
-}
-
-/* "[P1.max, F.last]": the texts stay in s->collect. */
-static bool read_collect(sweep *s)
-{
-    s->entries = 0;
-    if (!series_key(s->tank, "collect", s->collect, sizeof s->collect)) {
-        s->entry[s->entries++] = (entry){"", 0};
-        return true;
-    }
-    char *rest = NULL;
-    for (char *word = strtok_r(s->collect, "[], \"", &rest); word;
-         word = strtok_r(NULL, "[], \"", &rest)) {
-        int32_t k = 0;
-        char *dot = strrchr(word, '.');
-        while (dot && k < STATISTIC_COUNT && strcmp(dot + 1, STATISTICS[k].name) != 0) k++;
-        if (!dot || dot == word || k == STATISTIC_COUNT)
-            return refuse_entry(s, word,
-                                "must be a sensor and one of these statistics, as in P1.max:");
-        if (s->entries == COLLECT_MOST) return refuse_entry(s, word, "is one too many of");
-        *dot = '\0';
-        s->entry[s->entries++] = (entry){word, k};
-    }
-    return true;
-}
-
-/* Each entry has a column. */
-static bool has_columns(const sweep *s, const mps_table *rows)
-{
-    for (int32_t k = 0; k < s->entries; k++) {
-        bool found = false;
-        for (int32_t j = 0; j < mps_table_columns(rows); j++)
-            found = found || belongs(&s->entry[k], mps_table_name(rows, j));
-        if (found) continue;
-        fprintf(stderr, "mps %s: collect: no column of probes.csv is '%s'\n", s->c->verb,
-                s->entry[k].sensor);
-        return false;
-    }
-    return true;
-}
 
 /* ---- the table ---- */
 
@@ -142,12 +34,7 @@ static void write_names(const sweep *s, FILE *out, const mps_table *rows)
         if (mps_case_sweep_get(s->tank, 0, k, set, sizeof set) == MPS_OK)
             fprintf(out, ",%.*s", (int)strcspn(set, "="), set);
     fputs(",exit", out);
-    for (int32_t k = 0; k < s->entries; k++)
-        for (int32_t j = 0; j < mps_table_columns(rows); j++) {
-            if (!belongs(&s->entry[k], mps_table_name(rows, j))) continue;
-            fprintf(out, ",%s.%s", mps_table_name(rows, j), STATISTICS[s->entry[k].statistic].name);
-            if (mps_table_unit(rows, j)[0]) fprintf(out, "[%s]", mps_table_unit(rows, j));
-        }
+    collect_names(&s->collect, out, rows);
     fputc('\n', out);
 }
 
@@ -163,26 +50,17 @@ static void write_value(FILE *out, const char *text)
     if (quote) fputc('"', out);
 }
 
-/* Columns are those of `first`; a run without rows has nan. */
 static void write_run(const sweep *s, FILE *out, int64_t index, const mps_table *first)
 {
-    char set[SERIES_VALUE];
+    char set[SERIES_VALUE], folder[SERIES_PATH] = "";
     mps_table *rows = rows_of(s, index);
+    series_folder(s->place, index, folder);
     fprintf(out, "%03lld", (long long)index + 1);
     for (int32_t k = 0; k < s->paths; k++)
         if (mps_case_sweep_get(s->tank, index, k, set, sizeof set) == MPS_OK)
             write_value(out, set + strcspn(set, "=") + 1);
     fprintf(out, ",%d", s->code[index]);
-    for (int32_t k = 0; k < s->entries; k++)
-        for (int32_t j = 0; j < mps_table_columns(first); j++) {
-            const char *name = mps_table_name(first, j), *here = mps_table_name(rows, j);
-            if (!belongs(&s->entry[k], name)) continue;
-            const double *value = here && strcmp(here, name) == 0 ? mps_table_values(rows, j)
-                                                                  : NULL;
-            fprintf(out, ",%.9g",
-                    value ? STATISTICS[s->entry[k].statistic].find(mps_table_rows(rows), value)
-                          : NAN);
-        }
+    collect_values(&s->collect, out, first, folder, rows);
     fputc('\n', out);
     mps_table_destroy(rows);
 }
@@ -236,7 +114,7 @@ static int64_t run_all(const sweep *s, int *code)
         if (s->code[i] > *code) *code = s->code[i];
         if (s->code[i] == MPS_EXIT_INTERRUPTED) return i + 1;
         mps_table *rows = known ? NULL : rows_of(s, i);
-        if (rows && !has_columns(s, rows)) {
+        if (rows && !collect_fits(&s->collect, rows)) {
             mps_table_destroy(rows);
             *code = MPS_EXIT_USAGE;
             return 0;
@@ -276,7 +154,7 @@ int verb_sweep(const choices *c)
         fprintf(stderr, "mps sweep: %s: the case has no 'sweep'; use 'mps run'\n", c->file[0]);
     else if (c->sets + s.paths > CLI_SETS)
         fprintf(stderr, "mps sweep: at most %d values of --set and paths of 'sweep'\n", CLI_SETS);
-    else if (read_collect(&s))
+    else if (collect_read(&s.collect, s.tank, c->verb))
         code = sweep_runs(&s);
     mps_case_destroy(s.tank);
     return code;

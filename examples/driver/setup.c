@@ -169,6 +169,7 @@ static void open_job(driver *d)
     c.row_interval = d->probe_dt;
     c.checkpoint = d->checkpoint;
     c.gravity = d->gravity;
+    c.dp = d->dp;
     c.average = d->sensor_average;
     c.frames = d->frames;
     c.picture_count = d->pictures.count;

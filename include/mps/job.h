@@ -115,7 +115,7 @@ typedef struct mps_job_config {
     double row_interval;
     /** Interval of checkpoints [s]; default 0: only when interrupted. */
     double checkpoint;
-    /** Gravity [m/s2], by which pictures tell pressures from rounding; default 9.81. */
+    /** Gravity [m/s2], for the colour scale of pictures (picture.h); default 9.81. */
     double gravity;
     /** mps_probe.average of all wall pressures and forces, for summary.json; default
      *  MPS_AVERAGE_AUTO. */
@@ -160,6 +160,9 @@ typedef struct mps_job_config {
     char *error;
     /** Bytes at `error`. */
     size_t error_size;
+    /** Spacing as asked for [m], >= 0, for summary.json and messages: the first tank changes
+     *  mps_config.dp. Default 0: not told. */
+    double dp;
 } mps_job_config;
 
 /** Set every entry to its default. @param size  sizeof(mps_job_config) @return MPS_E_ARG: bad

@@ -8,12 +8,18 @@
  *  3-D there are two views: all of the liquid with light and depth, behind the walls that face the
  *  reader, and the slice of 1.5 dp about the middle of z, with axes.
  *
- *  All pictures of a run have one colour scale. It goes from 0 to the larger of two pressures,
- *  rounded up to two digits: the 99 % quantile in the liquid, and 1.25 times that of the liquid at
- *  rest below its present centre of mass. With several phases it begins at the 1 % quantile where
- *  that is negative. The first picture with a pressure fixes it; larger pressures have the colour
- *  of the upper end. The colours differ in lightness, and those of two phases can be told apart by
- *  colour-blind readers. */
+ *  All pictures of a run have one colour scale; larger pressures have the colour of the upper end.
+ *  A job (job.h) finds it before its first step, so that it does not depend on the times of the
+ *  pictures: from 0 to 1.25 times the pressure at rest of all phases above each other, rho g h with
+ *  the height h of each as filled, and of a drop as narrow as the phase, sigma/r in 2-D and
+ *  2 sigma/r in 3-D; plus rho u^2 of the fastest phase. Without gravity, tension and speed, it is
+ *  rho h 9.81 m/s2. The sum is rounded up to two digits.
+ *
+ *  A program that calls mps_picture_save() itself gets the scale of its first picture with a
+ *  pressure: from 0 to the larger of two pressures, rounded up to two digits: the 99 % quantile in
+ *  the liquid, and 1.25 times that of the liquid at rest below its present centre of mass. With
+ *  several phases it begins at the 1 % quantile where that is negative. The colours differ in
+ *  lightness, and those of two phases can be told apart by colour-blind readers. */
 #ifndef MPS_PICTURE_H
 #define MPS_PICTURE_H
 

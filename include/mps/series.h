@@ -77,6 +77,12 @@ typedef struct mps_stats_config {
     double safety;
     /** Band over the largest difference between two values, elsewhere. Default 3. */
     double safety_poor;
+    /** Angular frequency of the tank's motion [rad/s]: the lowest of its harmonics, of which all
+     *  others are multiples. Default NAN: not known, or there is none. */
+    double omega;
+    /** Sensors that are looked at, their names with "; " between them, ending with 0. Default "":
+     *  all pressures. See mps_stats_wants(). */
+    char sensors[512];
 } mps_stats_config;
 
 /** Set every entry to its default. @param size  sizeof(mps_stats_config) @return MPS_E_ARG */

@@ -14,6 +14,28 @@
 
 MPS_BEGIN_DECLS
 
+/* ---- constants of a run ---- */
+
+/** Read the constants that a run was asked for from summary.json in its folder: keys `impacts` of
+ *  its case, T1 and the frequency of its motion. Where the case does not give them, `from` is
+ *  0.5 % of the run, `period` that of a box of the tank's length and the liquid's depth,
+ *  T = 2 pi/sqrt(g k tanh(k h)) with k = pi/length, and `window` 2 % of the run if no period is
+ *  known. `crossing_time` is the largest of the run. A run that still goes on has no summary: what
+ *  follows from the end of its probes.csv is set, all else stays.
+ *  @param folder  that a run has written
+ *  @param config  initialised; out. As before on failure
+ *
+ *  | error | reason |
+ *  |---|---|
+ *  | MPS_E_ARG | an argument; a list of sensors that is too long |
+ *  | MPS_E_IO | summary.json is not readable or no JSON; probes.csv, where it is needed |
+ *  | MPS_E_NOMEM | no memory | */
+MPS_API mps_status mps_stats_config_read(const char *folder, mps_stats_config *config);
+
+/** @return 1: this sensor is looked at: config.sensors names it, or none; 0: it is not, or an
+ *          argument is NULL or not initialised */
+MPS_API int32_t mps_stats_wants(const mps_stats_config *config, const char *name);
+
 /* ---- impacts ---- */
 
 /** Mean over the cells of a panel, which have the same area (KR 303).

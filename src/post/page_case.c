@@ -64,6 +64,25 @@ static void write_fluids(FILE *out, const page_run *r)
     }
 }
 
+/* As asked for, and along each axis, where these differ from the spacing as built. */
+static void row_spacing(FILE *out, const page_run *r)
+{
+    const json_value *list = mps__json_get(r->summary, "lattice");
+    const double dp = mps__page_number(r, "dp"), asked = mps__page_number(r, "dp_asked");
+    char text[160] = "", one[TEXT_NUMBER];
+    bool cubes = true;
+    if (isfinite(asked) && fabs(asked - dp) > 1e-6 * dp)
+        row_number(out, r, "as asked for", "dp_asked", "m");
+    for (size_t d = 0; d < mps__json_count(list) && d < 3; d++) {
+        const double h = mps__json_number(mps__json_at(list, d));
+        const size_t used = strlen(text);
+        cubes = cubes && fabs(h - dp) <= 1e-6 * dp;
+        snprintf(text + used, sizeof text - used, "%s%s", used ? " x " : "",
+                 mps__quantity(one, h, "m"));
+    }
+    if (!cubes) row(out, "cells", text);
+}
+
 /* "0.8 x 0.5 m" */
 static void row_size(FILE *out, const page_run *r)
 {
@@ -88,6 +107,7 @@ static void write_inputs(FILE *out, const page_run *r)
     table_begin(out, "Inputs");
     if (!mps__page_input(r, "model")) row(out, "model", mps__page_string(r, "model"));
     row_number(out, r, "spacing of the particles", "dp", "m");
+    row_spacing(out, r);
     row_size(out, r);
     row_number(out, r, "depth of the liquid", "liquid_depth", "m");
     if (!mps__page_input(r, "phase 0")) write_fluids(out, r);

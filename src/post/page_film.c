@@ -163,7 +163,7 @@ static mps_status take_walls(film *f, const film_frame *s)
     if (!f->wall_x || !f->wall_part) return no_memory(f);
     for (int64_t i = 0; i < s->count; i++) {
         if ((int)s->kind[i] != FILM_WALL) continue;
-        memcpy(f->wall_x + 3 * f->wall.count, s->x + 3 * i, 3 * sizeof *s->x);
+        mps__film_to_tank(&f->start, s->x + 3 * i, f->wall_x + 3 * f->wall.count);
         f->wall_part[f->wall.count] = s->part[i];
         if (!index_add(&f->wall, s->id[i])) return no_memory(f);
     }
@@ -218,11 +218,13 @@ static mps_status take_bodies(film *f)
     return status;
 }
 
-static bool pose_moves(const film_pose *a, const film_pose *b, double dp)
+/* The frame of the tank is another one than that of the lab. */
+static bool is_moved(const film_pose *a, double dp)
 {
+    static const film_pose rest = {{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0}};
     double most = 0;
-    for (int k = 0; k < 9; k++) most = fmax(most, fabs(a->turn[k] - b->turn[k]));
-    for (int d = 0; d < 3; d++) most = fmax(most, fabs(a->shift[d] - b->shift[d]) / dp);
+    for (int k = 0; k < 9; k++) most = fmax(most, fabs(a->turn[k] - rest.turn[k]));
+    for (int d = 0; d < 3; d++) most = fmax(most, fabs(a->shift[d] - rest.shift[d]) / dp);
     return most > 1e-4;
 }
 
@@ -234,6 +236,7 @@ static mps_status survey_frames(film *f, film_frame *s)
         status = mps__film_frame_read(f, k, s);
         if (status != MPS_OK) break;
         if (k == 0) {
+            mps__pose_start(f);
             mps__pose_choose(f, s);
             status = take_walls(f, s);
         }
@@ -241,7 +244,7 @@ static mps_status survey_frames(film *f, film_frame *s)
             status = mps__page_fail(r->errors, MPS_E_IO, "frame '%s' lacks walls of the first one",
                                     r->frame[k].path);
         if (status == MPS_OK) status = survey_frame(f, s, &f->pose[k]);
-        if (pose_moves(&f->pose[k], &f->pose[0], f->dp)) f->tank_moves = true;
+        if (is_moved(&f->pose[k], f->dp)) f->tank_moves = true;
     }
     return status;
 }

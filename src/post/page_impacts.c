@@ -3,11 +3,12 @@
 #include "page_exceedance.h"
 #include "page_parts.h"
 #include "page_text.h"
+#include "statistics.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { HIGHEST = 10, SENSORS_MOST = 24, FEW = 5, COUNT_MOST = 1000000 };
+enum { HIGHEST = 10, SENSORS_MOST = 24, FEW = 5 };
 
 /* Impacts of a sensor. */
 typedef struct sensor {
@@ -15,73 +16,6 @@ typedef struct sensor {
     mps_impacts *impacts;
     double highest;
 } sensor;
-
-/* The number of an input such as "1.418 s", in SI; NAN: there is none. */
-static double input_number(const page_run *r, const char *key)
-{
-    const char *text = mps__page_input(r, key);
-    char *end = NULL;
-    const double value = text ? strtod(text, &end) : NAN;
-    return end != text ? value : NAN;
-}
-
-/* Natural period of the liquid in a box [s]; NAN: not known. */
-static double natural_period(const page_run *r)
-{
-    const double k = acos(-1.0) / mps__page_number(r, "tank_size_x");
-    const double g = mps__page_number(r, "gravity"), h = mps__page_number(r, "liquid_depth");
-    const double period = 2 * acos(-1.0) / sqrt((isfinite(g) ? g : 9.81) * k * tanh(k * h));
-    return isfinite(period) ? period : NAN; /* infinite without gravity */
-}
-
-/* Constants: those of the case, else what the run itself tells. */
-static void take_constants(const page_run *r, mps_stats_config *c)
-{
-    const struct {
-        const char *key;
-        double *value;
-    } member[] = {{"T1", &c->period},
-                  {"impacts.from", &c->from},
-                  {"impacts.until", &c->until},
-                  {"impacts.rate", &c->rate},
-                  {"impacts.high_pass", &c->high_pass},
-                  {"impacts.threshold", &c->threshold},
-                  {"impacts.deviations", &c->deviations},
-                  {"impacts.window", &c->window},
-                  {"impacts.share", &c->share},
-                  {"impacts.confidence", &c->confidence},
-                  {"impacts.exposure", &c->exposure},
-                  {"impacts.exposure_ratio", &c->exposure_ratio},
-                  {"impacts.dependence", &c->dependence},
-                  {"impacts.scale", &c->length_scale},
-                  {"impacts.density_ratio", &c->density_ratio}};
-    c->from = 0.005 * mps__page_number(r, "t_end"); /* the impulse of the start is no impact */
-    c->period = natural_period(r);
-    for (size_t k = 0; k < sizeof member / sizeof member[0]; k++) {
-        const double value = input_number(r, member[k].key);
-        if (isfinite(value)) *member[k].value = value;
-    }
-    const double least = input_number(r, "impacts.least_events");
-    const double resamples = input_number(r, "impacts.resamples");
-    const double seed = input_number(r, "impacts.seed");
-    if (least >= 2 && least <= COUNT_MOST) c->least_events = (int32_t)least;
-    if (resamples >= 0 && resamples <= COUNT_MOST) c->resamples = (int32_t)resamples;
-    if (seed >= 0 && seed <= COUNT_MOST) c->seed = (uint64_t)seed;
-    if (isnan(c->window) && isnan(c->period)) c->window = 0.02 * mps__page_number(r, "t_end");
-}
-
-/* True if the case asks for this sensor, or for none by name: "P1; P2". */
-static bool is_wanted(const page_run *r, const char *name)
-{
-    const char *list = mps__page_input(r, "impacts.sensors");
-    const size_t length = strlen(name);
-    for (const char *at = list; at && *at; at += strspn(at, "; ")) {
-        const size_t size = strcspn(at, ";");
-        if (size == length && memcmp(at, name, size) == 0) return true;
-        at += size;
-    }
-    return !list;
-}
 
 /* The column as a signal of its own. */
 static mps_status find_impacts(const page_run *r, const mps_stats_config *config, sensor *s)
@@ -256,16 +190,16 @@ static int compare(const void *a, const void *b)
 /* @param config  out: with the time that is resolved, of the least one at a peak */
 static mps_status find_all(const page_run *r, mps_stats_config *config, sensor *all, int *count)
 {
-    mps_status status = MPS_OK;
-    take_constants(r, config);
-    const double crossing = mps__page_crossing(r, mps__page_number(r, "t_end"));
-    double given = mps__page_number(r, "sensor_average_most");
-    if (!isfinite(given)) given = isfinite(crossing) ? crossing : 0;
-    config->crossing_time = given;
+    mps_status status = mps__stats_take(r, mps__page_number(r, "t_end"), config);
+    if (!(config->crossing_time > 0)) { /* of an older run, or one whose average is given as 0 */
+        const double crossing = mps__page_crossing(r, mps__page_number(r, "t_end"));
+        const double given = mps__page_number(r, "sensor_average_most");
+        config->crossing_time = isfinite(given) ? given : isfinite(crossing) ? crossing : 0;
+    }
     for (int32_t k = 0; status == MPS_OK && k < r->columns && *count < SENSORS_MOST; k++) {
         const page_column *c = &r->column[k];
         if (strcmp(c->unit, "Pa") != 0 || c->place < 0) continue; /* also means of panels */
-        if (!is_wanted(r, c->name)) continue;
+        if (!mps_stats_wants(config, c->name)) continue;
         all[*count] = (sensor){.column = c};
         status = find_impacts(r, config, &all[*count]);
         if (status == MPS_OK) ++*count;

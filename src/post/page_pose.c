@@ -103,6 +103,25 @@ void mps__pose_choose(film *f, const film_frame *s)
         f->corner[2][2] += sqrt(from_first(f->corner[1], f));
     }
     if (!(from_line(f->corner[2], f) > 0)) f->reference[0] = -1; /* all in one line */
+    for (int k = 0; k < 3; k++) {
+        const double lab[3] = {f->corner[k][0], f->corner[k][1], f->corner[k][2]};
+        mps__film_to_tank(&f->start, lab, f->corner[k]);
+    }
+}
+
+void mps__pose_start(film *f)
+{
+    const json_value *list = mps__json_get(f->run->summary, "tank_start"),
+                     *turned = mps__json_get(f->run->summary, "tank_frame");
+    double value[12];
+    f->start = at_rest;
+    if (mps__json_count(list) != 12 || (turned && turned->type == JSON_TRUE)) return;
+    for (size_t k = 0; k < 12; k++) {
+        value[k] = mps__json_number(mps__json_at(list, k));
+        if (!isfinite(value[k])) return;
+    }
+    memcpy(f->start.turn, value, sizeof f->start.turn);
+    memcpy(f->start.shift, value + 9, sizeof f->start.shift);
 }
 
 /* Three unit vectors from three points, as columns. */
@@ -148,10 +167,13 @@ static bool is_same(double (*a)[3], const double (*b)[3])
 bool mps__pose_find(const film *f, const film_frame *s, film_pose *out)
 {
     double corner[3][3] = {{0}}, first[3][3], now[9] = {0}, built[9] = {0};
-    *out = at_rest;
+    *out = f->start;
     if (f->reference[0] < 0) return true;
     if (!find_corners(f, s, corner)) return false;
-    if (is_same(corner, f->corner)) return true;
+    if (is_same(corner, f->corner)) {
+        *out = at_rest;
+        return true;
+    }
     axes(corner, now);
     memcpy(first, f->corner, sizeof first);
     axes(first, built);

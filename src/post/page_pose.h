@@ -5,7 +5,9 @@
 
 #include "page_film.h"
 
-/* Choose the three particles from the first frame, where the tank stands as it was built: ids in f->reference. */
+/* Pose of the tank in the first frame, which is at rest where the summary does not tell it, or where frames are in the frame of the tank. */
+void mps__pose_start(film *f);
+/* Choose the three particles from the first frame, where the tank has the pose f->start: ids in f->reference. */
 void mps__pose_choose(film *f, const film_frame *s);
 /* Pose in a frame. @return false: one of the three is missing */
 bool mps__pose_find(const film *f, const film_frame *s, film_pose *out);

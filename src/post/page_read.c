@@ -44,7 +44,9 @@ mps_status mps__page_file(page_errors *e, const char *path, int64_t most, char *
     *out = NULL;
     FILE *file = fopen(path, "rb");
     if (!file && errno == ENOENT) return MPS_E_NAME;
+    if (!file && errno == ENOMEM) return no_memory(e);
     if (!file) return mps__page_fail(e, MPS_E_IO, "cannot open '%s': %s", path, strerror(errno));
+    setvbuf(file, NULL, _IONBF, 0); /* it is read at once */
     const long length = size_of(file);
     mps_status status = MPS_OK;
     if (length < 0)
@@ -133,17 +135,13 @@ static mps_status read_columns(page_run *r)
     return MPS_OK;
 }
 
-static mps_status read_summary(page_run *r)
+mps_status mps__page_summary_read(page_run *r)
 {
     char *path = mps__page_path(r->folder, "summary.json"), *text = NULL;
     size_t size = 0;
     if (!path) return no_memory(r->errors);
     mps_status status = mps__page_file(r->errors, path, SERIES_MOST, &text, &size);
     json_error error;
-    if (status == MPS_E_NAME)
-        status = mps__page_fail(r->errors, MPS_E_IO,
-                                "there is no '%s': a page needs the folder of a finished run",
-                                path);
     if (status == MPS_OK && (!text || strlen(text) != size))
         status = mps__page_fail(r->errors, MPS_E_IO, "'%s' is no text: it has a byte 0", path);
     if (status == MPS_OK && text) {
@@ -254,7 +252,11 @@ static mps_status read_case(page_run *r)
 mps_status mps__page_run_read(page_run *r, const char *folder, page_errors *e)
 {
     *r = (page_run){.folder = folder, .errors = e};
-    mps_status status = read_summary(r);
+    mps_status status = mps__page_summary_read(r);
+    if (status == MPS_E_NAME)
+        status = mps__page_fail(
+            e, MPS_E_IO, "there is no '%s/summary.json': a page needs the folder of a finished run",
+            folder);
     if (status == MPS_OK) status = read_table(r, "probes.csv", true, &r->probes);
     if (status == MPS_OK) status = read_table(r, "steps.csv", false, &r->steps);
     if (status == MPS_OK) status = read_table(r, "momentum.csv", false, &r->momentum);

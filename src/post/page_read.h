@@ -64,6 +64,8 @@ int32_t mps__page_table_find(const page_table *t, const char *name);
 /* Value of the last row; NAN where there is none. */
 double mps__page_table_last(const page_table *t, int32_t column);
 
+/* Read summary.json alone, of r->folder. MPS_E_NAME without a text: there is none, as of a run that still goes on. */
+mps_status mps__page_summary_read(page_run *r);
 /* Read all of the folder but the frames themselves. */
 mps_status mps__page_run_read(page_run *r, const char *folder, page_errors *e);
 void mps__page_run_free(page_run *r);

@@ -5,36 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void mps__scene_scale_read(const char *folder, mps_picture_config *config)
-{
-    enum { SCALE_MOST = 1000 };
-    char *path = mps__page_path(folder, SCENE_SCALE_FILE), *text = NULL;
-    json_error error;
-    json_value *list = NULL;
-    if (path && mps__page_file(NULL, path, SCALE_MOST, &text, NULL) == MPS_OK)
-        list = mps__json_read(text, &error);
-    const double lo = mps__json_number(mps__json_at(list, 0)),
-                 hi = mps__json_number(mps__json_at(list, 1));
-    if (hi > lo) {
-        config->pressure_lo = lo;
-        config->pressure_hi = hi;
-    }
-    mps__json_free(list);
-    free(text);
-    free(path);
-}
-
-bool mps__scene_scale_write(const char *folder, const mps_picture_config *config)
-{
-    char *path = mps__page_path(folder, SCENE_SCALE_FILE);
-    FILE *file = path ? fopen(path, "w") : NULL;
-    if (file) fprintf(file, "[%.17g, %.17g]\n", config->pressure_lo, config->pressure_hi);
-    bool done = file && !ferror(file);
-    if (file && fclose(file) != 0) done = false;
-    free(path);
-    return done;
-}
-
 static mps_status no_memory(page_errors *e)
 {
     return mps__page_fail(e, MPS_E_NOMEM, "no memory for a picture");

@@ -94,7 +94,7 @@ static const char head[] =
     "view.CameraFocalPoint = middle\n"
     "view.CameraPosition = [m + 4 * size * d for m, d in zip(middle, towards)]\n"
     "view.CameraViewUp = [0, 1, 0]\n"
-    "view.CameraParallelScale = 0.6 * max(hi[1] - lo[1], (hi[0] - lo[0]) * (0.6 if flat else "
+    "view.CameraParallelScale = dp + 0.6 * max(hi[1] - lo[1], (hi[0] - lo[0]) * (0.6 if flat else "
     "0.75))\n"
     "scene.GoToLast()\n"
     "Render()\n";
@@ -190,6 +190,26 @@ static mps_status write_script(const scene *s, const char *folder, page_errors *
     return status;
 }
 
+/* The box of the scene from the frame of the tank to that of the frames, over all of them: the camera shows all that a tank comes to. */
+static void sweep_box(scene *s, const film *f)
+{
+    double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (int64_t k = 0; k < f->run->frames; k++)
+        for (int corner = 0; corner < 8; corner++) {
+            double X[3];
+            for (int d = 0; d < 3; d++) X[d] = corner >> d & 1 ? s->hi[d] : s->lo[d];
+            for (int d = 0; d < 3; d++) {
+                const double *row = f->pose[k].turn + 3 * d;
+                const double x = row[0] * X[0] + row[1] * X[1] + row[2] * X[2] +
+                                 f->pose[k].shift[d];
+                lo[d] = fmin(lo[d], x);
+                hi[d] = fmax(hi[d], x);
+            }
+        }
+    memcpy(s->lo, lo, sizeof lo);
+    memcpy(s->hi, hi, sizeof hi);
+}
+
 /* The last frame as a scene, for its walls and phases. */
 static mps_status describe(scene *s, const film *f, page_errors *e)
 {
@@ -201,6 +221,7 @@ static mps_status describe(scene *s, const film *f, page_errors *e)
     mps__film_frame_free(&frame);
     if (status == MPS_OK && !mps__scene_end(s))
         status = mps__page_fail(e, MPS_E_ARG, "no paraview.py: a frame has no particle");
+    if (status == MPS_OK) sweep_box(s, f);
     s->p_lo = f->pressure.lo;
     s->p_hi = f->pressure.hi;
     return status;

@@ -48,12 +48,8 @@ bool mps__scene_end(scene *s);
  * @return false without memory */
 bool mps__scene_scale(scene *s, mps_picture_config *config);
 
-/* The scale goes to a file as soon as it is fixed, so that a run that was killed goes on with it. @return false: not written */
-#define SCENE_SCALE_FILE "picture_scale.json"
-bool mps__scene_scale_write(const char *folder, const mps_picture_config *config);
-/* The scale of an earlier program; nothing where there is none. */
-void mps__scene_scale_read(const char *folder, mps_picture_config *config);
-
+/* Turn and place of the tank now. */
+mps_status mps__scene_pose(mps_sim *sim, int32_t dim, film_pose *out);
 /* The present state of a simulation. */
 mps_status mps__scene_of_sim(scene *s, mps_sim *sim, page_errors *e);
 /* Title, spacing, phases and sensors from summary.json. */

@@ -10,8 +10,7 @@ typedef enum leased { POSITION, PRESSURE, VELOCITY, KIND, PHASE, PLATE } leased;
 static const char *const field[LEASES] = {"position", "pressure", "velocity",
                                           "kind",     "phase",    "plate"};
 
-/* Turn and place of the tank. */
-static mps_status find_pose(mps_sim *sim, int32_t dim, film_pose *out)
+mps_status mps__scene_pose(mps_sim *sim, int32_t dim, film_pose *out)
 {
     const double origin[3] = {0, 0, 0};
     mps_motion_state state;
@@ -112,7 +111,7 @@ mps_status mps__scene_of_sim(scene *s, mps_sim *sim, page_errors *e)
         mps_phase_init(&phase, sizeof phase);
         if (mps_phase_get(sim, k, &phase) == MPS_OK) s->density[k] = phase.density;
     }
-    mps_status status = find_pose(sim, s->dim, &s->pose);
+    mps_status status = mps__scene_pose(sim, s->dim, &s->pose);
     if (status != MPS_OK) return mps__page_fail(e, status, "no picture: %s", mps_sim_error(sim));
     status = lease_all(s, sim, e);
     if (status == MPS_OK) status = take_probes(s, sim, e);

@@ -76,7 +76,8 @@ mps_status mps_stats_config_init(mps_stats_config *config, size_t size)
                                        .order_least = 0.5,
                                        .order_most = 2,
                                        .safety = 1.25,
-                                       .safety_poor = 3};
+                                       .safety_poor = 3,
+                                       .omega = NAN};
     return mps__stats_init(config, size, &defaults, sizeof defaults);
 }
 
@@ -134,7 +135,8 @@ static mps_status check_numbers(const mps_stats_config *c)
                             {"order_least", c->order_least, POSITIVE},
                             {"order_most", c->order_most, POSITIVE},
                             {"safety", c->safety, POSITIVE},
-                            {"safety_poor", c->safety_poor, POSITIVE}};
+                            {"safety_poor", c->safety_poor, POSITIVE},
+                            {"omega", c->omega, POSITIVE | UNKNOWN}};
     for (size_t k = 0; k < sizeof bounds / sizeof bounds[0]; k++)
         MPS__STATS_CHECK(c, in_range(&bounds[k]), "'%s' is %g: must be %s", bounds[k].name,
                          bounds[k].value, range_of(bounds[k].kind));
@@ -165,6 +167,8 @@ mps_status mps__stats_check(const mps_stats_config *config)
                      config->until);
     MPS__STATS_CHECK(config, config->reserved == 0, "'reserved' is %d: must be 0",
                      (int)config->reserved);
+    MPS__STATS_CHECK(config, memchr(config->sensors, '\0', sizeof config->sensors),
+                     "'sensors' has no end");
     MPS__STATS_TRY(check_numbers(config));
     MPS__STATS_CHECK(config, config->order_least <= config->order_most,
                      "'order_least' is %g: must be at most 'order_most', %g", config->order_least,

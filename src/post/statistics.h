@@ -67,6 +67,12 @@ double mps__beta_inverse(double a, double b, double q);
 /* t with P(|T| <= t) = `share` for Student's T with `freedom` >= 1 degrees of freedom. */
 double mps__student(double freedom, double share);
 
+/* ---- statistics_read.c ---- */
+
+/* Constants of a run by its summary. @param end  of the record [s]; NAN: not known */
+struct page_run;
+mps_status mps__stats_take(const struct page_run *r, double end, mps_stats_config *config);
+
 /* ---- statistics_events.c ---- */
 
 /* A signal as the events see it: without nan, between from and until, at the rate, filtered. */

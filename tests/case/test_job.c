@@ -20,6 +20,8 @@ static void configs_are_checked(void **state)
     c = good, c.row_interval = -1, refused(&c, MPS_E_ARG, "row_interval");
     c = good, c.checkpoint = -1, refused(&c, MPS_E_ARG, "checkpoint");
     c = good, c.gravity = INFINITY, refused(&c, MPS_E_ARG, "gravity");
+    c = good, c.dp = -0.1, refused(&c, MPS_E_ARG, "dp must be");
+    c.dp = NAN, refused(&c, MPS_E_ARG, "dp must be");
     c = good, c.frames = -1, refused(&c, MPS_E_ARG, "frames");
     c = good, c.threads = 0, refused(&c, MPS_E_ARG, "threads");
     c = good, c.picture_count = 2, refused(&c, MPS_E_ARG, "picture_count");

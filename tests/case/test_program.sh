@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The program mps: each verb, exit codes, an interrupted run.
 # usage: test_program.sh PROGRAM CASES
-program=$1 cases=$2
+program=$1 cases=$2 script=$(realpath "$0")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
@@ -50,6 +50,25 @@ for name in tank lng roll ship; do
 done
 "$program" check tank.yaml | grep -q "T1 1.41[78] s" || fail "T1 of 1 m, 0.24 m"
 "$program" check tank.yaml --set fill.water.depth=50% | grep -q "T1 1.319 s" || fail "T1 of 1 m, 0.3 m"
+# T1 leaves out solids: those that stand in the surface are named, with the period of 0.6 m; those below it are not
+expect 0 "without the solids" "$program" check tank.yaml --set "dp=20 mm" --set "solids={high: {plate: [0.4 0 m, 0.4 0.4 m]}, low: {plate: [0.7 0 m, 0.7 0.1 m]}}"
+grep -q "^surface *solid 'high' stands in it, x = 0.4 m$" log || fail "surface: $(cat log)"
+grep -q "the longest open stretch, 0.6 m, is 0.9508 s" log || fail "open stretch: $(cat log)"
+grep -q "solid 'low'" log && fail "a solid below the surface stands in it"
+expect 0 "T1 1.418 s" "$program" check tank.yaml --set "dp=20 mm" --set "solids={low: {plate: [0.7 0 m, 0.7 0.1 m]}}"
+grep -q "^surface" log && fail "a solid below the surface: $(cat log)"
+expect 0 "x = 0.4 .. 0.5 m, not from side to side" "$program" check tank.yaml --set "dim=3" --set "dp=50 mm" --set "tank.size=1 0.6 0.5 m" \
+    --set "solids={post: {box: [0.4 0 0.2 m, 0.5 0.4 0.3 m]}}"
+grep -q "open stretch" log && fail "a post closes no surface"
+expect 0 "without the fluid above" "$program" check tank.yaml --set "dp=50 mm" --set "fill=[{water: {depth: 40 %}}, {air: rest}]" --set "model=mmps"
+# dp as asked for, as built, and cells
+expect 0 "dp 20 mm asked for, 19.9 mm built in cells of 19.8 mm x 20 mm," "$program" check tank.yaml --set "dp=20 mm" --set "tank.size=1.01 0.6 m"
+expect 0 "2-D, dp 20 mm, gravity" "$program" check tank.yaml --set "dp=20 mm"
+expect 0 "dp 0.0199017 m (0.02 m asked for, cells 0.0198039 x 0.02 m)," "$program" run tank.yaml --set "dp=20 mm" --set "tank.size=1.01 0.6 m" \
+    --set "run.until=0.01 s" --set "output.frames=0" -o cells
+grep -q '"dp": 0.01990171[0-9]*,' cells/summary.json && grep -q '"dp_asked": 0.02,' cells/summary.json &&
+    grep -q '"lattice": \[0.0198039[0-9]*, 0.02[0-9]*\]' cells/summary.json || fail "spacings of summary.json: $(grep -A3 '"dp"' cells/summary.json)"
+grep -q "19.8 mm x 20 mm" cells/report.html || fail "spacings on the page"
 
 for list in cases keys models settings solvers units measures; do
     [ "$("$program" list $list | wc -l)" -gt 3 ] || fail "list $list"
@@ -147,6 +166,15 @@ expect 0 "" "$program" resume cut --set "run.until=$end s" -q
 expect 0 "" "$program" run tank.yaml --set "run.until=$end s" --set output.frames=0 -o whole -q
 cmp cut/probes.csv whole/probes.csv || fail "a continued run has other bytes"
 
+# paraview.py asks ParaView for the arrays of the frames, their times, spheres of dp and the scale of the pictures; the camera shows the tank
+if command -v python3 > /dev/null; then
+    here=$(dirname "$script")
+    expect 0 "" python3 "$here/check_paraview.py" run
+    expect 0 "" "$program" run tank.yaml --set "dp=40 mm" --set "run.until=0.1 s" --set "output.frames=2" -o away -q \
+        --set "motion={surge: {amplitude: 0.3 m, period: 10000 s, phase: 90 deg}}"
+    expect 0 "" python3 "$here/check_paraview.py" away 0.3 0
+fi
+
 # several runs of one case: a table, skipped when done, refused where it cannot be
 cat > sweep.yaml << END
 base: tank.yaml
@@ -172,6 +200,40 @@ last=$(awk -F, 'END { printf "%.9g", $5 }' swept/003/probes.csv)
 grep -q "^003,1 T1,10 mm,0,$most,$last," swept/sweep.csv || fail "not $most, $last: $(grep ^003 swept/sweep.csv)"
 expect 0 "" "$program" run single.yaml --set "motion.surge.period=1 T1" -o alone -q
 cmp alone/probes.csv swept/003/probes.csv || fail "a run of a sweep has other bytes than a run alone"
+# p3h and harmonic: those of 'mps stats', and of a fit of mean + a sin + b cos of its own
+sed '/^collect\|^sweep/d' sweep.yaml > fitted.yaml
+cat >> fitted.yaml << END
+sweep: {motion.surge.amplitude: 10 20 mm}
+impacts: {deviations: 0.5, window: 0.05 T1, least_events: 3, scale: 40, from: 1 s, until: 6 s}
+collect: [P_left.p3h, P_left.harmonic, F.harmonic, eta_left.harmonic]
+END
+expect 0 "" "$program" sweep fitted.yaml --set "dp=40 mm" --set "run.until=6.5 s" -o fitted -q
+head -1 fitted/sweep.csv | grep -qF 'exit,P_left.p3h[Pa],P_left.harmonic[Pa],F_x.harmonic[N/m],F_y.harmonic[N/m],F_m.harmonic[N m/m],eta_left' ||
+    fail "names of sweep.csv: $(head -1 fitted/sweep.csv)"
+for run in 001 002; do
+    expect 0 "" "$program" stats fitted/$run P_left
+    wanted=$(sed -n 's/.*"weibull".*"full_scale": \([-+.0-9e]*\),.*/\1/p' fitted/$run/statistics.json)
+    [ -n "$wanted" ] && [ "$(awk -F, -v run=$run '$1 == run { print $4 }' fitted/sweep.csv)" = "$wanted" ] ||
+        fail "p3h of run $run: not '$wanted': $(grep ^$run fitted/sweep.csv)"
+    omega=$(sed -n 's/.*"motion omega", "value": "\([.0-9]*\) rad.*/\1/p' fitted/$run/summary.json)
+    for column in P_left:5 F_x:6; do
+        awk -F, -v w="$omega" -v name="${column%%:*}" -v got="$(awk -F, -v run=$run -v k="${column#*:}" '$1 == run { print $k }' fitted/sweep.csv)" '
+            NR == 1 { for (k = 1; k <= NF; k++) if (index($k, name "[") == 1) at = k; next }
+            $1 >= 1 && $1 <= 6 && $at != "nan" {
+                f[0] = 1; f[1] = sin(w * $1); f[2] = cos(w * $1); f[3] = $at
+                for (i = 0; i < 3; i++) for (j = 0; j < 4; j++) m[i, j] += f[i] * f[j] }
+            END {
+                for (i = 0; i < 3; i++) for (r = 0; r < 3; r++) if (r != i) {
+                    q = m[r, i] / m[i, i]
+                    for (j = 0; j < 4; j++) m[r, j] -= q * m[i, j] }
+                a = m[1, 3] / m[1, 1]; b = m[2, 3] / m[2, 2]; e = sqrt(a * a + b * b)
+                exit !(e > 0 && (got / e - 1) ^ 2 < 1e-12) }' fitted/$run/probes.csv ||
+            fail "harmonic of ${column%%:*}, run $run: $(grep ^$run fitted/sweep.csv)"
+    done
+done
+expect 2 "is no pressure" "$program" sweep fitted.yaml --set "collect=[eta_left.p3h]" --set "run.until=0.05 s" -o no_pressure -q
+expect 0 "" "$program" sweep fitted.yaml --set "collect=[P_left.p3h, F.harmonic]" --set "run.until=0.05 s" --set "impacts.from=0 s" -o short -q
+grep -q "^001,10 mm,0,nan,nan,nan,nan$" short/sweep.csv || fail "sweep.csv of short runs: $(cat short/sweep.csv)"
 cp swept/sweep.csv before.csv
 rm -r swept/002
 expect 0 "swept/001: is done already" "$program" sweep sweep.yaml -o swept -j 1
@@ -183,9 +245,27 @@ grep -q "^002,5 m,3,nan,nan" bad/sweep.csv || fail "sweep.csv of a failed run: $
 expect 0 "2 of 3 runs were built with the dp of an earlier one" "$program" repeat single.yaml -n 3 -o same -q
 expect 0 "largest value of" "$program" repeat single.yaml --set "dp=5 mm" --set "run.until=0.01 s" -n 3 -o repeated -q
 grep -q "^P_left \[Pa\]  *3 " log || fail "repeat: $(cat log)"
+# repeat.csv: the values of the runs, their mean, least and largest
+[ "$(head -1 repeated/repeat.csv)" = "largest value of,unit,runs,mean,least,most,deviation,mean_band,next_band,001,002,003" ] ||
+    fail "repeat.csv: $(cat repeated/repeat.csv)"
+awk -F, '/^dp,m,,,,,,,/ { ok += $10 < $11 && $11 < $12 && $10 > 0.0049 && $12 < 0.0051 }
+    /^P_left,Pa,3,/ { m = ($10 + $11 + $12) / 3; d = sqrt((($10 - m) ^ 2 + ($11 - m) ^ 2 + ($12 - m) ^ 2) / 2)
+        least = most = $10; for (k = 11; k <= 12; k++) { if ($k < least) least = $k; if ($k > most) most = $k }
+        ok += ($4 / m - 1) ^ 2 < 1e-14 && $5 == least && $6 == most && ($7 - d) ^ 2 <= (1e-5 * d) ^ 2 && $8 > 0 && $9 > $8 }
+    END { exit !(ok == 2) }' repeated/repeat.csv || fail "repeat.csv: $(cat repeated/repeat.csv)"
 grep -q "^dp: 4.975 mm" repeated/001/case.yaml && grep -q "^dp: 5.025 mm" repeated/003/case.yaml || fail "dp of repeat"
 expect 0 "order" "$program" converge single.yaml -o converged -q
 grep -q "^ke " log || fail "converge: $(cat log)"
+# converge.csv: the largest values of the three runs, order and band as printed
+[ "$(head -1 converged/converge.csv)" = "largest value of,unit,coarse,middle,fine,change,order,limit,band,kind" ] ||
+    fail "converge.csv: $(cat converged/converge.csv)"
+most() { awk -F, -v name="$2" 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == name) at = k; next } !n++ || $at > m { m = $at } END { printf "%.9g", m }' "$1"; }
+three=$(most converged/001/probes.csv 'P_left[Pa]'),$(most converged/002/probes.csv 'P_left[Pa]'),$(most converged/003/probes.csv 'P_left[Pa]')
+grep -q "^P_left,Pa,$three," converged/converge.csv || fail "converge.csv has not $three: $(grep ^P_left converged/converge.csv)"
+grep -qE "^dp,m,0[.0-9]*,0[.0-9]*,0[.0-9]*,,,,,$" converged/converge.csv || fail "dp of converge.csv"
+awk '/^P_left/ { print $6, $7, $8 }' log > printed
+awk -F, 'NR == FNR { split($0, p, " "); next } /^P_left/ { exit !(sprintf("%.3g", $6) == p[1] && sprintf("%.3g", $7) == p[2] && sprintf("%.3g", $9) == p[3]) }' \
+    printed converged/converge.csv || fail "converge.csv is not as printed: $(cat printed) $(grep ^P_left converged/converge.csv)"
 grep -q "^dp: 40 mm" converged/001/case.yaml && grep -q "^dp: 20 mm" converged/003/case.yaml || fail "dp of converge"
 
 # a sweep that is interrupted stops, and goes on

@@ -58,7 +58,7 @@ void free(void *block)
 
 enum { SAMPLES = 2000 };
 static double t[SAMPLES], p[SAMPLES];
-static char path[] = "mps_memory_XXXXXX";
+static char folder[] = "mps_memory_XXXXXX", path[sizeof folder + 16], summary[sizeof folder + 16];
 
 static mps_status impacts(const mps_stats_config *config)
 {
@@ -96,6 +96,13 @@ static mps_status peaks(const mps_stats_config *config)
     return status;
 }
 
+/* The folder of a run that is done, or of one that goes on: its rows are those of `path`. */
+static mps_status constants(const mps_stats_config *config)
+{
+    mps_stats_config own = *config;
+    return mps_stats_config_read(folder, &own);
+}
+
 static void check(mps_status (*call)(const mps_stats_config *), int64_t least)
 {
     mps_status status;
@@ -125,8 +132,10 @@ static void check(mps_status (*call)(const mps_stats_config *), int64_t least)
 static int prepare(void **state)
 {
     (void)state;
-    const int file = mkstemp(path);
-    FILE *out = file < 0 ? NULL : fdopen(file, "w");
+    if (!mkdtemp(folder)) return -1;
+    snprintf(path, sizeof path, "%s/probes.csv", folder);
+    snprintf(summary, sizeof summary, "%s/summary.json", folder);
+    FILE *out = fopen(path, "w");
     if (!out) return -1;
     fputs("t[s],a,b\n", out);
     for (int k = 0; k < 3000; k++) fprintf(out, "%d,%d,%d\n", k, k, -k);
@@ -140,7 +149,7 @@ static int prepare(void **state)
 static int clean(void **state)
 {
     (void)state;
-    return unlink(path);
+    return unlink(path) == 0 && rmdir(folder) == 0 ? 0 : -1;
 }
 
 static void all_calls(void **state)
@@ -150,6 +159,13 @@ static void all_calls(void **state)
     check(table, 10);
     check(comparison, 3);
     check(peaks, 11);
+    check(constants, 10); /* without a summary: the end of the table */
+    FILE *out = fopen(summary, "w");
+    assert_non_null(out);
+    fputs("{\"t_end\": 3, \"inputs\": [{\"key\": \"T1\", \"value\": \"2 s\"}]}\n", out);
+    assert_int_equal(fclose(out), 0);
+    check(constants, 5);
+    assert_int_equal(unlink(summary), 0);
 }
 #else
 static int prepare(void **state)

@@ -126,6 +126,7 @@ static void read_config(build *b, mps_job_config *out, double *times)
     config.text = mps_case_text(b->c);
     config.t_end = b->until;
     config.gravity = b->gravity;
+    config.dp = b->dp;
     const double rate = mps__read_number(b->c, output, "rate", 0);
     if (rate > 0) config.row_interval = 1 / rate;
     config.checkpoint = mps__read_number(b->c, run, "checkpoint", config.checkpoint);

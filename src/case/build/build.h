@@ -62,12 +62,23 @@ typedef struct build_sensor {
     char part[BUILD_NAME];
 } build_sensor;
 
-/* Natural periods of the liquid at rest. */
+/* A solid in the free surface, along the axis of the waves [m]. */
+typedef struct build_block {
+    int32_t solid;
+    bool across; /* it reaches from side to side of the tank */
+    double lo, hi;
+} build_block;
+
+/* Natural periods of the liquid at rest, of the tank without its solids. */
 typedef struct build_modes {
     int32_t count, axis; /* 0: waves along x, 2: along z */
     double period[BUILD_MODES];
     double length, depth; /* of the free surface, of the liquid [m] */
     char how[BUILD_TEXT];
+    int32_t blocks;
+    build_block block[BUILD_SOLIDS]; /* from the lowest `lo` */
+    double
+        open; /* longest stretch of the surface between those that reach across [m]; of no meaning without blocks */
 } build_modes;
 
 /* Texts of the library, kept until there is a job. In the memory of the case: the simulation keeps its address. */
@@ -119,6 +130,12 @@ void mps__build_solids(build *b);
 void mps__build_phases(build *b);
 void mps__build_fills(build *b);
 void mps__build_modes(build *b);
+/* Period of half a wave over `length`, in liquid of the modes' depth [s]. */
+double mps__modes_period(const build *b, double length);
+/* What the periods leave out of the case, behind "; ", or "". */
+const char *mps__modes_without(const build *b);
+/* Solids that stand in the free surface. */
+void mps__build_blocks(build *b);
 void mps__build_motion(build *b);
 void mps__build_time(build *b);
 void mps__build_sensors(build *b);

@@ -43,14 +43,32 @@ static void write_place(const writer *w, const build *b, const double *x)
 
 /* ---- what there is ---- */
 
+/* dp as asked for; as built, and the cells of the lattice, where these differ. */
+static void write_spacing(const writer *w, const build *b)
+{
+    char text[32];
+    int32_t dim;
+    double dp = b->dp, h[3] = {0, 0, 0};
+    bool cubes = true;
+    fprintf(w->file, "dp %s", length_text(b->dp, text, sizeof text));
+    if (mps_sim_shape(b->sim, &dim, &dp) == MPS_OK && fabs(dp - b->dp) > 1e-6 * dp)
+        fprintf(w->file, " asked for, %s built", length_text(dp, text, sizeof text));
+    if (mps_lattice_get(b->sim, NULL, h) != MPS_OK) return;
+    for (int32_t d = 0; d < b->dim; d++) cubes = cubes && fabs(h[d] - dp) <= 1e-6 * dp;
+    if (cubes) return;
+    fprintf(w->file, " in cells of");
+    for (int32_t d = 0; d < b->dim; d++)
+        fprintf(w->file, "%s %s", d ? " x" : "", length_text(h[d], text, sizeof text));
+}
+
 static void write_tank(const writer *w, const build *b)
 {
     static const char *const kind[] = {"box", "polygon", "body", "cylinder", "ball"};
     const form *t = &b->tank.form;
-    char dp[32];
     heading(w, "case");
-    fprintf(w->file, "%d-D, dp %s, gravity %g m/s2, model %s\n", (int)b->dim,
-            length_text(b->dp, dp, sizeof dp), b->gravity, b->model);
+    fprintf(w->file, "%d-D, ", (int)b->dim);
+    write_spacing(w, b);
+    fprintf(w->file, ", gravity %g m/s2, model %s\n", b->gravity, b->model);
     heading(w, "tank");
     fprintf(w->file, "%s, %.4g x %.4g", b->tank.file ? "file" : kind[t->kind], t->hi[0] - t->lo[0],
             t->hi[1] - t->lo[1]);
@@ -103,6 +121,28 @@ static void write_fluids(const writer *w, build *b)
     }
 }
 
+/* Which solids stand in the surface, and what the periods of the open part are if nothing passes below them. */
+static void write_blocks(const writer *w, const build *b)
+{
+    const build_modes *m = &b->modes;
+    bool closed = false;
+    for (int32_t k = 0; k < m->blocks; k++) {
+        const build_block *s = &m->block[k];
+        heading(w, k ? "" : "surface");
+        fprintf(w->file, "solid '%s' stands in it, %c = %.4g", b->solid[s->solid].name,
+                "xyz"[m->axis], s -> lo);
+        if (s->hi - s->lo > 0.01 * b->dp) fprintf(w->file, " .. %.4g", s->hi);
+        fprintf(w->file, " m%s\n", s->across ? "" : ", not from side to side");
+        closed = closed || s->across;
+    }
+    if (!closed || !(m->open > 0)) return;
+    heading(w, "");
+    fprintf(w->file,
+            "if no liquid passes below or through them, the first period of the longest open "
+            "stretch, %.4g m, is %.4g s\n",
+            m->open, mps__modes_period(b, m->open));
+}
+
 static void write_modes(const writer *w, const build *b)
 {
     const build_modes *m = &b->modes;
@@ -112,7 +152,8 @@ static void write_modes(const writer *w, const build *b)
         fprintf(w->file, "%sT%d %.4g s", i ? ", " : "", (int)i + 1, m->period[i]);
     fprintf(w->file, " (waves along %c)\n", "xyz"[m->axis]);
     heading(w, "");
-    fprintf(w->file, "by %s%s\n", m->how, b->solids ? "; without the solids" : "");
+    fprintf(w->file, "by %s%s\n", m->how, mps__modes_without(b));
+    write_blocks(w, b);
 }
 
 static void write_motion(const writer *w, const build *b)

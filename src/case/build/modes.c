@@ -122,6 +122,19 @@ static bool as_filled(build *b, build_modes *m)
     return true;
 }
 
+double mps__modes_period(const build *b, double length)
+{
+    const double pi = acos(-1.0), k = pi / length;
+    return 2 * pi / sqrt(b->gravity * k * tanh(k * b->modes.depth));
+}
+
+const char *mps__modes_without(const build *b)
+{
+    static const char *const text[] = {"", "; without the solids", "; without the fluid above",
+                                       "; without the solids and the fluid above"};
+    return text[(b->solids > 0) + 2 * (b->fluids > 1)];
+}
+
 void mps__build_modes(build *b)
 {
     build_modes *m = &b->modes;
@@ -130,16 +143,15 @@ void mps__build_modes(build *b)
     m->axis = wave_axis(b);
     if (by_section(b, m)) {
         mps__case_scale_set(b->c, (read_scale){b->dp, m->period[0], NAN});
+        mps__build_blocks(b);
         return;
     }
     if (t->kind == FORM_BOX && !b->tank.file && !isnan(b->depth))
         as_asked(b, m);
     else if (b->status < 0 || !as_filled(b, m))
         return;
-    const double pi = acos(-1.0);
-    for (m->count = 0; m->count < BUILD_MODES; m->count++) {
-        const double k = (m->count + 1) * pi / m->length;
-        m->period[m->count] = 2 * pi / sqrt(b->gravity * k * tanh(k * m->depth));
-    }
+    for (m->count = 0; m->count < BUILD_MODES; m->count++)
+        m->period[m->count] = mps__modes_period(b, m->length / (m->count + 1));
     mps__case_scale_set(b->c, (read_scale){b->dp, m->period[0], NAN});
+    mps__build_blocks(b);
 }

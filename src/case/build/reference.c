@@ -2,6 +2,7 @@
 /* Known values beside the results, figures between two times, and what summary.json says about the case. */
 #include "build.h"
 #include "csv.h"
+#include "ship_motion.h"
 #include "units.h"
 #include <math.h>
 #include <stdio.h>
@@ -211,6 +212,22 @@ static void add_node(build *b, const tree_node *node)
     add_input(b, mps__tree_path(node, path, sizeof path), text);
 }
 
+/* The lowest frequency of the motion, if all others are multiples of it [rad/s]; NAN: it has no period. */
+static double motion_omega(const build_motion *m)
+{
+    double least = INFINITY;
+    if (!m || m->rows > 0) return NAN;
+    for (int32_t i = 0; i < m->count; i++) {
+        if (m->harmonic[i].form == MOTION_PUSH || !(m->harmonic[i].omega > 0)) return NAN;
+        least = fmin(least, m->harmonic[i].omega);
+    }
+    for (int32_t i = 0; i < m->count; i++) {
+        const double ratio = m->harmonic[i].omega / least;
+        if (fabs(ratio - round(ratio)) > 1e-6) return NAN;
+    }
+    return isfinite(least) ? least : NAN;
+}
+
 void mps__build_inputs(build *b)
 {
     char text[BUILD_TEXT];
@@ -219,7 +236,13 @@ void mps__build_inputs(build *b)
     if (b->modes.count > 0) {
         snprintf(text, sizeof text, "%.9g s", b->modes.period[0]);
         add_input(b, "T1", text);
-        add_input(b, "T1 by", b->modes.how);
+        snprintf(text, sizeof text, "%s%s", b->modes.how, mps__modes_without(b));
+        add_input(b, "T1 by", text);
+    }
+    const double omega = motion_omega(b->motion);
+    if (isfinite(omega)) {
+        snprintf(text, sizeof text, "%.9g rad/s", omega);
+        add_input(b, "motion omega", text);
     }
     for (int32_t i = 0; i < b->fluids; i++) {
         char key[BUILD_NAME + 16];

@@ -76,10 +76,14 @@ void mps__job_boxes(mps_job *job)
 {
     view v;
     job->walls = job->liquid = (job_box){0};
+    const mps_status posed = mps__scene_pose(job->sim, job->dim, &job->built);
+    if (!mps__job_note(job, posed, "pose of the tank")) return;
     if (!mps__job_note(job, mps__view_open(job->sim, &v) ? MPS_OK : MPS_E_BUSY, "size of the tank"))
         return;
     for (int64_t i = 0; i < v.x.count; i++) {
-        const double *x = v.x.data + i * v.x.stride;
+        double lab[3] = {0, 0, 0}, x[3];
+        memcpy(lab, v.x.data + i * v.x.stride, (size_t)job->dim * sizeof *lab);
+        mps__film_to_tank(&job->built, lab, x);
         const bool fluid = v.kind.integers[i] == MPS_FLUID;
         const int32_t phase = v.phase.integers[i];
         if (v.kind.integers[i] == MPS_WALL) take(&job->walls, x, job->dim);

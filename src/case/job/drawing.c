@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Frames and pictures of a run, and its last state. */
 #include "run.h"
-#include "picture_scene.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -29,16 +28,6 @@ static int64_t next_frame(const mps_job *job, double t)
     return (int64_t)(t / job->config.t_end * job->config.frames + 1e-9) + 1;
 }
 
-/* One colour scale for all pictures of the run, also where another program began it. */
-static void begin_pictures(mps_job *job)
-{
-    const mps_job_config *c = &job->config;
-    mps_picture_config_init(&job->picture, sizeof job->picture);
-    job->picture.title = c->title ? c->title : c->name;
-    job->picture.gravity = fabs(c->gravity);
-    if (c->resume) mps__scene_scale_read(job->place.path, &job->picture);
-}
-
 void mps__frames_begin(mps_job *job)
 {
     const mps_job_config *c = &job->config;
@@ -46,7 +35,6 @@ void mps__frames_begin(mps_job *job)
     const int32_t flags = (c->resume ? MPS_FRAMES_CONTINUE : 0) | (pieces ? MPS_FRAMES_PIECES : 0) |
                           (c->tank_frame ? MPS_FRAMES_TANK : 0);
     job->frame_t = -1;
-    begin_pictures(job);
     if (c->frames == 0 || !(pieces || mps__job_gather(job))) return;
     mps__job_note(job, mps_frames_open(job->sim, c->folder, "frames", flags, &job->frames),
                   "frames");
@@ -89,14 +77,8 @@ static void draw(mps_job *job, const char *name)
     snprintf(path, sizeof path, "%s/%s", job->place.path, name);
     config->error = error;
     config->error_size = sizeof error;
-    const bool fixed = config->pressure_hi > config->pressure_lo;
-    mps_status status = mps_picture_save(job->sim, config, path);
+    const mps_status status = mps_picture_save(job->sim, config, path);
     config->error = NULL;
-    if (status == MPS_OK && !fixed && config->pressure_hi > config->pressure_lo &&
-        !mps__scene_scale_write(job->place.path, config)) {
-        snprintf(error, sizeof error, "%s/" SCENE_SCALE_FILE ": cannot write it", job->place.path);
-        status = MPS_E_IO;
-    }
     if (status == MPS_OK) return;
     job->output_failed = true;
     if (!job->error[0]) snprintf(job->error, sizeof job->error, "%s", error);

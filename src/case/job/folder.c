@@ -17,10 +17,9 @@ static const char LOCK[] = "run.lock";
 
 /* What every job writes, beside frames/. The first ones tell that there is a run. */
 static const char *const FILES[] = {
-    "checkpoint.mps",     "probes.csv",         "steps.csv",      "frames.pvd",
-    "summary.json",       "checkpoint.mps.tmp", "momentum.csv",   "trace.csv",
-    "report.html",        "report.html.tmp",    "frames.pvd.tmp", "picture_end.png",
-    "picture_scale.json", "film.mp4",           "paraview.py",    "case.yaml"};
+    "checkpoint.mps",     "probes.csv",      "steps.csv", "frames.pvd",  "summary.json",
+    "checkpoint.mps.tmp", "momentum.csv",    "trace.csv", "report.html", "report.html.tmp",
+    "frames.pvd.tmp",     "picture_end.png", "film.mp4",  "paraview.py", "case.yaml"};
 enum { FOLDER_FILES = sizeof FILES / sizeof *FILES, FOLDER_SIGNS = 5 };
 
 const char *mps__folder_advice(int error)

@@ -141,6 +141,7 @@ static const char *check(const mps_job_config *c)
     if (!(c->row_interval > 0) || !isfinite(c->row_interval)) return "row_interval must be > 0";
     if (!(c->checkpoint >= 0) || !isfinite(c->checkpoint)) return "checkpoint must be >= 0";
     if (!isfinite(c->gravity)) return "gravity must be a number";
+    if (!(c->dp >= 0) || !isfinite(c->dp)) return "dp must be >= 0";
     if (c->frames < 0) return "frames must be >= 0";
     if (c->threads < 1) return "threads must be >= 1";
     if (c->report && c->page_bytes < PAGE_LEAST) return "page_bytes must be >= 500000";

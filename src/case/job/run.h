@@ -5,6 +5,7 @@
 
 #include "folder.h"
 #include "measure.h"
+#include "picture_scene.h"
 #include "progress.h"
 #include "table.h"
 #include "tables.h"
@@ -97,10 +98,11 @@ struct mps_job {
     job_input *input;
     job_outline *outline;
     trace_figure **trace;
-    quantity **quantity; /* of measures */
-    double level;        /* still level as filled in [m]; 0: that of the highest particle */
-    job_box walls, liquid;
-    int32_t phases; /* the highest number among the fluid, plus one */
+    quantity **quantity;   /* of measures */
+    double level;          /* still level as filled in [m]; 0: that of the highest particle */
+    film_pose built;       /* of the tank, as the case is built */
+    job_box walls, liquid; /* in the frame of the tank */
+    int32_t phases;        /* the highest number among the fluid, plus one */
     table probes, steps, momentum, trace_rows;
     double *
         all_rows; /* of trace.csv, [all_count][trace_rows.columns]; the first is the state before the first step, with dt = 0 */
@@ -167,7 +169,7 @@ int mps__job_columns(const mps_job *job);
 job_column mps__job_column(const mps_job *job, int k);
 /* One of the common columns, or the time, has this name. */
 bool mps__job_is_common(const char *name);
-/* Measure the boxes of walls and liquid, before the first step. */
+/* Measure the boxes of walls and liquid, and the pose of the tank, before the first step or a checkpoint. */
 void mps__job_boxes(mps_job *job);
 /* Depth of the liquid at the start [m]; NAN if it does not stand on the floor. */
 double mps__job_depth(const mps_job *job);
@@ -209,6 +211,12 @@ void mps__resume_add_step(void *job, const double *row);
 bool mps__resume_due(mps_job *job, double t);
 /* Write a checkpoint. All ranks make this call. */
 void mps__resume_save(mps_job *job);
+
+/* ---- colours.c ---- */
+
+/* Title, gravity and colour scale of all pictures. All ranks make this call, before a checkpoint is read: the scale is that of the case as it
+ * is built. */
+void mps__colours_begin(mps_job *job);
 
 /* ---- drawing.c ---- */
 

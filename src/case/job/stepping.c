@@ -16,7 +16,7 @@ enum { STOP_INTERRUPTED = 1, STOP_FAILED = 2 };
 /* Handlers have no argument: this is the one job of the process that catches signals. */
 static volatile sig_atomic_t interrupted, hung_up;
 
-enum { SIGNALS = 4 };
+enum { SIGNALS = 4, SPACING_TEXT = 160 };
 static const int CAUGHT[SIGNALS] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1};
 
 /* What the program had for each signal. */
@@ -146,6 +146,11 @@ static bool allocate_rows(mps_job *job)
 /* Open all tables. @return false: a rank failed */
 static bool open_job(mps_job *job)
 {
+    if (!mps__job_agree(job)) return false; /* a rank that has failed hears nothing else */
+    if (!job->ran) {
+        mps__colours_begin(job);
+        mps__job_boxes(job);
+    }
     if (job->ran)
         mps__job_fail(job, MPS_EXIT_USAGE, "a job runs once; make another one");
     else if (allocate_rows(job) && job->config.resume)
@@ -155,9 +160,27 @@ static bool open_job(mps_job *job)
     job->totals.fluid = mps_particles_count(job->sim, MPS_FLUID);
     job->totals.wall = mps_particles_count(job->sim, MPS_WALL);
     job->totals.dummy = mps_particles_count(job->sim, MPS_DUMMY);
-    mps__job_boxes(job);
     if (mps__job_first(job)) mps__job_open_tables(job);
     return mps__job_agree(job);
+}
+
+/* "0.0199 m (0.02 m asked for, cells 0.0198 x 0.02 m)": the parts that differ. */
+static void describe_spacing(const mps_job *job, char text[SPACING_TEXT])
+{
+    const double dp = job->dp, asked = job->config.dp;
+    double h[3] = {dp, dp, dp};
+    bool cubes = true;
+    int used = snprintf(text, SPACING_TEXT, "%g m", dp);
+    const bool other = asked > 0 && fabs(asked - dp) > 1e-6 * dp;
+    if (other)
+        used += snprintf(text + used, SPACING_TEXT - (size_t)used, " (%g m asked for", asked);
+    mps_lattice_get(job->sim, NULL, h);
+    for (int d = 0; d < job->dim; d++) cubes = cubes && fabs(h[d] - dp) <= 1e-6 * dp;
+    if (!cubes)
+        used += snprintf(text + used, SPACING_TEXT - (size_t)used,
+                         job->dim == 3 ? "%scells %g x %g x %g m" : "%scells %g x %g m",
+                         other ? ", " : " (", h[0], h[1], h[2]);
+    if (other || !cubes) snprintf(text + used, SPACING_TEXT - (size_t)used, ")");
 }
 
 /* Take the first row and frame. */
@@ -165,11 +188,13 @@ static void begin(mps_job *job)
 {
     const mps_job_config *c = &job->config;
     const job_totals *s = &job->totals;
+    char spacing[SPACING_TEXT];
+    describe_spacing(job, spacing);
     if (!c->quiet)
         mps__job_tell(job,
-                      "%s%sdp %g m, %lld fluid, %lld wall, %lld dummy particles, from t = %g to %g "
+                      "%s%sdp %s, %lld fluid, %lld wall, %lld dummy particles, from t = %g to %g "
                       "s",
-                      c->model ? c->model : "", c->model ? ", " : "", job->dp, (long long)s->fluid,
+                      c->model ? c->model : "", c->model ? ", " : "", spacing, (long long)s->fluid,
                       (long long)s->wall, (long long)s->dummy, s->t, c->t_end);
     mps__progress_begin(&job->progress, c->t_end, mps_particles_count(job->sim, -1),
                         !c->quiet && !c->say);

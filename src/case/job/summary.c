@@ -110,6 +110,10 @@ static void summary_boxes(FILE *out, const mps_job *job)
             json_number(out, size[d], job->walls.hi[d] - job->walls.lo[d]);
         }
     json_number(out, "liquid_depth", mps__job_depth(job));
+    fputs(",\n  \"tank_start\": [", out); /* R, row by row, and s of x = R X + s */
+    for (int k = 0; k < 9; k++) fprintf(out, "%.17g, ", job->built.turn[k]);
+    fprintf(out, "%.17g, %.17g, %.17g]", job->built.shift[0], job->built.shift[1],
+            job->built.shift[2]);
 }
 
 /* What each column of probes.csv is, and where. */
@@ -236,6 +240,18 @@ static void summary_machine(FILE *out)
     }
 }
 
+/* As built, as asked for, and along each axis, whose cells have the volume of a particle. */
+static void summary_spacing(FILE *out, const mps_job *job)
+{
+    double h[3];
+    json_number(out, "dp", job->dp);
+    if (job->config.dp > 0) json_number(out, "dp_asked", job->config.dp);
+    if (mps_lattice_get(job->sim, NULL, h) != MPS_OK) return;
+    fputs(",\n  \"lattice\": [", out);
+    for (int d = 0; d < job->dim; d++) fprintf(out, "%s%.17g", d ? ", " : "", h[d]);
+    fputc(']', out);
+}
+
 static void summary_case(FILE *out, const mps_job *job)
 {
     fputs("{\n  \"case\": ", out);
@@ -243,7 +259,7 @@ static void summary_case(FILE *out, const mps_job *job)
     json_text(out, "title", job->config.title);
     if (job->config.command) json_text(out, "command", job->config.command);
     json_text(out, "model", job->config.model ? job->config.model : "");
-    json_number(out, "dp", job->dp);
+    summary_spacing(out, job);
     json_number(out, "gravity", job->config.gravity);
     fprintf(out, ",\n  \"tank_frame\": %s", job->config.tank_frame ? "true" : "false");
 }

@@ -184,7 +184,8 @@ export class View {
     // Where the tank comes to, in the frame of the lab.
     swept() {
         if (this.sweptBox) return this.sweptBox;
-        const out = {lo: [...this.box.lo], hi: [...this.box.hi]};
+        if (!this.data.poses.length) return this.box;
+        const out = {lo: [Infinity, Infinity, Infinity], hi: [-Infinity, -Infinity, -Infinity]};
         for (const p of this.data.poses) {
             for (let i = 0; i < 8; i++) {
                 const X = [0, 1, 2].map((d) => i >> d & 1 ? this.box.hi[d] : this.box.lo[d]);

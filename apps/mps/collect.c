@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "collect.h"
+#include <math.h>
+#include <string.h>
+
+/* ---- statistics ---- */
+
+/* A column of a run, and the constants of its statistics. */
+typedef struct signal {
+    int64_t n;
+    const double *t, *value;
+    const mps_stats_config *config;
+} signal;
+
+static double find_max(const signal *s)
+{
+    double most = NAN;
+    for (int64_t i = 0; i < s->n; i++) most = fmax(most, s->value[i]);
+    return most;
+}
+
+static double find_min(const signal *s)
+{
+    double least = NAN;
+    for (int64_t i = 0; i < s->n; i++) least = fmin(least, s->value[i]);
+    return least;
+}
+
+/* Rows are at equal times. */
+static double find_mean(const signal *s)
+{
+    double sum = 0;
+    int64_t count = 0;
+    for (int64_t i = 0; i < s->n; i++)
+        if (!isnan(s->value[i])) {
+            sum += s->value[i];
+            count++;
+        }
+    return count ? sum / (double)count : NAN;
+}
+
+static double find_last(const signal *s)
+{
+    return s->n > 0 ? s->value[s->n - 1] : NAN;
+}
+
+/* By Weibull, at full scale, as 'mps stats' prints it; nan: too few events. */
+static double find_p3h(const signal *s)
+{
+    mps_impacts *impacts = NULL;
+    mps_impacts_info info;
+    mps_fit fit;
+    double value = NAN;
+    mps_fit_init(&fit, sizeof fit);
+    mps_impacts_info_init(&info, sizeof info);
+    if (mps_impacts_find(s->config, s->n, s->t, s->value, &impacts) == MPS_OK &&
+        mps_impacts_info_get(impacts, &info) == MPS_OK &&
+        mps_impacts_fit_get(impacts, MPS_FIT_WEIBULL, &fit) == MPS_OK)
+        value = info.pressure_scale * fit.value;
+    mps_impacts_destroy(impacts);
+    return value;
+}
+
+/* Amplitude at the frequency of the motion; nan: it has none, or the run is too short. */
+static double find_harmonic(const signal *s)
+{
+    mps_harmonics h;
+    mps_harmonics_init(&h, sizeof h);
+    h.omega = s->config->omega;
+    return mps_harmonics_find(s->config, s->n, s->t, s->value, &h) == MPS_OK ? h.amplitude[0] : NAN;
+}
+
+static const struct {
+    const char *name;
+    double (*find)(const signal *s);
+    bool pressure; /* of pressures alone */
+} STATISTICS[] = {{"max", find_max, false},   {"min", find_min, false},
+                  {"mean", find_mean, false}, {"last", find_last, false},
+                  {"p3h", find_p3h, true},    {"harmonic", find_harmonic, false}};
+
+enum { STATISTIC_COUNT = sizeof STATISTICS / sizeof *STATISTICS };
+
+/* ---- entries ---- */
+
+/* Column "F", or "F_x" of the sensor F. */
+static bool belongs(const collect_entry *e, const char *column)
+{
+    const size_t length = strlen(e->sensor);
+    if (length == 0 || strcmp(column, e->sensor) == 0) return true;
+    return strncmp(column, e->sensor, length) == 0 && strchr("_.", column[length]) != NULL;
+}
+
+static bool refuse_entry(const collect *s, const char *word, const char *why)
+{
+    fprintf(stderr, "mps %s: collect: '%s' %s", s->verb, word, why);
+    for (int i = 0; i < STATISTIC_COUNT; i++)
+        fprintf(stderr, "%s%s", i ? ", " : " ", STATISTICS[i].name);
+    fputc('\n', stderr);
+    return false;
+}
+
+/* The texts stay in s->text. */
+bool collect_read(collect *s, const mps_case *tank, const char *name)
+{
+    s->verb = name;
+    s->entries = 0;
+    if (!series_key(tank, "collect", s->text, sizeof s->text)) {
+        s->entry[s->entries++] = (collect_entry){"", 0};
+        return true;
+    }
+    char *rest = NULL;
+    for (char *word = strtok_r(s->text, "[], \"", &rest); word;
+         word = strtok_r(NULL, "[], \"", &rest)) {
+        int32_t k = 0;
+        char *dot = strrchr(word, '.');
+        while (dot && k < STATISTIC_COUNT && strcmp(dot + 1, STATISTICS[k].name) != 0) k++;
+        if (!dot || dot == word || k == STATISTIC_COUNT)
+            return refuse_entry(s, word,
+                                "must be a sensor and one of these statistics, as in P1.max:");
+        if (s->entries == COLLECT_MOST) return refuse_entry(s, word, "is one too many of");
+        *dot = '\0';
+        s->entry[s->entries++] = (collect_entry){word, k};
+    }
+    return true;
+}
+
+bool collect_fits(const collect *s, const mps_table *rows)
+{
+    for (int32_t k = 0; k < s->entries; k++) {
+        const collect_entry *e = &s->entry[k];
+        bool found = false;
+        for (int32_t j = 0; j < mps_table_columns(rows); j++) {
+            const char *name = mps_table_name(rows, j), *unit = mps_table_unit(rows, j);
+            if (!belongs(e, name)) continue;
+            found = true;
+            if (!STATISTICS[e->statistic].pressure || strcmp(unit, "Pa") == 0) continue;
+            fprintf(stderr,
+                    "mps %s: collect: '%s.%s': column '%s' is no pressure: its unit is '%s', not "
+                    "'Pa'\n",
+                    s->verb, e->sensor, STATISTICS[e->statistic].name, name, unit);
+            return false;
+        }
+        if (found) continue;
+        fprintf(stderr, "mps %s: collect: no column of probes.csv is '%s'\n", s->verb, e->sensor);
+        return false;
+    }
+    return true;
+}
+
+/* ---- the table ---- */
+
+void collect_names(const collect *s, FILE *out, const mps_table *rows)
+{
+    for (int32_t k = 0; k < s->entries; k++)
+        for (int32_t j = 0; j < mps_table_columns(rows); j++) {
+            if (!belongs(&s->entry[k], mps_table_name(rows, j))) continue;
+            fprintf(out, ",%s.%s", mps_table_name(rows, j), STATISTICS[s->entry[k].statistic].name);
+            if (mps_table_unit(rows, j)[0]) fprintf(out, "[%s]", mps_table_unit(rows, j));
+        }
+}
+
+void collect_values(const collect *s, FILE *out, const mps_table *first, const char *folder,
+                    const mps_table *rows)
+{
+    char error[640] = "";
+    mps_stats_config config;
+    mps_stats_config_init(&config, sizeof config);
+    config.error = error;
+    config.error_size = sizeof error;
+    if (rows && mps_stats_config_read(folder, &config) != MPS_OK)
+        fprintf(stderr, "mps %s: %s\n", s->verb, error);
+    for (int32_t k = 0; k < s->entries; k++)
+        for (int32_t j = 0; j < mps_table_columns(first); j++) {
+            const char *name = mps_table_name(first, j), *here = mps_table_name(rows, j);
+            if (!belongs(&s->entry[k], name)) continue;
+            const bool known = here && strcmp(here, name) == 0;
+            const signal one = {known ? mps_table_rows(rows) : 0, mps_table_values(rows, -1),
+                                mps_table_values(rows, j), &config};
+            fprintf(out, ",%.9g", known ? STATISTICS[s->entry[k].statistic].find(&one) : NAN);
+        }
+}

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What a sweep collects of each run: statistics of columns, "P1.max". */
+#ifndef MPS_APPS_COLLECT_H
+#define MPS_APPS_COLLECT_H
+
+#include "series.h"
+#include <mps/stats.h>
+#include <stdio.h>
+
+enum { COLLECT_SIZE = 4096, COLLECT_MOST = 64 };
+
+/* An entry of `collect`: all columns of a sensor, or one column. */
+typedef struct collect_entry {
+    const char *sensor; /* "": all columns */
+    int32_t statistic;
+} collect_entry;
+
+typedef struct collect {
+    const char *verb;
+    char text[COLLECT_SIZE];
+    collect_entry entry[COLLECT_MOST];
+    int32_t entries;
+} collect;
+
+/* "[P1.max, F.last]" of the case; without it the largest value of each column. @param name  of the verb @return false: an entry is wrong, which is told */
+bool collect_read(collect *s, const mps_case *tank, const char *name);
+/* Each entry has a column, with a unit that fits. @return false: one has none, which is told */
+bool collect_fits(const collect *s, const mps_table *rows);
+/* Names of the columns of the sweep's table, each behind a comma. */
+void collect_names(const collect *s, FILE *out, const mps_table *rows);
+/* Values of a run. Columns are those of `first`; one that the run does not have is nan.
+ * @param folder  of the run, for the constants of its statistics @param rows  NULL: it has none */
+void collect_values(const collect *s, FILE *out, const mps_table *first, const char *folder,
+                    const mps_table *rows);
+
+#endif
