@@ -5,6 +5,7 @@
 
 #include <mps/case.h>
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 enum { CLI_SETS = 64, CLI_FILES = 64 };
@@ -43,6 +44,25 @@ typedef struct verb {
     int (*run)(const choices *c);
     const char *more; /* text behind the options of `mps VERB --help`, or NULL */
 } verb;
+
+/* All verbs, in the order of `mps --help`. */
+extern const verb cli_verbs[];
+extern const int32_t cli_verb_count;
+
+typedef enum option_kind { OPTION_FLAG, OPTION_TEXT, OPTION_COUNT, OPTION_SET } option_kind;
+
+/* An option: the verbs with its bit have it. */
+typedef struct option {
+    int32_t bit;
+    const char *name; /* "--set" */
+    char letter;      /* 's', 0: none */
+    const char *argument, *help;
+    option_kind kind;
+    size_t place; /* in choices: bool, const char * or int32_t, by kind */
+} option;
+
+extern const option cli_options[];
+extern const int32_t cli_option_count;
 
 int verb_run(const choices *c);
 int verb_resume(const choices *c);
