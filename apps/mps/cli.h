@@ -83,8 +83,8 @@ int cli_read(choices *c, const verb *v, int argc, char **argv);
 void cli_print_help(const verb *v);
 /* Read a case and print its messages. @return NULL: it has errors, and *code is set */
 mps_case *cli_case(const choices *c, int *code);
-/* Run a case into a folder; config has resume and error, the choices say the rest. @return exit code */
-int cli_run(const choices *c, mps_job_config *config, const char *folder);
+/* Run a case into a folder; `begin` has resume and error, the choices say the rest. @return exit code */
+int cli_run(const choices *c, const mps_job_config *begin, const char *folder);
 /* "surge" of "cases/surge.yaml". */
 void cli_stem(const char *path, char *out, size_t size);
 /* The messages of a case on stderr. */

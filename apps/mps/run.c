@@ -54,34 +54,34 @@ static choices with_threads(const choices *c, char *text, size_t size)
 }
 
 /* With messages on the one rank that knows them. */
-int cli_run(const choices *c, mps_job_config *config, const char *folder)
+int cli_run(const choices *c, const mps_job_config *begin, const char *folder)
 {
+    mps_job_config config = *begin;
     char threads[48];
     const choices all = with_threads(c, threads, sizeof threads);
     mps_job_ranks ranks = {.struct_size = sizeof ranks};
     int code = MPS_EXIT_FAILED;
-    config->folder = folder;
-    config->command = c->command;
-    config->overwrite = c->overwrite;
-    config->quiet = c->quiet;
-    config->profile = c->profile;
-    config->signals = 1;
+    config.folder = folder;
+    config.command = c->command;
+    config.overwrite = c->overwrite;
+    config.quiet = c->quiet;
+    config.profile = c->profile;
+    config.signals = 1;
     if (c->mpi) {
-        if (mps_job_ranks_load(&ranks, config->error, config->error_size) != MPS_OK) {
-            fprintf(stderr, "mps %s: --mpi: %s\n", c->verb, config->error);
+        if (mps_job_ranks_load(&ranks, config.error, config.error_size) != MPS_OK) {
+            fprintf(stderr, "mps %s: --mpi: %s\n", c->verb, config.error);
             return MPS_EXIT_USAGE;
         }
-        config->ranks = &ranks;
+        config.ranks = &ranks;
     }
     mps_case *tank = cli_case(&all, &code);
-    if (tank) code = run_case(c, tank, config);
+    if (tank) code = run_case(c, tank, &config);
     mps_case_destroy(tank);
     if (c->mpi) {
         int32_t speak;
         code = mps_job_ranks_leave(&ranks, code, &speak);
         if (code < 0) ranks.abort(ranks.user, MPS_EXIT_FAILED);
         ranks.end(ranks.user);
-        config->ranks = NULL;
     }
     return code;
 }
