@@ -48,8 +48,7 @@ void cli_print_help(const verb *v)
 
 static int refuse(const choices *c, const char *what, const char *why)
 {
-    fprintf(stderr, "mps %s: %s: %s\n'mps %s --help' lists all options\n", c->verb, what, why,
-            c->verb);
+    cli_say(c, "mps %s: %s: %s\n'mps %s --help' lists all options\n", c->verb, what, why, c->verb);
     return MPS_EXIT_USAGE;
 }
 
@@ -108,7 +107,7 @@ int cli_read(choices *c, const verb *v, int argc, char **argv)
     for (int i = 2; i < argc; i++) {
         const char *value, *argument = argv[i];
         if (strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0) {
-            cli_print_help(v);
+            if (!c->kept || c->kept->ranks.rank == 0) cli_print_help(v);
             return MPS_EXIT_OK;
         }
         if (argument[0] != '-' || !argument[1]) {
@@ -141,13 +140,13 @@ void cli_stem(const char *path, char *out, size_t size)
              begin);
 }
 
-void cli_print_messages(const mps_case *c)
+void cli_print_messages(const choices *c, const mps_case *tank)
 {
-    const size_t size = mps_case_messages_write(c, NULL, 0) + 1;
+    const size_t size = mps_case_messages_write(tank, NULL, 0) + 1;
     char *text = malloc(size);
     if (!text) return;
-    mps_case_messages_write(c, text, size);
-    fputs(text, stderr);
+    mps_case_messages_write(tank, text, size);
+    cli_say(c, "%s", text);
     free(text);
 }
 
@@ -155,9 +154,9 @@ mps_case *cli_case(const choices *c, int *code)
 {
     mps_case *out = NULL;
     const mps_status status = mps_case_read(c->file[0], c->sets, c->set, &out);
-    if (out) cli_print_messages(out);
+    if (out) cli_print_messages(c, out);
     if (status == MPS_OK) return out;
-    if (!out) fprintf(stderr, "mps %s: %s: %s\n", c->verb, c->file[0], mps_status_text(status));
+    if (!out) cli_say(c, "mps %s: %s: %s\n", c->verb, c->file[0], mps_status_text(status));
     *code = status == MPS_E_ARG || status == MPS_E_IO ? MPS_EXIT_USAGE : MPS_EXIT_FAILED;
     mps_case_destroy(out);
     return NULL;

@@ -10,8 +10,15 @@
 
 enum { CLI_SETS = 64, CLI_FILES = 64 };
 
+/* Messages of one of many ranks, until it is known which rank shows its own. */
+typedef struct cli_text {
+    char text[8192];
+    mps_job_ranks ranks;
+} cli_text;
+
 /* What a user has asked for. */
 typedef struct choices {
+    cli_text *kept; /* NULL: one process, whose messages go to stderr at once */
     const char *program, *verb;
     int32_t files, sets;
     const char *file[CLI_FILES];   /* arguments that are no options */
@@ -85,9 +92,19 @@ void cli_print_help(const verb *v);
 mps_case *cli_case(const choices *c, int *code);
 /* Run a case into a folder; `begin` has resume and error, the choices say the rest. @return exit code */
 int cli_run(const choices *c, const mps_job_config *begin, const char *folder);
+/* With --mpi among the arguments: begin with MPI, before anything is printed. @return -1: go on; else the exit code */
+int cli_begin(choices *c, int argc, char **argv);
+/* Several processes that are not one run would write to one folder. @return -1: go on; else the exit code */
+int cli_check_alone(const choices *c);
+/* A message. */
+void cli_say(const choices *c, const char *format, ...);
+/* Whether all ranks go on, those with code >= 0 do not; one of them shows its messages. @return -1: go on; else the exit code of all */
+int cli_agree(const choices *c, int code);
+/* The end of a run on all ranks; one of them shows its messages. @return exit code of all */
+int cli_end(const choices *c, int code);
 /* "surge" of "cases/surge.yaml". */
 void cli_stem(const char *path, char *out, size_t size);
-/* The messages of a case on stderr. */
-void cli_print_messages(const mps_case *c);
+/* The messages of a case. */
+void cli_print_messages(const choices *c, const mps_case *tank);
 
 #endif

@@ -52,6 +52,9 @@ int main(int argc, char **argv)
     }
     c.program = argv[0];
     c.verb = v->name;
-    const int code = cli_read(&c, v, argc, argv);
+    int code = cli_begin(&c, argc, argv);
+    if (code >= 0) return code;
+    code = cli_agree(&c, cli_read(&c, v, argc, argv));
+    if (code < 0 && (v->options & HAS_THREADS)) code = cli_check_alone(&c);
     return code >= 0 ? code : v->run(&c);
 }
