@@ -24,7 +24,7 @@ int verb_check(const choices *c)
     if (!tank) return code;
     const int32_t before = mps_case_message_count(tank);
     const mps_status status = mps_case_check(tank, &text, &sketch);
-    if (mps_case_message_count(tank) > before) cli_print_messages(tank);
+    if (mps_case_message_count(tank) > before) cli_print_messages(c, tank);
     if (status != MPS_OK) {
         if (status != MPS_E_ARG) fprintf(stderr, "mps %s: %s\n", c->verb, mps_status_text(status));
         mps_case_destroy(tank);

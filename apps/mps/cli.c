@@ -6,78 +6,60 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef enum option_kind { OPTION_FLAG, OPTION_TEXT, OPTION_COUNT, OPTION_SET } option_kind;
+enum { COUNT_MOST = 1024 };
 
-typedef struct option {
-    int32_t bit;
-    const char *name;
-    char letter;
-    const char *argument, *help;
-    option_kind kind;
-    void *value;
-} option;
+const option cli_options[] = {
+    {HAS_SET, "--set", 's', "PATH=VALUE", "change a value of the case; may be repeated", OPTION_SET,
+     0},
+    {HAS_OUT, "--out", 'o', "PLACE", "folder or file of the outputs; default: the name of the case",
+     OPTION_TEXT, offsetof(choices, out)},
+    {HAS_THREADS, "--threads", 'j', "N", "threads; results do not depend on them", OPTION_COUNT,
+     offsetof(choices, threads)},
+    {HAS_COUNT, "--count", 'n', "N", "number of runs, 2 to 100; default 5", OPTION_COUNT,
+     offsetof(choices, count)},
+    {HAS_OVERWRITE, "--overwrite", 0, NULL, "replace what is there", OPTION_FLAG,
+     offsetof(choices, overwrite)},
+    {HAS_RESUME, "--resume", 0, NULL, "continue from the checkpoint in the folder", OPTION_FLAG,
+     offsetof(choices, resume)},
+    {HAS_QUIET, "--quiet", 'q', NULL, "no progress, no messages but of failures", OPTION_FLAG,
+     offsetof(choices, quiet)},
+    {HAS_PROFILE, "--profile", 0, NULL, "print what each pass of the steps costs", OPTION_FLAG,
+     offsetof(choices, profile)},
+    {HAS_MPI, "--mpi", 0, NULL, "one run on the ranks that mpirun starts", OPTION_FLAG,
+     offsetof(choices, mpi)}};
 
-enum { OPTIONS = 9, THREADS_MOST = 1024 };
-
-static void make_table(choices *c, option *table)
-{
-    const option all[OPTIONS] = {
-        {HAS_SET, "--set", 's', "PATH=VALUE", "change a value of the case; may be repeated",
-         OPTION_SET, NULL},
-        {HAS_OUT, "--out", 'o', "PLACE",
-         "folder or file of the outputs; default: the name of the case", OPTION_TEXT,
-         (void *)&c->out},
-        {HAS_THREADS, "--threads", 'j', "N", "threads; results do not depend on them", OPTION_COUNT,
-         &c->threads},
-        {HAS_COUNT, "--count", 'n', "N", "number of runs, 2 to 100; default 5", OPTION_COUNT,
-         &c->count},
-        {HAS_OVERWRITE, "--overwrite", 0, NULL, "replace what is there", OPTION_FLAG,
-         &c->overwrite},
-        {HAS_RESUME, "--resume", 0, NULL, "continue from the checkpoint in the folder", OPTION_FLAG,
-         &c->resume},
-        {HAS_QUIET, "--quiet", 'q', NULL, "no progress, no messages but of failures", OPTION_FLAG,
-         &c->quiet},
-        {HAS_PROFILE, "--profile", 0, NULL, "print what each pass of the steps costs", OPTION_FLAG,
-         &c->profile},
-        {HAS_MPI, "--mpi", 0, NULL, "one run on the ranks that mpirun starts", OPTION_FLAG,
-         &c->mpi}};
-    memcpy(table, all, sizeof all);
-}
+const int32_t cli_option_count = sizeof cli_options / sizeof *cli_options;
 
 void cli_print_help(const verb *v)
 {
-    choices none = {0};
-    option table[OPTIONS];
-    make_table(&none, table);
     printf("usage: mps %s %s%s\n\n%s\n", v->name, v->arguments, v->options ? " [options]" : "",
            v->help);
-    for (int i = 0; i < OPTIONS && v->options; i++) {
+    if (v->options) printf("\n");
+    for (int i = 0; i < cli_option_count; i++) {
         char left[48], letter[8] = "    ";
-        if (!(v->options & table[i].bit)) continue;
-        if (table[i].letter) snprintf(letter, sizeof letter, "-%c, ", table[i].letter);
-        snprintf(left, sizeof left, "%s%s %s", letter, table[i].name,
-                 table[i].argument ? table[i].argument : "");
-        printf("%s  %-24s %s\n", i == 0 ? "\n" : "", left, table[i].help);
+        if (!(v->options & cli_options[i].bit)) continue;
+        if (cli_options[i].letter) snprintf(letter, sizeof letter, "-%c, ", cli_options[i].letter);
+        snprintf(left, sizeof left, "%s%s %s", letter, cli_options[i].name,
+                 cli_options[i].argument ? cli_options[i].argument : "");
+        printf("  %-24s %s\n", left, cli_options[i].help);
     }
     if (v->more) printf("\n%s", v->more);
 }
 
 static int refuse(const choices *c, const char *what, const char *why)
 {
-    fprintf(stderr, "mps %s: %s: %s\n'mps %s --help' lists all options\n", c->verb, what, why,
-            c->verb);
+    cli_say(c, "mps %s: %s: %s\n'mps %s --help' lists all options\n", c->verb, what, why, c->verb);
     return MPS_EXIT_USAGE;
 }
 
 /* The option that an argument names, and its value: "--out x", "--out=x", "-o x", "-ox". @return NULL: there is none */
-static const option *find(const option *table, int32_t bits, const char *argument,
-                          const char **value)
+static const option *find(int32_t bits, const char *argument, const char **value)
 {
     const char *equals = strchr(argument, '=');
     const size_t length = equals ? (size_t)(equals - argument) : strlen(argument);
     *value = NULL;
-    for (int i = 0; i < OPTIONS; i++) {
-        const option *o = &table[i];
+    for (int i = 0; i < cli_option_count; i++) {
+        const option *o = &cli_options[i];
         if (!(bits & o->bit)) continue;
         if (strlen(o->name) == length && strncmp(o->name, argument, length) == 0) {
             *value = equals ? equals + 1 : NULL;
@@ -94,16 +76,17 @@ static const option *find(const option *table, int32_t bits, const char *argumen
 static int take(choices *c, const option *o, const char *value)
 {
     char *end;
-    if (o->kind == OPTION_TEXT) *(const char **)o->value = value;
+    void *place = (char *)c + o->place;
+    if (o->kind == OPTION_TEXT) *(const char **)place = value;
     if (o->kind == OPTION_SET) {
         if (c->sets == CLI_SETS) return refuse(c, value, "is one --set too many");
         c->set[c->sets++] = value;
     }
     if (o->kind == OPTION_COUNT) {
         const long count = strtol(value, &end, 10);
-        if (end == value || *end || count < 1 || count > THREADS_MOST)
+        if (end == value || *end || count < 1 || count > COUNT_MOST)
             return refuse(c, value, "must be a whole number, 1 to 1024");
-        *(int32_t *)o->value = (int32_t)count;
+        *(int32_t *)place = (int32_t)count;
     }
     return -1;
 }
@@ -120,13 +103,11 @@ static void keep_command(choices *c, int argc, char **argv)
 
 int cli_read(choices *c, const verb *v, int argc, char **argv)
 {
-    option table[OPTIONS];
-    make_table(c, table);
     keep_command(c, argc, argv);
     for (int i = 2; i < argc; i++) {
         const char *value, *argument = argv[i];
         if (strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0) {
-            cli_print_help(v);
+            if (!c->kept || c->kept->ranks.rank == 0) cli_print_help(v);
             return MPS_EXIT_OK;
         }
         if (argument[0] != '-' || !argument[1]) {
@@ -135,11 +116,11 @@ int cli_read(choices *c, const verb *v, int argc, char **argv)
             c->file[c->files++] = argument;
             continue;
         }
-        const option *o = find(table, v->options, argument, &value);
+        const option *o = find(v->options, argument, &value);
         if (!o) return refuse(c, argument, "unknown option");
         if (o->kind == OPTION_FLAG) {
             if (value) return refuse(c, argument, "takes no value");
-            *(bool *)o->value = true;
+            *(bool *)((char *)c + o->place) = true;
             continue;
         }
         if (!value) value = i + 1 < argc ? argv[++i] : NULL;
@@ -159,13 +140,13 @@ void cli_stem(const char *path, char *out, size_t size)
              begin);
 }
 
-void cli_print_messages(const mps_case *c)
+void cli_print_messages(const choices *c, const mps_case *tank)
 {
-    const size_t size = mps_case_messages_write(c, NULL, 0) + 1;
+    const size_t size = mps_case_messages_write(tank, NULL, 0) + 1;
     char *text = malloc(size);
     if (!text) return;
-    mps_case_messages_write(c, text, size);
-    fputs(text, stderr);
+    mps_case_messages_write(tank, text, size);
+    cli_say(c, "%s", text);
     free(text);
 }
 
@@ -173,9 +154,9 @@ mps_case *cli_case(const choices *c, int *code)
 {
     mps_case *out = NULL;
     const mps_status status = mps_case_read(c->file[0], c->sets, c->set, &out);
-    if (out) cli_print_messages(out);
+    if (out) cli_print_messages(c, out);
     if (status == MPS_OK) return out;
-    if (!out) fprintf(stderr, "mps %s: %s: %s\n", c->verb, c->file[0], mps_status_text(status));
+    if (!out) cli_say(c, "mps %s: %s: %s\n", c->verb, c->file[0], mps_status_text(status));
     *code = status == MPS_E_ARG || status == MPS_E_IO ? MPS_EXIT_USAGE : MPS_EXIT_FAILED;
     mps_case_destroy(out);
     return NULL;

@@ -5,12 +5,20 @@
 
 #include <mps/case.h>
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 enum { CLI_SETS = 64, CLI_FILES = 64 };
 
+/* Messages of one of many ranks, until it is known which rank shows its own. */
+typedef struct cli_text {
+    char text[8192];
+    mps_job_ranks ranks;
+} cli_text;
+
 /* What a user has asked for. */
 typedef struct choices {
+    cli_text *kept; /* NULL: one process, whose messages go to stderr at once */
     const char *program, *verb;
     int32_t files, sets;
     const char *file[CLI_FILES];   /* arguments that are no options */
@@ -44,6 +52,25 @@ typedef struct verb {
     const char *more; /* text behind the options of `mps VERB --help`, or NULL */
 } verb;
 
+/* All verbs, in the order of `mps --help`. */
+extern const verb cli_verbs[];
+extern const int32_t cli_verb_count;
+
+typedef enum option_kind { OPTION_FLAG, OPTION_TEXT, OPTION_COUNT, OPTION_SET } option_kind;
+
+/* An option: the verbs with its bit have it. */
+typedef struct option {
+    int32_t bit;
+    const char *name; /* "--set" */
+    char letter;      /* 's', 0: none */
+    const char *argument, *help;
+    option_kind kind;
+    size_t place; /* in choices: bool, const char * or int32_t, by kind */
+} option;
+
+extern const option cli_options[];
+extern const int32_t cli_option_count;
+
 int verb_run(const choices *c);
 int verb_resume(const choices *c);
 int verb_sweep(const choices *c);
@@ -63,11 +90,21 @@ int cli_read(choices *c, const verb *v, int argc, char **argv);
 void cli_print_help(const verb *v);
 /* Read a case and print its messages. @return NULL: it has errors, and *code is set */
 mps_case *cli_case(const choices *c, int *code);
-/* Run a case into a folder; config has resume and error, the choices say the rest. @return exit code */
-int cli_run(const choices *c, mps_job_config *config, const char *folder);
+/* Run a case into a folder; `begin` has resume and error, the choices say the rest. @return exit code */
+int cli_run(const choices *c, const mps_job_config *begin, const char *folder);
+/* With --mpi among the arguments: begin with MPI, before anything is printed. @return -1: go on; else the exit code */
+int cli_begin(choices *c, int argc, char **argv);
+/* Several processes that are not one run would write to one folder. @return -1: go on; else the exit code */
+int cli_check_alone(const choices *c);
+/* A message. */
+void cli_say(const choices *c, const char *format, ...);
+/* Whether all ranks go on, those with code >= 0 do not; one of them shows its messages. @return -1: go on; else the exit code of all */
+int cli_agree(const choices *c, int code);
+/* The end of a run on all ranks; one of them shows its messages. @return exit code of all */
+int cli_end(const choices *c, int code);
 /* "surge" of "cases/surge.yaml". */
 void cli_stem(const char *path, char *out, size_t size);
-/* The messages of a case on stderr. */
-void cli_print_messages(const mps_case *c);
+/* The messages of a case. */
+void cli_print_messages(const choices *c, const mps_case *tank);
 
 #endif

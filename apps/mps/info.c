@@ -156,13 +156,15 @@ int verb_info(const choices *c)
 {
     static head h;
     struct stat status;
+    FILE *file = NULL;
     h.path = c->file[0];
-    if (stat(h.path, &status) != 0 || !S_ISREG(status.st_mode) || !(h.file = fopen(h.path, "rb"))) {
+    if (stat(h.path, &status) != 0 || !S_ISREG(status.st_mode) || !(file = fopen(h.path, "rb"))) {
         fprintf(stderr, "mps info: %s: %s\n", h.path, errno ? strerror(errno) : "is no file");
         return MPS_EXIT_USAGE;
     }
+    h.file = file;
     h.size = (long long)status.st_size;
     const int code = tell(&h);
-    fclose(h.file);
+    fclose(file);
     return code;
 }

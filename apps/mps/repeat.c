@@ -130,7 +130,8 @@ static void drop_same(int32_t count, mps_table **rows, const double *dp)
     if (same > 0)
         fprintf(stderr,
                 "mps repeat: %d of %d runs were built with the dp of an earlier one, so that it "
-                "fits into the tank; they do not count. A finer dp gives more runs\n",
+                "fits into the tank; they do not count. A finer dp, or 'tank.polygon', gives more "
+                "runs\n",
                 (int)same, (int)count);
 }
 

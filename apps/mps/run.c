@@ -23,16 +23,15 @@ static int run_case(const choices *c, mps_case *tank, const mps_job_config *conf
     mps_sim *sim;
     const int32_t before = mps_case_message_count(tank);
     if (mps_case_sweep_count(tank) > 0) {
-        fprintf(stderr, "mps %s: %s: the case has a 'sweep'; use 'mps sweep'\n", c->verb,
-                c->file[0]);
+        cli_say(c, "mps %s: %s: the case has a 'sweep'; use 'mps sweep'\n", c->verb, c->file[0]);
         return MPS_EXIT_USAGE;
     }
     const mps_status status = mps_case_job(tank, config, &job, &sim);
     if (status != MPS_OK) {
         if (mps_case_message_count(tank) > before)
-            cli_print_messages(tank);
+            cli_print_messages(c, tank);
         else
-            fprintf(stderr, "mps %s: %s\n", c->verb,
+            cli_say(c, "mps %s: %s\n", c->verb,
                     config->error[0] ? config->error : mps_status_text(status));
         return code_of(status);
     }
@@ -53,36 +52,23 @@ static choices with_threads(const choices *c, char *text, size_t size)
     return all;
 }
 
-/* With messages on the one rank that knows them. */
-int cli_run(const choices *c, mps_job_config *config, const char *folder)
+int cli_run(const choices *c, const mps_job_config *begin, const char *folder)
 {
+    mps_job_config config = *begin;
     char threads[48];
     const choices all = with_threads(c, threads, sizeof threads);
-    mps_job_ranks ranks = {.struct_size = sizeof ranks};
-    int code = MPS_EXIT_FAILED;
-    config->folder = folder;
-    config->command = c->command;
-    config->overwrite = c->overwrite;
-    config->quiet = c->quiet;
-    config->profile = c->profile;
-    config->signals = 1;
-    if (c->mpi) {
-        if (mps_job_ranks_load(&ranks, config->error, config->error_size) != MPS_OK) {
-            fprintf(stderr, "mps %s: --mpi: %s\n", c->verb, config->error);
-            return MPS_EXIT_USAGE;
-        }
-        config->ranks = &ranks;
-    }
+    int code = -1;
+    config.folder = folder;
+    config.command = c->command;
+    config.overwrite = c->overwrite;
+    config.quiet = c->quiet;
+    config.profile = c->profile;
+    config.signals = 1;
+    config.ranks = c->kept ? &c->kept->ranks : NULL;
     mps_case *tank = cli_case(&all, &code);
-    if (tank) code = run_case(c, tank, config);
+    code = cli_agree(c, code);
+    if (code < 0) code = cli_end(c, run_case(c, tank, &config));
     mps_case_destroy(tank);
-    if (c->mpi) {
-        int32_t speak;
-        code = mps_job_ranks_leave(&ranks, code, &speak);
-        if (code < 0) ranks.abort(ranks.user, MPS_EXIT_FAILED);
-        ranks.end(ranks.user);
-        config->ranks = NULL;
-    }
     return code;
 }
 

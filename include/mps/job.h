@@ -76,8 +76,9 @@ typedef struct mps_job_ranks {
  *  the programs of libmps. @param ranks  struct_size is set */
 typedef mps_status (*mps_job_ranks_begin_fn)(mps_job_ranks *ranks);
 
-/** Load the module mps_drivers_mpi.so, from the folder of the program or where the system has
- *  libraries, and begin with MPI. The module stays until the program ends.
+/** Load the module mps_drivers_mpi.so and begin with MPI. It is looked for in the folder of the
+ *  program, in libexec/mps beside that folder, and where the system has libraries. It stays until
+ *  the program ends.
  *  @param ranks  out; end it with ranks->end()
  *  @param error  [error_size] out: why it failed; error_size >= 1
  *  @return MPS_E_ARG, MPS_E_IO: no module, MPS_E_VERSION: it is of another version */

@@ -63,6 +63,7 @@ static bool read_columns(build *b, const tree_node *map, const csv *t, int32_t *
 {
     const tree_node *node = mps__tree_find(map, "columns");
     int k = 0;
+    mps__read_all(node);
     column[0] = 0;
     column[1] = 1;
     for (const tree_node *at = node && node->kind == TREE_LIST ? node->first : NULL; at && k < 2;

@@ -71,16 +71,19 @@ int32_t mps_job_ranks_leave(const mps_job_ranks *ranks, int32_t code, int32_t *s
     return heard ? values[LEAVES] - 1 : -1;
 }
 
-/* From the folder of the program, or where the system has libraries. */
+/* From the folder of the program, from where it is installed beside that folder, or where the system has libraries. */
 static void *open_module(void)
 {
+    static const char *const places[] = {"", MODULE_FOLDER};
     static const char name[] = "mps_drivers_mpi.so";
-    char path[1024];
-    ssize_t length = readlink("/proc/self/exe", path, sizeof path - sizeof name);
-    while (length > 0 && path[length - 1] != '/') length--;
-    if (length < 0) length = 0;
-    memcpy(path + length, name, sizeof name);
-    return dlopen(length > 0 && access(path, F_OK) == 0 ? path : name, RTLD_NOW | RTLD_GLOBAL);
+    char from[1024], path[1200];
+    ssize_t length = readlink("/proc/self/exe", from, sizeof from);
+    while (length > 0 && from[length - 1] != '/') length--;
+    for (size_t k = 0; length > 0 && k < sizeof places / sizeof *places; k++) {
+        snprintf(path, sizeof path, "%.*s%s%s", (int)length, from, places[k], name);
+        if (access(path, F_OK) == 0) return dlopen(path, RTLD_NOW | RTLD_GLOBAL);
+    }
+    return dlopen(name, RTLD_NOW | RTLD_GLOBAL);
 }
 
 mps_status mps_job_ranks_load(mps_job_ranks *ranks, char *error, size_t error_size)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The module that the drivers load for --mpi: all that they ask of MPI. */
+/* The module that mps and the drivers load for --mpi: all that they ask of MPI. */
 #include <mps/job.h>
 #include <mps/mpi.h>
 #include <sched.h>

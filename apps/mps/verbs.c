@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The table of verbs: what `mps --help`, the manual page and the completion of a shell know. */
+#include "cli.h"
+#include <stddef.h>
+
+static const char RUN_TEXT[] =
+    "Writes probes.csv, summary.json, frames.pvd with frames/, pictures and report.html into the "
+    "folder.\n"
+    "A folder with an earlier run is refused unless --overwrite or --resume is given, and so is "
+    "one\n"
+    "that another run is writing to.\n"
+    "Ctrl-C (or SIGTERM, SIGHUP) ends the run after its step with a checkpoint; 'mps resume DIR'\n"
+    "continues from it, also to a later end: --set run.until='10 s'.\n"
+    "Exit: 0 done, 1 failed, 2 wrong case or folder, 3 diverged (outputs stay readable),\n"
+    "130 interrupted.\n";
+
+static const char STATS_TEXT[] =
+    "Without columns: all pressures of probes.csv, or impacts.sensors of the case. Constants are\n"
+    "those of the case (impacts.*, T1). Writes statistics.json and statistics.csv into the "
+    "folder.\n"
+    "Values for a longer time are for screening, not for design.\n";
+
+static const char COMPARE_TEXT[] =
+    "Each run is compared with the first one, and with a table where the last argument is a file.\n"
+    "Columns of the same name are compared in the time that both have, without its first 0.5 %\n"
+    "(the impulse of the start): rms of the difference, rms of the first about its mean, highest\n"
+    "values with times, by how much the run is later, and this as degrees of T1 of\n"
+    "the first run that has it.\n";
+
+static const char SERIES_TEXT[] =
+    "Each run has a folder of its own, DIR/001 and so on. The same line again skips the runs that\n"
+    "are done and continues an interrupted one. Ctrl-C ends the present run with a checkpoint, "
+    "and\n"
+    "no other begins. A run that fails does not stop the others.\n"
+    "The table is DIR/sweep.csv, repeat.csv or converge.csv. A sweep collects the largest value\n"
+    "of each column, or what 'collect' of the case names: P1.max, .min, .mean, .last; P1.p3h, the\n"
+    "pressure at full scale that is exceeded once in impacts.exposure, by Weibull; F.harmonic,\n"
+    "the amplitude at the frequency of the motion. Both are found between impacts.from and "
+    ".until;\n"
+    "nan: too few events; no frequency, or less than one period.\n"
+    "Exit: 0 all are done, else the largest exit code of the runs.\n";
+
+const verb cli_verbs[] = {
+    {"run", "CASE", "Run a case: a YAML file, or a report.html with its case.", 1, 1,
+     HAS_SET | HAS_OUT | HAS_THREADS | HAS_OVERWRITE | HAS_RESUME | HAS_QUIET | HAS_PROFILE |
+         HAS_MPI,
+     verb_run, RUN_TEXT},
+    {"resume", "DIR", "Continue the run in a folder from its checkpoint.", 1, 1,
+     HAS_SET | HAS_THREADS | HAS_QUIET | HAS_PROFILE | HAS_MPI, verb_resume, NULL},
+    {"sweep", "CASE", "Run all combinations of the case's 'sweep'; a table of 'collect'.", 1, 1,
+     HAS_SET | HAS_OUT | HAS_THREADS | HAS_OVERWRITE | HAS_QUIET, verb_sweep, SERIES_TEXT},
+    {"repeat", "CASE", "Run a case with dp within 0.5 %; mean and band of the largest values.", 1,
+     1, HAS_SET | HAS_OUT | HAS_THREADS | HAS_OVERWRITE | HAS_QUIET | HAS_COUNT, verb_repeat,
+     SERIES_TEXT},
+    {"converge", "CASE", "Run a case with dp times 2, sqrt(2), 1; order of the largest values.", 1,
+     1, HAS_SET | HAS_OUT | HAS_THREADS | HAS_OVERWRITE | HAS_QUIET, verb_converge, SERIES_TEXT},
+    {"report", "DIR", "Make report.html of a run again, from its folder.", 1, 1, 0, verb_report,
+     NULL},
+    {"stats", "DIR [COLUMN ..]", "Impacts in the pressures of a run: events, peaks, fits.", 1,
+     CLI_FILES, 0, verb_stats, STATS_TEXT},
+    {"compare", "DIR DIR .. [reference.csv]", "Say how the columns of runs differ.", 2, CLI_FILES,
+     0, verb_compare, COMPARE_TEXT},
+    {"check", "CASE",
+     "Say what a case amounts to, without running it, and draw tank and sensors as SVG.", 1, 1,
+     HAS_SET | HAS_OUT | HAS_QUIET, verb_check, NULL},
+    {"init", "NAME",
+     "Write a commented case to start from into NAME.yaml; 'mps list cases' shows the names.", 1, 1,
+     HAS_OUT | HAS_OVERWRITE, verb_init, NULL},
+    {"list", "[cases|keys|models|settings|solvers|units|measures]", "List what there is.", 0, 1, 0,
+     verb_list, NULL},
+    {"info", "FILE", "Say what a file is: case, checkpoint, frame, table, page, surface.", 1, 1, 0,
+     verb_info, NULL},
+    {"schema", "", "Print the JSON Schema of case files, for editors.", 0, 0, 0, verb_schema,
+     NULL}};
+
+const int32_t cli_verb_count = sizeof cli_verbs / sizeof *cli_verbs;

@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Fills and bodies that cases build: volumes, motions and energies against exact values; what is refused. */
+#include "build_kit.h"
+
+static mps_energy energy(const built *t)
+{
+    mps_energy e;
+    mps_energy_init(&e, sizeof e);
+    assert_int_equal(mps_energy_get(t->b.sim, &e), MPS_OK);
+    return e;
+}
+
+static void make(built *t, const char *head, const char *rest)
+{
+    char text[900];
+    snprintf(text, sizeof text, "mps: 1\n%s\nrun: {until: 1 s}\n%s\n", head, rest);
+    built_make(t, text, NULL);
+}
+
+static const char FLAT[] = "dp: 10 mm\ntank: {size: 1 0.6 m}";
+static const char SPACE[] = "dim: 3\ndp: 40 mm\ntank: {size: 1.2 0.8 0.6 m}";
+
+typedef struct volume_case {
+    const char *head, *rest;
+    double exact, most; /* largest error as a share */
+} volume_case;
+
+static void check_volumes(const volume_case *v, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        built t;
+        make(&t, v[i].head, v[i].rest);
+        const double off = energy(&t).volume_filled / v[i].exact - 1;
+        printf("%s: %+.3f %% of %g\n", v[i].rest, 100 * off, v[i].exact);
+        if (!(fabs(off) < v[i].most)) fail_msg("%s: %g", v[i].rest, off);
+        built_free(&t);
+    }
+}
+
+/* Each kind of fill has the volume of its shape, to half a spacing at free sides: 1.7 % of the wave's depth, 5 % of the box in 3-D. */
+static void fills(void **state)
+{
+    const double pi = acos(-1.0);
+    const volume_case v[] = {
+        {FLAT, "fill: [{water: {depth: 50 %}}]", 0.3, 0.001},
+        {FLAT, "fill: [{water: {depth: 304 mm, whole_rows: yes}}]", 0.3, 0.001},
+        {FLAT, "fill: [{water: {box: [0 0 m, 0.4 0.3 m]}}]", 0.12, 0.01},
+        /* with the points on its sides: 21 x 21 cells */
+        {FLAT, "fill: [{water: {box: [0.5 0.4 m, 0.3 0.2 m]}}]", 0.0441, 1e-6},
+        {FLAT, "fill: [{water: {polygon: [0 0 m, 1 0 m, 0 0.5 m]}}]", 0.25, 0.02},
+        {FLAT, "fill: [{water: {sphere: {centre: 0.5 0.3 m, radius: 0.2 m}}}]", pi * 0.04, 0.02},
+        {FLAT, "fill: [{water: {wave: {level: 0.3 m, amplitude: 50 mm, length: 1 m}}}]", 0.3, 0.02},
+        {FLAT, "fill: [{water: {depth: 0.3 m, start: {standing_wave: 20 mm}}}]", 0.3, 0.01},
+        {FLAT, "model: mmps\nfill: [{water: {depth: 50 %}}, {air: rest}]", 0.6, 0.001},
+        {SPACE, "fill: [{water: {depth: 50 %}}]", 0.288, 0.02},
+        {SPACE, "fill: [{water: {box: [0 0 0 m, 0.4 0.4 0.6 m]}}]", 0.096, 0.055},
+        {SPACE, "fill: [{water: {box: [0 0 m, 0.4 0.4 m]}}]", 0.096, 0.055},
+        {SPACE, "fill: [{water: {polygon: [0 0 m, 1.2 0 m, 0 0.8 m]}}]", 0.288, 0.04},
+        {SPACE, "fill: [{water: {sphere: {centre: 0.6 0.4 0.3 m, radius: 0.24 m}}}]",
+         4 * pi / 3 * 0.24 * 0.24 * 0.24, 0.04},
+    };
+    (void)state;
+    check_volumes(v, sizeof v / sizeof *v);
+}
+
+/* Bodies displace their volume. */
+static void bodies(void **state)
+{
+    const double pi = acos(-1.0);
+#define WATER "fill: [{water: {depth: 50 %}}]\nsolids: "
+    const volume_case v[] = {
+        {FLAT, WATER "{b: {box: [0.4 0 m, 0.6 0.2 m]}}", 0.26, 0.01},
+        {FLAT, WATER "{b: {sphere: {centre: 0.5 0.15 m, radius: 0.1 m}}}", 0.3 - pi * 0.01, 0.01},
+        {FLAT, WATER "{b: {prism: [0.3 0 m, 0.7 0 m, 0.5 0.2 m]}}", 0.26, 0.01},
+        {FLAT, WATER "{b: {plate: [0.5 0 m, 0.5 0.25 m]}}", 0.3, 0.002},
+        {FLAT, WATER "{b: {plate: [0.5 0 m, 0.5 0.2 m], thickness: 40 mm}}", 0.292, 0.004},
+        {FLAT, WATER "{b: {plate: [0.4 0.1 m, 0.6 0.25 m]}}", 0.3, 0.01},
+        {FLAT, WATER "{b: {plate: [0.5 0 m, 0.5 0.3 m], holes: {pitch: 100 mm, open: 40 %}}}", 0.3,
+         0.002},
+        {SPACE, WATER "{b: {sphere: {centre: 0.6 0.2 0.3 m, radius: 0.16 m}}}",
+         0.288 - 4 * pi / 3 * 0.16 * 0.16 * 0.16, 0.02},
+        {SPACE, WATER "{b: {cylinder: {from: 0.6 0 0.3 m, to: 0.6 0.8 0.3 m, radius: 0.16 m}}}",
+         0.4 * (0.72 - pi * 0.16 * 0.16), 0.03},
+        {SPACE, WATER "{b: {prism: [0.4 0 m, 0.8 0 m, 0.8 0.4 m], between: 0.2 0.4 m}}",
+         0.288 - 0.016, 0.02},
+        {SPACE, WATER "{b: {plate: [0.6 0 0 m, 0.6 0.24 0.6 m]}}", 0.288, 0.015},
+        {SPACE, WATER "{b: {plate: [0.6 0 0 m, 0.6 0.4 0 m, 0.6 0 0.6 m]}}", 0.288, 0.015},
+    };
+    (void)state;
+    check_volumes(v, sizeof v / sizeof *v);
+}
+
+/* A velocity at the start is that of all of the fluid. Its particles are 99 columns of 100 spacings: the half cells at walls are of the walls. */
+static void start_velocity(void **state)
+{
+    built t;
+    (void)state;
+    make(&t, FLAT, "fill: [{water: {depth: 50 %, start: {velocity: 1 -0.5 m/s}}}]");
+    same_number(energy(&t).kinetic, 0.5 * 1000 * 0.99 * 0.3 * 1.25, 1e-6);
+    built_free(&t);
+}
+
+/* A standing wave is highest at x = 0, by twice its amplitude above the other end. */
+static void standing_wave(void **state)
+{
+    built t;
+    mps_lease x = {.struct_size = sizeof x}, kind = x;
+    double left = 0, right = 0;
+    (void)state;
+    make(&t, FLAT, "fill: [{water: {depth: 0.3 m, start: {standing_wave: 20 mm}}}]");
+    same_number(t.b.level, 0.3, 1e-9);
+    assert_int_equal(mps_lease_begin(t.b.sim, "position", MPS_READ, &x), MPS_OK);
+    assert_int_equal(mps_lease_begin(t.b.sim, "kind", MPS_READ, &kind), MPS_OK);
+    for (int64_t i = 0; i < x.count; i++) {
+        const double *at = x.data + i * x.stride;
+        if (kind.integers[i] != MPS_FLUID) continue;
+        if (at[0] < 0.05) left = fmax(left, at[1]);
+        if (at[0] > 0.95) right = fmax(right, at[1]);
+    }
+    mps_lease_end(t.b.sim, &kind);
+    mps_lease_end(t.b.sim, &x);
+    same_number(left - right, 0.04, 0.004);
+    built_free(&t);
+}
+
+/* The second mode of a drop in air: kinetic energy 3/2 pi sigma R a^2 of a share a, inside and outside together. */
+static void oscillation(void **state)
+{
+    built t;
+    (void)state;
+    make(&t, "dp: 10 mm\ntank: {size: 1 1 m}",
+         "model: mmps\nsettings: {tension.sigma: 72.7 mN/m}\nfill: [{water: {sphere: {centre: 0.5 "
+         "0.5 m, radius: 0.2 m}, start: {oscillation: 5 %}}}, {air: rest}]");
+    const double exact = 1.5 * acos(-1.0) * 0.0727 * 0.2 * 0.05 * 0.05;
+    printf("oscillation: %g J/m of %g\n", energy(&t).kinetic, exact);
+    same_number(energy(&t).kinetic, exact, 0.02 * exact);
+    built_free(&t);
+}
+
+static void refused(void **state)
+{
+    static const struct {
+        const char *rest, *words;
+    } wrong[] = {
+        {"fill: [{water: {depth: 0.7 m}}]", "more than the tank is high"},
+        {"fill: [{water: {box: [0 0 m]}}]", "two|2"},
+        {"fill: [{water: {depth: 0.3 m, start: {standing_wave: 0.2 m}}}]", "less than half"},
+        {"fill: [{water: {depth: 50 %}}]\nsolids: {b: {prism: [0 0 m, 1 0 m]}}", "3"},
+        {"fill: [{water: {depth: 50 %}}]\nsolids: {b: {cylinder: {from: 0 0 0 m, to: 0 1 0 m, "
+         "radius: 0.1 m}}}",
+         "3-D"},
+        {"fill: [{water: {depth: 50 %}}]\nsolids: {b: {plate: [0.5 0.1 m, 0.5 0.1 m]}}", "no area"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        char text[600];
+        built t;
+        snprintf(text, sizeof text, "mps: 1\n%s\nrun: {until: 1 s}\n%s\n", FLAT, wrong[i].rest);
+        assert_int_not_equal(built_try(&t, text, NULL), MPS_OK);
+        char *all = kit_messages(t.c);
+        bool found = false;
+        char words[80], *rest = NULL;
+        snprintf(words, sizeof words, "%s", wrong[i].words);
+        for (char *w = strtok_r(words, "|", &rest); w; w = strtok_r(NULL, "|", &rest))
+            found = found || strstr(all, w);
+        if (!found) fail_msg("%s: %s", wrong[i].rest, all);
+        free(all);
+        built_free(&t);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(fills),          cmocka_unit_test(bodies),
+        cmocka_unit_test(start_velocity), cmocka_unit_test(standing_wave),
+        cmocka_unit_test(oscillation),    cmocka_unit_test(refused)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
