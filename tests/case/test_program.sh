@@ -43,6 +43,11 @@ done
 expect 2 "is there already" "$program" init tank
 expect 0 "tank.yaml" "$program" init tank --overwrite
 expect 2 "no case with the name" "$program" init tnk
+mkdir taken
+echo mine > taken/voyage.csv
+(cd taken && "$program" init ship > /dev/null 2>&1) && fail "init ship beside another voyage.csv"
+[ -e taken/ship.yaml ] && fail "ship.yaml with the voyage.csv of another"
+[ "$(cat taken/voyage.csv)" = mine ] || fail "voyage.csv was replaced"
 for name in tank lng roll ship; do
     expect 0 "periods" "$program" check $name.yaml
     grep -q "particles .* of fluid" log || fail "$name: no particles"
@@ -55,6 +60,12 @@ for list in cases keys models settings solvers units measures; do
     [ "$("$program" list $list | wc -l)" -gt 3 ] || fail "list $list"
 done
 expect 2 "is no list" "$program" list model
+expect 0 "solids.*.holes.pitch" "$program" list keys holes
+[ "$(grep -c '^[a-z]' log)" -eq 3 ] || fail "list keys holes: $(cat log)"
+expect 0 "motion.roll|pitch|yaw.jonswap" "$program" list keys roll
+grep -q "^sensors" log && fail "list keys roll: sensors"
+expect 2 "no key has the name 'hole'" "$program" list keys hole
+expect 2 "one argument too many" "$program" list cases tank
 "$program" schema > schema.json || fail "schema"
 grep -q "2020-12" schema.json || fail "schema.json"
 
@@ -127,6 +138,8 @@ done
 head -c 3000 /dev/urandom > noise
 expect 2 "is no file of mps" "$program" info noise
 expect 2 "No such file" "$program" info nothing
+expect 0 "report.html" "$program" info run
+expect 2 "without outputs of a run" "$program" info taken
 
 # interrupted, and continued: the same bytes as the whole run
 never=1000
