@@ -44,6 +44,8 @@ typedef struct build_solid {
     form form;
     bool plate, file;
     double end[2][3];
+    int32_t slots;     /* of a plate */
+    double pitch, gap; /* of them, along its first side [m] */
 } build_solid;
 
 typedef enum sensor_kind {
