@@ -111,6 +111,14 @@ grep -q '"weibull"' pulses/statistics.json || fail "statistics.json has no fits"
 expect 0 "P1: 39 events" "$program" stats bare P1 # without constants the window is 0.82 s; the record begins 0.78 s before the first
 grep -q "1 left out at the ends" log || fail "stats: the first pulse is not told as cut"
 grep -q "P2" log && fail "stats of one column has another"
+grep -q "(by deviations: set impacts.threshold)" log || fail "stats: not told that the threshold is a guess"
+expect 0 "P2: no pressure from 0.21 to 41 s: no liquid came here" "$program" stats bare P2
+mkdir few
+cp pulses/probes.csv few/
+printf '{\n  "t_end": 41,\n  "sensor_average_most": 0.15,\n  "inputs": [\n{"key": "T1", "value": "1 s"},\n{"key": "impacts.threshold", "value": "100 Pa"},\n{"key": "impacts.least_events", "value": "100"}\n]}\n' > few/summary.json
+expect 0 "that needs 100 events, at this rate a record of about 102 s" "$program" stats few P1
+grep -q "40 of 40 rise or decay faster" log || fail "stats: unresolved events are not counted"
+grep -q "by deviations" log && fail "stats: a threshold that is given is called a guess"
 expect 0 "P_right: " "$program" stats run
 expect 2 "the nearest is 'P_left'" "$program" stats run P_lift
 expect 2 "is no pressure" "$program" stats run eta_left
