@@ -47,6 +47,33 @@ static void all_that_a_summary_may_say(void **unused)
     scene_remove(&s);
 }
 
+/* A long forced motion: what is lost or gained without a reason is measured by the energy of the walls, where that is the larger one. */
+static void energy_of_walls(void **unused)
+{
+    static const struct {
+        double work;
+        const char *state, *value, *of;
+    } run[] = {
+        {0, "Energy <span class=\"state\">poor", "200 %", "largest energy of the motion (4 J"},
+        {3, "Energy <span class=\"state\">poor", "200 %", "largest energy of the motion (4 J"},
+        {20, "Energy <span class=\"state\">poor", "40 %", "energy that the walls gave (20 J"},
+        {-50, "Energy <span class=\"state\">check", "16 %", "energy that the walls gave (50 J"},
+        {100, "Energy <span class=\"state\">good", "8 %", "energy that the walls gave (100 J"}};
+    scene s = {.dim = 2, .fluid = 20, .frames = 0, .rows = 20};
+    (void)unused;
+    scene_create(&s);
+    for (size_t i = 0; i < sizeof run / sizeof run[0]; i++) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 "t[s],ke[J],pe[J],wall_work_momentum[J],numerical[J],shift[J],viscous[J]\n"
+                 "0,0,10,0,0,0,0\n1,4,10,%g,-4,0,40\n2,4,10,%g,-8,0,80\n",
+                 run[i].work / 2, run[i].work);
+        text_write(&s, "probes.csv", text);
+        CHECK_PAGE(&s, run[i].state, run[i].value, run[i].of);
+    }
+    scene_remove(&s);
+}
+
 /* A light of each colour. */
 static void verdicts(void **unused)
 {
@@ -341,6 +368,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(all_that_a_summary_may_say),
                                        cmocka_unit_test(verdicts),
+                                       cmocka_unit_test(energy_of_walls),
                                        cmocka_unit_test(steep_or_not),
                                        cmocka_unit_test(thinned_curves),
                                        cmocka_unit_test(pieces_of_ranks),
