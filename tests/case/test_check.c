@@ -120,10 +120,63 @@ static void periods(void **state)
           "along z: T1 7.492 s, estimated by length 30 m and depth 8 m", NULL);
 }
 
+/* The drawing; the caller frees it. */
+static char *drawn(const char *case_text)
+{
+    mps_case *c = NULL;
+    char *text = NULL, *sketch = NULL;
+    assert_int_equal(kit_read(case_text, NULL, &c), MPS_OK);
+    assert_int_equal(mps_case_check(c, &text, &sketch), MPS_OK);
+    free(text);
+    mps_case_destroy(c);
+    return sketch;
+}
+
+/* The line of a gauge ends at the chamfer, 4 m above its begin at (0.5, 2.5) m; 560 units are 20 m and four spacings. */
+static void drawings(void **state)
+{
+    (void)state;
+    char *svg = drawn(TANK "motion: {centre: 10 3 m, roll: {amplitude: 1 deg, period: 5 s}}\n"
+                           "sensors: {eta: {gauge: 0.5 m}}\n" END);
+    const char *line = strstr(svg, "stroke='#b00' stroke-dasharray");
+    double x1, y1, x2, y2;
+    assert_non_null(line);
+    while (*line != '<') line--;
+    assert_int_equal(sscanf(line, "<line x1='%lf' y1='%lf' x2='%lf' y2='%lf'", &x1, &y1, &x2, &y2),
+                     4);
+    const double length = (y1 - y2) * 22 / 560;
+    if (!(length > 3.9 && length < 4.15)) fail_msg("%s: %g m", "the gauge", length);
+    assert_non_null(strstr(svg, "centre of rotation: x 10 m, y 3 m"));
+    assert_non_null(strstr(svg, ">centre</text>"));
+    assert_null(strstr(svg, "section through"));
+    free(svg);
+    /* a centre beside the picture is told in words alone */
+    svg = drawn(TANK "motion: {centre: 10 -9 m, roll: {amplitude: 1 deg, period: 5 s}}\n" END);
+    assert_non_null(strstr(svg, "centre of rotation: x 10 m, y -9 m"));
+    assert_null(strstr(svg, ">centre</text>"));
+    free(svg);
+    /* in 3-D both sections, each with the sensors on its own sides */
+    svg = drawn(
+        "mps: 1\ndim: 3\ndp: 1 m\ntank: {size: 20 12 16 m, chamfer: {bottom: 3 3 m, top: 4 4 "
+        "m, across: z}}\nfill: [{water: {depth: 4 m}}]\n"
+        "sensors: {P: {wall: 10 5 16 m}}\n" END);
+    const char *across = strstr(svg, "section through the middle along z");
+    assert_non_null(across);
+    assert_non_null(strstr(across, "section through the middle along x"));
+    assert_null(strstr(svg, "motion"));
+    const char *polygon = strstr(svg, "<polygon"), *box = strstr(svg, "<g fill='none'");
+    assert_true(polygon > across && box < across); /* chamfers are seen in the second one */
+    const char *left = strstr(svg, "text-anchor='end'>P<"),
+               *right = strstr(across, "text-anchor='start'>P<");
+    assert_true(left && left < across && right);
+    free(svg);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(volumes), cmocka_unit_test(plates),
                                        cmocka_unit_test(sensors), cmocka_unit_test(motions),
-                                       cmocka_unit_test(bare),    cmocka_unit_test(periods)};
+                                       cmocka_unit_test(bare),    cmocka_unit_test(periods),
+                                       cmocka_unit_test(drawings)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
