@@ -110,24 +110,60 @@ static void write_mark(const sketch *s, const mark *m)
         fprintf(s->out,
                 "<path d=\"M%.1f %.1fL%.1f %.1f\"/><circle cx=\"%.1f\" cy=\"%.1f\" r=\"5\"/>", m->x,
                 m->y, x, y, m->x, m->y);
-    const double middle = m->side == LEFT ? -26 : m->side == RIGHT ? 26 : 0;
+    const double wide = fmax(56, 6.8 * (double)strlen(name) + 10); /* of a label */
+    const double middle = m->side == LEFT ? 2 - wide / 2 : m->side == RIGHT ? wide / 2 - 2 : 0;
     fprintf(s->out,
-            "<rect x=\"%.1f\" y=\"%.1f\" width=\"56\" height=\"16\" rx=\"4\"/><text x=\"%.1f\" "
+            "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"16\" rx=\"4\"/><text x=\"%.1f\" "
             "y=\"%.1f\">",
-            x + middle - 28, y - (m->side == ABOVE ? 12 : 8), x + middle,
+            x + middle - wide / 2, y - (m->side == ABOVE ? 12 : 8), wide, x + middle,
             y + (m->side == ABOVE ? 0 : 4));
     mps__html(s->out, name);
     fputs("</text></g>\n", s->out);
 }
 
+/* The outline of the tank: the first one, if its box is that of the tank; of a file there is none. NULL: it is a box */
+static const json_value *tank_outline(const sketch *s, const page_run *r)
+{
+    const json_value *polygon = mps__json_at(mps__json_get(r->summary, "outline"), 0);
+    double lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY};
+    for (size_t i = 0; i < mps__json_count(polygon); i++)
+        for (int d = 0; d < 2; d++) {
+            const double x = mps__json_number(mps__json_at(mps__json_at(polygon, i), (size_t)d));
+            lo[d] = fmin(lo[d], x);
+            hi[d] = fmax(hi[d], x);
+        }
+    for (int d = 0; d < 2; d++) {
+        const double slack = 1e-3 * (s->hi[d] - s->lo[d]);
+        if (!(fabs(lo[d] - s->lo[d]) < slack && fabs(hi[d] - s->hi[d]) < slack)) return NULL;
+    }
+    return polygon;
+}
+
+static void write_points(const sketch *s, const json_value *polygon)
+{
+    for (size_t i = 0; i < mps__json_count(polygon); i++) {
+        const json_value *point = mps__json_at(polygon, i);
+        fprintf(s->out, "%.1f,%.1f ", at_x(s, mps__json_number(mps__json_at(point, 0))),
+                at_y(s, mps__json_number(mps__json_at(point, 1))));
+    }
+}
+
 static void write_level(const sketch *s, const page_run *r)
 {
+    const json_value *polygon = tank_outline(s, r);
     double y = mps__page_number(r, "level");
     if (!isfinite(y)) y = mps__page_number(r, "still_level");
     if (!(y > s->lo[1] && y < s->hi[1])) return;
     const double wide = (s->hi[0] - s->lo[0]) * s->scale;
-    fprintf(s->out, "<rect class=\"liquid\" x=\"%d\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/>\n",
-            MARGIN, at_y(s, y), wide, (y - s->lo[1]) * s->scale);
+    if (polygon) {
+        fputs("<clipPath id=\"inside-tank\"><polygon points=\"", s->out);
+        write_points(s, polygon);
+        fputs("\"/></clipPath>\n", s->out);
+    }
+    fprintf(s->out,
+            "<rect class=\"liquid\" x=\"%d\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"%s/>\n",
+            MARGIN, at_y(s, y), wide, (y - s->lo[1]) * s->scale,
+            polygon ? " clip-path=\"url(#inside-tank)\"" : "");
     fprintf(s->out, "<path class=\"level\" d=\"M%.1f %.1fl-6 -9h12z\"/>\n", MARGIN + wide / 2,
             at_y(s, y));
 }
@@ -140,13 +176,8 @@ static void write_outline(const sketch *s, const page_run *r)
         fprintf(s->out, "<rect class=\"tank\" x=\"%d\" y=\"%d\" width=\"%.1f\" height=\"%.1f\"/>\n",
                 MARGIN, TOP, (s->hi[0] - s->lo[0]) * s->scale, (s->hi[1] - s->lo[1]) * s->scale);
     for (size_t k = 0; k < mps__json_count(outline); k++) {
-        const json_value *polygon = mps__json_at(outline, k);
         fputs("<polygon class=\"tank\" points=\"", s->out);
-        for (size_t i = 0; i < mps__json_count(polygon); i++) {
-            const json_value *point = mps__json_at(polygon, i);
-            fprintf(s->out, "%.1f,%.1f ", at_x(s, mps__json_number(mps__json_at(point, 0))),
-                    at_y(s, mps__json_number(mps__json_at(point, 1))));
-        }
+        write_points(s, mps__json_at(outline, k));
         fputs("\"/>\n", s->out);
     }
 }
@@ -177,7 +208,7 @@ static void write_place(FILE *out, const page_run *r, const page_column *c)
     fputs(" m", out);
 }
 
-/* Largest value of a column after the impulse at the start, and its time. */
+/* Largest value of a column after the impulse at the start, and its time. What rounding left beside the other value is 0. */
 static void write_extremes(FILE *out, const page_run *r, const page_column *c)
 {
     const page_table *t = &r->probes;
@@ -191,10 +222,14 @@ static void write_extremes(FILE *out, const page_run *r, const page_column *c)
         if (low < 0 || row[c->place] < t->value[low * t->columns + c->place]) low = i;
     }
     const int64_t row[] = {high, low};
+    double most = 0;
+    for (int k = 0; k < 2; k++)
+        if (row[k] >= 0) most = fmax(most, fabs(t->value[row[k] * t->columns + c->place]));
     for (int k = 0; k < 2; k++) {
         const double *v = row[k] >= 0 ? t->value + row[k] * t->columns : NULL;
+        const double value = v ? v[c->place] : NAN;
         fprintf(out, "<td class=\"number\">%s</td>",
-                mps__quantity(text, v ? v[c->place] : NAN, c->unit));
+                mps__quantity(text, fabs(value) < 1e-6 * most ? 0 : value, c->unit));
         fprintf(out, "<td class=\"number\">%s</td>", mps__quantity(text, v ? v[0] : NAN, "s"));
     }
 }

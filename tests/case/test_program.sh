@@ -138,6 +138,12 @@ expect 2 "no such folder" "$program" compare run nowhere
 expect 2 "the last argument" "$program" compare run/probes.csv run
 expect 2 "no column can be compared" "$program" compare run shifted
 
+# slots of a baffle on the page
+expect 0 "" "$program" run lng.yaml --set "run.until=5 ms" --set output.frames=0 -o slots -q
+for piece in "0], [0.475, 0.0375" "0.0875], [0.475, 0.1625" "0.2125], [0.475, 0.25"; do
+    grep -qF "[[0.475, $piece]]" slots/summary.json || fail "no part of the baffle: $piece"
+done
+
 # info
 for what in "case:tank.yaml" "table:run/probes.csv" "frame of particles:run/frames/frames_000001.vtp" \
     "series of frames:run/frames.pvd" "page:run/report.html" "summary:run/summary.json"; do

@@ -41,9 +41,24 @@ static void all_that_a_summary_may_say(void **unused)
                "fluid 1</th><td>1.2 kg/m3, 0.018 mPa s, gas</td>", "tank.size</th><td>2 1 m",
                "!twice", "front</th><td>1.25 m: place of the front",
                "gone</th><td>not reached: when it left", "largest memory</th><td>24.8 MB",
-               "<polygon class=\"tank\" points=\"", "5 runs", "scatter by 12 %",
-               "\"pressure\": {\"lo\": -100, \"hi\": 1500,", "a &lt;machine&gt;",
+               "<polygon class=\"tank\" points=\"", "clip-path=\"url(#inside-tank)\"", "5 runs",
+               "scatter by 12 %", "\"pressure\": {\"lo\": -100, \"hi\": 1500,", "a &lt;machine&gt;",
                "model</th><td>imps", "\"label\": \"measured\"", "[[0.5, 0.02], [1.005, -0.03]]");
+    scene_remove(&s);
+}
+
+/* Outlines that are not the tank clip nothing; values that rounding left are 0, and others stay. */
+static void sketches(void **unused)
+{
+    scene s = {.dim = 2, .fluid = 20, .frames = 0, .rows = 20};
+    (void)unused;
+    scene_create(&s);
+    write_summary(&s, ", \"outline\": [[[1, 0], [1, 0.5]]]");
+    text_write(&s, "probes.csv", "t[s],P1[Pa],eta[m]\n0,0,0\n1,5000,2\n2,-0.001,-0.001\n");
+    CHECK_PAGE(&s, "<polygon class=\"tank\" points=\"", "!clip-path", "5 kPa</td>", "0 Pa</td>",
+               "!1 mPa",
+               "\xe2\x88\x92"
+               "1 mm</td>");
     scene_remove(&s);
 }
 
@@ -368,6 +383,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(all_that_a_summary_may_say),
                                        cmocka_unit_test(verdicts),
+                                       cmocka_unit_test(sketches),
                                        cmocka_unit_test(energy_of_walls),
                                        cmocka_unit_test(steep_or_not),
                                        cmocka_unit_test(thinned_curves),
