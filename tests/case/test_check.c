@@ -78,6 +78,19 @@ static void sensors(void **state)
     tells(TANK "sensors: {P: {wall: 0 3 m, normal: 1 0}}\n" END, "P: wall pressure", "chooses");
 }
 
+/* Columns that are made of several probes, or in axes of the ship, are told too. */
+static void columns(void **state)
+{
+    static const char space[] =
+        "mps: 1\ndim: 3\ndp: 1 m\ntank: {size: 20 12 16 m}\nfill: [{water: {depth: 4 m}}]\n"
+        "motion: {roll: {amplitude: 1 deg, period: 5 s}}\n"
+        "sensors: {F: {force: tank, axes: ship, component: mx}}\n" END;
+    (void)state;
+    tells(space, "F: Moment of the liquid, roll: along axes of the ship at rest", NULL);
+    tells(TANK "sensors: {P: {row: [0 3.5 m, 0 5.5 m], cells: 4}}\n" END,
+          "P: Largest wall pressure: of the sensors of a row", NULL);
+}
+
 /* A column of a motion that has another name is left out: that must not stay unseen. */
 static void motions(void **state)
 {
@@ -175,8 +188,8 @@ static void drawings(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(volumes), cmocka_unit_test(plates),
-                                       cmocka_unit_test(sensors), cmocka_unit_test(motions),
-                                       cmocka_unit_test(bare),    cmocka_unit_test(periods),
-                                       cmocka_unit_test(drawings)};
+                                       cmocka_unit_test(sensors), cmocka_unit_test(columns),
+                                       cmocka_unit_test(motions), cmocka_unit_test(bare),
+                                       cmocka_unit_test(periods), cmocka_unit_test(drawings)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

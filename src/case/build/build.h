@@ -53,7 +53,8 @@ typedef enum sensor_kind {
     SENSOR_FLUID,
     SENSOR_GAUGE,
     SENSOR_FORCE,
-    SENSOR_MEASURE
+    SENSOR_MEASURE,
+    SENSOR_VALUE /* of several probes, or in other axes */
 } sensor_kind;
 
 /* A column, for the sketch and the check. */
@@ -62,6 +63,7 @@ typedef struct build_sensor {
     sensor_kind kind;
     double at[3], normal[3], diameter;
     char part[BUILD_NAME];
+    char about[BUILD_TEXT]; /* SENSOR_VALUE */
 } build_sensor;
 
 /* Natural periods of the liquid at rest. */

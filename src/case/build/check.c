@@ -206,6 +206,10 @@ static void write_sensors(const writer *w, const build *b)
     for (int32_t i = 0; i < b->sensors; i++) {
         const build_sensor *s = &b->sensor[i];
         heading(w, i ? "" : "sensors");
+        if (s->kind == SENSOR_VALUE) {
+            fprintf(w->file, "%s: %s\n", s->name, s->about);
+            continue;
+        }
         fprintf(w->file, "%s: %s", s->name, kind[s->kind]);
         if (s->kind != SENSOR_MEASURE) {
             fprintf(w->file, s->kind == SENSOR_FORCE ? " about " : " at ");
