@@ -11,6 +11,7 @@ enum { WIDTH = 620, MARGIN = 122, TOP = 40, FOOT = 44, TALLEST = 420, APART = 17
 /* Map from metres to the drawing. */
 typedef struct sketch {
     FILE *out;
+    int axis; /* that goes to the right: x or z */
     double lo[2], hi[2], scale, width, height;
 } sketch;
 
@@ -33,11 +34,11 @@ static double at_y(const sketch *s, double y)
 }
 
 /* Inner size of the tank. @return false: not known */
-static bool tank_box(const page_run *r, double lo[2], double hi[2])
+static bool tank_box(const page_run *r, int axis, double lo[2], double hi[2])
 {
-    lo[0] = mps__page_number(r, "tank_lo_x");
+    lo[0] = mps__page_number(r, axis ? "tank_lo_z" : "tank_lo_x");
     lo[1] = mps__page_number(r, "tank_lo_y");
-    hi[0] = lo[0] + mps__page_number(r, "tank_size_x");
+    hi[0] = lo[0] + mps__page_number(r, axis ? "tank_size_z" : "tank_size_x");
     hi[1] = lo[1] + mps__page_number(r, "tank_size_y");
     return hi[0] > lo[0] && hi[1] > lo[1];
 }
@@ -49,6 +50,20 @@ static bool is_marked(const page_column *c)
             strcmp(c->type, "pressure") == 0);
 }
 
+/* The horizontal axis along which the sensors stand apart: in the view along it they would hide each other. */
+static int chosen_axis(const page_run *r)
+{
+    double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
+    double box_lo[2], box_hi[2];
+    for (int32_t k = 0; k < r->columns; k++)
+        for (int d = 0; d < 3 && is_marked(&r->column[k]); d++) {
+            lo[d] = fmin(lo[d], r->column[k].at[d]);
+            hi[d] = fmax(hi[d], r->column[k].at[d]);
+        }
+    const bool z = hi[2] - lo[2] > (hi[0] - lo[0]) * (1 + 1e-9);
+    return mps__page_number(r, "dim") == 3 && z && tank_box(r, 2, box_lo, box_hi) ? 2 : 0;
+}
+
 static int collect(const sketch *s, const page_run *r, mark *all)
 {
     int count = 0;
@@ -57,8 +72,8 @@ static int collect(const sketch *s, const page_run *r, mark *all)
         if (!is_marked(c)) continue;
         mark *m = &all[count++];
         const bool gauge = strcmp(c->type, "gauge") == 0;
-        *m = (mark){.column = c, .x = at_x(s, c->at[0]), .y = at_y(s, c->at[1])};
-        m->side = gauge ? ABOVE : c->at[0] < (s->lo[0] + s->hi[0]) / 2 ? LEFT : RIGHT;
+        *m = (mark){.column = c, .x = at_x(s, c->at[s->axis]), .y = at_y(s, c->at[1])};
+        m->side = gauge ? ABOVE : c->at[s->axis] < (s->lo[0] + s->hi[0]) / 2 ? LEFT : RIGHT;
         m->label = gauge ? m->x : m->y;
     }
     return count;
@@ -125,6 +140,7 @@ static void write_mark(const sketch *s, const mark *m)
 static const json_value *tank_outline(const sketch *s, const page_run *r)
 {
     const json_value *polygon = mps__json_at(mps__json_get(r->summary, "outline"), 0);
+    if (s->axis != 0) return NULL;
     double lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY};
     for (size_t i = 0; i < mps__json_count(polygon); i++)
         for (int d = 0; d < 2; d++) {
@@ -171,7 +187,7 @@ static void write_level(const sketch *s, const page_run *r)
 /* Polygons of the tank and its solids, or its box. */
 static void write_outline(const sketch *s, const page_run *r)
 {
-    const json_value *outline = mps__json_get(r->summary, "outline");
+    const json_value *outline = s->axis == 0 ? mps__json_get(r->summary, "outline") : NULL;
     if (mps__json_count(outline) == 0)
         fprintf(s->out, "<rect class=\"tank\" x=\"%d\" y=\"%d\" width=\"%.1f\" height=\"%.1f\"/>\n",
                 MARGIN, TOP, (s->hi[0] - s->lo[0]) * s->scale, (s->hi[1] - s->lo[1]) * s->scale);
@@ -277,7 +293,8 @@ void mps__page_sketch(FILE *out, const page_run *r)
 {
     sketch s = {.out = out};
     mark all[MARKS];
-    if (!tank_box(r, s.lo, s.hi)) return;
+    s.axis = chosen_axis(r);
+    if (!tank_box(r, s.axis, s.lo, s.hi)) return;
     const double wide = s.hi[0] - s.lo[0], tall = s.hi[1] - s.lo[1];
     s.scale = fmin((WIDTH - 2 * MARGIN) / wide, (TALLEST - TOP - FOOT) / tall);
     s.width = wide * s.scale + 2 * MARGIN;
@@ -293,7 +310,9 @@ void mps__page_sketch(FILE *out, const page_run *r)
             "<figcaption>%sPlaces are in the frame of the tank, which moves with it; y is up.%s"
             "</figcaption></figure>\n",
             count ? "Choose a sensor to see its curve. " : "",
-            mps__page_number(r, "dim") == 3 ? " Seen along -z." : "");
+            s.axis == 2 ? " Seen along x: z to the right. The box of the tank."
+            : mps__page_number(r, "dim") == 3 ? " Seen along -z."
+                                              : "");
     if (count > 0) mps__page_extremes(out, r, "Extremes of the sensors", is_marked);
     fputs("</div>\n</section>\n", out);
 }

@@ -54,11 +54,39 @@ static void sketches(void **unused)
     (void)unused;
     scene_create(&s);
     write_summary(&s, ", \"outline\": [[[1, 0], [1, 0.5]]]");
+    CHECK_PAGE(&s, "!Seen along");
     text_write(&s, "probes.csv", "t[s],P1[Pa],eta[m]\n0,0,0\n1,5000,2\n2,-0.001,-0.001\n");
     CHECK_PAGE(&s, "<polygon class=\"tank\" points=\"", "!clip-path", "5 kPa</td>", "0 Pa</td>",
                "!1 mPa",
                "\xe2\x88\x92"
                "1 mm</td>");
+    scene_remove(&s);
+}
+
+/* In 3-D the sketch looks along the axis in which the sensors stand less apart. */
+static void sides(void **unused)
+{
+    static const char *const place[][3] = {
+        {"[1, 0.5, -2]", "Seen along x: z to the right", ">4 m<"},
+        {"[0, 0.5, 2]", "Seen along -z.", ">3 m<"},
+        {"[1, 0.5, 2]", "Seen along -z.", ">3 m<"}};
+    scene s = {.dim = 3, .fluid = 20, .frames = 0, .rows = 20};
+    (void)unused;
+    scene_create(&s);
+    for (int i = 0; i < 3; i++) {
+        char text[1024];
+        snprintf(
+            text, sizeof text,
+            "{\"dim\": 3, \"t_end\": 1, \"tank_lo_x\": 0, \"tank_lo_y\": 0, \"tank_lo_z\": -2, "
+            "\"tank_size_x\": 3, \"tank_size_y\": 2, \"tank_size_z\": 4, \"still_level\": 0.5, "
+            "\"columns\": [{\"name\": \"P1\", \"unit\": \"Pa\", \"type\": \"wall_pressure\", "
+            "\"at\": %s}, {\"name\": \"P2\", \"unit\": \"Pa\", \"type\": "
+            "\"wall_pressure\", \"at\": [1, 0.5, 2]}]}",
+            place[i][0]);
+        text_write(&s, "summary.json", text);
+        text_write(&s, "probes.csv", "t[s],P1[Pa],P2[Pa]\n0,0,0\n1,5,2\n");
+        CHECK_PAGE(&s, place[i][1], place[i][2]);
+    }
     scene_remove(&s);
 }
 
@@ -384,6 +412,7 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(all_that_a_summary_may_say),
                                        cmocka_unit_test(verdicts),
                                        cmocka_unit_test(sketches),
+                                       cmocka_unit_test(sides),
                                        cmocka_unit_test(energy_of_walls),
                                        cmocka_unit_test(steep_or_not),
                                        cmocka_unit_test(thinned_curves),
