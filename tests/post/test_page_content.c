@@ -180,6 +180,30 @@ static void steep_or_not(void **unused)
     scene_remove(&s);
 }
 
+/* A sensor that stays dry is told so; two events are too few, and the page says how long a record has enough. */
+static void dry(void **unused)
+{
+    scene s = {.dim = 2, .fluid = 20, .frames = 0, .rows = 20};
+    char path[128];
+    (void)unused;
+    scene_create(&s);
+    text_write(&s, "summary.json",
+               "{\"dim\": 2, \"t_end\": 3, \"columns\": [{\"name\": \"P1\", \"unit\": \"Pa\", "
+               "\"type\": \"wall_pressure\", \"at\": [0, 0, 0]}, {\"name\": \"P2\", \"unit\": "
+               "\"Pa\", \"type\": \"wall_pressure\", \"at\": [0, 1, 0]}]}");
+    path_of(&s, "probes.csv", path);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs("t[s],P1[Pa],P2[Pa]\n", file);
+    for (int i = 0; i <= 3000; i++)
+        fprintf(file, "%g,%g,0\n", 0.001 * i, (i == 1000 || i == 2000) * 1e4);
+    assert_int_equal(fclose(file), 0);
+    CHECK_PAGE(&s, "P1: 2 events, highest 10 kPa</summary>", "P2: no pressure</summary>",
+               "No liquid came here.", "!highest -",
+               "that needs 30 events, there are 2. At this rate a record of 44.8 s has so many.");
+    scene_remove(&s);
+}
+
 /* Of many rows the least and the largest value of each bucket stay. */
 static void thinned_curves(void **unused)
 {
@@ -412,6 +436,7 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(all_that_a_summary_may_say),
                                        cmocka_unit_test(verdicts),
                                        cmocka_unit_test(sketches),
+                                       cmocka_unit_test(dry),
                                        cmocka_unit_test(sides),
                                        cmocka_unit_test(energy_of_walls),
                                        cmocka_unit_test(steep_or_not),
