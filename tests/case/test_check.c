@@ -51,6 +51,18 @@ static void volumes(void **state)
           "of 15 m2 asked for", "mps_");
 }
 
+/* Of a file, what it encloses: a wrong unit or axis is seen there. */
+static void files(void **state)
+{
+    (void)state;
+    tells("mps: 1\ndim: 3\ndp: 100 mm\ntank: {stl: cube.stl, unit: m}\nfill: [{water: {depth: 40 "
+          "%}}]\n" END,
+          "12 triangles enclose 1 m3 in a box of 1 x 1 x 1 m", "holds");
+    tells("mps: 1\ndim: 3\ndp: 1 mm\ntank: {stl: cube.stl, unit: cm}\nfill: [{water: {depth: 40 "
+          "%}}]\n" END,
+          NULL, "enclose 1 m3");
+}
+
 static void plates(void **state)
 {
     static const char divides[] = "'b' reaches above the liquid and divides its surface";
@@ -187,9 +199,9 @@ static void drawings(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(volumes), cmocka_unit_test(plates),
-                                       cmocka_unit_test(sensors), cmocka_unit_test(columns),
-                                       cmocka_unit_test(motions), cmocka_unit_test(bare),
-                                       cmocka_unit_test(periods), cmocka_unit_test(drawings)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(volumes), cmocka_unit_test(files),   cmocka_unit_test(plates),
+        cmocka_unit_test(sensors), cmocka_unit_test(columns), cmocka_unit_test(motions),
+        cmocka_unit_test(bare),    cmocka_unit_test(periods), cmocka_unit_test(drawings)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
