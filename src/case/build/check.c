@@ -86,13 +86,15 @@ static void write_tank(const writer *w, const build *b)
     }
 }
 
-/* What the library told. Beside inclined walls cells of the lattice overlap, so that volumes which are counted in cells are left out there. */
+/* What the library told. Where a fill has whole rows beside inclined walls its cells overlap: its volume, counted in cells, is left out. */
 static void write_log(const writer *w, const build *b)
 {
-    const bool straight = b->tank.form.kind == FORM_BOX && !b->tank.file;
+    const bool straight = b->tank.form.kind == FORM_BOX && !b->tank.file,
+               whole = b->several || b->paper;
     bool first = true;
     for (int32_t i = 0; i < b->log->count; i++) {
-        if (!straight && strncmp(b->log->text[i], "fill of phase", 13) == 0) continue;
+        const bool fill = strncmp(b->log->text[i], "fill of phase", 13) == 0;
+        if (fill && whole && !straight) continue;
         heading(w, first ? "library" : "");
         first = false;
         fprintf(w->file, "%s%s\n", b->log->level[i] ? "warning: " : "", b->log->text[i]);
