@@ -152,12 +152,38 @@ static int tell(head *h)
     return MPS_EXIT_USAGE;
 }
 
+/* A folder of a run: what is in it to look at. */
+static int tell_folder(const char *path)
+{
+    static const struct {
+        const char *file, *what;
+    } parts[] = {{"report.html", "page; open it in a browser"},
+                 {"probes.csv", "table of the sensors; 'mps stats' finds its impacts"},
+                 {"summary.json", "summary of the run"},
+                 {"film.mp4", "film"},
+                 {"frames.pvd", "frames of particles, for ParaView"},
+                 {"checkpoint.mps", "checkpoint; 'mps resume' continues from it"}};
+    int found = 0;
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        char place[4096];
+        struct stat status;
+        snprintf(place, sizeof place, "%s/%s", path, parts[i].file);
+        if (stat(place, &status) != 0 || !S_ISREG(status.st_mode)) continue;
+        if (found++ == 0) printf("folder of a run\n");
+        printf("  %-16s %s\n", parts[i].file, parts[i].what);
+    }
+    if (found > 0) return MPS_EXIT_OK;
+    fprintf(stderr, "mps info: %s: is a folder without outputs of a run\n", path);
+    return MPS_EXIT_USAGE;
+}
+
 int verb_info(const choices *c)
 {
     static head h;
     struct stat status;
     FILE *file = NULL;
     h.path = c->file[0];
+    if (stat(h.path, &status) == 0 && S_ISDIR(status.st_mode)) return tell_folder(h.path);
     if (stat(h.path, &status) != 0 || !S_ISREG(status.st_mode) || !(file = fopen(h.path, "rb"))) {
         fprintf(stderr, "mps info: %s: %s\n", h.path, errno ? strerror(errno) : "is no file");
         return MPS_EXIT_USAGE;

@@ -9,12 +9,15 @@
 #include <unistd.h>
 
 /* A file that is there stays, unless it may be replaced. */
-static int write_new(const choices *c, const char *path, const char *text)
+static bool may_write(const choices *c, const char *path)
 {
-    if (!c->overwrite && access(path, F_OK) == 0) {
-        fprintf(stderr, "mps init: %s is there already; --overwrite replaces it\n", path);
-        return MPS_EXIT_USAGE;
-    }
+    if (c->overwrite || access(path, F_OK) != 0) return true;
+    fprintf(stderr, "mps init: %s is there already; --overwrite replaces it\n", path);
+    return false;
+}
+
+static int write_new(const char *path, const char *text)
+{
     FILE *file = fopen(path, "w");
     bool good = file && fputs(text, file) >= 0;
     if (file) good = fclose(file) == 0 && good;
@@ -26,17 +29,25 @@ static int write_new(const choices *c, const char *path, const char *text)
     return MPS_EXIT_OK;
 }
 
+/* A table that a case names. */
+static bool is_table_of(const start *table, const start *owner)
+{
+    return table != owner && strchr(table->name, '.') && strstr(owner->text, table->name);
+}
+
 int verb_init(const choices *c)
 {
     char path[1024];
     for (const start *s = starts; s->name; s++) {
         if (strcmp(s->name, c->file[0]) != 0) continue;
         snprintf(path, sizeof path, "%s%s", s->name, strchr(s->name, '.') ? "" : ".yaml");
-        int code = write_new(c, c->out ? c->out : path, s->text);
-        for (const start *t = starts; t->name && code == MPS_EXIT_OK;
-             t++) /* tables that it names */
-            if (t != s && strchr(t->name, '.') && strstr(s->text, t->name))
-                code = write_new(c, t->name, t->text);
+        bool free_places = may_write(c, c->out ? c->out : path);
+        for (const start *t = starts; t->name && free_places; t++)
+            if (is_table_of(t, s)) free_places = may_write(c, t->name);
+        if (!free_places) return MPS_EXIT_USAGE;
+        int code = write_new(c->out ? c->out : path, s->text);
+        for (const start *t = starts; t->name && code == MPS_EXIT_OK; t++)
+            if (is_table_of(t, s)) code = write_new(t->name, t->text);
         return code;
     }
     fprintf(stderr, "mps init: there is no case with the name '%s'; 'mps list cases' shows all\n",

@@ -29,11 +29,24 @@ static void list_cases(void)
     }
 }
 
-static void list_keys(void)
+/* Whether a name is an element of a path, or a text is its beginning: "holes", "solids", "motion.roll". */
+static bool is_on_path(const char *path, const char *name)
+{
+    const size_t length = strlen(name);
+    if (strncmp(path, name, length) == 0 && strchr(".|", path[length])) return true;
+    for (const char *at = path; *at; at += strcspn(at, ".|"), at += *at != '\0')
+        if (strcspn(at, ".|") == length && strncmp(at, name, length) == 0) return true;
+    return false;
+}
+
+/* All keys, or those of one name. @return exit code */
+static int list_keys(const char *name)
 {
     mps_case_key k = {.struct_size = sizeof k};
+    int32_t count = 0;
     for (int32_t i = 0; mps_case_key_get(i, &k) == MPS_OK; i++) {
-        if (!k.path[0]) continue;
+        if (!k.path[0] || (name && !is_on_path(k.path, name))) continue;
+        count++;
         printf("%s%s\n    %s", k.path, k.required ? " (required)" : "", k.help);
         if (k.kind[0]) printf("; %s", k.kind);
         if (k.range[0]) printf(", %s", k.range);
@@ -41,6 +54,9 @@ static void list_keys(void)
         if (k.example[0]) printf("; e.g. %s", k.example);
         printf("\n");
     }
+    if (count > 0) return MPS_EXIT_OK;
+    fprintf(stderr, "mps list: no key has the name '%s'; 'mps list keys' shows all\n", name);
+    return MPS_EXIT_USAGE;
 }
 
 /* Each kind of quantity once, with its units. */
@@ -117,18 +133,24 @@ int verb_list(const choices *c)
         if (strcmp(what, all[i]) == 0) chosen = i;
     if (chosen < 0) {
         if (what[0]) fprintf(stderr, "mps list: '%s' is no list\n", what);
-        for (int i = 0; i < 7; i++) fprintf(what[0] ? stderr : stdout, "mps list %s\n", all[i]);
+        for (int i = 0; i < 7; i++)
+            fprintf(what[0] ? stderr : stdout, "mps list %s%s\n", all[i], i == 1 ? " [NAME]" : "");
         return what[0] ? MPS_EXIT_USAGE : MPS_EXIT_OK;
     }
+    if (c->files > 1 && chosen != 1) {
+        fprintf(stderr, "mps list %s: '%s' is one argument too many\n", what, c->file[1]);
+        return MPS_EXIT_USAGE;
+    }
     mps_sim *sim = make_sim();
+    int code = MPS_EXIT_OK;
     if (!sim) return MPS_EXIT_FAILED;
     if (chosen == 0) list_cases();
-    if (chosen == 1) list_keys();
+    if (chosen == 1) code = list_keys(c->files > 1 ? c->file[1] : NULL);
     if (chosen == 2) list_models(sim);
     if (chosen == 3) list_settings(sim);
     if (chosen == 4) list_solvers(sim);
     if (chosen == 5) list_units();
     if (chosen == 6) list_measures();
     mps_sim_destroy(sim);
-    return fflush(stdout) == 0 ? MPS_EXIT_OK : MPS_EXIT_FAILED;
+    return fflush(stdout) == 0 ? code : MPS_EXIT_FAILED;
 }

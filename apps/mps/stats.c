@@ -121,8 +121,15 @@ static void print_fit(const mps_impacts *impacts, int32_t kind, const char *name
 static void print_value(const mps_impacts *impacts, const mps_impacts_info *info,
                         const mps_stats_config *c)
 {
+    if (info->unresolved > 0)
+        printf("  %lld of %lld rise or decay faster than the computation resolves: their peaks "
+               "depend on dp\n",
+               (long long)info->unresolved, (long long)info->events);
     if (info->events < c->least_events) {
-        printf("  no distribution is fitted: that needs %d events\n", (int)c->least_events);
+        printf("  no distribution is fitted: that needs %d events", (int)c->least_events);
+        if (info->events > 1)
+            printf(", at this rate a record of about %.3g s", c->least_events / info->rate);
+        printf("\n");
         return;
     }
     printf("  exceeded once in %.4g h (%.4g events), for screening, not for design:\n",
@@ -143,12 +150,19 @@ static void print_signal(const char *name, const mps_impacts *impacts, const mps
     mps_impact_init(&high, sizeof high);
     mps_impacts_info_init(&info, sizeof info);
     mps_impacts_info_get(impacts, &info);
+    if (isnan(c->threshold) && info.threshold == 0 &&
+        info.events == 0) { /* mean and deviation are 0 */
+        printf("%s: no pressure from %.4g to %.4g s: no liquid came here\n", name, info.t_first,
+               info.t_last);
+        return;
+    }
     printf("%s: %lld events, %.4g a minute", name, (long long)info.events, 60 * info.rate);
     if (mps_impacts_highest(impacts, 0, &high) == MPS_OK)
         printf(", highest %.4g Pa at %.4g s", high.peak, high.t);
-    printf("\n  above %.4g Pa, until %.4g s below it, from %.4g to %.4g s; %lld left out at the "
+    printf("\n  above %.4g Pa%s, until %.4g s below it, from %.4g to %.4g s; %lld left out at the "
            "ends\n",
-           info.threshold, info.window, info.t_first, info.t_last, (long long)info.cut);
+           info.threshold, isnan(c->threshold) ? " (by deviations: set impacts.threshold)" : "",
+           info.window, info.t_first, info.t_last, (long long)info.cut);
     print_highest(impacts);
     print_value(impacts, &info, c);
 }

@@ -60,8 +60,12 @@ static void write_value(FILE *out, const mps_impacts *impacts, const mps_impacts
     if (info->events < c->least_events) {
         fprintf(out,
                 "<p>No distribution is fitted and no value for a longer time is given: that needs "
-                "%d events, there %s %lld.</p>\n",
+                "%d events, there %s %lld.",
                 (int)c->least_events, info->events == 1 ? "is" : "are", (long long)info->events);
+        if (info->events > 1)
+            fprintf(out, " At this rate a record of %s has so many.",
+                    mps__duration(exposure, c->least_events / info->rate));
+        fputs("</p>\n", out);
         return;
     }
     fprintf(out,
@@ -122,9 +126,13 @@ static void write_sensor(FILE *out, const sensor *s, const mps_stats_config *c, 
     mps_impacts_info_get(s->impacts, &info);
     fprintf(out, "<details%s class=\"impact\"><summary>", open ? " open" : "");
     mps__html(out, s->column->name);
-    fprintf(out, ": %lld event%s, highest %s</summary>\n<div class=\"two\"><div>\n",
-            (long long)info.events, info.events == 1 ? "" : "s",
-            mps__quantity(high, s->highest, "Pa"));
+    if (info.events == 0 && info.threshold == 0) { /* mean and deviation are 0 */
+        fputs(": no pressure</summary>\n<p>No liquid came here.</p></details>\n", out);
+        return;
+    }
+    fprintf(out, ": %lld event%s", (long long)info.events, info.events == 1 ? "" : "s");
+    if (info.events > 0) fprintf(out, ", highest %s", mps__quantity(high, s->highest, "Pa"));
+    fputs("</summary>\n<div class=\"two\"><div>\n", out);
     fprintf(out, "<p>An event begins above %s and ends after %s below it. ",
             mps__quantity(u, info.threshold, "Pa"), mps__quantity(w, info.window, "s"));
     if (info.events >= FEW)

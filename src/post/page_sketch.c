@@ -11,6 +11,7 @@ enum { WIDTH = 620, MARGIN = 122, TOP = 40, FOOT = 44, TALLEST = 420, APART = 17
 /* Map from metres to the drawing. */
 typedef struct sketch {
     FILE *out;
+    int axis; /* that goes to the right: x or z */
     double lo[2], hi[2], scale, width, height;
 } sketch;
 
@@ -33,11 +34,11 @@ static double at_y(const sketch *s, double y)
 }
 
 /* Inner size of the tank. @return false: not known */
-static bool tank_box(const page_run *r, double lo[2], double hi[2])
+static bool tank_box(const page_run *r, int axis, double lo[2], double hi[2])
 {
-    lo[0] = mps__page_number(r, "tank_lo_x");
+    lo[0] = mps__page_number(r, axis ? "tank_lo_z" : "tank_lo_x");
     lo[1] = mps__page_number(r, "tank_lo_y");
-    hi[0] = lo[0] + mps__page_number(r, "tank_size_x");
+    hi[0] = lo[0] + mps__page_number(r, axis ? "tank_size_z" : "tank_size_x");
     hi[1] = lo[1] + mps__page_number(r, "tank_size_y");
     return hi[0] > lo[0] && hi[1] > lo[1];
 }
@@ -49,6 +50,20 @@ static bool is_marked(const page_column *c)
             strcmp(c->type, "pressure") == 0);
 }
 
+/* The horizontal axis along which the sensors stand apart: in the view along it they would hide each other. */
+static int chosen_axis(const page_run *r)
+{
+    double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
+    double box_lo[2], box_hi[2];
+    for (int32_t k = 0; k < r->columns; k++)
+        for (int d = 0; d < 3 && is_marked(&r->column[k]); d++) {
+            lo[d] = fmin(lo[d], r->column[k].at[d]);
+            hi[d] = fmax(hi[d], r->column[k].at[d]);
+        }
+    const bool z = hi[2] - lo[2] > (hi[0] - lo[0]) * (1 + 1e-9);
+    return mps__page_number(r, "dim") == 3 && z && tank_box(r, 2, box_lo, box_hi) ? 2 : 0;
+}
+
 static int collect(const sketch *s, const page_run *r, mark *all)
 {
     int count = 0;
@@ -57,8 +72,8 @@ static int collect(const sketch *s, const page_run *r, mark *all)
         if (!is_marked(c)) continue;
         mark *m = &all[count++];
         const bool gauge = strcmp(c->type, "gauge") == 0;
-        *m = (mark){.column = c, .x = at_x(s, c->at[0]), .y = at_y(s, c->at[1])};
-        m->side = gauge ? ABOVE : c->at[0] < (s->lo[0] + s->hi[0]) / 2 ? LEFT : RIGHT;
+        *m = (mark){.column = c, .x = at_x(s, c->at[s->axis]), .y = at_y(s, c->at[1])};
+        m->side = gauge ? ABOVE : c->at[s->axis] < (s->lo[0] + s->hi[0]) / 2 ? LEFT : RIGHT;
         m->label = gauge ? m->x : m->y;
     }
     return count;
@@ -110,24 +125,61 @@ static void write_mark(const sketch *s, const mark *m)
         fprintf(s->out,
                 "<path d=\"M%.1f %.1fL%.1f %.1f\"/><circle cx=\"%.1f\" cy=\"%.1f\" r=\"5\"/>", m->x,
                 m->y, x, y, m->x, m->y);
-    const double middle = m->side == LEFT ? -26 : m->side == RIGHT ? 26 : 0;
+    const double wide = fmax(56, 6.8 * (double)strlen(name) + 10); /* of a label */
+    const double middle = m->side == LEFT ? 2 - wide / 2 : m->side == RIGHT ? wide / 2 - 2 : 0;
     fprintf(s->out,
-            "<rect x=\"%.1f\" y=\"%.1f\" width=\"56\" height=\"16\" rx=\"4\"/><text x=\"%.1f\" "
+            "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"16\" rx=\"4\"/><text x=\"%.1f\" "
             "y=\"%.1f\">",
-            x + middle - 28, y - (m->side == ABOVE ? 12 : 8), x + middle,
+            x + middle - wide / 2, y - (m->side == ABOVE ? 12 : 8), wide, x + middle,
             y + (m->side == ABOVE ? 0 : 4));
     mps__html(s->out, name);
     fputs("</text></g>\n", s->out);
 }
 
+/* The outline of the tank: the first one, if its box is that of the tank; of a file there is none. NULL: it is a box */
+static const json_value *tank_outline(const sketch *s, const page_run *r)
+{
+    const json_value *polygon = mps__json_at(mps__json_get(r->summary, "outline"), 0);
+    if (s->axis != 0) return NULL;
+    double lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY};
+    for (size_t i = 0; i < mps__json_count(polygon); i++)
+        for (int d = 0; d < 2; d++) {
+            const double x = mps__json_number(mps__json_at(mps__json_at(polygon, i), (size_t)d));
+            lo[d] = fmin(lo[d], x);
+            hi[d] = fmax(hi[d], x);
+        }
+    for (int d = 0; d < 2; d++) {
+        const double slack = 1e-3 * (s->hi[d] - s->lo[d]);
+        if (!(fabs(lo[d] - s->lo[d]) < slack && fabs(hi[d] - s->hi[d]) < slack)) return NULL;
+    }
+    return polygon;
+}
+
+static void write_points(const sketch *s, const json_value *polygon)
+{
+    for (size_t i = 0; i < mps__json_count(polygon); i++) {
+        const json_value *point = mps__json_at(polygon, i);
+        fprintf(s->out, "%.1f,%.1f ", at_x(s, mps__json_number(mps__json_at(point, 0))),
+                at_y(s, mps__json_number(mps__json_at(point, 1))));
+    }
+}
+
 static void write_level(const sketch *s, const page_run *r)
 {
+    const json_value *polygon = tank_outline(s, r);
     double y = mps__page_number(r, "level");
     if (!isfinite(y)) y = mps__page_number(r, "still_level");
     if (!(y > s->lo[1] && y < s->hi[1])) return;
     const double wide = (s->hi[0] - s->lo[0]) * s->scale;
-    fprintf(s->out, "<rect class=\"liquid\" x=\"%d\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/>\n",
-            MARGIN, at_y(s, y), wide, (y - s->lo[1]) * s->scale);
+    if (polygon) {
+        fputs("<clipPath id=\"inside-tank\"><polygon points=\"", s->out);
+        write_points(s, polygon);
+        fputs("\"/></clipPath>\n", s->out);
+    }
+    fprintf(s->out,
+            "<rect class=\"liquid\" x=\"%d\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"%s/>\n",
+            MARGIN, at_y(s, y), wide, (y - s->lo[1]) * s->scale,
+            polygon ? " clip-path=\"url(#inside-tank)\"" : "");
     fprintf(s->out, "<path class=\"level\" d=\"M%.1f %.1fl-6 -9h12z\"/>\n", MARGIN + wide / 2,
             at_y(s, y));
 }
@@ -135,18 +187,13 @@ static void write_level(const sketch *s, const page_run *r)
 /* Polygons of the tank and its solids, or its box. */
 static void write_outline(const sketch *s, const page_run *r)
 {
-    const json_value *outline = mps__json_get(r->summary, "outline");
+    const json_value *outline = s->axis == 0 ? mps__json_get(r->summary, "outline") : NULL;
     if (mps__json_count(outline) == 0)
         fprintf(s->out, "<rect class=\"tank\" x=\"%d\" y=\"%d\" width=\"%.1f\" height=\"%.1f\"/>\n",
                 MARGIN, TOP, (s->hi[0] - s->lo[0]) * s->scale, (s->hi[1] - s->lo[1]) * s->scale);
     for (size_t k = 0; k < mps__json_count(outline); k++) {
-        const json_value *polygon = mps__json_at(outline, k);
         fputs("<polygon class=\"tank\" points=\"", s->out);
-        for (size_t i = 0; i < mps__json_count(polygon); i++) {
-            const json_value *point = mps__json_at(polygon, i);
-            fprintf(s->out, "%.1f,%.1f ", at_x(s, mps__json_number(mps__json_at(point, 0))),
-                    at_y(s, mps__json_number(mps__json_at(point, 1))));
-        }
+        write_points(s, mps__json_at(outline, k));
         fputs("\"/>\n", s->out);
     }
 }
@@ -177,7 +224,7 @@ static void write_place(FILE *out, const page_run *r, const page_column *c)
     fputs(" m", out);
 }
 
-/* Largest value of a column after the impulse at the start, and its time. */
+/* Largest value of a column after the impulse at the start, and its time. What rounding left beside the other value is 0. */
 static void write_extremes(FILE *out, const page_run *r, const page_column *c)
 {
     const page_table *t = &r->probes;
@@ -191,10 +238,14 @@ static void write_extremes(FILE *out, const page_run *r, const page_column *c)
         if (low < 0 || row[c->place] < t->value[low * t->columns + c->place]) low = i;
     }
     const int64_t row[] = {high, low};
+    double most = 0;
+    for (int k = 0; k < 2; k++)
+        if (row[k] >= 0) most = fmax(most, fabs(t->value[row[k] * t->columns + c->place]));
     for (int k = 0; k < 2; k++) {
         const double *v = row[k] >= 0 ? t->value + row[k] * t->columns : NULL;
+        const double value = v ? v[c->place] : NAN;
         fprintf(out, "<td class=\"number\">%s</td>",
-                mps__quantity(text, v ? v[c->place] : NAN, c->unit));
+                mps__quantity(text, fabs(value) < 1e-6 * most ? 0 : value, c->unit));
         fprintf(out, "<td class=\"number\">%s</td>", mps__quantity(text, v ? v[0] : NAN, "s"));
     }
 }
@@ -242,7 +293,8 @@ void mps__page_sketch(FILE *out, const page_run *r)
 {
     sketch s = {.out = out};
     mark all[MARKS];
-    if (!tank_box(r, s.lo, s.hi)) return;
+    s.axis = chosen_axis(r);
+    if (!tank_box(r, s.axis, s.lo, s.hi)) return;
     const double wide = s.hi[0] - s.lo[0], tall = s.hi[1] - s.lo[1];
     s.scale = fmin((WIDTH - 2 * MARGIN) / wide, (TALLEST - TOP - FOOT) / tall);
     s.width = wide * s.scale + 2 * MARGIN;
@@ -258,7 +310,9 @@ void mps__page_sketch(FILE *out, const page_run *r)
             "<figcaption>%sPlaces are in the frame of the tank, which moves with it; y is up.%s"
             "</figcaption></figure>\n",
             count ? "Choose a sensor to see its curve. " : "",
-            mps__page_number(r, "dim") == 3 ? " Seen along -z." : "");
+            s.axis == 2 ? " Seen along x: z to the right. The box of the tank."
+            : mps__page_number(r, "dim") == 3 ? " Seen along -z."
+                                              : "");
     if (count > 0) mps__page_extremes(out, r, "Extremes of the sensors", is_marked);
     fputs("</div>\n</section>\n", out);
 }

@@ -114,22 +114,34 @@ static double last_of(const page_run *r, const char *name)
     return isfinite(v) ? v : 0;
 }
 
+/* In a forced motion energy goes through the liquid for as long as the run takes, and so does what is lost of it: the larger of the energy of
+ * the wave and that of the walls is the measure. */
+static double measure_of_energy(const page_run *r, bool *walls)
+{
+    const double wave = wave_energy(&r->probes), work = largest(&r->probes, "wall_work_momentum");
+    *walls = work > wave;
+    return *walls ? work : wave;
+}
+
 /* A gain becomes random motion, which dissipation and shift take: their sum tells whether the wave keeps its energy. Where the liquid
  * itself is viscous, the numerical part alone does. */
 static light light_energy(const page_run *r)
 {
     light l = {.name = "Energy"};
-    char share[TEXT_NUMBER], wave[TEXT_NUMBER], rest[TEXT_NUMBER];
+    char share[TEXT_NUMBER], base[TEXT_NUMBER], rest[TEXT_NUMBER];
     const char *unit = mps__page_number(r, "dim") == 3 ? "J" : "J/m";
-    const double all = wave_energy(&r->probes), numerical = last_of(r, "numerical");
+    bool walls = false;
+    const double all = measure_of_energy(r, &walls), numerical = last_of(r, "numerical");
     const double sum = numerical + last_of(r, "shift") + last_of(r, "viscous");
     const double open = fmin(fabs(numerical), fabs(sum));
     l.state = by_limits(all > 0 ? open / all : NAN, 0.1, 0.3);
     snprintf(l.value, sizeof l.value, "%s %%", mps__rounded(share, 100 * open / all));
     snprintf(l.text, sizeof l.text,
-             "Energy that came or went without a physical reason (%s), of the largest energy of "
-             "the motion (%s). Below 10 %% is good.",
-             mps__quantity(rest, open, unit), mps__quantity(wave, all, unit));
+             "Energy that came or went without a physical reason (%s), of the %s (%s). Below 10 %% "
+             "is good.",
+             mps__quantity(rest, open, unit),
+             walls ? "energy that the walls gave" : "largest energy of the motion",
+             mps__quantity(base, all, unit));
     if (l.state == UNKNOWN) snprintf(l.text, sizeof l.text, "The liquid did not move.");
     if (l.state == LOOK || l.state == POOR)
         snprintf(l.advice, sizeof l.advice,

@@ -43,6 +43,11 @@ done
 expect 2 "is there already" "$program" init tank
 expect 0 "tank.yaml" "$program" init tank --overwrite
 expect 2 "no case with the name" "$program" init tnk
+mkdir taken
+echo mine > taken/voyage.csv
+(cd taken && "$program" init ship > /dev/null 2>&1) && fail "init ship beside another voyage.csv"
+[ -e taken/ship.yaml ] && fail "ship.yaml with the voyage.csv of another"
+[ "$(cat taken/voyage.csv)" = mine ] || fail "voyage.csv was replaced"
 for name in tank lng roll ship; do
     expect 0 "periods" "$program" check $name.yaml
     grep -q "particles .* of fluid" log || fail "$name: no particles"
@@ -74,6 +79,12 @@ for list in cases keys models settings solvers units measures; do
     [ "$("$program" list $list | wc -l)" -gt 3 ] || fail "list $list"
 done
 expect 2 "is no list" "$program" list model
+expect 0 "solids.*.holes.pitch" "$program" list keys holes
+[ "$(grep -c '^[a-z]' log)" -eq 3 ] || fail "list keys holes: $(cat log)"
+expect 0 "motion.roll|pitch|yaw.jonswap" "$program" list keys roll
+grep -q "^sensors" log && fail "list keys roll: sensors"
+expect 2 "no key has the name 'hole'" "$program" list keys hole
+expect 2 "one argument too many" "$program" list cases tank
 "$program" schema > schema.json || fail "schema"
 grep -q "2020-12" schema.json || fail "schema.json"
 
@@ -119,6 +130,14 @@ grep -q '"weibull"' pulses/statistics.json || fail "statistics.json has no fits"
 expect 0 "P1: 39 events" "$program" stats bare P1 # without constants the window is 0.82 s; the record begins 0.78 s before the first
 grep -q "1 left out at the ends" log || fail "stats: the first pulse is not told as cut"
 grep -q "P2" log && fail "stats of one column has another"
+grep -q "(by deviations: set impacts.threshold)" log || fail "stats: not told that the threshold is a guess"
+expect 0 "P2: no pressure from 0.21 to 41 s: no liquid came here" "$program" stats bare P2
+mkdir few
+cp pulses/probes.csv few/
+printf '{\n  "t_end": 41,\n  "sensor_average_most": 0.15,\n  "inputs": [\n{"key": "T1", "value": "1 s"},\n{"key": "impacts.threshold", "value": "100 Pa"},\n{"key": "impacts.least_events", "value": "100"}\n]}\n' > few/summary.json
+expect 0 "that needs 100 events, at this rate a record of about 102 s" "$program" stats few P1
+grep -q "40 of 40 rise or decay faster" log || fail "stats: unresolved events are not counted"
+grep -q "by deviations" log && fail "stats: a threshold that is given is called a guess"
 expect 0 "P_right: " "$program" stats run
 expect 2 "the nearest is 'P_left'" "$program" stats run P_lift
 expect 2 "is no pressure" "$program" stats run eta_left
@@ -138,6 +157,12 @@ expect 2 "no such folder" "$program" compare run nowhere
 expect 2 "the last argument" "$program" compare run/probes.csv run
 expect 2 "no column can be compared" "$program" compare run shifted
 
+# slots of a baffle on the page
+expect 0 "" "$program" run lng.yaml --set "run.until=5 ms" --set output.frames=0 -o slots -q
+for piece in "0], [0.475, 0.0375" "0.0875], [0.475, 0.1625" "0.2125], [0.475, 0.25"; do
+    grep -qF "[[0.475, $piece]]" slots/summary.json || fail "no part of the baffle: $piece"
+done
+
 # info
 for what in "case:tank.yaml" "table:run/probes.csv" "frame of particles:run/frames/frames_000001.vtp" \
     "series of frames:run/frames.pvd" "page:run/report.html" "summary:run/summary.json"; do
@@ -146,6 +171,8 @@ done
 head -c 3000 /dev/urandom > noise
 expect 2 "is no file of mps" "$program" info noise
 expect 2 "No such file" "$program" info nothing
+expect 0 "report.html" "$program" info run
+expect 2 "without outputs of a run" "$program" info taken
 
 # interrupted, and continued: the same bytes as the whole run
 never=1000

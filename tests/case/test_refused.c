@@ -19,7 +19,10 @@ static void objects(void **state)
     built_refused(TOP "tank: {size: 1 0.6 m}\nfill: [{water: {depth: 0.7 m}}]\n" END, 4,
                   "fill.water.depth|0.7 m is more than the tank is high, 0.6 m");
     built_refused(TOP "tank: {size: 1 0.6 m}\nfill: [{oil: {depth: 0.3 m}}]\n" END, 4,
-                  "no fluid has the name 'oil'");
+                  "no fluid has the name 'oil'|known are water and air");
+    built_refused(TOP "tank: {size: 1 0.6 m}\nfluids: {lng: {density: 450 kg/m3, viscosity: 0.1 "
+                      "mPa s}}\nfill: [{LNG: {depth: 0.3 m}}]\n" END,
+                  5, "no fluid has the name 'LNG'; did you mean 'lng'?");
     built_refused(TOP "tank: {size: 1 0.6 m}\nfluids: {oil: {density: 900 kg/m3}}\nfill: [{oil: "
                       "{depth: 0.3 m}}]\n" END,
                   4, "fluids.oil|density and viscosity are needed");
@@ -38,7 +41,7 @@ static void objects(void **state)
     built_refused(
         TOP BOX
         "solids:\n  baffle: {plate: [0.5 0 m, 0.5 0.2 m], holes: {pitch: 40 mm, open: 40 %}}\n" END,
-        6, "solids.baffle.holes|at least 2 dp wide");
+        6, "solids.baffle.holes|slots of 0.016 m with 0.024 m between|at least 2 dp wide, 0.04 m");
     built_refused(TOP BOX "solids:\n  ball: {sphere: {centre: 5 5 m, radius: 0.1 m}}\n" END, 6,
                   "ball: ");
 }
@@ -92,7 +95,9 @@ static void tables(void **state)
                   ":4: the time 2 s is not later than that before it, 2 s");
     table_refused("t[s],roll[deg]\n0,1\n0.5,2\n", axes,
                   "times from 0 s to 0.5 s|the run takes 0 s to 1 s");
-    table_refused("t[s],roll\n0,1\n2,2\n", axes, "column 'roll' has no unit|an angle");
+    table_refused("t[s],roll\n0,1\n2,2\n", axes, "column 'roll' has no unit|'roll[deg]'|an angle");
+    table_refused("t[s],sway,roll[deg]\n0,1,1\n2,2,1\n", axes,
+                  "column 'sway' has no unit|'sway[m]'|a length");
     table_refused("t[s],roll[m]\n0,1\n2,2\n", axes, "the unit 'm', an angle is wanted");
     table_refused("t[s],PHI[deg]\n0,1\n2,2\n", axes, "motion.columns is needed|t, PHI");
     table_refused("t[s],PHI[deg]\n0,1\n2,2\n",
@@ -126,6 +131,9 @@ static void sensors(void **state)
 {
     (void)state;
     sensor_refused(TOP BOX "sensors:\n  P: {wall: 0.5 0.3 m}\n" END, 6, "sensors.P: |wall");
+    sensor_refused(TOP BOX "sensors:\n  P: {wall: -1 0.3 m}\n" END, 6, "x of its place is -1");
+    sensor_refused(TOP BOX "sensors:\n  P: {wall: 0 0.3 m, normal: -1 0}\n" END, 6,
+                   "looks along 'normal'");
     sensor_refused(TOP BOX "sensors:\n  F: {force: funnel}\n" END, 6, "sensors.F|funnel");
     sensor_refused(TOP BOX "sensors:\n  F: {force: tank, component: z}\n" END, 6,
                    "in 2-D there are x, y and mz");

@@ -135,6 +135,33 @@ static void forms(void **state)
     same_number(rod.hi[1], 4.6, 1e-12);
 }
 
+/* What a form holds up to a level: a box; the chamfered section 20 x 12 m, whose chamfers take 9 m2 below and 36 m2 above. */
+static void below(void **state)
+{
+    form box = {.kind = FORM_BOX, .dim = 3, .lo = {1, 1, 1}, .hi = {3, 4, 2}};
+    form tank = {.kind = FORM_POLYGON,
+                 .dim = 2,
+                 .points = 8,
+                 .point = {{3, 0}, {17, 0}, {20, 3}, {20, 6}, {14, 12}, {6, 12}, {0, 6}, {0, 3}}};
+    (void)state;
+    same_number(mps__form_volume_below(&box, 2.5), 3, 1e-12);
+    same_number(mps__form_volume_below(&box, 9), 6, 1e-12);
+    same_number(mps__form_volume_below(&box, 0.5), 0, 1e-12);
+    mps__form_box(&tank);
+    for (int i = 0; i <= 48; i++) {
+        const double y = 0.25 * i, low = fmin(y, 3), high = fmax(y - 6, 0);
+        same_number(mps__form_volume_below(&tank, y), 20 * y - (6 * low - low * low) - high * high,
+                    1e-12);
+    }
+    tank.dim = 3;
+    tank.sideways = true;
+    tank.lo[0] = 0;
+    tank.hi[0] = 5;
+    same_number(mps__form_volume_below(&tank, 3.6), 5 * 63, 1e-12);
+    tank.kind = FORM_TUBE;
+    assert_true(isnan(mps__form_volume_below(&tank, 3.6)));
+}
+
 /* T1 of a rectangular tank is that of the size asked for, whatever the spacing; table of see: 40 x 20 m, g 9.807, 7.476 s. */
 static void periods(void **state)
 {
@@ -239,9 +266,9 @@ static void axes(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(chamfered), cmocka_unit_test(chamfered_3d),
-                                       cmocka_unit_test(rolled),    cmocka_unit_test(forms),
-                                       cmocka_unit_test(periods),   cmocka_unit_test(sections),
-                                       cmocka_unit_test(methods),   cmocka_unit_test(axes)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(chamfered), cmocka_unit_test(chamfered_3d), cmocka_unit_test(rolled),
+        cmocka_unit_test(forms),     cmocka_unit_test(below),        cmocka_unit_test(periods),
+        cmocka_unit_test(sections),  cmocka_unit_test(methods),      cmocka_unit_test(axes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -41,9 +41,79 @@ static void all_that_a_summary_may_say(void **unused)
                "fluid 1</th><td>1.2 kg/m3, 0.018 mPa s, gas</td>", "tank.size</th><td>2 1 m",
                "!twice", "front</th><td>1.25 m: place of the front",
                "gone</th><td>not reached: when it left", "largest memory</th><td>24.8 MB",
-               "<polygon class=\"tank\" points=\"", "5 runs", "scatter by 12 %",
-               "\"pressure\": {\"lo\": -100, \"hi\": 1500,", "a &lt;machine&gt;",
+               "<polygon class=\"tank\" points=\"", "clip-path=\"url(#inside-tank)\"", "5 runs",
+               "scatter by 12 %", "\"pressure\": {\"lo\": -100, \"hi\": 1500,", "a &lt;machine&gt;",
                "model</th><td>imps", "\"label\": \"measured\"", "[[0.5, 0.02], [1.005, -0.03]]");
+    scene_remove(&s);
+}
+
+/* Outlines that are not the tank clip nothing; values that rounding left are 0, and others stay. */
+static void sketches(void **unused)
+{
+    scene s = {.dim = 2, .fluid = 20, .frames = 0, .rows = 20};
+    (void)unused;
+    scene_create(&s);
+    write_summary(&s, ", \"outline\": [[[1, 0], [1, 0.5]]]");
+    CHECK_PAGE(&s, "!Seen along");
+    text_write(&s, "probes.csv", "t[s],P1[Pa],eta[m]\n0,0,0\n1,5000,2\n2,-0.001,-0.001\n");
+    CHECK_PAGE(&s, "<polygon class=\"tank\" points=\"", "!clip-path", "5 kPa</td>", "0 Pa</td>",
+               "!1 mPa",
+               "\xe2\x88\x92"
+               "1 mm</td>");
+    scene_remove(&s);
+}
+
+/* In 3-D the sketch looks along the axis in which the sensors stand less apart. */
+static void sides(void **unused)
+{
+    static const char *const place[][3] = {
+        {"[1, 0.5, -2]", "Seen along x: z to the right", ">4 m<"},
+        {"[0, 0.5, 2]", "Seen along -z.", ">3 m<"},
+        {"[1, 0.5, 2]", "Seen along -z.", ">3 m<"}};
+    scene s = {.dim = 3, .fluid = 20, .frames = 0, .rows = 20};
+    (void)unused;
+    scene_create(&s);
+    for (int i = 0; i < 3; i++) {
+        char text[1024];
+        snprintf(
+            text, sizeof text,
+            "{\"dim\": 3, \"t_end\": 1, \"tank_lo_x\": 0, \"tank_lo_y\": 0, \"tank_lo_z\": -2, "
+            "\"tank_size_x\": 3, \"tank_size_y\": 2, \"tank_size_z\": 4, \"still_level\": 0.5, "
+            "\"columns\": [{\"name\": \"P1\", \"unit\": \"Pa\", \"type\": \"wall_pressure\", "
+            "\"at\": %s}, {\"name\": \"P2\", \"unit\": \"Pa\", \"type\": "
+            "\"wall_pressure\", \"at\": [1, 0.5, 2]}]}",
+            place[i][0]);
+        text_write(&s, "summary.json", text);
+        text_write(&s, "probes.csv", "t[s],P1[Pa],P2[Pa]\n0,0,0\n1,5,2\n");
+        CHECK_PAGE(&s, place[i][1], place[i][2]);
+    }
+    scene_remove(&s);
+}
+
+/* A long forced motion: what is lost or gained without a reason is measured by the energy of the walls, where that is the larger one. */
+static void energy_of_walls(void **unused)
+{
+    static const struct {
+        double work;
+        const char *state, *value, *of;
+    } run[] = {
+        {0, "Energy <span class=\"state\">poor", "200 %", "largest energy of the motion (4 J"},
+        {3, "Energy <span class=\"state\">poor", "200 %", "largest energy of the motion (4 J"},
+        {20, "Energy <span class=\"state\">poor", "40 %", "energy that the walls gave (20 J"},
+        {-50, "Energy <span class=\"state\">check", "16 %", "energy that the walls gave (50 J"},
+        {100, "Energy <span class=\"state\">good", "8 %", "energy that the walls gave (100 J"}};
+    scene s = {.dim = 2, .fluid = 20, .frames = 0, .rows = 20};
+    (void)unused;
+    scene_create(&s);
+    for (size_t i = 0; i < sizeof run / sizeof run[0]; i++) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 "t[s],ke[J],pe[J],wall_work_momentum[J],numerical[J],shift[J],viscous[J]\n"
+                 "0,0,10,0,0,0,0\n1,4,10,%g,-4,0,40\n2,4,10,%g,-8,0,80\n",
+                 run[i].work / 2, run[i].work);
+        text_write(&s, "probes.csv", text);
+        CHECK_PAGE(&s, run[i].state, run[i].value, run[i].of);
+    }
     scene_remove(&s);
 }
 
@@ -107,6 +177,30 @@ static void steep_or_not(void **unused)
             CHECK_PAGE(&s, "no steep peak", "Repeats <span class=\"state\">good",
                        "!id=\"impacts\"");
     }
+    scene_remove(&s);
+}
+
+/* A sensor that stays dry is told so; two events are too few, and the page says how long a record has enough. */
+static void dry(void **unused)
+{
+    scene s = {.dim = 2, .fluid = 20, .frames = 0, .rows = 20};
+    char path[128];
+    (void)unused;
+    scene_create(&s);
+    text_write(&s, "summary.json",
+               "{\"dim\": 2, \"t_end\": 3, \"columns\": [{\"name\": \"P1\", \"unit\": \"Pa\", "
+               "\"type\": \"wall_pressure\", \"at\": [0, 0, 0]}, {\"name\": \"P2\", \"unit\": "
+               "\"Pa\", \"type\": \"wall_pressure\", \"at\": [0, 1, 0]}]}");
+    path_of(&s, "probes.csv", path);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs("t[s],P1[Pa],P2[Pa]\n", file);
+    for (int i = 0; i <= 3000; i++)
+        fprintf(file, "%g,%g,0\n", 0.001 * i, (i == 1000 || i == 2000) * 1e4);
+    assert_int_equal(fclose(file), 0);
+    CHECK_PAGE(&s, "P1: 2 events, highest 10 kPa</summary>", "P2: no pressure</summary>",
+               "No liquid came here.", "!highest -",
+               "that needs 30 events, there are 2. At this rate a record of 44.8 s has so many.");
     scene_remove(&s);
 }
 
@@ -341,6 +435,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(all_that_a_summary_may_say),
                                        cmocka_unit_test(verdicts),
+                                       cmocka_unit_test(sketches),
+                                       cmocka_unit_test(dry),
+                                       cmocka_unit_test(sides),
+                                       cmocka_unit_test(energy_of_walls),
                                        cmocka_unit_test(steep_or_not),
                                        cmocka_unit_test(thinned_curves),
                                        cmocka_unit_test(pieces_of_ranks),

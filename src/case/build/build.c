@@ -50,6 +50,24 @@ static int32_t outline_of(const form *t, double (*xy)[2])
     return count;
 }
 
+/* What is left of a plate between its slots, from one end to the other. */
+static void add_plate_outline(build *b, const build_solid *s)
+{
+    const double length = s->slots > 0 ? s->slots * s->pitch : 1;
+    double begin = 0;
+    for (int32_t i = 0; i <= s->slots; i++) {
+        const double end = i < s->slots ? (i + 0.5) * s->pitch - 0.5 * s->gap : length;
+        double xy[2][2];
+        for (int d = 0; d < 2; d++) {
+            const double side = (s->end[1][d] - s->end[0][d]) / length;
+            xy[0][d] = s->end[0][d] + begin * side;
+            xy[1][d] = i < s->slots ? s->end[0][d] + end * side : s->end[1][d];
+        }
+        mps__build_try_job(b, mps_job_outline_add(b->job, 2, &xy[0][0]), b->root, s->name);
+        begin = end + s->gap;
+    }
+}
+
 /* Tank and solids for the page. Of a file the box is not drawn. */
 static void add_outlines(build *b)
 {
@@ -59,8 +77,8 @@ static void add_outlines(build *b)
         mps__build_try_job(b, mps_job_outline_add(b->job, count, &xy[0][0]), b->tank.at, "tank");
     for (int32_t i = 0; i < b->solids; i++) {
         const build_solid *s = &b->solid[i];
-        count = s->file ? 0 : s->plate ? 2 : outline_of(&s->form, xy);
-        for (int k = 0; s->plate && k < 2; k++) memcpy(xy[k], s->end[k], sizeof xy[k]);
+        count = s->file || s->plate ? 0 : outline_of(&s->form, xy);
+        if (s->plate) add_plate_outline(b, s);
         if (count > 0)
             mps__build_try_job(b, mps_job_outline_add(b->job, count, &xy[0][0]), b->root, s->name);
     }

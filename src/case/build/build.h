@@ -44,6 +44,8 @@ typedef struct build_solid {
     form form;
     bool plate, file;
     double end[2][3];
+    int32_t slots;     /* of a plate */
+    double pitch, gap; /* of them, along its first side [m] */
 } build_solid;
 
 typedef enum sensor_kind {
@@ -51,7 +53,8 @@ typedef enum sensor_kind {
     SENSOR_FLUID,
     SENSOR_GAUGE,
     SENSOR_FORCE,
-    SENSOR_MEASURE
+    SENSOR_MEASURE,
+    SENSOR_VALUE /* of several probes, or in other axes */
 } sensor_kind;
 
 /* A column, for the sketch and the check. */
@@ -60,6 +63,7 @@ typedef struct build_sensor {
     sensor_kind kind;
     double at[3], normal[3], diameter;
     char part[BUILD_NAME];
+    char about[BUILD_TEXT]; /* SENSOR_VALUE */
 } build_sensor;
 
 /* A solid in the free surface, along the axis of the waves [m]. */

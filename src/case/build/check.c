@@ -61,6 +61,21 @@ static void write_spacing(const writer *w, const build *b)
         fprintf(w->file, "%s %s", d ? " x" : "", length_text(h[d], text, sizeof text));
 }
 
+/* As asked for; along the plate from its first point. */
+static void write_slots(const writer *w, const build *b, const build_solid *s)
+{
+    fprintf(w->file, ": %d slot%s of %.4g m = %.3g dp, middle%s at", (int)s->slots,
+            s->slots == 1 ? "" : "s", s->gap, s->gap / b->dp, s->slots == 1 ? "" : "s");
+    for (int32_t i = 0; i < s->slots; i++) {
+        if (i == 4 && s->slots > 5) {
+            fprintf(w->file, " ..");
+            i = s->slots - 1;
+        }
+        fprintf(w->file, " %.4g", (i + 0.5) * s->pitch);
+    }
+    fprintf(w->file, " m from the first point");
+}
+
 static void write_tank(const writer *w, const build *b)
 {
     static const char *const kind[] = {"box", "polygon", "body", "cylinder", "ball"};
@@ -83,7 +98,24 @@ static void write_tank(const writer *w, const build *b)
     fprintf(w->file, "\n");
     for (int32_t i = 0; i < b->solids; i++) {
         heading(w, i ? "" : "solids");
-        fprintf(w->file, "%s\n", b->solid[i].name);
+        fprintf(w->file, "%s", b->solid[i].name);
+        if (b->solid[i].slots > 0) write_slots(w, b, &b->solid[i]);
+        fprintf(w->file, "\n");
+    }
+}
+
+/* What the library told. Where a fill has whole rows beside inclined walls its cells overlap: its volume, counted in cells, is left out. */
+static void write_log(const writer *w, const build *b)
+{
+    const bool straight = b->tank.form.kind == FORM_BOX && !b->tank.file,
+               whole = b->several || b->paper;
+    bool first = true;
+    for (int32_t i = 0; i < b->log->count; i++) {
+        const bool fill = strncmp(b->log->text[i], "fill of phase", 13) == 0;
+        if (fill && whole && !straight) continue;
+        heading(w, first ? "library" : "");
+        first = false;
+        fprintf(w->file, "%s%s\n", b->log->level[i] ? "warning: " : "", b->log->text[i]);
     }
 }
 
@@ -105,14 +137,18 @@ static void write_fluids(const writer *w, build *b)
         fprintf(w->file, "phase %d: %s, %g kg/m3, %g Pa s\n", (int)i, b->fluid[i].name,
                 b->fluid[i].density, b->fluid[i].viscosity);
     }
-    for (int32_t i = 0; i < b->log->count; i++) {
-        heading(w, i ? "" : "library");
-        fprintf(w->file, "%s%s\n", b->log->level[i] ? "warning: " : "", b->log->text[i]);
-    }
+    write_log(w, b);
     if (mps_energy_get(b->sim, &e) == MPS_OK) {
+        const char *unit = b->dim == 3 ? "m3" : "m2";
+        const form *t = &b->tank.form;
+        const double exact = b->tank.file || isnan(b->depth)
+                                 ? NAN
+                                 : mps__form_volume_below(t, t->lo[1] + b->depth);
         heading(w, "volume");
-        fprintf(w->file, "%.5g %s of all fluid, %.5g kg\n", e.volume_filled,
-                b->dim == 3 ? "m3" : "m2", e.mass_filled);
+        fprintf(w->file, "%.5g %s of all fluid, %.5g kg", e.volume_filled, unit, e.mass_filled);
+        if (b->fluids == 1 && isfinite(exact))
+            fprintf(w->file, "; the tank alone holds %.5g %s up to the level", exact, unit);
+        fprintf(w->file, "\n");
     }
     if (mps__build_filled(b)) {
         heading(w, "level");
@@ -143,6 +179,19 @@ static void write_blocks(const writer *w, const build *b)
             m->open, mps__modes_period(b, m->open));
 }
 
+/* The first wave along the other horizontal axis: a motion of a file may have all degrees. */
+static void write_other_axis(const writer *w, const build *b)
+{
+    const build_modes *m = &b->modes;
+    const int other = 2 - m->axis;
+    const form *t = &b->tank.form;
+    const double k = acos(-1.0) / (t->hi[other] - t->lo[other]);
+    heading(w, "");
+    fprintf(w->file, "along %c: T1 %.4g s, estimated by length %.4g m and depth %.4g m\n",
+            "xyz"[other], 2 * acos(-1.0) / sqrt(b->gravity * k * tanh(k * m->depth)),
+            t->hi[other] - t->lo[other], m->depth);
+}
+
 static void write_modes(const writer *w, const build *b)
 {
     const build_modes *m = &b->modes;
@@ -153,6 +202,7 @@ static void write_modes(const writer *w, const build *b)
     fprintf(w->file, " (waves along %c)\n", "xyz"[m->axis]);
     heading(w, "");
     fprintf(w->file, "by %s%s\n", m->how, mps__modes_without(b));
+    if (b->dim == 3) write_other_axis(w, b);
     write_blocks(w, b);
 }
 
@@ -170,8 +220,8 @@ static void write_motion(const writer *w, const build *b)
     if (m->rows > 0)
         fprintf(w->file, ", %lld rows of %s, %.4g to %.4g s apart", (long long)m->rows, m->file,
                 m->step_least, m->step_most);
-    else
-        fprintf(w->file, ", %d harmonic%s", (int)m->count, m->count == 1 ? "" : "s");
+    if (m->unused[0]) fprintf(w->file, "; not used: %s", m->unused);
+    if (m->rows == 0) fprintf(w->file, ", %d harmonic%s", (int)m->count, m->count == 1 ? "" : "s");
     fprintf(w->file, "\n");
     for (int32_t d = 0; d < MOTION_DEGREES; d++) {
         const bool turn = d >= MPS_SHIP_ROLL;
@@ -190,6 +240,10 @@ static void write_sensors(const writer *w, const build *b)
     for (int32_t i = 0; i < b->sensors; i++) {
         const build_sensor *s = &b->sensor[i];
         heading(w, i ? "" : "sensors");
+        if (s->kind == SENSOR_VALUE) {
+            fprintf(w->file, "%s: %s\n", s->name, s->about);
+            continue;
+        }
         fprintf(w->file, "%s: %s", s->name, kind[s->kind]);
         if (s->kind != SENSOR_MEASURE) {
             fprintf(w->file, s->kind == SENSOR_FORCE ? " about " : " at ");
@@ -197,6 +251,11 @@ static void write_sensors(const writer *w, const build *b)
         }
         if (s->part[0]) fprintf(w->file, " on '%s'", s->part);
         if (s->kind == SENSOR_WALL) fprintf(w->file, ", %.4g m wide", s->diameter);
+        const double off = s->kind == SENSOR_WALL && strncmp(s->part, "tank", 4) == 0
+                               ? fabs(mps__form_inside(&b->tank.form, s->at))
+                               : 0;
+        if (!b->tank.file && off > 1e-6 * b->dp)
+            fprintf(w->file, "; its place is %.3g m off the wall", off);
         fprintf(w->file, "\n");
     }
 }

@@ -173,6 +173,13 @@ void mps__csv_names(const csv *t, char *out, size_t size)
         used += (size_t)snprintf(out + used, size - used, "%s%s", k ? ", " : "", t->name[k]);
 }
 
+static const char *first_unit(uint64_t kinds)
+{
+    const mps__unit *u = NULL;
+    for (int32_t k = 0; (u = mps__unit_get(k)) != NULL && !(u->kinds & kinds);) k++;
+    return u ? u->name : "";
+}
+
 double mps__csv_factor(mps_case *c, const tree_node *at, const csv *t, int32_t column,
                        uint64_t kinds, const char *unit)
 {
@@ -184,7 +191,7 @@ double mps__csv_factor(mps_case *c, const tree_node *at, const csv *t, int32_t c
         mps__case_say(
             c, at, false,
             "%s: column '%s' has no unit; write it into the header, e.g. '%s[%s]': %s is wanted",
-            t->path, t->name[column], t->name[column], kinds & UNIT_ANGLE ? "deg" : "s", wanted);
+            t->path, t->name[column], t->name[column], first_unit(kinds), wanted);
     else if (!u || !(u->kinds & kinds) || u->scale != SCALE_NONE)
         mps__case_say(c, at, false, "%s: column '%s' has the unit '%s', %s is wanted", t->path,
                       t->name[column], text, wanted);

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 static const build_fluid KNOWN[] = {{"water", 1000, 1e-3, NAN, NULL},
                                     {"air", 1.29, 1.5e-5, NAN, NULL}};
@@ -16,6 +17,33 @@ static const build_fluid *find_known(const char *name)
     return NULL;
 }
 
+/* No fluid has this name: the nearest one, as letters of the other case are, or all. */
+static void refuse_name(build *b, const tree_node *at)
+{
+    const tree_node *fluids = mps__tree_find(b->root, "fluids");
+    char names[BUILD_TEXT] = "";
+    const char *nearest = NULL;
+    size_t used = 0;
+    int32_t best = INT32_MAX, distance;
+    for (const tree_node *n = fluids ? fluids->first : NULL; n; n = n->next) {
+        const bool same = strcasecmp(n->key, at->key) == 0;
+        if (used < sizeof names)
+            used += (size_t)snprintf(names + used, sizeof names - used, "%s, ", n->key);
+        if (!same && !mps__words_near(at->key, n->key, &distance)) continue;
+        if (same) distance = 0;
+        if (distance < best) nearest = n->key;
+        if (distance < best) best = distance;
+    }
+    if (nearest)
+        mps__case_say(b->c, at, false, "no fluid has the name '%s'; did you mean '%s'?", at->key,
+                      nearest);
+    else
+        mps__case_say(b->c, at, false,
+                      "no fluid has the name '%s'; known are %swater and air; others are defined "
+                      "by the key 'fluids'",
+                      at->key, names);
+}
+
 static void read_fluid(build *b, const tree_node *at, build_fluid *f)
 {
     const tree_node *own = mps__tree_find(mps__tree_find(b->root, "fluids"), at->key);
@@ -24,9 +52,7 @@ static void read_fluid(build *b, const tree_node *at, build_fluid *f)
     f->at = at;
     snprintf(f->name, sizeof f->name, "%s", at->key);
     if (!own && !known) {
-        mps__case_say(b->c, at, false,
-                      "no fluid has the name '%s'; known are water, air and those of 'fluids'",
-                      at->key);
+        refuse_name(b, at);
         return;
     }
     if (!own) return;

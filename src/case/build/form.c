@@ -172,3 +172,27 @@ double mps__form_volume(const form *s)
         return (s->hi[0] - s->lo[0]) * (s->hi[1] - s->lo[1]) * depth;
     }
 }
+
+/* Integral of min(y, level) dx along an edge. */
+static double below_edge(const double *a, const double *b, double level)
+{
+    const double low = fmin(a[1], b[1]), high = fmax(a[1], b[1]), width = b[0] - a[0];
+    if (high <= level) return 0.5 * (low + high) * width;
+    if (low >= level) return level * width;
+    const double share = (level - low) / (high - low); /* of the edge that is below the level */
+    return (share * 0.5 * (low + level) + (1 - share) * level) * width;
+}
+
+/* By Green's theorem: min(y, level) has the slope 1 below the level and 0 above it. */
+double mps__form_volume_below(const form *s, double y)
+{
+    const int across = s->kind == FORM_POLYGON && s->sideways ? 0 : 2;
+    const double depth = s->dim == 3 ? s->hi[across] - s->lo[across] : 1;
+    double area = 0;
+    if (s->kind == FORM_BOX)
+        return fmax(0, fmin(y, s->hi[1]) - s->lo[1]) * (s->hi[0] - s->lo[0]) * depth;
+    if (s->kind != FORM_POLYGON) return NAN;
+    for (int32_t i = 0; i < s->points; i++)
+        area += below_edge(s->point[i], s->point[(i + 1) % s->points], y);
+    return fabs(area) * depth;
+}

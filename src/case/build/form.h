@@ -36,5 +36,7 @@ void mps__form_box(form *s);
 double mps__form_polygon_area(const form *s);
 /* Volume of the shape [m3], in 2-D area [m2]. */
 double mps__form_volume(const form *s);
+/* The part of it below a level y; of boxes and polygons, NAN of others. */
+double mps__form_volume_below(const form *s, double y);
 
 #endif

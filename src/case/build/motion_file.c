@@ -66,6 +66,25 @@ static bool choose(build *b, const tree_node *map, const csv *t, chosen *c)
     return !mps__case_failed(b->c);
 }
 
+/* Columns that are not used, by name. Where `columns` chooses, the others are left out on purpose. */
+static void note_unused(build *b, build_motion *m, const tree_node *map, const csv *t,
+                        const chosen *c)
+{
+    size_t used = 0;
+    for (int32_t k = 0; k < t->columns; k++) {
+        bool known = k == c->time;
+        for (int32_t d = 0; d < MOTION_DEGREES; d++) known = known || k == c->degree[d];
+        if (!known && used < sizeof m->unused)
+            used += (size_t)snprintf(m->unused + used, sizeof m->unused - used, "%s%s",
+                                     used ? ", " : "", t->name[k]);
+    }
+    if (used && !mps__tree_find(map, "columns"))
+        mps__case_say(b->c, mps__tree_find(map, "file"), true,
+                      "%s: columns that are no motion: %s; 'columns' says what they are, e.g. "
+                      "{roll: PHI}",
+                      t->path, m->unused);
+}
+
 /* f of mps_harmonic with a ramp: the motion grows from 0. */
 static double growth(double t, double ramp)
 {
@@ -111,6 +130,7 @@ bool mps__motion_file(build *b, build_motion *m, const tree_node *map)
     const double ramp = mps__read_number(b->c, map, "ramp", 0);
     bool good = path && !mps__case_failed(b->c) && mps__csv_read(b->c, node, path, &t) &&
                 choose(b, map, &t, &c);
+    if (good) note_unused(b, m, map, &t, &c);
     if (good) {
         if (isnan(from)) from = t.value[c.time] * c.factor[0];
         m->rows = t.rows;

@@ -5,24 +5,51 @@
 #include <stdio.h>
 #include <string.h>
 
-bool mps__build_try(build *b, mps_status status, const tree_node *at, const char *what)
+/* A text of the library in the words of case files: keys in place of members of structs and of functions. */
+static const char *in_keys(const char *text, char *out, size_t size)
 {
-    if (status >= 0) return true;
+    static const char *const word[][2] = {{"probe.at[0]", "x of its place"},
+                                          {"probe.at[1]", "y of its place"},
+                                          {"probe.at[2]", "z of its place"},
+                                          {"probe.at", "its place"},
+                                          {"probe.normal", "'normal'"},
+                                          {"probe.diameter", "'diameter'"},
+                                          {"; mps_fill_level_add() keeps the volume", ""}};
+    size_t used = 0;
+    while (*text && used + 1 < size) {
+        size_t k = 0, n = sizeof word / sizeof *word;
+        while (k < n && strncmp(text, word[k][0], strlen(word[k][0])) != 0) k++;
+        if (k == n) {
+            out[used++] = *text++;
+            continue;
+        }
+        used += (size_t)snprintf(out + used, size - used, "%s", word[k][1]);
+        text += strlen(word[k][0]);
+    }
+    out[used < size ? used : size - 1] = '\0';
+    return out;
+}
+
+static bool refused(build *b, mps_status status, const tree_node *at, const char *what,
+                    const char *why)
+{
+    char text[4 * BUILD_TEXT];
+    if (status >= 0) return false;
     if (status == MPS_E_NOMEM)
         b->status = status;
     else
-        mps__case_say(b->c, at, false, "%s: %s", what, mps_sim_error(b->sim));
-    return false;
+        mps__case_say(b->c, at, false, "%s: %s", what, in_keys(why, text, sizeof text));
+    return true;
+}
+
+bool mps__build_try(build *b, mps_status status, const tree_node *at, const char *what)
+{
+    return !refused(b, status, at, what, mps_sim_error(b->sim));
 }
 
 bool mps__build_try_job(build *b, mps_status status, const tree_node *at, const char *what)
 {
-    if (status >= 0) return true;
-    if (status == MPS_E_NOMEM)
-        b->status = status;
-    else
-        mps__case_say(b->c, at, false, "%s: %s", what, mps_job_error(b->job));
-    return false;
+    return !refused(b, status, at, what, mps_job_error(b->job));
 }
 
 void *mps__build_alloc(build *b, size_t size)
@@ -38,6 +65,8 @@ void *mps__build_alloc(build *b, size_t size)
 static void keep(void *user, int level, const char *text)
 {
     build_log *log = user;
+    char plain[4 * BUILD_TEXT];
+    text = in_keys(text, plain, sizeof plain);
     if (log->job) {
         mps_job_log(log->job, level, text);
         return;

@@ -71,6 +71,8 @@ bool mps__sensor_value(const sensing *s, const char *name, const char *unit, con
                        mps_job_value_fn value, void *user)
 {
     build *b = s->b;
+    build_sensor *noted = note(b, name, SENSOR_VALUE);
+    if (noted) snprintf(noted->about, sizeof noted->about, "%s", about);
     if (!b->job) return true;
     const mps_status status = mps_job_value_add(b->job, name, unit, about, MPS_JOB_PRESSURE, value,
                                                 user);

@@ -21,10 +21,10 @@ typedef struct build_motion {
     int32_t dim;
     int64_t rows;       /* of a table; 0: harmonics */
     double *t, *column; /* [rows], [rows*6] m and rad, with `from` and `ramp` in them */
-    char file[BUILD_TEXT];
-    double step_least, step_most;      /* between rows [s] */
-    double largest[MOTION_DEGREES][3]; /* value, rate, acceleration over the run [m, rad] */
-    double dt_max;                     /* 0: the library limits the steps itself */
+    char file[BUILD_TEXT], unused[BUILD_TEXT]; /* the file; names of columns that are not used */
+    double step_least, step_most;              /* between rows [s] */
+    double largest[MOTION_DEGREES][3];         /* value, rate, acceleration over the run [m, rad] */
+    double dt_max;                             /* 0: the library limits the steps itself */
     double centre[3];
 } build_motion;
 

@@ -46,10 +46,17 @@ static openings read_openings(reading *r, const plate *p)
     o.count = (int32_t)fmax(1, round(p->length[0] / pitch));
     o.pitch = 1.0 / o.count;
     o.gap = open * o.pitch;
-    if (fmin(o.gap, o.pitch - o.gap) * p->length[0] < 2 * r->b->dp)
-        say(r, "holes",
-            "openings and what is between them must be at least 2 dp wide: take a smaller "
-            "dp or a larger pitch");
+    r->out->slots = o.count;
+    r->out->pitch = o.pitch * p->length[0];
+    r->out->gap = o.gap * p->length[0];
+    if (fmin(o.gap, o.pitch - o.gap) * p->length[0] < 2 * r->b->dp * (1 - 1e-9)) {
+        char text[BUILD_TEXT];
+        snprintf(text, sizeof text,
+                 "slots of %.4g m with %.4g m between them: each must be at least 2 dp wide, %.4g "
+                 "m; take a smaller dp or a larger pitch",
+                 r->out->gap, r->out->pitch - r->out->gap, 2 * r->b->dp);
+        say(r, "holes", text);
+    }
     return o;
 }
 

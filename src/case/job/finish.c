@@ -78,11 +78,11 @@ static void say_end(mps_job *job)
     const job_totals *s = &job->totals;
     mps__job_tell(job,
                   "t = %.6g s, %lld steps in %.1f s (%.2f ms a step, %.1f pressure iterations), "
-                  "%lld particles lost, outputs in %s",
+                  "%lld particles lost, outputs in %s%s",
                   s->t, (long long)s->steps_here, s->wall_s,
                   s->steps_here ? 1e3 * s->step_s / (double)s->steps_here : 0,
                   s->steps ? s->ppe_iterations / (double)s->steps : 0, (long long)s->lost,
-                  job->config.folder);
+                  job->config.folder, job->config.report ? "; report.html there shows them" : "");
 }
 
 /* What the steps of rank 0 have cost. */

@@ -95,7 +95,8 @@ int32_t mps__node_numbers(mps_case *c, const tree_node *node, int32_t most, doub
                       .kinds = node->units,
                       .scale = {1, c->scale.dp, c->scale.T1, c->scale.whole},
                       .most = most,
-                      .out = out};
+                      .out = out,
+                      .like = node->entry->example};
     int32_t few, many;
     expect_count(node->entry, &few, &many);
     if (n.most > many) n.most = many;

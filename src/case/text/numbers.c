@@ -94,16 +94,33 @@ static bool refuse_text(mps__numbers *n, const char *at)
     return false;
 }
 
-/* An example of a unit that is allowed, "60 s' or '60 T1". */
+/* The unit at the end of an example, "[0 0 m, 2 30 mm]": of several the longest, "mPa s"; NULL: there is none. */
+static const mps__unit *unit_of(const char *example, uint64_t kinds)
+{
+    const mps__unit *found = NULL, *u;
+    size_t end = strlen(example);
+    while (end > 0 && strchr(" ]}", example[end - 1])) end--;
+    for (int32_t k = 0; (u = mps__unit_get(k)) != NULL; k++) {
+        const size_t length = strlen(u->name);
+        if (!(u->kinds & kinds) || length >= end || example[end - length - 1] != ' ') continue;
+        if (memcmp(example + end - length, u->name, length) != 0) continue;
+        if (!found || length > strlen(found->name)) found = u;
+    }
+    return found;
+}
+
+/* An example of a unit that is allowed, "60 s' or '60 T1": the usual one, and that of `like`. */
 static void add_example(mps__numbers *n, const char *number, int length)
 {
     const size_t used = strlen(n->why);
     const mps__unit *first = NULL, *relative = NULL, *u;
+    const mps__unit *like = n->like ? unit_of(n->like, n->kinds) : NULL;
     for (int32_t k = 0; (u = mps__unit_get(k)) != NULL; k++) {
         if (!(u->kinds & n->kinds)) continue;
         if (!first) first = u;
         if (!relative && u->scale != SCALE_NONE && u != first) relative = u;
     }
+    if (like) relative = like != first ? like : NULL;
     if (length > SHOWN) length = SHOWN;
     if (first)
         snprintf(n->why + used, sizeof n->why - used, ", e.g. '%.*s %s'", length, number,

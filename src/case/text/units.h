@@ -53,6 +53,7 @@ typedef struct mps__numbers {
     double scale[4]; /* by unit_scale; NAN: not known; [SCALE_NONE] is 1 */
     int32_t most;    /* numbers in `out` */
     double *out;
+    const char *like; /* an example of a value, whose unit a message proposes; NULL: none */
     /* results */
     int32_t count;
     uint64_t found;      /* kinds that the units which are there serve; all of `kinds` if none */

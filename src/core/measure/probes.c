@@ -347,14 +347,17 @@ static void note_face(const mps__world *w, const mps__probes *p, int64_t k,
 {
     const mps__sensor_face *f[2] = {&place->face, &place->rival};
     const char *part[2];
+    double n[2][3];
     char label[MPS__PROBE_LABEL];
     if (!place->has_rival) return;
     for (int a = 0; a < 2; a++) part[a] = f[a]->part >= 0 ? w->particles.part_name[f[a]->part] : "";
+    for (int a = 0; a < 2; a++) /* without what rounding left of 0 */
+        for (int d = 0; d < 3; d++) n[a][d] = fabs(f[a]->normal[d]) > 1e-9 ? f[a]->normal[d] : 0;
     mps__log(w->context, MPS_LOG_INFO,
              "probe %s reads the face with the normal (%.4g, %.4g, %.4g), part \"%s\"; another is "
              "as near, with (%.4g, %.4g, %.4g), part \"%s\": probe.normal chooses",
-             mps__probe_label(p, k, label), f[0]->normal[0], f[0]->normal[1], f[0]->normal[2],
-             part[0], f[1]->normal[0], f[1]->normal[1], f[1]->normal[2], part[1]);
+             mps__probe_label(p, k, label), n[0][0], n[0][1], n[0][2], part[0], n[1][0], n[1][1],
+             n[1][2], part[1]);
 }
 
 mps_status mps__probes_add(mps__world *w, mps__probes *p, const mps_probe *probe, int32_t *id)

@@ -184,7 +184,14 @@ static mps_status add_mesh(mps_sim *sim, const char *path, const mps_stl *s, mps
     add.shape = (mps__shape){.dim = 3, .dp = sim->world.setup.dp, .sign = 1, .mesh = m};
     memcpy(built, add.lo, sizeof add.lo);
     memcpy(built + 3, add.hi, sizeof add.hi);
-    return mps__solid_add(sim, &add);
+    const double volume = fabs(mps__mesh_volume(m));
+    const int64_t triangles = m->elements;
+    MPS__TRY(mps__solid_add(sim, &add));
+    mps__log(&sim->context, MPS_LOG_INFO,
+             "\"%.200s\": %lld triangles enclose %.6g m3 in a box of %.6g x %.6g x %.6g m", path,
+             (long long)triangles, volume, add.hi[0] - add.lo[0], add.hi[1] - add.lo[1],
+             add.hi[2] - add.lo[2]);
+    return MPS_OK;
 }
 
 mps_status mps_stl_add(mps_sim *sim, const char *path, const mps_stl *stl, double *built)

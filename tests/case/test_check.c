@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What 'mps check' tells about a case that is valid, and what a person would otherwise find only after the run. */
+#include "case_kit.h"
+#include <fcntl.h>
+#include <math.h>
+
+#define TANK                                                        \
+    "mps: 1\ndp: 0.5 m\n"                                           \
+    "tank: {size: 20 12 m, chamfer: {bottom: 3 3 m, top: 6 6 m}}\n" \
+    "fill: [{water: {depth: 4 m}}]\n"
+#define END "run: {until: 1 s}\n"
+
+/* The text, and the messages behind it; the caller frees it. */
+static char *checked(const char *case_text)
+{
+    mps_case *c = NULL;
+    char *text = NULL, *sketch = NULL;
+    const mps_status status = kit_read(case_text, NULL, &c);
+    char *all = kit_messages(c);
+    if (status != MPS_OK) fail_msg("%s\n%s", case_text, all);
+    free(all);
+    if (mps_case_check(c, &text, &sketch) != MPS_OK) fail_msg("%s\n%s", case_text, kit_messages(c));
+    all = kit_messages(c);
+    const size_t size = strlen(text) + strlen(all) + 1;
+    char *both = malloc(size);
+    assert_non_null(both);
+    snprintf(both, size, "%s%s", text, all);
+    free(all);
+    free(text);
+    free(sketch);
+    mps_case_destroy(c);
+    return both;
+}
+
+static void tells(const char *case_text, const char *wanted, const char *unwanted)
+{
+    char *text = checked(case_text);
+    if (wanted && !strstr(text, wanted)) fail_msg("wanted: %s\n%s", wanted, text);
+    if (unwanted && strstr(text, unwanted)) fail_msg("not wanted: %s\n%s", unwanted, text);
+    free(text);
+}
+
+static void volumes(void **state)
+{
+    (void)state;
+    tells(TANK END, "the tank alone holds 71 m2 up to the level", NULL);
+    char *text = checked(TANK END);
+    const char *fill = strstr(text, "fill of phase 0: ");
+    double built = 0, wanted = 0;
+    if (fill) sscanf(fill, "fill of phase 0: %lf m2 of %lf m2", &built, &wanted);
+    if (!(fabs(built - 71) < 0.2 && fabs(wanted - 71) < 0.05)) fail_msg("%s", text);
+    free(text);
+    tells("mps: 1\ndp: 0.5 m\ntank: {size: 20 12 m, chamfer: {bottom: 3 3 m}}\n"
+          "fill: [{water: {depth: 4 m}}, {air: rest}]\nmodel: mmps\n" END,
+          "library", "fill of phase");
+    tells("mps: 1\ndp: 0.5 m\ntank: {size: 10 5 m}\nfill: [{water: {depth: 3 m}}]\n" END,
+          "the tank alone holds 30 m2 up to the level", NULL);
+    tells("mps: 1\ndp: 0.5 m\ntank: {size: 10 5 m}\nfill: [{water: {box: [0 0 m, 5 3 m]}}]\n" END,
+          "of 15 m2 asked for", "holds");
+    tells("mps: 1\ndp: 0.5 m\ntank: {size: 10 5 m}\nfill: [{water: {box: [0 0 m, 5 3 m]}}]\n" END,
+          "of 15 m2 asked for", "mps_");
+}
+
+/* Of a file, what it encloses: a wrong unit or axis is seen there. */
+static void files(void **state)
+{
+    (void)state;
+    tells("mps: 1\ndim: 3\ndp: 100 mm\ntank: {stl: cube.stl, unit: m}\nfill: [{water: {depth: 40 "
+          "%}}]\n" END,
+          "12 triangles enclose 1 m3 in a box of 1 x 1 x 1 m", "holds");
+    tells("mps: 1\ndim: 3\ndp: 1 mm\ntank: {stl: cube.stl, unit: cm}\nfill: [{water: {depth: 40 "
+          "%}}]\n" END,
+          NULL, "enclose 1 m3");
+}
+
+static void plates(void **state)
+{
+    static const char divides[] = "'b' reaches above the liquid and divides its surface";
+    (void)state;
+    tells(TANK "solids:\n  b: {plate: [10 0 m, 10 6 m], holes: {pitch: 3 m, open: 40 %}}\n" END,
+          "b: 2 slots of 1.2 m = 2.4 dp, middles at 1.5 4.5 m from the first point", NULL);
+    /* whole pitches */
+    tells(TANK "solids:\n  b: {plate: [10 0 m, 10 6 m], holes: {pitch: 9 m, open: 40 %}}\n" END,
+          "b: 1 slot of 2.4 m = 4.8 dp, middle at 3 m", NULL);
+    /* 14 m in seven pitches of 2 m: rounding makes no slot narrower than 2 dp */
+    tells("mps: 1\ndp: 0.2 m\ntank: {size: 20 20 m}\nfill: [{water: {depth: 2 m}}]\n"
+          "solids:\n  b: {plate: [10 0 m, 10 14 m], holes: {pitch: 2 m, open: 20 %}}\n" END,
+          "b: 7 slots of 0.4 m = 2 dp, middles at 1 3 5 7 .. 13 m", NULL);
+    tells(TANK "solids:\n  b: {plate: [10 0 m, 10 4.5 m]}\n" END, divides, NULL);
+    tells(TANK "solids:\n  b: {plate: [10 0 m, 10 3 m]}\n" END, NULL, divides);
+}
+
+static void sensors(void **state)
+{
+    (void)state;
+    tells(TANK "sensors: {P: {wall: 0.3 4 m}}\n" END, "its place is 0.3 m off the wall", NULL);
+    tells(TANK "sensors: {P: {wall: 0 4 m}}\n" END, "P: wall pressure", "off the wall");
+    tells(TANK "sensors: {P: {wall: 1.5 1.5 m}}\n" END, "P: wall pressure", "off the wall");
+    tells(TANK "sensors: {P: {wall: 0 3 m}}\n" END, ": 'normal' chooses", "probe.normal");
+    tells(TANK "sensors: {P: {wall: 0 3 m, normal: 1 0}}\n" END, "P: wall pressure", "chooses");
+}
+
+/* Columns that are made of several probes, or in axes of the ship, are told too. */
+static void columns(void **state)
+{
+    static const char space[] =
+        "mps: 1\ndim: 3\ndp: 1 m\ntank: {size: 20 12 16 m}\nfill: [{water: {depth: 4 m}}]\n"
+        "motion: {roll: {amplitude: 1 deg, period: 5 s}}\n"
+        "sensors: {F: {force: tank, axes: ship, component: mx}}\n" END;
+    (void)state;
+    tells(space, "F: Moment of the liquid, roll: along axes of the ship at rest", NULL);
+    tells(TANK "sensors: {P: {row: [0 3.5 m, 0 5.5 m], cells: 4}}\n" END,
+          "P: Largest wall pressure: of the sensors of a row", NULL);
+}
+
+/* A column of a motion that has another name is left out: that must not stay unseen. */
+static void motions(void **state)
+{
+    static const char table[] = "time[s],heave[m],PHI[deg]\n0,0,0\n1,1,1\n2,0,0\n";
+    char path[600], text[1600];
+    const int fd = open(kit_here(path, sizeof path, "check_motion.csv"),
+                        O_CREAT | O_TRUNC | O_WRONLY, 0600);
+    (void)state;
+    assert_true(fd >= 0);
+    assert_int_equal(write(fd, table, strlen(table)), strlen(table));
+    close(fd);
+    snprintf(text, sizeof text, TANK "motion: {file: %s}\n" END, path);
+    tells(text, "; not used: PHI", "roll: at most");
+    tells(text, "warning: ", NULL);
+    tells(text, "columns that are no motion: PHI; 'columns' says what they are", NULL);
+    /* chosen on purpose: no warning, but told */
+    snprintf(text, sizeof text, TANK "motion: {file: %s, columns: {heave: heave}}\n" END, path);
+    tells(text, "; not used: PHI", "no motion");
+    snprintf(text, sizeof text, TANK "motion: {file: %s, columns: {heave: heave, roll: PHI}}\n" END,
+             path);
+    tells(text, "roll: at most 1 deg", "not used");
+    unlink(path);
+}
+
+/* A bare number gets the unit that is usual for this key. */
+static void bare(void **state)
+{
+    (void)state;
+    kit_refused("mps: 1\ndp: 0.2\ntank: {size: 1 1 m}\nfill: [{water: {depth: 30 %}}]\n" END, 2, 5,
+                "e.g. '0.2 m' or '0.2 mm'");
+    kit_refused("mps: 1\ndp: 0.2 m\ntank: {size: 1 1 m}\nfill: [{water: {depth: 30}}]\n" END, 4, 24,
+                "e.g. '30 m' or '30 %'");
+}
+
+/* Both periods of a tank whose motion may have all degrees. */
+static void periods(void **state)
+{
+    (void)state;
+    tells("mps: 1\ndim: 3\ndp: 2 m\ntank: {size: 40 20 30 m}\nfill: [{water: {depth: 8 m}}]\n" END,
+          "along z: T1 7.492 s, estimated by length 30 m and depth 8 m", NULL);
+}
+
+/* The drawing; the caller frees it. */
+static char *drawn(const char *case_text)
+{
+    mps_case *c = NULL;
+    char *text = NULL, *sketch = NULL;
+    assert_int_equal(kit_read(case_text, NULL, &c), MPS_OK);
+    assert_int_equal(mps_case_check(c, &text, &sketch), MPS_OK);
+    free(text);
+    mps_case_destroy(c);
+    return sketch;
+}
+
+/* The line of a gauge ends at the chamfer, 4 m above its begin at (0.5, 2.5) m; 560 units are 20 m and four spacings. */
+static void drawings(void **state)
+{
+    (void)state;
+    char *svg = drawn(TANK "motion: {centre: 10 3 m, roll: {amplitude: 1 deg, period: 5 s}}\n"
+                           "sensors: {eta: {gauge: 0.5 m}}\n" END);
+    const char *line = strstr(svg, "stroke='#b00' stroke-dasharray");
+    double x1, y1, x2, y2;
+    assert_non_null(line);
+    while (*line != '<') line--;
+    assert_int_equal(sscanf(line, "<line x1='%lf' y1='%lf' x2='%lf' y2='%lf'", &x1, &y1, &x2, &y2),
+                     4);
+    const double length = (y1 - y2) * 22 / 560;
+    if (!(length > 3.9 && length < 4.15)) fail_msg("%s: %g m", "the gauge", length);
+    assert_non_null(strstr(svg, "centre of rotation: x 10 m, y 3 m"));
+    assert_non_null(strstr(svg, ">centre</text>"));
+    assert_null(strstr(svg, "section through"));
+    free(svg);
+    /* a centre beside the picture is told in words alone */
+    svg = drawn(TANK "motion: {centre: 10 -9 m, roll: {amplitude: 1 deg, period: 5 s}}\n" END);
+    assert_non_null(strstr(svg, "centre of rotation: x 10 m, y -9 m"));
+    assert_null(strstr(svg, ">centre</text>"));
+    free(svg);
+    /* in 3-D both sections, each with the sensors on its own sides */
+    svg = drawn(
+        "mps: 1\ndim: 3\ndp: 1 m\ntank: {size: 20 12 16 m, chamfer: {bottom: 3 3 m, top: 4 4 "
+        "m, across: z}}\nfill: [{water: {depth: 4 m}}]\n"
+        "sensors: {P: {wall: 10 5 16 m}}\n" END);
+    const char *across = strstr(svg, "section through the middle along z");
+    assert_non_null(across);
+    assert_non_null(strstr(across, "section through the middle along x"));
+    assert_null(strstr(svg, "motion"));
+    const char *polygon = strstr(svg, "<polygon"), *box = strstr(svg, "<g fill='none'");
+    assert_true(polygon > across && box < across); /* chamfers are seen in the second one */
+    const char *left = strstr(svg, "text-anchor='end'>P<"),
+               *right = strstr(across, "text-anchor='start'>P<");
+    assert_true(left && left < across && right);
+    free(svg);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(volumes), cmocka_unit_test(files),   cmocka_unit_test(plates),
+        cmocka_unit_test(sensors), cmocka_unit_test(columns), cmocka_unit_test(motions),
+        cmocka_unit_test(bare),    cmocka_unit_test(periods), cmocka_unit_test(drawings)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
