@@ -19,6 +19,10 @@ enum {
      *  is read; mps_probe_info_get() always does. `at` may be before the face with a wall particle
      *  within 2 dp, at most dp/2 behind it, and at most dp/2 beyond its end.
      *  Dry walls, above the contact line, count with 0; suction in the liquid is shown.
+     *  Wall particles on an edge where the wall turns away from the liquid by more than some 50
+     *  degrees belong to two faces. For the sensor they have the pressure of its own face:
+     *  the median of their own pressure, of the mean of the face beside them and of its linear
+     *  pressure extrapolated to the edge; their own on a face without three rows to tell a line.
      *  A linear pressure is exact on any flat face, also where its particles are no lattice. On a
      *  curved face of radius R, with a diameter of dp, the value is that of a place at most
      *  dp^2/(3 R) away. */
@@ -42,7 +46,8 @@ enum {
 };
 
 /** For mps_probe.average: the shortest time that the spacing resolves,
- *  mps_step_info.crossing_time. */
+ *  mps_step_info.crossing_time, by the speed of the fastest piece of liquid; spray does not
+ *  shorten it. */
 #define MPS_AVERAGE_AUTO (-1.0)
 
 /** Definition of a probe. */

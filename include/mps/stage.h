@@ -82,7 +82,8 @@ enum {
  *    "gas_shift" >= 0 [1/(Pa s2)], "gas_law" P [Pa]: f(p) = p, or P ln(1 + p/P) where P > 0, which
  *    needs a solver of nonlinear rows; arrive 0
  *    "pressure_condition" MPS_ROW_..., "pressure_value" [Pa]; arrive FIXED at 0 on the surface,
- *    FREE elsewhere.
+ *    FREE elsewhere. In MPS_LOAD they can be read; a condition above MPS_ROW_LEAST is that of a
+ *    row of MPS_ROW_LEAST that is at value_i.
  *  Unknowns are particles of regions INNER, SECOND and NEAR that are not fixed.
  *  Scalars of the equation, written from MPS_CLASSIFY to MPS_SOURCE:
  *    "equation_radius" pairs of the Laplacian, MPS_NEAR or MPS_FAR; arrives MPS_FAR

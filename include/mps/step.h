@@ -90,9 +90,13 @@ typedef struct mps_step_info {
     int64_t surface;
     /** Wall clock by stage [s]. */
     double seconds[MPS_STAGE_COUNT];
-    /** dp/u [s], u = |u|max of the liquid (fluid at least half as dense as the densest phase):
-     *  pressures that change faster depend on the time step. At most dp/(5 U_g); in calm liquid,
-     *  where u < U_g, u/U_g times that. Its rate of change is at most 0.1. */
+    /** dp/u [s], u the speed of the fastest piece of the liquid (fluid at least half as dense as
+     *  the densest phase): pressures that change faster depend on the time step. u = max_i u_i,
+     *  u_i the N-th largest speed within re_near of particle i, itself included, at most its own;
+     *  N the particles that a film of two rows has within re_near of one of its own, 8 in 2-D and
+     *  22 in 3-D with re_near = 2.1 dp. So a film of two rows counts, spray does not: drops of
+     *  fewer than N particles, single particles. At most dp/(5 U_g); in calm liquid, where |u|max
+     *  < U_g, |u|max/U_g times that. Its rate of change is at most 0.1. */
     double crossing_time;
     /** Solutions of the pressure equation: 2 beside void, more while liquid separates from
      *  walls. */

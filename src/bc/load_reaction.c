@@ -28,19 +28,27 @@
  *   max(P_i, min(P_i - least, pull)),   least = min(0, min_j p'_j),   pull = min(0, min_j p_j),
  *
  * least over the fluid j about it that is on the surface or next to it and does not pull, p_j >= 0.
- * So a dry wall shows 0. The flow does not change. */
+ * So a dry wall shows 0.
+ *
+ * Where void reaches the wall (separation.void: it has a least pressure p_i >= value_i), liquid
+ * about it does not hold on to it, whatever its pressure: drops and liquid in the angle of two
+ * walls are not always found to be on the surface, and pull. There pull is no lower than what the
+ * wall itself pulls in the equation beyond that least pressure, min(0, p_i - value_i). Of a velocity
+ * jump, without least pressures, the suction stays. The flow does not change. */
 #include "helpers.h"
 
-enum { PRESSURE, ACCELERATION, REGION, CORRECTION, WALL_PRESSURE, USES };
+enum { PRESSURE, ACCELERATION, REGION, CORRECTION, CONDITION, VALUE, WALL_PRESSURE, USES };
 static const mps_use uses[USES] = {[PRESSURE] = {"pressure", MPS_USE_NEIGHBOURS},
                                    [ACCELERATION] = {"acceleration", MPS_USE_NEIGHBOURS},
                                    [REGION] = {"region", MPS_USE_NEIGHBOURS},
                                    [CORRECTION] = {"correction", MPS_USE_NEIGHBOURS},
+                                   [CONDITION] = {"pressure_condition", MPS_USE_READ},
+                                   [VALUE] = {"pressure_value", MPS_USE_READ},
                                    [WALL_PRESSURE] = {"wall_pressure", MPS_USE_WRITE}};
 
 typedef struct fields {
-    const double *p, *a, *correction;
-    const int32_t *region;
+    const double *p, *a, *correction, *value;
+    const int32_t *region, *condition;
     double *wall_pressure;
 } fields;
 
@@ -93,8 +101,9 @@ MPS_ROW double pressure_of(const int dim, const mps_view *v, const fields *f, in
 {
     double n[3];
     const double size = face(dim, v, i, n);
-    const contact c = sum_contact(dim, v, f, i, n);
+    contact c = sum_contact(dim, v, f, i, n);
     if (c.weight == 0) return f->p[i];
+    if (f->condition[i] >= MPS_ROW_LEAST) c.pull = fmax(c.pull, fmin(0, f->p[i] - f->value[i]));
     const double shown = fmax(c.p / c.weight + (size > 0 ? c.rise / size : 0), fmin(f->p[i], 0));
     return fmax(shown, fmin(shown - c.least, c.pull));
 }
@@ -111,6 +120,8 @@ static int load_walls(mps_stage *s)
     fields f = {.p = s->data[PRESSURE],
                 .a = s->data[ACCELERATION],
                 .correction = s->data[CORRECTION],
+                .condition = s->data[CONDITION],
+                .value = s->data[VALUE],
                 .region = s->data[REGION],
                 .wall_pressure = s->data[WALL_PRESSURE]};
     mps_stage_rows(s, &load_rows, &f);

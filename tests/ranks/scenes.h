@@ -6,7 +6,7 @@
 #include <mps/mps.h>
 #include <stdbool.h>
 
-enum { SCENES = 19, SCENE_MOST = 8000, SCENE_NUMBERS = 9, SCENE_INFOS = 28, SCENE_PROBES = 5 };
+enum { SCENES = 20, SCENE_MOST = 8000, SCENE_NUMBERS = 9, SCENE_INFOS = 29, SCENE_PROBES = 5 };
 
 typedef struct scene {
     const char *name, *preset;
@@ -16,6 +16,7 @@ typedef struct scene {
     int baffle;   /* 1: a block, 2: a thin plate, in the way of the fluid */
     double sigma; /* of the interface [N/m] */
     bool changes; /* particles go and come between steps */
+    bool fast;    /* the liquid starts in pieces faster than 5 U_g */
     bool
         drop; /* the liquid is a drop about the middle of the tank, where the cuts of four ranks meet */
     /* NULL: auxgrid; "divided": auxgrid that divides small grids too */

@@ -10,12 +10,15 @@
 
 /* In spacings: walls within `flat` of the plane of a face belong to it, neighbours within `beside` tell a face from an edge; a particle stands for
  * its face as far as `cover`; gap to the wall on which a face stands; normals are averaged as far as `around`; faces as near as that within `as_near`
- * are told; a face that was asked for is so `near`. */
+ * are told; a face that was asked for is so `near`; particles of a face are looked for as far `aside` of the sensor. */
 static const double flat = 0.25, beside = 1.6, cover = 1.1, foot_gap = 1.3, around = 1.9,
-                    as_near = 0.5, near = 2;
+                    as_near = 0.5, near = 2, aside = 3.5;
 
 /* Cosines: of the largest angle between a normal and the one that was asked for, and of the least between two faces. */
 static const double looks_there = 0.8660254037844386, looks_elsewhere = 0.9;
+
+/* Of the least turn of a face on an edge: 39 degrees. A curved face of radius 5 dp turns by less within the reach of a sensor. */
+static const double turned = 0.78;
 
 typedef mps__face_solid solid;
 
@@ -285,7 +288,7 @@ static bool face_has(const mps__face *f, const mps__particles *s, const solid *e
 {
     if (!e->wall || fabs(height(f, e)) > flat * f->dp) return false;
     for (int32_t a = 0; a < f->sides; a++)
-        if (fabs(mps__dot(e->r, f->tangent[a], 3)) > f->radius + 2.5 * f->dp) return false;
+        if (fabs(mps__dot(e->r, f->tangent[a], 3)) > f->radius + aside * f->dp) return false;
     return has_normal(e) ? mps__dot(e->n, f->normal, 3) > 1e-9
                          : s->part[e->place] == s->part[f->base->place];
 }
@@ -327,6 +330,53 @@ static mps_status reach_foot(mps__face *f, mps__world *w, const double *at)
     return MPS_OK;
 }
 
+/* Height of a over the plane of particle o. */
+static double from_plane(const solid *a, const solid *o)
+{
+    const double r[3] = {a->r[0] - o->r[0], a->r[1] - o->r[1], a->r[2] - o->r[2]};
+    return mps__dot(r, o->n, 3);
+}
+
+static bool beside_each_other(const mps__face *f, const solid *a, const solid *b)
+{
+    return a != b && distance2(a->r, b->r, 3) <= beside * beside * f->dp * f->dp;
+}
+
+/* Whether wall particle e of the face is on an edge at which the face turns away from the liquid: beside it another face goes on behind this one, e
+ * is in the plane of both, and this face goes on behind the other. */
+static bool on_edge(const mps__face *f, const solid *e)
+{
+    for (int64_t k = 0; k < f->solids; k++) {
+        const solid *o = &f->solid[k];
+        if (!o->wall || !has_normal(o) || !beside_each_other(f, e, o) ||
+            height(f, o) >= -flat * f->dp || mps__dot(o->n, f->normal, 3) >= turned ||
+            fabs(from_plane(e, o)) > flat * f->dp)
+            continue;
+        for (int64_t m = 0; m < f->solids; m++) {
+            const solid *a = &f->solid[m];
+            if (a->member && beside_each_other(f, e, a) &&
+                from_plane(a, o) < from_plane(e, o) - flat * f->dp)
+                return true;
+        }
+    }
+    return false;
+}
+
+/* Which members are of this face alone, and which on an edge that it shares. */
+static void mark_edges(mps__face *f)
+{
+    for (int64_t k = 0; k < f->solids; k++) {
+        const solid *e = &f->solid[k];
+        if (!e->member || mps__dot(e->n, f->normal, 3) <= 1e-9) continue;
+        const bool edge = on_edge(f, e);
+        for (int64_t m = 0; m < f->count; m++) {
+            if (f->list[m].id != e->id) continue;
+            f->list[m].edge = edge;
+            f->list[m].inside = !edge && mps__dot(e->n, f->normal, 3) >= looks_elsewhere;
+        }
+    }
+}
+
 static int compare_under(const void *a, const void *b)
 {
     const int64_t i = ((const mps__face_point *)a)->id, j = ((const mps__face_point *)b)->id;
@@ -343,6 +393,7 @@ static mps_status collect_members(mps__face *f, mps__world *w, const double *at)
         if (face_has(f, &w->particles, &f->solid[k]) && is_open(f, w, at, &f->solid[k]))
             MPS__TRY(add_member(f, w->context, &f->solid[k]));
     MPS__TRY(reach_foot(f, w, at));
+    mark_edges(f);
     if (f->count > 0) qsort(f->list, (size_t)f->count, sizeof *f->list, compare_under);
     return MPS_OK;
 }

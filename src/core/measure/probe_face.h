@@ -16,7 +16,9 @@ typedef struct mps__face_solid {
 /* A wall particle of the face. */
 typedef struct mps__face_point {
     int64_t id, place;
+    int64_t number;       /* in the list of the sensor, -1: not there */
     double at[2], weight; /* along the tangents, from the sensor */
+    bool inside, edge;    /* of this face alone; on an edge where it turns away from the liquid */
 } mps__face_point;
 
 /* The plane of a face at the sensor. */

@@ -4,7 +4,8 @@
  * Between the particles of a face on the lattice pressure is linear (3-D: bilinear), so its integral over the sensor is a
  * weighted sum of theirs. Along a line the weights are integrals of tent functions in closed form; a disc is summed over
  * chords at equal steps of the angle, which is exact for linear pressures (Gauss-Chebyshev) and moves smoothly with the
- * sensor. Where the particles are not on a lattice, the weights are corrected so that a linear pressure stays exact. */
+ * sensor. Where the particles are not on a lattice, the weights are corrected so that a linear pressure stays exact. On an edge the face has a
+ * pressure of its own: probe_edge.c. */
 #include "probe_sensor.h"
 #include "gather.h"
 #include "probe_face.h"
@@ -184,30 +185,47 @@ static bool weigh_best(mps__face *f)
     return best > 0 && isfinite(weigh(f));
 }
 
-static mps_status keep_weights(mps__context *c, const mps__face *f, mps__sensor *sensor)
+/* The particles that have a weight, and those that the pressures on edges need, numbered anew. */
+static mps_status keep_weights(mps__context *c, mps__face *f, mps__sensor *sensor,
+                               mps__edges *edges)
 {
+    MPS__TRY(mps__edges_find(edges, c, f));
     MPS__TRY(mps__grow(c, (void **)&sensor->list, &sensor->capacity, 0, f->count > 0 ? f->count : 1,
                        sizeof *sensor->list));
+    for (int64_t k = 0; k < f->count; k++) f->list[k].number = f->list[k].weight != 0 ? 0 : -1;
+    for (int64_t m = 0; m < edges->shares; m++) f->list[edges->share[m].of].number = 0;
     sensor->count = 0;
-    for (int64_t k = 0; k < f->count; k++)
-        if (f->list[k].weight != 0)
-            sensor->list[sensor->count++] = (mps__sensor_weight){f->list[k].id, f->list[k].place,
-                                                                 f->list[k].weight};
+    for (int64_t k = 0; k < f->count; k++) {
+        if (f->list[k].number < 0) continue;
+        f->list[k].number = sensor->count;
+        sensor->list[sensor->count++] = (mps__sensor_weight){f->list[k].id, f->list[k].place,
+                                                             f->list[k].weight};
+    }
+    for (int64_t k = 0; k < edges->count; k++)
+        edges->list[k].of = f->list[edges->list[k].of].number;
+    for (int64_t m = 0; m < edges->shares; m++)
+        edges->share[m].of = f->list[edges->share[m].of].number;
     return MPS_OK;
 }
 
 mps_status mps__sensor_build(mps__world *w, const mps_probe *config, mps__sensor *sensor)
 {
     mps__face f;
+    mps__edges edges = {0};
     mps_status status = mps__face_find(&f, w, config);
     if (status == MPS_OK && !weigh_best(&f)) f.count = 0;
-    if (status == MPS_OK) status = keep_weights(w->context, &f, sensor);
+    if (status == MPS_OK) status = keep_weights(w->context, &f, sensor, &edges);
     /* all of it is beside the face, or a single particle */
     if (status == MPS_OK && sensor->count == 0)
         sensor->list[sensor->count++] = (mps__sensor_weight){f.base->id, f.base->place, 1};
     if (status == MPS_OK) sensor->face = face_of(w, f.base, f.normal);
     mps__face_free(&f, w->context);
-    if (status < 0) return status;
+    if (status < 0) {
+        mps__edges_free(&edges, w->context);
+        return status;
+    }
+    mps__edges_free(&sensor->edges, w->context);
+    sensor->edges = edges;
     sensor->generation = w->particles.generation;
     sensor->linked = w->lists.linked;
     sensor->links = w->lists.links;
@@ -299,16 +317,16 @@ mps_status mps__sensor_read(mps__world *w, const mps_probe *config, mps__sensor 
     const mps__particles *s = &w->particles;
     double sum = 0;
     if (is_old(w, sensor)) MPS__TRY(build_again(w, config, sensor));
+    double *p = mps__scratch_take(w->context, &w->scratch, 0, sensor->count, sizeof *p);
+    if (!p) return MPS_E_NOMEM;
     if (mps__ranks_many(&w->ranks)) {
-        double *p = mps__scratch_take(w->context, &w->scratch, 0, sensor->count, sizeof *p);
-        if (!p) return MPS_E_NOMEM;
         MPS__TRY(collect_pressures(w, sensor, p));
-        for (int64_t k = 0; k < sensor->count; k++) sum += sensor->list[k].weight * p[k];
     } else {
         if (!in_place(s, sensor)) locate(s, sensor);
-        for (int64_t k = 0; k < sensor->count; k++)
-            sum += sensor->list[k].weight * s->load[sensor->list[k].place];
+        for (int64_t k = 0; k < sensor->count; k++) p[k] = s->load[sensor->list[k].place];
     }
+    mps__edges_apply(&sensor->edges, p);
+    for (int64_t k = 0; k < sensor->count; k++) sum += sensor->list[k].weight * p[k];
     *value = sum;
     return MPS_OK;
 }
@@ -316,5 +334,6 @@ mps_status mps__sensor_read(mps__world *w, const mps_probe *config, mps__sensor 
 void mps__sensor_free(mps__context *c, mps__sensor *sensor)
 {
     mps__free(c, sensor->list);
+    mps__edges_free(&sensor->edges, c);
     *sensor = (mps__sensor){0};
 }

@@ -3,10 +3,10 @@
 #ifndef MPS_CORE_PROBE_SENSOR_H
 #define MPS_CORE_PROBE_SENSOR_H
 
-#include "probe_face.h"
+#include "probe_edge.h"
 #include <mps/probe.h>
 
-/* A wall particle under the sensor and its share of the area; < 0 where pressure is extrapolated from others. */
+/* A wall particle under the sensor and its share of the area; < 0 where pressure is extrapolated from others, 0 where only an edge needs it. */
 typedef struct mps__sensor_weight {
     int64_t id;
     int64_t place; /* where it was last seen: sorting moves it; on many ranks -1: not owned here */
@@ -22,6 +22,7 @@ typedef struct mps__sensor_face {
 typedef struct mps__sensor {
     int64_t count, capacity;
     mps__sensor_weight *list; /* by ascending id; the weights' sum is 1 */
+    mps__edges edges;         /* of the list */
     mps__sensor_face face;
     int64_t generation, linked; /* of the particles it was made for */
     int64_t links, orders;      /* on many ranks likewise, and when they were looked for */

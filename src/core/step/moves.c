@@ -151,12 +151,11 @@ mps_status mps__world_check_pose(const mps__world *w, const mps__motion *m, cons
 
 /* What a step has done. */
 typedef struct result {
-    const double *x, *u, *p, *rho;
+    const double *x, *u, *p;
     double fastest; /* speed limit */
-    double dense;   /* liquid is denser [kg/m3] */
 } result;
 
-/* The largest speed of the fluid, that of the liquid, and the negative of the least id of what is not finite or too fast. */
+/* The largest speed of the fluid, and the negative of the least id of what is not finite or too fast. */
 MPS_ROW void raise_result(const int dim, const mps_view *v, const result *f, int64_t i,
                           double *most)
 {
@@ -164,10 +163,9 @@ MPS_ROW void raise_result(const int dim, const mps_view *v, const result *f, int
     bool sound = speed <= f->fastest && isfinite(f->p[i]);
     for (int d = 0; d < dim; d++) sound = sound && isfinite(f->x[i * dim + d]);
     if (!sound) {
-        most[2] = fmax(most[2], -(double)v->id[i]);
+        most[1] = fmax(most[1], -(double)v->id[i]);
     } else if (mps_is_fluid(v, i)) {
         most[0] = speed > most[0] ? speed : most[0];
-        if (f->rho[i] >= f->dense) most[1] = speed > most[1] ? speed : most[1];
     }
 }
 MPS_SUMS(raise_results, raise_result, result)
@@ -177,17 +175,14 @@ mps_status mps__world_check_result(mps__world *w, const mps_view *s, const doubl
                                    mps_step_info *info)
 {
     const mps__particles *all = &w->particles;
-    result f = {.x = all->x, .u = all->u, .p = all->p, .rho = all->rho};
-    double v[3] = {0, 0, -INFINITY};
-    f.fastest = fmin(w->setup.speed_limit, DBL_MAX);
-    for (int p = 0; p < MPS__PHASES; p++)
-        if (w->setup.phase_defined[p]) f.dense = fmax(f.dense, 0.5 * w->setup.phase_density[p]);
-    mps__host_max(&w->host, s, 3, &raise_results, &f, v);
-    info->crossing_time = mps__crossing_time(w, v[1], s->dt);
+    const result f = {
+        .x = all->x, .u = all->u, .p = all->p, .fastest = fmin(w->setup.speed_limit, DBL_MAX)};
+    double v[2] = {0, -INFINITY};
+    mps__host_max(&w->host, s, 2, &raise_results, &f, v);
     info->max_speed = v[0];
     info->cfl = v[0] * s->dt / s->dp;
-    if (isinf(v[2])) return MPS_OK;
-    const int64_t worst = place_of(w, (int64_t)-v[2]);
+    if (isinf(v[1])) return MPS_OK;
+    const int64_t worst = place_of(w, (int64_t)-v[1]);
     if (worst < 0) return mps__ranks_text(&w->ranks, MPS_E_DIVERGED);
     const double *u = w->particles.u + worst * s->dim,
                  *x = (before ? before : w->particles.x) + worst * s->dim;

@@ -9,7 +9,7 @@
 
 /* One step, undone if it fails. step.c */
 mps_status mps__world_step(mps__world *w, double dt_max);
-/* Fail for what is not finite or too fast, with the particle and its place `before` (NULL: it has not moved). Sets the speeds of `info`. moves.c */
+/* Fail for what is not finite or too fast, with the particle and its place `before` (NULL: it has not moved). Sets the largest speed of `info`. moves.c */
 mps_status mps__world_check_result(mps__world *w, const mps_view *s, const double *before,
                                    mps_step_info *info);
 /* Fluid that passes a wall in a step of dt that ends at a pose; the places before it are `before`. moves.c */
@@ -92,6 +92,11 @@ extern const mps__pass mps__pass_neighbours;
 extern const mps__pass mps__pass_clear_forces, mps__pass_predict, mps__pass_clear_gradient,
     mps__pass_first_loads, mps__pass_push, mps__pass_clear_displacement, mps__pass_move,
     mps__pass_check, mps__pass_share, mps__pass_keep;
+
+/* ---- what the resolution contains: crossing.c ---- */
+
+/* mps_step_info.crossing_time, from the speeds at the end of the step. */
+extern const mps__pass mps__pass_crossing;
 
 /* ---- the pressures: step_pressure.c ---- */
 

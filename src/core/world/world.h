@@ -208,16 +208,6 @@ static inline double mps__crossing_limit(const mps__world *w)
 {
     return w->setup.dp / (5 * w->setup.velocity_scale);
 }
-/* mps_step_info.crossing_time after a step dt that ends with this speed. In calm liquid there are no impacts to be averaged, and a mean lags.
- * It changes slowly: a mean over a time that shrinks does not count all of an impulse. */
-static inline double mps__crossing_time(const mps__world *w, double speed, double dt)
-{
-    const double last = w->state.crossing_time,
-                 wanted = fmin(1, speed / w->setup.velocity_scale) *
-                          fmin(w->setup.dp / fmax(speed, w->setup.velocity_scale),
-                               mps__crossing_limit(w));
-    return w->state.step > 0 ? fmin(fmax(wanted, last - 0.1 * dt), last + 0.1 * dt) : wanted;
-}
 /* Largest speed of all particles [m/s]. */
 double mps__world_speed(mps__world *w);
 /* Box of the solids of all ranks in the tank's frame: upper corner, negative of the lower one; -INFINITY without any. */

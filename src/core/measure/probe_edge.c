@@ -1,0 +1,123 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A wall particle on an edge where a face turns away from the liquid stands for the ends of two faces and has one pressure. In a stream that leaves
+ * the wall there, one face is pressed and the other is not, and linear interpolation would carry the pressure of the first half a spacing or more
+ * onto the second. So a sensor takes as the pressure of its face at the edge
+ *
+ *   median(p_e, mean, line)
+ *
+ * with p_e the pressure of the particle on the edge, `mean` that of the particles of the face alone beside it, and `line` their linear pressure,
+ * by least squares, extrapolated to the edge. Where pressures are linear round the edge, as in liquid at rest, that is p_e. It never leaves the
+ * range between p_e and the mean, so that no pressure or suction is made up. A face too narrow for a line keeps p_e. */
+#include "probe_edge.h"
+#include <math.h>
+
+/* In spacings: particles that the line counts, and those of the mean. */
+static const double far = 3, near = 1.6;
+
+static double weight_at(double square, double reach)
+{
+    return fmax(0, 1 - square / (reach * reach));
+}
+
+/* First column of the inverse of a symmetric matrix {00, 01, 02, 11, 12, 22}, of its upper left part for one side. False if it has none. */
+static bool first_of_inverse(const double *m, int32_t sides, double *column)
+{
+    const double minor[3] = {m[3] * m[5] - m[4] * m[4], m[2] * m[4] - m[1] * m[5],
+                             m[1] * m[4] - m[2] * m[3]};
+    const double det = sides == 1 ? m[0] * m[3] - m[1] * m[1]
+                                  : m[0] * minor[0] + m[1] * minor[1] + m[2] * minor[2];
+    const double size = sides == 1 ? m[0] * m[3] : m[0] * m[3] * m[5];
+    if (!(det > 1e-3 * size)) return false;
+    for (int k = 0; k < 3; k++) column[k] = minor[k] / det;
+    if (sides == 2) return true;
+    column[0] = m[3] / det;
+    column[1] = -m[1] / det;
+    column[2] = 0;
+    return true;
+}
+
+/* Place of a particle of the face from the edge particle, in spacings; its square. */
+static double from_edge(const mps__face *f, const mps__face_point *u, const mps__face_point *edge,
+                        double q[2])
+{
+    double square = 0;
+    q[0] = q[1] = 0;
+    for (int32_t a = 0; a < f->sides; a++) {
+        q[a] = (u->at[a] - edge->at[a]) / f->dp;
+        square += q[a] * q[a];
+    }
+    return square;
+}
+
+static mps_status add_share(mps__edges *e, mps__context *c, mps__edge_share share)
+{
+    MPS__TRY(mps__grow(c, (void **)&e->share, &e->share_capacity, e->shares, e->shares + 1,
+                       sizeof share));
+    e->share[e->shares++] = share;
+    return MPS_OK;
+}
+
+/* Shares of the particles about an edge; none if they do not tell a line. */
+static mps_status find_shares(mps__edges *e, mps__context *c, const mps__face *f, int64_t of)
+{
+    double m[6] = {0}, column[3], q[2], sum = 0;
+    const mps__face_point *edge = &f->list[of];
+    for (int64_t k = 0; k < f->count; k++) {
+        const double square = from_edge(f, &f->list[k], edge, q),
+                     w = f->list[k].inside ? weight_at(square, far) : 0;
+        const double part[6] = {1, q[0], q[1], q[0] * q[0], q[0] * q[1], q[1] * q[1]};
+        for (int a = 0; a < 6; a++) m[a] += w * part[a];
+        sum += f->list[k].inside ? weight_at(square, near) : 0;
+    }
+    if (!(sum > 0) || !first_of_inverse(m, f->sides, column)) return MPS_OK;
+    for (int64_t k = 0; k < f->count; k++) {
+        const double square = from_edge(f, &f->list[k], edge, q), w = weight_at(square, far);
+        if (!f->list[k].inside || w == 0) continue;
+        MPS__TRY(add_share(
+            e, c,
+            (mps__edge_share){.of = k,
+                              .mean = weight_at(square, near) / sum,
+                              .line = w * (column[0] + column[1] * q[0] + column[2] * q[1])}));
+    }
+    return MPS_OK;
+}
+
+mps_status mps__edges_find(mps__edges *e, mps__context *c, const mps__face *f)
+{
+    *e = (mps__edges){0};
+    for (int64_t k = 0; k < f->count; k++) {
+        const int64_t first = e->shares;
+        if (!f->list[k].edge || f->list[k].weight == 0) continue;
+        MPS__TRY(find_shares(e, c, f, k));
+        if (e->shares == first) continue;
+        MPS__TRY(
+            mps__grow(c, (void **)&e->list, &e->capacity, e->count, e->count + 1, sizeof *e->list));
+        e->list[e->count++] = (mps__edge){k, first, e->shares - first};
+    }
+    return MPS_OK;
+}
+
+void mps__edges_free(mps__edges *e, mps__context *c)
+{
+    mps__free(c, e->list);
+    mps__free(c, e->share);
+    *e = (mps__edges){0};
+}
+
+static double median(double a, double b, double c)
+{
+    return fmax(fmin(a, b), fmin(fmax(a, b), c));
+}
+
+void mps__edges_apply(const mps__edges *e, double *p)
+{
+    for (int64_t k = 0; k < e->count; k++) {
+        const mps__edge *edge = &e->list[k];
+        double mean = 0, line = 0;
+        for (int64_t m = edge->first; m < edge->first + edge->count; m++) {
+            mean += e->share[m].mean * p[e->share[m].of];
+            line += e->share[m].line * p[e->share[m].of];
+        }
+        p[edge->of] = median(p[edge->of], mean, line);
+    }
+}

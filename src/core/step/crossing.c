@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The time that the resolution contains: dp/u, u the speed of the fastest piece of liquid.
+ *
+ *   u = max_i u_i,   u_i = N-th largest speed of the liquid within re of particle i, itself included, at most its own,
+ *
+ * N the number of particles that a film of two rows has within re of one of its own. So a film of two rows counts as soon as it reaches re to both
+ * sides, and spray does not: drops of fewer than N particles, and fast particles beside slow ones. No region decides, as regions change from step
+ * to step. Slower than 5 U_g the time does not depend on u, so that pieces are looked for among faster particles alone. */
+#include "step.h"
+#include "world_ranks.h"
+
+/* Of the speed before. */
+static const double NEARLY = 0.9;
+
+typedef struct liquid {
+    const double *u, *rho;
+    double dense;  /* liquid is at least so dense [kg/m3] */
+    double least;  /* of squares of speeds that matter */
+    int32_t piece; /* N */
+} liquid;
+
+/* Particles of a film of two rows within the radius of one of them, with itself. */
+static int32_t film_of_two_rows(const mps_stencil *t)
+{
+    const int reach = (int)(t->re / t->dp) + 1, across = t->dim == 3 ? reach : 0;
+    int32_t count = 0;
+    for (int row = 0; row < 2; row++)
+        for (int k = -across; k <= across; k++)
+            for (int i = -reach; i <= reach; i++)
+                count += t->dp * sqrt((double)(i * i + row * row + k * k)) < t->re;
+    return count;
+}
+
+/* Square of the speed of a particle of the liquid; -1: of another. */
+MPS_ROW double speed2(const int dim, const mps_view *v, const liquid *f, int64_t i)
+{
+    return mps_is_fluid(v, i) && f->rho[i] >= f->dense
+               ? mps__dot(f->u + i * dim, f->u + i * dim, dim)
+               : -1;
+}
+
+/* How many of particle i and its neighbours have at least this square of a speed. */
+MPS_ROW int32_t as_fast(const int dim, const mps_view *v, const liquid *f, int64_t i, double square)
+{
+    const mps_stencil *t = &v->near;
+    int32_t count = speed2(dim, v, f, i) >= square;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++)
+        count += speed2(dim, v, f, mps_stencil_column(t, p)) >= square;
+    return count;
+}
+
+/* Squares of the largest speeds: of a piece, if it is above `least`; of a particle. */
+enum { PIECE, ANY, SPEEDS };
+
+MPS_ROW void raise_speed(const int dim, const mps_view *v, const liquid *f, int64_t i, double *most)
+{
+    const mps_stencil *t = &v->near;
+    const double own = speed2(dim, v, f, i),
+                 more = nextafter(fmax(most[PIECE], f->least), INFINITY);
+    if (own > most[ANY]) most[ANY] = own;
+    if (own < more || as_fast(dim, v, f, i, more) < f->piece) return;
+    if (as_fast(dim, v, f, i, own) >= f->piece) most[PIECE] = own;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const double other = speed2(dim, v, f, mps_stencil_column(t, p));
+        if (other >= more && other < own && other > most[PIECE] &&
+            as_fast(dim, v, f, i, other) >= f->piece)
+            most[PIECE] = other;
+    }
+}
+MPS_SUMS(raise_speeds, raise_speed, liquid)
+
+/* From the speeds of the fastest particle and of the fastest piece, 0 if that is no faster than 5 U_g. In calm liquid there are no impacts to be
+ * averaged, and a mean lags. The time changes slowly: a mean over a time that shrinks does not count all of an impulse. */
+static double crossing_time(const mps__world *w, double fastest, double piece, double dt)
+{
+    const double scale = w->setup.velocity_scale, last = w->state.crossing_time;
+    const double wanted = fmin(1, fastest / scale) *
+                          fmin(w->setup.dp / fmax(piece, scale), mps__crossing_limit(w));
+    return w->state.step > 0 ? fmin(fmax(wanted, last - 0.1 * dt), last + 0.1 * dt) : wanted;
+}
+
+/* Speeds of the fastest particle and of the fastest piece above 5 U_g. It is looked for among particles nearly as fast as the one before; if there
+ * is none, among all. */
+static void find_speeds(const mps_stage *s, liquid *f, double *fastest, double *piece)
+{
+    const mps__world *w = mps__step_of(s)->w;
+    const double calm = 5 * w->setup.velocity_scale, last = w->state.crossing_time,
+                 before = last > 0 ? NEARLY * w->setup.dp / last : 0;
+    double most[SPEEDS] = {-INFINITY, -INFINITY};
+    for (int k = before > calm ? 0 : 1; k < 2 && most[PIECE] < 0; k++) {
+        f->least = k == 0 ? before * before : calm * calm;
+        mps_stage_max(s, SPEEDS, &raise_speeds, f, most);
+    }
+    *fastest = sqrt(fmax(0, most[ANY]));
+    *piece = sqrt(fmax(0, most[PIECE]));
+}
+
+static mps_status find_crossing_time(mps_stage *s)
+{
+    mps__step *q = mps__step_of(s);
+    const mps__world *w = q->w;
+    double fastest, piece;
+    liquid f = {.u = s->data[0], .rho = s->data[1], .piece = film_of_two_rows(&s->view->near)};
+    for (int p = 0; p < MPS__PHASES; p++)
+        if (w->setup.phase_defined[p]) f.dense = fmax(f.dense, 0.5 * w->setup.phase_density[p]);
+    find_speeds(s, &f, &fastest, &piece);
+    q->info.crossing_time = crossing_time(w, fastest, piece, s->view->dt);
+    return mps__ranks_status(&q->w->ranks);
+}
+
+static const mps_use uses[] = {{"velocity", MPS_USE_NEIGHBOURS}, {"density", MPS_USE_NEIGHBOURS}};
+
+/* Ghosts have the new velocities already. */
+const mps__pass mps__pass_crossing = {.name = "crossing",
+                                      .hook = MPS_SHIFT,
+                                      .place = MPS__AFTER_MODELS,
+                                      .stage = MPS_STAGE_CORRECT,
+                                      .use_count = 2,
+                                      .uses = uses,
+                                      .run = find_crossing_time};
