@@ -9,8 +9,8 @@
  *    deep    at least `channel` from all liquid particles,
  *    narrow  between the two.
  *
- *  Liquid particles are fluid that is not spray, and wall particles with such fluid within 1.5 dp. A
- *  distance is that of the cell's centre; a thin plate hides what is behind it. Deep cells that
+ *  Liquid particles are fluid that is not spray, and wall particles with such fluid within 1.5 dp.
+ *  A distance is that of the cell's centre; a thin plate hides what is behind it. Deep cells that
  *  share a side form a component. Narrow cells belong to the component that reaches them first from
  *  cell to cell, others to none: so two components may be parted by a film or by a neck. Walls,
  *  baffles and thin plates part components. Component 0 is the largest, the ambient; others are
