@@ -11,10 +11,10 @@
  *
  *  Liquid particles are fluid that is not spray, and wall particles with such fluid within 1.5 dp.
  *  A distance is that of the cell's centre; a thin plate hides what is behind it. Deep cells that
- *  share a side form a component. Narrow cells belong to the component that reaches them first from
- *  cell to cell, others to none: so two components may be parted by a film or by a neck. Walls,
- *  baffles and thin plates part components. Component 0 is the largest, the ambient; others are
- *  numbered by their first cell.
+ *  share a side form a component; walls, baffles and thin plates part them. Component 0 has the
+ *  most deep cells: the ambient. Others are numbered by their first deep cell. Where there are two
+ *  components or more, narrow cells belong to the one that reaches them first from cell to cell, so
+ *  that a film or a neck may lie between two of them.
  *
  *  All of it has the same bytes for any number of threads and ranks, but for rows, which each rank
  *  has of its own. Notation: dp spacing, dim = 2 or 3. */
@@ -37,7 +37,8 @@ typedef struct mps_voids_config {
     double cover;
     /** Farther cells are deep, cover..3; default 0.9 in 2-D, 1.1 in 3-D [dp] */
     double channel;
-    /** Smaller components are left out: their cells belong to none [dp^dim]. Default 0. */
+    /** Components whose deep cells hold less are left out: their cells belong to none [dp^dim].
+     *  Default 0. */
     double least;
 } mps_voids_config;
 

@@ -64,9 +64,11 @@ static mps_status find_voids(mps__world *w, mps_stage *s)
     mps__voids *v = &w->voids;
     MPS__TRY(check_reach(w, &v->config));
     MPS__TRY(mps__voids_raster(v, w));
-    MPS__TRY(mps__voids_stamp(v, w, s));
-    MPS__TRY(mps__voids_label(v));
-    return mps__voids_faces(v, &w->ghosts);
+    if (v->total == 0) return MPS_OK;
+    MPS__TRY(mps__voids_liquid(v, w, s));
+    MPS__TRY(mps__voids_cells(v, w));
+    MPS__TRY(mps__voids_label(v, w));
+    return mps__voids_faces(v, w);
 }
 
 static void show(const mps__voids *v, mps_voids *out)

@@ -10,10 +10,19 @@
 struct mps__world;
 
 /* Bits of mps__voids.mask: 1 << d: a thin plate cuts the link to the next cell along axis d; and: */
-enum { MPS__MASK_SOLID = 8 };
+enum { MPS__MASK_CUTS = 7, MPS__MASK_SOLID = 8, MPS__MASK_PLATE = 16 /* one is near */ };
+
+/* Cells that ranks combine at once. */
+enum { MPS__VOID_LUMP = 64 };
 
 /* What a cell is. The least of all ranks counts. */
-enum { MPS__CELL_LIQUID, MPS__CELL_NARROW, MPS__CELL_DEEP, MPS__CELL_SOLID };
+enum {
+    MPS__CELL_LIQUID,
+    MPS__CELL_NARROW,
+    MPS__CELL_DEEP,
+    MPS__CELL_SOLID,
+    MPS__CELL_COVERED /* one of the first two: it was not needed yet which one */
+};
 
 /* Arrays of faces. */
 enum {
@@ -25,10 +34,22 @@ enum {
     MPS__VOID_FACE
 };
 
+/* A cell from which a particle may reach another cell. */
+typedef struct mps__void_offset {
+    int32_t at[3];
+    int64_t cell; /* difference of the numbers */
+    double least; /* square of the least distance of its places from the other's centre [side^2] */
+} mps__void_offset;
+
+/* Cells begin .. end-1 of a line, all of them deep, with links between them. */
+typedef struct mps__void_run {
+    int32_t begin, end, part; /* part: provisional component */
+} mps__void_run;
+
 /* Memory that is kept from step to step, and grows. */
 typedef struct mps__void_room {
-    int64_t mask, ullage, slab, square, nearest, what, label, parent, found, number, queue, size;
-    int64_t face[MPS__VOID_FACE];
+    int64_t mask, ullage, offset, liquid, place, slab, next, head, taken, sure, wide, what;
+    int64_t plain, label, run, parent, found, number, queue, size, face[MPS__VOID_FACE];
 } mps__void_room;
 
 typedef struct mps__voids {
@@ -47,20 +68,33 @@ typedef struct mps__voids {
     int64_t plane;    /* in a slab */
     int64_t step[3];  /* from a cell to the next one along each axis */
     uint8_t *mask;    /* [total] */
-    int32_t parts;    /* components while they are joined */
+    uint8_t *plain;   /* [lines along the first axis] 1: no bit of the mask is set */
     int64_t *
-        ullage; /* [slabs + 1] cells from a slab upwards that are not solid; -1: some do not hang together */
+        ullage; /* [slabs + 1] void cells from a slab upwards; -1: they are more than one component */
+    /* who reaches a cell */
+    double cover2, reach2; /* squares of `cover` and `channel` [side^2] */
+    int32_t window;        /* cells along an axis that the channel reaches over */
+    int32_t offsets;
+    mps__void_offset *offset; /* [offsets] by distance */
+    bool octant_sure; /* a particle is within the channel of its cell and those on its side of it */
+    bool own_covers;  /* a particle in the cell is within the cover */
     /* the search */
-    int32_t band;         /* slabs that it looks at */
-    double reach;         /* of a particle, the channel, [side] */
-    float cover2, reach2; /* squares of both [side^2] */
-    int32_t *slab;        /* [n] of liquid particles, -1 of others */
-    float *square;        /* [cells of the band] to the nearest particle [side^2] */
-    int32_t *nearest;     /* [cells of the band] its row, -1: none within reach */
-    uint8_t *what;        /* [cells of the band] MPS__CELL_... */
-    int32_t *label;       /* [total] */
-    int32_t constant;     /* slabs from here on have the label `ambient` where they are not solid */
+    int32_t band;     /* slabs that it looks at */
+    int32_t *liquid;  /* [n] 1: a liquid particle */
+    double *place;    /* [n*dim] of liquid particles [side] */
+    int32_t *slab;    /* [n] theirs, -1 of others */
+    int32_t *next;    /* [n] another particle of the same cell, -1: none */
+    int32_t *head;    /* [cells of the band] a particle in it, where there is one */
+    uint8_t *taken;   /* [cells of the band] 1: there is one */
+    uint8_t *sure;    /* [cells of the band] 1: one is within the channel; 0: perhaps */
+    uint8_t *wide;    /* [cells of the band] 1: there is one in its slab within the window */
+    uint8_t *what;    /* [cells of the band] MPS__CELL_... */
+    int32_t *label;   /* [total] */
+    int32_t constant; /* slabs from here on have the label `ambient` where they are not solid */
     int32_t ambient;
+    mps__void_run *run;
+    int64_t runs;
+    int32_t parts;   /* components while they are joined */
     int32_t *parent; /* of provisional components: one that it was joined to, or itself */
     int64_t *found;  /* cells of components before they are numbered */
     int32_t *number; /* the numbers that they get */
@@ -75,14 +109,24 @@ typedef struct mps__voids {
 
 void mps__voids_init(mps__voids *v, mps__context *context);
 void mps__voids_free(mps__voids *v);
+/* Cells from which the cover and the channel reach a cell. voids.c */
+mps_status mps__voids_offsets(mps__voids *v);
 /* The raster of a tank, unless it is there. voids_mask.c */
 mps_status mps__voids_raster(mps__voids *v, struct mps__world *w);
-/* What each cell of the band is, and the particle nearest to it. voids_stamp.c */
-mps_status mps__voids_stamp(mps__voids *v, struct mps__world *w, mps_stage *s);
+/* Liquid particles, by the cells that they are in, and the band. voids_liquid.c */
+mps_status mps__voids_liquid(mps__voids *v, struct mps__world *w, mps_stage *s);
+/* What each cell of the band is. voids_cells.c */
+mps_status mps__voids_cells(mps__voids *v, struct mps__world *w);
+/* Whether a cell is narrow, which is found out when it is asked for. */
+bool mps__voids_is_narrow(mps__voids *v, const struct mps__world *w, int64_t cell);
+/* The least squared distance of a particle from a cell [side^2], and its row; from `enough` downwards any that is found. INFINITY, -1: none
+ * within the channel. */
+double mps__voids_nearest(const mps__voids *v, const struct mps__world *w, int64_t cell,
+                          double enough, int32_t *row);
 /* Components of the void, and their numbers. voids_label.c */
-mps_status mps__voids_label(mps__voids *v);
+mps_status mps__voids_label(mps__voids *v, const struct mps__world *w);
 /* Faces of components, if there are two or more. voids_faces.c */
-mps_status mps__voids_faces(mps__voids *v, const mps__ghosts *g);
+mps_status mps__voids_faces(mps__voids *v, const struct mps__world *w);
 /* The number that stands for a provisional component, the least one of those that were joined. */
 int32_t mps__voids_root(int32_t *parent, int32_t k);
 /* Join two of them. @return whether they were two */
@@ -93,10 +137,10 @@ mps_status mps__voids_push(mps__voids *v, int32_t **list, int64_t *room, int64_t
 /* Coordinates of a cell. */
 static inline void mps__voids_place(const mps__voids *v, int64_t cell, int32_t at[3])
 {
-    const int64_t line = cell / v->cells[0];
-    at[0] = (int32_t)(cell % v->cells[0]);
-    at[1] = (int32_t)(line % v->cells[1]);
-    at[2] = (int32_t)(line / v->cells[1]);
+    const uint32_t c = (uint32_t)cell, line = c / (uint32_t)v->cells[0];
+    at[0] = (int32_t)(c - line * (uint32_t)v->cells[0]);
+    at[2] = v->dim == 2 ? 0 : (int32_t)(line / (uint32_t)v->cells[1]);
+    at[1] = (int32_t)line - at[2] * v->cells[1];
 }
 
 /* The cell beside another on side 2 d or 2 d + 1, -1: the raster ends, or a plate lies between. */

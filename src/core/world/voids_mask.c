@@ -66,6 +66,8 @@ static mps_status make_room(mps__voids *v)
     mps__context *c = v->context;
     MPS__TRY(mps__grow(c, (void **)&v->mask, &r->mask, 0, v->total, sizeof *v->mask));
     MPS__TRY(mps__grow(c, (void **)&v->label, &r->label, 0, v->total, sizeof *v->label));
+    MPS__TRY(
+        mps__grow(c, (void **)&v->plain, &r->plain, 0, v->total / v->cells[0], sizeof *v->plain));
     return mps__grow(c, (void **)&v->ullage, &r->ullage, 0, v->slabs + 1, sizeof *v->ullage);
 }
 
@@ -134,7 +136,7 @@ static mps_status flood(mps__voids *v, const votes *all)
     for (int64_t c = 0; c < v->total; c++) {
         const bool known = all[c].walls || all[c].dummies;
         const bool solid = !known || (all[c].walls ? all[c].height < 0 : true);
-        v->mask[c] = (uint8_t)((v->mask[c] & 7) | (solid ? MPS__MASK_SOLID : 0));
+        v->mask[c] = (uint8_t)((v->mask[c] & ~MPS__MASK_SOLID) | (solid ? MPS__MASK_SOLID : 0));
         if (solid) continue;
         MPS__TRY(mps__voids_push(v, &v->queue, &v->room.queue, tail));
         v->queue[tail++] = (int32_t)c;
@@ -147,7 +149,7 @@ static mps_status flood(mps__voids *v, const votes *all)
             const int64_t b = mps__voids_beside(v, c, at, side);
             if (b < 0 || !(v->mask[b] & MPS__MASK_SOLID) || all[b].walls || all[b].dummies)
                 continue;
-            v->mask[b] &= 7;
+            v->mask[b] &= (uint8_t)~MPS__MASK_SOLID;
             MPS__TRY(mps__voids_push(v, &v->queue, &v->room.queue, tail));
             v->queue[tail++] = (int32_t)b;
         }
@@ -175,7 +177,7 @@ static mps_status find_solid(mps__voids *v, mps__world *w)
 
 /* ---- plates ---- */
 
-/* Links that a plate crosses. A plate through centres of cells lies a little below them. */
+/* Cells that a plate may hide from particles, and links that it crosses. A plate through centres of cells lies a little below them. */
 static void cut_links(mps__voids *v, const mps__screen *p)
 {
     double lo[3], hi[3], a[3], b[3];
@@ -189,21 +191,21 @@ static void cut_links(mps__voids *v, const mps__screen *p)
             lo[d] += fmin(x, y);
             hi[d] += fmax(x, y);
         }
-        lo[d] -= v->side;
-        hi[d] += v->side;
+        lo[d] -= (v->window + 1) * v->side;
+        hi[d] += (v->window + 1) * v->side;
     }
     cells_within(v, lo, hi, from, to);
     for (at[2] = from[2]; at[2] <= to[2]; at[2]++)
         for (at[1] = from[1]; at[1] <= to[1]; at[1]++)
             for (at[0] = from[0]; at[0] <= to[0]; at[0]++)
                 for (int d = 0; d < v->dim; d++) {
+                    uint8_t *own = &v->mask[at[0] + v->step[1] * at[1] + v->step[2] * at[2]];
+                    *own |= MPS__MASK_PLATE;
                     centre_of(v, at, a);
                     for (int e = 0; e < 3; e++) a[e] += 1e-7 * v->side * p->normal[e];
                     memcpy(b, a, sizeof b);
                     b[d] += v->side;
-                    if (mps__screen_crossed(p, a, b))
-                        v->mask[at[0] + v->step[1] * at[1] + v->step[2] * at[2]] |= (uint8_t)(1
-                                                                                              << d);
+                    if (mps__screen_crossed(p, a, b)) *own |= (uint8_t)(1 << d);
                 }
 }
 
@@ -256,20 +258,34 @@ static mps_status find_ullage(mps__voids *v)
     return status;
 }
 
+static void find_plain(mps__voids *v)
+{
+    for (int64_t line = 0; line < v->total / v->cells[0]; line++) {
+        uint8_t any = 0;
+        for (int64_t c = 0; c < v->cells[0]; c++) any |= v->mask[line * v->cells[0] + c];
+        v->plain[line] = !any;
+    }
+}
+
 mps_status mps__voids_raster(mps__voids *v, mps__world *w)
 {
     const bool moves = mps__models_move_solids(&w->models);
-    if (v->made && !moves && v->solids == w->particles.solids &&
-        v->side == v->config.side * w->setup.dp)
-        return MPS_OK;
+    const double channel = v->config.channel / v->config.side,
+                 cover = v->config.cover / v->config.side;
+    const bool same = v->side == v->config.side * w->setup.dp && v->reach2 == channel * channel &&
+                      v->cover2 == cover * cover;
+    if (v->made && !moves && same && v->solids == w->particles.solids) return MPS_OK;
     v->made = false;
     MPS__TRY(set_size(v, w));
+    if (v->total == 0) return MPS_OK;
+    MPS__TRY(mps__voids_offsets(v));
     MPS__TRY(make_room(v));
     memset(v->mask, 0, (size_t)v->total);
     for (int32_t k = 0; k < w->lists.screens.count; k++)
         if (w->lists.screens.list[k].active) cut_links(v, &w->lists.screens.list[k]);
     MPS__TRY(find_solid(v, w));
     MPS__TRY(find_ullage(v));
+    find_plain(v);
     v->solids = w->particles.solids;
     v->constant = INT32_MAX;
     v->made = true;
