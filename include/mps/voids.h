@@ -4,7 +4,7 @@
  *
  *  A raster of square cells stands in the frame of the tank. Its cells are
  *
- *    solid   in a wall or outside of the tank,
+ *    solid   in a wall, outside of the tank, or in a space that holds no liquid and is shut off,
  *    liquid  nearer than `cover` to a liquid particle,
  *    deep    at least `channel` from all liquid particles,
  *    narrow  between the two.

@@ -10,7 +10,14 @@
 struct mps__world;
 
 /* Bits of mps__voids.mask: 1 << d: a thin plate cuts the link to the next cell along axis d; and: */
-enum { MPS__MASK_CUTS = 7, MPS__MASK_SOLID = 8, MPS__MASK_PLATE = 16 /* one is near */ };
+enum {
+    MPS__MASK_SOLID = 8,
+    MPS__MASK_PLATE = 16, /* one is near */
+    MPS__MASK_DRY = 32    /* solid as long as no liquid is in its compartment */
+};
+
+/* Spaces that solids part; those beyond the last number count as one. */
+enum { MPS__COMPARTMENTS = 256 };
 
 /* Cells that ranks combine at once. */
 enum { MPS__VOID_LUMP = 64 };
@@ -48,7 +55,7 @@ typedef struct mps__void_run {
 
 /* Memory that is kept from step to step, and grows. */
 typedef struct mps__void_room {
-    int64_t mask, ullage, offset, liquid, place, slab, next, head, taken, sure, wide, what;
+    int64_t mask, space, ullage, offset, liquid, place, slab, next, head, taken, sure, wide, what;
     int64_t plain, label, run, parent, found, number, queue, size, face[MPS__VOID_FACE];
 } mps__void_room;
 
@@ -68,7 +75,11 @@ typedef struct mps__voids {
     int64_t plane;    /* in a slab */
     int64_t step[3];  /* from a cell to the next one along each axis */
     uint8_t *mask;    /* [total] */
-    uint8_t *plain;   /* [lines along the first axis] 1: no bit of the mask is set */
+    uint8_t *
+        space; /* [total] number of the compartment that a cell is in, 0: solid; where there are two or more */
+    int32_t spaces;                 /* compartments */
+    uint8_t wet[MPS__COMPARTMENTS]; /* 1: liquid is in it, as the mask has it */
+    uint8_t *plain;                 /* [lines along the first axis] 1: no bit of the mask is set */
     int64_t *
         ullage; /* [slabs + 1] void cells from a slab upwards; -1: they are more than one component */
     /* who reaches a cell */
@@ -113,6 +124,8 @@ void mps__voids_free(mps__voids *v);
 mps_status mps__voids_offsets(mps__voids *v);
 /* The raster of a tank, unless it is there. voids_mask.c */
 mps_status mps__voids_raster(mps__voids *v, struct mps__world *w);
+/* The mask knows which compartments liquid is in now. voids_mask.c */
+mps_status mps__voids_wet(mps__voids *v, struct mps__world *w);
 /* Liquid particles, by the cells that they are in, and the band. voids_liquid.c */
 mps_status mps__voids_liquid(mps__voids *v, struct mps__world *w, mps_stage *s);
 /* What each cell of the band is. voids_cells.c */
@@ -141,6 +154,17 @@ static inline void mps__voids_place(const mps__voids *v, int64_t cell, int32_t a
     at[0] = (int32_t)(c - line * (uint32_t)v->cells[0]);
     at[2] = v->dim == 2 ? 0 : (int32_t)(line / (uint32_t)v->cells[1]);
     at[1] = (int32_t)line - at[2] * v->cells[1];
+}
+
+/* The cell of a place [side], -1: beyond the raster. */
+static inline int64_t mps__voids_cell(const mps__voids *v, const double *place)
+{
+    int64_t cell = 0;
+    for (int d = v->dim - 1; d >= 0; d--) {
+        if (!(place[d] >= 0 && place[d] < v->cells[d])) return -1;
+        cell = cell * v->cells[d] + (int64_t)place[d];
+    }
+    return cell;
 }
 
 /* The cell beside another on side 2 d or 2 d + 1, -1: the raster ends, or a plate lies between. */

@@ -128,5 +128,6 @@ mps_status mps__voids_liquid(mps__voids *v, mps__world *w, mps_stage *s)
 {
     double highest = -1;
     MPS__TRY(find_liquid(v, w, s, &highest));
+    MPS__TRY(mps__voids_wet(v, w));
     return set_band(v, highest);
 }

@@ -7,12 +7,18 @@
 /* Farthest wall that says on which side of it a cell is [dp]. */
 static const double RANGE = 1.5;
 
+/* A dummy says that a cell is so far inside of the solid [dp]: walls between two solids may have a normal too. */
+static const double DEPTH = 1;
+
+/* Walls in a solid have no area but for rounding [dp^(dim-1)]. */
+static const double LEAST_AREA = 1e-3;
+
 /* Most cells: their numbers are of 32 bits. */
 static const double MOST = INT32_MAX;
 
 /* What the walls about a cell say. Integers, as a sum of them has no order. */
 typedef struct votes {
-    int64_t height;  /* weighted mean height over the planes of the walls [2^-30 dp]; < 0: solid */
+    int64_t height;  /* weighted height over the planes of the walls [2^-30 dp]; < 0: solid */
     int64_t walls;   /* that have a normal */
     int64_t dummies; /* and walls that have none */
 } votes;
@@ -105,7 +111,8 @@ static void vote(const mps__voids *v, const mps__world *w, int64_t i, votes *all
     const mps__particles *s = &w->particles;
     const double dp = w->setup.dp, range = RANGE * dp, *x = s->ref + i * s->dim,
                  *area = s->area + i * s->dim,
-                 size = s->kind[i] == MPS_WALL ? sqrt(mps__dot(area, area, s->dim)) : 0;
+                 length = s->kind[i] == MPS_WALL ? sqrt(mps__dot(area, area, s->dim)) : 0,
+                 size = length > LEAST_AREA * pow(dp, s->dim - 1) ? length : 0;
     double lo[3] = {0}, hi[3] = {0}, X[3];
     int32_t from[3], to[3], at[3];
     for (int d = 0; d < s->dim; d++) {
@@ -117,7 +124,7 @@ static void vote(const mps__voids *v, const mps__world *w, int64_t i, votes *all
         for (at[1] = from[1]; at[1] <= to[1]; at[1]++)
             for (at[0] = from[0]; at[0] <= to[0]; at[0]++) {
                 votes *own = &all[at[0] + v->step[1] * at[1] + v->step[2] * at[2]];
-                double height = 0;
+                double height = s->kind[i] == MPS_DUMMY ? -DEPTH : 0;
                 centre_of(v, at, X);
                 const double near = 1 - mps__square_between(x, X, s->dim) / (range * range);
                 if (near <= 0) continue;
@@ -209,6 +216,46 @@ static void cut_links(mps__voids *v, const mps__screen *p)
                 }
 }
 
+/* ---- compartments ---- */
+
+/* All cells that can be reached from a cell get the number of its compartment. */
+static mps_status spread(mps__voids *v, int64_t cell, uint8_t number)
+{
+    int64_t head = 0, tail = 0;
+    MPS__TRY(mps__voids_push(v, &v->queue, &v->room.queue, tail));
+    v->queue[tail++] = (int32_t)cell;
+    v->space[cell] = number;
+    while (head < tail) {
+        const int64_t c = v->queue[head++];
+        int32_t at[3];
+        mps__voids_place(v, c, at);
+        for (int32_t side = 0; side < 2 * v->dim; side++) {
+            const int64_t b = mps__voids_beside(v, c, at, side);
+            if (b < 0 || v->mask[b] & MPS__MASK_SOLID || v->space[b]) continue;
+            MPS__TRY(mps__voids_push(v, &v->queue, &v->room.queue, tail));
+            v->queue[tail++] = (int32_t)b;
+            v->space[b] = number;
+        }
+    }
+    return MPS_OK;
+}
+
+/* Blocks are hollow: only what liquid is in is a part of the tank. */
+static mps_status find_spaces(mps__voids *v)
+{
+    MPS__TRY(
+        mps__grow(v->context, (void **)&v->space, &v->room.space, 0, v->total, sizeof *v->space));
+    memset(v->space, 0, (size_t)v->total);
+    memset(v->wet, 1, sizeof v->wet);
+    v->spaces = 0;
+    for (int64_t c = 0; c < v->total; c++) {
+        if (v->mask[c] & MPS__MASK_SOLID || v->space[c]) continue;
+        if (v->spaces + 1 < MPS__COMPARTMENTS) v->spaces++;
+        MPS__TRY(spread(v, c, (uint8_t)v->spaces));
+    }
+    return MPS_OK;
+}
+
 /* ---- void above a slab ---- */
 
 /* Provisional components of the cells of slab z, given those of the slab above; -1: solid. */
@@ -284,9 +331,46 @@ mps_status mps__voids_raster(mps__voids *v, mps__world *w)
     for (int32_t k = 0; k < w->lists.screens.count; k++)
         if (w->lists.screens.list[k].active) cut_links(v, &w->lists.screens.list[k]);
     MPS__TRY(find_solid(v, w));
+    MPS__TRY(find_spaces(v));
     MPS__TRY(find_ullage(v));
     find_plain(v);
     v->solids = w->particles.solids;
+    v->constant = INT32_MAX;
+    v->made = true;
+    return MPS_OK;
+}
+
+static void larger_of_each(void *into, const void *from)
+{
+    uint8_t *a = into;
+    const uint8_t *b = from;
+    for (int k = 0; k < MPS__COMPARTMENTS; k++)
+        if (b[k] > a[k]) a[k] = b[k];
+}
+
+mps_status mps__voids_wet(mps__voids *v, mps__world *w)
+{
+    uint8_t wet[MPS__COMPARTMENTS] = {0};
+    if (v->spaces < 2) return MPS_OK;
+    for (int64_t i = 0; i < w->particles.n; i++) {
+        const int64_t c = v->liquid[i] && w->particles.kind[i] == MPS_FLUID
+                              ? mps__voids_cell(v, v->place + i * v->dim)
+                              : -1;
+        if (c >= 0) wet[v->space[c]] = 1;
+    }
+    mps__ranks_reduce(&w->ranks, 1, sizeof wet, wet, larger_of_each);
+    MPS__TRY(mps__ranks_status(&w->ranks));
+    wet[0] = 1;
+    memset(wet + v->spaces + 1, 1, (size_t)(MPS__COMPARTMENTS - 1 - v->spaces));
+    if (memcmp(wet, v->wet, sizeof wet) == 0) return MPS_OK;
+    v->made = false; /* until all of it is done */
+    for (int64_t c = 0; c < v->total; c++) {
+        if (v->mask[c] & MPS__MASK_DRY) v->mask[c] &= (uint8_t) ~(MPS__MASK_DRY | MPS__MASK_SOLID);
+        if (!wet[v->space[c]]) v->mask[c] |= MPS__MASK_DRY | MPS__MASK_SOLID;
+    }
+    memcpy(v->wet, wet, sizeof wet);
+    MPS__TRY(find_ullage(v));
+    find_plain(v);
     v->constant = INT32_MAX;
     v->made = true;
     return MPS_OK;
