@@ -122,4 +122,51 @@ static inline double extent_of(const found_voids *f, int32_t label)
     return f->size[label] * pow(f->v.side, f->v.dim);
 }
 
+/* ---- tanks with voids ---- */
+
+static const double DP = 0.02;
+
+/* A tank of 1 m x 0.8 m with liquid up to 0.5 m but for a drawn void, after one step. */
+static inline mps_sim *drawn_2d(found_voids *f, int (*is_void)(const double *))
+{
+    mps_sim *sim = new_sim(2, DP);
+    add_tank(sim, 1, 0.8, 0);
+    fill_drawn(sim, 2, 0.5, is_void);
+    watch_voids(sim, f);
+    return sim;
+}
+
+static inline void step_and_end(mps_sim *sim)
+{
+    ASSERT_OK(sim, mps_step(sim, 1, NULL));
+    mps_sim_destroy(sim);
+}
+
+static inline int none(const double *X)
+{
+    (void)X;
+    return 0;
+}
+
+static inline int in_circle(const double *X)
+{
+    return hypot(X[0] - 0.503, X[1] - 0.252) < 0.12;
+}
+
+static inline int in_box(const double *X)
+{
+    return fabs(X[0] - 0.2) < 0.106 && fabs(X[1] - 0.2) < 0.066;
+}
+
+static inline int in_both(const double *X)
+{
+    return in_circle(X) || in_box(X);
+}
+
+static inline void add_dividing_plate(mps_sim *sim)
+{
+    const double foot[2] = {0.6, 0}, edge[2] = {0.1, 0.8};
+    ASSERT_OK(sim, mps_plate_add(sim, "plate", foot, edge, NULL));
+}
+
 #endif

@@ -10,9 +10,9 @@ void mps__voids_init(mps__voids *v, mps__context *context)
 
 void mps__voids_free(mps__voids *v)
 {
-    void *const blocks[] = {v->mask, v->space, v->ullage, v->offset, v->liquid, v->place, v->slab,
-                            v->next, v->head,  v->plain,  v->run,    v->taken,  v->sure,  v->wide,
-                            v->what, v->label, v->parent, v->found,  v->number, v->queue, v->size};
+    void *const blocks[] = {v->mask,  v->space,  v->ullage, v->offset, v->place, v->slab, v->next,
+                            v->head,  v->plain,  v->run,    v->taken,  v->sure,  v->wide, v->what,
+                            v->label, v->parent, v->found,  v->number, v->queue, v->size};
     for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++) mps__free(v->context, blocks[k]);
     for (int k = 0; k < MPS__VOID_FACE; k++) mps__free(v->context, v->face[k]);
     mps__voids_init(v, v->context);

@@ -55,7 +55,7 @@ typedef struct mps__void_run {
 
 /* Memory that is kept from step to step, and grows. */
 typedef struct mps__void_room {
-    int64_t mask, space, ullage, offset, liquid, place, slab, next, head, taken, sure, wide, what;
+    int64_t mask, space, ullage, offset, place, slab, next, head, taken, sure, wide, what;
     int64_t plain, label, run, parent, found, number, queue, size, face[MPS__VOID_FACE];
 } mps__void_room;
 
@@ -91,7 +91,6 @@ typedef struct mps__voids {
     bool own_covers;  /* a particle in the cell is within the cover */
     /* the search */
     int32_t band;     /* slabs that it looks at */
-    int32_t *liquid;  /* [n] 1: a liquid particle */
     double *place;    /* [n*dim] of liquid particles [side] */
     int32_t *slab;    /* [n] theirs, -1 of others */
     int32_t *next;    /* [n] another particle of the same cell, -1: none */

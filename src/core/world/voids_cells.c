@@ -92,12 +92,36 @@ MPS_ROW void mark(const int dim, mps__voids *v, const int32_t at[3], const doubl
     }
 }
 
+/* The same of a cell with others on all sides. */
+MPS_ROW void mark_inner(const int dim, const mps__voids *v, int64_t cell, const double off[3])
+{
+    uint8_t *own = v->sure + cell;
+    int64_t step[3] = {0, 0, 0};
+    double near[3] = {0, 0, 0}, far[3] = {0, 0, 0};
+    for (int d = 0; d < dim; d++) {
+        step[d] = off[d] < 0 ? -v->step[d] : v->step[d];
+        near[d] = off[d] * off[d];
+        far[d] = (1 - fabs(off[d])) * (1 - fabs(off[d]));
+    }
+    if (v->octant_sure) {
+        for (int k = 0; k < 1 << dim; k++)
+            own[(k & 1 ? step[0] : 0) + (k & 2 ? step[1] : 0) + (k & 4 ? step[2] : 0)] = 1;
+        return;
+    }
+    for (int k = 0; k < 1 << dim; k++) {
+        const double square = (k & 1 ? far[0] : near[0]) + (k & 2 ? far[1] : near[1]) +
+                              (k & 4 ? far[2] : near[2]);
+        own[(k & 1 ? step[0] : 0) + (k & 2 ? step[1] : 0) + (k & 4 ? step[2] : 0)] |= square <
+                                                                                      v->reach2;
+    }
+}
+
 /* Put particle i into its cell, if that is in slabs begin .. end-1. */
 MPS_ROW void put(const int dim, mps__voids *v, int32_t i, int32_t begin, int32_t end)
 {
     int32_t at[3] = {0, 0, 0};
     double off[3] = {0, 0, 0};
-    bool within = true, inner = v->octant_sure;
+    bool within = true, inner = true;
     for (int d = 0; d < dim; d++) {
         const double x = v->place[i * dim + d];
         const int32_t least = d == dim - 1 ? begin : 0, last = d == dim - 1 ? end : v->cells[d];
@@ -113,13 +137,10 @@ MPS_ROW void put(const int dim, mps__voids *v, int32_t i, int32_t begin, int32_t
         v->head[cell] = i;
         v->taken[cell] = 1;
     }
-    if (dim == 3 || !inner) {
+    if (inner)
+        mark_inner(dim, v, cell, off);
+    else
         mark(dim, v, at, off, begin, end);
-        return;
-    }
-    const int64_t beside = off[0] < 0 ? -1 : 1, across = off[1] < 0 ? -v->step[1] : v->step[1];
-    uint8_t *own = v->sure + cell;
-    own[0] = own[beside] = own[across] = own[across + beside] = 1;
 }
 
 /* Whether one of `count` cells at distances of `step` about each of the cells is marked. */

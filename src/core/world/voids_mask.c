@@ -353,7 +353,7 @@ mps_status mps__voids_wet(mps__voids *v, mps__world *w)
     uint8_t wet[MPS__COMPARTMENTS] = {0};
     if (v->spaces < 2) return MPS_OK;
     for (int64_t i = 0; i < w->particles.n; i++) {
-        const int64_t c = v->liquid[i] && w->particles.kind[i] == MPS_FLUID
+        const int64_t c = v->slab[i] >= 0 && w->particles.kind[i] == MPS_FLUID
                               ? mps__voids_cell(v, v->place + i * v->dim)
                               : -1;
         if (c >= 0) wet[v->space[c]] = 1;
