@@ -116,26 +116,33 @@ MPS_ROW void mark_inner(const int dim, const mps__voids *v, int64_t cell, const 
     }
 }
 
-/* Put particle i into its cell, if that is in slabs begin .. end-1. */
+/* What cells know of the particles in them; one may stand a little beyond the raster, e.g. walls on its upper side. */
+enum { TAKEN = 1, TAKEN_BEYOND = 2 };
+
+/* Put particle i into its cell, or the nearest one of the raster, if that is in slabs begin .. end-1. */
 MPS_ROW void put(const int dim, mps__voids *v, int32_t i, int32_t begin, int32_t end)
 {
-    int32_t at[3] = {0, 0, 0};
+    const int32_t far = v->window + 1;
+    int32_t at[3] = {0, 0, 0}, in[3] = {0, 0, 0};
     double off[3] = {0, 0, 0};
-    bool within = true, inner = true;
+    bool within = true, inner = true, beyond = false;
     for (int d = 0; d < dim; d++) {
         const double x = v->place[i * dim + d];
-        const int32_t least = d == dim - 1 ? begin : 0, last = d == dim - 1 ? end : v->cells[d];
-        if (!(x >= -1 && x < v->cells[d] + 1)) return; /* beyond the raster */
-        at[d] = (int32_t)(x + 1) - 1;
+        const int32_t most = v->cells[d] - 1, least = d == dim - 1 ? begin : 0,
+                      last = d == dim - 1 ? end : v->cells[d];
+        if (!(x >= -far && x < most + 1 + far)) return; /* it reaches no cell */
+        at[d] = (int32_t)(x + far) - far;
         off[d] = x - at[d] - 0.5;
-        within = within && at[d] >= least && at[d] < last;
+        in[d] = at[d] < 0 ? 0 : at[d] > most ? most : at[d];
+        beyond = beyond || in[d] != at[d];
+        within = within && in[d] >= least && in[d] < last;
         inner = inner && at[d] > least && at[d] + 1 < last;
     }
-    const int64_t cell = at[0] + v->step[1] * at[1] + v->step[2] * at[2];
+    const int64_t cell = in[0] + v->step[1] * in[1] + v->step[2] * in[2];
     if (within) {
         v->next[i] = v->taken[cell] ? v->head[cell] : -1;
         v->head[cell] = i;
-        v->taken[cell] = 1;
+        v->taken[cell] |= beyond ? TAKEN_BEYOND : TAKEN;
     }
     if (inner)
         mark_inner(dim, v, cell, off);
@@ -209,7 +216,8 @@ static void guess_line(mps__voids *v, int64_t first, int64_t z)
 static uint8_t cover_of(const mps__voids *v, const mps__world *w, int64_t c)
 {
     int32_t row;
-    if (v->own_covers && v->taken[c] && !(v->mask[c] & MPS__MASK_PLATE)) return MPS__CELL_LIQUID;
+    if (v->own_covers && v->taken[c] & TAKEN && !(v->mask[c] & MPS__MASK_PLATE))
+        return MPS__CELL_LIQUID;
     return mps__voids_nearest(v, w, c, v->cover2, &row) < v->cover2 ? MPS__CELL_LIQUID
                                                                     : MPS__CELL_NARROW;
 }
