@@ -175,7 +175,7 @@ MPS_API mps_status mps_model_get(const mps_sim *sim, const char *slot, const cha
  *  mean its help says. Borrowed until the next call that steps, changes models or reads a
  *  checkpoint.
  *  @param values  out: [count], NULL where count is 0 @param count  out
- *  @return MPS_E_NAME, MPS_E_ARG */
+ *  @return MPS_E_NAME, MPS_E_ARG, MPS_E_BUSY (called from a verb) */
 MPS_API mps_status mps_model_state(const mps_sim *sim, const char *slot, const double **values,
                                    int64_t *count);
 

@@ -313,7 +313,7 @@ mps_status mps_model_state(const mps_sim *sim, const char *slot, const double **
                            int64_t *count)
 {
     const mps__numbers *state = NULL;
-    if (!sim) return MPS_E_ARG;
+    MPS__READS(sim);
     MPS__CHECK(mps__sim_context(sim), values && count, "values or count is NULL");
     MPS__TRY(mps__models_state((mps__models *)&sim->world.models, slot, &state));
     *values = state->count > 0 ? state->value : NULL;
