@@ -417,6 +417,19 @@ MPS_API double *mps_stage_scratch(mps_stage *s, int64_t count);
 /** As mps_stage_scratch(), of integers. */
 MPS_API int32_t *mps_stage_scratch_integers(mps_stage *s, int64_t count);
 
+/** Numbers of a model that belong to no particle, e.g. amounts of gas. They last as long as the
+ *  model is active, are saved by checkpoints, and come back after a failed step. All ranks write
+ *  the same ones. A model begins with none.
+ *  @param count  how many there shall be: those before keep their values, new ones are 0
+ *  @return [count], shared by the verbs of the model, valid until the next call with another count
+ *          or the end of the step; finite when the step ends. NULL: no memory, count < 0, or
+ *          in MPS_POPULATE, where it can only be read (the error is set) */
+MPS_API double *mps_stage_state(mps_stage *s, int64_t count);
+
+/** Read them: what mps_stage_state() has left, in any hook. @param count  out
+ *  @return [count] */
+MPS_API const double *mps_stage_state_get(const mps_stage *s, int64_t *count);
+
 /** Report a failure of a verb; text as printf. Returns 1, so that a verb can end with it. */
 MPS_API int mps_stage_fail(mps_stage *s, const char *format, ...);
 

@@ -18,6 +18,7 @@
 #include <mps/stage.h>
 #include <mps/step.h>
 #include <mps/types.h>
+#include <mps/voids.h>
 
 /* clang-format off */
 #if defined(__x86_64__) && !defined(__ILP32__)
@@ -395,6 +396,20 @@ AT(mps_step_info, limit, 144);
 SIZE(mps_allocator, 24);
 AT(mps_allocator, alloc, 0); AT(mps_allocator, release, 8);
 AT(mps_allocator, user, 16);
+
+SIZE(mps_voids_config, 40);
+AT(mps_voids_config, struct_size, 0); AT(mps_voids_config, reserved, 4);
+AT(mps_voids_config, side, 8); AT(mps_voids_config, cover, 16);
+AT(mps_voids_config, channel, 24); AT(mps_voids_config, least, 32);
+
+SIZE(mps_voids, 120);
+AT(mps_voids, struct_size, 0); AT(mps_voids, dim, 4);
+AT(mps_voids, side, 8); AT(mps_voids, origin, 16);
+AT(mps_voids, cells, 40); AT(mps_voids, count, 52);
+AT(mps_voids, label, 56); AT(mps_voids, size, 64);
+AT(mps_voids, faces, 72); AT(mps_voids, face_label, 80);
+AT(mps_voids, face_cell, 88); AT(mps_voids, face_side, 96);
+AT(mps_voids, face_behind, 104); AT(mps_voids, face_row, 112);
 #endif
 /* clang-format on */
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* As test_oom.c, for what happens in a run: steps, checkpoints, probes, frames. */
 #include "oom_fixture.h"
+#include <mps/voids.h>
 
 /* ---- scenes: what stands before the call under test -------------------------------------------------------------- */
 
@@ -155,6 +156,48 @@ static void using_own_model(mps_sim *sim)
     assert_int_equal(use_own_model(sim), MPS_OK);
 }
 
+/* Voids with faces, a plate, and numbers that grow. */
+static int find_voids(mps_stage *s)
+{
+    mps_voids v;
+    double *value = mps_stage_state(s, 100 + 50 * s->step);
+    assert_int_equal(mps_voids_init(&v, sizeof v), MPS_OK);
+    if (!value || mps_stage_voids(s, NULL, &v)) return 1;
+    if (v.count < 2 || v.faces == 0) return mps_stage_fail(s, "no void is enclosed");
+    value[0] += v.count;
+    return 0;
+}
+
+static int with_hole(void *user, const double *x)
+{
+    (void)user;
+    return x[1] < 0.4 && hypot(x[0] - 0.25, x[1] - 0.15) > 0.1;
+}
+
+static void with_voids(mps_sim *sim)
+{
+    static const mps_verb verbs[] = {{.hook = MPS_PREPARE, .run = find_voids}};
+    const mps_model_ops ops = {.struct_size = sizeof ops,
+                               .api = MPS_MODEL_API,
+                               .name = "oom.voids",
+                               .help = "any",
+                               .verb_count = 1,
+                               .verbs = verbs};
+    const double lo[2] = {0.45, 0}, hi[2] = {0.45, 0.2};
+    tank_only(sim);
+    assert_int_equal(mps_baffle_add(sim, "plate", lo, hi, NULL), MPS_OK);
+    assert_int_equal(mps_fill_add(sim, 0, with_hole, NULL, NULL), MPS_OK);
+    assert_int_equal(mps_model_register(sim, &ops), MPS_OK);
+    assert_int_equal(mps_model_use(sim, "oom.voids"), MPS_OK);
+}
+
+static void with_numbers(mps_sim *sim)
+{
+    with_voids(sim);
+    assert_int_equal(mps_step(sim, 1e-3, NULL), MPS_OK);
+    assert_int_equal(write_checkpoint(sim), MPS_OK);
+}
+
 static mps_status energy(mps_sim *sim)
 {
     mps_energy e;
@@ -219,6 +262,9 @@ static const scene scenes[] = {
     {"first step, mmps.paper, 3-D", filled_mmps_paper, step, 20, 3},
     {"first step, threads", filled_threads, step, 20, 0},
     {"first step, own model", using_own_model, step, 20, 0},
+    {"first step, voids", with_voids, step, 40, 0},
+    {"later step, numbers", with_numbers, step, 2, 0},
+    {"checkpoint_read, numbers", with_numbers, read_checkpoint, 20, 0},
     {"energy_get", filled, energy, 0, 0},
     {"frames", stepped, frames, 1, 0},
     {"frames continued", with_frames, frames_continued, 1, 0},

@@ -309,6 +309,18 @@ mps_status mps_model_get(const mps_sim *sim, const char *slot, const char *key, 
     return MPS_OK;
 }
 
+mps_status mps_model_state(const mps_sim *sim, const char *slot, const double **values,
+                           int64_t *count)
+{
+    const mps__numbers *state = NULL;
+    MPS__READS(sim);
+    MPS__CHECK(mps__sim_context(sim), values && count, "values or count is NULL");
+    MPS__TRY(mps__models_state((mps__models *)&sim->world.models, slot, &state));
+    *values = state->count > 0 ? state->value : NULL;
+    *count = state->count;
+    return MPS_OK;
+}
+
 const char *mps_model_name(const mps_sim *sim, int32_t index)
 {
     return sim && index >= 0 && index < sim->world.models.active

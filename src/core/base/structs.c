@@ -5,6 +5,7 @@
 #include <mps/model.h>
 #include <mps/mps.h>
 #include <mps/ppe.h>
+#include <mps/voids.h>
 #include <string.h>
 
 enum { MPS__VERSIONS = 4 };
@@ -30,7 +31,7 @@ static const known_struct structs[] = {
     V1(mps_ship),         V1(mps_ship_motion), V1(mps_solid),          V1(mps_solver_limits),
     V1(mps_solver_ops),   V1(mps_stage),       V1(mps_stencil),        V1(mps_step_info),
     V1(mps_stl),          V1(mps_tank),        V1(mps_time_control),   V1(mps_verb_info),
-    V1(mps_view),
+    V1(mps_view),         V1(mps_voids),       V1(mps_voids_config),
 };
 #undef V1
 

@@ -231,20 +231,34 @@ mps_status mps__archive_load(mps__archive *a, const char *path)
     return status == MPS_OK ? check_parts(a, path) : status;
 }
 
+/* Where the elements of a part begin, -1: it is not there. */
+static int64_t find_part(const mps__archive *a, const char *name, part *p)
+{
+    for (int64_t at = (int64_t)sizeof(head); part_at(a, at, p) && strcmp(p->name, last_part) != 0;
+         at += (int64_t)sizeof *p + padded(p))
+        if (strcmp(p->name, name) == 0) return at + (int64_t)sizeof *p;
+    return -1;
+}
+
+bool mps__archive_has(const mps__archive *a, const char *name)
+{
+    part p = {{0}, 0, 0, 0};
+    return find_part(a, name, &p) >= 0;
+}
+
 const void *mps__archive_get(const mps__archive *a, const char *name, size_t bytes, int64_t *count)
 {
     part p = {{0}, 0, 0, 0};
-    for (int64_t at = (int64_t)sizeof(head); part_at(a, at, &p) && strcmp(p.name, last_part) != 0;
-         at += (int64_t)sizeof p + padded(&p)) {
-        if (strcmp(p.name, name) != 0) continue;
-        *count = p.count;
-        if (p.bytes == bytes) return a->data + at + sizeof p;
-        mps__fail(a->context, MPS_E_VERSION,
-                  "\"%s\" of the checkpoint has elements of %u bytes; this library has %zu", name,
-                  (unsigned)p.bytes, bytes);
+    const int64_t at = find_part(a, name, &p);
+    if (at < 0) {
+        mps__fail(a->context, MPS_E_VERSION, "the checkpoint has no \"%s\"", name);
         return NULL;
     }
-    mps__fail(a->context, MPS_E_VERSION, "the checkpoint has no \"%s\"", name);
+    *count = p.count;
+    if (p.bytes == bytes) return a->data + at;
+    mps__fail(a->context, MPS_E_VERSION,
+              "\"%s\" of the checkpoint has elements of %u bytes; this library has %zu", name,
+              (unsigned)p.bytes, bytes);
     return NULL;
 }
 

@@ -33,6 +33,8 @@ mps_status mps__archive_save(mps__archive *a, const char *path);
 mps_status mps__archive_load(mps__archive *a, const char *path);
 /* The elements of a part, and how many there are; NULL with the error set if it is not there or its elements have another size. */
 const void *mps__archive_get(const mps__archive *a, const char *name, size_t bytes, int64_t *count);
+/* Whether there is a part of this name. */
+bool mps__archive_has(const mps__archive *a, const char *name);
 void mps__archive_free(mps__archive *a);
 
 /* CRC-32 (as in zlib) of a block, going on from that of what came before it; 0 at first. */

@@ -353,3 +353,14 @@ mps_status mps__check_series(mps__context *c, const mps__arrived *a, int64_t pro
                 (long long)s->next, (long long)s->count);
     return MPS_OK;
 }
+
+/* ---- models ---- */
+
+mps_status mps__check_numbers(mps__context *c, const char *name, const mps__numbers *s)
+{
+    for (int64_t k = 0; k < s->count; k++)
+        if (!isfinite(s->value[k]))
+            DAMAGED("number %lld of model '%s' is %g; must be finite", (long long)k, name,
+                    s->value[k]);
+    return MPS_OK;
+}

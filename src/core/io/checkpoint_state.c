@@ -53,6 +53,13 @@ static const char *probe_title(char out[MPS__PART_TITLE], int64_t probe, const c
     return out;
 }
 
+/* Numbers of active model number `model`, in the order in which the set-up names them. */
+static const char *model_title(char out[MPS__PART_TITLE], int32_t model)
+{
+    snprintf(out, MPS__PART_TITLE, "numbers of model %d", (int)model);
+    return out;
+}
+
 static bool has_series(const mps__probe *p)
 {
     return !p->removed && (p->config.average != 0 || p->config.rate > 0);
@@ -108,6 +115,15 @@ static void put_series(const mps__probes *probes, mps__archive *a)
     }
 }
 
+static void put_numbers(const mps__models *m, mps__archive *a)
+{
+    char name[MPS__PART_TITLE];
+    for (int32_t k = 0; k < m->active; k++)
+        if (m->on[k].state.count > 0)
+            mps__archive_put(a, model_title(name, k), m->on[k].state.value, sizeof(double),
+                             m->on[k].state.count);
+}
+
 void mps__state_put(mps_sim *sim, mps__archive *a)
 {
     slot slots[SLOTS];
@@ -116,6 +132,7 @@ void mps__state_put(mps_sim *sim, mps__archive *a)
         mps__archive_put(a, slots[k].name, slots[k].at, slots[k].size, 1);
     put_particles(&sim->world, a);
     put_series(&sim->probes, a);
+    put_numbers(&sim->world.models, a);
 }
 
 /* ---- in ---- */
@@ -131,7 +148,8 @@ typedef struct arrival {
     mps__arrived arrived;
     lists have;
     double *listed_at;
-    mps__series *series; /* one for each probe */
+    mps__series *series;                      /* one for each probe */
+    mps__numbers numbers[MPS__MODELS_ACTIVE]; /* of each active model */
 } arrival;
 
 /* A part of so many elements. */
@@ -255,6 +273,21 @@ static mps_status find_all_series(arrival *v)
     return MPS_OK;
 }
 
+/* Models without such a part have no numbers. */
+static mps_status find_numbers(arrival *v)
+{
+    char name[MPS__PART_TITLE];
+    const mps__models *m = &v->sim->world.models;
+    for (int32_t k = 0; k < m->active; k++) {
+        mps__numbers *s = &v->numbers[k];
+        if (!mps__archive_has(v->a, model_title(name, k))) continue;
+        MPS__TRY(copy_part(v, name, sizeof(double), &s->value, &s->count));
+        s->capacity = s->count;
+        MPS__TRY(mps__check_numbers(v->a->context, m->on[k].ops->name, s));
+    }
+    return MPS_OK;
+}
+
 /* The tank must be where it was, if a motion moves it. */
 static mps_status check_motion(const arrival *v)
 {
@@ -293,6 +326,11 @@ static mps_status move_in(arrival *v)
         p->list[k].series = v->series[k];
         v->series[k] = old;
     }
+    for (int32_t k = 0; k < w->models.active; k++) {
+        const mps__numbers old = w->models.on[k].state;
+        w->models.on[k].state = v->numbers[k];
+        v->numbers[k] = old;
+    }
     return MPS_OK;
 }
 
@@ -303,7 +341,10 @@ mps_status mps__state_get(mps_sim *sim, const mps__archive *a)
     if (status == MPS_OK) status = check_motion(&v);
     if (status == MPS_OK) status = find_particles(&v);
     if (status == MPS_OK) status = find_all_series(&v);
+    if (status == MPS_OK) status = find_numbers(&v);
     if (status == MPS_OK) status = move_in(&v);
+    for (int32_t k = 0; k < sim->world.models.active; k++)
+        mps__numbers_free(a->context, &v.numbers[k]);
     mps__free(a->context, v.listed_at);
     for (int64_t k = 0; v.series && k < sim->probes.count; k++)
         mps__series_free(a->context, &v.series[k]);

@@ -288,9 +288,11 @@ static mps_status run_call(mps__host *h, mps_stage *s, mps_view *v, mps__call *c
     s->data = data;
     v->setting = call->model ? call->model->k : NULL;
     s->self = call->model ? call->model->self : h->step;
+    h->model = call->model ? &h->models->on[call->model - h->models->on] : NULL;
     h->everywhere = call->pass && call->pass->everywhere;
     const mps_status status = call->pass ? call->pass->run(s) : run_verb(h, s, call);
     h->everywhere = false;
+    h->model = NULL;
     h->scratch_used = 0;
     s->data = NULL;
     show_place(h, v, MPS__ON_HOST);

@@ -31,12 +31,13 @@ typedef struct mps__host {
     uint8_t *leaves; /* [n] 1: a row that leaves; where `leaving` */
     int64_t leaves_capacity;
     bool leaving;
-    bool everywhere; /* loops go over ghosts too */
-    bool foreign;    /* the verb in progress is not one of the library's */
-    bool no_memory;  /* a verb got no scratch */
-    bool misused;    /* a verb asked for a loop that there is not */
-    int32_t limiter; /* place in the plan of the verb that lowered s->dt_limit last, or -1 */
-    mps__sets sets;  /* bodies */
+    mps__model *model; /* of the verb in progress, NULL: a pass */
+    bool everywhere;   /* loops go over ghosts too */
+    bool foreign;      /* the verb in progress is not one of the library's */
+    bool no_memory;    /* a verb got no scratch */
+    bool misused;      /* a verb asked for a loop that there is not */
+    int32_t limiter;   /* place in the plan of the verb that lowered s->dt_limit last, or -1 */
+    mps__sets sets;    /* bodies */
     mps__plan plan;
     mps__twins twins;
     mps__reactions reactions; /* of the step in progress */

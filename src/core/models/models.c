@@ -211,6 +211,7 @@ static void drop(mps__models *m, int32_t k)
 {
     const mps_model_ops *ops = m->on[k].ops;
     if (ops->destroy) ops->destroy(&m->context->allocator, m->on[k].self);
+    mps__numbers_free(m->context, &m->on[k].state);
     mps__channels_drop(m->channels, ops);
     m->changes++;
     memmove(&m->on[k], &m->on[k + 1], (size_t)(m->active - k - 1) * sizeof m->on[0]);
@@ -338,6 +339,14 @@ mps_status mps__models_remove(mps__models *m, const char *slot)
     const int32_t k = find_named(m, slot);
     if (k < 0) return not_active(m, slot);
     drop(m, k);
+    return MPS_OK;
+}
+
+mps_status mps__models_state(mps__models *m, const char *slot, const mps__numbers **state)
+{
+    const int32_t which = slot ? find_named(m, slot) : -1;
+    if (which < 0) return not_active(m, slot ? slot : "NULL");
+    *state = &m->on[which].state;
     return MPS_OK;
 }
 

@@ -15,10 +15,20 @@ enum {
     MPS__USES = 24
 };
 
+/* Numbers of a model that belong to no particle. */
+typedef struct mps__numbers {
+    double *value;
+    int64_t count, capacity;
+    bool touched; /* a verb of the step may have changed them: */
+    double *kept; /* as they were before */
+    int64_t kept_count, kept_capacity;
+} mps__numbers;
+
 typedef struct mps__model {
     const mps_model_ops *ops; /* in the registry */
     void *self;
     double k[MPS__SETTINGS];
+    mps__numbers state;
 } mps__model;
 
 typedef struct mps__models {
@@ -53,6 +63,16 @@ double mps__models_reach(const mps__models *m, double dp);
 /* The setting `key` of the model in a slot; NULL with the error set. `setting` may be NULL. */
 double *mps__models_value(mps__models *m, const char *slot, const char *key,
                           const mps_setting **setting);
+/* The numbers of the model in a slot. MPS_E_NAME */
+mps_status mps__models_state(mps__models *m, const char *slot, const mps__numbers **state);
+/* `count` numbers: those that are there keep their values, new ones are 0. model_state.c */
+mps_status mps__numbers_resize(mps__context *c, mps__numbers *s, int64_t count);
+void mps__numbers_free(mps__context *c, mps__numbers *s);
+/* A step begins; it failed, and leaves the numbers of all active models as they were. */
+void mps__models_keep(mps__models *m);
+void mps__models_restore(mps__models *m);
+/* The first active model with a number that is not finite, NULL: none; `place`: which one. */
+const mps__model *mps__models_not_finite(const mps__models *m, int64_t *place);
 /* Preset number k; false beyond the last. */
 bool mps__models_preset_info(int32_t k, const char **name, const char **help);
 /* Whether the slot of a model's name is `slot`, which may be a full name too. */

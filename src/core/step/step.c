@@ -69,6 +69,17 @@ static void start(mps__world *w, mps__budget *budget)
     mps__budget_book_added(w, budget);
 }
 
+/* What models leave for the next step. */
+static mps_status check_numbers(const mps__world *w)
+{
+    int64_t k = 0;
+    const mps__model *model = mps__models_not_finite(&w->models, &k);
+    if (!model) return MPS_OK;
+    return mps__fail(w->context, MPS_E_PLUGIN,
+                     "model '%s' at t = %.9g s left number %lld of its state %g; must be finite",
+                     model->ops->name, w->state.t, (long long)k, model->state.value[k]);
+}
+
 /* All that may fail after the state is kept. */
 static mps_status try_step(mps__step *q, double dt_max, double *planned)
 {
@@ -89,8 +100,9 @@ static mps_status try_step(mps__step *q, double dt_max, double *planned)
     MPS__TRY(mps__world_check_pose(w, &w->motion, &q->pose, MPS_E_DIVERGED));
     mps__motion_view_next(&q->pose, &q->view.tank);
     mps__host_book(&w->host, MPS__LIMITS);
-    const mps_status status = run_hooks(q);
-    return status < 0 ? status : mps__ranks_status(&w->ranks);
+    MPS__TRY(run_hooks(q));
+    MPS__TRY(check_numbers(w));
+    return mps__ranks_status(&w->ranks);
 }
 
 static bool any_fluid(mps__world *w)

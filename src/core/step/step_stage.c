@@ -95,6 +95,7 @@ void mps__step_open(mps__step *q)
     mps__world_view(w, &q->view);
     set_flux(q);
     set_terms(q);
+    w->voids.ready = false;
     w->host.step = q;
     w->host.before_call = before_call;
     memset(&w->host.reactions, 0, sizeof w->host.reactions);

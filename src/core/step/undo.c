@@ -18,6 +18,7 @@ static size_t bytes_of(const mps__world *w, const mps__field *f)
 mps_status mps__undo_keep(mps__world *w)
 {
     mps__particles *s = &w->particles;
+    mps__models_keep(&w->models);
     for (int32_t k = 0; k < s->fields; k++) {
         mps__field *f = &s->field[k];
         f->undone = is_kept(w, f);
@@ -31,11 +32,12 @@ mps_status mps__undo_keep(mps__world *w)
     return MPS_OK;
 }
 
-void mps__undo_restore(const mps__world *w, const double *before)
+void mps__undo_restore(mps__world *w, const double *before)
 {
     const mps__particles *s = &w->particles;
     for (int32_t k = 0; k < s->fields; k++)
         if (s->field[k].undone)
             memcpy(*s->field[k].data, s->field[k].kept, bytes_of(w, &s->field[k]));
+    mps__models_restore(&w->models);
     if (before) memcpy(s->x, before, (size_t)(s->n * w->setup.dim) * sizeof *s->x);
 }

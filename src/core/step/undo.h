@@ -5,9 +5,9 @@
 
 #include "world.h"
 
-/* Keep the fields that calls of the plan write. */
+/* Keep the fields that calls of the plan write; numbers of models are kept when a verb asks for them. */
 mps_status mps__undo_keep(mps__world *w);
 /* Bring them back; positions too if particles have moved, from `before`; else NULL. */
-void mps__undo_restore(const mps__world *w, const double *before);
+void mps__undo_restore(mps__world *w, const double *before);
 
 #endif

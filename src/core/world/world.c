@@ -21,6 +21,7 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
     w->lists.neighbours.screens = w->lists.complete.screens = &w->lists.screens;
     mps__ppe_init(&w->ppe, context);
     mps__bounds_init(&w->bounds, context);
+    mps__voids_init(&w->voids, context);
     w->state.jump.since = INT32_MAX;
     mps__motion_init(&w->motion, context, dim);
     MPS__TRY(mps__particles_init(&w->particles, context, dim));
@@ -72,6 +73,7 @@ void mps__world_free(mps__world *w)
     mps__solvers_free(&w->solvers);
     mps__ppe_free(&w->ppe);
     mps__bounds_free(&w->bounds);
+    mps__voids_free(&w->voids);
     mps__motion_free(&w->motion);
     mps__channels_free(&w->channels);
     mps__free(w->context, w->work.gone);

@@ -12,6 +12,7 @@
 #include <mps/operators.h>
 #include "particles.h"
 #include "ppe.h"
+#include "voids.h"
 #include <mps/probe.h>
 #include <mps/step.h>
 
@@ -163,6 +164,7 @@ typedef struct mps__world {
     mps__solvers solvers;
     mps__ppe ppe;
     mps__bounds bounds;
+    mps__voids voids;
     mps__scratch scratch; /* of searches, verbs and the equation */
     mps_step_info info;   /* of the last step */
     bool ending;          /* dt_max of a step is what is left of a run */

@@ -1,0 +1,297 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What the cells of the band are. Inside of the liquid most cells have a particle, or have one beside them, and far from it there is none within
+ * the window: distances are computed for the cells between only. */
+#include "loop.h"
+#include "plates.h"
+#include <string.h>
+
+/* ---- distances ---- */
+
+static bool is_hidden(const mps__voids *v, const mps__world *w, const int32_t at[3], int64_t i)
+{
+    double X[3];
+    if (w->lists.screens.count == 0 || w->lists.screens.slot[i] < 0) return false;
+    for (int d = 0; d < 3; d++) X[d] = v->origin[d] + (at[d] + 0.5) * v->side;
+    return mps__plates_hide(w, X, i);
+}
+
+/* Whether a cell beside cell `at` is in the band. */
+static inline bool is_there(const mps__voids *v, const int32_t at[3], const int32_t by[3])
+{
+    bool there = true;
+    for (int d = 0; d < v->dim; d++) {
+        const int32_t k = at[d] + by[d], end = d == v->dim - 1 ? v->band : v->cells[d];
+        there = there && k >= 0 && k < end;
+    }
+    return there;
+}
+
+double mps__voids_nearest(const mps__voids *v, const mps__world *w, int64_t cell, double enough,
+                          int32_t *row)
+{
+    const int64_t *id = w->particles.id;
+    double least = v->reach2;
+    int32_t at[3];
+    *row = -1;
+    mps__voids_place(v, cell, at);
+    for (int32_t k = 0; k < v->offsets && v->offset[k].least <= least; k++) {
+        if (!is_there(v, at, v->offset[k].at) || !v->taken[cell + v->offset[k].cell]) continue;
+        for (int32_t i = v->head[cell + v->offset[k].cell]; i >= 0; i = v->next[i]) {
+            double square = 0;
+            for (int d = 0; d < v->dim; d++) {
+                const double r = at[d] + 0.5 - v->place[i * v->dim + d];
+                square += r * r;
+            }
+            if (square > least || (square == least && (*row < 0 || id[i] > id[*row]))) continue;
+            if (is_hidden(v, w, at, i)) continue;
+            least = square;
+            *row = i;
+            if (least < enough) return least;
+        }
+    }
+    return *row < 0 ? INFINITY : least;
+}
+
+/* ---- a part of the band: some slabs ---- */
+
+typedef struct part_fields {
+    mps__voids *v;
+    const mps__world *w;
+    int64_t n;
+    int32_t slabs; /* of a part */
+    bool all;      /* cells beside void or not: other ranks may need them */
+} part_fields;
+
+static void range_of(const part_fields *f, int64_t part, int32_t *begin, int32_t *end)
+{
+    *begin = (int32_t)part * f->slabs;
+    *end = *begin + f->slabs < f->v->band ? *begin + f->slabs : f->v->band;
+}
+
+/* Mark the cells of the particle's octant that it reaches: its own one and those beside it on its side, so that few cells of the liquid are left in
+ * doubt. `off`: place from the centre of its cell `at`; only slabs begin .. end-1. */
+MPS_ROW void mark(const int dim, mps__voids *v, const int32_t at[3], const double off[3],
+                  int32_t begin, int32_t end)
+{
+    for (int k = 0; k < 1 << dim; k++) {
+        int64_t cell = 0;
+        double square = 0;
+        bool there = true;
+        for (int d = dim - 1; d >= 0; d--) {
+            const bool beside = k >> d & 1;
+            const int32_t c = at[d] + (!beside      ? 0
+                                       : off[d] < 0 ? -1
+                                                    : 1),
+                          least = d == dim - 1 ? begin : 0, last = d == dim - 1 ? end : v->cells[d];
+            const double r = beside ? 1 - fabs(off[d]) : fabs(off[d]);
+            there = there && c >= least && c < last;
+            cell = cell * v->cells[d] + c;
+            square += r * r;
+        }
+        if (there && square < v->reach2) v->sure[cell] = 1;
+    }
+}
+
+/* The same of a cell with others on all sides. */
+MPS_ROW void mark_inner(const int dim, const mps__voids *v, int64_t cell, const double off[3])
+{
+    uint8_t *own = v->sure + cell;
+    int64_t step[3] = {0, 0, 0};
+    double near[3] = {0, 0, 0}, far[3] = {0, 0, 0};
+    for (int d = 0; d < dim; d++) {
+        step[d] = off[d] < 0 ? -v->step[d] : v->step[d];
+        near[d] = off[d] * off[d];
+        far[d] = (1 - fabs(off[d])) * (1 - fabs(off[d]));
+    }
+    if (v->octant_sure) {
+        for (int k = 0; k < 1 << dim; k++)
+            own[(k & 1 ? step[0] : 0) + (k & 2 ? step[1] : 0) + (k & 4 ? step[2] : 0)] = 1;
+        return;
+    }
+    for (int k = 0; k < 1 << dim; k++) {
+        const double square = (k & 1 ? far[0] : near[0]) + (k & 2 ? far[1] : near[1]) +
+                              (k & 4 ? far[2] : near[2]);
+        own[(k & 1 ? step[0] : 0) + (k & 2 ? step[1] : 0) + (k & 4 ? step[2] : 0)] |= square <
+                                                                                      v->reach2;
+    }
+}
+
+/* What cells know of the particles in them; one may stand a little beyond the raster, e.g. walls on its upper side. */
+enum { TAKEN = 1, TAKEN_BEYOND = 2 };
+
+/* Put particle i into its cell, or the nearest one of the raster, if that is in slabs begin .. end-1. */
+MPS_ROW void put(const int dim, mps__voids *v, int32_t i, int32_t begin, int32_t end)
+{
+    const int32_t far = v->window + 1;
+    int32_t at[3] = {0, 0, 0}, in[3] = {0, 0, 0};
+    double off[3] = {0, 0, 0};
+    bool within = true, inner = true, beyond = false;
+    for (int d = 0; d < dim; d++) {
+        const double x = v->place[i * dim + d];
+        const int32_t most = v->cells[d] - 1, least = d == dim - 1 ? begin : 0,
+                      last = d == dim - 1 ? end : v->cells[d];
+        if (!(x >= -far && x < most + 1 + far)) return; /* it reaches no cell */
+        at[d] = (int32_t)(x + far) - far;
+        off[d] = x - at[d] - 0.5;
+        in[d] = at[d] < 0 ? 0 : at[d] > most ? most : at[d];
+        beyond = beyond || in[d] != at[d];
+        within = within && in[d] >= least && in[d] < last;
+        inner = inner && at[d] > least && at[d] + 1 < last;
+    }
+    const int64_t cell = in[0] + v->step[1] * in[1] + v->step[2] * in[2];
+    if (within) {
+        v->next[i] = v->taken[cell] ? v->head[cell] : -1;
+        v->head[cell] = i;
+        v->taken[cell] |= beyond ? TAKEN_BEYOND : TAKEN;
+    }
+    if (inner)
+        mark_inner(dim, v, cell, off);
+    else
+        mark(dim, v, at, off, begin, end);
+}
+
+/* Whether one of `count` cells at distances of `step` about each of the cells is marked. */
+static void widen(const uint8_t *from, uint8_t *to, int64_t lines, int64_t length, int64_t step,
+                  int32_t window)
+{
+    for (int64_t line = 0; line < lines; line++)
+        for (int32_t k = 1; k <= window; k++) {
+            const uint8_t *a = from + line * length;
+            uint8_t *b = to + line * length;
+            for (int64_t c = 0; c + k * step < length; c++) b[c] |= a[c + k * step];
+            for (int64_t c = k * step; c < length; c++) b[c] |= a[c - k * step];
+        }
+}
+
+/* Marks about the particles of a slab, within it. In 3-D lines come first, by way of `what`. */
+static void mark_slab(mps__voids *v, int32_t z)
+{
+    const int64_t at = z * v->plane;
+    uint8_t *taken = v->taken + at, *wide = v->wide + at, *lines = v->what + at;
+    memcpy(v->dim == 2 ? wide : lines, taken, (size_t)v->plane);
+    widen(taken, v->dim == 2 ? wide : lines, v->plane / v->cells[0], v->cells[0], 1, v->window);
+    if (v->dim == 2) return;
+    memcpy(wide, lines, (size_t)v->plane);
+    widen(lines, wide, 1, v->plane, v->step[1], v->window);
+}
+
+MPS_ROW void put_row(const int dim, const part_fields *f, int64_t part)
+{
+    mps__voids *v = f->v;
+    int32_t begin, end;
+    range_of(f, part, &begin, &end);
+    const int64_t first = begin * v->plane, cells = (end - begin) * v->plane;
+    memset(v->taken + first, 0, (size_t)cells);
+    memset(v->sure + first, 0, (size_t)cells);
+    for (int64_t i = 0; i < f->n; i++)
+        if (v->slab[i] >= begin - 1 && v->slab[i] <= end && v->slab[i] >= 0)
+            put(dim, v, (int32_t)i, begin, end);
+    for (int32_t z = begin; z < end; z++) mark_slab(v, z);
+}
+MPS__LOOP(put_parts, put_row, part_fields)
+
+/* ---- classes ---- */
+
+/* First guess: covered where a particle is surely near, deep where there is none, liquid where only a distance tells. */
+static void guess_line(mps__voids *v, int64_t first, int64_t z)
+{
+    const uint8_t *sure = v->sure + first;
+    const int64_t n = v->cells[0];
+    uint8_t any[256], *what = v->what + first;
+    for (int64_t from = 0; from < n; from += (int64_t)sizeof any) {
+        const int64_t m = n - from < (int64_t)sizeof any ? n - from : (int64_t)sizeof any;
+        memset(any, 0, (size_t)m);
+        for (int64_t k = -v->window; k <= v->window; k++) {
+            const uint8_t *b = v->wide + first + from + k * v->plane;
+            if (z + k < 0 || z + k >= v->band) continue;
+            for (int64_t c = 0; c < m; c++) any[c] |= b[c];
+        }
+        for (int64_t c = 0; c < m; c++) any[c] = any[c] ? MPS__CELL_LIQUID : MPS__CELL_DEEP;
+        for (int64_t c = 0; c < m; c++)
+            what[from + c] = sure[from + c] ? MPS__CELL_COVERED : any[c];
+    }
+}
+
+/* What a cell is that is not deep. */
+static uint8_t cover_of(const mps__voids *v, const mps__world *w, int64_t c)
+{
+    int32_t row;
+    if (v->own_covers && v->taken[c] & TAKEN && !(v->mask[c] & MPS__MASK_PLATE))
+        return MPS__CELL_LIQUID;
+    return mps__voids_nearest(v, w, c, v->cover2, &row) < v->cover2 ? MPS__CELL_LIQUID
+                                                                    : MPS__CELL_NARROW;
+}
+
+static void settle_cell(const part_fields *f, int64_t c)
+{
+    mps__voids *v = f->v;
+    uint8_t *what = &v->what[c];
+    int32_t row;
+    if (v->mask[c] & MPS__MASK_SOLID) {
+        *what = MPS__CELL_SOLID;
+        return;
+    }
+    if (*what == MPS__CELL_LIQUID || (*what == MPS__CELL_COVERED && v->mask[c] & MPS__MASK_PLATE))
+        *what = mps__voids_nearest(v, f->w, c, v->reach2, &row) < v->reach2 ? MPS__CELL_COVERED
+                                                                            : MPS__CELL_DEEP;
+    if (f->all && *what == MPS__CELL_COVERED) *what = cover_of(v, f->w, c);
+}
+
+/* Of a line without solid cells and plates: most cells are settled. */
+static void settle_line(const part_fields *f, int64_t begin, int64_t end)
+{
+    const uint8_t *next = f->v->what + begin, *last = f->v->what + end;
+    for (; (next = memchr(next, MPS__CELL_LIQUID, (size_t)(last - next))) != NULL; next++)
+        settle_cell(f, next - f->v->what);
+}
+
+MPS_ROW void class_row(const int dim, const part_fields *f, int64_t part)
+{
+    mps__voids *v = f->v;
+    const int64_t lines = v->plane / v->cells[0];
+    int32_t begin, end;
+    (void)dim;
+    range_of(f, part, &begin, &end);
+    for (int32_t z = begin; z < end; z++)
+        for (int64_t line = 0; line < lines; line++) {
+            const int64_t first = z * v->plane + line * v->cells[0];
+            guess_line(v, first, z);
+            if (f->all || !v->plain[z * lines + line])
+                for (int64_t c = first; c < first + v->cells[0]; c++) settle_cell(f, c);
+            else
+                settle_line(f, first, first + v->cells[0]);
+        }
+}
+MPS__LOOP(class_parts, class_row, part_fields)
+
+bool mps__voids_is_narrow(mps__voids *v, const mps__world *w, int64_t c)
+{
+    if (v->what[c] == MPS__CELL_COVERED) v->what[c] = cover_of(v, w, c);
+    return v->what[c] == MPS__CELL_NARROW;
+}
+
+static void least_of_each(void *into, const void *from)
+{
+    unsigned char *a = into;
+    const unsigned char *b = from;
+    for (int k = 0; k < MPS__VOID_LUMP; k++)
+        if (b[k] < a[k]) a[k] = b[k];
+}
+
+mps_status mps__voids_cells(mps__voids *v, mps__world *w)
+{
+    const mps_parallel *p = &w->pool.parallel;
+    const bool many = mps__ranks_many(&w->ranks);
+    part_fields f = {.v = v, .w = w, .n = w->particles.n, .all = many};
+    const int32_t wanted = p->threads > 1 ? 4 * p->threads : 1,
+                  parts = v->band < wanted ? v->band : wanted;
+    if (parts == 0) return MPS_OK;
+    f.slabs = (v->band + parts - 1) / parts;
+    mps__loop_run_long(p, &put_parts, v->dim, (v->band + f.slabs - 1) / f.slabs, &f);
+    mps__loop_run_long(p, &class_parts, v->dim, (v->band + f.slabs - 1) / f.slabs, &f);
+    if (!many) return MPS_OK;
+    const int64_t cells = v->band * v->plane;
+    mps__ranks_reduce(&w->ranks, (int32_t)((cells + MPS__VOID_LUMP - 1) / MPS__VOID_LUMP),
+                      MPS__VOID_LUMP, v->what, least_of_each);
+    return mps__ranks_status(&w->ranks);
+}

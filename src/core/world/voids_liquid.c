@@ -1,0 +1,123 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Liquid particles in the raster of voids: which they are, and in which cells. Cells have chains of particles, whose order does not matter. */
+#include "loop.h"
+#include "world.h"
+
+/* Walls with fluid nearer than this are liquid [dp]. */
+static const double WET = 1.5;
+
+typedef struct liquid_fields {
+    const int32_t *kind, *region;
+    const uint8_t *ghost;  /* NULL: none is one */
+    const double *x, *ref; /* [n*dim] in the lab; of solids in the frame of the tank */
+    double *place;
+    int32_t *slab;
+    double origin[3], side;
+    int32_t slabs;
+    mps_tank_pose tank;
+} liquid_fields;
+
+/* A place of the tank's frame becomes one of the raster. Particles beyond it belong to its first or last slab. */
+MPS_ROW int32_t put_place(const int dim, const liquid_fields *f, double *X)
+{
+    for (int d = 0; d < dim; d++) X[d] = (X[d] - f->origin[d]) / f->side;
+    if (!(X[dim - 1] >= 0)) return 0;
+    return X[dim - 1] < f->slabs ? (int32_t)X[dim - 1] : f->slabs - 1;
+}
+
+/* Fluid. Regions of ghosts may be old: they get what their owners find. */
+MPS_ROW void fluid_row(const int dim, const liquid_fields *f, int64_t i, double *most)
+{
+    double *X = f->place + i * dim;
+    if (f->kind[i] != MPS_FLUID || f->region[i] == MPS_REGION_SPRAY) {
+        f->slab[i] = -1;
+        return;
+    }
+    mps__tank_place(dim, f->tank.centre, f->tank.shift, f->tank.rotation, f->x + i * dim, X);
+    f->slab[i] = put_place(dim, f, X);
+    if (f->slab[i] > most[0] && !(f->ghost && f->ghost[i])) most[0] = f->slab[i];
+}
+MPS__VALUES(fluid_rows, fluid_row, liquid_fields, 0, 1)
+
+/* Walls that liquid wets. */
+MPS_ROW void wall_row(const int dim, const mps_view *v, const liquid_fields *f, int64_t i)
+{
+    const mps_stencil *t = &v->near;
+    bool wet = false;
+    if (!mps_is_wall(v, i) || f->region[i] == MPS_REGION_DRY) return;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i) && !wet; p++) {
+        const int64_t j = mps_stencil_column(t, p);
+        wet = mps_is_fluid(v, j) && f->slab[j] >= 0 &&
+              mps__square_between(f->x + i * dim, f->x + j * dim, dim) < WET * WET * v->dp * v->dp;
+    }
+    if (!wet) return;
+    for (int d = 0; d < dim; d++) f->place[i * dim + d] = f->ref[i * dim + d];
+    f->slab[i] = put_place(dim, f, f->place + i * dim);
+}
+MPS_ROWS(wall_rows, wall_row, liquid_fields)
+
+static mps_status make_room(mps__voids *v, int64_t n)
+{
+    mps__void_room *r = &v->room;
+    mps__context *c = v->context;
+    const int64_t room = n > r->slab ? mps__room(n, r->slab) : n;
+    MPS__TRY(mps__grow(c, (void **)&v->place, &r->place, 0, room * v->dim, sizeof *v->place));
+    MPS__TRY(mps__grow(c, (void **)&v->next, &r->next, 0, room, sizeof *v->next));
+    return mps__grow(c, (void **)&v->slab, &r->slab, 0, room, sizeof *v->slab);
+}
+
+/* Places of liquid particles, and the highest slab of fluid of all ranks. */
+static mps_status find_liquid(mps__voids *v, mps__world *w, mps_stage *s, double *highest)
+{
+    const mps__particles *p = &w->particles;
+    mps__twins_ready(&w->host.twins, MPS__POSITION, MPS__ON_HOST);
+    mps__twins_ready(&w->host.twins, MPS__REGION, MPS__ON_HOST);
+    MPS__TRY(make_room(v, p->n));
+    const liquid_fields f = {.kind = p->kind,
+                             .region = p->region,
+                             .ghost = w->ghosts.ghost,
+                             .x = p->x,
+                             .ref = p->ref,
+                             .place = v->place,
+                             .slab = v->slab,
+                             .origin = {v->origin[0], v->origin[1], v->origin[2]},
+                             .side = v->side,
+                             .slabs = v->slabs,
+                             .tank = s->view->tank};
+    const mps__shared shared[2] = {{v->slab, sizeof *v->slab},
+                                   {v->place, (size_t)v->dim * sizeof *v->place}};
+    mps__values_run(&w->pool.parallel, &fluid_rows, v->dim, p->n, &f, NULL, highest);
+    MPS__TRY(mps__ghosts_share(&w->ghosts, shared, 2));
+    mps_stage_rows(s, &wall_rows, &f);
+    MPS__TRY(mps__ghosts_share(&w->ghosts, shared, 2));
+    mps__ranks_max(&w->ranks, 1, highest);
+    return MPS_OK;
+}
+
+/* ---- the band ---- */
+
+/* Slabs above the highest liquid can hold nothing but void, which is one as long as it hangs together. */
+static mps_status set_band(mps__voids *v, double highest)
+{
+    const double walls = ceil(WET / v->config.side),
+                 top = highest >= 0 ? highest + walls + v->window + 2 : 0;
+    v->band = top < v->slabs ? (int32_t)top : v->slabs;
+    if (v->ullage[v->band] < 0) v->band = v->slabs;
+    const int64_t cells = v->band * v->plane;
+    mps__void_room *r = &v->room;
+    mps__context *c = v->context;
+    MPS__TRY(mps__grow(c, (void **)&v->head, &r->head, 0, cells, sizeof *v->head));
+    MPS__TRY(mps__grow(c, (void **)&v->taken, &r->taken, 0, cells, sizeof *v->taken));
+    MPS__TRY(mps__grow(c, (void **)&v->sure, &r->sure, 0, cells, sizeof *v->sure));
+    MPS__TRY(mps__grow(c, (void **)&v->wide, &r->wide, 0, cells, sizeof *v->wide));
+    /* ranks combine them in lumps */
+    return mps__grow(c, (void **)&v->what, &r->what, 0, cells + MPS__VOID_LUMP, sizeof *v->what);
+}
+
+mps_status mps__voids_liquid(mps__voids *v, mps__world *w, mps_stage *s)
+{
+    double highest = -1;
+    MPS__TRY(find_liquid(v, w, s, &highest));
+    MPS__TRY(mps__voids_wet(v, w));
+    return set_band(v, highest);
+}
