@@ -75,7 +75,7 @@ static void files(void **state)
 
 static void plates(void **state)
 {
-    static const char divides[] = "'b' reaches above the liquid and divides its surface";
+    static const char divides[] = "solid 'b' stands in it, x = 10 m";
     (void)state;
     tells(TANK "solids:\n  b: {plate: [10 0 m, 10 6 m], holes: {pitch: 3 m, open: 40 %}}\n" END,
           "b: 2 slots of 1.2 m = 2.4 dp, middles at 1.5 4.5 m from the first point", NULL);

@@ -94,7 +94,7 @@ impact box box --dp 0.032
 impact box_3d box --dim 3 --dp 0.0533333333
 for figure in F1_mean F2_mean F3_mean F4_mean; do aim box $figure 0.2 0.6 rho_u2; done
 for figure in F1_mean F2_mean F3_mean; do aim box_3d $figure 0.1 0.6 rho_u2; done
-reached box_3d F4_mean -0.06 0.1 rho_u2 # three rows of the front face: the upper one has .1 at dp 0.04 m
+reached box_3d F4_mean 0.05 0.16 rho_u2 # three rows of the front face; .134 at dp 0.02 m
 for figure in T1 T2 T3 T4 R; do
     for folder in box box_3d; do
         aim $folder ${figure}_least -0.1 0.2 rho_u2
