@@ -5,9 +5,9 @@
  * There is no frequency to choose.
  *
  * In a step the relative velocity u changes by du. Friction with the u and q_k of the beginning
- * stands in MPS_FORCE, so that pressures know it. What the layers add to the mass is only known
- * with du: after all other verbs of MPS_VELOCITY, du becomes du/(1 + added), which keeps a flow
- * without divergence so. Then the q_k follow.
+ * stands in MPS_FORCE, so that pressures know it. The other forces have to move what the layers
+ * add to the mass too: after all other verbs of MPS_VELOCITY their share of du is divided by 1 +
+ * added. This keeps a flow without divergence so. Then the q_k follow.
  *
  * The tank turns: with the velocity relative to it, q_k feels the Coriolis acceleration. Seen from
  * the lab q_k turns by the angle of the tank, the other way.
@@ -34,17 +34,16 @@ enum { HALF = MPS__LAYERS / 2, LAYERS = 4 };
                 "side walls have reached",                                        \
         .components = HALF, .type = MPS_TYPE_REAL, .life = MPS_LIFE_PARTICLE      \
     }
-static const mps_channel channels[] = {
-    LAYER("x", "slow", "the slow"),
-    LAYER("x", "fast", "the fast"),
-    LAYER("y", "slow", "the slow"),
-    LAYER("y", "fast", "the fast"),
-    {.name = "layers_start",
-     .unit = "m/s",
-     .help = "velocity of a particle that moves on with the tank",
-     .components = MPS_VECTOR,
-     .type = MPS_TYPE_REAL,
-     .life = MPS_LIFE_STEP}};
+static const mps_channel channels[] = {LAYER("x", "slow", "the slow"),
+                                       LAYER("x", "fast", "the fast"),
+                                       LAYER("y", "slow", "the slow"),
+                                       LAYER("y", "fast", "the fast"),
+                                       {.name = "layers_start",
+                                        .unit = "m/s",
+                                        .help = "velocity by the tank and the side walls alone",
+                                        .components = MPS_VECTOR,
+                                        .type = MPS_TYPE_REAL,
+                                        .life = MPS_LIFE_STEP}};
 
 enum {
     VELOCITY,
@@ -128,7 +127,7 @@ static int report_kinetic(mps_stage *s, const fields *f)
     return mps_stage_kinetic(s, kinetic);
 }
 
-/* Velocities are those of the beginning of the step, so the tank's is that of the step before. */
+/* Relative velocity at the beginning of the step, so the tank's is that of the step before. */
 MPS_ROW void pull(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     (void)dim;
@@ -136,19 +135,19 @@ MPS_ROW void pull(const int dim, const mps_view *v, const fields *f, int64_t i)
     const mps__layers *of = &f->of[v->phase[i]];
     double tank[3];
     mps_view_tank(v, v->x + 2 * i, NULL, tank);
-    for (int k = 0; k < LAYERS; k++) {
-        const int d = k / 2, part = HALF * (k % 2);
+    for (int d = 0; d < 2; d++) {
+        double *slow = f->layer[2 * d] + HALF * i, *fast = f->layer[2 * d + 1] + HALF * i;
         const double gain = v->dt * f->tank[2 * i + d];
         const double u = f->velocity[2 * i + d] - tank[d] + gain;
-        double *q = f->layer[k] + HALF * i, a = part ? 0 : -of->drag * u;
-        for (int m = 0; m < HALF; m++) {
-            a += of->pull[part + m] * q[m];
-            q[m] = of->keep[part + m] * q[m] + (1 - of->keep[part + m]) * u;
-        }
-        f->friction[2 * i + d] += a;
-        f->start[2 * i + d] = f->velocity[2 * i + d] + gain;
+        double a = -of->drag * u;
+        for (int m = 0; m < HALF; m++) a += of->pull[m] * slow[m] + of->pull[HALF + m] * fast[m];
+        a /= 1 + of->added;
+        mps__layers_pass(of, 0, HALF, u, v->dt * a, slow);
+        mps__layers_pass(of, HALF, HALF, u, v->dt * a, fast);
+        f->friction[2 * i + d] = a;
+        f->acceleration[2 * i + d] += a;
+        f->start[2 * i + d] = f->velocity[2 * i + d] + gain + v->dt * a;
     }
-    for (int d = 0; d < 2; d++) f->acceleration[2 * i + d] += f->friction[2 * i + d];
 }
 MPS_ROWS(pull_rows, pull, fields)
 

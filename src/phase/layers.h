@@ -41,4 +41,14 @@ typedef struct mps__layers {
  * at most what there is of u. */
 void mps__layers_of(double nu, double width, double dt, mps__layers *layers);
 
+/* Move the velocities q of `count` modes from `first` on over a step in which u changes by du. */
+static inline void mps__layers_pass(const mps__layers *layers, int first, int count, double u,
+                                    double du, double *q)
+{
+    for (int k = 0; k < count; k++) {
+        const double keep = layers->keep[first + k];
+        q[k] = keep * q[k] + (1 - keep) * u + layers->rise[first + k] * du;
+    }
+}
+
 #endif

@@ -50,7 +50,8 @@ static void drag_and_added_mass(void **state)
     double worst[2] = {0};
     for (double r = 0.1; r < 1000; r *= 1.09) { /* width over layer */
         const double w = 2 * r * r;
-        const double complex exact = exact_drag(w), is = stepped_drag(w, fmin(1e-3 * 2 * PI / w, 1e-4));
+        const double complex exact = exact_drag(w),
+                             is = stepped_drag(w, fmin(1e-3 * 2 * PI / w, 1e-4));
         worst[0] = fmax(worst[0], fabs(creal(is) / creal(exact) - 1));
         worst[1] = fmax(worst[1], fabs(cimag(is) / cimag(exact) - 1));
     }
@@ -91,8 +92,7 @@ static double march(double dt, int steps, double first, double force, double (*e
         double a = force - l.drag * u;
         for (int k = 0; k < MPS__LAYERS; k++) a += l.pull[k] * q[k];
         const double du = dt * a / (1 + l.added);
-        for (int k = 0; k < MPS__LAYERS; k++)
-            q[k] = l.keep[k] * q[k] + (1 - l.keep[k]) * u + l.rise[k] * du;
+        mps__layers_pass(&l, 0, MPS__LAYERS, u, du, q);
         u += du;
         if (n > 10)
             worst = fmax(worst, fabs(u - exact(n * dt)) / (size > 0 ? size : exact(n * dt)));
@@ -139,8 +139,7 @@ static void long_steps(void **state)
             double a = -l.drag * u;
             for (int k = 0; k < MPS__LAYERS; k++) a += l.pull[k] * q[k];
             const double du = dt * a / (1 + l.added);
-            for (int k = 0; k < MPS__LAYERS; k++)
-                q[k] = l.keep[k] * q[k] + (1 - l.keep[k]) * u + l.rise[k] * du;
+            mps__layers_pass(&l, 0, MPS__LAYERS, u, du, q);
             assert_true(u + du > -2e-4 && u + du < u + 3e-4);
             u += du;
         }
