@@ -35,7 +35,8 @@ enum {
      *  its moment about `at`, which moves with the tank; components along the axes of the lab. It
      *  is the sum of -P_i A_i over the wall particles, P_i the wall pressure, and of all that
      *  models report by mps_stage_reaction(): friction at walls (viscosity.laplacian,
-     *  viscosity.pair) and collisions with them (collision.pair), on the part next to the fluid;
+     *  viscosity.pair, layer.history) and collisions with them (collision.pair), on the part next
+     *  to the fluid;
      *  friction.history, part "sides"; plug-ins. Its integral over time is -(walls + reaction) of
      *  mps_momentum. It has no part in drops that thin plates stop, nor in shifts. */
     MPS_PROBE_FORCE = 3
@@ -191,7 +192,8 @@ typedef struct mps_energy {
      *  fluid particle (see above), and is not in the budget: docs/explanations/walls.md. */
     double wall_work_probes;
     /** Dissipated by the library's models of MPS_FORCE: viscosity, friction at walls, damping,
-     *  tension [J]. Without those of the slot "friction", see below. */
+     *  tension [J]. Without those of the slots "friction" and "layer", see
+     *  below. */
     double viscous;
     /** Lost in models of plug-ins, in MPS_FORCE and MPS_VELOCITY [J]. Where they report what solids
      *  do (mps_stage_reaction()) it is what these dissipate; < 0: gained, e.g. by a driving
@@ -225,8 +227,9 @@ typedef struct mps_energy {
     /** `mass` with the half cells at walls [kg]: the mean density times volume_filled. With several
      *  phases it is exact only if they wet the walls in the shares of their volumes. */
     double mass_filled;
-    /** Dissipated by the library's models of the slot "friction", at walls that have no particles
-     *  [J]. */
+    /** Dissipated by the library's models of the slots "friction", at walls that have no particles,
+     *  and "layer", at walls whose layers are thin [J]. Of "layer" with the kinetic energy of the
+     *  layers. */
     double friction;
     /** Kinetic energy of the fluid beside `kinetic`, after the last step, as models report it by
      *  mps_stage_kinetic(): of layers at walls that have no particles [J]. */
@@ -252,7 +255,7 @@ typedef struct mps_momentum {
     /** Weight times time. */
     double gravity[3];
     /** By the library's models of MPS_FORCE: friction at walls; pairs inside the fluid add
-     *  nothing. Without those of the slot "friction". */
+     *  nothing. Without those of the slots "friction" and "layer". */
     double force[3];
     /** By models of plug-ins, in MPS_FORCE and MPS_VELOCITY. */
     double plugins[3];
@@ -273,7 +276,8 @@ typedef struct mps_momentum {
     double shift[3];
     /** From outside, as in mps_energy. */
     double added[3];
-    /** By the library's models of the slot "friction", with the inertia of the layers. */
+    /** By the library's models of the slots "friction" and "layer", with the inertia of the
+     *  layers. */
     double friction[3];
 } mps_momentum;
 

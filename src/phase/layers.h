@@ -21,8 +21,20 @@
  * is dissipated. The rest is the kinetic energy of the profile beside that of its mean,
  *   sum_k W_k/(2 r_k) q_k^2   for a unit of mass,
  * in steady flow 1/10 u^2. With the exact modes both are exact for any history of u. */
+/* A wall with particles, whose layer may be thinner than the spacing dp. Let w be the velocity of the
+ * first row of fluid relative to the wall, and u that far away. The exact stress of a half space is
+ * rho sqrt(nu s) u. The viscosity models give the rows less of it: see docs/explanations/walls.md.
+ * What they lack, as a force on the first row for its area and rho, over w, is a function of X =
+ * dp sqrt(s/nu) alone, on a lattice:
+ *   Z(X) = nu/dp (X + D(X)),   D 1.3 in slow and 0.15 in fast flow at a far radius of 3.1 dp.
+ * It follows from the rows of the lattice: their momentum must be that of the stress. The same
+ * modes represent it: X by the trapezoidal rule, with the rates 0.3 3.5^(k-6) nu/dp^2, D by the
+ * steady part and six of the weights, least squares for layers of 0.05 to 8 dp. With the rows of
+ * the lattice the stress is within 0.84 % of the exact one for layers of 0.1 to 6.6 dp. */
 #ifndef MPS_PHASE_LAYERS_H
 #define MPS_PHASE_LAYERS_H
+
+#include <stdbool.h>
 
 enum { MPS__LAYERS = 18 };
 
@@ -40,6 +52,11 @@ typedef struct mps__layers {
 /* nu: >= 0 [m2/s]; width: > 0 [m]; dt: > 0 [s]. Any step is stable: without other forces it takes
  * at most what there is of u. */
 void mps__layers_of(double nu, double width, double dt, mps__layers *layers);
+
+/* The same of the first row at a wall in `dim` dimensions; `radius`: the far radius [dp]. False: it
+ * is not known for this radius. */
+bool mps__layers_of_wall(int dim, double radius, double nu, double dp, double dt,
+                         mps__layers *layers);
 
 /* Move the velocities q of `count` modes from `first` on over a step in which u changes by du. */
 static inline void mps__layers_pass(const mps__layers *layers, int first, int count, double u,

@@ -3,7 +3,9 @@
  * plates; where the energy goes; a tank that turns. */
 #include "phase_fixture.h"
 #include <complex.h>
+#include <mps/output.h>
 #include <stdbool.h>
+#include <stdio.h>
 
 static const double PI = 3.14159265358979323846, NU = 5e-5, WIDTH = 0.062;
 
@@ -262,6 +264,33 @@ static void turning_tank(void **state)
     }
 }
 
+/* A run that goes on from a checkpoint ends with the same bytes: velocities, energies, budget. */
+static void goes_on(void **state)
+{
+    (void)state;
+    const double dt = 5e-3;
+    mps_energy e[2];
+    double complex u[2];
+    for (int resumed = 0; resumed < 2; resumed++) {
+        mps_sim *sim = free_particles(SMALL, dt);
+        drive.amount = SMALL;
+        drive.rate = 3;
+        if (resumed)
+            ASSERT_OK(sim, mps_checkpoint_read(sim, "phase_history.mps"));
+        else
+            for (int n = 0; n < 50; n++) ASSERT_OK(sim, mps_step(sim, 1, NULL));
+        if (!resumed) ASSERT_OK(sim, mps_checkpoint_write(sim, "phase_history.mps"));
+        for (int n = 0; n < 50; n++) ASSERT_OK(sim, mps_step(sim, 1, NULL));
+        u[resumed] = velocity_of(sim);
+        e[resumed] = energy_of(sim);
+        mps_sim_destroy(sim);
+    }
+    remove("phase_history.mps");
+    assert_memory_equal(&u[0], &u[1], sizeof u[0]);
+    assert_memory_equal(&e[0], &e[1], sizeof e[0]);
+    assert_true(e[0].layers > 0 && e[0].friction > 0);
+}
+
 /* Without a width there are no side walls; a fluid without viscosity has no friction. */
 static void no_friction(void **state)
 {
@@ -294,7 +323,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(constant_force),     cmocka_unit_test(swinging_force),
         cmocka_unit_test(impulse_and_energy), cmocka_unit_test(momentum_and_probe),
-        cmocka_unit_test(turning_tank),       cmocka_unit_test(no_friction),
-        cmocka_unit_test(not_in_3d)};
+        cmocka_unit_test(turning_tank),       cmocka_unit_test(goes_on),
+        cmocka_unit_test(no_friction),        cmocka_unit_test(not_in_3d)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -60,6 +60,25 @@ static void drag_and_added_mass(void **state)
     assert_true(worst[0] < 0.0035 && worst[1] < 0.0035);
 }
 
+/* What a wall lacks in fast flow is Basset's history and a little more; radii without a fit are refused. */
+static void thin_layer_of_wall(void **state)
+{
+    (void)state;
+    mps__layers l;
+    for (int dim = 2; dim <= 3; dim++)
+        for (double layer = 0.02; layer < 0.06; layer *= 1.3) {
+            const double w = 2 / (layer * layer), dt = 1e-3 / w;
+            const double complex x = csqrt(I * w), turn = cexp(I * w * dt), du = turn - 1;
+            assert_true(mps__layers_of_wall(dim, 3.1, 1, 1, dt, &l));
+            double complex a = l.drag + l.added * du / dt;
+            for (int k = 0; k < MPS__LAYERS; k++)
+                a -= l.pull[k] * (1 - l.keep[k] + l.rise[k] * du) / (turn - l.keep[k]);
+            assert_true(cabs(a / (x + 0.155) - 1) < 0.01);
+        }
+    assert_false(mps__layers_of_wall(2, 2.5, 1, 1, 1e-3, &l));
+    assert_false(mps__layers_of_wall(1, 3.1, 1, 1, 1e-3, &l));
+}
+
 /* Steady flow of velocity 1: friction 12, added mass 1/5, kinetic energy of the profile 1/10 more than that of the mean, 1/2. */
 static void slow_limits(void **state)
 {
@@ -153,6 +172,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(drag_and_added_mass), cmocka_unit_test(slow_limits),
-        cmocka_unit_test(force_and_impulse), cmocka_unit_test(long_steps)};
+        cmocka_unit_test(thin_layer_of_wall), cmocka_unit_test(force_and_impulse),
+        cmocka_unit_test(long_steps)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

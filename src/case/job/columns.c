@@ -33,7 +33,7 @@ static const job_column COMMON[COLUMN_COMMON] = {
               "share"},
     {.name = "friction",
      .unit = "J",
-     .about = "Energy lost at side walls: dissipated by friction.history, since the start"},
+     .about = "Energy lost at walls: taken by friction.history and layer.history, since the start"},
     {.name = "layers",
      .unit = "J",
      .about = "Energy of layers: kinetic energy of the flow at side walls, beside ke"}};

@@ -21,6 +21,7 @@ extern const mps_model_ops mps__dissipation_radial;
 extern const mps_model_ops mps__tension_csf;
 extern const mps_model_ops mps__tension_jump;
 extern const mps_model_ops mps__friction_history;
+extern const mps_model_ops mps__layer_history;
 extern const mps_model_ops mps__reference_gas;
 extern const mps_model_ops mps__source_mixed;
 extern const mps_model_ops mps__source_volume;

@@ -270,8 +270,9 @@ int32_t mps__host_line(const mps__host *h, const mps__call *call)
 {
     if (!call->model) return MPS__LINE_OF_HOOK;
     if (mps__models_foreign(h->models, call->model)) return MPS__LINE_PLUGINS;
-    return mps__same_slot(call->model->ops->name, "friction") ? MPS__LINE_FRICTION
-                                                              : MPS__LINE_OF_HOOK;
+    const char *name = call->model->ops->name;
+    return mps__same_slot(name, "friction") || mps__same_slot(name, "layer") ? MPS__LINE_FRICTION
+                                                                             : MPS__LINE_OF_HOOK;
 }
 
 static mps_status run_verb(mps__host *h, mps_stage *s, const mps__call *call)

@@ -65,7 +65,7 @@ void mps__host_sum(const mps__host *h, const mps_view *v, int32_t count, const m
 /* Maxima, of all ranks; `maxima` are lower bounds before. */
 void mps__host_max(const mps__host *h, const mps_view *v, int32_t count, const mps_sums *raise,
                    const void *fields, double *maxima);
-/* Line of the budget of a call's verb: of plug-ins and of the slot "friction"; of others MPS__LINE_OF_HOOK. */
+/* Line of the budget of a call's verb: of plug-ins and of the slots "friction" and "layer"; of others MPS__LINE_OF_HOOK. */
 int32_t mps__host_line(const mps__host *h, const mps__call *call);
 /* Name of the first model that writes a channel of the library, or NULL. */
 const char *mps__host_writer(const mps__host *h, int32_t channel);
