@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Lateral impact of a shallow liquid, SPHERIC validation test 10 (Souto-Iglesias et al. 2011): a tank 0.9 x 0.508 m, 0.093 m of water or
  * sunflower oil, rolls about the middle of its floor by 4 degrees, with 0.85 of the first natural period. It is 62 mm wide; in 2-D the friction of its
- * side walls, which matters for oil, is --use friction.sides --set friction.width=0.062 --set friction.omega=3.86. */
+ * side walls, which matters for oil, is --use friction.history --set friction.width=0.062. */
 #include "driver/tank.h"
 #include <math.h>
 

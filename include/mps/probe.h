@@ -39,8 +39,9 @@ enum {
      *  its moment about `at`, which moves with the tank; components along the axes of the lab. It
      *  is the sum of -P_i A_i over the wall particles, P_i the wall pressure, and of all that
      *  models report by mps_stage_reaction(): friction at walls (viscosity.laplacian,
-     *  viscosity.pair) and collisions with them (collision.pair), on the part next to the fluid;
-     *  friction.sides, part "sides"; plug-ins. Its integral over time is -(walls + reaction) of
+     *  viscosity.pair, layer.history) and collisions with them (collision.pair), on the part next
+     *  to the fluid;
+     *  friction.history, part "sides"; plug-ins. Its integral over time is -(walls + reaction) of
      *  mps_momentum. It has no part in drops that thin plates stop, nor in shifts. */
     MPS_PROBE_FORCE = 3
 };
@@ -196,7 +197,8 @@ typedef struct mps_energy {
      *  fluid particle (see above), and is not in the budget: docs/explanations/walls.md. */
     double wall_work_probes;
     /** Dissipated by the library's models of MPS_FORCE: viscosity, friction at walls, damping,
-     *  tension [J]. */
+     *  tension [J]. Without those of the slots "friction" and "layer", see
+     *  below. */
     double viscous;
     /** Lost in models of plug-ins, in MPS_FORCE and MPS_VELOCITY [J]. Where they report what solids
      *  do (mps_stage_reaction()) it is what these dissipate; < 0: gained, e.g. by a driving
@@ -207,7 +209,7 @@ typedef struct mps_energy {
     /** Lost in shifting, kinetic and potential [J]. */
     double shift;
     /** The rest [J]: wall_work_momentum + added - viscous - plugins - collision - shift -
-     *  d(kinetic + potential), d: since before the first step. */
+     *  friction - d(kinetic + potential + layers), d: since before the first step. */
     double numerical;
     /** Mass of the fluid particles [kg]. */
     double mass;
@@ -230,6 +232,13 @@ typedef struct mps_energy {
     /** `mass` with the half cells at walls [kg]: the mean density times volume_filled. With several
      *  phases it is exact only if they wet the walls in the shares of their volumes. */
     double mass_filled;
+    /** Dissipated by the library's models of the slots "friction", at walls that have no particles,
+     *  and "layer", at walls whose layers are thin [J]. Of "layer" with the kinetic energy of the
+     *  layers. */
+    double friction;
+    /** Kinetic energy of the fluid beside `kinetic`, after the last step, as models report it by
+     *  mps_stage_kinetic(): of layers at walls that have no particles [J]. */
+    double layers;
 } mps_energy;
 
 /** Set struct_size and zero. @param size  sizeof(mps_energy) @return MPS_E_ARG: bad size */
@@ -242,7 +251,7 @@ MPS_API mps_status mps_energy_get(mps_sim *sim, mps_energy *energy);
 /** Momentum of the fluid particles (per metre of width in 2-D) and its changes since the first step
  *  [kg m/s]:
  *    total = that before the first step + gravity + force + plugins + pressure + collision + shift
- *  + added. */
+ *  + added + friction. */
 typedef struct mps_momentum {
     /** Set by mps_momentum_init(). */
     uint32_t struct_size;
@@ -251,11 +260,11 @@ typedef struct mps_momentum {
     /** Weight times time. */
     double gravity[3];
     /** By the library's models of MPS_FORCE: friction at walls; pairs inside the fluid add
-     *  nothing. */
+     *  nothing. Without those of the slots "friction" and "layer". */
     double force[3];
     /** By models of plug-ins, in MPS_FORCE and MPS_VELOCITY. */
     double plugins[3];
-    /** The part of force, plugins and collision that solids exert, as models report it by
+    /** The part of force, friction, plugins and collision that solids exert, as models report it by
      *  mps_stage_reaction(). */
     double reaction[3];
     /** By pressure gradients: what the fluid particles received. */
@@ -272,6 +281,9 @@ typedef struct mps_momentum {
     double shift[3];
     /** From outside, as in mps_energy. */
     double added[3];
+    /** By the library's models of the slots "friction" and "layer", with the inertia of the
+     *  layers. */
+    double friction[3];
 } mps_momentum;
 
 /** Set struct_size and zero. @param size  sizeof(mps_momentum) @return MPS_E_ARG: bad size */

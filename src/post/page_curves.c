@@ -25,6 +25,8 @@ static const plot_rule probes_rule[] = {
     {"shift", "budget", "Energy, change since the start", "taken: shift", NULL},
     {"numerical", "budget", "Energy, change since the start", "lost: numerical", NULL},
     {"added", "budget", "Energy, change since the start", "added", NULL},
+    {"friction", "budget", "Energy, change since the start", "taken: layers at walls", NULL},
+    {"layers", "budget", "Energy, change since the start", "kinetic: at side walls", NULL},
     {"volume_error", "budget", "Change of the liquid's volume", "volume", "%"},
     {"wall_work_probes", NULL, NULL, NULL, NULL},
     {NULL, NULL, NULL, NULL, NULL}};

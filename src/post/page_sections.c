@@ -146,6 +146,8 @@ void mps__page_budget(FILE *out, const page_run *r)
         {"viscous",
          false,
          {"was taken by viscosity, friction and dissipation.", "came from viscosity: an error."}},
+        {"friction", false, {"was taken by layers at walls.", "came from layers at walls."}},
+        {"layers", true, {"more is in layers at side walls.", "less is in layers at side walls."}},
         {"plugins", false, {"was taken by models of plug-ins.", "came from models of plug-ins."}},
         {"collision", false, {"was taken by collisions of particles.", "came from collisions."}},
         {"shift",

@@ -35,7 +35,9 @@ enum {
     COLUMN_NUMERICAL,
     COLUMN_ADDED,
     COLUMN_VOLUME,
-    COLUMN_COMMON = COLUMN_VOLUME /* number of them */
+    COLUMN_FRICTION,
+    COLUMN_LAYERS,
+    COLUMN_COMMON = COLUMN_LAYERS /* number of them */
 };
 
 /* Columns of momentum.csv behind the time, for each axis. */
@@ -51,6 +53,7 @@ enum {
     MOMENTUM_COLLISION,
     MOMENTUM_SHIFT,
     MOMENTUM_ADDED,
+    MOMENTUM_FRICTION,
     MOMENTUM_COLUMNS
 };
 

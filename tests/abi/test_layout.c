@@ -263,7 +263,7 @@ AT(mps_probe_info, name, 8); AT(mps_probe_info, part, 16);
 AT(mps_probe_info, at, 24); AT(mps_probe_info, normal, 48);
 AT(mps_probe_info, diameter, 72); AT(mps_probe_info, values, 80);
 
-SIZE(mps_energy, 176);
+SIZE(mps_energy, 192);
 AT(mps_energy, struct_size, 0); AT(mps_energy, kinetic, 8);
 AT(mps_energy, potential, 16); AT(mps_energy, wall_work_momentum, 24);
 AT(mps_energy, wall_work_probes, 32); AT(mps_energy, viscous, 40);
@@ -273,14 +273,16 @@ AT(mps_energy, mass, 80); AT(mps_energy, volume, 88);
 AT(mps_energy, volume_error, 96); AT(mps_energy, centre, 104);
 AT(mps_energy, momentum, 128); AT(mps_energy, added, 152);
 AT(mps_energy, volume_filled, 160); AT(mps_energy, mass_filled, 168);
+AT(mps_energy, friction, 176); AT(mps_energy, layers, 184);
 
-SIZE(mps_momentum, 272);
+SIZE(mps_momentum, 296);
 AT(mps_momentum, struct_size, 0); AT(mps_momentum, total, 8);
 AT(mps_momentum, gravity, 32); AT(mps_momentum, force, 56);
 AT(mps_momentum, plugins, 80); AT(mps_momentum, reaction, 104);
 AT(mps_momentum, pressure, 128); AT(mps_momentum, walls, 152);
 AT(mps_momentum, numerical, 176); AT(mps_momentum, collision, 200);
 AT(mps_momentum, shift, 224); AT(mps_momentum, added, 248);
+AT(mps_momentum, friction, 272);
 
 SIZE(mps_route, 48);
 AT(mps_route, to_count, 0); AT(mps_route, from_count, 4);

@@ -404,7 +404,7 @@ static void check_budget(kit *k)
         FAIL(k, KIT_BUDGET, "energy %g J, %s", e.numerical, text_of(sim));
     for (int d = 0; d < k->scene[0].dim; d++) {
         const double gained = m.gravity[d] + m.force[d] + m.plugins[d] + m.pressure[d] +
-                              m.collision[d] + m.shift[d];
+                              m.collision[d] + m.shift[d] + m.friction[d];
         const double rest = m.total[d] - first.total[d] - gained - m.added[d];
         if (!(fabs(rest) <= 1e-9 * (fabs(m.total[d]) + fabs(m.pressure[d]) + fabs(m.gravity[d]))))
             FAIL(k, KIT_BUDGET, "momentum does not close along axis %d: %g kg m/s", d, rest);

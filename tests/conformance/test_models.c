@@ -64,7 +64,7 @@ static kit_prepare_fn prepare_of(const mps_model_ops *ops)
         const char *model;
         kit_prepare_fn prepare;
     } list[] = {{"gradient.conservative", one_phase},
-                {"friction.sides", thin_tank},
+                {"friction.history", thin_tank},
                 {"collision.pair", far_collisions},
                 {"surface.detached", much_spray},
                 {"drag.lone", much_drag},

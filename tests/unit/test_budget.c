@@ -33,9 +33,9 @@ static void assert_closed(mps_sim *sim, const mps_energy *start, const mps_momen
     const mps_momentum m = momentum_of(sim);
     const double size = fabs(e.potential) + fabs(start->potential) + e.kinetic + fabs(e.added) +
                         fabs(e.wall_work_momentum);
-    const double change = e.kinetic + e.potential - start->kinetic - start->potential;
+    const double change = e.kinetic + e.potential + e.layers - start->kinetic - start->potential;
     ASSERT_NEAR(e.wall_work_momentum + e.added - e.viscous - e.plugins - e.collision - e.shift -
-                    e.numerical,
+                    e.friction - e.numerical,
                 change, rounding * size);
     double most = 0;
     for (int d = 0; d < 2; d++) {
@@ -45,7 +45,7 @@ static void assert_closed(mps_sim *sim, const mps_energy *start, const mps_momen
     }
     for (int d = 0; d < 2; d++) {
         const double sum = m.gravity[d] + m.force[d] + m.plugins[d] + m.pressure[d] +
-                           m.collision[d] + m.shift[d] + m.added[d];
+                           m.collision[d] + m.shift[d] + m.added[d] + m.friction[d];
         ASSERT_NEAR(m.total[d] - before->total[d], sum, rounding * most);
     }
 }

@@ -275,12 +275,19 @@ static bool named(const char *slot, const mps_model_ops *ops)
     return slot && mps__same_slot(slot, ops->name);
 }
 
+/* "*" of one verb alone decides. */
+static bool stars(const char *mine, const char *theirs)
+{
+    return (mine && strcmp(mine, "*") == 0) != (theirs && strcmp(theirs, "*") == 0);
+}
+
 /* Both write a channel, and neither a name nor what they do to channels says which is first. */
 static bool undecided(const mps_model_ops *a, const mps_verb *v, const mps_model_ops *b,
                       const mps_verb *w)
 {
     bool decided = v->hook != w->hook || named(v->before, b) || named(v->after, b) ||
-                   named(w->before, a) || named(w->after, a);
+                   named(w->before, a) || named(w->after, a) || stars(v->after, w->after) ||
+                   stars(v->before, w->before);
     bool shared = false;
     for (int32_t u = 0; u < v->use_count; u++) {
         const char *channel = v->uses[u].channel;

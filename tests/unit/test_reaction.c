@@ -261,7 +261,7 @@ static void side_walls(void **state)
     (void)state;
     double speed = 0.5, sides[3];
     mps_sim *sim = drop_in_a_tank(&speed);
-    ASSERT_OK(sim, mps_model_use(sim, "friction.sides"));
+    ASSERT_OK(sim, mps_model_use(sim, "friction.history"));
     ASSERT_OK(sim, mps_model_set(sim, "friction", "width", 0.002));
     const int32_t id = probe_force(sim, "sides", 0, 0);
     for (int k = 0; k < 20; k++) take_step(sim);
@@ -269,8 +269,9 @@ static void side_walls(void **state)
     const mps_energy e = energy_of(sim);
     const mps_momentum m = momentum_of(sim);
     ASSERT_NEAR(m.reaction[0], m.total[0], 1e-6 * m.total[0]);
-    assert_true(m.total[0] > 1e-3 && sides[0] < 0 && e.viscous > 0);
-    ASSERT_NEAR(e.wall_work_momentum, e.viscous + e.kinetic, 0.01 * e.viscous);
+    assert_true(m.total[0] > 1e-3 && sides[0] < 0 && e.friction > 0);
+    ASSERT_NEAR(e.wall_work_momentum, e.friction + e.viscous + e.kinetic + e.layers,
+                0.01 * e.friction);
     mps_sim_destroy(sim);
 }
 

@@ -33,6 +33,13 @@ static const struct {
     init_fn init;
 } all[] = {ALL(ENTRY)};
 
+/* Size that a struct had before it grew; 0: it did not. */
+static size_t older_size(const char *name)
+{
+    if (strcmp(name, "mps_energy") == 0) return offsetof(mps_energy, friction);
+    return strcmp(name, "mps_momentum") == 0 ? offsetof(mps_momentum, friction) : 0;
+}
+
 static void init_knows_sizes(void **state)
 {
     (void)state;
@@ -43,6 +50,11 @@ static void init_knows_sizes(void **state)
         } room;
         for (size_t size = 0; size < all[k].size; size++) {
             memset(&room, 7, sizeof room);
+            if (size > 0 && size == older_size(all[k].name)) {
+                assert_int_equal(all[k].init(&room, size), MPS_OK);
+                for (size_t b = size; b < sizeof room.byte; b++) assert_int_equal(room.byte[b], 7);
+                continue;
+            }
             if (all[k].init(&room, size) != MPS_E_ARG)
                 fail_msg("%s_init() took %zu bytes", all[k].name, size);
             for (size_t b = 0; b < sizeof room.byte; b++) assert_int_equal(room.byte[b], 7);

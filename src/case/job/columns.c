@@ -30,7 +30,13 @@ static const job_column COMMON[COLUMN_COMMON] = {
      .about = "Energy from outside: of particles added or lost, since the start"},
     {.name = "volume_error",
      .about = "Error of volume: growth of the fluid below the surface since the first step, as a "
-              "share"}};
+              "share"},
+    {.name = "friction",
+     .unit = "J",
+     .about = "Energy lost at walls: taken by friction.history and layer.history, since the start"},
+    {.name = "layers",
+     .unit = "J",
+     .about = "Energy of layers: kinetic energy of the flow at side walls, beside ke"}};
 
 int mps__job_columns(const mps_job *job)
 {

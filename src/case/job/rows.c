@@ -51,7 +51,7 @@ static bool open_probes(mps_job *job)
 /* Names of the columns of momentum.csv, in the order of MOMENTUM_TOTAL and on. */
 static const char *const MOMENTA[] = {"momentum",  "gravity",  "force", "plugins",
                                       "reaction",  "pressure", "walls", "numerical",
-                                      "collision", "shift",    "added"};
+                                      "collision", "shift",    "added", "friction"};
 
 static bool open_momentum(mps_job *job)
 {
@@ -97,7 +97,7 @@ static void sample_momentum(mps_job *job, double t)
     if (!mps__job_first(job)) return;
     const double *const values[MOMENTUM_COLUMNS] = {m.total,     m.gravity,  m.force, m.plugins,
                                                     m.reaction,  m.pressure, m.walls, m.numerical,
-                                                    m.collision, m.shift,    m.added};
+                                                    m.collision, m.shift,    m.added, m.friction};
     for (int d = 0; d < dim; d++)
         for (int k = 0; k < MOMENTUM_COLUMNS; k++) row[1 + d * MOMENTUM_COLUMNS + k] = values[k][d];
     mps__table_sample(&job->momentum, row);
@@ -121,7 +121,9 @@ static void measure_energies(mps_job *job, double *out)
                                           e.shift,
                                           e.numerical,
                                           e.added,
-                                          e.volume_error};
+                                          e.volume_error,
+                                          e.friction,
+                                          e.layers};
     memcpy(out, values, sizeof values);
     job->totals.volume_error = e.volume_error;
 }

@@ -6,6 +6,7 @@
 #include <mps/mps.h>
 #include <mps/ppe.h>
 #include <mps/voids.h>
+#include <stddef.h>
 #include <string.h>
 
 enum { MPS__VERSIONS = 4 };
@@ -20,20 +21,51 @@ typedef struct known_struct {
  *     {"mps_tank", {offsetof(mps_tank, first_new_member), sizeof(mps_tank)}}. */
 /* clang-format off */
 #define V1(type) {#type, {sizeof(type)}}
+#define V2(type, second) {#type, {offsetof(type, second), sizeof(type)}}
 /* clang-format on */
 static const known_struct structs[] = {
-    V1(mps_channel_info), V1(mps_config),      V1(mps_energy),         V1(mps_flux),
-    V1(mps_grid),         V1(mps_kernel),      V1(mps_lease),          V1(mps_model_info),
-    V1(mps_model_ops),    V1(mps_momentum),    V1(mps_motion_pose),    V1(mps_motion_state),
-    V1(mps_name_info),    V1(mps_parallel),    V1(mps_particle_block), V1(mps_pass_info),
-    V1(mps_phase),        V1(mps_ppe_problem), V1(mps_ppe_result),     V1(mps_preconditioner_ops),
-    V1(mps_probe),        V1(mps_probe_info),  V1(mps_ranks_ops),      V1(mps_setting_info),
-    V1(mps_ship),         V1(mps_ship_motion), V1(mps_solid),          V1(mps_solver_limits),
-    V1(mps_solver_ops),   V1(mps_stage),       V1(mps_stencil),        V1(mps_step_info),
-    V1(mps_stl),          V1(mps_tank),        V1(mps_time_control),   V1(mps_verb_info),
-    V1(mps_view),         V1(mps_voids),       V1(mps_voids_config),
+    V1(mps_channel_info),
+    V1(mps_config),
+    V1(mps_flux),
+    V1(mps_grid),
+    V1(mps_kernel),
+    V1(mps_lease),
+    V1(mps_model_info),
+    V1(mps_model_ops),
+    V1(mps_motion_pose),
+    V1(mps_motion_state),
+    V1(mps_name_info),
+    V1(mps_parallel),
+    V1(mps_particle_block),
+    V1(mps_pass_info),
+    V1(mps_phase),
+    V1(mps_ppe_problem),
+    V1(mps_ppe_result),
+    V1(mps_preconditioner_ops),
+    V1(mps_probe),
+    V1(mps_probe_info),
+    V1(mps_ranks_ops),
+    V1(mps_setting_info),
+    V1(mps_ship),
+    V1(mps_ship_motion),
+    V1(mps_solid),
+    V1(mps_solver_limits),
+    V1(mps_solver_ops),
+    V1(mps_stage),
+    V1(mps_stencil),
+    V1(mps_step_info),
+    V1(mps_stl),
+    V1(mps_tank),
+    V1(mps_time_control),
+    V1(mps_verb_info),
+    V1(mps_view),
+    V1(mps_voids),
+    V1(mps_voids_config),
+    V2(mps_energy, friction),
+    V2(mps_momentum, friction),
 };
 #undef V1
+#undef V2
 
 /* Sizes of a type, NULL if it is not in the table. */
 static const size_t *sizes_of(const char *type)

@@ -85,6 +85,8 @@ static mps_status check_budget(mps__context *c, const mps__budget *b)
                            b->collision,
                            b->shift,
                            b->added,
+                           b->friction,
+                           b->layers,
                            b->start,
                            b->deviation,
                            b->deviation_start};
@@ -94,7 +96,7 @@ static mps_status check_budget(mps__context *c, const mps__budget *b)
     const double *const change[] = {
         b->momentum.plugins,   b->momentum.reaction, b->momentum.total, b->momentum.gravity,
         b->momentum.force,     b->momentum.pressure, b->momentum.walls, b->momentum.numerical,
-        b->momentum.collision, b->momentum.shift,    b->momentum.added};
+        b->momentum.collision, b->momentum.shift,    b->momentum.added, b->momentum.friction};
     MPS__TRY(check_finite(c, "state.budget", work, sizeof work / sizeof work[0]));
     MPS__TRY(check_finite(c, "state.budget", last, sizeof last / sizeof last[0]));
     for (size_t k = 0; k < sizeof change / sizeof change[0]; k++)

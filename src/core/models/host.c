@@ -266,13 +266,22 @@ static void show_place(mps__host *h, mps_view *v, int32_t place)
 
 /* ---- calls ---- */
 
+int32_t mps__host_line(const mps__host *h, const mps__call *call)
+{
+    if (!call->model) return MPS__LINE_OF_HOOK;
+    if (mps__models_foreign(h->models, call->model)) return MPS__LINE_PLUGINS;
+    const char *name = call->model->ops->name;
+    return mps__same_slot(name, "friction") || mps__same_slot(name, "layer") ? MPS__LINE_FRICTION
+                                                                             : MPS__LINE_OF_HOOK;
+}
+
 static mps_status run_verb(mps__host *h, mps_stage *s, const mps__call *call)
 {
     const mps__lock before = mps__lock_set(h->context, MPS__LOCKED, "a verb of a model");
     h->context->error[0] = 0;
     h->no_memory = false;
     h->misused = false;
-    h->foreign = mps__models_foreign(h->models, call->model);
+    h->line = mps__host_line(h, call);
     const int failed = call->verb->run(s) || h->misused;
     h->context->lock = before;
     return failed ? verb_failed(h, call, s->view->t) : check_after(h, s, call);

@@ -33,7 +33,7 @@ typedef struct mps__host {
     bool leaving;
     mps__model *model; /* of the verb in progress, NULL: a pass */
     bool everywhere;   /* loops go over ghosts too */
-    bool foreign;      /* the verb in progress is not one of the library's */
+    int32_t line;      /* of the budget, of the verb in progress: MPS__LINE_... */
     bool no_memory;    /* a verb got no scratch */
     bool misused;      /* a verb asked for a loop that there is not */
     int32_t limiter;   /* place in the plan of the verb that lowered s->dt_limit last, or -1 */
@@ -66,6 +66,8 @@ void mps__host_sum(const mps__host *h, const mps_view *v, int32_t count, const m
 /* Maxima, of all ranks; `maxima` are lower bounds before. */
 void mps__host_max(const mps__host *h, const mps_view *v, int32_t count, const mps_sums *raise,
                    const void *fields, double *maxima);
+/* Line of the budget of a call's verb: of plug-ins and of the slots "friction" and "layer"; of others MPS__LINE_OF_HOOK. */
+int32_t mps__host_line(const mps__host *h, const mps__call *call);
 /* Name of the first model that writes a channel of the library, or NULL. */
 const char *mps__host_writer(const mps__host *h, int32_t channel);
 

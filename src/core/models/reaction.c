@@ -35,7 +35,7 @@ MPS__VALUES(add_rows, add_row, report, 6, 0)
 
 static int32_t line_of(const mps_stage *s, const mps__host *h)
 {
-    if (h->foreign) return MPS__LINE_PLUGINS;
+    if (h->line != MPS__LINE_OF_HOOK) return h->line;
     return s->hook == MPS_FORCE ? MPS__LINE_VISCOUS : MPS__LINE_COLLISION;
 }
 
@@ -129,4 +129,20 @@ int mps_stage_reaction(mps_stage *s, const char *part, const double *acceleratio
     h->reactions.any = true;
     for (int d = 0; d < 3; d++) k.centre[d] = v->tank.centre[d] + v->tank.shift[d];
     return part ? add_place(s, h, &k, MPS__REACTION_WHOLE + 1 + number) : add_beside(s, h, &k);
+}
+
+int mps_stage_kinetic(mps_stage *s, double kinetic)
+{
+    mps__host *h = s->host;
+    const bool before = s->hook == MPS_FORCE;
+    if (!before && s->hook != MPS_VELOCITY)
+        return mps_stage_fail(s,
+                              "mps_stage_kinetic() is for verbs of MPS_FORCE and MPS_VELOCITY, "
+                              "this one is of hook '%s'",
+                              mps__hook_name(s->hook));
+    if (!(kinetic >= 0 && isfinite(kinetic)))
+        return mps_stage_fail(s, "mps_stage_kinetic(): %g J; must be finite and >= 0", kinetic);
+    *(before ? &h->reactions.kinetic_before[line_of(s, h)]
+             : &h->reactions.kinetic[line_of(s, h)]) += kinetic;
+    return 0;
 }

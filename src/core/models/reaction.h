@@ -7,8 +7,15 @@
 #include <mps/exact.h>
 #include <stdbool.h>
 
-/* Which line of the energy budget takes what a reaction dissipates: by the model and the hook of its verb. */
-enum { MPS__LINE_VISCOUS, MPS__LINE_COLLISION, MPS__LINE_PLUGINS, MPS__LINES };
+/* Which line of the energy budget takes what a verb dissipates: by its model or, of other models, by its hook. */
+enum {
+    MPS__LINE_VISCOUS,
+    MPS__LINE_COLLISION,
+    MPS__LINE_FRICTION,
+    MPS__LINE_PLUGINS,
+    MPS__LINES,
+    MPS__LINE_OF_HOOK = -1
+};
 
 /* Places in mps__reactions.sum: lines, then the tank as a whole, then parts. */
 enum { MPS__REACTION_WHOLE = MPS__LINES, MPS__REACTIONS = MPS__LINES + 1 + MPS__PARTS_MAX };
@@ -17,6 +24,8 @@ enum { MPS__REACTION_WHOLE = MPS__LINES, MPS__REACTIONS = MPS__LINES + 1 + MPS__
 typedef struct mps__reactions {
     bool any; /* a verb reported, on all ranks */
     mps_exact sum[MPS__REACTIONS][6];
+    /* kinetic energy beside that of the particles, by lines: at the beginning of the step, and at its end [J] */
+    double kinetic_before[MPS__LINES], kinetic[MPS__LINES];
 } mps__reactions;
 
 #endif

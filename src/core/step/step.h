@@ -38,11 +38,11 @@ typedef struct mps__step {
     mps__pose pose; /* of the tank at the end of the step */
     mps_step_info info;
     mps__budget budget;
-    double momentum[3];       /* of the prediction */
-    mps__bulk bulk;           /* of the velocities that were booked last */
-    mps__push before_plugins; /* what was so before plug-ins of the hook in progress */
-    bool foreign;             /* the last call was of a plug-in, */
-    int32_t foreign_hook;     /* in this hook */
+    double momentum[3];    /* of the prediction */
+    mps__bulk bulk;        /* of the velocities that were booked last */
+    mps__push before_line; /* what was so before the verbs of `line` in the hook in progress */
+    int32_t line;          /* of the budget, of the last call: MPS__LINE_..., */
+    int32_t line_hook;     /* in this hook */
     mps__reaction reaction[1 + MPS__PARTS_MAX];
     mps__jump jump;
     double deviation;     /* mean volume deviation */
@@ -108,8 +108,8 @@ extern const mps__pass mps__pass_equation, mps__pass_matrix, mps__pass_unknowns,
 
 /* What others have done to the fluid since the last step. Fails where its energy overflows: that could never be taken away again. */
 mps_status mps__step_book_between(mps__world *w);
-/* What plug-ins of MPS_FORCE or MPS_VELOCITY do: call it before and after them. */
-void mps__step_book_plugins(mps__step *q, bool after);
+/* What verbs of MPS_FORCE or MPS_VELOCITY with a line of their own, q->line, do: call it before and after them. */
+void mps__step_book_line(mps__step *q, bool after);
 /* What force models and gravity are about to do; what pressures, collisions and displacements have done; drops stopped at plates. */
 extern const mps__pass mps__pass_book_forces, mps__pass_book_pressure, mps__pass_book_collisions,
     mps__pass_book_reactions, mps__pass_book_shift, mps__pass_plates;

@@ -44,25 +44,27 @@ static mps__push so_far(const mps__step *q)
     return push;
 }
 
-void mps__step_book_plugins(mps__step *q, bool after)
+void mps__step_book_line(mps__step *q, bool after)
 {
     const bool force = q->stage.hook == MPS_FORCE;
-    mps_momentum *m = &q->budget.momentum;
+    mps__budget *b = &q->budget;
+    mps_momentum *m = &b->momentum;
+    const bool friction = q->line == MPS__LINE_FRICTION;
     if (!force && q->stage.hook != MPS_VELOCITY) return;
     mps__twins_fields_ready(&q->w->host.twins);
     if (force) mps__twins_ready(&q->w->host.twins, MPS__ACCELERATION, MPS__ON_HOST);
     const mps__push now = so_far(q);
     if (!after) {
-        q->before_plugins = now;
+        q->before_line = now;
         return;
     }
     /* the line of the hook, which gets all that its verbs did, gives it back */
-    const double gained = now.energy - q->before_plugins.energy;
-    q->budget.plugins -= gained;
-    *(force ? &q->budget.viscous : &q->budget.collision) += gained;
+    const double gained = now.energy - q->before_line.energy;
+    *(friction ? &b->friction : &b->plugins) -= gained;
+    *(force ? &b->viscous : &b->collision) += gained;
     for (int d = 0; d < q->view.dim; d++) {
-        const double impulse = now.impulse[d] - q->before_plugins.impulse[d];
-        m->plugins[d] += impulse;
+        const double impulse = now.impulse[d] - q->before_line.impulse[d];
+        *(friction ? &m->friction[d] : &m->plugins[d]) += impulse;
         *(force ? &m->force[d] : &m->collision[d]) -= impulse;
     }
 }

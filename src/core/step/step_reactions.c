@@ -18,6 +18,19 @@ static void to_tank(const mps__pose *pose, const double *v, double *V)
     }
 }
 
+/* Kinetic energy that fluid has beside its particles is no loss. What changed since the last step came or went with particles and models. */
+static void book_kinetic(const mps__reactions *r, double *const line[MPS__LINES], mps__budget *b)
+{
+    double before = 0, now = 0;
+    for (int k = 0; k < MPS__LINES; k++) {
+        *line[k] -= r->kinetic[k] - r->kinetic_before[k];
+        before += r->kinetic_before[k];
+        now += r->kinetic[k];
+    }
+    b->added += before - b->layers;
+    b->layers = now;
+}
+
 static mps_status book_reactions(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
@@ -26,9 +39,11 @@ static mps_status book_reactions(mps_stage *s)
     mps__reactions *r = &w->host.reactions;
     double *const line[MPS__LINES] = {[MPS__LINE_VISCOUS] = &b->viscous,
                                       [MPS__LINE_COLLISION] = &b->collision,
+                                      [MPS__LINE_FRICTION] = &b->friction,
                                       [MPS__LINE_PLUGINS] = &b->plugins};
     double value[6];
     memset(q->reaction, 0, sizeof q->reaction);
+    book_kinetic(r, line, b);
     if (!r->any) return MPS_OK;
     mps__ranks_sum(w->ghosts.ranks, 6 * (MPS__REACTION_WHOLE + 1 + w->particles.parts), r->sum[0]);
     for (int k = 0; k < MPS__LINES; k++) {

@@ -71,21 +71,21 @@ static void show_flux(mps__step *q, const mps__call *call)
     q->view.flux = call->hook >= MPS_FORCE ? q->flux : (mps_flux){.struct_size = sizeof q->flux};
 }
 
-/* What plug-ins do is booked apart from what the library's models do. */
-static void note_plugins(mps__step *q, const mps__call *call)
+/* What plug-ins and friction do is booked apart from what the library's other models do. */
+static void note_line(mps__step *q, const mps__call *call)
 {
-    const bool foreign = call->model && mps__models_foreign(&q->w->models, call->model),
-               goes_on = q->foreign && q->foreign_hook == call->hook;
-    if (goes_on && !foreign) mps__step_book_plugins(q, true);
-    if (foreign && !goes_on) mps__step_book_plugins(q, false);
-    q->foreign = foreign;
-    q->foreign_hook = call->hook;
+    const int32_t line = mps__host_line(&q->w->host, call);
+    const bool same_hook = q->line_hook == call->hook, goes_on = same_hook && q->line == line;
+    if (same_hook && !goes_on && q->line != MPS__LINE_OF_HOOK) mps__step_book_line(q, true);
+    q->line = line;
+    q->line_hook = call->hook;
+    if (line != MPS__LINE_OF_HOOK && !goes_on) mps__step_book_line(q, false);
 }
 
 static void before_call(void *step, const mps__call *call)
 {
     show_flux(step, call);
-    note_plugins(step, call);
+    note_line(step, call);
 }
 
 void mps__step_open(mps__step *q)
@@ -96,6 +96,7 @@ void mps__step_open(mps__step *q)
     set_flux(q);
     set_terms(q);
     w->voids.ready = false;
+    q->line = MPS__LINE_OF_HOOK;
     w->host.step = q;
     w->host.before_call = before_call;
     memset(&w->host.reactions, 0, sizeof w->host.reactions);
