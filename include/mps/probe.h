@@ -208,8 +208,8 @@ typedef struct mps_energy {
     double collision;
     /** Lost in shifting, kinetic and potential [J]. */
     double shift;
-    /** The rest [J]: wall_work_momentum + added - viscous - plugins - collision - shift -
-     *  friction - d(kinetic + potential + layers), d: since before the first step. */
+    /** The rest [J]: wall_work_momentum + gas + added - viscous - plugins - collision -
+     *  shift - friction - d(kinetic + potential + layers), d: since before the first step. */
     double numerical;
     /** Mass of the fluid particles [kg]. */
     double mass;
@@ -239,6 +239,9 @@ typedef struct mps_energy {
     /** Kinetic energy of the fluid beside `kinetic`, after the last step, as models report it by
      *  mps_stage_kinetic(): of layers at walls that have no particles [J]. */
     double layers;
+    /** Work of trapped gas on the liquid [J]: sum of p A.u dt over the particles that face a
+     *  pocket, see mps_stage_gas(). Of a pocket that is compressed it is negative. */
+    double gas;
 } mps_energy;
 
 /** Set struct_size and zero. @param size  sizeof(mps_energy) @return MPS_E_ARG: bad size */

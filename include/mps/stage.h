@@ -417,6 +417,15 @@ MPS_API double *mps_stage_scratch(mps_stage *s, int64_t count);
 /** As mps_stage_scratch(), of integers. */
 MPS_API int32_t *mps_stage_scratch_integers(mps_stage *s, int64_t count);
 
+/** Report trapped gas, in MPS_SHIFT: for mps_step_info, and its work for mps_energy. Once a step;
+ *  the last report counts. On many ranks all ranks report the same.
+ *  @param pockets  >= 0 @param volume  of all [m3, m2 in 2-D]
+ *  @param pressure  of the pocket farthest from the ambient pressure, less that [Pa]
+ *  @param work  on the liquid in this step [J]
+ *  @return 0, or non-zero after a failure (another hook, a number that is not finite; the error is
+ *          set) */
+MPS_API int mps_stage_gas(mps_stage *s, int32_t pockets, double volume, double pressure,
+                          double work);
 /** Numbers of a model that belong to no particle, e.g. amounts of gas. They last as long as the
  *  model is active, are saved by checkpoints, and come back after a failed step. All ranks write
  *  the same ones. A model begins with none.

@@ -116,10 +116,24 @@ typedef struct mps_step_info {
      *
      *  A constant of the library or of the plug-in that brings the model. */
     const char *limit;
+    /** Pockets of trapped gas, of the model gas.pocket. */
+    int32_t pockets;
+    /** Kept 0. */
+    int32_t reserved;
+    /** Volume of all pockets at the end of the step [m3, m2 in 2-D]. */
+    double pocket_volume;
+    /** Pressure of the pocket that is farthest from the ambient pressure, less that [Pa]. */
+    double pocket_pressure;
 } mps_step_info;
 
 /** Set struct_size and zero. @param size  sizeof(mps_step_info) @return MPS_E_ARG: bad size */
 MPS_API mps_status mps_step_info_init(mps_step_info *info, size_t size);
+
+/** Results of the last step again; all 0 before the first step of this handle, also after
+ *  mps_checkpoint_read().
+ *  @param info  initialised by mps_step_info_init(); out
+ *  @return MPS_E_ARG, MPS_E_BUSY (called from a verb or a callback) */
+MPS_API mps_status mps_step_info_get(mps_sim *sim, mps_step_info *info);
 
 /** Advance by one step of at most dt_max. W22 section 2.5 and Fig. 2. After an error positions,
  *  velocities, pressures and time are as before the call, and particles lost in it are back.

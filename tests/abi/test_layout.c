@@ -263,7 +263,7 @@ AT(mps_probe_info, name, 8); AT(mps_probe_info, part, 16);
 AT(mps_probe_info, at, 24); AT(mps_probe_info, normal, 48);
 AT(mps_probe_info, diameter, 72); AT(mps_probe_info, values, 80);
 
-SIZE(mps_energy, 192);
+SIZE(mps_energy, 200);
 AT(mps_energy, struct_size, 0); AT(mps_energy, kinetic, 8);
 AT(mps_energy, potential, 16); AT(mps_energy, wall_work_momentum, 24);
 AT(mps_energy, wall_work_probes, 32); AT(mps_energy, viscous, 40);
@@ -274,6 +274,7 @@ AT(mps_energy, volume_error, 96); AT(mps_energy, centre, 104);
 AT(mps_energy, momentum, 128); AT(mps_energy, added, 152);
 AT(mps_energy, volume_filled, 160); AT(mps_energy, mass_filled, 168);
 AT(mps_energy, friction, 176); AT(mps_energy, layers, 184);
+AT(mps_energy, gas, 192);
 
 SIZE(mps_momentum, 296);
 AT(mps_momentum, struct_size, 0); AT(mps_momentum, total, 8);
@@ -384,7 +385,7 @@ AT(mps_time_control, cfl, 16); AT(mps_time_control, gravity, 24);
 AT(mps_time_control, viscous, 32); AT(mps_time_control, growth, 40);
 AT(mps_time_control, dt_max, 48); AT(mps_time_control, dt_min, 56);
 
-SIZE(mps_step_info, 152);
+SIZE(mps_step_info, 176);
 AT(mps_step_info, struct_size, 0); AT(mps_step_info, ppe_iterations, 4);
 AT(mps_step_info, step, 8); AT(mps_step_info, t, 16);
 AT(mps_step_info, dt, 24); AT(mps_step_info, cfl, 32);
@@ -393,7 +394,9 @@ AT(mps_step_info, ppe_divergence, 56); AT(mps_step_info, ppe_unknowns, 64);
 AT(mps_step_info, lost, 72); AT(mps_step_info, surface, 80);
 AT(mps_step_info, seconds, 88); AT(mps_step_info, crossing_time, 128);
 AT(mps_step_info, ppe_solves, 136); AT(mps_step_info, separated, 140);
-AT(mps_step_info, limit, 144);
+AT(mps_step_info, limit, 144); AT(mps_step_info, pockets, 152);
+AT(mps_step_info, reserved, 156); AT(mps_step_info, pocket_volume, 160);
+AT(mps_step_info, pocket_pressure, 168);
 
 SIZE(mps_allocator, 24);
 AT(mps_allocator, alloc, 0); AT(mps_allocator, release, 8);

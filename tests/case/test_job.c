@@ -397,6 +397,10 @@ static void measures_are_right(void **state)
                  {"strays", 0, 0, 0},
                  {"trespass", 0, 0.15, 0.05},
                  {"trapped_gas", 0, 0, 0},
+                 {"pockets", 0, 0, 0},
+                 {"pocket_volume", 0, 0, 0},
+                 {"pocket_pressure", 0, 0, 0},
+                 {"gas_work", 0, 0, 0},
                  {"half_axis", 0, 0, 2 * 0.04 * 2.581988897}};
     enum { CASES = sizeof cases / sizeof *cases };
     mps_job_config c = config_of("right");

@@ -39,6 +39,27 @@ size_t kit_bytes(const kit_shape *k, int64_t n)
 void kit_release(kit_arrays *a)
 {
     for (int u = 0; u < KIT_USES; u++) free(a->of[u]);
+    free(a->state);
+}
+
+static bool copy_state(const mps_stage *s, const kit_arrays *from, kit_arrays *a)
+{
+    const double *state = from ? from->state : mps_stage_state_get(s, &a->states);
+    if (from) a->states = from->states;
+    a->state = malloc((size_t)a->states * sizeof *state + 1);
+    if (a->state && a->states > 0) memcpy(a->state, state, (size_t)a->states * sizeof *state);
+    return a->state;
+}
+
+static bool set_state(mps_stage *s, const kit_arrays *a)
+{
+    int64_t states;
+    mps_stage_state_get(s, &states);
+    if (states == 0 && a->states == 0) return true;
+    double *state = mps_stage_state(s, a->states);
+    if (!state) return false;
+    if (a->states > 0) memcpy(state, a->state, (size_t)a->states * sizeof *state);
+    return true;
 }
 
 bool kit_copy(const mps_stage *s, const mps_verb *verb, const kit_arrays *from, kit_arrays *a)
@@ -51,7 +72,7 @@ bool kit_copy(const mps_stage *s, const mps_verb *verb, const kit_arrays *from, 
         if (!a->of[u]) return false;
         memcpy(a->of[u], from ? from->of[u] : s->data[u], kit_bytes(k, s->view->n));
     }
-    return true;
+    return copy_state(s, from, a);
 }
 
 int kit_run_on(const mps_stage *s, const mps_verb *verb, kit_arrays *a)
@@ -61,7 +82,13 @@ int kit_run_on(const mps_stage *s, const mps_verb *verb, kit_arrays *a)
     for (int32_t u = 0; u < verb->use_count; u++) data[u] = a->of[u] ? a->of[u] : s->data[u];
     t.dt_limit = a->dt_limit;
     t.data = data;
-    const int failed = verb->run(&t);
+    kit_arrays now = {.dt_limit = 0};
+    int failed = 1;
+    if (copy_state(s, NULL, &now) && set_state(&t, a)) {
+        failed = verb->run(&t);
+        if (!set_state(&t, &now)) failed = 1;
+    }
+    free(now.state);
     a->dt_limit = t.dt_limit;
     return failed;
 }

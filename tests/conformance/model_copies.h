@@ -19,6 +19,8 @@ typedef struct kit_shape {
 typedef struct kit_arrays {
     void *of[KIT_USES];
     double dt_limit;
+    double *state; /* [states] numbers of the model: mps_stage_state() */
+    int64_t states;
 } kit_arrays;
 
 /* Take the shapes of all channels from a handle; one list for all. */

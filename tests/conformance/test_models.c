@@ -58,6 +58,29 @@ static mps_status no_gas(void *user, mps_sim *sim)
     return status == MPS_E_NAME ? MPS_OK : status; /* it is off */
 }
 
+/* A void in the water of 2-D. */
+static mps_status with_pocket(void *user, mps_sim *sim)
+{
+    enum { MOST = 100 };
+    static const double lo = 0.09, hi = 0.23, bottom = 0.05, top = 0.13;
+    mps_lease x = {.struct_size = sizeof x}, kind = x, id = x;
+    int64_t gone[MOST], count = 0;
+    mps_status status = one_phase(user, sim);
+    if (status >= 0) status = mps_model_set(sim, "gas", "least", 2);
+    if (status >= 0) status = mps_lease_begin(sim, "position", MPS_READ, &x);
+    if (status >= 0) status = mps_lease_begin(sim, "kind", MPS_READ, &kind);
+    if (status >= 0) status = mps_lease_begin(sim, "id", MPS_READ, &id);
+    for (int64_t i = 0; status >= 0 && i < x.count && x.stride == 2; i++) {
+        const double *X = x.data + 2 * i;
+        const bool in = X[0] > lo && X[0] < hi && X[1] > bottom && X[1] < top;
+        if (in && kind.integers[i] == MPS_FLUID && count < MOST) gone[count++] = id.ids[i];
+    }
+    if (status >= 0) mps_lease_end(sim, &x);
+    if (status >= 0) mps_lease_end(sim, &kind);
+    if (status >= 0) mps_lease_end(sim, &id);
+    return status < 0 || count == 0 ? status : mps_particles_remove(sim, count, gone);
+}
+
 static kit_prepare_fn prepare_of(const mps_model_ops *ops)
 {
     static const struct {
@@ -67,6 +90,7 @@ static kit_prepare_fn prepare_of(const mps_model_ops *ops)
                 {"friction.history", thin_tank},
                 {"collision.pair", far_collisions},
                 {"surface.detached", much_spray},
+                {"gas.pocket", with_pocket},
                 {"drag.lone", much_drag},
                 {"reference.lid", no_gas}};
     for (size_t k = 0; k < sizeof list / sizeof list[0]; k++)

@@ -96,6 +96,14 @@ const scene scenes[SCENES] = {
      .steps = 20,
      .dp = 0.025,
      .sigma = 0.07},
+    {.name = "gas_2d",
+     .preset = "imps",
+     .dim = 2,
+     .steps = 60,
+     .dp = 0.02,
+     .motion = roll,
+     .gas = true},
+    {.name = "gas_3d", .preset = "imps", .dim = 3, .steps = 15, .dp = 0.05, .gas = true},
 };
 
 mps_status scene_create(const scene *s, mps_sim **sim)
@@ -151,6 +159,24 @@ static mps_status add_probes(mps_sim *sim)
     return status;
 }
 
+/* Liquid to two thirds of the tank, but for a box in it. */
+static int about_gas(void *user, const double *x)
+{
+    const scene *s = user;
+    const bool in = x[0] > 0.16 && x[0] < 0.44 && x[1] > 0.08 && x[1] < 0.28 &&
+                    (s->dim == 2 || (x[2] > 0.08 && x[2] < 0.32));
+    return x[1] < 0.37 && !in;
+}
+
+static mps_status add_gas(mps_sim *sim, const scene *s)
+{
+    scene copy = *s;
+    mps_status status = mps_model_use(sim, "gas.pocket");
+    if (status == MPS_OK) status = mps_model_set(sim, "gas", "least", 2);
+    if (status == MPS_OK) status = mps_fill_add(sim, 0, about_gas, &copy, NULL);
+    return status;
+}
+
 mps_status scene_build(mps_sim *sim, const scene *s)
 {
     const double lo[3] = {0, 0, 0}, depth[3] = {0.3, 0.26, 0.4}, all[3] = {0.6, 0.45, 0.4};
@@ -169,7 +195,8 @@ mps_status scene_build(mps_sim *sim, const scene *s)
     if (status == MPS_OK && s->baffle == 1) status = mps_baffle_add(sim, "block", b, c, NULL);
     if (status == MPS_OK && s->baffle == 2)
         status = mps_plate_add(sim, "plate", b, up, s->dim == 3 ? along : NULL);
-    if (status == MPS_OK)
+    if (status == MPS_OK && s->gas) status = add_gas(sim, s);
+    if (status == MPS_OK && !s->gas)
         status = mps_fill_box_add(sim, 0, s->drop ? from : lo, s->drop ? to : depth, NULL, NULL);
     if (status == MPS_OK && s->preset[0] == 'm') status = add_air(sim, s, lo, all);
     if (status == MPS_OK && s->motion) status = mps_motion_callback_set(sim, s->motion, NULL);
@@ -247,14 +274,18 @@ void record_note(mps_sim *sim, const mps_step_info *info, record *r)
                               e.volume_filled,
                               e.centre[0],
                               e.centre[1],
-                              info->crossing_time};
+                              info->crossing_time,
+
+                              (double)info->pockets,
+                              info->pocket_pressure,
+                              e.gas};
     double probes[15] = {0};
     int at = 0;
     for (int32_t k = 0; k < SCENE_PROBES; at += mps_probe_size(sim, k++))
         mps_probe_read(sim, k, probes + at);
     if (sim->world.ranks.rank > 0) return;
     memcpy(r->info, numbers, sizeof numbers);
-    memcpy(r->info + 14, probes, sizeof probes);
+    memcpy(r->info + 17, probes, sizeof probes);
 }
 
 bool record_same(const record *alone, const record *many, char *text, size_t size)
@@ -274,6 +305,9 @@ bool record_same(const record *alone, const record *many, char *text, size_t siz
                                                "cx",
                                                "cy",
                                                "crossing_time",
+                                               "pockets",
+                                               "pocket pressure",
+                                               "work of gas",
                                                "wall pressure",
                                                "gauge",
                                                "fluid pressure",

@@ -6,7 +6,7 @@
 #include <mps/mps.h>
 #include <stdbool.h>
 
-enum { SCENES = 20, SCENE_MOST = 8000, SCENE_NUMBERS = 9, SCENE_INFOS = 29, SCENE_PROBES = 5 };
+enum { SCENES = 22, SCENE_MOST = 8000, SCENE_NUMBERS = 9, SCENE_INFOS = 32, SCENE_PROBES = 5 };
 
 typedef struct scene {
     const char *name, *preset;
@@ -21,6 +21,7 @@ typedef struct scene {
         drop; /* the liquid is a drop about the middle of the tank, where the cuts of four ranks meet */
     /* NULL: auxgrid; "divided": auxgrid that divides small grids too */
     const char *preconditioner;
+    bool gas; /* the liquid encloses a pocket of gas */
 } scene;
 
 extern const scene scenes[SCENES];

@@ -6,6 +6,7 @@
 #include <unistd.h>
 #include <mps/model.h>
 #include <mps/ppe.h>
+#include <stdbool.h>
 #include <stdlib.h>
 
 typedef mps_status (*init_fn)(void *out, size_t size);
@@ -37,6 +38,7 @@ static const struct {
 static size_t older_size(const char *name)
 {
     if (strcmp(name, "mps_energy") == 0) return offsetof(mps_energy, friction);
+    if (strcmp(name, "mps_step_info") == 0) return offsetof(mps_step_info, pockets);
     return strcmp(name, "mps_momentum") == 0 ? offsetof(mps_momentum, friction) : 0;
 }
 

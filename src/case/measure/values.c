@@ -170,6 +170,38 @@ double mps__measure_angle(quantity *q, mps_sim *sim)
     return s.value[MPS_ROTATE_Z] * 180 / acos(-1.0);
 }
 
+static mps_step_info last_step(mps_sim *sim)
+{
+    mps_step_info info = {.struct_size = sizeof info};
+    mps_step_info_get(sim, &info);
+    return info;
+}
+
+double mps__measure_pockets(quantity *q, mps_sim *sim)
+{
+    (void)q;
+    return last_step(sim).pockets;
+}
+
+double mps__measure_pocket_volume(quantity *q, mps_sim *sim)
+{
+    (void)q;
+    return last_step(sim).pocket_volume;
+}
+
+double mps__measure_pocket_pressure(quantity *q, mps_sim *sim)
+{
+    (void)q;
+    return last_step(sim).pocket_pressure;
+}
+
+double mps__measure_gas_work(quantity *q, mps_sim *sim)
+{
+    mps_energy e = {.struct_size = sizeof e};
+    (void)q;
+    return mps_energy_get(sim, &e) == MPS_OK ? e.gas : NAN;
+}
+
 double mps__measure_trespass(quantity *q, mps_sim *sim)
 {
     view v;

@@ -110,6 +110,13 @@ mps_status mps_run(mps_sim *sim, double t_end, mps_monitor_fn monitor, void *use
     return result;
 }
 
+mps_status mps_step_info_get(mps_sim *sim, mps_step_info *info)
+{
+    MPS__MEASURES(sim);
+    return mps__struct_out(&sim->context, "mps_step_info", info, &sim->world.info,
+                           sizeof sim->world.info);
+}
+
 mps_status mps_stencil_get(mps_sim *sim, int32_t which, mps_stencil *stencil)
 {
     mps_stencil view;

@@ -53,7 +53,6 @@ static const known_struct structs[] = {
     V1(mps_solver_ops),
     V1(mps_stage),
     V1(mps_stencil),
-    V1(mps_step_info),
     V1(mps_stl),
     V1(mps_tank),
     V1(mps_time_control),
@@ -63,6 +62,7 @@ static const known_struct structs[] = {
     V1(mps_voids_config),
     V2(mps_energy, friction),
     V2(mps_momentum, friction),
+    V2(mps_step_info, pockets),
 };
 #undef V1
 #undef V2

@@ -87,6 +87,7 @@ static mps_status check_budget(mps__context *c, const mps__budget *b)
                            b->added,
                            b->friction,
                            b->layers,
+                           b->gas,
                            b->start,
                            b->deviation,
                            b->deviation_start};

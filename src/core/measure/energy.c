@@ -90,11 +90,13 @@ mps_status mps__energy_measure(mps__world *w, mps_energy *e)
                       .shift = b.shift,
                       .added = b.added,
                       .friction = b.friction,
-                      .layers = b.layers};
+                      .layers = b.layers,
+                      .gas = b.gas};
     memcpy(e->momentum, b.last.momentum, sizeof e->momentum);
     bulk_sums(w, e);
-    e->numerical = e->wall_work_momentum + e->added - e->viscous - e->plugins - e->collision -
-                   e->shift - e->friction - (e->kinetic + e->potential + e->layers - b.start);
+    e->numerical = e->wall_work_momentum + e->gas + e->added - e->viscous - e->plugins -
+                   e->collision - e->shift - e->friction -
+                   (e->kinetic + e->potential + e->layers - b.start);
     e->volume /= 1.0 + b.deviation;
     e->volume_filled = e->volume + (any ? half_cells(w) : 0);
     e->mass_filled = e->volume > 0 ? e->mass * e->volume_filled / e->volume : 0;

@@ -27,6 +27,7 @@ extern const mps_model_ops mps__source_mixed;
 extern const mps_model_ops mps__source_volume;
 extern const mps_model_ops mps__gas_compressible;
 extern const mps_model_ops mps__gas_isentropic;
+extern const mps_model_ops mps__gas_pocket;
 extern const mps_model_ops mps__separation_void;
 extern const mps_model_ops mps__gradient_conservative;
 extern const mps_model_ops mps__gradient_corrected;

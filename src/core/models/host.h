@@ -16,6 +16,12 @@ typedef struct mps__entry {
     int32_t phase;
 } mps__entry;
 
+/* Trapped gas, as a verb reported it: mps_stage_gas(). */
+typedef struct mps__gas {
+    int32_t pockets;
+    double volume, pressure, work;
+} mps__gas;
+
 typedef struct mps__host {
     mps__context *context;
     mps__models *models;
@@ -41,6 +47,7 @@ typedef struct mps__host {
     mps__plan plan;
     mps__twins twins;
     mps__reactions reactions; /* of the step in progress */
+    mps__gas gas;             /* likewise */
     void *step;               /* the step in progress, for passes; NULL before MPS_LIMIT */
     void (*before_call)(void *step, const mps__call *); /* what verbs see may have changed */
     double seconds[MPS_STAGE_COUNT];                    /* of the step, by MPS_STAGE_... */

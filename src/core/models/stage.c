@@ -265,6 +265,18 @@ int32_t *mps_stage_scratch_integers(mps_stage *s, int64_t count)
     return block;
 }
 
+int mps_stage_gas(mps_stage *s, int32_t pockets, double volume, double pressure, double work)
+{
+    if (s->hook != MPS_SHIFT) return mps_stage_fail(s, "mps_stage_gas() is for verbs of MPS_SHIFT");
+    if (pockets < 0 || !isfinite(volume) || !isfinite(pressure) || !isfinite(work))
+        return mps_stage_fail(s,
+                              "mps_stage_gas(): %d pockets, volume %g m3, pressure %g Pa, work "
+                              "%g J: must be >= 0 and finite",
+                              (int)pockets, volume, pressure, work);
+    host_of(s)->gas = (mps__gas){pockets, volume, pressure, work};
+    return 0;
+}
+
 int mps_stage_fail(mps_stage *s, const char *format, ...)
 {
     char text[MPS__ERROR_SIZE];

@@ -28,6 +28,10 @@ static void commit(mps__step *q)
     q->info.dt = q->view.dt;
     q->info.t = w->state.t;
     q->info.lost = w->state.lost;
+    q->info.pockets = w->host.gas.pockets;
+    q->info.pocket_volume = w->host.gas.volume;
+    q->info.pocket_pressure = w->host.gas.pressure;
+    q->budget.gas += w->host.gas.work;
     w->info = q->info;
     w->state.before = w->motion.now;
     w->state.dt_before = q->view.dt;

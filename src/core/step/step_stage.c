@@ -100,6 +100,7 @@ void mps__step_open(mps__step *q)
     w->host.step = q;
     w->host.before_call = before_call;
     memset(&w->host.reactions, 0, sizeof w->host.reactions);
+    w->host.gas = (mps__gas){0};
 }
 
 mps_status mps__step_run(mps__step *q, int32_t hook)

@@ -25,7 +25,7 @@ typedef struct mps__bulk {
 /* Energies [J] and impulses since creation; see mps_energy and mps_momentum. */
 typedef struct mps__budget {
     double wall_work_momentum, wall_work_probes, viscous, plugins, collision, shift, added;
-    double friction;
+    double friction, gas;
     double layers;         /* kinetic energy of fluid beside that of its particles */
     double start;          /* kinetic + potential before the first step */
     mps_momentum momentum; /* but for its `total` and `numerical` */

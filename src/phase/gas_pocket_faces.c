@@ -1,0 +1,386 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Faces of pockets of gas: their volume, its rate, and the pressures that the liquid behind them
+ * gets. e: direction of a face, out of the void; A: its area; i: the particle behind it.
+ *
+ * Volume. A row of particles stands dp/2 behind the surface of the liquid:
+ *
+ *   V = cells + sum_f A e.(x_i - x_f) - dp/2 S,   S = sum_i |sum_f of i A e|.
+ *
+ * The first two terms do not change where a cell changes between void and liquid at a flat surface,
+ * and their rate between such changes is the flux sum_f A e.u_i.
+ *
+ * Films. Across a film of thickness T between pressures p and p' the pressure is linear, so the
+ * particle half a spacing behind the face of p has
+ *
+ *   p_i = p - dp/2 n.G,   G = gradient: (p' - p)/T along the normal,
+ *
+ * n out of the liquid. From a face along axis d the film is T/|n_d| thick, so G_d is the mean of
+ * (p' - p)/T_d over the faces along d. A particle with faces of both sides has the mean of them
+ * all, and in a film of one row no neighbour that has the slope: gas_pocket.c. */
+#include "gas_pocket.h"
+
+/* ---- faces by row ---- */
+
+static void count_faces(const mps_voids *v, int64_t n, int32_t *begin)
+{
+    for (int64_t f = 0; f < v->faces; f++)
+        if (v->face_row[f] >= 0) begin[v->face_row[f] + 1]++;
+    for (int64_t i = 0; i < n; i++) begin[i + 1] += begin[i];
+}
+
+int mps__pocket_sort(mps_stage *s, mps__pocket_faces *f)
+{
+    const mps_voids *v = &f->voids;
+    int32_t *begin = mps_stage_scratch_integers(s, s->view->n + 2);
+    int32_t *face = mps_stage_scratch_integers(s, v->faces + 1);
+    if (!begin || !face) return 1;
+    /* begin[i + 1] is where row i goes on, and so at the end where row i + 1 begins */
+    count_faces(v, s->view->n, begin + 1);
+    for (int64_t k = 0; k < v->faces; k++)
+        if (v->face_row[k] >= 0) face[begin[v->face_row[k] + 1]++] = (int32_t)k;
+    f->begin = begin;
+    f->face = face;
+    return 0;
+}
+
+static double area_of(const mps_voids *v)
+{
+    return v->dim == 2 ? v->side : v->side * v->side;
+}
+
+/* Axis of a face, and 1 or -1: upwards or downwards along it. */
+static inline double direction(const mps_voids *v, int32_t face, int32_t *axis)
+{
+    *axis = v->face_side[face] / 2;
+    return v->face_side[face] % 2 ? 1.0 : -1.0;
+}
+
+/* Centre of a face in the frame of the tank. */
+static void face_centre(const mps_voids *v, int32_t face, double *x)
+{
+    int32_t axis;
+    const double sign = direction(v, face, &axis);
+    int64_t rest = v->face_cell[face];
+    for (int d = 0; d < v->dim; d++) {
+        x[d] = v->origin[d] + ((double)(rest % v->cells[d]) + 0.5) * v->side;
+        rest /= v->cells[d];
+    }
+    x[axis] += 0.5 * sign * v->side;
+}
+
+/* A vector of the frame of the tank, in the lab. */
+static inline void to_lab(const mps_view *v, const double *X, double *x)
+{
+    for (int d = 0; d < v->dim; d++) {
+        x[d] = 0;
+        for (int e = 0; e < v->dim; e++) x[d] += v->tank.rotation[3 * d + e] * X[e];
+    }
+}
+
+/* The particle whose surface a face is: that behind it. Beside a wall, where the surface meets it,
+ * that is the wall particle, and the surface is that of the nearest fluid. -1: a face towards a
+ * wall. */
+MPS_ROW int64_t surface_of(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i,
+                           int32_t axis)
+{
+    const mps_stencil *t = &v->near;
+    double along[3] = {0}, lab[3] = {0}, size = 0, normal = 0, least = INFINITY;
+    int64_t nearest = -1;
+    if (mps_is_fluid(v, i)) return i;
+    along[axis] = 1;
+    to_lab(v, along, lab);
+    for (int d = 0; d < dim; d++) {
+        size += v->area[i * dim + d] * v->area[i * dim + d];
+        normal += v->area[i * dim + d] * lab[d];
+    }
+    if (normal * normal > 0.5 * size) return -1;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const int64_t j = mps_stencil_column(t, p);
+        if (!mps_is_fluid(v, j) || mps_region_of(f->region, j) == MPS_REGION_SPRAY) continue;
+        const double r2 = mps_stencil_pair_dim(dim, t, i, p).r2;
+        if (r2 > least || (r2 == least && v->id[j] > v->id[nearest])) continue;
+        least = r2;
+        nearest = j;
+    }
+    return nearest;
+}
+
+/* ---- sums over faces ---- */
+
+enum { BATCH = MPS_PARALLEL_VALUES, PAIR = MPS_PARALLEL_VALUES / 2 };
+
+/* Terms of volumes: e.(x_i - x_f) A, and the area of the surface of each particle. */
+MPS_ROW void add_volume(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i,
+                        double *sums)
+{
+    double normal[PAIR][3] = {{0}};
+    if (f->begin[i] == f->begin[i + 1]) return;
+    for (int32_t k = f->begin[i]; k < f->begin[i + 1]; k++) {
+        const int32_t face = f->face[k], label = f->voids.face_label[face] - f->from;
+        int32_t axis;
+        double at[3], place[3];
+        if (label < 0 || label >= PAIR) continue;
+        const double sign = direction(&f->voids, face, &axis);
+        const int64_t j = surface_of(dim, v, f, i, axis);
+        if (j < 0) continue;
+        face_centre(&f->voids, face, at);
+        mps_view_tank(v, v->x + j * dim, place, NULL);
+        sums[2 * label] += sign * (place[axis] - at[axis]);
+        normal[label][axis] += sign;
+    }
+    for (int k = 0; k < PAIR; k++) {
+        double size = 0;
+        for (int d = 0; d < dim; d++) size += normal[k][d] * normal[k][d];
+        sums[2 * k + 1] += sqrt(size);
+    }
+}
+MPS_SUMS(add_volumes, add_volume, mps__pocket_faces)
+
+void mps__pocket_volumes(mps_stage *s, mps__pocket_faces *f, double *volume)
+{
+    const mps_voids *v = &f->voids;
+    const double area = area_of(v), cell = area * v->side;
+    for (f->from = 0; f->from < v->count; f->from += PAIR) {
+        double sums[2 * PAIR];
+        mps_stage_sum(s, 2 * PAIR, &add_volumes, f, sums);
+        for (int32_t k = 0; k < PAIR && f->from + k < v->count; k++) {
+            const double cells = v->size[f->from + k] * cell;
+            const double whole = cells + area * (sums[2 * k] - 0.5 * s->view->dp * sums[2 * k + 1]);
+            volume[f->from + k] = fmax(whole, cells);
+        }
+    }
+}
+
+/* How the velocity of particle i changes from its place to x: u(x) - u_i, linear. Beside walls 0:
+ * the moment matrix has them, and their velocity along the face is not that of the fluid. */
+MPS_ROW void velocity_change(const int dim, const mps_view *v, const mps__pocket_faces *f,
+                             int64_t i, const double *x, double *change)
+{
+    const mps_stencil *t = &v->near;
+    const double *b = f->correction + i * dim * dim;
+    double way[3] = {0};
+    for (int d = 0; d < dim; d++) change[d] = 0;
+    for (int d = 0; d < dim; d++)
+        for (int e = 0; e < dim; e++)
+            way[d] += dim / t->n0 * b[d * dim + e] * (x[e] - v->x[i * dim + e]);
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const int64_t j = mps_stencil_column(t, p);
+        if (mps_region_of(f->region, j) >= MPS_REGION_SPRAY) continue;
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
+        double along = 0;
+        for (int d = 0; d < dim; d++) along += q.w_r2 * q.d[d] * way[d];
+        for (int d = 0; d < dim; d++)
+            change[d] += along * (f->velocity[j * dim + d] - f->velocity[i * dim + d]);
+        if (mps_is_fluid(v, j)) continue;
+        for (int d = 0; d < dim; d++) change[d] = 0;
+        return;
+    }
+}
+
+/* Terms of fluxes: e.(u - u_tank) A, u at the face */
+MPS_ROW void add_flux(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i,
+                      double *sums)
+{
+    for (int32_t k = f->begin[i]; k < f->begin[i + 1]; k++) {
+        const int32_t face = f->face[k], label = f->voids.face_label[face] - f->from;
+        int32_t axis;
+        double tank[3], along[3] = {0}, lab[3] = {0}, at[3] = {0}, x[3], change[3];
+        if (label < 0 || label >= BATCH) continue;
+        along[f->voids.face_side[face] / 2] = direction(&f->voids, face, &axis);
+        const int64_t j = surface_of(dim, v, f, i, axis);
+        if (j < 0) continue;
+        to_lab(v, along, lab);
+        mps_view_tank(v, v->x + j * dim, NULL, tank);
+        face_centre(&f->voids, face, at);
+        for (int d = 0; d < dim; d++) at[d] -= v->tank.centre[d];
+        to_lab(v, at, x);
+        for (int d = 0; d < dim; d++) x[d] += v->tank.centre[d] + v->tank.shift[d];
+        velocity_change(dim, v, f, j, x, change);
+        for (int d = 0; d < dim; d++)
+            sums[label] += (f->velocity[j * dim + d] + change[d] - tank[d]) * lab[d];
+    }
+}
+MPS_SUMS(add_fluxes, add_flux, mps__pocket_faces)
+
+void mps__pocket_fluxes(mps_stage *s, mps__pocket_faces *f, double *flux)
+{
+    const double area = area_of(&f->voids);
+    for (f->from = 0; f->from < f->voids.count; f->from += BATCH) {
+        double sums[BATCH];
+        mps_stage_sum(s, BATCH, &add_fluxes, f, sums);
+        for (int32_t k = 0; k < BATCH && f->from + k < f->voids.count; k++)
+            flux[f->from + k] = area * sums[k];
+    }
+}
+
+/* p A e.u dt/2, of fluid alone: energies are those of particles. Half of the work is that with the
+ * velocities before the step, half that with those after it: so works of all forces add up to the
+ * kinetic energy. */
+MPS_ROW void add_work(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i,
+                      double *sum)
+{
+    double push[3] = {0}, lab[3] = {0};
+    if (!mps_is_fluid(v, i) || f->begin[i] == f->begin[i + 1]) return;
+    for (int32_t k = f->begin[i]; k < f->begin[i + 1]; k++) {
+        int32_t axis;
+        const double sign = direction(&f->voids, f->face[k], &axis);
+        push[axis] += sign * f->pressure[f->voids.face_label[f->face[k]]];
+    }
+    to_lab(v, push, lab);
+    for (int d = 0; d < dim; d++) sum[0] += 0.5 * v->dt * lab[d] * f->velocity[i * dim + d];
+}
+MPS_SUMS(add_works, add_work, mps__pocket_faces)
+
+double mps__pocket_work(mps_stage *s, const mps__pocket_faces *f)
+{
+    double work;
+    mps_stage_sum(s, 1, &add_works, f, &work);
+    return work * area_of(&f->voids);
+}
+
+void mps__pocket_areas(const mps__pocket_faces *f, double *area)
+{
+    const mps_voids *v = &f->voids;
+    for (int64_t k = 0; k < v->faces; k++)
+        if (v->face_behind[k] != MPS_VOID_SOLID) area[v->face_label[k]] += area_of(v);
+}
+
+/* ---- pressures of rows ---- */
+
+/* Cells of liquid behind a face up to another component; -1: there is a wall before it. */
+static int32_t march(const mps_voids *v, int32_t face, int32_t *other)
+{
+    int32_t axis, count = 0;
+    const double sign = direction(v, face, &axis);
+    int64_t stride = 1, place = v->face_cell[face];
+    for (int32_t d = 0; d < axis; d++) {
+        stride *= v->cells[d];
+        place /= v->cells[d];
+    }
+    place %= v->cells[axis];
+    for (int64_t cell = v->face_cell[face];; count++) {
+        place += sign > 0 ? 1 : -1;
+        cell += sign > 0 ? stride : -stride;
+        if (place < 0 || place >= v->cells[axis] || v->label[cell] == MPS_VOID_SOLID) return -1;
+        *other = v->label[cell];
+        if (*other >= 0) return count;
+    }
+}
+
+/* Thickness of a film along a unit vector of the lab, from particle i to the farthest of the film,
+ * and half a spacing beyond both. */
+MPS_ROW double thickness(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i,
+                         const double *n)
+{
+    const mps_stencil *t = &v->near;
+    const double aside = 0.75 * v->dp;
+    double most = 0, least = 0;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const int64_t j = mps_stencil_column(t, p);
+        if (!mps_is_fluid(v, j) || mps_region_of(f->region, j) == MPS_REGION_SPRAY) continue;
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
+        double along = 0;
+        for (int d = 0; d < dim; d++) along += q.d[d] * n[d];
+        if (q.r2 - along * along > aside * aside) continue;
+        most = fmax(most, along);
+        least = fmin(least, along);
+    }
+    return most - least + v->dp;
+}
+
+/* Sums over the faces of a row. */
+typedef struct contact {
+    double pressure, faces;
+    double out[3], count[3]; /* sum of directions out of the liquid; faces along each axis */
+    double slope[3];         /* by axis: sum of (p' - p)/T_d */
+    double inverse[3];       /* by axis: sum of 1/T_d */
+} contact;
+
+static contact sum_faces(const mps_view *v, const mps__pocket_faces *f, int64_t i)
+{
+    contact c = {0};
+    for (int32_t k = f->begin[i]; k < f->begin[i + 1]; k++) {
+        const int32_t face = f->face[k];
+        const double own = f->pressure[f->voids.face_label[face]];
+        int32_t axis, other = -1;
+        const double sign = direction(&f->voids, face, &axis);
+        const int32_t cells = march(&f->voids, face, &other);
+        c.pressure += own;
+        c.faces++;
+        c.out[axis] -= sign;
+        c.count[axis]++;
+        if (cells < 0 || other == f->voids.face_label[face]) continue;
+        const double thick = fmax(0.5 * v->dp, cells * f->voids.side + v->dp - 2 * f->cover);
+        c.slope[axis] += sign * (f->pressure[other] - own) / thick;
+        c.inverse[axis] += 1 / thick;
+    }
+    return c;
+}
+
+/* Films of the near radius: the raster does not know their thickness well enough. */
+static const double THIN = 2.5;
+
+/* Gradient in a film, in the lab. @return n.G dp/2 */
+MPS_ROW double film(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i,
+                    const contact *c, double *slope)
+{
+    double own[3] = {0}, size = 0, inverse = 0, faces = 0, rise = 0, n[3];
+    for (int d = 0; d < dim; d++) {
+        if (c->count[d] == 0) continue;
+        own[d] = c->slope[d] / c->count[d];
+        size += own[d] * own[d];
+        inverse += c->inverse[d] / c->count[d] * (c->inverse[d] / c->count[d]);
+        faces += c->count[d] * c->count[d];
+    }
+    for (int d = 0; d < dim; d++) slope[d] = 0;
+    if (size == 0) return 0;
+    to_lab(v, own, slope);
+    for (int d = 0; d < dim; d++) n[d] = slope[d] / sqrt(size);
+    const double rough = 1 / sqrt(inverse);
+    const double scale = rough < THIN * v->dp ? rough / thickness(dim, v, f, i, n) : 1;
+    for (int d = 0; d < dim; d++) {
+        slope[d] *= scale;
+        rise += scale * own[d] * c->out[d] / sqrt(faces);
+    }
+    return 0.5 * v->dp * rise;
+}
+
+MPS_ROW void press_fluid(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i)
+{
+    if (f->begin[i] == f->begin[i + 1]) return;
+    const contact c = sum_faces(v, f, i);
+    const double rise = film(dim, v, f, i, &c, f->slope + i * dim);
+    double *row = f->row + i * MPS__POCKET_ROW;
+    row[MPS__ROW_PRESSURE] = c.pressure / c.faces - rise;
+    row[MPS__ROW_WEIGHT] = c.faces;
+    row[MPS__ROW_FILM] = c.inverse[0] + c.inverse[1] + c.inverse[2] > 0;
+}
+
+/* Void before a wall particle: the component nearest to the point half a cell before it. */
+MPS_ROW void press_wall(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i)
+{
+    const double *area = v->area + i * dim;
+    double x[3] = {0}, place[3] = {0}, size = 0;
+    for (int d = 0; d < dim; d++) size += area[d] * area[d];
+    for (int d = 0; d < dim; d++)
+        x[d] = v->x[i * dim + d] + (size > 0 ? 0.5 * f->voids.side * area[d] / sqrt(size) : 0);
+    mps_view_tank(v, x, place, NULL);
+    const int64_t cell = mps_voids_cell(&f->voids, place);
+    int32_t label = cell < 0 ? -1 : f->voids.label[cell];
+    if (label < 0) label = mps_voids_near(&f->voids, place, 2 * v->dp);
+    if (label < 0) return;
+    f->row[i * MPS__POCKET_ROW + MPS__ROW_PRESSURE] = f->pressure[label];
+    f->row[i * MPS__POCKET_ROW + MPS__ROW_WEIGHT] = 1;
+}
+
+MPS_ROW void press_row(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i)
+{
+    if (mps_is_fluid(v, i)) press_fluid(dim, v, f, i);
+    if (mps_is_wall(v, i)) press_wall(dim, v, f, i);
+}
+MPS_ROWS(press_rows, press_row, mps__pocket_faces)
+
+void mps__pocket_press(mps_stage *s, const mps__pocket_faces *f)
+{
+    mps_stage_rows(s, &press_rows, f);
+}

@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Pockets of gas between steps: the state of the model gas.pocket. */
+#include "gas_pocket.h"
+#include <string.h>
+
+enum {
+    HEAD = sizeof(mps__pocket_head) / sizeof(double),
+    POCKET = sizeof(mps__pocket) / sizeof(double)
+};
+
+/* Most that a pocket is compressed: a bound for sums that went wrong, beyond all impacts. */
+static const double RATIO = 100;
+
+double mps__pocket_pressure(const double *setting, double gas, double volume)
+{
+    const double least = gas / RATIO;
+    if (!(gas > 0)) return 0;
+    return setting[MPS__POCKET_AMBIENT] *
+           expm1(setting[MPS__POCKET_EXPONENT] * log(gas / fmax(volume, least)));
+}
+
+mps__pocket_old mps__pocket_read(const mps_stage *s)
+{
+    int64_t count = 0;
+    const double *state = mps_stage_state_get(s, &count);
+    if (count < HEAD) return (mps__pocket_old){0};
+    const mps__pocket_head *head = (const mps__pocket_head *)(const void *)state;
+    return (mps__pocket_old){.head = head,
+                             .pocket = (const mps__pocket *)(const void *)(state + HEAD),
+                             .run = state + HEAD + POCKET * (int64_t)head->pockets};
+}
+
+/* Label of a component in the runs. label: [count] of all components */
+static double label_of(int32_t component, const int32_t *label)
+{
+    return component < 0 ? MPS__POCKET_NONE : label[component];
+}
+
+/* Runs of equal labels. run: NULL, or out */
+static int64_t runs(const mps_voids *v, const int32_t *label, double *run)
+{
+    const int64_t all = (int64_t)v->cells[0] * v->cells[1] * v->cells[2];
+    int64_t count = 0, begin = 0;
+    for (int64_t cell = 1; cell <= all; cell++) {
+        const int32_t here = v->label[cell - 1];
+        if (cell < all &&
+            (v->label[cell] == here || label_of(v->label[cell], label) == label_of(here, label)))
+            continue;
+        if (run) {
+            run[2 * count] = (double)(cell - begin);
+            run[2 * count + 1] = label_of(here, label);
+        }
+        begin = cell;
+        count++;
+    }
+    return count;
+}
+
+int mps__pocket_write(mps_stage *s, const mps_voids *v, const mps__pocket_now *now,
+                      mps__pocket_head *head)
+{
+    int32_t *label = mps_stage_scratch_integers(s, v->count + 1), pockets = 0;
+    if (!label) return 1;
+    for (int32_t k = 0; k < v->count; k++)
+        label[k] = now->pocket[k].gas > 0 ? MPS__POCKET_FIRST + pockets++ : MPS__POCKET_NONE;
+    if (v->count > 0) label[now->open] = MPS__POCKET_OPEN;
+    const int64_t count = runs(v, label, NULL);
+    double *state = mps_stage_state(s, HEAD + POCKET * pockets + 2 * count);
+    if (!state) return 1;
+    head->pockets = pockets;
+    head->runs = (double)count;
+    if (pockets == 0) head->ambient = 0;
+    head->dt = s->view->dt;
+    head->open = now->open;
+    for (int d = 0; d < 3; d++) head->cells[d] = v->cells[d];
+    memcpy(state, head, sizeof *head);
+    for (int32_t k = 0; k < v->count; k++) {
+        if (label[k] < MPS__POCKET_FIRST) continue;
+        now->pocket[k].place = k;
+        memcpy(state + HEAD + POCKET * (label[k] - MPS__POCKET_FIRST), &now->pocket[k],
+               sizeof(mps__pocket));
+    }
+    runs(v, label, state + HEAD + POCKET * pockets);
+    return 0;
+}
