@@ -22,7 +22,7 @@ typedef struct choices {
     const char *program, *verb;
     int32_t files, sets;
     const char *file[CLI_FILES];   /* arguments that are no options */
-    const char *set[CLI_SETS + 2]; /* "path=value" */
+    const char *set[CLI_SETS + 3]; /* "path=value"; a verb adds dp, steps and threads */
     const char *out;               /* NULL: as the verb has it */
     int32_t threads;               /* 0: as the case says */
     int32_t count;                 /* 0: as the verb has it */

@@ -14,7 +14,8 @@ enum {
     PATH_SIZE = SERIES_PATH + 32
 };
 
-/* Runs of one case differ by rounding alone; dp within this share gives others of the same flow. */
+/* Runs of one case are the same to the last byte. dp and the time steps within this share give others of the same flow: the steps in all
+ * tanks, also where a whole number of cells leaves one dp, and with each motion, also without one. */
 static const double SPREAD = 0.005;
 
 /* Rows of the first run that has some. */
@@ -65,8 +66,9 @@ static void print_repeat(int32_t count, mps_table *const *rows)
     }
 }
 
-/* repeat.csv: a row for each column that has values, behind the spacings as built. A run that does not count has nan. */
-static void write_repeat(FILE *out, int32_t count, mps_table *const *rows, const double *dp)
+/* repeat.csv: a row for each column that has values, behind the spacings as built and the factors of the time step. A run that failed has nan. */
+static void write_repeat(FILE *out, int32_t count, mps_table *const *rows, const double *dp,
+                         const double *factor)
 {
     const mps_table *first = first_of(count, rows);
     figures f;
@@ -74,6 +76,8 @@ static void write_repeat(FILE *out, int32_t count, mps_table *const *rows, const
     for (int32_t k = 0; k < count; k++) fprintf(out, ",%03d", (int)k + 1);
     fputs("\ndp,m,,,,,,,", out);
     for (int32_t k = 0; k < count; k++) fprintf(out, ",%.9g", rows[k] ? dp[k] : NAN);
+    fputs("\nrun.step_factor,,,,,,,,", out);
+    for (int32_t k = 0; k < count; k++) fprintf(out, ",%.9g", rows[k] ? factor[k] : NAN);
     fputc('\n', out);
     for (int32_t j = 0; j < mps_table_columns(first); j++) {
         if (!find_figures(&f, count, rows, j)) continue;
@@ -106,33 +110,34 @@ static FILE *open_table(const choices *c, char path[PATH_SIZE])
 }
 
 static int save_repeat(const choices *c, int32_t count, mps_table *const *rows, const double *dp,
-                       int code)
+                       const double *factor, int code)
 {
     char path[PATH_SIZE];
     FILE *out = open_table(c, path);
-    if (out) write_repeat(out, count, rows, dp);
+    if (out) write_repeat(out, count, rows, dp, factor);
     return close_table(c, out, path, code);
 }
 
-/* A tank that is filled with whole spacings gives the same dp for several that were asked for: the same run, which counts once. */
-static void drop_same(int32_t count, mps_table **rows, const double *dp)
+/* Say what the runs differ by: a tank that is filled with whole spacings gives the same dp for several that were asked for. */
+static void say_varied(int32_t count, mps_table *const *rows, const double *dp)
 {
-    int32_t same = 0;
+    double least = INFINITY, most = 0;
+    int32_t runs = 0, spacings = 0;
     for (int32_t k = 0; k < count; k++) {
         bool earlier = false;
-        for (int32_t i = 0; i < k && rows[k]; i++)
+        if (!rows[k]) continue;
+        for (int32_t i = 0; i < k; i++)
             earlier = earlier || (rows[i] && fabs(dp[i] - dp[k]) < 1e-9 * dp[k]);
-        if (!earlier) continue;
-        mps_table_destroy(rows[k]);
-        rows[k] = NULL;
-        same++;
+        least = fmin(least, dp[k]);
+        most = fmax(most, dp[k]);
+        spacings += !earlier;
+        runs++;
     }
-    if (same > 0)
-        fprintf(stderr,
-                "mps repeat: %d of %d runs were built with the dp of an earlier one, so that it "
-                "fits into the tank; they do not count. A finer dp, or 'tank.polygon', gives more "
-                "runs\n",
-                (int)same, (int)count);
+    printf("varied: time steps by +-%g %%, dp as built ", 100 * SPREAD);
+    if (spacings > 1)
+        printf("%.6g to %.6g m (%d different in %d runs)\n", least, most, (int)spacings, (int)runs);
+    else
+        printf("%.6g m in all runs, whose cells fill the tank\n", least);
 }
 
 int verb_repeat(const choices *c)
@@ -145,11 +150,11 @@ int verb_repeat(const choices *c)
         return MPS_EXIT_USAGE;
     }
     for (int32_t k = 0; k < count; k++) factor[k] = 1 + SPREAD * (2.0 * k / (count - 1) - 1);
-    int code = series_of_dp(c, count, factor, rows, dp);
-    drop_same(count, rows, dp);
+    int code = series_of_dp(c, count, factor, true, rows, dp);
     if (code != MPS_EXIT_INTERRUPTED && first_of(count, rows)) {
+        say_varied(count, rows, dp);
         print_repeat(count, rows);
-        code = save_repeat(c, count, rows, dp, code);
+        code = save_repeat(c, count, rows, dp, factor, code);
     }
     for (int32_t k = 0; k < count; k++) mps_table_destroy(rows[k]);
     return code;
@@ -210,7 +215,7 @@ int verb_converge(const choices *c)
     const double factor[SPACINGS] = {2, sqrt(2), 1};
     double dp[SPACINGS];
     mps_table *rows[SPACINGS] = {NULL};
-    int code = series_of_dp(c, SPACINGS, factor, rows, dp);
+    int code = series_of_dp(c, SPACINGS, factor, false, rows, dp);
     if (rows[0] && rows[1] && rows[2] && !(dp[0] > dp[1] && dp[1] > dp[2])) {
         fprintf(stderr,
                 "mps converge: %g, %g and %g m are not three spacings from coarse to fine\n", dp[0],

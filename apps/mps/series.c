@@ -190,10 +190,10 @@ static int read_dp(const choices *c, double *dp, char unit[SERIES_DP])
     return MPS_EXIT_OK;
 }
 
-int series_of_dp(const choices *c, int32_t count, const double *factor, mps_table **rows,
-                 double *dp)
+int series_of_dp(const choices *c, int32_t count, const double *factor, bool steps,
+                 mps_table **rows, double *dp)
 {
-    char place[SERIES_PATH], folder[SERIES_PATH], set[2 * SERIES_DP + 8], unit[SERIES_DP];
+    char place[SERIES_PATH], folder[SERIES_PATH], set[2 * SERIES_DP + 8], unit[SERIES_DP], step[64];
     double given = 0;
     int worst = read_dp(c, &given, unit);
     if (worst != MPS_EXIT_OK) return worst;
@@ -202,9 +202,12 @@ int series_of_dp(const choices *c, int32_t count, const double *factor, mps_tabl
         choices one = *c;
         snprintf(set, sizeof set, "dp=%.9g%s", given * factor[k], unit);
         one.set[one.sets++] = set;
+        snprintf(step, sizeof step, "run.step_factor=%.9g", factor[k]);
+        if (steps) one.set[one.sets++] = step;
         const bool named = series_folder(place, k, folder);
         if (!c->quiet)
-            fprintf(stderr, "mps %s: run %d of %d: %s\n", c->verb, (int)k + 1, (int)count, set);
+            fprintf(stderr, "mps %s: run %d of %d: %s%s%s\n", c->verb, (int)k + 1, (int)count, set,
+                    steps ? ", " : "", steps ? step : "");
         const int code = named ? series_run(&one, folder) : MPS_EXIT_USAGE;
         if (code == MPS_EXIT_INTERRUPTED) return code;
         if (code != MPS_EXIT_OK)

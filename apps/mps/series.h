@@ -21,8 +21,9 @@ mps_table *series_table(const choices *c, const char *folder);
 bool series_key(const mps_case *tank, const char *key, char *out, size_t size);
 /* Largest value of a column; nan where it has none. */
 double series_most(const mps_table *rows, int32_t column);
-/* Runs with dp times factor[k], and the rows and dp as built [m] of each. @return exit code: of the worst run */
-int series_of_dp(const choices *c, int32_t count, const double *factor, mps_table **rows,
-                 double *dp);
+/* Runs with dp times factor[k], where `steps` is set with time steps times factor[k] too, and the rows and dp as built [m] of each.
+ * @return exit code: of the worst run */
+int series_of_dp(const choices *c, int32_t count, const double *factor, bool steps,
+                 mps_table **rows, double *dp);
 
 #endif

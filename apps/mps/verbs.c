@@ -49,7 +49,7 @@ const verb cli_verbs[] = {
      HAS_SET | HAS_THREADS | HAS_QUIET | HAS_PROFILE | HAS_MPI, verb_resume, NULL},
     {"sweep", "CASE", "Run all combinations of the case's 'sweep'; a table of 'collect'.", 1, 1,
      HAS_SET | HAS_OUT | HAS_THREADS | HAS_OVERWRITE | HAS_QUIET, verb_sweep, SERIES_TEXT},
-    {"repeat", "CASE", "Run a case with dp within 0.5 %; mean and band of the largest values.", 1,
+    {"repeat", "CASE", "Run a case with dp and steps within 0.5 %; bands of the largest values.", 1,
      1, HAS_SET | HAS_OUT | HAS_THREADS | HAS_OVERWRITE | HAS_QUIET | HAS_COUNT, verb_repeat,
      SERIES_TEXT},
     {"converge", "CASE", "Run a case with dp times 2, sqrt(2), 1; order of the largest values.", 1,

@@ -152,11 +152,21 @@ static mps_status take_moving(film *f, double id, double phase)
     return status;
 }
 
+/* Parts of the tank itself, by their names: what is no part of it stands in it. */
+static void take_tank_parts(film *f, const film_frame *s)
+{
+    int number = 0;
+    for (const char *name = s->parts; name && *name && number < FILM_PARTS;
+         name += strlen(name) + 1, number++)
+        f->part_of_tank[number] = strncmp(name, "tank", 4) == 0;
+}
+
 /* Walls of the first frame. */
 static mps_status take_walls(film *f, const film_frame *s)
 {
     int64_t count = 0;
     if (!s->kind || !s->x) return MPS_OK; /* an empty frame */
+    take_tank_parts(f, s);
     for (int64_t i = 0; i < s->count; i++) count += (int)s->kind[i] == FILM_WALL;
     f->wall_x = malloc((size_t)(count + 1) * 3 * sizeof *f->wall_x);
     f->wall_part = malloc((size_t)(count + 1) * sizeof *f->wall_part);

@@ -45,7 +45,7 @@ typedef struct film {
     unsigned char *phase; /* [moving.count], by place */
     double *wall_x;       /* [3*wall.count] in the tank's frame, by place */
     double *wall_part;    /* [wall.count] */
-    bool part_moves[FILM_PARTS];
+    bool part_moves[FILM_PARTS], part_of_tank[FILM_PARTS];
     film_pose start;      /* in the first frame */
     film_pose *pose;      /* [run->frames] */
     int64_t reference[3]; /* ids of walls that show the pose; -1: there are none */

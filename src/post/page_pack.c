@@ -139,6 +139,12 @@ static bool wall_stands(const film *f, int64_t place)
     return part < 0 || part >= FILM_PARTS || !f->part_moves[(int)part];
 }
 
+static bool wall_of_tank(const film *f, int64_t place)
+{
+    const double part = f->wall_part[place];
+    return part >= 0 && part < FILM_PARTS && f->part_of_tank[(int)part];
+}
+
 /* Bounds of the walls that stand. @return how many */
 static int64_t wall_bounds(const film *f, double lo[3], double *quantum)
 {
@@ -158,7 +164,7 @@ static int64_t wall_bounds(const film *f, double lo[3], double *quantum)
     return count;
 }
 
-/* Walls that stand, as one frame of the codec; those of a wide tank are thinned. */
+/* Walls that stand, as one frame of the codec, value 1: of the tank itself; those of a wide tank are thinned. */
 static mps_status pack_walls(packing *p)
 {
     const film *f = p->film;
@@ -172,6 +178,7 @@ static mps_status pack_walls(packing *p)
     bool done = mps__codec_create(&c, count, f->dim, WALL_BITS) && q && value;
     for (int64_t k = 0, n = 0; done && k < f->wall.count; k++) {
         if (!wall_stands(f, k) || n++ % each != 0) continue;
+        value[(n - 1) / each] = wall_of_tank(f, k);
         for (int32_t d = 0; d < f->dim; d++)
             q[d * count + (n - 1) / each] = (uint16_t)((f->wall_x[3 * k + d] - lo[d]) / quantum +
                                                        0.5);

@@ -127,6 +127,12 @@ static void item(FILE *out, const page_run *r, double value, double all, const c
             text[value < 0]);
 }
 
+/* The line `viscous` of the budget has both in one sum. */
+#define FRICTION                                                                              \
+    "was taken by friction in the liquid and at walls: numerical dissipation, which keeps "   \
+    "particles in order, and the liquid's own viscosity in one sum. In a tank of metres the " \
+    "viscosity of water, LNG or LPG is a small part of it."
+
 void mps__page_budget(FILE *out, const page_run *r)
 {
     static const struct {
@@ -143,9 +149,7 @@ void mps__page_budget(FILE *out, const page_run *r)
          true,
          {"is stored because the liquid stands higher than at the start.",
           "was set free because the liquid stands lower than at the start."}},
-        {"viscous",
-         false,
-         {"was taken by viscosity, friction and dissipation.", "came from viscosity: an error."}},
+        {"viscous", false, {FRICTION, "came from friction in the liquid: an error."}},
         {"friction", false, {"was taken by layers at walls.", "came from layers at walls."}},
         {"layers", true, {"more is in layers at side walls.", "less is in layers at side walls."}},
         {"plugins", false, {"was taken by models of plug-ins.", "came from models of plug-ins."}},

@@ -155,6 +155,65 @@ static void periods(void **state)
           "along z: T1 7.492 s, estimated by length 30 m and depth 8 m", NULL);
 }
 
+#define BOX "mps: 1\ndp: 10 mm\ntank: {size: 0.6 0.3 m}\n"
+
+/* 59 particles are a row of this box, 18.4 rows are 184 mm. */
+static void top_rows(void **state)
+{
+    (void)state;
+    tells(BOX "fill: [{water: {depth: 180 mm}}]\n" END, "of all fluid", "the uppermost row");
+    char *text = checked(BOX "fill: [{water: {depth: 184 mm}}]\n" END);
+    const char *row = strstr(text, "the uppermost row has ");
+    double share = 0;
+    if (row) sscanf(row, "the uppermost row has %lf %% of the particles of the row below:", &share);
+    if (!(share > 35 && share < 45)) fail_msg("%s", text);
+    free(text);
+}
+
+/* Steps of 1 ms have a row each; of 8 ms, eight. */
+static void rates(void **state)
+{
+    (void)state;
+    tells(BOX "fill: [{water: {depth: 180 mm}}]\nrun: {until: 1 s, dt: 1 ms}\n", "cost", "rows ");
+    tells("mps: 1\ndp: 0.5 m\ntank: {size: 10 5 m}\nfill: [{water: {depth: 3 m}}]\nrun: {until: "
+          "1 s, dt: 8 ms}\n",
+          "1000 Hz: about 8 rows of probes.csv in each step, with the same values; 'output.rate: "
+          "1.2e+02 Hz' has one",
+          NULL);
+}
+
+/* Steps of the calm limit, 0.06 sqrt(dp/g); 0.3 dp over twice the speed of the tank and that of a fall through it. */
+static void costs(void **state)
+{
+    (void)state;
+    const char *parts[] = {"motion: {surge: {amplitude: 15 mm, period: 1 s}}\n", ""};
+    for (int k = 0; k < 2; k++) {
+        char text[600];
+        snprintf(text, sizeof text, "%s%sfill: [{water: {depth: 180 mm}}]\n" END, BOX, parts[k]);
+        char *out = checked(text);
+        const char *steps = strstr(out, "steps of about"), *cost = strstr(out, "cost  ");
+        double calm = 0, fast = 0, speed = 0, least = 0, most = 0, took = 0;
+        const double wanted = sqrt(2 * 9.81 * 0.3) + (k ? 0 : 2 * 0.015 * 2 * acos(-1.0));
+        if (steps)
+            sscanf(steps, "steps of about %lf s, %lf s in liquid of %lf", &calm, &fast, &speed);
+        if (cost)
+            sscanf(cost,
+                   "cost      about %lf to %lf s of wall clock: calm to violent; outputs "
+                   "apart (%lf s a step",
+                   &least, &most, &took);
+        if (!(fabs(calm - 0.0019) < 1e-9 && fabs(speed - wanted) < 0.06 &&
+              fabs(fast - 0.003 / wanted) < 1e-4))
+            fail_msg("%s", out);
+        const double ratio = 1.75 * 0.0019157 / (0.003 / wanted);
+        if (!(took > 0 && fabs(least / (took / 0.0019157) - 1) < 0.12 &&
+              fabs(most / least / ratio - 1) < 0.12))
+            fail_msg("%s", out);
+        free(out);
+    }
+    tells(BOX "fill: [{water: {depth: 180 mm}}]\nrun: {until: 1 s, dt: 1 ms}\n",
+          "steps of about 0.001 s\n", "in liquid of");
+}
+
 /* The drawing; the caller frees it. */
 static char *drawn(const char *case_text)
 {
@@ -212,6 +271,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(volumes), cmocka_unit_test(files),   cmocka_unit_test(plates),
         cmocka_unit_test(sensors), cmocka_unit_test(columns), cmocka_unit_test(motions),
-        cmocka_unit_test(bare),    cmocka_unit_test(periods), cmocka_unit_test(drawings)};
+        cmocka_unit_test(bare),    cmocka_unit_test(periods), cmocka_unit_test(top_rows),
+        cmocka_unit_test(costs),   cmocka_unit_test(rates),   cmocka_unit_test(drawings)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -269,17 +269,40 @@ expect 2 "run of another case" "$program" sweep sweep.yaml --set "run.until=0.06
 sed 's/^sweep.*/sweep: {motion.surge.amplitude: 1e-6 5 m}/' sweep.yaml > bad.yaml
 expect 3 "bad/002 failed, exit code 3" "$program" sweep bad.yaml --set "run.dt=20 ms" --set "run.until=0.6 s" -o bad -q
 grep -q "^002,5 m,3,nan,nan" bad/sweep.csv || fail "sweep.csv of a failed run: $(cat bad/sweep.csv)"
-expect 0 "2 of 3 runs were built with the dp of an earlier one" "$program" repeat single.yaml -n 3 -o same -q
+# the last 20 steps share what is left of a run; before, they have the factor. Where whole cells leave one dp, the runs differ by their steps: each motion, fixed steps and none
+repeated() {
+    expect 0 "" "$program" repeat $1.yaml --set "run.until=0.2 s" -n 3 -o $1 -q
+    grep -q "^varied: time steps by +-0.5 %, dp as built [0-9.]* m in all runs, whose cells fill the tank$" log || fail "repeat: $(cat log)"
+    grep -q "^run.step_factor,,,,,,,,,0.995,1,1.005$" $1/repeat.csv || fail "factors of $1/repeat.csv: $(cat $1/repeat.csv)"
+    for k in 001 003; do
+        cmp -s $1/$k/probes.csv $1/002/probes.csv && fail "$1: runs $k and 002 are the same"
+    done
+    "$program" run $1.yaml --set "run.until=0.2 s" -o $1/plain -q || fail "a plain run of $1"
+    cmp $1/plain/probes.csv $1/002/probes.csv || fail "$1: the middle run is not that of the case"
+}
+cp single.yaml same.yaml
+printf 'base: single.yaml\nset: {run.dt: 1 ms}\n' > fixed.yaml
+awk '/^[a-z]/ { skip = /^motion/ } !skip' tank.yaml > still_tank.yaml
+sed 's/tank.yaml/still_tank.yaml/' single.yaml > still.yaml
+repeated same
+repeated fixed
+repeated still
+for k in 1 2 3; do # the first step, of a length that is chosen
+    awk -F, -v f="$(sed -n 's/.*step_factor,*\(.*\)/\1/p' same/repeat.csv | cut -d, -f$k)" 'NR == FNR { if (FNR == 2) base = $2; next }
+        FNR == 2 { exit !(f > 0.99 && ($2 / base / f - 1) ^ 2 < 1e-18) }' same/002/steps.csv same/00$k/steps.csv || fail "steps of run $k"
+done
 expect 0 "largest value of" "$program" repeat single.yaml --set "dp=5 mm" --set "run.until=0.01 s" -n 3 -o repeated -q
 grep -q "^P_left \[Pa\]  *3 " log || fail "repeat: $(cat log)"
+grep -q "^varied: time steps by +-0.5 %, dp as built 0.0049[0-9]* to 0.0050[0-9]* m (3 different in 3 runs)$" log || fail "repeat: $(cat log)"
 # repeat.csv: the values of the runs, their mean, least and largest
 [ "$(head -1 repeated/repeat.csv)" = "largest value of,unit,runs,mean,least,most,deviation,mean_band,next_band,001,002,003" ] ||
     fail "repeat.csv: $(cat repeated/repeat.csv)"
 awk -F, '/^dp,m,,,,,,,/ { ok += $10 < $11 && $11 < $12 && $10 > 0.0049 && $12 < 0.0051 }
+    /^run.step_factor,,,,,,,,/ { ok += $10 == 0.995 && $11 == 1 && $12 == 1.005 }
     /^P_left,Pa,3,/ { m = ($10 + $11 + $12) / 3; d = sqrt((($10 - m) ^ 2 + ($11 - m) ^ 2 + ($12 - m) ^ 2) / 2)
         least = most = $10; for (k = 11; k <= 12; k++) { if ($k < least) least = $k; if ($k > most) most = $k }
         ok += ($4 / m - 1) ^ 2 < 1e-14 && $5 == least && $6 == most && ($7 - d) ^ 2 <= (1e-5 * d) ^ 2 && $8 > 0 && $9 > $8 }
-    END { exit !(ok == 2) }' repeated/repeat.csv || fail "repeat.csv: $(cat repeated/repeat.csv)"
+    END { exit !(ok == 3) }' repeated/repeat.csv || fail "repeat.csv: $(cat repeated/repeat.csv)"
 grep -q "^dp: 4.975 mm" repeated/001/case.yaml && grep -q "^dp: 5.025 mm" repeated/003/case.yaml || fail "dp of repeat"
 expect 0 "order" "$program" converge single.yaml -o converged -q
 grep -q "^ke " log || fail "converge: $(cat log)"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Folders with pages for the tests in a browser, and a picture that is drawn here, from the paths of the particles, of what the film must show.
- * usage: scene FOLDER: makes FOLDER/flat, FOLDER/deep, FOLDER/flat.rgb */
+ * usage: scene FOLDER: makes FOLDER/flat, FOLDER/deep, FOLDER/chamfer, FOLDER/plate, FOLDER/flat.rgb */
 #include "page_fixture.h"
 #include "page_scale.h"
 
@@ -85,10 +85,14 @@ int main(int argc, char **argv)
 {
     scene flat = {.dim = 2, .fluid = 400, .frames = 30, .rows = 1500, .moves = true};
     scene deep = {.dim = 3, .fluid = 700, .frames = 20, .rows = 300};
+    scene chamfer = {.dim = 3, .fluid = 700, .frames = 2, .rows = 300, .front = true};
+    scene plate = {.dim = 3, .fluid = 700, .frames = 2, .rows = 300, .front = true, .plate = true};
     char path[512];
     if (argc != 2) return 2;
     make(&flat, argv[1], "flat");
     make(&deep, argv[1], "deep");
+    make(&chamfer, argv[1], "chamfer");
+    make(&plate, argv[1], "plate");
     snprintf(path, sizeof path, "%.400s/flat.rgb", argv[1]);
     draw(&flat, path);
     return 0;

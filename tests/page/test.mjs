@@ -247,6 +247,35 @@ await test("3-D: turns by pointer and keys, picks", deep, async (p) => {
     assert.equal(await p.locator("#frame-choice").isVisible(), false);
 });
 
+// Pixels that walls cover, and those of them that they hide.
+async function covered(name) {
+    const p = await open(name), full = await pixels(p);
+    await p.uncheck("#walls-on");
+    const bare = await pixels(p), out = { seen: 0, hidden: 0 };
+    for (let i = 0; i < bare.data.length; i += 3) {
+        const far = Math.max(...[0, 1, 2].map((c) => Math.abs(full.data[i + c] - bare.data[i + c])));
+        out.seen += far > 8;
+        out.hidden += full.data[i] < 160 && far > 8 && Math.abs(full.data[i] - full.data[i + 1]) < 12 && Math.abs(full.data[i] - full.data[i + 2]) < 20;
+    }
+    assert.deepEqual(p.problems, []);
+    return out;
+}
+
+await test("3-D: a chamfer lets the liquid be seen, a plate in the tank hides it", deep, async () => {
+    const chamfer = await covered("chamfer"), plate = await covered("plate");
+    console.log(`# pixels of walls: ${JSON.stringify({ chamfer, plate })}`);
+    assert.ok(plate.hidden > 1000, "the plate is not solid");
+    assert.ok(chamfer.seen > 50, "the walls of the tank are not shown");
+    assert.ok(chamfer.hidden < 0.1 * plate.hidden, "the chamfer hides the liquid");
+});
+
+await test("forces: a plot for each axis, the mean of what stays away from 0", await open("chamfer"), async (p) => {
+    const heads = await p.locator('.charts[data-place="forces"] figcaption').allInnerTexts();
+    assert.equal(heads.length, 2);
+    assert.ok(!/Mean/.test(heads[0]), heads[0]);
+    assert.match(heads[1], /Mean of F_y: −9 kN/);
+});
+
 async function accessible(name, page) {
     await test(`axe: ${name}`, page, async (p) => {
         await p.evaluate(() => { for (const d of document.querySelectorAll("details")) d.open = true; });

@@ -24,6 +24,8 @@ typedef struct scene {
     int32_t dim, fluid, frames, rows;
     bool moves; /* the tank turns and shifts */
     bool body;  /* the last four walls are a part of their own, which moves */
+    bool front; /* the last eight walls stand before the liquid, in 3-D: of the tank, a chamfer */
+    bool plate; /* these are a part of their own, which stands in the tank */
     char error[512];
 } scene;
 
@@ -75,6 +77,11 @@ static inline void place_in_tank(const scene *s, int32_t i, int32_t k, double ou
     out[1] = (double)(w / 2 % 4) / 3;
     out[2] = s->dim == 3 ? 0.25 * (w / 8) : 0;
     if (s->body && w >= WALLS - 4) out[1] += 0.1 * k;
+    if (s->front && w < WALLS - 8) out[2] = 0.5 * (w / 8);
+    if (!s->front || w < WALLS - 8) return;
+    out[0] = 0.5 + 0.12 * (w - WALLS + 8);
+    out[1] = 0.3;
+    out[2] = 0.44;
 }
 
 /* The same in the lab: a turn about z and a shift. */
@@ -161,7 +168,7 @@ static inline void write_frame(const scene *s, int32_t k)
         u[3 * place] = i < 0 ? 0 : (float)(0.01 * (i % 100));
         p[place] = pressure_of(i, k);
         kind[place] = i < 0;
-        part[place] = i < 0 ? s->body && i < -(WALLS - 4) : -1;
+        part[place] = i < 0 ? (s->body && i < -(WALLS - 4)) || (s->plate && i < -(WALLS - 8)) : -1;
         id[place] = id_of(s, i);
     }
     write_frame_head(file, n, k);
@@ -199,15 +206,16 @@ static inline void write_tables(const scene *s)
     path_of(s, "probes.csv", path);
     FILE *file = fopen(path, "w");
     assert_non_null(file);
-    fputs("t[s],P1[Pa],eta[m],F[N],ke[J],pe[J],numerical[J],volume_error\n", file);
+    fprintf(file, "t[s],P1[Pa],eta[m],%s,ke[J],pe[J],numerical[J],volume_error\n",
+            s->front ? "F_x[N],F_y[N]" : "F[N]");
     for (int32_t i = 0; i < s->rows; i++) {
         const double t = 0.01 * i, hit = fmod(t, 1.0);
-        fprintf(file, "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", t,
+        fprintf(file, "%.17g,%.17g,%.17g,%.17g%s,%.17g,%.17g,%.17g,%.17g\n", t,
                 hit < 0.05 ? 1e4 * (1 + 0.1 * floor(t)) *
                                  (hit < 0.02 ? hit / 0.02 : 1 - (hit - 0.02) / 0.03)
                            : 0,
-                0.1 * sin(6 * t), i == 3 ? NAN : 40 * cos(t), 2 * sin(t) * sin(t),
-                3 + 2 * cos(t) * cos(t), 0.01 * t, 1e-4 * t);
+                0.1 * sin(6 * t), i == 3 ? NAN : 40 * cos(t), s->front ? ",-9000" : "",
+                2 * sin(t) * sin(t), 3 + 2 * cos(t) * cos(t), 0.01 * t, 1e-4 * t);
     }
     assert_int_equal(fclose(file), 0);
     text_write(s, "steps.csv",
@@ -216,6 +224,8 @@ static inline void write_tables(const scene *s)
 
 static inline void write_summary(const scene *s, const char *more)
 {
+    static const char other[] = "{\"name\": \"F_x\", \"unit\": \"N\", \"type\": \"force\", "
+                                "\"about\": \"Force: of F\"},\n";
     char text[4096];
     snprintf(
         text, sizeof text,
@@ -232,12 +242,13 @@ static inline void write_summary(const scene *s, const char *more)
         "pressure: of "
         "P1\"},\n{\"name\": \"eta\", \"unit\": \"m\", \"type\": \"gauge\", \"at\": [0.1, 0, 0], "
         "\"about\": "
-        "\"Elevation: of eta\"},\n{\"name\": \"F\", \"unit\": \"N\", \"type\": \"force\", "
+        "\"Elevation: of eta\"},\n%s{\"name\": \"F%s\", \"unit\": \"N\", \"type\": \"force\", "
         "\"about\": \"Force: "
         "of F\"}],\n\"references\": [{\"label\": \"measured\", \"unit\": \"m\", \"column\": "
         "\"eta\", \"line\": "
         "false, \"points\": [[0.5, 0.02], [1.005, -0.03]]}]%s}\n",
-        (int)s->dim, (int)s->fluid, 0.01 * (s->rows - 1), more);
+        (int)s->dim, (int)s->fluid, 0.01 * (s->rows - 1), s->front ? other : "",
+        s->front ? "_y" : "", more);
     text_write(s, "summary.json", text);
 }
 

@@ -119,6 +119,46 @@ static void write_log(const writer *w, const build *b)
     }
 }
 
+/* Particles of the liquid in the uppermost row of the lattice, and in the row below. */
+typedef struct top_rows {
+    double y;
+    int64_t top, below;
+} top_rows;
+
+static bool find_rows(const build *b, top_rows *r)
+{
+    mps_lease x = {.struct_size = sizeof x}, kind = x;
+    double h[3] = {0, b->dp, 0};
+    *r = (top_rows){.y = -INFINITY};
+    if (mps_lattice_get(b->sim, NULL, h) != MPS_OK) h[1] = b->dp;
+    bool good = mps_lease_begin(b->sim, "position", MPS_READ, &x) == MPS_OK;
+    good = good && mps_lease_begin(b->sim, "kind", MPS_READ, &kind) == MPS_OK;
+    for (int64_t i = 0; good && i < x.count; i++)
+        if (kind.integers[i] == MPS_FLUID) r->y = fmax(r->y, x.data[i * x.stride + 1]);
+    for (int64_t i = 0; good && i < x.count; i++) {
+        const double below = (r->y - x.data[i * x.stride + 1]) / h[1];
+        if (kind.integers[i] != MPS_FLUID || below > 1.5) continue;
+        *(below > 0.5 ? &r->below : &r->top) += 1;
+    }
+    mps_lease_end(b->sim, &kind);
+    mps_lease_end(b->sim, &x);
+    return good && r->top > 0 && r->below > 0;
+}
+
+/* A level between two rows leaves the uppermost one with the particles that the volume asks for, in groups or beside walls: steps in the surface. */
+static void write_top(const writer *w, const build *b)
+{
+    top_rows r;
+    if (b->fluids != 1 || !mps__build_filled(b) || !find_rows(b, &r)) return;
+    const double share = (double)r.top / (double)r.below;
+    if (share > 0.9) return; /* whole, or narrower by a slope */
+    heading(w, "");
+    fprintf(w->file,
+            "the uppermost row has %.2g %% of the particles of the row below: steps of one spacing "
+            "in the surface, which become waves of less than half of it\n",
+            100 * share);
+}
+
 static void write_fluids(const writer *w, build *b)
 {
     int64_t count[3] = {0};
@@ -154,6 +194,7 @@ static void write_fluids(const writer *w, build *b)
         heading(w, "level");
         fprintf(w->file, "y = %.5g m as filled, %.5g m asked for\n", b->level,
                 b->tank.form.lo[1] + b->depth);
+        write_top(w, b);
     }
 }
 
@@ -269,24 +310,75 @@ static double seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Speed of the liquid that the steps must follow: that of the tank, and of a wave of half the depth. */
-static double expected_speed(const build *b)
+/* Largest speed of the tank, at its corners. */
+static double tank_speed(const build *b)
 {
-    double most = 0;
     const build_motion *m = b->motion;
+    double most = 0;
     for (int32_t d = 0; m && d < 3; d++) most = fmax(most, m->largest[d][1]);
     for (int32_t d = 3; m && d < 6; d++) {
         const form *t = &b->tank.form;
         const double reach = fmax(fabs(t->hi[0] - m->centre[0]), fabs(t->hi[1] - m->centre[1]));
         most = fmax(most, m->largest[d][1] * reach);
     }
+    return most;
+}
+
+/* What a run takes: with waves of half the depth, and with liquid that falls through the tank all the time. */
+typedef struct forecast {
+    double calm, fast; /* steps [s] */
+    double speed;      /* of the fast liquid [m/s] */
+    double took;       /* a step at rest [s of wall clock] */
+    double least, most;
+} forecast;
+
+/* A step at rest needs the least: the pressure solver starts from still water, no particle collides. docs/performance.md: in runs a
+ * particle-step costs up to 1.75 times that of the fastest one. */
+static forecast find_forecast(build *b, double dt, double took)
+{
+    const double slowest = 1.75;
+    const tree_node *run = mps__tree_find(b->root, "run");
     const double depth = b->modes.count ? b->modes.depth : b->tank.form.hi[1] - b->tank.form.lo[1];
-    return 2 * most + 0.5 * sqrt(b->gravity * depth);
+    const double wave = 2 * tank_speed(b) + 0.5 * sqrt(b->gravity * depth);
+    const double fall = sqrt(2 * b->gravity * (b->tank.form.hi[1] - b->tank.form.lo[1]));
+    const double factor = mps__read_number(b->c, run, "step_factor", 1);
+    const double cfl = factor * mps__read_number(b->c, run, "cfl", 0.3);
+    forecast f = {.calm = dt, .fast = dt, .speed = 2 * tank_speed(b) + fall, .took = took};
+    if (!(mps__read_number(b->c, run, "dt", 0) > 0)) {
+        if (wave > 0) f.calm = fmin(dt, cfl * b->dp / wave);
+        if (f.speed > 0) f.fast = fmin(f.calm, cfl * b->dp / f.speed);
+    }
+    f.least = took * b->until / f.calm;
+    f.most = slowest * took * b->until / f.fast;
+    return f;
+}
+
+/* Both in the unit of the larger one: "3.9 to 9.1 s". */
+static void write_span(const writer *w, double least, double most)
+{
+    const double unit = most < 100 ? 1 : most < 6000 ? 60 : 3600;
+    fprintf(w->file, "about %.2g to %.2g %s of wall clock", least / unit, most / unit,
+            unit > 60  ? "h"
+            : unit > 1 ? "min"
+                       : "s");
+}
+
+/* Where several rows of probes.csv are within a step: they have the same values, and the times of the rate that was asked for. */
+static void write_rate(const writer *w, const build *b, double dt)
+{
+    const tree_node *output = mps__tree_find(b->root, "output");
+    const double rate = mps__read_number(b->c, output, "rate", 1000);
+    if (dt * rate < 2) return;
+    heading(w, "rows");
+    fprintf(
+        w->file,
+        "%.4g Hz: about %.2g rows of probes.csv in each step, with the same values; 'output.rate: "
+        "%.2g Hz' has one\n",
+        rate, dt * rate, 1 / dt);
 }
 
 static void write_cost(const writer *w, build *b)
 {
-    const tree_node *run = mps__tree_find(b->root, "run");
     struct rusage usage;
     mps_step_info info;
     mps_step_info_init(&info, sizeof info);
@@ -306,17 +398,18 @@ static void write_cost(const writer *w, build *b)
         fprintf(w->file, "the first steps fail: %s\n", mps_sim_error(b->sim));
         return;
     }
-    const double cfl = mps__read_number(b->c, run, "cfl", 0.3), speed = expected_speed(b);
-    const double fixed = mps__read_number(b->c, run, "dt", 0);
-    const double dt = fixed > 0 ? fixed : speed > 0 ? fmin(info.dt, cfl * b->dp / speed) : info.dt;
-    fprintf(w->file, ", steps of about %.2g s\n", dt);
+    const forecast f = find_forecast(b, info.dt, took);
+    fprintf(w->file, ", steps of about %.2g s", f.calm);
+    if (f.fast < 0.99 * f.calm) fprintf(w->file, ", %.2g s in liquid of %.2g m/s", f.fast, f.speed);
+    fprintf(w->file, "\n");
+    write_rate(w, b, f.calm);
     heading(w, "cost");
     getrusage(RUSAGE_SELF, &usage);
-    fprintf(
-        w->file,
-        "about %.2g s of wall clock (%.2g s a step, %d steps measured; impacts take more), %.0f "
-        "MB of memory\n",
-        took * b->until / dt, took, STEPS, (double)usage.ru_maxrss / 1024);
+    write_span(w, f.least, f.most);
+    fprintf(w->file,
+            ": calm to violent; outputs apart (%.2g s a step at rest, %d steps measured), %.0f MB "
+            "of memory\n",
+            f.took, STEPS, (double)usage.ru_maxrss / 1024);
 }
 
 char *mps__check_write(build *b)

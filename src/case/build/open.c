@@ -200,6 +200,16 @@ void mps__build_open(build *b, const mps_job_config *options)
     if (!mps__case_failed(b->c)) use_solver(b, run);
 }
 
+/* Growth is a ratio of two steps and keeps its value; dt_min ends a run. */
+static void scale_steps(mps_time_control *control, double factor)
+{
+    control->dt *= factor;
+    control->cfl *= factor;
+    control->gravity *= factor;
+    control->viscous *= factor;
+    control->dt_max *= factor;
+}
+
 void mps__build_time(build *b)
 {
     const tree_node *run = mps__tree_find(b->root, "run");
@@ -216,6 +226,7 @@ void mps__build_time(build *b)
     b->until = mps__read_number(b->c, run, "until", NAN);
     const double dt_max = b->motion ? b->motion->dt_max : 0;
     if (dt_max > 0) control.dt_max = control.dt_max > 0 ? fmin(control.dt_max, dt_max) : dt_max;
+    scale_steps(&control, mps__read_number(b->c, run, "step_factor", 1));
     if (!mps__case_failed(b->c))
         mps__build_try(b, mps_time_control_set(b->sim, &control), run, "run");
 }

@@ -288,6 +288,7 @@ const mps__key mps__keys[] = {
     ONE("run.viscous", UNIT_NONE, "> 0", "0.2", "0.2", "adaptive step: largest dt nu/dp2"),
     ONE("run.growth", UNIT_NONE, "> 1", "1.1", "1.1", "largest ratio of a step to the one before"),
     ONE("run.dt", UNIT_TIME, "> 0", "", "0.5 ms", "a fixed step; default: adaptive"),
+    ONE("run.step_factor", UNIT_NONE, "> 0, <= 2", "1", "0.998", "cfl, calm, viscous, dt and dt_max times this; varied by mps repeat"),
     ONE("run.dt_max", UNIT_TIME, "> 0", "", "1 ms", "longest step"),
     ONE("run.dt_min", UNIT_TIME, "> 0", "", "1 us", "shortest step, below which the run ends"),
     ONE("run.velocity_scale", UNIT_VELOCITY, "> 0", "", "0.1 m/s", "velocity of limits and of steps; default: sqrt(g dp)"),

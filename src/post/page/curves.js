@@ -35,13 +35,16 @@ export function quantity(v, unit) {
 const tokens = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 const dashes = [[], [8, 3], [2, 3]];
 
+// The axis of a force, of its name: a weight of 10 MN would flatten 50 kN along another axis.
+const component = (c) => /_([xyz])$/.exec(c.name)?.[1] ?? "";
+
 // All columns of the page, in groups that become plots.
 export async function readGroups(data) {
     const groups = new Map();
     for (const table of data.tables) {
         const t = await unpackTimes(table.t, table.points);
         for (const c of table.columns) {
-            const about = (c.about || "").split(":")[0], by = c.plot ?? (["value", "wall_pressure"].includes(c.type) ? `${c.unit}|${about}` : c.unit), key = `${c.place}|${by}`;
+            const about = (c.about || "").split(":")[0], by = c.plot ?? (["value", "wall_pressure"].includes(c.type) ? `${c.unit}|${about}` : c.type === "force" ? `${c.unit}|${component(c)}` : c.unit), key = `${c.place}|${by}`;
             if (!groups.has(key)) groups.set(key, {place: c.place, title: c.plot || about || c.label, titles: new Set(), unit: c.unit, t, table, series: [], plot: !!c.plot});
             const g = groups.get(key);
             g.titles.add(about || c.label);
@@ -108,6 +111,7 @@ export class Charts {
             note.textContent = ` Not in full: the impulse of the start, up to ${quantity(impulse, g.unit)}.`;
             head.append(note);
         }
+        for (const s of g.place === "forces" ? real : []) this.tellMean(head, s, g, start);
         room.setAttribute("role", "img");
         room.setAttribute("aria-label", `${g.title}: ` + real.map((s) => {
             let high = -Infinity, at = 0;
@@ -128,6 +132,17 @@ export class Charts {
             if (width > 50 && Math.abs(width - chart.plot.width) > 1) chart.plot.setSize({width, height: chart.plot.height});
         }).observe(room);
         return chart;
+    }
+
+    // The axis of a plot follows its curves and may be far from 0: then the caption has the mean.
+    tellMean(head, s, g, start) {
+        const known = s.values.filter((v, i) => v !== null && v !== undefined && g.t[i] >= start), n = known.length;
+        const mean = known.reduce((m, v) => m + v / n, 0), reach = known.reduce((m, v) => Math.max(m, Math.abs(v - mean)), 0);
+        if (!n || Math.abs(mean) < reach) return;
+        const note = document.createElement("span");
+        note.className = "hint mean";
+        note.textContent = ` Mean of ${s.label}: ${quantity(mean, g.unit)}.`;
+        head.append(note);
     }
 
     options(chart) {

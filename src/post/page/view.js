@@ -102,9 +102,11 @@ export class View {
         this.points = program(gl, vertexText, fragmentText);
         this.lines = program(gl, lineVertex, lineFragment);
         this.dots = this.makeBuffers(frames.count, phase);
-        this.wallDots = this.makeBuffers(wallFrames.count, new Uint8Array(wallFrames.count));
-        this.fill(this.wallDots, wallFrames, 0);
-        if (data.dim === 3) this.keepInner();
+        if (data.dim === 3) this.sortWalls();
+        else {
+            this.wallDots = this.makeBuffers(wallFrames.count, new Uint8Array(wallFrames.count));
+            this.fill(this.wallDots, wallFrames, 0);
+        }
         this.edges = this.makeEdges();
         this.background = [1, 1, 1];
         this.whole();
@@ -140,22 +142,28 @@ export class View {
         gl.bufferSubData(gl.ARRAY_BUFFER, 0, frames.value.subarray(k * 2 * n, (k + 1) * 2 * n));
     }
 
-    // A box shows its edges alone, and what stands in it; other tanks show all of their walls.
-    keepInner() {
-        const {wallFrames, walls, box, data} = this, {count, place} = wallFrames, inner = [];
-        for (let i = 0; i < count; i++) {
-            const on = [0, 1, 2].some((d) => {
-                const v = walls.lo[d] + walls.quantum * place[d * count + i];
-                return v < box.lo[d] + 0.6 * data.dp || v > box.hi[d] - 0.6 * data.dp;
-            });
-            if (!on) inner.push(i);
-        }
-        this.inner = inner.length < 0.4 * count;
-        if (!this.inner) return;
-        const kept = {count: inner.length, dim: 3, place: new Uint16Array(3 * inner.length), value: new Uint8Array(2 * inner.length)};
-        inner.forEach((i, k) => { for (let d = 0; d < 3; d++) kept.place[d * inner.length + k] = place[d * count + i]; });
-        this.wallDots = this.makeBuffers(kept.count, new Uint8Array(Math.max(1, kept.count)));
-        this.fill(this.wallDots, kept, 0);
+    // Walls of the tank apart from what stands in it, which alone may hide the liquid. A box shows its edges; the walls of other tanks are faint.
+    sortWalls() {
+        const {wallFrames, walls, box, data} = this, {count, place, value} = wallFrames, tank = [], inner = [];
+        const on = (i) => [0, 1, 2].some((d) => {
+            const v = walls.lo[d] + walls.quantum * place[d * count + i];
+            return v < box.lo[d] + 0.6 * data.dp || v > box.hi[d] - 0.6 * data.dp;
+        });
+        const named = value.subarray(0, count).includes(1); // else: by where they are
+        for (let i = 0; i < count; i++) (named ? value[i] === 1 : on(i)) ? tank.push(i) : inner.push(i);
+        this.boxed = named ? tank.every(on) : inner.length < 0.4 * count;
+        if (!named && !this.boxed) tank.push(...inner.splice(0));
+        this.wallDots = this.makeDots(tank);
+        this.innerDots = this.makeDots(inner);
+    }
+
+    // Buffers of some of the walls.
+    makeDots(chosen) {
+        const {wallFrames} = this, n = chosen.length, kept = {count: n, dim: 3, place: new Uint16Array(3 * n), value: new Uint8Array(2 * n)};
+        chosen.forEach((i, k) => { for (let d = 0; d < 3; d++) kept.place[d * n + k] = wallFrames.place[d * wallFrames.count + i]; });
+        const dots = this.makeBuffers(n, new Uint8Array(Math.max(1, n)));
+        this.fill(dots, kept, 0);
+        return dots;
     }
 
     makeEdges() {
@@ -292,7 +300,7 @@ export class View {
         gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
         if (solid) gl.enable(gl.DEPTH_TEST);
         const turned = [0, 3, 6, 1, 4, 7, 2, 5, 8].map((k) => turn[k]);
-        if (solid && this.showWalls && this.inner) this.drawEdges(m, turned, shift);
+        if (solid && this.showWalls && this.boxed) this.drawEdges(m, turned, shift);
         const {p, at} = this.points;
         gl.useProgram(p);
         gl.uniformMatrix4fv(at.camera, false, m);
@@ -307,8 +315,8 @@ export class View {
         gl.uniform1f(at.wallAlpha, 1);
         this.drawDots(this.dots, data, 0, this.radius());
         if (this.showWalls && !solid) this.drawDots(this.wallDots, this.walls, 1, 0.5 * data.dp);
-        if (this.showWalls && solid && this.inner) this.drawDots(this.wallDots, this.walls, 1, 0.5 * data.dp);
-        if (this.showWalls && solid && !this.inner) { // faint, so that the liquid is seen through them
+        if (this.showWalls && solid) this.drawDots(this.innerDots, this.walls, 1, 0.5 * data.dp);
+        if (this.showWalls && solid && !this.boxed) { // faint, so that the liquid is seen through them
             gl.uniform1f(at.wallAlpha, 0.35);
             gl.depthMask(false);
             this.drawDots(this.wallDots, this.walls, 1, 0.12 * data.dp);
