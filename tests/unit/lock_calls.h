@@ -222,6 +222,8 @@ CALL(mps_phase_get, STRUCT(mps_phase); return mps_phase_get(sim, 0, &a);)
 CALL(mps_tension_get, double s; return mps_tension_get(sim, 0, 1, &s);)
 CALL(mps_model_get, double d; return mps_model_get(sim, "collision", "distance", &d);)
 CALL(mps_model_state, const double *v; int64_t n; return mps_model_state(sim, "collision", &v, &n);)
+CALL(mps_step_info_get, mps_step_info i; mps_step_info_init(&i, sizeof i);
+     return mps_step_info_get(sim, &i);)
 CALL(mps_model_name, return mps_model_name(sim, 0) ? MPS_OK : MPS_E_BUSY;)
 CALL(mps_solver_name, const char *s; return mps_solver_name(sim, &s, NULL);)
 CALL(mps_sim_destroy, mps_sim_destroy(sim); return MPS_OK;) /* does nothing */
@@ -288,6 +290,7 @@ static const lock_call lock_calls[] = {
     READS(mps_momentum_get),
     READS(mps_profile_reset),
     READS(mps_model_state),
+    READS(mps_step_info_get),
     PLAIN(mps_model_info_get),
     PLAIN(mps_setting_info_get),
     PLAIN(mps_channel_info_get),
