@@ -130,6 +130,47 @@ static void degrees_of_freedom(void **state)
     }
 }
 
+#define PLANE "mps: 1\ndp: 20 mm\ntank: {size: 1 0.6 m}\nfill: [{water: {depth: 0.3 m}}]\n"
+
+/* In 2-D: what the same degree does in 3-D, as a section along the ship or across it; without `forward` surge is along x too. */
+static void degrees_of_the_plane(void **state)
+{
+    static const struct {
+        const char *keys, *degree;
+        int32_t dof;
+        double sign;
+    } all[] = {{"", "surge", MPS_MOVE_X, 1},
+               {"", "sway", MPS_MOVE_X, -1},
+               {"", "heave", MPS_MOVE_Y, 1},
+               {"", "roll", MPS_ROTATE_Z, 1},
+               {"axes: 'x forward, y port, z up', ", "sway", MPS_MOVE_X, 1},
+               {"axes: 'x forward, y starboard, z down', ", "heave", MPS_MOVE_Y, -1},
+               {"axes: 'x forward, y starboard, z down', ", "roll", MPS_ROTATE_Z, 1},
+               {"forward: -z, ", "roll", MPS_ROTATE_Z, -1},
+               {"forward: x, ", "surge", MPS_MOVE_X, 1},
+               {"forward: -x, ", "surge", MPS_MOVE_X, -1},
+               {"forward: x, ", "heave", MPS_MOVE_Y, 1},
+               {"forward: x, axes: 'x forward, y port, z up', ", "pitch", MPS_ROTATE_Z, -1},
+               {"forward: x, axes: 'x forward, y starboard, z down', ", "pitch", MPS_ROTATE_Z, 1},
+               {"forward: x, ", "pitch", MPS_ROTATE_Z, 1}};
+    (void)state;
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        char text[600];
+        built t;
+        mps_motion_state s = {.struct_size = sizeof s};
+        snprintf(text, sizeof text,
+                 PLANE
+                 "motion: {%s%s: {amplitude: 0.1 %s, period: 4 s, phase: 90 deg}}\nrun: {until: 1 "
+                 "s}\n",
+                 all[i].keys, all[i].degree, all[i].dof >= MPS_ROTATE_X ? "rad" : "m");
+        built_make(&t, text, NULL);
+        assert_int_equal(mps_motion_state_get(t.b.sim, &s), MPS_OK);
+        for (int32_t d = 0; d < 6; d++)
+            same_number(s.value[d], d == all[i].dof ? 0.1 * all[i].sign : 0, 1e-15);
+        built_free(&t);
+    }
+}
+
 /* Roll and pitch together with the bow along z: no sum of harmonics of the lab. R = T(e2, pitch) T(e1, roll), e1 = z, e2 = x. */
 static void two_rotations(void **state)
 {
@@ -161,8 +202,6 @@ static void two_rotations(void **state)
 }
 
 /* ---- spectra ---- */
-
-#define PLANE "mps: 1\ndp: 20 mm\ntank: {size: 1 0.6 m}\nfill: [{water: {depth: 0.3 m}}]\n"
 
 /* Variance over many periods is (significant/2)^2 within its sampling band, and its rate of zero crossings that of the band; the same seed gives
  * the same bytes, another one others. */
@@ -233,8 +272,11 @@ static void derivatives(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(skew_axis), cmocka_unit_test(degrees_of_freedom),
-        cmocka_unit_test(two_rotations), cmocka_unit_test(spectrum), cmocka_unit_test(derivatives)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(skew_axis),
+                                       cmocka_unit_test(degrees_of_freedom),
+                                       cmocka_unit_test(degrees_of_the_plane),
+                                       cmocka_unit_test(two_rotations),
+                                       cmocka_unit_test(spectrum),
+                                       cmocka_unit_test(derivatives)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -50,36 +50,64 @@ static void motions(void **state)
 {
     (void)state;
     built_refused(TOP BOX "motion: {yaw: {amplitude: 1 deg, period: 1 s}}\n" END, 5,
-                  "motion.yaw: in 2-D");
+                  "motion.yaw: moves nothing in the plane x, y|without 'motion.forward'");
+    built_refused(TOP BOX "motion: {pitch: {amplitude: 1 deg, period: 1 s}}\n" END, 5,
+                  "motion.pitch: moves nothing|give 'forward: x'");
+    built_refused(TOP BOX "motion: {forward: x, roll: {amplitude: 1 deg, period: 1 s}}\n" END, 5,
+                  "motion.roll: moves nothing|along x:|give 'forward: z'");
+    built_refused(TOP BOX "motion: {forward: -x, sway: {amplitude: 1 mm, period: 1 s}}\n" END, 5,
+                  "motion.sway: moves nothing|surge (along x)");
+    built_refused(TOP BOX "motion: {forward: z, surge: {amplitude: 1 mm, period: 1 s}}\n" END, 5,
+                  "motion.surge: moves nothing|along z:|sway (along x)");
+    built_refused(TOP BOX "motion: {surge: {amplitude: 1 mm, period: 1 s}, sway: {amplitude: 1 mm, "
+                          "period: 1 s}}\n" END,
+                  5, "motion.sway: is the same motion as 'surge'");
     built_refused(TOP BOX "motion: {surge: {period: 1 s}}\n" END, 5, "surge|amplitude");
     built_refused(TOP BOX "motion: {centre: 0 0 m}\n" END, 5, "motion: no degree is given");
-    built_refused(TOP BOX
+    built_refused(SPACE
                   "motion: {order: yaw yaw roll, roll: {amplitude: 1 deg, period: 1 s}}\n" END,
-                  5, "motion.order|each once");
+                  6, "motion.order|each once");
 }
 
 /* A table with an error in it, by its line; header lines count. */
-static void table_refused(const char *table, const char *keys, const char *words)
+static void table_refused_in(const char *head, const char *table, const char *keys,
+                             const char *words)
 {
     char path[600], text[1600];
     const int fd = mkstemp(kit_here(path, sizeof path, "mps_table_XXXXXX"));
     assert_true(fd >= 0);
     assert_int_equal(write(fd, table, strlen(table)), strlen(table));
     close(fd);
-    snprintf(text, sizeof text, SPACE "motion:\n  file: %s\n  %s\n" END, path, keys);
+    snprintf(text, sizeof text, "%smotion:\n  file: %s\n  %s\n" END, head, path, keys);
     built t;
     bool found = false;
     assert_int_not_equal(built_try(&t, text, NULL), MPS_OK);
     for (int32_t i = 0; i < mps_case_message_count(t.c); i++) {
         mps_case_message m = {.struct_size = sizeof m};
         assert_int_equal(mps_case_message_get(t.c, i, &m), MPS_OK);
-        found = found || (kit_has(t.c, 0, 0, words) && m.line >= 6);
+        found = found || (kit_has(t.c, 0, 0, words) && m.line >= 5);
     }
     char *all = kit_messages(t.c);
     if (!found) fail_msg("%s; messages:\n%s", words, all);
     free(all);
     built_free(&t);
     unlink(path);
+}
+
+static void table_refused(const char *table, const char *keys, const char *words)
+{
+    table_refused_in(SPACE, table, keys, words);
+}
+
+/* Six columns of a ship in a section of it. */
+static void tables_in_2d(void **state)
+{
+    static const char all[] = "t[s],surge[m],roll[deg],pitch[deg]\n0,1,1,1\n2,2,1,1\n";
+    (void)state;
+    table_refused_in(TOP BOX, all, "start: rest", "motion.pitch: moves nothing in the plane x, y");
+    table_refused_in(TOP BOX, all, "forward: x", "motion.roll: moves nothing in the plane x, y");
+    table_refused_in(TOP BOX, "t[s],surge[m],sway[m]\n0,1,1\n2,2,1\n", "start: rest",
+                     "motion.sway: is the same motion as 'surge'");
 }
 
 static void tables(void **state)
@@ -144,11 +172,15 @@ static void sensors(void **state)
     sensor_refused(
         TOP BOX "motion: {surge: {amplitude: 1 mm, period: 1 s, form: cosine, phase: 3 deg}}\n" END,
         5, "phase");
+    sensor_refused(TOP BOX "motion: {order: yaw pitch roll, roll: {amplitude: 1 deg, period: 1 "
+                           "s}}\n" END,
+                   5, "'motion.order' has no effect here");
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(objects), cmocka_unit_test(motions),
-                                       cmocka_unit_test(tables), cmocka_unit_test(sensors)};
+                                       cmocka_unit_test(tables), cmocka_unit_test(tables_in_2d),
+                                       cmocka_unit_test(sensors)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -48,6 +48,7 @@ static void values(void **state)
     is("0.13 mPa s", UNIT_VISCOSITY, 0.13e-3);
     is("0.13 mPa  s", UNIT_VISCOSITY, 0.13e-3);
     is("1 cSt", UNIT_VISCOSITY, 1e-6);
+    is("1 cP", UNIT_VISCOSITY, 1e-3);
     is("72.7 mN/m", UNIT_TENSION, 72.7e-3);
     is("5 N m/rad", UNIT_STIFFNESS, 5);
     is("1 g/cm3", UNIT_DENSITY, 1000);

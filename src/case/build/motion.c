@@ -74,26 +74,14 @@ static void read_degree(build *b, build_motion *m, const tree_node *map, int32_t
     const tree_node *node = mps__tree_find(map, mps__degrees[degree]);
     if (!node) return;
     m->used[degree] = true;
-    if (b->dim == 2 && degree == MPS_SHIP_YAW)
-        mps__case_say(b->c, node, false,
-                      "motion.yaw: in 2-D there are surge and sway (both along x), heave, roll "
-                      "(x to y) and pitch (y to x)");
+    mps__degree_check(b, m, node, degree);
     const tree_node *at = node->kind == TREE_LIST ? node->first : node;
     for (; at && !mps__case_failed(b->c); at = at == node ? NULL : at->next)
         read_harmonic(b, m, at, degree);
 }
 
-/* "x forward, y port, z up": the third word of each pair tells what it is. */
-static void read_ship(build *b, build_motion *m, const tree_node *map)
+static void read_order(build *b, build_motion *m, const tree_node *map)
 {
-    static const double forward[4][3] = {{1, 0, 0}, {0, 0, 1}, {-1, 0, 0}, {0, 0, -1}};
-    mps_ship_init(&m->ship, sizeof m->ship);
-    const int32_t way = mps__read_choice(b->c, map, "forward", b->dim == 2 ? 1 : 0);
-    memcpy(m->ship.forward, forward[way], sizeof forward[way]);
-    /* z up, z down, axes of the library */
-    const int32_t axes = mps__read_choice(b->c, map, "axes", 2);
-    m->flipped = axes == 2;
-    m->ship.axes = axes == 1 ? MPS_SHIP_Z_DOWN : MPS_SHIP_Z_UP;
     const char *order = mps__read_text(b->c, map, "order", "yaw pitch roll");
     char word[3][8] = {"", "", ""};
     const int words = sscanf(order, "%7s %7s %7s", word[0], word[1], word[2]);
@@ -108,6 +96,21 @@ static void read_ship(build *b, build_motion *m, const tree_node *map)
         mps__case_say(b->c, mps__tree_find(map, "order"), false,
                       "motion.order: must be roll, pitch and yaw, each once, the first rotation "
                       "first; usual is 'yaw pitch roll'");
+}
+
+/* "x forward, y port, z up": the third word of each pair tells what it is. */
+static void read_ship(build *b, build_motion *m, const tree_node *map)
+{
+    static const double forward[4][3] = {{1, 0, 0}, {0, 0, 1}, {-1, 0, 0}, {0, 0, -1}};
+    mps_ship_init(&m->ship, sizeof m->ship);
+    const int32_t way = mps__read_choice(b->c, map, "forward", b->dim == 2 ? 1 : 0);
+    memcpy(m->ship.forward, forward[way], sizeof forward[way]);
+    m->has_forward = mps__tree_find(map, "forward") != NULL;
+    /* z up, z down, axes of the library */
+    const int32_t axes = mps__read_choice(b->c, map, "axes", 2);
+    m->flipped = axes == 2;
+    m->ship.axes = axes == 1 ? MPS_SHIP_Z_DOWN : MPS_SHIP_Z_UP;
+    if (b->dim == 3) read_order(b, m, map); /* the plane has one rotation */
     memcpy(m->ship.origin, m->centre, sizeof m->centre);
 }
 
@@ -119,26 +122,13 @@ static void cross(const double *a, const double *b, double *out)
         out[d] = a[(d + 1) % 3] * b[(d + 2) % 3] - a[(d + 2) % 3] * b[(d + 1) % 3];
 }
 
-/* In 2-D: a section along the ship for surge and pitch, across it for sway and roll. */
-static void plane_to_lab(const build_motion *m, int32_t degree, int32_t *dof, double *sign)
-{
-    static const int32_t plane[] = {MPS_MOVE_X,   MPS_MOVE_X,   MPS_MOVE_Y,
-                                    MPS_ROTATE_Z, MPS_ROTATE_Z, MPS_ROTATE_Z};
-    const bool down = m->ship.axes == MPS_SHIP_Z_DOWN;
-    *dof = plane[degree];
-    *sign = 1;
-    if (down && (degree == MPS_SHIP_SWAY || degree == MPS_SHIP_HEAVE)) *sign = -1;
-    if (!down && !m->flipped && degree == MPS_SHIP_PITCH) *sign = -1;
-}
-
 void mps__degree_to_lab(const build_motion *m, int32_t degree, int32_t *dof, double *sign)
 {
     const double down = m->ship.axes == MPS_SHIP_Z_DOWN ? -1 : 1;
     double e[3][3];
-    if (m->dim == 2) {
-        plane_to_lab(m, degree, dof, sign);
-        return;
-    }
+    *dof = MPS_MOVE_X;
+    *sign = 1;
+    if (m->dim == 2 && !m->has_forward && degree == MPS_SHIP_SURGE) return; /* of a tank, no ship */
     for (int d = 0; d < 3; d++) {
         e[0][d] = m->ship.forward[d];
         e[2][d] = down * m->ship.up[d];
@@ -151,6 +141,36 @@ void mps__degree_to_lab(const build_motion *m, int32_t degree, int32_t *dof, dou
             *dof = degree < 3 ? MPS_MOVE_X + d : MPS_ROTATE_X + d;
             *sign = (axis[d] > 0) != turned ? 1 : -1;
         }
+}
+
+/* In 2-D a degree moves the tank in the plane x, y, and no two of them are the same motion. */
+void mps__degree_check(build *b, const build_motion *m, const tree_node *at, int32_t degree)
+{
+    const bool along = fabs(m->ship.forward[0]) > 0.5;
+    int32_t dof, other;
+    double sign;
+    if (b->dim == 3) return;
+    mps__degree_to_lab(m, degree, &dof, &sign);
+    if (dof != MPS_MOVE_X && dof != MPS_MOVE_Y && dof != MPS_ROTATE_Z)
+        mps__case_say(b->c, at, false,
+                      "motion.%s: moves nothing in the plane x, y of a 2-D case, where the bow is "
+                      "along %s%s: there are %s",
+                      mps__degrees[degree], along ? "x" : "z",
+                      m->has_forward ? "" : " without 'motion.forward'",
+                      along ? "surge (along x), heave (along y) and pitch; for a section across "
+                              "the ship give 'forward: z'"
+                      : m->has_forward
+                          ? "sway (along x), heave (along y) and roll; for a section along the "
+                            "ship give 'forward: x'"
+                          : "surge or sway (along x), heave (along y) and roll (x to y); for a "
+                            "section along the ship, with pitch, give 'forward: x'");
+    for (int32_t d = 0; d < degree; d++) {
+        mps__degree_to_lab(m, d, &other, &sign);
+        if (m->used[d] && other == dof)
+            mps__case_say(b->c, at, false,
+                          "motion.%s: is the same motion as '%s' in a 2-D case; remove one",
+                          mps__degrees[degree], mps__degrees[d]);
+    }
 }
 
 /* The rotations of the library are yaw, pitch, roll of a ship with its bow along x; a single rotation has no order. */
@@ -237,6 +257,7 @@ static void set_table(build *b, build_motion *m, const tree_node *map)
         for (int32_t d = 0; d < MOTION_DEGREES; d++) {
             int32_t to;
             double sign;
+            if (!m->used[d]) continue;
             mps__degree_to_lab(m, d, &to, &sign);
             const int k = to == MPS_MOVE_X ? 0 : to == MPS_MOVE_Y ? 1 : 2;
             values[i * 3 + k] += sign * m->column[i * 6 + d];

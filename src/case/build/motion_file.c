@@ -34,7 +34,7 @@ static int32_t find_column(build *b, const tree_node *map, const csv *t, const c
     return k;
 }
 
-static bool choose(build *b, const tree_node *map, const csv *t, chosen *c)
+static bool choose(build *b, build_motion *m, const tree_node *map, const csv *t, chosen *c)
 {
     int found = 0;
     const tree_node *columns = mps__tree_find(map, "columns");
@@ -53,9 +53,8 @@ static bool choose(build *b, const tree_node *map, const csv *t, chosen *c)
             b->c, at_of(map, mps__degrees[d]), t, c->degree[d],
             d < MPS_SHIP_ROLL ? UNIT_LENGTH : UNIT_ANGLE,
             mps__read_text(b->c, mps__tree_find(map, "units"), mps__degrees[d], NULL));
-        if (b->dim == 2 && d == MPS_SHIP_YAW)
-            mps__case_say(b->c, at_of(map, "yaw"), false,
-                          "yaw: there is none in 2-D; name the wanted degrees in 'columns'");
+        m->used[d] = true;
+        mps__degree_check(b, m, at_of(map, mps__degrees[d]), d);
     }
     if (!found && !mps__case_failed(b->c)) {
         char names[BUILD_TEXT];
@@ -129,7 +128,7 @@ bool mps__motion_file(build *b, build_motion *m, const tree_node *map)
     double from = mps__read_number(b->c, map, "from", NAN);
     const double ramp = mps__read_number(b->c, map, "ramp", 0);
     bool good = path && !mps__case_failed(b->c) && mps__csv_read(b->c, node, path, &t) &&
-                choose(b, map, &t, &c);
+                choose(b, m, map, &t, &c);
     if (good) note_unused(b, m, map, &t, &c);
     if (good) {
         if (isnan(from)) from = t.value[c.time] * c.factor[0];
@@ -142,7 +141,6 @@ bool mps__motion_file(build *b, build_motion *m, const tree_node *map)
         const double *row = t.value + i * t.columns;
         m->t[i] = row[c.time] * c.factor[0] - from;
         for (int32_t d = 0; d < MOTION_DEGREES; d++) {
-            m->used[d] = c.degree[d] >= 0;
             if (m->used[d])
                 m->column[6 * i + d] = growth(m->t[i], ramp) * row[c.degree[d]] * c.factor[1 + d];
         }

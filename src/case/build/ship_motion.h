@@ -18,6 +18,7 @@ typedef struct build_motion {
     mps_ship ship;
     /* axes of the library, y up and z to starboard: sway and pitch have the other sign of MPS_SHIP_Z_UP */
     bool flipped;
+    bool has_forward; /* `forward` is given */
     int32_t dim;
     int64_t rows;       /* of a table; 0: harmonics */
     double *t, *column; /* [rows], [rows*6] m and rad, with `from` and `ramp` in them */
@@ -39,5 +40,8 @@ void mps__harmonics_at(const build_motion *m, int32_t degree, double t, double o
 bool mps__motion_file(build *b, build_motion *m, const tree_node *map);
 /* Degree of the lab and sign of a degree of the ship; where axes are parallel. */
 void mps__degree_to_lab(const build_motion *m, int32_t degree, int32_t *dof, double *sign);
+
+/* Refuse a degree that has no effect in 2-D. The degrees before it are known in m->used. @param at  where it is given */
+void mps__degree_check(build *b, const build_motion *m, const tree_node *at, int32_t degree);
 
 #endif

@@ -26,6 +26,7 @@ static const mps__unit units[] = {
     {"kg/m3", UNIT_DENSITY, 0, 1, 1, SCALE_NONE}, {"t/m3", UNIT_DENSITY, 3, 1, 1, SCALE_NONE},
     {"g/cm3", UNIT_DENSITY, 3, 1, 1, SCALE_NONE},
     {"Pa s", UNIT_DYNAMIC, 0, 1, 1, SCALE_NONE}, {"mPa s", UNIT_DYNAMIC, -3, 1, 1, SCALE_NONE}, {"uPa s", UNIT_DYNAMIC, -6, 1, 1, SCALE_NONE},
+    {"cP", UNIT_DYNAMIC, -3, 1, 1, SCALE_NONE},
     {"m2/s", UNIT_KINEMATIC, 0, 1, 1, SCALE_NONE}, {"mm2/s", UNIT_KINEMATIC, -6, 1, 1, SCALE_NONE}, {"cSt", UNIT_KINEMATIC, -6, 1, 1, SCALE_NONE},
     {"N/m", UNIT_TENSION | UNIT_STIFFNESS, 0, 1, 1, SCALE_NONE}, {"mN/m", UNIT_TENSION, -3, 1, 1, SCALE_NONE},
     {"kN/m", UNIT_STIFFNESS, 3, 1, 1, SCALE_NONE}, {"N m/rad", UNIT_STIFFNESS, 0, 1, 1, SCALE_NONE},
