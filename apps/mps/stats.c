@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* mps stats: impacts of the pressures of a run. */
 #include "cli.h"
+#include "constants.h"
 #include "record.h"
 #include <errno.h>
 #include <math.h>
@@ -83,12 +84,11 @@ static mps_status find_all(const mps_stats_config *config, const record *r, sign
 
 /* ---- texts ---- */
 
-static void print_number(double value)
+static void print_time(double t)
 {
-    if (isfinite(value))
-        printf(" %12.4g", value);
-    else
-        printf(" %12s", "-");
+    char text[32];
+    snprintf(text, sizeof text, "%.5g s", t);
+    printf(" %10s", text);
 }
 
 static void print_highest(const mps_impacts *impacts)
@@ -96,14 +96,14 @@ static void print_highest(const mps_impacts *impacts)
     mps_impact e;
     mps_impact_init(&e, sizeof e);
     if (mps_impacts_highest(impacts, 0, &e) != MPS_OK) return;
-    printf("  rank    peak [Pa]     time [s]     rise [s]    decay [s] duration [s]"
-           " impulse [Pa s]\n");
+    printf("  rank       peak       time       rise      decay   duration     impulse\n");
     for (int64_t rank = 0; rank < HIGHEST && mps_impacts_highest(impacts, rank, &e) == MPS_OK;
          rank++) {
-        const double row[] = {e.peak, e.t, e.rise, e.decay, e.duration, e.impulse};
-        printf("  %4lld", (long long)rank + 1);
-        for (size_t k = 0; k < sizeof row / sizeof row[0]; k++) print_number(row[k]);
-        printf("%s\n", e.unresolved ? "  not resolved" : "");
+        printf("  %4lld %10s", (long long)rank + 1, quantity(e.peak, "Pa"));
+        print_time(e.t);
+        printf(" %10s %10s %10s %11s%s\n", quantity(e.rise, "s"), quantity(e.decay, "s"),
+               quantity(e.duration, "s"), quantity(e.impulse, "Pa s"),
+               e.unresolved ? "  not resolved" : "");
     }
 }
 
@@ -112,9 +112,10 @@ static void print_fit(const mps_impacts *impacts, int32_t kind, const char *name
     mps_fit fit;
     mps_fit_init(&fit, sizeof fit);
     if (mps_impacts_fit_get(impacts, kind, &fit) != MPS_OK || !isfinite(fit.value)) return;
-    printf("    %-19s %.4g Pa", name, scale * fit.value);
+    printf("    %-19s %s", name, quantity(scale * fit.value, "Pa"));
     if (isfinite(fit.value_band[0]))
-        printf(", band %.4g to %.4g Pa", scale * fit.value_band[0], scale * fit.value_band[1]);
+        printf(", band %s to %s", quantity(scale * fit.value_band[0], "Pa"),
+               quantity(scale * fit.value_band[1], "Pa"));
     printf("\n");
 }
 
@@ -128,12 +129,13 @@ static void print_value(const mps_impacts *impacts, const mps_impacts_info *info
     if (info->events < c->least_events) {
         printf("  no distribution is fitted: that needs %d events", (int)c->least_events);
         if (info->events > 1)
-            printf(", at this rate a record of about %.3g s", c->least_events / info->rate);
+            printf(", at this rate a record of about %s",
+                   quantity(c->least_events / info->rate, "s"));
         printf("\n");
         return;
     }
-    printf("  exceeded once in %.4g h (%.4g events), for screening, not for design:\n",
-           c->exposure / 3600, info->exposure_events);
+    printf("  exceeded once in %.4g h (%s events), for screening, not for design:\n",
+           c->exposure / 3600, quantity(info->exposure_events, ""));
     print_fit(impacts, MPS_FIT_WEIBULL, "Weibull", info->pressure_scale);
     print_fit(impacts, MPS_FIT_PARETO, "generalised Pareto", info->pressure_scale);
     if (info->long_exposure)
@@ -152,17 +154,19 @@ static void print_signal(const char *name, const mps_impacts *impacts, const mps
     mps_impacts_info_get(impacts, &info);
     if (isnan(c->threshold) && info.threshold == 0 &&
         info.events == 0) { /* mean and deviation are 0 */
-        printf("%s: no pressure from %.4g to %.4g s: no liquid came here\n", name, info.t_first,
-               info.t_last);
+        printf("%s: no pressure from %s to %s: no liquid came here\n", name,
+               quantity(info.t_first, "s"), quantity(info.t_last, "s"));
         return;
     }
-    printf("%s: %lld events, %.4g a minute", name, (long long)info.events, 60 * info.rate);
+    printf("%s: %lld events, %s a minute", name, (long long)info.events,
+           quantity(60 * info.rate, ""));
     if (mps_impacts_highest(impacts, 0, &high) == MPS_OK)
-        printf(", highest %.4g Pa at %.4g s", high.peak, high.t);
-    printf("\n  above %.4g Pa%s, until %.4g s below it, from %.4g to %.4g s; %lld left out at the "
-           "ends\n",
-           info.threshold, isnan(c->threshold) ? " (by deviations: set impacts.threshold)" : "",
-           info.window, info.t_first, info.t_last, (long long)info.cut);
+        printf(", highest %s at %.5g s", quantity(high.peak, "Pa"), high.t);
+    printf("\n  above %s%s, until %s below it, from %s to %s; %lld left out at the ends\n",
+           quantity(info.threshold, "Pa"),
+           isnan(c->threshold) ? " (by deviations: set impacts.threshold)" : "",
+           quantity(info.window, "s"), quantity(info.t_first, "s"), quantity(info.t_last, "s"),
+           (long long)info.cut);
     print_highest(impacts);
     print_value(impacts, &info, c);
 }
@@ -201,25 +205,26 @@ static int write_file(const char *folder, const char *name, const signals *s, bo
 
 /* ---- all ---- */
 
-static int run_stats(const choices *c, mps_stats_config *config, const record *r, signals *s)
+static int run_stats(const choices *c, constants *k, const record *r, signals *s)
 {
     const int32_t columns = mps_table_columns(r->table);
     if (!make_signals(s, (size_t)(columns > c->files ? columns : c->files))) {
         fprintf(stderr, "mps stats: no memory\n");
         return MPS_EXIT_FAILED;
     }
-    mps_status status = mps_stats_config_read(r->place, config);
+    mps_status status = constants_read(k, c, r->place);
     int code = MPS_EXIT_OK;
     if (status == MPS_OK) {
-        code = c->files > 1 ? take_named(c, r, s) : take_pressures(config, r, s);
+        code = c->files > 1 ? take_named(c, r, s) : take_pressures(&k->used, r, s);
         if (code != MPS_EXIT_OK) return code;
-        status = find_all(config, r, s);
+        status = find_all(&k->used, r, s);
     }
     if (status != MPS_OK) {
-        fprintf(stderr, "mps stats: %s: %s\n", r->place, config->error);
+        fprintf(stderr, "mps stats: %s: %s\n", r->place, k->error);
         return status == MPS_E_NOMEM ? MPS_EXIT_FAILED : MPS_EXIT_USAGE;
     }
-    for (int32_t k = 0; k < s->count; k++) print_signal(s->name[k], s->impacts[k], config);
+    constants_print(k, c, r->place);
+    for (int32_t i = 0; i < s->count; i++) print_signal(s->name[i], s->impacts[i], &k->used);
     code = write_file(r->place, "statistics.json", s, true);
     return code == MPS_EXIT_OK ? write_file(r->place, "statistics.csv", s, false) : code;
 }
@@ -228,19 +233,16 @@ int verb_stats(const choices *c)
 {
     record r;
     signals s = {0};
-    char error[640] = "";
-    mps_stats_config config;
-    mps_stats_config_init(&config, sizeof config);
-    config.error = error;
-    config.error_size = sizeof error;
-    const mps_status status = record_read(&config, c->file[0], &r);
+    constants k;
+    constants_begin(&k);
+    const mps_status status = record_read(&k.used, c->file[0], &r);
     int code = status == MPS_E_NOMEM ? MPS_EXIT_FAILED : MPS_EXIT_USAGE;
     if (status != MPS_OK)
-        fprintf(stderr, "mps stats: %s\n", error);
+        fprintf(stderr, "mps stats: %s\n", k.error);
     else if (!r.is_folder)
         fprintf(stderr, "mps stats: %s: is no folder of a run\n", r.place);
     else
-        code = run_stats(c, &config, &r, &s);
+        code = run_stats(c, &k, &r, &s);
     free_signals(&s);
     record_free(&r);
     return code;

@@ -16,9 +16,14 @@ static const char RUN_TEXT[] =
 
 static const char STATS_TEXT[] =
     "Without columns: all pressures of probes.csv, or impacts.sensors of the case. Constants are\n"
-    "those of the case (impacts.*, T1). Writes statistics.json and statistics.csv into the "
-    "folder.\n"
+    "those of the case as it ran (impacts.*, T1), which summary.json has; they are printed. --set\n"
+    "changes one without another run: --set impacts.threshold='6 kPa'. Writes statistics.json and\n"
+    "statistics.csv into the folder.\n"
     "Values for a longer time are for screening, not for design.\n";
+
+static const char REPORT_TEXT[] =
+    "A constant of the statistics of impacts can be changed for this page, which names it: with\n"
+    "mps report DIR --set impacts.threshold='6 kPa'. All else of a case needs another run.\n";
 
 static const char COMPARE_TEXT[] =
     "Each run is compared with the first one, and with a table where the last argument is a file.\n"
@@ -54,10 +59,10 @@ const verb cli_verbs[] = {
      SERIES_TEXT},
     {"converge", "CASE", "Run a case with dp times 2, sqrt(2), 1; order of the largest values.", 1,
      1, HAS_SET | HAS_OUT | HAS_THREADS | HAS_OVERWRITE | HAS_QUIET, verb_converge, SERIES_TEXT},
-    {"report", "DIR", "Make report.html of a run again, from its folder.", 1, 1, 0, verb_report,
-     NULL},
+    {"report", "DIR", "Make report.html of a run again, from its folder.", 1, 1, HAS_SET,
+     verb_report, REPORT_TEXT},
     {"stats", "DIR [COLUMN ..]", "Impacts in the pressures of a run: events, peaks, fits.", 1,
-     CLI_FILES, 0, verb_stats, STATS_TEXT},
+     CLI_FILES, HAS_SET, verb_stats, STATS_TEXT},
     {"compare", "DIR DIR .. [reference.csv]", "Say how the columns of runs differ.", 2, CLI_FILES,
      0, verb_compare, COMPARE_TEXT},
     {"check", "CASE",

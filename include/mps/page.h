@@ -4,6 +4,7 @@
 #ifndef MPS_PAGE_H
 #define MPS_PAGE_H
 
+#include <mps/series.h>
 #include <mps/status.h>
 #include <stddef.h>
 
@@ -22,6 +23,9 @@ typedef struct mps_page_config {
     char *error;
     /** Size of `error` [bytes]. */
     size_t error_size;
+    /** Constants of the statistics of impacts, initialised; NULL (default): those of the run. The
+     *  page names those that differ from the run's. */
+    const mps_stats_config *impacts;
 } mps_page_config;
 
 /** What a page holds; set by mps_page_info_init(), filled by mps_page_write(). */

@@ -32,6 +32,41 @@ MPS_BEGIN_DECLS
  *  | MPS_E_NOMEM | no memory | */
 MPS_API mps_status mps_stats_config_read(const char *folder, mps_stats_config *config);
 
+/** Set a constant as `mps stats --set` does: "impacts.threshold=6 kPa". The key is one of `impacts`
+ *  of a case, with its units and its range; a time may be in T1, which is config.period. Call it
+ *  after mps_stats_config_read(), for statistics other than the run was asked for.
+ *  @param config  initialised; out. As before on failure, but for the text of the error
+ *  @param text    "impacts.KEY=VALUE"
+ *
+ *  | error | reason |
+ *  |---|---|
+ *  | MPS_E_ARG | an argument; no such key; the value, its unit or its range; T1 is not known |
+ *  | MPS_E_NOMEM | no memory | */
+MPS_API mps_status mps_stats_config_set(mps_stats_config *config, const char *text);
+
+/** A constant of the statistics of impacts. */
+typedef struct mps_stats_constant {
+    /** sizeof(mps_stats_constant), set by the caller. */
+    uint32_t struct_size;
+    /** Kept 0. */
+    int32_t reserved;
+    /** Key of a case, "impacts.threshold"; "T1" for the period; "" where it has none. */
+    const char *key;
+    /** What it is, for people. */
+    const char *about;
+    /** Unit of `value` in SI, "" for none. */
+    const char *unit;
+    /** Value [unit]. Not finite: not given. */
+    double value;
+} mps_stats_constant;
+
+/** Constant number `index` of a config, from 0, for lists of all of them. mps_stats_config.sensors
+ *  is none of them.
+ *  @param constant  with its struct_size; out. Its texts are not freed
+ *  @return MPS_E_ARG: beyond the last one; an argument */
+MPS_API mps_status mps_stats_constant_get(const mps_stats_config *config, int32_t index,
+                                          mps_stats_constant *constant);
+
 /** @return 1: this sensor is looked at: config.sensors names it, or none; 0: it is not, or an
  *          argument is NULL or not initialised */
 MPS_API int32_t mps_stats_wants(const mps_stats_config *config, const char *name);
@@ -294,6 +329,13 @@ MPS_API mps_status mps_long_term_value(const mps_stats_config *config, int32_t c
                                        const mps_condition *conditions, double time, double *value);
 
 /* ---- texts ---- */
+
+/** A quantity as the page writes it: three digits and a unit with a prefix, "33.3 kPa", "65 mm".
+ *  @param unit    of `value` in SI: "Pa", "s", "Pa s"; "" for none
+ *  @param buffer  [size] out, ends with 0; may be NULL where size is 0
+ *  @return length of the whole text without its end: a text of `size` or more was cut. 0: `unit` is
+ *          NULL */
+MPS_API size_t mps_quantity_write(double value, const char *unit, char *buffer, size_t size);
 
 /** Events of several signals as CSV, in the order of time, at the scale of the signals: sensor,
  *  t[s], peak[Pa], rise[s], decay[s], skewness, duration[s], impulse[Pa s], rank, unresolved.

@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <locale.h>
 #include <mps/page.h>
+#include <mps/stats.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -246,6 +247,7 @@ static mps_status write_folder(const char *folder, const mps_page_config *config
     page p = {.note = ""};
     int64_t bytes = 0;
     mps_status status = mps__page_run_read(&r, folder, e);
+    r.impacts = config->impacts;
     if (status == MPS_OK) status = make_parts(&p, &r, config);
     if (status == MPS_OK) status = save(&r, &p, &bytes);
     if (status == MPS_OK) fill_info(info, &p, bytes);
@@ -270,6 +272,9 @@ mps_status mps_page_write(const char *folder, const mps_page_config *config, mps
                               BYTES_LEAST);
     if (config->frames < 0)
         return mps__page_fail(&e, MPS_E_ARG, "frames is %d: 0 or more", (int)config->frames);
+    mps_stats_constant first = {.struct_size = sizeof first};
+    if (config->impacts && mps_stats_constant_get(config->impacts, 0, &first) != MPS_OK)
+        return mps__page_fail(&e, MPS_E_ARG, "impacts: call mps_stats_config_init() first");
     /* numbers have a point, whatever the locale of the host program says */
     const locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
     if (!plain) return mps__page_fail(&e, MPS_E_NOMEM, "no memory for the page");

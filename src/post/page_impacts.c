@@ -152,38 +152,26 @@ static void write_sensor(FILE *out, const sensor *s, const mps_stats_config *c, 
     fputs("</div></details>\n", out);
 }
 
-/* Every constant, as used. */
-static void write_constants(FILE *out, const mps_stats_config *c)
+static const char *quantity_of(char out[TEXT_NUMBER], const mps_stats_constant *k)
 {
-    char a[TEXT_NUMBER];
+    return isfinite(k->value) ? mps__quantity(out, k->value, k->unit) : "not given";
+}
+
+/* Every constant, as used, and what the run says where the page was made with another value. */
+static void write_constants(FILE *out, const mps_stats_config *c, const mps_stats_config *of_run)
+{
+    char a[TEXT_NUMBER], b[TEXT_NUMBER];
+    mps_stats_constant here = {.struct_size = sizeof here}, run = here;
     fputs("<details><summary>Constants of the statistics</summary><table class=\"facts\"><tbody>\n",
           out);
-    const struct {
-        const char *name, *unit;
-        double value;
-    } row[] = {{"samples from", "s", c->from},
-               {"until", "s", c->until},
-               {"rate (0: as in probes.csv)", "Hz", c->rate},
-               {"high-pass (0: none)", "Hz", c->high_pass},
-               {"threshold", "Pa", c->threshold},
-               {"else standard deviations above the mean", "", c->deviations},
-               {"window", "s", c->window},
-               {"else share of the period", "", c->window_share},
-               {"period", "s", c->period},
-               {"rise and decay from this share of the peak", "", c->share},
-               {"time that is resolved", "s", c->crossing_time},
-               {"least events of a fit", "", c->least_events},
-               {"resamples of a band", "", c->resamples},
-               {"share of the resamples in a band", "", c->confidence},
-               {"seed", "", (double)c->seed},
-               {"exposure", "s", c->exposure},
-               {"warning beyond lengths of the record", "", c->exposure_ratio},
-               {"warning beyond correlation times sqrt(N)", "", c->dependence},
-               {"length at full scale over that here", "", c->length_scale},
-               {"density at full scale over that here", "", c->density_ratio}};
-    for (size_t k = 0; k < sizeof row / sizeof row[0]; k++)
-        fprintf(out, "<tr><th scope=\"row\">%s</th><td>%s</td></tr>\n", row[k].name,
-                isfinite(row[k].value) ? mps__quantity(a, row[k].value, row[k].unit) : "not given");
+    for (int32_t k = 0; mps_stats_constant_get(c, k, &here) == MPS_OK &&
+                        mps_stats_constant_get(of_run, k, &run) == MPS_OK;
+         k++) {
+        fprintf(out, "<tr><th scope=\"row\">%s</th><td>%s", here.about, quantity_of(a, &here));
+        if (here.value != run.value && (isfinite(here.value) || isfinite(run.value)))
+            fprintf(out, ", set for this page; the run: %s", quantity_of(b, &run));
+        fputs("</td></tr>\n", out);
+    }
     fputs("</tbody></table></details>\n", out);
 }
 
@@ -195,15 +183,33 @@ static int compare(const void *a, const void *b)
     return (x->highest < y->highest) - (x->highest > y->highest);
 }
 
-/* @param config  out: with the time that is resolved, of the least one at a peak */
-static mps_status find_all(const page_run *r, mps_stats_config *config, sensor *all, int *count)
+/* Those of the run; with the time that is resolved, of the least one at a peak. */
+static mps_status take_constants(const page_run *r, mps_stats_config *config)
 {
-    mps_status status = mps__stats_take(r, mps__page_number(r, "t_end"), config);
+    const mps_status status = mps__stats_take(r, mps__page_number(r, "t_end"), config);
     if (!(config->crossing_time > 0)) { /* of an older run, or one whose average is given as 0 */
         const double crossing = mps__page_crossing(r, mps__page_number(r, "t_end"));
         const double given = mps__page_number(r, "sensor_average_most");
         config->crossing_time = isfinite(given) ? given : isfinite(crossing) ? crossing : 0;
     }
+    return status;
+}
+
+/* The constants that the page is made with, over those of the run. */
+static void take_given(const page_run *r, mps_stats_config *config)
+{
+    const mps_stats_config of_run = *config;
+    if (!r->impacts) return;
+    mps__stats_out(config, r->impacts, sizeof *config);
+    config->error = of_run.error;
+    config->error_size = of_run.error_size;
+    if (!(config->crossing_time > 0)) config->crossing_time = of_run.crossing_time;
+}
+
+static mps_status find_all(const page_run *r, const mps_stats_config *config, sensor *all,
+                           int *count)
+{
+    mps_status status = MPS_OK;
     for (int32_t k = 0; status == MPS_OK && k < r->columns && *count < SENSORS_MOST; k++) {
         const page_column *c = &r->column[k];
         if (strcmp(c->unit, "Pa") != 0 || c->place < 0) continue; /* also means of panels */
@@ -221,11 +227,14 @@ mps_status mps__page_impacts(FILE *out, const page_run *r, int64_t bytes)
     sensor all[SENSORS_MOST];
     int count = 0;
     char text[256] = "";
-    mps_stats_config config;
+    mps_stats_config config, of_run;
     if (!mps__page_has_impacts(r)) return MPS_OK;
     mps_status status = mps_stats_config_init(&config, sizeof config);
     config.error = text;
     config.error_size = sizeof text;
+    if (status == MPS_OK) status = take_constants(r, &config);
+    of_run = config;
+    take_given(r, &config);
     if (status == MPS_OK) status = find_all(r, &config, all, &count);
     if (status == MPS_E_NOMEM) mps__page_fail(r->errors, status, "no memory for the page");
     if (status != MPS_E_NOMEM && (status != MPS_OK || count > 0)) {
@@ -241,7 +250,7 @@ mps_status mps__page_impacts(FILE *out, const page_run *r, int64_t bytes)
         }
         for (int k = 0; status == MPS_OK && k < count; k++)
             write_sensor(out, &all[k], &config, k == 0, ftell(out) - begin < bytes);
-        write_constants(out, &config);
+        write_constants(out, &config, &of_run);
         fputs("</section>\n", out);
     }
     for (int k = 0; k < count; k++) mps_impacts_destroy(all[k].impacts);

@@ -47,6 +47,8 @@ typedef struct page_run {
     int64_t frames;
     page_stamp *frame; /* [frames]; a series of none is allowed */
     char *text;        /* case.yaml, or NULL */
+    const struct mps_stats_config
+        *impacts; /* constants that the page is made with; NULL: the run's */
 } page_run;
 
 /* Keep the text of an error. @return status */

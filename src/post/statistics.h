@@ -67,6 +67,13 @@ double mps__beta_inverse(double a, double b, double q);
 /* t with P(|T| <= t) = `share` for Student's T with `freedom` >= 1 degrees of freedom. */
 double mps__student(double freedom, double share);
 
+/* ---- statistics_constants.c ---- */
+
+/* Set the constant of a key, "impacts.window" or "T1", to a number in SI. @return false: there is none, or a whole number is out of its range */
+bool mps__stats_put(mps_stats_config *config, const char *key, double value);
+/* Set the list of sensors, names with "; " between them. */
+mps_status mps__stats_put_sensors(mps_stats_config *config, const char *names);
+
 /* ---- statistics_read.c ---- */
 
 /* Constants of a run by its summary. @param end  of the record [s]; NAN: not known */

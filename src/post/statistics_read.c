@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { COUNT_MOST = 1000000, TEXT_ROOM = 640 };
+enum { TEXT_ROOM = 640 };
 /* Shares of the record: its begin, where the impulse of the start is no impact, and the window where no period is known. */
 static const double START = 0.005, WINDOW = 0.02;
 
@@ -29,52 +29,28 @@ static double natural_period(const page_run *r)
     return isfinite(period) ? period : NAN; /* infinite without gravity */
 }
 
+/* Those of the case, and what follows from it. */
 static void take_numbers(const page_run *r, mps_stats_config *c)
 {
-    const struct {
-        const char *key;
-        double *value;
-    } member[] = {{"T1", &c->period},
-                  {"motion omega", &c->omega},
-                  {"impacts.from", &c->from},
-                  {"impacts.until", &c->until},
-                  {"impacts.rate", &c->rate},
-                  {"impacts.high_pass", &c->high_pass},
-                  {"impacts.threshold", &c->threshold},
-                  {"impacts.deviations", &c->deviations},
-                  {"impacts.window", &c->window},
-                  {"impacts.share", &c->share},
-                  {"impacts.confidence", &c->confidence},
-                  {"impacts.exposure", &c->exposure},
-                  {"impacts.exposure_ratio", &c->exposure_ratio},
-                  {"impacts.dependence", &c->dependence},
-                  {"impacts.scale", &c->length_scale},
-                  {"impacts.density_ratio", &c->density_ratio}};
-    for (size_t k = 0; k < sizeof member / sizeof member[0]; k++) {
-        const double value = input_number(r, member[k].key);
-        if (isfinite(value)) *member[k].value = value;
+    mps_stats_constant k = {.struct_size = sizeof k};
+    for (int32_t i = 0; mps_stats_constant_get(c, i, &k) == MPS_OK; i++) {
+        const double value = k.key[0] ? input_number(r, k.key) : NAN;
+        if (isfinite(value)) mps__stats_put(c, k.key, value);
     }
-    const double least = input_number(r, "impacts.least_events");
-    const double resamples = input_number(r, "impacts.resamples");
-    const double seed = input_number(r, "impacts.seed");
-    if (least >= 2 && least <= COUNT_MOST) c->least_events = (int32_t)least;
-    if (resamples >= 0 && resamples <= COUNT_MOST) c->resamples = (int32_t)resamples;
-    if (seed >= 0 && seed <= COUNT_MOST) c->seed = (uint64_t)seed;
+    const double omega = input_number(r, "motion omega");
+    if (isfinite(omega)) c->omega = omega;
 }
 
 mps_status mps__stats_take(const struct page_run *r, double end, mps_stats_config *config)
 {
     const char *sensors = mps__page_input(r, "impacts.sensors");
     const double crossing = mps__page_number(r, "sensor_average_most");
-    MPS__STATS_CHECK(config, !sensors || strlen(sensors) < sizeof config->sensors,
-                     "impacts.sensors: the list has more than %d bytes",
-                     (int)sizeof config->sensors - 1);
+    MPS__STATS_TRY(mps__stats_put_sensors(config, sensors ? sensors : ""));
     config->period = natural_period(r);
     if (end > 0) config->from = START * end;
     if (isfinite(crossing)) config->crossing_time = crossing;
     take_numbers(r, config);
     if (end > 0 && isnan(config->window) && isnan(config->period)) config->window = WINDOW * end;
-    snprintf(config->sensors, sizeof config->sensors, "%s", sensors ? sensors : "");
     return MPS_OK;
 }
 

@@ -76,6 +76,9 @@ gives "tank." mps run tank.yaml -s tan
 gives "tank.chamfer.across= tank.chamfer.bottom= tank.chamfer.top=" mps run tank.yaml --set tank.chamfer.
 gives "motion.roll.period= motion.roll.phase=" mps run tank.yaml --set motion.roll.p
 gives "motion.roll.period= motion.roll.phase=" mps run tank.yaml --set = motion.roll.p
+gives "impacts." mps stats out/run --set ''
+gives "impacts.share=" mps report out/run --set impacts.sh
+gives "impacts.scale= impacts.seed= impacts.sensors= impacts.share=" mps stats out/run --set impacts.s
 gives "sensors.P_left.wall=" mps run tank.yaml --set sensors.P_left.w
 gives "" mps run tank.yaml --set sensors.
 gives "" mps run tank.yaml --set dp = ''

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* report.html from a folder: what it holds, its limit, and folders that are broken. */
 #include "page_fixture.h"
+#include <mps/stats.h>
 
 static double number_in(const char *text, const char *key)
 {
@@ -192,6 +193,42 @@ static void constants_of_impacts(void **unused)
     scene_remove(&s);
 }
 
+/* Constants of the caller are used in place of those of the run; the page says which differ. An own crossing time stays. */
+static void other_constants(void **unused)
+{
+    scene s = {.dim = 2, .fluid = 20, .frames = 0, .rows = 500};
+    char error[300] = "";
+    mps_page_config config;
+    mps_stats_config impacts;
+    (void)unused;
+    scene_create(&s);
+    write_summary(&s, ", \"inputs\": [{\"key\": \"impacts.least_events\", \"value\": \"40\"}]");
+    assert_int_equal(mps_page_config_init(&config, sizeof config), MPS_OK);
+    assert_null(config.impacts);
+    config.error = error;
+    config.error_size = sizeof error;
+    config.impacts = &impacts;
+    impacts.struct_size = 3;
+    assert_int_equal(mps_page_write(s.folder, &config, NULL), MPS_E_ARG);
+    assert_non_null(strstr(error, "impacts: call mps_stats_config_init() first"));
+    assert_int_equal(mps_stats_config_init(&impacts, sizeof impacts), MPS_OK);
+    assert_int_equal(mps_stats_config_read(s.folder, &impacts), MPS_OK);
+    impacts.threshold = 11500;
+    assert_int_equal(mps_page_write(s.folder, &config, NULL), MPS_OK);
+    char *page = text_read(&s, "report.html", NULL);
+    assert_non_null(strstr(page, "P1: 3 events"));
+    assert_non_null(
+        strstr(page, ">threshold</th><td>11.5 kPa, set for this page; the run: not given"));
+    assert_non_null(strstr(page, ">least events of a fit</th><td>40</td>"));
+    free(page);
+    impacts.share = 2;
+    assert_int_equal(mps_page_write(s.folder, &config, NULL), MPS_OK);
+    page = text_read(&s, "report.html", NULL);
+    assert_non_null(strstr(page, "There are no statistics: 'share' is 2"));
+    free(page);
+    scene_remove(&s);
+}
+
 /* The page stays below its limit, says what was left out, and keeps every particle that it shows where it is. */
 static void limit_holds(void **unused)
 {
@@ -356,14 +393,11 @@ static void arguments(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(film_comes_back),
-                                       cmocka_unit_test(sections_and_texts),
-                                       cmocka_unit_test(constants_of_impacts),
-                                       cmocka_unit_test(limit_holds),
-                                       cmocka_unit_test(frames_wanted),
-                                       cmocka_unit_test(little_to_show),
-                                       cmocka_unit_test(broken_tables),
-                                       cmocka_unit_test(broken_frames),
-                                       cmocka_unit_test(arguments)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(film_comes_back),      cmocka_unit_test(sections_and_texts),
+        cmocka_unit_test(constants_of_impacts), cmocka_unit_test(other_constants),
+        cmocka_unit_test(limit_holds),          cmocka_unit_test(frames_wanted),
+        cmocka_unit_test(little_to_show),       cmocka_unit_test(broken_tables),
+        cmocka_unit_test(broken_frames),        cmocka_unit_test(arguments)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

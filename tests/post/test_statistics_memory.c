@@ -103,6 +103,21 @@ static mps_status constants(const mps_stats_config *config)
     return mps_stats_config_read(folder, &own);
 }
 
+static mps_status a_set(const mps_stats_config *config)
+{
+    mps_stats_config own = *config;
+    const mps_status status = mps_stats_config_set(&own, "impacts.sensors=[P1, P2]");
+    assert_string_equal(own.sensors, status == MPS_OK ? "P1; P2" : "");
+    return status;
+}
+
+static mps_status a_wrong_set(const mps_stats_config *config)
+{
+    mps_stats_config own = *config;
+    const mps_status status = mps_stats_config_set(&own, "impacts.share=500 %");
+    return status == MPS_E_ARG ? MPS_OK : status;
+}
+
 static void check(mps_status (*call)(const mps_stats_config *), int64_t least)
 {
     mps_status status;
@@ -158,6 +173,8 @@ static void all_calls(void **state)
     check(impacts, 10);
     check(table, 10);
     check(comparison, 3);
+    check(a_set, 20);
+    check(a_wrong_set, 20);
     check(peaks, 11);
     check(constants, 10); /* without a summary: the end of the table */
     FILE *out = fopen(summary, "w");

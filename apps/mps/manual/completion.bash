@@ -29,6 +29,7 @@ _mps_paths() {
     IFS=. read -ra typed <<<"$cur."
     local last=$((${#typed[@]} - 1))
     for key in "${_mps_keys[@]}"; do
+        [[ $verb != @(stats|report) || $key == impacts.* ]] || continue # of a run that is done
         IFS=. read -ra words <<<"$key"
         [ ${#words[@]} -gt $last ] || continue
         fits=1

@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "constants.h"
+#include <math.h>
+#include <stdio.h>
+
+const char *quantity(double value, const char *unit)
+{
+    enum { TEXTS = 8, ROOM = 48 };
+    static char text[TEXTS][ROOM];
+    static int next;
+    next = (next + 1) % TEXTS;
+    mps_quantity_write(value, unit, text[next], ROOM);
+    return text[next];
+}
+
+void constants_begin(constants *k)
+{
+    mps_stats_config_init(&k->used, sizeof k->used);
+    k->error[0] = '\0';
+    k->used.error = k->error;
+    k->used.error_size = sizeof k->error;
+    k->run = k->used;
+}
+
+mps_status constants_read(constants *k, const choices *c, const char *folder)
+{
+    mps_status status = mps_stats_config_read(folder, &k->run);
+    k->used = k->run;
+    for (int32_t i = 0; i < c->sets && status == MPS_OK; i++)
+        status = mps_stats_config_set(&k->used, c->set[i]);
+    return status;
+}
+
+/* Values that differ, and values of which one is not known. */
+static bool differ(double a, double b)
+{
+    return isnan(a) || isnan(b) ? isnan(a) != isnan(b) : a != b;
+}
+
+/* Each constant that differs from `before`, in a line that begins with `where`. */
+static void print_others(const mps_stats_config *now, const mps_stats_config *before,
+                         const char *where)
+{
+    mps_stats_constant a = {.struct_size = sizeof a}, b = a;
+    const char *between = where;
+    for (int32_t k = 0; mps_stats_constant_get(now, k, &a) == MPS_OK &&
+                        mps_stats_constant_get(before, k, &b) == MPS_OK;
+         k++) {
+        if (!differ(a.value, b.value)) continue;
+        printf("%s%s %s", between, a.key[0] ? a.key : a.about, quantity(a.value, a.unit));
+        between = ", ";
+    }
+    if (between != where) printf("\n");
+}
+
+void constants_print(const constants *k, const choices *c, const char *folder)
+{
+    constants defaults;
+    char where[400];
+    constants_begin(&defaults);
+    snprintf(where, sizeof where, "constants of the run in %.300s: ", folder);
+    print_others(&k->run, &defaults.used, where);
+    print_others(&k->used, &k->run, "constants by --set: ");
+    if (k->used.sensors[0]) printf("sensors: %s\n", k->used.sensors);
+    printf("%s\n", c->sets
+                       ? "all others: defaults"
+                       : "all others: defaults; --set impacts.threshold='6 kPa' changes one, an "
+                         "edit of case.yaml does not");
+}
