@@ -9,8 +9,12 @@
 static int save(const choices *c, const char *path, const char *text)
 {
     FILE *file = fopen(path, "w");
-    bool good = file && fputs(text, file) >= 0;
-    if (file) good = fclose(file) == 0 && good;
+    bool good = file != NULL;
+    if (file) { /* an error of a write stays until the end */
+        fputs(text, file);
+        good = !ferror(file);
+        if (fclose(file) != 0) good = false;
+    }
     if (good) return MPS_EXIT_OK;
     fprintf(stderr, "mps %s: %s: %s\n", c->verb, path, strerror(errno));
     return MPS_EXIT_FAILED;

@@ -132,6 +132,13 @@ int cli_read(choices *c, const verb *v, int argc, char **argv)
     return -1;
 }
 
+int cli_flush(const choices *c, int code)
+{
+    if (fflush(stdout) == 0 && !ferror(stdout)) return code;
+    cli_say(c, "mps %s: cannot write to stdout: %s\n", c->verb, strerror(errno));
+    return MPS_EXIT_FAILED;
+}
+
 void cli_stem(const char *path, char *out, size_t size)
 {
     const char *slash = strrchr(path, '/'), *begin = slash ? slash + 1 : path,

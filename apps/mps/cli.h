@@ -102,6 +102,8 @@ void cli_say(const choices *c, const char *format, ...);
 int cli_agree(const choices *c, int code);
 /* The end of a run on all ranks; one of them shows its messages. @return exit code of all */
 int cli_end(const choices *c, int code);
+/* All that was printed is written. @return code, or that of a failure, which is told */
+int cli_flush(const choices *c, int code);
 /* "surge" of "cases/surge.yaml". */
 void cli_stem(const char *path, char *out, size_t size);
 /* The messages of a case. */

@@ -19,8 +19,12 @@ static bool may_write(const choices *c, const char *path)
 static int write_new(const char *path, const char *text)
 {
     FILE *file = fopen(path, "w");
-    bool good = file && fputs(text, file) >= 0;
-    if (file) good = fclose(file) == 0 && good;
+    bool good = file != NULL;
+    if (file) { /* an error of a write stays until the end */
+        fputs(text, file);
+        good = !ferror(file);
+        if (fclose(file) != 0) good = false;
+    }
     if (!good) {
         fprintf(stderr, "mps init: %s: %s\n", path, strerror(errno));
         return MPS_EXIT_FAILED;
@@ -59,10 +63,12 @@ int verb_schema(const choices *c)
 {
     const size_t size = mps_case_schema_write(NULL, 0) + 1;
     char *text = malloc(size);
-    (void)c;
-    if (!text) return MPS_EXIT_FAILED;
+    if (!text) {
+        fprintf(stderr, "mps schema: no memory\n");
+        return MPS_EXIT_FAILED;
+    }
     mps_case_schema_write(text, size);
-    const bool good = fputs(text, stdout) >= 0 && fflush(stdout) == 0;
+    fputs(text, stdout);
     free(text);
-    return good ? MPS_EXIT_OK : MPS_EXIT_FAILED;
+    return cli_flush(c, MPS_EXIT_OK);
 }

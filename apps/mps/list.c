@@ -143,7 +143,10 @@ int verb_list(const choices *c)
     }
     mps_sim *sim = make_sim();
     int code = MPS_EXIT_OK;
-    if (!sim) return MPS_EXIT_FAILED;
+    if (!sim) {
+        fprintf(stderr, "mps list: no memory\n");
+        return MPS_EXIT_FAILED;
+    }
     if (chosen == 0) list_cases();
     if (chosen == 1) code = list_keys(c->files > 1 ? c->file[1] : NULL);
     if (chosen == 2) list_models(sim);
@@ -152,5 +155,5 @@ int verb_list(const choices *c)
     if (chosen == 5) list_units();
     if (chosen == 6) list_measures();
     mps_sim_destroy(sim);
-    return fflush(stdout) == 0 ? code : MPS_EXIT_FAILED;
+    return cli_flush(c, code);
 }

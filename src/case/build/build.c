@@ -236,7 +236,7 @@ mps_status mps_case_check(mps_case *c, char **text, char **sketch)
     mps_status status = b->status < 0 ? b->status : mps__case_failed(c) ? MPS_E_ARG : MPS_OK;
     if (status == MPS_OK) *sketch = mps__sketch_write(b);
     if (status == MPS_OK) *text = mps__check_write(b);
-    if (c->no_memory || (status == MPS_OK && (!*sketch || !*text))) {
+    if (c->no_memory || b->status == MPS_E_NOMEM || (status == MPS_OK && (!*sketch || !*text))) {
         free(*sketch);
         free(*text);
         *sketch = *text = NULL;

@@ -119,20 +119,27 @@ static void write_log(const writer *w, const build *b)
     }
 }
 
+/* A text from which something is left out because memory ran out is no text. @return status is MPS_OK */
+static bool is_done(build *b, mps_status status)
+{
+    if (status == MPS_E_NOMEM) b->status = status;
+    return status == MPS_OK;
+}
+
 /* Particles of the liquid in the uppermost row of the lattice, and in the row below. */
 typedef struct top_rows {
     double y;
     int64_t top, below;
 } top_rows;
 
-static bool find_rows(const build *b, top_rows *r)
+static bool find_rows(build *b, top_rows *r)
 {
     mps_lease x = {.struct_size = sizeof x}, kind = x;
     double h[3] = {0, b->dp, 0};
     *r = (top_rows){.y = -INFINITY};
     if (mps_lattice_get(b->sim, NULL, h) != MPS_OK) h[1] = b->dp;
-    bool good = mps_lease_begin(b->sim, "position", MPS_READ, &x) == MPS_OK;
-    good = good && mps_lease_begin(b->sim, "kind", MPS_READ, &kind) == MPS_OK;
+    bool good = is_done(b, mps_lease_begin(b->sim, "position", MPS_READ, &x));
+    good = good && is_done(b, mps_lease_begin(b->sim, "kind", MPS_READ, &kind));
     for (int64_t i = 0; good && i < x.count; i++)
         if (kind.integers[i] == MPS_FLUID) r->y = fmax(r->y, x.data[i * x.stride + 1]);
     for (int64_t i = 0; good && i < x.count; i++) {
@@ -146,7 +153,7 @@ static bool find_rows(const build *b, top_rows *r)
 }
 
 /* A level between two rows leaves the uppermost one with the particles that the volume asks for, in groups or beside walls: steps in the surface. */
-static void write_top(const writer *w, const build *b)
+static void write_top(const writer *w, build *b)
 {
     top_rows r;
     if (b->fluids != 1 || !mps__build_filled(b) || !find_rows(b, &r)) return;
@@ -165,7 +172,7 @@ static void write_fluids(const writer *w, build *b)
     mps_lease kind = {.struct_size = sizeof kind};
     mps_energy e;
     mps_energy_init(&e, sizeof e);
-    if (mps_lease_begin(b->sim, "kind", MPS_READ, &kind) == MPS_OK) {
+    if (is_done(b, mps_lease_begin(b->sim, "kind", MPS_READ, &kind))) {
         for (int64_t i = 0; i < kind.count; i++) count[kind.integers[i]]++;
         mps_lease_end(b->sim, &kind);
     }
@@ -178,7 +185,7 @@ static void write_fluids(const writer *w, build *b)
                 b->fluid[i].density, b->fluid[i].viscosity);
     }
     write_log(w, b);
-    if (mps_energy_get(b->sim, &e) == MPS_OK) {
+    if (is_done(b, mps_energy_get(b->sim, &e))) {
         const char *unit = b->dim == 3 ? "m3" : "m2";
         const form *t = &b->tank.form;
         const double exact = b->tank.file || isnan(b->depth)
@@ -393,6 +400,7 @@ static void write_cost(const writer *w, build *b)
         if (i > 0) took += (seconds() - before) / STEPS;
     }
     if (status < 0) {
+        is_done(b, status);
         fprintf(w->file, "\n");
         heading(w, "warning");
         fprintf(w->file, "the first steps fail: %s\n", mps_sim_error(b->sim));

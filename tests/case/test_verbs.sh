@@ -1,0 +1,337 @@
+#!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
+# The program mps where something is in its way: options in all forms, files that cannot be written, files of other kinds, memory that runs out, ranks.
+# usage: test_verbs.sh PROGRAM FAKE_RANKS [FAIL_MALLOC]    without the last one memory does not run out
+program=$1 ranks=$2 memory=$3
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+export LC_ALL=C
+unset OMPI_COMM_WORLD_SIZE PMI_SIZE OMPI_COMM_WORLD_RANK PMI_RANK
+failed=0
+
+fail() {
+    echo "FAILED: $*"
+    failed=1
+}
+
+# wanted exit code, wanted text, command ..
+expect() {
+    local code=$1 text=$2
+    shift 2
+    "$@" > log 2>&1
+    local got=$?
+    [ $got -eq "$code" ] || fail "exit $got, not $code: $*: $(tail -3 log)"
+    [ -z "$text" ] || grep -qF -- "$text" log || fail "no '$text': $*: $(head -5 log)"
+}
+says() { grep -qE -- "$1" log || fail "no '$1' in: $(head -8 log)"; }
+silent() { [ -s log ] && fail "$1 says $(head -3 log)"; }
+
+cat > small.yaml << END
+mps: 1
+dp: 50 mm
+tank: {size: 1 0.5 m}
+fill: [{water: {depth: 0.2 m}}]
+motion: {surge: {amplitude: 5 mm, period: 1 s}}
+sensors: {P: {wall: 0 0.1 m}, eta: {gauge: 0.3 m}}
+run: {until: 0.02 s}
+output: {frames: 0, page: 0 MB}
+END
+printf 't[s],eta[m]\n0,1\n1,2\n2,1\n' > level.csv
+
+# ---- options in all forms
+expect 0 "usage: mps run" "$program" run -h
+expect 0 "usage: mps VERB" "$program" help
+expect 0 "dp 0.1 m," "$program" check small.yaml --set=dp='100 mm'
+expect 0 "dp 0.1 m," "$program" check small.yaml -sdp='100 mm' --out=drawing.svg
+[ -s drawing.svg ] || fail "--out=drawing.svg"
+expect 2 "takes no value" "$program" run small.yaml --quiet=yes
+expect 2 "needs a value" "$program" run small.yaml --out ''
+expect 2 "unknown option" "$program" run small.yaml --seta x
+expect 2 "unknown option" "$program" run small.yaml -z
+expect 2 "cannot be read" "$program" check -
+for count in 0 3x 5000 -1; do expect 2 "must be a whole number, 1 to 1024" "$program" run small.yaml -j $count; done
+many=()
+for ((k = 0; k < 65; k++)); do many+=(--set dp=50\ mm); done
+expect 2 "is one --set too many" "$program" run small.yaml "${many[@]}"
+expect 2 "is one argument too many" "$program" stats $(seq 65)
+expect 0 "" "$program" run small.yaml -j1 -q -o "it's a place"
+silent "a quiet run"
+grep -q "\"command\": \".* run small.yaml -j1 -q -o .*it's a place" "it's a place/summary.json" || fail "the command of a run: $(grep command "it's a place/summary.json")"
+expect 0 "" "$program" check small.yaml "${many[@]:0:100}" -q
+silent "a quiet check"
+[ -s small.svg ] || fail "no small.svg"
+cp small.yaml .hidden
+cp small.yaml plain
+mkdir a.b
+cp small.yaml a.b/plain
+expect 0 " .hidden.svg" "$program" check .hidden
+expect 0 " plain.svg" "$program" check a.b/plain
+
+# ---- lists
+expect 0 "mps list keys [NAME]" "$program" list
+expect 2 "is no list" "$program" list nothing
+"$program" list keys mps > log
+[ "$(wc -l < log)" -ge 1 ] || fail "list keys mps"
+for verb in schema "list keys"; do
+    # shellcheck disable=SC2086
+    "$program" $verb > /dev/full 2> log
+    [ $? -eq 1 ] || fail "$verb to a full device: exit code"
+    says "mps ${verb%% *}: cannot write to stdout: No space left"
+done
+
+# ---- streams that are closed are no place for outputs
+"$program" list cases <&- > log || fail "list without stdin"
+says "^tank "
+expect 2 "is no list" sh -c '"$0" list nothing <&- >&-' "$program"
+sh -c '"$0" run "$1" -o closed <&- >&- 2>&-' "$program" small.yaml || fail "a run without streams: exit $?"
+[ "$(head -1 closed/probes.csv | cut -c1-5)" = "t[s]," ] || fail "probes.csv of a run without streams: $(head -1 closed/probes.csv)"
+
+# ---- files that cannot be written
+expect 1 "nowhere/x.svg: No such file" "$program" check small.yaml -o nowhere/x.svg
+expect 1 "/dev/full: No space left" "$program" check small.yaml -o /dev/full
+expect 1 "nowhere/x.yaml: No such file" "$program" init tank -o nowhere/x.yaml
+expect 1 "/dev/full: No space left" "$program" init tank -o /dev/full --overwrite
+expect 0 "mine.yaml" "$program" init tank -o mine.yaml
+expect 0 "voyage.csv" "$program" init voyage.csv
+expect 2 "is there already" "$program" init voyage.csv
+grep -q "^mps: 1" mine.yaml || fail "init -o"
+expect 0 "" "$program" run small.yaml -q -o done
+expect 2 "is more than the tank is high" "$program" run small.yaml -o none --set "fill.water.depth=90 m"
+[ -e none ] && fail "a refused run made a folder"
+ln -s /dev/full done/statistics.json
+expect 1 "cannot write 'statistics.json' in 'done': No space left" "$program" stats done
+rm done/statistics.json
+mkdir done/statistics.csv
+expect 1 "cannot write 'statistics.csv' in 'done': Is a directory" "$program" stats done
+[ -s done/statistics.json ] || fail "no statistics.json"
+rmdir done/statistics.csv
+
+# ---- check: what it refuses
+expect 2 "no.yaml" "$program" check no.yaml
+expect 2 "fill.water.depth: 90 m is more than the tank is high" "$program" check small.yaml --set "fill.water.depth=90 m"
+expect 2 "motion.columns is needed" "$program" check small.yaml --set "motion={file: level.csv}"
+
+# ---- stats: folders of other kinds
+mkdir dry flat poor
+cp level.csv dry/probes.csv
+expect 2 "has no column of a pressure" "$program" stats dry
+printf 't[s],P[Pa],Q[Pa],R[m]\n0,0,0,1\n1,0,0,nan\n2,5,0,1\n3,0,0,1\n' > flat/probes.csv
+printf '{"t_end": 3, "inputs": [{"key": "impacts.threshold", "value": "1 Pa"}, {"key": "impacts.sensors", "value": "P"}, {"key": "impacts.window", "value": "0.1 s"}]}\n' > flat/summary.json
+expect 0 "P: 1 events" "$program" stats flat
+grep -q "^Q" log && fail "stats: impacts.sensors of the case is not used"
+says "^sensors: P$"
+expect 0 "Q: 0 events" "$program" stats flat Q P
+says "no distribution is fitted: that needs 30 events$"
+cp flat/probes.csv poor/
+printf '{"t_end": 3, "inputs": [{"key": "impacts.share", "value": "2"}]}\n' > poor/summary.json
+expect 2 "poor: 'share' is 2" "$program" stats poor
+printf 'no json' > poor/summary.json
+expect 2 "poor/summary.json" "$program" stats poor
+# the end of a long name: the folder is there, its probes.csv has no name
+long=done
+while [ ${#long} -lt 4088 ]; do long=$long/./././.; done
+expect 2 "the name is too long" "$program" stats "$long"
+# events that begin at once have no rise
+awk 'BEGIN { print "t[s],P[Pa]"; for (i = 0; i <= 4000; i++) { t = i / 100; d = t - int(t); printf "%.2f,%.9g\n", t, (t > 0.5 && d < 0.05 ? 1000 + 100 * int(t) : 0) } }' > poor/probes.csv
+printf '{"t_end": 40, "inputs": [{"key": "impacts.threshold", "value": "1 Pa"}, {"key": "impacts.window", "value": "0.1 s"}, {"key": "impacts.resamples", "value": "0"}, {"key": "impacts.exposure", "value": "60 s"}]}\n' > poor/summary.json
+expect 0 "Weibull" "$program" stats poor
+grep -q ", band \|extrapolated" log && fail "stats: a band without resamples, or a short exposure: $(cat log)"
+
+# ---- compare
+expect 2 "no column can be compared" "$program" compare dry done/../flat
+printf 't[s],eta[m]\n5,1\n6,2\n' > late.csv
+expect 2 "late.csv and dry: no column can be compared" "$program" compare dry dry late.csv
+says "eta \[m\] +.*no common time"
+printf 't[s],eta\n0,1\n1,2\n2,2\n' > bare.csv
+expect 0 "eta [m]" "$program" compare dry dry bare.csv
+mkdir empty
+printf 't[s],eta[m]\n' > empty/probes.csv
+expect 2 "no column can be compared" "$program" compare empty dry
+
+# ---- info: kinds of files
+printf 'solid a\n facet normal 0 0 1\n' > ascii.stl
+expect 0 "ASCII STL" "$program" info ascii.stl
+{ head -c 80 /dev/zero; printf '\001\000\000\000'; head -c 50 /dev/zero; } > binary.stl
+expect 0 "binary STL, 1 triangles" "$program" info binary.stl
+{ head -c 80 /dev/zero; printf '\002\000\000\000'; head -c 50 /dev/zero; } > broken.stl
+expect 2 "is no file of mps" "$program" info broken.stl
+printf 'solid words, no surface' > words
+expect 2 "is no file of mps" "$program" info words
+printf 'a\001,b\n1,2\n' > control
+expect 2 "is no file of mps" "$program" info control
+printf 'a\t,b\r\n1,2\n' > windows.csv
+expect 0 "1 rows, first column 1 .. 1" "$program" info windows.csv
+printf '# of mine\nmps: 1\n' > comment.yaml
+expect 0 "case; 'mps check'" "$program" info comment.yaml
+printf 'mps: 1\ntitle: A tank\ndp: 1 m\n' > titled.yaml
+expect 0 "case: A tank;" "$program" info titled.yaml
+printf '<!doctype html>\n<html lang="en">' > page.html
+expect 0 "page, 32 bytes" "$program" info page.html
+printf '<VTKFile type="Other"><Piece NumberOfPoints="7"><DataArray type="a"/><DataArray Name="pressure"/>' > frame.vtp
+expect 0 "7 particles" "$program" info frame.vtp
+says "^  pressure$"
+printf '<VTKFile type="Collection">' > frames.pvd
+expect 0 "series of frames" "$program" info frames.pvd
+printf '<VTKFile type="Other">' > other.vtk
+expect 2 "is no file of mps" "$program" info other.vtk
+mkfifo pipe
+expect 2 "pipe: is no file" "$program" info pipe
+mkdir -p taken/report.html
+expect 2 "without outputs of a run" "$program" info taken
+# checkpoints: a head of 16 bytes, parts of a title of 40, bytes, number
+expect 0 "" "$program" run small.yaml --set "run.checkpoint=10 ms" -q -o kept
+expect 0 "checkpoint of a run" "$program" info kept/checkpoint.mps
+grep -q "cut short" log && fail "info: a whole checkpoint is cut short"
+head -c -20 kept/checkpoint.mps > cut.mps
+expect 0 "it is cut short" "$program" info cut.mps
+{ head -c 16 kept/checkpoint.mps; printf 'x%.0s' {1..40}; printf '\377\377\377\377\0\0\0\0\1\0\0\0\0\0\0\0'; } > huge.mps
+expect 0 "checkpoint of a run, 72 bytes" "$program" info huge.mps
+[ "$(wc -l < log)" -eq 1 ] || fail "info: a part with too large elements: $(cat log)"
+
+# ---- series: what is there already, tables that cannot be written
+"$program" run small.yaml --set "run.until=100000 s" -o stopped > log 2>&1 &
+pid=$!
+for ((k = 0; k < 600; k++)); do
+    [ "$(wc -l 2> /dev/null < stopped/probes.csv)" -gt 20 ] 2> /dev/null && break
+    sleep 0.05
+done
+expect 2 "" "$program" run small.yaml -o stopped --overwrite -q
+says "another run|stopped"
+kill -INT $pid
+wait $pid
+[ $? -eq 130 ] || fail "interrupted"
+cat > sweep.yaml << END
+base: small.yaml
+sweep: {title: ['a, b', 'say "c"', plain]}
+END
+expect 0 "" "$program" sweep sweep.yaml -o swept -q -j 1
+grep -q '^001,"a, b",0,' swept/sweep.csv && grep -q '^002,"say ""c""",0,' swept/sweep.csv && grep -q '^003,plain,0,' swept/sweep.csv ||
+    fail "quotes of sweep.csv: $(cat swept/sweep.csv)"
+head -1 swept/sweep.csv | grep -q '^run,title,exit,P.max\[Pa\],eta.max\[m\],' || fail "a sweep without collect: $(head -1 swept/sweep.csv)"
+# constants of a run that cannot be read are told
+sed -i '1s/{/{ broken/' swept/003/summary.json
+expect 0 "swept/003/summary.json" "$program" sweep sweep.yaml -o swept -q
+sed -i '1s/{ broken/{/' swept/003/summary.json
+# threads do not make another case; a table that is gone is a failure of its run alone
+rm swept/002/probes.csv
+expect 0 "swept/003: is done already" "$program" sweep sweep.yaml -o swept
+says "002.probes.csv"
+grep -q '^002,"say ""c""",0,nan,nan,' swept/sweep.csv || fail "a run without its table: $(cat swept/sweep.csv)"
+rm swept/001/summary.json
+expect 0 "" "$program" sweep sweep.yaml -o swept -q
+grep -q '"status": "ok"' swept/001/summary.json || fail "a run that was killed is not made again"
+rm swept/001/case.yaml
+mkdir swept/001/case.yaml
+expect 2 "run of another case" "$program" sweep sweep.yaml -o swept -q
+rm -r swept/001
+rm swept/sweep.csv
+ln -s /dev/full swept/sweep.csv
+expect 1 "sweep.csv: No space left" "$program" sweep sweep.yaml -o swept -q
+rm swept/sweep.csv
+mkdir swept/sweep.csv
+expect 1 "sweep.csv: Is a directory" "$program" sweep sweep.yaml -o swept -q
+expect 2 "no.yaml" "$program" sweep no.yaml
+expect 0 "order" "$program" converge small.yaml -o finer -q --set "dp=25 mm"
+sed -i '/^  "dp": /d' finer/002/summary.json
+expect 1 "are not three spacings from coarse to fine" "$program" converge small.yaml -o finer -q --set "dp=25 mm"
+sed -i 's/"status": "ok"/"status": "failed"/' finer/001/summary.json
+rm finer/002/probes.csv
+expect 0 "002/probes.csv" "$program" converge small.yaml -o finer -q --set "dp=25 mm"
+grep -q order log && fail "converge of two runs has an order"
+expect 2 "at most 64 values of --set and paths" "$program" sweep sweep.yaml "${many[@]:0:128}" -o none
+for entry in max .max P.most; do expect 2 "must be a sensor and one of these statistics" "$program" sweep sweep.yaml --set "collect=[$entry]" -o none; done
+[ -e none ] && fail "a refused sweep made a folder"
+entries=$(printf 'P.max, %.0s' {1..300})
+expect 2 "" "$program" sweep sweep.yaml --set "collect=[${entries%, }]" -o none
+says "is one too many of|texts"
+expect 0 "" "$program" sweep sweep.yaml --set "collect=[P.mean, P.min, P.max, eta.last]" -o means -q
+awk -F, 'NR > 1 { s += $2; n++; if (n == 1 || $2 < least) least = $2; if (n == 1 || $2 > most) most = $2; last = $3 }
+    END { printf "%.6g %.6g %.6g %.6g\n", s / n, least, most, last }' means/003/probes.csv > wanted
+awk -F, '$2 == "plain" { printf "%.6g %.6g %.6g %.6g\n", $4, $5, $6, $7 }' means/sweep.csv | cmp - wanted || fail "mean, min, max, last: $(cat wanted means/sweep.csv)"
+expect 2 "mps repeat: -n must be 2 to" "$program" repeat small.yaml -n 101
+expect 2 "" "$program" repeat no.yaml -n 2 -o none
+name=$(printf 'long/%.0s' {1..250})
+expect 2 "failed, exit code 2" "$program" repeat small.yaml -n 2 -o "$name"
+sed 's/^dp: .*/dp: [50 mm]/' small.yaml > list.yaml
+expect 2 "dp must be one number and a unit" "$program" repeat list.yaml -n 2 -o none
+expect 0 "" "$program" repeat small.yaml -n 2 -o pair -q --set "tank={polygon: [0 0 m, 1 0 m, 1 0.5 m, 0 0.5 m]}"
+grep -q "^P,Pa,2," pair/repeat.csv || fail "repeat.csv: $(cat pair/repeat.csv)"
+rm pair/repeat.csv
+ln -s /dev/full pair/repeat.csv
+expect 1 "repeat.csv: No space left" "$program" repeat small.yaml -n 2 -o pair -q --set "tank={polygon: [0 0 m, 1 0 m, 1 0.5 m, 0 0.5 m]}"
+rm pair/repeat.csv
+mkdir pair/repeat.csv
+sed -i 's/^title: .*//; s/5 mm/6 mm/' pair/001/case.yaml
+expect 2 "repeat.csv: Is a directory" "$program" repeat small.yaml -n 2 -o pair -q --set "tank={polygon: [0 0 m, 1 0 m, 1 0.5 m, 0 0.5 m]}"
+says "pair/001: there is a run of another case"
+
+# ---- ranks: of one process that plays one of two
+mkdir bin
+cp "$program" bin/mps
+expect 2 "it is built where there are MPI and Zoltan" bin/mps run small.yaml --mpi -o none
+cp "$ranks" bin/mps_drivers_mpi.so
+on() { # rank and what the other does, wanted exit code, text, arguments ..
+    local with=$1 code=$2 text=$3
+    shift 3
+    expect "$code" "$text" env TEST_RANKS="$with" bin/mps "$@" --mpi
+}
+on "0 1 -1 1" 0 "messages end" run small.yaml -q -o ranks
+cmp ranks/probes.csv done/probes.csv || fail "a run on one rank has other bytes"
+on "0 x" 2 "is of another version" run small.yaml -o none
+on "0 2 -1 1" 0 "usage: mps run" run --help
+on "1 2 0 1" 0 "" run --help
+grep -q usage log && fail "a second rank shows help"
+# the lowest rank that fails shows its message
+on "0 2 2 1" 2 "unknown option" run small.yaml --sett
+on "1 2 2 1" 2 "messages end" run small.yaml --sett
+grep -q "unknown option" log && fail "both ranks show a message"
+on "1 2 -1 1" 2 "unknown option" run small.yaml --sett
+on "0 2 3 1" 3 "messages end" run small.yaml
+# a run that is refused after all have read the case
+on "0 2 -1 1" 2 "earlier run" run small.yaml -o done
+says "rank 0 leaves with 2"
+says "messages end"
+on "0 2 -1 0" 1 "all ranks end with 1" run small.yaml -o done
+says "earlier run"
+on "0 1 -1 1" 0 "" resume kept --set "run.until=0.03 s" -q
+# processes that mpirun starts without --mpi
+expect 2 "mpirun started 3 processes" env OMPI_COMM_WORLD_SIZE=3 OMPI_COMM_WORLD_RANK=0 "$program" run small.yaml -o none
+expect 2 "" env PMI_SIZE=2 PMI_RANK=1 "$program" run small.yaml -o none
+silent "the second of several processes"
+expect 0 "" env PMI_SIZE=1 "$program" run small.yaml -o single -q
+[ -e none ] && fail "a refused run made a folder"
+
+# ---- memory that runs out: at each allocation of a short command, at some of a long one. No crash; a failure has a message, and what is done is right
+starve() { # step, command ..
+    local step=$1 k=1 code calls
+    shift
+    COUNT_CALLS=calls LD_PRELOAD=$memory "$program" "$@" > whole 2> /dev/null || fail "$*: exit $? with memory"
+    calls=$(cat calls)
+    while [ "$k" -le "$calls" ]; do
+        FAIL_AT=$k LD_PRELOAD=$memory "$program" "$@" > log 2> errors
+        code=$?
+        case $code in
+        0) sed '/^cost /d' log | cmp -s - <(sed '/^cost /d' whole) || fail "$*, allocation $k: exit 0 with another output" ;;
+        1 | 2) [ -s errors ] || fail "$*, allocation $k: exit $code without a message" ;;
+        *) fail "$*, allocation $k of $calls: exit $code: $(tail -2 errors)" ;;
+        esac
+        k=$((k + step))
+    done
+    [ "$calls" -ge 1 ] || fail "$*: no allocation"
+}
+if [ -n "$memory" ]; then
+    expect 0 "" "$program" sweep sweep.yaml -o whole_sweep -q
+    starve 1 stats flat
+    starve 1 stats flat P --set "impacts.threshold=2 Pa"
+    starve 1 compare dry dry dry/probes.csv
+    starve 3 report done --set "impacts.threshold=2 Pa"
+    starve 1 schema
+    starve 1 list solvers
+    starve 7 check small.yaml -o small.svg
+    starve 97 run small.yaml -o starved --overwrite
+    starve 29 sweep sweep.yaml -o whole_sweep -q
+fi
+
+[ $failed -eq 0 ] && echo "mps says what is in its way"
+exit $failed
