@@ -28,6 +28,11 @@ int32_t fault_places(void)
     return places;
 }
 
+void fault_forget(void)
+{
+    places = 0;
+}
+
 void fault_arm(int32_t place, int32_t visit)
 {
     for (int32_t k = 0; k < places; k++) seen[k].visits = 0;

@@ -8,6 +8,8 @@
 
 /* Places of calls that were seen so far. */
 int32_t fault_places(void);
+/* Forget them, for another scene. */
+void fault_forget(void);
 /* From now on calls are watched, and that at place `place` fails when it is reached for the `visit`-th time, from 1. Places have their numbers
  * in the order in which they are seen first. */
 void fault_arm(int32_t place, int32_t visit);

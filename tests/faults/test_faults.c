@@ -48,9 +48,11 @@ static void take_messages(const mps_case *c)
     strncat(said, text, sizeof said - strlen(said) - 1);
 }
 
-/* A run in `folder`, all calls of which are watched. @return exit code; -1: there was no run */
-static int32_t run(const char *folder, bool resume, int32_t place, int32_t visit, const char **failed)
+/* A run in `folder`, to 12 ms or on to 20 ms, all calls of which are watched. @return exit code; -1: there was no run */
+static int32_t run(const char *folder, bool resume, int to, int32_t place,
+                   int32_t visit, const char **failed)
 {
+    static const char *const further[] = {"run.until=20 ms"};
     mps_case *c = NULL;
     mps_job *job = NULL;
     mps_sim *sim = NULL;
@@ -66,7 +68,7 @@ static int32_t run(const char *folder, bool resume, int32_t place, int32_t visit
     config.error = error;
     config.error_size = sizeof error;
     fault_arm(place, visit);
-    mps_status status = mps_case_read_text(TANK, sizeof TANK - 1, "faults.yaml", 0, NULL, &c);
+    mps_status status = mps_case_read_text(TANK, sizeof TANK - 1, "faults.yaml", to == 20, further, &c);
     if (status == MPS_OK) status = mps_case_job(c, &config, &job, &sim);
     if (status == MPS_OK) code = mps_job_run(job, sim);
     mps_sim_destroy(sim);
@@ -121,9 +123,9 @@ static int in_turn(bool resume, int32_t visit)
     int ended = 0, reached = 0;
     const char *failed;
     for (int32_t k = 0; k < fault_places(); k++) {
-        if (resume) assert_int_equal(system("rm -rf try && cp -r part try"), 0);
+        if (resume) assert_int_equal(system("rm -rf try && cp -r first try"), 0);
         const int before = open_files();
-        const int32_t code = run("try", resume, k, visit, &failed);
+        const int32_t code = run("try", resume, resume ? 20 : 12, k, visit, &failed);
         const int after = open_files();
         if (!failed) failed = "no failure";
         if (after != before) WRONG("%s: %d files stay open\n", failed, after - before);
@@ -139,21 +141,40 @@ static int in_turn(bool resume, int32_t visit)
     return ended;
 }
 
+static void write_known(void)
+{
+    FILE *known = fopen("known.csv", "w");
+    assert_non_null(known);
+    assert_true(fputs("t[ms],p[kPa]\n0,1\n8,1.5\n", known) >= 0 && fclose(known) == 0);
+}
+
 static void runs(void **state)
 {
     const char *failed;
-    FILE *known = fopen("known.csv", "w");
     (void)state;
-    assert_non_null(known);
-    assert_true(fputs("t[ms],p[kPa]\n0,1\n8,1.5\n", known) >= 0 && fclose(known) == 0);
-    if (run("whole", false, -1, 1, &failed) != MPS_EXIT_OK) fail_msg("%s", said);
-    print_message("%d places\n", fault_places());
+    write_known();
+    if (run("whole", false, 12, -1, 1, &failed) != MPS_EXIT_OK) fail_msg("%s", said);
     assert_true(in_turn(false, 1) > 100);
     assert_true(in_turn(false, 2) > 50);
 }
 
+/* A run that goes on from its last checkpoint to a later end writes what one to that end does. */
+static void runs_that_go_on(void **state)
+{
+    const char *failed;
+    (void)state;
+    fault_forget();
+    assert_int_equal(system("mv whole first"), 0);
+    if (run("whole", false, 20, -1, 1, &failed) != MPS_EXIT_OK) fail_msg("%s", said);
+    fault_forget();
+    assert_int_equal(system("rm -rf try && cp -r first try"), 0);
+    if (run("try", true, 20, -1, 1, &failed) != MPS_EXIT_OK) fail_msg("%s", said);
+    check_run("try", MPS_EXIT_OK, "no failure");
+    assert_true(in_turn(true, 1) > 100);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(runs)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(runs), cmocka_unit_test(runs_that_go_on)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
