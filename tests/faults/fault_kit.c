@@ -125,8 +125,6 @@ LIBRARY(mps_checkpoint_write, (mps_sim * sim, const char *path), (sim, path), MP
 LIBRARY(mps_probe_read, (mps_sim * sim, int32_t id, double *values), (sim, id, values), MPS_E_NOMEM)
 LIBRARY(mps_probe_add, (mps_sim * sim, const mps_probe *probe, int32_t *id), (sim, probe, id),
         MPS_E_NOMEM)
-LIBRARY(mps_probe_info_get, (const mps_sim *sim, int32_t id, mps_probe_info *info), (sim, id, info),
-        MPS_E_ARG)
 LIBRARY(mps_phase_get, (const mps_sim *sim, int32_t index, mps_phase *phase), (sim, index, phase),
         MPS_E_ARG)
 LIBRARY(mps_phase_set, (mps_sim * sim, int32_t index, const mps_phase *phase), (sim, index, phase),
