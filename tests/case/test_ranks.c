@@ -91,7 +91,8 @@ static void run_rank(void *argument, int32_t rank)
     config.say_user = s;
     config.resume = all->resume;
     config.ranks = &s->ranks;
-    s->made = mps_case_read_text(TANK, sizeof TANK - 1, "ranks.yaml", all->set_count, all->sets, &c);
+    s->made = mps_case_read_text(TANK, sizeof TANK - 1, "ranks.yaml", all->set_count, all->sets,
+                                 &c);
     if (s->made == MPS_OK) s->made = mps_case_job(c, &config, &job, &sim);
     if (s->made == MPS_OK) s->code = mps_job_run(job, sim);
     if (s->made != MPS_OK && c) mps_case_messages_write(c, s->said, sizeof s->said);
@@ -211,7 +212,8 @@ static int32_t nothing(void *user, int32_t count, int32_t *values, double second
 static void leaving(void **state)
 {
     scene s = {0};
-    mps_job_ranks silent = {.struct_size = sizeof silent, .rank = 1, .count = 2, .largest = nothing};
+    mps_job_ranks silent = {
+        .struct_size = sizeof silent, .rank = 1, .count = 2, .largest = nothing};
     int32_t speaks = 0;
     (void)state;
     assert_int_equal(mps_job_ranks_leave(NULL, 3, &speaks), 3);
@@ -266,9 +268,11 @@ static void modules_are_loaded(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(files_are_those_of_one_rank), cmocka_unit_test(ranks_go_on),
-        cmocka_unit_test(one_leaves), cmocka_unit_test(one_is_refused), cmocka_unit_test(leaving),
-        cmocka_unit_test(modules_are_loaded)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(files_are_those_of_one_rank),
+                                       cmocka_unit_test(ranks_go_on),
+                                       cmocka_unit_test(one_leaves),
+                                       cmocka_unit_test(one_is_refused),
+                                       cmocka_unit_test(leaving),
+                                       cmocka_unit_test(modules_are_loaded)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

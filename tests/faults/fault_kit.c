@@ -62,16 +62,15 @@ static bool fails(const char *name, const void *caller)
 }
 
 /* `after`: what is done in place of a call that fails. */
-#define FAULT_AFTER(type, name, parameters, arguments, number, result, after)  \
-    type __real_##name parameters;                                            \
-    type __wrap_##name parameters;                                            \
-    type __wrap_##name parameters                                             \
-    {                                                                         \
-        if (!fails(#name, __builtin_return_address(0)))                       \
-            return __real_##name arguments;                                   \
-        after;                                                                \
-        errno = number;                                                       \
-        return result;                                                        \
+#define FAULT_AFTER(type, name, parameters, arguments, number, result, after)           \
+    type __real_##name parameters;                                                      \
+    type __wrap_##name parameters;                                                      \
+    type __wrap_##name parameters                                                       \
+    {                                                                                   \
+        if (!fails(#name, __builtin_return_address(0))) return __real_##name arguments; \
+        after;                                                                          \
+        errno = number;                                                                 \
+        return result;                                                                  \
     }
 #define FAULT(type, name, parameters, arguments, number, result) \
     FAULT_AFTER(type, name, parameters, arguments, number, result, (void)0)
@@ -84,11 +83,11 @@ FAULT(void *, realloc, (void *block, size_t size), (block, size), ENOMEM, NULL)
 FAULT(FILE *, fopen, (const char *path, const char *mode), (path, mode), EMFILE, NULL)
 FAULT(FILE *, tmpfile, (void), (), EMFILE, NULL)
 FAULT(FILE *, open_memstream, (char **text, size_t *size), (text, size), ENOMEM, NULL)
-FAULT_AFTER(int, fclose, (FILE *file), (file), ENOSPC, EOF, __real_fclose(file))
-FAULT(int, fflush, (FILE *file), (file), ENOSPC, EOF)
-FAULT(int, ferror, (FILE *file), (file), EIO, 1)
-FAULT(int, fseek, (FILE *file, long at, int from), (file, at, from), EIO, -1)
-FAULT(long, ftell, (FILE *file), (file), EIO, -1)
+FAULT_AFTER(int, fclose, (FILE * file), (file), ENOSPC, EOF, __real_fclose(file))
+FAULT(int, fflush, (FILE * file), (file), ENOSPC, EOF)
+FAULT(int, ferror, (FILE * file), (file), EIO, 1)
+FAULT(int, fseek, (FILE * file, long at, int from), (file, at, from), EIO, -1)
+FAULT(long, ftell, (FILE * file), (file), EIO, -1)
 FAULT(size_t, fread, (void *to, size_t size, size_t count, FILE *file), (to, size, count, file),
       EIO, 0)
 FAULT(int, fsync, (int file), (file), EIO, -1)
@@ -98,7 +97,7 @@ FAULT(int, mkdir, (const char *path, mode_t mode), (path, mode), EROFS, -1)
 FAULT(int, rename, (const char *from, const char *to), (from, to), EACCES, -1)
 FAULT(DIR *, opendir, (const char *path), (path), EMFILE, NULL)
 FAULT(char *, getcwd, (char *path, size_t size), (path, size), ENOENT, NULL)
-FAULT(int, uname, (struct utsname *host), (host), EIO, -1)
+FAULT(int, uname, (struct utsname * host), (host), EIO, -1)
 FAULT(struct tm *, gmtime_r, (const time_t *t, struct tm *out), (t, out), EOVERFLOW, NULL)
 FAULT(locale_t, newlocale, (int mask, const char *name, locale_t base), (mask, name, base), ENOMEM,
       (locale_t)0)

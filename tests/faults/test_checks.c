@@ -92,11 +92,11 @@ static int of_text(const char *text)
 static void files(void **state)
 {
     (void)state;
-    assert_true(of_text("mps: 1\ndim: 3\ndp: 0.1 m\ntank: {stl: " CASES "cube.stl, unit: m, shift: 0 0 1 m}\n"
-                        "solids: {p: {stl: " CASES "cube.stl, unit: m, shift: 0.5 0.5 1.5 m}}\n"
+    assert_true(of_text("mps: 1\ndim: 3\ndp: 0.2 m\ntank: {stl: " CASES "cube.stl, unit: m}\n"
                         "fill: [{water: {depth: 40 %}}]\nmotion:\n  file: " CASES "voyage.csv\n"
                         "  axes: x forward, y port, z up\n  columns: {time: t, surge: XG, roll: "
-                        "PHI}\n  units: {time: s, surge: m, roll: deg}\n  from: 1200 s\n" END) > 20);
+                        "PHI}\n  units: {time: s, surge: m, roll: deg}\n  from: 1200 s\n" END) >
+                20);
 }
 
 static void ships(void **state)

@@ -14,10 +14,12 @@ static const char TANK[] =
     "  block: {box: [0.7 0 m, 0.8 0.1 m]}\n"
     "fluids: {oil: {density: 900 kg/m3, viscosity: 50 mm2/s, tension: 30 mN/m}}\n"
     "fill:\n  - water: {depth: 0.2 m, start: {velocity: 0.1 0 m/s}}\n"
-    "  - oil: {box: [0.55 0.3 m, 0.75 0.4 m]}\n  - water: {polygon: [0 0.2 m, 0.2 0.2 m, 0 0.4 m]}\n"
+    "  - oil: {box: [0.55 0.3 m, 0.75 0.4 m]}\n  - water: {polygon: [0 0.2 m, 0.2 0.2 m, 0 0.4 "
+    "m]}\n"
     "motion:\n  roll: {amplitude: 4 deg, period: 1.2 s}\n  surge: {jonswap: {significant: 10 mm, "
     "peak: 1.2 s}}\n"
-    "sensors:\n  P: {panel: [0 0.2 m, 0 0.4 m], cells: 3}\n  r: {row: [1 0.2 m, 1 0.4 m], cells: 2}\n"
+    "sensors:\n  P: {panel: [0 0.2 m, 0 0.4 m], cells: 3}\n  r: {row: [1 0.2 m, 1 0.4 m], cells: "
+    "2}\n"
     "  w: {wall: 0 0.3 m}\n  deep: {pressure: 0.4 0.1 m}\n"
     "  F: {force: tank}\n  eta: {gauge: 1 dp}\n  front: {measure: front}\n"
     "  gas: {measure: trapped_gas}\n  c: {measure: centre}\n  top: {measure: interface_top}\n"
@@ -49,8 +51,8 @@ static void take_messages(const mps_case *c)
 }
 
 /* A run in `folder`, to 12 ms or on to 20 ms, all calls of which are watched. @return exit code; -1: there was no run */
-static int32_t run(const char *folder, bool resume, int to, int32_t place,
-                   int32_t visit, const char **failed)
+static int32_t run(const char *folder, bool resume, int to, int32_t place, int32_t visit,
+                   const char **failed)
 {
     static const char *const further[] = {"run.until=20 ms"};
     mps_case *c = NULL;
@@ -68,7 +70,8 @@ static int32_t run(const char *folder, bool resume, int to, int32_t place,
     config.error = error;
     config.error_size = sizeof error;
     fault_arm(place, visit);
-    mps_status status = mps_case_read_text(TANK, sizeof TANK - 1, "faults.yaml", to == 20, further, &c);
+    mps_status status = mps_case_read_text(TANK, sizeof TANK - 1, "faults.yaml", to == 20, further,
+                                           &c);
     if (status == MPS_OK) status = mps_case_job(c, &config, &job, &sim);
     if (status == MPS_OK) code = mps_job_run(job, sim);
     mps_sim_destroy(sim);
