@@ -124,8 +124,7 @@ static void waves(void **state)
                         "fill: [{water: {depth: 0.3 m, start: {standing_wave: 20 mm}}}]\n"
                         "solids: {b: {plate: [0.5 0 m, 0.5 0.1 m], thickness: 1 dp}}\n"
                         "motion: {sway: {acceleration: 0.1 m/s2}}\n"
-                        "use: [viscosity.pair]\nremove: [collision]\n"
-                        "settings: {viscosity.mu: 0.002}\n" END) > 20);
+                        "use: [viscosity.pair]\nremove: [collision]\n" END) > 20);
     assert_true(of_text("mps: 1\ndp: 50 mm\ntank: {polygon: [0 0 m, 1 0 m, 1 0.6 m, 0 0.6 m]}\n"
                         "fill: [{water: {wave: {level: 0.3 m, amplitude: 50 mm, length: 1 m}}}]\n"
                         "kernel: {near: 2.1 dp, far: 3.1 dp}\n" END) > 20);
