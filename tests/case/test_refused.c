@@ -46,6 +46,72 @@ static void objects(void **state)
                   "ball: ");
 }
 
+/* Tanks, fills and solids that are not whole, or are two at once. */
+static void shapes(void **state)
+{
+#define WATER  "fill: [{water: {depth: 0.3 m}}]\n"
+#define DEEP   "mps: 1\ndim: 3\ndp: 0.2 m\n"
+#define SOLIDS TOP BOX "solids:\n  s: "
+    (void)state;
+    built_refused(TOP "tank: {size: 1 m}\n" WATER END, 3, "tank.size: 1 number, 2 are wanted");
+    built_refused(TOP "tank: {at: 0 0 m}\n" WATER END, 3,
+                  "tank: one of these keys is missing: size, polygon, cylinder, sphere, stl");
+    built_refused(TOP "tank: {size: 1 1 m, sphere: {radius: 1 m}}\n" WATER END, 3,
+                  "tank: 'size' and 'sphere' exclude each other; remove one");
+    built_refused(TOP "tank: {polygon: [0 0 m, 1 0 m]}\n" WATER END, 3,
+                  "tank.polygon: 2 points, 3 to 1000 are wanted");
+    built_refused(TOP "tank: {polygon: [0 0 m, 1 0 m, 1 m]}\n" WATER END, 3,
+                  "tank.polygon.3: 1 number, 2 are wanted");
+    built_refused(DEEP "tank: {polygon: [0 0 m, 1 0 m, 1 m], width: 1 m}\n" WATER END, 4,
+                  "tank.polygon.3: 1 number, 2 are wanted");
+    built_refused(DEEP "tank: {polygon: [0 0 m, 1 0 m, 1 1 m]}\n" WATER END, 4,
+                  "tank.width: is needed in 3-D, e.g. '2 m'");
+    built_refused(DEEP "tank: {cylinder: {radius: 1 m}}\n" WATER END, 4,
+                  "tank.cylinder.length: is needed in 3-D");
+    built_refused(TOP "tank: {size: 1 1 m, open: x0}\n" WATER END, 3,
+                  "tank.open: of a box only the top can be open");
+    built_refused(TOP "tank: {sphere: {radius: 1 m}, open: top}\n" WATER END, 3,
+                  "tank.open: only a rectangular tank can be open at its top");
+    built_refused(DEEP "tank: {stl: " CASES "cube.stl}\n" WATER END, 4,
+                  "tank.stl: 'unit' is missing beside it");
+    built_refused(DEEP "tank: {stl: " CASES
+                       "cube.stl, unit: m, up: z, turn: 0 90 0 deg}\n" WATER END,
+                  4, "give 'up' or 'turn', not both");
+    built_refused(TOP "tank: {size: 1 0.6 m}\nfill: [{water: {whole_rows: yes}}]\n" END, 4,
+                  "fill.water: one of these keys is missing: depth, box, polygon, sphere, wave");
+    built_refused(
+        TOP "tank: {size: 1 0.6 m}\nfill: [{water: {depth: 0.2 m, box: [0 0 m, 1 0.1 m]}}]\n" END,
+        4, "fill.water: 'depth' and 'box' exclude each other");
+    built_refused(TOP "tank: {size: 1 0.6 m}\nfill: [{water: {box: [0 0 m]}}]\n" END, 4,
+                  "fill.water.box: 1 points, 2 are wanted");
+    built_refused(TOP "tank: {size: 1 0.6 m}\nfill: [{water: {box: [0 0 m, 1 1 m, 2 2 m]}}]\n" END,
+                  4, "fill.water.box: 3 points, 2 are wanted");
+    built_refused(TOP "tank: {size: 1 0.6 m}\nfill: [{water: {polygon: [0 0 m, 1 0 m]}}]\n" END, 4,
+                  "fill.water.polygon: 2 points, 3 to 1000 are wanted");
+    built_refused(TOP "tank: {polygon: [0 0 m, 1 0 m, 1 1 m]}\nfill: [{water: {depth: 0.3 m, "
+                      "start: {standing_wave: 5 mm}}}]\n" END,
+                  4, "a standing wave is for rectangular tanks in 2-D");
+    built_refused(TOP "tank: {size: 1 0.6 m}\nfill: [{water: {sphere: {centre: 0.5 0.3 m, radius: "
+                      "0.2 m}, start: {oscillation: 5 %}}}]\n" END,
+                  4, "an oscillation is for 'sphere' in 2-D and two fluids");
+    built_refused(
+        SOLIDS "{thickness: 1 dp}\n" END, 6,
+        "solids.s: one of these keys is missing: box, plate, prism, sphere, cylinder, stl");
+    built_refused(SOLIDS "{box: [0 0 m, 0.1 0.1 m], plate: [0 0 m, 0 1 m]}\n" END, 6,
+                  "solids.s: 'box' and 'plate' exclude each other");
+    built_refused(SOLIDS "{box: [0 0 m]}\n" END, 6, "solids.s.box: 1 points, 2 are wanted");
+    built_refused(SOLIDS "{plate: [0 0 m]}\n" END, 6,
+                  "solids.s.plate: 1 points, 2 to 3 are wanted");
+    built_refused(SOLIDS "{prism: [0 0 m, 0.1 0 m]}\n" END, 6,
+                  "solids.s.prism: 2 points, 3 to 1000 are wanted");
+    built_refused(SOLIDS "{stl: " CASES "cube.stl}\n" END, 6,
+                  "solids.s.stl: 'unit' is missing beside it");
+    built_refused(SPACE
+                  "solids:\n  s: {cylinder: {from: 1 0 0 m, to: 1 0 0 m, radius: 0.3 m}}\n" END,
+                  7, "solids.s.cylinder: has no length: 'from' and 'to' are one point");
+    built_refused(TOP "tank: {size: 1 0.6 m}\nfill: []\n" END, 4, "fill");
+}
+
 static void motions(void **state)
 {
     (void)state;
@@ -63,6 +129,10 @@ static void motions(void **state)
                           "period: 1 s}}\n" END,
                   5, "motion.sway: is the same motion as 'surge'");
     built_refused(TOP BOX "motion: {surge: {period: 1 s}}\n" END, 5, "surge|amplitude");
+    built_refused(TOP BOX "motion: {surge: {amplitude: 1 mm}}\n" END, 5,
+                  "motion.surge: one of these keys is missing: omega, period, frequency");
+    built_refused(TOP BOX "motion: {surge: {amplitude: 1 mm, period: 1 s, omega: 2 rad/s}}\n" END,
+                  5, "motion.surge: |omega|period");
     built_refused(TOP BOX "motion: {centre: 0 0 m}\n" END, 5, "motion: no degree is given");
     built_refused(SPACE
                   "motion: {order: yaw yaw roll, roll: {amplitude: 1 deg, period: 1 s}}\n" END,
@@ -177,10 +247,64 @@ static void sensors(void **state)
                    5, "'motion.order' has no effect here");
 }
 
+/* What sensors of many places refuse. */
+static void rows_of_sensors(void **state)
+{
+#define DEEP_SENSOR SPACE "sensors:\n  P: "
+    (void)state;
+    sensor_refused(TOP BOX "sensors:\n  P: {panel: [0 0.1 m, 0 0.2 m, 0 0.3 m], cells: 2}\n" END, 6,
+                   "sensors.P.panel: needs its two ends");
+    sensor_refused(DEEP_SENSOR "{panel: [0 0.1 0.1 m], cells: 2}\n" END, 7,
+                   "sensors.P.panel: 1 points, 2 to 4 are wanted");
+    sensor_refused(DEEP_SENSOR "{panel: [0 0.1 0.1 m, 1 0.5 0.5 m], cells: 2}\n" END, 7,
+                   "of an inclined one give three corners");
+    sensor_refused(DEEP_SENSOR "{panel: [0 0.1 0.1 m, 0 0.5 0.5 m], cells: 40 40}\n" END, 7,
+                   "sensors.P.cells: more than 1000 in all");
+    sensor_refused(TOP BOX "sensors:\n  P: {row: [0 0.1 m], cells: 2}\n" END, 6,
+                   "sensors.P.row: 1 points, 2 are wanted");
+    sensor_refused(TOP BOX "sensors:\n  P: {average: 2 ms}\n" END, 6,
+                   "sensors.P: one of these keys is missing: wall, panel, row");
+    sensor_refused(TOP BOX "sensors:\n  P: {wall: 0 0.1 m, pressure: 0.1 0.1 m}\n" END, 6,
+                   "sensors.P: 'wall' and 'pressure' exclude each other");
+    sensor_refused(TOP BOX "sensors:\n  F: {force: tank, axes: ship}\n" END, 6,
+                   "are for 3-D and a motion");
+    sensor_refused(DEEP_SENSOR "{force: tank, axes: ship}\n" END, 7, "are for 3-D and a motion");
+}
+
+/* A file of known points with this text, and further keys. */
+static void reference_refused(const char *table, const char *keys, const char *words)
+{
+    char path[600], text[1600];
+    const int fd = mkstemp(kit_here(path, sizeof path, "mps_known_XXXXXX"));
+    assert_true(fd >= 0);
+    assert_int_equal(write(fd, table, strlen(table)), strlen(table));
+    close(fd);
+    snprintf(text, sizeof text, TOP BOX "reference:\n  known: {file: %s%s}\n" END, path, keys);
+    sensor_refused(text, 6, words);
+    unlink(path);
+}
+
+static void references(void **state)
+{
+    (void)state;
+    sensor_refused(TOP BOX "reference:\n  known: {times: 1 2 s, values: 1 2 3 mm}\n" END, 6,
+                   "2 times, but 3 values");
+    reference_refused("t[s],p[Pa]\n1,2\n", ", columns: [t, q]", "'q' is no column of|t, p");
+    reference_refused("t[s]\n1\n", "", "has one column, two are needed");
+    reference_refused("t,p[Pa]\n1,2\n", "", "column 't' has no unit");
+    reference_refused("t[s],p\n1,2\n", "", "column 'p' has no unit");
+    sensor_refused(TOP BOX "reference:\n  known: {file: /none/there.csv}\n" END, 6,
+                   "'/none/there.csv' cannot be read: No such file or directory");
+    sensor_refused(TOP BOX "figures:\n  peak: {column: w}\n" END, 6,
+                   "figures.peak: key 'take' is missing");
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(objects), cmocka_unit_test(motions),
-                                       cmocka_unit_test(tables), cmocka_unit_test(tables_in_2d),
-                                       cmocka_unit_test(sensors)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shapes),       cmocka_unit_test(rows_of_sensors),
+        cmocka_unit_test(references),   cmocka_unit_test(objects),
+        cmocka_unit_test(motions),      cmocka_unit_test(tables),
+        cmocka_unit_test(tables_in_2d), cmocka_unit_test(sensors)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -168,17 +168,13 @@ static void write_top(const writer *w, build *b)
 
 static void write_fluids(const writer *w, build *b)
 {
-    int64_t count[3] = {0};
-    mps_lease kind = {.struct_size = sizeof kind};
     mps_energy e;
     mps_energy_init(&e, sizeof e);
-    if (is_done(b, mps_lease_begin(b->sim, "kind", MPS_READ, &kind))) {
-        for (int64_t i = 0; i < kind.count; i++) count[kind.integers[i]]++;
-        mps_lease_end(b->sim, &kind);
-    }
     heading(w, "particles");
-    fprintf(w->file, "%lld of fluid, %lld of walls, %lld behind walls\n", (long long)count[0],
-            (long long)count[1], (long long)count[2]);
+    fprintf(w->file, "%lld of fluid, %lld of walls, %lld behind walls\n",
+            (long long)mps_particles_count(b->sim, MPS_FLUID),
+            (long long)mps_particles_count(b->sim, MPS_WALL),
+            (long long)mps_particles_count(b->sim, MPS_DUMMY));
     for (int32_t i = 0; i < b->fluids; i++) {
         heading(w, i ? "" : "fluids");
         fprintf(w->file, "phase %d: %s, %g kg/m3, %g Pa s\n", (int)i, b->fluid[i].name,

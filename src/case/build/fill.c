@@ -124,10 +124,7 @@ static void fill_box(filling *f)
 {
     build *b = f->b;
     double x[2][3], lo[3], hi[3];
-    if (mps__build_points(b, mps__tree_find(f->map, "box"), NAN, 2, x) != 2) {
-        if (!mps__case_failed(b->c)) say(f, "box", "needs two points");
-        return;
-    }
+    if (mps__build_points(b, mps__tree_find(f->map, "box"), NAN, 2, x) != 2) return;
     if (isnan(x[0][2])) x[0][2] = b->tank.form.lo[2];
     if (isnan(x[1][2])) x[1][2] = b->tank.form.hi[2];
     for (int d = 0; d < 3; d++) {
@@ -169,7 +166,6 @@ static void fill_polygon(filling *f)
     form s = {.kind = FORM_POLYGON, .dim = 2};
     s.points = mps__build_points(b, mps__tree_find(f->map, "polygon"), 0, FORM_POINTS, x);
     for (int32_t i = 0; i < s.points; i++) memcpy(s.point[i], x[i], sizeof s.point[i]);
-    if (s.points < 3 && !mps__case_failed(b->c)) say(f, "polygon", "needs at least 3 points");
     s.radius = b->dp;
     if (!mps__case_failed(b->c)) done(f, mps_fill_add(b->sim, f->phase, in_shape, &s, NULL));
 }
@@ -298,25 +294,16 @@ static void fill_one(build *b, const tree_node *at)
     static const char *const kind[] = {"depth", "box", "sphere", "polygon", "wave"};
     static void (*const fill[])(filling *) = {fill_depth, fill_box, fill_sphere, fill_polygon,
                                               fill_wave};
-    int chosen = -1;
     filling f = {b, at, mps__build_phase(b, at, at->key), at->key};
     mps__read_all(at->kind == TREE_TEXT ? at : NULL);
     if (at->kind == TREE_TEXT) { /* the word `rest`, by the table of keys */
         fill_rest(&f);
         return;
     }
-    for (int i = 0; i < 5; i++) {
-        if (!mps__tree_find(at, kind[i])) continue;
-        if (chosen >= 0) say(&f, kind[i], "a fill is of one kind only");
-        chosen = i;
-    }
-    if (chosen < 0 && !mps__case_failed(b->c))
-        mps__case_say(b->c, at, false, "fill.%s: give depth, box, sphere, polygon, wave or rest",
-                      at->key);
     if (mps__case_failed(b->c)) return;
     const bool moving = mps__tree_find(mps__tree_find(at, "start"), "velocity") != NULL;
     const int64_t first = moving ? next_id(b) : 0;
-    fill[chosen](&f);
+    fill[mps__build_kind(at, kind, 5)](&f);
     if (moving && !mps__case_failed(b->c)) start_moving(&f, first);
 }
 

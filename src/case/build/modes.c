@@ -38,9 +38,12 @@ static void take_surface(const build *b, liquid *l, const double *x, int32_t kin
 static bool take(build *b, liquid *l, bool surface)
 {
     mps_lease x = {.struct_size = sizeof x}, kind = x, phase = x;
-    bool good = mps_lease_begin(b->sim, "position", MPS_READ, &x) == MPS_OK;
-    good = good && mps_lease_begin(b->sim, "kind", MPS_READ, &kind) == MPS_OK;
-    good = good && mps_lease_begin(b->sim, "phase", MPS_READ, &phase) == MPS_OK;
+    mps_sim *sim = b->sim;
+    bool good = mps__build_try(b, mps_lease_begin(sim, "position", MPS_READ, &x), b->root, "waves");
+    good = good &&
+           mps__build_try(b, mps_lease_begin(sim, "kind", MPS_READ, &kind), b->root, "waves");
+    good = good &&
+           mps__build_try(b, mps_lease_begin(sim, "phase", MPS_READ, &phase), b->root, "waves");
     for (int64_t i = 0; good && i < x.count; i++) {
         const double *at = x.data + i * x.stride;
         const bool fluid = kind.integers[i] == MPS_FLUID;

@@ -235,20 +235,10 @@ static void add_sensor(build *b, const tree_node *map)
                                                    add_fluid,  add_gauge,         mps__sensor_force,
                                                    add_measure};
     const sensing s = {b, map};
-    int chosen = -1;
-    for (int i = 0; i < 7; i++) {
-        if (!mps__tree_find(map, kind[i])) continue;
-        if (chosen >= 0) mps__sensor_say(&s, kind[i], "a sensor is of one kind only");
-        chosen = i;
-    }
-    if (chosen < 0)
-        mps__case_say(b->c, map, false,
-                      "sensors.%s: give wall, panel, row, pressure, gauge, force or measure",
-                      map->key);
-    else if (b->sensors == BUILD_SENSORS)
+    if (b->sensors == BUILD_SENSORS)
         mps__case_say(b->c, map, false, "sensors: more than %d columns", BUILD_SENSORS);
     else
-        add[chosen](&s);
+        add[mps__build_kind(map, kind, 7)](&s);
 }
 
 void mps__build_sensors(build *b)

@@ -87,8 +87,8 @@ static bool read_panel(const sensing *s, double *corner, double (*side)[3])
     const int32_t count = mps__build_points(b, mps__tree_find(s->map, "panel"),
                                             mps__build_middle(b), 4, x);
     if (mps__case_failed(b->c)) return false;
-    if (count < 2 || (b->dim == 2 && count != 2)) {
-        mps__sensor_say(s, "panel", b->dim == 2 ? "needs its two ends" : "needs its corners");
+    if (b->dim == 2 && count != 2) {
+        mps__sensor_say(s, "panel", "needs its two ends");
         return false;
     }
     memcpy(corner, x[0], 3 * sizeof *corner);
@@ -164,8 +164,7 @@ void mps__sensor_row(const sensing *s)
     probe.diameter = mps__read_number(b->c, s->map, "diameter", probe.diameter);
     mps__read_numbers(b->c, s->map, "cells", 1, &cells);
     const tree_node *node = mps__tree_find(s->map, "row");
-    const int32_t count = mps__build_points(b, node, mps__build_middle(b), 2, x);
-    if (count != 2 && !mps__case_failed(b->c)) mps__sensor_say(s, "row", "needs its two ends");
+    mps__build_points(b, node, mps__build_middle(b), 2, x);
     if (!r || mps__case_failed(b->c)) return;
     r->count = (int32_t)cells;
     r->take = mps__read_choice(b->c, s->map, "take", TAKE_LARGEST);

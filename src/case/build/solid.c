@@ -83,10 +83,7 @@ static bool read_plate(reading *r, plate *p)
     double x[3][3];
     *p = (plate){.axis = -1};
     const int32_t count = mps__build_points(b, node, NAN, 3, x);
-    if (count < 2) {
-        if (!mps__case_failed(b->c)) say(r, "plate", "needs two points");
-        return false;
-    }
+    if (count < 2) return false; /* and said why */
     const form *t = &b->tank.form;
     for (int32_t i = 0; i < count; i++)
         if (isnan(x[i][2])) x[i][2] = b->dim == 2 ? 0 : i == 0 ? t->lo[2] : t->hi[2];
@@ -181,10 +178,7 @@ static void add_box(reading *r)
     build *b = r->b;
     double x[2][3];
     const tree_node *node = mps__tree_find(r->map, "box");
-    if (mps__build_points(b, node, NAN, 2, x) != 2) {
-        if (!mps__case_failed(b->c)) say(r, "box", "needs two points");
-        return;
-    }
+    if (mps__build_points(b, node, NAN, 2, x) != 2) return;
     form *s = &r->out->form;
     for (int d = 0; d < 3; d++) {
         if (isnan(x[0][d])) x[0][d] = b->tank.form.lo[d];
@@ -248,7 +242,6 @@ static void add_prism(reading *r)
     s->kind = FORM_POLYGON;
     s->points = mps__build_points(b, mps__tree_find(r->map, "prism"), 0, FORM_POINTS, point);
     for (int32_t i = 0; i < s->points; i++) memcpy(s->point[i], point[i], sizeof s->point[i]);
-    if (s->points < 3 && !mps__case_failed(b->c)) say(r, "prism", "needs at least 3 points");
     mps__read_numbers(b->c, r->map, "between", 2, z);
     s->lo[2] = z[0];
     s->hi[2] = z[1];
@@ -278,7 +271,6 @@ static void add_solid(build *b, const tree_node *map)
     static const char *const kind[] = {"plate", "box", "cylinder", "sphere", "prism", "stl"};
     static void (*const add[])(reading *) = {add_plate,  add_box,   add_cylinder,
                                              add_sphere, add_prism, add_file};
-    int chosen = -1;
     if (b->solids == BUILD_SOLIDS) {
         mps__case_say(b->c, map, false, "solids: more than %d", BUILD_SOLIDS);
         return;
@@ -286,15 +278,7 @@ static void add_solid(build *b, const tree_node *map)
     reading r = {b, map, map->key, &b->solid[b->solids++]};
     *r.out = (build_solid){.form.dim = b->dim};
     snprintf(r.out->name, sizeof r.out->name, "%s", map->key);
-    for (int i = 0; i < 6; i++) {
-        if (!mps__tree_find(map, kind[i])) continue;
-        if (chosen >= 0) say(&r, kind[i], "a solid is of one kind only");
-        chosen = i;
-    }
-    if (chosen < 0)
-        mps__case_say(b->c, map, false,
-                      "solids.%s: give plate, box, cylinder, sphere, prism or stl", map->key);
-    if (!mps__case_failed(b->c)) add[chosen](&r);
+    add[mps__build_kind(map, kind, 6)](&r);
 }
 
 void mps__build_solids(build *b)

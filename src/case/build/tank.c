@@ -17,13 +17,17 @@ int32_t mps__build_points(build *b, const tree_node *node, double z, int32_t mos
         }
         double *x = out[count++];
         x[2] = z;
-        const int32_t given = mps__read_values(b->c, at, 3, x);
-        if (given < 2 && !mps__case_failed(b->c))
-            mps__case_say(b->c, at, false, "a point has %s", b->dim == 3 ? "x y z" : "x y");
-        if (given < 3) x[2] = z;
+        if (mps__read_values(b->c, at, 3, x) < 3) x[2] = z;
         if (at == node) break;
     }
     return mps__case_failed(b->c) ? 0 : count;
+}
+
+int mps__build_kind(const tree_node *map, const char *const *kind, int count)
+{
+    int k = 0;
+    while (k + 1 < count && !mps__tree_find(map, kind[k])) k++;
+    return k;
 }
 
 double mps__build_middle(const build *b)
@@ -97,9 +101,7 @@ static void read_polygon(build *b, const tree_node *map)
     s->hi[2] = mps__read_number(b->c, map, "width", 0);
     if (mps__case_failed(b->c)) return;
     mps__form_box(s);
-    if (s->points < 3)
-        mps__case_say(b->c, node, false, "tank.polygon: at least 3 points are needed");
-    else if (b->dim == 3 && !(s->hi[2] > 0))
+    if (b->dim == 3 && !(s->hi[2] > 0))
         mps__case_say(b->c, node, false, "tank.width: is needed in 3-D, e.g. '2 m'");
 }
 
@@ -142,11 +144,6 @@ bool mps__build_stl(build *b, const tree_node *map, mps_stl *stl)
     const double quarter = 0.5 * acos(-1.0);
     double angle[3] = {0};
     mps_stl_init(stl, sizeof *stl);
-    if (!mps__tree_find(map, "unit")) {
-        mps__case_say(b->c, mps__tree_find(map, "stl"), false,
-                      "the unit of the file is needed: 'unit: mm', or the length of a unit");
-        return false;
-    }
     stl->scale = mps__read_unit(b->c, map, "unit", 1);
     const int32_t up = mps__read_choice(b->c, map, "up", 1);
     const bool turned = mps__read_numbers(b->c, map, "turn", 3, angle) > 0;
@@ -222,18 +219,9 @@ void mps__build_tank(build *b)
     static void (*const read[])(build *, const tree_node *) = {read_size, read_polygon,
                                                                read_cylinder, read_ball, add_file};
     const tree_node *map = mps__tree_find(b->root, "tank");
-    int chosen = -1;
+    const int chosen = mps__build_kind(map, kind, 5);
     b->tank.at = map;
     b->tank.form.dim = b->dim;
-    for (int i = 0; i < 5; i++) {
-        const tree_node *node = mps__tree_find(map, kind[i]);
-        if (node && chosen >= 0)
-            mps__case_say(b->c, node, false, "tank: has '%s' and '%s'; give one of them",
-                          kind[chosen], kind[i]);
-        if (node && chosen < 0) chosen = i;
-    }
-    if (chosen < 0 && !mps__case_failed(b->c))
-        mps__case_say(b->c, map, false, "tank: give size, polygon, cylinder, sphere or stl");
     if (mps__case_failed(b->c)) return;
     b->tank.open = mps__read_choice(b->c, map, "open", 0);
     read[chosen](b, map);

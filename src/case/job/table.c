@@ -156,6 +156,7 @@ bool mps__table_close(table *t)
 
 void mps__table_free(table *t)
 {
+    if (t->file) fclose(t->file); /* of a job that could not open all of its tables */
     free(t->before);
     free(t->row);
     *t = (table){0};

@@ -79,8 +79,9 @@ double mps__measure_mass_centre(quantity *q, mps_sim *sim)
 
 double mps__measure_strays(quantity *q, mps_sim *sim)
 {
+    const int64_t strays = mps__phase_strays(sim);
     (void)q;
-    return (double)mps__phase_strays(sim);
+    return strays < 0 ? NAN : (double)strays;
 }
 
 /* ---- interfaces and cavities ---- */

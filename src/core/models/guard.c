@@ -26,6 +26,12 @@ static void protect(mps__guard *g, const char *name, const void *array, size_t e
     g->element += element;
 }
 
+/* Whether an engine has newer values: those on the host may be brought up to date during the call. */
+static bool is_old(const mps__host *h, int32_t channel)
+{
+    return h->twins.open && h->twins.list[channel].old[MPS__ON_HOST];
+}
+
 /* Channels of models come first: memory that they share has their names. */
 static void list_arrays(mps__guard *g, const mps__host *h, const mps__call *call)
 {
@@ -33,13 +39,14 @@ static void list_arrays(mps__guard *g, const mps__host *h, const mps__call *call
         const int32_t k = (m + MPS__OWN_CHANNELS) % h->channels->count;
         const mps__channel *c = &h->channels->list[k];
         const void *array = mps__channels_array(h->channels, h->particles, k);
-        if (array && c->where == MPS__IN_ARENA && !mps__channel_is_scalar(c) &&
+        if (array && c->where == MPS__IN_ARENA && !mps__channel_is_scalar(c) && !is_old(h, k) &&
             !may_write(h, call, array, mps__channel_element(c)))
             protect(g, c->spec.name, array, mps__channel_element(c));
     }
     for (int32_t k = 0; k < h->particles->fields; k++) {
         const mps__field *f = &h->particles->field[k];
-        if (!may_write(h, call, *f->data, (size_t)f->components * f->size))
+        if (!is_old(h, MPS__CHANNELS + k) &&
+            !may_write(h, call, *f->data, (size_t)f->components * f->size))
             protect(g, f->name, *f->data, (size_t)f->components * f->size);
     }
 }

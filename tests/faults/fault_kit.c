@@ -1,0 +1,195 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "fault_kit.h"
+#include <dirent.h>
+#include <errno.h>
+#include <locale.h>
+#include <mps/mps.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <sys/utsname.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { PLACES = 4000 };
+
+static struct {
+    const void *caller;
+    int32_t visits;
+} seen[PLACES];
+static int32_t places, chosen, wanted;
+static bool armed;
+static char failed[80];
+extern char __executable_start; /* made by the linker */
+
+int32_t fault_places(void)
+{
+    return places;
+}
+
+void fault_forget(void)
+{
+    places = 0;
+}
+
+void fault_arm(int32_t place, int32_t visit)
+{
+    for (int32_t k = 0; k < places; k++) seen[k].visits = 0;
+    chosen = place;
+    wanted = visit;
+    failed[0] = '\0';
+    armed = true;
+}
+
+const char *fault_disarm(void)
+{
+    armed = false;
+    return failed[0] ? failed : NULL;
+}
+
+static bool fails(const char *name, const void *caller)
+{
+    int32_t k = 0;
+    if (!armed) return false;
+    while (k < places && seen[k].caller != caller) k++;
+    if (k == PLACES) abort();
+    if (k == places) seen[places++].caller = caller;
+    if (++seen[k].visits != wanted || k != chosen) return false;
+    snprintf(failed, sizeof failed, "%s at +0x%llx", name,
+             (unsigned long long)((const char *)caller - &__executable_start));
+    return true;
+}
+
+/* `after`: what is done in place of a call that fails. */
+#define FAULT_AFTER(type, name, parameters, arguments, number, result, after)           \
+    type __real_##name parameters;                                                      \
+    type __wrap_##name parameters;                                                      \
+    type __wrap_##name parameters                                                       \
+    {                                                                                   \
+        if (!fails(#name, __builtin_return_address(0))) return __real_##name arguments; \
+        after;                                                                          \
+        errno = number;                                                                 \
+        return result;                                                                  \
+    }
+#define FAULT(type, name, parameters, arguments, number, result) \
+    FAULT_AFTER(type, name, parameters, arguments, number, result, (void)0)
+
+/* ---- the system ---- */
+
+FAULT(void *, malloc, (size_t size), (size), ENOMEM, NULL)
+FAULT(void *, calloc, (size_t count, size_t size), (count, size), ENOMEM, NULL)
+FAULT(void *, realloc, (void *block, size_t size), (block, size), ENOMEM, NULL)
+FAULT(FILE *, fopen, (const char *path, const char *mode), (path, mode), EMFILE, NULL)
+FAULT(FILE *, tmpfile, (void), (), EMFILE, NULL)
+FAULT(FILE *, open_memstream, (char **text, size_t *size), (text, size), ENOMEM, NULL)
+FAULT_AFTER(int, fclose, (FILE * file), (file), ENOSPC, EOF, __real_fclose(file))
+FAULT(int, fflush, (FILE * file), (file), ENOSPC, EOF)
+FAULT(int, ferror, (FILE * file), (file), EIO, 1)
+FAULT(int, fseek, (FILE * file, long at, int from), (file, at, from), EIO, -1)
+FAULT(long, ftell, (FILE * file), (file), EIO, -1)
+FAULT(size_t, fread, (void *to, size_t size, size_t count, FILE *file), (to, size, count, file),
+      EIO, 0)
+FAULT(int, ftruncate, (int file, off_t size), (file, size), EIO, -1)
+FAULT(ssize_t, write, (int file, const void *from, size_t size), (file, from, size), ENOSPC, -1)
+FAULT(int, mkdir, (const char *path, mode_t mode), (path, mode), EROFS, -1)
+FAULT(int, rename, (const char *from, const char *to), (from, to), EACCES, -1)
+FAULT(DIR *, opendir, (const char *path), (path), EMFILE, NULL)
+FAULT(char *, getcwd, (char *path, size_t size), (path, size), ENOENT, NULL)
+FAULT(int, uname, (struct utsname * host), (host), EIO, -1)
+FAULT(struct tm *, gmtime_r, (const time_t *t, struct tm *out), (t, out), EOVERFLOW, NULL)
+FAULT(locale_t, newlocale, (int mask, const char *name, locale_t base), (mask, name, base), ENOMEM,
+      (locale_t)0)
+
+/* Without waiting for the disk: a run of these tests is not needed after a crash of the machine. */
+int __wrap_fsync(int file);
+int __wrap_fsync(int file)
+{
+    (void)file;
+    if (!fails("fsync", __builtin_return_address(0))) return 0;
+    errno = EIO;
+    return -1;
+}
+
+/* ---- libmps ---- */
+
+#define LIBRARY(name, parameters, arguments, status) \
+    FAULT(mps_status, name, parameters, arguments, EIO, status)
+
+LIBRARY(mps_lease_begin, (mps_sim * sim, const char *field, int32_t mode, mps_lease *lease),
+        (sim, field, mode, lease), MPS_E_NOMEM)
+LIBRARY(mps_motion_state_get, (const mps_sim *sim, mps_motion_state *state), (sim, state),
+        MPS_E_STATE)
+LIBRARY(mps_motion_to_lab, (const mps_sim *sim, const double *tank, double *lab, double *velocity),
+        (sim, tank, lab, velocity), MPS_E_STATE)
+LIBRARY(mps_energy_get, (mps_sim * sim, mps_energy *energy), (sim, energy), MPS_E_NOMEM)
+LIBRARY(mps_momentum_get, (mps_sim * sim, mps_momentum *momentum), (sim, momentum), MPS_E_NOMEM)
+LIBRARY(mps_frames_open,
+        (mps_sim * sim, const char *folder, const char *name, int32_t kinds, mps_frames **frames),
+        (sim, folder, name, kinds, frames), MPS_E_IO)
+LIBRARY(mps_frames_write, (mps_frames * frames), (frames), MPS_E_IO)
+LIBRARY(mps_checkpoint_read, (mps_sim * sim, const char *path), (sim, path), MPS_E_NOMEM)
+LIBRARY(mps_checkpoint_write, (mps_sim * sim, const char *path), (sim, path), MPS_E_IO)
+LIBRARY(mps_probe_read, (mps_sim * sim, int32_t id, double *values), (sim, id, values), MPS_E_NOMEM)
+LIBRARY(mps_probe_add, (mps_sim * sim, const mps_probe *probe, int32_t *id), (sim, probe, id),
+        MPS_E_NOMEM)
+LIBRARY(mps_phase_get, (const mps_sim *sim, int32_t index, mps_phase *phase), (sim, index, phase),
+        MPS_E_ARG)
+LIBRARY(mps_phase_set, (mps_sim * sim, int32_t index, const mps_phase *phase), (sim, index, phase),
+        MPS_E_NOMEM)
+LIBRARY(mps_lattice_get, (const mps_sim *sim, double *lo, double *h), (sim, lo, h), MPS_E_STATE)
+LIBRARY(mps_particles_add, (mps_sim * sim, const mps_particle_block *block, int64_t *ids),
+        (sim, block, ids), MPS_E_NOMEM)
+LIBRARY(mps_tension_set, (mps_sim * sim, int32_t a, int32_t b, double sigma), (sim, a, b, sigma),
+        MPS_E_NOMEM)
+LIBRARY(mps_tension_get, (const mps_sim *sim, int32_t a, int32_t b, double *sigma),
+        (sim, a, b, sigma), MPS_E_STATE)
+LIBRARY(mps_model_set, (mps_sim * sim, const char *slot, const char *key, double value),
+        (sim, slot, key, value), MPS_E_NOMEM)
+LIBRARY(mps_model_get, (const mps_sim *sim, const char *slot, const char *key, double *value),
+        (sim, slot, key, value), MPS_E_NOMEM)
+LIBRARY(mps_model_remove, (mps_sim * sim, const char *slot), (sim, slot), MPS_E_NOMEM)
+LIBRARY(mps_preset_use, (mps_sim * sim, const char *name), (sim, name), MPS_E_NOMEM)
+LIBRARY(mps_solver_use, (mps_sim * sim, const char *solver, const char *preconditioner),
+        (sim, solver, preconditioner), MPS_E_NOMEM)
+LIBRARY(mps_solver_limits_set, (mps_sim * sim, const mps_solver_limits *limits), (sim, limits),
+        MPS_E_NOMEM)
+LIBRARY(mps_tank_add, (mps_sim * sim, const mps_tank *tank, double *built), (sim, tank, built),
+        MPS_E_NOMEM)
+LIBRARY(mps_stl_add, (mps_sim * sim, const char *path, const mps_stl *stl, double *built),
+        (sim, path, stl, built), MPS_E_NOMEM)
+LIBRARY(mps_solid_add, (mps_sim * sim, const mps_solid *solid), (sim, solid), MPS_E_NOMEM)
+LIBRARY(mps_plate_add,
+        (mps_sim * sim, const char *name, const double *corner, const double *edge,
+         const double *edge2),
+        (sim, name, corner, edge, edge2), MPS_E_NOMEM)
+LIBRARY(mps_fill_add,
+        (mps_sim * sim, int32_t phase, mps_inside_fn inside, void *user, int64_t *added),
+        (sim, phase, inside, user, added), MPS_E_NOMEM)
+LIBRARY(mps_fill_box_add,
+        (mps_sim * sim, int32_t phase, const double *lo, const double *hi, int64_t *added,
+         double *built),
+        (sim, phase, lo, hi, added, built), MPS_E_NOMEM)
+LIBRARY(mps_fill_level_add,
+        (mps_sim * sim, int32_t phase, const double *lo, const double *hi, int64_t *added,
+         double *built),
+        (sim, phase, lo, hi, added, built), MPS_E_NOMEM)
+LIBRARY(mps_motion_table_set,
+        (mps_sim * sim, int64_t rows, const double *t, int32_t dofs, const int32_t *dof,
+         const double *values),
+        (sim, rows, t, dofs, dof, values), MPS_E_NOMEM)
+LIBRARY(mps_motion_centre_set, (mps_sim * sim, const double *centre, int32_t start),
+        (sim, centre, start), MPS_E_NOMEM)
+LIBRARY(mps_motion_callback_set, (mps_sim * sim, mps_motion_fn fn, void *user), (sim, fn, user),
+        MPS_E_NOMEM)
+LIBRARY(mps_time_control_set, (mps_sim * sim, const mps_time_control *control), (sim, control),
+        MPS_E_NOMEM)
+LIBRARY(mps_ship_load_from_lab,
+        (const mps_ship *ship, const mps_motion_state *tank, int32_t axes, const double *at,
+         const double *lab, double *load),
+        (ship, tank, axes, at, lab, load), MPS_E_STATE)
+LIBRARY(mps_sim_create, (const mps_config *config, mps_sim **sim), (config, sim), MPS_E_NOMEM)
+LIBRARY(mps_pass_info_get, (mps_sim * sim, int32_t index, mps_pass_info *info), (sim, index, info),
+        MPS_E_ARG)
+LIBRARY(mps_run, (mps_sim * sim, double t_end, mps_monitor_fn monitor, void *user),
+        (sim, t_end, monitor, user), MPS_E_NOMEM)

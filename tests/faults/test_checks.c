@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Cases of all kinds, read from their files, built and measured, in which each call of the system and of libmps fails in turn. The answer is
+ * that of the whole check, or a status with a message, and then there is none. */
+#include "case_kit.h"
+#include "fault_kit.h"
+#include <mps/case.h>
+
+/* What is told of a case, of which the caller frees the texts. */
+typedef struct answer {
+    mps_status status;
+    char *text, *sketch, messages[4000];
+} answer;
+
+static const char *check(const char *path, int32_t place, int32_t visit, answer *a)
+{
+    mps_case *c = NULL;
+    *a = (answer){0};
+    fault_arm(place, visit);
+    a->status = mps_case_read(path, 0, NULL, &c);
+    if (a->status == MPS_OK) a->status = mps_case_check(c, &a->text, &a->sketch);
+    if (c) mps_case_messages_write(c, a->messages, sizeof a->messages);
+    mps_case_destroy(c);
+    return fault_disarm();
+}
+
+static void forget(answer *a)
+{
+    free(a->text);
+    free(a->sketch);
+}
+
+/* The first line of a text that is not in another, but for that of the wall clock; NULL: there is none. */
+static const char *other_line(const char *text, const char *in)
+{
+    char line[4000];
+    for (const char *at = text; *at; at += strcspn(at, "\n"), at += *at != '\0') {
+        snprintf(line, sizeof line, "%.*s\n", (int)strcspn(at, "\n"), at);
+        if (strncmp(line, "cost ", 5) != 0 && !strstr(in, line)) return at;
+    }
+    return NULL;
+}
+
+/* What could not be measured is left out: each line is one of the whole answer. */
+static int compare(const answer *a, const answer *whole, const char *failed)
+{
+    const char *other = a->text ? other_line(a->text, whole->text) : NULL;
+    if (a->status == MPS_OK && a->text && a->sketch && !other) return 0;
+    if (a->status != MPS_OK && !a->text && !a->sketch &&
+        (a->status == MPS_E_NOMEM || a->messages[0]))
+        return 0;
+    print_error("%s: status %d, messages \"%s\", %.*s\n", failed, (int)a->status, a->messages,
+                other ? (int)strcspn(other, "\n") : 0, other ? other : "");
+    return 1;
+}
+
+/* @return failures that ended a check */
+static int in_turn(const char *path)
+{
+    answer whole, a;
+    int wrong = 0, ended = 0, reached = 0;
+    fault_forget();
+    check(path, -1, 1, &whole);
+    if (whole.status != MPS_OK) fail_msg("%s", whole.messages);
+    for (int32_t k = 0; k < fault_places(); k++) {
+        const char *failed = check(path, k, 1, &a);
+        wrong += compare(&a, &whole, failed ? failed : "no failure");
+        reached += failed != NULL;
+        ended += a.status != MPS_OK;
+        if (!failed && a.status != MPS_OK) fail_msg("status %d without a failure", (int)a.status);
+        forget(&a);
+    }
+    print_message("%s: %d calls failed, %d checks ended\n", path, reached, ended);
+    forget(&whole);
+    assert_int_equal(wrong, 0);
+    return ended;
+}
+
+/* Write a case, check it, remove it. */
+static int of_text(const char *text)
+{
+    char path[600];
+    FILE *out = fopen(kit_here(path, sizeof path, "faults.yaml"), "w");
+    assert_non_null(out);
+    assert_true(fputs(text, out) >= 0 && fclose(out) == 0);
+    const int ended = in_turn(path);
+    assert_int_equal(unlink(path), 0);
+    return ended;
+}
+
+#define END "run: {until: 1 s, threads: 1}\n"
+
+static void files(void **state)
+{
+    (void)state;
+    assert_true(of_text("mps: 1\ndim: 3\ndp: 0.2 m\ntank: {stl: " CASES "cube.stl, unit: m}\n"
+                        "fill: [{water: {depth: 40 %}}]\nmotion:\n  file: " CASES "voyage.csv\n"
+                        "  axes: x forward, y port, z up\n  columns: {time: t, surge: XG, roll: "
+                        "PHI}\n  units: {time: s, surge: m, roll: deg}\n  from: 1200 s\n" END) >
+                20);
+}
+
+static void ships(void **state)
+{
+    (void)state;
+    assert_true(
+        of_text("mps: 1\ndim: 3\ndp: 0.1 m\ntank: {size: 1.2 0.8 0.6 m}\n"
+                "fill: [{water: {depth: 50 %}}]\nsolids:\n"
+                "  c: {cylinder: {from: 0.6 0 0.3 m, to: 0.6 0.8 0.3 m, radius: 0.1 m}}\n"
+                "  p: {plate: [0.3 0 0 m, 0.3 0.3 0.6 m]}\n"
+                "  b: {sphere: {centre: 0.9 0.2 0.3 m, radius: 0.12 m}}\n"
+                "  w: {prism: [0 0 m, 0.2 0 m, 0 0.2 m], between: 0 0.2 m}\n"
+                "motion:\n  axes: x forward, y port, z up\n  centre: 0.6 0.4 0.3 m\n"
+                "  roll: {amplitude: 4 deg, period: 1 T1}\n"
+                "  yaw: {jonswap: {significant: 1 deg, peak: 1.2 s}}\n"
+                "sensors:\n  P: {panel: [0 0.2 0.1 m, 0 0.4 0.1 m, 0 0.2 0.4 m], cells: 2}\n"
+                "  F: {force: tank, axes: ship, about: 0.6 0.4 0.3 m}\n"
+                "  eta: {gauge: 0.2 0.3 m}\n  v: {measure: speed}\n" END) > 20);
+}
+
+static void waves(void **state)
+{
+    (void)state;
+    assert_true(of_text("mps: 1\ndp: 50 mm\ntank: {size: 1 0.6 m}\n"
+                        "fill: [{water: {depth: 0.3 m, start: {standing_wave: 20 mm}}}]\n"
+                        "solids: {b: {plate: [0.5 0 m, 0.5 0.1 m], thickness: 1 dp}}\n"
+                        "motion: {sway: {acceleration: 0.1 m/s2}}\n"
+                        "use: [viscosity.pair]\nremove: [collision]\n" END) > 20);
+    assert_true(of_text("mps: 1\ndp: 50 mm\ntank: {polygon: [0 0 m, 1 0 m, 1 0.6 m, 0 0.6 m]}\n"
+                        "fill: [{water: {wave: {level: 0.3 m, amplitude: 50 mm, length: 1 m}}}]\n"
+                        "kernel: {near: 2.1 dp, far: 3.1 dp}\n" END) > 20);
+}
+
+static void drops(void **state)
+{
+    (void)state;
+    assert_true(of_text("mps: 1\ndp: 50 mm\ntank: {size: 1 1 m}\nmodel: mmps\n"
+                        "settings: {tension.sigma: 72.7 mN/m}\nfill: [{water: {sphere: {centre: "
+                        "0.5 0.5 m, radius: 0.2 m}, start: {oscillation: 5 %}}}, {air: rest}]\n"
+                        "sensors:\n  a: {measure: half_axis}\n"
+                        "  j: {measure: pressure_jump, radius: 0.2 m}\n" END) > 20);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(files), cmocka_unit_test(ships),
+                                       cmocka_unit_test(waves), cmocka_unit_test(drops)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
