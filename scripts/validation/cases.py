@@ -87,7 +87,7 @@ CASES = [
     Case("small_surge", "sloshing_high_fill", {0.02: 0.1, 0.01: 0.5, 0.005: 4}, e.small_surge, options("--amplitude 5e-4 --t-end 3"),
          others=()),
     Case("sloshing_high_fill", "sloshing_high_fill", {0.02: 0.2, 0.01: 1, 0.005: 6}, e.high_fill, expected=HIGH_FILL),
-    Case("sloshing_surge", "sloshing_surge", {0.0156: 0.4, 0.008: 2, 0.004: 20}, e.surge, expected=SURGE),
+    Case("sloshing_surge", "sloshing_surge", {0.0125: 0.6, 0.008: 2, 0.004: 20}, e.surge, expected=SURGE),
     Case("surge_counts", "sloshing_surge", {0.004: 0.1}, e.surge_counts, options("--whole-rows --t-end 1e-4"), others=(),
          expected=("fluid particles", "wall and dummy particles")),
     Case("sloshing_low_fill", "sloshing_low_fill", {0.005: 1, 0.00375: 2.5, 0.0025: 9}, e.low_fill, options("--pictures 2.75,4.8,6.1,7.85"),
