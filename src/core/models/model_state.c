@@ -32,7 +32,7 @@ void mps__models_restore(mps__models *m)
         mps__numbers *s = &m->on[k].state;
         if (!s->touched) continue;
         s->count = s->kept_count; /* there was room for them */
-        memcpy(s->value, s->kept, (size_t)s->count * sizeof *s->value);
+        if (s->count > 0) memcpy(s->value, s->kept, (size_t)s->count * sizeof *s->value);
     }
 }
 
