@@ -191,7 +191,10 @@ static mps_status write_curve(curves *c, int32_t k)
         }
     if (!(hi >= lo)) lo = hi = 0;
     if (lo == 0 && hi == 0 && rule.plot) return MPS_OK; /* e.g. a tank that stands */
-    if (!mps__codec_curve(c->value, c->points, 1, lo, hi, &bytes)) return no_memory(c->run);
+    if (!mps__codec_curve(c->value, c->points, 1, lo, hi, &bytes)) {
+        free(bytes.data);
+        return no_memory(c->run);
+    }
     fputs(c->any ? ",\n{" : "\n{", c->out);
     c->any = true;
     write_member(c->out, "name", column.name);
