@@ -214,9 +214,10 @@ static double along_diagonal(const mps__distances *f, const between *b, int from
     int corner = from;
     for (int d = 0; d < f->dim; d++) t[d] = from >> d & 1 ? 1 - b->t[d] : b->t[d];
     for (int step = 0; step < f->dim; step++) { /* the axis with the largest way left is next */
-        int axis = -1;
+        int axis = 0;
+        double most = -1;
         for (int d = 0; d < f->dim; d++)
-            if ((corner >> d & 1) == (from >> d & 1) && (axis < 0 || t[d] > t[axis])) axis = d;
+            if ((corner >> d & 1) == (from >> d & 1) && t[d] > most) most = t[axis = d];
         const int64_t here = corner_place(f, b->k, corner);
         corner ^= 1 << axis;
         value += t[axis] * (f->value[corner_place(f, b->k, corner)] - f->value[here]);
