@@ -72,7 +72,7 @@ void mps__drawing_skip(mps_job *job, double t)
 
 static void draw(mps_job *job, const char *name)
 {
-    char path[FOLDER_PATH + 48], error[JOB_ERROR];
+    char path[FOLDER_PATH + 48], error[JOB_ERROR] = "";
     mps_picture_config *config = &job->picture;
     snprintf(path, sizeof path, "%s/%s", job->place.path, name);
     config->error = error;
