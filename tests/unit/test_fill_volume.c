@@ -105,6 +105,38 @@ static void level_in_a_bowl(void **state)
     mps_sim_destroy(sim);
 }
 
+/* A bowl with next to nothing in it: less than half of a particle is refused, more is built. */
+static void little_in_a_bowl(void **state)
+{
+    int refused = 0, filled = 0;
+    (void)state;
+    for (int k = 0; k < 40; k++) {
+        const double lo[2] = {-0.3, 0}, hi[2] = {0.3, 0.0007 * k}, dp = 0.01;
+        mps_sim *sim = logging(2, dp);
+        mps_solid solid;
+        double built, asked;
+        assert_int_equal(mps_solid_init(&solid, sizeof solid), MPS_OK);
+        solid.distance = bowl;
+        solid.lo[0] = -0.25;
+        solid.hi[0] = 0.25;
+        solid.hi[1] = 0.5;
+        ASSERT_OK(sim, mps_solid_add(sim, &solid));
+        const mps_status status = mps_fill_level_add(sim, 0, lo, hi, NULL, NULL);
+        if (status == MPS_OK) {
+            last_fill(&built, &asked);
+            ASSERT_NEAR(built, asked, 0.51 * dp * dp);
+            filled++;
+        } else {
+            assert_int_equal(status, MPS_E_ARG);
+            assert_non_null(strstr(mps_sim_error(sim), "nothing to fill"));
+            assert_true(filled == 0);
+            refused++;
+        }
+        mps_sim_destroy(sim);
+    }
+    assert_true(refused > 0 && filled > 30);
+}
+
 /* A tank 2 m wide with a bottom that has slopes of 45 degrees, 0.3 m high. */
 static double trough(void *user, const double *x)
 {
@@ -146,6 +178,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(volumes_are_told),
         cmocka_unit_test(level_in_a_bowl),
+        cmocka_unit_test(little_in_a_bowl),
         cmocka_unit_test(level_over_slopes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -183,8 +183,10 @@ static mps_status level_out(mps__lattice_plan *p)
             box->share[1][1] = fmin(1, here / fmax(all, 1) - 1);
         } else if (here > 0.5) {
             box->share[1][1] = here < all ? here / all : 0;
-        } else {
+        } else if (layer > box->first[1]) {
             box->last[1]--;
+        } else { /* less than half of a particle in all: a layer remains, and may stay empty */
+            box->share[1][1] = 1e-6;
         }
         lack = here > 0.5 ? 0 : here;
     }
