@@ -247,8 +247,8 @@ void record_note(mps_sim *sim, const mps_step_info *info, record *r)
 {
     const mps__particles *s = &sim->world.particles;
     const int dim = s->dim;
-    for (int64_t i = 0; i < s->n; i++) {
-        if (mps__is_ghost(&sim->world.ghosts, i)) continue;
+    const mps__ghosts *g = &sim->world.ghosts;
+    for (int64_t i = mps__own_from(g, 0); i < s->n; i = mps__own_from(g, i + 1)) {
         double *v = r->value[s->id[i]];
         for (int d = 0; d < dim; d++) {
             v[d] = s->x[i * dim + d];

@@ -25,8 +25,9 @@ typedef struct run {
 static double load_of(const mps__world *w)
 {
     double load = 0;
-    for (int64_t i = 0; i < w->particles.n; i++)
-        if (!mps__is_ghost(&w->ghosts, i)) load += mps__world_weight(w, i);
+    for (int64_t i = mps__own_from(&w->ghosts, 0); i < w->particles.n;
+         i = mps__own_from(&w->ghosts, i + 1))
+        load += mps__world_weight(w, i);
     return load;
 }
 

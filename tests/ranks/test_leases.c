@@ -91,14 +91,15 @@ static mps_status write_own(const run *k, mps_sim *sim)
     enum { THE_ONE = 300 };
     mps_lease u = {.struct_size = sizeof u}, mark = u;
     const mps__particles *s = &sim->world.particles;
+    const mps__ghosts *g = &sim->world.ghosts;
     const int64_t place = mps_particle_index(sim, THE_ONE);
     const bool one = k->writers == ONE_RANK;
     if (k->writers == NO_RANK) return MPS_OK;
-    if (one && (place < 0 || mps__is_ghost(&sim->world.ghosts, place))) return MPS_OK;
+    if (one && mps__own_place(g, place) < 0) return MPS_OK;
     MPS__TRY(mps_lease_begin(sim, "velocity", MPS_WRITE, &u));
     MPS__TRY(mps_lease_begin(sim, "mark", MPS_WRITE, &mark));
     for (int64_t i = 0; i < u.count; i++) {
-        if (mps__is_ghost(&sim->world.ghosts, i) || s->kind[i] != MPS_FLUID) continue;
+        if (mps__own_place(g, i) < 0 || s->kind[i] != MPS_FLUID) continue;
         if (one ? i != place : s->id[i] % 3 > 0) continue;
         u.data[i * u.stride] += 0.05;
         mark.data[i] = 1 + (double)s->id[i];

@@ -30,7 +30,7 @@ static mps_status spill(const run *k, mps_sim *sim)
     for (int64_t i = 0; i < x.count; i++) {
         double *at = x.data + i * x.stride;
         const bool floor = w->particles.kind[i] == MPS_FLUID && at[1] > 0 && at[1] < 1.4 * dp;
-        if (floor && at[0] > 4 * dp && at[0] < 0.5 && !mps__is_ghost(&w->ghosts, i))
+        if (floor && at[0] > 4 * dp && at[0] < 0.5 && mps__own_place(&w->ghosts, i) == i)
             at[1] = -0.7 * dp;
     }
     return mps_lease_end(sim, &x);

@@ -210,12 +210,11 @@ static int32_t *places(mps_sim *sim)
 static mps_status check_ids(mps_sim *sim, int64_t count, const int64_t *ids, int32_t *place)
 {
     const mps__particles *s = &sim->world.particles;
-    const bool many = mps__ranks_many(&sim->world.ranks);
     int64_t *found = mps__alloc(&sim->context, count, sizeof *found), bad = count;
     if (!found) return MPS_E_NOMEM;
     for (int64_t k = 0; k < count; k++) {
         if (ids[k] < 0 || ids[k] >= s->next_id || place[ids[k]] < 0) continue;
-        found[k] = !many || !mps__is_ghost(&sim->world.ghosts, place[ids[k]]);
+        found[k] = mps__own_place(&sim->world.ghosts, place[ids[k]]) >= 0;
         place[ids[k]] = -1;
     }
     for (int64_t k = 0; k < count; k += INT32_MAX)

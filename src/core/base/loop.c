@@ -34,10 +34,25 @@ void mps__loop_run_long(const mps_parallel *p, const mps__loop *loop, int32_t di
     mps_parallel_rows_least(p, n, 1, run_rows, &(job){.loop = loop, .dim = dim, .fields = fields});
 }
 
+void mps__loop_run_cheap(const mps_parallel *p, const mps__loop *loop, int32_t dim, int64_t n,
+                         const void *fields)
+{
+    mps_parallel_rows_least(p, n, MPS__ROWS_CHEAP, run_rows,
+                            &(job){.loop = loop, .dim = dim, .fields = fields});
+}
+
 void mps__values_run(const mps_parallel *p, const mps__values *values, int32_t dim, int64_t n,
                      const void *fields, mps_exact *sum, double *maximum)
 {
     job k = {.values = values, .dim = dim, .fields = fields};
     const mps_exact_values wanted = {values->sums, values->maxima, sum, maximum};
     mps_exact_rows(p, n, MPS_PARALLEL_LEAST, run_values, &k, &wanted);
+}
+
+int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t n,
+                       const void *fields)
+{
+    double largest = -(double)n;
+    mps__values_run(p, first, MPS__ANY_DIM, n, fields, NULL, &largest);
+    return (int64_t)-largest;
 }

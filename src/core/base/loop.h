@@ -34,9 +34,15 @@ void mps__loop_run(const mps_parallel *p, const mps__loop *loop, int32_t dim, in
 /* The same with ranges of one row at least: rows are few and long. */
 void mps__loop_run_long(const mps_parallel *p, const mps__loop *loop, int32_t dim, int64_t n,
                         const void *fields);
+/* The same with ranges of MPS__ROWS_CHEAP rows at least: a row does next to nothing. */
+void mps__loop_run_cheap(const mps_parallel *p, const mps__loop *loop, int32_t dim, int64_t n,
+                         const void *fields);
 /* Terms of rows 0..n-1 are added to the sums, their maxima raised. */
 void mps__values_run(const mps_parallel *p, const mps__values *values, int32_t dim, int64_t n,
                      const void *fields, mps_exact *sum, double *maximum);
+/* First row of 0..n-1 that the test of MPS__FIRST() finds, n if there is none. */
+int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t n,
+                       const void *fields);
 
 /* Define the mps__loop `name` from a row function
  *   MPS_ROW void row(const int dim, const type *fields, int64_t i);
@@ -76,5 +82,16 @@ void mps__values_run(const mps_parallel *p, const mps__values *values, int32_t d
         memcpy(maximum_, own_ + (sums), (maxima) * sizeof(double));                       \
     }                                                                                     \
     static const mps__values name = {#name, sizeof(type), sums, maxima, name##_run};
+
+/* Define the mps__values `name` that looks for the first row of a test
+ *   MPS_ROW bool is_it(const type *fields, int64_t i);
+ * The lowest row is the largest of their negatives; doubles count exactly to 2^53. */
+#define MPS__FIRST(name, is_it, type)                                                          \
+    MPS_ROW void name##_row(const int dim_, const type *fields_, int64_t i_, double *largest_) \
+    {                                                                                          \
+        (void)dim_;                                                                            \
+        if (-(double)i_ > *largest_ && is_it(fields_, i_)) *largest_ = -(double)i_;            \
+    }                                                                                          \
+    MPS__VALUES(name, name##_row, type, 0, 1)
 
 #endif

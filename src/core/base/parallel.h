@@ -38,12 +38,4 @@ typedef struct mps__block {
 void mps__parallel_zero(const mps_parallel *p, const mps__block *blocks, int32_t count);
 void mps__parallel_copy(const mps_parallel *p, void *to, const void *from, size_t bytes);
 
-/* First row of 0..n-1 that `is_bad`, n if there is none. */
-typedef bool (*mps__row_test)(const void *argument, int64_t i);
-int64_t mps__parallel_first(const mps_parallel *p, int64_t n, mps__row_test is_bad,
-                            const void *argument);
-/* Number of rows for which `counts` is true. */
-int64_t mps__parallel_count(const mps_parallel *p, int64_t n, mps__row_test counts,
-                            const void *argument);
-
 #endif

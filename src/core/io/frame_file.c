@@ -73,15 +73,10 @@ const char *mps__frame_byte_order(void)
     return first ? "LittleEndian" : "BigEndian";
 }
 
-/* Before the first step each rank has all particles: they are those of rank 0. */
-static bool owned(const mps__world *w, int64_t i)
-{
-    return mps__world_divided(w) ? !mps__is_ghost(&w->ghosts, i) : w->ranks.rank == 0;
-}
-
 static bool selected(const frame *f, int64_t i)
 {
-    return (f->kinds >> f->s->kind[i] & 1) != 0 && !mps__is_shadow(f->s, i) && owned(f->world, i);
+    return (f->kinds >> f->s->kind[i] & 1) != 0 && !mps__is_shadow(f->s, i) &&
+           mps__own_output(&f->world->ghosts, i);
 }
 
 /* ---- columns ---- */

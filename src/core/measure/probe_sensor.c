@@ -250,11 +250,12 @@ static int compare_id(const void *key, const void *entry)
     return (i > j) - (i < j);
 }
 
-/* The particles were sorted: look up where they are now. */
-static void locate(const mps__particles *s, mps__sensor *sensor)
+/* The particles were sorted: look up where those of this rank are now. */
+static void locate(const mps__world *w, mps__sensor *sensor)
 {
+    const mps__particles *s = &w->particles;
     const int64_t first = sensor->list[0].id, last = sensor->list[sensor->count - 1].id;
-    for (int64_t i = 0; i < s->n; i++) {
+    for (int64_t i = mps__own_from(&w->ghosts, 0); i < s->n; i = mps__own_from(&w->ghosts, i + 1)) {
         if (s->id[i] < first || s->id[i] > last) continue;
         mps__sensor_weight *e = bsearch(&s->id[i], sensor->list, (size_t)sensor->count, sizeof *e,
                                         compare_id);
@@ -280,16 +281,12 @@ static mps_status build_again(mps__world *w, const mps_probe *config, mps__senso
     return status;
 }
 
-/* Where the particles are on this rank. */
+/* Where the particles are on this rank, -1: on another one. */
 static void locate_owned(const mps__world *w, mps__sensor *sensor)
 {
-    const mps__particles *s = &w->particles;
     if (sensor->orders == w->lists.orders && w->lists.orders > 0) return;
     for (int64_t k = 0; k < sensor->count; k++) sensor->list[k].place = -1;
-    locate(s, sensor);
-    for (int64_t k = 0; k < sensor->count; k++)
-        if (sensor->list[k].place >= 0 && mps__is_ghost(&w->ghosts, sensor->list[k].place))
-            sensor->list[k].place = -1;
+    locate(w, sensor);
     sensor->orders = w->lists.orders;
 }
 
@@ -322,7 +319,7 @@ mps_status mps__sensor_read(mps__world *w, const mps_probe *config, mps__sensor 
     if (mps__ranks_many(&w->ranks)) {
         MPS__TRY(collect_pressures(w, sensor, p));
     } else {
-        if (!in_place(s, sensor)) locate(s, sensor);
+        if (!in_place(s, sensor)) locate(w, sensor);
         for (int64_t k = 0; k < sensor->count; k++) p[k] = s->load[sensor->list[k].place];
     }
     mps__edges_apply(&sensor->edges, p);

@@ -5,15 +5,15 @@
 /* Rows of a body in the order in which they were found. */
 typedef struct search {
     const mps_view *s;
-    const mps__ghosts *ghosts;
     const int32_t *role;
     int32_t *body, *queue;
     int64_t found;
     int32_t most;
+    bool many; /* ranks */
 } search;
 
-/* In `body` until all is over: not looked at; member of a body that is held. */
-enum { NEW = -1, HELD = -2 };
+/* In `body` until all is over: not looked at; member of a body that is held; row of another rank. */
+enum { NEW = -1, HELD = -2, ELSEWHERE = -3 };
 
 /* Flags of a set: it is held; it has a row where searches may begin. */
 enum { FLAG_HELD = 1, FLAG_SEEDED = 2 };
@@ -37,9 +37,8 @@ static bool is_held(search *k, int64_t i)
     for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
         const int32_t j = mps_stencil_column(t, p);
         if (k->role[j] == MPS_BODY_ANCHOR) return true;
-        if (!belongs(k, j) || mps__is_ghost(k->ghosts, j)) continue;
         if (k->body[j] == HELD) return true;
-        if (k->body[j] == NEW) join(k, j, k->body[i]);
+        if (k->body[j] == NEW && belongs(k, j)) join(k, j, k->body[i]);
     }
     return false;
 }
@@ -48,25 +47,28 @@ static bool is_held(search *k, int64_t i)
 static bool at_border(const search *k, int64_t i)
 {
     const mps_stencil *t = &k->s->near;
-    for (int64_t p = mps_stencil_begin(t, i); k->ghosts->ghost && p < mps_stencil_end(t, i); p++)
-        if (k->ghosts->ghost[mps_stencil_column(t, p)] && belongs(k, mps_stencil_column(t, p)))
-            return true;
+    for (int64_t p = mps_stencil_begin(t, i); k->many && p < mps_stencil_end(t, i); p++) {
+        const int32_t j = mps_stencil_column(t, p);
+        if (k->body[j] == ELSEWHERE && belongs(k, j)) return true;
+    }
     return false;
 }
 
 /* Searches begin at seeds, and at borders: the seed of a body may be on another rank. */
 static bool begins(const search *k, int64_t i)
 {
-    if (k->body[i] != NEW || !belongs(k, i) || mps__is_ghost(k->ghosts, i)) return false;
+    if (k->body[i] != NEW || !belongs(k, i)) return false;
     return k->role[i] == MPS_BODY_SEED || at_border(k, i);
 }
 
 /* Set body[] of each row. A search ends as soon as the body is known to be held; later searches of the same body meet a row of this one.
  * @return number of bodies that are free as far as they are here */
-static int32_t find_bodies(search *k)
+static int32_t find_bodies(search *k, const mps__ghosts *g)
 {
     int32_t count = 0;
-    for (int64_t i = 0; i < k->s->n; i++) k->body[i] = NEW;
+    for (int64_t i = 0; i < k->s->n; i++) k->body[i] = ELSEWHERE;
+    for (int64_t i = mps__own_from(g, 0); i < k->s->n; i = mps__own_from(g, i + 1))
+        k->body[i] = NEW;
     for (int64_t seed = 0; seed < k->s->n; seed++) {
         if (!begins(k, seed)) continue;
         bool held = false;
@@ -107,7 +109,7 @@ static mps_status join_border(const search *k, mps__host *h, double *label)
         for (int64_t p = mps_stencil_begin(t, i); k->body[i] >= 0 && p < mps_stencil_end(t, i);
              p++) {
             const int32_t j = mps_stencil_column(t, p);
-            if (!h->ghosts->ghost[j] || !belongs(k, j)) continue;
+            if (k->body[j] != ELSEWHERE || !belongs(k, j)) continue;
             if (label[j] < 0)
                 part[k->body[i]].flags |= FLAG_HELD;
             else
@@ -132,15 +134,14 @@ static void number_sets(mps__sets *sets, int32_t most)
 static int merge_bodies(mps_stage *s, search *k, int32_t count)
 {
     mps__host *h = s->host;
-    const bool many = mps__ranks_many(h->ghosts->ranks);
     double *least = mps_stage_scratch(s, count),
-           *label = mps_stage_scratch(s, many ? s->view->n : 1);
+           *label = mps_stage_scratch(s, k->many ? s->view->n : 1);
     if (!least || !label) return 1;
     mps__sets_begin(&h->sets, h->context);
     mps_status status = list_parts(k, count, &h->sets);
     for (int32_t c = 0; status == MPS_OK && c < count; c++)
         least[c] = (double)h->sets.part[c].label;
-    if (status == MPS_OK && many) status = join_border(k, h, label);
+    if (status == MPS_OK && k->many) status = join_border(k, h, label);
     if (status == MPS_OK) status = mps__sets_merge(&h->sets, h->ghosts->ranks);
     h->no_memory = h->no_memory || status == MPS_E_NOMEM;
     if (status < 0) return 1;
@@ -157,13 +158,13 @@ int mps_stage_bodies(mps_stage *s, int32_t most, int32_t *role, int32_t *body)
     mps__host *h = s->host;
     const mps_shared shared = {.values = role, .components = 1, .type = MPS_TYPE_INTEGER};
     search k = {.s = s->view,
-                .ghosts = h->ghosts,
                 .role = role,
                 .body = body,
                 .queue = mps_stage_scratch_integers(s, s->view->n),
-                .most = most};
+                .most = most,
+                .many = mps__ranks_many(h->ghosts->ranks)};
     if (!k.queue || mps_stage_refresh(s, 1, &shared)) return 1;
-    const int32_t count = find_bodies(&k);
+    const int32_t count = find_bodies(&k, h->ghosts);
     if (merge_bodies(s, &k, count)) return 1;
     h->scratch_used--; /* the queue is not needed any more */
     return 0;

@@ -27,18 +27,25 @@ static mps_status left(const mps__host *h, const mps_stage *s, const mps__call *
         allowed);
 }
 
-static bool is_no_region(const void *regions, int64_t i)
+/* What is checked of what verbs left. */
+typedef struct check_fields {
+    const int32_t *region;
+    const double *nd;
+} check_fields;
+
+MPS_ROW bool is_no_region(const check_fields *f, int64_t i)
 {
-    const int32_t *region = regions;
-    return region[i] < MPS_REGION_INNER || region[i] > MPS_REGION_DRY;
+    return f->region[i] < MPS_REGION_INNER || f->region[i] > MPS_REGION_DRY;
 }
+MPS__FIRST(bad_regions, is_no_region, check_fields)
 
 /* Regions decide which rows later hooks work on. */
 static mps_status check_regions(const mps__host *h, const mps_stage *s, const mps__call *call)
 {
     char what[32], allowed[32];
     const int32_t *region = mps__channels_array(h->channels, h->particles, MPS__REGION);
-    const int64_t first = mps__parallel_first(h->parallel, s->view->n, is_no_region, region);
+    const int64_t first = mps__first_run(h->parallel, &bad_regions, s->view->n,
+                                         &(check_fields){.region = region});
     if (first == s->view->n) return MPS_OK;
     snprintf(what, sizeof what, "region %d", (int)region[first]);
     snprintf(allowed, sizeof allowed, "%d..%d", MPS_REGION_INNER, MPS_REGION_DRY);
@@ -52,10 +59,11 @@ static bool writes(const mps__call *call, int32_t channel)
     return false;
 }
 
-static bool is_not_finite(const void *values, int64_t i)
+MPS_ROW bool is_not_finite(const check_fields *f, int64_t i)
 {
-    return !isfinite(((const double *)values)[i]);
+    return !isfinite(f->nd[i]);
 }
+MPS__FIRST(bad_densities, is_not_finite, check_fields)
 
 /* No comparison with a number density that is not finite is true: the free surface would be lost
  * without an error. */
@@ -64,7 +72,8 @@ static mps_status check_number_density(const mps__host *h, const mps_stage *s,
 {
     char what[64];
     const double *nd = mps__channels_array(h->channels, h->particles, MPS__NUMBER_DENSITY);
-    const int64_t first = mps__parallel_first(h->parallel, s->view->n, is_not_finite, nd);
+    const int64_t first = mps__first_run(h->parallel, &bad_densities, s->view->n,
+                                         &(check_fields){.nd = nd});
     if (first == s->view->n) return MPS_OK;
     snprintf(what, sizeof what, "the number density %g", nd[first]);
     return left(h, s, call, first, what, "finite");

@@ -22,7 +22,7 @@ typedef struct report {
 MPS_ROW void add_row(const int dim, const report *k, int64_t i, double *values)
 {
     double r[3] = {0};
-    if (k->kind[i] != MPS_FLUID || (k->ghost && k->ghost[i])) return;
+    if (k->kind[i] != MPS_FLUID || !mps__owns(k->ghost, i)) return;
     if (k->place && k->place[i] != k->wanted + 1) return;
     const double mass = k->rho[i] * k->volume;
     for (int d = 0; d < dim; d++) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Search of pairs: cells as sorted 64-bit keys (x fastest), candidates with a skin, all in one pass. */
 #include "neighbours_rows.h"
+#include "ghosts.h"
 #include "loop.h"
 #include <math.h>
 #include <stdatomic.h>
@@ -19,7 +20,7 @@ typedef struct way {
 MPS_ROW void moved_row(const int dim, const way *w, int64_t i, double *worst)
 {
     double s = 0;
-    if (w->ghost && w->ghost[i]) return;
+    if (!mps__owns(w->ghost, i)) return;
     for (int d = 0; d < dim; d++) {
         const double m = w->x[i * dim + d] - w->searched[i * dim + d];
         s += m * m;
@@ -308,7 +309,7 @@ MPS_ROW int64_t search_cell(const int dim, const bool sorted, const search *s, i
     for (; a < s->n && s->key[a] == s->key[first]; a++) {
         const int32_t i = sorted ? (int32_t)a : s->order[a];
         const bool solid = s->kind && s->kind[i] != MPS_FLUID,
-                   ghost = s->ghost && s->ghost[i] && (solid || !s->ghost_rows);
+                   ghost = !mps__owns(s->ghost, i) && (solid || !s->ghost_rows);
         s->rim[i] = dummies && !solid && !ghost;
         s->idle[i] = ghost || (solid && (!fluid || (s->kind[i] == MPS_DUMMY && !s->dummy_rows)));
         if (!s->idle[i]) find_row(dim, sorted, s, a, range, ranges, &f);

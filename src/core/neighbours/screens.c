@@ -67,11 +67,11 @@ bool mps__screen_crossed(const mps__screen *s, const double *a, const double *b)
     return true;
 }
 
-void mps__screens_sides(const mps__screens *s, mps__seer *a)
+void mps__screens_sides(const mps__screen *list, int32_t count, mps__seer *a)
 {
     a->above = 0;
-    for (int32_t k = 0; k < s->count && k < MPS__SCREEN_BITS; k++)
-        a->above |= (uint64_t)(mps__screen_height(&s->list[k], a->at) > 0) << k;
+    for (int32_t k = 0; k < count && k < MPS__SCREEN_BITS; k++)
+        a->above |= (uint64_t)(mps__screen_height(&list[k], a->at) > 0) << k;
 }
 
 /* Where plates meet, a line may cross several screens: what is seen there is the shadow of the first of them. Most pairs stand on the same

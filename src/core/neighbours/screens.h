@@ -53,7 +53,7 @@ double mps__screen_distance(const mps__screen *s, const double *X);
 /* True if the line from a to b crosses what the screen hides. */
 bool mps__screen_crossed(const mps__screen *s, const double *a, const double *b);
 /* Set `above` from `at`. */
-void mps__screens_sides(const mps__screens *s, mps__seer *a);
+void mps__screens_sides(const mps__screen *list, int32_t count, mps__seer *a);
 /* True if the two are no pair. @param list [count] all screens */
 bool mps__screens_hidden(const mps__screen *list, int32_t count, const mps__seer *a,
                          const mps__seer *b);

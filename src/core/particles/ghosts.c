@@ -196,8 +196,7 @@ static mps_status divide(mps__ghosts *g, const mps__placing *p, int64_t begin, i
     int64_t count = 0;
     double *X = mps__alloc(g->context, (end - begin) * dim, sizeof *X);
     float *weight = mps__alloc(g->context, end - begin, sizeof *weight);
-    for (int64_t i = begin; X && weight && i < end; i++) {
-        if (mps__is_ghost(g, i)) continue;
+    for (int64_t i = mps__own_from(g, begin); X && weight && i < end; i = mps__own_from(g, i + 1)) {
         p->place(p->argument, i, X + count * dim);
         weight[count++] = p->weight(p->argument, i);
     }

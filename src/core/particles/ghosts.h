@@ -47,9 +47,12 @@ void mps__ghosts_init(mps__ghosts *g, mps__context *context, mps__ranks *ranks,
                       mps__particles *particles);
 void mps__ghosts_free(mps__ghosts *g);
 
-static inline bool mps__is_ghost(const mps__ghosts *g, int64_t i)
+/* What others ask of ghosts is below; scripts/layers refuses a look at `ghost` elsewhere. */
+
+/* Whether this rank owns row i: for row functions, which have `ghost` as a flat array. */
+static inline bool mps__owns(const uint8_t *ghost, int64_t i)
 {
-    return g->ghost && g->ghost[i];
+    return !ghost || !ghost[i];
 }
 
 /* First particle from place i on that this rank owns; the number of particles: none. Loops over owned particles:
@@ -58,6 +61,18 @@ static inline int64_t mps__own_from(const mps__ghosts *g, int64_t i)
 {
     while (g->ghost && i < g->particles->n && g->ghost[i]) i++;
     return i;
+}
+
+/* Place i where this rank owns the particle, -1 where it is a ghost, or there is none (i < 0). */
+static inline int64_t mps__own_place(const mps__ghosts *g, int64_t i)
+{
+    return i >= 0 && mps__owns(g->ghost, i) ? i : -1;
+}
+
+/* Whether this rank is the one that counts or writes particle i: its owner; rank 0 while all ranks have all particles. */
+static inline bool mps__own_output(const mps__ghosts *g, int64_t i)
+{
+    return g->divided ? mps__owns(g->ghost, i) : g->ranks->rank == 0;
 }
 
 /* Of the particles that all ranks added alike since the last call, keep the own ones. The first call divides space. All calls below are those

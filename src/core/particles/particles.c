@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The particle store: a table of arrays that grow, permute and shrink together. */
 #include "particles.h"
+#include "loop.h"
 #include <mps/particles.h>
 #include <string.h>
 
@@ -177,54 +178,52 @@ static bool in_order(const mps__particles *s, int64_t count, const int32_t *orde
     return true;
 }
 
-/* Elements from..to-1 of the new order. A copy of a constant size is an instruction or two, of any other a call. */
-static void gather(char *to, const char *from, const int32_t *order, int64_t first, int64_t last,
-                   size_t bytes)
-{
-#define GATHER(size)                       \
-    for (int64_t i = first; i < last; i++) \
-    memcpy(to + (size_t)i * (size), from + (size_t)order[i] * (size), (size))
-    if (bytes == 1)
-        GATHER(1);
-    else if (bytes == 4)
-        GATHER(4);
-    else if (bytes == 8)
-        GATHER(8);
-    else if (bytes == 16)
-        GATHER(16);
-    else if (bytes == 24)
-        GATHER(24);
-    else
-        GATHER(bytes);
-#undef GATHER
-}
-
-typedef struct move {
-    char *data, *scratch;
+typedef struct gather_fields {
+    char *to;
+    const char *from;
     const int32_t *order;
     size_t bytes; /* of an element */
-} move;
+} gather_fields;
 
-static void gather_rows(void *argument, int64_t begin, int64_t end)
+MPS_ROW void gather_row(const gather_fields *f, int64_t i, size_t bytes)
 {
-    const move *m = argument;
-    gather(m->scratch, m->data, m->order, begin, end, m->bytes);
+    memcpy(f->to + (size_t)i * bytes, f->from + (size_t)f->order[i] * bytes, bytes);
 }
 
-static void store_rows(void *argument, int64_t begin, int64_t end)
+/* Elements in the new order. A copy of a constant size is an instruction or two, of any other a call. */
+#define GATHER(name, size)                                                    \
+    MPS_ROW void name##_row(const int dim, const gather_fields *f, int64_t i) \
+    {                                                                         \
+        (void)dim;                                                            \
+        gather_row(f, i, size);                                               \
+    }                                                                         \
+    MPS__LOOP(name, name##_row, gather_fields)
+GATHER(gather_1, 1)
+GATHER(gather_4, 4)
+GATHER(gather_8, 8)
+GATHER(gather_16, 16)
+GATHER(gather_24, 24)
+GATHER(gather_any, f->bytes)
+#undef GATHER
+
+static const mps__loop *gather_of(size_t bytes)
 {
-    const move *m = argument;
-    memcpy(m->data + (size_t)begin * m->bytes, m->scratch + (size_t)begin * m->bytes,
-           (size_t)(end - begin) * m->bytes);
+    return bytes == 1    ? &gather_1
+           : bytes == 4  ? &gather_4
+           : bytes == 8  ? &gather_8
+           : bytes == 16 ? &gather_16
+           : bytes == 24 ? &gather_24
+                         : &gather_any;
 }
 
 /* One array through `scratch`, as large as the array. */
 static void permute_field(mps__particles *s, const mps__field *f, int64_t count,
                           const int32_t *order, char *scratch)
 {
-    move m = {.data = *f->data, .scratch = scratch, .order = order, .bytes = stride(f)};
-    mps_parallel_rows_least(s->parallel, count, MPS__ROWS_CHEAP, gather_rows, &m);
-    mps_parallel_rows_least(s->parallel, count, MPS__ROWS_CHEAP, store_rows, &m);
+    const size_t bytes = stride(f);
+    mps__loop_run_cheap(s->parallel, gather_of(bytes), MPS__ANY_DIM, count,
+                        &(gather_fields){scratch, *f->data, order, bytes});
+    mps__parallel_copy(s->parallel, *f->data, scratch, (size_t)count * bytes);
 }
 
 static int64_t count_solids(const mps__particles *s)

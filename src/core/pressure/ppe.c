@@ -122,29 +122,28 @@ static mps_status reserve_laws(mps__ppe *e, const assembly *a, int64_t particles
     return MPS_OK;
 }
 
-static bool is_unknown_row(const void *argument, int64_t i)
+/* Unknowns of this rank, and of others. */
+MPS_ROW void unknown_row(const int dim, const assembly *a, int64_t i, double *count)
 {
-    const assembly *a = argument;
-    return is_unknown(a, i) && !(a->ghost && a->ghost[i]);
+    (void)dim;
+    if (is_unknown(a, i)) count[!mps__owns(a->ghost, i)] = 1;
 }
-
-static bool is_unknown_column(const void *argument, int64_t i)
-{
-    return is_unknown(argument, i);
-}
+MPS__VALUES(unknown_rows, unknown_row, assembly, 2, 0)
 
 /* Unknowns in the order of the particles, behind them those of other ranks. */
 static mps_status number_rows(mps__ppe *e, const mps_view *s, const assembly *a)
 {
-    const mps_parallel *parallel = a->pairs.parallel;
-    int64_t rows = 0, column;
-    e->n = mps__parallel_count(parallel, s->n, is_unknown_row, a);
-    e->columns = a->ghost ? mps__parallel_count(parallel, s->n, is_unknown_column, a) : e->n;
-    column = e->n;
+    mps_exact count[2] = {{{0}, 0, 0}};
+    int64_t rows = 0;
+    double none[1];
+    mps__values_run(a->pairs.parallel, &unknown_rows, MPS__ANY_DIM, s->n, a, count, none);
+    e->n = (int64_t)mps_exact_value(&count[0]);
+    e->columns = e->n + (int64_t)mps_exact_value(&count[1]);
+    int64_t column = e->n;
     MPS__TRY(reserve_rows(e, s));
     for (int64_t i = 0; i < s->n; i++) {
-        const bool solved = is_unknown(a, i), ghost = a->ghost && a->ghost[i];
-        int64_t *next = ghost ? &column : &rows;
+        const bool solved = is_unknown(a, i);
+        int64_t *next = mps__owns(a->ghost, i) ? &rows : &column;
         e->unknown[i] = solved ? (int32_t)*next : -1;
         if (solved) e->particle[(*next)++] = (int32_t)i;
     }

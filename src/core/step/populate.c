@@ -44,9 +44,10 @@ static mps_status let_out(mps__world *w, int64_t rows)
     const mps__particles *s = &w->particles;
     int64_t count = 0;
     MPS__TRY(mps__world_reserve(w));
-    for (int64_t i = 0; i < s->n; i++) {
-        w->work.gone[i] = h->leaving && i < rows && h->leaves[i] && s->kind[i] == MPS_FLUID &&
-                          !mps__is_ghost(&w->ghosts, i);
+    memset(w->work.gone, 0, (size_t)s->n * sizeof *w->work.gone);
+    for (int64_t i = mps__own_from(&w->ghosts, 0); h->leaving && i < rows;
+         i = mps__own_from(&w->ghosts, i + 1)) {
+        w->work.gone[i] = h->leaves[i] && s->kind[i] == MPS_FLUID;
         count += w->work.gone[i];
     }
     return mps__world_part(w, w->work.gone, count);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The pressure part of a step: the equation, its solution, and what is told about it. */
 #include "step.h"
+#include "loop.h"
 
 /* Share of its way to that of the present step that the spread of pressures goes in a step. */
 static const double SPREAD_SHARE = 0.2;
@@ -18,17 +19,22 @@ static void spread_gain(mps__step *q)
     *gain = dt / (dt + q->spread);
 }
 
-static bool has_law(const void *law, int64_t i)
+typedef struct law_fields {
+    const double *law;
+} law_fields;
+
+MPS_ROW bool has_law(const law_fields *f, int64_t i)
 {
-    return ((const double *)law)[i] > 0;
+    return f->law[i] > 0;
 }
+MPS__FIRST(laws, has_law, law_fields)
 
 /* The law of a gas needs a solver of nonlinear rows. */
 static mps_status check_laws(const mps__step *q)
 {
     const mps__world *w = q->w;
-    if (!w->solvers.use->nonlinear &&
-        mps__parallel_first(&w->pool.parallel, q->view.n, has_law, q->terms.law) < q->view.n)
+    if (!w->solvers.use->nonlinear && mps__first_run(&w->pool.parallel, &laws, q->view.n,
+                                                     &(law_fields){q->terms.law}) < q->view.n)
         return mps__fail(w->context, MPS_E_STATE,
                          "model '%s' makes the pressure equation nonlinear, and solver '%s' is "
                          "for linear ones: choose 'sundials.kinsol'",

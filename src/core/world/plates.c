@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Particles near thin plates: where their lines of sight start, and that none passes a plate. */
 #include "plates.h"
+#include "loop.h"
 #include "world_ranks.h"
 #include <string.h>
 
@@ -17,25 +18,50 @@ static void wall_sight(const mps__world *w, int64_t i, double at[3])
                 (size > 0 ? above_face * w->setup.dp * area[d] / size : 0);
 }
 
-/* Fluid in the very plane of a plate, beyond its edge, would see both of its faces: it is put on one side. */
-static void fluid_sight(const mps__world *w, const double *x, double at[3])
+/* Particles near plates, the plates, and the pose of the tank. */
+typedef struct look_fields {
+    const int32_t *kind;
+    const double *x;
+    const mps__screen *screen;
+    mps__seer *seer;
+    int32_t screens;
+    double least; /* distance of fluid to the plane of a plate */
+    const double *centre, *shift, *rotation;
+} look_fields;
+
+static look_fields fields_of(const mps__world *w)
 {
-    mps__motion_to_tank(&w->motion, &w->motion.now, x, at);
-    for (int32_t k = 0; k < w->lists.screens.count; k++) {
-        const mps__screen *s = &w->lists.screens.list[k];
-        const double height = mps__screen_height(s, at),
-                     least = height < 0 ? -off_plane * w->setup.dp : off_plane * w->setup.dp;
-        if (fabs(height) >= fabs(least)) continue;
-        for (int d = 0; d < w->setup.dim; d++) at[d] += (least - height) * s->normal[d];
+    const mps__screens *p = &w->lists.screens;
+    const mps__motion *m = &w->motion;
+    return (look_fields){.kind = w->particles.kind,
+                         .x = w->particles.x,
+                         .screen = p->list,
+                         .seer = p->seer,
+                         .screens = p->count,
+                         .least = off_plane * w->setup.dp,
+                         .centre = m->centre,
+                         .shift = m->now.state.value,
+                         .rotation = m->now.rotation};
+}
+
+/* Fluid in the very plane of a plate, beyond its edge, would see both of its faces: it is put on one side. */
+MPS_ROW void fluid_sight(const int dim, const look_fields *f, int64_t i, double at[3])
+{
+    mps__tank_place(dim, f->centre, f->shift, f->rotation, f->x + i * dim, at);
+    for (int32_t k = 0; k < f->screens; k++) {
+        const mps__screen *s = &f->screen[k];
+        const double height = mps__screen_height(s, at), least = height < 0 ? -f->least : f->least;
+        if (fabs(height) >= f->least) continue;
+        for (int d = 0; d < dim; d++) at[d] += (least - height) * s->normal[d];
     }
 }
 
-static void sight(const mps__world *w, int64_t i, double at[3])
+static void sight(const mps__world *w, const look_fields *f, int64_t i, double at[3])
 {
     const mps__particles *s = &w->particles;
     at[2] = 0;
     if (s->kind[i] == MPS_FLUID)
-        fluid_sight(w, s->x + i * w->setup.dim, at);
+        fluid_sight(w->setup.dim, f, i, at);
     else if (s->kind[i] == MPS_WALL)
         wall_sight(w, i, at);
     else
@@ -73,10 +99,11 @@ mps_status mps__plates_find(mps__world *w)
     mps__plates_set_active(w);
     MPS__TRY(mps__grow(w->context, (void **)&p->slot, &p->slot_capacity, 0, s->n, sizeof *p->slot));
     p->seers = 0;
+    const look_fields f = fields_of(w);
     for (int64_t i = 0; i < s->n; i++) {
         mps__seer seer = {.particle = (int32_t)i, .shadow = mps__is_shadow(s, i) ? s->plate[i] : 0};
-        sight(w, i, seer.at);
-        mps__screens_sides(p, &seer);
+        sight(w, &f, i, seer.at);
+        mps__screens_sides(p->list, p->count, &seer);
         p->slot[i] = -1;
         if (!near_screen(w, seer.at)) continue;
         MPS__TRY(mps__grow(w->context, (void **)&p->seer, &p->seer_capacity, p->seers, p->seers + 1,
@@ -87,21 +114,21 @@ mps_status mps__plates_find(mps__world *w)
     return MPS_OK;
 }
 
-static void look_rows(void *argument, int64_t begin, int64_t end)
+/* Particle k of those near a plate. Solids stay where they are in the tank. */
+MPS_ROW void look_row(const int dim, const look_fields *f, int64_t k)
 {
-    mps__world *w = argument;
-    mps__screens *p = &w->lists.screens;
-    for (int64_t k = begin; k < end; k++) {
-        mps__seer *seer = &p->seer[k];
-        if (w->particles.kind[seer->particle] != MPS_FLUID) continue;
-        sight(w, seer->particle, seer->at);
-        mps__screens_sides(p, seer);
-    }
+    mps__seer *seer = &f->seer[k];
+    if (f->kind[seer->particle] != MPS_FLUID) return;
+    seer->at[2] = 0;
+    fluid_sight(dim, f, seer->particle, seer->at);
+    mps__screens_sides(f->screen, f->screens, seer);
 }
+MPS__LOOP(look_rows, look_row, look_fields)
 
 void mps__plates_look(mps__world *w)
 {
-    mps_parallel_rows(&w->pool.parallel, w->lists.screens.seers, look_rows, w);
+    const look_fields f = fields_of(w);
+    mps__loop_run(&w->pool.parallel, &look_rows, w->setup.dim, w->lists.screens.seers, &f);
 }
 
 /* Back to the height it had, with the velocity along the plate. */
@@ -140,9 +167,10 @@ bool mps__plates_hide(const mps__world *w, const double *X, int64_t i)
     mps__seer from = {0}, to = {0};
     if (mps__is_shadow(&w->particles, i)) return true;
     memcpy(from.at, X, (size_t)w->setup.dim * sizeof *X);
-    sight(w, i, to.at);
-    mps__screens_sides(&w->lists.screens, &from);
-    mps__screens_sides(&w->lists.screens, &to);
+    const look_fields f = fields_of(w);
+    sight(w, &f, i, to.at);
+    mps__screens_sides(f.screen, f.screens, &from);
+    mps__screens_sides(f.screen, f.screens, &to);
     return mps__screens_hidden(w->lists.screens.list, w->lists.screens.count, &from, &to);
 }
 

@@ -17,7 +17,7 @@ static int32_t row_of(const mps__voids *v, const mps__world *w, int64_t c)
 {
     int32_t row = -1;
     if (c < v->band * v->plane) mps__voids_nearest(v, w, c, 0, &row);
-    return row >= 0 && !mps__is_ghost(&w->ghosts, row) ? row : -1;
+    return (int32_t)mps__own_place(&w->ghosts, row);
 }
 
 static mps_status add_faces_of(mps__voids *v, const mps__world *w, int64_t c)

@@ -35,7 +35,7 @@ MPS_ROW void fluid_row(const int dim, const liquid_fields *f, int64_t i, double 
     }
     mps__tank_place(dim, f->tank.centre, f->tank.shift, f->tank.rotation, f->x + i * dim, X);
     f->slab[i] = put_place(dim, f, X);
-    if (f->slab[i] > most[0] && !(f->ghost && f->ghost[i])) most[0] = f->slab[i];
+    if (f->slab[i] > most[0] && mps__owns(f->ghost, i)) most[0] = f->slab[i];
 }
 MPS__VALUES(fluid_rows, fluid_row, liquid_fields, 0, 1)
 

@@ -169,10 +169,9 @@ static mps_status find_solid(mps__voids *v, mps__world *w)
     enum { CHUNK = 1 << 20, NUMBERS = sizeof(votes) / sizeof(int64_t) };
     votes *all = mps__alloc(v->context, v->total, sizeof *all);
     if (!all) return MPS_E_NOMEM;
-    for (int64_t i = 0; i < w->particles.n; i++)
-        if (w->particles.kind[i] != MPS_FLUID && !mps__is_ghost(&w->ghosts, i) &&
-            !is_of_plate(w, i))
-            vote(v, w, i, all);
+    for (int64_t i = mps__own_from(&w->ghosts, 0); i < w->particles.n;
+         i = mps__own_from(&w->ghosts, i + 1))
+        if (w->particles.kind[i] != MPS_FLUID && !is_of_plate(w, i)) vote(v, w, i, all);
     for (int64_t c = 0; c < v->total; c += CHUNK) {
         const int64_t count = c + CHUNK < v->total ? CHUNK : v->total - c;
         mps__ranks_add(&w->ranks, (int32_t)(NUMBERS * count), &all[c].height);
