@@ -6,7 +6,7 @@ set(package ${CMAKE_INSTALL_LIBDIR}/cmake/mps)
 
 install(TARGETS mps EXPORT mpsTargets)
 install(TARGETS mps_static EXPORT mpsStaticTargets)
-install(DIRECTORY include/mps TYPE INCLUDE FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY include/mps TYPE INCLUDE FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp")
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(EXPORT mpsTargets NAMESPACE mps:: DESTINATION ${package})
 install(EXPORT mpsStaticTargets NAMESPACE mps:: DESTINATION ${package})
