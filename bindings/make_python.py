@@ -42,7 +42,7 @@ def shape(m: Member, all_: Interface) -> str:
     return text
 
 
-def packed(words: list[str], begin: str = "    ", width: int = 118) -> list[str]:
+def packed(words: list[str], begin: str = "    ", width: int = 132) -> list[str]:
     """Words, with a comma behind each, in lines."""
     lines = [begin]
     for word in words:
