@@ -1,0 +1,234 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Models written in Python, for trying things: every verb costs a call of Python and arrays of numpy in each step. What is
+to stay is written in C: docs/tutorials/your_own_model.md. Words are those of mps/model.h.
+
+    class Drag(mps.Model):
+        name = "porous.drag"
+        help = "drag of a porous block"
+        settings = [mps.Setting("rate", "1/s", "of the velocity", 0.0, 0.0, 1e4)]
+
+        @mps.verb(mps.MPS_FORCE, velocity=mps.MPS_USE_READ, acceleration=mps.MPS_USE_CHANGE)
+        def push(self, s):
+            s["acceleration"][s.fluid] -= s.setting["rate"] * s["velocity"][s.fluid]
+
+    sim.use(Drag(), rate=3.0)
+"""
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Callable
+from ctypes import POINTER, byref, c_double, c_int32
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _numbers as N
+from . import _structs as T
+from . import errors
+from ._library import c
+from ._records import make, text
+
+if TYPE_CHECKING:
+    from .simulation import Simulation
+
+
+@dataclass
+class Setting:
+    """A number that a user may set."""
+
+    key: str
+    unit: str
+    help: str
+    initial: float
+    min: float
+    max: float
+
+
+@dataclass
+class Channel:
+    """An array that the model brings; components: 1..9, MPS_VECTOR, MPS_MATRIX. life: MPS_LIFE_STEP or MPS_LIFE_PARTICLE."""
+
+    name: str
+    unit: str
+    help: str
+    components: int = 1
+    life: int = N.MPS_LIFE_STEP
+    initial: float = 0.0
+
+
+def verb(hook: int, *, after: str | None = None, before: str | None = None, **uses: int) -> Callable[[Any], Any]:
+    """A method is called at a hook of the step. uses: channel=MPS_USE_..., which it then has as s[channel]."""
+    def mark(method: Any) -> Any:
+        method.verb = (hook, after, before, uses)
+        return method
+
+    return mark
+
+
+class Model:
+    """Base of models in Python: name "slot.variant", help, settings, channels, methods with @verb."""
+
+    name = ""
+    help = ""
+    settings: list[Setting] = []
+    channels: list[Channel] = []
+
+
+@dataclass
+class Pairs:
+    """All pairs of a stencil: rows i, neighbours j, r = x_j - x_i [pairs, dim], distances [m], weights W."""
+
+    i: np.ndarray
+    j: np.ndarray
+    r: np.ndarray
+    distance: np.ndarray
+    w: np.ndarray
+
+    def sum(self, values: np.ndarray, rows: int) -> np.ndarray:
+        """Sum over the neighbours of each row; values [pairs] or [pairs, numbers]."""
+        flat = values.reshape(len(values), -1)
+        out = np.stack([np.bincount(self.i, weights=flat[:, k], minlength=rows) for k in range(flat.shape[1])], axis=1)
+        return out.reshape((rows,) + values.shape[1:])
+
+
+def pairs_of(stencil: Any) -> Pairs:
+    """The pairs of an mps_stencil."""
+    n, dim = stencil.n, stencil.dim
+    begin, end = np.ctypeslib.as_array(stencil.begin, (n,)), np.ctypeslib.as_array(stencil.end, (n,))
+    counts = end - begin
+    i = np.repeat(np.arange(n), counts)
+    k = np.repeat(begin - np.concatenate(([0], np.cumsum(counts)[:-1])), counts) + np.arange(counts.sum())
+    size = int(end.max(initial=0))
+    j = np.ctypeslib.as_array(stencil.col, (max(size, 1),))[k].astype(np.int64)
+    x = np.ctypeslib.as_array(stencil.x, (n, dim))
+    r = x[j] - x[i]
+    distance = np.sqrt((r * r).sum(axis=1))
+    if stencil.kernel.id == N.MPS_KERNEL_IMPROVED:
+        w = stencil.re / (0.85 * distance + 0.15 * stencil.re) - 1
+    elif stencil.kernel.id == N.MPS_KERNEL_ORIGINAL:
+        w = stencil.re / distance - 1
+    else:
+        w = np.array([stencil.kernel.fn(stencil.kernel.user, d, stencil.re) for d in distance])
+    return Pairs(i, j, r, distance, w)
+
+
+class Stage:
+    """What a verb sees of a step, for the time of its call."""
+
+    def __init__(self, model: Model, stage: Any, uses: dict[str, int], shapes: dict[str, tuple[int, int]]) -> None:
+        self._stage, self._view = stage, stage.view.contents
+        self._uses, self._shapes = uses, shapes
+        self._place = {name: k for k, name in enumerate(uses)}
+        v = self._view
+        self.dim, self.n, self.t, self.dt, self.dp = v.dim, v.n, v.t, v.dt, v.dp
+        self.g = np.array(v.g)[: v.dim]
+        self.setting = {s.key: v.setting[k] for k, s in enumerate(model.settings)}
+
+    def _array(self, start: Any, shape: tuple[int, ...], write: bool = False) -> np.ndarray:
+        view = np.ctypeslib.as_array(start, shape)
+        view.flags.writeable = write
+        return view
+
+    def __getitem__(self, channel: str) -> np.ndarray:
+        """The array of a channel that the verb uses; without a copy."""
+        if channel not in self._place:
+            raise errors.UnknownName(f"the verb does not use '{channel}'; it uses {', '.join(self._place)}")
+        components, kind = self._shapes[channel]
+        numbers = {N.MPS_VECTOR: self.dim, N.MPS_MATRIX: self.dim**2, N.MPS_SCALAR: 1}.get(components, components)
+        rows = 1 if components == N.MPS_SCALAR else self.n
+        start = self._stage.data[self._place[channel]]
+        if not start:
+            raise errors.StateError(f"no active model brings '{channel}'")
+        typed = ctypes.cast(start, POINTER(c_double if kind == N.MPS_TYPE_REAL else c_int32))
+        return self._array(typed, (rows,) if numbers == 1 else (rows, numbers), bool(self._uses[channel] & N.MPS_USE_WRITE))
+
+    @property
+    def x(self) -> np.ndarray:
+        """[n, dim] positions at the beginning of the step."""
+        return self._array(self._view.x, (self.n, self.dim))
+
+    @property
+    def kind(self) -> np.ndarray:
+        """[n] FLUID, WALL, DUMMY."""
+        return self._array(self._view.kind, (self.n,))
+
+    @property
+    def phase(self) -> np.ndarray:
+        """[n] number of the phase."""
+        return self._array(self._view.phase, (self.n,))
+
+    @cached_property
+    def fluid(self) -> np.ndarray:
+        """[n] True for fluid."""
+        return self.kind == N.MPS_FLUID
+
+    @cached_property
+    def near(self) -> Pairs:
+        """Pairs within re_near."""
+        return pairs_of(self._view.near)
+
+    @cached_property
+    def far(self) -> Pairs:
+        """Pairs within re_far."""
+        return pairs_of(self._view.far)
+
+    def limit_step(self, dt: float) -> None:
+        """In MPS_LIMIT: the longest step allowed [s]."""
+        self._stage.dt_limit = min(self._stage.dt_limit, dt)
+
+
+def _known_channels(sim: Simulation) -> dict[str, tuple[int, int]]:
+    """Components and type of all channels."""
+    info, found, index = make(T.mps_channel_info), {}, 0
+    while c.mps_channel_info_get(sim.handle, index, byref(info)) == 0:
+        found[text(info.name)] = (info.components, info.type)
+        index += 1
+    return found
+
+
+def _verbs(model: Model) -> list[tuple[Any, tuple[int, str | None, str | None, dict[str, int]]]]:
+    methods = [getattr(model, name) for name in vars(type(model))]
+    return [(m, m.verb) for m in methods if hasattr(m, "verb")]
+
+
+def _run(sim: Simulation, model: Model, method: Any, uses: dict[str, int]) -> Any:
+    def call(stage: Any) -> int:
+        shapes = sim._calls.kept.setdefault("channels", {})
+        if not set(uses) <= set(shapes):
+            shapes.update(_known_channels(sim))
+        try:
+            method(Stage(model, stage.contents, uses, shapes))
+        except Exception as e:
+            sim._calls.failed = e
+            c.mps_stage_fail(stage, f"{type(e).__name__}: {e}".replace("%", "%%").encode())
+            return 1
+        return 0
+
+    return sim._calls.guard(call, 1)
+
+
+def register(sim: Simulation, model: Model) -> str:
+    """Register a model on a simulation. Returns its name."""
+    found = _verbs(model)
+    kept: list[Any] = []
+    verbs = (T.mps_verb * max(len(found), 1))()
+    run_type = dict(T.mps_verb._fields_)["run"]
+    for k, (method, (hook, after, before, uses)) in enumerate(found):
+        list_ = (T.mps_use * max(len(uses), 1))(*[T.mps_use(name.encode(), access) for name, access in uses.items()])
+        run = run_type(_run(sim, model, method, uses))
+        verbs[k] = T.mps_verb(hook, len(uses), list_, after.encode() if after else None, before.encode() if before else None, run)
+        kept += [list_, run]
+    settings = (T.mps_setting * max(len(model.settings), 1))(
+        *[T.mps_setting(s.key.encode(), s.unit.encode(), s.help.encode(), N.MPS_TYPE_REAL, s.initial, s.min, s.max) for s in model.settings])
+    channels = (T.mps_channel * max(len(model.channels), 1))(
+        *[T.mps_channel(h.name.encode(), h.unit.encode(), h.help.encode(), h.components, N.MPS_TYPE_REAL, h.life, h.initial)
+          for h in model.channels])
+    ops = T.mps_model_ops(struct_size=ctypes.sizeof(T.mps_model_ops), api=N.MPS_MODEL_API, name=model.name.encode(),
+                          help=model.help.encode(), setting_count=len(model.settings), channel_count=len(model.channels),
+                          verb_count=len(found), settings=settings, channels=channels, verbs=verbs)
+    sim._calls.kept[f"model {model.name}"] = (model, ops, verbs, settings, channels, kept)  # the library keeps pointers to them
+    sim._calls.kept.pop("channels", None)
+    sim.check(c.mps_model_register(sim.handle, byref(ops)))
+    return model.name
