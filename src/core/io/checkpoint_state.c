@@ -324,6 +324,7 @@ static mps_status move_in(arrival *v)
         if (p->list[k].removed) continue;
         mps__series old = p->list[k].series;
         p->list[k].series = v->series[k];
+        p->list[k].series.cuts = old.cuts + 1;
         v->series[k] = old;
     }
     for (int32_t k = 0; k < w->models.active; k++) {

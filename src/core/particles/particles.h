@@ -66,6 +66,8 @@ mps_status mps__particles_replace(mps__particles *s, int64_t n, const void *cons
 int64_t mps__particles_append(mps__particles *s, int64_t count, int32_t kind);
 /* Keep particle order[k] at place k for k < count; what is not listed is gone. */
 mps_status mps__particles_permute(mps__particles *s, int64_t count, const int32_t *order);
+/* So that this cannot fail for at most n particles, until others take its scratch. */
+mps_status mps__particles_permute_reserve(mps__particles *s, int64_t n);
 mps__field *mps__particles_field(mps__particles *s, const char *name);
 mps_status mps__particles_field_add(mps__particles *s, const char *name, int32_t components,
                                     size_t size, bool is_public, void **data);
