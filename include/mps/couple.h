@@ -97,6 +97,90 @@ MPS_API void mps_snapshot_destroy(mps_snapshot *snapshot);
  *  | MPS_E_NOMEM | no memory | */
 MPS_API mps_status mps_motion_pose_set(mps_sim *sim, double t_end, const mps_motion_state *state);
 
+/* ---- load and added mass --------------------------------------------------------------------- */
+
+/** What steps find out for mps_load_get(). */
+enum {
+    /** Nothing (default). */
+    MPS_LOAD_NONE = 0,
+    /** The load: about 1 % of a step. */
+    MPS_LOAD_FORCE = 1,
+    /** The load and the added mass: one more solution of the pressure equation for each degree of
+     *  freedom, with the matrix and the preconditioner of the step. */
+    MPS_LOAD_MASS = 2
+};
+
+/** Choose what the next steps find out. A setting: snapshots and checkpoints do not hold it. Before
+ *  the first call with MPS_LOAD_MASS the added mass costs 8 bytes a degree of freedom and particle
+ *  less; snapshots taken before it cannot be restored after it.
+ *  @param what  MPS_LOAD_...
+ *  @return MPS_E_ARG, MPS_E_NOMEM, MPS_E_BUSY (a lease is open; called from a monitor, a verb or a
+ *          callback), MPS_E_STATE (particles are gathered) */
+MPS_API mps_status mps_load_watch(mps_sim *sim, int32_t what);
+
+/** Load of the liquid on the tank in the last step, per metre of width in 2-D, axes of the lab.
+ *
+ *  F is the change of the liquid's momentum that the tank lacks: with the momentum P of the
+ *  particles of mass M, and half cells h at wetted walls, which have no particles,
+ *
+ *    F = M g - (P(t) - P(t - dt))/dt + sum_h m_h (g - a_h),
+ *
+ *  a_h the acceleration of the wall along its normal and of the liquid beside it along the face,
+ *  m_h = rho dp/2 times the wetted area. The moment likewise, about the place that the centre has
+ *  at the beginning of the step. It contains all that the liquid exchanges with solids: pressure,
+ *  collisions, friction. So the momentum of tank and liquid together does not drift. It is the mean
+ *  over this one step. Force probes (MPS_PROBE_FORCE) show pressures on walls instead, by default
+ *  averaged over past steps: they must not drive a body.
+ *
+ *  With the acceleration a of the tank, the change of its velocity over dt,
+ *
+ *    F = F0 - A a.
+ *
+ *  A is the added mass, F0 the load without acceleration. As long as the same walls separate
+ *  (separation.void) F is linear in a. A is computed by pressures on walls, F by momentum: where the
+ *  liquid has a surface they agree to 1 or 2 per cent at 25 particles over the depth.
+ *
+ *  The first step feels half of a jump of the velocity: start bodies at rest. Solids that models move
+ *  in the tank (body.free) count as part of it. On many ranks all have the same values. */
+typedef struct mps_load {
+    /** Set by mps_load_init(). */
+    uint32_t struct_size;
+    /** out: 1: rest and mass are those of the last step; 0: MPS_LOAD_MASS was not chosen, or its
+     *  solutions did not converge. */
+    int32_t has_mass;
+    /** out: force and moment about the centre, F [N, N m]. */
+    double force[6];
+    /** out: F0 [N, N m]; 0 without has_mass. */
+    double rest[6];
+    /** out: A, row by row [kg, kg m, kg m2]: rows are forces and moments, columns accelerations of
+     *  the centre along x, y, z and angular accelerations about x, y, z. In 2-D only x, y and
+     *  rotation about z are not 0. 0 without has_mass. */
+    double mass[36];
+    /** out: a of the centre [m/s2, rad/s2]. */
+    double acceleration[6];
+    /** out: length of the step [s]. */
+    double dt;
+    /** out: iterations of the solver for A. */
+    int32_t iterations;
+    /** Kept 0. */
+    int32_t reserved;
+} mps_load;
+
+/** Set struct_size and zero. @param size  sizeof(mps_load) @return MPS_E_ARG: bad size */
+MPS_API mps_status mps_load_init(mps_load *load, size_t size);
+
+/** Load on the tank in the last step.
+ *  @param centre  [dim] of moments and accelerations, in the frame of the tank [m]; NULL: the centre
+ *                 of mps_motion_centre_set()
+ *  @param load    initialised by mps_load_init(); out
+ *
+ *  | error | reason |
+ *  |---|---|
+ *  | MPS_E_ARG | centre is not finite; load was not initialised |
+ *  | MPS_E_STATE | no step was done since mps_load_watch(), or since a checkpoint was read |
+ *  | MPS_E_BUSY | called from a verb or a callback | */
+MPS_API mps_status mps_load_get(mps_sim *sim, const double *centre, mps_load *load);
+
 MPS_END_DECLS
 
 #endif

@@ -123,6 +123,7 @@ mps_status mps_snapshot_take(mps_snapshot *snapshot)
     k->has_posed = w->motion.posed != NULL;
     if (k->has_posed) k->posed = *w->motion.posed;
     k->info = w->info;
+    k->load = w->load;
     k->geometry = sim->solids;
     k->screens = w->lists.screens.count;
     k->taken = true;
@@ -296,6 +297,9 @@ mps_status mps_snapshot_restore(mps_snapshot *snapshot)
     w->motion.hold = k->hold;
     if (k->has_posed && w->motion.posed) *w->motion.posed = k->posed;
     w->info = k->info;
+    const int32_t watch = w->load.watch;
+    w->load = k->load;
+    w->load.watch = watch;
     return MPS_OK;
 }
 

@@ -30,6 +30,7 @@ struct mps_snapshot {
     mps__posed posed;
     bool has_posed;
     mps_step_info info;
+    mps__load load;
     int64_t n, known, next_id;
     int64_t generation, orders; /* of the store */
     bool linked, listed, written;
