@@ -43,6 +43,10 @@ contains
         type(mps_probe_info) :: mps_probe_info_
         type(mps_energy) :: mps_energy_
         type(mps_momentum) :: mps_momentum_
+        type(mps_motion_state) :: mps_motion_state_
+        type(mps_motion_pose) :: mps_motion_pose_
+        type(mps_harmonic) :: mps_harmonic_
+        type(mps_load) :: mps_load_
         type(mps_parallel) :: mps_parallel_
         type(mps_tank) :: mps_tank_
         type(mps_solid) :: mps_solid_
@@ -56,9 +60,6 @@ contains
         type(mps_kernel) :: mps_kernel_
         type(mps_stencil) :: mps_stencil_
         type(mps_pair) :: mps_pair_
-        type(mps_motion_state) :: mps_motion_state_
-        type(mps_motion_pose) :: mps_motion_pose_
-        type(mps_harmonic) :: mps_harmonic_
         type(mps_particle_block) :: mps_particle_block_
         type(mps_lease) :: mps_lease_
         type(mps_ship) :: mps_ship_
@@ -74,6 +75,10 @@ contains
         if (name == ' ' .and. c_sizeof(mps_probe_info_) /= 88) name = 'mps_probe_info'
         if (name == ' ' .and. c_sizeof(mps_energy_) /= 200) name = 'mps_energy'
         if (name == ' ' .and. c_sizeof(mps_momentum_) /= 296) name = 'mps_momentum'
+        if (name == ' ' .and. c_sizeof(mps_motion_state_) /= 152) name = 'mps_motion_state'
+        if (name == ' ' .and. c_sizeof(mps_motion_pose_) /= 200) name = 'mps_motion_pose'
+        if (name == ' ' .and. c_sizeof(mps_harmonic_) /= 40) name = 'mps_harmonic'
+        if (name == ' ' .and. c_sizeof(mps_load_) /= 456) name = 'mps_load'
         if (name == ' ' .and. c_sizeof(mps_parallel_) /= 24) name = 'mps_parallel'
         if (name == ' ' .and. c_sizeof(mps_tank_) /= 72) name = 'mps_tank'
         if (name == ' ' .and. c_sizeof(mps_solid_) /= 96) name = 'mps_solid'
@@ -87,9 +92,6 @@ contains
         if (name == ' ' .and. c_sizeof(mps_kernel_) /= 24) name = 'mps_kernel'
         if (name == ' ' .and. c_sizeof(mps_stencil_) /= 128) name = 'mps_stencil'
         if (name == ' ' .and. c_sizeof(mps_pair_) /= 64) name = 'mps_pair'
-        if (name == ' ' .and. c_sizeof(mps_motion_state_) /= 152) name = 'mps_motion_state'
-        if (name == ' ' .and. c_sizeof(mps_motion_pose_) /= 200) name = 'mps_motion_pose'
-        if (name == ' ' .and. c_sizeof(mps_harmonic_) /= 40) name = 'mps_harmonic'
         if (name == ' ' .and. c_sizeof(mps_particle_block_) /= 56) name = 'mps_particle_block'
         if (name == ' ' .and. c_sizeof(mps_lease_) /= 48) name = 'mps_lease'
         if (name == ' ' .and. c_sizeof(mps_ship_) /= 96) name = 'mps_ship'

@@ -44,6 +44,58 @@ module mps_functions
         function mps_momentum_get(sim, momentum) bind(C) result(result_)
             import; type(c_ptr), value :: sim; type(mps_momentum), optional :: momentum; integer(c_int32_t) :: result_; &
                 end function
+        function mps_motion_state_init(state, size) bind(C) result(result_)
+            import; type(mps_motion_state), optional :: state; integer(c_size_t), value :: size; &
+                integer(c_int32_t) :: result_; end function
+        function mps_motion_pose_init(pose, size) bind(C) result(result_)
+            import; type(mps_motion_pose), optional :: pose; integer(c_size_t), value :: size; integer(c_int32_t) :: result_; &
+                end function
+        function mps_motion_pose_from_state(state, pose) bind(C) result(result_)
+            import; type(mps_motion_state), intent(in), optional :: state; type(mps_motion_pose), optional :: pose; &
+                integer(c_int32_t) :: result_; end function
+        function mps_motion_pose_to_state(pose, state) bind(C) result(result_)
+            import; type(mps_motion_pose), intent(in), optional :: pose; type(mps_motion_state), optional :: state; &
+                integer(c_int32_t) :: result_; end function
+        function mps_motion_centre_set(sim, centre, start) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; real(c_double), intent(in), optional :: centre(*); integer(c_int32_t), &
+                value :: start; integer(c_int32_t) :: result_; end function
+        function mps_motion_harmonics_set(sim, count, harmonics) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; integer(c_int32_t), value :: count; type(mps_harmonic), intent(in), &
+                optional :: harmonics(*); integer(c_int32_t) :: result_; end function
+        function mps_motion_table_set(sim, rows, t, dofs, dof, values) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; integer(c_int64_t), value :: rows; real(c_double), intent(in), &
+                optional :: t(*); integer(c_int32_t), value :: dofs; integer(c_int32_t), intent(in), optional :: dof(*); &
+                real(c_double), intent(in), optional :: values(*); integer(c_int32_t) :: result_; end function
+        function mps_motion_callback_set(sim, fn, user) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; type(c_funptr), value :: fn; type(c_ptr), value :: user; &
+                integer(c_int32_t) :: result_; end function
+        function mps_motion_clear(sim) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; integer(c_int32_t) :: result_; end function
+        function mps_motion_state_get(sim, state) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; type(mps_motion_state), optional :: state; integer(c_int32_t) :: result_; &
+                end function
+        function mps_motion_to_lab(sim, tank, lab, velocity) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; real(c_double), intent(in), optional :: tank(*); real(c_double), &
+                optional :: lab(*); real(c_double), optional :: velocity(*); integer(c_int32_t) :: result_; end function
+        function mps_snapshot_create(sim, snapshot) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; type(c_ptr) :: snapshot; integer(c_int32_t) :: result_; end function
+        function mps_snapshot_take(snapshot) bind(C) result(result_)
+            import; type(c_ptr), value :: snapshot; integer(c_int32_t) :: result_; end function
+        function mps_snapshot_restore(snapshot) bind(C) result(result_)
+            import; type(c_ptr), value :: snapshot; integer(c_int32_t) :: result_; end function
+        subroutine mps_snapshot_destroy(snapshot) bind(C)
+            import; type(c_ptr), value :: snapshot; end subroutine
+        function mps_motion_pose_set(sim, t_end, state) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; real(c_double), value :: t_end; type(mps_motion_state), intent(in), &
+                optional :: state; integer(c_int32_t) :: result_; end function
+        function mps_load_watch(sim, what) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; integer(c_int32_t), value :: what; integer(c_int32_t) :: result_; end function
+        function mps_load_init(load, size) bind(C) result(result_)
+            import; type(mps_load), optional :: load; integer(c_size_t), value :: size; integer(c_int32_t) :: result_; &
+                end function
+        function mps_load_get(sim, centre, load) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; real(c_double), intent(in), optional :: centre(*); type(mps_load), &
+                optional :: load; integer(c_int32_t) :: result_; end function
         function mps_tank_init(tank, size) bind(C) result(result_)
             import; type(mps_tank), optional :: tank; integer(c_size_t), value :: size; integer(c_int32_t) :: result_; &
                 end function
@@ -213,39 +265,6 @@ module mps_functions
         function mps_matrix_inverse_bounded(dim, m, floor, inverse) bind(C) result(result_)
             import; integer(c_int32_t), value :: dim; real(c_double), intent(in), optional :: m(*); real(c_double), &
                 value :: floor; real(c_double), optional :: inverse(*); integer(c_int32_t) :: result_; end function
-        function mps_motion_state_init(state, size) bind(C) result(result_)
-            import; type(mps_motion_state), optional :: state; integer(c_size_t), value :: size; &
-                integer(c_int32_t) :: result_; end function
-        function mps_motion_pose_init(pose, size) bind(C) result(result_)
-            import; type(mps_motion_pose), optional :: pose; integer(c_size_t), value :: size; integer(c_int32_t) :: result_; &
-                end function
-        function mps_motion_pose_from_state(state, pose) bind(C) result(result_)
-            import; type(mps_motion_state), intent(in), optional :: state; type(mps_motion_pose), optional :: pose; &
-                integer(c_int32_t) :: result_; end function
-        function mps_motion_pose_to_state(pose, state) bind(C) result(result_)
-            import; type(mps_motion_pose), intent(in), optional :: pose; type(mps_motion_state), optional :: state; &
-                integer(c_int32_t) :: result_; end function
-        function mps_motion_centre_set(sim, centre, start) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; real(c_double), intent(in), optional :: centre(*); integer(c_int32_t), &
-                value :: start; integer(c_int32_t) :: result_; end function
-        function mps_motion_harmonics_set(sim, count, harmonics) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; integer(c_int32_t), value :: count; type(mps_harmonic), intent(in), &
-                optional :: harmonics(*); integer(c_int32_t) :: result_; end function
-        function mps_motion_table_set(sim, rows, t, dofs, dof, values) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; integer(c_int64_t), value :: rows; real(c_double), intent(in), &
-                optional :: t(*); integer(c_int32_t), value :: dofs; integer(c_int32_t), intent(in), optional :: dof(*); &
-                real(c_double), intent(in), optional :: values(*); integer(c_int32_t) :: result_; end function
-        function mps_motion_callback_set(sim, fn, user) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; type(c_funptr), value :: fn; type(c_ptr), value :: user; &
-                integer(c_int32_t) :: result_; end function
-        function mps_motion_clear(sim) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; integer(c_int32_t) :: result_; end function
-        function mps_motion_state_get(sim, state) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; type(mps_motion_state), optional :: state; integer(c_int32_t) :: result_; &
-                end function
-        function mps_motion_to_lab(sim, tank, lab, velocity) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; real(c_double), intent(in), optional :: tank(*); real(c_double), &
-                optional :: lab(*); real(c_double), optional :: velocity(*); integer(c_int32_t) :: result_; end function
         function mps_frames_open(sim, folder, name, kinds, frames) bind(C) result(result_)
             import; type(c_ptr), value :: sim; character(kind=c_char), intent(in), optional :: folder(*); &
                 character(kind=c_char), intent(in), optional :: name(*); integer(c_int32_t), value :: kinds; &

@@ -46,6 +46,18 @@ module mps_types
     integer(c_int32_t), parameter :: MPS_TRACE_LEAST = 5
     integer(c_int32_t), parameter :: MPS_TRACE_SLOPE = 6
     integer(c_int32_t), parameter :: MPS_CASE_MESSAGES = 20
+    integer(c_int32_t), parameter :: MPS_MOVE_X = 0
+    integer(c_int32_t), parameter :: MPS_MOVE_Y = 1
+    integer(c_int32_t), parameter :: MPS_MOVE_Z = 2
+    integer(c_int32_t), parameter :: MPS_ROTATE_X = 3
+    integer(c_int32_t), parameter :: MPS_ROTATE_Y = 4
+    integer(c_int32_t), parameter :: MPS_ROTATE_Z = 5
+    integer(c_int32_t), parameter :: MPS_DOF_COUNT = 6
+    integer(c_int32_t), parameter :: MPS_START_AT_REST = 0
+    integer(c_int32_t), parameter :: MPS_START_WITH_TANK = 1
+    integer(c_int32_t), parameter :: MPS_LOAD_NONE = 0
+    integer(c_int32_t), parameter :: MPS_LOAD_FORCE = 1
+    integer(c_int32_t), parameter :: MPS_LOAD_MASS = 2
     integer(c_int32_t), parameter :: MPS_PARALLEL_PARTS = 64
     integer(c_int32_t), parameter :: MPS_PARALLEL_VALUES = 16
     integer(c_int32_t), parameter :: MPS_PARALLEL_LEAST = 128
@@ -76,7 +88,6 @@ module mps_types
     integer(c_int32_t), parameter :: MPS_SOURCE = 6
     integer(c_int32_t), parameter :: MPS_LEVEL = 7
     integer(c_int32_t), parameter :: MPS_GRADIENT = 8
-    integer(c_int32_t), parameter :: MPS_LOAD = 9
     integer(c_int32_t), parameter :: MPS_VELOCITY = 10
     integer(c_int32_t), parameter :: MPS_SHIFT = 11
     integer(c_int32_t), parameter :: MPS_HOOK_COUNT = 12
@@ -103,15 +114,6 @@ module mps_types
     integer(c_int32_t), parameter :: MPS_VECTOR = -1
     integer(c_int32_t), parameter :: MPS_MATRIX = -2
     integer(c_int32_t), parameter :: MPS_SCALAR = -3
-    integer(c_int32_t), parameter :: MPS_MOVE_X = 0
-    integer(c_int32_t), parameter :: MPS_MOVE_Y = 1
-    integer(c_int32_t), parameter :: MPS_MOVE_Z = 2
-    integer(c_int32_t), parameter :: MPS_ROTATE_X = 3
-    integer(c_int32_t), parameter :: MPS_ROTATE_Y = 4
-    integer(c_int32_t), parameter :: MPS_ROTATE_Z = 5
-    integer(c_int32_t), parameter :: MPS_DOF_COUNT = 6
-    integer(c_int32_t), parameter :: MPS_START_AT_REST = 0
-    integer(c_int32_t), parameter :: MPS_START_WITH_TANK = 1
     integer(c_int32_t), parameter :: MPS_FRAMES_FLUID = 1
     integer(c_int32_t), parameter :: MPS_FRAMES_WALL = 2
     integer(c_int32_t), parameter :: MPS_FRAMES_DUMMY = 4
@@ -200,6 +202,28 @@ module mps_types
             real(c_double) :: friction(3) = 0
     end type mps_momentum
 
+    type, bind(C) :: mps_motion_state
+        integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: reserved = 0; real(c_double) :: value(6) = 0; &
+            real(c_double) :: rate(6) = 0; real(c_double) :: accel(6) = 0
+    end type mps_motion_state
+
+    type, bind(C) :: mps_motion_pose
+        integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: reserved = 0; real(c_double) :: rotation(9) = 0; &
+            real(c_double) :: translation(3) = 0; real(c_double) :: velocity(3) = 0; real(c_double) :: omega(3) = 0; &
+            real(c_double) :: accel(3) = 0; real(c_double) :: alpha(3) = 0
+    end type mps_motion_pose
+
+    type, bind(C) :: mps_harmonic
+        integer(c_int32_t) :: dof = 0; integer(c_int32_t) :: form = 0; real(c_double) :: amplitude = 0; &
+            real(c_double) :: omega = 0; real(c_double) :: phase = 0; real(c_double) :: ramp = 0
+    end type mps_harmonic
+
+    type, bind(C) :: mps_load
+        integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: has_mass = 0; real(c_double) :: force(6) = 0; &
+            real(c_double) :: rest(6) = 0; real(c_double) :: mass(36) = 0; real(c_double) :: acceleration(6) = 0; &
+            real(c_double) :: dt = 0; integer(c_int32_t) :: iterations = 0; integer(c_int32_t) :: reserved = 0
+    end type mps_load
+
     type, bind(C) :: mps_parallel
         integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: threads = 0; type(c_funptr) :: run = c_null_funptr; &
             type(c_ptr) :: user = c_null_ptr
@@ -275,22 +299,6 @@ module mps_types
         real(c_double) :: d(3) = 0; real(c_double) :: r2 = 0; real(c_double) :: r = 0; real(c_double) :: w = 0; &
             integer(c_int64_t) :: j = 0; real(c_double) :: w_r2 = 0
     end type mps_pair
-
-    type, bind(C) :: mps_motion_state
-        integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: reserved = 0; real(c_double) :: value(6) = 0; &
-            real(c_double) :: rate(6) = 0; real(c_double) :: accel(6) = 0
-    end type mps_motion_state
-
-    type, bind(C) :: mps_motion_pose
-        integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: reserved = 0; real(c_double) :: rotation(9) = 0; &
-            real(c_double) :: translation(3) = 0; real(c_double) :: velocity(3) = 0; real(c_double) :: omega(3) = 0; &
-            real(c_double) :: accel(3) = 0; real(c_double) :: alpha(3) = 0
-    end type mps_motion_pose
-
-    type, bind(C) :: mps_harmonic
-        integer(c_int32_t) :: dof = 0; integer(c_int32_t) :: form = 0; real(c_double) :: amplitude = 0; &
-            real(c_double) :: omega = 0; real(c_double) :: phase = 0; real(c_double) :: ramp = 0
-    end type mps_harmonic
 
     type, bind(C) :: mps_particle_block
         integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: kind = 0; integer(c_int32_t) :: phase = 0; &

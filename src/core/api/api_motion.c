@@ -4,6 +4,7 @@
 #include "builtin_motion.h"
 #include "sim.h"
 #include <math.h>
+#include <mps/couple.h>
 #include <string.h>
 
 static void release_block(mps__context *c, void *user)
@@ -72,10 +73,13 @@ static mps_status install(mps_sim *sim, mps__motion *next)
         return status;
     }
     mps__motion old = w->motion;
+    const bool goes_on = old.posed && next->posed;
     w->motion = *next;
     carry_particles(sim, &old);
     if (old.user != next->user) mps__motion_free(&old);
-    w->state.start_pending = next->fn && next->start == MPS_START_WITH_TANK;
+    /* the next pose of a tank that is moved by poses is no start */
+    if (!goes_on)
+        w->state.start_pending = next->fn && next->start == MPS_START_WITH_TANK;
     return MPS_OK;
 }
 
@@ -90,6 +94,7 @@ static mps_status install_built_in(mps_sim *sim, mps_motion_fn fn, void *data,
     next.t_end = t_end;
     next.longest = longest;
     next.told = false;
+    next.posed = NULL;
     return install(sim, &next);
 }
 
@@ -101,6 +106,7 @@ static mps_status install_function(mps_sim *sim, mps_motion_fn fn, void *user)
     next.release = NULL;
     next.t_end = INFINITY;
     next.longest = NULL;
+    next.posed = NULL;
     return install(sim, &next);
 }
 
@@ -247,7 +253,38 @@ mps_status mps_motion_clear(mps_sim *sim)
     next.user = NULL;
     next.release = NULL;
     next.longest = NULL;
+    next.posed = NULL;
     next.t_end = INFINITY;
+    return install(sim, &next);
+}
+
+mps_status mps_motion_pose_set(mps_sim *sim, double t_end, const mps_motion_state *state)
+{
+    MPS__CHANGES(sim);
+    mps__world *w = &sim->world;
+    mps__posed way = {.begin = w->state.t, .end = t_end, .from = w->motion.now.state};
+    mps__pose last;
+    MPS__TRY(changeable(sim));
+    way.to.struct_size = way.from.struct_size = sizeof way.to;
+    MPS__TRY(mps__struct_in(&sim->context, "mps_motion_state", &way.to, sizeof way.to, state));
+    MPS__CHECK(&sim->context, isfinite(t_end) && t_end > w->state.t,
+               "mps_motion_pose_set(): t_end is %.10g s: must be finite and after the present time "
+               "%.10g s",
+               t_end, w->state.t);
+    mps__motion next = w->motion;
+    next.fn = mps__motion_posed;
+    next.user = &way;
+    next.release = NULL; /* the present motion stays if this one is refused */
+    next.t_end = t_end;
+    next.longest = NULL;
+    next.told = false;
+    /* one that the library calls back must not tell of a plug-in */
+    if (mps__motion_pose(&next, t_end, &last) < 0) return MPS_E_ARG;
+    MPS__TRY(mps__world_check_pose(w, &next, &last, MPS_E_ARG));
+    next.posed = next.user = mps__alloc(&sim->context, 1, sizeof way);
+    if (!next.user) return MPS_E_NOMEM;
+    *next.posed = way;
+    next.release = release_block;
     return install(sim, &next);
 }
 

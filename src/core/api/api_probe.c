@@ -118,6 +118,7 @@ mps_status mps_probe_series_clear(mps_sim *sim, int32_t id)
     mps__probe *probe = find_series(sim, id, &status);
     if (!probe) return status;
     probe->series.count = 0;
+    probe->series.cuts++;
     return MPS_OK;
 }
 

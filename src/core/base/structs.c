@@ -30,6 +30,7 @@ static const known_struct structs[] = {
     V1(mps_grid),
     V1(mps_kernel),
     V1(mps_lease),
+    V1(mps_load),
     V1(mps_model_info),
     V1(mps_model_ops),
     V1(mps_motion_pose),

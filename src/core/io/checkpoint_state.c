@@ -73,7 +73,7 @@ static size_t element(const mps__field *f)
 /* What only ranks have is found anew from the rest: the file is the same for any number of ranks. */
 static bool is_stored(const mps__particles *s, int32_t field)
 {
-    return s->field[field].data != (void **)&s->wall_id;
+    return s->field[field].data != (void **)&s->wall_id && !s->field[field].passing;
 }
 
 /* ---- out ---- */
@@ -311,6 +311,7 @@ static mps_status move_in(arrival *v)
     mps__probes *p = &v->sim->probes;
     MPS__TRY(mps__world_replace(w, v->n, v->arrived.field, v->listed_at != NULL));
     for (int k = 0; k < v->count; k++) memcpy(v->slots[k].at, v->value[k], v->slots[k].size);
+    w->load.known = false;
     w->lists.linked = v->have.linked ? w->particles.solids : -1;
     w->lists.listed = v->have.listed ? w->particles.generation : -1;
     mps__plates_set_active(w);
@@ -324,6 +325,7 @@ static mps_status move_in(arrival *v)
         if (p->list[k].removed) continue;
         mps__series old = p->list[k].series;
         p->list[k].series = v->series[k];
+        p->list[k].series.cuts = old.cuts + 1;
         v->series[k] = old;
     }
     for (int32_t k = 0; k < w->models.active; k++) {

@@ -16,6 +16,9 @@ void *mps__motion_table_create(const mps_allocator *allocator, int64_t rows, con
                                int32_t dofs, const int32_t *dof, const double *values);
 int mps__motion_table(void *user, double t, mps_motion_state *state);
 
+/* The way between two poses; user: a mps__posed. */
+int mps__motion_posed(void *user, double t, mps_motion_state *state);
+
 /* The longest step from t that misses nothing of the motion, of steps up to dt [s]. Harmonics: a
  * twentieth of the shortest period or ramp. Tables: up to the first row that shows what a harmonic does in
  * more than that, but at least an interval of rows. */

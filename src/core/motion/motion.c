@@ -112,6 +112,7 @@ void mps__motion_free(mps__motion *m)
     m->user = NULL;
     m->release = NULL;
     m->longest = NULL;
+    m->posed = NULL;
     m->t_end = INFINITY;
 }
 
@@ -122,10 +123,10 @@ mps_status mps__motion_pose(mps__motion *m, double t, mps__pose *pose)
         return MPS_OK;
     }
     if (t > m->t_end + end_slack)
-        return mps__fail(
-            m->context, MPS_E_STATE,
-            "the motion is not defined at t = %.10g s: the last row of its table is at %.10g s", t,
-            m->t_end);
+        return mps__fail(m->context, MPS_E_STATE,
+                         "the motion is not defined at t = %.10g s: the %s is at %.10g s", t,
+                         m->posed ? "pose of mps_motion_pose_set()" : "last row of its table",
+                         m->t_end);
     mps_motion_state state = {.struct_size = sizeof state};
     const mps__lock before = mps__lock_set(m->context, MPS__LOCKED, "a motion");
     int failed = m->fn(m->user, t, &state);

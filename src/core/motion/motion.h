@@ -16,6 +16,12 @@ typedef struct mps__pose {
     double omega[3], alpha[3]; /* angular velocity and acceleration in the lab [rad/s], [rad/s2] */
 } mps__pose;
 
+/* The way from one pose to another: the motion that mps_motion_pose_set() gives. */
+typedef struct mps__posed {
+    double begin, end; /* [s] */
+    mps_motion_state from, to;
+} mps__posed;
+
 typedef struct mps__motion {
     mps__context *context;
     int32_t dim, start;
@@ -26,7 +32,8 @@ typedef struct mps__motion {
     double t_end;                                 /* last time the motion is defined for */
     /* The longest step from t that misses nothing of the motion [s]; of steps up to dt. NULL: not known */
     double (*longest)(const void *user, double t, double dt);
-    bool told; /* that a fixed step is longer */
+    bool told;         /* that a fixed step is longer */
+    mps__posed *posed; /* `user`, if the motion is a way between two poses, else NULL */
     mps_motion_state hold;
     mps__pose now; /* at the present time */
 } mps__motion;

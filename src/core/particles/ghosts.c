@@ -363,6 +363,24 @@ mps_status mps__ghosts_ordered(mps__ghosts *g, const int32_t *order)
     return find_runs(g);
 }
 
+mps_status mps__ghosts_reset_reserve(mps__ghosts *g, int64_t n)
+{
+    if (!mps__ranks_many(g->ranks)) return MPS_OK;
+    MPS__TRY(mps__grow(g->context, (void **)&g->run, &g->run_capacity, 2 * g->runs, 2,
+                       sizeof *g->run));
+    return mps__grow(g->context, (void **)&g->ghost, &g->capacity, g->capacity, n + 1, 1);
+}
+
+void mps__ghosts_reset(mps__ghosts *g, int64_t known)
+{
+    forget_route(g);
+    memset(g->ghost, 0, (size_t)g->particles->n);
+    g->known = known;
+    g->runs = known > 0;
+    g->run[0] = 0;
+    g->run[1] = known;
+}
+
 void mps__ghosts_rows(const mps__ghosts *g, mps_range_fn rows, void *argument, int64_t begin,
                       int64_t end)
 {

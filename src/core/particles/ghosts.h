@@ -81,6 +81,10 @@ mps_status mps__ghosts_adopt(mps__ghosts *g, const mps__placing *p);
 /* Particles go to the ranks that own their places, after new cuts if these are wanted, and new ghosts come. The last `aside` particles in memory, behind those of the store, stay
  * there. Owned particles and ghosts are not in order yet: mps__ghosts_ordered() must follow. */
 mps_status mps__ghosts_renew(mps__ghosts *g, const mps__placing *p, int64_t aside);
+/* The store has only particles that this rank owns, the first `known` of them divided; ghosts come with the next mps__ghosts_renew(). Cannot
+ * fail after mps__ghosts_reset_reserve() for at least as many particles. */
+mps_status mps__ghosts_reset_reserve(mps__ghosts *g, int64_t n);
+void mps__ghosts_reset(mps__ghosts *g, int64_t known);
 /* The store is about to be permuted: particle order[k] comes to place k. */
 mps_status mps__ghosts_ordered(mps__ghosts *g, const int32_t *order);
 /* Ghosts get the values that their owners have. */

@@ -233,15 +233,26 @@ static int64_t count_solids(const mps__particles *s)
     return count;
 }
 
-mps_status mps__particles_permute(mps__particles *s, int64_t count, const int32_t *order)
+/* Room for one array of n particles. */
+static char *room_to_move(mps__particles *s, int64_t n)
 {
     size_t largest = sizeof(int32_t);
-    if (in_order(s, count, order)) return MPS_OK;
-    const int64_t solids = count != s->n ? count_solids(s) : 0;
     for (int32_t k = 0; k < s->fields; k++)
         if (stride(&s->field[k]) > largest) largest = stride(&s->field[k]);
     /* 0 and 1 may hold the order */
-    char *scratch = mps__scratch_take(s->context, s->scratch, 2, s->n, largest);
+    return mps__scratch_take(s->context, s->scratch, 2, n, largest);
+}
+
+mps_status mps__particles_permute_reserve(mps__particles *s, int64_t n)
+{
+    return room_to_move(s, n) ? MPS_OK : MPS_E_NOMEM;
+}
+
+mps_status mps__particles_permute(mps__particles *s, int64_t count, const int32_t *order)
+{
+    if (in_order(s, count, order)) return MPS_OK;
+    const int64_t solids = count != s->n ? count_solids(s) : 0;
+    char *scratch = room_to_move(s, s->n);
     if (!scratch) return MPS_E_NOMEM;
     for (int32_t k = 0; k < s->fields; k++) permute_field(s, &s->field[k], count, order, scratch);
     int32_t *place = (int32_t *)(void *)scratch; /* new place of an old one */

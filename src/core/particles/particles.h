@@ -20,6 +20,7 @@ typedef struct mps__field {
     bool writer;
     double begin; /* value of new particles, of fields of doubles */
     bool stale;   /* owners have newer values than ghosts */
+    bool passing; /* only speeds up what follows: checkpoints do not store it */
     bool undone;  /* a failed step brings it back from `kept` */
     void *kept;
     int64_t kept_capacity;
@@ -66,6 +67,8 @@ mps_status mps__particles_replace(mps__particles *s, int64_t n, const void *cons
 int64_t mps__particles_append(mps__particles *s, int64_t count, int32_t kind);
 /* Keep particle order[k] at place k for k < count; what is not listed is gone. */
 mps_status mps__particles_permute(mps__particles *s, int64_t count, const int32_t *order);
+/* So that this cannot fail for at most n particles, until others take its scratch. */
+mps_status mps__particles_permute_reserve(mps__particles *s, int64_t n);
 mps__field *mps__particles_field(mps__particles *s, const char *name);
 mps_status mps__particles_field_add(mps__particles *s, const char *name, int32_t components,
                                     size_t size, bool is_public, void **data);

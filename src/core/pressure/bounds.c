@@ -17,6 +17,9 @@ enum { SOLVES = 5 };
 /* The first solution only has to say which rows are held: its tolerances are so many times those of the others. */
 static const double LOOSE = 100;
 
+/* Changes of pressures by the acceleration of the tank, likewise. */
+static const double ACCURATE = 1000;
+
 /* Pressures this near to their least, over rho U_g^2, are at it. */
 static const double NEARLY = 1e-3;
 
@@ -117,7 +120,7 @@ static mps_status pin_rows(mps__bounds *b, mps__ppe *e)
     MPS__TRY(mps__grow(b->context, (void **)&b->mark, &b->mark_capacity, 0, e->n + 1, 1));
     for (int64_t c = 0; c < e->columns; c++) b->pinned[c] = NAN;
     for (int64_t k = 0; k < b->count; k++)
-        if (b->list[k].held) b->pinned[b->list[k].row] = b->list[k].least;
+        if (b->list[k].held) b->pinned[b->list[k].row] = b->still ? 0 : b->list[k].least;
     if (mps_ppe_share(&e->problem, b->pinned)) return mps__ranks_status(e->ghosts->ranks);
     mark_rows(b, e);
     for (int64_t r = 0; r < e->n; r++)
@@ -199,5 +202,34 @@ mps_status mps__bounds_solve(mps__bounds *b, mps__solvers *solvers, mps__ppe *e,
         if (b->list[k].held) t->condition[e->particle[b->list[k].row]] = MPS__ROW_HELD;
     result->iterations = iterations;
     result->setup_seconds = setup;
+    return status;
+}
+
+/* The slope of the laws at e->p in place of the laws, and back. */
+static void make_tangent(mps__ppe *e, double sign)
+{
+    for (int64_t r = 0; e->law && r < e->n; r++) {
+        double slope;
+        mps_ppe_law(e->law[r], e->p[r], &slope);
+        const double change = sign * e->gas[r] * (slope - 1);
+        e->diagonal[r] += change;
+        e->shift[r] += change;
+    }
+}
+
+mps_status mps__bounds_solve_change(mps__bounds *b, mps__solvers *solvers, mps__ppe *e, double *rhs,
+                                    double *p, mps_ppe_result *result)
+{
+    mps__ppe linear = *e;
+    make_tangent(e, 1);
+    linear.rhs = rhs;
+    linear.p = p;
+    linear.problem.rhs = rhs;
+    linear.problem.gas = linear.problem.law = NULL;
+    b->still = true;
+    const mps_status status = solve_held(b, solvers, &linear, &(mps__effort){ACCURATE, true},
+                                         result);
+    b->still = false;
+    make_tangent(e, -1);
     return status;
 }

@@ -13,6 +13,7 @@ typedef struct mps__bounds {
     const uint8_t *held; /* [particles] 1: at its least in the last step; borrowed for a solution */
     int32_t solves;      /* of the last call */
     bool any;            /* on any rank a row has a least pressure */
+    bool still;          /* held rows are held at 0 */
     double *pinned;      /* [columns] pressure of a held row, else NaN */
     uint8_t *mark;       /* [n] 1: the row has a pinned column or is held */
     int64_t pinned_capacity, mark_capacity;
@@ -29,5 +30,9 @@ void mps__bounds_free(mps__bounds *b);
  * MPS__ROW_HELD where they are at it now. Iterations and times of `result` are those of all solutions. */
 mps_status mps__bounds_solve(mps__bounds *b, mps__solvers *solvers, mps__ppe *e, const mps_view *s,
                              mps__ppe_terms *t, mps_ppe_result *result);
+/* Solve the same matrix for another right side `rhs` [n]: the change of pressures by a change of it, which is 0 in held rows and in rows
+ * whose pressure is given. A row with a law has its tangent at e->p. p [columns]: first guess and solution. After mps__bounds_solve(). */
+mps_status mps__bounds_solve_change(mps__bounds *b, mps__solvers *solvers, mps__ppe *e, double *rhs,
+                                    double *p, mps_ppe_result *result);
 
 #endif

@@ -8,8 +8,8 @@
 #include <mps/operators.h>
 #include <string.h>
 
-/* Blocks of scratch. */
-enum { VALUES, COLUMNS, ROWS, LAWS, NUMBERS = MPS__PPE_LABELS + 1 };
+/* Blocks of scratch; levels.c and ppe_ranks.c take the next ones. */
+enum { VALUES, COLUMNS, ROWS, LAWS };
 
 void mps__ppe_init(mps__ppe *e, mps__context *context)
 {
@@ -245,96 +245,6 @@ static mps_status reserve_entries(mps__ppe *e, int64_t entries)
     return e->col && e->val ? MPS_OK : MPS_E_NOMEM;
 }
 
-/* ---- many ranks ---- */
-
-static int share_columns(void *host, double *x)
-{
-    const mps__ppe *e = host;
-    return mps__ghosts_share_indexed(e->ghosts, e->unknown, x) < 0;
-}
-
-static int reduce_values(void *host, int32_t count, size_t bytes, void *values,
-                         mps_combine_fn combine)
-{
-    mps__ranks *r = ((const mps__ppe *)host)->ghosts->ranks;
-    mps__ranks_reduce(r, count, bytes, values, combine);
-    return r->failed;
-}
-
-static int gather_blocks(void *host, const void *own, const int64_t *bytes, void *all)
-{
-    mps__ranks *r = ((const mps__ppe *)host)->ghosts->ranks;
-    mps__ranks_gather(r, own, bytes, all);
-    return r->failed;
-}
-
-static int connect_ranks(void *host, int32_t count, const int32_t *to, const int64_t *sent,
-                         mps_route *route)
-{
-    mps__ranks *r = ((const mps__ppe *)host)->ghosts->ranks;
-    mps__ranks_connect(r, count, to, sent, route);
-    return r->failed;
-}
-
-static void disconnect_ranks(void *host, mps_route *route)
-{
-    mps__ranks *r = ((const mps__ppe *)host)->ghosts->ranks;
-    r->ops.disconnect(r->self, route);
-}
-
-static int exchange_elements(void *host, const mps_route *route, size_t bytes, const void *out,
-                             void *in)
-{
-    mps__ranks *r = ((const mps__ppe *)host)->ghosts->ranks;
-    mps__ranks_exchange(r, route, bytes, out, in);
-    return r->failed;
-}
-
-static int find_owners(void *host, int64_t m, const double *x, int32_t *rank)
-{
-    const mps__ppe *e = host;
-    return e->owner(e->world, m, x, rank) < 0;
-}
-
-/* Rows and columns of other ranks, merged by their particles. */
-static void order_columns(mps__ppe *e)
-{
-    int64_t row = 0, column = e->n;
-    for (int64_t k = 0; k < e->columns; k++) {
-        const bool own = column == e->columns ||
-                         (row < e->n && e->particle[row] < e->particle[column]);
-        e->order[k] = (int32_t)(own ? row++ : column++);
-    }
-}
-
-static mps_status set_ranks(mps__ppe *e)
-{
-    if (!e->ghosts || !mps__ranks_many(e->ghosts->ranks)) return MPS_OK;
-    mps__ranks *r = e->ghosts->ranks;
-    int64_t *rows = mps__scratch_take(e->context, e->scratch, NUMBERS, r->count, sizeof *rows);
-    if (!rows) return MPS_E_NOMEM;
-    mps__ranks_gather_number(r, e->n, rows);
-    order_columns(e);
-    e->ranks = (mps_ppe_ranks){.struct_size = sizeof e->ranks,
-                               .rank = r->rank,
-                               .ranks = r->count,
-                               .ghosts = e->columns - e->n,
-                               .order = e->order,
-                               .owner = find_owners,
-                               .share = share_columns,
-                               .reduce = reduce_values,
-                               .gather = gather_blocks,
-                               .connect = connect_ranks,
-                               .disconnect = disconnect_ranks,
-                               .exchange = exchange_elements,
-                               .host = e};
-    for (int32_t k = 0; k < r->count; k++) {
-        e->ranks.first += k < r->rank ? rows[k] : 0;
-        e->ranks.rows += rows[k];
-    }
-    return mps__ranks_status(r);
-}
-
 static assembly assembly_of(const mps__ppe *e, const mps_view *s, const mps__ppe_terms *t)
 {
     const mps_stencil *pairs = t->equation.radius == MPS_NEAR ? &s->near : &s->far;
@@ -381,7 +291,40 @@ mps_status mps__ppe_fill(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t
     return MPS_OK;
 }
 
-/* What rows are not made of, also of columns of other ranks. */
+/* ---- accelerations of the tank ---- */
+
+typedef struct moments {
+    const assembly *rows;
+    double *out; /* [n*dim] */
+} moments;
+
+MPS_ROW void moment_row(const int dim, const moments *m, int64_t r)
+{
+    const assembly *a = m->rows;
+    const int64_t i = a->particle[r];
+    double *out = m->out + r * dim;
+    for (int d = 0; d < dim; d++) out[d] = 0;
+    for (int64_t k = a->pairs.begin[i]; k < a->pairs.end[i]; k++) {
+        const double factor = pair_factor(a, i, a->pairs.col[k]);
+        if (factor == 0) continue;
+        const mps_pair q = mps_stencil_pair_dim(dim, &a->pairs, i, k);
+        const double rho = mps_flux_density(&a->flux, i, q.j);
+        const double kij = (double)(float)(a->c * factor * q.w / rho);
+        for (int d = 0; d < dim; d++) out[d] += kij * rho * q.d[d];
+    }
+}
+MPS__LOOP(moment_rows, moment_row, moments)
+
+void mps__ppe_moments(const mps__ppe *e, const mps_view *s, const mps__ppe_terms *t, double *out)
+{
+    assembly a = assembly_of(e, s, t);
+    see_rows(&a, e);
+    mps__loop_run(a.pairs.parallel, &moment_rows, s->dim, e->n, &(moments){&a, out});
+}
+
+/* ---- what rows are not made of ---- */
+
+/* Also of columns of other ranks. */
 typedef struct notes {
     const double *place, *pressure; /* of particles */
     const int32_t *particle;
@@ -405,7 +348,7 @@ mps_status mps__ppe_note(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t
     mps__loop_run(
         parallel, &note_rows, s->dim, e->columns,
         &(notes){s->x, t->pressure, e->particle, e->n, s->dt * s->dt, e->x, e->p, e->weight});
-    MPS__TRY(set_ranks(e));
+    MPS__TRY(mps__ppe_ranks_set(e));
     int32_t singular;
     MPS__TRY(mps__levels_find(e, s->id, parallel, &singular));
     e->problem = (mps_ppe_problem){.struct_size = sizeof e->problem,

@@ -23,8 +23,8 @@ typedef struct mps__ppe_terms {
     int32_t *condition;
 } mps__ppe_terms;
 
-/* The block of scratch that levels.c takes. */
-enum { MPS__PPE_LABELS = 4 };
+/* The blocks of scratch that levels.c and ppe_ranks.c take. */
+enum { MPS__PPE_LABELS = 4, MPS__PPE_NUMBERS };
 
 typedef struct mps__ppe {
     mps__context *context;
@@ -68,6 +68,11 @@ void mps__ppe_free(mps__ppe *e);
 mps_status mps__ppe_fill(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t);
 /* Then what an unknown is beside its row, with the old pressures as the first guess. e->spare and e->spare_x take it. */
 mps_status mps__ppe_note(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t);
+/* What mps__ppe_note() says of ranks. ppe_ranks.c */
+mps_status mps__ppe_ranks_set(mps__ppe *e);
+/* S_i = sum_j k_ij rho_ij r_ij of each row, [n*dim], of an equation with the body term: an acceleration a of the tank adds a.S_i to its right
+ * side, and an angular acceleration o about a point c adds o.((x_i - c) x S_i), as (m x r_ij) of the middle m of a pair is (x_i x r_ij). */
+void mps__ppe_moments(const mps__ppe *e, const mps_view *s, const mps__ppe_terms *t, double *out);
 /* Pressures of all particles from the solution e->p. */
 void mps__ppe_scatter(const mps__ppe *e, const mps_view *s, const mps__ppe_terms *t, double *p);
 

@@ -8,12 +8,13 @@ const mps__pass *const mps__step_passes[] = {
     /* MPS_CLASSIFY: all that is known at r^k */
     &mps__pass_neighbours, &mps__pass_weights, &mps__pass_volumes, &mps__pass_first_values,
     /* MPS_FORCE */
-    &mps__pass_clear_forces, &mps__pass_book_forces, &mps__pass_predict,
+    &mps__pass_clear_forces, &mps__pass_begin_load, &mps__pass_book_forces, &mps__pass_predict,
     /* MPS_SOURCE */
     &mps__pass_clear_equation, &mps__pass_first_conditions, &mps__pass_equation, &mps__pass_matrix,
     &mps__pass_unknowns, &mps__pass_solve, &mps__pass_pressures,
     /* MPS_GRADIENT, MPS_LOAD */
-    &mps__pass_clear_gradient, &mps__pass_first_loads, &mps__pass_push, &mps__pass_book_pressure,
+    &mps__pass_clear_gradient, &mps__pass_first_loads, &mps__pass_half_cells, &mps__pass_push,
+    &mps__pass_book_pressure,
     /* MPS_VELOCITY, MPS_SHIFT */
     &mps__pass_book_collisions, &mps__pass_book_reactions, &mps__pass_clear_displacement,
     &mps__pass_book_shift, &mps__pass_move, &mps__pass_plates, &mps__pass_check, &mps__pass_share,

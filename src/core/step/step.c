@@ -20,6 +20,7 @@ static mps_status run_hooks(mps__step *q)
 static void commit(mps__step *q)
 {
     mps__world *w = q->w;
+    mps__step_load_end(q);
     w->state.t = q->pose.t;
     w->state.step++;
     w->state.crossing_time = q->info.crossing_time;

@@ -28,6 +28,9 @@ double mps__world_way_of_walls(mps__world *w, const mps__pose *pose, double dt);
 
 /* ---- a step in progress ---- */
 
+/* Momentum of the liquid, its moment about a place, mass, and mass times arm. */
+enum { MPS__MOMENTUM = 10 };
+
 /* What one step carries along; committed to the world only when all went well. */
 typedef struct mps__step {
     mps__world *w;
@@ -49,6 +52,8 @@ typedef struct mps__step {
     double setup_seconds; /* of the solver */
     double spread;        /* time that a gain below 1 spreads pressures over [s] */
     bool not_converged;
+    double momentum_before[MPS__MOMENTUM]; /* of the liquid at the beginning */
+    mps__load load;
     const double *before; /* positions before particles moved; NULL: they have not */
 } mps__step;
 
@@ -103,6 +108,16 @@ extern const mps__pass mps__pass_crossing;
 /* <lap p> = source: sources, equation and solution. W22 (10). */
 extern const mps__pass mps__pass_equation, mps__pass_matrix, mps__pass_unknowns, mps__pass_solve,
     mps__pass_pressures;
+
+/* ---- the load of the liquid: step_load.c; its added mass: step_mass.c ---- */
+
+/* Before velocities change; in MPS_LOAD; when all has been done. */
+extern const mps__pass mps__pass_begin_load, mps__pass_half_cells;
+void mps__step_load_end(mps__step *q);
+/* From the matrix of the step, right after the solution of its equation. */
+mps_status mps__step_mass(mps__step *q);
+/* The degrees of freedom of the tank: x, y and the rotation about z in 2-D. Returns how many. */
+int32_t mps__step_freedom(int32_t dim, int32_t freedom[6]);
 
 /* ---- the books: step_books.c ---- */
 

@@ -2,6 +2,7 @@
 /* The pressure part of a step: the equation, its solution, and what is told about it. */
 #include "step.h"
 #include "loop.h"
+#include <mps/couple.h>
 
 /* Share of its way to that of the present step that the spread of pressures goes in a step. */
 static const double SPREAD_SHARE = 0.2;
@@ -163,7 +164,7 @@ static mps_status solve(mps_stage *s)
     q->info.ppe_divergence = result.divergence;
     q->info.ppe_unknowns = mps__ppe_rows(&w->ppe);
     q->setup_seconds = result.setup_seconds;
-    return MPS_OK;
+    return w->load.watch == MPS_LOAD_MASS && status == MPS_OK ? mps__step_mass(q) : MPS_OK;
 }
 
 static const mps_use solve_uses[] = {{"pressure_value", MPS_USE_READ},

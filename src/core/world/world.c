@@ -82,6 +82,11 @@ void mps__world_free(mps__world *w)
     mps__free(w->context, w->work.turned);
     mps__free(w->context, w->work.placed);
     mps__free(w->context, w->lists.listed_at);
+    mps__free(w->context, w->mass.next);
+    mps__free(w->context, w->mass.moments);
+    mps__free(w->context, w->mass.rhs);
+    mps__free(w->context, w->mass.p);
+    mps__free(w->context, w->mass.a);
     mps__scratch_free(w->context, &w->scratch);
     mps__pool_free(&w->pool);
     mps__sets_free(&w->host.sets);

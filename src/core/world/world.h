@@ -146,6 +146,24 @@ typedef struct mps__balance {
     double cost;   /* of a particle of this rank over that of the mean rank */
 } mps__balance;
 
+/* Load of the liquid on the tank in the last step, and its added mass; mps_load. */
+typedef struct mps__load {
+    int32_t watch; /* MPS_LOAD_..., of the user */
+    bool known, has_mass;
+    int32_t iterations; /* of all columns of the added mass */
+    double dt, at[3]; /* place of the centre of motion at the beginning of the step */
+    double force[6], accel[6], mass[36]; /* about it */
+} mps__load;
+
+/* What the added mass is computed with. */
+typedef struct mps__mass {
+    double *guess; /* field [n*dofs]: change of the pressure by each degree of freedom in the last step; NULL: never asked for */
+    double *next;  /* [n*dofs] that of the step in progress */
+    double *moments, *rhs, *p; /* [rows*dim], [rows], [columns] */
+    double *a;                 /* [n*dofs*dim] change of accelerations */
+    int64_t next_capacity, moment_capacity, rhs_capacity, p_capacity, a_capacity;
+} mps__mass;
+
 typedef struct mps__world {
     mps__context *context;
     mps__setup setup;
@@ -169,6 +187,8 @@ typedef struct mps__world {
     mps__voids voids;
     mps__scratch scratch; /* of searches, verbs and the equation */
     mps_step_info info;   /* of the last step */
+    mps__load load;
+    mps__mass mass;
     bool ending;          /* dt_max of a step is what is left of a run */
 } mps__world;
 

@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The pressure equation on many ranks: what solvers call to exchange and to add up. */
+#include "ppe.h"
+
+static int share_columns(void *host, double *x)
+{
+    const mps__ppe *e = host;
+    return mps__ghosts_share_indexed(e->ghosts, e->unknown, x) < 0;
+}
+
+static int reduce_values(void *host, int32_t count, size_t bytes, void *values,
+                         mps_combine_fn combine)
+{
+    mps__ranks *r = ((const mps__ppe *)host)->ghosts->ranks;
+    mps__ranks_reduce(r, count, bytes, values, combine);
+    return r->failed;
+}
+
+static int gather_blocks(void *host, const void *own, const int64_t *bytes, void *all)
+{
+    mps__ranks *r = ((const mps__ppe *)host)->ghosts->ranks;
+    mps__ranks_gather(r, own, bytes, all);
+    return r->failed;
+}
+
+static int connect_ranks(void *host, int32_t count, const int32_t *to, const int64_t *sent,
+                         mps_route *route)
+{
+    mps__ranks *r = ((const mps__ppe *)host)->ghosts->ranks;
+    mps__ranks_connect(r, count, to, sent, route);
+    return r->failed;
+}
+
+static void disconnect_ranks(void *host, mps_route *route)
+{
+    mps__ranks *r = ((const mps__ppe *)host)->ghosts->ranks;
+    r->ops.disconnect(r->self, route);
+}
+
+static int exchange_elements(void *host, const mps_route *route, size_t bytes, const void *out,
+                             void *in)
+{
+    mps__ranks *r = ((const mps__ppe *)host)->ghosts->ranks;
+    mps__ranks_exchange(r, route, bytes, out, in);
+    return r->failed;
+}
+
+static int find_owners(void *host, int64_t m, const double *x, int32_t *rank)
+{
+    const mps__ppe *e = host;
+    return e->owner(e->world, m, x, rank) < 0;
+}
+
+/* Rows and columns of other ranks, merged by their particles. */
+static void order_columns(mps__ppe *e)
+{
+    int64_t row = 0, column = e->n;
+    for (int64_t k = 0; k < e->columns; k++) {
+        const bool own = column == e->columns ||
+                         (row < e->n && e->particle[row] < e->particle[column]);
+        e->order[k] = (int32_t)(own ? row++ : column++);
+    }
+}
+
+mps_status mps__ppe_ranks_set(mps__ppe *e)
+{
+    if (!e->ghosts || !mps__ranks_many(e->ghosts->ranks)) return MPS_OK;
+    mps__ranks *r = e->ghosts->ranks;
+    int64_t *rows = mps__scratch_take(e->context, e->scratch, MPS__PPE_NUMBERS, r->count, sizeof *rows);
+    if (!rows) return MPS_E_NOMEM;
+    mps__ranks_gather_number(r, e->n, rows);
+    order_columns(e);
+    e->ranks = (mps_ppe_ranks){.struct_size = sizeof e->ranks,
+                               .rank = r->rank,
+                               .ranks = r->count,
+                               .ghosts = e->columns - e->n,
+                               .order = e->order,
+                               .owner = find_owners,
+                               .share = share_columns,
+                               .reduce = reduce_values,
+                               .gather = gather_blocks,
+                               .connect = connect_ranks,
+                               .disconnect = disconnect_ranks,
+                               .exchange = exchange_elements,
+                               .host = e};
+    for (int32_t k = 0; k < r->count; k++) {
+        e->ranks.first += k < r->rank ? rows[k] : 0;
+        e->ranks.rows += rows[k];
+    }
+    return mps__ranks_status(r);
+}

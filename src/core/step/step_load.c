@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The load on the tank as what the liquid's momentum lacks. The liquid ends where the pressure equation ends it: at walls, before which half
+ * cells have no particles, and at the centres of surface particles, of which half a cell counts. F = M g - dP/dt of the particles + m (g - a)
+ * of the half cells. */
+#include "half_cell.h"
+#include "step.h"
+#include <mps/couple.h>
+#include <string.h>
+
+int32_t mps__step_freedom(int32_t dim, int32_t freedom[6])
+{
+    static const int32_t plane[3] = {MPS_MOVE_X, MPS_MOVE_Y, MPS_ROTATE_Z};
+    for (int32_t k = 0; k < 6; k++) freedom[k] = dim == 3 ? k : plane[k % 3];
+    return dim == 3 ? 6 : 3;
+}
+
+/* ---- momentum of the particles ---- */
+
+typedef struct flow {
+    const double *rho, *u;
+    const int32_t *region;
+    double cell, at[3];
+} flow;
+
+MPS_ROW void add_moment(const int dim, const mps_view *v, const flow *f, int64_t i, double *term)
+{
+    double r[3] = {0}, u[3] = {0};
+    if (!mps_is_fluid(v, i)) return;
+    const double m = mps__cell_mass(f->rho, f->region, f->cell, i);
+    for (int d = 0; d < dim; d++) {
+        r[d] = v->x[i * dim + d] - f->at[d];
+        u[d] = m * f->u[i * dim + d];
+        term[d] = u[d];
+        term[7 + d] = m * r[d];
+    }
+    mps__cross(r, u, term + 3);
+    term[6] = m;
+}
+MPS_SUMS(add_moments, add_moment, flow)
+
+static double cell_of(const mps__world *w)
+{
+    const double dp = w->setup.dp;
+    return w->setup.dim == 2 ? dp * dp : dp * dp * dp;
+}
+
+static void sum_momentum(const mps__world *w, const double at[3], double sums[MPS__MOMENTUM])
+{
+    flow f = {.rho = w->particles.rho,
+              .u = w->particles.u,
+              .region = w->particles.region,
+              .cell = cell_of(w)};
+    mps_view v;
+    memcpy(f.at, at, sizeof f.at);
+    mps__world_view(w, &v);
+    mps__host_sum(&w->host, &v, MPS__MOMENTUM, &add_moments, &f, sums);
+}
+
+/* Regions are those of this step, velocities still those before it. */
+static mps_status begin_load(mps_stage *s)
+{
+    mps__step *q = mps__step_of(s);
+    mps__world *w = q->w;
+    q->load = (mps__load){.watch = w->load.watch};
+    if (q->load.watch == MPS_LOAD_NONE) return MPS_OK;
+    mps__motion_point(&w->motion, &w->motion.now, w->motion.centre, q->load.at, NULL, NULL);
+    sum_momentum(w, q->load.at, q->momentum_before);
+    return MPS_OK;
+}
+
+static const mps_use begin_uses[] = {
+    {"velocity", MPS_USE_READ}, {"density", MPS_USE_READ}, {"region", MPS_USE_READ}};
+
+const mps__pass mps__pass_begin_load = {.name = "begin_load",
+                                        .hook = MPS_FORCE,
+                                        .place = MPS__AFTER_MODELS,
+                                        .stage = MPS_STAGE_OPERATORS,
+                                        .use_count = 3,
+                                        .uses = begin_uses,
+                                        .run = begin_load};
+
+/* ---- half cells ---- */
+
+typedef struct half_fields {
+    mps__halves halves;
+    const double *acceleration, *tank;
+    double at[3];
+} half_fields;
+
+/* Pressures give the liquid its acceleration less gravity. */
+MPS_ROW void add_half(const int dim, const mps_view *v, const half_fields *f, int64_t i,
+                      double *term)
+{
+    double n[3] = {0}, tank[3] = {0}, a[3], r[3] = {0}, push[3] = {0};
+    const double mass = mps__half_cell(dim, v, &f->halves, i, n);
+    if (mass == 0) return;
+    for (int d = 0; d < dim; d++) tank[d] = f->tank[i * dim + d] - v->g[d];
+    mps__half_acceleration(dim, v, &f->halves, i, f->acceleration, dim, tank, n, a);
+    for (int d = 0; d < dim; d++) {
+        push[d] = -mass * a[d];
+        r[d] = v->x[i * dim + d] - f->at[d];
+        term[d] = push[d];
+    }
+    mps__cross(r, push, term + 3);
+}
+MPS_SUMS(add_halves, add_half, half_fields)
+
+enum { ACCELERATION, TANK, DENSITY, REGION, USES };
+
+static mps_status sum_half_cells(mps_stage *s)
+{
+    mps__step *q = mps__step_of(s);
+    if (q->load.watch == MPS_LOAD_NONE) return MPS_OK;
+    half_fields f = {.acceleration = s->data[ACCELERATION],
+                     .tank = s->data[TANK],
+                     .halves = {s->data[DENSITY], s->view->flux.wetted, s->data[REGION]}};
+    memcpy(f.at, q->load.at, sizeof f.at);
+    mps_stage_sum(s, 6, &add_halves, &f, q->load.force);
+    return MPS_OK;
+}
+
+static const mps_use half_uses[USES] = {[ACCELERATION] = {"acceleration", MPS_USE_NEIGHBOURS},
+                                        [TANK] = {"tank_acceleration", MPS_USE_READ},
+                                        [DENSITY] = {"pressure_density", MPS_USE_READ},
+                                        [REGION] = {"region", MPS_USE_NEIGHBOURS}};
+
+const mps__pass mps__pass_half_cells = {.name = "half_cells",
+                                        .hook = MPS_LOAD,
+                                        .place = MPS__AFTER_MODELS,
+                                        .stage = MPS_STAGE_CORRECT,
+                                        .use_count = USES,
+                                        .uses = half_uses,
+                                        .run = sum_half_cells};
+
+/* ---- the end of the step ---- */
+
+/* Velocity of the centre of motion from one pose to another, and the angular one: the part of (R1 R0^T - 1)/dt without strain. */
+static void velocity_between(const mps__motion *m, const mps__pose *from, const mps__pose *to,
+                             double dt, double out[6])
+{
+    double c0[3] = {0}, c1[3] = {0}, turn[9];
+    mps__motion_point(m, from, m->centre, c0, NULL, NULL);
+    mps__motion_point(m, to, m->centre, c1, NULL, NULL);
+    for (int r = 0; r < 9; r++)
+        turn[r] = mps__dot(to->rotation + r / 3 * 3, from->rotation + r % 3 * 3, 3);
+    for (int d = 0; d < 3; d++) {
+        const int e = (d + 1) % 3, f = (d + 2) % 3;
+        out[d] = (c1[d] - c0[d]) / dt;
+        out[3 + d] = 0.5 * (turn[f * 3 + e] - turn[e * 3 + f]) / dt;
+    }
+}
+
+/* Change of the velocity of the tank, over dt. */
+static void find_acceleration(const mps__step *q, double accel[6])
+{
+    const mps__world *w = q->w;
+    const mps__motion *m = &w->motion;
+    double before[6] = {0};
+    velocity_between(m, &m->now, &q->pose, q->view.dt, accel);
+    if (w->state.dt_before > 0)
+        velocity_between(m, &w->state.before, &m->now, w->state.dt_before, before);
+    else if (m->start == MPS_START_WITH_TANK)
+        for (int d = 0; d < 3; d++) {
+            before[d] = m->now.state.rate[d];
+            before[3 + d] = m->now.omega[d];
+        }
+    for (int k = 0; k < 6; k++) accel[k] = (accel[k] - before[k]) / q->view.dt;
+}
+
+void mps__step_load_end(mps__step *q)
+{
+    mps__world *w = q->w;
+    const double *g = w->setup.g, *b = q->momentum_before;
+    double after[MPS__MOMENTUM] = {0}, weight[6];
+    mps__load *l = &q->load;
+    if (l->watch != MPS_LOAD_NONE) {
+        sum_momentum(w, l->at, after);
+        for (int d = 0; d < 3; d++) weight[d] = b[6] * g[d];
+        mps__cross(b + 7, g, weight + 3);
+        for (int k = 0; k < 6; k++) l->force[k] += weight[k] - (after[k] - b[k]) / q->view.dt;
+        find_acceleration(q, l->accel);
+        l->dt = q->view.dt;
+        l->known = true;
+        if (l->has_mass) {
+            int32_t freedom[6];
+            const int32_t dofs = mps__step_freedom(w->setup.dim, freedom);
+            memcpy(w->mass.guess, w->mass.next, (size_t)(w->particles.n * dofs) * sizeof(double));
+        }
+    }
+    w->load = *l;
+}

@@ -1,0 +1,247 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The added mass: how the load on the tank changes with its acceleration. The pressure equation of the step is linear in it, so each degree of
+ * freedom is one more solution of the same matrix, with the same preconditioner; mps__ppe_moments(). The solution of the step before is the
+ * first guess. */
+#include "half_cell.h"
+#include "loop.h"
+#include "step.h"
+#include <mps/couple.h>
+#include <string.h>
+
+/* Change of the right side by one degree of freedom. */
+typedef struct side {
+    const double *moments, *x; /* [rows*dim] */
+    double *rhs;
+    int32_t freedom;
+    double at[3];
+} side;
+
+MPS_ROW void side_row(const int dim, const side *f, int64_t r)
+{
+    double arm[3] = {0}, m[3] = {0}, turn[3];
+    if (f->freedom < MPS_ROTATE_X) {
+        f->rhs[r] = f->moments[r * dim + f->freedom];
+        return;
+    }
+    for (int d = 0; d < dim; d++) {
+        arm[d] = f->x[r * dim + d] - f->at[d];
+        m[d] = f->moments[r * dim + d];
+    }
+    mps__cross(arm, m, turn);
+    f->rhs[r] = turn[f->freedom - MPS_ROTATE_X];
+}
+MPS__LOOP(side_rows, side_row, side)
+
+/* Pressures of unknowns from those of particles, and back. */
+typedef struct transfer {
+    const int32_t *place; /* of the particle of an unknown, or of the unknown of a particle */
+    const double *from;
+    double *to;
+    int32_t dofs, column;
+} transfer;
+
+MPS_ROW void guess_row(const int dim, const transfer *f, int64_t r)
+{
+    (void)dim;
+    f->to[r] = f->from[(int64_t)f->place[r] * f->dofs + f->column];
+}
+MPS__LOOP(guess_rows, guess_row, transfer)
+
+MPS_ROW void keep_row(const int dim, const transfer *f, int64_t i)
+{
+    (void)dim;
+    f->to[i * f->dofs + f->column] = f->place[i] >= 0 ? f->from[f->place[i]] : 0;
+}
+MPS__LOOP(keep_rows, keep_row, transfer)
+
+/* What the rows are made of, on the host. */
+static void get_ready(mps__world *w)
+{
+    int32_t channel[MPS__FLUX_CHANNELS];
+    mps__flux_channels(&w->channels, channel);
+    mps__twins_fields_ready(&w->host.twins);
+    for (int k = 0; k < MPS__FLUX_CHANNELS; k++)
+        if (channel[k] >= 0) mps__twins_ready(&w->host.twins, channel[k], MPS__ON_HOST);
+    mps__twins_ready(&w->host.twins, mps__channels_find(&w->channels, "correction"), MPS__ON_HOST);
+}
+
+static mps_status reserve(mps__world *w, int32_t dofs)
+{
+    mps__mass *m = &w->mass;
+    const mps__ppe *e = &w->ppe;
+    const int64_t n = w->particles.n * dofs;
+    MPS__TRY(mps__grow(w->context, (void **)&m->next, &m->next_capacity, 0,
+                       n > m->next_capacity ? mps__room(n, m->next_capacity) : n,
+                       sizeof *m->next));
+    MPS__TRY(mps__grow(w->context, (void **)&m->a, &m->a_capacity, 0, n * w->setup.dim + 1,
+                       sizeof *m->a));
+    MPS__TRY(mps__grow(w->context, (void **)&m->moments, &m->moment_capacity, 0,
+                       e->n * w->setup.dim + 1, sizeof *m->moments));
+    MPS__TRY(
+        mps__grow(w->context, (void **)&m->rhs, &m->rhs_capacity, 0, e->n + 1, sizeof *m->rhs));
+    return mps__grow(w->context, (void **)&m->p, &m->p_capacity, 0, e->columns + 1, sizeof *m->p);
+}
+
+/* The change of the pressures by degree of freedom number k. */
+static mps_status solve_column(mps__step *q, const int32_t *freedom, int32_t dofs, int32_t k)
+{
+    mps__world *w = q->w;
+    mps__mass *m = &w->mass;
+    mps__ppe *e = &w->ppe;
+    const mps_parallel *parallel = &w->pool.parallel;
+    const int32_t dim = w->setup.dim;
+    mps_ppe_result result = {.struct_size = sizeof result};
+    side f = {.moments = m->moments, .x = e->x, .rhs = m->rhs, .freedom = freedom[k]};
+    memcpy(f.at, q->load.at, sizeof f.at);
+    mps__loop_run(parallel, &side_rows, dim, e->n, &f);
+    mps__loop_run(parallel, &guess_rows, dim, e->columns,
+                  &(transfer){e->particle, m->guess, m->p, dofs, k});
+    const mps_status status = mps__bounds_solve_change(&w->bounds, &w->solvers, e, m->rhs, m->p,
+                                                       &result);
+    q->load.iterations += result.iterations;
+    if (status < 0 && status != MPS_E_SOLVER) return status;
+    q->load.has_mass = q->load.has_mass && status == MPS_OK;
+    if (mps_ppe_share(&e->problem, m->p)) return mps__ranks_status(&w->ranks);
+    mps__loop_run(parallel, &keep_rows, dim, w->particles.n,
+                  &(transfer){e->unknown, m->p, m->next, dofs, k});
+    return MPS_OK;
+}
+
+/* ---- what the liquid does ---- */
+
+/* Degrees of freedom, constant where the dimension is; those of one sum. */
+#define DOFS(dim) ((dim) == 3 ? 6 : 3)
+#define AT_ONCE(dim) ((dim) == 3 ? 2 : 3)
+
+typedef struct mass_fields {
+    mps__halves halves;
+    const double *p, *correction, *density; /* changes of pressures [n*dofs]; of particles */
+    double *a;                              /* [n*dofs*dim] changes of accelerations */
+    int32_t column;                         /* the first of AT_ONCE */
+    double at[3], cell;
+} mass_fields;
+
+/* Along degree of freedom k: x, y, (z,) rotations about (x, y,) z. */
+MPS_ROW double along(const int dim, const int k, const double *d, const double turn[3])
+{
+    return k < dim ? d[k] : turn[dim == 2 ? 2 : k - 3];
+}
+
+/* Acceleration of the tank at an arm from the centre, by degree of freedom k. */
+MPS_ROW void tank_acceleration(const int dim, const int k, const double arm[3], double out[3])
+{
+    double axis[3] = {0};
+    axis[k < dim ? k : dim == 2 ? 2 : k - 3] = 1;
+    if (k < dim)
+        for (int d = 0; d < 3; d++) out[d] = axis[d];
+    else
+        mps__cross(axis, arm, out);
+}
+
+/* The gradient of gradient.corrected, of all changes at once: a = a_tank - D/n0 B sum w [dp/rho + a_tank.r] r. The mean of a_tank.r over a
+ * pair is (arm of i x r) along the axis of a rotation. */
+MPS_ROW void change_row(const int dim, const mps_view *v, const mass_fields *f, int64_t i)
+{
+    const int dofs = DOFS(dim);
+    const mps_stencil *t = &v->near;
+    const double *b = f->correction + i * dim * dim, *own = f->p + i * dofs;
+    double sum[6][3] = {{0}}, arm[3] = {0}, d3[3] = {0}, turn[3], *a = f->a + i * dofs * dim;
+    for (int k = 0; k < dofs * dim; k++) a[k] = 0;
+    if (!mps__is_about(v, &f->halves, i)) return;
+    for (int d = 0; d < dim; d++) arm[d] = v->x[i * dim + d] - f->at[d];
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        if (mps_region_of(f->halves.region, mps_stencil_column(t, p)) >= MPS_REGION_SPRAY) continue;
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
+        const double over = 1 / mps_flux_density(&v->flux, i, q.j), *other = f->p + q.j * dofs;
+        for (int d = 0; d < dim; d++) d3[d] = q.d[d];
+        mps__cross(arm, d3, turn);
+        for (int k = 0; k < dofs; k++) {
+            const double change = q.w_r2 *
+                                  ((other[k] - own[k]) * over + along(dim, k, q.d, turn));
+            for (int d = 0; d < dim; d++) sum[k][d] += change * q.d[d];
+        }
+    }
+    for (int k = 0; k < dofs; k++) {
+        double tank[3];
+        tank_acceleration(dim, k, arm, tank);
+        for (int d = 0; d < dim; d++) {
+            a[k * dim + d] = tank[d];
+            for (int e = 0; e < dim; e++)
+                a[k * dim + d] -= dim / t->n0 * b[d * dim + e] * sum[k][e];
+        }
+    }
+}
+MPS_ROWS(change_rows, change_row, mass_fields)
+
+/* Force of the tank on the liquid and its moment, by some degrees of freedom. */
+MPS_ROW void add_change(const int dim, const mps_view *v, const mass_fields *f, int64_t i,
+                        double *term)
+{
+    const int dofs = DOFS(dim), stride = dofs * dim;
+    const double *a = f->a + f->column * dim;
+    const bool fluid = mps_is_fluid(v, i);
+    double arm[3] = {0}, n[3] = {0};
+    const double mass = fluid ? mps__cell_mass(f->density, f->halves.region, f->cell, i)
+                              : mps__half_cell(dim, v, &f->halves, i, n);
+    if (mass == 0) return;
+    for (int d = 0; d < dim; d++) arm[d] = v->x[i * dim + d] - f->at[d];
+    for (int k = 0; k < AT_ONCE(dim); k++, a += dim, term += dofs) {
+        double force[3] = {0}, moment[3], tank[3];
+        if (fluid)
+            for (int d = 0; d < dim; d++) force[d] = a[i * stride + d];
+        else {
+            tank_acceleration(dim, f->column + k, arm, tank);
+            mps__half_acceleration(dim, v, &f->halves, i, a, stride, tank, n, force);
+        }
+        for (int d = 0; d < dim; d++) force[d] *= mass;
+        mps__cross(arm, force, moment);
+        for (int j = 0; j < dofs; j++) term[j] = along(dim, j, force, moment);
+    }
+}
+MPS_SUMS(add_changes, add_change, mass_fields)
+
+/* A, from the changes of all pressures. */
+static mps_status sum_columns(mps__step *q, const int32_t *freedom, int32_t dofs)
+{
+    mps__world *w = q->w;
+    const mps__particles *s = &w->particles;
+    const int32_t dim = s->dim, correction = mps__channels_find(&w->channels, "correction");
+    const mps_flux *flux = q->terms.flux;
+    mass_fields f = {.halves = {flux->density, flux->wetted, s->region},
+                     .p = w->mass.next,
+                     .a = w->mass.a,
+                     .density = s->rho,
+                     .cell = pow(w->setup.dp, dim)};
+    mps_view v = q->view;
+    memcpy(f.at, q->load.at, sizeof f.at);
+    f.correction = mps__channels_array(&w->channels, &w->particles, correction);
+    v.flux = *flux;
+    mps__host_rows(&w->host, &v, &change_rows, &f);
+    MPS__TRY(mps__ghosts_share(&w->ghosts,
+                               &(mps__shared){f.a, (size_t)(dofs * dim) * sizeof *f.a}, 1));
+    for (; f.column < dofs; f.column += AT_ONCE(dim)) {
+        double sums[MPS_PARALLEL_VALUES] = {0};
+        mps__host_sum(&w->host, &v, AT_ONCE(dim) * dofs, &add_changes, &f, sums);
+        for (int32_t k = 0; k < AT_ONCE(dim) * dofs; k++)
+            q->load.mass[6 * freedom[k % dofs] + freedom[f.column + k / dofs]] = sums[k];
+    }
+    return MPS_OK;
+}
+
+mps_status mps__step_mass(mps__step *q)
+{
+    mps__world *w = q->w;
+    int32_t freedom[6];
+    const int32_t dofs = mps__step_freedom(w->setup.dim, freedom);
+    if (!q->terms.equation.body || mps__channels_find(&w->channels, "correction") < 0)
+        return mps__fail(w->context, MPS_E_STATE,
+                         "the added mass needs a pressure equation in the frame of the tank, as "
+                         "'source.volume' makes it: use that model, or mps_load_watch() with "
+                         "MPS_LOAD_FORCE");
+    MPS__TRY(reserve(w, dofs));
+    get_ready(w);
+    q->load.has_mass = true;
+    mps__ppe_moments(&w->ppe, &q->view, &q->terms, w->mass.moments);
+    for (int32_t k = 0; k < dofs; k++) MPS__TRY(solve_column(q, freedom, dofs, k));
+    return sum_columns(q, freedom, dofs);
+}

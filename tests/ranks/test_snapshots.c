@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Snapshots on any number of ranks: what goes on from one is what one rank does that never went another way. */
+#include "kit_engine.h"
+#include "scenes.h"
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+enum { TEXT = 300, STEPS = 24, TAKES = 3 };
+
+/* Before these steps a snapshot is taken; after so many more it is restored, twice. The first divides space, the others search and cut anew. */
+static const int take_at[TAKES] = {0, 6, 15}, away[TAKES] = {1, 9, 2};
+
+typedef struct run {
+    const scene *scene;
+    kit_engine_team *team;
+    bool trials;
+    record *last; /* of the last step */
+    char error[64][TEXT];
+} run;
+
+static mps_status advance(mps_sim *sim, const scene *s, int from, int to, mps_step_info *info)
+{
+    mps_status status = MPS_OK;
+    for (int k = from; k < to && status >= 0; k++) {
+        status = scene_change(sim, s, k);
+        if (status >= 0) status = mps_step(sim, 1, info);
+    }
+    return status;
+}
+
+static mps_status go(mps_sim *sim, const run *k, mps_step_info *info)
+{
+    mps_snapshot *snapshot = NULL;
+    mps_status status = mps_snapshot_create(sim, &snapshot);
+    int done = 0;
+    for (int c = 0; c < TAKES && k->trials && status >= 0; done = take_at[c++]) {
+        status = advance(sim, k->scene, done, take_at[c], info);
+        if (status >= 0) status = mps_snapshot_take(snapshot);
+        for (int again = 0; again < 2 && status >= 0; again++) {
+            status = advance(sim, k->scene, take_at[c], take_at[c] + away[c] + again, info);
+            if (status >= 0) status = mps_snapshot_restore(snapshot);
+        }
+    }
+    if (status >= 0) status = advance(sim, k->scene, done, STEPS, info);
+    mps_snapshot_destroy(snapshot);
+    return status;
+}
+
+static void run_rank(void *argument, int32_t rank)
+{
+    run *k = argument;
+    mps_sim *sim = NULL;
+    mps_step_info info;
+    mps_step_info_init(&info, sizeof info);
+    mps_status status = scene_create(k->scene, &sim);
+    if (status == MPS_OK && k->team) {
+        const mps_ranks_ops ops = kit_engine_ops(k->team, rank);
+        status = mps_sim_ranks_set(sim, &ops);
+    }
+    if (status == MPS_OK) status = scene_build(sim, k->scene);
+    if (status == MPS_OK) status = go(sim, k, &info);
+    if (status >= 0) record_note(sim, &info, k->last);
+    if (status < 0) snprintf(k->error[rank], TEXT, "%s", mps_sim_error(sim));
+    mps_sim_destroy(sim);
+}
+
+/* @return what the last step left; for free() */
+static record *take(const scene *s, int32_t ranks, bool trials)
+{
+    run k = {.scene = s,
+             .trials = trials,
+             .last = calloc(1, sizeof(record)),
+             .team = ranks > 1 ? kit_engine_create(ranks, (uint32_t)ranks) : NULL};
+    assert_non_null(k.last);
+    if (k.team)
+        kit_engine_run(k.team, run_rank, &k);
+    else
+        run_rank(&k, 0);
+    for (int32_t r = 0; r < ranks; r++)
+        if (k.error[r][0])
+            fail_msg("%s, rank %d of %d: %s", s->name, (int)r, (int)ranks, k.error[r]);
+    if (k.team) kit_engine_destroy(k.team);
+    return k.last;
+}
+
+static void test_scene(void **state)
+{
+    const scene *s = *state;
+    char text[TEXT];
+    record *alone = take(s, 1, false);
+    for (int32_t ranks = 1; ranks <= 4; ranks++) {
+        record *many = take(s, ranks, true);
+        if (!record_same(alone, many, text, sizeof text))
+            fail_msg("%s: %d ranks: %s", s->name, (int)ranks, text);
+        free(many);
+    }
+    free(alone);
+}
+
+int main(void)
+{
+    struct CMUnitTest tests[SCENES];
+    for (int k = 0; k < SCENES; k++)
+        tests[k] = (struct CMUnitTest){.name = scenes[k].name,
+                                       .test_func = test_scene,
+                                       .initial_state = (void *)(uintptr_t)&scenes[k]};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
