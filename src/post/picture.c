@@ -74,6 +74,22 @@ mps_status mps_picture_save(mps_sim *sim, mps_picture_config *config, const char
     return status;
 }
 
+mps_status mps__scene_rehearse(mps_sim *sim)
+{
+    page_errors e = {NULL, 0};
+    mps_picture_config config;
+    scene s;
+    canvas c;
+    mps_picture_config_init(&config, sizeof config);
+    mps_status status = mps__scene_of_sim(&s, sim, &e);
+    if (status == MPS_OK && !mps__scene_end(&s)) status = MPS_E_ARG;
+    if (status == MPS_OK && !mps__scene_scale(&s, &config)) status = MPS_E_NOMEM;
+    if (status == MPS_OK) status = mps__scene_draw(&s, config.width, &c, &e);
+    if (status == MPS_OK) mps__canvas_destroy(&c);
+    mps__scene_free(&s);
+    return status;
+}
+
 /* Gravity and scale of the folder, where the config has none. */
 static void complete(mps_picture_config *config, const film *f)
 {

@@ -56,6 +56,8 @@ bool mps__scene_scale(scene *s, mps_picture_config *config);
 mps_status mps__scene_pose(mps_sim *sim, int32_t dim, film_pose *out);
 /* The present state of a simulation. */
 mps_status mps__scene_of_sim(scene *s, mps_sim *sim, page_errors *e);
+/* Draw that state and forget the picture: what a run does at its end, for who wants to know its memory. */
+mps_status mps__scene_rehearse(mps_sim *sim);
 /* Title, spacing, phases and sensors from summary.json. */
 mps_status mps__scene_of_run(scene *s, const film *f);
 /* The particles of a frame that was read. */

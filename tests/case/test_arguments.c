@@ -95,7 +95,8 @@ static void of_a_job(void **state)
     ASSERT_JOB_REFUSED(job, mps_job_input_add(job, "a", NULL), MPS_E_ARG, "value");
     ASSERT_JOB_REFUSED(job, mps_job_outline_add(job, 2, NULL), MPS_E_ARG, "two places");
     ASSERT_JOB_REFUSED(job, mps_job_edges_add(job, 1, NULL), MPS_E_ARG, "two places");
-    ASSERT_JOB_REFUSED(job, mps_job_edges_add(job, 0, (const double[6]){0}), MPS_E_ARG, "two places");
+    ASSERT_JOB_REFUSED(job, mps_job_edges_add(job, 0, (const double[6]){0}), MPS_E_ARG,
+                       "two places");
     ASSERT_JOB_REFUSED(job, mps_job_edges_add(job, INT32_MAX, (const double[6]){0}), MPS_E_ARG,
                        "two places");
     ASSERT_JOB_REFUSED(job, mps_job_edges_add(job, 1, (const double[6]){0, INFINITY}), MPS_E_ARG,
