@@ -145,7 +145,7 @@ expect 2 "late.csv and dry: no column can be compared" "$program" compare dry dr
 says "^  eta +.*no common time"
 printf 't[s],eta\n0,1\n1,2\n2,2\n' > bare.csv
 expect 0 "" "$program" compare dry dry bare.csv
-[ "$(grep -cE "^  eta +[0-9.]+ mm? .* 2 m +2 m +1 s +1 s +" log)" -eq 2 ] || fail "compare without a unit: $(cat log)"
+[ "$(grep -cE "^  eta +[0-9.]+ mm? .* 2 m +2 m +1 s +1 s +" log)" -eq 3 ] || fail "compare without a unit: $(cat log)"
 mkdir empty
 printf 't[s],eta[m]\n' > empty/probes.csv
 expect 2 "no column can be compared" "$program" compare empty dry

@@ -261,9 +261,11 @@ static void write_motion(const writer *w, const build *b)
     }
     fprintf(w->file, "centre ");
     write_place(w, b, m->centre);
-    if (m->rows > 0)
-        fprintf(w->file, ", %lld rows of %s, %.4g to %.4g s apart", (long long)m->rows, m->file,
-                m->step_least, m->step_most);
+    if (m->rows > 0) fprintf(w->file, ", %lld rows of %s, ", (long long)m->rows, m->file);
+    if (m->rows > 0 && m->step_most > m->step_least * (1 + 1e-6))
+        fprintf(w->file, "%.4g to %.4g s apart", m->step_least, m->step_most);
+    else if (m->rows > 0)
+        fprintf(w->file, "%.4g s apart", m->step_most);
     if (m->unused[0]) fprintf(w->file, "; not used: %s", m->unused);
     if (m->rows == 0) fprintf(w->file, ", %d harmonic%s", (int)m->count, m->count == 1 ? "" : "s");
     fprintf(w->file, "\n");
@@ -272,7 +274,7 @@ static void write_motion(const writer *w, const build *b)
         const double *most = m->largest[d], f = turn ? degree : 1;
         if (!m->used[d]) continue;
         heading(w, "");
-        fprintf(w->file, "%s: at most %.4g %s, %.4g %s/s, %.4g %s/s2\n", mps__degrees[d],
+        fprintf(w->file, "%s: at most %.3g %s, %.3g %s/s, %.3g %s/s2\n", mps__degrees[d],
                 f * most[0], turn ? "deg" : "m", f * most[1], turn ? "deg" : "m", f * most[2],
                 turn ? "deg" : "m");
     }
