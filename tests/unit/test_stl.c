@@ -1,77 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* STL files: both forms, scale, what is wrong with a mesh, files cut short and with bytes changed; distances to meshes. */
-#include "mesh.h"
-#include "sim.h"
-#include "tank_fixture.h"
-#include <stdio.h>
-#include <stdlib.h>
-#include <unistd.h>
-
-static char folder[] = "mps_stl_XXXXXX", path[64];
+#include "stl_fixture.h"
 
 /* ---- meshes ---- */
-
-enum { MOST = 4096 };
-
-typedef struct triangles {
-    int count;
-    float x[MOST][9];
-} triangles;
-
-static void add_triangle(triangles *t, const double *a, const double *b, const double *c)
-{
-    assert_true(t->count < MOST);
-    for (int d = 0; d < 3; d++) {
-        t->x[t->count][d] = (float)a[d];
-        t->x[t->count][3 + d] = (float)b[d];
-        t->x[t->count][6 + d] = (float)c[d];
-    }
-    t->count++;
-}
-
-/* Box 0..2 x 0..1.2 x 0..1.6, normals outward. */
-static triangles box_mesh(void)
-{
-    static const int face[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
-                                   {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-    triangles t = {0};
-    double p[8][3];
-    for (int k = 0; k < 8; k++) {
-        p[k][0] = k & 1 ? 2 : 0;
-        p[k][1] = k & 2 ? 1.2 : 0;
-        p[k][2] = k & 4 ? 1.6 : 0;
-    }
-    for (int f = 0; f < 6; f++) {
-        add_triangle(&t, p[face[f][0]], p[face[f][1]], p[face[f][2]]);
-        add_triangle(&t, p[face[f][0]], p[face[f][2]], p[face[f][3]]);
-    }
-    return t;
-}
-
-/* A unit sphere about (1, 1, 1), n by 2 n faces. */
-static void sphere_point(int n, int i, int j, double x[3])
-{
-    const double pi = 3.14159265358979323846, a = pi * i / n, b = pi * (j % (2 * n)) / n;
-    x[0] = 1 + (i % n ? sin(a) * cos(b) : 0);
-    x[1] = 1 + (i % n ? cos(a) : i ? -1 : 1);
-    x[2] = 1 + (i % n ? sin(a) * sin(b) : 0);
-}
-
-static triangles sphere_mesh(int n)
-{
-    triangles t = {0};
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j < 2 * n; j++) {
-            double p[4][3];
-            sphere_point(n, i, j, p[0]);
-            sphere_point(n, i + 1, j, p[1]);
-            sphere_point(n, i + 1, j + 1, p[2]);
-            sphere_point(n, i, j + 1, p[3]);
-            if (i + 1 < n) add_triangle(&t, p[0], p[2], p[1]);
-            if (i > 0) add_triangle(&t, p[0], p[3], p[2]);
-        }
-    return t;
-}
 
 static void turn(triangles *t, int k)
 {
@@ -83,34 +14,6 @@ static void turn(triangles *t, int k)
 }
 
 /* ---- files ---- */
-
-static void write_bytes(const void *bytes, size_t size)
-{
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(bytes, 1, size, file), size);
-    assert_int_equal(fclose(file), 0);
-}
-
-/* @return size; the caller frees *bytes */
-static size_t binary_of(const triangles *t, unsigned char **bytes)
-{
-    const size_t size = 84 + 50 * (size_t)t->count;
-    *bytes = calloc(size, 1);
-    assert_non_null(*bytes);
-    memcpy(*bytes, "solid, but binary", 17);
-    for (int k = 0; k < 4; k++) (*bytes)[80 + k] = (unsigned char)(t->count >> 8 * k);
-    for (int i = 0; i < t->count; i++) memcpy(*bytes + 84 + 50 * i + 12, t->x[i], sizeof t->x[i]);
-    return size;
-}
-
-static void write_binary(const triangles *t)
-{
-    unsigned char *bytes;
-    const size_t size = binary_of(t, &bytes);
-    write_bytes(bytes, size);
-    free(bytes);
-}
 
 static void write_ascii(const triangles *t)
 {
@@ -385,21 +288,6 @@ static void distances(void **state)
     mps__mesh_free(&m);
 }
 
-static int make_folder(void **state)
-{
-    (void)state;
-    if (!mkdtemp(folder)) return 1;
-    snprintf(path, sizeof path, "%s/tank.stl", folder);
-    return 0;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    unlink(path);
-    return rmdir(folder);
-}
-
 /* The file's axis z up becomes y: a quarter turn about x. Angles are about x, then y, then z of the tank. */
 static void rotation(void **state)
 {
@@ -482,69 +370,11 @@ static void open_sides(void **state)
     }
 }
 
-/* Each edge of a box once, between its corners as placed, whatever the file's diagonals; on a sphere none that is flatter than its faces. */
-static void sharp_edges(void **state)
-{
-    const triangles box = box_mesh(), fine = sphere_mesh(24);
-    const double degree = acos(-1.0) / 180;
-    double ends[12][6], few[2][6] = {{0}};
-    int64_t count = -1;
-    mps_sim *sim = new_sim(3, 0.2);
-    mps_stl stl;
-    (void)state;
-    assert_int_equal(mps_stl_init(&stl, sizeof stl), MPS_OK);
-    stl.scale = 2;
-    stl.shift[1] = -1;
-    write_binary(&box);
-    ASSERT_OK(sim, mps_stl_edges(sim, path, &stl, 20 * degree, 12, ends[0], &count));
-    assert_int_equal(count, 12);
-    double length = 0;
-    for (int k = 0; k < 12; k++) {
-        int along = 0;
-        for (int d = 0; d < 3; d++) {
-            const double side = (const double[]){4, 2.4, 3.2}[d];
-            for (int e = 0; e < 2; e++) {
-                const double x = ends[k][3 * e + d] + (d == 1);
-                ASSERT_NEAR(fmin(fabs(x), fabs(x - side)), 0, 1e-6);
-            }
-            along += fabs(ends[k][d] - ends[k][3 + d]) > 0.1;
-            length += fabs(ends[k][d] - ends[k][3 + d]);
-        }
-        assert_int_equal(along, 1);
-        for (int j = 0; j < k; j++) assert_memory_not_equal(ends[j], ends[k], sizeof ends[k]);
-    }
-    ASSERT_NEAR(length, 4 * (4 + 2.4 + 3.2), 1e-5);
-    ASSERT_OK(sim, mps_stl_edges(sim, path, &stl, 20 * degree, 1, few[0], &count));
-    assert_int_equal(count, 12);
-    assert_memory_equal(few[0], ends[0], sizeof few[0]);
-    assert_true(few[1][0] == 0 && few[1][5] == 0);
-    ASSERT_OK(sim, mps_stl_edges(sim, path, &stl, 91 * degree, 0, NULL, &count));
-    assert_int_equal(count, 0);
-    assert_int_equal(mps_particles_count(sim, -1), 0);
-    write_binary(&fine); /* of faces 7.5 degrees apart */
-    ASSERT_OK(sim, mps_stl_edges(sim, path, &stl, 8 * degree, 0, NULL, &count));
-    assert_int_equal(count, 0);
-    ASSERT_OK(sim, mps_stl_edges(sim, path, &stl, 7 * degree, 0, NULL, &count));
-    assert_true(count > 0 && 2 * count <= 3 * fine.count);
-    count = -1;
-    ASSERT_REFUSED(sim, mps_stl_edges(sim, path, &stl, -1, 0, NULL, &count), MPS_E_ARG, "0..pi");
-    ASSERT_REFUSED(sim, mps_stl_edges(sim, path, &stl, 4, 0, NULL, &count), MPS_E_ARG, "0..pi");
-    ASSERT_REFUSED(sim, mps_stl_edges(sim, path, &stl, 1, 1, NULL, &count), MPS_E_ARG, "ends");
-    ASSERT_REFUSED(sim, mps_stl_edges(sim, path, &stl, 1, -1, ends[0], &count), MPS_E_ARG, "room");
-    ASSERT_REFUSED(sim, mps_stl_edges(sim, path, &stl, 1, 0, NULL, NULL), MPS_E_ARG, "count");
-    ASSERT_REFUSED(sim, mps_stl_edges(sim, "none.stl", &stl, 1, 0, NULL, &count), MPS_E_IO, "none");
-    stl.scale = -1;
-    ASSERT_REFUSED(sim, mps_stl_edges(sim, path, &stl, 1, 0, NULL, &count), MPS_E_ARG, "scale");
-    assert_int_equal(count, -1);
-    mps_sim_destroy(sim);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rotation),
         cmocka_unit_test(open_sides),
-        cmocka_unit_test(sharp_edges),
         cmocka_unit_test(both_forms),
         cmocka_unit_test(scale_and_orientation),
         cmocka_unit_test(bad_meshes),
