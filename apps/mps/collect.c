@@ -44,8 +44,8 @@ static double find_last(const signal *s)
     return s->n > 0 ? s->value[s->n - 1] : NAN;
 }
 
-/* By Weibull, at full scale, as 'mps stats' prints it; nan: too few events. */
-static double find_p3h(const signal *s)
+/* At full scale, as 'mps stats' prints it; nan: too few events. @param kind  of the fit, MPS_FIT_.. */
+static double find_exceeded(const signal *s, int32_t kind)
 {
     mps_impacts *impacts = NULL;
     mps_impacts_info info;
@@ -55,10 +55,20 @@ static double find_p3h(const signal *s)
     mps_impacts_info_init(&info, sizeof info);
     if (mps_impacts_find(s->config, s->n, s->t, s->value, &impacts) == MPS_OK &&
         mps_impacts_info_get(impacts, &info) == MPS_OK &&
-        mps_impacts_fit_get(impacts, MPS_FIT_WEIBULL, &fit) == MPS_OK)
+        mps_impacts_fit_get(impacts, kind, &fit) == MPS_OK)
         value = info.pressure_scale * fit.value;
     mps_impacts_destroy(impacts);
     return value;
+}
+
+static double find_p3h(const signal *s)
+{
+    return find_exceeded(s, MPS_FIT_WEIBULL);
+}
+
+static double find_p3h_pareto(const signal *s)
+{
+    return find_exceeded(s, MPS_FIT_PARETO);
 }
 
 /* Amplitude at the frequency of the motion; nan: it has none, or the run is too short. */
@@ -74,9 +84,10 @@ static const struct {
     const char *name;
     double (*find)(const signal *s);
     bool pressure; /* of pressures alone */
-} STATISTICS[] = {{"max", find_max, false},   {"min", find_min, false},
-                  {"mean", find_mean, false}, {"last", find_last, false},
-                  {"p3h", find_p3h, true},    {"harmonic", find_harmonic, false}};
+} STATISTICS[] = {{"max", find_max, false},          {"min", find_min, false},
+                  {"mean", find_mean, false},        {"last", find_last, false},
+                  {"p3h", find_p3h, true},           {"p3h_pareto", find_p3h_pareto, true},
+                  {"harmonic", find_harmonic, false}};
 
 enum { STATISTIC_COUNT = sizeof STATISTICS / sizeof *STATISTICS };
 

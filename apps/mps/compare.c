@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* mps compare: how the columns of runs differ from those of the first run, and from a reference. */
 #include "cli.h"
+#include "constants.h"
 #include "record.h"
 #include <math.h>
 #include <mps/stats.h>
@@ -22,25 +23,24 @@ static mps_status compare_columns(const mps_stats_config *config, const record *
     return mps_series_compare(config, &first, &second, c);
 }
 
+enum { CELL = 11 };
+
 static void print_head(const record *a, const record *b)
 {
     printf("%s against %s\n", b->place, a->place);
-    printf("  %-28s %11s %11s %11s %11s %11s %11s %8s %8s\n", "column", "rms diff.", "rms of 1st",
-           "peak 1st", "peak 2nd", "t 1st [s]", "t 2nd [s]", "later[s]", "phase[o]");
+    printf("  %-24s %11s %11s %11s %11s %11s %11s %11s %11s\n", "column", "rms diff.", "rms of 1st",
+           "peak 1st", "peak 2nd", "at, 1st", "at, 2nd", "later", "phase");
 }
 
-static void print_row(const char *label, const mps_comparison *c)
+static void print_row(const char *name, const char *unit, const mps_comparison *c)
 {
-    printf("  %-28s %11.4g %11.4g %11.4g %11.4g %11.4g %11.4g", label, c->rms, c->rms_first,
-           c->peak[0], c->peak[1], c->t_peak[0], c->t_peak[1]);
-    if (isfinite(c->shift))
-        printf(" %8.3g", c->shift);
-    else
-        printf(" %8s", "-");
-    if (isfinite(c->phase))
-        printf(" %8.3g\n", c->phase * 180 / acos(-1.0));
-    else
-        printf(" %8s\n", "-");
+    const double value[] = {c->rms, c->rms_first, c->peak[0], c->peak[1]};
+    printf("  %-24s", name);
+    for (int k = 0; k < 4; k++) print_quantity(CELL, value[k], unit);
+    for (int k = 0; k < 2; k++) print_time(CELL, c->t_peak[k]);
+    print_quantity(CELL, c->shift, "s");
+    print_quantity(CELL, c->phase * 180 / acos(-1.0), "deg");
+    printf("\n");
 }
 
 /* All columns that both have. @return number of columns that were compared, -1: no memory */
@@ -50,26 +50,23 @@ static int compare_two(mps_stats_config *config, const record *a, const record *
     const double end = fmin(record_end(a), record_end(b));
     config->from = end > 0 ? 0.005 * end : -INFINITY; /* without the impulse of the start */
     for (int32_t ka = 0; ka < mps_table_columns(a->table); ka++) {
-        char label[64];
         mps_comparison c;
         const char *name = mps_table_name(a->table, ka), *unit = mps_table_unit(a->table, ka);
         const int32_t kb = record_find(b, name);
         if (kb < 0) continue;
         const char *other = mps_table_unit(b->table, kb);
         if (shared++ == 0) print_head(a, b);
-        const char *shown = unit[0] ? unit : other;
-        snprintf(label, sizeof label, shown[0] ? "%.40s [%.16s]" : "%.40s", name, shown);
         if (unit[0] && other[0] && strcmp(unit, other) != 0) {
-            printf("  %-28s is in %s there\n", label, other);
+            printf("  %-24s is in %s there, in %s here\n", name, other, unit);
             continue;
         }
         const mps_status status = compare_columns(config, a, ka, b, kb, &c);
         if (status == MPS_E_NOMEM) return -1;
         if (status == MPS_OK) {
             compared++;
-            print_row(label, &c);
+            print_row(name, unit[0] ? unit : other, &c);
         } else
-            printf("  %-28s %s\n", label, config->error);
+            printf("  %-24s %s\n", name, config->error);
     }
     return compared;
 }

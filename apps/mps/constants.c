@@ -13,6 +13,21 @@ const char *quantity(double value, const char *unit)
     return text[next];
 }
 
+void print_quantity(int width, double value, const char *unit)
+{
+    const char *text = quantity(value, unit);
+    int shown = 0; /* bytes that begin a character: a minus has three */
+    for (const char *c = text; *c; c++) shown += ((unsigned char)*c & 0xC0) != 0x80;
+    printf(" %*s%s", width > shown ? width - shown : 0, "", text);
+}
+
+void print_time(int width, double t)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.5g s", t);
+    printf(" %*s", width, text);
+}
+
 void constants_begin(constants *k)
 {
     mps_stats_config_init(&k->used, sizeof k->used);

@@ -20,5 +20,9 @@ mps_status constants_read(constants *k, const choices *c, const char *folder);
 void constants_print(const constants *k, const choices *c, const char *folder);
 /* A quantity as a person rounds it, "33.3 kPa", into one of a few buffers, which later calls use again. */
 const char *quantity(double value, const char *unit);
+/* Print a blank and the same, at the right of `width` characters; "-" for nan. */
+void print_quantity(int width, double value, const char *unit);
+/* The same of a moment of the run, with the digits that find it in a table. */
+void print_time(int width, double t);
 
 #endif

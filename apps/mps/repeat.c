@@ -1,18 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* mps repeat, mps converge: the same case with several dp. */
+#include "constants.h"
 #include "series.h"
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum {
-    REPEAT_MOST = 100,
-    REPEAT_COUNT = 5,
-    SPACINGS = 3,
-    NAME_SIZE = 80,
-    PATH_SIZE = SERIES_PATH + 32
-};
+enum { REPEAT_MOST = 100, REPEAT_COUNT = 5, SPACINGS = 3, CELL = 12, PATH_SIZE = SERIES_PATH + 32 };
 
 /* Runs of one case are the same to the last byte. dp and the time steps within this share give others of the same flow: the steps in all
  * tanks, also where a whole number of cells leaves one dp, and with each motion, also without one. */
@@ -24,13 +19,6 @@ static const mps_table *first_of(int32_t count, mps_table *const *rows)
     for (int32_t k = 0; k < count; k++)
         if (rows[k]) return rows[k];
     return NULL;
-}
-
-/* "P1 [Pa]" */
-static void name_of(const mps_table *rows, int32_t column, char out[NAME_SIZE])
-{
-    const char *unit = mps_table_unit(rows, column);
-    snprintf(out, NAME_SIZE, unit[0] ? "%s [%s]" : "%s", mps_table_name(rows, column), unit);
 }
 
 /* Values of all runs, and a row of the table: mean and bands of the largest value of a column. */
@@ -54,15 +42,15 @@ static bool find_figures(figures *f, int32_t count, mps_table *const *rows, int3
 static void print_repeat(int32_t count, mps_table *const *rows)
 {
     const mps_table *first = first_of(count, rows);
-    char name[NAME_SIZE];
     figures f;
-    printf("%-28s %4s %12s %12s %12s %12s %12s\n", "largest value of", "runs", "mean", "least",
+    printf("%-24s %4s %12s %12s %12s %12s %12s\n", "largest value of", "runs", "mean", "least",
            "most", "90 % mean", "90 % next");
     for (int32_t j = 0; j < mps_table_columns(first); j++) {
         if (!find_figures(&f, count, rows, j)) continue;
-        name_of(first, j, name);
-        printf("%-28s %4d %12.5g %12.5g %12.5g %12.3g %12.3g\n", name, (int)f.r.count, f.r.mean,
-               f.r.least, f.r.most, f.r.mean_band, f.r.next_band);
+        const double value[] = {f.r.mean, f.r.least, f.r.most, f.r.mean_band, f.r.next_band};
+        printf("%-24s %4d", mps_table_name(first, j), (int)f.r.count);
+        for (int k = 0; k < 5; k++) print_quantity(CELL, value[k], mps_table_unit(first, j));
+        printf("\n");
     }
 }
 
@@ -135,9 +123,10 @@ static void say_varied(int32_t count, mps_table *const *rows, const double *dp)
     }
     printf("varied: time steps by +-%g %%, dp as built ", 100 * SPREAD);
     if (spacings > 1)
-        printf("%.6g to %.6g m (%d different in %d runs)\n", least, most, (int)spacings, (int)runs);
+        printf("%s to %s (%d different in %d runs)\n", quantity(least, "m"), quantity(most, "m"),
+               (int)spacings, (int)runs);
     else
-        printf("%.6g m in all runs, whose cells fill the tank\n", least);
+        printf("%s in all runs, whose cells fill the tank\n", quantity(least, "m"));
 }
 
 int verb_repeat(const choices *c)
@@ -176,16 +165,19 @@ static bool find_order(mps_table *const *rows, const double *dp, int32_t column,
 
 static void print_converge(mps_table *const *rows, const double *dp)
 {
-    char name[NAME_SIZE];
-    printf("%-28s %12s %12s %12s %10s %7s %10s %s\n", "largest value of", "coarse", "middle",
+    printf("%-24s %12s %12s %12s %12s %7s %12s %s\n", "largest value of", "coarse", "middle",
            "fine", "change", "order", "band", "kind");
     for (int32_t j = 0; j < mps_table_columns(rows[2]); j++) {
         double value[SPACINGS];
         mps_convergence r;
         if (!find_order(rows, dp, j, value, &r)) continue;
-        name_of(rows[2], j, name);
-        printf("%-28s %12.5g %12.5g %12.5g %10.3g %7.3g %10.3g %s\n", name, value[2], value[1],
-               value[0], value[0] - value[1], r.order, r.band, KIND[r.kind]);
+        const char *unit = mps_table_unit(rows[2], j);
+        const double shown[] = {value[2], value[1], value[0], value[0] - value[1]};
+        printf("%-24s", mps_table_name(rows[2], j));
+        for (int k = 0; k < 4; k++) print_quantity(CELL, shown[k], unit);
+        print_quantity(7, r.order, "");
+        print_quantity(CELL, r.band, unit);
+        printf(" %s\n", KIND[r.kind]);
     }
 }
 
@@ -222,7 +214,8 @@ int verb_converge(const choices *c)
                 dp[1], dp[2]);
         code = MPS_EXIT_FAILED;
     } else if (rows[0] && rows[1] && rows[2]) {
-        printf("dp as built: %g, %g, %g m\n", dp[0], dp[1], dp[2]);
+        printf("dp as built: %s, %s, %s\n", quantity(dp[0], "m"), quantity(dp[1], "m"),
+               quantity(dp[2], "m"));
         print_converge(rows, dp);
         const int saved = save_converge(c, rows, dp);
         if (code == MPS_EXIT_OK) code = saved;

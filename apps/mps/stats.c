@@ -84,13 +84,6 @@ static mps_status find_all(const mps_stats_config *config, const record *r, sign
 
 /* ---- texts ---- */
 
-static void print_time(double t)
-{
-    char text[32];
-    snprintf(text, sizeof text, "%.5g s", t);
-    printf(" %10s", text);
-}
-
 static void print_highest(const mps_impacts *impacts)
 {
     mps_impact e;
@@ -100,7 +93,7 @@ static void print_highest(const mps_impacts *impacts)
     for (int64_t rank = 0; rank < HIGHEST && mps_impacts_highest(impacts, rank, &e) == MPS_OK;
          rank++) {
         printf("  %4lld %10s", (long long)rank + 1, quantity(e.peak, "Pa"));
-        print_time(e.t);
+        print_time(10, e.t);
         printf(" %10s %10s %10s %11s%s\n", quantity(e.rise, "s"), quantity(e.decay, "s"),
                quantity(e.duration, "s"), quantity(e.impulse, "Pa s"),
                e.unresolved ? "  not resolved" : "");

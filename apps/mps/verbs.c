@@ -39,10 +39,10 @@ static const char SERIES_TEXT[] =
     "no other begins. A run that fails does not stop the others.\n"
     "The table is DIR/sweep.csv, repeat.csv or converge.csv. A sweep collects the largest value\n"
     "of each column, or what 'collect' of the case names: P1.max, .min, .mean, .last; P1.p3h, the\n"
-    "pressure at full scale that is exceeded once in impacts.exposure, by Weibull; F.harmonic,\n"
-    "the amplitude at the frequency of the motion. Both are found between impacts.from and "
-    ".until;\n"
-    "nan: too few events; no frequency, or less than one period.\n"
+    "pressure at full scale that is exceeded once in impacts.exposure, by Weibull; P1.p3h_pareto,\n"
+    "by a generalised Pareto distribution; F.harmonic, the amplitude at the frequency of the\n"
+    "motion. These are found between impacts.from and .until; nan: too few events; no frequency,\n"
+    "or less than one period.\n"
     "Exit: 0 all are done, else the largest exit code of the runs.\n";
 
 const verb cli_verbs[] = {

@@ -392,6 +392,12 @@ MPS_API mps_status mps_job_input_add(mps_job *job, const char *key, const char *
  *  @return MPS_E_ARG, MPS_E_NOMEM */
 MPS_API mps_status mps_job_outline_add(mps_job *job, int32_t count, const double *x);
 
+/** Add edges of the tank, which pictures and the film of the page draw in 3-D in place of its box.
+ *  @param count  number of edges, >= 1
+ *  @param ends   [6*count] both ends of each, frame of the tank [m]; copied
+ *  @return MPS_E_ARG, MPS_E_NOMEM */
+MPS_API mps_status mps_job_edges_add(mps_job *job, int32_t count, const double *ends);
+
 /** Stop the run after its step, as a signal does. Allowed in signal handlers and other threads. */
 MPS_API void mps_job_stop(mps_job *job);
 

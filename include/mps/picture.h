@@ -52,6 +52,13 @@ typedef struct mps_picture_config {
     char *error;
     /** Size of `error` [bytes]. */
     size_t error_size;
+    /** [6*edge_count] both ends of each edge of the tank, in its frame [m], drawn in 3-D; NULL
+     *  (default): those of the run's folder, or of the box of all walls. */
+    const double *edges;
+    /** Number of `edges`; default 0. */
+    int32_t edge_count;
+    /** Kept 0. */
+    int32_t reserved_2;
 } mps_picture_config;
 
 /** Set all members to their defaults.

@@ -176,8 +176,9 @@ MPS_API mps_status mps_probe_series_clear(mps_sim *sim, int32_t id);
  *  dp, has particles in (L - dp) n dp: it lacks the share dp/L of its liquid, in 3-D also dp over
  *  its width. Compare `mass_filled` and `volume_filled` with rho V and V: they add dp/2 times the
  *  area of wetted walls, and subtract dp/2 times the area of the free surface (the top half cells
- *  lie above the level). What remains is of the order of dp^2: corners, and the edge of the
- *  wetted part of walls. */
+ *  lie above the level). A wall is wetted where fluid lies before it, within 0.75 dp of its normal
+ *  and 2 dp deep. What remains is of the order of dp^2: corners, the edge of the wetted part of
+ *  walls, and half a cell at each tip of a plate. */
 typedef struct mps_energy {
     /** Set by mps_energy_init(). */
     uint32_t struct_size;

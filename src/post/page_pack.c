@@ -231,6 +231,18 @@ static void write_poses(FILE *out, const packing *p)
     fputs("]}", out);
 }
 
+/* Edges of the tank in 3-D. */
+static void write_edges(FILE *out, const page_run *run)
+{
+    const json_value *list = mps__json_get(run->summary, "edges");
+    fputs("\"edges\": [", out);
+    for (size_t k = 0; k < 6 * mps__json_count(list); k++) {
+        const double x = mps__json_number(mps__json_at(mps__json_at(list, k / 6), k % 6));
+        fprintf(out, "%s%.6g", k ? ", " : "", isfinite(x) ? x : 0);
+    }
+    fputs("],\n", out);
+}
+
 static void write_head(const packing *p)
 {
     const film *f = p->film;
@@ -247,6 +259,7 @@ static void write_head(const packing *p)
     write_scale(out, "pressure", &f->pressure);
     write_scale(out, "speed", &f->speed);
     write_maps(out);
+    write_edges(out, f->run);
     fputs("\"t\": [", out);
     for (int64_t k = 0; k < p->frames; k++)
         fprintf(out, "%s%.9g", k ? ", " : "", f->run->frame[k * p->plan.step].t);

@@ -30,7 +30,19 @@ static mps_status check(const mps_picture_config *config, const char *path, page
                               config->gravity);
     if (!isfinite(config->pressure_lo) || !isfinite(config->pressure_hi))
         return mps__page_fail(e, MPS_E_ARG, "picture: pressure_lo and pressure_hi must be finite");
+    if (config->edge_count < 0 || (config->edge_count > 0 && !config->edges))
+        return mps__page_fail(e, MPS_E_ARG, "picture: edge_count is %d, must be >= 0, with edges",
+                              (int)config->edge_count);
     return MPS_OK;
+}
+
+/* Edges of the tank that the config has. */
+static bool take_edges(scene *s, const mps_picture_config *config)
+{
+    if (config->edge_count <= 0) return true;
+    if (!mps__scene_edges(s, config->edge_count)) return false;
+    memcpy(s->edge, config->edges, 6 * (size_t)config->edge_count * sizeof *s->edge);
+    return true;
 }
 
 /* Draw and write what a scene has. */
@@ -41,7 +53,7 @@ static mps_status save(scene *s, mps_picture_config *config, const char *path, p
     if (config->title) snprintf(s->title, sizeof s->title, "%s", config->title);
     if (!mps__scene_end(s))
         return mps__page_fail(e, MPS_E_ARG, "no picture '%s': there is no particle", path);
-    if (!mps__scene_scale(s, config))
+    if (!mps__scene_scale(s, config) || !take_edges(s, config))
         return mps__page_fail(e, MPS_E_NOMEM, "no memory for the picture '%s'", path);
     mps_status status = mps__scene_draw(s, config->width, &c, e);
     if (status != MPS_OK) return status;
@@ -58,6 +70,22 @@ mps_status mps_picture_save(mps_sim *sim, mps_picture_config *config, const char
     if (status != MPS_OK) return status;
     status = mps__scene_of_sim(&s, sim, &e);
     if (status == MPS_OK) status = save(&s, config, path, &e);
+    mps__scene_free(&s);
+    return status;
+}
+
+mps_status mps__scene_rehearse(mps_sim *sim)
+{
+    page_errors e = {NULL, 0};
+    mps_picture_config config;
+    scene s;
+    canvas c;
+    mps_picture_config_init(&config, sizeof config);
+    mps_status status = mps__scene_of_sim(&s, sim, &e);
+    if (status == MPS_OK && !mps__scene_end(&s)) status = MPS_E_ARG;
+    if (status == MPS_OK && !mps__scene_scale(&s, &config)) status = MPS_E_NOMEM;
+    if (status == MPS_OK) status = mps__scene_draw(&s, config.width, &c, &e);
+    if (status == MPS_OK) mps__canvas_destroy(&c);
     mps__scene_free(&s);
     return status;
 }

@@ -35,6 +35,18 @@ static mps_status take_sensors(scene *s, const page_run *run)
     return MPS_OK;
 }
 
+/* Edges of the tank. */
+static mps_status take_edges(scene *s, const page_run *run)
+{
+    const json_value *list = mps__json_get(run->summary, "edges");
+    const size_t count = mps__json_count(list);
+    if (count == 0 || count > INT32_MAX / 64) return MPS_OK;
+    if (!mps__scene_edges(s, (int32_t)count)) return no_memory(run->errors);
+    for (size_t k = 0; k < 6 * count; k++)
+        s->edge[k] = mps__json_number(mps__json_at(mps__json_at(list, k / 6), k % 6));
+    return MPS_OK;
+}
+
 mps_status mps__scene_of_run(scene *s, const film *f)
 {
     const page_run *run = f->run;
@@ -46,7 +58,8 @@ mps_status mps__scene_of_run(scene *s, const film *f)
     memcpy(s->run_lo, f->lo, sizeof s->run_lo);
     memcpy(s->run_hi, f->hi, sizeof s->run_hi);
     take_phases(s, run);
-    return take_sensors(s, run);
+    const mps_status status = take_edges(s, run);
+    return status == MPS_OK ? take_sensors(s, run) : status;
 }
 
 mps_status mps__scene_of_frame(scene *s, const film *f, int64_t k, const film_frame *frame)

@@ -20,6 +20,7 @@ void mps__scene_free(scene *s)
 {
     free(s->x);
     free(s->sensor);
+    free(s->edge);
     *s = (scene){0};
 }
 
@@ -32,6 +33,16 @@ scene_sensor *mps__scene_sensor(scene *s, const char *name)
     *own = (scene_sensor){0};
     snprintf(own->name, sizeof own->name, "%s", name);
     return own;
+}
+
+bool mps__scene_edges(scene *s, int32_t count)
+{
+    double *room = calloc(6 * (size_t)count + 1, sizeof *room);
+    if (!room) return false;
+    free(s->edge);
+    s->edge = room;
+    s->edges = count;
+    return true;
 }
 
 /* All walls, or all fluid where there is no wall; above an open tank the fluid, too, up to a quarter of the height. */

@@ -30,6 +30,8 @@ typedef struct scene {
     double run_lo[3], run_hi[3];  /* of what moves in all of the run; lo > hi: not known */
     int32_t sensors;
     scene_sensor *sensor;
+    int32_t edges; /* of the tank; 0: its box */
+    double *edge;  /* [6*edges] both ends */
     /* by mps__scene_end(): */
     int32_t phases;      /* the highest number in the fluid, plus one; of a run: in all of it */
     double lo[3], hi[3]; /* what is in the picture */
@@ -42,6 +44,8 @@ bool mps__scene_room(scene *s, int64_t n);
 void mps__scene_free(scene *s);
 /* One more sensor of a name; NULL without memory. */
 scene_sensor *mps__scene_sensor(scene *s, const char *name);
+/* Room for edges of the tank in s->edge, in place of those that there are. @return false without memory */
+bool mps__scene_edges(scene *s, int32_t count);
 /* When all particles are in: what follows from them. @return false: there is no particle */
 bool mps__scene_end(scene *s);
 /* The colour scale: that of the config, or what picture.h says, which is then written to the config unless all pressures are rounding.
@@ -52,6 +56,8 @@ bool mps__scene_scale(scene *s, mps_picture_config *config);
 mps_status mps__scene_pose(mps_sim *sim, int32_t dim, film_pose *out);
 /* The present state of a simulation. */
 mps_status mps__scene_of_sim(scene *s, mps_sim *sim, page_errors *e);
+/* Draw that state and forget the picture: what a run does at its end, for who wants to know its memory. */
+mps_status mps__scene_rehearse(mps_sim *sim);
 /* Title, spacing, phases and sensors from summary.json. */
 mps_status mps__scene_of_run(scene *s, const film *f);
 /* The particles of a frame that was read. */

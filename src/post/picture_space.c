@@ -179,21 +179,30 @@ static void copy_pixels(canvas *c, const pixel_box *box, const view *v)
     mps__canvas_pixels_end(c);
 }
 
-/* The edges of the box, and the directions of the axes at its lower corner. */
+static void draw_edge(canvas *c, const pixel_box *box, const view *v, const double x[3],
+                      const double y[3])
+{
+    double from[3], to[3];
+    project(&v->at, x, from);
+    project(&v->at, y, to);
+    if (!isfinite(from[0] + from[1] + to[0] + to[1])) return;
+    mps__canvas_line(c, box->x + from[0] / FINE, box->y + from[1] / FINE, box->x + to[0] / FINE,
+                     box->y + to[1] / FINE, 0.8, (colour){0.62, 0.64, 0.67});
+}
+
+/* The edges of the tank, or of the box of all walls. */
 static void draw_box(canvas *c, const pixel_box *box, const view *v)
 {
     const scene *s = v->s;
-    for (int corner = 0; corner < 8; corner++)
+    for (int32_t k = 0; k < s->edges; k++)
+        draw_edge(c, box, v, s->edge + 6 * (int64_t)k, s->edge + 6 * (int64_t)k + 3);
+    for (int corner = 0; corner < 8 && s->edges == 0; corner++)
         for (int d = 0; d < 3; d++) {
-            double x[3], from[3], to[3];
+            double x[3], y[3];
             if (corner >> d & 1) continue;
-            for (int k = 0; k < 3; k++) x[k] = corner >> k & 1 ? s->hi[k] : s->lo[k];
-            project(&v->at, x, from);
-            x[d] = s->hi[d];
-            project(&v->at, x, to);
-            mps__canvas_line(c, box->x + from[0] / FINE, box->y + from[1] / FINE,
-                             box->x + to[0] / FINE, box->y + to[1] / FINE, 0.8,
-                             (colour){0.62, 0.64, 0.67});
+            for (int k = 0; k < 3; k++) y[k] = x[k] = corner >> k & 1 ? s->hi[k] : s->lo[k];
+            y[d] = s->hi[d];
+            draw_edge(c, box, v, x, y);
         }
 }
 

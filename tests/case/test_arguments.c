@@ -34,6 +34,7 @@ static void without_a_job(void **state)
     assert_int_equal(mps_job_reference_add(NULL, &r), MPS_E_ARG);
     assert_int_equal(mps_job_level_set(NULL, 1), MPS_E_ARG);
     assert_int_equal(mps_job_input_add(NULL, "a", "b"), MPS_E_ARG);
+    assert_int_equal(mps_job_edges_add(NULL, 1, (const double[6]){0}), MPS_E_ARG);
     assert_int_equal(mps_job_outline_add(NULL, 2, (const double[4]){0}), MPS_E_ARG);
     assert_int_equal(mps_job_run(NULL, sim), MPS_EXIT_USAGE);
     assert_string_equal(mps_job_error(NULL), "");
@@ -93,6 +94,13 @@ static void of_a_job(void **state)
     ASSERT_JOB_REFUSED(job, mps_job_input_add(job, NULL, "b"), MPS_E_ARG, "key");
     ASSERT_JOB_REFUSED(job, mps_job_input_add(job, "a", NULL), MPS_E_ARG, "value");
     ASSERT_JOB_REFUSED(job, mps_job_outline_add(job, 2, NULL), MPS_E_ARG, "two places");
+    ASSERT_JOB_REFUSED(job, mps_job_edges_add(job, 1, NULL), MPS_E_ARG, "two places");
+    ASSERT_JOB_REFUSED(job, mps_job_edges_add(job, 0, (const double[6]){0}), MPS_E_ARG,
+                       "two places");
+    ASSERT_JOB_REFUSED(job, mps_job_edges_add(job, INT32_MAX, (const double[6]){0}), MPS_E_ARG,
+                       "two places");
+    ASSERT_JOB_REFUSED(job, mps_job_edges_add(job, 1, (const double[6]){0, INFINITY}), MPS_E_ARG,
+                       "two places");
     ASSERT_JOB_REFUSED(job, mps_job_outline_add(job, 2, (const double[4]){0, NAN}), MPS_E_ARG,
                        "two places");
     assert_int_equal(mps_reference_init(&r, sizeof r), MPS_OK);

@@ -57,6 +57,7 @@ static mps_status tell(mps_job *job, mps_sim *sim)
     if (status == MPS_OK) status = mps_job_level_set(job, 0.2);
     if (status == MPS_OK) status = mps_job_input_add(job, "dp", "40 mm");
     if (status == MPS_OK) status = mps_job_outline_add(job, 2, (const double[4]){0});
+    if (status == MPS_OK) status = mps_job_edges_add(job, 1, (const double[6]){0});
     mps_reference_init(&r, sizeof r);
     r.label = "known", r.unit = "m", r.column = "a", r.count = 2, r.t = r.value = t;
     if (status == MPS_OK) status = mps_job_reference_add(job, &r);

@@ -160,12 +160,12 @@ expect 2 "is no folder" "$program" stats pulses/probes.csv
 
 # compare: a sine of 1 s that is 0.1 s later differs by -2 sin(0.1 pi) cos(2 pi (t - 0.05)): rms from 0.205 to 41 s, of straight lines
 expect 0 "shifted against pulses" "$program" compare pulses shifted pulses/probes.csv
-awk '/^  eta/ { n++; ok += n == 2 ? $3 == 0 && $9 == 0 : ($3 - 0.4362) ^ 2 < 0.0002 ^ 2 && $9 == 0.1 && $10 == 36 }
+awk '/^  eta/ { n++; ok += $3 == "m" && $15 == "s" && $17 == "deg" && (n == 2 ? $2 == 0 && $14 == 0 : $2 == 0.436 && $14 == 0.1 && $16 == 36) }
     END { exit !(n == 3 && ok == 3) }' log || fail "compare: $(grep eta log)"
 grep -q "P1.*is in kPa there" log || fail "compare: units"
 grep -q "pulses against pulses/probes.csv" log || fail "compare: no reference"
 expect 0 "P_left" "$program" compare run again
-awk '/^  P_left/ { exit !($3 == 0) }' log || fail "the same run differs"
+awk '/^  P_left/ { exit !($2 == 0 && $3 == "Pa" && $5 ~ /^k?Pa$/) }' log || fail "the same run differs"
 expect 2 "is missing" "$program" compare run
 expect 2 "no such folder" "$program" compare run nowhere
 expect 2 "the last argument" "$program" compare run/probes.csv run
@@ -246,7 +246,7 @@ sed '/^collect\|^sweep/d' sweep.yaml > fitted.yaml
 cat >> fitted.yaml << END
 sweep: {motion.surge.amplitude: 10 20 mm}
 impacts: {deviations: 0.5, window: 0.05 T1, least_events: 3, scale: 40, from: 1 s, until: 6 s}
-collect: [P_left.p3h, P_left.harmonic, F.harmonic, eta_left.harmonic]
+collect: [P_left.p3h, P_left.harmonic, F.harmonic, eta_left.harmonic, P_left.p3h_pareto]
 END
 expect 0 "" "$program" sweep fitted.yaml --set "dp=40 mm" --set "run.until=6.5 s" -o fitted -q
 head -1 fitted/sweep.csv | grep -qF 'exit,P_left.p3h[Pa],P_left.harmonic[Pa],F_x.harmonic[N/m],F_y.harmonic[N/m],F_m.harmonic[N m/m],eta_left' ||
@@ -256,6 +256,9 @@ for run in 001 002; do
     wanted=$(sed -n 's/.*"weibull".*"full_scale": \([-+.0-9e]*\),.*/\1/p' fitted/$run/statistics.json)
     [ -n "$wanted" ] && [ "$(awk -F, -v run=$run '$1 == run { print $4 }' fitted/sweep.csv)" = "$wanted" ] ||
         fail "p3h of run $run: not '$wanted': $(grep ^$run fitted/sweep.csv)"
+    pareto=$(sed -n 's/.*"pareto".*"full_scale": \([-+.0-9e]*\),.*/\1/p' fitted/$run/statistics.json)
+    [ -n "$pareto" ] && [ "$pareto" != "$wanted" ] && [ "$(awk -F, -v run=$run '$1 == run { print $NF }' fitted/sweep.csv)" = "$pareto" ] ||
+        fail "p3h_pareto of run $run: not '$pareto': $(grep ^$run fitted/sweep.csv)"
     omega=$(sed -n 's/.*"motion omega", "value": "\([.0-9]*\) rad.*/\1/p' fitted/$run/summary.json)
     for column in P_left:5 F_x:6; do
         awk -F, -v w="$omega" -v name="${column%%:*}" -v got="$(awk -F, -v run=$run -v k="${column#*:}" '$1 == run { print $k }' fitted/sweep.csv)" '
@@ -273,6 +276,7 @@ for run in 001 002; do
     done
 done
 expect 2 "is no pressure" "$program" sweep fitted.yaml --set "collect=[eta_left.p3h]" --set "run.until=0.05 s" -o no_pressure -q
+expect 2 "'eta_left.p3h_pareto': column 'eta_left' is no pressure" "$program" sweep fitted.yaml --set "collect=[eta_left.p3h_pareto]" --set "run.until=0.05 s" -o no_pressure --overwrite -q
 expect 0 "" "$program" sweep fitted.yaml --set "collect=[P_left.p3h, F.harmonic]" --set "run.until=0.05 s" --set "impacts.from=0 s" -o short -q
 grep -q "^001,10 mm,0,nan,nan,nan,nan$" short/sweep.csv || fail "sweep.csv of short runs: $(cat short/sweep.csv)"
 cp swept/sweep.csv before.csv
@@ -286,7 +290,7 @@ grep -q "^002,5 m,3,nan,nan" bad/sweep.csv || fail "sweep.csv of a failed run: $
 # the last 20 steps share what is left of a run; before, they have the factor. Where whole cells leave one dp, the runs differ by their steps: each motion, fixed steps and none
 repeated() {
     expect 0 "" "$program" repeat $1.yaml --set "run.until=0.2 s" -n 3 -o $1 -q
-    grep -q "^varied: time steps by +-0.5 %, dp as built [0-9.]* m in all runs, whose cells fill the tank$" log || fail "repeat: $(cat log)"
+    grep -q "^varied: time steps by +-0.5 %, dp as built [0-9.]* mm in all runs, whose cells fill the tank$" log || fail "repeat: $(cat log)"
     grep -q "^run.step_factor,,,,,,,,,0.995,1,1.005$" $1/repeat.csv || fail "factors of $1/repeat.csv: $(cat $1/repeat.csv)"
     for k in 001 003; do
         cmp -s $1/$k/probes.csv $1/002/probes.csv && fail "$1: runs $k and 002 are the same"
@@ -306,8 +310,8 @@ for k in 1 2 3; do # the first step, of a length that is chosen
         FNR == 2 { exit !(f > 0.99 && ($2 / base / f - 1) ^ 2 < 1e-18) }' same/002/steps.csv same/00$k/steps.csv || fail "steps of run $k"
 done
 expect 0 "largest value of" "$program" repeat single.yaml --set "dp=5 mm" --set "run.until=0.01 s" -n 3 -o repeated -q
-grep -q "^P_left \[Pa\]  *3 " log || fail "repeat: $(cat log)"
-grep -q "^varied: time steps by +-0.5 %, dp as built 0.0049[0-9]* to 0.0050[0-9]* m (3 different in 3 runs)$" log || fail "repeat: $(cat log)"
+grep -qE "^P_left  *3( +[-0-9.]+ (k|m|)Pa){5}$" log || fail "repeat: $(cat log)"
+grep -q "^varied: time steps by +-0.5 %, dp as built 4.9[0-9]* mm to 5.0[0-9]* mm (3 different in 3 runs)$" log || fail "repeat: $(cat log)"
 # repeat.csv: the values of the runs, their mean, least and largest
 [ "$(head -1 repeated/repeat.csv)" = "largest value of,unit,runs,mean,least,most,deviation,mean_band,next_band,001,002,003" ] ||
     fail "repeat.csv: $(cat repeated/repeat.csv)"
@@ -327,8 +331,13 @@ most() { awk -F, -v name="$2" 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == nam
 three=$(most converged/001/probes.csv 'P_left[Pa]'),$(most converged/002/probes.csv 'P_left[Pa]'),$(most converged/003/probes.csv 'P_left[Pa]')
 grep -q "^P_left,Pa,$three," converged/converge.csv || fail "converge.csv has not $three: $(grep ^P_left converged/converge.csv)"
 grep -qE "^dp,m,0[.0-9]*,0[.0-9]*,0[.0-9]*,,,,,$" converged/converge.csv || fail "dp of converge.csv"
-awk '/^P_left/ { print $6, $7, $8 }' log > printed
-awk -F, 'NR == FNR { split($0, p, " "); next } /^P_left/ { exit !(sprintf("%.3g", $6) == p[1] && sprintf("%.3g", $7) == p[2] && sprintf("%.3g", $9) == p[3]) }' \
+# "12.3 kPa", three digits, with the minus of a text
+sed -n 's/\xe2\x88\x92/-/g; s/,//g; /^P_left/p' log > printed
+awk -F, 'function rounded(v, unit) { return sprintf("%.3g", unit == "kPa" ? v / 1000 : unit == "mPa" ? v * 1000 : v) }
+    function same(v, number, unit) { return rounded(v, unit) + 0 == number + 0 && unit ~ /^[km]?Pa$/ }
+    NR == FNR { n = split($0, p, " "); next }
+    /^P_left/ { order = p[n - 3] == "-" ? $7 == "nan" || $7 == "-nan" : sprintf("%.3g", $7) + 0 == p[n - 3] + 0
+        exit !(same($3, p[2], p[3]) && same($5, p[6], p[7]) && same($6, p[8], p[9]) && order && same($9, p[n - 2], p[n - 1])) }' \
     printed converged/converge.csv || fail "converge.csv is not as printed: $(cat printed) $(grep ^P_left converged/converge.csv)"
 grep -q "^dp: 40 mm" converged/001/case.yaml && grep -q "^dp: 20 mm" converged/003/case.yaml || fail "dp of converge"
 

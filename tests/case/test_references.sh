@@ -55,6 +55,14 @@ refused 's/values: 1.2 1.4 kPa/values: 1.2 kPa/' '2 times, but 1 values'
 refused 's/\[time, p\]/[time, q]/' "'q' is no column of"
 refused 's/known.csv/none.csv/' 'none.csv'
 refused 's/column: P1, take: least/column: P2, take: least/' 'P2'
+refused 's/times: 0.1 0.2 s/times: 0.2 0.2 s/' 'bad.yaml:9:15: error: the time 0.2 s is not later than that before it, 0.2 s'
+# a table of times that go back, or stand still, in a run and in a check, in the file's order and with its line
+printf 'time[ms],other[m],p[hPa]\n# measured\n0,1,10\n250,2,20\n200,2,20\n300,2,20\n' > back.csv
+printf 'time[ms],other[m],p[hPa]\n0,1,10\n250,2,20\n250,2,30\n' > still.csv
+refused 's/known.csv/back.csv/' 'back.csv:5: the time 0.2 s is not later than that before it, 0.25 s'
+refused 's/known.csv/still.csv/' 'still.csv:4: the time 0.25 s is not later than that before it, 0.25 s'
+"$program" check bad.yaml -q > log 2>&1 && fail "check takes times that stand still"
+grep -qF "bad.yaml:10:" log && grep -qF "still.csv:4: the time" log || fail "check of times: $(cat log)"
 [ ! -e bad ] || [ ! -e bad/probes.csv ] || fail 'a refused case has rows'
 
 [ $failed -eq 0 ] && echo "references and figures are as the case says"

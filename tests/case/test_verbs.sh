@@ -142,9 +142,10 @@ grep -q ", band \|extrapolated" log && fail "stats: a band without resamples, or
 expect 2 "no column can be compared" "$program" compare dry done/../flat
 printf 't[s],eta[m]\n5,1\n6,2\n' > late.csv
 expect 2 "late.csv and dry: no column can be compared" "$program" compare dry dry late.csv
-says "eta \[m\] +.*no common time"
+says "^  eta +.*no common time"
 printf 't[s],eta\n0,1\n1,2\n2,2\n' > bare.csv
-expect 0 "eta [m]" "$program" compare dry dry bare.csv
+expect 0 "" "$program" compare dry dry bare.csv
+[ "$(grep -cE "^  eta +[0-9.]+ mm? .* 2 m +2 m +1 s +1 s +" log)" -eq 3 ] || fail "compare without a unit: $(cat log)"
 mkdir empty
 printf 't[s],eta[m]\n' > empty/probes.csv
 expect 2 "no column can be compared" "$program" compare empty dry

@@ -115,6 +115,10 @@ static mps_status stl_solid(mps_sim *sim)
 {
     mps_stl stl;
     assert_int_equal(mps_stl_init(&stl, sizeof stl), MPS_OK);
+    int64_t edges = 0;
+    const mps_status status = mps_stl_edges(sim, stl_path, &stl, 0.3, 0, NULL, &edges);
+    if (status != MPS_OK) return status;
+    assert_int_equal(edges, 6);
     return mps_stl_add(sim, stl_path, &stl, NULL);
 }
 

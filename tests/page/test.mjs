@@ -46,6 +46,11 @@ const differ = (a, b) => a.data.length !== b.data.length || a.data.some((v, i) =
 
 const flat = await open("flat");
 
+await test("sensors are marked at once", flat, async (p) => {
+    await p.waitForFunction(() => document.documentElement.dataset.curves === "all");
+    await p.waitForFunction(() => document.querySelectorAll("#marks .probe").length === 1, null, { timeout: 3000 });
+});
+
 await test("the canvas is the picture that C draws of the frame", flat, async (p) => {
     await p.evaluate(() => { document.getElementById("screen").style.width = "720px"; });
     await p.waitForFunction(() => document.getElementById("canvas").width === 720);

@@ -113,6 +113,8 @@ CALL(mps_fill_level_add, return mps_fill_level_add(sim, 0, low, high, NULL, NULL
 CALL(mps_fill_add, return mps_fill_add(sim, 0, all_inside, NULL, NULL);)
 CALL(mps_solid_add, STRUCT(mps_solid); a.hi[0] = a.hi[1] = 0.5; a.inside = all_inside;
      return mps_solid_add(sim, &a);)
+CALL(mps_stl_edges, STRUCT(mps_stl); int64_t count;
+     return mps_stl_edges(sim, given.path, &a, 0.3, 0, NULL, &count);)
 CALL(mps_stl_add, STRUCT(mps_stl); return mps_stl_add(sim, given.path, &a, NULL);)
 CALL(mps_motion_centre_set, return mps_motion_centre_set(sim, high, MPS_START_WITH_TANK);)
 CALL(mps_motion_harmonics_set, const mps_harmonic h = {.amplitude = 0.1, .omega = 1};
@@ -278,6 +280,7 @@ static const lock_call lock_calls[] = {
     CHANGES(mps_step),
     CHANGES(mps_run),
     CHANGES(mps_checkpoint_read),
+    READS(mps_stl_edges),
     READS(mps_lease_end),
     READS(mps_stencil_get),
     READS(mps_checkpoint_write),

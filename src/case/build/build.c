@@ -96,6 +96,7 @@ static void build_columns(build *b)
     if (b->job && mps__build_filled(b))
         mps__build_try_job(b, mps_job_level_set(b->job, b->level), b->root, "fill");
     if (b->job) add_outlines(b);
+    mps__build_edges(b);
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         mps__read_all(mps__tree_find(b->root, others[i]));
     const tree_node *unread = mps__case_failed(b->c) ? NULL : mps__case_unread(b->c);

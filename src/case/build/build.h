@@ -158,6 +158,8 @@ int32_t mps__build_points(build *b, const tree_node *node, double z, int32_t mos
 int32_t mps__build_phase(build *b, const tree_node *at, const char *name);
 /* How to turn a file with this axis up; angles for mps_stl.rotation. */
 bool mps__build_stl(build *b, const tree_node *map, mps_stl *stl);
+/* Edges of a tank in 3-D, to the job. */
+void mps__build_edges(build *b);
 /* Which of these keys a map has. The reader has seen to it that it is one and only one. */
 int mps__build_kind(const tree_node *map, const char *const *kind, int count);
 /* Middle of the tank's box along z; 0 in 2-D. */

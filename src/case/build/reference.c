@@ -36,6 +36,21 @@ static void unit_of(uint64_t kinds, int32_t dim, char *out, size_t size)
         }
 }
 
+/* Times that go back are of another column, or of several tables one after the other. @param t  NULL: they are in the case */
+static bool check_times(build *b, const tree_node *node, const csv *t, const series *s)
+{
+    char line[32] = "";
+    for (int64_t i = 1; i < s->count; i++) {
+        if (s->t[i] > s->t[i - 1]) continue;
+        if (t) snprintf(line, sizeof line, ":%lld: ", (long long)t->line[i]);
+        mps__case_say(b->c, node, false,
+                      "%s%sthe time %.9g s is not later than that before it, %.9g s",
+                      t ? t->path : "", line, s->t[i], s->t[i - 1]);
+        return false;
+    }
+    return true;
+}
+
 static bool read_inline(build *b, const tree_node *map, series *s)
 {
     uint64_t kinds = 0;
@@ -56,7 +71,7 @@ static bool read_inline(build *b, const tree_node *map, series *s)
     unit_of(kinds, b->dim, s->unit, sizeof s->unit);
     for (int64_t i = 0; i < s->count && strcmp(s->unit, "deg") == 0; i++)
         s->value[i] *= 180 / acos(-1.0);
-    return true;
+    return check_times(b, mps__tree_find(map, "times"), NULL, s);
 }
 
 static bool read_columns(build *b, const tree_node *map, const csv *t, int32_t *column)
@@ -103,9 +118,11 @@ static bool read_table(build *b, const tree_node *map, series *s)
             s->value[i] = t.value[i * t.columns + column[1]] * factor * degrees;
         }
         s->count = s->t && s->value ? t.rows : 0;
-    }
+        good = s->count > 0 && check_times(b, node, &t, s);
+    } else
+        good = false;
     mps__csv_free(&t);
-    return s->count > 0;
+    return good;
 }
 
 static void add_reference(build *b, const tree_node *map, const char *name)

@@ -104,6 +104,8 @@ void mps__colours_begin(mps_job *job)
     mps_picture_config_init(&job->picture, sizeof job->picture);
     job->picture.title = c->title ? c->title : c->name;
     job->picture.gravity = fabs(c->gravity);
+    job->picture.edges = job->edge;
+    job->picture.edge_count = job->edges;
     const bool read = find_extents(job, &e);
     if (!mps__job_note(job, read ? MPS_OK : MPS_E_BUSY, "colours of the pictures")) return;
     const double pressure = pressure_at_start(job, &e);

@@ -238,6 +238,7 @@ static void free_lists(mps_job *job)
     for (int k = 0; k < job->traces; k++) free(job->trace[k]);
     for (int k = 0; k < job->outlines; k++) free(job->outline[k].x);
     free(job->outline);
+    free(job->edge);
     free(job->reference);
     free(job->input);
     free(job->quantity);
@@ -332,6 +333,22 @@ mps_status mps_job_input_add(mps_job *job, const char *key, const char *value)
     free(i->key);
     free(i->value);
     return mps__job_refuse(job, MPS_E_NOMEM, "out of memory");
+}
+
+mps_status mps_job_edges_add(mps_job *job, int32_t count, const double *ends)
+{
+    if (!job) return MPS_E_ARG;
+    bool good = count >= 1 && ends && count < INT32_MAX / 64 - job->edges;
+    for (int64_t k = 0; good && k < 6 * (int64_t)count; k++) good = isfinite(ends[k]);
+    if (!good) return mps__job_refuse(job, MPS_E_ARG, "edges need two places each");
+    const size_t before = 6 * (size_t)job->edges, more = 6 * (size_t)count;
+    double *grown = realloc(job->edge, (before + more) * sizeof *grown);
+    if (!grown) return mps__job_refuse(job, MPS_E_NOMEM, "out of memory");
+    /* in single precision, so that summary.json has them as they are */
+    for (size_t k = 0; k < more; k++) grown[before + k] = (double)(float)ends[k];
+    job->edge = grown;
+    job->edges += count;
+    return MPS_OK;
 }
 
 mps_status mps_job_outline_add(mps_job *job, int32_t count, const double *x)

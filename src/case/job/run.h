@@ -97,6 +97,8 @@ struct mps_job {
     job_reference *reference;
     job_input *input;
     job_outline *outline;
+    int32_t edges;
+    double *edge; /* [6*edges] */
     trace_figure **trace;
     quantity **quantity;   /* of measures */
     double level;          /* still level as filled in [m]; 0: that of the highest particle */

@@ -224,6 +224,19 @@ static void summary_outlines(FILE *out, const mps_job *job)
     fputs("\n  ]", out);
 }
 
+/* Edges of the tank in 3-D. */
+static void summary_edges(FILE *out, const mps_job *job)
+{
+    if (job->edges == 0) return;
+    fputs(",\n  \"edges\": [", out);
+    for (int32_t k = 0; k < job->edges; k++) {
+        const double *x = job->edge + 6 * (int64_t)k;
+        fprintf(out, "%s[%.9g, %.9g, %.9g, %.9g, %.9g, %.9g]", k ? ",\n    " : "\n    ", x[0], x[1],
+                x[2], x[3], x[4], x[5]);
+    }
+    fputs("\n  ]", out);
+}
+
 /* When it ended and where it ran. */
 static void summary_machine(FILE *out)
 {
@@ -291,6 +304,7 @@ static void summary_write(FILE *out, const mps_job *job)
     summary_references(out, job);
     summary_phases(out, job);
     summary_outlines(out, job);
+    summary_edges(out, job);
     fputs("\n}\n", out);
 }
 

@@ -317,7 +317,7 @@ const mps__key mps__keys[] = {
     {"set", SHAPE_PATHS, 0, 0, 0, "", NULL, false, false, "", "{run.until: 30 T1}", "values by path; they win over `base` and over this file"},
     {"sweep", SHAPE_PATHS, 0, 0, 0, "", NULL, false, false, "", "{motion.roll.period: 0.8 0.9 1 T1}",
      "values of a path, one run each: a list, or `1 to 2 step 0.1 s`; several paths: all combinations"},
-    TEXTS("collect", "[P1.max, F.harmonic]", "statistics of the sweep's table, sensor.max, .min, .mean, .last, .p3h, .harmonic"),
+    TEXTS("collect", "[P1.max, F.harmonic]", "statistics of the sweep's table, sensor.max, .min, .mean, .last, .p3h, .p3h_pareto, .harmonic"),
 };
 
 const mps__key_group mps__key_groups[] = {

@@ -34,20 +34,32 @@ static void bulk_sums(const mps__world *w, mps_energy *e)
         if (e->mass > 0) e->centre[d] /= e->mass;
 }
 
-/* Is there fluid beside a wall particle? Asked of the last step, before the first one of the list. */
-static bool is_wet(const mps__world *w, int64_t i)
+/* Fluid before a wall: within 0.75 dp of the wall's normal, 2 dp deep. The row of walls above the surface has the uppermost fluid
+ * 1 dp beside its normal, and is dry; in moving liquid a place of the lattice has fluid within 0.71 dp. */
+static bool is_wet(const mps__world *w, const mps_neighbours *l, int64_t i)
 {
     const mps__particles *s = &w->particles;
-    const mps_neighbours *l = &w->lists.neighbours;
-    if (w->state.step > 0) return s->region[i] != MPS_REGION_DRY;
-    for (int64_t k = l->begin[i]; k < l->middle[i]; k++)
-        if (s->kind[l->col[k]] == MPS_FLUID) return true;
+    const int dim = w->setup.dim;
+    const double dp = w->setup.dp, *own = s->area + i * dim, *x = s->x + i * dim;
+    double area[3] = {0}, n[3];
+    memcpy(area, own, (size_t)dim * sizeof *own);
+    mps__motion_rotate(&w->motion, &w->motion.now, area, n);
+    const double size = sqrt(mps__dot(n, n, dim));
+    for (int64_t k = l->begin[i]; size > 0 && k < l->begin[i] + l->count[i]; k++) {
+        const double *other = s->x + (int64_t)l->col[k] * dim;
+        double d[3] = {0};
+        if (s->kind[l->col[k]] != MPS_FLUID) continue;
+        for (int a = 0; a < dim; a++) d[a] = other[a] - x[a];
+        const double along = mps__dot(d, n, dim) / size;
+        const double aside2 = mps__dot(d, d, dim) - along * along;
+        if (along > 0 && along < 2 * dp && aside2 < 0.75 * 0.75 * dp * dp) return true;
+    }
     return false;
 }
 
 /* Volume of the half cells that wetted walls stand for, less that of the half cells above the free surface. Areas of a closed surface
  * have the sum zero, so what the wetted walls leave open is the surface's. */
-static double half_cells(const mps__world *w)
+static double half_cells(const mps__world *w, const mps_neighbours *l)
 {
     const mps__particles *s = &w->particles;
     const int dim = w->setup.dim;
@@ -56,7 +68,7 @@ static double half_cells(const mps__world *w)
     double open[3] = {0};
     mps__terms_begin(&t, sums, 1 + dim);
     for (int64_t i = mps__own_from(&w->ghosts, 0); i < s->n; i = mps__own_from(&w->ghosts, i + 1)) {
-        if (s->kind[i] != MPS_WALL || !is_wet(w, i)) continue;
+        if (s->kind[i] != MPS_WALL || !is_wet(w, l, i)) continue;
         const double *a = s->area + i * dim;
         double own[4] = {sqrt(mps__dot(a, a, dim))};
         memcpy(own + 1, a, (size_t)dim * sizeof *a);
@@ -66,6 +78,25 @@ static double half_cells(const mps__world *w)
     mps__ranks_sum(w->ghosts.ranks, 1 + dim, sums);
     for (int d = 0; d < dim; d++) open[d] = mps_exact_value(&sums[1 + d]);
     return 0.5 * w->setup.dp * (mps_exact_value(&sums[0]) - sqrt(mps__dot(open, open, dim)));
+}
+
+/* By the lists of the last step, or where there are none: after a checkpoint was read, particles added or removed. */
+static mps_status add_half_cells(const mps__world *w, double *volume)
+{
+    const mps__particles *s = &w->particles;
+    const mps_neighbours *l = &w->lists.neighbours;
+    const bool kept = l->valid && l->n == s->n && w->lists.listed == s->generation;
+    if (w->state.step == 0 || (kept && !w->gathered.swapped)) {
+        *volume += half_cells(w, l);
+        return MPS_OK;
+    }
+    mps_neighbours own;
+    mps_status status = mps__neighbours_init(&own, w->context, w->setup.dim, w->setup.dp);
+    if (status == MPS_OK)
+        status = mps__neighbours_search(&own, s->n, s->x, w->setup.re_near, w->setup.re_far);
+    if (status == MPS_OK) *volume += half_cells(w, &own);
+    mps__neighbours_free(&own);
+    return status;
 }
 
 mps_status mps__energy_measure(mps__world *w, mps_energy *e)
@@ -98,7 +129,8 @@ mps_status mps__energy_measure(mps__world *w, mps_energy *e)
                    e->collision - e->shift - e->friction -
                    (e->kinetic + e->potential + e->layers - b.start);
     e->volume /= 1.0 + b.deviation;
-    e->volume_filled = e->volume + (any ? half_cells(w) : 0);
+    e->volume_filled = e->volume;
+    if (any) MPS__TRY(add_half_cells(w, &e->volume_filled));
     e->mass_filled = e->volume > 0 ? e->mass * e->volume_filled / e->volume : 0;
     e->volume_error = b.deviation_start - b.deviation;
     return mps__ranks_status(&w->ranks);

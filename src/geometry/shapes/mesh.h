@@ -44,6 +44,9 @@ mps_status mps__mesh_weld(mps__mesh *m, mps__mesh_faults *faults);
 double mps__mesh_volume(const mps__mesh *m);
 /* Turn all triangles over, with their normals. */
 void mps__mesh_turn(mps__mesh *m);
+/* Edges of a welded surface in 3-D where faces meet at more than an angle, in the order of their triangles.
+ * @param ends  [6*room] two places of each of the first ones @return how many there are */
+int64_t mps__mesh_edges(const mps__mesh *m, double angle, int64_t room, double *ends);
 /* Build the tree; before the first question for a distance. */
 mps_status mps__mesh_finish(mps__mesh *m);
 /* Distance to the surface, > 0 on the side the normals look to. `foot`: the nearest place on it; `n`: unit vector from there to the side

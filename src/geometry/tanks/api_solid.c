@@ -216,3 +216,37 @@ mps_status mps_stl_add(mps_sim *sim, const char *path, const mps_stl *stl, doubl
     if (status == MPS_OK && built) memcpy(built, box, sizeof box);
     return status;
 }
+
+/* ---- edges ---- */
+
+static mps_status find_edges(mps_sim *sim, const char *path, const mps_stl *s, mps__mesh *m)
+{
+    double lo[3], hi[3];
+    mps__mesh_faults faults;
+    MPS__TRY(mps__stl_read(m, path));
+    place_mesh(m, s, lo, hi);
+    MPS__CHECK(&sim->context, mps__finite(lo, 3) && mps__finite(hi, 3),
+               "\"%.200s\": a coordinate is not finite after scaling by %g", path, s->scale);
+    return mps__mesh_weld(m, &faults);
+}
+
+mps_status mps_stl_edges(mps_sim *sim, const char *path, const mps_stl *stl, double angle,
+                         int64_t room, double *ends, int64_t *count)
+{
+    MPS__READS(sim);
+    mps_stl s = stl_defaults;
+    mps__mesh mesh;
+    mps__context *c = &sim->context;
+    MPS__TRY(mps__struct_in(c, "mps_stl", &s, sizeof s, stl));
+    if (s.scale == 0) s.scale = stl_defaults.scale;
+    MPS__TRY(check_stl(sim, path, &s));
+    MPS__CHECK(c, angle >= 0 && angle <= acos(-1.0), "angle is %g rad: must be 0..pi", angle);
+    MPS__CHECK(c, room >= 0 && (ends || room == 0), "room is %lld, or ends is NULL",
+               (long long)room);
+    MPS__CHECK(c, count, "count is NULL");
+    mps__mesh_init(&mesh, c, 3);
+    const mps_status status = find_edges(sim, path, &s, &mesh);
+    if (status == MPS_OK) *count = mps__mesh_edges(&mesh, angle, room, ends);
+    mps__mesh_free(&mesh);
+    return status;
+}

@@ -308,7 +308,7 @@ function bindSketch() {
 
 async function openCurves() {
     const data = json("curve-data"), groups = await readGroups(data);
-    state.sensors = data.tables.flatMap((t) => t.columns).filter((c) => c.at && c.type !== "gauge");
+    state.sensors = data.tables.flatMap((t) => t.columns).filter((c) => c.at && !["gauge", "force", "moment"].includes(c.type)); // as pictures have them
     state.charts = new Charts(groups, data.skip, setTime);
     byId("all-time").addEventListener("click", () => state.charts.setRange(null));
     for (const d of document.querySelectorAll("details")) d.addEventListener("toggle", () => state.charts.setTime(state.charts.t));
@@ -320,5 +320,8 @@ async function openCurves() {
 state.sensors = [];
 const film = state.data ? openFilm() : Promise.resolve();
 await openCurves();
-if (state.view) state.charts.setTime(state.data.t[state.frame]);
+if (state.view) {
+    state.charts.setTime(state.data.t[state.frame]);
+    drawMarks(); // the film was drawn before the sensors were known
+}
 await film;

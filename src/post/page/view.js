@@ -142,7 +142,7 @@ export class View {
         gl.bufferSubData(gl.ARRAY_BUFFER, 0, frames.value.subarray(k * 2 * n, (k + 1) * 2 * n));
     }
 
-    // Walls of the tank apart from what stands in it, which alone may hide the liquid. A box shows its edges; the walls of other tanks are faint.
+    // Walls of the tank apart from what stands in it, which alone may hide the liquid. A box shows its edges; the walls of other tanks are faint, with their sharp edges.
     sortWalls() {
         const {wallFrames, walls, box, data} = this, {count, place, value} = wallFrames, tank = [], inner = [];
         const on = (i) => [0, 1, 2].some((d) => {
@@ -166,9 +166,10 @@ export class View {
         return dots;
     }
 
+    // Those of the tank, or of its box.
     makeEdges() {
-        const {gl, box} = this, at = [];
-        for (let i = 0; i < 8; i++) {
+        const {gl, box, data} = this, at = data.edges.slice();
+        for (let i = 0; i < 8 && data.edges.length === 0; i++) {
             for (let d = 0; d < 3; d++) {
                 if (i >> d & 1) continue;
                 for (const corner of [i, i | 1 << d]) for (let e = 0; e < 3; e++) at.push(corner >> e & 1 ? box.hi[e] : box.lo[e]);
@@ -300,7 +301,7 @@ export class View {
         gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
         if (solid) gl.enable(gl.DEPTH_TEST);
         const turned = [0, 3, 6, 1, 4, 7, 2, 5, 8].map((k) => turn[k]);
-        if (solid && this.showWalls && this.boxed) this.drawEdges(m, turned, shift);
+        if (solid && this.showWalls && (this.boxed || data.edges.length > 0)) this.drawEdges(m, turned, shift);
         const {p, at} = this.points;
         gl.useProgram(p);
         gl.uniformMatrix4fv(at.camera, false, m);
