@@ -1,16 +1,22 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "fault_kit.h"
+#include <cairo.h>
 #include <dirent.h>
 #include <errno.h>
 #include <locale.h>
 #include <mps/mps.h>
+#include <spawn.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/utsname.h>
+#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
+#include <zlib.h>
 
 enum { PLACES = 4000 };
 
@@ -90,16 +96,49 @@ FAULT(int, fseek, (FILE * file, long at, int from), (file, at, from), EIO, -1)
 FAULT(long, ftell, (FILE * file), (file), EIO, -1)
 FAULT(size_t, fread, (void *to, size_t size, size_t count, FILE *file), (to, size, count, file),
       EIO, 0)
+/* ferror() tells it afterwards: nothing can be written to a file that is read. */
+FAULT_AFTER(ssize_t, getline, (char **line, size_t *size, FILE *file), (line, size, file), EIO, -1,
+            fputc(0, file))
 FAULT(int, ftruncate, (int file, off_t size), (file, size), EIO, -1)
 FAULT(ssize_t, write, (int file, const void *from, size_t size), (file, from, size), ENOSPC, -1)
 FAULT(int, mkdir, (const char *path, mode_t mode), (path, mode), EROFS, -1)
 FAULT(int, rename, (const char *from, const char *to), (from, to), EACCES, -1)
 FAULT(DIR *, opendir, (const char *path), (path), EMFILE, NULL)
 FAULT(char *, getcwd, (char *path, size_t size), (path, size), ENOENT, NULL)
+FAULT(char *, strdup, (const char *text), (text), ENOMEM, NULL)
+FAULT(char *, strndup, (const char *text, size_t size), (text, size), ENOMEM, NULL)
 FAULT(int, uname, (struct utsname * host), (host), EIO, -1)
 FAULT(struct tm *, gmtime_r, (const time_t *t, struct tm *out), (t, out), EOVERFLOW, NULL)
 FAULT(locale_t, newlocale, (int mask, const char *name, locale_t base), (mask, name, base), ENOMEM,
       (locale_t)0)
+
+/* ---- other programs and libraries ---- */
+
+FAULT(int, socketpair, (int domain, int type, int protocol, int *both),
+      (domain, type, protocol, both), EMFILE, -1)
+FAULT(int, posix_spawn_file_actions_init, (posix_spawn_file_actions_t * actions), (actions), ENOMEM,
+      ENOMEM)
+FAULT(int, posix_spawn_file_actions_adddup2,
+      (posix_spawn_file_actions_t * actions, int from, int to), (actions, from, to), ENOMEM, ENOMEM)
+FAULT(int, posix_spawn_file_actions_addopen,
+      (posix_spawn_file_actions_t * actions, int file, const char *path, int flags, mode_t mode),
+      (actions, file, path, flags, mode), ENOMEM, ENOMEM)
+FAULT(int, posix_spawnp,
+      (pid_t * child, const char *path, const posix_spawn_file_actions_t *actions,
+       const posix_spawnattr_t *attributes, char *const *argv, char *const *environment),
+      (child, path, actions, attributes, argv, environment), EAGAIN, EAGAIN)
+FAULT(ssize_t, send, (int file, const void *from, size_t size, int flags),
+      (file, from, size, flags), EPIPE, -1)
+FAULT_AFTER(pid_t, waitpid, (pid_t child, int *ended, int options), (child, ended, options), ECHILD,
+            -1, __real_waitpid(child, ended, options))
+FAULT(int, deflateInit_, (z_streamp stream, int level, const char *version, int size),
+      (stream, level, version, size), ENOMEM, Z_MEM_ERROR)
+FAULT(cairo_surface_t *, cairo_image_surface_create, (cairo_format_t format, int width, int height),
+      (format, width, height), ENOMEM,
+      __real_cairo_image_surface_create(CAIRO_FORMAT_INVALID, width, height))
+FAULT(cairo_status_t, cairo_surface_write_to_png_stream,
+      (cairo_surface_t * surface, cairo_write_func_t put, void *file), (surface, put, file), ENOMEM,
+      CAIRO_STATUS_NO_MEMORY)
 
 /* Without waiting for the disk: a run of these tests is not needed after a crash of the machine. */
 int __wrap_fsync(int file);
