@@ -234,8 +234,9 @@ static void each_call(void **state)
         mps_sim *sim = new_state(dim);
         scene_create(&s);
         text_write(&s, "case.yaml", "mps: 1\n");
-        text_write(&s, "program",
-                   "#!/bin/sh\ncat >/dev/null\nfor last do :; done\necho film >\"${last#file:}\"\n");
+        text_write(
+            &s, "program",
+            "#!/bin/sh\ncat >/dev/null\nfor last do :; done\necho film >\"${last#file:}\"\n");
         path_of(&s, "program", program);
         assert_int_equal(chmod(program, 0755), 0);
         for (int k = 0; k < PRODUCTS; k++) in_turn(&s, &products[k], sim);
