@@ -1,11 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "fault_kit.h"
+#include "build.h"
+#include "run.h"
+#include "view.h"
 #include <cairo.h>
 #include <dirent.h>
 #include <errno.h>
 #include <locale.h>
 #include <mps/mps.h>
 #include <spawn.h>
+#include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -32,6 +36,11 @@ extern char __executable_start; /* made by the linker */
 int32_t fault_places(void)
 {
     return places;
+}
+
+int32_t fault_visits(int32_t place)
+{
+    return place < places ? seen[place].visits : 0;
 }
 
 void fault_forget(void)
@@ -150,6 +159,39 @@ int __wrap_fsync(int file)
     return -1;
 }
 
+/* ---- libmps_case ----
+ * Memory of a case comes in blocks, so that malloc() fails at few of the places that want some. */
+
+FAULT_AFTER(void *, mps__case_take, (mps_case * c, size_t size), (c, size), ENOMEM, NULL,
+            c->no_memory = true)
+FAULT_AFTER(char *, mps__case_copy, (mps_case * c, const char *text, size_t length),
+            (c, text, length), ENOMEM, NULL, c->no_memory = true)
+FAULT_AFTER(tree_node *, mps__tree_new, (mps_case * c, tree_kind kind, mps__place at),
+            (c, kind, at), ENOMEM, NULL, c->no_memory = true)
+FAULT_AFTER(void *, mps__build_alloc, (build * b, size_t size), (b, size), ENOMEM, NULL,
+            (b->c->no_memory = true, b->status = MPS_E_NOMEM))
+FAULT(char *, mps__job_copy, (const char *text), (text), ENOMEM, NULL)
+FAULT(void *, mps__job_grown, (void *array, int count, size_t size), (array, count, size), ENOMEM,
+      NULL)
+FAULT_AFTER(bool, mps__view_open, (mps_sim * sim, view *v), (sim, v), ENOMEM, false,
+            *v = (view){.x.struct_size = 0})
+
+char *__wrap_mps__case_print(mps_case *c, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+char *__wrap_mps__case_print(mps_case *c, const char *format, ...)
+{
+    va_list list;
+    char text[4000];
+    if (fails("mps__case_print", __builtin_return_address(0))) {
+        c->no_memory = true;
+        return NULL;
+    }
+    va_start(list, format);
+    vsnprintf(text, sizeof text, format, list);
+    va_end(list);
+    return __real_mps__case_copy(c, text, strlen(text));
+}
+
 /* ---- libmps ---- */
 
 #define LIBRARY(name, parameters, arguments, status) \
@@ -164,8 +206,8 @@ LIBRARY(mps_motion_to_lab, (const mps_sim *sim, const double *tank, double *lab,
 LIBRARY(mps_energy_get, (mps_sim * sim, mps_energy *energy), (sim, energy), MPS_E_NOMEM)
 LIBRARY(mps_momentum_get, (mps_sim * sim, mps_momentum *momentum), (sim, momentum), MPS_E_NOMEM)
 LIBRARY(mps_frames_open,
-        (mps_sim * sim, const char *folder, const char *name, int32_t kinds, mps_frames **frames),
-        (sim, folder, name, kinds, frames), MPS_E_IO)
+        (mps_sim * sim, const char *path, const char *name, int32_t kinds, mps_frames **frames),
+        (sim, path, name, kinds, frames), MPS_E_IO)
 LIBRARY(mps_frames_write, (mps_frames * frames), (frames), MPS_E_IO)
 LIBRARY(mps_checkpoint_read, (mps_sim * sim, const char *path), (sim, path), MPS_E_NOMEM)
 LIBRARY(mps_checkpoint_write, (mps_sim * sim, const char *path), (sim, path), MPS_E_IO)
