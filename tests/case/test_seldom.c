@@ -63,13 +63,32 @@ static void too_many(void **state)
                                  "  - f%d: {box: [%.3f 0 m, %.3f 0.1 m]}\n", k, 0.05 * k,
                                  0.05 * (k + 1));
     snprintf(text + used, sizeof text - used, END);
-    TELLS(text, "more than 16 fluids", "test.yaml:38:");
+    TELLS(text, "more than 16 fluids", "test.yaml:39:");
     TELLS("mps: 1\ndim: 3\ndp: 0.1 m\ntank: {size: 1 0.8 0.6 m}\nfill: [{water: {depth: 0.3 m}}]\n"
           "sensors:\n  P: {panel: [0 0 0 m, 0 0.2 0 m, 0 0.2 0.2 m, 0 0 0.2 m, 0 0 0.3 m]}\n" END,
-          "one point too many: at most 4");
+          "sensors.P.panel: 5 points, 2 to 4 are wanted");
     TELLS("mps: 1\ndim: 3\ndp: 0.1 m\ntank: {size: 1 0.8 0.6 m}\nfill: [{water: {depth: 0.3 m}}]\n"
           "sensors:\n  P: {panel: [0 0 0 m, 0.1 0.2 0.2 m]}\n" END,
           "two points are opposite corners of a panel along the axes");
+}
+
+/* A tank of more corners than a form has, all on a circle. */
+static void too_many_corners(void **state)
+{
+    char text[4000];
+    (void)state;
+    for (int corners = 64; corners <= 65; corners++) {
+        size_t used = (size_t)snprintf(text, sizeof text, "mps: 1\ndp: 50 mm\ntank: {polygon: [");
+        for (int k = 0; k < corners; k++)
+            used += (size_t)snprintf(text + used, sizeof text - used, "%s%.4f %.4f m",
+                                     k ? ", " : "", 1 + cos(2 * acos(-1.0) * k / corners),
+                                     1 + sin(2 * acos(-1.0) * k / corners));
+        snprintf(text + used, sizeof text - used, "]}\nfill: [{water: {depth: 1 m}}]\n" END);
+        if (corners == 64)
+            TELLS(text, "tank      polygon, 2 x 2 m, lower corner (0, 0) m, 3.13");
+        else
+            TELLS(text, "one point too many: at most 64", "test.yaml:3:");
+    }
 }
 
 /* Of the same density the one that is filled in first is the first phase. */
@@ -170,6 +189,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(too_many),
                                        cmocka_unit_test(fluids_of_one_density),
-                                       cmocka_unit_test(no_level), cmocka_unit_test(arguments)};
+                                       cmocka_unit_test(no_level), cmocka_unit_test(arguments),
+                                       cmocka_unit_test(too_many_corners)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

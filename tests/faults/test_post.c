@@ -163,7 +163,7 @@ typedef struct whole {
 static int compare(const scene *s, const product *p, const whole *w, mps_status status,
                    const char *error, const char *failed)
 {
-    size_t size;
+    size_t size = 0;
     char *text = made(s, p, &size);
     const int left = entries(s->folder) - w->entries, open = entries("/proc/self/fd") - w->files;
     const char *before = p->before ? p->before : "";

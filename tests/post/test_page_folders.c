@@ -95,7 +95,7 @@ static void patch(const scene *s, int array, int first, const void *data, size_t
 {
     static const int item[7] = {12, 12, 4, 1, 1, 4, 8};
     char path[128];
-    size_t whole;
+    size_t whole = 0;
     char *text = text_read(s, "frames/frames_000001.vtp", &whole);
     assert_non_null(text);
     char *mark = strstr(text, "encoding=\"raw\">\n_");
