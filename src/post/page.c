@@ -33,7 +33,7 @@ mps_status mps_page_info_init(mps_page_info *info, size_t size)
 /* A part of the page, in a file without a name. Not in memory: a stream to memory does not tell every failure. */
 typedef struct part {
     FILE *out;
-    int64_t size;
+    int64_t size; /* -1: it is not complete */
 } part;
 
 static mps_status part_fail(const page_run *r)
@@ -49,6 +49,7 @@ static mps_status part_open(part *p, const page_run *r)
     p->out = fopen(path, "w+b");
     mps_status status = p->out ? MPS_OK : part_fail(r);
     if (p->out) remove(path); /* it stays as long as it is open */
+    p->size = -1;
     free(path);
     return status;
 }
@@ -56,9 +57,9 @@ static mps_status part_open(part *p, const page_run *r)
 /* All of the part is written. @return status, or MPS_E_IO */
 static mps_status part_end(part *p, const page_run *r, mps_status status)
 {
-    if (status == MPS_OK && (fflush(p->out) != 0 || ferror(p->out))) status = part_fail(r);
-    if (status == MPS_OK) p->size = ftell(p->out);
-    return status;
+    if (status != MPS_OK) return status;
+    if (fflush(p->out) == 0 && !ferror(p->out)) p->size = ftell(p->out);
+    return p->size < 0 ? part_fail(r) : MPS_OK;
 }
 
 /* @return false: it cannot be read back */
@@ -190,7 +191,7 @@ static mps_status save(const page_run *r, const page *p, int64_t *bytes)
     if (out) {
         const bool good = write_page(out, r, p) && fflush(out) == 0 && ferror(out) == 0;
         *bytes = ftell(out);
-        if (fclose(out) != 0 || !good)
+        if (fclose(out) != 0 || !good || *bytes < 0)
             status = cannot(r, "write", other);
         else if (rename(other, path) != 0)
             status = cannot(r, "replace", path);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The film, packed into the bytes that there are: first with all that the frames hold, then with less. */
 #include "page_film.h"
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -294,22 +295,36 @@ static void packing_free(packing *p)
     free(p->value);
 }
 
+static mps_status cannot_write(const film *f)
+{
+    return mps__page_fail(f->run->errors, MPS_E_IO, "cannot write the film of the page in '%s': %s",
+                          f->run->folder, strerror(errno));
+}
+
+/* Nothing of what was packed stays. */
+static mps_status empty(const film *f, FILE *out)
+{
+    rewind(out);
+    return ftruncate(fileno(out), 0) == 0 ? MPS_OK : cannot_write(f);
+}
+
 /* Pack by a plan, in place of what `out` holds.
  * @param share  bytes of the whole film, of those that there are: above 1 it does not fit */
 static mps_status try_plan(const film *f, const plan *how, int64_t bytes, FILE *out, double *share)
 {
     packing p;
-    rewind(out);
-    if (ftruncate(fileno(out), 0) != 0) return MPS_E_IO; /* the caller tells */
     mps_status status = packing_create(&p, f, how, out);
     p.most = bytes;
+    if (status == MPS_OK) status = empty(f, out);
     if (status == MPS_OK) {
         write_head(&p);
         status = pack_walls(&p);
     }
     if (status == MPS_OK) status = pack_ids(&p);
     if (status == MPS_OK) status = pack_frames(&p);
-    *share = (double)ftell(out) / (double)bytes * (double)p.frames / (double)(p.done ? p.done : 1);
+    const long size = ftell(out);
+    if (status == MPS_OK && size < 0) status = cannot_write(f);
+    *share = (double)size / (double)bytes * (double)p.frames / (double)(p.done ? p.done : 1);
     packing_free(&p);
     return status;
 }
@@ -372,10 +387,8 @@ mps_status mps__film_write(const film *f, int64_t bytes, int32_t frames, FILE *o
     if (status == MPS_OK && share <= 1) {
         shown[0] = (f->run->frames + how.step - 1) / how.step;
         shown[1] = (f->moving.count + how.every - 1) / how.every;
-    } else if (status == MPS_OK) {
-        rewind(out);
-        if (ftruncate(fileno(out), 0) != 0) status = MPS_E_IO;
-    }
+    } else if (status == MPS_OK)
+        status = empty(f, out);
     if (shown[0] > 0)
         describe(f, &how, first_step, note, note_size);
     else if (status == MPS_OK)

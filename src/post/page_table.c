@@ -73,6 +73,14 @@ static bool read_row(const char *line, int32_t columns, double *row)
     return isfinite(row[0]);
 }
 
+/* Why there is no further line: no memory, an error of the file, or its end, which is MPS_OK. */
+static mps_status no_line(page_errors *e, const char *path, FILE *file)
+{
+    if (errno == ENOMEM) return no_memory(e);
+    if (!ferror(file)) return MPS_OK;
+    return mps__page_fail(e, MPS_E_IO, "cannot read '%s': %s", path, strerror(errno));
+}
+
 static mps_status read_rows(page_errors *e, const char *path, page_table *t, FILE *file)
 {
     char *line = NULL;
@@ -92,7 +100,7 @@ static mps_status read_rows(page_errors *e, const char *path, page_table *t, FIL
         else
             cut = true;
     }
-    if (status == MPS_OK && errno == ENOMEM) status = no_memory(e);
+    if (status == MPS_OK) status = no_line(e, path, file);
     free(line);
     return status;
 }
@@ -103,9 +111,10 @@ static mps_status read_open(page_errors *e, const char *path, page_table *t, FIL
     size_t size = 0;
     mps_status status = MPS_OK;
     errno = 0;
-    if (getline(&line, &size, file) <= 0)
-        status = errno == ENOMEM ? no_memory(e)
-                                 : mps__page_fail(e, MPS_E_IO, "'%s' is empty", path);
+    if (getline(&line, &size, file) <= 0) {
+        status = no_line(e, path, file);
+        if (status == MPS_OK) status = mps__page_fail(e, MPS_E_IO, "'%s' is empty", path);
+    }
     if (status == MPS_OK) status = read_header(e, path, t, line);
     if (status == MPS_OK) status = read_rows(e, path, t, file);
     free(line);

@@ -1,16 +1,26 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "fault_kit.h"
+#include "build.h"
+#include "run.h"
+#include "view.h"
+#include <cairo.h>
 #include <dirent.h>
 #include <errno.h>
 #include <locale.h>
 #include <mps/mps.h>
+#include <spawn.h>
+#include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/utsname.h>
+#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
+#include <zlib.h>
 
 enum { PLACES = 4000 };
 
@@ -26,6 +36,11 @@ extern char __executable_start; /* made by the linker */
 int32_t fault_places(void)
 {
     return places;
+}
+
+int32_t fault_visits(int32_t place)
+{
+    return place < places ? seen[place].visits : 0;
 }
 
 void fault_forget(void)
@@ -90,16 +105,49 @@ FAULT(int, fseek, (FILE * file, long at, int from), (file, at, from), EIO, -1)
 FAULT(long, ftell, (FILE * file), (file), EIO, -1)
 FAULT(size_t, fread, (void *to, size_t size, size_t count, FILE *file), (to, size, count, file),
       EIO, 0)
+/* ferror() tells it afterwards: nothing can be written to a file that is read. */
+FAULT_AFTER(ssize_t, getline, (char **line, size_t *size, FILE *file), (line, size, file), EIO, -1,
+            fputc(0, file))
 FAULT(int, ftruncate, (int file, off_t size), (file, size), EIO, -1)
 FAULT(ssize_t, write, (int file, const void *from, size_t size), (file, from, size), ENOSPC, -1)
 FAULT(int, mkdir, (const char *path, mode_t mode), (path, mode), EROFS, -1)
 FAULT(int, rename, (const char *from, const char *to), (from, to), EACCES, -1)
 FAULT(DIR *, opendir, (const char *path), (path), EMFILE, NULL)
 FAULT(char *, getcwd, (char *path, size_t size), (path, size), ENOENT, NULL)
+FAULT(char *, strdup, (const char *text), (text), ENOMEM, NULL)
+FAULT(char *, strndup, (const char *text, size_t size), (text, size), ENOMEM, NULL)
 FAULT(int, uname, (struct utsname * host), (host), EIO, -1)
 FAULT(struct tm *, gmtime_r, (const time_t *t, struct tm *out), (t, out), EOVERFLOW, NULL)
 FAULT(locale_t, newlocale, (int mask, const char *name, locale_t base), (mask, name, base), ENOMEM,
       (locale_t)0)
+
+/* ---- other programs and libraries ---- */
+
+FAULT(int, socketpair, (int domain, int type, int protocol, int *both),
+      (domain, type, protocol, both), EMFILE, -1)
+FAULT(int, posix_spawn_file_actions_init, (posix_spawn_file_actions_t * actions), (actions), ENOMEM,
+      ENOMEM)
+FAULT(int, posix_spawn_file_actions_adddup2,
+      (posix_spawn_file_actions_t * actions, int from, int to), (actions, from, to), ENOMEM, ENOMEM)
+FAULT(int, posix_spawn_file_actions_addopen,
+      (posix_spawn_file_actions_t * actions, int file, const char *path, int flags, mode_t mode),
+      (actions, file, path, flags, mode), ENOMEM, ENOMEM)
+FAULT(int, posix_spawnp,
+      (pid_t * child, const char *path, const posix_spawn_file_actions_t *actions,
+       const posix_spawnattr_t *attributes, char *const *argv, char *const *environment),
+      (child, path, actions, attributes, argv, environment), EAGAIN, EAGAIN)
+FAULT(ssize_t, send, (int file, const void *from, size_t size, int flags),
+      (file, from, size, flags), EPIPE, -1)
+FAULT_AFTER(pid_t, waitpid, (pid_t child, int *ended, int options), (child, ended, options), ECHILD,
+            -1, __real_waitpid(child, ended, options))
+FAULT(int, deflateInit_, (z_streamp stream, int level, const char *version, int size),
+      (stream, level, version, size), ENOMEM, Z_MEM_ERROR)
+FAULT(cairo_surface_t *, cairo_image_surface_create, (cairo_format_t format, int width, int height),
+      (format, width, height), ENOMEM,
+      __real_cairo_image_surface_create(CAIRO_FORMAT_INVALID, width, height))
+FAULT(cairo_status_t, cairo_surface_write_to_png_stream,
+      (cairo_surface_t * surface, cairo_write_func_t put, void *file), (surface, put, file), ENOMEM,
+      CAIRO_STATUS_NO_MEMORY)
 
 /* Without waiting for the disk: a run of these tests is not needed after a crash of the machine. */
 int __wrap_fsync(int file);
@@ -109,6 +157,39 @@ int __wrap_fsync(int file)
     if (!fails("fsync", __builtin_return_address(0))) return 0;
     errno = EIO;
     return -1;
+}
+
+/* ---- libmps_case ----
+ * Memory of a case comes in blocks, so that malloc() fails at few of the places that want some. */
+
+FAULT_AFTER(void *, mps__case_take, (mps_case * c, size_t size), (c, size), ENOMEM, NULL,
+            c->no_memory = true)
+FAULT_AFTER(char *, mps__case_copy, (mps_case * c, const char *text, size_t length),
+            (c, text, length), ENOMEM, NULL, c->no_memory = true)
+FAULT_AFTER(tree_node *, mps__tree_new, (mps_case * c, tree_kind kind, mps__place at),
+            (c, kind, at), ENOMEM, NULL, c->no_memory = true)
+FAULT_AFTER(void *, mps__build_alloc, (build * b, size_t size), (b, size), ENOMEM, NULL,
+            (b->c->no_memory = true, b->status = MPS_E_NOMEM))
+FAULT(char *, mps__job_copy, (const char *text), (text), ENOMEM, NULL)
+FAULT(void *, mps__job_grown, (void *array, int count, size_t size), (array, count, size), ENOMEM,
+      NULL)
+FAULT_AFTER(bool, mps__view_open, (mps_sim * sim, view *v), (sim, v), ENOMEM, false,
+            *v = (view){.x.struct_size = 0})
+
+char *__wrap_mps__case_print(mps_case *c, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+char *__wrap_mps__case_print(mps_case *c, const char *format, ...)
+{
+    va_list list;
+    char text[4000];
+    if (fails("mps__case_print", __builtin_return_address(0))) {
+        c->no_memory = true;
+        return NULL;
+    }
+    va_start(list, format);
+    vsnprintf(text, sizeof text, format, list);
+    va_end(list);
+    return __real_mps__case_copy(c, text, strlen(text));
 }
 
 /* ---- libmps ---- */
@@ -125,8 +206,8 @@ LIBRARY(mps_motion_to_lab, (const mps_sim *sim, const double *tank, double *lab,
 LIBRARY(mps_energy_get, (mps_sim * sim, mps_energy *energy), (sim, energy), MPS_E_NOMEM)
 LIBRARY(mps_momentum_get, (mps_sim * sim, mps_momentum *momentum), (sim, momentum), MPS_E_NOMEM)
 LIBRARY(mps_frames_open,
-        (mps_sim * sim, const char *folder, const char *name, int32_t kinds, mps_frames **frames),
-        (sim, folder, name, kinds, frames), MPS_E_IO)
+        (mps_sim * sim, const char *path, const char *name, int32_t kinds, mps_frames **frames),
+        (sim, path, name, kinds, frames), MPS_E_IO)
 LIBRARY(mps_frames_write, (mps_frames * frames), (frames), MPS_E_IO)
 LIBRARY(mps_checkpoint_read, (mps_sim * sim, const char *path), (sim, path), MPS_E_NOMEM)
 LIBRARY(mps_checkpoint_write, (mps_sim * sim, const char *path), (sim, path), MPS_E_IO)

@@ -8,6 +8,9 @@
 
 /* Places of calls that were seen so far. */
 int32_t fault_places(void);
+/* How often a place was reached since the last fault_arm(). A place that a run without a failure does not reach `visit` times cannot fail
+ * there at that visit. */
+int32_t fault_visits(int32_t place);
 /* Forget them, for another scene. */
 void fault_forget(void);
 /* From now on calls are watched, and that at place `place` fails when it is reached for the `visit`-th time, from 1. Places have their numbers

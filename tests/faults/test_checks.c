@@ -23,6 +23,34 @@ static const char *check(const char *path, int32_t place, int32_t visit, answer 
     return fault_disarm();
 }
 
+/* Read a case with values set and swept; in place of a check its text and the sets of its last run. */
+static const char *read_sets(const char *path, int32_t place, int32_t visit, answer *a)
+{
+    static const char *const sets[] = {"fill.oil.depth=1 mm",
+                                       "fluids.oil={density: 900 kg/m3}",
+                                       "fill.1.depth=30 %",
+                                       "fill.water={depth: 20 %, start: {velocity: 1 0 m/s}}",
+                                       "fill.water.start.velocity=2 0 m/s",
+                                       "sensors.P1.wall=0 50 mm",
+                                       "motion.roll.amplitude=4 deg",
+                                       "motion.roll.period=1 s",
+                                       "settings.gas.sound=340 m/s"};
+    mps_case *c = NULL;
+    char last[200] = "";
+    *a = (answer){0};
+    fault_arm(place, visit);
+    a->status = mps_case_read(path, sizeof sets / sizeof *sets, sets, &c);
+    if (a->status == MPS_OK) a->status = mps_case_sweep_get(c, 5, 0, last, sizeof last);
+    const char *failed = fault_disarm();
+    if (a->status == MPS_OK) {
+        a->text = strdup(mps_case_text(c));
+        a->sketch = strdup(last);
+    } else if (c)
+        mps_case_messages_write(c, a->messages, sizeof a->messages);
+    mps_case_destroy(c);
+    return failed;
+}
+
 static void forget(answer *a)
 {
     free(a->text);
@@ -53,36 +81,44 @@ static int compare(const answer *a, const answer *whole, const char *failed)
     return 1;
 }
 
-/* @return failures that ended a check */
-static int in_turn(const char *path)
+typedef const char *(*reading)(const char *path, int32_t place, int32_t visit, answer *a);
+
+/* @return failures that ended it */
+static int in_turn(const char *path, reading try)
 {
     answer whole, a;
     int wrong = 0, ended = 0, reached = 0;
     fault_forget();
-    check(path, -1, 1, &whole);
+    try(path, -1, 1, &whole);
+    const int32_t places = fault_places();
     if (whole.status != MPS_OK) fail_msg("%s", whole.messages);
-    for (int32_t k = 0; k < fault_places(); k++) {
-        const char *failed = check(path, k, 1, &a);
+    for (int32_t k = 0; k < places; k++) {
+        const char *failed = try(path, k, 1, &a);
         wrong += compare(&a, &whole, failed ? failed : "no failure");
         reached += failed != NULL;
         ended += a.status != MPS_OK;
         if (!failed && a.status != MPS_OK) fail_msg("status %d without a failure", (int)a.status);
         forget(&a);
     }
-    print_message("%s: %d calls failed, %d checks ended\n", path, reached, ended);
+    print_message("%s: %d calls failed, %d of which ended it\n", path, reached, ended);
     forget(&whole);
     assert_int_equal(wrong, 0);
     return ended;
+}
+
+static void write_file(const char *path, const char *text)
+{
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    assert_true(fputs(text, out) >= 0 && fclose(out) == 0);
 }
 
 /* Write a case, check it, remove it. */
 static int of_text(const char *text)
 {
     char path[600];
-    FILE *out = fopen(kit_here(path, sizeof path, "faults.yaml"), "w");
-    assert_non_null(out);
-    assert_true(fputs(text, out) >= 0 && fclose(out) == 0);
-    const int ended = in_turn(path);
+    write_file(kit_here(path, sizeof path, "faults.yaml"), text);
+    const int ended = in_turn(path, check);
     assert_int_equal(unlink(path), 0);
     return ended;
 }
@@ -140,9 +176,26 @@ static void drops(void **state)
                         "  j: {measure: pressure_jump, radius: 0.2 m}\n" END) > 20);
 }
 
+static void sets(void **state)
+{
+    char path[600], base[600];
+    (void)state;
+    write_file(kit_here(base, sizeof base, "faults_base.yaml"),
+               "mps: 1\ndp: 4 mm\ntank: {size: 0.8 0.5 m}\n"
+               "fill: [{water: {depth: 25 %}}, {air: rest}]\nmodel: mmps\nrun: {until: 5 s}\n");
+    write_file(kit_here(path, sizeof path, "faults.yaml"),
+               "mps: 1\nbase: faults_base.yaml\nset: {dp: 20 mm, run.until: 30 T1}\n"
+               "run: {threads: 1}\nsweep: {fill.water.depth: 10 to 30 step 10 %, dp: 10 20 mm, "
+               "model: [imps, mmps]}\n");
+    assert_true(in_turn(path, read_sets) > 20);
+    assert_int_equal(unlink(path), 0);
+    assert_int_equal(unlink(base), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(files), cmocka_unit_test(ships),
-                                       cmocka_unit_test(waves), cmocka_unit_test(drops)};
+                                       cmocka_unit_test(waves), cmocka_unit_test(drops),
+                                       cmocka_unit_test(sets)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -313,11 +313,10 @@ void mps__build_fills(build *b)
     const form *t = &b->tank.form;
     if (mps__case_failed(b->c)) return;
     mps__case_scale_set(b->c, (read_scale){b->dp, NAN, t->hi[1] - t->lo[1]});
-    for (const tree_node *item = fill ? fill->first : NULL; item && !mps__case_failed(b->c);
-         item = item->next)
-        if (item->first) fill_one(b, item->first);
-    for (const tree_node *item = fill ? fill->first : NULL; item && !mps__case_failed(b->c);
-         item = item->next)
-        if (item->first && item->first->kind == TREE_MAP) start_drop(b, item->first);
+    /* the reader has seen that each item is a map of one fluid */
+    for (const tree_node *item = fill->first; item && !mps__case_failed(b->c); item = item->next)
+        fill_one(b, item->first);
+    for (const tree_node *item = fill->first; item && !mps__case_failed(b->c); item = item->next)
+        if (item->first->kind == TREE_MAP) start_drop(b, item->first);
     mps__case_scale_set(b->c, (read_scale){b->dp, NAN, NAN});
 }

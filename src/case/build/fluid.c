@@ -90,18 +90,16 @@ int32_t mps__build_phase(build *b, const tree_node *at, const char *name)
 
 void mps__build_fluids_read(build *b)
 {
-    const tree_node *fill = mps__tree_find(b->root, "fill");
-    for (const tree_node *item = fill ? fill->first : NULL; item; item = item->next) {
+    const tree_node *fill = mps__tree_find(b->root, "fill"); /* of one fluid at least */
+    for (const tree_node *item = fill->first; item; item = item->next) {
         const tree_node *at = item->first; /* of a map with one key */
-        if (item->kind != TREE_MAP || !at || find_fluid(b, at->key) >= 0) continue;
+        if (find_fluid(b, at->key) >= 0) continue;
         if (b->fluids == BUILD_FLUIDS) {
             mps__case_say(b->c, at, false, "more than %d fluids", BUILD_FLUIDS);
             return;
         }
         read_fluid(b, at, &b->fluid[b->fluids++]);
     }
-    if (!b->fluids && !mps__case_failed(b->c))
-        mps__case_say(b->c, fill, false, "fill: nothing is filled into the tank");
     if (mps__case_failed(b->c)) return;
     qsort(b->fluid, (size_t)b->fluids, sizeof *b->fluid, by_density);
     snprintf(b->model, sizeof b->model, "%s",

@@ -30,7 +30,8 @@ static void note_probe(build *b, const char *name, const mps_probe *probe)
     mps_probe_info info;
     mps_probe_info_init(&info, sizeof info);
     const int32_t id = mps__sensor_id(b, name);
-    if (!s || id < 0 || mps_probe_info_get(b->sim, id, &info) != MPS_OK) return;
+    if (!s || id < 0) return;
+    mps_probe_info_get(b->sim, id, &info);
     memcpy(s->at, info.at, sizeof s->at);
     memcpy(s->normal, info.normal, sizeof s->normal);
     s->diameter = info.diameter;
@@ -42,7 +43,7 @@ int32_t mps__sensor_id(build *b, const char *name)
     mps_probe_info info;
     mps_probe_info_init(&info, sizeof info);
     for (int32_t id = 0; mps_probe_info_get(b->sim, id, &info) == MPS_OK; id++)
-        if (info.name && strcmp(info.name, name) == 0) return id;
+        if (strcmp(info.name, name) == 0) return id;
     return -1;
 }
 

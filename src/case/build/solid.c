@@ -266,15 +266,12 @@ static void add_file(reading *r)
 
 /* ---- all ---- */
 
+/* The library refuses a part beyond the 64th, of which the tank is one at least: there is room for all solids. */
 static void add_solid(build *b, const tree_node *map)
 {
     static const char *const kind[] = {"plate", "box", "cylinder", "sphere", "prism", "stl"};
     static void (*const add[])(reading *) = {add_plate,  add_box,   add_cylinder,
                                              add_sphere, add_prism, add_file};
-    if (b->solids == BUILD_SOLIDS) {
-        mps__case_say(b->c, map, false, "solids: more than %d", BUILD_SOLIDS);
-        return;
-    }
     reading r = {b, map, map->key, &b->solid[b->solids++]};
     *r.out = (build_solid){.form.dim = b->dim};
     snprintf(r.out->name, sizeof r.out->name, "%s", map->key);
