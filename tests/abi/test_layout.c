@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Layout of the public structs on x86-64, written by make_layout. Sizes may grow, offsets never change within a major version. */
 #include <mps/case.h>
+#include <mps/couple.h>
 #include <mps/exact.h>
 #include <mps/flux.h>
 #include <mps/geometry.h>
@@ -39,6 +40,11 @@ SIZE(mps_case_key, 304);
 AT(mps_case_key, struct_size, 0); AT(mps_case_key, required, 4); AT(mps_case_key, path, 8);
 AT(mps_case_key, range, 16); AT(mps_case_key, otherwise, 24); AT(mps_case_key, example, 32);
 AT(mps_case_key, help, 40); AT(mps_case_key, kind, 48); AT(mps_case_key, units, 144);
+
+SIZE(mps_load, 456);
+AT(mps_load, struct_size, 0); AT(mps_load, has_mass, 4); AT(mps_load, force, 8);
+AT(mps_load, rest, 56); AT(mps_load, mass, 104); AT(mps_load, acceleration, 392);
+AT(mps_load, dt, 440); AT(mps_load, iterations, 448); AT(mps_load, reserved, 452);
 
 SIZE(mps_exact, 32);
 AT(mps_exact, part, 0); AT(mps_exact, level, 24); AT(mps_exact, special, 28);
@@ -222,11 +228,12 @@ AT(mps_lease, struct_size, 0); AT(mps_lease, type, 4); AT(mps_lease, stride, 8);
 AT(mps_lease, slot, 12); AT(mps_lease, count, 16); AT(mps_lease, data, 24);
 AT(mps_lease, integers, 32); AT(mps_lease, ids, 40);
 
-SIZE(mps_picture_config, 64);
+SIZE(mps_picture_config, 80);
 AT(mps_picture_config, struct_size, 0); AT(mps_picture_config, width, 4); AT(mps_picture_config, title, 8);
 AT(mps_picture_config, gravity, 16); AT(mps_picture_config, pressure_lo, 24); AT(mps_picture_config, pressure_hi, 32);
 AT(mps_picture_config, sensors, 40); AT(mps_picture_config, reserved, 44); AT(mps_picture_config, error, 48);
-AT(mps_picture_config, error_size, 56);
+AT(mps_picture_config, error_size, 56); AT(mps_picture_config, edges, 64); AT(mps_picture_config, edge_count, 72);
+AT(mps_picture_config, reserved_2, 76);
 
 SIZE(mps_film_config, 40);
 AT(mps_film_config, struct_size, 0); AT(mps_film_config, width, 4); AT(mps_film_config, rate, 8);

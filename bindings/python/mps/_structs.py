@@ -412,6 +412,7 @@ mps_page_info._fields_ = [
 mps_picture_config._fields_ = [
     ("struct_size", c_uint32), ("width", c_int32), ("title", c_char_p), ("gravity", c_double), ("pressure_lo", c_double),
     ("pressure_hi", c_double), ("sensors", c_int32), ("reserved", c_int32), ("error", POINTER(c_char)), ("error_size", c_size_t),
+    ("edges", POINTER(c_double)), ("edge_count", c_int32), ("reserved_2", c_int32),
 ]
 mps_film_config._fields_ = [
     ("struct_size", c_uint32), ("width", c_int32), ("rate", c_double), ("program", c_char_p), ("error", POINTER(c_char)),
