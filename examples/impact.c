@@ -32,8 +32,8 @@ int main(int argc, char **argv)
     driver_own(d, (option){"--rows", "N", "film, toe: rows of particles", TYPE_INT, &c.layers, 1,
                            200, false, NULL});
     driver_own(d, (option){"--deadrise", "DEG",
-                           "wedge, toe: angle between its side and the liquid's surface",
-                           TYPE_REAL, &c.deadrise, 10, 60, false, NULL});
+                           "wedge, toe: angle between its side and the liquid's surface", TYPE_REAL,
+                           &c.deadrise, 10, 60, false, NULL});
     driver_own(d, (option){"--block", "M", "wedge: half width and depth of the liquid [m]",
                            TYPE_REAL, &c.block, 0.5, 10, false, NULL});
     driver_own(d, (option){"--tip", "flat|wedge|round", "toe: its shape", TYPE_CHOICE, &c.tip, 0, 0,

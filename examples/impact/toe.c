@@ -93,8 +93,8 @@ static void add_figures(impact *c, double h)
 {
     const double u = c->speed, rho = c->density, unit = h / u, p = rho * u * u, m = rho * u * h;
     const double at = c->contact, from = at - BEFORE * c->d.dp / u;
-    const impact_span brief = {from, at + BRIEF * unit, 0}, some = {from, at + LONG * unit, 0},
-                      all = {from, at + END * unit, 0},
+    const impact_span first = {from, at + c->d.dp / u, 0}, brief = {from, at + BRIEF * unit, 0},
+                      some = {from, at + LONG * unit, 0}, all = {from, at + END * unit, 0},
                       steady = {at + BEGIN * unit, at + END * unit, 0},
                       mean_brief = {0, all.to, BRIEF * unit}, mean_long = {0, all.to, LONG * unit};
     impact_figure(c, "mean_brief", MPS_TRACE_LARGEST, "P", mean_brief, p);
@@ -104,6 +104,8 @@ static void add_figures(impact *c, double h)
     impact_figure(c, "impulse_end_side", MPS_TRACE_INTEGRAL, "P_side", all, m);
     impact_figure(c, "force_brief", MPS_TRACE_LEAST, "F", mean_brief, -p * h);
     impact_figure(c, "force_long", MPS_TRACE_LEAST, "F", mean_long, -p * h);
+    impact_figure(c, "impulse_contact", MPS_TRACE_INTEGRAL, "P", first, m);
+    impact_figure(c, "impulse_contact_wall", MPS_TRACE_INTEGRAL, "F", first, -m * h);
     impact_figure(c, "impulse_brief", MPS_TRACE_INTEGRAL, "P", brief, m);
     impact_figure(c, "impulse_long", MPS_TRACE_INTEGRAL, "P", some, m);
     impact_figure(c, "impulse_end", MPS_TRACE_INTEGRAL, "P", all, m);
@@ -113,6 +115,8 @@ static void add_figures(impact *c, double h)
     impact_figure(c, "impulse_brief_fluid", MPS_TRACE_CHANGE, "momentum_y", brief, m * h);
     impact_figure(c, "impulse_long_fluid", MPS_TRACE_CHANGE, "momentum_y", some, m * h);
     impact_figure(c, "impulse_end_fluid", MPS_TRACE_CHANGE, "momentum_y", all, m * h);
+    impact_figure(c, "momentum_steady", MPS_TRACE_CHANGE, "momentum_y", steady,
+                  m * h * (END - BEGIN));
     impact_figure(c, "stagnation", MPS_TRACE_MEAN, "P", steady, 0.5 * p);
     impact_figure(c, "force_steady", MPS_TRACE_MEAN, "F", steady, -p * h);
     impact_figure(c, "peak_raw", MPS_TRACE_LARGEST, "P", (impact_span){0, all.to, 0}, p);
@@ -123,7 +127,8 @@ static void build(impact *c)
     driver *d = &c->d;
     const double dp = d->dp;
     const int wide = c->layers, left = HALF_WALL * wide;
-    const int across[] = {left, left + wide - 1}, up[] = {IMPACT_GAP, IMPACT_GAP + LENGTH * wide - 1};
+    const int across[] = {left, left + wide - 1},
+              up[] = {IMPACT_GAP, IMPACT_GAP + LENGTH * wide - 1};
     const double size[] = {(2 * left + wide - 1) * dp, (up[1] + wide + IMPACT_GAP) * dp, 0},
                  middle = 0.5 * size[0], h = wide * dp;
     impact_water(c);

@@ -36,10 +36,10 @@
  * wall itself pulls in the equation beyond that least pressure, min(0, p_i - value_i). Of a velocity
  * jump, without least pressures, the suction stays. The flow does not change.
  *
- * cover: p' has no place in it: a toe of two rows presses with its p' on all faces within the
- * radius, four times its own width, and walls show twice the momentum that the fluid loses. With
- * `cover` a face takes p' on the share only that lies below liquid, see covered_share(). The shares
- * c_ij know their place. */
+ * cover: p' has no place in it. A toe of two rows presses with p' on all faces within the radius,
+ * three times its own width, and walls show twice the momentum that the fluid loses. With `cover` a
+ * face takes p' on the share only that lies below liquid, covered_share(), and the pressure of the
+ * void on the rest. That is 0, or that of trapped gas (gas.pocket), which is in the least pressure. */
 #include "helpers.h"
 
 /* Of a wall: another one is beside it up to this squared distance [dp2], and in its plane up to this
@@ -178,9 +178,12 @@ MPS_ROW double pressure_of(const int dim, const mps_view *v, const fields *f, in
     const double size = face(dim, v, i, n);
     contact c = sum_contact(dim, v, f, i, n);
     if (c.weight == 0) return f->p[i];
-    if (v->setting[COVER] > 0 && size > 0) c.p *= covered_share(dim, v, f, i, n);
-    if (f->condition[i] >= MPS_ROW_LEAST) c.pull = fmax(c.pull, fmin(0, f->p[i] - f->value[i]));
-    const double shown = fmax(c.p / c.weight + (size > 0 ? c.rise / size : 0), fmin(f->p[i], 0));
+    const bool bounded = f->condition[i] >= MPS_ROW_LEAST;
+    const double share = v->setting[COVER] > 0 && size > 0 ? covered_share(dim, v, f, i, n) : 1.0;
+    const double rest = bounded && share < 1 ? (1 - share) * fmax(0, f->value[i]) : 0;
+    if (bounded) c.pull = fmax(c.pull, fmin(0, f->p[i] - f->value[i]));
+    const double shown = fmax(share * c.p / c.weight + rest + (size > 0 ? c.rise / size : 0),
+                              fmin(f->p[i], 0));
     return fmax(shown, fmin(shown - c.least, c.pull));
 }
 
