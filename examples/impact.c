@@ -4,7 +4,7 @@
 
 static const impact_case *const CASES[] = {&impact_flat, &impact_film,   &impact_wedge,
                                            &impact_jet,  &impact_column, &impact_floor,
-                                           &impact_box};
+                                           &impact_box,  &impact_toe};
 
 static void choose(impact *c, const impact_case *chosen)
 {
@@ -27,15 +27,19 @@ int main(int argc, char **argv)
     int32_t number = 0;
     driver_defaults(d, "impact",
                     "liquid meets a wall: impulses, forces and pressures of exact solutions");
-    driver_own(d, (option){"--case", "flat|film|wedge|jet|column|floor|box", "kind of impact",
+    driver_own(d, (option){"--case", "flat|film|wedge|jet|column|floor|box|toe", "kind of impact",
                            TYPE_CHOICE, &number, 0, 0, false, NULL});
-    driver_own(d, (option){"--rows", "N", "film: rows of particles", TYPE_INT, &c.layers, 1, 100,
-                           false, NULL});
+    driver_own(d, (option){"--rows", "N", "film, toe: rows of particles", TYPE_INT, &c.layers, 1,
+                           200, false, NULL});
     driver_own(d, (option){"--deadrise", "DEG",
-                           "wedge: angle between its side and the liquid's surface", TYPE_REAL,
+                           "wedge, toe: angle between its side and the liquid's surface", TYPE_REAL,
                            &c.deadrise, 10, 60, false, NULL});
     driver_own(d, (option){"--block", "M", "wedge: half width and depth of the liquid [m]",
                            TYPE_REAL, &c.block, 0.5, 10, false, NULL});
+    driver_own(d, (option){"--tip", "flat|wedge|round", "toe: its shape", TYPE_CHOICE, &c.tip, 0, 0,
+                           false, NULL});
+    driver_own(d, (option){"--shift", "X", "toe: middle of the tip beside that of the rows [dp]",
+                           TYPE_REAL, &c.shift, -1, 1, false, NULL});
     d->has_dim = true;
     d->dp = 0;
     d->dp_min = 1e-4;

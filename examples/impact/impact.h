@@ -13,7 +13,9 @@ typedef struct impact {
     double contact;
     double deadrise; /* of the wedge [degrees] */
     double block;    /* half width and depth of the liquid that meets the wedge [m] */
-    int32_t layers;  /* rows of the film */
+    int32_t layers;  /* rows of the film, of the toe */
+    int32_t tip;     /* shape of the toe's tip */
+    double shift;    /* of its middle against that of the rows [dp] */
 } impact;
 
 /* One case. `set` completes the options before the run opens, `build` adds particles, columns and figures. */
@@ -25,7 +27,7 @@ typedef struct impact_case {
 } impact_case;
 
 extern const impact_case impact_flat, impact_film, impact_wedge, impact_jet, impact_column,
-    impact_floor, impact_box;
+    impact_floor, impact_box, impact_toe;
 
 /* In spacings: foremost row to wall at the start; width of a slice in 3-D. */
 enum { IMPACT_GAP = 6, IMPACT_SLICE = 6 };

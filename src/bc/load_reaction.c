@@ -34,8 +34,22 @@
  * about it does not hold on to it, whatever its pressure: drops and liquid in the angle of two
  * walls are not always found to be on the surface, and pull. There pull is no lower than what the
  * wall itself pulls in the equation beyond that least pressure, min(0, p_i - value_i). Of a velocity
- * jump, without least pressures, the suction stays. The flow does not change. */
+ * jump, without least pressures, the suction stays. The flow does not change.
+ *
+ * cover: p' has no place in it. A toe of two rows presses with p' on all faces within the radius,
+ * three times its own width, and walls show twice the momentum that the fluid loses. With `cover` a
+ * face takes p' on the share only that lies below liquid, covered_share(), and the pressure of the
+ * void on the rest. That is 0, or that of trapped gas (gas.pocket), which is in the least pressure. */
 #include "helpers.h"
+
+/* Of a wall: another one is beside it up to this squared distance [dp2], and in its plane up to this
+ * height [dp]; liquid is before it from this height on [dp]. */
+static const double BESIDE = 1.5, PLANE = 0.3, BEFORE = 0.1;
+
+enum { COVER, SETTINGS };
+static const mps_setting settings[SETTINGS] = {
+    [COVER] = {"cover", "-", "1: the mean pressure acts on the share of a face below liquid alone",
+               MPS_TYPE_FLAG, 0.0, 0.0, 1.0}};
 
 enum { PRESSURE, ACCELERATION, REGION, CORRECTION, CONDITION, VALUE, WALL_PRESSURE, USES };
 static const mps_use uses[USES] = {[PRESSURE] = {"pressure", MPS_USE_NEIGHBOURS},
@@ -97,14 +111,79 @@ MPS_ROW contact sum_contact(const int dim, const mps_view *v, const fields *f, i
     return c;
 }
 
+/* A neighbour of a wall, seen along its normal: height above the face, s, the way to it along the
+ * face, and its square. */
+typedef struct foot {
+    double height, s[3], square;
+} foot;
+
+MPS_ROW foot find_foot(const int dim, const mps_pair *q, const double n[3])
+{
+    foot at = {0};
+    for (int d = 0; d < dim; d++) at.height += q->d[d] * n[d];
+    for (int d = 0; d < dim; d++) {
+        at.s[d] = q->d[d] - at.height * n[d];
+        at.square += at.s[d] * at.s[d];
+    }
+    return at;
+}
+
+/* Nearest liquid along the face of wall i; on an edge or in a corner, where a wall beside i is not in
+ * the plane of its face, one at s = 0. */
+MPS_ROW foot nearest_foot(const int dim, const mps_view *v, const fields *f, int64_t i,
+                          const double n[3])
+{
+    const mps_stencil *t = &v->near;
+    foot nearest = {.square = INFINITY};
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
+        const foot at = find_foot(dim, &q, n);
+        const double square = at.square + at.height * at.height, dp2 = v->dp * v->dp;
+        if (mps_is_wall(v, q.j) && square < BESIDE * dp2 && fabs(at.height) > PLANE * v->dp)
+            return (foot){0};
+        if (!mps_is_fluid(v, q.j) || mps_region_of(f->region, q.j) >= MPS_REGION_SPRAY) continue;
+        if (at.height > BEFORE * v->dp && at.square < nearest.square) nearest = at;
+    }
+    return nearest;
+}
+
+/* Share of the face of wall i that lies below liquid: all of it with liquid or a wetted wall on both
+ * sides; at the edge of the liquid what the cell of the particle nearest along the face leaves,
+ * 1 - |s|/dp. The other side counts in full up to |s| = dp, less beyond that up to the radius, where
+ * rows are stretched. */
+MPS_ROW double covered_share(const int dim, const mps_view *v, const fields *f, int64_t i,
+                             const double n[3])
+{
+    const mps_stencil *t = &v->near;
+    const foot nearest = nearest_foot(dim, v, f, i, n);
+    const double near = sqrt(nearest.square);
+    double across = 0;
+    if (!(near > 0) || near > t->re) return near > 0 ? 0 : 1;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        if (mps_region_of(f->region, mps_stencil_column(t, p)) >= MPS_REGION_SPRAY) continue;
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
+        const foot at = find_foot(dim, &q, n);
+        double along = 0;
+        for (int d = 0; d < dim; d++) along -= at.s[d] * nearest.s[d];
+        if (along <= 0 || at.height <= BEFORE * v->dp) continue;
+        const double far = sqrt(at.square), full = (t->re - far) / (t->re - v->dp);
+        across = fmax(across, along / (near * far) * fmin(1, full));
+    }
+    return fmin(1, fmax(0, 1 - near / v->dp) + across);
+}
+
 MPS_ROW double pressure_of(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     double n[3];
     const double size = face(dim, v, i, n);
     contact c = sum_contact(dim, v, f, i, n);
     if (c.weight == 0) return f->p[i];
-    if (f->condition[i] >= MPS_ROW_LEAST) c.pull = fmax(c.pull, fmin(0, f->p[i] - f->value[i]));
-    const double shown = fmax(c.p / c.weight + (size > 0 ? c.rise / size : 0), fmin(f->p[i], 0));
+    const bool bounded = f->condition[i] >= MPS_ROW_LEAST;
+    const double share = v->setting[COVER] > 0 && size > 0 ? covered_share(dim, v, f, i, n) : 1.0;
+    const double rest = bounded && share < 1 ? (1 - share) * fmax(0, f->value[i]) : 0;
+    if (bounded) c.pull = fmax(c.pull, fmin(0, f->p[i] - f->value[i]));
+    const double shown = fmax(share * c.p / c.weight + rest + (size > 0 ? c.rise / size : 0),
+                              fmin(f->p[i], 0));
     return fmax(shown, fmin(shown - c.least, c.pull));
 }
 
@@ -136,5 +215,7 @@ const mps_model_ops mps__load_reaction = {
     .api = MPS_MODEL_API,
     .name = "load.reaction",
     .help = "Pressure on walls as the reaction to what the fluid beside them received",
+    .setting_count = SETTINGS,
+    .settings = settings,
     .verb_count = 1,
     .verbs = verbs};

@@ -62,9 +62,11 @@ refused 'unknown option --sigma' rayleigh_taylor --sigma 0
 refused '--mode jump: must be one of rest|oscillation' droplet --mode jump
 refused '--mode res: must be one of rest|oscillation' droplet --mode res
 refused '--case 3: must be one of 1|2' rising_bubble --case 3
-refused '--case dam: must be one of flat|film|wedge|jet|column|floor|box' impact --case dam
-refused '--rows 0: must be a whole number, 1 to 100' impact --case film --rows 0
+refused '--case dam: must be one of flat|film|wedge|jet|column|floor|box|toe' impact --case dam
+refused '--rows 0: must be a whole number, 1 to 200' impact --case film --rows 0
 refused '--dim 3: this case is for 2 dimensions' impact --case wedge --dim 3
+refused '--tip thin: must be one of flat|wedge|round' impact --case toe --tip thin
+refused '--shift 2: must be a number not less than 0, at most 1' impact --case toe --shift 2
 refused '--liquid honey: must be one of water|oil' sloshing_roll --liquid honey
 refused '--angle 0: must be a number, 0.01 to 20' sloshing_roll --angle 0
 refused '--width 0: must be a number, 0.01 to 2' sloshing_breaking --dim 3 --width 0
