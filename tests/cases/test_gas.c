@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compressible gas with the scheme imps: a column settles under its own weight, a swirl in a closed
- * tank keeps its mean pressure, half cells of walls give way. */
+/* Compressible gas. With the scheme imps: a column settles under its own weight, a swirl in a closed
+ * tank keeps its mean pressure, half cells of walls give way. With mmps: a round pocket rings. */
 #include "../tags.h"
 #include "../unit/tank_fixture.h"
 #include <mps/model.h>
@@ -231,9 +231,156 @@ static void walls_give_way(void **state)
     }
 }
 
+/* ---- a round pocket in round water, in a closed box of gas, 2-D, without gravity -------------- */
+
+enum { PEAKS = 3 };
+static const double grid = 0.01, sound = 340, air = 1.2;
+
+typedef struct pocket {
+    double centre, inner, outer; /* of water */
+    double pressure, t;          /* of the pocket less that of the gas outside, at the last step */
+    int crossings;               /* upward */
+    double first, last;          /* crossings */
+    double most, peak[PEAKS];    /* since the last crossing; of each period */
+} pocket;
+
+static double from_centre(const pocket *q, const double *x)
+{
+    return hypot(x[0] - q->centre, x[1] - q->centre);
+}
+
+static int in_water(void *user, const double *x)
+{
+    const pocket *q = user;
+    const double r = from_centre(q, x);
+    return r > q->inner && r < q->outer;
+}
+
+static void follow(pocket *q, double t, double p)
+{
+    if (q->pressure < 0 && p >= 0) {
+        q->last = t - (t - q->t) * p / (p - q->pressure);
+        if (q->crossings++ == 0)
+            q->first = q->last;
+        else if (q->crossings <= PEAKS + 1)
+            q->peak[q->crossings - 2] = q->most;
+        q->most = 0;
+    }
+    q->most = fmax(q->most, p);
+    q->pressure = p;
+    q->t = t;
+}
+
+static int note_pocket(void *user, mps_sim *sim, const mps_step_info *info)
+{
+    pocket *q = user;
+    double sum[2] = {0}, count[2] = {0};
+    const int32_t *kinds, *phases;
+    mps_lease x = {.struct_size = sizeof x}, p = x;
+    ASSERT_OK(sim, tags_peek(sim, NULL, &kinds, &phases, NULL));
+    ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &x));
+    ASSERT_OK(sim, mps_lease_begin(sim, "pressure", MPS_READ, &p));
+    for (int64_t i = 0; i < p.count; i++) {
+        if (kinds[i] != MPS_FLUID || phases[i] != 1) continue;
+        const int outside = from_centre(q, x.data + 2 * i) > 0.5 * (q->inner + q->outer);
+        sum[outside] += p.data[i];
+        count[outside]++;
+    }
+    ASSERT_OK(sim, mps_lease_end(sim, &x));
+    ASSERT_OK(sim, mps_lease_end(sim, &p));
+    follow(q, info->t, sum[0] / count[0] - sum[1] / count[1]);
+    return 0;
+}
+
+/* Water and gas at rest; *water: number of particles. */
+static mps_sim *fill_pocket(pocket *q, double side, int64_t *water)
+{
+    mps_config config;
+    mps_phase fluid;
+    mps_sim *sim = NULL;
+    const double lo[2] = {0, 0}, hi[2] = {side, side};
+    assert_int_equal(mps_config_init(&config, sizeof config), MPS_OK);
+    config.dim = 2;
+    config.dp = grid;
+    config.gravity[1] = 0;
+    config.velocity_scale = sqrt(9.81 * grid);
+    assert_int_equal(mps_sim_create(&config, &sim), MPS_OK);
+    ASSERT_OK(sim, mps_preset_use(sim, "mmps"));
+    assert_int_equal(mps_phase_init(&fluid, sizeof fluid), MPS_OK);
+    fluid.density = 1000;
+    ASSERT_OK(sim, mps_phase_set(sim, 0, &fluid));
+    fluid.density = air;
+    ASSERT_OK(sim, mps_phase_set(sim, 1, &fluid));
+    add_tank(sim, side, side, 0);
+    ASSERT_OK(sim, mps_fill_add(sim, 0, in_water, q, water));
+    ASSERT_OK(sim, mps_fill_box_add(sim, 1, lo, hi, NULL, NULL));
+    return sim;
+}
+
+/* Radial flow of the water; returns the particles of the pocket. */
+static int64_t push_water(mps_sim *sim, const pocket *q, double speed)
+{
+    int64_t cells = 0;
+    const int32_t *kinds, *phases;
+    mps_lease x = {.struct_size = sizeof x}, u = x;
+    ASSERT_OK(sim, tags_peek(sim, NULL, &kinds, &phases, NULL));
+    ASSERT_OK(sim, mps_lease_begin(sim, "position", MPS_READ, &x));
+    ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &u));
+    for (int64_t i = 0; i < u.count; i++) {
+        const double r = from_centre(q, x.data + 2 * i);
+        if (kinds[i] != MPS_FLUID) continue;
+        cells += phases[i] == 1 && r < 0.5 * (q->inner + q->outer);
+        for (int d = 0; d < 2 && phases[i] == 0; d++)
+            u.data[2 * i + d] = speed * q->inner * (x.data[2 * i + d] - q->centre) / (r * r);
+    }
+    ASSERT_OK(sim, mps_lease_end(sim, &x));
+    ASSERT_OK(sim, mps_lease_end(sim, &u));
+    return cells;
+}
+
+/* w^2 = 2 pi rho c^2 (1/V + 1/V')/(rho_w ln(R/a)), V and V' the volumes of both gases. The faces of the pocket move with the water half a
+ * spacing behind them, so a pocket rings slower, w a/(a + dp/2). The implicit step damps it by pi w dt/gain a period. */
+static void ring(double radius, double outer, double dt)
+{
+    static const double pi = 3.14159265358979323846, gain = 0.7;
+    const double side = ceil(2 * outer + 12) * grid;
+    int64_t water = 0;
+    mps_time_control control;
+    pocket q = {.centre = 0.5 * side, .inner = radius * grid, .outer = outer * grid};
+    mps_sim *sim = fill_pocket(&q, side, &water);
+    const int64_t cells = push_water(sim, &q, 0.02);
+    const double cell = grid * grid, volume = (double)cells * cell, a = sqrt(volume / pi);
+    const double R = sqrt((double)water * cell / pi + a * a), outside = side * side - pi * R * R;
+    const double omega = sqrt(2 * pi * air * sound * sound * (1 / volume + 1 / outside) /
+                              (1000 * log(R / a)));
+    assert_int_equal(mps_time_control_init(&control, sizeof control), MPS_OK);
+    control.dt = dt;
+    ASSERT_OK(sim, mps_time_control_set(sim, &control));
+    ASSERT_OK(sim, mps_run(sim, 1.3 * (PEAKS + 1.5) * 2 * pi / omega, note_pocket, &q));
+    assert_true(q.crossings > PEAKS);
+    const double f = (q.crossings - 1) / (q.last - q.first) * 2 * pi / omega;
+    const double decrement = log(q.peak[0] / q.peak[PEAKS - 1]) / (PEAKS - 1);
+    const double implicit = pi * omega * dt / gain;
+    print_message("pocket of %lld particles, %.2f dp: frequency %+.1f %% of Minnaert's, "
+                  "%+.1f %% of a/(a + dp/2); decrement %.3f, of the step %.3f\n",
+                  (long long)cells, a / grid, 100 * (f - 1), 100 * (f * (1 + 0.5 * grid / a) - 1),
+                  decrement, implicit);
+    ASSERT_NEAR(f * (1 + 0.5 * grid / a), 1, 0.04);
+    assert_true(decrement > 1.05 * implicit && decrement < 1.4 * implicit);
+    mps_sim_destroy(sim);
+}
+
+static void pocket_rings(void **state)
+{
+    (void)state;
+    ring(2.3, 6.9, 1e-4);
+    ring(4.6, 13.8, 1e-4);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(walls_give_way), cmocka_unit_test(settled),
-                                       cmocka_unit_test(mean_pressure)};
+                                       cmocka_unit_test(mean_pressure),
+                                       cmocka_unit_test(pocket_rings)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
