@@ -195,10 +195,11 @@ static int find_pockets(mps_stage *s)
 
 /* ---- pressures of rows ---- */
 
-enum { GIVE_REGION, GIVE_ROW, GIVE_CONDITION, GIVE_VALUE, GIVE_USES };
+enum { GIVE_REGION, GIVE_ROW, GIVE_SLOPE, GIVE_CONDITION, GIVE_VALUE, GIVE_USES };
 static const mps_use give_uses[GIVE_USES] = {
     [GIVE_REGION] = {"region", MPS_USE_NEIGHBOURS},
     [GIVE_ROW] = {"pocket_pressure", MPS_USE_NEIGHBOURS},
+    [GIVE_SLOPE] = {"pocket_slope", MPS_USE_NEIGHBOURS},
     [GIVE_CONDITION] = {"pressure_condition", MPS_USE_READ},
     [GIVE_VALUE] = {"pressure_value", MPS_USE_CHANGE}};
 
@@ -224,13 +225,32 @@ MPS_ROW double beside(const int dim, const mps_view *v, const fields *f, int64_t
     return weight > 0 ? sum / weight : 0;
 }
 
+/* Least pressure that a film beside a wall has at its place: that of the particles of its surface,
+ * along the gradient of the film. */
+MPS_ROW double film_pressure(const int dim, const mps_view *v, const fields *f, int64_t i)
+{
+    const mps_stencil *t = &v->near;
+    double least = INFINITY;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const int64_t j = mps_stencil_column(t, p);
+        const double *row = f->row + j * MPS__POCKET_ROW;
+        if (!mps_is_fluid(v, j) || mps_region_of(f->region, j) != MPS_REGION_SURFACE) continue;
+        if (row[MPS__ROW_FILM] == 0) continue;
+        double here = row[MPS__ROW_PRESSURE];
+        for (int d = 0; d < dim; d++)
+            here += f->slope[j * dim + d] * (v->x[i * dim + d] - v->x[j * dim + d]);
+        least = fmin(least, here);
+    }
+    return least;
+}
+
 MPS_ROW void give_row(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     const bool own = f->row[i * MPS__POCKET_ROW + MPS__ROW_WEIGHT] > 0;
     if (mps_is_fluid(v, i) && mps_region_of(f->region, i) == MPS_REGION_SURFACE)
         f->value[i] += own ? f->row[i * MPS__POCKET_ROW] : beside(dim, v, f, i);
     else if (mps_is_wall(v, i) && f->condition[i] == MPS_ROW_LEAST && own)
-        f->value[i] += f->row[i * MPS__POCKET_ROW];
+        f->value[i] = fmin(f->value[i] + f->row[i * MPS__POCKET_ROW], film_pressure(dim, v, f, i));
 }
 MPS_ROWS(give_rows, give_row, fields)
 
@@ -238,6 +258,7 @@ static int give_pressures(mps_stage *s)
 {
     fields f = {.region = s->data[GIVE_REGION],
                 .row = s->data[GIVE_ROW],
+                .slope = s->data[GIVE_SLOPE],
                 .condition = s->data[GIVE_CONDITION],
                 .value = s->data[GIVE_VALUE]};
     mps_stage_rows(s, &give_rows, &f);
