@@ -72,25 +72,6 @@ static const mps_use find_uses[FIND_USES] = {[FIND_VELOCITY] = {"velocity", MPS_
                                              [FIND_ROW] = {"pocket_pressure", MPS_USE_WRITE},
                                              [FIND_SLOPE] = {"pocket_slope", MPS_USE_WRITE}};
 
-static double power(double side, int32_t dim)
-{
-    return dim == 2 ? side * side : side * side * side;
-}
-
-/* The voids of the step, without those that are less than half of the smallest pocket. */
-static int look(mps_stage *s, mps__pocket_faces *f)
-{
-    mps_voids_config config;
-    mps_voids *v = &f->voids;
-    const double side = s->view->setting[MPS__POCKET_LEAST];
-    if (mps_voids_config_init(&config, sizeof config) != MPS_OK ||
-        mps_voids_init(v, sizeof *v) != MPS_OK)
-        return mps_stage_fail(s, "the voids cannot be looked for");
-    config.least = 0.5 * power(side, s->view->dim);
-    f->cover = (s->view->dim == 2 ? 0.72 : 0.9) * s->view->dp;
-    return mps_stage_voids(s, &config, v);
-}
-
 /* Gas of the ambient of a closed tank: amount, volume. */
 static void sum_ullage(const double *setting, const mps__pocket *pocket, int32_t count, double *gas,
                        double *volume)
@@ -142,13 +123,13 @@ static int follow(mps_stage *s, const mps__pocket_faces *f, mps__pocket_now *now
         if (old.head && old.head->cells[d] != v->cells[d]) old.head = NULL;
     const int32_t pockets = old.head ? (int32_t)old.head->pockets : 0;
     const double *k = s->view->setting, relax = RELAXATION * s->view->dp / s->view->velocity_scale;
-    const double dt = head->dt, least = power(k[MPS__POCKET_LEAST] * s->view->dp, v->dim);
+    const double dt = head->dt, least = mps__pocket_power(k[MPS__POCKET_LEAST] * s->view->dp, v->dim);
     now->pocket = (mps__pocket *)(void *)mps_stage_scratch(
         s, (int64_t)v->count * (int64_t)(sizeof *now->pocket / sizeof(double)));
     now->overlap = mps_stage_scratch_integers(s, (int64_t)v->count * (2 + pockets));
     if (!now->pocket || !now->overlap) return 1;
     now->geometry = geometry;
-    now->least = least / power(v->side, v->dim);
+    now->least = least / mps__pocket_power(v->side, v->dim);
     now->t = s->view->t;
     now->ambient = 1;
     if (pockets > 0) {
@@ -173,7 +154,10 @@ static int find_pockets(mps_stage *s)
                            .region = s->data[FIND_REGION],
                            .row = s->data[FIND_ROW],
                            .slope = s->data[FIND_SLOPE]};
-    if (look(s, &f)) return 1;
+    bool waits;
+    if (mps__pocket_wait(s, &f, &waits)) return 1;
+    if (waits) return 0;
+    if (mps__pocket_look(s, &f)) return 1;
     double *geometry = mps_stage_scratch(s, f.voids.count + 1);
     double *pressure = mps_stage_scratch(s, 2 * (int64_t)f.voids.count + 1);
     if (!geometry || !pressure) return 1;
@@ -254,8 +238,16 @@ MPS_ROW void give_row(const int dim, const mps_view *v, const fields *f, int64_t
 }
 MPS_ROWS(give_rows, give_row, fields)
 
+/* Whether there is nothing to do: the channels of a step without a pocket are 0. */
+static bool is_idle(const mps_stage *s)
+{
+    const mps__pocket_old old = mps__pocket_read(s);
+    return !old.head || old.head->pockets == 0;
+}
+
 static int give_pressures(mps_stage *s)
 {
+    if (is_idle(s)) return 0;
     fields f = {.region = s->data[GIVE_REGION],
                 .row = s->data[GIVE_ROW],
                 .slope = s->data[GIVE_SLOPE],
@@ -314,6 +306,7 @@ MPS_ROWS(push_film_rows, push_film, fields)
 
 static int push_films(mps_stage *s)
 {
+    if (is_idle(s)) return 0;
     fields f = {.region = s->data[FILM_REGION],
                 .density = s->data[FILM_DENSITY],
                 .row = s->data[FILM_ROW],
@@ -343,6 +336,7 @@ MPS_ROWS(load_rows, load_row, fields)
 
 static int load_walls(mps_stage *s)
 {
+    if (is_idle(s)) return 0;
     fields f = {.region = s->data[LOAD_REGION],
                 .row = s->data[LOAD_ROW],
                 .wall_pressure = s->data[LOAD_WALL]};
@@ -358,25 +352,13 @@ static const mps_use book_uses[BOOK_USES] = {
     [BOOK_REGION] = {"region", MPS_USE_NEIGHBOURS},
     [BOOK_CORRECTION] = {"correction", MPS_USE_NEIGHBOURS}};
 
-/* Head and pockets of the state, to be changed. NULL: no memory */
-static mps__pocket_head *open_state(mps_stage *s, mps__pocket **pocket)
-{
-    int64_t size = 0;
-    mps_stage_state_get(s, &size);
-    double *state = mps_stage_state(s, size);
-    if (!state) return NULL;
-    mps__pocket_head *head = (mps__pocket_head *)(void *)state;
-    *pocket = (mps__pocket *)(void *)(state + sizeof *head / sizeof *state);
-    return head;
-}
-
 /* New volumes by the flux, and the second half of the work. */
 static int add_fluxes(mps_stage *s, mps__pocket_head *head, mps__pocket *pocket)
 {
     mps__pocket_faces f = {.region = s->data[BOOK_REGION],
                            .velocity = s->data[BOOK_VELOCITY],
                            .correction = s->data[BOOK_CORRECTION]};
-    if (look(s, &f)) return 1;
+    if (mps__pocket_look(s, &f)) return 1;
     double *flux = mps_stage_scratch(s, f.voids.count + 1);
     double *pressure = mps_stage_scratch(s, f.voids.count + 1);
     if (!flux || !pressure || mps__pocket_sort(s, &f)) return 1;
@@ -395,9 +377,10 @@ static int book_gas(mps_stage *s)
 {
     double volume = 0, most = 0;
     mps__pocket *pocket = NULL;
-    mps__pocket_head *head = open_state(s, &pocket);
+    if (is_idle(s)) return mps_stage_gas(s, 0, 0, 0, 0);
+    mps__pocket_head *head = mps__pocket_open(s, &pocket);
     if (!head) return 1;
-    if (head->pockets > 0 && add_fluxes(s, head, pocket)) return 1;
+    if (add_fluxes(s, head, pocket)) return 1;
     for (int32_t k = 0; k < (int32_t)head->pockets; k++) {
         volume += pocket[k].volume;
         if (fabs(pocket[k].pressure) > fabs(most)) most = pocket[k].pressure;
