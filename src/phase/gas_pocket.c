@@ -46,13 +46,27 @@ static const mps_channel channels[] = {
      .help = "Pressure gradient in a film between two voids",
      .components = MPS_VECTOR,
      .type = MPS_TYPE_REAL,
-     .life = MPS_LIFE_STEP}};
+     .life = MPS_LIFE_STEP},
+    {.name = "pocket",
+     .unit = "-",
+     .help = "Number of the pocket of gas that a particle borders, from 1 in the order of closing; "
+             "0: none",
+     .components = 1,
+     .type = MPS_TYPE_REAL,
+     .life = MPS_LIFE_PARTICLE}};
 enum { CHANNELS = sizeof channels / sizeof *channels };
 
 /* Time over which volumes relax, in dp/U_g. */
 static const double RELAXATION = 20;
 
 /* ---- steps ---- */
+
+/* Whether there is no pocket: pressures and slopes of the step are 0 then. */
+static bool is_idle(const mps_stage *s)
+{
+    const mps__pocket_old old = mps__pocket_read(s);
+    return !old.head || old.head->pockets == 0;
+}
 
 static int limit_step(mps_stage *s)
 {
@@ -65,12 +79,11 @@ static int limit_step(mps_stage *s)
 
 /* ---- pockets ---- */
 
-enum { FIND_VELOCITY, FIND_DENSITY, FIND_REGION, FIND_ROW, FIND_SLOPE, FIND_USES };
-static const mps_use find_uses[FIND_USES] = {[FIND_VELOCITY] = {"velocity", MPS_USE_READ},
-                                             [FIND_DENSITY] = {"density", MPS_USE_READ},
-                                             [FIND_REGION] = {"region", MPS_USE_NEIGHBOURS},
-                                             [FIND_ROW] = {"pocket_pressure", MPS_USE_WRITE},
-                                             [FIND_SLOPE] = {"pocket_slope", MPS_USE_WRITE}};
+enum { FIND_VELOCITY, FIND_DENSITY, FIND_REGION, FIND_ROW, FIND_SLOPE, FIND_NUMBER, FIND_USES };
+static const mps_use find_uses[FIND_USES] = {
+    [FIND_VELOCITY] = {"velocity", MPS_USE_READ},   [FIND_DENSITY] = {"density", MPS_USE_READ},
+    [FIND_REGION] = {"region", MPS_USE_NEIGHBOURS}, [FIND_ROW] = {"pocket_pressure", MPS_USE_WRITE},
+    [FIND_SLOPE] = {"pocket_slope", MPS_USE_WRITE}, [FIND_NUMBER] = {"pocket", MPS_USE_CHANGE}};
 
 /* Gas of the ambient of a closed tank: amount, volume. */
 static void sum_ullage(const double *setting, const mps__pocket *pocket, int32_t count, double *gas,
@@ -123,7 +136,8 @@ static int follow(mps_stage *s, const mps__pocket_faces *f, mps__pocket_now *now
         if (old.head && old.head->cells[d] != v->cells[d]) old.head = NULL;
     const int32_t pockets = old.head ? (int32_t)old.head->pockets : 0;
     const double *k = s->view->setting, relax = RELAXATION * s->view->dp / s->view->velocity_scale;
-    const double dt = head->dt, least = mps__pocket_power(k[MPS__POCKET_LEAST] * s->view->dp, v->dim);
+    const double dt = head->dt,
+                 least = mps__pocket_power(k[MPS__POCKET_LEAST] * s->view->dp, v->dim);
     now->pocket = (mps__pocket *)(void *)mps_stage_scratch(
         s, (int64_t)v->count * (int64_t)(sizeof *now->pocket / sizeof(double)));
     now->overlap = mps_stage_scratch_integers(s, (int64_t)v->count * (2 + pockets));
@@ -153,8 +167,9 @@ static int find_pockets(mps_stage *s)
     mps__pocket_faces f = {.velocity = s->data[FIND_VELOCITY],
                            .region = s->data[FIND_REGION],
                            .row = s->data[FIND_ROW],
-                           .slope = s->data[FIND_SLOPE]};
-    bool waits;
+                           .slope = s->data[FIND_SLOPE],
+                           .number = s->data[FIND_NUMBER]};
+    bool waits, any = false, had = !is_idle(s);
     if (mps__pocket_wait(s, &f, &waits)) return 1;
     if (waits) return 0;
     if (mps__pocket_look(s, &f)) return 1;
@@ -168,12 +183,13 @@ static int find_pockets(mps_stage *s)
     if (follow(s, &f, &now, geometry, &head)) return 1;
     if (f.voids.count > 1) {
         find_pressures(s, &f, &now, &head, s->data[FIND_DENSITY], pressure);
-        bool any = false;
         for (int32_t c = 0; c < f.voids.count; c++) any = any || now.pocket[c].gas > 0;
         f.pressure = pressure;
+        f.pocket = now.pocket;
         if (any) mps__pocket_press(s, &f);
         if (any) head.work = mps__pocket_work(s, &f);
     }
+    if (had && !any) mps__pocket_clear(s, &f);
     return mps__pocket_write(s, &f.voids, &now, &head);
 }
 
@@ -237,13 +253,6 @@ MPS_ROW void give_row(const int dim, const mps_view *v, const fields *f, int64_t
         f->value[i] = fmin(f->value[i] + f->row[i * MPS__POCKET_ROW], film_pressure(dim, v, f, i));
 }
 MPS_ROWS(give_rows, give_row, fields)
-
-/* Whether there is nothing to do: the channels of a step without a pocket are 0. */
-static bool is_idle(const mps_stage *s)
-{
-    const mps__pocket_old old = mps__pocket_read(s);
-    return !old.head || old.head->pockets == 0;
-}
 
 static int give_pressures(mps_stage *s)
 {

@@ -79,15 +79,16 @@ enum { MPS__ROW_PRESSURE, MPS__ROW_WEIGHT, MPS__ROW_FILM, MPS__POCKET_ROW };
  * gas_pocket_faces.c */
 typedef struct mps__pocket_faces {
     mps_voids voids;
-    double cover;             /* [m] */
-    const int32_t *begin;     /* [n+1] */
-    const int32_t *face;      /* [begin[n]] */
-    const int32_t *region;    /* channel */
-    const double *correction; /* channel */
-    const double *velocity;   /* channel; NULL: places */
-    const double *pressure;   /* [count] of components */
-    double *row, *slope;      /* channels that are written */
-    int32_t from;             /* first component of a batch of sums */
+    double cover;                 /* [m] */
+    const int32_t *begin;         /* [n+1] */
+    const int32_t *face;          /* [begin[n]] */
+    const int32_t *region;        /* channel */
+    const double *correction;     /* channel */
+    const double *velocity;       /* channel; NULL: places */
+    const double *pressure;       /* [count] of components */
+    const mps__pocket *pocket;    /* [count] the same */
+    double *row, *slope, *number; /* channels that are written */
+    int32_t from;                 /* first component of a batch of sums */
 } mps__pocket_faces;
 
 /* Whether this step looks for no voids. While there is no pocket it is enough to look after the
@@ -108,7 +109,9 @@ void mps__pocket_fluxes(mps_stage *s, mps__pocket_faces *f, double *flux);
 double mps__pocket_work(mps_stage *s, const mps__pocket_faces *f);
 /* Area of the faces of components with liquid behind them [count]. */
 void mps__pocket_areas(const mps__pocket_faces *f, double *area);
-/* Pressures and slopes of films of the rows: channels of gas.pocket. */
+/* Pressures, slopes of films and pockets of the rows: channels of gas.pocket. */
 void mps__pocket_press(mps_stage *s, const mps__pocket_faces *f);
+/* No row has a pocket before it. */
+void mps__pocket_clear(mps_stage *s, const mps__pocket_faces *f);
 
 #endif
