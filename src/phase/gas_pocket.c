@@ -46,13 +46,27 @@ static const mps_channel channels[] = {
      .help = "Pressure gradient in a film between two voids",
      .components = MPS_VECTOR,
      .type = MPS_TYPE_REAL,
-     .life = MPS_LIFE_STEP}};
+     .life = MPS_LIFE_STEP},
+    {.name = "pocket",
+     .unit = "-",
+     .help = "Number of the pocket of gas that a particle borders, from 1 in the order of closing; "
+             "0: none",
+     .components = 1,
+     .type = MPS_TYPE_REAL,
+     .life = MPS_LIFE_PARTICLE}};
 enum { CHANNELS = sizeof channels / sizeof *channels };
 
 /* Time over which volumes relax, in dp/U_g. */
 static const double RELAXATION = 20;
 
 /* ---- steps ---- */
+
+/* Whether there is no pocket: pressures and slopes of the step are 0 then. */
+static bool is_idle(const mps_stage *s)
+{
+    const mps__pocket_old old = mps__pocket_read(s);
+    return !old.head || old.head->pockets == 0;
+}
 
 static int limit_step(mps_stage *s)
 {
@@ -65,31 +79,11 @@ static int limit_step(mps_stage *s)
 
 /* ---- pockets ---- */
 
-enum { FIND_VELOCITY, FIND_DENSITY, FIND_REGION, FIND_ROW, FIND_SLOPE, FIND_USES };
-static const mps_use find_uses[FIND_USES] = {[FIND_VELOCITY] = {"velocity", MPS_USE_READ},
-                                             [FIND_DENSITY] = {"density", MPS_USE_READ},
-                                             [FIND_REGION] = {"region", MPS_USE_NEIGHBOURS},
-                                             [FIND_ROW] = {"pocket_pressure", MPS_USE_WRITE},
-                                             [FIND_SLOPE] = {"pocket_slope", MPS_USE_WRITE}};
-
-static double power(double side, int32_t dim)
-{
-    return dim == 2 ? side * side : side * side * side;
-}
-
-/* The voids of the step, without those that are less than half of the smallest pocket. */
-static int look(mps_stage *s, mps__pocket_faces *f)
-{
-    mps_voids_config config;
-    mps_voids *v = &f->voids;
-    const double side = s->view->setting[MPS__POCKET_LEAST];
-    if (mps_voids_config_init(&config, sizeof config) != MPS_OK ||
-        mps_voids_init(v, sizeof *v) != MPS_OK)
-        return mps_stage_fail(s, "the voids cannot be looked for");
-    config.least = 0.5 * power(side, s->view->dim);
-    f->cover = (s->view->dim == 2 ? 0.72 : 0.9) * s->view->dp;
-    return mps_stage_voids(s, &config, v);
-}
+enum { FIND_VELOCITY, FIND_DENSITY, FIND_REGION, FIND_ROW, FIND_SLOPE, FIND_NUMBER, FIND_USES };
+static const mps_use find_uses[FIND_USES] = {
+    [FIND_VELOCITY] = {"velocity", MPS_USE_READ},   [FIND_DENSITY] = {"density", MPS_USE_READ},
+    [FIND_REGION] = {"region", MPS_USE_NEIGHBOURS}, [FIND_ROW] = {"pocket_pressure", MPS_USE_WRITE},
+    [FIND_SLOPE] = {"pocket_slope", MPS_USE_WRITE}, [FIND_NUMBER] = {"pocket", MPS_USE_CHANGE}};
 
 /* Gas of the ambient of a closed tank: amount, volume. */
 static void sum_ullage(const double *setting, const mps__pocket *pocket, int32_t count, double *gas,
@@ -142,13 +136,14 @@ static int follow(mps_stage *s, const mps__pocket_faces *f, mps__pocket_now *now
         if (old.head && old.head->cells[d] != v->cells[d]) old.head = NULL;
     const int32_t pockets = old.head ? (int32_t)old.head->pockets : 0;
     const double *k = s->view->setting, relax = RELAXATION * s->view->dp / s->view->velocity_scale;
-    const double dt = head->dt, least = power(k[MPS__POCKET_LEAST] * s->view->dp, v->dim);
+    const double dt = head->dt,
+                 least = mps__pocket_power(k[MPS__POCKET_LEAST] * s->view->dp, v->dim);
     now->pocket = (mps__pocket *)(void *)mps_stage_scratch(
         s, (int64_t)v->count * (int64_t)(sizeof *now->pocket / sizeof(double)));
     now->overlap = mps_stage_scratch_integers(s, (int64_t)v->count * (2 + pockets));
     if (!now->pocket || !now->overlap) return 1;
     now->geometry = geometry;
-    now->least = least / power(v->side, v->dim);
+    now->least = least / mps__pocket_power(v->side, v->dim);
     now->t = s->view->t;
     now->ambient = 1;
     if (pockets > 0) {
@@ -172,8 +167,12 @@ static int find_pockets(mps_stage *s)
     mps__pocket_faces f = {.velocity = s->data[FIND_VELOCITY],
                            .region = s->data[FIND_REGION],
                            .row = s->data[FIND_ROW],
-                           .slope = s->data[FIND_SLOPE]};
-    if (look(s, &f)) return 1;
+                           .slope = s->data[FIND_SLOPE],
+                           .number = s->data[FIND_NUMBER]};
+    bool waits, any = false, had = !is_idle(s);
+    if (mps__pocket_wait(s, &f, &waits)) return 1;
+    if (waits) return 0;
+    if (mps__pocket_look(s, &f)) return 1;
     double *geometry = mps_stage_scratch(s, f.voids.count + 1);
     double *pressure = mps_stage_scratch(s, 2 * (int64_t)f.voids.count + 1);
     if (!geometry || !pressure) return 1;
@@ -184,21 +183,23 @@ static int find_pockets(mps_stage *s)
     if (follow(s, &f, &now, geometry, &head)) return 1;
     if (f.voids.count > 1) {
         find_pressures(s, &f, &now, &head, s->data[FIND_DENSITY], pressure);
-        bool any = false;
         for (int32_t c = 0; c < f.voids.count; c++) any = any || now.pocket[c].gas > 0;
         f.pressure = pressure;
+        f.pocket = now.pocket;
         if (any) mps__pocket_press(s, &f);
         if (any) head.work = mps__pocket_work(s, &f);
     }
+    if (had && !any) mps__pocket_clear(s, &f);
     return mps__pocket_write(s, &f.voids, &now, &head);
 }
 
 /* ---- pressures of rows ---- */
 
-enum { GIVE_REGION, GIVE_ROW, GIVE_CONDITION, GIVE_VALUE, GIVE_USES };
+enum { GIVE_REGION, GIVE_ROW, GIVE_SLOPE, GIVE_CONDITION, GIVE_VALUE, GIVE_USES };
 static const mps_use give_uses[GIVE_USES] = {
     [GIVE_REGION] = {"region", MPS_USE_NEIGHBOURS},
     [GIVE_ROW] = {"pocket_pressure", MPS_USE_NEIGHBOURS},
+    [GIVE_SLOPE] = {"pocket_slope", MPS_USE_NEIGHBOURS},
     [GIVE_CONDITION] = {"pressure_condition", MPS_USE_READ},
     [GIVE_VALUE] = {"pressure_value", MPS_USE_CHANGE}};
 
@@ -224,20 +225,41 @@ MPS_ROW double beside(const int dim, const mps_view *v, const fields *f, int64_t
     return weight > 0 ? sum / weight : 0;
 }
 
+/* Least pressure that a film beside a wall has at its place: that of the particles of its surface,
+ * along the gradient of the film. */
+MPS_ROW double film_pressure(const int dim, const mps_view *v, const fields *f, int64_t i)
+{
+    const mps_stencil *t = &v->near;
+    double least = INFINITY;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const int64_t j = mps_stencil_column(t, p);
+        const double *row = f->row + j * MPS__POCKET_ROW;
+        if (!mps_is_fluid(v, j) || mps_region_of(f->region, j) != MPS_REGION_SURFACE) continue;
+        if (row[MPS__ROW_FILM] == 0) continue;
+        double here = row[MPS__ROW_PRESSURE];
+        for (int d = 0; d < dim; d++)
+            here += f->slope[j * dim + d] * (v->x[i * dim + d] - v->x[j * dim + d]);
+        least = fmin(least, here);
+    }
+    return least;
+}
+
 MPS_ROW void give_row(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     const bool own = f->row[i * MPS__POCKET_ROW + MPS__ROW_WEIGHT] > 0;
     if (mps_is_fluid(v, i) && mps_region_of(f->region, i) == MPS_REGION_SURFACE)
         f->value[i] += own ? f->row[i * MPS__POCKET_ROW] : beside(dim, v, f, i);
     else if (mps_is_wall(v, i) && f->condition[i] == MPS_ROW_LEAST && own)
-        f->value[i] += f->row[i * MPS__POCKET_ROW];
+        f->value[i] = fmin(f->value[i] + f->row[i * MPS__POCKET_ROW], film_pressure(dim, v, f, i));
 }
 MPS_ROWS(give_rows, give_row, fields)
 
 static int give_pressures(mps_stage *s)
 {
+    if (is_idle(s)) return 0;
     fields f = {.region = s->data[GIVE_REGION],
                 .row = s->data[GIVE_ROW],
+                .slope = s->data[GIVE_SLOPE],
                 .condition = s->data[GIVE_CONDITION],
                 .value = s->data[GIVE_VALUE]};
     mps_stage_rows(s, &give_rows, &f);
@@ -293,6 +315,7 @@ MPS_ROWS(push_film_rows, push_film, fields)
 
 static int push_films(mps_stage *s)
 {
+    if (is_idle(s)) return 0;
     fields f = {.region = s->data[FILM_REGION],
                 .density = s->data[FILM_DENSITY],
                 .row = s->data[FILM_ROW],
@@ -322,6 +345,7 @@ MPS_ROWS(load_rows, load_row, fields)
 
 static int load_walls(mps_stage *s)
 {
+    if (is_idle(s)) return 0;
     fields f = {.region = s->data[LOAD_REGION],
                 .row = s->data[LOAD_ROW],
                 .wall_pressure = s->data[LOAD_WALL]};
@@ -337,25 +361,13 @@ static const mps_use book_uses[BOOK_USES] = {
     [BOOK_REGION] = {"region", MPS_USE_NEIGHBOURS},
     [BOOK_CORRECTION] = {"correction", MPS_USE_NEIGHBOURS}};
 
-/* Head and pockets of the state, to be changed. NULL: no memory */
-static mps__pocket_head *open_state(mps_stage *s, mps__pocket **pocket)
-{
-    int64_t size = 0;
-    mps_stage_state_get(s, &size);
-    double *state = mps_stage_state(s, size);
-    if (!state) return NULL;
-    mps__pocket_head *head = (mps__pocket_head *)(void *)state;
-    *pocket = (mps__pocket *)(void *)(state + sizeof *head / sizeof *state);
-    return head;
-}
-
 /* New volumes by the flux, and the second half of the work. */
 static int add_fluxes(mps_stage *s, mps__pocket_head *head, mps__pocket *pocket)
 {
     mps__pocket_faces f = {.region = s->data[BOOK_REGION],
                            .velocity = s->data[BOOK_VELOCITY],
                            .correction = s->data[BOOK_CORRECTION]};
-    if (look(s, &f)) return 1;
+    if (mps__pocket_look(s, &f)) return 1;
     double *flux = mps_stage_scratch(s, f.voids.count + 1);
     double *pressure = mps_stage_scratch(s, f.voids.count + 1);
     if (!flux || !pressure || mps__pocket_sort(s, &f)) return 1;
@@ -374,9 +386,10 @@ static int book_gas(mps_stage *s)
 {
     double volume = 0, most = 0;
     mps__pocket *pocket = NULL;
-    mps__pocket_head *head = open_state(s, &pocket);
+    if (is_idle(s)) return mps_stage_gas(s, 0, 0, 0, 0);
+    mps__pocket_head *head = mps__pocket_open(s, &pocket);
     if (!head) return 1;
-    if (head->pockets > 0 && add_fluxes(s, head, pocket)) return 1;
+    if (add_fluxes(s, head, pocket)) return 1;
     for (int32_t k = 0; k < (int32_t)head->pockets; k++) {
         volume += pocket[k].volume;
         if (fabs(pocket[k].pressure) > fabs(most)) most = pocket[k].pressure;

@@ -29,8 +29,10 @@ typedef struct mps__pocket_head {
     double work;    /* of the gas on the liquid in this step [J] */
     double open;    /* component that is the ambient, and its pressure [Pa] */
     double ambient;
-    double cells[3]; /* of the raster of the last step */
+    double cells[3]; /* of the last raster */
     double runs;     /* runs of equal labels in it: (length, label), labels MPS__POCKET_... */
+    double moved;    /* how far the surface has moved since then, at most [m] */
+    double waited;   /* steps since then */
 } mps__pocket_head;
 
 /* Labels of runs; pocket k has label MPS__POCKET_FIRST + k. */
@@ -56,6 +58,8 @@ typedef struct mps__pocket_now {
 
 /* The pockets of the last step. */
 mps__pocket_old mps__pocket_read(const mps_stage *s);
+/* Head and pockets of the state, to be changed. pocket: NULL, or out. @return NULL: no memory */
+mps__pocket_head *mps__pocket_open(mps_stage *s, mps__pocket **pocket);
 /* Keep head, pockets and labels for the next step. @return non-zero after a failure */
 int mps__pocket_write(mps_stage *s, const mps_voids *voids, const mps__pocket_now *now,
                       mps__pocket_head *head);
@@ -75,16 +79,26 @@ enum { MPS__ROW_PRESSURE, MPS__ROW_WEIGHT, MPS__ROW_FILM, MPS__POCKET_ROW };
  * gas_pocket_faces.c */
 typedef struct mps__pocket_faces {
     mps_voids voids;
-    double cover;             /* [m] */
-    const int32_t *begin;     /* [n+1] */
-    const int32_t *face;      /* [begin[n]] */
-    const int32_t *region;    /* channel */
-    const double *correction; /* channel */
-    const double *velocity;   /* channel; NULL: places */
-    const double *pressure;   /* [count] of components */
-    double *row, *slope;      /* channels that are written */
-    int32_t from;             /* first component of a batch of sums */
+    double cover;                 /* [m] */
+    const int32_t *begin;         /* [n+1] */
+    const int32_t *face;          /* [begin[n]] */
+    const int32_t *region;        /* channel */
+    const double *correction;     /* channel */
+    const double *velocity;       /* channel; NULL: places */
+    const double *pressure;       /* [count] of components */
+    const mps__pocket *pocket;    /* [count] the same */
+    double *row, *slope, *number; /* channels that are written */
+    int32_t from;                 /* first component of a batch of sums */
 } mps__pocket_faces;
+
+/* Whether this step looks for no voids. While there is no pocket it is enough to look after the
+ * surface has moved by a spacing. waits: out @return non-zero after a failure. gas_pocket_look.c */
+int mps__pocket_wait(mps_stage *s, const mps__pocket_faces *f, bool *waits);
+/* The voids of the step, without those that are less than half of the smallest pocket.
+ * @return non-zero after a failure */
+int mps__pocket_look(mps_stage *s, mps__pocket_faces *f);
+/* Square or cube of a side. */
+double mps__pocket_power(double side, int32_t dim);
 
 /* Sort the faces by row. @return non-zero after a failure */
 int mps__pocket_sort(mps_stage *s, mps__pocket_faces *f);
@@ -95,7 +109,9 @@ void mps__pocket_fluxes(mps_stage *s, mps__pocket_faces *f, double *flux);
 double mps__pocket_work(mps_stage *s, const mps__pocket_faces *f);
 /* Area of the faces of components with liquid behind them [count]. */
 void mps__pocket_areas(const mps__pocket_faces *f, double *area);
-/* Pressures and slopes of films of the rows: channels of gas.pocket. */
+/* Pressures, slopes of films and pockets of the rows: channels of gas.pocket. */
 void mps__pocket_press(mps_stage *s, const mps__pocket_faces *f);
+/* No row has a pocket before it. */
+void mps__pocket_clear(mps_stage *s, const mps__pocket_faces *f);
 
 #endif

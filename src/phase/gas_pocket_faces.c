@@ -288,9 +288,16 @@ MPS_ROW double thickness(const int dim, const mps_view *v, const mps__pocket_fac
     return most - least + v->dp;
 }
 
+/* Number of a component's pocket; 0: it is none. */
+static inline double number_of(const mps__pocket_faces *f, int32_t label)
+{
+    return f->pocket[label].gas > 0 ? f->pocket[label].number : 0;
+}
+
 /* Sums over the faces of a row. */
 typedef struct contact {
     double pressure, faces;
+    double number;           /* of the last pocket that has closed; 0: none is before the row */
     double out[3], count[3]; /* sum of directions out of the liquid; faces along each axis */
     double slope[3];         /* by axis: sum of (p' - p)/T_d */
     double inverse[3];       /* by axis: sum of 1/T_d */
@@ -306,6 +313,7 @@ static contact sum_faces(const mps_view *v, const mps__pocket_faces *f, int64_t 
         const double sign = direction(&f->voids, face, &axis);
         const int32_t cells = march(&f->voids, face, &other);
         c.pressure += own;
+        c.number = fmax(c.number, number_of(f, f->voids.face_label[face]));
         c.faces++;
         c.out[axis] -= sign;
         c.count[axis]++;
@@ -353,6 +361,7 @@ MPS_ROW void press_fluid(const int dim, const mps_view *v, const mps__pocket_fac
     double *row = f->row + i * MPS__POCKET_ROW;
     row[MPS__ROW_PRESSURE] = c.pressure / c.faces - rise;
     row[MPS__ROW_WEIGHT] = c.faces;
+    f->number[i] = c.number;
     row[MPS__ROW_FILM] = c.inverse[0] + c.inverse[1] + c.inverse[2] > 0;
 }
 
@@ -371,10 +380,12 @@ MPS_ROW void press_wall(const int dim, const mps_view *v, const mps__pocket_face
     if (label < 0) return;
     f->row[i * MPS__POCKET_ROW + MPS__ROW_PRESSURE] = f->pressure[label];
     f->row[i * MPS__POCKET_ROW + MPS__ROW_WEIGHT] = 1;
+    f->number[i] = number_of(f, label);
 }
 
 MPS_ROW void press_row(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i)
 {
+    f->number[i] = 0;
     if (mps_is_fluid(v, i)) press_fluid(dim, v, f, i);
     if (mps_is_wall(v, i)) press_wall(dim, v, f, i);
 }
@@ -383,4 +394,16 @@ MPS_ROWS(press_rows, press_row, mps__pocket_faces)
 void mps__pocket_press(mps_stage *s, const mps__pocket_faces *f)
 {
     mps_stage_rows(s, &press_rows, f);
+}
+
+MPS_ROW void clear_row(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i)
+{
+    (void)dim, (void)v;
+    f->number[i] = 0;
+}
+MPS_ROWS(clear_rows, clear_row, mps__pocket_faces)
+
+void mps__pocket_clear(mps_stage *s, const mps__pocket_faces *f)
+{
+    mps_stage_rows(s, &clear_rows, f);
 }

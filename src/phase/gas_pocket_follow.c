@@ -22,6 +22,7 @@ static void count_overlaps(const mps_voids *v, const mps__pocket_old *old, mps__
     const int64_t runs = (int64_t)old->head->runs,
                   all = (int64_t)v->cells[0] * v->cells[1] * v->cells[2];
     int64_t cell = 0;
+    if (v->count < 2 && pockets == 0) return; /* the ambient alone stays the ambient */
     for (int64_t r = 0; r < runs; r++) {
         const int64_t end = cell + (int64_t)old->run[2 * r];
         const int32_t before = (int32_t)old->run[2 * r + 1];

@@ -30,6 +30,16 @@ mps__pocket_old mps__pocket_read(const mps_stage *s)
                              .run = state + HEAD + POCKET * (int64_t)head->pockets};
 }
 
+mps__pocket_head *mps__pocket_open(mps_stage *s, mps__pocket **pocket)
+{
+    int64_t size = 0;
+    mps_stage_state_get(s, &size);
+    double *state = mps_stage_state(s, size);
+    if (!state) return NULL;
+    if (pocket) *pocket = (mps__pocket *)(void *)(state + HEAD);
+    return (mps__pocket_head *)(void *)state;
+}
+
 /* Label of a component in the runs. label: [count] of all components */
 static double label_of(int32_t component, const int32_t *label)
 {
@@ -40,17 +50,17 @@ static double label_of(int32_t component, const int32_t *label)
 static int64_t runs(const mps_voids *v, const int32_t *label, double *run)
 {
     const int64_t all = (int64_t)v->cells[0] * v->cells[1] * v->cells[2];
-    int64_t count = 0, begin = 0;
-    for (int64_t cell = 1; cell <= all; cell++) {
-        const int32_t here = v->label[cell - 1];
-        if (cell < all &&
-            (v->label[cell] == here || label_of(v->label[cell], label) == label_of(here, label)))
-            continue;
+    int64_t count = 0;
+    for (int64_t begin = 0, cell = 0; begin < all; begin = cell) {
+        const double own = label_of(v->label[begin], label);
+        while (cell < all && label_of(v->label[cell], label) == own) {
+            const int32_t same = v->label[cell];
+            while (cell < all && v->label[cell] == same) cell++;
+        }
         if (run) {
             run[2 * count] = (double)(cell - begin);
-            run[2 * count + 1] = label_of(here, label);
+            run[2 * count + 1] = own;
         }
-        begin = cell;
         count++;
     }
     return count;
@@ -72,6 +82,7 @@ int mps__pocket_write(mps_stage *s, const mps_voids *v, const mps__pocket_now *n
     if (pockets == 0) head->ambient = 0;
     head->dt = s->view->dt;
     head->open = now->open;
+    head->moved = head->waited = 0;
     for (int d = 0; d < 3; d++) head->cells[d] = v->cells[d];
     memcpy(state, head, sizeof *head);
     for (int32_t k = 0; k < v->count; k++) {

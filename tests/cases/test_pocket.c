@@ -169,8 +169,8 @@ static void slug(void **state)
                       rows, f, f0, 100 * (f / f0 - 1), 1e3 * sag, 1e3 * sag0,
                       100 * (sag / sag0 - 1), 100 * e.numerical / exchanged);
         ASSERT_NEAR(f / f0, 1, 0.01);
-        ASSERT_NEAR(sag / sag0, 1, 0.02);
-        ASSERT_NEAR(e.numerical / exchanged, 0, 0.04);
+        ASSERT_NEAR(sag / sag0, 1, 0.01);
+        ASSERT_NEAR(e.numerical / exchanged, 0, 0.005);
         ASSERT_NEAR(s.volume / (20 * DP * height), 1, 0.002);
         mps_sim_destroy(sim);
     }
@@ -238,8 +238,8 @@ static void piston(void **state)
             "exact %.3f ms (%+.1f %%)\n",
             numbers[k], p, p0, 100 * (p / p0 - 1), 1e3 * rise, 1e3 * rise0,
             100 * (rise / rise0 - 1));
-        ASSERT_NEAR(p / p0, 1, 0.1);
-        ASSERT_NEAR(rise / rise0, 1, 0.1);
+        ASSERT_NEAR(p / p0, 1, 0.03);
+        ASSERT_NEAR(rise / rise0, 1, 0.02);
         mps_sim_destroy(sim);
     }
 }
