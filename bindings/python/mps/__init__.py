@@ -14,6 +14,7 @@
 Case files: mps.Case("surge.yaml").run("out"). Functions of C by their names: mps.c.mps_step(...), structs: mps.structs.
 Values are in SI units. Numbers of the headers have their names: mps.MPS_FLUID."""
 from . import _structs as structs
+from ._couple import Snapshot
 from ._library import c
 from ._motion import State
 from ._numbers import *  # noqa: F403
@@ -30,5 +31,5 @@ from .simulation import Frames, Simulation, catalogue
 __version__ = c.version
 __all__ = ["ArgumentError", "BusyError", "Case", "CaseError", "Channel", "Cloud", "Diverged", "Error", "FileError", "Frames", "Job",
            "Lease", "MemoryFull", "Model", "NotConverged", "Pairs", "ParticleLost", "PluginError", "Probe", "RanksError", "Record",
-           "Run", "Setting", "Simulation", "SolverError", "Stage", "State", "StateError", "UnknownName", "VersionError", "c",
+           "Run", "Setting", "Simulation", "Snapshot", "SolverError", "Stage", "State", "StateError", "UnknownName", "VersionError", "c",
            "catalogue", "lattice_constants", "make", "structs", "sweep", "verb"]

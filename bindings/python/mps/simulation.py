@@ -13,6 +13,7 @@ import numpy as np
 from . import _numbers as N
 from . import errors
 from . import _structs as T
+from ._couple import Coupling
 from ._geometry import Geometry
 from ._library import c
 from ._motion import Motion
@@ -25,7 +26,7 @@ _PROBES = {"wall_pressure": N.MPS_PROBE_WALL_PRESSURE, "fluid_pressure": N.MPS_P
            "force": N.MPS_PROBE_FORCE}
 
 
-class Simulation(Geometry, Motion):
+class Simulation(Geometry, Motion, Coupling):
     """An MPS simulation. Keywords are the entries of mps_config, with its defaults: Simulation(dp=0.01, dim=2, threads=2).
 
     preset: "imps" (one liquid with a free surface), "mmps" (liquid and gas), "imps.paper", "mmps.paper".

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Coupling from Python, and random calls."""
+from __future__ import annotations
+
+import ctypes
+import os
+import random
+import tempfile
+import unittest
+import warnings
+
+import mps
+import numpy as np
+
+
+def full_box(dp: float = 0.05) -> mps.Simulation:
+    sim = mps.Simulation(dp=dp)
+    sim.tank(size=(0.8, 0.5))
+    sim.fill_level(lo=(0, 0), hi=(0.8, 0.5))
+    sim.time_control(dt=1e-3)
+    return sim
+
+
+class Coupled(unittest.TestCase):
+    def test_snapshot(self) -> None:
+        sim = mps.Simulation(dp=0.05)
+        sim.tank(size=(1.0, 0.6))
+        sim.fill_level(lo=(0, 0), hi=(1.0, 0.3))
+        sim.time_control(dt=2e-3)
+        for _ in range(3):
+            sim.step()
+        with sim.snapshot() as before:
+            found = []
+            for _ in range(3):
+                sim.pose_to(sim.t + 4e-3, {"x": (1e-4, 0.05, 0.0)})
+                sim.run(sim.t + 4e-3)
+                found.append(sim["position"].tobytes())
+                before.restore()
+            self.assertEqual(len(set(found)), 1)
+            self.assertEqual(sim.steps, 3)
+        with self.assertRaises(mps.StateError):
+            mps.Snapshot(sim).restore()  # nothing was taken
+
+    def test_added_mass_of_a_full_box(self) -> None:
+        """All of the liquid moves with a full box: 400 kg/m."""
+        sim = full_box()
+        sim.watch_load(mass=True)
+        sim.pose_to(1e-3, {"x": 1e-6})
+        sim.step(1e-3)
+        load = sim.load()
+        self.assertEqual(load.has_mass, 1)
+        self.assertAlmostEqual(load.mass[0, 0] / 400, 1, delta=1e-4)
+        self.assertAlmostEqual(load.mass[1, 1] / 400, 1, delta=1e-4)
+        self.assertAlmostEqual(load.rest[1] / (-400 * 9.81), 1, delta=1e-3)
+        with self.assertRaises(mps.ArgumentError):
+            sim.load(centre=(np.nan, 0))
+
+    def test_refused(self) -> None:
+        sim = full_box()
+        with self.assertRaises(mps.StateError):
+            sim.load()
+        with self.assertRaises(mps.ArgumentError):
+            sim.pose_to(-1.0, {"x": 0.0})
+        with self.assertRaises(mps.UnknownName):
+            sim.pose_to(1.0, {"surge": 0.0})
+
+
+class Calls(unittest.TestCase):
+    """Random calls, right and wrong: they return, or fail with an exception; MPS_RANDOM_CALLS of them, by default 1000."""
+
+    NUMBERS = [0, 1, -1, 2, 3, 0.05, 1e-3, 1e300, -1e300, float("nan"), float("inf"), 2**31, -(2**31), 2**63]
+    TEXTS = ["", "x", "position", "velocity", "id", "imps", "gas.pocket", "collision", "distance", "no such name", "a" * 4000, "%s%n"]
+
+    def draw(self, r: random.Random) -> object:
+        pick = r.random()
+        if pick < 0.45:
+            return r.choice(self.NUMBERS)
+        if pick < 0.7:
+            return r.choice(self.TEXTS)
+        if pick < 0.9:
+            return [r.choice(self.NUMBERS) for _ in range(r.choice([0, 1, 2, 3, 4, 7]))]
+        return r.choice([None, {}, {"x": 0.1}, {"dof": "x", "amplitude": 0.01, "omega": 3.0}, lambda *a: 0, np.zeros((3, 2))])
+
+    def simulation(self) -> mps.Simulation:
+        sim = mps.Simulation(dp=0.1, log=lambda *_: None)
+        sim.tank(size=(1.0, 0.6))
+        sim.fill_level(lo=(0, 0), hi=(1.0, 0.3))
+        return sim
+
+    def one(self, sim: mps.Simulation, r: random.Random, names: list[str]) -> None:
+        name = r.choice(names)
+        given = [self.draw(r) for _ in range(r.choice([0, 1, 1, 2, 2, 3]))]
+        if name == "run":
+            given[:1] = [sim.t + 0.005]
+        if name in ("tank", "stl", "frames", "checkpoint", "restore", "threads", "close"):
+            given = given[:1] if name != "threads" else [r.choice([1, 2, 0, -1])]
+        getattr(sim, name)(*given)
+
+    def test_random_calls(self) -> None:
+        r = random.Random(7)
+        count = int(os.environ.get("MPS_RANDOM_CALLS", "1000"))
+        names = [n for n in dir(mps.Simulation) if not n.startswith("_") and callable(getattr(mps.Simulation, n))
+                 and n not in ("adopt", "check", "failure")]
+        failed = 0
+        home = os.getcwd()
+        with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            os.chdir(folder)
+            try:
+                sim = self.simulation()
+                for k in range(count):
+                    if k % 50 == 0 or sim.handle is None:
+                        sim = self.simulation()
+                    try:
+                        self.one(sim, r, names)
+                    except (mps.Error, TypeError, ValueError, OverflowError, ctypes.ArgumentError, AttributeError, KeyError, IndexError,
+                            RuntimeError):
+                        failed += 1
+            finally:
+                os.chdir(home)
+        self.assertTrue(0.3 * count < failed < 0.99 * count, failed)
+
+
+if __name__ == "__main__":
+    unittest.main()
