@@ -5,23 +5,18 @@
 #include <mps/exact.h>
 #include <mps/flux.h>
 #include <mps/geometry.h>
-#include <mps/job.h>
 #include <mps/list.h>
 #include <mps/model.h>
 #include <mps/motion.h>
 #include <mps/operators.h>
-#include <mps/page.h>
 #include <mps/parallel.h>
 #include <mps/particles.h>
-#include <mps/picture.h>
 #include <mps/ppe.h>
 #include <mps/probe.h>
 #include <mps/ranks.h>
-#include <mps/series.h>
 #include <mps/ship.h>
 #include <mps/sim.h>
 #include <mps/stage.h>
-#include <mps/stats.h>
 #include <mps/step.h>
 #include <mps/types.h>
 #include <mps/voids.h>
@@ -30,6 +25,13 @@
 #if defined(__x86_64__) && !defined(__ILP32__)
 #define SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), #type)
 #define AT(type, member, bytes) _Static_assert(offsetof(type, member) == (bytes), #type "." #member)
+
+SIZE(mps_load, 456);
+AT(mps_load, struct_size, 0); AT(mps_load, has_mass, 4);
+AT(mps_load, force, 8); AT(mps_load, rest, 56);
+AT(mps_load, mass, 104); AT(mps_load, acceleration, 392);
+AT(mps_load, dt, 440); AT(mps_load, iterations, 448);
+AT(mps_load, reserved, 452);
 
 SIZE(mps_case_message, 40);
 AT(mps_case_message, struct_size, 0); AT(mps_case_message, warning, 4);
@@ -43,13 +45,6 @@ AT(mps_case_key, path, 8); AT(mps_case_key, range, 16);
 AT(mps_case_key, otherwise, 24); AT(mps_case_key, example, 32);
 AT(mps_case_key, help, 40); AT(mps_case_key, kind, 48);
 AT(mps_case_key, units, 144);
-
-SIZE(mps_load, 456);
-AT(mps_load, struct_size, 0); AT(mps_load, has_mass, 4);
-AT(mps_load, force, 8); AT(mps_load, rest, 56);
-AT(mps_load, mass, 104); AT(mps_load, acceleration, 392);
-AT(mps_load, dt, 440); AT(mps_load, iterations, 448);
-AT(mps_load, reserved, 452);
 
 SIZE(mps_exact, 32);
 AT(mps_exact, part, 0); AT(mps_exact, level, 24);
@@ -84,59 +79,6 @@ AT(mps_stl, struct_size, 0); AT(mps_stl, dummy_layers, 4);
 AT(mps_stl, name, 8); AT(mps_stl, scale, 16);
 AT(mps_stl, rotation, 24); AT(mps_stl, shift, 48);
 AT(mps_stl, container, 72); AT(mps_stl, open_side, 76);
-
-SIZE(mps_job_ranks, 64);
-AT(mps_job_ranks, struct_size, 0); AT(mps_job_ranks, rank, 4);
-AT(mps_job_ranks, count, 8); AT(mps_job_ranks, user, 16);
-AT(mps_job_ranks, attach, 24); AT(mps_job_ranks, largest, 32);
-AT(mps_job_ranks, largest_numbers, 40); AT(mps_job_ranks, end, 48);
-AT(mps_job_ranks, abort, 56);
-
-SIZE(mps_job_config, 208);
-AT(mps_job_config, struct_size, 0); AT(mps_job_config, resume, 4);
-AT(mps_job_config, name, 8); AT(mps_job_config, title, 16);
-AT(mps_job_config, command, 24); AT(mps_job_config, text, 32);
-AT(mps_job_config, model, 40); AT(mps_job_config, folder, 48);
-AT(mps_job_config, t_end, 56); AT(mps_job_config, row_interval, 64);
-AT(mps_job_config, checkpoint, 72); AT(mps_job_config, gravity, 80);
-AT(mps_job_config, average, 88); AT(mps_job_config, frames, 96);
-AT(mps_job_config, picture_count, 100); AT(mps_job_config, picture_t, 104);
-AT(mps_job_config, overwrite, 112); AT(mps_job_config, pieces, 116);
-AT(mps_job_config, tank_frame, 120); AT(mps_job_config, report, 124);
-AT(mps_job_config, profile, 128); AT(mps_job_config, quiet, 132);
-AT(mps_job_config, signals, 136); AT(mps_job_config, trace, 140);
-AT(mps_job_config, film, 144); AT(mps_job_config, threads, 148);
-AT(mps_job_config, page_bytes, 152); AT(mps_job_config, ranks, 160);
-AT(mps_job_config, say, 168); AT(mps_job_config, say_user, 176);
-AT(mps_job_config, error, 184); AT(mps_job_config, error_size, 192);
-AT(mps_job_config, dp, 200);
-
-SIZE(mps_measure, 152);
-AT(mps_measure, struct_size, 0); AT(mps_measure, phase, 4);
-AT(mps_measure, axis, 8); AT(mps_measure, change, 12);
-AT(mps_measure, at_end, 16); AT(mps_measure, measure, 24);
-AT(mps_measure, name, 32); AT(mps_measure, about, 40);
-AT(mps_measure, part, 48); AT(mps_measure, box, 56);
-AT(mps_measure, centre, 104); AT(mps_measure, radius, 128);
-AT(mps_measure, level, 136); AT(mps_measure, smoothing, 144);
-
-SIZE(mps_measure_info, 40);
-AT(mps_measure_info, struct_size, 0); AT(mps_measure_info, dim, 4);
-AT(mps_measure_info, name, 8); AT(mps_measure_info, unit, 16);
-AT(mps_measure_info, unit_3d, 24); AT(mps_measure_info, help, 32);
-
-SIZE(mps_trace, 64);
-AT(mps_trace, struct_size, 0); AT(mps_trace, kind, 4);
-AT(mps_trace, name, 8); AT(mps_trace, about, 16);
-AT(mps_trace, column, 24); AT(mps_trace, from, 32);
-AT(mps_trace, to, 40); AT(mps_trace, window, 48);
-AT(mps_trace, scale, 56);
-
-SIZE(mps_reference, 56);
-AT(mps_reference, struct_size, 0); AT(mps_reference, line, 4);
-AT(mps_reference, label, 8); AT(mps_reference, unit, 16);
-AT(mps_reference, column, 24); AT(mps_reference, count, 32);
-AT(mps_reference, t, 40); AT(mps_reference, value, 48);
 
 SIZE(mps_model_info, 40);
 AT(mps_model_info, struct_size, 0); AT(mps_model_info, active, 4);
@@ -239,16 +181,6 @@ AT(mps_pair, d, 0); AT(mps_pair, r2, 24);
 AT(mps_pair, r, 32); AT(mps_pair, w, 40);
 AT(mps_pair, j, 48); AT(mps_pair, w_r2, 56);
 
-SIZE(mps_page_config, 40);
-AT(mps_page_config, struct_size, 0); AT(mps_page_config, frames, 4);
-AT(mps_page_config, bytes, 8); AT(mps_page_config, error, 16);
-AT(mps_page_config, error_size, 24); AT(mps_page_config, impacts, 32);
-
-SIZE(mps_page_info, 264);
-AT(mps_page_info, struct_size, 0); AT(mps_page_info, frames, 4);
-AT(mps_page_info, bytes, 8); AT(mps_page_info, particles, 16);
-AT(mps_page_info, left_out, 24);
-
 SIZE(mps_parallel, 24);
 AT(mps_parallel, struct_size, 0); AT(mps_parallel, threads, 4);
 AT(mps_parallel, run, 8); AT(mps_parallel, user, 16);
@@ -277,18 +209,6 @@ AT(mps_lease, struct_size, 0); AT(mps_lease, type, 4);
 AT(mps_lease, stride, 8); AT(mps_lease, slot, 12);
 AT(mps_lease, count, 16); AT(mps_lease, data, 24);
 AT(mps_lease, integers, 32); AT(mps_lease, ids, 40);
-
-SIZE(mps_picture_config, 64);
-AT(mps_picture_config, struct_size, 0); AT(mps_picture_config, width, 4);
-AT(mps_picture_config, title, 8); AT(mps_picture_config, gravity, 16);
-AT(mps_picture_config, pressure_lo, 24); AT(mps_picture_config, pressure_hi, 32);
-AT(mps_picture_config, sensors, 40); AT(mps_picture_config, reserved, 44);
-AT(mps_picture_config, error, 48); AT(mps_picture_config, error_size, 56);
-
-SIZE(mps_film_config, 40);
-AT(mps_film_config, struct_size, 0); AT(mps_film_config, width, 4);
-AT(mps_film_config, rate, 8); AT(mps_film_config, program, 16);
-AT(mps_film_config, error, 24); AT(mps_film_config, error_size, 32);
 
 SIZE(mps_ppe_ranks, 112);
 AT(mps_ppe_ranks, struct_size, 0); AT(mps_ppe_ranks, rank, 4);
@@ -390,57 +310,6 @@ AT(mps_ranks_ops, exchange_end, 88); AT(mps_ranks_ops, reduce, 96);
 AT(mps_ranks_ops, gather, 104); AT(mps_ranks_ops, fail, 112);
 AT(mps_ranks_ops, failure, 120); AT(mps_ranks_ops, user, 128);
 
-SIZE(mps_stats_config, 736);
-AT(mps_stats_config, struct_size, 0); AT(mps_stats_config, resamples, 4);
-AT(mps_stats_config, error, 8); AT(mps_stats_config, error_size, 16);
-AT(mps_stats_config, from, 24); AT(mps_stats_config, until, 32);
-AT(mps_stats_config, rate, 40); AT(mps_stats_config, high_pass, 48);
-AT(mps_stats_config, threshold, 56); AT(mps_stats_config, deviations, 64);
-AT(mps_stats_config, window, 72); AT(mps_stats_config, window_share, 80);
-AT(mps_stats_config, period, 88); AT(mps_stats_config, share, 96);
-AT(mps_stats_config, crossing_time, 104); AT(mps_stats_config, least_events, 112);
-AT(mps_stats_config, reserved, 116); AT(mps_stats_config, seed, 120);
-AT(mps_stats_config, confidence, 128); AT(mps_stats_config, exposure, 136);
-AT(mps_stats_config, exposure_ratio, 144); AT(mps_stats_config, dependence, 152);
-AT(mps_stats_config, length_scale, 160); AT(mps_stats_config, density_ratio, 168);
-AT(mps_stats_config, shift_most, 176); AT(mps_stats_config, order_least, 184);
-AT(mps_stats_config, order_most, 192); AT(mps_stats_config, safety, 200);
-AT(mps_stats_config, safety_poor, 208); AT(mps_stats_config, omega, 216);
-AT(mps_stats_config, sensors, 224);
-
-SIZE(mps_harmonics, 288);
-AT(mps_harmonics, struct_size, 0); AT(mps_harmonics, count, 4);
-AT(mps_harmonics, omega, 8); AT(mps_harmonics, mean, 16);
-AT(mps_harmonics, rest, 24); AT(mps_harmonics, amplitude, 32);
-AT(mps_harmonics, phase, 160);
-
-SIZE(mps_series, 32);
-AT(mps_series, struct_size, 0); AT(mps_series, reserved, 4);
-AT(mps_series, n, 8); AT(mps_series, t, 16);
-AT(mps_series, p, 24);
-
-SIZE(mps_comparison, 152);
-AT(mps_comparison, struct_size, 0); AT(mps_comparison, reserved, 4);
-AT(mps_comparison, t_first, 8); AT(mps_comparison, t_last, 16);
-AT(mps_comparison, mean, 24); AT(mps_comparison, rms, 32);
-AT(mps_comparison, rms_first, 40); AT(mps_comparison, largest, 48);
-AT(mps_comparison, t_largest, 56); AT(mps_comparison, peak, 64);
-AT(mps_comparison, t_peak, 80); AT(mps_comparison, trough, 96);
-AT(mps_comparison, t_trough, 112); AT(mps_comparison, shift, 128);
-AT(mps_comparison, correlation, 136); AT(mps_comparison, phase, 144);
-
-SIZE(mps_convergence, 32);
-AT(mps_convergence, struct_size, 0); AT(mps_convergence, kind, 4);
-AT(mps_convergence, order, 8); AT(mps_convergence, limit, 16);
-AT(mps_convergence, band, 24);
-
-SIZE(mps_repeat, 64);
-AT(mps_repeat, struct_size, 0); AT(mps_repeat, count, 4);
-AT(mps_repeat, t, 8); AT(mps_repeat, mean, 16);
-AT(mps_repeat, least, 24); AT(mps_repeat, most, 32);
-AT(mps_repeat, deviation, 40); AT(mps_repeat, mean_band, 48);
-AT(mps_repeat, next_band, 56);
-
 SIZE(mps_ship, 96);
 AT(mps_ship, struct_size, 0); AT(mps_ship, axes, 4);
 AT(mps_ship, degrees, 8); AT(mps_ship, order, 12);
@@ -517,51 +386,6 @@ AT(mps_grid, first, 24); AT(mps_grid, next, 32);
 SIZE(mps_shared, 16);
 AT(mps_shared, values, 0); AT(mps_shared, components, 8);
 AT(mps_shared, type, 12);
-
-SIZE(mps_stats_constant, 40);
-AT(mps_stats_constant, struct_size, 0); AT(mps_stats_constant, reserved, 4);
-AT(mps_stats_constant, key, 8); AT(mps_stats_constant, about, 16);
-AT(mps_stats_constant, unit, 24); AT(mps_stats_constant, value, 32);
-
-SIZE(mps_impact, 80);
-AT(mps_impact, struct_size, 0); AT(mps_impact, unresolved, 4);
-AT(mps_impact, peak, 8); AT(mps_impact, t, 16);
-AT(mps_impact, begin, 24); AT(mps_impact, end, 32);
-AT(mps_impact, rise, 40); AT(mps_impact, decay, 48);
-AT(mps_impact, skewness, 56); AT(mps_impact, duration, 64);
-AT(mps_impact, impulse, 72);
-
-SIZE(mps_impacts_info, 144);
-AT(mps_impacts_info, struct_size, 0); AT(mps_impacts_info, long_exposure, 4);
-AT(mps_impacts_info, dependent, 8); AT(mps_impacts_info, reserved, 12);
-AT(mps_impacts_info, samples, 16); AT(mps_impacts_info, missing, 24);
-AT(mps_impacts_info, events, 32); AT(mps_impacts_info, cut, 40);
-AT(mps_impacts_info, unresolved, 48); AT(mps_impacts_info, threshold, 56);
-AT(mps_impacts_info, window, 64); AT(mps_impacts_info, t_first, 72);
-AT(mps_impacts_info, t_last, 80); AT(mps_impacts_info, rate, 88);
-AT(mps_impacts_info, correlation, 96); AT(mps_impacts_info, correlation_limit, 104);
-AT(mps_impacts_info, exposure, 112); AT(mps_impacts_info, exposure_events, 120);
-AT(mps_impacts_info, pressure_scale, 128); AT(mps_impacts_info, time_scale, 136);
-
-SIZE(mps_exceedance, 40);
-AT(mps_exceedance, struct_size, 0); AT(mps_exceedance, reserved, 4);
-AT(mps_exceedance, peak, 8); AT(mps_exceedance, share, 16);
-AT(mps_exceedance, band, 24);
-
-SIZE(mps_fit, 136);
-AT(mps_fit, struct_size, 0); AT(mps_fit, kind, 4);
-AT(mps_fit, state, 8); AT(mps_fit, resamples, 12);
-AT(mps_fit, count, 16); AT(mps_fit, location, 24);
-AT(mps_fit, scale, 32); AT(mps_fit, shape, 40);
-AT(mps_fit, scale_band, 48); AT(mps_fit, shape_band, 64);
-AT(mps_fit, moments_scale, 80); AT(mps_fit, moments_shape, 88);
-AT(mps_fit, log_likelihood, 96); AT(mps_fit, number, 104);
-AT(mps_fit, value, 112); AT(mps_fit, value_band, 120);
-
-SIZE(mps_condition, 32);
-AT(mps_condition, struct_size, 0); AT(mps_condition, reserved, 4);
-AT(mps_condition, share, 8); AT(mps_condition, rate, 16);
-AT(mps_condition, fit, 24);
 
 SIZE(mps_time_control, 64);
 AT(mps_time_control, struct_size, 0); AT(mps_time_control, dt, 8);
