@@ -55,14 +55,14 @@ MPS_API mps_status mps_snapshot_create(mps_sim *sim, mps_snapshot **snapshot);
 MPS_API mps_status mps_snapshot_take(mps_snapshot *snapshot);
 
 /** Give the simulation the state that the snapshot holds, as often as wanted. Particles may have
- *  come and gone since. Leases, pointers of mps_probe_series() and mps_model_state() end. On failure
- *  the simulation is as before.
+ *  come and gone since. Pointers of mps_probe_series() and mps_model_state() end. On failure the
+ *  simulation is as before.
  *
  *  | error | reason |
  *  |---|---|
  *  | MPS_E_ARG | snapshot is NULL |
- *  | MPS_E_STATE | nothing was taken; geometry, models or user fields changed since (the text says |
- *  | | which); particles are gathered |
+ *  | MPS_E_STATE | nothing was taken; geometry, models or user fields changed since (the text |
+ *  | | says which); particles are gathered |
  *  | MPS_E_BUSY | a lease is open; called from a monitor, a verb or a callback |
  *  | MPS_E_NOMEM | no memory |
  *  | MPS_E_RANKS | another rank failed | */
@@ -91,8 +91,8 @@ MPS_API void mps_snapshot_destroy(mps_snapshot *snapshot);
  *
  *  | error | reason; the motion is as before |
  *  |---|---|
- *  | MPS_E_ARG | t_end; `state` is not finite, has a degree of freedom that 2-D lacks, or moves the |
- *  | | tank farther than 1e9 dp |
+ *  | MPS_E_ARG | t_end; `state` is not finite, has a degree of freedom that 2-D lacks, or moves |
+ *  | | the tank farther than 1e9 dp |
  *  | MPS_E_BUSY | a lease is open; called from a monitor, a verb or a callback |
  *  | MPS_E_NOMEM | no memory | */
 MPS_API mps_status mps_motion_pose_set(mps_sim *sim, double t_end, const mps_motion_state *state);
@@ -110,9 +110,12 @@ enum {
     MPS_LOAD_MASS = 2
 };
 
-/** Choose what the next steps find out. A setting: snapshots and checkpoints do not hold it. Before
- *  the first call with MPS_LOAD_MASS the added mass costs 8 bytes a degree of freedom and particle
- *  less; snapshots taken before it cannot be restored after it.
+/** Choose what the next steps find out. It is a setting: snapshots and checkpoints do not hold it.
+ *  The first call with MPS_LOAD_MASS gives each particle 8 bytes a degree of freedom; snapshots
+ *  that were taken before it cannot be restored after it.
+ *
+ *  The added mass needs a pressure equation in the frame of the tank (source.volume, so the presets
+ *  imps and mmps); otherwise the step fails with MPS_E_STATE.
  *  @param what  MPS_LOAD_...
  *  @return MPS_E_ARG, MPS_E_NOMEM, MPS_E_BUSY (a lease is open; called from a monitor, a verb or a
  *          callback), MPS_E_STATE (particles are gathered) */
@@ -120,28 +123,31 @@ MPS_API mps_status mps_load_watch(mps_sim *sim, int32_t what);
 
 /** Load of the liquid on the tank in the last step, per metre of width in 2-D, axes of the lab.
  *
- *  F is the change of the liquid's momentum that the tank lacks: with the momentum P of the
- *  particles of mass M, and half cells h at wetted walls, which have no particles,
+ *  F is what the momentum of the liquid lacks. The liquid ends where the pressure equation ends it:
+ *  at walls, before which half cells have no particles, and at the centres of surface particles, of
+ *  which half a cell counts. With masses m_i and velocities u_i of particles i, and half cells h at
+ *  wetted walls,
  *
- *    F = M g - (P(t) - P(t - dt))/dt + sum_h m_h (g - a_h),
+ *    F = sum_i m_i (g - (u_i(t) - u_i(t - dt))/dt) + sum_h m_h (g - a_h),
  *
- *  a_h the acceleration of the wall along its normal and of the liquid beside it along the face,
- *  m_h = rho dp/2 times the wetted area. The moment likewise, about the place that the centre has
- *  at the beginning of the step. It contains all that the liquid exchanges with solids: pressure,
- *  collisions, friction. So the momentum of tank and liquid together does not drift. It is the mean
- *  over this one step. Force probes (MPS_PROBE_FORCE) show pressures on walls instead, by default
- *  averaged over past steps: they must not drive a body.
+ *  m_i = rho dp^dim, half of it on the surface, m_h = rho dp/2 times the wetted area, a_h the
+ *  acceleration of the wall along its normal and of the liquid beside it along the face. The moment
+ *  likewise, about the place that the centre has at the beginning of the step. F contains all that
+ *  the liquid exchanges with solids: pressure, collisions, friction. It is the mean over this one
+ *  step. Force probes (MPS_PROBE_FORCE) show pressures on walls instead, by default averaged over
+ *  past steps: they must not drive a body.
  *
  *  With the acceleration a of the tank, the change of its velocity over dt,
  *
  *    F = F0 - A a.
  *
- *  A is the added mass, F0 the load without acceleration. As long as the same walls separate
- *  (separation.void) F is linear in a. A is computed by pressures on walls, F by momentum: where the
- *  liquid has a surface they agree to 1 or 2 per cent at 25 particles over the depth.
+ *  A is the added mass, F0 the load without acceleration. F is linear in a as long as the same
+ *  walls separate (separation.void), else to some per cent. A body of mass m that moves with the
+ *  tank under other forces Q has m a = Q + F, so a = (Q + F0)/(m + A): with it a step may be done
+ *  again, where with m a = Q + F alone it diverges for A > m.
  *
- *  The first step feels half of a jump of the velocity: start bodies at rest. Solids that models move
- *  in the tank (body.free) count as part of it. On many ranks all have the same values. */
+ *  The first step feels half of a jump of the velocity: start bodies at rest. Solids that models
+ *  move in the tank (body.free) count as part of it. On many ranks all have the same values. */
 typedef struct mps_load {
     /** Set by mps_load_init(). */
     uint32_t struct_size;
@@ -170,8 +176,8 @@ typedef struct mps_load {
 MPS_API mps_status mps_load_init(mps_load *load, size_t size);
 
 /** Load on the tank in the last step.
- *  @param centre  [dim] of moments and accelerations, in the frame of the tank [m]; NULL: the centre
- *                 of mps_motion_centre_set()
+ *  @param centre  [dim] of moments and accelerations, in the frame of the tank [m]; NULL: the
+ *                 centre of mps_motion_centre_set()
  *  @param load    initialised by mps_load_init(); out
  *
  *  | error | reason |

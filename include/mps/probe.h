@@ -42,7 +42,9 @@ enum {
      *  viscosity.pair, layer.history) and collisions with them (collision.pair), on the part next
      *  to the fluid;
      *  friction.history, part "sides"; plug-ins. Its integral over time is -(walls + reaction) of
-     *  mps_momentum. It has no part in drops that thin plates stop, nor in shifts. */
+     *  mps_momentum. It has no part in drops that thin plates stop, nor in shifts. It is for
+     *  records: a force that is averaged (the default) lags and must not drive a body, which
+     *  mps_load_get() is for. */
     MPS_PROBE_FORCE = 3
 };
 

@@ -19,6 +19,7 @@ typedef struct run {
     kit_engine_team *team;
     bool trials;
     record *last; /* of the last step */
+    mps_load load[4];
     char error[64][TEXT];
 } run;
 
@@ -62,14 +63,18 @@ static void run_rank(void *argument, int32_t rank)
         status = mps_sim_ranks_set(sim, &ops);
     }
     if (status == MPS_OK) status = scene_build(sim, k->scene);
+    const bool papers = strstr(k->scene->preset, "paper");
+    if (status == MPS_OK) status = mps_load_watch(sim, papers ? MPS_LOAD_FORCE : MPS_LOAD_MASS);
     if (status == MPS_OK) status = go(sim, k, &info);
+    mps_load_init(&k->load[rank], sizeof k->load[rank]);
+    if (status >= 0) status = mps_load_get(sim, NULL, &k->load[rank]);
     if (status >= 0) record_note(sim, &info, k->last);
     if (status < 0) snprintf(k->error[rank], TEXT, "%s", mps_sim_error(sim));
     mps_sim_destroy(sim);
 }
 
 /* @return what the last step left; for free() */
-static record *take(const scene *s, int32_t ranks, bool trials)
+static record *take(const scene *s, int32_t ranks, bool trials, mps_load *load)
 {
     run k = {.scene = s,
              .trials = trials,
@@ -84,6 +89,8 @@ static record *take(const scene *s, int32_t ranks, bool trials)
         if (k.error[r][0])
             fail_msg("%s, rank %d of %d: %s", s->name, (int)r, (int)ranks, k.error[r]);
     if (k.team) kit_engine_destroy(k.team);
+    for (int32_t r = 1; r < ranks; r++) assert_memory_equal(&k.load[0], &k.load[r], sizeof *k.load);
+    *load = k.load[0];
     return k.last;
 }
 
@@ -91,11 +98,13 @@ static void test_scene(void **state)
 {
     const scene *s = *state;
     char text[TEXT];
-    record *alone = take(s, 1, false);
+    mps_load first, load;
+    record *alone = take(s, 1, false, &first);
     for (int32_t ranks = 1; ranks <= 4; ranks++) {
-        record *many = take(s, ranks, true);
+        record *many = take(s, ranks, true, &load);
         if (!record_same(alone, many, text, sizeof text))
             fail_msg("%s: %d ranks: %s", s->name, (int)ranks, text);
+        assert_memory_equal(&first, &load, sizeof load);
         free(many);
     }
     free(alone);

@@ -14,8 +14,8 @@
 /* Where a function may be called: between steps only; in a monitor too; everywhere. */
 enum { LOCK_CHANGES, LOCK_READS, LOCK_PLAIN };
 
-/* Functions of the table that take frames instead of a simulation. */
-enum { LOCK_OF_FRAMES = 1 };
+/* Functions of the table that take frames or a snapshot instead of a simulation. */
+enum { LOCK_OF_FRAMES = 3 };
 
 typedef struct lock_call {
     const char *name;
@@ -27,13 +27,15 @@ static struct {
     char path[128];
     const char *folder;
     mps_frames *frames;
+    mps_snapshot *snapshot;
 } given;
 
-/* The folder that calls write to, and frames of the simulation. */
-static void lock_open(const char *folder, mps_frames *frames)
+/* The folder that calls write to, and frames and a snapshot of the simulation. */
+static void lock_open(const char *folder, mps_frames *frames, mps_snapshot *snapshot)
 {
     given.folder = folder;
     given.frames = frames;
+    given.snapshot = snapshot;
     snprintf(given.path, sizeof given.path, "%s/lock.checkpoint", folder);
 }
 
@@ -123,6 +125,7 @@ CALL(mps_motion_table_set, const double t[] = {-1, 9}, v[] = {0, 1}; const int32
      return mps_motion_table_set(sim, 2, t, 1, &dof, v);)
 CALL(mps_motion_callback_set, return mps_motion_callback_set(sim, no_motion, NULL);)
 CALL(mps_motion_clear, return mps_motion_clear(sim);)
+CALL(mps_motion_pose_set, STRUCT(mps_motion_state); return mps_motion_pose_set(sim, 9, &a);)
 CALL(mps_kernel_use, mps_kernel k = {.struct_size = sizeof k}; mps_kernel_custom(kernel, NULL, &k);
      return mps_kernel_use(sim, &k);)
 CALL(mps_threads_set, return mps_threads_set(sim, 2);)
@@ -179,6 +182,12 @@ CALL(mps_step, return mps_step(sim, 1e-3, NULL);)
 CALL(mps_run, return mps_run(sim, 1, NULL, NULL);)
 CALL(mps_checkpoint_read, return mps_checkpoint_read(sim, given.path);)
 
+CALL(mps_load_watch, return mps_load_watch(sim, MPS_LOAD_NONE);)
+CALL(mps_snapshot_create, mps_snapshot *k = NULL;
+     const mps_status status = mps_snapshot_create(sim, &k); mps_snapshot_destroy(k);
+     return status;)
+CALL(mps_snapshot_restore, (void)sim; return mps_snapshot_restore(given.snapshot);)
+
 /* ---- reading --------------------------------------------------------------------------------- */
 
 CALL(mps_stencil_get, mps_stencil s = {.struct_size = sizeof s};
@@ -188,6 +197,8 @@ CALL(mps_frames_open, mps_frames *f = NULL;
      const mps_status status = mps_frames_open(sim, given.folder, "lock", 0, &f);
      mps_frames_close(f); return status;)
 CALL(mps_frames_write, (void)sim; return mps_frames_write(given.frames);)
+CALL(mps_snapshot_take, (void)sim; return mps_snapshot_take(given.snapshot);)
+CALL(mps_load_get, STRUCT(mps_load); return mps_load_get(sim, NULL, &a);)
 CALL(mps_probe_read, double v[6]; return mps_probe_read(sim, 0, v);)
 CALL(mps_probe_series, return mps_probe_series(sim, 0, NULL, NULL, NULL);)
 CALL(mps_probe_series_clear, return mps_probe_series_clear(sim, 99);) /* keeps the samples of 0 */
@@ -257,6 +268,7 @@ static const lock_call lock_calls[] = {
     CHANGES(mps_motion_table_set),
     CHANGES(mps_motion_callback_set),
     CHANGES(mps_motion_clear),
+    CHANGES(mps_motion_pose_set),
     CHANGES(mps_kernel_use),
     CHANGES(mps_threads_set),
     CHANGES(mps_phase_set),
@@ -280,12 +292,17 @@ static const lock_call lock_calls[] = {
     CHANGES(mps_step),
     CHANGES(mps_run),
     CHANGES(mps_checkpoint_read),
+    CHANGES(mps_load_watch),
+    CHANGES(mps_snapshot_create),
+    CHANGES(mps_snapshot_restore),
     READS(mps_stl_edges),
     READS(mps_lease_end),
     READS(mps_stencil_get),
     READS(mps_checkpoint_write),
     READS(mps_frames_open),
     READS(mps_frames_write),
+    READS(mps_snapshot_take),
+    READS(mps_load_get),
     READS(mps_probe_read),
     READS(mps_probe_series),
     READS(mps_probe_series_clear),

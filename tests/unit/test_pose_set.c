@@ -171,9 +171,9 @@ static void refused(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(meets_poses), cmocka_unit_test(same_as_callback),
-        cmocka_unit_test(last_one_counts), cmocka_unit_test(starts_once),
-        cmocka_unit_test(refused)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(meets_poses),
+                                       cmocka_unit_test(same_as_callback),
+                                       cmocka_unit_test(last_one_counts),
+                                       cmocka_unit_test(starts_once), cmocka_unit_test(refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

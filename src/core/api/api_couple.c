@@ -16,8 +16,8 @@ static mps_status add_guess(mps__world *w)
 {
     mps__particles *s = &w->particles;
     if (w->mass.guess) return MPS_OK;
-    MPS__TRY(mps__particles_field_add(s, "mass_pressure", w->setup.dim == 3 ? 6 : 3,
-                                      sizeof(double), false, (void **)&w->mass.guess));
+    MPS__TRY(mps__particles_field_add(s, "mass_pressure", w->setup.dim == 3 ? 6 : 3, sizeof(double),
+                                      false, (void **)&w->mass.guess));
     s->field[s->fields - 1].passing = true;
     return MPS_OK;
 }

@@ -78,8 +78,7 @@ static mps_status install(mps_sim *sim, mps__motion *next)
     carry_particles(sim, &old);
     if (old.user != next->user) mps__motion_free(&old);
     /* the next pose of a tank that is moved by poses is no start */
-    if (!goes_on)
-        w->state.start_pending = next->fn && next->start == MPS_START_WITH_TANK;
+    if (!goes_on) w->state.start_pending = next->fn && next->start == MPS_START_WITH_TANK;
     return MPS_OK;
 }
 

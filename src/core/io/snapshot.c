@@ -56,8 +56,8 @@ static mps_status reserve(mps_snapshot *k)
     if (w->ghosts.ghost)
         MPS__TRY(mps__grow(c, (void **)&k->ghost, &k->ghost_capacity, 0, s->n + 1, 1));
     if (!searched_at(w)) return MPS_OK;
-    return mps__grow(c, (void **)&k->searched, &k->searched_capacity, 0,
-                     s->n * s->dim + 1, sizeof *k->searched);
+    return mps__grow(c, (void **)&k->searched, &k->searched_capacity, 0, s->n * s->dim + 1,
+                     sizeof *k->searched);
 }
 
 static void take_particles(mps_snapshot *k)
@@ -172,9 +172,8 @@ static arrival compare(const mps_snapshot *k)
     const mps_neighbours *l = &w->lists.neighbours;
     enum { STORE, LISTS, THINGS };
     bool other[THINGS];
-    other[STORE] = k->n != s->n || k->generation != s->generation ||
-                   k->orders != w->lists.orders || k->known != w->ghosts.known ||
-                   w->lists.listed_at || fields_of(s) != s->fields;
+    other[STORE] = k->n != s->n || k->generation != s->generation || k->orders != w->lists.orders ||
+                   k->known != w->ghosts.known || w->lists.listed_at || fields_of(s) != s->fields;
     other[LISTS] = other[STORE] || !k->listed || !l->valid ||
                    memcmp(k->searched, l->searched, (size_t)(k->n * s->dim) * sizeof(double)) != 0;
     mps__world_any(w, THINGS, other);

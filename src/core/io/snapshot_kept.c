@@ -33,8 +33,7 @@ static mps_status reserve_series(mps__context *c, mps__series *to, const mps__se
 static void copy_series(mps__series *to, const mps__series *from, int64_t same)
 {
     const size_t rows = (size_t)((from->rows - from->first) * width_of(from));
-    if (rows > 0)
-        memcpy(to->row, from->row + from->first * width_of(from), rows * sizeof *to->row);
+    if (rows > 0) memcpy(to->row, from->row + from->first * width_of(from), rows * sizeof *to->row);
     const int64_t fresh = from->count - same;
     if (fresh > 0) {
         memcpy(to->t + same, from->t + same, (size_t)fresh * sizeof *to->t);
@@ -84,8 +83,7 @@ mps_status mps__kept_reserve(mps_snapshot *k)
 
 static void copy_numbers(mps__numbers *to, const mps__numbers *from)
 {
-    if (from->count > 0)
-        memcpy(to->value, from->value, (size_t)from->count * sizeof *to->value);
+    if (from->count > 0) memcpy(to->value, from->value, (size_t)from->count * sizeof *to->value);
     to->count = from->count;
 }
 
@@ -122,8 +120,8 @@ mps_status mps__kept_return_reserve(mps_snapshot *k)
     mps__models *m = &k->sim->world.models;
     for (int64_t i = 0; i < p->count; i++)
         if (!p->list[i].removed && has_probe(k, i))
-            MPS__TRY(reserve_series(c, &p->list[i].series, &k->series[i].own,
-                                    p->list[i].series.count));
+            MPS__TRY(
+                reserve_series(c, &p->list[i].series, &k->series[i].own, p->list[i].series.count));
     for (int32_t i = 0; i < m->active; i++)
         MPS__TRY(reserve_numbers(c, &m->on[i].state, &k->numbers[i]));
     return MPS_OK;

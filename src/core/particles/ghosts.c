@@ -366,8 +366,8 @@ mps_status mps__ghosts_ordered(mps__ghosts *g, const int32_t *order)
 mps_status mps__ghosts_reset_reserve(mps__ghosts *g, int64_t n)
 {
     if (!mps__ranks_many(g->ranks)) return MPS_OK;
-    MPS__TRY(mps__grow(g->context, (void **)&g->run, &g->run_capacity, 2 * g->runs, 2,
-                       sizeof *g->run));
+    MPS__TRY(
+        mps__grow(g->context, (void **)&g->run, &g->run_capacity, 2 * g->runs, 2, sizeof *g->run));
     return mps__grow(g->context, (void **)&g->ghost, &g->capacity, g->capacity, n + 1, 1);
 }
 

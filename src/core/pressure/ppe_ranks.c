@@ -66,7 +66,8 @@ mps_status mps__ppe_ranks_set(mps__ppe *e)
 {
     if (!e->ghosts || !mps__ranks_many(e->ghosts->ranks)) return MPS_OK;
     mps__ranks *r = e->ghosts->ranks;
-    int64_t *rows = mps__scratch_take(e->context, e->scratch, MPS__PPE_NUMBERS, r->count, sizeof *rows);
+    int64_t *rows = mps__scratch_take(e->context, e->scratch, MPS__PPE_NUMBERS, r->count,
+                                      sizeof *rows);
     if (!rows) return MPS_E_NOMEM;
     mps__ranks_gather_number(r, e->n, rows);
     order_columns(e);

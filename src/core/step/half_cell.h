@@ -11,6 +11,8 @@
 typedef struct mps__halves {
     const double *density, *wetted; /* of the row of the wall; share of the cell, NULL: all of it */
     const int32_t *region;
+    const double *a; /* acceleration of the liquid: of particle j from a[j*stride] on */
+    int64_t stride;
 } mps__halves;
 
 /* Mass of a particle of the liquid, which ends at the centres of those on the surface. */
@@ -49,11 +51,9 @@ MPS_ROW double mps__half_cell(const int dim, const mps_view *v, const mps__halve
     return any ? h->density[i] * share * 0.5 * v->dp * size * fmin(1, size / face) : 0;
 }
 
-/* Acceleration of that cell: that of the wall, `tank`, along the normal, and along the face the mean of the liquid about it, which has
- * a[j*stride] .. each. */
+/* Acceleration of that cell: that of the wall, `tank`, along the normal, and along the face the mean of the liquid about it. */
 MPS_ROW void mps__half_acceleration(const int dim, const mps_view *v, const mps__halves *h,
-                                    int64_t i, const double *a, int64_t stride, const double *tank,
-                                    const double n[3], double out[3])
+                                    int64_t i, const double *tank, const double n[3], double out[3])
 {
     const mps_stencil *t = &v->near;
     double weight = 0, across = 0;
@@ -63,7 +63,7 @@ MPS_ROW void mps__half_acceleration(const int dim, const mps_view *v, const mps_
         if (!mps__is_about(v, h, j)) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         weight += q.w;
-        for (int d = 0; d < dim; d++) out[d] += q.w * a[j * stride + d];
+        for (int d = 0; d < dim; d++) out[d] += q.w * h->a[j * h->stride + d];
     }
     for (int d = 0; d < dim && weight > 0; d++) out[d] /= weight;
     for (int d = 0; d < dim; d++) across += n[d] * (tank[d] - out[d]);

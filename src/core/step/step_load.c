@@ -83,7 +83,7 @@ const mps__pass mps__pass_begin_load = {.name = "begin_load",
 
 typedef struct half_fields {
     mps__halves halves;
-    const double *acceleration, *tank;
+    const double *tank;
     double at[3];
 } half_fields;
 
@@ -95,7 +95,7 @@ MPS_ROW void add_half(const int dim, const mps_view *v, const half_fields *f, in
     const double mass = mps__half_cell(dim, v, &f->halves, i, n);
     if (mass == 0) return;
     for (int d = 0; d < dim; d++) tank[d] = f->tank[i * dim + d] - v->g[d];
-    mps__half_acceleration(dim, v, &f->halves, i, f->acceleration, dim, tank, n, a);
+    mps__half_acceleration(dim, v, &f->halves, i, tank, n, a);
     for (int d = 0; d < dim; d++) {
         push[d] = -mass * a[d];
         r[d] = v->x[i * dim + d] - f->at[d];
@@ -111,9 +111,12 @@ static mps_status sum_half_cells(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
     if (q->load.watch == MPS_LOAD_NONE) return MPS_OK;
-    half_fields f = {.acceleration = s->data[ACCELERATION],
-                     .tank = s->data[TANK],
-                     .halves = {s->data[DENSITY], s->view->flux.wetted, s->data[REGION]}};
+    half_fields f = {.tank = s->data[TANK],
+                     .halves = {.density = s->data[DENSITY],
+                                .wetted = s->view->flux.wetted,
+                                .region = s->data[REGION],
+                                .a = s->data[ACCELERATION],
+                                .stride = s->view->dim}};
     memcpy(f.at, q->load.at, sizeof f.at);
     mps_stage_sum(s, 6, &add_halves, &f, q->load.force);
     return MPS_OK;

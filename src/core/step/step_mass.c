@@ -71,8 +71,7 @@ static mps_status reserve(mps__world *w, int32_t dofs)
     const mps__ppe *e = &w->ppe;
     const int64_t n = w->particles.n * dofs;
     MPS__TRY(mps__grow(w->context, (void **)&m->next, &m->next_capacity, 0,
-                       n > m->next_capacity ? mps__room(n, m->next_capacity) : n,
-                       sizeof *m->next));
+                       n > m->next_capacity ? mps__room(n, m->next_capacity) : n, sizeof *m->next));
     MPS__TRY(mps__grow(w->context, (void **)&m->a, &m->a_capacity, 0, n * w->setup.dim + 1,
                        sizeof *m->a));
     MPS__TRY(mps__grow(w->context, (void **)&m->moments, &m->moment_capacity, 0,
@@ -110,7 +109,7 @@ static mps_status solve_column(mps__step *q, const int32_t *freedom, int32_t dof
 /* ---- what the liquid does ---- */
 
 /* Degrees of freedom, constant where the dimension is; those of one sum. */
-#define DOFS(dim) ((dim) == 3 ? 6 : 3)
+#define DOFS(dim)    ((dim) == 3 ? 6 : 3)
 #define AT_ONCE(dim) ((dim) == 3 ? 2 : 3)
 
 typedef struct mass_fields {
@@ -156,8 +155,7 @@ MPS_ROW void change_row(const int dim, const mps_view *v, const mass_fields *f, 
         for (int d = 0; d < dim; d++) d3[d] = q.d[d];
         mps__cross(arm, d3, turn);
         for (int k = 0; k < dofs; k++) {
-            const double change = q.w_r2 *
-                                  ((other[k] - own[k]) * over + along(dim, k, q.d, turn));
+            const double change = q.w_r2 * ((other[k] - own[k]) * over + along(dim, k, q.d, turn));
             for (int d = 0; d < dim; d++) sum[k][d] += change * q.d[d];
         }
     }
@@ -191,7 +189,9 @@ MPS_ROW void add_change(const int dim, const mps_view *v, const mass_fields *f, 
             for (int d = 0; d < dim; d++) force[d] = a[i * stride + d];
         else {
             tank_acceleration(dim, f->column + k, arm, tank);
-            mps__half_acceleration(dim, v, &f->halves, i, a, stride, tank, n, force);
+            mps__halves halves = f->halves;
+            halves.a = a;
+            mps__half_acceleration(dim, v, &halves, i, tank, n, force);
         }
         for (int d = 0; d < dim; d++) force[d] *= mass;
         mps__cross(arm, force, moment);
@@ -207,7 +207,10 @@ static mps_status sum_columns(mps__step *q, const int32_t *freedom, int32_t dofs
     const mps__particles *s = &w->particles;
     const int32_t dim = s->dim, correction = mps__channels_find(&w->channels, "correction");
     const mps_flux *flux = q->terms.flux;
-    mass_fields f = {.halves = {flux->density, flux->wetted, s->region},
+    mass_fields f = {.halves = {.density = flux->density,
+                                .wetted = flux->wetted,
+                                .region = s->region,
+                                .stride = (int64_t)dofs * dim},
                      .p = w->mass.next,
                      .a = w->mass.a,
                      .density = s->rho,
@@ -217,8 +220,8 @@ static mps_status sum_columns(mps__step *q, const int32_t *freedom, int32_t dofs
     f.correction = mps__channels_array(&w->channels, &w->particles, correction);
     v.flux = *flux;
     mps__host_rows(&w->host, &v, &change_rows, &f);
-    MPS__TRY(mps__ghosts_share(&w->ghosts,
-                               &(mps__shared){f.a, (size_t)(dofs * dim) * sizeof *f.a}, 1));
+    MPS__TRY(
+        mps__ghosts_share(&w->ghosts, &(mps__shared){f.a, (size_t)(dofs * dim) * sizeof *f.a}, 1));
     for (; f.column < dofs; f.column += AT_ONCE(dim)) {
         double sums[MPS_PARALLEL_VALUES] = {0};
         mps__host_sum(&w->host, &v, AT_ONCE(dim) * dofs, &add_changes, &f, sums);

@@ -151,14 +151,15 @@ typedef struct mps__load {
     int32_t watch; /* MPS_LOAD_..., of the user */
     bool known, has_mass;
     int32_t iterations; /* of all columns of the added mass */
-    double dt, at[3]; /* place of the centre of motion at the beginning of the step */
+    double dt, at[3];   /* place of the centre of motion at the beginning of the step */
     double force[6], accel[6], mass[36]; /* about it */
 } mps__load;
 
 /* What the added mass is computed with. */
 typedef struct mps__mass {
-    double *guess; /* field [n*dofs]: change of the pressure by each degree of freedom in the last step; NULL: never asked for */
-    double *next;  /* [n*dofs] that of the step in progress */
+    double *
+        guess; /* field [n*dofs]: change of the pressure by each degree of freedom in the last step; NULL: never asked for */
+    double *next;              /* [n*dofs] that of the step in progress */
     double *moments, *rhs, *p; /* [rows*dim], [rows], [columns] */
     double *a;                 /* [n*dofs*dim] change of accelerations */
     int64_t next_capacity, moment_capacity, rhs_capacity, p_capacity, a_capacity;
@@ -189,7 +190,7 @@ typedef struct mps__world {
     mps_step_info info;   /* of the last step */
     mps__load load;
     mps__mass mass;
-    bool ending;          /* dt_max of a step is what is left of a run */
+    bool ending; /* dt_max of a step is what is left of a run */
 } mps__world;
 
 /* `passes` are those of a step, in their order. */
