@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tables of docs/explanations/impacts.md and docs/validation/sloshing_air.md, and the plot of the first."""
+from collections.abc import Iterable
+from pathlib import Path
+
+import numpy as np
+import table as tb
+from cases import BREAKING, VARIANTS
+from events import MEANS
+
+EDGES = (0.0, 1.0, 2.5, np.inf)  # of the time of a mean over dp/u
+AIR = 1.2  # pressures with air are lower by this factor, by the paper
+RISES = (0.0, 1.5, 2.5, 5.0, np.inf)  # of a peak, in dp/u
+REPEATS = 3
+
+Found = dict[tb.Group, dict[int, tb.Row]]
+
+
+def line(cells: Iterable[str]) -> str:
+    return "| " + " | ".join(cells) + " |"
+
+
+def head(cells: Iterable[str]) -> list[str]:
+    names = list(cells)
+    return [line(names), "|" + "---|" * len(names)]
+
+
+def two(x: float) -> str:
+    return "-" if np.isnan(x) else f"{x:.2f}"
+
+
+def middle(x: np.ndarray) -> str:
+    """Median, and its band of 90 %."""
+    lo, hi = tb.band(x)
+    return "-" if np.isnan(lo) else f"{np.median(x):.2f} ({lo:.2f}-{hi:.2f})"
+
+
+def counts(found: Found, spacings: list[int], models: list[str]) -> list[str]:
+    lines = head(["model", "rows", "impacts", "of tanks"])
+    for model in models:
+        for rows in spacings:
+            here = {key for key, r in found.items() if key[2:] == (model, rows) and len(r) == REPEATS}
+            if here:
+                lines.append(line([model, str(rows), str(len(here)), str(len({key[0] for key in here}))]))
+    return lines
+
+
+def scatter(found: Found, spacings: list[int], models: list[str]) -> list[str]:
+    """Largest over least of the repeats: median over the impacts, and what one of ten exceeds."""
+    columns = [(m, n) for m in models for n in spacings if len(tb.scatters(found, m, n, tb.FIVE, REPEATS)) > 4]
+    lines = head(["largest / least of repeats", *(f"{m} {n}" for m, n in columns)])
+    for k, name in enumerate(tb.FIGURES):
+        f = [tb.scatters(found, m, n, k, REPEATS) for m, n in columns]
+        lines.append(line([name, *(f"{np.median(x):.2f}, {np.percentile(x, 90):.1f}" for x in f)]))
+    return lines
+
+
+def convergence(found: Found, spacings: list[int], models: list[str]) -> list[str]:
+    pairs = [(m, a, b) for m in models for a, b in zip(spacings[1:], spacings) if len(tb.ratios(found, (m, a), (m, b), tb.FIVE)) > 4]
+    lines = head(["fine / coarse", *(f"{m} {a}/{b}" for m, a, b in pairs)])
+    for k, name in enumerate(tb.FIGURES):
+        lines.append(line([name, *(middle(tb.ratios(found, (m, a), (m, b), k)) for m, a, b in pairs)]))
+    return lines
+
+
+def models(found: Found, spacings: list[int], all_models: list[str]) -> list[str]:
+    pairs = [(m, n) for m in all_models if m != "void" for n in spacings if len(tb.ratios(found, (m, n), ("void", n), tb.FIVE)) > 4]
+    lines = head(["with gas / void", *(f"{m} {n}" for m, n in pairs)])
+    for k, name in enumerate(tb.FIGURES):
+        lines.append(line([name, *(middle(tb.ratios(found, (m, n), ("void", n), k)) for m, n in pairs)]))
+    return lines
+
+
+def by_time(found: Found, all_models: list[str]) -> list[str]:
+    lines = head(["model", "mean over, in dp/u", "peaks", "median", "one of ten exceeds"])
+    for model in all_models:
+        for lo, hi, count, median, high in tb.by_mean_time(found, model, REPEATS, EDGES):
+            if count:
+                lines.append(line([model, f"{lo:g} to {hi:g}", str(count), two(median), two(high)]))
+    return lines
+
+
+def by_rise(found: Found, all_models: list[str]) -> list[str]:
+    lines = head(["model", "rise, in dp/u", "peaks", "median", "one of ten exceeds"])
+    for model in all_models:
+        for lo, hi, count, median, high in tb.by_rise(found, model, REPEATS, RISES):
+            if count:
+                lines.append(line([model, f"{lo:g} to {hi:g}", str(count), two(median), two(high)]))
+    return lines
+
+
+def of_runs(rows: list[tb.Row], spacings: list[int], all_models: list[str]) -> list[str]:
+    columns = [(m, n) for m in all_models for n in spacings if len(tb.runs_of(rows, max, m, n, tb.FIVE)) > 4]
+    lines = head(["largest / least of repeats", *(f"{m} {n}" for m, n in columns)])
+    for k, name in enumerate(tb.FIGURES[:5]):
+        for what, take in (("largest of a run", max), ("mean of a run", lambda x: float(np.mean(x)))):
+            lines.append(line([f"{name}, {what}", *(two(tb.spread(tb.runs_of(rows, take, m, n, k), REPEATS)) for m, n in columns)]))
+    return lines
+
+
+def first_peaks(rows: list[tb.Row], model: str, count: int) -> dict[int, tuple[float, ...]]:
+    """Figures of the first impact of the breaking wave, by repeat."""
+    found: dict[int, tb.Row] = {}
+    for r in rows:
+        if (r.tank, r.model, r.rows) == (BREAKING, model, count) and r.figures[tb.FIVE] >= tb.LEAST:
+            if r.repeat not in found or r.t < found[r.repeat].t:
+                found[r.repeat] = r
+    return {repeat: r.figures for repeat, r in found.items()}
+
+
+def paper(rows: list[tb.Row], depth: float) -> list[str]:
+    lines = head(["dp [m]", "model", "runs", "dp/u", "1 ms", "5 ms", "20 ms", "impulse", "5 ms: void / this", f"void > {AIR} x this"])
+    for count in sorted({r.rows for r in rows if r.tank == BREAKING}):
+        void = np.array(list(first_peaks(rows, "void", count).values()))
+        for model in VARIANTS:
+            x = np.array(list(first_peaks(rows, model, count).values()))
+            if len(x) < 2 or len(void) < 2:
+                continue
+            cells = [f"{np.mean(x[:, k]):.3g} +- {np.std(x[:, k], ddof=1):.2g}" for k in range(5)]
+            drawn = np.random.default_rng(1)
+            pick = [np.mean(drawn.choice(void[:, tb.FIVE], len(void))) / np.mean(drawn.choice(x[:, tb.FIVE], len(x))) for _ in range(tb.RESAMPLES)]
+            lo, hi = np.percentile(pick, (5, 95))
+            share = np.mean(void[:, tb.FIVE][:, None] > AIR * x[:, tb.FIVE][None, :])
+            ratio = "1" if model == "void" else f"{np.mean(void[:, tb.FIVE]) / np.mean(x[:, tb.FIVE]):.2f} ({lo:.2f}-{hi:.2f})"
+            lines.append(line([f"{depth / count:.3g}", model, str(len(x)), *cells, ratio, "-" if model == "void" else f"{100 * share:.0f} % of pairs"]))
+    return lines
+
+
+def write_plot(path: Path, rows: list[tb.Row]) -> None:
+    """Scatter of single peaks over the time of their mean in dp/u, a panel a model."""
+    import matplotlib
+    matplotlib.use("svg")
+    import matplotlib.pyplot as plt
+    plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "libmps", "font.family": ["DejaVu Sans"], "font.size": 9})
+    found = tb.impacts([r for r in rows if r.tank != BREAKING])
+    shown = [m for m in VARIANTS if any(key[2] == m and len(r) == REPEATS for key, r in found.items())]
+    figure, axes = plt.subplots(1, len(shown), figsize=(3.2 * len(shown) + 0.4, 2.8), sharey=True, squeeze=False)
+    for model, panel in zip(shown, axes[0]):
+        for k, (mean, colour) in enumerate(zip(MEANS, ("#4c78a8", "#f58518", "#54a24b")), 1):
+            both = [(1e3 * mean / np.mean([x.crossing for x in r.values()]), tb.values(r, k).max() / tb.values(r, k).min())
+                    for key, r in found.items() if key[2] == model and len(r) == REPEATS]
+            x, y = np.array(both).T
+            panel.plot(x, y, ".", color=colour, markersize=3, label=f"mean over {1e3 * mean:.0f} ms")
+        steps = [(lo, hi, m) for lo, hi, n, m, _ in tb.by_mean_time(found, model, REPEATS, EDGES) if n]
+        for lo, hi, m in steps:
+            panel.plot([max(lo, 0.07), min(hi, 4)], [m, m], color="#333333", linewidth=1.4)
+        panel.set_xscale("log")
+        panel.set_yscale("log")
+        panel.set_ylim(0.95, 6)
+        panel.set_yticks([1, 1.5, 2, 3, 5], ["1", "1.5", "2", "3", "5"])
+        panel.minorticks_off()
+        panel.set_title(model, loc="left", fontsize=9)
+        panel.set_xlabel("time of the mean / (dp/u)")
+        panel.grid(color="#e4e4e4", linewidth=0.6)
+    axes[0][0].set_ylabel("largest / least of three runs")
+    axes[0][-1].legend(frameon=False, fontsize=8)
+    figure.tight_layout(pad=0.6)
+    figure.savefig(path, metadata={"Date": None, "Creator": None})
+
+
+def write(rows: list[tb.Row], failed: list[tuple[str, ...]], depth: float) -> None:
+    """All tables, to the terminal."""
+    tanks = [r for r in rows if r.tank != BREAKING]
+    spacings, found = sorted({r.rows for r in tanks}), tb.impacts(tanks)
+    all_models = [m for m in VARIANTS if any(r.model == m for r in tanks)]
+    for title, lines in (("Impacts", counts(found, spacings, all_models)), ("Scatter: median, and what one of ten exceeds", scatter(found, spacings, all_models)),
+                         ("Scatter of runs, median of the tanks", of_runs(tanks, spacings, all_models)),
+                         ("Scatter of single peaks by the time of their mean", by_time(found, all_models)),
+                         ("Scatter of the mean over dp/u by its rise", by_rise(found, all_models)),
+                         ("Convergence: median of the impacts, band of 90 %", convergence(found, spacings, all_models)),
+                         ("Models", models(found, spacings, all_models)), ("Breaking wave of the paper, first impact, rho g depth and ms", paper(rows, depth)),
+                         ("Failed", [" ".join(f) for f in failed])):
+        print(f"\n{title}\n")
+        print("\n".join(lines))

@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The events of all runs as a table in a file, and what follows from it: scatter, convergence, ratios of models.
+
+Events of different runs of a tank are the same impact if they are at the same wall at nearly the same time. Only impacts that all runs
+of a comparison have are compared, and only those that are steep and high in the median of all runs."""
+import csv
+from collections import defaultdict
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+import events as ev
+import numpy as np
+from cases import BREAKING, Run
+from runs import note_of, signals
+
+FIGURES = ("mean over dp/u", "peak 1 ms", "peak 5 ms", "peak 20 ms", "impulse 0-60 ms", "panel, peak 5 ms", "panel, peak 20 ms", "panel, impulse 0-60 ms")
+COLUMNS = ("tank", "model", "rows", "repeat", "wall", "t/T", "dp/u", "rise", "p", "p1", "p5", "p20", "I", "panel5", "panel20", "panelI")
+FIVE = 2  # of FIGURES: peak 5 ms
+SAME = 0.12  # of the period: events of one impact follow each other within this time, all runs together
+LEAST = 3.0  # rho g depth: median of the 5 ms peaks of an impact that counts
+RESAMPLES = 1000
+
+
+@dataclass(frozen=True)
+class Row:
+    """An event of a run; figures in rho g depth and, of impulses, rho g depth times 1 ms; times in ms of a tank of 1 m."""
+    tank: str
+    model: str
+    rows: int
+    repeat: int
+    wall: str
+    t: float  # in periods of the motion
+    crossing: float
+    rise: float  # of the peak of the mean over dp/u, in dp/u
+    figures: tuple[float, ...]  # of FIGURES; nan: none
+
+
+def collect(out: Path, wanted: Iterable[Run]) -> tuple[list[Row], list[tuple[str, ...]]]:
+    """Events of all runs that are there, and the runs that have none: failed ones, with why."""
+    rows, failed = [], []
+    for run in wanted:
+        note = note_of(out, run)
+        if note is None:
+            continue
+        s = signals(out, run)
+        if note["exit"] != 0 or s is None:
+            failed.append((run.tank.name, run.variant, str(run.rows), str(run.repeat + 1), note["message"]))
+        if s is None:
+            continue
+        for e in ev.find(s, run.tank.walls, run.tank.depth, run.tank.forced_period, run.tank.time_scale):
+            panel = (e.panel[1], e.panel[2], 1e3 * e.panel[3]) if e.panel else (np.nan,) * 3
+            rows.append(Row(run.tank.name, run.variant, run.rows, run.repeat + 1, e.wall, e.t, 1e3 * e.crossing, e.rise, (e.resolved, *e.peaks, 1e3 * e.impulse, *panel)))
+    return rows, failed
+
+
+def write(path: Path, rows: list[Row]) -> None:
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        out = csv.writer(file, lineterminator="\n")
+        out.writerow(COLUMNS)
+        for r in rows:
+            out.writerow([r.tank, r.model, r.rows, r.repeat, r.wall, f"{r.t:.2f}", f"{r.crossing:.1f}", f"{r.rise:.2g}",
+                          *("" if np.isnan(x) else f"{x:.3g}" for x in r.figures)])
+
+
+def read(path: Path) -> list[Row]:
+    with open(path, encoding="utf-8", newline="") as file:
+        lines = list(csv.DictReader(file))
+    return [Row(d["tank"], d["model"], int(d["rows"]), int(d["repeat"]), d["wall"], float(d["t/T"]), float(d["dp/u"]), float(d["rise"]),
+                tuple(float(d[c]) if d[c] else np.nan for c in COLUMNS[8:])) for d in lines]
+
+
+# ---- impacts -----------------------------------------------------------------------------------------------------------
+
+Group = tuple[str, int, str, int]  # tank, number of the impact, model, rows
+
+
+def impacts(rows: list[Row]) -> dict[Group, dict[int, Row]]:
+    """Events by impact, model and rows: one of each repeat, the highest where there are two."""
+    found: dict[Group, dict[int, Row]] = {}
+    for tank in sorted({r.tank for r in rows}):
+        number = 0
+        for wall in sorted({r.wall for r in rows if r.tank == tank}):
+            here = sorted((r for r in rows if (r.tank, r.wall) == (tank, wall)), key=lambda r: r.t)
+            breaks = [i for i in range(1, len(here)) if here[i].t - here[i - 1].t > SAME]
+            for part in np.split(np.arange(len(here)), breaks):
+                same = [here[i] for i in part]
+                number += 1
+                if np.median([r.figures[FIVE] for r in same]) < LEAST:
+                    continue
+                for r in same:
+                    repeats = found.setdefault((tank, number, r.model, r.rows), {})
+                    if r.repeat not in repeats or repeats[r.repeat].figures[FIVE] < r.figures[FIVE]:
+                        repeats[r.repeat] = r
+    return found
+
+
+def values(repeats: dict[int, Row], k: int) -> np.ndarray:
+    return np.array([r.figures[k] for r in repeats.values()])
+
+
+def mean(repeats: dict[int, Row], k: int) -> float:
+    """Geometric mean of the repeats: ratios of it do not depend on which is above the line."""
+    return float(np.exp(np.mean(np.log(values(repeats, k)))))
+
+
+def scatters(found: dict[Group, dict[int, Row]], model: str, rows: int, k: int, repeats: int) -> np.ndarray:
+    """Largest over least of the repeats of each impact that all repeats have."""
+    return np.array([values(r, k).max() / values(r, k).min() for (_, _, m, n), r in found.items() if (m, n) == (model, rows) and len(r) == repeats])
+
+
+def ratios(found: dict[Group, dict[int, Row]], above: tuple[str, int], below: tuple[str, int], k: int) -> np.ndarray:
+    """Means of each impact with one model and spacing over those with another; of the repeats that both have, two or more."""
+    out = []
+    for (tank, number, model, rows), r in found.items():
+        other = found.get((tank, number, *below), {})
+        both = r.keys() & other.keys()
+        if (model, rows) == above and len(both) > 1:
+            out.append(mean({n: r[n] for n in both}, k) / mean({n: other[n] for n in both}, k))
+    return np.array(out)
+
+
+def band(x: np.ndarray) -> tuple[float, float]:
+    """90 % of the median, by resampling with a fixed seed."""
+    if len(x) < 2:
+        return np.nan, np.nan
+    drawn = np.random.default_rng(1).choice(x, (RESAMPLES, len(x)))
+    lo, hi = np.percentile(np.median(drawn, axis=1), (5, 95))
+    return float(lo), float(hi)
+
+
+def by_mean_time(found: dict[Group, dict[int, Row]], model: str, repeats: int, edges: tuple[float, ...]) -> list[tuple[float, float, int, float, float]]:
+    """Scatter of peaks by the time of their mean over dp/u: (from, to, impacts, median, 90 %) of largest over least."""
+    pairs = []
+    for (_, _, m, _), r in found.items():
+        if m == model and len(r) == repeats:
+            crossing = np.mean([x.crossing for x in r.values()])
+            pairs += [(1e3 * t / crossing, values(r, k).max() / values(r, k).min()) for k, t in enumerate(ev.MEANS, 1)]
+    x, f = np.array(pairs).T if pairs else np.empty((2, 0))
+    rows = []
+    for lo, hi in zip(edges, edges[1:]):
+        part = f[(x >= lo) & (x < hi)]
+        rows.append((lo, hi, len(part), *(np.percentile(part, (50, 90)) if len(part) else (np.nan, np.nan))))
+    return rows
+
+
+def by_rise(found: dict[Group, dict[int, Row]], model: str, repeats: int, edges: tuple[float, ...]) -> list[tuple[float, float, int, float, float]]:
+    """The same of the mean over dp/u by the median of its rises, in dp/u."""
+    pairs = [(np.median([x.rise for x in r.values()]), values(r, 0).max() / values(r, 0).min())
+             for (_, _, m, _), r in found.items() if m == model and len(r) == repeats]
+    x, f = np.array(pairs).T if pairs else np.empty((2, 0))
+    parts = [f[(x >= lo) & (x < hi)] for lo, hi in zip(edges, edges[1:])]
+    return [(lo, hi, len(part), *(np.percentile(part, (50, 90)) if len(part) else (np.nan, np.nan))) for lo, hi, part in zip(edges, edges[1:], parts)]
+
+
+def runs_of(rows: list[Row], take: Callable[[list[float]], float], model: str, count: int, k: int) -> dict[str, list[float]]:
+    """A figure of each run, e.g. the largest of its events, by tank."""
+    by_run: dict[tuple[str, int], list[float]] = defaultdict(list)
+    for r in rows:
+        if (r.model, r.rows) == (model, count) and r.tank != BREAKING:
+            by_run[(r.tank, r.repeat)].append(r.figures[k])
+    found: dict[str, list[float]] = defaultdict(list)
+    for (tank, _), x in by_run.items():
+        found[tank].append(take(x))
+    return found
+
+
+def spread(of_runs: dict[str, list[float]], repeats: int) -> float:
+    """Median over the tanks of largest over least of their repeats."""
+    f = [max(x) / min(x) for x in of_runs.values() if len(x) == repeats]
+    return float(np.median(f)) if f else np.nan
