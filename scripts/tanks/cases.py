@@ -116,10 +116,13 @@ class Run:
         lines = ["mps: 1"]
         if isinstance(tank, Breaking):
             lines += [f"base: {CASES}/sloshing_breaking.yaml"]
+            lines += ["sensors:"] if self.variant == "pocket" else []
             lines += [f"run: {{until: {BREAKING_UNTIL} s, average: 0 s, threads: 1, step_factor: {self.factor:.6g}}}"]
         else:
             lines += [f"base: {HERE}/base.yaml", f"title: tank {tank.name}", tank_text(tank), motion_text(tank), "sensors:", *sensors_text(tank)]
             lines += [f"run: {{until: {tank.until:g} T1, average: 0 s, threads: 1, step_factor: {self.factor:.6g}}}"]
+        if self.variant == "pocket":
+            lines.insert(lines.index("sensors:") + 1, "  pockets: {measure: pockets}")
         lines += [f"dp: {dp:.9g} m", "output: {frames: 0, page: 0 MB, rate: 100 Hz, trace: yes}"]
         air = ", {air: rest}" if self.variant == "mmps" else ""
         lines += [f"fill: [{{water: {{depth: {tank.depth:.9g} m}}}}{air}]"]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tables of docs/explanations/impacts.md and docs/validation/sloshing_air.md, and the plot of the first."""
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import numpy as np
@@ -46,12 +46,12 @@ def counts(found: Found, spacings: list[int], models: list[str]) -> list[str]:
 
 
 def scatter(found: Found, spacings: list[int], models: list[str]) -> list[str]:
-    """Largest over least of the repeats: median over the impacts, and what one of ten exceeds."""
-    columns = [(m, n) for m in models for n in spacings if len(tb.scatters(found, m, n, tb.FIVE, REPEATS)) > 4]
-    lines = head(["largest / least of repeats", *(f"{m} {n}" for m, n in columns)])
+    """Standard deviation between repeats, and the largest over the least of them that one impact of ten exceeds."""
+    columns = [(m, n) for m in models for n in spacings if len(tb.all_values(found, m, n, 0, REPEATS)) > 4]
+    lines = head(["scatter between repeats", *(f"{m} {n}" for m, n in columns)])
     for k, name in enumerate(tb.FIGURES):
-        f = [tb.scatters(found, m, n, k, REPEATS) for m, n in columns]
-        lines.append(line([name, *(f"{np.median(x):.2f}, {np.percentile(x, 90):.1f}" for x in f)]))
+        f = [tb.all_values(found, m, n, k, REPEATS) for m, n in columns]
+        lines.append(line([name, *(f"{100 * tb.deviation(x):.0f} %, {np.percentile([y.max() / y.min() for y in x], 90):.1f}" for x in f)]))
     return lines
 
 
@@ -71,22 +71,21 @@ def models(found: Found, spacings: list[int], all_models: list[str]) -> list[str
     return lines
 
 
-def by_time(found: Found, all_models: list[str]) -> list[str]:
-    lines = head(["model", "mean over, in dp/u", "peaks", "median", "one of ten exceeds"])
+def of_parts(what: str, find: Callable[[str], list[tb.Part]], all_models: list[str]) -> list[str]:
+    lines = head(["model", what, "peaks", "standard deviation", "largest / least: one of ten exceeds"])
     for model in all_models:
-        for lo, hi, count, median, high in tb.by_mean_time(found, model, REPEATS, EDGES):
-            if count:
-                lines.append(line([model, f"{lo:g} to {hi:g}", str(count), two(median), two(high)]))
+        for lo, hi, count, deviation, high in find(model):
+            if count > 1:
+                lines.append(line([model, f"{lo:g} to {hi:g}", str(count), f"{100 * deviation:.0f} %", f"{high:.1f}"]))
     return lines
+
+
+def by_time(found: Found, all_models: list[str]) -> list[str]:
+    return of_parts("mean over, in dp/u", lambda model: tb.by_mean_time(found, model, REPEATS, EDGES), all_models)
 
 
 def by_rise(found: Found, all_models: list[str]) -> list[str]:
-    lines = head(["model", "rise, in dp/u", "peaks", "median", "one of ten exceeds"])
-    for model in all_models:
-        for lo, hi, count, median, high in tb.by_rise(found, model, REPEATS, RISES):
-            if count:
-                lines.append(line([model, f"{lo:g} to {hi:g}", str(count), two(median), two(high)]))
-    return lines
+    return of_parts("rise, in dp/u", lambda model: tb.by_rise(found, model, REPEATS, RISES), all_models)
 
 
 def of_runs(rows: list[tb.Row], spacings: list[int], all_models: list[str]) -> list[str]:
@@ -136,14 +135,11 @@ def write_plot(path: Path, rows: list[tb.Row]) -> None:
     shown = [m for m in VARIANTS if any(key[2] == m and len(r) == REPEATS for key, r in found.items())]
     figure, axes = plt.subplots(1, len(shown), figsize=(3.2 * len(shown) + 0.4, 2.8), sharey=True, squeeze=False)
     for model, panel in zip(shown, axes[0]):
-        for k, (mean, colour) in enumerate(zip(MEANS, ("#4c78a8", "#f58518", "#54a24b")), 1):
-            both = [(1e3 * mean / np.mean([x.crossing for x in r.values()]), tb.values(r, k).max() / tb.values(r, k).min())
+        for k, (time, colour) in enumerate(zip(MEANS, ("#4c78a8", "#f58518", "#54a24b")), 1):
+            both = [(1e3 * time / np.mean([x.crossing for x in r.values()]), tb.values(r, k).max() / tb.values(r, k).min())
                     for key, r in found.items() if key[2] == model and len(r) == REPEATS]
             x, y = np.array(both).T
-            panel.plot(x, y, ".", color=colour, markersize=3, label=f"mean over {1e3 * mean:.0f} ms")
-        steps = [(lo, hi, m) for lo, hi, n, m, _ in tb.by_mean_time(found, model, REPEATS, EDGES) if n]
-        for lo, hi, m in steps:
-            panel.plot([max(lo, 0.07), min(hi, 4)], [m, m], color="#333333", linewidth=1.4)
+            panel.plot(x, y, ".", color=colour, markersize=3, label=f"mean over {1e3 * time:.0f} ms")
         panel.set_xscale("log")
         panel.set_yscale("log")
         panel.set_ylim(0.95, 6)
@@ -163,7 +159,7 @@ def write(rows: list[tb.Row], failed: list[tuple[str, ...]], depth: float) -> No
     tanks = [r for r in rows if r.tank != BREAKING]
     spacings, found = sorted({r.rows for r in tanks}), tb.impacts(tanks)
     all_models = [m for m in VARIANTS if any(r.model == m for r in tanks)]
-    for title, lines in (("Impacts", counts(found, spacings, all_models)), ("Scatter: median, and what one of ten exceeds", scatter(found, spacings, all_models)),
+    for title, lines in (("Impacts", counts(found, spacings, all_models)), ("Scatter: standard deviation, and largest / least that one of ten exceeds", scatter(found, spacings, all_models)),
                          ("Scatter of runs, median of the tanks", of_runs(tanks, spacings, all_models)),
                          ("Scatter of single peaks by the time of their mean", by_time(found, all_models)),
                          ("Scatter of the mean over dp/u by its rise", by_rise(found, all_models)),

@@ -104,9 +104,9 @@ def mean(repeats: dict[int, Row], k: int) -> float:
     return float(np.exp(np.mean(np.log(values(repeats, k)))))
 
 
-def scatters(found: dict[Group, dict[int, Row]], model: str, rows: int, k: int, repeats: int) -> np.ndarray:
-    """Largest over least of the repeats of each impact that all repeats have."""
-    return np.array([values(r, k).max() / values(r, k).min() for (_, _, m, n), r in found.items() if (m, n) == (model, rows) and len(r) == repeats])
+def all_values(found: dict[Group, dict[int, Row]], model: str, rows: int, k: int, repeats: int) -> list[np.ndarray]:
+    """Of each impact that all repeats have: a figure of the repeats."""
+    return [values(r, k) for (_, _, m, n), r in found.items() if (m, n) == (model, rows) and len(r) == repeats]
 
 
 def ratios(found: dict[Group, dict[int, Row]], above: tuple[str, int], below: tuple[str, int], k: int) -> np.ndarray:
@@ -129,28 +129,37 @@ def band(x: np.ndarray) -> tuple[float, float]:
     return float(lo), float(hi)
 
 
-def by_mean_time(found: dict[Group, dict[int, Row]], model: str, repeats: int, edges: tuple[float, ...]) -> list[tuple[float, float, int, float, float]]:
-    """Scatter of peaks by the time of their mean over dp/u: (from, to, impacts, median, 90 %) of largest over least."""
-    pairs = []
-    for (_, _, m, _), r in found.items():
-        if m == model and len(r) == repeats:
-            crossing = np.mean([x.crossing for x in r.values()])
-            pairs += [(1e3 * t / crossing, values(r, k).max() / values(r, k).min()) for k, t in enumerate(ev.MEANS, 1)]
-    x, f = np.array(pairs).T if pairs else np.empty((2, 0))
+Part = tuple[float, float, int, float, float]  # from, to, peaks, standard deviation, largest over least that one of ten exceeds
+
+
+def deviation(of_impacts: list[np.ndarray]) -> float:
+    """Standard deviation of the logarithm between repeats: of all impacts together, each about its own mean."""
+    return float(np.sqrt(np.mean([np.var(np.log(x), ddof=1) for x in of_impacts]))) if of_impacts else np.nan
+
+
+def parts(x: list[float], of_impacts: list[np.ndarray], edges: tuple[float, ...]) -> list[Part]:
     rows = []
     for lo, hi in zip(edges, edges[1:]):
-        part = f[(x >= lo) & (x < hi)]
-        rows.append((lo, hi, len(part), *(np.percentile(part, (50, 90)) if len(part) else (np.nan, np.nan))))
+        part = [y for at, y in zip(x, of_impacts) if lo <= at < hi]
+        rows.append((lo, hi, len(part), deviation(part), float(np.percentile([y.max() / y.min() for y in part], 90)) if part else np.nan))
     return rows
 
 
-def by_rise(found: dict[Group, dict[int, Row]], model: str, repeats: int, edges: tuple[float, ...]) -> list[tuple[float, float, int, float, float]]:
-    """The same of the mean over dp/u by the median of its rises, in dp/u."""
-    pairs = [(np.median([x.rise for x in r.values()]), values(r, 0).max() / values(r, 0).min())
-             for (_, _, m, _), r in found.items() if m == model and len(r) == repeats]
-    x, f = np.array(pairs).T if pairs else np.empty((2, 0))
-    parts = [f[(x >= lo) & (x < hi)] for lo, hi in zip(edges, edges[1:])]
-    return [(lo, hi, len(part), *(np.percentile(part, (50, 90)) if len(part) else (np.nan, np.nan))) for lo, hi, part in zip(edges, edges[1:], parts)]
+def whole(found: dict[Group, dict[int, Row]], model: str, repeats: int) -> list[dict[int, Row]]:
+    """Impacts of a model that all repeats have, at all spacings."""
+    return [r for (_, _, m, _), r in found.items() if m == model and len(r) == repeats]
+
+
+def by_mean_time(found: dict[Group, dict[int, Row]], model: str, repeats: int, edges: tuple[float, ...]) -> list[Part]:
+    """Scatter of peaks over fixed times, by this time over dp/u."""
+    pairs = [(1e3 * t / float(np.mean([x.crossing for x in r.values()])), values(r, k)) for r in whole(found, model, repeats) for k, t in enumerate(ev.MEANS, 1)]
+    return parts([x for x, _ in pairs], [y for _, y in pairs], edges)
+
+
+def by_rise(found: dict[Group, dict[int, Row]], model: str, repeats: int, edges: tuple[float, ...]) -> list[Part]:
+    """Scatter of the mean over dp/u, by the median of its rises in dp/u."""
+    all_impacts = whole(found, model, repeats)
+    return parts([float(np.median([x.rise for x in r.values()])) for r in all_impacts], [values(r, 0) for r in all_impacts], edges)
 
 
 def runs_of(rows: list[Row], take: Callable[[list[float]], float], model: str, count: int, k: int) -> dict[str, list[float]]:
