@@ -33,7 +33,7 @@ class Event:
     impulse: float
     panel: tuple[float, ...]  # the same of the panel: peaks, impulse; empty without one
     resolved: float  # peak of the mean over dp/u, the default of sensors
-    rise: float  # of that peak as a triangle, in dp/u
+    rises: tuple[float, ...]  # of that peak and of those of the MEANS, as triangles, in dp/u
 
 
 class Impulse:
@@ -56,12 +56,13 @@ class Impulse:
         return float(self.mean(ends, length).max())
 
 
-def steepest(s: Signals, sensors: list[Impulse], lo: float, hi: float) -> tuple[float, float]:
-    """Highest mean over dp/u [Pa] and its rise: twice the time from half of it to it, over dp/u. The page of a run has the same rise."""
+def highest(s: Signals, sensors: list[Impulse], lo: float, hi: float, length: float | np.ndarray) -> tuple[float, float]:
+    """Highest mean over a time, at the ends of steps [Pa], and its rise: twice the time from half of it to it, over dp/u. The page of a run
+    has the same rise."""
     part = (s.t >= lo) & (s.t <= hi)
     peak, rise = -np.inf, np.nan
     for j in sensors:
-        y = j.mean(s.t, s.crossing)
+        y = j.mean(s.t, length)
         top = int(np.argmax(np.where(part, y, -np.inf)))
         if y[top] <= peak:
             continue
@@ -109,7 +110,7 @@ def find(s: Signals, walls: tuple[str, ...], depth: float, period: float, time_s
                 return [x / scale for x in peaks] + [max(float(j.at(lo + whole) - j.at(lo)) for j in of) / (scale * time_scale)]
 
             *peaks, impulse = figures(sensors)
-            resolved, rise = steepest(s, sensors, lo, end)
+            tops = [highest(s, sensors, lo, max(end, lo + np.max(m)), m) for m in (s.crossing, *means)]
             events.append(Event(wall, begin / period, float(np.interp(begin, s.t, s.crossing)) / time_scale, tuple(peaks), impulse, tuple(figures(panels)),
-                                resolved / scale, rise))
+                                tops[0][0] / scale, tuple(top[1] for top in tops)))
     return sorted(events, key=lambda e: e.t)

@@ -10,7 +10,7 @@ from events import MEANS
 
 EDGES = (0.0, 1.0, 2.5, np.inf)  # of the time of a mean over dp/u
 AIR = 1.2  # pressures with air are lower by this factor, by the paper
-RISES = (0.0, 1.5, 2.5, 5.0, np.inf)  # of a peak, in dp/u
+RISES = (0.0, 1.0, 1.5, 2.5, 5.0, np.inf)  # of a peak, in dp/u
 REPEATS = 3
 
 Found = dict[tb.Group, dict[int, tb.Row]]
@@ -162,7 +162,7 @@ def write(rows: list[tb.Row], failed: list[tuple[str, ...]], depth: float) -> No
     for title, lines in (("Impacts", counts(found, spacings, all_models)), ("Scatter: standard deviation, and largest / least that one of ten exceeds", scatter(found, spacings, all_models)),
                          ("Scatter of runs, median of the tanks", of_runs(tanks, spacings, all_models)),
                          ("Scatter of single peaks by the time of their mean", by_time(found, all_models)),
-                         ("Scatter of the mean over dp/u by its rise", by_rise(found, all_models)),
+                         ("Scatter of the peaks of all means by their rise", by_rise(found, all_models)),
                          ("Convergence: median of the impacts, band of 90 %", convergence(found, spacings, all_models)),
                          ("Models", models(found, spacings, all_models)), ("Breaking wave of the paper, first impact, rho g depth and ms", paper(rows, depth)),
                          ("Failed", [" ".join(f) for f in failed])):

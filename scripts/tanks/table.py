@@ -6,7 +6,7 @@ of a comparison have are compared, and only those that are steep and high in the
 import csv
 from collections import defaultdict
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import events as ev
@@ -15,7 +15,8 @@ from cases import BREAKING, Run
 from runs import note_of, signals
 
 FIGURES = ("mean over dp/u", "peak 1 ms", "peak 5 ms", "peak 20 ms", "impulse 0-60 ms", "panel, peak 5 ms", "panel, peak 20 ms", "panel, impulse 0-60 ms")
-COLUMNS = ("tank", "model", "rows", "repeat", "wall", "t/T", "dp/u", "rise", "p", "p1", "p5", "p20", "I", "panel5", "panel20", "panelI")
+COLUMNS = ("tank", "model", "rows", "repeat", "wall", "t/T", "dp/u", "rise", "rise1", "rise5", "rise20", "p", "p1", "p5", "p20", "I", "panel5", "panel20", "panelI")
+BOTH = "void = pocket"  # model of a run without a pocket
 FIVE = 2  # of FIGURES: peak 5 ms
 SAME = 0.12  # of the period: events of one impact follow each other within this time, all runs together
 LEAST = 3.0  # rho g depth: median of the 5 ms peaks of an impact that counts
@@ -32,7 +33,7 @@ class Row:
     wall: str
     t: float  # in periods of the motion
     crossing: float
-    rise: float  # of the peak of the mean over dp/u, in dp/u
+    rises: tuple[float, ...]  # of the peaks of the means, in dp/u: FIGURES[:4]
     figures: tuple[float, ...]  # of FIGURES; nan: none
 
 
@@ -50,24 +51,38 @@ def collect(out: Path, wanted: Iterable[Run]) -> tuple[list[Row], list[tuple[str
             continue
         for e in ev.find(s, run.tank.walls, run.tank.depth, run.tank.forced_period, run.tank.time_scale):
             panel = (e.panel[1], e.panel[2], 1e3 * e.panel[3]) if e.panel else (np.nan,) * 3
-            rows.append(Row(run.tank.name, run.variant, run.rows, run.repeat + 1, e.wall, e.t, 1e3 * e.crossing, e.rise, (e.resolved, *e.peaks, 1e3 * e.impulse, *panel)))
+            rows.append(Row(run.tank.name, run.variant, run.rows, run.repeat + 1, e.wall, e.t, 1e3 * e.crossing, e.rises, (e.resolved, *e.peaks, 1e3 * e.impulse, *panel)))
     return rows, failed
 
 
 def write(path: Path, rows: list[Row]) -> None:
+    """The events that count, one line a run that is of both models."""
+    counting = {r for repeats in groups(rows).values() for r in repeats if r.tank != BREAKING} | {r for r in rows if r.tank == BREAKING}
+    void = {replace(r, model=BOTH) for r in counting if r.model == "void"}
     with open(path, "w", encoding="utf-8", newline="") as file:
         out = csv.writer(file, lineterminator="\n")
         out.writerow(COLUMNS)
         for r in rows:
-            out.writerow([r.tank, r.model, r.rows, r.repeat, r.wall, f"{r.t:.2f}", f"{r.crossing:.1f}", f"{r.rise:.2g}",
-                          *("" if np.isnan(x) else f"{x:.3g}" for x in r.figures)])
+            both = replace(r, model=BOTH) in void and replace(r, model="pocket") in counting
+            if r not in counting or (both and r.model == "pocket"):
+                continue
+            out.writerow([r.tank, BOTH if both else r.model, r.rows, r.repeat, r.wall, f"{r.t:.2f}", f"{r.crossing:.1f}",
+                          *(number(x, 2) for x in r.rises), *(number(x, 3) for x in r.figures)])
+
+
+def number(x: float, digits: int) -> str:
+    return "" if np.isnan(x) else f"{x:.{digits}g}"
 
 
 def read(path: Path) -> list[Row]:
     with open(path, encoding="utf-8", newline="") as file:
         lines = list(csv.DictReader(file))
-    return [Row(d["tank"], d["model"], int(d["rows"]), int(d["repeat"]), d["wall"], float(d["t/T"]), float(d["dp/u"]), float(d["rise"]),
-                tuple(float(d[c]) if d[c] else np.nan for c in COLUMNS[8:])) for d in lines]
+
+    def row(d: dict[str, str], model: str) -> Row:
+        x = [float(d[c]) if d[c] else np.nan for c in COLUMNS[7:]]
+        return Row(d["tank"], model, int(d["rows"]), int(d["repeat"]), d["wall"], float(d["t/T"]), float(d["dp/u"]), tuple(x[:4]), tuple(x[4:]))
+
+    return [row(d, model) for d in lines for model in (("void", "pocket") if d["model"] == BOTH else (d["model"],))]
 
 
 # ---- impacts -----------------------------------------------------------------------------------------------------------
@@ -75,9 +90,9 @@ def read(path: Path) -> list[Row]:
 Group = tuple[str, int, str, int]  # tank, number of the impact, model, rows
 
 
-def impacts(rows: list[Row]) -> dict[Group, dict[int, Row]]:
-    """Events by impact, model and rows: one of each repeat, the highest where there are two."""
-    found: dict[Group, dict[int, Row]] = {}
+def groups(rows: list[Row]) -> dict[tuple[str, int], list[Row]]:
+    """Events by tank and number of the impact."""
+    found: dict[tuple[str, int], list[Row]] = {}
     for tank in sorted({r.tank for r in rows}):
         number = 0
         for wall in sorted({r.wall for r in rows if r.tank == tank}):
@@ -86,12 +101,19 @@ def impacts(rows: list[Row]) -> dict[Group, dict[int, Row]]:
             for part in np.split(np.arange(len(here)), breaks):
                 same = [here[i] for i in part]
                 number += 1
-                if np.median([r.figures[FIVE] for r in same]) < LEAST:
-                    continue
-                for r in same:
-                    repeats = found.setdefault((tank, number, r.model, r.rows), {})
-                    if r.repeat not in repeats or repeats[r.repeat].figures[FIVE] < r.figures[FIVE]:
-                        repeats[r.repeat] = r
+                if np.median([r.figures[FIVE] for r in same]) >= LEAST:
+                    found[(tank, number)] = same
+    return found
+
+
+def impacts(rows: list[Row]) -> dict[Group, dict[int, Row]]:
+    """Events by impact, model and rows: one of each repeat, the highest where there are two."""
+    found: dict[Group, dict[int, Row]] = {}
+    for (tank, number), same in groups(rows).items():
+        for r in same:
+            repeats = found.setdefault((tank, number, r.model, r.rows), {})
+            if r.repeat not in repeats or repeats[r.repeat].figures[FIVE] < r.figures[FIVE]:
+                repeats[r.repeat] = r
     return found
 
 
@@ -157,9 +179,9 @@ def by_mean_time(found: dict[Group, dict[int, Row]], model: str, repeats: int, e
 
 
 def by_rise(found: dict[Group, dict[int, Row]], model: str, repeats: int, edges: tuple[float, ...]) -> list[Part]:
-    """Scatter of the mean over dp/u, by the median of its rises in dp/u."""
-    all_impacts = whole(found, model, repeats)
-    return parts([float(np.median([x.rise for x in r.values()])) for r in all_impacts], [values(r, 0) for r in all_impacts], edges)
+    """Scatter of the peaks of all means by the median of their rises in dp/u, which a page knows whatever the mean is."""
+    pairs = [(float(np.median([x.rises[k] for x in r.values()])), values(r, k)) for r in whole(found, model, repeats) for k in range(4)]
+    return parts([x for x, _ in pairs], [y for _, y in pairs], edges)
 
 
 def runs_of(rows: list[Row], take: Callable[[list[float]], float], model: str, count: int, k: int) -> dict[str, list[float]]:
