@@ -126,9 +126,9 @@ def mean(repeats: dict[int, Row], k: int) -> float:
     return float(np.exp(np.mean(np.log(values(repeats, k)))))
 
 
-def all_values(found: dict[Group, dict[int, Row]], model: str, rows: int, k: int, repeats: int) -> list[np.ndarray]:
-    """Of each impact that all repeats have: a figure of the repeats."""
-    return [values(r, k) for (_, _, m, n), r in found.items() if (m, n) == (model, rows) and len(r) == repeats]
+def all_values(found: dict[Group, dict[int, Row]], model: str, rows: int, k: int) -> list[np.ndarray]:
+    """Of each impact that two repeats or more have: a figure of the repeats."""
+    return [values(r, k) for (_, _, m, n), r in found.items() if (m, n) == (model, rows) and len(r) > 1]
 
 
 def ratios(found: dict[Group, dict[int, Row]], above: tuple[str, int], below: tuple[str, int], k: int) -> np.ndarray:
@@ -159,28 +159,34 @@ def deviation(of_impacts: list[np.ndarray]) -> float:
     return float(np.sqrt(np.mean([np.var(np.log(x), ddof=1) for x in of_impacts]))) if of_impacts else np.nan
 
 
+def spread_of(of_impacts: list[np.ndarray]) -> float:
+    """Largest over least of three repeats that one impact of ten exceeds."""
+    f = [x.max() / x.min() for x in of_impacts if len(x) == 3]
+    return float(np.percentile(f, 90)) if f else np.nan
+
+
 def parts(x: list[float], of_impacts: list[np.ndarray], edges: tuple[float, ...]) -> list[Part]:
     rows = []
     for lo, hi in zip(edges, edges[1:]):
         part = [y for at, y in zip(x, of_impacts) if lo <= at < hi]
-        rows.append((lo, hi, len(part), deviation(part), float(np.percentile([y.max() / y.min() for y in part], 90)) if part else np.nan))
+        rows.append((lo, hi, len(part), deviation(part), spread_of(part)))
     return rows
 
 
-def whole(found: dict[Group, dict[int, Row]], model: str, repeats: int) -> list[dict[int, Row]]:
-    """Impacts of a model that all repeats have, at all spacings."""
-    return [r for (_, _, m, _), r in found.items() if m == model and len(r) == repeats]
+def repeated(found: dict[Group, dict[int, Row]], model: str) -> list[dict[int, Row]]:
+    """Impacts of a model that two repeats or more have, at all spacings."""
+    return [r for (_, _, m, _), r in found.items() if m == model and len(r) > 1]
 
 
-def by_mean_time(found: dict[Group, dict[int, Row]], model: str, repeats: int, edges: tuple[float, ...]) -> list[Part]:
+def by_mean_time(found: dict[Group, dict[int, Row]], model: str, edges: tuple[float, ...]) -> list[Part]:
     """Scatter of peaks over fixed times, by this time over dp/u."""
-    pairs = [(1e3 * t / float(np.mean([x.crossing for x in r.values()])), values(r, k)) for r in whole(found, model, repeats) for k, t in enumerate(ev.MEANS, 1)]
+    pairs = [(1e3 * t / float(np.mean([x.crossing for x in r.values()])), values(r, k)) for r in repeated(found, model) for k, t in enumerate(ev.MEANS, 1)]
     return parts([x for x, _ in pairs], [y for _, y in pairs], edges)
 
 
-def by_rise(found: dict[Group, dict[int, Row]], model: str, repeats: int, edges: tuple[float, ...]) -> list[Part]:
+def by_rise(found: dict[Group, dict[int, Row]], model: str, edges: tuple[float, ...]) -> list[Part]:
     """Scatter of the peaks of all means by the median of their rises in dp/u, which a page knows whatever the mean is."""
-    pairs = [(float(np.median([x.rises[k] for x in r.values()])), values(r, k)) for r in whole(found, model, repeats) for k in range(4)]
+    pairs = [(float(np.median([x.rises[k] for x in r.values()])), values(r, k)) for r in repeated(found, model) for k in range(4)]
     return parts([x for x, _ in pairs], [y for _, y in pairs], edges)
 
 
@@ -196,7 +202,5 @@ def runs_of(rows: list[Row], take: Callable[[list[float]], float], model: str, c
     return found
 
 
-def spread(of_runs: dict[str, list[float]], repeats: int) -> float:
-    """Median over the tanks of largest over least of their repeats."""
-    f = [max(x) / min(x) for x in of_runs.values() if len(x) == repeats]
-    return float(np.median(f)) if f else np.nan
+def deviation_of_runs(of_runs: dict[str, list[float]]) -> float:
+    return deviation([np.array(x) for x in of_runs.values() if len(x) > 1])

@@ -91,16 +91,16 @@ def statistics(folder):
     near("lines, one of a run of both models", len((folder / "impacts.csv").read_text().splitlines()), 1 + len(rows) - 3)
     found = table.impacts(again)
     near("impacts", len({key[:2] for key in found}), 1)
-    of_void = table.all_values(found, "void", 10, 0, 3)
+    of_void = table.all_values(found, "void", 10, 0)
     near("standard deviation", table.deviation(of_void), np.log(1.5))
     near("pocket over void", table.ratios(found, ("pocket", 10), ("void", 10), 0)[0], 0.5)
     near("fine over coarse", table.ratios(found, ("void", 20), ("void", 10), 0)[0], 3)
-    parts = table.by_rise(found, "void", 3, (0, 2, 5))
+    parts = table.by_rise(found, "void", (0, 2, 5))
     near("peaks that rise fast", parts[0][2], 4)
     near("largest over least", parts[1][4], 2.25)
-    parts = table.by_mean_time(found, "void", 3, (0, 0.2, 1, 5))
+    parts = table.by_mean_time(found, "void", (0, 0.2, 1, 5))
     near("means over 1 ms, two spacings", parts[0][2], 2)
-    near("spread of the largest", table.spread(table.runs_of(rows, max, "void", 20, 0), 3), 2.25)
+    near("deviation of the largest", table.deviation_of_runs(table.runs_of(rows, max, "void", 20, 0)), np.log(1.5))
 
 
 def cases(folder):
