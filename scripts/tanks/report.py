@@ -2,11 +2,11 @@
 """Tables of docs/explanations/impacts.md and docs/validation/sloshing_air.md, and the plot of the first."""
 from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import table as tb
 from cases import BREAKING, VARIANTS
-from events import MEANS
 
 EDGES = (0.0, 1.0, 2.5, np.inf)  # of the time of a mean over dp/u
 AIR = 1.2  # pressures with air are lower by this factor, by the paper
@@ -133,31 +133,52 @@ def of_means(above: np.ndarray, below: np.ndarray) -> str:
     return f"{above.mean() / below.mean():.2f} ({lo:.2f}-{hi:.2f})"
 
 
+COLOURS = {"void": ("#a9c4e4", "#4c78a8", "#1f3f66"), "pocket": ("#b7dbae", "#54a24b", "#2a5a24"), "mmps": ("#fbc99a", "#f58518", "#9c4f05")}
+
+
+def draw(panel: Any, columns: list[tuple[str, str, list[tuple[float, float, float]]]], title: str) -> None:
+    """Values with bands, (value, lower, upper), of each figure, side by side for all columns (label, colour, values)."""
+    for i, (label, colour, of_figures) in enumerate(columns):
+        x = np.arange(len(of_figures)) + 0.7 * ((i + 0.5) / len(columns) - 0.5)
+        y, lo, hi = np.array(of_figures).T
+        panel.errorbar(x, y, (y - lo, hi - y), fmt="o", color=colour, markersize=4, linewidth=1.2, label=label)
+    panel.set_xticks(range(len(tb.FIGURES)), [f.replace("panel, ", "panel\n").replace("peak ", "").replace("mean over ", "").replace("impulse", "impulse\n") for f in tb.FIGURES])
+    panel.set_title(title, loc="left", fontsize=9)
+    panel.grid(axis="y", color="#e4e4e4", linewidth=0.6)
+    panel.spines[["top", "right"]].set_visible(False)
+    panel.legend(frameon=False, fontsize=8, loc="upper left", bbox_to_anchor=(1.0, 1.0))
+
+
 def write_plot(path: Path, rows: list[tb.Row]) -> None:
-    """Scatter of single peaks over the time of their mean in dp/u, a panel a model."""
+    """Scatter, convergence and what gas changes, of each figure."""
     import matplotlib
     matplotlib.use("svg")
     import matplotlib.pyplot as plt
     plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "libmps", "font.family": ["DejaVu Sans"], "font.size": 9})
-    found = tb.impacts([r for r in rows if r.tank != BREAKING])
-    shown = [m for m in VARIANTS if tb.repeated(found, m)]
-    figure, axes = plt.subplots(1, len(shown), figsize=(3.2 * len(shown) + 0.4, 2.8), sharey=True, squeeze=False)
-    for model, panel in zip(shown, axes[0]):
-        for k, (time, colour) in enumerate(zip(MEANS, ("#4c78a8", "#f58518", "#54a24b")), 1):
-            both = [(1e3 * time / np.mean([x.crossing for x in r.values()]), tb.values(r, k).max() / tb.values(r, k).min())
-                    for r in tb.repeated(found, model)]
-            x, y = np.array(both).T
-            panel.plot(x, y, ".", color=colour, markersize=3, label=f"mean over {1e3 * time:.0f} ms")
-        panel.set_xscale("log")
-        panel.set_yscale("log")
-        panel.set_ylim(0.95, 6)
-        panel.set_yticks([1, 1.5, 2, 3, 5], ["1", "1.5", "2", "3", "5"])
-        panel.minorticks_off()
-        panel.set_title(model, loc="left", fontsize=9)
-        panel.set_xlabel("time of the mean / (dp/u)")
-        panel.grid(color="#e4e4e4", linewidth=0.6)
-    axes[0][0].set_ylabel("largest / least of the runs")
-    axes[0][-1].legend(frameon=False, fontsize=8)
+    tanks = [r for r in rows if r.tank != BREAKING]
+    found, spacings = tb.impacts(tanks), sorted({r.rows for r in tanks})
+    figures = range(len(tb.FIGURES))
+
+    def column(label: str, colour: str, of_figure: Callable[[int], np.ndarray]) -> tuple[str, str, list[tuple[float, float, float]]]:
+        return label, colour, [(float(np.median(x)), *tb.band(x)) for x in map(of_figure, figures)]
+
+    def scatter_of(model: str, n: int) -> list[tuple[float, float, float]]:
+        return [(100 * d, 100 * d, 100 * d) for d in (tb.deviation(tb.all_values(found, model, n, k)) for k in figures)]
+
+    shown = [(m, n, COLOURS[m][i]) for m in ("void", "mmps") for i, n in enumerate(spacings) if there(found, m, n)]
+    first = [(f"{m}, {n} rows", colour, scatter_of(m, n)) for m, n, colour in shown]
+    second = [column(f"{m}, {a} / {b} rows", COLOURS[m][i + 1], lambda k, m=m, a=a, b=b: tb.ratios(found, (m, a), (m, b), k))
+              for m in ("void", "mmps") for i, (a, b) in enumerate(zip(spacings[1:], spacings)) if there(found, m, a) and there(found, m, b)]
+    third = [column(f"{m} / void, {n} rows", COLOURS[m][i], lambda k, m=m, n=n: tb.ratios(found, (m, n), ("void", n), k))
+             for m in ("pocket", "mmps") for i, n in enumerate(spacings) if len(tb.ratios(found, (m, n), ("void", n), 0)) > FEW]
+    panels = [p for p in ((first, "standard deviation of one run [%]"), (second, "fine / coarse: median and its band of 90 %"), (third, "with gas / void")) if p[0]]
+    figure, axes = plt.subplots(len(panels), 1, figsize=(8.6, 2.3 * len(panels)), squeeze=False)
+    for (columns, title), panel in zip(panels, axes[:, 0]):
+        draw(panel, columns, title)
+        if "/" in title:
+            panel.axhline(1, color="#333333", linewidth=0.7)
+        else:
+            panel.set_ylim(0, None)
     figure.tight_layout(pad=0.6)
     figure.savefig(path, metadata={"Date": None, "Creator": None})
 
