@@ -74,8 +74,8 @@ def highest(s: Signals, sensors: list[Impulse], lo: float, hi: float, length: fl
     return peak, float(rise)
 
 
-def intervals(t: np.ndarray, y: np.ndarray, threshold: float, window: float) -> list[tuple[float, float]]:
-    """Begins and ends of the events of a signal; those that the record cuts are left out."""
+def intervals(t: np.ndarray, y: np.ndarray, threshold: float, window: float, after: float) -> list[tuple[float, float]]:
+    """Begins and ends of the events of a signal; those without a time `after` them in the record are left out."""
     above = y >= threshold
     up = np.flatnonzero(above[1:] & ~above[:-1]) + 1
     down = np.flatnonzero(~above[1:] & above[:-1]) + 1
@@ -87,7 +87,7 @@ def intervals(t: np.ndarray, y: np.ndarray, threshold: float, window: float) -> 
             found[-1] = (found[-1][0], last)
         else:
             found.append((t[first], last))
-    return [e for e in found if e[1] + window < t[-1]]
+    return [e for e in found if e[1] + after < t[-1]]
 
 
 def find(s: Signals, walls: tuple[str, ...], depth: float, period: float, time_scale: float) -> list[Event]:
@@ -99,7 +99,7 @@ def find(s: Signals, walls: tuple[str, ...], depth: float, period: float, time_s
         sensors = [Impulse(s, n) for n in names]
         panels = [Impulse(s, n) for n in s.p if n == f"{wall}_panel"]
         signal = np.max([j.mean(s.t, means[1]) for j in sensors], axis=0)
-        for begin, end in intervals(s.t, signal, THRESHOLD * scale, WINDOW * period):
+        for begin, end in intervals(s.t, signal, THRESHOLD * scale, WINDOW * period, IMPULSE * time_scale):
             lo = begin - means[1]
 
             def figures(of: list[Impulse]) -> list[float]:

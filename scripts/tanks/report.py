@@ -58,7 +58,7 @@ def scatter(found: Found, spacings: list[int], all_models: list[str]) -> list[st
 
 
 def convergence(found: Found, spacings: list[int], all_models: list[str]) -> list[str]:
-    pairs = [(m, a, b) for m in all_models for i, b in enumerate(spacings) for a in spacings[i + 1:] if there(found, m, a) and there(found, m, b)]
+    pairs = [(m, a, b) for m in all_models for i, b in enumerate(spacings) for a in spacings[i + 1:] if len(tb.ratios(found, (m, a), (m, b), 0)) > FEW]
     lines = head(["fine / coarse", *(f"{m} {a}/{b}" for m, a, b in pairs)])
     for k, name in enumerate(tb.FIGURES):
         lines.append(line([name, *(middle(tb.ratios(found, (m, a), (m, b), k)) for m, a, b in pairs)]))
@@ -70,6 +70,20 @@ def models(found: Found, spacings: list[int], all_models: list[str]) -> list[str
     lines = head(["with gas / void", *(f"{m} {n}" for m, n in pairs)])
     for k, name in enumerate(tb.FIGURES):
         lines.append(line([name, *(middle(tb.ratios(found, (m, n), ("void", n), k)) for m, n in pairs)]))
+    return lines
+
+
+def pockets(found: Found, spacings: list[int]) -> list[str]:
+    """Impacts that a pocket changes, and whether it changes them by more than chance does: two runs of chance differ by sqrt(2) of the deviation."""
+    lines = head(["gas.pocket / void", "impacts", "that differ", "geometric mean", "standard deviation", "by chance"])
+    for n in spacings:
+        for k in (tb.FIVE, tb.FIVE + 1, tb.FIVE + 2):
+            x = tb.ratios(found, ("pocket", n), ("void", n), k)
+            other = x[np.abs(x - 1) > 1e-3]
+            chance = 2**0.5 * tb.deviation([y for m in spacings for y in tb.all_values(found, "void", m, k)])
+            if len(x):
+                cells = [f"{np.exp(np.log(other).mean()):.2f}", f"{100 * np.log(other).std(ddof=1):.0f} %"] if len(other) > 1 else ["-", "-"]
+                lines.append(line([f"{n} rows, {tb.FIGURES[k]}", str(len(x)), str(len(other)), *cells, f"{100 * chance:.0f} %"]))
     return lines
 
 
@@ -168,7 +182,7 @@ def write_plot(path: Path, rows: list[tb.Row]) -> None:
     shown = [(m, n, COLOURS[m][i]) for m in ("void", "mmps") for i, n in enumerate(spacings) if there(found, m, n)]
     first = [(f"{m}, {n} rows", colour, scatter_of(m, n)) for m, n, colour in shown]
     second = [column(f"{m}, {a} / {b} rows", COLOURS[m][i + 1], lambda k, m=m, a=a, b=b: tb.ratios(found, (m, a), (m, b), k))
-              for m in ("void", "mmps") for i, (a, b) in enumerate(zip(spacings[1:], spacings)) if there(found, m, a) and there(found, m, b)]
+              for m in ("void", "mmps") for i, (a, b) in enumerate(zip(spacings[1:], spacings)) if len(tb.ratios(found, (m, a), (m, b), 0)) > FEW]
     third = [column(f"{m} / void, {n} rows", COLOURS[m][i], lambda k, m=m, n=n: tb.ratios(found, (m, n), ("void", n), k))
              for m in ("pocket", "mmps") for i, n in enumerate(spacings) if len(tb.ratios(found, (m, n), ("void", n), 0)) > FEW]
     panels = [p for p in ((first, "standard deviation of one run [%]"), (second, "fine / coarse: median and its band of 90 %"), (third, "with gas / void")) if p[0]]
@@ -193,7 +207,7 @@ def write(rows: list[tb.Row], failed: list[tuple[str, ...]], depth: float) -> No
                          ("Scatter of single peaks by the time of their mean", by_time(found, all_models)),
                          ("Scatter of the peaks of all means by their rise", by_rise(found, all_models)),
                          ("Convergence: median of the impacts, band of 90 %", convergence(found, spacings, all_models)),
-                         ("Models", models(found, spacings, all_models)), ("Breaking wave of the paper, first impact, rho g depth and ms", paper(rows, depth)),
+                         ("Models", models(found, spacings, all_models)), ("Pockets", pockets(found, spacings)), ("Breaking wave of the paper, first impact, rho g depth and ms", paper(rows, depth)),
                          ("Failed", [" ".join(f) for f in failed])):
         print(f"\n{title}\n")
         print("\n".join(lines))

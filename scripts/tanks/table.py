@@ -132,12 +132,12 @@ def all_values(found: dict[Group, dict[int, Row]], model: str, rows: int, k: int
 
 
 def ratios(found: dict[Group, dict[int, Row]], above: tuple[str, int], below: tuple[str, int], k: int) -> np.ndarray:
-    """Means of each impact with one model and spacing over those with another; of the repeats that both have, two or more."""
+    """Means of each impact with one model and spacing over those with another; of the repeats that both have."""
     out = []
     for (tank, number, model, rows), r in found.items():
         other = found.get((tank, number, *below), {})
         both = r.keys() & other.keys()
-        if (model, rows) == above and len(both) > 1:
+        if (model, rows) == above and both:
             out.append(mean({n: r[n] for n in both}, k) / mean({n: other[n] for n in both}, k))
     return np.array(out)
 
