@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 MEANS = (0.001, 0.005, 0.020)  # [s] in a tank of 1 m
-IMPULSE = 0.060  # [s] from the begin of an event
+IMPULSE = 0.060  # [s] the largest impulse of so long a time: contact and what follows, whichever of several pulses begins the event
 THRESHOLD = 1.5  # of rho g depth, of the mean over MEANS[1]
 WINDOW = 0.2  # of the period of the motion
 RHO, G = 1000.0, 9.81
@@ -107,7 +107,8 @@ def find(s: Signals, walls: tuple[str, ...], depth: float, period: float, time_s
                     return []
                 peaks = [max(j.largest_mean(lo, max(end, lo + m), m) for j in of) for m in means]
                 whole = IMPULSE * time_scale
-                return [x / scale for x in peaks] + [max(float(j.at(lo + whole) - j.at(lo)) for j in of) / (scale * time_scale)]
+                most = max(j.largest_mean(lo, max(end, lo + whole), whole) for j in of)
+                return [x / scale for x in peaks] + [most / scale * IMPULSE]
 
             *peaks, impulse = figures(sensors)
             tops = [highest(s, sensors, lo, max(end, lo + np.max(m)), m) for m in (s.crossing, *means)]

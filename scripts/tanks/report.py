@@ -156,7 +156,7 @@ def draw(panel: Any, columns: list[tuple[str, str, list[tuple[float, float, floa
         x = np.arange(len(of_figures)) + 0.7 * ((i + 0.5) / len(columns) - 0.5)
         y, lo, hi = np.array(of_figures).T
         panel.errorbar(x, y, (y - lo, hi - y), fmt="o", color=colour, markersize=4, linewidth=1.2, label=label)
-    panel.set_xticks(range(len(tb.FIGURES)), [f.replace("panel, ", "panel\n").replace("peak ", "").replace("mean over ", "").replace("impulse", "impulse\n") for f in tb.FIGURES])
+    panel.set_xticks(range(len(tb.FIGURES)), [f.replace("panel, ", "panel\n").replace("peak ", "").replace("mean over ", "").replace("impulse of", "impulse\n") for f in tb.FIGURES])
     panel.set_title(title, loc="left", fontsize=9)
     panel.grid(axis="y", color="#e4e4e4", linewidth=0.6)
     panel.spines[["top", "right"]].set_visible(False)

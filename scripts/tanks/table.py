@@ -14,7 +14,7 @@ import numpy as np
 from cases import BREAKING, Run
 from runs import note_of, signals
 
-FIGURES = ("mean over dp/u", "peak 1 ms", "peak 5 ms", "peak 20 ms", "impulse 0-60 ms", "panel, peak 5 ms", "panel, peak 20 ms", "panel, impulse 0-60 ms")
+FIGURES = ("mean over dp/u", "peak 1 ms", "peak 5 ms", "peak 20 ms", "impulse of 60 ms", "panel, peak 5 ms", "panel, peak 20 ms", "panel, impulse of 60 ms")
 COLUMNS = ("tank", "model", "rows", "repeat", "wall", "t/T", "dp/u", "rise", "rise1", "rise5", "rise20", "p", "p1", "p5", "p20", "I", "panel5", "panel20", "panelI")
 BOTH = "void = pocket"  # model of a run without a pocket
 FIVE = 2  # of FIGURES: peak 5 ms
