@@ -12,7 +12,7 @@ enum { SMOOTH = 25 };
  * tanks with three spacings by scripts/impacts; docs/explanations/impacts.md has the table. */
 static const struct {
     double rise, deviation;
-} scatter_of[] = {{1.5, 0.31}, {2.5, 0.24}, {INFINITY, 0.20}};
+} scatter_of[] = {{1, 0.42}, {1.5, 0.36}, {INFINITY, 0.29}};
 
 /* Scatter of repeats below which a peak is good, and above which it is poor. */
 static const double SCATTER_GOOD = 0.2, SCATTER_POOR = 0.5;
@@ -251,8 +251,8 @@ static void expect_scatter(light *l, double steepest)
     l->state = by_limits(scatter_of[k].deviation, 0, SCATTER_POOR);
     snprintf(l->value, sizeof l->value, "one run");
     snprintf(l->text, sizeof l->text,
-             "Peaks of impacts differ from run to run, also in experiments. Those that rise in %s "
-             "crossing times scatter by %s %%: standard deviation in 20 tanks.",
+             "Peaks of impacts differ from run to run, also in experiments. In 20 tanks those that "
+             "rise in %s crossing times had a standard deviation of %s %%.",
              mps__rounded(rise, steepest), mps__rounded(number, 100 * scatter_of[k].deviation));
     snprintf(l->advice, sizeof l->advice,
              "One run of an impact is no answer: run five with slightly different spacings "
