@@ -17,15 +17,15 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 
 def options() -> argparse.Namespace:
     p = argparse.ArgumentParser(prog="scripts/impacts", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    p.add_argument("--program", type=Path, default=ROOT / "build/release/apps/mps/mps", metavar="FILE", help="the program mps, built already")
+    p.add_argument("--program", type=Path, default=ROOT / "build/release/apps/mps/mps", metavar="FILE", help="mps, built already")
     p.add_argument("--out", type=Path, default=ROOT / "out/impacts", metavar="DIR", help="folder of the runs (out/impacts)")
     p.add_argument("--rows", default="6,9,14", metavar="N,N", help="rows of particles over the depth (6,9,14)")
-    p.add_argument("--variants", default="pocket,void,mmps", metavar="NAME,NAME", help="pocket, void, mmps (all); void after pocket is quick")
+    p.add_argument("--variants", default="pocket,void,mmps", metavar="NAME,NAME", help="pocket, void, mmps (all, in this order)")
     p.add_argument("--tanks", metavar="N,N", help="numbers of tanks.csv; w22: breaking wave of Wen, Zhao & Wan 2022 (1 to 20)")
     p.add_argument("--repeats", type=int, default=10, metavar="N", help="at most so many runs of each (3 of a tank, 10 of w22)")
     p.add_argument("--minutes", type=float, default=1e9, metavar="M", help="begin no run after so many minutes")
     p.add_argument("--no-run", action="store_true", help="only read the table and the runs that are there")
-    p.add_argument("--table", type=Path, default=ROOT / "docs/records/impacts.csv", metavar="FILE", help="all events (docs/records/impacts.csv)")
+    p.add_argument("--table", type=Path, default=ROOT / "docs/records/impacts.csv", metavar="FILE", help="all impacts (in docs/records)")
     p.add_argument("--plot", type=Path, metavar="FILE", help="draw the scatter, e.g. docs/plots/impact_scatter.svg")
     p.add_argument("--cases", type=Path, metavar="DIR", help="write the case files there and stop")
     o = p.parse_args()
@@ -61,8 +61,9 @@ def all_events(o: argparse.Namespace) -> tuple[list[table.Row], list[tuple[str, 
 
 def main() -> int:
     o = options()
-    wanted = [Run(tank, rows, model, repeat) for rows in o.rows for repeat in range(max(tank.repeats for tank in o.tanks)) for tank in o.tanks
-              for model in o.variants if repeat < min(tank.repeats, o.repeats)]
+    most = min(o.repeats, max(tank.repeats for tank in o.tanks))
+    wanted = [Run(tank, rows, model, repeat) for rows in o.rows for repeat in range(most) for tank in o.tanks for model in o.variants
+              if repeat < tank.repeats]
     if o.cases:
         o.cases.mkdir(parents=True, exist_ok=True)
         for run in wanted:

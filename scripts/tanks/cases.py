@@ -119,7 +119,8 @@ class Run:
             lines += ["sensors:"] if self.variant == "pocket" else []
             lines += [f"run: {{until: {BREAKING_UNTIL} s, average: 0 s, threads: 1, step_factor: {self.factor:.6g}}}"]
         else:
-            lines += [f"base: {HERE}/base.yaml", f"title: tank {tank.name}", tank_text(tank), motion_text(tank), "sensors:", *sensors_text(tank)]
+            lines += [f"base: {HERE}/base.yaml", f"title: tank {tank.name}", tank_text(tank), motion_text(tank)]
+            lines += ["sensors:", *sensors_text(tank)]
             lines += [f"run: {{until: {tank.until:g} T1, average: 0 s, threads: 1, step_factor: {self.factor:.6g}}}"]
         if self.variant == "pocket":
             lines.insert(lines.index("sensors:") + 1, "  pockets: {measure: pockets}")

@@ -112,6 +112,7 @@ def find(s: Signals, walls: tuple[str, ...], depth: float, period: float, time_s
 
             *peaks, impulse = figures(sensors)
             tops = [highest(s, sensors, lo, max(end, lo + np.max(m)), m) for m in (s.crossing, *means)]
-            events.append(Event(wall, begin / period, float(np.interp(begin, s.t, s.crossing)) / time_scale, tuple(peaks), impulse, tuple(figures(panels)),
-                                tops[0][0] / scale, tuple(top[1] for top in tops)))
+            crossing = float(np.interp(begin, s.t, s.crossing)) / time_scale
+            events.append(Event(wall, begin / period, crossing, tuple(peaks), impulse, tuple(figures(panels)), tops[0][0] / scale,
+                                tuple(top[1] for top in tops)))
     return sorted(events, key=lambda e: e.t)

@@ -8,10 +8,10 @@ import numpy as np
 import table as tb
 from cases import BREAKING, VARIANTS
 
-EDGES = (0.0, 1.0, 2.5, np.inf)  # of the time of a mean over dp/u
+EDGES = (0.0, 0.5, 1.0, 2.5, np.inf)  # of the time of a mean over dp/u
 AIR = 1.2  # pressures with air are lower by this factor, by the paper
 FEW = 4
-RISES = (0.0, 1.0, 1.5, 2.5, 5.0, np.inf)  # of a peak, in dp/u
+RISES = (0.0, 1.0, 1.5, np.inf)  # of a peak, in dp/u
 
 Found = dict[tb.Group, dict[int, tb.Row]]
 
@@ -58,7 +58,8 @@ def scatter(found: Found, spacings: list[int], all_models: list[str]) -> list[st
 
 
 def convergence(found: Found, spacings: list[int], all_models: list[str]) -> list[str]:
-    pairs = [(m, a, b) for m in all_models for i, b in enumerate(spacings) for a in spacings[i + 1:] if len(tb.ratios(found, (m, a), (m, b), 0)) > FEW]
+    pairs = [(m, a, b) for m in all_models for i, b in enumerate(spacings) for a in spacings[i + 1:]]
+    pairs = [(m, a, b) for m, a, b in pairs if len(tb.ratios(found, (m, a), (m, b), 0)) > FEW]
     lines = head(["fine / coarse", *(f"{m} {a}/{b}" for m, a, b in pairs)])
     for k, name in enumerate(tb.FIGURES):
         lines.append(line([name, *(middle(tb.ratios(found, (m, a), (m, b), k)) for m, a, b in pairs)]))
@@ -74,7 +75,7 @@ def models(found: Found, spacings: list[int], all_models: list[str]) -> list[str
 
 
 def pockets(found: Found, spacings: list[int]) -> list[str]:
-    """Impacts that a pocket changes, and whether it changes them by more than chance does: two runs of chance differ by sqrt(2) of the deviation."""
+    """Impacts that a pocket changes, and whether by more than chance: two runs of chance differ by sqrt(2) of the deviation."""
     lines = head(["gas.pocket / void", "impacts", "that differ", "geometric mean", "standard deviation", "by chance"])
     for n in spacings:
         for k in (tb.FIVE, tb.FIVE + 1, tb.FIVE + 2):
@@ -82,7 +83,8 @@ def pockets(found: Found, spacings: list[int]) -> list[str]:
             other = x[np.abs(x - 1) > 1e-3]
             chance = 2**0.5 * tb.deviation([y for m in spacings for y in tb.all_values(found, "void", m, k)])
             if len(x):
-                cells = [f"{np.exp(np.log(other).mean()):.2f}", f"{100 * np.log(other).std(ddof=1):.0f} %"] if len(other) > 1 else ["-", "-"]
+                log = np.log(other)
+                cells = [f"{np.exp(log.mean()):.2f}", f"{100 * log.std(ddof=1):.0f} %"] if len(log) > 1 else ["-", "-"]
                 lines.append(line([f"{n} rows, {tb.FIGURES[k]}", str(len(x)), str(len(other)), *cells, f"{100 * chance:.0f} %"]))
     return lines
 
@@ -125,7 +127,7 @@ def first_peaks(rows: list[tb.Row], model: str, count: int) -> dict[int, tuple[f
 
 
 def paper(rows: list[tb.Row], depth: float) -> list[str]:
-    """Means and deviations of the runs; ratios of the means with bands of 90 % by resampling, and pairs of runs whose ratio is above AIR."""
+    """Means and deviations of the runs; ratios of the means with bands of 90 %, and pairs of runs whose ratio is above AIR."""
     lines = head(["dp [m]", "model", "runs", *tb.FIGURES[:5]])
     for count in sorted({r.rows for r in rows if r.tank == BREAKING}):
         void = np.array(list(first_peaks(rows, "void", count).values()))
@@ -133,7 +135,8 @@ def paper(rows: list[tb.Row], depth: float) -> list[str]:
             x = np.array(list(first_peaks(rows, model, count).values()))
             if len(x) < 2:
                 continue
-            lines.append(line([f"{depth / count:.3g}", model, str(len(x)), *(f"{np.mean(x[:, k]):.3g} +- {np.std(x[:, k], ddof=1):.2g}" for k in range(5))]))
+            cells = [f"{np.mean(x[:, k]):.3g} +- {np.std(x[:, k], ddof=1):.2g}" for k in range(5)]
+            lines.append(line([f"{depth / count:.3g}", model, str(len(x)), *cells]))
             if model != "void" and len(void) > 1:
                 lines.append(line([f"{depth / count:.3g}", f"void / {model}", "", *(of_means(void[:, k], x[:, k]) for k in range(5))]))
                 share = [np.mean(void[:, k][:, None] > AIR * x[:, k][None, :]) for k in range(5)]
@@ -143,11 +146,14 @@ def paper(rows: list[tb.Row], depth: float) -> list[str]:
 
 def of_means(above: np.ndarray, below: np.ndarray) -> str:
     drawn = np.random.default_rng(1)
-    lo, hi = np.percentile([drawn.choice(above, len(above)).mean() / drawn.choice(below, len(below)).mean() for _ in range(tb.RESAMPLES)], (5, 95))
+    pick = [drawn.choice(above, len(above)).mean() / drawn.choice(below, len(below)).mean() for _ in range(tb.RESAMPLES)]
+    lo, hi = np.percentile(pick, (5, 95))
     return f"{above.mean() / below.mean():.2f} ({lo:.2f}-{hi:.2f})"
 
 
-COLOURS = {"void": ("#a9c4e4", "#4c78a8", "#1f3f66"), "pocket": ("#b7dbae", "#54a24b", "#2a5a24"), "mmps": ("#fbc99a", "#f58518", "#9c4f05")}
+COLOURS = {"void": ("#a9c4e4", "#4c78a8", "#1f3f66"), "pocket": ("#b7dbae", "#54a24b", "#2a5a24"),
+           "mmps": ("#fbc99a", "#f58518", "#9c4f05")}  # coarse to fine
+LABELS = ("dp/u", "1 ms", "5 ms", "20 ms", "impulse\n60 ms", "panel\n5 ms", "panel\n20 ms", "panel\nimpulse\n60 ms")  # of FIGURES
 
 
 def draw(panel: Any, columns: list[tuple[str, str, list[tuple[float, float, float]]]], title: str) -> None:
@@ -156,7 +162,7 @@ def draw(panel: Any, columns: list[tuple[str, str, list[tuple[float, float, floa
         x = np.arange(len(of_figures)) + 0.7 * ((i + 0.5) / len(columns) - 0.5)
         y, lo, hi = np.array(of_figures).T
         panel.errorbar(x, y, (y - lo, hi - y), fmt="o", color=colour, markersize=4, linewidth=1.2, label=label)
-    panel.set_xticks(range(len(tb.FIGURES)), [f.replace("panel, ", "panel\n").replace("peak ", "").replace("mean over ", "").replace("impulse of", "impulse\n") for f in tb.FIGURES])
+    panel.set_xticks(range(len(LABELS)), LABELS)
     panel.set_title(title, loc="left", fontsize=9)
     panel.grid(axis="y", color="#e4e4e4", linewidth=0.6)
     panel.spines[["top", "right"]].set_visible(False)
@@ -182,10 +188,12 @@ def write_plot(path: Path, rows: list[tb.Row]) -> None:
     shown = [(m, n, COLOURS[m][i]) for m in ("void", "mmps") for i, n in enumerate(spacings) if there(found, m, n)]
     first = [(f"{m}, {n} rows", colour, scatter_of(m, n)) for m, n, colour in shown]
     second = [column(f"{m}, {a} / {b} rows", COLOURS[m][i + 1], lambda k, m=m, a=a, b=b: tb.ratios(found, (m, a), (m, b), k))
-              for m in ("void", "mmps") for i, (a, b) in enumerate(zip(spacings[1:], spacings)) if len(tb.ratios(found, (m, a), (m, b), 0)) > FEW]
+              for m in ("void", "mmps") for i, (a, b) in enumerate(zip(spacings[1:], spacings))
+              if len(tb.ratios(found, (m, a), (m, b), 0)) > FEW]
     third = [column(f"{m} / void, {n} rows", COLOURS[m][i], lambda k, m=m, n=n: tb.ratios(found, (m, n), ("void", n), k))
              for m in ("pocket", "mmps") for i, n in enumerate(spacings) if len(tb.ratios(found, (m, n), ("void", n), 0)) > FEW]
-    panels = [p for p in ((first, "standard deviation of one run [%]"), (second, "fine / coarse: median and its band of 90 %"), (third, "with gas / void")) if p[0]]
+    titled = ((first, "standard deviation of one run [%]"), (second, "fine / coarse: median, band of 90 %"), (third, "with gas / void"))
+    panels = [p for p in titled if p[0]]
     figure, axes = plt.subplots(len(panels), 1, figsize=(8.6, 2.3 * len(panels)), squeeze=False)
     for (columns, title), panel in zip(panels, axes[:, 0]):
         draw(panel, columns, title)
@@ -202,12 +210,17 @@ def write(rows: list[tb.Row], failed: list[tuple[str, ...]], depth: float) -> No
     tanks = [r for r in rows if r.tank != BREAKING]
     spacings, found = sorted({r.rows for r in tanks}), tb.impacts(tanks)
     all_models = [m for m in VARIANTS if any(r.model == m for r in tanks)]
-    for title, lines in (("Impacts", counts(found, tanks, spacings, all_models)), ("Scatter: standard deviation, and largest / least that one of ten exceeds", scatter(found, spacings, all_models)),
-                         ("Scatter of runs", of_runs(tanks, spacings, all_models)),
-                         ("Scatter of single peaks by the time of their mean", by_time(found, all_models)),
-                         ("Scatter of the peaks of all means by their rise", by_rise(found, all_models)),
-                         ("Convergence: median of the impacts, band of 90 %", convergence(found, spacings, all_models)),
-                         ("Models", models(found, spacings, all_models)), ("Pockets", pockets(found, spacings)), ("Breaking wave of the paper, first impact, rho g depth and ms", paper(rows, depth)),
-                         ("Failed", [" ".join(f) for f in failed])):
+    tables = {
+        "Impacts": counts(found, tanks, spacings, all_models),
+        "Scatter: standard deviation, and largest / least that one of ten exceeds": scatter(found, spacings, all_models),
+        "Scatter of runs": of_runs(tanks, spacings, all_models),
+        "Scatter of single peaks by the time of their mean": by_time(found, all_models),
+        "Scatter of the peaks of all means by their rise": by_rise(found, all_models),
+        "Convergence: median of the impacts, band of 90 %": convergence(found, spacings, all_models),
+        "Models": models(found, spacings, all_models),
+        "Pockets": pockets(found, spacings),
+        "Breaking wave of the paper, first impact, rho g depth and ms": paper(rows, depth),
+        "Failed": [" ".join(f) for f in failed]}
+    for title, lines in tables.items():
         print(f"\n{title}\n")
         print("\n".join(lines))

@@ -55,7 +55,8 @@ def execute(program: Path, out: Path, run: Run) -> None:
     shutil.rmtree(folder, ignore_errors=True)
     case.write_text(run.case(), encoding="utf-8")
     before, begin = os.times(), time.monotonic()
-    done = subprocess.run([str(program), "run", str(case), "-q", "-o", str(folder)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    command = [str(program), "run", str(case), "-q", "-o", str(folder)]
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     after = os.times()
     if done.returncode in (-2, 130):
         raise KeyboardInterrupt
@@ -82,7 +83,8 @@ def share(out: Path, run: Run) -> bool:
     if not note or note["exit"] != 0 or note.get("pockets", 1) != 0:
         return False
     shutil.copyfile(out / f"{other.name}.npz", out / f"{run.name}.npz")
-    (out / f"{run.name}.json").write_text(json.dumps(note | {"case": run.key, "cpu_s": 0, "same_as": other.name}, indent=1) + "\n", encoding="utf-8")
+    note |= {"case": run.key, "cpu_s": 0, "same_as": other.name}
+    (out / f"{run.name}.json").write_text(json.dumps(note, indent=1) + "\n", encoding="utf-8")
     print(f"{run.name}: no pocket in {other.name}, the same", flush=True)
     return True
 

@@ -14,8 +14,10 @@ import numpy as np
 from cases import BREAKING, Run
 from runs import note_of, signals
 
-FIGURES = ("mean over dp/u", "peak 1 ms", "peak 5 ms", "peak 20 ms", "impulse of 60 ms", "panel, peak 5 ms", "panel, peak 20 ms", "panel, impulse of 60 ms")
-COLUMNS = ("tank", "model", "rows", "repeat", "wall", "t/T", "dp/u", "rise", "rise1", "rise5", "rise20", "p", "p1", "p5", "p20", "I", "panel5", "panel20", "panelI")
+FIGURES = ("mean over dp/u", "peak 1 ms", "peak 5 ms", "peak 20 ms", "impulse of 60 ms", "panel, peak 5 ms", "panel, peak 20 ms",
+           "panel, impulse of 60 ms")
+COLUMNS = ("tank", "model", "rows", "repeat", "wall", "t/T", "dp/u", "rise", "rise1", "rise5", "rise20", "p", "p1", "p5", "p20", "I",
+           "panel5", "panel20", "panelI")
 BOTH = "void = pocket"  # model of a run without a pocket
 FIVE = 2  # of FIGURES: peak 5 ms
 SAME = 0.12  # of the period: events of one impact follow each other within this time, all runs together
@@ -51,7 +53,8 @@ def collect(out: Path, wanted: Iterable[Run]) -> tuple[list[Row], list[tuple[str
             continue
         for e in ev.find(s, run.tank.walls, run.tank.depth, run.tank.forced_period, run.tank.time_scale):
             panel = (e.panel[1], e.panel[2], 1e3 * e.panel[3]) if e.panel else (np.nan,) * 3
-            rows.append(Row(run.tank.name, run.variant, run.rows, run.repeat + 1, e.wall, e.t, 1e3 * e.crossing, e.rises, (e.resolved, *e.peaks, 1e3 * e.impulse, *panel)))
+            figures = (e.resolved, *e.peaks, 1e3 * e.impulse, *panel)
+            rows.append(Row(run.tank.name, run.variant, run.rows, run.repeat + 1, e.wall, e.t, 1e3 * e.crossing, e.rises, figures))
     return rows, failed
 
 
@@ -80,7 +83,8 @@ def read(path: Path) -> list[Row]:
 
     def row(d: dict[str, str], model: str) -> Row:
         x = [float(d[c]) if d[c] else np.nan for c in COLUMNS[7:]]
-        return Row(d["tank"], model, int(d["rows"]), int(d["repeat"]), d["wall"], float(d["t/T"]), float(d["dp/u"]), tuple(x[:4]), tuple(x[4:]))
+        t, crossing = float(d["t/T"]), float(d["dp/u"])
+        return Row(d["tank"], model, int(d["rows"]), int(d["repeat"]), d["wall"], t, crossing, tuple(x[:4]), tuple(x[4:]))
 
     return [row(d, model) for d in lines for model in (("void", "pocket") if d["model"] == BOTH else (d["model"],))]
 
@@ -180,7 +184,8 @@ def repeated(found: dict[Group, dict[int, Row]], model: str) -> list[dict[int, R
 
 def by_mean_time(found: dict[Group, dict[int, Row]], model: str, edges: tuple[float, ...]) -> list[Part]:
     """Scatter of peaks over fixed times, by this time over dp/u."""
-    pairs = [(1e3 * t / float(np.mean([x.crossing for x in r.values()])), values(r, k)) for r in repeated(found, model) for k, t in enumerate(ev.MEANS, 1)]
+    pairs = [(1e3 * t / float(np.mean([x.crossing for x in r.values()])), values(r, k)) for r in repeated(found, model)
+             for k, t in enumerate(ev.MEANS, 1)]
     return parts([x for x, _ in pairs], [y for _, y in pairs], edges)
 
 

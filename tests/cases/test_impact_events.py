@@ -82,7 +82,7 @@ def row(model, rows, repeat, t, peak, tank="1", rise=1.0):
 def statistics(folder):
     """Repeats of 4, 6 and 9: deviation ln 1.5, largest over least 9/4; a model of half of it; a low event that does not count."""
     rows = [row("void", 10, k, 1 + 0.03 * k, 4 * 1.5**k) for k in range(3)] + [row("pocket", 10, k, 1, 2 * 1.5**k) for k in range(3)]
-    rows += [row("void", 20, k, 1.05, 12 * 1.5**k, rise=3.0) for k in range(3)] + [row("pocket", 20, k, 1.05, 12 * 1.5**k, rise=3.0) for k in range(3)]
+    rows += [row(model, 20, k, 1.05, 12 * 1.5**k, rise=3.0) for model in ("void", "pocket") for k in range(3)]
     low = [row("void", 10, k, 2, 2) for k in range(3)]
     table.write(folder / "impacts.csv", rows + low)
     again = table.read(folder / "impacts.csv")
