@@ -31,13 +31,6 @@
 #define SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), #type)
 #define AT(type, member, bytes) _Static_assert(offsetof(type, member) == (bytes), #type "." #member)
 
-SIZE(mps_load, 456);
-AT(mps_load, struct_size, 0); AT(mps_load, has_mass, 4);
-AT(mps_load, force, 8); AT(mps_load, rest, 56);
-AT(mps_load, mass, 104); AT(mps_load, acceleration, 392);
-AT(mps_load, dt, 440); AT(mps_load, iterations, 448);
-AT(mps_load, reserved, 452);
-
 SIZE(mps_case_message, 40);
 AT(mps_case_message, struct_size, 0); AT(mps_case_message, warning, 4); AT(mps_case_message, line, 8);
 AT(mps_case_message, column, 12); AT(mps_case_message, file, 16); AT(mps_case_message, text, 24);
