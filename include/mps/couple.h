@@ -103,7 +103,7 @@ MPS_API mps_status mps_motion_pose_set(mps_sim *sim, double t_end, const mps_mot
 enum {
     /** Nothing (default). */
     MPS_LOAD_NONE = 0,
-    /** The load: about 1 % of a step. */
+    /** The load: about 2 % of a step. */
     MPS_LOAD_FORCE = 1,
     /** The load and the added mass: one more solution of the pressure equation for each degree of
      *  freedom, with the matrix and the preconditioner of the step. */

@@ -18,7 +18,7 @@ static mps_status add_guess(mps__world *w)
     if (w->mass.guess) return MPS_OK;
     MPS__TRY(mps__particles_field_add(s, "mass_pressure", w->setup.dim == 3 ? 6 : 3, sizeof(double),
                                       false, (void **)&w->mass.guess));
-    s->field[s->fields - 1].passing = true;
+    mps__particles_field(s, "mass_pressure")->passing = true;
     return MPS_OK;
 }
 

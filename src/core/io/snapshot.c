@@ -188,6 +188,7 @@ static mps_status reserve_places(mps_snapshot *k, arrival *a)
     if (mps__ranks_many(&w->ranks)) {
         if (fields_of(s) != s->fields) return MPS_OK; /* there is one */
         MPS__TRY(mps__particles_field_add(s, listed_field, s->dim, sizeof(double), false, NULL));
+        s->field[s->fields - 1].trails = true;
         a->field = true;
         return MPS_OK;
     }

@@ -5,6 +5,18 @@
 #include <mps/particles.h>
 #include <string.h>
 
+/* A field that will be dropped stays behind a new one. */
+static void keep_last(mps__particles *s)
+{
+    mps__field *a = &s->field[s->fields - 2], *b = a + 1;
+    if (s->fields < 2 || !a->trails) return;
+    const mps__field last = *a;
+    *a = *b;
+    *b = last;
+    if (a->data == &b->own) a->data = &a->own;
+    if (b->data == &a->own) b->data = &b->own;
+}
+
 mps_status mps__particles_field_add(mps__particles *s, const char *name, int32_t components,
                                     size_t size, bool is_public, void **data)
 {
@@ -21,6 +33,7 @@ mps_status mps__particles_field_add(mps__particles *s, const char *name, int32_t
     *f->data = mps__alloc(s->context, s->capacity * components, size);
     if (!*f->data) return MPS_E_NOMEM;
     s->fields++;
+    keep_last(s);
     return MPS_OK;
 }
 

@@ -105,7 +105,7 @@ MPS_ROW void add_half(const int dim, const mps_view *v, const half_fields *f, in
 }
 MPS_SUMS(add_halves, add_half, half_fields)
 
-enum { ACCELERATION, TANK, DENSITY, REGION, USES };
+enum { ACCELERATION, TANK, DENSITY, REGION, CORRECTION, USES };
 
 static mps_status sum_half_cells(mps_stage *s)
 {
@@ -122,10 +122,13 @@ static mps_status sum_half_cells(mps_stage *s)
     return MPS_OK;
 }
 
-static const mps_use half_uses[USES] = {[ACCELERATION] = {"acceleration", MPS_USE_NEIGHBOURS},
-                                        [TANK] = {"tank_acceleration", MPS_USE_READ},
-                                        [DENSITY] = {"pressure_density", MPS_USE_READ},
-                                        [REGION] = {"region", MPS_USE_NEIGHBOURS}};
+static const mps_use half_uses[USES] = {
+    [ACCELERATION] = {"acceleration", MPS_USE_NEIGHBOURS},
+    [TANK] = {"tank_acceleration", MPS_USE_READ},
+    [DENSITY] = {"pressure_density", MPS_USE_READ},
+    [REGION] = {"region", MPS_USE_NEIGHBOURS},
+    /* it lives until the added mass has been computed */
+    [CORRECTION] = {"correction", MPS_USE_READ | MPS_USE_OPTIONAL}};
 
 const mps__pass mps__pass_half_cells = {.name = "half_cells",
                                         .hook = MPS_LOAD,

@@ -199,8 +199,10 @@ mps_status mps__world_replace(mps__world *w, int64_t n, const void *const from[]
     const void *all[MPS__FIELDS_MAX] = {NULL};
     memcpy(all, from, (size_t)s->fields * sizeof *all);
     const bool travels = mps__ranks_many(&w->ranks) && listed;
-    if (travels)
+    if (travels) {
         MPS__TRY(mps__particles_field_add(s, listed_field, s->dim, sizeof(double), false, NULL));
+        s->field[s->fields - 1].trails = true;
+    }
     const mps_status status = mps__particles_replace(s, n, all);
     if (status < 0 && travels) mps__particles_field_drop(s);
     if (status < 0 || !mps__ranks_many(&w->ranks)) return status;
@@ -230,8 +232,10 @@ static void exchange_places(mps__particles *s, double *other)
 mps_status mps__world_list_again(mps__world *w, mps_status (*search)(mps__world *w))
 {
     mps__particles *s = &w->particles;
-    if (w->lists.listed_at && !mps__particles_field(s, listed_field))
+    if (w->lists.listed_at && !mps__particles_field(s, listed_field)) {
         MPS__TRY(mps__particles_field_add(s, listed_field, s->dim, sizeof(double), false, NULL));
+        s->field[s->fields - 1].trails = true;
+    }
     mps__world_keep_listed(w);
     const mps__field *f = mps__particles_field(s, listed_field);
     if (!f) return MPS_OK;
