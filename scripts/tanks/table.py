@@ -2,7 +2,7 @@
 """The events of all runs as a table in a file, and what follows from it: scatter, convergence, ratios of models.
 
 Events of different runs of a tank are the same impact if they are at the same wall at nearly the same time. Only impacts that all runs
-of a comparison have are compared, and only those that are steep and high in the median of all runs."""
+of a comparison have are compared, and only those that are high in the median of the runs without gas."""
 import csv
 from collections import defaultdict
 from collections.abc import Callable, Iterable
@@ -21,7 +21,7 @@ COLUMNS = ("tank", "model", "rows", "repeat", "wall", "t/T", "dp/u", "rise", "ri
 BOTH = "void = pocket"  # model of a run without a pocket
 FIVE = 2  # of FIGURES: peak 5 ms
 SAME = 0.12  # of the period: events of one impact follow each other within this time, all runs together
-LEAST = 3.0  # rho g depth: median of the 5 ms peaks of an impact that counts
+LEAST = 3.0  # rho g depth: median of the 5 ms peaks without gas of an impact that counts
 RESAMPLES = 1000
 
 
@@ -105,7 +105,8 @@ def groups(rows: list[Row]) -> dict[tuple[str, int], list[Row]]:
             for part in np.split(np.arange(len(here)), breaks):
                 same = [here[i] for i in part]
                 number += 1
-                if np.median([r.figures[FIVE] for r in same]) >= LEAST:
+                void = [r.figures[FIVE] for r in same if r.model == "void"]
+                if void and np.median(void) >= LEAST:
                     found[(tank, number)] = same
     return found
 

@@ -130,7 +130,7 @@ static void verdicts(void **unused)
                "Particles lost <span class=\"state\">good",
                "Resolution of impacts <span class=\"state\">good",
                "One run of an impact is no answer", "Repeats <span class=\"state\">check",
-               "crossing times had a standard deviation of 29 %");
+               "crossing times had a standard deviation of 31 %");
     snprintf(text, sizeof text,
              "%s0,0,0,10,0,0,0,0\n1,5,4,12,1,0.5,0.5,-0.03\n2,5,4,12,2.5,1,0.5,0.06\n", head);
     text_write(&s, "probes.csv", text);
