@@ -224,7 +224,7 @@ static void copy_fields(const mps_snapshot *k)
 
 static bool is_own(const mps_snapshot *k, int64_t i)
 {
-    return i >= k->known || !k->ghost || !k->ghost[i];
+    return i >= k->known || mps__owns(k->ghost, i);
 }
 
 /* Other particles: the own ones of the snapshot, in their order. Ghosts come with the next search. There is room. */
