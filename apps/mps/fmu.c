@@ -71,12 +71,19 @@ static void describe(fmu_about *a, const choices *c, const mps_case *tank)
     fmu_token(mps_case_text(tank), a->token);
 }
 
+/* With --quiet. */
+static void say_nothing(void *user, int32_t kind, const char *text)
+{
+    (void)user, (void)kind, (void)text;
+}
+
 /* The case must run: its simulation is built. The number of dimensions is known then. */
 static bool try_case(const choices *c, mps_case *tank, int32_t *dim)
 {
     fmu_model m = {.folder = ""};
     char error[ERROR_SIZE] = "";
-    const bool good = fmu_model_open(&m, tank, NULL, NULL, error, sizeof error);
+    const bool good = fmu_model_open(&m, tank, c->quiet ? say_nothing : NULL, NULL, error,
+                                     sizeof error);
     *dim = m.dim;
     m.c = NULL; /* it is the caller's */
     fmu_model_close(&m);
@@ -96,8 +103,8 @@ static bool write_fmu(const char *path, const fmu_about *a, const part *p, const
     z.file = fopen(next, "wb");
     if (!z.file) return false;
     zip_add(&z, "modelDescription.xml", p[0].data, p[0].size);
-    snprintf(name, sizeof name, "binaries/%s/%s.so", a->version == 2 ? "linux64" : MODULE_PROCESSOR "-linux",
-             a->identifier);
+    snprintf(name, sizeof name, "binaries/%s/%s.so",
+             a->version == 2 ? "linux64" : MODULE_PROCESSOR "-linux", a->identifier);
     zip_add(&z, name, p[2].data, p[2].size);
     zip_add(&z, "resources/case.yaml", text, strlen(text));
     zip_add(&z, "documentation/index.html", p[1].data, p[1].size);
@@ -120,7 +127,8 @@ static int make(const choices *c, mps_case *tank, const char *path)
     describe(&a, c, tank);
     if (!find_module(module, sizeof module) || !read_part(&p[2], module))
         code = refuse(c, MPS_EXIT_FAILED, module, strerror(errno));
-    else if (!write_part(&p[0], fmu_write_description, &a) || !write_part(&p[1], fmu_write_page, &a))
+    else if (!write_part(&p[0], fmu_write_description, &a) ||
+             !write_part(&p[1], fmu_write_page, &a))
         code = refuse(c, MPS_EXIT_FAILED, path, "no memory");
     else if (!write_fmu(path, &a, p, mps_case_text(tank)))
         code = refuse(c, MPS_EXIT_FAILED, path, strerror(errno));

@@ -8,9 +8,9 @@
 static const struct {
     const char *name;
     int dim, kg, m, s, rad; /* dim 0: in both */
-} units[] = {{"s", 0, 0, 0, 1, 0},       {"m", 0, 0, 1, 0, 0},      {"m/s", 0, 0, 1, -1, 0},
-             {"m/s2", 0, 0, 1, -2, 0},   {"rad", 0, 0, 0, 0, 1},    {"rad/s", 0, 0, 0, -1, 1},
-             {"rad/s2", 0, 0, 0, -2, 1}, {"N", 3, 1, 1, -2, 0},     {"N.m", 3, 1, 2, -2, 0},
+} units[] = {{"s", 0, 0, 0, 1, 0},       {"m", 0, 0, 1, 0, 0},     {"m/s", 0, 0, 1, -1, 0},
+             {"m/s2", 0, 0, 1, -2, 0},   {"rad", 0, 0, 0, 0, 1},   {"rad/s", 0, 0, 0, -1, 1},
+             {"rad/s2", 0, 0, 0, -2, 1}, {"N", 3, 1, 1, -2, 0},    {"N.m", 3, 1, 2, -2, 0},
              {"N/m", 2, 1, 0, -2, 0},    {"N.m/m", 2, 1, 1, -2, 0}};
 
 static void put_text(FILE *out, const char *text)
@@ -68,8 +68,7 @@ static void put_outputs(FILE *out, const fmu_about *a, const char *name, const c
     fmu_variable v;
     for (int32_t i = 0; fmu_variable_at(a->dim, i, &v); i++) {
         if (v.input || v.kind == FMU_TIME) continue;
-        fprintf(out, "    <%s %s=\"%u\"%s/>\n", name,
-                a->version == 2 ? "index" : "valueReference",
+        fprintf(out, "    <%s %s=\"%u\"%s/>\n", name, a->version == 2 ? "index" : "valueReference",
                 a->version == 2 ? (unsigned)i + 1 : (unsigned)v.reference, dependencies);
     }
 }
@@ -94,17 +93,22 @@ void fmu_write_description(FILE *out, const fmu_about *a)
 {
     const bool two = a->version == 2;
     fmu_variable v;
-    fprintf(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiModelDescription "
-                 "fmiVersion=\"%s\" modelName=\"", two ? "2.0" : "3.0");
+    fprintf(out,
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiModelDescription "
+            "fmiVersion=\"%s\" modelName=\"",
+            two ? "2.0" : "3.0");
     put_text(out, a->name);
-    fprintf(out, "\" description=\"A tank with liquid: pose in, load of the liquid out\"\n  "
-                 "generationTool=\"libmps %s\" variableNamingConvention=\"structured\" %s=\"%s\">\n",
+    fprintf(out,
+            "\" description=\"A tank with liquid: pose in, load of the liquid out\"\n  "
+            "generationTool=\"libmps %s\" variableNamingConvention=\"structured\" %s=\"%s\">\n",
             mps_version(NULL, NULL, NULL), two ? "guid" : "instantiationToken", a->token);
-    fprintf(out, "  <CoSimulation modelIdentifier=\"%s\"\n    "
-                 "canHandleVariableCommunicationStepSize=\"true\" %s=\"true\" %s=\"true\" %s=\"true\"/>\n",
-            a->identifier, two ? "canGetAndSetFMUstate" : "canGetAndSetFMUState",
-            two ? "canSerializeFMUstate" : "canSerializeFMUState",
-            two ? "providesDirectionalDerivative" : "providesDirectionalDerivatives");
+    fprintf(
+        out,
+        "  <CoSimulation modelIdentifier=\"%s\"\n    "
+        "canHandleVariableCommunicationStepSize=\"true\" %s=\"true\" %s=\"true\" %s=\"true\"/>\n",
+        a->identifier, two ? "canGetAndSetFMUstate" : "canGetAndSetFMUState",
+        two ? "canSerializeFMUstate" : "canSerializeFMUState",
+        two ? "providesDirectionalDerivative" : "providesDirectionalDerivatives");
     put_units(out, a->dim);
     fprintf(out, "  <LogCategories>\n    <Category name=\"logAll\"/>\n    <Category "
                  "name=\"logStatusWarning\"/>\n    <Category name=\"logStatusDiscard\"/>\n    "
@@ -122,17 +126,19 @@ void fmu_write_page(FILE *out, const fmu_about *a)
     put_text(out, a->name);
     fprintf(out, "</title>\n<h1>");
     put_text(out, a->name);
-    fprintf(out,
-            "</h1>\n<p>A tank with liquid, by libmps %s. The importer says where the tank is at the "
-            "end of the next step; the tank says what the liquid does to it, F = F0 - A a. "
-            "Directional derivatives of force and moment by the accelerations are -A.%s</p>\n"
-            "<table><tr><th>reference<th>name<th>unit<th>what\n",
-            mps_version(NULL, NULL, NULL), a->dim == 2 ? " Loads are per metre of width." : "");
+    fprintf(
+        out,
+        "</h1>\n<p>A tank with liquid, by libmps %s. The importer says where the tank is at the "
+        "end of the next step; the tank says what the liquid does to it, F = F0 - A a. "
+        "Directional derivatives of force and moment by the accelerations are -A.%s</p>\n"
+        "<table><tr><th>reference<th>name<th>unit<th>what\n",
+        mps_version(NULL, NULL, NULL), a->dim == 2 ? " Loads are per metre of width." : "");
     for (int32_t i = 0; fmu_variable_at(a->dim, i, &v); i++)
         fprintf(out, "<tr><td>%u<td>%s<td>%s<td>%s\n", (unsigned)v.reference, v.name, v.unit,
                 v.about);
-    fprintf(out, "</table>\n<p>The case is resources/case.yaml. The file in binaries needs SUNDIALS, "
-                 "SuiteSparse, libyaml, cairo and zlib of the system.</p>\n<pre>");
+    fprintf(out,
+            "</table>\n<p>The case is resources/case.yaml. The file in binaries needs SUNDIALS, "
+            "SuiteSparse, libyaml, cairo and zlib of the system.</p>\n<pre>");
     for (const char *line = fmu_licence; *line;) {
         const size_t length = strcspn(line, "\n");
         fprintf(out, "%.*s\n", (int)length, line);

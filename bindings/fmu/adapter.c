@@ -194,7 +194,7 @@ fmu_status fmu_get(fmu *f, const uint32_t *reference, size_t count, double *valu
     fmu_variable v;
     for (size_t k = 0; k < count; k++) {
         if (find(f, "get", reference[k], &v) != FMU_OK) return FMU_ERROR;
-        value[k] = v.input               ? f->v.input[v.kind - FMU_POSE][v.dof]
+        value[k] = v.input              ? f->v.input[v.kind - FMU_POSE][v.dof]
                    : v.kind == FMU_LOAD ? f->v.load[v.dof]
                    : v.kind == FMU_REST ? f->v.rest[v.dof]
                                         : f->v.time;
@@ -207,8 +207,9 @@ fmu_status fmu_get(fmu *f, const uint32_t *reference, size_t count, double *valu
 /* Sums over the steps of the library within one of the importer, each times its length. */
 typedef struct sums {
     double length, load[MPS_DOF_COUNT], rest[MPS_DOF_COUNT], mass[MPS_DOF_COUNT * MPS_DOF_COUNT];
-    const double *kept; /* the added mass before, for steps whose own is not known; NULL: there is none */
-    int32_t without;    /* such steps */
+    const double
+        *kept; /* the added mass before, for steps whose own is not known; NULL: there is none */
+    int32_t without; /* such steps */
     mps_status failed;
 } sums;
 
@@ -263,8 +264,7 @@ static fmu_status run(fmu *f, double t_end)
     sums s = {.kept = f->v.has_mass ? f->v.mass : NULL};
     mps_sim *sim = f->model.sim;
     inputs_to(f, &state);
-    if (mps_motion_pose_set(sim, t_end, &state) != MPS_OK)
-        return fmu_refused(f, FMU_ERROR, "step");
+    if (mps_motion_pose_set(sim, t_end, &state) != MPS_OK) return fmu_refused(f, FMU_ERROR, "step");
     const mps_status status = mps_run(sim, t_end, add_step, &s);
     if (status < 0 || s.failed < 0) {
         const bool shorter = status == MPS_E_DIVERGED || status == MPS_E_LOST ||
@@ -276,8 +276,10 @@ static fmu_status run(fmu *f, double t_end)
     }
     take_means(f, &s);
     if (s.without > 0)
-        fmu_tell(f, FMU_WARNING, "step: the added mass of %d steps is not known, that before is "
-                 "kept", (int)s.without);
+        fmu_tell(f, FMU_WARNING,
+                 "step: the added mass of %d steps is not known, that before is "
+                 "kept",
+                 (int)s.without);
     return s.without > 0 ? FMU_WARNING : FMU_OK;
 }
 
@@ -290,7 +292,8 @@ fmu_status fmu_step(fmu *f, double time, double length)
     if (fabs(time - f->v.time) > 1e-6 * length)
         return fmu_tell(f, FMU_ERROR,
                         "step: begins at %.10g s, but the tank is at %.10g s: restore a state to "
-                        "go back", time, f->v.time);
+                        "go back",
+                        time, f->v.time);
     if (mps_snapshot_take(f->before) != MPS_OK) return fmu_refused(f, FMU_ERROR, "step");
     const fmu_status status = run(f, time + length - f->v.start);
     if (status <= FMU_WARNING) f->v.time = time + length;
@@ -315,8 +318,7 @@ static double slope(const fmu *f, int32_t i, int32_t k)
 fmu_status fmu_derivative(fmu *f, const fmu_direction *d)
 {
     fmu_variable u, v;
-    if (!f->v.has_mass)
-        return fmu_tell(f, FMU_ERROR, "derivative: is known after the first step");
+    if (!f->v.has_mass) return fmu_tell(f, FMU_ERROR, "derivative: is known after the first step");
     for (size_t k = 0; k < d->knowns; k++) {
         if (find(f, "derivative", d->known[k], &v) != FMU_OK) return FMU_ERROR;
         if (!v.input) return fmu_tell(f, FMU_ERROR, "derivative: '%s' is no input", v.name);
@@ -325,7 +327,8 @@ fmu_status fmu_derivative(fmu *f, const fmu_direction *d)
     }
     for (size_t i = 0; i < d->unknowns; i++) {
         if (find(f, "derivative", d->unknown[i], &u) != FMU_OK) return FMU_ERROR;
-        if (u.kind < FMU_LOAD) return fmu_tell(f, FMU_ERROR, "derivative: '%s' is no output", u.name);
+        if (u.kind < FMU_LOAD)
+            return fmu_tell(f, FMU_ERROR, "derivative: '%s' is no output", u.name);
     }
     for (size_t i = 0; i < d->unknowns; i++) {
         d->out[i] = 0;

@@ -28,9 +28,9 @@ typedef struct fmu_state fmu_state;
 struct fmu {
     fmu_model model;
     fmu_values v;
-    mps_motion_state hold;       /* where the tank stands before the first step */
+    mps_motion_state hold;         /* where the tank stands before the first step */
     mps_snapshot *origin, *before; /* as built; as at the beginning of a call */
-    fmu_state *states;           /* all that the importer has */
+    fmu_state *states;             /* all that the importer has */
     fmu_say_fn say;
     void *user;
     bool chatty; /* what the library logs goes to the importer too */

@@ -12,7 +12,7 @@ typedef struct instance {
     fmu *tank;
     char *name;
     fmi2_callbacks callbacks;
-    double start; /* of fmi2SetupExperiment() */
+    double start;     /* of fmi2SetupExperiment() */
     fmi2_status last; /* of the last step */
 } instance;
 
@@ -21,8 +21,8 @@ MPS_API fmi2_debug fmi2SetDebugLogging;
 MPS_API fmi2_instantiate fmi2Instantiate;
 MPS_API fmi2_free_instance fmi2FreeInstance;
 MPS_API fmi2_setup fmi2SetupExperiment;
-MPS_API fmi2_call fmi2EnterInitializationMode, fmi2ExitInitializationMode, fmi2Terminate,
-    fmi2Reset, fmi2CancelStep;
+MPS_API fmi2_call fmi2EnterInitializationMode, fmi2ExitInitializationMode, fmi2Terminate, fmi2Reset,
+    fmi2CancelStep;
 MPS_API fmi2_get fmi2GetReal;
 MPS_API fmi2_set fmi2SetReal;
 MPS_API fmi2_state_get fmi2GetFMUstate, fmi2FreeFMUstate;
@@ -244,7 +244,8 @@ fmi2_status fmi2SerializeFMUstate(void *c, void *state, char *out, size_t size)
     size_t needed;
     if (fmu_state_bytes(f, state, &bytes, &needed) != FMU_OK) return FMU_ERROR;
     if (size < needed)
-        return fmu_tell(f, FMU_ERROR, "state as bytes: %zu bytes are too few for %zu", size, needed);
+        return fmu_tell(f, FMU_ERROR, "state as bytes: %zu bytes are too few for %zu", size,
+                        needed);
     memcpy(out, bytes, needed);
     return FMU_OK;
 }
@@ -252,8 +253,8 @@ fmi2_status fmi2SerializeFMUstate(void *c, void *state, char *out, size_t size)
 fmi2_status fmi2DeSerializeFMUstate(void *c, const char *bytes, size_t size, void **state)
 {
     fmu_state *s = NULL;
-    const fmu_status status =
-        fmu_state_read(((instance *)c)->tank, (const unsigned char *)bytes, size, &s);
+    const fmu_status status = fmu_state_read(((instance *)c)->tank, (const unsigned char *)bytes,
+                                             size, &s);
     if (status == FMU_OK) *state = s;
     return status;
 }

@@ -6,18 +6,18 @@
 
 enum { OK = 0, DISCARD = 2, REFUSED = 3 };
 
-#define VALUES(NAME, TYPE)                                                                   \
-    MPS_API int fmi2Get##NAME(void *, const unsigned *, size_t, TYPE *);                     \
-    MPS_API int fmi2Set##NAME(void *, const unsigned *, size_t, const TYPE *);               \
-    int fmi2Get##NAME(void *c, const unsigned *reference, size_t count, TYPE *value)         \
-    {                                                                                        \
-        (void)c, (void)reference, (void)value;                                               \
-        return count ? REFUSED : OK;                                                         \
-    }                                                                                        \
-    int fmi2Set##NAME(void *c, const unsigned *reference, size_t count, const TYPE *value)   \
-    {                                                                                        \
-        (void)c, (void)reference, (void)value;                                               \
-        return count ? REFUSED : OK;                                                         \
+#define VALUES(NAME, TYPE)                                                                 \
+    MPS_API int fmi2Get##NAME(void *, const unsigned *, size_t, TYPE *);                   \
+    MPS_API int fmi2Set##NAME(void *, const unsigned *, size_t, const TYPE *);             \
+    int fmi2Get##NAME(void *c, const unsigned *reference, size_t count, TYPE *value)       \
+    {                                                                                      \
+        (void)c, (void)reference, (void)value;                                             \
+        return count ? REFUSED : OK;                                                       \
+    }                                                                                      \
+    int fmi2Set##NAME(void *c, const unsigned *reference, size_t count, const TYPE *value) \
+    {                                                                                      \
+        (void)c, (void)reference, (void)value;                                             \
+        return count ? REFUSED : OK;                                                       \
     }
 VALUES(Integer, int)
 VALUES(Boolean, int)

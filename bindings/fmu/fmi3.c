@@ -177,7 +177,8 @@ fmi3_status fmi3SerializeFMUState(void *c, void *state, uint8_t *out, size_t siz
     size_t needed;
     if (fmu_state_bytes(f, state, &bytes, &needed) != FMU_OK) return FMU_ERROR;
     if (size < needed)
-        return fmu_tell(f, FMU_ERROR, "state as bytes: %zu bytes are too few for %zu", size, needed);
+        return fmu_tell(f, FMU_ERROR, "state as bytes: %zu bytes are too few for %zu", size,
+                        needed);
     memcpy(out, bytes, needed);
     return FMU_OK;
 }

@@ -8,19 +8,20 @@
 
 enum { OK = 0, REFUSED = 3 };
 
-#define VALUES(NAME, TYPE)                                                                          \
-    MPS_API int fmi3Get##NAME(void *, const uint32_t *, size_t, TYPE *, size_t);                    \
-    MPS_API int fmi3Set##NAME(void *, const uint32_t *, size_t, const TYPE *, size_t);              \
-    int fmi3Get##NAME(void *c, const uint32_t *reference, size_t count, TYPE *value, size_t values) \
-    {                                                                                               \
-        (void)c, (void)reference, (void)value, (void)values;                                        \
-        return count ? REFUSED : OK;                                                                \
-    }                                                                                               \
-    int fmi3Set##NAME(void *c, const uint32_t *reference, size_t count, const TYPE *value,          \
-                      size_t values)                                                                \
-    {                                                                                               \
-        (void)c, (void)reference, (void)value, (void)values;                                        \
-        return count ? REFUSED : OK;                                                                \
+#define VALUES(NAME, TYPE)                                                                 \
+    MPS_API int fmi3Get##NAME(void *, const uint32_t *, size_t, TYPE *, size_t);           \
+    MPS_API int fmi3Set##NAME(void *, const uint32_t *, size_t, const TYPE *, size_t);     \
+    int fmi3Get##NAME(void *c, const uint32_t *reference, size_t count, TYPE *value,       \
+                      size_t values)                                                       \
+    {                                                                                      \
+        (void)c, (void)reference, (void)value, (void)values;                               \
+        return count ? REFUSED : OK;                                                       \
+    }                                                                                      \
+    int fmi3Set##NAME(void *c, const uint32_t *reference, size_t count, const TYPE *value, \
+                      size_t values)                                                       \
+    {                                                                                      \
+        (void)c, (void)reference, (void)value, (void)values;                               \
+        return count ? REFUSED : OK;                                                       \
     }
 VALUES(Float32, float)
 VALUES(Int8, int8_t)
@@ -35,12 +36,12 @@ VALUES(Boolean, bool)
 VALUES(String, const char *)
 
 /* A call that always refuses: more arguments may come, they are not looked at. */
-#define REFUSE(NAME, ...)       \
+#define REFUSE(NAME, ...)          \
     MPS_API int NAME(__VA_ARGS__); \
     int NAME(__VA_ARGS__)
-#define BODY(...)      \
-    {                  \
-        __VA_ARGS__;   \
+#define BODY(...)       \
+    {                   \
+        __VA_ARGS__;    \
         return REFUSED; \
     }
 typedef const uint32_t *refs;

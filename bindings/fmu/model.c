@@ -19,9 +19,9 @@ static bool make_folder(fmu_model *m, char *error, size_t size)
 {
     char path[sizeof m->folder];
     const char *place = getenv("TMPDIR");
-    const int length = snprintf(path, sizeof path, "%s/mps_fmu_XXXXXX", place && place[0] ? place : "/tmp");
-    if (length >= (int)sizeof path - 32)
-        return fail(error, size, "TMPDIR", "its name is too long");
+    const int length = snprintf(path, sizeof path, "%s/mps_fmu_XXXXXX",
+                                place && place[0] ? place : "/tmp");
+    if (length >= (int)sizeof path - 32) return fail(error, size, "TMPDIR", "its name is too long");
     if (!mkdtemp(path)) return fail(error, size, path, strerror(errno));
     memcpy(m->folder, path, sizeof path);
     return true;
