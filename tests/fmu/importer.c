@@ -275,8 +275,9 @@ int tank_state_read(tank *t, const void *bytes, size_t size, void **state)
     return CALL(state_read, (t->instance, bytes, size, state), (t->instance, bytes, size, state));
 }
 
-int tank_derivative(tank *t, const uint32_t *known, size_t count, const double *seed, double *out)
+int tank_derivative(tank *t, const uint32_t *unknown, size_t unknowns, const uint32_t *known,
+                    size_t count, const double *seed, double *out)
 {
-    return CALL(derivative, (t->instance, load_refs, OUTPUTS, known, count, seed, out),
-                (t->instance, load_refs, OUTPUTS, known, count, seed, count, out, OUTPUTS));
+    return CALL(derivative, (t->instance, unknown, unknowns, known, count, seed, out),
+                (t->instance, unknown, unknowns, known, count, seed, count, out, unknowns));
 }

@@ -42,7 +42,8 @@ int tank_state_free(tank *t, void **state);
 int tank_state_size(tank *t, void *state, size_t *size);
 int tank_state_write(tank *t, void *state, void *bytes, size_t size);
 int tank_state_read(tank *t, const void *bytes, size_t size, void **state);
-/* Of the loads by the accelerations, along `seed`. */
-int tank_derivative(tank *t, const uint32_t *known, size_t count, const double *seed, double *out);
+/* Of outputs by inputs, along `seed`. */
+int tank_derivative(tank *t, const uint32_t *unknown, size_t unknowns, const uint32_t *known,
+                    size_t count, const double *seed, double *out);
 
 #endif
