@@ -17,6 +17,8 @@ const option cli_options[] = {
      offsetof(choices, threads)},
     {HAS_COUNT, "--count", 'n', "N", "number of runs, 2 to 100; default 5", OPTION_COUNT,
      offsetof(choices, count)},
+    {HAS_FMI, "--fmi", 0, "N", "version of FMI, 2 or 3; default 3", OPTION_COUNT,
+     offsetof(choices, fmi)},
     {HAS_OVERWRITE, "--overwrite", 0, NULL, "replace what is there", OPTION_FLAG,
      offsetof(choices, overwrite)},
     {HAS_RESUME, "--resume", 0, NULL, "continue from the checkpoint in the folder", OPTION_FLAG,

@@ -26,6 +26,7 @@ typedef struct choices {
     const char *out;               /* NULL: as the verb has it */
     int32_t threads;               /* 0: as the case says */
     int32_t count;                 /* 0: as the verb has it */
+    int32_t fmi;                   /* version, 0: as the verb has it */
     bool overwrite, resume, quiet, profile, mpi;
     char command[1024]; /* the whole line */
 } choices;
@@ -40,7 +41,8 @@ enum {
     HAS_PROFILE = 32,
     HAS_MPI = 64,
     HAS_RESUME = 128,
-    HAS_COUNT = 256
+    HAS_COUNT = 256,
+    HAS_FMI = 512
 };
 
 /* A verb: `mps VERB ARGUMENTS`. @return exit code, MPS_EXIT_... */
@@ -80,6 +82,7 @@ int verb_report(const choices *c);
 int verb_stats(const choices *c);
 int verb_compare(const choices *c);
 int verb_check(const choices *c);
+int verb_fmu(const choices *c);
 int verb_init(const choices *c);
 int verb_list(const choices *c);
 int verb_info(const choices *c);

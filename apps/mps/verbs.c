@@ -68,6 +68,8 @@ const verb cli_verbs[] = {
     {"check", "CASE",
      "Say what a case amounts to, without running it, and draw tank and sensors as SVG.", 1, 1,
      HAS_SET | HAS_OUT | HAS_QUIET, verb_check, NULL},
+    {"fmu", "CASE", "Make an FMU of a case, a tank for programs that move bodies: CASE.fmu.", 1, 1,
+     HAS_SET | HAS_OUT | HAS_QUIET | HAS_FMI, verb_fmu, NULL},
     {"init", "NAME",
      "Write a commented case to start from into NAME.yaml; 'mps list cases' shows the names.", 1, 1,
      HAS_OUT | HAS_OVERWRITE, verb_init, NULL},

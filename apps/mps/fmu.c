@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* mps fmu: a case as an FMU, which programs with bodies import. */
+#include "fmu.h"
+#include "cli.h"
+#include "zip.h"
+#include <ctype.h>
+#include <errno.h>
+#include <mps/mps.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { ERROR_SIZE = 8192, PATH_SIZE = 1024 };
+
+typedef struct part {
+    char *data;
+    size_t size;
+} part;
+
+static int refuse(const choices *c, int code, const char *what, const char *why)
+{
+    fprintf(stderr, "mps %s: %s: %s\n", c->verb, what, why);
+    return code;
+}
+
+/* From the folder of the program, or from where it is installed beside that folder. */
+static bool find_module(char *path, size_t size)
+{
+    static const char *const places[] = {"", MODULE_FOLDER};
+    char from[PATH_SIZE];
+    ssize_t length = readlink("/proc/self/exe", from, sizeof from);
+    while (length > 0 && from[length - 1] != '/') length--;
+    for (size_t k = 0; length > 0 && k < sizeof places / sizeof *places; k++) {
+        snprintf(path, size, "%.*s%slibmps_fmu.so", (int)length, from, places[k]);
+        if (access(path, R_OK) == 0) return true;
+    }
+    snprintf(path, size, "libmps_fmu.so");
+    errno = ENOENT;
+    return false;
+}
+
+static bool read_part(part *p, const char *path)
+{
+    FILE *file = fopen(path, "rb");
+    bool good = file && fseek(file, 0, SEEK_END) == 0;
+    const long size = good ? ftell(file) : -1;
+    good = size > 0 && fseek(file, 0, SEEK_SET) == 0;
+    p->data = good ? malloc((size_t)size) : NULL;
+    p->size = good ? (size_t)size : 0;
+    good = p->data && fread(p->data, 1, p->size, file) == p->size;
+    if (file) fclose(file);
+    return good;
+}
+
+static bool write_part(part *p, void (*write)(FILE *, const fmu_about *), const fmu_about *a)
+{
+    FILE *out = open_memstream(&p->data, &p->size);
+    if (!out) return false;
+    write(out, a);
+    const bool good = !ferror(out);
+    return fclose(out) == 0 && good;
+}
+
+static void describe(fmu_about *a, const choices *c, const mps_case *tank)
+{
+    cli_stem(c->file[0], a->name, sizeof a->name);
+    snprintf(a->identifier, sizeof a->identifier, "%s", a->name);
+    for (char *at = a->identifier; *at; at++)
+        if (!isalnum((unsigned char)*at)) *at = '_';
+    if (!isalpha((unsigned char)a->identifier[0])) a->identifier[0] = '_';
+    fmu_token(mps_case_text(tank), a->token);
+}
+
+/* With --quiet. */
+static void say_nothing(void *user, int32_t kind, const char *text)
+{
+    (void)user, (void)kind, (void)text;
+}
+
+/* The case must run: its simulation is built. The number of dimensions is known then. */
+static bool try_case(const choices *c, mps_case *tank, int32_t *dim)
+{
+    fmu_model m = {.folder = ""};
+    char error[ERROR_SIZE] = "";
+    const bool good = fmu_model_open(&m, tank, c->quiet ? say_nothing : NULL, NULL, error,
+                                     sizeof error);
+    *dim = m.dim;
+    m.c = NULL; /* it is the caller's */
+    fmu_model_close(&m);
+    const size_t length = strlen(error);
+    if (!good)
+        fprintf(stderr, "mps %s: %s%s", c->verb, error,
+                length > 0 && error[length - 1] == '\n' ? "" : "\n");
+    return good;
+}
+
+/* All files of the FMU, as a new file that then takes the place of `path`. */
+static bool write_fmu(const char *path, const fmu_about *a, const part *p, const char *text)
+{
+    char name[PATH_SIZE], next[PATH_SIZE + 8];
+    zip z = {.count = 0};
+    snprintf(next, sizeof next, "%s.tmp", path);
+    z.file = fopen(next, "wb");
+    if (!z.file) return false;
+    zip_add(&z, "modelDescription.xml", p[0].data, p[0].size);
+    snprintf(name, sizeof name, "binaries/%s/%s.so",
+             a->version == 2 ? "linux64" : MODULE_PROCESSOR "-linux", a->identifier);
+    zip_add(&z, name, p[2].data, p[2].size);
+    zip_add(&z, "resources/case.yaml", text, strlen(text));
+    zip_add(&z, "documentation/index.html", p[1].data, p[1].size);
+    zip_end(&z);
+    if (fclose(z.file) != 0) z.failed = true;
+    if (!z.failed && rename(next, path) == 0) return true;
+    const int why = errno;
+    unlink(next);
+    errno = why;
+    return false;
+}
+
+static int make(const choices *c, mps_case *tank, const char *path)
+{
+    fmu_about a = {.version = c->fmi ? c->fmi : 3};
+    part p[3] = {{NULL, 0}};
+    char module[PATH_SIZE + 128];
+    int code = MPS_EXIT_OK;
+    if (!try_case(c, tank, &a.dim)) return MPS_EXIT_USAGE;
+    describe(&a, c, tank);
+    if (!find_module(module, sizeof module) || !read_part(&p[2], module))
+        code = refuse(c, MPS_EXIT_FAILED, module, strerror(errno));
+    else if (!write_part(&p[0], fmu_write_description, &a) ||
+             !write_part(&p[1], fmu_write_page, &a))
+        code = refuse(c, MPS_EXIT_FAILED, path, "no memory");
+    else if (!write_fmu(path, &a, p, mps_case_text(tank)))
+        code = refuse(c, MPS_EXIT_FAILED, path, strerror(errno));
+    else if (!c->quiet)
+        printf("%s: FMI %d.0, co-simulation, %s\n", path, (int)a.version, a.token);
+    for (int k = 0; k < 3; k++) free(p[k].data);
+    return code;
+}
+
+int verb_fmu(const choices *c)
+{
+    char path[PATH_SIZE], stem[PATH_SIZE - 8];
+    int code = MPS_EXIT_FAILED;
+    if (c->fmi && c->fmi != 2 && c->fmi != 3)
+        return refuse(c, MPS_EXIT_USAGE, "--fmi", "must be 2 or 3");
+    cli_stem(c->file[0], stem, sizeof stem);
+    snprintf(path, sizeof path, "%s.fmu", stem);
+    if (c->out && strlen(c->out) >= sizeof path - 8)
+        return refuse(c, MPS_EXIT_USAGE, "--out", "is too long");
+    if (c->out) snprintf(path, sizeof path, "%s", c->out);
+    mps_case *tank = cli_case(c, &code);
+    if (!tank) return code;
+    code = make(c, tank, path);
+    mps_case_destroy(tank);
+    return cli_flush(c, code);
+}

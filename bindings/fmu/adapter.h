@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* One tank of an importer, whatever the version of FMI. fmi2.c and fmi3.c translate names and types, all else is here. */
+#ifndef MPS_FMU_ADAPTER_H
+#define MPS_FMU_ADAPTER_H
+
+#include "variables.h"
+#include <mps/mps.h>
+
+/* Both standards begin with ok 0, warning 1, discard 2, error 3. */
+typedef enum fmu_status { FMU_OK, FMU_WARNING, FMU_DISCARD, FMU_ERROR } fmu_status;
+
+typedef enum fmu_mode { FMU_INSTANTIATED, FMU_INITIALISING, FMU_STEPPING, FMU_TERMINATED } fmu_mode;
+
+/* Gets a message for the importer. */
+typedef void (*fmu_say_fn)(void *user, fmu_status status, const char *text);
+
+/* All numbers of an instance beside its simulation; a state has them, and its bytes too. */
+typedef struct fmu_values {
+    double start, time; /* of the importer: first communication point, present one */
+    double input[3][MPS_DOF_COUNT];
+    double load[MPS_DOF_COUNT], rest[MPS_DOF_COUNT], mass[MPS_DOF_COUNT * MPS_DOF_COUNT];
+    int32_t mode, has_mass;
+} fmu_values;
+
+typedef struct fmu fmu;
+typedef struct fmu_state fmu_state;
+
+struct fmu {
+    fmu_model model;
+    fmu_values v;
+    mps_motion_state hold;         /* where the tank stands before the first step */
+    mps_snapshot *origin, *before; /* as built; as at the beginning of a call */
+    fmu_state *states;             /* all that the importer has */
+    fmu_say_fn say;
+    void *user;
+    bool chatty; /* what the library logs goes to the importer too */
+    char token[FMU_TOKEN];
+};
+
+/* The tank of resources/case.yaml. @param resources  folder @param token  of the description @return NULL after a message */
+fmu *fmu_create(const char *resources, const char *token, bool chatty, fmu_say_fn say, void *user);
+void fmu_destroy(fmu *f);
+/* A message. @return status */
+fmu_status fmu_tell(const fmu *f, fmu_status status, const char *format, ...);
+fmu_status fmu_initialise(fmu *f, double start); /* inputs are those of the beginning from now on */
+fmu_status fmu_begin(fmu *f);                    /* the tank is at its first pose */
+fmu_status fmu_terminate(fmu *f);
+fmu_status fmu_reset(fmu *f);
+fmu_status fmu_set(fmu *f, const uint32_t *reference, size_t count, const double *value);
+fmu_status fmu_get(fmu *f, const uint32_t *reference, size_t count, double *value);
+fmu_status fmu_step(fmu *f, double time, double length);
+
+/* A derivative along `seed`: of outputs by inputs. */
+typedef struct fmu_direction {
+    const uint32_t *unknown, *known;
+    size_t unknowns, knowns;
+    const double *seed; /* [knowns] */
+    double *out;        /* [unknowns] */
+} fmu_direction;
+fmu_status fmu_derivative(fmu *f, const fmu_direction *d);
+
+/* States. `*state` is NULL or one that is taken anew. */
+fmu_status fmu_state_take(fmu *f, fmu_state **state);
+fmu_status fmu_state_restore(fmu *f, fmu_state *state);
+void fmu_state_free(fmu *f, fmu_state *state);
+/* The bytes of a state, owned by it. */
+fmu_status fmu_state_bytes(fmu *f, fmu_state *state, const unsigned char **bytes, size_t *size);
+fmu_status fmu_state_read(fmu *f, const unsigned char *bytes, size_t size, fmu_state **state);
+/* The tank stands where `f->hold` is. */
+mps_status fmu_hold(fmu *f);
+/* Tell why a call of the library failed. */
+fmu_status fmu_refused(fmu *f, fmu_status status, const char *call);
+
+#endif

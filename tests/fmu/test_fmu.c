@@ -1,0 +1,491 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* FMUs of a tank as an importer uses them: the loads of a plain simulation, states, derivatives, two tanks on a body.
+ * usage: test_fmu FOLDER, which has the unpacked FMUs 2 and 3, solid/3 in 3-D, and a folder for a plain run, plain */
+#include "importer.h"
+#include <setjmp.h> /* cmocka.h wants these before it */
+#include <stdarg.h>
+#include <math.h>
+#include <mps/mps.h>
+#include <mps/case.h>
+#include <mps/couple.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { STEPS = 12, MODULES = 2 };
+static const double LENGTH = 2e-3; /* of a step; the case has the same */
+
+static const char *folder;
+static const module *modules[MODULES];
+static double origin; /* begin of the motion */
+
+/* Surge and a slow rotation from rest. */
+static void pose_at(double t, double *q)
+{
+    const double w = 6.469, a = 0.02;
+    t -= origin;
+    memset(q, 0, INPUTS * sizeof *q);
+    q[0] = a * (1 - cos(w * t));
+    q[3] = a * w * sin(w * t);
+    q[6] = a * w * w * cos(w * t);
+    q[2] = 0.5 * 0.3 * t * t;
+    q[5] = 0.3 * t;
+    q[8] = 0.3;
+}
+
+#define OK(TANK, CALL)                                             \
+    do {                                                           \
+        const int status_ = (CALL);                                \
+        if (status_ != 0) fail_msg("%s: %s", #CALL, (TANK)->text); \
+    } while (0)
+
+static void open_tank_at(tank *t, const module *m, double time)
+{
+    double q[INPUTS];
+    if (!tank_open(t, m, NULL)) fail_msg("%s", t->text);
+    pose_at(time, q);
+    OK(t, tank_set(t, pose_refs, INPUTS, q));
+}
+
+static void open_tank(tank *t, const module *m)
+{
+    open_tank_at(t, m, 0);
+}
+
+/* After a state came as bytes: F of the same steps has the same bytes. F0 is found by solutions of the pressure equation that
+ * begin at those of the step before, which bytes do not hold: it agrees to some of the solver's tolerances, 1e-6. */
+static void assert_goes_on(double first[STEPS][OUTPUTS], double again[STEPS][OUTPUTS])
+{
+    double worst = 0;
+    for (int k = 0; k < STEPS; k++) {
+        assert_memory_equal(first[k], again[k], 3 * sizeof(double));
+        for (int i = 3; i < OUTPUTS; i++)
+            worst = fmax(worst, fabs(first[k][i] - again[k][i]) / fabs(first[k][4]));
+    }
+    print_message("F0 differs by %.2g of the weight\n", worst);
+    assert_true(worst < 1e-5);
+}
+
+static int loads_derivative(tank *t, const uint32_t *known, size_t count, const double *seed,
+                            double *out)
+{
+    return tank_derivative(t, load_refs, OUTPUTS, known, count, seed, out);
+}
+
+/* To a pose, by a step. */
+static void move(tank *t, double time, double length, const double *q, double *load)
+{
+    OK(t, tank_set(t, pose_refs, INPUTS, q));
+    OK(t, tank_step(t, time, length));
+    OK(t, tank_get(t, load_refs, OUTPUTS, load));
+}
+
+/* So many steps of the motion from `time`; loads[steps][OUTPUTS]. @return time reached */
+static double go(tank *t, double time, int steps, double *loads)
+{
+    for (int k = 0; k < steps; k++) {
+        double q[INPUTS];
+        pose_at(time + LENGTH, q);
+        move(t, time, LENGTH, q, loads + k * OUTPUTS);
+        time += LENGTH;
+    }
+    return time;
+}
+
+/* ---- the same loads as a plain simulation ---- */
+
+static int at_rest(void *user, double t, mps_motion_state *state)
+{
+    (void)t;
+    *state = *(mps_motion_state *)user;
+    return 0;
+}
+
+static void to_state(const double *q, mps_motion_state *s)
+{
+    static const int dof[3] = {MPS_MOVE_X, MPS_MOVE_Y, MPS_ROTATE_Z};
+    mps_motion_state_init(s, sizeof *s);
+    for (int d = 0; d < 3; d++) {
+        s->value[dof[d]] = q[d];
+        s->rate[dof[d]] = q[3 + d];
+        s->accel[dof[d]] = q[6 + d];
+    }
+}
+
+typedef struct plain {
+    mps_case *c;
+    mps_job *job;
+    mps_sim *sim;
+    mps_motion_state hold;
+    double sum[OUTPUTS], length; /* over the steps of a run */
+} plain;
+
+static void plain_open(plain *p)
+{
+    char path[1100], place[1100], error[640] = "";
+    double q[INPUTS];
+    mps_job_config config;
+    snprintf(path, sizeof path, "%s/3/resources/case.yaml", folder);
+    snprintf(place, sizeof place, "%s/plain", folder);
+    assert_int_equal(mps_case_read(path, 0, NULL, &p->c), MPS_OK);
+    mps_job_config_init(&config, sizeof config);
+    config.folder = place;
+    config.quiet = 1;
+    config.error = error;
+    config.error_size = sizeof error;
+    assert_int_equal(mps_case_job(p->c, &config, &p->job, &p->sim), MPS_OK);
+    assert_int_equal(mps_load_watch(p->sim, MPS_LOAD_MASS), MPS_OK);
+    pose_at(0, q);
+    to_state(q, &p->hold);
+    assert_int_equal(mps_motion_callback_set(p->sim, at_rest, &p->hold), MPS_OK);
+}
+
+static void plain_close(plain *p)
+{
+    mps_sim_destroy(p->sim);
+    mps_job_destroy(p->job);
+    mps_case_destroy(p->c);
+}
+
+static int add(void *user, mps_sim *sim, const mps_step_info *info)
+{
+    plain *p = user;
+    mps_load load;
+    mps_load_init(&load, sizeof load);
+    assert_int_equal(mps_load_get(sim, NULL, &load), MPS_OK);
+    assert_int_equal(load.has_mass, 1);
+    const double all[OUTPUTS] = {load.force[0], load.force[1], load.force[5],
+                                 load.rest[0],  load.rest[1],  load.rest[5]};
+    for (int i = 0; i < OUTPUTS; i++) p->sum[i] += info->dt * all[i];
+    p->length += info->dt;
+    return 0;
+}
+
+static void plain_move(plain *p, double time, double *load)
+{
+    double q[INPUTS];
+    mps_motion_state s;
+    pose_at(time, q);
+    to_state(q, &s);
+    memset(p->sum, 0, sizeof p->sum);
+    p->length = 0;
+    assert_int_equal(mps_motion_pose_set(p->sim, time, &s), MPS_OK);
+    assert_int_equal(mps_run(p->sim, time, add, p), MPS_OK);
+    for (int i = 0; i < OUTPUTS; i++) load[i] = p->sum[i] / p->length;
+}
+
+/* Of a step of the library the loads are its bytes; over several they are means over time. */
+static void loads_of_the_library(void **state)
+{
+    (void)state;
+    for (int k = 0; k < MODULES; k++) {
+        plain p = {.length = 0};
+        tank t;
+        double time = 0, q[INPUTS], expected[OUTPUTS], got[OUTPUTS];
+        plain_open(&p);
+        open_tank(&t, modules[k]);
+        OK(&t, tank_start(&t, 0));
+        for (int step = 0; step < STEPS; step++) {
+            const int parts = step < STEPS / 2 ? 1 : 3;
+            mps_load one;
+            pose_at(time + parts * LENGTH, q);
+            move(&t, time, parts * LENGTH, q, got);
+            time += parts * LENGTH;
+            plain_move(&p, time, expected);
+            mps_load_init(&one, sizeof one);
+            assert_int_equal(mps_load_get(p.sim, NULL, &one), MPS_OK);
+            const double last[OUTPUTS] = {one.force[0], one.force[1], one.force[5],
+                                          one.rest[0],  one.rest[1],  one.rest[5]};
+            if (parts == 1) assert_memory_equal(got, last, sizeof got);
+            for (int i = 0; i < OUTPUTS; i++)
+                assert_true(fabs(got[i] - expected[i]) <= 1e-9 * fabs(expected[i]) + 1e-9);
+            if (parts == 3) assert_true(fabs(got[0] - last[0]) > 1e-6 * fabs(last[0]));
+        }
+        assert_true(fabs(got[0]) > 1 && fabs(got[1]) > 1000);
+        tank_close(&t);
+        plain_close(&p);
+    }
+}
+
+/* ---- states ---- */
+
+static void back_and_again(void **state)
+{
+    (void)state;
+    for (int k = 0; k < MODULES; k++) {
+        tank t;
+        void *kept = NULL;
+        double first[STEPS][OUTPUTS], again[STEPS][OUTPUTS], other[OUTPUTS], q[INPUTS], clock_time;
+        const uint32_t clock = 0;
+        origin = 3;
+        open_tank_at(&t, modules[k], origin);
+        OK(&t, tank_start(&t, 3));
+        const double time = go(&t, 3, 4, first[0]);
+        OK(&t, tank_state_take(&t, &kept));
+        go(&t, time, STEPS, first[0]);
+        OK(&t, tank_state_put(&t, kept));
+        OK(&t, tank_get(&t, &clock, 1, &clock_time));
+        assert_true(clock_time == time);
+        pose_at(time + LENGTH, q);
+        q[0] += 1e-5; /* another way, taken back */
+        move(&t, time, LENGTH, q, other);
+        assert_memory_not_equal(other, first[0], sizeof other);
+        OK(&t, tank_state_put(&t, kept));
+        go(&t, time, STEPS, again[0]);
+        assert_memory_equal(first, again, sizeof first);
+        OK(&t, tank_state_free(&t, &kept));
+        assert_null(kept);
+        /* from the beginning, too */
+        OK(&t, tank_reset(&t));
+        origin = 0;
+        pose_at(0, q);
+        OK(&t, tank_set(&t, pose_refs, INPUTS, q));
+        OK(&t, tank_start(&t, 0));
+        go(&t, 0, STEPS, first[0]);
+        tank_close(&t);
+        open_tank(&t, modules[k]);
+        OK(&t, tank_start(&t, 0));
+        go(&t, 0, STEPS, again[0]);
+        assert_memory_equal(first, again, sizeof first);
+        tank_close(&t);
+    }
+}
+
+static void bytes_to_another_tank(void **state)
+{
+    (void)state;
+    for (int k = 0; k < MODULES; k++) {
+        tank a, b;
+        void *kept = NULL, *read = NULL, *bad = NULL;
+        size_t size = 0;
+        double first[STEPS][OUTPUTS], again[STEPS][OUTPUTS], own[OUTPUTS], same[OUTPUTS];
+        open_tank(&a, modules[k]);
+        OK(&a, tank_start(&a, 0));
+        const double time = go(&a, 0, 5, first[0]);
+        OK(&a, tank_state_take(&a, &kept));
+        go(&a, time, STEPS, first[0]);
+        OK(&a, tank_state_size(&a, kept, &size));
+        char *bytes = malloc(size);
+        assert_non_null(bytes);
+        OK(&a, tank_state_write(&a, kept, bytes, size));
+        assert_int_equal(tank_state_write(&a, kept, bytes, size - 1), 3);
+        /* asking for bytes moves nothing */
+        OK(&a, tank_get(&a, load_refs, OUTPUTS, own));
+        assert_memory_equal(own, first[STEPS - 1], sizeof own);
+        tank_close(&a);
+        open_tank(&b, modules[k]);
+        OK(&b, tank_start(&b, 0));
+        go(&b, 0, 1, own);
+        OK(&b, tank_state_read(&b, bytes, size, &read));
+        /* nor does reading them */
+        OK(&b, tank_get(&b, load_refs, OUTPUTS, same));
+        assert_memory_equal(same, own, sizeof own);
+        OK(&b, tank_state_put(&b, read));
+        go(&b, time, STEPS, again[0]);
+        assert_goes_on(first, again);
+        bytes[size / 2] ^= 1;
+        assert_int_equal(tank_state_read(&b, bytes, size, &bad), 3);
+        assert_int_equal(tank_state_read(&b, bytes, 100, &bad), 3);
+        assert_non_null(strstr(b.text, "cut short"));
+        assert_null(bad);
+        /* and the tank goes on as if they had not come */
+        OK(&b, tank_state_put(&b, read));
+        go(&b, time, STEPS, again[0]);
+        assert_goes_on(first, again);
+        tank_close(&b); /* frees its states */
+        free(bytes);
+    }
+}
+
+/* ---- derivatives ---- */
+
+/* F over the acceleration, by two trials of a step; A by the library: forces by momentum and by pressures on walls differ. */
+static void derivatives_of_trials(void **state)
+{
+    (void)state;
+    for (int k = 0; k < MODULES; k++) {
+        tank t;
+        void *kept = NULL;
+        double loads[5][OUTPUTS], q[INPUTS], trial[2][OUTPUTS], slope[OUTPUTS];
+        const double seed = 1, change = 0.5; /* [m/s2] */
+        open_tank(&t, modules[k]);
+        assert_int_equal(loads_derivative(&t, pose_refs, 1, &seed, slope), 3);
+        OK(&t, tank_start(&t, 0));
+        const double time = go(&t, 0, 5, loads[0]);
+        OK(&t, tank_state_take(&t, &kept));
+        for (int d = 0; d < 2; d++) {
+            for (int side = 0; side < 2; side++) {
+                OK(&t, tank_state_put(&t, kept));
+                pose_at(time + LENGTH, q);
+                q[d] += (side ? 1 : -1) * change * LENGTH * LENGTH;
+                move(&t, time, LENGTH, q, trial[side]);
+            }
+            OK(&t, loads_derivative(&t, &pose_refs[6 + d], 1, &seed, slope));
+            const double found = (trial[1][d] - trial[0][d]) / (2 * change);
+            print_message("degree %d: by trials %.3f, by the FMU %.3f kg/m\n", d, found, slope[d]);
+            assert_true(slope[d] < -1);
+            assert_true(fabs(slope[d] - found) < 0.01 * fabs(found));
+            for (int i = 3; i < OUTPUTS; i++) assert_true(slope[i] == 0); /* F0 */
+            assert_true(fabs(trial[1][3 + d] - trial[0][3 + d]) < 0.03 * fabs(2 * change * found));
+        }
+        OK(&t, loads_derivative(&t, pose_refs, 1, &seed, slope));
+        assert_true(slope[0] == 0); /* of the pose at the same acceleration */
+        const double both[2] = {2, -1};
+        double one[OUTPUTS], two[OUTPUTS];
+        OK(&t, loads_derivative(&t, &pose_refs[6], 2, both, slope));
+        OK(&t, loads_derivative(&t, &pose_refs[6], 1, &seed, one));
+        OK(&t, loads_derivative(&t, &pose_refs[7], 1, &seed, two));
+        for (int i = 0; i < 3; i++)
+            assert_true(fabs(slope[i] - 2 * one[i] + two[i]) <= 1e-9 * (1 + fabs(slope[i])));
+        tank_close(&t);
+    }
+}
+
+/* In 3-D angles turn about axes that turn too: a tank that stands turned, trials in the second derivative of each angle. */
+static void derivatives_of_a_turned_tank(void **state)
+{
+    static const uint32_t angle[3] = {19, 20, 21}, turn[3] = {51, 52, 53},
+                          six[6] = {64, 65, 66, 67, 68, 69};
+    const double stand[3] = {0.1, 0.5, -0.3}, seed = 1, change = 0.5, length = 4e-3;
+    char place[1100];
+    tank t;
+    void *kept = NULL;
+    (void)state;
+    snprintf(place, sizeof place, "%s/solid", folder);
+    if (!tank_open(&t, module_load(place, 3), NULL)) fail_msg("%s", t.text);
+    OK(&t, tank_set(&t, angle, 3, stand));
+    OK(&t, tank_start(&t, 0));
+    for (int k = 0; k < 4; k++) OK(&t, tank_step(&t, k * length, length));
+    OK(&t, tank_state_take(&t, &kept));
+    for (int d = 0; d < 3; d++) {
+        double trial[2][6], slope[6], found[6], most = 0, worst = 0;
+        for (int side = 0; side < 2; side++) {
+            const double q = stand[d] + (side ? 1 : -1) * change * length * length;
+            OK(&t, tank_state_put(&t, kept));
+            OK(&t, tank_set(&t, &angle[d], 1, &q));
+            OK(&t, tank_step(&t, 4 * length, length));
+            OK(&t, tank_get(&t, six, 6, trial[side]));
+        }
+        OK(&t, tank_derivative(&t, six, 6, &turn[d], 1, &seed, slope));
+        for (int i = 0; i < 6; i++) {
+            found[i] = (trial[1][i] - trial[0][i]) / (2 * change);
+            most = fmax(most, fabs(found[i]));
+            worst = fmax(worst, fabs(found[i] - slope[i]));
+        }
+        print_message("angle %d: differ by %.2g of %.3g\n", d, worst / most, most);
+        assert_true(worst < 0.05 * most);
+    }
+    tank_close(&t);
+}
+
+/* ---- two tanks on a body ---- */
+
+/* A body of mass M free along x with a tank of each version, released with a speed. Each step is done with the acceleration
+ * that the loads and derivatives of the step before tell, once again from the same state with the loads found. */
+static void two_tanks_on_a_body(void **state)
+{
+    (void)state;
+    const double mass = 30, seed = 1; /* less than half of the liquid that moves with it */
+    tank t[MODULES];
+    void *kept[MODULES] = {NULL, NULL};
+    double x = 0, v = 0, a = 0, push = 40, worst = 0, loads[MODULES][OUTPUTS], slope[OUTPUTS];
+    for (int k = 0; k < MODULES; k++) {
+        if (!tank_open(&t[k], modules[k], NULL)) fail_msg("%s", t[k].text);
+        OK(&t[k], tank_start(&t[k], 0));
+    }
+    for (int step = 0; step < 3 * STEPS; step++) {
+        double added = 0, next = a;
+        for (int k = 0; k < MODULES; k++) OK(&t[k], tank_state_take(&t[k], &kept[k]));
+        for (int trial = 0; trial < 2; trial++) {
+            double force = push, q[INPUTS] = {0};
+            q[3] = v + next * LENGTH;
+            q[0] = x + q[3] * LENGTH;
+            q[6] = next;
+            for (int k = 0; k < MODULES; k++) {
+                if (trial > 0) OK(&t[k], tank_state_put(&t[k], kept[k]));
+                move(&t[k], step * LENGTH, LENGTH, q, loads[k]);
+                force += loads[k][0];
+                OK(&t[k], loads_derivative(&t[k], &pose_refs[6], 1, &seed, slope));
+                added += trial == 0 ? -slope[0] : 0;
+            }
+            const double residual = force - mass * next;
+            if (trial == 1) worst = fmax(worst, fabs(residual));
+            if (trial == 0) next += residual / (mass + added);
+        }
+        a = next;
+        v += a * LENGTH;
+        x += v * LENGTH;
+        assert_memory_equal(loads[0], loads[1],
+                            sizeof loads[0]); /* tanks side by side do the same */
+    }
+    print_message(
+        "body: x = %.4g m, v = %.4g m/s, a = %.3g m/s2; a force is left of %.2g N/m of %g\n", x, v,
+        a, worst, push);
+    assert_true(isfinite(x) && v > 0 && a > 0 && a < push / mass);
+    assert_true(worst < 0.05 * push);
+    for (int k = 0; k < MODULES; k++) tank_close(&t[k]);
+}
+
+/* ---- refusals ---- */
+
+static void refusals(void **state)
+{
+    (void)state;
+    for (int k = 0; k < MODULES; k++) {
+        tank t, other;
+        double value[2] = {0.25, NAN}, load[OUTPUTS];
+        const uint32_t unknown = 999, known[2] = {16, 17};
+        void *kept = NULL;
+        assert_false(tank_open(&t, modules[k], "{00000000-0000-0000-0000-000000000000}"));
+        assert_non_null(strstr(t.text, module_token(modules[k])));
+        open_tank(&t, modules[k]);
+        open_tank(&other, modules[k]);
+        assert_int_equal(tank_step(&t, 0, LENGTH), 3); /* not initialised */
+        assert_int_equal(tank_set(&t, known, 2, value), 3);
+        assert_non_null(strstr(t.text, "pose.y"));
+        OK(&t, tank_get(&t, known, 1, value));
+        assert_true(value[0] == 0); /* all or none */
+        value[1] = 0;
+        assert_int_equal(tank_set(&t, &unknown, 1, value), 3);
+        assert_int_equal(tank_set(&t, load_refs, 1, value), 3);
+        assert_int_equal(tank_get(&t, &unknown, 1, value), 3);
+        OK(&t, tank_start(&t, 0));
+        assert_int_equal(tank_start(&t, 0), 3);
+        OK(&t, tank_get(&t, load_refs, OUTPUTS, load));
+        assert_true(load[0] == 0);
+        assert_int_equal(tank_step(&t, 1, LENGTH), 3); /* from another time */
+        assert_int_equal(tank_step(&t, 0, -LENGTH), 3);
+        assert_int_equal(tank_step(&t, 0, NAN), 3);
+        value[0] = 1e300; /* the library refuses it, and its text comes */
+        OK(&t, tank_set(&t, known, 1, value));
+        assert_true(tank_step(&t, 0, LENGTH) >= 2);
+        assert_non_null(strstr(t.text, "step: "));
+        OK(&other, tank_start(&other, 0));
+        OK(&other, tank_state_take(&other, &kept));
+        assert_int_equal(tank_state_put(&t, kept), 3); /* of another tank */
+        /* after all that it is as new */
+        double first[STEPS][OUTPUTS], again[STEPS][OUTPUTS];
+        go(&t, 0, STEPS, first[0]);
+        go(&other, 0, STEPS, again[0]);
+        assert_memory_equal(first, again, sizeof first);
+        OK(&t, tank_terminate(&t));
+        assert_int_equal(tank_step(&t, STEPS * LENGTH, LENGTH), 3);
+        tank_close(&t);
+        tank_close(&other);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(loads_of_the_library),        cmocka_unit_test(back_and_again),
+        cmocka_unit_test(bytes_to_another_tank),       cmocka_unit_test(derivatives_of_trials),
+        cmocka_unit_test(two_tanks_on_a_body),         cmocka_unit_test(refusals),
+        cmocka_unit_test(derivatives_of_a_turned_tank)};
+    if (argc != 2) return 2;
+    folder = argv[1];
+    for (int k = 0; k < MODULES; k++) modules[k] = module_load(folder, 2 + k);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
