@@ -18,8 +18,8 @@ enum { STEPS = 12, MODULES = 2 };
 static const double LENGTH = 2e-3; /* of a step; the case has the same */
 
 static const char *folder;
-static const module *modules[MODULES];
-static double origin; /* begin of the motion */
+static const module *modules[MODULES], *solid; /* solid: in 3-D */
+static double origin;                          /* begin of the motion */
 
 /* Surge and a slow rotation from rest. */
 static void pose_at(double t, double *q)
@@ -349,12 +349,10 @@ static void derivatives_of_a_turned_tank(void **state)
     static const uint32_t angle[3] = {19, 20, 21}, turn[3] = {51, 52, 53},
                           six[6] = {64, 65, 66, 67, 68, 69};
     const double stand[3] = {0.1, 0.5, -0.3}, seed = 1, change = 0.5, length = 4e-3;
-    char place[1100];
     tank t;
     void *kept = NULL;
     (void)state;
-    snprintf(place, sizeof place, "%s/solid", folder);
-    if (!tank_open(&t, module_load(place, 3), NULL)) fail_msg("%s", t.text);
+    if (!tank_open(&t, solid, NULL)) fail_msg("%s", t.text);
     OK(&t, tank_set(&t, angle, 3, stand));
     OK(&t, tank_start(&t, 0));
     for (int k = 0; k < 4; k++) OK(&t, tank_step(&t, k * length, length));
@@ -479,6 +477,7 @@ static void refusals(void **state)
 
 int main(int argc, char **argv)
 {
+    char place[1100];
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(loads_of_the_library),        cmocka_unit_test(back_and_again),
         cmocka_unit_test(bytes_to_another_tank),       cmocka_unit_test(derivatives_of_trials),
@@ -487,5 +486,7 @@ int main(int argc, char **argv)
     if (argc != 2) return 2;
     folder = argv[1];
     for (int k = 0; k < MODULES; k++) modules[k] = module_load(folder, 2 + k);
+    snprintf(place, sizeof place, "%s/solid", folder);
+    solid = module_load(place, 3);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
