@@ -161,7 +161,7 @@ typedef struct mps_model_ops {
     const mps_verb *verbs;
     /** NULL, or make a state in *self, which holds `user` before. Non-zero: no memory.
      *  Checkpoints do not save the state: what later steps depend on must be in channels of
-     *  MPS_LIFE_PARTICLE. */
+     *  MPS_LIFE_PARTICLE, or in numbers of mps_stage_state(). */
     int (*create)(const mps_allocator *allocator, void **self);
     /** Gives back what create made; needed with create. */
     void (*destroy)(const mps_allocator *allocator, void *self);

@@ -21,6 +21,9 @@
  *  2-D is the plane x, y: it has MPS_MOVE_X, MPS_MOVE_Y and MPS_ROTATE_Z, positive from x to y
  *  (counterclockwise). The other three are refused.
  *
+ *  A host that computes the motion step by step sets poses: mps_motion_pose_set() of
+ *  <mps/couple.h>.
+ *
  *  All walls, probes and gauges move with the tank. Setting a motion carries the tank and its
  *  liquid to the pose of the motion at the present time. Between steps a new motion should begin at
  *  the present pose. A motion that carries the origin of the tank farther than 1e9 dp from that of

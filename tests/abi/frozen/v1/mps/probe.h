@@ -19,6 +19,10 @@ enum {
      *  is read; mps_probe_info_get() always does. `at` may be before the face with a wall particle
      *  within 2 dp, at most dp/2 behind it, and at most dp/2 beyond its end.
      *  Dry walls, above the contact line, count with 0; suction in the liquid is shown.
+     *  Wall particles on an edge where the wall turns away from the liquid by more than some 50
+     *  degrees belong to two faces. For the sensor they have the pressure of its own face:
+     *  the median of their own pressure, of the mean of the face beside them and of its linear
+     *  pressure extrapolated to the edge; their own on a face without three rows to tell a line.
      *  A linear pressure is exact on any flat face, also where its particles are no lattice. On a
      *  curved face of radius R, with a diameter of dp, the value is that of a place at most
      *  dp^2/(3 R) away. */
@@ -35,14 +39,18 @@ enum {
      *  its moment about `at`, which moves with the tank; components along the axes of the lab. It
      *  is the sum of -P_i A_i over the wall particles, P_i the wall pressure, and of all that
      *  models report by mps_stage_reaction(): friction at walls (viscosity.laplacian,
-     *  viscosity.pair) and collisions with them (collision.pair), on the part next to the fluid;
-     *  friction.sides, part "sides"; plug-ins. Its integral over time is -(walls + reaction) of
-     *  mps_momentum. It has no part in drops that thin plates stop, nor in shifts. */
+     *  viscosity.pair, layer.history) and collisions with them (collision.pair), on the part next
+     *  to the fluid;
+     *  friction.history, part "sides"; plug-ins. Its integral over time is -(walls + reaction) of
+     *  mps_momentum. It has no part in drops that thin plates stop, nor in shifts. It is for
+     *  records: a force that is averaged (the default) lags and must not drive a body, which
+     *  mps_load_get() is for. */
     MPS_PROBE_FORCE = 3
 };
 
 /** For mps_probe.average: the shortest time that the spacing resolves,
- *  mps_step_info.crossing_time. */
+ *  mps_step_info.crossing_time, by the speed of the fastest piece of liquid; spray does not
+ *  shorten it. */
 #define MPS_AVERAGE_AUTO (-1.0)
 
 /** Definition of a probe. */
@@ -170,8 +178,9 @@ MPS_API mps_status mps_probe_series_clear(mps_sim *sim, int32_t id);
  *  dp, has particles in (L - dp) n dp: it lacks the share dp/L of its liquid, in 3-D also dp over
  *  its width. Compare `mass_filled` and `volume_filled` with rho V and V: they add dp/2 times the
  *  area of wetted walls, and subtract dp/2 times the area of the free surface (the top half cells
- *  lie above the level). What remains is of the order of dp^2: corners, and the edge of the
- *  wetted part of walls. */
+ *  lie above the level). A wall is wetted where fluid lies before it, within 0.75 dp of its normal
+ *  and 2 dp deep. What remains is of the order of dp^2: corners, the edge of the wetted part of
+ *  walls, and half a cell at each tip of a plate. */
 typedef struct mps_energy {
     /** Set by mps_energy_init(). */
     uint32_t struct_size;
@@ -191,7 +200,8 @@ typedef struct mps_energy {
      *  fluid particle (see above), and is not in the budget: docs/explanations/walls.md. */
     double wall_work_probes;
     /** Dissipated by the library's models of MPS_FORCE: viscosity, friction at walls, damping,
-     *  tension [J]. */
+     *  tension [J]. Without those of the slots "friction" and "layer", see
+     *  below. */
     double viscous;
     /** Lost in models of plug-ins, in MPS_FORCE and MPS_VELOCITY [J]. Where they report what solids
      *  do (mps_stage_reaction()) it is what these dissipate; < 0: gained, e.g. by a driving
@@ -201,8 +211,8 @@ typedef struct mps_energy {
     double collision;
     /** Lost in shifting, kinetic and potential [J]. */
     double shift;
-    /** The rest [J]: wall_work_momentum + added - viscous - plugins - collision - shift -
-     *  d(kinetic + potential), d: since before the first step. */
+    /** The rest [J]: wall_work_momentum + gas + added - viscous - plugins - collision -
+     *  shift - friction - d(kinetic + potential + layers), d: since before the first step. */
     double numerical;
     /** Mass of the fluid particles [kg]. */
     double mass;
@@ -225,6 +235,16 @@ typedef struct mps_energy {
     /** `mass` with the half cells at walls [kg]: the mean density times volume_filled. With several
      *  phases it is exact only if they wet the walls in the shares of their volumes. */
     double mass_filled;
+    /** Dissipated by the library's models of the slots "friction", at walls that have no particles,
+     *  and "layer", at walls whose layers are thin [J]. Of "layer" with the kinetic energy of the
+     *  layers. */
+    double friction;
+    /** Kinetic energy of the fluid beside `kinetic`, after the last step, as models report it by
+     *  mps_stage_kinetic(): of layers at walls that have no particles [J]. */
+    double layers;
+    /** Work of trapped gas on the liquid [J]: sum of p A.u dt over the particles that face a
+     *  pocket, see mps_stage_gas(). Of a pocket that is compressed it is negative. */
+    double gas;
 } mps_energy;
 
 /** Set struct_size and zero. @param size  sizeof(mps_energy) @return MPS_E_ARG: bad size */
@@ -237,7 +257,7 @@ MPS_API mps_status mps_energy_get(mps_sim *sim, mps_energy *energy);
 /** Momentum of the fluid particles (per metre of width in 2-D) and its changes since the first step
  *  [kg m/s]:
  *    total = that before the first step + gravity + force + plugins + pressure + collision + shift
- *  + added. */
+ *  + added + friction. */
 typedef struct mps_momentum {
     /** Set by mps_momentum_init(). */
     uint32_t struct_size;
@@ -246,11 +266,11 @@ typedef struct mps_momentum {
     /** Weight times time. */
     double gravity[3];
     /** By the library's models of MPS_FORCE: friction at walls; pairs inside the fluid add
-     *  nothing. */
+     *  nothing. Without those of the slots "friction" and "layer". */
     double force[3];
     /** By models of plug-ins, in MPS_FORCE and MPS_VELOCITY. */
     double plugins[3];
-    /** The part of force, plugins and collision that solids exert, as models report it by
+    /** The part of force, friction, plugins and collision that solids exert, as models report it by
      *  mps_stage_reaction(). */
     double reaction[3];
     /** By pressure gradients: what the fluid particles received. */
@@ -267,6 +287,9 @@ typedef struct mps_momentum {
     double shift[3];
     /** From outside, as in mps_energy. */
     double added[3];
+    /** By the library's models of the slots "friction" and "layer", with the inertia of the
+     *  layers. */
+    double friction[3];
 } mps_momentum;
 
 /** Set struct_size and zero. @param size  sizeof(mps_momentum) @return MPS_E_ARG: bad size */

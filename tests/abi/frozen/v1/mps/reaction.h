@@ -33,6 +33,17 @@ MPS_BEGIN_DECLS
  *          that is not finite, no memory */
 MPS_API int mps_stage_reaction(mps_stage *s, const char *part, const double *acceleration);
 
+/** Report kinetic energy that the fluid has beside that of its particles, which a model knows: e.g.
+ *  of a velocity profile across the width, of which a particle has the mean. A model calls it once
+ *  in MPS_FORCE, with the energy at the beginning of the step, and once in MPS_VELOCITY, with the
+ *  energy that it leaves. The library
+ *  - shows the second in mps_energy.layers;
+ *  - takes the difference off the line of the model, which then has what is dissipated;
+ *  - books what changes between steps as mps_energy.added.
+ *  @param kinetic  of all fluid, the same on all ranks, e.g. by mps_stage_sum(); >= 0 [J]
+ *  @return 0, or non-zero after a failure (the error is set): another hook, negative, not finite */
+MPS_API int mps_stage_kinetic(mps_stage *s, double kinetic);
+
 MPS_END_DECLS
 
 #endif

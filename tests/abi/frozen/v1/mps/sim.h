@@ -171,6 +171,14 @@ MPS_API mps_status mps_model_set(mps_sim *sim, const char *slot, const char *key
 MPS_API mps_status mps_model_get(const mps_sim *sim, const char *slot, const char *key,
                                  double *value);
 
+/** Numbers of the model of a slot that belong to no particle, as the last step left them; what they
+ *  mean its help says. Borrowed until the next call that steps, changes models or reads a
+ *  checkpoint.
+ *  @param values  out: [count], NULL where count is 0 @param count  out
+ *  @return MPS_E_NAME, MPS_E_ARG, MPS_E_BUSY (called from a verb) */
+MPS_API mps_status mps_model_state(const mps_sim *sim, const char *slot, const double **values,
+                                   int64_t *count);
+
 /** Name of active model number `index`, in the order of calling; NULL beyond the last. Valid until
  *  models change. */
 MPS_API const char *mps_model_name(const mps_sim *sim, int32_t index);

@@ -82,7 +82,8 @@ enum {
  *    "gas_shift" >= 0 [1/(Pa s2)], "gas_law" P [Pa]: f(p) = p, or P ln(1 + p/P) where P > 0, which
  *    needs a solver of nonlinear rows; arrive 0
  *    "pressure_condition" MPS_ROW_..., "pressure_value" [Pa]; arrive FIXED at 0 on the surface,
- *    FREE elsewhere.
+ *    FREE elsewhere. In MPS_LOAD they can be read; a condition above MPS_ROW_LEAST is that of a
+ *    row of MPS_ROW_LEAST that is at value_i.
  *  Unknowns are particles of regions INNER, SECOND and NEAR that are not fixed.
  *  Scalars of the equation, written from MPS_CLASSIFY to MPS_SOURCE:
  *    "equation_radius" pairs of the Laplacian, MPS_NEAR or MPS_FAR; arrives MPS_FAR
@@ -415,6 +416,28 @@ MPS_API double *mps_stage_scratch(mps_stage *s, int64_t count);
 
 /** As mps_stage_scratch(), of integers. */
 MPS_API int32_t *mps_stage_scratch_integers(mps_stage *s, int64_t count);
+
+/** Report trapped gas, in MPS_SHIFT: for mps_step_info, and its work for mps_energy. Once a step;
+ *  the last report counts. On many ranks all ranks report the same.
+ *  @param pockets  >= 0 @param volume  of all [m3, m2 in 2-D]
+ *  @param pressure  of the pocket farthest from the ambient pressure, less that [Pa]
+ *  @param work  on the liquid in this step [J]
+ *  @return 0, or non-zero after a failure (another hook, a number that is not finite; the error is
+ *          set) */
+MPS_API int mps_stage_gas(mps_stage *s, int32_t pockets, double volume, double pressure,
+                          double work);
+/** Numbers of a model that belong to no particle, e.g. amounts of gas. They last as long as the
+ *  model is active, are saved by checkpoints, and come back after a failed step. All ranks write
+ *  the same ones. A model begins with none.
+ *  @param count  how many there shall be: those before keep their values, new ones are 0
+ *  @return [count], shared by the verbs of the model, valid until the next call with another count
+ *          or the end of the step; finite when the step ends. NULL: no memory, count < 0, or
+ *          in MPS_POPULATE, where it can only be read (the error is set) */
+MPS_API double *mps_stage_state(mps_stage *s, int64_t count);
+
+/** Read them: what mps_stage_state() has left, in any hook. @param count  out
+ *  @return [count] */
+MPS_API const double *mps_stage_state_get(const mps_stage *s, int64_t *count);
 
 /** Report a failure of a verb; text as printf. Returns 1, so that a verb can end with it. */
 MPS_API int mps_stage_fail(mps_stage *s, const char *format, ...);

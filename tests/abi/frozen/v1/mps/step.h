@@ -90,9 +90,13 @@ typedef struct mps_step_info {
     int64_t surface;
     /** Wall clock by stage [s]. */
     double seconds[MPS_STAGE_COUNT];
-    /** dp/u [s], u = |u|max of the liquid (fluid at least half as dense as the densest phase):
-     *  pressures that change faster depend on the time step. At most dp/(5 U_g); in calm liquid,
-     *  where u < U_g, u/U_g times that. Its rate of change is at most 0.1. */
+    /** dp/u [s], u the speed of the fastest piece of the liquid (fluid at least half as dense as
+     *  the densest phase): pressures that change faster depend on the time step. u = max_i u_i,
+     *  u_i the N-th largest speed within re_near of particle i, itself included, at most its own;
+     *  N the particles that a film of two rows has within re_near of one of its own, 8 in 2-D and
+     *  22 in 3-D with re_near = 2.1 dp. So a film of two rows counts, spray does not: drops of
+     *  fewer than N particles, single particles. At most dp/(5 U_g); in calm liquid, where |u|max
+     *  < U_g, |u|max/U_g times that. Its rate of change is at most 0.1. */
     double crossing_time;
     /** Solutions of the pressure equation: 2 beside void, more while liquid separates from
      *  walls. */
@@ -112,10 +116,24 @@ typedef struct mps_step_info {
      *
      *  A constant of the library or of the plug-in that brings the model. */
     const char *limit;
+    /** Pockets of trapped gas, of the model gas.pocket. */
+    int32_t pockets;
+    /** Kept 0. */
+    int32_t reserved;
+    /** Volume of all pockets at the end of the step [m3, m2 in 2-D]. */
+    double pocket_volume;
+    /** Pressure of the pocket that is farthest from the ambient pressure, less that [Pa]. */
+    double pocket_pressure;
 } mps_step_info;
 
 /** Set struct_size and zero. @param size  sizeof(mps_step_info) @return MPS_E_ARG: bad size */
 MPS_API mps_status mps_step_info_init(mps_step_info *info, size_t size);
+
+/** Results of the last step again; all 0 before the first step of this handle, also after
+ *  mps_checkpoint_read().
+ *  @param info  initialised by mps_step_info_init(); out
+ *  @return MPS_E_ARG, MPS_E_BUSY (called from a verb or a callback) */
+MPS_API mps_status mps_step_info_get(mps_sim *sim, mps_step_info *info);
 
 /** Advance by one step of at most dt_max. W22 section 2.5 and Fig. 2. After an error positions,
  *  velocities, pressures and time are as before the call, and particles lost in it are back.
