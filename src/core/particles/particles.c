@@ -8,8 +8,9 @@
 /* A field that will be dropped stays behind a new one. */
 static void keep_last(mps__particles *s)
 {
+    if (s->fields < 2) return;
     mps__field *a = &s->field[s->fields - 2], *b = a + 1;
-    if (s->fields < 2 || !a->trails) return;
+    if (!a->trails) return;
     const mps__field last = *a;
     *a = *b;
     *b = last;
