@@ -70,8 +70,10 @@ mps_status mps__particles_init(mps__particles *s, mps__context *context, int32_t
                                           built_in[k].size, built_in[k].is_public,
                                           built_in[k].data));
     static const char *const tags[] = {"id", "kind", "phase", "part", "region", "plate"};
-    for (size_t k = 0; k < sizeof tags / sizeof tags[0]; k++)
-        mps__particles_field(s, tags[k])->is_tag = true;
+    for (size_t k = 0; k < sizeof tags / sizeof tags[0]; k++) {
+        mps__field *f = mps__particles_field(s, tags[k]);
+        if (f) f->is_tag = true;
+    }
     return MPS_OK;
 }
 
@@ -155,6 +157,7 @@ static void begin_field(const mps__field *f, int64_t first, int64_t count)
 void mps__particles_field_begin(mps__particles *s, const char *name, double value)
 {
     mps__field *f = mps__particles_field(s, name);
+    if (!f) return;
     f->begin = value;
     begin_field(f, 0, s->n);
 }
