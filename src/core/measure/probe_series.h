@@ -19,8 +19,7 @@ typedef struct mps__series {
     /* the samples */
     int64_t next; /* sample `next` is due at next / rate */
     int64_t count, t_capacity, value_capacity;
-    int64_t
-        cuts; /* how often samples were taken away or replaced: between two cuts they only grow */
+    int64_t cuts; /* how often samples were taken away or replaced; else they only grow */
     double *t, *value;
 } mps__series;
 

@@ -157,8 +157,8 @@ typedef struct mps__load {
 
 /* What the added mass is computed with. */
 typedef struct mps__mass {
-    double *
-        guess; /* field [n*dofs]: change of the pressure by each degree of freedom in the last step; NULL: never asked for */
+    /* field [n*dofs]: change of the pressure by each degree of freedom in the last step; NULL: never asked for */
+    double *guess;
     double *next;              /* [n*dofs] that of the step in progress */
     double *moments, *rhs, *p; /* [rows*dim], [rows], [columns] */
     double *a;                 /* [n*dofs*dim] change of accelerations */
