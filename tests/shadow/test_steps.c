@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Steps on an engine with memory of its own give the bytes of the host: nothing reads what it does not declare, and each part of a step reads
+/* Steps on a device with memory of its own give the bytes of the host: nothing reads what it does not declare, and each part of a step reads
  * the place that has the newest values. */
 #define _POSIX_C_SOURCE 200809L
 #include "checkpoint_fixture.h"
@@ -121,7 +121,7 @@ static void compare(mps_sim *host, mps_sim *sim)
     shadow s;
     shadow_attach(&s, sim);
     run(host, "host", failed[0]);
-    run(sim, "engine", failed[1]);
+    run(sim, "device", failed[1]);
     for (int k = 0; k < FAILURES; k++) assert_string_equal(failed[0][k].text, failed[1][k].text);
     same(host, sim);
     same_memory(host, sim);
@@ -247,7 +247,7 @@ static mps_sim *with(const mps_model_ops *ops, int32_t dim)
     return sim;
 }
 
-/* Verbs of plug-ins run on the host, between verbs of the library on the engine. */
+/* Verbs of plug-ins run on the host, between verbs of the library on the device. */
 static void plugins(void **state)
 {
     (void)state;
@@ -291,23 +291,15 @@ static void an_undeclared_use_is_found(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A step for which the engine has no room fails and changes nothing; the next has room. */
-static void *no_room(void *self, size_t bytes)
-{
-    (void)self, (void)bytes;
-    return NULL;
-}
-
+/* A step for which the device has no room fails and changes nothing; the next has room. */
 static void without_room(void **state)
 {
     mps_sim *host = rolling("imps", 2), *sim = rolling("imps", 2);
     shadow s;
     (void)state;
     shadow_attach(&s, sim);
-    void *(*const own)(void *, size_t) = s.engine.room;
-    s.engine.room = no_room;
-    ASSERT_REFUSED(sim, mps_step(sim, 0.01, NULL), MPS_E_NOMEM, "engine");
-    s.engine.room = own;
+    s.refuses = true;
+    ASSERT_REFUSED(sim, mps_step(sim, 0.01, NULL), MPS_E_NOMEM, "shadow");
     compare(host, sim);
 }
 

@@ -96,6 +96,7 @@ static mps_status try_step(mps__step *q, double dt_max, double *planned)
     MPS__TRY(mps__step_turn_areas(w));
     MPS__TRY(mps__step_place_solids(w));
     MPS__TRY(mps__twins_open(&w->host.twins, &w->host.plan));
+    MPS__TRY(mps__world_lists_twins(w));
     mps__step_open(q);
     MPS__TRY(mps__world_stencil(w, MPS_NEAR, &q->view.near));
     MPS__TRY(mps__world_stencil(w, MPS_FAR, &q->view.far));

@@ -220,6 +220,8 @@ mps_status mps__world_neighbours_kept(mps__world *w);
 void mps__world_rows(mps__world *w);
 /* The stencil of one radius from those lists. */
 mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *stencil);
+/* The arrays of those lists, and wetted areas that have turned, at the device of a step that begins. */
+mps_status mps__world_lists_twins(mps__world *w);
 /* A stencil that has the rows of all particles, from lists that are fresh. */
 mps_status mps__world_stencil_all(mps__world *w, int32_t which, mps_stencil *stencil);
 /* Dummies find their walls, and walls without an area get one, from a search that left no particle out. links.c */
