@@ -40,6 +40,7 @@
 
 /* Values of a row into the terms. The loop has a constant end, so that the values stay in registers. */
 #define MPSK__STORE(most)                                                        \
+    _Pragma("unroll")                                                            \
     for (int k_ = 0; k_ < (most); k_++)                                          \
         if (k_ < given_->launch.count)                                            \
             given_->launch.terms[k_ * given_->launch.n + i_] = own_[k_];
