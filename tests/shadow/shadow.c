@@ -12,7 +12,67 @@
 
 #include <cmocka.h>
 
-/* ---- memory ---- */
+/* ---- memory of a handle, that it can be closed ---- */
+
+enum { HEAP_CLASSES = 48 };
+static const size_t HEAP = (size_t)1 << 32;
+
+static struct {
+    char *begin;
+    size_t used;
+    void *is_free[HEAP_CLASSES]; /* by the power of two that is their size */
+} heap;
+
+/* In front of a block. */
+typedef struct heap_block {
+    size_t power;
+    void *next;
+} heap_block;
+
+static void heap_protect(int access)
+{
+    if (heap.begin) mprotect(heap.begin, (heap.used + 4095) & ~(size_t)4095, access);
+}
+
+static void *heap_alloc(void *user, size_t size)
+{
+    size_t power = 5;
+    (void)user;
+    while ((size_t)1 << power < size + sizeof(heap_block)) power++;
+    heap_block *b = heap.is_free[power];
+    if (b) {
+        heap.is_free[power] = b->next;
+    } else {
+        assert_true(heap.used + ((size_t)1 << power) <= HEAP);
+        b = (heap_block *)(void *)(heap.begin + heap.used);
+        heap.used += (size_t)1 << power;
+    }
+    b->power = power;
+    return b + 1;
+}
+
+static void heap_release(void *user, void *block)
+{
+    heap_block *b = (heap_block *)block - 1;
+    (void)user;
+    if ((char *)block < heap.begin || (char *)block >= heap.begin + HEAP) {
+        free(block); /* of before the handle was given this memory */
+        return;
+    }
+    b->next = heap.is_free[b->power];
+    heap.is_free[b->power] = b;
+}
+
+void shadow_heap(mps_sim *sim)
+{
+    if (!heap.begin)
+        heap.begin = mmap(NULL, HEAP, PROT_READ | PROT_WRITE,
+                          MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    assert_true(heap.begin != MAP_FAILED);
+    sim->context.allocator = (mps_allocator){.alloc = heap_alloc, .release = heap_release};
+}
+
+/* ---- memory of the device ---- */
 
 /* Whole pages; they are closed. */
 static size_t pages(uint64_t bytes)
@@ -136,14 +196,16 @@ static void outdated(void *self, void *array, uint64_t bytes, uint32_t number)
 
 /* ---- loops ---- */
 
-/* A host address among the fields would be followed on a device, to nowhere: the memory of the host is open here, so it is looked for. */
+/* A host address among the arguments would be followed on a device, to nowhere. Here it finds closed memory. */
 static void run(shadow *s, const mps_launch *l, mps_exact *sum, double *maximum)
 {
     assert_int_equal(l->struct_size, sizeof *l);
     assert_true(l->n > 0 && (l->dim == 2 || l->dim == 3) && !strchr(l->file, '/'));
     s->launches++;
     protect_all(s, PROT_READ | PROT_WRITE);
+    heap_protect(PROT_NONE);
     l->run(l->host, 0, l->n, sum, maximum);
+    heap_protect(PROT_READ | PROT_WRITE);
     protect_all(s, PROT_NONE);
 }
 

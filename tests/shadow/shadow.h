@@ -21,6 +21,8 @@ typedef struct shadow {
     } room[SHADOW_ROOMS];
 } shadow;
 
+/* A handle that was just made takes its arrays from memory that is closed while loops run on a shadow. */
+void shadow_heap(mps_sim *sim);
 /* Steps of a simulation run on the shadow from now on; it must live longer. */
 void shadow_attach(shadow *s, mps_sim *sim);
 /* Print what a step did: launches, waits, bytes. */

@@ -14,6 +14,7 @@ static mps_sim *rolling(const char *preset, int32_t dim)
 {
     const double dp = dim == 2 ? 0.05 : 0.1, lo[3] = {0, 0, 0}, hi[3] = {0.6, 0.6, 0.4};
     mps_sim *sim = new_sim(dim, dp);
+    shadow_heap(sim);
     ASSERT_OK(sim, mps_preset_use(sim, preset));
     add_tank(sim, 0.6, 0.6, 0.4);
     fill_depth(sim, 0.6, 0.3, 0.4);

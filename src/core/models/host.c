@@ -240,18 +240,30 @@ static void begin_channels(mps__host *h, const mps__call *call, int32_t place)
 
 /* ---- a device ---- */
 
+/* Models of the library whose verbs look at arrays outside of loops. */
+static bool is_serial(const mps__model *model)
+{
+    static const char *const names[] = {"gas.pocket"};
+    bool found = false;
+    for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)
+        found = found || strcmp(model->ops->name, names[k]) == 0;
+    return found;
+}
+
 /* Where a call runs. Verbs of plug-ins and passes that read the world run on the host. */
 static int32_t place_of(const mps__host *h, const mps__call *call)
 {
     if (!h->twins.open) return MPS__ON_HOST;
-    const bool flat = call->pass ? call->pass->flat : !mps__models_foreign(h->models, call->model);
+    const bool flat = call->pass ? call->pass->flat
+                                 : !mps__models_foreign(h->models, call->model) &&
+                                       !is_serial(call->model);
     return flat ? MPS__ON_DEVICE : MPS__ON_HOST;
 }
 
 /* Whether a call follows pairs. */
 static bool sees_pairs(const mps__host *h, const mps__call *call)
 {
-    bool pairs = call->model && mps__models_foreign(h->models, call->model);
+    bool pairs = call->model && place_of(h, call) == MPS__ON_HOST;
     for (int32_t u = 0; u < call->use_count; u++)
         pairs = pairs || call->uses[u].access & MPS__USE_AROUND;
     return pairs;
@@ -262,7 +274,8 @@ static void make_ready(mps__host *h, const mps__call *call, int32_t place)
 {
     int32_t flux[MPS__FLUX_CHANNELS];
     if (!h->twins.open) return;
-    mps__twins_ready(&h->twins, MPS__POSITION, place);
+    if (place == MPS__ON_DEVICE || call->model || sees_pairs(h, call))
+        mps__twins_ready(&h->twins, MPS__POSITION, place);
     if (place == MPS__ON_HOST && sees_pairs(h, call)) mps__twins_lists_ready(&h->twins);
     for (int32_t u = 0; u < call->use_count; u++)
         if (!(call->uses[u].access & MPS__USE_BEGIN))

@@ -134,7 +134,9 @@ double mps__world_speed(mps__world *w)
     mps_view v;
     double most = 0;
     mps__world_view(w, &v);
-    mps__host_max(&w->host, &v, 1, &raise_speeds, &(speeds){w->particles.u}, &most);
+    mps__twins_go(&w->host.twins, MPS__ON_DEVICE);
+    mps__host_max(&w->host, &v, 1, &raise_speeds, &(speeds){mps__seen(w, w->particles.u)}, &most);
+    mps__twins_go(&w->host.twins, MPS__ON_HOST);
     return sqrt(most);
 }
 
