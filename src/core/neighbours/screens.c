@@ -45,7 +45,8 @@ double mps__screen_height(const mps__screen *s, const double *X)
 
 double mps__screen_distance(const mps__screen *s, const double *X)
 {
-    double square = pow(mps__screen_height(s, X), 2);
+    const double height = mps__screen_height(s, X);
+    double square = height * height;
     for (int e = 0; e < 2; e++) {
         const double at = component(s, s->along[e], X),
                      off = at < 0 ? at : fmax(0, at - s->length[e]);
