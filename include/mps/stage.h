@@ -9,6 +9,7 @@
 #define MPS_STAGE_H
 
 #include <mps/flux.h>
+#include <mps/numbers.h>
 #include <mps/operators.h>
 #include <mps/types.h>
 

@@ -87,7 +87,7 @@ MPS_ROW void raise_way(const int dim, const mps_view *v, const ways *f, int64_t 
     const double distance = mps_is_fluid(v, i) ? moved(dim, v, f, i) : 0;
     if (!mps_is_fluid(v, i)) most[0] = 1;
     most[1] = distance > most[1] ? distance : most[1];
-    if (distance > f->limit) most[2] = fmax(most[2], -(double)v->id[i]);
+    if (distance > f->limit) most[2] = mps_larger(most[2], -(double)v->id[i]);
 }
 MPS_SUMS(raise_ways, raise_way, ways)
 
@@ -176,7 +176,7 @@ MPS_ROW void raise_result(const int dim, const mps_view *v, const result *f, int
     bool sound = speed <= f->fastest && isfinite(f->p[i]);
     for (int d = 0; d < dim; d++) sound = sound && isfinite(f->x[i * dim + d]);
     if (!sound) {
-        most[1] = fmax(most[1], -(double)v->id[i]);
+        most[1] = mps_larger(most[1], -(double)v->id[i]);
     } else if (mps_is_fluid(v, i)) {
         most[0] = speed > most[0] ? speed : most[0];
     }

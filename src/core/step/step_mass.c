@@ -214,7 +214,7 @@ static mps_status sum_columns(mps__step *q, const int32_t *freedom, int32_t dofs
                      .p = w->mass.next,
                      .a = w->mass.a,
                      .density = s->rho,
-                     .cell = pow(w->setup.dp, dim)};
+                     .cell = mps_pow(w->setup.dp, dim)};
     mps_view v = q->view;
     memcpy(f.at, q->load.at, sizeof f.at);
     f.correction = mps__channels_array(&w->channels, &w->particles, correction);
