@@ -96,6 +96,12 @@ typedef struct mps_device_ops {
     /** NULL, or for tests: these values, `number` bytes each, are not read any more. The array is
      *  one of the device or of the host. */
     void (*outdated)(void *self, void *array, uint64_t bytes, uint32_t number);
+    /** NULL, or called by mps_sim_device_set() before all others: the device opens. Non-zero refuses,
+     *  with the text of `failure`. */
+    int (*begin)(void *self);
+    /** NULL, or called when the library needs the device no more: another one was set, or the handle
+     *  is destroyed. Not after a failed mps_sim_device_set(). */
+    void (*end)(void *self);
 } mps_device_ops;
 
 /** What a device did in the last step that succeeded. */
@@ -127,7 +133,8 @@ typedef struct mps_device_info {
  *  of other models than those of the library always do. Results have the same bytes either way.
  *  With a kernel function of the user, mps_kernel_custom(), all of a step stays on the host.
  *  @return MPS_E_ARG (which entry, and what is allowed), MPS_E_BUSY (a lease is open),
- *  MPS_E_STATE (the handle has more than one rank: not supported) */
+ *  MPS_E_STATE (the handle has more than one rank: not supported), MPS_E_NOMEM, MPS_E_PLUGIN (the
+ *  device does not open); the handle is as before then */
 MPS_API mps_status mps_sim_device_set(mps_sim *sim, const mps_device_ops *ops);
 
 /** Set struct_size and zero. @param size  sizeof(mps_device_info) @return MPS_E_ARG: bad size */

@@ -135,8 +135,7 @@ static void sums_of_any_size(void **state)
 /* ---- what the comparison is for ---- */
 
 /* The text of a host that does something else. */
-static void run_other(const void *host, int64_t begin, int64_t end, mps_exact *sums,
-                      double *maxima)
+static void run_other(const void *host, int64_t begin, int64_t end, mps_exact *sums, double *maxima)
 {
     int64_t *const *to = host;
     (void)sums, (void)maxima;

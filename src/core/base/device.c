@@ -15,7 +15,8 @@ static mps_status check_table(mps__context *c, const mps_device_ops *ops)
     MPS__CHECK(c, ops->name && ops->name[0], "mps_device_ops.name is NULL or empty");
     const bool complete = ops->room && ops->give && ops->upload && ops->download && ops->clear &&
                           ops->copy && ops->rows && ops->values && ops->wait && ops->failure;
-    MPS__CHECK(c, complete, "device '%s' lacks a function: all but 'outdated' are needed",
+    MPS__CHECK(c, complete,
+               "device '%s' lacks a function: all but 'outdated', 'begin' and 'end' are needed",
                ops->name);
     return MPS_OK;
 }
@@ -32,11 +33,22 @@ mps_status mps__device_set(mps__device *d, const mps_device_ops *ops)
     mps_device_ops copy = {0};
     MPS__TRY(mps__struct_in(d->context, "mps_device_ops", &copy, sizeof copy, ops));
     MPS__TRY(check_table(d->context, &copy));
+    if (copy.begin && copy.begin(copy.self) != 0) {
+        const char *why = copy.failure(copy.self);
+        return mps__fail(d->context, MPS_E_PLUGIN, "device '%s' does not open: %.300s", copy.name,
+                         why ? why : "it does not say why");
+    }
     mps__device_init(d, d->context);
     d->ops = copy;
     d->parallel = (mps_parallel){
         .struct_size = sizeof d->parallel, .threads = 1, .run = run_parts, .user = d};
     return MPS_OK;
+}
+
+void mps__device_end(mps__device *d)
+{
+    if (d->ops.name && d->ops.end) d->ops.end(d->ops.self);
+    mps__device_init(d, d->context);
 }
 
 void mps__device_begin(mps__device *d)

@@ -15,8 +15,10 @@ typedef struct mps__device {
 } mps__device;
 
 void mps__device_init(mps__device *d, mps__context *context);
-/* Check the table of a device and take it over. */
+/* Check the table of a device, open it and take it over. */
 mps_status mps__device_set(mps__device *d, const mps_device_ops *ops);
+/* It is not needed any more. */
+void mps__device_end(mps__device *d);
 /* Whether there is one. */
 static inline bool mps__device_there(const mps__device *d)
 {

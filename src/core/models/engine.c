@@ -92,6 +92,7 @@ void mps__twins_free(mps__twins *t)
     for (int32_t k = 0; k < MPS__SCRATCH; k++) give_back(t, &t->scratch[k]);
     give_back(t, &t->constants);
     if (t->constant) mps__free(t->device.context, t->constant);
+    mps__device_end(&t->device);
     mps__twins_init(t, t->channels, t->particles, t->parallel);
 }
 
@@ -101,9 +102,13 @@ mps_status mps__twins_attach(mps__twins *t, const mps_device_ops *ops)
     double *constant = NULL;
     mps__device_init(&device, t->device.context);
     if (ops) {
-        MPS__TRY(mps__device_set(&device, ops));
-        constant = mps__alloc(device.context, CONSTANTS, sizeof *constant);
+        constant = mps__alloc(t->device.context, CONSTANTS, sizeof *constant);
         if (!constant) return MPS_E_NOMEM;
+        const mps_status status = mps__device_set(&device, ops);
+        if (status < 0) {
+            mps__free(t->device.context, constant);
+            return status;
+        }
     }
     mps__twins_free(t);
     t->device = device;
