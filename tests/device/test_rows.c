@@ -81,7 +81,7 @@ static void kernels_are_there(void **state)
 {
     static const char *const without[] = {"neighbours__search_parts", "neighbours_rows__exact_",
                                           "voids_cells__", "levels__join_rows"};
-    int64_t launches = 0;
+    int64_t launches = 0, different = 0;
     int kernels = 0;
     (void)state;
     for (int k = 0; k < device.kernels; k++) {
@@ -92,9 +92,11 @@ static void kernels_are_there(void **state)
         for (size_t m = 0; m < sizeof without / sizeof without[0]; m++)
             left_out = left_out || strstr(q->name, without[m]);
         if (!q->kernel && !left_out) fail_msg("%s has no kernel", q->name);
-        assert_int_equal(q->different, 0);
+        if (q->different > 0) print_error("%s: %lld differ\n", q->name, (long long)q->different);
+        different += q->different;
     }
-    print_message("%d kernels, %lld comparisons, 0 different\n", kernels, (long long)launches);
+    print_message("%d kernels, %lld comparisons\n", kernels, (long long)launches);
+    assert_int_equal(different, 0);
     assert_true(kernels >= 60 && launches >= 2000);
 }
 
@@ -156,6 +158,7 @@ static void a_difference_is_found(void **state)
     int64_t number[N];
     const mps_device_ops *ops = &device.ops;
     (void)state;
+    device.difference[0] = 0;
     for (int k = 0; k < N; k++) {
         order[k] = k;
         number[k] = k;
