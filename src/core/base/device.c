@@ -115,8 +115,7 @@ void mps__device_copy(mps__device *d, void *to, const void *from, size_t bytes)
 
 void mps__device_outdate(mps__device *d, void *array, size_t bytes, size_t number)
 {
-    if (d->ops.outdated && bytes > 0)
-        d->ops.outdated(d->ops.self, array, bytes, (uint32_t)number);
+    if (d->ops.outdated && bytes > 0) d->ops.outdated(d->ops.self, array, bytes, (uint32_t)number);
 }
 
 /* ---- loops ---- */

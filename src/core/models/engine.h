@@ -36,9 +36,9 @@ typedef struct mps__twin {
 
 typedef struct mps__twins {
     mps__device device;
-    mps_device_info last; /* what the device did in the last step */
-    bool open;            /* a step is in progress */
-    int32_t place;        /* of loops now */
+    mps_device_info last;                  /* what the device did in the last step */
+    bool open;                             /* a step is in progress */
+    int32_t place;                         /* of loops now */
     mps_parallel *parallel, host_parallel; /* of the handle; what it is on the host */
     mps__channels *channels;
     mps__particles *particles;

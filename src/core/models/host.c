@@ -254,19 +254,10 @@ static bool is_serial(const mps__model *model)
 static int32_t place_of(const mps__host *h, const mps__call *call)
 {
     if (!h->twins.open) return MPS__ON_HOST;
-    const bool flat = call->pass ? call->pass->flat
-                                 : !mps__models_foreign(h->models, call->model) &&
-                                       !is_serial(call->model);
+    const bool flat = call->pass
+                          ? call->pass->flat
+                          : !mps__models_foreign(h->models, call->model) && !is_serial(call->model);
     return flat ? MPS__ON_DEVICE : MPS__ON_HOST;
-}
-
-/* Whether a call follows pairs. */
-static bool sees_pairs(const mps__host *h, const mps__call *call)
-{
-    bool pairs = call->model && place_of(h, call) == MPS__ON_HOST;
-    for (int32_t u = 0; u < call->use_count; u++)
-        pairs = pairs || call->uses[u].access & MPS__USE_AROUND;
-    return pairs;
 }
 
 /* What a call reads comes to where it runs, and so do rows that it leaves as they are. Fluxes of pairs need no use. */
@@ -274,9 +265,8 @@ static void make_ready(mps__host *h, const mps__call *call, int32_t place)
 {
     int32_t flux[MPS__FLUX_CHANNELS];
     if (!h->twins.open) return;
-    if (place == MPS__ON_DEVICE || call->model || sees_pairs(h, call))
-        mps__twins_ready(&h->twins, MPS__POSITION, place);
-    if (place == MPS__ON_HOST && sees_pairs(h, call)) mps__twins_lists_ready(&h->twins);
+    if (place == MPS__ON_DEVICE || call->model) mps__twins_ready(&h->twins, MPS__POSITION, place);
+    if (place == MPS__ON_HOST && call->model) mps__twins_lists_ready(&h->twins);
     for (int32_t u = 0; u < call->use_count; u++)
         if (!(call->uses[u].access & MPS__USE_BEGIN))
             mps__twins_ready(&h->twins, call->channel[u], place);
@@ -423,6 +413,7 @@ mps_status mps__host_run(mps__host *h, mps_stage *s, mps_view *v, int32_t hook)
         const double limit = s->dt_limit;
         if (h->before_call) h->before_call(h->step, call);
         status = share_before(h, call);
+        h->twins.device.info.host_calls += h->twins.open && place_of(h, call) == MPS__ON_HOST;
         begin_channels(h, call, place_of(h, call));
         make_ready(h, call, place_of(h, call));
         if (status == MPS_OK) status = run_checked(h, s, v, call);
@@ -436,6 +427,25 @@ mps_status mps__host_run(mps__host *h, mps_stage *s, mps_view *v, int32_t hook)
         h->in_calls += seconds;
     }
     return status;
+}
+
+/* Names of the calls that run on the host: once after models or the device changed. */
+void mps__host_tell_places(mps__host *h)
+{
+    char text[MPS__ERROR_SIZE] = "";
+    size_t used = 0;
+    if (!h->twins.open || h->twins.told == h->plan.changes) return;
+    h->twins.told = h->plan.changes;
+    for (int32_t k = 0; k < h->plan.begin[MPS_HOOK_COUNT]; k++) {
+        const mps__call *call = &h->plan.call[k];
+        if (place_of(h, call) != MPS__ON_HOST || used + MPS__NAME_SIZE + 2 > sizeof text) continue;
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", used > 0 ? ", " : "",
+                                 call->name);
+    }
+    if (used > 0)
+        mps__log(h->context, MPS_LOG_INFO,
+                 "device '%s': these parts of a step run on the host, with copies: %.400s",
+                 h->twins.device.ops.name, text);
 }
 
 const char *mps__host_writer(const mps__host *h, int32_t channel)

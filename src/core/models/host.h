@@ -79,6 +79,8 @@ const mps_view *mps__host_begin_serial(mps_stage *s);
 void mps__host_end_serial(mps_stage *s, const mps_view *there);
 /* Line of the budget of a call's verb: of plug-ins and of the slots "friction" and "layer"; of others MPS__LINE_OF_HOOK. */
 int32_t mps__host_line(const mps__host *h, const mps__call *call);
+/* Log the names of the calls that run on the host, once after models or the device changed. */
+void mps__host_tell_places(mps__host *h);
 /* Name of the first model that writes a channel of the library, or NULL. */
 const char *mps__host_writer(const mps__host *h, int32_t channel);
 

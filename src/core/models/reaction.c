@@ -115,8 +115,9 @@ static int add_beside(mps_stage *s, mps__host *h, report *k)
     bool used[MPS__REACTIONS + 1] = {false};
     k->place = mps_stage_scratch_integers(s, s->view->n);
     if (!k->place) return 1;
-    mps_stage_rows(s, &place_rows, &(place_fields){k->acceleration,
-                                  mps__twins_seen(&h->twins, h->particles->part), k->place});
+    mps_stage_rows(
+        s, &place_rows,
+        &(place_fields){k->acceleration, mps__twins_seen(&h->twins, h->particles->part), k->place});
     int failed = note_used(s, h, k->place, used);
     for (int32_t place = MPS__REACTION_WHOLE; place < MPS__REACTIONS && !failed; place++)
         if (used[place + 1]) failed = add_place(s, h, k, place);

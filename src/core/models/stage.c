@@ -118,8 +118,8 @@ static void launch(mps__device *d, const job *given, mps_exact *sums, double *ma
     mps_view v = *given->v;
     job k = *given;
     const mps__host *h = k.h;
-    mps__twins_loop_view((mps__twins *)&h->twins, h->model ? (int32_t)(h->model - h->models->on) : 0,
-                         &v);
+    mps__twins_loop_view((mps__twins *)&h->twins,
+                         h->model ? (int32_t)(h->model - h->models->on) : 0, &v);
     k.v = &v;
     mps_launch l = {.dim = v.dim,
                     .n = v.n,

@@ -9,8 +9,8 @@ static mps_status find_near_rows(mps_stage *s)
     mps_neighbours *l = &w->lists.neighbours;
     mps__twins *t = &w->host.twins;
     MPS__TRY(mps__neighbours_near(l));
-    MPS__TRY(mps__twins_block(t, MPS__NEAR_BEGIN, l->near_begin, l->n + 1, sizeof *l->near_begin,
-                              true));
+    MPS__TRY(
+        mps__twins_block(t, MPS__NEAR_BEGIN, l->near_begin, l->n + 1, sizeof *l->near_begin, true));
     MPS__TRY(mps__twins_block(t, MPS__NEAR_COLUMNS, l->near_col, l->near_begin[l->n],
                               sizeof *l->near_col, false));
     return mps__twins_block(t, MPS__NEAR_WEIGHTS, l->w_r2, l->near_begin[l->n], sizeof *l->w_r2,

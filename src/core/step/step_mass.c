@@ -60,6 +60,7 @@ static void get_ready(mps__world *w)
     int32_t channel[MPS__FLUX_CHANNELS];
     mps__flux_channels(&w->channels, channel);
     mps__twins_fields_ready(&w->host.twins);
+    mps__twins_lists_ready(&w->host.twins);
     for (int k = 0; k < MPS__FLUX_CHANNELS; k++)
         if (channel[k] >= 0) mps__twins_ready(&w->host.twins, channel[k], MPS__ON_HOST);
     mps__twins_ready(&w->host.twins, mps__channels_find(&w->channels, "correction"), MPS__ON_HOST);

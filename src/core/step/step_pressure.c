@@ -34,8 +34,8 @@ MPS__FIRST(laws, has_law, law_fields)
 static mps_status check_laws(const mps__step *q, const double *law)
 {
     const mps__world *w = q->w;
-    if (!w->solvers.use->nonlinear && mps__first_run(&w->pool.parallel, &laws, q->view.n,
-                                                     &(law_fields){law}) < q->view.n)
+    if (!w->solvers.use->nonlinear &&
+        mps__first_run(&w->pool.parallel, &laws, q->view.n, &(law_fields){law}) < q->view.n)
         return mps__fail(w->context, MPS_E_STATE,
                          "model '%s' makes the pressure equation nonlinear, and solver '%s' is "
                          "for linear ones: choose 'sundials.kinsol'",
@@ -94,10 +94,13 @@ const mps__pass mps__pass_equation = {.name = "equation",
 static mps_status fill_matrix(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
+    if (q->terms.equation.radius == MPS_NEAR || q->view.far.col == q->view.near.col)
+        mps__twins_lists_ready(&q->w->host.twins);
     return mps__ppe_fill(&q->w->ppe, &q->view, &q->terms);
 }
 
-static const mps_use matrix_uses[] = {{"region", MPS_USE_NEIGHBOURS},
+static const mps_use matrix_uses[] = {{"position", MPS_USE_READ},
+                                      {"region", MPS_USE_NEIGHBOURS},
                                       {"pressure_condition", MPS_USE_NEIGHBOURS},
                                       {"pressure_value", MPS_USE_NEIGHBOURS},
                                       {"pressure_source", MPS_USE_READ},

@@ -398,7 +398,8 @@ mps_status mps__world_lists_twins(mps__world *w)
 {
     const mps_neighbours *l = &w->lists.neighbours;
     mps__twins *t = &w->host.twins;
-    const int64_t n = w->particles.n, turned = w->work.area == w->work.turned ? n * w->setup.dim : 0;
+    const int64_t n = w->particles.n,
+                  turned = w->work.area == w->work.turned ? n * w->setup.dim : 0;
     MPS__TRY(mps__twins_block(t, MPS__ROWS_BEGIN, l->begin, n, sizeof *l->begin, true));
     MPS__TRY(mps__twins_block(t, MPS__ROWS_MIDDLE, l->middle, n, sizeof *l->middle, true));
     if (l->end != l->middle)
