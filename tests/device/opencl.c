@@ -311,7 +311,8 @@ static int values(void *self, const mps_launch *l, mps_exact *sum, double *maxim
     }
     if (l->sums > 0) memcpy(host_sum, sum, (size_t)l->sums * sizeof *sum);
     if (l->maxima > 0) memcpy(host_maximum, maximum, (size_t)l->maxima * sizeof *maximum);
-    if (run_host(o, l, l->sums > 0 ? host_sum : NULL, l->maxima > 0 ? host_maximum : NULL)) return 1;
+    if (run_host(o, l, l->sums > 0 ? host_sum : NULL, l->maxima > 0 ? host_maximum : NULL))
+        return 1;
     const mps__launch head = {.n = l->n,
                               .count = count,
                               .first = l->sums > 0 ? 0 : -INFINITY,

@@ -84,7 +84,8 @@ static void all_models(void **state)
 static void kernels_are_there(void **state)
 {
     static const char *const without[] = {"neighbours__search_parts", "neighbours_rows__exact_",
-                                          "voids_cells__", "levels__join_rows"}; /* ON_HOST of that script */
+                                          "voids_cells__",
+                                          "levels__join_rows"}; /* ON_HOST of that script */
     int64_t launches = 0, different = 0;
     int kernels = 0;
     (void)state;
