@@ -7,7 +7,7 @@ from pathlib import Path
 from interface import Function, Interface, Member, Struct, Type, layouts
 
 HERE = Path(__file__).resolve().parent / "fortran"
-PLUGINS = {"model.h", "stage.h", "voids.h", "reaction.h", "ppe.h", "flux.h", "exact.h", "parallel.h", "ranks.h"}
+PLUGINS = {"model.h", "stage.h", "voids.h", "reaction.h", "ppe.h", "flux.h", "exact.h", "parallel.h", "ranks.h", "device.h"}
 CASE = {"case.h", "job.h", "page.h", "picture.h", "series.h", "stats.h"}
 KINDS = {"int": "integer(c_int)", "int32_t": "integer(c_int32_t)", "mps_status": "integer(c_int32_t)", "uint32_t": "integer(c_int32_t)",
          "int64_t": "integer(c_int64_t)", "size_t": "integer(c_size_t)", "double": "real(c_double)", "float": "real(c_float)",

@@ -3,7 +3,7 @@
 
 BUILD_PACKAGES=(gcc libc6-dev make cmake libsundials-dev libsuitesparse-dev libcairo2-dev zlib1g-dev libyaml-dev pkg-config)
 CHECK_PACKAGES=("${BUILD_PACKAGES[@]}" g++ gfortran libcmocka-dev clang clang-format clang-tidy cppcheck doxygen python3 binutils
-    libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev python3-numpy python3-jsonschema python3-yaml scdoc man-db)
+    libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev python3-numpy python3-jsonschema python3-yaml scdoc man-db llvm pocl-opencl-icd ocl-icd-opencl-dev)
 VALIDATE_PACKAGES=(python3 python3-numpy python3-matplotlib python3-pil)
 
 missing_packages() {

@@ -27,6 +27,8 @@ const option cli_options[] = {
      offsetof(choices, quiet)},
     {HAS_PROFILE, "--profile", 0, NULL, "print what each pass of the steps costs", OPTION_FLAG,
      offsetof(choices, profile)},
+    {HAS_DEVICE, "--device", 0, "NAME", "where steps run: cuda, cuda:1; default: here", OPTION_TEXT,
+     offsetof(choices, device)},
     {HAS_MPI, "--mpi", 0, NULL, "one run on the ranks that mpirun starts", OPTION_FLAG,
      offsetof(choices, mpi)}};
 

@@ -24,6 +24,7 @@ typedef struct choices {
     const char *file[CLI_FILES];   /* arguments that are no options */
     const char *set[CLI_SETS + 3]; /* "path=value"; a verb adds dp, steps and threads */
     const char *out;               /* NULL: as the verb has it */
+    const char *device;            /* NULL: the host */
     int32_t threads;               /* 0: as the case says */
     int32_t count;                 /* 0: as the verb has it */
     int32_t fmi;                   /* version, 0: as the verb has it */
@@ -42,7 +43,8 @@ enum {
     HAS_MPI = 64,
     HAS_RESUME = 128,
     HAS_COUNT = 256,
-    HAS_FMI = 512
+    HAS_FMI = 512,
+    HAS_DEVICE = 1024
 };
 
 /* A verb: `mps VERB ARGUMENTS`. @return exit code, MPS_EXIT_... */

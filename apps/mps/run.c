@@ -63,6 +63,7 @@ int cli_run(const choices *c, const mps_job_config *begin, const char *folder)
     config.overwrite = c->overwrite;
     config.quiet = c->quiet;
     config.profile = c->profile;
+    config.device = c->device;
     config.signals = 1;
     config.ranks = c->kept ? &c->kept->ranks : NULL;
     mps_case *tank = cli_case(&all, &code);

@@ -48,6 +48,9 @@ contains
         type(mps_harmonic) :: mps_harmonic_
         type(mps_load) :: mps_load_
         type(mps_parallel) :: mps_parallel_
+        type(mps_kernel) :: mps_kernel_
+        type(mps_stencil) :: mps_stencil_
+        type(mps_pair) :: mps_pair_
         type(mps_tank) :: mps_tank_
         type(mps_solid) :: mps_solid_
         type(mps_stl) :: mps_stl_
@@ -57,9 +60,6 @@ contains
         type(mps_verb_info) :: mps_verb_info_
         type(mps_pass_info) :: mps_pass_info_
         type(mps_name_info) :: mps_name_info_
-        type(mps_kernel) :: mps_kernel_
-        type(mps_stencil) :: mps_stencil_
-        type(mps_pair) :: mps_pair_
         type(mps_particle_block) :: mps_particle_block_
         type(mps_lease) :: mps_lease_
         type(mps_ship) :: mps_ship_
@@ -80,6 +80,9 @@ contains
         if (name == ' ' .and. c_sizeof(mps_harmonic_) /= 40) name = 'mps_harmonic'
         if (name == ' ' .and. c_sizeof(mps_load_) /= 456) name = 'mps_load'
         if (name == ' ' .and. c_sizeof(mps_parallel_) /= 24) name = 'mps_parallel'
+        if (name == ' ' .and. c_sizeof(mps_kernel_) /= 24) name = 'mps_kernel'
+        if (name == ' ' .and. c_sizeof(mps_stencil_) /= 128) name = 'mps_stencil'
+        if (name == ' ' .and. c_sizeof(mps_pair_) /= 64) name = 'mps_pair'
         if (name == ' ' .and. c_sizeof(mps_tank_) /= 72) name = 'mps_tank'
         if (name == ' ' .and. c_sizeof(mps_solid_) /= 96) name = 'mps_solid'
         if (name == ' ' .and. c_sizeof(mps_stl_) /= 80) name = 'mps_stl'
@@ -89,9 +92,6 @@ contains
         if (name == ' ' .and. c_sizeof(mps_verb_info_) /= 32) name = 'mps_verb_info'
         if (name == ' ' .and. c_sizeof(mps_pass_info_) /= 64) name = 'mps_pass_info'
         if (name == ' ' .and. c_sizeof(mps_name_info_) /= 24) name = 'mps_name_info'
-        if (name == ' ' .and. c_sizeof(mps_kernel_) /= 24) name = 'mps_kernel'
-        if (name == ' ' .and. c_sizeof(mps_stencil_) /= 128) name = 'mps_stencil'
-        if (name == ' ' .and. c_sizeof(mps_pair_) /= 64) name = 'mps_pair'
         if (name == ' ' .and. c_sizeof(mps_particle_block_) /= 56) name = 'mps_particle_block'
         if (name == ' ' .and. c_sizeof(mps_lease_) /= 48) name = 'mps_lease'
         if (name == ' ' .and. c_sizeof(mps_ship_) /= 96) name = 'mps_ship'

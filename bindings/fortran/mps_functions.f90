@@ -96,6 +96,88 @@ module mps_functions
         function mps_load_get(sim, centre, load) bind(C) result(result_)
             import; type(c_ptr), value :: sim; real(c_double), intent(in), optional :: centre(*); type(mps_load), &
                 optional :: load; integer(c_int32_t) :: result_; end function
+        function mps_kernel_init(kernel, size) bind(C) result(result_)
+            import; type(mps_kernel), optional :: kernel; integer(c_size_t), value :: size; integer(c_int32_t) :: result_; &
+                end function
+        function mps_kernel_find(name, kernel) bind(C) result(result_)
+            import; character(kind=c_char), intent(in), optional :: name(*); type(mps_kernel), optional :: kernel; &
+                integer(c_int32_t) :: result_; end function
+        function mps_kernel_custom(fn, user, kernel) bind(C) result(result_)
+            import; type(c_funptr), value :: fn; type(c_ptr), value :: user; type(mps_kernel), optional :: kernel; &
+                integer(c_int32_t) :: result_; end function
+        function mps_kernel_value(kernel, r, re) bind(C) result(result_)
+            import; type(mps_kernel), intent(in), optional :: kernel; real(c_double), value :: r; real(c_double), &
+                value :: re; real(c_double) :: result_; end function
+        function mps_lattice_constants(kernel, dim, dp, re, n0, lambda) bind(C) result(result_)
+            import; type(mps_kernel), intent(in), optional :: kernel; integer(c_int32_t), value :: dim; real(c_double), &
+                value :: dp; real(c_double), value :: re; real(c_double), optional :: n0; real(c_double), optional :: lambda; &
+                integer(c_int32_t) :: result_; end function
+        function mps_kernel_use(sim, kernel) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; type(mps_kernel), intent(in), optional :: kernel; &
+                integer(c_int32_t) :: result_; end function
+        function mps_stencil_init(stencil, size) bind(C) result(result_)
+            import; type(mps_stencil), optional :: stencil; integer(c_size_t), value :: size; integer(c_int32_t) :: result_; &
+                end function
+        function mps_neighbours_create(dim, dp, allocator, list) bind(C) result(result_)
+            import; integer(c_int32_t), value :: dim; real(c_double), value :: dp; type(mps_allocator), intent(in), &
+                optional :: allocator; type(c_ptr) :: list; integer(c_int32_t) :: result_; end function
+        subroutine mps_neighbours_destroy(list) bind(C)
+            import; type(c_ptr), value :: list; end subroutine
+        function mps_neighbours_error(list) bind(C) result(result_)
+            import; type(c_ptr), value :: list; type(c_ptr) :: result_; end function
+        function mps_neighbours_parallel_set(list, parallel) bind(C) result(result_)
+            import; type(c_ptr), value :: list; type(mps_parallel), intent(in), optional :: parallel; &
+                integer(c_int32_t) :: result_; end function
+        function mps_neighbours_build(list, n, x, re_near, re_far) bind(C) result(result_)
+            import; type(c_ptr), value :: list; integer(c_int64_t), value :: n; real(c_double), intent(in), optional :: x(*); &
+                real(c_double), value :: re_near; real(c_double), value :: re_far; integer(c_int32_t) :: result_; end function
+        function mps_neighbours_stencil_get(list, which, kernel, stencil) bind(C) result(result_)
+            import; type(c_ptr), value :: list; integer(c_int32_t), value :: which; type(mps_kernel), intent(in), &
+                optional :: kernel; type(mps_stencil), optional :: stencil; integer(c_int32_t) :: result_; end function
+        function mps_stencil_get(sim, which, stencil) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; integer(c_int32_t), value :: which; type(mps_stencil), optional :: stencil; &
+                integer(c_int32_t) :: result_; end function
+        function mps_op_number_density(s, n) bind(C) result(result_)
+            import; type(mps_stencil), intent(in), optional :: s; real(c_double), optional :: n(*); &
+                integer(c_int32_t) :: result_; end function
+        function mps_op_volume_deviation(s, delta) bind(C) result(result_)
+            import; type(mps_stencil), intent(in), optional :: s; real(c_double), optional :: delta(*); &
+                integer(c_int32_t) :: result_; end function
+        function mps_op_volume_sum(s, f, sum) bind(C) result(result_)
+            import; type(mps_stencil), intent(in), optional :: s; real(c_double), intent(in), optional :: f(*); &
+                real(c_double), optional :: sum(*); integer(c_int32_t) :: result_; end function
+        function mps_op_gradient(s, f, grad) bind(C) result(result_)
+            import; type(mps_stencil), intent(in), optional :: s; real(c_double), intent(in), optional :: f(*); &
+                real(c_double), optional :: grad(*); integer(c_int32_t) :: result_; end function
+        function mps_op_gradient_conservative(s, f, grad) bind(C) result(result_)
+            import; type(mps_stencil), intent(in), optional :: s; real(c_double), intent(in), optional :: f(*); &
+                real(c_double), optional :: grad(*); integer(c_int32_t) :: result_; end function
+        function mps_op_gradient_corrected(s, b, f, grad) bind(C) result(result_)
+            import; type(mps_stencil), intent(in), optional :: s; real(c_double), intent(in), optional :: b(*); &
+                real(c_double), intent(in), optional :: f(*); real(c_double), optional :: grad(*); &
+                integer(c_int32_t) :: result_; end function
+        function mps_op_divergence(s, u, div) bind(C) result(result_)
+            import; type(mps_stencil), intent(in), optional :: s; real(c_double), intent(in), optional :: u(*); &
+                real(c_double), optional :: div(*); integer(c_int32_t) :: result_; end function
+        function mps_op_divergence_corrected(s, b, u, div) bind(C) result(result_)
+            import; type(mps_stencil), intent(in), optional :: s; real(c_double), intent(in), optional :: b(*); &
+                real(c_double), intent(in), optional :: u(*); real(c_double), optional :: div(*); &
+                integer(c_int32_t) :: result_; end function
+        function mps_op_laplacian(s, f, lap) bind(C) result(result_)
+            import; type(mps_stencil), intent(in), optional :: s; real(c_double), intent(in), optional :: f(*); &
+                real(c_double), optional :: lap(*); integer(c_int32_t) :: result_; end function
+        function mps_op_laplacian_vector(s, u, lap) bind(C) result(result_)
+            import; type(mps_stencil), intent(in), optional :: s; real(c_double), intent(in), optional :: u(*); &
+                real(c_double), optional :: lap(*); integer(c_int32_t) :: result_; end function
+        function mps_op_asymmetry(s, a) bind(C) result(result_)
+            import; type(mps_stencil), intent(in), optional :: s; real(c_double), optional :: a(*); &
+                integer(c_int32_t) :: result_; end function
+        function mps_op_correction(s, floor, b) bind(C) result(result_)
+            import; type(mps_stencil), intent(in), optional :: s; real(c_double), value :: floor; real(c_double), &
+                optional :: b(*); integer(c_int32_t) :: result_; end function
+        function mps_matrix_inverse_bounded(dim, m, floor, inverse) bind(C) result(result_)
+            import; integer(c_int32_t), value :: dim; real(c_double), intent(in), optional :: m(*); real(c_double), &
+                value :: floor; real(c_double), optional :: inverse(*); integer(c_int32_t) :: result_; end function
         function mps_tank_init(tank, size) bind(C) result(result_)
             import; type(mps_tank), optional :: tank; integer(c_size_t), value :: size; integer(c_int32_t) :: result_; &
                 end function
@@ -188,88 +270,6 @@ module mps_functions
         function mps_kernel_info_get(sim, index, info) bind(C) result(result_)
             import; type(c_ptr), value :: sim; integer(c_int32_t), value :: index; type(mps_name_info), optional :: info; &
                 integer(c_int32_t) :: result_; end function
-        function mps_kernel_init(kernel, size) bind(C) result(result_)
-            import; type(mps_kernel), optional :: kernel; integer(c_size_t), value :: size; integer(c_int32_t) :: result_; &
-                end function
-        function mps_kernel_find(name, kernel) bind(C) result(result_)
-            import; character(kind=c_char), intent(in), optional :: name(*); type(mps_kernel), optional :: kernel; &
-                integer(c_int32_t) :: result_; end function
-        function mps_kernel_custom(fn, user, kernel) bind(C) result(result_)
-            import; type(c_funptr), value :: fn; type(c_ptr), value :: user; type(mps_kernel), optional :: kernel; &
-                integer(c_int32_t) :: result_; end function
-        function mps_kernel_value(kernel, r, re) bind(C) result(result_)
-            import; type(mps_kernel), intent(in), optional :: kernel; real(c_double), value :: r; real(c_double), &
-                value :: re; real(c_double) :: result_; end function
-        function mps_lattice_constants(kernel, dim, dp, re, n0, lambda) bind(C) result(result_)
-            import; type(mps_kernel), intent(in), optional :: kernel; integer(c_int32_t), value :: dim; real(c_double), &
-                value :: dp; real(c_double), value :: re; real(c_double), optional :: n0; real(c_double), optional :: lambda; &
-                integer(c_int32_t) :: result_; end function
-        function mps_kernel_use(sim, kernel) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; type(mps_kernel), intent(in), optional :: kernel; &
-                integer(c_int32_t) :: result_; end function
-        function mps_stencil_init(stencil, size) bind(C) result(result_)
-            import; type(mps_stencil), optional :: stencil; integer(c_size_t), value :: size; integer(c_int32_t) :: result_; &
-                end function
-        function mps_neighbours_create(dim, dp, allocator, list) bind(C) result(result_)
-            import; integer(c_int32_t), value :: dim; real(c_double), value :: dp; type(mps_allocator), intent(in), &
-                optional :: allocator; type(c_ptr) :: list; integer(c_int32_t) :: result_; end function
-        subroutine mps_neighbours_destroy(list) bind(C)
-            import; type(c_ptr), value :: list; end subroutine
-        function mps_neighbours_error(list) bind(C) result(result_)
-            import; type(c_ptr), value :: list; type(c_ptr) :: result_; end function
-        function mps_neighbours_parallel_set(list, parallel) bind(C) result(result_)
-            import; type(c_ptr), value :: list; type(mps_parallel), intent(in), optional :: parallel; &
-                integer(c_int32_t) :: result_; end function
-        function mps_neighbours_build(list, n, x, re_near, re_far) bind(C) result(result_)
-            import; type(c_ptr), value :: list; integer(c_int64_t), value :: n; real(c_double), intent(in), optional :: x(*); &
-                real(c_double), value :: re_near; real(c_double), value :: re_far; integer(c_int32_t) :: result_; end function
-        function mps_neighbours_stencil_get(list, which, kernel, stencil) bind(C) result(result_)
-            import; type(c_ptr), value :: list; integer(c_int32_t), value :: which; type(mps_kernel), intent(in), &
-                optional :: kernel; type(mps_stencil), optional :: stencil; integer(c_int32_t) :: result_; end function
-        function mps_stencil_get(sim, which, stencil) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; integer(c_int32_t), value :: which; type(mps_stencil), optional :: stencil; &
-                integer(c_int32_t) :: result_; end function
-        function mps_op_number_density(s, n) bind(C) result(result_)
-            import; type(mps_stencil), intent(in), optional :: s; real(c_double), optional :: n(*); &
-                integer(c_int32_t) :: result_; end function
-        function mps_op_volume_deviation(s, delta) bind(C) result(result_)
-            import; type(mps_stencil), intent(in), optional :: s; real(c_double), optional :: delta(*); &
-                integer(c_int32_t) :: result_; end function
-        function mps_op_volume_sum(s, f, sum) bind(C) result(result_)
-            import; type(mps_stencil), intent(in), optional :: s; real(c_double), intent(in), optional :: f(*); &
-                real(c_double), optional :: sum(*); integer(c_int32_t) :: result_; end function
-        function mps_op_gradient(s, f, grad) bind(C) result(result_)
-            import; type(mps_stencil), intent(in), optional :: s; real(c_double), intent(in), optional :: f(*); &
-                real(c_double), optional :: grad(*); integer(c_int32_t) :: result_; end function
-        function mps_op_gradient_conservative(s, f, grad) bind(C) result(result_)
-            import; type(mps_stencil), intent(in), optional :: s; real(c_double), intent(in), optional :: f(*); &
-                real(c_double), optional :: grad(*); integer(c_int32_t) :: result_; end function
-        function mps_op_gradient_corrected(s, b, f, grad) bind(C) result(result_)
-            import; type(mps_stencil), intent(in), optional :: s; real(c_double), intent(in), optional :: b(*); &
-                real(c_double), intent(in), optional :: f(*); real(c_double), optional :: grad(*); &
-                integer(c_int32_t) :: result_; end function
-        function mps_op_divergence(s, u, div) bind(C) result(result_)
-            import; type(mps_stencil), intent(in), optional :: s; real(c_double), intent(in), optional :: u(*); &
-                real(c_double), optional :: div(*); integer(c_int32_t) :: result_; end function
-        function mps_op_divergence_corrected(s, b, u, div) bind(C) result(result_)
-            import; type(mps_stencil), intent(in), optional :: s; real(c_double), intent(in), optional :: b(*); &
-                real(c_double), intent(in), optional :: u(*); real(c_double), optional :: div(*); &
-                integer(c_int32_t) :: result_; end function
-        function mps_op_laplacian(s, f, lap) bind(C) result(result_)
-            import; type(mps_stencil), intent(in), optional :: s; real(c_double), intent(in), optional :: f(*); &
-                real(c_double), optional :: lap(*); integer(c_int32_t) :: result_; end function
-        function mps_op_laplacian_vector(s, u, lap) bind(C) result(result_)
-            import; type(mps_stencil), intent(in), optional :: s; real(c_double), intent(in), optional :: u(*); &
-                real(c_double), optional :: lap(*); integer(c_int32_t) :: result_; end function
-        function mps_op_asymmetry(s, a) bind(C) result(result_)
-            import; type(mps_stencil), intent(in), optional :: s; real(c_double), optional :: a(*); &
-                integer(c_int32_t) :: result_; end function
-        function mps_op_correction(s, floor, b) bind(C) result(result_)
-            import; type(mps_stencil), intent(in), optional :: s; real(c_double), value :: floor; real(c_double), &
-                optional :: b(*); integer(c_int32_t) :: result_; end function
-        function mps_matrix_inverse_bounded(dim, m, floor, inverse) bind(C) result(result_)
-            import; integer(c_int32_t), value :: dim; real(c_double), intent(in), optional :: m(*); real(c_double), &
-                value :: floor; real(c_double), optional :: inverse(*); integer(c_int32_t) :: result_; end function
         function mps_frames_open(sim, folder, name, kinds, frames) bind(C) result(result_)
             import; type(c_ptr), value :: sim; character(kind=c_char), intent(in), optional :: folder(*); &
                 character(kind=c_char), intent(in), optional :: name(*); integer(c_int32_t), value :: kinds; &

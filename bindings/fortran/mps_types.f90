@@ -62,13 +62,6 @@ module mps_types
     integer(c_int32_t), parameter :: MPS_PARALLEL_VALUES = 16
     integer(c_int32_t), parameter :: MPS_PARALLEL_LEAST = 128
     integer(c_int32_t), parameter :: MPS_PARALLEL_RANGES = 8
-    integer(c_int32_t), parameter :: MPS_SIDE_NONE = 0
-    integer(c_int32_t), parameter :: MPS_SIDE_X0 = 1
-    integer(c_int32_t), parameter :: MPS_SIDE_X1 = 2
-    integer(c_int32_t), parameter :: MPS_SIDE_Y0 = 3
-    integer(c_int32_t), parameter :: MPS_SIDE_Y1 = 4
-    integer(c_int32_t), parameter :: MPS_SIDE_Z0 = 5
-    integer(c_int32_t), parameter :: MPS_SIDE_Z1 = 6
     integer(c_int32_t), parameter :: MPS_KERNEL_IMPROVED = 1
     integer(c_int32_t), parameter :: MPS_KERNEL_ORIGINAL = 2
     integer(c_int32_t), parameter :: MPS_NEAR = 0
@@ -101,6 +94,14 @@ module mps_types
     integer(c_int32_t), parameter :: MPS_BODY_MEMBER = 1
     integer(c_int32_t), parameter :: MPS_BODY_SEED = 2
     integer(c_int32_t), parameter :: MPS_BODY_ANCHOR = 3
+    integer(c_int32_t), parameter :: MPS_DEVICE_API = 1
+    integer(c_int32_t), parameter :: MPS_SIDE_NONE = 0
+    integer(c_int32_t), parameter :: MPS_SIDE_X0 = 1
+    integer(c_int32_t), parameter :: MPS_SIDE_X1 = 2
+    integer(c_int32_t), parameter :: MPS_SIDE_Y0 = 3
+    integer(c_int32_t), parameter :: MPS_SIDE_Y1 = 4
+    integer(c_int32_t), parameter :: MPS_SIDE_Z0 = 5
+    integer(c_int32_t), parameter :: MPS_SIDE_Z1 = 6
     integer(c_int32_t), parameter :: MPS_MODEL_API = 1
     integer(c_int32_t), parameter :: MPS_USE_READ = 1
     integer(c_int32_t), parameter :: MPS_USE_NEIGHBOURS = 2
@@ -229,6 +230,24 @@ module mps_types
             type(c_ptr) :: user = c_null_ptr
     end type mps_parallel
 
+    type, bind(C) :: mps_kernel
+        integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: id = 0; type(c_funptr) :: fn = c_null_funptr; &
+            type(c_ptr) :: user = c_null_ptr
+    end type mps_kernel
+
+    type, bind(C) :: mps_stencil
+        integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: dim = 0; type(c_ptr) :: host = c_null_ptr; &
+            integer(c_int64_t) :: n = 0; real(c_double) :: dp = 0; real(c_double) :: re = 0; real(c_double) :: n0 = 0; &
+            real(c_double) :: lambda = 0; type(mps_kernel) :: kernel; type(c_ptr) :: parallel = c_null_ptr; &
+            type(c_ptr) :: x = c_null_ptr; type(c_ptr) :: begin = c_null_ptr; type(c_ptr) :: end = c_null_ptr; &
+            type(c_ptr) :: col = c_null_ptr; type(c_ptr) :: w_r2 = c_null_ptr
+    end type mps_stencil
+
+    type, bind(C) :: mps_pair
+        real(c_double) :: d(3) = 0; real(c_double) :: r2 = 0; real(c_double) :: r = 0; real(c_double) :: w = 0; &
+            integer(c_int64_t) :: j = 0; real(c_double) :: w_r2 = 0
+    end type mps_pair
+
     type, bind(C) :: mps_tank
         integer(c_int32_t) :: struct_size = 0; type(c_ptr) :: name = c_null_ptr; real(c_double) :: lo(3) = 0; &
             real(c_double) :: size(3) = 0; integer(c_int32_t) :: open_top = 0; integer(c_int32_t) :: dummy_layers = 0
@@ -281,24 +300,6 @@ module mps_types
         integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: active = 0; type(c_ptr) :: name = c_null_ptr; &
             type(c_ptr) :: help = c_null_ptr
     end type mps_name_info
-
-    type, bind(C) :: mps_kernel
-        integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: id = 0; type(c_funptr) :: fn = c_null_funptr; &
-            type(c_ptr) :: user = c_null_ptr
-    end type mps_kernel
-
-    type, bind(C) :: mps_stencil
-        integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: dim = 0; type(c_ptr) :: host = c_null_ptr; &
-            integer(c_int64_t) :: n = 0; real(c_double) :: dp = 0; real(c_double) :: re = 0; real(c_double) :: n0 = 0; &
-            real(c_double) :: lambda = 0; type(mps_kernel) :: kernel; type(c_ptr) :: parallel = c_null_ptr; &
-            type(c_ptr) :: x = c_null_ptr; type(c_ptr) :: begin = c_null_ptr; type(c_ptr) :: end = c_null_ptr; &
-            type(c_ptr) :: col = c_null_ptr; type(c_ptr) :: w_r2 = c_null_ptr
-    end type mps_stencil
-
-    type, bind(C) :: mps_pair
-        real(c_double) :: d(3) = 0; real(c_double) :: r2 = 0; real(c_double) :: r = 0; real(c_double) :: w = 0; &
-            integer(c_int64_t) :: j = 0; real(c_double) :: w_r2 = 0
-    end type mps_pair
 
     type, bind(C) :: mps_particle_block
         integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: kind = 0; integer(c_int32_t) :: phase = 0; &

@@ -29,6 +29,7 @@ typedef struct driver {
     double probe_dt;           /* rows of probes.csv [s] */
     double sensor_average;     /* mps_probe.average of wall pressures and forces [s] */
     option_times pictures;     /* none: at quarters of the time */
+    const char *device;        /* NULL: the host */
     int32_t threads;           /* of the simulation; with --mpi, of each rank */
     int32_t frames;            /* frames besides the first */
     int32_t dim;               /* 2 or 3 */

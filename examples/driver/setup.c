@@ -183,6 +183,7 @@ static void open_job(driver *d)
     c.quiet = d->quiet;
     c.signals = 1;
     c.threads = d->threads;
+    c.device = d->device;
     c.ranks = d->mpi ? &d->ranks : NULL;
     c.error = error;
     c.error_size = sizeof error;

@@ -9,6 +9,7 @@
 #define MPS_STAGE_H
 
 #include <mps/flux.h>
+#include <mps/numbers.h>
 #include <mps/operators.h>
 #include <mps/types.h>
 
@@ -255,6 +256,8 @@ typedef struct mps_rows {
     const char *name;
     /** What it does. */
     mps_rows_fn run;
+    /** Source file that defines it. */
+    const char *file;
 } mps_rows;
 
 /** Sums or maxima over rows; MPS_SUMS() defines them. */
@@ -267,6 +270,8 @@ typedef struct mps_sums {
     const char *name;
     /** What it does. */
     mps_sums_fn run;
+    /** Source file that defines it. */
+    const char *file;
 } mps_sums;
 
 /** Run a loop over all rows, in parts at the same time. Returns when all are done.
@@ -449,6 +454,13 @@ MPS_API int mps_stage_fail(mps_stage *s, const char *format, ...);
 #define MPS_ROW static inline
 #endif
 
+/** Source file of a loop, without folders where the compiler knows that. */
+#if defined(__FILE_NAME__)
+#define MPS_FILE __FILE_NAME__
+#else
+#define MPS_FILE __FILE__
+#endif
+
 /** Define the mps_rows `name` from a row function
  *    MPS_ROW void row(const int dim, const mps_view *v, const type *fields, int64_t i);
  *  compiled for dim = 2 and 3, so that loops over dim unroll. View and fields are copies of the
@@ -463,7 +475,7 @@ MPS_API int mps_stage_fail(mps_stage *s, const char *format, ...);
         else                                                                                       \
             for (int64_t i = begin; i < end; i++) row(3, &own_, &given_, i);                       \
     }                                                                                              \
-    static const mps_rows name = {sizeof(mps_rows), sizeof(type), #name, name##_run};
+    static const mps_rows name = {sizeof(mps_rows), sizeof(type), #name, name##_run, MPS_FILE};
 
 /** Define the mps_sums `name` from a row function
  *    MPS_ROW void row(const int dim, const mps_view *v, const type *fields, int64_t i,
@@ -482,7 +494,7 @@ MPS_API int mps_stage_fail(mps_stage *s, const char *format, ...);
             for (int64_t i = begin; i < end; i++)                                                  \
                 row(3, &own_, &given_, i, values_ + (i - begin) * stride_);                        \
     }                                                                                              \
-    static const mps_sums name = {sizeof(mps_sums), sizeof(type), #name, name##_run};
+    static const mps_sums name = {sizeof(mps_sums), sizeof(type), #name, name##_run, MPS_FILE};
 
 MPS_END_DECLS
 

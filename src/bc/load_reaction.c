@@ -104,8 +104,8 @@ MPS_ROW contact sum_contact(const int dim, const mps_view *v, const fields *f, i
         const bool surface = region == MPS_REGION_SURFACE;
         c.weight += q.w;
         c.p += q.w * carried;
-        if (region >= MPS_REGION_NEAR && f->p[j] >= 0) c.least = fmin(c.least, carried);
-        c.pull = fmin(c.pull, f->p[j]);
+        if (region >= MPS_REGION_NEAR && f->p[j] >= 0) c.least = mps_smaller(c.least, carried);
+        c.pull = mps_smaller(c.pull, f->p[j]);
         c.rise += cell * q.w_r2 * push * (surface ? f->p[i] - carried : 2.0 * rho * (slope + body));
     }
     return c;
@@ -167,9 +167,9 @@ MPS_ROW double covered_share(const int dim, const mps_view *v, const fields *f, 
         for (int d = 0; d < dim; d++) along -= at.s[d] * nearest.s[d];
         if (along <= 0 || at.height <= BEFORE * v->dp) continue;
         const double far = sqrt(at.square), full = (t->re - far) / (t->re - v->dp);
-        across = fmax(across, along / (near * far) * fmin(1, full));
+        across = mps_larger(across, along / (near * far) * mps_smaller(1, full));
     }
-    return fmin(1, fmax(0, 1 - near / v->dp) + across);
+    return mps_smaller(1, mps_larger(0, 1 - near / v->dp) + across);
 }
 
 MPS_ROW double pressure_of(const int dim, const mps_view *v, const fields *f, int64_t i)
@@ -180,11 +180,11 @@ MPS_ROW double pressure_of(const int dim, const mps_view *v, const fields *f, in
     if (c.weight == 0) return f->p[i];
     const bool bounded = f->condition[i] >= MPS_ROW_LEAST;
     const double share = v->setting[COVER] > 0 && size > 0 ? covered_share(dim, v, f, i, n) : 1.0;
-    const double rest = bounded && share < 1 ? (1 - share) * fmax(0, f->value[i]) : 0;
-    if (bounded) c.pull = fmax(c.pull, fmin(0, f->p[i] - f->value[i]));
-    const double shown = fmax(share * c.p / c.weight + rest + (size > 0 ? c.rise / size : 0),
-                              fmin(f->p[i], 0));
-    return fmax(shown, fmin(shown - c.least, c.pull));
+    const double rest = bounded && share < 1 ? (1 - share) * mps_larger(0, f->value[i]) : 0;
+    if (bounded) c.pull = mps_larger(c.pull, mps_smaller(0, f->p[i] - f->value[i]));
+    const double shown = mps_larger(share * c.p / c.weight + rest + (size > 0 ? c.rise / size : 0),
+                                    mps_smaller(f->p[i], 0));
+    return mps_larger(shown, mps_smaller(shown - c.least, c.pull));
 }
 
 MPS_ROW void load_row(const int dim, const mps_view *v, const fields *f, int64_t i)

@@ -28,7 +28,7 @@ static inline bool is_gas(const mps_view *v, int64_t i)
 MPS_ROW void top_row(const int dim, const mps_view *v, const fields *f, int64_t i, double *most)
 {
     (void)dim;
-    if (is_gas(v, i)) most[0] = fmax(most[0], mps__height(v, f->up, i));
+    if (is_gas(v, i)) most[0] = mps_larger(most[0], mps__height(v, f->up, i));
 }
 MPS_SUMS(top_rows, top_row, fields)
 

@@ -35,7 +35,7 @@ static inline bool wetted(const mps_view *v, const fields *f, int64_t i)
 MPS_ROW void top_row(const int dim, const mps_view *v, const fields *f, int64_t i, double *most)
 {
     (void)dim;
-    if (wetted(v, f, i)) most[0] = fmax(most[0], mps__height(v, f->up, i));
+    if (wetted(v, f, i)) most[0] = mps_larger(most[0], mps__height(v, f->up, i));
 }
 MPS_SUMS(top_rows, top_row, fields)
 
@@ -45,7 +45,8 @@ MPS_ROW void mean_row(const int dim, const mps_view *v, const fields *f, int64_t
     (void)dim;
     if (!wetted(v, f, i)) return;
     const double share = f->wetted_share ? f->wetted_share[i] : 1.0;
-    const double w = share * exp((mps__height(v, f->up, i) - f->top) / (v->setting[LAYER] * v->dp));
+    const double w = share *
+                     mps_exp((mps__height(v, f->up, i) - f->top) / (v->setting[LAYER] * v->dp));
     sums[0] += w * f->pressure[i];
     sums[1] += w;
 }

@@ -49,7 +49,7 @@ MPS_ROW double least_pressure(const int dim, const mps_view *v, const fields *f,
         double body = 0;
         for (int d = 0; d < dim && surface; d++)
             body += (v->g[d] - tank[d]) * (x[i * dim + d] - x[j * dim + d]);
-        least = fmin(least, fmin(0, f->density[j] * body));
+        least = mps_smaller(least, mps_smaller(0, f->density[j] * body));
     }
     return least;
 }

@@ -26,7 +26,7 @@ MPS_ROW void lightest_row(const int dim, const mps_view *v, const fields *f, int
                           double *most)
 {
     (void)dim;
-    if (mps_is_fluid(v, i)) most[0] = fmax(most[0], -f->density[i]);
+    if (mps_is_fluid(v, i)) most[0] = mps_larger(most[0], -f->density[i]);
 }
 MPS_SUMS(lightest_rows, lightest_row, fields)
 
@@ -38,7 +38,8 @@ MPS_ROW double sum_about(const int dim, const mps_view *v, const fields *f, int6
     for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i) && sum < f->enough; p++) {
         const int64_t j = mps_stencil_column(t, p);
         if (mps_is_fluid(v, j))
-            sum += mps_stencil_pair_dim(dim, t, i, p).w * fmin(1.0, f->density[j] / f->density[i]);
+            sum += mps_stencil_pair_dim(dim, t, i, p).w *
+                   mps_smaller(1.0, f->density[j] / f->density[i]);
     }
     return sum;
 }

@@ -94,7 +94,8 @@ MPS_ROW double density_beside(const int dim, const mps_view *v, const fields *f,
     for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i) && nearest > 0; p++) {
         const int64_t j = mps_stencil_column(t, p);
         if (!mps_is_fluid(v, j) || mps_region_of(f->region, j) == MPS_REGION_SPRAY) continue;
-        const double nearly = fmax(0, mps_stencil_pair_dim(dim, t, i, p).w_r2 / nearest - NEARLY);
+        const double nearly = mps_larger(0, mps_stencil_pair_dim(dim, t, i, p).w_r2 / nearest -
+                                                NEARLY);
         sum += nearly * nearly * (f->density[j] - rho);
         weight += nearly * nearly;
     }

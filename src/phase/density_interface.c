@@ -109,8 +109,8 @@ MPS_ROW void add_pairs(const int dim, const mps_view *v, const fields *f, int64_
         const double near = 1.0 - sqrt(r2) / reach, w = near * near * q.w;
         c->weight += w;
         c->length += w * q.r;
-        c->heaviest = fmax(c->heaviest, f->density[j]);
-        c->lightest = fmin(c->lightest, f->density[q.j]);
+        c->heaviest = mps_larger(c->heaviest, f->density[j]);
+        c->lightest = mps_smaller(c->lightest, f->density[q.j]);
         for (int d = 0; d < dim; d++) {
             c->middle[d] += w * middle[d];
             c->toward[d] += w * q.d[d];
@@ -139,10 +139,10 @@ MPS_ROW double distance_of(const int dim, const mps_view *v, const fields *f, in
     if (!(size > 0)) return unknown;
     size = sqrt(size);
     height /= c.weight * size; /* from i to the plane, toward the lighter side */
-    const double trust = fmin(1.0, fmax(0.0, (size / c.length - k[FLAT]) / BLEND));
+    const double trust = mps_smaller(1.0, mps_larger(0.0, (size / c.length - k[FLAT]) / BLEND));
     if (!mps_is_fluid(v, i) && trust > 0.5) *rho = height > 0 ? c.heaviest : c.lightest;
     if (*rho < c.heaviest) height = -height;
-    return fmax(k[LEAST] * v->dp, trust * height + (1.0 - trust) * unknown);
+    return mps_larger(k[LEAST] * v->dp, trust * height + (1.0 - trust) * unknown);
 }
 
 MPS_ROW void find_distance(const int dim, const mps_view *v, const fields *f, int64_t i)

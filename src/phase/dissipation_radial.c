@@ -8,7 +8,7 @@
  * to 0: both together are the larger of the two, and a viscous liquid keeps its own viscosity. */
 #include "helpers.h"
 
-enum { PAIRS = 32 };
+enum { PAIRS = MPS_PAIRS(32) };
 
 enum { ALPHA, BETA, VISCOUS, SETTINGS };
 static const mps_setting settings[SETTINGS] = {

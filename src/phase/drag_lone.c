@@ -72,7 +72,7 @@ MPS_ROW double look_round(const int dim, const mps_view *v, const fields *f, int
         for (int d = 0; d < dim; d++) mean[d] += w * u[j * dim + d];
     }
     for (int d = 0; d < dim && dense > 0; d++) mean[d] /= dense;
-    return dense > 0 ? fmax(0.0, 1.0 - own / (v->setting[COMPANY] * t->n0)) : 0.0;
+    return dense > 0 ? mps_larger(0.0, 1.0 - own / (v->setting[COMPANY] * t->n0)) : 0.0;
 }
 
 /* Share of the velocity of i relative to the denser fluid that i loses. */
@@ -90,7 +90,7 @@ MPS_ROW double excess(const int dim, const mps_view *v, const fields *f, int64_t
         double square = 0;
         for (int d = 0; d < dim; d++)
             square += (u[j * dim + d] - mean[d]) * (u[j * dim + d] - mean[d]);
-        fastest = fmax(fastest, square);
+        fastest = mps_larger(fastest, square);
     }
     for (int d = 0; d < dim; d++) own += (u[i * dim + d] - mean[d]) * (u[i * dim + d] - mean[d]);
     const double limit = v->setting[TIMES] * sqrt(fastest);
@@ -115,7 +115,7 @@ MPS_ROW void drag(const int dim, const mps_view *v, const fields *f, int64_t i)
         if (!apart(v, rho, i, j)) continue;
         const double part = f->share[rho[i] < rho[j] ? i : j];
         if (part == 0) continue;
-        const double most = fmax(f->weight[i], f->weight[j]), mass = rho[i] + rho[j];
+        const double most = mps_larger(f->weight[i], f->weight[j]), mass = rho[i] + rho[j];
         const double w = mps_stencil_pair_dim(dim, t, i, p).w / most;
         for (int d = 0; d < dim; d++)
             f->change[i * dim + d] += part * w * rho[j] / mass * (u[j * dim + d] - u[i * dim + d]);

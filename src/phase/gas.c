@@ -13,7 +13,7 @@ MPS_ROW void raise_speed(const int dim, const mps_view *v, const speeds *f, int6
     if (!mps__is_gas(v, i, f->phase)) return;
     double square = 0;
     for (int d = 0; d < dim; d++) square += f->velocity[i * dim + d] * f->velocity[i * dim + d];
-    most[0] = fmax(most[0], square);
+    most[0] = mps_larger(most[0], square);
     most[1] = 1;
 }
 MPS_SUMS(raise_speed_rows, raise_speed, speeds)
@@ -29,7 +29,7 @@ int mps__gas_check(mps_stage *s, double phase, double sound, const double *veloc
             "with liquids alone remove the model \"gas\"; one liquid with a "
             "surface: preset \"imps\"",
             (int)phase);
-    const double fastest = sqrt(fmax(most[0], 0));
+    const double fastest = sqrt(mps_larger(most[0], 0));
     if (!(fastest < sound))
         return mps_stage_fail(
             s,
@@ -154,7 +154,7 @@ void mps__gas_conserve(const mps_stage *s, const mps__gas_rows *rows, double sur
     double sums[SUMS];
     mps_stage_sum(s, SUMS, &add_source_rows, rows, sums);
     if (sums[FIXED] > 0 || sums[GAS] == 0) return;
-    const double part = fmin(fmax(sums[SOURCES] / sums[ROWS], -bound), bound);
+    const double part = mps_smaller(mps_larger(sums[SOURCES] / sums[ROWS], -bound), bound);
     const double rest = sums[SOURCES] - part * sums[ROWS];
     const double own = (share * surplus / (v->dt * v->dt) - rest) / sums[GAS];
     mps_stage_rows(s, &subtract_balance_rows, &(balance){*rows, own, part});

@@ -62,7 +62,7 @@ typedef struct fields {
 static inline double by_law(const mps_view *v, const fields *f, int64_t i)
 {
     const double sound = v->setting[SOUND];
-    return fmax(f->pressure[i] / (f->density[i] * sound * sound), LEAST);
+    return mps_larger(f->pressure[i] / (f->density[i] * sound * sound), LEAST);
 }
 
 MPS_ROW void find_denser(const int dim, const mps_view *v, const fields *f, int64_t i)

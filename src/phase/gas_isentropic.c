@@ -54,7 +54,7 @@ typedef struct fields {
 static inline double by_law(const mps_view *v, const fields *f, int64_t i)
 {
     const double *k = v->setting;
-    return exp(mps_ppe_law(k[AMBIENT], f->pressure[i], NULL) / (k[AMBIENT] * k[EXPONENT])) - 1.0;
+    return mps_expm1(mps_ppe_law(k[AMBIENT], f->pressure[i], NULL) / (k[AMBIENT] * k[EXPONENT]));
 }
 
 MPS_ROW void find_denser(const int dim, const mps_view *v, const fields *f, int64_t i)

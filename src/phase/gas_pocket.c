@@ -73,7 +73,7 @@ static int limit_step(mps_stage *s)
     const mps__pocket_old old = mps__pocket_read(s);
     const int32_t pockets = old.head ? (int32_t)old.head->pockets : 0;
     for (int32_t k = 0; k < pockets; k++)
-        if (old.pocket[k].rate > 0) s->dt_limit = fmin(s->dt_limit, 1 / old.pocket[k].rate);
+        if (old.pocket[k].rate > 0) s->dt_limit = mps_smaller(s->dt_limit, 1 / old.pocket[k].rate);
     return 0;
 }
 
@@ -118,8 +118,9 @@ static void find_pressures(mps_stage *s, const mps__pocket_faces *f, const mps__
         const double stiff = k[MPS__POCKET_EXPONENT] *
                              (k[MPS__POCKET_AMBIENT] + mps__pocket_pressure(k, q->gas, q->volume));
         const double size = 2 * v->size[c] / now->least - 1;
-        q->rate = sqrt(fmax(0, stiff * area[c] / (q->volume * rho[0] * dp)));
-        q->pressure = mps__pocket_pressure(k, q->gas, q->volume) * fmin(1, fmax(0, size));
+        q->rate = sqrt(mps_larger(0, stiff * area[c] / (q->volume * rho[0] * dp)));
+        q->pressure = mps__pocket_pressure(k, q->gas, q->volume) *
+                      mps_smaller(1, mps_larger(0, size));
         pressure[c] = q->pressure;
     }
     head->ambient = pressure[now->open] = ambient_pressure(k, now->pocket, v->count);
@@ -148,14 +149,14 @@ static int follow(mps_stage *s, const mps__pocket_faces *f, mps__pocket_now *now
     now->ambient = 1;
     if (pockets > 0) {
         const double p = ambient_pressure(k, old.pocket, pockets);
-        now->ambient = pow(1 + p / k[MPS__POCKET_AMBIENT], 1 / k[MPS__POCKET_EXPONENT]);
+        now->ambient = mps_pow(1 + p / k[MPS__POCKET_AMBIENT], 1 / k[MPS__POCKET_EXPONENT]);
     }
     mps__pocket_follow(v, &old, now, head);
     head->work = 0;
     for (int32_t c = 0; c < v->count; c++) {
         mps__pocket *q = &now->pocket[c];
         if (!(q->gas > 0)) continue;
-        q->volume += fmin(1, dt / relax) * (geometry[c] - q->volume);
+        q->volume += mps_smaller(1, dt / relax) * (geometry[c] - q->volume);
     }
     return 0;
 }
@@ -239,7 +240,7 @@ MPS_ROW double film_pressure(const int dim, const mps_view *v, const fields *f, 
         double here = row[MPS__ROW_PRESSURE];
         for (int d = 0; d < dim; d++)
             here += f->slope[j * dim + d] * (v->x[i * dim + d] - v->x[j * dim + d]);
-        least = fmin(least, here);
+        least = mps_smaller(least, here);
     }
     return least;
 }
@@ -250,7 +251,8 @@ MPS_ROW void give_row(const int dim, const mps_view *v, const fields *f, int64_t
     if (mps_is_fluid(v, i) && mps_region_of(f->region, i) == MPS_REGION_SURFACE)
         f->value[i] += own ? f->row[i * MPS__POCKET_ROW] : beside(dim, v, f, i);
     else if (mps_is_wall(v, i) && f->condition[i] == MPS_ROW_LEAST && own)
-        f->value[i] = fmin(f->value[i] + f->row[i * MPS__POCKET_ROW], film_pressure(dim, v, f, i));
+        f->value[i] = mps_smaller(f->value[i] + f->row[i * MPS__POCKET_ROW],
+                                  film_pressure(dim, v, f, i));
 }
 MPS_ROWS(give_rows, give_row, fields)
 

@@ -146,7 +146,7 @@ void mps__pocket_volumes(mps_stage *s, mps__pocket_faces *f, double *volume)
         for (int32_t k = 0; k < PAIR && f->from + k < v->count; k++) {
             const double cells = v->size[f->from + k] * cell;
             const double whole = cells + area * (sums[2 * k] - 0.5 * s->view->dp * sums[2 * k + 1]);
-            volume[f->from + k] = fmax(whole, cells);
+            volume[f->from + k] = mps_larger(whole, cells);
         }
     }
 }
@@ -282,8 +282,8 @@ MPS_ROW double thickness(const int dim, const mps_view *v, const mps__pocket_fac
         double along = 0;
         for (int d = 0; d < dim; d++) along += q.d[d] * n[d];
         if (q.r2 - along * along > aside * aside) continue;
-        most = fmax(most, along);
-        least = fmin(least, along);
+        most = mps_larger(most, along);
+        least = mps_smaller(least, along);
     }
     return most - least + v->dp;
 }
@@ -313,12 +313,12 @@ static contact sum_faces(const mps_view *v, const mps__pocket_faces *f, int64_t 
         const double sign = direction(&f->voids, face, &axis);
         const int32_t cells = march(&f->voids, face, &other);
         c.pressure += own;
-        c.number = fmax(c.number, number_of(f, f->voids.face_label[face]));
+        c.number = mps_larger(c.number, number_of(f, f->voids.face_label[face]));
         c.faces++;
         c.out[axis] -= sign;
         c.count[axis]++;
         if (cells < 0 || other == f->voids.face_label[face]) continue;
-        const double thick = fmax(0.5 * v->dp, cells * f->voids.side + v->dp - 2 * f->cover);
+        const double thick = mps_larger(0.5 * v->dp, cells * f->voids.side + v->dp - 2 * f->cover);
         c.slope[axis] += sign * (f->pressure[other] - own) / thick;
         c.inverse[axis] += 1 / thick;
     }

@@ -45,7 +45,7 @@ static int32_t find_open(const mps_voids *v, int32_t pockets, const mps__pocket_
 /* Volume that a component has where it overlaps an old pocket. */
 static double part(const mps_voids *v, const mps__pocket_now *now, int32_t k, int32_t cells)
 {
-    return now->geometry[k] * cells / fmax(1, v->size[k]);
+    return now->geometry[k] * cells / mps_larger(1, v->size[k]);
 }
 
 /* Share out an old pocket. */

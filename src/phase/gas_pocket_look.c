@@ -17,7 +17,7 @@ MPS_ROW void raise_speed(const int dim, const mps_view *v, const mps__pocket_fac
     if (!mps_is_fluid(v, i) || mps_region_of(f->region, i) != MPS_REGION_SURFACE) return;
     mps_view_tank(v, v->x + i * dim, NULL, tank);
     for (int d = 0; d < dim; d++) square += (u[d] - tank[d]) * (u[d] - tank[d]);
-    most[0] = mps__larger(most[0], square);
+    most[0] = mps_larger(most[0], square);
 }
 MPS_SUMS(raise_speeds, raise_speed, mps__pocket_faces)
 
@@ -26,7 +26,7 @@ static double moved_since(mps_stage *s, const mps__pocket_faces *f, const mps__p
 {
     double most = 0;
     mps_stage_max(s, 1, &raise_speeds, f, &most);
-    return head->moved + head->dt * sqrt(fmax(0, most));
+    return head->moved + head->dt * sqrt(mps_larger(0, most));
 }
 
 int mps__pocket_wait(mps_stage *s, const mps__pocket_faces *f, bool *waits)

@@ -16,7 +16,7 @@ double mps__pocket_pressure(const double *setting, double gas, double volume)
     const double least = gas / RATIO;
     if (!(gas > 0)) return 0;
     return setting[MPS__POCKET_AMBIENT] *
-           expm1(setting[MPS__POCKET_EXPONENT] * log(gas / fmax(volume, least)));
+           mps_expm1(setting[MPS__POCKET_EXPONENT] * mps_log(gas / mps_larger(volume, least)));
 }
 
 mps__pocket_old mps__pocket_read(const mps_stage *s)

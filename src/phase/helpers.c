@@ -30,8 +30,8 @@ MPS_ROW void raise_density(const int dim, const mps_view *v, const fields *f, in
 {
     (void)dim;
     if (!mps_is_fluid(v, i)) return;
-    most[0] = mps__larger(most[0], -f->density[i]);
-    most[1] = mps__larger(most[1], f->density[i]);
+    most[0] = mps_larger(most[0], -f->density[i]);
+    most[1] = mps_larger(most[1], f->density[i]);
 }
 MPS_SUMS(raise_density_rows, raise_density, fields)
 

@@ -16,17 +16,6 @@ void mps__phase_densities(const mps_stage *s, const double *density, double rho[
 /* Smallest and largest density of the fluid particles [kg/m3]; INFINITY, -INFINITY without any. */
 void mps__density_range(const mps_stage *s, const double *density, double range[2]);
 
-/* fmax() and fmin() as one instruction; `b` may be NaN and does not count then. */
-static inline double mps__larger(double a, double b)
-{
-    return b > a ? b : a;
-}
-
-static inline double mps__smaller(double a, double b)
-{
-    return b < a ? b : a;
-}
-
 /* True for a fluid particle of the phase that a setting names. */
 static inline bool mps__is_gas(const mps_view *v, int64_t i, double phase)
 {

@@ -185,7 +185,8 @@ MPS_ROW void pull(const int dim, const mps_view *v, const fields *f, int64_t i)
             a[d] += of.pull[k] * f->layer[2 * d + k / HALF][HALF * i + k % HALF];
     }
     keep_tangential(dim, normal, a);
-    for (int d = 0; d < dim; d++) a[d] *= area * m.rho / ((1 + of.added) * fmax(m.total, f->full));
+    for (int d = 0; d < dim; d++)
+        a[d] *= area * m.rho / ((1 + of.added) * mps_larger(m.total, f->full));
 }
 MPS_ROWS(pull_rows, pull, fields)
 
@@ -286,7 +287,7 @@ MPS_ROW void hold(const int dim, const mps_view *v, const fields *f, int64_t i)
     double *a = f->push + i * dim;
     for (int d = 0; d < dim; d++) a[d] = -(now.u[d] - start.u[d]) * of.added / (1 + of.added);
     keep_tangential(dim, normal, a);
-    for (int d = 0; d < dim; d++) a[d] *= area * now.rho / fmax(now.total, f->full);
+    for (int d = 0; d < dim; d++) a[d] *= area * now.rho / mps_larger(now.total, f->full);
 }
 MPS_ROWS(hold_rows, hold, fields)
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "layers.h"
-#include <math.h>
+#include <mps/numbers.h>
 #include <stddef.h>
 
 static const double PI = 3.14159265358979323846;
@@ -12,7 +12,7 @@ static const double FIRST[3] = {8.061972689696825, 12.990337578214488, 24.839696
 /* (1 - exp(-z))/z */
 static double phi1(double z)
 {
-    return z < 1e-5 ? 1 - z * (0.5 - z / 6) : -expm1(-z) / z;
+    return z < 1e-5 ? 1 - z * (0.5 - z / 6) : -mps_expm1(-z) / z;
 }
 
 /* (1 - phi1(z))/z */
@@ -42,7 +42,7 @@ static void fill(const modes *m, double dt, mps__layers *layers)
         const bool own = k >= m->first && k < m->first + m->count;
         const double weight = own ? m->own[k - m->first] : m->weight * sqrt(rate);
         const double z = rate * m->scale * dt;
-        layers->keep[k] = exp(-z);
+        layers->keep[k] = mps_exp(-z);
         layers->rise[k] = z * phi2(z);
         layers->pull[k] = m->scale * weight * phi1(z);
         layers->energy[k] = weight / (2 * rate);
@@ -58,7 +58,7 @@ void mps__layers_of(double nu, double width, double dt, mps__layers *layers)
     const modes m = {.scale = nu / (width * width),
                      .steady = 12,
                      .slowest = SLOWEST,
-                     .weight = 2 / PI * log(RATIO),
+                     .weight = 2 / PI * mps_log(RATIO),
                      .count = 3,
                      .own = FIRST};
     fill(&m, dt, layers);
@@ -84,8 +84,8 @@ bool mps__layers_of_wall(int dim, double radius, double nu, double dp, double dt
         if (WALL[k].dim != dim || fabs(WALL[k].radius - radius) > 1e-6) continue;
         const modes m = {.scale = nu / (dp * dp),
                          .steady = WALL[k].steady,
-                         .slowest = 0.3 / pow(RATIO, OWN),
-                         .weight = log(RATIO) / PI,
+                         .slowest = 0.3 / mps_pow(RATIO, OWN),
+                         .weight = mps_log(RATIO) / PI,
                          .first = OWN,
                          .count = OWN,
                          .own = WALL[k].own};

@@ -58,7 +58,7 @@ static inline double floor_of(const mps_view *view, const fields *f, int64_t i)
     const double v = f->volume_deviation[i];
     if (f->density[i] != f->light || v >= 0) return plain;
     const double square = v * v / (TORN_FROM * TORN_FROM);
-    return plain + fmin(1.0, square * square) * fmax(0.0, view->setting[TORN] - plain);
+    return plain + mps_smaller(1.0, square * square) * mps_larger(0.0, view->setting[TORN] - plain);
 }
 
 /* M_i */

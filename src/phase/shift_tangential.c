@@ -92,7 +92,7 @@ MPS_ROW double interface_normal(const int dim, const mps_view *view, const field
     for (int d = 0; d < dim; d++) size += n[d] * n[d];
     if (!(size > 0)) return 0;
     for (int d = 0; d < dim; d++) n[d] /= sqrt(size);
-    return mps__smaller(1.0, 2.0 * sqrt(size) / length);
+    return mps_smaller(1.0, 2.0 * sqrt(size) / length);
 }
 
 /* Fills `even`. */
@@ -126,7 +126,7 @@ MPS_ROW void collect(const int dim, const mps_view *view, const fields *f, int64
             v[d] = all[q.j * dim + d] - u[d];
             v2 += v[d] * v[d];
         }
-        c->most = mps__larger(c->most, v2);
+        c->most = mps_larger(c->most, v2);
         if (mps_region_of(f->region, q.j) < MPS_REGION_SURFACE) {
             c->weight += q.w;
             for (int d = 0; d < dim; d++) c->mean[d] += q.w * even[q.j * dim + d];
@@ -134,8 +134,8 @@ MPS_ROW void collect(const int dim, const mps_view *view, const fields *f, int64
         if (view->phase[q.j] != view->phase[i] || mps_region_of(f->region, q.j) == MPS_REGION_SPRAY)
             continue;
         for (int d = 0; d < dim; d++) {
-            c->low[d] = mps__smaller(c->low[d], v[d]);
-            c->high[d] = mps__larger(c->high[d], v[d]);
+            c->low[d] = mps_smaller(c->low[d], v[d]);
+            c->high[d] = mps_larger(c->high[d], v[d]);
             for (int e = 0; e < dim; e++) c->g[d * dim + e] += q.w_r2 * v[d] * q.d[e];
             for (int e = d; e < dim; e++) c->m[d * dim + e] += q.w_r2 * q.d[d] * q.d[e];
         }
@@ -191,7 +191,7 @@ MPS_ROW void transport(const int dim, const mps_view *view, const pair_sums *sum
         double v = 0;
         for (int e = 0; e < dim; e++)
             for (int f = 0; f < dim; f++) v += c * sums->g[d * dim + e] * b[e * dim + f] * shift[f];
-        du[d] = mps__smaller(sums->high[d], mps__larger(sums->low[d], v));
+        du[d] = mps_smaller(sums->high[d], mps_larger(sums->low[d], v));
     }
 }
 

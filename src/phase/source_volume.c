@@ -111,7 +111,7 @@ MPS_ROW double clipped_deviation(const mps_view *view, const fields *f, int64_t 
     const double clip = view->setting[CLIP];
     double v = f->volume_deviation[i];
     if (mps_region_of(f->region, i) > f->whole && v < 0) v = 0;
-    return mps__smaller(clip, mps__larger(-clip, v));
+    return mps_smaller(clip, mps_larger(-clip, v));
 }
 
 /* Fills is_solid, delta, and relative: of fluid the velocity as if it moved with the tank during
@@ -154,7 +154,7 @@ MPS_ROW void slip_wall(const int dim, const mps_view *view, const fields *f, int
         for (int d = 0; d < dim; d++) sum[d] += mass * (v[q.j * dim + d] - v[i * dim + d]);
     }
     for (int d = 0; d < dim; d++) size += area[d] * area[d];
-    for (int d = 0; d < dim; d++) largest = fmax(largest, fabs(area[d]));
+    for (int d = 0; d < dim; d++) largest = mps_larger(largest, fabs(area[d]));
     if (weight == 0 || size == 0) return;
     for (int d = 0; d < dim; d++) normal += sum[d] / weight * area[d] / sqrt(size);
     /* where faces of the lattice meet (half a cell of each) no direction is free in 2-D, and only
@@ -272,7 +272,7 @@ MPS_ROW double wall_speed(const int dim, const mps_view *view, const fields *f, 
             const double rate = v[j * dim + d] - v[i * dim + d];
             square += rate * rate;
         }
-        most = fmax(most, square);
+        most = mps_larger(most, square);
     }
     return sqrt(most);
 }
@@ -310,7 +310,7 @@ static inline double relaxation(const double *k, double delta, double open, doub
 {
     const double firm = delta * delta / (k[FIRM] * k[FIRM]);
     const double torn = delta * delta / (k[TORN] * k[TORN]);
-    return mps__smaller(1.0, (open + firm * firm) / k[TAU]) + mps__smaller(1.0, torn * torn) * most;
+    return mps_smaller(1.0, (open + firm * firm) / k[TAU]) + mps_smaller(1.0, torn * torn) * most;
 }
 
 /* Maxima of |u|^2: of fluid denser than the lightest, of all fluid. */
@@ -320,8 +320,8 @@ MPS_ROW void raise_speed(const int dim, const mps_view *view, const fields *f, i
     if (!mps_is_fluid(view, i) || mps_region_of(f->region, i) >= MPS_REGION_SURFACE) return;
     double square = 0;
     for (int d = 0; d < dim; d++) square += f->velocity[i * dim + d] * f->velocity[i * dim + d];
-    most[1] = mps__larger(most[1], square);
-    if (f->density[i] > f->pace.lightest) most[0] = mps__larger(most[0], square);
+    most[1] = mps_larger(most[1], square);
+    if (f->density[i] > f->pace.lightest) most[0] = mps_larger(most[0], square);
 }
 MPS_SUMS(raise_speed_rows, raise_speed, fields)
 
@@ -334,10 +334,10 @@ static void set_pace(const mps_stage *s, fields *f)
     f->pace = (pacing){rho[0], rho[1] - rho[0], 1.0, view->velocity_scale};
     if (!several && view->setting[RAPID] == 0) return;
     mps_stage_max(s, 2, &raise_speed_rows, f, fastest);
-    const double dense = sqrt(mps__larger(0, fastest[0])), any = sqrt(mps__larger(0, fastest[1]));
-    f->pace.drive = fmax(several ? dense : any, view->velocity_scale);
+    const double dense = sqrt(mps_larger(0, fastest[0])), any = sqrt(mps_larger(0, fastest[1]));
+    f->pace.drive = mps_larger(several ? dense : any, view->velocity_scale);
     if (!several) return;
-    const double share = fmax(dense, calm_speed(view)) / fmax(any, calm_speed(view));
+    const double share = mps_larger(dense, calm_speed(view)) / mps_larger(any, calm_speed(view));
     f->pace.heavy = 1.0 - view->setting[PACE] * (1.0 - share);
 }
 
@@ -355,7 +355,7 @@ MPS_ROW void add_source(const int dim, const mps_view *view, const fields *f, in
     if (mps_is_fluid(view, i)) {
         double mean;
         const double divergence = fluid_divergence(dim, view, f, i, &mean);
-        const double open = mps__larger(0.0, 1.0 - 2.0 * k[ASIDE] * f->solid[i]);
+        const double open = mps_larger(0.0, 1.0 - 2.0 * k[ASIDE] * f->solid[i]);
         const double rapid = k[RAPID] * f->pace.drive / view->velocity_scale;
         const double back = f->on * f->rate * relaxation(k, mean, open, rapid) * mean;
         f->source[i] += share * f->over * (back - divergence);
@@ -404,7 +404,7 @@ static int add_sources(mps_stage *s)
                 .own = 0.5 * mps_kernel_weight(&t->kernel, r, t->re),
                 .rate = rate,
                 .over = 1.0 / view->dt,
-                .on = k[START] > 0 ? mps__smaller(1.0, view->t * rate / k[START]) : 1.0};
+                .on = k[START] > 0 ? mps_smaller(1.0, view->t * rate / k[START]) : 1.0};
     if (!f.is_solid || !f.solid || !f.delta || !f.relative || !f.v) return 1;
     const mps_shared first[] = {{f.is_solid, 1, MPS_TYPE_REAL},
                                 {f.delta, 1, MPS_TYPE_REAL},

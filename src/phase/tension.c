@@ -41,7 +41,7 @@ MPS_ROW void add_neighbour(const int dim, const mps_view *v, double decay, int64
         r2 += r[d] * r[d];
     }
     if (decay * r2 >= 9.0) return;
-    const double g = exp(-decay * r2), c = v->phase[j] != v->phase[i] ? 1.0 : 0.0;
+    const double g = mps_exp(-decay * r2), c = v->phase[j] != v->phase[i] ? 1.0 : 0.0;
     m->g += g;
     m->c += g * c;
     for (int d = 0; d < dim; d++) {
@@ -95,7 +95,7 @@ MPS_ROW double curvature(const int dim, const mps_view *v, const contour_sums *m
                               m->g;
             sum += f2 * ((d == e ? size2 : 0.0) - f1[d] * f1[e]);
         }
-    return fmin(fmax(sum / (size2 * sqrt(size2)), -most), most);
+    return mps_smaller(mps_larger(sum / (size2 * sqrt(size2)), -most), most);
 }
 
 /* True for fluid with fluid of another phase among its pairs. */
@@ -123,8 +123,8 @@ MPS_ROW void raise_phase(const int dim, const mps_view *v, const fields *f, int6
 {
     (void)dim, (void)f;
     if (!mps_is_fluid(v, i)) return;
-    most[0] = fmax(most[0], v->phase[i]);
-    most[1] = fmax(most[1], -v->phase[i]);
+    most[0] = mps_larger(most[0], v->phase[i]);
+    most[1] = mps_larger(most[1], -v->phase[i]);
 }
 MPS_SUMS(raise_phase_rows, raise_phase, fields)
 
@@ -155,7 +155,7 @@ void mps__tension_limit(mps_stage *s, const double *density, double other)
             const double sigma = mps__pair_sigma(s->view, a, b, other);
             if (rho[a] == 0 || rho[b] == 0 || sigma == 0) continue;
             const double mean = 0.5 * (rho[a] + rho[b]);
-            const double limit = 0.5 * sqrt(mean * pow(s->view->dp, 3) / (2.0 * pi * sigma));
+            const double limit = 0.5 * sqrt(mean * mps_pow(s->view->dp, 3) / (2.0 * pi * sigma));
             if (limit < s->dt_limit) s->dt_limit = limit;
         }
 }

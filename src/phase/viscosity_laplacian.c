@@ -19,7 +19,7 @@ static const mps_use uses[USES] = {[VELOCITY] = {"velocity", MPS_USE_NEIGHBOURS}
                                    [VISCOSITY] = {"viscosity", MPS_USE_READ | MPS_USE_OPTIONAL},
                                    [ACCELERATION] = {"acceleration", MPS_USE_CHANGE}};
 
-enum { PAIRS = 64 };
+enum { PAIRS = MPS_PAIRS(64) };
 
 typedef struct fields {
     const double *velocity, *density;

@@ -61,7 +61,7 @@ static double mean_viscosity(double theta, double a, double b)
     if (theta <= 0 && (a == 0 || b == 0)) return 0;
     if (fabs(theta) < 1e-6) return sqrt(a * b);
     if (theta == -1.0) return 2.0 * a * b / (a + b);
-    return pow(0.5 * (pow(a, theta) + pow(b, theta)), 1.0 / theta);
+    return mps_pow(0.5 * (mps_pow(a, theta) + mps_pow(b, theta)), 1.0 / theta);
 }
 
 /* Axis nearest to the normal of a solid particle; of dummies that of their wall. -1: no normal. */
@@ -176,15 +176,16 @@ static int limit_step(mps_stage *s)
     double rho[MPS__PHASE_LIMIT], nu = 0, own = 0;
     mps__phase_densities(s, s->data[LIMIT_DENSITY], rho);
     for (int p = 0; p < MPS__PHASE_LIMIT; p++)
-        if (rho[p] > 0) own = fmax(own, v->viscosity[p] / rho[p]);
+        if (rho[p] > 0) own = mps_larger(own, v->viscosity[p] / rho[p]);
     for (int p = 0; p < MPS__PHASE_LIMIT; p++)
         for (int q = 0; q < MPS__PHASE_LIMIT; q++) {
             if (p == q || !(rho[p] > 0 && rho[q] > 0)) continue;
-            nu = fmax(nu, mean_viscosity(k[THETA], v->viscosity[p], v->viscosity[q]) / rho[p]);
+            nu = mps_larger(nu,
+                            mean_viscosity(k[THETA], v->viscosity[p], v->viscosity[q]) / rho[p]);
         }
     double limit = nu > 0 ? 0.2 * v->dp * v->dp / nu : INFINITY;
     if (k[STRESS] >= 0.5 && own != 0)
-        limit = fmin(limit, 0.7 * v->far.lambda / (2 * (v->dim + 2) * fmax(nu, own)));
+        limit = mps_smaller(limit, 0.7 * v->far.lambda / (2 * (v->dim + 2) * mps_larger(nu, own)));
     if (limit < s->dt_limit) s->dt_limit = limit;
     return 0;
 }

@@ -84,7 +84,7 @@ typedef struct task {
 static inline double outward(const task *k, double height)
 {
     if (!(height > -k->reach && height < 0.5 * k->reach)) return 0;
-    return fmin(k->lift, 0.5 * k->reach - height);
+    return mps_smaller(k->lift, 0.5 * k->reach - height);
 }
 
 /* Corrects v once for each wall. Returns whether v has changed. */

@@ -35,6 +35,17 @@ expect 2 "needs a value" "$program" run x.yaml --set
 expect 2 "1 to 1024" "$program" run x.yaml -j many
 expect 2 "no.yaml" "$program" run no.yaml
 
+# a device is refused by name, or says what it lacks
+printf 'mps: 1\ndp: 50 mm\ntank: {size: 1 0.6 m}\nfill: [{water: {depth: 0.2 m}}]\nrun: {until: 10 ms}\n' > small.yaml
+expect 2 "must be cuda, or cuda:N" "$program" run small.yaml --device gpu
+expect 2 "must be cuda, or cuda:N" "$program" run small.yaml --device cuda:x
+if ! ldconfig -p | grep -qF libcuda.so.1; then
+    expect 2 "" "$program" run small.yaml --device cuda
+    grep -qE "no driver of NVIDIA|needs libmps-cuda1" log || fail "no reason: $(head -5 log)"
+    [ ! -e small/probes.csv ] || fail "outputs of a run that did not begin"
+fi
+rm -rf small
+
 # init writes cases that check accepts; it replaces nothing
 for name in $("$program" list cases | cut -d' ' -f1); do
     expect 0 "$name" "$program" init "$name"

@@ -1,55 +1,264 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#define _GNU_SOURCE
 #include "shadow.h"
 #include <math.h>
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
-static void *room(void *self, size_t bytes)
+#include <cmocka.h>
+
+/* ---- memory of a handle, that it can be closed ---- */
+
+enum { HEAP_CLASSES = 48 };
+static const size_t HEAP = (size_t)1 << 32;
+
+static struct {
+    char *begin;
+    size_t used;
+    void *is_free[HEAP_CLASSES]; /* by the power of two that is their size */
+} heap;
+
+/* In front of a block. */
+typedef struct heap_block {
+    size_t power;
+    void *next;
+} heap_block;
+
+static void heap_protect(int access)
+{
+    if (heap.begin) mprotect(heap.begin, (heap.used + 4095) & ~(size_t)4095, access);
+}
+
+static void *heap_alloc(void *user, size_t size)
+{
+    size_t power = 5;
+    (void)user;
+    while ((size_t)1 << power < size + sizeof(heap_block)) power++;
+    heap_block *b = heap.is_free[power];
+    if (b) {
+        heap.is_free[power] = b->next;
+    } else {
+        assert_true(heap.used + ((size_t)1 << power) <= HEAP);
+        b = (heap_block *)(void *)(heap.begin + heap.used);
+        heap.used += (size_t)1 << power;
+    }
+    b->power = power;
+    return b + 1;
+}
+
+static void heap_release(void *user, void *block)
+{
+    heap_block *b = (heap_block *)block - 1;
+    (void)user;
+    if ((char *)block < heap.begin || (char *)block >= heap.begin + HEAP) {
+        free(block); /* of before the handle was given this memory */
+        return;
+    }
+    b->next = heap.is_free[b->power];
+    heap.is_free[b->power] = b;
+}
+
+void shadow_heap(mps_sim *sim)
+{
+    if (!heap.begin)
+        heap.begin = mmap(NULL, HEAP, PROT_READ | PROT_WRITE,
+                          MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    assert_true(heap.begin != MAP_FAILED);
+    sim->context.allocator = (mps_allocator){.alloc = heap_alloc, .release = heap_release};
+}
+
+/* ---- memory of the device ---- */
+
+/* Whole pages; they are closed. */
+static size_t pages(uint64_t bytes)
+{
+    return ((size_t)bytes + 4095) & ~(size_t)4095;
+}
+
+static void *room(void *self, uint64_t bytes)
 {
     shadow *s = self;
+    int k = 0;
+    if (s->refuses) return NULL;
+    void *begin = mmap(NULL, pages(bytes), PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    assert_true(begin != MAP_FAILED);
+    while (k < SHADOW_ROOMS && s->room[k].begin) k++;
+    assert_true(k < SHADOW_ROOMS);
+    s->room[k].begin = begin;
+    s->room[k].bytes = pages(bytes);
     s->rooms++;
-    return malloc(bytes);
+    return begin;
 }
 
-static void give(void *self, void *bytes)
+static void give(void *self, void *begin)
 {
     shadow *s = self;
-    s->rooms--;
-    free(bytes);
+    for (int k = 0; k < SHADOW_ROOMS; k++) {
+        if (s->room[k].begin != begin) continue;
+        munmap(begin, s->room[k].bytes);
+        s->room[k].begin = NULL;
+        s->rooms--;
+        return;
+    }
+    fail_msg("memory is given back that is none");
 }
 
-static void upload(void *self, void *to, const void *from, size_t bytes)
+/* The room of an address, -1: it is memory of the host. */
+static int room_of(const shadow *s, const void *address)
+{
+    for (int k = 0; k < SHADOW_ROOMS; k++)
+        if (s->room[k].begin && (const char *)address >= s->room[k].begin &&
+            (const char *)address < s->room[k].begin + s->room[k].bytes)
+            return k;
+    return -1;
+}
+
+static void protect(const shadow *s, int k, int access)
+{
+    if (s->room[k].begin) mprotect(s->room[k].begin, s->room[k].bytes, access);
+}
+
+static void protect_all(const shadow *s, int access)
+{
+    for (int k = 0; k < SHADOW_ROOMS; k++) protect(s, k, access);
+}
+
+/* ---- copies ---- */
+
+static int upload(void *self, void *to, const void *from, uint64_t bytes)
 {
     shadow *s = self;
+    const int k = room_of(s, to);
+    assert_true(k >= 0 && room_of(s, from) < 0);
     s->uploads++;
+    protect(s, k, PROT_READ | PROT_WRITE);
     memcpy(to, from, bytes);
+    protect(s, k, PROT_NONE);
+    return 0;
 }
 
-static void download(void *self, void *to, const void *from, size_t bytes)
+static int download(void *self, void *to, const void *from, uint64_t bytes)
 {
     shadow *s = self;
+    const int k = room_of(s, from);
+    assert_true(k >= 0 && room_of(s, to) < 0);
     s->downloads++;
+    protect(s, k, PROT_READ);
     memcpy(to, from, bytes);
+    protect(s, k, PROT_NONE);
+    return 0;
+}
+
+static int clear(void *self, void *to, uint64_t bytes)
+{
+    shadow *s = self;
+    const int k = room_of(s, to);
+    assert_true(k >= 0);
+    protect(s, k, PROT_READ | PROT_WRITE);
+    memset(to, 0, bytes);
+    protect(s, k, PROT_NONE);
+    return 0;
+}
+
+static int copy(void *self, void *to, const void *from, uint64_t bytes)
+{
+    shadow *s = self;
+    const int a = room_of(s, to), b = room_of(s, from);
+    assert_true(a >= 0 && b >= 0);
+    protect(s, a, PROT_READ | PROT_WRITE);
+    protect(s, b, PROT_READ | PROT_WRITE);
+    memcpy(to, from, bytes);
+    protect(s, a, PROT_NONE);
+    protect(s, b, PROT_NONE);
+    return 0;
 }
 
 /* Integers get a number that is no region, no condition and no row. */
-static void outdated(void *self, void *array, size_t bytes, size_t number)
+static void outdated(void *self, void *array, uint64_t bytes, uint32_t number)
 {
     const int32_t poison = INT32_MIN + 1;
     const double nan = NAN;
     shadow *s = self;
+    const int k = room_of(s, array);
     s->outdated++;
-    for (size_t at = 0; at < bytes; at += number)
-        memcpy((char *)array + at, number == sizeof poison ? (const void *)&poison : &nan, number);
+    if (k >= 0) protect(s, k, PROT_READ | PROT_WRITE);
+    for (size_t at = 0; at < bytes; at += number) {
+        const void *value = number == 8 ? (const void *)&nan : &poison;
+        memcpy((char *)array + at, value, number);
+    }
+    if (k >= 0) protect(s, k, PROT_NONE);
+}
+
+/* ---- loops ---- */
+
+/* A host address among the arguments would be followed on a device, to nowhere. Here it finds closed memory. */
+static void run(shadow *s, const mps_launch *l, mps_exact *sum, double *maximum)
+{
+    assert_int_equal(l->struct_size, sizeof *l);
+    assert_true(l->n > 0 && (l->dim == 2 || l->dim == 3) && !strchr(l->file, '/'));
+    s->launches++;
+    protect_all(s, PROT_READ | PROT_WRITE);
+    heap_protect(PROT_NONE);
+    l->run(l->host, 0, l->n, sum, maximum);
+    heap_protect(PROT_READ | PROT_WRITE);
+    protect_all(s, PROT_NONE);
+}
+
+static int rows(void *self, const mps_launch *l)
+{
+    shadow *s = self;
+    if (s->fails_at > 0 && s->launches + 1 == s->fails_at) return 1;
+    run(s, l, NULL, NULL);
+    return 0;
+}
+
+static int values(void *self, const mps_launch *l, mps_exact *sum, double *maximum)
+{
+    run(self, l, sum, maximum);
+    return 0;
+}
+
+static int wait_for(void *self)
+{
+    (void)self;
+    return 0;
+}
+
+static const char *failure(void *self)
+{
+    (void)self;
+    return "as the test wants it";
 }
 
 void shadow_attach(shadow *s, mps_sim *sim)
 {
-    *s = (shadow){.engine = {.room = room,
-                             .give = give,
-                             .upload = upload,
-                             .download = download,
-                             .outdated = outdated,
-                             .self = s}};
-    mps__twins_attach(&sim->world.host.twins, &s->engine);
+    *s = (shadow){.ops = {.struct_size = sizeof s->ops,
+                          .api = MPS_DEVICE_API,
+                          .name = "shadow",
+                          .self = s,
+                          .room = room,
+                          .give = give,
+                          .upload = upload,
+                          .download = download,
+                          .clear = clear,
+                          .copy = copy,
+                          .rows = rows,
+                          .values = values,
+                          .wait = wait_for,
+                          .failure = failure,
+                          .outdated = outdated}};
+    assert_int_equal(mps_sim_device_set(sim, &s->ops), MPS_OK);
+}
+
+mps_device_info shadow_counts(const mps_sim *sim)
+{
+    mps_device_info info;
+    assert_int_equal(mps_device_info_init(&info, sizeof info), MPS_OK);
+    assert_int_equal(mps_sim_device_info(sim, &info), MPS_OK);
+    return info;
 }

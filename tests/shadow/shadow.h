@@ -1,17 +1,31 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Engine with a second copy of the fields on the host. Stale values are NaN in both copies. */
+/* Device with memory of its own on the host, closed to the processor but in its functions. Stale values are NaN in both copies. */
 #ifndef SHADOW_H
 #define SHADOW_H
 
 #include "sim.h"
+#include <mps/device.h>
+
+enum { SHADOW_ROOMS = 512 };
 
 typedef struct shadow {
-    mps__engine engine;
+    mps_device_ops ops;
     int64_t rooms;                        /* that were not given back */
     int64_t uploads, downloads, outdated; /* so many */
+    int64_t launches;                     /* loops */
+    bool refuses;                         /* there is no room */
+    int64_t fails_at;                     /* launch that fails; 0: none */
+    struct {
+        char *begin;
+        size_t bytes;
+    } room[SHADOW_ROOMS];
 } shadow;
 
+/* A handle that was just made takes its arrays from memory that is closed while loops run on a shadow. */
+void shadow_heap(mps_sim *sim);
 /* Steps of a simulation run on the shadow from now on; it must live longer. */
 void shadow_attach(shadow *s, mps_sim *sim);
+/* Print what a step did: launches, waits, bytes. */
+mps_device_info shadow_counts(const mps_sim *sim);
 
 #endif

@@ -1,35 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Steps on an engine with memory of its own give the bytes of the host: nothing reads what it does not declare, and each part of a step reads
+/* Steps on a device with memory of its own give the bytes of the host: nothing reads what it does not declare, and each part of a step reads
  * the place that has the newest values. */
 #define _POSIX_C_SOURCE 200809L
 #include "checkpoint_fixture.h"
 #include "model_fixture.h"
-#include "shadow.h"
+#include "scene.h"
 #include <mps/reaction.h>
-
-/* ---- scenes ---- */
-
-/* A tank that rolls, half full, with air above the liquid if a preset is for two phases. */
-static mps_sim *rolling(const char *preset, int32_t dim)
-{
-    const double dp = dim == 2 ? 0.05 : 0.1, lo[3] = {0, 0, 0}, hi[3] = {0.6, 0.6, 0.4};
-    mps_sim *sim = new_sim(dim, dp);
-    ASSERT_OK(sim, mps_preset_use(sim, preset));
-    add_tank(sim, 0.6, 0.6, 0.4);
-    fill_depth(sim, 0.6, 0.3, 0.4);
-    if (strncmp(preset, "mmps", 4) == 0) {
-        mps_phase air;
-        assert_int_equal(mps_phase_init(&air, sizeof air), MPS_OK);
-        air.density = 1.2;
-        air.viscosity = 1.8e-5;
-        ASSERT_OK(sim, mps_phase_set(sim, 1, &air));
-        ASSERT_OK(sim, mps_fill_box_add(sim, 1, lo, hi, NULL, NULL));
-    }
-    ASSERT_OK(sim, mps_field_add(sim, "mark", 2));
-    add_probes(sim);
-    shake(sim, 0.05);
-    return sim;
-}
 
 /* ---- what users do ---- */
 
@@ -121,7 +97,7 @@ static void compare(mps_sim *host, mps_sim *sim)
     shadow s;
     shadow_attach(&s, sim);
     run(host, "host", failed[0]);
-    run(sim, "engine", failed[1]);
+    run(sim, "device", failed[1]);
     for (int k = 0; k < FAILURES; k++) assert_string_equal(failed[0][k].text, failed[1][k].text);
     same(host, sim);
     same_memory(host, sim);
@@ -247,7 +223,7 @@ static mps_sim *with(const mps_model_ops *ops, int32_t dim)
     return sim;
 }
 
-/* Verbs of plug-ins run on the host, between verbs of the library on the engine. */
+/* Verbs of plug-ins run on the host, between verbs of the library on the device. */
 static void plugins(void **state)
 {
     (void)state;
@@ -291,23 +267,15 @@ static void an_undeclared_use_is_found(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A step for which the engine has no room fails and changes nothing; the next has room. */
-static void *no_room(void *self, size_t bytes)
-{
-    (void)self, (void)bytes;
-    return NULL;
-}
-
+/* A step for which the device has no room fails and changes nothing; the next has room. */
 static void without_room(void **state)
 {
     mps_sim *host = rolling("imps", 2), *sim = rolling("imps", 2);
     shadow s;
     (void)state;
     shadow_attach(&s, sim);
-    void *(*const own)(void *, size_t) = s.engine.room;
-    s.engine.room = no_room;
-    ASSERT_REFUSED(sim, mps_step(sim, 0.01, NULL), MPS_E_NOMEM, "engine");
-    s.engine.room = own;
+    s.refuses = true;
+    ASSERT_REFUSED(sim, mps_step(sim, 0.01, NULL), MPS_E_NOMEM, "shadow");
     compare(host, sim);
 }
 

@@ -4,6 +4,7 @@
 #ifndef LOCK_CALLS_H
 #define LOCK_CALLS_H
 
+#include <mps/device.h>
 #include <mps/list.h>
 #include <mps/model.h>
 #include <mps/mps.h>
@@ -129,6 +130,8 @@ CALL(mps_motion_pose_set, STRUCT(mps_motion_state); return mps_motion_pose_set(s
 CALL(mps_kernel_use, mps_kernel k = {.struct_size = sizeof k}; mps_kernel_custom(kernel, NULL, &k);
      return mps_kernel_use(sim, &k);)
 CALL(mps_threads_set, return mps_threads_set(sim, 2);)
+CALL(mps_sim_device_set, return mps_sim_device_set(sim, NULL);)
+CALL(mps_sim_device_info, STRUCT(mps_device_info); return mps_sim_device_info(sim, &a);)
 CALL(mps_phase_set, STRUCT(mps_phase); a.density = 900; return mps_phase_set(sim, 0, &a);)
 CALL(mps_tension_set, return mps_tension_set(sim, 0, 1, 0.07);)
 CALL(mps_time_control_set, STRUCT(mps_time_control); a.dt = 1e-4;
@@ -271,6 +274,7 @@ static const lock_call lock_calls[] = {
     CHANGES(mps_motion_pose_set),
     CHANGES(mps_kernel_use),
     CHANGES(mps_threads_set),
+    CHANGES(mps_sim_device_set),
     CHANGES(mps_phase_set),
     CHANGES(mps_tension_set),
     CHANGES(mps_time_control_set),
@@ -295,6 +299,7 @@ static const lock_call lock_calls[] = {
     CHANGES(mps_load_watch),
     CHANGES(mps_snapshot_create),
     CHANGES(mps_snapshot_restore),
+    READS(mps_sim_device_info),
     READS(mps_stl_edges),
     READS(mps_lease_end),
     READS(mps_stencil_get),

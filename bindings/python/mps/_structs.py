@@ -38,15 +38,6 @@ class mps_parallel_reduce_job(Structure): ...
 class mps_exact(Structure): ...
 class mps_exact_values(Structure): ...
 class mps_flux(Structure): ...
-class mps_tank(Structure): ...
-class mps_solid(Structure): ...
-class mps_stl(Structure): ...
-class mps_model_info(Structure): ...
-class mps_setting_info(Structure): ...
-class mps_channel_info(Structure): ...
-class mps_verb_info(Structure): ...
-class mps_pass_info(Structure): ...
-class mps_name_info(Structure): ...
 class mps_kernel(Structure): ...
 class mps_stencil(Structure): ...
 class mps_pair(Structure): ...
@@ -57,6 +48,18 @@ class mps_rows(Structure): ...
 class mps_sums(Structure): ...
 class mps_grid(Structure): ...
 class mps_shared(Structure): ...
+class mps_launch(Structure): ...
+class mps_device_ops(Structure): ...
+class mps_device_info(Structure): ...
+class mps_tank(Structure): ...
+class mps_solid(Structure): ...
+class mps_stl(Structure): ...
+class mps_model_info(Structure): ...
+class mps_setting_info(Structure): ...
+class mps_channel_info(Structure): ...
+class mps_verb_info(Structure): ...
+class mps_pass_info(Structure): ...
+class mps_name_info(Structure): ...
 class mps_use(Structure): ...
 class mps_channel(Structure): ...
 class mps_setting(Structure): ...
@@ -106,11 +109,11 @@ mps_part_fn = CFUNCTYPE(None, c_void_p, c_int32)
 mps_range_fn = CFUNCTYPE(None, c_void_p, c_int64, c_int64)
 mps_reduce_fn = CFUNCTYPE(None, c_void_p, c_int64, c_int64, POINTER(c_double))
 mps_exact_fn = CFUNCTYPE(None, c_void_p, c_int64, c_int64, POINTER(mps_exact), POINTER(c_double))
-mps_inside_fn = CFUNCTYPE(c_int, c_void_p, POINTER(c_double))
-mps_distance_fn = CFUNCTYPE(c_double, c_void_p, POINTER(c_double))
 mps_kernel_fn = CFUNCTYPE(c_double, c_void_p, c_double, c_double)
 mps_rows_fn = CFUNCTYPE(None, POINTER(mps_view), c_void_p, c_int64, c_int64)
 mps_sums_fn = CFUNCTYPE(None, POINTER(mps_view), c_void_p, c_int64, c_int64, c_int32, POINTER(c_double))
+mps_inside_fn = CFUNCTYPE(c_int, c_void_p, POINTER(c_double))
+mps_distance_fn = CFUNCTYPE(c_double, c_void_p, POINTER(c_double))
 mps_combine_fn = CFUNCTYPE(None, c_void_p, c_void_p)
 mps_monitor_fn = CFUNCTYPE(c_int, c_void_p, POINTER(mps_sim), POINTER(mps_step_info))
 
@@ -218,6 +221,66 @@ mps_flux._fields_ = [
     ("density", POINTER(c_double)), ("distance", POINTER(c_double)), ("jump", POINTER(c_double)), ("wetted", POINTER(c_double)),
     ("tank_acceleration", POINTER(c_double)), ("g", c_double * 3), ("wall_factor", c_double),
 ]
+mps_kernel._fields_ = [
+    ("struct_size", c_uint32), ("id", c_int32), ("fn", mps_kernel_fn), ("user", c_void_p),
+]
+mps_stencil._fields_ = [
+    ("struct_size", c_uint32), ("dim", c_int32), ("host", c_void_p), ("n", c_int64), ("dp", c_double), ("re", c_double),
+    ("n0", c_double), ("lambda", c_double), ("kernel", mps_kernel), ("parallel", POINTER(mps_parallel)), ("x", POINTER(c_double)),
+    ("begin", POINTER(c_int64)), ("end", POINTER(c_int64)), ("col", POINTER(c_int32)), ("w_r2", POINTER(c_double)),
+]
+mps_pair._fields_ = [
+    ("d", c_double * 3), ("r2", c_double), ("r", c_double), ("w", c_double), ("j", c_int64), ("w_r2", c_double),
+]
+mps_tank_pose._fields_ = [
+    ("centre", c_double * 3), ("shift", c_double * 3), ("rotation", c_double * 9), ("next_shift", c_double * 3),
+    ("next_rotation", c_double * 9), ("rate", c_double * 3), ("omega", c_double * 3), ("has_next", c_int32), ("reserved", c_int32),
+]
+mps_view._fields_ = [
+    ("struct_size", c_uint32), ("dim", c_int32), ("n", c_int64), ("t", c_double), ("dt", c_double), ("dp", c_double),
+    ("velocity_scale", c_double), ("g", c_double * 3), ("phases", c_int32), ("reserved", c_int32), ("kind", POINTER(c_int32)),
+    ("phase", POINTER(c_int32)), ("id", POINTER(c_int64)), ("x", POINTER(c_double)), ("area", POINTER(c_double)),
+    ("wall_of", POINTER(c_int32)), ("viscosity", POINTER(c_double)), ("tension", POINTER(c_double)),
+    ("setting", POINTER(c_double)), ("near", mps_stencil), ("far", mps_stencil), ("flux", mps_flux), ("tank", mps_tank_pose),
+]
+mps_stage._fields_ = [
+    ("struct_size", c_uint32), ("hook", c_int32), ("view", POINTER(mps_view)), ("data", POINTER(c_void_p)), ("self", c_void_p),
+    ("step", c_int64), ("since_jump", c_int64), ("dt_limit", c_double), ("level_free", c_int32), ("reserved", c_int32),
+    ("host", c_void_p),
+]
+mps_rows._fields_ = [
+    ("struct_size", c_uint32), ("bytes", c_uint32), ("name", c_char_p), ("run", mps_rows_fn), ("file", c_char_p),
+]
+mps_sums._fields_ = [
+    ("struct_size", c_uint32), ("bytes", c_uint32), ("name", c_char_p), ("run", mps_sums_fn), ("file", c_char_p),
+]
+mps_grid._fields_ = [
+    ("struct_size", c_uint32), ("dim", c_int32), ("side", c_double), ("buckets", c_int64), ("first", POINTER(c_int32)),
+    ("next", POINTER(c_int32)),
+]
+mps_shared._fields_ = [
+    ("values", c_void_p), ("components", c_int32), ("type", c_int32),
+]
+mps_launch._fields_ = [
+    ("struct_size", c_uint32), ("dim", c_int32), ("n", c_int64), ("file", c_char_p), ("name", c_char_p),
+    ("view", POINTER(mps_view)), ("fields", c_void_p), ("bytes", c_uint64), ("sums", c_int32), ("maxima", c_int32),
+    ("run", CFUNCTYPE(None, c_void_p, c_int64, c_int64, POINTER(mps_exact), POINTER(c_double))), ("host", c_void_p),
+]
+mps_device_ops._fields_ = [
+    ("struct_size", c_uint32), ("api", c_uint32), ("name", c_char_p), ("self", c_void_p),
+    ("room", CFUNCTYPE(c_void_p, c_void_p, c_uint64)), ("give", CFUNCTYPE(None, c_void_p, c_void_p)),
+    ("upload", CFUNCTYPE(c_int, c_void_p, c_void_p, c_void_p, c_uint64)),
+    ("download", CFUNCTYPE(c_int, c_void_p, c_void_p, c_void_p, c_uint64)),
+    ("clear", CFUNCTYPE(c_int, c_void_p, c_void_p, c_uint64)), ("copy", CFUNCTYPE(c_int, c_void_p, c_void_p, c_void_p, c_uint64)),
+    ("rows", CFUNCTYPE(c_int, c_void_p, POINTER(mps_launch))),
+    ("values", CFUNCTYPE(c_int, c_void_p, POINTER(mps_launch), POINTER(mps_exact), POINTER(c_double))),
+    ("wait", CFUNCTYPE(c_int, c_void_p)), ("failure", CFUNCTYPE(c_void_p, c_void_p)),
+    ("outdated", CFUNCTYPE(None, c_void_p, c_void_p, c_uint64, c_uint32)),
+]
+mps_device_info._fields_ = [
+    ("struct_size", c_uint32), ("host_calls", c_int32), ("name", c_char_p), ("launches", c_int64), ("waits", c_int64),
+    ("uploads", c_int64), ("downloads", c_int64), ("bytes_up", c_int64), ("bytes_down", c_int64), ("bytes_held", c_int64),
+]
 mps_tank._fields_ = [
     ("struct_size", c_uint32), ("name", c_char_p), ("lo", c_double * 3), ("size", c_double * 3), ("open_top", c_int32),
     ("dummy_layers", c_int32),
@@ -251,46 +314,6 @@ mps_pass_info._fields_ = [
 ]
 mps_name_info._fields_ = [
     ("struct_size", c_uint32), ("active", c_int32), ("name", c_char_p), ("help", c_char_p),
-]
-mps_kernel._fields_ = [
-    ("struct_size", c_uint32), ("id", c_int32), ("fn", mps_kernel_fn), ("user", c_void_p),
-]
-mps_stencil._fields_ = [
-    ("struct_size", c_uint32), ("dim", c_int32), ("host", c_void_p), ("n", c_int64), ("dp", c_double), ("re", c_double),
-    ("n0", c_double), ("lambda", c_double), ("kernel", mps_kernel), ("parallel", POINTER(mps_parallel)), ("x", POINTER(c_double)),
-    ("begin", POINTER(c_int64)), ("end", POINTER(c_int64)), ("col", POINTER(c_int32)), ("w_r2", POINTER(c_double)),
-]
-mps_pair._fields_ = [
-    ("d", c_double * 3), ("r2", c_double), ("r", c_double), ("w", c_double), ("j", c_int64), ("w_r2", c_double),
-]
-mps_tank_pose._fields_ = [
-    ("centre", c_double * 3), ("shift", c_double * 3), ("rotation", c_double * 9), ("next_shift", c_double * 3),
-    ("next_rotation", c_double * 9), ("rate", c_double * 3), ("omega", c_double * 3), ("has_next", c_int32), ("reserved", c_int32),
-]
-mps_view._fields_ = [
-    ("struct_size", c_uint32), ("dim", c_int32), ("n", c_int64), ("t", c_double), ("dt", c_double), ("dp", c_double),
-    ("velocity_scale", c_double), ("g", c_double * 3), ("phases", c_int32), ("reserved", c_int32), ("kind", POINTER(c_int32)),
-    ("phase", POINTER(c_int32)), ("id", POINTER(c_int64)), ("x", POINTER(c_double)), ("area", POINTER(c_double)),
-    ("wall_of", POINTER(c_int32)), ("viscosity", POINTER(c_double)), ("tension", POINTER(c_double)),
-    ("setting", POINTER(c_double)), ("near", mps_stencil), ("far", mps_stencil), ("flux", mps_flux), ("tank", mps_tank_pose),
-]
-mps_stage._fields_ = [
-    ("struct_size", c_uint32), ("hook", c_int32), ("view", POINTER(mps_view)), ("data", POINTER(c_void_p)), ("self", c_void_p),
-    ("step", c_int64), ("since_jump", c_int64), ("dt_limit", c_double), ("level_free", c_int32), ("reserved", c_int32),
-    ("host", c_void_p),
-]
-mps_rows._fields_ = [
-    ("struct_size", c_uint32), ("bytes", c_uint32), ("name", c_char_p), ("run", mps_rows_fn),
-]
-mps_sums._fields_ = [
-    ("struct_size", c_uint32), ("bytes", c_uint32), ("name", c_char_p), ("run", mps_sums_fn),
-]
-mps_grid._fields_ = [
-    ("struct_size", c_uint32), ("dim", c_int32), ("side", c_double), ("buckets", c_int64), ("first", POINTER(c_int32)),
-    ("next", POINTER(c_int32)),
-]
-mps_shared._fields_ = [
-    ("values", c_void_p), ("components", c_int32), ("type", c_int32),
 ]
 mps_use._fields_ = [
     ("channel", c_char_p), ("access", c_int32),

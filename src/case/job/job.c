@@ -152,6 +152,10 @@ static const char *check(const mps_job_config *c)
             return "picture_t must be increasing times greater than 0";
     if (c->ranks && (c->ranks->struct_size != sizeof *c->ranks || c->ranks->count < 1))
         return "ranks must be filled in by mps_job_ranks_load()";
+    if (c->device && !mps__job_device_known(c->device))
+        return "device must be cuda, or cuda:N with the number N of a GPU";
+    if (c->device && c->ranks && c->ranks->count > 1)
+        return "--device and --mpi exclude each other: a device is for one rank";
     if (c->resume && c->overwrite) return "--resume and --overwrite exclude each other";
     return NULL;
 }
@@ -161,8 +165,8 @@ static bool copy_config(mps_job *job, const mps_job_config *from)
 {
     mps_job_config *c = &job->config;
     *c = *from;
-    const char **const texts[] = {&c->name, &c->title, &c->command,
-                                  &c->text, &c->model, &c->folder};
+    const char **const texts[] = {&c->name,  &c->title,  &c->command, &c->text,
+                                  &c->model, &c->folder, &c->device};
     bool done = true;
     if (!from->title) c->title = from->name;
     for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
@@ -251,9 +255,9 @@ void mps_job_destroy(mps_job *job)
 {
     if (!job) return;
     const mps_job_config *c = &job->config;
-    const void *const all[] = {c->name,       c->title,   c->command,   c->text,
-                               c->model,      c->folder,  c->picture_t, job->picture_at,
-                               job->all_rows, job->start, job->row};
+    const void *const all[] = {c->name,         c->title,      c->command, c->text,
+                               c->model,        c->folder,     c->device,  c->picture_t,
+                               job->picture_at, job->all_rows, job->start, job->row};
     mps__folder_close(&job->place);
     free_lists(job);
     mps__table_free(&job->probes);

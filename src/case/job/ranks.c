@@ -4,7 +4,6 @@
 #include <dlfcn.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 /* A rank that leaves waits for the others to hear of it [s]. */
 static const double PATIENCE = 20;
@@ -71,26 +70,12 @@ int32_t mps_job_ranks_leave(const mps_job_ranks *ranks, int32_t code, int32_t *s
     return heard ? values[LEAVES] - 1 : -1;
 }
 
-/* From the folder of the program, from where it is installed beside that folder, or where the system has libraries. */
-static void *open_module(void)
-{
-    static const char *const places[] = {"", MODULE_FOLDER};
-    static const char name[] = "mps_drivers_mpi.so";
-    char from[1024], path[1200];
-    ssize_t length = readlink("/proc/self/exe", from, sizeof from);
-    while (length > 0 && from[length - 1] != '/') length--;
-    for (size_t k = 0; length > 0 && k < sizeof places / sizeof *places; k++) {
-        snprintf(path, sizeof path, "%.*s%s%s", (int)length, from, places[k], name);
-        if (access(path, F_OK) == 0) return dlopen(path, RTLD_NOW | RTLD_GLOBAL);
-    }
-    return dlopen(name, RTLD_NOW | RTLD_GLOBAL);
-}
-
 mps_status mps_job_ranks_load(mps_job_ranks *ranks, char *error, size_t error_size)
 {
     if (!ranks || !error || error_size == 0) return MPS_E_ARG;
     *ranks = (mps_job_ranks){.struct_size = sizeof *ranks};
-    void *module = open_module(), *symbol = module ? dlsym(module, "mps_drivers_mpi") : NULL;
+    void *module = mps__job_module("mps_drivers_mpi.so"),
+         *symbol = module ? dlsym(module, "mps_drivers_mpi") : NULL;
     mps_job_ranks_begin_fn begin;
     if (!symbol) {
         snprintf(error, error_size, "%s", dlerror());

@@ -150,6 +150,12 @@ void *mps__job_grown(void *array, int count, size_t size);
 /* A copy, or NULL; also of NULL. */
 char *mps__job_copy(const char *text);
 
+/* Load a library: from the folder of the program, from where it is installed beside that folder, or where the system has libraries. NULL: dlerror() */
+void *mps__job_module(const char *name);
+/* Whether a device has such a name. */
+bool mps__job_device_known(const char *device);
+/* Let the steps run on the device that was asked for. @return false: the job has failed */
+bool mps__job_device(mps_job *job);
 /* ---- ranks.c ---- */
 
 bool mps__job_first(const mps_job *job); /* this is rank 0 */

@@ -150,10 +150,11 @@ static bool open_job(mps_job *job)
     if (!job->ran) {
         mps__colours_begin(job);
         mps__job_boxes(job);
+        mps__job_device(job);
     }
     if (job->ran)
         mps__job_fail(job, MPS_EXIT_USAGE, "a job runs once; make another one");
-    else if (allocate_rows(job) && job->config.resume)
+    else if (!job->code && allocate_rows(job) && job->config.resume)
         mps__resume_read(job);
     job->ran = true;
     if (!mps__job_agree(job)) return false; /* where another rank cannot read it, all end */

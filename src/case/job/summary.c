@@ -55,6 +55,7 @@ static void summary_counts(FILE *out, const mps_job *job)
     json_number(out, "threads", job->config.threads);
     json_number(out, "ranks", mps__job_ranks(job));
     json_number(out, "dim", job->dim);
+    if (job->config.device) json_text(out, "device", job->config.device);
 }
 
 /* Largest memory of this program [bytes]. That of getrusage() begins with the memory of the program that started it. */

@@ -76,7 +76,7 @@ static bool deposit_plain(int64_t part[3], int32_t level, int64_t count, const d
 }
 
 /* The same bits in wider vectors, where the processor has them. */
-#if defined(__GNUC__) && defined(__x86_64__)
+#if defined(__GNUC__) && defined(__x86_64__) && !defined(MPS_DEVICE)
 __attribute__((target("avx2"))) static bool
 deposit_wide(int64_t part[3], int32_t level, int64_t count, const double *x, const double *y)
 {

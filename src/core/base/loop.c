@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Loops of the library's own on the threads of a handle: the one place where they are run. */
 #include "loop.h"
+#include "device.h"
 
 /* A loop, or sums and maxima, as the parallel-for wants them. */
 typedef struct job {
@@ -22,23 +23,62 @@ static void run_values(void *argument, int64_t begin, int64_t end, mps_exact *su
     k->values->run(k->dim, k->fields, begin, end, sum, maximum);
 }
 
+/* ---- on a device ---- */
+
+static void run_launch(const void *host, int64_t begin, int64_t end, mps_exact *sum,
+                       double *maximum)
+{
+    const job *k = host;
+    if (k->loop)
+        k->loop->run(k->dim, k->fields, begin, end);
+    else
+        k->values->run(k->dim, k->fields, begin, end, sum, maximum);
+}
+
+static void launch(mps__device *d, const job *k, int64_t n, mps_exact *sum, double *maximum)
+{
+    mps_launch l = {.dim = k->dim, .n = n, .fields = k->fields, .run = run_launch, .host = k};
+    if (k->loop) {
+        l.file = k->loop->file;
+        l.name = k->loop->name;
+        l.bytes = k->loop->bytes;
+    } else {
+        l.file = k->values->file;
+        l.name = k->values->name;
+        l.bytes = k->values->bytes;
+        l.sums = k->values->sums;
+        l.maxima = k->values->maxima;
+    }
+    mps__device_launch(d, &l, sum, maximum);
+}
+
+/* ---- loops ---- */
+
+static void run_loop(const mps_parallel *p, const job *k, int64_t n, int64_t least)
+{
+    mps__device *d = mps__device_of(p);
+    if (d)
+        launch(d, k, n, NULL, NULL);
+    else
+        mps_parallel_rows_least(p, n, least, run_rows, (void *)k);
+}
+
 void mps__loop_run(const mps_parallel *p, const mps__loop *loop, int32_t dim, int64_t n,
                    const void *fields)
 {
-    mps_parallel_rows(p, n, run_rows, &(job){.loop = loop, .dim = dim, .fields = fields});
+    run_loop(p, &(job){.loop = loop, .dim = dim, .fields = fields}, n, MPS_PARALLEL_LEAST);
 }
 
 void mps__loop_run_long(const mps_parallel *p, const mps__loop *loop, int32_t dim, int64_t n,
                         const void *fields)
 {
-    mps_parallel_rows_least(p, n, 1, run_rows, &(job){.loop = loop, .dim = dim, .fields = fields});
+    run_loop(p, &(job){.loop = loop, .dim = dim, .fields = fields}, n, 1);
 }
 
 void mps__loop_run_cheap(const mps_parallel *p, const mps__loop *loop, int32_t dim, int64_t n,
                          const void *fields)
 {
-    mps_parallel_rows_least(p, n, MPS__ROWS_CHEAP, run_rows,
-                            &(job){.loop = loop, .dim = dim, .fields = fields});
+    run_loop(p, &(job){.loop = loop, .dim = dim, .fields = fields}, n, MPS__ROWS_CHEAP);
 }
 
 void mps__values_run(const mps_parallel *p, const mps__values *values, int32_t dim, int64_t n,
@@ -46,7 +86,11 @@ void mps__values_run(const mps_parallel *p, const mps__values *values, int32_t d
 {
     job k = {.values = values, .dim = dim, .fields = fields};
     const mps_exact_values wanted = {values->sums, values->maxima, sum, maximum};
-    mps_exact_rows(p, n, MPS_PARALLEL_LEAST, run_values, &k, &wanted);
+    mps__device *d = mps__device_of(p);
+    if (d)
+        launch(d, &k, n, sum, maximum);
+    else
+        mps_exact_rows(p, n, MPS_PARALLEL_LEAST, run_values, &k, &wanted);
 }
 
 int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t n,

@@ -14,6 +14,7 @@ typedef struct mps__loop {
     const char *name;
     size_t bytes; /* of the fields */
     void (*run)(int32_t dim, const void *fields, int64_t begin, int64_t end);
+    const char *file; /* that defines it */
 } mps__loop;
 
 /* Sums and maxima over rows; MPS__VALUES() defines them. */
@@ -23,6 +24,7 @@ typedef struct mps__values {
     int32_t sums, maxima; /* MPS_PARALLEL_VALUES in all at most */
     void (*run)(int32_t dim, const void *fields, int64_t begin, int64_t end, mps_exact *sum,
                 double *maximum);
+    const char *file;
 } mps__values;
 
 /* The dimension of loops whose rows do not look at it. */
@@ -56,7 +58,7 @@ int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t 
         else                                                                              \
             for (int64_t i = begin; i < end; i++) row(3, &given_, i);                     \
     }                                                                                     \
-    static const mps__loop name = {#name, sizeof(type), name##_run};
+    static const mps__loop name = {#name, sizeof(type), name##_run, MPS_FILE};
 
 /* Define the mps__values `name` from a row function
  *   MPS_ROW void row(const int dim, const type *fields, int64_t i, double *values);
@@ -81,7 +83,7 @@ int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t 
         mps__terms_end(&terms_);                                                          \
         memcpy(maximum_, own_ + (sums), (maxima) * sizeof(double));                       \
     }                                                                                     \
-    static const mps__values name = {#name, sizeof(type), sums, maxima, name##_run};
+    static const mps__values name = {#name, sizeof(type), sums, maxima, name##_run, MPS_FILE};
 
 /* Define the mps__values `name` that looks for the first row of a test
  *   MPS_ROW bool is_it(const type *fields, int64_t i);

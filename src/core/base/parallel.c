@@ -4,6 +4,7 @@
 #ifdef __linux__
 #define _GNU_SOURCE /* sched_getcpu() */
 #endif
+#include "device.h"
 #include "parallel.h"
 #include <math.h>
 #include <pthread.h>
@@ -395,8 +396,11 @@ static void zero_rows(void *argument, int64_t begin, int64_t end)
 
 void mps__parallel_zero(const mps_parallel *p, const mps__block *blocks, int32_t count)
 {
+    mps__device *d = mps__device_of(p);
     int64_t all = 0;
-    for (int32_t k = 0; k < count; k++) all += blocks[k].count;
+    for (int32_t k = 0; d && k < count; k++)
+        mps__device_clear(d, blocks[k].values, (size_t)blocks[k].count * sizeof(double));
+    for (int32_t k = 0; !d && k < count; k++) all += blocks[k].count;
     mps_parallel_rows_least(p, all, MPS__ROWS_CHEAP, zero_rows, &(zeroing){blocks, count});
 }
 
@@ -413,6 +417,10 @@ static void copy_rows(void *argument, int64_t begin, int64_t end)
 
 void mps__parallel_copy(const mps_parallel *p, void *to, const void *from, size_t bytes)
 {
-    mps_parallel_rows_least(p, (int64_t)bytes, MPS__ROWS_CHEAP * sizeof(double), copy_rows,
-                            &(copying){to, from});
+    mps__device *d = mps__device_of(p);
+    if (d)
+        mps__device_copy(d, to, from, bytes);
+    else
+        mps_parallel_rows_least(p, (int64_t)bytes, MPS__ROWS_CHEAP * sizeof(double), copy_rows,
+                                &(copying){to, from});
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Structs that cross the interface. */
 #include "base.h"
+#include <mps/device.h>
 #include <mps/list.h>
 #include <mps/model.h>
 #include <mps/mps.h>
@@ -26,6 +27,8 @@ typedef struct known_struct {
 static const known_struct structs[] = {
     V1(mps_channel_info),
     V1(mps_config),
+    V1(mps_device_info),
+    V1(mps_device_ops),
     V1(mps_flux),
     V1(mps_grid),
     V1(mps_kernel),

@@ -153,7 +153,7 @@ static int merge_bodies(mps_stage *s, search *k, int32_t count)
     return 0;
 }
 
-int mps_stage_bodies(mps_stage *s, int32_t most, int32_t *role, int32_t *body)
+static int find_free(mps_stage *s, int32_t most, int32_t *role, int32_t *body)
 {
     mps__host *h = s->host;
     const mps_shared shared = {.values = role, .components = 1, .type = MPS_TYPE_INTEGER};
@@ -168,4 +168,31 @@ int mps_stage_bodies(mps_stage *s, int32_t most, int32_t *role, int32_t *body)
     if (merge_bodies(s, &k, count)) return 1;
     h->scratch_used--; /* the queue is not needed any more */
     return 0;
+}
+
+/* Arrays of a device: searched on the host. */
+static int find_there(mps_stage *s, int32_t most, const int32_t *role, int32_t *body)
+{
+    mps__host *h = s->host;
+    const size_t bytes = (size_t)s->view->n * sizeof *body;
+    const mps_view *there = mps__host_begin_serial(s);
+    int32_t *own_role = mps_stage_scratch_integers(s, s->view->n),
+            *own_body = mps_stage_scratch_integers(s, s->view->n);
+    int failed = !own_role || !own_body;
+    if (!failed) {
+        mps__twins_lists_ready(&h->twins);
+        mps__device_download(&h->twins.device, own_role, role, bytes);
+        failed = find_free(s, most, own_role, own_body);
+        mps__device_upload(&h->twins.device, body, own_body, bytes);
+    }
+    h->scratch_used -= 2;
+    mps__host_end_serial(s, there);
+    return failed;
+}
+
+int mps_stage_bodies(mps_stage *s, int32_t most, int32_t *role, int32_t *body)
+{
+    const mps__host *h = s->host;
+    return h->twins.place == MPS__ON_DEVICE ? find_there(s, most, role, body)
+                                            : find_free(s, most, role, body);
 }

@@ -3,12 +3,23 @@
 #include "engine.h"
 #include <string.h>
 
+enum {
+    FIELDS = MPS__CHANNELS, /* where they begin in the list */
+    ALL = MPS__CHANNELS + MPS__FIELDS_MAX,
+    /* constants: settings of each model, then those of the world */
+    VISCOSITIES = MPS__MODELS_ACTIVE * MPS__SETTINGS,
+    TENSIONS = VISCOSITIES + MPS__PHASES,
+    CONSTANTS = TENSIONS + MPS__PHASES * MPS__PHASES
+};
+
+/* ---- twins ---- */
+
 /* The twin of a channel; NULL: it has none. */
 static mps__twin *twin_of(mps__twins *t, int32_t channel)
 {
     if (channel < 0) return NULL;
     const mps__field *f = mps__channels_field(t->channels, t->particles, channel);
-    if (f) return &t->list[MPS__CHANNELS + (f - t->particles->field)];
+    if (f) return &t->list[FIELDS + (f - t->particles->field)];
     return mps__channel_is_scalar(&t->channels->list[channel]) ? NULL : &t->list[channel];
 }
 
@@ -18,26 +29,98 @@ static void *host_array(const mps__twins *t, int32_t channel)
 }
 
 /* These values are not read any more. */
-static void outdate(const mps__twins *t, const mps__twin *twin, void *array)
+static void outdate(mps__twins *t, const mps__twin *twin, void *array)
 {
-    if (t->engine->outdated) t->engine->outdated(t->engine->self, array, twin->bytes, twin->number);
+    mps__device_outdate(&t->device, array, twin->bytes, twin->number);
+}
+
+static void give_back(mps__twins *t, mps__twin *twin)
+{
+    if (twin->room > 0) mps__device_give(&t->device, twin->data, twin->room);
+    *twin = (mps__twin){0};
+}
+
+/* Room for `bytes`; what it held is gone. */
+static mps_status fit(mps__twins *t, mps__twin *twin, size_t bytes, size_t number)
+{
+    if (bytes > twin->room) {
+        give_back(t, twin);
+        twin->data = mps__device_room(&t->device, bytes);
+        if (!twin->data) return MPS_E_NOMEM;
+        twin->room = bytes;
+    }
+    twin->bytes = bytes;
+    twin->number = number;
+    twin->old[MPS__ON_HOST] = false;
+    twin->old[MPS__ON_DEVICE] = true;
+    return MPS_OK;
+}
+
+static void copy(mps__twins *t, mps__twin *twin, void *host, int32_t place)
+{
+    if (twin->bytes == 0 || !twin->old[place]) return;
+    if (place == MPS__ON_DEVICE)
+        mps__device_upload(&t->device, twin->data, host, twin->bytes);
+    else
+        mps__device_download(&t->device, host, twin->data, twin->bytes);
+    twin->old[place] = false;
+}
+
+/* The values at a place have changed. */
+static void change(mps__twins *t, mps__twin *twin, void *host, int32_t place)
+{
+    const int32_t other = place == MPS__ON_HOST ? MPS__ON_DEVICE : MPS__ON_HOST;
+    const bool was_old = twin->old[other];
+    twin->old[place] = false;
+    twin->old[other] = true;
+    if (!was_old) outdate(t, twin, other == MPS__ON_HOST ? host : twin->data);
+}
+
+/* ---- a device ---- */
+
+void mps__twins_init(mps__twins *t, mps__channels *c, mps__particles *s, mps_parallel *parallel)
+{
+    *t = (mps__twins){.channels = c, .particles = s, .parallel = parallel, .told = -1};
+    mps__device_init(&t->device, c->context);
+    t->last.struct_size = sizeof t->last;
+}
+
+void mps__twins_free(mps__twins *t)
+{
+    for (int32_t k = 0; k < ALL; k++) give_back(t, &t->list[k]);
+    for (int32_t k = 0; k < MPS__BLOCKS; k++) give_back(t, &t->block[k]);
+    for (int32_t k = 0; k < MPS__SCRATCH; k++) give_back(t, &t->scratch[k]);
+    give_back(t, &t->constants);
+    if (t->constant) mps__free(t->device.context, t->constant);
+    mps__device_end(&t->device);
+    mps__twins_init(t, t->channels, t->particles, t->parallel);
+}
+
+mps_status mps__twins_attach(mps__twins *t, const mps_device_ops *ops)
+{
+    mps__device device;
+    double *constant = NULL;
+    mps__device_init(&device, t->device.context);
+    if (ops) {
+        constant = mps__alloc(t->device.context, CONSTANTS, sizeof *constant);
+        if (!constant) return MPS_E_NOMEM;
+        const mps_status status = mps__device_set(&device, ops);
+        if (status < 0) {
+            mps__free(t->device.context, constant);
+            return status;
+        }
+    }
+    mps__twins_free(t);
+    t->device = device;
+    if (t->device.ops.name) t->device.parallel.user = &t->device;
+    t->constant = constant;
+    return MPS_OK;
 }
 
 /* ---- a step begins and ends ---- */
 
-void mps__twins_attach(mps__twins *t, const mps__engine *engine)
-{
-    for (int32_t k = 0; k < MPS__CHANNELS + MPS__FIELDS_MAX; k++)
-        if (t->list[k].room > 0) t->engine->give(t->engine->self, t->list[k].data);
-    memset(t->list, 0, sizeof t->list);
-    t->engine = engine;
-    t->open = false;
-}
-
 static size_t number_of(const mps__twins *t, int32_t channel)
 {
-    const mps__field *f = mps__channels_field(t->channels, t->particles, channel);
-    if (f) return f->size;
     return t->channels->list[channel].spec.type == MPS_TYPE_INTEGER ? sizeof(int32_t)
                                                                     : sizeof(double);
 }
@@ -49,54 +132,192 @@ static mps_status open_twin(mps__twins *t, int32_t channel)
     if (!twin || twin->bytes > 0) return MPS_OK;
     const size_t bytes = (size_t)t->particles->n *
                          mps__channels_bytes(t->channels, t->particles, channel);
-    if (bytes > twin->room) {
-        if (twin->room > 0) t->engine->give(t->engine->self, twin->data);
-        twin->room = 0;
-        twin->data = t->engine->room(t->engine->self, bytes);
-        if (!twin->data)
-            return mps__fail(t->channels->context, MPS_E_NOMEM,
-                             "the engine has no room for %zu bytes", bytes);
-        twin->room = bytes;
-    }
-    twin->bytes = bytes;
-    twin->number = number_of(t, channel);
-    twin->old[MPS__ON_HOST] = false;
-    twin->old[MPS__ON_ENGINE] = true;
+    MPS__TRY(fit(t, twin, bytes, number_of(t, channel)));
     outdate(t, twin, twin->data);
+    return MPS_OK;
+}
+
+/* The same of all fields, also of those that no call declares. */
+static mps_status open_fields(mps__twins *t)
+{
+    for (int32_t k = 0; k < t->particles->fields; k++) {
+        const mps__field *f = &t->particles->field[k];
+        mps__twin *twin = &t->list[FIELDS + k];
+        const size_t bytes = (size_t)t->particles->n * (size_t)f->components * f->size;
+        MPS__TRY(fit(t, twin, bytes, f->size));
+        twin->host = *f->data;
+        outdate(t, twin, twin->data);
+    }
+    return MPS_OK;
+}
+
+static mps_status open_constants(mps__twins *t)
+{
+    if (t->constants.room > 0) return MPS_OK;
+    MPS__TRY(fit(t, &t->constants, CONSTANTS * sizeof(double), sizeof(double)));
+    memset(t->constant, 0, CONSTANTS * sizeof(double));
+    mps__device_clear(&t->device, t->constants.data, t->constants.bytes);
     return MPS_OK;
 }
 
 mps_status mps__twins_open(mps__twins *t, const mps__plan *p)
 {
     int32_t flux[MPS__FLUX_CHANNELS];
-    if (!t->engine) return MPS_OK;
-    for (int32_t k = 0; k < MPS__CHANNELS + MPS__FIELDS_MAX; k++) t->list[k].bytes = 0;
+    if (!mps__device_there(&t->device)) return MPS_OK;
+    mps__device_begin(&t->device);
+    for (int32_t k = 0; k < ALL; k++) t->list[k].bytes = 0;
+    for (int32_t k = 0; k < MPS__BLOCKS; k++) t->block[k].bytes = 0;
+    MPS__TRY(open_constants(t));
+    MPS__TRY(open_fields(t));
     for (int32_t k = 0; k < p->begin[MPS_HOOK_COUNT]; k++)
         for (int32_t u = 0; u < p->call[k].use_count; u++)
             MPS__TRY(open_twin(t, p->call[k].channel[u]));
     mps__flux_channels(t->channels, flux);
     for (int f = 0; f < MPS__FLUX_CHANNELS; f++) MPS__TRY(open_twin(t, flux[f]));
     t->open = true;
+    return mps__device_status(&t->device);
+}
+
+mps_status mps__twins_block(mps__twins *t, int32_t block, void *host, int64_t count, size_t number,
+                            bool values)
+{
+    mps__twin *twin = &t->block[block];
+    if (!t->open || !host || count == 0) return MPS_OK;
+    /* lists grow a little from step to step */
+    const size_t bytes = (size_t)count * number;
+    if (bytes > twin->room) MPS__TRY(fit(t, twin, bytes + bytes / 8, number));
+    MPS__TRY(fit(t, twin, bytes, number));
+    twin->host = host;
+    twin->old[MPS__ON_DEVICE] = values;
+    outdate(t, twin, twin->data);
     return MPS_OK;
 }
 
 void mps__twins_close(mps__twins *t)
 {
+    if (!t->open) return;
+    mps__twins_go(t, MPS__ON_HOST);
     mps__twins_fields_ready(t);
+    t->last = t->device.info;
     t->open = false;
 }
 
-/* ---- values ---- */
+/* ---- where loops run ---- */
 
-static void copy(mps__twins *t, mps__twin *twin, void *host, int32_t place)
+int32_t mps__twins_go(mps__twins *t, int32_t place)
 {
-    if (twin->bytes == 0 || !twin->old[place]) return;
-    if (place == MPS__ON_ENGINE)
-        t->engine->upload(t->engine->self, twin->data, host, twin->bytes);
-    else
-        t->engine->download(t->engine->self, host, twin->data, twin->bytes);
-    twin->old[place] = false;
+    const int32_t before = t->place;
+    if (!t->open || place == before) return before;
+    if (place == MPS__ON_DEVICE) {
+        t->host_parallel = *t->parallel;
+        *t->parallel = t->device.parallel;
+    } else {
+        *t->parallel = t->host_parallel;
+    }
+    t->place = place;
+    return before;
 }
+
+/* The field or block that an array of the host belongs to; NULL: it is none. */
+static mps__twin *find(mps__twins *t, const void *array)
+{
+    const char *a = array;
+    for (int32_t k = FIELDS; k < ALL + MPS__BLOCKS; k++) {
+        mps__twin *twin = k < ALL ? &t->list[k] : &t->block[k - ALL];
+        const char *host = twin->host;
+        if (twin->bytes > 0 && a >= host && a < host + twin->bytes) return twin;
+    }
+    return NULL;
+}
+
+static void *address(const mps__twin *twin, const void *array)
+{
+    return (char *)twin->data + ((const char *)array - (const char *)twin->host);
+}
+
+void *mps__twins_seen(mps__twins *t, const void *array)
+{
+    mps__twin *twin = t->place == MPS__ON_DEVICE && array ? find(t, array) : NULL;
+    if (!twin) return (void *)array;
+    copy(t, twin, twin->host, MPS__ON_DEVICE);
+    return address(twin, array);
+}
+
+void *mps__twins_given(mps__twins *t, void *array, bool all)
+{
+    mps__twin *twin = t->open && array ? find(t, array) : NULL;
+    if (!twin) return array;
+    if (!all) copy(t, twin, twin->host, t->place);
+    change(t, twin, twin->host, t->place);
+    return t->place == MPS__ON_DEVICE ? address(twin, array) : array;
+}
+
+static void see_pairs(mps__twins *t, mps_stencil *s)
+{
+    s->x = mps__twins_seen(t, s->x);
+    s->begin = mps__twins_seen(t, s->begin);
+    s->end = mps__twins_seen(t, s->end);
+    s->col = mps__twins_seen(t, s->col);
+    s->w_r2 = mps__twins_seen(t, s->w_r2);
+}
+
+static void see_flux(mps__twins *t, mps_flux *f)
+{
+    int32_t channel[MPS__FLUX_CHANNELS];
+    if (!f->density) return;
+    mps__flux_channels(t->channels, channel);
+    f->kind = mps__twins_seen(t, f->kind);
+    f->phase = mps__twins_seen(t, f->phase);
+    f->density = mps__twins_array(t, channel[0], MPS__ON_DEVICE);
+    f->tank_acceleration = mps__twins_array(t, channel[1], MPS__ON_DEVICE);
+    f->distance = mps__twins_array(t, channel[2], MPS__ON_DEVICE);
+    f->jump = mps__twins_array(t, channel[3], MPS__ON_DEVICE);
+    f->wetted = mps__twins_array(t, channel[4], MPS__ON_DEVICE);
+}
+
+void mps__twins_view(mps__twins *t, mps_view *v)
+{
+    if (t->place == MPS__ON_HOST) return;
+    v->kind = mps__twins_seen(t, v->kind);
+    v->phase = mps__twins_seen(t, v->phase);
+    v->id = mps__twins_seen(t, v->id);
+    v->x = mps__twins_seen(t, v->x);
+    v->area = mps__twins_seen(t, v->area);
+    v->wall_of = mps__twins_seen(t, v->wall_of);
+    see_pairs(t, &v->near);
+    see_pairs(t, &v->far);
+    see_flux(t, &v->flux);
+}
+
+/* Constants from number `first` on; copied where they have changed. */
+static const double *constants(mps__twins *t, int32_t first, int32_t count, const double *values)
+{
+    double *there = (double *)t->constants.data + first;
+    if (!values) return NULL;
+    if (memcmp(t->constant + first, values, (size_t)count * sizeof *values) != 0) {
+        memcpy(t->constant + first, values, (size_t)count * sizeof *values);
+        mps__device_upload(&t->device, there, values, (size_t)count * sizeof *values);
+    }
+    return there;
+}
+
+void mps__twins_loop_view(mps__twins *t, int32_t model, mps_view *v)
+{
+    mps__twins_view(t, v);
+    v->viscosity = constants(t, VISCOSITIES, MPS__PHASES, v->viscosity);
+    v->tension = constants(t, TENSIONS, MPS__PHASES * MPS__PHASES, v->tension);
+    v->setting = constants(t, model * MPS__SETTINGS, MPS__SETTINGS, v->setting);
+}
+
+void *mps__twins_scratch(mps__twins *t, int32_t block, size_t bytes)
+{
+    mps__twin *twin = &t->scratch[block];
+    if (fit(t, twin, bytes > 0 ? bytes : sizeof(double), sizeof(double)) < 0) return NULL;
+    mps__device_clear(&t->device, twin->data, twin->bytes);
+    return twin->data;
+}
+
+/* ---- values ---- */
 
 void mps__twins_ready(mps__twins *t, int32_t channel, int32_t place)
 {
@@ -107,21 +328,23 @@ void mps__twins_ready(mps__twins *t, int32_t channel, int32_t place)
 void mps__twins_fields_ready(mps__twins *t)
 {
     for (int32_t k = 0; t->open && k < t->particles->fields; k++)
-        copy(t, &t->list[MPS__CHANNELS + k], *t->particles->field[k].data, MPS__ON_HOST);
+        copy(t, &t->list[FIELDS + k], *t->particles->field[k].data, MPS__ON_HOST);
+}
+
+void mps__twins_lists_ready(mps__twins *t)
+{
+    for (int32_t k = 0; t->open && k < MPS__BLOCKS; k++)
+        copy(t, &t->block[k], t->block[k].host, MPS__ON_HOST);
 }
 
 void mps__twins_written(mps__twins *t, int32_t channel, int32_t place)
 {
     mps__twin *twin = t->open ? twin_of(t, channel) : NULL;
-    if (!twin) return;
-    const int32_t other = place == MPS__ON_HOST ? MPS__ON_ENGINE : MPS__ON_HOST;
-    twin->old[place] = false;
-    twin->old[other] = true;
-    outdate(t, twin, mps__twins_array(t, channel, other));
+    if (twin) change(t, twin, host_array(t, channel), place);
 }
 
 void *mps__twins_array(mps__twins *t, int32_t channel, int32_t place)
 {
-    const mps__twin *twin = place == MPS__ON_ENGINE ? twin_of(t, channel) : NULL;
+    const mps__twin *twin = place == MPS__ON_DEVICE ? twin_of(t, channel) : NULL;
     return twin ? twin->data : host_array(t, channel);
 }

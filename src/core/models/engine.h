@@ -1,52 +1,90 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Where the arrays of a step are valid: on the host, or in the memory of an engine, which loops of calls may run on. This is the one place that
- * knows, and the one that copies. Without an engine all is on the host. On many ranks there is none. */
+/* Where the arrays of a step are valid: on the host, or in the memory of a device, which loops of calls may run on. This is the one place that
+ * knows, and the one that copies. Without a device all is on the host. On many ranks there is none. */
 #ifndef MPS_CORE_ENGINE_H
 #define MPS_CORE_ENGINE_H
 
+#include "device.h"
 #include "plan.h"
+#include <mps/stage.h>
 
-enum { MPS__ON_HOST, MPS__ON_ENGINE, MPS__PLACES };
+enum { MPS__ON_HOST, MPS__ON_DEVICE, MPS__PLACES };
 
-/* Memory of its own. Only loops that run there follow its addresses. */
-typedef struct mps__engine {
-    void *(*room)(void *self, size_t bytes); /* NULL: there is none */
-    void (*give)(void *self, void *room);    /* it goes back */
-    void (*upload)(void *self, void *to, const void *from, size_t bytes);
-    void (*download)(void *self, void *to, const void *from, size_t bytes);
-    /* NULL, or: these values, numbers of 4 or 8 bytes, are not read any more; at either place */
-    void (*outdated)(void *self, void *array, size_t bytes, size_t number);
-    void *self;
-} mps__engine;
+/* Arrays of a step that are neither channels nor fields: lists of neighbours, wetted areas that have turned. */
+enum {
+    MPS__ROWS_BEGIN,
+    MPS__ROWS_MIDDLE,
+    MPS__ROWS_END,
+    MPS__ROWS_COLUMNS,
+    MPS__NEAR_BEGIN,
+    MPS__NEAR_COLUMNS,
+    MPS__NEAR_WEIGHTS,
+    MPS__IDLE_ROWS,
+    MPS__TURNED_AREAS,
+    MPS__BLOCKS
+};
 
-/* The array of a channel or field that calls of the plan use. */
+/* An array at two places. */
 typedef struct mps__twin {
-    void *data;            /* of the engine */
+    void *host;            /* NULL: that of a channel, which may move */
+    void *data;            /* of the device */
     size_t room;           /* its bytes */
-    size_t bytes;          /* of the values; 0: no call uses it */
+    size_t bytes;          /* of the values; 0: not in this step */
     size_t number;         /* bytes of a number */
     bool old[MPS__PLACES]; /* the other place has newer values */
 } mps__twin;
 
 typedef struct mps__twins {
-    const mps__engine *engine; /* NULL: none */
-    bool open;                 /* a step is in progress */
+    mps__device device;
+    mps_device_info last;                  /* what the device did in the last step */
+    bool open;                             /* a step is in progress */
+    int32_t place;                         /* of loops now */
+    mps_parallel *parallel, host_parallel; /* of the handle; what it is on the host */
     mps__channels *channels;
     mps__particles *particles;
     mps__twin list[MPS__CHANNELS + MPS__FIELDS_MAX]; /* of channels, of fields */
+    mps__twin block[MPS__BLOCKS];
+    mps__twin scratch[MPS__SCRATCH]; /* of verbs */
+    mps__twin constants;             /* settings of models, viscosities, tensions, */
+    double *constant;                /* as they were copied last */
+    int64_t told;                    /* mps__models.changes when the log was told; -1: never */
 } mps__twins;
 
-/* Steps run on an engine from now on; NULL: on the host. Not during a step. */
-void mps__twins_attach(mps__twins *t, const mps__engine *engine);
-/* A step begins: room for what its calls use, all values are on the host. MPS_E_NOMEM */
+void mps__twins_init(mps__twins *t, mps__channels *c, mps__particles *s, mps_parallel *parallel);
+/* Steps run on a device from now on; NULL: on the host. Not during a step. */
+mps_status mps__twins_attach(mps__twins *t, const mps_device_ops *ops);
+/* Everything is on the host again, and nothing is held. */
+void mps__twins_free(mps__twins *t);
+/* A step begins: room for all fields and for what its calls use, all values are on the host. MPS_E_NOMEM, MPS_E_PLUGIN */
 mps_status mps__twins_open(mps__twins *t, const mps__plan *p);
+/* The array of a block in this step; `values`: it has some, on the host. Without a step on a device nothing is done. */
+mps_status mps__twins_block(mps__twins *t, int32_t block, void *host, int64_t count, size_t number,
+                            bool values);
 /* It is over: all fields come to the host. */
 void mps__twins_close(mps__twins *t);
+
+/* ---- where loops run ---- */
+
+/* Loops run at a place from now on; on the host unless a step is in progress. @return where they ran before */
+int32_t mps__twins_go(mps__twins *t, int32_t place);
+/* Address of an array of a field or block for loops at the present place, with its newest values; others as they are. */
+void *mps__twins_seen(mps__twins *t, const void *array);
+/* The same for loops that write it. `all`: they write all that is read afterwards. */
+void *mps__twins_given(mps__twins *t, void *array, bool all);
+/* Arrays of a view, likewise; with those of constants where loops see it. */
+void mps__twins_view(mps__twins *t, mps_view *v);
+void mps__twins_loop_view(mps__twins *t, int32_t model, mps_view *v);
+/* Block of scratch for a verb at the device, zeroed. NULL: no memory. */
+void *mps__twins_scratch(mps__twins *t, int32_t block, size_t bytes);
+
+/* ---- values ---- */
+
 /* Channels as mps__channels_array() counts them; those that are missing or scalars are on the host.
  * Make the values at a place the newest ones. */
 void mps__twins_ready(mps__twins *t, int32_t channel, int32_t place);
-/* The same of all fields on the host, for what looks at the particles outside of calls. */
+/* The same of all fields on the host, for what looks at the particles outside of calls; of the lists that calls wrote. */
 void mps__twins_fields_ready(mps__twins *t);
+void mps__twins_lists_ready(mps__twins *t);
 /* The values at a place have changed. */
 void mps__twins_written(mps__twins *t, int32_t channel, int32_t place);
 /* The array at a place. */

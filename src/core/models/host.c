@@ -212,15 +212,20 @@ MPS_ROW void begin_row(const int dim, const beginning *b, int64_t i)
 }
 MPS__LOOP(begin_rows, begin_row, beginning)
 
-static void begin_channel(const mps__host *h, const mps__channel *k, void *array)
+static void begin_channel(mps__host *h, int32_t channel, int32_t place)
 {
+    const mps__channel *k = &h->channels->list[channel];
     const bool scalar = mps__channel_is_scalar(k), real = k->spec.type == MPS_TYPE_REAL;
+    const int32_t before = mps__twins_go(&h->twins, scalar ? MPS__ON_HOST : place);
+    void *array = mps__twins_array(&h->twins, channel, place);
     const beginning b = {.initial = k->spec.initial,
                          .reals = real ? array : NULL,
                          .integers = real ? NULL : array,
                          .width = scalar ? 1 : k->components,
                          .diagonal = k->spec.components == MPS_MATRIX ? h->channels->dim + 1 : 1};
     mps__loop_run(h->parallel, &begin_rows, MPS__ANY_DIM, scalar ? 1 : h->particles->n, &b);
+    mps__twins_go(&h->twins, before);
+    mps__twins_written(&h->twins, channel, place);
 }
 
 /* Channels of models get their first values before the first call that uses them. */
@@ -229,19 +234,30 @@ static void begin_channels(mps__host *h, const mps__call *call, int32_t place)
     for (int32_t k = MPS__OWN_CHANNELS; call->begins >> k; k++) {
         if (!(call->begins >> k & 1)) continue;
         h->channels->list[k].stale = false;
-        begin_channel(h, &h->channels->list[k], mps__twins_array(&h->twins, k, place));
-        mps__twins_written(&h->twins, k, place);
+        begin_channel(h, k, place);
     }
 }
 
-/* ---- an engine ---- */
+/* ---- a device ---- */
+
+/* Models of the library whose verbs look at arrays outside of loops. */
+static bool is_serial(const mps__model *model)
+{
+    static const char *const names[] = {"gas.pocket"};
+    bool found = false;
+    for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)
+        found = found || strcmp(model->ops->name, names[k]) == 0;
+    return found;
+}
 
 /* Where a call runs. Verbs of plug-ins and passes that read the world run on the host. */
 static int32_t place_of(const mps__host *h, const mps__call *call)
 {
     if (!h->twins.open) return MPS__ON_HOST;
-    const bool flat = call->pass ? call->pass->flat : !mps__models_foreign(h->models, call->model);
-    return flat ? MPS__ON_ENGINE : MPS__ON_HOST;
+    const bool flat = call->pass
+                          ? call->pass->flat
+                          : !mps__models_foreign(h->models, call->model) && !is_serial(call->model);
+    return flat ? MPS__ON_DEVICE : MPS__ON_HOST;
 }
 
 /* What a call reads comes to where it runs, and so do rows that it leaves as they are. Fluxes of pairs need no use. */
@@ -249,7 +265,8 @@ static void make_ready(mps__host *h, const mps__call *call, int32_t place)
 {
     int32_t flux[MPS__FLUX_CHANNELS];
     if (!h->twins.open) return;
-    mps__twins_ready(&h->twins, MPS__POSITION, place);
+    if (place == MPS__ON_DEVICE || call->model) mps__twins_ready(&h->twins, MPS__POSITION, place);
+    if (place == MPS__ON_HOST && call->model) mps__twins_lists_ready(&h->twins);
     for (int32_t u = 0; u < call->use_count; u++)
         if (!(call->uses[u].access & MPS__USE_BEGIN))
             mps__twins_ready(&h->twins, call->channel[u], place);
@@ -258,19 +275,20 @@ static void make_ready(mps__host *h, const mps__call *call, int32_t place)
     for (int f = 0; f < MPS__FLUX_CHANNELS; f++) mps__twins_ready(&h->twins, flux[f], place);
 }
 
-/* The view shows arrays of one place. What no call writes, as kinds and rows of pairs, has only one. */
-static void show_place(mps__host *h, mps_view *v, int32_t place)
+const mps_view *mps__host_begin_serial(mps_stage *s)
 {
-    int32_t flux[MPS__FLUX_CHANNELS];
-    if (!h->twins.open) return;
-    v->x = v->near.x = v->far.x = mps__twins_array(&h->twins, MPS__POSITION, place);
-    if (!v->flux.density) return;
-    mps__flux_channels(h->channels, flux);
-    v->flux.density = mps__twins_array(&h->twins, flux[0], place);
-    v->flux.tank_acceleration = mps__twins_array(&h->twins, flux[1], place);
-    v->flux.distance = mps__twins_array(&h->twins, flux[2], place);
-    v->flux.jump = mps__twins_array(&h->twins, flux[3], place);
-    v->flux.wetted = mps__twins_array(&h->twins, flux[4], place);
+    mps__host *h = s->host;
+    const mps_view *there = s->view;
+    mps__twins_go(&h->twins, MPS__ON_HOST);
+    s->view = h->view;
+    return there;
+}
+
+void mps__host_end_serial(mps_stage *s, const mps_view *there)
+{
+    mps__host *h = s->host;
+    mps__twins_go(&h->twins, MPS__ON_DEVICE);
+    s->view = there;
 }
 
 /* ---- calls ---- */
@@ -299,21 +317,30 @@ static mps_status run_verb(mps__host *h, mps_stage *s, const mps__call *call)
 static mps_status run_call(mps__host *h, mps_stage *s, mps_view *v, mps__call *call)
 {
     void *data[MPS__USES];
+    mps_view there;
     const int32_t place = place_of(h, call);
+    h->view = v;
     for (int32_t u = 0; u < call->use_count; u++)
         data[u] = mps__twins_array(&h->twins, call->channel[u], place);
-    show_place(h, v, place);
-    s->data = data;
     v->setting = call->model ? call->model->k : NULL;
+    s->data = data;
     s->self = call->model ? call->model->self : h->step;
     h->model = call->model ? &h->models->on[call->model - h->models->on] : NULL;
     h->everywhere = call->pass && call->pass->everywhere;
-    const mps_status status = call->pass ? call->pass->run(s) : run_verb(h, s, call);
+    mps__twins_go(&h->twins, place);
+    if (place == MPS__ON_DEVICE) {
+        there = *v;
+        mps__twins_view(&h->twins, &there);
+        s->view = &there;
+    }
+    mps_status status = call->pass ? call->pass->run(s) : run_verb(h, s, call);
+    mps__twins_go(&h->twins, MPS__ON_HOST);
+    if (place == MPS__ON_DEVICE && status >= 0) status = mps__device_status(&h->twins.device);
     h->everywhere = false;
     h->model = NULL;
     h->scratch_used = 0;
+    s->view = v;
     s->data = NULL;
-    show_place(h, v, MPS__ON_HOST);
     note_writes(h, call, place);
     return status;
 }
@@ -386,6 +413,7 @@ mps_status mps__host_run(mps__host *h, mps_stage *s, mps_view *v, int32_t hook)
         const double limit = s->dt_limit;
         if (h->before_call) h->before_call(h->step, call);
         status = share_before(h, call);
+        h->twins.device.info.host_calls += h->twins.open && place_of(h, call) == MPS__ON_HOST;
         begin_channels(h, call, place_of(h, call));
         make_ready(h, call, place_of(h, call));
         if (status == MPS_OK) status = run_checked(h, s, v, call);
@@ -399,6 +427,25 @@ mps_status mps__host_run(mps__host *h, mps_stage *s, mps_view *v, int32_t hook)
         h->in_calls += seconds;
     }
     return status;
+}
+
+/* Names of the calls that run on the host: once after models or the device changed. */
+void mps__host_tell_places(mps__host *h)
+{
+    char text[MPS__ERROR_SIZE] = "";
+    size_t used = 0;
+    if (!h->twins.open || h->twins.told == h->plan.changes) return;
+    h->twins.told = h->plan.changes;
+    for (int32_t k = 0; k < h->plan.begin[MPS_HOOK_COUNT]; k++) {
+        const mps__call *call = &h->plan.call[k];
+        if (place_of(h, call) != MPS__ON_HOST || used + MPS__NAME_SIZE + 2 > sizeof text) continue;
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", used > 0 ? ", " : "",
+                                 call->name);
+    }
+    if (used > 0)
+        mps__log(h->context, MPS_LOG_INFO,
+                 "device '%s': these parts of a step run on the host, with copies: %.400s",
+                 h->twins.device.ops.name, text);
 }
 
 const char *mps__host_writer(const mps__host *h, int32_t channel)

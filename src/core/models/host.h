@@ -46,6 +46,7 @@ typedef struct mps__host {
     mps__sets sets;    /* bodies */
     mps__plan plan;
     mps__twins twins;
+    const mps_view *view;     /* of the step in progress, with arrays of the host */
     mps__reactions reactions; /* of the step in progress */
     mps__gas gas;             /* likewise */
     void *step;               /* the step in progress, for passes; NULL before MPS_LIMIT */
@@ -73,8 +74,13 @@ void mps__host_sum(const mps__host *h, const mps_view *v, int32_t count, const m
 /* Maxima, of all ranks; `maxima` are lower bounds before. */
 void mps__host_max(const mps__host *h, const mps_view *v, int32_t count, const mps_sums *raise,
                    const void *fields, double *maxima);
+/* What a call on a device does on the host, one row after the other: in between, the view has arrays of the host. @return the view of the device */
+const mps_view *mps__host_begin_serial(mps_stage *s);
+void mps__host_end_serial(mps_stage *s, const mps_view *there);
 /* Line of the budget of a call's verb: of plug-ins and of the slots "friction" and "layer"; of others MPS__LINE_OF_HOOK. */
 int32_t mps__host_line(const mps__host *h, const mps__call *call);
+/* Log the names of the calls that run on the host, once after models or the device changed. */
+void mps__host_tell_places(mps__host *h);
 /* Name of the first model that writes a channel of the library, or NULL. */
 const char *mps__host_writer(const mps__host *h, int32_t channel);
 

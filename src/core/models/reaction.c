@@ -90,15 +90,35 @@ MPS_ROW void place_row(const int dim, const mps_view *v, const place_fields *f, 
 }
 MPS_ROWS(place_rows, place_row, place_fields)
 
+/* Which places occur. @return non-zero: no memory */
+static int note_used(mps_stage *s, mps__host *h, const int32_t *place, bool *used)
+{
+    const int64_t n = s->view->n;
+    const bool there = h->twins.place == MPS__ON_DEVICE;
+    if (there) {
+        const mps_view *view = mps__host_begin_serial(s);
+        int32_t *own = mps_stage_scratch_integers(s, n);
+        if (own) {
+            mps__device_download(&h->twins.device, own, place, (size_t)n * sizeof *own);
+            h->scratch_used--;
+        }
+        mps__host_end_serial(s, view);
+        place = own;
+    }
+    for (int64_t i = 0; place && i < n; i++) used[place[i]] = true;
+    return !place;
+}
+
 /* Each row acts on the part beside it. */
 static int add_beside(mps_stage *s, mps__host *h, report *k)
 {
     bool used[MPS__REACTIONS + 1] = {false};
     k->place = mps_stage_scratch_integers(s, s->view->n);
     if (!k->place) return 1;
-    mps_stage_rows(s, &place_rows, &(place_fields){k->acceleration, h->particles->part, k->place});
-    for (int64_t i = 0; i < s->view->n; i++) used[k->place[i]] = true;
-    int failed = 0;
+    mps_stage_rows(
+        s, &place_rows,
+        &(place_fields){k->acceleration, mps__twins_seen(&h->twins, h->particles->part), k->place});
+    int failed = note_used(s, h, k->place, used);
     for (int32_t place = MPS__REACTION_WHOLE; place < MPS__REACTIONS && !failed; place++)
         if (used[place + 1]) failed = add_place(s, h, k, place);
     return failed;
@@ -111,7 +131,7 @@ int mps_stage_reaction(mps_stage *s, const char *part, const double *acceleratio
     report k = {.kind = v->kind,
                 .ghost = h->ghosts->ghost,
                 .x = v->x,
-                .rho = h->particles->rho,
+                .rho = mps__twins_seen(&h->twins, h->particles->rho),
                 .acceleration = acceleration,
                 .volume = v->dim == 2 ? v->dp * v->dp : v->dp * v->dp * v->dp};
     if (s->hook != MPS_FORCE && s->hook != MPS_VELOCITY)

@@ -97,10 +97,54 @@ static void run_maxima(void *argument, int64_t begin, int64_t end, double *value
     mps__ghosts_rows(k->h->ghosts, raise_rows, &own, begin, end);
 }
 
+/* ---- on a device ---- */
+
+static void run_launch(const void *host, int64_t begin, int64_t end, mps_exact *sums,
+                       double *maxima)
+{
+    const job *k = host;
+    part own = {.k = k, .sums = sums, .maxima = maxima};
+    if (k->rows)
+        k->rows->run(k->v, k->fields, begin, end);
+    else if (sums)
+        sum_rows(&own, begin, end);
+    else
+        raise_rows(&own, begin, end);
+}
+
+/* Rows, `count` sums or maxima, of which one pointer is NULL. */
+static void launch(mps__device *d, const job *given, mps_exact *sums, double *maxima)
+{
+    mps_view v = *given->v;
+    job k = *given;
+    const mps__host *h = k.h;
+    mps__twins_loop_view((mps__twins *)&h->twins,
+                         h->model ? (int32_t)(h->model - h->models->on) : 0, &v);
+    k.v = &v;
+    mps_launch l = {.dim = v.dim,
+                    .n = v.n,
+                    .file = k.rows ? k.rows->file : k.sums->file,
+                    .name = k.rows ? k.rows->name : k.sums->name,
+                    .view = &v,
+                    .fields = k.fields,
+                    .bytes = k.rows ? k.rows->bytes : k.sums->bytes,
+                    .sums = sums ? k.count : 0,
+                    .maxima = maxima ? k.count : 0,
+                    .run = run_launch,
+                    .host = &k};
+    mps__device_launch(d, &l, sums, maxima);
+}
+
+/* ---- loops of calls ---- */
+
 void mps__host_rows(const mps__host *h, const mps_view *v, const mps_rows *rows, const void *fields)
 {
     job k = {.h = h, .v = v, .rows = rows, .fields = fields};
-    mps_parallel_rows(h->parallel, v->n, run_rows, &k);
+    mps__device *d = mps__device_of(h->parallel);
+    if (d)
+        launch(d, &k, NULL, NULL);
+    else
+        mps_parallel_rows(h->parallel, v->n, run_rows, &k);
 }
 
 void mps__host_sum(const mps__host *h, const mps_view *v, int32_t count, const mps_sums *add,
@@ -108,8 +152,12 @@ void mps__host_sum(const mps__host *h, const mps_view *v, int32_t count, const m
 {
     job k = {.h = h, .v = v, .sums = add, .fields = fields, .count = count};
     mps_exact sum[MPS_PARALLEL_VALUES] = {{{0}, 0, 0}};
-    mps_exact_rows(h->parallel, v->n, MPS_PARALLEL_LEAST, run_sums, &k,
-                   &(mps_exact_values){.sums = count, .sum = sum});
+    mps__device *d = mps__device_of(h->parallel);
+    if (d)
+        launch(d, &k, sum, NULL);
+    else
+        mps_exact_rows(h->parallel, v->n, MPS_PARALLEL_LEAST, run_sums, &k,
+                       &(mps_exact_values){.sums = count, .sum = sum});
     mps__ranks_sum(h->ghosts->ranks, count, sum);
     for (int32_t m = 0; m < count; m++) sums[m] = mps_exact_value(&sum[m]);
 }
@@ -117,8 +165,12 @@ void mps__host_sum(const mps__host *h, const mps_view *v, int32_t count, const m
 void mps__host_max(const mps__host *h, const mps_view *v, int32_t count, const mps_sums *raise,
                    const void *fields, double *maxima)
 {
-    job k = {.h = h, .v = v, .sums = raise, .fields = fields};
-    mps_parallel_max(h->parallel, v->n, count, run_maxima, &k, maxima);
+    job k = {.h = h, .v = v, .sums = raise, .fields = fields, .count = count};
+    mps__device *d = mps__device_of(h->parallel);
+    if (d)
+        launch(d, &k, NULL, maxima);
+    else
+        mps_parallel_max(h->parallel, v->n, count, run_maxima, &k, maxima);
     mps__ranks_max(h->ghosts->ranks, count, maxima);
 }
 
@@ -188,6 +240,38 @@ mps_status mps_grid_init(mps_grid *grid, size_t size)
 }
 
 /* Chains of rows: serial, as each row may change the chain of any bucket. */
+static void chain_rows(const mps_view *v, const mps_grid *grid, int32_t *first, int32_t *next)
+{
+    for (int64_t i = v->n - 1; i >= 0; i--) {
+        int64_t cell[3];
+        if (!mps_is_fluid(v, i)) continue;
+        mps_grid_cell(grid, v->x + i * v->dim, cell);
+        const int64_t b = mps_grid_bucket(grid, cell);
+        next[i] = first[b];
+        first[b] = (int32_t)(i + 1);
+    }
+}
+
+/* The same with chains at a device. */
+static int chain_there(mps_stage *s, const mps_grid *grid, int32_t *first, int32_t *next)
+{
+    mps__host *h = host_of(s);
+    const size_t bytes = (size_t)s->view->n * sizeof *first;
+    const mps_view *there = mps__host_begin_serial(s);
+    int32_t *own_first = mps_stage_scratch_integers(s, s->view->n),
+            *own_next = mps_stage_scratch_integers(s, s->view->n);
+    const int failed = !own_first || !own_next;
+    if (!failed) {
+        mps__twins_ready(&h->twins, MPS__POSITION, MPS__ON_HOST);
+        chain_rows(s->view, grid, own_first, own_next);
+        mps__device_upload(&h->twins.device, first, own_first, bytes);
+        mps__device_upload(&h->twins.device, next, own_next, bytes);
+        h->scratch_used -= 2;
+    }
+    mps__host_end_serial(s, there);
+    return failed;
+}
+
 int mps_stage_grid(mps_stage *s, double side, mps_grid *grid)
 {
     mps_grid made = {.dim = s->view->dim, .side = side, .buckets = s->view->n};
@@ -199,14 +283,8 @@ int mps_stage_grid(mps_stage *s, double side, mps_grid *grid)
     made.next = next;
     if (mps__struct_out(NULL, "mps_grid", grid, &made, sizeof made) < 0)
         return mps_stage_fail(s, "the grid is NULL or not initialised: call mps_grid_init() first");
-    for (int64_t i = s->view->n - 1; i >= 0; i--) {
-        int64_t cell[3];
-        if (!mps_is_fluid(s->view, i)) continue;
-        mps_grid_cell(&made, s->view->x + i * s->view->dim, cell);
-        const int64_t b = mps_grid_bucket(&made, cell);
-        next[i] = first[b];
-        first[b] = (int32_t)(i + 1);
-    }
+    if (host_of(s)->twins.place == MPS__ON_DEVICE) return chain_there(s, &made, first, next);
+    chain_rows(s->view, &made, first, next);
     return 0;
 }
 
@@ -242,7 +320,9 @@ static void *scratch(mps_stage *s, int64_t count, size_t size)
                        MPS__SCRATCH);
         return NULL;
     }
-    void *block = mps__scratch_take(h->context, h->scratch, h->scratch_used, count, size);
+    void *block = h->twins.place == MPS__ON_DEVICE
+                      ? mps__twins_scratch(&h->twins, h->scratch_used, (size_t)count * size)
+                      : mps__scratch_take(h->context, h->scratch, h->scratch_used, count, size);
     if (!block) {
         h->no_memory = true;
         return NULL;
@@ -254,14 +334,16 @@ static void *scratch(mps_stage *s, int64_t count, size_t size)
 double *mps_stage_scratch(mps_stage *s, int64_t count)
 {
     double *block = scratch(s, count, sizeof *block);
-    if (block) mps__parallel_zero(host_of(s)->parallel, &(mps__block){block, count}, 1);
+    if (block && host_of(s)->twins.place == MPS__ON_HOST)
+        mps__parallel_zero(host_of(s)->parallel, &(mps__block){block, count}, 1);
     return block;
 }
 
 int32_t *mps_stage_scratch_integers(mps_stage *s, int64_t count)
 {
     int32_t *block = scratch(s, count, sizeof *block);
-    if (block) memset(block, 0, (size_t)count * sizeof *block);
+    if (block && host_of(s)->twins.place == MPS__ON_HOST)
+        memset(block, 0, (size_t)count * sizeof *block);
     return block;
 }
 

@@ -2,6 +2,7 @@
 /* Which particles thin plates hide from which others. */
 #include "screens.h"
 #include <math.h>
+#include <mps/numbers.h>
 
 /* Most screens for which a particle keeps on which side it is. */
 enum { MPS__SCREEN_BITS = 64 };
@@ -45,10 +46,11 @@ double mps__screen_height(const mps__screen *s, const double *X)
 
 double mps__screen_distance(const mps__screen *s, const double *X)
 {
-    double square = pow(mps__screen_height(s, X), 2);
+    const double height = mps__screen_height(s, X);
+    double square = height * height;
     for (int e = 0; e < 2; e++) {
         const double at = component(s, s->along[e], X),
-                     off = at < 0 ? at : fmax(0, at - s->length[e]);
+                     off = at < 0 ? at : mps_larger(0, at - s->length[e]);
         square += off * off;
     }
     return sqrt(square);

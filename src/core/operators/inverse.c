@@ -2,6 +2,7 @@
 /* Inverse of the moments of a row, bounded where neighbours are too few. */
 #include "operators.h"
 #include <math.h>
+#include <mps/numbers.h>
 
 /* Jacobi rotation of a symmetric matrix in the plane (p, q); columns of v take the eigenvectors. An angle whose square would overflow
  * is 0 to the last digit. */
@@ -70,7 +71,7 @@ void mps__inverse_bounded(int dim, const double *m, double least, double *invers
         for (int e = 0; e < dim; e++) {
             double sum = 0;
             for (int k = 0; k < dim; k++)
-                sum += v[d * dim + k] * v[e * dim + k] / fmax(a[k * dim + k], least);
+                sum += v[d * dim + k] * v[e * dim + k] / mps_larger(a[k * dim + k], least);
             inverse[d * dim + e] = sum;
         }
 }

@@ -11,7 +11,7 @@
 /* NOLINTBEGIN(clang-analyzer-core.NullDereference) */
 
 /* Pairs worked on at a time: the longest usual row, for buffers on the stack. */
-enum { MPS__PAIRS = 64 };
+enum { MPS__PAIRS = MPS_PAIRS(64) };
 
 /* What rows of an operator see; each uses its own. */
 typedef struct operation {

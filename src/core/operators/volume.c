@@ -7,7 +7,7 @@
 #include <mps/operators.h>
 
 /* Pairs worked on at a time. */
-enum { PAIRS = 64 };
+enum { PAIRS = MPS_PAIRS(64) };
 
 /* Kernel at the squared distance r2 < h^2, support h = 1/over. 2-D: Wendland C2. 3-D: (1 - q^2)^3. Support there is 2.1 dp as a rule, so few that
  * the particle itself is a third of a sum of C2, and disordered liquid looks 2 % denser than the lattice; with the broader kernel sums are those of

@@ -364,7 +364,7 @@ double mps_ppe_law(double law, double p, double *slope)
     }
     const double share = 1 + p / law, used = share < least ? least : share;
     if (slope) *slope = 1 / used;
-    return law * (log(used) + (share - used) / used);
+    return law * (mps_log(used) + (share - used) / used);
 }
 
 /* What travels in one message. */

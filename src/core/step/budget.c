@@ -21,9 +21,9 @@ static void sum_terms(const mps__world *w, const mps_sums *add, terms *f, int32_
     const double dp = w->setup.dp;
     mps_view v;
     mps__world_view(w, &v);
-    f->rho = w->particles.rho;
-    f->u = w->particles.u;
-    f->region = w->particles.region;
+    f->rho = mps__seen(w, w->particles.rho);
+    f->u = mps__seen(w, w->particles.u);
+    f->region = mps__seen(w, w->particles.region);
     f->cell = w->setup.dim == 2 ? dp * dp : dp * dp * dp;
     mps__host_sum(&w->host, &v, count, add, f, values);
 }
@@ -188,9 +188,10 @@ MPS_ROW void add_body_work(const int dim, const mps_view *v, const body_fields *
 }
 MPS_SUMS(add_body_works, add_body_work, body_fields)
 
-double mps__budget_body_work(const mps__world *w, const double *pressure)
+double mps__budget_body_work(const mps__world *w, const double *pressure, const double *place)
 {
-    const body_fields f = {pressure, w->particles.area, w->particles.ref, w->work.placed};
+    const body_fields f = {pressure, mps__seen(w, w->particles.area),
+                           mps__seen(w, w->particles.ref), place};
     double work = 0;
     mps_view v;
     if (!w->work.bodies) return 0;

@@ -24,7 +24,7 @@ double mps__budget_wall_work(const mps__world *w, const mps__pose *end, const do
 double mps__budget_tank_work(const mps__world *w, const mps__pose *end, const double force[6],
                              double dt);
 /* Work of solids that models move in the tank, by pressures on them and their ways in the tank in this step [J]. */
-double mps__budget_body_work(const mps__world *w, const double *pressure);
+double mps__budget_body_work(const mps__world *w, const double *pressure, const double *place);
 /* Force of the walls on the fluid by pressures on them, sum p A, in the step in progress [N]. Returns its work, with the same velocities of
  * the walls [J]. */
 double mps__budget_wall_force(const mps__world *w, const mps__pose *end, const double *pressure,

@@ -8,6 +8,7 @@
  * to step. Slower than 5 U_g the time does not depend on u, so that pieces are looked for among faster particles alone. */
 #include "step.h"
 #include "world_ranks.h"
+#include <string.h>
 
 /* Of the speed before. */
 static const double NEARLY = 0.9;
@@ -49,14 +50,24 @@ MPS_ROW int32_t as_fast(const int dim, const mps_view *v, const liquid *f, int64
     return count;
 }
 
+/* The next larger number, of a number >= 0. */
+MPS_ROW double above(double least)
+{
+    uint64_t bits;
+    if (!(least < INFINITY)) return least;
+    memcpy(&bits, &least, sizeof bits);
+    bits++;
+    memcpy(&least, &bits, sizeof bits);
+    return least;
+}
+
 /* Squares of the largest speeds: of a piece, if it is above `least`; of a particle. */
 enum { PIECE, ANY, SPEEDS };
 
 MPS_ROW void raise_speed(const int dim, const mps_view *v, const liquid *f, int64_t i, double *most)
 {
     const mps_stencil *t = &v->near;
-    const double own = speed2(dim, v, f, i),
-                 more = nextafter(fmax(most[PIECE], f->least), INFINITY);
+    const double own = speed2(dim, v, f, i), more = above(mps_larger(most[PIECE], f->least));
     if (own > most[ANY]) most[ANY] = own;
     if (own < more || as_fast(dim, v, f, i, more) < f->piece) return;
     if (as_fast(dim, v, f, i, own) >= f->piece) most[PIECE] = own;
@@ -115,6 +126,7 @@ const mps__pass mps__pass_crossing = {.name = "crossing",
                                       .hook = MPS_SHIFT,
                                       .place = MPS__AFTER_MODELS,
                                       .stage = MPS_STAGE_CORRECT,
+                                      .flat = true,
                                       .use_count = 2,
                                       .uses = uses,
                                       .run = find_crossing_time};

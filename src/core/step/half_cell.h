@@ -48,7 +48,7 @@ MPS_ROW double mps__half_cell(const int dim, const mps_view *v, const mps__halve
     }
     for (int d = 0; d < dim; d++) n[d] = area[d] / size;
     const double share = surface && h->wetted ? h->wetted[i] : 1;
-    return any ? h->density[i] * share * 0.5 * v->dp * size * fmin(1, size / face) : 0;
+    return any ? h->density[i] * share * 0.5 * v->dp * size * mps_smaller(1, size / face) : 0;
 }
 
 /* Acceleration of that cell: that of the wall, `tank`, along the normal, and along the face the mean of the liquid about it. */

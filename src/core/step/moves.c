@@ -47,11 +47,20 @@ static int64_t place_of(mps__world *w, int64_t id)
     return i < s->n ? i : -1;
 }
 
+/* Places before this step moved the particles, on the host. */
+static const double *places_before(mps__world *w)
+{
+    mps__twins_ready(&w->host.twins, MPS__POSITION_BEFORE, MPS__ON_HOST);
+    return mps__channels_array(&w->channels, &w->particles, MPS__POSITION_BEFORE);
+}
+
 static mps_status jumped(mps__world *w, const mps_view *v, const ways *f, int64_t id)
 {
     const int64_t i = place_of(w, id);
     if (i < 0) return mps__ranks_text(&w->ranks, MPS_E_DIVERGED);
-    const double *x = f->before + i * v->dim, distance = moved(v->dim, v, f, i);
+    mps__twins_fields_ready(&w->host.twins);
+    const ways here = {.before = places_before(w), .x = w->particles.x};
+    const double *x = here.before + i * v->dim, distance = moved(v->dim, v, &here, i);
     mps__fail(
         w->context, MPS_E_DIVERGED,
         "t = %.9g s: fluid particle %lld at (%g, %g, %g) m would move %g m in a step of %g s, at "
@@ -78,7 +87,7 @@ MPS_ROW void raise_way(const int dim, const mps_view *v, const ways *f, int64_t 
     const double distance = mps_is_fluid(v, i) ? moved(dim, v, f, i) : 0;
     if (!mps_is_fluid(v, i)) most[0] = 1;
     most[1] = distance > most[1] ? distance : most[1];
-    if (distance > f->limit) most[2] = fmax(most[2], -(double)v->id[i]);
+    if (distance > f->limit) most[2] = mps_larger(most[2], -(double)v->id[i]);
 }
 MPS_SUMS(raise_ways, raise_way, ways)
 
@@ -86,7 +95,8 @@ MPS_SUMS(raise_ways, raise_way, ways)
 mps_status mps__world_check_moves(mps__world *w, const mps__pose *next, const double *before,
                                   double dt)
 {
-    const ways f = {.before = before, .x = w->particles.x, .dt = dt, .limit = limit_of(w)};
+    const ways f = {
+        .before = before, .x = mps__seen(w, w->particles.x), .dt = dt, .limit = limit_of(w)};
     double most[3] = {0, 0, -INFINITY};
     mps_view v;
     if (!may_jump(w)) return MPS_OK;
@@ -126,11 +136,14 @@ MPS_SUMS(raise_wall_ways, raise_wall_way, ways)
 
 double mps__world_way_of_walls(mps__world *w, const mps__pose *pose, double dt)
 {
-    const ways f = {.ref = w->particles.ref, .u = w->particles.u, .dt = dt};
+    mps__twins_go(&w->host.twins, MPS__ON_DEVICE);
+    const ways f = {
+        .ref = mps__seen(w, w->particles.ref), .u = mps__seen(w, w->particles.u), .dt = dt};
     double most = 0;
     mps_view v;
     view_of(w, pose, &v);
     mps__host_max(&w->host, &v, 1, &raise_wall_ways, &f, &most);
+    mps__twins_go(&w->host.twins, MPS__ON_HOST);
     return sqrt(most);
 }
 
@@ -163,7 +176,7 @@ MPS_ROW void raise_result(const int dim, const mps_view *v, const result *f, int
     bool sound = speed <= f->fastest && isfinite(f->p[i]);
     for (int d = 0; d < dim; d++) sound = sound && isfinite(f->x[i * dim + d]);
     if (!sound) {
-        most[1] = fmax(most[1], -(double)v->id[i]);
+        most[1] = mps_larger(most[1], -(double)v->id[i]);
     } else if (mps_is_fluid(v, i)) {
         most[0] = speed > most[0] ? speed : most[0];
     }
@@ -171,12 +184,14 @@ MPS_ROW void raise_result(const int dim, const mps_view *v, const result *f, int
 MPS_SUMS(raise_results, raise_result, result)
 
 /* NaN and speeds beyond every physical range stop the run, with the particle and its place. */
-mps_status mps__world_check_result(mps__world *w, const mps_view *s, const double *before,
+mps_status mps__world_check_result(mps__world *w, const mps_view *s, bool has_moved,
                                    mps_step_info *info)
 {
     const mps__particles *all = &w->particles;
-    const result f = {
-        .x = all->x, .u = all->u, .p = all->p, .fastest = fmin(w->setup.speed_limit, DBL_MAX)};
+    const result f = {.x = mps__seen(w, all->x),
+                      .u = mps__seen(w, all->u),
+                      .p = mps__seen(w, all->p),
+                      .fastest = fmin(w->setup.speed_limit, DBL_MAX)};
     double v[2] = {0, -INFINITY};
     mps__host_max(&w->host, s, 2, &raise_results, &f, v);
     info->max_speed = v[0];
@@ -184,12 +199,13 @@ mps_status mps__world_check_result(mps__world *w, const mps_view *s, const doubl
     if (isinf(v[1])) return MPS_OK;
     const int64_t worst = place_of(w, (int64_t)-v[1]);
     if (worst < 0) return mps__ranks_text(&w->ranks, MPS_E_DIVERGED);
-    const double *u = w->particles.u + worst * s->dim,
-                 *x = (before ? before : w->particles.x) + worst * s->dim;
+    mps__twins_fields_ready(&w->host.twins);
+    const double *u = all->u + worst * s->dim,
+                 *x = (has_moved ? places_before(w) : all->x) + worst * s->dim;
     mps__fail(w->context, MPS_E_DIVERGED,
               "t = %.9g s: particle %lld at (%g, %g, %g) m got velocity (%g, %g, %g) m/s and "
               "pressure %g Pa; allowed: finite, at most %g m/s",
-              s->t, (long long)s->id[worst], x[0], x[1], s->dim == 3 ? x[2] : 0, u[0], u[1],
+              s->t, (long long)all->id[worst], x[0], x[1], s->dim == 3 ? x[2] : 0, u[0], u[1],
               s->dim == 3 ? u[2] : 0, w->particles.p[worst], w->setup.speed_limit);
     return mps__ranks_text(&w->ranks, MPS_E_DIVERGED);
 }

@@ -95,7 +95,11 @@ static mps_status try_step(mps__step *q, double dt_max, double *planned)
     start(w, &q->budget);
     MPS__TRY(mps__step_turn_areas(w));
     MPS__TRY(mps__step_place_solids(w));
-    MPS__TRY(mps__twins_open(&w->host.twins, &w->host.plan));
+    /* a function of the user has no text that a device knows */
+    if (w->setup.kernel.id != MPS_KERNEL_CUSTOM)
+        MPS__TRY(mps__twins_open(&w->host.twins, &w->host.plan));
+    MPS__TRY(mps__world_lists_twins(w));
+    mps__host_tell_places(&w->host);
     mps__step_open(q);
     MPS__TRY(mps__world_stencil(w, MPS_NEAR, &q->view.near));
     MPS__TRY(mps__world_stencil(w, MPS_FAR, &q->view.far));

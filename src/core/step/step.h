@@ -9,10 +9,10 @@
 
 /* One step, undone if it fails. step.c */
 mps_status mps__world_step(mps__world *w, double dt_max);
-/* Fail for what is not finite or too fast, with the particle and its place `before` (NULL: it has not moved). Sets the largest speed of `info`. moves.c */
-mps_status mps__world_check_result(mps__world *w, const mps_view *s, const double *before,
+/* Fail for what is not finite or too fast, with the particle and its place before it moved, if it `has_moved`. Sets the largest speed of `info`. moves.c */
+mps_status mps__world_check_result(mps__world *w, const mps_view *s, bool has_moved,
                                    mps_step_info *info);
-/* Fluid that passes a wall in a step of dt that ends at a pose; the places before it are `before`. moves.c */
+/* Fluid that passes a wall in a step of dt that ends at a pose; the places before it, where loops run, are `before`. moves.c */
 mps_status mps__world_check_moves(mps__world *w, const mps__pose *next, const double *before,
                                   double dt);
 /* The step to take, in s->dt; `planned` is the one the limits chose, 0 if the caller cut it. They also differ where the last steps of a run
@@ -85,7 +85,7 @@ extern const mps__pass mps__pass_clear_equation, mps__pass_first_conditions;
 mps_status mps__step_turn_areas(mps__world *w);
 /* Where the channels "solid_place" and "solid_area" are in this step; and after it. */
 mps_status mps__step_place_solids(mps__world *w);
-void mps__step_keep_places(mps__world *w);
+void mps__step_keep_places(mps__world *w, const double *place, const double *area);
 /* Velocities of the solids over this step and accelerations of the tank; whether its velocity jumped. */
 extern const mps__pass mps__pass_tank, mps__pass_jump;
 

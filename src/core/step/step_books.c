@@ -34,7 +34,8 @@ static mps__push so_far(const mps__step *q)
     mps__push push = {0};
     mps__bulk bulk;
     if (q->stage.hook == MPS_FORCE) {
-        const double *a = mps__channels_array(&q->w->channels, &q->w->particles, MPS__ACCELERATION);
+        mps__twins *t = &q->w->host.twins;
+        const double *a = mps__twins_array(t, MPS__ACCELERATION, t->place);
         mps__budget_push(q->w, a, q->view.dt, &push);
         return push;
     }
@@ -51,9 +52,11 @@ void mps__step_book_line(mps__step *q, bool after)
     mps_momentum *m = &b->momentum;
     const bool friction = q->line == MPS__LINE_FRICTION;
     if (!force && q->stage.hook != MPS_VELOCITY) return;
-    mps__twins_fields_ready(&q->w->host.twins);
-    if (force) mps__twins_ready(&q->w->host.twins, MPS__ACCELERATION, MPS__ON_HOST);
+    mps__twins *t = &q->w->host.twins;
+    mps__twins_go(t, MPS__ON_DEVICE);
+    if (force) mps__twins_ready(t, MPS__ACCELERATION, t->place);
     const mps__push now = so_far(q);
+    mps__twins_go(t, MPS__ON_HOST);
     if (!after) {
         q->before_line = now;
         return;
@@ -94,6 +97,7 @@ const mps__pass mps__pass_book_forces = {.name = "book_forces",
                                          .hook = MPS_FORCE,
                                          .place = MPS__AFTER_MODELS,
                                          .stage = MPS_STAGE_OPERATORS,
+                                         .flat = true,
                                          .use_count = 3,
                                          .uses = book_forces_uses,
                                          .run = book_forces};
@@ -104,7 +108,7 @@ static mps_status book_pressure(mps_stage *s)
     mps__world *w = q->w;
     mps_momentum *m = &q->budget.momentum;
     double force[3];
-    const double bodies = mps__budget_body_work(w, s->data[1]);
+    const double bodies = mps__budget_body_work(w, s->data[1], s->data[4]);
     q->budget.wall_work_momentum += bodies +
                                     mps__budget_wall_work(w, &q->pose, s->data[0], q->view.dt);
     q->budget.wall_work_probes += bodies + mps__budget_wall_force(w, &q->pose, s->data[1],
@@ -127,6 +131,7 @@ const mps__pass mps__pass_book_pressure = {.name = "book_pressure",
                                            .hook = MPS_LOAD,
                                            .place = MPS__AFTER_MODELS,
                                            .stage = MPS_STAGE_CORRECT,
+                                           .flat = true,
                                            .use_count = 5,
                                            .uses = book_pressure_uses,
                                            .run = book_pressure};
@@ -151,6 +156,7 @@ const mps__pass mps__pass_book_collisions = {.name = "book_collisions",
                                              .hook = MPS_VELOCITY,
                                              .place = MPS__AFTER_MODELS,
                                              .stage = MPS_STAGE_CORRECT,
+                                             .flat = true,
                                              .use_count = 2,
                                              .uses = book_collisions_uses,
                                              .run = book_collisions};
@@ -174,9 +180,24 @@ const mps__pass mps__pass_book_shift = {.name = "book_shift",
                                         .hook = MPS_SHIFT,
                                         .place = MPS__AFTER_MODELS,
                                         .stage = MPS_STAGE_CORRECT,
+                                        .flat = true,
                                         .use_count = 3,
                                         .uses = book_shift_uses,
                                         .run = book_shift};
+
+/* Plates look at one particle after the other, on the host. */
+static void stop_drops(mps_stage *s, mps__world *w)
+{
+    static const int32_t changed[] = {MPS__POSITION, MPS__VELOCITY};
+    mps__twins *t = &w->host.twins;
+    const bool there = t->place == MPS__ON_DEVICE;
+    const mps_view *view = there ? mps__host_begin_serial(s) : NULL;
+    for (int k = 0; k < 2; k++) mps__twins_ready(t, changed[k], MPS__ON_HOST);
+    mps__plates_stop(w, &mps__step_of(s)->pose);
+    for (int k = 0; k < 2; k++) mps__twins_written(t, changed[k], MPS__ON_HOST);
+    if (there) mps__host_end_serial(s, view);
+    for (int k = 0; k < 2; k++) mps__twins_ready(t, changed[k], t->place);
+}
 
 static mps_status stop_at_plates(mps_stage *s)
 {
@@ -185,7 +206,7 @@ static mps_status stop_at_plates(mps_stage *s)
     mps__bulk moved, stopped;
     if (w->lists.screens.count == 0) return MPS_OK;
     mps__budget_sum(w, &moved);
-    mps__plates_stop(w, &q->pose);
+    stop_drops(s, w);
     mps__budget_sum(w, &stopped);
     q->budget.collision += (moved.kinetic - stopped.kinetic) +
                            (moved.potential - stopped.potential);
@@ -201,6 +222,7 @@ const mps__pass mps__pass_plates = {.name = "plates",
                                     .hook = MPS_SHIFT,
                                     .place = MPS__AFTER_MODELS,
                                     .stage = MPS_STAGE_CORRECT,
+                                    .flat = true,
                                     .use_count = 2,
                                     .uses = stop_at_plates_uses,
                                     .run = stop_at_plates};

@@ -5,7 +5,16 @@
 
 static mps_status find_near_rows(mps_stage *s)
 {
-    return mps__neighbours_near(&mps__step_of(s)->w->lists.neighbours);
+    mps__world *w = mps__step_of(s)->w;
+    mps_neighbours *l = &w->lists.neighbours;
+    mps__twins *t = &w->host.twins;
+    MPS__TRY(mps__neighbours_near(l));
+    MPS__TRY(
+        mps__twins_block(t, MPS__NEAR_BEGIN, l->near_begin, l->n + 1, sizeof *l->near_begin, true));
+    MPS__TRY(mps__twins_block(t, MPS__NEAR_COLUMNS, l->near_col, l->near_begin[l->n],
+                              sizeof *l->near_col, false));
+    return mps__twins_block(t, MPS__NEAR_WEIGHTS, l->w_r2, l->near_begin[l->n], sizeof *l->w_r2,
+                            false);
 }
 
 const mps__pass mps__pass_neighbours = {.name = "neighbours",
@@ -177,8 +186,8 @@ const mps__pass mps__pass_move = {.name = "move",
 static mps_status check(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
-    MPS__TRY(mps__world_check_result(q->w, &q->view, q->before, &q->info));
-    return mps__world_check_moves(q->w, &q->pose, q->before, q->view.dt);
+    MPS__TRY(mps__world_check_result(q->w, &q->view, true, &q->info));
+    return mps__world_check_moves(q->w, &q->pose, s->data[3], q->view.dt);
 }
 
 static const mps_use check_uses[] = {{"velocity", MPS_USE_READ},
@@ -190,6 +199,7 @@ const mps__pass mps__pass_check = {.name = "check",
                                    .hook = MPS_SHIFT,
                                    .place = MPS__AFTER_MODELS,
                                    .stage = MPS_STAGE_CORRECT,
+                                   .flat = true,
                                    .use_count = 4,
                                    .uses = check_uses,
                                    .run = check};
@@ -241,14 +251,14 @@ static mps_status keep(mps_stage *s)
     const keep_fields f = {.wall_pressure = s->data[0],
                            .condition = s->data[1],
                            .region = s->data[2],
-                           .load = w->particles.load,
-                           .held = w->particles.held};
+                           .load = mps__given(w, w->particles.load),
+                           .held = mps__given(w, w->particles.held)};
     double counts[COUNTS];
     mps_stage_rows(s, &keep_rows, &f);
     mps_stage_sum(s, COUNTS, &count_rows, &f, counts);
     q->info.surface = (int64_t)counts[SURFACE];
     q->info.separated = (int64_t)counts[SEPARATED];
-    mps__step_keep_places(w);
+    mps__step_keep_places(w, s->data[4], s->data[5]);
     q->deviation = mps__budget_mean_deviation(w, s->data[3]);
     return MPS_OK;
 }
@@ -264,6 +274,7 @@ const mps__pass mps__pass_keep = {.name = "keep",
                                   .stage = MPS_STAGE_CORRECT,
                                   .undeclared = true,
                                   .everywhere = true,
+                                  .flat = true,
                                   .use_count = sizeof keep_uses / sizeof keep_uses[0],
                                   .uses = keep_uses,
                                   .run = keep};

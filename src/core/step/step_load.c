@@ -46,9 +46,9 @@ static double cell_of(const mps__world *w)
 
 static void sum_momentum(const mps__world *w, const double at[3], double sums[MPS__MOMENTUM])
 {
-    flow f = {.rho = w->particles.rho,
-              .u = w->particles.u,
-              .region = w->particles.region,
+    flow f = {.rho = mps__seen(w, w->particles.rho),
+              .u = mps__seen(w, w->particles.u),
+              .region = mps__seen(w, w->particles.region),
               .cell = cell_of(w)};
     mps_view v;
     memcpy(f.at, at, sizeof f.at);
@@ -75,6 +75,7 @@ const mps__pass mps__pass_begin_load = {.name = "begin_load",
                                         .hook = MPS_FORCE,
                                         .place = MPS__AFTER_MODELS,
                                         .stage = MPS_STAGE_OPERATORS,
+                                        .flat = true,
                                         .use_count = 3,
                                         .uses = begin_uses,
                                         .run = begin_load};
@@ -134,6 +135,7 @@ const mps__pass mps__pass_half_cells = {.name = "half_cells",
                                         .hook = MPS_LOAD,
                                         .place = MPS__AFTER_MODELS,
                                         .stage = MPS_STAGE_CORRECT,
+                                        .flat = true,
                                         .use_count = USES,
                                         .uses = half_uses,
                                         .run = sum_half_cells};

@@ -60,6 +60,7 @@ static void get_ready(mps__world *w)
     int32_t channel[MPS__FLUX_CHANNELS];
     mps__flux_channels(&w->channels, channel);
     mps__twins_fields_ready(&w->host.twins);
+    mps__twins_lists_ready(&w->host.twins);
     for (int k = 0; k < MPS__FLUX_CHANNELS; k++)
         if (channel[k] >= 0) mps__twins_ready(&w->host.twins, channel[k], MPS__ON_HOST);
     mps__twins_ready(&w->host.twins, mps__channels_find(&w->channels, "correction"), MPS__ON_HOST);
@@ -214,7 +215,7 @@ static mps_status sum_columns(mps__step *q, const int32_t *freedom, int32_t dofs
                      .p = w->mass.next,
                      .a = w->mass.a,
                      .density = s->rho,
-                     .cell = pow(w->setup.dp, dim)};
+                     .cell = mps_pow(w->setup.dp, dim)};
     mps_view v = q->view;
     memcpy(f.at, q->load.at, sizeof f.at);
     f.correction = mps__channels_array(&w->channels, &w->particles, correction);

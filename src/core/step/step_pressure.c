@@ -31,11 +31,11 @@ MPS_ROW bool has_law(const law_fields *f, int64_t i)
 MPS__FIRST(laws, has_law, law_fields)
 
 /* The law of a gas needs a solver of nonlinear rows. */
-static mps_status check_laws(const mps__step *q)
+static mps_status check_laws(const mps__step *q, const double *law)
 {
     const mps__world *w = q->w;
-    if (!w->solvers.use->nonlinear && mps__first_run(&w->pool.parallel, &laws, q->view.n,
-                                                     &(law_fields){q->terms.law}) < q->view.n)
+    if (!w->solvers.use->nonlinear &&
+        mps__first_run(&w->pool.parallel, &laws, q->view.n, &(law_fields){law}) < q->view.n)
         return mps__fail(w->context, MPS_E_STATE,
                          "model '%s' makes the pressure equation nonlinear, and solver '%s' is "
                          "for linear ones: choose 'sundials.kinsol'",
@@ -71,7 +71,7 @@ static void note_level(mps__step *q)
 static mps_status close_equation(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
-    MPS__TRY(check_laws(q));
+    MPS__TRY(check_laws(q, s->data[0]));
     MPS__TRY(check_ranks(q));
     spread_gain(q);
     return MPS_OK;
@@ -84,6 +84,7 @@ const mps__pass mps__pass_equation = {.name = "equation",
                                       .hook = MPS_SOURCE,
                                       .place = MPS__AFTER_MODELS,
                                       .stage = MPS_STAGE_OPERATORS,
+                                      .flat = true,
                                       .use_count = 2,
                                       .uses = equation_uses,
                                       .run = close_equation};
@@ -93,10 +94,13 @@ const mps__pass mps__pass_equation = {.name = "equation",
 static mps_status fill_matrix(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
+    if (q->terms.equation.radius == MPS_NEAR || q->view.far.col == q->view.near.col)
+        mps__twins_lists_ready(&q->w->host.twins);
     return mps__ppe_fill(&q->w->ppe, &q->view, &q->terms);
 }
 
-static const mps_use matrix_uses[] = {{"region", MPS_USE_NEIGHBOURS},
+static const mps_use matrix_uses[] = {{"position", MPS_USE_READ},
+                                      {"region", MPS_USE_NEIGHBOURS},
                                       {"pressure_condition", MPS_USE_NEIGHBOURS},
                                       {"pressure_value", MPS_USE_NEIGHBOURS},
                                       {"pressure_source", MPS_USE_READ},
@@ -151,7 +155,7 @@ static mps_status solve(mps_stage *s)
     /* a NaN of the prediction has a particle and a place */
     if (status == MPS_E_SOLVER) {
         mps__twins_fields_ready(&w->host.twins);
-        MPS__TRY(mps__world_check_result(w, &q->view, q->before, &q->info));
+        MPS__TRY(mps__world_check_result(w, &q->view, false, &q->info));
     }
     if (status < 0)
         return mps__fail(w->context, status, "t = %.9g s: %.400s", q->view.t, w->context->error);

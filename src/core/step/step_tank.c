@@ -96,7 +96,7 @@ static mps_status move_tank(mps_stage *s)
     const mps__world *w = q->w;
     const bool with_tank = w->motion.start == MPS_START_WITH_TANK,
                bodies = w->work.bodies && w->state.dt_before > 0;
-    tank_fields f = {.ref = w->particles.ref,
+    tank_fields f = {.ref = mps__seen(w, w->particles.ref),
                      .place = s->data[2],
                      .velocity = s->data[0],
                      .acceleration = s->data[1],
@@ -120,6 +120,7 @@ const mps__pass mps__pass_tank = {.name = "tank",
                                   .place = MPS__AFTER_MODELS,
                                   .stage = MPS_STAGE_OPERATORS,
                                   .everywhere = true,
+                                  .flat = true,
                                   .use_count = 3,
                                   .uses = tank_uses,
                                   .run = move_tank};
@@ -193,13 +194,13 @@ mps_status mps__step_place_solids(mps__world *w)
 }
 
 /* The step is made: bodies are where it has put them. */
-void mps__step_keep_places(mps__world *w)
+void mps__step_keep_places(mps__world *w, const double *place, const double *area)
 {
     const mps__particles *s = &w->particles;
-    const int64_t count = s->n * s->dim;
+    const size_t bytes = (size_t)(s->n * s->dim) * sizeof *place;
     if (!w->work.bodies) return;
-    memcpy(s->ref, w->work.placed, (size_t)count * sizeof *s->ref);
-    memcpy(s->area, w->work.placed + count, (size_t)count * sizeof *s->area);
+    mps__parallel_copy(&w->pool.parallel, mps__given(w, s->ref), place, bytes);
+    mps__parallel_copy(&w->pool.parallel, mps__given(w, s->area), area, bytes);
 }
 
 /* ---- areas ---- */

@@ -27,8 +27,11 @@ static void link_dummies(mps__world *w)
             const int32_t j = l->col[k];
             if (s->kind[j] != MPS_WALL || !may_belong(w, i, j)) continue;
             double r2 = 0;
-            for (int d = 0; d < w->setup.dim; d++)
-                r2 += pow(s->ref[(int64_t)j * w->setup.dim + d] - s->ref[i * w->setup.dim + d], 2);
+            for (int d = 0; d < w->setup.dim; d++) {
+                const double r = s->ref[(int64_t)j * w->setup.dim + d] -
+                                 s->ref[i * w->setup.dim + d];
+                r2 += r * r;
+            }
             const double margin = 1e-9 * w->setup.dp * w->setup.dp;
             if (r2 > best + margin || (r2 > best - margin && s->id[j] > s->id[s->wall_of[i]]))
                 continue;
@@ -63,7 +66,7 @@ static void estimate_areas(mps__world *w)
         sum_ways(w, i, sum);
         const double length = sqrt(mps__dot(sum, sum, dim));
         if (length < 1e-6 * w->setup.dp) continue;
-        for (int d = 0; d < dim; d++) area[d] = sum[d] / length * pow(w->setup.dp, dim - 1);
+        for (int d = 0; d < dim; d++) area[d] = sum[d] / length * mps_pow(w->setup.dp, dim - 1);
     }
 }
 

@@ -142,7 +142,7 @@ static int32_t gather_parts(mps__voids *v)
 /* The largest is number 0, the others follow in the order of their first cells; small ones get none. */
 static mps_status number_parts(mps__voids *v)
 {
-    const double least = fmax(1, v->config.least / pow(v->config.side, v->dim));
+    const double least = fmax(1, v->config.least / mps_pow(v->config.side, v->dim));
     const int32_t largest = gather_parts(v);
     mps__void_room *r = &v->room;
     MPS__TRY(

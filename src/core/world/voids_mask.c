@@ -112,7 +112,7 @@ static void vote(const mps__voids *v, const mps__world *w, int64_t i, votes *all
     const double dp = w->setup.dp, range = RANGE * dp, *x = s->ref + i * s->dim,
                  *area = s->area + i * s->dim,
                  length = s->kind[i] == MPS_WALL ? sqrt(mps__dot(area, area, s->dim)) : 0,
-                 size = length > LEAST_AREA * pow(dp, s->dim - 1) ? length : 0;
+                 size = length > LEAST_AREA * mps_pow(dp, s->dim - 1) ? length : 0;
     double lo[3] = {0}, hi[3] = {0}, X[3];
     int32_t from[3], to[3], at[3];
     for (int d = 0; d < s->dim; d++) {

@@ -38,8 +38,8 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
                           .parallel = &w->pool.parallel,
                           .ghosts = &w->ghosts,
                           .phase_defined = w->setup.phase_defined,
-                          .twins = {.channels = &w->channels, .particles = &w->particles},
                           .sets = {.context = context}};
+    mps__twins_init(&w->host.twins, &w->channels, &w->particles, &w->pool.parallel);
     mps__plan_init(&w->host.plan, passes, pass_count);
     mps__ranks_init(&w->ranks, context);
     mps__ghosts_init(&w->ghosts, context, &w->ranks, &w->particles);
@@ -64,7 +64,7 @@ void mps__world_spacing(mps__world *w, double dp)
 
 void mps__world_free(mps__world *w)
 {
-    mps__twins_attach(&w->host.twins, NULL);
+    mps__twins_free(&w->host.twins);
     mps__particles_free(&w->particles);
     mps__neighbours_free(&w->lists.neighbours);
     mps__neighbours_free(&w->lists.complete);
@@ -134,7 +134,9 @@ double mps__world_speed(mps__world *w)
     mps_view v;
     double most = 0;
     mps__world_view(w, &v);
-    mps__host_max(&w->host, &v, 1, &raise_speeds, &(speeds){w->particles.u}, &most);
+    mps__twins_go(&w->host.twins, MPS__ON_DEVICE);
+    mps__host_max(&w->host, &v, 1, &raise_speeds, &(speeds){mps__seen(w, w->particles.u)}, &most);
+    mps__twins_go(&w->host.twins, MPS__ON_HOST);
     return sqrt(most);
 }
 
@@ -390,4 +392,19 @@ mps_status mps__world_stencil_all(mps__world *w, int32_t which, mps_stencil *ste
 mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *stencil)
 {
     return mps__neighbours_view(&w->lists.neighbours, which, &w->setup.kernel, stencil);
+}
+
+mps_status mps__world_lists_twins(mps__world *w)
+{
+    const mps_neighbours *l = &w->lists.neighbours;
+    mps__twins *t = &w->host.twins;
+    const int64_t n = w->particles.n,
+                  turned = w->work.area == w->work.turned ? n * w->setup.dim : 0;
+    MPS__TRY(mps__twins_block(t, MPS__ROWS_BEGIN, l->begin, n, sizeof *l->begin, true));
+    MPS__TRY(mps__twins_block(t, MPS__ROWS_MIDDLE, l->middle, n, sizeof *l->middle, true));
+    if (l->end != l->middle)
+        MPS__TRY(mps__twins_block(t, MPS__ROWS_END, l->end, n, sizeof *l->end, true));
+    MPS__TRY(mps__twins_block(t, MPS__ROWS_COLUMNS, l->col, l->pairs, sizeof *l->col, true));
+    MPS__TRY(mps__twins_block(t, MPS__IDLE_ROWS, l->idle, n, sizeof *l->idle, true));
+    return mps__twins_block(t, MPS__TURNED_AREAS, w->work.turned, turned, sizeof(double), true);
 }

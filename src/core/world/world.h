@@ -220,6 +220,17 @@ mps_status mps__world_neighbours_kept(mps__world *w);
 void mps__world_rows(mps__world *w);
 /* The stencil of one radius from those lists. */
 mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *stencil);
+/* The arrays of those lists, and wetted areas that have turned, at the device of a step that begins. */
+mps_status mps__world_lists_twins(mps__world *w);
+/* Address of an array of a field or list where loops run now, for loops that read it; for loops that write all of it. */
+static inline void *mps__seen(const mps__world *w, const void *array)
+{
+    return mps__twins_seen((mps__twins *)&w->host.twins, array);
+}
+static inline void *mps__given(mps__world *w, void *array)
+{
+    return mps__twins_given(&w->host.twins, array, true);
+}
 /* A stencil that has the rows of all particles, from lists that are fresh. */
 mps_status mps__world_stencil_all(mps__world *w, int32_t which, mps_stencil *stencil);
 /* Dummies find their walls, and walls without an area get one, from a search that left no particle out. links.c */

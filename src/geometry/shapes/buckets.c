@@ -2,6 +2,7 @@
 /* Points in cells: one list a cell, threaded through the points. */
 #include "buckets.h"
 #include <math.h>
+#include <mps/numbers.h>
 #include <string.h>
 
 /* More cells than this are made larger [cells]. */
@@ -35,7 +36,7 @@ mps_status mps__buckets_init(mps__buckets *b, mps__context *context, int32_t dim
         MPS__CHECK(context, isfinite(hi[d] - lo[d]),
                    "a box of %g .. %g m along axis %d: must be finite", lo[d], hi[d], d);
     const double cells = cells_of(dim, lo, hi, side);
-    if (cells > most_cells) side *= pow(cells / most_cells, 1.0 / dim);
+    if (cells > most_cells) side *= mps_pow(cells / most_cells, 1.0 / dim);
     while (cells_of(dim, lo, hi, side) > 2 * most_cells)
         side *= 2; /* a long and thin box, whose short sides have one cell already */
     b->over = 1.0 / side;

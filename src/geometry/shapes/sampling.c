@@ -3,6 +3,7 @@
  * apart along the surface. A flat face on the lattice gets exactly the lattice's points. Areas: each patch belongs to the nearest. */
 #include "sampling.h"
 #include <math.h>
+#include <mps/numbers.h>
 #include <string.h>
 
 enum { SWEEPS = 40, CLASSES = 3, ODD = 4 };
@@ -74,7 +75,7 @@ static double surface_of(const mps__samples *s)
 /* The widest distance that leaves one particle for every dp^(dim-1) of the surface. */
 static mps_status thin_out(mps__samples *s, const double *lo, const double *hi)
 {
-    const double dp = s->shape->dp, wanted = s->surface / pow(dp, s->shape->dim - 1);
+    const double dp = s->shape->dp, wanted = s->surface / mps_pow(dp, s->shape->dim - 1);
     for (double distance = widest; distance > narrowest; distance -= 0.02) {
         mps__buckets_free(&s->wall);
         MPS__TRY(mps__buckets_init(&s->wall, s->context, s->shape->dim, lo, hi, dp));

@@ -4,6 +4,7 @@
 #include "stl.h"
 #include <errno.h>
 #include <math.h>
+#include <mps/numbers.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -135,7 +136,7 @@ static bool number(const char *p, double *value)
         e = turn * digits(&p, &power, 0);
         if (power == 0) return false;
     }
-    *value = sign * v * pow(10, e - fraction);
+    *value = sign * v * mps_pow(10, e - fraction);
     return *p == '\0';
 }
 

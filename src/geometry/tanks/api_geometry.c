@@ -55,7 +55,7 @@ static void fit_lattice(const mps_sim *sim, const mps_tank *tank, mps__tank_latt
                                                           : dp;
         volume *= l->h[d] / dp;
     }
-    l->dp = first && volume != 1 ? dp * pow(volume, 1.0 / dim) : dp;
+    l->dp = first && volume != 1 ? dp * mps_pow(volume, 1.0 / dim) : dp;
     if (first || fabs(volume - 1) < same_volume) return;
     for (int d = 0; d < dim; d++) {
         l->cells[d] = (int64_t)round(tank->size[d] / dp);

@@ -406,11 +406,13 @@ static mps_status check_fluid(const builder *b, const char *name)
         if (w->particles.kind[i] != MPS_FLUID) continue;
         mps__motion_to_tank(&w->motion, &w->motion.now, w->particles.x + i * b->dim, X);
         const double above = component(b->shape.normal, X, b->shape.corner, b->dim);
-        double square = pow(fmax(0, fabs(above) - column_height(b, b->shape.columns - 1)), 2);
+        const double over = fmax(0, fabs(above) - column_height(b, b->shape.columns - 1));
+        double square = over * over;
         for (int e = 0; e < b->dim - 1; e++) {
             const double at = component(b->shape.along[e], X, b->shape.corner, b->dim),
-                         length = (double)(b->shape.nodes[e] - 1) * b->shape.spacing[e];
-            square += pow(at < 0 ? at : fmax(0, at - length), 2);
+                         length = (double)(b->shape.nodes[e] - 1) * b->shape.spacing[e],
+                         off = at < 0 ? at : fmax(0, at - length);
+            square += off * off;
         }
         if (square < 0.25 * (1 - 1e-6) * b->dp * b->dp)
             return mps__in_the_way(b->sim, i, X, "plate", name);

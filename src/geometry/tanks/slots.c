@@ -42,7 +42,7 @@ static bool wall_normal(const search *q, int64_t i, double n[3])
     static const double least = 1e-9; /* [dp^(dim-1)] edges of plates have 1e-6 */
     const mps__particles *s = &q->sim->world.particles;
     const double *a = s->area + i * s->dim, size = sqrt(mps__dot(a, a, s->dim));
-    if (!(size > least * pow(q->sim->world.setup.dp, s->dim - 1))) return false;
+    if (!(size > least * mps_pow(q->sim->world.setup.dp, s->dim - 1))) return false;
     n[2] = 0;
     for (int d = 0; d < s->dim; d++) n[d] = a[d] / size;
     return true;

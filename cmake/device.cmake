@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Kernels of devices: rows.ptx (NVIDIA) and rows.bc (OpenCL) in the folder device of the build, made by scripts/device_rows from the text of the models.
+# libmps does not need them. Sets MPS_DEVICE_FOLDER where they are built.
+set(MPS_DEVICE ${plugins_default} CACHE STRING "Build the kernels of GPUs: AUTO (where clang, llvm-link, opt and llc 14 or newer with NVPTX are found), ON or OFF")
+unset(MPS_DEVICE_FOLDER)
+if(NOT MPS_DEVICE)
+  return()
+endif()
+
+find_package(Python3 3.9 QUIET COMPONENTS Interpreter)
+# All programs of one version; the one without a number first.
+set(device_llvm none)
+foreach(suffix "" -21 -20 -19 -18 -17 -16 -15 -14)
+  set(found TRUE)
+  foreach(program clang llvm-link opt llc llvm-nm)
+    find_program(device_${program}${suffix} ${program}${suffix})
+    mark_as_advanced(device_${program}${suffix})
+    if(NOT device_${program}${suffix})
+      set(found FALSE)
+    endif()
+  endforeach()
+  if(found)
+    execute_process(COMMAND ${device_llc${suffix}} --version OUTPUT_VARIABLE text ERROR_QUIET)
+    execute_process(COMMAND ${device_clang${suffix}} -dumpversion OUTPUT_VARIABLE version OUTPUT_STRIP_TRAILING_WHITESPACE)
+    if(text MATCHES "nvptx64" AND text MATCHES "LLVM version ${version}" AND NOT version VERSION_LESS 14)
+      set(device_llvm "${suffix}")
+      break()
+    endif()
+  endif()
+endforeach()
+if(device_llvm STREQUAL none OR NOT Python3_FOUND)
+  if(NOT MPS_DEVICE STREQUAL AUTO)
+    message(FATAL_ERROR "MPS_DEVICE needs python3, and clang, llvm-link, opt, llc and llvm-nm of one version from 14 on with NVPTX (Debian: clang llvm)")
+  endif()
+  message(STATUS "No clang with NVPTX: kernels of devices are left out")
+  return()
+endif()
+
+find_program(MPS_PTXAS ptxas DOC "NVIDIA's assembler, which checks the kernels where it is found")
+mark_as_advanced(MPS_PTXAS)
+set(MPS_DEVICE_FOLDER ${PROJECT_BINARY_DIR}/device)
+set(options --llvm=${device_llvm} "--launcher=${CMAKE_C_COMPILER_LAUNCHER}")
+if(MPS_PTXAS)
+  list(APPEND options --ptxas=${MPS_PTXAS})
+endif()
+file(GLOB_RECURSE texts CONFIGURE_DEPENDS include/mps/*.h src/core/*.[ch] src/phase/*.[ch] src/bc/*.[ch] src/ppe/*.[ch] src/device/*.[ch] src/geometry/*.h)
+set(outputs ${MPS_DEVICE_FOLDER}/rows.ptx ${MPS_DEVICE_FOLDER}/rows.bc ${MPS_DEVICE_FOLDER}/rows.txt)
+add_custom_command(OUTPUT ${outputs}
+                   COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/scripts/device_rows --out ${MPS_DEVICE_FOLDER} ${options}
+                   DEPENDS ${PROJECT_SOURCE_DIR}/scripts/device_rows ${texts}
+                   COMMENT "Kernels of devices" VERBATIM)
+add_custom_target(mps_device ALL DEPENDS ${outputs})

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Libraries that are loaded when a run asks for them, so that programs run where they are not. */
+#include "run.h"
+#include <dlfcn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+void *mps__job_module(const char *name)
+{
+    static const char *const places[] = {"", MODULE_FOLDER};
+    char from[1024], path[1200];
+    ssize_t length = readlink("/proc/self/exe", from, sizeof from);
+    while (length > 0 && from[length - 1] != '/') length--;
+    for (size_t k = 0; length > 0 && k < sizeof places / sizeof *places; k++) {
+        snprintf(path, sizeof path, "%.*s%s%s", (int)length, from, places[k], name);
+        if (access(path, F_OK) == 0) return dlopen(path, RTLD_NOW | RTLD_GLOBAL);
+    }
+    return dlopen(name, RTLD_NOW | RTLD_GLOBAL);
+}
+
+/* ---- devices ---- */
+
+/* The number of "cuda", "cuda:2". @return -1: it is neither */
+static int number_of(const char *device)
+{
+    char *end;
+    if (strcmp(device, "cuda") == 0) return 0;
+    if (strncmp(device, "cuda:", 5) != 0 || device[5] < '0' || device[5] > '9') return -1;
+    const long number = strtol(device + 5, &end, 10);
+    return *end || number > 1023 ? -1 : (int)number;
+}
+
+bool mps__job_device_known(const char *device)
+{
+    return number_of(device) >= 0;
+}
+
+bool mps__job_device(mps_job *job)
+{
+    typedef mps_status use_fn(mps_sim * sim, int32_t number);
+    const char *device = job->config.device;
+    use_fn *use;
+    if (!device) return true;
+    void *module = mps__job_module("libmps_cuda.so.1"),
+         *symbol = module ? dlsym(module, "mps_cuda_use") : NULL;
+    if (!symbol)
+        return mps__job_fail(job, MPS_EXIT_USAGE,
+                             "device '%s': %s; it is built where clang and LLVM are: cmake "
+                             "-DMPS_DEVICE=ON; of the packages of libmps it needs libmps-cuda1",
+                             device, dlerror());
+    memcpy(&use, &symbol, sizeof use); /* ISO C has no cast from void * to a function */
+    if (use(job->sim, number_of(device)) == MPS_OK) return true;
+    return mps__job_fail(job, MPS_EXIT_USAGE, "%s", mps_sim_error(job->sim));
+}

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Public functions of devices. */
+#include "sim.h"
+#include <mps/device.h>
+
+mps_status mps_sim_device_set(mps_sim *sim, const mps_device_ops *ops)
+{
+    MPS__CHANGES(sim);
+    mps__world *w = &sim->world;
+    const int32_t open = mps__particles_leases(&w->particles);
+    if (open)
+        return mps__fail(&sim->context, MPS_E_BUSY, "%d lease(s) are open; end them first", open);
+    if (ops && w->ranks.count > 1)
+        return mps__fail(&sim->context, MPS_E_STATE,
+                         "the handle has %d ranks: a device is for one rank", (int)w->ranks.count);
+    return mps__twins_attach(&w->host.twins, ops);
+}
+
+mps_status mps_device_info_init(mps_device_info *info, size_t size)
+{
+    static const mps_device_info none = {.struct_size = sizeof none};
+    return mps__struct_init("mps_device_info", info, size, &none, sizeof none);
+}
+
+mps_status mps_sim_device_info(const mps_sim *sim, mps_device_info *info)
+{
+    MPS__READS(sim);
+    return mps__struct_out(mps__sim_context(sim), "mps_device_info", info,
+                           &sim->world.host.twins.last, sizeof *info);
+}

@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Calls of a device: what is checked, counted, and what a failure does. */
+#include "device.h"
+#include <string.h>
+
+void mps__device_init(mps__device *d, mps__context *context)
+{
+    *d = (mps__device){.context = context, .info = {.struct_size = sizeof d->info}};
+}
+
+static mps_status check_table(mps__context *c, const mps_device_ops *ops)
+{
+    MPS__CHECK(c, ops->api == MPS_DEVICE_API, "mps_device_ops.api is %u: this version knows %u",
+               ops->api, MPS_DEVICE_API);
+    MPS__CHECK(c, ops->name && ops->name[0], "mps_device_ops.name is NULL or empty");
+    const bool complete = ops->room && ops->give && ops->upload && ops->download && ops->clear &&
+                          ops->copy && ops->rows && ops->values && ops->wait && ops->failure;
+    MPS__CHECK(c, complete,
+               "device '%s' lacks a function: all but 'outdated', 'begin' and 'end' are needed",
+               ops->name);
+    return MPS_OK;
+}
+
+/* Loops of calls on the device that no launch knows stay in the calling thread. */
+static void run_parts(void *user, int32_t parts, mps_part_fn body, void *argument)
+{
+    (void)user;
+    for (int32_t part = 0; part < parts; part++) body(argument, part);
+}
+
+mps_status mps__device_set(mps__device *d, const mps_device_ops *ops)
+{
+    mps_device_ops copy = {0};
+    MPS__TRY(mps__struct_in(d->context, "mps_device_ops", &copy, sizeof copy, ops));
+    MPS__TRY(check_table(d->context, &copy));
+    if (copy.begin && copy.begin(copy.self) != 0) {
+        const char *why = copy.failure(copy.self);
+        return mps__fail(d->context, MPS_E_PLUGIN, "device '%s' does not open: %.300s", copy.name,
+                         why ? why : "it does not say why");
+    }
+    mps__device_init(d, d->context);
+    d->ops = copy;
+    d->parallel = (mps_parallel){
+        .struct_size = sizeof d->parallel, .threads = 1, .run = run_parts, .user = d};
+    return MPS_OK;
+}
+
+void mps__device_end(mps__device *d)
+{
+    if (d->ops.name && d->ops.end) d->ops.end(d->ops.self);
+    mps__device_init(d, d->context);
+}
+
+void mps__device_begin(mps__device *d)
+{
+    const int64_t held = d->info.bytes_held;
+    d->info = (mps_device_info){
+        .struct_size = sizeof d->info, .name = d->ops.name, .bytes_held = held};
+    d->failed = false;
+}
+
+mps__device *mps__device_of(const mps_parallel *p)
+{
+    return p && p->run == run_parts ? p->user : NULL;
+}
+
+/* ---- failures ---- */
+
+mps_status mps__device_status(const mps__device *d)
+{
+    if (!d->failed) return MPS_OK;
+    const char *why = d->ops.failure(d->ops.self);
+    return mps__fail(d->context, MPS_E_PLUGIN, "device '%s' failed: %.300s", d->ops.name,
+                     why ? why : "it does not say why");
+}
+
+/* ---- memory ---- */
+
+void *mps__device_room(mps__device *d, size_t bytes)
+{
+    void *room = d->ops.room(d->ops.self, bytes);
+    if (room)
+        d->info.bytes_held += (int64_t)bytes;
+    else
+        mps__fail(d->context, MPS_E_NOMEM, "device '%s' has no room for %zu bytes", d->ops.name,
+                  bytes);
+    return room;
+}
+
+void mps__device_give(mps__device *d, void *room, size_t bytes)
+{
+    if (!room) return;
+    d->ops.give(d->ops.self, room);
+    d->info.bytes_held -= (int64_t)bytes;
+}
+
+void mps__device_upload(mps__device *d, void *to, const void *from, size_t bytes)
+{
+    if (d->failed || bytes == 0) return;
+    d->failed = d->ops.upload(d->ops.self, to, from, bytes) != 0;
+    d->info.uploads++;
+    d->info.bytes_up += (int64_t)bytes;
+}
+
+void mps__device_download(mps__device *d, void *to, const void *from, size_t bytes)
+{
+    if (d->failed || bytes == 0) return;
+    d->failed = d->ops.download(d->ops.self, to, from, bytes) != 0;
+    d->info.downloads++;
+    d->info.waits++;
+    d->info.bytes_down += (int64_t)bytes;
+}
+
+void mps__device_clear(mps__device *d, void *to, size_t bytes)
+{
+    if (d->failed || bytes == 0) return;
+    d->failed = d->ops.clear(d->ops.self, to, bytes) != 0;
+    d->info.launches++;
+}
+
+void mps__device_copy(mps__device *d, void *to, const void *from, size_t bytes)
+{
+    if (d->failed || bytes == 0) return;
+    d->failed = d->ops.copy(d->ops.self, to, from, bytes) != 0;
+    d->info.launches++;
+}
+
+void mps__device_outdate(mps__device *d, void *array, size_t bytes, size_t number)
+{
+    if (d->ops.outdated && bytes > 0) d->ops.outdated(d->ops.self, array, bytes, (uint32_t)number);
+}
+
+/* ---- loops ---- */
+
+/* Without folders. */
+static const char *name_of(const char *file)
+{
+    const char *folder = strrchr(file, '/');
+    return folder ? folder + 1 : file;
+}
+
+void mps__device_launch(mps__device *d, mps_launch *launch, mps_exact *sums, double *maxima)
+{
+    if (d->failed || launch->n == 0) return;
+    launch->struct_size = sizeof *launch;
+    launch->file = name_of(launch->file);
+    d->info.launches++;
+    if (launch->sums == 0 && launch->maxima == 0) {
+        d->failed = d->ops.rows(d->ops.self, launch) != 0;
+        return;
+    }
+    d->failed = d->ops.values(d->ops.self, launch, sums, maxima) != 0;
+    d->info.waits++;
+    d->info.bytes_down += (int64_t)((size_t)launch->sums * sizeof *sums +
+                                    (size_t)launch->maxima * sizeof *maxima);
+}

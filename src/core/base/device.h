@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Calls of a device: what they cost is counted, the first that fails is kept. Loops that are given its parallel-for run there. */
+#ifndef MPS_CORE_DEVICE_H
+#define MPS_CORE_DEVICE_H
+
+#include "base.h"
+#include <mps/device.h>
+
+typedef struct mps__device {
+    mps__context *context;
+    mps_device_ops ops;    /* name NULL: there is none */
+    mps_device_info info;  /* of the step in progress */
+    mps_parallel parallel; /* while calls run on the device */
+    bool failed;           /* a call has: nothing is asked of the device until the next step */
+} mps__device;
+
+void mps__device_init(mps__device *d, mps__context *context);
+/* Check the table of a device, open it and take it over. */
+mps_status mps__device_set(mps__device *d, const mps_device_ops *ops);
+/* It is not needed any more. */
+void mps__device_end(mps__device *d);
+/* Whether there is one. */
+static inline bool mps__device_there(const mps__device *d)
+{
+    return d->ops.name != NULL;
+}
+/* Counts begin again, a failure is forgotten. */
+void mps__device_begin(mps__device *d);
+/* MPS_E_PLUGIN if a call has failed since. */
+mps_status mps__device_status(const mps__device *d);
+
+/* Memory; NULL with the error text set: there is none. */
+void *mps__device_room(mps__device *d, size_t bytes);
+void mps__device_give(mps__device *d, void *room, size_t bytes);
+void mps__device_upload(mps__device *d, void *to, const void *from, size_t bytes);
+void mps__device_download(mps__device *d, void *to, const void *from, size_t bytes);
+void mps__device_clear(mps__device *d, void *to, size_t bytes);
+void mps__device_copy(mps__device *d, void *to, const void *from, size_t bytes);
+/* These values, numbers of 1, 4 or 8 bytes, are not read any more, at either place. */
+void mps__device_outdate(mps__device *d, void *array, size_t bytes, size_t number);
+/* Rows, sums and maxima of a launch whose struct_size and file are set here; none if n is 0. */
+void mps__device_launch(mps__device *d, mps_launch *launch, mps_exact *sums, double *maxima);
+
+/* The device whose parallel-for this is; NULL: loops run on the host. */
+mps__device *mps__device_of(const mps_parallel *p);
+
+#endif

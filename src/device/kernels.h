@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Kernels of a device, from the loops of the library. scripts/device_rows compiles each file that has loops with this header before it, for NVPTX or for
+ * SPIR: MPS_ROWS() and its like then define a kernel for 2-D and one for 3-D in place of the loop of the host. The rest of the file is compiled and
+ * dropped. MPS_UNIT is the name of the file without its ending. */
+#ifndef MPS_DEVICE_KERNELS_H
+#define MPS_DEVICE_KERNELS_H
+
+#include "launch.h"
+#include "layout.h"
+#include "loop.h"
+#include "threads.h"
+
+/* A kernel of arguments `given_`, a pointer to const. For NVPTX it takes them by value, apart from the memory of all, unless they are too large. */
+#ifdef __NVPTX__
+#define MPSK__LARGE(type) (sizeof(type) > MPS__LAUNCH_BY_VALUE)
+#define MPSK__KERNEL(name, type) \
+    void name(__typeof__(__builtin_choose_expr(MPSK__LARGE(type), (const type *)0, *(type *)0)) at_)
+#define MPSK__GIVEN(type) \
+    const type *const given_ = __builtin_choose_expr(MPSK__LARGE(type), at_, &at_);
+#else
+#define MPSK__KERNEL(name, type) void name(const __attribute__((address_space(1))) type *at_)
+#define MPSK__GIVEN(type)        const type *const given_ = (const type *)(uintptr_t)at_;
+#endif
+
+#define MPSK__JOIN(unit, name) mpsk_##unit##__##name
+#define MPSK__NAME(unit, name) MPSK__JOIN(unit, name)
+
+/* Both dimensions; `work` is what a row does, with dim_ and i_. */
+#define MPSK__BOTH(name, work)                               \
+    MPSK__ONE(MPSK__NAME(MPS_UNIT, name##_2), name, 2, work) \
+    MPSK__ONE(MPSK__NAME(MPS_UNIT, name##_3), name, 3, work)
+#define MPSK__ONE(kernel, name, dimension, work) \
+    MPSK__KERNEL(kernel, name##_given)           \
+    {                                            \
+        enum { dim_ = dimension };               \
+        const int64_t i_ = mps__thread_row();    \
+        MPSK__GIVEN(name##_given)                \
+        if (i_ >= given_->launch.n) return;      \
+        work                                     \
+    }
+
+/* Values of a row into the terms. The loop has a constant end, so that the values stay in registers. */
+#define MPSK__STORE(most)                                                                \
+    _Pragma("unroll") for (int k_ = 0; k_ < (most); k_++) if (k_ < given_->launch.count) \
+        given_->launch.terms[k_ * given_->launch.n + i_] = own_[k_];
+
+#undef MPS_ROWS
+#define MPS_ROWS(name, row, type)                                    \
+    typedef struct name##_given {                                    \
+        mps__launch launch;                                          \
+        mps_view view;                                               \
+        type fields;                                                 \
+    } name##_given;                                                  \
+    MPSK__BOTH(name, row(dim_, &given_->view, &given_->fields, i_);) \
+    static const mps_rows name = {sizeof(mps_rows), sizeof(type), #name, NULL};
+
+#undef MPS_SUMS
+#define MPS_SUMS(name, row, type)                                                                \
+    typedef struct name##_given {                                                                \
+        mps__launch launch;                                                                      \
+        mps_view view;                                                                           \
+        type fields;                                                                             \
+    } name##_given;                                                                              \
+    MPSK__BOTH(name, double own_[MPS_PARALLEL_VALUES];                                           \
+               for (int k_ = 0; k_ < MPS_PARALLEL_VALUES; k_++) own_[k_] = given_->launch.first; \
+               row(dim_, &given_->view, &given_->fields, i_, own_);                              \
+               MPSK__STORE(MPS_PARALLEL_VALUES))                                                 \
+    static const mps_sums name = {sizeof(mps_sums), sizeof(type), #name, NULL};
+
+#undef MPS__LOOP
+#define MPS__LOOP(name, row, type)                    \
+    typedef struct name##_given {                     \
+        mps__launch launch;                           \
+        type fields;                                  \
+    } name##_given;                                   \
+    MPSK__BOTH(name, row(dim_, &given_->fields, i_);) \
+    static const mps__loop name = {#name, sizeof(type), NULL};
+
+#undef MPS__VALUES
+#define MPS__VALUES(name, row, type, sums, maxima)                                                \
+    typedef struct name##_given {                                                                 \
+        mps__launch launch;                                                                       \
+        type fields;                                                                              \
+    } name##_given;                                                                               \
+    MPSK__BOTH(name, double own_[(sums) + (maxima)];                                              \
+               for (int k_ = 0; k_ < (sums) + (maxima); k_++) own_[k_] = k_ < (sums) ? 0          \
+                                                                                     : -INFINITY; \
+               row(dim_, &given_->fields, i_, own_); MPSK__STORE((sums) + (maxima)))              \
+    static const mps__values name = {#name, sizeof(type), sums, maxima, NULL};
+
+#endif

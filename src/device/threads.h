@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Threads of a device: which one this is, and how those of a group wait for each other. For NVPTX, and for SPIR by the names of OpenCL. */
+#ifndef MPS_DEVICE_THREADS_H
+#define MPS_DEVICE_THREADS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* Memory that a group of threads shares. OpenCL wants the name of its kernel in front. */
+#define MPS__SHARED(type, name, count, kernel)                     \
+    static __attribute__((address_space(3), loader_uninitialized)) \
+    type name[count] __asm__(#kernel "." #name)
+
+#ifdef __NVPTX__
+static inline int64_t mps__thread_group(void)
+{
+    return __nvvm_read_ptx_sreg_ctaid_x();
+}
+
+static inline int64_t mps__thread_lane(void)
+{
+    return __nvvm_read_ptx_sreg_tid_x();
+}
+
+static inline int64_t mps__thread_row(void)
+{
+    return mps__thread_group() * __nvvm_read_ptx_sreg_ntid_x() + mps__thread_lane();
+}
+
+static inline void mps__thread_wait(void)
+{
+    __nvvm_bar_sync(0);
+}
+#else
+size_t mps__cl_global(unsigned) __asm__("_Z13get_global_idj");
+size_t mps__cl_group(unsigned) __asm__("_Z12get_group_idj");
+size_t mps__cl_lane(unsigned) __asm__("_Z12get_local_idj");
+__attribute__((convergent)) void mps__cl_barrier(unsigned) __asm__("_Z7barrierj");
+
+static inline int64_t mps__thread_group(void)
+{
+    return (int64_t)mps__cl_group(0);
+}
+
+static inline int64_t mps__thread_lane(void)
+{
+    return (int64_t)mps__cl_lane(0);
+}
+
+static inline int64_t mps__thread_row(void)
+{
+    return (int64_t)mps__cl_global(0);
+}
+
+static inline __attribute__((always_inline)) void mps__thread_wait(void)
+{
+    mps__cl_barrier(1); /* of shared memory */
+}
+#endif
+
+#endif

@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Kernels made from the loops of the library give the bytes of the host: each loop of a step runs on both sides. */
+#define _POSIX_C_SOURCE 200809L
+#include "checkpoint_fixture.h"
+#include "launch.h"
+#include "loops.h"
+
+static opencl device;
+
+/* ---- steps ---- */
+
+/* A tank that rolls, half full, with air above the liquid if a preset is for two phases. */
+static mps_sim *rolling(const char *preset, int32_t dim)
+{
+    const double dp = dim == 2 ? 0.05 : 0.1, lo[3] = {0, 0, 0}, hi[3] = {0.6, 0.6, 0.4};
+    mps_sim *sim = new_sim(dim, dp);
+    ASSERT_OK(sim, mps_preset_use(sim, preset));
+    add_tank(sim, 0.6, 0.6, 0.4);
+    fill_depth(sim, 0.6, 0.3, 0.4);
+    if (strncmp(preset, "mmps", 4) == 0) {
+        mps_phase air;
+        assert_int_equal(mps_phase_init(&air, sizeof air), MPS_OK);
+        air.density = 1.2;
+        air.viscosity = 1.8e-5;
+        ASSERT_OK(sim, mps_phase_set(sim, 1, &air));
+        ASSERT_OK(sim, mps_fill_box_add(sim, 1, lo, hi, NULL, NULL));
+    }
+    shake(sim, 0.05);
+    return sim;
+}
+
+/* The same steps on the host and on the device. Statuses are the same too: some models fail beside others. */
+static void compare(mps_sim *host, mps_sim *sim, int steps)
+{
+    mps_device_info info;
+    opencl_attach(&device, sim);
+    for (int k = 0; k < steps; k++) {
+        loops_watch(&device);
+        const mps_status status = mps_step(sim, 0.01, NULL);
+        loops_watch(NULL);
+        assert_int_equal(status, mps_step(host, 0.01, NULL));
+    }
+    assert_int_equal(mps_device_info_init(&info, sizeof info), MPS_OK);
+    assert_int_equal(mps_sim_device_info(sim, &info), MPS_OK);
+    assert_true(info.launches > 0);
+    same(host, sim);
+    mps_sim_destroy(host);
+    mps_sim_destroy(sim);
+    if (device.failure[0]) fail_msg("%s", device.failure);
+    if (device.difference[0]) fail_msg("%s", device.difference);
+}
+
+static void presets(void **state)
+{
+    static const char *const preset[] = {"imps", "mmps", "imps.paper", "mmps.paper"};
+    (void)state;
+    for (int k = 0; k < 4; k++)
+        for (int32_t dim = 2; dim <= 3; dim++)
+            compare(rolling(preset[k], dim), rolling(preset[k], dim), 5);
+}
+
+static void other_scenes(void **state)
+{
+    (void)state;
+    for (int k = 0; k < SCENES; k++) compare(scenes[k](), scenes[k](), 5);
+}
+
+/* Each model of the library beside those of a preset. */
+static void all_models(void **state)
+{
+    mps_model_info m;
+    mps_sim *list = new_sim(2, 0.1);
+    (void)state;
+    assert_int_equal(mps_model_info_init(&m, sizeof m), MPS_OK);
+    for (int32_t k = 0; mps_model_info_get(list, k, &m) == MPS_OK; k++) {
+        mps_sim *host = rolling("mmps", 2), *sim = rolling("mmps", 2);
+        assert_int_equal(mps_model_use(host, m.name), mps_model_use(sim, m.name));
+        compare(host, sim, 2);
+    }
+    mps_sim_destroy(list);
+}
+
+/* Loops that ran had a kernel, but for those that scripts/device_rows leaves out. */
+static void kernels_are_there(void **state)
+{
+    static const char *const without[] = {"neighbours__search_parts", "neighbours_rows__exact_",
+                                          "voids_cells__",
+                                          "levels__join_rows"}; /* ON_HOST of that script */
+    int64_t launches = 0, different = 0;
+    int kernels = 0;
+    (void)state;
+    for (int k = 0; k < device.kernels; k++) {
+        const opencl_kernel *q = &device.kernel[k];
+        bool left_out = false;
+        launches += q->launches;
+        kernels += q->kernel != NULL;
+        for (size_t m = 0; m < sizeof without / sizeof without[0]; m++)
+            left_out = left_out || strstr(q->name, without[m]);
+        if (getenv("MPS_DEVICE_LIST")) print_message("%s: %lld\n", q->name, (long long)q->launches);
+        if (!q->kernel && !left_out) fail_msg("%s has no kernel", q->name);
+        if (q->different > 0) print_error("%s: %lld differ\n", q->name, (long long)q->different);
+        different += q->different;
+    }
+    print_message("%d kernels, %lld comparisons\n", kernels, (long long)launches);
+    assert_int_equal(different, 0);
+    assert_true(kernels >= 60 && launches >= 2000);
+}
+
+/* ---- sums ---- */
+
+/* Terms of many sizes and both signs. */
+static double term(int64_t i)
+{
+    return ldexp((double)(i * 7919 % 1009 - 504), (int)(i * 31 % 200) - 100);
+}
+
+static void sums_of_any_size(void **state)
+{
+    static const int64_t size[] = {1, 63, 64, 65, 1023, 1025, 100000};
+    (void)state;
+    for (int k = 0; k < 7; k++) {
+        const int64_t n = size[k];
+        mps_exact sum[2], host[2];
+        double largest = -1, *terms = opencl_terms(&device, 3, n);
+        assert_non_null(terms);
+        mps_exact_begin(&sum[0]);
+        mps_exact_begin(&sum[1]);
+        for (int64_t i = 0; i < n; i++) {
+            terms[i] = term(i);
+            terms[n + i] = i == n / 2 ? INFINITY : 0;
+            terms[2 * n + i] = i == n - 1 ? NAN : -(double)i;
+        }
+        memcpy(host, sum, sizeof host);
+        mps_exact_add(&host[0], n, terms);
+        mps_exact_add(&host[1], n, terms + n);
+        if (opencl_join(&device, n, 2, sum, 1, &largest)) fail_msg("%s", device.failure);
+        assert_memory_equal(host, sum, sizeof host);
+        assert_true(mps_exact_value(&sum[1]) == INFINITY);
+        assert_true(largest == (n > 1 ? 0 : -1));
+    }
+}
+
+/* ---- what the comparison is for ---- */
+
+/* The text of a host that does something else. */
+static void run_other(const void *host, int64_t begin, int64_t end, mps_exact *sums, double *maxima)
+{
+    int64_t *const *to = host;
+    (void)sums, (void)maxima;
+    for (int64_t i = begin; i < end; i++) (*to)[i] = i == 70 ? -1 : i;
+}
+
+static void a_difference_is_found(void **state)
+{
+    enum { N = 100 };
+    struct {
+        int64_t *to;
+        const int64_t *from;
+        const int32_t *order;
+        size_t bytes;
+    } fields = {.bytes = sizeof(int64_t)}; /* as loops of particles.c take them */
+    int32_t order[N];
+    int64_t number[N];
+    const mps_device_ops *ops = &device.ops;
+    (void)state;
+    device.difference[0] = 0;
+    for (int k = 0; k < N; k++) {
+        order[k] = k;
+        number[k] = k;
+    }
+    int64_t *from = ops->room(ops->self, sizeof number);
+    int32_t *places = ops->room(ops->self, sizeof order);
+    fields.to = ops->room(ops->self, sizeof number);
+    fields.from = from;
+    fields.order = places;
+    assert_true(from && places && fields.to);
+    assert_int_equal(ops->upload(ops->self, from, number, sizeof number), 0);
+    assert_int_equal(ops->upload(ops->self, places, order, sizeof order), 0);
+    const mps_launch l = {.struct_size = sizeof l,
+                          .dim = 2,
+                          .n = N,
+                          .file = "particles.c",
+                          .name = "gather_8",
+                          .fields = &fields,
+                          .bytes = sizeof fields,
+                          .run = run_other,
+                          .host = &fields};
+    assert_int_equal(ops->rows(ops->self, &l), 0);
+    assert_non_null(strstr(device.difference, "gather_8"));
+    assert_non_null(strstr(device.difference, "byte 560"));
+    assert_int_equal(ops->download(ops->self, number, fields.to, sizeof number), 0);
+    for (int k = 0; k < N; k++) assert_int_equal(number[k], k);
+    ops->give(ops->self, from);
+    ops->give(ops->self, places);
+    ops->give(ops->self, fields.to);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sums_of_any_size),  cmocka_unit_test(presets),
+        cmocka_unit_test(other_scenes),      cmocka_unit_test(all_models),
+        cmocka_unit_test(kernels_are_there), cmocka_unit_test(a_difference_is_found),
+    };
+    if (!opencl_open(&device, MPS_DEVICE_FOLDER "/rows.bc")) {
+        print_message("skipped: %s\n", device.failure);
+        return 77;
+    }
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    opencl_close(&device);
+    return failed;
+}

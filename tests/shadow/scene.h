@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A tank for steps on a device and on the host. */
+#ifndef SHADOW_SCENE_H
+#define SHADOW_SCENE_H
+
+#include "checkpoint_fixture.h"
+#include "model_fixture.h"
+#include "shadow.h"
+
+/* A tank that rolls, half full, with air above the liquid if a preset is for two phases. */
+static inline mps_sim *rolling(const char *preset, int32_t dim)
+{
+    const double dp = dim == 2 ? 0.05 : 0.1, lo[3] = {0, 0, 0}, hi[3] = {0.6, 0.6, 0.4};
+    mps_sim *sim = new_sim(dim, dp);
+    shadow_heap(sim);
+    ASSERT_OK(sim, mps_preset_use(sim, preset));
+    add_tank(sim, 0.6, 0.6, 0.4);
+    fill_depth(sim, 0.6, 0.3, 0.4);
+    if (strncmp(preset, "mmps", 4) == 0) {
+        mps_phase air;
+        assert_int_equal(mps_phase_init(&air, sizeof air), MPS_OK);
+        air.density = 1.2;
+        air.viscosity = 1.8e-5;
+        ASSERT_OK(sim, mps_phase_set(sim, 1, &air));
+        ASSERT_OK(sim, mps_fill_box_add(sim, 1, lo, hi, NULL, NULL));
+    }
+    ASSERT_OK(sim, mps_field_add(sim, "mark", 2));
+    add_probes(sim);
+    shake(sim, 0.05);
+    return sim;
+}
+
+#endif

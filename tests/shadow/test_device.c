@@ -1,0 +1,236 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A device is attached and taken off, refused, and fails; what a step on it costs. */
+#define _POSIX_C_SOURCE 200809L
+#include "scene.h"
+#include <math.h>
+
+/* ---- attaching ---- */
+
+static void tables_are_checked(void **state)
+{
+    mps_sim *sim = rolling("imps", 2);
+    shadow s;
+    (void)state;
+    shadow_attach(&s, sim);
+    mps_device_ops bad = s.ops;
+    bad.api = MPS_DEVICE_API + 1;
+    ASSERT_REFUSED(sim, mps_sim_device_set(sim, &bad), MPS_E_ARG, "api");
+    bad = s.ops;
+    bad.name = "";
+    ASSERT_REFUSED(sim, mps_sim_device_set(sim, &bad), MPS_E_ARG, "name");
+    bad = s.ops;
+    bad.values = NULL;
+    ASSERT_REFUSED(sim, mps_sim_device_set(sim, &bad), MPS_E_ARG, "lacks a function");
+    bad = s.ops;
+    bad.struct_size = 8;
+    ASSERT_REFUSED(sim, mps_sim_device_set(sim, &bad), MPS_E_ARG, "mps_device_ops");
+    /* the one before is still there */
+    ASSERT_OK(sim, mps_step(sim, 0.01, NULL));
+    assert_string_equal(shadow_counts(sim).name, "shadow");
+    mps_sim_destroy(sim);
+    assert_int_equal(s.rooms, 0);
+}
+
+static void leases_and_ranks_refuse(void **state)
+{
+    mps_sim *sim = rolling("imps", 2);
+    mps_lease lease = {.struct_size = sizeof lease};
+    shadow s;
+    (void)state;
+    shadow_attach(&s, sim);
+    ASSERT_OK(sim, mps_step(sim, 0.01, NULL));
+    ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_READ, &lease));
+    ASSERT_REFUSED(sim, mps_sim_device_set(sim, NULL), MPS_E_BUSY, "lease");
+    ASSERT_OK(sim, mps_lease_end(sim, &lease));
+    ASSERT_OK(sim, mps_sim_device_set(sim, NULL));
+    assert_int_equal(s.rooms, 0);
+    assert_null(shadow_counts(sim).name);
+    sim->world.ranks.count = 2;
+    ASSERT_REFUSED(sim, mps_sim_device_set(sim, &s.ops), MPS_E_STATE, "2 ranks");
+    sim->world.ranks.count = 1;
+    mps_sim_destroy(sim);
+    sim = new_sim(2, 0.1);
+    shadow_attach(&s, sim);
+    ASSERT_REFUSED(sim,
+                   mps_sim_ranks_set(sim, &(mps_ranks_ops){.struct_size = sizeof(mps_ranks_ops)}),
+                   MPS_E_STATE, "shadow");
+    mps_sim_destroy(sim);
+}
+
+/* On the device, on the host and on the device again. */
+static void taken_off_and_attached(void **state)
+{
+    mps_sim *host = rolling("mmps", 2), *sim = rolling("mmps", 2);
+    shadow s;
+    (void)state;
+    for (int k = 0; k < 9; k++) {
+        if (k % 3 == 1) shadow_attach(&s, sim);
+        if (k % 3 == 0 && k > 0) ASSERT_OK(sim, mps_sim_device_set(sim, NULL));
+        ASSERT_OK(host, mps_step(host, 0.01, NULL));
+        ASSERT_OK(sim, mps_step(sim, 0.01, NULL));
+        same(host, sim);
+    }
+    mps_sim_destroy(host);
+    mps_sim_destroy(sim);
+}
+
+/* Checkpoints of one side go on at the other. */
+static void checkpoints_change_sides(void **state)
+{
+    char path[PATH];
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        mps_sim *host = rolling("imps", 2), *first = rolling("imps", 2),
+                *second = rolling("imps", 2);
+        shadow s;
+        shadow_attach(&s, k == 0 ? first : second);
+        go(host, 4);
+        go(first, 4);
+        ASSERT_OK(first, mps_checkpoint_write(first, path_of(path, "sides")));
+        ASSERT_OK(second, mps_checkpoint_read(second, path));
+        go(host, 4);
+        go(second, 4);
+        same(host, second);
+        mps_sim_destroy(host);
+        mps_sim_destroy(first);
+        mps_sim_destroy(second);
+    }
+}
+
+/* ---- failures ---- */
+
+/* Whichever launch fails, the step fails and leaves the state as it was. */
+static void failing_launches(void **state)
+{
+    mps_sim *host = rolling("imps", 2), *sim = rolling("imps", 2);
+    shadow s;
+    (void)state;
+    shadow_attach(&s, sim);
+    go(host, 2);
+    go(sim, 2);
+    const int64_t before = s.launches;
+    go(host, 1);
+    go(sim, 1);
+    const int64_t launches = s.launches - before;
+    int64_t failed = 0;
+    for (int64_t k = 1; k <= launches; k += 3) {
+        s.fails_at = s.launches + k;
+        const mps_status status = mps_step(sim, 0.01, NULL);
+        if (status == MPS_OK) { /* there are no rows to fail behind it */
+            go(host, 1);
+            continue;
+        }
+        assert_int_equal(status, MPS_E_PLUGIN);
+        assert_non_null(strstr(mps_sim_error(sim), "device 'shadow' failed: as the test wants it"));
+        s.fails_at = 0;
+        failed++;
+        same(host, sim);
+    }
+    assert_true(failed > launches / 6);
+    s.fails_at = 0;
+    go(host, 2);
+    go(sim, 2);
+    same(host, sim);
+    mps_sim_destroy(host);
+    mps_sim_destroy(sim);
+}
+
+/* A weight function of the user has no text that a device knows. */
+static double weight(void *user, double r, double re)
+{
+    (void)user;
+    return (1 - r / re) * (1 - r / re);
+}
+
+static void own_kernel_stays_on_the_host(void **state)
+{
+    mps_sim *sim = rolling("imps", 2);
+    mps_kernel kernel;
+    shadow s;
+    (void)state;
+    shadow_attach(&s, sim);
+    assert_int_equal(mps_kernel_init(&kernel, sizeof kernel), MPS_OK);
+    assert_int_equal(mps_kernel_custom(weight, NULL, &kernel), MPS_OK);
+    ASSERT_OK(sim, mps_kernel_use(sim, &kernel));
+    ASSERT_OK(sim, mps_step(sim, 0.01, NULL));
+    assert_int_equal(s.launches, 0);
+    mps_sim_destroy(sim);
+}
+
+/* ---- what a step costs ---- */
+
+static void note(void *user, int level, const char *text)
+{
+    char *told = user;
+    (void)level;
+    if (strstr(text, "run on the host"))
+        snprintf(told + strlen(told), 512 - strlen(told), "%s;", text);
+}
+
+/* Ranges of one step: from the first, to the second. Bytes are those of a particle. */
+typedef struct cost {
+    const char *preset;
+    int32_t dim;
+    int64_t launches[2], waits[2];
+    double up[2], down[2];
+} cost;
+
+static void assert_in(const char *what, const cost *c, double value, double least, double most)
+{
+    if (!(value >= least && value <= most))
+        fail_msg("%s in %d-D: %s %g, wanted %g to %g", c->preset, (int)c->dim, what, value, least,
+                 most);
+}
+
+/* Wanted in the end, with search, matrix and solution: 140 to 220 launches beside iterations, 3 to 10 waits, less than 2 kB, not 0, both ways. */
+static void costs(void **state)
+{
+    static const cost table[] = {
+        {"imps", 2, {70, 95}, {20, 45}, {150, 280}, {60, 225}},
+        {"imps", 3, {70, 100}, {20, 50}, {150, 310}, {60, 255}},
+        {"mmps", 2, {90, 120}, {25, 60}, {150, 325}, {60, 280}},
+    };
+    (void)state;
+    for (size_t k = 0; k < sizeof table / sizeof table[0]; k++) {
+        const cost *c = &table[k];
+        mps_sim *sim = rolling(c->preset, c->dim);
+        char told[512] = "";
+        shadow s;
+        sim->context.log = note;
+        sim->context.log_user = told;
+        shadow_attach(&s, sim);
+        go(sim, 6);
+        const mps_device_info i = shadow_counts(sim);
+        const double n = (double)sim->world.particles.n;
+        print_message(
+            "%s in %d-D: %lld launches, %lld waits, %.0f bytes up, %.0f down a particle\n",
+            c->preset, (int)c->dim, (long long)i.launches, (long long)i.waits,
+            (double)i.bytes_up / n, (double)i.bytes_down / n);
+        assert_in("launches", c, (double)i.launches, (double)c->launches[0],
+                  (double)c->launches[1]);
+        assert_in("waits", c, (double)i.waits, (double)c->waits[0], (double)c->waits[1]);
+        assert_in("bytes up", c, (double)i.bytes_up / n, c->up[0], c->up[1]);
+        assert_in("bytes down", c, (double)i.bytes_down / n, c->down[0], c->down[1]);
+        assert_true(i.bytes_held > i.bytes_up);
+        /* the names of what is left, once */
+        assert_string_equal(
+            told, "device 'shadow': these parts of a step run on the host, with copies: "
+                  "neighbours, matrix, unknowns, solve, pressures, book_reactions, share;");
+        assert_int_equal(i.host_calls, 7);
+        mps_sim_destroy(sim);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tables_are_checked),
+        cmocka_unit_test(leases_and_ranks_refuse),
+        cmocka_unit_test(taken_off_and_attached),
+        cmocka_unit_test(checkpoints_change_sides),
+        cmocka_unit_test(failing_launches),
+        cmocka_unit_test(own_kernel_stays_on_the_host),
+        cmocka_unit_test(costs),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
