@@ -51,9 +51,9 @@ static mps_status no_solution(const mps__step *q, const mps__rigid_step *r)
                          q->w->motion.now.state.value[MPS_ROTATE_Z], mps__dof_name[MPS_ROTATE_X],
                          mps__dof_name[MPS_ROTATE_Y]);
     return mps__fail(c, MPS_E_STATE,
-                     "t = %.9g s: '%s' of the body is free, but has nothing to move: body and "
-                     "liquid have %g %s along it, of which the liquid %g; must be > %g. Give the "
-                     "body mass or inertia, or do not free it",
+                     "t = %.9g s: coupling: '%s' of the body is free, but nothing resists an "
+                     "acceleration along it: body, liquid and springs have %g %s, of which the "
+                     "liquid %g; must be > %g. Give the body mass or inertia, or do not free it",
                      t, mps__dof_name[r->singular], r->have,
                      r->singular < MPS_ROTATE_X ? "kg" : "kg m2", r->share, r->least);
 }
