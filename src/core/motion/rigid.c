@@ -11,10 +11,13 @@ static const double ALIKE = 1e-6;
 
 /* A body at a pose, axes of the lab. */
 typedef struct shape {
-    double t[6][6]; /* velocities of the centre of motion and angular velocity, by the rate of each degree */
+    double t
+        [6]
+        [6]; /* velocities of the centre of motion and angular velocity, by the rate of each degree */
     double bias[3]; /* angular acceleration by the rates alone */
     double omega[3], rotation[9];
-    double mass, arm[3], inertia[9]; /* from the centre of motion to that of mass; about the latter */
+    double mass, arm[3],
+        inertia[9]; /* from the centre of motion to that of mass; about the latter */
 } shape;
 
 static void multiply(const double m[9], const double v[3], double out[3])
@@ -147,7 +150,8 @@ static void fill_system(const mps_body *b, const shape *s, const mps_motion_stat
     gyroscopic_load(s, gyro);
     restoring_load(b, now, l, still, restoring);
     for (int i = 0; i < 6; i++)
-        load[i] = l->rest[i] - mps__dot6(l->mass + 6 * i, bias) + l->external[i] - held[i] - gyro[i];
+        load[i] = l->rest[i] - mps__dot6(l->mass + 6 * i, bias) + l->external[i] - held[i] -
+                  gyro[i];
     if (b->gravity) {
         double weight[3], moment[3];
         for (int d = 0; d < 3; d++) weight[d] = s->mass * l->g[d];
