@@ -102,9 +102,9 @@ MPS_API mps_status mps_body_init(mps_body *body, size_t size);
  *
  *  | error of mps_step(), mps_run() | reason; the state is as before the step |
  *  |---|---|
- *  | MPS_E_STATE | the models have no added mass (presets imps and mmps have one); solids move in |
- *  | | the tank (body.free); nothing resists an acceleration along a free degree; two |
- *  | | of the angles are one, MPS_ROTATE_Z = +-pi/2 |
+ *  | MPS_E_STATE | the models have no added mass (presets imps and mmps have one); a model |
+ *  | | moves solids in the tank; nothing resists an acceleration along a free degree; two of the |
+ *  | | angles are one, MPS_ROTATE_Z = +-pi/2 |
  *  | MPS_E_DIVERGED | the walls move farther in one step than a spacing from where the last |
  *  | | acceleration carries them: smaller steps are needed |
  *  | MPS_E_PLUGIN | `load` failed or gave what is not finite | */
