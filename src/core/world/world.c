@@ -408,3 +408,13 @@ mps_status mps__world_lists_twins(mps__world *w)
     MPS__TRY(mps__twins_block(t, MPS__IDLE_ROWS, l->idle, n, sizeof *l->idle, true));
     return mps__twins_block(t, MPS__TURNED_AREAS, w->work.turned, turned, sizeof(double), true);
 }
+
+mps_status mps__world_add_guess(mps__world *w)
+{
+    mps__particles *s = &w->particles;
+    if (w->mass.guess) return MPS_OK;
+    MPS__TRY(mps__particles_field_add(s, "mass_pressure", w->setup.dim == 3 ? 6 : 3, sizeof(double),
+                                      false, (void **)&w->mass.guess));
+    mps__particles_field(s, "mass_pressure")->passing = true;
+    return MPS_OK;
+}
