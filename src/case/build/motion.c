@@ -60,6 +60,8 @@ static void read_harmonic(build *b, build_motion *m, const tree_node *node, int3
     h.form = mps__read_choice(b->c, node, "form", 0);
     h.amplitude = mps__read_number(b->c, node, "amplitude", NAN);
     h.omega = read_omega(b, node, name);
+    if (mps__tree_find(node, "slope"))
+        h.amplitude = mps__read_number(b->c, node, "slope", NAN) * b->gravity / (h.omega * h.omega);
     if (h.form == 0) h.phase = mps__read_number(b->c, node, "phase", 0);
     if (mps__case_failed(b->c)) return;
     h.ramp = read_ramp(b, node, h.omega);
