@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What a case amounts to, as a text for people. */
 #include "picture_scene.h"
-#include "ship_motion.h"
+#include "body.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -250,11 +250,56 @@ static void write_modes(const writer *w, const build *b)
     write_blocks(w, b);
 }
 
+static void write_period(const writer *w, const char *how, double period, const build *b)
+{
+    if (isnan(period))
+        fprintf(w->file, "%s: nothing restores", how);
+    else
+        fprintf(w->file, "%s %.4g s", how, period);
+    if (b->modes.count && isfinite(period))
+        fprintf(w->file, " = %.3g T1", period / b->modes.period[0]);
+}
+
+/* Mass, and periods of each free degree alone, the others held. */
+static void write_body(const writer *w, const build *b)
+{
+    const build_body *body = b->body;
+    const char *width = b->dim == 2 ? "/m" : "";
+    frozen liquid;
+    if (!mps__body_frozen(b, &liquid)) return;
+    heading(w, "body");
+    fprintf(w->file, "mass %.4g kg%s at ", body->body.mass, width);
+    write_place(w, b, body->body.centre_of_mass);
+    fprintf(w->file, ", centre ");
+    write_place(w, b, body->axes.centre);
+    fprintf(w->file, "; liquid %.4g kg%s at ", liquid.mass, width);
+    write_place(w, b, liquid.place);
+    fprintf(w->file, "\n");
+    for (int32_t d = 0; d < MOTION_DEGREES; d++) {
+        if (!body->axes.used[d]) continue;
+        const bool turn = d >= MPS_SHIP_ROLL;
+        heading(w, "");
+        fprintf(w->file, "%s: %s %.4g %s, restoring %.4g %s, damping %.4g %s\n", mps__degrees[d],
+                turn ? "inertia about the centre" : "mass", body->mass[d], turn ? "kg m2" : "kg",
+                body->stiffness[d], turn ? "N m/rad" : "N/m", body->damping[d],
+                turn ? "N m s/rad" : "N s/m");
+        heading(w, "");
+        write_period(w, "    natural period without liquid", mps__body_period(b, d, NULL), b);
+        write_period(w, "; with the liquid frozen", mps__body_period(b, d, &liquid), b);
+        fprintf(w->file, "\n");
+    }
+}
+
 static void write_motion(const writer *w, const build *b)
 {
     const build_motion *m = b->motion;
     const double degree = 180 / acos(-1.0);
     heading(w, "motion");
+    if (b->body) {
+        fprintf(w->file, "that of the body\n");
+        write_body(w, b);
+        return;
+    }
     if (!m) {
         fprintf(w->file, "none\n");
         return;

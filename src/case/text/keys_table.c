@@ -66,9 +66,12 @@
         path, SHAPE_UNIT, units, 1, 1, "", NULL, false, false, otherwise, example, help \
     }
 
-#define MOVE "motion.surge|sway|heave"
-#define TURN "motion.roll|pitch|yaw"
-#define BOTH "motion.surge|sway|heave|roll|pitch|yaw"
+#define MOVE      "motion.surge|sway|heave"
+#define TURN      "motion.roll|pitch|yaw"
+#define BOTH      "motion.surge|sway|heave|roll|pitch|yaw"
+#define BODY_MOVE "body.surge|sway|heave"
+#define BODY_TURN "body.roll|pitch|yaw"
+#define BODY_LOAD "body.surge|sway|heave|roll|pitch|yaw.load"
 
 /* clang-format off */
 const mps__key mps__keys[] = {
@@ -199,6 +202,51 @@ const mps__key mps__keys[] = {
     ONE("motion.from", UNIT_TIME, "", "", "1200 s", "time of the file at the start of the run; default: its first"),
     ONE("motion.ramp", UNIT_TIME, ">= 0", "0", "20 s", "over which the motion of the file grows from the pose at rest"),
 
+    MAP("body", "a rigid body that carries the tank, in place of a motion: the liquid and its loads move it; 2-D: all per metre of width"),
+    MANY("body.centre", UNIT_LENGTH, COUNT_DIM, COUNT_DIM, "", "0", "475 0 mm", "centre of rotation, of degrees and of moments, in the tank at rest"),
+    MUST("body.mass", UNIT_MASS, ">= 0", "100 kg", "mass of the body without the liquid"),
+    MANY("body.centre_of_mass", UNIT_LENGTH, COUNT_DIM, COUNT_DIM, "", "", "475 200 mm", "centre of mass without the liquid; default: the centre"),
+    MANY("body.inertia", UNIT_INERTIA, 1, 6, "", "0", "25 kg m2", "about the centre of mass; 3-D: about x, y, z of the tank, or these and xy, xz, yz"),
+    FLAG("body.gravity", "yes", "the weight of the body acts; no: what carries it takes that too, e.g. stiffness that holds all of a ship's restoring"),
+    WORD("body.axes", "x forward, y port, z up|x forward, y starboard, z down|x forward, y up, z starboard",
+         "x forward, y up, z starboard", "axes of the ship"),
+    WORD("body.forward", "x|z|-x|-z", "x", "direction of the bow in the axes of the tank; 2-D: z, a section across the ship, or x, one along it"),
+    TEXT("body.order", "yaw pitch roll", "roll pitch yaw", "order of the angles, as rotations about axes that turn with the ship; 3-D"),
+    MAP(BODY_MOVE, "this degree is free; others stay where they are. Axes as those of a motion"),
+    ONE(BODY_MOVE ".stiffness", UNIT_STIFFNESS, "", "0 N/m", "4 kN/m", "of a spring to the place at rest"),
+    MAP(BODY_TURN, "this degree is free; others stay where they are. Axes as those of a motion"),
+    ONE(BODY_TURN ".stiffness", UNIT_TURN_STIFFNESS, "", "0 N m/rad", "300 N m/rad", "of a spring to the place at rest"),
+    ONE("body.surge|sway|heave|roll|pitch|yaw.period", UNIT_TIME, "> 0", "", "1 T1",
+        "in place of the stiffness: natural period of the body without liquid, with its weight"),
+    ONE(BODY_MOVE ".damping", UNIT_DAMPING | UNIT_SHARE, ">= 0", "0", "5 %", "of a damper, or share of the critical one without liquid"),
+    ONE(BODY_TURN ".damping", UNIT_TURN_DAMPING | UNIT_SHARE, ">= 0", "0", "5 %", "of a damper, or share of the critical one without liquid"),
+    MAPS(BODY_LOAD, "load along the degree, of waves or of a rig. A list of such maps: their sum"),
+    ONE(BODY_MOVE ".load.amplitude", UNIT_FORCE, "", "", "10 N", "amplitude"),
+    ONE(BODY_TURN ".load.amplitude", UNIT_MOMENT, "", "", "10 N m", "amplitude"),
+    ONE(BODY_LOAD ".omega", UNIT_OMEGA, "> 0", "", "6.469 rad/s", "angular frequency"),
+    ONE(BODY_LOAD ".period", UNIT_TIME, "> 0", "", "0.95 T1", "period"),
+    ONE(BODY_LOAD ".frequency", UNIT_FREQUENCY, "> 0", "", "0.496 Hz", "frequency"),
+    ONE(BODY_LOAD ".phase", UNIT_ANGLE, "", "0", "90 deg", "phase at t = 0"),
+    ONE(BODY_LOAD ".ramp", UNIT_TIME | UNIT_NONE, ">= 0", "0", "2", "over which the amplitude grows: a time, or a number of periods"),
+    MAP(BODY_LOAD ".jonswap", "irregular load: random phases, spectrum of JONSWAP"),
+    MUST(BODY_MOVE ".load.jonswap.significant", UNIT_FORCE, "> 0", "10 N", "significant amplitude: twice the standard deviation"),
+    MUST(BODY_TURN ".load.jonswap.significant", UNIT_MOMENT, "> 0", "10 N m", "significant amplitude: twice the standard deviation"),
+    MUST(BODY_LOAD ".jonswap.peak", UNIT_TIME, "> 0", "8 s", "period of the peak of the spectrum"),
+    ONE(BODY_LOAD ".jonswap.gamma", UNIT_NONE, "1 .. 10", "3.3", "3.3", "peakedness"),
+    WHOLE(BODY_LOAD ".jonswap.seed", "0 .. 1000000", "1", "7", "of the phases; the same seed, the same load"),
+    WHOLE(BODY_LOAD ".jonswap.components", "10 .. 1000", "100", "200", "harmonics"),
+    MAP("body.load", "loads from a table, linear between its rows, beside those of the degrees"),
+    {"body.load.file", SHAPE_FILE, 0, 1, 1, "", NULL, true, false, "", "waves.csv", "table: names in its first line, units in brackets, e.g. MX[N m]"},
+    MAP("body.load.columns", "names of columns of the file"),
+    TEXT("body.load.columns.time", "time", "time", "column of the time"),
+    TEXT("body.load.columns.surge|sway|heave|roll|pitch|yaw", "", "MX", "column of the load along this degree"),
+    MAP("body.load.units", "units of columns that have none in the file"),
+    AUNIT("body.load.units.time", UNIT_TIME, "", "s", "unit of the time"),
+    AUNIT("body.load.units.surge|sway|heave", UNIT_FORCE, "", "N", "unit of this column"),
+    AUNIT("body.load.units.roll|pitch|yaw", UNIT_MOMENT, "", "N m", "unit of this column"),
+    ONE("body.load.from", UNIT_TIME, "", "", "1200 s", "time of the file at the start of the run; default: its first"),
+    ONE("body.load.ramp", UNIT_TIME, ">= 0", "0", "20 s", "over which the load of the file grows"),
+
     NAMES("sensors", "what is measured; each is a column, or several, of probes.csv"),
     ITEM("sensors.*", "a sensor; it moves with the tank"),
     MANY("sensors.*.wall", UNIT_LENGTH, COUNT_DIM, COUNT_DIM, "", "", "0 50 mm", "pressure at a place on a wall"),
@@ -325,6 +373,10 @@ const mps__key mps__keys[] = {
 };
 
 const mps__key_group mps__key_groups[] = {
+    {"", "motion|body", false},
+    {"body.surge|sway|heave|roll|pitch|yaw", "stiffness|period", false},
+    {BODY_LOAD, "omega|period|frequency|jonswap", true},
+    {BODY_LOAD, "amplitude|jonswap", true},
     {"tank", "size|polygon|cylinder|sphere|stl", true},
     {"solids.*", "box|plate|prism|sphere|cylinder|stl", true},
     {"fill.*", "depth|box|polygon|sphere|wave", true},
