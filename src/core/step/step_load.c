@@ -18,8 +18,9 @@ int32_t mps__step_freedom(int32_t dim, int32_t freedom[6])
 
 typedef struct flow {
     const double *rho, *u;
+    const double *a; /* accelerations that velocities get, or NULL */
     const int32_t *region;
-    double cell, at[3];
+    double cell, dt, at[3];
 } flow;
 
 MPS_ROW void add_moment(const int dim, const mps_view *v, const flow *f, int64_t i, double *term)
@@ -29,7 +30,8 @@ MPS_ROW void add_moment(const int dim, const mps_view *v, const flow *f, int64_t
     const double m = mps__cell_mass(f->rho, f->region, f->cell, i);
     for (int d = 0; d < dim; d++) {
         r[d] = v->x[i * dim + d] - f->at[d];
-        u[d] = m * f->u[i * dim + d];
+        const int64_t k = i * dim + d;
+        u[d] = m * (f->a ? f->u[k] + f->dt * f->a[k] : f->u[k]);
         term[d] = u[d];
         term[7 + d] = m * r[d];
     }
@@ -44,14 +46,18 @@ static double cell_of(const mps__world *w)
     return w->setup.dim == 2 ? dp * dp : dp * dp * dp;
 }
 
-static void sum_momentum(const mps__world *w, const double at[3], double sums[MPS__MOMENTUM])
+/* Of the velocities as they are, or as accelerations `a` make them. */
+static void sum_momentum(const mps__step *q, const double *a, double sums[MPS__MOMENTUM])
 {
+    const mps__world *w = q->w;
     flow f = {.rho = w->particles.rho,
               .u = w->particles.u,
+              .a = a,
+              .dt = q->view.dt,
               .region = w->particles.region,
               .cell = cell_of(w)};
     mps_view v;
-    memcpy(f.at, at, sizeof f.at);
+    memcpy(f.at, q->load.at, sizeof f.at);
     mps__world_view(w, &v);
     mps__host_sum(&w->host, &v, MPS__MOMENTUM, &add_moments, &f, sums);
 }
@@ -61,10 +67,11 @@ static mps_status begin_load(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
     mps__world *w = q->w;
-    q->load = (mps__load){.watch = w->load.watch};
-    if (q->load.watch == MPS_LOAD_NONE) return MPS_OK;
+    q->load = (mps__load){.watch = w->load.watch,
+                          .what = mps__body_carries(w) ? MPS_LOAD_MASS : w->load.watch};
+    if (q->load.what == MPS_LOAD_NONE) return MPS_OK;
     mps__motion_point(&w->motion, &w->motion.now, w->motion.centre, q->load.at, NULL, NULL);
-    sum_momentum(w, q->load.at, q->momentum_before);
+    sum_momentum(q, NULL, q->momentum_before);
     return MPS_OK;
 }
 
@@ -105,20 +112,48 @@ MPS_ROW void add_half(const int dim, const mps_view *v, const half_fields *f, in
 }
 MPS_SUMS(add_halves, add_half, half_fields)
 
+static void sum_halves(mps_stage *s, const mps__load_arrays *a, double force[6])
+{
+    half_fields f = {.tank = a->tank,
+                     .halves = {.density = a->density,
+                                .wetted = s->view->flux.wetted,
+                                .region = a->region,
+                                .a = a->acceleration,
+                                .stride = s->view->dim}};
+    memcpy(f.at, mps__step_of(s)->load.at, sizeof f.at);
+    mps_stage_sum(s, 6, &add_halves, &f, force);
+}
+
+/* What the momentum of the particles lacks. */
+static void add_lack(const mps__step *q, const double after[MPS__MOMENTUM], double force[6])
+{
+    const double *g = q->w->setup.g, *b = q->momentum_before;
+    double weight[6];
+    for (int d = 0; d < 3; d++) weight[d] = b[6] * g[d];
+    mps__cross(b + 7, g, weight + 3);
+    for (int k = 0; k < 6; k++) force[k] += weight[k] - (after[k] - b[k]) / q->view.dt;
+}
+
+void mps__step_load_now(mps_stage *s, const mps__load_arrays *a, double force[6])
+{
+    double after[MPS__MOMENTUM] = {0};
+    sum_halves(s, a, force);
+    sum_momentum(mps__step_of(s), a->acceleration, after);
+    add_lack(mps__step_of(s), after, force);
+}
+
 enum { ACCELERATION, TANK, DENSITY, REGION, CORRECTION, USES };
 
 static mps_status sum_half_cells(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
-    if (q->load.watch == MPS_LOAD_NONE) return MPS_OK;
-    half_fields f = {.tank = s->data[TANK],
-                     .halves = {.density = s->data[DENSITY],
-                                .wetted = s->view->flux.wetted,
-                                .region = s->data[REGION],
-                                .a = s->data[ACCELERATION],
-                                .stride = s->view->dim}};
-    memcpy(f.at, q->load.at, sizeof f.at);
-    mps_stage_sum(s, 6, &add_halves, &f, q->load.force);
+    if (q->load.what == MPS_LOAD_NONE) return MPS_OK;
+    sum_halves(s,
+               &(mps__load_arrays){.acceleration = s->data[ACCELERATION],
+                                   .tank = s->data[TANK],
+                                   .density = s->data[DENSITY],
+                                   .region = s->data[REGION]},
+               q->load.force);
     return MPS_OK;
 }
 
@@ -156,8 +191,7 @@ static void velocity_between(const mps__motion *m, const mps__pose *from, const 
     }
 }
 
-/* Change of the velocity of the tank, over dt. */
-static void find_acceleration(const mps__step *q, double accel[6])
+void mps__step_acceleration(const mps__step *q, double accel[6])
 {
     const mps__world *w = q->w;
     const mps__motion *m = &w->motion;
@@ -176,15 +210,12 @@ static void find_acceleration(const mps__step *q, double accel[6])
 void mps__step_load_end(mps__step *q)
 {
     mps__world *w = q->w;
-    const double *g = w->setup.g, *b = q->momentum_before;
-    double after[MPS__MOMENTUM] = {0}, weight[6];
+    double after[MPS__MOMENTUM] = {0};
     mps__load *l = &q->load;
-    if (l->watch != MPS_LOAD_NONE) {
-        sum_momentum(w, l->at, after);
-        for (int d = 0; d < 3; d++) weight[d] = b[6] * g[d];
-        mps__cross(b + 7, g, weight + 3);
-        for (int k = 0; k < 6; k++) l->force[k] += weight[k] - (after[k] - b[k]) / q->view.dt;
-        find_acceleration(q, l->accel);
+    if (l->what != MPS_LOAD_NONE) {
+        sum_momentum(q, NULL, after);
+        add_lack(q, after, l->force);
+        mps__step_acceleration(q, l->accel);
         l->dt = q->view.dt;
         l->known = true;
         if (l->has_mass) {
@@ -192,6 +223,7 @@ void mps__step_load_end(mps__step *q)
             const int32_t dofs = mps__step_freedom(w->setup.dim, freedom);
             memcpy(w->mass.guess, w->mass.next, (size_t)(w->particles.n * dofs) * sizeof(double));
         }
+        l->has_mass = l->has_mass && l->watch == MPS_LOAD_MASS;
     }
     w->load = *l;
 }
