@@ -270,7 +270,7 @@ bool forced_tilt_read(const choices *c, const char *folder, const double *from, 
     record_of r;
     if (!open_record(c, folder, &config, error, &r)) return false;
     for (int32_t i = 0; i < FORCED_DEGREES; i++) {
-        const double *load = column(r.rows, "liquid_", forced_names[i]);
+        const double *load = column(r.rows, "walls_", forced_names[i]);
         C[i] = load ? -(mean_of(&r, load, from[1], until[1]) -
                         mean_of(&r, load, from[0], until[0])) /
                           angle

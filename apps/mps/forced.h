@@ -27,7 +27,8 @@ typedef struct forced {
  * @param degree  that moves @param periods  at the end of the run @return false: there is a message */
 bool forced_read(const choices *c, const char *folder, int32_t degree, double periods, forced *f);
 
-/* Mean loads per angle between two stretches of a run that tilts the tank: C = -change of the load/angle.
+/* Mean loads per angle between two stretches of a run that tilts the tank: C = -change of the load/angle. By pressures of walls: at rest they
+ * are exact, while the momentum's weight knows the surface to half a particle.
  * @param from, until  [2] of each stretch [s] @return false: there is a message */
 bool forced_tilt_read(const choices *c, const char *folder, const double *from, const double *until,
                       double angle, double C[FORCED_DEGREES]);

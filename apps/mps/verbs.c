@@ -50,7 +50,7 @@ static const char COEFFICIENTS_TEXT[] =
     "after\n"
     "a ramp, about motion.centre, axes of the lab. A holds all of the liquid's mass: give the "
     "ship\n"
-    "none of it. C is from a slow tilt and holds the weight of the liquid. A and B of a row are "
+    "none of it. C is from a slow tilt, by pressures of walls, and holds the weight of the liquid. A and B of a row are "
     "those\n"
     "of a motion at its frequency; bands are 90 %, by the scatter from period to period. Loads "
     "are\n"
