@@ -2,6 +2,7 @@
 /* `body`: a rigid body that the library moves with the liquid. Its degrees are those of a ship, along axes that are parallel to those of the
  * tank. */
 #include "body.h"
+#include "pendulum.h"
 #include "sensor_load.h"
 #include <math.h>
 #include <stdio.h>
@@ -274,11 +275,32 @@ void mps__body_columns(build *b)
 
 /* ---- natural periods ---- */
 
+/* By the tank, where the liquid is one fluid in a box. */
+static bool box_frozen(const build *b, frozen *f)
+{
+    const form *t = &b->tank.form;
+    pendulum p;
+    if (!mps__pendulum_make(b, b->motion->centre, &p)) return false;
+    f->mass = p.mass;
+    for (int d = 0; d < b->dim; d++) f->place[d] = 0.5 * (t->lo[d] + t->hi[d]);
+    f->place[1] = t->lo[1] + 0.5 * b->depth;
+    for (int axis = 0; axis < 3; axis++) {
+        double own = 0;
+        for (int d = 0; d < b->dim; d++) {
+            const double side = d == 1 ? b->depth : t->hi[d] - t->lo[d];
+            if (d != axis) own += p.mass * side * side / 12;
+        }
+        f->inertia[axis] = own + about_centre(b->motion, p.mass, f->place, axis);
+    }
+    return true;
+}
+
 bool mps__body_frozen(const build *b, frozen *f)
 {
     double h[3] = {b->dp, b->dp, b->dp};
     mps_lease x = {.struct_size = sizeof x}, kind = x, phase = x;
     *f = (frozen){.mass = 0};
+    if (box_frozen(b, f)) return true;
     mps_lattice_get(b->sim, NULL, h);
     const double volume = h[0] * h[1] * (b->dim == 3 ? h[2] : 1);
     bool good = mps_lease_begin(b->sim, "position", MPS_READ, &x) == MPS_OK;

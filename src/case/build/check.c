@@ -2,6 +2,7 @@
 /* What a case amounts to, as a text for people. */
 #include "picture_scene.h"
 #include "body.h"
+#include "pendulum.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -260,6 +261,22 @@ static void write_period(const writer *w, const char *how, double period, const 
         fprintf(w->file, " = %.3g T1", period / b->modes.period[0]);
 }
 
+/* The two lowest periods with the moving liquid, of a box. */
+static void write_coupled(const writer *w, const build *b, int32_t degree)
+{
+    pendulum p;
+    double period[2], sign;
+    int32_t dof;
+    mps__degree_to_lab(b->motion, degree, &dof, &sign);
+    const bool along = dof == b->modes.axis, turn = dof == MPS_ROTATE_Z - b->modes.axis;
+    if ((!along && !turn) || !mps__pendulum_make(b, b->motion->centre, &p)) return;
+    mps__pendulum_periods(&p, turn, b->body->mass[degree], b->body->stiffness[degree], period);
+    fprintf(w->file, "\n");
+    heading(w, "");
+    write_period(w, "    with the moving liquid, by linear theory", period[0], b);
+    write_period(w, " and", period[1], b);
+}
+
 /* Mass, and periods of each free degree alone, the others held. */
 static void write_body(const writer *w, const build *b)
 {
@@ -286,6 +303,7 @@ static void write_body(const writer *w, const build *b)
         heading(w, "");
         write_period(w, "    natural period without liquid", mps__body_period(b, d, NULL), b);
         write_period(w, "; with the liquid frozen", mps__body_period(b, d, &liquid), b);
+        write_coupled(w, b, d);
         fprintf(w->file, "\n");
     }
 }

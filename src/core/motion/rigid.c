@@ -11,10 +11,13 @@ static const double ALIKE = 1e-6;
 
 /* A body at a pose, axes of the lab. */
 typedef struct shape {
-    double t[6][6]; /* velocities of the centre of motion and angular velocity, by the rate of each degree */
+    double t
+        [6]
+        [6]; /* velocities of the centre of motion and angular velocity, by the rate of each degree */
     double bias[3]; /* angular acceleration by the rates alone */
     double omega[3], rotation[9];
-    double mass, arm[3], inertia[9]; /* from the centre of motion to that of mass; about the latter */
+    double mass, arm[3],
+        inertia[9]; /* from the centre of motion to that of mass; about the latter */
 } shape;
 
 static void multiply(const double m[9], const double v[3], double out[3])

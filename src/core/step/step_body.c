@@ -47,9 +47,8 @@ static mps_status no_solution(const mps__step *q, const mps__rigid_step *r)
         return mps__fail(c, MPS_E_STATE,
                          "t = %.9g s: '%s' of the body is %g, where '%s' and '%s' are one: free "
                          "one of them only, or choose other axes",
-                         t, mps__dof_name[MPS_ROTATE_Z],
-                         q->w->motion.now.state.value[MPS_ROTATE_Z], mps__dof_name[MPS_ROTATE_X],
-                         mps__dof_name[MPS_ROTATE_Y]);
+                         t, mps__dof_name[MPS_ROTATE_Z], q->w->motion.now.state.value[MPS_ROTATE_Z],
+                         mps__dof_name[MPS_ROTATE_X], mps__dof_name[MPS_ROTATE_Y]);
     return mps__fail(c, MPS_E_STATE,
                      "t = %.9g s: '%s' of the body is free, but has nothing to move: body and "
                      "liquid have %g %s along it, of which the liquid %g; must be > %g. Give the "
@@ -102,8 +101,8 @@ static mps_status solve_body(mps__step *q, const double force[6], double change[
 /* ---- what changes with it ---- */
 
 typedef struct changes {
-    const double *place;                             /* of solids at the end of the step, tank's frame */
-    const double *columns_p, *columns_a;             /* changes by each degree [n*dofs], [n*dofs*dim] */
+    const double *place;                 /* of solids at the end of the step, tank's frame */
+    const double *columns_p, *columns_a; /* changes by each degree [n*dofs], [n*dofs*dim] */
     double *pressure, *acceleration, *tank, *velocity;
     double shift[3], rotation[9]; /* of the tank at the end of the step, as it was taken to be */
     double change[6];             /* by the columns */
