@@ -143,10 +143,16 @@ typedef struct mps_body_report {
     double spring;
     /** out: -m g times the displacement of the centre of mass since mps_body_set() [J]. */
     double weight;
-    /** out: since mps_body_set() [J]: taken by C, work of the external load, work of the liquid,
-     *  and what the rest was at mps_body_set(). To rounding and changes of the time step,
-     *  kinetic + spring + weight = start + external_work + liquid_work - damped. */
-    double damped, external_work, liquid_work, start;
+    /** out: taken by C since mps_body_set() [J]. */
+    double damped;
+    /** out: work of the external load since then [J]. */
+    double external_work;
+    /** out: work of the liquid on the body since then [J]. */
+    double liquid_work;
+    /** out: kinetic + spring + weight at mps_body_set() [J]. Later
+     *  kinetic + spring + weight = start + external_work + liquid_work - damped: exact for
+     *  displacements in steps of one length, else to second order in dt. */
+    double start;
 } mps_body_report;
 
 /** Set struct_size and zero. @param size  sizeof(mps_body_report) @return MPS_E_ARG: bad size */
