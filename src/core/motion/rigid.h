@@ -41,6 +41,12 @@ typedef struct mps__rigid_step {
     double have, share, least;
 } mps__rigid_step;
 
+/* Loads or accelerations: three along axes, three about them. */
+static inline double mps__dot6(const double a[6], const double b[6])
+{
+    return mps__dot(a, b, 3) + mps__dot(a + 3, b + 3, 3);
+}
+
 static inline bool mps__rigid_is_free(const mps_body *b, int32_t dof)
 {
     return (b->free >> dof & 1) != 0;

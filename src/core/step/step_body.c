@@ -77,7 +77,7 @@ static mps_status solve_body(mps__step *q, const double force[6], double change[
     memcpy(l.g, w->setup.g, sizeof l.g);
     for (int k = 0; k < 6; k++) {
         state->felt_late[k] = state->late[k] / l.dt;
-        l.rest[k] = force[k] + mps__dot(l.mass + 6 * k, was, 6) + state->felt_late[k];
+        l.rest[k] = force[k] + mps__dot6(l.mass + 6 * k, was) + state->felt_late[k];
     }
     if (!mps__rigid_solve(&w->body.given, w->motion.centre, &w->motion.now.state, &l, &r))
         return no_solution(q, &r);
