@@ -63,7 +63,9 @@ def quick():
     run("coefficients", "box.yaml", "--omega", "5 rad/s", "--period", "1 s", code=2, text="not both")
     run("coefficients", "box.yaml", "--period", "1.2 kg", code=2, text="time")
     run("coefficients", "box.yaml", "--amplitude", "2 s", code=2, text="motion.surge")
-    run("coefficients", "box.yaml", "--set", "motion={file: no.csv}", code=2, text="--degrees")
+    with open("voyage.csv", "w", encoding="ascii") as out:
+        out.write("time[s],surge[m]\n0,0\n1,0.1\n")
+    run("coefficients", "box.yaml", "--set", "motion={file: voyage.csv}", code=2, text="--degrees")
     run("coefficients", "box.yaml", *few, "-o", "out", text="coefficients.dat")
     rows, tank = read("out"), Box(0.8, 0.24)
     check(abs(rows[0]["omega"] / tank.omega1 - 0.6) < 1e-6, "0.6 w1")

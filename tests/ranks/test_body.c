@@ -108,9 +108,8 @@ int main(void)
         for (int k = 0; k < SCENES; k++)
             if (strcmp(scenes[k].name, chosen[c]) == 0) found = &scenes[k];
         if (!found) return 1;
-        tests[c] = (struct CMUnitTest){.name = chosen[c],
-                                       .test_func = test_scene,
-                                       .initial_state = (void *)(uintptr_t)found};
+        tests[c] = (struct CMUnitTest){
+            .name = chosen[c], .test_func = test_scene, .initial_state = (void *)(uintptr_t)found};
     }
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -338,7 +338,11 @@ static void nothing_to_move(void **state)
     ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, NULL));
     mps_body b = body_of(MPS_MOVE_X, 0);
     ASSERT_OK(sim, mps_body_set(sim, &b));
-    {mps_status q=mps_step(sim, 1e-3, NULL); mps_body_report r=report_of(sim); print_message("%d A %g a %g\n",q,r.mass[0],r.acceleration[0]);}
+    {
+        mps_status q = mps_step(sim, 1e-3, NULL);
+        mps_body_report r = report_of(sim);
+        print_message("%d A %g a %g\n", q, r.mass[0], r.acceleration[0]);
+    }
     ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_STATE, "MPS_MOVE_X");
     b.mass = 1;
     ASSERT_OK(sim, mps_body_set(sim, &b));
@@ -405,8 +409,9 @@ static void arguments(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(spring),    cmocka_unit_test(forces),         cmocka_unit_test(pendulum),
-        cmocka_unit_test(top),       cmocka_unit_test(goes_on),        cmocka_unit_test(fails_and_ends),
+        cmocka_unit_test(spring),    cmocka_unit_test(forces),
+        cmocka_unit_test(pendulum),  cmocka_unit_test(top),
+        cmocka_unit_test(goes_on),   cmocka_unit_test(fails_and_ends),
         cmocka_unit_test(arguments), cmocka_unit_test(nothing_to_move)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

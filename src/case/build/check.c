@@ -270,9 +270,14 @@ static void write_coupled(const writer *w, const build *b, int32_t degree)
     mps__degree_to_lab(b->motion, degree, &dof, &sign);
     const bool along = dof == b->modes.axis, turn = dof == MPS_ROTATE_Z - b->modes.axis;
     if ((!along && !turn) || !mps__pendulum_make(b, b->motion->centre, &p)) return;
-    mps__pendulum_periods(&p, turn, b->body->mass[degree], b->body->stiffness[degree], period);
     fprintf(w->file, "\n");
     heading(w, "");
+    if (b->body->stiffness[degree] + mps__pendulum_stiffness(&p, turn, 0) < 0) {
+        fprintf(w->file, "    with the moving liquid it falls over: that takes %.4g N m/rad",
+                -mps__pendulum_stiffness(&p, turn, 0));
+        return;
+    }
+    mps__pendulum_periods(&p, turn, b->body->mass[degree], b->body->stiffness[degree], period);
     write_period(w, "    with the moving liquid, by linear theory", period[0], b);
     write_period(w, " and", period[1], b);
 }

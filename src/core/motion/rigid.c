@@ -150,7 +150,8 @@ static void fill_system(const mps_body *b, const shape *s, const mps_motion_stat
     gyroscopic_load(s, gyro);
     restoring_load(b, now, l, still, restoring);
     for (int i = 0; i < 6; i++)
-        load[i] = l->rest[i] - mps__dot6(l->mass + 6 * i, bias) + l->external[i] - held[i] - gyro[i];
+        load[i] = l->rest[i] - mps__dot6(l->mass + 6 * i, bias) + l->external[i] - held[i] -
+                  gyro[i];
     if (b->gravity) {
         double weight[3], moment[3];
         for (int d = 0; d < 3; d++) weight[d] = s->mass * l->g[d];
