@@ -271,7 +271,7 @@ static int run_all(coefficients *k)
 
 static int do_all(coefficients *k)
 {
-    k->result = calloc((size_t)(k->degrees * k->count), sizeof *k->result);
+    k->result = calloc((size_t)k->degrees * (size_t)k->count, sizeof *k->result);
     if (!k->result) return MPS_EXIT_FAILED;
     for (int32_t i = 0; i < k->degrees * k->count; i++) k->result[i].omega = NAN;
     for (int32_t at = 0; at < k->degrees;
