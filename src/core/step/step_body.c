@@ -50,9 +50,9 @@ static mps_status no_solution(const mps__step *q, const mps__rigid_step *r)
                          t, mps__dof_name[MPS_ROTATE_Z], q->w->motion.now.state.value[MPS_ROTATE_Z],
                          mps__dof_name[MPS_ROTATE_X], mps__dof_name[MPS_ROTATE_Y]);
     return mps__fail(c, MPS_E_STATE,
-                     "t = %.9g s: '%s' of the body is free, but has nothing to move: body and "
-                     "liquid have %g %s along it, of which the liquid %g; must be > %g. Give the "
-                     "body mass or inertia, or do not free it",
+                     "t = %.9g s: coupling: '%s' of the body is free, but nothing resists an "
+                     "acceleration along it: body, liquid and springs have %g %s, of which the "
+                     "liquid %g; must be > %g. Give the body mass or inertia, or do not free it",
                      t, mps__dof_name[r->singular], r->have,
                      r->singular < MPS_ROTATE_X ? "kg" : "kg m2", r->share, r->least);
 }
@@ -133,10 +133,19 @@ MPS_ROW void raise_way(const int dim, const mps_view *v, const changes *f, int64
 }
 MPS_SUMS(raise_ways, raise_way, changes)
 
+/* Models let fluid that no wall holds fall with g, whatever the tank does (body.free). */
+MPS_ROW bool falls(const int dim, const mps_view *v, const changes *f, int64_t i)
+{
+    bool same = mps_is_fluid(v, i);
+    for (int d = 0; d < dim; d++) same = same && f->tank[i * dim + d] == v->g[d];
+    return same;
+}
+
 MPS_ROW void correct_row(const int dim, const mps_view *v, const changes *f, int64_t i)
 {
     const bool fluid = mps_is_fluid(v, i);
     double way[3];
+    if (falls(dim, v, f, i)) return;
     find_way(dim, v, f, i, way);
     for (int d = 0; d < dim; d++) {
         const int64_t k = i * dim + d;
@@ -190,8 +199,8 @@ static mps_status move_body(mps_stage *s)
     if (!mps__body_carries(w)) return MPS_OK;
     if (w->work.bodies)
         return mps__fail(w->context, MPS_E_STATE,
-                         "a body carries the tank and a model moves solids in it: remove that "
-                         "model, e.g. 'body.free', or call mps_body_set() with NULL");
+                         "a body carries the tank, and a model moves solids in it (it writes "
+                         "'solid_place'): remove that model, or call mps_body_set() with NULL");
     memcpy(f.shift, q->pose.state.value, sizeof f.shift);
     memcpy(f.rotation, q->pose.rotation, sizeof f.rotation);
     f.dofs = mps__step_freedom(w->setup.dim, freedom);
