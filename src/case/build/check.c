@@ -250,7 +250,7 @@ static void write_motion(const writer *w, const build *b)
     mps__check_heading(w, "motion");
     if (b->body) {
         fprintf(w->file, "that of the body\n");
-        mps__check_body(w, b);
+        mps__check_write_body(w, b);
         return;
     }
     if (!m) {

@@ -18,6 +18,6 @@ void mps__check_heading(const writer *w, const char *name);
 /* A place, "(0.4, 0.1) m". */
 void mps__check_place(const writer *w, const build *b, const double *x);
 /* Mass, and periods of each free degree alone, the others held. */
-void mps__check_body(const writer *w, const build *b);
+void mps__check_write_body(const writer *w, const build *b);
 
 #endif

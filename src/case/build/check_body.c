@@ -35,7 +35,7 @@ static void write_coupled(const writer *w, const build *b, int32_t degree)
     write_period(w, " and", period[1], b);
 }
 
-void mps__check_body(const writer *w, const build *b)
+void mps__check_write_body(const writer *w, const build *b)
 {
     const build_body *body = b->body;
     const char *width = b->dim == 2 ? "/m" : "";
