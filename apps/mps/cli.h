@@ -22,12 +22,14 @@ typedef struct choices {
     const char *program, *verb;
     int32_t files, sets;
     const char *file[CLI_FILES];   /* arguments that are no options */
-    const char *set[CLI_SETS + 3]; /* "path=value"; a verb adds dp, steps and threads */
+    const char *set[CLI_SETS + 8]; /* "path=value"; a verb adds its own */
     const char *out;               /* NULL: as the verb has it */
     const char *device;            /* NULL: the host */
-    int32_t threads;               /* 0: as the case says */
-    int32_t count;                 /* 0: as the verb has it */
-    int32_t fmi;                   /* version, 0: as the verb has it */
+    const char *degrees, *omega, *period, *amplitude;
+    int32_t threads; /* 0: as the case says */
+    int32_t count;   /* 0: as the verb has it */
+    int32_t fmi;     /* version, 0: as the verb has it */
+    int32_t periods; /* 0: as the verb has it */
     bool overwrite, resume, quiet, profile, mpi;
     char command[1024]; /* the whole line */
 } choices;
@@ -44,7 +46,8 @@ enum {
     HAS_RESUME = 128,
     HAS_COUNT = 256,
     HAS_FMI = 512,
-    HAS_DEVICE = 1024
+    HAS_FREQUENCIES = 1024,
+    HAS_DEVICE = 2048
 };
 
 /* A verb: `mps VERB ARGUMENTS`. @return exit code, MPS_EXIT_... */
@@ -80,6 +83,7 @@ int verb_resume(const choices *c);
 int verb_sweep(const choices *c);
 int verb_repeat(const choices *c);
 int verb_converge(const choices *c);
+int verb_coefficients(const choices *c);
 int verb_report(const choices *c);
 int verb_stats(const choices *c);
 int verb_compare(const choices *c);

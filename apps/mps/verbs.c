@@ -45,6 +45,26 @@ static const char SERIES_TEXT[] =
     "or less than one period.\n"
     "Exit: 0 all are done, else the largest exit code of the runs.\n";
 
+static const char COEFFICIENTS_TEXT[] =
+    "F = -A a - B v - C x: loads of the liquid by small oscillations in one degree at a time, "
+    "after\n"
+    "a ramp, about motion.centre, axes of the lab. A holds all of the liquid's mass: give the "
+    "ship\n"
+    "none of it. C is from a slow tilt, by pressures of walls, and holds the weight of the liquid. "
+    "A and B of a row are "
+    "those\n"
+    "of a motion at its frequency; bands are 90 %, by the scatter from period to period. Loads "
+    "are\n"
+    "those by momentum (sensors.*.load); A by the pressures of walls stands beside them.\n"
+    "Periods are 1/0.5 to 1/1.5 T1 if none are given; T1 itself is left out. Each run has a folder "
+    "of\n"
+    "its own, DIR/001 and so on. The same line again skips the runs that are done and continues "
+    "an\n"
+    "interrupted one. The tables: DIR/coefficients.csv, and coefficients.dat with plain columns "
+    "for\n"
+    "seakeeping programs: period [s], i, j, A_ij, B_ij; load i by motion j, 1 surge to 6 yaw.\n"
+    "Exit: 0 all are done, else the largest exit code of the runs.\n";
+
 const verb cli_verbs[] = {
     {"run", "CASE", "Run a case: a YAML file, or a report.html with its case.", 1, 1,
      HAS_SET | HAS_OUT | HAS_THREADS | HAS_OVERWRITE | HAS_RESUME | HAS_QUIET | HAS_PROFILE |
@@ -61,6 +81,11 @@ const verb cli_verbs[] = {
     {"converge", "CASE", "Run a case with dp times 2, sqrt(2), 1; order of the largest values.", 1,
      1, HAS_SET | HAS_OUT | HAS_THREADS | HAS_OVERWRITE | HAS_QUIET | HAS_DEVICE, verb_converge,
      SERIES_TEXT},
+    {"coefficients", "CASE",
+     "Added mass A(w) and damping B(w) of the liquid, by forced oscillations.", 1, 1,
+     HAS_SET | HAS_OUT | HAS_THREADS | HAS_OVERWRITE | HAS_QUIET | HAS_DEVICE |
+         HAS_FREQUENCIES,
+     verb_coefficients, COEFFICIENTS_TEXT},
     {"report", "DIR", "Make report.html of a run again, from its folder.", 1, 1, HAS_SET,
      verb_report, REPORT_TEXT},
     {"stats", "DIR [COLUMN ..]", "Impacts in the pressures of a run: events, peaks, fits.", 1,

@@ -4,8 +4,8 @@
 #include "case_kit.h"
 #include "units.h"
 
-static const char *const files[] = {"box.yaml", "polygon.yaml", "cylinder.yaml", "sphere.yaml",
-                                    "stl.yaml"};
+static const char *const files[] = {"box.yaml",    "polygon.yaml", "cylinder.yaml",
+                                    "sphere.yaml", "stl.yaml",     "body.yaml"};
 enum { FILES = sizeof files / sizeof files[0] };
 
 static int32_t made;

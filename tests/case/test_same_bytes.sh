@@ -27,7 +27,8 @@ standing_wave 0.05
 static_tank 0.05
 static_two_fluid 0.02"
 
-count=$(ls "$cases"/*.yaml | wc -l)
+# a driver has no body that the library moves: these cases have `body`
+count=$(grep -L "^body:" "$cases"/*.yaml | wc -l)
 if [ "$count" -ne "$(wc -l <<< "$times")" ]; then
     echo "FAILED: $count case files, $(wc -l <<< "$times") drivers"
     exit 1

@@ -50,7 +50,10 @@ static void values(void **state)
     is("1 cSt", UNIT_VISCOSITY, 1e-6);
     is("1 cP", UNIT_VISCOSITY, 1e-3);
     is("72.7 mN/m", UNIT_TENSION, 72.7e-3);
-    is("5 N m/rad", UNIT_STIFFNESS, 5);
+    is("5 kN/m", UNIT_STIFFNESS, 5000);
+    is("5 N m/rad", UNIT_TURN_STIFFNESS, 5);
+    is("5 MN m s/rad", UNIT_TURN_DAMPING, 5e6);
+    is("5 kN s/m", UNIT_DAMPING | UNIT_SHARE, 5000);
     is("1 g/cm3", UNIT_DENSITY, 1000);
     is("1 kg/m^3", UNIT_DENSITY, 1);
     is("12 MB", UNIT_BYTES, 12e6);

@@ -13,7 +13,7 @@ void mps__build_simulation(build *b, const mps_job_config *options)
 {
     static void (*const part[])(build *) = {mps__build_tank,  mps__build_solids, mps__build_phases,
                                             mps__build_fills, mps__build_modes,  mps__build_motion,
-                                            mps__build_time};
+                                            mps__build_body,  mps__build_time};
     b->root = mps__case_root(b->c);
     b->dim = (int32_t)mps__read_number(b->c, b->root, "dim", 2);
     mps__case_scale_set(b->c, (read_scale){NAN, NAN, NAN});
@@ -90,6 +90,7 @@ static void build_columns(build *b)
     static const char *const others[] = {"mps",   "title",   "base",  "set",
                                          "sweep", "collect", "output"};
     char path[PATH_ROOM];
+    mps__body_columns(b);
     mps__build_sensors(b);
     mps__build_references(b);
     mps__build_inputs(b);

@@ -113,7 +113,8 @@ typedef struct build {
     double level; /* still level as filled [m]; NAN: none was asked for */
     double depth; /* asked for [m]; NAN */
     double until;
-    const struct build_motion *motion; /* NULL: none */
+    const struct build_motion *motion; /* NULL: none; of a body its centre, axes and free degrees */
+    const struct build_body *body;     /* NULL: none */
 } build;
 
 /* Whether a call of the library succeeded; else its text becomes a message at the line of `at`. */
@@ -141,6 +142,9 @@ const char *mps__modes_without(const build *b);
 /* Solids that stand in the free surface. */
 void mps__build_blocks(build *b);
 void mps__build_motion(build *b);
+void mps__build_body(build *b);
+/* Columns of what the body does. */
+void mps__body_columns(build *b);
 void mps__build_time(build *b);
 void mps__build_sensors(build *b);
 void mps__build_references(build *b);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What a case amounts to, as a text for people. */
 #include "picture_scene.h"
-#include "ship_motion.h"
+#include "check.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -11,14 +11,7 @@
 
 enum { STEPS = 3 }; /* that are timed, after the first */
 
-/* A text that grows. */
-typedef struct writer {
-    char *text;
-    size_t size;
-    FILE *file;
-} writer;
-
-static void heading(const writer *w, const char *name)
+void mps__check_heading(const writer *w, const char *name)
 {
     fprintf(w->file, "%-9s ", name);
 }
@@ -36,7 +29,7 @@ static const char *length_text(double x, char *out, size_t size)
     return out;
 }
 
-static void write_place(const writer *w, const build *b, const double *x)
+void mps__check_place(const writer *w, const build *b, const double *x)
 {
     fprintf(w->file, b->dim == 3 ? "(%.4g, %.4g, %.4g) m" : "(%.4g, %.4g) m", x[0], x[1], x[2]);
 }
@@ -80,16 +73,16 @@ static void write_tank(const writer *w, const build *b)
 {
     static const char *const kind[] = {"box", "polygon", "body", "cylinder", "ball"};
     const form *t = &b->tank.form;
-    heading(w, "case");
+    mps__check_heading(w, "case");
     fprintf(w->file, "%d-D, ", (int)b->dim);
     write_spacing(w, b);
     fprintf(w->file, ", gravity %g m/s2, model %s\n", b->gravity, b->model);
-    heading(w, "tank");
+    mps__check_heading(w, "tank");
     fprintf(w->file, "%s, %.4g x %.4g", b->tank.file ? "file" : kind[t->kind], t->hi[0] - t->lo[0],
             t->hi[1] - t->lo[1]);
     if (b->dim == 3) fprintf(w->file, " x %.4g", t->hi[2] - t->lo[2]);
     fprintf(w->file, " m, lower corner ");
-    write_place(w, b, t->lo);
+    mps__check_place(w, b, t->lo);
     if (!b->tank.file)
         fprintf(w->file, ", %.5g %s inside", mps__form_volume(t), b->dim == 3 ? "m3" : "m2");
     for (int d = 0; d < b->dim && b->tank.built[0] > 0; d++)
@@ -97,7 +90,7 @@ static void write_tank(const writer *w, const build *b)
             fprintf(w->file, "; built %.5g m along %c", b->tank.built[d], "xyz"[d]);
     fprintf(w->file, "\n");
     for (int32_t i = 0; i < b->solids; i++) {
-        heading(w, i ? "" : "solids");
+        mps__check_heading(w, i ? "" : "solids");
         fprintf(w->file, "%s", b->solid[i].name);
         if (b->solid[i].slots > 0) write_slots(w, b, &b->solid[i]);
         fprintf(w->file, "\n");
@@ -113,7 +106,7 @@ static void write_log(const writer *w, const build *b)
     for (int32_t i = 0; i < b->log->count; i++) {
         const bool fill = strncmp(b->log->text[i], "fill of phase", 13) == 0;
         if (fill && whole && !straight) continue;
-        heading(w, first ? "library" : "");
+        mps__check_heading(w, first ? "library" : "");
         first = false;
         fprintf(w->file, "%s%s\n", b->log->level[i] ? "warning: " : "", b->log->text[i]);
     }
@@ -159,7 +152,7 @@ static void write_top(const writer *w, build *b)
     if (b->fluids != 1 || !mps__build_filled(b) || !find_rows(b, &r)) return;
     const double share = (double)r.top / (double)r.below;
     if (share > 0.9) return; /* whole, or narrower by a slope */
-    heading(w, "");
+    mps__check_heading(w, "");
     fprintf(w->file,
             "the uppermost row has %.2g %% of the particles of the row below: steps of one spacing "
             "in the surface, which become waves of less than half of it\n",
@@ -170,13 +163,13 @@ static void write_fluids(const writer *w, build *b)
 {
     mps_energy e;
     mps_energy_init(&e, sizeof e);
-    heading(w, "particles");
+    mps__check_heading(w, "particles");
     fprintf(w->file, "%lld of fluid, %lld of walls, %lld behind walls\n",
             (long long)mps_particles_count(b->sim, MPS_FLUID),
             (long long)mps_particles_count(b->sim, MPS_WALL),
             (long long)mps_particles_count(b->sim, MPS_DUMMY));
     for (int32_t i = 0; i < b->fluids; i++) {
-        heading(w, i ? "" : "fluids");
+        mps__check_heading(w, i ? "" : "fluids");
         fprintf(w->file, "phase %d: %s, %g kg/m3, %g Pa s\n", (int)i, b->fluid[i].name,
                 b->fluid[i].density, b->fluid[i].viscosity);
     }
@@ -187,14 +180,14 @@ static void write_fluids(const writer *w, build *b)
         const double exact = b->tank.file || isnan(b->depth)
                                  ? NAN
                                  : mps__form_volume_below(t, t->lo[1] + b->depth);
-        heading(w, "volume");
+        mps__check_heading(w, "volume");
         fprintf(w->file, "%.5g %s of all fluid, %.5g kg", e.volume_filled, unit, e.mass_filled);
         if (b->fluids == 1 && isfinite(exact))
             fprintf(w->file, "; the tank alone holds %.5g %s up to the level", exact, unit);
         fprintf(w->file, "\n");
     }
     if (mps__build_filled(b)) {
-        heading(w, "level");
+        mps__check_heading(w, "level");
         fprintf(w->file, "y = %.5g m as filled, %.5g m asked for\n", b->level,
                 b->tank.form.lo[1] + b->depth);
         write_top(w, b);
@@ -208,7 +201,7 @@ static void write_blocks(const writer *w, const build *b)
     bool closed = false;
     for (int32_t k = 0; k < m->blocks; k++) {
         const build_block *s = &m->block[k];
-        heading(w, k ? "" : "surface");
+        mps__check_heading(w, k ? "" : "surface");
         fprintf(w->file, "solid '%s' stands in it, %c = %.4g", b->solid[s->solid].name,
                 "xyz"[m->axis], s -> lo);
         if (s->hi - s->lo > 0.01 * b->dp) fprintf(w->file, " .. %.4g", s->hi);
@@ -216,7 +209,7 @@ static void write_blocks(const writer *w, const build *b)
         closed = closed || s->across;
     }
     if (!closed || !(m->open > 0)) return;
-    heading(w, "");
+    mps__check_heading(w, "");
     fprintf(w->file,
             "if no liquid passes below or through them, the first period of the longest open "
             "stretch, %.4g m, is %.4g s\n",
@@ -230,7 +223,7 @@ static void write_other_axis(const writer *w, const build *b)
     const int other = 2 - m->axis;
     const form *t = &b->tank.form;
     const double k = acos(-1.0) / (t->hi[other] - t->lo[other]);
-    heading(w, "");
+    mps__check_heading(w, "");
     fprintf(w->file, "along %c: T1 %.4g s, estimated by length %.4g m and depth %.4g m\n",
             "xyz"[other], 2 * acos(-1.0) / sqrt(b->gravity * k * tanh(k * m->depth)),
             t->hi[other] - t->lo[other], m->depth);
@@ -240,11 +233,11 @@ static void write_modes(const writer *w, const build *b)
 {
     const build_modes *m = &b->modes;
     if (m->count == 0) return;
-    heading(w, "periods");
+    mps__check_heading(w, "periods");
     for (int32_t i = 0; i < m->count; i++)
         fprintf(w->file, "%sT%d %.4g s", i ? ", " : "", (int)i + 1, m->period[i]);
     fprintf(w->file, " (waves along %c)\n", "xyz"[m->axis]);
-    heading(w, "");
+    mps__check_heading(w, "");
     fprintf(w->file, "by %s%s\n", m->how, mps__modes_without(b));
     if (b->dim == 3) write_other_axis(w, b);
     write_blocks(w, b);
@@ -254,13 +247,18 @@ static void write_motion(const writer *w, const build *b)
 {
     const build_motion *m = b->motion;
     const double degree = 180 / acos(-1.0);
-    heading(w, "motion");
+    mps__check_heading(w, "motion");
+    if (b->body) {
+        fprintf(w->file, "that of the body\n");
+        mps__check_write_body(w, b);
+        return;
+    }
     if (!m) {
         fprintf(w->file, "none\n");
         return;
     }
     fprintf(w->file, "centre ");
-    write_place(w, b, m->centre);
+    mps__check_place(w, b, m->centre);
     if (m->rows > 0) fprintf(w->file, ", %lld rows of %s, ", (long long)m->rows, m->file);
     if (m->rows > 0 && m->step_most > m->step_least * (1 + 1e-6))
         fprintf(w->file, "%.4g to %.4g s apart", m->step_least, m->step_most);
@@ -273,7 +271,7 @@ static void write_motion(const writer *w, const build *b)
         const bool turn = d >= MPS_SHIP_ROLL;
         const double *most = m->largest[d], f = turn ? degree : 1;
         if (!m->used[d]) continue;
-        heading(w, "");
+        mps__check_heading(w, "");
         fprintf(w->file, "%s: at most %.3g %s, %.3g %s/s, %.3g %s/s2\n", mps__degrees[d],
                 f * most[0], turn ? "deg" : "m", f * most[1], turn ? "deg" : "m", f * most[2],
                 turn ? "deg" : "m");
@@ -285,7 +283,7 @@ static void write_sensors(const writer *w, const build *b)
     static const char *const kind[] = {"wall pressure", "pressure", "gauge", "force", "measure"};
     for (int32_t i = 0; i < b->sensors; i++) {
         const build_sensor *s = &b->sensor[i];
-        heading(w, i ? "" : "sensors");
+        mps__check_heading(w, i ? "" : "sensors");
         if (s->kind == SENSOR_VALUE) {
             fprintf(w->file, "%s: %s\n", s->name, s->about);
             continue;
@@ -293,7 +291,7 @@ static void write_sensors(const writer *w, const build *b)
         fprintf(w->file, "%s: %s", s->name, kind[s->kind]);
         if (s->kind != SENSOR_MEASURE) {
             fprintf(w->file, s->kind == SENSOR_FORCE ? " about " : " at ");
-            write_place(w, b, s->at);
+            mps__check_place(w, b, s->at);
         }
         if (s->part[0]) fprintf(w->file, " on '%s'", s->part);
         if (s->kind == SENSOR_WALL) fprintf(w->file, ", %.4g m wide", s->diameter);
@@ -374,7 +372,7 @@ static void write_rate(const writer *w, const build *b, double dt)
     const tree_node *output = mps__tree_find(b->root, "output");
     const double rate = mps__read_number(b->c, output, "rate", 1000);
     if (dt * rate < 2) return;
-    heading(w, "rows");
+    mps__check_heading(w, "rows");
     fprintf(
         w->file,
         "%.4g Hz: about %.2g rows of probes.csv in each step, with the same values; 'output.rate: "
@@ -411,7 +409,7 @@ static void write_cost(const writer *w, build *b)
 {
     mps_step_info info;
     mps_step_info_init(&info, sizeof info);
-    heading(w, "run");
+    mps__check_heading(w, "run");
     fprintf(w->file, "%.5g s", b->until);
     if (b->modes.count) fprintf(w->file, " = %.3g T1", b->until / b->modes.period[0]);
     double took = 0;
@@ -424,7 +422,7 @@ static void write_cost(const writer *w, build *b)
     if (status < 0) {
         is_done(b, status);
         fprintf(w->file, "\n");
-        heading(w, "warning");
+        mps__check_heading(w, "warning");
         fprintf(w->file, "the first steps fail: %s\n", mps_sim_error(b->sim));
         return;
     }
@@ -433,7 +431,7 @@ static void write_cost(const writer *w, build *b)
     if (f.fast < 0.99 * f.calm) fprintf(w->file, ", %.2g s in liquid of %.2g m/s", f.fast, f.speed);
     fprintf(w->file, "\n");
     write_rate(w, b, f.calm);
-    heading(w, "cost");
+    mps__check_heading(w, "cost");
     write_span(w, f.least, f.most);
     fprintf(w->file,
             ": calm to violent; outputs apart (%.2g s a step at rest, %d steps measured), %.0f MB "

@@ -62,7 +62,8 @@ static bool take(build *b, liquid *l, bool surface)
 /* Along x but for motions across it; without a motion along the longer side. */
 static int32_t wave_axis(const build *b)
 {
-    const tree_node *motion = mps__tree_find(b->root, "motion");
+    const tree_node *given = mps__tree_find(b->root, "motion"),
+                    *motion = given ? given : mps__tree_find(b->root, "body");
     if (b->dim == 2) return 0;
     const int32_t forward = motion ? mps__read_choice(b->c, motion, "forward", 0) : 0;
     const bool along_z = forward % 2 == 1; /* x, z, -x, -z */

@@ -10,7 +10,7 @@ const char *const mps__degrees[MOTION_DEGREES] = {"surge", "sway", "heave", "rol
 /* ---- reading ---- */
 
 /* omega, from whichever of the three is given; NAN after a message. */
-static double read_omega(build *b, const tree_node *node, const char *name)
+static double read_omega(build *b, const build_motion *m, const tree_node *node, const char *name)
 {
     static const char *const key[] = {"omega", "period", "frequency"};
     const double turn = 2 * acos(-1.0);
@@ -19,11 +19,12 @@ static double read_omega(build *b, const tree_node *node, const char *name)
         if (!mps__tree_find(node, key[i])) continue;
         if (chosen >= 0)
             mps__case_say(b->c, mps__tree_find(node, key[i]), false,
-                          "motion.%s: give one of omega, period and frequency", name);
+                          "%s.%s: give one of omega, period and frequency", m->of, name);
         chosen = i;
     }
     if (chosen < 0)
-        mps__case_say(b->c, node, false, "motion.%s: omega, period or frequency is needed", name);
+        mps__case_say(b->c, node, false, "%s.%s: omega, period or frequency is needed", m->of,
+                      name);
     const double value = chosen < 0 ? NAN : mps__read_number(b->c, node, key[chosen], NAN);
     return chosen == 0 ? value : chosen == 1 ? turn / value : turn * value;
 }
@@ -59,14 +60,23 @@ static void read_harmonic(build *b, build_motion *m, const tree_node *node, int3
     }
     h.form = mps__read_choice(b->c, node, "form", 0);
     h.amplitude = mps__read_number(b->c, node, "amplitude", NAN);
-    h.omega = read_omega(b, node, name);
+    h.omega = read_omega(b, m, node, name);
+    if (mps__tree_find(node, "slope"))
+        h.amplitude = mps__read_number(b->c, node, "slope", NAN) * b->gravity / (h.omega * h.omega);
     if (h.form == 0) h.phase = mps__read_number(b->c, node, "phase", 0);
     if (mps__case_failed(b->c)) return;
     h.ramp = read_ramp(b, node, h.omega);
     if (isnan(h.amplitude))
-        mps__case_say(b->c, node, false, "motion.%s: amplitude is needed", name);
+        mps__case_say(b->c, node, false, "%s.%s: amplitude is needed", m->of, name);
     else
         m->harmonic[m->count++] = h;
+}
+
+void mps__harmonics_read(build *b, build_motion *m, const tree_node *node, int32_t degree)
+{
+    const tree_node *at = node->kind == TREE_LIST ? node->first : node;
+    for (; at && !mps__case_failed(b->c); at = at == node ? NULL : at->next)
+        read_harmonic(b, m, at, degree);
 }
 
 static void read_degree(build *b, build_motion *m, const tree_node *map, int32_t degree)
@@ -75,9 +85,7 @@ static void read_degree(build *b, build_motion *m, const tree_node *map, int32_t
     if (!node) return;
     m->used[degree] = true;
     mps__degree_check(b, m, node, degree);
-    const tree_node *at = node->kind == TREE_LIST ? node->first : node;
-    for (; at && !mps__case_failed(b->c); at = at == node ? NULL : at->next)
-        read_harmonic(b, m, at, degree);
+    mps__harmonics_read(b, m, node, degree);
 }
 
 static void read_order(build *b, build_motion *m, const tree_node *map)
@@ -94,15 +102,19 @@ static void read_order(build *b, build_motion *m, const tree_node *map)
             }
     if (words != 3 || seen != (1 << 3 | 1 << 4 | 1 << 5))
         mps__case_say(b->c, mps__tree_find(map, "order"), false,
-                      "motion.order: must be roll, pitch and yaw, each once, the first rotation "
-                      "first; usual is 'yaw pitch roll'");
+                      "%s.order: must be roll, pitch and yaw, each once, the first rotation "
+                      "first; usual is 'yaw pitch roll'",
+                      m->of);
 }
 
 /* "x forward, y port, z up": the third word of each pair tells what it is. */
-static void read_ship(build *b, build_motion *m, const tree_node *map)
+void mps__ship_read(build *b, build_motion *m, const tree_node *map)
 {
     static const double forward[4][3] = {{1, 0, 0}, {0, 0, 1}, {-1, 0, 0}, {0, 0, -1}};
     mps_ship_init(&m->ship, sizeof m->ship);
+    m->dim = b->dim;
+    if (mps__read_numbers(b->c, map, "centre", 3, m->centre) == 2)
+        m->centre[2] = mps__build_middle(b);
     const int32_t way = mps__read_choice(b->c, map, "forward", b->dim == 2 ? 1 : 0);
     memcpy(m->ship.forward, forward[way], sizeof forward[way]);
     m->has_forward = mps__tree_find(map, "forward") != NULL;
@@ -153,10 +165,10 @@ void mps__degree_check(build *b, const build_motion *m, const tree_node *at, int
     mps__degree_to_lab(m, degree, &dof, &sign);
     if (dof != MPS_MOVE_X && dof != MPS_MOVE_Y && dof != MPS_ROTATE_Z)
         mps__case_say(b->c, at, false,
-                      "motion.%s: moves nothing in the plane x, y of a 2-D case, where the bow is "
+                      "%s.%s: moves nothing in the plane x, y of a 2-D case, where the bow is "
                       "along %s%s: there are %s",
-                      mps__degrees[degree], along ? "x" : "z",
-                      m->has_forward ? "" : " without 'motion.forward'",
+                      m->of, mps__degrees[degree], along ? "x" : "z",
+                      m->has_forward ? "" : " without 'forward'",
                       along ? "surge (along x), heave (along y) and pitch; for a section across "
                               "the ship give 'forward: z'"
                       : m->has_forward
@@ -168,7 +180,7 @@ void mps__degree_check(build *b, const build_motion *m, const tree_node *at, int
         mps__degree_to_lab(m, d, &other, &sign);
         if (m->used[d] && other == dof)
             mps__case_say(b->c, at, false,
-                          "motion.%s: is the same motion as '%s' in a 2-D case; remove one",
+                          "%s.%s: is the same motion as '%s' in a 2-D case; remove one", m->of,
                           mps__degrees[degree], mps__degrees[d]);
     }
 }
@@ -210,7 +222,7 @@ static int ship_at(void *user, double t, mps_motion_state *state)
 
 /* ---- setting ---- */
 
-static double shortest_period(const build_motion *m)
+double mps__shortest_period(const build_motion *m)
 {
     double least = INFINITY;
     for (int32_t i = 0; i < m->count; i++) {
@@ -223,7 +235,7 @@ static double shortest_period(const build_motion *m)
 static void set_harmonics(build *b, build_motion *m, const tree_node *map)
 {
     if (!is_sum_of_harmonics(m)) {
-        m->dt_max = fmin(shortest_period(m), b->until) / 20;
+        m->dt_max = fmin(mps__shortest_period(m), b->until) / 20;
         mps__build_try(b, mps_motion_callback_set(b->sim, ship_at, m), map, "motion");
         return;
     }
@@ -270,7 +282,7 @@ static void set_table(build *b, build_motion *m, const tree_node *map)
 
 static void measure_harmonics(build_motion *m, double until)
 {
-    const double step = fmin(shortest_period(m) / 40, until / 1000);
+    const double step = fmin(mps__shortest_period(m) / 40, until / 1000);
     const int64_t count = step > 0 && until / step < 1e6 ? (int64_t)(until / step) : 1000000;
     for (int64_t i = 0; i <= count; i++)
         for (int32_t d = 0; d < MOTION_DEGREES; d++) {
@@ -310,10 +322,8 @@ void mps__build_motion(build *b)
     if (!m || !m->harmonic) return;
     const bool file = mps__tree_find(map, "file") != NULL;
     b->until = mps__read_number(b->c, mps__tree_find(b->root, "run"), "until", NAN);
-    m->dim = b->dim;
-    if (mps__read_numbers(b->c, map, "centre", 3, m->centre) == 2)
-        m->centre[2] = mps__build_middle(b);
-    read_ship(b, m, map);
+    m->of = "motion";
+    mps__ship_read(b, m, map);
     for (int32_t d = 0; d < MOTION_DEGREES && !mps__case_failed(b->c); d++)
         read_degree(b, m, map, d);
     if (file && m->count > 0)

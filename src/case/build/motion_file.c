@@ -51,7 +51,8 @@ static bool choose(build *b, build_motion *m, const tree_node *map, const csv *t
         found++;
         c->factor[1 + d] = mps__csv_factor(
             b->c, at_of(map, mps__degrees[d]), t, c->degree[d],
-            d < MPS_SHIP_ROLL ? UNIT_LENGTH : UNIT_ANGLE,
+            d < MPS_SHIP_ROLL ? (m->load ? UNIT_FORCE : UNIT_LENGTH)
+                              : (m->load ? UNIT_MOMENT : UNIT_ANGLE),
             mps__read_text(b->c, mps__tree_find(map, "units"), mps__degrees[d], NULL));
         m->used[d] = true;
         mps__degree_check(b, m, at_of(map, mps__degrees[d]), d);
@@ -60,7 +61,7 @@ static bool choose(build *b, build_motion *m, const tree_node *map, const csv *t
         char names[BUILD_TEXT];
         mps__csv_names(t, names, sizeof names);
         mps__case_say(b->c, mps__tree_find(map, "file"), false,
-                      "motion.columns is needed, e.g. {roll: PHI}: the file has %s", names);
+                      "%s.columns is needed, e.g. {roll: PHI}: the file has %s", m->of, names);
     }
     return !mps__case_failed(b->c);
 }
@@ -105,11 +106,10 @@ static bool check_times(build *b, const tree_node *node, const csv *t, const bui
         }
     const double last = m->t[m->rows - 1];
     if (m->rows < 2 || m->t[0] > 0 || last < until * (1 - 1e-12)) {
-        mps__case_say(
-            b->c, node, false,
-            "motion.file: has times from %g s to %g s; the run takes %g s to %g s ('from' "
-            "and run.until)",
-            m->t[0] + from, last + from, from, from + until);
+        mps__case_say(b->c, node, false,
+                      "%s.file: has times from %g s to %g s; the run takes %g s to %g s ('from' "
+                      "and run.until)",
+                      m->of, m->t[0] + from, last + from, from, from + until);
         return false;
     }
     return true;
@@ -121,7 +121,7 @@ bool mps__motion_file(build *b, build_motion *m, const tree_node *map)
     chosen c = {.time = -1};
     const tree_node *node = mps__tree_find(map, "file");
     const char *path = mps__read_path(b->c, map, "file");
-    if (b->dim == 3 && !mps__tree_find(map, "axes"))
+    if (b->dim == 3 && !m->load && !mps__tree_find(map, "axes"))
         mps__case_say(b->c, node, false,
                       "motion.axes is needed for a file in 3-D: 'x forward, y port, z up' or 'x "
                       "forward, y starboard, z down'");

@@ -2,7 +2,7 @@
 /* Known values beside the results, figures between two times, and what summary.json says about the case. */
 #include "build.h"
 #include "csv.h"
-#include "ship_motion.h"
+#include "body.h"
 #include "units.h"
 #include <math.h>
 #include <stdio.h>
@@ -257,7 +257,7 @@ void mps__build_inputs(build *b)
         snprintf(text, sizeof text, "%s%s", b->modes.how, mps__modes_without(b));
         add_input(b, "T1 by", text);
     }
-    const double omega = motion_omega(b->motion);
+    const double omega = motion_omega(b->body ? &b->body->load : b->motion);
     if (isfinite(omega)) {
         snprintf(text, sizeof text, "%.9g rad/s", omega);
         add_input(b, "motion omega", text);

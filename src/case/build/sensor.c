@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Sensors: columns of probes.csv, in the order of the case. */
-#include "sensor.h"
+#include "sensor_load.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -230,16 +230,16 @@ void mps__sensor_box(const build *b, const char *measure, bool given, double (*b
 
 static void add_sensor(build *b, const tree_node *map)
 {
-    static const char *const kind[] = {"wall",  "panel", "row",    "pressure",
-                                       "gauge", "force", "measure"};
-    static void (*const add[])(const sensing *) = {add_wall,   mps__sensor_panel, mps__sensor_row,
-                                                   add_fluid,  add_gauge,         mps__sensor_force,
-                                                   add_measure};
+    static const char *const kind[] = {"wall",  "panel", "row",  "pressure",
+                                       "gauge", "force", "load", "measure"};
+    static void (*const add[])(const sensing *) = {
+        add_wall,  mps__sensor_panel, mps__sensor_row,  add_fluid,
+        add_gauge, mps__sensor_force, mps__sensor_load, add_measure};
     const sensing s = {b, map};
     if (b->sensors == BUILD_SENSORS)
         mps__case_say(b->c, map, false, "sensors: more than %d columns", BUILD_SENSORS);
     else
-        add[mps__build_kind(map, kind, 7)](&s);
+        add[mps__build_kind(map, kind, 8)](&s);
 }
 
 void mps__build_sensors(build *b)

@@ -12,6 +12,8 @@ enum { MOTION_PUSH = 2 };
 
 /* One harmonic of a degree of the ship, MPS_SHIP_SURGE .. MPS_SHIP_YAW, in mps_harmonic.dof. */
 typedef struct build_motion {
+    const char *of; /* key, for messages */
+    bool load;      /* forces and moments in place of shifts and turns */
     bool used[MOTION_DEGREES];
     int32_t count; /* harmonics */
     mps_harmonic *harmonic;
@@ -32,6 +34,12 @@ typedef struct build_motion {
 /* Word of each degree: "surge" ... */
 extern const char *const mps__degrees[MOTION_DEGREES];
 
+/* Centre and axes of the ship. */
+void mps__ship_read(build *b, build_motion *m, const tree_node *map);
+/* Harmonics of one degree: a map, or a list of maps. */
+void mps__harmonics_read(build *b, build_motion *m, const tree_node *node, int32_t degree);
+/* Of all harmonics and ramps [s]; infinite without any. */
+double mps__shortest_period(const build_motion *m);
 /* Add the harmonics of a spectrum of JONSWAP. */
 bool mps__spectrum_add(build *b, build_motion *m, const tree_node *node, mps_harmonic like);
 /* Value, rate and acceleration of one degree at a time. */

@@ -181,7 +181,8 @@ const mps__key *mps__key_elsewhere(const char *name)
 bool mps__group_is_of(const mps__key_group *group, const mps__key *entry)
 {
     char below[100]; /* of the pattern of the group, as a key of the group would be */
-    const int length = snprintf(below, sizeof below, "%s.x", group->path);
+    const int length = snprintf(below, sizeof below, "%s%sx", group->path,
+                                group->path[0] ? "." : "");
     const mps__key probe = {.path = below};
     return length < (int)sizeof below && mps__key_is_below(entry, &probe);
 }

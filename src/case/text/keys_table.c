@@ -66,9 +66,12 @@
         path, SHAPE_UNIT, units, 1, 1, "", NULL, false, false, otherwise, example, help \
     }
 
-#define MOVE "motion.surge|sway|heave"
-#define TURN "motion.roll|pitch|yaw"
-#define BOTH "motion.surge|sway|heave|roll|pitch|yaw"
+#define MOVE      "motion.surge|sway|heave"
+#define TURN      "motion.roll|pitch|yaw"
+#define BOTH      "motion.surge|sway|heave|roll|pitch|yaw"
+#define BODY_MOVE "body.surge|sway|heave"
+#define BODY_TURN "body.roll|pitch|yaw"
+#define BODY_LOAD "body.surge|sway|heave|roll|pitch|yaw.load"
 
 /* clang-format off */
 const mps__key mps__keys[] = {
@@ -168,6 +171,8 @@ const mps__key mps__keys[] = {
     TEXT("motion.order", "yaw pitch roll", "roll pitch yaw", "order of the angles, as rotations about axes that turn with the ship; 3-D"),
     MAPS(MOVE, "along the axes of the ship; 2-D: surge (along x) and heave. A list of such maps: their sum"),
     ONE(MOVE ".amplitude", UNIT_LENGTH, "", "", "20 mm", "amplitude"),
+    ONE(MOVE ".slope", UNIT_ANGLE, "", "", "0.25 deg",
+        "in place of the amplitude: that of the acceleration is g times it, like that of a slow roll"),
     ONE(MOVE ".acceleration", UNIT_ACCEL, "", "", "-19.62 m/s2", "constant acceleration from rest"),
     MAPS(TURN, "about the axes of the ship; 2-D: roll, counterclockwise; pitch with `forward: x`. A list: their sum"),
     ONE(TURN ".amplitude", UNIT_ANGLE, "", "", "4 deg", "amplitude"),
@@ -197,6 +202,53 @@ const mps__key mps__keys[] = {
     ONE("motion.from", UNIT_TIME, "", "", "1200 s", "time of the file at the start of the run; default: its first"),
     ONE("motion.ramp", UNIT_TIME, ">= 0", "0", "20 s", "over which the motion of the file grows from the pose at rest"),
 
+    MAP("body", "a rigid body that carries the tank, in place of a motion: the liquid and its loads move it; 2-D: all per metre of width"),
+    MANY("body.centre", UNIT_LENGTH, COUNT_DIM, COUNT_DIM, "", "0", "475 0 mm", "centre of rotation, of degrees and of moments, in the tank at rest"),
+    MUST("body.mass", UNIT_MASS, ">= 0", "100 kg", "mass of the body without the liquid"),
+    MANY("body.centre_of_mass", UNIT_LENGTH, COUNT_DIM, COUNT_DIM, "", "", "475 200 mm", "centre of mass without the liquid; default: the centre"),
+    MANY("body.inertia", UNIT_INERTIA, 1, 6, "", "0", "25 kg m2", "about the centre of mass; 3-D: about x, y, z of the tank, or these and xy, xz, yz"),
+    FLAG("body.gravity", "yes", "the weight of the body acts; no: buoyancy takes it, and the stiffness holds all restoring"),
+    WORD("body.axes", "x forward, y port, z up|x forward, y starboard, z down|x forward, y up, z starboard",
+         "x forward, y up, z starboard", "axes of the ship"),
+    WORD("body.forward", "x|z|-x|-z", "x", "direction of the bow in the axes of the tank; 2-D: z, a section across the ship, or x, one along it"),
+    TEXT("body.order", "yaw pitch roll", "roll pitch yaw", "order of the angles, as rotations about axes that turn with the ship; 3-D"),
+    MAP(BODY_MOVE, "this degree is free; others stay where they are. Axes as those of a motion"),
+    ONE(BODY_MOVE ".stiffness", UNIT_STIFFNESS, "", "0 N/m", "4 kN/m", "of a spring to the place at rest"),
+    MAP(BODY_TURN, "this degree is free; others stay where they are. Axes as those of a motion"),
+    ONE(BODY_TURN ".stiffness", UNIT_TURN_STIFFNESS, "", "0 N m/rad", "300 N m/rad", "of a spring to the place at rest"),
+    ONE("body.surge|sway|heave|roll|pitch|yaw.period", UNIT_TIME, "> 0", "", "1 T1",
+        "in place of the stiffness: natural period of the body without liquid, with its weight"),
+    ONE(BODY_MOVE ".damping", UNIT_DAMPING | UNIT_SHARE, ">= 0", "0", "5 %", "of a damper, or share of the critical one without liquid"),
+    ONE(BODY_TURN ".damping", UNIT_TURN_DAMPING | UNIT_SHARE, ">= 0", "0", "5 %", "of a damper, or share of the critical one without liquid"),
+    MAPS(BODY_MOVE ".load", "force along the degree, of waves or of a rig. A list of such maps: their sum"),
+    ONE(BODY_MOVE ".load.amplitude", UNIT_FORCE, "", "", "10 N", "amplitude"),
+    MAPS(BODY_TURN ".load", "moment, of waves or of a rig. A list of such maps: their sum"),
+    ONE(BODY_TURN ".load.amplitude", UNIT_MOMENT, "", "", "10 N m", "amplitude"),
+    ONE(BODY_LOAD ".omega", UNIT_OMEGA, "> 0", "", "6.469 rad/s", "angular frequency"),
+    ONE(BODY_LOAD ".period", UNIT_TIME, "> 0", "", "0.95 T1", "period"),
+    ONE(BODY_LOAD ".frequency", UNIT_FREQUENCY, "> 0", "", "0.496 Hz", "frequency"),
+    ONE(BODY_LOAD ".phase", UNIT_ANGLE, "", "0", "90 deg", "phase at t = 0"),
+    ONE(BODY_LOAD ".ramp", UNIT_TIME | UNIT_NONE, ">= 0", "0", "2", "over which the amplitude grows: a time, or a number of periods"),
+    MAP(BODY_MOVE ".load.jonswap", "irregular load: random phases, spectrum of JONSWAP"),
+    MUST(BODY_MOVE ".load.jonswap.significant", UNIT_FORCE, "> 0", "10 N", "significant amplitude: twice the standard deviation"),
+    MAP(BODY_TURN ".load.jonswap", "irregular load: random phases, spectrum of JONSWAP"),
+    MUST(BODY_TURN ".load.jonswap.significant", UNIT_MOMENT, "> 0", "10 N m", "significant amplitude: twice the standard deviation"),
+    MUST(BODY_LOAD ".jonswap.peak", UNIT_TIME, "> 0", "8 s", "period of the peak of the spectrum"),
+    ONE(BODY_LOAD ".jonswap.gamma", UNIT_NONE, "1 .. 10", "3.3", "3.3", "peakedness"),
+    WHOLE(BODY_LOAD ".jonswap.seed", "0 .. 1000000", "1", "7", "of the phases; the same seed, the same load"),
+    WHOLE(BODY_LOAD ".jonswap.components", "10 .. 1000", "100", "200", "harmonics"),
+    MAP("body.load", "loads from a table, linear between its rows, beside those of the degrees"),
+    {"body.load.file", SHAPE_FILE, 0, 1, 1, "", NULL, true, false, "", "waves.csv", "table: names in its first line, units in brackets, e.g. MX[N m]"},
+    MAP("body.load.columns", "names of columns of the file"),
+    TEXT("body.load.columns.time", "time", "time", "column of the time"),
+    TEXT("body.load.columns.surge|sway|heave|roll|pitch|yaw", "", "MX", "column of the load along this degree"),
+    MAP("body.load.units", "units of columns that have none in the file"),
+    AUNIT("body.load.units.time", UNIT_TIME, "", "s", "unit of the time"),
+    AUNIT("body.load.units.surge|sway|heave", UNIT_FORCE, "", "N", "unit of this column"),
+    AUNIT("body.load.units.roll|pitch|yaw", UNIT_MOMENT, "", "N m", "unit of this column"),
+    ONE("body.load.from", UNIT_TIME, "", "", "1200 s", "time of the file at the start of the run; default: its first"),
+    ONE("body.load.ramp", UNIT_TIME, ">= 0", "0", "20 s", "over which the load of the file grows"),
+
     NAMES("sensors", "what is measured; each is a column, or several, of probes.csv"),
     ITEM("sensors.*", "a sensor; it moves with the tank"),
     MANY("sensors.*.wall", UNIT_LENGTH, COUNT_DIM, COUNT_DIM, "", "", "0 50 mm", "pressure at a place on a wall"),
@@ -206,6 +258,8 @@ const mps__key mps__keys[] = {
     MANY("sensors.*.gauge", UNIT_LENGTH, 1, 3, "", "", "1 dp",
          "surface over x, or x and z, negative: from the far wall; with y: from there up"),
     TEXT("sensors.*.force", "", "tank", "force and moment on a part: tank, tank.x0, name of a solid; all: on all walls"),
+    WORD("sensors.*.load", "momentum|walls", "momentum",
+         "load of the liquid in each step, by degrees of the ship: of its momentum, or of wall pressures"),
     TEXT("sensors.*.measure", "", "trapped gas", "a quantity of the list of measures"),
     ONE("sensors.*.diameter", UNIT_LENGTH, "> 0", "1 dp", "10 mm", "of a wall sensor; of the band of a gauge, 3 dp there"),
     MANY("sensors.*.normal", UNIT_NONE, COUNT_DIM, COUNT_DIM, "", "", "1 0", "direction from the wall into the liquid, where two walls are near"),
@@ -218,7 +272,7 @@ const mps__key mps__keys[] = {
     ONE("sensors.*.length", UNIT_LENGTH, "> 0", "", "0.5 m", "of the line of a gauge; default: to the end of the domain"),
     FLAG("sensors.*.drops", "no", "a gauge counts drops and films"),
     ONE("sensors.*.level", UNIT_LENGTH, "", "", "0.25 m", "of a gauge: its zero, default the still level; of a measure: where it asks for one"),
-    MANY("sensors.*.about", UNIT_LENGTH, COUNT_DIM, COUNT_DIM, "", "0", "475 0 mm", "centre of moments, or of a measure"),
+    MANY("sensors.*.about", UNIT_LENGTH, COUNT_DIM, COUNT_DIM, "", "0", "475 0 mm", "centre of moments, or of a measure; of a load: default that of the motion"),
     WORD("sensors.*.component", "all|x|y|z|mx|my|mz", "all", "of a force"),
     WORD("sensors.*.axes", "lab|ship|body", "lab", "of a force: axes of the lab, of the ship at rest, axes that turn with the ship"),
     TEXT("sensors.*.fluid", "", "air", "of a measure or gauge: the fluid it asks for"),
@@ -321,13 +375,18 @@ const mps__key mps__keys[] = {
 };
 
 const mps__key_group mps__key_groups[] = {
+    {"", "motion|body", false},
+    {"body.surge|sway|heave|roll|pitch|yaw", "stiffness|period", false},
+    {BODY_LOAD, "omega|period|frequency|jonswap", true},
+    {BODY_LOAD, "amplitude|jonswap", true},
     {"tank", "size|polygon|cylinder|sphere|stl", true},
     {"solids.*", "box|plate|prism|sphere|cylinder|stl", true},
     {"fill.*", "depth|box|polygon|sphere|wave", true},
     {"fill.*.start", "velocity|standing_wave|oscillation", true},
     {BOTH, "omega|period|frequency|acceleration|jonswap", true},
-    {BOTH, "amplitude|acceleration|jonswap", true},
-    {"sensors.*", "wall|panel|row|pressure|gauge|force|measure", true},
+    {MOVE, "amplitude|slope|acceleration|jonswap", true},
+    {TURN, "amplitude|acceleration|jonswap", true},
+    {"sensors.*", "wall|panel|row|pressure|gauge|force|load|measure", true},
     {"reference.*", "file|times", true},
 };
 

@@ -204,6 +204,21 @@ static void put_required(mps__out *o, const mps__key *parent)
     mps__out_put(o, "]");
 }
 
+/* A further choice: none of the keys. */
+static void put_none(mps__out *o, const char *keys)
+{
+    const char *word, *comma = "";
+    size_t length;
+    mps__out_put(o, ",{\"not\":{\"anyOf\":[");
+    for (int32_t i = 0; (length = mps__words_get(keys, i, &word)) > 0; i++) {
+        mps__out_put(o, "%s{\"required\":[", comma);
+        put_string(o, word, length);
+        mps__out_put(o, "]}");
+        comma = ",";
+    }
+    mps__out_put(o, "]}}");
+}
+
 static void put_groups(mps__out *o, const mps__key *parent)
 {
     const char *comma = "", *word;
@@ -219,6 +234,7 @@ static void put_groups(mps__out *o, const mps__key *parent)
             mps__out_put(o, "]}");
             comma = ",";
         }
+        if (!mps__key_groups[k].required) put_none(o, mps__key_groups[k].keys);
         mps__out_put(o, "]}");
     }
     mps__out_put(o, "]");

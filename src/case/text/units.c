@@ -29,7 +29,12 @@ static const mps__unit units[] = {
     {"cP", UNIT_DYNAMIC, -3, 1, 1, SCALE_NONE},
     {"m2/s", UNIT_KINEMATIC, 0, 1, 1, SCALE_NONE}, {"mm2/s", UNIT_KINEMATIC, -6, 1, 1, SCALE_NONE}, {"cSt", UNIT_KINEMATIC, -6, 1, 1, SCALE_NONE},
     {"N/m", UNIT_TENSION | UNIT_STIFFNESS, 0, 1, 1, SCALE_NONE}, {"mN/m", UNIT_TENSION, -3, 1, 1, SCALE_NONE},
-    {"kN/m", UNIT_STIFFNESS, 3, 1, 1, SCALE_NONE}, {"N m/rad", UNIT_STIFFNESS, 0, 1, 1, SCALE_NONE},
+    {"kN/m", UNIT_STIFFNESS, 3, 1, 1, SCALE_NONE}, {"MN/m", UNIT_STIFFNESS, 6, 1, 1, SCALE_NONE},
+    {"N m/rad", UNIT_TURN_STIFFNESS, 0, 1, 1, SCALE_NONE}, {"kN m/rad", UNIT_TURN_STIFFNESS, 3, 1, 1, SCALE_NONE},
+    {"MN m/rad", UNIT_TURN_STIFFNESS, 6, 1, 1, SCALE_NONE},
+    {"N s/m", UNIT_DAMPING, 0, 1, 1, SCALE_NONE}, {"kN s/m", UNIT_DAMPING, 3, 1, 1, SCALE_NONE}, {"MN s/m", UNIT_DAMPING, 6, 1, 1, SCALE_NONE},
+    {"N m s/rad", UNIT_TURN_DAMPING, 0, 1, 1, SCALE_NONE}, {"kN m s/rad", UNIT_TURN_DAMPING, 3, 1, 1, SCALE_NONE},
+    {"MN m s/rad", UNIT_TURN_DAMPING, 6, 1, 1, SCALE_NONE},
     {"Pa", UNIT_PRESSURE, 0, 1, 1, SCALE_NONE}, {"hPa", UNIT_PRESSURE, 2, 1, 1, SCALE_NONE}, {"kPa", UNIT_PRESSURE, 3, 1, 1, SCALE_NONE},
     {"MPa", UNIT_PRESSURE, 6, 1, 1, SCALE_NONE}, {"mbar", UNIT_PRESSURE, 2, 1, 1, SCALE_NONE}, {"bar", UNIT_PRESSURE, 5, 1, 1, SCALE_NONE},
     {"kg", UNIT_MASS, 0, 1, 1, SCALE_NONE}, {"g", UNIT_MASS, -3, 1, 1, SCALE_NONE}, {"t", UNIT_MASS, 3, 1, 1, SCALE_NONE},
@@ -44,7 +49,8 @@ static const mps__unit units[] = {
 static const char *const kind_names[UNIT_KINDS] = {
     "a number", "a length", "a time", "an angle", "an angular velocity", "a frequency", "a velocity", "an acceleration", "a density",
     "a dynamic viscosity", "a kinematic viscosity", "a surface tension", "a pressure", "a mass", "a moment of inertia", "a stiffness", "a force",
-    "a moment", "a share", "a number of bytes", "an angular acceleration", "a volume", "an area"};
+    "a moment", "a share", "a number of bytes", "an angular acceleration", "a volume", "an area",
+    "a damping", "a stiffness of a turn", "a damping of a turn"};
 /* clang-format on */
 
 enum { UNITS = sizeof units / sizeof units[0] };

@@ -31,9 +31,13 @@
 #define UNIT_ANG_ACCEL (UINT64_C(1) << 20)
 #define UNIT_VOLUME    (UINT64_C(1) << 21)
 #define UNIT_AREA      (UINT64_C(1) << 22)
-#define UNIT_KINDS     23
-#define UNIT_VISCOSITY (UNIT_DYNAMIC | UNIT_KINEMATIC)
-#define UNIT_ANY       ((UINT64_C(1) << UNIT_KINDS) - 1)
+#define UNIT_DAMPING   (UINT64_C(1) << 23)
+/* of turns */
+#define UNIT_TURN_STIFFNESS (UINT64_C(1) << 24)
+#define UNIT_TURN_DAMPING   (UINT64_C(1) << 25)
+#define UNIT_KINDS          26
+#define UNIT_VISCOSITY      (UNIT_DYNAMIC | UNIT_KINEMATIC)
+#define UNIT_ANY            ((UINT64_C(1) << UNIT_KINDS) - 1)
 
 /* What a unit is relative to. */
 typedef enum unit_scale { SCALE_NONE, SCALE_DP, SCALE_T1, SCALE_WHOLE } unit_scale;

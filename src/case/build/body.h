@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A rigid body that carries the tank. */
+#ifndef MPS_CASE_BODY_H
+#define MPS_CASE_BODY_H
+
+#include "ship_motion.h"
+
+typedef struct build_body {
+    mps_body body;
+    build_motion axes, load; /* load: harmonics or a table, by degrees of the ship */
+    /* By degree of the ship, of the body without liquid: mass or inertia about the centre, stiffness with the part of its weight, damping. */
+    double mass[MOTION_DEGREES], stiffness[MOTION_DEGREES], damping[MOTION_DEGREES];
+} build_body;
+
+/* Mass, centre of mass and inertia about the centre of the liquid as if it were solid. */
+typedef struct frozen {
+    double mass, place[3], inertia[3]; /* inertia about the axes x, y, z through the centre */
+} frozen;
+
+bool mps__body_frozen(const build *b, frozen *f);
+/* Natural period of a degree [s], without liquid (NULL) or with solid liquid; nan: nothing restores. */
+double mps__body_period(const build *b, int32_t degree, const frozen *liquid);
+
+#endif

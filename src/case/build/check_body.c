@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What mps check says about a body: mass, and natural periods with and without liquid. */
+#include "check.h"
+#include "pendulum.h"
+#include <math.h>
+
+static void write_period(const writer *w, const char *how, double period, const build *b)
+{
+    if (isnan(period))
+        fprintf(w->file, "%s: nothing restores", how);
+    else
+        fprintf(w->file, "%s %.4g s", how, period);
+    if (b->modes.count && isfinite(period))
+        fprintf(w->file, " = %.3g T1", period / b->modes.period[0]);
+}
+
+/* The two lowest periods with the moving liquid, of a box. */
+static void write_coupled(const writer *w, const build *b, int32_t degree)
+{
+    pendulum p;
+    double period[2], sign;
+    int32_t dof;
+    mps__degree_to_lab(b->motion, degree, &dof, &sign);
+    const bool along = dof == b->modes.axis, turn = dof == MPS_ROTATE_Z - b->modes.axis;
+    if ((!along && !turn) || !mps__pendulum_make(b, b->motion->centre, &p)) return;
+    fprintf(w->file, "\n");
+    mps__check_heading(w, "");
+    if (b->body->stiffness[degree] + mps__pendulum_stiffness(&p, turn, 0) < 0) {
+        fprintf(w->file, "    with the moving liquid it falls over: that takes %.4g N m/rad",
+                -mps__pendulum_stiffness(&p, turn, 0));
+        return;
+    }
+    mps__pendulum_periods(&p, turn, b->body->mass[degree], b->body->stiffness[degree], period);
+    write_period(w, "    with the moving liquid, by linear theory", period[0], b);
+    write_period(w, " and", period[1], b);
+}
+
+void mps__check_write_body(const writer *w, const build *b)
+{
+    const build_body *body = b->body;
+    const char *width = b->dim == 2 ? "/m" : "";
+    frozen liquid;
+    if (!mps__body_frozen(b, &liquid)) return;
+    mps__check_heading(w, "body");
+    fprintf(w->file, "mass %.4g kg%s at ", body->body.mass, width);
+    mps__check_place(w, b, body->body.centre_of_mass);
+    fprintf(w->file, ", centre ");
+    mps__check_place(w, b, body->axes.centre);
+    fprintf(w->file, "; liquid %.4g kg%s at ", liquid.mass, width);
+    mps__check_place(w, b, liquid.place);
+    fprintf(w->file, "\n");
+    for (int32_t d = 0; d < MOTION_DEGREES; d++) {
+        if (!body->axes.used[d]) continue;
+        const bool turn = d >= MPS_SHIP_ROLL;
+        mps__check_heading(w, "");
+        fprintf(w->file, "%s: %s %.4g %s, restoring %.4g %s, damping %.4g %s\n", mps__degrees[d],
+                turn ? "inertia about the centre" : "mass", body->mass[d], turn ? "kg m2" : "kg",
+                body->stiffness[d], turn ? "N m/rad" : "N/m", body->damping[d],
+                turn ? "N m s/rad" : "N s/m");
+        mps__check_heading(w, "");
+        write_period(w, "    natural period without liquid", mps__body_period(b, d, NULL), b);
+        write_period(w, "; with the liquid frozen", mps__body_period(b, d, &liquid), b);
+        write_coupled(w, b, d);
+        fprintf(w->file, "\n");
+    }
+}
