@@ -79,66 +79,7 @@ const mps__pass mps__pass_begin_load = {.name = "begin_load",
                                         .uses = begin_uses,
                                         .run = begin_load};
 
-/* ---- half cells ---- */
-
-typedef struct half_fields {
-    mps__halves halves;
-    const double *tank;
-    double at[3];
-} half_fields;
-
-/* Pressures give the liquid its acceleration less gravity. */
-MPS_ROW void add_half(const int dim, const mps_view *v, const half_fields *f, int64_t i,
-                      double *term)
-{
-    double n[3] = {0}, tank[3] = {0}, a[3], r[3] = {0}, push[3] = {0};
-    const double mass = mps__half_cell(dim, v, &f->halves, i, n);
-    if (mass == 0) return;
-    for (int d = 0; d < dim; d++) tank[d] = f->tank[i * dim + d] - v->g[d];
-    mps__half_acceleration(dim, v, &f->halves, i, tank, n, a);
-    for (int d = 0; d < dim; d++) {
-        push[d] = -mass * a[d];
-        r[d] = v->x[i * dim + d] - f->at[d];
-        term[d] = push[d];
-    }
-    mps__cross(r, push, term + 3);
-}
-MPS_SUMS(add_halves, add_half, half_fields)
-
-enum { ACCELERATION, TANK, DENSITY, REGION, CORRECTION, USES };
-
-static mps_status sum_half_cells(mps_stage *s)
-{
-    mps__step *q = mps__step_of(s);
-    if (q->load.watch == MPS_LOAD_NONE) return MPS_OK;
-    half_fields f = {.tank = s->data[TANK],
-                     .halves = {.density = s->data[DENSITY],
-                                .wetted = s->view->flux.wetted,
-                                .region = s->data[REGION],
-                                .a = s->data[ACCELERATION],
-                                .stride = s->view->dim}};
-    memcpy(f.at, q->load.at, sizeof f.at);
-    mps_stage_sum(s, 6, &add_halves, &f, q->load.force);
-    return MPS_OK;
-}
-
-static const mps_use half_uses[USES] = {
-    [ACCELERATION] = {"acceleration", MPS_USE_NEIGHBOURS},
-    [TANK] = {"tank_acceleration", MPS_USE_READ},
-    [DENSITY] = {"pressure_density", MPS_USE_READ},
-    [REGION] = {"region", MPS_USE_NEIGHBOURS},
-    /* it lives until the added mass has been computed */
-    [CORRECTION] = {"correction", MPS_USE_READ | MPS_USE_OPTIONAL}};
-
-const mps__pass mps__pass_half_cells = {.name = "half_cells",
-                                        .hook = MPS_LOAD,
-                                        .place = MPS__AFTER_MODELS,
-                                        .stage = MPS_STAGE_CORRECT,
-                                        .use_count = USES,
-                                        .uses = half_uses,
-                                        .run = sum_half_cells};
-
-/* ---- the end of the step ---- */
+/* ---- acceleration of the tank ---- */
 
 /* Velocity of the centre of motion from one pose to another, and the angular one: the part of (R1 R0^T - 1)/dt without strain. */
 static void velocity_between(const mps__motion *m, const mps__pose *from, const mps__pose *to,
@@ -173,6 +114,69 @@ static void find_acceleration(const mps__step *q, double accel[6])
     for (int k = 0; k < 6; k++) accel[k] = (accel[k] - before[k]) / q->view.dt;
 }
 
+/* ---- half cells ---- */
+
+typedef struct half_fields {
+    mps__halves halves;
+    const double *tank;
+    double at[3], turn[3];
+} half_fields;
+
+/* Pressures give the liquid its acceleration less gravity. */
+MPS_ROW void add_half(const int dim, const mps_view *v, const half_fields *f, int64_t i,
+                      double *term)
+{
+    double n[3] = {0}, tank[3] = {0}, a[3], r[3] = {0}, push[3] = {0};
+    const double mass = mps__half_cell(dim, v, &f->halves, i, n);
+    if (mass == 0) return;
+    for (int d = 0; d < dim; d++) tank[d] = f->tank[i * dim + d] - v->g[d];
+    mps__half_acceleration(dim, v, &f->halves, i, tank, f->turn, n, a);
+    for (int d = 0; d < dim; d++) {
+        push[d] = -mass * a[d];
+        r[d] = v->x[i * dim + d] - f->at[d];
+        term[d] = push[d];
+    }
+    mps__cross(r, push, term + 3);
+}
+MPS_SUMS(add_halves, add_half, half_fields)
+
+enum { ACCELERATION, TANK, DENSITY, REGION, CORRECTION, USES };
+
+static mps_status sum_half_cells(mps_stage *s)
+{
+    mps__step *q = mps__step_of(s);
+    if (q->load.watch == MPS_LOAD_NONE) return MPS_OK;
+    half_fields f = {.tank = s->data[TANK],
+                     .halves = {.density = s->data[DENSITY],
+                                .wetted = s->view->flux.wetted,
+                                .region = s->data[REGION],
+                                .a = s->data[ACCELERATION],
+                                .stride = s->view->dim}};
+    find_acceleration(q, q->load.accel);
+    memcpy(f.at, q->load.at, sizeof f.at);
+    memcpy(f.turn, q->load.accel + 3, sizeof f.turn);
+    mps_stage_sum(s, 6, &add_halves, &f, q->load.force);
+    return MPS_OK;
+}
+
+static const mps_use half_uses[USES] = {
+    [ACCELERATION] = {"acceleration", MPS_USE_NEIGHBOURS},
+    [TANK] = {"tank_acceleration", MPS_USE_READ},
+    [DENSITY] = {"pressure_density", MPS_USE_READ},
+    [REGION] = {"region", MPS_USE_NEIGHBOURS},
+    /* it lives until the added mass has been computed */
+    [CORRECTION] = {"correction", MPS_USE_READ | MPS_USE_OPTIONAL}};
+
+const mps__pass mps__pass_half_cells = {.name = "half_cells",
+                                        .hook = MPS_LOAD,
+                                        .place = MPS__AFTER_MODELS,
+                                        .stage = MPS_STAGE_CORRECT,
+                                        .use_count = USES,
+                                        .uses = half_uses,
+                                        .run = sum_half_cells};
+
+/* ---- the end of the step ---- */
+
 void mps__step_load_end(mps__step *q)
 {
     mps__world *w = q->w;
@@ -184,7 +188,6 @@ void mps__step_load_end(mps__step *q)
         for (int d = 0; d < 3; d++) weight[d] = b[6] * g[d];
         mps__cross(b + 7, g, weight + 3);
         for (int k = 0; k < 6; k++) l->force[k] += weight[k] - (after[k] - b[k]) / q->view.dt;
-        find_acceleration(q, l->accel);
         l->dt = q->view.dt;
         l->known = true;
         if (l->has_mass) {
