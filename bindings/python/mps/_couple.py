@@ -41,9 +41,7 @@ class Coupling:
         """Load on the tank in the last step: mps_load, with mass as a matrix [6, 6]. About the centre of rotation unless given."""
         load = make(T.mps_load)
         self.check(c.mps_load_get(self.handle, None if centre is None else reals(centre, 3), byref(load)))
-        found = Record(load)
-        found.__dict__["mass"] = found.mass.reshape(6, 6)
-        return found
+        return Record(load, mass=(6, 6))
 
     def snapshot(self) -> Snapshot:
         """The present state in memory; restore() comes back to it, as often as wanted."""
