@@ -28,6 +28,9 @@ class Coupling:
         state = make(T.mps_motion_state)
         for name, given in poses.items():
             k = degree(name)
+            if isinstance(given, float):
+                state.value[k] = given
+                continue
             values = list(given) if hasattr(given, "__len__") else [given]
             for array, value in zip((state.value, state.rate, state.accel), values):
                 array[k] = value

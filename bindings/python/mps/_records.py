@@ -61,8 +61,9 @@ _defaults: dict[type[ctypes.Structure], ctypes.Structure] = {}
 
 def _default(kind: type[S]) -> S:
     """A struct with the defaults of the library, which is asked once."""
-    if kind not in _defaults:
-        one = kind()
+    found = _defaults.get(kind)
+    if found is None:
+        found = one = kind()
         init = f"{kind.__name__}_init"
         try:
             getattr(c, init)(ctypes.byref(one), ctypes.sizeof(kind))
@@ -70,7 +71,12 @@ def _default(kind: type[S]) -> S:
             if hasattr(one, "struct_size"):
                 one.struct_size = ctypes.sizeof(kind)
         _defaults[kind] = one
-    return kind.from_buffer_copy(_defaults[kind])
+    return kind.from_buffer_copy(found)  # type: ignore[return-value]
+
+
+def copied(struct: S) -> S:
+    """A copy of a struct that belongs to the library."""
+    return type(struct).from_buffer_copy(struct)
 
 
 def make(kind: type[S], given: dict[str, Any] | None = None, what: str = "") -> S:
@@ -96,15 +102,19 @@ def _texts(kind: type[ctypes.Structure]) -> list[str]:
     return [name for name, elsewhere in _entries(kind).items() if elsewhere]
 
 
+_NUMBERS = {ctypes.c_double: np.float64, ctypes.c_float: np.float32, ctypes.c_int32: np.int32, ctypes.c_int64: np.int64,
+            ctypes.c_uint32: np.uint32, ctypes.c_uint8: np.uint8}
+
+
 class Record:
-    """Values of a struct, by name; arrays are those of numpy. An entry is read when it is asked for, from a copy of the struct: a program that
-    looks at a few entries in each step does not pay for all."""
+    """Values of a struct, by name; arrays are those of numpy. An entry is read when it is asked for: a program that looks at a few entries in
+    each step does not pay for all. The struct is the record's own: copy one that is not."""
 
     def __init__(self, struct: ctypes.Structure, **shapes: tuple[int, ...]) -> None:
-        kind = type(struct)
-        self.__dict__["_struct"], self.__dict__["_shapes"] = kind.from_buffer_copy(struct), shapes
-        for name in _texts(kind):  # the copy does not keep them alive
-            self.__dict__[name] = text(getattr(struct, name))
+        own = self.__dict__
+        own["_struct"], own["_shapes"] = struct, shapes
+        for name in _texts(type(struct)):  # the library may free them
+            own[name] = text(getattr(struct, name))
 
     def __getattr__(self, name: str) -> Any:
         struct = self.__dict__.get("_struct")
@@ -113,9 +123,12 @@ class Record:
             raise AttributeError(f"no entry '{name}'; there are {', '.join(allowed)}")
         value = getattr(struct, name)
         if isinstance(value, ctypes.Array):
-            value = text(value.value) if value._type_ is ctypes.c_char else np.array(value)
-            if name in self._shapes:
-                value = value.reshape(self._shapes[name])
+            if value._type_ is ctypes.c_char:
+                value = text(value.value)
+            else:
+                value = np.frombuffer(value, _NUMBERS[value._type_])
+                if name in self._shapes:
+                    value = value.reshape(self._shapes[name])
         self.__dict__[name] = value
         return value
 
