@@ -39,13 +39,15 @@ contains
     function mps_layout_differs() result(name)
         character(len=32) :: name
         type(mps_allocator) :: mps_allocator_
+        type(mps_motion_state) :: mps_motion_state_
+        type(mps_motion_pose) :: mps_motion_pose_
+        type(mps_harmonic) :: mps_harmonic_
+        type(mps_body) :: mps_body_
+        type(mps_body_report) :: mps_body_report_
         type(mps_probe) :: mps_probe_
         type(mps_probe_info) :: mps_probe_info_
         type(mps_energy) :: mps_energy_
         type(mps_momentum) :: mps_momentum_
-        type(mps_motion_state) :: mps_motion_state_
-        type(mps_motion_pose) :: mps_motion_pose_
-        type(mps_harmonic) :: mps_harmonic_
         type(mps_load) :: mps_load_
         type(mps_parallel) :: mps_parallel_
         type(mps_tank) :: mps_tank_
@@ -71,13 +73,15 @@ contains
         type(mps_step_info) :: mps_step_info_
         name = ' '
         if (name == ' ' .and. c_sizeof(mps_allocator_) /= 24) name = 'mps_allocator'
+        if (name == ' ' .and. c_sizeof(mps_motion_state_) /= 152) name = 'mps_motion_state'
+        if (name == ' ' .and. c_sizeof(mps_motion_pose_) /= 200) name = 'mps_motion_pose'
+        if (name == ' ' .and. c_sizeof(mps_harmonic_) /= 40) name = 'mps_harmonic'
+        if (name == ' ' .and. c_sizeof(mps_body_) /= 760) name = 'mps_body'
+        if (name == ' ' .and. c_sizeof(mps_body_report_) /= 696) name = 'mps_body_report'
         if (name == ' ' .and. c_sizeof(mps_probe_) /= 144) name = 'mps_probe'
         if (name == ' ' .and. c_sizeof(mps_probe_info_) /= 88) name = 'mps_probe_info'
         if (name == ' ' .and. c_sizeof(mps_energy_) /= 200) name = 'mps_energy'
         if (name == ' ' .and. c_sizeof(mps_momentum_) /= 296) name = 'mps_momentum'
-        if (name == ' ' .and. c_sizeof(mps_motion_state_) /= 152) name = 'mps_motion_state'
-        if (name == ' ' .and. c_sizeof(mps_motion_pose_) /= 200) name = 'mps_motion_pose'
-        if (name == ' ' .and. c_sizeof(mps_harmonic_) /= 40) name = 'mps_harmonic'
         if (name == ' ' .and. c_sizeof(mps_load_) /= 456) name = 'mps_load'
         if (name == ' ' .and. c_sizeof(mps_parallel_) /= 24) name = 'mps_parallel'
         if (name == ' ' .and. c_sizeof(mps_tank_) /= 72) name = 'mps_tank'

@@ -9,6 +9,51 @@ module mps_functions
             import; integer(c_int32_t), value :: status; type(c_ptr) :: result_; end function
         function mps_status_text(status) bind(C) result(result_)
             import; integer(c_int32_t), value :: status; type(c_ptr) :: result_; end function
+        function mps_motion_state_init(state, size) bind(C) result(result_)
+            import; type(mps_motion_state), optional :: state; integer(c_size_t), value :: size; &
+                integer(c_int32_t) :: result_; end function
+        function mps_motion_pose_init(pose, size) bind(C) result(result_)
+            import; type(mps_motion_pose), optional :: pose; integer(c_size_t), value :: size; integer(c_int32_t) :: result_; &
+                end function
+        function mps_motion_pose_from_state(state, pose) bind(C) result(result_)
+            import; type(mps_motion_state), intent(in), optional :: state; type(mps_motion_pose), optional :: pose; &
+                integer(c_int32_t) :: result_; end function
+        function mps_motion_pose_to_state(pose, state) bind(C) result(result_)
+            import; type(mps_motion_pose), intent(in), optional :: pose; type(mps_motion_state), optional :: state; &
+                integer(c_int32_t) :: result_; end function
+        function mps_motion_centre_set(sim, centre, start) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; real(c_double), intent(in), optional :: centre(*); integer(c_int32_t), &
+                value :: start; integer(c_int32_t) :: result_; end function
+        function mps_motion_harmonics_set(sim, count, harmonics) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; integer(c_int32_t), value :: count; type(mps_harmonic), intent(in), &
+                optional :: harmonics(*); integer(c_int32_t) :: result_; end function
+        function mps_motion_table_set(sim, rows, t, dofs, dof, values) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; integer(c_int64_t), value :: rows; real(c_double), intent(in), &
+                optional :: t(*); integer(c_int32_t), value :: dofs; integer(c_int32_t), intent(in), optional :: dof(*); &
+                real(c_double), intent(in), optional :: values(*); integer(c_int32_t) :: result_; end function
+        function mps_motion_callback_set(sim, fn, user) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; type(c_funptr), value :: fn; type(c_ptr), value :: user; &
+                integer(c_int32_t) :: result_; end function
+        function mps_motion_clear(sim) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; integer(c_int32_t) :: result_; end function
+        function mps_motion_state_get(sim, state) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; type(mps_motion_state), optional :: state; integer(c_int32_t) :: result_; &
+                end function
+        function mps_motion_to_lab(sim, tank, lab, velocity) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; real(c_double), intent(in), optional :: tank(*); real(c_double), &
+                optional :: lab(*); real(c_double), optional :: velocity(*); integer(c_int32_t) :: result_; end function
+        function mps_body_init(body, size) bind(C) result(result_)
+            import; type(mps_body), optional :: body; integer(c_size_t), value :: size; integer(c_int32_t) :: result_; &
+                end function
+        function mps_body_set(sim, body) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; type(mps_body), intent(in), optional :: body; integer(c_int32_t) :: result_; &
+                end function
+        function mps_body_report_init(report, size) bind(C) result(result_)
+            import; type(mps_body_report), optional :: report; integer(c_size_t), value :: size; &
+                integer(c_int32_t) :: result_; end function
+        function mps_body_get(sim, report) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; type(mps_body_report), optional :: report; integer(c_int32_t) :: result_; &
+                end function
         function mps_probe_init(probe, size) bind(C) result(result_)
             import; type(mps_probe), optional :: probe; integer(c_size_t), value :: size; integer(c_int32_t) :: result_; &
                 end function
@@ -44,39 +89,6 @@ module mps_functions
         function mps_momentum_get(sim, momentum) bind(C) result(result_)
             import; type(c_ptr), value :: sim; type(mps_momentum), optional :: momentum; integer(c_int32_t) :: result_; &
                 end function
-        function mps_motion_state_init(state, size) bind(C) result(result_)
-            import; type(mps_motion_state), optional :: state; integer(c_size_t), value :: size; &
-                integer(c_int32_t) :: result_; end function
-        function mps_motion_pose_init(pose, size) bind(C) result(result_)
-            import; type(mps_motion_pose), optional :: pose; integer(c_size_t), value :: size; integer(c_int32_t) :: result_; &
-                end function
-        function mps_motion_pose_from_state(state, pose) bind(C) result(result_)
-            import; type(mps_motion_state), intent(in), optional :: state; type(mps_motion_pose), optional :: pose; &
-                integer(c_int32_t) :: result_; end function
-        function mps_motion_pose_to_state(pose, state) bind(C) result(result_)
-            import; type(mps_motion_pose), intent(in), optional :: pose; type(mps_motion_state), optional :: state; &
-                integer(c_int32_t) :: result_; end function
-        function mps_motion_centre_set(sim, centre, start) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; real(c_double), intent(in), optional :: centre(*); integer(c_int32_t), &
-                value :: start; integer(c_int32_t) :: result_; end function
-        function mps_motion_harmonics_set(sim, count, harmonics) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; integer(c_int32_t), value :: count; type(mps_harmonic), intent(in), &
-                optional :: harmonics(*); integer(c_int32_t) :: result_; end function
-        function mps_motion_table_set(sim, rows, t, dofs, dof, values) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; integer(c_int64_t), value :: rows; real(c_double), intent(in), &
-                optional :: t(*); integer(c_int32_t), value :: dofs; integer(c_int32_t), intent(in), optional :: dof(*); &
-                real(c_double), intent(in), optional :: values(*); integer(c_int32_t) :: result_; end function
-        function mps_motion_callback_set(sim, fn, user) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; type(c_funptr), value :: fn; type(c_ptr), value :: user; &
-                integer(c_int32_t) :: result_; end function
-        function mps_motion_clear(sim) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; integer(c_int32_t) :: result_; end function
-        function mps_motion_state_get(sim, state) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; type(mps_motion_state), optional :: state; integer(c_int32_t) :: result_; &
-                end function
-        function mps_motion_to_lab(sim, tank, lab, velocity) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; real(c_double), intent(in), optional :: tank(*); real(c_double), &
-                optional :: lab(*); real(c_double), optional :: velocity(*); integer(c_int32_t) :: result_; end function
         function mps_snapshot_create(sim, snapshot) bind(C) result(result_)
             import; type(c_ptr), value :: sim; type(c_ptr) :: snapshot; integer(c_int32_t) :: result_; end function
         function mps_snapshot_take(snapshot) bind(C) result(result_)

@@ -23,6 +23,15 @@ module mps_types
     integer(c_int32_t), parameter :: MPS_DUMMY = 2
     integer(c_int32_t), parameter :: MPS_LOG_INFO = 0
     integer(c_int32_t), parameter :: MPS_LOG_WARNING = 1
+    integer(c_int32_t), parameter :: MPS_MOVE_X = 0
+    integer(c_int32_t), parameter :: MPS_MOVE_Y = 1
+    integer(c_int32_t), parameter :: MPS_MOVE_Z = 2
+    integer(c_int32_t), parameter :: MPS_ROTATE_X = 3
+    integer(c_int32_t), parameter :: MPS_ROTATE_Y = 4
+    integer(c_int32_t), parameter :: MPS_ROTATE_Z = 5
+    integer(c_int32_t), parameter :: MPS_DOF_COUNT = 6
+    integer(c_int32_t), parameter :: MPS_START_AT_REST = 0
+    integer(c_int32_t), parameter :: MPS_START_WITH_TANK = 1
     real(c_double), parameter :: MPS_AVERAGE_AUTO = -1.0_c_double
     integer(c_int32_t), parameter :: MPS_PROBE_WALL_PRESSURE = 0
     integer(c_int32_t), parameter :: MPS_PROBE_FLUID_PRESSURE = 1
@@ -46,15 +55,6 @@ module mps_types
     integer(c_int32_t), parameter :: MPS_TRACE_LEAST = 5
     integer(c_int32_t), parameter :: MPS_TRACE_SLOPE = 6
     integer(c_int32_t), parameter :: MPS_CASE_MESSAGES = 20
-    integer(c_int32_t), parameter :: MPS_MOVE_X = 0
-    integer(c_int32_t), parameter :: MPS_MOVE_Y = 1
-    integer(c_int32_t), parameter :: MPS_MOVE_Z = 2
-    integer(c_int32_t), parameter :: MPS_ROTATE_X = 3
-    integer(c_int32_t), parameter :: MPS_ROTATE_Y = 4
-    integer(c_int32_t), parameter :: MPS_ROTATE_Z = 5
-    integer(c_int32_t), parameter :: MPS_DOF_COUNT = 6
-    integer(c_int32_t), parameter :: MPS_START_AT_REST = 0
-    integer(c_int32_t), parameter :: MPS_START_WITH_TANK = 1
     integer(c_int32_t), parameter :: MPS_LOAD_NONE = 0
     integer(c_int32_t), parameter :: MPS_LOAD_FORCE = 1
     integer(c_int32_t), parameter :: MPS_LOAD_MASS = 2
@@ -170,6 +170,39 @@ module mps_types
         type(c_funptr) :: alloc = c_null_funptr; type(c_funptr) :: release = c_null_funptr; type(c_ptr) :: user = c_null_ptr
     end type mps_allocator
 
+    type, bind(C) :: mps_motion_state
+        integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: reserved = 0; real(c_double) :: value(6) = 0; &
+            real(c_double) :: rate(6) = 0; real(c_double) :: accel(6) = 0
+    end type mps_motion_state
+
+    type, bind(C) :: mps_motion_pose
+        integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: reserved = 0; real(c_double) :: rotation(9) = 0; &
+            real(c_double) :: translation(3) = 0; real(c_double) :: velocity(3) = 0; real(c_double) :: omega(3) = 0; &
+            real(c_double) :: accel(3) = 0; real(c_double) :: alpha(3) = 0
+    end type mps_motion_pose
+
+    type, bind(C) :: mps_harmonic
+        integer(c_int32_t) :: dof = 0; integer(c_int32_t) :: form = 0; real(c_double) :: amplitude = 0; &
+            real(c_double) :: omega = 0; real(c_double) :: phase = 0; real(c_double) :: ramp = 0
+    end type mps_harmonic
+
+    type, bind(C) :: mps_body
+        integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: free = 0; real(c_double) :: mass = 0; &
+            real(c_double) :: centre_of_mass(3) = 0; real(c_double) :: inertia(9) = 0; real(c_double) :: stiffness(36) = 0; &
+            real(c_double) :: damping(36) = 0; real(c_double) :: equilibrium(6) = 0; type(c_funptr) :: load = c_null_funptr; &
+            type(c_ptr) :: user = c_null_ptr; integer(c_int32_t) :: gravity = 0; integer(c_int32_t) :: reserved = 0
+    end type mps_body
+
+    type, bind(C) :: mps_body_report
+        integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: free = 0; real(c_double) :: pose(6) = 0; &
+            real(c_double) :: velocity(6) = 0; real(c_double) :: acceleration(6) = 0; real(c_double) :: liquid(6) = 0; &
+            real(c_double) :: external(6) = 0; real(c_double) :: restoring(6) = 0; real(c_double) :: mass(36) = 0; &
+            real(c_double) :: late(6) = 0; integer(c_int32_t) :: iterations = 0; integer(c_int32_t) :: reserved = 0; &
+            real(c_double) :: kinetic = 0; real(c_double) :: spring = 0; real(c_double) :: weight = 0; &
+            real(c_double) :: damped = 0; real(c_double) :: external_work = 0; real(c_double) :: liquid_work = 0; &
+            real(c_double) :: start = 0
+    end type mps_body_report
+
     type, bind(C) :: mps_probe
         integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: type = 0; real(c_double) :: at(3) = 0; &
             real(c_double) :: direction(3) = 0; real(c_double) :: diameter = 0; real(c_double) :: length = 0; &
@@ -201,22 +234,6 @@ module mps_types
             real(c_double) :: collision(3) = 0; real(c_double) :: shift(3) = 0; real(c_double) :: added(3) = 0; &
             real(c_double) :: friction(3) = 0
     end type mps_momentum
-
-    type, bind(C) :: mps_motion_state
-        integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: reserved = 0; real(c_double) :: value(6) = 0; &
-            real(c_double) :: rate(6) = 0; real(c_double) :: accel(6) = 0
-    end type mps_motion_state
-
-    type, bind(C) :: mps_motion_pose
-        integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: reserved = 0; real(c_double) :: rotation(9) = 0; &
-            real(c_double) :: translation(3) = 0; real(c_double) :: velocity(3) = 0; real(c_double) :: omega(3) = 0; &
-            real(c_double) :: accel(3) = 0; real(c_double) :: alpha(3) = 0
-    end type mps_motion_pose
-
-    type, bind(C) :: mps_harmonic
-        integer(c_int32_t) :: dof = 0; integer(c_int32_t) :: form = 0; real(c_double) :: amplitude = 0; &
-            real(c_double) :: omega = 0; real(c_double) :: phase = 0; real(c_double) :: ramp = 0
-    end type mps_harmonic
 
     type, bind(C) :: mps_load
         integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: has_mass = 0; real(c_double) :: force(6) = 0; &

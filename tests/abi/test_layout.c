@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Layout of the public structs on x86-64, written by make_layout. Sizes may grow, offsets never change within a major version. */
+#include <mps/body.h>
 #include <mps/case.h>
 #include <mps/couple.h>
 #include <mps/exact.h>
@@ -30,6 +31,21 @@
 #if defined(__x86_64__) && !defined(__ILP32__)
 #define SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), #type)
 #define AT(type, member, bytes) _Static_assert(offsetof(type, member) == (bytes), #type "." #member)
+
+SIZE(mps_body, 760);
+AT(mps_body, struct_size, 0); AT(mps_body, free, 4); AT(mps_body, mass, 8);
+AT(mps_body, centre_of_mass, 16); AT(mps_body, inertia, 40); AT(mps_body, stiffness, 112);
+AT(mps_body, damping, 400); AT(mps_body, equilibrium, 688); AT(mps_body, load, 736);
+AT(mps_body, user, 744); AT(mps_body, gravity, 752); AT(mps_body, reserved, 756);
+
+SIZE(mps_body_report, 696);
+AT(mps_body_report, struct_size, 0); AT(mps_body_report, free, 4); AT(mps_body_report, pose, 8);
+AT(mps_body_report, velocity, 56); AT(mps_body_report, acceleration, 104); AT(mps_body_report, liquid, 152);
+AT(mps_body_report, external, 200); AT(mps_body_report, restoring, 248); AT(mps_body_report, mass, 296);
+AT(mps_body_report, late, 584); AT(mps_body_report, iterations, 632); AT(mps_body_report, reserved, 636);
+AT(mps_body_report, kinetic, 640); AT(mps_body_report, spring, 648); AT(mps_body_report, weight, 656);
+AT(mps_body_report, damped, 664); AT(mps_body_report, external_work, 672); AT(mps_body_report, liquid_work, 680);
+AT(mps_body_report, start, 688);
 
 SIZE(mps_case_message, 40);
 AT(mps_case_message, struct_size, 0); AT(mps_case_message, warning, 4); AT(mps_case_message, line, 8);

@@ -182,6 +182,8 @@ CALL(mps_step, return mps_step(sim, 1e-3, NULL);)
 CALL(mps_run, return mps_run(sim, 1, NULL, NULL);)
 CALL(mps_checkpoint_read, return mps_checkpoint_read(sim, given.path);)
 
+CALL(mps_body_set, return mps_body_set(sim, NULL);)
+CALL(mps_body_get, STRUCT(mps_body_report); return mps_body_get(sim, &a);)
 CALL(mps_load_watch, return mps_load_watch(sim, MPS_LOAD_NONE);)
 CALL(mps_snapshot_create, mps_snapshot *k = NULL;
      const mps_status status = mps_snapshot_create(sim, &k); mps_snapshot_destroy(k);
@@ -292,6 +294,8 @@ static const lock_call lock_calls[] = {
     CHANGES(mps_step),
     CHANGES(mps_run),
     CHANGES(mps_checkpoint_read),
+    CHANGES(mps_body_set),
+    READS(mps_body_get),
     CHANGES(mps_load_watch),
     CHANGES(mps_snapshot_create),
     CHANGES(mps_snapshot_restore),

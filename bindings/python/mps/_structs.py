@@ -15,6 +15,11 @@ class mps_frames(Structure): ...
 class mps_table(Structure): ...
 class mps_impacts(Structure): ...
 class mps_allocator(Structure): ...
+class mps_motion_state(Structure): ...
+class mps_motion_pose(Structure): ...
+class mps_harmonic(Structure): ...
+class mps_body(Structure): ...
+class mps_body_report(Structure): ...
 class mps_probe(Structure): ...
 class mps_probe_info(Structure): ...
 class mps_energy(Structure): ...
@@ -27,9 +32,6 @@ class mps_trace(Structure): ...
 class mps_reference(Structure): ...
 class mps_case_message(Structure): ...
 class mps_case_key(Structure): ...
-class mps_motion_state(Structure): ...
-class mps_motion_pose(Structure): ...
-class mps_harmonic(Structure): ...
 class mps_load(Structure): ...
 class mps_parallel(Structure): ...
 class mps_parallel_rows_job(Structure): ...
@@ -98,10 +100,11 @@ class mps_voids_config(Structure): ...
 class mps_voids(Structure): ...
 
 mps_log_fn = CFUNCTYPE(None, c_void_p, c_int, c_char_p)
+mps_motion_fn = CFUNCTYPE(c_int, c_void_p, c_double, POINTER(mps_motion_state))
+mps_body_load_fn = CFUNCTYPE(c_int, c_void_p, c_double, POINTER(mps_motion_state), POINTER(c_double))
 mps_job_say_fn = CFUNCTYPE(None, c_void_p, c_int32, c_char_p)
 mps_job_ranks_begin_fn = CFUNCTYPE(c_int32, POINTER(mps_job_ranks))
 mps_job_value_fn = CFUNCTYPE(c_double, c_void_p, POINTER(mps_sim))
-mps_motion_fn = CFUNCTYPE(c_int, c_void_p, c_double, POINTER(mps_motion_state))
 mps_part_fn = CFUNCTYPE(None, c_void_p, c_int32)
 mps_range_fn = CFUNCTYPE(None, c_void_p, c_int64, c_int64)
 mps_reduce_fn = CFUNCTYPE(None, c_void_p, c_int64, c_int64, POINTER(c_double))
@@ -116,6 +119,28 @@ mps_monitor_fn = CFUNCTYPE(c_int, c_void_p, POINTER(mps_sim), POINTER(mps_step_i
 
 mps_allocator._fields_ = [
     ("alloc", CFUNCTYPE(c_void_p, c_void_p, c_size_t)), ("release", CFUNCTYPE(None, c_void_p, c_void_p)), ("user", c_void_p),
+]
+mps_motion_state._fields_ = [
+    ("struct_size", c_uint32), ("reserved", c_int32), ("value", c_double * 6), ("rate", c_double * 6), ("accel", c_double * 6),
+]
+mps_motion_pose._fields_ = [
+    ("struct_size", c_uint32), ("reserved", c_int32), ("rotation", c_double * 9), ("translation", c_double * 3),
+    ("velocity", c_double * 3), ("omega", c_double * 3), ("accel", c_double * 3), ("alpha", c_double * 3),
+]
+mps_harmonic._fields_ = [
+    ("dof", c_int32), ("form", c_int32), ("amplitude", c_double), ("omega", c_double), ("phase", c_double), ("ramp", c_double),
+]
+mps_body._fields_ = [
+    ("struct_size", c_uint32), ("free", c_int32), ("mass", c_double), ("centre_of_mass", c_double * 3), ("inertia", c_double * 9),
+    ("stiffness", c_double * 36), ("damping", c_double * 36), ("equilibrium", c_double * 6), ("load", mps_body_load_fn),
+    ("user", c_void_p), ("gravity", c_int32), ("reserved", c_int32),
+]
+mps_body_report._fields_ = [
+    ("struct_size", c_uint32), ("free", c_int32), ("pose", c_double * 6), ("velocity", c_double * 6),
+    ("acceleration", c_double * 6), ("liquid", c_double * 6), ("external", c_double * 6), ("restoring", c_double * 6),
+    ("mass", c_double * 36), ("late", c_double * 6), ("iterations", c_int32), ("reserved", c_int32), ("kinetic", c_double),
+    ("spring", c_double), ("weight", c_double), ("damped", c_double), ("external_work", c_double), ("liquid_work", c_double),
+    ("start", c_double),
 ]
 mps_probe._fields_ = [
     ("struct_size", c_uint32), ("type", c_int32), ("at", c_double * 3), ("direction", c_double * 3), ("diameter", c_double),
@@ -178,16 +203,6 @@ mps_case_message._fields_ = [
 mps_case_key._fields_ = [
     ("struct_size", c_uint32), ("required", c_int32), ("path", c_char_p), ("range", c_char_p), ("otherwise", c_char_p),
     ("example", c_char_p), ("help", c_char_p), ("kind", c_char * 96), ("units", c_char * 160),
-]
-mps_motion_state._fields_ = [
-    ("struct_size", c_uint32), ("reserved", c_int32), ("value", c_double * 6), ("rate", c_double * 6), ("accel", c_double * 6),
-]
-mps_motion_pose._fields_ = [
-    ("struct_size", c_uint32), ("reserved", c_int32), ("rotation", c_double * 9), ("translation", c_double * 3),
-    ("velocity", c_double * 3), ("omega", c_double * 3), ("accel", c_double * 3), ("alpha", c_double * 3),
-]
-mps_harmonic._fields_ = [
-    ("dof", c_int32), ("form", c_int32), ("amplitude", c_double), ("omega", c_double), ("phase", c_double), ("ramp", c_double),
 ]
 mps_load._fields_ = [
     ("struct_size", c_uint32), ("has_mass", c_int32), ("force", c_double * 6), ("rest", c_double * 6), ("mass", c_double * 36),

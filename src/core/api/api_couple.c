@@ -11,17 +11,6 @@ mps_status mps_load_init(mps_load *load, size_t size)
     return mps__struct_init("mps_load", load, size, &load_default, sizeof load_default);
 }
 
-/* The field that carries first guesses of the added mass with the particles. */
-static mps_status add_guess(mps__world *w)
-{
-    mps__particles *s = &w->particles;
-    if (w->mass.guess) return MPS_OK;
-    MPS__TRY(mps__particles_field_add(s, "mass_pressure", w->setup.dim == 3 ? 6 : 3, sizeof(double),
-                                      false, (void **)&w->mass.guess));
-    mps__particles_field(s, "mass_pressure")->passing = true;
-    return MPS_OK;
-}
-
 mps_status mps_load_watch(mps_sim *sim, int32_t what)
 {
     MPS__CHANGES(sim);
@@ -34,7 +23,7 @@ mps_status mps_load_watch(mps_sim *sim, int32_t what)
     if (open)
         return mps__fail(w->context, MPS_E_BUSY,
                          "%d lease(s) are open; end them before mps_load_watch()", open);
-    if (what == MPS_LOAD_MASS) MPS__TRY(mps__ranks_tell(&w->ranks, add_guess(w)));
+    if (what == MPS_LOAD_MASS) MPS__TRY(mps__ranks_tell(&w->ranks, mps__world_add_guess(w)));
     w->load.watch = what;
     if (what == MPS_LOAD_NONE) w->load.known = false;
     return MPS_OK;

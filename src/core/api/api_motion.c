@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The public functions of mps/motion.h. A new motion carries the tank and what is in it to its pose at the present time. */
+#include "api_motion.h"
 #include "step.h"
 #include "builtin_motion.h"
-#include "sim.h"
 #include <math.h>
 #include <mps/couple.h>
 #include <string.h>
@@ -12,7 +12,7 @@ static void release_block(mps__context *c, void *user)
     mps__free(c, user);
 }
 
-static mps_status changeable(mps_sim *sim)
+mps_status mps__sim_motion_free(mps_sim *sim)
 {
     int32_t open = mps__particles_leases(&sim->world.particles);
     if (open > 0)
@@ -62,8 +62,7 @@ static void carry_particles(mps_sim *sim, const mps__motion *old)
     sim->world.state.dt_before = 0;
 }
 
-/* Replace the motion; on failure the old one stays and `next` is released. */
-static mps_status install(mps_sim *sim, mps__motion *next)
+mps_status mps__sim_motion_install(mps_sim *sim, mps__motion *next)
 {
     mps__world *w = &sim->world;
     mps_status status = mps__motion_pose(next, w->state.t, &next->now);
@@ -73,7 +72,8 @@ static mps_status install(mps_sim *sim, mps__motion *next)
         return status;
     }
     mps__motion old = w->motion;
-    const bool goes_on = old.posed && next->posed;
+    const bool goes_on = (old.posed && next->posed) ||
+                         (next->fn == mps__body_motion && w->state.step > 0);
     w->motion = *next;
     carry_particles(sim, &old);
     if (old.user != next->user) mps__motion_free(&old);
@@ -94,7 +94,7 @@ static mps_status install_built_in(mps_sim *sim, mps_motion_fn fn, void *data,
     next.longest = longest;
     next.told = false;
     next.posed = NULL;
-    return install(sim, &next);
+    return mps__sim_motion_install(sim, &next);
 }
 
 static mps_status install_function(mps_sim *sim, mps_motion_fn fn, void *user)
@@ -106,7 +106,7 @@ static mps_status install_function(mps_sim *sim, mps_motion_fn fn, void *user)
     next.t_end = INFINITY;
     next.longest = NULL;
     next.posed = NULL;
-    return install(sim, &next);
+    return mps__sim_motion_install(sim, &next);
 }
 
 static mps_status no_memory(mps_sim *sim, int64_t rows)
@@ -170,7 +170,7 @@ mps_status mps_motion_centre_set(mps_sim *sim, const double *centre, int32_t sta
 {
     MPS__CHANGES(sim);
     mps__world *w = &sim->world;
-    MPS__TRY(changeable(sim));
+    MPS__TRY(mps__sim_motion_free(sim));
     if (w->state.step > 0)
         return mps__fail(&sim->context, MPS_E_STATE,
                          "the centre is set before the first step; %lld steps were taken",
@@ -197,7 +197,7 @@ mps_status mps_motion_centre_set(mps_sim *sim, const double *centre, int32_t sta
 mps_status mps_motion_harmonics_set(mps_sim *sim, int32_t count, const mps_harmonic *harmonics)
 {
     MPS__CHANGES(sim);
-    MPS__TRY(changeable(sim));
+    MPS__TRY(mps__sim_motion_free(sim));
     MPS__CHECK(&sim->context, count >= 1, "harmonics: count is %d, must be at least 1", (int)count);
     MPS__CHECK(&sim->context, harmonics, "harmonics is NULL");
     for (int32_t k = 0; k < count; k++) MPS__TRY(check_harmonic(sim, k, &harmonics[k]));
@@ -212,7 +212,7 @@ mps_status mps_motion_table_set(mps_sim *sim, int64_t rows, const double *t, int
 {
     MPS__CHANGES(sim);
     mps__context *c = &sim->context;
-    MPS__TRY(changeable(sim));
+    MPS__TRY(mps__sim_motion_free(sim));
     MPS__CHECK(c, rows >= 2 && rows <= INT32_MAX, "motion table: %lld rows, must be 2..%d",
                (long long)rows, INT32_MAX);
     MPS__CHECK(c, dofs >= 1 && dofs <= MPS_DOF_COUNT, "motion table: %d columns, must be 1..%d",
@@ -235,7 +235,7 @@ mps_status mps_motion_table_set(mps_sim *sim, int64_t rows, const double *t, int
 mps_status mps_motion_callback_set(mps_sim *sim, mps_motion_fn fn, void *user)
 {
     MPS__CHANGES(sim);
-    MPS__TRY(changeable(sim));
+    MPS__TRY(mps__sim_motion_free(sim));
     MPS__CHECK(&sim->context, fn,
                "the motion callback is NULL: use mps_motion_clear() for no motion");
     return install_function(sim, fn, user);
@@ -244,7 +244,7 @@ mps_status mps_motion_callback_set(mps_sim *sim, mps_motion_fn fn, void *user)
 mps_status mps_motion_clear(mps_sim *sim)
 {
     MPS__CHANGES(sim);
-    MPS__TRY(changeable(sim));
+    MPS__TRY(mps__sim_motion_free(sim));
     mps__motion next = sim->world.motion;
     next.hold = (mps_motion_state){.struct_size = sizeof next.hold};
     memcpy(next.hold.value, next.now.state.value, sizeof next.hold.value);
@@ -254,7 +254,7 @@ mps_status mps_motion_clear(mps_sim *sim)
     next.longest = NULL;
     next.posed = NULL;
     next.t_end = INFINITY;
-    return install(sim, &next);
+    return mps__sim_motion_install(sim, &next);
 }
 
 mps_status mps_motion_pose_set(mps_sim *sim, double t_end, const mps_motion_state *state)
@@ -263,7 +263,7 @@ mps_status mps_motion_pose_set(mps_sim *sim, double t_end, const mps_motion_stat
     mps__world *w = &sim->world;
     mps__posed way = {.begin = w->state.t, .end = t_end, .from = w->motion.now.state};
     mps__pose last;
-    MPS__TRY(changeable(sim));
+    MPS__TRY(mps__sim_motion_free(sim));
     way.to.struct_size = way.from.struct_size = sizeof way.to;
     MPS__TRY(mps__struct_in(&sim->context, "mps_motion_state", &way.to, sizeof way.to, state));
     MPS__CHECK(&sim->context, isfinite(t_end) && t_end > w->state.t,
@@ -284,7 +284,7 @@ mps_status mps_motion_pose_set(mps_sim *sim, double t_end, const mps_motion_stat
     if (!next.user) return MPS_E_NOMEM;
     *next.posed = way;
     next.release = release_block;
-    return install(sim, &next);
+    return mps__sim_motion_install(sim, &next);
 }
 
 mps_status mps_motion_state_get(const mps_sim *sim, mps_motion_state *state)

@@ -24,6 +24,8 @@ typedef struct known_struct {
 #define V2(type, second) {#type, {offsetof(type, second), sizeof(type)}}
 /* clang-format on */
 static const known_struct structs[] = {
+    V1(mps_body),
+    V1(mps_body_report),
     V1(mps_channel_info),
     V1(mps_config),
     V1(mps_flux),

@@ -59,6 +59,17 @@ static mps_status check_pose_state(mps__context *c, const mps__arrived *a, const
     return MPS_OK;
 }
 
+mps_status mps__check_body(mps__context *c, const mps__body_state *b)
+{
+    const double *const loads[] = {b->late, b->liquid, b->external, b->restoring, b->felt_late};
+    const double energies[] = {b->damped, b->external_work, b->liquid_work, b->start};
+    for (size_t k = 0; k < sizeof loads / sizeof loads[0]; k++)
+        MPS__TRY(check_finite(c, "body", loads[k], 6));
+    MPS__TRY(check_finite(c, "body", b->mass, 36));
+    MPS__TRY(check_finite(c, "body", energies, 4));
+    return check_finite(c, "body", b->origin, 3);
+}
+
 /* A pose that was not `set` yet has no rotation. */
 static mps_status check_pose(mps__context *c, const mps__arrived *a, const char *name,
                              const mps__pose *p, bool set)

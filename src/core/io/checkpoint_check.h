@@ -22,6 +22,8 @@ typedef struct mps__arrived {
 mps_status mps__check_scalars(mps__context *c, const mps__arrived *a);
 /* Fields, tags, ids, links, and the solids, which must be those of the simulation. */
 mps_status mps__check_particles(mps__context *c, const mps__arrived *a);
+/* What a body that carries the tank keeps. */
+mps_status mps__check_body(mps__context *c, const mps__body_state *b);
 /* What model `name` keeps for all particles. */
 mps_status mps__check_numbers(mps__context *c, const char *name, const mps__numbers *s);
 /* What probe number `probe` keeps. `waits` is the flag as it stands in the file. */

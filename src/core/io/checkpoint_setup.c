@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The set-up of a simulation as a text. */
 #include "checkpoint.h"
+#include "step.h"
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -147,7 +148,7 @@ void mps__setup_text(const mps_sim *sim, mps__text *t)
     put_probes(&sim->probes, t);
     vector(t, "centre of motion", m->centre);
     line(t, "start %s", m->start == MPS_START_WITH_TANK ? "with the tank" : "at rest");
-    line(t, "motion %s", m->fn ? "given" : "none");
+    line(t, "motion %s", mps__body_carries(&sim->world) ? "by a body" : m->fn ? "given" : "none");
     if (t->data) t->data[t->size] = 0;
     t->size++;
 }

@@ -2,6 +2,7 @@
 /* The state of a simulation, what the next step depends on and what has been booked so far. */
 #include "checkpoint_check.h"
 #include "plates.h"
+#include "step.h"
 #include "world_ranks.h"
 #include <stdio.h>
 #include <string.h>
@@ -71,8 +72,9 @@ static size_t element(const mps__field *f)
 }
 
 /* What only ranks have is found anew from the rest: the file is the same for any number of ranks. */
-static bool is_stored(const mps__particles *s, int32_t field)
+static bool is_stored(const mps__world *w, int32_t field)
 {
+    const mps__particles *s = &w->particles;
     return s->field[field].data != (void **)&s->wall_id;
 }
 
@@ -83,7 +85,7 @@ static void put_particles(const mps__world *w, mps__archive *a)
     const mps__particles *s = &w->particles;
     char name[MPS__PART_TITLE];
     for (int32_t k = 0; k < s->fields; k++)
-        if (is_stored(s, k))
+        if (is_stored(w, k))
             mps__archive_put(a, title(name, "field", s->field[k].name), *s->field[k].data,
                              element(&s->field[k]), s->n);
     const bool linked = w->lists.linked == s->solids, listed = w->lists.listed == s->generation;
@@ -130,6 +132,8 @@ void mps__state_put(mps_sim *sim, mps__archive *a)
     const int count = list_slots(&sim->world, slots);
     for (int k = 0; k < count; k++)
         mps__archive_put(a, slots[k].name, slots[k].at, slots[k].size, 1);
+    if (mps__body_carries(&sim->world))
+        mps__archive_put(a, "body", &sim->world.body.state, sizeof sim->world.body.state, 1);
     put_particles(&sim->world, a);
     put_series(&sim->probes, a);
     put_numbers(&sim->world.models, a);
@@ -145,6 +149,7 @@ typedef struct arrival {
     slot slots[SLOTS];
     int count; /* of the slots */
     const void *value[SLOTS];
+    const void *body; /* NULL: none carries the tank */
     mps__arrived arrived;
     lists have;
     double *listed_at;
@@ -195,6 +200,17 @@ static mps_status find_scalars(arrival *v)
     return mps__check_scalars(v->a->context, a);
 }
 
+/* A body goes on with its own pose; other motions are compared. */
+static mps_status find_body(arrival *v)
+{
+    mps__body_state body;
+    if (!mps__body_carries(&v->sim->world)) return MPS_OK;
+    v->body = part(v, "body", sizeof body, 1);
+    if (!v->body) return MPS_E_VERSION;
+    memcpy(&body, v->body, sizeof body);
+    return mps__check_body(v->a->context, &body);
+}
+
 static mps_status find_particles(arrival *v)
 {
     const mps__particles *s = &v->sim->world.particles;
@@ -202,7 +218,7 @@ static mps_status find_particles(arrival *v)
     if (!mps__archive_get(v->a, "field id", sizeof *s->id, &v->n)) return MPS_E_VERSION;
     for (int32_t k = 0; k < s->fields; k++) {
         title(name, "field", s->field[k].name);
-        if (!is_stored(s, k) || (s->field[k].passing && !mps__archive_has(v->a, name))) continue;
+        if (!is_stored(&v->sim->world, k) || (s->field[k].passing && !mps__archive_has(v->a, name))) continue;
         v->arrived.field[k] = part(v, name, element(&s->field[k]), v->n);
         if (!v->arrived.field[k]) return MPS_E_VERSION;
     }
@@ -295,7 +311,7 @@ static mps_status check_motion(const arrival *v)
     mps__world *w = &v->sim->world;
     const mps__pose saved = v->arrived.now;
     mps__pose here;
-    if (!w->motion.fn) return MPS_OK;
+    if (!w->motion.fn || mps__body_carries(w)) return MPS_OK;
     MPS__TRY(mps__motion_pose(&w->motion, saved.t, &here));
     for (int d = 0; d < MPS_DOF_COUNT; d++)
         MPS__CHECK(
@@ -312,6 +328,7 @@ static mps_status move_in(arrival *v)
     mps__probes *p = &v->sim->probes;
     MPS__TRY(mps__world_replace(w, v->n, v->arrived.field, v->listed_at != NULL));
     for (int k = 0; k < v->count; k++) memcpy(v->slots[k].at, v->value[k], v->slots[k].size);
+    if (v->body) memcpy(&w->body.state, v->body, sizeof w->body.state);
     w->load.known = false;
     w->lists.linked = v->have.linked ? w->particles.solids : -1;
     w->lists.listed = v->have.listed ? w->particles.generation : -1;
@@ -342,6 +359,7 @@ mps_status mps__state_get(mps_sim *sim, const mps__archive *a)
     arrival v = {.sim = sim, .a = a};
     mps_status status = find_scalars(&v);
     if (status == MPS_OK) status = check_motion(&v);
+    if (status == MPS_OK) status = find_body(&v);
     if (status == MPS_OK) status = find_particles(&v);
     if (status == MPS_OK) status = find_all_series(&v);
     if (status == MPS_OK) status = find_numbers(&v);

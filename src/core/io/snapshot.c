@@ -124,6 +124,7 @@ mps_status mps_snapshot_take(mps_snapshot *snapshot)
     if (k->has_posed) k->posed = *w->motion.posed;
     k->info = w->info;
     k->load = w->load;
+    k->body = w->body.state;
     k->geometry = sim->solids;
     k->screens = w->lists.screens.count;
     k->taken = true;
@@ -299,6 +300,7 @@ mps_status mps_snapshot_restore(mps_snapshot *snapshot)
     w->info = k->info;
     const int32_t watch = w->load.watch;
     w->load = k->load;
+    w->body.state = k->body;
     w->load.watch = watch;
     return MPS_OK;
 }

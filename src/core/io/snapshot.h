@@ -31,6 +31,7 @@ struct mps_snapshot {
     bool has_posed;
     mps_step_info info;
     mps__load load;
+    mps__body_state body;
     int64_t n, known, next_id;
     int64_t generation, orders; /* of the store */
     bool linked, listed, written;

@@ -11,7 +11,12 @@
 
 static mps_status run_hooks(mps__step *q)
 {
-    for (int32_t hook = MPS_MOTION; hook < MPS_HOOK_COUNT; hook++) MPS__TRY(mps__step_run(q, hook));
+    for (int32_t hook = MPS_MOTION; hook < MPS_HOOK_COUNT; hook++) {
+        MPS__TRY(mps__step_run(q, hook));
+        /* a body has changed the pressures, so their level is another */
+        if (hook == MPS_GRADIENT && mps__body_carries(q->w))
+            MPS__TRY(mps__step_run(q, MPS_LEVEL));
+    }
     return MPS_OK;
 }
 
@@ -21,6 +26,7 @@ static void commit(mps__step *q)
 {
     mps__world *w = q->w;
     mps__step_load_end(q);
+    mps__step_body_end(q);
     w->state.t = q->pose.t;
     w->state.step++;
     w->state.crossing_time = q->info.crossing_time;

@@ -54,6 +54,8 @@ typedef struct mps__step {
     bool not_converged;
     double momentum_before[MPS__MOMENTUM]; /* of the liquid at the beginning */
     mps__load load;
+    mps__body_state body; /* of the body that carries the tank, at the end */
+    double felt[6];       /* load of the liquid that it felt, of this step alone */
     const double *before; /* positions before particles moved; NULL: they have not */
 } mps__step;
 
@@ -88,6 +90,8 @@ mps_status mps__step_place_solids(mps__world *w);
 void mps__step_keep_places(mps__world *w);
 /* Velocities of the solids over this step and accelerations of the tank; whether its velocity jumped. */
 extern const mps__pass mps__pass_tank, mps__pass_jump;
+/* Whether it jumps, by accelerations of all particles; may be asked again. */
+void mps__step_note_jump(mps_stage *s, const double *acceleration);
 
 /* ---- the fluid: step_fluid.c ---- */
 
@@ -97,6 +101,18 @@ extern const mps__pass mps__pass_neighbours;
 extern const mps__pass mps__pass_clear_forces, mps__pass_predict, mps__pass_clear_gradient,
     mps__pass_first_loads, mps__pass_push, mps__pass_clear_displacement, mps__pass_move,
     mps__pass_check, mps__pass_share, mps__pass_keep;
+
+/* ---- a body that carries the tank: step_body.c ---- */
+
+/* Where the accelerations of the step carry the tank: a motion, user: the world. */
+int mps__body_motion(void *user, double t, mps_motion_state *state);
+static inline bool mps__body_carries(const mps__world *w)
+{
+    return w->motion.fn == mps__body_motion;
+}
+/* With accelerations of the last step all pressures are known: the step gets those of the body. */
+extern const mps__pass mps__pass_body;
+void mps__step_body_end(mps__step *q);
 
 /* ---- what the resolution contains: crossing.c ---- */
 
@@ -114,6 +130,15 @@ extern const mps__pass mps__pass_equation, mps__pass_matrix, mps__pass_unknowns,
 /* Before velocities change; in MPS_LOAD; when all has been done. */
 extern const mps__pass mps__pass_begin_load, mps__pass_half_cells;
 void mps__step_load_end(mps__step *q);
+/* What a load is found from, arrays of a stage. */
+typedef struct mps__load_arrays {
+    const double *acceleration, *tank, *density;
+    const int32_t *region;
+} mps__load_arrays;
+/* The load of the step if velocities get these accelerations, and nothing else happens to them. */
+void mps__step_load_now(mps_stage *s, const mps__load_arrays *a, double force[6]);
+/* Change of the velocity of the tank over dt, of its centre and angular. */
+void mps__step_acceleration(const mps__step *q, double accel[6]);
 /* From the matrix of the step, right after the solution of its equation. */
 mps_status mps__step_mass(mps__step *q);
 /* The degrees of freedom of the tank: x, y and the rotation about z in 2-D. Returns how many. */

@@ -18,8 +18,9 @@ int32_t mps__step_freedom(int32_t dim, int32_t freedom[6])
 
 typedef struct flow {
     const double *rho, *u;
+    const double *a; /* accelerations that velocities get, or NULL */
     const int32_t *region;
-    double cell, at[3];
+    double cell, dt, at[3];
 } flow;
 
 MPS_ROW void add_moment(const int dim, const mps_view *v, const flow *f, int64_t i, double *term)
@@ -29,7 +30,8 @@ MPS_ROW void add_moment(const int dim, const mps_view *v, const flow *f, int64_t
     const double m = mps__cell_mass(f->rho, f->region, f->cell, i);
     for (int d = 0; d < dim; d++) {
         r[d] = v->x[i * dim + d] - f->at[d];
-        u[d] = m * f->u[i * dim + d];
+        const int64_t k = i * dim + d;
+        u[d] = m * (f->a ? f->u[k] + f->dt * f->a[k] : f->u[k]);
         term[d] = u[d];
         term[7 + d] = m * r[d];
     }
@@ -44,14 +46,18 @@ static double cell_of(const mps__world *w)
     return w->setup.dim == 2 ? dp * dp : dp * dp * dp;
 }
 
-static void sum_momentum(const mps__world *w, const double at[3], double sums[MPS__MOMENTUM])
+/* Of the velocities as they are, or as accelerations `a` make them. */
+static void sum_momentum(const mps__step *q, const double *a, double sums[MPS__MOMENTUM])
 {
+    const mps__world *w = q->w;
     flow f = {.rho = w->particles.rho,
               .u = w->particles.u,
+              .a = a,
+              .dt = q->view.dt,
               .region = w->particles.region,
               .cell = cell_of(w)};
     mps_view v;
-    memcpy(f.at, at, sizeof f.at);
+    memcpy(f.at, q->load.at, sizeof f.at);
     mps__world_view(w, &v);
     mps__host_sum(&w->host, &v, MPS__MOMENTUM, &add_moments, &f, sums);
 }
@@ -61,10 +67,11 @@ static mps_status begin_load(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
     mps__world *w = q->w;
-    q->load = (mps__load){.watch = w->load.watch};
-    if (q->load.watch == MPS_LOAD_NONE) return MPS_OK;
+    q->load = (mps__load){.watch = w->load.watch,
+                          .what = mps__body_carries(w) ? MPS_LOAD_MASS : w->load.watch};
+    if (q->load.what == MPS_LOAD_NONE) return MPS_OK;
     mps__motion_point(&w->motion, &w->motion.now, w->motion.centre, q->load.at, NULL, NULL);
-    sum_momentum(w, q->load.at, q->momentum_before);
+    sum_momentum(q, NULL, q->momentum_before);
     return MPS_OK;
 }
 
@@ -78,41 +85,6 @@ const mps__pass mps__pass_begin_load = {.name = "begin_load",
                                         .use_count = 3,
                                         .uses = begin_uses,
                                         .run = begin_load};
-
-/* ---- acceleration of the tank ---- */
-
-/* Velocity of the centre of motion from one pose to another, and the angular one: the part of (R1 R0^T - 1)/dt without strain. */
-static void velocity_between(const mps__motion *m, const mps__pose *from, const mps__pose *to,
-                             double dt, double out[6])
-{
-    double c0[3] = {0}, c1[3] = {0}, turn[9];
-    mps__motion_point(m, from, m->centre, c0, NULL, NULL);
-    mps__motion_point(m, to, m->centre, c1, NULL, NULL);
-    for (int r = 0; r < 9; r++)
-        turn[r] = mps__dot(to->rotation + r / 3 * 3, from->rotation + r % 3 * 3, 3);
-    for (int d = 0; d < 3; d++) {
-        const int e = (d + 1) % 3, f = (d + 2) % 3;
-        out[d] = (c1[d] - c0[d]) / dt;
-        out[3 + d] = 0.5 * (turn[f * 3 + e] - turn[e * 3 + f]) / dt;
-    }
-}
-
-/* Change of the velocity of the tank, over dt. */
-static void find_acceleration(const mps__step *q, double accel[6])
-{
-    const mps__world *w = q->w;
-    const mps__motion *m = &w->motion;
-    double before[6] = {0};
-    velocity_between(m, &m->now, &q->pose, q->view.dt, accel);
-    if (w->state.dt_before > 0)
-        velocity_between(m, &w->state.before, &m->now, w->state.dt_before, before);
-    else if (m->start == MPS_START_WITH_TANK)
-        for (int d = 0; d < 3; d++) {
-            before[d] = m->now.state.rate[d];
-            before[3 + d] = m->now.omega[d];
-        }
-    for (int k = 0; k < 6; k++) accel[k] = (accel[k] - before[k]) / q->view.dt;
-}
 
 /* ---- half cells ---- */
 
@@ -140,22 +112,51 @@ MPS_ROW void add_half(const int dim, const mps_view *v, const half_fields *f, in
 }
 MPS_SUMS(add_halves, add_half, half_fields)
 
+static void sum_halves(mps_stage *s, const mps__load_arrays *a, double force[6])
+{
+    half_fields f = {.tank = a->tank,
+                     .halves = {.density = a->density,
+                                .wetted = s->view->flux.wetted,
+                                .region = a->region,
+                                .a = a->acceleration,
+                                .stride = s->view->dim}};
+    double accel[6];
+    mps__step_acceleration(mps__step_of(s), accel);
+    memcpy(f.at, mps__step_of(s)->load.at, sizeof f.at);
+    memcpy(f.turn, accel + 3, sizeof f.turn);
+    mps_stage_sum(s, 6, &add_halves, &f, force);
+}
+
+/* What the momentum of the particles lacks. */
+static void add_lack(const mps__step *q, const double after[MPS__MOMENTUM], double force[6])
+{
+    const double *g = q->w->setup.g, *b = q->momentum_before;
+    double weight[6];
+    for (int d = 0; d < 3; d++) weight[d] = b[6] * g[d];
+    mps__cross(b + 7, g, weight + 3);
+    for (int k = 0; k < 6; k++) force[k] += weight[k] - (after[k] - b[k]) / q->view.dt;
+}
+
+void mps__step_load_now(mps_stage *s, const mps__load_arrays *a, double force[6])
+{
+    double after[MPS__MOMENTUM] = {0};
+    sum_halves(s, a, force);
+    sum_momentum(mps__step_of(s), a->acceleration, after);
+    add_lack(mps__step_of(s), after, force);
+}
+
 enum { ACCELERATION, TANK, DENSITY, REGION, CORRECTION, USES };
 
 static mps_status sum_half_cells(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
-    if (q->load.watch == MPS_LOAD_NONE) return MPS_OK;
-    half_fields f = {.tank = s->data[TANK],
-                     .halves = {.density = s->data[DENSITY],
-                                .wetted = s->view->flux.wetted,
-                                .region = s->data[REGION],
-                                .a = s->data[ACCELERATION],
-                                .stride = s->view->dim}};
-    find_acceleration(q, q->load.accel);
-    memcpy(f.at, q->load.at, sizeof f.at);
-    memcpy(f.turn, q->load.accel + 3, sizeof f.turn);
-    mps_stage_sum(s, 6, &add_halves, &f, q->load.force);
+    if (q->load.what == MPS_LOAD_NONE) return MPS_OK;
+    sum_halves(s,
+               &(mps__load_arrays){.acceleration = s->data[ACCELERATION],
+                                   .tank = s->data[TANK],
+                                   .density = s->data[DENSITY],
+                                   .region = s->data[REGION]},
+               q->load.force);
     return MPS_OK;
 }
 
@@ -177,17 +178,47 @@ const mps__pass mps__pass_half_cells = {.name = "half_cells",
 
 /* ---- the end of the step ---- */
 
+/* Velocity of the centre of motion from one pose to another, and the angular one: the part of (R1 R0^T - 1)/dt without strain. */
+static void velocity_between(const mps__motion *m, const mps__pose *from, const mps__pose *to,
+                             double dt, double out[6])
+{
+    double c0[3] = {0}, c1[3] = {0}, turn[9];
+    mps__motion_point(m, from, m->centre, c0, NULL, NULL);
+    mps__motion_point(m, to, m->centre, c1, NULL, NULL);
+    for (int r = 0; r < 9; r++)
+        turn[r] = mps__dot(to->rotation + r / 3 * 3, from->rotation + r % 3 * 3, 3);
+    for (int d = 0; d < 3; d++) {
+        const int e = (d + 1) % 3, f = (d + 2) % 3;
+        out[d] = (c1[d] - c0[d]) / dt;
+        out[3 + d] = 0.5 * (turn[f * 3 + e] - turn[e * 3 + f]) / dt;
+    }
+}
+
+void mps__step_acceleration(const mps__step *q, double accel[6])
+{
+    const mps__world *w = q->w;
+    const mps__motion *m = &w->motion;
+    double before[6] = {0};
+    velocity_between(m, &m->now, &q->pose, q->view.dt, accel);
+    if (w->state.dt_before > 0)
+        velocity_between(m, &w->state.before, &m->now, w->state.dt_before, before);
+    else if (m->start == MPS_START_WITH_TANK)
+        for (int d = 0; d < 3; d++) {
+            before[d] = m->now.state.rate[d];
+            before[3 + d] = m->now.omega[d];
+        }
+    for (int k = 0; k < 6; k++) accel[k] = (accel[k] - before[k]) / q->view.dt;
+}
+
 void mps__step_load_end(mps__step *q)
 {
     mps__world *w = q->w;
-    const double *g = w->setup.g, *b = q->momentum_before;
-    double after[MPS__MOMENTUM] = {0}, weight[6];
+    double after[MPS__MOMENTUM] = {0};
     mps__load *l = &q->load;
-    if (l->watch != MPS_LOAD_NONE) {
-        sum_momentum(w, l->at, after);
-        for (int d = 0; d < 3; d++) weight[d] = b[6] * g[d];
-        mps__cross(b + 7, g, weight + 3);
-        for (int k = 0; k < 6; k++) l->force[k] += weight[k] - (after[k] - b[k]) / q->view.dt;
+    if (l->what != MPS_LOAD_NONE) {
+        sum_momentum(q, NULL, after);
+        add_lack(q, after, l->force);
+        mps__step_acceleration(q, l->accel);
         l->dt = q->view.dt;
         l->known = true;
         if (l->has_mass) {
@@ -195,6 +226,7 @@ void mps__step_load_end(mps__step *q)
             const int32_t dofs = mps__step_freedom(w->setup.dim, freedom);
             memcpy(w->mass.guess, w->mass.next, (size_t)(w->particles.n * dofs) * sizeof(double));
         }
+        l->has_mass = l->has_mass && l->watch == MPS_LOAD_MASS;
     }
     w->load = *l;
 }

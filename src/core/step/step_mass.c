@@ -54,6 +54,14 @@ MPS_ROW void keep_row(const int dim, const transfer *f, int64_t i)
 }
 MPS__LOOP(keep_rows, keep_row, transfer)
 
+/* A column that is not solved keeps its first guess. */
+MPS_ROW void pass_on_row(const int dim, const transfer *f, int64_t i)
+{
+    (void)dim;
+    f->to[i * f->dofs + f->column] = f->from[i * f->dofs + f->column];
+}
+MPS__LOOP(pass_on_rows, pass_on_row, transfer)
+
 /* What the rows are made of, on the host. */
 static void get_ready(mps__world *w)
 {
@@ -237,15 +245,23 @@ mps_status mps__step_mass(mps__step *q)
     mps__world *w = q->w;
     int32_t freedom[6];
     const int32_t dofs = mps__step_freedom(w->setup.dim, freedom);
+    const uint32_t wanted = w->load.watch == MPS_LOAD_MASS
+                                ? ~0U
+                                : mps__rigid_columns(&w->body.given, w->setup.dim);
     if (!q->terms.equation.body || mps__channels_find(&w->channels, "correction") < 0)
         return mps__fail(w->context, MPS_E_STATE,
                          "the added mass needs a pressure equation in the frame of the tank, as "
                          "'source.volume' makes it: use that model, or mps_load_watch() with "
-                         "MPS_LOAD_FORCE");
+                         "MPS_LOAD_FORCE and no mps_body_set()");
     MPS__TRY(reserve(w, dofs));
     get_ready(w);
     q->load.has_mass = true;
     mps__ppe_moments(&w->ppe, &q->view, &q->terms, w->mass.moments);
-    for (int32_t k = 0; k < dofs; k++) MPS__TRY(solve_column(q, freedom, dofs, k));
+    for (int32_t k = 0; k < dofs; k++)
+        if (wanted >> freedom[k] & 1)
+            MPS__TRY(solve_column(q, freedom, dofs, k));
+        else
+            mps__loop_run(&w->pool.parallel, &pass_on_rows, w->setup.dim, w->particles.n,
+                          &(transfer){NULL, w->mass.guess, w->mass.next, dofs, k});
     return sum_columns(q, freedom, dofs);
 }

@@ -164,7 +164,10 @@ static mps_status solve(mps_stage *s)
     q->info.ppe_divergence = result.divergence;
     q->info.ppe_unknowns = mps__ppe_rows(&w->ppe);
     q->setup_seconds = result.setup_seconds;
-    return w->load.watch == MPS_LOAD_MASS && status == MPS_OK ? mps__step_mass(q) : MPS_OK;
+    /* a body needs pressures that it can correct, however well they are known */
+    return q->load.what == MPS_LOAD_MASS && (status == MPS_OK || mps__body_carries(w))
+               ? mps__step_mass(q)
+               : MPS_OK;
 }
 
 static const mps_use solve_uses[] = {{"pressure_value", MPS_USE_READ},

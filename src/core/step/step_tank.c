@@ -141,12 +141,12 @@ MPS_SUMS(raise_accelerations, raise_acceleration, jump_fields)
 
 /* A velocity that changes within a step by more than twice as much as in the last one, and than by 2 g, jumps. Velocities are means over a step, so
  * half a step lies on either side of the change: over dt alone a steady acceleration would jump where a step is cut short. */
-static mps_status note_jump(mps_stage *s)
+void mps__step_note_jump(mps_stage *s, const double *acceleration)
 {
     mps__step *q = mps__step_of(s);
     mps__world *w = q->w;
     double most;
-    mps_stage_max(s, 1, &raise_accelerations, &(jump_fields){s->data[0]}, &most);
+    mps_stage_max(s, 1, &raise_accelerations, &(jump_fields){acceleration}, &most);
     const double dt = q->view.dt,
                  change = w->state.dt_before > 0 ? 2 * dt / (dt + w->state.dt_before) : 1;
     q->jump = (mps__jump){change * sqrt(fmax(most, 0)),
@@ -155,6 +155,11 @@ static mps_status note_jump(mps_stage *s)
         q->jump.accel > 2 * w->state.jump.accel)
         q->jump.since = 0;
     q->stage.since_jump = q->jump.since;
+}
+
+static mps_status note_jump(mps_stage *s)
+{
+    mps__step_note_jump(s, s->data[0]);
     return MPS_OK;
 }
 

@@ -391,3 +391,13 @@ mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *s
 {
     return mps__neighbours_view(&w->lists.neighbours, which, &w->setup.kernel, stencil);
 }
+
+mps_status mps__world_add_guess(mps__world *w)
+{
+    mps__particles *s = &w->particles;
+    if (w->mass.guess) return MPS_OK;
+    MPS__TRY(mps__particles_field_add(s, "mass_pressure", w->setup.dim == 3 ? 6 : 3, sizeof(double),
+                                      false, (void **)&w->mass.guess));
+    mps__particles_field(s, "mass_pressure")->passing = true;
+    return MPS_OK;
+}

@@ -12,6 +12,7 @@
 #include <mps/operators.h>
 #include "particles.h"
 #include "ppe.h"
+#include "rigid.h"
 #include "voids.h"
 #include <mps/probe.h>
 #include <mps/step.h>
@@ -149,6 +150,7 @@ typedef struct mps__balance {
 /* Load of the liquid on the tank in the last step, and its added mass; mps_load. */
 typedef struct mps__load {
     int32_t watch; /* MPS_LOAD_..., of the user */
+    int32_t what;  /* of this step: a body needs all */
     bool known, has_mass;
     int32_t iterations; /* of all columns of the added mass */
     double dt, at[3];   /* place of the centre of motion at the beginning of the step */
@@ -173,6 +175,7 @@ typedef struct mps__world {
     mps__work work;
     mps__particles particles; /* the state of each particle */
     mps__motion motion;       /* of the tank: chosen by the user, and its present pose */
+    mps__body body;           /* that carries it, if mps__body_carries() */
     mps__pool pool;
     int32_t threads; /* of the pool */
     mps__ranks ranks;
@@ -197,6 +200,8 @@ typedef struct mps__world {
 mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, double dp,
                            const mps__pass *const *passes, int32_t pass_count);
 void mps__world_free(mps__world *w);
+/* The field that carries first guesses of the added mass with the particles, if there is none. */
+mps_status mps__world_add_guess(mps__world *w);
 /* Another spacing, before the first particle: radii keep their multiples of it. */
 void mps__world_spacing(mps__world *w, double dp);
 /* Lists at the present positions: search and sort if needed, then exact rows. Lost particles are handled here. */

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Mechanics of a rigid body that carries the tank, in the degrees of freedom of mps/motion.h. */
+#ifndef MPS_CORE_RIGID_H
+#define MPS_CORE_RIGID_H
+
+#include "motion.h"
+#include <mps/body.h>
+
+/* What a body keeps from step to step, beside the pose of the tank with its rates. Snapshots and checkpoints hold it. */
+typedef struct mps__body_state {
+    double late[6];      /* impulses of the liquid that the next step gets [N s, N m s] */
+    double liquid[6];    /* loads of the last step: see mps_body_report */
+    double external[6], restoring[6], felt_late[6], mass[36];
+    double damped, external_work, liquid_work, start; /* [J] */
+    double origin[3];    /* place of the centre of mass when the body was set */
+    int64_t iterations;
+} mps__body_state;
+
+typedef struct mps__body {
+    mps_body given;
+    mps__body_state state;
+} mps__body;
+
+/* What moves the body in a step of dt, after one of dt_before. About the centre of motion, axes of the lab. */
+typedef struct mps__rigid_loads {
+    double rest[6];  /* of the liquid without acceleration: its load is rest - mass a */
+    double mass[36];
+    double external[6];
+    double g[3], dt, dt_before;
+    double liquid_mass; /* below a share of it nothing is moved [kg] */
+    double dp;
+} mps__rigid_loads;
+
+/* The step that follows: accelerations of the degrees of freedom, and the six accelerations that they are in the lab. */
+typedef struct mps__rigid_step {
+    double accel[6], lab[6];
+    double liquid[6], restoring[6];
+    double damped, external_work, liquid_work; /* in this step [J] */
+    /* where there is no solution: the degree of freedom, its mass with the liquid's share, the least allowed */
+    int32_t singular;
+    double have, share, least;
+} mps__rigid_step;
+
+static inline bool mps__rigid_is_free(const mps_body *b, int32_t dof)
+{
+    return (b->free >> dof & 1) != 0;
+}
+
+/* Columns of the added mass that free degrees need: bits of x, y, z and rotations about them. */
+uint32_t mps__rigid_columns(const mps_body *b, int32_t dim);
+/* Solve a step from the state `now`. false: singular, or two angles are one (singular = -1). */
+bool mps__rigid_solve(const mps_body *b, const double centre[3], const mps_motion_state *now,
+                      const mps__rigid_loads *l, mps__rigid_step *out);
+/* The state at the end of a step of dt with these accelerations. */
+void mps__rigid_advance(const mps_body *b, const mps_motion_state *now, const double accel[6],
+                        double dt, mps_motion_state *next);
+/* Energies: of motion; of the springs at a pose [J]. Place of the centre of mass. */
+double mps__rigid_kinetic(const mps_body *b, const double centre[3], const mps_motion_state *now);
+double mps__rigid_spring(const mps_body *b, const double value[6]);
+void mps__rigid_place(const mps_body *b, const double centre[3], const mps_motion_state *now,
+                      double place[3]);
+
+#endif
