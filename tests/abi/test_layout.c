@@ -107,6 +107,10 @@ AT(mps_job_config, film, 144); AT(mps_job_config, threads, 148); AT(mps_job_conf
 AT(mps_job_config, ranks, 160); AT(mps_job_config, say, 168); AT(mps_job_config, say_user, 176);
 AT(mps_job_config, error, 184); AT(mps_job_config, error_size, 192); AT(mps_job_config, dp, 200);
 
+SIZE(mps_job_column, 32);
+AT(mps_job_column, struct_size, 0); AT(mps_job_column, flags, 4); AT(mps_job_column, name, 8);
+AT(mps_job_column, unit, 16); AT(mps_job_column, about, 24);
+
 SIZE(mps_measure, 152);
 AT(mps_measure, struct_size, 0); AT(mps_measure, phase, 4); AT(mps_measure, axis, 8);
 AT(mps_measure, change, 12); AT(mps_measure, at_end, 16); AT(mps_measure, measure, 24);
