@@ -8,11 +8,10 @@
 static const struct {
     const char *name;
     int dim, kg, m, s, rad; /* dim 0: in both */
-} units[] = {{"s", 0, 0, 0, 1, 0},       {"m", 0, 0, 1, 0, 0},     {"m/s", 0, 0, 1, -1, 0},
-             {"m/s2", 0, 0, 1, -2, 0},   {"rad", 0, 0, 0, 0, 1},   {"rad/s", 0, 0, 0, -1, 1},
-             {"rad/s2", 0, 0, 0, -2, 1}, {"N", 3, 1, 1, -2, 0},    {"N.m", 3, 1, 2, -2, 0},
-             {"N/m", 2, 1, 0, -2, 0},    {"N.m/m", 2, 1, 1, -2, 0},
-             {"Pa", 0, 1, -1, -2, 0}};
+} units[] = {{"s", 0, 0, 0, 1, 0},       {"m", 0, 0, 1, 0, 0},      {"m/s", 0, 0, 1, -1, 0},
+             {"m/s2", 0, 0, 1, -2, 0},   {"rad", 0, 0, 0, 0, 1},    {"rad/s", 0, 0, 0, -1, 1},
+             {"rad/s2", 0, 0, 0, -2, 1}, {"N", 3, 1, 1, -2, 0},     {"N.m", 3, 1, 2, -2, 0},
+             {"N/m", 2, 1, 0, -2, 0},    {"N.m/m", 2, 1, 1, -2, 0}, {"Pa", 0, 1, -1, -2, 0}};
 
 static void put_text(FILE *out, const char *text)
 {
@@ -39,8 +38,7 @@ static bool is_known(const fmu_about *a, int32_t index, const fmu_variable *v)
 {
     fmu_variable u;
     for (size_t k = 0; k < sizeof units / sizeof *units; k++)
-        if (strcmp(units[k].name, v->unit) == 0 &&
-            (!units[k].dim || units[k].dim == a->model.dim))
+        if (strcmp(units[k].name, v->unit) == 0 && (!units[k].dim || units[k].dim == a->model.dim))
             return true;
     for (int32_t i = 0; i < index && fmu_variable_at(&a->model, i, &u); i++)
         if (u.kind == FMU_SENSOR && strcmp(u.unit, v->unit) == 0) return true;

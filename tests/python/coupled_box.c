@@ -104,8 +104,9 @@ int main(void)
         most = fmax(most, fabs(b.v));
     }
     check(sim, mps_momentum_get(sim, &momentum));
-    printf("%.3f rad/s, largest speed %.3f m/s, momentum of tank and particles %.3f kg m/s of %.2f\n",
-           frequency(t, velocity, n), most, M * b.v + momentum.total[0], M * most);
+    printf(
+        "%.3f rad/s, largest speed %.3f m/s, momentum of tank and particles %.3f kg m/s of %.2f\n",
+        frequency(t, velocity, n), most, M * b.v + momentum.total[0], M * most);
     mps_snapshot_destroy(before);
     mps_sim_destroy(sim);
     return 0;

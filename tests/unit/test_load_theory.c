@@ -46,8 +46,7 @@ static void cells_of_boxes(void **state)
 /* A block hangs in the liquid, which has three quarters of a cell at its edges and seven eighths at its corners. */
 static void cells_about_a_block(void **state)
 {
-    const double dp = 0.05, lo[3] = {0.2, 0.2, 0.2},
-                 hi[3] = {0.4, 0.35, 0.4};
+    const double dp = 0.05, lo[3] = {0.2, 0.2, 0.2}, hi[3] = {0.4, 0.35, 0.4};
     (void)state;
     for (int32_t dim = 2; dim <= 3; dim++) {
         const double volume = dim == 2 ? 0.36 - 0.2 * 0.15 : 0.216 - 0.2 * 0.15 * 0.2;

@@ -218,7 +218,8 @@ static mps_status find_particles(arrival *v)
     if (!mps__archive_get(v->a, "field id", sizeof *s->id, &v->n)) return MPS_E_VERSION;
     for (int32_t k = 0; k < s->fields; k++) {
         title(name, "field", s->field[k].name);
-        if (!is_stored(&v->sim->world, k) || (s->field[k].passing && !mps__archive_has(v->a, name))) continue;
+        if (!is_stored(&v->sim->world, k) || (s->field[k].passing && !mps__archive_has(v->a, name)))
+            continue;
         v->arrived.field[k] = part(v, name, element(&s->field[k]), v->n);
         if (!v->arrived.field[k]) return MPS_E_VERSION;
     }
