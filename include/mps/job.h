@@ -259,7 +259,7 @@ MPS_API mps_status mps_job_column_get(const mps_job *job, int32_t index, mps_job
 /** Measure a column now, for programs that step the simulation themselves.
  *  @param sim    the simulation to which it was added
  *  @param value  out; NAN: it cannot be measured now
- *  @return MPS_E_ARG: no such column; MPS_E_STATE: of a column with MPS_JOB_PARTICLES on many ranks;
+ *  @return MPS_E_ARG: no such column; MPS_E_STATE: a column with MPS_JOB_PARTICLES on many ranks;
  *          those of mps_probe_read() */
 MPS_API mps_status mps_job_column_read(mps_job *job, mps_sim *sim, int32_t index, double *value);
 

@@ -319,10 +319,10 @@ static void refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(full_box),       cmocka_unit_test(with_surface),
-        cmocka_unit_test(in_3d),          cmocka_unit_test(is_derivative),
-        cmocka_unit_test(with_air),       cmocka_unit_test(other_centre),
-        cmocka_unit_test(refused),        cmocka_unit_test(acceleration_of_points),
+        cmocka_unit_test(full_box),        cmocka_unit_test(with_surface),
+        cmocka_unit_test(in_3d),           cmocka_unit_test(is_derivative),
+        cmocka_unit_test(with_air),        cmocka_unit_test(other_centre),
+        cmocka_unit_test(refused),         cmocka_unit_test(acceleration_of_points),
         cmocka_unit_test(changes_nothing), cmocka_unit_test(through_a_checkpoint)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

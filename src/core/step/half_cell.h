@@ -14,6 +14,7 @@ typedef struct mps__halves {
     const int32_t *region;
     const double *a; /* acceleration of the liquid: of particle j from a[j*stride] on */
     int64_t stride;
+    double turn[3]; /* angular acceleration of the tank */
 } mps__halves;
 
 /* Mass of a particle of the liquid, which ends at the centres of those on the surface. */
@@ -99,10 +100,9 @@ MPS_ROW double mps__half_cell(const int dim, const mps_view *v, const mps__halve
 
 /* Acceleration of that cell: that of the wall, `tank`, along the normal; along the face the mean of the liquid about it, brought to the middle of
  * the cell, dp/4 from the wall. An acceleration by pressures has no curl: across a wall its part along the face changes as the part along the
- * normal does along the wall, by n x `turn`, the angular acceleration of the tank. */
+ * normal does along the wall, by n x `turn`. */
 MPS_ROW void mps__half_acceleration(const int dim, const mps_view *v, const mps__halves *h,
-                                    int64_t i, const double *tank, const double *turn,
-                                    const double n[3], double out[3])
+                                    int64_t i, const double *tank, const double n[3], double out[3])
 {
     const mps_stencil *t = &v->near;
     double weight = 0, away = 0, across = 0, change[3];
@@ -117,7 +117,7 @@ MPS_ROW void mps__half_acceleration(const int dim, const mps_view *v, const mps_
             out[d] += q.w * h->a[j * h->stride + d];
         }
     }
-    mps__cross(n, turn, change);
+    mps__cross(n, h->turn, change);
     for (int d = 0; d < dim && weight > 0; d++)
         out[d] = out[d] / weight - (away / weight - 0.25 * v->dp) * change[d];
     for (int d = 0; d < dim; d++) across += n[d] * (tank[d] - out[d]);

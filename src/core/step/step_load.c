@@ -91,7 +91,7 @@ const mps__pass mps__pass_begin_load = {.name = "begin_load",
 typedef struct half_fields {
     mps__halves halves;
     const double *tank;
-    double at[3], turn[3];
+    double at[3];
 } half_fields;
 
 /* Pressures give the liquid its acceleration less gravity. */
@@ -102,7 +102,7 @@ MPS_ROW void add_half(const int dim, const mps_view *v, const half_fields *f, in
     const double mass = mps__half_cell(dim, v, &f->halves, i, n);
     if (mass == 0) return;
     for (int d = 0; d < dim; d++) tank[d] = f->tank[i * dim + d] - v->g[d];
-    mps__half_acceleration(dim, v, &f->halves, i, tank, f->turn, n, a);
+    mps__half_acceleration(dim, v, &f->halves, i, tank, n, a);
     for (int d = 0; d < dim; d++) {
         push[d] = -mass * a[d];
         r[d] = v->x[i * dim + d] - f->at[d];
@@ -123,7 +123,7 @@ static void sum_halves(mps_stage *s, const mps__load_arrays *a, double force[6])
     double accel[6];
     mps__step_acceleration(mps__step_of(s), accel);
     memcpy(f.at, mps__step_of(s)->load.at, sizeof f.at);
-    memcpy(f.turn, accel + 3, sizeof f.turn);
+    memcpy(f.halves.turn, accel + 3, sizeof f.halves.turn);
     mps_stage_sum(s, 6, &add_halves, &f, force);
 }
 

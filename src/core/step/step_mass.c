@@ -192,15 +192,15 @@ MPS_ROW void add_change(const int dim, const mps_view *v, const mass_fields *f, 
     if (mass == 0) return;
     for (int d = 0; d < dim; d++) arm[d] = v->x[i * dim + d] - f->at[d];
     for (int k = 0; k < AT_ONCE(dim); k++, a += dim, term += dofs) {
-        double force[3] = {0}, moment[3], tank[3], turn[3] = {0};
+        double force[3] = {0}, moment[3], tank[3];
         if (fluid)
             for (int d = 0; d < dim; d++) force[d] = a[i * stride + d];
         else {
             tank_acceleration(dim, f->column + k, arm, tank);
-            if (f->column + k >= dim) turn[dim == 2 ? 2 : f->column + k - 3] = 1;
             mps__halves halves = f->halves;
             halves.a = a;
-            mps__half_acceleration(dim, v, &halves, i, tank, turn, n, force);
+            if (f->column + k >= dim) halves.turn[dim == 2 ? 2 : f->column + k - 3] = 1;
+            mps__half_acceleration(dim, v, &halves, i, tank, n, force);
         }
         for (int d = 0; d < dim; d++) force[d] *= mass;
         mps__cross(arm, force, moment);
