@@ -20,7 +20,7 @@
  *  A mean velocity over a step belongs to its middle. So do K and C: springs act by the mean of
  *  three poses, (q_before + 2 q + q_next)/4, without damping of their own, in steps of any length.
  *  What the liquid does to the walls after its pressures are known (collisions of spray), the body
- *  feels in the next step: no momentum is lost. */
+ *  feels in the next step, so that it gets all of mps_load.force. */
 #ifndef MPS_BODY_H
 #define MPS_BODY_H
 
@@ -102,9 +102,9 @@ MPS_API mps_status mps_body_init(mps_body *body, size_t size);
  *
  *  | error of mps_step(), mps_run() | reason; the state is as before the step |
  *  |---|---|
- *  | MPS_E_STATE | the models have no added mass (presets imps and mmps have one); solids move in |
- *  | | the tank (body.free); a free degree has neither mass nor liquid that moves with it; two |
- *  | | of the angles are one, MPS_ROTATE_Z = +-pi/2 |
+ *  | MPS_E_STATE | the models have no added mass (presets imps and mmps have one); a model |
+ *  | | moves solids in the tank; nothing resists an acceleration along a free degree; two of the |
+ *  | | angles are one, MPS_ROTATE_Z = +-pi/2 |
  *  | MPS_E_DIVERGED | the walls move farther in one step than a spacing from where the last |
  *  | | acceleration carries them: smaller steps are needed |
  *  | MPS_E_PLUGIN | `load` failed or gave what is not finite | */

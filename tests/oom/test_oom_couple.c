@@ -76,6 +76,15 @@ static mps_status watch(pair *p)
     return mps_load_watch(p->sim, MPS_LOAD_MASS);
 }
 
+static mps_status set_body(pair *p)
+{
+    mps_body b;
+    assert_int_equal(mps_body_init(&b, sizeof b), MPS_OK);
+    b.free = MPS_BODY_FREE(MPS_MOVE_X);
+    b.mass = 1;
+    return mps_body_set(p->sim, &b);
+}
+
 /* Fail each allocation of a call in turn. @return how many there are */
 static int fail_each(mps_status (*call)(pair *p), bool goes_back)
 {
@@ -107,18 +116,18 @@ static void calls(void **state)
     assert_true(fail_each(take_another, false) >= 20);
     assert_true(fail_each(set_pose, false) >= 1);
     assert_true(fail_each(watch, false) >= 1);
+    assert_true(fail_each(set_body, false) >= 1);
 }
 
-/* The first step that computes the added mass. */
-static void step_with_mass(void **state)
+/* The first step after a call. */
+static void fail_step(mps_status (*call)(pair *p))
 {
     mps_status status = MPS_E_NOMEM;
     int failed = 0;
-    (void)state;
     for (; status == MPS_E_NOMEM; failed++) {
         pair p;
         open_pair(&p, 2);
-        assert_int_equal(watch(&p), MPS_OK);
+        assert_int_equal(call(&p), MPS_OK);
         p.m.fail_at = p.m.count + failed + 1;
         status = mps_step(p.sim, 1e-3, NULL);
         p.m.fail_at = 0;
@@ -130,6 +139,14 @@ static void step_with_mass(void **state)
     }
     assert_int_equal(status, MPS_OK);
     assert_true(failed > 4);
+}
+
+/* The first step that computes the added mass, for a host and for a body. */
+static void step_with_mass(void **state)
+{
+    (void)state;
+    fail_step(watch);
+    fail_step(set_body);
 }
 
 int main(void)

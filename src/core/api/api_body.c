@@ -59,8 +59,7 @@ static mps_status check_inertia(const mps__world *w, const double *i)
             MPS__CHECK(w->context, w->setup.dim == 3 || (r == 2 && c == 2) || one == 0,
                        "mps_body.inertia[%d] is %g: must be 0 in 2-D, only [8] is not", 3 * r + c,
                        one);
-            MPS__CHECK(w->context,
-                       a >= 0 && (r == c || a * b - one * other >= -small * size),
+            MPS__CHECK(w->context, a >= 0 && (r == c || a * b - one * other >= -small * size),
                        "mps_body.inertia has a negative moment: [%d] is %g, [%d] is %g, [%d] is %g",
                        4 * r, a, 4 * c, b, 3 * r + c, one);
         }

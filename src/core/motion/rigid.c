@@ -11,10 +11,13 @@ static const double ALIKE = 1e-6;
 
 /* A body at a pose, axes of the lab. */
 typedef struct shape {
-    double t[6][6]; /* velocities of the centre of motion and angular velocity, by the rate of each degree */
+    double t
+        [6]
+        [6]; /* velocities of the centre of motion and angular velocity, by the rate of each degree */
     double bias[3]; /* angular acceleration by the rates alone */
     double omega[3], rotation[9];
-    double mass, arm[3], inertia[9]; /* from the centre of motion to that of mass; about the latter */
+    double mass, arm[3],
+        inertia[9]; /* from the centre of motion to that of mass; about the latter */
 } shape;
 
 static void multiply(const double m[9], const double v[3], double out[3])
@@ -138,11 +141,6 @@ static void restoring_load(const mps_body *b, const mps_motion_state *now,
     restore(b, place, rate, out);
 }
 
-static double dot6(const double a[6], const double b[6])
-{
-    return mps__dot(a, b, 6);
-}
-
 static void fill_system(const mps_body *b, const shape *s, const mps_motion_state *now,
                         const mps__rigid_loads *l, system *y)
 {
@@ -152,7 +150,8 @@ static void fill_system(const mps_body *b, const shape *s, const mps_motion_stat
     gyroscopic_load(s, gyro);
     restoring_load(b, now, l, still, restoring);
     for (int i = 0; i < 6; i++)
-        load[i] = l->rest[i] - dot6(l->mass + 6 * i, bias) + l->external[i] - held[i] - gyro[i];
+        load[i] = l->rest[i] - mps__dot6(l->mass + 6 * i, bias) + l->external[i] - held[i] -
+                  gyro[i];
     if (b->gravity) {
         double weight[3], moment[3];
         for (int d = 0; d < 3; d++) weight[d] = s->mass * l->g[d];
@@ -162,15 +161,15 @@ static void fill_system(const mps_body *b, const shape *s, const mps_motion_stat
     for (int32_t c = 0; c < y->count; c++) {
         const double *direction = s->t[y->dof[c]];
         inertial_load(s, direction, pulled);
-        for (int i = 0; i < 6; i++) liquid[i] = dot6(l->mass + 6 * i, direction);
+        for (int i = 0; i < 6; i++) liquid[i] = mps__dot6(l->mass + 6 * i, direction);
         for (int32_t r = 0; r < y->count; r++) {
             const double *to = s->t[y->dof[r]];
             const int at = 6 * y->dof[r] + y->dof[c];
-            y->h[r][c] = dot6(to, pulled) + dot6(to, liquid) +
+            y->h[r][c] = mps__dot6(to, pulled) + mps__dot6(to, liquid) +
                          0.25 * l->dt * l->dt * b->stiffness[at] + 0.5 * l->dt * b->damping[at];
         }
-        y->share[c] = dot6(direction, liquid);
-        y->rhs[c] = dot6(direction, load) + restoring[y->dof[c]];
+        y->share[c] = mps__dot6(direction, liquid);
+        y->rhs[c] = mps__dot6(direction, load) + restoring[y->dof[c]];
     }
 }
 
@@ -214,10 +213,10 @@ static void book(const mps_body *b, const shape *s, const mps_motion_state *now,
         }
     restoring_load(b, now, l, out->accel, out->restoring);
     for (int i = 0; i < 6; i++) {
-        out->liquid[i] = l->rest[i] - dot6(l->mass + 6 * i, out->lab);
+        out->liquid[i] = l->rest[i] - mps__dot6(l->mass + 6 * i, out->lab);
         out->liquid_work += out->liquid[i] * way[i];
         out->external_work += l->external[i] * way[i];
-        out->damped += l->dt * mean[i] * dot6(b->damping + 6 * i, mean);
+        out->damped += l->dt * mean[i] * mps__dot6(b->damping + 6 * i, mean);
     }
 }
 
@@ -258,7 +257,7 @@ double mps__rigid_kinetic(const mps_body *b, const double centre[3], const mps_m
     for (int k = 0; k < 6; k++)
         for (int i = 0; i < 6; i++) v[i] += s.t[k][i] * now->rate[k];
     inertial_load(&s, v, momentum);
-    return 0.5 * dot6(v, momentum);
+    return 0.5 * mps__dot6(v, momentum);
 }
 
 double mps__rigid_spring(const mps_body *b, const double value[6])

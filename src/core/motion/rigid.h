@@ -8,11 +8,11 @@
 
 /* What a body keeps from step to step, beside the pose of the tank with its rates. Snapshots and checkpoints hold it. */
 typedef struct mps__body_state {
-    double late[6];      /* impulses of the liquid that the next step gets [N s, N m s] */
-    double liquid[6];    /* loads of the last step: see mps_body_report */
+    double late[6];   /* impulses of the liquid that the next step gets [N s, N m s] */
+    double liquid[6]; /* loads of the last step: see mps_body_report */
     double external[6], restoring[6], felt_late[6], mass[36];
     double damped, external_work, liquid_work, start; /* [J] */
-    double origin[3];    /* place of the centre of mass when the body was set */
+    double origin[3]; /* place of the centre of mass when the body was set */
     int64_t iterations;
 } mps__body_state;
 
@@ -23,7 +23,7 @@ typedef struct mps__body {
 
 /* What moves the body in a step of dt, after one of dt_before. About the centre of motion, axes of the lab. */
 typedef struct mps__rigid_loads {
-    double rest[6];  /* of the liquid without acceleration: its load is rest - mass a */
+    double rest[6]; /* of the liquid without acceleration: its load is rest - mass a */
     double mass[36];
     double external[6];
     double g[3], dt, dt_before;
@@ -40,6 +40,12 @@ typedef struct mps__rigid_step {
     int32_t singular;
     double have, share, least;
 } mps__rigid_step;
+
+/* Loads or accelerations: three along axes, three about them. */
+static inline double mps__dot6(const double a[6], const double b[6])
+{
+    return mps__dot(a, b, 3) + mps__dot(a + 3, b + 3, 3);
+}
 
 static inline bool mps__rigid_is_free(const mps_body *b, int32_t dof)
 {

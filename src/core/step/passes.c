@@ -13,8 +13,8 @@ const mps__pass *const mps__step_passes[] = {
     &mps__pass_clear_equation, &mps__pass_first_conditions, &mps__pass_equation, &mps__pass_matrix,
     &mps__pass_unknowns, &mps__pass_solve, &mps__pass_pressures,
     /* MPS_GRADIENT, MPS_LOAD */
-    &mps__pass_clear_gradient, &mps__pass_body, &mps__pass_first_loads, &mps__pass_half_cells, &mps__pass_push,
-    &mps__pass_book_pressure,
+    &mps__pass_clear_gradient, &mps__pass_body, &mps__pass_first_loads, &mps__pass_half_cells,
+    &mps__pass_push, &mps__pass_book_pressure,
     /* MPS_VELOCITY, MPS_SHIFT */
     &mps__pass_book_collisions, &mps__pass_book_reactions, &mps__pass_clear_displacement,
     &mps__pass_book_shift, &mps__pass_move, &mps__pass_plates, &mps__pass_check, &mps__pass_share,

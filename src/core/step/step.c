@@ -14,8 +14,7 @@ static mps_status run_hooks(mps__step *q)
     for (int32_t hook = MPS_MOTION; hook < MPS_HOOK_COUNT; hook++) {
         MPS__TRY(mps__step_run(q, hook));
         /* a body has changed the pressures, so their level is another */
-        if (hook == MPS_GRADIENT && mps__body_carries(q->w))
-            MPS__TRY(mps__step_run(q, MPS_LEVEL));
+        if (hook == MPS_GRADIENT && mps__body_carries(q->w)) MPS__TRY(mps__step_run(q, MPS_LEVEL));
     }
     return MPS_OK;
 }

@@ -47,13 +47,12 @@ static mps_status no_solution(const mps__step *q, const mps__rigid_step *r)
         return mps__fail(c, MPS_E_STATE,
                          "t = %.9g s: '%s' of the body is %g, where '%s' and '%s' are one: free "
                          "one of them only, or choose other axes",
-                         t, mps__dof_name[MPS_ROTATE_Z],
-                         q->w->motion.now.state.value[MPS_ROTATE_Z], mps__dof_name[MPS_ROTATE_X],
-                         mps__dof_name[MPS_ROTATE_Y]);
+                         t, mps__dof_name[MPS_ROTATE_Z], q->w->motion.now.state.value[MPS_ROTATE_Z],
+                         mps__dof_name[MPS_ROTATE_X], mps__dof_name[MPS_ROTATE_Y]);
     return mps__fail(c, MPS_E_STATE,
-                     "t = %.9g s: '%s' of the body is free, but has nothing to move: body and "
-                     "liquid have %g %s along it, of which the liquid %g; must be > %g. Give the "
-                     "body mass or inertia, or do not free it",
+                     "t = %.9g s: coupling: '%s' of the body is free, but nothing resists an "
+                     "acceleration along it: body, liquid and springs have %g %s, of which the "
+                     "liquid %g; must be > %g. Give the body mass or inertia, or do not free it",
                      t, mps__dof_name[r->singular], r->have,
                      r->singular < MPS_ROTATE_X ? "kg" : "kg m2", r->share, r->least);
 }
@@ -78,7 +77,7 @@ static mps_status solve_body(mps__step *q, const double force[6], double change[
     memcpy(l.g, w->setup.g, sizeof l.g);
     for (int k = 0; k < 6; k++) {
         state->felt_late[k] = state->late[k] / l.dt;
-        l.rest[k] = force[k] + mps__dot(l.mass + 6 * k, was, 6) + state->felt_late[k];
+        l.rest[k] = force[k] + mps__dot6(l.mass + 6 * k, was) + state->felt_late[k];
     }
     if (!mps__rigid_solve(&w->body.given, w->motion.centre, &w->motion.now.state, &l, &r))
         return no_solution(q, &r);
@@ -102,8 +101,8 @@ static mps_status solve_body(mps__step *q, const double force[6], double change[
 /* ---- what changes with it ---- */
 
 typedef struct changes {
-    const double *place;                             /* of solids at the end of the step, tank's frame */
-    const double *columns_p, *columns_a;             /* changes by each degree [n*dofs], [n*dofs*dim] */
+    const double *place;                 /* of solids at the end of the step, tank's frame */
+    const double *columns_p, *columns_a; /* changes by each degree [n*dofs], [n*dofs*dim] */
     double *pressure, *acceleration, *tank, *velocity;
     double shift[3], rotation[9]; /* of the tank at the end of the step, as it was taken to be */
     double change[6];             /* by the columns */
@@ -134,10 +133,19 @@ MPS_ROW void raise_way(const int dim, const mps_view *v, const changes *f, int64
 }
 MPS_SUMS(raise_ways, raise_way, changes)
 
+/* Models let fluid that no wall holds fall with g, whatever the tank does (body.free). */
+MPS_ROW bool falls(const int dim, const mps_view *v, const changes *f, int64_t i)
+{
+    bool same = mps_is_fluid(v, i);
+    for (int d = 0; d < dim; d++) same = same && f->tank[i * dim + d] == v->g[d];
+    return same;
+}
+
 MPS_ROW void correct_row(const int dim, const mps_view *v, const changes *f, int64_t i)
 {
     const bool fluid = mps_is_fluid(v, i);
     double way[3];
+    if (falls(dim, v, f, i)) return;
     find_way(dim, v, f, i, way);
     for (int d = 0; d < dim; d++) {
         const int64_t k = i * dim + d;
@@ -191,8 +199,8 @@ static mps_status move_body(mps_stage *s)
     if (!mps__body_carries(w)) return MPS_OK;
     if (w->work.bodies)
         return mps__fail(w->context, MPS_E_STATE,
-                         "a body carries the tank and a model moves solids in it: remove that "
-                         "model, e.g. 'body.free', or call mps_body_set() with NULL");
+                         "a body carries the tank, and a model moves solids in it (it writes "
+                         "'solid_place'): remove that model, or call mps_body_set() with NULL");
     memcpy(f.shift, q->pose.state.value, sizeof f.shift);
     memcpy(f.rotation, q->pose.rotation, sizeof f.rotation);
     f.dofs = mps__step_freedom(w->setup.dim, freedom);
