@@ -328,11 +328,11 @@ class simulation {
         std::exception_ptr failed;
     };
     template <class F>
-    static auto guarded(callbacks *c, F body, decltype(body()) otherwise) -> decltype(body())
+    static auto guarded(callbacks *c, F call, decltype(call()) otherwise) -> decltype(call())
     {
         if (c->failed) return otherwise;
         try {
-            return body();
+            return call();
         } catch (...) {
             c->failed = std::current_exception();
             return otherwise;
