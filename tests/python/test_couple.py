@@ -73,10 +73,12 @@ class Coupled(unittest.TestCase):
         self.assertEqual(body.external[0], 50.0)
         self.assertGreater(seen[-1][1], 0.0)
         other = full_box()
+        other.motion_centre((0.4, 0.25))
         other.body(("x", "rotate_z"), mass=100.0, inertia=5.0, centre_of_mass=(0.4, 0.25), stiffness=np.diag([2000.0, 0, 0, 0, 0, 300.0]),
                    damping={"rotate_z": 2.0}, equilibrium={"x": 1e-3})
         other.run(0.01)
-        self.assertGreater(other.body_report.pose[0], 0.0)  # the spring pulls it there
+        # the spring of 2 N/m at 1 mm pulls 500 kg/m there
+        self.assertAlmostEqual(other.body_report.pose[0] / (0.5 * 2.0 / 500.0 * 0.01 ** 2), 1, delta=0.1)
         self.assertEqual(other.body_report.pose[1], 0.0)
 
     def test_body_refused(self) -> None:
